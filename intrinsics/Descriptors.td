@@ -1,0 +1,57 @@
+// Structures in device memory that more than one component reads or writes,
+// and the numbers of the memory map (docs/abi.md).
+
+def VxGaussian : Descriptor<"vx_gaussian", [
+    DescField<"mean", "f32", 2, "centre in pixels; sample points are pixel centres (+0.5)">,
+    DescField<"conic", "f32", 3, "inverse covariance a (xx), b (xy), c (yy), 1/px^2">,
+    DescField<"opacity", "f32", 1, "0 to 1">,
+    DescField<"color", "f32", 3, "linear r, g, b">,
+    DescField<"extent", "f32", 2, "half width and height of the box, px">,
+    DescField<"tag", "u32", 1, "Gaussian number; bit 31 (intersect): spans several tiles">
+  ], "One projected Gaussian as the rasterizer reads it.">;
+
+def VxLaunch : Descriptor<"vx_launch", [
+    DescField<"entry", "u32", 1, "work-group function">,
+    DescField<"args", "u32", 1, "packed arguments">,
+    DescField<"work_dim", "u32", 1, "1 to 3">,
+    DescField<"num_groups", "u32", 3, "groups along x, y, z">,
+    DescField<"local_size", "u32", 3, "work-items of a group along x, y, z">,
+    DescField<"global_offset", "u32", 3, "offset of the global ids">,
+    DescField<"context", "u32", 1, "memory for values that live across barriers">,
+    DescField<"context_stride", "u32", 1, "bytes of it for each core">,
+    DescField<"print_buffer", "u32", 1, "text of printf">,
+    DescField<"print_capacity", "u32", 1, "bytes">,
+    DescField<"print_used", "u32", 1, "bytes asked for so far; above the capacity means text was dropped">
+  ], "What a kernel launch hands to every core (mscratch points to it).">;
+
+def VxKernel : Descriptor<"vx_kernel", [
+    DescField<"name", "u32", 1, "address of the NUL-terminated name">,
+    DescField<"entry", "u32", 1, "work-group function">,
+    DescField<"args", "u32", 1, "address of num_args vx_kernel_arg">,
+    DescField<"num_args", "u32", 1, "arguments">,
+    DescField<"args_bytes", "u32", 1, "size of the packed arguments">,
+    DescField<"context_bytes", "u32", 1, "bytes a work-item keeps across barriers">,
+    DescField<"local_bytes", "u32", 1, "static local memory, from 0xffff0000 on">,
+    DescField<"local_size", "u32", 3, "the group size it was compiled for, 0 for any">
+  ], "One kernel of a program, in section vorion_kernels.">;
+
+def VxKernelArg : Descriptor<"vx_kernel_arg", [
+    DescField<"name", "u32", 1, "address of the NUL-terminated name">,
+    DescField<"kind", "u32", 1, "VX_ARG_VALUE, VX_ARG_GLOBAL or VX_ARG_LOCAL">,
+    DescField<"offset", "u32", 1, "bytes from the start of the packed arguments">,
+    DescField<"size", "u32", 1, "bytes there">
+  ], "One argument of a kernel.">;
+
+def : Constant<"VX_ARG_VALUE", 0, "Passed by value.">;
+def : Constant<"VX_ARG_GLOBAL", 1, "Pointer to global or constant memory.">;
+def : Constant<"VX_ARG_LOCAL", 2, "Pointer to local memory; the driver allocates it.">;
+
+def : Constant<"VX_IO_CONSOLE", 0x40, "Store: a byte for the console.">;
+def : Constant<"VX_IO_EXIT", 0x44, "Store: exit code.">;
+def : Constant<"VX_IO_RASTER", 0x1000, "Raster CSRs of core 0; VX_IO_RASTER_STRIDE bytes a core.">;
+def : Constant<"VX_IO_RASTER_STRIDE", 0x100, "Bytes of the I/O window a core.">;
+def : Constant<"VX_GLOBAL_BASE", 0x10000, "First byte of global memory.">;
+def : Constant<"VX_IMAGE_BASE", 0x80000000, "First byte of the program image.">;
+def : Constant<"VX_IMAGE_SIZE", 0x1000000, "Largest program image.">;
+def : Constant<"VX_STACK_TOP", 0xFFFF0000, "End of the stacks.">;
+def : Constant<"VX_LOCAL_BASE", 0xFFFF0000, "First byte of local memory.">;

@@ -1,0 +1,84 @@
+// XVorion: the Gaussian rasterizer as a core's Raster Agent shows it
+// (paper, sections "Gaussian rasterizer architecture" and "Software stack").
+// 0x7C0 is where Skybox's rasterizer CSRs begin.
+
+let Extension = "xvorion" in {
+
+def VR_STATUS : Csr<"vr_status", 0x7C0, Agent, ReadOnly, 1, "State of the agent's commands; a read that says done is an acquire."> {
+  let Fields = [CsrField<"busy", 0, 1, "commands are queued or running">,
+                CsrField<"code", 8, 8, "status code of the first failed command since the last vr_wait, 0 if none">];
+}
+def VR_START : Csr<"vr_start", 0x7C1, Agent, Scalar, 1, "A write queues the bank's content as a command (the value is ignored) and is a release of the core's earlier stores; a full queue stalls the write.">;
+def VR_WAIT : Csr<"vr_wait", 0x7C2, Agent, ReadOnly, 1, "A read waits for the agent's commands, is an acquire, returns the status code of the first failed one (0 if none) and clears it.">;
+def VR_MODE : Csr<"vr_mode", 0x7C3, Agent, Scalar, 1, "What a command does."> {
+  let Fields = [CsrField<"backward", 0, 1, "0 render, 1 backward (not yet built: status bad-mode)">,
+                CsrField<"pushed", 1, 1, "0 index list in memory, 1 descriptors pushed with vr_push">,
+                CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">];
+}
+def VR_OPTIONS : Csr<"vr_options", 0x7C4, Agent, Scalar, 1, "Datapath options."> {
+  let Fields = [CsrField<"exp", 0, 2, "exponential unit: 0 correctly rounded, 1 table; docs/isa.md#exponential-units">,
+                CsrField<"stop_at_equal", 2, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
+                CsrField<"skip_saturated", 3, 1, "dispatch gives no lane slot to saturated pixels">];
+}
+def VR_CUTOFF : Csr<"vr_cutoff", 0x7C5, Agent, Scalar, 1, "Transmittance cut-off, float in [0, 1).">;
+def VR_GAUSSIANS : Csr<"vr_gaussians", 0x7C6, Agent, Scalar, 1, "Address of the vx_gaussian records, 16-byte aligned.">;
+def VR_LIST : Csr<"vr_list", 0x7C7, Agent, Scalar, 1, "Address of the depth-sorted list of record numbers, 4-byte aligned.">;
+def VR_COUNT : Csr<"vr_count", 0x7C8, Agent, Scalar, 1, "Entries of the list; 0 is a valid empty tile.">;
+def VR_TILE_ORIGIN : Csr<"vr_tile_origin", 0x7C9, Agent, Scalar, 1, "Picture coordinates of the tile's first pixel."> {
+  let Fields = [CsrField<"x", 0, 16, "column">, CsrField<"y", 16, 16, "row">];
+}
+def VR_TILE_SHAPE : Csr<"vr_tile_shape", 0x7CA, Agent, Scalar, 1, "Pixels of the tile, 1 to 64 each."> {
+  let Fields = [CsrField<"width", 0, 16, "columns">, CsrField<"height", 16, 16, "rows">];
+}
+def VR_ZTILE : Csr<"vr_ztile", 0x7CB, Agent, Scalar, 1, "Which part of the tile's list this command is."> {
+  let Fields = [CsrField<"index", 0, 16, "number of the part">, CsrField<"count", 16, 16, "parts; 0 or 1 for the whole list">];
+}
+def VR_OUTPUT : Csr<"vr_output", 0x7CC, Agent, Scalar, 1, "Address of the tile's first pixel (4 floats: r, g, b, T), 16-byte aligned.">;
+def VR_OUTPUT_PITCH : Csr<"vr_output_pitch", 0x7CD, Agent, Scalar, 1, "Bytes from one pixel row to the next, a multiple of 16.">;
+
+// A pushed descriptor: the lane writes its fields, then vr_push.
+def VR_G_MEAN_X : Csr<"vr_g_mean_x", 0x7D0, Lane, PerLane, 0, "Float: mean, column.">;
+def VR_G_MEAN_Y : Csr<"vr_g_mean_y", 0x7D1, Lane, PerLane, 0, "Float: mean, row.">;
+def VR_G_CONIC_A : Csr<"vr_g_conic_a", 0x7D2, Lane, PerLane, 0, "Float: inverse covariance, xx.">;
+def VR_G_CONIC_B : Csr<"vr_g_conic_b", 0x7D3, Lane, PerLane, 0, "Float: inverse covariance, xy.">;
+def VR_G_CONIC_C : Csr<"vr_g_conic_c", 0x7D4, Lane, PerLane, 0, "Float: inverse covariance, yy.">;
+def VR_G_OPACITY : Csr<"vr_g_opacity", 0x7D5, Lane, PerLane, 0, "Float: opacity.">;
+def VR_G_RED : Csr<"vr_g_red", 0x7D6, Lane, PerLane, 0, "Float: colour, red.">;
+def VR_G_GREEN : Csr<"vr_g_green", 0x7D7, Lane, PerLane, 0, "Float: colour, green.">;
+def VR_G_BLUE : Csr<"vr_g_blue", 0x7D8, Lane, PerLane, 0, "Float: colour, blue.">;
+def VR_G_EXTENT_X : Csr<"vr_g_extent_x", 0x7D9, Lane, PerLane, 0, "Float: half width of the box.">;
+def VR_G_EXTENT_Y : Csr<"vr_g_extent_y", 0x7DA, Lane, PerLane, 0, "Float: half height of the box.">;
+def VR_G_TAG : Csr<"vr_g_tag", 0x7DB, Lane, PerLane, 0, "Gaussian number; bit 31 (intersect): it spans several tiles.">;
+def VR_PUSH : Csr<"vr_push", 0x7DC, Agent, Push, 1, "A write appends one descriptor per active lane, in lane order (the value is ignored).">;
+
+// Draining a tile by the core that issued it.
+def VR_PIXEL_INDEX : Csr<"vr_pixel_index", 0x7E0, Lane, PerLane, 0, "Pixel of the drained tile: row * width + column.">;
+def VR_PIXEL_R : Csr<"vr_pixel_r", 0x7E1, Lane, ReadOnly, 0, "Float: red of pixel vr_pixel_index.">;
+def VR_PIXEL_G : Csr<"vr_pixel_g", 0x7E2, Lane, ReadOnly, 0, "Float: green of pixel vr_pixel_index.">;
+def VR_PIXEL_B : Csr<"vr_pixel_b", 0x7E3, Lane, ReadOnly, 0, "Float: blue of pixel vr_pixel_index.">;
+def VR_PIXEL_T : Csr<"vr_pixel_t", 0x7E4, Lane, ReadOnly, 0, "Float: transmittance of pixel vr_pixel_index.">;
+
+// Counters of the agent's completed commands, low and high words.
+def VR_N_COMMANDS : Csr<"vr_n_commands", 0xFD0, Agent, ReadOnly, 1, "Commands completed.">;
+def VR_N_GAUSSIANS : Csr<"vr_n_gaussians", 0xFD1, Agent, ReadOnly, 1, "Gaussians fetched.">;
+def VR_N_CLIPPED : Csr<"vr_n_clipped", 0xFD2, Agent, ReadOnly, 1, "Of these, with a box that misses the tile.">;
+def VR_N_FRAGMENTS : Csr<"vr_n_fragments", 0xFD3, Agent, ReadOnly, 1, "Lane slots dispatched: pixels of box and tile.">;
+def VR_N_BLENDS : Csr<"vr_n_blends", 0xFD4, Agent, ReadOnly, 1, "Of these, blended into a pixel.">;
+def VR_N_COMMANDSH : Csr<"vr_n_commandsh", 0xFD8, Agent, ReadOnly, 1, "High word of vr_n_commands.">;
+def VR_N_GAUSSIANSH : Csr<"vr_n_gaussiansh", 0xFD9, Agent, ReadOnly, 1, "High word of vr_n_gaussians.">;
+def VR_N_CLIPPEDH : Csr<"vr_n_clippedh", 0xFDA, Agent, ReadOnly, 1, "High word of vr_n_clipped.">;
+def VR_N_FRAGMENTSH : Csr<"vr_n_fragmentsh", 0xFDB, Agent, ReadOnly, 1, "High word of vr_n_fragments.">;
+def VR_N_BLENDSH : Csr<"vr_n_blendsh", 0xFDC, Agent, ReadOnly, 1, "High word of vr_n_blends.">;
+}
+
+// Status codes of a command (vr_status.code, vr_wait).
+def : Constant<"VR_OK", 0, "Done.">;
+def : Constant<"VR_BAD_SHAPE", 1, "vr_tile_shape outside 1 to 64.">;
+def : Constant<"VR_MISALIGNED", 2, "An address or the pitch is misaligned.">;
+def : Constant<"VR_UNMAPPED", 3, "An address range is not global memory (local memory included).">;
+def : Constant<"VR_BAD_COUNT", 4, "vr_count above VR_MAX_COUNT.">;
+def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
+def : Constant<"VR_BAD_MODE", 6, "vr_mode or vr_options asks for what this machine does not have.">;
+def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
+def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;
+def : Constant<"VR_MAX_TILE", 64, "Largest tile width and height.">;

@@ -1,0 +1,13 @@
+//===- Vorion.td - every instruction, CSR and descriptor of ours ----------===//
+//
+// The one definition. `llvm-tblgen --dump-json` of this file feeds the
+// generators in this folder; nothing here is repeated by hand elsewhere.
+//
+//===----------------------------------------------------------------------===//
+
+include "Schema.td"
+include "Rv32.td"
+include "Simt.td"
+include "Csrs.td"
+include "RasterCsrs.td"
+include "Descriptors.td"

@@ -1,0 +1,51 @@
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+
+using namespace vorion;
+
+namespace {
+
+std::string temporaryPath(const char *Name) {
+  return (std::filesystem::temp_directory_path() /
+          (std::string(Name) + std::to_string(getpid())))
+      .string();
+}
+
+TEST(Expected, HoldsAValueOrAnError) {
+  Expected<int> Value = 3;
+  ASSERT_TRUE(Value);
+  EXPECT_EQ(*Value, 3);
+  Expected<int> Failed = Error{"f", "wrong"};
+  ASSERT_FALSE(Failed);
+  EXPECT_EQ(Failed.error().What, "wrong");
+  EXPECT_EQ(Failed.error().Code, ExitCode::InputFile);
+}
+
+TEST(Diagnostics, HasTheHouseForm) {
+  testing::internal::CaptureStderr();
+  const int Code = reportError("tool", Error{"file:3", "bad, expected good"});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "tool: error: file:3: bad, expected good\n");
+  EXPECT_EQ(Code, 3);
+}
+
+TEST(File, RoundTripsAndLeavesNothingAside) {
+  const std::string Path = temporaryPath("vorion-support");
+  ASSERT_TRUE(writeFileAtomically(Path, std::string("abc\0d", 5)));
+  const auto Bytes = readFile(Path);
+  ASSERT_TRUE(Bytes);
+  EXPECT_EQ(Bytes->size(), 5u);
+  std::filesystem::remove(Path);
+  EXPECT_FALSE(readFile(Path));
+}
+
+TEST(File, UnwritablePathIsAnErrorNamingIt) {
+  const auto Result = writeFileAtomically("/nonexistent-folder/x", "y");
+  ASSERT_FALSE(Result);
+  EXPECT_EQ(Result.error().Where, "/nonexistent-folder/x");
+}
+
+} // namespace
