@@ -1,0 +1,44 @@
+"""The records of intrinsics/*.td as plain Python values.
+
+llvm-tblgen --dump-json is the only reader of TableGen; everything that is
+derived from the records goes through this module.
+"""
+
+import json
+import os
+import subprocess
+from types import SimpleNamespace
+
+FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+class Records:
+    """All records, by class, in the order of the files."""
+
+    def __init__(self, tblgen="llvm-tblgen-19"):
+        dump = subprocess.run(
+            [tblgen, "--dump-json", "-I", FOLDER, os.path.join(FOLDER, "Vorion.td")],
+            check=True, stdout=subprocess.PIPE).stdout
+        self._dump = json.loads(dump)
+
+    def _resolve(self, value):
+        if isinstance(value, dict) and value.get("kind") == "def":
+            return self._record(value["def"])
+        if isinstance(value, list):
+            return [self._resolve(v) for v in value]
+        return value
+
+    def _record(self, name):
+        raw = self._dump[name]
+        fields = {k: self._resolve(v) for k, v in raw.items() if not k.startswith("!")}
+        return SimpleNamespace(id=name, file=raw["!locs"][0], **fields)
+
+    def of(self, cls):
+        """Records of class cls in source order."""
+        def place(name):
+            file, line = self._dump[name]["!locs"][-1].rsplit(":", 1)
+            # Anonymous records of one line keep the order of their numbers.
+            digits = "".join(c for c in name if c.isdigit())
+            return file, int(line), int(digits or 0)
+        names = sorted(self._dump["!instanceof"].get(cls, []), key=place)
+        return [self._record(n) for n in names]
