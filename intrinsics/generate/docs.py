@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""Writes docs/isa.md, the reference of instructions, CSRs and descriptors.
+
+usage: docs.py [--tblgen PATH] [--check] OUTPUT
+--check: exit 1 and name the file when OUTPUT is not what would be written.
+"""
+
+import argparse
+import sys
+
+from records import Records
+
+HEAD = """# Instructions, CSRs and descriptors
+
+Generated from `intrinsics/*.td` by `intrinsics/generate/docs.py`; do not edit. The memory map and what the numbers
+mean together is in [abi.md](abi.md), the rasterizer in [rasterizer.md](rasterizer.md).
+"""
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    lines += ["| " + " | ".join(str(c).replace("|", "\\|") for c in row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def simt(records):
+    yield "\n## SIMT instructions (XVortex)\n"
+    yield "R-type on custom-0. *last* is the highest-numbered active lane.\n"
+    rows = []
+    for i in records.of("SimtInstruction"):
+        operands = ", ".join(x for x in (i.Outs, i.Ins) if x)
+        rows.append((f"`{i.Mnemonic} {operands}`", f"`{i.Match & 0xffffffff:08x}/{i.Mask & 0xffffffff:08x}`",
+                     i.Divergence, i.Doc))
+    yield table(("instruction", "match/mask", "result over lanes", "meaning"), rows)
+
+
+def csrs(records):
+    yield "\n## CSRs\n"
+    yield ("Scope: where one copy lives. Write: `none` traps, `lane` each active lane its own, `scalar` the value of "
+           "the last active lane, `push` one element per active lane in lane order.\n")
+    rows = []
+    for c in sorted(records.of("Csr"), key=lambda c: c.Number):
+        fields = "".join(f"<br>bits {f.Low + f.Width - 1}:{f.Low} `{f.Name}`: {f.Doc}" for f in c.Fields)
+        rows.append((f"`{c.Name}`", f"0x{c.Number:03x}", c.In.Name, c.Rule.Name, c.Extension, c.Doc + fields))
+    yield table(("CSR", "number", "scope", "write", "extension", "meaning"), rows)
+
+
+def descriptors(records):
+    yield "\n## Descriptors\n"
+    for d in records.of("Descriptor"):
+        size = 4 * sum(f.Count for f in d.Fields)
+        yield f"\n### `{d.Name}` ({size} bytes)\n\n{d.Doc}\n"
+        rows, offset = [], 0
+        for f in d.Fields:
+            rows.append((offset, f"`{f.Name}`", f.Type + (f"[{f.Count}]" if f.Count > 1 else ""), f.Doc))
+            offset += 4 * f.Count
+        yield table(("offset", "field", "type", "meaning"), rows)
+
+
+def constants(records):
+    yield "\n## Constants\n"
+    yield table(("name", "value", "meaning"),
+                [(f"`{c.Name}`", hex(c.Value) if c.Value > 15 else c.Value, c.Doc) for c in records.of("Constant")])
+
+
+def base(records):
+    rows = {}
+    for i in records.of("Instruction"):
+        if i.Extension != "xvortex":
+            rows.setdefault(i.Extension, []).append(f"`{i.Mnemonic}`")
+    yield "\n## Base instructions\n"
+    yield table(("extension", "instructions"), [(e, " ".join(names)) for e, names in rows.items()])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tblgen", default="llvm-tblgen-19")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("output")
+    args = parser.parse_args()
+    records = Records(args.tblgen)
+    parts = (simt, csrs, descriptors, constants, base)
+    text = HEAD + "".join(chunk if chunk.endswith("\n") and chunk.startswith("|") else chunk + "\n"
+                          for part in parts for chunk in part(records))
+    if args.check:
+        with open(args.output) as current:
+            if current.read() == text:
+                return 0
+        print(f"docs.py: error: {args.output}: stale, expected the output of intrinsics/generate/docs.py",
+              file=sys.stderr)
+        return 1
+    with open(args.output, "w") as out:
+        out.write(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
