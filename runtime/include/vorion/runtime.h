@@ -1,0 +1,215 @@
+/* The device driver API of a Vorion machine, for C hosts and the PoCL device.
+ *
+ * A device is one simulated machine. A program image (ELF) is loaded into a
+ * handle; a run starts one kernel of one image with packed arguments, and
+ * waiting for it gives a result. A fault of the guest is a result, never the
+ * host's end.
+ *
+ * Every call returns a vx_status. When it is not VX_OK, vx_last_error() of the
+ * same thread says what was wrong and what was expected. NULL or out-of-range
+ * arguments give VX_ERROR_ARGUMENT. Outputs are written only on VX_OK.
+ *
+ * Threads: any thread may call. A device does one run at a time; vx_start
+ * while one is in progress gives VX_ERROR_BUSY. Allocation never waits; copies,
+ * fills and vx_wait wait until the run in progress has ended. Handles must not
+ * be closed while another thread uses them.
+ *
+ * Addresses and layouts: docs/abi.md. */
+#ifndef VORION_RUNTIME_H
+#define VORION_RUNTIME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum vx_status {
+  VX_OK = 0,
+  VX_ERROR_ARGUMENT = 1, /* NULL, out of range, or an address not allocated */
+  VX_ERROR_CONFIG = 2,   /* malformed or impossible configuration */
+  VX_ERROR_FILE = 3,     /* unreadable file */
+  VX_ERROR_IMAGE = 4,    /* not an ELF for this machine */
+  VX_ERROR_MEMORY = 5,   /* device or local memory exhausted */
+  VX_ERROR_BUSY = 6,     /* a run is in progress, or none is */
+  VX_ERROR_NOT_FOUND = 7, /* no kernel or argument of that name or number */
+  VX_ERROR_INTERNAL = 70  /* a bug of ours */
+} vx_status;
+
+typedef struct vx_device vx_device;
+typedef struct vx_image vx_image;
+
+/* Alignment of every allocation, in bytes. */
+#define VX_MEM_ALIGNMENT 128
+
+/* The text for the last call of this thread that failed; "" before the first.
+ * Valid until the thread's next call. Never NULL. */
+const char *vx_last_error(void);
+
+/* --- Devices ------------------------------------------------------------ */
+
+/* Opens a machine. config: JSON text (begins with '{'), the name of a JSON
+ * file, the name of a built-in configuration ("prototype"), or NULL: the file that
+ * VORION_CONFIG names, else the prototype. */
+vx_status vx_device_open(const char *config, vx_device **device);
+
+/* Waits for a run in progress; images of the device must be freed before. NULL
+ * is allowed. */
+vx_status vx_device_close(vx_device *device);
+
+typedef struct vx_device_info {
+  uint32_t clusters, sockets, cores; /* of the whole device */
+  uint32_t warps, lanes;             /* a core, a warp */
+  uint32_t barriers;                 /* a core */
+  uint32_t rasterizers;              /* of the whole device */
+  uint32_t stack_bytes;              /* a lane */
+  uint32_t local_base, local_bytes;  /* local memory of a core */
+  uint32_t global_base;              /* first byte that can be allocated */
+  uint64_t global_bytes;             /* all of it */
+  uint64_t free_bytes;               /* not allocated now */
+  uint64_t largest_free_bytes;       /* largest allocation possible now */
+  uint32_t max_group_items;          /* largest work-group the ABI supports */
+} vx_device_info;
+
+vx_status vx_device_get_info(vx_device *device, vx_device_info *info);
+
+/* The configuration in force as JSON text; valid until the device is closed.
+ * Equal texts mean equal machines. */
+vx_status vx_device_get_config(vx_device *device, const char **json);
+
+/* --- Memory ------------------------------------------------------------- */
+
+/* size 0 allocates VX_MEM_ALIGNMENT bytes. Contents are undefined. */
+vx_status vx_mem_alloc(vx_device *device, uint64_t size, uint32_t *address);
+
+/* address: what vx_mem_alloc gave; 0 is allowed and does nothing. */
+vx_status vx_mem_free(vx_device *device, uint32_t address);
+
+/* Ranges must lie in global memory; they need not be one allocation. */
+vx_status vx_copy_to_device(vx_device *device, uint32_t to, const void *from,
+                            uint64_t size);
+vx_status vx_copy_from_device(vx_device *device, void *to, uint32_t from,
+                              uint64_t size);
+/* Overlapping ranges are copied as if through a temporary. */
+vx_status vx_copy_on_device(vx_device *device, uint32_t to, uint32_t from,
+                            uint64_t size);
+/* Repeats the pattern; size is a multiple of pattern_size (1 to 128 bytes). */
+vx_status vx_fill_device(vx_device *device, uint32_t to, const void *pattern,
+                         uint32_t pattern_size, uint64_t size);
+
+/* Where global memory [address, address + size) lies in the host, until the
+ * device is closed: for drivers that copy rectangles or map buffers. The caller
+ * keeps away from it while a run uses it. */
+vx_status vx_mem_host_pointer(vx_device *device, uint32_t address,
+                              uint64_t size, void **pointer);
+
+/* --- Images and kernels -------------------------------------------------- */
+
+/* The image keeps a copy of the bytes. Its writable data lives as long as the
+ * handle: a run sees what the image's earlier runs stored. */
+vx_status vx_image_load(vx_device *device, const void *elf, size_t size,
+                        vx_image **image);
+vx_status vx_image_load_file(vx_device *device, const char *path,
+                             vx_image **image);
+/* Waits for a run in progress. NULL is allowed. */
+vx_status vx_image_free(vx_image *image);
+
+/* Kernels in the image's table; 0 for a program with main() alone. */
+vx_status vx_image_num_kernels(vx_image *image, uint32_t *count);
+vx_status vx_image_find_kernel(vx_image *image, const char *name,
+                               uint32_t *kernel);
+
+typedef struct vx_kernel_info {
+  const char *name;       /* valid until the image is freed */
+  uint32_t num_args;
+  uint32_t args_bytes;    /* size of the packed arguments */
+  uint32_t context_bytes; /* a work-item keeps across barriers */
+  uint32_t local_bytes;   /* static local memory */
+  uint32_t local_size[3]; /* group size it was compiled for, 0 for any */
+} vx_kernel_info;
+
+vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
+                              vx_kernel_info *info);
+
+typedef struct vx_arg_info {
+  const char *name; /* valid until the image is freed */
+  uint32_t kind;    /* VX_ARG_VALUE, VX_ARG_GLOBAL, VX_ARG_LOCAL (docs/abi.md) */
+  uint32_t offset;  /* bytes from the start of the packed arguments */
+  uint32_t size;    /* bytes there: 4 for pointers */
+} vx_arg_info;
+
+vx_status vx_image_get_arg(vx_image *image, uint32_t kernel, uint32_t arg,
+                           vx_arg_info *info);
+
+/* Places the local-memory arguments after the kernel's static local memory,
+ * each aligned to VX_MEM_ALIGNMENT, and stores their addresses into the packed
+ * arguments. sizes: bytes wanted, one a VX_ARG_LOCAL argument in order.
+ * VX_ERROR_MEMORY if they do not fit. total (may be NULL): local bytes used. */
+vx_status vx_image_place_locals(vx_image *image, uint32_t kernel,
+                                const uint64_t *sizes, uint32_t num_sizes,
+                                void *packed_args, uint32_t *total);
+
+/* --- Runs ---------------------------------------------------------------- */
+
+typedef struct vx_launch_params {
+  uint32_t work_dim;         /* 1 to 3 */
+  uint32_t num_groups[3];    /* 1 where not used; 0 runs nothing */
+  uint32_t local_size[3];    /* 1 where not used */
+  uint32_t global_offset[3];
+  uint64_t max_instructions; /* warp instructions of any core before the run ends
+                                with VX_OUTCOME_LIMIT; 0: the configuration's */
+} vx_launch_params;
+
+/* Starts a kernel; args: args_bytes of it, copied before the call returns. */
+vx_status vx_start(vx_device *device, vx_image *image, uint32_t kernel,
+                   const vx_launch_params *params, const void *args,
+                   uint32_t args_bytes);
+
+/* Starts the image without a launch block: main() on all lanes of all cores. */
+vx_status vx_start_main(vx_device *device, vx_image *image,
+                        uint64_t max_instructions);
+
+typedef enum vx_outcome {
+  VX_OUTCOME_DONE = 0,    /* every warp ended, exit code 0 */
+  VX_OUTCOME_EXIT = 1,    /* every warp ended, exit code not 0 */
+  VX_OUTCOME_FAULT = 2,   /* a trap: the report names it */
+  VX_OUTCOME_HANG = 3,    /* no warp can go on: the report says what each waits for */
+  VX_OUTCOME_LIMIT = 4    /* max_instructions reached */
+} vx_outcome;
+
+/* Sums over cores of one run. */
+typedef struct vx_counters {
+  uint64_t warp_instructions;
+  uint64_t lane_instructions;
+  uint64_t raster_commands;
+  uint64_t raster_gaussians; /* fetched */
+  uint64_t raster_clipped;   /* of these, with a box that misses the tile */
+  uint64_t raster_fragments; /* lane slots dispatched */
+  uint64_t raster_blends;
+} vx_counters;
+
+/* Texts are NUL-terminated, never NULL, and valid until the device's next
+ * start or close. */
+typedef struct vx_result {
+  vx_outcome outcome;
+  uint32_t exit_code;
+  const char *report;     /* of a fault, hang or limit; else "" */
+  const char *print_text; /* what printf wrote, complete lines or not */
+  size_t print_bytes;
+  uint64_t print_dropped; /* bytes that did not fit the print buffer */
+  const char *console_text; /* what was stored to the console word */
+  size_t console_bytes;
+  double host_seconds;
+  vx_counters counters;
+} vx_result;
+
+/* Waits for the run that was started last and gives its result; a second wait gives
+ * the same result again. VX_ERROR_BUSY if nothing was ever started. */
+vx_status vx_wait(vx_device *device, vx_result *result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
