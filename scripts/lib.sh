@@ -1,0 +1,38 @@
+# What the scripts share; sourced, not run. Sets Root (the checkout) and Build.
+set -euo pipefail
+
+Root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+Build="$Root/build/dev"
+Logs="$Root/build/logs"
+Started=$SECONDS
+
+fail() { # fail MESSAGE: one line, exit code 1
+  printf '%s: error: %s\n' "$(basename "$0")" "$1" >&2
+  exit 1
+}
+
+elapsed() { printf '%d:%02d' $(((SECONDS - Started) / 60)) $(((SECONDS - Started) % 60)); }
+
+# step TITLE LOG COMMAND...: runs it with its output in build/logs/LOG.log, says what
+# is going on (on a terminal with the last line of output), and on failure shows the log's end.
+step() {
+  local Title=$1 Log="$Logs/$2.log" Pid Status=0 Last
+  shift 2
+  mkdir -p "$Logs"
+  printf '[%s] %s\n' "$(elapsed)" "$Title"
+  "$@" >"$Log" 2>&1 </dev/null &
+  Pid=$!
+  while kill -0 "$Pid" 2>/dev/null; do
+    if [ -t 1 ]; then
+      Last=$(tail -n 1 "$Log" | tr -dc '[:print:]' | cut -c1-70)
+      printf '\r\033[K        %s' "$Last"
+    fi
+    sleep 0.3
+  done
+  [ -t 1 ] && printf '\r\033[K'
+  wait "$Pid" || Status=$?
+  if [ "$Status" -ne 0 ]; then
+    tail -n 40 "$Log" >&2
+    fail "$Title failed with status $Status, the whole log is ${Log#"$Root"/}"
+  fi
+}

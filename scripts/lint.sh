@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Format and static analysis of the code we wrote; part of scripts/test.sh.
+# usage: scripts/lint.sh [--fix]   (--fix formats in place, without analysis)
+source "$(dirname "$0")/lib.sh"
+cd "$Root"
+
+mapfile -t Sources < <(git ls-files '*.cpp' '*.h' '*.c' | grep -v '^runtime/pocl/new/lib/kernel/')
+if [ "${1:-}" = --fix ]; then
+  clang-format-19 -i "${Sources[@]}"
+  exit 0
+fi
+clang-format-19 --dry-run -Werror "${Sources[@]}"
+
+# clang-tidy looks at what the build compiles; each file once.
+mapfile -t Units < <(python3 - "$Build/compile_commands.json" "$Root" <<'PY'
+import json, os, sys
+root = sys.argv[2] + "/"
+ours = ("support/", "isasim/", "runtime/", "apps/", "reference/", "test/")
+files = {os.path.realpath(e["file"]) for e in json.load(open(sys.argv[1]))}
+print("\n".join(sorted(f for f in files if f.startswith(root) and f[len(root):].startswith(ours)
+                       and f.endswith(".cpp"))))
+PY
+)
+printf '%s\n' "${Units[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy-19 -p "$Build" --quiet

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Makes a fresh Debian 12 machine ready: packages, sources, build. Every step
+# is skipped when its result is there, so a second run is quick, needs no
+# network, and goes on where a broken one stopped.
+# usage: scripts/setup.sh
+source "$(dirname "$0")/lib.sh"
+
+Jobs=${VORION_JOBS:-$(nproc)}
+
+packages() { sed 's/#.*//' "$Root/scripts/packages.txt" | awk 'NF'; }
+
+missingPackages() {
+  local Package
+  for Package in $(packages); do
+    dpkg-query -W -f '${Status}\n' "$Package" 2>/dev/null | grep -q 'ok installed' || echo "$Package"
+  done
+}
+
+installPackages() {
+  local Sudo=
+  [ "$(id -u)" -eq 0 ] || Sudo=sudo
+  $Sudo apt-get update
+  # shellcheck disable=SC2046 # one word a package is what is wanted
+  $Sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(missingPackages)
+}
+
+[ -r /etc/debian_version ] || fail "this is not a Debian machine; scripts/packages.txt lists what to install"
+if [ -n "$(missingPackages)" ]; then
+  step "installing packages" packages installPackages
+fi
+step "fetching and patching LLVM's RISC-V target" source-llvm "$Root/scripts/fetch-source.sh" llvm
+step "fetching and patching PoCL" source-pocl "$Root/scripts/fetch-source.sh" pocl
+step "configuring" configure cmake --preset dev -S "$Root"
+step "building (the first time several minutes)" build cmake --build "$Build" -j "$Jobs"

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Sets the machine up and runs every test; the last line counts them.
+# usage: scripts/test.sh [--quick]   (--quick: without lint and sanitizer builds)
+source "$(dirname "$0")/lib.sh"
+Quick=${1:-}
+case "$Quick" in "" | --quick) ;; *) fail "unknown option $Quick, expected --quick" ;; esac
+
+"$Root/scripts/setup.sh"
+source "$Root/scripts/env.sh"
+Results="$Root/build/results"
+rm -rf "$Results"
+mkdir -p "$Results"
+Jobs=${VORION_JOBS:-$(nproc)}
+Failed=0
+
+printf '[%s] unit tests\n' "$(elapsed)"
+ctest --test-dir "$Build" -j "$Jobs" --output-on-failure --output-junit "$Results/ctest.xml" >"$Logs/ctest.log" 2>&1 ||
+  { Failed=1; grep -E '\(Failed\)|\(Timeout\)|Not Run|error:' "$Logs/ctest.log" | tail -n 40 || true; }
+
+printf '[%s] lit tests\n' "$(elapsed)"
+python3 /usr/lib/llvm-19/build/utils/lit/lit.py -v -j "$Jobs" --param "build=$Build" \
+  --xunit-xml-output "$Results/lit.xml" "$Root/test" >"$Logs/lit.log" 2>&1 ||
+  { Failed=1; tail -n 60 "$Logs/lit.log"; }
+
+if [ -z "$Quick" ]; then
+  step "sanitizer build" asan-build sh -c "cmake --preset asan -S '$Root' && cmake --build '$Root/build/asan' -j $Jobs"
+  printf '[%s] tests under address and undefined-behaviour sanitizers\n' "$(elapsed)"
+  ctest --test-dir "$Root/build/asan" -j "$Jobs" --output-on-failure --output-junit "$Results/asan.xml" \
+    >"$Logs/asan.log" 2>&1 || { Failed=1; grep -E '\(Failed\)|\(Timeout\)|ERROR:|runtime error' "$Logs/asan.log" | tail -n 40 || true; }
+  printf '[%s] format and static analysis\n' "$(elapsed)"
+  "$Root/scripts/lint.sh" >"$Logs/lint.log" 2>&1 || { Failed=1; grep -E 'error:' "$Logs/lint.log" | head -n 40; }
+fi
+
+printf '[%s] done\n' "$(elapsed)"
+python3 "$Root/scripts/count-tests.py" "$Results"/*.xml
+exit "$Failed"
