@@ -30,3 +30,4 @@ def CSR_NUM_WARPS : Csr<"vx_num_warps", 0xFC1, Device, ReadOnly, 1, "Warps a cor
 def CSR_NUM_CORES : Csr<"vx_num_cores", 0xFC2, Device, ReadOnly, 1, "Cores of the device.">;
 def CSR_LOCAL_BASE : Csr<"vx_local_base", 0xFC3, Core, ReadOnly, 1, "Address of local memory.">;
 def CSR_NUM_BARRIERS : Csr<"vx_num_barriers", 0xFC4, Device, ReadOnly, 1, "Barriers a core.">;
+def CSR_STACK_SIZE : Csr<"vx_stack_size", 0xFC5, Device, ReadOnly, 1, "Bytes of stack a lane (the start-up code places stacks with it).">;
