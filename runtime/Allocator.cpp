@@ -1,0 +1,68 @@
+#include "Allocator.h"
+
+#include <algorithm>
+#include <iterator>
+
+using namespace vorion::runtime;
+
+Allocator::Allocator(std::uint64_t Base, std::uint64_t Size) {
+  const std::uint64_t First = (Base + Alignment - 1) / Alignment * Alignment;
+  const std::uint64_t End = (Base + Size) / Alignment * Alignment;
+  if (End > First) {
+    Free = End - First;
+    FreeRanges[First] = Free;
+  }
+}
+
+std::optional<std::uint64_t> Allocator::allocate(std::uint64_t Size) {
+  // Checked before rounding up, which could wrap.
+  if (Size > Free)
+    return std::nullopt;
+  const std::uint64_t Want =
+      std::max(Alignment, (Size + Alignment - 1) / Alignment * Alignment);
+  for (auto Range = FreeRanges.begin(); Range != FreeRanges.end(); ++Range) {
+    const auto [Address, Length] = *Range;
+    if (Length < Want)
+      continue;
+    FreeRanges.erase(Range);
+    if (Length > Want)
+      FreeRanges[Address + Want] = Length - Want;
+    Blocks[Address] = Want;
+    Free -= Want;
+    return Address;
+  }
+  return std::nullopt;
+}
+
+bool Allocator::release(std::uint64_t Address) {
+  const auto Block = Blocks.find(Address);
+  if (Block == Blocks.end())
+    return false;
+  std::uint64_t First = Address;
+  std::uint64_t Length = Block->second;
+  Free += Length;
+  Blocks.erase(Block);
+
+  auto After = FreeRanges.lower_bound(First);
+  if (After != FreeRanges.begin()) {
+    const auto Before = std::prev(After);
+    if (Before->first + Before->second == First) {
+      First = Before->first;
+      Length += Before->second;
+      FreeRanges.erase(Before);
+    }
+  }
+  if (After != FreeRanges.end() && First + Length == After->first) {
+    Length += After->second;
+    FreeRanges.erase(After);
+  }
+  FreeRanges[First] = Length;
+  return true;
+}
+
+std::uint64_t Allocator::largestFree() const {
+  std::uint64_t Largest = 0;
+  for (const auto &[Address, Length] : FreeRanges)
+    Largest = std::max(Largest, Length);
+  return Largest;
+}
