@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Writes the rasterizer's CSR table, constants and record layout as a C++ header.
+
+usage: raster.py [--tblgen PATH] OUTPUT
+"""
+
+import argparse
+
+from records import Records
+
+HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/raster.py; do not edit.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace vorion::raster {
+
+/// Some bits of a CSR.
+struct BitField {
+  unsigned Low, Width;
+  constexpr std::uint32_t mask() const { return (1U << Width) - 1; }
+  constexpr std::uint32_t get(std::uint32_t Word) const { return Word >> Low & mask(); }
+  constexpr std::uint32_t put(std::uint32_t Value) const { return (Value & mask()) << Low; }
+};
+
+/// What a write by several active lanes means (docs/isa.md, "CSRs").
+enum class WriteRule : std::uint8_t { None, Lane, Scalar, Push };
+
+struct CsrInfo {
+  std::uint16_t Number;
+  std::string_view Name;
+  WriteRule Rule;
+  bool Uniform; ///< all lanes read the same value, so one read serves them all
+};
+"""
+
+
+def camel(name):
+    return "".join(part.capitalize() for part in name.split("_"))
+
+
+def enum_csrs(csrs):
+    yield "enum class Csr : std::uint16_t {"
+    for c in csrs:
+        yield f"  {camel(c.Name.removeprefix('vr_'))} = {c.Number:#05x}, ///< {c.Doc}"
+    yield "};\n"
+
+
+def table_csrs(csrs):
+    yield "/// Every CSR of the Raster Agent, ascending numbers."
+    yield "inline constexpr CsrInfo CsrTable[] = {"
+    for c in csrs:
+        yield (f'    {{{c.Number:#05x}, "{c.Name}", WriteRule::{camel(c.Rule.Name)}, '
+               f"{'true' if c.Uniform else 'false'}}},")
+    yield "};\n"
+
+
+def fields(csrs):
+    for c in csrs:
+        for f in c.Fields:
+            name = camel(c.Name.removeprefix("vr_")) + camel(f.Name)
+            yield f"inline constexpr BitField {name}{{{f.Low}, {f.Width}}}; ///< {f.Doc}"
+    yield ""
+
+
+def constants(records):
+    for c in records.of("Constant"):
+        if c.Name.startswith("VR_"):
+            yield f"inline constexpr std::uint32_t {c.Name} = {c.Value:#x}; ///< {c.Doc}"
+    yield ""
+
+
+def gaussian(records):
+    types = {"f32": "float", "u32": "std::uint32_t"}
+    record = next(d for d in records.of("Descriptor") if d.Name == "vx_gaussian")
+    yield f"/// {record.Doc}"
+    yield "struct Gaussian {"
+    for f in record.Fields:
+        count = f"[{f.Count}]" if f.Count > 1 else ""
+        yield f"  {types[f.Type]} {camel(f.Name)}{count}; ///< {f.Doc}"
+    yield "};"
+    size = 4 * sum(f.Count for f in record.Fields)
+    yield f"static_assert(sizeof(Gaussian) == {size});\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tblgen", default="llvm-tblgen-19")
+    parser.add_argument("output")
+    args = parser.parse_args()
+    records = Records(args.tblgen)
+    csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
+    parts = (enum_csrs(csrs), table_csrs(csrs), fields(csrs), constants(records), gaussian(records))
+    with open(args.output, "w") as out:
+        out.write(HEAD + "\n")
+        for part in parts:
+            out.writelines(line + "\n" for line in part)
+        out.write("} // namespace vorion::raster\n")
+
+
+if __name__ == "__main__":
+    main()

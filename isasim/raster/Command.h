@@ -1,0 +1,59 @@
+/// What a Raster Agent hands to its rasterizer, and what comes back.
+#pragma once
+
+#include "raster/RasterTables.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace vorion::raster {
+
+/// The configuration bank at the write of vr_start, as written: the rasterizer
+/// judges it (docs/rasterizer.md#status-codes).
+struct Command {
+  std::uint32_t Mode = 0;
+  std::uint32_t Options = 0;
+  std::uint32_t Cutoff = 0; ///< bits of a float
+  std::uint32_t Gaussians = 0;
+  std::uint32_t List = 0;
+  std::uint32_t Count = 0;
+  std::uint32_t TileOrigin = 0;
+  std::uint32_t TileShape = 0;
+  std::uint32_t Ztile = 0;
+  std::uint32_t Output = 0;
+  std::uint32_t OutputPitch = 0;
+  std::vector<Gaussian> Pushed;  ///< descriptors of mode "pushed", in order
+  bool PushedTooMany = false;    ///< some did not fit the push buffer
+};
+
+/// Work of completed commands. A failed command counts as one command, with
+/// the work it did before it failed.
+struct Counters {
+  std::uint64_t Commands = 0;
+  std::uint64_t Gaussians = 0; ///< fetched
+  std::uint64_t Clipped = 0;   ///< of these, box misses the tile
+  std::uint64_t Fragments = 0; ///< lane slots dispatched
+  std::uint64_t Blends = 0;    ///< of these, blended into a pixel
+
+  Counters &operator+=(const Counters &Other) {
+    Commands += Other.Commands;
+    Gaussians += Other.Gaussians;
+    Clipped += Other.Clipped;
+    Fragments += Other.Fragments;
+    Blends += Other.Blends;
+    return *this;
+  }
+  bool operator==(const Counters &) const = default;
+};
+
+/// A pixel as it leaves the rasterizer; the background is not applied.
+struct Pixel {
+  float R = 0, G = 0, B = 0;
+  float T = 0; ///< transmittance
+
+  bool operator==(const Pixel &) const = default;
+};
+static_assert(sizeof(Pixel) == 16, "docs/abi.md: four floats a pixel");
+
+} // namespace vorion::raster

@@ -1,0 +1,87 @@
+/// The Raster Agent: a core's door to its socket's rasterizer (paper, "Overall
+/// Architecture"; docs/rasterizer.md).
+#pragma once
+
+#include "raster/Command.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <vector>
+
+namespace vorion::raster {
+
+/// The table entry of CSR \p Number, or nullptr if it is not a rasterizer CSR.
+const CsrInfo *findCsr(unsigned Number);
+
+/// Sizes of a Raster Agent. The paper gives none of them.
+struct AgentConfig {
+  unsigned Lanes = 16;
+  unsigned QueueDepth = 4; ///< commands, the running one included
+};
+
+/// One core's bank of configuration CSRs, push buffer, command queue, sticky
+/// status, drained tile and counters.
+///
+/// Threads: belongs to its core, except that a Rasterizer takes and completes
+/// commands; the machine never lets both run at once (DESIGN decision 10).
+class RasterAgent {
+public:
+  explicit RasterAgent(const AgentConfig &Config = {});
+
+  /// Whether a write of vr_start would be accepted now. The core that writes it
+  /// while this is false stalls until the rasterizer has taken a command.
+  bool canStart() const { return Queue.size() < Config.QueueDepth; }
+
+  /// Whether commands are queued. A read of vr_wait stalls until it is false.
+  bool isBusy() const { return !Queue.empty(); }
+
+  /// What lane \p Lane reads from \p C. Reading vr_wait needs !isBusy() and
+  /// clears the status: a uniform CSR (CsrInfo) is read once for all lanes.
+  std::uint32_t read(Csr C, unsigned Lane);
+
+  /// Reads \p C for the lanes of \p Mask into \p LaneValues (indexed by lane);
+  /// a uniform CSR once, whatever the number of lanes.
+  void readLanes(Csr C, std::uint32_t Mask,
+                 std::span<std::uint32_t> LaneValues);
+
+  /// Writes \p C by the lanes of \p Mask (at least one), \p LaneValues indexed
+  /// by lane, according to the CSR's write rule. Writing vr_start needs
+  /// canStart(). Read-only CSRs must have trapped before.
+  void write(Csr C, std::span<const std::uint32_t> LaneValues,
+             std::uint32_t Mask);
+
+  const Counters &counters() const { return Totals; }
+
+  /// \name The rasterizer's side
+  /// @{
+
+  /// The oldest command; needs isBusy().
+  const Command &front() const { return Queue.front(); }
+
+  /// Removes the oldest command, counts \p Work, and keeps \p Status if it is
+  /// the first that is not VR_OK.
+  void complete(std::uint32_t Status, const Counters &Work);
+
+  /// Where a drained tile goes, row by row.
+  std::vector<Pixel> &drainedTile() { return Drained; }
+  /// @}
+
+private:
+  std::uint32_t readCounter(Csr C) const;
+  std::uint32_t *bankWord(Csr C);
+  void push(std::uint32_t Mask);
+  void start();
+
+  AgentConfig Config;
+  Command Bank;                  ///< Bank.Pushed is the push buffer
+  std::vector<Gaussian> Staging; ///< one descriptor a lane
+  std::vector<std::uint32_t> PixelIndex;
+  std::deque<Command> Queue;
+  std::vector<Pixel> Drained;
+  std::uint32_t FirstFailure = VR_OK;
+  Counters Totals;
+};
+
+} // namespace vorion::raster
