@@ -1,0 +1,46 @@
+/// Views in INRIA's `cameras.json`.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// A pinhole camera: x right, y down, z forward. Pixel (i, j) covers
+/// [i, i+1) x [j, j+1); its sample point is the centre.
+struct Camera {
+  int Id = 0;
+  std::string Name;                 ///< img_name
+  int Width = 0, Height = 0;        ///< pixels, 1 to MaxImageSize
+  std::array<double, 3> Position{}; ///< camera centre, world units
+  /// Camera-to-world rows; the columns are the camera's axes.
+  std::array<std::array<double, 3>, 3> Rotation{};
+  double Fx = 0, Fy = 0; ///< focal lengths, pixels
+  double Cx = 0, Cy = 0; ///< principal point; the picture's centre if absent
+
+  /// World to camera: row-major R with p_camera = R p_world + t.
+  std::array<double, 9> worldToCameraRotation() const;
+  std::array<double, 3> worldToCameraTranslation() const;
+};
+
+/// Largest picture side that is accepted: 65,536 pixels wide pictures are
+/// mistakes, and 16 bits hold a pixel coordinate on the machine.
+inline constexpr int MaxImageSize = 16384;
+
+/// Reads all records: id, img_name, width, height, position, rotation, fx, fy
+/// and optionally cx, cy. Other keys are ignored. Every error names file,
+/// record and key.
+Expected<std::vector<Camera>> readCameras(const std::string &Path);
+
+/// The camera of \p Path whose img_name is \p View, or else whose id is
+/// \p View written as a number; an unknown view's error lists what there is.
+Expected<Camera> readCamera(const std::string &Path, const std::string &View);
+
+/// Writes \p Cameras, with cx and cy, so that reading gives the same doubles.
+Expected<Success> writeCameras(const std::string &Path,
+                               const std::vector<Camera> &Cameras);
+
+} // namespace vorion::splat

@@ -1,0 +1,45 @@
+/// Pictures out: linear floats, and PNG for people.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// A rendered picture, rows from the top. Values are as the renderer made
+/// them: unclamped, in the colour space of the scene (trained scenes are in
+/// sRGB already, so nothing is converted on the way to a PNG).
+struct Image {
+  int Width = 0, Height = 0;
+  std::vector<float> Render; ///< 3 a pixel: r, g, b over the background
+  std::vector<float> Alpha;  ///< 1 a pixel: 1 - final transmittance; may be
+                             ///< empty where a format has no room for it
+
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(Width) * static_cast<std::size_t>(Height);
+  }
+};
+
+/// 8-bit value of a channel: clamped to [0, 1], rounded to nearest; NaN is 0.
+unsigned char toByte(float Value);
+
+/// 8-bit RGB PNG; alpha is not written, as the background is in the picture.
+Expected<Success> writePng(const std::string &Path, const Image &I);
+
+/// PFM ("PF", little endian, rows from the bottom as the format has them).
+Expected<Success> writePfm(const std::string &Path, const Image &I);
+
+/// NPZ with `render` (H, W, 3) and `alpha` (H, W), float32.
+Expected<Success> writeImageNpz(const std::string &Path, const Image &I);
+
+/// Writes by the ending of \p Path: .png, .pfm or .npz.
+Expected<Success> writeImage(const std::string &Path, const Image &I);
+
+/// Reads a .pfm, or `render` and, where present, `alpha` of an .npz
+/// (float32 or float64, rounded to float32).
+Expected<Image> readImage(const std::string &Path);
+
+} // namespace vorion::splat

@@ -1,0 +1,56 @@
+/// NumPy's .npz: named arrays in a zip archive.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::splat {
+
+/// One array, C order, little endian.
+struct NpyArray {
+  /// NumPy's name of the element type without byte order: "f4", "f8", "i4",
+  /// "i8", "u1", "u4", "b1"; "U<n>" for text of n code points.
+  std::string Type;
+  std::vector<std::size_t> Shape; ///< empty for a scalar
+  std::vector<std::byte> Bytes;
+
+  std::size_t elements() const;
+  /// The elements converted to double; empty for text.
+  std::vector<double> toDoubles() const;
+  /// The elements converted to float; empty for text.
+  std::vector<float> toFloats() const;
+  /// The text of a scalar "U<n>" array (ASCII; other code points become '?').
+  std::string toText() const;
+
+  static NpyArray of(std::vector<std::size_t> Shape,
+                     const std::vector<float> &Values);
+  static NpyArray of(std::vector<std::size_t> Shape,
+                     const std::vector<double> &Values);
+  static NpyArray of(std::vector<std::size_t> Shape,
+                     const std::vector<std::int32_t> &Values);
+  /// Of type "b1".
+  static NpyArray ofBools(std::vector<std::size_t> Shape,
+                          const std::vector<std::uint8_t> &Values);
+};
+
+using Npz = std::map<std::string, NpyArray>;
+
+/// Reads the arrays of \p Path, stored or deflated. Refused with the reason:
+/// what is no zip archive, Fortran order, big endian, element types not listed
+/// above, sizes that do not match the shape.
+Expected<Npz> readNpz(const std::string &Path);
+
+/// Parses one .npy file; \p Where names it in errors.
+Expected<NpyArray> parseNpy(const std::string &Where,
+                            const std::vector<std::byte> &Bytes);
+
+/// Writes \p Arrays deflated, in the order of their names.
+Expected<Success> writeNpz(const std::string &Path, const Npz &Arrays);
+
+} // namespace vorion::splat
