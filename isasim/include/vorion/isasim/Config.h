@@ -1,0 +1,61 @@
+/// The shape of a simulated machine, and its JSON form.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace vorion::isasim {
+
+/// Options of the rasterizers (one a socket, docs/abi.md).
+struct RasterConfig {
+  /// Commands a Raster Agent holds; a write of vr_start to a full queue stalls.
+  unsigned QueueDepth = 16;
+};
+
+/// Everything that fixes a machine. The defaults are the paper's prototype:
+/// 2 sockets of 4 cores, 16 lanes, one warp a core. \c HostThreads changes how
+/// fast a run is and nothing else.
+struct Config {
+  unsigned Clusters = 1;
+  unsigned SocketsPerCluster = 2;
+  unsigned CoresPerSocket = 4;
+  unsigned WarpsPerCore = 1;  ///< 1 to 32
+  unsigned LanesPerWarp = 16; ///< 1 to 16
+  unsigned Barriers = 16;     ///< barriers a core, and as many for the device
+  /// Nested divergent vx_split a warp may hold; one more is a trap.
+  unsigned DivergenceDepth = 32;
+
+  uint64_t GlobalBytes = uint64_t{1} << 30; ///< committed when first touched
+  uint32_t LocalBytes = 32 << 10;           ///< a core, at most 64 KiB
+  uint32_t StackBytes = 64 << 10;           ///< a lane
+
+  /// Warp instructions a warp runs at most between two points where all cores
+  /// are parked (DESIGN decision 10). Fixed by the configuration, since a
+  /// program that polls memory can see it.
+  uint32_t Quantum = 1 << 16;
+  /// Warp instructions of the whole device after which a run ends with
+  /// Outcome::LimitReached; 0 for no limit. Checked where all cores are parked.
+  uint64_t MaxInstructions = 0;
+  unsigned HostThreads = 0; ///< 0: as many as the host has
+
+  RasterConfig Raster;
+
+  unsigned sockets() const { return Clusters * SocketsPerCluster; }
+  unsigned cores() const { return sockets() * CoresPerSocket; }
+};
+
+/// Checks the ranges above and that the memory map (docs/abi.md) has room.
+Expected<Success> validate(const Config &C);
+
+/// The configuration as a JSON object, keys in declaration order.
+std::string toJson(const Config &C);
+
+/// Reads what toJson writes. Missing keys keep their default; an unknown key,
+/// a wrong type or a value out of range is an error naming the key. \p Where
+/// is the file name for messages.
+Expected<Config> parseConfig(std::string_view Json, const std::string &Where);
+
+} // namespace vorion::isasim

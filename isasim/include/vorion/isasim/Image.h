@@ -1,0 +1,85 @@
+/// A program for the machine: an ELF executable, checked and taken apart.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// An argument of a kernel (vx_kernel_arg, docs/abi.md).
+struct KernelArg {
+  std::string Name;
+  uint32_t Kind = 0;   ///< VX_ARG_VALUE, VX_ARG_GLOBAL or VX_ARG_LOCAL
+  uint32_t Offset = 0; ///< within the packed arguments
+  uint32_t Size = 0;
+};
+
+/// A kernel of the image (vx_kernel, docs/abi.md).
+struct Kernel {
+  std::string Name;
+  uint32_t Entry = 0;
+  std::vector<KernelArg> Args;
+  uint32_t ArgsBytes = 0;
+  uint32_t ContextBytes = 0;           ///< a work-item, kept across barriers
+  uint32_t LocalBytes = 0;             ///< static local memory
+  std::array<uint32_t, 3> LocalSize{}; ///< 0 for any
+};
+
+/// Immutable after parse(), so that it can be shared between threads.
+class Image {
+public:
+  struct Segment {
+    uint32_t Address = 0;
+    uint32_t MemBytes = 0;        ///< what lies beyond Bytes is zero
+    std::vector<std::byte> Bytes; ///< contents from the file
+    bool Writable = false;
+    bool Executable = false;
+  };
+  struct Symbol {
+    uint32_t Address = 0;
+    uint32_t Size = 0;
+    bool IsFunction = false;
+    std::string Name;
+  };
+
+  /// Checks \p Elf and takes it apart. \p Name is the file name for messages.
+  /// Errors: truncated or malformed file, not a 32-bit little-endian RISC-V
+  /// executable, not the ilp32f ABI, compressed code, a segment outside the
+  /// image range, overlapping segments, writable code, an entry point outside
+  /// the code, a malformed kernel table.
+  static Expected<std::shared_ptr<const Image>>
+  parse(std::span<const std::byte> Elf, std::string Name);
+
+  const std::string &name() const { return Name; }
+  uint32_t entry() const { return Entry; }
+  const std::vector<Segment> &segments() const { return Segments; }
+  const std::vector<Kernel> &kernels() const { return Kernels; }
+  /// nullptr if there is no such kernel.
+  const Kernel *findKernel(std::string_view KernelName) const;
+  std::optional<uint32_t> findSymbol(std::string_view SymbolName) const;
+  /// "function+0x1c" for the symbol that covers \p Address, or empty.
+  std::string symbolize(uint32_t Address) const;
+  /// The initial bytes at [Address, Address + Bytes) if they lie in one
+  /// segment's file contents, else an empty span.
+  std::span<const std::byte> bytesAt(uint32_t Address, uint32_t Bytes) const;
+
+private:
+  std::string Name;
+  uint32_t Entry = 0;
+  std::vector<Segment> Segments; ///< by address
+  std::vector<Symbol> Symbols;   ///< by address
+  std::vector<Kernel> Kernels;
+
+  friend class ImageParser;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,85 @@
+/// The simulated device: cores, rasterizers, memory. One object is one device
+/// that is loaded and run any number of times; memory keeps its contents
+/// between runs. Not thread-safe: one call at a time (a run uses host threads
+/// of its own inside).
+#pragma once
+
+#include "vorion/isasim/Config.h"
+#include "vorion/isasim/Image.h"
+#include "vorion/isasim/Result.h"
+#include "vorion/support/Expected.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace vorion::isasim {
+
+class Observer;
+
+class Machine {
+public:
+  /// A machine of the given shape; errors: validate(), or the host has no
+  /// address space for its memory.
+  static Expected<std::unique_ptr<Machine>> create(const Config &C);
+  ~Machine();
+  Machine(const Machine &) = delete;
+  Machine &operator=(const Machine &) = delete;
+
+  const Config &config() const;
+
+  /// Puts \p Program into the image range in place of what was there: read-only
+  /// and initialised data are written, .bss is zeroed. Loading the image that
+  /// is already loaded resets its data.
+  void load(std::shared_ptr<const Image> Program);
+  /// The loaded image, or nullptr.
+  const std::shared_ptr<const Image> &image() const;
+
+  /// Global memory for a buffer. \p Alignment is a power of two up to 4096. An
+  /// error if no gap is large enough. Contents are what was there before (zero
+  /// in a fresh machine). Size 0 gets an address of its own.
+  Expected<uint32_t> allocate(uint64_t Bytes, uint32_t Alignment = 128);
+  /// Ends an allocation; false if \p Address is not the start of one.
+  bool free(uint32_t Address);
+  uint64_t allocatedBytes() const;
+
+  /// The host's view of [Address, Address + Bytes) in global memory, or nullptr
+  /// if the range is not all global memory. Valid as long as the machine. Not
+  /// to be used during a run, except on memory that the program does not touch.
+  std::byte *hostPointer(uint32_t Address, uint64_t Bytes);
+  /// Copies from or to global memory, the image or the stacks; false if the
+  /// range is not mapped or crosses from one region to another.
+  bool read(uint32_t Address, std::span<std::byte> To) const;
+  bool write(uint32_t Address, std::span<const std::byte> From);
+  bool fill(uint32_t Address, uint64_t Bytes, std::byte Value);
+
+  /// Resets all cores and rasterizers and runs the loaded image from its entry
+  /// point with mscratch = \p LaunchBlock (0 for none) until all warps have
+  /// ended or the run fails. Local memory starts zeroed. Without an image the
+  /// result is a fetch fault.
+  RunResult run(uint32_t LaunchBlock = 0);
+
+  /// Receives what the program writes to the console word, complete lines
+  /// in core order (docs/abi.md), during run(). Default: stdout.
+  void setConsole(std::function<void(std::string_view)> Sink);
+
+  /// An observer sees every event of the following runs, which then use one
+  /// host thread; nullptr for none. It changes no result.
+  void setObserver(Observer *O);
+
+  /// The raster CSR window of docs/abi.md as the host sees it; not during a
+  /// run. nullopt or false for a core or CSR that is not there or is read-only.
+  std::optional<uint32_t> readRasterCsr(unsigned Core, unsigned Csr);
+  bool writeRasterCsr(unsigned Core, unsigned Csr, uint32_t Value);
+
+private:
+  Machine();
+  struct Impl;
+  std::unique_ptr<Impl> I;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,94 @@
+/// What a run of the machine came to. A guest's fault or hang is a result here,
+/// never the host's death.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::isasim {
+
+enum class Outcome {
+  Done,         ///< every warp ended, exit code 0
+  GuestFailed,  ///< every warp ended, exit code not 0
+  Trap,         ///< a fault; see RunResult::Fault
+  Hang,         ///< no warp can ever go on; the report says what each waits for
+  LimitReached, ///< Config::MaxInstructions
+};
+
+enum class TrapCause {
+  IllegalInstruction,
+  FetchFault,      ///< pc outside the executable segments
+  MisalignedFetch, ///< jump target not a multiple of 4
+  LoadFault,       ///< no memory there
+  StoreFault,      ///< no memory there, or read-only
+  MisalignedLoad,  ///< also of an atomic
+  MisalignedStore, ///< also of an atomic
+  Breakpoint,      ///< ebreak
+  EnvironmentCall, ///< ecall
+  DivergentBranch, ///< active lanes disagree at a branch that no split guards
+  DivergentJump,   ///< active lanes disagree about the target of jalr
+  DivergenceOverflow,  ///< Config::DivergenceDepth
+  DivergenceUnderflow, ///< vx_join on an empty stack
+  EmptyMask,           ///< vx_pred left no lane active
+  BadBarrier,          ///< vx_bar of a barrier that the machine does not have
+};
+
+/// "load access fault" and so on.
+std::string_view describe(TrapCause Cause);
+std::string_view describe(Outcome O);
+
+/// Where and why a warp stopped.
+struct Trap {
+  TrapCause Cause = TrapCause::IllegalInstruction;
+  uint32_t Pc = 0;
+  unsigned Core = 0;
+  unsigned Warp = 0;
+  uint32_t LaneMask = 0;    ///< active lanes
+  unsigned Lane = 0;        ///< the lowest lane that faulted
+  uint32_t Address = 0;     ///< accessed address or jump target, else 0
+  uint32_t Instruction = 0; ///< the word at Pc, 0 where it cannot be fetched
+  std::string Symbol;       ///< "function+0x1c", empty where none covers Pc
+};
+
+struct CoreCounters {
+  uint64_t WarpInstructions = 0; ///< retired
+  uint64_t LaneInstructions = 0; ///< the same times active lanes
+  uint64_t Loads = 0;            ///< warp instructions, likewise below
+  uint64_t Stores = 0;
+  uint64_t Atomics = 0;
+  uint64_t Splits = 0;          ///< vx_split and vx_split_n
+  uint64_t DivergentSplits = 0; ///< of these, those that divided the lanes
+  uint64_t Parks = 0; ///< operations that waited for all cores to be parked
+};
+
+/// Totals of the run over all rasterizers (the vr_n_* CSRs).
+struct RasterCounters {
+  uint64_t Commands = 0;
+  uint64_t Gaussians = 0;
+  uint64_t Clipped = 0;
+  uint64_t Fragments = 0;
+  uint64_t Blends = 0;
+};
+
+struct RunResult {
+  Outcome End = Outcome::Done;
+  /// The value stored to the exit word, 0 if none was.
+  uint32_t ExitCode = 0;
+  Trap Fault; ///< meaningful for Outcome::Trap
+  /// For Trap, Hang and LimitReached: what happened, several lines, each ended
+  /// by a newline. Empty otherwise.
+  std::string Report;
+
+  CoreCounters Total;
+  std::vector<CoreCounters> Cores;
+  RasterCounters Raster;
+  uint64_t SyncPoints = 0; ///< times all cores were parked
+  double HostSeconds = 0;  ///< wall time of the run
+};
+
+/// Outcome, counters and fault as a JSON object.
+std::string toJson(const RunResult &R);
+
+} // namespace vorion::isasim
