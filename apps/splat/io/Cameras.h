@@ -9,6 +9,9 @@
 
 namespace vorion::splat {
 
+/// Largest picture side that is accepted; more is a mistake in the file.
+inline constexpr int MaxImageSize = 16384;
+
 /// A pinhole camera: x right, y down, z forward. Pixel (i, j) covers
 /// [i, i+1) x [j, j+1); its sample point is the centre.
 struct Camera {
@@ -25,10 +28,6 @@ struct Camera {
   std::array<double, 9> worldToCameraRotation() const;
   std::array<double, 3> worldToCameraTranslation() const;
 };
-
-/// Largest picture side that is accepted: 65,536 pixels wide pictures are
-/// mistakes, and 16 bits hold a pixel coordinate on the machine.
-inline constexpr int MaxImageSize = 16384;
 
 /// Reads all records: id, img_name, width, height, position, rotation, fx, fy
 /// and optionally cx, cy. Other keys are ignored. Every error names file,

@@ -1,0 +1,31 @@
+#include "Activation.h"
+
+#include <cmath>
+
+namespace vorion::splat {
+
+template <typename Real> Activated<Real> activate(const Scene &S) {
+  Activated<Real> A;
+  A.Scales.reserve(S.LogScales.size());
+  for (const float L : S.LogScales)
+    A.Scales.push_back(static_cast<Real>(std::exp(double(L))));
+  A.Quats.resize(S.Quats.size());
+  for (std::size_t I = 0; I + 3 < S.Quats.size(); I += 4) {
+    double Squares = 0;
+    for (int K = 0; K < 4; ++K)
+      Squares += double(S.Quats[I + K]) * S.Quats[I + K];
+    const double Norm = std::sqrt(Squares);
+    for (int K = 0; K < 4; ++K)
+      A.Quats[I + K] =
+          Norm > 0 ? static_cast<Real>(S.Quats[I + K] / Norm) : Real(0);
+  }
+  A.Opacities.reserve(S.OpacityLogits.size());
+  for (const float L : S.OpacityLogits)
+    A.Opacities.push_back(static_cast<Real>(1 / (1 + std::exp(-double(L)))));
+  return A;
+}
+
+template Activated<float> activate<float>(const Scene &);
+template Activated<double> activate<double>(const Scene &);
+
+} // namespace vorion::splat

@@ -1,0 +1,41 @@
+#include "Activation.h"
+#include "TestFiles.h"
+
+using namespace vorion::splat;
+
+namespace {
+
+TEST(Activation, FollowsTheDefinitions) {
+  Scene S = numberedScene(1, 0);
+  S.LogScales = {0, 1, -20};
+  S.Quats = {2, 0, 0, 0};
+  S.OpacityLogits = {0};
+  const auto A = activate<double>(S);
+  EXPECT_EQ(A.Scales, (std::vector<double>{1, std::exp(1.0), std::exp(-20.0)}));
+  EXPECT_EQ(A.Quats, (std::vector<double>{1, 0, 0, 0}));
+  EXPECT_EQ(A.Opacities, (std::vector<double>{0.5}));
+}
+
+TEST(Activation, IsRoundedOnceFromDouble) {
+  const Scene S = numberedScene(50, 0);
+  const auto F = activate<float>(S);
+  const auto D = activate<double>(S);
+  for (std::size_t I = 0; I < D.Scales.size(); ++I)
+    EXPECT_EQ(F.Scales[I], static_cast<float>(D.Scales[I]));
+  for (std::size_t I = 0; I < D.Quats.size(); ++I)
+    EXPECT_EQ(F.Quats[I], static_cast<float>(D.Quats[I]));
+  for (std::size_t I = 0; I < D.Opacities.size(); ++I)
+    EXPECT_EQ(F.Opacities[I], static_cast<float>(D.Opacities[I]));
+}
+
+TEST(Activation, ExtremesStayDefined) {
+  Scene S = numberedScene(2, 0);
+  S.Quats = {0, 0, 0, 0, 1e-30F, 0, 0, 1e-30F};
+  S.OpacityLogits = {1000, -1000};
+  const auto A = activate<float>(S);
+  EXPECT_EQ(A.Opacities, (std::vector<float>{1, 0}));
+  EXPECT_EQ(A.Quats[0], 0);
+  EXPECT_FLOAT_EQ(A.Quats[4], std::sqrt(0.5F));
+}
+
+} // namespace

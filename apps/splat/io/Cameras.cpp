@@ -1,0 +1,225 @@
+#include "Cameras.h"
+
+#include "vorion/support/File.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Reads the keys of one record and remembers the first thing that is wrong.
+class RecordReader {
+public:
+  RecordReader(const std::string &Path, std::size_t Index, const Json &Record)
+      : Path(Path), Index(Index), Record(Record) {}
+
+  Expected<Camera> read() {
+    if (!Record.is_object())
+      return Error{Path, fmt::format("record {} is no object, expected a "
+                                     "camera",
+                                     Index)};
+    Camera C;
+    if (const Json *Name = key("img_name")) {
+      if (Name->is_string())
+        C.Name = Name->get<std::string>();
+      else
+        wrong("img_name", "a string");
+    }
+    View = C.Name;
+    C.Id = integer("id", 0, 1 << 30);
+    C.Width = integer("width", 1, MaxImageSize);
+    C.Height = integer("height", 1, MaxImageSize);
+    if (const Json *Position = key("position"))
+      row("position", *Position, C.Position);
+    if (const Json *Rotation = key("rotation")) {
+      if (Rotation->is_array() && Rotation->size() == 3)
+        for (std::size_t I = 0; I < 3; ++I)
+          row("rotation", (*Rotation)[I], C.Rotation[I]);
+      else
+        wrong("rotation", "three rows of three finite numbers");
+    }
+    C.Fx = focal("fx");
+    C.Fy = focal("fy");
+    C.Cx = Record.contains("cx") ? number("cx") : 0.5 * C.Width;
+    C.Cy = Record.contains("cy") ? number("cy") : 0.5 * C.Height;
+    if (!Problem && !isRotation(C))
+      wrong("rotation", "orthonormal axes with determinant +1");
+    if (Problem)
+      return *Problem;
+    return C;
+  }
+
+private:
+  void fail(std::string What) {
+    if (!Problem)
+      Problem =
+          Error{Path, View.empty() ? fmt::format("record {}: {}", Index, What)
+                                   : fmt::format("view {}: {}", View, What)};
+  }
+  void wrong(const char *Key, const char *Wanted) {
+    fail(fmt::format("key {} is wrong, expected {}", Key, Wanted));
+  }
+
+  const Json *key(const char *Key) {
+    const auto It = Record.find(Key);
+    if (It != Record.end())
+      return &*It;
+    fail(fmt::format("key {} is missing", Key));
+    return nullptr;
+  }
+
+  double number(const char *Key) {
+    const Json *J = key(Key);
+    if (!J)
+      return 0;
+    if (!J->is_number() || !std::isfinite(J->get<double>())) {
+      wrong(Key, "a finite number");
+      return 0;
+    }
+    return J->get<double>();
+  }
+
+  double focal(const char *Key) {
+    const double Value = number(Key);
+    if (Record.contains(Key) && !(Value > 0))
+      wrong(Key, "a positive number of pixels");
+    return Value;
+  }
+
+  int integer(const char *Key, int Least, int Most) {
+    const Json *J = key(Key);
+    if (!J)
+      return 0;
+    // Unsigned 64-bit values above the range must not wrap on conversion.
+    if (!J->is_number_integer() || J->get<double>() < Least ||
+        J->get<double>() > Most) {
+      fail(fmt::format("key {} is wrong, expected an integer from {} to {}",
+                       Key, Least, Most));
+      return 0;
+    }
+    return J->get<int>();
+  }
+
+  void row(const char *Key, const Json &J, std::array<double, 3> &To) {
+    bool Good = J.is_array() && J.size() == 3;
+    for (std::size_t I = 0; Good && I < 3; ++I) {
+      Good = J[I].is_number() && std::isfinite(J[I].get<double>());
+      if (Good)
+        To[I] = J[I].get<double>();
+    }
+    if (!Good)
+      wrong(Key, "three finite numbers a row");
+  }
+
+  /// To three digits: files with few decimals pass, mirrored, scaled or
+  /// transposed-with-position matrices do not.
+  static bool isRotation(const Camera &C) {
+    const auto &R = C.Rotation;
+    constexpr double Slack = 2e-3;
+    for (int I = 0; I < 3; ++I)
+      for (int J = 0; J < 3; ++J) {
+        double Dot = 0;
+        for (int K = 0; K < 3; ++K)
+          Dot += R[K][I] * R[K][J];
+        if (!(std::abs(Dot - (I == J)) < Slack))
+          return false;
+      }
+    const double Determinant =
+        R[0][0] * (R[1][1] * R[2][2] - R[1][2] * R[2][1]) -
+        R[0][1] * (R[1][0] * R[2][2] - R[1][2] * R[2][0]) +
+        R[0][2] * (R[1][0] * R[2][1] - R[1][1] * R[2][0]);
+    return Determinant > 0;
+  }
+
+  const std::string &Path;
+  std::size_t Index;
+  const Json &Record;
+  std::string View;
+  std::optional<Error> Problem;
+};
+
+} // namespace
+
+std::array<double, 9> Camera::worldToCameraRotation() const {
+  std::array<double, 9> R{};
+  for (int I = 0; I < 3; ++I)
+    for (int J = 0; J < 3; ++J)
+      R[3 * I + J] = Rotation[J][I];
+  return R;
+}
+
+std::array<double, 3> Camera::worldToCameraTranslation() const {
+  std::array<double, 3> T{};
+  for (int I = 0; I < 3; ++I)
+    for (int J = 0; J < 3; ++J)
+      T[I] -= Rotation[J][I] * Position[J];
+  return T;
+}
+
+Expected<std::vector<Camera>> readCameras(const std::string &Path) {
+  const auto File = readFile(Path);
+  if (!File)
+    return File.error();
+  const char *Text = reinterpret_cast<const char *>(File->data());
+  const Json Document = Json::parse(Text, Text + File->size(), nullptr,
+                                    /*allow_exceptions=*/false);
+  if (!Document.is_array() || Document.empty())
+    return Error{Path, Document.is_discarded()
+                           ? "not JSON, expected an array of cameras"
+                           : "expected a non-empty array of cameras"};
+  std::vector<Camera> Cameras;
+  for (std::size_t I = 0; I < Document.size(); ++I) {
+    auto C = RecordReader(Path, I, Document[I]).read();
+    if (!C)
+      return C.error();
+    Cameras.push_back(std::move(*C));
+  }
+  return Cameras;
+}
+
+Expected<Camera> readCamera(const std::string &Path, const std::string &View) {
+  const auto Cameras = readCameras(Path);
+  if (!Cameras)
+    return Cameras.error();
+  for (const Camera &C : *Cameras)
+    if (C.Name == View)
+      return C;
+  for (const Camera &C : *Cameras)
+    if (std::to_string(C.Id) == View)
+      return C;
+  // A long list helps nobody.
+  constexpr std::size_t MostNamed = 12;
+  std::string Known;
+  for (std::size_t I = 0; I < Cameras->size() && I < MostNamed; ++I)
+    Known += (I ? ", " : "") + (*Cameras)[I].Name;
+  if (Cameras->size() > MostNamed)
+    Known += fmt::format(" and {} more", Cameras->size() - MostNamed);
+  return Error{Path,
+               fmt::format("no view {}, expected one of {}", View, Known)};
+}
+
+Expected<Success> writeCameras(const std::string &Path,
+                               const std::vector<Camera> &Cameras) {
+  Json Document = Json::array();
+  for (const Camera &C : Cameras)
+    Document.push_back({{"id", C.Id},
+                        {"img_name", C.Name},
+                        {"width", C.Width},
+                        {"height", C.Height},
+                        {"position", C.Position},
+                        {"rotation", C.Rotation},
+                        {"fx", C.Fx},
+                        {"fy", C.Fy},
+                        {"cx", C.Cx},
+                        {"cy", C.Cy}});
+  return writeFileAtomically(
+      Path,
+      Document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+} // namespace vorion::splat

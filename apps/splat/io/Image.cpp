@@ -1,0 +1,179 @@
+#include "Image.h"
+
+#include "Npz.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <csetjmp>
+#include <fmt/format.h>
+#include <png.h>
+
+static_assert(std::endian::native == std::endian::little,
+              "PFM is written with a negative scale: little endian");
+
+namespace vorion::splat {
+namespace {
+
+/// What libpng calls while it writes: append to a string.
+void appendPng(png_structp Png, png_bytep Data, std::size_t Size) {
+  static_cast<std::string *>(png_get_io_ptr(Png))
+      ->append(reinterpret_cast<const char *>(Data), Size);
+}
+void flushPng(png_structp /*Png*/) {}
+
+/// Encodes 8-bit RGB rows; false if libpng gave up. No object with a
+/// destructor lives in this frame, since libpng reports errors by longjmp.
+bool encodePng(std::string &Out, unsigned char *Rows, int Width, int Height) {
+  png_structp Png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop Info = Png ? png_create_info_struct(Png) : nullptr;
+  if (!Info || setjmp(png_jmpbuf(Png))) { // NOLINT(bugprone-*,cert-err52-cpp)
+    png_destroy_write_struct(&Png, &Info);
+    return false;
+  }
+  png_set_write_fn(Png, &Out, appendPng, flushPng);
+  png_set_IHDR(Png, Info, static_cast<png_uint_32>(Width),
+               static_cast<png_uint_32>(Height), 8, PNG_COLOR_TYPE_RGB,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(Png, Info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(Png, Info);
+  for (int Y = 0; Y < Height; ++Y)
+    png_write_row(Png, Rows + static_cast<std::size_t>(Y) *
+                                  static_cast<std::size_t>(Width) * 3);
+  png_write_end(Png, nullptr);
+  png_destroy_write_struct(&Png, &Info);
+  return true;
+}
+
+/// The next word of a PFM header, which one blank ends.
+std::string_view nextWord(std::string_view &Text) {
+  const std::size_t End = std::min(Text.find_first_of(" \t\r\n"), Text.size());
+  const std::string_view Word = Text.substr(0, End);
+  Text.remove_prefix(std::min(End + 1, Text.size()));
+  return Word;
+}
+
+template <typename T> bool parseWhole(std::string_view Word, T &Value) {
+  const auto [End, Status] =
+      std::from_chars(Word.data(), Word.data() + Word.size(), Value);
+  return Status == std::errc() && End == Word.data() + Word.size();
+}
+
+/// Pixels that a picture of this size may have; guards multiplications below.
+constexpr int MaxSide = 1 << 15;
+
+Expected<Image> readPfm(const std::string &Path) {
+  const auto File = readFile(Path);
+  if (!File)
+    return File.error();
+  std::string_view Text(reinterpret_cast<const char *>(File->data()),
+                        File->size());
+  Image I;
+  double Scale = 0;
+  if (nextWord(Text) != "PF" || !parseWhole(nextWord(Text), I.Width) ||
+      !parseWhole(nextWord(Text), I.Height) ||
+      !parseWhole(nextWord(Text), Scale) || I.Width < 1 || I.Height < 1 ||
+      I.Width > MaxSide || I.Height > MaxSide)
+    return Error{Path, "not a colour PFM, expected `PF`, width, height, scale"};
+  if (!(Scale < 0))
+    return Error{Path, "big-endian PFM, expected a negative scale"};
+  const std::size_t RowBytes =
+      static_cast<std::size_t>(I.Width) * 3 * sizeof(float);
+  const auto Rows = static_cast<std::size_t>(I.Height);
+  if (Text.size() != Rows * RowBytes)
+    return Error{Path, fmt::format("{} bytes of pixels, expected {}",
+                                   Text.size(), Rows * RowBytes)};
+  I.Render.resize(I.pixels() * 3);
+  for (std::size_t Y = 0; Y < Rows; ++Y)
+    std::memcpy(reinterpret_cast<char *>(I.Render.data()) +
+                    (Rows - 1 - Y) * RowBytes,
+                Text.data() + Y * RowBytes, RowBytes);
+  return I;
+}
+
+Expected<Image> readImageNpz(const std::string &Path) {
+  const auto Arrays = readNpz(Path);
+  if (!Arrays)
+    return Arrays.error();
+  const auto Render = Arrays->find("render");
+  if (Render == Arrays->end())
+    return Error{Path, "no array `render`"};
+  const NpyArray &R = Render->second;
+  const bool Real = R.Type == "f4" || R.Type == "f8";
+  if (!Real || R.Shape.size() != 3 || R.Shape[2] != 3 || R.Shape[0] < 1 ||
+      R.Shape[1] < 1 || R.Shape[0] > MaxSide || R.Shape[1] > MaxSide)
+    return Error{Path, "array `render` is no picture, expected floats of "
+                       "shape (height, width, 3)"};
+  Image I;
+  I.Height = static_cast<int>(R.Shape[0]);
+  I.Width = static_cast<int>(R.Shape[1]);
+  I.Render = R.toFloats();
+  if (const auto Alpha = Arrays->find("alpha"); Alpha != Arrays->end()) {
+    I.Alpha = Alpha->second.toFloats();
+    if (I.Alpha.size() != I.pixels())
+      return Error{Path, "array `alpha` does not have the size of `render`"};
+  }
+  return I;
+}
+
+} // namespace
+
+unsigned char toByte(float Value) {
+  if (!(Value > 0)) // NaN too
+    return 0;
+  return static_cast<unsigned char>(
+      std::lround(std::min(Value, 1.0F) * 255.0F));
+}
+
+Expected<Success> writePng(const std::string &Path, const Image &I) {
+  std::vector<unsigned char> Rows(I.Render.size());
+  std::transform(I.Render.begin(), I.Render.end(), Rows.begin(), toByte);
+  std::string Out;
+  if (!encodePng(Out, Rows.data(), I.Width, I.Height))
+    return Error{Path, "libpng cannot encode the picture", ExitCode::Internal};
+  return writeFileAtomically(Path, Out);
+}
+
+Expected<Success> writePfm(const std::string &Path, const Image &I) {
+  std::string Out = fmt::format("PF\n{} {}\n-1.0\n", I.Width, I.Height);
+  const std::size_t Row = static_cast<std::size_t>(I.Width) * 3;
+  for (auto Y = static_cast<std::size_t>(I.Height); Y-- > 0;)
+    Out.append(reinterpret_cast<const char *>(&I.Render[Y * Row]),
+               Row * sizeof(float));
+  return writeFileAtomically(Path, Out);
+}
+
+Expected<Success> writeImageNpz(const std::string &Path, const Image &I) {
+  const auto H = static_cast<std::size_t>(I.Height);
+  const auto W = static_cast<std::size_t>(I.Width);
+  Npz Arrays;
+  Arrays["render"] = NpyArray::of({H, W, 3}, I.Render);
+  if (!I.Alpha.empty())
+    Arrays["alpha"] = NpyArray::of({H, W}, I.Alpha);
+  return writeNpz(Path, Arrays);
+}
+
+Expected<Success> writeImage(const std::string &Path, const Image &I) {
+  if (Path.ends_with(".png"))
+    return writePng(Path, I);
+  if (Path.ends_with(".pfm"))
+    return writePfm(Path, I);
+  if (Path.ends_with(".npz"))
+    return writeImageNpz(Path, I);
+  return Error{Path, "unknown ending, expected .png, .pfm or .npz",
+               ExitCode::Usage};
+}
+
+Expected<Image> readImage(const std::string &Path) {
+  if (Path.ends_with(".pfm"))
+    return readPfm(Path);
+  if (Path.ends_with(".npz"))
+    return readImageNpz(Path);
+  return Error{Path, "unknown ending, expected .pfm or .npz", ExitCode::Usage};
+}
+
+} // namespace vorion::splat

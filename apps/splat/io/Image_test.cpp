@@ -1,0 +1,93 @@
+#include "Image.h"
+#include "TestFiles.h"
+
+#include <png.h>
+
+using namespace vorion;
+using namespace vorion::splat;
+
+namespace {
+
+Image sample() {
+  Image I;
+  I.Width = 3;
+  I.Height = 2;
+  for (int K = 0; K < 18; ++K)
+    I.Render.push_back(static_cast<float>(K) * 0.1F - 0.3F);
+  for (int K = 0; K < 6; ++K)
+    I.Alpha.push_back(static_cast<float>(K) / 7);
+  return I;
+}
+
+TEST(Image, PfmRoundTripsUnclamped) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writeImage(Folder.path("i.pfm"), sample()));
+  const auto I = readImage(Folder.path("i.pfm"));
+  ASSERT_TRUE(I) << I.error().What;
+  EXPECT_EQ(I->Width, 3);
+  EXPECT_EQ(I->Height, 2);
+  EXPECT_EQ(I->Render, sample().Render);
+  // The format's first row in the file is the bottom one.
+  float First;
+  std::memcpy(&First, Folder.read("i.pfm").data() + 12, sizeof(First));
+  EXPECT_EQ(First, sample().Render[9]);
+}
+
+TEST(Image, NpzRoundTripsWithAlpha) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writeImage(Folder.path("i.npz"), sample()));
+  const auto I = readImage(Folder.path("i.npz"));
+  ASSERT_TRUE(I) << I.error().What;
+  EXPECT_EQ(I->Render, sample().Render);
+  EXPECT_EQ(I->Alpha, sample().Alpha);
+}
+
+TEST(Image, PngHoldsClampedBytes) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writeImage(Folder.path("i.png"), sample()));
+  png_image Png{};
+  Png.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(
+      png_image_begin_read_from_file(&Png, Folder.path("i.png").c_str()));
+  EXPECT_EQ(Png.width, 3U);
+  EXPECT_EQ(Png.height, 2U);
+  Png.format = PNG_FORMAT_RGB;
+  std::vector<unsigned char> Bytes(PNG_IMAGE_SIZE(Png));
+  ASSERT_TRUE(png_image_finish_read(&Png, nullptr, Bytes.data(), 0, nullptr));
+  for (std::size_t K = 0; K < Bytes.size(); ++K)
+    EXPECT_EQ(Bytes[K], toByte(sample().Render[K])) << K;
+}
+
+TEST(Image, BytesAreRoundedAndNanIsBlack) {
+  EXPECT_EQ(toByte(0), 0);
+  EXPECT_EQ(toByte(-1), 0);
+  EXPECT_EQ(toByte(1), 255);
+  EXPECT_EQ(toByte(7), 255);
+  EXPECT_EQ(toByte(0.5F), 128);
+  EXPECT_EQ(toByte(std::nanf("")), 0);
+}
+
+TEST(Image, UnknownEndingsAndUnwritablePathsAreErrors) {
+  const TestFolder Folder;
+  const auto Ending = writeImage(Folder.path("i.gif"), sample());
+  ASSERT_FALSE(Ending);
+  EXPECT_EQ(Ending.error().Code, ExitCode::Usage);
+  for (const char *Name : {"no/i.png", "no/i.pfm", "no/i.npz"}) {
+    const auto W = writeImage(Folder.path(Name), sample());
+    ASSERT_FALSE(W);
+    EXPECT_EQ(W.error().Code, ExitCode::InputFile);
+  }
+  EXPECT_FALSE(readImage(Folder.path("i.png")));
+}
+
+TEST(Image, TruncatedPfmIsAnError) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writeImage(Folder.path("i.pfm"), sample()));
+  const std::string File = Folder.read("i.pfm");
+  for (std::size_t Size = 0; Size < File.size(); ++Size)
+    EXPECT_FALSE(readImage(Folder.write("t.pfm", File.substr(0, Size))));
+  EXPECT_FALSE(readImage(Folder.write("t.pfm", "PF\n99999 99999\n-1\n")));
+  EXPECT_FALSE(readImage(Folder.write("t.pfm", "PF\n-1 -1\n-1\n")));
+}
+
+} // namespace

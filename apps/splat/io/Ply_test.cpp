@@ -1,0 +1,173 @@
+#include "Ply.h"
+#include "TestFiles.h"
+
+#include <limits>
+
+using namespace vorion;
+using namespace vorion::splat;
+
+namespace {
+
+void expectEqual(const Scene &A, const Scene &B) {
+  EXPECT_EQ(A.ShDegree, B.ShDegree);
+  EXPECT_EQ(A.Means, B.Means);
+  EXPECT_EQ(A.LogScales, B.LogScales);
+  EXPECT_EQ(A.Quats, B.Quats);
+  EXPECT_EQ(A.OpacityLogits, B.OpacityLogits);
+  EXPECT_EQ(A.Sh, B.Sh);
+}
+
+/// The error of reading \p Content as a PLY file.
+std::string errorOf(const TestFolder &Folder, const std::string &Content) {
+  const std::string Path = Folder.write("damaged.ply", Content);
+  const auto S = readPly(Path);
+  if (S)
+    return "";
+  EXPECT_EQ(S.error().Code, ExitCode::InputFile);
+  EXPECT_TRUE(S.error().Where.starts_with(Path));
+  return S.error().What;
+}
+
+std::string replaced(std::string Text, const std::string &What,
+                     const std::string &With) {
+  const std::size_t At = Text.find(What);
+  EXPECT_NE(At, std::string::npos) << What;
+  return Text.replace(At, What.size(), With);
+}
+
+TEST(Ply, RoundTripsEveryDegree) {
+  const TestFolder Folder;
+  for (int Degree = 0; Degree <= MaxShDegree; ++Degree) {
+    const Scene Written = numberedScene(5, Degree);
+    ASSERT_TRUE(writePly(Folder.path("s.ply"), Written));
+    const auto Read = readPly(Folder.path("s.ply"));
+    ASSERT_TRUE(Read) << Read.error().What;
+    expectEqual(*Read, Written);
+  }
+}
+
+TEST(Ply, KeepsRestCoefficientsChannelByChannelInTheFile) {
+  const TestFolder Folder;
+  Scene S = numberedScene(1, 1);
+  S.Sh = {0, 0, 0, 1, 4, 7, 2, 5, 8, 3, 6, 9}; // [coefficient][channel]
+  ASSERT_TRUE(writePly(Folder.path("s.ply"), S));
+  const std::string File = Folder.read("s.ply");
+  // After the header: 6 floats of mean and normal, 3 of f_dc, then f_rest.
+  const std::size_t Body = File.find("end_header\n") + 11;
+  for (int I = 0; I < 9; ++I) {
+    float Value;
+    std::memcpy(&Value, File.data() + Body + (9 + I) * sizeof(float),
+                sizeof(Value));
+    EXPECT_EQ(Value, static_cast<float>(I + 1));
+  }
+}
+
+TEST(Ply, AcceptsAnyPropertyOrderAndSkipsWhatItDoesNotNeed) {
+  const TestFolder Folder;
+  std::string File = "ply\r\nformat binary_little_endian 1.0\r\n"
+                     "comment made by hand\r\nelement vertex 1\r\n";
+  const char *Names[] = {"rot_3",   "rot_2",   "f_dc_2", "opacity", "scale_1",
+                         "scale_0", "scale_2", "y",      "x",       "z",
+                         "rot_0",   "rot_1",   "f_dc_0", "f_dc_1"};
+  float Next = 1;
+  std::string Body;
+  for (const char *Name : Names) {
+    File += std::string("property float ") + Name + "\r\n";
+    File += std::string("property uchar pad_") + Name + "\r\n";
+    Body.append(reinterpret_cast<const char *>(&Next), sizeof(Next));
+    Body += 'p';
+    Next += 1;
+  }
+  File += "property double time\r\nend_header\r\n" + Body + "12345678";
+  const auto S = readPly(Folder.write("s.ply", File));
+  ASSERT_TRUE(S) << S.error().What;
+  EXPECT_EQ(S->Means, (std::vector<float>{9, 8, 10}));
+  EXPECT_EQ(S->LogScales, (std::vector<float>{6, 5, 7}));
+  EXPECT_EQ(S->Quats, (std::vector<float>{11, 12, 2, 1}));
+  EXPECT_EQ(S->OpacityLogits, (std::vector<float>{4}));
+  EXPECT_EQ(S->Sh, (std::vector<float>{13, 14, 3}));
+}
+
+TEST(Ply, EveryTruncationIsAnError) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writePly(Folder.path("s.ply"), numberedScene(2, 0)));
+  const std::string File = Folder.read("s.ply");
+  for (std::size_t Size = 0; Size < File.size(); ++Size)
+    EXPECT_NE(errorOf(Folder, File.substr(0, Size)), "") << Size << " bytes";
+  EXPECT_NE(errorOf(Folder, File + "x").find("expected 2 vertices"),
+            std::string::npos);
+}
+
+TEST(Ply, EveryDamagedHeaderByteIsReadOrRefusedButNeverACrash) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writePly(Folder.path("s.ply"), numberedScene(2, 0)));
+  const std::string File = Folder.read("s.ply");
+  const std::size_t Header = File.find("end_header\n") + 11;
+  std::size_t Refused = 0;
+  for (std::size_t At = 0; At < Header; ++At)
+    for (const char Byte : {'\0', '\n', ' ', '9', '-', '\xff'}) {
+      std::string Damaged = File;
+      Damaged[At] = Byte;
+      Refused += !readPly(Folder.write("damaged.ply", Damaged));
+    }
+  // Only the names of the skipped normals and single separators may change.
+  EXPECT_GT(Refused, Header * 5);
+}
+
+TEST(Ply, EachKindOfDamageHasItsMessage) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writePly(Folder.path("s.ply"), numberedScene(2, 0)));
+  const std::string File = Folder.read("s.ply");
+  const auto Expect = [&](const std::string &Damaged, const char *Message) {
+    const std::string What = errorOf(Folder, Damaged);
+    EXPECT_NE(What.find(Message), std::string::npos) << What;
+  };
+  Expect(replaced(File, "ply\n", "plx\n"), "not a PLY file");
+  Expect(replaced(File, "binary_little_endian", "ascii"),
+         "format is `ascii`, expected `binary_little_endian 1.0`");
+  Expect(replaced(File, "format binary_little_endian 1.0\n", ""),
+         "no format line");
+  Expect(replaced(File, "vertex 2", "vertex 18446744073709551615"),
+         "expected 18446744073709551615 vertices");
+  Expect(replaced(File, "vertex 2", "vertex 99999999999999999999"),
+         "is no number");
+  Expect(replaced(File, "vertex 2", "vertex -2"), "is no number");
+  Expect(replaced(File, "vertex 2", "vertex 0"), "no vertex");
+  Expect(replaced(File, "vertex 2", "vertex 3"), "expected 3 vertices");
+  Expect(replaced(File, "element vertex", "element face"),
+         "element vertex <count>");
+  Expect(replaced(File, "property float opacity\n", ""),
+         "property opacity is missing");
+  Expect(replaced(File, "float opacity", "int opacity"),
+         "property opacity has another type");
+  Expect(replaced(File, "float opacity", "float x"),
+         "property x appears twice");
+  Expect(replaced(File, "float nx", "float f_rest_0"), "1 f_rest properties");
+  Expect(replaced(File, "property float nx", "property list uchar float nx"),
+         "expected `property <scalar type> <name>`");
+  Expect(replaced(File, "end_header", "fnd_header"),
+         "unknown header keyword `fnd_header`");
+}
+
+TEST(Ply, ValuesThatAreNotFiniteAreRefusedByVertex) {
+  const TestFolder Folder;
+  for (const float Bad : {std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity()}) {
+    Scene S = numberedScene(3, 0);
+    S.OpacityLogits[1] = Bad;
+    ASSERT_TRUE(writePly(Folder.path("s.ply"), S));
+    const auto Read = readPly(Folder.path("s.ply"));
+    ASSERT_FALSE(Read);
+    EXPECT_NE(Read.error().What.find("vertex 1 holds a NaN"),
+              std::string::npos);
+  }
+}
+
+TEST(Ply, FoldersAndMissingFilesAreErrors) {
+  const TestFolder Folder;
+  EXPECT_FALSE(readPly(Folder.path("absent.ply")));
+  EXPECT_FALSE(readPly(Folder.path("")));
+  EXPECT_FALSE(writePly(Folder.path("absent/s.ply"), numberedScene(1, 0)));
+}
+
+} // namespace

@@ -1,0 +1,65 @@
+/// A folder for one test's files, removed at its end.
+#pragma once
+
+#include "Scene.h"
+#include "vorion/support/File.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace vorion::splat {
+
+class TestFolder {
+public:
+  TestFolder() {
+    const auto *Test = testing::UnitTest::GetInstance()->current_test_info();
+    Root = std::filesystem::temp_directory_path() /
+           (std::string("splat-io-") + Test->test_suite_name() + "-" +
+            Test->name() + "-" + std::to_string(getpid()));
+    std::filesystem::create_directories(Root);
+  }
+  ~TestFolder() { std::filesystem::remove_all(Root); }
+  TestFolder(const TestFolder &) = delete;
+  TestFolder &operator=(const TestFolder &) = delete;
+
+  std::string path(const std::string &Name) const { return Root / Name; }
+
+  /// Writes \p Content under \p Name and gives the path.
+  std::string write(const std::string &Name, const std::string &Content) const {
+    EXPECT_TRUE(writeFileAtomically(path(Name), Content));
+    return path(Name);
+  }
+
+  /// The content of \p Name.
+  std::string read(const std::string &Name) const {
+    const auto Bytes = readFile(path(Name));
+    EXPECT_TRUE(Bytes);
+    return Bytes ? std::string(reinterpret_cast<const char *>(Bytes->data()),
+                               Bytes->size())
+                 : "";
+  }
+
+private:
+  std::filesystem::path Root;
+};
+
+/// \p Count Gaussians with a different value in every field.
+inline Scene numberedScene(std::size_t Count, int ShDegree) {
+  Scene S;
+  S.ShDegree = ShDegree;
+  float Next = 0;
+  const auto Fill = [&](std::vector<float> &Values, std::size_t Each) {
+    for (std::size_t I = 0; I < Count * Each; ++I)
+      Values.push_back(std::sin(Next += 0.37F));
+  };
+  Fill(S.Means, 3);
+  Fill(S.LogScales, 3);
+  Fill(S.Quats, 4);
+  Fill(S.OpacityLogits, 1);
+  Fill(S.Sh, 3 * S.coefficients());
+  return S;
+}
+
+} // namespace vorion::splat
