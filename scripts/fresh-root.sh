@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# The stranger's machine: a fresh Debian 12 root with nothing but a clone of
+# this repository in it, in which demo.sh (twice, the second time without a
+# network) and test.sh are run and timed. Needs root and debootstrap.
+# usage: scripts/fresh-root.sh NEW_FOLDER   (kept afterwards, to look into)
+source "$(dirname "$0")/lib.sh"
+
+Machine=${1:-}
+[ -n "$Machine" ] || fail "no folder given, expected: fresh-root.sh NEW_FOLDER"
+[ "$(id -u)" -eq 0 ] || fail "not root, and chroot and mount need it"
+command -v debootstrap >/dev/null || fail "debootstrap is not installed"
+[ -e "$Machine" ] && fail "$Machine exists, expected the name of a new folder"
+
+# The mirror that this machine's own apt uses.
+Mirror=$(apt-get indextargets --format '$(RELEASE) $(REPO_URI)' 'Created-By: Packages' |
+  awk '$1 == "bookworm" { print $2; exit }')
+[ -n "$Mirror" ] || fail "apt knows no mirror of bookworm"
+
+unmount() { umount "$Machine/dev" "$Machine/proc" 2>/dev/null || true; }
+trap unmount EXIT
+
+step "making a Debian 12 root" debootstrap debootstrap --variant=minbase bookworm "$Machine" "$Mirror"
+cp /etc/resolv.conf "$Machine/etc/resolv.conf"
+for Extra in /etc/apt/apt.conf.d/*proxy*; do
+  [ -e "$Extra" ] && cp "$Extra" "$Machine/etc/apt/apt.conf.d/"
+done
+mount -t proc proc "$Machine/proc"
+mount --bind /dev "$Machine/dev"
+git clone --quiet "$Root" "$Machine/vorion"
+
+timed() { # timed TITLE COMMAND...
+  local Title=$1 Begin=$SECONDS Status=0
+  shift
+  printf '\n== %s\n' "$Title"
+  "$@" || Status=$?
+  printf '== %s: %d:%02d, exit code %d\n' "$Title" $(((SECONDS - Begin) / 60)) $(((SECONDS - Begin) % 60)) "$Status"
+  return "$Status"
+}
+Clean=(env -i HOME=/root "PATH=/usr/sbin:/usr/bin:/sbin:/bin" LANG=C.UTF-8)
+timed "demo.sh, first time" chroot "$Machine" "${Clean[@]}" /vorion/scripts/demo.sh
+timed "demo.sh, second time, without a network" unshare -n chroot "$Machine" "${Clean[@]}" /vorion/scripts/demo.sh
+timed "test.sh" chroot "$Machine" "${Clean[@]}" /vorion/scripts/test.sh
