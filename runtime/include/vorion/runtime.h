@@ -50,8 +50,8 @@ const char *vx_last_error(void);
 /* --- Devices ------------------------------------------------------------ */
 
 /* Opens a machine. config: JSON text (begins with '{'), the name of a JSON
- * file, the name of a built-in configuration ("prototype"), or NULL: the file that
- * VORION_CONFIG names, else the prototype. */
+ * file, or NULL: the file that the environment's VORION_CONFIG names, else the
+ * paper's prototype. Keys that are absent keep the prototype's value. */
 vx_status vx_device_open(const char *config, vx_device **device);
 
 /* Waits for a run in progress; images of the device must be freed before. NULL
@@ -157,8 +157,6 @@ typedef struct vx_launch_params {
   uint32_t num_groups[3];    /* 1 where not used; 0 runs nothing */
   uint32_t local_size[3];    /* 1 where not used */
   uint32_t global_offset[3];
-  uint64_t max_instructions; /* warp instructions of any core before the run ends
-                                with VX_OUTCOME_LIMIT; 0: the configuration's */
 } vx_launch_params;
 
 /* Starts a kernel; args: args_bytes of it, copied before the call returns. */
@@ -167,21 +165,23 @@ vx_status vx_start(vx_device *device, vx_image *image, uint32_t kernel,
                    uint32_t args_bytes);
 
 /* Starts the image without a launch block: main() on all lanes of all cores. */
-vx_status vx_start_main(vx_device *device, vx_image *image,
-                        uint64_t max_instructions);
+vx_status vx_start_main(vx_device *device, vx_image *image);
 
 typedef enum vx_outcome {
   VX_OUTCOME_DONE = 0,    /* every warp ended, exit code 0 */
   VX_OUTCOME_EXIT = 1,    /* every warp ended, exit code not 0 */
   VX_OUTCOME_FAULT = 2,   /* a trap: the report names it */
   VX_OUTCOME_HANG = 3,    /* no warp can go on: the report says what each waits for */
-  VX_OUTCOME_LIMIT = 4    /* max_instructions reached */
+  VX_OUTCOME_LIMIT = 4    /* the configuration's instruction limit reached */
 } vx_outcome;
 
-/* Sums over cores of one run. */
+/* Sums over cores and rasterizers of one run. */
 typedef struct vx_counters {
-  uint64_t warp_instructions;
-  uint64_t lane_instructions;
+  uint64_t warp_instructions; /* retired */
+  uint64_t lane_instructions; /* the same times active lanes */
+  uint64_t loads, stores, atomics; /* of these warp instructions */
+  uint64_t splits;
+  uint64_t divergent_splits; /* of these, those that divided the lanes */
   uint64_t raster_commands;
   uint64_t raster_gaussians; /* fetched */
   uint64_t raster_clipped;   /* of these, with a box that misses the tile */
