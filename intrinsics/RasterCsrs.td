@@ -16,7 +16,7 @@ def VR_MODE : Csr<"vr_mode", 0x7C3, Agent, Scalar, 1, "What a command does."> {
                 CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">];
 }
 def VR_OPTIONS : Csr<"vr_options", 0x7C4, Agent, Scalar, 1, "Datapath options."> {
-  let Fields = [CsrField<"exp", 0, 2, "exponential unit: 0 correctly rounded, 1 table; docs/isa.md#exponential-units">,
+  let Fields = [CsrField<"exp", 0, 2, "exponential unit: 0 correctly rounded, 1 table; docs/rasterizer.md#exponential-units">,
                 CsrField<"stop_at_equal", 2, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
                 CsrField<"skip_saturated", 3, 1, "dispatch gives no lane slot to saturated pixels">];
 }
@@ -76,9 +76,10 @@ def : Constant<"VR_OK", 0, "Done.">;
 def : Constant<"VR_BAD_SHAPE", 1, "vr_tile_shape outside 1 to 64.">;
 def : Constant<"VR_MISALIGNED", 2, "An address or the pitch is misaligned.">;
 def : Constant<"VR_UNMAPPED", 3, "An address range is not global memory (local memory included).">;
-def : Constant<"VR_BAD_COUNT", 4, "vr_count above VR_MAX_COUNT.">;
+def : Constant<"VR_BAD_COUNT", 4, "vr_count above VR_MAX_COUNT, or more pushes than VR_MAX_PUSHED.">;
 def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
-def : Constant<"VR_BAD_MODE", 6, "vr_mode or vr_options asks for what this machine does not have.">;
+def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile asks for what this machine does not have.">;
 def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
 def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;
+def : Constant<"VR_MAX_PUSHED", 4096, "Descriptors that the push buffer holds.">;
 def : Constant<"VR_MAX_TILE", 64, "Largest tile width and height.">;

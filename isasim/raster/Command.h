@@ -3,7 +3,6 @@
 
 #include "raster/RasterTables.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,8 +22,8 @@ struct Command {
   std::uint32_t Ztile = 0;
   std::uint32_t Output = 0;
   std::uint32_t OutputPitch = 0;
-  std::vector<Gaussian> Pushed;  ///< descriptors of mode "pushed", in order
-  bool PushedTooMany = false;    ///< some did not fit the push buffer
+  std::vector<Gaussian> Pushed; ///< descriptors of mode "pushed", in order
+  bool PushedTooMany = false;   ///< some did not fit the push buffer
 };
 
 /// Work of completed commands. A failed command counts as one command, with

@@ -75,8 +75,10 @@ private:
   void start();
 
   AgentConfig Config;
-  Command Bank;                  ///< Bank.Pushed is the push buffer
+  Command Bank;
   std::vector<Gaussian> Staging; ///< one descriptor a lane
+  std::vector<Gaussian> PushBuffer;
+  bool PushedTooMany = false;
   std::vector<std::uint32_t> PixelIndex;
   std::deque<Command> Queue;
   std::vector<Pixel> Drained;

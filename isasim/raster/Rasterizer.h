@@ -10,6 +10,7 @@
 
 namespace vorion::raster {
 
+struct Datapath;
 struct TileBuffer;
 
 /// Serves the Raster Agents of its socket round-robin, one tile command at a
@@ -39,6 +40,7 @@ private:
   std::vector<RasterAgent *> Agents;
   std::size_t Next = 0; ///< agent whose turn it is
   std::unique_ptr<TileBuffer> Tile;
+  const Datapath *Lanes;
 };
 
 } // namespace vorion::raster

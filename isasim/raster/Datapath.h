@@ -1,0 +1,62 @@
+/// The blend of one Gaussian into a tile (docs/abi.md, "Rasterizer"). There is
+/// one source, compiled for several vector levels of the host; all give the
+/// same bits.
+#pragma once
+
+#include "raster/ExpUnits.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace vorion::raster {
+
+/// The pixel buffer of a whole tile, planes of VR_MAX_TILE columns a row.
+struct TileBuffer {
+  static constexpr unsigned Stride = VR_MAX_TILE;
+  static constexpr unsigned Pixels = VR_MAX_TILE * VR_MAX_TILE;
+
+  alignas(64) float R[Pixels];
+  alignas(64) float G[Pixels];
+  alignas(64) float B[Pixels];
+  /// Transmittance; the sign bit is set once the pixel is saturated.
+  alignas(64) float T[Pixels];
+  /// Pixel centres; NaN outside the tile, which no box contains.
+  alignas(64) float CentreX[Stride];
+  alignas(64) float CentreY[Stride];
+  /// Pixels of each row that are not saturated, and their sum.
+  std::uint32_t RowLive[Stride];
+  std::uint32_t Live;
+
+  /// Colour 0 and transmittance 1 for a tile of \p Width x \p Height pixels
+  /// (1 to VR_MAX_TILE each) at picture coordinates \p X, \p Y.
+  void reset(unsigned X, unsigned Y, unsigned Width, unsigned Height);
+};
+
+/// What a command chooses in the datapath.
+struct BlendOptions {
+  /// A pixel is saturated if its transmittance would fall below this.
+  float StopBelow;
+  bool SkipSaturated;
+};
+
+struct BlendWork {
+  std::uint32_t Fragments; ///< 0: the box misses the tile's pixels
+  std::uint32_t Blends;
+  bool Clipped; ///< the box misses the tile
+};
+
+/// One compilation of the datapath.
+struct Datapath {
+  const char *Name;
+  bool (*HostHasIt)();
+  /// By vr_options.exp: blends one Gaussian (no NaN) into a tile.
+  BlendWork (*Blend[2])(const Gaussian &, const BlendOptions &, TileBuffer &);
+  /// By vr_options.exp: the unit alone, in place, \p Count a multiple of 16.
+  void (*Exp[2])(float *Values, std::size_t Count);
+};
+
+/// The datapaths that this host can run, the fastest last.
+std::span<const Datapath *const> datapaths();
+
+} // namespace vorion::raster

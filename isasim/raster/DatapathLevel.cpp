@@ -1,0 +1,156 @@
+// The datapath for one vector level: compiled once for each, with the level's
+// flags and VORION_LEVEL naming it. Includes nothing that defines functions
+// which other files could share (see Vector.h).
+#include "raster/Datapath.h"
+#include "raster/ExpVector.h"
+
+namespace vorion::raster {
+namespace {
+
+// VORION section 3: the smallest alpha that counts and the largest there is.
+constexpr float MinAlpha = 1.0F / 255.0F;
+constexpr float MaxAlpha = 0.99F;
+constexpr unsigned Blocks = TileBuffer::Stride / LaneCount;
+
+/// Bit i is set if centre i lies in the box, found by the definition itself, so
+/// that no coordinate is ever converted to an integer. Always one run of bits.
+VORION_INLINE std::uint64_t inBox(const float *Centres, float Mean,
+                                  float Extent) {
+  std::uint64_t Result = 0;
+  for (unsigned B = 0; B != Blocks; ++B) {
+    const Float16 Distance =
+        __builtin_elementwise_abs(load(Centres + B * LaneCount) - Mean);
+    Result |= std::uint64_t{bits(Distance <= Extent)} << (B * LaneCount);
+  }
+  return Result;
+}
+
+/// Below this power alpha is surely under MinAlpha, by a margin beyond every
+/// unit's error: saves the exponential in a box's corners, changes no result.
+/// NaN or negative opacity: no bound needed, alpha is never MinAlpha.
+VORION_INLINE float powerBound(float Opacity) {
+  constexpr float Margin = 0.01F;
+  return __builtin_logf(MinAlpha / Opacity) - Margin;
+}
+
+/// What of a Gaussian is the same in all rows, for the 16 columns from First.
+struct Columns {
+  unsigned First;
+  Int16 Inside;
+  Float16 AX2; ///< a * dx * dx
+  Float16 BX;  ///< b * dx
+};
+
+template <typename Exp>
+BlendWork blend(const Gaussian &G, const BlendOptions &Options,
+                TileBuffer &Tile) {
+  const std::uint64_t InX = inBox(Tile.CentreX, G.Mean[0], G.Extent[0]);
+  const std::uint64_t InY = inBox(Tile.CentreY, G.Mean[1], G.Extent[1]);
+  if (InX == 0 || InY == 0)
+    return {0, 0, true};
+
+  const unsigned FirstX = static_cast<unsigned>(__builtin_ctzll(InX));
+  const unsigned LastX = 63 - static_cast<unsigned>(__builtin_clzll(InX));
+  const unsigned FirstY = static_cast<unsigned>(__builtin_ctzll(InY));
+  const unsigned LastY = 63 - static_cast<unsigned>(__builtin_clzll(InY));
+  const unsigned Groups = (LastX - FirstX) / LaneCount + 1;
+  // As few vectors as the width allows, none beyond the row's end.
+  const unsigned Latest = TileBuffer::Stride - Groups * LaneCount;
+  const unsigned Start = FirstX < Latest ? FirstX : Latest;
+
+  Columns Column[Blocks];
+  for (unsigned I = 0; I != Groups; ++I) {
+    Columns &C = Column[I];
+    C.First = Start + I * LaneCount;
+    const Float16 Dx = G.Mean[0] - load(Tile.CentreX + C.First);
+    C.Inside = __builtin_elementwise_abs(Dx) <= G.Extent[0];
+    C.AX2 = G.Conic[0] * Dx * Dx;
+    C.BX = G.Conic[1] * Dx;
+  }
+
+  const float Bound = powerBound(G.Opacity);
+  const auto SignBit = Int16(static_cast<std::int32_t>(0x80000000U));
+  unsigned Blends = 0;
+  unsigned LiveInBox = 0;
+  for (unsigned Row = FirstY; Row <= LastY; ++Row) {
+    if (Tile.RowLive[Row] == 0)
+      continue;
+    const float Dy = G.Mean[1] - Tile.CentreY[Row];
+    const float CY2 = G.Conic[2] * Dy * Dy;
+    for (unsigned I = 0; I != Groups; ++I) {
+      const Columns &C = Column[I];
+      const unsigned At = Row * TileBuffer::Stride + C.First;
+      const Float16 T = load(Tile.T + At);
+      const Int16 Open = C.Inside & (__builtin_bit_cast(Int16, T) >= 0);
+      if (Options.SkipSaturated)
+        LiveInBox += countBits(bits(Open));
+
+      const Float16 Power = -0.5F * (C.AX2 + CY2) - C.BX * Dy;
+      const Int16 Near = Open & (Power <= 0.0F) & ~(Power < Bound);
+      if (bits(Near) == 0)
+        continue;
+      const Float16 Wanted = G.Opacity * Exp::evaluate(Power);
+      const Int16 Counts = Near & (Wanted >= MinAlpha);
+      if (bits(Counts) == 0)
+        continue;
+      const Float16 Alpha = Wanted < MaxAlpha ? Wanted : Float16(MaxAlpha);
+      const Float16 NextT = T * (1.0F - Alpha);
+      const Int16 Stops = Counts & (NextT < Options.StopBelow);
+      const Int16 Blended = Counts & ~Stops;
+      const Float16 Weight = Alpha * T;
+
+      const Float16 Red = load(Tile.R + At);
+      const Float16 Green = load(Tile.G + At);
+      const Float16 Blue = load(Tile.B + At);
+      store(Tile.R + At, Blended ? Red + G.Color[0] * Weight : Red);
+      store(Tile.G + At, Blended ? Green + G.Color[1] * Weight : Green);
+      store(Tile.B + At, Blended ? Blue + G.Color[2] * Weight : Blue);
+      const Float16 KeptT = Blended ? NextT : T;
+      store(Tile.T + At,
+            __builtin_bit_cast(Float16, __builtin_bit_cast(Int16, KeptT) |
+                                            (Stops & SignBit)));
+      Blends += countBits(bits(Blended));
+      if (const std::uint32_t Stopped = bits(Stops)) {
+        Tile.RowLive[Row] -= countBits(Stopped);
+        Tile.Live -= countBits(Stopped);
+      }
+    }
+  }
+  const unsigned Area = (LastX - FirstX + 1) * (LastY - FirstY + 1);
+  return {Options.SkipSaturated ? LiveInBox : Area, Blends, false};
+}
+
+template <typename Exp> void evaluate(float *Values, std::size_t Count) {
+  for (std::size_t I = 0; I != Count; I += LaneCount)
+    store(Values + I, Exp::evaluate(load(Values + I)));
+}
+
+bool hostHasLevel() {
+#if defined(__AVX512F__)
+  return __builtin_cpu_supports("avx512f") &&
+         __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+#elif defined(__AVX2__)
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
+         __builtin_cpu_supports("popcnt");
+#else
+  return true;
+#endif
+}
+
+} // namespace
+
+#define VORION_STRING_OF(Name) #Name
+#define VORION_STRING(Name) VORION_STRING_OF(Name)
+#define VORION_JOIN_OF(A, B) A##B
+#define VORION_JOIN(A, B) VORION_JOIN_OF(A, B)
+
+extern const Datapath VORION_JOIN(Datapath_, VORION_LEVEL);
+const Datapath VORION_JOIN(Datapath_, VORION_LEVEL) = {
+    VORION_STRING(VORION_LEVEL),
+    hostHasLevel,
+    {blend<CorrectlyRoundedExp>, blend<TableExp>},
+    {evaluate<CorrectlyRoundedExp>, evaluate<TableExp>}};
+
+} // namespace vorion::raster

@@ -1,0 +1,177 @@
+// The exponential units against MPFR, on every vector level of this host.
+#include "raster/ExpUnits.h"
+
+#include "raster/Datapath.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <limits>
+#include <mpfr.h>
+#include <string>
+#include <vector>
+
+namespace vorion::raster {
+namespace {
+
+constexpr std::uint32_t CorrectlyRounded = 0;
+constexpr std::uint32_t TableUnit = 1;
+
+/// exp(X) rounded once to fp32, subnormal results included.
+float mpfrExp(float X) {
+  // MPFR knows no subnormals: its exponent range and mpfr_subnormalize make
+  // fp32's (precision 24, smallest number 2^-149).
+  mpfr_t V;
+  mpfr_init2(V, 24);
+  const mpfr_exp_t OldMin = mpfr_get_emin();
+  mpfr_set_emin(-148);
+  mpfr_set_flt(V, X, MPFR_RNDN);
+  const int Ternary = mpfr_exp(V, V, MPFR_RNDN);
+  mpfr_subnormalize(V, Ternary, MPFR_RNDN);
+  const float Result = mpfr_get_flt(V, MPFR_RNDN);
+  mpfr_set_emin(OldMin);
+  mpfr_clear(V);
+  return Result;
+}
+
+float negative(std::uint32_t Magnitude) {
+  return std::bit_cast<float>(Magnitude | 0x80000000U);
+}
+
+std::uint32_t magnitude(float X) {
+  return std::bit_cast<std::uint32_t>(X) & 0x7fffffffU;
+}
+
+/// Whether a double that is exp(x) to within 2^-51 could round to either of two
+/// floats.
+bool nearMidpoint(double E) {
+  const double Slack = E * 0x1p-50;
+  return static_cast<float>(E - Slack) != static_cast<float>(E + Slack);
+}
+
+/// Inputs magnitude First, First + Step, ... up to \p Last, as \p Check(inputs,
+/// results) in pieces.
+template <typename F>
+void sweep(const Datapath &Level, std::uint32_t Unit, float First, float Last,
+           std::uint32_t Step, F Check) {
+  constexpr std::size_t Piece = 1 << 14;
+  std::vector<float> In(Piece);
+  std::vector<float> Out(Piece);
+  for (std::uint64_t M = magnitude(First); M <= magnitude(Last);) {
+    for (float &X : In) {
+      X = negative(static_cast<std::uint32_t>(
+          std::min<std::uint64_t>(M, magnitude(Last))));
+      M += Step;
+    }
+    Out = In;
+    Level.Exp[Unit](Out.data(), Piece);
+    Check(In, Out);
+  }
+}
+
+class EveryLevel : public testing::TestWithParam<const Datapath *> {};
+
+INSTANTIATE_TEST_SUITE_P(Host, EveryLevel,
+                         testing::ValuesIn(datapaths().begin(),
+                                           datapaths().end()),
+                         [](const auto &Info) { return Info.param->Name; });
+
+// Not a sample: all 277 million fp32 numbers from -104 to -2^-26. Below, the
+// result is 0; above, 1 (the next tests). glibc's exp is good to 1 ulp of
+// double, so MPFR is asked only where that does not settle the float.
+TEST(ExpUnits, correctlyRoundedForEveryInput) {
+  const Datapath &Level = *datapaths().back();
+  std::uint64_t Inputs = 0;
+  std::uint64_t AskedMpfr = 0;
+  std::uint64_t Wrong = 0;
+#if __has_feature(address_sanitizer)
+  constexpr std::uint32_t Step = 61; // a sanitizer build takes a sample
+#else
+  constexpr std::uint32_t Step = 1;
+#endif
+  sweep(Level, CorrectlyRounded, 0x1p-26F, 104.0F, Step,
+        [&](const std::vector<float> &In, const std::vector<float> &Out) {
+          for (std::size_t I = 0; I != In.size(); ++I) {
+            const double E = std::exp(static_cast<double>(In[I]));
+            const bool Hard = nearMidpoint(E);
+            const float Right = Hard ? mpfrExp(In[I]) : static_cast<float>(E);
+            AskedMpfr += Hard;
+            Wrong += Out[I] != Right;
+          }
+          Inputs += In.size();
+        });
+  EXPECT_EQ(Wrong, 0U);
+  EXPECT_GT(AskedMpfr, 0U);
+  RecordProperty("inputs", std::to_string(Inputs));
+  RecordProperty("asked_mpfr", std::to_string(AskedMpfr));
+}
+
+TEST_P(EveryLevel, correctlyRoundedAgainstMpfr) {
+  std::uint64_t Wrong = 0;
+  sweep(*GetParam(), CorrectlyRounded, 0x1p-30F, 90.0F, 30011,
+        [&](const std::vector<float> &In, const std::vector<float> &Out) {
+          for (std::size_t I = 0; I != In.size(); ++I)
+            Wrong += Out[I] != mpfrExp(In[I]);
+        });
+  EXPECT_EQ(Wrong, 0U);
+}
+
+TEST_P(EveryLevel, endsOfTheRange) {
+  constexpr float Inf = std::numeric_limits<float>::infinity();
+  float V[16] = {0.0F,   -0.0F,     -0x1p-149F, -0x1p-30F,  -103.97F, -103.98F,
+                 -104.F, -1e30F,    -Inf,       -87.4F,     -90.0F,   -1.0F,
+                 0.0F,   -0x1p-25F, -0x1p-24F,  -0x1.8p-25F};
+  float Out[16];
+  std::copy(std::begin(V), std::end(V), Out);
+  GetParam()->Exp[CorrectlyRounded](Out, 16);
+  for (unsigned I = 0; I != 16; ++I)
+    EXPECT_EQ(Out[I], mpfrExp(V[I])) << V[I];
+
+  std::copy(std::begin(V), std::end(V), Out);
+  GetParam()->Exp[TableUnit](Out, 16);
+  EXPECT_EQ(Out[0], 1.0F);
+  EXPECT_EQ(Out[1], 1.0F);
+  for (const unsigned I : {4, 5, 6, 7, 8, 10})
+    EXPECT_EQ(Out[I], 0.0F) << V[I];
+}
+
+TEST_P(EveryLevel, tableUnitKeepsItsBoundAndFalls) {
+  double Largest = 0;
+  float Previous = 1.0F;
+  std::uint64_t Rises = 0;
+  sweep(*GetParam(), TableUnit, 0x1p-30F, 86.6F, 1009,
+        [&](const std::vector<float> &In, const std::vector<float> &Out) {
+          for (std::size_t I = 0; I != In.size(); ++I) {
+            const double E = std::exp(static_cast<double>(In[I]));
+            Largest = std::max(Largest, std::fabs(Out[I] / E - 1));
+            Rises += Out[I] > Previous;
+            Previous = Out[I];
+          }
+        });
+  EXPECT_LE(Largest, expUnits()[TableUnit].MaxRelativeError);
+  // The stated bound is the unit's, not a comfortable one.
+  EXPECT_GE(Largest, 0.95 * expUnits()[TableUnit].MaxRelativeError);
+  EXPECT_EQ(Rises, 0U);
+  RecordProperty("max_relative_error", std::to_string(Largest * 1e6) + "e-6");
+}
+
+TEST_P(EveryLevel, sameBitsAsBaseline) {
+  const Datapath &Baseline = *datapaths().front();
+  for (const std::uint32_t Unit : {CorrectlyRounded, TableUnit})
+    sweep(*GetParam(), Unit, 0x1p-40F, 120.0F, 4001,
+          [&](const std::vector<float> &In, const std::vector<float> &Out) {
+            std::vector<float> Other = In;
+            Baseline.Exp[Unit](Other.data(), Other.size());
+            ASSERT_EQ(Out, Other);
+          });
+}
+
+TEST(ExpUnits, optionsAreTheirPlaces) {
+  for (std::size_t I = 0; I != expUnits().size(); ++I)
+    EXPECT_EQ(expUnits()[I].Option, I);
+}
+
+} // namespace
+} // namespace vorion::raster

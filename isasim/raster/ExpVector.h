@@ -1,0 +1,85 @@
+/// The exponential units, 16 lanes at a time. What they are and cost:
+/// ExpUnits.h and docs/rasterizer.md#exponential-units. Included once per
+/// vector level, as Vector.h.
+#pragma once
+
+#include "raster/ExpUnits.h"
+#include "raster/Vector.h"
+
+namespace vorion::raster {
+namespace {
+
+/// exp(x) in double, -104 <= x <= 0, relative error below 2^-52: near enough
+/// for every fp32 x to round to the right float (ExpUnits_test.cpp goes
+/// through all of them). No fma: results must not depend on the level.
+VORION_INLINE Double8 expDouble(Double8 X) {
+  constexpr double Log2E = 0x1.71547652b82fep0;
+  // ln 2 in two parts, the first with 21 bits so that k * Ln2High is exact.
+  constexpr double Ln2High = 0x1.62e42p-1;
+  constexpr double Ln2Low = 0x1.fdf473de6af28p-22;
+  // Adding it leaves the nearest integer in the low bits of the significand.
+  constexpr double RoundToInteger = 0x1.8p52;
+
+  const Double8 Shifted = X * Log2E + RoundToInteger;
+  const Double8 K = Shifted - RoundToInteger;
+  const Double8 R = (X - K * Ln2High) - K * Ln2Low;
+
+  // Taylor series: |R| <= ln(2)/2, so the first term left out is below 2^-57.
+  constexpr double Inverse[] = {
+      1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
+      1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
+      1.0 / 120,        1.0 / 24,        1.0 / 6,        1.0 / 2};
+  Double8 Tail = Inverse[0];
+#pragma clang loop unroll(full)
+  for (unsigned I = 1; I != sizeof(Inverse) / sizeof(Inverse[0]); ++I)
+    Tail = Tail * R + Inverse[I];
+  const Double8 E = 1.0 + (R + R * R * Tail);
+
+  // Times 2^K: K sits in Shifted's low bits, modulo 2^12 is enough.
+  return __builtin_bit_cast(Double8,
+                            __builtin_bit_cast(Long8, E) +
+                                (__builtin_bit_cast(Long8, Shifted) << 52));
+}
+
+struct CorrectlyRoundedExp {
+  VORION_INLINE static Float16 evaluate(Float16 Power) {
+    // Below -104 the result rounds to 0, as exp(-104) does. Above 0 and NaN
+    // are nobody's pixels and only must not disturb.
+    Float16 P = Power > -104.0F ? Power : Float16(-104.0F);
+    P = P < 0.0F ? P : Float16(0.0F);
+    const Float8 Low = __builtin_convertvector(
+        expDouble(__builtin_convertvector(P.lo, Double8)), Float8);
+    const Float8 High = __builtin_convertvector(
+        expDouble(__builtin_convertvector(P.hi, Double8)), Float8);
+    return __builtin_shufflevector(Low, High, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10,
+                                   11, 12, 13, 14, 15);
+  }
+};
+
+struct TableExp {
+  VORION_INLINE static Float16 evaluate(Float16 Power) {
+    using namespace table_exp;
+    Float16 P = Power > -Largest ? Power : Float16(-Largest);
+    P = P < 0.0F ? P : Float16(0.0F);
+    // -log2(result) in fixed point, truncated.
+    const Int16 Y = __builtin_convertvector(P * -Log2EFixed, Int16);
+    const Int16 Whole = Y >> FractionBits;
+    const Int16 Entry = Y >> RestBits & (Entries - 1);
+    const Int16 Rest = Y & ((1 << RestBits) - 1);
+    Int16 Start;
+    Int16 Drop;
+    for (unsigned L = 0; L != LaneCount; ++L) {
+      Start[L] = Table.Start[Entry[L]];
+      Drop[L] = Table.Drop[Entry[L]];
+    }
+    const Int16 Mantissa = Start - (Drop * Rest >> RestBits); // (1/2, 1] * 2^16
+    const Int16 Bits =
+        __builtin_bit_cast(Int16, __builtin_convertvector(Mantissa, Float16)) -
+        ((Whole + FractionBits) << 23);
+    return __builtin_bit_cast(Float16,
+                              Whole < SmallestExponent ? Bits : Int16(0));
+  }
+};
+
+} // namespace
+} // namespace vorion::raster

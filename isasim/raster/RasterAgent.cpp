@@ -1,0 +1,216 @@
+#include "raster/RasterAgent.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+#include <utility>
+
+namespace vorion::raster {
+
+/// The per-lane descriptor CSRs are the words of a record, in its order.
+static constexpr unsigned GaussianWords = sizeof(Gaussian) / 4;
+static_assert(static_cast<unsigned>(Csr::GTag) -
+                  static_cast<unsigned>(Csr::GMeanX) + 1 ==
+              GaussianWords);
+
+static bool isGaussianWord(Csr C) { return C >= Csr::GMeanX && C <= Csr::GTag; }
+
+static unsigned gaussianWord(Csr C) {
+  return static_cast<unsigned>(C) - static_cast<unsigned>(Csr::GMeanX);
+}
+
+static unsigned lastLane(std::uint32_t Mask) {
+  return 31U - static_cast<unsigned>(std::countl_zero(Mask));
+}
+
+const CsrInfo *findCsr(unsigned Number) {
+  const auto *Found = std::lower_bound(
+      std::begin(CsrTable), std::end(CsrTable), Number,
+      [](const CsrInfo &Info, unsigned N) { return Info.Number < N; });
+  return Found != std::end(CsrTable) && Found->Number == Number ? Found
+                                                                : nullptr;
+}
+
+RasterAgent::RasterAgent(const AgentConfig &Sizes)
+    : Config(Sizes), Staging(Sizes.Lanes), PixelIndex(Sizes.Lanes) {
+  assert(Config.Lanes >= 1 && Config.Lanes <= 32 && Config.QueueDepth >= 1);
+}
+
+std::uint32_t *RasterAgent::bankWord(Csr C) {
+  switch (C) {
+  case Csr::Mode:
+    return &Bank.Mode;
+  case Csr::Options:
+    return &Bank.Options;
+  case Csr::Cutoff:
+    return &Bank.Cutoff;
+  case Csr::Gaussians:
+    return &Bank.Gaussians;
+  case Csr::List:
+    return &Bank.List;
+  case Csr::Count:
+    return &Bank.Count;
+  case Csr::TileOrigin:
+    return &Bank.TileOrigin;
+  case Csr::TileShape:
+    return &Bank.TileShape;
+  case Csr::Ztile:
+    return &Bank.Ztile;
+  case Csr::Output:
+    return &Bank.Output;
+  case Csr::OutputPitch:
+    return &Bank.OutputPitch;
+  default:
+    return nullptr;
+  }
+}
+
+std::uint32_t RasterAgent::readCounter(Csr C) const {
+  const auto High = [](std::uint64_t Value) {
+    return static_cast<std::uint32_t>(Value >> 32);
+  };
+  switch (C) {
+  case Csr::NCommands:
+    return static_cast<std::uint32_t>(Totals.Commands);
+  case Csr::NGaussians:
+    return static_cast<std::uint32_t>(Totals.Gaussians);
+  case Csr::NClipped:
+    return static_cast<std::uint32_t>(Totals.Clipped);
+  case Csr::NFragments:
+    return static_cast<std::uint32_t>(Totals.Fragments);
+  case Csr::NBlends:
+    return static_cast<std::uint32_t>(Totals.Blends);
+  case Csr::NCommandsh:
+    return High(Totals.Commands);
+  case Csr::NGaussiansh:
+    return High(Totals.Gaussians);
+  case Csr::NClippedh:
+    return High(Totals.Clipped);
+  case Csr::NFragmentsh:
+    return High(Totals.Fragments);
+  case Csr::NBlendsh:
+    return High(Totals.Blends);
+  default:
+    assert(false && "not a counter");
+    return 0;
+  }
+}
+
+std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
+  assert(Lane < Config.Lanes);
+  if (const std::uint32_t *Word = bankWord(C))
+    return *Word;
+  if (isGaussianWord(C)) {
+    std::uint32_t Word = 0;
+    std::memcpy(&Word,
+                reinterpret_cast<const char *>(&Staging[Lane]) +
+                    4 * gaussianWord(C),
+                4);
+    return Word;
+  }
+  const auto OfPixel = [&](float Pixel::*Part) -> std::uint32_t {
+    // Outside the tile, and before there is one, a pixel reads as 0.
+    const std::uint32_t Index = PixelIndex[Lane];
+    return Index < Drained.size()
+               ? std::bit_cast<std::uint32_t>(Drained[Index].*Part)
+               : 0;
+  };
+  switch (C) {
+  case Csr::Status:
+    return StatusBusy.put(isBusy()) | StatusCode.put(FirstFailure);
+  case Csr::Wait: {
+    assert(!isBusy() && "a read of vr_wait stalls while commands are queued");
+    const std::uint32_t Code = FirstFailure;
+    FirstFailure = VR_OK;
+    return Code;
+  }
+  case Csr::Start:
+  case Csr::Push:
+    return 0;
+  case Csr::PixelIndex:
+    return PixelIndex[Lane];
+  case Csr::PixelR:
+    return OfPixel(&Pixel::R);
+  case Csr::PixelG:
+    return OfPixel(&Pixel::G);
+  case Csr::PixelB:
+    return OfPixel(&Pixel::B);
+  case Csr::PixelT:
+    return OfPixel(&Pixel::T);
+  default:
+    return readCounter(C);
+  }
+}
+
+void RasterAgent::readLanes(Csr C, std::uint32_t Mask,
+                            std::span<std::uint32_t> LaneValues) {
+  if (Mask == 0)
+    return;
+  const CsrInfo *Info = findCsr(static_cast<unsigned>(C));
+  const std::uint32_t ForAll = Info->Uniform ? read(C, lastLane(Mask)) : 0;
+  for (std::uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {
+    const auto Lane = static_cast<unsigned>(std::countr_zero(Rest));
+    LaneValues[Lane] = Info->Uniform ? ForAll : read(C, Lane);
+  }
+}
+
+void RasterAgent::write(Csr C, std::span<const std::uint32_t> LaneValues,
+                        std::uint32_t Mask) {
+  assert(Mask != 0 && lastLane(Mask) < Config.Lanes);
+  const CsrInfo *Info = findCsr(static_cast<unsigned>(C));
+  switch (Info->Rule) {
+  case WriteRule::None:
+    assert(false && "a write of a read-only CSR traps");
+    return;
+  case WriteRule::Push:
+    return push(Mask);
+  case WriteRule::Scalar:
+    if (C == Csr::Start)
+      return start();
+    *bankWord(C) = LaneValues[lastLane(Mask)];
+    return;
+  case WriteRule::Lane:
+    for (std::uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {
+      const auto Lane = static_cast<unsigned>(std::countr_zero(Rest));
+      if (isGaussianWord(C))
+        std::memcpy(reinterpret_cast<char *>(&Staging[Lane]) +
+                        4 * gaussianWord(C),
+                    &LaneValues[Lane], 4);
+      else
+        PixelIndex[Lane] = LaneValues[Lane];
+    }
+    return;
+  }
+}
+
+void RasterAgent::push(std::uint32_t Mask) {
+  for (; Mask != 0; Mask &= Mask - 1) {
+    if (PushBuffer.size() == VR_MAX_PUSHED) {
+      PushedTooMany = true;
+      return;
+    }
+    PushBuffer.push_back(
+        Staging[static_cast<unsigned>(std::countr_zero(Mask))]);
+  }
+}
+
+void RasterAgent::start() {
+  assert(canStart() && "a write of vr_start stalls while the queue is full");
+  Queue.push_back(Bank);
+  // Without the mode, what was pushed waits for a command that takes it.
+  if (ModePushed.get(Bank.Mode)) {
+    Queue.back().Pushed = std::exchange(PushBuffer, {});
+    Queue.back().PushedTooMany = std::exchange(PushedTooMany, false);
+  }
+}
+
+void RasterAgent::complete(std::uint32_t Status, const Counters &Work) {
+  assert(isBusy());
+  Queue.pop_front();
+  Totals += Work;
+  if (FirstFailure == VR_OK)
+    FirstFailure = Status;
+}
+
+} // namespace vorion::raster
