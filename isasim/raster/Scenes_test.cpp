@@ -1,0 +1,303 @@
+// Random scenes: bit for bit against a scalar fp32 loop on every vector level,
+// and within tolerance against doubles.
+#include "raster/Datapath.h"
+#include "raster/RasterTest.h"
+
+#include <cmath>
+#include <random>
+
+namespace vorion::raster {
+namespace {
+
+struct Scene {
+  std::vector<Gaussian> Gaussians;
+  unsigned X, Y, Width, Height;
+  float Cutoff;
+  bool StopAtEqual;
+};
+
+/// Gaussians of all sizes around a tile of any shape; some saturate it.
+Scene randomScene(std::uint32_t Seed) {
+  std::mt19937 Engine(Seed);
+  const auto Uniform = [&](double Low, double High) {
+    return static_cast<float>(Low + (High - Low) * Engine() / 0x1p32);
+  };
+  const auto Size = [&] { return 1 + Engine() % VR_MAX_TILE; };
+  Scene S;
+  S.Width = Size();
+  S.Height = Size();
+  S.X = Engine() % 2000;
+  S.Y = Engine() % 2000;
+  S.Cutoff = Seed % 4 == 0 ? 0.0F : Uniform(1e-5, 0.05);
+  S.StopAtEqual = Seed % 2;
+  for (unsigned I = 0, N = Engine() % 400; I != N; ++I) {
+    // Sigma 1 = R diag(s0^2, s1^2) R^T; the conic is its inverse.
+    const double S0 = std::exp(Uniform(-1, 3));
+    const double S1 = std::exp(Uniform(-1, 3));
+    const double Angle = Uniform(0, 3.15);
+    const double Cos = std::cos(Angle);
+    const double Sin = std::sin(Angle);
+    const double A = Cos * Cos / (S0 * S0) + Sin * Sin / (S1 * S1);
+    const double B = Cos * Sin * (1 / (S0 * S0) - 1 / (S1 * S1));
+    const double C = Sin * Sin / (S0 * S0) + Cos * Cos / (S1 * S1);
+    const double Det = A * C - B * B;
+    S.Gaussians.push_back(
+        {{static_cast<float>(S.X) + Uniform(-20, 84),
+          static_cast<float>(S.Y) + Uniform(-20, 84)},
+         {static_cast<float>(A), static_cast<float>(B), static_cast<float>(C)},
+         Uniform(0, 1.1),
+         {Uniform(0, 1), Uniform(0, 1), Uniform(0, 1)},
+         {static_cast<float>(3 * std::sqrt(C / Det)),
+          static_cast<float>(3 * std::sqrt(A / Det))},
+         I});
+  }
+  return S;
+}
+
+struct Result {
+  std::vector<Pixel> Pixels;
+  Counters Work;
+};
+
+/// docs/abi.md read aloud, one pixel at a time; Gaussian-centric only in that
+/// the tile ends early.
+Result scalar(const Scene &S) {
+  Result Out;
+  Out.Pixels.assign(std::size_t{S.Width} * S.Height, {0, 0, 0, 1});
+  std::vector<bool> Saturated(Out.Pixels.size());
+  std::size_t Live = Out.Pixels.size();
+  for (const Gaussian &G : S.Gaussians) {
+    if (Live == 0)
+      break;
+    ++Out.Work.Gaussians;
+    std::uint64_t Fragments = 0;
+    for (unsigned I = 0; I != Out.Pixels.size(); ++I) {
+      const float Px = static_cast<float>(S.X + I % S.Width) + 0.5F;
+      const float Py = static_cast<float>(S.Y + I / S.Width) + 0.5F;
+      if (!(std::fabs(Px - G.Mean[0]) <= G.Extent[0] &&
+            std::fabs(Py - G.Mean[1]) <= G.Extent[1]))
+        continue;
+      ++Fragments;
+      if (Saturated[I])
+        continue;
+      const float Dx = G.Mean[0] - Px;
+      const float Dy = G.Mean[1] - Py;
+      const float Power =
+          -0.5F * (G.Conic[0] * Dx * Dx + G.Conic[2] * Dy * Dy) -
+          G.Conic[1] * Dx * Dy;
+      if (!(Power <= 0.0F))
+        continue;
+      const float Vis =
+          static_cast<float>(std::exp(static_cast<double>(Power)));
+      const float Alpha = std::fmin(0.99F, G.Opacity * Vis);
+      if (Alpha < 1.0F / 255.0F)
+        continue;
+      Pixel &P = Out.Pixels[I];
+      const float NextT = P.T * (1.0F - Alpha);
+      if (S.StopAtEqual ? NextT <= S.Cutoff : NextT < S.Cutoff) {
+        Saturated[I] = true;
+        --Live;
+        continue;
+      }
+      P.R += G.Color[0] * (Alpha * P.T);
+      P.G += G.Color[1] * (Alpha * P.T);
+      P.B += G.Color[2] * (Alpha * P.T);
+      P.T = NextT;
+      ++Out.Work.Blends;
+    }
+    Out.Work.Fragments += Fragments;
+    Out.Work.Clipped += Fragments == 0;
+  }
+  return Out;
+}
+
+Result onLevel(const Datapath &Level, const Scene &S, std::uint32_t Exp = 0) {
+  auto Tile = std::make_unique<TileBuffer>();
+  Tile->reset(S.X, S.Y, S.Width, S.Height);
+  const BlendOptions Options{
+      S.StopAtEqual ? std::nextafter(S.Cutoff, 1.0F) : S.Cutoff, false};
+  Result Out;
+  for (const Gaussian &G : S.Gaussians) {
+    if (Tile->Live == 0)
+      break;
+    const BlendWork Work = Level.Blend[Exp](G, Options, *Tile);
+    ++Out.Work.Gaussians;
+    Out.Work.Clipped += Work.Clipped;
+    Out.Work.Fragments += Work.Fragments;
+    Out.Work.Blends += Work.Blends;
+  }
+  for (unsigned I = 0; I != S.Width * S.Height; ++I) {
+    const unsigned At = I / S.Width * TileBuffer::Stride + I % S.Width;
+    Out.Pixels.push_back(
+        {Tile->R[At], Tile->G[At], Tile->B[At], std::fabs(Tile->T[At])});
+  }
+  return Out;
+}
+
+class EveryLevel : public testing::TestWithParam<const Datapath *> {};
+
+INSTANTIATE_TEST_SUITE_P(Host, EveryLevel,
+                         testing::ValuesIn(datapaths().begin(),
+                                           datapaths().end()),
+                         [](const auto &Info) { return Info.param->Name; });
+
+TEST_P(EveryLevel, bitsOfTheScalarLoop) {
+  Counters All;
+  for (std::uint32_t Seed = 0; Seed != 60; ++Seed) {
+    const Scene S = randomScene(Seed);
+    const Result Right = scalar(S);
+    const Result Is = onLevel(*GetParam(), S);
+    ASSERT_EQ(Is.Pixels, Right.Pixels) << Seed;
+    ASSERT_EQ(Is.Work, Right.Work) << Seed;
+    All += Is.Work;
+  }
+  // The scenes do reach every outcome.
+  EXPECT_GT(All.Clipped, 100U);
+  EXPECT_GT(All.Fragments, All.Blends);
+  EXPECT_GT(All.Blends, 100000U);
+}
+
+TEST_P(EveryLevel, tableUnitHasTheBitsOfBaseline) {
+  for (std::uint32_t Seed = 0; Seed != 20; ++Seed) {
+    const Scene S = randomScene(Seed);
+    const Result Right = onLevel(*datapaths().front(), S, 1);
+    const Result Is = onLevel(*GetParam(), S, 1);
+    ASSERT_EQ(Is.Pixels, Right.Pixels) << Seed;
+    ASSERT_EQ(Is.Work, Right.Work) << Seed;
+  }
+}
+
+/// In doubles, and whether a pixel had a decision near its threshold, which
+/// fp32 may take differently.
+struct DoublePixel {
+  double R = 0, G = 0, B = 0, T = 1;
+  unsigned Blends = 0;
+  bool Doubtful = false;
+};
+
+std::vector<DoublePixel> inDoubles(const Scene &S) {
+  // fp32 rounding of the power's terms, relative to alpha.
+  constexpr double Close = 1e-4;
+  const auto Near = [](double Value, double Threshold) {
+    return std::fabs(Value - Threshold) <= Close * Threshold;
+  };
+  std::vector<DoublePixel> Out(std::size_t{S.Width} * S.Height);
+  for (unsigned I = 0; I != Out.size(); ++I) {
+    DoublePixel &P = Out[I];
+    for (const Gaussian &G : S.Gaussians) {
+      const double Dx = double{G.Mean[0]} - (S.X + I % S.Width + 0.5);
+      const double Dy = double{G.Mean[1]} - (S.Y + I / S.Width + 0.5);
+      P.Doubtful |= Near(std::fabs(Dx), double{G.Extent[0]}) ||
+                    Near(std::fabs(Dy), double{G.Extent[1]});
+      if (std::fabs(Dx) > double{G.Extent[0]} ||
+          std::fabs(Dy) > double{G.Extent[1]})
+        continue;
+      const double Alpha = std::fmin(
+          0.99, double{G.Opacity} * std::exp(-(double{G.Conic[0]} * Dx * Dx +
+                                               double{G.Conic[2]} * Dy * Dy) /
+                                                 2 -
+                                             double{G.Conic[1]} * Dx * Dy));
+      P.Doubtful |= Near(Alpha, 1.0 / 255);
+      if (Alpha < 1.0 / 255)
+        continue;
+      const double NextT = P.T * (1 - Alpha);
+      P.Doubtful |= Near(NextT, double{S.Cutoff});
+      if (NextT < double{S.Cutoff})
+        break;
+      P.R += double{G.Color[0]} * Alpha * P.T;
+      P.G += double{G.Color[1]} * Alpha * P.T;
+      P.B += double{G.Color[2]} * Alpha * P.T;
+      P.T = NextT;
+      ++P.Blends;
+    }
+  }
+  return Out;
+}
+
+class ScenesTest : public RasterTest {
+protected:
+  std::vector<Pixel> renderScene(const Scene &S, std::uint32_t Options = 0) {
+    return render(S.Gaussians,
+                  {.Cutoff = S.Cutoff,
+                   .Options = Options | OptionsStopAtEqual.put(S.StopAtEqual),
+                   .X = S.X,
+                   .Y = S.Y,
+                   .Width = S.Width,
+                   .Height = S.Height});
+  }
+};
+
+TEST_F(ScenesTest, closeToDoublesOutsideDoubtfulPixels) {
+  std::size_t Doubtful = 0;
+  std::size_t All = 0;
+  for (std::uint32_t Seed = 100; Seed != 140; ++Seed) {
+    const Scene S = randomScene(Seed);
+    const std::vector<Pixel> Is = renderScene(S);
+    const std::vector<DoublePixel> Right = inDoubles(S);
+    All += Right.size();
+    for (std::size_t I = 0; I != Right.size(); ++I) {
+      if (Right[I].Doubtful) {
+        ++Doubtful;
+        continue;
+      }
+      // A few hundred roundings of values up to 1, and the power's own.
+      constexpr double Tolerance = 2e-5;
+      ASSERT_NEAR(Is[I].R, Right[I].R, Tolerance) << Seed << ' ' << I;
+      ASSERT_NEAR(Is[I].G, Right[I].G, Tolerance);
+      ASSERT_NEAR(Is[I].B, Right[I].B, Tolerance);
+      ASSERT_NEAR(Is[I].T, Right[I].T, Tolerance);
+    }
+  }
+  EXPECT_LT(Doubtful, All / 20);
+}
+
+TEST_F(ScenesTest, blendsAreThoseOfDoubles) {
+  // One pixel a tile, so that the counter is the pixel's.
+  std::size_t Compared = 0;
+  for (std::uint32_t Seed = 200; Seed != 400; ++Seed) {
+    Scene S = randomScene(Seed);
+    S.X += S.Width / 2;
+    S.Y += S.Height / 2;
+    S.Width = S.Height = 1;
+    const DoublePixel Right = inDoubles(S)[0];
+    const std::uint64_t Before = Agent.counters().Blends;
+    renderScene(S);
+    if (Right.Doubtful)
+      continue;
+    ++Compared;
+    ASSERT_EQ(Agent.counters().Blends - Before, Right.Blends) << Seed;
+  }
+  EXPECT_GT(Compared, 150U);
+}
+
+TEST_F(ScenesTest, tableUnitIsCoarserWithinItsBound) {
+  double Largest = 0;
+  for (std::uint32_t Seed = 100; Seed != 110; ++Seed) {
+    const Scene S = randomScene(Seed);
+    const std::vector<Pixel> Exact = renderScene(S);
+    const std::vector<Pixel> Coarse = renderScene(S, OptionsExp.put(1));
+    const std::vector<DoublePixel> Right = inDoubles(S);
+    for (std::size_t I = 0; I != Exact.size(); ++I)
+      Largest = std::max(
+          Largest, Right[I].Doubtful
+                       ? 0.0
+                       : std::fabs(double{Coarse[I].R} - double{Exact[I].R}));
+  }
+  EXPECT_GT(Largest, 1e-5);
+  EXPECT_LT(Largest, 1.0 / 255 + 1e-3); // one alpha decision, and the bound
+}
+
+TEST_F(ScenesTest, anotherRasterizerGivesTheSameBits) {
+  const Scene S = randomScene(7);
+  const std::vector<Pixel> First = renderScene(S);
+  const Counters Work = Agent.counters();
+  // A tile buffer that has seen other tiles, another agent's turn between.
+  renderScene(randomScene(8));
+  const Counters Before = Agent.counters();
+  EXPECT_EQ(renderScene(S), First);
+  EXPECT_EQ(Agent.counters().Blends - Before.Blends, Work.Blends);
+  EXPECT_EQ(Agent.counters().Fragments - Before.Fragments, Work.Fragments);
+}
+
+} // namespace
+} // namespace vorion::raster
