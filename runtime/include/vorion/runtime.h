@@ -24,6 +24,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default) /* the library hides all else */
 
 typedef enum vx_status {
   VX_OK = 0,
@@ -208,6 +209,7 @@ typedef struct vx_result {
  * the same result again. VX_ERROR_BUSY if nothing was ever started. */
 vx_status vx_wait(vx_device *device, vx_result *result);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

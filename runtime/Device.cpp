@@ -1,0 +1,280 @@
+#include "Device.h"
+#include "Limits.h"
+#include "vorion_abi.h"
+
+#include <cstring>
+#include <fmt/format.h>
+
+using namespace vorion;
+using namespace vorion::runtime;
+
+Device::Device(std::unique_ptr<isasim::Machine> TheMachine)
+    : Machine(std::move(TheMachine)),
+      ConfigText(isasim::toJson(Machine->config())),
+      Memory(VX_GLOBAL_BASE, Machine->config().GlobalBytes) {
+  Machine->setConsole([this](std::string_view Text) { ConsoleText += Text; });
+}
+
+Device::~Device() {
+  Lock Held(Mutex);
+  waitForRun(Held);
+  if (Runner.joinable())
+    Runner.join();
+}
+
+void Device::waitForRun(Lock &Held) {
+  Ended.wait(Held, [this] { return !Running; });
+}
+
+vx_device_info Device::info() {
+  const isasim::Config &C = Machine->config();
+  const Lock Held(Mutex);
+  vx_device_info Info{};
+  Info.clusters = C.Clusters;
+  Info.sockets = C.sockets();
+  Info.cores = C.cores();
+  Info.warps = C.WarpsPerCore;
+  Info.lanes = C.LanesPerWarp;
+  Info.barriers = C.Barriers;
+  Info.rasterizers = C.sockets(); // one a socket
+  Info.stack_bytes = C.StackBytes;
+  Info.local_base = VX_LOCAL_BASE;
+  Info.local_bytes = C.LocalBytes;
+  Info.global_base = VX_GLOBAL_BASE;
+  Info.global_bytes = C.GlobalBytes;
+  Info.free_bytes = Memory.freeBytes();
+  Info.largest_free_bytes = Memory.largestFree();
+  Info.max_group_items = MaxGroupItems;
+  return Info;
+}
+
+Failure Device::allocateLocked(std::uint64_t Size, const char *What,
+                               std::uint32_t &Address) {
+  const auto Found = Memory.allocate(Size);
+  if (!Found)
+    return {VX_ERROR_MEMORY,
+            fmt::format("no room for {} of {} bytes: {} of {} bytes of device "
+                        "memory are free, {} in one piece",
+                        What, Size, Memory.freeBytes(),
+                        Machine->config().GlobalBytes, Memory.largestFree())};
+  // Global memory ends below 2 GiB.
+  Address = static_cast<std::uint32_t>(*Found);
+  return {};
+}
+
+Failure Device::allocate(std::uint64_t Size, std::uint32_t &Address) {
+  const Lock Held(Mutex);
+  return allocateLocked(Size, "a buffer", Address);
+}
+
+Failure Device::release(std::uint32_t Address) {
+  const Lock Held(Mutex);
+  if (Address && !Memory.release(Address))
+    return badArgument(
+        fmt::format("{:#x} is not the address of an allocation", Address));
+  return {};
+}
+
+Failure Device::globalRange(std::uint32_t Address, std::uint64_t Size,
+                            std::byte **Bytes) {
+  *Bytes = Machine->hostPointer(Address, Size);
+  if (!*Bytes)
+    return badArgument(fmt::format(
+        "[{:#x}, +{:#x}) is not all global memory, expected a range in "
+        "[{:#x}, +{:#x})",
+        Address, Size, VX_GLOBAL_BASE, Machine->config().GlobalBytes));
+  return {};
+}
+
+Failure Device::copyIn(std::uint32_t To, const void *From, std::uint64_t Size) {
+  Lock Held(Mutex);
+  waitForRun(Held);
+  std::byte *Bytes = nullptr;
+  if (Failure Failed = globalRange(To, Size, &Bytes))
+    return Failed;
+  std::memcpy(Bytes, From, Size);
+  return {};
+}
+
+Failure Device::copyOut(void *To, std::uint32_t From, std::uint64_t Size) {
+  Lock Held(Mutex);
+  waitForRun(Held);
+  std::byte *Bytes = nullptr;
+  if (Failure Failed = globalRange(From, Size, &Bytes))
+    return Failed;
+  std::memcpy(To, Bytes, Size);
+  return {};
+}
+
+Failure Device::copyWithin(std::uint32_t To, std::uint32_t From,
+                           std::uint64_t Size) {
+  Lock Held(Mutex);
+  waitForRun(Held);
+  std::byte *Target = nullptr, *Source = nullptr;
+  if (Failure Failed = globalRange(To, Size, &Target))
+    return Failed;
+  if (Failure Failed = globalRange(From, Size, &Source))
+    return Failed;
+  std::memmove(Target, Source, Size);
+  return {};
+}
+
+Failure Device::fill(std::uint32_t To, const void *Pattern,
+                     std::uint32_t PatternSize, std::uint64_t Size) {
+  if (PatternSize < 1 || PatternSize > 128)
+    return badArgument(
+        fmt::format("pattern of {} bytes, expected 1 to 128", PatternSize));
+  if (Size % PatternSize)
+    return badArgument(
+        fmt::format("{} bytes to fill, expected a multiple of the pattern's {}",
+                    Size, PatternSize));
+  Lock Held(Mutex);
+  waitForRun(Held);
+  std::byte *Bytes = nullptr;
+  if (Failure Failed = globalRange(To, Size, &Bytes))
+    return Failed;
+  for (std::uint64_t At = 0; At < Size; At += PatternSize)
+    std::memcpy(Bytes + At, Pattern, PatternSize);
+  return {};
+}
+
+Failure Device::hostPointer(std::uint32_t Address, std::uint64_t Size,
+                            void **To) {
+  std::byte *Bytes = nullptr;
+  if (Failure Failed = globalRange(Address, Size, &Bytes))
+    return Failed;
+  *To = Bytes;
+  return {};
+}
+
+void Device::forget(const LoadedImage *Image) {
+  Lock Held(Mutex);
+  waitForRun(Held);
+  if (Current == Image)
+    Current = nullptr;
+}
+
+void Device::makeCurrent(LoadedImage &Image) {
+  if (Current == &Image)
+    return;
+  if (Current)
+    Current->saveFrom(*Machine);
+  Image.restoreInto(*Machine);
+  Current = &Image;
+}
+
+void Device::freeRunMemory() {
+  for (const std::uint32_t Address :
+       {InUse.Launch, InUse.Args, InUse.Context, InUse.Print})
+    if (Address)
+      Memory.release(Address);
+  InUse = {};
+}
+
+void Device::launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock) {
+  if (Runner.joinable())
+    Runner.join(); // it has ended: Running is false
+  makeCurrent(Image);
+  ConsoleText.clear();
+  BugText.clear();
+  // The thread ends only after this call has given up the lock, so Running is
+  // set before it is reset; a thread that cannot be had leaves nothing set.
+  Runner = std::thread([this, LaunchBlock] {
+    isasim::RunResult Run;
+    std::string Bug;
+    try {
+      Run = Machine->run(LaunchBlock);
+    } catch (const std::exception &E) {
+      Bug = E.what();
+    }
+    const Lock Done(Mutex);
+    BugText = std::move(Bug);
+    finish(std::move(Run));
+    freeRunMemory();
+    Running = false;
+    Ended.notify_all();
+  });
+  Running = true;
+  EverStarted = true;
+  Held.unlock();
+}
+
+Failure Device::start(LoadedImage &Image, std::uint32_t Kernel,
+                      const vx_launch_params &Params, const void *Args,
+                      std::uint32_t ArgsBytes) {
+  const auto &Kernels = Image.program().kernels();
+  if (Kernel >= Kernels.size())
+    return {VX_ERROR_NOT_FOUND, fmt::format("kernel {} of an image with {}",
+                                            Kernel, Kernels.size())};
+  if (Failure Failed =
+          checkLaunch(Kernels[Kernel], Params, ArgsBytes, localBytes()))
+    return Failed;
+  if (ArgsBytes && !Args)
+    return badArgument("args is NULL, expected the packed arguments");
+  Lock Held(Mutex);
+  if (Running)
+    return {VX_ERROR_BUSY, "a run is in progress"};
+  if (Failure Failed = prepare(Kernels[Kernel], Params, Args)) {
+    freeRunMemory();
+    return Failed;
+  }
+  launch(Held, Image, InUse.Launch);
+  return {};
+}
+
+Failure Device::startMain(LoadedImage &Image) {
+  Lock Held(Mutex);
+  if (Running)
+    return {VX_ERROR_BUSY, "a run is in progress"};
+  launch(Held, Image, 0);
+  return {};
+}
+
+Failure Device::wait(vx_result &Result) {
+  Lock Held(Mutex);
+  if (!EverStarted)
+    return {VX_ERROR_BUSY, "nothing was started"};
+  waitForRun(Held);
+  if (!BugText.empty())
+    return {VX_ERROR_INTERNAL, "the simulator failed: " + BugText};
+  Result = {};
+  switch (Last.End) {
+  case isasim::Outcome::Done:
+    Result.outcome = VX_OUTCOME_DONE;
+    break;
+  case isasim::Outcome::GuestFailed:
+    Result.outcome = VX_OUTCOME_EXIT;
+    break;
+  case isasim::Outcome::Trap:
+    Result.outcome = VX_OUTCOME_FAULT;
+    break;
+  case isasim::Outcome::Hang:
+    Result.outcome = VX_OUTCOME_HANG;
+    break;
+  case isasim::Outcome::LimitReached:
+    Result.outcome = VX_OUTCOME_LIMIT;
+    break;
+  }
+  Result.exit_code = Last.ExitCode;
+  Result.report = Last.Report.c_str();
+  Result.print_text = PrintText.c_str();
+  Result.print_bytes = PrintText.size();
+  Result.print_dropped = PrintDropped;
+  Result.console_text = ConsoleText.c_str();
+  Result.console_bytes = ConsoleText.size();
+  Result.host_seconds = Last.HostSeconds;
+  vx_counters &C = Result.counters;
+  C.warp_instructions = Last.Total.WarpInstructions;
+  C.lane_instructions = Last.Total.LaneInstructions;
+  C.loads = Last.Total.Loads;
+  C.stores = Last.Total.Stores;
+  C.atomics = Last.Total.Atomics;
+  C.splits = Last.Total.Splits;
+  C.divergent_splits = Last.Total.DivergentSplits;
+  C.raster_commands = Last.Raster.Commands;
+  C.raster_gaussians = Last.Raster.Gaussians;
+  C.raster_clipped = Last.Raster.Clipped;
+  C.raster_fragments = Last.Raster.Fragments;
+  C.raster_blends = Last.Raster.Blends;
+  return {};
+}

@@ -1,0 +1,92 @@
+/// One machine, who holds its memory, and the run in progress.
+#pragma once
+
+#include "Allocator.h"
+#include "Failure.h"
+#include "LoadedImage.h"
+#include "vorion/isasim/Machine.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace vorion::runtime {
+
+/// Implements vorion/runtime.h, whose thread rule it keeps: one lock guards all
+/// state, and a run holds \c Running instead of the lock, so that allocation
+/// goes on beside it. Arguments that are pointers have been checked for NULL.
+class Device {
+public:
+  explicit Device(std::unique_ptr<isasim::Machine> Machine);
+  ~Device();
+  Device(const Device &) = delete;
+  Device &operator=(const Device &) = delete;
+
+  vx_device_info info();
+  const std::string &configText() const { return ConfigText; }
+
+  Failure allocate(std::uint64_t Size, std::uint32_t &Address);
+  Failure release(std::uint32_t Address);
+  Failure copyIn(std::uint32_t To, const void *From, std::uint64_t Size);
+  Failure copyOut(void *To, std::uint32_t From, std::uint64_t Size);
+  Failure copyWithin(std::uint32_t To, std::uint32_t From, std::uint64_t Size);
+  Failure fill(std::uint32_t To, const void *Pattern, std::uint32_t PatternSize,
+               std::uint64_t Size);
+  Failure hostPointer(std::uint32_t Address, std::uint64_t Size, void **To);
+
+  /// Waits for the run in progress and forgets the image if it is loaded.
+  void forget(const LoadedImage *Image);
+
+  Failure start(LoadedImage &Image, std::uint32_t Kernel,
+                const vx_launch_params &Params, const void *Args,
+                std::uint32_t ArgsBytes);
+  Failure startMain(LoadedImage &Image);
+  Failure wait(vx_result &Result);
+
+  std::uint32_t localBytes() const { return Machine->config().LocalBytes; }
+
+private:
+  /// Device memory of one run.
+  struct RunMemory {
+    std::uint32_t Launch = 0, Args = 0, Context = 0, Print = 0;
+  };
+  using Lock = std::unique_lock<std::mutex>;
+
+  void waitForRun(Lock &Held);
+  Failure allocateLocked(std::uint64_t Size, const char *What,
+                         std::uint32_t &Address);
+  Failure globalRange(std::uint32_t Address, std::uint64_t Size,
+                      std::byte **Bytes);
+  void freeRunMemory();
+  Failure prepare(const isasim::Kernel &Kernel, const vx_launch_params &Params,
+                  const void *Args);
+  void makeCurrent(LoadedImage &Image);
+  void launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock);
+  void finish(isasim::RunResult Run);
+
+  std::unique_ptr<isasim::Machine> Machine;
+  std::string ConfigText;
+
+  std::mutex Mutex;
+  std::condition_variable Ended;
+  Allocator Memory;
+  LoadedImage *Current = nullptr; ///< the image in the machine
+  RunMemory InUse;
+  bool Running = false;
+  bool EverStarted = false;
+  std::thread Runner; ///< joined before the next run and at the end
+
+  // The last run's result.
+  isasim::RunResult Last;
+  std::string PrintText, ConsoleText;
+  std::string BugText; ///< of an exception out of the simulator, else empty
+  std::uint64_t PrintDropped = 0;
+};
+
+/// Whether \p Kernel can run with \p Params on a machine with \p LocalBytes of
+/// local memory.
+Failure checkLaunch(const isasim::Kernel &Kernel,
+                    const vx_launch_params &Params, std::uint32_t ArgsBytes,
+                    std::uint32_t LocalBytes);
+
+} // namespace vorion::runtime

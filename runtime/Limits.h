@@ -1,0 +1,16 @@
+/// Limits of a launch that are the runtime's own.
+#pragma once
+
+#include <cstdint>
+
+namespace vorion::runtime {
+
+/// Work-items of a group (DESIGN decision 6).
+inline constexpr std::uint32_t MaxGroupItems = 1024;
+/// Groups of a launch: the start-up code's group number plus the number of
+/// cores must not wrap.
+inline constexpr std::uint64_t MaxGroups = std::uint64_t{1} << 31;
+/// OpenCL's least CL_DEVICE_PRINTF_BUFFER_SIZE of the full profile.
+inline constexpr std::uint32_t PrintBytes = 1 << 20;
+
+} // namespace vorion::runtime
