@@ -1,0 +1,62 @@
+/// From a Gaussian in the world to an ellipse on the picture.
+#pragma once
+
+#include "Types.h"
+
+#include <vector>
+
+namespace vorion::reference {
+
+/// A projected Gaussian.
+template <typename Real> struct Splat {
+  bool Visible = false;   ///< false: culled, and nothing below is meaningful
+  glm::vec<2, Real> Mean; ///< pixels
+  Real Depth = 0;         ///< camera z
+  glm::vec<3, Real> Covariance; ///< xx, xy, yy, dilated, px^2
+  glm::vec<3, Real> Conic;      ///< its inverse: xx, xy, yy
+  Real Compensation = 1;        ///< the antialiasing factor
+  Real Opacity = 0;             ///< after compensation
+  glm::vec<3, Real> Color;
+  /// Half width and height of the box outside which the Gaussian is not
+  /// evaluated, by the support. For Official16 the square, before tiles.
+  glm::vec<2, Real> Extent;
+  /// 3 sqrt(lambda) for the larger eigenvalue as INRIA's rules have it; the
+  /// square's half side is this rounded up.
+  Real CircleRadius = 0;
+  /// The rule set's own radius along x and y, px: for INRIA's the square's,
+  /// for gsplat's that of its tile test.
+  glm::ivec2 Radius{0, 0};
+};
+
+/// Projects Gaussian \p I. In fp32 the device must give the same Mean, Depth
+/// and Extent bit for bit, so the order of operations is part of the contract:
+/// sums and products associate from the left, nothing is contracted, and
+///
+///     p       = R m + t, each row ((r0 m0 + r1 m1) + r2 m2) + t
+///     mean    = f p.xy / p.z + c
+///     A       = R (Q diag(s)), B = J A with J's two rows
+///               (f/z, 0, -f tx/(z z)) and (0, f/z, -f ty/(z z))
+///     S       = B B^T, each entry (b0 b0' + b1 b1') + b2 b2'
+///     minors  = b0 c1 - b1 c0, b0 c2 - b2 c0, b1 c2 - b2 c1 for B's rows b, c
+///     det0    = (minor^2 + minor^2) + minor^2
+///     det     = (det0 + h (S_xx + S_yy)) + h h for the dilation h
+///
+/// The determinant is a sum of squares (Cauchy-Binet) since S_xx S_yy - S_xy^2
+/// loses all digits to cancellation in fp32 for long needles.
+template <typename Real>
+Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
+                    const Camera<Real> &C, const Options &O);
+
+/// Projects all of \p G.
+template <typename Real>
+std::vector<Splat<Real>> project(const Gaussians<Real> &G,
+                                 const Camera<Real> &C, const Options &O);
+
+/// Smallest alpha that is blended.
+template <typename Real> constexpr Real leastAlpha() {
+  return Real(1) / Real(255);
+}
+/// Largest alpha: keeps 1 / (1 - alpha) finite in training.
+template <typename Real> constexpr Real mostAlpha() { return Real(0.99); }
+
+} // namespace vorion::reference

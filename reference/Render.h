@@ -1,0 +1,60 @@
+/// Blending: the picture, and which of its pixels are doubtful.
+#pragma once
+
+#include "Tiles.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace vorion::reference {
+
+/// Why a pixel is doubtful: fp32 may decide differently there without being
+/// wrong. Bits of \c Picture::Doubts.
+enum Doubt : std::uint8_t {
+  /// A decision at alpha = 1/255, at the transmittance cut-off or at the border
+  /// of the support lies within \c DoubtBand of its threshold.
+  DoubtThreshold = 1,
+  /// Two Gaussians visible there have depths closer than \c orderSlack.
+  DoubtOrder = 2,
+};
+
+/// Relative width of the doubtful band around a threshold.
+inline constexpr double DoubtBand = 1e-5;
+
+/// Difference of depths that a computation of z in fp32 may turn round: one
+/// unit in the last place of the fp32 number next to \p Depth > 0.
+double orderSlack(double Depth);
+
+/// A rendered picture, rows from the top.
+template <typename Real> struct Picture {
+  int Width = 0, Height = 0;
+  std::vector<glm::vec<3, Real>> Render; ///< with background, unclamped
+  std::vector<Real> Transmittance;       ///< final; alpha is 1 minus this
+  std::vector<std::uint8_t> Doubts;      ///< of \c Doubt
+  /// Last Gaussian that was blended, -1 if none.
+  std::vector<std::int32_t> Last;
+
+  /// Blended (Gaussian, pixel) pairs.
+  std::uint64_t Blends = 0;
+  /// List entries that pixels looked at, the saturating one included.
+  std::uint64_t Walked = 0;
+  /// Pixels that ended at the cut-off.
+  std::uint64_t Saturated = 0;
+
+  double doubtfulShare() const;
+};
+
+/// Blends \p Splats, which \c project made with the same \p O. In fp32 every
+/// operation is rounded as docs/abi.md states for the rasterizer, with a
+/// correctly rounded exponential. \c Walked counts entries of the lists that
+/// \c tileLists gives for the support and tile size of \p O.
+template <typename Real>
+Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
+                    int Height, const Options &O);
+
+/// \c project and \c blend in one.
+template <typename Real>
+Picture<Real> render(const Gaussians<Real> &G, const Camera<Real> &C,
+                     const Options &O);
+
+} // namespace vorion::reference

@@ -1,0 +1,67 @@
+/// What the reference renders, how, and from where.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+namespace vorion::reference {
+
+/// The two public conventions. They differ in the near plane, the Jacobian's
+/// clamp, the floor of the antialiasing factor and the stop rule.
+enum class Rules {
+  Inria, ///< diff-gaussian-rasterization
+  Gsplat ///< gsplat
+};
+
+/// Which pixels a Gaussian may reach; \c m is its projected mean, \c S its
+/// dilated 2D covariance.
+enum class Support {
+  Exact,     ///< all with alpha >= 1/255
+  Box3,      ///< |dx| <= 3 sqrt(S_xx) and |dy| <= 3 sqrt(S_yy)
+  Square3,   ///< |dx|, |dy| <= r, r = ceil(3 sqrt(largest eigenvalue))
+  Official16 ///< all pixels of the 16x16 tiles that this square touches
+};
+
+/// Activated Gaussians, one entry of each array a Gaussian.
+template <typename Real> struct Gaussians {
+  std::vector<glm::vec<3, Real>> Means;  ///< world units
+  std::vector<glm::vec<3, Real>> Scales; ///< standard deviations
+  std::vector<glm::vec<4, Real>> Quats;  ///< (w, x, y, z), unit length, or zero
+                                         ///< for no rotation
+  std::vector<Real> Opacities;           ///< 0 to 1
+  int ShDegree = 0;                      ///< 0 to 3
+  std::vector<glm::vec<3, Real>> Sh;     ///< (ShDegree + 1)^2 each
+  /// Colours to use as they are; where not empty, \c Sh is not read.
+  std::vector<glm::vec<3, Real>> Colors;
+
+  std::size_t size() const { return Opacities.size(); }
+};
+
+/// A pinhole camera: x right, y down, z forward; sample points are the pixel
+/// centres (i + 0.5, j + 0.5).
+template <typename Real> struct Camera {
+  int Width = 0, Height = 0;
+  glm::mat<3, 3, Real> Rotation; ///< world to camera
+  glm::vec<3, Real> Translation; ///< p_camera = Rotation p_world + Translation
+  glm::vec<3, Real> Centre;      ///< the camera in the world
+  glm::vec<2, Real> Focal;       ///< pixels
+  glm::vec<2, Real> Principal;   ///< pixels
+};
+
+/// How to render.
+struct Options {
+  Rules Rule = Rules::Inria;
+  Support Reach = Support::Exact;
+  bool Antialiased = false;
+  double Dilation = 0.3; ///< added to both variances, px^2
+  double Cutoff = 1e-4;  ///< transmittance at which a pixel ends
+  std::array<double, 3> Background{};
+  int TileSize = 16;    ///< pixels; of the tile lists
+  unsigned Threads = 0; ///< 0: one for each processor; changes no result
+};
+
+} // namespace vorion::reference
