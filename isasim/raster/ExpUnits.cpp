@@ -9,14 +9,15 @@ static constexpr ExpUnit Units[] = {
      .Name = "correctly-rounded",
      .LatencyCycles = 8,
      .TableBits = 0,
-     .Multipliers = "14 of 53 x 53 bits",
+     .Multipliers = "16 of 53 x 53 bits",
      .MaxRelativeError = 0x1p-24,
      .Explanation = "exp: the nearest fp32 number for every input; the "
                     "yardstick that no small unit reaches"},
     {.Option = 1,
      .Name = "table",
      .LatencyCycles = 3,
-     .TableBits = table_exp::Entries * (17 + 12),
+     .TableBits =
+         table_exp::Entries * (table_exp::StartBits + table_exp::DropBits),
      .Multipliers = "1 of 24 x 24 bits, 1 of 12 x 12 bits",
      .MaxRelativeError = 2.85e-4,
      .Explanation =

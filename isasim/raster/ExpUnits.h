@@ -40,11 +40,13 @@ inline constexpr int SmallestExponent = 126;
 /// |p| is held at this, beyond which every result is 0.
 inline constexpr float Largest = 90.0F;
 
+inline constexpr int StartBits = 17;
+inline constexpr int DropBits = 12;
+
+/// Entry i: its start 2^(-i/16) * 2^16, rounded, above DropBits bits of the
+/// drop from there to the next entry's start.
 struct Segments {
-  /// 2^(-i/16) * 2^16, rounded: 17 bits.
-  std::int32_t Start[Entries];
-  /// Start[i] - Start[i + 1]: 12 bits.
-  std::int32_t Drop[Entries];
+  std::int32_t Words[Entries];
 };
 
 /// Square roots of 1/2 by Newton's method give 2^(-1/16) at compile time.
@@ -61,8 +63,8 @@ constexpr Segments makeSegments() {
   for (int I = 0; I != Entries; ++I) {
     const auto Here = static_cast<std::int32_t>(Value + 0.5);
     Value *= Step;
-    S.Start[I] = Here;
-    S.Drop[I] = Here - static_cast<std::int32_t>(Value + 0.5);
+    S.Words[I] =
+        Here << DropBits | (Here - static_cast<std::int32_t>(Value + 0.5));
   }
   return S;
 }

@@ -66,13 +66,12 @@ struct TableExp {
     const Int16 Whole = Y >> FractionBits;
     const Int16 Entry = Y >> RestBits & (Entries - 1);
     const Int16 Rest = Y & ((1 << RestBits) - 1);
-    Int16 Start;
-    Int16 Drop;
-    for (unsigned L = 0; L != LaneCount; ++L) {
-      Start[L] = Table.Start[Entry[L]];
-      Drop[L] = Table.Drop[Entry[L]];
-    }
-    const Int16 Mantissa = Start - (Drop * Rest >> RestBits); // (1/2, 1] * 2^16
+    Int16 Word;
+    for (unsigned L = 0; L != LaneCount; ++L)
+      Word[L] = Table.Words[Entry[L]];
+    const Int16 Drop = Word & ((1 << DropBits) - 1);
+    // (1/2, 1] * 2^16
+    const Int16 Mantissa = (Word >> DropBits) - (Drop * Rest >> RestBits);
     const Int16 Bits =
         __builtin_bit_cast(Int16, __builtin_convertvector(Mantissa, Float16)) -
         ((Whole + FractionBits) << 23);

@@ -66,6 +66,7 @@ public:
 private:
   std::uint32_t check() const;
   std::uint32_t blendList();
+  const std::byte *record(const std::byte *List, std::uint32_t Entry) const;
   std::uint32_t blendOne(const Gaussian &G, const BlendOptions &Options);
   BlendOptions blendOptions() const;
   std::uint64_t rowAddress(unsigned Row) const {
@@ -135,6 +136,15 @@ std::uint32_t Execution::blendOne(const Gaussian &G,
   return VR_OK;
 }
 
+/// The record that \p Entry of the list names, or nullptr if it is not there.
+const std::byte *Execution::record(const std::byte *List,
+                                   std::uint32_t Entry) const {
+  std::uint32_t Number = 0;
+  std::memcpy(&Number, List + 4ULL * Entry, 4);
+  return rangeAt(Memory, C.Gaussians + std::uint64_t{Number} * sizeof(Gaussian),
+                 sizeof(Gaussian));
+}
+
 std::uint32_t Execution::blendList() {
   const BlendOptions Options = blendOptions();
   if (Takes) {
@@ -149,12 +159,14 @@ std::uint32_t Execution::blendList() {
   if (C.Count == 0)
     return VR_OK;
   const std::byte *List = Memory.range(C.List, 4ULL * C.Count);
+  // The host's caches do not see a list's records coming: a third of the time
+  // of small Gaussians, measured in bench/raster.
+  constexpr std::uint32_t Ahead = 8;
   for (std::uint32_t I = 0; I != C.Count && Tile.Live != 0; ++I) {
-    std::uint32_t Number = 0;
-    std::memcpy(&Number, List + 4ULL * I, 4);
-    const std::byte *Record =
-        rangeAt(Memory, C.Gaussians + std::uint64_t{Number} * sizeof(Gaussian),
-                sizeof(Gaussian));
+    if (I + Ahead < C.Count)
+      if (const std::byte *Soon = record(List, I + Ahead))
+        __builtin_prefetch(Soon);
+    const std::byte *Record = record(List, I);
     if (!Record)
       return VR_UNMAPPED;
     Gaussian G;
