@@ -1,0 +1,187 @@
+/// The linker step of every program for the device: refuses objects that were
+/// not compiled for XVortex, then runs lld with the device's start-up code,
+/// linker script and library. vorion-clang calls it as its linker, so it takes
+/// lld's options.
+
+#include "ObjectCheck.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace vorion;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view Tool = "vorion-link";
+
+constexpr std::string_view Usage =
+    "usage: vorion-link [options] object... -o program.elf\n"
+    "\n"
+    "Links objects and archives for the Vorion device. Each must have been\n"
+    "compiled for XVortex. The start-up code, the linker script and "
+    "libdevice.a\n"
+    "are added, unless -r (relocatable output) is given.\n"
+    "\n"
+    "Options are those of ld.lld; the common ones:\n"
+    "  -o FILE   output (default a.out)\n"
+    "  -L DIR    search DIR for -l\n"
+    "  -l NAME   link libNAME.a\n"
+    "  -r        relocatable output\n"
+    "  -Map FILE write a map of the program\n"
+    "\n";
+
+/// Options of lld whose value is the next argument, so that it is no input.
+constexpr std::array<std::string_view, 17> TakesValue = {
+    "-o",       "-m",      "-z",     "-e",      "--entry", "-T",
+    "--script", "-Map",    "--Map",  "-u",      "-h",      "-soname",
+    "--defsym", "-defsym", "-mllvm", "-plugin", "-y"};
+
+struct CommandLine {
+  std::vector<std::string> Forwarded;
+  std::vector<std::string> Inputs; ///< files to check
+  std::string Output = "a.out";
+  bool Relocatable = false;
+};
+
+Expected<std::string> findLibrary(const std::string &Name,
+                                  const std::vector<std::string> &Folders) {
+  for (const std::string &Folder : Folders) {
+    const fs::path Path = fs::path(Folder) / ("lib" + Name + ".a");
+    if (fs::exists(Path))
+      return Path.string();
+  }
+  return Error{"-l" + Name,
+               "no lib" + Name + ".a in the folders given with -L"};
+}
+
+Expected<CommandLine> parse(int Argc, char **Argv) {
+  CommandLine Line;
+  std::vector<std::string> Folders, Libraries;
+  for (int I = 1; I < Argc; ++I) {
+    const std::string Arg = Argv[I];
+    Line.Forwarded.push_back(Arg);
+    if (Arg == "-L" || Arg == "-l" ||
+        std::find(TakesValue.begin(), TakesValue.end(), Arg) !=
+            TakesValue.end()) {
+      if (++I == Argc)
+        return Error{Arg, "expected a value after it", ExitCode::Usage};
+      Line.Forwarded.emplace_back(Argv[I]);
+      if (Arg == "-o")
+        Line.Output = Argv[I];
+      else if (Arg == "-L")
+        Folders.emplace_back(Argv[I]);
+      else if (Arg == "-l")
+        Libraries.emplace_back(Argv[I]);
+    } else if (Arg == "-r" || Arg == "--relocatable") {
+      Line.Relocatable = true;
+    } else if (Arg.starts_with("@")) {
+      return Error{Arg, "response files are not supported", ExitCode::Usage};
+    } else if (Arg.starts_with("-o") && Arg.size() > 2) {
+      Line.Output = Arg.substr(2);
+    } else if (Arg.starts_with("-L")) {
+      Folders.push_back(Arg.substr(2));
+    } else if (Arg.starts_with("-l")) {
+      Libraries.push_back(Arg.substr(2));
+    } else if (!Arg.starts_with("-")) {
+      Line.Inputs.push_back(Arg);
+    }
+  }
+  for (const std::string &Library : Libraries) {
+    const auto Path = findLibrary(Library, Folders);
+    if (!Path)
+      return Path.error();
+    Line.Inputs.push_back(*Path);
+  }
+  if (Line.Inputs.empty())
+    return Error{"", "no input, expected objects (see --help)",
+                 ExitCode::Usage};
+  return Line;
+}
+
+/// The folder with start.o, vorion.ld and libdevice.a: beside bin/, where this
+/// program lies.
+Expected<fs::path> deviceFolder() {
+  std::error_code Failed;
+  const fs::path Self = fs::read_symlink("/proc/self/exe", Failed);
+  const fs::path Folder = Self.parent_path().parent_path() / "lib" / "vorion";
+  for (const char *Name : {"start.o", "vorion.ld", "libdevice.a"})
+    if (!fs::exists(Folder / Name, Failed))
+      return Error{(Folder / Name).string(),
+                   "missing, expected beside the installed tools"};
+  return Folder;
+}
+
+Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
+  std::vector<char *> Argv;
+  for (const std::string &Argument : Arguments)
+    Argv.push_back(const_cast<char *>(Argument.c_str()));
+  Argv.push_back(nullptr);
+  pid_t Child = 0;
+  if (const int Cause =
+          posix_spawnp(&Child, Argv[0], nullptr, nullptr, Argv.data(), environ))
+    return Error{Arguments[0],
+                 fmt::format("cannot be run: {}, expected LLVM 19's lld on the "
+                             "path (package lld-19)",
+                             std::strerror(Cause))};
+  int Status = 0;
+  while (waitpid(Child, &Status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(Status) || WEXITSTATUS(Status) != 0)
+    return Error{"", "the link failed"};
+  return Success{};
+}
+
+Expected<Success> linkProgram(const CommandLine &Line) {
+  for (const std::string &Input : Line.Inputs) {
+    const auto Bytes = readFile(Input);
+    if (!Bytes)
+      return Bytes.error();
+    const auto Good = link::checkInput(*Bytes, Input);
+    if (!Good)
+      return Good.error();
+  }
+  std::vector<std::string> Arguments = {"ld.lld-19"};
+  std::vector<std::string> Libraries;
+  if (!Line.Relocatable) {
+    const auto Folder = deviceFolder();
+    if (!Folder)
+      return Folder.error();
+    Arguments.insert(Arguments.end(),
+                     {"-T", (*Folder / "vorion.ld").string(), "--gc-sections",
+                      "--fatal-warnings", "--no-dynamic-linker", "-static",
+                      (*Folder / "start.o").string()});
+    Libraries.push_back((*Folder / "libdevice.a").string());
+  }
+  Arguments.insert(Arguments.end(), Line.Forwarded.begin(),
+                   Line.Forwarded.end());
+  Arguments.insert(Arguments.end(), Libraries.begin(), Libraries.end());
+
+  // lld leaves its old output in place when it fails half way, and writes
+  // through a file of its own, so the name is safe to give to it.
+  return runLinker(Arguments);
+}
+
+} // namespace
+
+int main(int Argc, char **Argv) {
+  for (int I = 1; I < Argc; ++I)
+    if (std::strcmp(Argv[I], "--help") == 0) {
+      fmt::print("{}{}\n", Usage, ExitCodeHelp);
+      return 0;
+    }
+  const auto Line = parse(Argc, Argv);
+  if (!Line)
+    return reportError(Tool, Line.error());
+  const auto Linked = linkProgram(*Line);
+  return Linked ? 0 : reportError(Tool, Linked.error());
+}
