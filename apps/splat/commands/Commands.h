@@ -1,0 +1,18 @@
+/// The subcommands of `splat`: each declares its options and gives what runs
+/// it once they are parsed.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace vorion::splat {
+
+using Runner = std::function<Expected<Success>()>;
+
+Runner addRender(CLI::App &App);
+Runner addDemoScene(CLI::App &App);
+Runner addCompare(CLI::App &App);
+
+} // namespace vorion::splat

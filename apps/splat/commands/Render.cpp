@@ -1,0 +1,214 @@
+#include "Commands.h"
+
+#include "../io/Cameras.h"
+#include "../io/Image.h"
+#include "../io/Npz.h"
+#include "../io/Ply.h"
+#include "../render/Renderer.h"
+#include "../render/Report.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <unistd.h>
+
+namespace vorion::splat {
+
+namespace {
+
+struct RenderArguments {
+  std::string Scene, Cameras, View, Output;
+  std::string Json, Pairs, Device, KernelFolder;
+  std::vector<float> Background{0, 0, 0};
+  bool Explain = false;
+  RenderOptions Options;
+};
+
+bool endsWith(const std::string &Text, std::string_view End) {
+  return std::string_view(Text).ends_with(End);
+}
+
+/// What can be said to be wrong before anything is read.
+Expected<Success> check(const RenderArguments &A) {
+  const auto Usage = [](std::string What) {
+    return Error{"", std::move(What), ExitCode::Usage};
+  };
+  const RenderOptions &O = A.Options;
+  if (!endsWith(A.Output, ".png") && !endsWith(A.Output, ".pfm") &&
+      !endsWith(A.Output, ".npz"))
+    return Usage(fmt::format(
+        "-o {}: unknown kind of picture, expected .png, .pfm or .npz",
+        A.Output));
+  if (!(O.Cutoff >= 0 && O.Cutoff < 1))
+    return Usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
+  if (O.Blending == Path::Raster && O.Reach == Support::Official16)
+    return Usage("--support official16 has tiles of 16x16 pixels, expected "
+                 "--path simt with it");
+  if (O.Blending == Path::Simt && O.Exponential == ExpUnit::Table)
+    return Usage("--exp table is the rasterizer's, expected --path raster "
+                 "with it");
+  // A render may take minutes: find out now whether it can be kept.
+  for (const std::string &File : {A.Output, A.Json, A.Pairs}) {
+    if (File.empty())
+      continue;
+    const std::size_t Slash = File.rfind('/');
+    const std::string Folder =
+        Slash == std::string::npos
+            ? "."
+            : File.substr(0, std::max<std::size_t>(Slash, 1));
+    if (access(Folder.c_str(), W_OK | X_OK) != 0)
+      return Error{File, std::string("cannot write: ") + std::strerror(errno) +
+                             ", expected a folder that can be written"};
+  }
+  return Success{};
+}
+
+Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
+  // The bits are those of unsigned words; NumPy's view("u4") shows them so.
+  const auto Words = [](const std::vector<std::uint32_t> &V) {
+    return NpyArray::of({V.size()},
+                        std::vector<std::int32_t>(V.begin(), V.end()));
+  };
+  return writeNpz(File, {{"tile", Words(P.Tiles)},
+                         {"depth_bits", Words(P.DepthBits)},
+                         {"index", Words(P.Gaussians)}});
+}
+
+/// A line on a terminal that says what is going on; nothing elsewhere.
+std::function<void(std::string_view)> progress() {
+  if (isatty(STDERR_FILENO) == 0)
+    return {};
+  return [](std::string_view Stage) {
+    fmt::print(stderr, "\r\033[Ksplat: {} ...", Stage);
+    std::fflush(stderr);
+  };
+}
+
+void endProgress() {
+  if (isatty(STDERR_FILENO) != 0)
+    fmt::print(stderr, "\r\033[K");
+}
+
+Expected<Success> run(const RenderArguments &A) {
+  if (auto Checked = check(A); !Checked)
+    return Checked.error();
+  auto S = readPly(A.Scene);
+  if (!S)
+    return S.error();
+  auto C = readCamera(A.Cameras, A.View);
+  if (!C)
+    return C.error();
+  const RenderPlan Plan = planRender(*S, A.Options);
+  if (A.Explain)
+    for (const std::string &Line : explain(Plan, *S, A.Options))
+      fmt::print("{}\n", Line);
+
+  auto D = Device::open(A.Device);
+  if (!D)
+    return D.error();
+  if (A.Options.Blending == Path::Raster && !D->isVorion())
+    return Error{"",
+                 fmt::format("{} has no rasterizer, expected a Vorion "
+                             "device or --path simt",
+                             D->name()),
+                 ExitCode::Usage};
+  Launcher L(*D, A.KernelFolder, progress());
+  auto R = render(L, Plan, *S, *C, A.Options, !A.Pairs.empty());
+  endProgress();
+  if (!R) {
+    if (!L.buildLog().empty())
+      fmt::print(stderr, "{}\n", L.buildLog());
+    return R.error();
+  }
+
+  if (auto Written = writeImage(A.Output, R->Picture); !Written)
+    return Written.error();
+  if (!A.Pairs.empty())
+    if (auto Written = writePairs(A.Pairs, *R->Sorted); !Written)
+      return Written.error();
+  if (!A.Json.empty()) {
+    auto Report = jsonReport(
+        {A.Scene, A.Cameras, A.Output, *S, *C, A.Options, Plan, *D, *R});
+    if (!Report)
+      return Report.error();
+    if (auto Written = writeFileAtomically(A.Json, *Report); !Written)
+      return Written.error();
+  }
+  fmt::print("{}", textReport(*C, A.Options, *D, *R));
+  return Success{};
+}
+
+/// An option whose value is one of \p Choices by name; \p Value must outlive
+/// the parsing.
+template <typename Enum>
+void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
+               std::vector<Enum> Choices, const std::string &Help) {
+  std::vector<std::string> Names;
+  std::string Listed;
+  for (const Enum E : Choices) {
+    Names.emplace_back(name(E));
+    Listed += (Listed.empty() ? "" : "|") + Names.back();
+  }
+  App.add_option_function<std::string>(
+         Flag,
+         [&Value, Choices = std::move(Choices)](const std::string &Chosen) {
+           for (const Enum E : Choices)
+             if (name(E) == Chosen)
+               Value = E;
+         },
+         fmt::format("{} (default {})", Help, name(Value)))
+      ->option_text(Listed)
+      ->check(CLI::IsMember(std::move(Names)));
+}
+
+} // namespace
+
+Runner addRender(CLI::App &App) {
+  auto A = std::make_shared<RenderArguments>();
+  RenderOptions &O = A->Options;
+  App.add_option("scene", A->Scene, "Scene in INRIA's PLY layout")->required();
+  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
+      ->required();
+  App.add_option("--view", A->View, "img_name or id of the view")->required();
+  App.add_option("-o,--output", A->Output,
+                 "Picture: .png, or .pfm or .npz for linear floats")
+      ->required();
+  App.add_option("--json", A->Json, "Write what was done, and how much of it");
+  addChoice(App, "--rules", O.Convention, {Rules::Inria, Rules::Gsplat},
+            "Convention to follow");
+  addChoice(
+      App, "--support", O.Reach,
+      {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
+      "Pixels that a Gaussian may reach");
+  addChoice(App, "--path", O.Blending, {Path::Raster, Path::Simt},
+            "Who blends: the rasterizer or the cores");
+  addChoice(App, "--exp", O.Exponential, {ExpUnit::Exact, ExpUnit::Table},
+            "The rasterizer's exponential unit");
+  App.add_flag("--antialiased", O.Antialiased,
+               "Compensate opacity for the dilation");
+  App.add_option("--background", A->Background, "Colour r,g,b (default 0,0,0)")
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("R,G,B");
+  App.add_option("--cutoff", O.Cutoff,
+                 "Transmittance at which a pixel is full (default 0.0001)");
+  App.add_option("--device", A->Device,
+                 "Part of the OpenCL device's name (default Vorion, else the "
+                 "first device)");
+  App.add_flag(
+      "--explain", A->Explain,
+      "Say what is compiled into the kernels and what is not, and why");
+  App.add_option("--dump-pairs", A->Pairs,
+                 "Write the sorted tile, depth_bits and index arrays (.npz)");
+  App.add_option("--kernels", A->KernelFolder,
+                 "Read the kernel sources from this folder");
+  return [A] {
+    std::copy_n(A->Background.begin(), 3, A->Options.Background.begin());
+    return run(*A);
+  };
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,129 @@
+#include "Device.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <utility>
+#include <vector>
+
+namespace vorion::splat {
+
+KernelCounters &KernelCounters::operator+=(const KernelCounters &Other) {
+  WarpInstructions += Other.WarpInstructions;
+  LaneInstructions += Other.LaneInstructions;
+  RasterCommands += Other.RasterCommands;
+  RasterGaussians += Other.RasterGaussians;
+  RasterClipped += Other.RasterClipped;
+  RasterFragments += Other.RasterFragments;
+  RasterBlends += Other.RasterBlends;
+  return *this;
+}
+
+namespace {
+
+struct Candidate {
+  cl::Device Handle;
+  std::string Name;
+};
+
+std::vector<Candidate> allDevices() {
+  std::vector<cl::Platform> Platforms;
+  // No platform at all is an error code here and an empty list for us.
+  if (cl::Platform::get(&Platforms) != CL_SUCCESS)
+    return {};
+  std::vector<Candidate> Found;
+  for (const cl::Platform &P : Platforms) {
+    std::vector<cl::Device> Devices;
+    if (P.getDevices(CL_DEVICE_TYPE_ALL, &Devices) != CL_SUCCESS)
+      continue;
+    for (const cl::Device &D : Devices)
+      Found.push_back({D, D.getInfo<CL_DEVICE_NAME>()});
+  }
+  return Found;
+}
+
+const Candidate *choose(const std::vector<Candidate> &All,
+                        const std::string &Wanted) {
+  const std::string Name = Wanted.empty() ? "Vorion" : Wanted;
+  for (const Candidate &C : All)
+    if (C.Name.find(Name) != std::string::npos)
+      return &C;
+  return Wanted.empty() && !All.empty() ? &All.front() : nullptr;
+}
+
+Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
+  if (All.empty())
+    return Error{"", "no OpenCL device, expected one of a Vorion platform "
+                     "(source scripts/env.sh)"};
+  std::vector<std::string> Names;
+  Names.reserve(All.size());
+  for (const Candidate &C : All)
+    Names.push_back('"' + C.Name + '"');
+  return Error{"",
+               fmt::format("no OpenCL device is named like \"{}\", expected "
+                           "part of one of {}",
+                           Wanted, fmt::join(Names, ", ")),
+               ExitCode::Usage};
+}
+
+} // namespace
+
+Expected<Device> Device::open(const std::string &Wanted) {
+  const std::vector<Candidate> All = allDevices();
+  const Candidate *Chosen = choose(All, Wanted);
+  if (!Chosen)
+    return noDevice(All, Wanted);
+
+  Device D;
+  D.Handle = Chosen->Handle;
+  D.Name = Chosen->Name;
+  D.ComputeUnits = D.Handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+  D.GlobalBytes = D.Handle.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  D.LargestAllocation = D.Handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+
+  cl_int Status = CL_SUCCESS;
+  D.Context = cl::Context(D.Handle, nullptr, nullptr, nullptr, &Status);
+  if (Status != CL_SUCCESS)
+    return clError("creating a context on " + D.Name, Status);
+  D.Queue =
+      cl::CommandQueue(D.Context, D.Handle, cl::QueueProperties::None, &Status);
+  if (Status != CL_SUCCESS)
+    return clError("creating a queue on " + D.Name, Status);
+
+  const auto Extensions = D.Handle.getInfo<CL_DEVICE_EXTENSIONS>();
+  if (Extensions.find(CL_VORION_EXTENSION_NAME) != std::string::npos)
+    D.EventInfo = reinterpret_cast<clGetEventInfoVORION_fn>(
+        clGetExtensionFunctionAddressForPlatform(
+            D.Handle.getInfo<CL_DEVICE_PLATFORM>(), "clGetEventInfoVORION"));
+  return D;
+}
+
+std::string Device::version() const {
+  const cl::Platform Platform(Handle.getInfo<CL_DEVICE_PLATFORM>());
+  return fmt::format("{}; driver {}; {}", Handle.getInfo<CL_DEVICE_VERSION>(),
+                     Handle.getInfo<CL_DRIVER_VERSION>(),
+                     Platform.getInfo<CL_PLATFORM_VERSION>());
+}
+
+std::optional<KernelCounters> Device::counters(const cl::Event &Event) const {
+  if (!EventInfo)
+    return std::nullopt;
+  KernelCounters C;
+  const std::pair<cl_uint, std::uint64_t *> Queries[] = {
+      {CL_EVENT_WARP_INSTRUCTIONS_VORION, &C.WarpInstructions},
+      {CL_EVENT_LANE_INSTRUCTIONS_VORION, &C.LaneInstructions},
+      {CL_EVENT_RASTER_COMMANDS_VORION, &C.RasterCommands},
+      {CL_EVENT_RASTER_GAUSSIANS_VORION, &C.RasterGaussians},
+      {CL_EVENT_RASTER_CLIPPED_VORION, &C.RasterClipped},
+      {CL_EVENT_RASTER_FRAGMENTS_VORION, &C.RasterFragments},
+      {CL_EVENT_RASTER_BLENDS_VORION, &C.RasterBlends},
+  };
+  for (const auto &[Token, Value] : Queries) {
+    cl_ulong Got = 0;
+    if (EventInfo(Event(), Token, sizeof(Got), &Got, nullptr) != CL_SUCCESS)
+      return std::nullopt;
+    *Value = Got;
+  }
+  return C;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,58 @@
+/// The OpenCL device that renders.
+#pragma once
+
+#include "OpenCl.h"
+
+#include <CL/cl_vorion.h>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace vorion::splat {
+
+/// What a Vorion device counted for one kernel; zeros are counts too.
+struct KernelCounters {
+  std::uint64_t WarpInstructions = 0, LaneInstructions = 0;
+  std::uint64_t RasterCommands = 0, RasterGaussians = 0, RasterClipped = 0;
+  std::uint64_t RasterFragments = 0, RasterBlends = 0;
+
+  KernelCounters &operator+=(const KernelCounters &Other);
+};
+
+/// An opened device with its context and one in-order queue.
+class Device {
+public:
+  /// Opens the first device whose name contains \p Wanted, or, where that is
+  /// empty, "Vorion", or else the first device there is. The error lists what
+  /// was found.
+  static Expected<Device> open(const std::string &Wanted);
+
+  const cl::Context &context() const { return Context; }
+  const cl::CommandQueue &queue() const { return Queue; }
+  const cl::Device &handle() const { return Handle; }
+
+  const std::string &name() const { return Name; }
+  /// Device and driver version, and the platform's.
+  std::string version() const;
+  /// Whether it has a rasterizer and counters (extension cl_vorion).
+  bool isVorion() const { return EventInfo != nullptr; }
+  unsigned computeUnits() const { return ComputeUnits; }
+  std::uint64_t globalBytes() const { return GlobalBytes; }
+  std::uint64_t largestAllocation() const { return LargestAllocation; }
+
+  /// The counters of an ended kernel; nothing where the device has none.
+  std::optional<KernelCounters> counters(const cl::Event &Event) const;
+
+private:
+  Device() = default;
+
+  cl::Device Handle;
+  cl::Context Context;
+  cl::CommandQueue Queue;
+  std::string Name;
+  unsigned ComputeUnits = 1;
+  std::uint64_t GlobalBytes = 0, LargestAllocation = 0;
+  clGetEventInfoVORION_fn EventInfo = nullptr;
+};
+
+} // namespace vorion::splat

@@ -1,0 +1,187 @@
+#include "Launcher.h"
+
+#include "Kernels.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace vorion::splat {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point Start) {
+  return std::chrono::duration<double>(Clock::now() - Start).count();
+}
+
+double mebibytes(std::uint64_t Bytes) {
+  return static_cast<double>(Bytes) / (1024.0 * 1024.0);
+}
+
+} // namespace
+
+Launcher::Launcher(const Device &D, std::string Folder,
+                   std::function<void(std::string_view)> Listener)
+    : Dev(D), KernelFolder(std::move(Folder)), Progress(std::move(Listener)) {}
+
+void Launcher::endStage() {
+  if (!Stages.empty())
+    Stages.back().Seconds = secondsSince(StageStart);
+}
+
+void Launcher::beginStage(std::string_view Name) {
+  if (Failure)
+    return;
+  endStage();
+  Stages.push_back({std::string(Name), 0, {}});
+  StageStart = Clock::now();
+  if (Progress)
+    Progress(Name);
+}
+
+std::vector<StageReport> Launcher::takeStages() {
+  endStage();
+  return std::exchange(Stages, {});
+}
+
+Expected<std::string> Launcher::sourceOf(const ProgramSpec &Spec) const {
+  // No operation may be fused or reordered: the paths, the reference and the
+  // rasterizer round alike (docs/abi.md).
+  std::string Source = "#pragma OPENCL FP_CONTRACT OFF\n";
+  for (const std::string &File : Spec.Files) {
+    // The compiler's messages then name our files.
+    Source += fmt::format("#line 1 \"{}\"\n", File);
+    if (KernelFolder.empty()) {
+      Source += kernelSource(File);
+      continue;
+    }
+    auto Text = readFile(KernelFolder + "/" + File);
+    if (!Text)
+      return Text.error();
+    Source.append(reinterpret_cast<const char *>(Text->data()), Text->size());
+  }
+  return Source;
+}
+
+void Launcher::build(const ProgramSpec &Spec) {
+  if (Failure)
+    return;
+  auto Source = sourceOf(Spec);
+  if (!Source) {
+    Failure = Source.error();
+    return;
+  }
+  std::string Options;
+  for (const std::string &Define : Spec.Defines)
+    Options += (Options.empty() ? "-D" : " -D") + Define;
+  cl_int Status = CL_SUCCESS;
+  cl::Program Program(Dev.context(), *Source, false, &Status);
+  if (Status == CL_SUCCESS)
+    Status = Program.build(Dev.handle(), Options.c_str());
+  if (Status != CL_SUCCESS) {
+    BuildLog = Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Dev.handle());
+    // Sources of the user's folder are input; our own must compile anywhere.
+    Failure =
+        Error{KernelFolder,
+              fmt::format("kernel program '{}' does not compile for {} "
+                          "({}), expected valid OpenCL C",
+                          Spec.Name, Dev.name(), statusName(Status)),
+              KernelFolder.empty() ? ExitCode::Internal : ExitCode::InputFile};
+    return;
+  }
+  Programs[Spec.Name] = Program;
+}
+
+void Launcher::launch(const cl::Kernel &K, const std::string &Name,
+                      const cl::NDRange &Global, const cl::NDRange &Local) {
+  const Clock::time_point Start = Clock::now();
+  cl::Event Done;
+  cl_int Status = Dev.queue().enqueueNDRangeKernel(K, cl::NullRange, Global,
+                                                   Local, nullptr, &Done);
+  if (Status != CL_SUCCESS) {
+    Failure = clError("starting kernel " + Name, Status);
+    return;
+  }
+  Status = Done.wait();
+  const auto Outcome = Done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+  if (Status != CL_SUCCESS || Outcome < 0) {
+    Failure = Error{"",
+                    fmt::format("kernel '{}' failed on {} ({}), expected it to "
+                                "run to its end",
+                                Name, Dev.name(),
+                                statusName(Outcome < 0 ? Outcome : Status)),
+                    ExitCode::Trap};
+    return;
+  }
+  account({Name, 1, secondsSince(Start), Dev.counters(Done)});
+}
+
+void Launcher::account(KernelReport Report) {
+  std::vector<KernelReport> &Kernels = Stages.back().Kernels;
+  const auto Known =
+      std::ranges::find(Kernels, Report.Name, &KernelReport::Name);
+  if (Known == Kernels.end()) {
+    Kernels.push_back(std::move(Report));
+    return;
+  }
+  ++Known->Launches;
+  Known->Seconds += Report.Seconds;
+  if (Known->Counters && Report.Counters)
+    *Known->Counters += *Report.Counters;
+}
+
+cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
+  if (Failure)
+    return {};
+  // OpenCL has no empty buffers.
+  const std::uint64_t Size = std::max<std::uint64_t>(Bytes, 4);
+  if (Size > Dev.largestAllocation() ||
+      AllocatedBytes + Size > Dev.globalBytes()) {
+    Failure = Error{
+        "",
+        fmt::format("the {} need {:.1f} MiB beside {:.1f} MiB in use, but {} "
+                    "has {:.1f} MiB of memory, at most {:.1f} MiB in one piece",
+                    What, mebibytes(Size), mebibytes(AllocatedBytes),
+                    Dev.name(), mebibytes(Dev.globalBytes()),
+                    mebibytes(Dev.largestAllocation())),
+        ExitCode::LimitReached};
+    return {};
+  }
+  cl_int Status = CL_SUCCESS;
+  cl::Buffer B(Dev.context(), CL_MEM_READ_WRITE, Size, nullptr, &Status);
+  if (Status != CL_SUCCESS) {
+    Failure = clError(
+        fmt::format("allocating {:.1f} MiB for the {}", mebibytes(Size), What),
+        Status);
+    return {};
+  }
+  AllocatedBytes += Size;
+  return B;
+}
+
+void Launcher::write(std::string_view What, const cl::Buffer &To,
+                     const void *From, std::uint64_t Bytes) {
+  if (Failure || Bytes == 0)
+    return;
+  const cl_int Status =
+      Dev.queue().enqueueWriteBuffer(To, CL_TRUE, 0, Bytes, From);
+  if (Status != CL_SUCCESS)
+    Failure =
+        clError(fmt::format("copying the {} to the device", What), Status);
+}
+
+void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
+                    std::uint64_t Bytes) {
+  if (Failure || Bytes == 0)
+    return;
+  const cl_int Status =
+      Dev.queue().enqueueReadBuffer(From, CL_TRUE, 0, Bytes, To);
+  if (Status != CL_SUCCESS)
+    Failure =
+        clError(fmt::format("copying the {} from the device", What), Status);
+}
+
+} // namespace vorion::splat

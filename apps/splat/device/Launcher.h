@@ -1,0 +1,120 @@
+/// Builds programs and runs kernels one after the other, keeping account.
+#pragma once
+
+#include "Device.h"
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace vorion::splat {
+
+/// One program: the kernel sources it is made of, in order, and the macros it
+/// is built with.
+struct ProgramSpec {
+  std::string Name;
+  std::vector<std::string> Files;   ///< names in kernels/
+  std::vector<std::string> Defines; ///< "NAME" or "NAME=value"
+};
+
+/// What one kernel did over all its launches in a stage.
+struct KernelReport {
+  std::string Name;
+  unsigned Launches = 0;
+  double Seconds = 0; ///< host wall time from launch to end
+  std::optional<KernelCounters> Counters;
+};
+
+/// A stage of the pipeline: consecutive work under one name.
+struct StageReport {
+  std::string Name;
+  double Seconds = 0; ///< host wall time, copies and compilation included
+  std::vector<KernelReport> Kernels;
+};
+
+/// Runs kernels to their end, one at a time. The first error sticks: what is
+/// asked for afterwards does nothing, so a pipeline is written straight down
+/// and asks \c failure() before it uses anything read back. Not thread-safe.
+class Launcher {
+public:
+  /// \p Listener, if set, is told each stage's name as it begins.
+  /// \p Folder, if not empty: read kernel sources there rather than from the
+  /// program.
+  Launcher(const Device &D, std::string Folder,
+           std::function<void(std::string_view)> Listener);
+
+  const std::optional<Error> &failure() const { return Failure; }
+  /// Makes \p E the error that sticks, unless there is one already.
+  void fail(Error E) {
+    if (!Failure)
+      Failure = std::move(E);
+  }
+  /// The compiler's messages where \c build failed.
+  const std::string &buildLog() const { return BuildLog; }
+
+  /// What follows is accounted to a new stage. Begin one first of all.
+  void beginStage(std::string_view Name);
+  /// Ends the last stage and gives all of them.
+  std::vector<StageReport> takeStages();
+
+  /// Builds \p Spec; \c run finds it by its name.
+  void build(const ProgramSpec &Spec);
+
+  /// Runs kernel \p Kernel of program \p Program and waits for it.
+  template <typename... Args>
+  void run(const std::string &Program, const char *Kernel,
+           const cl::NDRange &Global, const cl::NDRange &Local,
+           const Args &...Arguments) {
+    if (Failure)
+      return;
+    cl_int Status = CL_SUCCESS;
+    cl::Kernel K(Programs.at(Program), Kernel, &Status);
+    cl_uint Index = 0;
+    const auto Set = [&](const auto &Argument) {
+      if (Status == CL_SUCCESS)
+        Status = K.setArg(Index++, Argument);
+    };
+    (Set(Arguments), ...);
+    if (Status != CL_SUCCESS) {
+      Failure = clError(std::string("preparing kernel ") + Kernel, Status);
+      return;
+    }
+    launch(K, Kernel, Global, Local);
+  }
+
+  /// \p What names the buffer in errors ("Gaussians").
+  cl::Buffer allocate(std::string_view What, std::uint64_t Bytes);
+  void write(std::string_view What, const cl::Buffer &To, const void *From,
+             std::uint64_t Bytes);
+  void read(std::string_view What, void *To, const cl::Buffer &From,
+            std::uint64_t Bytes);
+
+  /// Bytes of all buffers made with \c allocate.
+  std::uint64_t allocatedBytes() const { return AllocatedBytes; }
+  const Device &device() const { return Dev; }
+
+private:
+  void launch(const cl::Kernel &K, const std::string &Name,
+              const cl::NDRange &Global, const cl::NDRange &Local);
+  void account(KernelReport Report);
+  void endStage();
+  Expected<std::string> sourceOf(const ProgramSpec &Spec) const;
+
+  const Device &Dev;
+  std::string KernelFolder;
+  std::function<void(std::string_view)> Progress;
+  std::map<std::string, cl::Program> Programs;
+  std::optional<Error> Failure;
+  std::string BuildLog;
+  std::vector<StageReport> Stages;
+  std::chrono::steady_clock::time_point StageStart;
+  std::uint64_t AllocatedBytes = 0;
+};
+
+} // namespace vorion::splat

@@ -1,0 +1,43 @@
+/// Structures that the host program and its kernels share. Compiled as C++ and
+/// as OpenCL C, so only 4-byte members and nothing of either language.
+#ifndef SPLAT_LAYOUT_H
+#define SPLAT_LAYOUT_H
+
+/// One projected Gaussian. The same bytes as `vx_gaussian` (docs/abi.md), which
+/// exists only where the device is a Vorion; rasterize.cl checks that.
+typedef struct {
+  float mean[2];  ///< centre, px; pixel (i, j) is sampled at (i + 0.5, j + 0.5)
+  float conic[3]; ///< inverse covariance xx, xy, yy, 1/px^2
+  float opacity;  ///< 0 to 1
+  float color[3]; ///< red, green, blue
+  float extent[2]; ///< half width and height of the box it may reach, px
+  uint tag;        ///< number; bit 31: it spans several tiles
+} splat_gaussian;
+
+/// A camera, ready for projection.
+typedef struct {
+  float rotation[9];    ///< world to camera, row-major
+  float translation[3]; ///< p_camera = rotation p_world + translation
+  float position[3];    ///< camera centre, world
+  float focal[2];       ///< px
+  float center[2];      ///< principal point, px
+  float ratio_low[2];   ///< x/z and y/z are clamped to these in the Jacobian
+  float ratio_high[2];
+  uint size[2];  ///< picture, px
+  uint tiles[2]; ///< picture, tiles
+} splat_view;
+
+/// Planes of the geometry buffer: plane p of Gaussian i is at p * count + i, so
+/// that the lanes of a warp read neighbouring words.
+enum {
+  PLANE_MEAN = 0,
+  PLANE_LOG_SCALE = 3,
+  PLANE_QUATERNION = 6, ///< w, x, y, z of any length
+  PLANE_LOGIT = 10,
+  GEOMETRY_PLANES = 11
+};
+
+/// Depth key of a Gaussian that no tile sees; sorts behind every depth.
+enum { CULLED = -1 };
+
+#endif

@@ -1,0 +1,105 @@
+// Projects every Gaussian: activation, covariance, support, colour. Writes the
+// record that both blending kernels read, the depth key and the tile rectangle
+// (x0 | y0 << 16, x1 | y1 << 16, ends excluded). A Gaussian that no tile sees
+// gets the key CULLED, an empty rectangle and no record.
+
+static bool all_finite(splat_gaussian g) {
+  // x - x is 0 for finite x and NaN otherwise.
+  const float zero = (g.mean[0] - g.mean[0]) + (g.mean[1] - g.mean[1]) +
+                     (g.conic[0] - g.conic[0]) + (g.conic[1] - g.conic[1]) +
+                     (g.conic[2] - g.conic[2]) + (g.opacity - g.opacity) +
+                     (g.color[0] - g.color[0]) + (g.color[1] - g.color[1]) +
+                     (g.color[2] - g.color[2]);
+  return zero == 0.0f;
+}
+
+static bool project_one(__constant const splat_view *view,
+                        __global const float *geometry,
+                        __global const float *sh,
+                        __global splat_gaussian *records, uint count, uint i,
+                        float *depth, uint2 *rectangle) {
+#define GEOMETRY(plane) geometry[(plane) * count + i]
+  const float px = GEOMETRY(PLANE_MEAN);
+  const float py = GEOMETRY(PLANE_MEAN + 1);
+  const float pz = GEOMETRY(PLANE_MEAN + 2);
+  __constant const float *w = view->rotation;
+  const float z = w[6] * px + w[7] * py + w[8] * pz + view->translation[2];
+  if (!(KEEP_DEPTH(z)))
+    return false;
+  const float x = w[0] * px + w[1] * py + w[2] * pz + view->translation[0];
+  const float y = w[3] * px + w[4] * py + w[5] * pz + view->translation[1];
+  const float2 ratio = (float2)(x / z, y / z);
+
+  const float3 scale =
+      (float3)(activate_scale(GEOMETRY(PLANE_LOG_SCALE)),
+               activate_scale(GEOMETRY(PLANE_LOG_SCALE + 1)),
+               activate_scale(GEOMETRY(PLANE_LOG_SCALE + 2)));
+  const float4 quaternion = activate_quaternion(
+      (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
+               GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3)));
+  const float2 clamped =
+      (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
+               clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
+  const screen_covariance s =
+      project_covariance(view, z, clamped, scale, quaternion);
+  // Degenerate, or beyond what fp32 can hold.
+  if (!(s.det > 0.0f) || isinf(s.det))
+    return false;
+
+  splat_gaussian g;
+  g.opacity = activate_opacity(GEOMETRY(PLANE_LOGIT));
+#ifdef ANTIALIASED
+  g.opacity *= sqrt(fmax(ANTIALIAS_FLOOR, s.det_sharp / s.det));
+#endif
+  g.mean[0] = view->focal[0] * x / z + view->center[0];
+  g.mean[1] = view->focal[1] * y / z + view->center[1];
+  const float inverse = 1.0f / s.det;
+  g.conic[0] = s.yy * inverse;
+  g.conic[1] = -s.xy * inverse;
+  g.conic[2] = s.xx * inverse;
+
+  float2 extent;
+  if (!support_extent(s, g.opacity, &extent))
+    return false;
+  uint x0, x1, y0, y1;
+  tile_span(g.mean[0], extent.x, view->tiles[0], &x0, &x1);
+  tile_span(g.mean[1], extent.y, view->tiles[1], &y0, &y1);
+  if (x0 >= x1 || y0 >= y1)
+    return false;
+  g.extent[0] = pixel_extent(extent.x);
+  g.extent[1] = pixel_extent(extent.y);
+
+  const float3 color =
+      sh_color(sh, count, i,
+               (float3)(px - view->position[0], py - view->position[1],
+                        pz - view->position[2]));
+  g.color[0] = color.x;
+  g.color[1] = color.y;
+  g.color[2] = color.z;
+  if (!all_finite(g))
+    return false;
+  const bool spans_tiles = x1 - x0 > 1 || y1 - y0 > 1;
+  g.tag = i | (spans_tiles ? 0x80000000u : 0u);
+  records[i] = g;
+  *depth = z;
+  *rectangle = (uint2)(x0 | y0 << 16, x1 | y1 << 16);
+  return true;
+#undef GEOMETRY
+}
+
+__kernel void project(__constant const splat_view *view,
+                      __global const float *geometry, __global const float *sh,
+                      __global splat_gaussian *records, __global uint *depths,
+                      __global uint *order, __global uint2 *rectangles,
+                      uint count) {
+  const uint i = get_global_id(0);
+  if (i >= count)
+    return;
+  float depth = 0.0f;
+  uint2 rectangle = (uint2)(0, 0);
+  const bool seen = project_one(view, geometry, sh, records, count, i, &depth,
+                                &rectangle);
+  depths[i] = seen ? as_uint(depth) : (uint)CULLED;
+  order[i] = i;
+  rectangles[i] = rectangle;
+}

@@ -1,0 +1,38 @@
+// Exclusive prefix sum of `count` words in three steps: every work-item sums
+// its stretch of `chunk` words, one work-item scans those sums, every work-item
+// adds up its stretch from there. out[count] gets the total.
+
+__kernel void scan_sums(__global const uint *in, __global uint *sums,
+                        uint count, uint chunk) {
+  const uint item = get_global_id(0);
+  const uint begin = min(item * chunk, count);
+  const uint end = min(begin + chunk, count);
+  uint sum = 0;
+  for (uint i = begin; i < end; ++i)
+    sum += in[i];
+  sums[item] = sum;
+}
+
+__kernel void scan_partials(__global uint *sums, uint count) {
+  uint sum = 0;
+  for (uint i = 0; i < count; ++i) {
+    const uint value = sums[i];
+    sums[i] = sum;
+    sum += value;
+  }
+}
+
+__kernel void scan_apply(__global const uint *in, __global const uint *sums,
+                         __global uint *out, uint count, uint chunk) {
+  const uint item = get_global_id(0);
+  const uint begin = min(item * chunk, count);
+  const uint end = min(begin + chunk, count);
+  uint sum = sums[item];
+  for (uint i = begin; i < end; ++i) {
+    const uint value = in[i];
+    out[i] = sum;
+    sum += value;
+  }
+  if (begin < count && end == count)
+    out[count] = sum;
+}

@@ -1,0 +1,59 @@
+// Which pixels and tiles a Gaussian may reach. One of SUPPORT_EXACT,
+// SUPPORT_BOX3, SUPPORT_SQUARE3, SUPPORT_OFFICIAL16 is defined. Extents and
+// tiles are those of reference/Projection.h and Tiles.h.
+
+// The half sides of the box in pixels; false if nothing can be reached.
+static bool support_extent(screen_covariance s, float opacity, float2 *extent) {
+#if defined(SUPPORT_EXACT)
+  // alpha >= 1/255 needs d^2 <= 2 ln(255 o) S_ii along each axis.
+  if (!(255.0f * opacity >= 1.0f))
+    return false;
+  const float deviations = sqrt(2.0f * fmax(0.0f, log(255.0f * opacity)));
+  *extent = (float2)(deviations * sqrt(s.xx), deviations * sqrt(s.yy));
+#elif defined(SUPPORT_BOX3)
+  *extent = (float2)(3.0f * sqrt(s.xx), 3.0f * sqrt(s.yy));
+#else
+  // INRIA's radius, with mid^2 - det written as a sum of squares: the
+  // difference's rounding would move the radius of large round Gaussians.
+  const float mid = (s.xx + s.yy) / 2.0f;
+  const float half_difference = (s.xx - s.yy) / 2.0f;
+  const float spread = half_difference * half_difference + s.xy * s.xy;
+  const float radius = ceil(3.0f * sqrt(mid + sqrt(fmax(0.1f, spread))));
+  *extent = (float2)(radius, radius);
+#endif
+  return true;
+}
+
+// The extent for the blending kernels' test of each pixel.
+static float pixel_extent(float extent) {
+#if defined(SUPPORT_EXACT)
+  // The alpha test decides; rounding of the box must lose none of its pixels.
+  return extent * 1.000001f + 1e-4f;
+#elif defined(SUPPORT_OFFICIAL16)
+  return INFINITY; // every pixel of the tiles
+#else
+  return extent;
+#endif
+}
+
+// The floor of v within [0, most]; NaN gives 0.
+static uint clamped_floor(float v, uint most) {
+  return (uint)fmin(fmax(floor(v), 0.0f), (float)most);
+}
+
+// Tiles [first, last) along one axis.
+static void tile_span(float mean, float extent, uint tiles, uint *first,
+                      uint *last) {
+  const float tile = (float)TILE_SIZE;
+#if defined(SUPPORT_OFFICIAL16)
+  // As the CUDA code counts them, for which pixels sit at whole numbers.
+  const float m = mean - 0.5f;
+  *first = clamped_floor((m - extent) / tile, tiles);
+  *last = clamped_floor((m + extent + (tile - 1.0f)) / tile, tiles);
+#else
+  // Tiles whose area meets the box. That is half a pixel more than the pixel
+  // centres need, so tiles of any size leave the same pixels.
+  *first = clamped_floor((mean - extent) / tile, tiles);
+  *last = clamped_floor(floor((mean + extent) / tile) + 1.0f, tiles);
+#endif
+}

@@ -1,0 +1,84 @@
+// From tile rectangles to one depth-sorted list a tile. The keys of 3DGS are
+// tile << 32 | depth; a least-significant-digit sort reaches the depth digits
+// first, so they are sorted before the Gaussians are duplicated (every copy
+// has the same depth), and the copies, made in depth order, are sorted stably
+// by tile. The lists are those of a sort by the whole key.
+
+// Tiles of each Gaussian, in depth order.
+__kernel void count_tiles(__global const uint *order,
+                          __global const uint2 *rectangles,
+                          __global uint *tile_counts, uint count) {
+  const uint i = get_global_id(0);
+  if (i >= count)
+    return;
+  const uint2 r = rectangles[order[i]];
+  const uint width = (r.y & 0xffff) - (r.x & 0xffff);
+  const uint height = (r.y >> 16) - (r.x >> 16);
+  tile_counts[i] = width * height;
+}
+
+// What the host must know: Gaussians seen, and copies.
+__kernel void totals(__global const uint *sorted_depths,
+                     __global const uint *offsets, __global uint *result,
+                     uint count) {
+  uint low = 0, high = count; // first CULLED key is in [low, high]
+  while (low < high) {
+    const uint middle = (low + high) / 2;
+    if (sorted_depths[middle] == (uint)CULLED)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  result[0] = low;
+  result[1] = offsets[count];
+}
+
+// One (tile, Gaussian) pair for every tile of every Gaussian, row by row.
+__kernel void duplicate(__global const uint *order,
+                        __global const uint2 *rectangles,
+                        __global const uint *offsets,
+                        __global uint *pair_tiles,
+                        __global uint *pair_gaussians, uint count,
+                        uint tiles_x) {
+  const uint i = get_global_id(0);
+  if (i >= count)
+    return;
+  const uint gaussian = order[i];
+  const uint2 r = rectangles[gaussian];
+  const uint width = (r.y & 0xffff) - (r.x & 0xffff);
+  const uint end = offsets[i + 1];
+  uint tile = (r.x >> 16) * tiles_x + (r.x & 0xffff);
+  uint column = 0;
+  for (uint place = offsets[i]; place < end; ++place) {
+    pair_tiles[place] = tile + column;
+    pair_gaussians[place] = gaussian;
+    ++column;
+    if (column == width) {
+      column = 0;
+      tile += tiles_x;
+    }
+  }
+}
+
+static uint first_pair_of(__global const uint *pair_tiles, uint pairs,
+                          uint tile) {
+  uint low = 0, high = pairs;
+  while (low < high) {
+    const uint middle = (low + high) / 2;
+    if (pair_tiles[middle] < tile)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// Where each tile's list begins and ends in the sorted pairs.
+__kernel void tile_ranges(__global const uint *pair_tiles,
+                          __global uint2 *ranges, uint pairs, uint tiles) {
+  const uint tile = get_global_id(0);
+  if (tile >= tiles)
+    return;
+  ranges[tile] = (uint2)(first_pair_of(pair_tiles, pairs, tile),
+                         first_pair_of(pair_tiles, pairs, tile + 1));
+}

@@ -1,0 +1,39 @@
+// splat: renders 3D Gaussian scenes on an OpenCL device.
+
+#include "commands/Commands.h"
+#include "vorion/support/Diagnostics.h"
+
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+int main(int ArgumentCount, char **Arguments) {
+  using namespace vorion;
+  CLI::App App("Renders 3D Gaussian scenes on an OpenCL device.", "splat");
+  App.footer(std::string(ExitCodeHelp));
+  App.require_subcommand(1);
+
+  std::vector<std::pair<CLI::App *, splat::Runner>> Commands;
+  const auto Add = [&](const char *Name, const char *Description,
+                       splat::Runner (*Declare)(CLI::App &)) {
+    CLI::App *Command = App.add_subcommand(Name, Description);
+    Command->footer(std::string(ExitCodeHelp));
+    Commands.emplace_back(Command, Declare(*Command));
+  };
+  Add("render", "Renders one view of a scene", splat::addRender);
+  Add("compare", "Compares two pictures", splat::addCompare);
+
+  try {
+    App.parse(ArgumentCount, Arguments);
+  } catch (const CLI::Success &E) {
+    return App.exit(E); // --help
+  } catch (const CLI::ParseError &E) {
+    return reportError("splat", {"", E.what(), ExitCode::Usage});
+  }
+  for (auto &[Command, Run] : Commands)
+    if (Command->parsed())
+      if (const auto Done = Run(); !Done)
+        return reportError("splat", Done.error());
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,14 @@
+/// The structures of kernels/layout.h for the host.
+#pragma once
+
+#include <cstdint>
+
+namespace vorion::splat {
+
+using uint = std::uint32_t;
+#include "../kernels/layout.h"
+
+static_assert(sizeof(splat_gaussian) == 48, "docs/abi.md: vx_gaussian");
+static_assert(sizeof(splat_view) == 108, "4-byte members without padding");
+
+} // namespace vorion::splat

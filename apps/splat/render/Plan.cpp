@@ -1,0 +1,122 @@
+#include "Plan.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vorion::splat {
+
+namespace {
+
+std::string supportDefine(Support S) {
+  switch (S) {
+  case Support::Exact:
+    return "SUPPORT_EXACT";
+  case Support::Box3:
+    return "SUPPORT_BOX3";
+  case Support::Square3:
+    return "SUPPORT_SQUARE3";
+  case Support::Official16:
+    return "SUPPORT_OFFICIAL16";
+  }
+  return {};
+}
+
+ProgramSpec projectProgram(int ShDegree, const RenderOptions &O) {
+  const bool Inria = O.Convention == Rules::Inria;
+  ProgramSpec P{
+      ProjectProgram,
+      {"layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl",
+       "project.cl"},
+      {fmt::format("SH_DEGREE={}", ShDegree),
+       fmt::format("TILE_SIZE={}", O.tileSize()), supportDefine(O.Reach),
+       // Both conventions add 0.3 px^2 to the diagonal.
+       "DILATION=0.3f",
+       // Written so that a NaN depth is culled by both.
+       Inria ? "KEEP_DEPTH(z)=((z)>0.2f)" : "KEEP_DEPTH(z)=((z)>=0.01f)"}};
+  if (O.Antialiased) {
+    P.Defines.emplace_back("ANTIALIASED");
+    P.Defines.emplace_back(Inria ? "ANTIALIAS_FLOOR=2.5e-5f"
+                                 : "ANTIALIAS_FLOOR=0.0f");
+  }
+  return P;
+}
+
+ProgramSpec blendProgram(const RenderOptions &O) {
+  ProgramSpec P{BlendProgram, {"layout.h"}, {}};
+  P.Defines.push_back(fmt::format("TILE_SIZE={}", O.tileSize()));
+  if (O.Blending == Path::Raster) {
+    P.Files.emplace_back("rasterize.cl");
+    return P;
+  }
+  P.Files.emplace_back("blend.cl");
+  // e^-5.6 < 1/255: no opacity up to 1 makes such a power visible.
+  P.Defines.emplace_back("MIN_POWER=-5.6f");
+  if (O.Convention == Rules::Gsplat)
+    P.Defines.emplace_back("STOP_AT_EQUAL");
+  return P;
+}
+
+} // namespace
+
+int usedShDegree(const Scene &S) {
+  const std::size_t Stride = 3 * S.coefficients();
+  for (int Degree = S.ShDegree; Degree > 0; --Degree) {
+    const std::size_t First = 3 * shCoefficients(Degree - 1);
+    const std::size_t Last = 3 * shCoefficients(Degree);
+    for (std::size_t I = 0; I < S.size(); ++I) {
+      const auto Begin = S.Sh.begin() + static_cast<std::ptrdiff_t>(I * Stride);
+      if (std::any_of(Begin + static_cast<std::ptrdiff_t>(First),
+                      Begin + static_cast<std::ptrdiff_t>(Last),
+                      [](float V) { return V != 0; }))
+        return Degree;
+    }
+  }
+  return 0;
+}
+
+RenderPlan planRender(const Scene &S, const RenderOptions &Options) {
+  const int ShDegree = usedShDegree(S);
+  return {ShDegree,
+          {projectProgram(ShDegree, Options),
+           {ScanProgram, {"scan.cl"}, {}},
+           {SortProgram, {"sort.cl"}, {}},
+           {TilesProgram, {"layout.h", "tiles.cl"}, {}},
+           blendProgram(Options),
+           {ResolveProgram, {"resolve.cl"}, {}}}};
+}
+
+std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
+                                 const RenderOptions &Options) {
+  std::vector<std::string> Lines;
+  for (const ProgramSpec &P : Plan.Programs)
+    Lines.push_back(
+        fmt::format("program {}: {}{}{}", P.Name, fmt::join(P.Files, " "),
+                    P.Defines.empty() ? "" : "; ", fmt::join(P.Defines, " ")));
+  for (int Band = 0; Band <= MaxShDegree; ++Band) {
+    if (Band <= Plan.ShDegree)
+      Lines.push_back(fmt::format("SH band {}: compiled in", Band));
+    else
+      Lines.push_back(fmt::format(
+          "SH band {}: left out, {}", Band,
+          Band > S.ShDegree ? fmt::format("the scene has degree {}", S.ShDegree)
+                            : "all its coefficients in the scene are zero"));
+  }
+  Lines.emplace_back(
+      Options.Antialiased
+          ? "antialiasing: compiled in (--antialiased)"
+          : "antialiasing: left out, it was not asked for (--antialiased)");
+  Lines.push_back(fmt::format("support {}: compiled in, the others left out",
+                              name(Options.Reach)));
+  Lines.push_back(fmt::format("rules {}: compiled in, the others left out",
+                              name(Options.Convention)));
+  Lines.emplace_back(
+      Options.Blending == Path::Raster
+          ? "blending: by the rasterizer (rasterize.cl); the cores' own "
+            "(blend.cl) left out"
+          : "blending: by the cores (blend.cl); the rasterizer's "
+            "(rasterize.cl) left out, as --path simt asks");
+  return Lines;
+}
+
+} // namespace vorion::splat

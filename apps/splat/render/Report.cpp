@@ -1,0 +1,153 @@
+#include "Report.h"
+
+#include "vorion/support/File.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// FNV-1a, 64 bits: tells inputs apart, guards against nobody.
+Expected<std::string> hashFile(const std::string &File) {
+  auto Bytes = readFile(File);
+  if (!Bytes)
+    return Bytes.error();
+  std::uint64_t Hash = 0xcbf29ce484222325;
+  for (const std::byte B : *Bytes)
+    Hash = (Hash ^ static_cast<std::uint64_t>(B)) * 0x100000001b3;
+  return fmt::format("{:016x}", Hash);
+}
+
+Json json(const KernelCounters &C) {
+  return {{"warp_instructions", C.WarpInstructions},
+          {"lane_instructions", C.LaneInstructions},
+          {"raster_commands", C.RasterCommands},
+          {"raster_gaussians", C.RasterGaussians},
+          {"raster_clipped", C.RasterClipped},
+          {"raster_fragments", C.RasterFragments},
+          {"raster_blends", C.RasterBlends}};
+}
+
+/// The sum of the counters of all kernels, where they were counted.
+std::optional<KernelCounters> sum(const std::vector<KernelReport> &Kernels) {
+  std::optional<KernelCounters> Sum;
+  for (const KernelReport &K : Kernels)
+    if (K.Counters) {
+      Sum = Sum.value_or(KernelCounters{});
+      *Sum += *K.Counters;
+    }
+  return Sum;
+}
+
+Json json(const StageReport &S) {
+  Json Kernels = Json::array();
+  for (const KernelReport &K : S.Kernels) {
+    Json One{
+        {"name", K.Name}, {"launches", K.Launches}, {"seconds", K.Seconds}};
+    if (K.Counters)
+      One["counters"] = json(*K.Counters);
+    Kernels.push_back(std::move(One));
+  }
+  return {{"name", S.Name}, {"seconds", S.Seconds}, {"kernels", Kernels}};
+}
+
+struct Totals {
+  double Seconds = 0;
+  std::optional<KernelCounters> Counters;
+};
+
+Totals totals(const RenderResult &R) {
+  Totals T;
+  for (const StageReport &S : R.Stages) {
+    T.Seconds += S.Seconds;
+    if (const auto Counted = sum(S.Kernels)) {
+      T.Counters = T.Counters.value_or(KernelCounters{});
+      *T.Counters += *Counted;
+    }
+  }
+  return T;
+}
+
+} // namespace
+
+Expected<std::string> jsonReport(const RenderRecord &R) {
+  auto SceneHash = hashFile(R.SceneFile);
+  if (!SceneHash)
+    return SceneHash.error();
+  auto CameraHash = hashFile(R.CameraFile);
+  if (!CameraHash)
+    return CameraHash.error();
+  const RenderOptions &O = R.Options;
+  Json Stages = Json::array();
+  for (const StageReport &S : R.Result.Stages)
+    Stages.push_back(json(S));
+  const Totals T = totals(R.Result);
+  Json Total{{"seconds", T.Seconds}};
+  if (T.Counters)
+    Total["counters"] = json(*T.Counters);
+
+  const Json Report{
+      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+      {"scene",
+       {{"file", R.SceneFile},
+        {"fnv1a64", *SceneHash},
+        {"gaussians", R.Input.size()},
+        {"sh_degree", R.Input.ShDegree}}},
+      {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
+      {"view", R.View.Name},
+      {"resolution", {R.View.Width, R.View.Height}},
+      {"rules", name(O.Convention)},
+      {"support", name(O.Reach)},
+      {"path", name(O.Blending)},
+      {"options",
+       {{"tile", O.tileSize()},
+        {"antialiased", O.Antialiased},
+        {"background", O.Background},
+        {"cutoff", O.Cutoff},
+        {"exp", name(O.Exponential)},
+        {"sh_degree_compiled", R.Plan.ShDegree}}},
+      {"device",
+       {{"name", R.Dev.name()},
+        {"version", R.Dev.version()},
+        {"compute_units", R.Dev.computeUnits()},
+        {"global_bytes", R.Dev.globalBytes()}}},
+      {"picture", R.Output},
+      {"counts",
+       {{"visible", R.Result.Visible},
+        {"pairs", R.Result.Pairs},
+        {"device_bytes", R.Result.DeviceBytes}}},
+      {"stages", Stages},
+      {"total", Total}};
+  return Report.dump(2) + "\n";
+}
+
+std::string textReport(const Camera &View, const RenderOptions &Options,
+                       const Device &Dev, const RenderResult &Result) {
+  std::string Text = fmt::format(
+      "{} {}x{} on {}: {} rules, support {}, path {}\n{} Gaussians seen, {} "
+      "pairs with tiles of {}x{}\n",
+      View.Name, View.Width, View.Height, Dev.name(), name(Options.Convention),
+      name(Options.Reach), name(Options.Blending), Result.Visible, Result.Pairs,
+      Options.tileSize(), Options.tileSize());
+  Text += fmt::format("{:<16}{:>10}{:>16}{:>18}{:>14}\n", "stage", "seconds",
+                      "warp instr.", "lane instr.", "raster blends");
+  const auto Row = [&](const std::string &Name, double Seconds,
+                       const std::optional<KernelCounters> &C) {
+    Text += fmt::format("{:<16}{:>10.3f}", Name, Seconds);
+    if (C)
+      Text += fmt::format("{:>16}{:>18}{:>14}", C->WarpInstructions,
+                          C->LaneInstructions, C->RasterBlends);
+    Text += '\n';
+  };
+  for (const StageReport &S : Result.Stages)
+    Row(S.Name, S.Seconds, sum(S.Kernels));
+  const Totals T = totals(Result);
+  Row("total", T.Seconds, T.Counters);
+  return Text;
+}
+
+} // namespace vorion::splat
