@@ -30,6 +30,16 @@ Mat3<Real> multiply(const Mat3<Real> &A, const Mat3<Real> &B) {
   return R;
 }
 
+/// \c Splat::DepthSlack of a mean.
+template <typename Real>
+double depthSlack(const Camera<Real> &C, const Vec3<Real> &Mean) {
+  double Magnitude = std::abs(double(C.Translation.z));
+  for (int K = 0; K < 3; ++K)
+    Magnitude += std::abs(double(C.Rotation[K][2]) * double(Mean[K]));
+  constexpr double UnitRoundoff = 0x1p-24;
+  return 0.5 * UnitRoundoff * Magnitude;
+}
+
 /// The rotation of a unit quaternion (w, x, y, z); none for the zero one.
 template <typename Real> Mat3<Real> rotation(const glm::vec<4, Real> &Q) {
   const Real W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
@@ -139,6 +149,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   if (!InFront)
     return S;
   S.Depth = P.z;
+  S.DepthSlack = depthSlack(C, G.Means[I]);
   S.Mean = {C.Focal.x * P.x / P.z + C.Principal.x,
             C.Focal.y * P.y / P.z + C.Principal.y};
 

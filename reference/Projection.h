@@ -12,6 +12,11 @@ template <typename Real> struct Splat {
   bool Visible = false;   ///< false: culled, and nothing below is meaningful
   glm::vec<2, Real> Mean; ///< pixels
   Real Depth = 0;         ///< camera z
+  /// How far fp32 is typically off in z: half the unit roundoff times the sum
+  /// of the magnitudes of its terms. (The bound on the error is ten times this,
+  /// but roundings rarely add up; by the bound, most pixels of a dense scene
+  /// would be in doubt.)
+  double DepthSlack = 0;
   glm::vec<3, Real> Covariance; ///< xx, xy, yy, dilated, px^2
   glm::vec<3, Real> Conic;      ///< its inverse: xx, xy, yy
   Real Compensation = 1;        ///< the antialiasing factor

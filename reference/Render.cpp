@@ -34,11 +34,33 @@ template <typename Real> struct Candidate {
   glm::vec<2, Real> Mean, Extent;
   glm::vec<3, Real> Conic, Color;
   Real Opacity;
-  double Depth;
+  double Depth, DepthSlack;
   Rect Official; ///< pixels, for Official16
   Border Edge;   ///< for supports with a border
   std::int32_t Index;
   bool Listed; ///< in the tile's list, and not only doubtfully so
+};
+
+/// Watches the depths of the Gaussians that a pixel sees, front to back.
+class DepthOrder {
+public:
+  /// Takes the next one; true if one of another depth may belong behind it.
+  bool doubtful(double Depth, double Slack) {
+    if (Depth != Current) {
+      Before = std::max(Before, Here);
+      Here = -std::numeric_limits<double>::infinity();
+      Current = Depth;
+    }
+    Here = std::max(Here, Depth + Slack);
+    return Depth - Slack < Before;
+  }
+
+private:
+  /// Farthest that a Gaussian may be: of those at the current depth, and of
+  /// those before.
+  double Here = -std::numeric_limits<double>::infinity();
+  double Before = -std::numeric_limits<double>::infinity();
+  double Current = -std::numeric_limits<double>::infinity();
 };
 
 bool near(double Value, double Threshold) {
@@ -142,6 +164,7 @@ private:
     C.Color = S.Color;
     C.Opacity = S.Opacity;
     C.Depth = S.Depth;
+    C.DepthSlack = S.DepthSlack;
     C.Official = officialPixels(S.Mean, S.Extent.x, P.Width, P.Height);
     C.Edge = borderOf(S, O.Reach, P.Width, P.Height);
     C.Index = static_cast<std::int32_t>(I);
@@ -169,8 +192,7 @@ private:
     glm::vec<3, Real> Color(0);
     std::uint8_t Doubts = 0;
     std::int32_t Last = -1;
-    // A number below all depths, however they are compared.
-    double DepthBefore = -std::numeric_limits<double>::infinity();
+    DepthOrder Order;
     for (const Candidate<Real> &C : List) {
       Sum.Walked += C.Listed;
       const Real Dx = C.Mean.x - Px, Dy = C.Mean.y - Py;
@@ -193,11 +215,8 @@ private:
         Doubts |= DoubtThreshold;
       if (!Inside || Alpha < leastAlpha<Real>())
         continue;
-      // Equal depths are safe: they come from equal inputs, not from rounding.
-      if (C.Depth != DepthBefore &&
-          C.Depth - DepthBefore <= orderSlack(C.Depth))
+      if (Order.doubtful(C.Depth, C.DepthSlack))
         Doubts |= DoubtOrder;
-      DepthBefore = C.Depth;
       const Real Next = T * (1 - Alpha);
       if (near(Next, O.Cutoff))
         Doubts |= DoubtThreshold;
@@ -229,12 +248,6 @@ private:
 };
 
 } // namespace
-
-double orderSlack(double Depth) {
-  const auto Single = static_cast<float>(Depth);
-  return std::nextafter(Single, std::numeric_limits<float>::infinity()) -
-         double(Single);
-}
 
 template <typename Real> double Picture<Real>::doubtfulShare() const {
   const auto Doubtful = std::count_if(Doubts.begin(), Doubts.end(),

@@ -14,16 +14,14 @@ enum Doubt : std::uint8_t {
   /// A decision at alpha = 1/255, at the transmittance cut-off or at the border
   /// of the support lies within \c DoubtBand of its threshold.
   DoubtThreshold = 1,
-  /// Two Gaussians visible there have depths closer than \c orderSlack.
+  /// Two Gaussians visible there have different depths that fp32 may turn
+  /// round: closer than the sum of their \c Splat::DepthSlack. Equal depths are
+  /// safe: they come from equal inputs, not from rounding.
   DoubtOrder = 2,
 };
 
 /// Relative width of the doubtful band around a threshold.
 inline constexpr double DoubtBand = 1e-5;
-
-/// Difference of depths that a computation of z in fp32 may turn round: one
-/// unit in the last place of the fp32 number next to \p Depth > 0.
-double orderSlack(double Depth);
 
 /// A rendered picture, rows from the top.
 template <typename Real> struct Picture {

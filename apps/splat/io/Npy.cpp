@@ -115,6 +115,25 @@ std::optional<std::size_t> bytesOf(const std::vector<std::size_t> &Shape,
   return Bytes;
 }
 
+/// Reorders elements that lie first index fastest.
+void toCOrder(NpyArray &A) {
+  const std::size_t Size = elementSize(A.Type);
+  std::vector<std::byte> Sorted(A.Bytes.size());
+  std::vector<std::size_t> Index(A.Shape.size(), 0);
+  for (std::size_t To = 0; To < Sorted.size(); To += Size) {
+    std::size_t From = 0;
+    for (std::size_t D = A.Shape.size(); D-- > 0;)
+      From = From * A.Shape[D] + Index[D];
+    std::memcpy(&Sorted[To], &A.Bytes[From * Size], Size);
+    for (std::size_t D = A.Shape.size(); D-- > 0;) {
+      if (++Index[D] < A.Shape[D])
+        break;
+      Index[D] = 0;
+    }
+  }
+  A.Bytes = std::move(Sorted);
+}
+
 } // namespace
 
 std::size_t NpyArray::elements() const {
@@ -187,8 +206,6 @@ Expected<NpyArray> parseNpy(const std::string &Where,
   if (!Descr || !Fortran || !Shape)
     return Error{Where, "malformed .npy header, expected descr, fortran_order "
                         "and shape"};
-  if (!Fortran->starts_with("False"))
-    return Error{Where, "array in Fortran order, expected C order"};
   const std::size_t Quote = Descr->find('\'', 1);
   const std::string_view Type =
       Descr->starts_with('\'') && Quote != std::string_view::npos && Quote > 1
@@ -208,6 +225,8 @@ Expected<NpyArray> parseNpy(const std::string &Where,
                              ShapeText->substr(0, ShapeText->find(')') + 1))};
   NpyArray A{std::string(Type.substr(1)), *Shape, {}};
   A.Bytes.assign(Bytes.end() - static_cast<std::ptrdiff_t>(Body), Bytes.end());
+  if (!Fortran->starts_with("False"))
+    toCOrder(A);
   return A;
 }
 

@@ -41,8 +41,9 @@ struct NpyArray {
 
 using Npz = std::map<std::string, NpyArray>;
 
-/// Reads the arrays of \p Path, stored or deflated. Refused with the reason:
-/// what is no zip archive, Fortran order, big endian, element types not listed
+/// Reads the arrays of \p Path, stored or deflated; Fortran order becomes C
+/// order. Refused with the reason:
+/// what is no zip archive, big endian, element types not listed
 /// above, sizes that do not match the shape.
 Expected<Npz> readNpz(const std::string &Path);
 

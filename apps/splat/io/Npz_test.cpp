@@ -89,6 +89,14 @@ TEST(Npy, ReadsWhatNumpyWrites) {
   EXPECT_EQ(parse(Version2)->toDoubles(), (std::vector<double>{'x'}));
 }
 
+TEST(Npy, FortranOrderBecomesCOrder) {
+  // [[1, 2, 3], [4, 5, 6]], first index fastest in the file.
+  const std::string Columns("\1\4\2\5\3\6", 6);
+  const auto A = parse(npy(header("|u1", "(2, 3)", "True"), Columns));
+  ASSERT_TRUE(A) << A.error().What;
+  EXPECT_EQ(A->toDoubles(), (std::vector<double>{1, 2, 3, 4, 5, 6}));
+}
+
 TEST(Npy, EachKindOfDamageHasItsMessage) {
   const auto Expect = [](const std::string &File, const char *Message) {
     const auto A = parse(File);
@@ -100,7 +108,6 @@ TEST(Npy, EachKindOfDamageHasItsMessage) {
   Expect("", "not a .npy array");
   Expect("\x93NUMPX1234567890", "not a .npy array");
   Expect(std::string("\x93NUMPY\7\0\0\0", 10), ".npy version 7");
-  Expect(npy(header("<f4", "(1,)", "True"), Four), "Fortran order");
   Expect(npy(header(">f4", "(1,)"), Four), "element type `>f4`");
   Expect(npy(header("<f2", "(2,)"), Four), "element type `<f2`");
   Expect(npy(header("", "(2,)"), Four), "element type ``");
