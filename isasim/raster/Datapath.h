@@ -51,9 +51,10 @@ struct Datapath {
   const char *Name;
   bool (*HostHasIt)();
   /// By vr_options.exp: blends one Gaussian (no NaN) into a tile.
-  BlendWork (*Blend[2])(const Gaussian &, const BlendOptions &, TileBuffer &);
+  BlendWork (*Blend[ExpUnitCount])(const Gaussian &, const BlendOptions &,
+                                   TileBuffer &);
   /// By vr_options.exp: the unit alone, in place, \p Count a multiple of 16.
-  void (*Exp[2])(float *Values, std::size_t Count);
+  void (*Exp[ExpUnitCount])(float *Values, std::size_t Count);
 };
 
 /// The datapaths that this host can run, the fastest last.

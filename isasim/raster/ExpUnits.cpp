@@ -4,7 +4,7 @@ namespace vorion::raster {
 
 // Latencies are for the timing model: the table unit's multiplications are
 // small enough for one stage each, the other's are of 53 bits.
-static constexpr ExpUnit Units[] = {
+static constexpr ExpUnit Units[ExpUnitCount] = {
     {.Option = 0,
      .Name = "correctly-rounded",
      .LatencyCycles = 8,

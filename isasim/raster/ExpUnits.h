@@ -5,6 +5,7 @@
 
 #include "raster/RasterTables.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -22,6 +23,9 @@ struct ExpUnit {
   double MaxRelativeError;      ///< bound for results of at least 2^-125
   std::string_view Explanation; ///< one sentence for `--explain`
 };
+
+/// How many there are: options 0 to ExpUnitCount - 1.
+inline constexpr std::size_t ExpUnitCount = 2;
 
 /// The units that exist, by option; any other option is VR_BAD_MODE.
 std::span<const ExpUnit> expUnits();
@@ -49,6 +53,11 @@ struct Segments {
   std::int32_t Words[Entries];
 };
 
+constexpr std::int32_t nearest(double Positive) {
+  const auto Down = static_cast<std::int32_t>(Positive);
+  return Positive - Down < 0.5 ? Down : Down + 1;
+}
+
 /// Square roots of 1/2 by Newton's method give 2^(-1/16) at compile time.
 constexpr Segments makeSegments() {
   double Step = 0.5;
@@ -61,10 +70,9 @@ constexpr Segments makeSegments() {
   Segments S{};
   double Value = 1 << FractionBits;
   for (int I = 0; I != Entries; ++I) {
-    const auto Here = static_cast<std::int32_t>(Value + 0.5);
+    const auto Here = nearest(Value);
     Value *= Step;
-    S.Words[I] =
-        Here << DropBits | (Here - static_cast<std::int32_t>(Value + 0.5));
+    S.Words[I] = Here << DropBits | (Here - nearest(Value));
   }
   return S;
 }

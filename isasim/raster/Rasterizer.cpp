@@ -93,7 +93,7 @@ std::uint32_t Execution::check() const {
                                      OptionsSkipSaturated.put(1);
   const std::uint32_t Parts = ZtileCount.get(C.Ztile);
   if ((C.Mode & ~KnownMode) != 0 || (C.Options & ~KnownOptions) != 0 ||
-      OptionsExp.get(C.Options) >= expUnits().size() ||
+      OptionsExp.get(C.Options) >= ExpUnitCount ||
       ZtileIndex.get(C.Ztile) >= (Parts == 0 ? 1 : Parts))
     return VR_BAD_MODE;
   if (Width < 1 || Width > VR_MAX_TILE || Height < 1 || Height > VR_MAX_TILE)

@@ -72,8 +72,9 @@ Result scalar(const Scene &S) {
     ++Out.Work.Gaussians;
     std::uint64_t Fragments = 0;
     for (unsigned I = 0; I != Out.Pixels.size(); ++I) {
+      const unsigned Row = I / S.Width;
       const float Px = static_cast<float>(S.X + I % S.Width) + 0.5F;
-      const float Py = static_cast<float>(S.Y + I / S.Width) + 0.5F;
+      const float Py = static_cast<float>(S.Y + Row) + 0.5F;
       if (!(std::fabs(Px - G.Mean[0]) <= G.Extent[0] &&
             std::fabs(Py - G.Mean[1]) <= G.Extent[1]))
         continue;
@@ -184,9 +185,10 @@ std::vector<DoublePixel> inDoubles(const Scene &S) {
   std::vector<DoublePixel> Out(std::size_t{S.Width} * S.Height);
   for (unsigned I = 0; I != Out.size(); ++I) {
     DoublePixel &P = Out[I];
+    const unsigned Row = I / S.Width;
     for (const Gaussian &G : S.Gaussians) {
       const double Dx = double{G.Mean[0]} - (S.X + I % S.Width + 0.5);
-      const double Dy = double{G.Mean[1]} - (S.Y + I / S.Width + 0.5);
+      const double Dy = double{G.Mean[1]} - (S.Y + Row + 0.5);
       P.Doubtful |= Near(std::fabs(Dx), double{G.Extent[0]}) ||
                     Near(std::fabs(Dy), double{G.Extent[1]});
       if (std::fabs(Dx) > double{G.Extent[0]} ||
