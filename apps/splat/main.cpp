@@ -22,6 +22,8 @@ int main(int ArgumentCount, char **Arguments) {
     Commands.emplace_back(Command, Declare(*Command));
   };
   Add("render", "Renders one view of a scene", splat::addRender);
+  Add("demo-scene", "Writes the project's own scene and its cameras",
+      splat::addDemoScene);
   Add("compare", "Compares two pictures", splat::addCompare);
 
   try {

@@ -1,0 +1,48 @@
+#include "../demo/DemoScene.h"
+
+#include "../io/Ply.h"
+#include "Commands.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+
+namespace vorion::splat {
+
+namespace {
+
+struct DemoArguments {
+  std::string Output, Cameras;
+  int Gaussians = demo::DefaultGaussians;
+};
+
+Expected<Success> run(const DemoArguments &A) {
+  const Scene S = demo::makeScene(A.Gaussians);
+  if (auto Written = writePly(A.Output, S); !Written)
+    return Written.error();
+  fmt::print("{}: {} Gaussians, SH degree {}\n", A.Output, S.size(),
+             S.ShDegree);
+  if (A.Cameras.empty())
+    return Success{};
+  const std::vector<Camera> Cameras = demo::makeCameras();
+  if (auto Written = writeCameras(A.Cameras, Cameras); !Written)
+    return Written.error();
+  for (const Camera &C : Cameras)
+    fmt::print("{}: view {}, {}x{}\n", A.Cameras, C.Name, C.Width, C.Height);
+  return Success{};
+}
+
+} // namespace
+
+Runner addDemoScene(CLI::App &App) {
+  auto A = std::make_shared<DemoArguments>();
+  App.add_option("-o,--output", A->Output, "Scene to write (.ply)")->required();
+  App.add_option("--cameras", A->Cameras, "Write its views too (cameras.json)");
+  App.add_option(
+         "--gaussians", A->Gaussians,
+         fmt::format("About how many (default {})", demo::DefaultGaussians))
+      ->check(CLI::Range(demo::FewestGaussians, demo::MostGaussians));
+  return [A] { return run(*A); };
+}
+
+} // namespace vorion::splat
