@@ -31,7 +31,7 @@ def main():
     parser.add_argument("output")
     options = parser.parse_args()
     records = Records(options.tblgen)
-    note = "Generated from intrinsics/*.td by intrinsics/generate/assembly.py; do not edit."
+    note = "Generated from the records of intrinsics/ by intrinsics/generate/assembly.py; do not edit."
     lines = [f"/* {note} */"]
     if options.format == "asm":
         lines += [f"#define {name} {value:#x}" for name, value in [*numbers(records), *offsets(records)]]

@@ -1,0 +1,428 @@
+/// The C interface against a real machine, with the kernels of
+/// testing/kernels.S.
+#include "vorion/runtime.h"
+#include "vorion/support/File.h"
+#include "vorion_abi.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+namespace {
+
+// KERNELS_ELF is given by the build.
+constexpr const char *Elf = KERNELS_ELF;
+/// Small memory, and an end for what would not end.
+constexpr const char *Config =
+    R"({"GlobalBytes": 8388608, "MaxInstructions": 100000})";
+
+class Runtime : public testing::Test {
+protected:
+  void SetUp() override {
+    ASSERT_EQ(vx_device_open(Config, &Device), VX_OK) << vx_last_error();
+    ASSERT_EQ(vx_image_load_file(Device, Elf, &Image), VX_OK)
+        << vx_last_error();
+    ASSERT_EQ(vx_device_get_info(Device, &Info), VX_OK);
+  }
+  void TearDown() override {
+    EXPECT_EQ(vx_image_free(Image), VX_OK);
+    EXPECT_EQ(vx_device_close(Device), VX_OK);
+  }
+
+  std::uint32_t find(const char *Name) {
+    std::uint32_t Kernel = ~0U;
+    EXPECT_EQ(vx_image_find_kernel(Image, Name, &Kernel), VX_OK)
+        << vx_last_error();
+    return Kernel;
+  }
+  std::uint32_t allocate(std::uint64_t Size) {
+    std::uint32_t Address = 0;
+    EXPECT_EQ(vx_mem_alloc(Device, Size, &Address), VX_OK) << vx_last_error();
+    return Address;
+  }
+  std::vector<std::uint32_t> words(std::uint32_t Address, std::size_t Count) {
+    std::vector<std::uint32_t> Words(Count);
+    EXPECT_EQ(vx_copy_from_device(Device, Words.data(), Address, 4 * Count),
+              VX_OK)
+        << vx_last_error();
+    return Words;
+  }
+  vx_status start(const char *Kernel, const std::vector<std::uint32_t> &Args,
+                  const vx_launch_params &Params = OneItem) {
+    return vx_start(Device, Image, find(Kernel), &Params, Args.data(),
+                    static_cast<std::uint32_t>(4 * Args.size()));
+  }
+  vx_result wait() {
+    vx_result Result{};
+    EXPECT_EQ(vx_wait(Device, &Result), VX_OK) << vx_last_error();
+    return Result;
+  }
+  vx_result run(const char *Kernel, const std::vector<std::uint32_t> &Args) {
+    EXPECT_EQ(start(Kernel, Args), VX_OK) << vx_last_error();
+    return wait();
+  }
+
+  static constexpr vx_launch_params OneItem{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  vx_device *Device = nullptr;
+  vx_image *Image = nullptr;
+  vx_device_info Info{};
+};
+
+TEST_F(Runtime, RunsAKernelOnEveryCore) {
+  const std::uint32_t Out = allocate(4 * Info.cores);
+  const vx_result Result = run("store", {Out, 100});
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_DONE) << Result.report;
+  EXPECT_STREQ(Result.report, "");
+  EXPECT_GT(Result.counters.warp_instructions, 8 * Info.cores);
+  EXPECT_EQ(Result.counters.stores, Info.cores);
+  std::vector<std::uint32_t> Expected(Info.cores);
+  std::iota(Expected.begin(), Expected.end(), 100);
+  EXPECT_EQ(words(Out, Info.cores), Expected);
+}
+
+TEST_F(Runtime, ListsKernelsAndArguments) {
+  std::uint32_t Count = 0;
+  ASSERT_EQ(vx_image_num_kernels(Image, &Count), VX_OK);
+  EXPECT_EQ(Count, 9u);
+  vx_kernel_info Kernel{};
+  ASSERT_EQ(vx_image_get_kernel(Image, find("copy_launch"), &Kernel), VX_OK);
+  EXPECT_STREQ(Kernel.name, "copy_launch");
+  EXPECT_EQ(Kernel.num_args, 1u);
+  EXPECT_EQ(Kernel.args_bytes, 4u);
+  EXPECT_EQ(Kernel.context_bytes, 100u);
+  EXPECT_EQ(Kernel.local_size[0], 4u);
+  EXPECT_EQ(Kernel.local_size[1], 2u);
+  vx_arg_info Arg{};
+  ASSERT_EQ(vx_image_get_arg(Image, find("locals"), 2, &Arg), VX_OK);
+  EXPECT_STREQ(Arg.name, "second");
+  EXPECT_EQ(Arg.kind, VX_ARG_LOCAL);
+  EXPECT_EQ(Arg.offset, 8u);
+  EXPECT_EQ(Arg.size, 4u);
+  EXPECT_EQ(vx_image_get_arg(Image, find("locals"), 3, &Arg),
+            VX_ERROR_NOT_FOUND);
+  EXPECT_EQ(vx_image_find_kernel(Image, "absent", &Count), VX_ERROR_NOT_FOUND);
+  EXPECT_STREQ(vx_last_error(), "the image has no kernel absent");
+}
+
+TEST_F(Runtime, FillsTheLaunchBlock) {
+  const std::uint32_t Out = allocate(sizeof(vx_launch));
+  const vx_launch_params Params{2, {3, 5, 1}, {4, 2, 1}, {7, 8, 9}};
+  ASSERT_EQ(start("copy_launch", {Out}, Params), VX_OK) << vx_last_error();
+  EXPECT_EQ(wait().outcome, VX_OUTCOME_DONE);
+  vx_launch Block;
+  ASSERT_EQ(vx_copy_from_device(Device, &Block, Out, sizeof(Block)), VX_OK);
+  EXPECT_EQ(Block.work_dim, 2u);
+  EXPECT_EQ(Block.num_groups[1], 5u);
+  EXPECT_EQ(Block.local_size[0], 4u);
+  EXPECT_EQ(Block.global_offset[2], 9u);
+  // 8 work-items of 100 bytes, rounded up to the alignment.
+  EXPECT_EQ(Block.context_stride, 896u);
+  EXPECT_GE(Block.context, Info.global_base);
+  EXPECT_EQ(Block.print_used, 0u);
+  EXPECT_GE(Block.print_capacity, 1u << 20);
+}
+
+TEST_F(Runtime, GivesBackWhatARunUsed) {
+  const std::uint32_t Out = allocate(sizeof(vx_launch));
+  vx_device_info Before{}, After{};
+  ASSERT_EQ(vx_device_get_info(Device, &Before), VX_OK);
+  const vx_launch_params Params{2, {1, 1, 1}, {4, 2, 1}, {0, 0, 0}};
+  ASSERT_EQ(start("copy_launch", {Out}, Params), VX_OK);
+  wait();
+  ASSERT_EQ(vx_device_get_info(Device, &After), VX_OK);
+  EXPECT_EQ(After.free_bytes, Before.free_bytes);
+  EXPECT_EQ(After.largest_free_bytes, Before.largest_free_bytes);
+}
+
+TEST_F(Runtime, PlacesLocalArgumentsAfterStaticOnes) {
+  const std::uint32_t Out = allocate(8);
+  std::uint32_t Args[3] = {Out, 0, 0};
+  const std::uint64_t Sizes[2] = {130, 4};
+  std::uint32_t Total = 0;
+  ASSERT_EQ(
+      vx_image_place_locals(Image, find("locals"), Sizes, 2, Args, &Total),
+      VX_OK)
+      << vx_last_error();
+  // 100 static bytes, then two blocks on boundaries of 128.
+  EXPECT_EQ(Args[1], VX_LOCAL_BASE + 128);
+  EXPECT_EQ(Args[2], VX_LOCAL_BASE + 128 + 256);
+  EXPECT_EQ(Total, 128u + 256u + 4u);
+  run("locals", {Args[0], Args[1], Args[2]});
+  EXPECT_EQ(words(Out, 2), (std::vector<std::uint32_t>{Args[1], Args[2]}));
+
+  const std::uint64_t TooLarge[2] = {130, Info.local_bytes};
+  EXPECT_EQ(
+      vx_image_place_locals(Image, find("locals"), TooLarge, 2, Args, nullptr),
+      VX_ERROR_MEMORY);
+  EXPECT_EQ(
+      vx_image_place_locals(Image, find("locals"), Sizes, 1, Args, nullptr),
+      VX_ERROR_ARGUMENT);
+  const std::uint64_t Huge[2] = {UINT64_MAX, UINT64_MAX};
+  EXPECT_EQ(
+      vx_image_place_locals(Image, find("locals"), Huge, 2, Args, nullptr),
+      VX_ERROR_MEMORY);
+}
+
+TEST_F(Runtime, AnImageKeepsItsDataWhileOthersRun) {
+  vx_image *Other = nullptr;
+  ASSERT_EQ(vx_image_load_file(Device, Elf, &Other), VX_OK);
+  const std::uint32_t Out = allocate(4);
+  run("count", {Out});
+  EXPECT_EQ(words(Out, 1)[0], 41u);
+  std::swap(Image, Other);
+  run("count", {Out});
+  EXPECT_EQ(words(Out, 1)[0], 41u) << "the second image has data of its own";
+  std::swap(Image, Other);
+  run("count", {Out});
+  EXPECT_EQ(words(Out, 1)[0], 42u) << "the first image's data came back";
+  EXPECT_EQ(vx_image_free(Other), VX_OK);
+}
+
+TEST_F(Runtime, ReturnsPrintedText) {
+  vx_result Result = run("print", {3});
+  EXPECT_EQ(std::string(Result.print_text, Result.print_bytes), "hi\n");
+  EXPECT_EQ(Result.print_dropped, 0u);
+  Result = run("store", {allocate(64), 0});
+  EXPECT_EQ(Result.print_bytes, 0u) << "text of an earlier run";
+}
+
+TEST_F(Runtime, CountsTextThatDidNotFit) {
+  const vx_result Result = run("print", {(1 << 20) + 5});
+  EXPECT_EQ(Result.print_bytes, std::size_t{1} << 20);
+  EXPECT_EQ(Result.print_dropped, 5u);
+}
+
+TEST_F(Runtime, AFaultIsAResultAndTheDeviceGoesOn) {
+  vx_result Result = run("fault", {});
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_FAULT);
+  EXPECT_NE(std::string(Result.report).find("fault"), std::string::npos)
+      << Result.report;
+  const std::uint32_t Out = allocate(4 * Info.cores);
+  Result = run("store", {Out, 5});
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_DONE) << Result.report;
+  EXPECT_EQ(words(Out, 1)[0], 5u);
+}
+
+TEST_F(Runtime, HangsLimitsAndExitCodesAreResults) {
+  vx_result Result = run("hang", {});
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_HANG);
+  EXPECT_STRNE(Result.report, "");
+  Result = run("forever", {});
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_LIMIT);
+  EXPECT_STRNE(Result.report, "");
+  Result = run("exit_seven", {});
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_EXIT);
+  EXPECT_EQ(Result.exit_code, 7u);
+}
+
+TEST_F(Runtime, RunsAProgramWithoutALaunchBlock) {
+  ASSERT_EQ(vx_start_main(Device, Image), VX_OK) << vx_last_error();
+  const vx_result Result = wait();
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_EXIT);
+  EXPECT_EQ(Result.exit_code, 3u);
+  EXPECT_STREQ(Result.console_text, "m\nm\nm\nm\nm\nm\nm\nm\n");
+}
+
+TEST_F(Runtime, NoGroupsRunNothing) {
+  const vx_launch_params Params{1, {0, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  ASSERT_EQ(start("exit_seven", {}, Params), VX_OK) << vx_last_error();
+}
+
+TEST_F(Runtime, WaitingTwiceGivesTheSameResult) {
+  const std::uint32_t Out = allocate(4 * Info.cores);
+  const vx_result First = run("store", {Out, 1});
+  const vx_result Second = wait();
+  EXPECT_EQ(First.counters.warp_instructions,
+            Second.counters.warp_instructions);
+  EXPECT_EQ(First.report, Second.report);
+}
+
+TEST_F(Runtime, WaitingForNothingIsAnError) {
+  vx_result Result{};
+  EXPECT_EQ(vx_wait(Device, &Result), VX_ERROR_BUSY);
+}
+
+TEST_F(Runtime, CopiesWaitForTheRun) {
+  const std::uint32_t Out = allocate(4 * Info.cores);
+  ASSERT_EQ(start("store", {Out, 9}), VX_OK);
+  EXPECT_EQ(words(Out, 1)[0], 9u); // no vx_wait before
+}
+
+TEST_F(Runtime, RefusesBadLaunches) {
+  const std::uint32_t Out = allocate(4 * Info.cores);
+  const std::uint32_t Args[2] = {Out, 1};
+  const auto Status = [&](const vx_launch_params &Params) {
+    return vx_start(Device, Image, find("store"), &Params, Args, 8);
+  };
+  EXPECT_EQ(Status({0, {1, 1, 1}, {1, 1, 1}, {}}), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(Status({4, {1, 1, 1}, {1, 1, 1}, {}}), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(Status({1, {1, 2, 1}, {1, 1, 1}, {}}), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(Status({1, {1, 1, 1}, {0, 1, 1}, {}}), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(Status({3, {1, 1, 1}, {1025, 1, 1}, {}}), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(Status({3, {1, 1, 1}, {65536, 65536, 1}, {}}), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(Status({3, {~0U, ~0U, ~0U}, {1, 1, 1}, {}}), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_start(Device, Image, find("store"), &OneItem, Args, 4),
+            VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_start(Device, Image, find("store"), &OneItem, nullptr, 8),
+            VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_start(Device, Image, 99, &OneItem, Args, 8), VX_ERROR_NOT_FOUND);
+  // copy_launch was compiled for groups of 4 x 2.
+  EXPECT_EQ(vx_start(Device, Image, find("copy_launch"), &OneItem, Args, 4),
+            VX_ERROR_ARGUMENT);
+}
+
+TEST_F(Runtime, RefusesImagesOfAnotherDevice) {
+  vx_device *Other = nullptr;
+  ASSERT_EQ(vx_device_open(Config, &Other), VX_OK);
+  EXPECT_EQ(vx_start_main(Other, Image), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_device_close(Other), VX_OK);
+}
+
+TEST_F(Runtime, MemoryExhaustionIsAnError) {
+  std::uint32_t Address = 0;
+  EXPECT_EQ(vx_mem_alloc(Device, Info.global_bytes + 1, &Address),
+            VX_ERROR_MEMORY);
+  ASSERT_EQ(vx_mem_alloc(Device, Info.largest_free_bytes, &Address), VX_OK);
+  // Not even the launch block fits now.
+  EXPECT_EQ(start("exit_seven", {}), VX_ERROR_MEMORY);
+  EXPECT_EQ(vx_mem_free(Device, Address), VX_OK);
+  EXPECT_EQ(vx_mem_free(Device, Address), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_mem_free(Device, 0), VX_OK);
+  EXPECT_EQ(run("exit_seven", {}).exit_code, 7u);
+}
+
+TEST_F(Runtime, CopiesFillsAndRangesAreChecked) {
+  const std::uint32_t A = allocate(64), B = allocate(64);
+  const std::uint32_t Pattern = 0x12345678;
+  ASSERT_EQ(vx_fill_device(Device, A, &Pattern, 4, 64), VX_OK);
+  ASSERT_EQ(vx_copy_on_device(Device, B, A, 64), VX_OK);
+  EXPECT_EQ(words(B, 16), std::vector<std::uint32_t>(16, Pattern));
+  EXPECT_EQ(vx_fill_device(Device, A, &Pattern, 4, 63), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_fill_device(Device, A, &Pattern, 0, 64), VX_ERROR_ARGUMENT);
+
+  void *Host = nullptr;
+  ASSERT_EQ(vx_mem_host_pointer(Device, B, 64, &Host), VX_OK);
+  EXPECT_EQ(*static_cast<std::uint32_t *>(Host), Pattern);
+
+  std::byte Bytes[16];
+  const auto End =
+      static_cast<std::uint32_t>(Info.global_base + Info.global_bytes);
+  for (const std::uint32_t Bad :
+       {0U, 0x40U, End - 8, VX_IMAGE_BASE, VX_LOCAL_BASE, 0xfffffff8U}) {
+    EXPECT_EQ(vx_copy_from_device(Device, Bytes, Bad, 16), VX_ERROR_ARGUMENT);
+    EXPECT_EQ(vx_copy_to_device(Device, Bad, Bytes, 16), VX_ERROR_ARGUMENT);
+    EXPECT_EQ(vx_mem_host_pointer(Device, Bad, 16, &Host), VX_ERROR_ARGUMENT);
+  }
+  EXPECT_EQ(vx_copy_from_device(Device, Bytes, A, UINT64_MAX),
+            VX_ERROR_ARGUMENT);
+}
+
+TEST_F(Runtime, ThreadsTakeTurns) {
+  const std::uint32_t Out = allocate(4 * Info.cores);
+  std::vector<std::thread> Threads;
+  for (unsigned T = 0; T < 4; ++T)
+    Threads.emplace_back([&] {
+      for (unsigned I = 0; I < 20; ++I) {
+        std::uint32_t Address = 0;
+        EXPECT_EQ(vx_mem_alloc(Device, 1000, &Address), VX_OK);
+        const vx_status Status = start("store", {Out, 1});
+        EXPECT_TRUE(Status == VX_OK || Status == VX_ERROR_BUSY)
+            << vx_last_error();
+        EXPECT_EQ(vx_copy_on_device(Device, Address, Out, 4), VX_OK);
+        EXPECT_EQ(vx_mem_free(Device, Address), VX_OK);
+      }
+    });
+  for (std::thread &Thread : Threads)
+    Thread.join();
+  EXPECT_EQ(wait().outcome, VX_OUTCOME_DONE);
+}
+
+TEST(RuntimeOpen, BadImagesAreRefused) {
+  vx_device *Device = nullptr;
+  ASSERT_EQ(vx_device_open(Config, &Device), VX_OK);
+  vx_image *Image = nullptr;
+  EXPECT_EQ(vx_image_load_file(Device, "/nonexistent.elf", &Image),
+            VX_ERROR_FILE);
+  EXPECT_EQ(vx_image_load(Device, "hello", 5, &Image), VX_ERROR_IMAGE);
+  auto Bytes = vorion::readFile(Elf);
+  ASSERT_TRUE(Bytes);
+  EXPECT_EQ(vx_image_load(Device, Bytes->data(), Bytes->size() / 2, &Image),
+            VX_ERROR_IMAGE);
+  EXPECT_EQ(vx_image_load(Device, Bytes->data(), Bytes->size(), &Image), VX_OK)
+      << vx_last_error();
+  EXPECT_EQ(vx_image_free(Image), VX_OK);
+  EXPECT_EQ(vx_device_close(Device), VX_OK);
+}
+
+TEST(RuntimeOpen, ConfigurationsByTextFileAndEnvironment) {
+  vx_device *Device = nullptr;
+  EXPECT_EQ(vx_device_open("{\"Coars\": 1}", &Device), VX_ERROR_CONFIG);
+  EXPECT_NE(std::string(vx_last_error()).find("Coars"), std::string::npos)
+      << vx_last_error();
+  EXPECT_EQ(vx_device_open("/nonexistent.json", &Device), VX_ERROR_FILE);
+
+  const std::string Path = (std::filesystem::temp_directory_path() /
+                            ("vorion-config" + std::to_string(getpid())))
+                               .string();
+  ASSERT_TRUE(vorion::writeFileAtomically(
+      Path, std::string("{\"Clusters\": 2, \"GlobalBytes\": 1048576}")));
+  ASSERT_EQ(setenv("VORION_CONFIG", Path.c_str(), 1), 0);
+  ASSERT_EQ(vx_device_open(nullptr, &Device), VX_OK) << vx_last_error();
+  unsetenv("VORION_CONFIG");
+  std::filesystem::remove(Path);
+  vx_device_info Info{};
+  EXPECT_EQ(vx_device_get_info(Device, &Info), VX_OK);
+  EXPECT_EQ(Info.cores, 16u);
+  EXPECT_EQ(Info.rasterizers, 4u);
+
+  // The configuration in force opens an equal machine.
+  const char *Json = nullptr, *Again = nullptr;
+  ASSERT_EQ(vx_device_get_config(Device, &Json), VX_OK);
+  vx_device *Twin = nullptr;
+  ASSERT_EQ(vx_device_open(Json, &Twin), VX_OK) << vx_last_error();
+  ASSERT_EQ(vx_device_get_config(Twin, &Again), VX_OK);
+  EXPECT_STREQ(Json, Again);
+  EXPECT_EQ(vx_device_close(Twin), VX_OK);
+  EXPECT_EQ(vx_device_close(Device), VX_OK);
+}
+
+TEST(RuntimeOpen, NullArgumentsNeverCrash) {
+  std::uint32_t Number = 0;
+  std::uint64_t Size = 0;
+  void *Pointer = nullptr;
+  vx_device_info Info{};
+  const char *Text = nullptr;
+  vx_image *Image = nullptr;
+  vx_kernel_info Kernel{};
+  vx_arg_info Arg{};
+  vx_launch_params Params{};
+  vx_result Result{};
+  EXPECT_EQ(vx_device_open("{}", nullptr), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_device_get_info(nullptr, &Info), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_device_get_config(nullptr, &Text), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_mem_alloc(nullptr, 1, &Number), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_mem_free(nullptr, 1), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_copy_to_device(nullptr, 1, &Size, 8), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_copy_from_device(nullptr, &Size, 1, 8), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_copy_on_device(nullptr, 1, 2, 8), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_fill_device(nullptr, 1, &Size, 8, 8), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_mem_host_pointer(nullptr, 1, 8, &Pointer), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_load(nullptr, &Size, 8, &Image), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_load_file(nullptr, "x", &Image), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_free(nullptr), VX_OK);
+  EXPECT_EQ(vx_image_num_kernels(nullptr, &Number), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_find_kernel(nullptr, "x", &Number), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_get_kernel(nullptr, 0, &Kernel), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_get_arg(nullptr, 0, 0, &Arg), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_image_place_locals(nullptr, 0, &Size, 1, &Size, &Number),
+            VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_start(nullptr, nullptr, 0, &Params, nullptr, 0),
+            VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_start_main(nullptr, nullptr), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_wait(nullptr, &Result), VX_ERROR_ARGUMENT);
+}
+
+} // namespace
