@@ -3,8 +3,8 @@
 #include <stddef.h>
 
 void vx_put(struct vx_text *text, char c) {
-  if (text->out)
-    text->out(c);
+  if (text->console)
+    vx_put_console(c);
   else if (text->at < text->end)
     *text->at++ = c;
   ++text->count;

@@ -5,13 +5,17 @@
 #include <stdarg.h>
 #include <stdint.h>
 
-/* Bytes go to out where it is set, else to [at, end) while there is room; count
-   says how many there were. */
+/* Bytes go to the console, or to [at, end) while there is room; count says how
+   many there were. */
 struct vx_text {
   char *at, *end;
   uint32_t count;
-  void (*out)(char c);
+  int console;
 };
+
+/* Writes to the machine's console. A call through a pointer would have to be
+   proved uniform, so this is a function of that name. */
+void vx_put_console(char c);
 
 enum vx_dialect {
   /* C17 7.21.6.1: floating arguments are doubles, `l` means long. */

@@ -16,6 +16,9 @@ extern "C" {
 #include <rapidcheck/gtest.h>
 #include <string>
 
+static std::string Console;
+extern "C" void vx_put_console(char C) { Console += C; }
+
 namespace {
 
 int formatInto(vx_text *Text, const char *Format, ...) {
@@ -28,7 +31,7 @@ int formatInto(vx_text *Text, const char *Format, ...) {
 
 template <typename... Ts> std::string ours(const char *Format, Ts... Values) {
   std::string Buffer(6000, '?');
-  vx_text Text{Buffer.data(), Buffer.data() + Buffer.size(), 0, nullptr};
+  vx_text Text{Buffer.data(), Buffer.data() + Buffer.size(), 0, 0};
   EXPECT_EQ(formatInto(&Text, Format, Values...), 0);
   return Buffer.substr(0, Text.count);
 }
@@ -161,16 +164,24 @@ TEST(Format, InfinityAndNan) {
 
 TEST(Format, WhatDoesNotFitIsCounted) {
   char Buffer[4] = {'?', '?', '?', '?'};
-  vx_text Text{Buffer, Buffer + 3, 0, nullptr};
+  vx_text Text{Buffer, Buffer + 3, 0, 0};
   EXPECT_EQ(formatInto(&Text, "%d!", 12345), 0);
   EXPECT_EQ(Text.count, 6u);
   EXPECT_EQ(std::string(Buffer, 4), "123?");
 }
 
+TEST(Format, TheConsoleTakesAll) {
+  Console.clear();
+  vx_text Text{nullptr, nullptr, 0, 1};
+  EXPECT_EQ(formatInto(&Text, "%d!", 12345), 0);
+  EXPECT_EQ(Console, "12345!");
+  EXPECT_EQ(Text.count, 6u);
+}
+
 TEST(Format, MalformedConversionsEndTheText) {
   for (const char *Format : {"a%k", "a%", "a%n", "a%v4f", "a%5."}) {
     char Buffer[8];
-    vx_text Text{Buffer, Buffer + sizeof(Buffer), 0, nullptr};
+    vx_text Text{Buffer, Buffer + sizeof(Buffer), 0, 0};
     EXPECT_EQ(formatInto(&Text, Format, 1), -1) << Format;
     EXPECT_EQ(Text.count, 1u) << Format;
   }

@@ -6,7 +6,7 @@
 #include <vorion.h>
 #include <vorion_print.h>
 
-static void put_console(char c) {
+void vx_put_console(char c) {
   *(volatile uint *)VX_IO_CONSOLE = (unsigned char)c;
 }
 
@@ -17,7 +17,7 @@ static int print_to_console(enum vx_dialect dialect, const char *format,
   int result = 0;
   for (uint lane = 0; lane < vx_num_threads(); ++lane) {
     if (lane == vx_thread_id()) {
-      struct vx_text text = {.out = put_console};
+      struct vx_text text = {.console = 1};
       result = vx_format(&text, dialect, format, list);
       *count = text.count;
     }

@@ -84,15 +84,10 @@ middle:
   return count * 1000 + (int)n;
 }
 
-static int by_pointer(uint32_t i) {
-  static int (*const functions[])(uint32_t) = {collatz, early_returns};
-  return functions[0](i + 1) + functions[1](i);
-}
-
 void item(uint32_t i) {
-  printf("%u: %d %d %d %d %d %d %d\n", (unsigned)i, collatz(i + 1),
+  printf("%u: %d %d %d %d %d %d\n", (unsigned)i, collatz(i + 1),
          breaks_and_continues(i), switches(i), recursion(i % 13),
-         early_returns(i), irreducible(i), by_pointer(i));
+         early_returns(i), irreducible(i));
 }
 // The lengths are known: https://oeis.org/A006577
 // CHECK: {{^}}0: 0 {{.*}}
