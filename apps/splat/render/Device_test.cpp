@@ -1,0 +1,157 @@
+// What runs on the OpenCL device, piece by piece. Skipped where there is none.
+
+#include "../device/Kernels.h"
+#include "../io/Activation.h"
+#include "Plan.h"
+#include "Sorter.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <random>
+#include <unistd.h>
+
+namespace vorion::splat {
+namespace {
+
+class OnDevice : public testing::Test {
+protected:
+  void SetUp() override {
+    auto Opened = Device::open("");
+    if (!Opened)
+      GTEST_SKIP() << "no OpenCL device";
+    Dev.emplace(std::move(*Opened));
+  }
+
+  cl::Buffer upload(Launcher &L, const std::vector<std::uint32_t> &Words) {
+    const cl::Buffer B = L.allocate("words", 4 * Words.size());
+    L.write("words", B, Words.data(), 4 * Words.size());
+    return B;
+  }
+  std::vector<std::uint32_t> download(Launcher &L, const cl::Buffer &B,
+                                      std::size_t Count) {
+    std::vector<std::uint32_t> Words(Count);
+    L.read("words", Words.data(), B, 4 * Count);
+    EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+    return Words;
+  }
+
+  std::optional<Device> Dev;
+  std::mt19937 Random{7};
+};
+
+/// Counts around the work-items' shares: fewer than one, exact, one over.
+class SortOnDevice : public OnDevice,
+                     public testing::WithParamInterface<std::uint32_t> {};
+
+TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
+  Launcher L(*Dev, "", {});
+  L.beginStage("test");
+  L.build({ScanProgram, {"scan.cl"}, {}});
+  Sorter S(L);
+  const std::uint32_t Count = GetParam();
+  std::vector<std::uint32_t> In(Count);
+  std::ranges::generate(In, [&] { return Random() % 1000; });
+  const cl::Buffer Out = L.allocate("sums", 4 * (std::uint64_t{Count} + 1));
+  S.scan(upload(L, In), Out, Count);
+  std::vector<std::uint32_t> Want{0};
+  std::partial_sum(In.begin(), In.end(), std::back_inserter(Want));
+  EXPECT_EQ(download(L, Out, Count + 1), Want);
+}
+
+TEST_P(SortOnDevice, SortIsStableOnItsBits) {
+  Launcher L(*Dev, "", {});
+  L.beginStage("test");
+  L.build({ScanProgram, {"scan.cl"}, {}});
+  L.build({SortProgram, {"sort.cl"}, {}});
+  Sorter S(L);
+  const std::uint32_t Count = GetParam();
+  for (const unsigned Bits : {1U, 8U, 11U, 32U}) {
+    std::vector<std::uint32_t> Keys(Count);
+    const std::uint32_t Mask = Bits == 32 ? ~0U : (1U << Bits) - 1;
+    // Many equal keys, so that stability shows.
+    std::ranges::generate(Keys,
+                          [&] { return Random() % 97 * 88080001U & Mask; });
+    std::vector<std::uint32_t> Order(Count);
+    std::iota(Order.begin(), Order.end(), 0U);
+    const std::vector<std::uint32_t> Empty(Count);
+    const Sorter::Pairs In{upload(L, Keys), upload(L, Order)};
+    const Sorter::Pairs A{upload(L, Empty), upload(L, Empty)};
+    const Sorter::Pairs B{upload(L, Empty), upload(L, Empty)};
+    const Sorter::Pairs Out = S.sort(In, A, B, Count, Bits);
+    std::ranges::sort(Order, {},
+                      [&](std::uint32_t I) { return std::pair(Keys[I], I); });
+    EXPECT_EQ(download(L, Out.Values, Count), Order) << Bits << " bits";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, SortOnDevice,
+                         testing::Values(1, 15, 16, 255, 257, 4096, 70001));
+
+TEST_F(OnDevice, ScanSaturates) {
+  Launcher L(*Dev, "", {});
+  L.beginStage("test");
+  L.build({ScanProgram, {"scan.cl"}, {}});
+  Sorter S(L);
+  const cl::Buffer Out = L.allocate("sums", 4 * 1001);
+  S.scan(upload(L, std::vector<std::uint32_t>(1000, 1U << 28)), Out, 1000);
+  EXPECT_EQ(download(L, Out, 1001).back(), ~0U);
+}
+
+/// Runs kernels/activate.cl through a kernel of the test's own.
+TEST_F(OnDevice, ActivationIsRoundedOnce) {
+  const std::string Folder =
+      testing::TempDir() + "activation" + std::to_string(getpid());
+  std::filesystem::create_directory(Folder);
+  ASSERT_TRUE(writeFileAtomically(Folder + "/activate.cl",
+                                  std::string(kernelSource("activate.cl"))));
+  ASSERT_TRUE(writeFileAtomically(Folder + "/test.cl", R"(
+__kernel void activate(__global const float4 *in, __global float4 *out) {
+  const uint i = 2 * get_global_id(0);
+  out[i] = (float4)(activate_scale(in[i].x), activate_scale(in[i].y),
+                    activate_scale(in[i].z), activate_opacity(in[i].w));
+  out[i + 1] = activate_quaternion(in[i + 1]);
+})"));
+  constexpr std::uint32_t Count = 20000;
+  Scene S;
+  std::vector<float> In;
+  std::uniform_real_distribution<float> LogScale(-20, 8), Logit(-12, 12);
+  std::normal_distribution<float> Part(0, 2);
+  for (std::uint32_t I = 0; I < Count; ++I) {
+    for (int K = 0; K < 3; ++K)
+      In.push_back(S.LogScales.emplace_back(LogScale(Random)));
+    In.push_back(S.OpacityLogits.emplace_back(Logit(Random)));
+    for (int K = 0; K < 4; ++K)
+      In.push_back(S.Quats.emplace_back(I == 0 ? 0 : Part(Random)));
+  }
+  Launcher L(*Dev, Folder, {});
+  L.beginStage("test");
+  L.build({"test", {"activate.cl", "test.cl"}, {}});
+  const cl::Buffer From = L.allocate("in", 4 * In.size());
+  const cl::Buffer To = L.allocate("out", 4 * In.size());
+  L.write("in", From, In.data(), 4 * In.size());
+  L.run("test", "activate", Count, 16, From, To);
+  std::vector<float> Out(In.size());
+  L.read("out", Out.data(), To, 4 * Out.size());
+  ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+  std::filesystem::remove_all(Folder);
+
+  const Activated<float> Want = activate<float>(S);
+  // The pairs of floats are good to about 2^-40, so about one value in 2^16
+  // lies too near the middle of two floats to be told.
+  unsigned Wrong = 0;
+  for (std::size_t I = 0; I < Count; ++I) {
+    for (std::size_t K = 0; K < 3; ++K)
+      Wrong += Out[8 * I + K] != Want.Scales[3 * I + K];
+    Wrong += Out[8 * I + 3] != Want.Opacities[I];
+    for (std::size_t K = 0; K < 4; ++K)
+      Wrong += Out[8 * I + 4 + K] != Want.Quats[4 * I + K];
+  }
+  EXPECT_LE(Wrong, 8U) << "of " << 8 * Count;
+}
+
+} // namespace
+} // namespace vorion::splat
