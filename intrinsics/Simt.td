@@ -41,3 +41,12 @@ def VX_SHFL_BFLY : SimtInstruction<"vx_shfl_bfly", 6, 1, "rd", "rs1, rs2", "sour
   "rd = rs1 of lane xor b, or the lane's own rs1 if that is above hi or inactive.">;
 def VX_SHFL_IDX : SimtInstruction<"vx_shfl_idx", 7, 1, "rd", "rs1, rs2", "source", "uint vx_shfl_idx(uint value, uint control)", "simt",
   "rd = rs1 of lane lo | (b & ~segment), or the lane's own rs1 if that is above hi or inactive.">;
+
+// What the compiler provides without an instruction of its own.
+class CompilerIntrinsic<string divergence, string prototype, string doc> {
+  string Divergence = divergence;
+  string Prototype = prototype;
+  string Doc = doc;
+}
+def VX_UNIFORM : CompilerIntrinsic<"uniform", "uint vx_uniform(uint value)",
+  "The value itself, which the caller asserts to be the same in every active lane; branches on it are not split.">;

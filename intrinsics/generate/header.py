@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Writes the header of kernels or the header of host programs.
+
+usage: header.py [--tblgen PATH] --for device|host OUTPUT
+device: vorion.h, for OpenCL C and C kernels: intrinsics, constants, descriptors
+host: vorion_abi.h, for C and C++: constants, CSR numbers, descriptors
+"""
+
+import argparse
+
+from intrinsics import intrinsics
+from records import Records
+
+NOTE = "Generated from the records of intrinsics/ by intrinsics/generate/header.py; do not edit."
+
+DEVICE_HEAD = """#ifndef VORION_H
+#define VORION_H
+
+#if !defined(__OPENCL_C_VERSION__) && !defined(__OPENCL_CPP_VERSION__)
+#if !defined(__riscv_xvortex)
+#error "vorion.h: the target is not a Vorion core, expected -march with xvortex"
+#endif
+typedef unsigned int uint;
+#endif
+
+/* Lanes must reach these together or apart exactly as written: convergent keeps
+   the optimiser from moving a call under a condition, nomerge from making one
+   call of two. */
+#define VORION_INTRINSIC(name) __asm("vorion." #name) __attribute__((convergent, nomerge, nothrow))
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+"""
+
+HOST_HEAD = """#ifndef VORION_ABI_H
+#define VORION_ABI_H
+
+#include <stdint.h>
+"""
+
+
+def constants(records):
+    for c in records.of("Constant"):
+        yield f"#define {c.Name} {c.Value & 0xffffffff:#x}u /* {c.Doc} */"
+    for c in records.of("Csr"):
+        for f in c.Fields:
+            name = f"{c.Name}_{f.Name}".upper()
+            yield f"#define {name}_SHIFT {f.Low} /* {f.Doc} */"
+            yield f"#define {name}_MASK {((1 << f.Width) - 1) << f.Low:#x}u"
+
+
+def descriptors(records, types):
+    for d in records.of("Descriptor"):
+        yield f"\n/* {d.Doc} */\ntypedef struct {d.Name} {{"
+        for f in d.Fields:
+            count = f"[{f.Count}]" if f.Count > 1 else ""
+            yield f"  {types[f.Type]} {f.Name}{count}; /* {f.Doc} */"
+        yield f"}} {d.Name};"
+
+
+def device(records):
+    yield DEVICE_HEAD
+    for i in intrinsics(records):
+        yield f"/* {i.doc} */\n{i.prototype} VORION_INTRINSIC({i.name});"
+    yield "\n#ifdef __cplusplus\n}\n#endif\n"
+    yield from constants(records)
+    yield from descriptors(records, {"u32": "uint", "f32": "float"})
+    yield "\n#endif"
+
+
+def host(records):
+    yield HOST_HEAD
+    yield from constants(records)
+    for c in records.of("Csr"):
+        yield f"#define VX_CSR_{c.Name.upper()} {c.Number:#x}u /* {c.Doc} */"
+    yield from descriptors(records, {"u32": "uint32_t", "f32": "float"})
+    yield "\n#endif"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tblgen", default="llvm-tblgen-19")
+    parser.add_argument("--for", dest="reader", choices=("device", "host"), required=True)
+    parser.add_argument("output")
+    options = parser.parse_args()
+    lines = {"device": device, "host": host}[options.reader](Records(options.tblgen))
+    with open(options.output, "w", encoding="utf-8") as file:
+        file.write(f"/* {NOTE} */\n" + "\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

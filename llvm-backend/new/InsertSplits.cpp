@@ -1,0 +1,180 @@
+//===- InsertSplits.cpp - splits, joins and predicates --------------------===//
+//
+// A divergent branch gets a vx_split before it and a vx_join, of the split's
+// token, where its sides meet: at its immediate post-dominator.
+//
+// Paths may reach that place without having come through the split (the second
+// condition of `a && b` is not asked by all). vx_join does nothing if its token
+// is the depth of the divergence stack, so on those paths the token must be the
+// depth there. A split with a predicate that is false everywhere pushes nothing
+// and returns the depth; it gives the token its first value where the paths
+// part (the nearest common dominator of split and join), and a new one behind
+// each split that is passed after that and still open at the join.
+//
+// Joins at one place go in the reverse order of their splits, inner before
+// outer; reverse post-order puts every split before those it can lead to.
+//
+//===----------------------------------------------------------------------===//
+
+#include "Intrinsics.h"
+#include "LowerDivergence.h"
+#include "llvm/ADT/DepthFirstIterator.h"
+#include "llvm/ADT/PostOrderIterator.h"
+#include "llvm/Analysis/LoopInfo.h"
+#include "llvm/Analysis/PostDominators.h"
+#include "llvm/IR/Dominators.h"
+#include "llvm/IR/IRBuilder.h"
+#include "llvm/Transforms/Utils/SSAUpdater.h"
+
+using namespace llvm;
+
+namespace {
+
+struct Split {
+  BranchInst *Branch;
+  BasicBlock *Meeting;
+  CallInst *Token = nullptr;
+
+  BasicBlock *block() const { return Branch->getParent(); }
+};
+
+class SplitInserter {
+public:
+  SplitInserter(Function &F, FunctionAnalysisManager &Analyses)
+      : F(F), M(*F.getParent()), Uniform(Analyses.getResult<UniformityInfoAnalysis>(F)),
+        Dominators(Analyses.getResult<DominatorTreeAnalysis>(F)),
+        PostDominators(Analyses.getResult<PostDominatorTreeAnalysis>(F)),
+        Loops(Analyses.getResult<LoopAnalysis>(F)) {}
+
+  void run() {
+    if (!collect())
+      return;
+    for (Split &S : Splits)
+      S.Token = callBefore(S.Branch, "vx_split", condition(S.Branch));
+    for (auto &[Meeting, Here] : Meetings)
+      insertJoins(Meeting, Here);
+    for (auto &[L, Exit] : PredicatedLoops)
+      insertPredicate(*L, Exit);
+  }
+
+private:
+  CallInst *callBefore(Instruction *Before, StringRef Name, ArrayRef<Value *> Arguments = {}) {
+    CallInst *Call = CallInst::Create(vorion::declareIntrinsic(M, Name), Arguments, "", Before->getIterator());
+    Call->setDebugLoc(F.getSubprogram() ? Before->getDebugLoc() : DebugLoc());
+    return Call;
+  }
+
+
+  Value *condition(BranchInst *Branch) {
+    IRBuilder<> Builder(Branch);
+    return Builder.CreateZExt(Branch->getCondition(), Builder.getInt32Ty());
+  }
+
+  Value *zero() { return ConstantInt::get(Type::getInt32Ty(F.getContext()), 0); }
+
+  /// Sorts the divergent branches into splits, by where they meet, and
+  /// predicated loops.
+  bool collect() {
+    bool Good = true;
+    for (BasicBlock *Block : ReversePostOrderTraversal<Function *>(&F)) {
+      if (!Uniform.hasDivergentTerminator(*Block))
+        continue;
+      auto *Branch = cast<BranchInst>(Block->getTerminator());
+      Loop *L = Loops.getLoopFor(Block);
+      if (L && L->isLoopExiting(Block)) {
+        if (vorion::soleExit(*L, Dominators) == Branch && L->getLoopPreheader()) {
+          PredicatedLoops.push_back({L, Branch});
+          continue;
+        }
+        vorion::refuse(*Branch, "a loop that lanes leave at different places");
+        Good = false;
+        continue;
+      }
+      const auto *Node = PostDominators.getNode(Block);
+      BasicBlock *Meeting = Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
+      if (!Meeting || Loops.getLoopFor(Meeting) != L || Loops.isLoopHeader(Meeting)) {
+        vorion::refuse(*Branch, "a branch after which lanes do not meet");
+        Good = false;
+        continue;
+      }
+      Meetings[Meeting].push_back(Splits.size());
+      Splits.push_back({Branch, Meeting});
+    }
+    return Good;
+  }
+
+  void insertJoins(BasicBlock *Meeting, ArrayRef<unsigned> Here) {
+    Instruction *Before = &*Meeting->getFirstInsertionPt();
+    for (unsigned Index : reverse(Here))
+      callBefore(Before, "vx_join", tokenAt(Meeting, Index));
+  }
+
+  /// The token of split \p Index as it is at \p Meeting, on whatever path.
+  Value *tokenAt(BasicBlock *Meeting, unsigned Index) {
+    Split &S = Splits[Index];
+    if (Dominators.dominates(S.block(), Meeting))
+      return S.Token;
+
+    SSAUpdater Token;
+    Token.Initialize(S.Token->getType(), "token");
+    Token.AddAvailableValue(S.block(), S.Token);
+    BasicBlock *Start = Dominators.findNearestCommonDominator(S.block(), Meeting);
+    while (Loops.getLoopFor(Start) != Loops.getLoopFor(Meeting))
+      Start = Dominators.getNode(Start)->getIDom()->getBlock();
+    Token.AddAvailableValue(Start, depthBehind(Start));
+    for (unsigned Other = 0; Other < Splits.size(); ++Other) {
+      BasicBlock *Block = Splits[Other].block();
+      if (Other != Index && Block != Start && Dominators.dominates(Start, Block) &&
+          isOpenAt(Splits[Other], Other, Meeting, Index))
+        Token.AddAvailableValue(Block, depthBehind(Block));
+    }
+    return Token.GetValueInMiddleOfBlock(Meeting);
+  }
+
+  /// Whether a path that has come through \p S may reach the join of split
+  /// \p Index at \p Meeting before S's own.
+  bool isOpenAt(const Split &S, unsigned Other, BasicBlock *Meeting, unsigned Index) {
+    if (S.Meeting == Meeting)
+      return Other < Index;
+    df_iterator_default_set<BasicBlock *, 16> Seen;
+    Seen.insert(S.Meeting);
+    for (BasicBlock *Block : depth_first_ext(S.block(), Seen))
+      if (Block == Meeting)
+        return true;
+    return false;
+  }
+
+  /// The depth of the divergence stack at the end of \p Block, behind its split
+  /// if it has one.
+  CallInst *depthBehind(BasicBlock *Block) {
+    CallInst *&Depth = Depths[Block];
+    if (!Depth)
+      Depth = callBefore(Block->getTerminator(), "vx_split", zero());
+    return Depth;
+  }
+
+  /// Lanes that leave \p L wait at the exit until all have.
+  void insertPredicate(const Loop &L, BranchInst *Exit) {
+    CallInst *Mask = callBefore(L.getLoopPreheader()->getTerminator(), "vx_active_threads");
+    bool StaysIfTrue = L.contains(Exit->getSuccessor(0));
+    callBefore(Exit, StaysIfTrue ? "vx_pred" : "vx_pred_n", {condition(Exit), Mask});
+  }
+
+  Function &F;
+  Module &M;
+  UniformityInfo &Uniform;
+  const DominatorTree &Dominators;
+  const PostDominatorTree &PostDominators;
+  const LoopInfo &Loops;
+  /// In reverse post-order.
+  std::vector<Split> Splits;
+  MapVector<BasicBlock *, SmallVector<unsigned, 2>> Meetings;
+  DenseMap<BasicBlock *, CallInst *> Depths;
+  SmallVector<std::pair<Loop *, BranchInst *>, 4> PredicatedLoops;
+};
+
+} // namespace
+
+void vorion::insertSplits(Function &F, FunctionAnalysisManager &Analyses) {
+  SplitInserter(F, Analyses).run();
+}

@@ -1,0 +1,201 @@
+//===- LowerDivergence.cpp - divergence lowering, step by step ------------===//
+//
+// The last pass over IR: nothing may move a branch after it. In order:
+//   1. refuse what has no meaning for a warp;
+//   2. branches only: switches become trees of branches;
+//   3. one return, loops that end, no irreducible cycles;
+//   4. loops that lanes leave apart get one exit, in the latch;
+//   5. splits, joins and predicates.
+// It does not structurize: lanes meet at the immediate post-dominator, however
+// paths cross before it, so no code is moved or guarded anew.
+//
+//===----------------------------------------------------------------------===//
+
+#include "LowerDivergence.h"
+#include "Intrinsics.h"
+#include "RISCVSubtarget.h"
+#include "Vorion.h"
+#include "llvm/Analysis/AssumptionCache.h"
+#include "llvm/Analysis/CycleAnalysis.h"
+#include "llvm/Analysis/LazyValueInfo.h"
+#include "llvm/Analysis/LoopInfo.h"
+#include "llvm/Analysis/PostDominators.h"
+#include "llvm/Analysis/TargetLibraryInfo.h"
+#include "llvm/Analysis/TargetTransformInfo.h"
+#include "llvm/CodeGen/TargetPassConfig.h"
+#include "llvm/IR/DiagnosticInfo.h"
+#include "llvm/IR/Dominators.h"
+#include "llvm/IR/InstIterator.h"
+#include "llvm/IR/PassInstrumentation.h"
+#include "llvm/IR/Instructions.h"
+#include "llvm/Pass.h"
+#include "llvm/Target/TargetMachine.h"
+#include "llvm/Transforms/Utils/FixIrreducible.h"
+#include "llvm/Transforms/Utils/LCSSA.h"
+#include "llvm/Transforms/Utils/LoopSimplify.h"
+#include "llvm/Transforms/Utils/LowerSwitch.h"
+
+using namespace llvm;
+
+void vorion::refuse(const Instruction &At, const Twine &Why) {
+  At.getContext().diagnose(
+      DiagnosticInfoUnsupported(*At.getFunction(), Why, At.getDebugLoc()));
+}
+
+namespace {
+
+/// Declares wrong calls of our intrinsics to be errors: selection takes their
+/// operands as they come.
+bool checkIntrinsicCall(const CallBase &Call) {
+  const Function *Callee = Call.getCalledFunction();
+  if (!Callee || !Callee->getName().starts_with(vorion::IntrinsicPrefix))
+    return true;
+  const vorion::IntrinsicRecord *I = vorion::findIntrinsic(Callee->getName());
+  if (!I) {
+    vorion::refuse(Call, "there is no intrinsic " + Callee->getName());
+    return false;
+  }
+  Type *Int = Type::getInt32Ty(Call.getContext());
+  Type *Result = Call.getType();
+  if (Call.arg_size() == I->Inputs &&
+      all_of(Call.args(), [&](const Use &A) { return A->getType() == Int; }) &&
+      (I->HasResult ? Result == Int : Result->isVoidTy()))
+    return true;
+  vorion::refuse(Call, "wrong types in a call of " + I->Name +
+                           ", expected them as in vorion.h");
+  return false;
+}
+
+class LowerDivergence final : public FunctionPass {
+public:
+  static char ID;
+  LowerDivergence() : FunctionPass(ID) {}
+  StringRef getPassName() const override { return "Vorion divergence lowering"; }
+  void getAnalysisUsage(AnalysisUsage &AU) const override {
+    AU.addRequired<TargetPassConfig>();
+  }
+  bool runOnFunction(Function &F) override;
+
+private:
+  static void registerAnalyses(FunctionAnalysisManager &Analyses,
+                               const TargetMachine &TM);
+  static bool checkCode(Function &F, FunctionAnalysisManager &Analyses);
+  static void alignLoops(Function &F, FunctionAnalysisManager &Analyses);
+  static bool mergeOneLoop(Function &F, FunctionAnalysisManager &Analyses);
+};
+
+char LowerDivergence::ID = 0;
+
+/// Branches whose sides are the same block would have no side to split.
+void removeSameTargetBranches(Function &F) {
+  for (BasicBlock &Block : F) {
+    auto *Branch = dyn_cast<BranchInst>(Block.getTerminator());
+    if (!Branch || !Branch->isConditional() ||
+        Branch->getSuccessor(0) != Branch->getSuccessor(1))
+      continue;
+    BasicBlock *Target = Branch->getSuccessor(0);
+    Target->removePredecessor(&Block, /*KeepOneInputPHIs=*/true);
+    BranchInst::Create(Target, Branch->getIterator());
+    Branch->eraseFromParent();
+  }
+}
+
+} // namespace
+
+bool LowerDivergence::runOnFunction(Function &F) {
+  const auto &TM = getAnalysis<TargetPassConfig>().getTM<TargetMachine>();
+  if (!TM.getSubtarget<RISCVSubtarget>(F).hasVendorXVortex())
+    return false;
+
+  FunctionAnalysisManager Analyses;
+  registerAnalyses(Analyses, TM);
+  auto run = [&](auto Pass) { Analyses.invalidate(F, Pass.run(F, Analyses)); };
+  auto changed = [&] { Analyses.invalidate(F, PreservedAnalyses::none()); };
+
+  run(LowerSwitchPass());
+  removeSameTargetBranches(F);
+  changed();
+  if (!checkCode(F, Analyses))
+    return true;
+  run(FixIrreduciblePass());
+  vorion::unifyExits(F, Analyses);
+  changed();
+
+  auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
+  if (none_of(F, [&](BasicBlock &B) { return Uniform.hasDivergentTerminator(B); }))
+    return true;
+  alignLoops(F, Analyses);
+  vorion::insertSplits(F, Analyses);
+  return true;
+}
+
+void LowerDivergence::registerAnalyses(FunctionAnalysisManager &Analyses,
+                                       const TargetMachine &TM) {
+  Analyses.registerPass([&] { return TM.getTargetIRAnalysis(); });
+  Analyses.registerPass([] { return PassInstrumentationAnalysis(); });
+  Analyses.registerPass([] { return AssumptionAnalysis(); });
+  Analyses.registerPass([] { return CycleAnalysis(); });
+  Analyses.registerPass([] { return DominatorTreeAnalysis(); });
+  Analyses.registerPass([] { return LazyValueAnalysis(); });
+  Analyses.registerPass([] { return LoopAnalysis(); });
+  Analyses.registerPass([] { return PostDominatorTreeAnalysis(); });
+  Analyses.registerPass([] { return TargetLibraryAnalysis(); });
+  Analyses.registerPass([] { return UniformityInfoAnalysis(); });
+}
+
+bool LowerDivergence::checkCode(Function &F, FunctionAnalysisManager &Analyses) {
+  bool Good = true;
+  auto fail = [&](const Instruction &I, const Twine &Why) {
+    vorion::refuse(I, Why);
+    Good = false;
+  };
+  auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
+  for (Instruction &I : instructions(F)) {
+    if (isa<IndirectBrInst, CallBrInst>(I))
+      fail(I, "a computed jump: lanes cannot be kept together across it");
+    else if (isa<InvokeInst, ResumeInst>(I))
+      fail(I, "exceptions: the machine has none");
+    auto *Call = dyn_cast<CallBase>(&I);
+    if (!Call)
+      continue;
+    Good &= checkIntrinsicCall(*Call);
+    if (Call->isIndirectCall() && Uniform.isDivergent(Call->getCalledOperand()))
+      fail(I, "a call through a pointer in which lanes may differ; use "
+              "vx_uniform if they cannot");
+  }
+  return Good;
+}
+
+void LowerDivergence::alignLoops(Function &F, FunctionAnalysisManager &Analyses) {
+  // Each round knows more to be divergent, or has one loop less to merge.
+  bool Again = true;
+  while (Again) {
+    Analyses.invalidate(F, LoopSimplifyPass().run(F, Analyses));
+    Analyses.invalidate(F, LCSSAPass().run(F, Analyses));
+    Again = mergeOneLoop(F, Analyses) ||
+            vorion::markRepeatedBlocks(
+                F, Analyses.getResult<UniformityInfoAnalysis>(F),
+                Analyses.getResult<PostDominatorTreeAnalysis>(F));
+    if (Again)
+      Analyses.invalidate(F, PreservedAnalyses::none());
+  }
+}
+
+bool LowerDivergence::mergeOneLoop(Function &F, FunctionAnalysisManager &Analyses) {
+  auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
+  auto &Loops = Analyses.getResult<LoopAnalysis>(F);
+  const auto &PostDominators = Analyses.getResult<PostDominatorTreeAnalysis>(F);
+  const auto &Dominators = Analyses.getResult<DominatorTreeAnalysis>(F);
+  // Inner loops first: their exits are branches of the outer ones.
+  for (Loop *L : reverse(Loops.getLoopsInPreorder())) {
+    if (vorion::loopIsInStep(*L, Uniform, PostDominators, Dominators))
+      continue;
+    vorion::mergeExitsIntoLatch(*L);
+    return true;
+  }
+  return false;
+}
+
+std::vector<Pass *> vorion::createDivergencePasses() {
+  return {new LowerDivergence()};
+}

@@ -1,0 +1,62 @@
+//===- LowerDivergence.h - the steps of divergence lowering -----*- C++ -*-===//
+//
+// A warp has one program counter. Where its lanes may disagree about a branch,
+// vx_split runs the two sides one after the other and vx_join brings the lanes
+// together again; in a loop, vx_pred keeps the lanes that have left waiting for
+// the others. docs/backend.md explains the scheme; these are its steps.
+//
+//===----------------------------------------------------------------------===//
+
+#ifndef VORION_LLVM_BACKEND_LOWERDIVERGENCE_H
+#define VORION_LLVM_BACKEND_LOWERDIVERGENCE_H
+
+#include "llvm/ADT/Twine.h"
+#include "llvm/Analysis/UniformityAnalysis.h"
+#include "llvm/IR/PassManager.h"
+
+namespace llvm {
+class BranchInst;
+class Instruction;
+class Loop;
+class DominatorTree;
+class PostDominatorTree;
+
+namespace vorion {
+
+/// Reports that \p At cannot be compiled for our machine. Compilation goes on
+/// to the next error and then fails.
+void refuse(const Instruction &At, const Twine &Why);
+
+/// Whether lanes may leave the loop at different times, or a divergent branch
+/// inside has its lanes meet again only outside: then the loop must have one
+/// exit that every iteration passes (and, if lanes may disagree there, vx_pred
+/// at that exit).
+/// \returns true if the loop already has such an exit or needs none.
+bool loopIsInStep(const Loop &L, UniformityInfo &Uniform,
+                  const PostDominatorTree &PostDominators,
+                  const DominatorTree &Dominators);
+
+/// The conditional branch with which all lanes leave \p L, if it is the only
+/// one and every iteration passes it; else null.
+BranchInst *soleExit(const Loop &L, const DominatorTree &Dominators);
+
+/// Gives \p F one return, and every loop a way to it.
+void unifyExits(Function &F, FunctionAnalysisManager &Analyses);
+
+/// Makes \p L's exits go through one new latch, which is the only block that
+/// leaves the loop. \p L is in loop-simplify and LCSSA form.
+void mergeExitsIntoLatch(Loop &L);
+
+/// Marks what may give different results although lanes ask alike: memory reads
+/// and calls in blocks that a warp executes in several passes. True if there
+/// was anything new.
+bool markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
+                        const PostDominatorTree &PostDominators);
+
+/// Puts the splits, joins and predicates in. Every loop is in step.
+void insertSplits(Function &F, FunctionAnalysisManager &Analyses);
+
+} // namespace vorion
+} // namespace llvm
+
+#endif

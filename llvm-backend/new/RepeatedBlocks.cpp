@@ -1,0 +1,71 @@
+//===- RepeatedBlocks.cpp - blocks that a warp executes in passes ---------===//
+//
+// In `if (a && b) X; else Y;` both conditions lead to Y, and the lanes come
+// there in two passes, since they meet only behind X and Y. What Y reads from
+// one place may have changed between the passes, so lanes may differ in it
+// afterwards although the analysis, which lets lanes meet in Y, says otherwise.
+//
+//===----------------------------------------------------------------------===//
+
+#include "Intrinsics.h"
+#include "LowerDivergence.h"
+#include "llvm/ADT/DepthFirstIterator.h"
+#include "llvm/Analysis/PostDominators.h"
+#include "llvm/IR/Instructions.h"
+#include "llvm/IR/IntrinsicInst.h"
+#include "llvm/CodeGen/TargetOpcodes.h"
+
+using namespace llvm;
+
+namespace {
+
+using BlockSet = df_iterator_default_set<BasicBlock *, 16>;
+
+BlockSet reachable(BasicBlock *From, BasicBlock *Until) {
+  BlockSet Seen;
+  if (Until)
+    Seen.insert(Until);
+  for ([[maybe_unused]] BasicBlock *Block : depth_first_ext(From, Seen))
+    ;
+  if (Until)
+    Seen.erase(Until);
+  return Seen;
+}
+
+/// Whether a second execution may give another result.
+bool dependsOnTime(const Instruction &I) {
+  if (I.getType()->isVoidTy() || isa<DbgInfoIntrinsic>(I))
+    return false;
+  if (const vorion::IntrinsicRecord *Ours = vorion::findIntrinsic(&I))
+    return Ours->Opcode != TargetOpcode::COPY;
+  return I.mayReadFromMemory();
+}
+
+} // namespace
+
+bool vorion::markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
+                                const PostDominatorTree &PostDominators) {
+  SmallPtrSet<BasicBlock *, 16> Repeated;
+  for (BasicBlock &Block : F) {
+    if (!Uniform.hasDivergentTerminator(Block))
+      continue;
+    const auto *Node = PostDominators.getNode(&Block);
+    BasicBlock *Meeting = Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
+    Instruction *Branch = Block.getTerminator();
+    BlockSet First = reachable(Branch->getSuccessor(0), Meeting);
+    for (BasicBlock *Other : reachable(Branch->getSuccessor(1), Meeting))
+      if (First.count(Other))
+        Repeated.insert(Other);
+  }
+
+  LLVMContext &Context = F.getContext();
+  unsigned Marker = divergentMarker(Context);
+  bool Changed = false;
+  for (BasicBlock *Block : Repeated)
+    for (Instruction &I : *Block)
+      if (dependsOnTime(I) && !I.hasMetadata(Marker)) {
+        I.setMetadata(Marker, MDNode::get(Context, {}));
+        Changed |= Uniform.isUniform(&I);
+      }
+  return Changed;
+}

@@ -1,0 +1,74 @@
+//===- Vorion.h - what LLVM's RISC-V target calls of ours -------*- C++ -*-===//
+//
+// patches/ puts one call to each of these into upstream's files; nothing else
+// of ours is in them.
+//
+//===----------------------------------------------------------------------===//
+
+#ifndef VORION_LLVM_BACKEND_VORION_H
+#define VORION_LLVM_BACKEND_VORION_H
+
+#include <string>
+#include <vector>
+
+namespace llvm {
+class AtomicRMWInst;
+class Function;
+class FunctionPass;
+class MachineInstr;
+class Pass;
+class RISCVSubtarget;
+class SDNode;
+class SDValue;
+class SelectionDAG;
+class Value;
+
+namespace vorion {
+
+/// Selects the instruction of one of our intrinsics (Intrinsics.cpp). False if
+/// \p Node is not one.
+bool selectIntrinsic(SDNode *Node, SelectionDAG &DAG,
+                     const RISCVSubtarget &Subtarget);
+
+/// Whether lanes may differ in \p V although they agree in its operands.
+bool isSourceOfDivergence(const Value *V);
+
+/// Whether all active lanes agree in \p V whatever its operands are.
+bool isAlwaysUniform(const Value *V);
+
+/// Turns a select of floats into one of integers, which has no branch
+/// (Branchless.cpp). A null value if \p Select is not one or the machine is not
+/// ours.
+SDValue lowerFloatSelect(SDValue Select, SelectionDAG &DAG,
+                         const RISCVSubtarget &Subtarget);
+
+/// Expands the pseudo instructions that upstream expands into branches into
+/// straight code, in place. False if \p MI is not one or the machine is not ours.
+bool expandWithoutBranch(MachineInstr &MI, const RISCVSubtarget &Subtarget);
+
+/// Whether \p Operation becomes a loop around compare-and-swap in IR: all that
+/// amo*.w cannot do, so that selection never makes LR/SC.
+bool expandsToCompareExchange(const AtomicRMWInst &Operation,
+                              const RISCVSubtarget &Subtarget);
+
+/// A module compiled for our machine is so in all its functions: bitcode from
+/// another front end (PoCL's) carries feature lists that do not know it. Puts
+/// the module's CPU and features in place of a function's.
+void preferModuleTarget(const std::string &ModuleCPU,
+                        const std::string &ModuleFeatures, std::string &CPU,
+                        std::string &TuneCPU, std::string &Features);
+
+/// The passes that lower divergence, in order; last before selection. Each does
+/// nothing to functions that are not for our machine.
+std::vector<Pass *> createDivergencePasses();
+
+/// Right after selection: refuses branches that selection made.
+FunctionPass *createRefuseBranchesPass();
+
+/// Before emission: refuses functions whose splits and joins do not pair.
+FunctionPass *createVerifySplitsPass();
+
+} // namespace vorion
+} // namespace llvm
+
+#endif

@@ -1,0 +1,25 @@
+//===- Vorion.td - the RISC-V target with our extensions ------------------===//
+
+include "RISCV.td"
+
+// XVortex needs compare-and-swap because LR/SC loops do not end when lanes of a
+// warp contend, and conditional zero because a select must not branch.
+def FeatureVendorXVortex
+    : RISCVExtension<"xvortex", 2, 0, "'XVortex' (SIMT threads)",
+                     [FeatureStdExtZicsr, FeatureStdExtZacas, FeatureStdExtZicond]>;
+def HasVendorXVortex : Predicate<"Subtarget->hasVendorXVortex()">,
+    AssemblerPredicate<(all_of FeatureVendorXVortex), "'XVortex' (SIMT threads)">;
+
+def FeatureVendorXVorion
+    : RISCVExtension<"xvorion", 1, 0, "'XVorion' (Gaussian rasterizer)",
+                     [FeatureVendorXVortex]>;
+def HasVendorXVorion : Predicate<"Subtarget->hasVendorXVorion()">,
+    AssemblerPredicate<(all_of FeatureVendorXVorion), "'XVorion' (Gaussian rasterizer)">;
+
+include "RISCVInstrInfoXVortex.td"
+
+// docs/abi.md, "Target".
+def VORION : RISCVProcessorModel<"vorion", NoSchedModel,
+    [Feature32Bit, FeatureStdExtI, FeatureStdExtM, FeatureStdExtA, FeatureStdExtF,
+     FeatureStdExtZicsr, FeatureStdExtZicond, FeatureStdExtZacas, FeatureStdExtZba,
+     FeatureStdExtZbb, FeatureStdExtZbs, FeatureVendorXVortex, FeatureVendorXVorion]>;

@@ -1,0 +1,10 @@
+// What every tool's --version says of us, after LLVM's own lines.
+#include "llvm/Support/CommandLine.h"
+#include "llvm/Support/raw_ostream.h"
+
+static const bool Registered = [] {
+  llvm::cl::AddExtraVersionPrinter([](llvm::raw_ostream &Out) {
+    Out << VORION_TOOL " " VORION_VERSION "\n";
+  });
+  return true;
+}();
