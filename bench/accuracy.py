@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+"""What accuracy there is, and what it costs, on real scenes.
+
+usage: accuracy.py pictures|fixtures|datapath [--data DIR] [--out DIR] [options]
+
+pictures  every view, path and support of room7k_sh3 and box_sh3 against the
+          fp64 reference, the two paths against each other, and the sorted
+          pairs against the reference run in fp32
+fixtures  the independent fp64 results of DATA/reference
+datapath  box_sh3 front: transmittance cut-offs and exponential units
+
+Prints a Markdown table and writes OUT/<mode>.json. Every row is kept as a file
+below OUT, so that a broken run goes on where it stopped; delete OUT to begin
+anew. Exit codes: 0 all rows within the bounds, 1 some are not, 3 no data.
+The tools (splat, splat-reference, ...) are taken from the PATH: . scripts/env.sh
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+
+SCENES = ("room7k_sh3", "box_sh3")
+VIEWS = ("front", "close", "far")
+SUPPORTS = {"simt": ("exact", "box3", "square3", "official16"), "raster": ("exact", "box3", "square3")}
+ALL_DB, SURE_DB, PATHS_DB = 60, 90, 100  # bounds on PSNR, peak 1, linear floats
+MAX_DOUBTFUL, MAX_DOUBTFUL_HARD = 0.005, 0.02  # share of doubtful pixels
+
+
+class Bench:
+    def __init__(self, args):
+        self.data, self.out = args.data, args.out
+        os.makedirs(self.out, exist_ok=True)
+
+    def path(self, name):
+        return os.path.join(self.out, name)
+
+    def run(self, *command):
+        begin = time.monotonic()
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if done.returncode:
+            raise RuntimeError(f"{' '.join(command)}: exit code {done.returncode}: {done.stderr.strip()[-400:]}")
+        return time.monotonic() - begin
+
+    def once(self, name, make):
+        """The JSON file `name` below OUT; make() returns it the first time."""
+        file = self.path(name + ".row.json")
+        if not os.path.exists(file):
+            row = make()
+            with open(file + ".tmp", "w") as f:
+                json.dump(row, f, indent=1)
+            os.rename(file + ".tmp", file)
+        with open(file) as f:
+            return json.load(f)
+
+    def make(self, file, *command):
+        """File below OUT made by command, which ends in the file's name."""
+        if not os.path.exists(self.path(file)):
+            self.run(*command, self.path(file))
+        return self.path(file)
+
+    def compare(self, expected, actual, mask, name):
+        out = self.path(name + ".cmp.json")
+        self.run("splat-compare", expected, actual, "--mask", mask, "--json", out)
+        with open(out) as f:
+            return json.load(f)
+
+
+def db(value):
+    return "equal" if value is None else f"{value:.1f}"
+
+
+def reached(value, bound):
+    """PSNR against a bound; None stands for no difference at all."""
+    return value is None or value >= bound
+
+
+def pictures(bench, args):
+    rows = []
+    for scene in args.scenes.split(","):
+        for view in args.views.split(","):
+            ply = os.path.join(bench.data, "scenes", scene + ".ply")
+            cameras = os.path.join(bench.data, "scenes", "cameras", scene + ".json")
+            source = (ply, "--cameras", cameras, "--view", view)
+            for support in SUPPORTS["simt"]:
+                name = f"{scene}-{view}-{support}"
+                reference = bench.make(f"{name}-f64.npz", "splat-reference", *source, "--support", support, "-o")
+                made = {}
+                for path in (p for p in SUPPORTS if support in SUPPORTS[p]):
+                    def row(path=path):
+                        base = f"{name}-{path}"
+                        picture, report = bench.path(base + ".npz"), bench.path(base + ".json")
+                        pairs = bench.path(base + "-pairs.npz")
+                        wall = bench.run("splat", "render", *source, "--support", support, "--path", path,
+                                         "-o", picture, "--json", report, "--dump-pairs", pairs)
+                        tile = "64" if path == "raster" else "16"
+                        wanted = bench.make(f"{name}-pairs{tile}.npz", "splat-reference", *source, "--support", support,
+                                            "--precision", "f32", "--tile", tile, "--pairs")
+                        same = subprocess.run(("splat-compare", wanted, pairs, "--pairs"), capture_output=True,
+                                              text=True)
+                        result = bench.compare(reference, picture, reference, base)
+                        with open(report) as f:
+                            told = json.load(f)
+                        return {"scene": scene, "view": view, "support": support, "path": path, "wall_s": wall,
+                                "all_db": result["psnr_db"], "sure_db": result["psnr_db_outside_doubtful"],
+                                "doubtful": result["doubtful_share"], "pairs_equal": same.returncode == 0,
+                                "pairs_said": (same.stdout or same.stderr).strip(), "report": told}
+                    made[path] = bench.once(f"{name}-{path}", row)
+                    rows.append(made[path])
+                if len(made) == 2:
+                    between = bench.once(f"{name}-paths", lambda: bench.compare(
+                        bench.path(f"{name}-simt.npz"), bench.path(f"{name}-raster.npz"), reference, f"{name}-paths"))
+                    made["raster"]["paths_db"] = between["psnr_db_outside_doubtful"]
+    print("| scene | view | support | path | all, dB | sure, dB | doubtful, % | paths, dB | pairs = fp32 | wall, s |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
+    good = True
+    for r in rows:
+        row_good = (reached(r["all_db"], ALL_DB) and reached(r["sure_db"], SURE_DB)
+                    and reached(r.get("paths_db"), PATHS_DB) and r["pairs_equal"] and r["doubtful"] <= MAX_DOUBTFUL)
+        good &= row_good
+        print(f"| {r['scene']} | {r['view']} | {r['support']} | {r['path']} | {db(r['all_db'])} | {db(r['sure_db'])} "
+              f"| {100 * r['doubtful']:.3f} | {db(r['paths_db']) if 'paths_db' in r else ''} "
+              f"| {'yes' if r['pairs_equal'] else 'NO'} | {r['wall_s']:.1f} |{'' if row_good else ' OUT OF BOUNDS'}")
+    return rows, good
+
+
+def fixtures(bench, args):
+    names = sorted(n[:-4] for n in os.listdir(os.path.join(bench.data, "reference"))
+                   if n.endswith(".npz") and not n.endswith("_more.npz"))
+    wanted = ("random2k_sh3", "garden_crop192x144", "guitar256")
+    rows = []
+    for name in names:
+        required = name in wanted or name.startswith("inria_")
+        if not required and not args.hard:
+            continue
+        folder = bench.path(name)
+        bench.once(name + "-fixture", lambda: bench.run(
+            "splat-fixture", os.path.join(bench.data, "reference", name + ".npz"), "-o", folder))
+        with open(os.path.join(folder, "options.json")) as f:
+            options = json.load(f)
+        for path in ("simt", "raster"):
+            def row(path=path):
+                picture = os.path.join(folder, path + ".npz")
+                command = ["splat", "render", os.path.join(folder, "scene.ply"), "--cameras",
+                           os.path.join(folder, "cameras.json"), "--view", "view", "--rules", options["rules"],
+                           "--support", options["support"], "--path", path, "--background",
+                           ",".join(str(b) for b in options["background"]), "-o", picture]
+                if options["antialiased"]:
+                    command.append("--antialiased")
+                bench.run(*command)
+                mask = os.path.join(folder, "reference.npz")
+                result = bench.compare(os.path.join(folder, "expected.npz"), picture, mask, f"{name}-{path}")
+                return {"fixture": name, "path": path, "rules": options["rules"], "support": options["support"],
+                        "all_db": result["psnr_db"], "sure_db": result["psnr_db_outside_doubtful"],
+                        "doubtful": result["doubtful_share"], "required": required,
+                        "conversion_db": options["conversion_db_outside_doubtful"]}
+            rows.append(bench.once(f"{name}-{path}", row))
+    print("| fixture | rules | support | path | all, dB | sure, dB | doubtful, % | the conversion alone, dB |")
+    print("|---|---|---|---|---|---|---|---|")
+    good = True
+    for r in rows:
+        row_good = reached(r["sure_db"], SURE_DB) and r["doubtful"] <= MAX_DOUBTFUL_HARD
+        good &= row_good or not r["required"]
+        print(f"| {r['fixture']} | {r['rules']} | {r['support']} | {r['path']} | {db(r['all_db'])} "
+              f"| {db(r['sure_db'])} | {100 * r['doubtful']:.3f} | {db(r['conversion_db'])} |"
+              f"{'' if row_good else ' OUT OF BOUNDS'}")
+    return rows, good
+
+
+def datapath(bench, args):
+    source = (os.path.join(bench.data, "scenes", "box_sh3.ply"), "--cameras",
+              os.path.join(bench.data, "scenes", "cameras", "box_sh3.json"), "--view", "front")
+    reference = bench.make("box_sh3-front-exact-f64.npz", "splat-reference", *source, "--support", "exact", "-o")
+    rows = []
+    for exp in ("exact", "table"):
+        for cutoff in ("0.0001", "0.001", "0.01"):
+            def row():
+                base = f"datapath-{exp}-{cutoff}"
+                picture, report = bench.path(base + ".npz"), bench.path(base + ".json")
+                wall = bench.run("splat", "render", *source, "--path", "raster", "--exp", exp, "--cutoff", cutoff,
+                                 "-o", picture, "--json", report)
+                result = bench.compare(reference, picture, reference, base)
+                with open(report) as f:
+                    told = json.load(f)
+                return {"exp": exp, "cutoff": float(cutoff), "wall_s": wall, "all_db": result["psnr_db"],
+                        "sure_db": result["psnr_db_outside_doubtful"], "report": told}
+            rows.append(bench.once(f"datapath-{exp}-{cutoff}", row))
+    print("box_sh3 front, raster, against the fp64 reference with the exact exponential and cut-off 0.0001\n")
+    print("| exponential | cut-off | PSNR, dB | outside doubtful, dB | blends | fragments | wall, s |")
+    print("|---|---|---|---|---|---|---|")
+    for r in rows:
+        raster = r["report"].get("raster", {})
+        print(f"| {r['exp']} | {r['cutoff']} | {db(r['all_db'])} | {db(r['sure_db'])} | {raster.get('blends'):,} "
+              f"| {raster.get('fragments'):,} | {r['wall_s']:.1f} |")
+    return rows, all(r["wall_s"] < 30 for r in rows)
+
+
+def main():
+    root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mode", choices=("pictures", "fixtures", "datapath"))
+    parser.add_argument("--data", default=os.path.join(root, "..", "shared", "data"))
+    parser.add_argument("--out", default=os.path.join(root, "build", "accuracy"))
+    parser.add_argument("--scenes", default=",".join(SCENES))
+    parser.add_argument("--views", default=",".join(VIEWS))
+    parser.add_argument("--hard", action="store_true", help="fixtures: the numerically hard ones too")
+    args = parser.parse_args()
+    if not os.path.isdir(args.data):
+        print(f"accuracy.py: error: {args.data}: no such folder, expected the data with scenes/ and reference/",
+              file=sys.stderr)
+        return 3
+    bench = Bench(args)
+    try:
+        rows, good = {"pictures": pictures, "fixtures": fixtures, "datapath": datapath}[args.mode](bench, args)
+    except RuntimeError as error:
+        print(f"accuracy.py: error: {error}", file=sys.stderr)
+        return 1
+    with open(bench.path(args.mode + ".json"), "w") as f:
+        json.dump(rows, f, indent=1)
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
