@@ -30,14 +30,16 @@ Mat3<Real> multiply(const Mat3<Real> &A, const Mat3<Real> &B) {
   return R;
 }
 
-/// \c Splat::DepthSlack of a mean.
 template <typename Real>
-double depthSlack(const Camera<Real> &C, const Vec3<Real> &Mean) {
+void setDepthDoubt(Splat<Real> &S, const Camera<Real> &C,
+                   const Vec3<Real> &Mean) {
   double Magnitude = std::abs(double(C.Translation.z));
-  for (int K = 0; K < 3; ++K)
-    Magnitude += std::abs(double(C.Rotation[K][2]) * double(Mean[K]));
+  for (int K = 0; K < 3; ++K) {
+    S.DepthTerms[K] = double(C.Rotation[K][2]) * double(Mean[K]);
+    Magnitude += std::abs(S.DepthTerms[K]);
+  }
   constexpr double UnitRoundoff = 0x1p-24;
-  return 0.5 * UnitRoundoff * Magnitude;
+  S.DepthSlack = 0.5 * UnitRoundoff * Magnitude;
 }
 
 /// The rotation of a unit quaternion (w, x, y, z); none for the zero one.
@@ -105,9 +107,12 @@ template <typename Real> Real deviations(Real Opacity) {
   return std::sqrt(2 * std::max(Real(0), std::log(255 * Opacity)));
 }
 
-template <typename Real> void setRadii(Splat<Real> &S, Real Det, Rules Rule) {
+template <typename Real> void setRadii(Splat<Real> &S, Rules Rule) {
+  // mid^2 - det as a sum of squares, which cannot cancel in fp32.
   const Real Mid = (S.Covariance[0] + S.Covariance[2]) / 2;
-  const Real Lambda = Mid + std::sqrt(std::max(Real(0.1), Mid * Mid - Det));
+  const Real Half = (S.Covariance[0] - S.Covariance[2]) / 2;
+  const Real Spread = Half * Half + S.Covariance[1] * S.Covariance[1];
+  const Real Lambda = Mid + std::sqrt(std::max(Real(0.1), Spread));
   S.CircleRadius = 3 * std::sqrt(Lambda);
   if (Rule == Rules::Inria) {
     S.Radius = glm::ivec2(
@@ -149,7 +154,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   if (!InFront)
     return S;
   S.Depth = P.z;
-  S.DepthSlack = depthSlack(C, G.Means[I]);
+  setDepthDoubt(S, C, G.Means[I]);
   S.Mean = {C.Focal.x * P.x / P.z + C.Principal.x,
             C.Focal.y * P.y / P.z + C.Principal.y};
 
@@ -178,7 +183,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   // No pixel can reach 1/255: with the exact support there is no box at all.
   if (O.Reach == Support::Exact && !(255 * S.Opacity >= 1))
     return S;
-  setRadii(S, Det, O.Rule);
+  setRadii(S, O.Rule);
   S.Extent = extent(S, O.Reach);
 
   const int Coefficients = (G.ShDegree + 1) * (G.ShDegree + 1);

@@ -12,6 +12,9 @@ template <typename Real> struct Splat {
   bool Visible = false;   ///< false: culled, and nothing below is meaningful
   glm::vec<2, Real> Mean; ///< pixels
   Real Depth = 0;         ///< camera z
+  /// The products that sum up to z, less the translation that all share: if two
+  /// Gaussians have the same, they have the same z in any precision.
+  glm::dvec3 DepthTerms{0};
   /// How far fp32 is typically off in z: half the unit roundoff times the sum
   /// of the magnitudes of its terms. (The bound on the error is ten times this,
   /// but roundings rarely add up; by the bound, most pixels of a dense scene
@@ -44,7 +47,10 @@ template <typename Real> struct Splat {
 ///     S       = B B^T, each entry (b0 b0' + b1 b1') + b2 b2'
 ///     minors  = b0 c1 - b1 c0, b0 c2 - b2 c0, b1 c2 - b2 c1 for B's rows b, c
 ///     det0    = (minor^2 + minor^2) + minor^2
-///     det     = (det0 + h (S_xx + S_yy)) + h h for the dilation h
+///     det     = (det0 + h (S_xx + S_yy)) + h h for the dilation h; S_xx and
+///               S_yy then become S_xx + h and S_yy + h
+///     lambda  = mid + sqrt(max(0.1, half^2 + S_xy^2)), mid and half being half
+///               the sum and the difference of S_xx and S_yy
 ///
 /// The determinant is a sum of squares (Cauchy-Binet) since S_xx S_yy - S_xy^2
 /// loses all digits to cancellation in fp32 for long needles.

@@ -34,6 +34,7 @@ template <typename Real> struct Candidate {
   glm::vec<2, Real> Mean, Extent;
   glm::vec<3, Real> Conic, Color;
   Real Opacity;
+  glm::dvec3 DepthTerms;
   double Depth, DepthSlack;
   Rect Official; ///< pixels, for Official16
   Border Edge;   ///< for supports with a border
@@ -44,23 +45,22 @@ template <typename Real> struct Candidate {
 /// Watches the depths of the Gaussians that a pixel sees, front to back.
 class DepthOrder {
 public:
-  /// Takes the next one; true if one of another depth may belong behind it.
-  bool doubtful(double Depth, double Slack) {
-    if (Depth != Current) {
+  /// Takes the next one; true if it may belong before an earlier one.
+  bool doubtful(const glm::dvec3 &Terms, double Depth, double Slack) {
+    if (Terms != Current) {
       Before = std::max(Before, Here);
       Here = -std::numeric_limits<double>::infinity();
-      Current = Depth;
+      Current = Terms;
     }
     Here = std::max(Here, Depth + Slack);
     return Depth - Slack < Before;
   }
 
 private:
-  /// Farthest that a Gaussian may be: of those at the current depth, and of
-  /// those before.
+  /// Farthest that one may be: of those like the current one, and of others.
   double Here = -std::numeric_limits<double>::infinity();
   double Before = -std::numeric_limits<double>::infinity();
-  double Current = -std::numeric_limits<double>::infinity();
+  glm::dvec3 Current{std::numeric_limits<double>::quiet_NaN()};
 };
 
 bool near(double Value, double Threshold) {
@@ -165,6 +165,7 @@ private:
     C.Opacity = S.Opacity;
     C.Depth = S.Depth;
     C.DepthSlack = S.DepthSlack;
+    C.DepthTerms = S.DepthTerms;
     C.Official = officialPixels(S.Mean, S.Extent.x, P.Width, P.Height);
     C.Edge = borderOf(S, O.Reach, P.Width, P.Height);
     C.Index = static_cast<std::int32_t>(I);
@@ -215,7 +216,7 @@ private:
         Doubts |= DoubtThreshold;
       if (!Inside || Alpha < leastAlpha<Real>())
         continue;
-      if (Order.doubtful(C.Depth, C.DepthSlack))
+      if (Order.doubtful(C.DepthTerms, C.Depth, C.DepthSlack))
         Doubts |= DoubtOrder;
       const Real Next = T * (1 - Alpha);
       if (near(Next, O.Cutoff))

@@ -1,0 +1,201 @@
+#include "Convert.h"
+
+#include "reference/SphericalHarmonics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vorion::test {
+namespace {
+
+template <typename Real, typename From>
+std::vector<glm::vec<3, Real>> rows3(const std::vector<From> &V) {
+  std::vector<glm::vec<3, Real>> Rows;
+  for (std::size_t I = 0; I + 2 < V.size(); I += 3)
+    Rows.emplace_back(V[I], V[I + 1], V[I + 2]);
+  return Rows;
+}
+
+template <typename To, typename From>
+std::vector<To> converted(const std::vector<From> &V) {
+  std::vector<To> Result;
+  Result.reserve(V.size());
+  for (const From &E : V)
+    Result.push_back(static_cast<To>(E));
+  return Result;
+}
+
+/// The logit whose opacity is nearest to \p Opacity. From 17 on the opacity
+/// rounds to 1 in fp32; 30 keeps the error below that of a double's 13th digit.
+float logitOf(double Opacity) {
+  constexpr double Limit = 30;
+  const double Logit = std::log(Opacity) - std::log1p(-Opacity);
+  return static_cast<float>(std::clamp(Logit, -Limit, Limit));
+}
+
+} // namespace
+
+template <typename Real>
+reference::Gaussians<Real> toReference(const splat::Scene &S) {
+  const auto A = splat::activate<Real>(S);
+  reference::Gaussians<Real> G;
+  G.Means = rows3<Real>(S.Means);
+  G.Scales = rows3<Real>(A.Scales);
+  for (std::size_t I = 0; I + 3 < A.Quats.size(); I += 4)
+    G.Quats.emplace_back(A.Quats[I], A.Quats[I + 1], A.Quats[I + 2],
+                         A.Quats[I + 3]);
+  G.Opacities = A.Opacities;
+  G.ShDegree = S.ShDegree;
+  G.Sh = rows3<Real>(S.Sh);
+  return G;
+}
+
+template <typename Real>
+reference::Camera<Real> toReference(const splat::Camera &C) {
+  reference::Camera<Real> R;
+  R.Width = C.Width;
+  R.Height = C.Height;
+  const auto Rotation = C.worldToCameraRotation();
+  const auto Translation = C.worldToCameraTranslation();
+  for (int I = 0; I < 3; ++I) {
+    for (int J = 0; J < 3; ++J)
+      R.Rotation[J][I] =
+          static_cast<Real>(Rotation[static_cast<std::size_t>(3 * I + J)]);
+    R.Translation[I] =
+        static_cast<Real>(Translation[static_cast<std::size_t>(I)]);
+    R.Centre[I] = static_cast<Real>(C.Position[static_cast<std::size_t>(I)]);
+  }
+  R.Focal = {C.Fx, C.Fy};
+  R.Principal = {C.Cx, C.Cy};
+  return R;
+}
+
+reference::Gaussians<float> toSingle(const reference::Gaussians<double> &G) {
+  reference::Gaussians<float> S;
+  S.Means = converted<glm::vec3>(G.Means);
+  S.Scales = converted<glm::vec3>(G.Scales);
+  S.Quats = converted<glm::vec4>(G.Quats);
+  S.Opacities = converted<float>(G.Opacities);
+  S.ShDegree = G.ShDegree;
+  S.Sh = converted<glm::vec3>(G.Sh);
+  S.Colors = converted<glm::vec3>(G.Colors);
+  return S;
+}
+
+reference::Camera<float> toSingle(const reference::Camera<double> &C) {
+  return {C.Width,
+          C.Height,
+          glm::mat3(C.Rotation),
+          glm::vec3(C.Translation),
+          glm::vec3(C.Centre),
+          glm::vec2(C.Focal),
+          glm::vec2(C.Principal)};
+}
+
+splat::Scene sceneOf(const Fixture &F) {
+  const auto &G = F.Gaussians;
+  splat::Scene S;
+  const auto Put = [](std::vector<float> &To, const glm::dvec3 &V) {
+    for (int K = 0; K < 3; ++K)
+      To.push_back(static_cast<float>(V[K]));
+  };
+  for (std::size_t I = 0; I < G.size(); ++I) {
+    Put(S.Means, G.Means[I]);
+    Put(S.LogScales,
+        glm::dvec3(std::log(G.Scales[I].x), std::log(G.Scales[I].y),
+                   std::log(G.Scales[I].z)));
+    S.OpacityLogits.push_back(logitOf(G.Opacities[I]));
+  }
+  // As stored, before they were made unit: no rounding at all.
+  S.Quats = F.Arrays.at("in_quats").toFloats();
+  if (G.Colors.empty()) {
+    S.ShDegree = G.ShDegree;
+    for (const glm::dvec3 &C : G.Sh)
+      Put(S.Sh, C);
+  } else {
+    const double Constant = reference::shBasis(glm::dvec3(0), 0)[0];
+    for (const glm::dvec3 &C : G.Colors)
+      Put(S.Sh, (C - 0.5) / Constant);
+  }
+  return S;
+}
+
+splat::Camera cameraOf(const Fixture &F) {
+  splat::Camera C;
+  C.Name = "view";
+  C.Width = F.Camera.Width;
+  C.Height = F.Camera.Height;
+  for (int I = 0; I < 3; ++I) {
+    for (int J = 0; J < 3; ++J)
+      C.Rotation[static_cast<std::size_t>(J)][static_cast<std::size_t>(I)] =
+          F.Camera.Rotation[J][I];
+    C.Position[static_cast<std::size_t>(I)] = F.Camera.Centre[I];
+  }
+  C.Fx = F.Camera.Focal.x;
+  C.Fy = F.Camera.Focal.y;
+  C.Cx = F.Camera.Principal.x;
+  C.Cy = F.Camera.Principal.y;
+  return C;
+}
+
+template <typename Real>
+std::vector<double> renderOf(const reference::Picture<Real> &P) {
+  std::vector<double> V;
+  V.reserve(P.Render.size() * 3);
+  for (const auto &Pixel : P.Render)
+    for (int K = 0; K < 3; ++K)
+      V.push_back(Pixel[K]);
+  return V;
+}
+
+template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P) {
+  const auto H = static_cast<std::size_t>(P.Height);
+  const auto W = static_cast<std::size_t>(P.Width);
+  std::vector<Real> Alpha;
+  std::vector<std::uint8_t> Threshold, Order;
+  for (const Real T : P.Transmittance)
+    Alpha.push_back(1 - T);
+  for (const std::uint8_t D : P.Doubts) {
+    Threshold.push_back((D & reference::DoubtThreshold) != 0);
+    Order.push_back((D & reference::DoubtOrder) != 0);
+  }
+  using splat::NpyArray;
+  return {{"render", NpyArray::of({H, W, 3}, converted<Real>(renderOf(P)))},
+          {"alpha", NpyArray::of({H, W}, Alpha)},
+          {"last", NpyArray::of({H, W}, P.Last)},
+          {"mask_threshold", NpyArray::ofBools({H, W}, Threshold)},
+          {"mask_order", NpyArray::ofBools({H, W}, Order)}};
+}
+
+template <typename Real>
+splat::Npz toNpz(const reference::TileLists &T,
+                 const std::vector<reference::Splat<Real>> &Splats) {
+  std::vector<std::int32_t> Tiles, Depths, Indices;
+  for (std::size_t Tile = 0; Tile < T.Lists.size(); ++Tile)
+    for (const std::uint32_t I : T.Lists[Tile]) {
+      Tiles.push_back(static_cast<std::int32_t>(Tile));
+      Depths.push_back(
+          static_cast<std::int32_t>(reference::depthBits(Splats[I].Depth)));
+      Indices.push_back(static_cast<std::int32_t>(I));
+    }
+  const std::vector<std::size_t> Shape{Tiles.size()};
+  using splat::NpyArray;
+  return {{"tile", NpyArray::of(Shape, Tiles)},
+          {"depth_bits", NpyArray::of(Shape, Depths)},
+          {"index", NpyArray::of(Shape, Indices)}};
+}
+
+template reference::Gaussians<float> toReference(const splat::Scene &);
+template reference::Gaussians<double> toReference(const splat::Scene &);
+template reference::Camera<float> toReference(const splat::Camera &);
+template reference::Camera<double> toReference(const splat::Camera &);
+template std::vector<double> renderOf(const reference::Picture<float> &);
+template std::vector<double> renderOf(const reference::Picture<double> &);
+template splat::Npz toNpz(const reference::Picture<float> &);
+template splat::Npz toNpz(const reference::Picture<double> &);
+template splat::Npz toNpz(const reference::TileLists &,
+                          const std::vector<reference::Splat<float>> &);
+template splat::Npz toNpz(const reference::TileLists &,
+                          const std::vector<reference::Splat<double>> &);
+
+} // namespace vorion::test

@@ -1,0 +1,52 @@
+/// Between what the readers give, what the reference renders, and fixtures.
+#pragma once
+
+#include "Activation.h"
+#include "Cameras.h"
+#include "Fixture.h"
+#include "Npz.h"
+#include "Scene.h"
+#include "reference/Render.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vorion::test {
+
+/// \p S, activated as `Activation.h` states.
+template <typename Real>
+reference::Gaussians<Real> toReference(const splat::Scene &S);
+
+/// \p C in precision \p Real, rounded once from doubles as the device gets it.
+template <typename Real>
+reference::Camera<Real> toReference(const splat::Camera &C);
+
+/// \p G and \p C in fp32, each number rounded once.
+reference::Gaussians<float> toSingle(const reference::Gaussians<double> &G);
+reference::Camera<float> toSingle(const reference::Camera<double> &C);
+
+/// The parameters of \p F as a scene stores them: logarithms and logits in
+/// fp32, direct colours as the constant spherical harmonic. An opacity of 1
+/// becomes the logit that rounds back to it.
+splat::Scene sceneOf(const Fixture &F);
+
+/// The view of \p F, named "view". Its rotation is the transpose of the
+/// fixture's, and the position is such that the translation stays the same.
+splat::Camera cameraOf(const Fixture &F);
+
+/// `render` (H, W, 3), `alpha`, `last`, and the booleans `mask_threshold` and
+/// `mask_order`, in the precision of the picture.
+template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P);
+
+/// The pairs as `splat render --dump-pairs` writes them: `tile`, `depth_bits`
+/// and `index`, sorted by tile and depth.
+template <typename Real>
+splat::Npz toNpz(const reference::TileLists &T,
+                 const std::vector<reference::Splat<Real>> &Splats);
+
+/// The channels of \p P one after the other.
+template <typename Real>
+std::vector<double> renderOf(const reference::Picture<Real> &P);
+
+} // namespace vorion::test

@@ -1,0 +1,108 @@
+// splat-fixture: turns a fixture into files that `splat render` reads.
+
+#include "Convert.h"
+#include "Metrics.h"
+#include "Ply.h"
+#include "Tool.h"
+#include "vorion/support/File.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::test {
+namespace {
+
+std::string nameOf(reference::Support S) {
+  switch (S) {
+  case reference::Support::Exact:
+    return "exact";
+  case reference::Support::Box3:
+    return "box3";
+  case reference::Support::Square3:
+    return "square3";
+  case reference::Support::Official16:
+    return "official16";
+  }
+  return "";
+}
+
+/// `view.npz` of the fixture's own result, so that `splat compare` can read it.
+splat::Npz expectedOf(const Fixture &F) {
+  splat::Npz Arrays;
+  for (const auto &[From, To] :
+       {std::pair("f64_render", "render"), std::pair("f64_alpha", "alpha"),
+        std::pair("mask_threshold", "mask_threshold"),
+        std::pair("mask_order", "mask_order")})
+    if (F.has(From))
+      Arrays[To] = F.Arrays.at(From);
+  return Arrays;
+}
+
+Expected<Success> run(const std::string &Input, const std::string &Folder) {
+  const auto F = readFixture(Input);
+  if (!F)
+    return F.error();
+  std::error_code Failed;
+  std::filesystem::create_directories(Folder, Failed);
+  if (Failed)
+    return Error{Folder, "cannot create the folder: " + Failed.message()};
+  const splat::Scene S = sceneOf(*F);
+  const splat::Camera C = cameraOf(*F);
+  const auto &O = F->Options;
+
+  // The same renderer on both sides: the difference is the conversion's.
+  const auto Exact = reference::render(F->Gaussians, F->Camera, O);
+  const auto Stored =
+      reference::render(toReference<double>(S), toReference<double>(C), O);
+  std::vector<std::uint8_t> Doubtful(Exact.Doubts);
+  const auto Loss = splat::compare(renderOf(Exact), renderOf(Stored), 3);
+  const auto Outside =
+      splat::compare(renderOf(Exact), renderOf(Stored), 3, Doubtful);
+
+  const nlohmann::ordered_json Options{
+      {"rules", O.Rule == reference::Rules::Inria ? "inria" : "gsplat"},
+      {"support", nameOf(O.Reach)},
+      {"antialiased", O.Antialiased},
+      {"background", O.Background},
+      {"dilation", O.Dilation},
+      {"conversion_db", Loss.PsnrDb},
+      {"conversion_db_outside_doubtful", Outside.PsnrDb}};
+  const std::string Prefix = Folder + "/";
+  if (auto W = splat::writePly(Prefix + "scene.ply", S); !W)
+    return W;
+  if (auto W = splat::writeCameras(Prefix + "cameras.json", {C}); !W)
+    return W;
+  if (auto W = splat::writeNpz(Prefix + "expected.npz", expectedOf(*F)); !W)
+    return W;
+  if (auto W = splat::writeNpz(Prefix + "reference.npz", toNpz(Exact)); !W)
+    return W;
+  if (auto W =
+          writeFileAtomically(Prefix + "options.json", Options.dump(2) + "\n");
+      !W)
+    return W;
+  fmt::print("{}: {} Gaussians, {}x{}, {} rules, support {}{}\nconversion to "
+             "fp32 logarithms and logits: {:.1f} dB, {:.1f} dB outside "
+             "doubtful pixels ({:.3f} %)\n",
+             F->Name, S.size(), C.Width, C.Height,
+             Options["rules"].get<std::string>(), nameOf(O.Reach),
+             O.Antialiased ? ", antialiased" : "", Loss.PsnrDb, Outside.PsnrDb,
+             100 * Exact.doubtfulShare());
+  return Success{};
+}
+
+} // namespace
+} // namespace vorion::test
+
+int main(int Count, char **Values) {
+  CLI::App App("Turns a fixture into a scene (scene.ply), a view "
+               "(cameras.json, named view), its options (options.json), the "
+               "result to expect (expected.npz) and the reference's with "
+               "masks of doubtful pixels (reference.npz).",
+               "splat-fixture");
+  std::string Input, Folder;
+  App.add_option("fixture", Input, "Inputs and results (.npz)")->required();
+  App.add_option("-o,--output", Folder, "Folder, made if need be")->required();
+  return vorion::test::runTool(
+      App, Count, Values, [&] { return vorion::test::run(Input, Folder); });
+}

@@ -1,0 +1,138 @@
+// splat-reference: renders one view of a scene with the reference.
+
+#include "Convert.h"
+#include "Ply.h"
+#include "Tool.h"
+#include "vorion/support/File.h"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::test {
+namespace {
+
+struct Arguments {
+  std::string Scene, Cameras, View, Output, Json, Pairs;
+  std::string Rules = "inria", Support = "exact", Precision = "f64";
+  std::vector<float> Background{0, 0, 0};
+  reference::Options Options;
+};
+
+reference::Options optionsOf(const Arguments &A) {
+  reference::Options O = A.Options;
+  O.Rule =
+      A.Rules == "inria" ? reference::Rules::Inria : reference::Rules::Gsplat;
+  O.Reach = supportNamed(A.Support);
+  std::copy_n(A.Background.begin(), 3, O.Background.begin());
+  return O;
+}
+
+template <typename Real>
+Expected<Success> run(const Arguments &A, const splat::Scene &S,
+                      const splat::Camera &View) {
+  const auto Started = std::chrono::steady_clock::now();
+  const reference::Options O = optionsOf(A);
+  const auto C = toReference<Real>(View);
+  const auto Splats = reference::project(toReference<Real>(S), C, O);
+  const auto P = reference::blend(Splats, C.Width, C.Height, O);
+  const auto Lists =
+      reference::tileLists(Splats, O.Reach, O.TileSize, C.Width, C.Height);
+  const std::chrono::duration<double> Seconds =
+      std::chrono::steady_clock::now() - Started;
+  if (!A.Output.empty())
+    if (auto W = splat::writeNpz(A.Output, toNpz(P)); !W)
+      return W;
+  if (!A.Pairs.empty())
+    if (auto W = splat::writeNpz(A.Pairs, toNpz(Lists, Splats)); !W)
+      return W;
+
+  const double Pixels = double(C.Width) * C.Height;
+  const auto Visible = std::count_if(Splats.begin(), Splats.end(),
+                                     [](const auto &X) { return X.Visible; });
+  const nlohmann::ordered_json Report{{"scene", A.Scene},
+                                      {"view", View.Name},
+                                      {"resolution", {C.Width, C.Height}},
+                                      {"rules", A.Rules},
+                                      {"support", A.Support},
+                                      {"precision", A.Precision},
+                                      {"antialiased", O.Antialiased},
+                                      {"background", A.Background},
+                                      {"cutoff", O.Cutoff},
+                                      {"tile", O.TileSize},
+                                      {"visible", Visible},
+                                      {"pairs", Lists.pairs()},
+                                      {"blends", P.Blends},
+                                      {"walked", P.Walked},
+                                      {"saturated_pixels", P.Saturated},
+                                      {"doubtful_share", P.doubtfulShare()},
+                                      {"seconds", Seconds.count()}};
+  if (!A.Json.empty())
+    if (auto W = writeFileAtomically(A.Json, Report.dump(2) + "\n"); !W)
+      return W;
+  fmt::print("{} {}x{} in {}: {} rules, support {}\n{} Gaussians seen, {} "
+             "pairs with tiles of {}x{}\n{:.2f} blends, {:.1f} list entries a "
+             "pixel, {:.2f} % saturated, {:.3f} % doubtful, {:.1f} s\n",
+             View.Name, C.Width, C.Height, A.Precision, A.Rules, A.Support,
+             Visible, Lists.pairs(), O.TileSize, O.TileSize,
+             double(P.Blends) / Pixels, double(P.Walked) / Pixels,
+             100 * double(P.Saturated) / Pixels, 100 * P.doubtfulShare(),
+             Seconds.count());
+  return Success{};
+}
+
+Expected<Success> run(const Arguments &A) {
+  const auto S = splat::readPly(A.Scene);
+  if (!S)
+    return S.error();
+  const auto View = splat::readCamera(A.Cameras, A.View);
+  if (!View)
+    return View.error();
+  return A.Precision == "f64" ? run<double>(A, *S, *View)
+                              : run<float>(A, *S, *View);
+}
+
+} // namespace
+} // namespace vorion::test
+
+int main(int Count, char **Values) {
+  using namespace vorion::test;
+  CLI::App App("Renders one view of a scene with the reference.",
+               "splat-reference");
+  Arguments A;
+  App.add_option("scene", A.Scene, "Scene in INRIA's PLY layout")->required();
+  App.add_option("--cameras", A.Cameras, "Views: INRIA's cameras.json")
+      ->required();
+  App.add_option("--view", A.View, "img_name or id of the view")->required();
+  App.add_option("-o,--output", A.Output,
+                 "Picture, alpha and masks of doubtful pixels (.npz)");
+  App.add_option("--pairs", A.Pairs,
+                 "Sorted tile, depth_bits and index arrays (.npz)");
+  App.add_option("--json", A.Json, "Counts, and what made them");
+  App.add_option("--rules", A.Rules, "Convention to follow")
+      ->check(CLI::IsMember({"inria", "gsplat"}))
+      ->capture_default_str();
+  App.add_option("--support", A.Support, "Pixels that a Gaussian may reach")
+      ->check(CLI::IsMember({"exact", "box3", "square3", "official16"}))
+      ->capture_default_str();
+  App.add_option("--precision", A.Precision, "Of all arithmetic")
+      ->check(CLI::IsMember({"f64", "f32"}))
+      ->capture_default_str();
+  App.add_flag("--antialiased", A.Options.Antialiased,
+               "Compensate opacity for the dilation");
+  App.add_option("--background", A.Background, "Colour r,g,b (default 0,0,0)")
+      ->delimiter(',')
+      ->expected(3);
+  App.add_option("--cutoff", A.Options.Cutoff,
+                 "Transmittance at which a pixel is full")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  App.add_option("--tile", A.Options.TileSize, "Side of a tile, pixels")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  App.add_option("--threads", A.Options.Threads,
+                 "Host threads, 0 for all; changes no result")
+      ->check(CLI::Range(0U, 1024U))
+      ->capture_default_str();
+  return runTool(App, Count, Values, [&A] { return run(A); });
+}
