@@ -7,7 +7,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 
-/* As in C17 7.21.6. Malformed conversions end the text and give -1. */
+/* As in C17 7.21.6. Malformed conversions end the text and give -1; so does text
+   that does not fit the print buffer. */
 int printf(const char *format, ...) __attribute__((format(printf, 1, 2)));
 int snprintf(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -15,7 +16,7 @@ int puts(const char *text);
 int putchar(int c);
 
 /* As in OpenCL C 6.15.14, for a device without fp64: floating arguments are
-   floats, not promoted. 0, or -1 for a malformed conversion. */
+   floats, not promoted. 0, or -1 for what printf gives -1 for. */
 int vx_vprintf_opencl(const char *format, va_list arguments);
 
 #endif

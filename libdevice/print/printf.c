@@ -40,7 +40,8 @@ static int print_to_buffer(vx_launch *launch, enum vx_dialect dialect,
     text = (struct vx_text){.at = buffer + at, .end = buffer + capacity};
     vx_format(&text, dialect, format, list);
   }
-  return result;
+  /* Not all of it fits: an error of this call, whose text is cut off. */
+  return at >= capacity || *count > capacity - at ? -1 : result;
 }
 
 /* The number of bytes, or -1. */
