@@ -77,7 +77,7 @@ private:
   bool collect() {
     bool Good = true;
     for (BasicBlock *Block : ReversePostOrderTraversal<Function *>(&F)) {
-      if (!Uniform.hasDivergentTerminator(*Block))
+      if (!vorion::branchesApart(Uniform, *Block))
         continue;
       auto *Branch = cast<BranchInst>(Block->getTerminator());
       Loop *L = Loops.getLoopFor(Block);

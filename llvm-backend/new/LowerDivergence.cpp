@@ -42,6 +42,12 @@ void vorion::refuse(const Instruction &At, const Twine &Why) {
       DiagnosticInfoUnsupported(*At.getFunction(), Why, At.getDebugLoc()));
 }
 
+bool vorion::branchesApart(UniformityInfo &Uniform, const BasicBlock &Block) {
+  // A return of a value that lanes differ in is a divergent terminator, too.
+  const auto *Branch = dyn_cast<BranchInst>(Block.getTerminator());
+  return Branch && Branch->isConditional() && Uniform.hasDivergentTerminator(Block);
+}
+
 namespace {
 
 /// Declares wrong calls of our intrinsics to be errors: selection takes their
@@ -122,7 +128,7 @@ bool LowerDivergence::runOnFunction(Function &F) {
   changed();
 
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
-  if (none_of(F, [&](BasicBlock &B) { return Uniform.hasDivergentTerminator(B); }))
+  if (none_of(F, [&](BasicBlock &B) { return vorion::branchesApart(Uniform, B); }))
     return true;
   alignLoops(F, Analyses);
   vorion::insertSplits(F, Analyses);
@@ -187,7 +193,8 @@ bool LowerDivergence::mergeOneLoop(Function &F, FunctionAnalysisManager &Analyse
   const auto &PostDominators = Analyses.getResult<PostDominatorTreeAnalysis>(F);
   const auto &Dominators = Analyses.getResult<DominatorTreeAnalysis>(F);
   // Inner loops first: their exits are branches of the outer ones.
-  for (Loop *L : reverse(Loops.getLoopsInPreorder())) {
+  auto Preorder = Loops.getLoopsInPreorder();
+  for (Loop *L : reverse(Preorder)) {
     if (vorion::loopIsInStep(*L, Uniform, PostDominators, Dominators))
       continue;
     vorion::mergeExitsIntoLatch(*L);

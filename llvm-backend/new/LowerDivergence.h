@@ -27,6 +27,9 @@ namespace vorion {
 /// to the next error and then fails.
 void refuse(const Instruction &At, const Twine &Why);
 
+/// Whether \p Block ends with a branch that lanes may disagree about.
+bool branchesApart(UniformityInfo &Uniform, const BasicBlock &Block);
+
 /// Whether lanes may leave the loop at different times, or a divergent branch
 /// inside has its lanes meet again only outside: then the loop must have one
 /// exit that every iteration passes (and, if lanes may disagree there, vx_pred

@@ -35,7 +35,7 @@ bool vorion::loopIsInStep(const Loop &L, UniformityInfo &Uniform,
   if (soleExit(L, Dominators))
     return true;
   return none_of(L.blocks(), [&](BasicBlock *Block) {
-    if (!Uniform.hasDivergentTerminator(*Block))
+    if (!vorion::branchesApart(Uniform, *Block))
       return false;
     const auto *Node = PostDominators.getNode(Block);
     const BasicBlock *Meeting =
@@ -79,7 +79,6 @@ private:
   }
 
   void collectEdges() {
-    SmallVector<std::pair<BasicBlock *, BasicBlock *>, 8> Edges;
     for (BasicBlock *Block : L.blocks())
       for (BasicBlock *Successor : successors(Block))
         if (!L.contains(Successor))

@@ -47,7 +47,7 @@ bool vorion::markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
                                 const PostDominatorTree &PostDominators) {
   SmallPtrSet<BasicBlock *, 16> Repeated;
   for (BasicBlock &Block : F) {
-    if (!Uniform.hasDivergentTerminator(Block))
+    if (!branchesApart(Uniform, Block))
       continue;
     const auto *Node = PostDominators.getNode(&Block);
     BasicBlock *Meeting = Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
