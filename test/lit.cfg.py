@@ -1,0 +1,38 @@
+# The lit tests of everything that works from the command line, one folder a
+# kind. usage: lit --param build=BUILD_FOLDER test[/FOLDER]
+#
+# A feature stands for a program or library of the build, or data beside the
+# repository; a test that needs one says REQUIRES: and is skipped where it is
+# missing, which is printed below.
+import os
+import sys
+
+import lit.formats
+
+root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+build = os.path.abspath(lit_config.params.get("build", os.path.join(root, "build", "dev")))
+
+config.name = "vorion"
+config.test_format = lit.formats.ShTest(execute_external=False)
+config.suffixes = [".ll", ".mir", ".s", ".c", ".cl", ".test"]
+config.excludes = ["Inputs", "tools"]
+config.test_source_root = os.path.join(root, "test")
+config.test_exec_root = os.path.join(build, "test")
+config.environment["PATH"] = os.pathsep.join(
+    [os.path.join(build, "bin"), "/usr/lib/llvm-19/bin", os.environ["PATH"]])
+config.substitutions += [
+    ("%root", root),
+    ("%build", build),
+    # What header tests include when nothing is installed yet.
+    ("%include", os.path.join(build, "intrinsics", "generated", "include")),
+    ("%python", f'"{sys.executable}"'),
+]
+
+programs = ["vorion-clang", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim"]
+features = {name: os.path.join(build, "bin", name) for name in programs}
+features["data"] = os.path.join(root, "..", "shared", "data")
+for feature, path in features.items():
+    if os.path.exists(path):
+        config.available_features.add(feature)
+    else:
+        lit_config.note(f"{feature} is missing: tests that require it are skipped ({path} does not exist)")
