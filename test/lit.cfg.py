@@ -28,7 +28,7 @@ config.substitutions += [
     ("%python", f'"{sys.executable}"'),
 ]
 
-programs = ["vorion-clang", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim"]
+programs = ["vorion-clang", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["data"] = os.path.join(root, "..", "shared", "data")
 for feature, path in features.items():

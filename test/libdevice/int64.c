@@ -1,4 +1,5 @@
 // 64-bit arithmetic on different operands in each lane, against the host.
+// REQUIRES: vorion-clang, vorion-link, vorion-sim
 // RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf > %t.device
 // RUN: clang-19 -O1 %s -o %t.host.exe && %t.host.exe > %t.host
 // RUN: diff %t.host %t.device

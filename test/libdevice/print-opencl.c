@@ -1,6 +1,7 @@
 // What OpenCL's printf adds: vectors, floats that were not promoted, `l` for 64
 // bits. A C program passes the same words that a kernel would: vectors by the
 // ABI's own rules, floats as their bits.
+// REQUIRES: vorion-clang, vorion-link, vorion-sim
 // RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf | FileCheck %s
 #include <vorion.h>
 #include <vorion_print.h>
