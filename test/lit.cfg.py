@@ -30,6 +30,7 @@ config.substitutions += [
 
 programs = ["vorion-clang", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
+features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
 features["data"] = os.path.join(root, "..", "shared", "data")
 for feature, path in features.items():
     if os.path.exists(path):
