@@ -125,7 +125,11 @@ bool vorion::selectIntrinsic(SDNode *Node, SelectionDAG &DAG,
     Operands.push_back(DAG.getTargetConstant(I.CSR, DL, MVT::i32));
   if (I.Opcode == RISCV::CSRRS)
     Operands.push_back(DAG.getRegister(RISCV::X0, MVT::i32));
-  append_range(Operands, Inputs);
+  // A constant 0 is x0 at every optimisation level; VerifySplits.cpp tells by it
+  // the split that only asks for the depth.
+  for (SDValue Input : Inputs)
+    Operands.push_back(isNullConstant(Input) ? DAG.getRegister(RISCV::X0, MVT::i32)
+                                             : Input);
   if (HasChain)
     Operands.push_back(Node->getOperand(0));
 
