@@ -12,7 +12,7 @@ namespace vorion::isasim {
 /// Options of the rasterizers (one a socket, docs/abi.md).
 struct RasterConfig {
   /// Commands a Raster Agent holds; a write of vr_start to a full queue stalls.
-  unsigned QueueDepth = 16;
+  unsigned QueueDepth = 4;
 };
 
 /// Everything that fixes a machine. The defaults are the paper's prototype:

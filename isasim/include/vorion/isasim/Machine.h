@@ -39,14 +39,6 @@ public:
   /// The loaded image, or nullptr.
   const std::shared_ptr<const Image> &image() const;
 
-  /// Global memory for a buffer. \p Alignment is a power of two up to 4096. An
-  /// error if no gap is large enough. Contents are what was there before (zero
-  /// in a fresh machine). Size 0 gets an address of its own.
-  Expected<uint32_t> allocate(uint64_t Bytes, uint32_t Alignment = 128);
-  /// Ends an allocation; false if \p Address is not the start of one.
-  bool free(uint32_t Address);
-  uint64_t allocatedBytes() const;
-
   /// The host's view of [Address, Address + Bytes) in global memory, or nullptr
   /// if the range is not all global memory. Valid as long as the machine. Not
   /// to be used during a run, except on memory that the program does not touch.
@@ -57,10 +49,11 @@ public:
   bool write(uint32_t Address, std::span<const std::byte> From);
   bool fill(uint32_t Address, uint64_t Bytes, std::byte Value);
 
-  /// Resets all cores and rasterizers and runs the loaded image from its entry
-  /// point with mscratch = \p LaunchBlock (0 for none) until all warps have
-  /// ended or the run fails. Local memory starts zeroed. Without an image the
-  /// result is a fetch fault.
+  /// Resets all cores and runs the loaded image from its entry point with
+  /// mscratch = \p LaunchBlock (0 for none) until all warps have ended or the
+  /// run fails. Local memory starts zeroed; rasterizers keep their CSRs from
+  /// one run to the next, and are reset by a run that traps, hangs or reaches
+  /// its limit. Without an image the result is a fetch fault.
   RunResult run(uint32_t LaunchBlock = 0);
 
   /// Receives what the program writes to the console word, complete lines
@@ -71,8 +64,10 @@ public:
   /// host thread; nullptr for none. It changes no result.
   void setObserver(Observer *O);
 
-  /// The raster CSR window of docs/abi.md as the host sees it; not during a
-  /// run. nullopt or false for a core or CSR that is not there or is read-only.
+  /// The raster CSR window of docs/abi.md as the host sees it (lane 0 of a CSR
+  /// that every lane has); not during a run. nullopt or false for a core or CSR
+  /// that is not there or is read-only. A command that is started here has been
+  /// executed when the call returns.
   std::optional<uint32_t> readRasterCsr(unsigned Core, unsigned Csr);
   bool writeRasterCsr(unsigned Core, unsigned Csr, uint32_t Value);
 

@@ -2,6 +2,8 @@
 /// never the host's death.
 #pragma once
 
+#include "vorion/isasim/TrapCause.h"
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,24 +17,6 @@ enum class Outcome {
   Trap,         ///< a fault; see RunResult::Fault
   Hang,         ///< no warp can ever go on; the report says what each waits for
   LimitReached, ///< Config::MaxInstructions
-};
-
-enum class TrapCause {
-  IllegalInstruction,
-  FetchFault,      ///< pc outside the executable segments
-  MisalignedFetch, ///< jump target not a multiple of 4
-  LoadFault,       ///< no memory there
-  StoreFault,      ///< no memory there, or read-only
-  MisalignedLoad,  ///< also of an atomic
-  MisalignedStore, ///< also of an atomic
-  Breakpoint,      ///< ebreak
-  EnvironmentCall, ///< ecall
-  DivergentBranch, ///< active lanes disagree at a branch that no split guards
-  DivergentJump,   ///< active lanes disagree about the target of jalr
-  DivergenceOverflow,  ///< Config::DivergenceDepth
-  DivergenceUnderflow, ///< vx_join on an empty stack
-  EmptyMask,           ///< vx_pred left no lane active
-  BadBarrier,          ///< vx_bar of a barrier that the machine does not have
 };
 
 /// "load access fault" and so on.

@@ -1,0 +1,66 @@
+/// A SIMT core: its warps, its barriers, what it has printed.
+#pragma once
+
+#include "core/CodeTable.h"
+#include "core/State.h"
+#include "vorion/isasim/Config.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vorion::isasim {
+
+class Observer;
+
+/// Threads: a core belongs to one host thread at a time.
+class Core {
+public:
+  Core(const Config &C, unsigned Id);
+  Core(const Core &) = delete;
+  Core &operator=(const Core &) = delete;
+
+  /// Warp 0 runs lane 0 at \p Entry, the others have ended; registers are 0.
+  void reset(const CodeTable &Code, uint32_t Entry, uint32_t LaunchBlock,
+             const MemoryView &View, Observer *Watcher);
+
+  /// Runs every warp until it stops or has used \p Quantum instructions.
+  void runRound(const ExecTable &Exec, uint32_t Quantum);
+
+  unsigned id() const { return Id; }
+  std::span<WarpState> warps() { return Warps; }
+  std::span<const WarpState> warps() const { return Warps; }
+  /// Whether some warp can go on.
+  bool isReady() const;
+  /// Whether all warps have ended.
+  bool hasEnded() const;
+  /// Warp instructions retired by all warps.
+  uint64_t retired() const;
+
+  /// The parked instruction of \p S has been executed: goes on behind it.
+  static void complete(WarpState &S);
+
+  // For instructions.
+  void spawn(uint32_t Count, uint32_t Entry);
+  bool arrive(WarpState &S, uint32_t Id, uint32_t Count);
+  uint32_t activeWarps() const;
+  void print(char Byte) { Console.push_back(Byte); }
+  void exitWith(uint32_t Code);
+
+  const Config &Shape;
+  uint32_t LaunchBlock = 0;         ///< mscratch
+  std::string Console;              ///< not yet handed on
+  std::optional<uint32_t> ExitCode; ///< the first that was not 0
+
+private:
+  unsigned Id;
+  const CodeTable *Code = nullptr;
+  uint32_t Quantum = 0;
+  std::vector<WarpState> Warps;
+  std::vector<Divergence> Stacks;
+  std::vector<uint32_t> Arrived; ///< by barrier
+  MemoryView View;
+};
+
+} // namespace vorion::isasim

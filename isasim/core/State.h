@@ -1,0 +1,152 @@
+/// A warp's registers and what its instructions need at hand. Plain data: this
+/// header is compiled into every vector level (Exec.cpp), so it must not bring
+/// in library code that the linker could merge across levels.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vorion::isasim {
+
+inline constexpr unsigned MaxLanes = 16;
+
+/// One 32-bit word for each lane: a register. Lanes that a machine does not
+/// have are never active.
+using LaneWords = std::uint32_t __attribute__((vector_size(4 * MaxLanes)));
+
+/// Places in WarpState::R.
+inline constexpr unsigned XBase = 0;
+inline constexpr unsigned FBase = 32;
+inline constexpr unsigned SinkRegister = 64; ///< takes what is written to x0
+inline constexpr unsigned NumRegisters = 65;
+
+struct WarpState;
+struct Insn;
+
+/// Executes \p I and goes on to the next instruction, until something stops
+/// the warp (WarpState::Why). \p Start is the first instruction since the
+/// last one that was counted: instructions are counted a straight line at a
+/// time.
+using Handler = void (*)(WarpState *S, const Insn *I, const Insn *Start);
+
+/// An instruction as it is executed.
+struct Insn {
+  Handler Run[2]; ///< indexed by WarpState::Full
+  /// Byte offsets of operands in WarpState. Rs3 is the destination's old value
+  /// where an instruction reads it (amocas.w).
+  std::uint16_t Rd, Rs1, Rs2, Rs3;
+  std::int32_t Imm; ///< branches and jal: bytes to the target
+  std::uint32_t Word;
+};
+
+/// Why a warp does not go on at present.
+enum class Stop : std::uint32_t {
+  Ready,   ///< it can
+  Ended,   ///< thread mask 0
+  Trapped, ///< WarpState::Fault*
+  // It waits, at Next, for the point where all cores are parked:
+  Atomic,
+  RasterCsr,
+  GlobalBarrier, ///< has arrived there if AtBarrier
+  // It waits for warps of its own core:
+  LocalBarrier,
+};
+
+/// Insn::Imm of a branch or jal whose target is not code.
+inline constexpr std::int32_t BadTarget = INT32_MIN;
+
+/// A range of guest memory and where it lies on the host.
+struct Region {
+  std::uint32_t Lo = 0;
+  std::uint32_t Bytes = 0; ///< at least MaxLanes * 4
+  std::byte *Host = nullptr;
+
+  /// Whether [Addr, Addr + Size) lies inside, Size <= MaxLanes * 4.
+  bool holds(std::uint32_t Addr, std::uint32_t Size) const {
+    return Addr - Lo <= Bytes - Size;
+  }
+  std::byte *at(std::uint32_t Addr) const { return Host + (Addr - Lo); }
+};
+
+/// What a core can reach.
+struct MemoryView {
+  Region Global, Local, Stack, Image;
+  /// Writable parts of the image, by address.
+  const Region *ImageWritable = nullptr;
+  unsigned NumImageWritable = 0;
+};
+
+/// One divergent vx_split that has not been joined.
+struct Divergence {
+  std::uint32_t Mask;  ///< before the split
+  std::uint32_t Other; ///< lanes of the side that waits, 0 once it has run
+  const Insn *Pc;      ///< where that side starts
+};
+
+struct WarpCounters {
+  std::uint64_t Retired = 0;     ///< warp instructions
+  std::uint64_t LaneRetired = 0; ///< times active lanes
+  std::uint64_t Loads = 0, Stores = 0, Atomics = 0;
+  std::uint64_t Splits = 0, DivergentSplits = 0;
+  std::uint64_t Parks = 0;
+  /// Atomics that changed memory, and reads of what changes by itself: with
+  /// Stores, what tells a warp that waits in vain (machine/HangDetector.h).
+  std::uint64_t Changes = 0;
+};
+
+class Core;
+class Observer;
+
+struct alignas(64) WarpState {
+  LaneWords R[NumRegisters];   ///< x0..x31, f0..f31, the sink; at offset 0
+  LaneWords MaskWords;         ///< all ones in active lanes
+  std::uint32_t Mask = 0;      ///< active lanes
+  std::uint32_t Full = 0;      ///< 1 if all MaxLanes lanes are active
+  std::uint32_t LaneCount = 0; ///< active lanes
+  std::uint32_t LastLane = 0;  ///< the highest active one
+  /// Whether an instruction with this rounding mode field rounds as the host
+  /// does at present, which is as frm says (HostFp.h).
+  std::uint8_t RmIsHost[8] = {};
+
+  const Insn *Code = nullptr; ///< the instruction at CodeLo
+  std::uint32_t CodeLo = 0;
+  std::uint32_t CodeCount = 0; ///< instructions
+  const MemoryView *Mem = nullptr;
+
+  WarpCounters Count;
+  std::uint64_t RetireLimit = 0; ///< stop at a branch when Retired reaches it
+  const Insn *Next = nullptr;    ///< where to go on
+  Stop Why = Stop::Ended;
+
+  Divergence *Stack = nullptr;
+  std::uint32_t StackDepth = 0;
+  std::uint32_t StackLimit = 0;
+
+  std::uint32_t Frm = 0;
+  std::uint32_t Fflags = 0; ///< those of the host unit are added when it stops
+  std::uint32_t AllLanes = 0;
+  std::uint32_t WarpId = 0;
+  bool AtBarrier = false;
+  std::uint32_t BarrierId = 0;
+  std::uint32_t BarrierCount = 0;
+
+  std::uint32_t FaultCause = 0; ///< a TrapCause
+  std::uint32_t FaultLane = 0;
+  std::uint32_t FaultAddress = 0;
+
+  Core *Owner = nullptr;
+  Observer *Watcher = nullptr;
+
+  std::uint32_t pcOf(const Insn *I) const {
+    return CodeLo + static_cast<std::uint32_t>(I - Code) * 4;
+  }
+  template <typename T> T &reg(unsigned Offset) {
+    return *reinterpret_cast<T *>(reinterpret_cast<std::byte *>(this) + Offset);
+  }
+  std::uint32_t *lanes(unsigned Offset) {
+    return reinterpret_cast<std::uint32_t *>(
+        reinterpret_cast<std::byte *>(this) + Offset);
+  }
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,337 @@
+#include "vorion/isasim/Machine.h"
+
+#include "core/Core.h"
+#include "core/Slow.h"
+#include "machine/HangDetector.h"
+#include "machine/RasterUnits.h"
+#include "machine/Report.h"
+#include "machine/WorkerPool.h"
+#include "mem/Memory.h"
+#include "vorion/isasim/Observer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+
+namespace vorion::isasim {
+
+namespace {
+
+/// Below this many warp instructions in a round of all cores, waking a second
+/// host thread costs more than it saves.
+constexpr uint64_t ShortRound = 20000;
+
+void addCounters(CoreCounters &To, const WarpCounters &C) {
+  To.WarpInstructions += C.Retired;
+  To.LaneInstructions += C.LaneRetired;
+  To.Loads += C.Loads;
+  To.Stores += C.Stores;
+  To.Atomics += C.Atomics;
+  To.Splits += C.Splits;
+  To.DivergentSplits += C.DivergentSplits;
+  To.Parks += C.Parks;
+}
+
+void addCounters(CoreCounters &To, const CoreCounters &C) {
+  To.WarpInstructions += C.WarpInstructions;
+  To.LaneInstructions += C.LaneInstructions;
+  To.Loads += C.Loads;
+  To.Stores += C.Stores;
+  To.Atomics += C.Atomics;
+  To.Splits += C.Splits;
+  To.DivergentSplits += C.DivergentSplits;
+  To.Parks += C.Parks;
+}
+
+} // namespace
+
+struct Machine::Impl {
+  Impl(const Config &C, std::unique_ptr<Memory> Mem)
+      : Shape(C), Storage(std::move(Mem)), Pool(C.HostThreads),
+        Raster(Shape, *Storage) {
+    for (unsigned Id = 0; Id != Shape.cores(); ++Id)
+      Cores.push_back(std::make_unique<Core>(Shape, Id));
+  }
+
+  void resetCores(uint32_t LaunchBlock);
+  void runCores();
+  void atSyncPoint();
+  void executeParked(Core &C, WarpState &S);
+  void arriveGlobally(WarpState &S);
+  void flushConsole(bool All);
+  bool findTrap(RunResult &R);
+  bool decideEnd(RunResult &R);
+  void count(RunResult &R) const;
+  uint64_t retired() const;
+
+  const Config Shape;
+  std::unique_ptr<Memory> Storage;
+  std::shared_ptr<const Image> Program;
+  std::unique_ptr<CodeTable> Code;
+  bool CodeIsObserved = false;
+  std::vector<std::unique_ptr<Core>> Cores;
+  WorkerPool Pool;
+  RasterUnits Raster;
+  HangDetector Hang;
+  Observer *Watcher = nullptr;
+  std::function<void(std::string_view)> Console = [](std::string_view Text) {
+    std::fwrite(Text.data(), 1, Text.size(), stdout);
+    std::fflush(stdout);
+  };
+  std::vector<uint32_t> GlobalArrived; ///< by barrier
+  uint64_t LastRound = 0;              ///< warp instructions
+  bool Progress = false;               ///< see HangDetector
+};
+
+void Machine::Impl::resetCores(uint32_t LaunchBlock) {
+  const bool Observed = Watcher != nullptr;
+  if (!Code || CodeIsObserved != Observed) {
+    Code = std::make_unique<CodeTable>(*Program, execTable(Observed));
+    CodeIsObserved = Observed;
+  }
+  Storage->clearLocal();
+  for (const auto &C : Cores)
+    C->reset(*Code, Program->entry(), LaunchBlock, Storage->view(C->id()),
+             Watcher);
+  GlobalArrived.assign(Shape.Barriers, 0);
+  Hang = HangDetector();
+  LastRound = ShortRound;
+}
+
+uint64_t Machine::Impl::retired() const {
+  uint64_t Sum = 0;
+  for (const auto &C : Cores)
+    Sum += C->retired();
+  return Sum;
+}
+
+void Machine::Impl::runCores() {
+  const uint64_t Before = retired();
+  uint64_t Quantum = Shape.Quantum;
+  if (Shape.MaxInstructions)
+    Quantum = std::clamp<uint64_t>(Shape.MaxInstructions - Before, 1, Quantum);
+  std::vector<Core *> Ready;
+  for (const auto &C : Cores)
+    if (C->isReady())
+      Ready.push_back(C.get());
+  const ExecTable &Exec = execTable(Watcher != nullptr);
+  const bool Alone = Watcher || LastRound < ShortRound;
+  Pool.run(static_cast<unsigned>(Ready.size()), Alone, [&](unsigned N) {
+    Ready[N]->runRound(Exec, static_cast<uint32_t>(Quantum));
+  });
+  LastRound = retired() - Before;
+}
+
+void Machine::Impl::arriveGlobally(WarpState &S) {
+  if (S.AtBarrier)
+    return;
+  S.AtBarrier = true;
+  Progress = true;
+  if (++GlobalArrived[S.BarrierId] < S.BarrierCount)
+    return;
+  GlobalArrived[S.BarrierId] = 0;
+  for (const auto &C : Cores)
+    for (WarpState &Other : C->warps())
+      if (Other.Why == Stop::GlobalBarrier && Other.AtBarrier &&
+          Other.BarrierId == S.BarrierId && &Other != &S)
+        Core::complete(Other);
+  Core::complete(S);
+}
+
+void Machine::Impl::executeParked(Core &C, WarpState &S) {
+  switch (S.Why) {
+  case Stop::Atomic:
+    if (amoNow(&S, S.Next, amoKind(S.Next)))
+      Core::complete(S);
+    break;
+  case Stop::RasterCsr:
+    if (Raster.access(C.id(), &S, csrAccess(S.Next))) {
+      Progress = true;
+      Core::complete(S);
+    }
+    break;
+  case Stop::GlobalBarrier:
+    arriveGlobally(S);
+    break;
+  default:
+    break;
+  }
+}
+
+void Machine::Impl::atSyncPoint() {
+  flushConsole(false);
+  for (const auto &C : Cores)
+    for (WarpState &S : C->warps())
+      executeParked(*C, S);
+  if (Raster.isBusy()) {
+    Progress = true;
+    Pool.run(Raster.units(), false, [&](unsigned N) { Raster.runUnit(N); });
+  }
+}
+
+void Machine::Impl::flushConsole(bool All) {
+  for (const auto &C : Cores) {
+    const size_t Length =
+        All ? C->Console.size() : C->Console.find_last_of('\n') + 1;
+    if (Length == 0)
+      continue;
+    if (Console)
+      Console(std::string_view(C->Console).substr(0, Length));
+    C->Console.erase(0, Length);
+  }
+}
+
+bool Machine::Impl::findTrap(RunResult &R) {
+  for (const auto &C : Cores)
+    for (const WarpState &S : C->warps())
+      if (S.Why == Stop::Trapped) {
+        R.End = Outcome::Trap;
+        R.Fault = makeTrap(S, Program.get());
+        R.Report = trapReport(R.Fault);
+        if (Watcher)
+          Watcher->trap(R.Fault);
+        return true;
+      }
+  return false;
+}
+
+bool Machine::Impl::decideEnd(RunResult &R) {
+  if (findTrap(R))
+    return true;
+  const auto Ended = [](const auto &C) { return C->hasEnded(); };
+  if (std::all_of(Cores.begin(), Cores.end(), Ended))
+    return true;
+  // After parked operations have been executed, what can still go on is either
+  // ready or waits for a rasterizer.
+  bool CanGoOn = false;
+  for (const auto &C : Cores)
+    for (const WarpState &S : C->warps())
+      CanGoOn |= S.Why == Stop::Ready || S.Why == Stop::RasterCsr;
+  if (!CanGoOn || Hang.check(Cores, Progress)) {
+    R.End = Outcome::Hang;
+    R.Report = (CanGoOn ? "no warp can make progress: the machine repeats a "
+                          "state with nothing changed\n"
+                        : "all warps wait for each other\n") +
+               warpReport(Cores, Program.get());
+    return true;
+  }
+  if (Shape.MaxInstructions && retired() >= Shape.MaxInstructions) {
+    R.End = Outcome::LimitReached;
+    R.Report = "instruction limit reached\n" + warpReport(Cores, Program.get());
+    return true;
+  }
+  Progress = false;
+  return false;
+}
+
+void Machine::Impl::count(RunResult &R) const {
+  for (const auto &C : Cores) {
+    CoreCounters Sum;
+    for (const WarpState &S : C->warps())
+      addCounters(Sum, S.Count);
+    addCounters(R.Total, Sum);
+    R.Cores.push_back(Sum);
+    if (C->ExitCode && R.ExitCode == 0)
+      R.ExitCode = *C->ExitCode;
+  }
+}
+
+Machine::Machine() = default;
+Machine::~Machine() = default;
+
+Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
+  if (Expected<Success> Ok = validate(C); !Ok)
+    return Ok.error();
+  Expected<std::unique_ptr<Memory>> Mem = Memory::create(C);
+  if (!Mem)
+    return Mem.error();
+  std::unique_ptr<Machine> M(new Machine());
+  M->I = std::make_unique<Impl>(C, std::move(*Mem));
+  return M;
+}
+
+const Config &Machine::config() const { return I->Shape; }
+
+void Machine::load(std::shared_ptr<const Image> Program) {
+  I->Code.reset();
+  I->Program = std::move(Program);
+  I->Storage->load(*I->Program);
+}
+
+const std::shared_ptr<const Image> &Machine::image() const {
+  return I->Program;
+}
+
+std::byte *Machine::hostPointer(uint32_t Address, uint64_t Bytes) {
+  return I->Storage->global(Address, Bytes);
+}
+
+bool Machine::read(uint32_t Address, std::span<std::byte> To) const {
+  const std::byte *From = I->Storage->shared(Address, To.size());
+  if (From && !To.empty())
+    std::memcpy(To.data(), From, To.size());
+  return From != nullptr;
+}
+
+bool Machine::write(uint32_t Address, std::span<const std::byte> From) {
+  std::byte *To = I->Storage->shared(Address, From.size());
+  if (To && !From.empty())
+    std::memcpy(To, From.data(), From.size());
+  return To != nullptr;
+}
+
+bool Machine::fill(uint32_t Address, uint64_t Bytes, std::byte Value) {
+  std::byte *To = I->Storage->shared(Address, Bytes);
+  if (To && Bytes)
+    std::memset(To, static_cast<int>(Value), Bytes);
+  return To != nullptr;
+}
+
+RunResult Machine::run(uint32_t LaunchBlock) {
+  RunResult R;
+  if (!I->Program) {
+    R.End = Outcome::Trap;
+    R.Fault.Cause = TrapCause::FetchFault;
+    R.Report = "no program is loaded\n";
+    return R;
+  }
+  const auto Begin = std::chrono::steady_clock::now();
+  const RasterCounters Before = I->Raster.counters();
+  I->resetCores(LaunchBlock);
+  do {
+    I->runCores();
+    ++R.SyncPoints;
+    // A trap of the round comes before what others would do at its end.
+    if (I->findTrap(R))
+      break;
+    I->atSyncPoint();
+  } while (!I->decideEnd(R));
+  I->flushConsole(true);
+  I->count(R);
+  if (R.End == Outcome::Done && R.ExitCode != 0)
+    R.End = Outcome::GuestFailed;
+  R.Raster = I->Raster.counters() - Before;
+  if (R.End != Outcome::Done && R.End != Outcome::GuestFailed)
+    I->Raster.reset();
+  R.HostSeconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - Begin)
+          .count();
+  return R;
+}
+
+void Machine::setConsole(std::function<void(std::string_view)> Sink) {
+  I->Console = std::move(Sink);
+}
+
+void Machine::setObserver(Observer *O) { I->Watcher = O; }
+
+std::optional<uint32_t> Machine::readRasterCsr(unsigned Core, unsigned Csr) {
+  return I->Raster.hostRead(Core, Csr);
+}
+
+bool Machine::writeRasterCsr(unsigned Core, unsigned Csr, uint32_t Value) {
+  return I->Raster.hostWrite(Core, Csr, Value);
+}
+
+} // namespace vorion::isasim

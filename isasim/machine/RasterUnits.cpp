@@ -1,0 +1,91 @@
+#include "machine/RasterUnits.h"
+
+#include "core/Isa.h"
+
+#include <algorithm>
+#include <array>
+
+namespace vorion::isasim {
+
+RasterUnits::RasterUnits(const Config &C, Memory &Storage)
+    : Shape(C), View(Storage) {
+  reset();
+}
+
+void RasterUnits::reset() {
+  Units.clear();
+  Agents.clear();
+  for (unsigned Core = 0; Core != Shape.cores(); ++Core)
+    Agents.push_back(std::make_unique<raster::RasterAgent>(
+        raster::AgentConfig{Shape.LanesPerWarp, Shape.Raster.QueueDepth}));
+  for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket) {
+    std::vector<raster::RasterAgent *> Own;
+    for (unsigned N = 0; N != Shape.CoresPerSocket; ++N)
+      Own.push_back(Agents[Socket * Shape.CoresPerSocket + N].get());
+    Units.push_back(std::make_unique<raster::Rasterizer>(View, Own));
+  }
+}
+
+bool RasterUnits::access(unsigned Core, WarpState *S, const CsrAccess &A) {
+  raster::RasterAgent &Agent = *Agents[Core];
+  const auto C = static_cast<raster::Csr>(A.Number);
+  if ((A.Writes && C == raster::Csr::Start && !Agent.canStart()) ||
+      (A.Reads && C == raster::Csr::Wait && Agent.isBusy()))
+    return false;
+  std::array<uint32_t, MaxLanes> Old{}, New{};
+  if (A.Reads)
+    Agent.readLanes(C, S->Mask, std::span(Old).first(Shape.LanesPerWarp));
+  if (A.Writes) {
+    for (unsigned L = 0; L != Shape.LanesPerWarp; ++L)
+      New[L] = A.combine(Old[L], A.operand(S, L));
+    Agent.write(C, std::span(New).first(Shape.LanesPerWarp), S->Mask);
+  }
+  uint32_t *Rd = S->lanes(S->Next->Rd);
+  for (unsigned L = 0; L != Shape.LanesPerWarp; ++L)
+    if (S->Mask >> L & 1)
+      Rd[L] = Old[L];
+  return true;
+}
+
+bool RasterUnits::isBusy() const {
+  return std::any_of(Agents.begin(), Agents.end(),
+                     [](const auto &A) { return A->isBusy(); });
+}
+
+void RasterUnits::runUnit(unsigned N) {
+  while (Units[N]->step()) {
+  }
+}
+
+std::optional<uint32_t> RasterUnits::hostRead(unsigned Core, unsigned Number) {
+  if (Core >= Agents.size() || !raster::findCsr(Number))
+    return std::nullopt;
+  return Agents[Core]->read(static_cast<raster::Csr>(Number), 0);
+}
+
+bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
+  const raster::CsrInfo *Info = raster::findCsr(Number);
+  if (Core >= Agents.size() || !Info || Info->Rule == raster::WriteRule::None)
+    return false;
+  std::array<uint32_t, MaxLanes> Lanes{};
+  Lanes[0] = Value;
+  Agents[Core]->write(static_cast<raster::Csr>(Number),
+                      std::span(Lanes).first(Shape.LanesPerWarp), 1);
+  runUnit(Core / Shape.CoresPerSocket);
+  return true;
+}
+
+RasterCounters RasterUnits::counters() const {
+  raster::Counters Sum;
+  for (const auto &A : Agents)
+    Sum += A->counters();
+  return {Sum.Commands, Sum.Gaussians, Sum.Clipped, Sum.Fragments, Sum.Blends};
+}
+
+RasterCounters operator-(const RasterCounters &A, const RasterCounters &B) {
+  return {A.Commands - B.Commands, A.Gaussians - B.Gaussians,
+          A.Clipped - B.Clipped, A.Fragments - B.Fragments,
+          A.Blends - B.Blends};
+}
+
+} // namespace vorion::isasim

@@ -1,0 +1,57 @@
+/// The machine's rasterizers and the Raster Agents of its cores.
+#pragma once
+
+#include "core/Slow.h"
+#include "mem/Memory.h"
+#include "raster/Rasterizer.h"
+#include "vorion/isasim/Config.h"
+#include "vorion/isasim/Result.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace vorion::isasim {
+
+class RasterUnits {
+public:
+  /// Keeps references to both.
+  RasterUnits(const Config &C, Memory &Storage);
+
+  /// Executes the CSR instruction at which \p S of core \p Core is parked;
+  /// false if it has to wait until runUnit() has made room or finished.
+  bool access(unsigned Core, WarpState *S, const CsrAccess &A);
+
+  unsigned units() const { return static_cast<unsigned>(Units.size()); }
+  /// Whether any command is queued.
+  bool isBusy() const;
+  /// Executes all commands of rasterizer \p N. Different rasterizers may run
+  /// at the same time.
+  void runUnit(unsigned N);
+
+  std::optional<uint32_t> hostRead(unsigned Core, unsigned Number);
+  bool hostWrite(unsigned Core, unsigned Number, uint32_t Value);
+
+  /// Agents and rasterizers as they were at the beginning.
+  void reset();
+  /// Sums over all agents, since the last reset().
+  RasterCounters counters() const;
+
+private:
+  struct GlobalMemory final : raster::RasterMemory {
+    explicit GlobalMemory(Memory &StorageIn) : Storage(StorageIn) {}
+    std::byte *range(uint32_t Addr, uint64_t Bytes) override {
+      return Storage.global(Addr, Bytes);
+    }
+    Memory &Storage;
+  };
+
+  const Config &Shape;
+  GlobalMemory View;
+  std::vector<std::unique_ptr<raster::RasterAgent>> Agents; ///< by core
+  std::vector<std::unique_ptr<raster::Rasterizer>> Units;   ///< by socket
+};
+
+RasterCounters operator-(const RasterCounters &A, const RasterCounters &B);
+
+} // namespace vorion::isasim

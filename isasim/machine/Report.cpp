@@ -1,0 +1,116 @@
+#include "machine/Report.h"
+
+#include "core/Isa.h"
+
+#include <fmt/format.h>
+#include <map>
+
+namespace vorion::isasim {
+
+namespace {
+
+std::string place(uint32_t Pc, const std::string &Symbol) {
+  return Symbol.empty() ? fmt::format("0x{:08x}", Pc)
+                        : fmt::format("0x{:08x} <{}>", Pc, Symbol);
+}
+
+std::string instruction(uint32_t Word, uint32_t Pc) {
+  std::string Text = disassemble(Word, Pc);
+  for (char &C : Text)
+    if (C == '\t')
+      C = ' ';
+  return Text;
+}
+
+bool namesAddress(TrapCause Cause) {
+  switch (Cause) {
+  case TrapCause::FetchFault:
+  case TrapCause::MisalignedFetch:
+  case TrapCause::LoadFault:
+  case TrapCause::StoreFault:
+  case TrapCause::MisalignedLoad:
+  case TrapCause::MisalignedStore:
+  case TrapCause::DivergentJump:
+    return true;
+  default:
+    return false;
+  }
+}
+
+std::string waitsFor(const WarpState &S) {
+  switch (S.Why) {
+  case Stop::Ready:
+    return "running";
+  case Stop::Ended:
+    return "ended";
+  case Stop::Trapped:
+    return "trapped";
+  case Stop::Atomic:
+    return "at an atomic";
+  case Stop::RasterCsr:
+    return "waits for the rasterizer";
+  case Stop::GlobalBarrier:
+    return fmt::format("waits at barrier {} of the device for {} cores",
+                       S.BarrierId, S.BarrierCount);
+  case Stop::LocalBarrier:
+    return fmt::format("waits at barrier {} for {} warps", S.BarrierId,
+                       S.BarrierCount);
+  }
+  return {};
+}
+
+} // namespace
+
+Trap makeTrap(const WarpState &S, const Image *Program) {
+  Trap T;
+  T.Cause = static_cast<TrapCause>(S.FaultCause);
+  T.Pc = S.pcOf(S.Next);
+  T.Core = S.Owner->id();
+  T.Warp = S.WarpId;
+  T.LaneMask = S.Mask;
+  T.Lane = S.FaultLane;
+  T.Address = S.FaultAddress;
+  T.Instruction = S.Next->Word;
+  if (Program)
+    T.Symbol = Program->symbolize(T.Pc);
+  return T;
+}
+
+std::string trapReport(const Trap &T) {
+  std::string Text = fmt::format("core {}, warp {}, lane {}: {}", T.Core,
+                                 T.Warp, T.Lane, describe(T.Cause));
+  if (namesAddress(T.Cause))
+    Text += fmt::format(" at 0x{:08x}", T.Address);
+  Text += fmt::format("\n  pc {}: {}\n  active lanes 0x{:04x}\n",
+                      place(T.Pc, T.Symbol), instruction(T.Instruction, T.Pc),
+                      T.LaneMask);
+  return Text;
+}
+
+std::string warpReport(const std::vector<std::unique_ptr<Core>> &Cores,
+                       const Image *Program) {
+  // Lines without the warp's name, in order of first use, and whose they are.
+  std::vector<std::string> Lines;
+  std::map<std::string, std::string> Who;
+  for (const auto &C : Cores)
+    for (const WarpState &S : C->warps()) {
+      if (S.Why == Stop::Ended)
+        continue;
+      const uint32_t Pc = S.pcOf(S.Next);
+      const std::string Line =
+          fmt::format("{}\n    pc {}: {}, active lanes 0x{:04x}", waitsFor(S),
+                      place(Pc, Program ? Program->symbolize(Pc) : ""),
+                      instruction(S.Next->Word, Pc), S.Mask);
+      std::string &Names = Who[Line];
+      if (Names.empty())
+        Lines.push_back(Line);
+      Names +=
+          fmt::format("{}{}.{}", Names.empty() ? "" : " ", C->id(), S.WarpId);
+    }
+  std::string Text;
+  for (const std::string &Line : Lines)
+    Text += fmt::format("  core.warp {}: {}\n", Who[Line], Line);
+  return Text;
+}
+
+} // namespace vorion::isasim

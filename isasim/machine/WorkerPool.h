@@ -1,0 +1,42 @@
+/// Host threads that share out numbered tasks.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace vorion::isasim {
+
+class WorkerPool {
+public:
+  /// \p Threads in all, the caller's included; 0 for as many as the host has.
+  explicit WorkerPool(unsigned Threads);
+  ~WorkerPool();
+  WorkerPool(const WorkerPool &) = delete;
+  WorkerPool &operator=(const WorkerPool &) = delete;
+
+  /// Calls Task(0) to Task(Count - 1), each once, on any thread, and returns
+  /// when all have returned. With \p Short the caller does it alone: waking
+  /// another thread costs some microseconds.
+  void run(unsigned Count, bool Short,
+           const std::function<void(unsigned)> &Task);
+
+private:
+  void work();
+  void drain();
+
+  std::mutex Lock;
+  std::condition_variable Wake, Finished;
+  const std::function<void(unsigned)> *Current = nullptr;
+  unsigned CurrentCount = 0;
+  std::atomic<unsigned> NextTask = 0;
+  unsigned Busy = 0;       ///< workers in drain()
+  uint64_t Generation = 0; ///< of Current
+  bool Stopping = false;
+  std::vector<std::thread> Workers;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,290 @@
+#include "mem/ElfReader.h"
+
+#include "core/IsaTables.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#include <tuple>
+
+namespace vorion::isasim {
+
+namespace {
+
+// RISC-V ELF psABI, "File header"; elf.h of older systems lacks some.
+constexpr uint32_t FlagCompressed = 0x1;
+constexpr uint32_t FlagFloatAbi = 0x6;
+constexpr uint32_t FloatAbiSingle = 0x2;
+constexpr uint32_t FlagRve = 0x8;
+
+constexpr char KernelSection[] = "vorion_kernels";
+constexpr uint32_t MaxArgs = 4096; ///< more than OpenCL's 256 KiB could hold
+
+} // namespace
+
+std::optional<std::span<const std::byte>>
+ImageParser::part(uint64_t Offset, uint64_t Bytes) const {
+  if (Offset > File.size() || Bytes > File.size() - Offset)
+    return std::nullopt;
+  return File.subspan(Offset, Bytes);
+}
+
+template <typename T> std::optional<T> ImageParser::get(uint64_t Offset) const {
+  const auto Bytes = part(Offset, sizeof(T));
+  if (!Bytes)
+    return std::nullopt;
+  T Value;
+  std::memcpy(&Value, Bytes->data(), sizeof(T));
+  return Value;
+}
+
+template <typename T>
+std::optional<T> ImageParser::load(uint32_t Address) const {
+  const auto Bytes = Result->bytesAt(Address, sizeof(T));
+  if (Bytes.size() != sizeof(T))
+    return std::nullopt;
+  T Value;
+  std::memcpy(&Value, Bytes.data(), sizeof(T));
+  return Value;
+}
+
+std::optional<std::string> ImageParser::loadString(uint32_t Address) const {
+  std::string Text;
+  for (;; ++Address) {
+    const auto Byte = Result->bytesAt(Address, 1);
+    if (Byte.empty())
+      return std::nullopt;
+    if (Byte[0] == std::byte{0})
+      return Text;
+    Text += static_cast<char>(Byte[0]);
+  }
+}
+
+bool ImageParser::isCode(uint32_t Address) const {
+  return Address % 4 == 0 &&
+         std::any_of(Result->Segments.begin(), Result->Segments.end(),
+                     [&](const Image::Segment &S) {
+                       return S.Executable && Address >= S.Address &&
+                              Address - S.Address < S.MemBytes;
+                     });
+}
+
+std::string ImageParser::readHeader() {
+  const auto H = get<Elf32_Ehdr>(0);
+  if (!H || std::memcmp(H->e_ident, ELFMAG, SELFMAG) != 0)
+    return "not an ELF file, expected a RISC-V executable";
+  Header = *H;
+  if (Header.e_ident[EI_CLASS] != ELFCLASS32)
+    return "64-bit ELF file, expected 32-bit RISC-V";
+  if (Header.e_ident[EI_DATA] != ELFDATA2LSB)
+    return "big-endian ELF file, expected little-endian RISC-V";
+  if (Header.e_machine != EM_RISCV)
+    return fmt::format("machine number {}, expected {} (RISC-V)",
+                       Header.e_machine, EM_RISCV);
+  if (Header.e_type != ET_EXEC)
+    return fmt::format("ELF type {}, expected {} (executable); link the "
+                       "object first",
+                       Header.e_type, ET_EXEC);
+  if (Header.e_flags & FlagCompressed)
+    return "compressed instructions, expected code without the C extension";
+  if (Header.e_flags & FlagRve)
+    return "RV32E code, expected RV32I";
+  if ((Header.e_flags & FlagFloatAbi) != FloatAbiSingle)
+    return "wrong floating-point ABI, expected ilp32f";
+  if (Header.e_phnum == 0 || Header.e_phentsize != sizeof(Elf32_Phdr))
+    return "no program headers, expected a linked executable";
+  return {};
+}
+
+std::string ImageParser::readSegments() {
+  for (unsigned N = 0; N != Header.e_phnum; ++N) {
+    const auto P =
+        get<Elf32_Phdr>(uint64_t{Header.e_phoff} + N * sizeof(Elf32_Phdr));
+    if (!P)
+      return "truncated: the program headers lie beyond the end of the file";
+    if (P->p_type != PT_LOAD || P->p_memsz == 0)
+      continue;
+    const auto Bytes = part(P->p_offset, P->p_filesz);
+    if (!Bytes)
+      return fmt::format("truncated: segment {} lies beyond the end of the "
+                         "file",
+                         N);
+    if (P->p_filesz > P->p_memsz)
+      return fmt::format("segment {} is larger in the file than in memory", N);
+    if (P->p_vaddr < VX_IMAGE_BASE ||
+        uint64_t{P->p_vaddr} + P->p_memsz >
+            uint64_t{VX_IMAGE_BASE} + VX_IMAGE_SIZE)
+      return fmt::format("segment {} at 0x{:08x}, 0x{:x} bytes, expected it "
+                         "within 0x{:08x} and 0x{:08x}",
+                         N, P->p_vaddr, P->p_memsz, VX_IMAGE_BASE,
+                         VX_IMAGE_BASE + VX_IMAGE_SIZE);
+    Image::Segment S;
+    S.Address = P->p_vaddr;
+    S.MemBytes = P->p_memsz;
+    S.Bytes.assign(Bytes->begin(), Bytes->end());
+    S.Writable = (P->p_flags & PF_W) != 0;
+    S.Executable = (P->p_flags & PF_X) != 0;
+    Result->Segments.push_back(std::move(S));
+  }
+  return checkSegments();
+}
+
+std::string ImageParser::checkSegments() {
+  std::vector<Image::Segment> &Segments = Result->Segments;
+  std::sort(Segments.begin(), Segments.end(),
+            [](const Image::Segment &A, const Image::Segment &B) {
+              return A.Address < B.Address;
+            });
+  for (size_t N = 0; N != Segments.size(); ++N) {
+    const Image::Segment &S = Segments[N];
+    if (S.Writable && S.Executable)
+      return fmt::format("the segment at 0x{:08x} is writable code, expected "
+                         "code to be read-only",
+                         S.Address);
+    if (S.Executable && S.Address % 4 != 0)
+      return fmt::format("the code segment at 0x{:08x} is not aligned to 4 "
+                         "bytes",
+                         S.Address);
+    if (N && Segments[N - 1].Address + Segments[N - 1].MemBytes > S.Address)
+      return fmt::format("the segments at 0x{:08x} and 0x{:08x} overlap",
+                         Segments[N - 1].Address, S.Address);
+  }
+  if (!isCode(Header.e_entry))
+    return fmt::format("entry point 0x{:08x}, expected the address of an "
+                       "instruction in an executable segment",
+                       Header.e_entry);
+  Result->Entry = Header.e_entry;
+  return {};
+}
+
+std::string ImageParser::readSections() {
+  if (Header.e_shoff == 0 || Header.e_shnum == 0)
+    return {}; // stripped of everything: no symbols, no kernels
+  if (Header.e_shentsize != sizeof(Elf32_Shdr) ||
+      Header.e_shstrndx >= Header.e_shnum)
+    return "malformed section headers";
+  auto Section = [&](unsigned N) {
+    return get<Elf32_Shdr>(uint64_t{Header.e_shoff} + N * sizeof(Elf32_Shdr));
+  };
+  const auto Names = Section(Header.e_shstrndx);
+  if (!Names || !part(Names->sh_offset, Names->sh_size))
+    return "truncated: the section names lie beyond the end of the file";
+  const auto NameBytes = *part(Names->sh_offset, Names->sh_size);
+  for (unsigned N = 0; N != Header.e_shnum; ++N) {
+    const auto S = Section(N);
+    if (!S)
+      return "truncated: the section headers lie beyond the end of the file";
+    if (S->sh_type == SHT_SYMTAB) {
+      if (std::string Wrong = readSymbols(*S); !Wrong.empty())
+        return Wrong;
+    }
+    if (S->sh_name < NameBytes.size() &&
+        NameBytes.size() - S->sh_name >= sizeof(KernelSection) &&
+        std::memcmp(NameBytes.data() + S->sh_name, KernelSection,
+                    sizeof(KernelSection)) == 0 &&
+        (S->sh_flags & SHF_ALLOC)) {
+      KernelsLo = S->sh_addr;
+      KernelsHi = S->sh_addr + S->sh_size;
+    }
+  }
+  return readKernels();
+}
+
+std::string ImageParser::readSymbols(const Elf32_Shdr &Table) {
+  const auto Strings = get<Elf32_Shdr>(uint64_t{Header.e_shoff} +
+                                       Table.sh_link * sizeof(Elf32_Shdr));
+  const auto Text = Strings && Table.sh_link < Header.e_shnum
+                        ? part(Strings->sh_offset, Strings->sh_size)
+                        : std::nullopt;
+  const auto Entries = part(Table.sh_offset, Table.sh_size);
+  if (!Text || !Entries)
+    return "truncated: the symbol table lies beyond the end of the file";
+  for (uint64_t N = 1; (N + 1) * sizeof(Elf32_Sym) <= Entries->size(); ++N) {
+    const auto Sym = get<Elf32_Sym>(Table.sh_offset + N * sizeof(Elf32_Sym));
+    const unsigned Type = ELF32_ST_TYPE(Sym->st_info);
+    if (Sym->st_shndx == SHN_UNDEF || Sym->st_shndx == SHN_ABS ||
+        Sym->st_name >= Text->size() ||
+        (Type != STT_NOTYPE && Type != STT_FUNC && Type != STT_OBJECT))
+      continue;
+    const auto *First =
+        reinterpret_cast<const char *>(Text->data()) + Sym->st_name;
+    std::string SymbolName(First, strnlen(First, Text->size() - Sym->st_name));
+    // Mapping symbols ($x, $d) and the assembler's locals name nothing.
+    if (SymbolName.empty() || SymbolName[0] == '$' ||
+        SymbolName.starts_with(".L"))
+      continue;
+    Result->Symbols.push_back(
+        {Sym->st_value, Sym->st_size, Type == STT_FUNC, std::move(SymbolName)});
+  }
+  std::sort(Result->Symbols.begin(), Result->Symbols.end(),
+            [](const Image::Symbol &A, const Image::Symbol &B) {
+              return std::tie(A.Address, A.Name) < std::tie(B.Address, B.Name);
+            });
+  return {};
+}
+
+std::string ImageParser::readKernels() {
+  if (KernelsLo == KernelsHi) {
+    const auto Lo = Result->findSymbol("__start_vorion_kernels");
+    const auto Hi = Result->findSymbol("__stop_vorion_kernels");
+    if (!Lo || !Hi)
+      return {};
+    KernelsLo = *Lo;
+    KernelsHi = *Hi;
+  }
+  if (KernelsHi < KernelsLo || (KernelsHi - KernelsLo) % sizeof(VxKernel) != 0)
+    return fmt::format("kernel table of {} bytes, expected a multiple of {}",
+                       KernelsHi - KernelsLo, sizeof(VxKernel));
+  for (uint32_t At = KernelsLo; At != KernelsHi; At += sizeof(VxKernel))
+    if (std::string Wrong = readKernel(At); !Wrong.empty())
+      return Wrong;
+  return {};
+}
+
+std::string ImageParser::readKernel(uint32_t Address) {
+  const std::string Where = fmt::format("kernel table at 0x{:08x}: ", Address);
+  const auto Record = load<VxKernel>(Address);
+  if (!Record)
+    return Where + "not in initialised memory";
+  Kernel K;
+  if (auto KernelName = loadString(Record->Name))
+    K.Name = std::move(*KernelName);
+  else
+    return Where + "the name is not a string of the image";
+  if (!isCode(Record->Entry))
+    return Where + fmt::format("entry 0x{:08x} of '{}' is not code",
+                               Record->Entry, K.Name);
+  if (Record->NumArgs > MaxArgs)
+    return Where + fmt::format("'{}' has {} arguments, expected at most {}",
+                               K.Name, Record->NumArgs, MaxArgs);
+  K.Entry = Record->Entry;
+  K.ArgsBytes = Record->ArgsBytes;
+  K.ContextBytes = Record->ContextBytes;
+  K.LocalBytes = Record->LocalBytes;
+  std::copy(std::begin(Record->LocalSize), std::end(Record->LocalSize),
+            K.LocalSize.begin());
+  for (uint32_t N = 0; N != Record->NumArgs; ++N) {
+    const auto Arg = load<VxKernelArg>(
+        Record->Args + N * static_cast<uint32_t>(sizeof(VxKernelArg)));
+    auto ArgName = Arg ? loadString(Arg->Name) : std::nullopt;
+    if (!ArgName)
+      return Where +
+             fmt::format("argument {} of '{}' is not in the image", N, K.Name);
+    if (Arg->Kind > VX_ARG_LOCAL ||
+        uint64_t{Arg->Offset} + Arg->Size > Record->ArgsBytes)
+      return Where + fmt::format("argument {} of '{}' is malformed", N, K.Name);
+    K.Args.push_back({std::move(*ArgName), Arg->Kind, Arg->Offset, Arg->Size});
+  }
+  Result->Kernels.push_back(std::move(K));
+  return {};
+}
+
+Expected<std::shared_ptr<const Image>> ImageParser::parse() {
+  for (auto Step : {&ImageParser::readHeader, &ImageParser::readSegments,
+                    &ImageParser::readSections})
+    if (std::string Wrong = (this->*Step)(); !Wrong.empty())
+      return Error{Result->Name, std::move(Wrong)};
+  return std::shared_ptr<const Image>(Result);
+}
+
+} // namespace vorion::isasim

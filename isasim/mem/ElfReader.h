@@ -1,0 +1,45 @@
+/// Takes a 32-bit RISC-V ELF executable apart (System V gABI; RISC-V ELF
+/// psABI). Every offset and size of the file is checked before it is used.
+#pragma once
+
+#include "vorion/isasim/Image.h"
+
+#include <elf.h>
+
+namespace vorion::isasim {
+
+class ImageParser {
+public:
+  ImageParser(std::span<const std::byte> Elf, std::string Name)
+      : File(Elf), Result(std::make_shared<Image>()) {
+    Result->Name = std::move(Name);
+  }
+
+  Expected<std::shared_ptr<const Image>> parse();
+
+private:
+  // Each step returns what is wrong, or an empty string.
+  std::string readHeader();
+  std::string readSegments();
+  std::string checkSegments();
+  std::string readSections();
+  std::string readSymbols(const Elf32_Shdr &Table);
+  std::string readKernels();
+  std::string readKernel(uint32_t Address);
+
+  /// The part of the file, or nothing if it is not all there.
+  std::optional<std::span<const std::byte>> part(uint64_t Offset,
+                                                 uint64_t Bytes) const;
+  template <typename T> std::optional<T> get(uint64_t Offset) const;
+  template <typename T> std::optional<T> load(uint32_t Address) const;
+  /// The NUL-terminated string in the image at \p Address.
+  std::optional<std::string> loadString(uint32_t Address) const;
+  bool isCode(uint32_t Address) const;
+
+  std::span<const std::byte> File;
+  std::shared_ptr<Image> Result;
+  Elf32_Ehdr Header{};
+  uint32_t KernelsLo = 0, KernelsHi = 0;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,56 @@
+#include "vorion/isasim/Image.h"
+
+#include "mem/ElfReader.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace vorion::isasim {
+
+const Kernel *Image::findKernel(std::string_view KernelName) const {
+  const auto Found =
+      std::find_if(Kernels.begin(), Kernels.end(),
+                   [&](const Kernel &K) { return K.Name == KernelName; });
+  return Found == Kernels.end() ? nullptr : &*Found;
+}
+
+std::optional<uint32_t> Image::findSymbol(std::string_view SymbolName) const {
+  for (const Symbol &S : Symbols)
+    if (S.Name == SymbolName)
+      return S.Address;
+  return std::nullopt;
+}
+
+std::string Image::symbolize(uint32_t Address) const {
+  // The nearest function at or below; sizes are often missing in assembly.
+  const Symbol *Best = nullptr;
+  for (const Symbol &S : Symbols) {
+    if (S.Address > Address)
+      break;
+    const bool Covers = S.Size == 0 || Address - S.Address < S.Size;
+    if (Covers && (!Best || S.Address > Best->Address ||
+                   (S.IsFunction && !Best->IsFunction)))
+      Best = &S;
+  }
+  if (!Best)
+    return {};
+  const uint32_t Offset = Address - Best->Address;
+  return Offset ? fmt::format("{}+0x{:x}", Best->Name, Offset) : Best->Name;
+}
+
+std::span<const std::byte> Image::bytesAt(uint32_t Address,
+                                          uint32_t Bytes) const {
+  for (const Segment &S : Segments)
+    if (Address >= S.Address && Address - S.Address <= S.Bytes.size() &&
+        Bytes <= S.Bytes.size() - (Address - S.Address))
+      return std::span(S.Bytes).subspan(Address - S.Address, Bytes);
+  return {};
+}
+
+Expected<std::shared_ptr<const Image>>
+Image::parse(std::span<const std::byte> Elf, std::string Name) {
+  ImageParser Parser(Elf, std::move(Name));
+  return Parser.parse();
+}
+
+} // namespace vorion::isasim

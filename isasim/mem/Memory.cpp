@@ -1,0 +1,117 @@
+#include "mem/Memory.h"
+
+#include "core/IsaTables.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <utility>
+
+namespace vorion::isasim {
+
+namespace {
+
+/// A vector access that begins inside a region may read (never write) this far
+/// beyond its end.
+constexpr uint64_t Slack = 4096;
+
+} // namespace
+
+Expected<Mapping> Mapping::make(uint64_t Bytes) {
+  void *At = mmap(nullptr, Bytes, PROT_READ | PROT_WRITE,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (At == MAP_FAILED)
+    return Error{"",
+                 fmt::format("cannot map {} bytes of device memory: {}", Bytes,
+                             std::strerror(errno)),
+                 ExitCode::Internal};
+  return Mapping(static_cast<std::byte *>(At), Bytes);
+}
+
+Mapping::Mapping(Mapping &&Other) noexcept
+    : Start(std::exchange(Other.Start, nullptr)), Bytes(Other.Bytes) {}
+
+Mapping::~Mapping() {
+  if (Start)
+    munmap(Start, Bytes);
+}
+
+Memory::Memory(std::vector<Mapping> Maps) : Mappings(std::move(Maps)) {}
+
+Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
+  const auto StackBytes = static_cast<uint32_t>(
+      uint64_t{C.cores()} * C.WarpsPerCore * C.LanesPerWarp * C.StackBytes);
+  std::vector<std::pair<uint32_t, uint64_t>> Wanted = {
+      {VX_GLOBAL_BASE, C.GlobalBytes},
+      {VX_STACK_TOP - StackBytes, StackBytes},
+      {VX_IMAGE_BASE, VX_IMAGE_SIZE}};
+  for (unsigned Core = 0; Core != C.cores(); ++Core)
+    Wanted.emplace_back(VX_LOCAL_BASE, C.LocalBytes);
+
+  std::vector<Mapping> Maps;
+  std::vector<Region> Regions;
+  for (const auto &[Lo, Bytes] : Wanted) {
+    Expected<Mapping> M = Mapping::make(Bytes + Slack);
+    if (!M)
+      return M.error();
+    Regions.push_back({Lo, static_cast<uint32_t>(Bytes), M->data()});
+    Maps.push_back(std::move(*M));
+  }
+  std::unique_ptr<Memory> Result(new Memory(std::move(Maps)));
+  Result->Global = Regions[0];
+  Result->Stack = Regions[1];
+  Result->ImageRange = Regions[2];
+  Result->Locals.assign(Regions.begin() + 3, Regions.end());
+  return Result;
+}
+
+MemoryView Memory::view(unsigned Core) const {
+  return {Global,     Locals[Core],    Stack,
+          ImageRange, Writable.data(), static_cast<unsigned>(Writable.size())};
+}
+
+void Memory::load(const Image &Program) {
+  // Fresh pages rather than 16 MiB of stores.
+  madvise(ImageRange.Host, ImageRange.Bytes, MADV_DONTNEED);
+  // The gaps between segments are memory too; what is not writable is.
+  Writable.clear();
+  uint32_t From = VX_IMAGE_BASE;
+  auto Close = [&](uint32_t To) {
+    if (To > From)
+      Writable.push_back({From, To - From, ImageRange.at(From)});
+  };
+  for (const Image::Segment &S : Program.segments()) {
+    if (!S.Bytes.empty())
+      std::memcpy(ImageRange.at(S.Address), S.Bytes.data(), S.Bytes.size());
+    if (!S.Writable) {
+      Close(S.Address);
+      From = S.Address + S.MemBytes;
+    }
+  }
+  Close(VX_IMAGE_BASE + VX_IMAGE_SIZE);
+}
+
+void Memory::clearLocal() {
+  for (const Region &L : Locals)
+    std::memset(L.Host, 0, L.Bytes);
+}
+
+std::byte *Memory::global(uint32_t Address, uint64_t Bytes) const {
+  const uint64_t Offset = uint64_t{Address} - Global.Lo;
+  if (Address < Global.Lo || Offset > Global.Bytes ||
+      Bytes > Global.Bytes - Offset)
+    return nullptr;
+  return Global.Host + Offset;
+}
+
+std::byte *Memory::shared(uint32_t Address, uint64_t Bytes) const {
+  for (const Region *R : {&Global, &ImageRange, &Stack}) {
+    const uint64_t Offset = uint64_t{Address} - R->Lo;
+    if (Address >= R->Lo && Offset <= R->Bytes && Bytes <= R->Bytes - Offset)
+      return R->Host + Offset;
+  }
+  return nullptr;
+}
+
+} // namespace vorion::isasim

@@ -1,0 +1,57 @@
+/// The device's memory (docs/abi.md, "Memory map") in the host's address space.
+#pragma once
+
+#include "core/State.h"
+#include "vorion/isasim/Config.h"
+#include "vorion/isasim/Image.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// An anonymous mapping, zero and committed page by page when touched.
+class Mapping {
+public:
+  static Expected<Mapping> make(uint64_t Bytes);
+  Mapping(Mapping &&Other) noexcept;
+  Mapping &operator=(Mapping &&Other) = delete;
+  ~Mapping();
+  std::byte *data() const { return Start; }
+  uint64_t size() const { return Bytes; }
+
+private:
+  Mapping(std::byte *StartIn, uint64_t BytesIn)
+      : Start(StartIn), Bytes(BytesIn) {}
+  std::byte *Start;
+  uint64_t Bytes;
+};
+
+class Memory {
+public:
+  static Expected<std::unique_ptr<Memory>> create(const Config &C);
+
+  /// What core \p Core can reach. Valid until the next load().
+  MemoryView view(unsigned Core) const;
+
+  /// Writes the image; the rest of the image range becomes zero.
+  void load(const Image &Program);
+  /// Local memory of all cores becomes zero.
+  void clearLocal();
+
+  /// [Address, Address + Bytes) in global memory, or nullptr.
+  std::byte *global(uint32_t Address, uint64_t Bytes) const;
+  /// The same in global memory, the image or the stacks.
+  std::byte *shared(uint32_t Address, uint64_t Bytes) const;
+
+private:
+  explicit Memory(std::vector<Mapping> Maps);
+
+  std::vector<Mapping> Mappings;
+  Region Global, Stack, ImageRange;
+  std::vector<Region> Locals; ///< by core
+  std::vector<Region> Writable;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,44 @@
+/// Sets up one kernel in a machine's memory, and brings its results home.
+#pragma once
+
+#include "tools/Arguments.h"
+#include "vorion/isasim/Machine.h"
+
+namespace vorion::isasim {
+
+class KernelLaunch {
+public:
+  /// Buffers, arguments and launch block of \p Request in the memory of \p M,
+  /// whose image is loaded. \p M must outlive the launch.
+  static Expected<KernelLaunch> prepare(Machine &M,
+                                        const KernelRequest &Request);
+
+  /// What Machine::run takes.
+  uint32_t launchBlock() const { return Block; }
+
+  /// Prints what the kernel's printf wrote and writes the buffers that have a
+  /// file.
+  Expected<Success> finish() const;
+
+private:
+  explicit KernelLaunch(Machine &MIn) : M(&MIn) {}
+
+  Expected<uint32_t> reserve(uint64_t Bytes);
+  Expected<uint32_t> placeBuffer(const KernelInput &In);
+  Expected<Success> packArguments(const Kernel &K, const KernelRequest &R);
+  Expected<Success> writeBlock(const Kernel &K, const KernelRequest &R,
+                               const std::array<uint32_t, 3> &Local);
+
+  struct Output {
+    std::string File;
+    uint32_t Address;
+    uint64_t Bytes;
+  };
+
+  Machine *M;
+  uint64_t NextFree = 0; ///< in global memory; nothing is ever freed
+  uint32_t Block = 0, Args = 0;
+  std::vector<Output> Outputs;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,223 @@
+/// Runs a program, or one kernel of it, on the simulated machine.
+
+#include "observe/Trace.h"
+#include "tools/Arguments.h"
+#include "tools/Launch.h"
+#include "tools/StatsTable.h"
+#include "vorion/isasim/Machine.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+
+#include <CLI/CLI.hpp>
+
+using namespace vorion;
+using namespace vorion::isasim;
+
+namespace {
+
+constexpr std::string_view Tool = "vorion-sim";
+
+struct Options {
+  std::string Program, ConfigFile, ArgsFile, StatsFile;
+  std::string Kernel, Global, Local;
+  std::vector<std::string> Args;
+  std::optional<uint64_t> MaxInstructions;
+  std::optional<unsigned> Threads;
+  bool PrintDefaultConfig = false, ListKernels = false, Trace = false;
+};
+
+Expected<std::string> readText(const std::string &Path) {
+  Expected<std::vector<std::byte>> Bytes = readFile(Path);
+  if (!Bytes)
+    return Bytes.error();
+  return std::string(reinterpret_cast<const char *>(Bytes->data()),
+                     Bytes->size());
+}
+
+Expected<Config> makeConfig(const Options &O) {
+  Config C;
+  if (!O.ConfigFile.empty()) {
+    const Expected<std::string> Text = readText(O.ConfigFile);
+    if (!Text)
+      return Text.error();
+    const Expected<Config> Parsed = parseConfig(*Text, O.ConfigFile);
+    if (!Parsed)
+      return Parsed;
+    C = *Parsed;
+  }
+  if (O.MaxInstructions)
+    C.MaxInstructions = *O.MaxInstructions;
+  if (O.Threads)
+    C.HostThreads = *O.Threads;
+  return C;
+}
+
+/// The launch that the options ask for; WorkDim 0 for none.
+Expected<KernelRequest> makeRequest(const Options &O) {
+  KernelRequest R;
+  if (!O.ArgsFile.empty()) {
+    const Expected<std::string> Text = readText(O.ArgsFile);
+    if (!Text)
+      return Text.error();
+    return parseRequest(*Text, O.ArgsFile);
+  }
+  R.Kernel = O.Kernel;
+  R.Args = O.Args;
+  if (!O.Global.empty()) {
+    R.WorkDim = parseSizes(O.Global, R.Global);
+    if (R.WorkDim == 0)
+      return Error{"", "--global: expected X[,Y[,Z]], whole numbers above 0",
+                   ExitCode::Usage};
+  } else if (!O.Kernel.empty() || !O.Args.empty() || !O.Local.empty()) {
+    return Error{"", "a kernel needs --global X[,Y[,Z]]", ExitCode::Usage};
+  }
+  if (!O.Local.empty() && parseSizes(O.Local, R.Local) == 0)
+    return Error{"", "--local: expected X[,Y[,Z]], whole numbers above 0",
+                 ExitCode::Usage};
+  return R;
+}
+
+void printKernels(const Image &Program) {
+  for (const Kernel &K : Program.kernels()) {
+    fmt::print("{}(", K.Name);
+    constexpr const char *Kinds[] = {"value", "global", "local"};
+    for (size_t N = 0; N != K.Args.size(); ++N)
+      fmt::print("{}{} {}[{}]", N ? ", " : "", Kinds[K.Args[N].Kind],
+                 K.Args[N].Name, K.Args[N].Size);
+    fmt::print(")\n");
+  }
+}
+
+int exitCode(const RunResult &R) {
+  switch (R.End) {
+  case Outcome::Done:
+    return static_cast<int>(ExitCode::Ok);
+  case Outcome::GuestFailed:
+    return static_cast<int>(ExitCode::GuestFailed);
+  case Outcome::Trap:
+    return static_cast<int>(ExitCode::Trap);
+  case Outcome::Hang:
+  case Outcome::LimitReached:
+    break;
+  }
+  return static_cast<int>(ExitCode::LimitReached);
+}
+
+/// Reports and gives the exit code; \p Launch may be nullptr.
+int finish(const RunResult &R, const Options &O, const KernelLaunch *Launch) {
+  std::fflush(stdout);
+  std::string Report = R.Report;
+  while (Report.ends_with('\n'))
+    Report.pop_back();
+  if (R.End == Outcome::GuestFailed)
+    printDiagnostic(
+        Tool, "error", O.Program,
+        fmt::format("the program failed with exit code {}", R.ExitCode));
+  else if (R.End != Outcome::Done)
+    printDiagnostic(Tool, "error", O.Program,
+                    fmt::format("{}: {}", describe(R.End), Report));
+  int Code = exitCode(R);
+  // A program that did not end leaves no results.
+  if (Launch && Code == 0)
+    if (const Expected<Success> Ok = Launch->finish(); !Ok)
+      Code = reportError(Tool, Ok.error());
+  if (!O.StatsFile.empty()) {
+    fmt::print("{}", statsTable(R));
+    if (const Expected<Success> Ok =
+            writeFileAtomically(O.StatsFile, toJson(R));
+        !Ok)
+      return reportError(Tool, Ok.error());
+  }
+  return Code;
+}
+
+int run(const Options &O) {
+  const Expected<Config> C = makeConfig(O);
+  if (!C)
+    return reportError(Tool, C.error());
+  const Expected<KernelRequest> Request = makeRequest(O);
+  if (!Request)
+    return reportError(Tool, Request.error());
+  const Expected<std::vector<std::byte>> Elf = readFile(O.Program);
+  if (!Elf)
+    return reportError(Tool, Elf.error());
+  const auto Program = Image::parse(*Elf, O.Program);
+  if (!Program)
+    return reportError(Tool, Program.error());
+  if (O.ListKernels) {
+    printKernels(**Program);
+    return 0;
+  }
+  Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
+  if (!M)
+    return reportError(Tool, M.error());
+  (*M)->load(*Program);
+  Trace Tracer(stderr, *Program);
+  if (O.Trace)
+    (*M)->setObserver(&Tracer);
+  if (Request->WorkDim == 0)
+    return finish((*M)->run(), O, nullptr);
+  const Expected<KernelLaunch> Launch = KernelLaunch::prepare(**M, *Request);
+  if (!Launch)
+    return reportError(Tool, Launch.error());
+  return finish((*M)->run(Launch->launchBlock()), O, &*Launch);
+}
+
+void declare(CLI::App &App, Options &O) {
+  App.add_option("program", O.Program, "RISC-V executable for the machine");
+  App.add_option("--kernel", O.Kernel,
+                 "kernel to run (may be left out if there is one)");
+  App.add_option("--global", O.Global, "work-items, X[,Y[,Z]]");
+  App.add_option("--local", O.Local, "work-items of a group, X[,Y[,Z]]");
+  App.add_option("--arg", O.Args,
+                 "next argument: i32:N u32:N i64:N u64:N f32:X bytes:HEX "
+                 "buf:SIZE buf@FILE out:SIZE@FILE inout:FILE[@FILE] local:SIZE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  App.add_option("--args", O.ArgsFile,
+                 "the same as JSON: {\"kernel\", \"global\", \"local\", "
+                 "\"args\": [\"i32:5\", ...]}")
+      ->excludes("--kernel")
+      ->excludes("--global")
+      ->excludes("--local")
+      ->excludes("--arg");
+  App.add_option("--config", O.ConfigFile, "machine configuration, JSON");
+  App.add_flag("--print-default-config", O.PrintDefaultConfig,
+               "print the default configuration and exit");
+  App.add_flag("--list-kernels", O.ListKernels,
+               "print the program's kernels and exit");
+  App.add_option("--stats", O.StatsFile,
+                 "print a table of counters and write them to FILE as JSON");
+  App.add_option("--max-instructions", O.MaxInstructions,
+                 "end the run after so many warp instructions");
+  App.add_option("--threads", O.Threads,
+                 "host threads (changes no result; default: all)");
+  App.add_flag("--trace", O.Trace, "print every warp instruction to stderr");
+  App.footer(std::string(ExitCodeHelp));
+}
+
+} // namespace
+
+int main(int Argc, char **Argv) {
+  CLI::App App{"Runs a program for the Vorion machine on the ISA simulator.",
+               std::string(Tool)};
+  Options O;
+  declare(App, O);
+  try {
+    App.parse(Argc, Argv);
+  } catch (const CLI::CallForHelp &E) {
+    return App.exit(E);
+  } catch (const CLI::ParseError &E) {
+    return reportError(Tool, Error{"", E.what(), ExitCode::Usage});
+  }
+  if (O.PrintDefaultConfig) {
+    fmt::print("{}", toJson(Config()));
+    return 0;
+  }
+  if (O.Program.empty())
+    return reportError(Tool, Error{"",
+                                   "no program, expected an ELF file (see "
+                                   "--help)",
+                                   ExitCode::Usage});
+  return run(O);
+}
