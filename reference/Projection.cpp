@@ -30,16 +30,22 @@ Mat3<Real> multiply(const Mat3<Real> &A, const Mat3<Real> &B) {
   return R;
 }
 
+/// z before it is rounded to Real, and the magnitudes of its terms.
+struct ExactDepth {
+  double Z, Magnitude;
+};
+
 template <typename Real>
-void setDepthDoubt(Splat<Real> &S, const Camera<Real> &C,
-                   const Vec3<Real> &Mean) {
-  double Magnitude = std::abs(double(C.Translation.z));
+ExactDepth exactDepth(const Camera<Real> &C, const Vec3<Real> &Mean) {
+  ExactDepth D{0, 0};
   for (int K = 0; K < 3; ++K) {
-    S.DepthTerms[K] = double(C.Rotation[K][2]) * double(Mean[K]);
-    Magnitude += std::abs(S.DepthTerms[K]);
+    const double Term = (double(C.Rotation[K][2]) + double(C.DepthAxisLow[K])) *
+                        double(Mean[K]);
+    D.Z += Term;
+    D.Magnitude += std::abs(Term);
   }
-  constexpr double UnitRoundoff = 0x1p-24;
-  S.DepthSlack = 0.5 * UnitRoundoff * Magnitude;
+  const double Offset = double(C.Translation.z) + double(C.DepthOffsetLow);
+  return {D.Z + Offset, D.Magnitude + std::abs(Offset)};
 }
 
 /// The rotation of a unit quaternion (w, x, y, z); none for the zero one.
@@ -147,14 +153,16 @@ template <typename Real>
 Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
                     const Camera<Real> &C, const Options &O) {
   Splat<Real> S;
-  const Vec3<Real> P = multiply(C.Rotation, G.Means[I]) + C.Translation;
+  Vec3<Real> P = multiply(C.Rotation, G.Means[I]) + C.Translation;
+  const ExactDepth Exact = exactDepth(C, G.Means[I]);
+  P.z = static_cast<Real>(Exact.Z);
   // A NaN fails either test.
   const bool InFront =
       O.Rule == Rules::Inria ? P.z > Real(0.2) : P.z >= Real(0.01);
   if (!InFront)
     return S;
   S.Depth = P.z;
-  setDepthDoubt(S, C, G.Means[I]);
+  S.DepthSlack = 0x1p-44 * Exact.Magnitude;
   S.Mean = {C.Focal.x * P.x / P.z + C.Principal.x,
             C.Focal.y * P.y / P.z + C.Principal.y};
 

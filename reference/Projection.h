@@ -12,13 +12,8 @@ template <typename Real> struct Splat {
   bool Visible = false;   ///< false: culled, and nothing below is meaningful
   glm::vec<2, Real> Mean; ///< pixels
   Real Depth = 0;         ///< camera z
-  /// The products that sum up to z, less the translation that all share: if two
-  /// Gaussians have the same, they have the same z in any precision.
-  glm::dvec3 DepthTerms{0};
-  /// How far fp32 is typically off in z: half the unit roundoff times the sum
-  /// of the magnitudes of its terms. (The bound on the error is ten times this,
-  /// but roundings rarely add up; by the bound, most pixels of a dense scene
-  /// would be in doubt.)
+  /// How far z may be off before it is rounded to fp32, on a device that
+  /// carries it as a sum of two floats: 2^-44 of the magnitudes of its terms.
   double DepthSlack = 0;
   glm::vec<3, Real> Covariance; ///< xx, xy, yy, dilated, px^2
   glm::vec<3, Real> Conic;      ///< its inverse: xx, xy, yy
@@ -41,6 +36,8 @@ template <typename Real> struct Splat {
 /// sums and products associate from the left, nothing is contracted, and
 ///
 ///     p       = R m + t, each row ((r0 m0 + r1 m1) + r2 m2) + t
+///     p.z     = as if exact, then rounded once: it decides the order, and
+///               rounding must not turn Gaussians round whose depths differ
 ///     mean    = f p.xy / p.z + c
 ///     A       = R (Q diag(s)), B = J A with J's two rows
 ///               (f/z, 0, -f tx/(z z)) and (0, f/z, -f ty/(z z))

@@ -34,33 +34,26 @@ template <typename Real> struct Candidate {
   glm::vec<2, Real> Mean, Extent;
   glm::vec<3, Real> Conic, Color;
   Real Opacity;
-  glm::dvec3 DepthTerms;
-  double Depth, DepthSlack;
-  Rect Official; ///< pixels, for Official16
-  Border Edge;   ///< for supports with a border
+  std::uint32_t NearestKey, FarthestKey; ///< that z may be rounded to
+  Rect Official;                         ///< pixels, for Official16
+  Border Edge;                           ///< for supports with a border
   std::int32_t Index;
   bool Listed; ///< in the tile's list, and not only doubtfully so
 };
 
-/// Watches the depths of the Gaussians that a pixel sees, front to back.
+/// Watches the sort keys of the Gaussians that a pixel sees, front to back.
 class DepthOrder {
 public:
-  /// Takes the next one; true if it may belong before an earlier one.
-  bool doubtful(const glm::dvec3 &Terms, double Depth, double Slack) {
-    if (Terms != Current) {
-      Before = std::max(Before, Here);
-      Here = -std::numeric_limits<double>::infinity();
-      Current = Terms;
-    }
-    Here = std::max(Here, Depth + Slack);
-    return Depth - Slack < Before;
+  /// Takes the next one; true if it may belong before an earlier one. Equal
+  /// keys are in the order of the indices on every machine.
+  bool doubtful(std::uint32_t NearestKey, std::uint32_t FarthestKey) {
+    const bool Doubtful = NearestKey < Farthest;
+    Farthest = std::max(Farthest, FarthestKey);
+    return Doubtful;
   }
 
 private:
-  /// Farthest that one may be: of those like the current one, and of others.
-  double Here = -std::numeric_limits<double>::infinity();
-  double Before = -std::numeric_limits<double>::infinity();
-  glm::dvec3 Current{std::numeric_limits<double>::quiet_NaN()};
+  std::uint32_t Farthest = 0; ///< that an earlier one may have
 };
 
 bool near(double Value, double Threshold) {
@@ -163,9 +156,8 @@ private:
     C.Conic = S.Conic;
     C.Color = S.Color;
     C.Opacity = S.Opacity;
-    C.Depth = S.Depth;
-    C.DepthSlack = S.DepthSlack;
-    C.DepthTerms = S.DepthTerms;
+    C.NearestKey = depthBits(double(S.Depth) - S.DepthSlack);
+    C.FarthestKey = depthBits(double(S.Depth) + S.DepthSlack);
     C.Official = officialPixels(S.Mean, S.Extent.x, P.Width, P.Height);
     C.Edge = borderOf(S, O.Reach, P.Width, P.Height);
     C.Index = static_cast<std::int32_t>(I);
@@ -216,7 +208,7 @@ private:
         Doubts |= DoubtThreshold;
       if (!Inside || Alpha < leastAlpha<Real>())
         continue;
-      if (Order.doubtful(C.DepthTerms, C.Depth, C.DepthSlack))
+      if (Order.doubtful(C.NearestKey, C.FarthestKey))
         Doubts |= DoubtOrder;
       const Real Next = T * (1 - Alpha);
       if (near(Next, O.Cutoff))

@@ -14,10 +14,9 @@ enum Doubt : std::uint8_t {
   /// A decision at alpha = 1/255, at the transmittance cut-off or at the border
   /// of the support lies within \c DoubtBand of its threshold.
   DoubtThreshold = 1,
-  /// Two Gaussians visible there have depths that fp32 may turn round: closer
-  /// than the sum of their \c Splat::DepthSlack. They are safe if z is a sum of
-  /// the same \c Splat::DepthTerms; equal depths alone are not, as scenes on a
-  /// lattice have them by the thousand from different positions.
+  /// A Gaussian visible there has a z so near the middle between two fp32
+  /// numbers (\c Splat::DepthSlack) that it may be rounded to either, and the
+  /// other one would change its place among those visible.
   DoubtOrder = 2,
 };
 

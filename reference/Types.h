@@ -50,6 +50,10 @@ template <typename Real> struct Camera {
   glm::vec<3, Real> Centre;      ///< the camera in the world
   glm::vec<2, Real> Focal;       ///< pixels
   glm::vec<2, Real> Principal;   ///< pixels
+  /// What rounding to Real took from the last row of Rotation and Translation:
+  /// depths are computed from the sums (see project).
+  glm::vec<3, Real> DepthAxisLow{0};
+  Real DepthOffsetLow = 0;
 };
 
 /// How to render.

@@ -67,6 +67,12 @@ reference::Camera<Real> toReference(const splat::Camera &C) {
   }
   R.Focal = {C.Fx, C.Fy};
   R.Principal = {C.Cx, C.Cy};
+  for (int J = 0; J < 3; ++J)
+    R.DepthAxisLow[J] =
+        static_cast<Real>(Rotation[static_cast<std::size_t>(6 + J)] -
+                          static_cast<double>(R.Rotation[J][2]));
+  R.DepthOffsetLow =
+      static_cast<Real>(Translation[2] - static_cast<double>(R.Translation.z));
   return R;
 }
 
@@ -82,6 +88,12 @@ reference::Gaussians<float> toSingle(const reference::Gaussians<double> &G) {
   return S;
 }
 
+/// What rounding to fp32 takes away.
+float low(double Value) {
+  return static_cast<float>(Value -
+                            static_cast<double>(static_cast<float>(Value)));
+}
+
 reference::Camera<float> toSingle(const reference::Camera<double> &C) {
   return {C.Width,
           C.Height,
@@ -89,7 +101,10 @@ reference::Camera<float> toSingle(const reference::Camera<double> &C) {
           glm::vec3(C.Translation),
           glm::vec3(C.Centre),
           glm::vec2(C.Focal),
-          glm::vec2(C.Principal)};
+          glm::vec2(C.Principal),
+          glm::vec3(low(C.Rotation[0][2]), low(C.Rotation[1][2]),
+                    low(C.Rotation[2][2])),
+          low(C.Translation.z)};
 }
 
 splat::Scene sceneOf(const Fixture &F) {

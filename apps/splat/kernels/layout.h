@@ -19,9 +19,12 @@ typedef struct {
   float rotation[9];    ///< world to camera, row-major
   float translation[3]; ///< p_camera = rotation p_world + translation
   float position[3];    ///< camera centre, world
-  float focal[2];       ///< px
-  float center[2];      ///< principal point, px
-  float ratio_low[2];   ///< x/z and y/z are clamped to these in the Jacobian
+  float depth_axis[3];  ///< depth = axis . p + offset, each as high + low
+  float depth_axis_low[3];
+  float depth_offset[2];
+  float focal[2];     ///< px
+  float center[2];    ///< principal point, px
+  float ratio_low[2]; ///< x/z and y/z are clamped to these in the Jacobian
   float ratio_high[2];
   uint size[2];  ///< picture, px
   uint tiles[2]; ///< picture, tiles

@@ -13,6 +13,22 @@ static bool all_finite(splat_gaussian g) {
   return zero == 0.0f;
 }
 
+// Depth along the camera's axis, rounded once: it decides the order, and two
+// Gaussians that the exact depths order must not change places by rounding.
+static float camera_depth(__constant const splat_view *view, float x, float y,
+                          float z) {
+  const float part[3] = {x, y, z};
+  float2 sum = (float2)(view->depth_offset[0], view->depth_offset[1]);
+  for (int k = 0; k < 3; ++k) {
+    const float high = view->depth_axis[k] * part[k];
+    const float low = fma(view->depth_axis[k], part[k], -high) +
+                      view->depth_axis_low[k] * part[k];
+    const float2 next = two_sum(sum.x, high);
+    sum = (float2)(next.x, sum.y + (next.y + low));
+  }
+  return sum.x + sum.y;
+}
+
 static bool project_one(__constant const splat_view *view,
                         __global const float *geometry,
                         __global const float *sh,
@@ -23,7 +39,7 @@ static bool project_one(__constant const splat_view *view,
   const float py = GEOMETRY(PLANE_MEAN + 1);
   const float pz = GEOMETRY(PLANE_MEAN + 2);
   __constant const float *w = view->rotation;
-  const float z = w[6] * px + w[7] * py + w[8] * pz + view->translation[2];
+  const float z = camera_depth(view, px, py, pz);
   if (!(KEEP_DEPTH(z)))
     return false;
   const float x = w[0] * px + w[1] * py + w[2] * pz + view->translation[0];

@@ -13,6 +13,18 @@ splat_view makeView(const Camera &C, const RenderOptions &Options) {
     V.position[I] = static_cast<float>(C.Position[I]);
   }
 
+  // What the rounding to fp32 takes away goes into the low parts.
+  const auto Low = [](double Value) {
+    return static_cast<float>(Value -
+                              static_cast<double>(static_cast<float>(Value)));
+  };
+  for (std::size_t I = 0; I < 3; ++I) {
+    V.depth_axis[I] = static_cast<float>(Rotation[6 + I]);
+    V.depth_axis_low[I] = Low(Rotation[6 + I]);
+  }
+  V.depth_offset[0] = static_cast<float>(Translation[2]);
+  V.depth_offset[1] = Low(Translation[2]);
+
   const double Focal[2] = {C.Fx, C.Fy};
   const double Center[2] = {C.Cx, C.Cy};
   const int Size[2] = {C.Width, C.Height};
