@@ -17,7 +17,7 @@ namespace {
 constexpr const char *Elf = KERNELS_ELF;
 /// Small memory, and an end for what would not end.
 constexpr const char *Config =
-    R"({"GlobalBytes": 8388608, "MaxInstructions": 100000})";
+    R"({"global_bytes": 8388608, "max_instructions": 100000})";
 
 class Runtime : public testing::Test {
 protected:
@@ -359,8 +359,8 @@ TEST(RuntimeOpen, BadImagesAreRefused) {
 
 TEST(RuntimeOpen, ConfigurationsByTextFileAndEnvironment) {
   vx_device *Device = nullptr;
-  EXPECT_EQ(vx_device_open("{\"Coars\": 1}", &Device), VX_ERROR_CONFIG);
-  EXPECT_NE(std::string(vx_last_error()).find("Coars"), std::string::npos)
+  EXPECT_EQ(vx_device_open("{\"coars\": 1}", &Device), VX_ERROR_CONFIG);
+  EXPECT_NE(std::string(vx_last_error()).find("coars"), std::string::npos)
       << vx_last_error();
   EXPECT_EQ(vx_device_open("/nonexistent.json", &Device), VX_ERROR_FILE);
 
@@ -368,7 +368,7 @@ TEST(RuntimeOpen, ConfigurationsByTextFileAndEnvironment) {
                             ("vorion-config" + std::to_string(getpid())))
                                .string();
   ASSERT_TRUE(vorion::writeFileAtomically(
-      Path, std::string("{\"Clusters\": 2, \"GlobalBytes\": 1048576}")));
+      Path, std::string("{\"clusters\": 2, \"global_bytes\": 1048576}")));
   ASSERT_EQ(setenv("VORION_CONFIG", Path.c_str(), 1), 0);
   ASSERT_EQ(vx_device_open(nullptr, &Device), VX_OK) << vx_last_error();
   unsetenv("VORION_CONFIG");

@@ -17,7 +17,7 @@ int main(void) {
   EXPECT(strcmp(vx_last_error(), "") == 0);
   EXPECT(vx_device_open(NULL, NULL) == VX_ERROR_ARGUMENT);
   EXPECT(strcmp(vx_last_error(), "device is NULL") == 0);
-  EXPECT(vx_device_open("{\"GlobalBytes\": 1048576}", &device) == VX_OK);
+  EXPECT(vx_device_open("{\"global_bytes\": 1048576}", &device) == VX_OK);
 
   vx_device_info info;
   EXPECT(vx_device_get_info(device, &info) == VX_OK);

@@ -1,9 +1,9 @@
 // 64-bit arithmetic on different operands in each lane, against the host.
 // REQUIRES: vorion-clang, vorion-link, vorion-sim
-// RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf > %t.device
-// RUN: clang-19 -O1 %s -o %t.host.exe && %t.host.exe > %t.host
+// RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf | sort -n > %t.device
+// RUN: clang-19 -O1 %s -o %t.host.exe && %t.host.exe | sort -n > %t.host
 // RUN: diff %t.host %t.device
-// RUN: vorion-clang -O0 %s -o %t.O0.elf && vorion-sim %t.O0.elf > %t.O0.device
+// RUN: vorion-clang -O0 %s -o %t.O0.elf && vorion-sim %t.O0.elf | sort -n > %t.O0.device
 // RUN: diff %t.host %t.O0.device
 #include "Inputs/items.h"
 

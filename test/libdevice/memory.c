@@ -1,7 +1,7 @@
 // memcpy, memmove, memset and memcmp at every alignment, each lane another one.
 // REQUIRES: vorion-clang, vorion-link, vorion-sim
-// RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf > %t.device
-// RUN: clang-19 -O1 -fno-builtin %s -o %t.host.exe && %t.host.exe > %t.host
+// RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf | sort -n > %t.device
+// RUN: clang-19 -O1 -fno-builtin %s -o %t.host.exe && %t.host.exe | sort -n > %t.host
 // RUN: diff %t.host %t.device
 #include "Inputs/items.h"
 
