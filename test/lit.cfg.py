@@ -26,11 +26,15 @@ config.substitutions += [
     # What header tests include when nothing is installed yet.
     ("%include", os.path.join(build, "intrinsics", "generated", "include")),
     ("%python", f'"{sys.executable}"'),
+    ("%data", os.path.join(root, "..", "shared", "data")),
 ]
 
-programs = ["vorion-clang", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim"]
+programs = ["vorion-clang", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
+            "splat", "splat-compare", "splat-fixture", "splat-reference"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
+# The OpenCL platform of the build and no other, as scripts/env.sh has it.
+features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join(build, "etc", "OpenCL", "vendors")
 features["data"] = os.path.join(root, "..", "shared", "data")
 for feature, path in features.items():
     if os.path.exists(path):

@@ -10,9 +10,13 @@
 #include "vorion/support/File.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <unistd.h>
 
 namespace vorion::splat {
@@ -29,6 +33,22 @@ struct RenderArguments {
 
 bool endsWith(const std::string &Text, std::string_view End) {
   return std::string_view(Text).ends_with(End);
+}
+
+/// Whether \p File, if any, could be written.
+Expected<Success> checkWritable(const std::string &File) {
+  if (File.empty())
+    return Success{};
+  const std::filesystem::path Path(File);
+  std::error_code Ignored;
+  if (std::filesystem::is_directory(Path, Ignored))
+    return Error{File, "cannot write: is a folder, expected a file"};
+  const std::string Folder =
+      Path.has_parent_path() ? Path.parent_path().string() : ".";
+  if (access(Folder.c_str(), W_OK | X_OK) != 0)
+    return Error{File, std::string("cannot write: ") + std::strerror(errno) +
+                           ", expected a folder that can be written"};
+  return Success{};
 }
 
 /// What can be said to be wrong before anything is read.
@@ -51,18 +71,9 @@ Expected<Success> check(const RenderArguments &A) {
     return Usage("--exp table is the rasterizer's, expected --path raster "
                  "with it");
   // A render may take minutes: find out now whether it can be kept.
-  for (const std::string &File : {A.Output, A.Json, A.Pairs}) {
-    if (File.empty())
-      continue;
-    const std::size_t Slash = File.rfind('/');
-    const std::string Folder =
-        Slash == std::string::npos
-            ? "."
-            : File.substr(0, std::max<std::size_t>(Slash, 1));
-    if (access(Folder.c_str(), W_OK | X_OK) != 0)
-      return Error{File, std::string("cannot write: ") + std::strerror(errno) +
-                             ", expected a folder that can be written"};
-  }
+  for (const std::string &File : {A.Output, A.Json, A.Pairs})
+    if (auto Writable = checkWritable(File); !Writable)
+      return Writable;
   return Success{};
 }
 

@@ -1,0 +1,49 @@
+#!/bin/sh
+# Runs splat on every kind of bad input in FOLDER, which has s.ply and c.json.
+# usage: bad-input.sh FOLDER
+cd "$1" || exit 1
+head -c $(($(wc -c <s.ply) - 4)) s.ply >short.ply
+echo "this is no scene" >text.ply
+sed 's/property float opacity/property float opaqueness/' s.ply >property.ply
+echo "this is no JSON" >text.json
+sed 's/"fx"/"gx"/' c.json >keys.json
+mkdir folder.png
+
+attempt() {
+  printf '%s: ' "$1"
+  shift
+  splat "$@" 2>&1
+  echo "ended with $?"
+}
+render() {
+  title=$1 scene=$2 cameras=$3 view=$4 output=$5
+  shift 5
+  attempt "$title" render "$scene" --cameras "$cameras" --view "$view" -o "$output" "$@"
+}
+
+render "missing scene" none.ply c.json front p.png
+render "truncated scene" short.ply c.json front p.png
+render "not a scene" text.ply c.json front p.png
+render "scene without opacity" property.ply c.json front p.png
+render "cameras not JSON" s.ply text.json front p.png
+render "camera without fx" s.ply keys.json front p.png
+render "unknown view" s.ply c.json back p.png
+render "no such folder" s.ply c.json front nowhere/p.png
+render "folder as output" s.ply c.json front folder.png
+render "unknown ending" s.ply c.json front p.gif
+render "unknown support" s.ply c.json front p.png --support huge
+render "unknown option" s.ply c.json front p.png --nonsense
+attempt "no view" render s.ply --cameras c.json -o p.png
+render "cutoff of 1" s.ply c.json front p.png --cutoff 1
+render "two background values" s.ply c.json front p.png --background 1,2
+render "official16 by raster" s.ply c.json front p.png --support official16
+render "table by simt" s.ply c.json front p.png --path simt --exp table
+attempt "unknown subcommand" draw
+attempt "too few Gaussians" demo-scene -o d.ply --gaussians 3
+attempt "demo into nowhere" demo-scene -o nowhere/s.ply --gaussians 1000
+printf 'left behind:'
+for file in s.ply c.json short.ply text.ply property.ply text.json keys.json folder.png; do
+  [ -e "$file" ] && printf ' %s' "$file" && rm -r "$file"
+done
+for file in *; do [ -e "$file" ] && printf ' %s' "$file"; done
+echo

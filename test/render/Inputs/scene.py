@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Writes a small scene and its camera.
+
+usage: scene.py one|random|degenerate|dc SCENE.ply CAMERAS.json
+one: a round Gaussian in the middle of 64x48 pixels
+random: 600 Gaussians of all shapes and SH degree 3, 150x100 pixels (partial
+    tiles on both paths), some behind the camera, at its plane and huge
+degenerate: what must not draw or fail: zero quaternion, zero and infinite
+    extent, opacity 0 and 1, at the camera, far outside
+dc: 40 Gaussians without the higher bands
+"""
+
+import json
+import math
+import random
+import struct
+import sys
+
+
+def gaussian(mean, scales, quat=(1, 0, 0, 0), opacity=0.8, sh=(0, 0, 0)):
+    logit = math.log(opacity / (1 - opacity)) if 0 < opacity < 1 else (100 if opacity else -100)
+    return mean, [math.log(s) if s > 0 else -100 for s in scales], quat, logit, list(sh)
+
+
+def one():
+    return 0, [gaussian((0, 0, 2), (0.1, 0.1, 0.1), opacity=0.5, sh=(1, 0.5, -0.5))], camera(64, 48, 50)
+
+
+def rand(count=600, degree=3, width=150, height=100):
+    r = random.Random(11)
+    terms = 3 * (degree + 1) ** 2
+    out = []
+    for i in range(count):
+        mean = [r.uniform(-1.6, 1.6), r.uniform(-1.2, 1.2), r.uniform(-0.5, 4)]
+        if i % 50 == 0:
+            mean[2] = r.uniform(0.15, 0.3)  # around the near plane
+        scales = [math.exp(r.uniform(-5, -1)) for _ in range(3)]
+        if i % 40 == 0:
+            scales[0] = 3  # a needle or sheet across the picture
+        quat = [r.gauss(0, 1) for _ in range(4)]
+        sh = [r.gauss(0, 0.8) for _ in range(3)] + [r.gauss(0, 0.25) for _ in range(terms - 3)]
+        out.append(gaussian(mean, scales, quat, 0.999 if i % 3 == 0 else r.uniform(0.002, 0.9), sh))
+    return degree, out, camera(width, height, 110)
+
+
+def degenerate():
+    s = (0.1, 0.1, 0.1)
+    out = [
+        gaussian((0, 0, 2), s, quat=(0, 0, 0, 0)),
+        gaussian((0.2, 0, 2), (0, 0, 0)),
+        gaussian((-0.2, 0, 2), (1e30, 1e30, 1e30)),
+        gaussian((0, 0.2, 2), s, opacity=0),
+        gaussian((0, -0.2, 2), s, opacity=1),
+        gaussian((0, 0, 0), s),
+        gaussian((1e20, 1e20, 2), s),
+        gaussian((0, 0, 0.2), s),
+        gaussian((0.1, 0.1, 2), (5, 1e-9, 1e-9), quat=(0.9, 0.1, 0.3, -0.2)),
+    ]
+    return 0, out, camera(64, 48, 50)
+
+
+def camera(width, height, focal):
+    return {"id": 0, "img_name": "front", "width": width, "height": height, "position": [0, 0, 0],
+            "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "fx": focal, "fy": focal}
+
+
+def write(path, degree, gaussians):
+    rest = (degree + 1) ** 2 - 1
+    names = ["x", "y", "z", "nx", "ny", "nz", "f_dc_0", "f_dc_1", "f_dc_2"]
+    names += [f"f_rest_{i}" for i in range(3 * rest)]
+    names += ["opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"]
+    with open(path, "wb") as f:
+        f.write(b"ply\nformat binary_little_endian 1.0\n")
+        f.write(f"element vertex {len(gaussians)}\n".encode())
+        f.write("".join(f"property float {n}\n" for n in names).encode() + b"end_header\n")
+        for mean, scales, quat, logit, sh in gaussians:
+            # The file has the higher bands channel by channel.
+            higher = [sh[3 * (k + 1) + c] for c in range(3) for k in range(rest)]
+            row = [*mean, 0, 0, 0, *sh[:3], *higher, logit, *scales, *quat]
+            f.write(struct.pack(f"<{len(row)}f", *row))
+
+
+kinds = {"one": one, "random": rand, "degenerate": degenerate, "dc": lambda: rand(40, 0, 64, 48)}
+degree, gaussians, view = kinds[sys.argv[1]]()
+write(sys.argv[2], degree, gaussians)
+with open(sys.argv[3], "w") as f:
+    json.dump([view], f)
