@@ -1,0 +1,341 @@
+/// Loads, stores and atomics of a warp: every shape of addresses on every
+/// level and mask, faults, and the order of lanes.
+
+#include "testing/WarpRunner.h"
+
+#include <cstring>
+#include <random>
+
+using namespace vorion::isasim;
+using namespace vorion::isasim::testing;
+
+namespace {
+
+constexpr uint32_t Buffer = VX_GLOBAL_BASE + 0x1000;
+constexpr uint32_t Untouched = 0xDEADBEEF;
+
+struct Shape {
+  const char *Name;
+  Lanes16 Addresses;
+};
+
+/// Addresses of Size bytes around Base in the ways that programs have.
+std::vector<Shape> shapes(uint32_t Base, uint32_t Size, std::mt19937 &Random) {
+  std::vector<Shape> All = {{"contiguous", {}}, {"uniform", {}},
+                            {"strided", {}},    {"reversed", {}},
+                            {"scattered", {}},  {"two runs", {}}};
+  for (uint32_t L = 0; L != MaxLanes; ++L) {
+    All[0].Addresses[L] = Base + L * Size;
+    All[1].Addresses[L] = Base;
+    All[2].Addresses[L] = Base + L * 64;
+    All[3].Addresses[L] = Base + (15 - L) * Size;
+    All[4].Addresses[L] = Base + static_cast<uint32_t>(Random() % 256) * Size;
+    All[5].Addresses[L] = Base + (L / 8) * 512 + L % 8 * Size;
+  }
+  return All;
+}
+
+uint32_t loadedAs(Op O, const std::byte *From) {
+  uint32_t W = 0;
+  std::memcpy(&W, From, 4);
+  switch (O) {
+  case Op::RV_LB:
+    return static_cast<uint32_t>(static_cast<int8_t>(W));
+  case Op::RV_LH:
+    return static_cast<uint32_t>(static_cast<int16_t>(W));
+  case Op::RV_LBU:
+    return W & 0xFF;
+  case Op::RV_LHU:
+    return W & 0xFFFF;
+  default:
+    return W;
+  }
+}
+
+uint32_t sizeOf(Op O) {
+  switch (O) {
+  case Op::RV_LB:
+  case Op::RV_LBU:
+  case Op::RV_SB:
+    return 1;
+  case Op::RV_LH:
+  case Op::RV_LHU:
+  case Op::RV_SH:
+    return 2;
+  default:
+    return 4;
+  }
+}
+
+Lanes16 minus(Lanes16 V, uint32_t Amount) {
+  for (uint32_t &Lane : V)
+    Lane -= Amount;
+  return V;
+}
+
+/// One run of a single instruction; Where: registers 10 and 11.
+void runOn(WarpRunner &R, uint32_t Mask, const Lanes16 &Addresses,
+           const Lanes16 &Values) {
+  R.setX(10, Addresses);
+  R.setX(11, Values);
+  R.setF(11, Values);
+  R.setActive(Mask);
+  R.rewind();
+  R.run();
+}
+
+} // namespace
+
+TEST(Memory, EveryLoadOfEveryShapeOnEveryMask) {
+  std::mt19937 Random(3);
+  constexpr int32_t Offset = -20;
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::RV_LB, Op::RV_LH, Op::RV_LW, Op::RV_LBU, Op::RV_LHU,
+                       Op::RV_FLW}) {
+      WarpRunner R(*Table, {encode(O, {.Rd = 12, .Rs1 = 10, .Imm = Offset})});
+      for (uint32_t N = 0; N != 0x2000; ++N)
+        *R.global(VX_GLOBAL_BASE + N) = static_cast<std::byte>(Random());
+      // In the middle, at the start and at the end of global memory.
+      for (const uint32_t Base :
+           {Buffer, VX_GLOBAL_BASE,
+            static_cast<uint32_t>(VX_GLOBAL_BASE + R.Shape.GlobalBytes) -
+                16 * sizeOf(O)})
+        for (const Shape &Way : shapes(Base, sizeOf(O), Random)) {
+          if (Base != Buffer && std::string_view(Way.Name) != "contiguous" &&
+              std::string_view(Way.Name) != "reversed")
+            continue;
+          for (const uint32_t Mask : MaskPatterns) {
+            Lanes16 Old;
+            Old.fill(Untouched);
+            R.setX(12, Old);
+            R.setF(12, Old);
+            runOn(R, Mask, minus(Way.Addresses, Offset), Old);
+            ASSERT_TRUE(R.ranToEnd()) << Way.Name;
+            const Lanes16 Got = O == Op::RV_FLW ? R.getF(12) : R.getX(12);
+            for (unsigned L = 0; L != MaxLanes; ++L)
+              ASSERT_EQ(Got[L], Mask >> L & 1
+                                    ? loadedAs(O, R.global(Way.Addresses[L]))
+                                    : Untouched)
+                  << Table->Level << " " << Way.Name << " lane " << L;
+          }
+        }
+    }
+}
+
+TEST(Memory, EveryStoreOfEveryShapeOnEveryMask) {
+  std::mt19937 Random(4);
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::RV_SB, Op::RV_SH, Op::RV_SW, Op::RV_FSW}) {
+      WarpRunner R(*Table, {encode(O, {.Rs1 = 10, .Rs2 = 11, .Imm = 8})});
+      std::byte *Memory = R.global(VX_GLOBAL_BASE);
+      for (const Shape &Way : shapes(Buffer, sizeOf(O), Random))
+        for (const uint32_t Mask : MaskPatterns) {
+          std::vector<std::byte> Expected(0x3000);
+          for (std::byte &B : Expected)
+            B = static_cast<std::byte>(Random());
+          std::memcpy(Memory, Expected.data(), Expected.size());
+          Lanes16 Values;
+          for (uint32_t &V : Values)
+            V = static_cast<uint32_t>(Random());
+          // In lane order: the last of several lanes at one address wins.
+          for (unsigned L = 0; L != MaxLanes; ++L)
+            if (Mask >> L & 1)
+              std::memcpy(&Expected[Way.Addresses[L] - VX_GLOBAL_BASE],
+                          &Values[L], sizeOf(O));
+          runOn(R, Mask, minus(Way.Addresses, 8), Values);
+          ASSERT_TRUE(R.ranToEnd());
+          ASSERT_EQ(std::memcmp(Memory, Expected.data(), Expected.size()), 0)
+              << Table->Level << " " << Way.Name << std::hex << " mask "
+              << Mask;
+        }
+    }
+}
+
+TEST(Memory, LanesMayReachDifferentRegions) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11}),
+                          encode(Op::RV_LW, {.Rd = 12, .Rs1 = 10})});
+    Lanes16 Addresses, Values;
+    for (unsigned L = 0; L != MaxLanes; ++L) {
+      const uint32_t Bases[] = {Buffer, VX_LOCAL_BASE, VX_STACK_TOP - 4096,
+                                VX_IMAGE_BASE + 0x10000};
+      Addresses[L] = Bases[L % 4] + L * 4;
+      Values[L] = 1000 + L;
+    }
+    runOn(R, 0xFFFF, Addresses, Values);
+    ASSERT_TRUE(R.ranToEnd());
+    EXPECT_EQ(R.getX(12), Values);
+  }
+}
+
+TEST(Memory, FaultsNameTheLowestLane) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner Load(*Table, {encode(Op::RV_LW, {.Rd = 12, .Rs1 = 10})});
+    const auto End =
+        static_cast<uint32_t>(VX_GLOBAL_BASE + Load.Shape.GlobalBytes);
+    Lanes16 Addresses;
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      Addresses[L] = End - 20 + L * 4; // lanes 5 and up are outside
+    runOn(Load, 0xFFFF, Addresses, {});
+    EXPECT_EQ(Load.cause(), TrapCause::LoadFault);
+    EXPECT_EQ(Load.warp().FaultLane, 5U);
+    EXPECT_EQ(Load.warp().FaultAddress, End);
+    EXPECT_EQ(Load.warp().Count.Retired, 0U);
+    // Inactive lanes do not fault.
+    runOn(Load, 0x001F, Addresses, {});
+    EXPECT_TRUE(Load.ranToEnd());
+
+    WarpRunner Store(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11})});
+    Addresses.fill(0); // page 0
+    runOn(Store, 0x8000, Addresses, {});
+    EXPECT_EQ(Store.cause(), TrapCause::StoreFault);
+    EXPECT_EQ(Store.warp().FaultLane, 15U);
+    Addresses.fill(VX_IO_RASTER); // the host's window
+    runOn(Store, 0xFFFF, Addresses, {});
+    EXPECT_EQ(Store.cause(), TrapCause::StoreFault);
+    Addresses.fill(VX_IMAGE_BASE); // code
+    runOn(Store, 0xFFFF, Addresses, {});
+    EXPECT_EQ(Store.cause(), TrapCause::StoreFault);
+  }
+}
+
+TEST(Memory, MisalignedAccessesTrap) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner Load(*Table, {encode(Op::RV_LH, {.Rd = 12, .Rs1 = 10})});
+    Lanes16 Addresses;
+    Addresses.fill(Buffer);
+    Addresses[9] = Buffer + 1;
+    runOn(Load, 0xFFFF, Addresses, {});
+    EXPECT_EQ(Load.cause(), TrapCause::MisalignedLoad);
+    EXPECT_EQ(Load.warp().FaultLane, 9U);
+    WarpRunner Store(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11})});
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      Addresses[L] = Buffer + 2 + L * 4;
+    runOn(Store, 0xFFFF, Addresses, {});
+    EXPECT_EQ(Store.cause(), TrapCause::MisalignedStore);
+    EXPECT_EQ(Store.warp().FaultAddress, Buffer + 2);
+    WarpRunner Amo(*Table,
+                   {encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 10, .Rs2 = 11})});
+    runOn(Amo, 0xFFFF, Addresses, {});
+    // It parks, and traps when it is executed.
+    EXPECT_EQ(Amo.warp().Why, Stop::Atomic);
+    EXPECT_FALSE(amoNow(&Amo.warp(), Amo.warp().Next, Amo::Add));
+    EXPECT_EQ(Amo.cause(), TrapCause::MisalignedStore);
+  }
+}
+
+TEST(Memory, ConsoleAndExitWordsTakeStores) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_SW, {.Rs1 = 0, .Rs2 = 11, .Imm = 0x40}),
+                  encode(Op::RV_SW, {.Rs1 = 0, .Rs2 = 12, .Imm = 0x44}),
+                  encode(Op::RV_LW, {.Rd = 13, .Rs1 = 0, .Imm = 0x40})});
+    Lanes16 Letters, Codes{};
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      Letters[L] = 'a' + L + 0x100;
+    Codes[6] = 9;
+    Codes[7] = 8;
+    R.setX(12, Codes);
+    runOn(R, 0x00F0, Codes, Letters);
+    EXPECT_EQ(R.Only.Console, "efgh");
+    EXPECT_EQ(R.Only.ExitCode, 9U);
+    EXPECT_EQ(R.cause(), TrapCause::LoadFault); // they cannot be read
+  }
+}
+
+TEST(Memory, AtomicsRunInLaneOrder) {
+  struct Case {
+    Op O;
+    uint32_t Start;
+    Lanes16 Operands;
+    uint32_t Result;
+  };
+  const Lanes16 Same = {5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5};
+  const Lanes16 Steps = {1, 2, 4, 8, 16, 32, 64, 128, 1, 1, 1, 1, 1, 1, 1, 1};
+  const Lanes16 Mixed = {7,          ~0U, 3, 9, 1, 2, 8, 4,
+                         0x80000000, 6,   5, 7, 7, 7, 7, 7};
+  for (const ExecTable *Table : allTables())
+    for (const Case &C : {Case{Op::RV_AMOADD_W, 100, Same, 180},
+                          Case{Op::RV_AMOSWAP_W, 1, Mixed, 7},
+                          Case{Op::RV_AMOXOR_W, 0, Steps, 255},
+                          Case{Op::RV_AMOOR_W, 0, Steps, 255},
+                          Case{Op::RV_AMOAND_W, 0xFF, Same, 5},
+                          Case{Op::RV_AMOMIN_W, 3, Mixed, 0x80000000},
+                          Case{Op::RV_AMOMAX_W, 3, Mixed, 9},
+                          Case{Op::RV_AMOMINU_W, 3, Mixed, 1},
+                          Case{Op::RV_AMOMAXU_W, 3, Mixed, ~0U}}) {
+      WarpRunner R(*Table, {encode(C.O, {.Rd = 12, .Rs1 = 10, .Rs2 = 11})});
+      Lanes16 Addresses;
+      Addresses.fill(VX_LOCAL_BASE + 64); // local memory: at once
+      std::memcpy(R.warp().Mem->Local.at(VX_LOCAL_BASE + 64), &C.Start, 4);
+      runOn(R, 0xFFFF, Addresses, C.Operands);
+      ASSERT_TRUE(R.ranToEnd());
+      uint32_t Got = 0;
+      std::memcpy(&Got, R.warp().Mem->Local.at(VX_LOCAL_BASE + 64), 4);
+      EXPECT_EQ(Got, C.Result)
+          << InsnTable[static_cast<unsigned>(C.O)].Mnemonic;
+      EXPECT_EQ(R.getX(12)[0], C.Start);
+      if (C.O == Op::RV_AMOADD_W)
+        for (uint32_t L = 0; L != MaxLanes; ++L)
+          EXPECT_EQ(R.getX(12)[L], 100 + 5 * L);
+      if (C.O == Op::RV_AMOSWAP_W)
+        for (uint32_t L = 1; L != MaxLanes; ++L)
+          EXPECT_EQ(R.getX(12)[L], Mixed[L - 1]);
+    }
+}
+
+TEST(Memory, CompareAndSwapComparesWithRd) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_AMOCAS_W, {.Rd = 12, .Rs1 = 10, .Rs2 = 11})});
+    Lanes16 Addresses, Values, Expected{};
+    Addresses.fill(VX_LOCAL_BASE);
+    for (uint32_t L = 0; L != MaxLanes; ++L) {
+      Values[L] = L + 1;
+      Expected[L] = L == 4 ? 77 : L; // lane 4 breaks the chain
+    }
+    R.setX(12, Expected);
+    runOn(R, 0xFFFF, Addresses, Values);
+    ASSERT_TRUE(R.ranToEnd());
+    uint32_t Got = 0;
+    std::memcpy(&Got, R.warp().Mem->Local.at(VX_LOCAL_BASE), 4);
+    EXPECT_EQ(Got, 4U);
+    EXPECT_EQ(R.getX(12),
+              (Lanes16{0, 1, 2, 3, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4}));
+  }
+}
+
+TEST(Memory, CompareAndSwapWithX0ComparesWithZero) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_AMOCAS_W, {.Rd = 0, .Rs1 = 10, .Rs2 = 11})});
+    Lanes16 Addresses, Values;
+    Values.fill(3);
+    Addresses.fill(VX_LOCAL_BASE);
+    runOn(R, 0x0006, Addresses, Values);
+    ASSERT_TRUE(R.ranToEnd());
+    uint32_t Got = 0;
+    std::memcpy(&Got, R.warp().Mem->Local.at(VX_LOCAL_BASE), 4);
+    EXPECT_EQ(Got, 3U);
+    EXPECT_EQ(R.getX(0), Lanes16{});
+  }
+}
+
+TEST(Memory, AtomicsOnGlobalMemoryPark) {
+  const ExecTable &Table = execTable(false);
+  Lanes16 Addresses, Ones;
+  Addresses.fill(Buffer);
+  Ones.fill(1);
+  WarpRunner Used(Table,
+                  {encode(Op::RV_AMOADD_W, {.Rd = 12, .Rs1 = 10, .Rs2 = 11})});
+  runOn(Used, 0xFFFF, Addresses, Ones);
+  EXPECT_EQ(Used.warp().Why, Stop::Atomic);
+  // An addition without a result need not wait.
+  WarpRunner Unused(Table,
+                    {encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 10, .Rs2 = 11})});
+  runOn(Unused, 0xFFFF, Addresses, Ones);
+  EXPECT_TRUE(Unused.ranToEnd());
+  uint32_t Got = 0;
+  std::memcpy(&Got, Unused.global(Buffer), 4);
+  EXPECT_EQ(Got, 16U);
+}

@@ -1,0 +1,462 @@
+/// XVortex and control flow on every vector level.
+
+#include "testing/WarpRunner.h"
+
+#include <random>
+
+using namespace vorion::isasim;
+using namespace vorion::isasim::testing;
+
+namespace {
+
+Lanes16 laneNumbers() {
+  Lanes16 V;
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    V[L] = L;
+  return V;
+}
+
+Lanes16 bitsOf(uint32_t Mask) {
+  Lanes16 V;
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    V[L] = Mask >> L & 1;
+  return V;
+}
+
+Lanes16 all(uint32_t Value) {
+  Lanes16 V;
+  V.fill(Value);
+  return V;
+}
+
+uint32_t addi(unsigned Rd, unsigned Rs1, int32_t Imm) {
+  return encode(Op::RV_ADDI, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
+}
+
+} // namespace
+
+TEST(Simt, TmcTakesTheLastActiveLane) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::VX_TMC, {.Rs1 = 10}), addi(11, 0, 1)});
+    Lanes16 Masks = all(0xFFFF);
+    Masks[5] = 0x0F0;
+    R.setX(10, Masks);
+    R.setActive(0x0023);
+    R.run();
+    EXPECT_EQ(R.warp().Mask, 0x00F0U);
+    EXPECT_EQ(R.getX(11), bitsOf(0x00F0));
+  }
+}
+
+TEST(Simt, TmcOfZeroEndsTheWarp) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {addi(11, 0, 1), encode(Op::VX_TMC, {.Rs1 = 0})});
+    R.run();
+    EXPECT_EQ(R.warp().Why, Stop::Ended);
+    EXPECT_EQ(R.warp().Count.Retired, 2U);
+  }
+}
+
+TEST(Simt, SplitRunsBothSidesAndJoinRestores) {
+  for (const ExecTable *Table : allTables())
+    for (const uint32_t Active : MaskPatterns)
+      for (const Op O : {Op::VX_SPLIT, Op::VX_SPLIT_N}) {
+        // x12 += 1 on each side, x13: lanes of the side, by its order.
+        WarpRunner R(*Table,
+                     {encode(O, {.Rd = 5, .Rs1 = 10}), addi(12, 12, 1),
+                      encode(Op::VX_VOTE_BALLOT, {.Rd = 13, .Rs1 = 14}),
+                      encode(Op::VX_JOIN, {.Rs1 = 5}), addi(15, 15, 1)});
+        const uint32_t Predicate = 0x3C5A;
+        R.setX(10, bitsOf(Predicate));
+        R.setX(14, all(1));
+        R.setActive(Active);
+        R.run();
+        ASSERT_TRUE(R.ranToEnd());
+        EXPECT_EQ(R.warp().Mask, Active);
+        EXPECT_EQ(R.warp().StackDepth, 0U);
+        const uint32_t True = O == Op::VX_SPLIT ? Predicate : ~Predicate;
+        const uint32_t Then = Active & True, Else = Active & ~True;
+        for (unsigned L = 0; L != MaxLanes; ++L) {
+          const uint32_t Bit = 1U << L;
+          EXPECT_EQ(R.getX(12)[L], Active & Bit ? 1U : 0U);
+          EXPECT_EQ(R.getX(15)[L], Active & Bit ? 1U : 0U);
+          EXPECT_EQ(R.getX(13)[L], Bit & Then ? Then : Bit & Else ? Else : 0U);
+        }
+        EXPECT_EQ(R.warp().Count.DivergentSplits, Then && Else ? 1U : 0U);
+        EXPECT_EQ(R.warp().Count.Splits, 1U);
+      }
+}
+
+TEST(Simt, NestedSplitsGiveTheirDepth) {
+  for (const ExecTable *Table : allTables()) {
+    // Bits 0 and 1 of the lane number divide twice.
+    WarpRunner R(*Table, {encode(Op::VX_SPLIT, {.Rd = 5, .Rs1 = 10}),
+                          encode(Op::VX_SPLIT, {.Rd = 6, .Rs1 = 11}),
+                          encode(Op::VX_VOTE_BALLOT, {.Rd = 13, .Rs1 = 14}),
+                          encode(Op::VX_JOIN, {.Rs1 = 6}),
+                          encode(Op::VX_JOIN, {.Rs1 = 5})});
+    Lanes16 Halves = laneNumbers();
+    for (uint32_t &L : Halves)
+      L >>= 1;
+    R.setX(10, laneNumbers());
+    R.setX(11, Halves);
+    R.setX(14, all(1));
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      EXPECT_EQ(R.getX(13)[L], 0x1111U << (L % 4));
+    EXPECT_EQ(R.getX(5), all(0));
+    EXPECT_EQ(R.getX(6), all(1));
+    EXPECT_EQ(R.warp().Mask, 0xFFFFU);
+  }
+}
+
+TEST(Simt, JoinWithoutASplitTraps) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::VX_JOIN, {.Rs1 = 10})});
+    R.setX(10, all(1));
+    R.run();
+    EXPECT_EQ(R.cause(), TrapCause::DivergenceUnderflow);
+  }
+}
+
+TEST(Simt, TooManySplitsTrap) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::VX_SPLIT, {.Rd = 5, .Rs1 = 10}),
+                          encode(Op::VX_SPLIT, {.Rd = 5, .Rs1 = 11})});
+    R.warp().StackLimit = 1;
+    R.setX(10, bitsOf(0x00FF));
+    R.setX(11, bitsOf(0x000F));
+    R.run();
+    EXPECT_EQ(R.cause(), TrapCause::DivergenceOverflow);
+    EXPECT_EQ(R.warp().pcOf(R.warp().Next), VX_IMAGE_BASE + 4);
+  }
+}
+
+TEST(Simt, PredNarrowsUntilNoLaneIsLeft) {
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::VX_PRED, Op::VX_PRED_N}) {
+      WarpRunner R(*Table,
+                   {encode(O, {.Rs1 = 10, .Rs2 = 11}), addi(12, 12, 1),
+                    encode(O, {.Rs1 = 13, .Rs2 = 11}), addi(12, 12, 4)});
+      const uint32_t Flip = O == Op::VX_PRED_N ? 0xFFFF : 0;
+      R.setX(10, bitsOf(0x0F3C ^ Flip));
+      R.setX(13, bitsOf(Flip));
+      R.setX(11, all(0x7FFE)); // the mask to go back to
+      R.setActive(0x7FFE);
+      R.run();
+      ASSERT_TRUE(R.ranToEnd());
+      EXPECT_EQ(R.warp().Mask, 0x7FFEU);
+      for (unsigned L = 0; L != MaxLanes; ++L)
+        EXPECT_EQ(R.getX(12)[L],
+                  (0x0F3C >> L & 1 ? 1U : 0U) + (0x7FFE >> L & 1 ? 4U : 0U));
+    }
+}
+
+TEST(Simt, PredThatLeavesNoLaneTraps) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::VX_PRED, {.Rs1 = 0, .Rs2 = 0})});
+    R.run();
+    EXPECT_EQ(R.cause(), TrapCause::EmptyMask);
+  }
+}
+
+TEST(Simt, VotesLookAtActiveLanesOnly) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::VX_VOTE_ALL, {.Rd = 20, .Rs1 = 10}),
+                          encode(Op::VX_VOTE_ANY, {.Rd = 21, .Rs1 = 10}),
+                          encode(Op::VX_VOTE_UNI, {.Rd = 22, .Rs1 = 10}),
+                          encode(Op::VX_VOTE_BALLOT, {.Rd = 23, .Rs1 = 10})});
+    auto Vote = [&](uint32_t Active, const Lanes16 &Values) {
+      R.setX(10, Values);
+      R.setActive(Active);
+      R.rewind();
+      R.run();
+      const auto L = static_cast<unsigned>(__builtin_ctz(Active));
+      return std::array<uint32_t, 4>{R.getX(20)[L], R.getX(21)[L],
+                                     R.getX(22)[L], R.getX(23)[L]};
+    };
+    using Result = std::array<uint32_t, 4>;
+    EXPECT_EQ(Vote(0xFFFF, all(2)), (Result{1, 1, 1, 0xFFFF}));
+    EXPECT_EQ(Vote(0xFFFF, all(0)), (Result{0, 0, 1, 0}));
+    EXPECT_EQ(Vote(0x00F0, bitsOf(0x00FF)), (Result{1, 1, 1, 0x00F0}));
+    EXPECT_EQ(Vote(0x00F0, bitsOf(0xFF0F)), (Result{0, 0, 1, 0}));
+    EXPECT_EQ(Vote(0x0FF0, bitsOf(0x0FC0)), (Result{0, 1, 0, 0x0FC0}));
+    EXPECT_EQ(Vote(0xFFFF, laneNumbers()), (Result{0, 1, 0, 0xFFFE}));
+  }
+}
+
+TEST(Simt, ShufflesFollowTheRecords) {
+  std::mt19937 Random(5);
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::VX_SHFL_UP, Op::VX_SHFL_DOWN, Op::VX_SHFL_BFLY,
+                       Op::VX_SHFL_IDX}) {
+      WarpRunner R(*Table, {encode(O, {.Rd = 12, .Rs1 = 10, .Rs2 = 11})});
+      for (int Try = 0; Try != 40; ++Try) {
+        const uint32_t Active =
+            MaskPatterns[Random() % std::size(MaskPatterns)];
+        Lanes16 Values, Control;
+        for (unsigned L = 0; L != MaxLanes; ++L) {
+          Values[L] = static_cast<uint32_t>(Random());
+          Control[L] = Random() % 20 |
+                       (Random() % 2 ? 15 : Random() % 64) << 6 |
+                       (Random() % 2 ? 0 : 0x30 + Random() % 16) << 12;
+        }
+        R.setX(10, Values);
+        R.setX(11, Control);
+        R.setX(12, all(0));
+        R.setActive(Active);
+        R.rewind();
+        R.run();
+        for (int Lane = 0; Lane != 16; ++Lane) {
+          if (!(Active >> Lane & 1))
+            continue;
+          const int B = Control[Lane] & 63, C = Control[Lane] >> 6 & 63,
+                    Segment = Control[Lane] >> 12 & 63;
+          const int Lo = Lane & Segment, Hi = Lo | (C & ~Segment);
+          int From = 0;
+          bool Valid = false;
+          switch (O) {
+          case Op::VX_SHFL_UP:
+            From = Lane - B;
+            Valid = From >= Lo;
+            break;
+          case Op::VX_SHFL_DOWN:
+            From = Lane + B;
+            Valid = From <= Hi;
+            break;
+          case Op::VX_SHFL_BFLY:
+            From = Lane ^ B;
+            Valid = From <= Hi;
+            break;
+          default:
+            From = Lo | (B & ~Segment);
+            Valid = From <= Hi;
+          }
+          Valid = Valid && From < 16 && (Active >> From & 1);
+          ASSERT_EQ(R.getX(12)[Lane], Values[Valid ? From : Lane])
+              << InsnTable[static_cast<unsigned>(O)].Mnemonic << " lane "
+              << Lane;
+        }
+      }
+    }
+}
+
+TEST(Simt, BarrierOfOneDoesNotWait) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::VX_BAR, {.Rs1 = 0, .Rs2 = 10})});
+    R.setX(10, all(1));
+    R.run();
+    EXPECT_TRUE(R.ranToEnd());
+    R.setX(10, all(2));
+    R.rewind();
+    R.run();
+    EXPECT_EQ(R.warp().Why, Stop::LocalBarrier);
+  }
+}
+
+TEST(Simt, BarrierThatDoesNotExistTraps) {
+  WarpRunner R(execTable(false), {encode(Op::VX_BAR, {.Rs1 = 10, .Rs2 = 11})});
+  R.setX(10, all(16));
+  R.setX(11, all(2));
+  R.run();
+  EXPECT_EQ(R.cause(), TrapCause::BadBarrier);
+}
+
+TEST(Control, BranchesCompareActiveLanes) {
+  struct Case {
+    Op O;
+    uint32_t A, B;
+    bool Taken;
+  };
+  for (const ExecTable *Table : allTables())
+    for (const Case &C :
+         {Case{Op::RV_BEQ, 5, 5, true}, Case{Op::RV_BEQ, 5, 6, false},
+          Case{Op::RV_BNE, 5, 6, true}, Case{Op::RV_BNE, 5, 5, false},
+          Case{Op::RV_BLT, ~0U, 0, true}, Case{Op::RV_BLT, 0, ~0U, false},
+          Case{Op::RV_BGE, 0, ~0U, true}, Case{Op::RV_BGE, ~0U, 0, false},
+          Case{Op::RV_BGE, 3, 3, true}, Case{Op::RV_BLTU, 0, ~0U, true},
+          Case{Op::RV_BLTU, ~0U, 0, false}, Case{Op::RV_BGEU, ~0U, 0, true},
+          Case{Op::RV_BGEU, 0, ~0U, false}})
+      for (const uint32_t Mask : MaskPatterns) {
+        WarpRunner R(*Table, {encode(C.O, {.Rs1 = 10, .Rs2 = 11, .Imm = 8}),
+                              addi(12, 12, 1), addi(13, 13, 1)});
+        // Inactive lanes would decide otherwise.
+        Lanes16 A = all(C.B), B = all(C.A);
+        for (unsigned L = 0; L != MaxLanes; ++L)
+          if (Mask >> L & 1) {
+            A[L] = C.A;
+            B[L] = C.B;
+          }
+        R.setX(10, A);
+        R.setX(11, B);
+        R.setActive(Mask);
+        R.run();
+        ASSERT_TRUE(R.ranToEnd());
+        EXPECT_EQ(R.getX(12), C.Taken ? all(0) : bitsOf(Mask));
+        EXPECT_EQ(R.getX(13), bitsOf(Mask));
+        EXPECT_EQ(R.warp().Count.Retired, C.Taken ? 2U : 3U);
+      }
+}
+
+TEST(Control, DivergentBranchTrapsAtItsPc) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {addi(12, 0, 1),
+                          encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = 8}),
+                          addi(12, 0, 2)});
+    R.setX(10, bitsOf(0x0010));
+    R.setActive(0x00FF);
+    R.run();
+    EXPECT_EQ(R.cause(), TrapCause::DivergentBranch);
+    EXPECT_EQ(R.warp().pcOf(R.warp().Next), VX_IMAGE_BASE + 4);
+    EXPECT_EQ(R.warp().FaultLane, 4U);
+    EXPECT_EQ(R.warp().Count.Retired, 1U);
+  }
+}
+
+TEST(Control, JumpsLinkAndReturn) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_JAL, {.Rd = 1, .Imm = 12}), addi(12, 12, 1),
+                  encode(Op::RV_JAL, {.Rd = 0, .Imm = 12}),
+                  addi(13, 13, 1), // called
+                  encode(Op::RV_JALR, {.Rd = 0, .Rs1 = 1}), addi(14, 14, 1)});
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    EXPECT_EQ(R.getX(12), all(1));
+    EXPECT_EQ(R.getX(13), all(1));
+    EXPECT_EQ(R.getX(1), all(VX_IMAGE_BASE + 4));
+    EXPECT_EQ(R.warp().Count.Retired, 6U);
+  }
+}
+
+TEST(Control, JalrMayOverwriteItsOwnSource) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::RV_JALR, {.Rd = 5, .Rs1 = 5, .Imm = 1}),
+                          addi(12, 12, 1), addi(13, 13, 1)});
+    R.setX(5, all(VX_IMAGE_BASE + 8)); // the lowest bit is cleared
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    EXPECT_EQ(R.getX(12), all(0));
+    EXPECT_EQ(R.getX(5), all(VX_IMAGE_BASE + 4));
+  }
+}
+
+TEST(Control, BadJumpTargetsTrap) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner Far(*Table, {encode(Op::RV_JAL, {.Rd = 1, .Imm = -4096})});
+    Far.run();
+    EXPECT_EQ(Far.cause(), TrapCause::FetchFault);
+    EXPECT_EQ(Far.warp().FaultAddress, VX_IMAGE_BASE - 4096);
+    EXPECT_EQ(Far.warp().pcOf(Far.warp().Next), VX_IMAGE_BASE);
+
+    WarpRunner Odd(*Table, {encode(Op::RV_BEQ, {.Rs1 = 0, .Rs2 = 0, .Imm = 6}),
+                            addi(1, 0, 1), addi(1, 0, 1)});
+    Odd.run();
+    EXPECT_EQ(Odd.cause(), TrapCause::MisalignedFetch);
+    EXPECT_EQ(Odd.warp().FaultAddress, VX_IMAGE_BASE + 6);
+
+    WarpRunner NotTaken(*Table,
+                        {encode(Op::RV_BNE, {.Rs1 = 0, .Rs2 = 0, .Imm = 6})});
+    NotTaken.run();
+    EXPECT_TRUE(NotTaken.ranToEnd());
+
+    WarpRunner Apart(*Table, {encode(Op::RV_JALR, {.Rd = 1, .Rs1 = 5})});
+    Lanes16 Targets = all(VX_IMAGE_BASE);
+    Targets[3] += 4;
+    Apart.setX(5, Targets);
+    Apart.run();
+    EXPECT_EQ(Apart.cause(), TrapCause::DivergentJump);
+    EXPECT_EQ(Apart.warp().FaultLane, 3U);
+
+    WarpRunner Wild(*Table,
+                    {encode(Op::RV_JALR, {.Rd = 1, .Rs1 = 0, .Imm = 64})});
+    Wild.run();
+    EXPECT_EQ(Wild.cause(), TrapCause::FetchFault);
+    EXPECT_EQ(Wild.warp().FaultAddress, 64U);
+  }
+}
+
+TEST(Control, SystemInstructionsTrap) {
+  for (const auto &[Word, Cause] :
+       {std::pair(0x00000073U, TrapCause::EnvironmentCall),
+        std::pair(0x00100073U, TrapCause::Breakpoint),
+        std::pair(0x30200073U, TrapCause::IllegalInstruction), // mret
+        std::pair(0x00000000U, TrapCause::IllegalInstruction),
+        std::pair(0x1005A52FU, TrapCause::IllegalInstruction)}) { // lr.w
+    WarpRunner R(execTable(false), {Word});
+    R.run();
+    EXPECT_EQ(R.cause(), Cause);
+  }
+}
+
+TEST(Csr, IdentifiesLanesAndMachine) {
+  for (const ExecTable *Table : allTables()) {
+    std::vector<uint32_t> Words;
+    const std::pair<unsigned, uint32_t> Uniform[] = {
+        {CSR_WARP_ID, 0},       {CSR_CORE_ID, 0},
+        {CSR_ACTIVE_WARPS, 1},  {CSR_ACTIVE_THREADS, 0x0FF0},
+        {CSR_NUM_THREADS, 16},  {CSR_NUM_WARPS, 1},
+        {CSR_NUM_CORES, 1},     {CSR_LOCAL_BASE, 0xFFFF0000},
+        {CSR_NUM_BARRIERS, 16}, {CSR_STACK_SIZE, 64 << 10},
+        {CSR_MSCRATCH, 0}};
+    for (unsigned N = 0; N != std::size(Uniform); ++N)
+      Words.push_back(encode(
+          Op::RV_CSRRS, {.Rd = 10 + N, .Rs1 = 0, .Csr = Uniform[N].first}));
+    Words.push_back(
+        encode(Op::RV_CSRRS, {.Rd = 5, .Rs1 = 0, .Csr = CSR_THREAD_ID}));
+    Words.push_back(
+        encode(Op::RV_CSRRS, {.Rd = 6, .Rs1 = 0, .Csr = CSR_MHARTID}));
+    Words.push_back(
+        encode(Op::RV_CSRRS, {.Rd = 7, .Rs1 = 0, .Csr = CSR_CYCLE}));
+    WarpRunner R(*Table, Words);
+    R.setActive(0x0FF0);
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    for (unsigned N = 0; N != std::size(Uniform); ++N)
+      EXPECT_EQ(R.getX(10 + N)[4], Uniform[N].second) << Uniform[N].first;
+    EXPECT_EQ(R.getX(5)[11], 11U);
+    EXPECT_EQ(R.getX(6)[11], 11U);
+    EXPECT_EQ(R.getX(5)[12], 0U);                    // not active
+    EXPECT_EQ(R.getX(7)[4], std::size(Uniform) + 2); // retired before it
+  }
+}
+
+TEST(Csr, ScalarWritesTakeTheLastActiveLane) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(
+        *Table,
+        {encode(Op::RV_CSRRW, {.Rd = 11, .Rs1 = 10, .Csr = CSR_MSCRATCH}),
+         encode(Op::RV_CSRRSI, {.Rd = 12, .Imm = 16, .Csr = CSR_MSCRATCH}),
+         encode(Op::RV_CSRRCI, {.Rd = 13, .Imm = 1, .Csr = CSR_MSCRATCH}),
+         encode(Op::RV_CSRRS, {.Rd = 14, .Rs1 = 0, .Csr = CSR_MSCRATCH})});
+    R.setX(10, laneNumbers());
+    R.setActive(0x0A2A); // last: 11
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    EXPECT_EQ(R.getX(11)[1], 0U);
+    EXPECT_EQ(R.getX(12)[1], 11U);
+    EXPECT_EQ(R.getX(13)[1], 27U);
+    EXPECT_EQ(R.getX(14)[1], 26U);
+  }
+}
+
+TEST(Csr, IllegalAccessesTrap) {
+  for (const uint32_t Word :
+       {encode(Op::RV_CSRRS, {.Rd = 10, .Rs1 = 0, .Csr = 0x7FF}),
+        encode(Op::RV_CSRRW, {.Rd = 10, .Rs1 = 0, .Csr = CSR_THREAD_ID}),
+        encode(Op::RV_CSRRS, {.Rd = 10, .Rs1 = 11, .Csr = CSR_CYCLE}),
+        encode(Op::RV_CSRRWI, {.Rd = 0, .Imm = 0, .Csr = CSR_VR_STATUS})}) {
+    WarpRunner R(execTable(false), {Word});
+    R.run();
+    EXPECT_EQ(R.cause(), TrapCause::IllegalInstruction) << std::hex << Word;
+  }
+}
+
+TEST(Csr, RasterAccessesPark) {
+  WarpRunner R(
+      execTable(false),
+      {encode(Op::RV_CSRRW, {.Rd = 0, .Rs1 = 10, .Csr = CSR_VR_MODE})});
+  R.run();
+  EXPECT_EQ(R.warp().Why, Stop::RasterCsr);
+}
