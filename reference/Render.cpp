@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <thread>
+#include <utility>
 
 namespace vorion::reference {
 namespace {
@@ -46,14 +47,16 @@ class DepthOrder {
 public:
   /// Takes the next one; true if it may belong before an earlier one. Equal
   /// keys are in the order of the indices on every machine.
-  bool doubtful(std::uint32_t NearestKey, std::uint32_t FarthestKey) {
-    const bool Doubtful = NearestKey < Farthest;
-    Farthest = std::max(Farthest, FarthestKey);
+  bool doubtful(std::uint32_t NearestKey, std::uint32_t FarthestKey,
+                std::int32_t Index) {
+    const bool Doubtful = std::pair(NearestKey, Index) < Farthest;
+    Farthest = std::max(Farthest, std::pair(FarthestKey, Index));
     return Doubtful;
   }
 
 private:
-  std::uint32_t Farthest = 0; ///< that an earlier one may have
+  /// The last place that an earlier one may have.
+  std::pair<std::uint32_t, std::int32_t> Farthest{0, -1};
 };
 
 bool near(double Value, double Threshold) {
@@ -208,7 +211,7 @@ private:
         Doubts |= DoubtThreshold;
       if (!Inside || Alpha < leastAlpha<Real>())
         continue;
-      if (Order.doubtful(C.NearestKey, C.FarthestKey))
+      if (Order.doubtful(C.NearestKey, C.FarthestKey, C.Index))
         Doubts |= DoubtOrder;
       const Real Next = T * (1 - Alpha);
       if (near(Next, O.Cutoff))

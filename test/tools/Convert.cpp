@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 
 namespace vorion::test {
 namespace {
@@ -136,6 +137,8 @@ splat::Scene sceneOf(const Fixture &F) {
 }
 
 splat::Camera cameraOf(const Fixture &F) {
+  const glm::dvec3 Centre =
+      -(glm::inverse(F.Camera.Rotation) * F.Camera.Translation);
   splat::Camera C;
   C.Name = "view";
   C.Width = F.Camera.Width;
@@ -144,7 +147,7 @@ splat::Camera cameraOf(const Fixture &F) {
     for (int J = 0; J < 3; ++J)
       C.Rotation[static_cast<std::size_t>(J)][static_cast<std::size_t>(I)] =
           F.Camera.Rotation[J][I];
-    C.Position[static_cast<std::size_t>(I)] = F.Camera.Centre[I];
+    C.Position[static_cast<std::size_t>(I)] = Centre[I];
   }
   C.Fx = F.Camera.Focal.x;
   C.Fy = F.Camera.Focal.y;

@@ -31,8 +31,8 @@ reference::Camera<float> toSingle(const reference::Camera<double> &C);
 /// becomes the logit that rounds back to it.
 splat::Scene sceneOf(const Fixture &F);
 
-/// The view of \p F, named "view". Its rotation is the transpose of the
-/// fixture's, and the position is such that the translation stays the same.
+/// The view of \p F, named "view". A fixture's rotation is one to fp32's
+/// precision only; the position is such that R (p - position) is its R p + t.
 splat::Camera cameraOf(const Fixture &F);
 
 /// `render` (H, W, 3), `alpha`, `last`, and the booleans `mask_threshold` and

@@ -61,10 +61,6 @@ std::vector<double> Fixture::doubles(const std::string &Array) const {
   return It == Arrays.end() ? std::vector<double>() : It->second.toDoubles();
 }
 
-glm::dvec3 cameraCentre(const glm::dmat3 &R, const glm::dvec3 &T) {
-  return -(glm::inverse(R) * T);
-}
-
 Expected<Fixture> readFixture(const std::string &Path) {
   auto Arrays = splat::readNpz(Path);
   if (!Arrays)
@@ -106,7 +102,8 @@ Expected<Fixture> readFixture(const std::string &Path) {
       C.Rotation[J][I] = V[static_cast<std::size_t>(4 * I + J)];
     C.Translation[I] = V[static_cast<std::size_t>(4 * I + 3)];
   }
-  C.Centre = cameraCentre(C.Rotation, C.Translation);
+  // As both makers of fixtures have it, for which R is a rotation exactly.
+  C.Centre = -(glm::transpose(C.Rotation) * C.Translation);
   C.Focal = {K[0], K[4]};
   C.Principal = {K[2], K[5]};
   const auto Meta = nlohmann::json::parse(F.Arrays["meta"].toText(), nullptr,

@@ -28,8 +28,4 @@ struct Fixture {
 /// square support, others gsplat's with the exact one; `meta` says the rest.
 Expected<Fixture> readFixture(const std::string &Path);
 
-/// The inverse of the world-to-camera map (R, t): the camera's centre. R need
-/// only be a rotation to fp32 precision.
-glm::dvec3 cameraCentre(const glm::dmat3 &R, const glm::dvec3 &T);
-
 } // namespace vorion::test
