@@ -47,7 +47,8 @@ TEST(Allocator, ReleasingTwiceOrInsideABlockIsRefused) {
 // Any sequence of allocations and releases: blocks are aligned, inside, and
 // disjoint; the bytes add up; a request fails only if no free range holds it;
 // and when all are released one range is left.
-RC_GTEST_PROP(Allocator, KeepsItsBooks, (std::vector<std::uint16_t> Steps)) {
+RC_GTEST_PROP(Allocator, KeepsItsBooks,
+              (const std::vector<std::uint16_t> &Steps)) {
   constexpr std::uint64_t Base = 0x10000, Size = 1 << 18;
   Allocator A(Base, Size);
   std::map<std::uint64_t, std::uint64_t> Held;

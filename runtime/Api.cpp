@@ -13,6 +13,9 @@
 using namespace vorion;
 using namespace vorion::runtime;
 
+// C names, as the header has them.
+// NOLINTBEGIN(readability-identifier-naming)
+
 /// The handles of the C interface.
 struct vx_device {
   explicit vx_device(std::unique_ptr<isasim::Machine> Machine)
@@ -379,3 +382,5 @@ vx_status vx_wait(vx_device *device, vx_result *result) {
 }
 
 } // extern "C"
+
+// NOLINTEND(readability-identifier-naming)

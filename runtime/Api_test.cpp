@@ -323,6 +323,7 @@ TEST_F(Runtime, CopiesFillsAndRangesAreChecked) {
 TEST_F(Runtime, ThreadsTakeTurns) {
   const std::uint32_t Out = allocate(4 * Info.cores);
   std::vector<std::thread> Threads;
+  Threads.reserve(4);
   for (unsigned T = 0; T < 4; ++T)
     Threads.emplace_back([&] {
       for (unsigned I = 0; I < 20; ++I) {

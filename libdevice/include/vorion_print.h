@@ -7,8 +7,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 
-/* As in C17 7.21.6. Malformed conversions end the text and give -1; so does text
-   that does not fit the print buffer. */
+/* As in C17 7.21.6. Malformed conversions end the text and give -1; so does
+   text that does not fit the print buffer. */
 int printf(const char *format, ...) __attribute__((format(printf, 1, 2)));
 int snprintf(char *text, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

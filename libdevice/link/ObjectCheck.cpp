@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <elf.h>
+#include <fmt/format.h>
 #include <optional>
 #include <string_view>
 
@@ -104,10 +105,8 @@ std::optional<std::string> archOf(Cursor Vendor) {
           return std::nullopt;
         continue;
       }
-      const auto Text = Block->takeString();
-      if (!Text)
-        return std::nullopt;
-      if (*Attribute == TagArch)
+      auto Text = Block->takeString();
+      if (!Text || *Attribute == TagArch)
         return Text;
     }
   }
@@ -188,7 +187,8 @@ Expected<Success> checkArchive(Bytes File, const std::string &Archive) {
     }
     Name.resize(Name.find('/') == std::string::npos ? Name.size()
                                                     : Name.find('/'));
-    const auto Good = link::checkInput(*Member, Archive + "(" + Name + ")");
+    const auto Good =
+        link::checkInput(*Member, fmt::format("{}({})", Archive, Name));
     if (!Good)
       return Good.error();
   }

@@ -1,5 +1,5 @@
-/* The main of an image that has kernels only, for who starts it without a launch
-   block. */
+/* The main of an image that has kernels only, for who starts it without a
+   launch block. */
 
 #include <vorion.h>
 #include <vorion_print.h>

@@ -123,6 +123,7 @@ Expected<fs::path> deviceFolder() {
 
 Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   std::vector<char *> Argv;
+  Argv.reserve(Arguments.size() + 1);
   for (const std::string &Argument : Arguments)
     Argv.push_back(const_cast<char *>(Argument.c_str()));
   Argv.push_back(nullptr);

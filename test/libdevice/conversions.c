@@ -1,5 +1,5 @@
-// float and 64-bit integers, float and double, double arithmetic: all software on
-// the device, against the host.
+// float and 64-bit integers, float and double, double arithmetic: all software
+// on the device, against the host.
 // REQUIRES: vorion-clang, vorion-link, vorion-sim
 // RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf | sort -n > %t.device
 // RUN: clang-19 -O1 -ffp-contract=off %s -o %t.host.exe && %t.host.exe | sort -n > %t.host

@@ -40,12 +40,21 @@ static int switches(uint32_t i) {
   int value = 0;
   for (uint32_t k = 0; k < 6; ++k) {
     switch ((i + k) % 8) {
-    case 0: value += 3; break;
-    case 1: value *= 2; /* falls through */
-    case 2: value -= 1; break;
-    case 5: value ^= 0x55; break;
-    case 6: return value + 1000;
-    default: value += (int)k;
+    case 0:
+      value += 3;
+      break;
+    case 1:
+      value *= 2; /* falls through */
+    case 2:
+      value -= 1;
+      break;
+    case 5:
+      value ^= 0x55;
+      break;
+    case 6:
+      return value + 1000;
+    default:
+      value += (int)k;
     }
   }
   return value;

@@ -1,5 +1,5 @@
-// The C names of float functions: the device prints the bits of its results, the
-// host's build of this file reads them and compares with doubles.
+// The C names of float functions: the device prints the bits of its results,
+// the host's build of this file reads them and compares with doubles.
 // REQUIRES: vorion-clang, vorion-link, vorion-sim
 // RUN: vorion-clang -O2 -fno-builtin %s -o %t.elf && vorion-sim %t.elf > %t.device
 // RUN: clang-19 -O1 %s -lm -o %t.host.exe && %t.host.exe %t.device | FileCheck %s
@@ -33,12 +33,13 @@ static double exp10_exact(double x) { return pow(10, x); }
 #endif
 
 #define LIST(X, Y)                                                             \
-  X(sin, x) X(cos, x) X(tan, x) X(asin, unit(x)) X(acos, unit(x)) X(atan, x)   \
-  Y(atan2, x) X(sinh, x) X(cosh, x) X(tanh, x) X(exp, x) X(exp2, x)            \
-  X(exp10, x) X(expm1, x) X(log, positive) X(log2, positive)                   \
-  X(log10, positive) X(log1p, positive) Y(pow, positive) X(cbrt, x)            \
-  Y(hypot, x) Y(fmod, x) X(floor, x) X(ceil, x) X(trunc, x) X(round, x)        \
-  X(rint, x) X(sqrt, positive) Y(fmin, x) Y(fmax, x)
+  X(sin, x)                                                                    \
+  X(cos, x) X(tan, x) X(asin, unit(x)) X(acos, unit(x)) X(atan, x) Y(atan2, x) \
+      X(sinh, x) X(cosh, x) X(tanh, x) X(exp, x) X(exp2, x) X(exp10, x)        \
+          X(expm1, x) X(log, positive) X(log2, positive) X(log10, positive)    \
+              X(log1p, positive) Y(pow, positive) X(cbrt, x) Y(hypot, x)       \
+                  Y(fmod, x) X(floor, x) X(ceil, x) X(trunc, x) X(round, x)    \
+                      X(rint, x) X(sqrt, positive) Y(fmin, x) Y(fmax, x)
 
 LIST(X, Y)
 #undef X
@@ -76,15 +77,18 @@ int main(int argc, char **argv) {
     const char *name = "";
     unsigned at = 0;
 #define X(function, argument)                                                  \
-  if (at++ == f) exact = function(argument), name = #function;
+  if (at++ == f)                                                               \
+    exact = function(argument), name = #function;
 #define Y(function, argument)                                                  \
-  if (at++ == f) exact = function(argument, y), name = #function;
+  if (at++ == f)                                                               \
+    exact = function(argument, y), name = #function;
     LIST(X, Y)
     const double got = float_of(bits);
     const double unit_in_last_place =
         ldexp(1, ilogb(fmax(fabs(exact), 0x1p-126)) - 23);
-    const double error = exact > 0x1p128 && isinf(got) ? 0
-                         : fabs(got - exact) / unit_in_last_place;
+    const double error = exact > 0x1p128 && isinf(got)
+                             ? 0
+                             : fabs(got - exact) / unit_in_last_place;
     if (!(error < 1.5))
       printf("%s(%g, %g) = %g, error %g\n", name, x, y, got, error);
     if (!(error < worst))

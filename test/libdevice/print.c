@@ -1,5 +1,5 @@
-// printf of C programs, against the host; each lane prints other values. Lines are
-// sorted: the lanes that reach one call print before any reaches the next.
+// printf of C programs, against the host; each lane prints other values. Lines
+// are sorted: the lanes that reach one call print before any reaches the next.
 // REQUIRES: vorion-clang, vorion-link, vorion-sim
 // RUN: vorion-clang -O2 %s -o %t.elf && vorion-sim %t.elf | env LC_ALL=C sort > %t.device
 // RUN: clang-19 -O1 %s -o %t.host.exe && %t.host.exe | env LC_ALL=C sort > %t.host

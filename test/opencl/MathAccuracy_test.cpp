@@ -153,7 +153,7 @@ double ulpError(float Got, double Exact) {
 
 std::vector<float> draw(Range Wanted, std::size_t Count, unsigned Seed) {
   std::mt19937 Random(Seed);
-  const auto uniform = [&] { return static_cast<double>(Random()) / 0x1p32; };
+  const auto Uniform = [&] { return static_cast<double>(Random()) / 0x1p32; };
   std::vector<float> Values;
   const float Infinity = std::numeric_limits<float>::infinity();
   if (Wanted == Range::Any)
@@ -188,19 +188,19 @@ std::vector<float> draw(Range Wanted, std::size_t Count, unsigned Seed) {
       break;
     case Range::Moderate:
       Values.push_back(
-          static_cast<float>(Sign * std::exp2(37 * uniform() - 30)));
+          static_cast<float>(Sign * std::exp2(37 * Uniform() - 30)));
       break;
     case Range::Unit:
-      Values.push_back(static_cast<float>(Sign * uniform()));
+      Values.push_back(static_cast<float>(Sign * Uniform()));
       break;
     case Range::Positive:
-      Values.push_back(static_cast<float>(std::exp2(250 * uniform() - 125)));
+      Values.push_back(static_cast<float>(std::exp2(250 * Uniform() - 125)));
       break;
     case Range::AboveOne:
-      Values.push_back(static_cast<float>(std::exp2(60 * uniform())));
+      Values.push_back(static_cast<float>(std::exp2(60 * Uniform())));
       break;
     case Range::SmallInts:
-      Values.push_back(static_cast<float>(Sign * std::ceil(60 * uniform())));
+      Values.push_back(static_cast<float>(Sign * std::ceil(60 * Uniform())));
       break;
     }
   }

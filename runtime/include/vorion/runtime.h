@@ -25,15 +25,16 @@
 extern "C" {
 #endif
 #pragma GCC visibility push(default) /* the library hides all else */
+/* C names. NOLINTBEGIN(readability-identifier-naming) */
 
 typedef enum vx_status {
   VX_OK = 0,
-  VX_ERROR_ARGUMENT = 1, /* NULL, out of range, or an address not allocated */
-  VX_ERROR_CONFIG = 2,   /* malformed or impossible configuration */
-  VX_ERROR_FILE = 3,     /* unreadable file */
-  VX_ERROR_IMAGE = 4,    /* not an ELF for this machine */
-  VX_ERROR_MEMORY = 5,   /* device or local memory exhausted */
-  VX_ERROR_BUSY = 6,     /* a run is in progress, or none is */
+  VX_ERROR_ARGUMENT = 1,  /* NULL, out of range, or an address not allocated */
+  VX_ERROR_CONFIG = 2,    /* malformed or impossible configuration */
+  VX_ERROR_FILE = 3,      /* unreadable file */
+  VX_ERROR_IMAGE = 4,     /* not an ELF for this machine */
+  VX_ERROR_MEMORY = 5,    /* device or local memory exhausted */
+  VX_ERROR_BUSY = 6,      /* a run is in progress, or none is */
   VX_ERROR_NOT_FOUND = 7, /* no kernel or argument of that name or number */
   VX_ERROR_INTERNAL = 70  /* a bug of ours */
 } vx_status;
@@ -122,7 +123,7 @@ vx_status vx_image_find_kernel(vx_image *image, const char *name,
                                uint32_t *kernel);
 
 typedef struct vx_kernel_info {
-  const char *name;       /* valid until the image is freed */
+  const char *name; /* valid until the image is freed */
   uint32_t num_args;
   uint32_t args_bytes;    /* size of the packed arguments */
   uint32_t context_bytes; /* a work-item keeps across barriers */
@@ -135,9 +136,9 @@ vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
 
 typedef struct vx_arg_info {
   const char *name; /* valid until the image is freed */
-  uint32_t kind;    /* VX_ARG_VALUE, VX_ARG_GLOBAL, VX_ARG_LOCAL (docs/abi.md) */
-  uint32_t offset;  /* bytes from the start of the packed arguments */
-  uint32_t size;    /* bytes there: 4 for pointers */
+  uint32_t kind;   /* VX_ARG_VALUE, VX_ARG_GLOBAL, VX_ARG_LOCAL (docs/abi.md) */
+  uint32_t offset; /* bytes from the start of the packed arguments */
+  uint32_t size;   /* bytes there: 4 for pointers */
 } vx_arg_info;
 
 vx_status vx_image_get_arg(vx_image *image, uint32_t kernel, uint32_t arg,
@@ -154,9 +155,9 @@ vx_status vx_image_place_locals(vx_image *image, uint32_t kernel,
 /* --- Runs ---------------------------------------------------------------- */
 
 typedef struct vx_launch_params {
-  uint32_t work_dim;         /* 1 to 3 */
-  uint32_t num_groups[3];    /* 1 where not used; 0 runs nothing */
-  uint32_t local_size[3];    /* 1 where not used */
+  uint32_t work_dim;      /* 1 to 3 */
+  uint32_t num_groups[3]; /* 1 where not used; 0 runs nothing */
+  uint32_t local_size[3]; /* 1 where not used */
   uint32_t global_offset[3];
 } vx_launch_params;
 
@@ -169,17 +170,18 @@ vx_status vx_start(vx_device *device, vx_image *image, uint32_t kernel,
 vx_status vx_start_main(vx_device *device, vx_image *image);
 
 typedef enum vx_outcome {
-  VX_OUTCOME_DONE = 0,    /* every warp ended, exit code 0 */
-  VX_OUTCOME_EXIT = 1,    /* every warp ended, exit code not 0 */
-  VX_OUTCOME_FAULT = 2,   /* a trap: the report names it */
-  VX_OUTCOME_HANG = 3,    /* no warp can go on: the report says what each waits for */
-  VX_OUTCOME_LIMIT = 4    /* the configuration's instruction limit reached */
+  VX_OUTCOME_DONE = 0,  /* every warp ended, exit code 0 */
+  VX_OUTCOME_EXIT = 1,  /* every warp ended, exit code not 0 */
+  VX_OUTCOME_FAULT = 2, /* a trap: the report names it */
+  VX_OUTCOME_HANG =
+      3, /* no warp can go on: the report says what each waits for */
+  VX_OUTCOME_LIMIT = 4 /* the configuration's instruction limit reached */
 } vx_outcome;
 
 /* Sums over cores and rasterizers of one run. */
 typedef struct vx_counters {
-  uint64_t warp_instructions; /* retired */
-  uint64_t lane_instructions; /* the same times active lanes */
+  uint64_t warp_instructions;      /* retired */
+  uint64_t lane_instructions;      /* the same times active lanes */
   uint64_t loads, stores, atomics; /* of these warp instructions */
   uint64_t splits;
   uint64_t divergent_splits; /* of these, those that divided the lanes */
@@ -198,17 +200,18 @@ typedef struct vx_result {
   const char *report;     /* of a fault, hang or limit; else "" */
   const char *print_text; /* what printf wrote, complete lines or not */
   size_t print_bytes;
-  uint64_t print_dropped; /* bytes that did not fit the print buffer */
+  uint64_t print_dropped;   /* bytes that did not fit the print buffer */
   const char *console_text; /* what was stored to the console word */
   size_t console_bytes;
   double host_seconds;
   vx_counters counters;
 } vx_result;
 
-/* Waits for the run that was started last and gives its result; a second wait gives
- * the same result again. VX_ERROR_BUSY if nothing was ever started. */
+/* Waits for the run that was started last and gives its result; a second wait
+ * gives the same result again. VX_ERROR_BUSY if nothing was ever started. */
 vx_status vx_wait(vx_device *device, vx_result *result);
 
+/* NOLINTEND(readability-identifier-naming) */
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -1,6 +1,7 @@
 /* A test computes item(i) for each i and prints one line of it. On the device a
    lane has an item, so that neighbouring lanes work on different operands; on
-   the host a loop does. Cores take turns on the console, so both outputs are sorted by number. */
+   the host a loop does. Cores take turns on the console, so both outputs are
+   sorted by number. */
 #ifndef ITEMS_H
 #define ITEMS_H
 
