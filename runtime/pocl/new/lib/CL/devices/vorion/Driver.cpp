@@ -1,0 +1,340 @@
+/// PoCL's device operations for a Vorion machine. Buffers live in the machine's
+/// global memory, which the host sees as memory of its own: PoCL's common
+/// copying code works on it, on the worker thread, never during a run.
+
+#include "Event.h"
+#include "KernelCache.h"
+#include "Worker.h"
+
+extern "C" {
+#include "common.h"
+#include "common_driver.h"
+#include "config.h"
+#include "devices.h"
+#include "pocl_file_util.h"
+#include "pocl_local_size.h"
+#include "pocl_mem_management.h"
+#include "pocl_util.h"
+}
+
+#include <CL/cl_vorion.h>
+
+#include <cstdio>
+#include <cstring>
+
+using namespace vorion;
+
+namespace {
+
+/// Part of the key of cached binaries: to be raised whenever this driver or the
+/// work-group passes make other code of the same source.
+constexpr const char *CodeVersion = "1";
+
+constexpr const char *Extensions =
+    "cl_khr_byte_addressable_store cl_khr_global_int32_base_atomics "
+    "cl_khr_global_int32_extended_atomics cl_khr_local_int32_base_atomics "
+    "cl_khr_local_int32_extended_atomics cl_khr_int64 " CL_VORION_EXTENSION_NAME;
+
+/// "VO" of Vorion; there is no PCI vendor number.
+constexpr cl_uint VendorId = 0x564F;
+
+struct DeviceCloser {
+  void operator()(vx_device *Device) const { vx_device_close(Device); }
+};
+
+/// One device of the platform.
+struct VorionDevice {
+  explicit VorionDevice(vx_device *Opened)
+      : Machine(Opened), Kernels(Opened), Thread(Opened, Kernels) {}
+  std::unique_ptr<vx_device, DeviceCloser> Machine;
+  vx_device_info Info{};
+  std::string Name, BuildHash;
+  cl_bool Available = CL_TRUE;
+  KernelCache Kernels;
+  Worker Thread;
+};
+
+VorionDevice &deviceOf(cl_device_id Device) {
+  return *static_cast<VorionDevice *>(Device->data);
+}
+
+unsigned probe(pocl_device_ops *Ops) {
+  const int Count = pocl_device_get_env_count(Ops->device_name);
+  return Count < 0 ? 1 : Count;
+}
+
+void describeDevice(cl_device_id Device, const vx_device_info &Info) {
+  pocl_init_default_device_infos(Device, Extensions);
+  SETUP_DEVICE_CL_VERSION(Device, 1, 2);
+  Device->type = CL_DEVICE_TYPE_GPU;
+  Device->vendor = "Vorion";
+  Device->vendor_id = VendorId;
+  Device->short_name = "vorion";
+  Device->execution_capabilities = CL_EXEC_KERNEL;
+  Device->max_compute_units = Info.cores;
+  Device->max_work_group_size = Info.max_group_items;
+  for (size_t &Size : Device->max_work_item_sizes)
+    Size = Info.max_group_items;
+  Device->preferred_wg_size_multiple = Info.lanes;
+
+  Device->address_bits = 32;
+  Device->has_64bit_long = 1;
+  Device->endian_little = CL_TRUE;
+  Device->host_unified_memory = CL_FALSE;
+  Device->global_mem_size = Info.global_bytes;
+  Device->max_mem_alloc_size = Info.largest_free_bytes;
+  Device->max_constant_buffer_size = Info.global_bytes;
+  Device->local_mem_type = CL_LOCAL;
+  Device->local_mem_size = Info.local_bytes;
+  Device->mem_base_addr_align = VX_MEM_ALIGNMENT;
+
+  Device->single_fp_config = CL_FP_DENORM | CL_FP_INF_NAN |
+                             CL_FP_ROUND_TO_NEAREST | CL_FP_FMA |
+                             CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
+  Device->double_fp_config = 0;
+  Device->half_fp_config = 0;
+  // A lane is a scalar.
+  Device->preferred_vector_width_char = Device->native_vector_width_char = 1;
+  Device->preferred_vector_width_short = Device->native_vector_width_short = 1;
+  Device->preferred_vector_width_int = Device->native_vector_width_int = 1;
+  Device->preferred_vector_width_long = Device->native_vector_width_long = 1;
+  Device->preferred_vector_width_float = Device->native_vector_width_float = 1;
+  Device->preferred_vector_width_double = Device->native_vector_width_double = 0;
+  Device->preferred_vector_width_half = Device->native_vector_width_half = 0;
+  Device->native_vector_width_in_bits = 0;
+  Device->image_support = CL_FALSE;
+  Device->max_sub_devices = 0;
+  Device->num_partition_properties = 0;
+  Device->partition_properties = nullptr;
+}
+
+/// How PoCL compiles for the device.
+void describeCompilation(cl_device_id Device, const vx_device_info &Info) {
+  Device->llvm_target_triplet = "riscv32-unknown-unknown-elf";
+  Device->llvm_abi = "ilp32f";
+  Device->llvm_cpu = "generic-rv32";
+  Device->llvm_features = "+m,+a,+f";
+  Device->llvm_fp_contract_mode = "off";
+  Device->kernellib_name = "kernel-vorion";
+  Device->kernellib_fallback_name = nullptr;
+  Device->kernellib_subdir = "vorion";
+  Device->simt_lanes = Info.lanes;
+  Device->arg_buffer_launcher = CL_TRUE;
+  Device->grid_launcher = CL_FALSE;
+  Device->autolocals_to_args = POCL_AUTOLOCALS_TO_ARGS_NEVER;
+  Device->device_alloca_locals = CL_FALSE;
+  // printf of the kernel library finds its buffer through the launch block.
+  Device->device_side_printf = 0;
+}
+
+cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
+  vx_device *Opened = nullptr;
+  if (vx_device_open(Parameters && *Parameters ? Parameters : nullptr, &Opened) !=
+      VX_OK) {
+    fprintf(stderr, "vorion: error: %s\n", vx_last_error());
+    return CL_DEVICE_NOT_AVAILABLE;
+  }
+  auto Own = std::make_unique<VorionDevice>(Opened);
+  if (vx_device_get_info(Opened, &Own->Info) != VX_OK)
+    return CL_DEVICE_NOT_AVAILABLE;
+  const vx_device_info &Info = Own->Info;
+  Own->BuildHash = "vorion-xvortex2-xvorion1-" + std::to_string(Info.lanes) + "-" + CodeVersion + "-" +
+                   Own->Kernels.tools().fingerprint();
+  describeDevice(Device, Info);
+  describeCompilation(Device, Info);
+  Own->Name = "Vorion";
+  Device->long_name = Own->Name.data();
+  Device->available = &Own->Available;
+  Device->data = Own.release();
+  return CL_SUCCESS;
+}
+
+cl_int uninit(unsigned, cl_device_id Device) {
+  delete static_cast<VorionDevice *>(Device->data);
+  Device->data = nullptr;
+  return CL_SUCCESS;
+}
+
+cl_int reinit(unsigned Index, cl_device_id Device, const char *Parameters) {
+  return init(Index, Device, Parameters);
+}
+
+char *buildHash(cl_device_id Device) {
+  return strdup(deviceOf(Device).BuildHash.c_str());
+}
+
+/// What the front end needs to know beside the triple.
+char *initBuild(void *Data) {
+  const std::string Options =
+      "-target-feature +m -target-feature +a -target-feature +f -D__VORION__=1 "
+      "\"-I" +
+      static_cast<VorionDevice *>(Data)->Kernels.tools().includeFolder() + "\"";
+  return strdup(Options.c_str());
+}
+
+cl_int allocate(cl_device_id Device, cl_mem Buffer, void *) {
+  VorionDevice &Own = deviceOf(Device);
+  // The host's copy of such a buffer cannot be the device's.
+  if ((Buffer->flags & CL_MEM_ALLOC_HOST_PTR) && !Buffer->mem_host_ptr)
+    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
+  uint32_t Address = 0;
+  void *Host = nullptr;
+  if (vx_mem_alloc(Own.Machine.get(), Buffer->size, &Address) != VX_OK)
+    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
+  if (vx_mem_host_pointer(Own.Machine.get(), Address, Buffer->size, &Host) !=
+      VX_OK) {
+    vx_mem_free(Own.Machine.get(), Address);
+    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
+  }
+  pocl_mem_identifier &Id = Buffer->device_ptrs[Device->global_mem_id];
+  Id.mem_ptr = Host;
+  Id.device_addr = reinterpret_cast<void *>(static_cast<uintptr_t>(Address));
+  Id.version = 0;
+  if (Buffer->has_device_address)
+    Id.is_pinned = 1;
+  return CL_SUCCESS;
+}
+
+void release(cl_device_id Device, cl_mem Buffer) {
+  pocl_mem_identifier &Id = Buffer->device_ptrs[Device->global_mem_id];
+  vx_mem_free(deviceOf(Device).Machine.get(),
+              static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id.device_addr)));
+  Id.mem_ptr = nullptr;
+  Id.device_addr = nullptr;
+  Id.version = 0;
+}
+
+void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
+                   cl_device_id Device, int Specialize) {
+  // What goes wrong is in the build log; a run of the kernel fails its event.
+  std::string Path;
+  if (Command && Command->type == CL_COMMAND_NDRANGE_KERNEL)
+    deviceOf(Device).Kernels.compile(Command, Kernel, Specialize, Path);
+}
+
+int freeProgram(cl_device_id Device, cl_program Program, unsigned Index) {
+  if (Device->data)
+    deviceOf(Device).Kernels.forget(Program);
+  return pocl_driver_free_program(Device, Program, Index);
+}
+
+// --- Commands and events. The lock of an event or queue is held by the caller
+// --- where PoCL's documentation of the operation says so.
+
+void submitReady(_cl_command_node *Node) {
+  cl_event Event = Node->sync.event.event;
+  if (pocl_command_is_ready(Event) && Event->status == CL_QUEUED) {
+    pocl_update_event_submitted(Event);
+    deviceOf(Node->device).Thread.push(Node);
+  }
+}
+
+void submit(_cl_command_node *Node, cl_command_queue) {
+  Node->ready = 1;
+  submitReady(Node);
+  POCL_UNLOCK_OBJ(Node->sync.event.event);
+}
+
+void notify(cl_device_id, cl_event Event, cl_event Finished) {
+  _cl_command_node *Node = Event->command;
+  if (Finished->status < CL_COMPLETE)
+    pocl_update_event_failed(Event);
+  else if (Node->ready)
+    submitReady(Node);
+}
+
+void flush(cl_device_id, cl_command_queue) {}
+
+void join(cl_device_id, cl_command_queue Queue) {
+  POCL_LOCK_OBJ(Queue);
+  while (Queue->command_count > 0)
+    POCL_WAIT_COND(*static_cast<pthread_cond_t *>(Queue->data),
+                   Queue->pocl_lock);
+  POCL_UNLOCK_OBJ(Queue);
+}
+
+void notifyQueueFinished(cl_command_queue Queue) {
+  pthread_cond_broadcast(static_cast<pthread_cond_t *>(Queue->data));
+}
+
+int initQueue(cl_device_id, cl_command_queue Queue) {
+  Queue->data = new pthread_cond_t(PTHREAD_COND_INITIALIZER);
+  return CL_SUCCESS;
+}
+
+int freeQueue(cl_device_id, cl_command_queue Queue) {
+  delete static_cast<pthread_cond_t *>(Queue->data);
+  Queue->data = nullptr;
+  return CL_SUCCESS;
+}
+
+void updateEvent(cl_device_id, cl_event Event) {
+  if (!Event->data && Event->status == CL_QUEUED)
+    Event->data = new EventData;
+}
+
+void waitEvent(cl_device_id, cl_event Event) {
+  POCL_LOCK_OBJ(Event);
+  while (Event->status > CL_COMPLETE)
+    POCL_WAIT_COND(eventData(Event)->Finished, Event->pocl_lock);
+  POCL_UNLOCK_OBJ(Event);
+}
+
+void notifyEventFinished(cl_event Event) {
+  pthread_cond_broadcast(&eventData(Event)->Finished);
+}
+
+void freeEventData(cl_event Event) {
+  delete eventData(Event);
+  Event->data = nullptr;
+}
+
+} // namespace
+
+void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
+  Ops->device_name = "vorion";
+  Ops->probe = probe;
+  Ops->init = init;
+  Ops->uninit = uninit;
+  Ops->reinit = reinit;
+  Ops->build_hash = buildHash;
+  Ops->init_build = initBuild;
+
+  Ops->alloc_mem_obj = allocate;
+  Ops->free = release;
+  Ops->read = pocl_driver_read;
+  Ops->read_rect = pocl_driver_read_rect;
+  Ops->write = pocl_driver_write;
+  Ops->write_rect = pocl_driver_write_rect;
+  Ops->copy = pocl_driver_copy;
+  Ops->copy_with_size = pocl_driver_copy_with_size;
+  Ops->copy_rect = pocl_driver_copy_rect;
+  Ops->memfill = pocl_driver_memfill;
+  Ops->map_mem = pocl_driver_map_mem;
+  Ops->unmap_mem = pocl_driver_unmap_mem;
+  Ops->get_mapping_ptr = pocl_driver_get_mapping_ptr;
+  Ops->free_mapping_ptr = pocl_driver_free_mapping_ptr;
+
+  Ops->build_source = pocl_driver_build_source;
+  Ops->link_program = pocl_driver_link_program;
+  Ops->build_binary = pocl_driver_build_binary;
+  Ops->build_poclbinary = pocl_driver_build_poclbinary;
+  Ops->setup_metadata = pocl_driver_setup_metadata;
+  Ops->supports_binary = pocl_driver_supports_binary;
+  Ops->free_program = freeProgram;
+  Ops->compile_kernel = compileKernel;
+  Ops->compute_local_size = pocl_default_local_size_optimizer;
+
+  Ops->submit = submit;
+  Ops->notify = notify;
+  Ops->broadcast = pocl_broadcast;
+  Ops->flush = flush;
+  Ops->join = join;
+  Ops->init_queue = initQueue;
+  Ops->free_queue = freeQueue;
+  Ops->notify_cmdq_finished = notifyQueueFinished;
+  Ops->update_event = updateEvent;
+  Ops->wait_event = waitEvent;
+  Ops->notify_event_finished = notifyEventFinished;
+  Ops->free_event_data = freeEventData;
+}

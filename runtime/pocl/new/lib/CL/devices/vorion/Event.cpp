@@ -1,0 +1,60 @@
+#include "Event.h"
+
+#include <CL/cl_vorion.h>
+
+#include <cstring>
+
+using namespace vorion;
+
+namespace {
+
+/// Null for a name that is not ours.
+uint64_t vx_counters::*counterNamed(cl_uint Name) {
+  switch (Name) {
+  case CL_EVENT_WARP_INSTRUCTIONS_VORION:
+    return &vx_counters::warp_instructions;
+  case CL_EVENT_LANE_INSTRUCTIONS_VORION:
+    return &vx_counters::lane_instructions;
+  case CL_EVENT_RASTER_COMMANDS_VORION:
+    return &vx_counters::raster_commands;
+  case CL_EVENT_RASTER_GAUSSIANS_VORION:
+    return &vx_counters::raster_gaussians;
+  case CL_EVENT_RASTER_CLIPPED_VORION:
+    return &vx_counters::raster_clipped;
+  case CL_EVENT_RASTER_FRAGMENTS_VORION:
+    return &vx_counters::raster_fragments;
+  case CL_EVENT_RASTER_BLENDS_VORION:
+    return &vx_counters::raster_blends;
+  default:
+    return nullptr;
+  }
+}
+
+} // namespace
+
+cl_int CL_API_CALL pocl_vorion_get_event_info(cl_event Event, cl_uint Name,
+                                              size_t Size, void *Value,
+                                              size_t *SizeRet) {
+  if (!IS_CL_OBJECT_VALID(Event) ||
+      Event->command_type != CL_COMMAND_NDRANGE_KERNEL || !Event->queue ||
+      strcmp(Event->queue->device->ops->device_name, "vorion") != 0)
+    return CL_INVALID_EVENT;
+  auto Counter = counterNamed(Name);
+  if (!Counter || (Value && Size < sizeof(cl_ulong)))
+    return CL_INVALID_VALUE;
+
+  POCL_LOCK_OBJ(Event);
+  const EventData *Data = eventData(Event);
+  const bool Known =
+      Event->status == CL_COMPLETE && Data && Data->Counters.has_value();
+  if (Known && Value) {
+    const cl_ulong Count = (*Data->Counters).*Counter;
+    memcpy(Value, &Count, sizeof(Count));
+  }
+  POCL_UNLOCK_OBJ(Event);
+  if (!Known)
+    return CL_PROFILING_INFO_NOT_AVAILABLE;
+  if (SizeRet)
+    *SizeRet = sizeof(cl_ulong);
+  return CL_SUCCESS;
+}

@@ -1,0 +1,23 @@
+/// What the driver keeps for an OpenCL event.
+#pragma once
+
+#include "vorion.h"
+
+#include <vorion/runtime.h>
+
+#include <optional>
+#include <pthread.h>
+
+namespace vorion {
+
+struct EventData {
+  pthread_cond_t Finished = PTHREAD_COND_INITIALIZER; ///< with the event's lock
+  std::optional<vx_counters> Counters; ///< of a kernel that ran to its end
+};
+
+/// Null before the event is queued.
+inline EventData *eventData(cl_event Event) {
+  return static_cast<EventData *>(Event->data);
+}
+
+} // namespace vorion

@@ -1,0 +1,55 @@
+/// Kernels as loadable images: compiled once for each group size, kept in PoCL's
+/// cache folder, and loaded into the device once.
+#pragma once
+
+#include "Tools.h"
+#include "vorion.h"
+
+#include <vorion/runtime.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+namespace vorion {
+
+struct ImageDeleter {
+  void operator()(vx_image *Image) const { vx_image_free(Image); }
+};
+
+/// One kernel, compiled for one group size, in the device.
+struct LoadedKernel {
+  std::unique_ptr<vx_image, ImageDeleter> Image;
+  uint32_t Number = 0; ///< of the kernel in the image
+  vx_kernel_info Info{};
+};
+
+class KernelCache {
+public:
+  KernelCache(vx_device *Device) : Device(Device) {}
+
+  const Tools &tools() const { return ToolSet; }
+
+  /// Makes the object and the image of the command's kernel in the cache folder,
+  /// for its group size if \p Specialize, else for any. Returns "" and the image's
+  /// path, or what went wrong, which is also added to the build log.
+  std::string compile(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
+                      std::string &ImagePath);
+
+  /// The command's kernel, compiled and loaded; null and \p Problem on failure.
+  /// Valid until the next call of forget().
+  const LoadedKernel *get(_cl_command_node *Command, std::string &Problem);
+
+  /// Unloads the kernels of a program that is being freed.
+  void forget(cl_program Program);
+
+private:
+  vx_device *Device;
+  Tools ToolSet;
+  std::mutex CompileLock; ///< also guards Loaded
+  std::unordered_map<cl_program, std::unordered_map<std::string, LoadedKernel>>
+      Loaded;
+};
+
+} // namespace vorion

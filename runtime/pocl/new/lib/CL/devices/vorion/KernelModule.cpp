@@ -1,0 +1,161 @@
+#include "KernelModule.h"
+
+#include "SimtWorkitems.h"
+#include "pocl_llvm_api.h"
+
+#include <vorion_abi.h>
+
+#include <llvm/Bitcode/BitcodeWriter.h>
+#include <llvm/IR/Constants.h>
+#include <llvm/IR/Module.h>
+#include <llvm/Support/FileSystem.h>
+#include <llvm/Support/raw_ostream.h>
+#include <llvm/Transforms/Utils/ModuleUtils.h>
+
+using namespace llvm;
+
+namespace vorion {
+
+namespace {
+
+/// Hidden parameters that PoCL appends: the launch block and the group's number.
+constexpr unsigned HiddenParameters = 4;
+
+class Finisher {
+public:
+  Finisher(Module &M, const KernelDescription &Kernel)
+      : M(M), Kernel(Kernel), I32(Type::getInt32Ty(M.getContext())) {}
+
+  std::string run() {
+    Function *Entry = M.getFunction(Kernel.Name + "_workgroup_argbuffer");
+    Function *Body = M.getFunction("_pocl_kernel_" + Kernel.Name);
+    if (!Entry || !Body)
+      return "the work-group function of " + Kernel.Name + " is missing";
+    if (Body->arg_size() != Kernel.Arguments.size() + HiddenParameters)
+      return Kernel.Name + " has " +
+             std::to_string(Body->arg_size() - HiddenParameters) +
+             " parameters, expected " + std::to_string(Kernel.Arguments.size());
+
+    // The target, its features and frames are the compiler's to choose.
+    for (Function &F : M) {
+      for (const char *Attribute :
+           {"target-cpu", "target-features", "tune-cpu", "stackrealign"})
+        F.removeFnAttr(Attribute);
+      if (!F.isDeclaration())
+        F.setLinkage(GlobalValue::InternalLinkage);
+    }
+
+    // Seen from the entry, arguments and group numbers are the same for all
+    // lanes; as parameters of another function they might not be.
+    Body->removeFnAttr(Attribute::NoInline);
+    Body->removeFnAttr(Attribute::OptimizeNone);
+    Body->addFnAttr(Attribute::AlwaysInline);
+    Entry->removeFnAttr(Attribute::AlwaysInline);
+    Entry->addFnAttr("vorion-kernel");
+    Entry->setName(Kernel.Name);
+
+    const uint64_t LocalBytes = placeLocals();
+    if (LocalBytes > UINT32_MAX - VX_LOCAL_BASE)
+      return Kernel.Name + " uses " + std::to_string(LocalBytes) +
+             " bytes of static local memory, more than there are addresses for";
+    addRecord(*Entry, *Body, LocalBytes);
+    if (GlobalVariable *Context = M.getGlobalVariable(pocl::SimtContextGlobal))
+      if (Context->use_empty())
+        Context->eraseFromParent();
+    return {};
+  }
+
+private:
+  /// OpenCL 1.2 has no writable variables of program scope: all there are belong
+  /// to a group, which has the core's local memory to itself.
+  uint64_t placeLocals() {
+    uint64_t Used = 0;
+    for (GlobalVariable &G : M.globals()) {
+      if (G.isConstant() || !G.hasInitializer() || !G.hasLocalLinkage() ||
+          G.use_empty())
+        continue;
+      const DataLayout &Layout = M.getDataLayout();
+      Used = alignTo(Used, std::max(G.getAlign().valueOrOne(),
+                                    Layout.getPreferredAlign(&G)));
+      G.replaceAllUsesWith(ConstantExpr::getIntToPtr(
+          ConstantInt::get(I32, VX_LOCAL_BASE + Used), G.getType()));
+      Used += Layout.getTypeAllocSize(G.getValueType());
+    }
+    return Used;
+  }
+
+  Constant *number(uint64_t N) { return ConstantInt::get(I32, N); }
+
+  Constant *text(const std::string &Value) {
+    Constant *Bytes = ConstantDataArray::getString(M.getContext(), Value);
+    auto *G = new GlobalVariable(M, Bytes->getType(), true,
+                                 GlobalValue::PrivateLinkage, Bytes);
+    G->setUnnamedAddr(GlobalValue::UnnamedAddr::Global);
+    G->setAlignment(Align(1));
+    return G;
+  }
+
+  /// Arguments lie as PoCL's launcher reads them: each at a multiple of its
+  /// size rounded up to a power of two.
+  void addRecord(Function &Entry, Function &Body, uint64_t LocalBytes) {
+    const DataLayout &Layout = M.getDataLayout();
+    std::vector<Constant *> Arguments;
+    uint64_t End = 0;
+    for (size_t I = 0; I < Kernel.Arguments.size(); ++I) {
+      const Argument &A = *Body.getArg(I);
+      const uint64_t Size = Layout.getTypeStoreSize(
+          A.hasByValAttr() ? A.getParamByValType() : A.getType());
+      const uint64_t Offset = alignTo(End, PowerOf2Ceil(Size));
+      End = Offset + Size;
+      const KernelArgument &Known = Kernel.Arguments[I];
+      Arguments.push_back(ConstantStruct::getAnon(
+          {text(Known.Name), number(Known.Kind), number(Offset), number(Size)}));
+    }
+
+    Constant *Table = Constant::getNullValue(PointerType::get(M.getContext(), 0));
+    if (!Arguments.empty()) {
+      Constant *Rows = ConstantArray::get(
+          ArrayType::get(Arguments[0]->getType(), Arguments.size()), Arguments);
+      Table = new GlobalVariable(M, Rows->getType(), true,
+                                 GlobalValue::PrivateLinkage, Rows);
+    }
+
+    unsigned long ContextBytes = 0;
+    getModuleIntMetadata(M, pocl::SimtContextBytes, ContextBytes);
+    Constant *Record = ConstantStruct::getAnon(
+        {text(Kernel.Name), &Entry, Table, number(Arguments.size()),
+         number(End), number(ContextBytes), number(LocalBytes),
+         number(Kernel.LocalSize[0]), number(Kernel.LocalSize[1]),
+         number(Kernel.LocalSize[2])});
+    auto *G = new GlobalVariable(M, Record->getType(), true,
+                                 GlobalValue::InternalLinkage, Record,
+                                 "vorion_kernel." + Kernel.Name);
+    G->setSection("vorion_kernels");
+    G->setAlignment(Align(4));
+    appendToUsed(M, {G});
+  }
+
+  Module &M;
+  const KernelDescription &Kernel;
+  Type *I32;
+};
+
+} // namespace
+
+std::string writeKernelModule(void *ModulePointer,
+                              const KernelDescription &Kernel,
+                              const std::string &Path) {
+  Module &M = *static_cast<Module *>(ModulePointer);
+  if (std::string Problem = Finisher(M, Kernel).run(); !Problem.empty())
+    return Problem;
+  std::error_code Error;
+  raw_fd_ostream Out(Path, Error, sys::fs::OF_None);
+  if (!Error) {
+    WriteBitcodeToFile(M, Out);
+    Out.close();
+    Error = Out.error();
+  }
+  return Error ? Path + ": " + Error.message() : std::string();
+}
+
+} // namespace vorion

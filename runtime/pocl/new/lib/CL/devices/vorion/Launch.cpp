@@ -1,0 +1,111 @@
+#include "Launch.h"
+#include "Event.h"
+
+#include <vorion_abi.h>
+
+#include <cstdio>
+#include <cstring>
+
+namespace vorion {
+
+namespace {
+
+cl_int failed(const char *Kernel, cl_int Status, const char *Text) {
+  fprintf(stderr, "vorion: error: kernel %s: %s\n", Kernel, Text);
+  return Status;
+}
+
+cl_int statusOf(vx_status Status) {
+  return Status == VX_ERROR_MEMORY ? CL_MEM_OBJECT_ALLOCATION_FAILURE
+                                   : CL_OUT_OF_RESOURCES;
+}
+
+/// The address that a pointer argument stands for, 0 for a null pointer.
+uint32_t deviceAddress(const pocl_argument &Argument, cl_device_id Device) {
+  if (!Argument.value)
+    return 0;
+  cl_mem Buffer;
+  memcpy(&Buffer, Argument.value, sizeof(Buffer));
+  if (!Buffer)
+    return 0;
+  const void *Address =
+      Buffer->device_ptrs[Device->global_mem_id].device_addr;
+  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Address) +
+                               Argument.offset);
+}
+
+} // namespace
+
+cl_int runKernel(vx_device *Device, KernelCache &Kernels,
+                 _cl_command_node *Command) {
+  _cl_command_run &Run = Command->command.run;
+  const pocl_context &Grid = Run.pc;
+  const char *Name = Run.kernel->name;
+
+  std::string Problem;
+  const LoadedKernel *Kernel = Kernels.get(Command, Problem);
+  if (!Kernel)
+    return failed(Name, CL_BUILD_PROGRAM_FAILURE, Problem.c_str());
+
+  const pocl_kernel_metadata_t &Meta = *Run.kernel->meta;
+  std::vector<unsigned char> Packed(Kernel->Info.args_bytes);
+  std::vector<uint64_t> LocalSizes;
+  for (unsigned I = 0; I < Meta.num_args; ++I) {
+    vx_arg_info Info;
+    if (vx_image_get_arg(Kernel->Image.get(), Kernel->Number, I, &Info) != VX_OK)
+      return failed(Name, CL_INVALID_KERNEL_ARGS, vx_last_error());
+    const pocl_argument &Argument = Run.arguments[I];
+    if (Info.kind == VX_ARG_LOCAL) {
+      LocalSizes.push_back(Argument.size);
+    } else if (Info.kind == VX_ARG_GLOBAL) {
+      const uint32_t Address = deviceAddress(Argument, Command->device);
+      memcpy(&Packed[Info.offset], &Address, sizeof(Address));
+    } else if (Argument.value) {
+      // A vector of three elements is set with the size of four.
+      memcpy(&Packed[Info.offset], Argument.value,
+             std::min<size_t>(Info.size, Argument.size));
+    }
+  }
+  vx_status Status = vx_image_place_locals(
+      Kernel->Image.get(), Kernel->Number, LocalSizes.data(), LocalSizes.size(),
+      Packed.data(), nullptr);
+  if (Status != VX_OK)
+    return failed(Name, CL_OUT_OF_RESOURCES, vx_last_error());
+
+  vx_launch_params Params{};
+  Params.work_dim = Grid.work_dim;
+  for (int I = 0; I < 3; ++I) {
+    Params.num_groups[I] = Grid.num_groups[I];
+    Params.local_size[I] = Grid.local_size[I];
+    Params.global_offset[I] = Grid.global_offset[I];
+  }
+  vx_result Result;
+  Status = vx_start(Device, Kernel->Image.get(), Kernel->Number, &Params,
+                    Packed.data(), Packed.size());
+  if (Status == VX_OK)
+    Status = vx_wait(Device, &Result);
+  if (Status != VX_OK)
+    return failed(Name, statusOf(Status), vx_last_error());
+
+  if (Result.print_bytes) {
+    fwrite(Result.print_text, 1, Result.print_bytes, stdout);
+    fflush(stdout);
+  }
+  if (Result.print_dropped)
+    fprintf(stderr,
+            "vorion: warning: kernel %s: the print buffer is full, %llu bytes "
+            "of printf were dropped\n",
+            Name, static_cast<unsigned long long>(Result.print_dropped));
+  if (Result.outcome != VX_OUTCOME_DONE) {
+    const std::string Exit =
+        "ended with exit code " + std::to_string(Result.exit_code);
+    return failed(Name, CL_OUT_OF_RESOURCES,
+                  Result.outcome == VX_OUTCOME_EXIT ? Exit.c_str()
+                                                    : Result.report);
+  }
+  if (EventData *Data = eventData(Command->sync.event.event))
+    Data->Counters = Result.counters;
+  return CL_SUCCESS;
+}
+
+} // namespace vorion

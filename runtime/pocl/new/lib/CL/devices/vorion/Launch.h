@@ -1,0 +1,14 @@
+/// Runs a kernel command.
+#pragma once
+
+#include "KernelCache.h"
+
+namespace vorion {
+
+/// Runs the command's kernel to its end, prints what it printed, and keeps its
+/// counters with the event. CL_SUCCESS, or the status that the event ends with,
+/// after a report on standard error.
+cl_int runKernel(vx_device *Device, KernelCache &Kernels,
+                 _cl_command_node *Command);
+
+} // namespace vorion

@@ -1,0 +1,107 @@
+#include "Tools.h"
+
+extern "C" {
+#include "config.h"
+#include "pocl_util.h"
+}
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+
+namespace vorion {
+
+namespace {
+
+/// Any address of this library serves to find its file.
+fs::path libraryFolder() {
+  Dl_info Info;
+  if (!dladdr(reinterpret_cast<void *>(&libraryFolder), &Info))
+    return {};
+  std::error_code Error;
+  return fs::canonical(Info.dli_fname, Error).parent_path();
+}
+
+/// Where a message of a tool is cut off.
+constexpr size_t MaxToolOutput = 65536;
+
+} // namespace
+
+Tools::Tools() {
+  std::vector<fs::path> Places;
+  if (const char *Given = std::getenv("VORION_ROOT"))
+    Places.emplace_back(Given);
+  else
+    for (fs::path Folder = libraryFolder();
+         Folder.has_relative_path() && Places.size() < 4;
+         Folder = Folder.parent_path())
+      Places.push_back(Folder);
+  std::error_code Error;
+  for (const fs::path &Place : Places)
+    if (fs::exists(Place / "bin" / "vorion-clang", Error)) {
+      Root = Place;
+      return;
+    }
+  Problem = "cannot find bin/vorion-clang below " +
+            (std::getenv("VORION_ROOT") ? std::string("VORION_ROOT")
+                                        : libraryFolder().string() + " or above; "
+                                          "set VORION_ROOT");
+}
+
+std::string Tools::fingerprint() const {
+  std::vector<fs::path> Files = {fs::path(Root) / "bin" / "vorion-clang",
+                                 fs::path(Root) / "bin" / "vorion-link"};
+  std::error_code Error;
+  for (const char *Folder : {"lib/vorion", "include/vorion"})
+    for (const auto &Entry : fs::directory_iterator(fs::path(Root) / Folder, Error))
+      Files.push_back(Entry.path());
+  std::sort(Files.begin(), Files.end());
+
+  // FNV-1a over names, sizes and times.
+  uint64_t Hash = 0xcbf29ce484222325;
+  const auto Mix = [&Hash](const std::string &Text) {
+    for (const unsigned char C : Text)
+      Hash = (Hash ^ C) * 0x100000001b3;
+  };
+  for (const fs::path &File : Files) {
+    Mix(File.filename().string());
+    Mix(std::to_string(fs::file_size(File, Error)));
+    Mix(std::to_string(
+        fs::last_write_time(File, Error).time_since_epoch().count()));
+  }
+  return std::to_string(Hash);
+}
+
+std::string Tools::run(std::vector<std::string> Arguments) const {
+  if (!Problem.empty())
+    return Problem;
+  std::vector<char *> Pointers;
+  for (std::string &Argument : Arguments)
+    Pointers.push_back(Argument.data());
+  Pointers.push_back(nullptr);
+  std::string Output(MaxToolOutput, '\0');
+  size_t Bytes = Output.size();
+  const int Status = pocl_run_command_capture_output(Output.data(), &Bytes,
+                                                     Pointers.data());
+  if (Status == 0)
+    return {};
+  Output.resize(Bytes);
+  return Arguments[0] + " failed (" + std::to_string(Status) + ")\n" + Output;
+}
+
+std::string Tools::compile(const std::string &Bitcode,
+                           const std::string &Object) const {
+  return run({Root + "/bin/vorion-clang", "-x", "ir", "-O2", "-ffp-contract=off",
+              "-c", Bitcode, "-o", Object});
+}
+
+std::string Tools::link(const std::string &Object,
+                        const std::string &Image) const {
+  return run({Root + "/bin/vorion-link", Object, "-o", Image});
+}
+
+} // namespace vorion

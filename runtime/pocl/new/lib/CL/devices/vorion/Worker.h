@@ -1,0 +1,37 @@
+/// The thread that executes a device's commands, one after the other in the order
+/// in which they became ready. PoCL holds locks while it submits a command, so
+/// nothing may execute there.
+#pragma once
+
+#include "KernelCache.h"
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+namespace vorion {
+
+class Worker {
+public:
+  Worker(vx_device *Device, KernelCache &Kernels);
+  /// Executes what was pushed, then ends the thread.
+  ~Worker();
+
+  /// \p Command depends on nothing any more.
+  void push(_cl_command_node *Command);
+
+private:
+  void run();
+  void execute(_cl_command_node *Command);
+
+  vx_device *Device;
+  KernelCache &Kernels;
+  std::mutex Lock;
+  std::condition_variable Changed;
+  std::deque<_cl_command_node *> Ready;
+  bool Ending = false;
+  std::thread Thread;
+};
+
+} // namespace vorion

@@ -1,0 +1,335 @@
+//===- SimtWorkitems.cc - work-items on the lanes of a warp ---------------===//
+
+#include "SimtWorkitems.h"
+
+#include "Barrier.h"
+#include "LLVMUtils.h"
+#include "Workgroup.h"
+#include "pocl_llvm_api.h"
+
+#include <vorion_abi.h>
+
+#include <llvm/IR/CFG.h>
+#include <llvm/IR/IntrinsicInst.h>
+
+#include <cstddef>
+
+using namespace llvm;
+
+namespace pocl {
+
+namespace {
+
+/// Context arrays start at multiples of this: the largest OpenCL type's
+/// alignment.
+constexpr uint64_t ContextAlignment = 128;
+
+/// An intrinsic of ours. It may read and write memory for all that the optimiser
+/// knows, and is neither copied nor made conditional.
+FunctionCallee intrinsic(Module &M, StringRef Name, Type *Result,
+                         ArrayRef<Type *> Parameters) {
+  FunctionCallee Callee =
+      M.getOrInsertFunction(Name, FunctionType::get(Result, Parameters, false));
+  if (auto *Decl = dyn_cast<Function>(Callee.getCallee())) {
+    Decl->addFnAttr(Attribute::Convergent);
+    Decl->addFnAttr(Attribute::NoMerge);
+    Decl->addFnAttr(Attribute::NoUnwind);
+  }
+  return Callee;
+}
+
+/// A word of the launch block, which nothing changes during a run.
+LoadInst *loadLaunch(IRBuilder<> &Builder, Type *T, Value *Launch, size_t Offset) {
+  LoadInst *Load = Builder.CreateLoad(
+      T, Builder.CreateConstGEP1_32(Builder.getInt8Ty(), Launch, Offset));
+  Load->setMetadata(LLVMContext::MD_invariant_load,
+                    MDNode::get(Builder.getContext(), {}));
+  return Load;
+}
+
+/// Whether anything but loads may happen through \p Pointer.
+bool mayBeWritten(const Value *Pointer) {
+  for (const User *U : Pointer->users()) {
+    if (isa<LoadInst>(U))
+      continue;
+    if ((isa<GetElementPtrInst>(U) || isa<CastInst>(U)) && !mayBeWritten(U))
+      continue;
+    // The source of a copy.
+    if (const auto *Copy = dyn_cast<MemCpyInst>(U))
+      if (Copy->getRawDest() != Pointer)
+        continue;
+    return true;
+  }
+  return false;
+}
+
+} // namespace
+
+unsigned simtLanes(const Module &M) {
+  unsigned long Lanes = 0;
+  getModuleIntMetadata(M, "device_simt_lanes", Lanes);
+  return Lanes;
+}
+
+bool fitsOneWarp(const Module &M) {
+  bool Dynamic = true;
+  unsigned long X = 0, Y = 0, Z = 0;
+  getModuleBoolMetadata(M, "WGDynamicLocalSize", Dynamic);
+  getModuleIntMetadata(M, "WGLocalSizeX", X);
+  getModuleIntMetadata(M, "WGLocalSizeY", Y);
+  getModuleIntMetadata(M, "WGLocalSizeZ", Z);
+  return !Dynamic && X * Y * Z <= simtLanes(M);
+}
+
+void copyWrittenByvalArguments(Module &M) {
+  for (Function &F : M) {
+    if (!isKernelToProcess(F))
+      continue;
+    for (Argument &A : F.args()) {
+      if (!A.hasByValAttr() || !mayBeWritten(&A))
+        continue;
+      IRBuilder<> Builder(&*F.getEntryBlock().getFirstInsertionPt());
+      Type *T = A.getParamByValType();
+      const Align Alignment = A.getParamAlign().valueOrOne();
+      AllocaInst *Copy = Builder.CreateAlloca(T, nullptr, A.getName() + ".own");
+      Copy->setAlignment(std::max(Copy->getAlign(), Alignment));
+      A.replaceAllUsesWith(Copy);
+      Builder.CreateMemCpy(Copy, Copy->getAlign(), &A, Alignment,
+                           M.getDataLayout().getTypeAllocSize(T));
+    }
+  }
+}
+
+bool lowerSimtBarriers(Function &F) {
+  std::vector<Instruction *> Barriers;
+  for (BasicBlock &Block : F)
+    for (Instruction &I : Block)
+      if (isa<Barrier>(&I))
+        Barriers.push_back(&I);
+
+  Type *I32 = Type::getInt32Ty(F.getContext());
+  for (Instruction *I : Barriers) {
+    BasicBlock *Block = I->getParent();
+    // Where there are loops, PoCL has put a barrier alone into the entry.
+    const bool AtStart =
+        Block == &F.getEntryBlock() && !fitsOneWarp(*F.getParent());
+    const bool AtEnd = isa<ReturnInst>(I->getNextNode());
+    if (!AtStart && !AtEnd) {
+      // One warp is the whole group: the barrier is passed at once. It costs an
+      // instruction and keeps the regions before and after apart.
+      FunctionCallee Bar =
+          intrinsic(*F.getParent(), "vorion.vx_bar", Type::getVoidTy(F.getContext()),
+                    {I32, I32});
+      IRBuilder<> Builder(I);
+      auto *Call = Builder.CreateCall(
+          Bar, {ConstantInt::get(I32, 0), ConstantInt::get(I32, 1)});
+      Call->addFnAttr(Attribute::NoDuplicate);
+    }
+    I->eraseFromParent();
+  }
+  return !Barriers.empty();
+}
+
+Value *createLaunchLoad(IRBuilder<> &Builder, Value *Launch, LaunchField Field,
+                        int Index) {
+  constexpr size_t Offsets[] = {
+      offsetof(vx_launch, num_groups), offsetof(vx_launch, global_offset),
+      offsetof(vx_launch, local_size), offsetof(vx_launch, work_dim)};
+  return loadLaunch(Builder, Builder.getInt32Ty(), Launch,
+                    Offsets[static_cast<int>(Field)] + 4 * std::max(Index, 0));
+}
+
+Value *createContextBase(IRBuilder<> &Builder, Module &M, Value *Launch) {
+  Type *I32 = Builder.getInt32Ty();
+  Value *Core = Builder.CreateCall(intrinsic(M, "vorion.vx_core_id", I32, {}));
+  Value *Share = Builder.CreateMul(
+      Core, loadLaunch(Builder, I32, Launch, offsetof(vx_launch, context_stride)));
+  Value *Context = loadLaunch(Builder, Builder.getPtrTy(), Launch,
+                              offsetof(vx_launch, context));
+  return Builder.CreateGEP(Builder.getInt8Ty(), Context, Share, "simt_context");
+}
+
+SimtLoops::SimtLoops(Function &F, unsigned Lanes, GroupSize Size, LocalIds Ids)
+    : F(F), M(*F.getParent()), Lanes(Lanes), Size(Size), Ids(Ids),
+      SizeT(Type::getInt32Ty(F.getContext())) {}
+
+Constant *SimtLoops::number(uint64_t N) const {
+  return ConstantInt::get(SizeT, N);
+}
+
+void SimtLoops::begin() {
+  IRBuilder<> Builder(&*F.getEntryBlock().getFirstInsertionPt());
+  BaseVar = Builder.CreateAlloca(SizeT, nullptr, ".simt_base");
+  LinearVar = Builder.CreateAlloca(SizeT, nullptr, ".simt_linear");
+  Lane = Builder.CreateCall(intrinsic(M, "vorion.vx_thread_id", SizeT, {}), {},
+                            "simt_lane");
+  if (Size.Dynamic) {
+    auto LocalSize = [&](const char *Name) {
+      return Builder.CreateLoad(SizeT, M.getOrInsertGlobal(Name, SizeT));
+    };
+    SizeX = LocalSize("_local_size_x");
+    SizeY = LocalSize("_local_size_y");
+    Items = Builder.CreateMul(Builder.CreateMul(SizeX, SizeY),
+                              LocalSize("_local_size_z"), "simt_items");
+  } else {
+    SizeX = number(Size.X);
+    SizeY = number(Size.Y);
+    Items = number(Size.items());
+  }
+  // The kernel's entry belongs to no loop; whatever runs there is of the
+  // first pass.
+  Builder.CreateStore(number(0), BaseVar);
+  Builder.CreateStore(Lane, LinearVar);
+  storeLocalIds(Builder, Lane);
+}
+
+Value *SimtLoops::linearId(IRBuilder<> &Builder) {
+  return Builder.CreateLoad(SizeT, LinearVar, "simt_id");
+}
+
+void SimtLoops::storeLocalIds(IRBuilder<> &Builder, Value *Linear) {
+  Value *X = Linear, *Y = number(0), *Z = number(0);
+  const bool OneRow = !Size.Dynamic && Size.Y * Size.Z == 1;
+  if (!OneRow) {
+    X = Builder.CreateURem(Linear, SizeX);
+    Y = Builder.CreateUDiv(Linear, SizeX);
+    if (Size.Dynamic || Size.Z != 1) {
+      Z = Builder.CreateUDiv(Y, SizeY);
+      Y = Builder.CreateURem(Y, SizeY);
+    }
+  }
+  Builder.CreateStore(X, Ids.X);
+  Builder.CreateStore(Y, Ids.Y);
+  Builder.CreateStore(Z, Ids.Z);
+}
+
+/// Whether the lane has a work-item in the pass that starts at \p Base. The same
+/// for all lanes, and known to be, if passes are always full.
+Value *SimtLoops::anyLeft(IRBuilder<> &Builder, Value *Base) {
+  if (!Size.Dynamic && Size.items() % Lanes == 0)
+    return Builder.CreateICmpULT(Base, Items);
+  return Builder.CreateICmpULT(Builder.CreateAdd(Base, Lane), Items);
+}
+
+std::pair<BasicBlock *, BasicBlock *>
+SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
+                            BasicBlock *Entry, BasicBlock *Exit,
+                            bool PeeledFirst) {
+  LLVMContext &C = F.getContext();
+  BasicBlock *After = Exit->getTerminator()->getSuccessor(0);
+  auto *Init = BasicBlock::Create(C, "pregion_for_init", &F, Entry);
+  auto *Pass = BasicBlock::Create(C, "pregion_for_pass", &F, Entry);
+  auto *Next = BasicBlock::Create(C, "pregion_for_inc", &F, Exit);
+  auto *End = BasicBlock::Create(C, "pregion_for_end", &F, Exit);
+
+  std::vector<BasicBlock *> Predecessors(pred_begin(Entry), pred_end(Entry));
+  for (BasicBlock *P : Predecessors)
+    if (P != Pass && !InRegion.count(P))
+      P->getTerminator()->replaceSuccessorWith(Entry, Init);
+
+  IRBuilder<> Builder(Init);
+  Constant *First = number(PeeledFirst ? Lanes : 0);
+  Builder.CreateStore(First, BaseVar);
+  if (PeeledFirst)
+    Builder.CreateCondBr(anyLeft(Builder, First), Pass, End);
+  else
+    Builder.CreateBr(Pass);
+
+  Builder.SetInsertPoint(Pass);
+  Value *Base = Builder.CreateLoad(SizeT, BaseVar, "simt_base");
+  Value *Linear = Builder.CreateAdd(Base, Lane, "simt_id");
+  Builder.CreateStore(Linear, LinearVar);
+  storeLocalIds(Builder, Linear);
+  Builder.CreateBr(Entry);
+
+  Exit->getTerminator()->replaceSuccessorWith(After, Next);
+  Builder.SetInsertPoint(Next);
+  Value *NextBase = Builder.CreateAdd(
+      Builder.CreateLoad(SizeT, BaseVar, "simt_base"), number(Lanes));
+  Builder.CreateStore(NextBase, BaseVar);
+  Builder.CreateCondBr(anyLeft(Builder, NextBase), Pass, End);
+
+  Builder.SetInsertPoint(End);
+  Builder.CreateBr(After);
+  return {Init, End};
+}
+
+void SimtLoops::setFirstPass(BasicBlock *Entry) {
+  IRBuilder<> Builder(&*Entry->getFirstInsertionPt());
+  Builder.CreateStore(Lane, LinearVar);
+  storeLocalIds(Builder, Lane);
+}
+
+void SimtLoops::makeUniform(Instruction *Terminator) {
+  Type *I32 = Type::getInt32Ty(F.getContext());
+  FunctionCallee Uniform = intrinsic(M, "vorion.vx_uniform", I32, {I32});
+  IRBuilder<> Builder(Terminator);
+  auto Same = [&](Value *Condition) {
+    Value *Wide = Builder.CreateZExtOrTrunc(Condition, I32);
+    return Builder.CreateZExtOrTrunc(Builder.CreateCall(Uniform, {Wide}),
+                                     Condition->getType());
+  };
+  if (auto *Branch = dyn_cast<BranchInst>(Terminator)) {
+    if (Branch->isConditional() && !isa<Constant>(Branch->getCondition()))
+      Branch->setCondition(Same(Branch->getCondition()));
+  } else if (auto *Switch = dyn_cast<SwitchInst>(Terminator)) {
+    if (Switch->getCondition()->getType()->getIntegerBitWidth() <= 32)
+      Switch->setCondition(Same(Switch->getCondition()));
+  }
+}
+
+AllocaInst *SimtLoops::createContextArray(Type *Element,
+                                          const std::string &Name) {
+  IRBuilder<> Builder(&*F.getEntryBlock().getFirstInsertionPt());
+  ContextArrays.push_back(Builder.CreateAlloca(Element, nullptr, Name));
+  return ContextArrays.back();
+}
+
+void SimtLoops::tidyAllocas() {
+  std::vector<Instruction *> Unused;
+  BasicBlock &Entry = F.getEntryBlock();
+  for (BasicBlock &Block : F)
+    for (Instruction &I : make_early_inc_range(Block)) {
+      if (auto *Alloca = dyn_cast<AllocaInst>(&I)) {
+        if (Alloca->use_empty())
+          Unused.push_back(Alloca);
+        else if (&Block != &Entry && isa<ConstantInt>(Alloca->getArraySize()))
+          Alloca->moveBefore(&*Entry.getFirstInsertionPt());
+      }
+      // A context array is no stack slot.
+      if (I.isLifetimeStartOrEnd() && !isa<AllocaInst>(I.getOperand(1)))
+        Unused.push_back(&I);
+    }
+  for (Instruction *I : Unused)
+    I->eraseFromParent();
+}
+
+void SimtLoops::finish() {
+  tidyAllocas();
+  unsigned long Bytes = 0;
+  if (!ContextArrays.empty()) {
+    IRBuilder<> Builder(F.getEntryBlock().getTerminator());
+    const DataLayout &Layout = M.getDataLayout();
+    Value *Context = Builder.CreateLoad(
+        Builder.getPtrTy(),
+        M.getOrInsertGlobal(SimtContextGlobal, Builder.getPtrTy()),
+        "simt_context");
+    // Rounded up to whole passes, an array's size is a multiple of
+    // lanes * 8 = 128 bytes, so that each starts aligned.
+    Value *Slots = Builder.CreateAnd(
+        Builder.CreateAdd(Items, number(Lanes - 1)), number(-uint64_t(Lanes)));
+    for (AllocaInst *Array : ContextArrays) {
+      Value *Start = Builder.CreateGEP(Builder.getInt8Ty(), Context,
+                                       Builder.CreateMul(Slots, number(Bytes)),
+                                       Array->getName());
+      Bytes += alignTo(
+          Layout.getTypeAllocSize(Array->getAllocatedType()).getFixedValue(),
+          ContextAlignment / Lanes);
+      Array->replaceAllUsesWith(Start);
+      Array->eraseFromParent();
+    }
+  }
+  setModuleIntMetadata(&M, SimtContextBytes, Bytes);
+}
+
+} // namespace pocl

@@ -1,0 +1,131 @@
+//===- SimtWorkitems.h - work-items on the lanes of a warp ----------------===//
+//
+// A device whose core runs a group on one warp of lanes (module property
+// device_simt_lanes) executes the work-items of a group in passes: pass p gives
+// lane l the work-item with linear id p * lanes + l. The group starts with a
+// mask of min(lanes, items) lanes, so that every active lane has a work-item
+// in the first pass. docs/adr/0006-work-item-loops.md gives the rules.
+//
+// WorkitemLoops uses SimtLoops where it would otherwise build its x, y, z
+// loops; the rest of PoCL's region handling is unchanged.
+//
+//===----------------------------------------------------------------------===//
+
+#ifndef POCL_SIMT_WORKITEMS_H
+#define POCL_SIMT_WORKITEMS_H
+
+#include <llvm/IR/IRBuilder.h>
+#include <llvm/IR/Module.h>
+
+#include <set>
+#include <vector>
+
+namespace pocl {
+
+/// Pseudo variable: where the core's share of launch->context begins. The
+/// Workgroup pass replaces loads of it.
+inline constexpr const char *SimtContextGlobal = "_simt_context";
+
+/// Module property: bytes a work-item keeps in the context.
+inline constexpr const char *SimtContextBytes = "simt_context_bytes";
+
+/// Lanes of a warp; 0 on devices that run work-items one after the other.
+unsigned simtLanes(const llvm::Module &M);
+
+/// The group size is known and no larger than a warp: there are no loops, a
+/// work-item is a lane.
+bool fitsOneWarp(const llvm::Module &M);
+
+/// Makes kernels work on their own copy of a by-value structure that they
+/// change; all work-items share the one in the argument buffer.
+void copyWrittenByvalArguments(llvm::Module &M);
+
+/// Replaces the barriers that order memory by the machine's, and removes those
+/// at the kernel's start and end. What is left stops later passes from moving
+/// or copying code across.
+bool lowerSimtBarriers(llvm::Function &F);
+
+/// What kernels ask of a launch block.
+enum class LaunchField { NumGroups, GlobalOffset, LocalSize, WorkDim };
+
+/// \p Index: within a field of three, else -1.
+llvm::Value *createLaunchLoad(llvm::IRBuilder<> &Builder, llvm::Value *Launch,
+                              LaunchField Field, int Index);
+
+/// What SimtContextGlobal stands for.
+llvm::Value *createContextBase(llvm::IRBuilder<> &Builder, llvm::Module &M,
+                               llvm::Value *Launch);
+
+/// Builds the loops of one kernel.
+class SimtLoops {
+public:
+  /// Sizes: of the group, 0 if known at run time only.
+  struct GroupSize {
+    uint64_t X, Y, Z;
+    bool Dynamic;
+    uint64_t items() const { return X * Y * Z; }
+  };
+  struct LocalIds {
+    llvm::Value *X, *Y, *Z; ///< the pseudo variables _local_id_x, _y, _z
+  };
+
+  SimtLoops(llvm::Function &F, unsigned Lanes, GroupSize Size, LocalIds Ids);
+
+  /// Code at the kernel's entry; call before anything below.
+  void begin();
+
+  /// The linear id of the current work-item.
+  llvm::Value *linearId(llvm::IRBuilder<> &Builder);
+
+  /// Memory of one value a work-item, indexed by linear id; the size of
+  /// \p Element is a multiple of its alignment. finish() decides where it lies.
+  llvm::AllocaInst *createContextArray(llvm::Type *Element,
+                                       const std::string &Name);
+
+  /// Runs [Entry, Exit] once for each work-item; with \p PeeledFirst for those
+  /// that follow the first pass. Only edges from blocks outside \p InRegion are
+  /// redirected. Returns the first and last block of the loop.
+  template <typename RegionT>
+  std::pair<llvm::BasicBlock *, llvm::BasicBlock *>
+  createLoop(RegionT &Region, llvm::BasicBlock *Entry, llvm::BasicBlock *Exit,
+             bool PeeledFirst) {
+    std::set<llvm::BasicBlock *> InRegion(Region.begin(), Region.end());
+    return createLoopAround(InRegion, Entry, Exit, PeeledFirst);
+  }
+
+  /// Sets the local ids of the first pass at the start of \p Entry.
+  void setFirstPass(llvm::BasicBlock *Entry);
+
+  /// The branch decides between regions: every work-item takes the same way.
+  void makeUniform(llvm::Instruction *Terminator);
+
+  /// Places the context arrays.
+  void finish();
+
+private:
+  std::pair<llvm::BasicBlock *, llvm::BasicBlock *>
+  createLoopAround(const std::set<llvm::BasicBlock *> &InRegion,
+                   llvm::BasicBlock *Entry, llvm::BasicBlock *Exit,
+                   bool PeeledFirst);
+  /// Gives variables of the loops' bodies fixed places in the lane's frame.
+  void tidyAllocas();
+  void storeLocalIds(llvm::IRBuilder<> &Builder, llvm::Value *Linear);
+  llvm::Value *anyLeft(llvm::IRBuilder<> &Builder, llvm::Value *Base);
+  llvm::Constant *number(uint64_t N) const;
+
+  llvm::Function &F;
+  llvm::Module &M;
+  unsigned Lanes;
+  GroupSize Size;
+  LocalIds Ids;
+  llvm::Type *SizeT;
+  llvm::AllocaInst *BaseVar = nullptr;   ///< linear id of the pass's lane 0
+  llvm::AllocaInst *LinearVar = nullptr; ///< linear id of the work-item
+  llvm::Value *Lane = nullptr;
+  llvm::Value *SizeX = nullptr, *SizeY = nullptr, *Items = nullptr;
+  std::vector<llvm::AllocaInst *> ContextArrays; ///< placeholders
+};
+
+} // namespace pocl
+
+#endif
