@@ -5,9 +5,7 @@
 /// glibc's double functions err by at most a few of a double's own units, 2^-29
 /// of a float's, so they stand for the exact value.
 
-#define CL_HPP_TARGET_OPENCL_VERSION 120
-#define CL_HPP_MINIMUM_OPENCL_VERSION 120
-#include <CL/opencl.hpp>
+#include "TestDevice.h"
 
 #include <bit>
 #include <cmath>
@@ -217,53 +215,35 @@ std::vector<float> draw(Range Wanted, std::size_t Count, unsigned Seed) {
 }
 
 /// One program with a kernel a function, built once.
-class Device {
+class MathProgram {
 public:
-  static Device &get() {
-    static Device TheDevice;
-    return TheDevice;
+  static MathProgram &get() {
+    static MathProgram TheProgram;
+    return TheProgram;
   }
   std::vector<float> run(const Function &F,
                          const std::vector<std::vector<float>> &Arguments) {
     const std::size_t Count = Arguments[0].size();
     cl::Kernel Kernel(Program, (std::string("k_") + F.Name).c_str());
-    std::vector<cl::Buffer> Buffers;
+    std::vector<cl::Buffer>
+        Buffers; // a kernel's argument is not kept alive by it
+    cl_uint Next = 0;
     for (const auto &Values : Arguments) {
-      Buffers.emplace_back(Context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
-                           4 * Count, const_cast<float *>(Values.data()));
-      Kernel.setArg(static_cast<cl_uint>(Buffers.size() - 1), Buffers.back());
+      Buffers.push_back(Device.upload(Values));
+      Kernel.setArg(Next++, Buffers.back());
     }
-    const cl::Buffer Out(Context, CL_MEM_WRITE_ONLY, 4 * Count);
-    Kernel.setArg(static_cast<cl_uint>(Buffers.size()), Out);
-    std::vector<float> Results(Count);
-    EXPECT_EQ(Queue.enqueueNDRangeKernel(Kernel, cl::NullRange,
-                                         cl::NDRange(Count), cl::NDRange(64)),
-              CL_SUCCESS);
-    EXPECT_EQ(
-        Queue.enqueueReadBuffer(Out, CL_TRUE, 0, 4 * Count, Results.data()),
-        CL_SUCCESS);
-    return Results;
+    const cl::Buffer Out(Device.context(), CL_MEM_WRITE_ONLY, 4 * Count);
+    Kernel.setArg(Next, Out);
+    Device.run(Kernel, Count, 64);
+    return Device.download<float>(Out, Count);
   }
-  bool Usable = false;
+  vorion::test::TestDevice Device;
   std::string Log;
 
 private:
-  Device() {
-    std::vector<cl::Platform> Platforms;
-    cl::Platform::get(&Platforms);
-    for (const cl::Platform &Platform : Platforms) {
-      std::vector<cl::Device> Devices;
-      Platform.getDevices(CL_DEVICE_TYPE_ALL, &Devices);
-      for (const cl::Device &Candidate : Devices)
-        if (!Usable) {
-          Usable = true;
-          Chosen = Candidate;
-        }
-    }
-    if (!Usable)
+  MathProgram() {
+    if (!Device.usable())
       return;
-    Context = cl::Context(Chosen);
-    Queue = cl::CommandQueue(Context, Chosen);
     std::string Source;
     for (const Function &F : Functions)
       Source += std::string("kernel void k_") + F.Name +
@@ -273,14 +253,8 @@ private:
                 "  float x = a[i], y = b[i], z = c[i];\n"
                 "  out[i] = " +
                 F.Expression + ";\n}\n";
-    Program = cl::Program(Context, Source);
-    if (Program.build() != CL_SUCCESS)
-      Log =
-          Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Chosen) + "\nbuild failed";
+    Program = Device.build(Source, Log);
   }
-  cl::Device Chosen;
-  cl::Context Context;
-  cl::CommandQueue Queue;
   cl::Program Program;
 };
 
@@ -288,14 +262,13 @@ class MathAccuracy : public testing::TestWithParam<Function> {};
 
 TEST_P(MathAccuracy, StaysWithinTheLimit) {
   const Function &F = GetParam();
-  Device &D = Device::get();
-  if (!D.Usable)
-    GTEST_SKIP() << "no OpenCL device: source scripts/env.sh";
-  ASSERT_EQ(D.Log, "");
+  MathProgram &Program = MathProgram::get();
+  VORION_REQUIRE_DEVICE(Program.Device);
+  ASSERT_EQ(Program.Log, "");
   constexpr std::size_t Count = 4096;
   const std::vector<std::vector<float>> Arguments = {
       draw(F.X, Count, 1), draw(F.Y, Count, 2), draw(F.Y, Count, 3)};
-  const std::vector<float> Results = D.run(F, Arguments);
+  const std::vector<float> Results = Program.run(F, Arguments);
   double Worst = 0;
   std::size_t At = 0;
   for (std::size_t I = 0; I < Count; ++I) {

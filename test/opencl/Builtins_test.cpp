@@ -1,0 +1,167 @@
+/// What kernels need from libdevice beside math: 64-bit integers, half
+/// precision in memory, and printf, with other operands in each lane.
+
+#include "TestDevice.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+using vorion::test::TestDevice;
+
+namespace {
+
+constexpr std::size_t Count = 1000, Group = 50;
+
+TEST(Builtins, SixtyFourBitIntegersAgreeWithTheHost) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+kernel void integers(global const long *a, global const long *b,
+                     global long *out) {
+  size_t i = get_global_id(0);
+  long x = a[i], y = b[i];
+  ulong ux = x, uy = y;
+  global long *o = out + 12 * i;
+  o[0] = x / y;
+  o[1] = x % y;
+  o[2] = ux / uy;
+  o[3] = ux % uy;
+  o[4] = x * y;
+  o[5] = x << (y & 63);
+  o[6] = x >> (y & 63);
+  o[7] = ux >> (y & 63);
+  o[8] = mul_hi(ux, uy);
+  o[9] = clz(x) * 100 + popcount(y);
+  o[10] = x > y ? as_int((float)x) : as_int((float)uy);
+  o[11] = (long)((float)x * 0.5f);
+})",
+                                           Log);
+  ASSERT_EQ(Log, "");
+
+  // Any number of significant bits: division has paths for small operands.
+  std::mt19937_64 Random(1);
+  std::vector<std::int64_t> A(Count), B(Count);
+  for (std::size_t I = 0; I < Count; ++I) {
+    A[I] = static_cast<std::int64_t>(Random()) >> Random() % 64;
+    do
+      B[I] = static_cast<std::int64_t>(Random()) >> Random() % 64;
+    while (B[I] == 0 || B[I] == -1); // no host division is defined there
+  }
+  cl::Kernel Kernel(Program, "integers");
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 96 * Count);
+  // A kernel does not keep its arguments alive.
+  const cl::Buffer InA = Device.upload(A), InB = Device.upload(B);
+  Kernel.setArg(0, InA);
+  Kernel.setArg(1, InB);
+  Kernel.setArg(2, Out);
+  Device.run(Kernel, Count, Group);
+  const auto Results = Device.download<std::int64_t>(Out, 12 * Count);
+
+  for (std::size_t I = 0; I < Count; ++I) {
+    const std::int64_t X = A[I], Y = B[I];
+    const auto UX = static_cast<std::uint64_t>(X),
+               UY = static_cast<std::uint64_t>(Y);
+    const unsigned Shift = Y & 63;
+    const auto Chosen = X > Y ? static_cast<float>(X) : static_cast<float>(UY);
+    const std::array<std::uint64_t, 12> Expected = {
+        static_cast<std::uint64_t>(X / Y),
+        static_cast<std::uint64_t>(X % Y),
+        UX / UY,
+        UX % UY,
+        UX * UY,
+        UX << Shift,
+        static_cast<std::uint64_t>(X >> Shift),
+        UX >> Shift,
+        static_cast<std::uint64_t>(static_cast<unsigned __int128>(UX) * UY >>
+                                   64),
+        static_cast<std::uint64_t>(std::countl_zero(UX) * 100 +
+                                   std::popcount(UY)),
+        static_cast<std::uint64_t>(
+            std::int64_t{std::bit_cast<std::int32_t>(Chosen)}),
+        static_cast<std::uint64_t>(
+            static_cast<std::int64_t>(static_cast<float>(X) * 0.5F))};
+    for (std::size_t K = 0; K < Expected.size(); ++K)
+      EXPECT_EQ(static_cast<std::uint64_t>(Results[12 * I + K]), Expected[K])
+          << "operation " << K << " of " << X << " and " << Y;
+  }
+}
+
+TEST(Builtins, EveryHalfIsReadAndWrittenExactly) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+kernel void halves(global const half *in, global float *wide, global half *out) {
+  size_t i = get_global_id(0);
+  float x = vload_half(i, in);
+  wide[i] = x;
+  vstore_half(x, i, out);
+})",
+                                           Log);
+  ASSERT_EQ(Log, "");
+  std::vector<std::uint16_t> In(1 << 16);
+  for (std::size_t I = 0; I < In.size(); ++I)
+    In[I] = static_cast<std::uint16_t>(I);
+  cl::Kernel Kernel(Program, "halves");
+  const cl::Buffer Wide(Device.context(), CL_MEM_READ_WRITE, 4 * In.size());
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 2 * In.size());
+  const cl::Buffer Narrow = Device.upload(In);
+  Kernel.setArg(0, Narrow);
+  Kernel.setArg(1, Wide);
+  Kernel.setArg(2, Out);
+  Device.run(Kernel, In.size(), 64);
+  const auto Floats = Device.download<float>(Wide, In.size());
+  const auto Halves = Device.download<std::uint16_t>(Out, In.size());
+  for (std::size_t I = 0; I < In.size(); ++I) {
+    const unsigned Exponent = I >> 10 & 31, Fraction = I & 1023;
+    if (Exponent == 31 && Fraction) {
+      EXPECT_TRUE(std::isnan(Floats[I])) << I;
+      EXPECT_GT(Halves[I] & 0x7fff, 0x7c00) << I;
+      continue;
+    }
+    const double Magnitude =
+        Exponent == 31 ? INFINITY
+        : Exponent == 0
+            ? std::ldexp(Fraction, -24)
+            : std::ldexp(1024 + Fraction, static_cast<int>(Exponent) - 25);
+    EXPECT_EQ(Floats[I], I >> 15 ? -Magnitude : Magnitude) << I;
+    EXPECT_EQ(Halves[I], In[I]) << I;
+  }
+}
+
+TEST(Builtins, PrintfWritesWholeLinesInTheOrderOfLanes) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+kernel void print(global const float *x) {
+  size_t i = get_global_id(0);
+  if (i % 5 == 0)
+    printf("%d: %f %v4hlg %s %lu %c%%\n", (int)i, x[i], (float4)(x[i], 1, 2, 3),
+           "text", (ulong)i << 40, 'x');
+  else if (i == 7)
+    printf("plain\n");
+})",
+                                           Log);
+  ASSERT_EQ(Log, "");
+  std::vector<float> X(20);
+  for (std::size_t I = 0; I < X.size(); ++I)
+    X[I] = static_cast<float>(I) / 4;
+  cl::Kernel Kernel(Program, "print");
+  const cl::Buffer In = Device.upload(X);
+  Kernel.setArg(0, In);
+  testing::internal::CaptureStdout();
+  Device.run(Kernel, 20, 20);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(),
+            "0: 0.000000 0,1,2,3 text 0 x%\n"
+            "5: 1.250000 1.25,1,2,3 text 5497558138880 x%\n"
+            "10: 2.500000 2.5,1,2,3 text 10995116277760 x%\n"
+            "15: 3.750000 3.75,1,2,3 text 16492674416640 x%\n"
+            "plain\n");
+}
+
+} // namespace

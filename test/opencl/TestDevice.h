@@ -1,0 +1,81 @@
+/// The OpenCL device that the host programs of this folder test: the first one
+/// there is.
+#pragma once
+
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#include <CL/opencl.hpp>
+
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+namespace vorion::test {
+
+/// A context with one in-order queue, or none where there is no device.
+class TestDevice {
+public:
+  TestDevice() {
+    std::vector<cl::Platform> Platforms;
+    cl::Platform::get(&Platforms);
+    for (const cl::Platform &Platform : Platforms) {
+      std::vector<cl::Device> Devices;
+      Platform.getDevices(CL_DEVICE_TYPE_ALL, &Devices);
+      if (Devices.empty())
+        continue;
+      Chosen = Devices.front();
+      Usable = true;
+      TheContext = cl::Context(Chosen);
+      TheQueue = cl::CommandQueue(TheContext, Chosen);
+      return;
+    }
+  }
+  bool usable() const { return Usable; }
+  const cl::Context &context() const { return TheContext; }
+  const cl::CommandQueue &queue() const { return TheQueue; }
+
+  /// The program, or an empty text in \p Log and a built one.
+  cl::Program build(const std::string &Source, std::string &Log) const {
+    cl::Program Program(TheContext, Source);
+    Log.clear();
+    if (Program.build() != CL_SUCCESS)
+      Log =
+          "build failed\n" + Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Chosen);
+    return Program;
+  }
+
+  template <typename T> cl::Buffer upload(const std::vector<T> &Values) const {
+    return cl::Buffer(TheContext, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
+                      Values.size() * sizeof(T),
+                      const_cast<T *>(Values.data()));
+  }
+  template <typename T>
+  std::vector<T> download(const cl::Buffer &Buffer, std::size_t Count) const {
+    std::vector<T> Values(Count);
+    EXPECT_EQ(TheQueue.enqueueReadBuffer(Buffer, CL_TRUE, 0, Count * sizeof(T),
+                                         Values.data()),
+              CL_SUCCESS);
+    return Values;
+  }
+  void run(const cl::Kernel &Kernel, std::size_t Global,
+           std::size_t Local) const {
+    EXPECT_EQ(TheQueue.enqueueNDRangeKernel(Kernel, cl::NullRange,
+                                            cl::NDRange(Global),
+                                            cl::NDRange(Local)),
+              CL_SUCCESS);
+    EXPECT_EQ(TheQueue.finish(), CL_SUCCESS);
+  }
+
+private:
+  bool Usable = false;
+  cl::Device Chosen;
+  cl::Context TheContext;
+  cl::CommandQueue TheQueue;
+};
+
+} // namespace vorion::test
+
+/// In a test's body: skips it where there is no device.
+#define VORION_REQUIRE_DEVICE(DEVICE)                                          \
+  if (!(DEVICE).usable())                                                      \
+  GTEST_SKIP() << "no OpenCL device: source scripts/env.sh"
