@@ -1,0 +1,64 @@
+#include "vorion/isasim/Config.h"
+
+#include <gtest/gtest.h>
+
+using namespace vorion;
+using namespace vorion::isasim;
+
+static std::string wrongIn(std::string_view Json) {
+  const Expected<Config> C = parseConfig(Json, "file.json");
+  return C ? "" : C.error().Where + ": " + C.error().What;
+}
+
+TEST(Config, DefaultIsThePaperPrototype) {
+  const Config C;
+  EXPECT_EQ(C.cores(), 8U);
+  EXPECT_EQ(C.sockets(), 2U);
+  EXPECT_TRUE(validate(C));
+}
+
+TEST(Config, JsonRoundTrip) {
+  Config C;
+  C.Clusters = 4;
+  C.SocketsPerCluster = 4;
+  C.LanesPerWarp = 5;
+  C.GlobalBytes = 1 << 24;
+  C.MaxInstructions = 12345678901;
+  C.Raster.QueueDepth = 9;
+  const Expected<Config> Back = parseConfig(toJson(C), "");
+  ASSERT_TRUE(Back) << Back.error().What;
+  EXPECT_EQ(toJson(*Back), toJson(C));
+  EXPECT_EQ(Back->MaxInstructions, 12345678901U);
+}
+
+TEST(Config, MissingKeysKeepTheirDefault) {
+  const Expected<Config> C = parseConfig(R"({"lanes_per_warp": 4})", "");
+  ASSERT_TRUE(C);
+  EXPECT_EQ(C->LanesPerWarp, 4U);
+  EXPECT_EQ(C->CoresPerSocket, 4U);
+}
+
+TEST(Config, ErrorsNameTheKey) {
+  EXPECT_EQ(wrongIn(R"({"cores": 4})"), "file.json: unknown key 'cores'");
+  EXPECT_EQ(wrongIn(R"({"raster": {"deep": 4}})"),
+            "file.json: unknown key 'raster.deep'");
+  EXPECT_EQ(wrongIn(R"({"lanes_per_warp": "many"})"),
+            "file.json: lanes_per_warp: expected a whole number");
+  EXPECT_EQ(wrongIn(R"({"lanes_per_warp": -1})"),
+            "file.json: lanes_per_warp: expected a whole number");
+  EXPECT_EQ(wrongIn(R"({"lanes_per_warp": 17})"),
+            "file.json: lanes_per_warp is 17, expected 1 to 16");
+  EXPECT_EQ(wrongIn(R"({"stack_bytes": 5000})"),
+            "file.json: stack_bytes is 5000, expected a multiple of 4096");
+  EXPECT_EQ(wrongIn("[1]"), "file.json: expected a JSON object");
+  EXPECT_EQ(wrongIn(R"({"raster": 1})"),
+            "file.json: raster: expected a JSON object");
+  EXPECT_NE(wrongIn("{").find("not JSON"), std::string::npos);
+}
+
+TEST(Config, TheMemoryMapMustHaveRoom) {
+  EXPECT_EQ(wrongIn(R"({"clusters": 100, "sockets_per_cluster": 100})"),
+            "file.json: 40000 cores, expected at most 240");
+  EXPECT_NE(wrongIn(R"({"stack_bytes": 16777216})").find("the stacks take"),
+            std::string::npos);
+}

@@ -1,0 +1,199 @@
+/// Executables: good ones, each way of being bad, and every truncation.
+
+#include "testing/ElfBuilder.h"
+
+#include <random>
+
+using namespace vorion;
+using namespace vorion::isasim;
+using namespace vorion::isasim::testing;
+
+namespace {
+
+constexpr uint32_t Nop = 0x00000013;
+constexpr uint32_t Table = VX_IMAGE_BASE + 0x1000;
+
+ElfOptions good() {
+  ElfOptions O;
+  O.Segments = {{VX_IMAGE_BASE, PF_R | PF_X, {Nop, Nop}, 0}};
+  O.Symbols = {{"_start", VX_IMAGE_BASE}};
+  return O;
+}
+
+/// With a kernel "add" of two arguments.
+ElfOptions withKernel() {
+  ElfOptions O = good();
+  // Record, two arguments, then the names.
+  const uint32_t Args = Table + sizeof(VxKernel);
+  const uint32_t Names = Args + 2 * sizeof(VxKernelArg);
+  O.Segments.push_back({Table,
+                        PF_R,
+                        {Names,
+                         VX_IMAGE_BASE + 4,
+                         Args,
+                         2,
+                         8,
+                         12,
+                         256,
+                         16,
+                         1,
+                         1, // vx_kernel
+                         Names + 4,
+                         VX_ARG_GLOBAL,
+                         0,
+                         4,
+                         Names + 6,
+                         VX_ARG_VALUE,
+                         4,
+                         4,
+                         0x00646461 /* add */,
+                         0x006E0061 /* a, n */},
+                        0});
+  O.Symbols.push_back({"__start_vorion_kernels", Table});
+  O.Symbols.push_back({"__stop_vorion_kernels",
+                       Table + static_cast<uint32_t>(sizeof(VxKernel))});
+  return O;
+}
+
+std::string wrongIn(const ElfOptions &O) {
+  const auto I = Image::parse(buildElf(O), "x.elf");
+  return I ? "" : I.error().What;
+}
+
+} // namespace
+
+TEST(Image, ReadsSegmentsAndSymbols) {
+  ElfOptions O = good();
+  O.Segments.push_back({VX_IMAGE_BASE + 0x2000, PF_R | PF_W, {7, 8}, 100});
+  const auto I = Image::parse(buildElf(O), "x.elf");
+  ASSERT_TRUE(I) << I.error().What;
+  EXPECT_EQ((*I)->entry(), VX_IMAGE_BASE);
+  ASSERT_EQ((*I)->segments().size(), 2U);
+  EXPECT_TRUE((*I)->segments()[0].Executable);
+  EXPECT_TRUE((*I)->segments()[1].Writable);
+  EXPECT_EQ((*I)->segments()[1].MemBytes, 108U);
+  EXPECT_EQ((*I)->findSymbol("_start"), VX_IMAGE_BASE);
+  EXPECT_FALSE((*I)->findSymbol("nothing"));
+  EXPECT_EQ((*I)->symbolize(VX_IMAGE_BASE + 4), "_start+0x4");
+  EXPECT_EQ((*I)->symbolize(VX_IMAGE_BASE - 4), "");
+  EXPECT_EQ((*I)->bytesAt(VX_IMAGE_BASE + 0x2004, 4).size(), 4U);
+  EXPECT_TRUE((*I)->bytesAt(VX_IMAGE_BASE + 0x2006, 4).empty());
+}
+
+TEST(Image, ReadsTheKernelTable) {
+  const auto I = Image::parse(buildElf(withKernel()), "x.elf");
+  ASSERT_TRUE(I) << I.error().What;
+  ASSERT_EQ((*I)->kernels().size(), 1U);
+  const Kernel *K = (*I)->findKernel("add");
+  ASSERT_NE(K, nullptr);
+  EXPECT_EQ(K->Entry, VX_IMAGE_BASE + 4);
+  EXPECT_EQ(K->ArgsBytes, 8U);
+  EXPECT_EQ(K->ContextBytes, 12U);
+  EXPECT_EQ(K->LocalBytes, 256U);
+  EXPECT_EQ(K->LocalSize[0], 16U);
+  ASSERT_EQ(K->Args.size(), 2U);
+  EXPECT_EQ(K->Args[0].Name, "a");
+  EXPECT_EQ(K->Args[0].Kind, VX_ARG_GLOBAL);
+  EXPECT_EQ(K->Args[1].Name, "n");
+  EXPECT_EQ(K->Args[1].Offset, 4U);
+  EXPECT_EQ((*I)->findKernel("sub"), nullptr);
+}
+
+TEST(Image, RefusesOtherMachines) {
+  EXPECT_EQ(Image::parse({}, "x.elf").error().What,
+            "not an ELF file, expected a RISC-V executable");
+  ElfOptions O = good();
+  O.Class = ELFCLASS64;
+  EXPECT_EQ(wrongIn(O), "64-bit ELF file, expected 32-bit RISC-V");
+  O = good();
+  O.Data = ELFDATA2MSB;
+  EXPECT_EQ(wrongIn(O), "big-endian ELF file, expected little-endian RISC-V");
+  O = good();
+  O.Machine = EM_X86_64;
+  EXPECT_EQ(wrongIn(O), "machine number 62, expected 243 (RISC-V)");
+  O = good();
+  O.Type = ET_REL;
+  EXPECT_EQ(wrongIn(O),
+            "ELF type 1, expected 2 (executable); link the object first");
+  O = good();
+  O.Flags = 3;
+  EXPECT_EQ(wrongIn(O), "compressed instructions, expected code without the C "
+                        "extension");
+  O.Flags = 0;
+  EXPECT_EQ(wrongIn(O), "wrong floating-point ABI, expected ilp32f");
+  O.Flags = 10;
+  EXPECT_EQ(wrongIn(O), "RV32E code, expected RV32I");
+  O = good();
+  O.Segments.clear();
+  EXPECT_EQ(wrongIn(O), "no program headers, expected a linked executable");
+}
+
+TEST(Image, RefusesBadSegments) {
+  ElfOptions O = good();
+  O.Segments[0].Address = 0x10000;
+  EXPECT_EQ(wrongIn(O), "segment 0 at 0x00010000, 0x8 bytes, expected it "
+                        "within 0x80000000 and 0x81000000");
+  O = good();
+  O.Segments[0].ZeroBytes = VX_IMAGE_SIZE;
+  EXPECT_NE(wrongIn(O).find("expected it within"), std::string::npos);
+  O = good();
+  O.Segments.push_back({VX_IMAGE_BASE + 4, PF_R, {1}, 0});
+  EXPECT_EQ(wrongIn(O), "the segments at 0x80000000 and 0x80000004 overlap");
+  O = good();
+  O.Segments[0].Flags |= PF_W;
+  EXPECT_EQ(wrongIn(O), "the segment at 0x80000000 is writable code, expected "
+                        "code to be read-only");
+  O = good();
+  O.Entry = VX_IMAGE_BASE + 8;
+  EXPECT_EQ(wrongIn(O), "entry point 0x80000008, expected the address of an "
+                        "instruction in an executable segment");
+  O.Entry = VX_IMAGE_BASE + 2;
+  EXPECT_NE(wrongIn(O), "");
+}
+
+TEST(Image, RefusesBadKernelTables) {
+  ElfOptions O = withKernel();
+  O.Segments[1].Words[0] = 0x80FFFFFF; // name
+  EXPECT_EQ(wrongIn(O), "kernel table at 0x80001000: the name is not a string "
+                        "of the image");
+  O = withKernel();
+  O.Segments[1].Words[1] = Table; // entry
+  EXPECT_EQ(wrongIn(O), "kernel table at 0x80001000: entry 0x80001000 of 'add' "
+                        "is not code");
+  O = withKernel();
+  O.Segments[1].Words[3] = 1000000; // number of arguments
+  EXPECT_NE(wrongIn(O).find("1000000 arguments"), std::string::npos);
+  O = withKernel();
+  O.Segments[1].Words[2] = 0xFFFFFFF0; // address of arguments
+  EXPECT_NE(wrongIn(O).find("argument 0 of 'add' is not in the image"),
+            std::string::npos);
+  O = withKernel();
+  O.Segments[1].Words[12] = 6; // an argument beyond the end of them
+  EXPECT_NE(wrongIn(O).find("argument 0 of 'add' is malformed"),
+            std::string::npos);
+  O = withKernel();
+  O.Symbols[2].second -= 4;
+  EXPECT_EQ(wrongIn(O), "kernel table of 36 bytes, expected a multiple of 40");
+}
+
+TEST(Image, EveryTruncationIsAnError) {
+  const std::vector<std::byte> Whole = buildElf(withKernel());
+  ASSERT_TRUE(Image::parse(Whole, "x.elf"));
+  for (size_t Length = 0; Length != Whole.size(); ++Length)
+    EXPECT_FALSE(Image::parse(std::span(Whole).first(Length), "x.elf"))
+        << Length;
+}
+
+TEST(Image, SurvivesAnyChangedBytes) {
+  const std::vector<std::byte> Whole = buildElf(withKernel());
+  std::mt19937 Random(9);
+  for (int Try = 0; Try != 20000; ++Try) {
+    std::vector<std::byte> Bent = Whole;
+    for (auto Changes = 1 + Random() % 4; Changes; --Changes)
+      Bent[Random() % Bent.size()] = static_cast<std::byte>(Random());
+    // Whatever it is, it is an image or an error.
+    const auto I = Image::parse(Bent, "x.elf");
+    if (!I)
+      EXPECT_FALSE(I.error().What.empty());
+  }
+}
