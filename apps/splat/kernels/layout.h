@@ -3,6 +3,8 @@
 #ifndef SPLAT_LAYOUT_H
 #define SPLAT_LAYOUT_H
 
+// NOLINTBEGIN(readability-identifier-naming): OpenCL names, as in docs/abi.md.
+
 /// One projected Gaussian. The same bytes as `vx_gaussian` (docs/abi.md), which
 /// exists only where the device is a Vorion; rasterize.cl checks that.
 typedef struct {
@@ -42,5 +44,7 @@ enum {
 
 /// Depth key of a Gaussian that no tile sees; sorts behind every depth.
 enum { CULLED = -1 };
+
+// NOLINTEND(readability-identifier-naming)
 
 #endif

@@ -89,6 +89,7 @@ RenderPlan planRender(const Scene &S, const RenderOptions &Options) {
 std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
                                  const RenderOptions &Options) {
   std::vector<std::string> Lines;
+  Lines.reserve(Plan.Programs.size() + MaxShDegree + 5);
   for (const ProgramSpec &P : Plan.Programs)
     Lines.push_back(
         fmt::format("program {}: {}{}{}", P.Name, fmt::join(P.Files, " "),
