@@ -30,6 +30,7 @@ config.substitutions += [
 ]
 
 programs = ["vorion-clang", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
+            "isasim-decode-words",
             "splat", "splat-compare", "splat-fixture", "splat-reference"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")

@@ -157,6 +157,8 @@ std::string disassemble(uint32_t Word, uint32_t Pc) {
   if (!D)
     return fmt::format(".word 0x{:08x}", Word);
   std::string Text = D->info().Mnemonic;
+  if ((Word & 0x7F) == 0x2F) // AMO: the ordering bits are part of the name
+    Text += std::array{"", ".rl", ".aq", ".aqrl"}[bits(Word, 25, 2)];
   std::string_view Syntax = D->info().Syntax;
   // The default rounding mode is left out, with its comma.
   if (D->info().HasRm && D->Rm == DynamicRm)
