@@ -6,7 +6,7 @@ include "RISCV.td"
 // warp contend, and conditional zero because a select must not branch.
 def FeatureVendorXVortex
     : RISCVExtension<"xvortex", 2, 0, "'XVortex' (SIMT threads)",
-                     [FeatureStdExtZicsr, FeatureStdExtZacas, FeatureStdExtZicond]>;
+                     [FeatureStdExtZicsr, FeatureStdExtA, FeatureStdExtZacas, FeatureStdExtZicond]>;
 def HasVendorXVortex : Predicate<"Subtarget->hasVendorXVortex()">,
     AssemblerPredicate<(all_of FeatureVendorXVortex), "'XVortex' (SIMT threads)">;
 
