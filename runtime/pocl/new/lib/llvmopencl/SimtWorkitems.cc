@@ -38,6 +38,18 @@ FunctionCallee intrinsic(Module &M, StringRef Name, Type *Result,
   return Callee;
 }
 
+/// A barrier of the machine. The group is one warp, which passes at once; for
+/// the optimiser it keeps memory accesses in order and cannot be copied, so that no
+/// lane runs ahead of it on a path of its own.
+void createGroupBarrier(IRBuilder<> &Builder) {
+  Type *I32 = Builder.getInt32Ty();
+  FunctionCallee Bar =
+      intrinsic(*Builder.GetInsertBlock()->getModule(), "vorion.vx_bar",
+                Builder.getVoidTy(), {I32, I32});
+  Builder.CreateCall(Bar, {Builder.getInt32(0), Builder.getInt32(1)})
+      ->addFnAttr(Attribute::NoDuplicate);
+}
+
 /// A word of the launch block, which nothing changes during a run.
 LoadInst *loadLaunch(IRBuilder<> &Builder, Type *T, Value *Launch, size_t Offset) {
   LoadInst *Load = Builder.CreateLoad(
@@ -106,28 +118,28 @@ bool lowerSimtBarriers(Function &F) {
     for (Instruction &I : Block)
       if (isa<Barrier>(&I))
         Barriers.push_back(&I);
-
-  Type *I32 = Type::getInt32Ty(F.getContext());
+  // Loops over work-items begin with one of their own.
+  const bool Needed = fitsOneWarp(*F.getParent());
   for (Instruction *I : Barriers) {
-    BasicBlock *Block = I->getParent();
-    // Where there are loops, PoCL has put a barrier alone into the entry.
-    const bool AtStart =
-        Block == &F.getEntryBlock() && !fitsOneWarp(*F.getParent());
-    const bool AtEnd = isa<ReturnInst>(I->getNextNode());
-    if (!AtStart && !AtEnd) {
-      // One warp is the whole group: the barrier is passed at once. It costs an
-      // instruction and keeps the regions before and after apart.
-      FunctionCallee Bar =
-          intrinsic(*F.getParent(), "vorion.vx_bar", Type::getVoidTy(F.getContext()),
-                    {I32, I32});
+    if (Needed && !isa<ReturnInst>(I->getNextNode())) {
       IRBuilder<> Builder(I);
-      auto *Call = Builder.CreateCall(
-          Bar, {ConstantInt::get(I32, 0), ConstantInt::get(I32, 1)});
-      Call->addFnAttr(Attribute::NoDuplicate);
+      createGroupBarrier(Builder);
     }
     I->eraseFromParent();
   }
   return !Barriers.empty();
+}
+
+void anchorBarrierLoops(ArrayRef<Loop *> Loops) {
+  for (Loop *L : Loops) {
+    const bool HasBarrier = any_of(L->blocks(), [](BasicBlock *Block) {
+      return any_of(*Block, [](Instruction &I) { return isa<Barrier>(&I); });
+    });
+    if (!HasBarrier)
+      continue;
+    Barrier::Create(L->getHeader()->getFirstNonPHI());
+    anchorBarrierLoops(L->getSubLoops());
+  }
 }
 
 Value *createLaunchLoad(IRBuilder<> &Builder, Value *Launch, LaunchField Field,
@@ -228,6 +240,11 @@ SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
       P->getTerminator()->replaceSuccessorWith(Entry, Init);
 
   IRBuilder<> Builder(Init);
+  // Also keeps a loop of the kernel that begins with this one apart from it: one
+  // header for both would let lanes without a work-item in the last pass
+  // go on while others are in it.
+  if (!PeeledFirst)
+    createGroupBarrier(Builder);
   Constant *First = number(PeeledFirst ? Lanes : 0);
   Builder.CreateStore(First, BaseVar);
   if (PeeledFirst)
@@ -256,6 +273,7 @@ SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
 
 void SimtLoops::setFirstPass(BasicBlock *Entry) {
   IRBuilder<> Builder(&*Entry->getFirstInsertionPt());
+  createGroupBarrier(Builder);
   Builder.CreateStore(Lane, LinearVar);
   storeLocalIds(Builder, Lane);
 }

@@ -14,6 +14,7 @@
 #ifndef POCL_SIMT_WORKITEMS_H
 #define POCL_SIMT_WORKITEMS_H
 
+#include <llvm/Analysis/LoopInfo.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/Module.h>
 
@@ -40,10 +41,13 @@ bool fitsOneWarp(const llvm::Module &M);
 /// change; all work-items share the one in the argument buffer.
 void copyWrittenByvalArguments(llvm::Module &M);
 
-/// Replaces the barriers that order memory by the machine's, and removes those
-/// at the kernel's start and end. What is left stops later passes from moving
-/// or copying code across.
+/// Removes PoCL's barriers, where there are no loops in favour of the machine's.
 bool lowerSimtBarriers(llvm::Function &F);
+
+/// Puts a barrier at the head of each loop that has one anywhere. Otherwise an
+/// inner loop at its head may come to share its header, and lanes that have left the
+/// inner loop would pass the barrier while others are in it.
+void anchorBarrierLoops(llvm::ArrayRef<llvm::Loop *> Loops);
 
 /// What kernels ask of a launch block.
 enum class LaunchField { NumGroups, GlobalOffset, LocalSize, WorkDim };
@@ -93,7 +97,7 @@ public:
     return createLoopAround(InRegion, Entry, Exit, PeeledFirst);
   }
 
-  /// Sets the local ids of the first pass at the start of \p Entry.
+  /// Makes \p Entry the start of a first pass outside any loop.
   void setFirstPass(llvm::BasicBlock *Entry);
 
   /// The branch decides between regions: every work-item takes the same way.

@@ -26,10 +26,6 @@ using namespace vorion;
 
 namespace {
 
-/// Part of the key of cached binaries: to be raised whenever this driver or the
-/// work-group passes make other code of the same source.
-constexpr const char *CodeVersion = "1";
-
 constexpr const char *Extensions =
     "cl_khr_byte_addressable_store cl_khr_global_int32_base_atomics "
     "cl_khr_global_int32_extended_atomics cl_khr_local_int32_base_atomics "
@@ -138,7 +134,7 @@ cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
   if (vx_device_get_info(Opened, &Own->Info) != VX_OK)
     return CL_DEVICE_NOT_AVAILABLE;
   const vx_device_info &Info = Own->Info;
-  Own->BuildHash = "vorion-xvortex2-xvorion1-" + std::to_string(Info.lanes) + "-" + CodeVersion + "-" +
+  Own->BuildHash = "vorion-xvortex2-xvorion1-" + std::to_string(Info.lanes) + "-" +
                    Own->Kernels.tools().fingerprint();
   describeDevice(Device, Info);
   describeCompilation(Device, Info);

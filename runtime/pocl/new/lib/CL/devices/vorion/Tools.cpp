@@ -18,12 +18,12 @@ namespace vorion {
 namespace {
 
 /// Any address of this library serves to find its file.
-fs::path libraryFolder() {
+fs::path libraryFile() {
   Dl_info Info;
-  if (!dladdr(reinterpret_cast<void *>(&libraryFolder), &Info))
+  if (!dladdr(reinterpret_cast<void *>(&libraryFile), &Info))
     return {};
   std::error_code Error;
-  return fs::canonical(Info.dli_fname, Error).parent_path();
+  return fs::canonical(Info.dli_fname, Error);
 }
 
 /// Where a message of a tool is cut off.
@@ -36,7 +36,7 @@ Tools::Tools() {
   if (const char *Given = std::getenv("VORION_ROOT"))
     Places.emplace_back(Given);
   else
-    for (fs::path Folder = libraryFolder();
+    for (fs::path Folder = libraryFile().parent_path();
          Folder.has_relative_path() && Places.size() < 4;
          Folder = Folder.parent_path())
       Places.push_back(Folder);
@@ -48,12 +48,13 @@ Tools::Tools() {
     }
   Problem = "cannot find bin/vorion-clang below " +
             (std::getenv("VORION_ROOT") ? std::string("VORION_ROOT")
-                                        : libraryFolder().string() + " or above; "
+                                        : libraryFile().parent_path().string() + " or above; "
                                           "set VORION_ROOT");
 }
 
 std::string Tools::fingerprint() const {
-  std::vector<fs::path> Files = {fs::path(Root) / "bin" / "vorion-clang",
+  std::vector<fs::path> Files = {libraryFile(),
+                                 fs::path(Root) / "bin" / "vorion-clang",
                                  fs::path(Root) / "bin" / "vorion-link"};
   std::error_code Error;
   for (const char *Folder : {"lib/vorion", "include/vorion"})

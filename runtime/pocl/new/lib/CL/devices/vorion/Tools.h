@@ -19,8 +19,8 @@ public:
   /// Headers for kernels.
   std::string includeFolder() const { return Root + "/include/vorion"; }
 
-  /// Changes whenever a tool or the device library does. Part of the key of
-  /// cached binaries.
+  /// Changes whenever this library, a tool or the device library does. Part of
+  /// the key of cached binaries.
   std::string fingerprint() const;
 
   /// Bitcode to a relocatable object. Empty on success, else the tool's output.
