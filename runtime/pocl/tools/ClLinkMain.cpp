@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <spawn.h>
 #include <string>
@@ -160,12 +161,16 @@ Expected<Success> compile(const CommandLine &Line, const fs::path &Root) {
     const fs::path Cache = Folder.Path / std::to_string(I);
     fs::create_directory(Cache);
     setenv("POCL_CACHE_DIR", Cache.c_str(), 1);
-    // The compiler sees text without a name: what stands beside the file is
-    // found by its folder.
+    // The compiler sees text without a name, so a copy names its origin, for
+    // messages and debuggers; headers beside the file are found by its folder.
+    const fs::path Copy = Folder.Path / "input.cl";
+    std::ifstream Source(Input, std::ios::binary);
+    std::ofstream(Copy, std::ios::binary)
+        << "#line 1 \"" << Input.string() << "\"\n" << Source.rdbuf();
     const std::string Beside = fs::absolute(Input).parent_path().string();
     if (!run({(Root / "pocl/bin/poclcc").string(), "-b",
               Line.BuildOptions + "-I\"" + Beside + "\"", "-o",
-              (Folder.Path / "binary").string(), Input.string()}))
+              (Folder.Path / "binary").string(), Copy.string()}))
       return Error{Input.string(), "does not compile"};
     Expected<std::vector<std::string>> Objects = findObjects(Cache, Input.string());
     if (!Objects)

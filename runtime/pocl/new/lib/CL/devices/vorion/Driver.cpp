@@ -29,7 +29,10 @@ namespace {
 constexpr const char *Extensions =
     "cl_khr_byte_addressable_store cl_khr_global_int32_base_atomics "
     "cl_khr_global_int32_extended_atomics cl_khr_local_int32_base_atomics "
-    "cl_khr_local_int32_extended_atomics cl_khr_int64 " CL_VORION_EXTENSION_NAME;
+    "cl_khr_local_int32_extended_atomics " CL_VORION_EXTENSION_NAME;
+
+/// What the runtime gives a launch.
+constexpr size_t PrintBufferBytes = 1u << 20;
 
 /// "VO" of Vorion; there is no PCI vendor number.
 constexpr cl_uint VendorId = 0x564F;
@@ -99,6 +102,9 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->preferred_vector_width_half = Device->native_vector_width_half = 0;
   Device->native_vector_width_in_bits = 0;
   Device->image_support = CL_FALSE;
+  Device->num_builtin_kernels = 0;
+  POCL_MEM_FREE(Device->builtin_kernel_list);
+  Device->printf_buffer_size = PrintBufferBytes;
   Device->max_sub_devices = 0;
   Device->num_partition_properties = 0;
   Device->partition_properties = nullptr;
@@ -202,10 +208,15 @@ void release(cl_device_id Device, cl_mem Buffer) {
 
 void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
                    cl_device_id Device, int Specialize) {
-  // What goes wrong is in the build log; a run of the kernel fails its event.
+  // PoCL asks for this when a program's binary is wanted, and no error is
+  // possible; it is in the build log too, and a run of the kernel fails its event.
   std::string Path;
-  if (Command && Command->type == CL_COMMAND_NDRANGE_KERNEL)
-    deviceOf(Device).Kernels.compile(Command, Kernel, Specialize, Path);
+  if (!Command || Command->type != CL_COMMAND_NDRANGE_KERNEL)
+    return;
+  const std::string Problem =
+      deviceOf(Device).Kernels.compile(Command, Kernel, Specialize, Path);
+  if (!Problem.empty())
+    fprintf(stderr, "vorion: error: %s\n", Problem.c_str());
 }
 
 int freeProgram(cl_device_id Device, cl_program Program, unsigned Index) {
