@@ -86,7 +86,7 @@ TEST_F(Runtime, RunsAKernelOnEveryCore) {
 TEST_F(Runtime, ListsKernelsAndArguments) {
   std::uint32_t Count = 0;
   ASSERT_EQ(vx_image_num_kernels(Image, &Count), VX_OK);
-  EXPECT_EQ(Count, 9u);
+  EXPECT_EQ(Count, 10u);
   vx_kernel_info Kernel{};
   ASSERT_EQ(vx_image_get_kernel(Image, find("copy_launch"), &Kernel), VX_OK);
   EXPECT_STREQ(Kernel.name, "copy_launch");
@@ -224,6 +224,26 @@ TEST_F(Runtime, RunsAProgramWithoutALaunchBlock) {
   EXPECT_EQ(Result.outcome, VX_OUTCOME_EXIT);
   EXPECT_EQ(Result.exit_code, 3u);
   EXPECT_STREQ(Result.console_text, "m\nm\nm\nm\nm\nm\nm\nm\n");
+}
+
+TEST(RuntimeConsole, KeepsABoundedPart) {
+  vx_device *Device = nullptr;
+  ASSERT_EQ(vx_device_open("{\"cores_per_socket\": 1}", &Device), VX_OK);
+  vx_image *Image = nullptr;
+  ASSERT_EQ(vx_image_load_file(Device, Elf, &Image), VX_OK);
+  std::uint32_t Kernel = 0;
+  ASSERT_EQ(vx_image_find_kernel(Image, "chatter", &Kernel), VX_OK);
+  const vx_launch_params Params{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+  const std::uint32_t Words = (1 << 20) + 100;
+  ASSERT_EQ(vx_start(Device, Image, Kernel, &Params, &Words, 4), VX_OK);
+  vx_result Result{};
+  ASSERT_EQ(vx_wait(Device, &Result), VX_OK);
+  EXPECT_EQ(Result.console_bytes, std::size_t{1} << 20);
+  // The last line may have been ended for the program.
+  EXPECT_GE(Result.console_dropped, 100u);
+  EXPECT_LE(Result.console_dropped, 101u);
+  EXPECT_EQ(vx_image_free(Image), VX_OK);
+  EXPECT_EQ(vx_device_close(Device), VX_OK);
 }
 
 TEST_F(Runtime, NoGroupsRunNothing) {

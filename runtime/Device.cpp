@@ -2,6 +2,7 @@
 #include "Limits.h"
 #include "vorion_abi.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -12,7 +13,14 @@ Device::Device(std::unique_ptr<isasim::Machine> TheMachine)
     : Machine(std::move(TheMachine)),
       ConfigText(isasim::toJson(Machine->config())),
       Memory(VX_GLOBAL_BASE, Machine->config().GlobalBytes) {
-  Machine->setConsole([this](std::string_view Text) { ConsoleText += Text; });
+  Machine->setConsole([this](std::string_view Text) { keepConsole(Text); });
+}
+
+void Device::keepConsole(std::string_view Text) {
+  const std::size_t Kept =
+      std::min(Text.size(), ConsoleBytes - ConsoleText.size());
+  ConsoleText += Text.substr(0, Kept);
+  ConsoleDropped += Text.size() - Kept;
 }
 
 Device::~Device() {
@@ -176,6 +184,7 @@ void Device::launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock) {
     Runner.join(); // it has ended: Running is false
   makeCurrent(Image);
   ConsoleText.clear();
+  ConsoleDropped = 0;
   BugText.clear();
   // The thread ends only after this call has given up the lock, so Running is
   // set before it is reset; a thread that cannot be had leaves nothing set.
@@ -262,6 +271,7 @@ Failure Device::wait(vx_result &Result) {
   Result.print_dropped = PrintDropped;
   Result.console_text = ConsoleText.c_str();
   Result.console_bytes = ConsoleText.size();
+  Result.console_dropped = ConsoleDropped;
   Result.host_seconds = Last.HostSeconds;
   vx_counters &C = Result.counters;
   C.warp_instructions = Last.Total.WarpInstructions;

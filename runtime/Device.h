@@ -53,6 +53,7 @@ private:
   using Lock = std::unique_lock<std::mutex>;
 
   void waitForRun(Lock &Held);
+  void keepConsole(std::string_view Text);
   Failure allocateLocked(std::uint64_t Size, const char *What,
                          std::uint32_t &Address);
   Failure globalRange(std::uint32_t Address, std::uint64_t Size,
@@ -80,7 +81,7 @@ private:
   isasim::RunResult Last;
   std::string PrintText, ConsoleText;
   std::string BugText; ///< of an exception out of the simulator, else empty
-  std::uint64_t PrintDropped = 0;
+  std::uint64_t PrintDropped = 0, ConsoleDropped = 0;
 };
 
 /// Whether \p Kernel can run with \p Params on a machine with \p LocalBytes of

@@ -105,6 +105,16 @@ exit_seven:
     sw      t0, VX_IO_EXIT(zero)
     ret
 
+# chatter(uint words): lane 0 of core 0 stores so many console words
+chatter:
+    bnez    a2, 2f
+    lw      t0, 0(a0)
+    li      t1, 'c'
+1:  sw      t1, VX_IO_CONSOLE(zero)
+    addi    t0, t0, -1
+    bnez    t0, 1b
+2:  ret
+
     .data
     .p2align 2
 counter: .word 40
@@ -122,6 +132,7 @@ name_\label: .asciz "\text"
     name hang, "hang"
     name forever, "forever"
     name exit_seven, "exit_seven"
+    name chatter, "chatter"
     name out, "out"
     name value, "value"
     name first, "first"
@@ -154,3 +165,4 @@ args_print:
     kernel hang, 0, 0, 0
     kernel forever, 0, 0, 0
     kernel exit_seven, 0, 0, 0
+    kernel chatter, args_print, 1, 4

@@ -203,6 +203,7 @@ typedef struct vx_result {
   uint64_t print_dropped;   /* bytes that did not fit the print buffer */
   const char *console_text; /* what was stored to the console word */
   size_t console_bytes;
+  uint64_t console_dropped; /* bytes beyond the first MiB, which is kept */
   double host_seconds;
   vx_counters counters;
 } vx_result;
