@@ -156,7 +156,7 @@ bool LowerDivergence::checkCode(Function &F, FunctionAnalysisManager &Analyses) 
     Good = false;
   };
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
-  for (Instruction &I : instructions(F)) {
+  for (Instruction &I : make_early_inc_range(instructions(F))) {
     if (isa<IndirectBrInst, CallBrInst>(I))
       fail(I, "a computed jump: lanes cannot be kept together across it");
     else if (isa<InvokeInst, ResumeInst>(I))
@@ -164,10 +164,16 @@ bool LowerDivergence::checkCode(Function &F, FunctionAnalysisManager &Analyses) 
     auto *Call = dyn_cast<CallBase>(&I);
     if (!Call)
       continue;
-    Good &= checkIntrinsicCall(*Call);
     if (Call->isIndirectCall() && Uniform.isDivergent(Call->getCalledOperand()))
       fail(I, "a call through a pointer in which lanes may differ; use "
               "vx_uniform if they cannot");
+    if (!checkIntrinsicCall(*Call)) {
+      // Selection would stop at it before the next error is found.
+      Good = false;
+      if (!Call->getType()->isVoidTy())
+        Call->replaceAllUsesWith(PoisonValue::get(Call->getType()));
+      Call->eraseFromParent();
+    }
   }
   return Good;
 }
