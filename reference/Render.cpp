@@ -121,15 +121,14 @@ public:
       : Splats(Splats), O(O), P(P), Grid(O.TileSize, P.Width, P.Height),
         Cutoff(static_cast<Real>(O.Cutoff)),
         Background(O.Background[0], O.Background[1], O.Background[2]),
-        Lists(static_cast<std::size_t>(Grid.Columns) *
-              static_cast<std::size_t>(Grid.Rows)) {
+        Lists(Grid.count()) {
     // As tileLists, but with everything whose place in a list is doubtful.
     for (const std::uint32_t I : depthOrder(Splats)) {
       const Rect R =
           outerTiles(borderOf(Splats[I], O.Reach, P.Width, P.Height), Grid);
       for (int Y = R.Y0; Y < R.Y1; ++Y)
         for (int X = R.X0; X < R.X1; ++X)
-          Lists[static_cast<std::size_t>(Y * Grid.Columns + X)].push_back(I);
+          Lists[Grid.index(X, Y)].push_back(I);
     }
   }
 

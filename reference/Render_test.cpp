@@ -23,7 +23,7 @@ Picture<double> renderRound(const Gaussians<double> &G, const Options &O) {
   return render(G, frontCamera(Side, Side, 50), O);
 }
 
-std::size_t at(int X, int Y) { return static_cast<std::size_t>(Y * Side + X); }
+std::size_t at(int X, int Y) { return std::size_t(Side) * Y + X; }
 
 TEST(Render, OneGaussianHasItsClosedForm) {
   Gaussians<double> G;

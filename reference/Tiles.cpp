@@ -96,13 +96,12 @@ template <typename Real>
 TileLists tileLists(const std::vector<Splat<Real>> &Splats, Support Reach,
                     int TileSize, int Width, int Height) {
   TileLists T{TileGrid(TileSize, Width, Height), {}};
-  T.Lists.resize(static_cast<std::size_t>(T.Grid.Columns) *
-                 static_cast<std::size_t>(T.Grid.Rows));
+  T.Lists.resize(T.Grid.count());
   for (const std::uint32_t I : depthOrder(Splats)) {
     const Rect R = tilesOf(Splats[I], Reach, T.Grid);
     for (int Y = R.Y0; Y < R.Y1; ++Y)
       for (int X = R.X0; X < R.X1; ++X)
-        T.Lists[static_cast<std::size_t>(Y * T.Grid.Columns + X)].push_back(I);
+        T.Lists[T.Grid.index(X, Y)].push_back(I);
   }
   return T;
 }

@@ -22,6 +22,12 @@ struct TileGrid {
   int Columns = 0;
   int Rows = 0;
   TileGrid(int Size, int Width, int Height);
+
+  /// Tiles of the grid, and the place of one among them, row by row.
+  std::size_t count() const { return index(0, Rows); }
+  std::size_t index(int Column, int Row) const {
+    return std::size_t(Row) * std::size_t(Columns) + std::size_t(Column);
+  }
 };
 
 /// The tiles whose area [t Size, (t + 1) Size) meets the box mean +- extent:

@@ -97,8 +97,7 @@ TEST(Tiles, EveryPixelThatCountsIsInAList) {
                            2 * S.Conic[1] * Dx * Dy;
           if (S.Opacity * std::exp(-Q / 2) < 1.0000001 / 255)
             continue;
-          const auto &List = T.Lists[static_cast<std::size_t>(
-              Y / Size * T.Grid.Columns + X / Size)];
+          const auto &List = T.Lists[T.Grid.index(X / Size, Y / Size)];
           ASSERT_NE(std::find(List.begin(), List.end(), I), List.end());
         }
     }

@@ -12,7 +12,6 @@
 
 using namespace vorion;
 using namespace vorion::test;
-using reference::Rules;
 using reference::Support;
 
 namespace {

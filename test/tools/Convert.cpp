@@ -60,8 +60,7 @@ reference::Camera<Real> toReference(const splat::Camera &C) {
   const auto Translation = C.worldToCameraTranslation();
   for (int I = 0; I < 3; ++I) {
     for (int J = 0; J < 3; ++J)
-      R.Rotation[J][I] =
-          static_cast<Real>(Rotation[static_cast<std::size_t>(3 * I + J)]);
+      R.Rotation[J][I] = static_cast<Real>(Rotation[std::size_t(3) * I + J]);
     R.Translation[I] =
         static_cast<Real>(Translation[static_cast<std::size_t>(I)]);
     R.Centre[I] = static_cast<Real>(C.Position[static_cast<std::size_t>(I)]);
@@ -69,9 +68,8 @@ reference::Camera<Real> toReference(const splat::Camera &C) {
   R.Focal = {C.Fx, C.Fy};
   R.Principal = {C.Cx, C.Cy};
   for (int J = 0; J < 3; ++J)
-    R.DepthAxisLow[J] =
-        static_cast<Real>(Rotation[static_cast<std::size_t>(6 + J)] -
-                          static_cast<double>(R.Rotation[J][2]));
+    R.DepthAxisLow[J] = static_cast<Real>(
+        Rotation[std::size_t(6) + J] - static_cast<double>(R.Rotation[J][2]));
   R.DepthOffsetLow =
       static_cast<Real>(Translation[2] - static_cast<double>(R.Translation.z));
   return R;
@@ -171,8 +169,11 @@ template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P) {
   const auto W = static_cast<std::size_t>(P.Width);
   std::vector<Real> Alpha;
   std::vector<std::uint8_t> Threshold, Order;
+  Alpha.reserve(P.Transmittance.size());
   for (const Real T : P.Transmittance)
     Alpha.push_back(1 - T);
+  Threshold.reserve(P.Doubts.size());
+  Order.reserve(P.Doubts.size());
   for (const std::uint8_t D : P.Doubts) {
     Threshold.push_back((D & reference::DoubtThreshold) != 0);
     Order.push_back((D & reference::DoubtOrder) != 0);

@@ -99,8 +99,8 @@ Expected<Fixture> readFixture(const std::string &Path) {
   C.Height = static_cast<int>(Height[0]);
   for (int I = 0; I < 3; ++I) {
     for (int J = 0; J < 3; ++J)
-      C.Rotation[J][I] = V[static_cast<std::size_t>(4 * I + J)];
-    C.Translation[I] = V[static_cast<std::size_t>(4 * I + 3)];
+      C.Rotation[J][I] = V[std::size_t(4) * I + J];
+    C.Translation[I] = V[std::size_t(4) * I + 3];
   }
   // As both makers of fixtures have it, for which R is a rotation exactly.
   C.Centre = -(glm::transpose(C.Rotation) * C.Translation);

@@ -70,7 +70,8 @@ Expected<Npz> readNpz(const std::string &Path) {
   const Archive Z(zip_open_from_source(Memory.get(), ZIP_RDONLY, &E));
   if (!Z)
     return Error{Path, fmt::format("not an .npz archive: {}", describe(E))};
-  (void)Memory.release(); // the archive owns it now
+  // The archive owns it now.
+  [[maybe_unused]] zip_source_t *Given = Memory.release();
   zip_error_fini(&E);
   Npz Arrays;
   const zip_int64_t Entries = zip_get_num_entries(Z.get(), 0);
@@ -124,7 +125,7 @@ Expected<Success> writeNpz(const std::string &Path, const Npz &Arrays) {
   }
   if (zip_close(Z.get()) != 0)
     return Error{Path, zip_strerror(Z.get()), ExitCode::Internal};
-  (void)Z.release();
+  [[maybe_unused]] zip_t *Closed = Z.release();
 
   zip_stat_t Stat;
   if (zip_source_stat(Memory.get(), &Stat) != 0 ||
