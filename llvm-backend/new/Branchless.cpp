@@ -26,7 +26,8 @@ public:
   /// An instruction with a new integer register as its result.
   template <typename... Registers>
   Register emit(unsigned Opcode, Registers... Sources) {
-    return emitTo(MRI.createVirtualRegister(&RISCV::GPRRegClass), Opcode, Sources...);
+    return emitTo(MRI.createVirtualRegister(&RISCV::GPRRegClass), Opcode,
+                  Sources...);
   }
   Register emitImm(unsigned Opcode, Register Source, int64_t Imm) {
     Register To = MRI.createVirtualRegister(&RISCV::GPRRegClass);
@@ -111,7 +112,8 @@ public:
     MachineInstrBuilder FromInteger =
         build(RISCV::FCVT_S_W, Back).addReg(Integer).addImm(Mode);
     if (Mode == RISCVFPRndMode::DYN)
-      for (MachineInstrBuilder &MIB : {std::ref(ToInteger), std::ref(FromInteger)})
+      for (MachineInstrBuilder &MIB :
+           {std::ref(ToInteger), std::ref(FromInteger)})
         MIB.addReg(RISCV::FRM, RegState::Implicit);
     // -0.0 and what rounds to it keep their sign.
     Register Signed = emitTo(floatRegister(), RISCV::FSGNJ_S, Back, From);
@@ -136,7 +138,8 @@ SDValue vorion::lowerFloatSelect(SDValue Select, SelectionDAG &DAG,
   auto bitsOf = [&](unsigned Operand) {
     return DAG.getBitcast(MVT::i32, Select.getOperand(Operand));
   };
-  SDValue Bits = DAG.getSelect(DL, MVT::i32, Select.getOperand(0), bitsOf(1), bitsOf(2));
+  SDValue Bits =
+      DAG.getSelect(DL, MVT::i32, Select.getOperand(0), bitsOf(1), bitsOf(2));
   return DAG.getBitcast(MVT::f32, Bits);
 }
 

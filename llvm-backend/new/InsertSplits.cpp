@@ -41,7 +41,8 @@ struct Split {
 class SplitInserter {
 public:
   SplitInserter(Function &F, FunctionAnalysisManager &Analyses)
-      : F(F), M(*F.getParent()), Uniform(Analyses.getResult<UniformityInfoAnalysis>(F)),
+      : F(F), M(*F.getParent()),
+        Uniform(Analyses.getResult<UniformityInfoAnalysis>(F)),
         Dominators(Analyses.getResult<DominatorTreeAnalysis>(F)),
         PostDominators(Analyses.getResult<PostDominatorTreeAnalysis>(F)),
         Loops(Analyses.getResult<LoopAnalysis>(F)) {}
@@ -58,19 +59,22 @@ public:
   }
 
 private:
-  CallInst *callBefore(Instruction *Before, StringRef Name, ArrayRef<Value *> Arguments = {}) {
-    CallInst *Call = CallInst::Create(vorion::declareIntrinsic(M, Name), Arguments, "", Before->getIterator());
+  CallInst *callBefore(Instruction *Before, StringRef Name,
+                       ArrayRef<Value *> Arguments = {}) {
+    CallInst *Call = CallInst::Create(vorion::declareIntrinsic(M, Name),
+                                      Arguments, "", Before->getIterator());
     Call->setDebugLoc(F.getSubprogram() ? Before->getDebugLoc() : DebugLoc());
     return Call;
   }
-
 
   Value *condition(BranchInst *Branch) {
     IRBuilder<> Builder(Branch);
     return Builder.CreateZExt(Branch->getCondition(), Builder.getInt32Ty());
   }
 
-  Value *zero() { return ConstantInt::get(Type::getInt32Ty(F.getContext()), 0); }
+  Value *zero() {
+    return ConstantInt::get(Type::getInt32Ty(F.getContext()), 0);
+  }
 
   /// Sorts the divergent branches into splits, by where they meet, and
   /// predicated loops.
@@ -82,7 +86,8 @@ private:
       auto *Branch = cast<BranchInst>(Block->getTerminator());
       Loop *L = Loops.getLoopFor(Block);
       if (L && L->isLoopExiting(Block)) {
-        if (vorion::soleExit(*L, Dominators) == Branch && L->getLoopPreheader()) {
+        if (vorion::soleExit(*L, Dominators) == Branch &&
+            L->getLoopPreheader()) {
           PredicatedLoops.push_back({L, Branch});
           continue;
         }
@@ -91,8 +96,10 @@ private:
         continue;
       }
       const auto *Node = PostDominators.getNode(Block);
-      BasicBlock *Meeting = Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
-      if (!Meeting || Loops.getLoopFor(Meeting) != L || Loops.isLoopHeader(Meeting)) {
+      BasicBlock *Meeting =
+          Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
+      if (!Meeting || Loops.getLoopFor(Meeting) != L ||
+          Loops.isLoopHeader(Meeting)) {
         vorion::refuse(*Branch, "a branch after which lanes do not meet");
         Good = false;
         continue;
@@ -118,13 +125,15 @@ private:
     SSAUpdater Token;
     Token.Initialize(S.Token->getType(), "token");
     Token.AddAvailableValue(S.block(), S.Token);
-    BasicBlock *Start = Dominators.findNearestCommonDominator(S.block(), Meeting);
+    BasicBlock *Start =
+        Dominators.findNearestCommonDominator(S.block(), Meeting);
     while (Loops.getLoopFor(Start) != Loops.getLoopFor(Meeting))
       Start = Dominators.getNode(Start)->getIDom()->getBlock();
     Token.AddAvailableValue(Start, depthBehind(Start));
     for (unsigned Other = 0; Other < Splits.size(); ++Other) {
       BasicBlock *Block = Splits[Other].block();
-      if (Other != Index && Block != Start && Dominators.dominates(Start, Block) &&
+      if (Other != Index && Block != Start &&
+          Dominators.dominates(Start, Block) &&
           isOpenAt(Splits[Other], Other, Meeting, Index))
         Token.AddAvailableValue(Block, depthBehind(Block));
     }
@@ -133,7 +142,8 @@ private:
 
   /// Whether a path that has come through \p S may reach the join of split
   /// \p Index at \p Meeting before S's own.
-  bool isOpenAt(const Split &S, unsigned Other, BasicBlock *Meeting, unsigned Index) {
+  bool isOpenAt(const Split &S, unsigned Other, BasicBlock *Meeting,
+                unsigned Index) {
     if (S.Meeting == Meeting)
       return Other < Index;
     df_iterator_default_set<BasicBlock *, 16> Seen;
@@ -155,9 +165,11 @@ private:
 
   /// Lanes that leave \p L wait at the exit until all have.
   void insertPredicate(const Loop &L, BranchInst *Exit) {
-    CallInst *Mask = callBefore(L.getLoopPreheader()->getTerminator(), "vx_active_threads");
+    CallInst *Mask =
+        callBefore(L.getLoopPreheader()->getTerminator(), "vx_active_threads");
     bool StaysIfTrue = L.contains(Exit->getSuccessor(0));
-    callBefore(Exit, StaysIfTrue ? "vx_pred" : "vx_pred_n", {condition(Exit), Mask});
+    callBefore(Exit, StaysIfTrue ? "vx_pred" : "vx_pred_n",
+               {condition(Exit), Mask});
   }
 
   Function &F;

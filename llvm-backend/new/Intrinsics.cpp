@@ -74,7 +74,8 @@ Function *vorion::declareIntrinsic(Module &M, StringRef Name) {
   auto *Signature = FunctionType::get(
       I->HasResult ? Int : Type::getVoidTy(M.getContext()),
       SmallVector<Type *, 2>(I->Inputs, Int), /*isVarArg=*/false);
-  auto *F = cast<Function>(M.getOrInsertFunction(FullName, Signature).getCallee());
+  auto *F =
+      cast<Function>(M.getOrInsertFunction(FullName, Signature).getCallee());
   F->addFnAttr(Attribute::Convergent);
   F->addFnAttr(Attribute::NoMerge);
   F->addFnAttr(Attribute::NoUnwind);
@@ -105,11 +106,11 @@ bool vorion::selectIntrinsic(SDNode *Node, SelectionDAG &DAG,
   SDLoc DL(Node);
   if (!(I.NeedsXVorion ? Subtarget.hasVendorXVorion()
                        : Subtarget.hasVendorXVortex()))
-    DAG.getContext()->diagnose(DiagnosticInfoUnsupported(
-        DAG.getMachineFunction().getFunction(),
-        I.Name + " needs -march with " +
-            (I.NeedsXVorion ? "xvorion" : "xvortex"),
-        DL.getDebugLoc()));
+    DAG.getContext()->diagnose(
+        DiagnosticInfoUnsupported(DAG.getMachineFunction().getFunction(),
+                                  I.Name + " needs -march with " +
+                                      (I.NeedsXVorion ? "xvorion" : "xvortex"),
+                                  DL.getDebugLoc()));
 
   SmallVector<SDValue, 2> Inputs(drop_begin(Node->op_values(), HasChain + 1));
   if (I.Opcode == TargetOpcode::COPY) {
@@ -125,11 +126,11 @@ bool vorion::selectIntrinsic(SDNode *Node, SelectionDAG &DAG,
     Operands.push_back(DAG.getTargetConstant(I.CSR, DL, MVT::i32));
   if (I.Opcode == RISCV::CSRRS)
     Operands.push_back(DAG.getRegister(RISCV::X0, MVT::i32));
-  // A constant 0 is x0 at every optimisation level; VerifySplits.cpp tells by it
-  // the split that only asks for the depth.
+  // A constant 0 is x0 at every optimisation level; VerifySplits.cpp tells by
+  // it the split that only asks for the depth.
   for (SDValue Input : Inputs)
-    Operands.push_back(isNullConstant(Input) ? DAG.getRegister(RISCV::X0, MVT::i32)
-                                             : Input);
+    Operands.push_back(
+        isNullConstant(Input) ? DAG.getRegister(RISCV::X0, MVT::i32) : Input);
   if (HasChain)
     Operands.push_back(Node->getOperand(0));
 

@@ -26,8 +26,8 @@
 #include "llvm/IR/DiagnosticInfo.h"
 #include "llvm/IR/Dominators.h"
 #include "llvm/IR/InstIterator.h"
-#include "llvm/IR/PassInstrumentation.h"
 #include "llvm/IR/Instructions.h"
+#include "llvm/IR/PassInstrumentation.h"
 #include "llvm/Pass.h"
 #include "llvm/Target/TargetMachine.h"
 #include "llvm/Transforms/Utils/FixIrreducible.h"
@@ -45,7 +45,8 @@ void vorion::refuse(const Instruction &At, const Twine &Why) {
 bool vorion::branchesApart(UniformityInfo &Uniform, const BasicBlock &Block) {
   // A return of a value that lanes differ in is a divergent terminator, too.
   const auto *Branch = dyn_cast<BranchInst>(Block.getTerminator());
-  return Branch && Branch->isConditional() && Uniform.hasDivergentTerminator(Block);
+  return Branch && Branch->isConditional() &&
+         Uniform.hasDivergentTerminator(Block);
 }
 
 namespace {
@@ -76,7 +77,9 @@ class LowerDivergence final : public FunctionPass {
 public:
   static char ID;
   LowerDivergence() : FunctionPass(ID) {}
-  StringRef getPassName() const override { return "Vorion divergence lowering"; }
+  StringRef getPassName() const override {
+    return "Vorion divergence lowering";
+  }
   void getAnalysisUsage(AnalysisUsage &AU) const override {
     AU.addRequired<TargetPassConfig>();
   }
@@ -128,7 +131,8 @@ bool LowerDivergence::runOnFunction(Function &F) {
   changed();
 
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
-  if (none_of(F, [&](BasicBlock &B) { return vorion::branchesApart(Uniform, B); }))
+  if (none_of(F,
+              [&](BasicBlock &B) { return vorion::branchesApart(Uniform, B); }))
     return true;
   alignLoops(F, Analyses);
   vorion::insertSplits(F, Analyses);
@@ -149,7 +153,8 @@ void LowerDivergence::registerAnalyses(FunctionAnalysisManager &Analyses,
   Analyses.registerPass([] { return UniformityInfoAnalysis(); });
 }
 
-bool LowerDivergence::checkCode(Function &F, FunctionAnalysisManager &Analyses) {
+bool LowerDivergence::checkCode(Function &F,
+                                FunctionAnalysisManager &Analyses) {
   bool Good = true;
   auto fail = [&](const Instruction &I, const Twine &Why) {
     vorion::refuse(I, Why);
@@ -178,7 +183,8 @@ bool LowerDivergence::checkCode(Function &F, FunctionAnalysisManager &Analyses) 
   return Good;
 }
 
-void LowerDivergence::alignLoops(Function &F, FunctionAnalysisManager &Analyses) {
+void LowerDivergence::alignLoops(Function &F,
+                                 FunctionAnalysisManager &Analyses) {
   // Each round knows more to be divergent, or has one loop less to merge.
   bool Again = true;
   while (Again) {
@@ -193,7 +199,8 @@ void LowerDivergence::alignLoops(Function &F, FunctionAnalysisManager &Analyses)
   }
 }
 
-bool LowerDivergence::mergeOneLoop(Function &F, FunctionAnalysisManager &Analyses) {
+bool LowerDivergence::mergeOneLoop(Function &F,
+                                   FunctionAnalysisManager &Analyses) {
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
   auto &Loops = Analyses.getResult<LoopAnalysis>(F);
   const auto &PostDominators = Analyses.getResult<PostDominatorTreeAnalysis>(F);

@@ -104,7 +104,8 @@ private:
   void carryHeaderValues() {
     for (PHINode &Phi : Header->phis()) {
       PHINode *Next = carry(Phi.getType(), Phi.getName() + ".next");
-      Next->setIncomingValueForBlock(BackEdge, Phi.getIncomingValueForBlock(OldLatch));
+      Next->setIncomingValueForBlock(BackEdge,
+                                     Phi.getIncomingValueForBlock(OldLatch));
       Phi.setIncomingValueForBlock(OldLatch, Next);
       Phi.replaceIncomingBlockWith(OldLatch, Latch);
     }
@@ -129,7 +130,8 @@ private:
     Type *Bit = Type::getInt1Ty(Context);
     PHINode *Repeat = PHINode::Create(Bit, Routed.size(), "loop.repeat", Latch);
     for (BasicBlock *Edge : Routed)
-      Repeat->addIncoming(ConstantInt::getBool(Context, Edge == BackEdge), Edge);
+      Repeat->addIncoming(ConstantInt::getBool(Context, Edge == BackEdge),
+                          Edge);
     if (Exits.size() > 1) {
       Type *Number = Type::getInt32Ty(Context);
       Which = carry(Number, "loop.which");
@@ -155,8 +157,9 @@ private:
         return;
       }
       BasicBlock *Next = block("loop.leave");
-      Builder.CreateCondBr(Builder.CreateICmpEQ(Which, Builder.getInt32(Number - 1)),
-                           Target, Next);
+      Builder.CreateCondBr(
+          Builder.CreateICmpEQ(Which, Builder.getInt32(Number - 1)), Target,
+          Next);
       At = Next;
     }
   }

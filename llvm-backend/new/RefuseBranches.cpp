@@ -30,7 +30,9 @@ class RefuseBranches final : public MachineFunctionPass {
 public:
   static char ID;
   RefuseBranches() : MachineFunctionPass(ID) {}
-  StringRef getPassName() const override { return "Vorion branches of selection"; }
+  StringRef getPassName() const override {
+    return "Vorion branches of selection";
+  }
   void getAnalysisUsage(AnalysisUsage &AU) const override {
     AU.setPreservesAll();
     MachineFunctionPass::getAnalysisUsage(AU);
@@ -61,4 +63,6 @@ char RefuseBranches::ID = 0;
 
 } // namespace
 
-FunctionPass *vorion::createRefuseBranchesPass() { return new RefuseBranches(); }
+FunctionPass *vorion::createRefuseBranchesPass() {
+  return new RefuseBranches();
+}

@@ -11,9 +11,9 @@
 #include "LowerDivergence.h"
 #include "llvm/ADT/DepthFirstIterator.h"
 #include "llvm/Analysis/PostDominators.h"
+#include "llvm/CodeGen/TargetOpcodes.h"
 #include "llvm/IR/Instructions.h"
 #include "llvm/IR/IntrinsicInst.h"
-#include "llvm/CodeGen/TargetOpcodes.h"
 
 using namespace llvm;
 
@@ -50,7 +50,8 @@ bool vorion::markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
     if (!branchesApart(Uniform, Block))
       continue;
     const auto *Node = PostDominators.getNode(&Block);
-    BasicBlock *Meeting = Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
+    BasicBlock *Meeting =
+        Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
     Instruction *Branch = Block.getTerminator();
     BlockSet First = reachable(Branch->getSuccessor(0), Meeting);
     for (BasicBlock *Other : reachable(Branch->getSuccessor(1), Meeting))

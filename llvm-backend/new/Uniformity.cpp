@@ -54,7 +54,8 @@ bool isCallSource(const CallBase &Call) {
     }
   }
   // A function of its arguments alone gives equal results for equal arguments.
-  return Call.isInlineAsm() || !Call.doesNotAccessMemory() || Call.isConvergent();
+  return Call.isInlineAsm() || !Call.doesNotAccessMemory() ||
+         Call.isConvergent();
 }
 
 } // namespace
@@ -90,8 +91,7 @@ void vorion::preferModuleTarget(const std::string &ModuleCPU,
                                 const std::string &ModuleFeatures,
                                 std::string &CPU, std::string &TuneCPU,
                                 std::string &Features) {
-  if (ModuleCPU != "vorion" &&
-      !StringRef(ModuleFeatures).contains("+xvortex"))
+  if (ModuleCPU != "vorion" && !StringRef(ModuleFeatures).contains("+xvortex"))
     return;
   CPU = TuneCPU = ModuleCPU;
   Features = ModuleFeatures;

@@ -33,14 +33,16 @@ void vorion::unifyExits(Function &F, FunctionAnalysisManager &Analyses) {
   ReturnInst::Create(Context, Value, Return);
   auto addSource = [&](BasicBlock *From, llvm::Value *Result) {
     if (Value)
-      Value->addIncoming(Result ? Result : PoisonValue::get(Value->getType()), From);
+      Value->addIncoming(Result ? Result : PoisonValue::get(Value->getType()),
+                         From);
   };
 
   for (BasicBlock *End : Ends) {
     Instruction *Old = End->getTerminator();
     auto *OldReturn = dyn_cast<ReturnInst>(Old);
     addSource(End, OldReturn ? OldReturn->getReturnValue() : nullptr);
-    BranchInst::Create(Return, Old->getIterator())->setDebugLoc(Old->getDebugLoc());
+    BranchInst::Create(Return, Old->getIterator())
+        ->setDebugLoc(Old->getDebugLoc());
     Old->eraseFromParent();
   }
   for (Loop *L : Endless) {
@@ -53,7 +55,8 @@ void vorion::unifyExits(Function &F, FunctionAnalysisManager &Analyses) {
         Latch->getTerminator()->replaceSuccessorWith(Header, From);
     BranchInst::Create(Header, Return, ConstantInt::getTrue(Context), From);
     for (PHINode &Phi : Header->phis()) {
-      PHINode *Merged = PHINode::Create(Phi.getType(), 2, Phi.getName(), From->begin());
+      PHINode *Merged =
+          PHINode::Create(Phi.getType(), 2, Phi.getName(), From->begin());
       for (unsigned I = Phi.getNumIncomingValues(); I-- > 0;)
         if (L->contains(Phi.getIncomingBlock(I))) {
           Merged->addIncoming(Phi.getIncomingValue(I), Phi.getIncomingBlock(I));

@@ -5,8 +5,8 @@
 // on silently, though, hence this check of the final code: along every path,
 // with every split taken to diverge, each join's token must be the depth (then
 // it does nothing) or one less (then it ends the innermost split), each
-// predicate's mask must have been read at the same depth, and a return must find
-// the stack as the call left it.
+// predicate's mask must have been read at the same depth, and a return must
+// find the stack as the call left it.
 //
 //===----------------------------------------------------------------------===//
 
@@ -65,8 +65,8 @@ char VerifySplits::ID = 0;
 
 Place place(Register Reg) { return {false, int(Reg.id())}; }
 
-/// The slot of the frame that \p MI loads or stores a register of, as spills and
-/// reloads do.
+/// The slot of the frame that \p MI loads or stores a register of, as spills
+/// and reloads do.
 std::optional<Place> slotOf(const MachineInstr &MI) {
   if (!MI.hasOneMemOperand())
     return std::nullopt;
@@ -87,7 +87,8 @@ bool VerifySplits::fail(const MachineInstr &MI, const Twine &Why) {
   return false;
 }
 
-void VerifySplits::forgetDefinitions(const MachineInstr &MI, PathState &State) const {
+void VerifySplits::forgetDefinitions(const MachineInstr &MI,
+                                     PathState &State) const {
   std::erase_if(State.Kept, [&](const auto &Entry) {
     return !Entry.first.IsSlot &&
            MI.modifiesRegister(Register(Entry.first.Number), TRI);
@@ -146,7 +147,8 @@ bool VerifySplits::step(const MachineInstr &MI, PathState &State) {
   } else if (Slot && MI.getOpcode() == RISCV::LW) {
     define(place(MI.getOperand(0).getReg()), kept(*Slot));
   } else if (auto Copy = TII->isCopyInstr(MI)) {
-    define(place(Copy->Destination->getReg()), kept(place(Copy->Source->getReg())));
+    define(place(Copy->Destination->getReg()),
+           kept(place(Copy->Source->getReg())));
   } else {
     forgetDefinitions(MI, State);
   }

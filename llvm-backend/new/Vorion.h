@@ -43,7 +43,8 @@ SDValue lowerFloatSelect(SDValue Select, SelectionDAG &DAG,
                          const RISCVSubtarget &Subtarget);
 
 /// Expands the pseudo instructions that upstream expands into branches into
-/// straight code, in place. False if \p MI is not one or the machine is not ours.
+/// straight code, in place. False if \p MI is not one or the machine is not
+/// ours.
 bool expandWithoutBranch(MachineInstr &MI, const RISCVSubtarget &Subtarget);
 
 /// Whether \p Operation becomes a loop around compare-and-swap in IR: all that

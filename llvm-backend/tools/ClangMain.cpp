@@ -21,8 +21,8 @@ static bool wantsKernelImage(llvm::ArrayRef<char *> Arguments) {
     if (A == "-o") {
       ++I;
     } else if (A == "-c" || A == "-S" || A == "-E" || A == "-emit-llvm" ||
-               A == "-fsyntax-only" || A == "-###" || A == "-x" || A == "-cc1" ||
-               A.starts_with("-M") || A.starts_with("@")) {
+               A == "-fsyntax-only" || A == "-###" || A == "-x" ||
+               A == "-cc1" || A.starts_with("-M") || A.starts_with("@")) {
       return false;
     } else if (!A.starts_with("-")) {
       if (!A.ends_with(".cl"))
@@ -36,8 +36,8 @@ static bool wantsKernelImage(llvm::ArrayRef<char *> Arguments) {
 int main(int Argc, char **Argv) {
   llvm::InitLLVM Init(Argc, Argv);
   if (wantsKernelImage({Argv + 1, Argv + Argc})) {
-    llvm::SmallString<256> Tool(
-        llvm::sys::fs::getMainExecutable(Argv[0], reinterpret_cast<void *>(&main)));
+    llvm::SmallString<256> Tool(llvm::sys::fs::getMainExecutable(
+        Argv[0], reinterpret_cast<void *>(&main)));
     llvm::sys::path::remove_filename(Tool);
     llvm::sys::path::append(Tool, "vorion-cl-link");
     execv(Tool.c_str(), Argv);

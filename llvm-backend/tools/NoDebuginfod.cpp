@@ -5,8 +5,7 @@
 #include "llvm/Debuginfod/HTTPClient.h"
 
 namespace llvm {
-std::optional<std::string>
-DebuginfodFetcher::fetch(object::BuildIDRef) const {
+std::optional<std::string> DebuginfodFetcher::fetch(object::BuildIDRef) const {
   return std::nullopt;
 }
 bool canUseDebuginfod() { return false; }
