@@ -36,10 +36,13 @@ public:
              std::to_string(Body->arg_size() - HiddenParameters) +
              " parameters, expected " + std::to_string(Kernel.Arguments.size());
 
-    // The target, its features and frames are the compiler's to choose.
+    // The target, its features and frames are the compiler's to choose. The
+    // library's functions are compiled as freestanding ("no-builtins"), which
+    // alone keeps them from being inlined into kernels, that are not.
     for (Function &F : M) {
       for (const char *Attribute :
-           {"target-cpu", "target-features", "tune-cpu", "stackrealign"})
+           {"target-cpu", "target-features", "tune-cpu", "stackrealign",
+            "frame-pointer", "no-builtins"})
         F.removeFnAttr(Attribute);
       if (!F.isDeclaration())
         F.setLinkage(GlobalValue::InternalLinkage);
