@@ -134,6 +134,9 @@ bool LowerDivergence::runOnFunction(Function &F) {
   if (none_of(F,
               [&](BasicBlock &B) { return vorion::branchesApart(Uniform, B); }))
     return true;
+  // Outlining would move splits, joins and their tokens into functions of
+  // their own, where VerifySplits.cpp cannot follow them.
+  F.addFnAttr("nooutline");
   alignLoops(F, Analyses);
   vorion::insertSplits(F, Analyses);
   return true;
