@@ -94,6 +94,9 @@ private:
 };
 
 char LowerDivergence::ID = 0;
+// The name is for -print-after and -stop-after.
+const RegisterPass<LowerDivergence> Registration("vorion-lower-divergence",
+                                                 "Vorion divergence lowering");
 
 /// Branches whose sides are the same block would have no side to split.
 void removeSameTargetBranches(Function &F) {

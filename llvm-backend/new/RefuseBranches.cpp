@@ -60,6 +60,9 @@ public:
 };
 
 char RefuseBranches::ID = 0;
+// The name is for -print-after and -stop-after.
+const RegisterPass<RefuseBranches> Registration("vorion-refuse-branches",
+                                                "Vorion branches of selection");
 
 } // namespace
 

@@ -62,6 +62,9 @@ private:
 };
 
 char VerifySplits::ID = 0;
+// The name is for -print-after and -stop-after.
+const RegisterPass<VerifySplits> Registration("vorion-verify-splits",
+                                              "Vorion split verification");
 
 Place place(Register Reg) { return {false, int(Reg.id())}; }
 

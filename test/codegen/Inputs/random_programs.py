@@ -32,6 +32,7 @@ static uint Lane;
 #define LANE Lane
 #endif
 #define NOINLINE __attribute__((noinline)) static
+typedef unsigned long long ulong;
 typedef struct { uint *out; uint n; } arguments;
 static const uint table[8] = {3, 1, 4, 1, 5, 9, 2, 6};
 static inline float asfloat(uint x) { return (float)(int)x; }
@@ -109,7 +110,17 @@ class Generator:
             return f"({a}) {self.pick(['/', '%'])} (({b}) | 1)"
         if r < 0.58:
             return f"{self.pick(['loop', 'nested'])}({a}, {b})"
+        if r < 0.62:
+            return f"(uint)({self.long(depth + 1)} >> {self.pick([0, 7, 32, f'({a} & 63)'])})"
         return f"({a} {self.pick(['+', '-', '*', '^', '&', '|'])} {b})"
+
+    def long(self, depth):
+        a = self.integer(depth + 1)
+        if depth > 2 or self.random.random() < 0.3:
+            return self.pick(["w", f"((ulong)({a}) << 20)"])
+        if self.random.random() < 0.3:
+            return f"({self.condition(depth + 1)} ? {self.long(depth + 1)} : {self.long(depth + 1)})"
+        return f"({self.long(depth + 1)} {self.pick(['+', '-', '*', '^'])} {self.long(depth + 1)})"
 
     def floating(self, depth=0):
         r = self.random.random()
@@ -145,7 +156,9 @@ class Generator:
             return f"{self.pick('fg')} = {self.floating()};"
         if r < 0.8:
             return f"local[({self.integer(2)}) & 3] = {self.integer(1)};"
-        if r < 0.88:
+        if r < 0.84:
+            return f"w = {self.long(0)};"
+        if r < 0.89:
             return f"{self.pick('uv')} = {self.integer(1)};"
         return self.atomic()
 
@@ -173,6 +186,13 @@ class Generator:
             return f"{{ uint {i} = 0; do {{ {body} }} while (++{i} < 5 && {self.condition()}); }}"
         return f"{{ uint {i} = 0; while (1) {{ if (++{i} > {bound}) break; {body} }} }}"
 
+    def crossed_loop(self, depth):
+        """A loop that is entered in two places."""
+        self.labels += 1
+        k = f"k{self.labels}"
+        return (f"{{ uint {k} = 0; if ({self.condition()}) goto middle{k}; top{k}: {self.block(depth + 1, False)} "
+                f"middle{k}: {self.block(depth + 1, False)} if (++{k} < 4 && {self.condition()}) goto top{k}; }}")
+
     def statement(self, depth, in_loop):
         r = self.random.random()
         if depth > 3 or r < 0.4:
@@ -180,8 +200,10 @@ class Generator:
         if r < 0.62:
             other = f" else {{ {self.block(depth + 1, in_loop)} }}" if self.random.random() < 0.6 else ""
             return f"if ({self.condition()}) {{ {self.block(depth + 1, in_loop)} }}{other}"
-        if r < 0.77:
+        if r < 0.74:
             return self.loop(depth)
+        if r < 0.77:
+            return self.crossed_loop(depth)
         if r < 0.84:
             cases = " ".join(f"case {n}: {self.block(depth + 1, in_loop)} {self.pick(['break;', ''])}"
                              for n in self.random.sample(range(6), 3))
@@ -199,12 +221,12 @@ class Generator:
         self.targets = ["end"]  # forward only, or programs might not end
         second = self.block(0, False)
         return (PROLOGUE + "static void program(uint *out, uint n) {\n"
-                "  uint t = LANE, x = t * 7u + n, y = t ^ 5u, z = 3, u = n, v = n * 3u;\n"
+                "  uint t = LANE, x = t * 7u + n, y = t ^ 5u, z = 3, u = n, v = n * 3u;\n  ulong w = (ulong)t << 33 | 77;\n"
                 "  float f = asfloat(t) * 1.25f, g = asfloat(n);\n"
                 f"  uint *shared = out, *own = out + {WORDS} * (t + 1), local[4] = {{1, t, n, 4}};\n"
                 f"  {first}\n almost:\n  {second}\n"
                 " end:\n  own[0] = x + y * 5u + z * 11u; own[1] = u; own[2] = v; own[3] = asbits(f); own[4] = asbits(g);\n"
-                "  own[5] = local[0] ^ local[1] ^ local[2] ^ local[3];\n}\n" + EPILOGUE)
+                "  own[5] = local[0] ^ local[1] ^ local[2] ^ local[3]; own[6] = (uint)(w ^ w >> 32);\n}\n" + EPILOGUE)
 
 
 def run(command):
