@@ -20,6 +20,7 @@ config.test_source_root = os.path.join(root, "test")
 config.test_exec_root = os.path.join(build, "test")
 config.environment["PATH"] = os.pathsep.join(
     [os.path.join(build, "bin"), "/usr/lib/llvm-19/bin", os.environ["PATH"]])
+config.environment["VORION_ROOT"] = build
 config.substitutions += [
     ("%root", root),
     ("%build", build),

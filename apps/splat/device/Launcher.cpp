@@ -107,6 +107,10 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
   }
   Status = Done.wait();
   const auto Outcome = Done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+  if (Outcome == CL_MEM_OBJECT_ALLOCATION_FAILURE) {
+    Failure = clError("running kernel " + Name, Outcome);
+    return;
+  }
   if (Status != CL_SUCCESS || Outcome < 0) {
     Failure = Error{"",
                     fmt::format("kernel '{}' failed on {} ({}), expected it to "

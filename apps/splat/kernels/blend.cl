@@ -49,19 +49,19 @@ blend(__global const splat_gaussian *records, __global const uint *list,
         // Below MIN_POWER alpha is under 1/255 whatever the opacity, so the
         // exponential is not worth taking. False for NaN.
         if (fabs(dx) <= g->extent[0] && power <= 0.0f && power >= MIN_POWER) {
-          const float alpha = fmin(0.99f, g->opacity * exp(power));
-          if (alpha >= 1.0f / 255.0f) {
-            const float next = transmittance * (1.0f - alpha);
-            if (SATURATED(next)) {
-              done = true;
-            } else {
-              const float weight = alpha * transmittance;
-              red += g->color[0] * weight;
-              green += g->color[1] * weight;
-              blue += g->color[2] * weight;
-              transmittance = next;
-            }
-          }
+          const float alpha = fmin(0.99f, g->opacity * falloff(power));
+          const float next = transmittance * (1.0f - alpha);
+          // Without branches: most Gaussians that get here are blended, and a
+          // weight of 0 changes no bit.
+          const bool visible = alpha >= 1.0f / 255.0f;
+          const bool full = visible & SATURATED(next);
+          const bool blended = visible & !full;
+          const float weight = blended ? alpha * transmittance : 0.0f;
+          red += g->color[0] * weight;
+          green += g->color[1] * weight;
+          blue += g->color[2] * weight;
+          transmittance = blended ? next : transmittance;
+          done = full;
         }
       }
     }

@@ -7,6 +7,7 @@
 #include "vorion/support/File.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -101,20 +102,55 @@ TEST_F(OnDevice, ScanSaturates) {
   EXPECT_EQ(download(L, Out, 1001).back(), ~0U);
 }
 
-/// Runs kernels/activate.cl through a kernel of the test's own.
-TEST_F(OnDevice, ActivationIsRoundedOnce) {
-  const std::string Folder =
-      testing::TempDir() + "activation" + std::to_string(getpid());
-  std::filesystem::create_directory(Folder);
-  ASSERT_TRUE(writeFileAtomically(Folder + "/activate.cl",
-                                  std::string(kernelSource("activate.cl"))));
-  ASSERT_TRUE(writeFileAtomically(Folder + "/test.cl", R"(
-__kernel void activate(__global const float4 *in, __global float4 *out) {
+/// A folder with some of the program's kernel files and a kernel `test`.
+class KernelFolder {
+public:
+  KernelFolder(const std::string &Name, const std::vector<std::string> &Files,
+               const std::string &Kernel)
+      : Path(testing::TempDir() + Name + std::to_string(getpid())) {
+    std::filesystem::create_directory(Path);
+    for (const std::string &File : Files)
+      EXPECT_TRUE(writeFileAtomically(Path + "/" + File,
+                                      std::string(kernelSource(File))));
+    EXPECT_TRUE(writeFileAtomically(Path + "/test.cl", Kernel));
+  }
+  ~KernelFolder() { std::filesystem::remove_all(Path); }
+  KernelFolder(const KernelFolder &) = delete;
+  KernelFolder &operator=(const KernelFolder &) = delete;
+
+  const std::string Path;
+};
+
+class KernelOnDevice : public OnDevice {
+protected:
+  /// Runs the kernel `test` of \p Folder, \p PerItem floats in and out a
+  /// work-item.
+  std::vector<float> runTest(const KernelFolder &Folder,
+                             std::vector<std::string> Files,
+                             const std::vector<float> &In, unsigned PerItem) {
+    Launcher L(*Dev, Folder.Path, {});
+    L.beginStage("test");
+    Files.emplace_back("test.cl");
+    L.build({"test", std::move(Files), {}});
+    const cl::Buffer From = L.allocate("in", 4 * In.size());
+    const cl::Buffer To = L.allocate("out", 4 * In.size());
+    L.write("in", From, In.data(), 4 * In.size());
+    L.run("test", "test", In.size() / PerItem, 16, From, To);
+    std::vector<float> Out(In.size());
+    L.read("out", Out.data(), To, 4 * Out.size());
+    EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+    return Out;
+  }
+};
+
+TEST_F(KernelOnDevice, ActivationIsRoundedOnce) {
+  const KernelFolder Folder("activation", {"activate.cl"}, R"(
+__kernel void test(__global const float4 *in, __global float4 *out) {
   const uint i = 2 * get_global_id(0);
   out[i] = (float4)(activate_scale(in[i].x), activate_scale(in[i].y),
                     activate_scale(in[i].z), activate_opacity(in[i].w));
   out[i + 1] = activate_quaternion(in[i + 1]);
-})"));
+})");
   constexpr std::uint32_t Count = 20000;
   Scene S;
   std::vector<float> In;
@@ -127,17 +163,7 @@ __kernel void activate(__global const float4 *in, __global float4 *out) {
     for (int K = 0; K < 4; ++K)
       In.push_back(S.Quats.emplace_back(I == 0 ? 0 : Part(Random)));
   }
-  Launcher L(*Dev, Folder, {});
-  L.beginStage("test");
-  L.build({"test", {"activate.cl", "test.cl"}, {}});
-  const cl::Buffer From = L.allocate("in", 4 * In.size());
-  const cl::Buffer To = L.allocate("out", 4 * In.size());
-  L.write("in", From, In.data(), 4 * In.size());
-  L.run("test", "activate", Count, 16, From, To);
-  std::vector<float> Out(In.size());
-  L.read("out", Out.data(), To, 4 * Out.size());
-  ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
-  std::filesystem::remove_all(Folder);
+  const std::vector<float> Out = runTest(Folder, {"activate.cl"}, In, 8);
 
   const Activated<float> Want = activate<float>(S);
   // The pairs of floats are good to about 2^-40, so about one value in 2^16
@@ -151,6 +177,26 @@ __kernel void activate(__global const float4 *in, __global float4 *out) {
       Wrong += Out[8 * I + 4 + K] != Want.Quats[4 * I + K];
   }
   EXPECT_LE(Wrong, 8U) << "of " << 8 * Count;
+}
+
+TEST_F(KernelOnDevice, FalloffIsWithinItsError) {
+  const KernelFolder Folder("falloff", {"falloff.cl"}, R"(
+__kernel void test(__global const float *in, __global float *out) {
+  const uint i = get_global_id(0);
+  out[i] = falloff(in[i]);
+})");
+  std::vector<float> In{0, -0.0F, -1e-30F, -80};
+  while (In.size() < 40000)
+    In.push_back(-8 * static_cast<float>(Random()) / 4294967296.0F);
+  const std::vector<float> Out = runTest(Folder, {"falloff.cl"}, In, 1);
+  double Worst = 0;
+  for (std::size_t I = 0; I < In.size(); ++I) {
+    const double Want = std::exp(double(In[I]));
+    const auto Near = static_cast<float>(Want);
+    const double Ulp = double(std::nextafter(Near, 2.0F)) - Near;
+    Worst = std::max(Worst, std::abs(Out[I] - Want) / Ulp);
+  }
+  EXPECT_LE(Worst, 1.1);
 }
 
 } // namespace

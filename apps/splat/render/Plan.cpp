@@ -49,6 +49,7 @@ ProgramSpec blendProgram(const RenderOptions &O) {
     P.Files.emplace_back("rasterize.cl");
     return P;
   }
+  P.Files.emplace_back("falloff.cl");
   P.Files.emplace_back("blend.cl");
   // e^-5.6 < 1/255: no opacity up to 1 makes such a power visible.
   P.Defines.emplace_back("MIN_POWER=-5.6f");
