@@ -30,11 +30,10 @@ void refuse(const Instruction &At, const Twine &Why);
 /// Whether \p Block ends with a branch that lanes may disagree about.
 bool branchesApart(UniformityInfo &Uniform, const BasicBlock &Block);
 
-/// Whether lanes may leave the loop at different times, or a divergent branch
-/// inside has its lanes meet again only outside: then the loop must have one
-/// exit that every iteration passes (and, if lanes may disagree there, vx_pred
-/// at that exit).
-/// \returns true if the loop already has such an exit or needs none.
+/// Whether the lanes that start an iteration of \p L also end it together: it
+/// has one exit that every iteration passes (where vx_pred can hold lanes
+/// back), or lanes leave it only together, and wherever they part they meet
+/// again in the same iteration.
 bool loopIsInStep(const Loop &L, UniformityInfo &Uniform,
                   const PostDominatorTree &PostDominators,
                   const DominatorTree &Dominators);

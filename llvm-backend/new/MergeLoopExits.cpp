@@ -29,18 +29,40 @@ BranchInst *vorion::soleExit(const Loop &L, const DominatorTree &Dominators) {
   return Branch && Branch->isConditional() ? Branch : nullptr;
 }
 
+/// Whether lanes that part at \p Block all come to \p Meeting in the same
+/// iteration of \p L.
+static bool meetInIteration(const Loop &L, BasicBlock *Block,
+                            BasicBlock *Meeting) {
+  if (!Meeting || !L.contains(Meeting))
+    return false;
+  SmallPtrSet<BasicBlock *, 16> Seen;
+  Seen.insert(Meeting);
+  SmallVector<BasicBlock *, 8> Work = {Block};
+  while (!Work.empty()) {
+    BasicBlock *At = Work.pop_back_val();
+    if (!Seen.insert(At).second)
+      continue;
+    for (BasicBlock *Successor : successors(At)) {
+      if (Successor == L.getHeader())
+        return false;
+      Work.push_back(Successor);
+    }
+  }
+  return true;
+}
+
 bool vorion::loopIsInStep(const Loop &L, UniformityInfo &Uniform,
                           const PostDominatorTree &PostDominators,
                           const DominatorTree &Dominators) {
   if (soleExit(L, Dominators))
     return true;
-  return none_of(L.blocks(), [&](BasicBlock *Block) {
-    if (!vorion::branchesApart(Uniform, *Block))
-      return false;
+  return all_of(L.blocks(), [&](BasicBlock *Block) {
+    if (!branchesApart(Uniform, *Block))
+      return true;
     const auto *Node = PostDominators.getNode(Block);
-    const BasicBlock *Meeting =
-        Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
-    return !Meeting || !L.contains(Meeting);
+    return meetInIteration(L, Block,
+                           Node && Node->getIDom() ? Node->getIDom()->getBlock()
+                                                   : nullptr);
   });
 }
 

@@ -26,6 +26,13 @@ bool comparesCounters(const MachineInstr &Branch) {
   });
 }
 
+void refuse(const MachineInstr &Branch) {
+  const Function &F = Branch.getMF()->getFunction();
+  F.getContext().diagnose(DiagnosticInfoUnsupported(
+      F, "an operation that needs a branch which lanes may disagree about",
+      Branch.getDebugLoc()));
+}
+
 class RefuseBranches final : public MachineFunctionPass {
 public:
   static char ID;
@@ -44,17 +51,22 @@ public:
     DenseMap<const BasicBlock *, const MachineBasicBlock *> First;
     for (const MachineBasicBlock &Block : MF)
       First.try_emplace(Block.getBasicBlock(), &Block);
-    for (const MachineBasicBlock &Block : MF)
-      for (const MachineInstr &MI : Block.terminators())
-        if (MI.isConditionalBranch() && !comparesCounters(MI) &&
+    for (const MachineBasicBlock &Block : MF) {
+      bool HasOther = false;
+      for (const MachineInstr &MI : Block.terminators()) {
+        if (!MI.isConditionalBranch() || comparesCounters(MI))
+          continue;
+        bool StaysInside =
             any_of(Block.successors(), [&](const MachineBasicBlock *Successor) {
               return Successor->getBasicBlock() == Block.getBasicBlock() &&
                      Successor != First.lookup(Block.getBasicBlock());
-            }))
-          MF.getFunction().getContext().diagnose(DiagnosticInfoUnsupported(
-              MF.getFunction(),
-              "an operation that needs a branch which lanes may disagree about",
-              MI.getDebugLoc()));
+            });
+        // The second of two is a condition taken in two steps, with one split.
+        if (StaysInside || HasOther)
+          refuse(MI);
+        HasOther = true;
+      }
+    }
     return false;
   }
 };

@@ -145,6 +145,8 @@ class Generator:
             return f"({self.pick(['u', 'v', 'n', 'table[u & 7]'])} & {self.pick([1, 2, 3])})"
         if r < 0.42:
             return f"({self.floating(2)} {self.pick(['<', '>=', '==', '!='])} {self.floating(2)})"
+        if r < 0.47 and depth < 3:
+            return f"({self.long(2)} {self.pick(['<', '==', '>='])} {self.long(2)})"
         return (f"(({self.integer(2)} & {self.pick([1, 2, 3, 4, 7])}u) {self.pick(['==', '!=', '<', '>'])} "
                 f"{self.random.randint(0, 4)}u)")
 
