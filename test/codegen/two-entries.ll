@@ -8,8 +8,7 @@ declare void @b()
 
 ; CHECK-LABEL: two_entries:
 ; CHECK: csrr [[MASK:s[0-9]+]], vx_active_threads
-; CHECK: vx_join
-; CHECK-NEXT: vx_pred {{.*}}, [[MASK]]
+; CHECK: vx_pred {{.*}}, [[MASK]]
 ; CHECK: ret
 define void @two_entries(i1 %c, i32 %n) "vorion-kernel" {
 entry:
