@@ -150,9 +150,10 @@ bool csrOrPark(WarpState *S, const Insn *I) {
   const uint32_t New =
       A.combine(readCsr(S, A.Number, S->LastLane), A.operand(S, S->LastLane));
   uint32_t *Rd = S->lanes(I->Rd);
+  const uint32_t Same = Info->Uniform ? readCsr(S, A.Number, 0) : 0;
   for (unsigned L = 0; L != MaxLanes; ++L)
     if (S->Mask >> L & 1)
-      Rd[L] = readCsr(S, A.Number, L);
+      Rd[L] = Info->Uniform ? Same : readCsr(S, A.Number, L);
   if (A.Writes)
     writeCsr(S, A.Number, New);
   return true;

@@ -7,7 +7,7 @@
 namespace vorion::isasim {
 
 struct ExecTable {
-  const char *Level;            ///< "avx512", "avx2", "baseline"
+  const char *Level;            ///< "avx2", "baseline", "observed"
   const Handler (*Handlers)[2]; ///< [Op][WarpState::Full]
   Handler Illegal[2];           ///< a word that does not decode
   Handler NoFetch[2];           ///< no code here
@@ -21,7 +21,7 @@ const ExecTable &execTable(bool Observed);
 
 /// All levels that this host can run, best first (for tests).
 struct ExecLevels {
-  const ExecTable *Tables[3] = {};
+  const ExecTable *Tables[2] = {};
   unsigned Count = 0;
 };
 ExecLevels hostLevels();

@@ -59,8 +59,80 @@ VORION_INLINE U mulHigh(U A, U B) {
   return mulHighSU(A, B) - (A & asU(asI(B) < 0));
 }
 
-// Division lane by lane: doubles would be faster and exact, but would leave
-// their flags in the host's floating-point status.
+#if defined(__AVX2__)
+/// Half of a register, as the host's instructions take it.
+VORION_INLINE __m256i half(const U &V, unsigned Which) {
+  __m256i R;
+  std::memcpy(&R, reinterpret_cast<const std::byte *>(&V) + 32 * Which, 32);
+  return R;
+}
+VORION_INLINE U join(__m256i Low, __m256i High) {
+  U R;
+  std::memcpy(&R, &Low, 32);
+  std::memcpy(reinterpret_cast<std::byte *>(&R) + 32, &High, 32);
+  return R;
+}
+VORION_INLINE __m128i quarter(const U &V, unsigned Which) {
+  __m128i R;
+  std::memcpy(&R, reinterpret_cast<const std::byte *>(&V) + 16 * Which, 16);
+  return R;
+}
+#endif
+
+/// The value of lane Index % 16.
+VORION_INLINE U permute(U Value, U Index) {
+#if defined(__AVX2__)
+  const U FromLow =
+      join(_mm256_permutevar8x32_epi32(half(Value, 0), half(Index, 0)),
+           _mm256_permutevar8x32_epi32(half(Value, 0), half(Index, 1)));
+  const U FromHigh =
+      join(_mm256_permutevar8x32_epi32(half(Value, 1), half(Index, 0)),
+           _mm256_permutevar8x32_epi32(half(Value, 1), half(Index, 1)));
+  return select(asU((Index & 8U) != splat(0)), FromHigh, FromLow);
+#else
+  U R;
+  for (unsigned L = 0; L != MaxLanes; ++L)
+    R[L] = Value[Index[L] % MaxLanes];
+  return R;
+#endif
+}
+
+#if defined(__AVX2__)
+// Division by doubles is exact in any rounding mode: a quotient of 32-bit
+// integers that is no integer is further from the next one than doubles can be
+// wrong. The flags that it leaves are not the guest's.
+VORION_INLINE __m256d toDouble(__m128i V, bool Signed) {
+  // Unsigned: less 2^31 and more 2^31, both exact.
+  const __m128i Top = _mm_set1_epi32(Signed ? 0 : INT32_MIN);
+  return _mm256_add_pd(_mm256_cvtepi32_pd(_mm_xor_si128(V, Top)),
+                       _mm256_set1_pd(Signed ? 0 : 0x1p31));
+}
+VORION_INLINE U quotient(U A, U B, bool Signed) {
+  const unsigned Status = _mm_getcsr();
+  __m128i Parts[4];
+  for (unsigned Q = 0; Q != 4; ++Q)
+    Parts[Q] = _mm256_cvttpd_epi32(_mm256_div_pd(
+        toDouble(quarter(A, Q), Signed), toDouble(quarter(B, Q), Signed)));
+  U R;
+  std::memcpy(&R, Parts, sizeof(R));
+  // Nothing of it may be done after the old flags are back.
+  __asm__ volatile("" : "+m"(R));
+  _mm_setcsr(Status);
+  return R;
+}
+// A quotient of 2^31 and more that is unsigned does not fit the conversion: the
+// divisor is 1. What is signed and does not fit becomes -2^31, as it should.
+VORION_INLINE U divU(U A, U B) {
+  const U Large = asU(B <= splat(1));
+  return select(Large, A, quotient(A, B, false)) | asU(B == splat(0));
+}
+VORION_INLINE U divS(U A, U B) {
+  return quotient(A, B, true) | asU(B == splat(0));
+}
+VORION_INLINE U remU(U A, U B) { return A - divU(A, B) * B; }
+VORION_INLINE U remS(U A, U B) { return A - divS(A, B) * B; }
+#else
+// Lane by lane.
 VORION_INLINE U divU(U A, U B) {
   U R;
   for (unsigned L = 0; L != MaxLanes; ++L)
@@ -94,6 +166,7 @@ VORION_INLINE U remS(U A, U B) {
   }
   return R;
 }
+#endif
 
 VORION_INLINE U popCount(U A) {
   A = A - (A >> 1 & 0x55555555U);
@@ -125,92 +198,27 @@ VORION_INLINE F32 fma(F32 A, F32 B, F32 C) {
 }
 VORION_INLINE F32 squareRoot(F32 A) { return __builtin_elementwise_sqrt(A); }
 
-/// The words at byte offsets \p Offset from \p Base; lanes outside \p Mask
-/// get anything.
-template <bool Full>
-VORION_INLINE U gather(const std::byte *Base, U Offset, std::uint32_t Mask) {
-#if defined(__AVX512F__)
-  const auto Index = (__m512i)Offset;
-  if constexpr (Full)
-    return (U)_mm512_i32gather_epi32(Index, Base, 1);
-  return (U)_mm512_mask_i32gather_epi32(
-      _mm512_setzero_si512(), static_cast<__mmask16>(Mask), Index, Base, 1);
+/// The words at byte offsets \p Offset from \p Base.
+VORION_INLINE U gather(const std::byte *Base, U Offset) {
+#if defined(__AVX2__)
+  const auto *Words = reinterpret_cast<const int *>(Base);
+  return join(_mm256_i32gather_epi32(Words, half(Offset, 0), 1),
+              _mm256_i32gather_epi32(Words, half(Offset, 1), 1));
 #else
   U R = {};
   for (unsigned L = 0; L != MaxLanes; ++L)
-    if (Full || (Mask >> L & 1))
-      std::memcpy(reinterpret_cast<std::byte *>(&R) + 4 * L, Base + Offset[L],
-                  4);
+    std::memcpy(reinterpret_cast<std::byte *>(&R) + 4 * L, Base + Offset[L], 4);
   return R;
-#endif
-}
-
-/// Stores words at byte offsets in lane order, so that the last lane wins.
-template <bool Full>
-VORION_INLINE void scatter(std::byte *Base, U Offset, U Value,
-                           std::uint32_t Mask) {
-#if defined(__AVX512F__)
-  // Overlapping elements are written from the lowest to the highest.
-  _mm512_mask_i32scatter_epi32(Base, static_cast<__mmask16>(Mask),
-                               (__m512i)Offset, (__m512i)Value, 1);
-#else
-  for (unsigned L = 0; L != MaxLanes; ++L)
-    if (Full || (Mask >> L & 1))
-      std::memcpy(Base + Offset[L],
-                  reinterpret_cast<std::byte *>(&Value) + 4 * L, 4);
-#endif
-}
-
-/// Stores the lanes of \p Mask at byte \p Offset + 4 * lane from \p Base. The
-/// place of a lane outside the mask may be no memory at all.
-VORION_INLINE void storeMasked(std::byte *Base, std::uint32_t Offset, U Value,
-                               std::uint32_t Mask) {
-  // Modulo 2^32 as guest addresses are: Offset may be "negative".
-#if defined(__AVX512F__)
-  _mm512_mask_storeu_epi32(Base + static_cast<std::int32_t>(Offset),
-                           static_cast<__mmask16>(Mask), (__m512i)Value);
-#else
-  for (unsigned L = 0; L != MaxLanes; ++L)
-    if (Mask >> L & 1)
-      std::memcpy(Base + (Offset + 4 * L),
-                  reinterpret_cast<std::byte *>(&Value) + 4 * L, 4);
 #endif
 }
 
 /// Rounding modes of the instruction word (RISC-V F, "Rounding modes").
 enum RoundingMode : unsigned { Rne = 0, Rtz = 1, Rdn = 2, Rup = 3, Rmm = 4 };
 
-/// Whether floatToInt has host instructions.
-inline constexpr bool HasFloatToInt =
+// Conversion to signed integers: what does not fit becomes -2^31.
 #if defined(__SSE4_1__)
-    true;
-#else
-    false;
-#endif
-inline constexpr bool HasFloatToUnsigned =
-#if defined(__AVX512F__)
-    true;
-#else
-    false;
-#endif
-
-#if defined(__AVX512F__)
-template <bool Signed> VORION_INLINE U convertHost(F32 A) {
-  return Signed ? (U)_mm512_cvtps_epi32((__m512)A)
-                : (U)_mm512_cvtps_epu32((__m512)A);
-}
-template <bool Signed> VORION_INLINE U convertTowardZero(F32 A) {
-  return Signed ? (U)_mm512_cvttps_epi32((__m512)A)
-                : (U)_mm512_cvttps_epu32((__m512)A);
-}
-VORION_INLINE F32 roundDown(F32 A) {
-  return (F32)_mm512_roundscale_ps((__m512)A, _MM_FROUND_TO_NEG_INF);
-}
-VORION_INLINE F32 roundUp(F32 A) {
-  return (F32)_mm512_roundscale_ps((__m512)A, _MM_FROUND_TO_POS_INF);
-}
-#elif defined(__SSE4_1__)
-// 128 bits at a time; AVX2's wider forms are what the optimiser makes of it.
+inline constexpr bool HasFloatToInt = true;
+// 128 bits at a time; wider forms are what the optimiser makes of it.
 #define VORION_QUARTERS(CALL)                                                  \
   U R;                                                                         \
   for (unsigned Q = 0; Q != 4; ++Q) {                                          \
@@ -220,10 +228,8 @@ VORION_INLINE F32 roundUp(F32 A) {
     std::memcpy(reinterpret_cast<std::uint32_t *>(&R) + 4 * Q, &Y, 16);        \
   }                                                                            \
   return
-template <bool Signed> VORION_INLINE U convertHost(F32 A) {
-  VORION_QUARTERS(_mm_cvtps_epi32(X)) R;
-}
-template <bool Signed> VORION_INLINE U convertTowardZero(F32 A) {
+VORION_INLINE U convertHost(F32 A) { VORION_QUARTERS(_mm_cvtps_epi32(X)) R; }
+VORION_INLINE U convertTowardZero(F32 A) {
   VORION_QUARTERS(_mm_cvttps_epi32(X)) R;
 }
 VORION_INLINE F32 roundDown(F32 A) {
@@ -234,11 +240,9 @@ VORION_INLINE F32 roundUp(F32 A) {
 }
 #undef VORION_QUARTERS
 #else
-        template <bool Signed>
-        VORION_INLINE U convertHost(F32) {
-  return U{};
-}
-template <bool Signed> VORION_INLINE U convertTowardZero(F32) { return U{}; }
+inline constexpr bool HasFloatToInt = false;
+VORION_INLINE U convertHost(F32) { return U{}; }
+VORION_INLINE U convertTowardZero(F32) { return U{}; }
 VORION_INLINE F32 roundDown(F32 A) { return A; }
 VORION_INLINE F32 roundUp(F32 A) { return A; }
 #endif

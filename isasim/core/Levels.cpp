@@ -13,17 +13,12 @@ extern const ExecTable Table;
 namespace avx2 {
 extern const ExecTable Table;
 }
-namespace avx512 {
-extern const ExecTable Table;
-}
 #endif
 
 ExecLevels hostLevels() {
   ExecLevels L;
 #if defined(__x86_64__)
-  // The x86-64-v3 and -v4 levels of the psABI, which Exec.cpp is compiled for.
-  if (__builtin_cpu_supports("x86-64-v4"))
-    L.Tables[L.Count++] = &avx512::Table;
+  // The x86-64-v3 level of the psABI, which Exec.cpp is compiled for.
   if (__builtin_cpu_supports("x86-64-v3"))
     L.Tables[L.Count++] = &avx2::Table;
 #endif

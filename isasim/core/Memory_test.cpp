@@ -3,6 +3,7 @@
 
 #include "testing/WarpRunner.h"
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
@@ -338,4 +339,95 @@ TEST(Memory, AtomicsOnGlobalMemoryPark) {
   uint32_t Got = 0;
   std::memcpy(&Got, Unused.global(Buffer), 4);
   EXPECT_EQ(Got, 16U);
+}
+
+TEST(Memory, StacksOfLanesAreApart) {
+  // Each lane's stack as the start-up code places it, each width of access,
+  // the same place in every lane and another one in some.
+  std::mt19937 Random(6);
+  for (const ExecTable *Table : allTables())
+    for (const auto &[Store, Load] :
+         {std::pair(Op::RV_SW, Op::RV_LW), std::pair(Op::RV_SH, Op::RV_LHU),
+          std::pair(Op::RV_SB, Op::RV_LBU)}) {
+      WarpRunner R(*Table, {encode(Store, {.Rs1 = 10, .Rs2 = 11, .Imm = -16}),
+                            encode(Load, {.Rd = 12, .Rs1 = 10, .Imm = -16})});
+      for (const uint32_t Mask : MaskPatterns)
+        for (const bool Same : {true, false}) {
+          Lanes16 Tops, Values;
+          for (uint32_t L = 0; L != MaxLanes; ++L) {
+            Tops[L] = VX_STACK_TOP - L * R.Shape.StackBytes -
+                      (Same ? 0 : Random() % 4 * 64);
+            Values[L] = static_cast<uint32_t>(Random());
+          }
+          // What other lanes hold must survive: they come first.
+          runOn(R, ~Mask & 0xFFFF ? ~Mask & 0xFFFF : 0xFFFF, Tops, Values);
+          ASSERT_TRUE(R.ranToEnd());
+          runOn(R, Mask, Tops, Values);
+          ASSERT_TRUE(R.ranToEnd());
+          runOn(R, 0xFFFF, Tops, Values);
+          const uint32_t Bits = sizeOf(Store) * 8;
+          for (unsigned L = 0; L != MaxLanes; ++L)
+            ASSERT_EQ(R.getX(12)[L],
+                      Bits == 32 ? Values[L] : Values[L] & ((1U << Bits) - 1))
+                << Table->Level << " lane " << L << " mask " << Mask;
+        }
+    }
+}
+
+TEST(Memory, StoreToAStackLeavesInactiveLanesAlone) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11, .Imm = -4})});
+    WarpRunner Look(*Table,
+                    {encode(Op::RV_LW, {.Rd = 12, .Rs1 = 10, .Imm = -4})});
+    Lanes16 Tops, Ones, Twos;
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      Tops[L] = VX_STACK_TOP - L * R.Shape.StackBytes;
+    Ones.fill(1);
+    Twos.fill(2);
+    runOn(R, 0xFFFF, Tops, Ones);
+    runOn(R, 0x00F1, Tops, Twos);
+    // Read lane by lane, as the host finds it.
+    for (unsigned L = 0; L != MaxLanes; ++L) {
+      uint32_t Got = 0;
+      for (unsigned Byte = 0; Byte != 4; ++Byte)
+        Got |=
+            std::to_integer<uint32_t>(*R.Storage->stackByte(Tops[L] - 4 + Byte))
+            << (8 * Byte);
+      EXPECT_EQ(Got, 0x00F1 >> L & 1 ? 2U : 1U) << L;
+    }
+  }
+}
+
+TEST(Memory, StackAddressesCoverTheirRangeOnce) {
+  Config C = WarpRunner::smallShape();
+  C.LanesPerWarp = 5;
+  C.CoresPerSocket = 3;
+  C.StackBytes = 4096;
+  const auto Storage = std::move(*Memory::create(C));
+  const uint32_t Bytes = 15 * 4096;
+  std::vector<const std::byte *> Places;
+  for (uint32_t N = 0; N != Bytes; ++N)
+    Places.push_back(Storage->stackByte(VX_STACK_TOP - Bytes + N));
+  for (uint32_t N = 0; N + 4 <= Bytes; N += 4) // words stay whole
+    for (unsigned B = 1; B != 4; ++B)
+      ASSERT_EQ(Places[N + B], Places[N] + B);
+  std::sort(Places.begin(), Places.end());
+  EXPECT_EQ(std::adjacent_find(Places.begin(), Places.end()), Places.end());
+  EXPECT_EQ(Storage->stackByte(VX_STACK_TOP), nullptr);
+  EXPECT_EQ(Storage->stackByte(VX_STACK_TOP - Bytes - 1), nullptr);
+}
+
+TEST(Memory, StackFaultsBelowTheLowest) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11})});
+    const uint32_t Lowest = VX_STACK_TOP - MaxLanes * R.Shape.StackBytes;
+    Lanes16 Addresses;
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      Addresses[L] = Lowest + (15 - L) * R.Shape.StackBytes - 4;
+    runOn(R, 0xFFFF, Addresses, {});
+    EXPECT_EQ(R.cause(), TrapCause::StoreFault);
+    EXPECT_EQ(R.warp().FaultLane, 15U);
+    EXPECT_EQ(R.warp().FaultAddress, Lowest - 4);
+  }
 }

@@ -26,17 +26,26 @@ bool inside(const Region &R, uint32_t Addr, uint32_t Bytes) {
   return Offset < R.Bytes && Bytes <= R.Bytes - Offset;
 }
 
-std::byte *readable(const MemoryView &M, uint32_t Addr, uint32_t Bytes) {
-  for (const Region *R : {&M.Global, &M.Local, &M.Stack, &M.Image})
+/// Memory that every instruction may write, except the image.
+std::byte *data(const MemoryView &M, uint32_t Addr, uint32_t Bytes) {
+  for (const Region *R : {&M.Global, &M.Local})
     if (inside(*R, Addr, Bytes))
       return R->at(Addr);
+  // Aligned accesses stay within a word, and words are contiguous.
+  if (inside(M.Stack, Addr, Bytes))
+    return M.Stack.Host + M.stackOffset(Addr);
   return nullptr;
 }
 
+std::byte *readable(const MemoryView &M, uint32_t Addr, uint32_t Bytes) {
+  if (std::byte *At = data(M, Addr, Bytes))
+    return At;
+  return inside(M.Image, Addr, Bytes) ? M.Image.at(Addr) : nullptr;
+}
+
 std::byte *writable(const MemoryView &M, uint32_t Addr, uint32_t Bytes) {
-  for (const Region *R : {&M.Global, &M.Local, &M.Stack})
-    if (inside(*R, Addr, Bytes))
-      return R->at(Addr);
+  if (std::byte *At = data(M, Addr, Bytes))
+    return At;
   for (unsigned N = 0; N != M.NumImageWritable; ++N)
     if (inside(M.ImageWritable[N], Addr, Bytes))
       return M.ImageWritable[N].at(Addr);
@@ -69,7 +78,8 @@ bool storeIo(WarpState *S, unsigned Bytes, uint32_t Addr, uint32_t Value) {
   return true;
 }
 
-uint32_t applyAmo(Amo Kind, uint32_t Old, uint32_t Operand, uint32_t Compare) {
+[[gnu::always_inline]] inline uint32_t
+applyAmo(Amo Kind, uint32_t Old, uint32_t Operand, uint32_t Compare) {
   const auto SOld = static_cast<int32_t>(Old);
   const auto SOperand = static_cast<int32_t>(Operand);
   switch (Kind) {
@@ -178,17 +188,20 @@ Amo amoKind(const Insn *I) {
   }
 }
 
-bool amoNow(WarpState *S, const Insn *I, Amo Kind) {
+/// The atomic in lane order, at the places that Find gives for an address.
+template <Amo Kind, typename Function>
+bool amoLanes(WarpState *S, const Insn *I, Function Find) {
   uint32_t Olds[MaxLanes] = {};
   const uint32_t *Addresses = S->lanes(I->Rs1);
   const uint32_t *Operands = S->lanes(I->Rs2);
   const uint32_t *Compares = S->lanes(I->Rs3);
   const bool Ok = forLanes(S, [&](unsigned L) {
-    if (Addresses[L] % 4 != 0)
-      return fault(S, TrapCause::MisalignedStore, L, Addresses[L]);
-    std::byte *At = writable(*S->Mem, Addresses[L], 4);
+    std::byte *At = Addresses[L] % 4 == 0 ? Find(Addresses[L]) : nullptr;
     if (!At)
-      return fault(S, TrapCause::StoreFault, L, Addresses[L]);
+      return fault(S,
+                   Addresses[L] % 4 ? TrapCause::MisalignedStore
+                                    : TrapCause::StoreFault,
+                   L, Addresses[L]);
     std::memcpy(&Olds[L], At, 4);
     const uint32_t New = applyAmo(Kind, Olds[L], Operands[L], Compares[L]);
     S->Count.Changes += New != Olds[L];
@@ -200,9 +213,36 @@ bool amoNow(WarpState *S, const Insn *I, Amo Kind) {
   return Ok;
 }
 
+template <typename Function>
+bool amoWhere(WarpState *S, const Insn *I, Amo Kind, Function Find) {
+  switch (Kind) {
+#define VORION_AMO(NAME)                                                       \
+  case Amo::NAME:                                                              \
+    return amoLanes<Amo::NAME>(S, I, Find);
+    VORION_AMO(Add)
+    VORION_AMO(Swap)
+    VORION_AMO(Xor)
+    VORION_AMO(And)
+    VORION_AMO(Or)
+    VORION_AMO(Min)
+    VORION_AMO(Max)
+    VORION_AMO(Minu)
+    VORION_AMO(Maxu)
+    VORION_AMO(Cas)
+#undef VORION_AMO
+  }
+  return false;
+}
+
+bool amoNow(WarpState *S, const Insn *I, Amo Kind) {
+  return amoWhere(S, I, Kind,
+                  [S](uint32_t Addr) { return writable(*S->Mem, Addr, 4); });
+}
+
 bool amoOrPark(WarpState *S, const Insn *I, Amo Kind) {
   if (allLanesIn(S, I, S->Mem->Local))
-    return amoNow(S, I, Kind);
+    return amoWhere(S, I, Kind,
+                    [S](uint32_t Addr) { return S->Mem->Local.at(Addr); });
   // Additions commute, so their order among the cores does not show; other
   // kinds would, mixed on one word.
   if (Kind == Amo::Add && I->Rd == SinkOffset &&

@@ -68,12 +68,30 @@ struct Region {
   std::byte *at(std::uint32_t Addr) const { return Host + (Addr - Lo); }
 };
 
+/// Harts whose stacks are interleaved on the host.
+inline constexpr unsigned StackGroup = 16;
+
 /// What a core can reach.
 struct MemoryView {
   Region Global, Local, Stack, Image;
+  /// Logarithm of the bytes of one stack.
+  unsigned StackShift = 0;
   /// Writable parts of the image, by address.
   const Region *ImageWritable = nullptr;
   unsigned NumImageWritable = 0;
+
+  /// Where the byte at guest address \p Addr of a stack lies after Stack.Host.
+  /// The same word of 16 neighbouring harts' stacks is one cache line: lanes
+  /// mostly access the same place of their stacks, and at the guest's distance
+  /// of a power of two they would all fall into one set of the host's cache.
+  /// Works on numbers and on vectors of them.
+  template <typename T> T stackOffset(T Addr) const {
+    const T FromTop = (Stack.Lo + (Stack.Bytes - 1)) - Addr;
+    const T Hart = FromTop >> StackShift;
+    const T Word = (FromTop & ((1U << StackShift) - 1)) >> 2;
+    return (Hart / StackGroup << (StackShift + 4)) + Word * (4 * StackGroup) +
+           Hart % StackGroup * 4 + Addr % 4;
+  }
 };
 
 /// One divergent vx_split that has not been joined.

@@ -2,6 +2,7 @@
 
 #include "core/IsaTables.h"
 
+#include <bit>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -121,6 +122,12 @@ Expected<Success> validate(const Config &C) {
                  ExitCode::Usage};
   const uint64_t Stacks =
       Cores * C.WarpsPerCore * C.LanesPerWarp * C.StackBytes;
+  // So that lanes' stacks can be told apart by shifts (core/State.h).
+  if (!std::has_single_bit(C.StackBytes))
+    return Error{
+        "configuration",
+        fmt::format("stack_bytes is {}, expected a power of two", C.StackBytes),
+        ExitCode::Usage};
   const uint64_t Room = VX_STACK_TOP - (VX_IMAGE_BASE + VX_IMAGE_SIZE);
   if (Stacks > Room)
     return Error{"configuration",

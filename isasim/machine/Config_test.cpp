@@ -50,6 +50,8 @@ TEST(Config, ErrorsNameTheKey) {
             "file.json: lanes_per_warp is 17, expected 1 to 16");
   EXPECT_EQ(wrongIn(R"({"stack_bytes": 5000})"),
             "file.json: stack_bytes is 5000, expected a multiple of 4096");
+  EXPECT_EQ(wrongIn(R"({"stack_bytes": 12288})"),
+            "file.json: stack_bytes is 12288, expected a power of two");
   EXPECT_EQ(wrongIn("[1]"), "file.json: expected a JSON object");
   EXPECT_EQ(wrongIn(R"({"raster": 1})"),
             "file.json: raster: expected a JSON object");

@@ -54,6 +54,11 @@ struct Machine::Impl {
       Cores.push_back(std::make_unique<Core>(Shape, Id));
   }
 
+  /// Calls Use(host address, offset, bytes) for the pieces of a range of
+  /// global memory, the image or the stacks; false, and no call, if it is not
+  /// all mapped.
+  template <typename Function>
+  bool access(uint32_t Address, uint64_t Bytes, Function Use) const;
   void resetCores(uint32_t LaunchBlock);
   void runCores();
   void atSyncPoint();
@@ -83,6 +88,22 @@ struct Machine::Impl {
   uint64_t LastRound = 0;              ///< warp instructions
   bool Progress = false;               ///< see HangDetector
 };
+
+template <typename Function>
+bool Machine::Impl::access(uint32_t Address, uint64_t Bytes,
+                           Function Use) const {
+  if (std::byte *At = Storage->shared(Address, Bytes)) {
+    if (Bytes)
+      Use(At, 0, Bytes);
+    return true;
+  }
+  if (Bytes == 0 || Bytes > UINT32_MAX || !Storage->stackByte(Address) ||
+      !Storage->stackByte(static_cast<uint32_t>(Address + Bytes - 1)))
+    return false;
+  for (uint32_t N = 0; N != Bytes; ++N)
+    Use(Storage->stackByte(Address + N), N, 1);
+  return true;
+}
 
 void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   const bool Observed = Watcher != nullptr;
@@ -268,24 +289,23 @@ std::byte *Machine::hostPointer(uint32_t Address, uint64_t Bytes) {
 }
 
 bool Machine::read(uint32_t Address, std::span<std::byte> To) const {
-  const std::byte *From = I->Storage->shared(Address, To.size());
-  if (From && !To.empty())
-    std::memcpy(To.data(), From, To.size());
-  return From != nullptr;
+  return I->access(Address, To.size(),
+                   [&](std::byte *At, size_t Offset, size_t Bytes) {
+                     std::memcpy(To.data() + Offset, At, Bytes);
+                   });
 }
 
 bool Machine::write(uint32_t Address, std::span<const std::byte> From) {
-  std::byte *To = I->Storage->shared(Address, From.size());
-  if (To && !From.empty())
-    std::memcpy(To, From.data(), From.size());
-  return To != nullptr;
+  return I->access(Address, From.size(),
+                   [&](std::byte *At, size_t Offset, size_t Bytes) {
+                     std::memcpy(At, From.data() + Offset, Bytes);
+                   });
 }
 
 bool Machine::fill(uint32_t Address, uint64_t Bytes, std::byte Value) {
-  std::byte *To = I->Storage->shared(Address, Bytes);
-  if (To && Bytes)
-    std::memset(To, static_cast<int>(Value), Bytes);
-  return To != nullptr;
+  return I->access(Address, Bytes, [&](std::byte *At, size_t, size_t Part) {
+    std::memset(At, static_cast<int>(Value), Part);
+  });
 }
 
 RunResult Machine::run(uint32_t LaunchBlock) {

@@ -186,6 +186,31 @@ TEST(Machine, ObserverSeesEveryInstructionAndChangesNothing) {
   EXPECT_EQ(Watch.Instructions, R.Total.WarpInstructions);
 }
 
+TEST(Machine, StacksOfOtherCoresAreLeftAlone) {
+  // Five lanes a core: stacks of several cores share lines on the host. Each
+  // lane counts on its own stack, half of them under a split.
+  Config C = small();
+  C.LanesPerWarp = 5;
+  C.StackBytes = 4096;
+  for (const unsigned Threads : {1U, 4U}) {
+    C.HostThreads = Threads;
+    const auto M = make(
+        C,
+        {addi(5, 0, 31), encode(Op::VX_TMC, {.Rs1 = 5}), lui(10, VX_STACK_TOP),
+         csrr(11, CSR_MHARTID),
+         encode(Op::RV_SLLI, {.Rd = 12, .Rs1 = 11, .Imm = 12}),
+         encode(Op::RV_SUB, {.Rd = 10, .Rs1 = 10, .Rs2 = 12}), sw(0, -4, 10),
+         lui(13, 0x4000), encode(Op::RV_ANDI, {.Rd = 14, .Rs1 = 11, .Imm = 1}),
+         // loop:
+         encode(Op::VX_SPLIT, {.Rd = 15, .Rs1 = 14}), lw(16, -4, 10),
+         addi(16, 16, 1), sw(16, -4, 10), encode(Op::VX_JOIN, {.Rs1 = 15}),
+         addi(13, 13, -1), bne(13, 0, -6 * 4), encode(Op::VX_TMC, {.Rs1 = 0})});
+    ASSERT_EQ(M->run().End, Outcome::Done);
+    for (uint32_t Hart = 0; Hart != 40; ++Hart)
+      EXPECT_EQ(wordAt(*M, VX_STACK_TOP - Hart * 4096 - 4), 0x4000U) << Hart;
+  }
+}
+
 TEST(Machine, LocalMemoryIsACoresOwnAndStartsZeroed) {
   // Each core adds its number + 1 to its local word and copies it out.
   const auto M = make(

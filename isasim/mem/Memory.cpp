@@ -2,6 +2,7 @@
 
 #include "core/IsaTables.h"
 
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
@@ -52,7 +53,9 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   std::vector<Mapping> Maps;
   std::vector<Region> Regions;
   for (const auto &[Lo, Bytes] : Wanted) {
-    Expected<Mapping> M = Mapping::make(Bytes + Slack);
+    // Stacks come in whole groups on the host.
+    Expected<Mapping> M =
+        Mapping::make(Bytes + StackGroup * uint64_t{C.StackBytes} + Slack);
     if (!M)
       return M.error();
     Regions.push_back({Lo, static_cast<uint32_t>(Bytes), M->data()});
@@ -62,13 +65,21 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   Result->Global = Regions[0];
   Result->Stack = Regions[1];
   Result->ImageRange = Regions[2];
+  Result->StackShift = static_cast<unsigned>(std::countr_zero(C.StackBytes));
   Result->Locals.assign(Regions.begin() + 3, Regions.end());
   return Result;
 }
 
 MemoryView Memory::view(unsigned Core) const {
-  return {Global,     Locals[Core],    Stack,
-          ImageRange, Writable.data(), static_cast<unsigned>(Writable.size())};
+  MemoryView V;
+  V.Global = Global;
+  V.Local = Locals[Core];
+  V.Stack = Stack;
+  V.Image = ImageRange;
+  V.StackShift = StackShift;
+  V.ImageWritable = Writable.data();
+  V.NumImageWritable = static_cast<unsigned>(Writable.size());
+  return V;
 }
 
 void Memory::load(const Image &Program) {
@@ -106,12 +117,18 @@ std::byte *Memory::global(uint32_t Address, uint64_t Bytes) const {
 }
 
 std::byte *Memory::shared(uint32_t Address, uint64_t Bytes) const {
-  for (const Region *R : {&Global, &ImageRange, &Stack}) {
+  for (const Region *R : {&Global, &ImageRange}) {
     const uint64_t Offset = uint64_t{Address} - R->Lo;
     if (Address >= R->Lo && Offset <= R->Bytes && Bytes <= R->Bytes - Offset)
       return R->Host + Offset;
   }
   return nullptr;
+}
+
+std::byte *Memory::stackByte(uint32_t Address) const {
+  if (Address - Stack.Lo >= Stack.Bytes)
+    return nullptr;
+  return Stack.Host + view(0).stackOffset(Address);
 }
 
 } // namespace vorion::isasim

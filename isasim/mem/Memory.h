@@ -42,14 +42,18 @@ public:
 
   /// [Address, Address + Bytes) in global memory, or nullptr.
   std::byte *global(uint32_t Address, uint64_t Bytes) const;
-  /// The same in global memory, the image or the stacks.
+  /// The same in global memory or the image.
   std::byte *shared(uint32_t Address, uint64_t Bytes) const;
+  /// The byte of a stack at \p Address, or nullptr. Stacks are not contiguous
+  /// on the host.
+  std::byte *stackByte(uint32_t Address) const;
 
 private:
   explicit Memory(std::vector<Mapping> Maps);
 
   std::vector<Mapping> Mappings;
   Region Global, Stack, ImageRange;
+  unsigned StackShift = 0;
   std::vector<Region> Locals; ///< by core
   std::vector<Region> Writable;
 };

@@ -30,7 +30,7 @@ struct Config {
 
   uint64_t GlobalBytes = uint64_t{1} << 30; ///< committed when first touched
   uint32_t LocalBytes = 32 << 10;           ///< a core, at most 64 KiB
-  uint32_t StackBytes = 64 << 10;           ///< a lane
+  uint32_t StackBytes = 64 << 10; ///< a lane, a power of two from 4 KiB on
 
   /// Warp instructions a warp runs at most between two points where all cores
   /// are parked (DESIGN decision 10). Fixed by the configuration, since a
