@@ -20,10 +20,6 @@ namespace pocl {
 
 namespace {
 
-/// Context arrays start at multiples of this: the largest OpenCL type's
-/// alignment.
-constexpr uint64_t ContextAlignment = 128;
-
 /// An intrinsic of ours. It may read and write memory for all that the optimiser
 /// knows, and is neither copied nor made conditional.
 FunctionCallee intrinsic(Module &M, StringRef Name, Type *Result,
@@ -296,11 +292,12 @@ void SimtLoops::makeUniform(Instruction *Terminator) {
   }
 }
 
-AllocaInst *SimtLoops::createContextArray(Type *Element,
+AllocaInst *SimtLoops::createContextArray(Type *Element, Align Alignment,
                                           const std::string &Name) {
   IRBuilder<> Builder(&*F.getEntryBlock().getFirstInsertionPt());
-  ContextArrays.push_back(Builder.CreateAlloca(Element, nullptr, Name));
-  return ContextArrays.back();
+  ContextArrays.push_back(
+      {Builder.CreateAlloca(Element, nullptr, Name), Alignment});
+  return ContextArrays.back().Placeholder;
 }
 
 void SimtLoops::tidyAllocas() {
@@ -324,27 +321,28 @@ void SimtLoops::tidyAllocas() {
 
 void SimtLoops::finish() {
   tidyAllocas();
-  unsigned long Bytes = 0;
+  uint64_t Bytes = 0;
   if (!ContextArrays.empty()) {
     IRBuilder<> Builder(F.getEntryBlock().getTerminator());
-    const DataLayout &Layout = M.getDataLayout();
     Value *Context = Builder.CreateLoad(
         Builder.getPtrTy(),
         M.getOrInsertGlobal(SimtContextGlobal, Builder.getPtrTy()),
         "simt_context");
-    // Rounded up to whole passes, an array's size is a multiple of
-    // lanes * 8 = 128 bytes, so that each starts aligned.
-    Value *Slots = Builder.CreateAnd(
-        Builder.CreateAdd(Items, number(Lanes - 1)), number(-uint64_t(Lanes)));
-    for (AllocaInst *Array : ContextArrays) {
+    // An element's size is a multiple of its alignment. With the largest
+    // alignment first every array begins aligned, for any number of work-items,
+    // and nothing lies between them.
+    std::stable_sort(ContextArrays.begin(), ContextArrays.end(),
+                     [](const ContextArray &A, const ContextArray &B) {
+                       return A.Alignment > B.Alignment;
+                     });
+    for (const auto &[Placeholder, Alignment] : ContextArrays) {
       Value *Start = Builder.CreateGEP(Builder.getInt8Ty(), Context,
-                                       Builder.CreateMul(Slots, number(Bytes)),
-                                       Array->getName());
-      Bytes += alignTo(
-          Layout.getTypeAllocSize(Array->getAllocatedType()).getFixedValue(),
-          ContextAlignment / Lanes);
-      Array->replaceAllUsesWith(Start);
-      Array->eraseFromParent();
+                                       Builder.CreateMul(Items, number(Bytes)),
+                                       Placeholder->getName());
+      Bytes += M.getDataLayout().getTypeAllocSize(
+          Placeholder->getAllocatedType());
+      Placeholder->replaceAllUsesWith(Start);
+      Placeholder->eraseFromParent();
     }
   }
   setModuleIntMetadata(&M, SimtContextBytes, Bytes);

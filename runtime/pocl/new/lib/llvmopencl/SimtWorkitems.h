@@ -82,8 +82,9 @@ public:
   llvm::Value *linearId(llvm::IRBuilder<> &Builder);
 
   /// Memory of one value a work-item, indexed by linear id; the size of
-  /// \p Element is a multiple of its alignment. finish() decides where it lies.
+  /// \p Element is a multiple of \p Alignment. finish() decides where it lies.
   llvm::AllocaInst *createContextArray(llvm::Type *Element,
+                                       llvm::Align Alignment,
                                        const std::string &Name);
 
   /// Runs [Entry, Exit] once for each work-item; with \p PeeledFirst for those
@@ -117,6 +118,11 @@ private:
   llvm::Value *anyLeft(llvm::IRBuilder<> &Builder, llvm::Value *Base);
   llvm::Constant *number(uint64_t N) const;
 
+  struct ContextArray {
+    llvm::AllocaInst *Placeholder;
+    llvm::Align Alignment;
+  };
+
   llvm::Function &F;
   llvm::Module &M;
   unsigned Lanes;
@@ -127,7 +133,7 @@ private:
   llvm::AllocaInst *LinearVar = nullptr; ///< linear id of the work-item
   llvm::Value *Lane = nullptr;
   llvm::Value *SizeX = nullptr, *SizeY = nullptr, *Items = nullptr;
-  std::vector<llvm::AllocaInst *> ContextArrays; ///< placeholders
+  std::vector<ContextArray> ContextArrays;
 };
 
 } // namespace pocl

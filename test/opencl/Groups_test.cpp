@@ -1,0 +1,317 @@
+/// Groups of every awkward size and shape (DESIGN decision 6): one lane, less
+/// than a warp, exactly one, one more, several passes with a ragged last, the
+/// largest; with barriers straight, in loops and in conditionals.
+///
+/// Each kernel is told to the host a second time, step by step for the whole
+/// group; unsigned arithmetic, so that wrapping around is defined.
+
+#include "TestDevice.h"
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+
+using vorion::test::TestDevice;
+
+namespace {
+
+using U = std::uint32_t;
+using Values = std::vector<U>;
+
+struct Shape {
+  U X, Y, Z;
+  U items() const { return X * Y * Z; }
+};
+
+/// What GoogleTest shows for a parameter.
+[[maybe_unused]] void PrintTo(const Shape &S, std::ostream *Stream) {
+  *Stream << S.X << "x" << S.Y << "x" << S.Z;
+}
+
+constexpr U Groups = 11; ///< more than cores, not a multiple
+constexpr U Rounds = 7;  ///< argument k
+
+const char *const Source = R"(
+#define ITEM (get_local_id(0) + get_local_size(0) * (get_local_id(1) + get_local_size(1) * get_local_id(2)))
+#define ITEMS (get_local_size(0) * get_local_size(1) * get_local_size(2))
+
+kernel void straight(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS;
+  t[l] = l * 3 + get_group_id(0);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint v = t[n - 1 - l];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  t[l] = v + 1;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  out[get_group_id(0) * n + l] = t[(l + 1) % n] * 7 + l;
+}
+
+kernel void loop(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, s = l;
+  t[l] = l;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint i = 0; i < k; i++) {
+    uint v = t[(l + i) % n];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    s = s * 3 + v;
+    t[l] = s;
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  out[get_group_id(0) * n + l] = s + t[n - 1 - l];
+}
+
+// The whole group goes one way or the other, group by group.
+kernel void conditional(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, r;
+  t[l] = l * 5;
+  if (get_group_id(0) & 1) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r = t[n - 1 - l];
+    if (l & 1)
+      r += 100;
+  } else {
+    r = -l;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r += t[(l + 2) % n];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    t[l] = r;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r += t[(l + 1) % n];
+  }
+  out[get_group_id(0) * n + l] = r;
+}
+
+// Where the branch ends, a value comes from either side.
+kernel void conditional_in_loop(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, r = 0;
+  t[l] = l;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint i = 0; i < k; i++) {
+    if (i % 3 == 1) {
+      r += t[(l + i) % n];
+      barrier(CLK_LOCAL_MEM_FENCE);
+      t[l] = r;
+      barrier(CLK_LOCAL_MEM_FENCE);
+    } else if (l % 2)
+      r += i;
+    r = r * 3 + l;
+  }
+  out[get_group_id(0) * n + l] = r;
+}
+
+// Lanes leave the inner loop at different times, and all meet at the barrier.
+kernel void loop_then_barrier(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, s = 0;
+  for (uint i = 0; i < k; i++) {
+    uint x = l * 2654435761u + i;
+    do {
+      x = x * 1664525 + 1013904223;
+      s++;
+    } while (x >> 28 != 5);
+    t[l] = x;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    s += t[(l + 1) % n];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  out[get_group_id(0) * n + l] = s;
+}
+
+// An array that keeps its content across barriers, indexed by what is not known.
+kernel void private_array(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, s = 0, p[6];
+  for (uint i = 0; i < 6; i++)
+    p[i] = l * i;
+  t[l] = p[l % 6];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  p[t[(l * 7 + 3) % n] % 6] += 1000;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint i = 0; i < l % 6 + 1; i++)
+    s += p[i];
+  out[get_group_id(0) * n + l] = s;
+}
+
+// Two barriers a step of a loop whose length is the group's.
+kernel void prefix_sum(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS;
+  t[l] = l + get_group_id(0);
+  for (uint step = 1; step < n; step *= 2) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    uint v = l >= step ? t[l - step] : 0;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    t[l] += v;
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  out[get_group_id(0) * n + l] = t[l];
+}
+
+kernel void ids(global uint *out, local uint *t, uint k) {
+  uint item = get_global_id(0) + get_global_size(0) * (get_global_id(1) + get_global_size(1) * get_global_id(2));
+  out[item] = get_local_id(0) | get_local_id(1) << 10 | get_local_id(2) << 20;
+}
+)";
+
+Values straight(U N, U Group) {
+  Values T(N), Out(N);
+  for (U L = 0; L < N; ++L)
+    T[L] = (N - 1 - L) * 3 + Group + 1;
+  for (U L = 0; L < N; ++L)
+    Out[L] = T[(L + 1) % N] * 7 + L;
+  return Out;
+}
+
+Values loop(U N, U) {
+  Values T(N), S(N), Out(N);
+  for (U L = 0; L < N; ++L)
+    T[L] = S[L] = L;
+  for (U I = 0; I < Rounds; ++I) {
+    for (U L = 0; L < N; ++L)
+      S[L] = S[L] * 3 + T[(L + I) % N];
+    T = S;
+  }
+  for (U L = 0; L < N; ++L)
+    Out[L] = S[L] + T[N - 1 - L];
+  return Out;
+}
+
+Values conditional(U N, U Group) {
+  Values R(N), Out(N);
+  for (U L = 0; L < N; ++L)
+    R[L] = Group & 1 ? (N - 1 - L) * 5 + (L & 1 ? 100 : 0)
+                     : (L + 2) % N * 5 - L;
+  for (U L = 0; L < N; ++L)
+    Out[L] = Group & 1 ? R[L] : R[L] + R[(L + 1) % N];
+  return Out;
+}
+
+Values conditionalInLoop(U N, U) {
+  Values T(N), R(N, 0);
+  for (U L = 0; L < N; ++L)
+    T[L] = L;
+  for (U I = 0; I < Rounds; ++I) {
+    if (I % 3 == 1) {
+      for (U L = 0; L < N; ++L)
+        R[L] += T[(L + I) % N];
+      T = R;
+    } else {
+      for (U L = 1; L < N; L += 2)
+        R[L] += I;
+    }
+    for (U L = 0; L < N; ++L)
+      R[L] = R[L] * 3 + L;
+  }
+  return R;
+}
+
+Values loopThenBarrier(U N, U) {
+  Values T(N), S(N, 0);
+  for (U I = 0; I < Rounds; ++I) {
+    for (U L = 0; L < N; ++L) {
+      U X = L * 2654435761U + I;
+      do {
+        X = X * 1664525U + 1013904223U;
+        ++S[L];
+      } while (X >> 28 != 5);
+      T[L] = X;
+    }
+    for (U L = 0; L < N; ++L)
+      S[L] += T[(L + 1) % N];
+  }
+  return S;
+}
+
+Values privateArray(U N, U) {
+  Values Out(N, 0);
+  for (U L = 0; L < N; ++L) {
+    U P[6];
+    for (U I = 0; I < 6; ++I)
+      P[I] = L * I;
+    const U Other = (L * 7 + 3) % N;
+    P[Other * (Other % 6) % 6] += 1000;
+    for (U I = 0; I < L % 6 + 1; ++I)
+      Out[L] += P[I];
+  }
+  return Out;
+}
+
+Values prefixSum(U N, U Group) {
+  Values Out(N);
+  for (U L = 0, Sum = 0; L < N; ++L)
+    Out[L] = Sum += L + Group;
+  return Out;
+}
+
+struct Kernel {
+  const char *Name;
+  Values (*Expected)(U Items, U Group);
+};
+
+const Kernel Kernels[] = {{"straight", straight},
+                          {"loop", loop},
+                          {"conditional", conditional},
+                          {"conditional_in_loop", conditionalInLoop},
+                          {"loop_then_barrier", loopThenBarrier},
+                          {"private_array", privateArray},
+                          {"prefix_sum", prefixSum}};
+
+class GroupShapes : public testing::TestWithParam<Shape> {};
+
+Values run(const TestDevice &Device, const cl::Program &Program,
+           const char *Name, Shape Local, cl::NDRange Global, U Items) {
+  cl::Kernel K(Program, Name);
+  const cl::Buffer Out = Device.upload(Values(Items, ~U{0}));
+  K.setArg(0, Out);
+  K.setArg(1, cl::Local(Local.items() * sizeof(U)));
+  K.setArg(2, Rounds);
+  cl::Event Done;
+  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
+                K, cl::NullRange, Global, cl::NDRange(Local.X, Local.Y, Local.Z),
+                nullptr, &Done),
+            CL_SUCCESS);
+  EXPECT_EQ(Done.wait(), CL_SUCCESS) << Name;
+  return Device.download<U>(Out, Items);
+}
+
+TEST_P(GroupShapes, BarriersSeparateWhatWorkItemsDo) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(Source, Log);
+  ASSERT_EQ(Log, "");
+  const Shape S = GetParam();
+  for (const Kernel &K : Kernels) {
+    const Values Got =
+        run(Device, Program, K.Name, S, cl::NDRange(S.X * Groups, S.Y, S.Z),
+            S.items() * Groups);
+    for (U G = 0; G < Groups; ++G) {
+      const Values Want = K.Expected(S.items(), G);
+      const auto Start = Got.begin() + G * S.items();
+      ASSERT_EQ(Values(Start, Start + S.items()), Want)
+          << K.Name << ", group " << G;
+    }
+  }
+}
+
+TEST_P(GroupShapes, IdsFollowTheShape) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(Source, Log);
+  ASSERT_EQ(Log, "");
+  const Shape S = GetParam();
+  const U X = S.X * 3, Y = S.Y * 2, Z = S.Z * 2;
+  const Values Got =
+      run(Device, Program, "ids", S, cl::NDRange(X, Y, Z), X * Y * Z);
+  for (U I = 0; I < X * Y * Z; ++I) {
+    const U Want = I % X % S.X | I / X % Y % S.Y << 10 | I / X / Y % S.Z << 20;
+    ASSERT_EQ(Got[I], Want) << "item " << I;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, GroupShapes,
+    testing::Values(Shape{1, 1, 1}, Shape{7, 1, 1}, Shape{16, 1, 1},
+                    Shape{17, 1, 1}, Shape{20, 1, 1}, Shape{64, 1, 1},
+                    Shape{1024, 1, 1}, Shape{4, 64, 1}, Shape{1, 1, 64},
+                    Shape{4, 2, 2}, Shape{3, 5, 2}, Shape{1, 1, 7}));
+
+} // namespace
