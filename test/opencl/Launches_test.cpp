@@ -175,6 +175,30 @@ kernel void count(global int *g, local int *t) {
   EXPECT_EQ(Got[10], 10 * 2 * 99 * 100 / 2) << "every old value once";
 }
 
+/// -ffp-contract=off is the rule for all paths that are compared (docs/abi.md).
+TEST(Launches, ProductsAndSumsRoundOneByOne) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+kernel void two(global const float *a, global float *out) {
+  out[0] = a[0] * a[1] + a[2];
+  out[1] = fma(a[0], a[1], a[2]);
+})",
+                                           Log);
+  ASSERT_EQ(Log, "");
+  // (1 + e)^2 - 1 with e = 2^-23: the product's last bit is lost by rounding.
+  const float A = 1 + 0x1p-23F;
+  const cl::Buffer In = Device.upload(std::vector<float>{A, A, -1});
+  const cl::Buffer Out = Device.upload(std::vector<float>(2));
+  cl::Kernel K(Program, "two");
+  K.setArg(0, In);
+  K.setArg(1, Out);
+  Device.run(K, 1, 1);
+  EXPECT_EQ(Device.download<float>(Out, 2),
+            (std::vector<float>{0x1p-22F, 0x1p-22F + 0x1p-46F}));
+}
+
 TEST(Launches, OffsetsAndUnevenGridsReachTheIds) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
