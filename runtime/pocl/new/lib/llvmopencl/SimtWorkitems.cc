@@ -11,8 +11,10 @@
 
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/IntrinsicInst.h>
+#include <llvm/IR/MDBuilder.h>
 
 #include <cstddef>
+#include <map>
 
 using namespace llvm;
 
@@ -53,6 +55,23 @@ LoadInst *loadLaunch(IRBuilder<> &Builder, Type *T, Value *Launch, size_t Offset
   Load->setMetadata(LLVMContext::MD_invariant_load,
                     MDNode::get(Builder.getContext(), {}));
   return Load;
+}
+
+/// All accesses through \p Pointer; false if it may be used otherwise.
+bool collectAccesses(const Value *Pointer,
+                     std::vector<const Instruction *> &Accesses) {
+  for (const User *U : Pointer->users()) {
+    if (isa<GetElementPtrInst>(U)) {
+      if (!collectAccesses(U, Accesses))
+        return false;
+    } else if (isa<LoadInst>(U) ||
+               (isa<StoreInst>(U) && U->getOperand(0) != Pointer)) {
+      Accesses.push_back(cast<Instruction>(U));
+    } else {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// Whether anything but loads may happen through \p Pointer.
@@ -319,8 +338,45 @@ void SimtLoops::tidyAllocas() {
     I->eraseFromParent();
 }
 
+void SimtLoops::tellAliases() {
+  // Arrays whose address goes nowhere but into loads and stores.
+  MDBuilder Builder(F.getContext());
+  MDNode *Domain = Builder.createAnonymousAliasScopeDomain("simt_context");
+  std::map<const Instruction *, Metadata *> ScopeOf;
+  std::vector<Metadata *> Scopes;
+  for (const ContextArray &Array : ContextArrays) {
+    std::vector<const Instruction *> Accesses;
+    if (!collectAccesses(Array.Placeholder, Accesses))
+      continue;
+    Scopes.push_back(Builder.createAnonymousAliasScope(Domain));
+    for (const Instruction *I : Accesses)
+      ScopeOf[I] = Scopes.back();
+  }
+  if (Scopes.empty())
+    return;
+  for (BasicBlock &Block : F)
+    for (Instruction &I : Block) {
+      if (!isa<LoadInst, StoreInst>(I))
+        continue;
+      const auto Own = ScopeOf.find(&I);
+      std::vector<Metadata *> Others;
+      for (Metadata *Scope : Scopes)
+        if (Own == ScopeOf.end() || Scope != Own->second)
+          Others.push_back(Scope);
+      const auto Add = [&I](unsigned Kind, ArrayRef<Metadata *> List) {
+        I.setMetadata(Kind, MDNode::concatenate(I.getMetadata(Kind),
+                                                MDNode::get(I.getContext(), List)));
+      };
+      if (Own != ScopeOf.end())
+        Add(LLVMContext::MD_alias_scope, Own->second);
+      if (!Others.empty())
+        Add(LLVMContext::MD_noalias, Others);
+    }
+}
+
 void SimtLoops::finish() {
   tidyAllocas();
+  tellAliases();
   uint64_t Bytes = 0;
   if (!ContextArrays.empty()) {
     IRBuilder<> Builder(F.getEntryBlock().getTerminator());

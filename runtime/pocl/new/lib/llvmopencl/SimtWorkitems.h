@@ -114,6 +114,9 @@ private:
                    bool PeeledFirst);
   /// Gives variables of the loops' bodies fixed places in the lane's frame.
   void tidyAllocas();
+  /// Tells the optimiser that context arrays are apart from each other and from
+  /// everything else, so that values stay in registers within loops.
+  void tellAliases();
   void storeLocalIds(llvm::IRBuilder<> &Builder, llvm::Value *Linear);
   llvm::Value *anyLeft(llvm::IRBuilder<> &Builder, llvm::Value *Base);
   llvm::Constant *number(uint64_t N) const;
