@@ -30,7 +30,7 @@ config.substitutions += [
     ("%data", os.path.join(root, "..", "shared", "data")),
 ]
 
-programs = ["vorion-clang", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
+programs = ["vorion-clang", "vorion-cl-link", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
             "isasim-decode-words",
             "splat", "splat-compare", "splat-fixture", "splat-reference"]
 features = {name: os.path.join(build, "bin", name) for name in programs}

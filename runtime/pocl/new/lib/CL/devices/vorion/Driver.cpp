@@ -213,6 +213,12 @@ void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
   std::string Path;
   if (!Command || Command->type != CL_COMMAND_NDRANGE_KERNEL)
     return;
+  // A size that the source requires is the one to compile for; not so the
+  // global offset of 0 that PoCL has filled in.
+  if (!Specialize && Kernel->meta->reqd_wg_size[0] > 0) {
+    Command->command.run.pc.global_offset[0] = 1;
+    Specialize = 1;
+  }
   const std::string Problem =
       deviceOf(Device).Kernels.compile(Command, Kernel, Specialize, Path);
   if (!Problem.empty())
