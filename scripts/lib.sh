@@ -6,6 +6,9 @@ Build="$Root/build/dev"
 Logs="$Root/build/logs"
 Started=$SECONDS
 
+# Another checkout of the same sources finds what this one compiled.
+export CCACHE_BASEDIR="$Root" CCACHE_NOHASHDIR=1
+
 fail() { # fail MESSAGE: one line, exit code 1
   printf '%s: error: %s\n' "$(basename "$0")" "$1" >&2
   exit 1
