@@ -106,8 +106,11 @@ def csrs(records):
 
 
 def abi(records):
+    yield "// The names of the ABI, as in every other language."
+    yield "// NOLINTBEGIN(readability-identifier-naming)"
     for c in records.of("Constant"):
         yield f"inline constexpr std::uint32_t {c.Name} = {hex32(c.Value)}; ///< {c.Doc}"
+    yield "// NOLINTEND(readability-identifier-naming)"
     yield ""
     kinds = {"u32": "std::uint32_t", "f32": "float"}
     for d in records.of("Descriptor"):

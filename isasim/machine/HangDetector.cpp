@@ -33,14 +33,14 @@ HangDetector::snapshot(const std::vector<std::unique_ptr<Core>> &Cores) const {
       for (unsigned R = 0; R != SinkRegister; ++R)
         append(State, S.R[R]);
       append(State, S.Mask);
-      append(State, S.Next);
+      append(State, S.pcOf(S.Next));
       append(State, S.Frm);
       append(State, S.Fflags);
       append(State, S.StackDepth);
       for (uint32_t D = 0; D != S.StackDepth; ++D) {
         append(State, S.Stack[D].Mask);
         append(State, S.Stack[D].Other);
-        append(State, S.Stack[D].Pc);
+        append(State, S.pcOf(S.Stack[D].Pc));
       }
     }
   return State;
