@@ -3,13 +3,15 @@
 // A divergent branch gets a vx_split before it and a vx_join, of the split's
 // token, where its sides meet: at its immediate post-dominator.
 //
-// Paths may reach that place without having come through the split (the second
-// condition of `a && b` is not asked by all). vx_join does nothing if its token
-// is the depth of the divergence stack, so on those paths the token must be the
-// depth there. A split with a predicate that is false everywhere pushes nothing
-// and returns the depth; it gives the token its first value where the paths
-// part (the nearest common dominator of split and join), and a new one behind
-// each split that is passed after that and still open at the join.
+// If all paths from the split to that place are its own, they get a block for
+// the join before it. Else paths may reach the place without having come
+// through the split (to the `else` of `a && b`, whose second condition is not
+// asked by all). vx_join does nothing if its token is the depth of the
+// divergence stack, so on those paths the token must be the depth there. A
+// split with a predicate that is false everywhere pushes nothing and returns
+// the depth; it gives the token its first value where the paths part (the
+// nearest common dominator of split and join), and a new one behind each split
+// that is passed after that and still open at the join.
 //
 // Joins at one place go in the reverse order of their splits, inner before
 // outer; reverse post-order puts every split before those it can lead to.
@@ -18,15 +20,16 @@
 
 #include "Intrinsics.h"
 #include "LowerDivergence.h"
-#include "llvm/ADT/DepthFirstIterator.h"
 #include "llvm/ADT/PostOrderIterator.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/PostDominators.h"
 #include "llvm/IR/Dominators.h"
 #include "llvm/IR/IRBuilder.h"
+#include "llvm/Transforms/Utils/BasicBlockUtils.h"
 #include "llvm/Transforms/Utils/SSAUpdater.h"
 
 using namespace llvm;
+using vorion::BlockSet;
 
 namespace {
 
@@ -50,6 +53,11 @@ public:
   void run() {
     if (!collect())
       return;
+    separateMeetings();
+    for (unsigned Index = 0; Index < Splits.size(); ++Index)
+      Meetings[Splits[Index].Meeting].push_back(Index);
+    for (const Split &S : Splits)
+      Open.push_back(vorion::blocksBefore(S.block(), S.Meeting));
     for (Split &S : Splits)
       S.Token = callBefore(S.Branch, "vx_split", condition(S.Branch));
     for (auto &[Meeting, Here] : Meetings)
@@ -104,10 +112,33 @@ private:
         Good = false;
         continue;
       }
-      Meetings[Meeting].push_back(Splits.size());
       Splits.push_back({Branch, Meeting});
     }
     return Good;
+  }
+
+  /// Gives splits whose paths are all their own a meeting place of their own.
+  /// Outer ones first: what is inside moves along.
+  void separateMeetings() {
+    for (Split &S : Splits) {
+      if (Dominators.dominates(S.block(), S.Meeting))
+        continue;
+      BlockSet Own = vorion::blocksBefore(S.block(), S.Meeting);
+      if (any_of(Own, [&](BasicBlock *Block) {
+            return !Dominators.dominates(S.block(), Block);
+          }))
+        continue;
+      SmallVector<BasicBlock *, 4> Last;
+      for (BasicBlock *Block : predecessors(S.Meeting))
+        if (Own.count(Block))
+          Last.push_back(Block);
+      BasicBlock *Shared = S.Meeting;
+      BasicBlock *Meeting =
+          SplitBlockPredecessors(Shared, Last, ".meet", &Dominators, &Loops);
+      for (Split &Inner : Splits)
+        if (Inner.Meeting == Shared && Own.count(Inner.block()))
+          Inner.Meeting = Meeting;
+    }
   }
 
   void insertJoins(BasicBlock *Meeting, ArrayRef<unsigned> Here) {
@@ -133,25 +164,18 @@ private:
     for (unsigned Other = 0; Other < Splits.size(); ++Other) {
       BasicBlock *Block = Splits[Other].block();
       if (Other != Index && Block != Start &&
-          Dominators.dominates(Start, Block) &&
-          isOpenAt(Splits[Other], Other, Meeting, Index))
+          Dominators.dominates(Start, Block) && isOpenAt(Other, Index))
         Token.AddAvailableValue(Block, depthBehind(Block));
     }
     return Token.GetValueInMiddleOfBlock(Meeting);
   }
 
-  /// Whether a path that has come through \p S may reach the join of split
-  /// \p Index at \p Meeting before S's own.
-  bool isOpenAt(const Split &S, unsigned Other, BasicBlock *Meeting,
-                unsigned Index) {
-    if (S.Meeting == Meeting)
+  /// Whether a path that has come through split \p Other may reach the join of
+  /// split \p Index before Other's own.
+  bool isOpenAt(unsigned Other, unsigned Index) {
+    if (Splits[Other].Meeting == Splits[Index].Meeting)
       return Other < Index;
-    df_iterator_default_set<BasicBlock *, 16> Seen;
-    Seen.insert(S.Meeting);
-    for (BasicBlock *Block : depth_first_ext(S.block(), Seen))
-      if (Block == Meeting)
-        return true;
-    return false;
+    return Open[Other].count(Splits[Index].Meeting);
   }
 
   /// The depth of the divergence stack at the end of \p Block, behind its split
@@ -175,11 +199,13 @@ private:
   Function &F;
   Module &M;
   UniformityInfo &Uniform;
-  const DominatorTree &Dominators;
+  DominatorTree &Dominators;
   const PostDominatorTree &PostDominators;
-  const LoopInfo &Loops;
+  LoopInfo &Loops;
   /// In reverse post-order.
   std::vector<Split> Splits;
+  /// Where lanes may be while a split is open.
+  std::vector<BlockSet> Open;
   MapVector<BasicBlock *, SmallVector<unsigned, 2>> Meetings;
   DenseMap<BasicBlock *, CallInst *> Depths;
   SmallVector<std::pair<Loop *, BranchInst *>, 4> PredicatedLoops;

@@ -15,6 +15,7 @@
 #include "Intrinsics.h"
 #include "RISCVSubtarget.h"
 #include "Vorion.h"
+#include "llvm/ADT/DepthFirstIterator.h"
 #include "llvm/Analysis/AssumptionCache.h"
 #include "llvm/Analysis/CycleAnalysis.h"
 #include "llvm/Analysis/LazyValueInfo.h"
@@ -47,6 +48,17 @@ bool vorion::branchesApart(UniformityInfo &Uniform, const BasicBlock &Block) {
   const auto *Branch = dyn_cast<BranchInst>(Block.getTerminator());
   return Branch && Branch->isConditional() &&
          Uniform.hasDivergentTerminator(Block);
+}
+
+vorion::BlockSet vorion::blocksBefore(BasicBlock *From, BasicBlock *Until) {
+  df_iterator_default_set<BasicBlock *, 16> Seen;
+  if (Until)
+    Seen.insert(Until);
+  for ([[maybe_unused]] BasicBlock *Block : depth_first_ext(From, Seen))
+    ;
+  if (Until)
+    Seen.erase(Until);
+  return Seen;
 }
 
 namespace {
@@ -90,7 +102,7 @@ private:
                                const TargetMachine &TM);
   static bool checkCode(Function &F, FunctionAnalysisManager &Analyses);
   static void alignLoops(Function &F, FunctionAnalysisManager &Analyses);
-  static bool mergeOneLoop(Function &F, FunctionAnalysisManager &Analyses);
+  static bool mergeLoops(Function &F, FunctionAnalysisManager &Analyses);
 };
 
 char LowerDivergence::ID = 0;
@@ -191,12 +203,12 @@ bool LowerDivergence::checkCode(Function &F,
 
 void LowerDivergence::alignLoops(Function &F,
                                  FunctionAnalysisManager &Analyses) {
-  // Each round knows more to be divergent, or has one loop less to merge.
+  // Each round knows more to be divergent, or has fewer loops to merge.
   bool Again = true;
   while (Again) {
     Analyses.invalidate(F, LoopSimplifyPass().run(F, Analyses));
     Analyses.invalidate(F, LCSSAPass().run(F, Analyses));
-    Again = mergeOneLoop(F, Analyses) ||
+    Again = mergeLoops(F, Analyses) ||
             vorion::markRepeatedBlocks(
                 F, Analyses.getResult<UniformityInfoAnalysis>(F),
                 Analyses.getResult<PostDominatorTreeAnalysis>(F));
@@ -205,21 +217,23 @@ void LowerDivergence::alignLoops(Function &F,
   }
 }
 
-bool LowerDivergence::mergeOneLoop(Function &F,
-                                   FunctionAnalysisManager &Analyses) {
+bool LowerDivergence::mergeLoops(Function &F,
+                                 FunctionAnalysisManager &Analyses) {
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
   auto &Loops = Analyses.getResult<LoopAnalysis>(F);
   const auto &PostDominators = Analyses.getResult<PostDominatorTreeAnalysis>(F);
   const auto &Dominators = Analyses.getResult<DominatorTreeAnalysis>(F);
-  // Inner loops first: their exits are branches of the outer ones.
-  auto Preorder = Loops.getLoopsInPreorder();
-  for (Loop *L : reverse(Preorder)) {
-    if (vorion::loopIsInStep(*L, Uniform, PostDominators, Dominators))
-      continue;
-    vorion::mergeExitsIntoLatch(*L);
-    return true;
-  }
-  return false;
+  SmallVector<Loop *, 4> OutOfStep;
+  for (Loop *L : Loops.getLoopsInPreorder())
+    if (!vorion::loopIsInStep(*L, Uniform, PostDominators, Dominators))
+      OutOfStep.push_back(L);
+  // Inner loops first: their exits become branches of the outer ones, which
+  // wait for the next round. Loops apart do not share blocks or exits.
+  for (Loop *L : OutOfStep)
+    if (none_of(OutOfStep,
+                [&](Loop *Other) { return Other != L && L->contains(Other); }))
+      vorion::mergeExitsIntoLatch(*L);
+  return !OutOfStep.empty();
 }
 
 std::vector<Pass *> vorion::createDivergencePasses() {

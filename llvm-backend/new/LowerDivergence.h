@@ -10,6 +10,7 @@
 #ifndef VORION_LLVM_BACKEND_LOWERDIVERGENCE_H
 #define VORION_LLVM_BACKEND_LOWERDIVERGENCE_H
 
+#include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/ADT/Twine.h"
 #include "llvm/Analysis/UniformityAnalysis.h"
 #include "llvm/IR/PassManager.h"
@@ -29,6 +30,12 @@ void refuse(const Instruction &At, const Twine &Why);
 
 /// Whether \p Block ends with a branch that lanes may disagree about.
 bool branchesApart(UniformityInfo &Uniform, const BasicBlock &Block);
+
+using BlockSet = SmallPtrSet<BasicBlock *, 16>;
+
+/// The blocks that control can come to from \p From, itself included, without
+/// passing \p Until (which may be null).
+BlockSet blocksBefore(BasicBlock *From, BasicBlock *Until);
 
 /// Whether the lanes that start an iteration of \p L also end it together: it
 /// has one exit that every iteration passes (where vx_pred can hold lanes

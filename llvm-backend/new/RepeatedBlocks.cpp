@@ -9,7 +9,6 @@
 
 #include "Intrinsics.h"
 #include "LowerDivergence.h"
-#include "llvm/ADT/DepthFirstIterator.h"
 #include "llvm/Analysis/PostDominators.h"
 #include "llvm/CodeGen/TargetOpcodes.h"
 #include "llvm/IR/Instructions.h"
@@ -18,19 +17,6 @@
 using namespace llvm;
 
 namespace {
-
-using BlockSet = df_iterator_default_set<BasicBlock *, 16>;
-
-BlockSet reachable(BasicBlock *From, BasicBlock *Until) {
-  BlockSet Seen;
-  if (Until)
-    Seen.insert(Until);
-  for ([[maybe_unused]] BasicBlock *Block : depth_first_ext(From, Seen))
-    ;
-  if (Until)
-    Seen.erase(Until);
-  return Seen;
-}
 
 /// Whether a second execution may give another result.
 bool dependsOnTime(const Instruction &I) {
@@ -53,8 +39,8 @@ bool vorion::markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
     BasicBlock *Meeting =
         Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
     Instruction *Branch = Block.getTerminator();
-    BlockSet First = reachable(Branch->getSuccessor(0), Meeting);
-    for (BasicBlock *Other : reachable(Branch->getSuccessor(1), Meeting))
+    BlockSet First = blocksBefore(Branch->getSuccessor(0), Meeting);
+    for (BasicBlock *Other : blocksBefore(Branch->getSuccessor(1), Meeting))
       if (First.count(Other))
         Repeated.insert(Other);
   }

@@ -12,6 +12,7 @@
 
 #include "RISCVSubtarget.h"
 #include "Vorion.h"
+#include "llvm/ADT/PostOrderIterator.h"
 #include "llvm/CodeGen/MachineFunctionPass.h"
 #include "llvm/CodeGen/PseudoSourceValue.h"
 #include "llvm/IR/DiagnosticInfo.h"
@@ -81,6 +82,45 @@ std::optional<Place> slotOf(const MachineInstr &MI) {
 }
 
 constexpr unsigned ActiveThreads = 0xCC4;
+
+/// For each block the slots that are loaded before they are stored to again:
+/// what others hold is of no use, and would only make states differ.
+class LiveSlots {
+public:
+  explicit LiveSlots(const MachineFunction &MF) {
+    bool Changed = true;
+    while (Changed) {
+      Changed = false;
+      for (const MachineBasicBlock *Block : post_order(&MF))
+        Changed |= update(*Block);
+    }
+  }
+  bool isLiveIn(const MachineBasicBlock &Block, int Slot) const {
+    auto Found = In.find(&Block);
+    return Found != In.end() && Found->second.count(Slot);
+  }
+
+private:
+  bool update(const MachineBasicBlock &Block) {
+    std::set<int> Live;
+    for (const MachineBasicBlock *Successor : Block.successors())
+      Live.insert(In[Successor].begin(), In[Successor].end());
+    for (const MachineInstr &MI : reverse(Block)) {
+      std::optional<Place> Slot = slotOf(MI);
+      if (Slot && MI.getOpcode() == RISCV::SW)
+        Live.erase(Slot->Number);
+      else if (Slot && MI.getOpcode() == RISCV::LW)
+        Live.insert(Slot->Number);
+    }
+    std::set<int> &Known = In[&Block];
+    if (Known == Live)
+      return false;
+    Known = std::move(Live);
+    return true;
+  }
+
+  DenseMap<const MachineBasicBlock *, std::set<int>> In;
+};
 
 } // namespace
 
@@ -165,15 +205,16 @@ bool VerifySplits::runOnMachineFunction(MachineFunction &MF) {
   TII = Subtarget.getInstrInfo();
   TRI = Subtarget.getRegisterInfo();
 
+  const LiveSlots Slots(MF);
   DenseMap<const MachineBasicBlock *, std::set<PathState>> Seen;
   SmallVector<std::pair<const MachineBasicBlock *, PathState>, 16> Work;
   Work.push_back({&MF.front(), {}});
   while (!Work.empty()) {
     auto [Block, State] = Work.pop_back_val();
     std::set<PathState> &States = Seen[Block];
-    // A register that is not live into the block holds nothing of use.
-    std::erase_if(State.Kept, [B = Block](const auto &Entry) {
-      return !Entry.first.IsSlot && !B->isLiveIn(Entry.first.Number);
+    std::erase_if(State.Kept, [&, B = Block](const auto &Entry) {
+      auto [IsSlot, Number] = Entry.first;
+      return IsSlot ? !Slots.isLiveIn(*B, Number) : !B->isLiveIn(Number);
     });
     if (States.size() >= MaxStates || !States.insert(State).second)
       continue;
