@@ -52,7 +52,7 @@ public:
 private:
   /// Paths through code that crosses itself multiply; past this many states of
   /// one block the rest is taken on trust.
-  static constexpr size_t MaxStates = 64;
+  static constexpr size_t MaxStates = 16;
 
   bool step(const MachineInstr &MI, PathState &State);
   bool fail(const MachineInstr &MI, const Twine &Why);
