@@ -21,12 +21,13 @@ WorkerPool::~WorkerPool() {
     T.join();
 }
 
-void WorkerPool::drain() {
+void WorkerPool::drain(const std::function<void(unsigned)> &Task,
+                       unsigned Count) {
   for (;;) {
     const unsigned N = NextTask.fetch_add(1, std::memory_order_relaxed);
-    if (N >= CurrentCount)
+    if (N >= Count)
       return;
-    (*Current)(N);
+    Task(N);
   }
 }
 
@@ -40,8 +41,12 @@ void WorkerPool::work() {
       return;
     Seen = Generation;
     ++Busy;
+    // Held here: run() forgets the task as soon as there is none left to take,
+    // and then waits for those that are busy with theirs.
+    const std::function<void(unsigned)> &Task = *Current;
+    const unsigned Count = CurrentCount;
     Guard.unlock();
-    drain();
+    drain(Task, Count);
     Guard.lock();
     if (--Busy == 0)
       Finished.notify_one();
@@ -63,7 +68,7 @@ void WorkerPool::run(unsigned Count, bool Short,
     ++Generation;
   }
   Wake.notify_all();
-  drain();
+  drain(Task, Count);
   std::unique_lock Guard(Lock);
   // A worker that has not woken yet finds no task.
   Current = nullptr;

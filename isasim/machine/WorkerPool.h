@@ -26,7 +26,7 @@ public:
 
 private:
   void work();
-  void drain();
+  void drain(const std::function<void(unsigned)> &Task, unsigned Count);
 
   std::mutex Lock;
   std::condition_variable Wake, Finished;

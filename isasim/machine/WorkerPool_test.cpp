@@ -4,6 +4,20 @@
 
 using namespace vorion::isasim;
 
+TEST(WorkerPool, SlowWorkersKeepTheirTask) {
+  // A worker that is late with its task must not find it gone.
+  WorkerPool Pool(4);
+  for (unsigned Round = 0; Round != 300; ++Round) {
+    std::atomic<unsigned> Ran = 0;
+    Pool.run(4, false, [&](unsigned N) {
+      if (N != 0)
+        std::this_thread::yield();
+      ++Ran;
+    });
+    ASSERT_EQ(Ran, 4U);
+  }
+}
+
 TEST(WorkerPool, RunsEachTaskOnceEveryTime) {
   for (const unsigned Threads : {1U, 2U, 7U}) {
     WorkerPool Pool(Threads);
