@@ -63,7 +63,7 @@ class Bench:
 
     def compare(self, expected, actual, mask, name):
         out = self.path(name + ".cmp.json")
-        self.run("splat-compare", expected, actual, "--mask", mask, "--json", out)
+        self.run("splat", "compare", expected, actual, "--mask", mask, "--json", out)
         with open(out) as f:
             return json.load(f)
 
@@ -98,7 +98,7 @@ def pictures(bench, args):
                         tile = "64" if path == "raster" else "16"
                         wanted = bench.make(f"{name}-pairs{tile}.npz", "splat-reference", *source, "--support", support,
                                             "--precision", "f32", "--tile", tile, "--pairs")
-                        same = subprocess.run(("splat-compare", wanted, pairs, "--pairs"), capture_output=True,
+                        same = subprocess.run(("splat", "compare", wanted, pairs, "--pairs"), capture_output=True,
                                               text=True)
                         result = bench.compare(reference, picture, reference, base)
                         with open(report) as f:

@@ -24,7 +24,7 @@ int main(int ArgumentCount, char **Arguments) {
   Add("render", "Renders one view of a scene", splat::addRender);
   Add("demo-scene", "Writes the project's own scene and its cameras",
       splat::addDemoScene);
-  Add("compare", "Compares two pictures", splat::addCompare);
+  Add("compare", "Compares two pictures, or two lists of pairs", splat::addCompare);
 
   try {
     App.parse(ArgumentCount, Arguments);

@@ -66,13 +66,13 @@ template <typename T> bool parseWhole(std::string_view Word, T &Value) {
 /// Pixels that a picture of this size may have; guards multiplications below.
 constexpr int MaxSide = 1 << 15;
 
-Expected<Image> readPfm(const std::string &Path) {
+Expected<ExactImage> readPfm(const std::string &Path) {
   const auto File = readFile(Path);
   if (!File)
     return File.error();
   std::string_view Text(reinterpret_cast<const char *>(File->data()),
                         File->size());
-  Image I;
+  ExactImage I;
   double Scale = 0;
   if (nextWord(Text) != "PF" || !parseWhole(nextWord(Text), I.Width) ||
       !parseWhole(nextWord(Text), I.Height) ||
@@ -87,15 +87,16 @@ Expected<Image> readPfm(const std::string &Path) {
   if (Text.size() != Rows * RowBytes)
     return Error{Path, fmt::format("{} bytes of pixels, expected {}",
                                    Text.size(), Rows * RowBytes)};
-  I.Render.resize(I.pixels() * 3);
+  std::vector<float> Render(I.pixels() * 3);
   for (std::size_t Y = 0; Y < Rows; ++Y)
-    std::memcpy(reinterpret_cast<char *>(I.Render.data()) +
+    std::memcpy(reinterpret_cast<char *>(Render.data()) +
                     (Rows - 1 - Y) * RowBytes,
                 Text.data() + Y * RowBytes, RowBytes);
+  I.Render.assign(Render.begin(), Render.end());
   return I;
 }
 
-Expected<Image> readImageNpz(const std::string &Path) {
+Expected<ExactImage> readImageNpz(const std::string &Path) {
   const auto Arrays = readNpz(Path);
   if (!Arrays)
     return Arrays.error();
@@ -108,12 +109,12 @@ Expected<Image> readImageNpz(const std::string &Path) {
       R.Shape[1] < 1 || R.Shape[0] > MaxSide || R.Shape[1] > MaxSide)
     return Error{Path, "array `render` is no picture, expected floats of "
                        "shape (height, width, 3)"};
-  Image I;
+  ExactImage I;
   I.Height = static_cast<int>(R.Shape[0]);
   I.Width = static_cast<int>(R.Shape[1]);
-  I.Render = R.toFloats();
+  I.Render = R.toDoubles();
   if (const auto Alpha = Arrays->find("alpha"); Alpha != Arrays->end()) {
-    I.Alpha = Alpha->second.toFloats();
+    I.Alpha = Alpha->second.toDoubles();
     if (I.Alpha.size() != I.pixels())
       return Error{Path, "array `alpha` does not have the size of `render`"};
   }
@@ -168,7 +169,7 @@ Expected<Success> writeImage(const std::string &Path, const Image &I) {
                ExitCode::Usage};
 }
 
-Expected<Image> readImage(const std::string &Path) {
+Expected<ExactImage> readImage(const std::string &Path) {
   if (Path.ends_with(".pfm"))
     return readPfm(Path);
   if (Path.ends_with(".npz"))

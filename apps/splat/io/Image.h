@@ -1,4 +1,4 @@
-/// Pictures out: linear floats, and PNG for people.
+/// Pictures in and out: linear floats, and PNG for people.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -12,16 +12,20 @@ namespace vorion::splat {
 /// A rendered picture, rows from the top. Values are as the renderer made
 /// them: unclamped, in the colour space of the scene (trained scenes are in
 /// sRGB already, so nothing is converted on the way to a PNG).
-struct Image {
+template <typename Real> struct BasicImage {
   int Width = 0, Height = 0;
-  std::vector<float> Render; ///< 3 a pixel: r, g, b over the background
-  std::vector<float> Alpha;  ///< 1 a pixel: 1 - final transmittance; may be
-                             ///< empty where a format has no room for it
+  std::vector<Real> Render; ///< 3 a pixel: r, g, b over the background
+  std::vector<Real> Alpha;  ///< 1 a pixel: 1 - final transmittance; may be
+                            ///< empty where a format has no room for it
 
   std::size_t pixels() const {
     return static_cast<std::size_t>(Width) * static_cast<std::size_t>(Height);
   }
 };
+
+using Image = BasicImage<float>;
+/// As files may have them: the fp64 reference's would be rounded in an Image.
+using ExactImage = BasicImage<double>;
 
 /// 8-bit value of a channel: clamped to [0, 1], rounded to nearest; NaN is 0.
 unsigned char toByte(float Value);
@@ -39,7 +43,7 @@ Expected<Success> writeImageNpz(const std::string &Path, const Image &I);
 Expected<Success> writeImage(const std::string &Path, const Image &I);
 
 /// Reads a .pfm, or `render` and, where present, `alpha` of an .npz
-/// (float32 or float64, rounded to float32).
-Expected<Image> readImage(const std::string &Path);
+/// (float32 or float64; neither is rounded).
+Expected<ExactImage> readImage(const std::string &Path);
 
 } // namespace vorion::splat

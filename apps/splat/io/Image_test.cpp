@@ -1,4 +1,5 @@
 #include "Image.h"
+#include "Npz.h"
 #include "TestFiles.h"
 
 #include <png.h>
@@ -7,6 +8,11 @@ using namespace vorion;
 using namespace vorion::splat;
 
 namespace {
+
+/// \p Values in the precision that pictures are read in.
+std::vector<double> exact(const std::vector<float> &Values) {
+  return {Values.begin(), Values.end()};
+}
 
 Image sample() {
   Image I;
@@ -26,7 +32,7 @@ TEST(Image, PfmRoundTripsUnclamped) {
   ASSERT_TRUE(I) << I.error().What;
   EXPECT_EQ(I->Width, 3);
   EXPECT_EQ(I->Height, 2);
-  EXPECT_EQ(I->Render, sample().Render);
+  EXPECT_EQ(I->Render, exact(sample().Render));
   // The format's first row in the file is the bottom one.
   float First;
   std::memcpy(&First, Folder.read("i.pfm").data() + 12, sizeof(First));
@@ -38,8 +44,20 @@ TEST(Image, NpzRoundTripsWithAlpha) {
   ASSERT_TRUE(writeImage(Folder.path("i.npz"), sample()));
   const auto I = readImage(Folder.path("i.npz"));
   ASSERT_TRUE(I) << I.error().What;
-  EXPECT_EQ(I->Render, sample().Render);
-  EXPECT_EQ(I->Alpha, sample().Alpha);
+  EXPECT_EQ(I->Render, exact(sample().Render));
+  EXPECT_EQ(I->Alpha, exact(sample().Alpha));
+}
+
+TEST(Image, NpzOfDoublesIsNotRounded) {
+  const TestFolder Folder;
+  const std::vector<double> Render{0.1, 0.2, 0.3}, Alpha{1.0 / 3};
+  ASSERT_TRUE(writeNpz(Folder.path("i.npz"),
+                       {{"render", NpyArray::of({1, 1, 3}, Render)},
+                        {"alpha", NpyArray::of({1, 1}, Alpha)}}));
+  const auto I = readImage(Folder.path("i.npz"));
+  ASSERT_TRUE(I) << I.error().What;
+  EXPECT_EQ(I->Render, Render);
+  EXPECT_EQ(I->Alpha, Alpha);
 }
 
 TEST(Image, PngHoldsClampedBytes) {

@@ -11,10 +11,11 @@ namespace {
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-template <typename Real>
-Difference compareAs(const std::vector<Real> &A, const std::vector<Real> &B,
-                     std::size_t Channels,
-                     const std::vector<std::uint8_t> &Skip) {
+} // namespace
+
+Difference compare(const std::vector<double> &A, const std::vector<double> &B,
+                   std::size_t Channels,
+                   const std::vector<std::uint8_t> &Skip) {
   assert(A.size() == B.size() && "pictures of different sizes");
   assert((Skip.empty() || Skip.size() * Channels == A.size()) &&
          "mask of another size");
@@ -28,7 +29,7 @@ Difference compareAs(const std::vector<Real> &A, const std::vector<Real> &B,
     for (std::size_t I = P * Channels; I < (P + 1) * Channels; ++I) {
       if (A[I] == B[I] || (std::isnan(A[I]) && std::isnan(B[I])))
         continue;
-      const double Delta = double(A[I]) - double(B[I]);
+      const double Delta = A[I] - B[I];
       Undefined |= std::isnan(Delta);
       Squares += Delta * Delta;
       D.MaxAbs = std::fmax(D.MaxAbs, std::abs(Delta));
@@ -39,20 +40,6 @@ Difference compareAs(const std::vector<Real> &A, const std::vector<Real> &B,
   const double Samples = double(D.Pixels) * double(Channels);
   D.PsnrDb = Squares > 0 ? -10 * std::log10(Squares / Samples) : Infinity;
   return D;
-}
-
-} // namespace
-
-Difference compare(const std::vector<double> &A, const std::vector<double> &B,
-                   std::size_t Channels,
-                   const std::vector<std::uint8_t> &Skip) {
-  return compareAs(A, B, Channels, Skip);
-}
-
-Difference compare(const std::vector<float> &A, const std::vector<float> &B,
-                   std::size_t Channels,
-                   const std::vector<std::uint8_t> &Skip) {
-  return compareAs(A, B, Channels, Skip);
 }
 
 double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B) {

@@ -25,9 +25,6 @@ struct Difference {
 Difference compare(const std::vector<double> &A, const std::vector<double> &B,
                    std::size_t Channels,
                    const std::vector<std::uint8_t> &Skip = {});
-Difference compare(const std::vector<float> &A, const std::vector<float> &B,
-                   std::size_t Channels,
-                   const std::vector<std::uint8_t> &Skip = {});
 
 /// PSNR with peak 255 of the clamped, rounded 8-bit values.
 double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B);

@@ -24,7 +24,7 @@ TEST(Metrics, IsUnclamped) {
 }
 
 TEST(Metrics, SkippedPixelsDoNotCount) {
-  const std::vector<float> A{1, 2, 3, 4}, B{1, 2, 9, 9};
+  const std::vector<double> A{1, 2, 3, 4}, B{1, 2, 9, 9};
   const auto D = compare(A, B, 2, {0, 1});
   EXPECT_EQ(D.Pixels, 1U);
   EXPECT_EQ(D.PsnrDb, Infinity);

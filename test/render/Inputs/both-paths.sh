@@ -8,7 +8,7 @@ rm -f "$out"/reference.npz "$out"/raster.npz "$out"/simt.npz
 splat-reference "$scene" --cameras "$cameras" --view "$view" $options -o "$out/reference.npz"
 for path in raster simt; do
   splat render "$scene" --cameras "$cameras" --view "$view" $options --path $path -o "$out/$path.npz"
-  splat-compare "$out/reference.npz" "$out/$path.npz" --mask "$out/reference.npz" \
+  splat compare "$out/reference.npz" "$out/$path.npz" --mask "$out/reference.npz" \
     --min-db-all 60 --min-db 90 --max-doubtful "$doubtful"
 done
-splat-compare "$out/raster.npz" "$out/simt.npz" --mask "$out/reference.npz" --min-db 100
+splat compare "$out/raster.npz" "$out/simt.npz" --mask "$out/reference.npz" --min-db 100

@@ -20,5 +20,5 @@ flags += ["--antialiased"] if options["antialiased"] else []
 for path in paths:
     subprocess.run(["splat", "render", f"{folder}/scene.ply", "--cameras", f"{folder}/cameras.json", "--view", "view",
                     "--path", path, "-o", f"{folder}/{path}.npz", *flags], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["splat-compare", f"{folder}/expected.npz", f"{folder}/{path}.npz", "--mask",
+    subprocess.run(["splat", "compare", f"{folder}/expected.npz", f"{folder}/{path}.npz", "--mask",
                     f"{folder}/reference.npz", "--min-db", "90", "--max-doubtful", "2"], check=True)

@@ -1,0 +1,131 @@
+#include "Compare.h"
+
+#include "../io/Image.h"
+#include "../io/Metrics.h"
+#include "../io/Npz.h"
+#include "vorion/support/File.h"
+
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+namespace vorion::splat {
+
+namespace {
+
+constexpr const char *Metric = "PSNR, peak 1, linear unclamped floats";
+
+/// The union of the arrays of \p File whose names begin with "mask".
+Expected<std::vector<std::uint8_t>> readMask(const std::string &File,
+                                             const ExactImage &Picture) {
+  const auto Arrays = readNpz(File);
+  if (!Arrays)
+    return Arrays.error();
+  std::vector<std::uint8_t> Mask(Picture.pixels(), 0);
+  bool Found = false;
+  for (const auto &[Name, Array] : *Arrays) {
+    if (!Name.starts_with("mask"))
+      continue;
+    const std::vector<double> Values = Array.toDoubles();
+    if (Values.size() != Mask.size()) // text has no values
+      return Error{File,
+                   fmt::format("{} has {} elements, expected {}x{}", Name,
+                               Values.size(), Picture.Height, Picture.Width)};
+    Found = true;
+    for (std::size_t I = 0; I < Mask.size(); ++I)
+      Mask[I] |= static_cast<std::uint8_t>(Values[I] != 0);
+  }
+  if (!Found)
+    return Error{File, "no array whose name begins with mask"};
+  return Mask;
+}
+
+void print(const char *What, const Difference &D) {
+  fmt::print("{}: {:.2f} dB, largest difference {:.3g}, {} pixels\n", What,
+             D.PsnrDb, D.MaxAbs, D.Pixels);
+}
+
+/// JSON has no infinity; equal pictures get null.
+nlohmann::ordered_json finite(double Value) {
+  return std::isfinite(Value) ? nlohmann::ordered_json(Value) : nullptr;
+}
+
+Expected<Success> require(const std::string &File, const char *What,
+                          const Difference &D,
+                          const std::optional<double> &Least) {
+  if (!Least || D.PsnrDb >= *Least)
+    return Success{};
+  return Error{File,
+               fmt::format("{} {:.2f} dB, expected at least {} dB", What,
+                           D.PsnrDb, *Least),
+               ExitCode::GuestFailed};
+}
+
+} // namespace
+
+Expected<Success> comparePictures(const CompareArguments &A) {
+  const auto First = readImage(A.A);
+  if (!First)
+    return First.error();
+  const auto Second = readImage(A.B);
+  if (!Second)
+    return Second.error();
+  if (First->Width != Second->Width || First->Height != Second->Height)
+    return Error{A.B, fmt::format("{}x{} pixels, expected {}x{} as in {}",
+                                  Second->Width, Second->Height, First->Width,
+                                  First->Height, A.A)};
+  std::vector<std::uint8_t> Mask;
+  if (!A.Mask.empty()) {
+    auto Read = readMask(A.Mask, *First);
+    if (!Read)
+      return Read.error();
+    Mask = std::move(*Read);
+  }
+
+  const Difference All = compare(First->Render, Second->Render, 3);
+  const Difference Outside = compare(First->Render, Second->Render, 3, Mask);
+  const double Share =
+      1 - double(Outside.Pixels) / static_cast<double>(First->pixels());
+  fmt::print("metric: {}\n", Metric);
+  print("render, all pixels", All);
+  if (!Mask.empty()) {
+    print("render, outside the mask", Outside);
+    fmt::print("masked: {:.3f} %\n", 100 * Share);
+  }
+  if (!First->Alpha.empty() && !Second->Alpha.empty())
+    print(Mask.empty() ? "alpha, all pixels" : "alpha, outside the mask",
+          compare(First->Alpha, Second->Alpha, 1, Mask));
+  if (!A.Json.empty()) {
+    const nlohmann::ordered_json Report{
+        {"a", A.A},
+        {"b", A.B},
+        {"mask", A.Mask},
+        {"metric", Metric},
+        {"equal", All.MaxAbs == 0},
+        {"psnr_db", finite(All.PsnrDb)},
+        {"max_abs", finite(All.MaxAbs)},
+        {"doubtful_share", Share},
+        {"psnr_db_outside_doubtful", finite(Outside.PsnrDb)},
+        {"max_abs_outside_doubtful", finite(Outside.MaxAbs)}};
+    if (auto Written = writeFileAtomically(A.Json, Report.dump(2) + "\n");
+        !Written)
+      return Written;
+  }
+
+  if (auto Enough = require(A.B, "over all pixels", All, A.MinDbAll); !Enough)
+    return Enough;
+  if (A.MaxDoubtful && 100 * Share > *A.MaxDoubtful)
+    return Error{A.Mask,
+                 fmt::format("{:.3f} % of the pixels are doubtful, expected "
+                             "at most {} %",
+                             100 * Share, *A.MaxDoubtful),
+                 ExitCode::GuestFailed};
+  return require(A.B,
+                 Mask.empty() ? "over all pixels" : "outside doubtful pixels",
+                 Outside, A.MinDb);
+}
+
+} // namespace vorion::splat
