@@ -81,6 +81,25 @@ kernel void conditional(global uint *out, local uint *t, uint k) {
   out[get_group_id(0) * n + l] = r;
 }
 
+// After the last barrier of a conditional, work-items part and meet only where the
+// conditional ends.
+kernel void branch_after_barrier(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, r = l * 6;
+  if (k & 1) {
+    t[l] = r;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r = t[(l + 4) % n];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (l & 1) {
+      if (r % (l | 1) & 1)
+        r = 45 | l;
+      for (uint i = 0; i < l % 5; i++)
+        r = r * 3 + 1;
+    }
+  }
+  out[get_group_id(0) * n + l] = r;
+}
+
 // Where the branch ends, a value comes from either side.
 kernel void conditional_in_loop(global uint *out, local uint *t, uint k) {
   uint l = ITEM, n = ITEMS, r = 0;
@@ -183,6 +202,21 @@ Values conditional(U N, U Group) {
   return Out;
 }
 
+Values branchAfterBarrier(U N, U) {
+  static_assert(Rounds & 1);
+  Values R(N);
+  for (U L = 0; L < N; ++L) {
+    R[L] = (L + 4) % N * 6;
+    if (!(L & 1))
+      continue;
+    if (R[L] % (L | 1) & 1)
+      R[L] = 45 | L;
+    for (U I = 0; I < L % 5; ++I)
+      R[L] = R[L] * 3 + 1;
+  }
+  return R;
+}
+
 Values conditionalInLoop(U N, U) {
   Values T(N), R(N, 0);
   for (U L = 0; L < N; ++L)
@@ -248,6 +282,7 @@ struct Kernel {
 const Kernel Kernels[] = {{"straight", straight},
                           {"loop", loop},
                           {"conditional", conditional},
+                          {"branch_after_barrier", branchAfterBarrier},
                           {"conditional_in_loop", conditionalInLoop},
                           {"loop_then_barrier", loopThenBarrier},
                           {"private_array", privateArray},

@@ -4,6 +4,8 @@
 
 #include "Barrier.h"
 #include "LLVMUtils.h"
+#include "VariableUniformityAnalysis.h"
+#include "VariableUniformityAnalysisResult.hh"
 #include "Workgroup.h"
 #include "pocl_llvm_api.h"
 
@@ -155,6 +157,34 @@ void anchorBarrierLoops(ArrayRef<Loop *> Loops) {
     Barrier::Create(L->getHeader()->getFirstNonPHI());
     anchorBarrierLoops(L->getSubLoops());
   }
+}
+
+SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
+                           PostDominatorTree &PostDominators)
+    : F(F), Loops(Loops) {
+  if (!simtLanes(*F.getParent()))
+    return;
+  Uniformity = std::make_unique<VariableUniformityAnalysisResult>();
+  Uniformity->runOnFunction(F, Loops, PostDominators);
+}
+
+SimtBranches::~SimtBranches() = default;
+
+bool SimtBranches::mayDivide(Instruction *Terminator) const {
+  if (!Uniformity)
+    return false;
+  Value *Condition = nullptr;
+  if (auto *Branch = dyn_cast<BranchInst>(Terminator))
+    Condition = Branch->isConditional() ? Branch->getCondition() : nullptr;
+  else if (auto *Switch = dyn_cast<SwitchInst>(Terminator))
+    Condition = Switch->getCondition();
+  if (!Condition || Uniformity->isUniform(&F, Condition))
+    return false;
+  for (Loop *L = Loops.getLoopFor(Terminator->getParent()); L;
+       L = L->getParentLoop())
+    if (L->isLoopExiting(Terminator->getParent()))
+      return false;
+  return true;
 }
 
 Value *createLaunchLoad(IRBuilder<> &Builder, Value *Launch, LaunchField Field,

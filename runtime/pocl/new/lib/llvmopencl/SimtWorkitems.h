@@ -15,13 +15,17 @@
 #define POCL_SIMT_WORKITEMS_H
 
 #include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/PostDominators.h>
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/Module.h>
 
+#include <memory>
 #include <set>
 #include <vector>
 
 namespace pocl {
+
+class VariableUniformityAnalysisResult;
 
 /// Pseudo variable: where the core's share of launch->context begins. The
 /// Workgroup pass replaces loads of it.
@@ -48,6 +52,24 @@ bool lowerSimtBarriers(llvm::Function &F);
 /// inner loop at its head may come to share its header, and lanes that have left the
 /// inner loop would pass the barrier while others are in it.
 void anchorBarrierLoops(llvm::ArrayRef<llvm::Loop *> Loops);
+
+/// Tells branches of single work-items from those of the whole group.
+class SimtBranches {
+public:
+  SimtBranches(llvm::Function &F, llvm::LoopInfo &Loops,
+               llvm::PostDominatorTree &PostDominators);
+  ~SimtBranches();
+
+  /// Whether work-items may part at this end of a barrier's block, so that it
+  /// belongs into the region after the barrier. A loop with a barrier is left by
+  /// all or none.
+  bool mayDivide(llvm::Instruction *Terminator) const;
+
+private:
+  llvm::Function &F;
+  llvm::LoopInfo &Loops;
+  std::unique_ptr<VariableUniformityAnalysisResult> Uniformity;
+};
 
 /// What kernels ask of a launch block.
 enum class LaunchField { NumGroups, GlobalOffset, LocalSize, WorkDim };
