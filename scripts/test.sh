@@ -29,7 +29,7 @@ if [ -z "$Quick" ]; then
   ctest --test-dir "$Root/build/asan" -j "$Jobs" --output-on-failure --output-junit "$Results/asan.xml" \
     >"$Logs/asan.log" 2>&1 || { Failed=1; grep -E '\(Failed\)|\(Timeout\)|ERROR:|runtime error' "$Logs/asan.log" | tail -n 40 || true; }
   printf '[%s] format and static analysis\n' "$(elapsed)"
-  "$Root/scripts/lint.sh" >"$Logs/lint.log" 2>&1 || { Failed=1; grep -E 'error:' "$Logs/lint.log" | head -n 40; }
+  "$Root/scripts/lint.sh" >"$Logs/lint.log" 2>&1 || { Failed=1; echo "FAILED lint"; grep -E 'error:' "$Logs/lint.log" | head -n 40 || tail -n 5 "$Logs/lint.log"; }
 fi
 
 printf '[%s] done\n' "$(elapsed)"
