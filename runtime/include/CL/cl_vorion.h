@@ -1,7 +1,7 @@
 /* cl_vorion: what a Vorion device offers beyond OpenCL.
  *
- * Present if "cl_vorion" is in CL_DEVICE_EXTENSIONS. The functions are found with
- * clGetExtensionFunctionAddressForPlatform, which gives NULL on a platform
+ * Present if "cl_vorion" is in CL_DEVICE_EXTENSIONS. The functions are found
+ * with clGetExtensionFunctionAddressForPlatform, which gives NULL on a platform
  * without them; a program may include this header anywhere. */
 #ifndef CL_VORION_H
 #define CL_VORION_H
@@ -18,19 +18,26 @@ extern "C" {
 /* What clGetEventInfoVORION tells about the event of a kernel that has ended:
  * each is a cl_ulong, the sum over the cores for this kernel alone. */
 #define CL_EVENT_WARP_INSTRUCTIONS_VORION 0x4F60 /* retired, one a warp */
-#define CL_EVENT_LANE_INSTRUCTIONS_VORION 0x4F61 /* retired, one an active lane */
-#define CL_EVENT_RASTER_COMMANDS_VORION 0x4F62   /* tiles drawn */
-#define CL_EVENT_RASTER_GAUSSIANS_VORION 0x4F63  /* fetched, once a tile */
-#define CL_EVENT_RASTER_CLIPPED_VORION 0x4F64    /* of these, beside their tile */
-#define CL_EVENT_RASTER_FRAGMENTS_VORION 0x4F65  /* lane slots dispatched */
-#define CL_EVENT_RASTER_BLENDS_VORION 0x4F66     /* pixels changed */
+#define CL_EVENT_LANE_INSTRUCTIONS_VORION                                      \
+  0x4F61                                       /* retired, one an active lane */
+#define CL_EVENT_RASTER_COMMANDS_VORION 0x4F62 /* tiles drawn */
+#define CL_EVENT_RASTER_GAUSSIANS_VORION 0x4F63 /* fetched, once a tile */
+#define CL_EVENT_RASTER_CLIPPED_VORION 0x4F64   /* of these, beside their tile \
+                                                 */
+#define CL_EVENT_RASTER_FRAGMENTS_VORION 0x4F65 /* lane slots dispatched */
+#define CL_EVENT_RASTER_BLENDS_VORION 0x4F66    /* pixels changed */
 
-/* As clGetEventInfo. CL_INVALID_EVENT: not an event of a kernel on a Vorion device.
- * CL_PROFILING_INFO_NOT_AVAILABLE: the kernel has not ended, or has failed.
- * CL_INVALID_VALUE: an unknown name, or size too small for a cl_ulong. */
-typedef cl_int(CL_API_CALL *clGetEventInfoVORION_fn)(cl_event event, cl_uint name,
-                                                     size_t size, void *value,
+/* As clGetEventInfo. CL_INVALID_EVENT: not an event of a kernel on a Vorion
+ * device. CL_PROFILING_INFO_NOT_AVAILABLE: the kernel has not ended, or has
+ * failed. CL_INVALID_VALUE: an unknown name, or size too small for a cl_ulong.
+ */
+/* Parameters are named as in CL/cl.h.
+ * NOLINTBEGIN(readability-identifier-naming) */
+typedef cl_int(CL_API_CALL *clGetEventInfoVORION_fn)(cl_event event,
+                                                     cl_uint name, size_t size,
+                                                     void *value,
                                                      size_t *size_ret);
+/* NOLINTEND(readability-identifier-naming) */
 
 #ifdef __cplusplus
 }
