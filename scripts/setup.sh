@@ -18,7 +18,7 @@ missingPackages() {
 
 installPackages() {
   local Sudo=
-  [ "$(id -u)" -eq 0 ] || Sudo=sudo
+  [ "$(id -u)" -eq 0 ] || Sudo=sudo # its password was asked for below
   $Sudo apt-get update
   # shellcheck disable=SC2046 # one word a package is what is wanted
   $Sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $(missingPackages)
@@ -26,6 +26,10 @@ installPackages() {
 
 [ -r /etc/debian_version ] || fail "this is not a Debian machine; scripts/packages.txt lists what to install"
 if [ -n "$(missingPackages)" ]; then
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || fail "not root and no sudo, expected one of them to install packages"
+    sudo -v
+  fi
   step "installing packages" packages installPackages
 fi
 step "fetching and patching LLVM's RISC-V target" source-llvm "$Root/scripts/fetch-source.sh" llvm
