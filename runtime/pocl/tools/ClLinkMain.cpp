@@ -5,6 +5,9 @@
 /// reqd_work_group_size gives) and leaves an object a kernel in its cache, here a
 /// folder of our own; vorion-link makes one image of them.
 
+#include "ClCommandLine.h"
+#include "ClDiagnostics.h"
+
 #include "vorion/support/Diagnostics.h"
 
 #include <algorithm>
@@ -12,10 +15,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <set>
 #include <spawn.h>
 #include <string>
 #include <sys/wait.h>
@@ -37,53 +41,22 @@ constexpr std::string_view Usage =
     "Compiles OpenCL C 1.2 for the Vorion device: one image with all kernels, for\n"
     "any work-group size (docs/abi.md). With -c, -S, -E or -emit-llvm it is clang.\n"
     "\n"
-    "  -o FILE       the image (default: the first input's name with .elf)\n"
-    "  -D, -U, -I, -cl-... and other options of the OpenCL C compiler\n"
+    "  -o FILE                the image (default: the first input's name with .elf)\n"
+    "  -D NAME[=TEXT], -U NAME, -I FOLDER\n"
+    "  -g                     with line numbers\n"
+    "  -w, -Werror, -W[no-|error=]NAME\n"
+    "  -cl-...                options of OpenCL C\n"
+    "  -O0 to -O3, -Os, -Oz   accepted; kernels are always compiled with -O2\n"
     "\n";
-
-struct CommandLine {
-  std::vector<fs::path> Inputs;
-  std::string BuildOptions;
-  fs::path Output;
-};
-
-bool isKernelFile(const fs::path &Path) { return Path.extension() == ".cl"; }
-
-Expected<CommandLine> parse(int Argc, char **Argv) {
-  CommandLine Line;
-  const auto UsageError = [](std::string What) {
-    return Error{"", std::move(What), ExitCode::Usage};
-  };
-  for (int I = 1; I < Argc; ++I) {
-    const std::string Argument = Argv[I];
-    if (Argument == "-o") {
-      if (++I == Argc)
-        return UsageError("-o: expected a file name");
-      Line.Output = Argv[I];
-    } else if (Argument.starts_with("-")) {
-      Line.BuildOptions += Argument + " ";
-      if ((Argument == "-D" || Argument == "-I" || Argument == "-U") &&
-          I + 1 < Argc)
-        Line.BuildOptions += std::string(Argv[++I]) + " ";
-    } else if (isKernelFile(Argument)) {
-      Line.Inputs.emplace_back(Argument);
-    } else {
-      return UsageError(Argument + ": expected a .cl file");
-    }
-  }
-  if (Line.Inputs.empty())
-    return UsageError("no input, expected a .cl file");
-  if (Line.Output.empty())
-    Line.Output = Line.Inputs[0].filename().replace_extension(".elf");
-  return Line;
-}
 
 /// A folder that goes when its user does.
 class TemporaryFolder {
 public:
   TemporaryFolder() {
-    std::string Template = (fs::temp_directory_path() / "vorion-XXXXXX").string();
-    if (mkdtemp(Template.data()))
+    std::error_code Problem;
+    std::string Template =
+        (fs::temp_directory_path(Problem) / "vorion-XXXXXX").string();
+    if (!Problem && mkdtemp(Template.data()))
       Path = Template;
   }
   ~TemporaryFolder() {
@@ -97,88 +70,198 @@ public:
   fs::path Path;
 };
 
-/// Runs a program, its standard output joined to standard error; true if it
-/// succeeded.
-bool run(const std::vector<std::string> &Arguments) {
+struct Ran {
+  bool Succeeded = false;
+  /// Standard output and standard error as they came.
+  std::string Output;
+};
+
+Ran run(const std::vector<std::string> &Arguments) {
+  std::array<int, 2> Pipe{};
+  if (pipe(Pipe.data()) != 0)
+    return {false, std::strerror(errno)};
   std::vector<char *> Pointers;
   for (const std::string &Argument : Arguments)
     Pointers.push_back(const_cast<char *>(Argument.c_str()));
   Pointers.push_back(nullptr);
   posix_spawn_file_actions_t Actions;
   posix_spawn_file_actions_init(&Actions);
-  posix_spawn_file_actions_adddup2(&Actions, STDERR_FILENO, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&Actions, Pipe[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&Actions, Pipe[1], STDERR_FILENO);
+  posix_spawn_file_actions_addclose(&Actions, Pipe[0]);
+  posix_spawn_file_actions_addclose(&Actions, Pipe[1]);
   pid_t Child = 0;
   const int Problem = posix_spawn(&Child, Pointers[0], &Actions, nullptr,
                                   Pointers.data(), environ);
   posix_spawn_file_actions_destroy(&Actions);
+  close(Pipe[1]);
+  Ran Result;
+  std::array<char, 4096> Chunk{};
+  for (ssize_t Got = 0; (Got = read(Pipe[0], Chunk.data(), Chunk.size())) > 0;)
+    Result.Output.append(Chunk.data(), static_cast<size_t>(Got));
+  close(Pipe[0]);
+  if (Problem != 0)
+    return {false, Arguments[0] + ": " + std::strerror(Problem)};
   int Status = 0;
-  return Problem == 0 && waitpid(Child, &Status, 0) == Child &&
-         WIFEXITED(Status) && WEXITSTATUS(Status) == 0;
+  Result.Succeeded = waitpid(Child, &Status, 0) == Child && WIFEXITED(Status) &&
+                     WEXITSTATUS(Status) == 0;
+  return Result;
 }
 
-/// The objects that PoCL left, one in each innermost folder. A folder without
-/// one is a kernel that was not compiled.
-Expected<std::vector<std::string>> findObjects(const fs::path &Cache,
-                                               const std::string &Input) {
-  std::vector<std::string> Objects;
-  for (const auto &Entry : fs::recursive_directory_iterator(Cache)) {
-    if (!Entry.is_directory())
+std::string textOf(const fs::path &File) {
+  std::ifstream Stream(File, std::ios::binary);
+  return {std::istreambuf_iterator<char>(Stream), {}};
+}
+
+/// What PoCL left in its cache for one file.
+struct Built {
+  /// A kernel's name to its object.
+  std::map<std::string, std::string> Objects;
+  std::string Log;
+};
+
+/// An object lies in each innermost folder. A folder without one is a kernel
+/// that was not compiled.
+Expected<Built> findBuilt(const fs::path &Cache, const std::string &Input) {
+  Built Found;
+  std::error_code Problem;
+  fs::recursive_directory_iterator Entry(Cache, Problem);
+  for (; !Problem && Entry != fs::recursive_directory_iterator();
+       Entry.increment(Problem)) {
+    if (Entry->path().filename() == "build.log")
+      Found.Log += textOf(Entry->path());
+    if (!Entry->is_directory(Problem) || Problem)
       continue;
     bool Innermost = true;
-    std::string Object;
-    for (const auto &Inside : fs::directory_iterator(Entry)) {
-      Innermost &= !Inside.is_directory();
-      if (Inside.path().extension() == ".o")
-        Object = Inside.path().string();
+    fs::path Object;
+    fs::directory_iterator Inside(Entry->path(), Problem);
+    for (; !Problem && Inside != fs::directory_iterator(); Inside.increment(Problem)) {
+      Innermost &= !Inside->is_directory(Problem);
+      if (Inside->path().extension() == ".o")
+        Object = Inside->path();
     }
-    if (!Innermost || Entry.path().filename() == "tempfiles")
+    if (!Innermost || Entry->path().filename() == "tempfiles")
       continue;
     if (Object.empty())
-      return Error{Input, "no code was made of a kernel, or there is none",
-                   ExitCode::InputFile};
-    Objects.push_back(Object);
+      return Error{Input, "no code was made of it, expected at least one kernel"};
+    Found.Objects[Object.stem().string()] = Object.string();
   }
-  if (Objects.empty())
-    return Error{Input, "there is no kernel in it", ExitCode::InputFile};
-  std::sort(Objects.begin(), Objects.end());
-  return Objects;
+  if (Problem)
+    return Error{Cache.string(), "cannot be read: " + Problem.message() +
+                                     ", expected a folder of compiled kernels"};
+  if (Found.Objects.empty())
+    return Error{Input, "there is no kernel in it, expected at least one"};
+  return Found;
 }
 
-Expected<Success> compile(const CommandLine &Line, const fs::path &Root) {
-  TemporaryFolder Folder;
+/// Refuses an output that could not be written, before any work is done.
+Expected<Success> checkOutput(const ClCommandLine &Line) {
+  std::error_code Problem;
+  const std::string Output = Line.Output.string();
+  if (fs::is_directory(Line.Output, Problem))
+    return Error{Output, "is a folder, expected a file name"};
+  for (const fs::path &Input : Line.Inputs)
+    if (fs::equivalent(Input, Line.Output, Problem))
+      return Error{Output, "is an input, expected another file name", ExitCode::Usage};
+  // A trial, since permissions alone do not tell for root or in /proc.
+  std::string Trial = Output + ".XXXXXX";
+  const int File = mkstemp(Trial.data());
+  if (File < 0)
+    return Error{Output, std::string("cannot be written: ") + std::strerror(errno) +
+                             ", expected a folder that can be written"};
+  close(File);
+  unlink(Trial.c_str());
+  return Success{};
+}
+
+Expected<Success> checkInput(const fs::path &Input) {
+  std::error_code Problem;
+  if (fs::is_directory(Input, Problem))
+    return Error{Input.string(), "is a folder, expected OpenCL source"};
+  if (access(Input.c_str(), R_OK) != 0)
+    return Error{Input.string(),
+                 std::string(std::strerror(errno)) + ", expected OpenCL source"};
+  return Success{};
+}
+
+/// \p Name as a C string literal.
+std::string quoted(const std::string &Name) {
+  std::string Text = "\"";
+  for (const char C : Name)
+    Text += C == '"' || C == '\\' ? std::string{'\\', C} : std::string{C};
+  return Text + "\"";
+}
+
+/// Compiles one input with everything PoCL makes of it in \p Folder.
+Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
+                           const fs::path &Root, const fs::path &Folder) {
+  std::error_code Problem;
+  const fs::path Cache = Folder / "cache";
+  fs::create_directories(Cache, Problem);
+  setenv("POCL_CACHE_DIR", Cache.c_str(), 1);
+  // The compiler sees text without a name, so a copy names its origin, for
+  // messages and debuggers; headers beside the file are found by its folder.
+  const fs::path Copy = Folder / "input.cl";
+  std::ofstream Writer(Copy, std::ios::binary);
+  Writer << "#line 1 \"<command line>\"\n"
+         << Line.Prelude << "#line 1 " << quoted(Input.string()) << "\n"
+         << textOf(Input);
+  Writer.close();
+  if (!Writer)
+    return Error{Copy.string(), "cannot be written, expected room for a copy of " +
+                                    Input.string()};
+  const Expected<std::string> Beside =
+      includeOption(fs::absolute(Input, Problem).parent_path().string());
+  if (!Beside)
+    return Beside.error();
+  const Ran Compiler = run({(Root / "pocl/bin/poclcc").string(), "-b",
+                            Line.BuildOptions + *Beside, "-o",
+                            (Folder / "binary").string(), Copy.string()});
+  if (!Compiler.Succeeded)
+    return compilerError(Input.string(), Compiler.Output);
+  Expected<Built> Found = findBuilt(Cache, Input.string());
+  if (!Found)
+    return Found;
+  // The log has a file's warnings once for each time that it was read.
+  std::set<std::string> Seen;
+  for (const Error &Warning : compilerWarnings(Found->Log))
+    if (Seen.insert(Warning.Where + " " + Warning.What).second)
+      printDiagnostic(Tool, "warning", Warning.Where, Warning.What);
+  return Found;
+}
+
+Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
+  for (const fs::path &Input : Line.Inputs)
+    if (const Expected<Success> Good = checkInput(Input); !Good)
+      return Good;
+  if (const Expected<Success> Good = checkOutput(Line); !Good)
+    return Good;
+  const TemporaryFolder Folder;
   if (Folder.Path.empty())
     return Error{"", std::string("cannot make a temporary folder: ") +
-                         std::strerror(errno)};
+                         std::strerror(errno) + ", expected TMPDIR to allow one"};
   setenv("OCL_ICD_VENDORS", (Root / "etc/OpenCL/vendors").c_str(), 1);
   setenv("VORION_ROOT", Root.c_str(), 1);
 
   std::vector<std::string> Link = {(Root / "bin/vorion-link").string(), "-o",
                                    Line.Output.string()};
+  std::map<std::string, std::string> Owners;
   for (size_t I = 0; I < Line.Inputs.size(); ++I) {
-    const fs::path &Input = Line.Inputs[I];
-    if (access(Input.c_str(), R_OK) != 0)
-      return Error{Input.string(), std::strerror(errno)};
-    const fs::path Cache = Folder.Path / std::to_string(I);
-    fs::create_directory(Cache);
-    setenv("POCL_CACHE_DIR", Cache.c_str(), 1);
-    // The compiler sees text without a name, so a copy names its origin, for
-    // messages and debuggers; headers beside the file are found by its folder.
-    const fs::path Copy = Folder.Path / "input.cl";
-    std::ifstream Source(Input, std::ios::binary);
-    std::ofstream(Copy, std::ios::binary)
-        << "#line 1 \"" << Input.string() << "\"\n" << Source.rdbuf();
-    const std::string Beside = fs::absolute(Input).parent_path().string();
-    if (!run({(Root / "pocl/bin/poclcc").string(), "-b",
-              Line.BuildOptions + "-I\"" + Beside + "\"", "-o",
-              (Folder.Path / "binary").string(), Copy.string()}))
-      return Error{Input.string(), "does not compile"};
-    Expected<std::vector<std::string>> Objects = findObjects(Cache, Input.string());
-    if (!Objects)
-      return Objects.error();
-    Link.insert(Link.end(), Objects->begin(), Objects->end());
+    const std::string Input = Line.Inputs[I].string();
+    const Expected<Built> Found =
+        compileOne(Line, Line.Inputs[I], Root, Folder.Path / std::to_string(I));
+    if (!Found)
+      return Found.error();
+    for (const auto &[Kernel, Object] : Found->Objects) {
+      const auto [Owner, New] = Owners.emplace(Kernel, Input);
+      if (!New)
+        return Error{Input, "kernel " + Kernel + " is also in " + Owner->second +
+                                ", expected kernels of different names"};
+      Link.push_back(Object);
+    }
   }
-  if (!run(Link))
-    return Error{Line.Output.string(), "cannot be linked"};
+  if (const Ran Linker = run(Link); !Linker.Succeeded)
+    return linkerError(Line.Output.string(), Linker.Output);
   return Success{};
 }
 
@@ -192,7 +275,7 @@ int main(int Argc, char **Argv) {
   std::error_code Problem;
   const fs::path Root =
       fs::read_symlink("/proc/self/exe", Problem).parent_path().parent_path();
-  const Expected<CommandLine> Line = parse(Argc, Argv);
+  const Expected<ClCommandLine> Line = parseClCommandLine({Argv + 1, Argv + Argc});
   if (!Line)
     return reportError(Tool, Line.error());
   const Expected<Success> Done = compile(*Line, Root);

@@ -354,12 +354,9 @@ void SimtLoops::tidyAllocas() {
   BasicBlock &Entry = F.getEntryBlock();
   for (BasicBlock &Block : F)
     for (Instruction &I : make_early_inc_range(Block)) {
-      if (auto *Alloca = dyn_cast<AllocaInst>(&I)) {
-        if (Alloca->use_empty())
-          Unused.push_back(Alloca);
-        else if (&Block != &Entry && isa<ConstantInt>(Alloca->getArraySize()))
-          Alloca->moveBefore(&*Entry.getFirstInsertionPt());
-      }
+      auto *Alloca = dyn_cast<AllocaInst>(&I);
+      if (Alloca && &Block != &Entry && isa<ConstantInt>(Alloca->getArraySize()))
+        Alloca->moveBefore(&*Entry.getFirstInsertionPt());
       // A context array is no stack slot.
       if (I.isLifetimeStartOrEnd() && !isa<AllocaInst>(I.getOperand(1)))
         Unused.push_back(&I);
@@ -406,6 +403,12 @@ void SimtLoops::tellAliases() {
 
 void SimtLoops::finish() {
   tidyAllocas();
+  erase_if(ContextArrays, [](const ContextArray &Array) {
+    const bool Unused = Array.Placeholder->use_empty();
+    if (Unused)
+      Array.Placeholder->eraseFromParent();
+    return Unused;
+  });
   tellAliases();
   uint64_t Bytes = 0;
   if (!ContextArrays.empty()) {

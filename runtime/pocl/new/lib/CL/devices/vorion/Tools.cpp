@@ -55,7 +55,9 @@ Tools::Tools() {
 std::string Tools::fingerprint() const {
   std::vector<fs::path> Files = {libraryFile(),
                                  fs::path(Root) / "bin" / "vorion-clang",
-                                 fs::path(Root) / "bin" / "vorion-link"};
+                                 fs::path(Root) / "bin" / "vorion-link",
+                                 fs::path(Root) / "pocl" / "share" / "pocl" /
+                                     "kernel-vorion.bc"};
   std::error_code Error;
   for (const char *Folder : {"lib/vorion", "include/vorion"})
     for (const auto &Entry : fs::directory_iterator(fs::path(Root) / Folder, Error))

@@ -1,0 +1,113 @@
+#include "ClCommandLine.h"
+
+#include <algorithm>
+#include <set>
+
+namespace vorion {
+
+namespace {
+
+Error usageError(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
+
+/// -DNAME, -DNAME=TEXT or -DNAME(ARGUMENTS)=TEXT as a line of OpenCL C. Like
+/// clang's, the definition ends with its first line.
+std::string defineLine(std::string Macro) {
+  Macro.resize(std::min(Macro.find('\n'), Macro.size()));
+  const size_t Equals = Macro.find('=');
+  if (Equals == std::string::npos)
+    return "#define " + Macro + " 1\n";
+  return "#define " + Macro.substr(0, Equals) + " " + Macro.substr(Equals + 1) + "\n";
+}
+
+/// -W... as a pragma, since OpenCL's build options have none but -w and -Werror.
+std::string warningLine(const std::string &Name) {
+  const auto Pragma = [](const char *Level, const std::string &Group) {
+    return std::string("#pragma clang diagnostic ") + Level + " \"-W" + Group + "\"\n";
+  };
+  if (Name.starts_with("no-error="))
+    return Pragma("warning", Name.substr(9));
+  if (Name.starts_with("no-"))
+    return Pragma("ignored", Name.substr(3));
+  if (Name.starts_with("error="))
+    return Pragma("error", Name.substr(6));
+  return Pragma("warning", Name);
+}
+
+/// -Wl,... and its like are for other programs; the rest are names of warnings.
+bool isWarningName(const std::string &Name) {
+  return !Name.empty() &&
+         Name.find_first_not_of("abcdefghijklmnopqrstuvwxyz"
+                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+=#") ==
+             std::string::npos;
+}
+
+/// Options without effect: kernels are always compiled with -O2 in the end, and
+/// warnings are no errors unless told so.
+const std::set<std::string> Ignored = {"-O",  "-O0", "-O1", "-O2",        "-O3",
+                                       "-Os", "-Oz", "-g0", "-Wno-error"};
+
+} // namespace
+
+Expected<std::string> includeOption(const std::string &Folder) {
+  if (Folder.find('"') != std::string::npos)
+    return Error{Folder, "has a double quote in its name, expected a folder "
+                         "that OpenCL's build options can name"};
+  return "-I\"" + Folder + "\" ";
+}
+
+Expected<ClCommandLine> parseClCommandLine(const std::vector<std::string> &Arguments) {
+  ClCommandLine Line;
+  for (size_t I = 0; I < Arguments.size(); ++I) {
+    const std::string &Argument = Arguments[I];
+    if (!Argument.starts_with("-")) {
+      if (std::filesystem::path(Argument).extension() != ".cl")
+        return usageError(Argument + ": expected a .cl file");
+      Line.Inputs.emplace_back(Argument);
+      continue;
+    }
+    const std::string Letter = Argument.substr(0, 2);
+    if (Letter == "-o" || Letter == "-D" || Letter == "-U" || Letter == "-I") {
+      std::string Value = Argument.substr(2);
+      if (Value.empty() && ++I < Arguments.size())
+        Value = Arguments[I];
+      if (Value.empty())
+        return usageError(Letter + ": nothing follows, expected a " +
+                          (Letter == "-o"   ? "file name"
+                           : Letter == "-I" ? "folder"
+                                            : "macro"));
+      if (Letter == "-o") {
+        Line.Output = Value;
+      } else if (Letter == "-D") {
+        Line.Prelude += defineLine(Value);
+      } else if (Letter == "-U") {
+        Line.Prelude += "#undef " + Value + "\n";
+      } else {
+        Expected<std::string> Option = includeOption(Value);
+        if (!Option)
+          return Option.error();
+        Line.BuildOptions += *Option;
+      }
+    } else if (Ignored.contains(Argument)) {
+      continue;
+    } else if (Argument == "-g" || Argument == "-g1" || Argument == "-g2" ||
+               Argument == "-g3") {
+      Line.BuildOptions += "-g ";
+    } else if (Argument == "-w" || Argument == "-Werror" ||
+               (Argument.starts_with("-cl-") &&
+                Argument.find_first_of(" \"") == std::string::npos)) {
+      Line.BuildOptions += Argument + " ";
+    } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
+      Line.Prelude += warningLine(Argument.substr(2));
+    } else {
+      return usageError(Argument + ": unknown option, expected one that "
+                                   "vorion-cl-link --help lists");
+    }
+  }
+  if (Line.Inputs.empty())
+    return usageError("no input, expected a .cl file");
+  if (Line.Output.empty())
+    Line.Output = Line.Inputs[0].filename().replace_extension(".elf");
+  return Line;
+}
+
+} // namespace vorion
