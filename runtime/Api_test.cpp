@@ -340,6 +340,41 @@ TEST_F(Runtime, CopiesFillsAndRangesAreChecked) {
             VX_ERROR_ARGUMENT);
 }
 
+TEST_F(Runtime, CopiesReachTheRasterWindow) {
+  const auto At = [](unsigned Core, unsigned Csr) {
+    return VX_IO_RASTER + Core * VX_IO_RASTER_STRIDE +
+           4 * (Csr - VX_CSR_VR_STATUS);
+  };
+  const auto Write = [&](unsigned Csr, std::uint32_t Value) {
+    EXPECT_EQ(vx_copy_to_device(Device, At(7, Csr), &Value, 4), VX_OK)
+        << vx_last_error();
+  };
+  // A tile of one pixel without Gaussians: black, transmittance 1.
+  const std::uint32_t Out = allocate(16);
+  Write(VX_CSR_VR_OUTPUT, Out);
+  Write(VX_CSR_VR_OUTPUT_PITCH, 16);
+  Write(VX_CSR_VR_TILE_SHAPE, 0x00010001);
+  Write(VX_CSR_VR_START, 0);
+  EXPECT_EQ(words(At(7, VX_CSR_VR_WAIT), 1)[0], 0u);
+  EXPECT_EQ(words(At(7, VX_CSR_VR_OUTPUT), 1)[0], Out);
+  EXPECT_EQ(words(Out, 4), (std::vector<std::uint32_t>{0, 0, 0, 0x3f800000}));
+
+  std::uint32_t Word[2] = {};
+  const std::uint32_t Last = VX_GLOBAL_BASE - 4;
+  for (const auto &[Address, Size] : {std::pair{At(8, VX_CSR_VR_OUTPUT), 4},
+                                      {At(0, VX_CSR_VR_OUTPUT), 2},
+                                      {At(0, VX_CSR_VR_OUTPUT) + 2, 4},
+                                      {Last, 4},
+                                      {Last, 8}}) {
+    EXPECT_EQ(vx_copy_to_device(Device, Address, Word, Size),
+              VX_ERROR_ARGUMENT);
+    EXPECT_EQ(vx_copy_from_device(Device, Word, Address, Size),
+              VX_ERROR_ARGUMENT);
+  }
+  EXPECT_EQ(vx_copy_to_device(Device, At(0, VX_CSR_VR_STATUS), Word, 4),
+            VX_ERROR_ARGUMENT);
+}
+
 TEST_F(Runtime, ThreadsTakeTurns) {
   const std::uint32_t Out = allocate(4 * Info.cores);
   std::vector<std::thread> Threads;
@@ -360,6 +395,28 @@ TEST_F(Runtime, ThreadsTakeTurns) {
     Thread.join();
   EXPECT_EQ(wait().outcome, VX_OUTCOME_DONE);
 }
+
+/// A configuration file that VORION_CONFIG names while this lives.
+class ConfigOfEnvironment {
+public:
+  explicit ConfigOfEnvironment(const std::string &Text)
+      : Path((std::filesystem::temp_directory_path() /
+              ("vorion-config" + std::to_string(getpid())))
+                 .string()) {
+    EXPECT_TRUE(vorion::writeFileAtomically(Path, Text));
+    EXPECT_EQ(setenv("VORION_CONFIG", Path.c_str(), 1), 0);
+  }
+  ~ConfigOfEnvironment() {
+    unsetenv("VORION_CONFIG");
+    std::error_code Ignored;
+    std::filesystem::remove(Path, Ignored);
+  }
+  ConfigOfEnvironment(const ConfigOfEnvironment &) = delete;
+  ConfigOfEnvironment &operator=(const ConfigOfEnvironment &) = delete;
+
+private:
+  std::string Path;
+};
 
 TEST(RuntimeOpen, BadImagesAreRefused) {
   vx_device *Device = nullptr;
@@ -385,15 +442,11 @@ TEST(RuntimeOpen, ConfigurationsByTextFileAndEnvironment) {
       << vx_last_error();
   EXPECT_EQ(vx_device_open("/nonexistent.json", &Device), VX_ERROR_FILE);
 
-  const std::string Path = (std::filesystem::temp_directory_path() /
-                            ("vorion-config" + std::to_string(getpid())))
-                               .string();
-  ASSERT_TRUE(vorion::writeFileAtomically(
-      Path, std::string("{\"clusters\": 2, \"global_bytes\": 1048576}")));
-  ASSERT_EQ(setenv("VORION_CONFIG", Path.c_str(), 1), 0);
-  ASSERT_EQ(vx_device_open(nullptr, &Device), VX_OK) << vx_last_error();
-  unsetenv("VORION_CONFIG");
-  std::filesystem::remove(Path);
+  {
+    const ConfigOfEnvironment File(
+        "{\"clusters\": 2, \"global_bytes\": 1048576}");
+    ASSERT_EQ(vx_device_open(nullptr, &Device), VX_OK) << vx_last_error();
+  }
   vx_device_info Info{};
   EXPECT_EQ(vx_device_get_info(Device, &Info), VX_OK);
   EXPECT_EQ(Info.cores, 16u);

@@ -94,9 +94,39 @@ Failure Device::globalRange(std::uint32_t Address, std::uint64_t Size,
   return {};
 }
 
+bool Device::isRasterWindow(std::uint32_t Address) {
+  return Address >= VX_IO_RASTER && Address < VX_GLOBAL_BASE;
+}
+
+template <typename Function>
+Failure Device::forRasterCsrs(std::uint32_t Address, std::uint64_t Size,
+                              Function Use) {
+  if (Address % 4 || Size % 4 || Size > VX_GLOBAL_BASE - Address)
+    return badArgument(fmt::format(
+        "[{:#x}, +{:#x}), expected whole aligned words of the I/O window, "
+        "[{:#x}, {:#x})",
+        Address, Size, VX_IO_RASTER, VX_GLOBAL_BASE));
+  for (std::uint32_t Offset = 0; Offset != Size; Offset += 4) {
+    const std::uint32_t At = Address + Offset - VX_IO_RASTER;
+    const std::uint32_t Csr = VX_CSR_VR_STATUS + At % VX_IO_RASTER_STRIDE / 4;
+    if (!Use(At / VX_IO_RASTER_STRIDE, Csr, Offset))
+      return badArgument(fmt::format(
+          "no such access to {:#x} of the I/O window, expected a raster CSR of "
+          "one of {} cores, not read-only if it is written",
+          Address + Offset, Machine->config().cores()));
+  }
+  return {};
+}
+
 Failure Device::copyIn(std::uint32_t To, const void *From, std::uint64_t Size) {
   Lock Held(Mutex);
   waitForRun(Held);
+  if (isRasterWindow(To))
+    return forRasterCsrs(To, Size, [&](unsigned Core, unsigned Csr, auto At) {
+      std::uint32_t Value = 0;
+      std::memcpy(&Value, static_cast<const std::byte *>(From) + At, 4);
+      return Machine->writeRasterCsr(Core, Csr, Value);
+    });
   std::byte *Bytes = nullptr;
   if (Failure Failed = globalRange(To, Size, &Bytes))
     return Failed;
@@ -107,6 +137,13 @@ Failure Device::copyIn(std::uint32_t To, const void *From, std::uint64_t Size) {
 Failure Device::copyOut(void *To, std::uint32_t From, std::uint64_t Size) {
   Lock Held(Mutex);
   waitForRun(Held);
+  if (isRasterWindow(From))
+    return forRasterCsrs(From, Size, [&](unsigned Core, unsigned Csr, auto At) {
+      const auto Value = Machine->readRasterCsr(Core, Csr);
+      if (Value)
+        std::memcpy(static_cast<std::byte *>(To) + At, &*Value, 4);
+      return Value.has_value();
+    });
   std::byte *Bytes = nullptr;
   if (Failure Failed = globalRange(From, Size, &Bytes))
     return Failed;

@@ -56,6 +56,13 @@ private:
   void keepConsole(std::string_view Text);
   Failure allocateLocked(std::uint64_t Size, const char *What,
                          std::uint32_t &Address);
+  /// Whether \p Address lies in the I/O window (docs/abi.md, "Memory map").
+  static bool isRasterWindow(std::uint32_t Address);
+  /// Calls Use(core, csr, offset) for each word of a range of the window, until
+  /// it returns false.
+  template <typename Function>
+  Failure forRasterCsrs(std::uint32_t Address, std::uint64_t Size,
+                        Function Use);
   Failure globalRange(std::uint32_t Address, std::uint64_t Size,
                       std::byte **Bytes);
   void freeRunMemory();

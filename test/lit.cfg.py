@@ -5,6 +5,7 @@
 # repository; a test that needs one says REQUIRES: and is skipped where it is
 # missing, which is printed below.
 import os
+import shutil
 import sys
 
 import lit.formats
@@ -38,6 +39,7 @@ features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
 # The OpenCL platform of the build and no other, as scripts/env.sh has it.
 features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join(build, "etc", "OpenCL", "vendors")
 features["data"] = os.path.join(root, "..", "shared", "data")
+features["qemu-riscv32"] = shutil.which("qemu-riscv32") or "qemu-riscv32"
 for feature, path in features.items():
     if os.path.exists(path):
         config.available_features.add(feature)

@@ -74,6 +74,14 @@ std::string checkRange(const Key &K, uint64_t Value) {
   return {};
 }
 
+std::string keysOf(const std::string &Group) {
+  std::string Names;
+  for (const Key &K : Keys)
+    if (Group == (K.Group ? K.Group : ""))
+      Names += fmt::format("{}{}", Names.empty() ? "" : ", ", K.Name);
+  return Group.empty() ? Names + ", raster" : Names;
+}
+
 const Key *findKey(const std::string &Group, const std::string &Name) {
   for (const Key &K : Keys)
     if (Name == K.Name && Group == (K.Group ? K.Group : ""))
@@ -95,8 +103,8 @@ std::string readObject(const Json &Object, const std::string &Group,
     }
     const Key *K = findKey(Group, Name);
     if (!K)
-      return fmt::format("unknown key '{}{}{}'", Group,
-                         Group.empty() ? "" : ".", Name);
+      return fmt::format("unknown key '{}{}{}', expected one of {}", Group,
+                         Group.empty() ? "" : ".", Name, keysOf(Group));
     if (!Value.is_number_unsigned())
       return fmt::format("{}: expected a whole number", path(*K));
     const auto Number = Value.get<uint64_t>();

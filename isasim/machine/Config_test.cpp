@@ -39,9 +39,15 @@ TEST(Config, MissingKeysKeepTheirDefault) {
 }
 
 TEST(Config, ErrorsNameTheKey) {
-  EXPECT_EQ(wrongIn(R"({"cores": 4})"), "file.json: unknown key 'cores'");
-  EXPECT_EQ(wrongIn(R"({"raster": {"deep": 4}})"),
-            "file.json: unknown key 'raster.deep'");
+  EXPECT_EQ(wrongIn(R"({"cores": 4})"),
+            "file.json: unknown key 'cores', expected one of clusters, "
+            "sockets_per_cluster, cores_per_socket, warps_per_core, "
+            "lanes_per_warp, barriers, divergence_depth, global_bytes, "
+            "local_bytes, stack_bytes, quantum, max_instructions, "
+            "host_threads, raster");
+  EXPECT_EQ(
+      wrongIn(R"({"raster": {"deep": 4}})"),
+      "file.json: unknown key 'raster.deep', expected one of queue_depth");
   EXPECT_EQ(wrongIn(R"({"lanes_per_warp": "many"})"),
             "file.json: lanes_per_warp: expected a whole number");
   EXPECT_EQ(wrongIn(R"({"lanes_per_warp": -1})"),

@@ -22,6 +22,9 @@ namespace {
 /// host thread costs more than it saves.
 constexpr uint64_t ShortRound = 20000;
 
+/// A core's console text goes out without its line's end when there is more.
+constexpr size_t LongestLine = 64 << 10;
+
 void addCounters(CoreCounters &To, const WarpCounters &C) {
   To.WarpInstructions += C.Retired;
   To.LaneInstructions += C.LaneRetired;
@@ -193,8 +196,9 @@ void Machine::Impl::atSyncPoint() {
 
 void Machine::Impl::flushConsole(bool All) {
   for (const auto &C : Cores) {
-    const size_t Length =
-        All ? C->Console.size() : C->Console.find_last_of('\n') + 1;
+    const size_t Length = All || C->Console.size() > LongestLine
+                              ? C->Console.size()
+                              : C->Console.find_last_of('\n') + 1;
     if (Length == 0)
       continue;
     if (Console)

@@ -388,6 +388,26 @@ TEST(Machine, HostDrivesTheRasterWindow) {
   EXPECT_FALSE(M->readRasterCsr(0, 0x300));
 }
 
+TEST(Machine, ConsoleTextWithoutALineEndIsHandedOn) {
+  // One core, 16 lanes, 10 stores a round: 160 bytes more each time.
+  Config C = small();
+  C.SocketsPerCluster = C.CoresPerSocket = 1;
+  C.Quantum = 30;
+  const auto M = make(
+      C, program({lui(10, 0x3000), addi(11, 0, 'x'), sw(11, VX_IO_CONSOLE, 0),
+                  addi(10, 10, -1), bne(10, 0, -8)}));
+  size_t Total = 0, Longest = 0, Calls = 0;
+  M->setConsole([&](std::string_view Text) {
+    Total += Text.size();
+    Longest = std::max(Longest, Text.size());
+    ++Calls;
+  });
+  EXPECT_EQ(M->run().End, Outcome::Done);
+  EXPECT_EQ(Total, 16U * 0x3000);
+  EXPECT_EQ(Calls, 3U);
+  EXPECT_LE(Longest, 65536U + 160);
+}
+
 TEST(Machine, LimitEndsARun) {
   Config C = small();
   C.MaxInstructions = 5000;

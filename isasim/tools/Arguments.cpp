@@ -134,7 +134,8 @@ Expected<KernelRequest> parseRequest(std::string_view Text,
   using Json = nlohmann::json;
   const Json Object = Json::parse(Text.begin(), Text.end(), nullptr, false);
   if (!Object.is_object())
-    return Error{Where, "not a JSON object with \"global\" and \"args\""};
+    return Error{Where, "not a JSON object, expected {\"kernel\", \"global\", "
+                        "\"local\", \"args\"}"};
   KernelRequest R;
   auto Sizes = [](const Json &Value, std::array<uint32_t, 3> &To) -> unsigned {
     if (!Value.is_array() || Value.empty() || Value.size() > 3)
@@ -155,7 +156,7 @@ Expected<KernelRequest> parseRequest(std::string_view Text,
       R.WorkDim = Sizes(Value, R.Global);
     } else if (Key == "local") {
       if (!Sizes(Value, R.Local))
-        return Error{Where, "\"local\": expected 1 to 3 whole numbers"};
+        return Error{Where, "\"local\": expected 1 to 3 whole numbers above 0"};
     } else if (Key == "args" && Value.is_array()) {
       for (const Json &Arg : Value) {
         if (!Arg.is_string())
@@ -163,13 +164,15 @@ Expected<KernelRequest> parseRequest(std::string_view Text,
         R.Args.push_back(Arg.get<std::string>());
       }
     } else {
-      return Error{Where, fmt::format("unknown or malformed key '{}', expected "
-                                      "kernel, global, local, args",
-                                      Key)};
+      return Error{Where,
+                   fmt::format("unknown or malformed key '{}', expected one "
+                               "of kernel (a string), global, local (1 to 3 "
+                               "whole numbers), args (strings)",
+                               Key)};
     }
   }
   if (R.WorkDim == 0)
-    return Error{Where, "\"global\": expected 1 to 3 whole numbers"};
+    return Error{Where, "\"global\": expected 1 to 3 whole numbers above 0"};
   return R;
 }
 

@@ -75,6 +75,9 @@ TEST(Arguments, Requests) {
        {"", "[]", "{}", R"({"global": []})", R"({"global": [0]})",
         R"({"global": [1,1,1,1]})", R"({"global": [1], "locals": [1]})",
         R"({"global": [1], "args": [5]})", R"({"global": [1], "local": 4})",
-        R"({"global": [-1]})", R"({"global": [1], "kernel": 3})"})
-    EXPECT_FALSE(parseRequest(Text, "f")) << Text;
+        R"({"global": [-1]})", R"({"global": [1], "kernel": 3})"}) {
+    const auto Bad = parseRequest(Text, "f");
+    ASSERT_FALSE(Bad) << Text;
+    EXPECT_NE(Bad.error().What.find("expected"), std::string::npos) << Text;
+  }
 }

@@ -52,6 +52,10 @@ Expected<Config> makeConfig(const Options &O) {
   return C;
 }
 
+Error missingGlobal() {
+  return {"", "--global is missing, expected X[,Y[,Z]]", ExitCode::Usage};
+}
+
 /// The launch that the options ask for; WorkDim 0 for none.
 Expected<KernelRequest> makeRequest(const Options &O) {
   KernelRequest R;
@@ -69,7 +73,7 @@ Expected<KernelRequest> makeRequest(const Options &O) {
       return Error{"", "--global: expected X[,Y[,Z]], whole numbers above 0",
                    ExitCode::Usage};
   } else if (!O.Kernel.empty() || !O.Args.empty() || !O.Local.empty()) {
-    return Error{"", "a kernel needs --global X[,Y[,Z]]", ExitCode::Usage};
+    return missingGlobal();
   }
   if (!O.Local.empty() && parseSizes(O.Local, R.Local) == 0)
     return Error{"", "--local: expected X[,Y[,Z]], whole numbers above 0",
@@ -148,6 +152,9 @@ int run(const Options &O) {
     printKernels(**Program);
     return 0;
   }
+  // What an image of kernels has for a main does nothing.
+  if (Request->WorkDim == 0 && !(*Program)->kernels().empty())
+    return reportError(Tool, missingGlobal());
   Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
   if (!M)
     return reportError(Tool, M.error());
@@ -208,7 +215,9 @@ int main(int Argc, char **Argv) {
   } catch (const CLI::CallForHelp &E) {
     return App.exit(E);
   } catch (const CLI::ParseError &E) {
-    return reportError(Tool, Error{"", E.what(), ExitCode::Usage});
+    return reportError(
+        Tool, Error{"", std::string(E.what()) + ", expected: see --help",
+                    ExitCode::Usage});
   }
   if (O.PrintDefaultConfig) {
     fmt::print("{}", toJson(Config()));

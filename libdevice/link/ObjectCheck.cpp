@@ -159,14 +159,14 @@ Expected<Success> checkArchive(Bytes File, const std::string &Archive) {
   for (std::uint64_t At = ArchiveMagic.size(); At < File.size();) {
     const auto Header = slice(File, At, HeaderSize);
     if (!Header)
-      return Error{Archive, "truncated archive"};
+      return Error{Archive, "truncated archive, expected whole members"};
     const char *Text = reinterpret_cast<const char *>(Header->data());
     std::string Name(Text, NameSize);
     const std::string Digits(Text + SizeField, SizeWidth);
     const std::uint64_t Size = std::strtoull(Digits.c_str(), nullptr, 10);
     const auto Member = slice(File, At + HeaderSize, Size);
     if (!Member)
-      return Error{Archive, "truncated archive"};
+      return Error{Archive, "truncated archive, expected whole members"};
     At += HeaderSize + Size + Size % 2;
     if (Name.starts_with("//")) {
       LongNames = *Member;
@@ -178,7 +178,8 @@ Expected<Success> checkArchive(Bytes File, const std::string &Archive) {
       const auto Long =
           slice(LongNames, std::strtoull(Name.c_str() + 1, nullptr, 10), 0);
       if (!Long)
-        return Error{Archive, "malformed member name"};
+        return Error{Archive, "malformed member name, expected an offset into "
+                              "the table of long names"};
       const std::string_view Rest(reinterpret_cast<const char *>(Long->data()),
                                   static_cast<std::size_t>(LongNames.data() +
                                                            LongNames.size() -
@@ -211,13 +212,14 @@ Expected<std::string> link::readArchAttribute(Bytes File,
     const auto Section = readAt<Elf32_Shdr>(
         File, Header->e_shoff + std::uint64_t{I} * sizeof(Elf32_Shdr));
     if (!Section)
-      return Error{Name, "truncated section table"};
+      return Error{Name, "truncated section table, expected a whole object"};
     if (Section->sh_type != AttributesSectionType)
       continue;
     const auto Content = slice(File, Section->sh_offset, Section->sh_size);
     auto Arch = Content ? archOfSection(*Content) : std::nullopt;
     if (!Arch)
-      return Error{Name, "malformed .riscv.attributes section"};
+      return Error{Name, "malformed .riscv.attributes section, expected one as "
+                         "vorion-clang writes it"};
     return *Arch;
   }
   return Error{Name, "has no .riscv.attributes section, expected one that "
@@ -238,7 +240,7 @@ Expected<Success> link::checkInput(Bytes File, const std::string &Name) {
   if (!hasExtension(*Arch, "xvortex"))
     return Error{Name, "compiled for " + *Arch +
                            ", which lacks xvortex: scalar code branches "
-                           "without splits and is wrong under divergence "
-                           "(compile with vorion-clang)"};
+                           "without splits and is wrong under divergence, "
+                           "expected objects of vorion-clang"};
   return Success{};
 }

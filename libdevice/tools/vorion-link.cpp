@@ -60,8 +60,8 @@ Expected<std::string> findLibrary(const std::string &Name,
     if (fs::exists(Path))
       return Path.string();
   }
-  return Error{"-l" + Name,
-               "no lib" + Name + ".a in the folders given with -L"};
+  return Error{"-l" + Name, "no such library, expected lib" + Name +
+                                ".a in a folder given with -L"};
 }
 
 Expected<CommandLine> parse(int Argc, char **Argv) {
@@ -85,7 +85,10 @@ Expected<CommandLine> parse(int Argc, char **Argv) {
     } else if (Arg == "-r" || Arg == "--relocatable") {
       Line.Relocatable = true;
     } else if (Arg.starts_with("@")) {
-      return Error{Arg, "response files are not supported", ExitCode::Usage};
+      return Error{Arg,
+                   "response files are not supported, expected options and "
+                   "objects on the command line",
+                   ExitCode::Usage};
     } else if (Arg.starts_with("-o") && Arg.size() > 2) {
       Line.Output = Arg.substr(2);
     } else if (Arg.starts_with("-L")) {
@@ -138,7 +141,8 @@ Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   while (waitpid(Child, &Status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFEXITED(Status) || WEXITSTATUS(Status) != 0)
-    return Error{"", "the link failed"};
+    return Error{"", "the link failed, expected ld.lld-19 to accept what its "
+                     "messages above name"};
   return Success{};
 }
 

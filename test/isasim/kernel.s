@@ -30,7 +30,11 @@
 # RUN: not vorion-sim %t.elf --global 100 --arg buf@%t.none --arg out:400@%t.o --arg i32:1 --arg local:9 2>&1 | FileCheck %s --check-prefix=NOFILE
 # NOFILE: {{.*}}.none: cannot open: No such file or directory
 # RUN: not vorion-sim %t.elf --arg i32:1 2>&1 | FileCheck %s --check-prefix=GLOBAL
-# GLOBAL: vorion-sim: error: a kernel needs --global X[,Y[,Z]]
+# GLOBAL: vorion-sim: error: --global is missing, expected X[,Y[,Z]]
+# RUN: sh -c 'vorion-sim %t.elf 2> %t.err; echo "exit $?" >> %t.err'
+# RUN: FileCheck %s --check-prefix=ALONE < %t.err
+# ALONE: vorion-sim: error: --global is missing, expected X[,Y[,Z]]
+# ALONE-NEXT: exit 2
 
 # A kernel that traps leaves no output file.
 # RUN: not vorion-sim %t.elf --global 100 --arg buf:8 --arg out:400@%t.never --arg i32:1 --arg local:9 --max-instructions 20

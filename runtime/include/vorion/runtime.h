@@ -88,7 +88,10 @@ vx_status vx_mem_alloc(vx_device *device, uint64_t size, uint32_t *address);
 /* address: what vx_mem_alloc gave; 0 is allowed and does nothing. */
 vx_status vx_mem_free(vx_device *device, uint32_t address);
 
-/* Ranges must lie in global memory; they need not be one allocation. */
+/* Ranges must lie in global memory; they need not be one allocation. The first
+ * two also take aligned 4-byte words of the I/O window, in rising order: raster
+ * CSRs, and a command that is started has been executed at return. A word that
+ * is no CSR, or is read-only, ends the copy there: VX_ERROR_ARGUMENT. */
 vx_status vx_copy_to_device(vx_device *device, uint32_t to, const void *from,
                             uint64_t size);
 vx_status vx_copy_from_device(vx_device *device, void *to, uint32_t from,
