@@ -108,6 +108,7 @@ class Generator:
         for record in self.word_loads:
             for _ in range(5):
                 self.load(record, from_table=True)
+        self.fresh = [word >> 7 & 31 for word, name in self.words if name == "lw"]
         # An item takes three integer registers at most.
         while len(self.words) < 60 and len(self.free["x"]) > 3 and len(self.free["f"]) > 1:
             record, = rng.choices(self.known, self.weights)
@@ -138,8 +139,13 @@ class Generator:
             return 0, 7, 5
         return self.free[file].pop(), 7, 5
 
+    def sources(self, record):
+        """Half of the integer operands come from the block's fresh ones: most results are small or never change."""
+        return {name: (self.rng.choice(self.fresh), low, 5) for name, low in (("rs1", 15), ("rs2", 20))
+                if re.search(rf"\b{name}\b", record.Syntax) and self.rng.getrandbits(1)}
+
     def compute(self, record):
-        fields = {"rd": self.destination(record)}
+        fields = {"rd": self.destination(record), **self.sources(record)}
         if re.search(r"\brm\b", record.Syntax):
             fields["rm"] = self.rng.choice((*VALID_RM, RM_DYN, RM_DYN)), 12, 3
         self.emit(record, **fields)
@@ -197,7 +203,7 @@ class Generator:
         self.emit(record, rd=rd, rs1=(base, 15, 5))
 
     def branch(self, record):
-        fields = {}
+        fields = self.sources(record)
         if self.rng.randrange(4) == 0:  # equal operands are rare otherwise
             register = self.rng.randrange(32)
             fields = {"rs1": (register, 15, 5), "rs2": (register, 20, 5)}
