@@ -1,10 +1,8 @@
 /* The C names of single-precision functions, for C programs and for what the
    compiler calls by itself. The work is done by instructions where there are
-   some, else by SLEEF, whose sources come with PoCL's.
+   some, else by SLEEF, whose sources come with PoCL's. */
 
-   sinf, cosf and tanf reduce their argument with four floats of pi: they are
-   right up to about 39000 and give 0 beyond. (OpenCL's functions of these names
-   are others, without that limit.) */
+#include "trig_large.h"
 
 /* Compiled with -fno-math-errno, these builtins are instructions. */
 float sqrtf(float x) { return __builtin_sqrtf(x); }
@@ -21,9 +19,18 @@ float fmaxf(float x, float y) { return __builtin_fmaxf(x, y); }
   float sleef(float x, type y);                                                \
   float name(float x, type y) { return sleef(x, y); }
 
-FROM_SLEEF(sinf, Sleef_sinf_u10)
-FROM_SLEEF(cosf, Sleef_cosf_u10)
-FROM_SLEEF(tanf, Sleef_tanf_u10)
+/* SLEEF reduces these with four floats of pi, right up to about 39000. */
+#define TRIGONOMETRIC(name, sleef)                                             \
+  float sleef(float x);                                                        \
+  float name(float x) {                                                        \
+    const float size = __builtin_fabsf(x);                                     \
+    return size >= LARGE_ANGLE && size <= __FLT_MAX__ ? large_##name(x)        \
+                                                      : sleef(x);              \
+  }
+
+TRIGONOMETRIC(sinf, Sleef_sinf_u10)
+TRIGONOMETRIC(cosf, Sleef_cosf_u10)
+TRIGONOMETRIC(tanf, Sleef_tanf_u10)
 FROM_SLEEF(asinf, Sleef_asinf_u10)
 FROM_SLEEF(acosf, Sleef_acosf_u10)
 FROM_SLEEF(atanf, Sleef_atanf_u10)
