@@ -1,6 +1,6 @@
 // The base instructions: RV32IMAF, Zicsr, Zifencei, Zicond, Zba, Zbb, Zbs and
 // amocas.w of Zacas (RISC-V unprivileged specification, 20240411 and the
-// Zacas chapter). lr.w and sc.w are left out on purpose: DESIGN decision 4.
+// Zacas chapter). lr.w and sc.w are left out on purpose: docs/decisions.md, 4.
 
 // Formats whose immediate field is read differently from those of the base.
 def IShift : Format<"rd, rs1, shamt">;
@@ -116,7 +116,7 @@ def RV_DIVU : RType<"divu", 0x33, 5, 0x01, "m">;
 def RV_REM : RType<"rem", 0x33, 6, 0x01, "m">;
 def RV_REMU : RType<"remu", 0x33, 7, 0x01, "m">;
 
-// Zaamo, Zacas. The aq and rl bits are ignored (isasim/README.md, "Order").
+// Zaamo, Zacas. The aq and rl bits are ignored (docs/abi.md, Order).
 def RV_AMOADD_W : AmoType<"amoadd.w", 0x00, "zaamo">;
 def RV_AMOSWAP_W : AmoType<"amoswap.w", 0x01, "zaamo">;
 def RV_AMOXOR_W : AmoType<"amoxor.w", 0x04, "zaamo">;

@@ -6,7 +6,7 @@
 
 namespace vorion::runtime {
 
-/// Work-items of a group (DESIGN decision 6).
+/// Work-items of a group (docs/decisions.md, 6).
 inline constexpr std::uint32_t MaxGroupItems = 1024;
 /// Groups of a launch: the start-up code's group number plus the number of
 /// cores must not wrap.

@@ -1,5 +1,5 @@
 /// Single precision on every vector level and mask: results and flags against
-/// the integer implementation, and DESIGN decision 11 by name.
+/// the integer implementation, and docs/decisions.md, 11 by name.
 
 #include "core/SoftFloat.h"
 #include "testing/WarpRunner.h"

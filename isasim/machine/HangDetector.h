@@ -1,6 +1,6 @@
 /// Proves that a machine can never go on: it is back in a state where it was
 /// before, and nothing outside its registers has changed in between. A spin
-/// lock between lanes of one warp ends here (DESIGN decision 4).
+/// lock between lanes of one warp ends here (docs/decisions.md, 4).
 #pragma once
 
 #include "core/Core.h"

@@ -25,7 +25,7 @@ struct AgentConfig {
 /// status, drained tile and counters.
 ///
 /// Threads: belongs to its core, except that a Rasterizer takes and completes
-/// commands; the machine never lets both run at once (DESIGN decision 10).
+/// commands; the machine never lets both run at once (docs/decisions.md, 10).
 class RasterAgent {
 public:
   explicit RasterAgent(const AgentConfig &Config = {});

@@ -1,6 +1,6 @@
 /// Which files may become part of a program for the device. Code compiled for
 /// scalar RISC-V branches without splits and is wrong under divergence, so
-/// the link refuses it (DESIGN decision 5).
+/// the link refuses it (docs/decisions.md, 5).
 #pragma once
 
 #include "vorion/support/Expected.h"

@@ -1,5 +1,5 @@
 # A spin lock between the lanes of one warp: lane 0 has it and waits for the
-# others at the loop's end (DESIGN decision 4). The report says where.
+# others at the loop's end (docs/decisions.md, 4). The report says where.
 # REQUIRES: vorion-mc, vorion-sim
 # RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
 # RUN: sh -c 'vorion-sim %t.elf 2> %t.err; echo "exit $?" >> %t.err'

@@ -1,4 +1,4 @@
-/// Groups of every awkward size and shape (DESIGN decision 6): one lane, less
+/// Groups of every awkward size and shape (docs/decisions.md, 6): one lane, less
 /// than a warp, exactly one, one more, several passes with a ragged last, the
 /// largest; with barriers straight, in loops and in conditionals.
 ///

@@ -33,7 +33,7 @@ struct Config {
   uint32_t StackBytes = 64 << 10; ///< a lane, a power of two from 4 KiB on
 
   /// Warp instructions a warp runs at most between two points where all cores
-  /// are parked (DESIGN decision 10). Fixed by the configuration, since a
+  /// are parked (docs/decisions.md, 10). Fixed by the configuration, since a
   /// program that polls memory can see it.
   uint32_t Quantum = 1 << 16;
   /// Warp instructions of the whole device after which a run ends with

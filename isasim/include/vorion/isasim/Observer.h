@@ -1,4 +1,4 @@
-/// What watches a run without changing it (DESIGN decision 9). Every function
+/// What watches a run without changing it (docs/decisions.md, 9). Every function
 /// does nothing by default.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// A value or a message: how every input error travels (STYLE: bugs assert,
+/// A value or a message: how every input error travels (bugs assert,
 /// input errors are values).
 #pragma once
 
