@@ -8,7 +8,7 @@ ld: assignments of the image's place and size (each becomes a symbol of the prog
 
 import argparse
 
-from records import Records
+from records import Records, write
 
 
 def numbers(records):
@@ -37,8 +37,7 @@ def main():
         lines += [f"#define {name} {value:#x}" for name, value in [*numbers(records), *offsets(records)]]
     else:
         lines += [f"{name} = {value:#x};" for name, value in numbers(records) if name.startswith("VX_IMAGE_")]
-    with open(options.output, "w", encoding="utf-8") as file:
-        file.write("\n".join(lines) + "\n")
+    write(options.output, "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

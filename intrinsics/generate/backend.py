@@ -11,7 +11,7 @@ import argparse
 import os
 
 from intrinsics import intrinsics
-from records import Records
+from records import Records, write
 
 NOTE = "Generated from the records of intrinsics/ by intrinsics/generate/backend.py; do not edit."
 PREDICATES = {"xvortex": "HasVendorXVortex", "xvorion": "HasVendorXVorion"}
@@ -71,8 +71,7 @@ def main():
     options = parser.parse_args()
     records = Records(options.tblgen)
     for name, lines in (("RISCVInstrInfoXVortex.td", target_records), ("VorionIntrinsics.def", table)):
-        with open(os.path.join(options.folder, name), "w", encoding="utf-8") as file:
-            file.write("\n".join(lines(records)) + "\n")
+        write(os.path.join(options.folder, name), "\n".join(lines(records)) + "\n")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ usage: docs.py [--tblgen PATH] [--check] OUTPUT
 import argparse
 import sys
 
-from records import Records
+from records import Records, write
 
 HEAD = """# Instructions, CSRs and descriptors
 
@@ -89,8 +89,7 @@ def main():
         print(f"docs.py: error: {args.output}: stale, expected the output of intrinsics/generate/docs.py",
               file=sys.stderr)
         return 1
-    with open(args.output, "w") as out:
-        out.write(text)
+    write(args.output, text)
     return 0
 
 

@@ -9,7 +9,7 @@ host: vorion_abi.h, for C and C++: constants, CSR numbers, descriptors
 import argparse
 
 from intrinsics import intrinsics
-from records import Records
+from records import Records, write
 
 NOTE = "Generated from the records of intrinsics/ by intrinsics/generate/header.py; do not edit."
 
@@ -85,8 +85,7 @@ def main():
     parser.add_argument("output")
     options = parser.parse_args()
     lines = {"device": device, "host": host}[options.reader](Records(options.tblgen))
-    with open(options.output, "w", encoding="utf-8") as file:
-        file.write(f"/* {NOTE} */\n" + "\n".join(lines) + "\n")
+    write(options.output, f"/* {NOTE} */\n" + "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

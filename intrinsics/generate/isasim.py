@@ -6,7 +6,7 @@ usage: isasim.py [--tblgen PATH] OUTPUT
 
 import argparse
 
-from records import Records
+from records import Records, write
 
 HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/isasim.py; do not edit.
 #pragma once
@@ -132,8 +132,7 @@ def main():
     for part in (instructions, csrs, abi):
         lines += part(records)
     lines.append("} // namespace vorion::isasim")
-    with open(options.output, "w", encoding="utf-8") as out:
-        out.write("\n".join(lines) + "\n")
+    write(options.output, "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ usage: raster.py [--tblgen PATH] OUTPUT
 
 import argparse
 
-from records import Records
+from records import Records, write
 
 HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/raster.py; do not edit.
 #pragma once
@@ -94,11 +94,8 @@ def main():
     records = Records(args.tblgen)
     csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
     parts = (enum_csrs(csrs), table_csrs(csrs), fields(csrs), constants(records), gaussian(records))
-    with open(args.output, "w") as out:
-        out.write(HEAD + "\n")
-        for part in parts:
-            out.writelines(line + "\n" for line in part)
-        out.write("} // namespace vorion::raster\n")
+    lines = [HEAD, *(line for part in parts for line in part), "} // namespace vorion::raster"]
+    write(args.output, "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -42,3 +42,13 @@ class Records:
             return file, int(line), int(digits or 0)
         names = sorted(self._dump["!instanceof"].get(cls, []), key=place)
         return [self._record(n) for n in names]
+
+
+def write(path, text):
+    """Makes path hold text; a file that does already keeps its time, so that nothing is built again for it."""
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            if file.read() == text:
+                return
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
