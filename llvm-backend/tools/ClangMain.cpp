@@ -6,6 +6,7 @@
 #include "llvm/Support/InitLLVM.h"
 #include "llvm/Support/LLVMDriver.h"
 #include "llvm/Support/Path.h"
+#include "llvm/Support/Program.h"
 #include "llvm/Support/raw_ostream.h"
 
 #include <unistd.h>
@@ -18,7 +19,7 @@ static bool wantsKernelImage(llvm::ArrayRef<char *> Arguments) {
   bool AnyKernel = false;
   for (size_t I = 0; I < Arguments.size(); ++I) {
     const llvm::StringRef A = Arguments[I];
-    if (A == "-o") {
+    if (A == "-o" || A == "-D" || A == "-U" || A == "-I") {
       ++I;
     } else if (A == "-c" || A == "-S" || A == "-E" || A == "-emit-llvm" ||
                A == "-fsyntax-only" || A == "-###" || A == "-x" ||
@@ -35,11 +36,11 @@ static bool wantsKernelImage(llvm::ArrayRef<char *> Arguments) {
 
 int main(int Argc, char **Argv) {
   llvm::InitLLVM Init(Argc, Argv);
+  llvm::SmallString<256> Tool(llvm::sys::fs::getMainExecutable(
+      Argv[0], reinterpret_cast<void *>(&main)));
+  llvm::sys::path::remove_filename(Tool);
+  llvm::sys::path::append(Tool, "vorion-cl-link");
   if (wantsKernelImage({Argv + 1, Argv + Argc})) {
-    llvm::SmallString<256> Tool(llvm::sys::fs::getMainExecutable(
-        Argv[0], reinterpret_cast<void *>(&main)));
-    llvm::sys::path::remove_filename(Tool);
-    llvm::sys::path::append(Tool, "vorion-cl-link");
     execv(Tool.c_str(), Argv);
     llvm::errs() << "vorion-clang: error: " << Tool
                  << ": cannot be run, expected the OpenCL part of the build\n";
@@ -48,5 +49,10 @@ int main(int Argc, char **Argv) {
   if (Argc == 2 && llvm::StringRef(Argv[1]) == "--version")
     llvm::outs() << VORION_TOOL " " VORION_VERSION ", made of\n";
   llvm::outs().flush();
+  // What is ours comes first, with the exit codes, then clang's long list. A
+  // build without the OpenCL part has only the latter.
+  if (Argc == 2 && llvm::StringRef(Argv[1]) == "--help" &&
+      llvm::sys::fs::can_execute(Tool))
+    llvm::sys::ExecuteAndWait(Tool, {Tool, "--help"});
   return clang_main(Argc, Argv, {Argv[0], nullptr, false});
 }

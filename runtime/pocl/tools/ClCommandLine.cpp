@@ -7,7 +7,9 @@ namespace vorion {
 
 namespace {
 
-Error usageError(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
+Error usageError(std::string What) {
+  return {"", std::move(What), ExitCode::Usage};
+}
 
 /// -DNAME, -DNAME=TEXT or -DNAME(ARGUMENTS)=TEXT as a line of OpenCL C. Like
 /// clang's, the definition ends with its first line.
@@ -16,13 +18,16 @@ std::string defineLine(std::string Macro) {
   const size_t Equals = Macro.find('=');
   if (Equals == std::string::npos)
     return "#define " + Macro + " 1\n";
-  return "#define " + Macro.substr(0, Equals) + " " + Macro.substr(Equals + 1) + "\n";
+  return "#define " + Macro.substr(0, Equals) + " " + Macro.substr(Equals + 1) +
+         "\n";
 }
 
-/// -W... as a pragma, since OpenCL's build options have none but -w and -Werror.
+/// -W... as a pragma, since OpenCL's build options have none but -w and
+/// -Werror.
 std::string warningLine(const std::string &Name) {
   const auto Pragma = [](const char *Level, const std::string &Group) {
-    return std::string("#pragma clang diagnostic ") + Level + " \"-W" + Group + "\"\n";
+    return std::string("#pragma clang diagnostic ") + Level + " \"-W" + Group +
+           "\"\n";
   };
   if (Name.starts_with("no-error="))
     return Pragma("warning", Name.substr(9));
@@ -43,7 +48,7 @@ bool isWarningName(const std::string &Name) {
 
 /// Options without effect: kernels are always compiled with -O2 in the end, and
 /// warnings are no errors unless told so.
-const std::set<std::string> Ignored = {"-O",  "-O0", "-O1", "-O2",        "-O3",
+const std::set<std::string> Ignored = {"-O",  "-O0", "-O1", "-O2",       "-O3",
                                        "-Os", "-Oz", "-g0", "-Wno-error"};
 
 } // namespace
@@ -55,7 +60,8 @@ Expected<std::string> includeOption(const std::string &Folder) {
   return "-I\"" + Folder + "\" ";
 }
 
-Expected<ClCommandLine> parseClCommandLine(const std::vector<std::string> &Arguments) {
+Expected<ClCommandLine>
+parseClCommandLine(const std::vector<std::string> &Arguments) {
   ClCommandLine Line;
   for (size_t I = 0; I < Arguments.size(); ++I) {
     const std::string &Argument = Arguments[I];
@@ -100,7 +106,7 @@ Expected<ClCommandLine> parseClCommandLine(const std::vector<std::string> &Argum
       Line.Prelude += warningLine(Argument.substr(2));
     } else {
       return usageError(Argument + ": unknown option, expected one that "
-                                   "vorion-cl-link --help lists");
+                                   "vorion-clang --help lists");
     }
   }
   if (Line.Inputs.empty())

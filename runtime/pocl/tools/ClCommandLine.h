@@ -21,7 +21,8 @@ struct ClCommandLine {
 
 /// Reads the arguments after the tool's name. An unknown option is a usage
 /// error that names it.
-Expected<ClCommandLine> parseClCommandLine(const std::vector<std::string> &Arguments);
+Expected<ClCommandLine>
+parseClCommandLine(const std::vector<std::string> &Arguments);
 
 /// \p Folder as a -I option of clBuildProgram, with a blank after it; a name
 /// with a double quote cannot be written.

@@ -57,14 +57,16 @@ Error compilerError(const std::string &Input, const std::string &Output) {
       return {Input, "there is no function " + Parts.str(1) +
                          ", expected its definition in the file"};
     if (std::regex_match(Line, Parts, Option))
-      return {"", Parts.str(1) + ": unknown option, expected one of OpenCL C 1.2's",
+      return {"",
+              Parts.str(1) + ": unknown option, expected one of OpenCL C 1.2's",
               ExitCode::Usage};
     if (FirstWords.empty() && !Line.empty() && !parse(Line, "warning") &&
         !std::regex_match(Line, Counts))
       FirstWords = Line;
   }
   return {Input, "does not compile" +
-                     (FirstWords.empty() ? "" : " (" + FirstWords + ")") + Wanted};
+                     (FirstWords.empty() ? "" : " (" + FirstWords + ")") +
+                     Wanted};
 }
 
 Error linkerError(const std::string &Image, const std::string &Output) {

@@ -1,9 +1,9 @@
-/// OpenCL C files to one image with all their kernels: what vorion-clang runs when
-/// it is given nothing but .cl files and is asked for a program.
+/// OpenCL C files to one image with all their kernels: what vorion-clang runs
+/// when it is given nothing but .cl files and is asked for a program.
 ///
 /// PoCL's offline compiler builds each file for any group size (or the one that
-/// reqd_work_group_size gives) and leaves an object a kernel in its cache, here a
-/// folder of our own; vorion-link makes one image of them.
+/// reqd_work_group_size gives) and leaves an object a kernel in its cache, here
+/// a folder of our own; vorion-link makes one image of them.
 
 #include "ClCommandLine.h"
 #include "ClDiagnostics.h"
@@ -38,10 +38,13 @@ constexpr std::string_view Tool = "vorion-clang";
 constexpr std::string_view Usage =
     "usage: vorion-clang [options] kernel.cl... [-o program.elf]\n"
     "\n"
-    "Compiles OpenCL C 1.2 for the Vorion device: one image with all kernels, for\n"
-    "any work-group size (docs/abi.md). With -c, -S, -E or -emit-llvm it is clang.\n"
+    "Compiles OpenCL C 1.2 for the Vorion device: one image with all kernels, "
+    "for\n"
+    "any work-group size (docs/abi.md). With -c, -S, -E or -emit-llvm it is "
+    "clang.\n"
     "\n"
-    "  -o FILE                the image (default: the first input's name with .elf)\n"
+    "  -o FILE                the image (default: the first input's name with "
+    ".elf)\n"
     "  -D NAME[=TEXT], -U NAME, -I FOLDER\n"
     "  -g                     with line numbers\n"
     "  -w, -Werror, -W[no-|error=]NAME\n"
@@ -135,7 +138,8 @@ Expected<Built> findBuilt(const fs::path &Cache, const std::string &Input) {
     bool Innermost = true;
     fs::path Object;
     fs::directory_iterator Inside(Entry->path(), Problem);
-    for (; !Problem && Inside != fs::directory_iterator(); Inside.increment(Problem)) {
+    for (; !Problem && Inside != fs::directory_iterator();
+         Inside.increment(Problem)) {
       Innermost &= !Inside->is_directory(Problem);
       if (Inside->path().extension() == ".o")
         Object = Inside->path();
@@ -143,7 +147,8 @@ Expected<Built> findBuilt(const fs::path &Cache, const std::string &Input) {
     if (!Innermost || Entry->path().filename() == "tempfiles")
       continue;
     if (Object.empty())
-      return Error{Input, "no code was made of it, expected at least one kernel"};
+      return Error{Input,
+                   "no code was made of it, expected at least one kernel"};
     Found.Objects[Object.stem().string()] = Object.string();
   }
   if (Problem)
@@ -162,12 +167,14 @@ Expected<Success> checkOutput(const ClCommandLine &Line) {
     return Error{Output, "is a folder, expected a file name"};
   for (const fs::path &Input : Line.Inputs)
     if (fs::equivalent(Input, Line.Output, Problem))
-      return Error{Output, "is an input, expected another file name", ExitCode::Usage};
+      return Error{Output, "is an input, expected another file name",
+                   ExitCode::Usage};
   // A trial, since permissions alone do not tell for root or in /proc.
   std::string Trial = Output + ".XXXXXX";
   const int File = mkstemp(Trial.data());
   if (File < 0)
-    return Error{Output, std::string("cannot be written: ") + std::strerror(errno) +
+    return Error{Output, std::string("cannot be written: ") +
+                             std::strerror(errno) +
                              ", expected a folder that can be written"};
   close(File);
   unlink(Trial.c_str());
@@ -179,8 +186,8 @@ Expected<Success> checkInput(const fs::path &Input) {
   if (fs::is_directory(Input, Problem))
     return Error{Input.string(), "is a folder, expected OpenCL source"};
   if (access(Input.c_str(), R_OK) != 0)
-    return Error{Input.string(),
-                 std::string(std::strerror(errno)) + ", expected OpenCL source"};
+    return Error{Input.string(), std::string(std::strerror(errno)) +
+                                     ", expected OpenCL source"};
   return Success{};
 }
 
@@ -208,8 +215,9 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
          << textOf(Input);
   Writer.close();
   if (!Writer)
-    return Error{Copy.string(), "cannot be written, expected room for a copy of " +
-                                    Input.string()};
+    return Error{Copy.string(),
+                 "cannot be written, expected room for a copy of " +
+                     Input.string()};
   const Expected<std::string> Beside =
       includeOption(fs::absolute(Input, Problem).parent_path().string());
   if (!Beside)
@@ -239,7 +247,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   const TemporaryFolder Folder;
   if (Folder.Path.empty())
     return Error{"", std::string("cannot make a temporary folder: ") +
-                         std::strerror(errno) + ", expected TMPDIR to allow one"};
+                         std::strerror(errno) +
+                         ", expected TMPDIR to allow one"};
   setenv("OCL_ICD_VENDORS", (Root / "etc/OpenCL/vendors").c_str(), 1);
   setenv("VORION_ROOT", Root.c_str(), 1);
 
@@ -255,7 +264,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
     for (const auto &[Kernel, Object] : Found->Objects) {
       const auto [Owner, New] = Owners.emplace(Kernel, Input);
       if (!New)
-        return Error{Input, "kernel " + Kernel + " is also in " + Owner->second +
+        return Error{Input, "kernel " + Kernel + " is also in " +
+                                Owner->second +
                                 ", expected kernels of different names"};
       Link.push_back(Object);
     }
@@ -275,7 +285,8 @@ int main(int Argc, char **Argv) {
   std::error_code Problem;
   const fs::path Root =
       fs::read_symlink("/proc/self/exe", Problem).parent_path().parent_path();
-  const Expected<ClCommandLine> Line = parseClCommandLine({Argv + 1, Argv + Argc});
+  const Expected<ClCommandLine> Line =
+      parseClCommandLine({Argv + 1, Argv + Argc});
   if (!Line)
     return reportError(Tool, Line.error());
   const Expected<Success> Done = compile(*Line, Root);
