@@ -39,13 +39,18 @@ TEST(File, RoundTripsAndLeavesNothingAside) {
   ASSERT_TRUE(Bytes);
   EXPECT_EQ(Bytes->size(), 5u);
   std::filesystem::remove(Path);
-  EXPECT_FALSE(readFile(Path));
+  const auto Gone = readFile(Path);
+  ASSERT_FALSE(Gone);
+  EXPECT_EQ(Gone.error().What,
+            "cannot open: No such file or directory, expected a readable file");
 }
 
 TEST(File, UnwritablePathIsAnErrorNamingIt) {
   const auto Result = writeFileAtomically("/nonexistent-folder/x", "y");
   ASSERT_FALSE(Result);
   EXPECT_EQ(Result.error().Where, "/nonexistent-folder/x");
+  EXPECT_EQ(Result.error().What, "cannot write: No such file or directory, "
+                                 "expected a folder that can be written");
 }
 
 } // namespace

@@ -24,14 +24,15 @@ int main(int ArgumentCount, char **Arguments) {
   Add("render", "Renders one view of a scene", splat::addRender);
   Add("demo-scene", "Writes the project's own scene and its cameras",
       splat::addDemoScene);
-  Add("compare", "Compares two pictures, or two lists of pairs", splat::addCompare);
+  Add("compare", "Compares two pictures, or two lists of pairs",
+      splat::addCompare);
 
   try {
     App.parse(ArgumentCount, Arguments);
   } catch (const CLI::Success &E) {
     return App.exit(E); // --help
   } catch (const CLI::ParseError &E) {
-    return reportError("splat", {"", E.what(), ExitCode::Usage});
+    return reportUsageError("splat", E.what());
   }
   for (auto &[Command, Run] : Commands)
     if (Command->parsed())

@@ -12,7 +12,7 @@ int runTool(CLI::App &App, int Count, char **Values,
   } catch (const CLI::Success &E) {
     return App.exit(E); // --help
   } catch (const CLI::ParseError &E) {
-    return reportError(App.get_name(), {"", E.what(), ExitCode::Usage});
+    return reportUsageError(App.get_name(), E.what());
   }
   const auto Done = Run();
   return Done ? 0 : reportError(App.get_name(), Done.error());

@@ -1,17 +1,31 @@
 #include "Sample.h"
 
 #include <cstdio>
+#include <cstdlib>
 
 namespace sample {
 
 Device::Device(const std::string &Source) {
   std::vector<cl::Platform> Platforms;
-  cl::Platform::get(&Platforms);
+  try {
+    cl::Platform::get(&Platforms);
+  } catch (const cl::Error &) {
+    // To some loaders no platform is an error, to others an empty list.
+  }
+  if (Platforms.empty())
+    throw cl::Error(CL_PLATFORM_NOT_FOUND_KHR,
+                    "no OpenCL platform, expected one (source scripts/env.sh)");
   std::vector<cl::Device> Devices;
-  if (!Platforms.empty())
+  try {
     Platforms[0].getDevices(CL_DEVICE_TYPE_ALL, &Devices);
-  if (Devices.empty())
-    throw cl::Error(CL_DEVICE_NOT_FOUND, "no OpenCL device; source scripts/env.sh");
+  } catch (const cl::Error &E) {
+    const char *Config = std::getenv("VORION_CONFIG");
+    throw cl::Error(E.err(),
+                    Config && *Config
+                        ? "no OpenCL device, expected a valid VORION_CONFIG"
+                        : "no OpenCL device, expected one of a Vorion platform "
+                          "(source scripts/env.sh)");
+  }
   Chosen = Devices[0];
   Context = cl::Context(Chosen);
   Queue = cl::CommandQueue(Context, Chosen);
@@ -19,7 +33,8 @@ Device::Device(const std::string &Source) {
   try {
     Program.build();
   } catch (const cl::Error &) {
-    std::fputs(Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Chosen).c_str(), stderr);
+    std::fputs(Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Chosen).c_str(),
+               stderr);
     throw;
   }
   GetEventInfo = reinterpret_cast<clGetEventInfoVORION_fn>(

@@ -19,7 +19,9 @@ Expected<Success> comparePairs(const CompareArguments &A) {
     for (const auto &[Path, Arrays] :
          {std::pair(&A.A, &*First), std::pair(&A.B, &*Second)})
       if (!Arrays->contains(Name) || Arrays->at(Name).Type != "i4")
-        return Error{*Path, fmt::format("no int32 array {}", Name)};
+        return Error{*Path, fmt::format("no int32 array {}, expected what "
+                                        "--dump-pairs writes",
+                                        Name)};
     const auto X = First->at(Name).toDoubles();
     const auto Y = Second->at(Name).toDoubles();
     if (X == Y)

@@ -1,5 +1,6 @@
 #include "Device.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <utility>
@@ -51,6 +52,12 @@ const Candidate *choose(const std::vector<Candidate> &All,
 }
 
 Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
+  const char *Config = std::getenv("VORION_CONFIG");
+  if (All.empty() && Config && *Config)
+    return Error{"", fmt::format("no OpenCL device, expected a valid "
+                                 "VORION_CONFIG, which is \"{}\", and a Vorion "
+                                 "platform (source scripts/env.sh)",
+                                 Config)};
   if (All.empty())
     return Error{"", "no OpenCL device, expected one of a Vorion platform "
                      "(source scripts/env.sh)"};

@@ -24,7 +24,7 @@ public:
                                      "camera",
                                      Index)};
     Camera C;
-    if (const Json *Name = key("img_name")) {
+    if (const Json *Name = key("img_name", "a string")) {
       if (Name->is_string())
         C.Name = Name->get<std::string>();
       else
@@ -34,14 +34,14 @@ public:
     C.Id = integer("id", 0, 1 << 30);
     C.Width = integer("width", 1, MaxImageSize);
     C.Height = integer("height", 1, MaxImageSize);
-    if (const Json *Position = key("position"))
+    if (const Json *Position = key("position", RowWanted))
       row("position", *Position, C.Position);
-    if (const Json *Rotation = key("rotation")) {
+    if (const Json *Rotation = key("rotation", RotationWanted)) {
       if (Rotation->is_array() && Rotation->size() == 3)
         for (std::size_t I = 0; I < 3; ++I)
           row("rotation", (*Rotation)[I], C.Rotation[I]);
       else
-        wrong("rotation", "three rows of three finite numbers");
+        wrong("rotation", RotationWanted);
     }
     C.Fx = focal("fx");
     C.Fy = focal("fy");
@@ -55,26 +55,30 @@ public:
   }
 
 private:
+  static constexpr const char *RowWanted = "three finite numbers a row";
+  static constexpr const char *RotationWanted =
+      "three rows of three finite numbers";
+
   void fail(std::string What) {
     if (!Problem)
       Problem =
           Error{Path, View.empty() ? fmt::format("record {}: {}", Index, What)
                                    : fmt::format("view {}: {}", View, What)};
   }
-  void wrong(const char *Key, const char *Wanted) {
+  void wrong(const char *Key, const std::string &Wanted) {
     fail(fmt::format("key {} is wrong, expected {}", Key, Wanted));
   }
 
-  const Json *key(const char *Key) {
+  const Json *key(const char *Key, const std::string &Wanted) {
     const auto It = Record.find(Key);
     if (It != Record.end())
       return &*It;
-    fail(fmt::format("key {} is missing", Key));
+    fail(fmt::format("key {} is missing, expected {}", Key, Wanted));
     return nullptr;
   }
 
   double number(const char *Key) {
-    const Json *J = key(Key);
+    const Json *J = key(Key, "a finite number");
     if (!J)
       return 0;
     if (!J->is_number() || !std::isfinite(J->get<double>())) {
@@ -92,14 +96,15 @@ private:
   }
 
   int integer(const char *Key, int Least, int Most) {
-    const Json *J = key(Key);
+    const std::string Wanted =
+        fmt::format("an integer from {} to {}", Least, Most);
+    const Json *J = key(Key, Wanted);
     if (!J)
       return 0;
     // Unsigned 64-bit values above the range must not wrap on conversion.
     if (!J->is_number_integer() || J->get<double>() < Least ||
         J->get<double>() > Most) {
-      fail(fmt::format("key {} is wrong, expected an integer from {} to {}",
-                       Key, Least, Most));
+      wrong(Key, Wanted);
       return 0;
     }
     return J->get<int>();
@@ -113,7 +118,7 @@ private:
         To[I] = J[I].get<double>();
     }
     if (!Good)
-      wrong(Key, "three finite numbers a row");
+      wrong(Key, RowWanted);
   }
 
   /// To three digits: files with few decimals pass, mirrored, scaled or

@@ -86,17 +86,27 @@ TEST(Cameras, RoundTripsToTheSameDoubles) {
 
 TEST(Cameras, EveryMissingKeyIsNamedWithItsView) {
   const TestFolder Folder;
-  for (const char *Key :
-       {"id", "width", "height", "position", "rotation", "fx", "fy"}) {
+  const std::pair<const char *, const char *> Wanted[] = {
+      {"id", "an integer from 0 to 1073741824"},
+      {"width", "an integer from 1 to "},
+      {"height", "an integer from 1 to "},
+      {"position", "three finite numbers a row"},
+      {"rotation", "three rows of three finite numbers"},
+      {"fx", "a finite number"},
+      {"fy", "a finite number"}};
+  for (const auto &[Key, Value] : Wanted) {
     auto R = record();
     R.erase(Key);
-    EXPECT_EQ(errorOf(Folder, nlohmann::json::array({R}).dump()),
-              fmt::format("view front: key {} is missing", Key));
+    EXPECT_TRUE(
+        errorOf(Folder, nlohmann::json::array({R}).dump())
+            .starts_with(fmt::format(
+                "view front: key {} is missing, expected {}", Key, Value)))
+        << Key;
   }
   auto R = record();
   R.erase("img_name");
   EXPECT_EQ(errorOf(Folder, nlohmann::json::array({record(), R}).dump()),
-            "record 1: key img_name is missing");
+            "record 1: key img_name is missing, expected a string");
 }
 
 TEST(Cameras, WrongValuesAreNamed) {

@@ -30,6 +30,13 @@ inline int reportError(std::string_view Tool, const Error &E) {
   return static_cast<int>(E.Code);
 }
 
+/// For a command line that the parser refuses with \p What, which seldom names
+/// what it would have taken.
+inline int reportUsageError(std::string_view Tool, std::string_view What) {
+  return reportError(Tool, {"", fmt::format("{}, expected: see --help", What),
+                            ExitCode::Usage});
+}
+
 /// The last lines of every tool's `--help`.
 inline constexpr std::string_view ExitCodeHelp =
     "exit codes: 0 ok, 1 guest failed, 2 usage, 3 input or output file, "

@@ -19,7 +19,8 @@ namespace vorion {
 inline Expected<std::vector<std::byte>> readFile(const std::string &Path) {
   std::FILE *F = std::fopen(Path.c_str(), "rb");
   if (!F)
-    return Error{Path, std::string("cannot open: ") + std::strerror(errno)};
+    return Error{Path, std::string("cannot open: ") + std::strerror(errno) +
+                           ", expected a readable file"};
   std::vector<std::byte> Bytes;
   struct stat Info {};
   if (fstat(fileno(F), &Info) == 0 && S_ISREG(Info.st_mode))
@@ -31,7 +32,8 @@ inline Expected<std::vector<std::byte>> readFile(const std::string &Path) {
   const int ReadErrno = std::ferror(F) ? errno : 0;
   std::fclose(F);
   if (ReadErrno)
-    return Error{Path, std::string("cannot read: ") + std::strerror(ReadErrno)};
+    return Error{Path, std::string("cannot read: ") + std::strerror(ReadErrno) +
+                           ", expected a readable file"};
   return Bytes;
 }
 
@@ -43,14 +45,16 @@ inline Expected<Success> writeFileAtomically(const std::string &Path,
   const std::string Aside = Path + ".tmp" + std::to_string(getpid());
   std::FILE *F = std::fopen(Aside.c_str(), "wb");
   if (!F)
-    return Error{Path, std::string("cannot write: ") + std::strerror(errno)};
+    return Error{Path, std::string("cannot write: ") + std::strerror(errno) +
+                           ", expected a folder that can be written"};
   const bool Wrote = std::fwrite(Data, 1, Size, F) == Size;
   const bool Closed = std::fclose(F) == 0;
   if (Wrote && Closed && std::rename(Aside.c_str(), Path.c_str()) == 0)
     return Success{};
   const int Cause = errno;
   std::remove(Aside.c_str());
-  return Error{Path, std::string("cannot write: ") + std::strerror(Cause)};
+  return Error{Path, std::string("cannot write: ") + std::strerror(Cause) +
+                         ", expected a folder that can be written"};
 }
 
 inline Expected<Success> writeFileAtomically(const std::string &Path,
