@@ -1,5 +1,6 @@
 #include "Compare.h"
 
+#include "../io/Hash.h"
 #include "../io/Image.h"
 #include "../io/Metrics.h"
 #include "../io/Npz.h"
@@ -39,7 +40,8 @@ Expected<std::vector<std::uint8_t>> readMask(const std::string &File,
       Mask[I] |= static_cast<std::uint8_t>(Values[I] != 0);
   }
   if (!Found)
-    return Error{File, "no array whose name begins with mask"};
+    return Error{File, "no array whose name begins with mask, expected one at "
+                       "least"};
   return Mask;
 }
 
@@ -51,6 +53,16 @@ void print(const char *What, const Difference &D) {
 /// JSON has no infinity; equal pictures get null.
 nlohmann::ordered_json finite(double Value) {
   return std::isfinite(Value) ? nlohmann::ordered_json(Value) : nullptr;
+}
+
+/// What was compared: the file and its hash; null for no file.
+Expected<nlohmann::ordered_json> input(const std::string &File) {
+  if (File.empty())
+    return nlohmann::ordered_json(nullptr);
+  auto Hash = hashFile(File);
+  if (!Hash)
+    return Hash.error();
+  return nlohmann::ordered_json{{"file", File}, {"fnv1a64", *Hash}};
 }
 
 Expected<Success> require(const std::string &File, const char *What,
@@ -99,17 +111,22 @@ Expected<Success> comparePictures(const CompareArguments &A) {
     print(Mask.empty() ? "alpha, all pixels" : "alpha, outside the mask",
           compare(First->Alpha, Second->Alpha, 1, Mask));
   if (!A.Json.empty()) {
-    const nlohmann::ordered_json Report{
-        {"a", A.A},
-        {"b", A.B},
-        {"mask", A.Mask},
-        {"metric", Metric},
-        {"equal", All.MaxAbs == 0},
-        {"psnr_db", finite(All.PsnrDb)},
-        {"max_abs", finite(All.MaxAbs)},
-        {"doubtful_share", Share},
-        {"psnr_db_outside_doubtful", finite(Outside.PsnrDb)},
-        {"max_abs_outside_doubtful", finite(Outside.MaxAbs)}};
+    nlohmann::ordered_json Report{
+        {"program", {{"name", "splat"}, {"version", VORION_VERSION}}}};
+    for (const auto &[Name, File] : {std::pair("a", &A.A), std::pair("b", &A.B),
+                                     std::pair("mask", &A.Mask)}) {
+      auto Input = input(*File);
+      if (!Input)
+        return Input.error();
+      Report[Name] = std::move(*Input);
+    }
+    Report.update({{"metric", Metric},
+                   {"equal", All.MaxAbs == 0},
+                   {"psnr_db", finite(All.PsnrDb)},
+                   {"max_abs", finite(All.MaxAbs)},
+                   {"doubtful_share", Share},
+                   {"psnr_db_outside_doubtful", finite(Outside.PsnrDb)},
+                   {"max_abs_outside_doubtful", finite(Outside.MaxAbs)}});
     if (auto Written = writeFileAtomically(A.Json, Report.dump(2) + "\n");
         !Written)
       return Written;

@@ -1,7 +1,10 @@
 #include "Report.h"
 
+#include "../io/Hash.h"
 #include "vorion/support/File.h"
 
+#include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,17 +13,6 @@ namespace vorion::splat {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// FNV-1a, 64 bits: tells inputs apart, guards against nobody.
-Expected<std::string> hashFile(const std::string &File) {
-  auto Bytes = readFile(File);
-  if (!Bytes)
-    return Bytes.error();
-  std::uint64_t Hash = 0xcbf29ce484222325;
-  for (const std::byte B : *Bytes)
-    Hash = (Hash ^ static_cast<std::uint64_t>(B)) * 0x100000001b3;
-  return fmt::format("{:016x}", Hash);
-}
 
 Json json(const KernelCounters &C) {
   return {{"warp_instructions", C.WarpInstructions},
@@ -55,6 +47,30 @@ Json json(const StageReport &S) {
   return {{"name", S.Name}, {"seconds", S.Seconds}, {"kernels", Kernels}};
 }
 
+Json json(const std::vector<ProgramSpec> &Programs) {
+  Json All = Json::array();
+  for (const ProgramSpec &P : Programs)
+    All.push_back(
+        {{"name", P.Name}, {"files", P.Files}, {"defines", P.Defines}});
+  return All;
+}
+
+/// The machine that a Vorion device is: what the environment's VORION_CONFIG
+/// names, a file or the text itself (runtime/include/vorion/runtime.h).
+Expected<Json> configuration() {
+  const char *Value = std::getenv("VORION_CONFIG");
+  if (!Value || !*Value)
+    return Json("default prototype");
+  if (Value[std::strspn(Value, " \t\r\n")] == '{')
+    return Json{{"fnv1a64", fnv1a64(Value)}, {"text", Value}};
+  const auto Bytes = readFile(Value);
+  if (!Bytes)
+    return Bytes.error();
+  const std::string Text(reinterpret_cast<const char *>(Bytes->data()),
+                         Bytes->size());
+  return Json{{"file", Value}, {"fnv1a64", fnv1a64(Text)}, {"text", Text}};
+}
+
 struct Totals {
   double Seconds = 0;
   std::optional<KernelCounters> Counters;
@@ -81,6 +97,16 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
   auto CameraHash = hashFile(R.CameraFile);
   if (!CameraHash)
     return CameraHash.error();
+  Json Device{{"name", R.Dev.name()},
+              {"version", R.Dev.version()},
+              {"compute_units", R.Dev.computeUnits()},
+              {"global_bytes", R.Dev.globalBytes()}};
+  if (R.Dev.isVorion()) {
+    auto Configuration = configuration();
+    if (!Configuration)
+      return Configuration.error();
+    Device["configuration"] = std::move(*Configuration);
+  }
   const RenderOptions &O = R.Options;
   Json Stages = Json::array();
   for (const StageReport &S : R.Result.Stages)
@@ -110,11 +136,8 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
         {"cutoff", O.Cutoff},
         {"exp", name(O.Exponential)},
         {"sh_degree_compiled", R.Plan.ShDegree}}},
-      {"device",
-       {{"name", R.Dev.name()},
-        {"version", R.Dev.version()},
-        {"compute_units", R.Dev.computeUnits()},
-        {"global_bytes", R.Dev.globalBytes()}}},
+      {"programs", json(R.Plan.Programs)},
+      {"device", Device},
       {"picture", R.Output},
       {"counts",
        {{"visible", R.Result.Visible},

@@ -18,9 +18,9 @@ struct RenderRecord {
   const RenderResult &Result;
 };
 
-/// JSON with inputs and their hashes, options, device and versions, counts,
-/// and time and counters of every stage and kernel. Fails if an input cannot be
-/// read again.
+/// JSON with inputs and their hashes, options, programs, device with its
+/// configuration, versions, counts, and time and counters of every stage and
+/// kernel. Fails if an input cannot be read again.
 Expected<std::string> jsonReport(const RenderRecord &R);
 
 /// A short table.
