@@ -90,7 +90,7 @@ RenderPlan planRender(const Scene &S, const RenderOptions &Options) {
 std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
                                  const RenderOptions &Options) {
   std::vector<std::string> Lines;
-  Lines.reserve(Plan.Programs.size() + MaxShDegree + 5);
+  Lines.reserve(Plan.Programs.size() + MaxShDegree + 9);
   for (const ProgramSpec &P : Plan.Programs)
     Lines.push_back(
         fmt::format("program {}: {}{}{}", P.Name, fmt::join(P.Files, " "),
@@ -110,14 +110,30 @@ std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
           : "antialiasing: left out, it was not asked for (--antialiased)");
   Lines.push_back(fmt::format("support {}: compiled in, the others left out",
                               name(Options.Reach)));
-  Lines.push_back(fmt::format("rules {}: compiled in, the others left out",
-                              name(Options.Convention)));
+  const bool Raster = Options.Blending == Path::Raster;
+  Lines.push_back(fmt::format("rules {}: compiled in{}, the others left out",
+                              name(Options.Convention),
+                              Raster ? " but for the stop" : ""));
   Lines.emplace_back(
-      Options.Blending == Path::Raster
-          ? "blending: by the rasterizer (rasterize.cl); the cores' own "
-            "(blend.cl) left out"
-          : "blending: by the cores (blend.cl); the rasterizer's "
-            "(rasterize.cl) left out, as --path simt asks");
+      Raster ? "blending: by the rasterizer (rasterize.cl); the cores' own "
+               "(blend.cl) left out"
+             : "blending: by the cores (blend.cl); the rasterizer's "
+               "(rasterize.cl) left out, as --path simt asks");
+  // The rasterizer takes these as options; nothing is compiled for them.
+  Lines.push_back(
+      Raster ? fmt::format("exponential unit {}: a field of vr_options",
+                           name(Options.Exponential))
+             : "exponential: falloff.cl, compiled in");
+  Lines.push_back(
+      fmt::format("cut-off {}: {}", Options.Cutoff,
+                  Raster ? "vr_cutoff" : "an argument of the kernel"));
+  Lines.push_back(fmt::format("stop at T' {} cut-off: {}",
+                              Options.Convention == Rules::Gsplat ? "<=" : "<",
+                              Raster ? "a bit of vr_options" : "compiled in"));
+  Lines.emplace_back(
+      Raster
+          ? "simulated on a Vorion device: the cores and the rasterizer"
+          : "simulated on a Vorion device: the cores; the rasterizer is idle");
   return Lines;
 }
 
