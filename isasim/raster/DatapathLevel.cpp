@@ -7,7 +7,8 @@
 namespace vorion::raster {
 namespace {
 
-// docs/abi.md, Rasterizer: the smallest alpha that counts and the largest there is.
+// docs/abi.md, Rasterizer: the smallest alpha that counts and the largest there
+// is.
 constexpr float MinAlpha = 1.0F / 255.0F;
 constexpr float MaxAlpha = 0.99F;
 constexpr unsigned Blocks = TileBuffer::Stride / LaneCount;

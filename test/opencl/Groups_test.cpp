@@ -1,6 +1,6 @@
-/// Groups of every awkward size and shape (docs/decisions.md, 6): one lane, less
-/// than a warp, exactly one, one more, several passes with a ragged last, the
-/// largest; with barriers straight, in loops and in conditionals.
+/// Groups of every awkward size and shape (docs/decisions.md, 6): one lane,
+/// less than a warp, exactly one, one more, several passes with a ragged last,
+/// the largest; with barriers straight, in loops and in conditionals.
 ///
 /// Each kernel is told to the host a second time, step by step for the whole
 /// group; unsigned arithmetic, so that wrapping around is defined.
@@ -195,8 +195,8 @@ Values loop(U N, U) {
 Values conditional(U N, U Group) {
   Values R(N), Out(N);
   for (U L = 0; L < N; ++L)
-    R[L] = Group & 1 ? (N - 1 - L) * 5 + (L & 1 ? 100 : 0)
-                     : (L + 2) % N * 5 - L;
+    R[L] =
+        Group & 1 ? (N - 1 - L) * 5 + (L & 1 ? 100 : 0) : (L + 2) % N * 5 - L;
   for (U L = 0; L < N; ++L)
     Out[L] = Group & 1 ? R[L] : R[L] + R[(L + 1) % N];
   return Out;
@@ -299,8 +299,8 @@ Values run(const TestDevice &Device, const cl::Program &Program,
   K.setArg(2, Rounds);
   cl::Event Done;
   EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
-                K, cl::NullRange, Global, cl::NDRange(Local.X, Local.Y, Local.Z),
-                nullptr, &Done),
+                K, cl::NullRange, Global,
+                cl::NDRange(Local.X, Local.Y, Local.Z), nullptr, &Done),
             CL_SUCCESS);
   EXPECT_EQ(Done.wait(), CL_SUCCESS) << Name;
   return Device.download<U>(Out, Items);
@@ -342,11 +342,12 @@ TEST_P(GroupShapes, IdsFollowTheShape) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, GroupShapes,
-    testing::Values(Shape{1, 1, 1}, Shape{7, 1, 1}, Shape{16, 1, 1},
-                    Shape{17, 1, 1}, Shape{20, 1, 1}, Shape{64, 1, 1},
-                    Shape{1024, 1, 1}, Shape{4, 64, 1}, Shape{1, 1, 64},
-                    Shape{4, 2, 2}, Shape{3, 5, 2}, Shape{1, 1, 7}));
+INSTANTIATE_TEST_SUITE_P(Shapes, GroupShapes,
+                         testing::Values(Shape{1, 1, 1}, Shape{7, 1, 1},
+                                         Shape{16, 1, 1}, Shape{17, 1, 1},
+                                         Shape{20, 1, 1}, Shape{64, 1, 1},
+                                         Shape{1024, 1, 1}, Shape{4, 64, 1},
+                                         Shape{1, 1, 64}, Shape{4, 2, 2},
+                                         Shape{3, 5, 2}, Shape{1, 1, 7}));
 
 } // namespace

@@ -312,10 +312,12 @@ kernel void ask(global uint *out) {
 TEST(Counters, TellWhatOneKernelDid) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  const auto Platform =
-      Device.context().getInfo<CL_CONTEXT_DEVICES>()[0].getInfo<CL_DEVICE_PLATFORM>();
+  const auto Platform = Device.context()
+                            .getInfo<CL_CONTEXT_DEVICES>()[0]
+                            .getInfo<CL_DEVICE_PLATFORM>();
   const auto GetInfo = reinterpret_cast<clGetEventInfoVORION_fn>(
-      clGetExtensionFunctionAddressForPlatform(Platform, "clGetEventInfoVORION"));
+      clGetExtensionFunctionAddressForPlatform(Platform,
+                                               "clGetEventInfoVORION"));
   ASSERT_NE(GetInfo, nullptr);
   std::string Log;
   const cl::Program Program = Device.build(
@@ -326,9 +328,9 @@ TEST(Counters, TellWhatOneKernelDid) {
   K.setArg(0, Out);
   const auto Count = [&](std::size_t Items, cl_uint Name) {
     cl::Event Done;
-    EXPECT_EQ(Device.queue().enqueueNDRangeKernel(K, cl::NullRange,
-                                                  cl::NDRange(Items),
-                                                  cl::NDRange(16), nullptr, &Done),
+    EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
+                  K, cl::NullRange, cl::NDRange(Items), cl::NDRange(16),
+                  nullptr, &Done),
               CL_SUCCESS);
     EXPECT_EQ(Done.wait(), CL_SUCCESS);
     cl_ulong Value = ~cl_ulong{0};
@@ -353,8 +355,9 @@ TEST(Counters, TellWhatOneKernelDid) {
   std::int32_t Value = 0;
   Device.queue().enqueueReadBuffer(Out, CL_TRUE, 0, 4, &Value, nullptr, &Copy);
   cl_ulong Unused = 0;
-  EXPECT_EQ(GetInfo(Copy(), CL_EVENT_WARP_INSTRUCTIONS_VORION, 8, &Unused, nullptr),
-            CL_INVALID_EVENT);
+  EXPECT_EQ(
+      GetInfo(Copy(), CL_EVENT_WARP_INSTRUCTIONS_VORION, 8, &Unused, nullptr),
+      CL_INVALID_EVENT);
 }
 
 } // namespace

@@ -14,8 +14,8 @@
 
 namespace sample {
 
-/// The first OpenCL device there is, with one program. Throws cl::Error, after the
-/// build log went to standard error if that is what failed.
+/// The first OpenCL device there is, with one program. Throws cl::Error, after
+/// the build log went to standard error if that is what failed.
 class Device {
 public:
   explicit Device(const std::string &Source);
@@ -65,8 +65,8 @@ private:
   cl_ulong Warps = 0, Lanes = 0;
 };
 
-/// Runs a sample. \p Body returns whether device and host agree. The result is what
-/// main returns: 0, or 1 with a reason on standard error.
+/// Runs a sample. \p Body returns whether device and host agree. The result is
+/// what main returns: 0, or 1 with a reason on standard error.
 int run(const char *Name, const char *Source,
         const std::function<bool(Device &)> &Body);
 

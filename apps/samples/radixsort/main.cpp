@@ -1,5 +1,6 @@
-/// A stable radix sort of keys with values, four bits a pass: digits are counted
-/// by block, the counts become places, and every work-item moves its own run.
+/// A stable radix sort of keys with values, four bits a pass: digits are
+/// counted by block, the counts become places, and every work-item moves its
+/// own run.
 #include "Sample.h"
 
 #include <algorithm>
@@ -61,7 +62,8 @@ int main() {
     std::iota(Values.begin(), Values.end(), 0U);
 
     cl::Buffer FromKeys = D.upload(Keys), FromValues = D.upload(Values);
-    cl::Buffer ToKeys = D.allocate<cl_uint>(N), ToValues = D.allocate<cl_uint>(N);
+    cl::Buffer ToKeys = D.allocate<cl_uint>(N),
+               ToValues = D.allocate<cl_uint>(N);
     const cl::Buffer Counts = D.allocate<cl_uint>(Digits * Items);
     const cl::NDRange All(Items), One(Group);
     for (cl_uint Shift = 0; Shift < 32; Shift += Bits) {
@@ -79,7 +81,8 @@ int main() {
       return Keys[A] != Keys[B] ? Keys[A] < Keys[B] : A < B;
     });
     const std::vector<cl_uint> SortedKeys = D.download<cl_uint>(FromKeys, N);
-    const std::vector<cl_uint> SortedValues = D.download<cl_uint>(FromValues, N);
+    const std::vector<cl_uint> SortedValues =
+        D.download<cl_uint>(FromValues, N);
     for (cl_uint I = 0; I < N; ++I)
       if (SortedValues[I] != Order[I] || SortedKeys[I] != Keys[Order[I]])
         return false;

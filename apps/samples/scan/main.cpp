@@ -1,5 +1,5 @@
-/// An exclusive prefix sum in three kernels: sums of blocks, their prefix sum by
-/// one group, and the blocks again from there (Blelloch 1990).
+/// An exclusive prefix sum in three kernels: sums of blocks, their prefix sum
+/// by one group, and the blocks again from there (Blelloch 1990).
 #include "Sample.h"
 
 static const char *const Source = R"(
@@ -52,7 +52,8 @@ int main() {
     std::vector<cl_uint> In(N);
     for (cl_uint I = 0; I < N; ++I)
       In[I] = I * 2654435761U >> 20;
-    const cl::Buffer DeviceIn = D.upload(In), Sums = D.allocate<cl_uint>(Blocks),
+    const cl::Buffer DeviceIn = D.upload(In),
+                     Sums = D.allocate<cl_uint>(Blocks),
                      Out = D.allocate<cl_uint>(N);
     const cl::NDRange All(Blocks * Group), One(Group);
     const auto Scratch = cl::Local(Group * sizeof(cl_uint));

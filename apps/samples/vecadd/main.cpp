@@ -17,8 +17,8 @@ int main() {
       B[I] = static_cast<float>(N - I) * 3.5F;
     }
     const cl::Buffer C = D.allocate<float>(N);
-    D.run("add", cl::NDRange((N + Group - 1) / Group * Group), cl::NDRange(Group),
-          D.upload(A), D.upload(B), C, N);
+    D.run("add", cl::NDRange((N + Group - 1) / Group * Group),
+          cl::NDRange(Group), D.upload(A), D.upload(B), C, N);
     const std::vector<float> Sum = D.download<float>(C, N);
     for (cl_uint I = 0; I < N; ++I)
       if (Sum[I] != A[I] + B[I])

@@ -22,7 +22,8 @@ extern "C" {
   0x4F61                                       /* retired, one an active lane */
 #define CL_EVENT_RASTER_COMMANDS_VORION 0x4F62 /* tiles drawn */
 #define CL_EVENT_RASTER_GAUSSIANS_VORION 0x4F63 /* fetched, once a tile */
-#define CL_EVENT_RASTER_CLIPPED_VORION 0x4F64   /* of these, beside their tile \
+#define CL_EVENT_RASTER_CLIPPED_VORION                                         \
+  0x4F64                                        /* of these, beside their tile \
                                                  */
 #define CL_EVENT_RASTER_FRAGMENTS_VORION 0x4F65 /* lane slots dispatched */
 #define CL_EVENT_RASTER_BLENDS_VORION 0x4F66    /* pixels changed */

@@ -1,5 +1,5 @@
-/// What watches a run without changing it (docs/decisions.md, 9). Every function
-/// does nothing by default.
+/// What watches a run without changing it (docs/decisions.md, 9). Every
+/// function does nothing by default.
 #pragma once
 
 #include "vorion/isasim/Result.h"

@@ -22,7 +22,7 @@ inline Expected<std::vector<std::byte>> readFile(const std::string &Path) {
     return Error{Path, std::string("cannot open: ") + std::strerror(errno) +
                            ", expected a readable file"};
   std::vector<std::byte> Bytes;
-  struct stat Info {};
+  struct stat Info{};
   if (fstat(fileno(F), &Info) == 0 && S_ISREG(Info.st_mode))
     Bytes.reserve(static_cast<std::size_t>(Info.st_size));
   std::byte Chunk[1 << 16];

@@ -24,8 +24,8 @@ namespace pocl {
 
 namespace {
 
-/// An intrinsic of ours. It may read and write memory for all that the optimiser
-/// knows, and is neither copied nor made conditional.
+/// An intrinsic of ours. It may read and write memory for all that the
+/// optimiser knows, and is neither copied nor made conditional.
 FunctionCallee intrinsic(Module &M, StringRef Name, Type *Result,
                          ArrayRef<Type *> Parameters) {
   FunctionCallee Callee =
@@ -39,8 +39,8 @@ FunctionCallee intrinsic(Module &M, StringRef Name, Type *Result,
 }
 
 /// A barrier of the machine. The group is one warp, which passes at once; for
-/// the optimiser it keeps memory accesses in order and cannot be copied, so that no
-/// lane runs ahead of it on a path of its own.
+/// the optimiser it keeps memory accesses in order and cannot be copied, so
+/// that no lane runs ahead of it on a path of its own.
 void createGroupBarrier(IRBuilder<> &Builder) {
   Type *I32 = Builder.getInt32Ty();
   FunctionCallee Bar =
@@ -51,7 +51,8 @@ void createGroupBarrier(IRBuilder<> &Builder) {
 }
 
 /// A word of the launch block, which nothing changes during a run.
-LoadInst *loadLaunch(IRBuilder<> &Builder, Type *T, Value *Launch, size_t Offset) {
+LoadInst *loadLaunch(IRBuilder<> &Builder, Type *T, Value *Launch,
+                     size_t Offset) {
   LoadInst *Load = Builder.CreateLoad(
       T, Builder.CreateConstGEP1_32(Builder.getInt8Ty(), Launch, Offset));
   Load->setMetadata(LLVMContext::MD_invariant_load,
@@ -199,8 +200,9 @@ Value *createLaunchLoad(IRBuilder<> &Builder, Value *Launch, LaunchField Field,
 Value *createContextBase(IRBuilder<> &Builder, Module &M, Value *Launch) {
   Type *I32 = Builder.getInt32Ty();
   Value *Core = Builder.CreateCall(intrinsic(M, "vorion.vx_core_id", I32, {}));
-  Value *Share = Builder.CreateMul(
-      Core, loadLaunch(Builder, I32, Launch, offsetof(vx_launch, context_stride)));
+  Value *Share =
+      Builder.CreateMul(Core, loadLaunch(Builder, I32, Launch,
+                                         offsetof(vx_launch, context_stride)));
   Value *Context = loadLaunch(Builder, Builder.getPtrTy(), Launch,
                               offsetof(vx_launch, context));
   return Builder.CreateGEP(Builder.getInt8Ty(), Context, Share, "simt_context");
@@ -260,8 +262,8 @@ void SimtLoops::storeLocalIds(IRBuilder<> &Builder, Value *Linear) {
   Builder.CreateStore(Z, Ids.Z);
 }
 
-/// Whether the lane has a work-item in the pass that starts at \p Base. The same
-/// for all lanes, and known to be, if passes are always full.
+/// Whether the lane has a work-item in the pass that starts at \p Base. The
+/// same for all lanes, and known to be, if passes are always full.
 Value *SimtLoops::anyLeft(IRBuilder<> &Builder, Value *Base) {
   if (!Size.Dynamic && Size.items() % Lanes == 0)
     return Builder.CreateICmpULT(Base, Items);
@@ -285,9 +287,9 @@ SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
       P->getTerminator()->replaceSuccessorWith(Entry, Init);
 
   IRBuilder<> Builder(Init);
-  // Also keeps a loop of the kernel that begins with this one apart from it: one
-  // header for both would let lanes without a work-item in the last pass
-  // go on while others are in it.
+  // Also keeps a loop of the kernel that begins with this one apart from it:
+  // one header for both would let lanes without a work-item in the last pass go
+  // on while others are in it.
   if (!PeeledFirst)
     createGroupBarrier(Builder);
   Constant *First = number(PeeledFirst ? Lanes : 0);
@@ -355,7 +357,8 @@ void SimtLoops::tidyAllocas() {
   for (BasicBlock &Block : F)
     for (Instruction &I : make_early_inc_range(Block)) {
       auto *Alloca = dyn_cast<AllocaInst>(&I);
-      if (Alloca && &Block != &Entry && isa<ConstantInt>(Alloca->getArraySize()))
+      if (Alloca && &Block != &Entry &&
+          isa<ConstantInt>(Alloca->getArraySize()))
         Alloca->moveBefore(&*Entry.getFirstInsertionPt());
       // A context array is no stack slot.
       if (I.isLifetimeStartOrEnd() && !isa<AllocaInst>(I.getOperand(1)))
@@ -391,8 +394,9 @@ void SimtLoops::tellAliases() {
         if (Own == ScopeOf.end() || Scope != Own->second)
           Others.push_back(Scope);
       const auto Add = [&I](unsigned Kind, ArrayRef<Metadata *> List) {
-        I.setMetadata(Kind, MDNode::concatenate(I.getMetadata(Kind),
-                                                MDNode::get(I.getContext(), List)));
+        I.setMetadata(Kind,
+                      MDNode::concatenate(I.getMetadata(Kind),
+                                          MDNode::get(I.getContext(), List)));
       };
       if (Own != ScopeOf.end())
         Add(LLVMContext::MD_alias_scope, Own->second);
@@ -428,8 +432,8 @@ void SimtLoops::finish() {
       Value *Start = Builder.CreateGEP(Builder.getInt8Ty(), Context,
                                        Builder.CreateMul(Items, number(Bytes)),
                                        Placeholder->getName());
-      Bytes += M.getDataLayout().getTypeAllocSize(
-          Placeholder->getAllocatedType());
+      Bytes +=
+          M.getDataLayout().getTypeAllocSize(Placeholder->getAllocatedType());
       Placeholder->replaceAllUsesWith(Start);
       Placeholder->eraseFromParent();
     }

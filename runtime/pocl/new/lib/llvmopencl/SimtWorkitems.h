@@ -45,12 +45,13 @@ bool fitsOneWarp(const llvm::Module &M);
 /// change; all work-items share the one in the argument buffer.
 void copyWrittenByvalArguments(llvm::Module &M);
 
-/// Removes PoCL's barriers, where there are no loops in favour of the machine's.
+/// Removes PoCL's barriers, where there are no loops in favour of the
+/// machine's.
 bool lowerSimtBarriers(llvm::Function &F);
 
 /// Puts a barrier at the head of each loop that has one anywhere. Otherwise an
-/// inner loop at its head may come to share its header, and lanes that have left the
-/// inner loop would pass the barrier while others are in it.
+/// inner loop at its head may come to share its header, and lanes that have
+/// left the inner loop would pass the barrier while others are in it.
 void anchorBarrierLoops(llvm::ArrayRef<llvm::Loop *> Loops);
 
 /// Tells branches of single work-items from those of the whole group.
@@ -61,8 +62,8 @@ public:
   ~SimtBranches();
 
   /// Whether work-items may part at this end of a barrier's block, so that it
-  /// belongs into the region after the barrier. A loop with a barrier is left by
-  /// all or none.
+  /// belongs into the region after the barrier. A loop with a barrier is left
+  /// by all or none.
   bool mayDivide(llvm::Instruction *Terminator) const;
 
 private:

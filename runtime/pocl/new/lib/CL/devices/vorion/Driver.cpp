@@ -98,7 +98,8 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->preferred_vector_width_int = Device->native_vector_width_int = 1;
   Device->preferred_vector_width_long = Device->native_vector_width_long = 1;
   Device->preferred_vector_width_float = Device->native_vector_width_float = 1;
-  Device->preferred_vector_width_double = Device->native_vector_width_double = 0;
+  Device->preferred_vector_width_double = Device->native_vector_width_double =
+      0;
   Device->preferred_vector_width_half = Device->native_vector_width_half = 0;
   Device->native_vector_width_in_bits = 0;
   Device->image_support = CL_FALSE;
@@ -131,8 +132,8 @@ void describeCompilation(cl_device_id Device, const vx_device_info &Info) {
 
 cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
   vx_device *Opened = nullptr;
-  if (vx_device_open(Parameters && *Parameters ? Parameters : nullptr, &Opened) !=
-      VX_OK) {
+  if (vx_device_open(Parameters && *Parameters ? Parameters : nullptr,
+                     &Opened) != VX_OK) {
     fprintf(stderr, "vorion: error: %s\n", vx_last_error());
     return CL_DEVICE_NOT_AVAILABLE;
   }
@@ -140,8 +141,8 @@ cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
   if (vx_device_get_info(Opened, &Own->Info) != VX_OK)
     return CL_DEVICE_NOT_AVAILABLE;
   const vx_device_info &Info = Own->Info;
-  Own->BuildHash = "vorion-xvortex2-xvorion1-" + std::to_string(Info.lanes) + "-" +
-                   Own->Kernels.tools().fingerprint();
+  Own->BuildHash = "vorion-xvortex2-xvorion1-" + std::to_string(Info.lanes) +
+                   "-" + Own->Kernels.tools().fingerprint();
   describeDevice(Device, Info);
   describeCompilation(Device, Info);
   Own->Name = "Vorion";
@@ -199,8 +200,9 @@ cl_int allocate(cl_device_id Device, cl_mem Buffer, void *) {
 
 void release(cl_device_id Device, cl_mem Buffer) {
   pocl_mem_identifier &Id = Buffer->device_ptrs[Device->global_mem_id];
-  vx_mem_free(deviceOf(Device).Machine.get(),
-              static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id.device_addr)));
+  vx_mem_free(
+      deviceOf(Device).Machine.get(),
+      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id.device_addr)));
   Id.mem_ptr = nullptr;
   Id.device_addr = nullptr;
   Id.version = 0;
@@ -209,7 +211,8 @@ void release(cl_device_id Device, cl_mem Buffer) {
 void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
                    cl_device_id Device, int Specialize) {
   // PoCL asks for this when a program's binary is wanted, and no error is
-  // possible; it is in the build log too, and a run of the kernel fails its event.
+  // possible; it is in the build log too, and a run of the kernel fails its
+  // event.
   std::string Path;
   if (!Command || Command->type != CL_COMMAND_NDRANGE_KERNEL)
     return;

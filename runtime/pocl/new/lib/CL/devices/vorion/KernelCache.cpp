@@ -53,8 +53,8 @@ std::string KernelCache::compile(_cl_command_node *Command, cl_kernel Kernel,
   Command->command.run.force_large_grid_wg_func = 1;
   const unsigned DeviceIndex = Command->program_device_i;
   char Path[POCL_MAX_PATHNAME_LENGTH];
-  pocl_cache_final_binary_path(Path, Kernel->program, DeviceIndex, Kernel, Command,
-                               Specialize);
+  pocl_cache_final_binary_path(Path, Kernel->program, DeviceIndex, Kernel,
+                               Command, Specialize);
   const std::string Base = fs::path(Path).replace_extension().string();
   ImagePath = Base + ".elf";
   if (pocl_exists(ImagePath.c_str()))

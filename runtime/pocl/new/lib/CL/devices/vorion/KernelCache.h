@@ -1,5 +1,5 @@
-/// Kernels as loadable images: compiled once for each group size, kept in PoCL's
-/// cache folder, and loaded into the device once.
+/// Kernels as loadable images: compiled once for each group size, kept in
+/// PoCL's cache folder, and loaded into the device once.
 #pragma once
 
 #include "Tools.h"
@@ -31,11 +31,12 @@ public:
 
   const Tools &tools() const { return ToolSet; }
 
-  /// Makes the object and the image of the command's kernel in the cache folder,
-  /// for its group size if \p Specialize, else for any. Returns "" and the image's
-  /// path, or what went wrong, which is also added to the build log.
-  std::string compile(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
-                      std::string &ImagePath);
+  /// Makes the object and the image of the command's kernel in the cache
+  /// folder, for its group size if \p Specialize, else for any. Returns "" and
+  /// the image's path, or what went wrong, which is also added to the build
+  /// log.
+  std::string compile(_cl_command_node *Command, cl_kernel Kernel,
+                      bool Specialize, std::string &ImagePath);
 
   /// The command's kernel, compiled and loaded; null and \p Problem on failure.
   /// Valid until the next call of forget().

@@ -18,7 +18,8 @@ namespace vorion {
 
 namespace {
 
-/// Hidden parameters that PoCL appends: the launch block and the group's number.
+/// Hidden parameters that PoCL appends: the launch block and the group's
+/// number.
 constexpr unsigned HiddenParameters = 4;
 
 class Finisher {
@@ -69,8 +70,8 @@ public:
   }
 
 private:
-  /// OpenCL 1.2 has no writable variables of program scope: all there are belong
-  /// to a group, which has the core's local memory to itself.
+  /// OpenCL 1.2 has no writable variables of program scope: all there are
+  /// belong to a group, which has the core's local memory to itself.
   uint64_t placeLocals() {
     uint64_t Used = 0;
     for (GlobalVariable &G : M.globals()) {
@@ -111,11 +112,13 @@ private:
       const uint64_t Offset = alignTo(End, PowerOf2Ceil(Size));
       End = Offset + Size;
       const KernelArgument &Known = Kernel.Arguments[I];
-      Arguments.push_back(ConstantStruct::getAnon(
-          {text(Known.Name), number(Known.Kind), number(Offset), number(Size)}));
+      Arguments.push_back(
+          ConstantStruct::getAnon({text(Known.Name), number(Known.Kind),
+                                   number(Offset), number(Size)}));
     }
 
-    Constant *Table = Constant::getNullValue(PointerType::get(M.getContext(), 0));
+    Constant *Table =
+        Constant::getNullValue(PointerType::get(M.getContext(), 0));
     if (!Arguments.empty()) {
       Constant *Rows = ConstantArray::get(
           ArrayType::get(Arguments[0]->getType(), Arguments.size()), Arguments);

@@ -1,5 +1,6 @@
-/// The last steps on a kernel's bitcode that need LLVM: the kernel's entry in the
-/// table vorion_kernels (docs/abi.md), and addresses of static local memory.
+/// The last steps on a kernel's bitcode that need LLVM: the kernel's entry in
+/// the table vorion_kernels (docs/abi.md), and addresses of static local
+/// memory.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@ struct KernelDescription {
   uint32_t LocalSize[3]; ///< compiled for, 0 for any
 };
 
-/// Finishes \p Module (an llvm::Module that PoCL's work-group passes made of the
-/// kernel) and writes it as bitcode. Empty on success, else what is wrong.
+/// Finishes \p Module (an llvm::Module that PoCL's work-group passes made of
+/// the kernel) and writes it as bitcode. Empty on success, else what is wrong.
 std::string writeKernelModule(void *Module, const KernelDescription &Kernel,
                               const std::string &Path);
 

@@ -28,8 +28,7 @@ uint32_t deviceAddress(const pocl_argument &Argument, cl_device_id Device) {
   memcpy(&Buffer, Argument.value, sizeof(Buffer));
   if (!Buffer)
     return 0;
-  const void *Address =
-      Buffer->device_ptrs[Device->global_mem_id].device_addr;
+  const void *Address = Buffer->device_ptrs[Device->global_mem_id].device_addr;
   return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Address) +
                                Argument.offset);
 }
@@ -52,7 +51,8 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
   std::vector<uint64_t> LocalSizes;
   for (unsigned I = 0; I < Meta.num_args; ++I) {
     vx_arg_info Info;
-    if (vx_image_get_arg(Kernel->Image.get(), Kernel->Number, I, &Info) != VX_OK)
+    if (vx_image_get_arg(Kernel->Image.get(), Kernel->Number, I, &Info) !=
+        VX_OK)
       return failed(Name, CL_INVALID_KERNEL_ARGS, vx_last_error());
     const pocl_argument &Argument = Run.arguments[I];
     if (Info.kind == VX_ARG_LOCAL) {
@@ -66,9 +66,9 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
              std::min<size_t>(Info.size, Argument.size));
     }
   }
-  vx_status Status = vx_image_place_locals(
-      Kernel->Image.get(), Kernel->Number, LocalSizes.data(), LocalSizes.size(),
-      Packed.data(), nullptr);
+  vx_status Status = vx_image_place_locals(Kernel->Image.get(), Kernel->Number,
+                                           LocalSizes.data(), LocalSizes.size(),
+                                           Packed.data(), nullptr);
   if (Status != VX_OK)
     return failed(Name, CL_OUT_OF_RESOURCES, vx_last_error());
 

@@ -47,20 +47,21 @@ Tools::Tools() {
       return;
     }
   Problem = "cannot find bin/vorion-clang below " +
-            (std::getenv("VORION_ROOT") ? std::string("VORION_ROOT")
-                                        : libraryFile().parent_path().string() + " or above; "
-                                          "set VORION_ROOT");
+            (std::getenv("VORION_ROOT")
+                 ? std::string("VORION_ROOT")
+                 : libraryFile().parent_path().string() + " or above; "
+                                                          "set VORION_ROOT");
 }
 
 std::string Tools::fingerprint() const {
-  std::vector<fs::path> Files = {libraryFile(),
-                                 fs::path(Root) / "bin" / "vorion-clang",
-                                 fs::path(Root) / "bin" / "vorion-link",
-                                 fs::path(Root) / "pocl" / "share" / "pocl" /
-                                     "kernel-vorion.bc"};
+  std::vector<fs::path> Files = {
+      libraryFile(), fs::path(Root) / "bin" / "vorion-clang",
+      fs::path(Root) / "bin" / "vorion-link",
+      fs::path(Root) / "pocl" / "share" / "pocl" / "kernel-vorion.bc"};
   std::error_code Error;
   for (const char *Folder : {"lib/vorion", "include/vorion"})
-    for (const auto &Entry : fs::directory_iterator(fs::path(Root) / Folder, Error))
+    for (const auto &Entry :
+         fs::directory_iterator(fs::path(Root) / Folder, Error))
       Files.push_back(Entry.path());
   std::sort(Files.begin(), Files.end());
 
@@ -88,8 +89,8 @@ std::string Tools::run(std::vector<std::string> Arguments) const {
   Pointers.push_back(nullptr);
   std::string Output(MaxToolOutput, '\0');
   size_t Bytes = Output.size();
-  const int Status = pocl_run_command_capture_output(Output.data(), &Bytes,
-                                                     Pointers.data());
+  const int Status =
+      pocl_run_command_capture_output(Output.data(), &Bytes, Pointers.data());
   if (Status == 0)
     return {};
   Output.resize(Bytes);
@@ -98,8 +99,8 @@ std::string Tools::run(std::vector<std::string> Arguments) const {
 
 std::string Tools::compile(const std::string &Bitcode,
                            const std::string &Object) const {
-  return run({Root + "/bin/vorion-clang", "-x", "ir", "-O2", "-ffp-contract=off",
-              "-c", Bitcode, "-o", Object});
+  return run({Root + "/bin/vorion-clang", "-x", "ir", "-O2",
+              "-ffp-contract=off", "-c", Bitcode, "-o", Object});
 }
 
 std::string Tools::link(const std::string &Object,

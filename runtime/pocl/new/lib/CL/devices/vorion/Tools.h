@@ -1,5 +1,6 @@
-/// The compiler and linker of device code, run as processes: LLVM's command line
-/// options are registered once a process, and ours differ from PoCL's LLVM.
+/// The compiler and linker of device code, run as processes: LLVM's command
+/// line options are registered once a process, and ours differ from PoCL's
+/// LLVM.
 #pragma once
 
 #include <string>
@@ -24,7 +25,8 @@ public:
   std::string fingerprint() const;
 
   /// Bitcode to a relocatable object. Empty on success, else the tool's output.
-  std::string compile(const std::string &Bitcode, const std::string &Object) const;
+  std::string compile(const std::string &Bitcode,
+                      const std::string &Object) const;
 
   /// An object to an image that can be loaded.
   std::string link(const std::string &Object, const std::string &Image) const;

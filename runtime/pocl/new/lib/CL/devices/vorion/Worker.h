@@ -1,6 +1,6 @@
-/// The thread that executes a device's commands, one after the other in the order
-/// in which they became ready. PoCL holds locks while it submits a command, so
-/// nothing may execute there.
+/// The thread that executes a device's commands, one after the other in the
+/// order in which they became ready. PoCL holds locks while it submits a
+/// command, so nothing may execute there.
 #pragma once
 
 #include "KernelCache.h"
