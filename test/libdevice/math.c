@@ -32,15 +32,17 @@ static double exp10_exact(double x) { return pow(10, x); }
 #define Y(name, argument)
 #endif
 
-#define LIST(X, Y)                                                             \
-  X(sin, x)                                                                    \
-  X(cos, x)                                                                    \
-  X(tan, x) X(asin, unit(x)) X(acos, unit(x)) X(atan, x) Y(atan2, x)           \
-      X(sinh, x) X(cosh, x) X(tanh, x) X(exp, x) X(exp2, x) X(exp10, x)        \
-          X(expm1, x) X(log, positive) X(log2, positive) X(log10, positive)    \
-              X(log1p, positive) Y(pow, positive) X(cbrt, x) Y(hypot, x)       \
-                  Y(fmod, x) X(floor, x) X(ceil, x) X(trunc, x) X(round, x)    \
-                      X(rint, x) X(sqrt, positive) Y(fmin, x) Y(fmax, x)
+// clang-format off: a list, which the formatter takes for an expression
+#define LIST(X, Y)                                                   \
+  X(sin, x) X(cos, x) X(tan, x)                                      \
+  X(asin, unit(x)) X(acos, unit(x)) X(atan, x) Y(atan2, x)           \
+  X(sinh, x) X(cosh, x) X(tanh, x)                                   \
+  X(exp, x) X(exp2, x) X(exp10, x) X(expm1, x)                       \
+  X(log, positive) X(log2, positive) X(log10, positive)              \
+  X(log1p, positive) Y(pow, positive) X(cbrt, x) Y(hypot, x)         \
+  Y(fmod, x) X(floor, x) X(ceil, x) X(trunc, x) X(round, x)          \
+  X(rint, x) X(sqrt, positive) Y(fmin, x) Y(fmax, x)
+// clang-format on
 
 LIST(X, Y)
 #undef X
