@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Format and static analysis of the code we wrote; part of scripts/test.sh.
-# usage: scripts/lint.sh [--fix]   (--fix formats in place, without analysis)
+# usage: scripts/lint.sh [--all|--fix]   (--fix formats in place, without analysis;
+# --all analyses the tests too, which takes twice as long)
 source "$(dirname "$0")/lib.sh"
 cd "$Root"
 
@@ -13,13 +14,14 @@ clang-format-19 --dry-run -Werror "${Sources[@]}"
 
 # clang-tidy looks at what the build compiles; each file once. LLVM's and PoCL's passes
 # follow the naming of the code they extend and are left out.
-mapfile -t Units < <(python3 - "$Build/compile_commands.json" "$Root" <<'PY'
+mapfile -t Units < <(python3 - "$Build/compile_commands.json" "$Root" "${1:-}" <<'PY'
 import json, os, sys
 root = sys.argv[2] + "/"
+tests = sys.argv[3] == "--all"
 ours = ("support/", "isasim/", "libdevice/", "runtime/", "apps/", "reference/", "test/")
 files = {os.path.realpath(e["file"]) for e in json.load(open(sys.argv[1]))}
 print("\n".join(sorted(f for f in files if f.startswith(root) and f[len(root):].startswith(ours)
-                       and f.endswith(".cpp"))))
+                       and f.endswith(".cpp") and (tests or not f.endswith("_test.cpp")))))
 PY
 )
 printf '%s\n' "${Units[@]}" | xargs -P "$(nproc)" -n 4 clang-tidy-19 -p "$Build" --quiet

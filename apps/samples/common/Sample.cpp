@@ -10,7 +10,7 @@ Device::Device(const std::string &Source) {
   try {
     cl::Platform::get(&Platforms);
   } catch (const cl::Error &) {
-    // To some loaders no platform is an error, to others an empty list.
+    Platforms.clear(); // an error to some loaders, an empty list to others
   }
   if (Platforms.empty())
     throw cl::Error(CL_PLATFORM_NOT_FOUND_KHR,

@@ -26,8 +26,6 @@
 #include <unistd.h>
 #include <vector>
 
-extern char **environ;
-
 using namespace vorion;
 namespace fs = std::filesystem;
 
@@ -84,6 +82,7 @@ Ran run(const std::vector<std::string> &Arguments) {
   if (pipe(Pipe.data()) != 0)
     return {false, std::strerror(errno)};
   std::vector<char *> Pointers;
+  Pointers.reserve(Arguments.size() + 1);
   for (const std::string &Argument : Arguments)
     Pointers.push_back(const_cast<char *>(Argument.c_str()));
   Pointers.push_back(nullptr);

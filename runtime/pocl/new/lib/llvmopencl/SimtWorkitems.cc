@@ -111,8 +111,10 @@ bool fitsOneWarp(const Module &M) {
   return !Dynamic && X * Y * Z <= simtLanes(M);
 }
 
-void copyWrittenByvalArguments(Module &M) {
+void prepareSimtModule(Module &M) {
   for (Function &F : M) {
+    if (!F.isDeclaration())
+      F.addFnAttr(Attribute::MustProgress);
     if (!isKernelToProcess(F))
       continue;
     for (Argument &A : F.args()) {

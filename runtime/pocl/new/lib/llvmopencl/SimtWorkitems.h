@@ -41,9 +41,11 @@ unsigned simtLanes(const llvm::Module &M);
 /// work-item is a lane.
 bool fitsOneWarp(const llvm::Module &M);
 
-/// Makes kernels work on their own copy of a by-value structure that they
-/// change; all work-items share the one in the argument buffer.
-void copyWrittenByvalArguments(llvm::Module &M);
+/// Before any other pass. Makes kernels work on their own copy of a by-value
+/// structure that they change; all work-items share the one in the argument buffer.
+/// And says that loops end: of a loop that might not, nothing after it is sure to be
+/// reached, so that lanes that part before it could only meet at the kernel's end.
+void prepareSimtModule(llvm::Module &M);
 
 /// Removes PoCL's barriers, where there are no loops in favour of the
 /// machine's.
