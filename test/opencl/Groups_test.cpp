@@ -100,6 +100,39 @@ kernel void branch_after_barrier(global uint *out, local uint *t, uint k) {
   out[get_group_id(0) * n + l] = r;
 }
 
+// A loop with barriers in another, ahead of them one without.
+kernel void nested_loops(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, v = l * 3, w = l;
+  for (uint i = 0; i < 4; i++)
+    for (uint j = 0; j < i % 3; j++) {
+      for (uint m = 0; m < k % 3; m++)
+        w = w * 5 + 14;
+      t[l] = v;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      v = t[(l + 7) % n] + w;
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+  out[get_group_id(0) * n + l] = v;
+}
+
+// The innermost loop would not end for a value that i never has; what follows is
+// reached all the same, by all lanes together.
+kernel void endless_if_reached(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, v = l * 3, w = l, p[4] = {0, 0, 0, 0};
+  for (uint i = 0; i < k % 5; i++) {
+    for (uint j = 0; j < l % 5; j++) {
+      for (uint m = 0; m < (i & 5) % 5; m++)
+        p[1] = 70;
+      w += p[v & 3];
+    }
+    t[l] = v + w;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    v = t[(l + 8) % n];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  out[get_group_id(0) * n + l] = v + w;
+}
+
 // Where the branch ends, a value comes from either side.
 kernel void conditional_in_loop(global uint *out, local uint *t, uint k) {
   uint l = ITEM, n = ITEMS, r = 0;
@@ -217,6 +250,47 @@ Values branchAfterBarrier(U N, U) {
   return R;
 }
 
+Values nestedLoops(U N, U) {
+  Values V(N), W(N), T(N);
+  for (U L = 0; L < N; ++L) {
+    V[L] = L * 3;
+    W[L] = L;
+  }
+  for (U I = 0; I < 4; ++I)
+    for (U J = 0; J < I % 3; ++J) {
+      for (U M = 0; M < Rounds % 3; ++M)
+        for (U &Value : W)
+          Value = Value * 5 + 14;
+      T = V;
+      for (U L = 0; L < N; ++L)
+        V[L] = T[(L + 7) % N] + W[L];
+    }
+  return V;
+}
+
+Values endlessIfReached(U N, U) {
+  Values V(N), W(N), Seen(N, 0), T(N), Out(N);
+  for (U L = 0; L < N; ++L) {
+    V[L] = L * 3;
+    W[L] = L;
+  }
+  for (U I = 0; I < Rounds % 5; ++I) {
+    for (U L = 0; L < N; ++L) {
+      for (U J = 0; J < L % 5; ++J) {
+        if ((I & 5) % 5)
+          Seen[L] = 70;
+        W[L] += (V[L] & 3) == 1 ? Seen[L] : 0;
+      }
+      T[L] = V[L] + W[L];
+    }
+    for (U L = 0; L < N; ++L)
+      V[L] = T[(L + 8) % N];
+  }
+  for (U L = 0; L < N; ++L)
+    Out[L] = V[L] + W[L];
+  return Out;
+}
+
 Values conditionalInLoop(U N, U) {
   Values T(N), R(N, 0);
   for (U L = 0; L < N; ++L)
@@ -283,6 +357,8 @@ const Kernel Kernels[] = {{"straight", straight},
                           {"loop", loop},
                           {"conditional", conditional},
                           {"branch_after_barrier", branchAfterBarrier},
+                          {"nested_loops", nestedLoops},
+                          {"endless_if_reached", endlessIfReached},
                           {"conditional_in_loop", conditionalInLoop},
                           {"loop_then_barrier", loopThenBarrier},
                           {"private_array", privateArray},

@@ -163,31 +163,28 @@ void anchorBarrierLoops(ArrayRef<Loop *> Loops) {
 }
 
 SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
-                           PostDominatorTree &PostDominators)
-    : F(F), Loops(Loops) {
+                           PostDominatorTree &PostDominators) {
   if (!simtLanes(*F.getParent()))
     return;
-  Uniformity = std::make_unique<VariableUniformityAnalysisResult>();
-  Uniformity->runOnFunction(F, Loops, PostDominators);
-}
-
-SimtBranches::~SimtBranches() = default;
-
-bool SimtBranches::mayDivide(Instruction *Terminator) const {
-  if (!Uniformity)
-    return false;
-  Value *Condition = nullptr;
-  if (auto *Branch = dyn_cast<BranchInst>(Terminator))
-    Condition = Branch->isConditional() ? Branch->getCondition() : nullptr;
-  else if (auto *Switch = dyn_cast<SwitchInst>(Terminator))
-    Condition = Switch->getCondition();
-  if (!Condition || Uniformity->isUniform(&F, Condition))
-    return false;
-  for (Loop *L = Loops.getLoopFor(Terminator->getParent()); L;
-       L = L->getParentLoop())
-    if (L->isLoopExiting(Terminator->getParent()))
-      return false;
-  return true;
+  VariableUniformityAnalysisResult Uniformity;
+  Uniformity.runOnFunction(F, Loops, PostDominators);
+  for (BasicBlock &Block : F) {
+    const Instruction *Terminator = Block.getTerminator();
+    Value *Condition = nullptr;
+    if (const auto *Branch = dyn_cast<BranchInst>(Terminator))
+      Condition = Branch->isConditional() ? Branch->getCondition() : nullptr;
+    else if (const auto *Switch = dyn_cast<SwitchInst>(Terminator))
+      Condition = Switch->getCondition();
+    if (!Condition)
+      continue;
+    bool Leaves = false;
+    for (Loop *L = Loops.getLoopFor(&Block); L; L = L->getParentLoop())
+      Leaves |= L->isLoopExiting(&Block);
+    if (Leaves)
+      Leaving.insert(Terminator);
+    else if (!Uniformity.isUniform(&F, Condition))
+      Dividing.insert(Terminator);
+  }
 }
 
 Value *createLaunchLoad(IRBuilder<> &Builder, Value *Launch, LaunchField Field,

@@ -19,13 +19,10 @@
 #include <llvm/IR/IRBuilder.h>
 #include <llvm/IR/Module.h>
 
-#include <memory>
 #include <set>
 #include <vector>
 
 namespace pocl {
-
-class VariableUniformityAnalysisResult;
 
 /// Pseudo variable: where the core's share of launch->context begins. The
 /// Workgroup pass replaces loads of it.
@@ -33,6 +30,9 @@ inline constexpr const char *SimtContextGlobal = "_simt_context";
 
 /// Module property: bytes a work-item keeps in the context.
 inline constexpr const char *SimtContextBytes = "simt_context_bytes";
+
+/// Module property: set if barriers could not be mapped to loops.
+inline constexpr const char *SimtFailure = "simt_failure";
 
 /// Lanes of a warp; 0 on devices that run work-items one after the other.
 unsigned simtLanes(const llvm::Module &M);
@@ -56,22 +56,27 @@ bool lowerSimtBarriers(llvm::Function &F);
 /// left the inner loop would pass the barrier while others are in it.
 void anchorBarrierLoops(llvm::ArrayRef<llvm::Loop *> Loops);
 
-/// Tells branches of single work-items from those of the whole group.
+/// Tells branches of single work-items from those of the whole group. Knows them by
+/// their terminators, which stay when blocks are split; empty on devices without
+/// lanes.
 class SimtBranches {
 public:
   SimtBranches(llvm::Function &F, llvm::LoopInfo &Loops,
                llvm::PostDominatorTree &PostDominators);
-  ~SimtBranches();
 
   /// Whether work-items may part at this end of a barrier's block, so that it
-  /// belongs into the region after the barrier. A loop with a barrier is left
-  /// by all or none.
-  bool mayDivide(llvm::Instruction *Terminator) const;
+  /// belongs into the region after the barrier.
+  bool mayDivide(const llvm::Instruction *Terminator) const {
+    return Dividing.count(Terminator);
+  }
+  /// Whether a loop is left here, or gone round again. If it has a barrier, all or
+  /// none do.
+  bool leavesLoop(const llvm::Instruction *Terminator) const {
+    return Leaving.count(Terminator);
+  }
 
 private:
-  llvm::Function &F;
-  llvm::LoopInfo &Loops;
-  std::unique_ptr<VariableUniformityAnalysisResult> Uniformity;
+  std::set<const llvm::Instruction *> Dividing, Leaving;
 };
 
 /// What kernels ask of a launch block.

@@ -37,6 +37,12 @@ public:
              std::to_string(Body->arg_size() - HiddenParameters) +
              " parameters, expected " + std::to_string(Kernel.Arguments.size());
 
+    unsigned long Failure = 0;
+    getModuleIntMetadata(M, pocl::SimtFailure, Failure);
+    if (Failure)
+      return "its barriers cannot be mapped to loops over work-items: expected "
+             "that all work-items of a group reach each";
+
     // The target, its features and frames are the compiler's to choose. The
     // library's functions are compiled as freestanding ("no-builtins"), which
     // alone keeps them from being inlined into kernels, that are not.
