@@ -42,9 +42,10 @@ unsigned simtLanes(const llvm::Module &M);
 bool fitsOneWarp(const llvm::Module &M);
 
 /// Before any other pass. Makes kernels work on their own copy of a by-value
-/// structure that they change; all work-items share the one in the argument buffer.
-/// And says that loops end: of a loop that might not, nothing after it is sure to be
-/// reached, so that lanes that part before it could only meet at the kernel's end.
+/// structure that they change; all work-items share the one in the argument
+/// buffer. And says that loops end: of a loop that might not, nothing after it
+/// is sure to be reached, so that lanes that part before it could only meet at
+/// the kernel's end.
 void prepareSimtModule(llvm::Module &M);
 
 /// Removes PoCL's barriers, where there are no loops in favour of the
@@ -56,9 +57,9 @@ bool lowerSimtBarriers(llvm::Function &F);
 /// left the inner loop would pass the barrier while others are in it.
 void anchorBarrierLoops(llvm::ArrayRef<llvm::Loop *> Loops);
 
-/// Tells branches of single work-items from those of the whole group. Knows them by
-/// their terminators, which stay when blocks are split; empty on devices without
-/// lanes.
+/// Tells branches of single work-items from those of the whole group. Knows
+/// them by their terminators, which stay when blocks are split; empty on
+/// devices without lanes.
 class SimtBranches {
 public:
   SimtBranches(llvm::Function &F, llvm::LoopInfo &Loops,
@@ -69,8 +70,8 @@ public:
   bool mayDivide(const llvm::Instruction *Terminator) const {
     return Dividing.count(Terminator);
   }
-  /// Whether a loop is left here, or gone round again. If it has a barrier, all or
-  /// none do.
+  /// Whether a loop is left here, or gone round again. If it has a barrier, all
+  /// or none do.
   bool leavesLoop(const llvm::Instruction *Terminator) const {
     return Leaving.count(Terminator);
   }
