@@ -1,0 +1,128 @@
+/// Buffers as host programs use them: mapped, part of another, filled, copied,
+/// in host memory; and commands that wait for each other.
+
+#include "TestDevice.h"
+
+#include <cstdint>
+#include <numeric>
+
+using vorion::test::TestDevice;
+
+namespace {
+
+constexpr std::size_t Count = 1000;
+using Values = std::vector<std::int32_t>;
+
+Values ascending() {
+  Values V(Count);
+  std::iota(V.begin(), V.end(), 0);
+  return V;
+}
+
+cl::Kernel increment(const TestDevice &Device, const cl::Buffer &Buffer) {
+  std::string Log;
+  const cl::Program Program = Device.build(
+      "kernel void increment(global int *a) { a[get_global_id(0)] += 1; }",
+      Log);
+  EXPECT_EQ(Log, "");
+  cl::Kernel K(Program, "increment");
+  K.setArg(0, Buffer);
+  return K;
+}
+
+class Placement : public testing::TestWithParam<cl_mem_flags> {};
+
+TEST_P(Placement, MappedWritesReachTheDevice) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  Values Host = ascending();
+  const cl::Buffer Buffer(Device.context(), CL_MEM_READ_WRITE | GetParam(),
+                          Count * 4, Host.data());
+  const cl::Kernel K = increment(Device, Buffer);
+  Device.run(K, Count, 50);
+  cl_int Status = 0;
+  auto *Mapped = static_cast<std::int32_t *>(Device.queue().enqueueMapBuffer(
+      Buffer, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, Count * 4, nullptr,
+      nullptr, &Status));
+  ASSERT_EQ(Status, CL_SUCCESS);
+  for (std::size_t I = 0; I < Count; ++I) {
+    ASSERT_EQ(Mapped[I], static_cast<std::int32_t>(I) + 1);
+    Mapped[I] += 5;
+  }
+  Device.queue().enqueueUnmapMemObject(Buffer, Mapped);
+  Device.run(K, Count, 50);
+  Values Want = ascending();
+  for (std::int32_t &V : Want)
+    V += 7;
+  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+}
+
+INSTANTIATE_TEST_SUITE_P(Flags, Placement,
+                         testing::Values(CL_MEM_COPY_HOST_PTR,
+                                         CL_MEM_USE_HOST_PTR,
+                                         CL_MEM_ALLOC_HOST_PTR |
+                                             CL_MEM_COPY_HOST_PTR));
+
+TEST(Buffers, PartsFillsAndCopiesTouchTheirBytesOnly) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  Values Want = ascending();
+  cl::Buffer Buffer = Device.upload(Want);
+  cl_buffer_region Region{512, 1024};
+  cl_int Status = 0;
+  const cl::Buffer Part = Buffer.createSubBuffer(
+      CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &Region, &Status);
+  ASSERT_EQ(Status, CL_SUCCESS);
+  Device.run(increment(Device, Part), 256, 64);
+  for (std::size_t I = 128; I < 384; ++I)
+    ++Want[I];
+  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+
+  ASSERT_EQ(Device.queue().enqueueFillBuffer(Buffer, std::int32_t{7}, 40, 400),
+            CL_SUCCESS);
+  for (std::size_t I = 10; I < 110; ++I)
+    Want[I] = 7;
+  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+
+  const cl::Buffer Other = Device.upload(Values(Count, -1));
+  ASSERT_EQ(Device.queue().enqueueCopyBuffer(Buffer, Other, 400, 800, 2000),
+            CL_SUCCESS);
+  Values WantOther(Count, -1);
+  for (std::size_t I = 0; I < 500; ++I)
+    WantOther[200 + I] = Want[100 + I];
+  EXPECT_EQ(Device.download<std::int32_t>(Other, Count), WantOther);
+}
+
+TEST(Buffers, CommandsWaitForTheirEvents) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  const cl::Buffer Buffer = Device.upload(ascending());
+  const cl::Kernel K = increment(Device, Buffer);
+  cl::UserEvent Go(Device.context());
+  const std::vector<cl::Event> After = {Go};
+  cl::Event Done;
+  const cl::CommandQueue Second(
+      Device.context(), Device.context().getInfo<CL_CONTEXT_DEVICES>()[0]);
+  ASSERT_EQ(Second.enqueueNDRangeKernel(K, cl::NullRange, cl::NDRange(Count),
+                                        cl::NDRange(50), &After, &Done),
+            CL_SUCCESS);
+  Second.flush();
+  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), ascending());
+  Go.setStatus(CL_COMPLETE);
+  EXPECT_EQ(Done.wait(), CL_SUCCESS);
+  Values Want = ascending();
+  for (std::int32_t &V : Want)
+    ++V;
+  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+}
+
+TEST(Buffers, MoreThanTheDeviceHasIsRefused) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  cl_int Status = CL_SUCCESS;
+  const cl::Buffer Buffer(Device.context(), CL_MEM_READ_WRITE,
+                          std::size_t{3} << 30, nullptr, &Status);
+  EXPECT_EQ(Status, CL_INVALID_BUFFER_SIZE);
+}
+
+} // namespace
