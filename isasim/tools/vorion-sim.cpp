@@ -215,9 +215,7 @@ int main(int Argc, char **Argv) {
   } catch (const CLI::CallForHelp &E) {
     return App.exit(E);
   } catch (const CLI::ParseError &E) {
-    return reportError(
-        Tool, Error{"", std::string(E.what()) + ", expected: see --help",
-                    ExitCode::Usage});
+    return reportUsageError(Tool, E.what());
   }
   if (O.PrintDefaultConfig) {
     fmt::print("{}", toJson(Config()));
