@@ -1,7 +1,7 @@
 #!/bin/sh
 # Fetch, check, unpack and patch one of the two source packages that are built
-# here rather than installed: LLVM's RISC-V target with the tools that link it,
-# and PoCL. They come through apt with a configuration of its own, so that the
+# here rather than installed: LLVM's RISC-V target with the tools that link it
+# (and, apart from it, LLVM's own tests of that target), and PoCL. They come through apt with a configuration of its own, so that the
 # system's sources and lists stay as they are.
 #
 # The result is build/sources/NAME. It is made from an untouched copy and our
@@ -11,7 +11,7 @@ set -eu
 
 usage() {
   cat <<'TEXT'
-usage: fetch-source.sh llvm|pocl
+usage: fetch-source.sh llvm|llvm-tests|pocl
 
 Unpacks and patches a source package into build/sources/NAME.
 
@@ -34,7 +34,7 @@ say() { echo "fetch-source: $*" >&2; }
 
 case ${1:-} in
 -h | --help) usage; exit 0 ;;
-llvm | pocl) name=$1 ;;
+llvm | llvm-tests | pocl) name=$1 ;;
 *) usage >&2; exit 2 ;;
 esac
 
@@ -44,7 +44,7 @@ sources=${VORION_SOURCES:-$root/build/sources}
 # What each package consists of: its version, where Debian keeps it, the files
 # with their hashes, and what of it we need ("" = everything).
 case $name in
-llvm)
+llvm | llvm-tests)
   package=llvm-toolchain-19 version=1:19.1.7-3~deb12u1 suite=bookworm
   files="llvm-toolchain-19_19.1.7.orig.tar.xz:ae498f3bc58ae2d9f64ef5f0c035c4240152bf015a5b7738b15c22e93bdc97ce"
   override=${VORION_LLVM_SOURCE:-}
@@ -60,6 +60,10 @@ llvm)
     clang/tools/driver
     compiler-rt/lib/builtins
     libclc"
+  if [ "$name" = llvm-tests ]; then
+    patches= # they are run as they are
+    wanted="llvm/test/CodeGen/RISCV llvm/test/MC/RISCV"
+  fi
   ;;
 pocl)
   package=pocl version=6.0-6 suite=trixie
@@ -76,7 +80,7 @@ pristine=$sources/.pristine/$name
 mkdir -p "$archives" "$sources/.pristine"
 
 # One run at a time: two builds may ask for the same sources.
-exec 9>"$sources/.lock.$name"
+exec 9>"$sources/.lock.${name%%-*}"
 flock 9
 
 scratch=
@@ -149,7 +153,7 @@ get_archives() {
 # --- unpack ------------------------------------------------------------------
 
 # The backend is linked with the installed archives, so the sources must be theirs.
-if [ "$name" = llvm ]; then
+if [ "$package" = llvm-toolchain-19 ]; then
   installed=$(dpkg-query -W -f '${Version}' llvm-19-dev 2>/dev/null || true)
   [ -z "$installed" ] || [ "$installed" = "$version" ] ||
     fail 3 "llvm-19-dev: version $installed is installed, expected $version"
@@ -188,12 +192,13 @@ fi
 
 # --- patch -------------------------------------------------------------------
 
-ours=$(find "$patches" -maxdepth 1 -name '*.patch' 2>/dev/null | LC_ALL=C sort)
+ours=
+[ -z "$patches" ] || ours=$(find "$patches" -maxdepth 1 -name '*.patch' 2>/dev/null | LC_ALL=C sort)
 state=$( { echo "$origin"; [ -z "$ours" ] || cat $ours; } | sha256sum | cut -d' ' -f1)
 if [ "$(cat "$sources/$name.stamp" 2>/dev/null)" = "$state" ] && [ -d "$sources/$name" ]; then
   exit 0
 fi
-say "patching $name"
+[ -z "$ours" ] || say "patching $name"
 fresh=$sources/$name.part
 rm -rf "$fresh" "$sources/$name.stamp"
 cp -a "$pristine" "$fresh" # keeps the times, so that only patched files are built again

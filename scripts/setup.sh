@@ -33,6 +33,7 @@ if [ -n "$(missingPackages)" ]; then
   step "installing packages" packages installPackages
 fi
 step "fetching and patching LLVM's RISC-V target" source-llvm "$Root/scripts/fetch-source.sh" llvm
+step "unpacking LLVM's own RISC-V tests" source-llvm-tests "$Root/scripts/fetch-source.sh" llvm-tests
 step "fetching and patching PoCL" source-pocl "$Root/scripts/fetch-source.sh" pocl
 step "configuring" configure cmake --preset dev -S "$Root"
 step "building (the first time several minutes)" build cmake --build "$Build" -j "$Jobs"

@@ -39,7 +39,10 @@ features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
 # The OpenCL platform of the build and no other, as scripts/env.sh has it.
 features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join(build, "etc", "OpenCL", "vendors")
 features["data"] = os.path.join(root, "..", "shared", "data")
+# LLVM's own tests, as scripts/fetch-source.sh leaves them.
+features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES", os.path.join(root, "build", "sources")), "llvm-tests")
 features["qemu-riscv32"] = shutil.which("qemu-riscv32") or "qemu-riscv32"
+config.substitutions.append(("%llvm-tests", features["llvm-tests"]))
 for feature, path in features.items():
     if os.path.exists(path):
         config.available_features.add(feature)
