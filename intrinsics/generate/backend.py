@@ -60,7 +60,7 @@ def table(records):
         opcode = opcodes.get(i.kind, i.record.id)
         csr = hex(i.record.Number) if i.kind in ("read", "write") else -1
         yield (f"VORION_INTRINSIC({i.name}, {opcode}, {csr}, {i.inputs}, {str(i.has_result).lower()}, "
-               f"{i.divergence.capitalize()}, {getattr(i.record, 'Extension', 'xvortex')})")
+               f"{i.divergence.capitalize()}, {i.extension})")
     yield "#undef VORION_INTRINSIC"
 
 

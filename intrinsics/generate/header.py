@@ -27,6 +27,13 @@ typedef unsigned int uint;
    the optimiser from moving a call under a condition, nomerge from making one
    call of two. */
 #define VORION_INTRINSIC(name) __asm("vorion." #name) __attribute__((convergent, nomerge, nothrow))
+/* What the target lacks is an error at the call. (A front end for a plain RISC-V
+   target, as PoCL's, knows neither extension and leaves it to the backend.) */
+#if defined(__riscv_xvortex) && !defined(__riscv_xvorion)
+#define VORION_XVORION_INTRINSIC(name) VORION_INTRINSIC(name) __attribute__((unavailable("needs -march with xvorion")))
+#else
+#define VORION_XVORION_INTRINSIC(name) VORION_INTRINSIC(name)
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -62,7 +69,8 @@ def descriptors(records, types):
 def device(records):
     yield DEVICE_HEAD
     for i in intrinsics(records):
-        yield f"/* {i.doc} */\n{i.prototype} VORION_INTRINSIC({i.name});"
+        macro = "VORION_INTRINSIC" if i.extension == "xvortex" else f"VORION_{i.extension.upper()}_INTRINSIC"
+        yield f"/* {i.doc} */\n{i.prototype} {macro}({i.name});"
     yield "\n#ifdef __cplusplus\n}\n#endif\n"
     yield from constants(records)
     yield from descriptors(records, {"u32": "uint", "f32": "float"})

@@ -16,22 +16,23 @@ def _parse(prototype):
     return result, name, [] if parameters == "void" else parameters.split(", ")
 
 
-def _make(prototype, divergence, doc, kind, **more):
+def _make(prototype, divergence, doc, kind, record):
     result, name, parameters = _parse(prototype)
     return SimpleNamespace(prototype=prototype, name=name, symbol=PREFIX + name, has_result=result != "void",
-                           inputs=len(parameters), divergence=divergence, doc=doc, kind=kind, **more)
+                           inputs=len(parameters), divergence=divergence, doc=doc, kind=kind, record=record,
+                           extension=getattr(record, "Extension", "xvortex"))
 
 
 def intrinsics(records):
     """Instructions, compiler intrinsics, then CSR reads and writes, in the order of the records."""
     for i in records.of("SimtInstruction"):
-        yield _make(i.Prototype, i.Divergence, i.Doc, "instruction", record=i)
+        yield _make(i.Prototype, i.Divergence, i.Doc, "instruction", i)
     for i in records.of("CompilerIntrinsic"):
-        yield _make(i.Prototype, i.Divergence, i.Doc, "compiler", record=i)
+        yield _make(i.Prototype, i.Divergence, i.Doc, "compiler", i)
     for c in records.of("Csr"):
         if not c.HasIntrinsic:
             continue
         name = c.Name if c.Name.startswith(("vx_", "vr_")) else "vx_" + c.Name
-        yield _make(f"uint {name}(void)", "uniform" if c.Uniform else "source", c.Doc, "read", record=c)
+        yield _make(f"uint {name}(void)", "uniform" if c.Uniform else "source", c.Doc, "read", c)
         if c.Rule.Name != "none":
-            yield _make(f"void {name}_set(uint value)", "none", c.Doc, "write", record=c)
+            yield _make(f"void {name}_set(uint value)", "none", c.Doc, "write", c)

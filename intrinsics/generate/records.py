@@ -33,6 +33,10 @@ class Records:
         fields = {k: self._resolve(v) for k, v in raw.items() if not k.startswith("!")}
         return SimpleNamespace(id=name, file=raw["!locs"][0], **fields)
 
+    def instances(self):
+        """The names of all records by class, those of derived classes among them."""
+        return self._dump["!instanceof"]
+
     def of(self, cls):
         """Records of class cls in source order."""
         def place(name):
