@@ -18,8 +18,9 @@ using namespace vorion::runtime;
 
 /// The handles of the C interface.
 struct vx_device {
-  explicit vx_device(std::unique_ptr<isasim::Machine> Machine)
-      : Impl(std::move(Machine)) {}
+  vx_device(std::unique_ptr<isasim::Machine> Machine,
+            std::unique_ptr<isasim::Session> Watch)
+      : Impl(std::move(Machine), std::move(Watch)) {}
   Device Impl;
 };
 struct vx_image {
@@ -150,7 +151,11 @@ vx_status vx_device_open(const char *config, vx_device **device) {
     auto Machine = isasim::Machine::create(Config);
     if (!Machine)
       return failure(VX_ERROR_CONFIG, Machine.error());
-    *device = new vx_device(std::move(*Machine));
+    auto Watch =
+        isasim::Session::create(isasim::SessionOptions::fromEnvironment());
+    if (!Watch)
+      return failure(VX_ERROR_CONFIG, Watch.error());
+    *device = new vx_device(std::move(*Machine), std::move(*Watch));
     return {};
   });
 }

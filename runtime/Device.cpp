@@ -1,5 +1,6 @@
 #include "Device.h"
 #include "Limits.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion_abi.h"
 
 #include <algorithm>
@@ -9,11 +10,13 @@
 using namespace vorion;
 using namespace vorion::runtime;
 
-Device::Device(std::unique_ptr<isasim::Machine> TheMachine)
-    : Machine(std::move(TheMachine)),
+Device::Device(std::unique_ptr<isasim::Machine> TheMachine,
+               std::unique_ptr<isasim::Session> TheWatch)
+    : Machine(std::move(TheMachine)), Watch(std::move(TheWatch)),
       ConfigText(isasim::toJson(Machine->config())),
       Memory(VX_GLOBAL_BASE, Machine->config().GlobalBytes) {
   Machine->setConsole([this](std::string_view Text) { keepConsole(Text); });
+  Watch->attach(*Machine);
 }
 
 void Device::keepConsole(std::string_view Text) {
@@ -230,6 +233,8 @@ void Device::launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock) {
     std::string Bug;
     try {
       Run = Machine->run(LaunchBlock);
+      if (const Expected<Success> Wrote = Watch->runEnded(Run); !Wrote)
+        reportError("vorion", Wrote.error());
     } catch (const std::exception &E) {
       Bug = E.what();
     }
@@ -264,6 +269,7 @@ Failure Device::start(LoadedImage &Image, std::uint32_t Kernel,
     freeRunMemory();
     return Failed;
   }
+  Watch->nameRun(Kernels[Kernel].Name);
   launch(Held, Image, InUse.Launch);
   return {};
 }
@@ -272,6 +278,7 @@ Failure Device::startMain(LoadedImage &Image) {
   Lock Held(Mutex);
   if (Running)
     return {VX_ERROR_BUSY, "a run is in progress"};
+  Watch->nameRun("main");
   launch(Held, Image, 0);
   return {};
 }

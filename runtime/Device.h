@@ -5,6 +5,7 @@
 #include "Failure.h"
 #include "LoadedImage.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/isasim/Session.h"
 
 #include <condition_variable>
 #include <mutex>
@@ -17,7 +18,8 @@ namespace vorion::runtime {
 /// goes on beside it. Arguments that are pointers have been checked for NULL.
 class Device {
 public:
-  explicit Device(std::unique_ptr<isasim::Machine> Machine);
+  Device(std::unique_ptr<isasim::Machine> Machine,
+         std::unique_ptr<isasim::Session> Watch);
   ~Device();
   Device(const Device &) = delete;
   Device &operator=(const Device &) = delete;
@@ -73,6 +75,7 @@ private:
   void finish(isasim::RunResult Run);
 
   std::unique_ptr<isasim::Machine> Machine;
+  std::unique_ptr<isasim::Session> Watch;
   std::string ConfigText;
 
   std::mutex Mutex;

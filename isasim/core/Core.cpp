@@ -14,7 +14,7 @@ Core::Core(const Config &C, unsigned IdIn)
 
 void Core::reset(const CodeTable &CodeIn, uint32_t Entry,
                  uint32_t LaunchBlockIn, const MemoryView &ViewIn,
-                 Observer *Watcher) {
+                 Watch *Watcher) {
   Code = &CodeIn;
   View = ViewIn;
   LaunchBlock = LaunchBlockIn;
@@ -80,7 +80,7 @@ uint64_t Core::retired() const {
 
 void Core::complete(WarpState &S) {
   if (S.Watcher)
-    observe(&S, S.Next);
+    observeCommit(&S, S.Next);
   ++S.Count.Retired;
   S.Count.LaneRetired += S.LaneCount;
   ++S.Next;

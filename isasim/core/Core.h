@@ -12,8 +12,6 @@
 
 namespace vorion::isasim {
 
-class Observer;
-
 /// Threads: a core belongs to one host thread at a time.
 class Core {
 public:
@@ -23,7 +21,7 @@ public:
 
   /// Warp 0 runs lane 0 at \p Entry, the others have ended; registers are 0.
   void reset(const CodeTable &Code, uint32_t Entry, uint32_t LaunchBlock,
-             const MemoryView &View, Observer *Watcher);
+             const MemoryView &View, Watch *Watcher);
 
   /// Runs every warp until it stops or has used \p Quantum instructions.
   void runRound(const ExecTable &Exec, uint32_t Quantum);

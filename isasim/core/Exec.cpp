@@ -17,7 +17,7 @@
 #include "vorion/isasim/TrapCause.h"
 
 #ifdef VORION_OBSERVED
-#define VORION_REPORT(S, I) observe(S, I)
+#define VORION_REPORT(S, I) observeCommit(S, I)
 #else
 #define VORION_REPORT(S, I) ((void)0)
 #endif
@@ -46,8 +46,20 @@ namespace {
 #include "core/insns/Memory.inc"
 #include "core/insns/Simt.inc"
 
+#ifdef VORION_OBSERVED
+template <typename Body> struct Watched {
+  static void run(WarpState *S, const Insn *I, const Insn *Start) {
+    observeFetch(S, I, Start);
+    VORION_TAIL Body::run(S, I, Start);
+  }
+};
+#else
+template <typename Body> using Watched = Body;
+#endif
+
 constexpr Handler Handlers[NumOps][2] = {
-#define VORION_HANDLER(O) {Exec<Op::O, false>::run, Exec<Op::O, true>::run},
+#define VORION_HANDLER(O)                                                      \
+  {Watched<Exec<Op::O, false>>::run, Watched<Exec<Op::O, true>>::run},
     VORION_FOR_EACH_OP(VORION_HANDLER)
 #undef VORION_HANDLER
 };

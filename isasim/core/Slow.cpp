@@ -3,7 +3,7 @@
 #include "core/Core.h"
 #include "core/HostFp.h"
 #include "core/Isa.h"
-#include "vorion/isasim/Observer.h"
+#include "vorion/isasim/TrapCause.h"
 
 #include <algorithm>
 #include <bit>
@@ -344,14 +344,6 @@ void setFrm(WarpState *S, uint32_t Frm) {
   for (uint32_t Rm = 0; Rm != NumHostRoundings; ++Rm)
     S->RmIsHost[Rm] = Rm == Host;
   S->RmIsHost[DynamicRm] = Frm == Host;
-}
-
-void observe(WarpState *S, const Insn *I) {
-  const bool HasResult = I->Rd != SinkOffset;
-  S->Watcher->commit({S->Owner->id(), S->WarpId, S->pcOf(I), I->Word, S->Mask,
-                      HasResult
-                          ? std::span<const uint32_t>(S->lanes(I->Rd), MaxLanes)
-                          : std::span<const uint32_t>()});
 }
 
 } // namespace vorion::isasim

@@ -86,7 +86,9 @@ void setMask(WarpState *S, std::uint32_t Mask);
 /// Sets frm (0 to 7) and puts the host's unit into it.
 void setFrm(WarpState *S, std::uint32_t Frm);
 
-/// Tells the observer that \p I has been executed.
-void observe(WarpState *S, const Insn *I);
+/// Tells the observers that \p I is about to be executed (the instructions from
+/// \p Start on have not been counted yet), and that it has been.
+void observeFetch(WarpState *S, const Insn *I, const Insn *Start);
+void observeCommit(WarpState *S, const Insn *I);
 
 } // namespace vorion::isasim

@@ -113,7 +113,7 @@ struct WarpCounters {
 };
 
 class Core;
-class Observer;
+class Watch;
 
 struct alignas(64) WarpState {
   LaneWords R[NumRegisters];   ///< x0..x31, f0..f31, the sink; at offset 0
@@ -153,7 +153,7 @@ struct alignas(64) WarpState {
   std::uint32_t FaultAddress = 0;
 
   Core *Owner = nullptr;
-  Observer *Watcher = nullptr;
+  Watch *Watcher = nullptr; ///< of the observed level
 
   std::uint32_t pcOf(const Insn *I) const {
     return CodeLo + static_cast<std::uint32_t>(I - Code) * 4;

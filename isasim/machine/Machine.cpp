@@ -2,6 +2,7 @@
 
 #include "core/Core.h"
 #include "core/Slow.h"
+#include "core/Watch.h"
 #include "machine/HangDetector.h"
 #include "machine/RasterUnits.h"
 #include "machine/Report.h"
@@ -10,9 +11,11 @@
 #include "vorion/isasim/Observer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace vorion::isasim {
 
@@ -26,25 +29,9 @@ constexpr uint64_t ShortRound = 20000;
 constexpr size_t LongestLine = 64 << 10;
 
 void addCounters(CoreCounters &To, const WarpCounters &C) {
-  To.WarpInstructions += C.Retired;
-  To.LaneInstructions += C.LaneRetired;
-  To.Loads += C.Loads;
-  To.Stores += C.Stores;
-  To.Atomics += C.Atomics;
-  To.Splits += C.Splits;
-  To.DivergentSplits += C.DivergentSplits;
-  To.Parks += C.Parks;
-}
-
-void addCounters(CoreCounters &To, const CoreCounters &C) {
-  To.WarpInstructions += C.WarpInstructions;
-  To.LaneInstructions += C.LaneInstructions;
-  To.Loads += C.Loads;
-  To.Stores += C.Stores;
-  To.Atomics += C.Atomics;
-  To.Splits += C.Splits;
-  To.DivergentSplits += C.DivergentSplits;
-  To.Parks += C.Parks;
+#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) To.MEMBER += C.SOURCE;
+#include "vorion/isasim/Counters.def"
+#undef VORION_CORE_COUNTER
 }
 
 } // namespace
@@ -71,6 +58,12 @@ struct Machine::Impl {
   bool findTrap(RunResult &R);
   bool decideEnd(RunResult &R);
   void count(RunResult &R) const;
+  bool isObserved() const { return !Watcher.Observers.empty(); }
+  double secondsSoFar() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                         Begin)
+        .count();
+  }
   uint64_t retired() const;
 
   const Config Shape;
@@ -82,7 +75,10 @@ struct Machine::Impl {
   WorkerPool Pool;
   RasterUnits Raster;
   HangDetector Hang;
-  Observer *Watcher = nullptr;
+  Watch Watcher;
+  double WatchdogSeconds = 0;
+  std::chrono::steady_clock::time_point Begin; ///< of the run
+  std::atomic<bool> StopRequested = false;
   std::function<void(std::string_view)> Console = [](std::string_view Text) {
     std::fwrite(Text.data(), 1, Text.size(), stdout);
     std::fflush(stdout);
@@ -109,15 +105,17 @@ bool Machine::Impl::access(uint32_t Address, uint64_t Bytes,
 }
 
 void Machine::Impl::resetCores(uint32_t LaunchBlock) {
-  const bool Observed = Watcher != nullptr;
+  const bool Observed = isObserved();
   if (!Code || CodeIsObserved != Observed) {
     Code = std::make_unique<CodeTable>(*Program, execTable(Observed));
     CodeIsObserved = Observed;
   }
+  if (Observed)
+    Watcher.prepare(*Code, Shape.WarpsPerCore, Shape.cores());
   Storage->clearLocal();
   for (const auto &C : Cores)
     C->reset(*Code, Program->entry(), LaunchBlock, Storage->view(C->id()),
-             Watcher);
+             Observed ? &Watcher : nullptr);
   GlobalArrived.assign(Shape.Barriers, 0);
   Hang = HangDetector();
   LastRound = ShortRound;
@@ -139,8 +137,8 @@ void Machine::Impl::runCores() {
   for (const auto &C : Cores)
     if (C->isReady())
       Ready.push_back(C.get());
-  const ExecTable &Exec = execTable(Watcher != nullptr);
-  const bool Alone = Watcher || LastRound < ShortRound;
+  const ExecTable &Exec = execTable(isObserved());
+  const bool Alone = isObserved() || LastRound < ShortRound;
   Pool.run(static_cast<unsigned>(Ready.size()), Alone, [&](unsigned N) {
     Ready[N]->runRound(Exec, static_cast<uint32_t>(Quantum));
   });
@@ -185,12 +183,19 @@ void Machine::Impl::executeParked(Core &C, WarpState &S) {
 
 void Machine::Impl::atSyncPoint() {
   flushConsole(false);
+  Watcher.tell([&](Observer &O) { O.syncPoint(Cores); });
   for (const auto &C : Cores)
     for (WarpState &S : C->warps())
       executeParked(*C, S);
   if (Raster.isBusy()) {
     Progress = true;
-    Pool.run(Raster.units(), false, [&](unsigned N) { Raster.runUnit(N); });
+    if (isObserved())
+      for (unsigned N = 0; N != Raster.units(); ++N)
+        Raster.runUnit(N, [&](const RasterWork &W) {
+          Watcher.tell([&](Observer &O) { O.rasterCommand(W); });
+        });
+    else
+      Pool.run(Raster.units(), false, [&](unsigned N) { Raster.runUnit(N); });
   }
 }
 
@@ -214,8 +219,7 @@ bool Machine::Impl::findTrap(RunResult &R) {
         R.End = Outcome::Trap;
         R.Fault = makeTrap(S, Program.get());
         R.Report = trapReport(R.Fault);
-        if (Watcher)
-          Watcher->trap(R.Fault);
+        Watcher.tell([&](Observer &O) { O.trap(R.Fault); });
         return true;
       }
   return false;
@@ -241,9 +245,17 @@ bool Machine::Impl::decideEnd(RunResult &R) {
                warpReport(Cores, Program.get());
     return true;
   }
-  if (Shape.MaxInstructions && retired() >= Shape.MaxInstructions) {
+  std::string Limit;
+  if (Shape.MaxInstructions && retired() >= Shape.MaxInstructions)
+    Limit = "instruction limit reached";
+  else if (StopRequested.load(std::memory_order_relaxed))
+    Limit = "stopped from outside";
+  else if (WatchdogSeconds > 0 && secondsSoFar() > WatchdogSeconds)
+    Limit =
+        fmt::format("watchdog: the run took longer than {} s", WatchdogSeconds);
+  if (!Limit.empty()) {
     R.End = Outcome::LimitReached;
-    R.Report = "instruction limit reached\n" + warpReport(Cores, Program.get());
+    R.Report = Limit + "\n" + warpReport(Cores, Program.get());
     return true;
   }
   Progress = false;
@@ -255,7 +267,7 @@ void Machine::Impl::count(RunResult &R) const {
     CoreCounters Sum;
     for (const WarpState &S : C->warps())
       addCounters(Sum, S.Count);
-    addCounters(R.Total, Sum);
+    R.Total += Sum;
     R.Cores.push_back(Sum);
     if (C->ExitCode && R.ExitCode == 0)
       R.ExitCode = *C->ExitCode;
@@ -320,9 +332,13 @@ RunResult Machine::run(uint32_t LaunchBlock) {
     R.Report = "no program is loaded\n";
     return R;
   }
-  const auto Begin = std::chrono::steady_clock::now();
+  I->Begin = std::chrono::steady_clock::now();
+  I->StopRequested = false;
   const RasterCounters Before = I->Raster.counters();
   I->resetCores(LaunchBlock);
+  I->Watcher.tell([&](Observer &O) {
+    O.runBegins({*this, I->Program, LaunchBlock, I->Cores});
+  });
   do {
     I->runCores();
     ++R.SyncPoints;
@@ -338,9 +354,8 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   R.Raster = I->Raster.counters() - Before;
   if (R.End != Outcome::Done && R.End != Outcome::GuestFailed)
     I->Raster.reset();
-  R.HostSeconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - Begin)
-          .count();
+  R.HostSeconds = I->secondsSoFar();
+  I->Watcher.tell([&](Observer &O) { O.runEnds(R); });
   return R;
 }
 
@@ -348,7 +363,15 @@ void Machine::setConsole(std::function<void(std::string_view)> Sink) {
   I->Console = std::move(Sink);
 }
 
-void Machine::setObserver(Observer *O) { I->Watcher = O; }
+void Machine::setObservers(std::vector<Observer *> Observers) {
+  I->Watcher.Observers = std::move(Observers);
+}
+
+void Machine::setWatchdog(double Seconds) { I->WatchdogSeconds = Seconds; }
+
+void Machine::requestStop() {
+  I->StopRequested.store(true, std::memory_order_relaxed);
+}
 
 std::optional<uint32_t> Machine::readRasterCsr(unsigned Core, unsigned Csr) {
   return I->Raster.hostRead(Core, Csr);

@@ -171,7 +171,7 @@ TEST(Machine, ObserverSeesEveryInstructionAndChangesNothing) {
   const Snapshot Plain = runWith(2, 1 << 16);
   const auto M = make(small(), drawNumbers());
   Counting Watch;
-  M->setObserver(&Watch);
+  M->setObservers({&Watch});
   M->setConsole(nullptr);
   const RunResult R = M->run();
   EXPECT_EQ(Watch.Instructions, R.Total.WarpInstructions);
@@ -181,7 +181,7 @@ TEST(Machine, ObserverSeesEveryInstructionAndChangesNothing) {
   EXPECT_TRUE(M->read(VX_GLOBAL_BASE, Memory));
   EXPECT_EQ(Memory, Plain.Memory);
   // And the machine runs unobserved again.
-  M->setObserver(nullptr);
+  M->setObservers({});
   EXPECT_EQ(M->run().End, Outcome::Done);
   EXPECT_EQ(Watch.Instructions, R.Total.WarpInstructions);
 }

@@ -57,6 +57,28 @@ void RasterUnits::runUnit(unsigned N) {
   }
 }
 
+void RasterUnits::runUnit(unsigned N,
+                          const std::function<void(const RasterWork &)> &Tell) {
+  const unsigned First = N * Shape.CoresPerSocket;
+  for (;;) {
+    // The unit says nothing of what it does next: one of the agents' oldest.
+    std::vector<raster::Command> Oldest(Shape.CoresPerSocket);
+    std::vector<RasterCounters> Before(Shape.CoresPerSocket);
+    for (unsigned A = 0; A != Shape.CoresPerSocket; ++A) {
+      Before[A] = countersOf(First + A);
+      if (Agents[First + A]->isBusy())
+        Oldest[A] = Agents[First + A]->front();
+    }
+    if (!Units[N]->step())
+      return;
+    for (unsigned A = 0; A != Shape.CoresPerSocket; ++A) {
+      const RasterCounters Work = countersOf(First + A) - Before[A];
+      if (Work.Commands)
+        Tell({N, First + A, Oldest[A], Work});
+    }
+  }
+}
+
 std::optional<uint32_t> RasterUnits::hostRead(unsigned Core, unsigned Number) {
   if (Core >= Agents.size() || !raster::findCsr(Number))
     return std::nullopt;
@@ -75,17 +97,16 @@ bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
   return true;
 }
 
-RasterCounters RasterUnits::counters() const {
-  raster::Counters Sum;
-  for (const auto &A : Agents)
-    Sum += A->counters();
-  return {Sum.Commands, Sum.Gaussians, Sum.Clipped, Sum.Fragments, Sum.Blends};
+RasterCounters RasterUnits::countersOf(unsigned Core) const {
+  const raster::Counters &C = Agents[Core]->counters();
+  return {C.Commands, C.Gaussians, C.Clipped, C.Fragments, C.Blends};
 }
 
-RasterCounters operator-(const RasterCounters &A, const RasterCounters &B) {
-  return {A.Commands - B.Commands, A.Gaussians - B.Gaussians,
-          A.Clipped - B.Clipped, A.Fragments - B.Fragments,
-          A.Blends - B.Blends};
+RasterCounters RasterUnits::counters() const {
+  RasterCounters Sum;
+  for (unsigned Core = 0; Core != Agents.size(); ++Core)
+    Sum += countersOf(Core);
+  return Sum;
 }
 
 } // namespace vorion::isasim

@@ -5,8 +5,9 @@
 #include "mem/Memory.h"
 #include "raster/Rasterizer.h"
 #include "vorion/isasim/Config.h"
-#include "vorion/isasim/Result.h"
+#include "vorion/isasim/Observer.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,6 +29,8 @@ public:
   /// Executes all commands of rasterizer \p N. Different rasterizers may run
   /// at the same time.
   void runUnit(unsigned N);
+  /// The same, and tells of each command.
+  void runUnit(unsigned N, const std::function<void(const RasterWork &)> &Tell);
 
   std::optional<uint32_t> hostRead(unsigned Core, unsigned Number);
   bool hostWrite(unsigned Core, unsigned Number, uint32_t Value);
@@ -38,6 +41,8 @@ public:
   RasterCounters counters() const;
 
 private:
+  RasterCounters countersOf(unsigned Core) const;
+
   struct GlobalMemory final : raster::RasterMemory {
     explicit GlobalMemory(Memory &StorageIn) : Storage(StorageIn) {}
     std::byte *range(uint32_t Addr, uint64_t Bytes) override {
@@ -51,7 +56,5 @@ private:
   std::vector<std::unique_ptr<raster::RasterAgent>> Agents; ///< by core
   std::vector<std::unique_ptr<raster::Rasterizer>> Units;   ///< by socket
 };
-
-RasterCounters operator-(const RasterCounters &A, const RasterCounters &B);
 
 } // namespace vorion::isasim

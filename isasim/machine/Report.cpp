@@ -37,6 +37,8 @@ bool namesAddress(TrapCause Cause) {
   }
 }
 
+} // namespace
+
 std::string waitsFor(const WarpState &S) {
   switch (S.Why) {
   case Stop::Ready:
@@ -58,8 +60,6 @@ std::string waitsFor(const WarpState &S) {
   }
   return {};
 }
-
-} // namespace
 
 Trap makeTrap(const WarpState &S, const Image *Program) {
   Trap T;

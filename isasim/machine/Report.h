@@ -9,6 +9,9 @@
 
 namespace vorion::isasim {
 
+/// "waits for the rasterizer" and so on: why \p S does not go on.
+std::string waitsFor(const WarpState &S);
+
 /// What stopped \p S, which has trapped.
 Trap makeTrap(const WarpState &S, const Image *Program);
 

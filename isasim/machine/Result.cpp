@@ -9,15 +9,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json counters(const CoreCounters &C) {
-  return {{"warp_instructions", C.WarpInstructions},
-          {"lane_instructions", C.LaneInstructions},
-          {"loads", C.Loads},
-          {"stores", C.Stores},
-          {"atomics", C.Atomics},
-          {"splits", C.Splits},
-          {"divergent_splits", C.DivergentSplits},
-          {"parks", C.Parks}};
+Json json(const CoreCounters &C) {
+  Json Object;
+#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) Object[#NAME] = C.MEMBER;
+#include "vorion/isasim/Counters.def"
+#undef VORION_CORE_COUNTER
+  return Object;
+}
+
+Json json(const RasterCounters &C) {
+  Json Object;
+#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) Object[#NAME] = C.MEMBER;
+#include "vorion/isasim/Counters.def"
+#undef VORION_RASTER_COUNTER
+  return Object;
 }
 
 Json fault(const Trap &T) {
@@ -86,20 +91,50 @@ std::string_view describe(Outcome O) {
   return "unknown";
 }
 
+CoreCounters &CoreCounters::operator+=(const CoreCounters &Other) {
+#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) MEMBER += Other.MEMBER;
+#include "vorion/isasim/Counters.def"
+#undef VORION_CORE_COUNTER
+  return *this;
+}
+
+RasterCounters &RasterCounters::operator+=(const RasterCounters &Other) {
+#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) MEMBER += Other.MEMBER;
+#include "vorion/isasim/Counters.def"
+#undef VORION_RASTER_COUNTER
+  return *this;
+}
+
+RasterCounters RasterCounters::operator-(const RasterCounters &Other) const {
+  RasterCounters Result = *this;
+#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) Result.MEMBER -= Other.MEMBER;
+#include "vorion/isasim/Counters.def"
+#undef VORION_RASTER_COUNTER
+  return Result;
+}
+
+std::vector<NamedCounter> counters(const RunResult &R) {
+  return {
+#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC)                         \
+  {"core", #NAME, DOC, R.Total.MEMBER},
+#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC)                               \
+  {"raster", #NAME, DOC, R.Raster.MEMBER},
+#include "vorion/isasim/Counters.def"
+#undef VORION_CORE_COUNTER
+#undef VORION_RASTER_COUNTER
+  };
+}
+
 std::string toJson(const RunResult &R) {
   Json Object;
   Object["outcome"] = describe(R.End);
   Object["exit_code"] = R.ExitCode;
   if (R.End == Outcome::Trap)
     Object["trap"] = fault(R.Fault);
-  Object["total"] = counters(R.Total);
+  Object["total"] = json(R.Total);
   for (const CoreCounters &C : R.Cores)
-    Object["cores"].push_back(counters(C));
-  Object["raster"] = {{"commands", R.Raster.Commands},
-                      {"gaussians", R.Raster.Gaussians},
-                      {"clipped", R.Raster.Clipped},
-                      {"fragments", R.Raster.Fragments},
-                      {"blends", R.Raster.Blends}};
+    Object["cores"].push_back(json(C));
+  Object["raster"] = json(R.Raster);
   Object["sync_points"] = R.SyncPoints;
   Object["host_seconds"] = R.HostSeconds;
   return Object.dump(2) + "\n";

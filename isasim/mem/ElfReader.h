@@ -13,6 +13,7 @@ public:
   ImageParser(std::span<const std::byte> Elf, std::string Name)
       : File(Elf), Result(std::make_shared<Image>()) {
     Result->Name = std::move(Name);
+    Result->File.assign(Elf.begin(), Elf.end());
   }
 
   Expected<std::shared_ptr<const Image>> parse();

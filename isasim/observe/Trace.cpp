@@ -1,6 +1,9 @@
 #include "observe/Trace.h"
 
+#include "core/Core.h"
 #include "core/Isa.h"
+#include "machine/Report.h"
+#include "raster/Command.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,31 +12,162 @@ namespace vorion::isasim {
 
 namespace {
 
-std::string result(const Commit &C) {
+/// Changes with every change of a line's form (docs/trace-format.md).
+constexpr int FormatVersion = 1;
+
+constexpr std::string_view Names[] = {
+#define VORION_TRACE(NAME, DOC) #NAME,
+#include "observe/TraceCategories.def"
+#undef VORION_TRACE
+};
+
+/// " value" if all active lanes agree, else the value of each active lane.
+std::string laneWords(std::span<const uint32_t> Values, uint32_t Mask) {
   std::string Text;
   bool Same = true;
   const uint32_t *First = nullptr;
-  for (size_t L = 0; L != C.Result.size(); ++L) {
-    if (!(C.LaneMask >> L & 1))
+  for (size_t L = 0; L != Values.size(); ++L) {
+    if (!(Mask >> L & 1))
       continue;
     if (!First)
-      First = &C.Result[L];
-    Same &= C.Result[L] == *First;
-    Text += fmt::format(" {:08x}", C.Result[L]);
+      First = &Values[L];
+    Same &= Values[L] == *First;
+    Text += fmt::format(" {:08x}", Values[L]);
   }
-  if (First && Same)
-    Text = fmt::format(" {:08x}", *First);
-  return Text.empty() ? Text : " ->" + Text;
+  return First && Same ? fmt::format(" {:08x}", *First) : Text;
+}
+
+bool isSimt(Op O) {
+  switch (O) {
+  case Op::VX_TMC:
+  case Op::VX_WSPAWN:
+  case Op::VX_SPLIT:
+  case Op::VX_SPLIT_N:
+  case Op::VX_JOIN:
+  case Op::VX_BAR:
+  case Op::VX_PRED:
+  case Op::VX_PRED_N:
+    return true;
+  default:
+    return false;
+  }
+}
+
+std::string_view nameOf(MemoryAccess::Kind Kind) {
+  switch (Kind) {
+  case MemoryAccess::Load:
+    return "load";
+  case MemoryAccess::Store:
+    return "store";
+  case MemoryAccess::Atomic:
+    return "atomic";
+  }
+  return "?";
+}
+
+std::string text(uint32_t Word, uint32_t Pc) {
+  std::string Text = disassemble(Word, Pc);
+  std::replace(Text.begin(), Text.end(), '\t', ' ');
+  return Text;
 }
 
 } // namespace
 
+Expected<TraceRequest> TraceRequest::parse(std::string_view Text) {
+  TraceRequest R;
+  const size_t Colon = Text.find(':');
+  if (Colon != std::string_view::npos)
+    R.File = Text.substr(Colon + 1);
+  std::string_view Rest = Text.substr(0, Colon);
+  while (true) {
+    const size_t Comma = Rest.find(',');
+    const std::string_view Name = Rest.substr(0, Comma);
+    const auto *Found = std::find(std::begin(Names), std::end(Names), Name);
+    if (Name == "all")
+      R.Categories |= (1U << std::size(Names)) - 1;
+    else if (Found != std::end(Names))
+      R.Categories |= 1U << (Found - std::begin(Names));
+    else
+      return Error{"",
+                   fmt::format("trace category '{}', expected all or some of "
+                               "{}, with :FILE behind",
+                               Name, fmt::join(Names, ",")),
+                   ExitCode::Usage};
+    if (Comma == std::string_view::npos)
+      break;
+    Rest.remove_prefix(Comma + 1);
+  }
+  return R;
+}
+
+Trace::Trace(std::FILE *OutIn, uint32_t CategoriesIn)
+    : Out(OutIn), Categories(CategoriesIn) {
+  fmt::print(Out, "# vorion-trace {}\n", FormatVersion);
+}
+
+enum class Trace::Category : unsigned {
+#define VORION_TRACE(NAME, DOC) NAME,
+#include "observe/TraceCategories.def"
+#undef VORION_TRACE
+};
+
+void Trace::runBegins(const RunStart &R) {
+  Program = R.Program;
+  SyncPoints = 0;
+  fmt::print(Out, "run {} {} launch 0x{:08x}\n", ++Runs, Program->name(),
+             R.LaunchBlock);
+}
+
 void Trace::commit(const Commit &C) {
-  std::string Text = disassemble(C.Word, C.Pc);
-  std::replace(Text.begin(), Text.end(), '\t', ' ');
-  const std::string Symbol = Program ? Program->symbolize(C.Pc) : "";
-  fmt::print(Out, "{}.{} 0x{:08x} <{}> {:04x} {}{}\n", C.Core, C.Warp, C.Pc,
-             Symbol, C.LaneMask, Text, result(C));
+  if (wants(Category::insn) || (wants(Category::simt) && isSimt(C.Insn.O))) {
+    std::string Result = laneWords(C.Result, C.LaneMask);
+    if (!Result.empty())
+      Result = " ->" + Result;
+    fmt::print(Out, "{} {}.{} 0x{:08x} <{}> {:04x} {}{}\n",
+               wants(Category::insn) ? "insn" : "simt", C.Core, C.Warp, C.Pc,
+               Program->symbolize(C.Pc), C.LaneMask, text(C.Word, C.Pc),
+               Result);
+  }
+  if (C.Access && wants(Category::mem))
+    fmt::print(Out, "mem {}.{} 0x{:08x} {:04x} {} {}{}\n", C.Core, C.Warp, C.Pc,
+               C.LaneMask, nameOf(C.Access->What), C.Access->Bytes,
+               laneWords(C.Access->Addresses, C.LaneMask));
+}
+
+void Trace::syncPoint(std::span<const std::unique_ptr<Core>> Cores) {
+  ++SyncPoints;
+  if (!wants(Category::sync))
+    return;
+  fmt::print(Out, "sync {}\n", SyncPoints);
+  for (const auto &C : Cores)
+    for (const WarpState &S : std::as_const(*C).warps())
+      if (S.Why != Stop::Ended)
+        fmt::print(Out, "sync {}.{} 0x{:08x} {}\n", C->id(), S.WarpId,
+                   S.pcOf(S.Next), waitsFor(S));
+}
+
+void Trace::rasterCommand(const RasterWork &W) {
+  if (wants(Category::raster))
+    fmt::print(Out,
+               "raster {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
+               "count {} output 0x{:08x} gaussians {} clipped {} fragments {} "
+               "blends {}\n",
+               W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
+               W.What.Count, W.What.Output, W.Work.Gaussians, W.Work.Clipped,
+               W.Work.Fragments, W.Work.Blends);
+}
+
+void Trace::trap(const Trap &T) {
+  if (wants(Category::trap))
+    fmt::print(Out, "trap {}.{} 0x{:08x} <{}> {:04x} lane {} {} 0x{:08x}\n",
+               T.Core, T.Warp, T.Pc, T.Symbol, T.LaneMask, T.Lane,
+               describe(T.Cause), T.Address);
+}
+
+void Trace::runEnds(const RunResult &R) {
+  fmt::print(Out, "end {} exit {} instructions {}\n", describe(R.End),
+             R.ExitCode, R.Total.WarpInstructions);
+  std::fflush(Out);
 }
 
 } // namespace vorion::isasim

@@ -1,28 +1,47 @@
-/// One line for every warp instruction.
+/// Lines about what happens, by category (docs/trace-format.md).
 #pragma once
 
-#include "vorion/isasim/Image.h"
 #include "vorion/isasim/Observer.h"
+#include "vorion/support/Expected.h"
 
 #include <cstdio>
-#include <memory>
+#include <string>
+#include <string_view>
 
 namespace vorion::isasim {
 
+/// What `--trace` asks for.
+struct TraceRequest {
+  /// One bit for each line of TraceCategories.def.
+  uint32_t Categories = 0;
+  std::string File; ///< empty for stderr
+
+  /// "cat,cat[:FILE]"; "all" stands for every category.
+  static Expected<TraceRequest> parse(std::string_view Text);
+};
+
 class Trace : public Observer {
 public:
-  /// Writes to \p OutIn, which must outlive the trace. \p ProgramIn names
-  /// addresses and may be nullptr.
-  Trace(std::FILE *OutIn, std::shared_ptr<const Image> ProgramIn)
-      : Out(OutIn), Program(std::move(ProgramIn)) {}
+  /// Writes to \p OutIn, which must outlive the trace; the header at once.
+  Trace(std::FILE *OutIn, uint32_t CategoriesIn);
 
-  /// "core.warp pc <symbol> mask instruction -> result", where the result is
-  /// one word if all active lanes agree, else the word of each active lane.
+  void runBegins(const RunStart &R) override;
   void commit(const Commit &C) override;
+  void syncPoint(std::span<const std::unique_ptr<Core>> Cores) override;
+  void rasterCommand(const RasterWork &W) override;
+  void trap(const Trap &T) override;
+  void runEnds(const RunResult &R) override;
 
 private:
+  enum class Category : unsigned;
+  bool wants(Category C) const {
+    return Categories >> static_cast<unsigned>(C) & 1;
+  }
+
   std::FILE *Out;
+  uint32_t Categories;
   std::shared_ptr<const Image> Program;
+  uint64_t Runs = 0, SyncPoints = 0;
 };
 
 } // namespace vorion::isasim

@@ -3,10 +3,10 @@
 
 #include "core/Core.h"
 #include "core/Slow.h"
+#include "core/Watch.h"
 #include "mem/Memory.h"
 #include "testing/ElfBuilder.h"
 #include "testing/Encode.h"
-#include "vorion/isasim/Observer.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <array>
@@ -15,15 +15,13 @@ namespace vorion::isasim::testing {
 
 using Lanes16 = std::array<uint32_t, MaxLanes>;
 
-/// Sees everything and does nothing, so that the observed level can run.
-class SilentObserver : public Observer {};
-
 class WarpRunner {
 public:
   WarpRunner(const ExecTable &Table, const std::vector<uint32_t> &Words)
       : Exec(Table), Storage(std::move(*Memory::create(Shape))),
         Program(codeImage(Words)), Code(*Program, Exec), Only(Shape, 0) {
     Storage->load(*Program);
+    Watcher.prepare(Code, Shape.WarpsPerCore, 1);
     Only.reset(Code, VX_IMAGE_BASE, 0, Storage->view(0), &Watcher);
     setMask(&warp(), 0xFFFF);
   }
@@ -59,7 +57,7 @@ public:
 
   const ExecTable &Exec;
   Config Shape = smallShape();
-  SilentObserver Watcher;
+  Watch Watcher; ///< of nobody, so that the observed level can run
   std::unique_ptr<Memory> Storage;
   std::shared_ptr<const Image> Program;
   CodeTable Code;

@@ -193,6 +193,7 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M,
   if (!Local)
     return Local.error();
   KernelLaunch L(M);
+  L.Name = K->Name;
   L.NextFree = VX_GLOBAL_BASE;
   if (Expected<Success> Ok = L.packArguments(*K, R); !Ok)
     return Ok.error();

@@ -13,6 +13,8 @@ public:
   static Expected<KernelLaunch> prepare(Machine &M,
                                         const KernelRequest &Request);
 
+  /// The kernel's name.
+  const std::string &kernel() const { return Name; }
   /// What Machine::run takes.
   uint32_t launchBlock() const { return Block; }
 
@@ -36,6 +38,7 @@ private:
   };
 
   Machine *M;
+  std::string Name;
   uint64_t NextFree = 0; ///< in global memory; nothing is ever freed
   uint32_t Block = 0, Args = 0;
   std::vector<Output> Outputs;

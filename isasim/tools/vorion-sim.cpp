@@ -1,10 +1,9 @@
 /// Runs a program, or one kernel of it, on the simulated machine.
 
-#include "observe/Trace.h"
 #include "tools/Arguments.h"
 #include "tools/Launch.h"
-#include "tools/StatsTable.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/isasim/Session.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
@@ -18,12 +17,14 @@ namespace {
 constexpr std::string_view Tool = "vorion-sim";
 
 struct Options {
-  std::string Program, ConfigFile, ArgsFile, StatsFile;
+  std::string Program, ConfigFile, ArgsFile;
+  SessionOptions Watch;
   std::string Kernel, Global, Local;
   std::vector<std::string> Args;
   std::optional<uint64_t> MaxInstructions;
   std::optional<unsigned> Threads;
-  bool PrintDefaultConfig = false, ListKernels = false, Trace = false;
+  double Watchdog = 0;
+  bool PrintDefaultConfig = false, ListKernels = false;
 };
 
 Expected<std::string> readText(const std::string &Path) {
@@ -108,7 +109,8 @@ int exitCode(const RunResult &R) {
 }
 
 /// Reports and gives the exit code; \p Launch may be nullptr.
-int finish(const RunResult &R, const Options &O, const KernelLaunch *Launch) {
+int finish(const RunResult &R, const Options &O, const KernelLaunch *Launch,
+           Session &Watch) {
   std::fflush(stdout);
   std::string Report = R.Report;
   while (Report.ends_with('\n'))
@@ -125,13 +127,8 @@ int finish(const RunResult &R, const Options &O, const KernelLaunch *Launch) {
   if (Launch && Code == 0)
     if (const Expected<Success> Ok = Launch->finish(); !Ok)
       Code = reportError(Tool, Ok.error());
-  if (!O.StatsFile.empty()) {
-    fmt::print("{}", statsTable(R));
-    if (const Expected<Success> Ok =
-            writeFileAtomically(O.StatsFile, toJson(R));
-        !Ok)
-      return reportError(Tool, Ok.error());
-  }
+  if (const Expected<Success> Ok = Watch.runEnded(R); !Ok)
+    return reportError(Tool, Ok.error());
   return Code;
 }
 
@@ -155,19 +152,36 @@ int run(const Options &O) {
   // What an image of kernels has for a main does nothing.
   if (Request->WorkDim == 0 && !(*Program)->kernels().empty())
     return reportError(Tool, missingGlobal());
+  const Expected<std::unique_ptr<Session>> Watch = Session::create(
+      O.Watch, [](std::string_view Text) { fmt::print("{}", Text); });
+  if (!Watch)
+    return reportError(Tool, Watch.error());
   Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
   if (!M)
     return reportError(Tool, M.error());
   (*M)->load(*Program);
-  Trace Tracer(stderr, *Program);
-  if (O.Trace)
-    (*M)->setObserver(&Tracer);
+  (*M)->setWatchdog(O.Watchdog);
+  (*Watch)->attach(**M);
   if (Request->WorkDim == 0)
-    return finish((*M)->run(), O, nullptr);
+    return finish((*M)->run(), O, nullptr, **Watch);
   const Expected<KernelLaunch> Launch = KernelLaunch::prepare(**M, *Request);
   if (!Launch)
     return reportError(Tool, Launch.error());
-  return finish((*M)->run(Launch->launchBlock()), O, &*Launch);
+  (*Watch)->nameRun(Launch->kernel());
+  return finish((*M)->run(Launch->launchBlock()), O, &*Launch, **Watch);
+}
+
+/// An option of SessionOptions.def. One that may stand alone takes a value as
+/// --option=VALUE only, so that it does not swallow the program's name.
+void declareWatch(CLI::App &App, const std::string &Name, std::string &To,
+                  const char *Value, const char *Alone, const char *Help) {
+  CLI::Option *Added = nullptr;
+  if (Alone)
+    Added = App.add_flag(fmt::format("{}{{{}}}", Name, Alone), To, Help)
+                ->type_name(fmt::format("[={}]", Value));
+  else
+    Added = App.add_option(Name, To, Help)->type_name(Value);
+  Added->group("Watching a run (docs/debugging.md)");
 }
 
 void declare(CLI::App &App, Options &O) {
@@ -193,13 +207,17 @@ void declare(CLI::App &App, Options &O) {
                "print the default configuration and exit");
   App.add_flag("--list-kernels", O.ListKernels,
                "print the program's kernels and exit");
-  App.add_option("--stats", O.StatsFile,
-                 "print a table of counters and write them to FILE as JSON");
   App.add_option("--max-instructions", O.MaxInstructions,
                  "end the run after so many warp instructions");
   App.add_option("--threads", O.Threads,
                  "host threads (changes no result; default: all)");
-  App.add_flag("--trace", O.Trace, "print every warp instruction to stderr");
+  App.add_option("--watchdog", O.Watchdog,
+                 "end the run after so many seconds of wall time")
+      ->check(CLI::NonNegativeNumber);
+#define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
+  declareWatch(App, OPTION, O.Watch.MEMBER, VALUE, ALONE, HELP);
+#include "vorion/isasim/SessionOptions.def"
+#undef VORION_SESSION_OPTION
   App.footer(std::string(ExitCodeHelp));
 }
 

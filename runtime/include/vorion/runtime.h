@@ -53,7 +53,8 @@ const char *vx_last_error(void);
 
 /* Opens a machine. config: JSON text (begins with '{'), the name of a JSON
  * file, or NULL: the file that the environment's VORION_CONFIG names, else the
- * paper's prototype. Keys that are absent keep the prototype's value. */
+ * paper's prototype. Keys that are absent keep the prototype's value. The
+ * environment also says what watches the device's runs (docs/debugging.md). */
 vx_status vx_device_open(const char *config, vx_device **device);
 
 /* Waits for a run in progress; images of the device must be freed before. NULL

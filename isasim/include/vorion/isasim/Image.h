@@ -60,6 +60,8 @@ public:
   parse(std::span<const std::byte> Elf, std::string Name);
 
   const std::string &name() const { return Name; }
+  /// The file, as it was given to parse().
+  std::span<const std::byte> file() const { return File; }
   uint32_t entry() const { return Entry; }
   const std::vector<Segment> &segments() const { return Segments; }
   const std::vector<Kernel> &kernels() const { return Kernels; }
@@ -74,6 +76,7 @@ public:
 
 private:
   std::string Name;
+  std::vector<std::byte> File;
   uint32_t Entry = 0;
   std::vector<Segment> Segments; ///< by address
   std::vector<Symbol> Symbols;   ///< by address

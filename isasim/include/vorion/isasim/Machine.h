@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace vorion::isasim {
 
@@ -60,9 +61,16 @@ public:
   /// in core order (docs/abi.md), during run(). Default: stdout.
   void setConsole(std::function<void(std::string_view)> Sink);
 
-  /// An observer sees every event of the following runs, which then use one
-  /// host thread; nullptr for none. It changes no result.
-  void setObserver(Observer *O);
+  /// The observers, told in this order, see every event of the following runs,
+  /// which then use one host thread. They change no result.
+  void setObservers(std::vector<Observer *> Observers);
+
+  /// Ends a run that takes longer, with Outcome::LimitReached; 0 for no limit.
+  /// Looked at where all cores are parked.
+  void setWatchdog(double Seconds);
+
+  /// Ends the run in progress likewise. From any thread, or an observer.
+  void requestStop();
 
   /// The raster CSR window of docs/abi.md as the host sees it (lane 0 of a CSR
   /// that every lane has); not during a run. nullopt or false for a core or CSR

@@ -1,32 +1,94 @@
-/// What watches a run without changing it (docs/decisions.md, 9). Every
-/// function does nothing by default.
+/// What watches a run without changing it (docs/decisions.md, 9): one interface
+/// for traces, profiles, checkers and the debugger. Every function does nothing
+/// by default. The machine knows no observer by name.
 #pragma once
 
+#include "vorion/isasim/Config.h"
+#include "vorion/isasim/Image.h"
 #include "vorion/isasim/Result.h"
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
+
+namespace vorion::raster {
+struct Command;
+}
 
 namespace vorion::isasim {
 
-/// A warp instruction that has been executed. Instructions that wait for other
-/// cores are reported when they complete.
-struct Commit {
+class Core;
+class Machine;
+struct Decoded;
+struct WarpState;
+
+/// What is about to run.
+struct RunStart {
+  Machine &Device;
+  const std::shared_ptr<const Image> &Program;
+  uint32_t LaunchBlock;
+  /// All cores, reset. Stay where they are as long as the machine.
+  std::span<const std::unique_ptr<Core>> Cores;
+};
+
+/// The memory that one instruction accesses.
+struct MemoryAccess {
+  enum Kind : uint8_t { Load, Store, Atomic } What = Load;
+  unsigned Bytes = 0; ///< a lane: 1, 2 or 4
+  /// By lane; those of lanes that are not active say nothing.
+  std::array<uint32_t, 16> Addresses{};
+};
+
+/// An instruction of a warp.
+struct Step {
   unsigned Core;
   unsigned Warp;
   uint32_t Pc;
   uint32_t Word;
-  uint32_t LaneMask; ///< active lanes while it executed
-  /// The destination register by lane, empty if there is none.
-  std::span<const uint32_t> Result;
+  uint32_t LaneMask; ///< active lanes before it has executed
+  /// Warp instructions that the warp has retired before it.
+  uint64_t Retired;
+  const Decoded &Insn;
+  const MemoryAccess *Access; ///< nullptr if it is no load, store or atomic
+  /// Registers and all else, for observers of this library (core/State.h).
+  WarpState &State;
 };
 
-/// Called on the thread that called Machine::run, one call at a time.
+/// A warp instruction that has been executed. Instructions that wait for other
+/// cores are reported when they complete.
+struct Commit : Step {
+  /// The destination register by lane, empty if there is none.
+  std::span<const uint32_t> Result;
+  /// A vx_split whose lanes went different ways.
+  bool Diverged;
+};
+
+/// A command that a rasterizer has executed.
+struct RasterWork {
+  unsigned Unit; ///< the socket
+  unsigned Core; ///< who started it
+  const raster::Command &What;
+  RasterCounters Work;
+};
+
+/// All calls come on the thread that called Machine::run, one at a time, so
+/// that no observer needs a lock.
 class Observer {
 public:
   virtual ~Observer() = default;
+  virtual void runBegins(const RunStart &) {}
+  /// The instruction is about to execute. One that waits is fetched once.
+  virtual void fetch(const Step &) {}
+  /// It has executed. One that traps is fetched and never committed.
   virtual void commit(const Commit &) {}
+  /// Every core has stopped or used its quantum; what waits has not been
+  /// executed yet (docs/abi.md, "Order").
+  virtual void syncPoint(std::span<const std::unique_ptr<Core>> /*Cores*/) {}
+  virtual void rasterCommand(const RasterWork &) {}
   virtual void trap(const Trap &) {}
+  virtual void runEnds(const RunResult &) {}
 };
 
 } // namespace vorion::isasim

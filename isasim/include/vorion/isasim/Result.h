@@ -16,7 +16,7 @@ enum class Outcome {
   GuestFailed,  ///< every warp ended, exit code not 0
   Trap,         ///< a fault; see RunResult::Fault
   Hang,         ///< no warp can ever go on; the report says what each waits for
-  LimitReached, ///< Config::MaxInstructions
+  LimitReached, ///< Config::MaxInstructions, Machine::setWatchdog
 };
 
 /// "load access fault" and so on.
@@ -36,25 +36,33 @@ struct Trap {
   std::string Symbol;       ///< "function+0x1c", empty where none covers Pc
 };
 
+/// Of one core, or sums over cores; Counters.def says what each counts.
 struct CoreCounters {
-  uint64_t WarpInstructions = 0; ///< retired
-  uint64_t LaneInstructions = 0; ///< the same times active lanes
-  uint64_t Loads = 0;            ///< warp instructions, likewise below
-  uint64_t Stores = 0;
-  uint64_t Atomics = 0;
-  uint64_t Splits = 0;          ///< vx_split and vx_split_n
-  uint64_t DivergentSplits = 0; ///< of these, those that divided the lanes
-  uint64_t Parks = 0; ///< operations that waited for all cores to be parked
+#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) uint64_t MEMBER = 0;
+#include "vorion/isasim/Counters.def"
+#undef VORION_CORE_COUNTER
+  CoreCounters &operator+=(const CoreCounters &Other);
 };
 
 /// Totals of the run over all rasterizers (the vr_n_* CSRs).
 struct RasterCounters {
-  uint64_t Commands = 0;
-  uint64_t Gaussians = 0;
-  uint64_t Clipped = 0;
-  uint64_t Fragments = 0;
-  uint64_t Blends = 0;
+#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) uint64_t MEMBER = 0;
+#include "vorion/isasim/Counters.def"
+#undef VORION_RASTER_COUNTER
+  RasterCounters &operator+=(const RasterCounters &Other);
+  RasterCounters operator-(const RasterCounters &Other) const;
 };
+
+/// A counter by name, for tables.
+struct NamedCounter {
+  const char *Group; ///< "core" or "raster"
+  const char *Name;
+  const char *Doc;
+  uint64_t Value;
+};
+struct RunResult;
+/// All totals of \p R, in the registry's order.
+std::vector<NamedCounter> counters(const RunResult &R);
 
 struct RunResult {
   Outcome End = Outcome::Done;

@@ -20,6 +20,7 @@ extern "C" {
 #include <CL/cl_vorion.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 using namespace vorion;
@@ -130,7 +131,22 @@ void describeCompilation(cl_device_id Device, const vx_device_info &Info) {
   Device->device_side_printf = 0;
 }
 
+/// Whatever names source lines needs programs with line numbers and PoCL's copy
+/// of their source; both are PoCL's options, which it looks up at each build.
+void keepSourceLines() {
+  bool Wanted = false;
+  for (const char *Name : {"VORION_PROFILE", "VORION_CHECK", "VORION_GDB"})
+    Wanted |= getenv(Name) != nullptr;
+  if (!Wanted)
+    return;
+  const char *Flags = getenv("POCL_EXTRA_BUILD_FLAGS");
+  setenv("POCL_EXTRA_BUILD_FLAGS",
+         (std::string("-g ") + (Flags ? Flags : "")).c_str(), 1);
+  setenv("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", "1", 1);
+}
+
 cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
+  keepSourceLines();
   vx_device *Opened = nullptr;
   if (vx_device_open(Parameters && *Parameters ? Parameters : nullptr,
                      &Opened) != VX_OK) {

@@ -7,6 +7,7 @@
 
 #include <llvm/Bitcode/BitcodeWriter.h>
 #include <llvm/IR/Constants.h>
+#include <llvm/IR/DIBuilder.h>
 #include <llvm/IR/Module.h>
 #include <llvm/Support/FileSystem.h>
 #include <llvm/Support/raw_ostream.h>
@@ -63,6 +64,7 @@ public:
     Entry->removeFnAttr(Attribute::AlwaysInline);
     Entry->addFnAttr("vorion-kernel");
     Entry->setName(Kernel.Name);
+    describeEntry(*Entry, *Body);
 
     const uint64_t LocalBytes = placeLocals();
     if (LocalBytes > UINT32_MAX - VX_LOCAL_BASE)
@@ -76,6 +78,29 @@ public:
   }
 
 private:
+  /// The entry is PoCL's and has no place in the source: it gets the kernel's.
+  /// Inlined into a function without one, the body would lose its lines.
+  void describeEntry(Function &Entry, const Function &Body) {
+    DISubprogram *Source = Body.getSubprogram();
+    if (!Source)
+      return;
+    DIBuilder Builder(M, /*AllowUnresolved=*/false, Source->getUnit());
+    DISubprogram *Own = Builder.createFunction(
+        Source->getFile(), Kernel.Name, Kernel.Name, Source->getFile(),
+        Source->getLine(),
+        Builder.createSubroutineType(Builder.getOrCreateTypeArray({})),
+        Source->getLine(), DINode::FlagArtificial,
+        DISubprogram::SPFlagDefinition | DISubprogram::SPFlagOptimized);
+    Entry.setSubprogram(Own);
+    Builder.finalize();
+    const DebugLoc Place =
+        DILocation::get(M.getContext(), Source->getLine(), 0, Own);
+    for (BasicBlock &Block : Entry)
+      for (Instruction &I : Block)
+        if (!I.getDebugLoc())
+          I.setDebugLoc(Place);
+  }
+
   /// OpenCL 1.2 has no writable variables of program scope: all there are
   /// belong to a group, which has the core's local memory to itself.
   uint64_t placeLocals() {

@@ -1,0 +1,46 @@
+/// Where the instructions go: an annotated source listing.
+#pragma once
+
+#include "observe/SourceLines.h"
+#include "vorion/isasim/Observer.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace vorion::isasim {
+
+class Profile : public Observer {
+public:
+  void runBegins(const RunStart &R) override;
+  void commit(const Commit &C) override;
+
+  /// The listing of all runs so far: for every source file, each line with what
+  /// it cost; code without line numbers by function.
+  std::string report() const;
+
+private:
+  /// Of one instruction or of one line.
+  struct Cost {
+    uint64_t Warp = 0;      ///< warp instructions
+    uint64_t Lanes = 0;     ///< the same times active lanes
+    uint64_t Splits = 0;    ///< of these, vx_split
+    uint64_t Divergent = 0; ///< of these, those that divided the lanes
+    uint64_t Accesses = 0;  ///< loads, stores, atomics
+    uint64_t Lines = 0;     ///< 64-byte pieces of memory that they touched
+    Cost &operator+=(const Cost &Other);
+  };
+  struct Program {
+    std::shared_ptr<const Image> Code;
+    std::unique_ptr<SourceLines> Source;
+    uint32_t Low = 0;
+    std::vector<Cost> ByWord;
+  };
+
+  static std::string row(const Cost &C, uint64_t Total);
+
+  std::vector<Program> Programs;
+  Program *Current = nullptr;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,50 @@
+/// Where in its source an instruction comes from: the program's DWARF, through
+/// elfutils (docs/decisions.md, 12).
+#pragma once
+
+#include "vorion/isasim/Image.h"
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+struct Dwarf;
+struct Elf;
+
+namespace vorion::isasim {
+
+struct SourcePlace {
+  std::string File;
+  unsigned Line = 0;
+  /// The innermost function, inlined ones too; empty if not known.
+  std::string Function;
+
+  /// "file:line".
+  std::string text() const;
+};
+
+class SourceLines {
+public:
+  /// Of \p Program, which it keeps. One without DWARF, or with DWARF that
+  /// cannot be read, has no lines.
+  explicit SourceLines(std::shared_ptr<const Image> Program);
+  ~SourceLines();
+  SourceLines(const SourceLines &) = delete;
+  SourceLines &operator=(const SourceLines &) = delete;
+
+  bool empty() const { return Info == nullptr; }
+  /// Nothing where the program has no line for \p Pc.
+  std::optional<SourcePlace> find(uint32_t Pc) const;
+  /// "file:line (function)" or the symbol, or the address.
+  std::string describe(uint32_t Pc) const;
+
+private:
+  std::shared_ptr<const Image> Program;
+  std::string Bytes; ///< elfutils wants memory that it might write
+  Elf *File = nullptr;
+  Dwarf *Info = nullptr;
+  mutable std::map<uint32_t, std::optional<SourcePlace>> Known;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,41 @@
+#include "observe/Stats.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::isasim {
+
+using Json = nlohmann::ordered_json;
+
+void Stats::add(const std::string &Name, const RunResult &R) {
+  Sum.Total += R.Total;
+  Sum.Raster += R.Raster;
+  Sum.HostSeconds += R.HostSeconds;
+  Json Run = {{"name", Name}};
+  Run.update(Json::parse(toJson(R)));
+  Runs.push_back(Run.dump());
+}
+
+std::string Stats::json() const {
+  Json Object = {{"format", "vorion-stats 1"}};
+  Object["config"] = Json::parse(Machine);
+  const Json All = Json::parse(toJson(Sum));
+  for (const char *Key : {"total", "raster", "host_seconds"})
+    Object[Key] = All[Key];
+  Object["runs"] = Json::array();
+  for (const std::string &Run : Runs)
+    Object["runs"].push_back(Json::parse(Run));
+  return Object.dump(2) + "\n";
+}
+
+std::string Stats::table(const RunResult &R) {
+  std::string Text = fmt::format("{:<24}{:>16}\n", "outcome", describe(R.End));
+  for (const NamedCounter &C : counters(R))
+    Text += fmt::format("{:<24}{:>16}\n", fmt::format("{} {}", C.Group, C.Name),
+                        C.Value);
+  Text += fmt::format("{:<24}{:>16}\n", "sync points", R.SyncPoints);
+  Text += fmt::format("{:<24}{:>14.3f} s\n", "host time", R.HostSeconds);
+  return Text;
+}
+
+} // namespace vorion::isasim

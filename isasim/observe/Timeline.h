@@ -1,0 +1,59 @@
+/// What every warp and rasterizer did and when, for chrome://tracing or
+/// Perfetto (docs/debugging.md, "Timeline").
+#pragma once
+
+#include "vorion/isasim/Observer.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// Time here is counted, not modelled: a microsecond stands for one warp
+/// instruction of a core. Between two points where all cores are parked, all
+/// cores start at once, and the longest decides where the next part starts. A
+/// rasterizer's span is as long as its lanes need for the fragments at one lane
+/// slot each, from the point where its command was executed or the end of its
+/// span before.
+class Timeline : public Observer {
+public:
+  /// Writes JSON to \p OutIn, which can be repositioned and must outlive the
+  /// timeline. The file is complete after every run.
+  explicit Timeline(std::FILE *OutIn) : Out(OutIn) {}
+
+  /// What the next run is called.
+  void nameRun(const std::string &Name) { RunName = Name; }
+
+  void runBegins(const RunStart &R) override;
+  void syncPoint(std::span<const std::unique_ptr<Core>> Cores) override;
+  void rasterCommand(const RasterWork &W) override;
+  void runEnds(const RunResult &R) override;
+
+private:
+  struct Slice {
+    std::string Name;
+    uint64_t From = 0, To = 0;
+  };
+  /// One row of the picture.
+  struct Row {
+    unsigned Process = 0, Thread = 0;
+    Slice Last; ///< not yet written: it may grow
+    uint64_t Retired = 0;
+  };
+
+  void event(const std::string &Json);
+  void nameRow(const Row &R, const std::string &Name);
+  void add(Row &R, const std::string &Name, uint64_t From, uint64_t To);
+  void flush(Row &R);
+
+  std::FILE *Out;
+  long End = 0; ///< where the next event goes; 0: nothing written
+  std::string RunName;
+  std::shared_ptr<const Image> Program;
+  std::vector<Row> Warps, Units;
+  uint64_t Now = 0, RunBegan = 0;
+  unsigned Runs = 0;
+};
+
+} // namespace vorion::isasim
