@@ -79,7 +79,7 @@ uint64_t Core::retired() const {
 }
 
 void Core::complete(WarpState &S) {
-  if (S.Watcher)
+  if (VORION_OBSERVERS && S.Watcher)
     observeCommit(&S, S.Next);
   ++S.Count.Retired;
   S.Count.LaneRetired += S.LaneCount;

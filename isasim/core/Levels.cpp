@@ -6,9 +6,11 @@ namespace vorion::isasim {
 namespace baseline {
 extern const ExecTable Table;
 }
+#if VORION_OBSERVERS
 namespace observed {
 extern const ExecTable Table;
 }
+#endif
 #if defined(__x86_64__)
 namespace avx2 {
 extern const ExecTable Table;
@@ -26,9 +28,13 @@ ExecLevels hostLevels() {
   return L;
 }
 
-const ExecTable &execTable(bool Observed) {
+const ExecTable &execTable([[maybe_unused]] bool Observed) {
   static const ExecLevels Levels = hostLevels();
-  return Observed ? observed::Table : *Levels.Tables[0];
+#if VORION_OBSERVERS
+  if (Observed)
+    return observed::Table;
+#endif
+  return *Levels.Tables[0];
 }
 
 } // namespace vorion::isasim

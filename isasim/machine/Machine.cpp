@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fmt/format.h>
 
 namespace vorion::isasim {
@@ -333,6 +335,7 @@ RunResult Machine::run(uint32_t LaunchBlock) {
     return R;
   }
   I->Begin = std::chrono::steady_clock::now();
+  const std::clock_t CpuBegin = std::clock();
   I->StopRequested = false;
   const RasterCounters Before = I->Raster.counters();
   I->resetCores(LaunchBlock);
@@ -355,6 +358,8 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   if (R.End != Outcome::Done && R.End != Outcome::GuestFailed)
     I->Raster.reset();
   R.HostSeconds = I->secondsSoFar();
+  R.HostCpuSeconds =
+      static_cast<double>(std::clock() - CpuBegin) / CLOCKS_PER_SEC;
   I->Watcher.tell([&](Observer &O) { O.runEnds(R); });
   return R;
 }
@@ -363,7 +368,11 @@ void Machine::setConsole(std::function<void(std::string_view)> Sink) {
   I->Console = std::move(Sink);
 }
 
+bool Machine::canBeObserved() { return VORION_OBSERVERS; }
+
 void Machine::setObservers(std::vector<Observer *> Observers) {
+  assert((Observers.empty() || canBeObserved()) &&
+         "this build has no observers");
   I->Watcher.Observers = std::move(Observers);
 }
 

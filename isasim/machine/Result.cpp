@@ -137,6 +137,7 @@ std::string toJson(const RunResult &R) {
   Object["raster"] = json(R.Raster);
   Object["sync_points"] = R.SyncPoints;
   Object["host_seconds"] = R.HostSeconds;
+  Object["host_cpu_seconds"] = R.HostCpuSeconds;
   return Object.dump(2) + "\n";
 }
 

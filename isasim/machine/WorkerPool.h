@@ -26,6 +26,8 @@ public:
 
 private:
   void work();
+  /// Waits a little for \p Condition without sleeping.
+  template <typename Function> void spin(Function Condition) const;
   void drain(const std::function<void(unsigned)> &Task, unsigned Count);
 
   std::mutex Lock;
@@ -33,9 +35,11 @@ private:
   const std::function<void(unsigned)> *Current = nullptr;
   unsigned CurrentCount = 0;
   std::atomic<unsigned> NextTask = 0;
-  unsigned Busy = 0;       ///< workers in drain()
-  uint64_t Generation = 0; ///< of Current
-  bool Stopping = false;
+  // Written with the lock held, read without it only to spin.
+  std::atomic<unsigned> Busy = 0;       ///< workers in drain()
+  std::atomic<uint64_t> Generation = 0; ///< of Current
+  std::atomic<bool> Stopping = false;
+  bool MaySpin = false;
   std::vector<std::thread> Workers;
 };
 

@@ -91,6 +91,11 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
                  ExitCode::Usage};
   if (!O.Profile.empty())
     Profiler = std::make_unique<Profile>();
+  if ((Tracer || Times || Profiler) && !Machine::canBeObserved())
+    return Error{"",
+                 "a build without observers, expected one with "
+                 "VORION_OBSERVERS=ON",
+                 ExitCode::Usage};
   if (!O.Stats.empty())
     Counts = std::make_unique<Stats>();
   return Success{};

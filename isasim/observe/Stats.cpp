@@ -11,6 +11,7 @@ void Stats::add(const std::string &Name, const RunResult &R) {
   Sum.Total += R.Total;
   Sum.Raster += R.Raster;
   Sum.HostSeconds += R.HostSeconds;
+  Sum.HostCpuSeconds += R.HostCpuSeconds;
   Json Run = {{"name", Name}};
   Run.update(Json::parse(toJson(R)));
   Runs.push_back(Run.dump());
@@ -20,7 +21,8 @@ std::string Stats::json() const {
   Json Object = {{"format", "vorion-stats 1"}};
   Object["config"] = Json::parse(Machine);
   const Json All = Json::parse(toJson(Sum));
-  for (const char *Key : {"total", "raster", "host_seconds"})
+  for (const char *Key :
+       {"total", "raster", "host_seconds", "host_cpu_seconds"})
     Object[Key] = All[Key];
   Object["runs"] = Json::array();
   for (const std::string &Run : Runs)

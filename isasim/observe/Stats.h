@@ -15,8 +15,9 @@ public:
   void setConfig(const Config &C) { Machine = toJson(C); }
   void add(const std::string &Name, const RunResult &R);
 
-  /// {"format", "config", "total", "raster", "host_seconds": sums over runs,
-  /// "runs": [what toJson(RunResult) has, with "name"]}.
+  /// {"format", "config", "total", "raster", "host_seconds",
+  /// "host_cpu_seconds": sums over runs, "runs": [what toJson(RunResult) has,
+  /// with "name"]}.
   std::string json() const;
   /// A line a counter, totals of one run only.
   static std::string table(const RunResult &R);

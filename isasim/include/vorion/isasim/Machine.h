@@ -61,6 +61,10 @@ public:
   /// in core order (docs/abi.md), during run(). Default: stdout.
   void setConsole(std::function<void(std::string_view)> Sink);
 
+  /// Whether the build has what reports to observers (CMake's
+  /// VORION_OBSERVERS).
+  static bool canBeObserved();
+
   /// The observers, told in this order, see every event of the following runs,
   /// which then use one host thread. They change no result.
   void setObservers(std::vector<Observer *> Observers);

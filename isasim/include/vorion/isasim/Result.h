@@ -77,7 +77,8 @@ struct RunResult {
   std::vector<CoreCounters> Cores;
   RasterCounters Raster;
   uint64_t SyncPoints = 0; ///< times all cores were parked
-  double HostSeconds = 0;  ///< wall time of the run
+  double HostSeconds = 0;    ///< wall time of the run
+  double HostCpuSeconds = 0; ///< processor time of the host in it, all threads
 };
 
 /// Outcome, counters and fault as a JSON object.

@@ -1,0 +1,291 @@
+#!/usr/bin/env python3
+"""Lane-instructions a second of the simulator, side by side with qemu-riscv32.
+
+usage: run.py [--rounds N] [--programs NAME,...] [--json FILE] [--out DIR] [--no-observers]
+
+Each program of this folder is compiled twice: for the machine, where 16 lanes of every core work together, and, the
+same source, for one lane as a Linux program. A round runs each on vorion-sim with one host thread, with two, and
+under qemu-riscv32, one right after the other; the figures are medians over the rounds. Rates are by processor time,
+the gain of a second thread is by wall time: it needs a quiet machine. What qemu executes is counted on a machine of one
+lane that runs the same object code.
+
+Then two builds of the simulator, with observers and without (VORION_OBSERVERS=OFF), are compared by the instructions
+that callgrind counts with no observer at work.
+
+exit codes: 0 done, 1 a result differs or a program failed, 2 usage
+"""
+
+import argparse
+import json
+import os
+import platform
+import random
+import resource
+import statistics
+import struct
+import subprocess
+import sys
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(FOLDER))
+BUILD = os.path.join(ROOT, "build", "dev")
+KERNELS = os.path.join(ROOT, "apps", "splat", "kernels")
+
+# Repetitions on the machine and for one lane, so that each takes a good part of a second.
+PROGRAMS = {"integer": (2, 150), "matmul": (4, 2), "radixsort": (15, 300), "search": (10, 250), "histogram": (40, 1000),
+            "project": (1, 30)}
+TITLES = {"integer": "integer mix", "matmul": "fp32 matrix product 128", "radixsort": "radix sort",
+          "search": "divergent search", "histogram": "histogram, atomics", "project": "splat projection"}
+OBSERVED = ("matmul", "radixsort")  # what is run with and without observers built in
+
+# What render/Plan.cpp compiles the projection with by default, for a scene with all bands of colour.
+PROJECT_FILES = ("layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl", "project.cl")
+PROJECT_DEFINES = ("-DSH_DEGREE=3", "-DTILE_SIZE=64", "-DSUPPORT_EXACT", "-DDILATION=0.3f", "-DKEEP_DEPTH(z)=((z)>0.2f)")
+DEVICE_COUNT, SCALAR_COUNT = 1 << 19, 1 << 14  # Gaussians
+GEOMETRY_PLANES, SH_PLANES, RECORD_BYTES = 11, 48, 48
+
+TARGET = ["--target=riscv32-unknown-elf", "-march=rv32imaf_zba_zbb_zbs", "-mabi=ilp32f", "-O3"]
+FREESTANDING = ["-ffreestanding", "-fno-math-errno", "-mno-relax"]
+QEMU = ["qemu-riscv32", "-cpu", "rv32,zba=true,zbb=true,zbs=true"]
+ONE_LANE = {"clusters": 1, "sockets_per_cluster": 1, "cores_per_socket": 1, "lanes_per_warp": 1}
+
+
+class Out:
+    """Where everything is made."""
+    folder = os.path.join(ROOT, "build", "bench", "isasim")
+
+
+def path(name):
+    return os.path.join(Out.folder, name)
+
+
+def write(name, data):
+    with open(path(name), "wb" if isinstance(data, bytes) else "w") as file:
+        file.write(data)
+
+
+def run(*command):
+    """What it prints, and its user time in seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    done = subprocess.run(command, cwd=Out.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(command)}: exit code {done.returncode}: {done.stderr.strip()[-400:]}")
+    return done.stdout, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def build_c(name, device_repeats, scalar_repeats):
+    def source(file):
+        return os.path.join(FOLDER, file + ".c")
+    for suffix, repeats in ((".elf", device_repeats), (".once", 1)):
+        run("vorion-clang", "-O3", f"-DREPEATS={repeats}", source(name), source("device"), "-o", name + suffix)
+    for suffix, flags in variants(scalar_repeats):
+        run("clang-19", *TARGET, *FREESTANDING, "-nostdlib", "-static", "-fuse-ld=lld-19", *flags, source(name),
+            source("scalar"), "-o", name + suffix)
+
+
+def variants(repeats):
+    """Scalar programs: for qemu, and two that tell what one repetition executes."""
+    counted = ["-DCOUNTED", "-Wl,-T," + path("image.ld")]
+    return ((".linux", [f"-DREPEATS={repeats}"]), (".1", ["-DREPEATS=1", *counted]), (".2", ["-DREPEATS=2", *counted]))
+
+
+def scene(prefix, count):
+    """View, geometry and colours of Gaussians in front of a camera; splat/kernels/layout.h has the layout."""
+    rng = random.Random(1)
+    focal, size = 800.0, (960, 544)
+    view = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, focal, focal, size[0] / 2, size[1] / 2,
+            -0.78, -0.442, 0.78, 0.442]
+    tiles = [(s + 63) // 64 for s in size]
+    write(prefix + "view.bin", struct.pack("<31f4I", *view, *size, *tiles))
+    planes = [lambda: rng.uniform(-3, 3), lambda: rng.uniform(-2, 2), lambda: rng.uniform(0.1, 8)]
+    planes += [lambda: rng.uniform(-5, -2)] * 3 + [lambda: rng.gauss(0, 1)] * 4 + [lambda: rng.gauss(0, 2)]
+    assert len(planes) == GEOMETRY_PLANES
+    pool = [[make() for _ in range(4096)] for make in planes]
+    geometry = [pool[p] * (count // 4096) for p in range(GEOMETRY_PLANES)]
+    write(prefix + "geometry.bin", b"".join(struct.pack(f"<{count}f", *plane) for plane in geometry))
+    colours = [rng.gauss(0, 0.3) for _ in range(4096)] * (count // 4096)
+    write(prefix + "sh.bin", struct.pack(f"<{count}f", *colours) * SH_PLANES)
+
+
+def build_project(device_repeats, scalar_repeats):
+    assert device_repeats == 1
+    source = "#pragma OPENCL FP_CONTRACT OFF\n"
+    for file in PROJECT_FILES:
+        with open(os.path.join(KERNELS, file), encoding="utf-8") as text:
+            source += text.read()
+    write("project.cl", source)
+    scene("device-", DEVICE_COUNT)
+    scene("", SCALAR_COUNT)
+    run("vorion-clang", "-O3", *PROJECT_DEFINES, "project.cl", "-o", "project.elf")
+    # The same kernel and OpenCL's built-in functions, for one lane: a plain function, into which the library's
+    # are inlined (they were compiled with -fno-builtin and go into nothing else).
+    pocl = os.path.join(BUILD, "pocl", "share", "pocl")
+    includes = [flag for file in ("_builtin_renames.h", "opencl-c-base.h", "opencl-c.h") for flag in ("-include", file)]
+    run("clang-19", *TARGET, "-x", "cl", "-cl-std=CL1.2", "-D__kernel=", "-fno-builtin", "-I", os.path.join(pocl, "include"), *includes,
+        *PROJECT_DEFINES, "-emit-llvm", "-c", "project.cl", "-o", "kernel.bc")
+    for suffix, flags in variants(scalar_repeats):
+        compiled = []
+        for file in ("project", "scalar"):
+            compiled.append(file + suffix + ".bc")
+            run("clang-19", *TARGET, *FREESTANDING, f"-DCOUNT={SCALAR_COUNT}", *(f for f in flags if f.startswith("-D")),
+                "-emit-llvm", "-c", os.path.join(FOLDER, file + ".c"), "-o", compiled[-1])
+        run("llvm-link-19", *compiled, "kernel.bc", "-o", "program.bc")
+        run("llvm-link-19", "--internalize", "--only-needed", "program.bc", os.path.join(pocl, "kernel-vorion.bc"),
+            "-o", "linked.bc")
+        run("clang-19", *TARGET, *FREESTANDING, "-nostdlib", "-static", "-fuse-ld=lld-19", *flags, "linked.bc",
+            "-o", "project" + suffix)
+
+
+def build():
+    os.makedirs(Out.folder, exist_ok=True)
+    image = ""
+    for file in (os.path.join(BUILD, "intrinsics", "generated", "vorion_numbers.ld"),
+                 os.path.join(ROOT, "libdevice", "start", "vorion.ld")):
+        with open(file, encoding="utf-8") as text:
+            image += text.read()
+    write("image.ld", image)
+    write("one-lane.json", json.dumps(ONE_LANE))
+
+
+def arguments(name):
+    if name != "project":
+        return []
+    count = DEVICE_COUNT
+    args = ["buf@device-view.bin", "buf@device-geometry.bin", "buf@device-sh.bin", f"buf:{RECORD_BYTES * count}",
+            f"out:{4 * count}@depths.bin", f"buf:{4 * count}", f"buf:{8 * count}", f"u32:{count}"]
+    return ["--global", str(count), "--local", "64", *(word for arg in args for word in ("--arg", arg))]
+
+
+def simulate(name, *options):
+    """What the program printed, and the run's statistics."""
+    text, _ = run("vorion-sim", name, "--stats", "stats.json", *options)
+    with open(path("stats.json"), encoding="utf-8") as file:
+        return text.splitlines()[0], json.load(file)
+
+
+def count_scalar(name):
+    """Instructions that one repetition executes, and one lane's result."""
+    one, two = (simulate(f"{name}.{n}", "--config", "one-lane.json") for n in (1, 2))
+    return two[1]["total"]["lane_instructions"] - one[1]["total"]["lane_instructions"], one[0]
+
+
+def depths_sum():
+    """What project.c's work() computes, from the device's depths."""
+    with open(path("depths.bin"), "rb") as file:
+        depths = struct.unpack(f"<{SCALAR_COUNT}I", file.read(4 * SCALAR_COUNT))
+    total = 0
+    for depth in depths:
+        total = (total * 31 + depth) & 0xFFFFFFFF
+    return f"{total:08x}"
+
+
+def measure(name, rounds):
+    device_repeats, scalar_repeats = PROGRAMS[name]
+    instructions, expected = count_scalar(name)
+    one, two, qemu = [], [], []
+    for _ in range(rounds):
+        for threads, into in (("1", one), ("2", two)):
+            text, stats = simulate(name + ".elf", "--threads", threads, *arguments(name))
+            text = depths_sum() if name == "project" else text
+            if text != expected:
+                raise RuntimeError(f"{name}: {text} on 16 lanes, {expected} on one")
+            into.append(stats)
+        text, seconds = run(*QEMU, "./" + name + ".linux")
+        if text.strip() != expected:
+            raise RuntimeError(f"{name}: {text.strip()} under qemu-riscv32, {expected} on one lane of vorion-sim")
+        qemu.append(seconds)
+    total = one[0]["total"]
+    rate = total["lane_instructions"] / statistics.median(s["host_cpu_seconds"] for s in one)
+    qemu_rate = instructions * scalar_repeats / statistics.median(qemu)
+    gain = statistics.median(a["host_seconds"] / b["host_seconds"] for a, b in zip(one, two))
+    return {"program": name, "lane_instructions": total["lane_instructions"],
+            "active_lanes": total["lane_instructions"] / total["warp_instructions"],
+            "lane_instructions_per_second": rate, "warp_instructions_per_second":
+            total["warp_instructions"] / statistics.median(s["host_cpu_seconds"] for s in one),
+            "qemu_instructions": instructions * scalar_repeats, "qemu_instructions_per_second": qemu_rate,
+            "over_qemu": rate / qemu_rate, "two_threads_over_one": gain,
+            "seconds": [s["host_cpu_seconds"] for s in one], "qemu_seconds": qemu,
+            "wall_seconds": [s["host_seconds"] for s in one], "wall_seconds_two_threads": [s["host_seconds"] for s in two]}
+
+
+def observer_cost(names):
+    """Instructions of one core's run in simulators with and without observers, none at work, by callgrind."""
+    with open(path("small.json"), "w", encoding="utf-8") as file:
+        json.dump({"clusters": 1, "sockets_per_cluster": 1, "cores_per_socket": 1}, file)
+    counts = {}
+    for state in ("ON", "OFF"):
+        tree = path("observers-" + state.lower())
+        run("cmake", "-S", ROOT, "-B", tree, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_C_COMPILER=clang-19",
+            "-DCMAKE_CXX_COMPILER=clang++-19", "-DVORION_COMPONENTS=intrinsics;support;isasim",
+            f"-DVORION_OBSERVERS={state}")
+        run("cmake", "--build", tree, "--target", "vorion-sim", "-j", "2")
+        for name in names:
+            run("valgrind", "--tool=callgrind", "--callgrind-out-file=callgrind.out", "--log-file=callgrind.log",
+                os.path.join(tree, "bin", "vorion-sim"), name + ".once", "--threads", "1", "--config", "small.json")
+            with open(path("callgrind.log"), encoding="utf-8") as file:
+                collected = next(line for line in file if "Collected" in line)
+            counts.setdefault(name, {})[state] = int(collected.split()[-1])
+    return counts
+
+
+def host():
+    model = platform.processor() or platform.machine()
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        for line in file:
+            if line.startswith(("model name", "cpu family", "model\t", "cpu MHz")):
+                key, value = (part.strip() for part in line.split(":", 1))
+                model = value if key == "model name" else f"{model}, {key} {value}"
+            elif not line.strip():
+                break
+    return f"{model}, {os.cpu_count()} processors"
+
+
+def table(results):
+    yield "| program | lane-instr/s, 1 thread | active lanes | qemu-riscv32 | over qemu | 2 threads over 1 |"
+    yield "|---|---|---|---|---|---|"
+    for r in results:
+        yield (f"| {TITLES[r['program']]} | {r['lane_instructions_per_second'] / 1e9:.2f} G | {r['active_lanes']:.1f} | "
+               f"{r['qemu_instructions_per_second'] / 1e9:.2f} G | {r['over_qemu']:.2f}x | {r['two_threads_over_one']:.2f}x |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--rounds", type=int, default=5, help="medians are over these (default: 5)")
+    parser.add_argument("--programs", default=",".join(PROGRAMS), help="default: %(default)s")
+    parser.add_argument("--out", default=Out.folder, help="default: build/bench/isasim")
+    parser.add_argument("--json", help="default: results.json in OUT")
+    parser.add_argument("--no-observers", action="store_true", help="leave out the two builds of the simulator")
+    options = parser.parse_args()
+    Out.folder = os.path.abspath(options.out)
+    names = options.programs.split(",")
+    unknown = [name for name in names if name not in PROGRAMS]
+    if unknown or options.rounds < 1:
+        parser.error(f"--programs {options.programs} --rounds {options.rounds}, expected some of {','.join(PROGRAMS)} and "
+                     "at least one round")
+    build()
+    results = []
+    for name in names:
+        if name == "project":
+            build_project(*PROGRAMS[name])
+        else:
+            build_c(name, *PROGRAMS[name])
+        results.append(measure(name, options.rounds))
+        print(f"{name}: {results[-1]['lane_instructions_per_second'] / 1e9:.2f} G", file=sys.stderr)
+    costs = {} if options.no_observers else observer_cost([name for name in OBSERVED if name in names])
+    report = {"host": host(), "rounds": options.rounds, "programs": results,
+              "instructions_with_and_without_observers": costs}
+    write(os.path.abspath(options.json or path("results.json")), json.dumps(report, indent=1) + "\n")
+    print(f"{host()}; medians of {options.rounds} rounds")
+    print("\n".join(table(results)))
+    for name, count in costs.items():
+        print(f"{TITLES[name]}, observers built in but off: {count['ON']} host instructions, {count['OFF']} without them "
+              f"({100 * (count['ON'] / count['OFF'] - 1):+.2f} %)")
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except RuntimeError as error:
+        print(f"run.py: error: {error}", file=sys.stderr)
+        sys.exit(1)
