@@ -35,6 +35,7 @@
 #include "llvm/Transforms/Utils/LCSSA.h"
 #include "llvm/Transforms/Utils/LoopSimplify.h"
 #include "llvm/Transforms/Utils/LowerSwitch.h"
+#include "llvm/Transforms/Utils/Mem2Reg.h"
 
 using namespace llvm;
 
@@ -124,6 +125,16 @@ void removeSameTargetBranches(Function &F) {
   }
 }
 
+/// Without optimisation a pointer to a function is kept in the lane's stack,
+/// where nothing tells that vx_uniform was its origin.
+bool callsThroughVariable(Function &F) {
+  return any_of(instructions(F), [](Instruction &I) {
+    const auto *Call = dyn_cast<CallBase>(&I);
+    return Call && Call->isIndirectCall() &&
+           isa<LoadInst>(Call->getCalledOperand());
+  });
+}
+
 } // namespace
 
 bool LowerDivergence::runOnFunction(Function &F) {
@@ -139,6 +150,8 @@ bool LowerDivergence::runOnFunction(Function &F) {
   run(LowerSwitchPass());
   removeSameTargetBranches(F);
   changed();
+  if (callsThroughVariable(F))
+    run(PromotePass());
   if (!checkCode(F, Analyses))
     return true;
   run(FixIrreduciblePass());

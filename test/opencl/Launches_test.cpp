@@ -286,6 +286,20 @@ TEST(Launches, CompileErrorsReachTheBuildLog) {
       << Log;
 }
 
+TEST(Launches, DoublePrecisionIsRefusedInTheBuildLog) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  testing::internal::CaptureStderr();
+  Device.build(
+      "kernel void f(global float *o) {\n  double x = o[0];\n  o[0] = x;\n}",
+      Log);
+  testing::internal::GetCapturedStderr();
+  EXPECT_NE(Log.find(":2:3: use of type 'double' requires cl_khr_fp64 support"),
+            std::string::npos)
+      << Log;
+}
+
 TEST(Launches, KernelsSeeTheMachine) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
