@@ -14,7 +14,7 @@ def VX_SPLIT_N : SimtInstruction<"vx_split_n", 2, 0, "rd", "rs1", "uniform", "ui
 def VX_JOIN : SimtInstruction<"vx_join", 3, 0, "", "rs1", "none", "void vx_join(uint depth)", "simt",
   "No effect if rs1 of the last active lane equals the depth of the divergence stack; else the first time go on with the other side at the pc that the split saved, the second time restore the mask and pop.">;
 def VX_BAR : SimtInstruction<"vx_bar", 4, 0, "", "rs1, rs2", "none", "void vx_bar(uint id, uint warps)", "simt",
-  "Wait until rs2 warps (cores, if bit 31 of rs1 is set) have arrived at barrier rs1.">;
+  "Wait until rs2 warps (cores, if bit 31 of rs1 is set) have arrived at barrier rs1. Traps if not all lanes of the last vx_tmc are active.">;
 def VX_PRED : SimtInstruction<"vx_pred", 5, 0, "", "rs1, rs2", "none", "void vx_pred(uint predicate, uint mask)", "simt",
   "Mask &= bit 0 of rs1 if any active lane has it set; else mask = rs2 of the last active lane.">;
 def VX_PRED_N : SimtInstruction<"vx_pred_n", 5, 0, "", "rs1, rs2", "none", "void vx_pred_n(uint predicate, uint mask)", "simt",

@@ -105,6 +105,11 @@ void Core::spawn(uint32_t Count, uint32_t Entry) {
 bool Core::arrive(WarpState &S, uint32_t BarrierId, uint32_t Count) {
   constexpr uint32_t GlobalBit = 1U << 31;
   const uint32_t Number = BarrierId & ~GlobalBit;
+  if (S.Mask != S.WholeMask) {
+    raise(&S, static_cast<uint32_t>(TrapCause::DivergentBarrier), S.LastLane,
+          BarrierId);
+    return false;
+  }
   if (Number >= Shape.Barriers) {
     raise(&S, static_cast<uint32_t>(TrapCause::BadBarrier), S.LastLane,
           BarrierId);

@@ -263,6 +263,32 @@ TEST(Simt, BarrierThatDoesNotExistTraps) {
   EXPECT_EQ(R.cause(), TrapCause::BadBarrier);
 }
 
+TEST(Simt, BarrierThatSomeLanesDoNotReachTraps) {
+  for (const ExecTable *Table : allTables()) {
+    // Lanes of even number take the path with the barrier.
+    WarpRunner R(*Table, {encode(Op::VX_SPLIT, {.Rd = 12, .Rs1 = 10}),
+                          encode(Op::VX_BAR, {.Rs1 = 0, .Rs2 = 11})});
+    Lanes16 Even{};
+    for (unsigned Lane = 0; Lane != 16; ++Lane)
+      Even[Lane] = Lane % 2 == 0;
+    R.setX(10, Even);
+    R.setX(11, all(1));
+    R.run();
+    EXPECT_EQ(R.cause(), TrapCause::DivergentBarrier);
+  }
+}
+
+TEST(Simt, BarrierAfterAnotherThreadMaskIsReachedByAll) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::VX_TMC, {.Rs1 = 10}),
+                          encode(Op::VX_BAR, {.Rs1 = 0, .Rs2 = 11})});
+    R.setX(10, all(0x00FF));
+    R.setX(11, all(1));
+    R.run();
+    EXPECT_TRUE(R.ranToEnd());
+  }
+}
+
 TEST(Control, BranchesCompareActiveLanes) {
   struct Case {
     Op O;

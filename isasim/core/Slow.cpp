@@ -328,7 +328,7 @@ bool barrier(WarpState *S, uint32_t Id, uint32_t Count) {
 }
 
 void setMask(WarpState *S, uint32_t Mask) {
-  S->Mask = Mask;
+  S->Mask = S->WholeMask = Mask;
   S->Full = Mask == (1U << MaxLanes) - 1;
   S->LaneCount = static_cast<uint32_t>(std::popcount(Mask));
   S->LastLane = static_cast<uint32_t>(std::bit_width(Mask)) - 1;

@@ -143,6 +143,8 @@ struct alignas(64) WarpState {
   std::uint32_t Frm = 0;
   std::uint32_t Fflags = 0; ///< those of the host unit are added when it stops
   std::uint32_t AllLanes = 0;
+  /// The mask before any split or predicate: that of the last vx_tmc.
+  std::uint32_t WholeMask = 0;
   std::uint32_t WarpId = 0;
   bool AtBarrier = false;
   std::uint32_t BarrierId = 0;

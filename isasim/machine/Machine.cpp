@@ -219,7 +219,7 @@ bool Machine::Impl::findTrap(RunResult &R) {
     for (const WarpState &S : C->warps())
       if (S.Why == Stop::Trapped) {
         R.End = Outcome::Trap;
-        R.Fault = makeTrap(S, Program.get());
+        R.Fault = makeTrap(S, Program);
         R.Report = trapReport(R.Fault);
         Watcher.tell([&](Observer &O) { O.trap(R.Fault); });
         return true;
@@ -244,7 +244,7 @@ bool Machine::Impl::decideEnd(RunResult &R) {
     R.Report = (CanGoOn ? "no warp can make progress: the machine repeats a "
                           "state with nothing changed\n"
                         : "all warps wait for each other\n") +
-               warpReport(Cores, Program.get());
+               warpReport(Cores, Program);
     return true;
   }
   std::string Limit;
@@ -257,7 +257,7 @@ bool Machine::Impl::decideEnd(RunResult &R) {
         fmt::format("watchdog: the run took longer than {} s", WatchdogSeconds);
   if (!Limit.empty()) {
     R.End = Outcome::LimitReached;
-    R.Report = Limit + "\n" + warpReport(Cores, Program.get());
+    R.Report = Limit + "\n" + warpReport(Cores, Program);
     return true;
   }
   Progress = false;

@@ -1,6 +1,7 @@
 #include "machine/Report.h"
 
 #include "core/Isa.h"
+#include "observe/SourceLines.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -19,6 +20,17 @@ std::string instruction(uint32_t Word, uint32_t Pc) {
   for (char &C : Text)
     if (C == '\t')
       C = ' ';
+  return Text;
+}
+
+/// "  source file.cl:7 in helper\n  called from file.cl:12 in kernel\n".
+std::string sourceLines(const std::vector<SourcePlace> &Places) {
+  std::string Text;
+  for (const SourcePlace &P : Places) {
+    Text += Text.empty() ? "  source " : "  called from ";
+    Text += P.text();
+    Text += P.Function.empty() ? "\n" : " in " + P.Function + "\n";
+  }
   return Text;
 }
 
@@ -61,7 +73,7 @@ std::string waitsFor(const WarpState &S) {
   return {};
 }
 
-Trap makeTrap(const WarpState &S, const Image *Program) {
+Trap makeTrap(const WarpState &S, const std::shared_ptr<const Image> &Program) {
   Trap T;
   T.Cause = static_cast<TrapCause>(S.FaultCause);
   T.Pc = S.pcOf(S.Next);
@@ -71,8 +83,10 @@ Trap makeTrap(const WarpState &S, const Image *Program) {
   T.Lane = S.FaultLane;
   T.Address = S.FaultAddress;
   T.Instruction = S.Next->Word;
-  if (Program)
+  if (Program) {
     T.Symbol = Program->symbolize(T.Pc);
+    T.Source = SourceLines(Program).chain(T.Pc);
+  }
   return T;
 }
 
@@ -81,14 +95,18 @@ std::string trapReport(const Trap &T) {
                                  T.Warp, T.Lane, describe(T.Cause));
   if (namesAddress(T.Cause))
     Text += fmt::format(" at 0x{:08x}", T.Address);
-  Text += fmt::format("\n  pc {}: {}\n  active lanes 0x{:04x}\n",
-                      place(T.Pc, T.Symbol), instruction(T.Instruction, T.Pc),
-                      T.LaneMask);
+  Text += fmt::format("\n  pc {}: {}\n", place(T.Pc, T.Symbol),
+                      instruction(T.Instruction, T.Pc));
+  Text += sourceLines(T.Source);
+  Text += fmt::format("  active lanes 0x{:04x}\n", T.LaneMask);
   return Text;
 }
 
 std::string warpReport(const std::vector<std::unique_ptr<Core>> &Cores,
-                       const Image *Program) {
+                       const std::shared_ptr<const Image> &Program) {
+  std::optional<SourceLines> Sources;
+  if (Program)
+    Sources.emplace(Program);
   // Lines without the warp's name, in order of first use, and whose they are.
   std::vector<std::string> Lines;
   std::map<std::string, std::string> Who;
@@ -97,10 +115,13 @@ std::string warpReport(const std::vector<std::unique_ptr<Core>> &Cores,
       if (S.Why == Stop::Ended)
         continue;
       const uint32_t Pc = S.pcOf(S.Next);
-      const std::string Line =
+      std::string Line =
           fmt::format("{}\n    pc {}: {}, active lanes 0x{:04x}", waitsFor(S),
                       place(Pc, Program ? Program->symbolize(Pc) : ""),
                       instruction(S.Next->Word, Pc), S.Mask);
+      if (Sources)
+        if (const auto Place = Sources->find(Pc))
+          Line += ", " + Place->text();
       std::string &Names = Who[Line];
       if (Names.empty())
         Lines.push_back(Line);

@@ -13,7 +13,7 @@ namespace vorion::isasim {
 std::string waitsFor(const WarpState &S);
 
 /// What stopped \p S, which has trapped.
-Trap makeTrap(const WarpState &S, const Image *Program);
+Trap makeTrap(const WarpState &S, const std::shared_ptr<const Image> &Program);
 
 /// "core 0, warp 0: load access fault at 0x... ..." with pc, instruction text
 /// and active lanes.
@@ -22,6 +22,6 @@ std::string trapReport(const Trap &T);
 /// A line for each warp that has not ended: where it is and what it waits for.
 /// Warps that wait alike at one pc share a line.
 std::string warpReport(const std::vector<std::unique_ptr<Core>> &Cores,
-                       const Image *Program);
+                       const std::shared_ptr<const Image> &Program);
 
 } // namespace vorion::isasim

@@ -25,6 +25,14 @@ Json json(const RasterCounters &C) {
   return Object;
 }
 
+Json placesJson(const std::vector<SourcePlace> &Places) {
+  Json List = Json::array();
+  for (const SourcePlace &P : Places)
+    List.push_back(
+        {{"file", P.File}, {"line", P.Line}, {"function", P.Function}});
+  return List;
+}
+
 Json fault(const Trap &T) {
   return {{"cause", describe(T.Cause)},
           {"pc", fmt::format("0x{:08x}", T.Pc)},
@@ -34,7 +42,8 @@ Json fault(const Trap &T) {
           {"lane", T.Lane},
           {"address", fmt::format("0x{:08x}", T.Address)},
           {"instruction", fmt::format("0x{:08x}", T.Instruction)},
-          {"symbol", T.Symbol}};
+          {"symbol", T.Symbol},
+          {"source", placesJson(T.Source)}};
 }
 
 } // namespace
@@ -69,6 +78,8 @@ std::string_view describe(TrapCause Cause) {
     return "vx_join without a split";
   case TrapCause::EmptyMask:
     return "vx_pred leaves no lane active";
+  case TrapCause::DivergentBarrier:
+    return "barrier that not all lanes of the warp have reached";
   case TrapCause::BadBarrier:
     return "no such barrier";
   }

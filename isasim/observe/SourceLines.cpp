@@ -29,22 +29,99 @@ SourceLines::~SourceLines() {
     elf_end(File);
 }
 
-/// The innermost function of \p Unit at \p Pc.
-static std::string functionAt(Dwarf_Die *Unit, uint32_t Pc) {
-  Dwarf_Die *Scopes = nullptr;
-  const int Count = dwarf_getscopes(Unit, Pc, &Scopes);
-  std::string Name;
-  for (int N = 0; N < Count && Name.empty(); ++N) {
-    const int Tag = dwarf_tag(&Scopes[N]);
-    if (Tag != DW_TAG_subprogram && Tag != DW_TAG_inlined_subroutine)
+namespace {
+
+struct Freer {
+  void operator()(Dwarf_Die *Dies) const { std::free(Dies); }
+};
+using Dies = std::unique_ptr<Dwarf_Die, Freer>;
+
+/// With the unit's folder where the name alone would not be found.
+std::string pathOf(Dwarf_Die *Unit, const char *Name) {
+  Dwarf_Attribute Attribute;
+  const char *Folder =
+      dwarf_formstring(dwarf_attr(Unit, DW_AT_comp_dir, &Attribute));
+  std::string Path = Name ? Name : "?";
+  return Folder && Path[0] != '/' ? fmt::format("{}/{}", Folder, Path) : Path;
+}
+
+std::optional<Dwarf_Word> number(Dwarf_Die *Die, unsigned Attribute) {
+  Dwarf_Attribute Found;
+  Dwarf_Word Value = 0;
+  if (!dwarf_attr(Die, Attribute, &Found) ||
+      dwarf_formudata(&Found, &Value) != 0)
+    return std::nullopt;
+  return Value;
+}
+
+/// Where the function that \p Inlined is a copy of was called.
+SourcePlace callPlace(Dwarf_Die *Unit, Dwarf_Die *Inlined) {
+  Dwarf_Files *Files = nullptr;
+  size_t Count = 0;
+  const auto File = number(Inlined, DW_AT_call_file);
+  const char *Name = nullptr;
+  if (File && dwarf_getsrcfiles(Unit, &Files, &Count) == 0 && *File < Count)
+    Name = dwarf_filesrc(Files, *File, nullptr, nullptr);
+  return {pathOf(Unit, Name),
+          static_cast<unsigned>(number(Inlined, DW_AT_call_line).value_or(0)),
+          ""};
+}
+
+} // namespace
+
+/// The unit that \p Pc lies in; false if there is none.
+static bool unitAt(Dwarf *Info, uint32_t Pc, Dwarf_Die *Unit) {
+  // Units made without a table of ranges are searched one by one.
+  if (dwarf_addrdie(Info, Pc, Unit))
+    return true;
+  Dwarf_CU *Next = nullptr;
+  Dwarf_Die Sub;
+  uint8_t Kind = 0;
+  while (dwarf_get_units(Info, Next, &Next, nullptr, &Kind, Unit, &Sub) == 0)
+    if (dwarf_haspc(Unit, Pc) > 0)
+      return true;
+  return false;
+}
+
+std::vector<SourcePlace> SourceLines::chain(uint32_t Pc) const {
+  Dwarf_Die Unit;
+  if (!Info || !unitAt(Info, Pc, &Unit))
+    return {};
+  Dwarf_Line *Line = dwarf_getsrc_die(&Unit, Pc);
+  int Number = 0;
+  // Line 0 means that the code belongs to none.
+  if (!Line || dwarf_lineno(Line, &Number) != 0 || Number == 0)
+    return {};
+  SourcePlace Here{pathOf(&Unit, dwarf_linesrc(Line, nullptr, nullptr)),
+                   static_cast<unsigned>(Number), ""};
+
+  // The innermost scope there, then those around it. (dwarf_getscopes goes on
+  // from an inlined function to where it was written, not to its caller.)
+  Dwarf_Die *Raw = nullptr;
+  if (dwarf_getscopes(&Unit, Pc, &Raw) <= 0)
+    return {Here};
+  const Dies Inner(Raw);
+  const int Count = dwarf_getscopes_die(&Inner.get()[0], &Raw);
+  if (Count <= 0)
+    return {Here};
+  const Dies Scopes(Raw);
+  std::vector<SourcePlace> Places;
+  for (int N = 0; N < Count; ++N) {
+    const int Tag = dwarf_tag(&Raw[N]);
+    if (Tag != DW_TAG_inlined_subroutine && Tag != DW_TAG_subprogram)
       continue;
-    Dwarf_Attribute Attribute;
-    if (const char *Found = dwarf_formstring(
-            dwarf_attr_integrate(&Scopes[N], DW_AT_name, &Attribute)))
-      Name = Found;
+    const char *Name = dwarf_diename(&Raw[N]);
+    Here.Function = Name ? Name : "";
+    // A kernel is inlined into a function of its name, which runs a group.
+    if (Places.empty() || Places.back().Function != Here.Function)
+      Places.push_back(Here);
+    if (Tag == DW_TAG_subprogram)
+      break;
+    Here = callPlace(&Unit, &Raw[N]);
   }
-  std::free(Scopes);
-  return Name;
+  if (Places.empty())
+    Places.push_back(Here);
+  return Places;
 }
 
 std::optional<SourcePlace> SourceLines::find(uint32_t Pc) const {
@@ -53,33 +130,8 @@ std::optional<SourcePlace> SourceLines::find(uint32_t Pc) const {
   const auto [At, New] = Known.emplace(Pc, std::nullopt);
   if (!New)
     return At->second;
-  Dwarf_Die Unit;
-  // Units made without a table of ranges are searched one by one.
-  if (!dwarf_addrdie(Info, Pc, &Unit)) {
-    Dwarf_CU *Next = nullptr;
-    bool Found = false;
-    Dwarf_Die Sub;
-    uint8_t Kind = 0;
-    while (!Found &&
-           dwarf_get_units(Info, Next, &Next, nullptr, &Kind, &Unit, &Sub) == 0)
-      Found = dwarf_haspc(&Unit, Pc) > 0;
-    if (!Found)
-      return std::nullopt;
-  }
-  Dwarf_Line *Line = dwarf_getsrc_die(&Unit, Pc);
-  int Number = 0;
-  // Line 0 means that the code belongs to none.
-  if (!Line || dwarf_lineno(Line, &Number) != 0 || Number == 0)
-    return std::nullopt;
-  const char *Name = dwarf_linesrc(Line, nullptr, nullptr);
-  Dwarf_Attribute Attribute;
-  const char *Folder =
-      dwarf_formstring(dwarf_attr(&Unit, DW_AT_comp_dir, &Attribute));
-  std::string Path = Name ? Name : "?";
-  if (Folder && Path[0] != '/')
-    Path = fmt::format("{}/{}", Folder, Path);
-  At->second = SourcePlace{std::move(Path), static_cast<unsigned>(Number),
-                           functionAt(&Unit, Pc)};
+  if (std::vector<SourcePlace> Places = chain(Pc); !Places.empty())
+    At->second = std::move(Places.front());
   return At->second;
 }
 

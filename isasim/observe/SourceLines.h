@@ -3,26 +3,18 @@
 #pragma once
 
 #include "vorion/isasim/Image.h"
+#include "vorion/isasim/SourcePlace.h"
 
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 struct Dwarf;
 struct Elf;
 
 namespace vorion::isasim {
-
-struct SourcePlace {
-  std::string File;
-  unsigned Line = 0;
-  /// The innermost function, inlined ones too; empty if not known.
-  std::string Function;
-
-  /// "file:line".
-  std::string text() const;
-};
 
 class SourceLines {
 public:
@@ -36,6 +28,9 @@ public:
   bool empty() const { return Info == nullptr; }
   /// Nothing where the program has no line for \p Pc.
   std::optional<SourcePlace> find(uint32_t Pc) const;
+  /// The same place, then for each inlining that of the call. Empty where the
+  /// program has no line for \p Pc. Slow: for reports, not for counting.
+  std::vector<SourcePlace> chain(uint32_t Pc) const;
   /// "file:line (function)" or the symbol, or the address.
   std::string describe(uint32_t Pc) const;
 

@@ -12,6 +12,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "LowerDivergence.h"
+#include "DivergentBarriers.h"
 #include "Intrinsics.h"
 #include "RISCVSubtarget.h"
 #include "Vorion.h"
@@ -154,6 +155,9 @@ bool LowerDivergence::runOnFunction(Function &F) {
     run(PromotePass());
   if (!checkCode(F, Analyses))
     return true;
+  for (const vorion::DivergentBarrier &B : vorion::findDivergentBarriers(F))
+    F.getContext().diagnose(DiagnosticInfoUnsupported(
+        F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
   run(FixIrreduciblePass());
   vorion::unifyExits(F, Analyses);
   changed();

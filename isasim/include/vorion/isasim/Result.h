@@ -2,6 +2,7 @@
 /// never the host's death.
 #pragma once
 
+#include "vorion/isasim/SourcePlace.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <cstdint>
@@ -34,6 +35,7 @@ struct Trap {
   uint32_t Address = 0;     ///< accessed address or jump target, else 0
   uint32_t Instruction = 0; ///< the word at Pc, 0 where it cannot be fetched
   std::string Symbol;       ///< "function+0x1c", empty where none covers Pc
+  std::vector<SourcePlace> Source; ///< of Pc, innermost first
 };
 
 /// Of one core, or sums over cores; Counters.def says what each counts.

@@ -186,6 +186,8 @@ char *buildHash(cl_device_id Device) {
 char *initBuild(void *Data) {
   const std::string Options =
       "-target-feature +m -target-feature +a -target-feature +f -D__VORION__=1 "
+      // A fault names its line, whatever the options.
+      "-debug-info-kind=line-tables-only -dwarf-version=4 "
       "\"-I" +
       static_cast<VorionDevice *>(Data)->Kernels.tools().includeFolder() + "\"";
   return strdup(Options.c_str());

@@ -7,7 +7,7 @@
 
 #include <llvm/Bitcode/BitcodeWriter.h>
 #include <llvm/IR/Constants.h>
-#include <llvm/IR/DIBuilder.h>
+#include <llvm/IR/DebugInfoMetadata.h>
 #include <llvm/IR/Module.h>
 #include <llvm/Support/FileSystem.h>
 #include <llvm/Support/raw_ostream.h>
@@ -64,7 +64,7 @@ public:
     Entry->removeFnAttr(Attribute::AlwaysInline);
     Entry->addFnAttr("vorion-kernel");
     Entry->setName(Kernel.Name);
-    describeEntry(*Entry, *Body);
+    keepLines(*Entry, *Body);
 
     const uint64_t LocalBytes = placeLocals();
     if (LocalBytes > UINT32_MAX - VX_LOCAL_BASE)
@@ -78,27 +78,18 @@ public:
   }
 
 private:
-  /// The entry is PoCL's and has no place in the source: it gets the kernel's.
-  /// Inlined into a function without one, the body would lose its lines.
-  void describeEntry(Function &Entry, const Function &Body) {
-    DISubprogram *Source = Body.getSubprogram();
-    if (!Source)
+  /// The entry becomes the function that the source's lines belong to: in one
+  /// without a description of its own they would be lost. PoCL gave \p Body a
+  /// copy of the kernel's with another name.
+  void keepLines(Function &Entry, Function &Body) {
+    DISubprogram *Lines = Body.getSubprogram();
+    if (!Lines)
       return;
-    DIBuilder Builder(M, /*AllowUnresolved=*/false, Source->getUnit());
-    DISubprogram *Own = Builder.createFunction(
-        Source->getFile(), Kernel.Name, Kernel.Name, Source->getFile(),
-        Source->getLine(),
-        Builder.createSubroutineType(Builder.getOrCreateTypeArray({})),
-        Source->getLine(), DINode::FlagArtificial,
-        DISubprogram::SPFlagDefinition | DISubprogram::SPFlagOptimized);
-    Entry.setSubprogram(Own);
-    Builder.finalize();
-    const DebugLoc Place =
-        DILocation::get(M.getContext(), Source->getLine(), 0, Own);
-    for (BasicBlock &Block : Entry)
-      for (Instruction &I : Block)
-        if (!I.getDebugLoc())
-          I.setDebugLoc(Place);
+    constexpr unsigned Name = 2;
+    Lines->replaceOperandWith(Name, MDString::get(M.getContext(), Kernel.Name));
+    // Its call bears no place, so that the inlined code keeps its own.
+    Body.setSubprogram(nullptr);
+    Entry.setSubprogram(Lines);
   }
 
   /// OpenCL 1.2 has no writable variables of program scope: all there are
