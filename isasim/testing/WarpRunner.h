@@ -22,6 +22,11 @@ public:
         Program(codeImage(Words)), Code(*Program, Exec), Only(Shape, 0) {
     Storage->load(*Program);
     Watcher.prepare(Code, Shape.WarpsPerCore, 1);
+    reset();
+  }
+
+  /// The core as at the start, with all lanes active; memory stays.
+  void reset() {
     Only.reset(Code, VX_IMAGE_BASE, 0, Storage->view(0), &Watcher);
     setMask(&warp(), 0xFFFF);
   }
