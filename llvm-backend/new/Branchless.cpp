@@ -21,7 +21,8 @@ namespace {
 class Expander {
 public:
   explicit Expander(MachineInstr &MI, const RISCVSubtarget &Subtarget)
-      : MI(MI), MRI(MI.getMF()->getRegInfo()), TII(*Subtarget.getInstrInfo()) {}
+      : MI(MI), MRI(MI.getMF()->getRegInfo()), TII(*Subtarget.getInstrInfo()),
+        HasConditionalZero(Subtarget.hasStdExtZicond()) {}
 
   /// An instruction with a new integer register as its result.
   template <typename... Registers>
@@ -67,6 +68,15 @@ public:
 
   /// To = Condition != 0 ? True : False, all integers.
   void select(Register To, Register Condition, Register True, Register False) {
+    if (!HasConditionalZero) {
+      // All ones if the condition holds, which takes True from the difference.
+      Register Holds = emit(RISCV::SLTU, Register(RISCV::X0), Condition);
+      Register Mask = emit(RISCV::SUB, Register(RISCV::X0), Holds);
+      Register Difference = emit(RISCV::XOR, True, False);
+      Register Change = emit(RISCV::AND, Difference, Mask);
+      emitTo(To, RISCV::XOR, False, Change);
+      return;
+    }
     Register Kept = emit(RISCV::CZERO_EQZ, True, Condition);
     Register Other = emit(RISCV::CZERO_NEZ, False, Condition);
     emitTo(To, RISCV::OR, Kept, Other);
@@ -126,6 +136,7 @@ private:
   MachineInstr &MI;
   MachineRegisterInfo &MRI;
   const RISCVInstrInfo &TII;
+  bool HasConditionalZero;
 };
 
 } // namespace

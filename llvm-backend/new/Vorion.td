@@ -3,10 +3,10 @@
 include "RISCV.td"
 
 // XVortex needs compare-and-swap because LR/SC loops do not end when lanes of a
-// warp contend, and conditional zero because a select must not branch.
+// warp contend.
 def FeatureVendorXVortex
     : RISCVExtension<"xvortex", 2, 0, "'XVortex' (SIMT threads)",
-                     [FeatureStdExtZicsr, FeatureStdExtA, FeatureStdExtZacas, FeatureStdExtZicond]>;
+                     [FeatureStdExtZicsr, FeatureStdExtA, FeatureStdExtZacas]>;
 def HasVendorXVortex : Predicate<"Subtarget->hasVendorXVortex()">,
     AssemblerPredicate<(all_of FeatureVendorXVortex), "'XVortex' (SIMT threads)">;
 

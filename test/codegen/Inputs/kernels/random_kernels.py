@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Random kernels, compared lane by lane with the same C as a plain rv32 program.
+
+A seed is a module of 25 kernels (module.py), compiled once for the device, with optimisation and extensions that change
+from seed to seed, and once with the packaged clang for qemu-riscv32. Every word that a kernel leaves must be the same.
+
+exit codes: 0 no difference, 1 a kernel differs or is refused (the seed's files are kept), 2 usage
+"""
+
+import functools
+import math
+import os
+import sys
+
+import seeds
+from machines import CONFIGURATIONS, MAX_WARP_INSTRUCTIONS, Device, Linux, Refused, Wrong
+from module import GROUPS, HALF_WORDS, Module
+
+KERNELS = 25
+
+
+def execute(module, program, base, most=MAX_WARP_INSTRUCTIONS):
+    """What the module's program leaves on the device."""
+    arguments = [f"u32:{module.argument}", f"u32:{module.lanes}", f"local:{2 * 4 * HALF_WORDS}"]
+    return Device().run(program, base, GROUPS, module.lanes, arguments, module.out_start(), most)
+
+
+def on_device(module, source, base, configuration, defines=()):
+    return execute(module, Device().compile(source, base, configuration, defines), base)
+
+
+def judge(module, source, base, configuration, expected, only):
+    """What is wrong with one kernel alone; None if nothing is."""
+    share = slice(only * module.out_bytes(), (only + 1) * module.out_bytes())
+    try:
+        got = on_device(module, source, f"{base}.{only}", configuration, [f"-DONLY={only}"])
+    except (Refused, Wrong) as problem:
+        return f"{type(problem).__name__.lower()}: {problem}"
+    if got[share] == expected[share]:
+        return None
+    word = next(i for i in range(0, module.out_bytes(), 4) if got[share][i:i + 4] != expected[share][i:i + 4])
+    lane, word = divmod(word // 4, 32)
+    return f"wrong: word {word} of lane {lane % module.lanes} of group {lane // module.lanes}"
+
+
+def check(kernels, linux, seed, folder):
+    module = Module(seed, kernels)
+    configuration = CONFIGURATIONS[seed * 7 % len(CONFIGURATIONS)]  # 7: neighbours differ in level and extensions
+    base = os.path.join(folder, "module")
+    source = base + ".c"
+    with open(source, "w", encoding="utf-8") as file:
+        file.write(module.source())
+    expected = linux.run(source, base)
+    bad = []
+    try:
+        same = on_device(module, source, base, configuration) == expected
+    except (Refused, Wrong) as problem:
+        same, bad = False, [f"{configuration}: all: {type(problem).__name__.lower()}: {problem}"]
+    if not same:
+        alone = {only: judge(module, source, base, configuration, expected, only) for only in range(kernels)}
+        found = [f"{configuration}: -DONLY={only}: {what}" for only, what in alone.items() if what]
+        bad = found or bad or [f"{configuration}: wrong, but no kernel is on its own"]
+    return {"seed": seed, "counts": {str(configuration): kernels - len(bad), "bad": len(bad)}, "bad": bad}
+
+
+def main():
+    parser = seeds.options(__doc__, "random-kernels", "kernels")
+    chosen = parser.parse_args()
+    os.makedirs(chosen.folder, exist_ok=True)
+    todo = range(chosen.first, chosen.first + math.ceil(chosen.count / KERNELS))
+    counts, bad_seeds = seeds.check_all(chosen, todo, functools.partial(check, KERNELS, Linux(chosen.folder)))
+    bad = counts.pop("bad", 0)
+    for configuration in map(str, CONFIGURATIONS):
+        if counts[configuration]:
+            print(f"{counts[configuration]:6} same {configuration}")
+    print(f"seeds {todo[0]} to {todo[-1]}: {counts.total()} kernels same, {bad} bad, in {bad_seeds} of {len(todo)} seeds")
+    return 1 if bad_seeds else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
