@@ -26,20 +26,25 @@ int main(void);
 
 __attribute__((used)) static void start(void) { system_call(93, main(), 0, 0); }
 
-__asm__(".globl _start\n_start:\n .option push\n .option norelax\n la gp, __global_pointer$\n .option pop\n"
+__asm__(".globl _start\n_start:\n .option push\n .option norelax\n la gp, "
+        "__global_pointer$\n .option pop\n"
         " andi sp, sp, -16\n call start\n");
 
 /* Compilers call these whatever the options. */
 void *memcpy(void *to, const void *from, size_t size) {
-  for (size_t i = 0; i < size; i++) ((volatile char *)to)[i] = ((const char *)from)[i];
+  for (size_t i = 0; i < size; i++)
+    ((volatile char *)to)[i] = ((const char *)from)[i];
   return to;
 }
 void *memset(void *to, int value, size_t size) {
-  for (size_t i = 0; i < size; i++) ((volatile char *)to)[i] = (char)value;
+  for (size_t i = 0; i < size; i++)
+    ((volatile char *)to)[i] = (char)value;
   return to;
 }
 void *memmove(void *to, const void *from, size_t size) {
-  if ((size_t)to - (size_t)from >= size) return memcpy(to, from, size);
-  while (size-- > 0) ((volatile char *)to)[size] = ((const char *)from)[size];
+  if ((size_t)to - (size_t)from >= size)
+    return memcpy(to, from, size);
+  while (size-- > 0)
+    ((volatile char *)to)[size] = ((const char *)from)[size];
   return to;
 }
