@@ -2,7 +2,6 @@
 
 #include "reference/SphericalHarmonics.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
 
@@ -24,14 +23,6 @@ std::vector<To> converted(const std::vector<From> &V) {
   for (const From &E : V)
     Result.push_back(static_cast<To>(E));
   return Result;
-}
-
-/// The logit whose opacity is nearest to \p Opacity. From 17 on the opacity
-/// rounds to 1 in fp32; 30 keeps the error below that of a double's 13th digit.
-float logitOf(double Opacity) {
-  constexpr double Limit = 30;
-  const double Logit = std::log(Opacity) - std::log1p(-Opacity);
-  return static_cast<float>(std::clamp(Logit, -Limit, Limit));
 }
 
 } // namespace
@@ -118,7 +109,7 @@ splat::Scene sceneOf(const Fixture &F) {
     Put(S.LogScales,
         glm::dvec3(std::log(G.Scales[I].x), std::log(G.Scales[I].y),
                    std::log(G.Scales[I].z)));
-    S.OpacityLogits.push_back(logitOf(G.Opacities[I]));
+    S.OpacityLogits.push_back(splat::opacityLogit(G.Opacities[I]));
   }
   // As stored, before they were made unit: no rounding at all.
   S.Quats = F.Arrays.at("in_quats").toFloats();

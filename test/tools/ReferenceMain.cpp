@@ -1,7 +1,7 @@
 // splat-reference: renders one view of a scene with the reference.
 
 #include "Convert.h"
-#include "Ply.h"
+#include "SceneFile.h"
 #include "Tool.h"
 #include "vorion/support/File.h"
 
@@ -82,14 +82,14 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
 }
 
 Expected<Success> run(const Arguments &A) {
-  const auto S = splat::readPly(A.Scene);
-  if (!S)
-    return S.error();
+  const auto File = splat::readScene(A.Scene);
+  if (!File)
+    return File.error();
   const auto View = splat::readCamera(A.Cameras, A.View);
   if (!View)
     return View.error();
-  return A.Precision == "f64" ? run<double>(A, *S, *View)
-                              : run<float>(A, *S, *View);
+  return A.Precision == "f64" ? run<double>(A, File->Gaussians, *View)
+                              : run<float>(A, File->Gaussians, *View);
 }
 
 } // namespace
@@ -100,7 +100,8 @@ int main(int Count, char **Values) {
   CLI::App App("Renders one view of a scene with the reference.",
                "splat-reference");
   Arguments A;
-  App.add_option("scene", A.Scene, "Scene in INRIA's PLY layout")->required();
+  App.add_option("scene", A.Scene, "Scene of any format that splat reads")
+      ->required();
   App.add_option("--cameras", A.Cameras, "Views: INRIA's cameras.json")
       ->required();
   App.add_option("--view", A.View, "img_name or id of the view")->required();

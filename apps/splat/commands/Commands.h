@@ -12,6 +12,8 @@ namespace vorion::splat {
 using Runner = std::function<Expected<Success>()>;
 
 Runner addRender(CLI::App &App);
+Runner addInfo(CLI::App &App);
+Runner addConvert(CLI::App &App);
 Runner addDemoScene(CLI::App &App);
 Runner addCompare(CLI::App &App);
 

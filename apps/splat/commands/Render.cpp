@@ -1,9 +1,9 @@
 #include "Commands.h"
+#include "SceneArguments.h"
 
 #include "../io/Cameras.h"
 #include "../io/Image.h"
 #include "../io/Npz.h"
-#include "../io/Ply.h"
 #include "../render/Renderer.h"
 #include "../render/Report.h"
 #include "vorion/support/Diagnostics.h"
@@ -24,7 +24,8 @@ namespace vorion::splat {
 namespace {
 
 struct RenderArguments {
-  std::string Scene, Cameras, View, Output;
+  SceneArguments Scene;
+  std::string Cameras, View, Output;
   std::string Json, Pairs, Device, KernelFolder;
   std::vector<float> Background{0, 0, 0};
   bool Explain = false;
@@ -106,9 +107,10 @@ void endProgress() {
 Expected<Success> run(const RenderArguments &A) {
   if (auto Checked = check(A); !Checked)
     return Checked.error();
-  auto S = readPly(A.Scene);
-  if (!S)
-    return S.error();
+  const auto File = loadScene(A.Scene);
+  if (!File)
+    return File.error();
+  const Scene *S = &File->Gaussians;
   auto C = readCamera(A.Cameras, A.View);
   if (!C)
     return C.error();
@@ -141,8 +143,8 @@ Expected<Success> run(const RenderArguments &A) {
     if (auto Written = writePairs(A.Pairs, *R->Sorted); !Written)
       return Written.error();
   if (!A.Json.empty()) {
-    auto Report = jsonReport(
-        {A.Scene, A.Cameras, A.Output, *S, *C, A.Options, Plan, *D, *R});
+    auto Report = jsonReport({A.Scene.Path, A.Scene.Axes, A.Cameras, A.Output,
+                              *File, *C, A.Options, Plan, *D, *R});
     if (!Report)
       return Report.error();
     if (auto Written = writeFileAtomically(A.Json, *Report); !Written)
@@ -180,7 +182,7 @@ void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
 Runner addRender(CLI::App &App) {
   auto A = std::make_shared<RenderArguments>();
   RenderOptions &O = A->Options;
-  App.add_option("scene", A->Scene, "Scene in INRIA's PLY layout")->required();
+  addSceneOptions(App, A->Scene);
   App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
       ->required();
   App.add_option("--view", A->View, "img_name or id of the view")->required();

@@ -1,5 +1,6 @@
 #include "Activation.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vorion::splat {
@@ -23,6 +24,12 @@ template <typename Real> Activated<Real> activate(const Scene &S) {
   for (const float L : S.OpacityLogits)
     A.Opacities.push_back(static_cast<Real>(1 / (1 + std::exp(-double(L)))));
   return A;
+}
+
+float opacityLogit(double Opacity) {
+  constexpr double Limit = 30;
+  const double Logit = std::log(Opacity) - std::log1p(-Opacity);
+  return static_cast<float>(std::clamp(Logit, -Limit, Limit));
 }
 
 template Activated<float> activate<float>(const Scene &);

@@ -22,6 +22,11 @@ template <typename Real> struct Activated {
 /// reference run in fp32 starts from these bits too.
 template <typename Real> Activated<Real> activate(const Scene &S);
 
+/// The logit that is activated to \p Opacity (0 to 1), at most 30 either way so
+/// that it is finite: from 17 on the opacity is 1 in fp32, and 30 is within
+/// 1e-13 of 0 or 1.
+float opacityLogit(double Opacity);
+
 extern template Activated<float> activate<float>(const Scene &);
 extern template Activated<double> activate<double>(const Scene &);
 

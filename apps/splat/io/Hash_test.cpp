@@ -1,4 +1,5 @@
 #include "Hash.h"
+#include "TestFiles.h"
 
 #include <gtest/gtest.h>
 
@@ -17,4 +18,20 @@ TEST(Hash, OfAMissingFileIsAnError) {
 }
 
 } // namespace
+TEST(Hash, AFolderChangesWithTheNamesAndContentsOfItsFiles) {
+  const TestFolder Folder;
+  const auto Hash = [&] { return *hashScene(Folder.path("")); };
+  Folder.write("meta.json", "{}");
+  const std::string First = Hash();
+  EXPECT_EQ(*hashScene(Folder.path("meta.json")), First);
+  EXPECT_EQ(Hash(), First);
+  Folder.write("meta.json", "{ }");
+  const std::string Second = Hash();
+  EXPECT_NE(Second, First);
+  std::filesystem::create_directory(Folder.path("0_0"));
+  Folder.write("0_0/plane.webp", "x");
+  EXPECT_NE(Hash(), Second);
+  EXPECT_FALSE(hashScene(Folder.path("absent")));
+}
+
 } // namespace vorion::splat

@@ -1,8 +1,6 @@
 #include "Ply.h"
 #include "TestFiles.h"
 
-#include <limits>
-
 using namespace vorion;
 using namespace vorion::splat;
 
@@ -17,6 +15,14 @@ void expectEqual(const Scene &A, const Scene &B) {
   EXPECT_EQ(A.Sh, B.Sh);
 }
 
+Expected<Scene> readPly(const std::string &Path) {
+  auto Read = readScene(Path);
+  if (!Read)
+    return Read.error();
+  EXPECT_EQ(Read->Format, SceneFormat::Ply);
+  return std::move(Read->Gaussians);
+}
+
 /// The error of reading \p Content as a PLY file.
 std::string errorOf(const TestFolder &Folder, const std::string &Content) {
   const std::string Path = Folder.write("damaged.ply", Content);
@@ -26,13 +32,6 @@ std::string errorOf(const TestFolder &Folder, const std::string &Content) {
   EXPECT_EQ(S.error().Code, ExitCode::InputFile);
   EXPECT_TRUE(S.error().Where.starts_with(Path));
   return S.error().What;
-}
-
-std::string replaced(std::string Text, const std::string &What,
-                     const std::string &With) {
-  const std::size_t At = Text.find(What);
-  EXPECT_NE(At, std::string::npos) << What;
-  return Text.replace(At, What.size(), With);
 }
 
 TEST(Ply, RoundTripsEveryDegree) {
@@ -94,7 +93,7 @@ TEST(Ply, EveryTruncationIsAnError) {
   const std::string File = Folder.read("s.ply");
   for (std::size_t Size = 0; Size < File.size(); ++Size)
     EXPECT_NE(errorOf(Folder, File.substr(0, Size)), "") << Size << " bytes";
-  EXPECT_NE(errorOf(Folder, File + "x").find("expected 2 vertices"),
+  EXPECT_NE(errorOf(Folder, File + "x").find("1 bytes after the last element"),
             std::string::npos);
 }
 
@@ -112,55 +111,6 @@ TEST(Ply, EveryDamagedHeaderByteIsReadOrRefusedButNeverACrash) {
     }
   // Only the names of the skipped normals and single separators may change.
   EXPECT_GT(Refused, Header * 5);
-}
-
-TEST(Ply, EachKindOfDamageHasItsMessage) {
-  const TestFolder Folder;
-  ASSERT_TRUE(writePly(Folder.path("s.ply"), numberedScene(2, 0)));
-  const std::string File = Folder.read("s.ply");
-  const auto Expect = [&](const std::string &Damaged, const char *Message) {
-    const std::string What = errorOf(Folder, Damaged);
-    EXPECT_NE(What.find(Message), std::string::npos) << What;
-  };
-  Expect(replaced(File, "ply\n", "plx\n"), "not a PLY file");
-  Expect(replaced(File, "binary_little_endian", "ascii"),
-         "format is `ascii`, expected `binary_little_endian 1.0`");
-  Expect(replaced(File, "format binary_little_endian 1.0\n", ""),
-         "no format line");
-  Expect(replaced(File, "vertex 2", "vertex 18446744073709551615"),
-         "expected 18446744073709551615 vertices");
-  Expect(replaced(File, "vertex 2", "vertex 99999999999999999999"),
-         "is no number");
-  Expect(replaced(File, "vertex 2", "vertex -2"), "is no number");
-  Expect(replaced(File, "vertex 2", "vertex 0"), "no vertex");
-  Expect(replaced(File, "vertex 2", "vertex 3"), "expected 3 vertices");
-  Expect(replaced(File, "element vertex", "element face"),
-         "element vertex <count>");
-  Expect(replaced(File, "property float opacity\n", ""),
-         "property opacity is missing");
-  Expect(replaced(File, "float opacity", "int opacity"),
-         "property opacity has another type");
-  Expect(replaced(File, "float opacity", "float x"),
-         "property x appears twice");
-  Expect(replaced(File, "float nx", "float f_rest_0"), "1 f_rest properties");
-  Expect(replaced(File, "property float nx", "property list uchar float nx"),
-         "expected `property <scalar type> <name>`");
-  Expect(replaced(File, "end_header", "fnd_header"),
-         "unknown header keyword `fnd_header`");
-}
-
-TEST(Ply, ValuesThatAreNotFiniteAreRefusedByVertex) {
-  const TestFolder Folder;
-  for (const float Bad : {std::numeric_limits<float>::quiet_NaN(),
-                          std::numeric_limits<float>::infinity()}) {
-    Scene S = numberedScene(3, 0);
-    S.OpacityLogits[1] = Bad;
-    ASSERT_TRUE(writePly(Folder.path("s.ply"), S));
-    const auto Read = readPly(Folder.path("s.ply"));
-    ASSERT_FALSE(Read);
-    EXPECT_NE(Read.error().What.find("vertex 1 holds a NaN"),
-              std::string::npos);
-  }
 }
 
 TEST(Ply, FoldersAndMissingFilesAreErrors) {

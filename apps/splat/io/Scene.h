@@ -1,7 +1,10 @@
 /// A 3D Gaussian scene as the trainers store it: parameters before activation.
 #pragma once
 
+#include "vorion/support/Expected.h"
+
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace vorion::splat {
@@ -13,6 +16,18 @@ inline constexpr int MaxShDegree = 3;
 constexpr std::size_t shCoefficients(int ShDegree) {
   return static_cast<std::size_t>(ShDegree + 1) * (ShDegree + 1);
 }
+
+/// The degree whose coefficients after the constant one are \p Later in each
+/// of the channels; -1 if there is none.
+constexpr int shDegreeOf(std::size_t Later) {
+  for (int Degree = 0; Degree <= MaxShDegree; ++Degree)
+    if (shCoefficients(Degree) - 1 == Later)
+      return Degree;
+  return -1;
+}
+
+/// Y_00: what the constant coefficient is multiplied by.
+inline constexpr double ShC0 = 0.28209479177387814;
 
 /// \c size() Gaussians, one array a parameter. World units are those of the
 /// file; nothing is flipped or scaled on reading.
@@ -27,6 +42,18 @@ struct Scene {
   std::size_t size() const { return OpacityLogits.size(); }
   /// Coefficients of each channel.
   std::size_t coefficients() const { return shCoefficients(ShDegree); }
+
+  /// \p Count Gaussians of zeros, to be filled in. A reader calls it only
+  /// after it has seen that its file is large enough for so many.
+  static Scene sized(std::size_t Count, int ShDegree);
 };
+
+/// The first Gaussian with a NaN or an infinity is an error; none may reach
+/// the renderers, whose comparisons would go either way.
+Expected<Success> checkFinite(const std::string &Where, const Scene &S);
+
+/// Appends \p Count Gaussians of \p From, starting at \p First, to \p To; both
+/// of the same degree.
+void append(Scene &To, const Scene &From, std::size_t First, std::size_t Count);
 
 } // namespace vorion::splat

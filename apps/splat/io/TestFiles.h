@@ -14,7 +14,7 @@ namespace vorion::splat {
 class TestFolder {
 public:
   TestFolder() {
-    const auto *Test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto *Test = ::testing::UnitTest::GetInstance()->current_test_info();
     Root = std::filesystem::temp_directory_path() /
            (std::string("splat-io-") + Test->test_suite_name() + "-" +
             Test->name() + "-" + std::to_string(getpid()));

@@ -91,7 +91,7 @@ Totals totals(const RenderResult &R) {
 } // namespace
 
 Expected<std::string> jsonReport(const RenderRecord &R) {
-  auto SceneHash = hashFile(R.SceneFile);
+  auto SceneHash = hashScene(R.ScenePath);
   if (!SceneHash)
     return SceneHash.error();
   auto CameraHash = hashFile(R.CameraFile);
@@ -119,10 +119,12 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
   const Json Report{
       {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
       {"scene",
-       {{"file", R.SceneFile},
+       {{"file", R.ScenePath},
         {"fnv1a64", *SceneHash},
-        {"gaussians", R.Input.size()},
-        {"sh_degree", R.Input.ShDegree}}},
+        {"gaussians", R.Input.Gaussians.size()},
+        {"sh_degree", R.Input.Gaussians.ShDegree},
+        {"format", name(R.Input.Format)},
+        {"axes_changed", R.AxesChange}}},
       {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
       {"view", R.View.Name},
       {"resolution", {R.View.Width, R.View.Height}},

@@ -1,6 +1,7 @@
 /// What a render did, for people and for programs.
 #pragma once
 
+#include "../io/SceneFile.h"
 #include "Renderer.h"
 
 #include <string>
@@ -9,8 +10,8 @@ namespace vorion::splat {
 
 /// Everything that made a picture.
 struct RenderRecord {
-  const std::string &SceneFile, &CameraFile, &Output;
-  const Scene &Input;
+  const std::string &ScenePath, &AxesChange, &CameraFile, &Output;
+  const SceneFile &Input;
   const Camera &View;
   const RenderOptions &Options;
   const RenderPlan &Plan;

@@ -1,0 +1,32 @@
+#include "../io/Ply.h"
+#include "Commands.h"
+#include "SceneArguments.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+
+namespace vorion::splat {
+
+Runner addConvert(CLI::App &App) {
+  struct Arguments {
+    SceneArguments Scene;
+    std::string Output;
+  };
+  auto A = std::make_shared<Arguments>();
+  addSceneOptions(App, A->Scene);
+  App.add_option("-o,--output", A->Output, "Scene to write (INRIA's PLY)")
+      ->required();
+  return [A]() -> Expected<Success> {
+    const auto File = loadScene(A->Scene);
+    if (!File)
+      return File.error();
+    if (auto Written = writePly(A->Output, File->Gaussians); !Written)
+      return Written.error();
+    fmt::print("{}: {} Gaussians, SH degree {}\n", A->Output,
+               File->Gaussians.size(), File->Gaussians.ShDegree);
+    return Success{};
+  };
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,115 @@
+#include "../io/Hash.h"
+#include "../io/Statistics.h"
+#include "Commands.h"
+#include "SceneArguments.h"
+#include "vorion/support/File.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct InfoArguments {
+  SceneArguments Scene;
+  std::string JsonFile;
+};
+
+Json json(const Spread &S) {
+  return {{"min", S.Least},
+          {"median", S.Median},
+          {"mean", S.Mean},
+          {"max", S.Largest}};
+}
+
+std::string jsonReport(const InfoArguments &A, const SceneFile &F,
+                       const SceneStatistics &S, const std::string &Hash) {
+  const Json Report{
+      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+      {"scene", {{"file", A.Scene.Path}, {"fnv1a64", Hash}}},
+      {"format", name(F.Format)},
+      {"format_version", F.Version},
+      {"data_sets", F.Files},
+      {"gaussians", F.Gaussians.size()},
+      {"sh_degree", F.Gaussians.ShDegree},
+      {"antialiased", F.Antialiased},
+      {"documented_axes", documentedAxes(F.Format)},
+      {"axes_changed", A.Scene.Axes},
+      {"bounds", {{"min", S.Low}, {"max", S.High}}},
+      {"inner_bounds", {{"min", S.InnerLow}, {"max", S.InnerHigh}}},
+      {"opacity", json(S.Opacity)},
+      {"transparent_share", S.Transparent},
+      {"largest_scale", json(S.LargestScale)},
+      {"axis_ratio", json(S.AxisRatio)}};
+  return Report.dump(2) + "\n";
+}
+
+std::string textReport(const InfoArguments &A, const SceneFile &F,
+                       const SceneStatistics &S) {
+  std::string Text = fmt::format("{}: {}", A.Scene.Path, name(F.Format));
+  if (F.Version != 0)
+    Text += fmt::format(" version {}", F.Version);
+  if (F.Files > 1)
+    Text += fmt::format(", {} data sets", F.Files);
+  Text += fmt::format("\n{} Gaussians, SH degree {}{}\n", F.Gaussians.size(),
+                      F.Gaussians.ShDegree,
+                      F.Antialiased ? ", trained antialiased" : "");
+  Text += fmt::format("axes         {} by the format's documentation; {}\n",
+                      documentedAxes(F.Format),
+                      A.Scene.Axes.empty()
+                          ? "read as the file has them"
+                          : "changed " + A.Scene.Axes + " as asked for");
+  const auto Box = [&](const char *Name, const std::array<double, 3> &Low,
+                       const std::array<double, 3> &High) {
+    Text +=
+        fmt::format("{:<13}x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z "
+                    "{:.6g} to {:.6g}\n",
+                    Name, Low[0], High[0], Low[1], High[1], Low[2], High[2]);
+  };
+  Box("bounds", S.Low, S.High);
+  Box("98 % within", S.InnerLow, S.InnerHigh);
+  const auto Row = [&](const char *Name, const Spread &V) {
+    Text += fmt::format("{:<13}min {:.4g}, median {:.4g}, mean {:.4g}, max "
+                        "{:.4g}\n",
+                        Name, V.Least, V.Median, V.Mean, V.Largest);
+  };
+  Row("opacity", S.Opacity);
+  Text +=
+      fmt::format("             {:.2f} % below 1/255\n", 100 * S.Transparent);
+  Row("longest axis", S.LargestScale);
+  Row("axis ratio", S.AxisRatio);
+  return Text;
+}
+
+Expected<Success> run(const InfoArguments &A) {
+  const auto File = loadScene(A.Scene);
+  if (!File)
+    return File.error();
+  const SceneStatistics S = statisticsOf(File->Gaussians);
+  if (!A.JsonFile.empty()) {
+    const auto Hash = hashScene(A.Scene.Path);
+    if (!Hash)
+      return Hash.error();
+    if (auto Written =
+            writeFileAtomically(A.JsonFile, jsonReport(A, *File, S, *Hash));
+        !Written)
+      return Written;
+  }
+  fmt::print("{}", textReport(A, *File, S));
+  return Success{};
+}
+
+} // namespace
+
+Runner addInfo(CLI::App &App) {
+  auto A = std::make_shared<InfoArguments>();
+  addSceneOptions(App, A->Scene);
+  App.add_option("--json", A->JsonFile, "Write the same for programs");
+  return [A] { return run(*A); };
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,56 @@
+/// Looking into the bytes of a file.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace vorion::splat {
+
+static_assert(std::endian::native == std::endian::little,
+              "numbers are copied between file and memory as they are");
+
+using Bytes = std::span<const std::byte>;
+
+inline std::string_view asText(Bytes B) {
+  return {reinterpret_cast<const char *>(B.data()), B.size()};
+}
+
+/// The number of type \p T at byte \p At, which need not be aligned.
+template <typename T> T load(Bytes B, std::size_t At) {
+  assert(At + sizeof(T) <= B.size());
+  T Value;
+  std::memcpy(&Value, B.data() + At, sizeof(T));
+  return Value;
+}
+
+inline unsigned byteAt(Bytes B, std::size_t At) {
+  return load<std::uint8_t>(B, At);
+}
+
+/// \p Text as a message of one line may show it: of a damaged file, it may be
+/// anything.
+inline std::string printable(std::string_view Text) {
+  constexpr std::size_t Longest = 80;
+  std::string Shown(Text.substr(0, Longest));
+  std::replace_if(
+      Shown.begin(), Shown.end(), [](char C) { return C < ' ' || C > '~'; },
+      '?');
+  return Shown;
+}
+
+/// The most that \p Encoded bytes of an archive or picture may unpack to:
+/// Deflate cannot exceed 1032:1, and nothing sensible that the other codecs
+/// pack does; small files are let be. Bounds memory by the file's size.
+constexpr std::size_t unpackLimit(std::size_t Encoded) {
+  constexpr std::size_t Deflate = 1032, Small = std::size_t(4) << 20;
+  return Encoded * Deflate + Small;
+}
+
+} // namespace vorion::splat

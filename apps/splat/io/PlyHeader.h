@@ -1,0 +1,53 @@
+/// The header of a PLY file: its elements and where their properties lie.
+#pragma once
+
+#include "Bytes.h"
+#include "vorion/support/Expected.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::splat {
+
+/// What the readers tell apart; \c Other is any scalar that they only skip.
+enum class PlyType { Float, UInt, UChar, Other };
+
+/// A scalar property: where it lies in each row of its element.
+struct PlyProperty {
+  std::string Name;
+  std::size_t Offset = 0;
+  PlyType Type = PlyType::Other;
+};
+
+struct PlyElement {
+  std::string Name;
+  std::size_t Count = 0;
+  std::size_t Stride = 0; ///< bytes of a row
+  std::size_t Start = 0;  ///< of the first row, bytes from the file's start
+  std::vector<PlyProperty> Properties;
+
+  const PlyProperty *find(std::string_view Property) const;
+  /// The offsets in a row of \p Names, which must all have type \p Type.
+  Expected<std::vector<std::size_t>>
+  offsets(const std::string &Where, const std::vector<std::string> &Names,
+          PlyType Type) const;
+};
+
+struct PlyHeader {
+  std::vector<PlyElement> Elements;
+
+  const PlyElement *find(std::string_view Element) const;
+};
+
+/// The properties f_rest_* for \p ShDegree in the scene's order: a file numbers
+/// them channel by channel, the scene has them coefficient by coefficient.
+std::vector<std::string> plyRestNames(int ShDegree);
+
+/// Reads the header of a binary little-endian PLY of scalar properties; \p File
+/// holds exactly the rows that it declares, or the result is an error. Errors
+/// of the header name the line.
+Expected<PlyHeader> readPlyHeader(const std::string &Where, Bytes File);
+
+} // namespace vorion::splat

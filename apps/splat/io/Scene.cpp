@@ -1,0 +1,56 @@
+#include "Scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+Scene Scene::sized(std::size_t Count, int ShDegree) {
+  Scene S;
+  S.ShDegree = ShDegree;
+  S.Means.resize(3 * Count);
+  S.LogScales.resize(3 * Count);
+  S.Quats.resize(4 * Count);
+  S.OpacityLogits.resize(Count);
+  S.Sh.resize(3 * Count * S.coefficients());
+  return S;
+}
+
+Expected<Success> checkFinite(const std::string &Where, const Scene &S) {
+  std::size_t First = S.size();
+  const auto Check = [&](const std::vector<float> &Values, std::size_t Each) {
+    const auto Bad = std::find_if(Values.begin(), Values.end(),
+                                  [](float V) { return !std::isfinite(V); });
+    if (Bad != Values.end())
+      First = std::min(First,
+                       static_cast<std::size_t>(Bad - Values.begin()) / Each);
+  };
+  Check(S.Means, 3);
+  Check(S.LogScales, 3);
+  Check(S.Quats, 4);
+  Check(S.OpacityLogits, 1);
+  Check(S.Sh, 3 * S.coefficients());
+  if (First < S.size())
+    return Error{Where, fmt::format("Gaussian {} holds a NaN or an infinity, "
+                                    "expected finite values",
+                                    First)};
+  return Success{};
+}
+
+void append(Scene &To, const Scene &From, std::size_t First,
+            std::size_t Count) {
+  assert(To.ShDegree == From.ShDegree && First + Count <= From.size());
+  const auto Copy = [&](std::vector<float> &Out, const std::vector<float> &In,
+                        std::size_t Each) {
+    const float *Start = In.data() + First * Each;
+    Out.insert(Out.end(), Start, Start + Count * Each);
+  };
+  Copy(To.Means, From.Means, 3);
+  Copy(To.LogScales, From.LogScales, 3);
+  Copy(To.Quats, From.Quats, 4);
+  Copy(To.OpacityLogits, From.OpacityLogits, 1);
+  Copy(To.Sh, From.Sh, 3 * From.coefficients());
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,92 @@
+#include "SceneFile.h"
+
+#include "Gzip.h"
+#include "Ply.h"
+#include "SogFolder.h"
+#include "Splat.h"
+#include "Spz.h"
+#include "Zip.h"
+#include "vorion/support/File.h"
+
+#include <filesystem>
+
+namespace vorion::splat {
+namespace {
+
+/// What every scene must fulfil, whatever it came from.
+Expected<SceneFile> checked(const std::string &Where,
+                            Expected<SceneFile> Read) {
+  if (!Read)
+    return Read;
+  if (Read->Gaussians.size() == 0)
+    return Error{Where, "no Gaussian, expected at least one"};
+  if (auto Finite = checkFinite(Where, Read->Gaussians); !Finite)
+    return Finite.error();
+  return Read;
+}
+
+Expected<SceneFile> parse(const std::string &Where, Bytes File) {
+  const std::string_view Text = asText(File);
+  if (Text.starts_with("ply\n") || Text.starts_with("ply\r"))
+    return parsePly(Where, File);
+  if (isGzip(File) || Text.starts_with("NGSP"))
+    return parseSpz(Where, File);
+  if (isZip(File))
+    return parseSogZip(Where, File);
+  return parseSplat(Where, File);
+}
+
+} // namespace
+
+std::string_view name(SceneFormat F) {
+  switch (F) {
+  case SceneFormat::Ply:
+    return "ply";
+  case SceneFormat::CompressedPly:
+    return "compressed-ply";
+  case SceneFormat::Splat:
+    return "splat";
+  case SceneFormat::Spz:
+    return "spz";
+  case SceneFormat::Sog:
+    return "sog";
+  case SceneFormat::StreamedSog:
+    return "streamed-sog";
+  }
+  __builtin_unreachable();
+}
+
+std::string_view documentedAxes(SceneFormat F) {
+  switch (F) {
+  case SceneFormat::Ply:
+  case SceneFormat::CompressedPly:
+  case SceneFormat::Splat:
+    return "rdf";
+  case SceneFormat::Spz:
+  case SceneFormat::Sog:
+  case SceneFormat::StreamedSog:
+    return "rub";
+  }
+  __builtin_unreachable();
+}
+
+Expected<SceneFile> parseScene(const std::string &Where, Bytes File) {
+  return checked(Where, parse(Where, File));
+}
+
+Expected<SceneFile> readScene(const std::string &Path,
+                              const ReadOptions &Options) {
+  std::error_code Ignored;
+  if (std::filesystem::is_directory(Path, Ignored))
+    return checked(Path, readSogFolder(Path, Options));
+  const auto File = readFile(Path);
+  if (!File)
+    return File.error();
+  const std::string_view Text = asText(*File);
+  const std::size_t Start = Text.find_first_not_of(" \t\r\n");
+  if (Start != std::string_view::npos && Text[Start] == '{')
+    return checked(Path, readSogJson(Path, *File, Options));
+  return parseScene(Path, *File);
+}
+
+} // namespace vorion::splat

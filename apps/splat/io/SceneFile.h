@@ -1,0 +1,48 @@
+/// Scenes of any format: told apart by their content, never by their name.
+#pragma once
+
+#include "Bytes.h"
+#include "Scene.h"
+#include "vorion/support/Expected.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace vorion::splat {
+
+enum class SceneFormat { Ply, CompressedPly, Splat, Spz, Sog, StreamedSog };
+
+/// As reports have it: ply, compressed-ply, splat, spz, sog, streamed-sog.
+std::string_view name(SceneFormat F);
+
+/// The directions of +x, +y and +z that the format's own documentation states,
+/// as in Axes.h ("rdf", "rub"); readers never convert to or from them.
+std::string_view documentedAxes(SceneFormat F);
+
+/// A scene and what its file says about it.
+struct SceneFile {
+  Scene Gaussians;
+  SceneFormat Format = SceneFormat::Ply;
+  int Version = 0; ///< of the format; 0 where files carry none
+  /// Trained with opacity compensated for the dilation (render it so with
+  /// `--antialiased`); false where the format cannot say.
+  bool Antialiased = false;
+  std::size_t Files = 1; ///< data sets that were joined: chunks of a folder
+};
+
+/// What a reader may choose.
+struct ReadOptions {
+  int LevelOfDetail = 0; ///< of a streamed scene; 0 is the finest
+};
+
+/// Reads a file or, for SOG, a folder. Every reader gives finite values only;
+/// see docs/scenes.md for what each format keeps and what is refused.
+/// Memory follows the size of what is read, never a count that a header claims.
+Expected<SceneFile> readScene(const std::string &Path,
+                              const ReadOptions &Options = {});
+
+/// The same for the content of a file that stands alone (no folder).
+Expected<SceneFile> parseScene(const std::string &Where, Bytes File);
+
+} // namespace vorion::splat

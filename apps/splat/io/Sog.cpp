@@ -1,0 +1,267 @@
+#include "Sog.h"
+
+#include "Dequantize.h"
+#include "WebP.h"
+#include "Zip.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Entries of the SH palette in a row of its plane.
+constexpr std::size_t PaletteRow = 64;
+constexpr std::size_t CodebookSize = 256;
+
+/// Takes numbers and names out of meta.json and planes out of the data set.
+/// Once something is wrong, \c Problem says what, and nothing more is done.
+class Reader {
+public:
+  Reader(const std::string &Where, Bytes Meta, const FileSource &Read)
+      : Where(Where), Read(Read),
+        Root(Json::parse(asText(Meta), nullptr, /*allow_exceptions=*/false)) {}
+
+  Expected<SceneFile> read() {
+    if (!Root.is_object())
+      return metaError("not a JSON object, expected SOG's description");
+    const auto Version = Root.find("version");
+    if (Version == Root.end())
+      return metaError("no version, expected 2 (version 1 is not read)");
+    if (*Version != 2)
+      return metaError("another version, expected 2");
+    const auto Claimed = Root.find("count");
+    if (Claimed == Root.end() || !Claimed->is_number_unsigned())
+      return metaError("count is no whole number, expected 1 or more");
+    Count = Claimed->get<std::uint64_t>();
+
+    // Every plane is there before the scene is made, so that its size is
+    // bounded by the pictures' and not by what the description says.
+    const Plane Low = plane("means", 0), High = plane("means", 1);
+    const auto Mins = numbers("means", "mins", 3),
+               Maxs = numbers("means", "maxs", 3);
+    const Plane Quats = plane("quats", 0), Scales = plane("scales", 0),
+                Colors = plane("sh0", 0);
+    const auto ScaleBook = numbers("scales", "codebook", CodebookSize),
+               ColorBook = numbers("sh0", "codebook", CodebookSize);
+    Palette Later;
+    if (Root.contains("shN"))
+      Later = palette();
+    if (Problem)
+      return *Problem;
+
+    SceneFile Result;
+    Result.Format = SceneFormat::Sog;
+    Result.Version = 2;
+    const auto Antialias = Root.find("antialias");
+    Result.Antialiased = Antialias != Root.end() && *Antialias == true;
+    Scene &S = Result.Gaussians = Scene::sized(Count, Later.Degree);
+    const std::size_t ShEach = 3 * S.coefficients();
+    for (std::size_t I = 0; I < Count; ++I) {
+      for (std::size_t A = 0; A < 3; ++A) {
+        S.Means[3 * I + A] = position(lerp(
+            Mins[A], Maxs[A], (Low.at(I, A) | High.at(I, A) << 8) / 65535.0));
+        S.LogScales[3 * I + A] = static_cast<float>(ScaleBook[Scales.at(I, A)]);
+        S.Sh[ShEach * I + A] = static_cast<float>(ColorBook[Colors.at(I, A)]);
+      }
+      S.OpacityLogits[I] = byteOpacityLogits()[Colors.at(I, 3)];
+      if (!unpackQuat(Quats, I, &S.Quats[4 * I]))
+        return Error{file("quats", 0),
+                     fmt::format("rotation {} has the mark {}, expected 252 "
+                                 "to 255",
+                                 I, Quats.at(I, 3))};
+      if (Later.Degree > 0 && !Later.copy(I, &S.Sh[ShEach * I + 3]))
+        return Error{file("shN", 1),
+                     fmt::format("Gaussian {} has palette entry {}, expected "
+                                 "less than {}",
+                                 I, Later.label(I), Later.Entries)};
+    }
+    return Result;
+  }
+
+private:
+  /// Coefficients from degree 1 on, shared by Gaussians.
+  struct Palette {
+    int Degree = 0;
+    std::size_t Entries = 0;
+    std::vector<double> Book;
+    Plane Centroids, Labels;
+
+    std::size_t label(std::size_t Gaussian) const {
+      return Labels.at(Gaussian, 0) | Labels.at(Gaussian, 1) << 8;
+    }
+
+    /// Writes the coefficients of a Gaussian; false if it has none.
+    bool copy(std::size_t Gaussian, float *To) const {
+      const std::size_t Label = label(Gaussian);
+      if (Label >= Entries)
+        return false;
+      const std::size_t Later = shCoefficients(Degree) - 1;
+      const std::size_t First =
+          Label / PaletteRow * Centroids.Width + Label % PaletteRow * Later;
+      for (std::size_t K = 0; K < Later; ++K)
+        for (std::size_t C = 0; C < 3; ++C)
+          To[3 * K + C] = static_cast<float>(Book[Centroids.at(First + K, C)]);
+      return true;
+    }
+  };
+
+  /// Undoes v = sign(x) ln(|x| + 1).
+  static float position(double V) {
+    return static_cast<float>(std::copysign(std::expm1(std::abs(V)), V));
+  }
+
+  /// Three components, of bytes for -1/sqrt(2) to 1/sqrt(2), and a mark for
+  /// the one that is missing. Writes w, x, y, z; false if the mark is none.
+  static bool unpackQuat(const Plane &P, std::size_t I, float *To) {
+    const unsigned Mark = P.at(I, 3);
+    if (Mark < 252)
+      return false;
+    std::array<double, 3> Others{};
+    for (std::size_t C = 0; C < 3; ++C)
+      Others[C] = (P.at(I, C) / 127.5 - 1) / std::numbers::sqrt2;
+    const auto Quat = completeQuat(Mark - 252, Others);
+    for (std::size_t K = 0; K < 4; ++K)
+      To[K] = static_cast<float>(Quat[K]);
+    return true;
+  }
+
+  Error metaError(std::string What) const {
+    return Error{Where + ": meta.json", std::move(What)};
+  }
+
+  /// Keeps the first thing that is wrong.
+  void fail(Error E) {
+    if (!Problem)
+      Problem = std::move(E);
+  }
+
+  /// \p Key of the group \p Group; null where there is none.
+  const Json &value(const char *Group, const char *Key) const {
+    static const Json None;
+    const auto G = Root.find(Group);
+    if (G == Root.end() || !G->is_object())
+      return None;
+    const auto V = G->find(Key);
+    return V == G->end() ? None : *V;
+  }
+
+  std::vector<double> numbers(const char *Group, const char *Key,
+                              std::size_t Size) {
+    const Json &V = value(Group, Key);
+    std::vector<double> Result;
+    if (V.is_array() && V.size() == Size)
+      for (const Json &N : V)
+        if (N.is_number())
+          Result.push_back(N.get<double>());
+    if (Result.size() != Size)
+      fail(metaError(
+          fmt::format("{}.{}: expected {} finite numbers", Group, Key, Size)));
+    return Result;
+  }
+
+  /// The name of a file of \p Group for messages.
+  std::string file(const char *Group, std::size_t Index) const {
+    const Json &Files = value(Group, "files");
+    return fmt::format("{}: {}", Where,
+                       printable(Files[Index].get_ref<const std::string &>()));
+  }
+
+  /// A picture as it is.
+  Plane picture(const char *Group, std::size_t Index) {
+    if (Problem)
+      return {};
+    const Json &Files = value(Group, "files");
+    if (!Files.is_array() || Index >= Files.size() ||
+        !Files[Index].is_string()) {
+      fail(metaError(fmt::format("{}.files: expected the name of picture {}",
+                                 Group, Index + 1)));
+      return {};
+    }
+    const auto Content = Read(Files[Index].get<std::string>());
+    if (!Content) {
+      fail(Content.error());
+      return {};
+    }
+    FileSizes += Content->size();
+    auto P = decodeWebP(file(Group, Index), *Content, unpackLimit(FileSizes));
+    if (!P) {
+      fail(P.error());
+      return {};
+    }
+    return std::move(*P);
+  }
+
+  /// A picture with a pixel for each Gaussian.
+  Plane plane(const char *Group, std::size_t Index) {
+    Plane P = picture(Group, Index);
+    if (!Problem && P.pixels() < Count)
+      fail({file(Group, Index),
+            fmt::format("{}x{} pixels, expected one for each of {} Gaussians",
+                        P.Width, P.Height, Count)});
+    return P;
+  }
+
+  Palette palette() {
+    Palette P;
+    const Json &Bands = value("shN", "bands"), &Entries = value("shN", "count");
+    if (!Bands.is_number_unsigned() || Bands.get<std::uint64_t>() < 1 ||
+        Bands.get<std::uint64_t>() > static_cast<unsigned>(MaxShDegree)) {
+      fail(metaError("shN.bands: expected 1, 2 or 3"));
+      return P;
+    }
+    P.Degree = Bands.get<int>();
+    if (!Entries.is_number_unsigned()) {
+      fail(metaError("shN.count is no whole number, expected 1 or more"));
+      return P;
+    }
+    P.Entries = Entries.get<std::uint64_t>();
+    P.Book = numbers("shN", "codebook", CodebookSize);
+    P.Centroids = picture("shN", 0);
+    P.Labels = plane("shN", 1);
+    const std::size_t Width = PaletteRow * (shCoefficients(P.Degree) - 1);
+    if (!Problem && (P.Centroids.Width != Width ||
+                     P.Entries > P.Centroids.Height * PaletteRow))
+      fail({file("shN", 0),
+            fmt::format("{}x{} pixels for {} palette entries of degree {}, "
+                        "expected {} a row and {} rows",
+                        P.Centroids.Width, P.Centroids.Height, P.Entries,
+                        P.Degree, Width,
+                        P.Entries / PaletteRow +
+                            (P.Entries % PaletteRow != 0 ? 1 : 0))});
+    return P;
+  }
+
+  const std::string &Where;
+  const FileSource &Read;
+  Json Root;
+  std::size_t Count = 0;
+  std::size_t FileSizes = 0; ///< of all pictures so far
+  std::optional<Error> Problem;
+};
+
+} // namespace
+
+Expected<SceneFile> parseSog(const std::string &Where, Bytes Meta,
+                             const FileSource &Read) {
+  return Reader(Where, Meta, Read).read();
+}
+
+Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File) {
+  const auto Z = ZipArchive::open(Where, "a SOG archive", File);
+  if (!Z)
+    return Z.error();
+  const auto Meta = Z->read("meta.json");
+  if (!Meta)
+    return Meta.error();
+  return parseSog(Where, *Meta,
+                  [&Z](const std::string &Name) { return Z->read(Name); });
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,29 @@
+/// PlayCanvas's SOG, version 2: parameters as planes of WebP pictures.
+/// https://developer.playcanvas.com/user-manual/gaussian-splatting/formats/sog
+#pragma once
+
+#include "SceneFile.h"
+
+#include <functional>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Gives the content of a file of a data set by its name.
+using FileSource =
+    std::function<Expected<std::vector<std::byte>>(const std::string &Name)>;
+
+/// Decodes the data set that \p Meta, the content of meta.json, describes:
+/// positions of 16 bits between bounds of sign(x) ln(|x| + 1); log scales,
+/// colours and harmonics by codebooks of 256 numbers, harmonics in a palette
+/// of up to 65,536 entries; rotations of 8 bits for each of the three smallest
+/// components; opacity of 8 bits. \p Where names the data set. Refused:
+/// version 1, planes smaller than the count or out of proportion to their
+/// file, indices outside codebook or palette.
+Expected<SceneFile> parseSog(const std::string &Where, Bytes Meta,
+                             const FileSource &Read);
+
+/// A data set in a zip archive.
+Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File);
+
+} // namespace vorion::splat

@@ -1,0 +1,295 @@
+#include "SogFolder.h"
+
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr const char *IndexName = "lod-meta.json";
+constexpr const char *MetaName = "meta.json";
+
+/// Reads files below \p Folder, and none outside that a description names.
+FileSource filesOf(const fs::path &Folder) {
+  return [Folder](const std::string &Name) -> Expected<std::vector<std::byte>> {
+    const fs::path Relative(Name);
+    if (Name.empty() || Name.find('\0') != std::string::npos ||
+        Relative.is_absolute() ||
+        std::find(Relative.begin(), Relative.end(), "..") != Relative.end())
+      return Error{Folder.string(),
+                   fmt::format("names the file `{}`, expected one inside the "
+                               "folder",
+                               printable(Name))};
+    return readFile((Folder / Relative).string());
+  };
+}
+
+/// The data set whose description is \p Meta, a path from where \p Read starts.
+Expected<SceneFile> readDataSet(const std::string &Where,
+                                const std::string &Meta,
+                                const FileSource &Read) {
+  const auto Content = Read(Meta);
+  if (!Content)
+    return Content.error();
+  const fs::path Folder = fs::path(Meta).parent_path();
+  return parseSog(
+      Folder.empty() ? Where : Where + "/" + printable(Folder.string()),
+      *Content,
+      [&](const std::string &Name) { return Read((Folder / Name).string()); });
+}
+
+/// Joins data sets of one scene.
+class Joiner {
+public:
+  /// Appends Gaussians \p First to \p First + \p Count of \p Part.
+  Expected<Success> add(const std::string &Where, const SceneFile &Part,
+                        std::size_t First, std::size_t Count) {
+    if (Result.Files == 0) {
+      Result.Version = Part.Version;
+      Result.Gaussians.ShDegree = Part.Gaussians.ShDegree;
+    }
+    if (Result.Gaussians.ShDegree != Part.Gaussians.ShDegree)
+      return Error{Where, fmt::format("SH degree {}, expected {} as in the "
+                                      "first chunk",
+                                      Part.Gaussians.ShDegree,
+                                      Result.Gaussians.ShDegree)};
+    append(Result.Gaussians, Part.Gaussians, First, Count);
+    Result.Antialiased |= Part.Antialiased;
+    return Success{};
+  }
+
+  Expected<Success> addFile(const std::string &Where, const SceneFile &Part) {
+    auto Added = add(Where, Part, 0, Part.Gaussians.size());
+    ++Result.Files;
+    return Added;
+  }
+
+  SceneFile Result{{}, SceneFormat::StreamedSog, 0, false, 0};
+};
+
+/// Sub-folders of \p Path that hold a data set, by name.
+std::vector<std::string> chunksOf(const fs::path &Path) {
+  std::vector<std::string> Names;
+  std::error_code Ignored;
+  for (fs::directory_iterator It(Path, Ignored), End; It != End;
+       It.increment(Ignored))
+    if (fs::is_regular_file(It->path() / MetaName, Ignored))
+      Names.push_back(It->path().filename().string());
+  std::sort(Names.begin(), Names.end());
+  return Names;
+}
+
+Expected<SceneFile> readChunks(const std::string &Path) {
+  const auto Names = chunksOf(Path);
+  if (Names.empty())
+    return Error{Path, "a folder without meta.json, lod-meta.json or chunks, "
+                       "expected a SOG scene"};
+  // Writers call a chunk LEVEL_NUMBER. Several levels would be the same scene
+  // several times, and only the index says which belong together.
+  std::set<std::string> Levels;
+  for (const std::string &Name : Names)
+    if (Name.find('_') != std::string::npos)
+      Levels.insert(Name.substr(0, Name.find('_')));
+  if (Levels.size() > 1)
+    return Error{Path, fmt::format("chunks of {} levels of detail, expected "
+                                   "one, or {} that tells them apart",
+                                   Levels.size(), IndexName)};
+  Joiner J;
+  const FileSource Read = filesOf(Path);
+  for (const std::string &Name : Names) {
+    const auto Part = readDataSet(Path, Name + "/" + MetaName, Read);
+    if (!Part)
+      return Part.error();
+    if (auto Added = J.addFile(Path + "/" + Name, *Part); !Added)
+      return Added.error();
+  }
+  return std::move(J.Result);
+}
+
+/// Gaussians \p Offset to \p Offset + \p Count of a chunk.
+struct Run {
+  std::uint64_t Offset = 0, Count = 0;
+};
+
+/// The runs of one level of detail, by chunk, from the tree of an index. The
+/// tree is walked without recursion: a damaged file may nest it deeply.
+class TreeWalk {
+public:
+  TreeWalk(const Json &Index, int Level)
+      : Files(Index["filenames"].size()), Level(std::to_string(Level)) {
+    Pending.push_back(&Index["tree"]);
+  }
+
+  /// What is wrong with the tree, if anything.
+  std::optional<std::string> walk() {
+    while (!Pending.empty()) {
+      const Json &Node = *Pending.back();
+      Pending.pop_back();
+      if (!Node.is_object())
+        return "a node of the tree is no object, expected children or lods";
+      if (const auto Children = Node.find("children"); Children != Node.end())
+        for (const Json &Child : *Children)
+          Pending.push_back(&Child);
+      if (const auto Lods = Node.find("lods"); Lods != Node.end())
+        if (auto Problem = leaf(*Lods))
+          return Problem;
+    }
+    return std::nullopt;
+  }
+
+  std::map<std::size_t, std::vector<Run>> Runs;
+
+private:
+  static std::optional<std::uint64_t> number(const Json &Leaf,
+                                             const char *Key) {
+    const auto V = Leaf.find(Key);
+    if (V == Leaf.end() || !V->is_number_unsigned())
+      return std::nullopt;
+    return V->get<std::uint64_t>();
+  }
+
+  std::optional<std::string> leaf(const Json &Lods) {
+    if (!Lods.is_object())
+      return "lods of the tree is no object, expected runs by level";
+    const auto Entry = Lods.find(Level);
+    if (Entry == Lods.end())
+      return std::nullopt; // nothing there at this level
+    if (!Entry->is_object())
+      return "a run of the tree is no object, expected file, offset and count";
+    const auto File = number(*Entry, "file"), Offset = number(*Entry, "offset"),
+               Count = number(*Entry, "count");
+    if (!File || !Offset || !Count || *File >= Files)
+      return fmt::format("a run of the tree is not whole, expected file (below "
+                         "{}), offset and count",
+                         Files);
+    Runs[*File].push_back({*Offset, *Count});
+    return std::nullopt;
+  }
+
+  std::size_t Files;
+  std::string Level;
+  std::vector<const Json *> Pending;
+};
+
+/// Appends \p Runs of \p Part.
+Expected<Success> addRuns(Joiner &J, const std::string &Where,
+                          const SceneFile &Part, std::vector<Run> Runs) {
+  std::sort(Runs.begin(), Runs.end(),
+            [](const Run &A, const Run &B) { return A.Offset < B.Offset; });
+  const std::uint64_t Size = Part.Gaussians.size();
+  std::uint64_t End = 0;
+  for (const Run &R : Runs) {
+    if (R.Offset < End || R.Offset > Size || R.Count > Size - R.Offset)
+      return Error{Where, fmt::format("Gaussians {} to {} + {} of {} are "
+                                      "listed, expected runs apart from each "
+                                      "other inside the chunk",
+                                      R.Offset, R.Offset, R.Count, Size)};
+    End = R.Offset + R.Count;
+    if (auto Added = J.add(Where, Part, R.Offset, R.Count); !Added)
+      return Added;
+  }
+  ++J.Result.Files;
+  return Success{};
+}
+
+Expected<Success> checkIndex(const std::string &Where, const Json &Index,
+                             const ReadOptions &Options) {
+  if (!Index.is_object())
+    return Error{Where, "not a JSON object, expected the index of a streamed "
+                        "SOG scene"};
+  // Files from before the format had versions have none.
+  if (const auto V = Index.find("version"); V != Index.end() && *V != 1)
+    return Error{Where, "another version of the index, expected 1"};
+  const auto Levels = Index.find("lodLevels");
+  if (Levels == Index.end() || !Levels->is_number_unsigned() || *Levels == 0)
+    return Error{Where, "lodLevels is no whole number, expected 1 or more"};
+  if (*Levels <= Options.LevelOfDetail)
+    return Error{Where,
+                 fmt::format("no level of detail {}, expected less than {}",
+                             Options.LevelOfDetail,
+                             Levels->get<std::uint64_t>()),
+                 ExitCode::Usage};
+  const auto Files = Index.find("filenames");
+  if (Files == Index.end() || !Files->is_array() ||
+      !std::all_of(Files->begin(), Files->end(),
+                   [](const Json &F) { return F.is_string(); }))
+    return Error{Where, "filenames is no list of names, expected the chunks"};
+  if (!Index.contains("tree"))
+    return Error{Where, "no tree, expected the chunks' places"};
+  return Success{};
+}
+
+} // namespace
+
+Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
+                                     const FileSource &Read,
+                                     const ReadOptions &Options) {
+  const Json Index =
+      Json::parse(asText(Content), nullptr, /*allow_exceptions=*/false);
+  const std::string IndexWhere = Where + ": " + IndexName;
+  if (auto Checked = checkIndex(IndexWhere, Index, Options); !Checked)
+    return Checked.error();
+  TreeWalk Tree(Index, Options.LevelOfDetail);
+  if (auto Problem = Tree.walk())
+    return Error{IndexWhere, *Problem};
+
+  Joiner J;
+  for (auto &[File, Runs] : Tree.Runs) {
+    const auto Name = Index["filenames"][File].get<std::string>();
+    const auto Part = readDataSet(Where, Name, Read);
+    if (!Part)
+      return Part.error();
+    if (auto Added =
+            addRuns(J, Where + ": " + printable(Name), *Part, std::move(Runs));
+        !Added)
+      return Added.error();
+  }
+  if (const auto E = Index.find("environment");
+      E != Index.end() && E->is_string()) {
+    const auto Part = readDataSet(Where, E->get<std::string>(), Read);
+    if (!Part)
+      return Part.error();
+    if (auto Added = J.addFile(Where + ": environment", *Part); !Added)
+      return Added.error();
+  }
+  return std::move(J.Result);
+}
+
+Expected<SceneFile> readSogFolder(const std::string &Path,
+                                  const ReadOptions &Options) {
+  std::error_code Ignored;
+  for (const char *Name : {IndexName, MetaName})
+    if (const fs::path File = fs::path(Path) / Name;
+        fs::exists(File, Ignored)) {
+      const auto Content = readFile(File.string());
+      if (!Content)
+        return Content.error();
+      return readSogJson(File.string(), *Content, Options);
+    }
+  return readChunks(Path);
+}
+
+Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
+                                const ReadOptions &Options) {
+  fs::path Folder = fs::path(Path).parent_path();
+  if (Folder.empty())
+    Folder = ".";
+  const Json Root =
+      Json::parse(asText(File), nullptr, /*allow_exceptions=*/false);
+  if (Root.is_object() && (Root.contains("tree") || Root.contains("lodLevels")))
+    return parseStreamedSog(Folder.string(), File, filesOf(Folder), Options);
+  return parseSog(Folder.string(), File, filesOf(Folder));
+}
+
+} // namespace vorion::splat

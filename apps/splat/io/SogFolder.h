@@ -1,0 +1,27 @@
+/// SOG in folders: one data set, chunks side by side, or a streamed scene.
+/// https://developer.playcanvas.com/user-manual/gaussian-splatting/formats/streamed-sog
+#pragma once
+
+#include "Sog.h"
+
+namespace vorion::splat {
+
+/// Reads a folder that has `lod-meta.json` (a streamed scene), `meta.json` (one
+/// data set), or sub-folders with `meta.json` (chunks of one level of detail,
+/// joined in the order of their names).
+Expected<SceneFile> readSogFolder(const std::string &Path,
+                                  const ReadOptions &Options);
+
+/// Reads the folder around \p Path, a `meta.json` or `lod-meta.json` whose
+/// content is \p File.
+Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
+                                const ReadOptions &Options);
+
+/// Decodes what \p Index, the content of lod-meta.json, lists for one level of
+/// detail, and the environment if there is one. Every run of Gaussians that a
+/// leaf of the tree names must lie in its chunk, apart from all others.
+Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Index,
+                                     const FileSource &Read,
+                                     const ReadOptions &Options);
+
+} // namespace vorion::splat

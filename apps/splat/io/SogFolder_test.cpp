@@ -1,0 +1,114 @@
+#include "Compare.h"
+#include "Damage.h"
+#include "SogFolder.h"
+#include "TestFiles.h"
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+/// Writes \p Files below \p Name and gives the path.
+std::string written(const TestFolder &Root, const std::string &Name,
+                    const Folder &Files) {
+  for (const auto &[File, Content] : Files) {
+    const std::filesystem::path Path = Root.path(Name + "/" + File);
+    std::filesystem::create_directories(Path.parent_path());
+    EXPECT_TRUE(writeFileAtomically(Path.string(), Content));
+  }
+  return Root.path(Name);
+}
+
+SceneFile read(const std::string &Path, const ReadOptions &Options = {}) {
+  auto Read = readScene(Path, Options);
+  EXPECT_TRUE(Read) << Read.error().Where << ": " << Read.error().What;
+  return Read ? std::move(*Read) : SceneFile{};
+}
+
+/// Within what SOG keeps of the writers' scenes.
+void expectNear(const Scene &A, const Scene &B) {
+  const auto D = differencesOf(A, B);
+  EXPECT_LE(D.Mean, 0.01);
+  EXPECT_LE(D.LogScale, 0.02);
+}
+
+TEST(SogFolder, AFolderAndItsDescriptionAreTheSameScene) {
+  const TestFolder Root;
+  const Scene S = randomScene(20, 1, 5);
+  const std::string Path = written(Root, "s", sogOf(S));
+  const SceneFile Read = read(Path);
+  EXPECT_EQ(Read.Format, SceneFormat::Sog);
+  expectNear(Read.Gaussians, S);
+  EXPECT_EQ(read(Path + "/meta.json").Gaussians.Means, Read.Gaussians.Means);
+}
+
+TEST(SogFolder, ChunksAreJoinedInTheOrderOfTheirNames) {
+  const TestFolder Root;
+  const Scene A = randomScene(7, 0, 1), B = randomScene(9, 0, 2);
+  written(Root, "s/2_1", sogOf(B));
+  const std::string Path =
+      std::filesystem::path(written(Root, "s/2_0", sogOf(A))).parent_path();
+  Scene Both = A;
+  append(Both, B, 0, B.size());
+  const SceneFile Read = read(Path);
+  EXPECT_EQ(Read.Format, SceneFormat::StreamedSog);
+  EXPECT_EQ(Read.Files, 2U);
+  expectNear(Read.Gaussians, Both);
+}
+
+TEST(SogFolder, AStreamedSceneIsOneLevelAndTheEnvironment) {
+  const TestFolder Root;
+  const Scene Fine = randomScene(9, 1, 2), Coarse = randomScene(4, 1, 3),
+              Far = randomScene(3, 1, 4);
+  const std::string Path = written(Root, "s", streamedSogOf(Fine, Coarse, Far));
+  Scene Expected = Fine;
+  append(Expected, Far, 0, Far.size());
+  const SceneFile Read = read(Path);
+  EXPECT_EQ(Read.Files, 3U);
+  expectNear(Read.Gaussians, Expected);
+  expectNear(read(Path + "/lod-meta.json").Gaussians, Expected);
+
+  Expected = Coarse;
+  append(Expected, Far, 0, Far.size());
+  expectNear(read(Path, {1}).Gaussians, Expected);
+  const auto None = readScene(Path, {2});
+  ASSERT_FALSE(None);
+  EXPECT_EQ(None.error().Code, ExitCode::Usage);
+  EXPECT_NE(None.error().What.find("no level of detail 2"), std::string::npos);
+}
+
+TEST(SogFolder, EachKindOfDamageHasItsMessage) {
+  const TestFolder Root;
+  for (const DamagedFolder &F : damagedFolders()) {
+    const auto Read = readScene(written(Root, F.Name, F.Files));
+    ASSERT_FALSE(Read) << F.Name;
+    EXPECT_EQ(Read.error().Code, ExitCode::InputFile) << F.Name;
+    EXPECT_TRUE(Read.error().Where.starts_with(Root.path(F.Name))) << F.Name;
+    EXPECT_NE(Read.error().What.find(F.Message), std::string::npos)
+        << F.Name << ": " << Read.error().What;
+  }
+}
+
+TEST(SogFolder, ADeepTreeIsWalkedWithoutRecursion) {
+  std::string Tree = R"({"lods":{}})";
+  constexpr int Depth = 20000;
+  std::string Open, Close;
+  for (int I = 0; I < Depth; ++I) {
+    Open += R"({"children":[)";
+    Close += "]}";
+  }
+  const std::string Index =
+      R"({"version":1,"lodLevels":1,"filenames":[],"tree":)" + Open + Tree +
+      Close + "}";
+  const auto Read = parseStreamedSog(
+      "s", std::as_bytes(std::span(Index)),
+      [](const std::string &Name) -> Expected<std::vector<std::byte>> {
+        return Error{Name, "not asked for"};
+      },
+      {});
+  ASSERT_TRUE(Read) << Read.error().What; // readScene refuses that it is empty
+  EXPECT_EQ(Read->Gaussians.size(), 0U);
+}
+
+} // namespace

@@ -1,0 +1,66 @@
+#include "Compare.h"
+#include "SceneWriters.h"
+#include "Sog.h"
+
+#include <nlohmann/json.hpp>
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+SceneFile parsed(const std::string &Content) {
+  auto Read = parseScene("s", std::as_bytes(std::span(Content)));
+  EXPECT_TRUE(Read) << Read.error().Where << Read.error().What;
+  if (!Read)
+    return {};
+  EXPECT_EQ(Read->Format, SceneFormat::Sog);
+  EXPECT_EQ(Read->Version, 2);
+  return std::move(*Read);
+}
+
+TEST(Sog, RoundTripsWithinHalfAStepAtEveryDegree) {
+  for (int Degree = 0; Degree <= MaxShDegree; ++Degree) {
+    const Scene S = randomScene(100, Degree, 7);
+    const Scene Read = parsed(zipOf(sogOf(S))).Gaussians;
+    // 16 bits of ln(|x| + 1) on each side of zero, at most ln(51); a step there
+    // is |x| + 1 times as long in x.
+    const double LogStep = 2 * std::log(51.0) / 65535;
+    ASSERT_EQ(Read.Means.size(), S.Means.size());
+    for (std::size_t I = 0; I < S.Means.size(); ++I)
+      EXPECT_NEAR(Read.Means[I], S.Means[I],
+                  (std::abs(S.Means[I]) + 1) * LogStep / 2 * 1.001 + 1e-5);
+    const auto D = differencesOf(Read, S);
+    EXPECT_LE(D.LogScale, 8.0 / 255 / 2 + 1e-6);
+    EXPECT_LE(D.Opacity, 0.5 / 255 + 1e-6);
+    EXPECT_LE(D.Color, 1.8 / 255 / 2 + 1e-6);
+    EXPECT_LE(D.Later, 1.8 / 255 / 2 + 1e-6);
+    // Half a step of three components; the fourth takes at most their sum.
+    EXPECT_LE(D.Quat, 3 * std::sqrt(2) / 255 / 2 + 1e-6);
+    EXPECT_GT(D.Mean, 0);
+  }
+}
+
+TEST(Sog, TakesTheFilesThatItsDescriptionNames) {
+  const Scene S = randomScene(5, 1, 3);
+  Folder Files = sogOf(S);
+  nlohmann::json Meta = nlohmann::json::parse(Files["meta.json"]);
+  Files["other.bin"] = Files["quats.webp"];
+  Files.erase("quats.webp");
+  Meta["quats"]["files"][0] = "other.bin";
+  Meta["antialias"] = true;
+  Files["meta.json"] = Meta.dump();
+  const SceneFile Read = parsed(zipOf(Files));
+  EXPECT_TRUE(Read.Antialiased);
+  EXPECT_LE(differencesOf(Read.Gaussians, S).Quat, 0.01);
+}
+
+TEST(Sog, ALargePaletteContinuesInTheNextRow) {
+  // The writer gives each Gaussian an entry: 64 a row.
+  const Scene S = randomScene(130, 3, 4);
+  const auto D = differencesOf(parsed(zipOf(sogOf(S))).Gaussians, S);
+  EXPECT_LE(D.Later, 1.8 / 255 / 2 + 1e-6);
+}
+
+} // namespace

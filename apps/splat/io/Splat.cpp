@@ -1,0 +1,54 @@
+#include "Splat.h"
+
+#include "Dequantize.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace vorion::splat {
+namespace {
+
+constexpr std::size_t RecordSize = 32;
+constexpr float Plausible = 1e9F;
+
+} // namespace
+
+Expected<SceneFile> parseSplat(const std::string &Where, Bytes File) {
+  if (File.size() % RecordSize != 0)
+    return Error{Where, fmt::format("{} bytes and none of the other formats' "
+                                    "marks, expected .splat records of {} "
+                                    "bytes",
+                                    File.size(), RecordSize)};
+  const std::size_t Count = File.size() / RecordSize;
+  SceneFile Result;
+  Result.Format = SceneFormat::Splat;
+  Scene &S = Result.Gaussians = Scene::sized(Count, 0);
+  const auto &Logits = byteOpacityLogits();
+  for (std::size_t I = 0; I < Count; ++I) {
+    const Bytes Record = File.subspan(I * RecordSize, RecordSize);
+    for (std::size_t A = 0; A < 3; ++A) {
+      const auto Position = load<float>(Record, 4 * A);
+      const auto Scale = load<float>(Record, 12 + 4 * A);
+      // Written so that a NaN fails too.
+      if (!(std::abs(Position) <= Plausible) ||
+          !(Scale >= 0 && Scale <= Plausible))
+        return Error{Where,
+                     fmt::format("record {} has position {} and scale {} on "
+                                 "axis {}, expected a .splat file (numbers "
+                                 "up to 1e9, scales not negative)",
+                                 I, Position, Scale, A)};
+      S.Means[3 * I + A] = Position;
+      S.LogScales[3 * I + A] =
+          std::log(std::max(Scale, std::numeric_limits<float>::min()));
+      S.Sh[3 * I + A] = shOfColor(byteAt(Record, 24 + A) / 255.0);
+    }
+    S.OpacityLogits[I] = Logits[byteAt(Record, 27)];
+    for (std::size_t K = 0; K < 4; ++K)
+      S.Quats[4 * I + K] =
+          (static_cast<float>(byteAt(Record, 28 + K)) - 128) / 128;
+  }
+  return Result;
+}
+
+} // namespace vorion::splat

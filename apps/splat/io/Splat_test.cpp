@@ -1,0 +1,51 @@
+#include "Compare.h"
+#include "SceneWriters.h"
+#include "Splat.h"
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+Scene parsed(const std::string &Content) {
+  auto Read = parseScene("s", std::as_bytes(std::span(Content)));
+  EXPECT_TRUE(Read) << Read.error().What;
+  if (!Read)
+    return {};
+  EXPECT_EQ(Read->Format, SceneFormat::Splat);
+  return std::move(Read->Gaussians);
+}
+
+TEST(Splat, RoundTripsWithinAStep) {
+  const Scene S = randomScene(300, 0, 7);
+  const Scene Read = parsed(splatOf(S));
+  EXPECT_EQ(Read.Means, S.Means); // floats, as they are
+  const auto D = differencesOf(Read, S);
+  EXPECT_LE(D.LogScale, 1e-6); // exp and log, each rounded
+  EXPECT_LE(D.Opacity, 1.0 / 255 + 1e-6);
+  EXPECT_LE(D.Color, 1 / ShC0 / 255 + 1e-6);
+  // Components are cut down by up to 1/128; making the length 1 again may
+  // move one by the others' share, so by no more than all four.
+  for (std::size_t I = 0; I < S.Quats.size(); ++I)
+    EXPECT_NEAR(Read.Quats[I], S.Quats[I], 1.0 / 128 + 1e-6);
+  EXPECT_LE(D.Quat, 4.0 / 128);
+}
+
+TEST(Splat, BytesOfARecord) {
+  std::string Record;
+  for (const float V : {1.0F, -2.0F, 3.0F, 1.0F, 0.0F, std::exp(1.0F)})
+    Record.append(reinterpret_cast<const char *>(&V), sizeof(V));
+  Record += std::string("\x00\xff\x80\xff\x00\x80\xc0\xff", 8);
+  const Scene S = parsed(Record);
+  EXPECT_EQ(S.Means, (std::vector<float>{1, -2, 3}));
+  EXPECT_EQ(S.LogScales[0], 0);
+  EXPECT_NEAR(S.LogScales[1], -87.3365, 1e-4); // zero: smallest normal float
+  EXPECT_NEAR(S.LogScales[2], 1, 1e-7);
+  EXPECT_NEAR(S.Sh[0], -0.5 / ShC0, 1e-6);
+  EXPECT_NEAR(S.Sh[1], 0.5 / ShC0, 1e-6);
+  EXPECT_EQ(activate<float>(S).Opacities[0], 1);
+  EXPECT_EQ(S.Quats, (std::vector<float>{-1, 0, 0.5, 127.0F / 128}));
+}
+
+} // namespace

@@ -1,0 +1,157 @@
+#include "Spz.h"
+
+#include "Dequantize.h"
+#include "Gzip.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <vector>
+
+namespace vorion::splat {
+namespace {
+
+constexpr std::uint32_t Magic = 0x5053474e; // "NGSP"
+constexpr std::size_t HeaderSize = 16;
+constexpr unsigned AntialiasedFlag = 1;
+/// Steps of a colour byte for each unit of the constant coefficient: wider
+/// than a colour from 0 to 1 needs, as the other coefficients may bring it
+/// back into range.
+constexpr double ColorScale = 0.15;
+
+struct Header {
+  int Version = 0;
+  std::size_t Count = 0;
+  int ShDegree = 0;
+  int FractionalBits = 0;
+  bool Antialiased = false;
+
+  std::size_t rotationSize() const { return Version == 2 ? 3 : 4; }
+  std::size_t laterHarmonics() const {
+    return 3 * (shCoefficients(ShDegree) - 1);
+  }
+};
+
+Expected<Header> readHeader(const std::string &Where, Bytes File) {
+  if (File.size() < HeaderSize || load<std::uint32_t>(File, 0) != Magic)
+    return Error{Where, "not an SPZ file, expected `NGSP` and a header of 16 "
+                        "bytes"};
+  const auto Version = load<std::uint32_t>(File, 4);
+  if (Version != 2 && Version != 3)
+    return Error{Where,
+                 fmt::format("SPZ version {}, expected 2 or 3", Version)};
+  Header H;
+  H.Version = static_cast<int>(Version);
+  H.Count = load<std::uint32_t>(File, 8);
+  H.ShDegree = static_cast<int>(byteAt(File, 12));
+  H.FractionalBits = static_cast<int>(byteAt(File, 13));
+  const unsigned Flags = byteAt(File, 14);
+  H.Antialiased = (Flags & AntialiasedFlag) != 0;
+  if (H.ShDegree > MaxShDegree)
+    return Error{Where,
+                 fmt::format("SH degree {}, expected 0 to 3", H.ShDegree)};
+  if (H.FractionalBits > 24)
+    return Error{Where, fmt::format("{} fractional bits of 24-bit positions, "
+                                    "expected 0 to 24",
+                                    H.FractionalBits)};
+  // Flag 2 announces extensions, whose place depends on the writer.
+  if ((Flags & ~AntialiasedFlag) != 0 || byteAt(File, 15) != 0)
+    return Error{Where, fmt::format("flags {:#04x} and reserved byte {:#04x}, "
+                                    "expected no more than flag 0x01",
+                                    Flags, byteAt(File, 15))};
+  const std::size_t Each =
+      9 + 1 + 3 + 3 + H.rotationSize() + H.laterHarmonics();
+  const std::size_t Body = File.size() - HeaderSize;
+  if (Body % Each != 0 || Body / Each != H.Count)
+    return Error{Where, fmt::format("{} bytes after the header, expected {} "
+                                    "Gaussians of {} bytes",
+                                    Body, H.Count, Each)};
+  return H;
+}
+
+/// A little-endian signed number of 24 bits.
+std::int32_t signed24(Bytes B, std::size_t At) {
+  const std::uint32_t Word =
+      byteAt(B, At) | byteAt(B, At + 1) << 8 | byteAt(B, At + 2) << 16;
+  return static_cast<std::int32_t>(Word ^ 0x800000) - 0x800000;
+}
+
+/// x, y, z from a byte each; w is the positive root. Gives w, x, y, z.
+std::array<double, 4> unpackQuat2(Bytes B, std::size_t At) {
+  return completeQuat(0,
+                      {byteAt(B, At) / 127.5 - 1, byteAt(B, At + 1) / 127.5 - 1,
+                       byteAt(B, At + 2) / 127.5 - 1});
+}
+
+/// Two bits for which of x, y, z, w is missing, then the others in that order:
+/// a sign and nine bits of magnitude up to 1/sqrt(2). Gives w, x, y, z.
+std::array<double, 4> unpackQuat3(Bytes B, std::size_t At) {
+  const auto Word = load<std::uint32_t>(B, At);
+  std::array<double, 3> Others{};
+  for (int I = 0; I < 3; ++I) {
+    const std::uint32_t Field = Word >> (20 - 10 * I);
+    const double Magnitude = unorm(Field, 9) / std::numbers::sqrt2;
+    Others[static_cast<std::size_t>(I)] =
+        (Field & 0x200) != 0 ? -Magnitude : Magnitude;
+  }
+  const auto Xyzw = completeQuat(Word >> 30, Others);
+  return {Xyzw[3], Xyzw[0], Xyzw[1], Xyzw[2]};
+}
+
+Expected<SceneFile> decode(const std::string &Where, Bytes File) {
+  const auto H = readHeader(Where, File);
+  if (!H)
+    return H.error();
+  SceneFile Result;
+  Result.Format = SceneFormat::Spz;
+  Result.Version = H->Version;
+  Result.Antialiased = H->Antialiased;
+  const std::size_t Count = H->Count;
+  Scene &S = Result.Gaussians = Scene::sized(Count, H->ShDegree);
+
+  Bytes Rest = File.subspan(HeaderSize);
+  const auto Take = [&Rest](std::size_t Size) {
+    const Bytes Array = Rest.first(Size);
+    Rest = Rest.subspan(Size);
+    return Array;
+  };
+  const Bytes Positions = Take(9 * Count), Opacities = Take(Count),
+              Colors = Take(3 * Count), Scales = Take(3 * Count),
+              Rotations = Take(H->rotationSize() * Count),
+              Harmonics = Take(H->laterHarmonics() * Count);
+  const double Step = std::ldexp(1.0, -H->FractionalBits);
+  for (std::size_t I = 0; I < 3 * Count; ++I) {
+    S.Means[I] = static_cast<float>(signed24(Positions, 3 * I) * Step);
+    S.LogScales[I] = static_cast<float>(byteAt(Scales, I)) / 16 - 10;
+  }
+  const auto &Logits = byteOpacityLogits();
+  const std::size_t Later = H->laterHarmonics(), ShEach = Later + 3;
+  for (std::size_t I = 0; I < Count; ++I) {
+    S.OpacityLogits[I] = Logits[byteAt(Opacities, I)];
+    const auto Quat = H->Version == 2 ? unpackQuat2(Rotations, 3 * I)
+                                      : unpackQuat3(Rotations, 4 * I);
+    for (std::size_t K = 0; K < 4; ++K)
+      S.Quats[4 * I + K] = static_cast<float>(Quat[K]);
+    for (std::size_t C = 0; C < 3; ++C)
+      S.Sh[ShEach * I + C] = static_cast<float>(
+          (byteAt(Colors, 3 * I + C) / 255.0 - 0.5) / ColorScale);
+    for (std::size_t K = 0; K < Later; ++K)
+      S.Sh[ShEach * I + 3 + K] =
+          (static_cast<float>(byteAt(Harmonics, Later * I + K)) - 128) / 128;
+  }
+  return Result;
+}
+
+} // namespace
+
+Expected<SceneFile> parseSpz(const std::string &Where, Bytes File) {
+  if (!isGzip(File))
+    return decode(Where, File);
+  const auto Unpacked = unpackGzip(Where, File);
+  if (!Unpacked)
+    return Unpacked.error();
+  return decode(Where, *Unpacked);
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,32 @@
+#include "WebP.h"
+
+#include <fmt/format.h>
+#include <webp/decode.h>
+
+namespace vorion::splat {
+
+Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
+                           std::size_t Limit) {
+  const auto *Data = reinterpret_cast<const std::uint8_t *>(File.data());
+  WebPBitstreamFeatures Features;
+  if (WebPGetFeatures(Data, File.size(), &Features) != VP8_STATUS_OK)
+    return Error{Where, "not a WebP picture, expected a lossless one"};
+  if (Features.has_animation != 0)
+    return Error{Where, "an animation, expected a still WebP picture"};
+  Plane P;
+  P.Width = static_cast<std::size_t>(Features.width);
+  P.Height = static_cast<std::size_t>(Features.height);
+  const std::size_t Size = 4 * P.pixels(); // sides have 14 bits
+  if (Size > Limit)
+    return Error{Where, fmt::format("{}x{} pixels in a file of {} bytes, "
+                                    "expected at most {} bytes unpacked",
+                                    P.Width, P.Height, File.size(), Limit)};
+  P.Rgba.resize(Size);
+  if (!WebPDecodeRGBAInto(Data, File.size(),
+                          reinterpret_cast<std::uint8_t *>(P.Rgba.data()), Size,
+                          static_cast<int>(4 * P.Width)))
+    return Error{Where, "damaged WebP picture, expected a whole one"};
+  return P;
+}
+
+} // namespace vorion::splat

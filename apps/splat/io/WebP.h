@@ -1,0 +1,28 @@
+/// WebP pictures as planes of data.
+#pragma once
+
+#include "Bytes.h"
+#include "vorion/support/Expected.h"
+
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Pixels of four bytes r, g, b, a, row by row from the top.
+struct Plane {
+  std::size_t Width = 0, Height = 0;
+  std::vector<std::byte> Rgba;
+
+  std::size_t pixels() const { return Width * Height; }
+  unsigned at(std::size_t Pixel, std::size_t Channel) const {
+    return byteAt(Rgba, 4 * Pixel + Channel);
+  }
+};
+
+/// Decodes a still WebP of at most \p Limit bytes unpacked; a lossy one too,
+/// as nothing in it says that it holds data.
+Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
+                           std::size_t Limit);
+
+} // namespace vorion::splat

@@ -1,0 +1,142 @@
+#include "Zip.h"
+
+#include <fmt/format.h>
+#include <utility>
+#include <zip.h>
+
+namespace vorion::splat {
+namespace {
+
+struct FreeSource {
+  void operator()(zip_source_t *S) const { zip_source_free(S); }
+};
+using Source = std::unique_ptr<zip_source_t, FreeSource>;
+
+struct CloseEntry {
+  void operator()(zip_file_t *F) const { zip_fclose(F); }
+};
+
+std::string describe(zip_error_t &E) {
+  std::string Text = zip_error_strerror(&E);
+  zip_error_fini(&E);
+  return Text;
+}
+
+} // namespace
+
+bool isZip(Bytes File) {
+  return File.size() >= 4 && load<std::uint32_t>(File, 0) == 0x04034b50;
+}
+
+void ZipArchive::Discard::operator()(zip *Z) const { zip_discard(Z); }
+
+Expected<ZipArchive> ZipArchive::open(const std::string &Where,
+                                      const std::string &What, Bytes File) {
+  if (File.empty()) // which libzip takes for an archive without entries
+    return Error{Where, fmt::format("not {}: the file is empty", What)};
+  zip_error_t E;
+  zip_error_init(&E);
+  zip_source_t *Memory =
+      zip_source_buffer_create(File.data(), File.size(), 0, &E);
+  if (!Memory)
+    return Error{Where, describe(E), ExitCode::Internal};
+  zip_t *Z = zip_open_from_source(Memory, ZIP_RDONLY, &E);
+  if (!Z) {
+    zip_source_free(Memory);
+    return Error{Where, fmt::format("not {}: {}", What, describe(E))};
+  }
+  zip_error_fini(&E);
+  return ZipArchive(Where, File.size(), Z);
+}
+
+std::uint64_t ZipArchive::entries() const {
+  return static_cast<std::uint64_t>(zip_get_num_entries(Handle.get(), 0));
+}
+
+std::string ZipArchive::name(std::uint64_t Entry) const {
+  const char *Name = zip_get_name(Handle.get(), Entry, ZIP_FL_ENC_RAW);
+  return Name ? printable(Name) : "";
+}
+
+Expected<std::vector<std::byte>> ZipArchive::read(std::uint64_t Entry) const {
+  const std::string Place = fmt::format("{}: {}", Where, name(Entry));
+  const std::unique_ptr<zip_file_t, CloseEntry> F(
+      zip_fopen_index(Handle.get(), Entry, 0));
+  if (!F)
+    return Error{Place, fmt::format("cannot open the entry: {}",
+                                    zip_strerror(Handle.get()))};
+  std::vector<std::byte> Content;
+  constexpr std::size_t Chunk = 1 << 16;
+  const std::size_t Limit = unpackLimit(Size);
+  while (true) {
+    const std::size_t Old = Content.size();
+    Content.resize(Old + Chunk);
+    const zip_int64_t Got = zip_fread(F.get(), Content.data() + Old, Chunk);
+    Content.resize(Old + static_cast<std::size_t>(Got > 0 ? Got : 0));
+    if (Got < 0)
+      return Error{Place, fmt::format("cannot read the entry: {}",
+                                      zip_file_strerror(F.get()))};
+    if (Got == 0)
+      return Content;
+    if (Content.size() > Limit)
+      return Error{Place, fmt::format("an entry of more than {} bytes in an "
+                                      "archive of {}, expected less",
+                                      Limit, Size)};
+  }
+}
+
+Expected<std::vector<std::byte>>
+ZipArchive::read(const std::string &Name) const {
+  const zip_int64_t Entry = zip_name_locate(Handle.get(), Name.c_str(), 0);
+  if (Entry < 0)
+    return Error{fmt::format("{}: {}", Where, Name),
+                 "no such entry, expected it in the archive"};
+  return read(static_cast<std::uint64_t>(Entry));
+}
+
+Expected<std::string>
+makeZip(const std::string &Where,
+        const std::map<std::string, std::string> &Entries) {
+  zip_error_t E;
+  zip_error_init(&E);
+  const Source Memory(zip_source_buffer_create(nullptr, 0, 0, &E));
+  if (!Memory)
+    return Error{Where, describe(E), ExitCode::Internal};
+  zip_source_keep(Memory.get()); // closing the archive gives up its share
+  std::unique_ptr<zip_t, void (*)(zip_t *)> Z(
+      zip_open_from_source(Memory.get(), ZIP_TRUNCATE, &E), zip_discard);
+  if (!Z) {
+    zip_source_free(Memory.get());
+    return Error{Where, describe(E), ExitCode::Internal};
+  }
+  for (const auto &[Name, Content] : Entries) { // read on closing
+    zip_source_t *S =
+        zip_source_buffer(Z.get(), Content.data(), Content.size(), 0);
+    const zip_int64_t Index =
+        S ? zip_file_add(Z.get(), Name.c_str(), S, ZIP_FL_ENC_UTF_8) : -1;
+    if (Index < 0) {
+      zip_source_free(S);
+      return Error{Where, zip_strerror(Z.get()), ExitCode::Internal};
+    }
+    // A fixed date (1 January 1980), so that equal entries make equal files.
+    constexpr zip_uint16_t FirstDay = (1 << 5) | 1;
+    zip_file_set_dostime(Z.get(), static_cast<zip_uint64_t>(Index), 0, FirstDay,
+                         0);
+  }
+  if (zip_close(Z.get()) != 0)
+    return Error{Where, zip_strerror(Z.get()), ExitCode::Internal};
+  [[maybe_unused]] zip_t *Closed = Z.release();
+
+  zip_stat_t Stat;
+  if (zip_source_stat(Memory.get(), &Stat) != 0 ||
+      zip_source_open(Memory.get()) != 0)
+    return Error{Where, "cannot read the archive back", ExitCode::Internal};
+  std::string Out(Stat.size, '\0');
+  const zip_int64_t Got = zip_source_read(Memory.get(), Out.data(), Out.size());
+  zip_source_close(Memory.get());
+  if (Got != static_cast<zip_int64_t>(Out.size()))
+    return Error{Where, "cannot read the archive back", ExitCode::Internal};
+  return Out;
+}
+
+} // namespace vorion::splat

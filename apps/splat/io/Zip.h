@@ -1,0 +1,54 @@
+/// Zip archives in memory.
+#pragma once
+
+#include "Bytes.h"
+#include "vorion/support/Expected.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct zip;
+
+namespace vorion::splat {
+
+bool isZip(Bytes File);
+
+/// Views the bytes that it was opened on, which must outlive it.
+class ZipArchive {
+public:
+  /// \p What names the kind of file in messages, as "an .npz archive".
+  static Expected<ZipArchive> open(const std::string &Where,
+                                   const std::string &What, Bytes File);
+
+  std::uint64_t entries() const;
+  /// The name of an entry; empty if it has none.
+  std::string name(std::uint64_t Entry) const;
+  /// The content of an entry, checksum included. What the directory claims of
+  /// its size is not believed before the bytes are there, and no more than
+  /// \c unpackLimit of the archive's size is read.
+  Expected<std::vector<std::byte>> read(std::uint64_t Entry) const;
+  /// The content of the entry called \p Name.
+  Expected<std::vector<std::byte>> read(const std::string &Name) const;
+
+private:
+  struct Discard {
+    void operator()(zip *Z) const;
+  };
+  ZipArchive(std::string Where, std::size_t Size, zip *Z)
+      : Where(std::move(Where)), Size(Size), Handle(Z) {}
+
+  std::string Where;
+  std::size_t Size;
+  std::unique_ptr<zip, Discard> Handle;
+};
+
+/// The bytes of an archive of \p Entries, names and contents. Equal entries
+/// make equal bytes.
+Expected<std::string>
+makeZip(const std::string &Where,
+        const std::map<std::string, std::string> &Entries);
+
+} // namespace vorion::splat

@@ -1,0 +1,33 @@
+/// Writers of every format, for tests only: each quantises by the formulas
+/// that the format documents, written apart from the readers.
+#pragma once
+
+#include "Scene.h"
+
+#include <map>
+#include <string>
+
+namespace vorion::splat::testing {
+
+/// \p Count Gaussians with unit quaternions, means within 50 of the origin,
+/// scales from e^-8 to 1, opacities from 0.007 to 0.993 and coefficients
+/// within 0.9; the same on every host.
+Scene randomScene(std::size_t Count, int ShDegree, unsigned Seed);
+
+/// Files by name: a folder, or what goes into a zip archive.
+using Folder = std::map<std::string, std::string>;
+
+std::string compressedPlyOf(const Scene &S, bool ColorBounds = true);
+std::string splatOf(const Scene &S);
+/// What an `.spz` holds before it is compressed.
+std::string spzBodyOf(const Scene &S, int Version);
+std::string gzipOf(const std::string &Content);
+/// The codebooks are 256 even steps over what the scene has; the palette has
+/// an entry for each Gaussian.
+Folder sogOf(const Scene &S);
+std::string zipOf(const Folder &Files);
+
+/// A lossless WebP of \p Rgba, 4 bytes a pixel.
+std::string webpOf(int Width, int Height, const std::string &Rgba);
+
+} // namespace vorion::splat::testing
