@@ -22,6 +22,8 @@ public:
   /// Warp 0 runs lane 0 at \p Entry, the others have ended; registers are 0.
   void reset(const CodeTable &Code, uint32_t Entry, uint32_t LaunchBlock,
              const MemoryView &View, Watch *Watcher);
+  /// Warp 0 writes the clock's trace there until the next reset().
+  void setTrace(CoreTrace *Trace) { Warps[0].Trace = Trace; }
 
   /// Runs every warp until it stops or has used \p Quantum instructions.
   void runRound(const ExecTable &Exec, uint32_t Quantum);

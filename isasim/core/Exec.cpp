@@ -6,7 +6,8 @@
 // has two forms: all 16 lanes active, or some of them.
 //
 // VORION_LEVEL names the level. VORION_OBSERVED builds the other instantiation
-// of the core, which reports every instruction.
+// of the core, which reports every instruction. VORION_TIMED builds the ones
+// that write the clock's trace.
 //
 //===----------------------------------------------------------------------===//
 
@@ -14,12 +15,23 @@
 #include "core/Level.h"
 #include "core/Slow.h"
 #include "core/SoftFloat.h"
+#include "timing/TraceAppend.h"
 #include "vorion/isasim/TrapCause.h"
 
 #ifdef VORION_OBSERVED
 #define VORION_REPORT(S, I) observeCommit(S, I)
 #else
 #define VORION_REPORT(S, I) ((void)0)
+#endif
+#ifdef VORION_TIMED
+// For the clock (timing/TraceWriter.h).
+#define VORION_TRACE_RUN(S, START, END)                                        \
+  ((S)->Trace ? traceRun(S, START, END) : (void)0)
+#define VORION_TRACE_ACCESS(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC)          \
+  ((S)->Trace ? traceAccess(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC) : (void)0)
+#else
+#define VORION_TRACE_RUN(S, START, END) ((void)0)
+#define VORION_TRACE_ACCESS(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC) ((void)0)
 #endif
 #define VORION_TAIL [[clang::musttail]] return
 #define VORION_NEXT                                                            \

@@ -19,6 +19,10 @@ struct ExecTable {
 /// instruction to S->Watcher.
 const ExecTable &execTable(bool Observed);
 
+/// The best level that the host has of those that write the clock's trace.
+/// The observed one does that too.
+const ExecTable &timedExecTable();
+
 /// All levels that this host can run, best first (for tests).
 struct ExecLevels {
   const ExecTable *Tables[2] = {};

@@ -11,8 +11,14 @@ namespace observed {
 extern const ExecTable Table;
 }
 #endif
+namespace timed {
+extern const ExecTable Table;
+}
 #if defined(__x86_64__)
 namespace avx2 {
+extern const ExecTable Table;
+}
+namespace timed_avx2 {
 extern const ExecTable Table;
 }
 #endif
@@ -35,6 +41,14 @@ const ExecTable &execTable([[maybe_unused]] bool Observed) {
     return observed::Table;
 #endif
   return *Levels.Tables[0];
+}
+
+const ExecTable &timedExecTable() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("x86-64-v3"))
+    return timed_avx2::Table;
+#endif
+  return timed::Table;
 }
 
 } // namespace vorion::isasim

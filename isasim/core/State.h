@@ -114,6 +114,7 @@ struct WarpCounters {
 
 class Core;
 class Watch;
+struct CoreTrace;
 
 struct alignas(64) WarpState {
   LaneWords R[NumRegisters];   ///< x0..x31, f0..f31, the sink; at offset 0
@@ -155,7 +156,8 @@ struct alignas(64) WarpState {
   std::uint32_t FaultAddress = 0;
 
   Core *Owner = nullptr;
-  Watch *Watcher = nullptr; ///< of the observed level
+  Watch *Watcher = nullptr;   ///< of the observed level
+  CoreTrace *Trace = nullptr; ///< for the clock, or nullptr
 
   std::uint32_t pcOf(const Insn *I) const {
     return CodeLo + static_cast<std::uint32_t>(I - Code) * 4;

@@ -2,9 +2,13 @@
 
 #include "core/IsaTables.h"
 
+#include <algorithm>
 #include <bit>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace vorion::isasim {
 
@@ -16,16 +20,15 @@ constexpr uint64_t Page = 4096;
 
 /// One key of the JSON form, and the range that its value may have.
 struct Key {
-  const char *Group; ///< object that holds it, nullptr for the top
-  const char *Name;
+  /// Names of the objects that hold it and its own, joined by dots.
+  std::string Path;
   uint64_t Low, High, Multiple;
-  uint64_t (*Get)(const Config &);
-  void (*Set)(Config &, uint64_t);
+  std::function<uint64_t(const Config &)> Get;
+  std::function<void(Config &, uint64_t)> Set;
 };
 
-#define VORION_KEY(GROUP, NAME, LOW, HIGH, MULTIPLE, MEMBER)                   \
-  {GROUP,                                                                      \
-   NAME,                                                                       \
+#define VORION_KEY(PATH, LOW, HIGH, MULTIPLE, MEMBER)                          \
+  {PATH,                                                                       \
    LOW,                                                                        \
    HIGH,                                                                       \
    MULTIPLE,                                                                   \
@@ -40,73 +43,95 @@ constexpr uint64_t MaxCores =
     (VX_GLOBAL_BASE - VX_IO_RASTER) / VX_IO_RASTER_STRIDE;
 constexpr uint64_t MaxGlobal = VX_IMAGE_BASE - VX_GLOBAL_BASE;
 
-constexpr Key Keys[] = {
-    VORION_KEY(nullptr, "clusters", 1, MaxCores, 1, Clusters),
-    VORION_KEY(nullptr, "sockets_per_cluster", 1, MaxCores, 1,
-               SocketsPerCluster),
-    VORION_KEY(nullptr, "cores_per_socket", 1, MaxCores, 1, CoresPerSocket),
-    VORION_KEY(nullptr, "warps_per_core", 1, 32, 1, WarpsPerCore),
-    VORION_KEY(nullptr, "lanes_per_warp", 1, 16, 1, LanesPerWarp),
-    VORION_KEY(nullptr, "barriers", 1, 1024, 1, Barriers),
-    VORION_KEY(nullptr, "divergence_depth", 1, 1024, 1, DivergenceDepth),
-    VORION_KEY(nullptr, "global_bytes", Page, MaxGlobal, Page, GlobalBytes),
-    VORION_KEY(nullptr, "local_bytes", Page, 64 << 10, Page, LocalBytes),
-    VORION_KEY(nullptr, "stack_bytes", Page, 1 << 24, Page, StackBytes),
-    VORION_KEY(nullptr, "quantum", 1, 1 << 30, 1, Quantum),
-    VORION_KEY(nullptr, "max_instructions", 0, UINT64_MAX, 1, MaxInstructions),
-    VORION_KEY(nullptr, "host_threads", 0, 1024, 1, HostThreads),
-    VORION_KEY("raster", "queue_depth", 1, 1024, 1, Raster.QueueDepth),
-};
+std::vector<Key> makeKeys() {
+  std::vector<Key> All = {
+      VORION_KEY("clusters", 1, MaxCores, 1, Clusters),
+      VORION_KEY("sockets_per_cluster", 1, MaxCores, 1, SocketsPerCluster),
+      VORION_KEY("cores_per_socket", 1, MaxCores, 1, CoresPerSocket),
+      VORION_KEY("warps_per_core", 1, 32, 1, WarpsPerCore),
+      VORION_KEY("lanes_per_warp", 1, 16, 1, LanesPerWarp),
+      VORION_KEY("barriers", 1, 1024, 1, Barriers),
+      VORION_KEY("divergence_depth", 1, 1024, 1, DivergenceDepth),
+      VORION_KEY("global_bytes", Page, MaxGlobal, Page, GlobalBytes),
+      VORION_KEY("local_bytes", Page, 64 << 10, Page, LocalBytes),
+      VORION_KEY("stack_bytes", Page, 1 << 24, Page, StackBytes),
+      VORION_KEY("quantum", 1, 1 << 30, 1, Quantum),
+      VORION_KEY("max_instructions", 0, UINT64_MAX, 1, MaxInstructions),
+      VORION_KEY("host_threads", 0, 1024, 1, HostThreads),
+      VORION_KEY("raster.queue_depth", 1, 1024, 1, Raster.QueueDepth),
+      VORION_KEY("timing.enabled", 0, 1, 1, Timing.Enabled),
+      VORION_KEY("timing.clock_mhz", 1, 100000, 1, Timing.ClockMhz),
+  };
+  for (const TimingParam &P : timingParams())
+    All.push_back({fmt::format("timing.{}.{}", P.Group, P.Name), P.Low, P.High,
+                   1,
+                   [&P](const Config &C) {
+                     TimingConfig T = C.Timing;
+                     return uint64_t{P.Of(T)};
+                   },
+                   [&P](Config &C, uint64_t V) {
+                     P.Of(C.Timing) = static_cast<uint32_t>(V);
+                   }});
+  return All;
+}
 
 #undef VORION_KEY
 
-std::string path(const Key &K) {
-  return K.Group ? fmt::format("{}.{}", K.Group, K.Name) : K.Name;
+/// In declaration order.
+const std::vector<Key> &keys() {
+  static const std::vector<Key> All = makeKeys();
+  return All;
 }
 
 std::string checkRange(const Key &K, uint64_t Value) {
   if (Value < K.Low || Value > K.High)
-    return fmt::format("{} is {}, expected {} to {}", path(K), Value, K.Low,
+    return fmt::format("{} is {}, expected {} to {}", K.Path, Value, K.Low,
                        K.High);
   if (Value % K.Multiple != 0)
-    return fmt::format("{} is {}, expected a multiple of {}", path(K), Value,
+    return fmt::format("{} is {}, expected a multiple of {}", K.Path, Value,
                        K.Multiple);
   return {};
 }
 
-std::string keysOf(const std::string &Group) {
-  std::string Names;
-  for (const Key &K : Keys)
-    if (Group == (K.Group ? K.Group : ""))
-      Names += fmt::format("{}{}", Names.empty() ? "" : ", ", K.Name);
-  return Group.empty() ? Names + ", raster" : Names;
+/// What an object may hold; \p Prefix is its path and a dot, or empty.
+std::vector<std::string> namesIn(const std::string &Prefix) {
+  std::vector<std::string> Names;
+  for (const Key &K : keys())
+    if (K.Path.starts_with(Prefix)) {
+      const std::string Rest = K.Path.substr(Prefix.size());
+      const std::string Name = Rest.substr(0, Rest.find('.'));
+      if (Names.empty() || Names.back() != Name)
+        Names.push_back(Name);
+    }
+  return Names;
 }
 
-const Key *findKey(const std::string &Group, const std::string &Name) {
-  for (const Key &K : Keys)
-    if (Name == K.Name && Group == (K.Group ? K.Group : ""))
-      return &K;
-  return nullptr;
+const Key *findKey(const std::string &Path) {
+  const auto Found = std::ranges::find(keys(), Path, &Key::Path);
+  return Found == keys().end() ? nullptr : &*Found;
 }
 
 /// Reads the members of one JSON object; returns what is wrong.
-std::string readObject(const Json &Object, const std::string &Group,
+std::string readObject(const Json &Object, const std::string &Prefix,
                        Config &C) {
   if (!Object.is_object())
-    return Group.empty() ? "expected a JSON object"
-                         : fmt::format("{}: expected a JSON object", Group);
+    return Prefix.empty() ? "expected a JSON object"
+                          : fmt::format("{}: expected a JSON object",
+                                        Prefix.substr(0, Prefix.size() - 1));
   for (const auto &[Name, Value] : Object.items()) {
-    if (Group.empty() && Name == "raster") {
-      if (std::string Wrong = readObject(Value, Name, C); !Wrong.empty())
+    const std::string Path = Prefix + Name;
+    const std::vector<std::string> Known = namesIn(Prefix);
+    if (std::ranges::find(Known, Name) == Known.end())
+      return fmt::format("unknown key '{}', expected one of {}", Path,
+                         fmt::join(Known, ", "));
+    const Key *K = findKey(Path);
+    if (!K) {
+      if (std::string Wrong = readObject(Value, Path + ".", C); !Wrong.empty())
         return Wrong;
       continue;
     }
-    const Key *K = findKey(Group, Name);
-    if (!K)
-      return fmt::format("unknown key '{}{}{}', expected one of {}", Group,
-                         Group.empty() ? "" : ".", Name, keysOf(Group));
     if (!Value.is_number_unsigned())
-      return fmt::format("{}: expected a whole number", path(*K));
+      return fmt::format("{}: expected a whole number", Path);
     const auto Number = Value.get<uint64_t>();
     if (std::string Wrong = checkRange(*K, Number); !Wrong.empty())
       return Wrong;
@@ -118,7 +143,7 @@ std::string readObject(const Json &Object, const std::string &Group,
 } // namespace
 
 Expected<Success> validate(const Config &C) {
-  for (const Key &K : Keys)
+  for (const Key &K : keys())
     if (std::string Wrong = checkRange(K, K.Get(C)); !Wrong.empty())
       return Error{"configuration", std::move(Wrong), ExitCode::Usage};
   // No overflow: each factor is at most MaxCores.
@@ -142,13 +167,25 @@ Expected<Success> validate(const Config &C) {
                  fmt::format("the stacks take {} bytes, expected at most {}",
                              Stacks, Room),
                  ExitCode::Usage};
+  if (C.Timing.Enabled && C.WarpsPerCore != 1)
+    return Error{"configuration",
+                 fmt::format("the clock models cores of one warp, and "
+                             "warps_per_core is {}, expected 1",
+                             C.WarpsPerCore),
+                 ExitCode::Usage};
   return Success{};
 }
 
 std::string toJson(const Config &C) {
   Json Object;
-  for (const Key &K : Keys)
-    (K.Group ? Object[K.Group] : Object)[K.Name] = K.Get(C);
+  for (const Key &K : keys()) {
+    Json *In = &Object;
+    std::string_view Left = K.Path;
+    for (size_t Dot; (Dot = Left.find('.')) != std::string_view::npos;
+         Left.remove_prefix(Dot + 1))
+      In = &(*In)[std::string(Left.substr(0, Dot))];
+    (*In)[std::string(Left)] = K.Get(C);
+  }
   return Object.dump(2) + "\n";
 }
 

@@ -25,10 +25,14 @@ TEST(Config, JsonRoundTrip) {
   C.GlobalBytes = 1 << 24;
   C.MaxInstructions = 12345678901;
   C.Raster.QueueDepth = 9;
+  C.Timing.Enabled = true;
+  C.Timing.Dram.TrcdPs = 12345;
   const Expected<Config> Back = parseConfig(toJson(C), "");
   ASSERT_TRUE(Back) << Back.error().What;
   EXPECT_EQ(toJson(*Back), toJson(C));
   EXPECT_EQ(Back->MaxInstructions, 12345678901U);
+  EXPECT_TRUE(Back->Timing.Enabled);
+  EXPECT_EQ(Back->Timing.Dram.TrcdPs, 12345U);
 }
 
 TEST(Config, MissingKeysKeepTheirDefault) {
@@ -44,7 +48,7 @@ TEST(Config, ErrorsNameTheKey) {
             "sockets_per_cluster, cores_per_socket, warps_per_core, "
             "lanes_per_warp, barriers, divergence_depth, global_bytes, "
             "local_bytes, stack_bytes, quantum, max_instructions, "
-            "host_threads, raster");
+            "host_threads, raster, timing");
   EXPECT_EQ(
       wrongIn(R"({"raster": {"deep": 4}})"),
       "file.json: unknown key 'raster.deep', expected one of queue_depth");
@@ -61,6 +65,13 @@ TEST(Config, ErrorsNameTheKey) {
   EXPECT_EQ(wrongIn("[1]"), "file.json: expected a JSON object");
   EXPECT_EQ(wrongIn(R"({"raster": 1})"),
             "file.json: raster: expected a JSON object");
+  EXPECT_EQ(wrongIn(R"({"timing": {"core": {"fast": 1}}})").substr(0, 58),
+            "file.json: unknown key 'timing.core.fast', expected one of");
+  EXPECT_EQ(wrongIn(R"({"timing": {"l2": {"ways": 0}}})"),
+            "file.json: timing.l2.ways is 0, expected 1 to 64");
+  EXPECT_EQ(wrongIn(R"({"timing": {"enabled": 1}, "warps_per_core": 2})"),
+            "file.json: the clock models cores of one warp, and "
+            "warps_per_core is 2, expected 1");
   EXPECT_NE(wrongIn("{").find("not JSON"), std::string::npos);
 }
 

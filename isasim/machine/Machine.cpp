@@ -8,6 +8,7 @@
 #include "machine/Report.h"
 #include "machine/WorkerPool.h"
 #include "mem/Memory.h"
+#include "timing/Clock.h"
 #include "vorion/isasim/Observer.h"
 
 #include <algorithm>
@@ -36,6 +37,34 @@ void addCounters(CoreCounters &To, const WarpCounters &C) {
 #undef VORION_CORE_COUNTER
 }
 
+// What the clock has to know of parked instructions. For an atomic before it is
+// executed, since its result may overwrite its addresses.
+
+void traceAtomic(WarpState &S) {
+  traceParked(&S, S.Next, Event::Atomic);
+  traceAccess(&S, S.lanes(S.Next->Rs1), 4, false, true);
+}
+
+void traceBarrier(WarpState &S) {
+  const uint32_t Words[] = {S.BarrierId, S.BarrierCount};
+  if (S.Trace)
+    traceParked(&S, S.Next, Event::Barrier, Words);
+}
+
+/// A status that says done is a wait (docs/adr/0007-the-clock.md).
+Event rasterEvent(const WarpState &S) {
+  const CsrAccess A = csrAccess(S.Next);
+  switch (static_cast<raster::Csr>(A.Number)) {
+  case raster::Csr::Start:
+    return A.Writes ? Event::RasterStart : Event::RasterOther;
+  case raster::Csr::Wait:
+  case raster::Csr::Status:
+    return Event::RasterWait;
+  default:
+    return Event::RasterOther;
+  }
+}
+
 } // namespace
 
 struct Machine::Impl {
@@ -44,6 +73,10 @@ struct Machine::Impl {
         Raster(Shape, *Storage) {
     for (unsigned Id = 0; Id != Shape.cores(); ++Id)
       Cores.push_back(std::make_unique<Core>(Shape, Id));
+    if (!Shape.Timing.Enabled)
+      return;
+    Time = std::make_unique<Clock>(Shape);
+    logWork();
   }
 
   /// Calls Use(host address, offset, bytes) for the pieces of a range of
@@ -67,12 +100,16 @@ struct Machine::Impl {
         .count();
   }
   uint64_t retired() const;
+  const ExecTable &exec() const;
+  void logWork();
+  void resetRasterizers();
+  void takeTime();
 
   const Config Shape;
   std::unique_ptr<Memory> Storage;
   std::shared_ptr<const Image> Program;
   std::unique_ptr<CodeTable> Code;
-  bool CodeIsObserved = false;
+  const ExecTable *CodeIsFor = nullptr;
   std::vector<std::unique_ptr<Core>> Cores;
   WorkerPool Pool;
   RasterUnits Raster;
@@ -81,6 +118,7 @@ struct Machine::Impl {
   double WatchdogSeconds = 0;
   std::chrono::steady_clock::time_point Begin; ///< of the run
   std::atomic<bool> StopRequested = false;
+  std::unique_ptr<Clock> Time; ///< if Shape.Timing.Enabled
   std::function<void(std::string_view)> Console = [](std::string_view Text) {
     std::fwrite(Text.data(), 1, Text.size(), stdout);
     std::fflush(stdout);
@@ -108,9 +146,9 @@ bool Machine::Impl::access(uint32_t Address, uint64_t Bytes,
 
 void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   const bool Observed = isObserved();
-  if (!Code || CodeIsObserved != Observed) {
-    Code = std::make_unique<CodeTable>(*Program, execTable(Observed));
-    CodeIsObserved = Observed;
+  if (!Code || CodeIsFor != &exec()) {
+    Code = std::make_unique<CodeTable>(*Program, exec());
+    CodeIsFor = &exec();
   }
   if (Observed)
     Watcher.prepare(*Code, Shape.WarpsPerCore, Shape.cores());
@@ -118,6 +156,11 @@ void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   for (const auto &C : Cores)
     C->reset(*Code, Program->entry(), LaunchBlock, Storage->view(C->id()),
              Observed ? &Watcher : nullptr);
+  if (Time) {
+    Time->begin(*Code);
+    for (const auto &C : Cores)
+      C->setTrace(Time->trace(C->id()));
+  }
   GlobalArrived.assign(Shape.Barriers, 0);
   Hang = HangDetector();
   LastRound = ShortRound;
@@ -130,6 +173,31 @@ uint64_t Machine::Impl::retired() const {
   return Sum;
 }
 
+const ExecTable &Machine::Impl::exec() const {
+  return isObserved() || !Time ? execTable(isObserved()) : timedExecTable();
+}
+
+/// The rasterizers were made anew, or for the first time.
+void Machine::Impl::logWork() {
+  if (Time)
+    for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket)
+      Raster.setLog(Socket, Time->log(Socket));
+}
+
+void Machine::Impl::resetRasterizers() {
+  Raster.reset();
+  logWork();
+}
+
+void Machine::Impl::takeTime() {
+  if (!Time)
+    return;
+  for (const auto &C : Cores)
+    if (C->hasEnded())
+      Time->coreEnded(C->id());
+  Time->atSyncPoint();
+}
+
 void Machine::Impl::runCores() {
   const uint64_t Before = retired();
   uint64_t Quantum = Shape.Quantum;
@@ -139,7 +207,7 @@ void Machine::Impl::runCores() {
   for (const auto &C : Cores)
     if (C->isReady())
       Ready.push_back(C.get());
-  const ExecTable &Exec = execTable(isObserved());
+  const ExecTable &Exec = exec();
   const bool Alone = isObserved() || LastRound < ShortRound;
   Pool.run(static_cast<unsigned>(Ready.size()), Alone, [&](unsigned N) {
     Ready[N]->runRound(Exec, static_cast<uint32_t>(Quantum));
@@ -158,19 +226,26 @@ void Machine::Impl::arriveGlobally(WarpState &S) {
   for (const auto &C : Cores)
     for (WarpState &Other : C->warps())
       if (Other.Why == Stop::GlobalBarrier && Other.AtBarrier &&
-          Other.BarrierId == S.BarrierId && &Other != &S)
+          Other.BarrierId == S.BarrierId && &Other != &S) {
+        traceBarrier(Other);
         Core::complete(Other);
+      }
+  traceBarrier(S);
   Core::complete(S);
 }
 
 void Machine::Impl::executeParked(Core &C, WarpState &S) {
   switch (S.Why) {
   case Stop::Atomic:
+    if (S.Trace)
+      traceAtomic(S);
     if (amoNow(&S, S.Next, amoKind(S.Next)))
       Core::complete(S);
     break;
   case Stop::RasterCsr:
     if (Raster.access(C.id(), &S, csrAccess(S.Next))) {
+      if (S.Trace)
+        traceParked(&S, S.Next, rasterEvent(S));
       Progress = true;
       Core::complete(S);
     }
@@ -349,14 +424,17 @@ RunResult Machine::run(uint32_t LaunchBlock) {
     if (I->findTrap(R))
       break;
     I->atSyncPoint();
+    I->takeTime();
   } while (!I->decideEnd(R));
   I->flushConsole(true);
   I->count(R);
+  if (I->Time)
+    R.Time = I->Time->end();
   if (R.End == Outcome::Done && R.ExitCode != 0)
     R.End = Outcome::GuestFailed;
   R.Raster = I->Raster.counters() - Before;
   if (R.End != Outcome::Done && R.End != Outcome::GuestFailed)
-    I->Raster.reset();
+    I->resetRasterizers();
   R.HostSeconds = I->secondsSoFar();
   R.HostCpuSeconds =
       static_cast<double>(std::clock() - CpuBegin) / CLOCKS_PER_SEC;

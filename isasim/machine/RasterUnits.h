@@ -23,6 +23,9 @@ public:
   /// false if it has to wait until runUnit() has made room or finished.
   bool access(unsigned Core, WarpState *S, const CsrAccess &A);
 
+  /// \p Log is told of every command of rasterizer \p N until the next reset().
+  void setLog(unsigned N, raster::WorkLog *Log) { Units[N]->setLog(Log); }
+
   unsigned units() const { return static_cast<unsigned>(Units.size()); }
   /// Whether any command is queued.
   bool isBusy() const;

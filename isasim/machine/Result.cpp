@@ -146,6 +146,8 @@ std::string toJson(const RunResult &R) {
   for (const CoreCounters &C : R.Cores)
     Object["cores"].push_back(json(C));
   Object["raster"] = json(R.Raster);
+  if (R.Time)
+    Object["time"] = Json::parse(toJson(*R.Time));
   Object["sync_points"] = R.SyncPoints;
   Object["host_seconds"] = R.HostSeconds;
   Object["host_cpu_seconds"] = R.HostCpuSeconds;

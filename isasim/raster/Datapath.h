@@ -44,6 +44,8 @@ struct BlendWork {
   std::uint32_t Fragments; ///< 0: the box misses the tile's pixels
   std::uint32_t Blends;
   bool Clipped; ///< the box misses the tile
+  /// The box cut to the tile, in its pixels; 0 if it misses.
+  std::uint8_t X, Y, Width, Height;
 };
 
 /// One compilation of the datapath.

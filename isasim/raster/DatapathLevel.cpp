@@ -48,7 +48,7 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
   const std::uint64_t InX = inBox(Tile.CentreX, G.Mean[0], G.Extent[0]);
   const std::uint64_t InY = inBox(Tile.CentreY, G.Mean[1], G.Extent[1]);
   if (InX == 0 || InY == 0)
-    return {0, 0, true};
+    return {0, 0, true, 0, 0, 0, 0};
 
   const unsigned FirstX = static_cast<unsigned>(__builtin_ctzll(InX));
   const unsigned LastX = 63 - static_cast<unsigned>(__builtin_clzll(InX));
@@ -117,8 +117,14 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
       }
     }
   }
-  const unsigned Area = (LastX - FirstX + 1) * (LastY - FirstY + 1);
-  return {Options.SkipSaturated ? LiveInBox : Area, Blends, false};
+  const unsigned Width = LastX - FirstX + 1, Height = LastY - FirstY + 1;
+  return {Options.SkipSaturated ? LiveInBox : Width * Height,
+          Blends,
+          false,
+          static_cast<std::uint8_t>(FirstX),
+          static_cast<std::uint8_t>(FirstY),
+          static_cast<std::uint8_t>(Width),
+          static_cast<std::uint8_t>(Height)};
 }
 
 template <typename Exp> void evaluate(float *Values, std::size_t Count) {

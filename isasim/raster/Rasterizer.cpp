@@ -63,11 +63,17 @@ public:
 
   const Counters &work() const { return Work; }
 
+  /// Keeps the details of the work too.
+  void keepWork() { Keeps = true; }
+  CommandWork takeWork(std::uint32_t Status);
+
 private:
   std::uint32_t check() const;
   std::uint32_t blendList();
   const std::byte *record(const std::byte *List, std::uint32_t Entry) const;
-  std::uint32_t blendOne(const Gaussian &G, const BlendOptions &Options);
+  /// \p Address: of the record, 0 if it was pushed.
+  std::uint32_t blendOne(const Gaussian &G, std::uint32_t Address,
+                         const BlendOptions &Options);
   BlendOptions blendOptions() const;
   std::uint64_t rowAddress(unsigned Row) const {
     return C.Output + std::uint64_t{Row} * C.OutputPitch;
@@ -83,6 +89,8 @@ private:
   bool Drains;
   bool Takes; ///< pushed descriptors instead of a list
   Counters Work;
+  bool Keeps = false;
+  std::vector<GaussianWork> Kept;
 };
 
 /// The order of these checks is the order of docs/rasterizer.md#status-codes.
@@ -123,7 +131,7 @@ BlendOptions Execution::blendOptions() const {
           OptionsSkipSaturated.get(C.Options) != 0};
 }
 
-std::uint32_t Execution::blendOne(const Gaussian &G,
+std::uint32_t Execution::blendOne(const Gaussian &G, std::uint32_t Address,
                                   const BlendOptions &Options) {
   ++Work.Gaussians;
   if (hasNan(G))
@@ -133,6 +141,10 @@ std::uint32_t Execution::blendOne(const Gaussian &G,
   Work.Clipped += Done.Clipped;
   Work.Fragments += Done.Fragments;
   Work.Blends += Done.Blends;
+  if (Keeps)
+    Kept.push_back({Address, Done.X, Done.Y, Done.Width, Done.Height,
+                    static_cast<std::uint16_t>(Done.Fragments),
+                    (G.Tag >> 31) != 0});
   return VR_OK;
 }
 
@@ -151,7 +163,7 @@ std::uint32_t Execution::blendList() {
     for (const Gaussian &G : C.Pushed) {
       if (Tile.Live == 0)
         break;
-      if (const std::uint32_t Status = blendOne(G, Options))
+      if (const std::uint32_t Status = blendOne(G, 0, Options))
         return Status;
     }
     return VR_OK;
@@ -171,7 +183,10 @@ std::uint32_t Execution::blendList() {
       return VR_UNMAPPED;
     Gaussian G;
     std::memcpy(&G, Record, sizeof(G));
-    if (const std::uint32_t Status = blendOne(G, Options))
+    std::uint32_t Number = 0;
+    std::memcpy(&Number, List + 4ULL * I, 4);
+    if (const std::uint32_t Status =
+            blendOne(G, C.Gaussians + Number * sizeof(Gaussian), Options))
       return Status;
   }
   return VR_OK;
@@ -184,6 +199,18 @@ void Execution::copyRow(unsigned Row, std::byte *To) const {
     const Pixel P{Tile.R[At], Tile.G[At], Tile.B[At], std::fabs(Tile.T[At])};
     std::memcpy(To + Column * PixelBytes, &P, PixelBytes);
   }
+}
+
+CommandWork Execution::takeWork(std::uint32_t Status) {
+  return {Takes ? 0 : C.List,
+          C.Output,
+          C.OutputPitch,
+          static_cast<std::uint16_t>(Width),
+          static_cast<std::uint16_t>(Height),
+          static_cast<std::uint8_t>(OptionsExp.get(C.Options)),
+          Drains,
+          Status != VR_OK,
+          std::move(Kept)};
 }
 
 std::uint32_t Execution::run(std::vector<Pixel> &Drained) {
@@ -212,13 +239,18 @@ Rasterizer::~Rasterizer() = default;
 
 bool Rasterizer::step() {
   for (std::size_t Tried = 0; Tried != Agents.size(); ++Tried) {
-    RasterAgent &Agent = *Agents[Next];
+    const std::size_t Turn = Next;
+    RasterAgent &Agent = *Agents[Turn];
     Next = (Next + 1) % Agents.size();
     if (!Agent.isBusy())
       continue;
     const DefaultFloatEnvironment Environment;
     Execution Running(Agent.front(), Memory, *Tile, *Lanes);
+    if (Log)
+      Running.keepWork();
     const std::uint32_t Status = Running.run(Agent.drainedTile());
+    if (Log)
+      Log->command(static_cast<unsigned>(Turn), Running.takeWork(Status));
     Agent.complete(Status, Running.work());
     return true;
   }

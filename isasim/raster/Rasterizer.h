@@ -4,6 +4,7 @@
 
 #include "raster/RasterAgent.h"
 #include "raster/RasterMemory.h"
+#include "raster/WorkLog.h"
 
 #include <memory>
 #include <vector>
@@ -28,6 +29,9 @@ public:
   /// Executes the next command; false if no agent has one.
   bool step();
 
+  /// \p Receiver is told of every command's work; nullptr for nobody.
+  void setLog(WorkLog *Receiver) { Log = Receiver; }
+
   /// Executes commands until \p Agent accepts a start.
   void makeRoom(const RasterAgent &Agent);
 
@@ -41,6 +45,7 @@ private:
   std::size_t Next = 0; ///< agent whose turn it is
   std::unique_ptr<TileBuffer> Tile;
   const Datapath *Lanes;
+  WorkLog *Log = nullptr;
 };
 
 } // namespace vorion::raster

@@ -22,9 +22,9 @@ struct Options {
   std::string Kernel, Global, Local;
   std::vector<std::string> Args;
   std::optional<uint64_t> MaxInstructions;
-  std::optional<unsigned> Threads;
+  std::optional<unsigned> Threads, ClockMhz;
   double Watchdog = 0;
-  bool PrintDefaultConfig = false, ListKernels = false;
+  bool PrintDefaultConfig = false, ListKernels = false, Time = false;
 };
 
 Expected<std::string> readText(const std::string &Path) {
@@ -46,6 +46,9 @@ Expected<Config> makeConfig(const Options &O) {
       return Parsed;
     C = *Parsed;
   }
+  C.Timing.Enabled |= O.Time;
+  if (O.ClockMhz)
+    C.Timing.ClockMhz = *O.ClockMhz;
   if (O.MaxInstructions)
     C.MaxInstructions = *O.MaxInstructions;
   if (O.Threads)
@@ -127,6 +130,8 @@ int finish(const RunResult &R, const Options &O, const KernelLaunch *Launch,
   if (Launch && Code == 0)
     if (const Expected<Success> Ok = Launch->finish(); !Ok)
       Code = reportError(Tool, Ok.error());
+  if (R.Time)
+    fmt::print("{}", toText(*R.Time));
   if (const Expected<Success> Ok = Watch.runEnded(R); !Ok)
     return reportError(Tool, Ok.error());
   return Code;
@@ -207,6 +212,12 @@ void declare(CLI::App &App, Options &O) {
                "print the default configuration and exit");
   App.add_flag("--list-kernels", O.ListKernels,
                "print the program's kernels and exit");
+  App.add_flag("--time", O.Time,
+               "say how long the run takes on the machine (docs/model.md)");
+  App.add_option("--clock", O.ClockMhz,
+                 "the machine's clock for --time (default 530)")
+      ->option_text("MHZ")
+      ->check(CLI::Range(1U, 100000U));
   App.add_option("--max-instructions", O.MaxInstructions,
                  "end the run after so many warp instructions");
   App.add_option("--threads", O.Threads,

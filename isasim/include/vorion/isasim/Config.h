@@ -1,6 +1,7 @@
 /// The shape of a simulated machine, and its JSON form.
 #pragma once
 
+#include "vorion/isasim/Timing.h"
 #include "vorion/support/Expected.h"
 
 #include <cstdint>
@@ -42,6 +43,7 @@ struct Config {
   unsigned HostThreads = 0; ///< 0: as many as the host has
 
   RasterConfig Raster;
+  TimingConfig Timing;
 
   unsigned sockets() const { return Clusters * SocketsPerCluster; }
   unsigned cores() const { return sockets() * CoresPerSocket; }

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "vorion/isasim/SourcePlace.h"
+#include "vorion/isasim/Timing.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -78,6 +80,8 @@ struct RunResult {
   CoreCounters Total;
   std::vector<CoreCounters> Cores;
   RasterCounters Raster;
+  /// What the run took; without Config::Timing.Enabled there is none.
+  std::optional<TimeReport> Time;
   uint64_t SyncPoints = 0; ///< times all cores were parked
   double HostSeconds = 0;    ///< wall time of the run
   double HostCpuSeconds = 0; ///< processor time of the host in it, all threads

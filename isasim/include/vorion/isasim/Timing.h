@@ -1,0 +1,134 @@
+/// The clock: what a run costs in cycles (docs/adr/0007-the-clock.md,
+/// docs/model.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::isasim {
+
+// A structure for each group of TimingParams.def, with its defaults.
+struct TimingGroups {
+#define GROUP(NAME, MEMBER, WHAT)                                              \
+  }                                                                            \
+  ;                                                                            \
+  struct MEMBER##Timing {
+#define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)       \
+  uint32_t MEMBER = DEFAULT;
+#include "vorion/isasim/TimingParams.def"
+#undef GROUP
+#undef PARAM
+};
+
+/// Object "timing" of a configuration. Changes how long things take and
+/// nothing else.
+struct TimingConfig {
+  bool Enabled = false;    ///< whether there is a clock at all
+  uint32_t ClockMhz = 530; ///< of everything but DRAM and the host's link
+#define GROUP(NAME, MEMBER, WHAT) MEMBER##Timing MEMBER;
+#define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)
+#include "vorion/isasim/TimingParams.def"
+#undef GROUP
+#undef PARAM
+};
+
+/// Bytes of a cache line and of a request to memory.
+inline constexpr uint32_t TimingLineBytes = 64;
+
+/// A parameter of TimingParams.def, for whatever is made from the list.
+struct TimingParam {
+  std::string_view Group, Name, Unit, Source;
+  uint32_t Default, Low, High;
+  uint32_t &(*Of)(TimingConfig &);
+};
+std::span<const TimingParam> timingParams();
+
+/// What a cycle of a core went to: it issued an instruction, or waited.
+enum class CoreCycle : uint8_t {
+  Issue,
+  Start,      ///< for reset at the launch
+  Operand,    ///< for a result of an ALU or SFU
+  Memory,     ///< for a value from global memory
+  Local,      ///< for a value from local memory
+  Unit,       ///< for a unit that was busy
+  LsuQueue,   ///< for a place among the accesses in flight
+  Branch,     ///< for the front end after a taken branch
+  Divergence, ///< for the front end after a change of the active lanes
+  Fence,      ///< for its accesses to be done
+  RasterFull, ///< for a place in the rasterizer's queue
+  RasterWait, ///< for the rasterizer to finish
+  Barrier,    ///< for other cores at a barrier
+  Ended,      ///< nothing left to do while others still run
+  Count
+};
+/// What a cycle of a rasterizer went to.
+enum class RasterCycle : uint8_t {
+  Blend,  ///< lanes were given pixels
+  Clip,   ///< a Gaussian that misses the tile was dropped
+  Fetch,  ///< waited for a Gaussian's record
+  Hazard, ///< waited for a pixel that was still being updated
+  Begin,  ///< took a command and cleared the pixel buffer
+  Flush,  ///< waited for the lanes to empty
+  Drain,  ///< wrote the tile
+  Idle,   ///< had no command
+  Count
+};
+std::string_view name(CoreCycle C);
+std::string_view name(RasterCycle C);
+
+struct CoreTime {
+  std::array<uint64_t, size_t(CoreCycle::Count)> Cycles{};
+};
+struct RasterTime {
+  std::array<uint64_t, size_t(RasterCycle::Count)> Cycles{};
+  uint64_t Commands = 0, Gaussians = 0, Clipped = 0;
+  uint64_t LaneSlots = 0; ///< pixels given to lanes
+};
+struct CacheTime {
+  uint64_t Reads = 0, Writes = 0, Atomics = 0; ///< requests of a line
+  uint64_t Hits = 0;                           ///< of all requests
+  uint64_t Merged = 0;     ///< misses of a line already on its way
+  uint64_t Writebacks = 0; ///< dirty lines sent down
+  uint64_t Kept = 0;       ///< victims that the intersect hint spared
+  uint64_t BankCycles = 0; ///< that requests waited for a bank
+  uint64_t MshrCycles = 0; ///< that misses waited for an MSHR
+};
+struct DramTime {
+  uint64_t Reads = 0, Writes = 0; ///< bursts
+  uint64_t RowHits = 0, RowMisses = 0, RowConflicts = 0;
+  uint64_t Refreshes = 0;
+  uint64_t BusPs = 0; ///< that data buses were in use, summed over channels
+};
+
+/// Events for other people's energy models; what an event is worth in joules
+/// is not said here.
+struct Activity {
+  std::string_view Unit, Event;
+  uint64_t Count;
+};
+
+/// What a run took. Sums over a unit's cycles are exactly \c Cycles.
+struct TimeReport {
+  uint64_t Cycles = 0; ///< from the launch until the last unit was done
+  uint32_t ClockMhz = 0;
+  std::vector<CoreTime> Cores;
+  std::vector<RasterTime> Rasters;
+  std::vector<CacheTime> L2;
+  CacheTime Llc;
+  DramTime Dram;
+  std::vector<Activity> Activities;
+  /// Times that a trace grew beyond its bound, so that order was guessed.
+  uint64_t OutOfOrder = 0;
+};
+
+/// As a JSON object.
+std::string toJson(const TimeReport &R);
+/// As a table.
+std::string toText(const TimeReport &R);
+
+} // namespace vorion::isasim

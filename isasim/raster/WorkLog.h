@@ -1,0 +1,38 @@
+/// What a rasterizer did for a command, in enough detail to say how long it
+/// took (isasim/timing/).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace vorion::raster {
+
+/// A Gaussian that was fetched.
+struct GaussianWork {
+  std::uint32_t Address; ///< of its record, 0 for a pushed one
+  /// Its box cut to the tile, in pixels of the tile; Width 0 if it misses.
+  std::uint8_t X, Y, Width, Height;
+  std::uint16_t Slots; ///< pixels given to lanes
+  bool SpansTiles;     ///< the tag's intersect bit
+};
+
+struct CommandWork {
+  std::uint32_t List = 0; ///< address of the index list, 0 for pushed ones
+  std::uint32_t Output = 0, OutputPitch = 0;
+  std::uint16_t Width = 0, Height = 0;
+  std::uint8_t ExpUnit = 0;
+  bool Drains = false; ///< to the agent, not to memory
+  bool Failed = false; ///< writes nothing
+  std::vector<GaussianWork> Gaussians;
+};
+
+/// Receives the work of every command when it has been executed, on the thread
+/// that executes it: one at a time for each rasterizer.
+class WorkLog {
+public:
+  virtual ~WorkLog() = default;
+  /// \p Agent: place among the rasterizer's agents.
+  virtual void command(unsigned Agent, CommandWork &&Work) = 0;
+};
+
+} // namespace vorion::raster

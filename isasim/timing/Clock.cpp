@@ -1,0 +1,262 @@
+#include "timing/Clock.h"
+
+#include <algorithm>
+
+namespace vorion::isasim {
+
+namespace {
+/// Records that a core's trace may hold before the others stop waiting for one
+/// whose trace is used up: 8 MiB, many quanta.
+constexpr size_t LongestBacklog = 1 << 20;
+/// Fewer than this in all traces are left until the next sync point.
+constexpr size_t WorthTaking = 1 << 12;
+} // namespace
+
+class Clock::SocketLog final : public raster::WorkLog {
+public:
+  explicit SocketLog(RasterClock &ToIn) : To(ToIn) {}
+  void command(unsigned Agent, raster::CommandWork &&Work) override {
+    To.expect(Agent, std::move(Work));
+  }
+
+private:
+  RasterClock &To;
+};
+
+Clock::Clock(const Config &C)
+    : Shape(C), P(C.Timing), Memory(P, C.Clusters), Barriers(C.Barriers) {
+  const unsigned CoresPerCluster = C.SocketsPerCluster * C.CoresPerSocket;
+  for (unsigned N = 0; N != C.cores(); ++N) {
+    Traces.push_back(std::make_unique<TraceBuffer>());
+    Traces.back()->LocalBanks = P.Core.LocalBanks;
+    Traces.back()->InterleavedStacks = P.Core.InterleavedStacks != 0;
+    Cores.emplace_back(P.Core, N / CoresPerCluster, *Traces.back());
+  }
+  for (unsigned N = 0; N != C.sockets(); ++N)
+    Rasters.emplace_back(P, N / C.SocketsPerCluster, C.CoresPerSocket,
+                         C.Raster.QueueDepth);
+  for (RasterClock &R : Rasters)
+    Logs.push_back(std::make_unique<SocketLog>(R));
+}
+
+Clock::~Clock() = default;
+
+raster::WorkLog *Clock::log(unsigned Socket) { return Logs[Socket].get(); }
+
+void Clock::begin(const CodeTable &Code) {
+  Ops = describeProgram(Code, P.Core);
+  Begun = Now;
+  OutOfOrder = 0;
+  Memory.clearCounters();
+  for (Arrived &B : Barriers)
+    B = {};
+  for (const auto &T : Traces)
+    T->clear();
+  for (CoreClock &C : Cores)
+    C.begin(Ops, Begun);
+  for (RasterClock &R : Rasters)
+    R.begin(Begun);
+  Ended.assign(Cores.size(), false);
+  Keys.assign(Cores.size() + Rasters.size(), Never);
+}
+
+bool Clock::isOverfull() const {
+  return std::any_of(Cores.begin(), Cores.end(), [](const CoreClock &C) {
+    return C.backlog() > LongestBacklog;
+  });
+}
+
+void Clock::takeAll() {
+  for (unsigned N = 0; N != Keys.size(); ++N)
+    update(N);
+  while (step()) {
+  }
+}
+
+void Clock::atSyncPoint() {
+  size_t Waiting = 0;
+  for (const auto &T : Traces)
+    Waiting += T->size();
+  if (Waiting < WorthTaking)
+    return;
+  takeAll();
+  for (const auto &T : Traces)
+    T->compact();
+}
+
+TimeReport Clock::end() {
+  std::fill(Ended.begin(), Ended.end(), true);
+  takeAll();
+  uint64_t End = Begun;
+  for (const CoreClock &C : Cores)
+    End = std::max(End, C.quietAt());
+  for (const RasterClock &R : Rasters)
+    End = std::max(End, R.freeAt());
+  End = Memory.endRun(End);
+  TimeReport R;
+  R.Cycles = End - Begun;
+  R.ClockMhz = P.ClockMhz;
+  R.OutOfOrder = OutOfOrder;
+  for (CoreClock &C : Cores) {
+    C.end(End);
+    R.Cores.push_back(C.time());
+  }
+  for (RasterClock &C : Rasters) {
+    C.end(End);
+    R.Rasters.push_back(C.time());
+  }
+  Memory.report(R);
+  collectActivities(R);
+  Now = End;
+  return R;
+}
+
+void Clock::collectActivities(TimeReport &R) const {
+  const auto Add = [&R](std::string_view Unit, std::string_view Event,
+                        uint64_t Count) {
+    R.Activities.push_back({Unit, Event, Count});
+  };
+  for (size_t K = 0; K != size_t(OpClass::Count); ++K) {
+    uint64_t Warp = 0, Lane = 0;
+    for (const CoreClock &C : Cores) {
+      Warp += C.classes()[K].Warp;
+      Lane += C.classes()[K].Lane;
+    }
+    Add("core warp instructions", name(static_cast<OpClass>(K)), Warp);
+    Add("core lane instructions", name(static_cast<OpClass>(K)), Lane);
+  }
+  uint64_t Lines = 0, Conflicts = 0;
+  for (const CoreClock &C : Cores) {
+    Lines += C.linesRequested();
+    Conflicts += C.localConflicts();
+  }
+  Add("lsu", "lines requested", Lines);
+  Add("local memory", "conflict cycles", Conflicts);
+  RasterTime Raster;
+  for (const RasterTime &T : R.Rasters) {
+    Raster.Commands += T.Commands;
+    Raster.Gaussians += T.Gaussians;
+    Raster.LaneSlots += T.LaneSlots;
+  }
+  Add("rasterizer", "commands", Raster.Commands);
+  Add("rasterizer", "gaussians fetched", Raster.Gaussians);
+  Add("rasterizer", "pixels evaluated", Raster.LaneSlots);
+  CacheTime L2;
+  for (const CacheTime &T : R.L2) {
+    L2.Reads += T.Reads;
+    L2.Writes += T.Writes + T.Atomics;
+    L2.Writebacks += T.Writebacks;
+  }
+  Add("l2", "line reads", L2.Reads);
+  Add("l2", "line writes", L2.Writes);
+  Add("l2", "write-backs", L2.Writebacks);
+  Add("llc", "line reads", R.Llc.Reads);
+  Add("llc", "line writes", R.Llc.Writes + R.Llc.Atomics);
+  Add("dram", "read bursts", R.Dram.Reads);
+  Add("dram", "write bursts", R.Dram.Writes);
+  Add("dram", "activations", R.Dram.RowMisses + R.Dram.RowConflicts);
+  Add("dram", "refreshes", R.Dram.Refreshes);
+}
+
+void Clock::update(unsigned Who) {
+  Key &K = Keys[Who];
+  if (Who >= Cores.size()) {
+    const uint64_t At = Rasters[Who - Cores.size()].when();
+    K = At == RasterClock::Never ? Never : 2 * At + 1;
+    return;
+  }
+  CoreClock &C = Cores[Who];
+  if (C.state() == CoreClock::State::Starved)
+    C.advance();
+  if (C.isBlocked())
+    K = Never;
+  else if (C.state() != CoreClock::State::Starved)
+    K = 2 * C.when() + 1;
+  else
+    K = Ended[Who] ? Never : 2 * C.now();
+}
+
+/// The last of those that a barrier counts lets all go on.
+void Clock::arrive(unsigned Core, uint64_t Then) {
+  Arrived &B = Barriers[Cores[Core].barrier()];
+  if (B.Cores.size() + 1 < Cores[Core].barrierCount()) {
+    B.Cores.push_back(Core);
+    Cores[Core].block();
+    return;
+  }
+  Cores[Core].resume(Then, CoreCycle::Barrier);
+  for (const unsigned Other : B.Cores) {
+    Cores[Other].resume(Then, CoreCycle::Barrier);
+    Cores[Other].advance();
+    update(Other);
+  }
+  B.Cores.clear();
+}
+
+/// Does the request of \p Core at \p Then, or blocks the core.
+void Clock::grant(unsigned Core, uint64_t Then) {
+  CoreClock &C = Cores[Core];
+  RasterClock &R = Rasters[Core / Shape.CoresPerSocket];
+  const unsigned Agent = Core % Shape.CoresPerSocket;
+  switch (C.state()) {
+  case CoreClock::State::Access:
+    C.access(Memory);
+    break;
+  case CoreClock::State::Barrier:
+    arrive(Core, Then);
+    break;
+  case CoreClock::State::RasterStart:
+    if (R.isFull(Agent))
+      return C.block();
+    R.start(Agent, Then);
+    update(static_cast<unsigned>(Cores.size()) + Core / Shape.CoresPerSocket);
+    C.resume(Then, CoreCycle::RasterFull);
+    break;
+  case CoreClock::State::RasterWait:
+    if (R.isBusy(Agent))
+      return C.block();
+    C.resume(Then, CoreCycle::RasterWait);
+    break;
+  case CoreClock::State::Starved:
+    break;
+  }
+  if (!C.isBlocked())
+    C.advance();
+}
+
+/// Does the next request in the order of time; false if there is none, or if a
+/// core might still make an earlier one.
+bool Clock::step() {
+  auto First = std::min_element(Keys.begin(), Keys.end());
+  if (*First != Never && *First % 2 == 0) {
+    if (!isOverfull())
+      return false;
+    ++OutOfOrder;
+    First = std::min_element(Keys.begin(), Keys.end(), [](Key A, Key B) {
+      return (A % 2 == 0 ? Never : A) < (B % 2 == 0 ? Never : B);
+    });
+  }
+  if (*First == Never || *First % 2 == 0)
+    return false;
+  const auto Who = static_cast<unsigned>(First - Keys.begin());
+  const uint64_t Then = *First / 2;
+  if (Who < Cores.size()) {
+    grant(Who, Then);
+    update(Who);
+    return true;
+  }
+  const auto Socket = static_cast<unsigned>(Who - Cores.size());
+  const auto Agent = Rasters[Socket].step(Memory);
+  update(Who);
+  if (!Agent)
+    return true;
+  const unsigned Core = Socket * Shape.CoresPerSocket + *Agent;
+  if (Cores[Core].isBlocked() &&
+      Cores[Core].state() != CoreClock::State::Barrier) {
+    grant(Core, Then);
+    update(Core);
+  }
+  return true;
+}
+
+} // namespace vorion::isasim

@@ -1,0 +1,75 @@
+/// The clock: what a machine's runs take (docs/adr/0007-the-clock.md).
+#pragma once
+
+#include "raster/WorkLog.h"
+#include "timing/CoreClock.h"
+#include "timing/RasterClock.h"
+#include "vorion/isasim/Config.h"
+
+#include <memory>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// Reads the traces of the cores and the logs of the rasterizers, on the thread
+/// of Machine::run, while all cores are parked. Caches, DRAM and time go on
+/// from run to run.
+class Clock {
+public:
+  explicit Clock(const Config &C);
+  Clock(const Clock &) = delete;
+  Clock &operator=(const Clock &) = delete;
+  ~Clock();
+
+  /// Where core \p Core writes its trace.
+  CoreTrace *trace(unsigned Core) { return Traces[Core].get(); }
+  /// Where the rasterizer of \p Socket logs its commands. Loggers of different
+  /// sockets may be used at the same time.
+  raster::WorkLog *log(unsigned Socket);
+
+  /// A run of \p Code begins.
+  void begin(const CodeTable &Code);
+  /// Core \p Core will write no more in this run.
+  void coreEnded(unsigned Core) { Ended[Core] = true; }
+  /// All cores are parked. Takes what it can from the traces.
+  void atSyncPoint();
+  /// The run is over; all is taken.
+  TimeReport end();
+
+private:
+  class SocketLog;
+
+  /// Somebody's place in the order of time.
+  using Key = uint64_t;
+  static constexpr Key Never = UINT64_MAX;
+
+  void takeAll();
+  bool step();
+  void update(unsigned Who);
+  void grant(unsigned Core, uint64_t Then);
+  void arrive(unsigned Core, uint64_t Then);
+  bool isOverfull() const;
+  void collectActivities(TimeReport &R) const;
+
+  const Config &Shape;
+  const TimingConfig &P;
+  MemorySystem Memory;
+  std::vector<std::unique_ptr<TraceBuffer>> Traces;
+  std::vector<CoreClock> Cores;
+  std::vector<RasterClock> Rasters;
+  std::vector<std::unique_ptr<SocketLog>> Logs;
+  std::vector<OpInfo> Ops;
+  std::vector<bool> Ended;
+  /// Cores, then rasterizers. Even: what comes next is not before half of it;
+  /// odd: a request at half of it.
+  std::vector<Key> Keys;
+  struct Arrived {
+    std::vector<unsigned> Cores;
+  };
+  std::vector<Arrived> Barriers;
+  uint64_t Now = 0; ///< where the last run ended
+  uint64_t Begun = 0;
+  uint64_t OutOfOrder = 0;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,386 @@
+/// The clock on programs whose time is known.
+#include "raster/RasterTables.h"
+#include "testing/ElfBuilder.h"
+#include "testing/Encode.h"
+#include "vorion/isasim/Machine.h"
+
+#include <cstring>
+#include <numeric>
+
+using namespace vorion;
+using namespace vorion::isasim;
+using namespace vorion::isasim::testing;
+
+namespace {
+
+using Words = std::vector<uint32_t>;
+
+uint32_t addi(unsigned Rd, unsigned Rs1, int32_t Imm) {
+  return encode(Op::RV_ADDI, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
+}
+uint32_t lui(unsigned Rd, uint32_t Address) {
+  return encode(Op::RV_LUI,
+                {.Rd = Rd, .Imm = static_cast<int32_t>(Address >> 12)});
+}
+uint32_t csrr(unsigned Rd, unsigned Csr) {
+  return encode(Op::RV_CSRRS, {.Rd = Rd, .Rs1 = 0, .Csr = Csr});
+}
+uint32_t csrw(raster::Csr C, unsigned Rs1) {
+  return encode(Op::RV_CSRRW,
+                {.Rd = 0, .Rs1 = Rs1, .Csr = static_cast<unsigned>(C)});
+}
+uint32_t lw(unsigned Rd, int32_t Imm, unsigned Rs1) {
+  return encode(Op::RV_LW, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
+}
+uint32_t sw(unsigned Rs2, int32_t Imm, unsigned Rs1) {
+  return encode(Op::RV_SW, {.Rs1 = Rs1, .Rs2 = Rs2, .Imm = Imm});
+}
+
+Words operator+(Words A, const Words &B) {
+  A.insert(A.end(), B.begin(), B.end());
+  return A;
+}
+Words repeat(unsigned Count, const Words &Body) {
+  Words All;
+  for (unsigned N = 0; N != Count; ++N)
+    All = All + Body;
+  return All;
+}
+
+/// All 16 lanes on; x6: lane number; x7: a word for each lane; x8: the same in
+/// local memory.
+Words program(const Words &Body) {
+  return Words{lui(5, 0x10000),
+               addi(5, 5, -1),
+               encode(Op::VX_TMC, {.Rs1 = 5}),
+               csrr(6, CSR_THREAD_ID),
+               lui(7, 0x100000),
+               encode(Op::RV_SH2ADD, {.Rd = 7, .Rs1 = 6, .Rs2 = 7}),
+               lui(8, VX_LOCAL_BASE),
+               encode(Op::RV_SH2ADD, {.Rd = 8, .Rs1 = 6, .Rs2 = 8})} +
+         Body + Words{encode(Op::VX_TMC, {.Rs1 = 0})};
+}
+
+Config timed(unsigned Cores = 1) {
+  Config C;
+  C.SocketsPerCluster = 1;
+  C.CoresPerSocket = Cores;
+  C.GlobalBytes = 1 << 22;
+  C.HostThreads = 1;
+  C.Timing.Enabled = true;
+  return C;
+}
+
+class ClockTest : public ::testing::Test {
+protected:
+  TimeReport run(const Words &Body) {
+    auto M = Machine::create(C);
+    EXPECT_TRUE(M) << M.error().What;
+    (*M)->load(codeImage(program(Body)));
+    const RunResult R = (*M)->run();
+    EXPECT_EQ(R.End, Outcome::Done) << R.Report;
+    for (const CoreTime &T : R.Time->Cores)
+      EXPECT_EQ(std::reduce(T.Cycles.begin(), T.Cycles.end()), R.Time->Cycles)
+          << "every cycle has one reason";
+    for (const RasterTime &T : R.Time->Rasters)
+      EXPECT_EQ(std::reduce(T.Cycles.begin(), T.Cycles.end()), R.Time->Cycles);
+    return *R.Time;
+  }
+  /// Cycles that \p Count repetitions of \p Body take, behind \p Before.
+  uint64_t cost(unsigned Count, const Words &Body, const Words &Before = {}) {
+    return run(Before + repeat(Count, Body)).Cycles - run(Before).Cycles;
+  }
+  static uint64_t of(const TimeReport &R, CoreCycle What, unsigned Core = 0) {
+    return R.Cores[Core].Cycles[size_t(What)];
+  }
+  static uint64_t activity(const TimeReport &R, std::string_view Unit,
+                           std::string_view What) {
+    for (const Activity &A : R.Activities)
+      if (A.Unit == Unit && A.Event == What)
+        return A.Count;
+    ADD_FAILURE() << What;
+    return 0;
+  }
+
+  Config C = timed();
+};
+
+TEST_F(ClockTest, DependentAndPipelinedOperations) {
+  const CoreTiming &P = C.Timing.Core;
+  constexpr unsigned N = 100;
+  EXPECT_EQ(cost(N, {addi(10, 10, 1)}), N * P.AluLatency);
+  const Words Dependent = {
+      encode(Op::RV_FADD_S, {.Rd = 1, .Rs1 = 1, .Rs2 = 2})};
+  EXPECT_EQ(cost(N, Dependent), N * P.FmaLatency - (P.FmaLatency - 1))
+      << "the last result is waited for by nobody";
+  const Words Independent = {
+      encode(Op::RV_FADD_S, {.Rd = 1, .Rs1 = 5, .Rs2 = 6}),
+      encode(Op::RV_FADD_S, {.Rd = 2, .Rs1 = 5, .Rs2 = 6}),
+      encode(Op::RV_FADD_S, {.Rd = 3, .Rs1 = 5, .Rs2 = 6}),
+      encode(Op::RV_FADD_S, {.Rd = 4, .Rs1 = 5, .Rs2 = 6})};
+  EXPECT_EQ(cost(N, Independent), 4U * N);
+  // The divider is not pipelined.
+  const Words Divisions = {encode(Op::RV_DIV, {.Rd = 10, .Rs1 = 6, .Rs2 = 6}),
+                           encode(Op::RV_DIV, {.Rd = 11, .Rs1 = 6, .Rs2 = 6})};
+  EXPECT_EQ(cost(N, Divisions), (2U * N - 1) * P.DivInterval + 1 +
+                                    // the end of the program is an SFU's too
+                                    P.DivInterval - 1);
+}
+
+TEST_F(ClockTest, TakenBranchesCostThePenalty) {
+  const unsigned Penalty = C.Timing.Core.BranchPenalty;
+  const Words Loop = {addi(10, 0, 50), addi(10, 10, -1),
+                      encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4})};
+  // 50 times two instructions, 49 times back; the branch waits for nothing.
+  EXPECT_EQ(cost(1, Loop), 1 + 50 * 2 + 49 * Penalty);
+}
+
+TEST_F(ClockTest, DivergencePaysForTheFrontEnd) {
+  // Half of the lanes add one, the other half two.
+  const Words Split = {encode(Op::RV_ANDI, {.Rd = 10, .Rs1 = 6, .Imm = 1}),
+                       encode(Op::VX_SPLIT, {.Rd = 11, .Rs1 = 10}),
+                       encode(Op::RV_BEQ, {.Rs1 = 10, .Rs2 = 0, .Imm = 12}),
+                       addi(12, 12, 1),
+                       encode(Op::RV_JAL, {.Rd = 0, .Imm = 8}),
+                       addi(12, 12, 2),
+                       encode(Op::VX_JOIN, {.Rs1 = 11})};
+  const TimeReport R = run(Split);
+  // Into the split, to the other side, and together again.
+  EXPECT_EQ(of(R, CoreCycle::Divergence) - of(run({}), CoreCycle::Divergence),
+            3U * C.Timing.Core.MaskPenalty);
+  EXPECT_EQ(activity(R, "core lane instructions", "branch"), 8U * 2 + 8);
+}
+
+TEST_F(ClockTest, LoadsThatHitInL2) {
+  const TimingConfig &P = C.Timing;
+  constexpr unsigned N = 50;
+  const Words Warm = {lw(10, 0, 7), addi(10, 10, 0)};
+  // Each address needs the value before: zero, added to the address.
+  const Words Chase = {lw(10, 0, 7),
+                       encode(Op::RV_ADD, {.Rd = 7, .Rs1 = 7, .Rs2 = 10})};
+  EXPECT_EQ(cost(N, Chase, Warm),
+            N * (P.Core.AguCycles + P.L2.HitCycles + P.Core.AluLatency));
+  // Without dependence the queue is the limit: so many in a latency.
+  const Words Stream = {lw(10, 0, 7), lw(11, 0, 7), lw(12, 0, 7), lw(13, 0, 7),
+                        lw(14, 0, 7), lw(15, 0, 7), lw(16, 0, 7), lw(17, 0, 7)};
+  C.Timing.Core.LsuQueue = 2;
+  const double Expected = 8.0 * N * (1 + 10) / 2;
+  EXPECT_NEAR(static_cast<double>(cost(N, Stream, Warm)), Expected,
+              0.1 * Expected);
+}
+
+TEST_F(ClockTest, StridesDecideHowManyLinesAreRequested) {
+  for (const unsigned Shift : {0U, 2U, 4U, 6U}) {
+    // Lane * 2^shift behind a line's beginning.
+    const Words Body = {
+        lui(7, 0x100000),
+        encode(Op::RV_SLLI,
+               {.Rd = 10, .Rs1 = 6, .Imm = static_cast<int>(Shift)}),
+        encode(Op::RV_ANDI, {.Rd = 10, .Rs1 = 10, .Imm = -4}),
+        encode(Op::RV_ADD, {.Rd = 7, .Rs1 = 7, .Rs2 = 10}), lw(11, 0, 7)};
+    const unsigned Lines = std::max(1U, (16U << Shift) / TimingLineBytes);
+    EXPECT_EQ(activity(run(Body), "lsu", "lines requested"), Lines) << Shift;
+  }
+}
+
+TEST_F(ClockTest, LocalBanksConflict) {
+  constexpr unsigned N = 64;
+  for (const unsigned Shift : {0U, 1U, 2U, 3U, 4U}) {
+    const Words Before = {
+        lui(8, VX_LOCAL_BASE),
+        encode(Op::RV_SLLI,
+               {.Rd = 10, .Rs1 = 6, .Imm = static_cast<int>(Shift + 2)}),
+        encode(Op::RV_ADD, {.Rd = 8, .Rs1 = 8, .Rs2 = 10})};
+    // Words 2^shift apart: so many of a bank.
+    const unsigned Conflicts = 1U << Shift;
+    const Words Loads = {lw(10, 0, 8), lw(11, 0, 8), lw(12, 0, 8),
+                         lw(13, 0, 8)};
+    EXPECT_NEAR(static_cast<double>(cost(N, Loads, Before)),
+                4.0 * N * Conflicts, Conflicts + 4)
+        << Shift;
+  }
+  // The same word for all is one access.
+  const Words Same = {lw(10, 0, 8)};
+  EXPECT_EQ(activity(run(Words{lui(8, VX_LOCAL_BASE)} + Same), "local memory",
+                     "conflict cycles"),
+            0U);
+}
+
+TEST_F(ClockTest, StacksAreInterleaved) {
+  // Every lane's stack pointer, and a word there.
+  const Words Body = {csrr(10, CSR_STACK_SIZE),
+                      csrr(11, CSR_MHARTID),
+                      encode(Op::RV_MUL, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
+                      lui(12, VX_LOCAL_BASE),
+                      encode(Op::RV_SUB, {.Rd = 12, .Rs1 = 12, .Rs2 = 10}),
+                      sw(6, -16, 12)};
+  EXPECT_EQ(activity(run(Body), "lsu", "lines requested"), 1U);
+  C.Timing.Core.InterleavedStacks = 0;
+  EXPECT_EQ(activity(run(Body), "lsu", "lines requested"), 16U);
+}
+
+TEST_F(ClockTest, AFenceWaitsForWhatIsInFlight) {
+  const Words Body = {lw(10, 0, 7), encode(Op::RV_FENCE, {})};
+  EXPECT_GT(of(run(Body), CoreCycle::Fence), C.Timing.L2.HitCycles);
+}
+
+TEST_F(ClockTest, DramTimeDoesNotScaleWithTheClock) {
+  // A miss in an otherwise empty program.
+  const Words Body = {lw(10, 0, 7), addi(10, 10, 0)};
+  const auto Nanoseconds = [&](uint32_t Mhz) {
+    C.Timing.ClockMhz = Mhz;
+    const TimeReport R = run(Body);
+    return 1e3 * static_cast<double>(of(R, CoreCycle::Memory)) / Mhz;
+  };
+  const TimingConfig &P = C.Timing;
+  const double Cycles = P.Core.AguCycles + P.L2.HitCycles + P.Llc.HitCycles - 1;
+  const double Dram = (P.Dram.ControllerPs + P.Dram.TrcdPs + P.Dram.TclPs +
+                       2.0 * P.Dram.BurstPs) /
+                      1000;
+  for (const uint32_t Mhz : {100U, 530U, 5000U})
+    EXPECT_NEAR(Nanoseconds(Mhz), 1e3 * Cycles / Mhz + Dram,
+                P.Dram.BurstPs / 1e3 + 2e3 / Mhz)
+        << Mhz;
+}
+
+TEST_F(ClockTest, AtomicsOfOneWordTakeTurns) {
+  const Words OneWord = {
+      lui(7, 0x100000), encode(Op::RV_AMOADD_W, {.Rd = 10, .Rs1 = 7, .Rs2 = 6}),
+      addi(10, 10, 0)};
+  const Words Apart = {encode(Op::RV_AMOADD_W, {.Rd = 10, .Rs1 = 7, .Rs2 = 6}),
+                       addi(10, 10, 0)};
+  const Words Warm = {lw(10, 0, 7), encode(Op::RV_FENCE, {})};
+  EXPECT_EQ(run(Warm + OneWord).Cycles, run(Warm + Apart).Cycles + 1 + 15)
+      << "15 more turns, and the lui";
+}
+
+TEST_F(ClockTest, CoresWaitAtABarrier) {
+  C = timed(4);
+  // Core n does 100 n additions, then all meet.
+  const Words Body = {csrr(10, CSR_CORE_ID),
+                      addi(11, 0, 100),
+                      encode(Op::RV_MUL, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
+                      addi(10, 10, 1),
+                      addi(10, 10, -1), // loop
+                      encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4}),
+                      lui(12, 0x80000000),
+                      addi(13, 0, 4),
+                      encode(Op::VX_BAR, {.Rs1 = 12, .Rs2 = 13})};
+  const TimeReport R = run(Body);
+  EXPECT_EQ(of(R, CoreCycle::Barrier, 3), 0U);
+  for (unsigned Core = 0; Core != 3; ++Core)
+    EXPECT_EQ(of(R, CoreCycle::Barrier, Core),
+              (3 - Core) * 100U * (2 + C.Timing.Core.BranchPenalty));
+}
+
+/// A tile of 64 x 64 without Gaussians.
+Words emptyTile() {
+  return {lui(14, 0x200000),
+          csrw(raster::Csr::Output, 14),
+          addi(14, 0, 1024),
+          csrw(raster::Csr::OutputPitch, 14),
+          lui(14, 0x400000),
+          addi(14, 14, 64),
+          csrw(raster::Csr::TileShape, 14)};
+}
+
+TEST_F(ClockTest, AFullQueueStallsTheStart) {
+  C.Raster.QueueDepth = 2;
+  const unsigned Tile = C.Timing.Raster.StartCycles + 4096 / 16 + 1024;
+  const Words Start = {csrw(raster::Csr::Start, 0)};
+  const TimeReport Two = run(emptyTile() + repeat(2, Start));
+  EXPECT_EQ(of(Two, CoreCycle::RasterFull), 0U);
+  const TimeReport Five = run(emptyTile() + repeat(5, Start));
+  EXPECT_NEAR(static_cast<double>(of(Five, CoreCycle::RasterFull)), 3.0 * Tile,
+              8);
+  EXPECT_EQ(Five.Rasters[0].Commands, 5U);
+  const TimeReport Waited =
+      run(emptyTile() + Start +
+          Words{csrr(15, static_cast<unsigned>(raster::Csr::Wait))});
+  EXPECT_NEAR(static_cast<double>(of(Waited, CoreCycle::RasterWait)), Tile, 2);
+}
+
+/// Lanes of all cores draw numbers from one counter, use local memory, spin
+/// through loops of different lengths, and start tiles.
+Words everything() {
+  return emptyTile() +
+         Words{csrr(12, CSR_MHARTID),
+               lui(10, 0x100000),
+               encode(Op::RV_ANDI, {.Rd = 13, .Rs1 = 12, .Imm = 0x70}),
+               addi(13, 13, 5),
+               addi(14, 0, 1), // loop
+               encode(Op::RV_AMOADD_W, {.Rd = 15, .Rs1 = 10, .Rs2 = 14}),
+               encode(Op::RV_SH2ADD, {.Rd = 16, .Rs1 = 15, .Rs2 = 10}),
+               sw(12, 64, 16),
+               sw(15, 0, 8),
+               lw(17, 0, 8),
+               encode(Op::RV_MUL, {.Rd = 18, .Rs1 = 17, .Rs2 = 12}),
+               sw(18, 2000, 7),
+               addi(13, 13, -1),
+               encode(Op::RV_BNE, {.Rs1 = 13, .Rs2 = 0, .Imm = -9 * 4}),
+               csrw(raster::Csr::Start, 0),
+               csrw(raster::Csr::Start, 0),
+               csrr(19, static_cast<unsigned>(raster::Csr::Wait))};
+}
+
+TEST(Clock, ChangesNothing) {
+  Config C = timed(4);
+  C.SocketsPerCluster = 2;
+  std::vector<std::byte> Memory[2];
+  CoreCounters Total[2];
+  for (const bool Enabled : {false, true}) {
+    C.Timing.Enabled = Enabled;
+    auto M = Machine::create(C);
+    ASSERT_TRUE(M);
+    (*M)->load(codeImage(program(everything())));
+    const RunResult R = (*M)->run();
+    EXPECT_EQ(R.End, Outcome::Done) << R.Report;
+    EXPECT_EQ(R.Time.has_value(), Enabled);
+    Memory[Enabled].resize(C.GlobalBytes);
+    ASSERT_TRUE((*M)->read(VX_GLOBAL_BASE, Memory[Enabled]));
+    Total[Enabled] = R.Total;
+  }
+  EXPECT_EQ(Memory[0], Memory[1]);
+  EXPECT_EQ(Total[0].WarpInstructions, Total[1].WarpInstructions);
+  EXPECT_EQ(Total[0].LaneInstructions, Total[1].LaneInstructions);
+}
+
+TEST(Clock, IsTheSameForAnyNumberOfHostThreads) {
+  Config C = timed(4);
+  C.SocketsPerCluster = 2;
+  C.Clusters = 2;
+  std::vector<std::string> Reports;
+  for (const unsigned Threads : {1U, 2U, 3U, 8U}) {
+    C.HostThreads = Threads;
+    auto M = Machine::create(C);
+    ASSERT_TRUE(M);
+    (*M)->load(codeImage(program(everything())));
+    // The second run begins with warm caches.
+    Reports.push_back(toJson(*(*M)->run().Time) + toJson(*(*M)->run().Time));
+    EXPECT_EQ(Reports.back(), Reports.front()) << Threads;
+  }
+}
+
+TEST(Clock, QuantumDoesNotMatter) {
+  // Where cores share nothing but memory, taking the trace in other pieces
+  // must give the same time.
+  Config C = timed(4);
+  const Words Body = {addi(13, 0, 400),
+                      lw(10, 0, 7),
+                      addi(7, 7, 64),
+                      encode(Op::RV_ADD, {.Rd = 11, .Rs1 = 11, .Rs2 = 10}),
+                      sw(11, 1024, 7),
+                      addi(13, 13, -1),
+                      encode(Op::RV_BNE, {.Rs1 = 13, .Rs2 = 0, .Imm = -20})};
+  std::vector<std::string> Reports;
+  for (const uint32_t Quantum : {7U, 100U, 1U << 16}) {
+    C.Quantum = Quantum;
+    auto M = Machine::create(C);
+    ASSERT_TRUE(M);
+    (*M)->load(codeImage(program(Body)));
+    Reports.push_back(toJson(*(*M)->run().Time));
+    EXPECT_EQ(Reports.back(), Reports.front()) << Quantum;
+  }
+}
+
+} // namespace

@@ -1,0 +1,54 @@
+/// What the clock knows of an instruction of the program.
+#pragma once
+
+#include "core/CodeTable.h"
+#include "vorion/isasim/Timing.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// Instructions that cost the same.
+enum class OpClass : uint8_t {
+  Alu,
+  Mul,
+  Div,
+  Fma, ///< addition and multiplication too
+  Fcmp,
+  Fcvt,
+  Fdiv,
+  Fsqrt,
+  Simt, ///< votes and shuffles
+  Csr,
+  Branch,
+  Mask, ///< what changes the active lanes
+  Load,
+  Store,
+  Atomic,
+  Fence,
+  Barrier,
+  Count
+};
+std::string_view name(OpClass C);
+
+/// Whom an instruction is given to. The paper's 16 ALUs and 16 SFUs work a warp
+/// at a time; branches and thread control are the SFUs'.
+enum class Unit : uint8_t { Alu, Sfu, Lsu, Count };
+
+/// One instruction. Registers are numbered as in WarpState::R.
+struct OpInfo {
+  OpClass Class = OpClass::Alu;
+  Unit On = Unit::Alu;
+  uint8_t Rd = 0;     ///< SinkRegister for none
+  uint8_t Sources[3]; ///< 0 (x0) for none
+  uint8_t Latency = 1, Interval = 1;
+};
+
+OpClass classOf(uint32_t Word);
+/// By number of the instruction in the program.
+std::vector<OpInfo> describeProgram(const CodeTable &Code,
+                                    const CoreTiming &Params);
+
+} // namespace vorion::isasim

@@ -1,0 +1,279 @@
+#include "timing/RasterClock.h"
+
+#include "raster/RasterTables.h"
+#include "timing/DatapathUnits.h"
+
+#include <algorithm>
+
+namespace vorion::isasim {
+
+using raster::GaussianWork;
+
+namespace {
+constexpr unsigned TableSide = raster::VR_MAX_TILE + 1;
+constexpr uint32_t PixelBytes = 16; ///< docs/abi.md: four floats
+constexpr uint32_t LineMask = ~(TimingLineBytes - 1);
+} // namespace
+
+DispatchTable::DispatchTable(const RasterTiming &Params)
+    : P(Params), Known(size_t{TableSide} * TableSide) {}
+
+unsigned DispatchTable::cycles(unsigned Width, unsigned Height) {
+  uint16_t &Cycles = Known[Width * TableSide + Height];
+  if (Cycles == 0)
+    Cycles = static_cast<uint16_t>(count(Width, Height));
+  return Cycles;
+}
+
+/// A box's place does not matter: it moves all its banks by the same number.
+unsigned DispatchTable::count(unsigned Width, unsigned Height) const {
+  unsigned Cycles = 1, Used = 0;
+  uint64_t Banks = 0;
+  for (unsigned Y = 0; Y != Height; ++Y)
+    for (unsigned X = 0; X != Width; ++X) {
+      const uint64_t Bank = uint64_t{1} << ((X + P.Stagger * Y) % P.Banks);
+      if (Used == P.Lanes || (Banks & Bank)) {
+        ++Cycles;
+        Used = 0;
+        Banks = 0;
+      }
+      ++Used;
+      Banks |= Bank;
+    }
+  return Cycles;
+}
+
+RasterClock::RasterClock(const TimingConfig &Params, unsigned ClusterIn,
+                         unsigned NumAgents, unsigned QueueDepthIn)
+    : P(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Cluster(ClusterIn),
+      QueueDepth(QueueDepthIn), Table(P), Agents(NumAgents),
+      EntryFree(P.BufferEntries) {}
+
+void RasterClock::begin(uint64_t Start) {
+  DispatchAt = Start;
+  Spent = {};
+  for (Agent &A : Agents) {
+    A.Expected.clear();
+    A.Queued = 0;
+  }
+  Now = Stage::Idle;
+  At = Never;
+  InLanes = {};
+}
+
+void RasterClock::start(unsigned Agent, uint64_t Then) {
+  ++Agents[Agent].Queued;
+  if (Now != Stage::Idle)
+    return;
+  Now = Stage::Take;
+  At = std::max(Then, DispatchAt);
+}
+
+std::optional<unsigned> RasterClock::step(MemorySystem &Memory) {
+  switch (Now) {
+  case Stage::Take:
+    take();
+    break;
+  case Stage::Fetch:
+    fetch(Memory);
+    break;
+  case Stage::Drain:
+    drain(Memory);
+    break;
+  case Stage::Done:
+    return finish();
+  case Stage::Idle:
+    break;
+  }
+  return std::nullopt;
+}
+
+/// Round-robin over the agents that have a command by now.
+void RasterClock::take() {
+  while (Agents[NextAgent].Queued == 0)
+    NextAgent = (NextAgent + 1) % Agents.size();
+  Serving = NextAgent;
+  NextAgent = (NextAgent + 1) % Agents.size();
+  Agent &A = Agents[Serving];
+  Work = {};
+  // A run that failed may have ended before the command was executed.
+  if (!A.Expected.empty()) {
+    Work = std::move(A.Expected.front());
+    A.Expected.pop_front();
+  }
+  ++Spent.Commands;
+
+  spend(RasterCycle::Idle, At - DispatchAt);
+  FetchAt = At + P.StartCycles;
+  // The whole tile is cleared, a row of banks at a time.
+  const unsigned Pixels = unsigned{Work.Width} * Work.Height;
+  spend(RasterCycle::Begin, P.StartCycles + (Pixels + P.Banks - 1) / P.Banks);
+  std::fill(EntryFree.begin(), EntryFree.end(), FetchAt);
+  Number = 0;
+  ListLine = 0;
+  if (Work.Gaussians.empty())
+    return flush();
+  Now = Stage::Fetch;
+  At = FetchAt;
+}
+
+/// One line a cycle, from FetchAt on; returns when the last has come.
+uint64_t RasterClock::requestLines(MemorySystem &Memory, uint32_t Address,
+                                   unsigned Bytes, bool Keep) {
+  uint64_t Ready = 0;
+  const uint32_t Last = (Address + Bytes - 1) & LineMask;
+  for (uint32_t Line = Address & LineMask;; Line += TimingLineBytes) {
+    Ready = std::max(
+        Ready, Memory.access(
+                   Cluster, {.Now = FetchAt++, .Address = Line, .Keep = Keep}));
+    if (Line == Last)
+      return Ready;
+  }
+}
+
+/// Whether the list's entry for the next Gaussian is there at FetchAt; if not,
+/// FetchAt becomes the time at which it is. The line behind is asked for when
+/// the first entry of a line is used.
+bool RasterClock::listReady(MemorySystem &Memory) {
+  const uint32_t Entry = Work.List + static_cast<uint32_t>(4 * Number);
+  const uint32_t Line = Entry & LineMask;
+  if (Line != ListLine) {
+    const bool First = ListLine == 0;
+    ListReady = First ? requestLines(Memory, Line, 4, false) : NextListReady;
+    NextListReady = requestLines(Memory, Line + TimingLineBytes, 4, false);
+    ListLine = Line;
+  }
+  if (ListReady <= FetchAt)
+    return true;
+  FetchAt = ListReady;
+  return false;
+}
+
+void RasterClock::fetch(MemorySystem &Memory) {
+  const GaussianWork &G = Work.Gaussians[Number];
+  FetchAt = std::max(FetchAt, At);
+  uint64_t Ready = FetchAt;
+  if (G.Address) {
+    if (!listReady(Memory)) {
+      At = FetchAt;
+      return;
+    }
+    Ready =
+        requestLines(Memory, G.Address, sizeof(raster::Gaussian), G.SpansTiles);
+  } else {
+    ++FetchAt;
+  }
+  dispatch(G, Ready);
+  uint64_t &Entry = EntryFree[Number % EntryFree.size()];
+  Entry = DispatchAt;
+  if (++Number == Work.Gaussians.size())
+    return flush();
+  // The next one needs the entry of whoever had it before.
+  At = std::max(FetchAt, EntryFree[Number % EntryFree.size()]);
+}
+
+void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
+  ++Spent.Gaussians;
+  if (Ready > DispatchAt)
+    spend(RasterCycle::Fetch, Ready - DispatchAt);
+  if (G.Width == 0) {
+    ++Spent.Clipped;
+    spend(RasterCycle::Clip, P.ClipCycles);
+    return;
+  }
+  unsigned Cycles = Table.cycles(G.Width, G.Height);
+  // Where saturated pixels get no slot (an option), only the others are packed.
+  if (G.Slots < unsigned{G.Width} * G.Height)
+    Cycles = std::min(Cycles, std::max(1U, (G.Slots + P.Lanes - 1) / P.Lanes));
+  const uint64_t Safe = safeAt(G, Cycles);
+  if (Safe > DispatchAt)
+    spend(RasterCycle::Hazard, Safe - DispatchAt);
+  InLanes[NextInLanes] = {G, DispatchAt, Cycles};
+  NextInLanes = (NextInLanes + 1) % Recent;
+  Spent.LaneSlots += G.Slots;
+  spend(RasterCycle::Blend, std::max<uint64_t>(Cycles, P.ClipCycles));
+}
+
+/// The earliest start at which every pixel that is still being updated has its
+/// new value when it is read again. Within a box pixels go out at a steady pace
+/// in row order, so that the corners of what two boxes share decide.
+uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
+  uint64_t Safe = DispatchAt;
+  const auto When = [](const GaussianWork &B, unsigned Pace, unsigned X,
+                       unsigned Y) {
+    return static_cast<int64_t>(((Y - B.Y) * B.Width + (X - B.X)) * Pace /
+                                (unsigned{B.Width} * B.Height));
+  };
+  for (const Dispatched &D : InLanes) {
+    if (D.Cycles == 0 || D.Start + D.Cycles + P.UpdateCycles <= DispatchAt)
+      continue;
+    const GaussianWork &B = D.What;
+    const unsigned X0 = std::max(B.X, G.X), Y0 = std::max(B.Y, G.Y);
+    const unsigned X1 = std::min(B.X + B.Width, G.X + G.Width);
+    const unsigned Y1 = std::min(B.Y + B.Height, G.Y + G.Height);
+    if (X0 >= X1 || Y0 >= Y1)
+      continue;
+    for (const unsigned X : {X0, X1 - 1})
+      for (const unsigned Y : {Y0, Y1 - 1}) {
+        const int64_t Start = static_cast<int64_t>(D.Start) +
+                              When(B, D.Cycles, X, Y) + P.UpdateCycles -
+                              When(G, Cycles, X, Y);
+        Safe =
+            std::max(Safe, static_cast<uint64_t>(std::max<int64_t>(Start, 0)));
+      }
+  }
+  return Safe;
+}
+
+/// Dispatch is done: the lanes empty, then the tile is written.
+void RasterClock::flush() {
+  if (!Work.Gaussians.empty())
+    spend(RasterCycle::Flush, laneDepth(Work.ExpUnit));
+  InLanes = {};
+  DrainRow = 0;
+  DrainByte = 0;
+  At = DispatchAt;
+  Now = Work.Drains || Work.Failed ? Stage::Done : Stage::Drain;
+}
+
+/// A line of the tile.
+void RasterClock::drain(MemorySystem &Memory) {
+  const uint32_t RowBytes = Work.Width * PixelBytes;
+  const uint32_t Address =
+      Work.Output + DrainRow * Work.OutputPitch + DrainByte;
+  const uint32_t Line = Address & LineMask;
+  const uint32_t Bytes =
+      std::min(Line + TimingLineBytes - Address, RowBytes - DrainByte);
+  const uint64_t Taken = Memory.access(
+      Cluster,
+      {.Now = At,
+       .Address = Line,
+       .Op = Bytes == TimingLineBytes ? CacheOp::WriteWhole : CacheOp::Write});
+  // The slice takes one a cycle, or holds the rasterizer up.
+  const uint64_t Next =
+      std::max(At + 1, Taken > L2HalfHit ? Taken - L2HalfHit : 0);
+  spend(RasterCycle::Drain, Next - DispatchAt);
+  At = Next;
+  DrainByte += Bytes;
+  if (DrainByte == RowBytes) {
+    DrainByte = 0;
+    if (++DrainRow == Work.Height)
+      Now = Stage::Done;
+  }
+}
+
+std::optional<unsigned> RasterClock::finish() {
+  --Agents[Serving].Queued;
+  const bool More = std::any_of(Agents.begin(), Agents.end(),
+                                [](const Agent &A) { return A.Queued != 0; });
+  Now = More ? Stage::Take : Stage::Idle;
+  At = More ? DispatchAt : Never;
+  return Serving;
+}
+
+void RasterClock::end(uint64_t End) {
+  if (End > DispatchAt)
+    spend(RasterCycle::Idle, End - DispatchAt);
+}
+
+} // namespace vorion::isasim

@@ -1,0 +1,116 @@
+/// How long a rasterizer takes: queues, Gaussian buffer, dispatch, banks,
+/// lanes, drain.
+#pragma once
+
+#include "raster/WorkLog.h"
+#include "timing/MemorySystem.h"
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// Cycles that dispatch needs to give a box of pixels to the lanes: in row
+/// order, as many a cycle as there are lanes, until two would need the same
+/// bank of the pixel buffer.
+class DispatchTable {
+public:
+  explicit DispatchTable(const RasterTiming &Params);
+  unsigned cycles(unsigned Width, unsigned Height);
+
+private:
+  unsigned count(unsigned Width, unsigned Height) const;
+  const RasterTiming P;
+  std::vector<uint16_t> Known; ///< 0: not yet
+};
+
+/// One rasterizer. Its owner calls step() in the order of time.
+class RasterClock {
+public:
+  RasterClock(const TimingConfig &Params, unsigned Cluster, unsigned Agents,
+              unsigned QueueDepth);
+
+  static constexpr uint64_t Never = UINT64_MAX;
+
+  /// The work of a command of an agent, before its start() is told.
+  void expect(unsigned Agent, raster::CommandWork &&Executed) {
+    Agents[Agent].Expected.push_back(std::move(Executed));
+  }
+
+  void begin(uint64_t Now);
+  bool isFull(unsigned Agent) const {
+    return Agents[Agent].Queued >= QueueDepth;
+  }
+  bool isBusy(unsigned Agent) const { return Agents[Agent].Queued != 0; }
+  /// The agent's core starts its next expected command; needs !isFull().
+  void start(unsigned Agent, uint64_t Now);
+
+  /// When it next does something that others can notice.
+  uint64_t when() const { return At; }
+  /// Does it; returns the agent of a command that is done with it.
+  std::optional<unsigned> step(MemorySystem &Memory);
+
+  /// When it was done with all that it was given.
+  uint64_t freeAt() const { return DispatchAt; }
+  /// The run ended at \p End.
+  void end(uint64_t End);
+  const RasterTime &time() const { return Spent; }
+
+private:
+  struct Agent {
+    std::deque<raster::CommandWork> Expected;
+    unsigned Queued = 0;
+  };
+  /// A Gaussian whose pixels may still be in the lanes.
+  struct Dispatched {
+    raster::GaussianWork What{};
+    uint64_t Start = 0;
+    unsigned Cycles = 0;
+  };
+  enum class Stage : uint8_t { Idle, Take, Fetch, Drain, Done };
+
+  void spend(RasterCycle What, uint64_t Cycles) {
+    Spent.Cycles[size_t(What)] += Cycles;
+    DispatchAt += Cycles;
+  }
+  void take();
+  void fetch(MemorySystem &Memory);
+  uint64_t requestLines(MemorySystem &Memory, uint32_t Address, unsigned Bytes,
+                        bool Keep);
+  bool listReady(MemorySystem &Memory);
+  void dispatch(const raster::GaussianWork &G, uint64_t Ready);
+  uint64_t safeAt(const raster::GaussianWork &G, unsigned Cycles) const;
+  void flush();
+  void drain(MemorySystem &Memory);
+  std::optional<unsigned> finish();
+
+  const RasterTiming P;
+  const uint32_t L2HalfHit;
+  unsigned Cluster, QueueDepth;
+  DispatchTable Table;
+  std::vector<Agent> Agents;
+  unsigned NextAgent = 0, Serving = 0;
+
+  Stage Now = Stage::Idle;
+  uint64_t At = Never;
+  /// The next cycle in which dispatch can give pixels to lanes. All cycles
+  /// before are accounted for.
+  uint64_t DispatchAt = 0;
+  raster::CommandWork Work;
+  size_t Number = 0; ///< of the Gaussian that is fetched next
+  uint64_t FetchAt = 0;
+  std::vector<uint64_t> EntryFree; ///< when entries of the buffer become free
+  uint32_t ListLine = 0;           ///< line of the list that was asked for last
+  uint64_t ListReady = 0, NextListReady = 0;
+  static constexpr size_t Recent = 8;
+  std::array<Dispatched, Recent> InLanes{};
+  size_t NextInLanes = 0;
+  unsigned DrainRow = 0;
+  uint32_t DrainByte = 0; ///< of the row
+
+  RasterTime Spent;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,177 @@
+/// The rasterizer's time against closed formulas.
+#include "timing/DatapathUnits.h"
+#include "timing/RasterClock.h"
+
+#include <gtest/gtest.h>
+#include <numeric>
+
+using namespace vorion::isasim;
+using vorion::raster::CommandWork;
+using vorion::raster::GaussianWork;
+
+namespace {
+
+GaussianWork box(unsigned X, unsigned Y, unsigned Width, unsigned Height) {
+  return {0,
+          static_cast<uint8_t>(X),
+          static_cast<uint8_t>(Y),
+          static_cast<uint8_t>(Width),
+          static_cast<uint8_t>(Height),
+          static_cast<uint16_t>(Width * Height),
+          false};
+}
+
+/// Pushed Gaussians into a tile that its core drains: no memory at all.
+CommandWork pushed(std::vector<GaussianWork> Gaussians) {
+  CommandWork W;
+  W.Width = W.Height = 64;
+  W.Drains = true;
+  W.Gaussians = std::move(Gaussians);
+  return W;
+}
+
+class RasterClockTest : public testing::Test {
+protected:
+  /// Runs what was queued and returns when it was done.
+  uint64_t finish(RasterClock &R) {
+    while (R.when() != RasterClock::Never)
+      R.step(Memory);
+    return R.freeAt();
+  }
+  RasterTime timeOf(CommandWork &&W) {
+    RasterClock R(P, 0, 1, 4);
+    R.begin(Now);
+    R.expect(0, std::move(W));
+    R.start(0, Now);
+    const uint64_t End = finish(R);
+    R.end(End);
+    EXPECT_EQ(std::reduce(R.time().Cycles.begin(), R.time().Cycles.end()),
+              End - Now)
+        << "every cycle has one reason";
+    Now = End + 100000; // memory goes on, and is quiet by then
+    return R.time();
+  }
+  static uint64_t of(const RasterTime &T, RasterCycle C) {
+    return T.Cycles[size_t(C)];
+  }
+
+  TimingConfig P;
+  uint64_t Now = 0;
+  MemorySystem Memory{P, 1};
+};
+
+TEST_F(RasterClockTest, OneGaussianOfNPixels) {
+  // Rows of whole multiples of 16 pixels fill the lanes.
+  for (const auto &[Width, Height] :
+       {std::pair{64, 64}, {16, 1}, {32, 7}, {48, 64}}) {
+    const auto Pixels = static_cast<unsigned>(Width * Height);
+    const RasterTime T = timeOf(pushed({box(0, 0, Width, Height)}));
+    EXPECT_EQ(of(T, RasterCycle::Blend), Pixels / 16) << Width;
+    EXPECT_EQ(T.LaneSlots, Pixels);
+    EXPECT_EQ(of(T, RasterCycle::Begin), P.Raster.StartCycles + 4096 / 16);
+    EXPECT_EQ(of(T, RasterCycle::Flush), laneDepth(0));
+  }
+}
+
+TEST_F(RasterClockTest, BanksDecideHowRowsPack) {
+  DispatchTable Table(P.Raster);
+  EXPECT_EQ(Table.cycles(1, 1), 1U);
+  // Four rows of four, 4 banks apart, have 16 different banks.
+  EXPECT_EQ(Table.cycles(4, 4), 1U);
+  // The fifth row's first pixel has the bank of the first row's: 4 rows a
+  // cycle.
+  EXPECT_EQ(Table.cycles(4, 8), 2U);
+  // In columns, banks repeat after 4 rows.
+  EXPECT_EQ(Table.cycles(1, 64), 16U);
+  // 5 pixels and the next row's first, 4 on: a conflict at once.
+  EXPECT_EQ(Table.cycles(5, 10), 10U);
+  RasterTiming Unstaggered = P.Raster;
+  Unstaggered.Stagger = 0;
+  EXPECT_EQ(DispatchTable(Unstaggered).cycles(4, 4), 4U);
+  // Never fewer than the lanes allow.
+  for (unsigned W = 1; W <= 64; ++W)
+    for (unsigned H = 1; H <= 64; ++H)
+      ASSERT_GE(Table.cycles(W, H), (W * H + 15) / 16);
+}
+
+TEST_F(RasterClockTest, APixelIsNotReadWhileItIsUpdated) {
+  P.Raster.UpdateCycles = 5;
+  // The same pixel over and over: one blend every 5 cycles.
+  EXPECT_EQ(of(timeOf(pushed(std::vector(100, box(3, 3, 1, 1)))),
+               RasterCycle::Hazard),
+            99U * 4);
+  // Boxes side by side do not wait.
+  std::vector<GaussianWork> Apart;
+  for (unsigned N = 0; N != 50; ++N)
+    Apart.push_back(box(N, 3, 1, 1));
+  EXPECT_EQ(of(timeOf(pushed(Apart)), RasterCycle::Hazard), 0U);
+  // In a large box a pixel is long done when its turn comes again.
+  EXPECT_EQ(
+      of(timeOf(pushed(std::vector(3, box(0, 0, 64, 2)))), RasterCycle::Hazard),
+      0U);
+}
+
+TEST_F(RasterClockTest, AGaussianThatMissesTheTileTakesOneCycle) {
+  const RasterTime T = timeOf(pushed(std::vector(7, box(0, 0, 0, 0))));
+  EXPECT_EQ(of(T, RasterCycle::Clip), 7U);
+  EXPECT_EQ(T.Clipped, 7U);
+  EXPECT_EQ(of(T, RasterCycle::Blend), 0U);
+}
+
+TEST_F(RasterClockTest, TheBufferHidesTheLatencyOfL2) {
+  // All records in L2, one pixel each: how long depends on what is in flight.
+  constexpr unsigned Count = 200;
+  const auto Listed = [] {
+    CommandWork W = pushed({});
+    W.List = 0x100000;
+    for (unsigned N = 0; N != Count; ++N) {
+      GaussianWork G = box(N % 64, N / 64, 1, 1);
+      G.Address = 0x200000 + N * 64;
+      W.Gaussians.push_back(G);
+    }
+    return W;
+  };
+  timeOf(Listed()); // warms L2
+  const auto FetchCycles = [&](unsigned Entries) {
+    P.Raster.BufferEntries = Entries;
+    return of(timeOf(Listed()), RasterCycle::Fetch);
+  };
+  // One at a time: the whole latency each but for the cycle of blending.
+  const uint64_t Latency = P.L2.HitCycles;
+  EXPECT_NEAR(static_cast<double>(FetchCycles(1)),
+              static_cast<double>(Latency * Count), 0.2 * Latency * Count);
+  // Enough entries to cover it: about nothing.
+  EXPECT_LT(FetchCycles(2 * P.L2.HitCycles), 3 * Latency);
+}
+
+TEST_F(RasterClockTest, DrainWritesALineACycle) {
+  CommandWork W = pushed({});
+  W.Drains = false;
+  W.Output = 0x300000;
+  W.OutputPitch = 64 * 16;
+  const RasterTime T = timeOf(std::move(W));
+  EXPECT_EQ(of(T, RasterCycle::Drain), 64U * 64 * 16 / TimingLineBytes);
+}
+
+TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
+  RasterClock R(P, 0, 4, 2);
+  R.begin(0);
+  const auto Start = [&](unsigned Agent, uint64_t Now) {
+    R.expect(Agent, pushed({box(0, 0, 64, 64)}));
+    R.start(Agent, Now);
+  };
+  Start(2, 0);
+  Start(2, 0);
+  EXPECT_TRUE(R.isFull(2));
+  EXPECT_FALSE(R.isFull(0));
+  R.step(Memory); // takes agent 2's first
+  Start(0, 10);
+  Start(3, 11);
+  std::vector<unsigned> Served;
+  while (R.when() != RasterClock::Never)
+    if (const auto Agent = R.step(Memory))
+      Served.push_back(*Agent);
+  EXPECT_EQ(Served, (std::vector<unsigned>{2, 3, 0, 2}));
+}
+
+} // namespace

@@ -1,0 +1,157 @@
+#include "vorion/isasim/Timing.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::isasim {
+
+using Json = nlohmann::ordered_json;
+
+std::span<const TimingParam> timingParams() {
+  static const TimingParam All[] = {
+#define GROUP(NAME, MEMBER, WHAT)
+#define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)       \
+  {#GROUP,  #NAME,                                                             \
+   #UNIT,   SOURCE,                                                            \
+   DEFAULT, LOW,                                                               \
+   HIGH,    [](TimingConfig &C) -> uint32_t & {                  \
+     return C.OF.MEMBER; }},
+#include "vorion/isasim/TimingParams.def"
+#undef GROUP
+#undef PARAM
+  };
+  return All;
+}
+
+std::string_view name(CoreCycle C) {
+  constexpr std::string_view Names[] = {
+      "issue",       "start",       "operand", "memory",     "local",
+      "unit",        "lsu_queue",   "branch",  "divergence", "fence",
+      "raster_full", "raster_wait", "barrier", "ended"};
+  static_assert(std::size(Names) == size_t(CoreCycle::Count));
+  return Names[size_t(C)];
+}
+
+std::string_view name(RasterCycle C) {
+  constexpr std::string_view Names[] = {"blend", "clip",  "fetch", "hazard",
+                                        "begin", "flush", "drain", "idle"};
+  static_assert(std::size(Names) == size_t(RasterCycle::Count));
+  return Names[size_t(C)];
+}
+
+namespace {
+
+template <typename Reason, typename Time> Json cycles(const Time &T) {
+  Json J;
+  for (size_t N = 0; N != T.Cycles.size(); ++N)
+    J[std::string(name(static_cast<Reason>(N)))] = T.Cycles[N];
+  return J;
+}
+
+Json json(const CacheTime &T) {
+  return {{"reads", T.Reads},
+          {"writes", T.Writes},
+          {"atomics", T.Atomics},
+          {"hits", T.Hits},
+          {"merged", T.Merged},
+          {"writebacks", T.Writebacks},
+          {"kept", T.Kept},
+          {"bank_cycles", T.BankCycles},
+          {"mshr_cycles", T.MshrCycles}};
+}
+
+Json json(const DramTime &T) {
+  return {{"read_bursts", T.Reads},
+          {"write_bursts", T.Writes},
+          {"row_hits", T.RowHits},
+          {"row_misses", T.RowMisses},
+          {"row_conflicts", T.RowConflicts},
+          {"refreshes", T.Refreshes},
+          {"bus_ps", T.BusPs}};
+}
+
+/// The sum over units, by reason.
+template <typename Time> Time sum(const std::vector<Time> &Units) {
+  Time Sum;
+  for (const Time &U : Units)
+    for (size_t N = 0; N != Sum.Cycles.size(); ++N)
+      Sum.Cycles[N] += U.Cycles[N];
+  return Sum;
+}
+
+template <typename Reason, typename Time>
+std::string shares(std::string_view Who, const std::vector<Time> &Units,
+                   uint64_t Cycles) {
+  const Time Sum = sum(Units);
+  const double All =
+      static_cast<double>(Cycles) * static_cast<double>(Units.size());
+  std::string Text = fmt::format("{:<12}", Who);
+  for (size_t N = 0; N != Sum.Cycles.size(); ++N)
+    if (Sum.Cycles[N])
+      Text += fmt::format(" {} {:.1f} %", name(static_cast<Reason>(N)),
+                          100.0 * static_cast<double>(Sum.Cycles[N]) / All);
+  return Text + "\n";
+}
+
+std::string line(std::string_view Who, const CacheTime &T) {
+  const uint64_t Requests = T.Reads + T.Writes + T.Atomics;
+  return fmt::format("{:<12} {} requests, {:.1f} % hits, {} written back\n",
+                     Who, Requests,
+                     Requests ? 100.0 * static_cast<double>(T.Hits + T.Merged) /
+                                    static_cast<double>(Requests)
+                              : 0.0,
+                     T.Writebacks);
+}
+
+} // namespace
+
+std::string toJson(const TimeReport &R) {
+  Json J{{"cycles", R.Cycles}, {"clock_mhz", R.ClockMhz}};
+  Json Cores = Json::array(), Rasters = Json::array(), L2 = Json::array();
+  for (const CoreTime &T : R.Cores)
+    Cores.push_back(cycles<CoreCycle>(T));
+  for (const RasterTime &T : R.Rasters) {
+    Json One = cycles<RasterCycle>(T);
+    One["commands"] = T.Commands;
+    One["gaussians"] = T.Gaussians;
+    One["clipped"] = T.Clipped;
+    One["lane_slots"] = T.LaneSlots;
+    Rasters.push_back(std::move(One));
+  }
+  for (const CacheTime &T : R.L2)
+    L2.push_back(json(T));
+  J["cores"] = std::move(Cores);
+  J["rasterizers"] = std::move(Rasters);
+  J["l2"] = std::move(L2);
+  J["llc"] = json(R.Llc);
+  J["dram"] = json(R.Dram);
+  Json Activities = Json::array();
+  for (const Activity &A : R.Activities)
+    Activities.push_back(
+        {{"unit", A.Unit}, {"event", A.Event}, {"count", A.Count}});
+  J["activities"] = std::move(Activities);
+  J["out_of_order"] = R.OutOfOrder;
+  return J.dump();
+}
+
+std::string toText(const TimeReport &R) {
+  std::string Text = fmt::format(
+      "cycles       {} ({:.3f} ms at {} MHz)\n", R.Cycles,
+      static_cast<double>(R.Cycles) / (1e3 * R.ClockMhz), R.ClockMhz);
+  if (R.Cycles == 0)
+    return Text;
+  Text += shares<CoreCycle>("cores", R.Cores, R.Cycles);
+  Text += shares<RasterCycle>("rasterizers", R.Rasters, R.Cycles);
+  for (size_t N = 0; N != R.L2.size(); ++N)
+    Text += line(R.L2.size() == 1 ? "l2" : fmt::format("l2 {}", N), R.L2[N]);
+  Text += line("llc", R.Llc);
+  const uint64_t Rows = R.Dram.RowHits + R.Dram.RowMisses + R.Dram.RowConflicts;
+  Text += fmt::format("{:<12} {} read and {} write bursts, {:.1f} % row hits\n",
+                      "dram", R.Dram.Reads, R.Dram.Writes,
+                      Rows ? 100.0 * static_cast<double>(R.Dram.RowHits) /
+                                 static_cast<double>(Rows)
+                           : 0.0);
+  return Text;
+}
+
+} // namespace vorion::isasim
