@@ -4,8 +4,9 @@
 //   1. refuse what has no meaning for a warp;
 //   2. branches only: switches become trees of branches;
 //   3. one return, loops that end, no irreducible cycles;
-//   4. loops that lanes leave apart get one exit, in the latch;
-//   5. splits, joins and predicates.
+//   4. short sides of divergent branches become selects;
+//   5. loops that lanes leave apart get one exit, in the latch;
+//   6. splits, joins and predicates.
 // It does not structurize: lanes meet at the immediate post-dominator, however
 // paths cross before it, so no code is moved or guarded anew.
 //
@@ -161,6 +162,11 @@ bool LowerDivergence::runOnFunction(Function &F) {
   run(FixIrreduciblePass());
   vorion::unifyExits(F, Analyses);
   changed();
+
+  const auto &Subtarget = TM.getSubtarget<RISCVSubtarget>(F);
+  if (TM.getOptLevel() != CodeGenOptLevel::None && !F.hasOptNone())
+    while (vorion::selectShortSides(F, Analyses, Subtarget))
+      changed();
 
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
   if (none_of(F,

@@ -21,6 +21,7 @@ class Instruction;
 class Loop;
 class DominatorTree;
 class PostDominatorTree;
+class RISCVSubtarget;
 
 namespace vorion {
 
@@ -48,6 +49,11 @@ bool loopIsInStep(const Loop &L, UniformityInfo &Uniform,
 /// The conditional branch with which all lanes leave \p L, if it is the only
 /// one and every iteration passes it; else null.
 BranchInst *soleExit(const Loop &L, const DominatorTree &Dominators);
+
+/// Replaces divergent branches around a few instructions that all lanes may
+/// execute by selects. True if there were any; \p Analyses are then stale.
+bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
+                      const RISCVSubtarget &Subtarget);
 
 /// Gives \p F one return, and every loop a way to it.
 void unifyExits(Function &F, FunctionAnalysisManager &Analyses);
