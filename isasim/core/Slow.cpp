@@ -66,7 +66,15 @@ void writeLanes(WarpState *S, unsigned Rd, const uint32_t *Values) {
   });
 }
 
+/// Where Vortex's own programs store console bytes, a lane each (its
+/// IO_COUT_ADDR and IO_COUT_SIZE).
+constexpr uint32_t ConsoleBytes = 64;
+
 bool storeIo(WarpState *S, unsigned Bytes, uint32_t Addr, uint32_t Value) {
+  if (Bytes == 1 && Addr - VX_IO_CONSOLE < ConsoleBytes) {
+    S->Owner->print(static_cast<char>(Value));
+    return true;
+  }
   if (Bytes != 4)
     return false;
   if (Addr == VX_IO_CONSOLE)

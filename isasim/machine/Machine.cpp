@@ -4,6 +4,7 @@
 #include "core/Slow.h"
 #include "core/Watch.h"
 #include "machine/HangDetector.h"
+#include "machine/HostInterface.h"
 #include "machine/RasterUnits.h"
 #include "machine/Report.h"
 #include "machine/WorkerPool.h"
@@ -70,7 +71,8 @@ Event rasterEvent(const WarpState &S) {
 struct Machine::Impl {
   Impl(const Config &C, std::unique_ptr<Memory> Mem)
       : Shape(C), Storage(std::move(Mem)), Pool(C.HostThreads),
-        Raster(Shape, *Storage) {
+        Raster(Shape, *Storage),
+        Host(*Storage, [this](char Byte) { Cores[0]->print(Byte); }) {
     for (unsigned Id = 0; Id != Shape.cores(); ++Id)
       Cores.push_back(std::make_unique<Core>(Shape, Id));
     if (!Shape.Timing.Enabled)
@@ -113,6 +115,7 @@ struct Machine::Impl {
   std::vector<std::unique_ptr<Core>> Cores;
   WorkerPool Pool;
   RasterUnits Raster;
+  HostInterface Host;
   HangDetector Hang;
   Watch Watcher;
   double WatchdogSeconds = 0;
@@ -163,6 +166,7 @@ void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   }
   GlobalArrived.assign(Shape.Barriers, 0);
   Hang = HangDetector();
+  Host.reset(*Program);
   LastRound = ShortRound;
 }
 
@@ -259,6 +263,7 @@ void Machine::Impl::executeParked(Core &C, WarpState &S) {
 }
 
 void Machine::Impl::atSyncPoint() {
+  Progress |= Host.poll();
   flushConsole(false);
   Watcher.tell([&](Observer &O) { O.syncPoint(Cores); });
   for (const auto &C : Cores)
@@ -306,7 +311,7 @@ bool Machine::Impl::decideEnd(RunResult &R) {
   if (findTrap(R))
     return true;
   const auto Ended = [](const auto &C) { return C->hasEnded(); };
-  if (std::all_of(Cores.begin(), Cores.end(), Ended))
+  if (Host.exitCode() || std::all_of(Cores.begin(), Cores.end(), Ended))
     return true;
   // After parked operations have been executed, what can still go on is either
   // ready or waits for a rasterizer.
@@ -349,6 +354,8 @@ void Machine::Impl::count(RunResult &R) const {
     if (C->ExitCode && R.ExitCode == 0)
       R.ExitCode = *C->ExitCode;
   }
+  if (Host.exitCode())
+    R.ExitCode = *Host.exitCode();
 }
 
 Machine::Machine() = default;

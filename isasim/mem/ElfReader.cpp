@@ -14,7 +14,8 @@ namespace {
 // RISC-V ELF psABI, "File header"; elf.h of older systems lacks some.
 constexpr uint32_t FlagCompressed = 0x1;
 constexpr uint32_t FlagFloatAbi = 0x6;
-constexpr uint32_t FloatAbiSingle = 0x2;
+// Soft-float programs only pass floats differently among themselves.
+constexpr uint32_t FloatAbiSoft = 0x0, FloatAbiSingle = 0x2;
 constexpr uint32_t FlagRve = 0x8;
 
 constexpr char KernelSection[] = "vorion_kernels";
@@ -89,8 +90,9 @@ std::string ImageParser::readHeader() {
     return "compressed instructions, expected code without the C extension";
   if (Header.e_flags & FlagRve)
     return "RV32E code, expected RV32I";
-  if ((Header.e_flags & FlagFloatAbi) != FloatAbiSingle)
-    return "wrong floating-point ABI, expected ilp32f";
+  const uint32_t FloatAbi = Header.e_flags & FlagFloatAbi;
+  if (FloatAbi != FloatAbiSingle && FloatAbi != FloatAbiSoft)
+    return "wrong floating-point ABI, expected ilp32f or ilp32";
   if (Header.e_phnum == 0 || Header.e_phentsize != sizeof(Elf32_Phdr))
     return "no program headers, expected a linked executable";
   return {};

@@ -1,6 +1,7 @@
 #include "vorion/isasim/Image.h"
 
 #include "mem/ElfReader.h"
+#include "mem/VxBinReader.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -49,8 +50,19 @@ std::span<const std::byte> Image::bytesAt(uint32_t Address,
 
 Expected<std::shared_ptr<const Image>>
 Image::parse(std::span<const std::byte> Elf, std::string Name) {
+  // The only format without a mark of its own goes by its name.
+  if (Name.ends_with(".vxbin"))
+    return parseVxBin(Elf, std::move(Name));
   ImageParser Parser(Elf, std::move(Name));
   return Parser.parse();
+}
+
+std::shared_ptr<const Image> Image::raw(Segment Only, std::string Name) {
+  auto Result = std::make_shared<Image>();
+  Result->Name = std::move(Name);
+  Result->Entry = Only.Address;
+  Result->Segments.push_back(std::move(Only));
+  return Result;
 }
 
 } // namespace vorion::isasim

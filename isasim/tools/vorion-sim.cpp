@@ -1,7 +1,9 @@
 /// Runs a program, or one kernel of it, on the simulated machine.
 
 #include "tools/Arguments.h"
+#include "tools/HelpFormatter.h"
 #include "tools/Launch.h"
+#include "tools/Signature.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
 #include "vorion/support/Diagnostics.h"
@@ -19,12 +21,14 @@ constexpr std::string_view Tool = "vorion-sim";
 struct Options {
   std::string Program, ConfigFile, ArgsFile;
   SessionOptions Watch;
-  std::string Kernel, Global, Local;
+  std::string Kernel, Global, Local, SignatureFile;
+  unsigned SignatureGranularity = 4;
   std::vector<std::string> Args;
   std::optional<uint64_t> MaxInstructions;
   std::optional<unsigned> Threads, ClockMhz;
   double Watchdog = 0;
   bool PrintDefaultConfig = false, ListKernels = false, Time = false;
+  bool OneHart = false;
 };
 
 Expected<std::string> readText(const std::string &Path) {
@@ -49,6 +53,9 @@ Expected<Config> makeConfig(const Options &O) {
   C.Timing.Enabled |= O.Time;
   if (O.ClockMhz)
     C.Timing.ClockMhz = *O.ClockMhz;
+  if (O.OneHart)
+    C.Clusters = C.SocketsPerCluster = C.CoresPerSocket = C.WarpsPerCore =
+        C.LanesPerWarp = 1;
   if (O.MaxInstructions)
     C.MaxInstructions = *O.MaxInstructions;
   if (O.Threads)
@@ -112,8 +119,8 @@ int exitCode(const RunResult &R) {
 }
 
 /// Reports and gives the exit code; \p Launch may be nullptr.
-int finish(const RunResult &R, const Options &O, const KernelLaunch *Launch,
-           Session &Watch) {
+int finish(const RunResult &R, const Options &O, const Machine &M,
+           const KernelLaunch *Launch, Session &Watch) {
   std::fflush(stdout);
   std::string Report = R.Report;
   while (Report.ends_with('\n'))
@@ -132,6 +139,12 @@ int finish(const RunResult &R, const Options &O, const KernelLaunch *Launch,
       Code = reportError(Tool, Ok.error());
   if (R.Time)
     fmt::print("{}", toText(*R.Time));
+  const bool Ended = R.End == Outcome::Done || R.End == Outcome::GuestFailed;
+  if (Ended && !O.SignatureFile.empty())
+    if (const Expected<Success> Ok =
+            writeSignature(M, O.SignatureFile, O.SignatureGranularity);
+        !Ok)
+      Code = reportError(Tool, Ok.error());
   if (const Expected<Success> Ok = Watch.runEnded(R); !Ok)
     return reportError(Tool, Ok.error());
   return Code;
@@ -168,12 +181,12 @@ int run(const Options &O) {
   (*M)->setWatchdog(O.Watchdog);
   (*Watch)->attach(**M);
   if (Request->WorkDim == 0)
-    return finish((*M)->run(), O, nullptr, **Watch);
+    return finish((*M)->run(), O, **M, nullptr, **Watch);
   const Expected<KernelLaunch> Launch = KernelLaunch::prepare(**M, *Request);
   if (!Launch)
     return reportError(Tool, Launch.error());
   (*Watch)->nameRun(Launch->kernel());
-  return finish((*M)->run(Launch->launchBlock()), O, &*Launch, **Watch);
+  return finish((*M)->run(Launch->launchBlock()), O, **M, &*Launch, **Watch);
 }
 
 /// An option of SessionOptions.def. One that may stand alone takes a value as
@@ -189,47 +202,97 @@ void declareWatch(CLI::App &App, const std::string &Name, std::string &To,
   Added->group("Watching a run (docs/debugging.md)");
 }
 
-void declare(CLI::App &App, Options &O) {
-  App.add_option("program", O.Program, "RISC-V executable for the machine");
-  App.add_option("--kernel", O.Kernel,
-                 "kernel to run (may be left out if there is one)");
-  App.add_option("--global", O.Global, "work-items, X[,Y[,Z]]");
-  App.add_option("--local", O.Local, "work-items of a group, X[,Y[,Z]]");
+/// What \p Check accepts, without its name in --help.
+CLI::Validator quietly(CLI::Validator Check) { return Check.description(""); }
+
+void declareLaunch(CLI::App &App, Options &O) {
+  App.add_option("--kernel", O.Kernel, "which, if there are several")
+      ->type_name("NAME")
+      ->group("Running a kernel");
+  App.add_option("--global", O.Global, "work-items")
+      ->type_name("X[,Y[,Z]]")
+      ->group("Running a kernel");
+  App.add_option("--local", O.Local, "work-items of a group")
+      ->type_name("X[,Y[,Z]]")
+      ->group("Running a kernel");
   App.add_option("--arg", O.Args,
-                 "next argument: i32:N u32:N i64:N u64:N f32:X bytes:HEX "
+                 "the next argument: i32:N u32:N i64:N u64:N f32:X bytes:HEX\n"
                  "buf:SIZE buf@FILE out:SIZE@FILE inout:FILE[@FILE] local:SIZE")
+      ->type_name("ARG")
+      ->group("Running a kernel")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   App.add_option("--args", O.ArgsFile,
-                 "the same as JSON: {\"kernel\", \"global\", \"local\", "
+                 "these as JSON: {\"kernel\", \"global\", \"local\", "
                  "\"args\": [\"i32:5\", ...]}")
+      ->type_name("FILE")
+      ->group("Running a kernel")
       ->excludes("--kernel")
       ->excludes("--global")
       ->excludes("--local")
       ->excludes("--arg");
-  App.add_option("--config", O.ConfigFile, "machine configuration, JSON");
+  App.add_flag("--list-kernels", O.ListKernels, "print them and exit")
+      ->group("Running a kernel");
+}
+
+void declareTestPrograms(CLI::App &App, Options &O) {
+  App.add_flag("--one-hart", O.OneHart, "one core of one warp of one lane")
+      ->group("Test programs (docs/abi.md)");
+  App.add_option("--signature", O.SignatureFile,
+                 "write the words from begin_signature to end_signature")
+      ->type_name("FILE")
+      ->group("Test programs (docs/abi.md)");
+  App.add_option("--signature-granularity", O.SignatureGranularity,
+                 "bytes a line of it (default: 4)")
+      ->type_name("N")
+      ->group("Test programs (docs/abi.md)")
+      ->check(quietly(CLI::IsMember({1U, 2U, 4U, 8U, 16U})));
+}
+
+void declare(CLI::App &App, Options &O) {
+  App.formatter(std::make_shared<HelpFormatter>());
+  App.set_help_flag("-h,--help", "print this and exit");
+  App.add_option("program", O.Program, "RISC-V executable, or Vortex's .vxbin")
+      ->type_name("");
+  App.add_option("--config", O.ConfigFile, "machine configuration, JSON")
+      ->type_name("FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
-               "print the default configuration and exit");
-  App.add_flag("--list-kernels", O.ListKernels,
-               "print the program's kernels and exit");
+               "print one to start from and exit");
   App.add_flag("--time", O.Time,
                "say how long the run takes on the machine (docs/model.md)");
   App.add_option("--clock", O.ClockMhz,
-                 "the machine's clock for --time (default 530)")
-      ->option_text("MHZ")
-      ->check(CLI::Range(1U, 100000U));
+                 "the machine's clock for --time (default: 530)")
+      ->type_name("MHZ")
+      ->check(quietly(CLI::Range(1U, 100000U)));
   App.add_option("--max-instructions", O.MaxInstructions,
-                 "end the run after so many warp instructions");
+                 "end the run after N warp instructions")
+      ->type_name("N");
+  App.add_option("--watchdog", O.Watchdog, "end the run after so long")
+      ->type_name("SECONDS")
+      ->check(quietly(CLI::NonNegativeNumber));
   App.add_option("--threads", O.Threads,
-                 "host threads (changes no result; default: all)");
-  App.add_option("--watchdog", O.Watchdog,
-                 "end the run after so many seconds of wall time")
-      ->check(CLI::NonNegativeNumber);
+                 "host threads (default: all; changes no result)")
+      ->type_name("N");
+  declareLaunch(App, O);
+  declareTestPrograms(App, O);
 #define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
   declareWatch(App, OPTION, O.Watch.MEMBER, VALUE, ALONE, HELP);
 #include "vorion/isasim/SessionOptions.def"
 #undef VORION_SESSION_OPTION
   App.footer(std::string(ExitCodeHelp));
+}
+
+/// Arguments that begin with a plus are options too, as test frameworks write
+/// them: +signature=FILE is --signature=FILE.
+std::vector<std::string> argumentsOf(int Argc, char **Argv) {
+  std::vector<std::string> Arguments;
+  for (int N = Argc - 1; N > 0; --N) { // CLI11 takes them from the end
+    const std::string_view Text = Argv[N];
+    Arguments.push_back(Text.starts_with("+signature")
+                            ? fmt::format("--{}", Text.substr(1))
+                            : std::string(Text));
+  }
+  return Arguments;
 }
 
 } // namespace
@@ -240,7 +303,7 @@ int main(int Argc, char **Argv) {
   Options O;
   declare(App, O);
   try {
-    App.parse(Argc, Argv);
+    App.parse(argumentsOf(Argc, Argv));
   } catch (const CLI::CallForHelp &E) {
     return App.exit(E);
   } catch (const CLI::ParseError &E) {

@@ -1,4 +1,5 @@
-/// A program for the machine: an ELF executable, checked and taken apart.
+/// A program for the machine, checked and taken apart: an ELF executable, or a
+/// raw image of Vortex.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -51,13 +52,17 @@ public:
     std::string Name;
   };
 
-  /// Checks \p Elf and takes it apart. \p Name is the file name for messages.
+  /// Checks \p Elf and takes it apart. \p Name is the file name for messages;
+  /// one that ends in .vxbin is no ELF file (mem/VxBinReader.h).
   /// Errors: truncated or malformed file, not a 32-bit little-endian RISC-V
-  /// executable, not the ilp32f ABI, compressed code, a segment outside the
+  /// executable, the ABI neither ilp32f nor ilp32, compressed code, a segment outside the
   /// image range, overlapping segments, writable code, an entry point outside
   /// the code, a malformed kernel table.
   static Expected<std::shared_ptr<const Image>>
   parse(std::span<const std::byte> Elf, std::string Name);
+
+  /// An image of one segment that begins with its entry point.
+  static std::shared_ptr<const Image> raw(Segment Only, std::string Name);
 
   const std::string &name() const { return Name; }
   /// The file, as it was given to parse().

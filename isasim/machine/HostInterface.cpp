@@ -1,0 +1,92 @@
+#include "machine/HostInterface.h"
+
+#include <array>
+#include <cstring>
+
+namespace vorion::isasim {
+
+namespace {
+
+// A command: device in the top byte, command below it, then the payload.
+constexpr unsigned DeviceShift = 56, CommandShift = 48;
+constexpr uint64_t PayloadMask = (uint64_t{1} << CommandShift) - 1;
+constexpr uint64_t SystemDevice = 0, ConsoleDevice = 1;
+constexpr uint64_t ConsoleWrite = 1;
+
+// Calls that programs make by an array of four words in memory.
+constexpr uint64_t CallWrite = 64, CallExit = 93;
+constexpr uint64_t NoSuchCall = ~uint64_t{37}; // -ENOSYS
+
+} // namespace
+
+void HostInterface::reset(const Image &Program) {
+  ToHost = Program.findSymbol("tohost");
+  FromHost = Program.findSymbol("fromhost");
+  Seen = 0;
+  Exit.reset();
+}
+
+std::optional<uint64_t> HostInterface::read(uint32_t Address) const {
+  uint64_t Value = 0;
+  const std::byte *At = Storage.shared(Address, sizeof(Value));
+  if (!At)
+    return std::nullopt;
+  std::memcpy(&Value, At, sizeof(Value));
+  return Value;
+}
+
+void HostInterface::write(uint32_t Address, uint64_t Value) {
+  if (std::byte *At = Storage.shared(Address, sizeof(Value)))
+    std::memcpy(At, &Value, sizeof(Value));
+}
+
+bool HostInterface::poll() {
+  if (!ToHost || Exit)
+    return false;
+  const uint64_t Command = read(*ToHost).value_or(0);
+  // A core of 32 bits stores one half after the other, and may have been parked
+  // between: what stands there for the second time is complete.
+  const bool Complete = Command != 0 && Command == Seen;
+  Seen = Complete ? 0 : Command;
+  if (Complete) {
+    write(*ToHost, 0);
+    execute(Command);
+  }
+  return Command != 0;
+}
+
+void HostInterface::execute(uint64_t Command) {
+  const uint64_t Device = Command >> DeviceShift;
+  const uint64_t Payload = Command & PayloadMask;
+  if (Device == ConsoleDevice &&
+      (Command >> CommandShift & 0xFF) == ConsoleWrite)
+    Print(static_cast<char>(Payload));
+  else if (Device == SystemDevice && (Payload & 1))
+    Exit = static_cast<uint32_t>(Payload >> 1);
+  else if (Device == SystemDevice)
+    callSystem(static_cast<uint32_t>(Payload));
+}
+
+void HostInterface::callSystem(uint32_t Address) {
+  std::array<uint64_t, 4> Call{}; // number, then arguments
+  for (uint32_t N = 0; N != Call.size(); ++N)
+    Call[N] = read(Address + 8 * N).value_or(0);
+  uint64_t Result = NoSuchCall;
+  if (Call[0] == CallWrite) {
+    Result = 0;
+    for (; Result != Call[3]; ++Result) {
+      const std::byte *At =
+          Storage.shared(static_cast<uint32_t>(Call[2] + Result), 1);
+      if (!At)
+        break;
+      Print(static_cast<char>(*At));
+    }
+  } else if (Call[0] == CallExit) {
+    Exit = static_cast<uint32_t>(Call[1]);
+  }
+  write(Address, Result);
+  if (FromHost)
+    write(*FromHost, 1);
+}
+
+} // namespace vorion::isasim

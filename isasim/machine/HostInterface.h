@@ -1,0 +1,47 @@
+/// The words `tohost` and `fromhost` of a program that has them: how test
+/// programs for RISC-V end and print where there is a host to answer (HTIF, as
+/// riscv-tests and Spike use it). docs/abi.md, "Test programs".
+#pragma once
+
+#include "mem/Memory.h"
+#include "vorion/isasim/Image.h"
+
+#include <functional>
+#include <optional>
+
+namespace vorion::isasim {
+
+class HostInterface {
+public:
+  /// Keeps a reference to \p Storage. Print receives console characters.
+  HostInterface(const Memory &Storage, std::function<void(char)> Print)
+      : Storage(Storage), Print(std::move(Print)) {}
+
+  /// For a new run of \p Program; its words are looked for here.
+  void reset(const Image &Program);
+
+  /// Whether the program has the words.
+  bool isPresent() const { return ToHost.has_value(); }
+
+  /// Looks whether the program asks for something; called where all cores are
+  /// parked. True if it does, which a program may wait for in a loop.
+  bool poll();
+
+  /// The code that the program ended with.
+  const std::optional<uint32_t> &exitCode() const { return Exit; }
+
+private:
+  void execute(uint64_t Command);
+  void callSystem(uint32_t Address);
+  /// A 64-bit word, or 32 bits of one that lies at the end of memory.
+  std::optional<uint64_t> read(uint32_t Address) const;
+  void write(uint32_t Address, uint64_t Value);
+
+  const Memory &Storage;
+  std::function<void(char)> Print;
+  std::optional<uint32_t> ToHost, FromHost; ///< addresses
+  uint64_t Seen = 0;                        ///< at the last poll
+  std::optional<uint32_t> Exit;
+};
+
+} // namespace vorion::isasim
