@@ -17,7 +17,7 @@ def CSR_INSTRETH : Csr<"instreth", 0xC82, Core, ReadOnly, 1, "High word of instr
 def CSR_MHARTID : Csr<"mhartid", 0xF14, Lane, ReadOnly, 0, "(core * warps + warp) * lanes + lane.">;
 }
 
-let HasIntrinsic = 1 in
+let Extension = "zicsr" in
 def CSR_MSCRATCH : Csr<"mscratch", 0x340, Core, Scalar, 1, "Address of the launch block, 0 without one.">;
 
 def CSR_THREAD_ID : Csr<"vx_thread_id", 0xCC0, Lane, ReadOnly, 0, "Lane number within the warp.">;

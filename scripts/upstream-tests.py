@@ -77,7 +77,7 @@ class Toolset:
         raw = kept + ".lit"
         if os.path.exists(raw):
             os.remove(raw)
-        done = subprocess.run([sys.executable, LIT, "-q", "-j", str(jobs), "--num-shards", str(parts), "--run-shard",
+        done = subprocess.run([sys.executable, LIT, "-q", "--order=lexical", "-j", str(jobs), "--num-shards", str(parts), "--run-shard",
                                str(part), "-o", raw, self.folder], stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode not in (0, 1) or not os.path.exists(raw):
             fail(70, f"lit ended with {done.returncode}: {done.stdout.decode(errors='replace')[-2000:]}")

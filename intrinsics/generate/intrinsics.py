@@ -20,7 +20,7 @@ def _make(prototype, divergence, doc, kind, record):
     result, name, parameters = _parse(prototype)
     return SimpleNamespace(prototype=prototype, name=name, symbol=PREFIX + name, has_result=result != "void",
                            inputs=len(parameters), divergence=divergence, doc=doc, kind=kind, record=record,
-                           extension=getattr(record, "Extension", "xvortex"))
+                           extension="xvorion" if getattr(record, "Extension", "") == "xvorion" else "xvortex")
 
 
 def intrinsics(records):

@@ -2,6 +2,11 @@
 
 include "RISCV.td"
 
+// LLVM 19's name of an extension that patches/0001 takes for ratified.
+def FeatureExperimentalZacas
+    : SubtargetFeature<"experimental-zacas", "HasExperimentalZacas", "true",
+                       "The same as zacas", [FeatureStdExtZacas]>;
+
 // XVortex needs compare-and-swap because LR/SC loops do not end when lanes of a
 // warp contend.
 def FeatureVendorXVortex

@@ -16,8 +16,7 @@ static bool isForeignElf(llvm::StringRef Bytes) {
   constexpr size_t MachineOffset = 18; // e_machine, after e_ident and e_type
   if (!Bytes.starts_with(elf::ElfMagic) || Bytes.size() < MachineOffset + 2)
     return false;
-  return Bytes[elf::EI_CLASS] != elf::ELFCLASS32 ||
-         Bytes[elf::EI_DATA] != elf::ELFDATA2LSB ||
+  return Bytes[elf::EI_DATA] != elf::ELFDATA2LSB ||
          static_cast<unsigned char>(Bytes[MachineOffset]) != elf::EM_RISCV ||
          Bytes[MachineOffset + 1] != 0;
 }
@@ -35,7 +34,7 @@ static bool checkInput(llvm::StringRef Name) {
   }
   if (isForeignElf((*Buffer)->getBuffer())) {
     llvm::errs() << "vorion-objdump: error: " << Name
-                 << ": not a 32-bit RISC-V file" << Wanted;
+                 << ": not a RISC-V file" << Wanted;
     return false;
   }
   return true;
