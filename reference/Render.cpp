@@ -186,7 +186,7 @@ private:
     Real T = 1;
     glm::vec<3, Real> Color(0);
     std::uint8_t Doubts = 0;
-    std::int32_t Last = -1;
+    std::int32_t Last = -1, Stop = -1;
     DepthOrder Order;
     for (const Candidate<Real> &C : List) {
       Sum.Walked += C.Listed;
@@ -217,6 +217,7 @@ private:
         Doubts |= DoubtThreshold;
       if (saturates(Next)) {
         ++Sum.Saturated;
+        Stop = C.Index;
         break;
       }
       Color += C.Color * (Alpha * T);
@@ -231,6 +232,7 @@ private:
     P.Transmittance[At] = T;
     P.Doubts[At] = Doubts;
     P.Last[At] = Last;
+    P.Stop[At] = Stop;
   }
 
   const std::vector<Splat<Real>> &Splats;
@@ -262,6 +264,7 @@ Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
   P.Transmittance.resize(Pixels);
   P.Doubts.resize(Pixels);
   P.Last.resize(Pixels);
+  P.Stop.resize(Pixels);
 
   // Tiles write pixels of their own, and counts are integers, so that neither
   // the number of threads nor their order shows in the result.

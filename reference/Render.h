@@ -31,6 +31,8 @@ template <typename Real> struct Picture {
   std::vector<std::uint8_t> Doubts;      ///< of \c Doubt
   /// Last Gaussian that was blended, -1 if none.
   std::vector<std::int32_t> Last;
+  /// The Gaussian at which the pixel ended at the cut-off, -1 if it did not.
+  std::vector<std::int32_t> Stop;
 
   /// Blended (Gaussian, pixel) pairs.
   std::uint64_t Blends = 0;

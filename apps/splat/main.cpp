@@ -22,6 +22,8 @@ int main(int ArgumentCount, char **Arguments) {
     Commands.emplace_back(Command, Declare(*Command));
   };
   Add("render", "Renders one view of a scene", splat::addRender);
+  Add("analyze", "Counts what a view of a scene asks of a machine",
+      splat::addAnalyze);
   Add("info", "Prints what is in a scene", splat::addInfo);
   Add("convert", "Writes a scene of any format as a PLY", splat::addConvert);
   Add("demo-scene", "Writes the project's own scene and its cameras",

@@ -8,14 +8,6 @@
 namespace vorion::test {
 namespace {
 
-template <typename Real, typename From>
-std::vector<glm::vec<3, Real>> rows3(const std::vector<From> &V) {
-  std::vector<glm::vec<3, Real>> Rows;
-  for (std::size_t I = 0; I + 2 < V.size(); I += 3)
-    Rows.emplace_back(V[I], V[I + 1], V[I + 2]);
-  return Rows;
-}
-
 template <typename To, typename From>
 std::vector<To> converted(const std::vector<From> &V) {
   std::vector<To> Result;
@@ -26,45 +18,6 @@ std::vector<To> converted(const std::vector<From> &V) {
 }
 
 } // namespace
-
-template <typename Real>
-reference::Gaussians<Real> toReference(const splat::Scene &S) {
-  const auto A = splat::activate<Real>(S);
-  reference::Gaussians<Real> G;
-  G.Means = rows3<Real>(S.Means);
-  G.Scales = rows3<Real>(A.Scales);
-  for (std::size_t I = 0; I + 3 < A.Quats.size(); I += 4)
-    G.Quats.emplace_back(A.Quats[I], A.Quats[I + 1], A.Quats[I + 2],
-                         A.Quats[I + 3]);
-  G.Opacities = A.Opacities;
-  G.ShDegree = S.ShDegree;
-  G.Sh = rows3<Real>(S.Sh);
-  return G;
-}
-
-template <typename Real>
-reference::Camera<Real> toReference(const splat::Camera &C) {
-  reference::Camera<Real> R;
-  R.Width = C.Width;
-  R.Height = C.Height;
-  const auto Rotation = C.worldToCameraRotation();
-  const auto Translation = C.worldToCameraTranslation();
-  for (int I = 0; I < 3; ++I) {
-    for (int J = 0; J < 3; ++J)
-      R.Rotation[J][I] = static_cast<Real>(Rotation[std::size_t(3) * I + J]);
-    R.Translation[I] =
-        static_cast<Real>(Translation[static_cast<std::size_t>(I)]);
-    R.Centre[I] = static_cast<Real>(C.Position[static_cast<std::size_t>(I)]);
-  }
-  R.Focal = {C.Fx, C.Fy};
-  R.Principal = {C.Cx, C.Cy};
-  for (int J = 0; J < 3; ++J)
-    R.DepthAxisLow[J] = static_cast<Real>(
-        Rotation[std::size_t(6) + J] - static_cast<double>(R.Rotation[J][2]));
-  R.DepthOffsetLow =
-      static_cast<Real>(Translation[2] - static_cast<double>(R.Translation.z));
-  return R;
-}
 
 reference::Gaussians<float> toSingle(const reference::Gaussians<double> &G) {
   reference::Gaussians<float> S;
@@ -195,10 +148,6 @@ splat::Npz toNpz(const reference::TileLists &T,
           {"index", NpyArray::of(Shape, Indices)}};
 }
 
-template reference::Gaussians<float> toReference(const splat::Scene &);
-template reference::Gaussians<double> toReference(const splat::Scene &);
-template reference::Camera<float> toReference(const splat::Camera &);
-template reference::Camera<double> toReference(const splat::Camera &);
 template std::vector<double> renderOf(const reference::Picture<float> &);
 template std::vector<double> renderOf(const reference::Picture<double> &);
 template splat::Npz toNpz(const reference::Picture<float> &);

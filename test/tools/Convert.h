@@ -1,4 +1,5 @@
-/// Between what the readers give, what the reference renders, and fixtures.
+/// Between fixtures, what the readers give, and what the reference renders;
+/// apps/splat/analyze/ToReference.h has the rest.
 #pragma once
 
 #include "Activation.h"
@@ -6,6 +7,7 @@
 #include "Fixture.h"
 #include "Npz.h"
 #include "Scene.h"
+#include "ToReference.h"
 #include "reference/Render.h"
 
 #include <string>
@@ -13,14 +15,6 @@
 #include <vector>
 
 namespace vorion::test {
-
-/// \p S, activated as `Activation.h` states.
-template <typename Real>
-reference::Gaussians<Real> toReference(const splat::Scene &S);
-
-/// \p C in precision \p Real, rounded once from doubles as the device gets it.
-template <typename Real>
-reference::Camera<Real> toReference(const splat::Camera &C);
 
 /// \p G and \p C in fp32, each number rounded once.
 reference::Gaussians<float> toSingle(const reference::Gaussians<double> &G);

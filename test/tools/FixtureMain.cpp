@@ -53,8 +53,8 @@ Expected<Success> run(const std::string &Input, const std::string &Folder) {
 
   // The same renderer on both sides: the difference is the conversion's.
   const auto Exact = reference::render(F->Gaussians, F->Camera, O);
-  const auto Stored =
-      reference::render(toReference<double>(S), toReference<double>(C), O);
+  const auto Stored = reference::render(splat::toReference<double>(S),
+                                        splat::toReference<double>(C), O);
   std::vector<std::uint8_t> Doubtful(Exact.Doubts);
   const auto Loss = splat::compare(renderOf(Exact), renderOf(Stored), 3);
   const auto Outside =

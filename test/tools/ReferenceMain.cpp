@@ -33,8 +33,8 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
                       const splat::Camera &View) {
   const auto Started = std::chrono::steady_clock::now();
   const reference::Options O = optionsOf(A);
-  const auto C = toReference<Real>(View);
-  const auto Splats = reference::project(toReference<Real>(S), C, O);
+  const auto C = splat::toReference<Real>(View);
+  const auto Splats = reference::project(splat::toReference<Real>(S), C, O);
   const auto P = reference::blend(Splats, C.Width, C.Height, O);
   const auto Lists =
       reference::tileLists(Splats, O.Reach, O.TileSize, C.Width, C.Height);

@@ -1,0 +1,21 @@
+/// The charts of an analysis.
+#pragma once
+
+#include "Analysis.h"
+#include "Chart.h"
+
+#include <map>
+#include <string>
+
+namespace vorion::splat {
+
+/// `invocations`, `occlusion` and `lists`: pairs against tile size for every
+/// support, occluded pixels against list depth and tiles against list length
+/// for 16 and 64 pixels. \p View is said in the titles.
+std::map<std::string, Chart> chartsOf(const Analysis &A,
+                                      const std::string &View);
+
+/// The support's name on command lines.
+std::string_view name(reference::Support S);
+
+} // namespace vorion::splat

@@ -1,0 +1,178 @@
+#include "../analyze/Analysis.h"
+#include "../analyze/Plots.h"
+#include "../analyze/ToReference.h"
+#include "../io/Cameras.h"
+#include "../io/Hash.h"
+#include "../render/Options.h"
+#include "Choices.h"
+#include "Commands.h"
+#include "SceneArguments.h"
+#include "vorion/support/File.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct AnalyzeArguments {
+  SceneArguments Scene;
+  std::string Cameras, View, JsonFile, Plots;
+  Rules Convention = Rules::Inria;
+  Support Reach = Support::Square3;
+  reference::Options Options;
+};
+
+Json json(const Invocations &I) {
+  Json J;
+  for (std::size_t K = 0; K < I.size(); ++K)
+    J[std::to_string(AnalyzedTiles[K])] = I[K];
+  return J;
+}
+
+Json json(const ListStatistics &L) {
+  return {{"tiles", L.Tiles},
+          {"empty", L.Empty},
+          {"mean", L.Mean},
+          {"max", L.Longest},
+          {"histogram_by_bits", L.Histogram},
+          {"occluded_by_percent", L.Occluded}};
+}
+
+Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
+                                 const Camera &C, const Analysis &R) {
+  const auto SceneHash = hashScene(A.Scene.Path);
+  if (!SceneHash)
+    return SceneHash.error();
+  const auto CameraHash = hashFile(A.Cameras);
+  if (!CameraHash)
+    return CameraHash.error();
+  Json BySupport, Lists;
+  for (std::size_t K = 0; K < AnalyzedSupports.size(); ++K)
+    BySupport[std::string(name(AnalyzedSupports[K]))] = json(R.BySupport[K]);
+  for (std::size_t K = 0; K < AnalyzedTiles.size(); ++K)
+    Lists[std::to_string(AnalyzedTiles[K])] = json(R.Lists[K]);
+  const double Pixels = static_cast<double>(R.Pixels);
+  const Json Report{
+      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+      {"scene",
+       {{"file", A.Scene.Path},
+        {"fnv1a64", *SceneHash},
+        {"gaussians", F.Gaussians.size()},
+        {"sh_degree", F.Gaussians.ShDegree},
+        {"format", name(F.Format)},
+        {"axes_changed", A.Scene.Axes}}},
+      {"cameras", {{"file", A.Cameras}, {"fnv1a64", *CameraHash}}},
+      {"view", C.Name},
+      {"resolution", {C.Width, C.Height}},
+      {"rules", name(A.Convention)},
+      {"support", name(A.Reach)},
+      {"antialiased", A.Options.Antialiased},
+      {"cutoff", A.Options.Cutoff},
+      {"visible", R.Visible},
+      {"invocations", json(R.BySupport[static_cast<std::size_t>(A.Reach)])},
+      {"invocations_by_support", BySupport},
+      {"lists", Lists},
+      {"blends_per_pixel", static_cast<double>(R.Blends) / Pixels},
+      {"covered_share", static_cast<double>(R.Covered) / Pixels},
+      {"saturated_share", static_cast<double>(R.Saturated) / Pixels},
+      {"mean_transmittance", R.MeanTransmittance}};
+  return Report.dump(2) + "\n";
+}
+
+std::string textReport(const AnalyzeArguments &A, const Camera &C,
+                       const Analysis &R) {
+  const double Pixels = static_cast<double>(R.Pixels);
+  std::string Text = fmt::format(
+      "{} {}x{}: {} rules, support {}\n{} Gaussians seen, {:.2f} blends a "
+      "pixel, {:.2f} % saturated\n{:<22}",
+      C.Name, C.Width, C.Height, name(A.Convention), name(A.Reach), R.Visible,
+      static_cast<double>(R.Blends) / Pixels,
+      100 * static_cast<double>(R.Saturated) / Pixels, "tile size (pixels)");
+  for (const int Size : AnalyzedTiles)
+    Text += fmt::format("{:>12}", Size);
+  Text += fmt::format("{:>16}\n", "16 to 64");
+  for (std::size_t K = 0; K < AnalyzedSupports.size(); ++K) {
+    Text += fmt::format("invocations {:<10}", name(AnalyzedSupports[K]));
+    for (const std::uint64_t Count : R.BySupport[K])
+      Text += fmt::format("{:>12}", Count);
+    Text +=
+        fmt::format("{:>14.1f} %\n", -100 * reduction(R.BySupport[K], 0, 2));
+  }
+  const auto Row = [&](const char *Name, auto Value) {
+    Text += fmt::format("{:<22}", Name);
+    for (const ListStatistics &L : R.Lists)
+      Text += fmt::format("{:>12.1f}", static_cast<double>(Value(L)));
+    Text += '\n';
+  };
+  Row("entries a tile, mean", [](const auto &L) { return L.Mean; });
+  Row("entries a tile, most", [](const auto &L) { return L.Longest; });
+  for (const std::size_t Percent : {25, 50, 75, 100})
+    Row(fmt::format("occluded at {} % (%)", Percent).c_str(),
+        [&](const auto &L) { return 100 * L.Occluded[Percent]; });
+  return Text;
+}
+
+Expected<Success> run(AnalyzeArguments A) {
+  const auto File = loadScene(A.Scene);
+  if (!File)
+    return File.error();
+  const auto C = readCamera(A.Cameras, A.View);
+  if (!C)
+    return C.error();
+  A.Options.Rule = A.Convention == Rules::Inria ? reference::Rules::Inria
+                                                : reference::Rules::Gsplat;
+  A.Options.Reach = AnalyzedSupports[static_cast<std::size_t>(A.Reach)];
+  const Analysis R = analyze(toReference<float>(File->Gaussians),
+                             toReference<float>(*C), A.Options);
+  if (!A.JsonFile.empty()) {
+    const auto Report = jsonReport(A, *File, *C, R);
+    if (!Report)
+      return Report.error();
+    if (auto Written = writeFileAtomically(A.JsonFile, *Report); !Written)
+      return Written;
+  }
+  if (!A.Plots.empty())
+    for (const auto &[Name, Plot] : chartsOf(R, C->Name))
+      if (auto Written = writeFileAtomically(
+              fmt::format("{}-{}.svg", A.Plots, Name), svgOf(Plot));
+          !Written)
+        return Written;
+  fmt::print("{}", textReport(A, *C, R));
+  return Success{};
+}
+
+} // namespace
+
+Runner addAnalyze(CLI::App &App) {
+  auto A = std::make_shared<AnalyzeArguments>();
+  addSceneOptions(App, A->Scene);
+  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
+      ->required();
+  App.add_option("--view", A->View, "img_name or id of the view")->required();
+  App.add_option("--json", A->JsonFile, "Write all counts");
+  App.add_option("--plots", A->Plots,
+                 "Write PREFIX-invocations.svg, -occlusion.svg and -lists.svg")
+      ->option_text("PREFIX");
+  addChoice(App, "--rules", A->Convention, {Rules::Inria, Rules::Gsplat},
+            "Convention to follow");
+  addChoice(
+      App, "--support", A->Reach,
+      {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
+      "Pixels that a Gaussian may reach, for lists and occlusion");
+  App.add_flag("--antialiased", A->Options.Antialiased,
+               "Compensate opacity for the dilation");
+  App.add_option("--cutoff", A->Options.Cutoff,
+                 "Transmittance at which a pixel is full (default 0.0001)")
+      ->check(CLI::Range(0.0, 1.0));
+  App.add_option("--threads", A->Options.Threads,
+                 "Host threads, 0 for all; changes no result")
+      ->check(CLI::Range(0U, 1024U));
+  return [A] { return run(*A); };
+}
+
+} // namespace vorion::splat

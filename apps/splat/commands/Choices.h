@@ -1,0 +1,35 @@
+/// Options that choose one of an enumeration by name.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vorion::splat {
+
+/// An option whose value is one of \p Choices by name; \p Value must outlive
+/// the parsing.
+template <typename Enum>
+void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
+               std::vector<Enum> Choices, const std::string &Help) {
+  std::vector<std::string> Names;
+  std::string Listed;
+  for (const Enum E : Choices) {
+    Names.emplace_back(name(E));
+    Listed += (Listed.empty() ? "" : "|") + Names.back();
+  }
+  App.add_option_function<std::string>(
+         Flag,
+         [&Value, Choices = std::move(Choices)](const std::string &Chosen) {
+           for (const Enum E : Choices)
+             if (name(E) == Chosen)
+               Value = E;
+         },
+         fmt::format("{} (default {})", Help, name(Value)))
+      ->option_text(Listed)
+      ->check(CLI::IsMember(std::move(Names)));
+}
+
+} // namespace vorion::splat
