@@ -20,6 +20,9 @@ constexpr uint32_t FlagRve = 0x8;
 
 constexpr char KernelSection[] = "vorion_kernels";
 constexpr uint32_t MaxArgs = 4096; ///< more than OpenCL's 256 KiB could hold
+/// Of all names together. Many entries may name the same bytes of a file, which
+/// must not become more memory than any program's names need.
+constexpr size_t MaxNameBytes = 256 << 20;
 
 } // namespace
 
@@ -49,7 +52,7 @@ std::optional<T> ImageParser::load(uint32_t Address) const {
   return Value;
 }
 
-std::optional<std::string> ImageParser::loadString(uint32_t Address) const {
+std::optional<std::string> ImageParser::loadString(uint32_t Address) {
   std::string Text;
   for (;; ++Address) {
     const auto Byte = Result->bytesAt(Address, 1);
@@ -57,6 +60,8 @@ std::optional<std::string> ImageParser::loadString(uint32_t Address) const {
       return std::nullopt;
     if (Byte[0] == std::byte{0})
       return Text;
+    if (++NameBytes > MaxNameBytes)
+      return std::nullopt;
     Text += static_cast<char>(Byte[0]);
   }
 }
@@ -79,6 +84,13 @@ std::string ImageParser::readHeader() {
     return "64-bit ELF file, expected 32-bit RISC-V";
   if (Header.e_ident[EI_DATA] != ELFDATA2LSB)
     return "big-endian ELF file, expected little-endian RISC-V";
+  if (Header.e_ident[EI_VERSION] != EV_CURRENT ||
+      Header.e_version != EV_CURRENT)
+    return fmt::format("ELF version {}, expected {}",
+                       Header.e_ident[EI_VERSION] != EV_CURRENT
+                           ? Header.e_ident[EI_VERSION]
+                           : Header.e_version,
+                       EV_CURRENT);
   if (Header.e_machine != EM_RISCV)
     return fmt::format("machine number {}, expected {} (RISC-V)",
                        Header.e_machine, EM_RISCV);
@@ -99,6 +111,7 @@ std::string ImageParser::readHeader() {
 }
 
 std::string ImageParser::readSegments() {
+  uint64_t Total = 0;
   for (unsigned N = 0; N != Header.e_phnum; ++N) {
     const auto P =
         get<Elf32_Phdr>(uint64_t{Header.e_phoff} + N * sizeof(Elf32_Phdr));
@@ -120,6 +133,11 @@ std::string ImageParser::readSegments() {
                          "within 0x{:08x} and 0x{:08x}",
                          N, P->p_vaddr, P->p_memsz, VX_IMAGE_BASE,
                          VX_IMAGE_BASE + VX_IMAGE_SIZE);
+    Total += P->p_memsz;
+    if (Total > VX_IMAGE_SIZE)
+      return fmt::format("the segments up to number {} overlap: 0x{:x} bytes, "
+                         "expected at most 0x{:x}",
+                         N, Total, VX_IMAGE_SIZE);
     Image::Segment S;
     S.Address = P->p_vaddr;
     S.MemBytes = P->p_memsz;
@@ -171,7 +189,7 @@ std::string ImageParser::readSections() {
   const auto Names = Section(Header.e_shstrndx);
   if (!Names || !part(Names->sh_offset, Names->sh_size))
     return "truncated: the section names lie beyond the end of the file";
-  const auto NameBytes = *part(Names->sh_offset, Names->sh_size);
+  const auto SectionNames = *part(Names->sh_offset, Names->sh_size);
   for (unsigned N = 0; N != Header.e_shnum; ++N) {
     const auto S = Section(N);
     if (!S)
@@ -180,9 +198,9 @@ std::string ImageParser::readSections() {
       if (std::string Wrong = readSymbols(*S); !Wrong.empty())
         return Wrong;
     }
-    if (S->sh_name < NameBytes.size() &&
-        NameBytes.size() - S->sh_name >= sizeof(KernelSection) &&
-        std::memcmp(NameBytes.data() + S->sh_name, KernelSection,
+    if (S->sh_name < SectionNames.size() &&
+        SectionNames.size() - S->sh_name >= sizeof(KernelSection) &&
+        std::memcmp(SectionNames.data() + S->sh_name, KernelSection,
                     sizeof(KernelSection)) == 0 &&
         (S->sh_flags & SHF_ALLOC)) {
       KernelsLo = S->sh_addr;
@@ -215,6 +233,9 @@ std::string ImageParser::readSymbols(const Elf32_Shdr &Table) {
     if (SymbolName.empty() || SymbolName[0] == '$' ||
         SymbolName.starts_with(".L"))
       continue;
+    NameBytes += SymbolName.size();
+    if (NameBytes > MaxNameBytes)
+      return fmt::format("symbol names of more than {} bytes", MaxNameBytes);
     Result->Symbols.push_back(
         {Sym->st_value, Sym->st_size, Type == STT_FUNC, std::move(SymbolName)});
   }

@@ -34,13 +34,14 @@ private:
   template <typename T> std::optional<T> get(uint64_t Offset) const;
   template <typename T> std::optional<T> load(uint32_t Address) const;
   /// The NUL-terminated string in the image at \p Address.
-  std::optional<std::string> loadString(uint32_t Address) const;
+  std::optional<std::string> loadString(uint32_t Address);
   bool isCode(uint32_t Address) const;
 
   std::span<const std::byte> File;
   std::shared_ptr<Image> Result;
   Elf32_Ehdr Header{};
   uint32_t KernelsLo = 0, KernelsHi = 0;
+  size_t NameBytes = 0; ///< of names read so far
 };
 
 } // namespace vorion::isasim

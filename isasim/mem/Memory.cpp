@@ -2,11 +2,13 @@
 
 #include "core/IsaTables.h"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <unistd.h>
 #include <utility>
 
 namespace vorion::isasim {
@@ -20,22 +22,34 @@ constexpr uint64_t Slack = 4096;
 } // namespace
 
 Expected<Mapping> Mapping::make(uint64_t Bytes) {
-  void *At = mmap(nullptr, Bytes, PROT_READ | PROT_WRITE,
+  const uint64_t Page = static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  const uint64_t Guard = std::max(Page, Slack);
+  const uint64_t Whole = (Bytes + Page - 1) / Page * Page;
+  const uint64_t All = Guard + Whole + 2 * Guard;
+  void *At = mmap(nullptr, All, PROT_NONE,
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (At == MAP_FAILED)
+  auto *Base = static_cast<std::byte *>(At);
+  if (At == MAP_FAILED ||
+      mprotect(Base + Guard, Whole, PROT_READ | PROT_WRITE) != 0 ||
+      mprotect(Base + Guard + Whole, Guard, PROT_READ) != 0) {
+    const int Cause = errno;
+    if (At != MAP_FAILED)
+      munmap(At, All);
     return Error{"",
                  fmt::format("cannot map {} bytes of device memory: {}", Bytes,
-                             std::strerror(errno)),
+                             std::strerror(Cause)),
                  ExitCode::Internal};
-  return Mapping(static_cast<std::byte *>(At), Bytes);
+  }
+  return Mapping(Base, All, Base + Guard);
 }
 
 Mapping::Mapping(Mapping &&Other) noexcept
-    : Start(std::exchange(Other.Start, nullptr)), Bytes(Other.Bytes) {}
+    : Base(std::exchange(Other.Base, nullptr)), All(Other.All),
+      Start(Other.Start) {}
 
 Mapping::~Mapping() {
-  if (Start)
-    munmap(Start, Bytes);
+  if (Base)
+    munmap(Base, All);
 }
 
 Memory::Memory(std::vector<Mapping> Maps) : Mappings(std::move(Maps)) {}
@@ -54,8 +68,10 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   std::vector<Region> Regions;
   for (const auto &[Lo, Bytes] : Wanted) {
     // Stacks come in whole groups on the host.
+    const bool IsStack = Lo == VX_STACK_TOP - StackBytes;
+    const uint64_t Group = StackGroup * uint64_t{C.StackBytes};
     Expected<Mapping> M =
-        Mapping::make(Bytes + StackGroup * uint64_t{C.StackBytes} + Slack);
+        Mapping::make(IsStack ? (Bytes + Group - 1) / Group * Group : Bytes);
     if (!M)
       return M.error();
     Regions.push_back({Lo, static_cast<uint32_t>(Bytes), M->data()});

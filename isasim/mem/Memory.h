@@ -11,7 +11,10 @@
 
 namespace vorion::isasim {
 
-/// An anonymous mapping, zero and committed page by page when touched.
+/// An anonymous mapping, zero and committed page by page when touched. Behind
+/// its last page a vector access may read, not write; beyond that, and before
+/// its first byte, any access ends the process: no guest can make one, and if
+/// one ever could, it would not go on with the host's memory.
 class Mapping {
 public:
   static Expected<Mapping> make(uint64_t Bytes);
@@ -19,13 +22,13 @@ public:
   Mapping &operator=(Mapping &&Other) = delete;
   ~Mapping();
   std::byte *data() const { return Start; }
-  uint64_t size() const { return Bytes; }
 
 private:
-  Mapping(std::byte *StartIn, uint64_t BytesIn)
-      : Start(StartIn), Bytes(BytesIn) {}
+  Mapping(std::byte *BaseIn, uint64_t AllIn, std::byte *StartIn)
+      : Base(BaseIn), All(AllIn), Start(StartIn) {}
+  std::byte *Base; ///< of all that is mapped
+  uint64_t All;
   std::byte *Start;
-  uint64_t Bytes;
 };
 
 class Memory {

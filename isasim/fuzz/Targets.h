@@ -1,0 +1,25 @@
+/// What the fuzzers call, and tests replay: a function that must come back
+/// whatever the bytes are, with every promise kept that it checks.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace vorion::isasim::fuzz {
+
+/// The bytes as an ELF file and as a .vxbin file.
+void readImage(std::span<const std::byte> Bytes);
+
+/// The bytes as instructions, on all lanes of two cores, with registers that
+/// point into all memory, after the first 4 bytes, which choose some of them.
+/// Aborts if the guest wrote outside its memory, or if the run differs with an
+/// observer.
+void execute(std::span<const std::byte> Bytes);
+
+/// Inputs to begin with: programs whole and damaged.
+std::vector<std::vector<std::byte>> imageSeeds();
+/// Programs of random instructions, mostly valid ones.
+std::vector<std::vector<std::byte>> programSeeds(unsigned Count, unsigned Seed);
+
+} // namespace vorion::isasim::fuzz
