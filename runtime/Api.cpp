@@ -151,8 +151,8 @@ vx_status vx_device_open(const char *config, vx_device **device) {
     auto Machine = isasim::Machine::create(Config);
     if (!Machine)
       return failure(VX_ERROR_CONFIG, Machine.error());
-    auto Watch =
-        isasim::Session::create(isasim::SessionOptions::fromEnvironment());
+    auto Watch = isasim::Session::create(
+        isasim::SessionOptions::fromEnvironment(), "vorion");
     if (!Watch)
       return failure(VX_ERROR_CONFIG, Watch.error());
     *device = new vx_device(std::move(*Machine), std::move(*Watch));
@@ -243,6 +243,14 @@ vx_status vx_mem_host_pointer(vx_device *device, uint32_t address,
     if (!device || !pointer)
       return isNull(device ? "pointer" : "device");
     return device->Impl.hostPointer(address, size, pointer);
+  });
+}
+
+vx_status vx_mem_written(vx_device *device, uint32_t address, uint64_t size) {
+  return guarded([&]() -> Failure {
+    if (!device)
+      return isNull("device");
+    return device->Impl.written(address, size);
   });
 }
 
@@ -352,6 +360,8 @@ vx_status vx_image_place_locals(vx_image *image, uint32_t kernel,
                                  static_cast<std::byte *>(packed_args), Used);
     if (!Failed && total)
       *total = Used;
+    if (!Failed)
+      image->Owner->Impl.useLocal(Used);
     return Failed;
   });
 }

@@ -61,7 +61,8 @@ vx_device_info Device::info() {
 
 Failure Device::allocateLocked(std::uint64_t Size, const char *What,
                                std::uint32_t &Address) {
-  const auto Found = Memory.allocate(Size);
+  // What is asked for and cannot be had fails below.
+  const auto Found = Memory.allocate(Size + Watch->guardBytes());
   if (!Found)
     return {VX_ERROR_MEMORY,
             fmt::format("no room for {} of {} bytes: {} of {} bytes of device "
@@ -70,12 +71,13 @@ Failure Device::allocateLocked(std::uint64_t Size, const char *What,
                         Machine->config().GlobalBytes, Memory.largestFree())};
   // Global memory ends below 2 GiB.
   Address = static_cast<std::uint32_t>(*Found);
+  Watch->allocated(Address, Size, What);
   return {};
 }
 
 Failure Device::allocate(std::uint64_t Size, std::uint32_t &Address) {
   const Lock Held(Mutex);
-  return allocateLocked(Size, "a buffer", Address);
+  return allocateLocked(Size, "buffer", Address);
 }
 
 Failure Device::release(std::uint32_t Address) {
@@ -83,6 +85,7 @@ Failure Device::release(std::uint32_t Address) {
   if (Address && !Memory.release(Address))
     return badArgument(
         fmt::format("{:#x} is not the address of an allocation", Address));
+  Watch->released(Address);
   return {};
 }
 
@@ -134,6 +137,7 @@ Failure Device::copyIn(std::uint32_t To, const void *From, std::uint64_t Size) {
   if (Failure Failed = globalRange(To, Size, &Bytes))
     return Failed;
   std::memcpy(Bytes, From, Size);
+  Watch->written(To, Size);
   return {};
 }
 
@@ -164,6 +168,7 @@ Failure Device::copyWithin(std::uint32_t To, std::uint32_t From,
   if (Failure Failed = globalRange(From, Size, &Source))
     return Failed;
   std::memmove(Target, Source, Size);
+  Watch->written(To, Size);
   return {};
 }
 
@@ -183,6 +188,7 @@ Failure Device::fill(std::uint32_t To, const void *Pattern,
     return Failed;
   for (std::uint64_t At = 0; At < Size; At += PatternSize)
     std::memcpy(Bytes + At, Pattern, PatternSize);
+  Watch->written(To, Size);
   return {};
 }
 
@@ -193,6 +199,45 @@ Failure Device::hostPointer(std::uint32_t Address, std::uint64_t Size,
     return Failed;
   *To = Bytes;
   return {};
+}
+
+Failure Device::written(std::uint32_t Address, std::uint64_t Size) {
+  std::byte *Bytes = nullptr;
+  if (Failure Failed = globalRange(Address, Size, &Bytes))
+    return Failed;
+  if (!Watch->checksMemory())
+    return {};
+  Lock Held(Mutex);
+  waitForRun(Held);
+  Watch->written(Address, Size);
+  return {};
+}
+
+void Device::useLocal(std::uint64_t Bytes) {
+  if (!Watch->checksMemory())
+    return;
+  Lock Held(Mutex);
+  waitForRun(Held);
+  Watch->useLocal(Bytes);
+}
+
+void Device::nameBuffers(const isasim::Kernel &Kernel, const void *Args) {
+  if (!Watch->checksMemory())
+    return;
+  bool HasLocals = false;
+  for (const isasim::KernelArg &Arg : Kernel.Args) {
+    HasLocals |= Arg.Kind == VX_ARG_LOCAL;
+    if (Arg.Kind != VX_ARG_GLOBAL)
+      continue;
+    std::uint32_t Address = 0;
+    std::memcpy(&Address, static_cast<const std::byte *>(Args) + Arg.Offset,
+                sizeof(Address));
+    Watch->nameBuffer(Address,
+                      fmt::format("buffer '{}' of {}", Arg.Name, Kernel.Name));
+  }
+  // Else vx_image_place_locals has said it.
+  if (!HasLocals)
+    Watch->useLocal(Kernel.LocalBytes);
 }
 
 void Device::forget(const LoadedImage *Image) {
@@ -214,8 +259,10 @@ void Device::makeCurrent(LoadedImage &Image) {
 void Device::freeRunMemory() {
   for (const std::uint32_t Address :
        {InUse.Launch, InUse.Args, InUse.Context, InUse.Print})
-    if (Address)
+    if (Address) {
       Memory.release(Address);
+      Watch->released(Address);
+    }
   InUse = {};
 }
 
@@ -270,6 +317,7 @@ Failure Device::start(LoadedImage &Image, std::uint32_t Kernel,
     return Failed;
   }
   Watch->nameRun(Kernels[Kernel].Name);
+  nameBuffers(Kernels[Kernel], Args);
   launch(Held, Image, InUse.Launch);
   return {};
 }

@@ -36,6 +36,11 @@ public:
                std::uint64_t Size);
   Failure hostPointer(std::uint32_t Address, std::uint64_t Size, void **To);
 
+  /// Tells the checkers what the host wrote through hostPointer().
+  Failure written(std::uint32_t Address, std::uint64_t Size);
+  /// Tells them how much local memory the next run's kernel has.
+  void useLocal(std::uint64_t Bytes);
+
   /// Waits for the run in progress and forgets the image if it is loaded.
   void forget(const LoadedImage *Image);
 
@@ -68,6 +73,7 @@ private:
   Failure globalRange(std::uint32_t Address, std::uint64_t Size,
                       std::byte **Bytes);
   void freeRunMemory();
+  void nameBuffers(const isasim::Kernel &Kernel, const void *Args);
   Failure prepare(const isasim::Kernel &Kernel, const vx_launch_params &Params,
                   const void *Args);
   void makeCurrent(LoadedImage &Image);

@@ -106,9 +106,12 @@ Failure Device::prepare(const isasim::Kernel &Kernel,
   Block.print_capacity = PrintBytes;
   std::memcpy(Machine->hostPointer(InUse.Launch, sizeof(Block)), &Block,
               sizeof(Block));
-  if (Kernel.ArgsBytes)
+  Watch->written(InUse.Launch, sizeof(Block));
+  if (Kernel.ArgsBytes) {
     std::memcpy(Machine->hostPointer(InUse.Args, Kernel.ArgsBytes), Args,
                 Kernel.ArgsBytes);
+    Watch->written(InUse.Args, Kernel.ArgsBytes);
+  }
   return {};
 }
 

@@ -15,8 +15,8 @@ std::string waitsFor(const WarpState &S);
 /// What stopped \p S, which has trapped.
 Trap makeTrap(const WarpState &S, const std::shared_ptr<const Image> &Program);
 
-/// "core 0, warp 0: load access fault at 0x... ..." with pc, instruction text
-/// and active lanes.
+/// "core 0, warp 0: load access fault at 0x... ..." with pc, instruction text,
+/// source line and active lanes.
 std::string trapReport(const Trap &T);
 
 /// A line for each warp that has not ended: where it is and what it waits for.

@@ -4,12 +4,15 @@
 #include "observe/Stats.h"
 #include "observe/Timeline.h"
 #include "observe/Trace.h"
+#include "observe/check/Checkers.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
 
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace vorion::isasim {
 
@@ -18,16 +21,16 @@ namespace {
 struct FileCloser {
   void operator()(std::FILE *F) const { std::fclose(F); }
 };
-using File = std::unique_ptr<std::FILE, FileCloser>;
+using GrowingFile = std::unique_ptr<std::FILE, FileCloser>;
 
 /// Files that grow during a run cannot be written aside: a reader may follow
 /// them, and what was written before a crash is what it is read for.
-Expected<File> openGrowing(const std::string &Path) {
+Expected<GrowingFile> openGrowing(const std::string &Path) {
   std::FILE *F = std::fopen(Path.c_str(), "wb");
   if (!F)
     return Error{Path, std::string("cannot write: ") + std::strerror(errno) +
                            ", expected a folder that can be written"};
-  return File(F);
+  return GrowingFile(F);
 }
 
 } // namespace
@@ -48,11 +51,14 @@ struct Session::Impl {
 
   std::function<void(std::string_view)> Print;
   SessionOptions Options;
-  File TraceFile, TimelineFile;
+  GrowingFile TraceFile, TimelineFile;
   std::unique_ptr<Trace> Tracer;
   std::unique_ptr<Timeline> Times;
   std::unique_ptr<Profile> Profiler;
   std::unique_ptr<Stats> Counts;
+  std::unique_ptr<Checkers> Checks;
+  std::string Tool;
+  double WatchdogSeconds = 0;
   std::string RunName;
 };
 
@@ -64,7 +70,7 @@ Expected<Success> Session::Impl::openTrace(const std::string &Text) {
   if (!Request)
     return Request.error();
   if (!Request->File.empty()) {
-    Expected<File> F = openGrowing(Request->File);
+    Expected<GrowingFile> F = openGrowing(Request->File);
     if (!F)
       return F.error();
     TraceFile = std::move(*F);
@@ -80,7 +86,7 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
     if (Expected<Success> Ok = openTrace(O.Trace); !Ok)
       return Ok;
   if (!O.Timeline.empty()) {
-    Expected<File> F = openGrowing(O.Timeline);
+    Expected<GrowingFile> F = openGrowing(O.Timeline);
     if (!F)
       return F.error();
     TimelineFile = std::move(*F);
@@ -91,21 +97,40 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
                  ExitCode::Usage};
   if (!O.Profile.empty())
     Profiler = std::make_unique<Profile>();
-  if ((Tracer || Times || Profiler) && !Machine::canBeObserved())
+  if ((Tracer || Times || Profiler || !O.Check.empty()) &&
+      !Machine::canBeObserved())
     return Error{"",
                  "a build without observers, expected one with "
                  "VORION_OBSERVERS=ON",
                  ExitCode::Usage};
+  if (!O.Watchdog.empty()) {
+    const char *End = O.Watchdog.data() + O.Watchdog.size();
+    const auto Read = std::from_chars(O.Watchdog.data(), End, WatchdogSeconds);
+    if (Read.ec != std::errc() || Read.ptr != End || !(WatchdogSeconds > 0))
+      return Error{
+          "",
+          fmt::format("watchdog of '{}', expected seconds above 0", O.Watchdog),
+          ExitCode::Usage};
+  }
   if (!O.Stats.empty())
     Counts = std::make_unique<Stats>();
+  if (!O.Check.empty()) {
+    auto Made = Checkers::create(O.Check, [this](std::string_view Text) {
+      fmt::print(stderr, "{}: {}\n", Tool, Text);
+    });
+    if (!Made)
+      return Made.error();
+    Checks = std::move(*Made);
+  }
   return Success{};
 }
 
 Expected<std::unique_ptr<Session>>
-Session::create(const SessionOptions &O,
+Session::create(const SessionOptions &O, std::string Tool,
                 std::function<void(std::string_view)> Print) {
   std::unique_ptr<Session> S(new Session());
   S->I->Print = std::move(Print);
+  S->I->Tool = std::move(Tool);
   if (Expected<Success> Ok = S->I->open(O); !Ok) {
     Error E = Ok.error();
     return E;
@@ -119,7 +144,11 @@ void Session::attach(Machine &M) {
            I->Tracer.get(), I->Times.get(), I->Profiler.get()})
     if (O)
       Observers.push_back(O);
+  if (I->Checks)
+    for (Observer *O : I->Checks->observers())
+      Observers.push_back(O);
   M.setObservers(std::move(Observers));
+  M.setWatchdog(I->WatchdogSeconds);
   if (I->Counts)
     I->Counts->setConfig(M.config());
 }
@@ -128,6 +157,41 @@ void Session::nameRun(const std::string &Name) {
   I->RunName = Name;
   if (I->Times)
     I->Times->nameRun(Name);
+}
+
+bool Session::checksMemory() const { return I->Checks != nullptr; }
+
+void Session::allocated(uint32_t Address, uint64_t Bytes, std::string Name) {
+  if (I->Checks)
+    I->Checks->allocated(Address, Bytes, std::move(Name));
+}
+
+void Session::released(uint32_t Address) {
+  if (I->Checks)
+    I->Checks->released(Address);
+}
+
+void Session::written(uint32_t Address, uint64_t Bytes) {
+  if (I->Checks)
+    I->Checks->written(Address, Bytes);
+}
+
+void Session::nameBuffer(uint32_t Address, std::string Name) {
+  if (I->Checks)
+    I->Checks->rename(Address, std::move(Name));
+}
+
+void Session::useLocal(uint64_t Bytes) {
+  if (I->Checks)
+    I->Checks->useLocal(Bytes);
+}
+
+uint64_t Session::guardBytes() const {
+  return I->Checks ? I->Checks->guardBytes() : 0;
+}
+
+uint64_t Session::findings() const {
+  return I->Checks ? I->Checks->findings() : 0;
 }
 
 Expected<Success> Session::runEnded(const RunResult &R) {

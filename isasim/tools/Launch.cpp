@@ -57,18 +57,22 @@ Expected<std::array<uint32_t, 3>> groupSize(const Kernel &K,
 
 } // namespace
 
-Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes) {
+Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
+                                         const std::string &What) {
   const uint64_t Address = NextFree;
   const uint64_t End = VX_GLOBAL_BASE + M->config().GlobalBytes;
   if (Address > End || Bytes > End - Address)
     return usage(fmt::format("{} bytes more do not fit the {} bytes of global "
                              "memory",
                              Bytes, M->config().GlobalBytes));
-  NextFree = alignUp(Address + std::max<uint64_t>(Bytes, 1));
+  Watch->allocated(static_cast<uint32_t>(Address), Bytes, What);
+  NextFree =
+      alignUp(Address + std::max<uint64_t>(Bytes, 1) + Watch->guardBytes());
   return static_cast<uint32_t>(Address);
 }
 
-Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In) {
+Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
+                                             const std::string &ArgName) {
   std::vector<std::byte> Contents;
   uint64_t Bytes = In.Size;
   if (!In.ReadFrom.empty()) {
@@ -78,10 +82,13 @@ Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In) {
     Contents = std::move(*File);
     Bytes = Contents.size();
   }
-  const Expected<uint32_t> Address = reserve(Bytes);
+  const Expected<uint32_t> Address =
+      reserve(Bytes, fmt::format("buffer '{}'", ArgName));
   if (!Address)
     return Address;
   M->write(*Address, Contents);
+  // Without a file it is zeros by definition.
+  Watch->written(*Address, Bytes);
   if (!In.WriteTo.empty())
     Outputs.push_back({In.WriteTo, *Address, Bytes});
   return Address;
@@ -93,7 +100,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     return usage(fmt::format("{} arguments, expected {} for kernel '{}'",
                              R.Args.size(), K.Args.size(), K.Name));
   std::vector<std::byte> Packed(K.ArgsBytes);
-  uint64_t LocalEnd = alignUp(K.LocalBytes);
+  uint64_t LocalEnd = alignUp(K.LocalBytes), LocalUsed = K.LocalBytes;
   for (size_t N = 0; N != K.Args.size(); ++N) {
     const KernelArg &Arg = K.Args[N];
     const Expected<KernelInput> In = parseInput(R.Args[N]);
@@ -107,7 +114,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     std::vector<std::byte> Bytes = In->Bytes;
     uint32_t Address = 0;
     if (In->What == KernelInput::Buffer) {
-      const Expected<uint32_t> Placed = placeBuffer(*In);
+      const Expected<uint32_t> Placed = placeBuffer(*In, Arg.Name);
       if (!Placed)
         return Placed.error();
       Address = *Placed;
@@ -118,7 +125,8 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
                                  "local memory",
                                  K.Name, M->config().LocalBytes));
       Address = VX_LOCAL_BASE + static_cast<uint32_t>(LocalEnd);
-      LocalEnd = alignUp(LocalEnd + In->Size);
+      LocalUsed = LocalEnd + In->Size;
+      LocalEnd = alignUp(LocalUsed);
     }
     if (In->What != KernelInput::Value) {
       Bytes.resize(sizeof(Address));
@@ -130,11 +138,13 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
                                N, K.Name, Arg.Name, Bytes.size(), Arg.Size));
     std::copy(Bytes.begin(), Bytes.end(), Packed.begin() + Arg.Offset);
   }
-  const Expected<uint32_t> Address = reserve(Packed.size());
+  const Expected<uint32_t> Address = reserve(Packed.size(), "the arguments");
   if (!Address)
     return Address.error();
   Args = *Address;
   M->write(Args, Packed);
+  Watch->written(Args, Packed.size());
+  Watch->useLocal(LocalUsed);
   return Success{};
 }
 
@@ -152,13 +162,14 @@ KernelLaunch::writeBlock(const Kernel &K, const KernelRequest &R,
     Items *= Local[Dim];
   }
   const uint64_t Stride = alignUp(Items * K.ContextBytes);
-  const Expected<uint32_t> Context = reserve(Stride * M->config().cores());
+  const Expected<uint32_t> Context =
+      reserve(Stride * M->config().cores(), "the memory kept across barriers");
   if (!Context)
     return Context.error();
-  const Expected<uint32_t> Print = reserve(PrintBytes);
+  const Expected<uint32_t> Print = reserve(PrintBytes, "the print buffer");
   if (!Print)
     return Print.error();
-  const Expected<uint32_t> Address = reserve(sizeof(L));
+  const Expected<uint32_t> Address = reserve(sizeof(L), "the launch block");
   if (!Address)
     return Address.error();
   L.Context = *Context;
@@ -167,11 +178,12 @@ KernelLaunch::writeBlock(const Kernel &K, const KernelRequest &R,
   L.PrintCapacity = PrintBytes;
   Block = *Address;
   M->write(Block, std::as_bytes(std::span(&L, 1)));
+  Watch->written(Block, sizeof(L));
   return Success{};
 }
 
-Expected<KernelLaunch> KernelLaunch::prepare(Machine &M,
-                                             const KernelRequest &R) {
+Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
+                                             Session &Watch) {
   const Image &Program = *M.image();
   const Kernel *K = Program.findKernel(R.Kernel);
   if (R.Kernel.empty() && Program.kernels().size() == 1)
@@ -192,7 +204,7 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M,
   const Expected<std::array<uint32_t, 3>> Local = groupSize(*K, R);
   if (!Local)
     return Local.error();
-  KernelLaunch L(M);
+  KernelLaunch L(M, Watch);
   L.Name = K->Name;
   L.NextFree = VX_GLOBAL_BASE;
   if (Expected<Success> Ok = L.packArguments(*K, R); !Ok)

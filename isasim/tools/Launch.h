@@ -3,15 +3,17 @@
 
 #include "tools/Arguments.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/isasim/Session.h"
 
 namespace vorion::isasim {
 
 class KernelLaunch {
 public:
   /// Buffers, arguments and launch block of \p Request in the memory of \p M,
-  /// whose image is loaded. \p M must outlive the launch.
-  static Expected<KernelLaunch> prepare(Machine &M,
-                                        const KernelRequest &Request);
+  /// whose image is loaded. \p M must outlive the launch. \p Watch is told who
+  /// holds which memory.
+  static Expected<KernelLaunch>
+  prepare(Machine &M, const KernelRequest &Request, Session &Watch);
 
   /// The kernel's name.
   const std::string &kernel() const { return Name; }
@@ -23,10 +25,11 @@ public:
   Expected<Success> finish() const;
 
 private:
-  explicit KernelLaunch(Machine &MIn) : M(&MIn) {}
+  KernelLaunch(Machine &MIn, Session &WatchIn) : M(&MIn), Watch(&WatchIn) {}
 
-  Expected<uint32_t> reserve(uint64_t Bytes);
-  Expected<uint32_t> placeBuffer(const KernelInput &In);
+  Expected<uint32_t> reserve(uint64_t Bytes, const std::string &What);
+  Expected<uint32_t> placeBuffer(const KernelInput &In,
+                                 const std::string &ArgName);
   Expected<Success> packArguments(const Kernel &K, const KernelRequest &R);
   Expected<Success> writeBlock(const Kernel &K, const KernelRequest &R,
                                const std::array<uint32_t, 3> &Local);
@@ -38,6 +41,7 @@ private:
   };
 
   Machine *M;
+  Session *Watch;
   std::string Name;
   uint64_t NextFree = 0; ///< in global memory; nothing is ever freed
   uint32_t Block = 0, Args = 0;

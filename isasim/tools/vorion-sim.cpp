@@ -26,7 +26,6 @@ struct Options {
   std::vector<std::string> Args;
   std::optional<uint64_t> MaxInstructions;
   std::optional<unsigned> Threads, ClockMhz;
-  double Watchdog = 0;
   bool PrintDefaultConfig = false, ListKernels = false, Time = false;
   bool OneHart = false;
 };
@@ -147,6 +146,8 @@ int finish(const RunResult &R, const Options &O, const Machine &M,
       Code = reportError(Tool, Ok.error());
   if (const Expected<Success> Ok = Watch.runEnded(R); !Ok)
     return reportError(Tool, Ok.error());
+  if (Watch.findings() && Code == 0)
+    return static_cast<int>(ExitCode::GuestFailed);
   return Code;
 }
 
@@ -170,19 +171,20 @@ int run(const Options &O) {
   // What an image of kernels has for a main does nothing.
   if (Request->WorkDim == 0 && !(*Program)->kernels().empty())
     return reportError(Tool, missingGlobal());
-  const Expected<std::unique_ptr<Session>> Watch = Session::create(
-      O.Watch, [](std::string_view Text) { fmt::print("{}", Text); });
+  const Expected<std::unique_ptr<Session>> Watch =
+      Session::create(O.Watch, std::string(Tool),
+                      [](std::string_view Text) { fmt::print("{}", Text); });
   if (!Watch)
     return reportError(Tool, Watch.error());
   Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
   if (!M)
     return reportError(Tool, M.error());
   (*M)->load(*Program);
-  (*M)->setWatchdog(O.Watchdog);
   (*Watch)->attach(**M);
   if (Request->WorkDim == 0)
     return finish((*M)->run(), O, **M, nullptr, **Watch);
-  const Expected<KernelLaunch> Launch = KernelLaunch::prepare(**M, *Request);
+  const Expected<KernelLaunch> Launch =
+      KernelLaunch::prepare(**M, *Request, **Watch);
   if (!Launch)
     return reportError(Tool, Launch.error());
   (*Watch)->nameRun(Launch->kernel());
@@ -267,9 +269,6 @@ void declare(CLI::App &App, Options &O) {
   App.add_option("--max-instructions", O.MaxInstructions,
                  "end the run after N warp instructions")
       ->type_name("N");
-  App.add_option("--watchdog", O.Watchdog, "end the run after so long")
-      ->type_name("SECONDS")
-      ->check(quietly(CLI::NonNegativeNumber));
   App.add_option("--threads", O.Threads,
                  "host threads (default: all; changes no result)")
       ->type_name("N");

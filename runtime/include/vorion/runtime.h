@@ -110,6 +110,11 @@ vx_status vx_fill_device(vx_device *device, uint32_t to, const void *pattern,
 vx_status vx_mem_host_pointer(vx_device *device, uint32_t address,
                               uint64_t size, void **pointer);
 
+/* To be called after the host has written [address, address + size) through
+ * such a pointer, so that the check for uninitialised memory knows it
+ * (docs/debugging.md). Waits for a run in progress; costs nothing without. */
+vx_status vx_mem_written(vx_device *device, uint32_t address, uint64_t size);
+
 /* --- Images and kernels -------------------------------------------------- */
 
 /* The image keeps a copy of the bytes. Its writable data lives as long as the

@@ -28,8 +28,9 @@ public:
   /// Errors: an option that does not parse, a file that cannot be written.
   /// \p Print receives what is meant for stdout: tables and a profile without a
   /// file. Null: stdout is the application's; there are files only.
+  /// What checkers find goes to stderr as messages of \p Tool.
   static Expected<std::unique_ptr<Session>>
-  create(const SessionOptions &O,
+  create(const SessionOptions &O, std::string Tool,
          std::function<void(std::string_view)> Print = nullptr);
   ~Session();
   Session(const Session &) = delete;
@@ -43,6 +44,22 @@ public:
   void nameRun(const std::string &Name);
   /// After a run: every file is complete.
   Expected<Success> runEnded(const RunResult &R);
+
+  /// Whether the driver has to say what it does with global memory, with what
+  /// follows. All of it does nothing where not.
+  bool checksMemory() const;
+  void allocated(uint32_t Address, uint64_t Bytes, std::string Name);
+  void released(uint32_t Address);
+  void written(uint32_t Address, uint64_t Bytes);
+  /// What the buffer at \p Address is for the next run.
+  void nameBuffer(uint32_t Address, std::string Name);
+  /// Local memory that the next run's kernel has; at first, all there is.
+  void useLocal(uint64_t Bytes);
+  /// Bytes to leave free behind each buffer.
+  uint64_t guardBytes() const;
+
+  /// What the checkers have found so far.
+  uint64_t findings() const;
 
 private:
   Session();

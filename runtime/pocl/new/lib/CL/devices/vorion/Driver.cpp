@@ -226,6 +226,76 @@ void release(cl_device_id Device, cl_mem Buffer) {
   Id.version = 0;
 }
 
+// PoCL's copying code writes through the host's view of the memory: what it
+// wrote is said afterwards, of rectangles the whole buffer.
+
+void tellWritten(void *Data, const pocl_mem_identifier *Id, size_t Offset,
+                 size_t Size) {
+  const auto Address =
+      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr));
+  vx_mem_written(static_cast<VorionDevice *>(Data)->Machine.get(),
+                 static_cast<uint32_t>(Address + Offset), Size);
+}
+
+void write(void *Data, const void *From, pocl_mem_identifier *To, cl_mem Buffer,
+           size_t Offset, size_t Size) {
+  pocl_driver_write(Data, From, To, Buffer, Offset, Size);
+  tellWritten(Data, To, Offset, Size);
+}
+
+void writeRect(void *Data, const void *From, pocl_mem_identifier *To,
+               cl_mem Buffer, const size_t *BufferOrigin,
+               const size_t *HostOrigin, const size_t *Region,
+               size_t BufferRowPitch, size_t BufferSlicePitch,
+               size_t HostRowPitch, size_t HostSlicePitch) {
+  pocl_driver_write_rect(Data, From, To, Buffer, BufferOrigin, HostOrigin,
+                         Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
+                         HostSlicePitch);
+  tellWritten(Data, To, 0, Buffer->size);
+}
+
+void copy(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
+          pocl_mem_identifier *From, cl_mem FromBuffer, size_t ToOffset,
+          size_t FromOffset, size_t Size) {
+  pocl_driver_copy(Data, To, ToBuffer, From, FromBuffer, ToOffset, FromOffset,
+                   Size);
+  tellWritten(Data, To, ToOffset, Size);
+}
+
+void copyWithSize(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
+                  pocl_mem_identifier *From, cl_mem FromBuffer,
+                  pocl_mem_identifier *SizeId, cl_mem SizeBuffer,
+                  size_t ToOffset, size_t FromOffset, size_t Size) {
+  pocl_driver_copy_with_size(Data, To, ToBuffer, From, FromBuffer, SizeId,
+                             SizeBuffer, ToOffset, FromOffset, Size);
+  tellWritten(Data, To, ToOffset, Size);
+}
+
+void copyRect(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
+              pocl_mem_identifier *From, cl_mem FromBuffer,
+              const size_t *ToOrigin, const size_t *FromOrigin,
+              const size_t *Region, size_t ToRowPitch, size_t ToSlicePitch,
+              size_t FromRowPitch, size_t FromSlicePitch) {
+  pocl_driver_copy_rect(Data, To, ToBuffer, From, FromBuffer, ToOrigin,
+                        FromOrigin, Region, ToRowPitch, ToSlicePitch,
+                        FromRowPitch, FromSlicePitch);
+  tellWritten(Data, To, 0, ToBuffer->size);
+}
+
+void fill(void *Data, pocl_mem_identifier *To, cl_mem Buffer, size_t Size,
+          size_t Offset, const void *Pattern, size_t PatternSize) {
+  pocl_driver_memfill(Data, To, Buffer, Size, Offset, Pattern, PatternSize);
+  tellWritten(Data, To, Offset, Size);
+}
+
+cl_int unmap(void *Data, pocl_mem_identifier *To, cl_mem Buffer,
+             mem_mapping_t *Map) {
+  const cl_int Status = pocl_driver_unmap_mem(Data, To, Buffer, Map);
+  if (!(Map->map_flags & CL_MAP_READ) || (Map->map_flags & CL_MAP_WRITE))
+    tellWritten(Data, To, Map->offset, Map->size);
+  return Status;
+}
+
 void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
                    cl_device_id Device, int Specialize) {
   // PoCL asks for this when a program's binary is wanted, and no error is
@@ -338,14 +408,14 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
   Ops->free = release;
   Ops->read = pocl_driver_read;
   Ops->read_rect = pocl_driver_read_rect;
-  Ops->write = pocl_driver_write;
-  Ops->write_rect = pocl_driver_write_rect;
-  Ops->copy = pocl_driver_copy;
-  Ops->copy_with_size = pocl_driver_copy_with_size;
-  Ops->copy_rect = pocl_driver_copy_rect;
-  Ops->memfill = pocl_driver_memfill;
+  Ops->write = write;
+  Ops->write_rect = writeRect;
+  Ops->copy = copy;
+  Ops->copy_with_size = copyWithSize;
+  Ops->copy_rect = copyRect;
+  Ops->memfill = fill;
   Ops->map_mem = pocl_driver_map_mem;
-  Ops->unmap_mem = pocl_driver_unmap_mem;
+  Ops->unmap_mem = unmap;
   Ops->get_mapping_ptr = pocl_driver_get_mapping_ptr;
   Ops->free_mapping_ptr = pocl_driver_free_mapping_ptr;
 

@@ -1,0 +1,90 @@
+#include "observe/check/Places.h"
+
+#include "vorion/isasim/Machine.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace vorion::isasim {
+
+void Places::begin(const RunStart &R) {
+  Shape = R.Device.config();
+  Code = R.Program;
+  Launch = {};
+  HasLaunch = R.LaunchBlock != 0;
+  if (HasLaunch)
+    R.Device.read(R.LaunchBlock, std::as_writable_bytes(std::span(&Launch, 1)));
+}
+
+Places::Kind Places::kindOf(uint32_t Address) const {
+  if (Address >= VX_LOCAL_BASE)
+    return Local;
+  const uint64_t Stacks = uint64_t{Shape.cores()} * Shape.WarpsPerCore *
+                          Shape.LanesPerWarp * Shape.StackBytes;
+  if (Address >= VX_STACK_TOP - Stacks)
+    return Stack;
+  if (Address >= VX_IMAGE_BASE)
+    return Address - VX_IMAGE_BASE < VX_IMAGE_SIZE ? Program : Nothing;
+  return Address >= VX_GLOBAL_BASE &&
+                 Address - VX_GLOBAL_BASE < Shape.GlobalBytes
+             ? Global
+             : Nothing;
+}
+
+bool Places::isOwn(uint32_t Address, unsigned Bytes, const Step &S,
+                   unsigned Lane) const {
+  switch (kindOf(Address)) {
+  case Global:
+    // Without a driver all of it is the program's.
+    return Held.empty() || Held.find(Address, Bytes);
+  case Local:
+    return Address + uint64_t{Bytes} <= localEnd();
+  case Stack:
+    // Where a second warp has its stacks is the software's affair.
+    return Shape.WarpsPerCore != 1 ||
+           stackOf(Address) == S.Core * Shape.LanesPerWarp + Lane;
+  case Program:
+    return std::any_of(
+        Code->segments().begin(), Code->segments().end(),
+        [&](const Image::Segment &Part) {
+          const uint64_t Offset = uint64_t{Address} - Part.Address;
+          return Address >= Part.Address && Offset + Bytes <= Part.MemBytes;
+        });
+  case Nothing:
+    // The words of the console and of the exit code.
+    return Address == VX_IO_CONSOLE || Address == VX_IO_EXIT;
+  }
+  return true;
+}
+
+std::string Places::describe(uint32_t Address, const Step &S,
+                             unsigned Lane) const {
+  switch (kindOf(Address)) {
+  case Global:
+    return Held.empty() ? "in global memory" : Held.describe(Address);
+  case Local:
+    return fmt::format("{} bytes into local memory, {} of which are the "
+                       "group's",
+                       Address - VX_LOCAL_BASE, localEnd() - VX_LOCAL_BASE);
+  case Stack: {
+    const uint32_t Number = stackOf(Address);
+    if (Shape.WarpsPerCore == 1 && Number == S.Core * Shape.LanesPerWarp + Lane)
+      return fmt::format("{} bytes below the top of its stack",
+                         VX_STACK_TOP - Number * Shape.StackBytes - Address);
+    return fmt::format("in the stack of core {}, lane {}",
+                       Number / Shape.LanesPerWarp,
+                       Number % Shape.LanesPerWarp);
+  }
+  case Program: {
+    const std::string Symbol = Code->symbolize(Address);
+    return Symbol.empty() ? "in the program's range, outside its sections"
+                          : "at " + Symbol;
+  }
+  case Nothing:
+    break;
+  }
+  return Address < VX_GLOBAL_BASE ? "near address 0: a null pointer?"
+                                  : "where no memory is";
+}
+
+} // namespace vorion::isasim

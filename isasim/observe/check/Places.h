@@ -1,0 +1,52 @@
+/// What a guest address is, in words and as a region, for the checkers.
+#pragma once
+
+#include "core/IsaTables.h"
+#include "observe/check/Buffers.h"
+#include "vorion/isasim/Observer.h"
+
+#include <algorithm>
+#include <string>
+
+namespace vorion::isasim {
+
+/// What all checkers share: the machine's shape, the run's program and who
+/// holds global memory.
+class Places {
+public:
+  enum Kind { Global, Local, Stack, Program, Nothing };
+
+  Buffers Held;
+  /// Local memory that the next run's groups have.
+  uint64_t LocalUsed = UINT32_MAX;
+
+  void begin(const RunStart &R);
+
+  Kind kindOf(uint32_t Address) const;
+  /// Whether the work-item may access [Address, Address + Bytes).
+  bool isOwn(uint32_t Address, unsigned Bytes, const Step &S,
+             unsigned Lane) const;
+  /// In words.
+  std::string describe(uint32_t Address, const Step &S, unsigned Lane) const;
+
+  const Config &shape() const { return Shape; }
+  /// Of the run, all 0 if it has none.
+  const VxLaunch &launch() const { return Launch; }
+  bool hasLaunch() const { return HasLaunch; }
+
+private:
+  /// The number of the stack that holds \p Address.
+  uint32_t stackOf(uint32_t Address) const {
+    return (VX_STACK_TOP - 1 - Address) / Shape.StackBytes;
+  }
+  uint64_t localEnd() const {
+    return VX_LOCAL_BASE + std::min<uint64_t>(LocalUsed, Shape.LocalBytes);
+  }
+
+  Config Shape;
+  std::shared_ptr<const Image> Code;
+  VxLaunch Launch{};
+  bool HasLaunch = false;
+};
+
+} // namespace vorion::isasim

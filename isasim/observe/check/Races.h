@@ -1,0 +1,77 @@
+/// Checker of accesses that nothing orders.
+#pragma once
+
+#include "observe/check/Findings.h"
+#include "observe/check/Places.h"
+
+#include <array>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// Two accesses to one byte race if they belong to different work-items, one of
+/// them writes, they are not both atomic, and neither happens before the other.
+/// What orders them: a barrier, between work-items of one group; an atomic on
+/// one word by both groups in between, taken as release and acquire whatever
+/// its memory order; a device barrier; the end of the run. Work-items are lanes
+/// here: two of a group that is larger than a warp and share a lane are taken
+/// for one, so that a race between these is missed. Lanes that store the same
+/// value in one instruction do not race. Of each word the last write and two
+/// reads are kept, so that a race with an older access may be missed.
+class RaceCheck : public Observer {
+public:
+  RaceCheck(Findings &OutIn, const Places &WhereIn)
+      : Out(OutIn), Where(WhereIn) {}
+  void runBegins(const RunStart &R) override;
+  void fetch(const Step &S) override;
+  void commit(const Commit &C) override;
+
+private:
+  /// Moments of a core, counted by what orders its accesses.
+  using Time = uint32_t;
+  using Clock = std::vector<Time>; ///< by core
+
+  struct Access {
+    uint32_t Group = 0; ///< number of the group's start, 0 for no access
+    Time When = 0;
+    uint32_t Pc = 0;
+    uint16_t Core = 0;
+    uint8_t Hart = 0; ///< warp and lane
+    uint8_t Bytes : 4 = 0;
+    uint8_t IsAtomic : 1 = 0;
+  };
+  struct Cell {
+    Access Write;
+    std::array<Access, 2> Reads;
+  };
+  using Page = std::array<Cell, 1024>; ///< a word each
+
+  struct CoreState {
+    Time Now = 1;
+    Time LastBarrier = 0; ///< accesses up to then are ordered for the group
+    Time Arrived = 0;     ///< at a barrier of the device
+    uint32_t Group = 1;
+    Clock Acquired; ///< moments of cores that this one's group comes after
+  };
+
+  bool isShared(uint32_t Address) const;
+  Cell &cellOf(uint32_t Address, unsigned Core);
+  bool isOrdered(const Access &Earlier, const Access &Now, bool IsLocal) const;
+  void check(const Commit &C, unsigned Lane, const Access &Earlier,
+             const Access &Now, bool EarlierWrites);
+  void access(const Commit &C, unsigned Lane);
+  void synchronise(uint32_t Address, unsigned Core);
+  void deviceBarrier(unsigned Core);
+  uint32_t withoutRepeats(const Commit &C) const;
+
+  Findings &Out;
+  const Places &Where;
+  std::vector<CoreState> Cores;
+  uint32_t Groups = 1;
+  std::unordered_map<uint64_t, std::unique_ptr<Page>> Pages;
+  std::unordered_map<uint32_t, Clock> Released; ///< by word
+};
+
+} // namespace vorion::isasim

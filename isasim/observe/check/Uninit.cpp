@@ -1,0 +1,274 @@
+#include "observe/check/Uninit.h"
+
+#include "core/Isa.h"
+#include "core/State.h"
+#include "raster/Command.h"
+#include "vorion/isasim/Machine.h"
+
+#include <bit>
+#include <fmt/format.h>
+
+namespace vorion::isasim {
+
+namespace {
+
+constexpr uint32_t AllLanes = 0xFFFF;
+constexpr unsigned StackRegister = 2;
+
+/// The place of a register in Warp::Good, or -1.
+int place(File F, unsigned Number) {
+  return F == File::X   ? static_cast<int>(XBase + Number)
+         : F == File::F ? static_cast<int>(FBase + Number)
+                        : -1;
+}
+
+uint32_t lastLane(uint32_t Mask) { return 1U << (std::bit_width(Mask) - 1); }
+
+const uint32_t *words(const Step &S, unsigned Register) {
+  return S.State.lanes(Register * sizeof(LaneWords));
+}
+
+template <typename Function> uint32_t lanesWhere(uint32_t Mask, Function F) {
+  uint32_t Result = 0;
+  for (uint32_t Left = Mask; Left; Left &= Left - 1)
+    if (F(static_cast<unsigned>(std::countr_zero(Left))))
+      Result |= Left & -Left;
+  return Result;
+}
+
+} // namespace
+
+void UninitCheck::runBegins(const RunStart &R) {
+  const Config &Shape = R.Device.config();
+  WarpsPerCore = Shape.WarpsPerCore;
+  Warps.assign(size_t{Shape.cores()} * WarpsPerCore, Warp());
+  for (Warp &W : Warps)
+    W.Good[0] = AllLanes;
+  Locals = std::vector<ShadowBits>(Shape.cores());
+  Stacks.clear();
+}
+
+ShadowBits *UninitCheck::shadowOf(uint32_t Address, unsigned Core) {
+  switch (Where.kindOf(Address)) {
+  case Places::Global:
+    return &Global;
+  case Places::Local:
+    return &Locals[Core];
+  case Places::Stack:
+    return &Stacks;
+  case Places::Program:
+  case Places::Nothing:
+    break;
+  }
+  return nullptr; // always good: the loader has written it
+}
+
+/// Lanes in which every source register is good.
+uint32_t UninitCheck::goodSource(const Step &S, const Warp &W) const {
+  const InsnInfo &Info = S.Insn.info();
+  uint32_t Good = AllLanes;
+  for (const int R : {place(Info.Rs1, S.Insn.Rs1), place(Info.Rs2, S.Insn.Rs2),
+                      place(Info.Rs3, S.Insn.Rs3)})
+    if (R >= 0)
+      Good &= W.Good[static_cast<size_t>(R)];
+  return Good;
+}
+
+/// Lanes in which a good operand alone decides the result.
+uint32_t UninitCheck::maskedSource(const Step &S, const Warp &W) const {
+  const uint32_t *A = words(S, S.Insn.Rs1), *B = words(S, S.Insn.Rs2);
+  const uint32_t GoodA = W.Good[S.Insn.Rs1], GoodB = W.Good[S.Insn.Rs2];
+  const auto Where0 = [&](uint32_t Good, const uint32_t *V, uint32_t Value) {
+    return lanesWhere(Good & S.LaneMask,
+                      [&](unsigned L) { return V[L] == Value; });
+  };
+  switch (S.Insn.O) {
+  case Op::RV_AND:
+  case Op::RV_MUL:
+    return Where0(GoodA, A, 0) | Where0(GoodB, B, 0);
+  case Op::RV_ANDN:
+    return Where0(GoodA, A, 0) | Where0(GoodB, B, ~0U);
+  case Op::RV_OR:
+    return Where0(GoodA, A, ~0U) | Where0(GoodB, B, ~0U);
+  case Op::RV_ORN:
+    return Where0(GoodA, A, ~0U) | Where0(GoodB, B, 0);
+  case Op::RV_CZERO_EQZ:
+    return Where0(GoodB, B, 0);
+  case Op::RV_CZERO_NEZ:
+    return lanesWhere(GoodB & S.LaneMask,
+                      [&](unsigned L) { return B[L] != 0; });
+  case Op::RV_XOR:
+  case Op::RV_SUB:
+    // How a register is zeroed.
+    return S.Insn.Rs1 == S.Insn.Rs2 ? AllLanes : 0;
+  default:
+    return 0;
+  }
+}
+
+void UninitCheck::use(const Step &S, Warp &W, unsigned Register, uint32_t Lanes,
+                      const char *What) {
+  const uint32_t Bad = S.LaneMask & Lanes & ~W.Good[Register];
+  if (!Bad)
+    return;
+  Out.add("uninit",
+          Culprit::of(S, static_cast<unsigned>(std::countr_zero(Bad))),
+          fmt::format("{} from memory that nothing was written to (lanes "
+                      "0x{:04x})",
+                      What, Bad));
+  // Once is enough.
+  W.Good[Register] |= Bad;
+}
+
+void UninitCheck::checkUses(const Step &S, Warp &W) {
+  const Decoded &D = S.Insn;
+  const InsnInfo &Info = D.info();
+  const uint32_t Last = lastLane(S.LaneMask);
+  if (Info.Fmt == Format::B) {
+    use(S, W, D.Rs1, AllLanes, "branch on a value");
+    use(S, W, D.Rs2, AllLanes, "branch on a value");
+    return;
+  }
+  switch (D.O) {
+  case Op::VX_SPLIT:
+  case Op::VX_SPLIT_N:
+    use(S, W, D.Rs1, AllLanes, "condition");
+    break;
+  case Op::VX_PRED:
+  case Op::VX_PRED_N:
+    use(S, W, D.Rs1, AllLanes, "condition");
+    use(S, W, D.Rs2, Last, "mask");
+    break;
+  case Op::VX_TMC:
+    use(S, W, D.Rs1, Last, "mask");
+    break;
+  case Op::VX_BAR:
+  case Op::VX_WSPAWN:
+    use(S, W, D.Rs1, Last, "operand");
+    use(S, W, D.Rs2, Last, "operand");
+    break;
+  case Op::RV_JALR:
+    use(S, W, D.Rs1, AllLanes, "jump to an address");
+    break;
+  case Op::RV_CSRRW:
+  case Op::RV_CSRRS:
+  case Op::RV_CSRRC:
+    use(S, W, D.Rs1, AllLanes, "write of a CSR with a value");
+    break;
+  default:
+    break;
+  }
+  if (!S.Access)
+    return;
+  use(S, W, D.Rs1, AllLanes, "access to an address");
+  if (S.Access->What == MemoryAccess::Atomic)
+    use(S, W, D.Rs2, AllLanes, "atomic with a value");
+}
+
+uint32_t UninitCheck::load(const Step &S) {
+  return lanesWhere(S.LaneMask, [&](unsigned L) {
+    const uint32_t Address = S.Access->Addresses[L];
+    ShadowBits *Shadow = shadowOf(Address, S.Core);
+    return !Shadow || Address % S.Access->Bytes != 0 ||
+           Shadow->all(Address, S.Access->Bytes);
+  });
+}
+
+void UninitCheck::fetch(const Step &S) {
+  Warp &W = Warps[size_t{S.Core} * WarpsPerCore + S.Warp];
+  // A group begins: what its predecessor left in local memory is not its own.
+  if (Where.hasLaunch() && S.Pc == Where.launch().Entry)
+    Locals[S.Core].clear();
+  checkUses(S, W);
+  const InsnInfo &Info = S.Insn.info();
+  if (Info.Rd == File::X && S.Insn.Rd == StackRegister)
+    std::copy_n(words(S, StackRegister), W.StackPointer.size(),
+                W.StackPointer.begin());
+  switch (S.Insn.O) {
+  case Op::VX_VOTE_ALL:
+  case Op::VX_VOTE_ANY:
+  case Op::VX_VOTE_UNI:
+  case Op::VX_VOTE_BALLOT:
+    // One lane's value shows in all.
+    W.Result = (S.LaneMask & ~W.Good[S.Insn.Rs1]) ? 0 : AllLanes;
+    return;
+  case Op::VX_SHFL_UP:
+  case Op::VX_SHFL_DOWN:
+  case Op::VX_SHFL_BFLY:
+  case Op::VX_SHFL_IDX:
+    // Which lane's value comes is not followed: bad only if all are.
+    W.Result = (S.LaneMask & W.Good[S.Insn.Rs1]) ? AllLanes : 0;
+    return;
+  default:
+    break;
+  }
+  if (S.Access)
+    W.Result = S.Access->What == MemoryAccess::Store ? AllLanes : load(S);
+  else
+    W.Result = goodSource(S, W) | maskedSource(S, W);
+}
+
+void UninitCheck::checkStore(const Step &S, Warp &W) {
+  const InsnInfo &Info = S.Insn.info();
+  const bool IsStore = S.Access->What == MemoryAccess::Store;
+  const auto Register =
+      static_cast<unsigned>(std::max(0, place(Info.Rs2, S.Insn.Rs2)));
+  const uint32_t Good = IsStore ? W.Good[Register] : AllLanes;
+  for (uint32_t Left = S.LaneMask; Left; Left &= Left - 1) {
+    const auto L = static_cast<unsigned>(std::countr_zero(Left));
+    const uint32_t Address = S.Access->Addresses[L];
+    ShadowBits *Shadow = shadowOf(Address, S.Core);
+    if (!Shadow)
+      continue;
+    Shadow->set(Address, S.Access->Bytes, Good >> L & 1);
+    if ((Good >> L & 1) || Shadow != &Global || !Where.Held.find(Address, 1))
+      continue;
+    // The driver's own memory keeps values across barriers: a copy.
+    const VxLaunch &Launch = Where.launch();
+    const uint32_t Context = Launch.ContextStride * Where.shape().cores();
+    if (Where.hasLaunch() && Address - Launch.Context < Context)
+      continue;
+    Out.add("uninit", Culprit::of(S, L),
+            fmt::format("store of a value from memory that nothing was "
+                        "written to, at 0x{:08x}, {}",
+                        Address, Where.describe(Address, S, L)));
+    Shadow->set(Address, S.Access->Bytes, true);
+  }
+}
+
+void UninitCheck::moveStack(const Commit &C, Warp &W) {
+  // A frame that is made holds nothing yet, whatever lay there before.
+  for (uint32_t Left = C.LaneMask; Left; Left &= Left - 1) {
+    const auto L = static_cast<unsigned>(std::countr_zero(Left));
+    const uint32_t Old = W.StackPointer[L], New = C.Result[L];
+    if (New < Old && Old - New < Where.shape().StackBytes &&
+        Where.kindOf(New) == Places::Stack)
+      Stacks.set(New, Old - New, false);
+  }
+}
+
+void UninitCheck::commit(const Commit &C) {
+  Warp &W = Warps[size_t{C.Core} * WarpsPerCore + C.Warp];
+  const InsnInfo &Info = C.Insn.info();
+  if (C.Access && C.Access->What != MemoryAccess::Load)
+    checkStore(C, W);
+  const int Rd = place(Info.Rd, C.Insn.Rd);
+  if (Rd <= 0)
+    return;
+  uint32_t &Good = W.Good[static_cast<size_t>(Rd)];
+  Good = (Good & ~C.LaneMask) | (W.Result & C.LaneMask);
+  if (Rd == StackRegister && !C.Result.empty())
+    moveStack(C, W);
+}
+
+void UninitCheck::rasterCommand(const RasterWork &W) {
+  using namespace raster;
+  if (ModeDrain.get(W.What.Mode))
+    return;
+  const unsigned Rows = TileShapeHeight.get(W.What.TileShape);
+  for (unsigned Row = 0; Row < Rows; ++Row)
+    Global.set(W.What.Output + Row * W.What.OutputPitch,
+               TileShapeWidth.get(W.What.TileShape) * sizeof(Pixel), true);
+}
+
+} // namespace vorion::isasim

@@ -1,0 +1,63 @@
+/// Checker of uses of memory that nothing was written to.
+#pragma once
+
+#include "observe/check/Findings.h"
+#include "observe/check/Places.h"
+#include "observe/check/ShadowBits.h"
+
+#include <vector>
+
+namespace vorion::isasim {
+
+/// Follows, for each byte of memory and each lane of each register, whether its
+/// value comes from something that was written. Copying and computing with what
+/// was not is no finding; deciding (a branch, split or vote), addressing,
+/// writing a CSR, an atomic, and storing to a buffer are. A word counts as a
+/// whole: one byte of it that was not written spoils results of the word,
+/// except where an and, or or conditional zero with a constant hides it.
+class UninitCheck : public Observer {
+public:
+  UninitCheck(Findings &OutIn, const Places &WhereIn)
+      : Out(OutIn), Where(WhereIn) {}
+
+  // Global memory as the driver sees it, between runs.
+  void allocated(uint32_t Address, uint64_t Bytes) {
+    Global.set(Address, Bytes, false);
+  }
+  void written(uint32_t Address, uint64_t Bytes) {
+    Global.set(Address, Bytes, true);
+  }
+
+  void runBegins(const RunStart &R) override;
+  void fetch(const Step &S) override;
+  void commit(const Commit &C) override;
+  void rasterCommand(const RasterWork &W) override;
+
+private:
+  struct Warp {
+    /// A bit for each lane whose value is known to be good; x0 to x31, f0 to
+    /// f31.
+    std::array<uint32_t, 64> Good{};
+    uint32_t Result = 0; ///< what the present instruction's result will be
+    std::array<uint32_t, 16> StackPointer{}; ///< before it
+  };
+
+  uint32_t goodSource(const Step &S, const Warp &W) const;
+  uint32_t maskedSource(const Step &S, const Warp &W) const;
+  void use(const Step &S, Warp &W, unsigned Register, uint32_t Lanes,
+           const char *What);
+  void checkUses(const Step &S, Warp &W);
+  void checkStore(const Step &S, Warp &W);
+  uint32_t load(const Step &S);
+  ShadowBits *shadowOf(uint32_t Address, unsigned Core);
+  void moveStack(const Commit &C, Warp &W);
+
+  Findings &Out;
+  const Places &Where;
+  ShadowBits Global, Stacks;
+  std::vector<ShadowBits> Locals; ///< by core
+  std::vector<Warp> Warps;
+  unsigned WarpsPerCore = 1;
+};
+
+} // namespace vorion::isasim

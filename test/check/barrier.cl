@@ -1,0 +1,14 @@
+// A barrier that half of the work-items reach.
+// REQUIRES: vorion-clang, vorion-cl-link, vorion-device, vorion-sim
+// RUN: vorion-clang -g %s -o %t.elf
+// RUN: not vorion-sim %t.elf --global 16 --local 16 --arg buf:64 --check barrier 2>&1 | FileCheck %s
+// CHECK: vorion-sim: check: barrier: {{.*}}barrier.cl:{{[0-9]+}} (half_of_them): lane {{[0-9]+}} decides otherwise than lane 0 about a branch that must be the same for all work-items: a barrier depends on it
+// CHECK: trap: core 0, warp 0, lane {{[0-9]+}}: divergent branch
+kernel void half_of_them(global int *data) {
+  local int shared[16];
+  int i = get_local_id(0);
+  shared[i] = data[i];
+  if (i < 8)
+    barrier(CLK_LOCAL_MEM_FENCE);
+  data[i] = shared[15 - i];
+}
