@@ -16,7 +16,7 @@ class Helper:
 
 @dataclasses.dataclass
 class Scope:
-    """What the expressions of one function may use."""
+    """What the expressions of one function may use, beside `t`, the lane's number."""
     ints: list        # uint variables
     uniform: list     # uint expressions in which lanes agree, or start to
     longs: list       # ulong variables
@@ -65,7 +65,7 @@ class Expressions:
 
     def integer(self, depth=0):
         scope = self.scope
-        return self.one_of(depth, scope.ints + scope.ints + scope.uniform + [self.constant()], [
+        return self.one_of(depth, scope.ints * 3 + ["t"] + scope.uniform + [self.constant()], [
             (30, self.arithmetic), (8, self.choice_of(self.integer)), (8, self.signed), (5, self.bit_operation),
             (6, self.memory_word), (4, self.narrow), (5, self.from_float), (4, self.from_long), (4, self.division),
             (5, self.call), (2, self.from_struct), (2, lambda d: f"(uint)({self.condition(d)})")])
@@ -164,16 +164,17 @@ class Expressions:
                           f"({self.condition(1)} ? {a} * 0.75 : (double)(int)({self.integer(1)}))"])
 
     def condition(self, depth=0):
-        leaf = f"({self.pick(self.scope.uniform)} & {self.pick([1, 2, 3])})"
-        return self.one_of(min(depth, 2), [leaf, self.bit_test(depth)], [
-            (6, lambda d: f"({self.condition(d)} {self.pick(['&&', '||'])} {self.condition(d)})" if d < 4 else leaf),
-            (8, self.bit_test), (1, lambda d: f"!{leaf}"),
+        return self.one_of(min(depth, 2), [self.bit_test(depth)] * 4 + [f"({self.pick(self.scope.uniform)} & {self.pick([1, 2, 3])})"], [
+            (6, lambda d: f"({self.condition(d)} {self.pick(['&&', '||'])} {self.condition(d)})" if d < 4 else self.bit_test(d)),
+            (8, self.bit_test), (1, lambda d: f"!{self.bit_test(d)}"),
             (3, lambda d: f"({self.integer(2)} {self.pick(['<', '==', '>=', '!='])} {self.integer(2)})"),
             (2, lambda d: f"((int)({self.integer(2)}) {self.pick(['<', '>='])} (int)({self.integer(2)}))"),
-            (4, lambda d: f"({self.floating(2)} {self.pick(['<', '>=', '==', '!='])} {self.floating(2)})"),
-            (2, lambda d: f"({self.long(2)} {self.pick(['<', '==', '>='])} {self.long(2)})")])
+            (4, lambda d: f"({self.pick(self.scope.floats)} {self.pick(['<', '>=', '==', '!='])} {self.floating(2)})"),
+            (2, lambda d: f"({self.pick(self.scope.longs)} {self.pick(['<', '==', '>='])} {self.long(2)})")])
 
     def bit_test(self, _depth):
+        """Bits of the lane's number are in it: lanes part as often as not."""
         mask = self.pick([1, 1, 2, 3, 4, 7])
         bound = mask if mask in (1, 2, 4) else self.random.randint(1, mask - 1)
-        return f"(({self.integer(1)} & {mask}u) {self.pick(['==', '!=', '<', '>='])} {bound}u)"
+        mixed = f"({self.integer(2)} {self.pick('+^')} t)"
+        return f"(({mixed} & {mask}u) {self.pick(['==', '!=', '<', '>='])} {bound}u)"

@@ -39,7 +39,7 @@ class Module:
     def helper(self, number):
         """A function of random control flow that may call those before it."""
         name = f"helper{number}"
-        scope = Scope(ints=["x", "y", "z", "t"], uniform=["x", "0x35u"], longs=["w"], floats=["f", "g"], doubles=["1.0"],
+        scope = Scope(ints=["x", "y", "z"], uniform=["x", "0x35u"], longs=["w"], floats=["f", "g"], doubles=["1.0"],
                       words=["local[{}]"], helpers=list(self.helpers))
         body = Statements(self.random, scope, in_phase=False)
         body.MAX_COST = 1500
@@ -48,11 +48,11 @@ class Module:
         self.helpers.append(Helper(name, 100 + body.cost))
         return (f"{self.qualifier()} UNUSED uint {name}(uint x, uint y, float f) {{\n"
                 "  uint z = x + 1, t = LANE, local[4] = {x, y, 3, t}; ulong w = y; float g = 0.5f; volatile uint vol = x;\n"
-                f"  {text}\n  goto end;\n end:\n  return x + y * 3 + z * 5 + t + bits(f) + bits(g) + local[x & 3] + (uint)(w >> 16) + vol;\n}}\n")
+                f"  {text}\n  goto end;\n end:\n  return x + y * 3 + z * 5 + bits(f) + bits(g) + local[x & 3] + (uint)(w >> 16) + vol;\n}}\n")
 
     def phase(self, name):
         """A function that a lane runs between two barriers."""
-        scope = Scope(ints=["x", "y", "z", "t", "u", "v", "r"], uniform=["m->n", "m->group", "u", "v"], longs=["w"],
+        scope = Scope(ints=["x", "y", "z", "u", "v", "r"], uniform=["m->n", "m->group", "u", "v"], longs=["w"],
                       floats=["f", "g"], doubles=["d"], words=["s->a[{}]", "s->h[{}]", "s->b[{}]", "local[{}]"],
                       readable=["m->theirs[({}) % m->lanes]", "m->theirs[16 + ({})]", "m->theirs[20 + ({})]",
                                 "m->theirs[24 + ({})]"], helpers=self.helpers)
@@ -67,7 +67,7 @@ class Module:
                 "  float f = s->f, g = s->g; ulong w = s->w; double d = s->d;\n"
                 "  uint local[4] = {1, t, m->n, 4}, *own = m->out + (m->group * m->lanes + LANE) * OUT_WORDS;\n"
                 f"  {first}\n  goto almost;\n almost:\n  {second}\n  goto end;\n"
-                " end:\n  s->x = x; s->y = y; s->z = z ^ t; s->u = u; s->v = v; s->r = r + local[0] + local[1] + local[2] + local[3];\n"
+                " end:\n  s->x = x; s->y = y; s->z = z; s->u = u; s->v = v; s->r = r + local[0] + local[1] + local[2] + local[3];\n"
                 "  s->f = f; s->g = g; s->w = w; s->d = d;\n}\n")
 
     def lanes_together(self):

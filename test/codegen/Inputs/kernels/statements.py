@@ -27,7 +27,7 @@ class Statements(Expressions):
         self.names = 0
         self.leave = ["goto end;"]
         # Most functions are small, so that there can be many; some are deeply nested.
-        self.deepest = random.choice([1, 1, 2, 2, 3, 4])
+        self.deepest = random.choice([1, 1, 1, 1, 2, 2, 2, 3, 4])
 
     def fresh(self, prefix):
         self.names += 1
@@ -37,17 +37,21 @@ class Statements(Expressions):
 
     def simple(self):
         scope = self.scope
-        makers = [(50, lambda: f"{self.pick(scope.ints)} = {self.integer()};"),
+        makers = [(50, self.change),
                   (15, lambda: f"{self.pick(scope.floats)} = {self.floating()};"),
                   (8, lambda: f"{self.pick(scope.longs)} = {self.long()};"),
                   (8, lambda: f"{self.pick(scope.words).format(f'({self.integer(2)}) & 3')} = {self.integer(1)};"),
-                  (3, lambda: f"{self.pick(scope.ints)} {self.pick(['+=', '^=', '-=', '*=', '|='])} {self.integer(1)};"),
                   (2, self.volatile_access)]
         if self.in_phase:
             makers += [(2, lambda: f"{self.pick(scope.doubles)} = {self.double()};"), (3, self.structure),
                        (9, self.shared_atomic), (5, self.own_atomic), (4, lambda: f"m->mine[LANE] = {self.integer(1)};")]
         weights, functions = zip(*makers)
         return self.random.choices(functions, weights)[0]()
+
+    def change(self):
+        """Of an integer. Mostly something of the old value stays, or all would soon be the same in all lanes."""
+        to = self.pick(self.scope.ints)
+        return f"{to} {self.pick(['=', '+=', '+=', '^=', '^=', '-='])} {self.integer()};"
 
     def volatile_access(self):
         if not self.in_phase:
@@ -90,7 +94,7 @@ class Statements(Expressions):
 
     def block(self, depth, loop="", longest=3):
         """`loop` says what may leave or repeat it: break, continue."""
-        return " ".join(self.statement(depth, loop) for _ in range(self.random.randint(1, longest)))
+        return " ".join(self.statement(depth, loop) for _ in range(self.random.choice([1, 1, 2, longest])))
 
     def repeated(self, times, make):
         """What `make` returns, as code that runs so many times."""
@@ -109,7 +113,7 @@ class Statements(Expressions):
                            (2, lambda: self.entered_by_switch(depth)), (2, lambda: self.blocks(depth))]
         if loop:
             makers += [(10, lambda: f"if ({self.top_condition()}) {self.pick(loop.split())};")]
-        makers += [(4, lambda: f"if ({self.condition()}) {self.pick(self.leave)}")]
+        makers += [(3, lambda: f"if ((({self.integer(2)} + t) & 7u) == {self.random.randrange(8)}u) {self.pick(self.leave)}")]
         weights, functions = zip(*makers)
         return self.random.choices(functions, weights)[0]()
 
@@ -128,13 +132,13 @@ class Statements(Expressions):
 
     def switch(self, depth, loop):
         many = self.chance(0.3)  # dense enough for a jump table
-        values = self.random.sample(range(12 if many else 6), 7 if many else 3)
+        values = self.random.sample(range(16 if many else 8), 7 if many else 3)
         inside = loop if "continue" not in loop else "continue"  # break leaves the switch
         inside = (inside + " break").strip()
         cases = [f"case {value}: {self.block(depth + 1, inside, 2)} {self.pick(['break;', 'break;', ''])}"
                  for value in values]
         cases.insert(self.random.randint(0, len(cases)), f"default: {self.block(depth + 1, inside, 2)} {self.pick(['break;', ''])}")
-        return f"switch ({self.integer(1)} & {15 if many else 7}u) {{ {' '.join(cases)} ; }}"
+        return f"switch (({self.integer(1)} + t) & {15 if many else 7}u) {{ {' '.join(cases)} ; }}"
 
     def loop(self, depth):
         i = self.fresh("i")
@@ -165,7 +169,7 @@ class Statements(Expressions):
             # A break there would leave the loop, and a continue ask its condition: both are allowed.
             parts = [self.block(depth + 1, "break continue", 2) for _ in range(3)]
             return (f"case 0: do {{ {parts[0]} case 1: {parts[1]} case 3: {parts[2]} }} while (++{k} < 4 && {self.condition()});")
-        return f"{{ uint {k} = 0; switch ({self.integer(1)} & 3u) {{ {self.repeated(4, body)} }} }}"
+        return f"{{ uint {k} = 0; switch (({self.integer(1)} + t) & 3u) {{ {self.repeated(4, body)} }} }}"
 
     def blocks(self, depth):
         """Blocks that jump to each other however they like, a limited number of times."""
@@ -181,7 +185,7 @@ class Statements(Expressions):
             if kind < 0.5:
                 return f"if ({self.condition()}) {to()}"
             if kind < 0.7:
-                return f"switch ({self.integer(1)} & 3u) {{ case 0: {to()} case 1: {to()} case 2: {to()} default: ; }}"
+                return f"switch (({self.integer(1)} + t) & 3u) {{ case 0: {to()} case 1: {to()} case 2: {to()} default: ; }}"
             return to()
 
         def body():

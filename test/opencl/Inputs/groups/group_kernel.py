@@ -1,0 +1,205 @@
+"""Random OpenCL kernels with barriers, as text that group_host.h makes C of.
+
+Private variables x y z f w a[] differ between work-items; u v and loop counters are the same in all of a group, and alone
+decide about code with barriers. Between two barriers nobody reads what another work-item writes.
+"""
+
+import random
+
+GROUPS = 3
+SIZES = [1, 7, 16, 17, 20, 64]
+IN_WORDS = 64
+ITEM_WORDS = 8  # of the output for a work-item
+
+PROLOGUE = """
+#ifndef GROUPS_ON_HOST
+#define LOCAL_ARRAY local
+#define REQUIRED_SIZE(n) __attribute__((reqd_work_group_size(n, 1, 1)))
+#endif
+static uint bits_of(float f) { return f != f ? 0x7fc00000 : as_uint(f); }
+/* A barrier in a function: who calls it does not see one. */
+static uint pass_on(local uint *t, uint value, uint by) {
+  uint l = get_local_id(0), n = get_local_size(0);
+  t[l] = value;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint got = t[(l + by) % n];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  return got;
+}
+"""
+
+
+class Kernel:
+    """One kernel; `required` is a group size it is compiled for, or None."""
+
+    def __init__(self, rand, name, required):
+        self.random = rand
+        self.name = name
+        self.required = required
+        self.names = 0
+        self.weight = 1
+        self.counters = []
+        self.deepest = rand.choice([1, 2, 2, 3])
+
+    def pick(self, choices):
+        return self.random.choice(choices)
+
+    def chance(self, probability):
+        return self.random.random() < probability
+
+    def fresh(self, prefix):
+        self.names += 1
+        return f"{prefix}{self.names}"
+
+    # --- expressions ------------------------------------------------------
+
+    def value(self, depth=0):
+        """Of a work-item's own."""
+        if depth > 2 or self.chance(0.35):
+            return self.pick(["x", "y", "z", "x", "y", "z", "l", "a[l & 3]", "(uint)(w >> 20)", "bits_of(f)", self.uniform(2),
+                              f"{self.random.randint(1, 99)}u"])
+        a, b = self.value(depth + 1), self.value(depth + 1)
+        return self.pick([f"({a} {self.pick('+-*^&|')} {b})", f"({a} {self.pick('+-*^&|')} {b})",
+                          f"({self.condition(depth + 1)} ? {a} : {b})", f"in[({a}) % {IN_WORDS}u]", f"({a} >> ({b} & 31u))",
+                          f"({a} % ({b} | 1u))"])
+
+    def uniform(self, depth=0):
+        """The same in all work-items of a group."""
+        if depth > 1 or self.chance(0.4):
+            return self.pick(["u", "v", "k", "(uint)get_group_id(0)", "n", f"{self.random.randint(1, 9)}u", *self.counters])
+        a, b = self.uniform(depth + 1), self.uniform(depth + 1)
+        return self.pick([f"({a} {self.pick('+-*^')} {b})", f"in[({a}) % {IN_WORDS}u]", f"({a} >> ({b} & 3u))"])
+
+    def condition(self, depth=0):
+        mask = self.pick([1, 1, 2, 3])
+        test = f"(({self.value(depth + 1)} & {mask}u) {self.pick(['==', '!='])} {self.random.randint(0, mask)}u)"
+        return test if self.chance(0.7) else f"({test} {self.pick(['&&', '||'])} {self.pick(['l', 'x'])} {self.pick('<>')} {self.uniform(1)})"
+
+    def agreed(self):
+        """A condition that all work-items of a group answer alike."""
+        return f"(({self.uniform()}) & {self.pick([1, 1, 2, 3])}u)"
+
+    # --- code without barriers --------------------------------------------
+
+    def own(self, depth=0, loop=False):
+        kind = self.random.random()
+        if kind < 0.5 or depth >= self.deepest:
+            return self.pick([f"{self.pick('xyz')} = {self.value()};", f"{self.pick('xyz')} += {self.value()};",
+                              f"a[({self.value(2)}) & 3] = {self.value(1)};", f"w = w * 5 + {self.value(1)};",
+                              f"f = f * 0.5f + (float)(int)({self.value(2)});"])
+        body = self.own_block(depth + 1, loop)
+        if kind < 0.7:
+            return f"if ({self.condition()}) {{ {body} }}" + (f" else {{ {self.own_block(depth + 1, loop)} }}" if self.chance(0.5) else "")
+        if kind < 0.78:
+            return (f"switch ({self.value(1)} & 3u) {{ case 0: {body} break; case 2: {self.own_block(depth + 1, False)} "
+                    f"default: {self.own_block(depth + 1, False)} }}")
+        if kind < 0.86 and loop:
+            return f"if ({self.condition()}) {self.pick(['break;', 'continue;'])}"
+        i = self.fresh("i")
+        return f"for (uint {i} = 0; {i} < (({self.value(1)}) & 3u); {i}++) {{ {self.own_block(depth + 1, True)} }}"
+
+    def own_block(self, depth, loop):
+        return " ".join(self.own(depth, loop) for _ in range(self.random.randint(1, 3)))
+
+    # --- code with barriers -----------------------------------------------
+
+    def meeting(self):
+        """Work-items tell each other something."""
+        to, by = self.pick("xyz"), self.pick(["1u", "n - 1u", "l", self.uniform(1)])
+        kind = self.random.random()
+        if kind < 0.3:
+            return (f"t[l] = {self.value()}; barrier(CLK_LOCAL_MEM_FENCE); {to} ^= t[(l + {by}) % n];\n"
+                    "  barrier(CLK_LOCAL_MEM_FENCE);")
+        if kind < 0.4:
+            return (f"t[l] = {self.value()}; barrier(CLK_LOCAL_MEM_FENCE); {self.pick('uv')} = t[{self.pick(['0', 'n - 1', 'n / 2'])}];\n"
+                    "  barrier(CLK_LOCAL_MEM_FENCE);")
+        if kind < 0.55:
+            return f"{to} += pass_on(t, {self.value()}, {self.uniform(1)});"
+        if kind < 0.7:
+            return (f"shared[l] = {self.value(1)}; barrier(CLK_GLOBAL_MEM_FENCE); {to} += shared[(l * 3 + {by}) % n];\n"
+                    "  barrier(CLK_GLOBAL_MEM_FENCE);")
+        if kind < 0.85:
+            operation = self.pick(["add", "max", "xor"])
+            update = f"atomic_{operation}(&counter, {self.value(1)});"
+            if self.chance(0.5):
+                update = f"if ({self.condition()}) {update}"
+            return (f"if (l == 0) counter = 0; barrier(CLK_LOCAL_MEM_FENCE); {update} barrier(CLK_LOCAL_MEM_FENCE);\n"
+                    f"  {self.pick([to, 'v'])} = counter; barrier(CLK_LOCAL_MEM_FENCE);")
+        # Other items' results of their own loops, through static local memory.
+        return (f"kept[l % 16][0] = 0; barrier(CLK_LOCAL_MEM_FENCE); if (l < 16) kept[l][0] = {self.value(1)}; "
+                f"barrier(CLK_LOCAL_MEM_FENCE); {to} += kept[({self.value(2)}) % 16u][0] + kept[l % 16][0];\n  barrier(CLK_LOCAL_MEM_FENCE);")
+
+    def together(self, depth, loop=False):
+        """A statement that all work-items of a group come to."""
+        kind = self.random.random()
+        if kind < 0.34:
+            return self.own()
+        if kind < 0.62 or depth > 2:
+            return self.meeting()
+        if kind < 0.66:
+            return f"{self.pick('uv')} = {self.uniform()};"
+        if kind < 0.8:
+            other = f" else {{\n  {self.together_block(depth + 1, loop)} }}" if self.chance(0.4) else ""
+            return f"if ({self.agreed()}) {{\n  {self.together_block(depth + 1, loop)} }}{other}"
+        if kind < 0.84 and loop:
+            return f"if ({self.agreed()}) {self.pick(['break;', 'continue;'])}"
+        if kind < 0.86:
+            return f"if (({self.uniform()}) % 7u == 3u) goto done;"
+        if self.weight >= 12:
+            return self.own()
+        return self.loop(depth)
+
+    def loop(self, depth):
+        i, bound = self.fresh("i"), self.pick([f"(({self.uniform(1)}) & 3u)", "3u", "(k & 3u)", "2u"])
+        self.weight *= 3
+        self.counters.append(i)
+        body = self.together_block(depth + 1, True)
+        self.counters.pop()
+        self.weight //= 3
+        return self.pick([
+            f"for (uint {i} = 0; {i} < {bound}; {i}++) {{\n  {body} }}",
+            f"for (uint {i} = {bound}; {i} > 0; {i}--) {{\n  {body} }}",
+            f"{{ uint {i} = 0; do {{\n  {body} }} while (++{i} < {bound}); }}",
+            f"{{ uint {i} = 0; while (1) {{ if ({i}++ >= {bound}) break;\n  {body} }} }}"])
+
+    def together_block(self, depth, loop):
+        return "\n  ".join(self.together(depth, loop) for _ in range(self.random.randint(1, 3)))
+
+    def source(self):
+        body = "\n  ".join(self.together(0) for _ in range(self.random.randint(2, 5)))
+        attribute = f"REQUIRED_SIZE({self.required}) " if self.required else ""
+        return (f"{attribute}kernel void {self.name}(global uint *out, global const uint *in, local uint *t, uint k) {{\n"
+                "  LOCAL_ARRAY uint counter, kept[16][3];\n"
+                "  uint l = get_local_id(0), n = get_local_size(0), x = l * 7 + k, y = l ^ 5, z = get_group_id(0), u = k, v = 3;\n"
+                f"  uint a[4] = {{1, l, n, 4}};\n  ulong w = l;\n  float f = 0.5f;\n"
+                f"  global uint *mine = out + (get_group_id(0) * n + l) * {ITEM_WORDS};\n"
+                f"  global uint *shared = out + {GROUPS * ITEM_WORDS} * n + get_group_id(0) * n;\n"
+                f"  {body}\n"
+                " done:\n  mine[0] = x; mine[1] = y; mine[2] = z; mine[3] = u ^ v << 16; mine[4] = bits_of(f);\n"
+                "  mine[5] = (uint)w ^ (uint)(w >> 32); mine[6] = a[0] ^ a[1] << 8; mine[7] = a[2] ^ a[3] << 8;\n}\n")
+
+
+class Program:
+    """Kernels for any group size, and the same with the sizes that they are compiled for."""
+
+    def __init__(self, seed, kernels):
+        self.random = random.Random(seed)
+        self.argument = self.random.randint(0, 40)
+        self.input = [self.random.getrandbits(32) >> self.random.choice([0, 0, 28]) for _ in range(IN_WORDS)]
+        required = [None] * (kernels - 2) + [7, 16]
+        self.kernels = [Kernel(self.random, f"k{number}", size) for number, size in enumerate(required)]
+        self.text = PROLOGUE + "".join(kernel.source() for kernel in self.kernels)
+
+    def runs(self):
+        """(kernel's name, group size)."""
+        return [(kernel.name, size) for kernel in self.kernels for size in ([kernel.required] if kernel.required else SIZES)]
+
+    @staticmethod
+    def out_words(size):
+        return GROUPS * size * (ITEM_WORDS + 1)
+
+    def host_source(self):
+        calls = "".join(f"  run_kernel({name}, {size}, {GROUPS}, {self.out_words(size)}, in, {self.argument});\n"
+                        for name, size in self.runs())
+        return (f"#define GROUPS_ON_HOST\n#include \"group_host.h\"\n{self.text}\nint main(void) {{\n"
+                f"  static const uint in[] = {{{', '.join(f'{word}u' for word in self.input)}}};\n{calls}  return fclose(stdout);\n}}\n")
