@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the simulator's instruction, CSR, constant and descriptor tables as a C++ header.
+"""Writes the simulator's instruction, constant and descriptor tables as a C++ header (csrs.py writes the CSRs').
 
 usage: isasim.py [--tblgen PATH] OUTPUT
 """
@@ -10,6 +10,8 @@ from records import Records, write
 
 HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/isasim.py; do not edit.
 #pragma once
+
+#include "core/CsrTable.h"
 
 #include <cstdint>
 
@@ -28,20 +30,6 @@ struct InsnInfo {
   Format Fmt;
   File Rd, Rs1, Rs2, Rs3;
   bool HasRm; ///< a rounding mode stands where funct3 is
-};
-
-/// Where one copy of a CSR lives.
-enum class Scope : std::uint8_t { Lane, Warp, Core, Agent, Socket, Cluster, Device };
-/// What a write by several active lanes means.
-enum class WriteRule : std::uint8_t { None, Lane, Scalar, Push };
-
-struct CsrInfo {
-  std::uint16_t Number;
-  Scope In;
-  WriteRule Rule;
-  bool Uniform;
-  bool Raster; ///< the Raster Agent's
-  const char *Name;
 };
 """
 
@@ -90,21 +78,6 @@ def instructions(records):
     yield "};\n"
 
 
-def csrs(records):
-    table = sorted(records.of("Csr"), key=lambda c: c.Number)
-    yield "enum Csr : std::uint16_t {"
-    for c in table:
-        yield f"  {c.id if c.id.startswith('CSR_') else 'CSR_' + c.id} = {c.Number:#05x},"
-    yield "};\n"
-    yield "/// By ascending number."
-    yield f"inline constexpr unsigned NumCsrs = {len(table)};"
-    yield "inline constexpr CsrInfo CsrTable[NumCsrs] = {"
-    for c in table:
-        yield (f"    {{{c.Number:#05x}, Scope::{camel(c.In.Name)}, WriteRule::{camel(c.Rule.Name)}, "
-               f"{flag(c.Uniform)}, {flag(c.Extension == 'xvorion')}, \"{c.Name}\"}},")
-    yield "};\n"
-
-
 def abi(records):
     yield "// The names of the ABI, as in every other language."
     yield "// NOLINTBEGIN(readability-identifier-naming)"
@@ -129,7 +102,7 @@ def main():
     options = parser.parse_args()
     records = Records(options.tblgen)
     lines = [HEAD]
-    for part in (instructions, csrs, abi):
+    for part in (instructions, abi):
         lines += part(records)
     lines.append("} // namespace vorion::isasim")
     write(options.output, "\n".join(lines) + "\n")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the rasterizer's CSR table, constants and record layout as a C++ header.
+"""Writes the rasterizer's CSR names and fields, constants and record layout as a C++ header (csrs.py has the table).
 
 usage: raster.py [--tblgen PATH] OUTPUT
 """
@@ -11,10 +11,12 @@ from records import Records, write
 HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/raster.py; do not edit.
 #pragma once
 
-#include <cstdint>
-#include <string_view>
+#include "core/CsrTable.h"
 
 namespace vorion::raster {
+
+using isasim::CsrInfo;
+using isasim::WriteRule;
 
 /// Some bits of a CSR.
 struct BitField {
@@ -22,16 +24,6 @@ struct BitField {
   constexpr std::uint32_t mask() const { return (1U << Width) - 1; }
   constexpr std::uint32_t get(std::uint32_t Word) const { return Word >> Low & mask(); }
   constexpr std::uint32_t put(std::uint32_t Value) const { return (Value & mask()) << Low; }
-};
-
-/// What a write by several active lanes means (docs/isa.md, "CSRs").
-enum class WriteRule : std::uint8_t { None, Lane, Scalar, Push };
-
-struct CsrInfo {
-  std::uint16_t Number;
-  std::string_view Name;
-  WriteRule Rule;
-  bool Uniform; ///< all lanes read the same value, so one read serves them all
 };
 """
 
@@ -44,15 +36,6 @@ def enum_csrs(csrs):
     yield "enum class Csr : std::uint16_t {"
     for c in csrs:
         yield f"  {camel(c.Name.removeprefix('vr_'))} = {c.Number:#05x}, ///< {c.Doc}"
-    yield "};\n"
-
-
-def table_csrs(csrs):
-    yield "/// Every CSR of the Raster Agent, ascending numbers."
-    yield "inline constexpr CsrInfo CsrTable[] = {"
-    for c in csrs:
-        yield (f'    {{{c.Number:#05x}, "{c.Name}", WriteRule::{camel(c.Rule.Name)}, '
-               f"{'true' if c.Uniform else 'false'}}},")
     yield "};\n"
 
 
@@ -93,7 +76,7 @@ def main():
     args = parser.parse_args()
     records = Records(args.tblgen)
     csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
-    parts = (enum_csrs(csrs), table_csrs(csrs), fields(csrs), constants(records), gaussian(records))
+    parts = (enum_csrs(csrs), fields(csrs), constants(records), gaussian(records))
     lines = [HEAD, *(line for part in parts for line in part), "} // namespace vorion::raster"]
     write(args.output, "\n".join(lines) + "\n")
 

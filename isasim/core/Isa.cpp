@@ -1,6 +1,5 @@
 #include "core/Isa.h"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 #include <fmt/format.h>
@@ -141,15 +140,6 @@ std::optional<Decoded> decode(uint32_t Word) {
     return D;
   }
   return std::nullopt;
-}
-
-const CsrInfo *findCsrInfo(unsigned Number) {
-  const CsrInfo *End = CsrTable + NumCsrs;
-  const CsrInfo *Found =
-      std::lower_bound(CsrTable, End, Number, [](const CsrInfo &C, unsigned N) {
-        return C.Number < N;
-      });
-  return Found != End && Found->Number == Number ? Found : nullptr;
 }
 
 std::string disassemble(uint32_t Word, uint32_t Pc) {

@@ -29,9 +29,6 @@ struct Decoded {
 /// rounding modes included.
 std::optional<Decoded> decode(uint32_t Word);
 
-/// The table entry of CSR \p Number, or nullptr.
-const CsrInfo *findCsrInfo(unsigned Number);
-
 /// Assembly text without aliases, ABI register names, branch targets as
 /// addresses; ".word 0x..." for what does not decode.
 std::string disassemble(uint32_t Word, uint32_t Pc);

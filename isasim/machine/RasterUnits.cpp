@@ -86,8 +86,8 @@ std::optional<uint32_t> RasterUnits::hostRead(unsigned Core, unsigned Number) {
 }
 
 bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
-  const raster::CsrInfo *Info = raster::findCsr(Number);
-  if (Core >= Agents.size() || !Info || Info->Rule == raster::WriteRule::None)
+  const CsrInfo *Info = raster::findCsr(Number);
+  if (Core >= Agents.size() || !Info || Info->Rule == WriteRule::None)
     return false;
   std::array<uint32_t, MaxLanes> Lanes{};
   Lanes[0] = Value;

@@ -1,6 +1,5 @@
 #include "raster/RasterAgent.h"
 
-#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstring>
@@ -25,11 +24,8 @@ static unsigned lastLane(std::uint32_t Mask) {
 }
 
 const CsrInfo *findCsr(unsigned Number) {
-  const auto *Found = std::lower_bound(
-      std::begin(CsrTable), std::end(CsrTable), Number,
-      [](const CsrInfo &Info, unsigned N) { return Info.Number < N; });
-  return Found != std::end(CsrTable) && Found->Number == Number ? Found
-                                                                : nullptr;
+  const CsrInfo *Found = isasim::findCsrInfo(Number);
+  return Found && Found->Raster ? Found : nullptr;
 }
 
 RasterAgent::RasterAgent(const AgentConfig &Sizes)

@@ -14,21 +14,18 @@ std::array<std::uint32_t, 16> lanes(std::uint32_t First) {
   return V;
 }
 
-TEST(RasterAgentCsrs, tableIsSortedAndFound) {
-  unsigned Last = 0;
-  for (const CsrInfo &Info : CsrTable) {
-    EXPECT_GT(Info.Number, Last);
-    Last = Info.Number;
-    EXPECT_EQ(findCsr(Info.Number), &Info);
-  }
-  EXPECT_EQ(findCsr(0xb00), nullptr);
+TEST(RasterAgentCsrs, onlyTheAgentsOwnAreFound) {
+  for (const CsrInfo &Info : isasim::CsrTable)
+    EXPECT_EQ(findCsr(Info.Number), Info.Raster ? &Info : nullptr) << Info.Name;
   EXPECT_EQ(findCsr(0x7ce), nullptr);
   EXPECT_EQ(findCsr(0xfff), nullptr);
 }
 
 // Every CSR is reached: a read, and a write where there is a rule.
 TEST(RasterAgentCsrs, everyCsrIsImplemented) {
-  for (const CsrInfo &Info : CsrTable) {
+  for (const CsrInfo &Info : isasim::CsrTable) {
+    if (!Info.Raster)
+      continue;
     RasterAgent Agent;
     const auto C = static_cast<Csr>(Info.Number);
     EXPECT_EQ(Agent.read(C, 3), 0U) << Info.Name;
