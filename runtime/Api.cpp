@@ -5,6 +5,7 @@
 #include "vorion/support/File.h"
 #include "vorion_abi.h"
 
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -73,6 +74,23 @@ Failure findConfig(const char *Text, isasim::Config &Config) {
   if (!Parsed)
     return failure(VX_ERROR_CONFIG, Parsed.error());
   Config = *Parsed;
+  return {};
+}
+
+/// Whether the environment's VORION_TIME asks for the clock.
+Failure findTime(isasim::Config &Config) {
+  const char *Text = std::getenv("VORION_TIME");
+  if (!Text || !*Text)
+    return {};
+  Config.Timing.Enabled = true;
+  if (std::strcmp(Text, "on") == 0)
+    return {};
+  const char *End = Text + std::strlen(Text);
+  const auto [Rest, Wrong] = std::from_chars(Text, End, Config.Timing.ClockMhz);
+  if (Wrong != std::errc() || Rest != End)
+    return {VX_ERROR_CONFIG,
+            fmt::format("VORION_TIME is '{}', expected 'on' or a clock in MHz",
+                        Text)};
   return {};
 }
 
@@ -147,6 +165,8 @@ vx_status vx_device_open(const char *config, vx_device **device) {
       return isNull("device");
     isasim::Config Config;
     if (Failure Failed = findConfig(config, Config))
+      return Failed;
+    if (Failure Failed = findTime(Config))
       return Failed;
     auto Machine = isasim::Machine::create(Config);
     if (!Machine)

@@ -365,6 +365,7 @@ Failure Device::wait(vx_result &Result) {
   Result.console_bytes = ConsoleText.size();
   Result.console_dropped = ConsoleDropped;
   Result.host_seconds = Last.HostSeconds;
+  Result.time_report = TimeText.c_str();
   vx_counters &C = Result.counters;
   C.warp_instructions = Last.Total.WarpInstructions;
   C.lane_instructions = Last.Total.LaneInstructions;

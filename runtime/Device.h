@@ -95,7 +95,7 @@ private:
 
   // The last run's result.
   isasim::RunResult Last;
-  std::string PrintText, ConsoleText;
+  std::string PrintText, ConsoleText, TimeText;
   std::string BugText; ///< of an exception out of the simulator, else empty
   std::uint64_t PrintDropped = 0, ConsoleDropped = 0;
 };

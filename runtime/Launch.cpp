@@ -116,6 +116,7 @@ Failure Device::prepare(const isasim::Kernel &Kernel,
 }
 
 void Device::finish(isasim::RunResult Run) {
+  TimeText = Run.Time ? isasim::toJson(*Run.Time) : std::string();
   Last = std::move(Run);
   PrintText.clear();
   PrintDropped = 0;

@@ -97,6 +97,8 @@ TimeReport Clock::end() {
   R.Cycles = End - Begun;
   R.ClockMhz = P.ClockMhz;
   R.OutOfOrder = OutOfOrder;
+  R.Host = P.Host;
+  R.DramBurstBytes = P.Dram.BurstBytes;
   for (CoreClock &C : Cores) {
     C.end(End);
     R.Cores.push_back(C.time());

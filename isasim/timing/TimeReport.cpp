@@ -107,6 +107,10 @@ std::string line(std::string_view Who, const CacheTime &T) {
 
 std::string toJson(const TimeReport &R) {
   Json J{{"cycles", R.Cycles}, {"clock_mhz", R.ClockMhz}};
+  J["host"] = {{"launch_ns", R.Host.LaunchNs},
+               {"copy_ns", R.Host.CopyNs},
+               {"copy_mbps", R.Host.CopyMbps},
+               {"dram_burst_bytes", R.DramBurstBytes}};
   Json Cores = Json::array(), Rasters = Json::array(), L2 = Json::array();
   for (const CoreTime &T : R.Cores)
     Cores.push_back(cycles<CoreCycle>(T));

@@ -12,10 +12,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -29,7 +31,8 @@ struct RenderArguments {
   std::string Cameras, View, Output;
   std::string Json, Pairs, Device, KernelFolder;
   std::vector<float> Background{0, 0, 0};
-  bool Explain = false;
+  bool Explain = false, Time = false;
+  std::optional<unsigned> ClockMhz;
   RenderOptions Options;
 };
 
@@ -120,6 +123,10 @@ Expected<Success> run(const RenderArguments &A) {
     for (const std::string &Line : explain(Plan, *S, A.Options))
       fmt::print("{}\n", Line);
 
+  // The platform reads it when it opens its devices (cl_vorion.h).
+  if (A.Time || A.ClockMhz)
+    setenv("VORION_TIME",
+           A.ClockMhz ? std::to_string(*A.ClockMhz).c_str() : "on", 1);
   auto D = Device::open(A.Device);
   if (!D)
     return D.error();
@@ -192,6 +199,12 @@ Runner addRender(CLI::App &App) {
   App.add_flag(
       "--explain", A->Explain,
       "Say what is compiled into the kernels and what is not, and why");
+  App.add_flag("--time", A->Time,
+               "Say how long the frame takes on the machine (docs/model.md)");
+  App.add_option("--clock", A->ClockMhz,
+                 "The same at this clock (default: the machine's, 530)")
+      ->option_text("MHZ")
+      ->check(CLI::Range(1U, 100000U));
   App.add_option("--dump-pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)");
   App.add_option("--kernels", A->KernelFolder,

@@ -133,4 +133,17 @@ std::optional<KernelCounters> Device::counters(const cl::Event &Event) const {
   return C;
 }
 
+std::string Device::timeReport(const cl::Event &Event) const {
+  std::size_t Bytes = 0;
+  if (!EventInfo || EventInfo(Event(), CL_EVENT_TIME_REPORT_VORION, 0, nullptr,
+                              &Bytes) != CL_SUCCESS)
+    return {};
+  std::string Text(Bytes, '\0');
+  if (Bytes == 0 || EventInfo(Event(), CL_EVENT_TIME_REPORT_VORION, Bytes,
+                              Text.data(), nullptr) != CL_SUCCESS)
+    return {};
+  Text.pop_back(); // the terminator
+  return Text;
+}
+
 } // namespace vorion::splat

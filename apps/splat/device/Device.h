@@ -42,6 +42,9 @@ public:
 
   /// The counters of an ended kernel; nothing where the device has none.
   std::optional<KernelCounters> counters(const cl::Event &Event) const;
+  /// How long an ended kernel took on the machine (TimeReports.h); empty where
+  /// the device has no clock or it is off.
+  std::string timeReport(const cl::Event &Event) const;
 
 private:
   Device() = default;

@@ -1,6 +1,7 @@
 #include "Launcher.h"
 
 #include "Kernels.h"
+#include "TimeReports.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ void Launcher::beginStage(std::string_view Name) {
   if (Failure)
     return;
   endStage();
-  Stages.push_back({std::string(Name), 0, {}});
+  Stages.push_back({std::string(Name), 0, {}, 0, 0});
   StageStart = Clock::now();
   if (Progress)
     Progress(Name);
@@ -120,7 +121,8 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
                     ExitCode::Trap};
     return;
   }
-  account({Name, 1, secondsSince(Start), Dev.counters(Done)});
+  account(
+      {Name, 1, secondsSince(Start), Dev.counters(Done), Dev.timeReport(Done)});
 }
 
 void Launcher::account(KernelReport Report) {
@@ -135,6 +137,7 @@ void Launcher::account(KernelReport Report) {
   Known->Seconds += Report.Seconds;
   if (Known->Counters && Report.Counters)
     *Known->Counters += *Report.Counters;
+  Known->Time = addTimeReports(Known->Time, Report.Time);
 }
 
 cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
@@ -166,10 +169,16 @@ cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
   return B;
 }
 
+void Launcher::countCopy(std::uint64_t Bytes) {
+  ++Stages.back().Copies;
+  Stages.back().CopiedBytes += Bytes;
+}
+
 void Launcher::write(std::string_view What, const cl::Buffer &To,
                      const void *From, std::uint64_t Bytes) {
   if (Failure || Bytes == 0)
     return;
+  countCopy(Bytes);
   const cl_int Status =
       Dev.queue().enqueueWriteBuffer(To, CL_TRUE, 0, Bytes, From);
   if (Status != CL_SUCCESS)
@@ -181,6 +190,7 @@ void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
                     std::uint64_t Bytes) {
   if (Failure || Bytes == 0)
     return;
+  countCopy(Bytes);
   const cl_int Status =
       Dev.queue().enqueueReadBuffer(From, CL_TRUE, 0, Bytes, To);
   if (Status != CL_SUCCESS)

@@ -29,6 +29,7 @@ struct KernelReport {
   unsigned Launches = 0;
   double Seconds = 0; ///< host wall time from launch to end
   std::optional<KernelCounters> Counters;
+  std::string Time; ///< sum of time reports (TimeReports.h), or empty
 };
 
 /// A stage of the pipeline: consecutive work under one name.
@@ -36,6 +37,8 @@ struct StageReport {
   std::string Name;
   double Seconds = 0; ///< host wall time, copies and compilation included
   std::vector<KernelReport> Kernels;
+  unsigned Copies = 0; ///< between host and device
+  std::uint64_t CopiedBytes = 0;
 };
 
 /// Runs kernels to their end, one at a time. The first error sticks: what is
@@ -103,6 +106,7 @@ private:
   void launch(const cl::Kernel &K, const std::string &Name,
               const cl::NDRange &Global, const cl::NDRange &Local);
   void account(KernelReport Report);
+  void countCopy(std::uint64_t Bytes);
   void endStage();
   Expected<std::string> sourceOf(const ProgramSpec &Spec) const;
 

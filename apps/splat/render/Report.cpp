@@ -1,6 +1,7 @@
 #include "Report.h"
 
 #include "../io/Hash.h"
+#include "FrameTime.h"
 #include "vorion/support/File.h"
 
 #include <cstdlib>
@@ -116,37 +117,38 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
   if (T.Counters)
     Total["counters"] = json(*T.Counters);
 
-  const Json Report{
-      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-      {"scene",
-       {{"file", R.ScenePath},
-        {"fnv1a64", *SceneHash},
-        {"gaussians", R.Input.Gaussians.size()},
-        {"sh_degree", R.Input.Gaussians.ShDegree},
-        {"format", name(R.Input.Format)},
-        {"axes_changed", R.AxesChange}}},
-      {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
-      {"view", R.View.Name},
-      {"resolution", {R.View.Width, R.View.Height}},
-      {"rules", name(O.Convention)},
-      {"support", name(O.Reach)},
-      {"path", name(O.Blending)},
-      {"options",
-       {{"tile", O.tileSize()},
-        {"antialiased", O.Antialiased},
-        {"background", O.Background},
-        {"cutoff", O.Cutoff},
-        {"exp", name(O.Exponential)},
-        {"sh_degree_compiled", R.Plan.ShDegree}}},
-      {"programs", json(R.Plan.Programs)},
-      {"device", Device},
-      {"picture", R.Output},
-      {"counts",
-       {{"visible", R.Result.Visible},
-        {"pairs", R.Result.Pairs},
-        {"device_bytes", R.Result.DeviceBytes}}},
-      {"stages", Stages},
-      {"total", Total}};
+  Json Report{{"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+              {"scene",
+               {{"file", R.ScenePath},
+                {"fnv1a64", *SceneHash},
+                {"gaussians", R.Input.Gaussians.size()},
+                {"sh_degree", R.Input.Gaussians.ShDegree},
+                {"format", name(R.Input.Format)},
+                {"axes_changed", R.AxesChange}}},
+              {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
+              {"view", R.View.Name},
+              {"resolution", {R.View.Width, R.View.Height}},
+              {"rules", name(O.Convention)},
+              {"support", name(O.Reach)},
+              {"path", name(O.Blending)},
+              {"options",
+               {{"tile", O.tileSize()},
+                {"antialiased", O.Antialiased},
+                {"background", O.Background},
+                {"cutoff", O.Cutoff},
+                {"exp", name(O.Exponential)},
+                {"sh_degree_compiled", R.Plan.ShDegree}}},
+              {"programs", json(R.Plan.Programs)},
+              {"device", Device},
+              {"picture", R.Output},
+              {"counts",
+               {{"visible", R.Result.Visible},
+                {"pairs", R.Result.Pairs},
+                {"device_bytes", R.Result.DeviceBytes}}},
+              {"stages", Stages},
+              {"total", Total}};
+  if (const std::string Time = frameJson(R.Result.Stages); !Time.empty())
+    Report["time"] = Json::parse(Time);
   return Report.dump(2) + "\n";
 }
 
@@ -172,7 +174,7 @@ std::string textReport(const Camera &View, const RenderOptions &Options,
     Row(S.Name, S.Seconds, sum(S.Kernels));
   const Totals T = totals(Result);
   Row("total", T.Seconds, T.Counters);
-  return Text;
+  return Text + frameText(Result.Stages);
 }
 
 } // namespace vorion::splat

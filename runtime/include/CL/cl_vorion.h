@@ -28,9 +28,14 @@ extern "C" {
 #define CL_EVENT_RASTER_FRAGMENTS_VORION 0x4F65 /* lane slots dispatched */
 #define CL_EVENT_RASTER_BLENDS_VORION 0x4F66    /* pixels changed */
 
+/* How long the kernel took on the machine, and why: JSON, a NUL-terminated
+ * char[] (docs/model.md). Empty unless the environment's VORION_TIME or the
+ * configuration turned the clock on when the platform was opened. */
+#define CL_EVENT_TIME_REPORT_VORION 0x4F80
+
 /* As clGetEventInfo. CL_INVALID_EVENT: not an event of a kernel on a Vorion
  * device. CL_PROFILING_INFO_NOT_AVAILABLE: the kernel has not ended, or has
- * failed. CL_INVALID_VALUE: an unknown name, or size too small for a cl_ulong.
+ * failed. CL_INVALID_VALUE: an unknown name, or size too small for the value.
  */
 /* Parameters are named as in CL/cl.h.
  * NOLINTBEGIN(readability-identifier-naming) */

@@ -54,7 +54,8 @@ const char *vx_last_error(void);
 /* Opens a machine. config: JSON text (begins with '{'), the name of a JSON
  * file, or NULL: the file that the environment's VORION_CONFIG names, else the
  * paper's prototype. Keys that are absent keep the prototype's value. The
- * environment also says what watches the device's runs (docs/debugging.md). */
+ * environment also says what watches the device's runs (docs/debugging.md), and
+ * whether the clock is on: VORION_TIME is "on", or the machine's clock in MHz. */
 vx_status vx_device_open(const char *config, vx_device **device);
 
 /* Waits for a run in progress; images of the device must be freed before. NULL
@@ -215,6 +216,9 @@ typedef struct vx_result {
   uint64_t console_dropped; /* bytes beyond the first MiB, which is kept */
   double host_seconds;
   vx_counters counters;
+  /* How long the run took on the machine, as JSON (docs/model.md); "" without
+   * the clock. */
+  const char *time_report;
 } vx_result;
 
 /* Waits for the run that was started last and gives its result; a second wait

@@ -122,6 +122,8 @@ struct TimeReport {
   CacheTime Llc;
   DramTime Dram;
   std::vector<Activity> Activities;
+  HostTiming Host; ///< what launches and copies cost beside the run
+  uint32_t DramBurstBytes = 0;
   /// Times that a trace grew beyond its bound, so that order was guessed.
   uint64_t OutOfOrder = 0;
 };

@@ -40,21 +40,24 @@ cl_int CL_API_CALL pocl_vorion_get_event_info(cl_event Event, cl_uint Name,
       strcmp(Event->queue->device->ops->device_name, "vorion") != 0)
     return CL_INVALID_EVENT;
   auto Counter = counterNamed(Name);
-  if (!Counter || (Value && Size < sizeof(cl_ulong)))
+  if ((!Counter && Name != CL_EVENT_TIME_REPORT_VORION) ||
+      (Counter && Value && Size < sizeof(cl_ulong)))
     return CL_INVALID_VALUE;
 
   POCL_LOCK_OBJ(Event);
   const EventData *Data = eventData(Event);
-  const bool Known =
-      Event->status == CL_COMPLETE && Data && Data->Counters.has_value();
-  if (Known && Value) {
-    const cl_ulong Count = (*Data->Counters).*Counter;
-    memcpy(Value, &Count, sizeof(Count));
+  cl_int Status = CL_PROFILING_INFO_NOT_AVAILABLE;
+  if (Event->status == CL_COMPLETE && Data && Data->Counters.has_value()) {
+    const cl_ulong Count = Counter ? (*Data->Counters).*Counter : 0;
+    const void *From =
+        Counter ? static_cast<const void *>(&Count) : Data->TimeReport.c_str();
+    const size_t Bytes = Counter ? sizeof(Count) : Data->TimeReport.size() + 1;
+    Status = Value && Size < Bytes ? CL_INVALID_VALUE : CL_SUCCESS;
+    if (Status == CL_SUCCESS && Value)
+      memcpy(Value, From, Bytes);
+    if (Status == CL_SUCCESS && SizeRet)
+      *SizeRet = Bytes;
   }
   POCL_UNLOCK_OBJ(Event);
-  if (!Known)
-    return CL_PROFILING_INFO_NOT_AVAILABLE;
-  if (SizeRet)
-    *SizeRet = sizeof(cl_ulong);
-  return CL_SUCCESS;
+  return Status;
 }

@@ -7,12 +7,14 @@
 
 #include <optional>
 #include <pthread.h>
+#include <string>
 
 namespace vorion {
 
 struct EventData {
   pthread_cond_t Finished = PTHREAD_COND_INITIALIZER; ///< with the event's lock
   std::optional<vx_counters> Counters; ///< of a kernel that ran to its end
+  std::string TimeReport;              ///< likewise
 };
 
 /// Null before the event is queued.

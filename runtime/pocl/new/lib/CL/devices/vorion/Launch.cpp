@@ -103,8 +103,10 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
                   Result.outcome == VX_OUTCOME_EXIT ? Exit.c_str()
                                                     : Result.report);
   }
-  if (EventData *Data = eventData(Command->sync.event.event))
+  if (EventData *Data = eventData(Command->sync.event.event)) {
     Data->Counters = Result.counters;
+    Data->TimeReport = Result.time_report;
+  }
   return CL_SUCCESS;
 }
 

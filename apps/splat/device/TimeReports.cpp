@@ -1,0 +1,35 @@
+#include "TimeReports.h"
+
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+/// Members that describe the machine.
+static bool isConstant(const std::string &Name) {
+  return Name == "clock_mhz" || Name == "host";
+}
+
+static void add(Json &To, const Json &From) {
+  if (To.is_number_unsigned()) {
+    To = To.get<std::uint64_t>() + From.get<std::uint64_t>();
+  } else if (To.is_object()) {
+    for (auto &[Name, Value] : To.items())
+      if (!isConstant(Name) && From.contains(Name))
+        add(Value, From[Name]);
+  } else if (To.is_array()) {
+    for (std::size_t N = 0; N != To.size() && N != From.size(); ++N)
+      add(To[N], From[N]);
+  }
+}
+
+std::string addTimeReports(const std::string &A, const std::string &B) {
+  if (A.empty() || B.empty())
+    return A.empty() ? B : A;
+  Json Sum = Json::parse(A);
+  add(Sum, Json::parse(B));
+  return Sum.dump();
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,18 @@
+/// How long a frame takes on the machine, stage by stage.
+#pragma once
+
+#include "../device/Launcher.h"
+
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// JSON of the frame: cycles a stage and a unit, frames a second. The frame is
+/// from projecting to the finished picture; uploading a scene and reading the
+/// picture back are told apart. Empty without the clock.
+std::string frameJson(const std::vector<StageReport> &Stages);
+/// The same as a table.
+std::string frameText(const std::vector<StageReport> &Stages);
+
+} // namespace vorion::splat
