@@ -41,6 +41,7 @@ features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join
 features["data"] = os.path.join(root, "..", "shared", "data")
 # LLVM's own tests, as scripts/fetch-source.sh leaves them.
 features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES", os.path.join(root, "build", "sources")), "llvm-tests")
+features["gdb-multiarch"] = shutil.which("gdb-multiarch") or "gdb-multiarch"
 features["qemu-riscv32"] = shutil.which("qemu-riscv32") or "qemu-riscv32"
 features["csmith"] = shutil.which("csmith") or "csmith"
 config.substitutions.append(("%llvm-tests", features["llvm-tests"]))

@@ -5,6 +5,7 @@
 #include "observe/Timeline.h"
 #include "observe/Trace.h"
 #include "observe/check/Checkers.h"
+#include "observe/gdb/GdbServer.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
 
@@ -48,6 +49,7 @@ SessionOptions SessionOptions::fromEnvironment() {
 struct Session::Impl {
   Expected<Success> open(const SessionOptions &O);
   Expected<Success> openTrace(const std::string &Text);
+  Expected<Success> listenForGdb(const std::string &Text);
 
   std::function<void(std::string_view)> Print;
   SessionOptions Options;
@@ -57,6 +59,7 @@ struct Session::Impl {
   std::unique_ptr<Profile> Profiler;
   std::unique_ptr<Stats> Counts;
   std::unique_ptr<Checkers> Checks;
+  std::unique_ptr<Observer> Debugger;
   std::string Tool;
   double WatchdogSeconds = 0;
   std::string RunName;
@@ -80,6 +83,23 @@ Expected<Success> Session::Impl::openTrace(const std::string &Text) {
   return Success{};
 }
 
+Expected<Success> Session::Impl::listenForGdb(const std::string &Text) {
+  unsigned Port = 0;
+  const char *End = Text.data() + Text.size();
+  const auto Read = std::from_chars(Text.data(), End, Port);
+  if (Read.ec != std::errc() || Read.ptr != End || Port > 65535)
+    return Error{"", fmt::format("gdb port '{}', expected 0 to 65535", Text),
+                 ExitCode::Usage};
+  auto Made = startGdbServer(Port, [this](std::string_view Line) {
+    fmt::print(stderr, "{}: {}\n", Tool, Line);
+    std::fflush(stderr);
+  });
+  if (!Made)
+    return Made.error();
+  Debugger = std::move(*Made);
+  return Success{};
+}
+
 Expected<Success> Session::Impl::open(const SessionOptions &O) {
   Options = O;
   if (!O.Trace.empty())
@@ -97,7 +117,7 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
                  ExitCode::Usage};
   if (!O.Profile.empty())
     Profiler = std::make_unique<Profile>();
-  if ((Tracer || Times || Profiler || !O.Check.empty()) &&
+  if ((Tracer || Times || Profiler || !O.Check.empty() || !O.Gdb.empty()) &&
       !Machine::canBeObserved())
     return Error{"",
                  "a build without observers, expected one with "
@@ -112,6 +132,9 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
           fmt::format("watchdog of '{}', expected seconds above 0", O.Watchdog),
           ExitCode::Usage};
   }
+  if (!O.Gdb.empty())
+    if (Expected<Success> Ok = listenForGdb(O.Gdb); !Ok)
+      return Ok;
   if (!O.Stats.empty())
     Counts = std::make_unique<Stats>();
   if (!O.Check.empty()) {
@@ -147,6 +170,8 @@ void Session::attach(Machine &M) {
   if (I->Checks)
     for (Observer *O : I->Checks->observers())
       Observers.push_back(O);
+  if (I->Debugger)
+    Observers.push_back(I->Debugger.get());
   M.setObservers(std::move(Observers));
   M.setWatchdog(I->WatchdogSeconds);
   if (I->Counts)

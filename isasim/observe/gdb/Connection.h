@@ -1,0 +1,48 @@
+/// Packets of gdb's remote protocol over one TCP connection.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vorion::isasim::gdb {
+
+class Connection {
+public:
+  Connection() = default;
+  ~Connection();
+  Connection(const Connection &) = delete;
+  Connection &operator=(const Connection &) = delete;
+
+  /// Listens on 127.0.0.1; gives the port.
+  Expected<unsigned> listen(unsigned Port);
+  /// Waits for a debugger; false if none can come.
+  bool accept();
+  bool isOpen() const { return Socket >= 0; }
+  void close();
+
+  /// The next packet's contents, acknowledged; nothing when the debugger has
+  /// gone. An interrupt (Ctrl-C) is the packet "\x03".
+  std::optional<std::string> receive();
+  void send(std::string_view Contents);
+  /// Whether the debugger asks for a stop, without waiting.
+  bool interrupted();
+  void stopAcknowledging() { Acknowledges = false; }
+
+private:
+  int next();
+  void put(std::string_view Bytes);
+
+  int Listener = -1, Socket = -1;
+  bool Acknowledges = true;
+  std::string Buffer;
+  size_t At = 0;
+};
+
+std::string toHex(std::string_view Bytes);
+/// Stops at what is no hexadecimal digit.
+std::string fromHex(std::string_view Text);
+
+} // namespace vorion::isasim::gdb

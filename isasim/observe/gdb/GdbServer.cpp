@@ -1,0 +1,400 @@
+#include "observe/gdb/GdbServer.h"
+
+#include "core/Core.h"
+#include "observe/gdb/Connection.h"
+#include "observe/gdb/Target.h"
+#include "vorion/isasim/Machine.h"
+
+#include <bit>
+#include <charconv>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <set>
+#include <vector>
+
+namespace vorion::isasim {
+
+namespace {
+
+using namespace gdb;
+
+/// Signals as gdb numbers them (its include/gdb/signals.def).
+enum Signal : unsigned { SigInt = 2, SigIll = 4, SigTrap = 5, SigSegv = 11 };
+
+/// Instructions between two looks at whether the debugger wants a stop.
+constexpr unsigned PollEvery = 4096;
+
+/// A hexadecimal number at the front of \p Text, which is taken off with the
+/// separator behind it.
+uint32_t takeHex(std::string_view &Text) {
+  uint32_t Value = 0;
+  const auto R =
+      std::from_chars(Text.data(), Text.data() + Text.size(), Value, 16);
+  Text.remove_prefix(static_cast<size_t>(R.ptr - Text.data()));
+  if (!Text.empty())
+    Text.remove_prefix(1);
+  return Value;
+}
+
+unsigned signalOf(TrapCause Cause) {
+  switch (Cause) {
+  case TrapCause::FetchFault:
+  case TrapCause::LoadFault:
+  case TrapCause::StoreFault:
+  case TrapCause::MisalignedFetch:
+  case TrapCause::MisalignedLoad:
+  case TrapCause::MisalignedStore:
+    return SigSegv;
+  case TrapCause::Breakpoint:
+  case TrapCause::EnvironmentCall:
+    return SigTrap;
+  default:
+    return SigIll;
+  }
+}
+
+class GdbServer final : public Observer {
+public:
+  ~GdbServer() override {
+    if (Peer.isOpen())
+      Peer.send(fmt::format("W{:02x}", ExitStatus & 0xFF));
+  }
+  Expected<unsigned> listen(unsigned Port) { return Peer.listen(Port); }
+
+  void runBegins(const RunStart &R) override {
+    Lanes.begin(R);
+    if (!WasConnected) {
+      WasConnected = Peer.accept();
+      StopNext = WasConnected;
+    }
+    Stepping = nullptr;
+  }
+
+  void fetch(const Step &S) override {
+    if (!Peer.isOpen())
+      return;
+    if (++Fetches % PollEvery == 0 && Peer.interrupted())
+      return stop(S.State, S.LaneMask, SigInt, "");
+    if (!StopNext && Stepping != &S.State && !Breakpoints.contains(S.Pc))
+      return;
+    StopNext = false;
+    std::string Why;
+    std::swap(Why, WatchReason);
+    stop(S.State, S.LaneMask, SigTrap, Why);
+  }
+
+  void commit(const Commit &C) override {
+    if (!Peer.isOpen() || !C.Access || Watched.empty())
+      return;
+    for (uint32_t Left = C.LaneMask; Left; Left &= Left - 1) {
+      const uint32_t At = C.Access->Addresses[std::countr_zero(Left)];
+      for (const Watchpoint &W : Watched)
+        if (At < W.Address + W.Bytes && W.Address < At + C.Access->Bytes &&
+            (C.Access->What == MemoryAccess::Load ? W.Reads : W.Writes)) {
+          // gdb expects to be told behind the instruction.
+          Stepping = &C.State;
+          WatchReason = fmt::format("{}:{:x};",
+                                    !W.Reads    ? "watch"
+                                    : !W.Writes ? "rwatch"
+                                                : "awatch",
+                                    W.Address);
+        }
+    }
+  }
+
+  void trap(const Trap &T) override {
+    if (!Peer.isOpen())
+      return;
+    const ThreadId First = Current;
+    Current = 0;
+    for (ThreadId Id = 1; Id <= Lanes.numThreads() && !Current; ++Id) {
+      const WarpState &S = *Lanes.warpOf(Id);
+      if (S.Owner->id() == T.Core && S.WarpId == T.Warp &&
+          Lanes.laneOf(Id) == T.Lane)
+        Current = Id;
+    }
+    Current = Current ? Current : First;
+    serve(signalOf(T.Cause), "");
+  }
+
+  void runEnds(const RunResult &R) override {
+    ExitStatus = R.End == Outcome::Done          ? 0
+                 : R.End == Outcome::GuestFailed ? 1
+                 : R.End == Outcome::Trap        ? 4
+                                                 : 5;
+  }
+
+private:
+  struct Watchpoint {
+    uint32_t Address, Bytes;
+    bool Reads, Writes;
+    bool operator==(const Watchpoint &) const = default;
+  };
+
+  void stop(const WarpState &S, uint32_t Mask, unsigned Reason,
+            const std::string &More) {
+    // Stay with the thread that the user looks at, if it is of this warp.
+    if (!Lanes.isActive(Current) || Lanes.warpOf(Current) != &S)
+      Current =
+          Lanes.threadOf(S, static_cast<unsigned>(std::countr_zero(Mask)));
+    serve(Reason, More);
+  }
+
+  std::string stopReply() const {
+    return fmt::format("T{:02x}{}thread:{:x};core:{:x};", StopSignal,
+                       StopDetail, Current, Lanes.coreOf(Current));
+  }
+
+  /// Answers the debugger until it lets the machine go on.
+  void serve(unsigned Reason, const std::string &More) {
+    StopSignal = Reason;
+    StopDetail = More;
+    Stepping = nullptr;
+    if (Waiting)
+      Peer.send(stopReply());
+    Waiting = false;
+    while (!Waiting) {
+      const std::optional<std::string> Packet = Peer.receive();
+      if (!Packet)
+        return;
+      if (answer(*Packet))
+        return;
+    }
+  }
+
+  void resume(ThreadId Step) {
+    if (Step) {
+      Stepping = Lanes.warpOf(Step);
+      Current = Step;
+    }
+    Waiting = true;
+  }
+
+  /// Whether the debugger has gone.
+  bool answer(std::string_view Packet);
+  void answerMemory(std::string_view Packet);
+  void answerRegister(std::string_view Packet);
+  void answerPoint(std::string_view Packet);
+  void answerQuery(std::string_view Packet);
+  void answerTransfer(std::string_view Packet);
+  void answerContinue(std::string_view Packet);
+  std::string threadList() const;
+
+  void reply(bool Done) { Peer.send(Done ? "OK" : "E01"); }
+
+  Connection Peer;
+  Target Lanes;
+  bool WasConnected = false, StopNext = false;
+  bool Waiting = false; ///< gdb waits for the machine to stop
+  const WarpState *Stepping = nullptr;
+  ThreadId Current = 1; ///< of the last stop, or the one that gdb chose
+  unsigned StopSignal = SigTrap;
+  std::string StopDetail, WatchReason;
+  std::set<uint32_t> Breakpoints;
+  std::vector<Watchpoint> Watched;
+  unsigned Fetches = 0, ExitStatus = 0;
+};
+
+void GdbServer::answerMemory(std::string_view Packet) {
+  const bool Writes = Packet[0] == 'M';
+  Packet.remove_prefix(1);
+  const uint32_t Address = takeHex(Packet), Bytes = takeHex(Packet);
+  if (Writes)
+    return reply(Lanes.writeMemory(Current, Address, fromHex(Packet)));
+  constexpr uint32_t MostBytes = 4096;
+  const std::string Read =
+      Lanes.readMemory(Current, Address, std::min(Bytes, MostBytes));
+  Peer.send(Read.empty() && Bytes ? "E14" : toHex(Read));
+}
+
+void GdbServer::answerRegister(std::string_view Packet) {
+  const bool Writes = Packet[0] == 'P';
+  Packet.remove_prefix(1);
+  const uint32_t Number = takeHex(Packet);
+  if (!Writes) {
+    const auto Value = Lanes.readRegister(Current, Number);
+    return Peer.send(Value ? toHex({reinterpret_cast<const char *>(&*Value), 4})
+                           : "E01");
+  }
+  const std::string Bytes = fromHex(Packet);
+  uint32_t Value = 0;
+  if (Bytes.size() == sizeof(Value))
+    std::memcpy(&Value, Bytes.data(), sizeof(Value));
+  reply(Bytes.size() == sizeof(Value) &&
+        Lanes.writeRegister(Current, Number, Value));
+}
+
+void GdbServer::answerPoint(std::string_view Packet) {
+  const bool Sets = Packet[0] == 'Z';
+  const char Kind = Packet.size() > 1 ? Packet[1] : ' ';
+  Packet.remove_prefix(std::min<size_t>(3, Packet.size()));
+  const uint32_t Address = takeHex(Packet), Bytes = takeHex(Packet);
+  if (Kind == '0' || Kind == '1') {
+    if (Sets)
+      Breakpoints.insert(Address);
+    else
+      Breakpoints.erase(Address);
+    return reply(true);
+  }
+  if (Kind < '2' || Kind > '4')
+    return Peer.send("");
+  const Watchpoint W{Address, Bytes, Kind != '2', Kind != '3'};
+  if (Sets)
+    Watched.push_back(W);
+  else
+    std::erase(Watched, W);
+  reply(true);
+}
+
+std::string GdbServer::threadList() const {
+  std::string Text = "<?xml version=\"1.0\"?><threads>";
+  for (ThreadId T = 1; T <= Lanes.numThreads(); ++T)
+    if (Lanes.isAlive(T) || T == Current)
+      Text += fmt::format("<thread id=\"{:x}\" core=\"{}\">{}</thread>", T,
+                          Lanes.coreOf(T), Lanes.describe(T));
+  return Text + "</threads>";
+}
+
+/// "qXfer:OBJECT:read:ANNEX:OFFSET,LENGTH".
+void GdbServer::answerTransfer(std::string_view Packet) {
+  std::string Document;
+  if (Packet.starts_with("qXfer:features:read:target.xml:"))
+    Document = Target::description();
+  else if (Packet.starts_with("qXfer:threads:read::"))
+    Document = threadList();
+  else if (Packet.starts_with("qXfer:exec-file:read:")) {
+    char *Path = realpath(Lanes.program().name().c_str(), nullptr);
+    Document = Path ? Path : "";
+    std::free(Path);
+  } else
+    return Peer.send("");
+  Packet.remove_prefix(Packet.rfind(':') + 1);
+  const size_t Offset = takeHex(Packet), Length = takeHex(Packet);
+  if (Offset >= Document.size())
+    return Peer.send("l");
+  const std::string Part = Document.substr(Offset, Length);
+  Peer.send((Offset + Part.size() == Document.size() ? "l" : "m") + Part);
+}
+
+void GdbServer::answerQuery(std::string_view Packet) {
+  if (Packet.starts_with("qSupported"))
+    return Peer.send("PacketSize=4000;QStartNoAckMode+;vContSupported+;"
+                     "qXfer:features:read+;qXfer:threads:read+;"
+                     "qXfer:exec-file:read+");
+  if (Packet.starts_with("qXfer:"))
+    return answerTransfer(Packet);
+  if (Packet == "QStartNoAckMode") {
+    reply(true);
+    return Peer.stopAcknowledging();
+  }
+  if (Packet == "qC")
+    return Peer.send(fmt::format("QC{:x}", Current));
+  // An existing process: gdb lets it run on when it leaves.
+  if (Packet.starts_with("qAttached"))
+    return Peer.send("1");
+  Peer.send("");
+}
+
+/// "vCont;ACTION[:THREAD]...": the first step decides, else all go on.
+void GdbServer::answerContinue(std::string_view Packet) {
+  if (Packet == "vCont?")
+    return Peer.send("vCont;c;C;s;S");
+  ThreadId Step = 0;
+  while (!Packet.empty()) {
+    const size_t End = std::min(Packet.size(), Packet.find(';', 1));
+    std::string_view Action = Packet.substr(0, End);
+    Packet.remove_prefix(End);
+    if (!Action.starts_with(";s") && !Action.starts_with(";S"))
+      continue;
+    const size_t Colon = Action.find(':');
+    Action.remove_prefix(std::min(Action.size(), Colon));
+    Action.remove_prefix(Action.empty() ? 0 : 1);
+    if (!Step)
+      Step = Action.empty() ? Current : takeHex(Action);
+  }
+  resume(Step);
+}
+
+bool GdbServer::answer(std::string_view Packet) {
+  switch (Packet.empty() ? '\0' : Packet[0]) {
+  case '?':
+    Peer.send(stopReply());
+    break;
+  case 'g':
+    Peer.send(toHex(Lanes.registers(Current)));
+    break;
+  case 'p':
+  case 'P':
+    answerRegister(Packet);
+    break;
+  case 'm':
+  case 'M':
+    answerMemory(Packet);
+    break;
+  case 'Z':
+  case 'z':
+    answerPoint(Packet);
+    break;
+  case 'q':
+  case 'Q':
+    answerQuery(Packet);
+    break;
+  case 'H': {
+    std::string_view Number = Packet.substr(std::min<size_t>(2, Packet.size()));
+    const ThreadId T = Number.starts_with('-') ? 0 : takeHex(Number);
+    if (T && !Lanes.warpOf(T)) {
+      reply(false);
+      break;
+    }
+    if (T && Packet[1] == 'g')
+      Current = T;
+    reply(true);
+    break;
+  }
+  case 'T': {
+    std::string_view Number = Packet.substr(1);
+    reply(Lanes.isAlive(takeHex(Number)));
+    break;
+  }
+  case 'c':
+    resume(0);
+    break;
+  case 's':
+    resume(Current);
+    break;
+  case 'v':
+    if (Packet.starts_with("vCont"))
+      answerContinue(Packet.size() > 5 && Packet[5] == '?' ? Packet
+                                                           : Packet.substr(5));
+    else
+      Peer.send("");
+    break;
+  case 'D':
+    reply(true);
+    Peer.close();
+    return true;
+  case 'k':
+    Lanes.device().requestStop();
+    Peer.close();
+    return true;
+  default:
+    Peer.send("");
+  }
+  return false;
+}
+
+} // namespace
+
+Expected<std::unique_ptr<Observer>>
+startGdbServer(unsigned Port, std::function<void(std::string_view)> Say) {
+  auto Server = std::make_unique<GdbServer>();
+  const Expected<unsigned> Got = Server->listen(Port);
+  if (!Got)
+    return Got.error();
+  Say(fmt::format("gdb: waiting on port {0}; connect with: gdb-multiarch "
+                  "PROGRAM -ex 'target remote 127.0.0.1:{0}'",
+                  *Got));
+  return std::unique_ptr<Observer>(std::move(Server));
+}
+
+} // namespace vorion::isasim

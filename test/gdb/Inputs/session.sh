@@ -1,0 +1,16 @@
+# usage: session.sh PROGRAM COMMANDS [OPTION...]: runs PROGRAM under vorion-sim and
+# gdb with the file COMMANDS; prints gdb's transcript, then what vorion-sim said.
+program=$1; commands=$2; shift 2
+log=$program.gdb.log
+: > "$log"
+vorion-sim "$program" --gdb 0 "$@" 2> "$log" & simulator=$!
+port=
+while [ -z "$port" ]; do
+  kill -0 $simulator || { cat "$log"; exit 1; }
+  sleep 0.05
+  port=$(sed -n 's/.*waiting on port \([0-9]*\).*/\1/p' "$log")
+done
+gdb-multiarch -q -nx -batch -ex 'set pagination off' -ex "target remote 127.0.0.1:$port" -x "$commands" "$program" 2>&1
+wait $simulator
+echo "vorion-sim ended with $?"
+cat "$log"
