@@ -33,6 +33,10 @@ void Core::reset(const CodeTable &CodeIn, uint32_t Entry,
     S.StackLimit = Shape.DivergenceDepth;
     S.AllLanes = (1U << Shape.LanesPerWarp) - 1;
     S.WarpId = W;
+    // docs/abi.md, "Memory map". With several warps a core nothing says which
+    // stacks are whose.
+    if (Warps.size() == 1)
+      S.FirstStack = Id * Shape.LanesPerWarp;
     S.Owner = this;
     S.Watcher = Watcher;
     S.Next = Code->begin();

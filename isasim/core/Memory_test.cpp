@@ -399,6 +399,54 @@ TEST(Memory, StoreToAStackLeavesInactiveLanesAlone) {
   }
 }
 
+TEST(Memory, AccessBySpBeyondTheLanesOwnStackTraps) {
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::RV_SW, Op::RV_LW, Op::RV_SB, Op::RV_LHU})
+      for (const uint32_t Mask : {0xFFFFU, 0x0420U}) {
+        WarpRunner R(*Table,
+                     {encode(O, {.Rd = 12, .Rs1 = 2, .Rs2 = 11, .Imm = -8})});
+        auto Tops = [&](uint32_t Depth) {
+          Lanes16 V;
+          for (uint32_t L = 0; L != MaxLanes; ++L)
+            V[L] = VX_STACK_TOP - L * R.Shape.StackBytes;
+          V[5] -= Depth;
+          return V;
+        };
+        auto Run = [&](uint32_t Depth) {
+          R.reset();
+          R.setX(2, Tops(Depth));
+          R.setActive(Mask);
+          R.run();
+        };
+        Run(R.Shape.StackBytes - 8); // the last word
+        EXPECT_TRUE(R.ranToEnd());
+        Run(R.Shape.StackBytes - 4);
+        EXPECT_EQ(R.cause(), TrapCause::StackOverflow) << Table->Level;
+        EXPECT_EQ(R.warp().FaultLane, 5U);
+        EXPECT_EQ(R.warp().FaultAddress, Tops(R.Shape.StackBytes - 4)[5] - 8);
+        EXPECT_EQ(R.warp().Next, R.Code.begin());
+        // Above its top is another lane's too.
+        R.reset();
+        Lanes16 Above = Tops(0);
+        Above[5] += 16;
+        R.setX(2, Above);
+        R.setActive(Mask);
+        R.run();
+        EXPECT_EQ(R.cause(), TrapCause::StackOverflow) << Table->Level;
+      }
+}
+
+TEST(Memory, OtherRegistersMayReachOtherStacks) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table, {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11})});
+    Lanes16 Addresses;
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      Addresses[L] = VX_STACK_TOP - 16 - (15 - L) * R.Shape.StackBytes;
+    runOn(R, 0xFFFF, Addresses, Addresses);
+    EXPECT_TRUE(R.ranToEnd()) << Table->Level;
+  }
+}
+
 TEST(Memory, StackAddressesCoverTheirRangeOnce) {
   Config C = WarpRunner::smallShape();
   C.LanesPerWarp = 5;

@@ -34,6 +34,7 @@ struct StackEntry {
 struct Model {
   uint32_t X[32][MaxLanes] = {};
   uint32_t Mask = 0;
+  uint32_t Whole = 0; ///< as vx_tmc has set the mask
   unsigned Pc = 0;
   std::vector<StackEntry> Stack;
   std::array<uint32_t, Words> Memory{};
@@ -165,6 +166,8 @@ Step pred(bool Negated) {
 
 void barrier(Model &M, Operands O) {
   const uint32_t Id = M.X[O.Rs1][M.last()], Count = M.X[O.Rs2][M.last()];
+  if (M.Mask != M.Whole)
+    return M.trap(TrapCause::DivergentBarrier, M.last());
   if ((Id & 0x7FFFFFFF) >= NumBarriers)
     return M.trap(TrapCause::BadBarrier, M.last());
   if (Count > 1)
@@ -201,7 +204,7 @@ const std::map<Op, Step> &models() {
   static const std::map<Op, Step> Table = {
       {Op::VX_TMC,
        [](Model &M, Operands O) {
-         M.Mask = M.X[O.Rs1][M.last()] & 0xFFFF;
+         M.Mask = M.Whole = M.X[O.Rs1][M.last()] & 0xFFFF;
          if (M.Mask == 0)
            M.Why = Stop::Ended;
        }},
@@ -355,6 +358,7 @@ void load(WarpRunner &R, const Model &M) {
     R.setX(N, V);
   }
   R.setActive(M.Mask);
+  R.warp().WholeMask = M.Whole;
   R.warp().StackLimit = StackLimit;
   R.warp().StackDepth = static_cast<uint32_t>(M.Stack.size());
   for (size_t N = 0; N != M.Stack.size(); ++N)
@@ -396,6 +400,7 @@ void expectSame(WarpRunner &R, const Model &M) {
   }
   if (M.Why != Stop::Ended) {
     ASSERT_EQ(S.Mask, M.Mask);
+    ASSERT_EQ(S.WholeMask, M.Whole);
   }
   ASSERT_EQ(S.StackDepth, M.Stack.size());
   for (size_t N = 0; N != M.Stack.size(); ++N)
@@ -425,6 +430,7 @@ void check(const ExecTable &Table, Op O, Operands Where, Values &Source) {
     Model M;
     Source.fill(M);
     M.Mask = Source.mask(N);
+    M.Whole = N % 3 ? M.Mask : M.Mask | Source.mask(MaxLanes + 1);
     load(R, M);
     const uint32_t Before = M.Mask;
     models().at(O)(M, Where);

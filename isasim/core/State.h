@@ -147,6 +147,10 @@ struct alignas(64) WarpState {
   /// The mask before any split or predicate: that of the last vx_tmc.
   std::uint32_t WholeMask = 0;
   std::uint32_t WarpId = 0;
+  /// The number of lane 0's stack, from the top; NoOwnStack where stacks are
+  /// the program's affair.
+  static constexpr std::uint32_t NoOwnStack = ~0U;
+  std::uint32_t FirstStack = NoOwnStack;
   bool AtBarrier = false;
   std::uint32_t BarrierId = 0;
   std::uint32_t BarrierCount = 0;

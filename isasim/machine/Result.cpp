@@ -78,6 +78,8 @@ std::string_view describe(TrapCause Cause) {
     return "vx_join without a split";
   case TrapCause::EmptyMask:
     return "vx_pred leaves no lane active";
+  case TrapCause::StackOverflow:
+    return "stack overflow";
   case TrapCause::DivergentBarrier:
     return "barrier that not all lanes of the warp have reached";
   case TrapCause::BadBarrier:
