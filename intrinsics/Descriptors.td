@@ -32,7 +32,8 @@ def VxKernel : Descriptor<"vx_kernel", [
     DescField<"args_bytes", "u32", 1, "size of the packed arguments">,
     DescField<"context_bytes", "u32", 1, "bytes a work-item keeps across barriers">,
     DescField<"local_bytes", "u32", 1, "static local memory, from 0xffff0000 on">,
-    DescField<"local_size", "u32", 3, "the group size it was compiled for, 0 for any">
+    DescField<"local_size", "u32", 3, "the group size it was compiled for, 0 for any">,
+    DescField<"lanes", "u32", 1, "the lanes of a warp it was compiled for, 0 for any">
   ], "One kernel of a program, in section vorion_kernels.">;
 
 def VxKernelArg : Descriptor<"vx_kernel_arg", [

@@ -99,6 +99,9 @@ Failure loadImage(vx_device *Device, std::span<const std::byte> Elf,
   auto Program = isasim::Image::parse(Elf, Name);
   if (!Program)
     return failure(VX_ERROR_IMAGE, Program.error());
+  if (const auto Fits = (*Program)->checkLanes(Device->Impl.info().lanes);
+      !Fits)
+    return failure(VX_ERROR_IMAGE, Fits.error());
   *Image = new vx_image(Device, std::move(*Program));
   return {};
 }
@@ -344,6 +347,7 @@ vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
     info->local_bytes = Found->LocalBytes;
     for (unsigned I = 0; I < 3; ++I)
       info->local_size[I] = Found->LocalSize[I];
+    info->lanes = Found->Lanes;
     return {};
   });
 }

@@ -13,7 +13,7 @@
 
 namespace {
 
-// KERNELS_ELF is given by the build.
+// KERNELS_ELF and OTHER_LANES_ELF are given by the build.
 constexpr const char *Elf = KERNELS_ELF;
 /// Small memory, and an end for what would not end.
 constexpr const char *Config =
@@ -105,6 +105,29 @@ TEST_F(Runtime, ListsKernelsAndArguments) {
             VX_ERROR_NOT_FOUND);
   EXPECT_EQ(vx_image_find_kernel(Image, "absent", &Count), VX_ERROR_NOT_FOUND);
   EXPECT_STREQ(vx_last_error(), "the image has no kernel absent");
+}
+
+TEST_F(Runtime, RefusesKernelsForOtherLanes) {
+  vx_kernel_info Kernel{};
+  ASSERT_EQ(vx_image_get_kernel(Image, find("store"), &Kernel), VX_OK);
+  EXPECT_EQ(Kernel.lanes, 0u);
+  vx_image *Other = nullptr;
+  EXPECT_EQ(vx_image_load_file(Device, OTHER_LANES_ELF, &Other),
+            VX_ERROR_IMAGE);
+  EXPECT_EQ(vx_last_error(),
+            OTHER_LANES_ELF + std::string(": kernel 'store' was compiled "
+                                          "for warps of 8 lanes, expected "
+                                          "16 as the machine has"));
+  vx_device *Narrow = nullptr;
+  ASSERT_EQ(vx_device_open(R"({"lanes_per_warp": 8, "global_bytes": 8388608})",
+                           &Narrow),
+            VX_OK);
+  ASSERT_EQ(vx_image_load_file(Narrow, OTHER_LANES_ELF, &Other), VX_OK)
+      << vx_last_error();
+  ASSERT_EQ(vx_image_get_kernel(Other, 0, &Kernel), VX_OK);
+  EXPECT_EQ(Kernel.lanes, 8u);
+  EXPECT_EQ(vx_image_free(Other), VX_OK);
+  EXPECT_EQ(vx_device_close(Narrow), VX_OK);
 }
 
 TEST_F(Runtime, FillsTheLaunchBlock) {

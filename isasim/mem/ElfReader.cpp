@@ -286,6 +286,7 @@ std::string ImageParser::readKernel(uint32_t Address) {
   K.LocalBytes = Record->LocalBytes;
   std::copy(std::begin(Record->LocalSize), std::end(Record->LocalSize),
             K.LocalSize.begin());
+  K.Lanes = Record->Lanes;
   for (uint32_t N = 0; N != Record->NumArgs; ++N) {
     const auto Arg = load<VxKernelArg>(
         Record->Args + N * static_cast<uint32_t>(sizeof(VxKernelArg)));

@@ -15,6 +15,15 @@ const Kernel *Image::findKernel(std::string_view KernelName) const {
   return Found == Kernels.end() ? nullptr : &*Found;
 }
 
+Expected<Success> Image::checkLanes(uint32_t Lanes) const {
+  for (const Kernel &K : Kernels)
+    if (K.Lanes != 0 && K.Lanes != Lanes)
+      return Error{Name, fmt::format("kernel '{}' was compiled for warps of {} "
+                                     "lanes, expected {} as the machine has",
+                                     K.Name, K.Lanes, Lanes)};
+  return Success{};
+}
+
 std::optional<uint32_t> Image::findSymbol(std::string_view SymbolName) const {
   for (const Symbol &S : Symbols)
     if (S.Name == SymbolName)

@@ -37,7 +37,8 @@ ElfOptions withKernel() {
                          256,
                          16,
                          1,
-                         1, // vx_kernel
+                         1,
+                         8, // vx_kernel
                          Names + 4,
                          VX_ARG_GLOBAL,
                          0,
@@ -91,12 +92,29 @@ TEST(Image, ReadsTheKernelTable) {
   EXPECT_EQ(K->ContextBytes, 12U);
   EXPECT_EQ(K->LocalBytes, 256U);
   EXPECT_EQ(K->LocalSize[0], 16U);
+  EXPECT_EQ(K->Lanes, 8U);
   ASSERT_EQ(K->Args.size(), 2U);
   EXPECT_EQ(K->Args[0].Name, "a");
   EXPECT_EQ(K->Args[0].Kind, VX_ARG_GLOBAL);
   EXPECT_EQ(K->Args[1].Name, "n");
   EXPECT_EQ(K->Args[1].Offset, 4U);
   EXPECT_EQ((*I)->findKernel("sub"), nullptr);
+}
+
+TEST(Image, KnowsForHowManyLanesItIs) {
+  ElfOptions O = withKernel();
+  const auto I = Image::parse(buildElf(O), "x.elf");
+  ASSERT_TRUE(I) << I.error().What;
+  EXPECT_TRUE((*I)->checkLanes(8));
+  const auto Wrong = (*I)->checkLanes(16);
+  ASSERT_FALSE(Wrong);
+  EXPECT_EQ(Wrong.error().Where, "x.elf");
+  EXPECT_EQ(Wrong.error().What, "kernel 'add' was compiled for warps of 8 "
+                                "lanes, expected 16 as the machine has");
+  O.Segments[1].Words[10] = 0;
+  const auto Any = Image::parse(buildElf(O), "x.elf");
+  ASSERT_TRUE(Any) << Any.error().What;
+  EXPECT_TRUE((*Any)->checkLanes(16));
 }
 
 TEST(Image, RefusesOtherMachines) {
@@ -170,12 +188,12 @@ TEST(Image, RefusesBadKernelTables) {
   EXPECT_NE(wrongIn(O).find("argument 0 of 'add' is not in the image"),
             std::string::npos);
   O = withKernel();
-  O.Segments[1].Words[12] = 6; // an argument beyond the end of them
+  O.Segments[1].Words[13] = 6; // an argument beyond the end of them
   EXPECT_NE(wrongIn(O).find("argument 0 of 'add' is malformed"),
             std::string::npos);
   O = withKernel();
   O.Symbols[2].second -= 4;
-  EXPECT_EQ(wrongIn(O), "kernel table of 36 bytes, expected a multiple of 40");
+  EXPECT_EQ(wrongIn(O), "kernel table of 40 bytes, expected a multiple of 44");
 }
 
 TEST(Image, EveryTruncationIsAnError) {

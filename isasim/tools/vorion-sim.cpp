@@ -168,6 +168,9 @@ int run(const Options &O) {
     printKernels(**Program);
     return 0;
   }
+  if (const Expected<Success> Fits = (*Program)->checkLanes(C->LanesPerWarp);
+      !Fits)
+    return reportError(Tool, Fits.error());
   // What an image of kernels has for a main does nothing.
   if (Request->WorkDim == 0 && !(*Program)->kernels().empty())
     return reportError(Tool, missingGlobal());

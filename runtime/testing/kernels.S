@@ -150,9 +150,12 @@ args_out:
 args_print:
     .word name_value, VX_ARG_VALUE, 0, 4
 
-.macro kernel label, args, num_args, args_bytes, context=0, local=0, size_x=0, size_y=0, size_z=0
+.ifndef LANES // the build makes an image for another machine, too
+    .set LANES, 0
+.endif
+.macro kernel label, args, num_args, args_bytes, context=0, local=0, size_x=0, size_y=0, size_z=0, lanes=LANES
     .word name_\label, \label, \args, \num_args, \args_bytes, \context, \local
-    .word \size_x, \size_y, \size_z
+    .word \size_x, \size_y, \size_z, \lanes
 .endm
     .section vorion_kernels, "a"
     .p2align 2

@@ -36,6 +36,16 @@
 # ALONE: vorion-sim: error: --global is missing, expected X[,Y[,Z]]
 # ALONE-NEXT: exit 2
 
+# A kernel for warps of 8 lanes runs on such a machine and on no other.
+# RUN: sh %S/Inputs/assemble.sh %build %s %t.8.elf --defsym=LANES=8
+# RUN: echo '{"lanes_per_warp": 8}' > %t.8.config
+# RUN: vorion-sim %t.8.elf --config %t.8.config --global 100 --local 20 --arg buf@%t.in --arg out:400@%t.out8 --arg i32:-3 --arg local:64
+# RUN: cmp %t.out %t.out8
+# RUN: sh -c 'vorion-sim %t.8.elf --global 100 --arg buf:400 --arg out:400@%t.never --arg i32:1 --arg local:9 2> %t.err; echo "exit $?" >> %t.err'
+# RUN: FileCheck %s --check-prefix=LANES < %t.err
+# LANES: vorion-sim: error: {{.*}}.8.elf: kernel 'scale' was compiled for warps of 8 lanes, expected 16 as the machine has
+# LANES-NEXT: exit 3
+
 # A kernel that traps leaves no output file.
 # RUN: not vorion-sim %t.elf --global 100 --arg buf:8 --arg out:400@%t.never --arg i32:1 --arg local:9 --max-instructions 20
 # RUN: not ls %t.never
@@ -111,5 +121,8 @@ args:
   .word nout, 1, 4, 4
   .word nk, 0, 8, 4
   .word nl, 2, 12, 4
+  .ifndef LANES
+  .set LANES, 0
+  .endif
   .section vorion_kernels, "a", @progbits
-  .word name, scale, args, 4, 16, 0, 0, 0, 0, 0
+  .word name, scale, args, 4, 16, 0, 0, 0, 0, 0, LANES

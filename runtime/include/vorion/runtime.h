@@ -118,8 +118,9 @@ vx_status vx_mem_written(vx_device *device, uint32_t address, uint64_t size);
 
 /* --- Images and kernels -------------------------------------------------- */
 
-/* The image keeps a copy of the bytes. Its writable data lives as long as the
- * handle: a run sees what the image's earlier runs stored. */
+/* VX_ERROR_IMAGE also for a kernel compiled for warps of other than the
+ * device's lanes. The image keeps a copy of the bytes. Its writable data lives
+ * as long as the handle: a run sees what the image's earlier runs stored. */
 vx_status vx_image_load(vx_device *device, const void *elf, size_t size,
                         vx_image **image);
 vx_status vx_image_load_file(vx_device *device, const char *path,
@@ -139,6 +140,7 @@ typedef struct vx_kernel_info {
   uint32_t context_bytes; /* a work-item keeps across barriers */
   uint32_t local_bytes;   /* static local memory */
   uint32_t local_size[3]; /* group size it was compiled for, 0 for any */
+  uint32_t lanes;         /* of the warps it was compiled for, 0 for any */
 } vx_kernel_info;
 
 vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,

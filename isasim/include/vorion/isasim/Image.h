@@ -33,6 +33,7 @@ struct Kernel {
   uint32_t ContextBytes = 0;           ///< a work-item, kept across barriers
   uint32_t LocalBytes = 0;             ///< static local memory
   std::array<uint32_t, 3> LocalSize{}; ///< 0 for any
+  uint32_t Lanes = 0; ///< of the warps it was compiled for, 0 for any
 };
 
 /// Immutable after parse(), so that it can be shared between threads.
@@ -72,6 +73,9 @@ public:
   const std::vector<Kernel> &kernels() const { return Kernels; }
   /// nullptr if there is no such kernel.
   const Kernel *findKernel(std::string_view KernelName) const;
+  /// An error if a kernel was compiled for warps of other than \p Lanes lanes:
+  /// it would give some work-items to no lane, or to two.
+  Expected<Success> checkLanes(uint32_t Lanes) const;
   std::optional<uint32_t> findSymbol(std::string_view SymbolName) const;
   /// "function+0x1c" for the symbol that covers \p Address, or empty.
   std::string symbolize(uint32_t Address) const;

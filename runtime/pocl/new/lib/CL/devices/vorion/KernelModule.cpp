@@ -154,7 +154,7 @@ private:
         {text(Kernel.Name), &Entry, Table, number(Arguments.size()),
          number(End), number(ContextBytes), number(LocalBytes),
          number(Kernel.LocalSize[0]), number(Kernel.LocalSize[1]),
-         number(Kernel.LocalSize[2])});
+         number(Kernel.LocalSize[2]), number(pocl::simtLanes(M))});
     auto *G = new GlobalVariable(M, Record->getType(), true,
                                  GlobalValue::InternalLinkage, Record,
                                  "vorion_kernel." + Kernel.Name);
