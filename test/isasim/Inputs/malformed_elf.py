@@ -17,7 +17,7 @@ EHDR = ("ident:16s type:H machine:H version:I entry:I phoff:I shoff:I flags:I eh
         "shnum:H shstrndx:H")
 PHDR = "type:I offset:I vaddr:I paddr:I filesz:I memsz:I flags:I align:I"
 SHDR = "name:I type:I flags:I addr:I offset:I size:I link:I info:I addralign:I entsize:I"
-KERNEL = "name:I entry:I args:I nargs:I args_bytes:I context:I local:I x:I y:I z:I"
+KERNEL = "name:I entry:I args:I nargs:I args_bytes:I context:I local:I x:I y:I z:I lanes:I"
 ARG = "name:I kind:I offset:I size:I"
 LOAD, SYMTAB, EXECUTE, WRITE = 1, 2, 1, 2
 HUGE = 0xFFFFFFF0
@@ -141,7 +141,7 @@ def kernels(elf):
     table = next(base for base in elf.sections() if elf.get(elf.section, base, "name") and
                  elf.data[elf.get(elf.section, elf.sections()[elf.get(elf.header, 0, "shstrndx")], "offset")
                           + elf.get(elf.section, base, "name"):].startswith(b"vorion_kernels\0"))
-    for field, values in {"addr": (0, 0x80FFFFF0, HUGE), "size": (1, 39, 80, HUGE)}.items():
+    for field, values in {"addr": (0, 0x80FFFFF0, HUGE), "size": (1, 43, 88, HUGE)}.items():
         for value in values:
             yield f"table-{field}-{value:x}", elf.set(elf.section, table, **{field: value})
     kernel, arg = Layout(KERNEL), Layout(ARG)
