@@ -11,7 +11,7 @@ namespace {
 
 constexpr double Width = 640, Height = 420;
 constexpr double Left = 86, Right = 622, Top = 44, Bottom = 352;
-constexpr int YSteps = 5;
+constexpr int MostYSteps = 5;
 
 /// Okabe and Ito's colours, which the colour-blind can tell apart.
 constexpr std::array<const char *, 5> Colors = {"#0072b2", "#d55e00", "#009e73",
@@ -29,14 +29,15 @@ std::string escaped(const std::string &Text) {
   return Out;
 }
 
-/// The smallest 1, 2, 2.5 or 5 times a power of ten that, taken \c YSteps
-/// times, reaches \p Largest.
+/// The smallest 1, 2, 2.5 or 5 times a power of ten that, taken
+/// \c MostYSteps times, reaches \p Largest.
 double stepFor(double Largest) {
   if (!(Largest > 0))
     return 1;
-  const double Power = std::pow(10, std::floor(std::log10(Largest / YSteps)));
+  const double Power =
+      std::pow(10, std::floor(std::log10(Largest / MostYSteps)));
   for (const double Factor : {1.0, 2.0, 2.5, 5.0})
-    if (Factor * Power * YSteps >= Largest)
+    if (Factor * Power * MostYSteps >= Largest)
       return Factor * Power;
   return 10 * Power;
 }
@@ -66,6 +67,7 @@ public:
         Largest = std::max(Largest, V);
     }
     Step = stepFor(Largest);
+    YSteps = std::max(1, static_cast<int>(std::ceil(Largest / Step)));
   }
 
   double place() const {
@@ -139,6 +141,7 @@ public:
 private:
   const Chart &C;
   double Step = 1;
+  int YSteps = 1;
 };
 
 } // namespace

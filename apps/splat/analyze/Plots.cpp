@@ -20,8 +20,8 @@ std::string_view name(reference::Support S) {
 }
 
 std::map<std::string, Chart> chartsOf(const Analysis &A,
-                                      const std::string &View) {
-  Chart Pairs{"Gaussian invocations, " + View,
+                                      const std::string &What) {
+  Chart Pairs{"Gaussian invocations, " + What,
               "tile size (pixels)",
               "invocations (thousands)",
               {},
@@ -37,14 +37,14 @@ std::map<std::string, Chart> chartsOf(const Analysis &A,
     Pairs.Series.push_back(std::move(S));
   }
 
-  Chart Occlusion{"Occluded pixels, " + View,
+  Chart Occlusion{"Occluded pixels, " + What,
                   "part of the tile's list that is done (%)",
                   "occluded pixels (%)",
                   {},
                   20,
                   {},
                   false};
-  Chart Lengths{"Lengths of the tiles' lists, " + View,
+  Chart Lengths{"Lengths of the tiles' lists, " + What,
                 "entries (from; to twice as many)",
                 "tiles (%)",
                 {},

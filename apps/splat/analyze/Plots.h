@@ -11,9 +11,10 @@ namespace vorion::splat {
 
 /// `invocations`, `occlusion` and `lists`: pairs against tile size for every
 /// support, occluded pixels against list depth and tiles against list length
-/// for 16 and 64 pixels. \p View is said in the titles.
+/// for 16 and 64 pixels. \p What is said in the titles: scene
+/// and view.
 std::map<std::string, Chart> chartsOf(const Analysis &A,
-                                      const std::string &View);
+                                      const std::string &What);
 
 /// The support's name on command lines.
 std::string_view name(reference::Support S);

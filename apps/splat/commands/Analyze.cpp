@@ -9,6 +9,7 @@
 #include "SceneArguments.h"
 #include "vorion/support/File.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -117,6 +118,12 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
   return Text;
 }
 
+/// The last part of \p Path, which may end in a slash.
+std::string sceneName(const std::string &Path) {
+  const std::filesystem::path P(Path);
+  return (P.has_filename() ? P : P.parent_path()).filename().string();
+}
+
 Expected<Success> run(AnalyzeArguments A) {
   const auto File = loadScene(A.Scene);
   if (!File)
@@ -137,7 +144,8 @@ Expected<Success> run(AnalyzeArguments A) {
       return Written;
   }
   if (!A.Plots.empty())
-    for (const auto &[Name, Plot] : chartsOf(R, C->Name))
+    for (const auto &[Name, Plot] :
+         chartsOf(R, sceneName(A.Scene.Path) + ", " + C->Name))
       if (auto Written = writeFileAtomically(
               fmt::format("{}-{}.svg", A.Plots, Name), svgOf(Plot));
           !Written)
