@@ -9,6 +9,8 @@
 #include "SceneArguments.h"
 #include "vorion/support/File.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -23,6 +25,7 @@ using Json = nlohmann::ordered_json;
 struct AnalyzeArguments {
   SceneArguments Scene;
   std::string Cameras, View, JsonFile, Plots;
+  int Width = 0; ///< of the picture, px; 0: the view's
   Rules Convention = Rules::Inria;
   Support Reach = Support::Square3;
   reference::Options Options;
@@ -124,13 +127,25 @@ std::string sceneName(const std::string &Path) {
   return (P.has_filename() ? P : P.parent_path()).filename().string();
 }
 
+/// The same view in another resolution.
+void resize(Camera &C, int Width) {
+  const double Scale = static_cast<double>(Width) / C.Width;
+  C.Height = std::clamp(static_cast<int>(std::lround(C.Height * Scale)), 1,
+                        MaxImageSize);
+  C.Width = Width;
+  for (double *Length : {&C.Fx, &C.Fy, &C.Cx, &C.Cy})
+    *Length *= Scale;
+}
+
 Expected<Success> run(AnalyzeArguments A) {
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
-  const auto C = readCamera(A.Cameras, A.View);
+  auto C = readCamera(A.Cameras, A.View);
   if (!C)
     return C.error();
+  if (A.Width != 0)
+    resize(*C, A.Width);
   A.Options.Rule = A.Convention == Rules::Inria ? reference::Rules::Inria
                                                 : reference::Rules::Gsplat;
   A.Options.Reach = AnalyzedSupports[static_cast<std::size_t>(A.Reach)];
@@ -162,6 +177,9 @@ Runner addAnalyze(CLI::App &App) {
   App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
       ->required();
   App.add_option("--view", A->View, "img_name or id of the view")->required();
+  App.add_option("--width", A->Width,
+                 "Width in pixels, height in proportion (default: the view's)")
+      ->check(CLI::Range(1, MaxImageSize));
   App.add_option("--json", A->JsonFile, "Write all counts");
   App.add_option("--plots", A->Plots,
                  "Write PREFIX-invocations.svg, -occlusion.svg and -lists.svg")
