@@ -33,8 +33,8 @@ static bool checkInput(llvm::StringRef Name) {
     return false;
   }
   if (isForeignElf((*Buffer)->getBuffer())) {
-    llvm::errs() << "vorion-objdump: error: " << Name
-                 << ": not a RISC-V file" << Wanted;
+    llvm::errs() << "vorion-objdump: error: " << Name << ": not a RISC-V file"
+                 << Wanted;
     return false;
   }
   return true;

@@ -248,7 +248,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
     return Error{"", std::string("cannot make a temporary folder: ") +
                          std::strerror(errno) +
                          ", expected TMPDIR to allow one"};
-  setenv("OCL_ICD_VENDORS", (Root / "etc/OpenCL/vendors").c_str(), 1);
+  // The loader takes a library here, too: no path is written anywhere.
+  setenv("OCL_ICD_VENDORS", (Root / "pocl/lib/libpocl.so").c_str(), 1);
   setenv("VORION_ROOT", Root.c_str(), 1);
 
   std::vector<std::string> Link = {(Root / "bin/vorion-link").string(), "-o",

@@ -1,0 +1,42 @@
+# What `cmake --install` leaves: bin/, include/, lib/ with lib/cmake/Vorion, and
+# pocl/. Nothing in it names a folder of the build, so the tree can be moved; it
+# needs the same Debian packages (the OpenCL platform uses LLVM's library, and
+# vorion-clang the installed clang's headers).
+include(CMakePackageConfigHelpers)
+
+# vorion_public_headers(TARGET FOLDER): the headers under FOLDER are TARGET's
+# interface, and are installed.
+function(vorion_public_headers Target Folder)
+  get_target_property(Kind ${Target} TYPE)
+  set(Scope PUBLIC)
+  if(Kind STREQUAL "INTERFACE_LIBRARY")
+    set(Scope INTERFACE)
+  endif()
+  target_include_directories(${Target} ${Scope} "$<BUILD_INTERFACE:${Folder}>" "$<INSTALL_INTERFACE:include>")
+  install(DIRECTORY "${Folder}/" DESTINATION include)
+endfunction()
+
+# vorion_install(TARGET...): each is installed, and known to find_package(Vorion)
+# as Vorion::NAME, without our own prefix.
+function(vorion_install)
+  foreach(Target IN LISTS ARGN)
+    string(REGEX REPLACE "^vorion[_-]" "" Name "${Target}")
+    set_target_properties(${Target} PROPERTIES EXPORT_NAME "${Name}")
+    install(TARGETS ${Target} EXPORT VorionTargets
+            RUNTIME DESTINATION bin LIBRARY DESTINATION lib ARCHIVE DESTINATION lib)
+    set_property(GLOBAL PROPERTY VORION_HAS_TARGETS ON)
+  endforeach()
+endfunction()
+
+# The package of what the components have named by now.
+function(vorion_install_package)
+  get_property(HasTargets GLOBAL PROPERTY VORION_HAS_TARGETS)
+  if(NOT HasTargets)
+    return()
+  endif()
+  set(Folder lib/cmake/Vorion)
+  set(Version "${CMAKE_BINARY_DIR}/VorionConfigVersion.cmake")
+  write_basic_package_version_file("${Version}" COMPATIBILITY SameMinorVersion)
+  install(FILES "${CMAKE_SOURCE_DIR}/cmake/VorionConfig.cmake" "${Version}" DESTINATION ${Folder})
+  install(EXPORT VorionTargets NAMESPACE Vorion:: DESTINATION ${Folder})
+endfunction()
