@@ -56,8 +56,8 @@ Failure isNull(const char *Name) {
   return badArgument(fmt::format("{} is NULL", Name));
 }
 
-/// The configuration that vx_device_open's argument names.
-Failure findConfig(const char *Text, isasim::Config &Config) {
+/// The configuration file or text that \p Text, or else the environment, names.
+Failure readConfig(const char *Text, isasim::Config &Config) {
   if (!Text)
     Text = std::getenv("VORION_CONFIG");
   if (!Text || !*Text)
@@ -74,6 +74,19 @@ Failure findConfig(const char *Text, isasim::Config &Config) {
   if (!Parsed)
     return failure(VX_ERROR_CONFIG, Parsed.error());
   Config = *Parsed;
+  return {};
+}
+
+/// The configuration that vx_device_open's argument names, changed as the
+/// environment's VORION_SET says.
+Failure findConfig(const char *Text, isasim::Config &Config) {
+  if (Failure Failed = readConfig(Text, Config))
+    return Failed;
+  const char *Values = std::getenv("VORION_SET");
+  if (!Values || !*Values)
+    return {};
+  if (const auto Set = isasim::setValues(Config, Values); !Set)
+    return {VX_ERROR_CONFIG, "VORION_SET: " + Set.error().What};
   return {};
 }
 

@@ -13,6 +13,12 @@ int main(int ArgumentCount, char **Arguments) {
   CLI::App App("Renders 3D Gaussian scenes on an OpenCL device.", "splat");
   App.footer(std::string(ExitCodeHelp));
   App.require_subcommand(1);
+  // Of the device, which reads the environment; after a command too.
+  std::string Set;
+  App.add_option("--set", Set,
+                 "change the Vorion device's configuration (as VORION_SET)")
+      ->type_name("KEY=VALUE,...");
+  App.fallthrough();
 
   std::vector<std::pair<CLI::App *, splat::Runner>> Commands;
   const auto Add = [&](const char *Name, const char *Description,
@@ -38,6 +44,8 @@ int main(int ArgumentCount, char **Arguments) {
   } catch (const CLI::ParseError &E) {
     return reportUsageError("splat", E.what());
   }
+  if (!Set.empty())
+    setenv("VORION_SET", Set.c_str(), 1);
   for (auto &[Command, Run] : Commands)
     if (Command->parsed())
       if (const auto Done = Run(); !Done)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
@@ -174,6 +175,78 @@ Expected<Success> validate(const Config &C) {
                              C.WarpsPerCore),
                  ExitCode::Usage};
   return Success{};
+}
+
+std::string configSchema() {
+  Json Schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+                 {"title", "Vorion machine configuration"}};
+  const auto Describe = [](Json &Object) -> Json & {
+    Object["type"] = "object";
+    Object["additionalProperties"] = false;
+    return Object["properties"];
+  };
+  Describe(Schema);
+  const Config Default;
+  for (const Key &K : keys()) {
+    Json *Properties = &Describe(Schema);
+    std::string_view Rest = K.Path;
+    for (size_t Dot = 0; (Dot = Rest.find('.')) != std::string_view::npos;
+         Rest.remove_prefix(Dot + 1))
+      Properties = &Describe((*Properties)[std::string(Rest.substr(0, Dot))]);
+    Json &Value = (*Properties)[std::string(Rest)];
+    Value = {{"type", "integer"},
+             {"minimum", K.Low},
+             {"maximum", K.High},
+             {"default", K.Get(Default)}};
+    if (K.Multiple != 1)
+      Value["multipleOf"] = K.Multiple;
+  }
+  return Schema.dump(2) + "\n";
+}
+
+Expected<Success> setValue(Config &C, std::string_view Assignment) {
+  const size_t Equals = Assignment.find('=');
+  const std::string Path(Assignment.substr(0, Equals));
+  const auto Fail = [](std::string What) {
+    return Error{"configuration", std::move(What), ExitCode::Usage};
+  };
+  if (Equals == std::string_view::npos)
+    return Fail(fmt::format("'{}', expected KEY=VALUE", Assignment));
+  const Key *K = findKey(Path);
+  if (!K) {
+    // What stands in the innermost object that there is.
+    std::string Prefix = Path;
+    do
+      Prefix.resize(Prefix.find_last_of('.') == std::string::npos
+                        ? 0
+                        : Prefix.find_last_of('.'));
+    while (!Prefix.empty() && namesIn(Prefix + ".").empty());
+    const std::string Inside = Prefix.empty() ? "" : Prefix + ".";
+    return Fail(fmt::format("unknown key '{}', expected {}one of {}", Path,
+                            Prefix.empty() ? "" : "in " + Prefix + " ",
+                            fmt::join(namesIn(Inside), ", ")));
+  }
+  const std::string_view Text = Assignment.substr(Equals + 1);
+  uint64_t Value = 0;
+  const auto Read =
+      std::from_chars(Text.data(), Text.data() + Text.size(), Value);
+  if (Read.ec != std::errc() || Read.ptr != Text.data() + Text.size())
+    return Fail(fmt::format("{} is '{}', expected a whole number, {} to {}",
+                            Path, Text, K->Low, K->High));
+  if (std::string Wrong = checkRange(*K, Value); !Wrong.empty())
+    return Fail(std::move(Wrong));
+  K->Set(C, Value);
+  return Success{};
+}
+
+Expected<Success> setValues(Config &C, std::string_view List) {
+  while (!List.empty()) {
+    const size_t Comma = std::min(List.find(','), List.size());
+    if (Expected<Success> Ok = setValue(C, List.substr(0, Comma)); !Ok)
+      return Ok;
+    List.remove_prefix(std::min(Comma + 1, List.size()));
+  }
+  return validate(C);
 }
 
 std::string toJson(const Config &C) {

@@ -23,10 +23,11 @@ struct Options {
   SessionOptions Watch;
   std::string Kernel, Global, Local, SignatureFile;
   unsigned SignatureGranularity = 4;
-  std::vector<std::string> Args;
+  std::vector<std::string> Args, Set;
   std::optional<uint64_t> MaxInstructions;
   std::optional<unsigned> Threads, ClockMhz;
-  bool PrintDefaultConfig = false, ListKernels = false, Time = false;
+  bool PrintDefaultConfig = false, PrintSchema = false, ListKernels = false,
+       Time = false;
   bool OneHart = false;
 };
 
@@ -55,6 +56,9 @@ Expected<Config> makeConfig(const Options &O) {
   if (O.OneHart)
     C.Clusters = C.SocketsPerCluster = C.CoresPerSocket = C.WarpsPerCore =
         C.LanesPerWarp = 1;
+  for (const std::string &Values : O.Set)
+    if (const Expected<Success> Ok = setValues(C, Values); !Ok)
+      return Ok.error();
   if (O.MaxInstructions)
     C.MaxInstructions = *O.MaxInstructions;
   if (O.Threads)
@@ -259,6 +263,13 @@ void declare(CLI::App &App, Options &O) {
   App.set_help_flag("-h,--help", "print this and exit");
   App.add_option("program", O.Program, "RISC-V executable, or Vortex's .vxbin")
       ->type_name("");
+  App.add_option("--set", O.Set,
+                 "change the configuration (raster.queue_depth=8)")
+      ->type_name("KEY=VALUE,...")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  App.add_flag("--print-config-schema", O.PrintSchema,
+               "print the JSON schema of configurations and exit");
   App.add_option("--config", O.ConfigFile, "machine configuration, JSON")
       ->type_name("FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
@@ -311,8 +322,15 @@ int main(int Argc, char **Argv) {
   } catch (const CLI::ParseError &E) {
     return reportUsageError(Tool, E.what());
   }
+  if (O.PrintSchema) {
+    fmt::print("{}", configSchema());
+    return 0;
+  }
   if (O.PrintDefaultConfig) {
-    fmt::print("{}", toJson(Config()));
+    const Expected<Config> C = makeConfig(O);
+    if (!C)
+      return reportError(Tool, C.error());
+    fmt::print("{}", toJson(*C));
     return 0;
   }
   if (O.Program.empty())

@@ -56,9 +56,9 @@ Json json(const std::vector<ProgramSpec> &Programs) {
   return All;
 }
 
-/// The machine that a Vorion device is: what the environment's VORION_CONFIG
-/// names, a file or the text itself (runtime/include/vorion/runtime.h).
-Expected<Json> configuration() {
+/// What the environment's VORION_CONFIG names, a file or the text itself
+/// (runtime/include/vorion/runtime.h).
+Expected<Json> namedConfiguration() {
   const char *Value = std::getenv("VORION_CONFIG");
   if (!Value || !*Value)
     return Json("default prototype");
@@ -70,6 +70,16 @@ Expected<Json> configuration() {
   const std::string Text(reinterpret_cast<const char *>(Bytes->data()),
                          Bytes->size());
   return Json{{"file", Value}, {"fnv1a64", fnv1a64(Text)}, {"text", Text}};
+}
+
+/// The machine that a Vorion device is: that configuration, with the values
+/// that VORION_SET changes.
+Expected<Json> configuration() {
+  Expected<Json> Base = namedConfiguration();
+  const char *Set = std::getenv("VORION_SET");
+  if (!Base || !Set || !*Set)
+    return Base;
+  return Json{{"base", *Base}, {"set", Set}};
 }
 
 struct Totals {

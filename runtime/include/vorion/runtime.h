@@ -53,7 +53,8 @@ const char *vx_last_error(void);
 
 /* Opens a machine. config: JSON text (begins with '{'), the name of a JSON
  * file, or NULL: the file that the environment's VORION_CONFIG names, else the
- * paper's prototype. Keys that are absent keep the prototype's value. The
+ * paper's prototype. Keys that are absent keep the prototype's value;
+ * VORION_SET, "KEY=VALUE,...", changes what came of it. The
  * environment also says what watches the device's runs (docs/debugging.md), and
  * whether the clock is on: VORION_TIME is "on", or the machine's clock in MHz. */
 vx_status vx_device_open(const char *config, vx_device **device);

@@ -55,6 +55,13 @@ Expected<Success> validate(const Config &C);
 /// The configuration as a JSON object, keys in declaration order.
 std::string toJson(const Config &C);
 
+/// The JSON schema (2020-12) of what parseConfig reads.
+std::string configSchema();
+
+/// Sets values by "KEY=VALUE,...", where a key in an object is written
+/// "raster.queue_depth", and checks the whole.
+Expected<Success> setValues(Config &C, std::string_view List);
+
 /// Reads what toJson writes. Missing keys keep their default; an unknown key,
 /// a wrong type or a value out of range is an error naming the key. \p Where
 /// is the file name for messages.
