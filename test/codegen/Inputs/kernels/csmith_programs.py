@@ -51,9 +51,9 @@ def main():
         parser.error("csmith: no such program, expected Debian's package of that name")
     os.makedirs(chosen.folder, exist_ok=True)
     todo = range(chosen.first, chosen.first + chosen.count)
-    counts, bad_seeds = seeds.check_all(chosen, todo, functools.partial(check, Linux(chosen.folder)))
+    counts, bad_seeds, spent = seeds.check_all(chosen, todo, functools.partial(check, Linux(chosen.folder)))
     print(f"seeds {todo[0]} to {todo[-1]}: {counts['same']} programs same (in {counts['lanes differ']} of them lanes come to different results), "
-          f"{counts['bad']} bad, {counts['endless as a plain program']} endless as a plain program")
+          f"{counts['bad']} bad, {counts['endless as a plain program']} endless as a plain program; {spent}")
     return 1 if bad_seeds else 0
 
 

@@ -51,15 +51,16 @@ def check(kernels, linux, seed, folder):
     with open(source, "w", encoding="utf-8") as file:
         file.write(module.source())
     expected = linux.run(source, base)
-    bad = []
+    size, bad, suspects = module.out_bytes(), [], range(kernels)
     try:
-        same = on_device(module, source, base, configuration) == expected
+        got = on_device(module, source, base, configuration)
+        suspects = [n for n in suspects if got[n * size:(n + 1) * size] != expected[n * size:(n + 1) * size]]
     except (Refused, Wrong) as problem:
-        same, bad = False, [f"{configuration}: all: {type(problem).__name__.lower()}: {problem}"]
-    if not same:
-        alone = {only: judge(module, source, base, configuration, expected, only) for only in range(kernels)}
+        bad = [f"{configuration}: all: {type(problem).__name__.lower()}: {problem}"]
+    if suspects:
+        alone = {only: judge(module, source, base, configuration, expected, only) for only in suspects}
         found = [f"{configuration}: -DONLY={only}: {what}" for only, what in alone.items() if what]
-        bad = found or bad or [f"{configuration}: wrong, but no kernel is on its own"]
+        bad = found or bad or [f"{configuration}: wrong: kernels {suspects}, but not on their own"]
     return {"seed": seed, "counts": {str(configuration): kernels - len(bad), "bad": len(bad)}, "bad": bad}
 
 
@@ -68,12 +69,12 @@ def main():
     chosen = parser.parse_args()
     os.makedirs(chosen.folder, exist_ok=True)
     todo = range(chosen.first, chosen.first + math.ceil(chosen.count / KERNELS))
-    counts, bad_seeds = seeds.check_all(chosen, todo, functools.partial(check, KERNELS, Linux(chosen.folder)))
+    counts, bad_seeds, spent = seeds.check_all(chosen, todo, functools.partial(check, KERNELS, Linux(chosen.folder)))
     bad = counts.pop("bad", 0)
     for configuration in map(str, CONFIGURATIONS):
         if counts[configuration]:
             print(f"{counts[configuration]:6} same {configuration}")
-    print(f"seeds {todo[0]} to {todo[-1]}: {counts.total()} kernels same, {bad} bad, in {bad_seeds} of {len(todo)} seeds")
+    print(f"seeds {todo[0]} to {todo[-1]}: {counts.total()} kernels same, {bad} bad, in {bad_seeds} of {len(todo)} seeds; {spent}")
     return 1 if bad_seeds else 0
 
 

@@ -7,6 +7,7 @@ import glob
 import hashlib
 import json
 import os
+import resource
 import shutil
 import sys
 import time
@@ -54,12 +55,13 @@ def earlier(ledger, this_version):
 
 def check_all(chosen, seeds, check):
     """check(seed, folder) gives {"seed", "counts": {text: number}, "bad": [lines]} and is called in processes of its own.
-    Prints bad lines as they come; returns the sum of the counts and the number of bad seeds. A bad seed's files stay."""
+    Prints bad lines as they come; returns the sum of the counts, the number of bad seeds, and in words how much time the
+    processor took for all of them, also for those of earlier runs. A bad seed's files stay."""
     os.makedirs(chosen.folder, exist_ok=True)
     ledger = os.path.join(chosen.folder, "results.jsonl")
     this_version = version()
     done = earlier(ledger, this_version) if chosen.resume else {}
-    counts, bad, start = collections.Counter(), 0, time.monotonic()
+    counts, bad, spent, start = collections.Counter(), 0, 0.0, time.monotonic()
     with open(ledger, "a" if done else "w", encoding="utf-8") as file, \
             concurrent.futures.ProcessPoolExecutor(chosen.jobs) as pool:
         if not done:
@@ -68,24 +70,33 @@ def check_all(chosen, seeds, check):
         for result in done.values():
             if result["seed"] in seeds:
                 counts.update(result["counts"])
+                spent += result["seconds"]
         for number, finished in enumerate(concurrent.futures.as_completed(running), 1):
             result = finished.result()
             file.write(json.dumps(result) + "\n")
             file.flush()
             counts.update(result["counts"])
             bad += bool(result["bad"])
+            spent += result["seconds"]
             for line in result["bad"]:
                 print(f"seed {result['seed']}: {line}", flush=True)
             if not chosen.quiet and number % 10 == 0:
                 print(f"{number + len(seeds) - len(running)} of {len(seeds)} seeds, {time.monotonic() - start:.0f} s", file=sys.stderr)
-    return counts, bad
+    return counts, bad, f"{spent:.0f} s of processor time"
+
+
+def processor_seconds():
+    """Of this process and all that it has waited for."""
+    return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
 
 
 def one(check, seed, folder):
     """In a folder of the seed's own, which goes if all is good."""
     own = os.path.join(folder, f"seed-{seed}")
     os.makedirs(own, exist_ok=True)
+    start = processor_seconds()
     result = check(seed, own)
+    result["seconds"] = round(processor_seconds() - start, 2)
     if result["bad"]:
         result["bad"].append(f"files: {own}")
     else:

@@ -71,9 +71,9 @@ def main():
     parser = seeds.options(__doc__, "random-groups", "kernels")
     chosen = parser.parse_args()
     todo = range(chosen.first, chosen.first + math.ceil(chosen.count / KERNELS))
-    counts, bad_seeds = seeds.check_all(chosen, todo, functools.partial(check, KERNELS))
+    counts, bad_seeds, spent = seeds.check_all(chosen, todo, functools.partial(check, KERNELS))
     print(f"seeds {todo[0]} to {todo[-1]}: {len(todo) * KERNELS} kernels, {counts['runs']} runs same, {counts['bad']} bad, "
-          f"in {bad_seeds} of {len(todo)} seeds")
+          f"in {bad_seeds} of {len(todo)} seeds; {spent}")
     return 1 if bad_seeds else 0
 
 
