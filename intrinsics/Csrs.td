@@ -30,4 +30,6 @@ def CSR_NUM_WARPS : Csr<"vx_num_warps", 0xFC1, Device, ReadOnly, 1, "Warps a cor
 def CSR_NUM_CORES : Csr<"vx_num_cores", 0xFC2, Device, ReadOnly, 1, "Cores of the device.">;
 def CSR_LOCAL_BASE : Csr<"vx_local_base", 0xFC3, Core, ReadOnly, 1, "Address of local memory.">;
 def CSR_NUM_BARRIERS : Csr<"vx_num_barriers", 0xFC4, Device, ReadOnly, 1, "Barriers a core.">;
+def CSR_NUM_SOCKETS : Csr<"vx_num_sockets", 0xFC6, Device, ReadOnly, 1, "Sockets of the device, each with one rasterizer and as many cores, numbered one socket after the other.">;
+def CSR_NUM_CLUSTERS : Csr<"vx_num_clusters", 0xFC7, Device, ReadOnly, 1, "Clusters of the device, each with one pixel unit and as many sockets.">;
 def CSR_STACK_SIZE : Csr<"vx_stack_size", 0xFC5, Device, ReadOnly, 1, "Bytes of stack a lane (the start-up code places stacks with it).">;

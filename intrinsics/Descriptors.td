@@ -7,8 +7,24 @@ def VxGaussian : Descriptor<"vx_gaussian", [
     DescField<"opacity", "f32", 1, "0 to 1">,
     DescField<"color", "f32", 3, "linear r, g, b">,
     DescField<"extent", "f32", 2, "half width and height of the box, px">,
-    DescField<"tag", "u32", 1, "Gaussian number; bit 31 (intersect): spans several tiles">
+    DescField<"tag", "u32", 1, "Gaussian number, and VR_INTERSECT where it spans several tiles">
   ], "One projected Gaussian as the rasterizer reads it.">;
+
+def VxTail : Descriptor<"vx_tail", [
+    DescField<"list", "u32", 1, "address of the list's next entry">,
+    DescField<"count", "u32", 1, "entries left">,
+    DescField<"gaussians", "u32", 1, "address of the vx_gaussian records">,
+    DescField<"options", "u32", 1, "vr_options">,
+    DescField<"cutoff", "u32", 1, "vr_cutoff">,
+    DescField<"tile_origin", "u32", 1, "vr_tile_origin">,
+    DescField<"tile_shape", "u32", 1, "vr_tile_shape">,
+    DescField<"ztile", "u32", 1, "vr_ztile">,
+    DescField<"output", "u32", 1, "address of the tile's first pixel, where the pixels' state lies">,
+    DescField<"output_pitch", "u32", 1, "vr_output_pitch">,
+    DescField<"core", "u32", 1, "core whose Raster Agent is told of the end">,
+    DescField<"live_count", "u32", 1, "pixels that are not saturated">,
+    DescField<"live", "u32", 128, "a bit each: column x of row y is bit x % 32 of word 2 y + x / 32">
+  ], "What a rasterizer hands to the pixel unit: a tile, the rest of its list, its live pixels.">;
 
 def VxLaunch : Descriptor<"vx_launch", [
     DescField<"entry", "u32", 1, "work-group function">,

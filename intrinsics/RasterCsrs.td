@@ -6,6 +6,7 @@ let Extension = "xvorion" in {
 
 def VR_STATUS : Csr<"vr_status", 0x7C0, Agent, ReadOnly, 1, "State of the agent's commands; a read that says done is an acquire."> {
   let Fields = [CsrField<"busy", 0, 1, "commands are queued or running">,
+                CsrField<"tail", 1, 1, "of these, some in the pixel unit">,
                 CsrField<"code", 8, 8, "status code of the first failed command since the last vr_wait, 0 if none">];
 }
 def VR_START : Csr<"vr_start", 0x7C1, Agent, Scalar, 1, "A write queues the bank's content as a command (the value is ignored) and is a release of the core's earlier stores; a full queue stalls the write.">;
@@ -22,7 +23,7 @@ def VR_OPTIONS : Csr<"vr_options", 0x7C4, Agent, Scalar, 1, "Datapath options.">
 }
 def VR_CUTOFF : Csr<"vr_cutoff", 0x7C5, Agent, Scalar, 1, "Transmittance cut-off, float in [0, 1).">;
 def VR_GAUSSIANS : Csr<"vr_gaussians", 0x7C6, Agent, Scalar, 1, "Address of the vx_gaussian records, 16-byte aligned.">;
-def VR_LIST : Csr<"vr_list", 0x7C7, Agent, Scalar, 1, "Address of the depth-sorted list of record numbers, 4-byte aligned.">;
+def VR_LIST : Csr<"vr_list", 0x7C7, Agent, Scalar, 1, "Address of the depth-sorted list, 4-byte aligned: a record number an entry, and VR_INTERSECT where the Gaussian spans several tiles.">;
 def VR_COUNT : Csr<"vr_count", 0x7C8, Agent, Scalar, 1, "Entries of the list; 0 is a valid empty tile.">;
 def VR_TILE_ORIGIN : Csr<"vr_tile_origin", 0x7C9, Agent, Scalar, 1, "Picture coordinates of the tile's first pixel."> {
   let Fields = [CsrField<"x", 0, 16, "column">, CsrField<"y", 16, 16, "row">];
@@ -48,8 +49,14 @@ def VR_G_GREEN : Csr<"vr_g_green", 0x7D7, Lane, PerLane, 0, "Float: colour, gree
 def VR_G_BLUE : Csr<"vr_g_blue", 0x7D8, Lane, PerLane, 0, "Float: colour, blue.">;
 def VR_G_EXTENT_X : Csr<"vr_g_extent_x", 0x7D9, Lane, PerLane, 0, "Float: half width of the box.">;
 def VR_G_EXTENT_Y : Csr<"vr_g_extent_y", 0x7DA, Lane, PerLane, 0, "Float: half height of the box.">;
-def VR_G_TAG : Csr<"vr_g_tag", 0x7DB, Lane, PerLane, 0, "Gaussian number; bit 31 (intersect): it spans several tiles.">;
+def VR_G_TAG : Csr<"vr_g_tag", 0x7DB, Lane, PerLane, 0, "Gaussian number, and VR_INTERSECT where it spans several tiles.">;
 def VR_PUSH : Csr<"vr_push", 0x7DC, Agent, Push, 1, "A write appends one descriptor per active lane, in lane order (the value is ignored).">;
+
+// Hand-over of a list's tail to the pixel unit of the cluster (paper, "Pixel
+// unit"; docs/rasterizer.md#the-pixel-unit).
+def VR_TAIL_COUNT : Csr<"vr_tail_count", 0x7E8, Agent, Scalar, 1, "The command goes on in the pixel unit once at most so many entries of its list are left; 0: never for this reason.">;
+def VR_TAIL_SHARE : Csr<"vr_tail_share", 0x7E9, Agent, Scalar, 1, "The command goes on in the pixel unit once this share of the tile's pixels, in 1/VR_TAIL_WHOLE, is saturated; 0: never for this reason.">;
+def VR_TAIL_RECORD : Csr<"vr_tail_record", 0x7EA, Agent, Scalar, 1, "Address of the vx_tail that a hand-over fills, 16-byte aligned; not used while both reasons are 0.">;
 
 // Draining a tile by the core that issued it.
 def VR_PIXEL_INDEX : Csr<"vr_pixel_index", 0x7E0, Lane, PerLane, 0, "Pixel of the drained tile: row * width + column.">;
@@ -64,11 +71,21 @@ def VR_N_GAUSSIANS : Csr<"vr_n_gaussians", 0xFD1, Agent, ReadOnly, 1, "Gaussians
 def VR_N_CLIPPED : Csr<"vr_n_clipped", 0xFD2, Agent, ReadOnly, 1, "Of these, with a box that misses the tile.">;
 def VR_N_FRAGMENTS : Csr<"vr_n_fragments", 0xFD3, Agent, ReadOnly, 1, "Lane slots dispatched: pixels of box and tile.">;
 def VR_N_BLENDS : Csr<"vr_n_blends", 0xFD4, Agent, ReadOnly, 1, "Of these, blended into a pixel.">;
+def VR_N_INTERSECTING : Csr<"vr_n_intersecting", 0xFD5, Agent, ReadOnly, 1, "Of the Gaussians fetched, tagged VR_INTERSECT.">;
 def VR_N_COMMANDSH : Csr<"vr_n_commandsh", 0xFD8, Agent, ReadOnly, 1, "High word of vr_n_commands.">;
 def VR_N_GAUSSIANSH : Csr<"vr_n_gaussiansh", 0xFD9, Agent, ReadOnly, 1, "High word of vr_n_gaussians.">;
 def VR_N_CLIPPEDH : Csr<"vr_n_clippedh", 0xFDA, Agent, ReadOnly, 1, "High word of vr_n_clipped.">;
 def VR_N_FRAGMENTSH : Csr<"vr_n_fragmentsh", 0xFDB, Agent, ReadOnly, 1, "High word of vr_n_fragments.">;
 def VR_N_BLENDSH : Csr<"vr_n_blendsh", 0xFDC, Agent, ReadOnly, 1, "High word of vr_n_blends.">;
+def VR_N_TAILS : Csr<"vr_n_tails", 0xFE0, Agent, ReadOnly, 1, "Commands that went on in the pixel unit.">;
+def VR_N_TAIL_PIXELS : Csr<"vr_n_tail_pixels", 0xFE1, Agent, ReadOnly, 1, "Pixels that it took over.">;
+def VR_N_TAIL_VISITS : Csr<"vr_n_tail_visits", 0xFE2, Agent, ReadOnly, 1, "Gaussians that its pixels examined, each up to the one that saturates it.">;
+def VR_N_TAIL_BLENDS : Csr<"vr_n_tail_blends", 0xFE3, Agent, ReadOnly, 1, "Of these, blended.">;
+def VR_N_TAILSH : Csr<"vr_n_tailsh", 0xFE8, Agent, ReadOnly, 1, "High word of vr_n_tails.">;
+def VR_N_TAIL_PIXELSH : Csr<"vr_n_tail_pixelsh", 0xFE9, Agent, ReadOnly, 1, "High word of vr_n_tail_pixels.">;
+def VR_N_TAIL_VISITSH : Csr<"vr_n_tail_visitsh", 0xFEA, Agent, ReadOnly, 1, "High word of vr_n_tail_visits.">;
+def VR_N_TAIL_BLENDSH : Csr<"vr_n_tail_blendsh", 0xFEB, Agent, ReadOnly, 1, "High word of vr_n_tail_blends.">;
+def VR_N_INTERSECTINGH : Csr<"vr_n_intersectingh", 0xFDD, Agent, ReadOnly, 1, "High word of vr_n_intersecting.">;
 }
 
 // Status codes of a command (vr_status.code, vr_wait).
@@ -80,6 +97,9 @@ def : Constant<"VR_BAD_COUNT", 4, "vr_count above VR_MAX_COUNT, or more pushes t
 def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
 def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile asks for what this machine does not have.">;
 def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
+def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over asked of a command that drains or takes pushed descriptors.">;
+def : Constant<"VR_TAIL_WHOLE", 65536, "vr_tail_share of a whole tile.">;
+def : Constant<"VR_INTERSECT", 0x80000000, "Bit of a list entry and of a record's tag: the Gaussian spans several tiles.">;
 def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;
 def : Constant<"VR_MAX_PUSHED", 4096, "Descriptors that the push buffer holds.">;
 def : Constant<"VR_MAX_TILE", 64, "Largest tile width and height.">;

@@ -379,5 +379,10 @@ Failure Device::wait(vx_result &Result) {
   C.raster_clipped = Last.Raster.Clipped;
   C.raster_fragments = Last.Raster.Fragments;
   C.raster_blends = Last.Raster.Blends;
+  C.raster_intersecting = Last.Raster.Intersecting;
+  C.raster_tails = Last.Raster.Tails;
+  C.raster_tail_pixels = Last.Raster.TailPixels;
+  C.raster_tail_visits = Last.Raster.TailVisits;
+  C.raster_tail_blends = Last.Raster.TailBlends;
   return {};
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the rasterizer's CSR names and fields, constants and record layout as a C++ header (csrs.py has the table).
+"""Writes the rasterizer's CSR names and fields, constants and record layouts as a C++ header (csrs.py has the table).
 
 usage: raster.py [--tblgen PATH] OUTPUT
 """
@@ -56,17 +56,18 @@ def constants(records):
     yield "// NOLINTEND(readability-identifier-naming)\n"
 
 
-def gaussian(records):
+def descriptors(records):
     types = {"f32": "float", "u32": "std::uint32_t"}
-    record = next(d for d in records.of("Descriptor") if d.Name == "vx_gaussian")
-    yield f"/// {record.Doc}"
-    yield "struct Gaussian {"
-    for f in record.Fields:
-        count = f"[{f.Count}]" if f.Count > 1 else ""
-        yield f"  {types[f.Type]} {camel(f.Name)}{count}; ///< {f.Doc}"
-    yield "};"
-    size = 4 * sum(f.Count for f in record.Fields)
-    yield f"static_assert(sizeof(Gaussian) == {size});\n"
+    for name, type_name in (("vx_gaussian", "Gaussian"), ("vx_tail", "Tail")):
+        record = next(d for d in records.of("Descriptor") if d.Name == name)
+        yield f"/// {record.Doc}"
+        yield f"struct {type_name} {{"
+        for f in record.Fields:
+            count = f"[{f.Count}]" if f.Count > 1 else ""
+            yield f"  {types[f.Type]} {camel(f.Name)}{count}; ///< {f.Doc}"
+        yield "};"
+        size = 4 * sum(f.Count for f in record.Fields)
+        yield f"static_assert(sizeof({type_name}) == {size});\n"
 
 
 def main():
@@ -76,7 +77,7 @@ def main():
     args = parser.parse_args()
     records = Records(args.tblgen)
     csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
-    parts = (enum_csrs(csrs), fields(csrs), constants(records), gaussian(records))
+    parts = (enum_csrs(csrs), fields(csrs), constants(records), descriptors(records))
     lines = [HEAD, *(line for part in parts for line in part), "} // namespace vorion::raster"]
     write(args.output, "\n".join(lines) + "\n")
 

@@ -72,6 +72,10 @@ uint32_t readCsr(WarpState *S, unsigned Number, unsigned Lane) {
     return VX_LOCAL_BASE;
   case CSR_NUM_BARRIERS:
     return Shape.Barriers;
+  case CSR_NUM_SOCKETS:
+    return Shape.sockets();
+  case CSR_NUM_CLUSTERS:
+    return Shape.Clusters;
   case CSR_STACK_SIZE:
     return Shape.StackBytes;
   default:

@@ -425,6 +425,7 @@ TEST(Csr, IdentifiesLanesAndMachine) {
         {CSR_NUM_THREADS, 16},  {CSR_NUM_WARPS, 1},
         {CSR_NUM_CORES, 1},     {CSR_LOCAL_BASE, 0xFFFF0000},
         {CSR_NUM_BARRIERS, 16}, {CSR_STACK_SIZE, 64 << 10},
+        {CSR_NUM_SOCKETS, 1},   {CSR_NUM_CLUSTERS, 1},
         {CSR_MSCRATCH, 0}};
     for (unsigned N = 0; N != std::size(Uniform); ++N)
       Words.push_back(encode(

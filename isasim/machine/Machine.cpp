@@ -278,6 +278,16 @@ void Machine::Impl::atSyncPoint() {
         });
     else
       Pool.run(Raster.units(), false, [&](unsigned N) { Raster.runUnit(N); });
+    if (!Raster.handOver())
+      return;
+    if (isObserved())
+      for (unsigned N = 0; N != Raster.pixelUnits(); ++N)
+        Raster.runPixelUnit(N, [&](const TailWork &W) {
+          Watcher.tell([&](Observer &O) { O.tail(W); });
+        });
+    else
+      Pool.run(Raster.pixelUnits(), false,
+               [&](unsigned N) { Raster.runPixelUnit(N); });
   }
 }
 

@@ -388,6 +388,33 @@ TEST(Machine, HostDrivesTheRasterWindow) {
   EXPECT_FALSE(M->readRasterCsr(0, 0x300));
 }
 
+TEST(Machine, HandOversReachThePixelUnitOfTheCluster) {
+  using raster::Csr;
+  Config C = small();
+  C.Clusters = 2;
+  const auto M = make(C, {encode(Op::VX_TMC, {.Rs1 = 0})});
+  const auto N = [](Csr R) { return static_cast<unsigned>(R); };
+  // Two pixels, two Gaussians of no box: all that is left of the second.
+  constexpr uint32_t Record = Slots + 0x1000, Gaussians = Slots + 0x2000;
+  const unsigned Last = C.cores() - 1;
+  for (const auto &[R, Value] : {std::pair{Csr::Gaussians, Gaussians},
+                                 {Csr::List, Gaussians + 0x100},
+                                 {Csr::Count, 2U},
+                                 {Csr::Output, Slots},
+                                 {Csr::OutputPitch, 32U},
+                                 {Csr::TileShape, 0x00010002U},
+                                 {Csr::TailCount, 1U},
+                                 {Csr::TailRecord, Record},
+                                 {Csr::Start, 0U}})
+    EXPECT_TRUE(M->writeRasterCsr(Last, N(R), Value));
+  EXPECT_EQ(M->readRasterCsr(Last, N(Csr::Wait)), raster::VR_OK);
+  EXPECT_EQ(M->readRasterCsr(Last, N(Csr::NTails)), 1U);
+  EXPECT_EQ(M->readRasterCsr(Last, N(Csr::NTailPixels)), 2U);
+  EXPECT_EQ(M->readRasterCsr(Last, N(Csr::NTailVisits)), 2U);
+  EXPECT_EQ(M->readRasterCsr(0, N(Csr::NTails)), 0U);
+  EXPECT_EQ(wordAt(*M, Record + offsetof(raster::Tail, Core)), Last);
+}
+
 TEST(Machine, ConsoleTextWithoutALineEndIsHandedOn) {
   // One core, 16 lanes, 10 stores a round: 160 bytes more each time.
   Config C = small();

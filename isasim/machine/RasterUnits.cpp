@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace vorion::isasim {
 
@@ -13,17 +14,20 @@ RasterUnits::RasterUnits(const Config &C, Memory &Storage)
 }
 
 void RasterUnits::reset() {
+  PixelUnits.clear();
   Units.clear();
   Agents.clear();
   for (unsigned Core = 0; Core != Shape.cores(); ++Core)
-    Agents.push_back(std::make_unique<raster::RasterAgent>(
-        raster::AgentConfig{Shape.LanesPerWarp, Shape.Raster.QueueDepth}));
+    Agents.push_back(std::make_unique<raster::RasterAgent>(raster::AgentConfig{
+        Shape.LanesPerWarp, Shape.Raster.QueueDepth, Core}));
   for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket) {
     std::vector<raster::RasterAgent *> Own;
     for (unsigned N = 0; N != Shape.CoresPerSocket; ++N)
       Own.push_back(Agents[Socket * Shape.CoresPerSocket + N].get());
     Units.push_back(std::make_unique<raster::Rasterizer>(View, Own));
   }
+  for (unsigned Cluster = 0; Cluster != Shape.Clusters; ++Cluster)
+    PixelUnits.push_back(std::make_unique<pixel::PixelUnit>(View));
 }
 
 bool RasterUnits::access(unsigned Core, WarpState *S, const CsrAccess &A) {
@@ -66,7 +70,7 @@ void RasterUnits::runUnit(unsigned N,
     std::vector<RasterCounters> Before(Shape.CoresPerSocket);
     for (unsigned A = 0; A != Shape.CoresPerSocket; ++A) {
       Before[A] = countersOf(First + A);
-      if (Agents[First + A]->isBusy())
+      if (Agents[First + A]->hasCommand())
         Oldest[A] = Agents[First + A]->front();
     }
     if (!Units[N]->step())
@@ -76,6 +80,34 @@ void RasterUnits::runUnit(unsigned N,
       if (Work.Commands)
         Tell({N, First + A, Oldest[A], Work});
     }
+  }
+}
+
+bool RasterUnits::handOver() {
+  bool Any = false;
+  for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket) {
+    const auto Handed = Units[Socket]->takeHandOvers();
+    PixelUnits[Socket / Shape.SocketsPerCluster]->accept(Handed);
+    Any |= !Handed.empty();
+  }
+  return Any;
+}
+
+void RasterUnits::runPixelUnit(unsigned N) {
+  while (PixelUnits[N]->step()) {
+  }
+}
+
+void RasterUnits::runPixelUnit(
+    unsigned N, const std::function<void(const TailWork &)> &Tell) {
+  while (const raster::HandOver *Next = PixelUnits[N]->front()) {
+    raster::Tail Record;
+    std::memcpy(&Record, View.range(Next->Record, sizeof(Record)),
+                sizeof(Record));
+    const unsigned Core = Next->Agent->core();
+    const RasterCounters Before = countersOf(Core);
+    PixelUnits[N]->step();
+    Tell({N, Core, Record, countersOf(Core) - Before});
   }
 }
 
@@ -93,13 +125,20 @@ bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
   Lanes[0] = Value;
   Agents[Core]->write(static_cast<raster::Csr>(Number),
                       std::span(Lanes).first(Shape.LanesPerWarp), 1);
-  runUnit(Core / Shape.CoresPerSocket);
+  const unsigned Socket = Core / Shape.CoresPerSocket;
+  runUnit(Socket);
+  if (handOver())
+    runPixelUnit(Socket / Shape.SocketsPerCluster);
   return true;
 }
 
 RasterCounters RasterUnits::countersOf(unsigned Core) const {
   const raster::Counters &C = Agents[Core]->counters();
-  return {C.Commands, C.Gaussians, C.Clipped, C.Fragments, C.Blends};
+  RasterCounters Copy;
+#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) Copy.MEMBER = C.MEMBER;
+#include "vorion/isasim/Counters.def"
+#undef VORION_RASTER_COUNTER
+  return Copy;
 }
 
 RasterCounters RasterUnits::counters() const {

@@ -1,8 +1,10 @@
-/// The machine's rasterizers and the Raster Agents of its cores.
+/// The machine's rasterizers and pixel units, and the Raster Agents of its
+/// cores.
 #pragma once
 
 #include "core/Slow.h"
 #include "mem/Memory.h"
+#include "pixel/PixelUnit.h"
 #include "raster/Rasterizer.h"
 #include "vorion/isasim/Config.h"
 #include "vorion/isasim/Observer.h"
@@ -27,6 +29,9 @@ public:
   void setLog(unsigned N, raster::WorkLog *Log) { Units[N]->setLog(Log); }
 
   unsigned units() const { return static_cast<unsigned>(Units.size()); }
+  unsigned pixelUnits() const {
+    return static_cast<unsigned>(PixelUnits.size());
+  }
   /// Whether any command is queued.
   bool isBusy() const;
   /// Executes all commands of rasterizer \p N. Different rasterizers may run
@@ -34,6 +39,16 @@ public:
   void runUnit(unsigned N);
   /// The same, and tells of each command.
   void runUnit(unsigned N, const std::function<void(const RasterWork &)> &Tell);
+
+  /// Gives the pixel units what the rasterizers handed over, in the order of
+  /// sockets; false if that was nothing.
+  bool handOver();
+  /// Executes all that pixel unit \p N has been given. Different ones may run
+  /// at the same time.
+  void runPixelUnit(unsigned N);
+  /// The same, telling of every tail.
+  void runPixelUnit(unsigned N,
+                    const std::function<void(const TailWork &)> &Tell);
 
   std::optional<uint32_t> hostRead(unsigned Core, unsigned Number);
   bool hostWrite(unsigned Core, unsigned Number, uint32_t Value);
@@ -56,8 +71,9 @@ private:
 
   const Config &Shape;
   GlobalMemory View;
-  std::vector<std::unique_ptr<raster::RasterAgent>> Agents; ///< by core
-  std::vector<std::unique_ptr<raster::Rasterizer>> Units;   ///< by socket
+  std::vector<std::unique_ptr<raster::RasterAgent>> Agents;  ///< by core
+  std::vector<std::unique_ptr<raster::Rasterizer>> Units;    ///< by socket
+  std::vector<std::unique_ptr<pixel::PixelUnit>> PixelUnits; ///< by cluster
 };
 
 } // namespace vorion::isasim

@@ -157,6 +157,16 @@ void Trace::rasterCommand(const RasterWork &W) {
                W.Work.Fragments, W.Work.Blends);
 }
 
+void Trace::tail(const TailWork &W) {
+  if (wants(Category::raster))
+    fmt::print(Out,
+               "tail {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
+               "count {} pixels {} visits {} blends {}\n",
+               W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
+               W.What.Count, W.Work.TailPixels, W.Work.TailVisits,
+               W.Work.TailBlends);
+}
+
 void Trace::trap(const Trap &T) {
   if (wants(Category::trap))
     fmt::print(Out, "trap {}.{} 0x{:08x} <{}> {:04x} lane {} {} 0x{:08x}\n",

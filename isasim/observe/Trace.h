@@ -29,6 +29,7 @@ public:
   void commit(const Commit &C) override;
   void syncPoint(std::span<const std::unique_ptr<Core>> Cores) override;
   void rasterCommand(const RasterWork &W) override;
+  void tail(const TailWork &W) override;
   void trap(const Trap &T) override;
   void runEnds(const RunResult &R) override;
 

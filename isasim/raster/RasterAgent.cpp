@@ -57,40 +57,42 @@ std::uint32_t *RasterAgent::bankWord(Csr C) {
     return &Bank.Output;
   case Csr::OutputPitch:
     return &Bank.OutputPitch;
+  case Csr::TailCount:
+    return &Bank.TailCount;
+  case Csr::TailShare:
+    return &Bank.TailShare;
+  case Csr::TailRecord:
+    return &Bank.TailRecord;
   default:
     return nullptr;
   }
 }
 
 std::uint32_t RasterAgent::readCounter(Csr C) const {
-  const auto High = [](std::uint64_t Value) {
-    return static_cast<std::uint32_t>(Value >> 32);
+  struct Words {
+    Csr Low, High;
+    std::uint64_t Counters::*Value;
   };
-  switch (C) {
-  case Csr::NCommands:
-    return static_cast<std::uint32_t>(Totals.Commands);
-  case Csr::NGaussians:
-    return static_cast<std::uint32_t>(Totals.Gaussians);
-  case Csr::NClipped:
-    return static_cast<std::uint32_t>(Totals.Clipped);
-  case Csr::NFragments:
-    return static_cast<std::uint32_t>(Totals.Fragments);
-  case Csr::NBlends:
-    return static_cast<std::uint32_t>(Totals.Blends);
-  case Csr::NCommandsh:
-    return High(Totals.Commands);
-  case Csr::NGaussiansh:
-    return High(Totals.Gaussians);
-  case Csr::NClippedh:
-    return High(Totals.Clipped);
-  case Csr::NFragmentsh:
-    return High(Totals.Fragments);
-  case Csr::NBlendsh:
-    return High(Totals.Blends);
-  default:
-    assert(false && "not a counter");
-    return 0;
+  static constexpr Words All[] = {
+      {Csr::NCommands, Csr::NCommandsh, &Counters::Commands},
+      {Csr::NGaussians, Csr::NGaussiansh, &Counters::Gaussians},
+      {Csr::NClipped, Csr::NClippedh, &Counters::Clipped},
+      {Csr::NFragments, Csr::NFragmentsh, &Counters::Fragments},
+      {Csr::NBlends, Csr::NBlendsh, &Counters::Blends},
+      {Csr::NIntersecting, Csr::NIntersectingh, &Counters::Intersecting},
+      {Csr::NTails, Csr::NTailsh, &Counters::Tails},
+      {Csr::NTailPixels, Csr::NTailPixelsh, &Counters::TailPixels},
+      {Csr::NTailVisits, Csr::NTailVisitsh, &Counters::TailVisits},
+      {Csr::NTailBlends, Csr::NTailBlendsh, &Counters::TailBlends},
+  };
+  for (const Words &W : All) {
+    if (C == W.Low)
+      return static_cast<std::uint32_t>(Totals.*W.Value);
+    if (C == W.High)
+      return static_cast<std::uint32_t>(Totals.*W.Value >> 32);
   }
+  assert(false && "not a counter");
+  return 0;
 }
 
 std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
@@ -114,7 +116,8 @@ std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
   };
   switch (C) {
   case Csr::Status:
-    return StatusBusy.put(isBusy()) | StatusCode.put(FirstFailure);
+    return StatusBusy.put(isBusy()) | StatusTail.put(Tails != 0) |
+           StatusCode.put(FirstFailure);
   case Csr::Wait: {
     assert(!isBusy() && "a read of vr_wait stalls while commands are queued");
     const std::uint32_t Code = FirstFailure;
@@ -201,12 +204,27 @@ void RasterAgent::start() {
   }
 }
 
-void RasterAgent::complete(std::uint32_t Status, const Counters &Work) {
-  assert(isBusy());
-  Queue.pop_front();
+void RasterAgent::finish(std::uint32_t Status, const Counters &Work) {
   Totals += Work;
   if (FirstFailure == VR_OK)
     FirstFailure = Status;
+}
+
+void RasterAgent::complete(std::uint32_t Status, const Counters &Work) {
+  assert(hasCommand());
+  Queue.pop_front();
+  finish(Status, Work);
+}
+
+void RasterAgent::handOver(const Counters &Work) {
+  complete(VR_OK, Work);
+  ++Tails;
+}
+
+void RasterAgent::completeTail(std::uint32_t Status, const Counters &Work) {
+  assert(Tails != 0);
+  --Tails;
+  finish(Status, Work);
 }
 
 } // namespace vorion::raster

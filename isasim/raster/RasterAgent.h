@@ -19,13 +19,15 @@ const CsrInfo *findCsr(unsigned Number);
 struct AgentConfig {
   unsigned Lanes = 16;
   unsigned QueueDepth = 4; ///< commands, the running one included
+  unsigned Core = 0;       ///< whose agent it is
 };
 
 /// One core's bank of configuration CSRs, push buffer, command queue, sticky
 /// status, drained tile and counters.
 ///
 /// Threads: belongs to its core, except that a Rasterizer takes and completes
-/// commands; the machine never lets both run at once (docs/decisions.md, 10).
+/// commands, and a PixelUnit the rest of some; the machine never lets both run
+/// at once (docs/decisions.md, 10).
 class RasterAgent {
 public:
   explicit RasterAgent(const AgentConfig &Config = {});
@@ -34,8 +36,9 @@ public:
   /// while this is false stalls until the rasterizer has taken a command.
   bool canStart() const { return Queue.size() < Config.QueueDepth; }
 
-  /// Whether commands are queued. A read of vr_wait stalls until it is false.
-  bool isBusy() const { return !Queue.empty(); }
+  /// Whether commands are queued or go on in the pixel unit. A read of vr_wait
+  /// stalls until it is false.
+  bool isBusy() const { return hasCommand() || Tails != 0; }
 
   /// What lane \p Lane reads from \p C. Reading vr_wait needs !isBusy() and
   /// clears the status: a uniform CSR (CsrInfo) is read once for all lanes.
@@ -53,16 +56,27 @@ public:
              std::uint32_t Mask);
 
   const Counters &counters() const { return Totals; }
+  unsigned core() const { return Config.Core; }
 
   /// \name The rasterizer's side
   /// @{
 
-  /// The oldest command; needs isBusy().
+  /// Whether the rasterizer has something to do.
+  bool hasCommand() const { return !Queue.empty(); }
+
+  /// The oldest command; needs hasCommand().
   const Command &front() const { return Queue.front(); }
 
   /// Removes the oldest command, counts \p Work, and keeps \p Status if it is
   /// the first that is not VR_OK.
   void complete(std::uint32_t Status, const Counters &Work);
+
+  /// Removes the oldest command and counts \p Work; it goes on in the pixel
+  /// unit, and the agent is busy until that calls completeTail().
+  void handOver(const Counters &Work);
+
+  /// The pixel unit's part of a command has ended.
+  void completeTail(std::uint32_t Status, const Counters &Work);
 
   /// Where a drained tile goes, row by row.
   std::vector<Pixel> &drainedTile() { return Drained; }
@@ -73,6 +87,7 @@ private:
   std::uint32_t *bankWord(Csr C);
   void push(std::uint32_t Mask);
   void start();
+  void finish(std::uint32_t Status, const Counters &Work);
 
   AgentConfig Config;
   Command Bank;
@@ -82,6 +97,7 @@ private:
   std::vector<std::uint32_t> PixelIndex;
   std::deque<Command> Queue;
   std::vector<Pixel> Drained;
+  unsigned Tails = 0; ///< commands that the pixel unit has
   std::uint32_t FirstFailure = VR_OK;
   Counters Totals;
 };

@@ -110,12 +110,12 @@ TEST_F(AgentTest, firstFailureSticksUntilWait) {
 TEST_F(AgentTest, countersHaveHighWords) {
   set(Csr::Start, 0U);
   Agent.complete(VR_OK, {1ULL << 32 | 2, 3ULL << 32 | 4, 5ULL << 32 | 6,
-                         7ULL << 32 | 8, 9ULL << 32 | 10});
-  const Csr Low[] = {Csr::NCommands, Csr::NGaussians, Csr::NClipped,
-                     Csr::NFragments, Csr::NBlends};
-  const Csr High[] = {Csr::NCommandsh, Csr::NGaussiansh, Csr::NClippedh,
-                      Csr::NFragmentsh, Csr::NBlendsh};
-  for (std::uint32_t I = 0; I != 5; ++I) {
+                         7ULL << 32 | 8, 9ULL << 32 | 10, 11ULL << 32 | 12});
+  const Csr Low[] = {Csr::NCommands,  Csr::NGaussians, Csr::NClipped,
+                     Csr::NFragments, Csr::NBlends,    Csr::NIntersecting};
+  const Csr High[] = {Csr::NCommandsh,  Csr::NGaussiansh, Csr::NClippedh,
+                      Csr::NFragmentsh, Csr::NBlendsh,    Csr::NIntersectingh};
+  for (std::uint32_t I = 0; I != std::size(Low); ++I) {
     EXPECT_EQ(Agent.read(Low[I], 0), 2 * I + 2);
     EXPECT_EQ(Agent.read(High[I], 0), 2 * I + 1);
   }

@@ -1,53 +1,16 @@
 #include "raster/Rasterizer.h"
 
-#include "raster/Datapath.h"
+#include "raster/CommandInput.h"
 
-#include <bit>
-#include <cfenv>
 #include <cmath>
 #include <cstring>
-#include <limits>
+#include <utility>
 
 namespace vorion::raster {
 
 namespace {
 
-/// fp32 with default rounding whatever the core was doing on this host thread,
-/// and none of our exceptions in its fcsr.
-class DefaultFloatEnvironment {
-public:
-  DefaultFloatEnvironment() {
-    std::fegetenv(&Saved);
-    std::fesetenv(FE_DFL_ENV);
-  }
-  ~DefaultFloatEnvironment() { std::fesetenv(&Saved); }
-  DefaultFloatEnvironment(const DefaultFloatEnvironment &) = delete;
-  DefaultFloatEnvironment &operator=(const DefaultFloatEnvironment &) = delete;
-
-private:
-  std::fenv_t Saved;
-};
-
-constexpr unsigned PixelBytes = sizeof(Pixel);
-
-std::byte *rangeAt(RasterMemory &Memory, std::uint64_t Addr,
-                   std::uint64_t Bytes) {
-  return Addr <= std::numeric_limits<std::uint32_t>::max()
-             ? Memory.range(static_cast<std::uint32_t>(Addr), Bytes)
-             : nullptr;
-}
-
-bool hasNan(const Gaussian &G) {
-  const float Floats[] = {G.Mean[0],  G.Mean[1],   G.Conic[0], G.Conic[1],
-                          G.Conic[2], G.Opacity,   G.Color[0], G.Color[1],
-                          G.Color[2], G.Extent[0], G.Extent[1]};
-  bool Found = false;
-  for (const float F : Floats)
-    Found |= std::isnan(F);
-  return Found;
-}
-
-/// One command in the works: decoded, checked, executed.
+/// One command in the works: checked, executed, written out.
 class Execution {
 public:
   Execution(const Command &Configured, RasterMemory &Global, TileBuffer &Buffer,
@@ -61,6 +24,11 @@ public:
   /// Returns a status code; \p Drained gets the pixels of a draining command.
   std::uint32_t run(std::vector<Pixel> &Drained);
 
+  /// Whether run() ended because the pixel unit has to go on.
+  bool handsOver() const { return HandedOver; }
+  /// Fills the command's vx_tail, for core \p Core.
+  void writeTail(unsigned Core);
+
   const Counters &work() const { return Work; }
 
   /// Keeps the details of the work too.
@@ -68,16 +36,12 @@ public:
   CommandWork takeWork(std::uint32_t Status);
 
 private:
-  std::uint32_t check() const;
+  std::uint32_t blendPushed();
   std::uint32_t blendList();
-  const std::byte *record(const std::byte *List, std::uint32_t Entry) const;
-  /// \p Address: of the record, 0 if it was pushed.
-  std::uint32_t blendOne(const Gaussian &G, std::uint32_t Address,
-                         const BlendOptions &Options);
-  BlendOptions blendOptions() const;
-  std::uint64_t rowAddress(unsigned Row) const {
-    return C.Output + std::uint64_t{Row} * C.OutputPitch;
-  }
+  /// \p G has been checked. \p Address: of the record, 0 if it was pushed.
+  void blendOne(const Gaussian &G, std::uint32_t Address, bool Intersects,
+                const BlendOptions &Options);
+  bool isTail(std::uint32_t Remaining) const;
   void copyRow(unsigned Row, std::byte *To) const;
 
   const Command &C;
@@ -88,106 +52,62 @@ private:
   unsigned Height;
   bool Drains;
   bool Takes; ///< pushed descriptors instead of a list
+  bool HandedOver = false;
+  std::uint32_t Done = 0; ///< entries of the list
   Counters Work;
   bool Keeps = false;
   std::vector<GaussianWork> Kept;
 };
 
-/// The order of these checks is the order of docs/rasterizer.md#status-codes.
-std::uint32_t Execution::check() const {
-  const std::uint32_t KnownMode = ModePushed.put(1) | ModeDrain.put(1);
-  const std::uint32_t KnownOptions = OptionsExp.put(OptionsExp.mask()) |
-                                     OptionsStopAtEqual.put(1) |
-                                     OptionsSkipSaturated.put(1);
-  const std::uint32_t Parts = ZtileCount.get(C.Ztile);
-  if ((C.Mode & ~KnownMode) != 0 || (C.Options & ~KnownOptions) != 0 ||
-      OptionsExp.get(C.Options) >= ExpUnitCount ||
-      ZtileIndex.get(C.Ztile) >= (Parts == 0 ? 1 : Parts))
-    return VR_BAD_MODE;
-  if (Width < 1 || Width > VR_MAX_TILE || Height < 1 || Height > VR_MAX_TILE)
-    return VR_BAD_SHAPE;
-  const auto Cutoff = std::bit_cast<float>(C.Cutoff);
-  if (!(Cutoff >= 0.0F && Cutoff < 1.0F))
-    return VR_BAD_CUTOFF;
-  if (Takes ? C.PushedTooMany : C.Count > VR_MAX_COUNT)
-    return VR_BAD_COUNT;
-  if ((!Takes && (C.Gaussians % 16 != 0 || C.List % 4 != 0)) ||
-      (!Drains && (C.Output % 16 != 0 || C.OutputPitch % 16 != 0)))
-    return VR_MISALIGNED;
-  if (!Takes && C.Count != 0 && !Memory.range(C.List, 4ULL * C.Count))
-    return VR_UNMAPPED;
-  for (unsigned Row = 0; !Drains && Row != Height; ++Row)
-    if (!rangeAt(Memory, rowAddress(Row), Width * PixelBytes))
-      return VR_UNMAPPED;
-  return VR_OK;
-}
-
-BlendOptions Execution::blendOptions() const {
-  const auto Cutoff = std::bit_cast<float>(C.Cutoff);
-  // T' <= cutoff is T' < the next float: one comparison serves both rules.
-  return {OptionsStopAtEqual.get(C.Options)
-              ? std::nextafter(Cutoff, std::numeric_limits<float>::infinity())
-              : Cutoff,
-          OptionsSkipSaturated.get(C.Options) != 0};
-}
-
-std::uint32_t Execution::blendOne(const Gaussian &G, std::uint32_t Address,
-                                  const BlendOptions &Options) {
-  ++Work.Gaussians;
-  if (hasNan(G))
-    return VR_NAN;
-  const BlendWork Done =
+void Execution::blendOne(const Gaussian &G, std::uint32_t Address,
+                         bool Intersects, const BlendOptions &Options) {
+  const BlendWork Result =
       Lanes.Blend[OptionsExp.get(C.Options)](G, Options, Tile);
-  Work.Clipped += Done.Clipped;
-  Work.Fragments += Done.Fragments;
-  Work.Blends += Done.Blends;
+  Work.Intersecting += Intersects;
+  Work.Clipped += Result.Clipped;
+  Work.Fragments += Result.Fragments;
+  Work.Blends += Result.Blends;
   if (Keeps)
-    Kept.push_back({Address, Done.X, Done.Y, Done.Width, Done.Height,
-                    static_cast<std::uint16_t>(Done.Fragments),
-                    (G.Tag >> 31) != 0});
+    Kept.push_back({Address, Result.X, Result.Y, Result.Width, Result.Height,
+                    static_cast<std::uint16_t>(Result.Fragments), Intersects});
+}
+
+std::uint32_t Execution::blendPushed() {
+  const BlendOptions Options = blendOptions(C);
+  for (const Gaussian &G : C.Pushed) {
+    if (Tile.Live == 0)
+      break;
+    ++Work.Gaussians;
+    if (const std::uint32_t Status = checkGaussian(G))
+      return Status;
+    blendOne(G, 0, (G.Tag & VR_INTERSECT) != 0, Options);
+  }
   return VR_OK;
 }
 
-/// The record that \p Entry of the list names, or nullptr if it is not there.
-const std::byte *Execution::record(const std::byte *List,
-                                   std::uint32_t Entry) const {
-  std::uint32_t Number = 0;
-  std::memcpy(&Number, List + 4ULL * Entry, 4);
-  return rangeAt(Memory, C.Gaussians + std::uint64_t{Number} * sizeof(Gaussian),
-                 sizeof(Gaussian));
+/// Whether a reason to hand over holds with \p Remaining entries left.
+bool Execution::isTail(std::uint32_t Remaining) const {
+  const std::uint64_t Pixels = std::uint64_t{Width} * Height;
+  const std::uint64_t Saturated = Pixels - Tile.Live;
+  return Remaining <= C.TailCount ||
+         (C.TailShare != 0 &&
+          Saturated * VR_TAIL_WHOLE >= C.TailShare * Pixels);
 }
 
 std::uint32_t Execution::blendList() {
-  const BlendOptions Options = blendOptions();
-  if (Takes) {
-    for (const Gaussian &G : C.Pushed) {
-      if (Tile.Live == 0)
-        break;
-      if (const std::uint32_t Status = blendOne(G, 0, Options))
-        return Status;
+  const BlendOptions Options = blendOptions(C);
+  const GaussianList List(C, Memory);
+  Fetched Entry;
+  for (; Done != C.Count && Tile.Live != 0; ++Done) {
+    if (C.mayHandOver() && isTail(C.Count - Done)) {
+      HandedOver = true;
+      break;
     }
-    return VR_OK;
-  }
-  if (C.Count == 0)
-    return VR_OK;
-  const std::byte *List = Memory.range(C.List, 4ULL * C.Count);
-  // The host's caches do not see a list's records coming: a third of the time
-  // of small Gaussians, measured in bench/raster.
-  constexpr std::uint32_t Ahead = 8;
-  for (std::uint32_t I = 0; I != C.Count && Tile.Live != 0; ++I) {
-    if (I + Ahead < C.Count)
-      if (const std::byte *Soon = record(List, I + Ahead))
-        __builtin_prefetch(Soon);
-    const std::byte *Record = record(List, I);
-    if (!Record)
-      return VR_UNMAPPED;
-    Gaussian G;
-    std::memcpy(&G, Record, sizeof(G));
-    std::uint32_t Number = 0;
-    std::memcpy(&Number, List + 4ULL * I, 4);
-    if (const std::uint32_t Status =
-            blendOne(G, C.Gaussians + Number * sizeof(Gaussian), Options))
+    const std::uint32_t Status = List.fetch(Done, Entry);
+    Work.Gaussians += Status != VR_UNMAPPED;
+    if (Status)
       return Status;
+    blendOne(Entry.Record, Entry.Address, Entry.Intersects, Options);
   }
   return VR_OK;
 }
@@ -197,7 +117,7 @@ void Execution::copyRow(unsigned Row, std::byte *To) const {
     const unsigned At = Row * TileBuffer::Stride + Column;
     // T's sign says "saturated", no more.
     const Pixel P{Tile.R[At], Tile.G[At], Tile.B[At], std::fabs(Tile.T[At])};
-    std::memcpy(To + Column * PixelBytes, &P, PixelBytes);
+    std::memcpy(To + Column * sizeof(Pixel), &P, sizeof(Pixel));
   }
 }
 
@@ -213,19 +133,41 @@ CommandWork Execution::takeWork(std::uint32_t Status) {
           std::move(Kept)};
 }
 
+void Execution::writeTail(unsigned Core) {
+  Tail Record{};
+  Record.List = C.List + 4 * Done;
+  Record.Count = C.Count - Done;
+  Record.Gaussians = C.Gaussians;
+  Record.Options = C.Options;
+  Record.Cutoff = C.Cutoff;
+  Record.TileOrigin = C.TileOrigin;
+  Record.TileShape = C.TileShape;
+  Record.Ztile = C.Ztile;
+  Record.Output = C.Output;
+  Record.OutputPitch = C.OutputPitch;
+  Record.Core = Core;
+  Record.LiveCount = Tile.Live;
+  for (unsigned Row = 0; Row != Height; ++Row)
+    for (unsigned Column = 0; Column != Width; ++Column)
+      if (!std::signbit(Tile.T[Row * TileBuffer::Stride + Column]))
+        Record.Live[2 * Row + Column / 32] |= 1U << Column % 32;
+  std::memcpy(Memory.range(C.TailRecord, sizeof(Record)), &Record,
+              sizeof(Record));
+}
+
 std::uint32_t Execution::run(std::vector<Pixel> &Drained) {
   Work.Commands = 1;
-  if (const std::uint32_t Status = check())
+  if (const std::uint32_t Status = checkCommand(C, Memory))
     return Status;
   Tile.reset(TileOriginX.get(C.TileOrigin), TileOriginY.get(C.TileOrigin),
              Width, Height);
-  if (const std::uint32_t Status = blendList())
+  if (const std::uint32_t Status = Takes ? blendPushed() : blendList())
     return Status;
   if (Drains)
     Drained.resize(std::size_t{Width} * Height);
   for (unsigned Row = 0; Row != Height; ++Row)
     copyRow(Row, Drains ? reinterpret_cast<std::byte *>(&Drained[Row * Width])
-                        : rangeAt(Memory, rowAddress(Row), Width * PixelBytes));
+                        : outputRow(C, Memory, Row));
   return VR_OK;
 }
 
@@ -242,7 +184,7 @@ bool Rasterizer::step() {
     const std::size_t Turn = Next;
     RasterAgent &Agent = *Agents[Turn];
     Next = (Next + 1) % Agents.size();
-    if (!Agent.isBusy())
+    if (!Agent.hasCommand())
       continue;
     const DefaultFloatEnvironment Environment;
     Execution Running(Agent.front(), Memory, *Tile, *Lanes);
@@ -251,10 +193,20 @@ bool Rasterizer::step() {
     const std::uint32_t Status = Running.run(Agent.drainedTile());
     if (Log)
       Log->command(static_cast<unsigned>(Turn), Running.takeWork(Status));
-    Agent.complete(Status, Running.work());
+    if (Status == VR_OK && Running.handsOver()) {
+      Running.writeTail(Agent.core());
+      HandOvers.push_back({&Agent, Agent.front().TailRecord});
+      Agent.handOver(Running.work());
+    } else {
+      Agent.complete(Status, Running.work());
+    }
     return true;
   }
   return false;
+}
+
+std::vector<HandOver> Rasterizer::takeHandOvers() {
+  return std::exchange(HandOvers, {});
 }
 
 void Rasterizer::makeRoom(const RasterAgent &Agent) {
@@ -263,7 +215,7 @@ void Rasterizer::makeRoom(const RasterAgent &Agent) {
 }
 
 void Rasterizer::finish(const RasterAgent &Agent) {
-  while (Agent.isBusy())
+  while (Agent.hasCommand())
     step();
 }
 

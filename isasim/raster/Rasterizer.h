@@ -32,10 +32,15 @@ public:
   /// \p Receiver is told of every command's work; nullptr for nobody.
   void setLog(WorkLog *Receiver) { Log = Receiver; }
 
+  /// Commands since the last call that the pixel unit has to go on with, in
+  /// order.
+  std::vector<HandOver> takeHandOvers();
+
   /// Executes commands until \p Agent accepts a start.
   void makeRoom(const RasterAgent &Agent);
 
-  /// Executes commands until \p Agent has none. Other agents' commands are
+  /// Executes commands until \p Agent has none that the pixel unit has not
+  /// taken. Other agents' commands are
   /// executed when it is their turn.
   void finish(const RasterAgent &Agent);
 
@@ -43,6 +48,7 @@ private:
   RasterMemory &Memory;
   std::vector<RasterAgent *> Agents;
   std::size_t Next = 0; ///< agent whose turn it is
+  std::vector<HandOver> HandOvers;
   std::unique_ptr<TileBuffer> Tile;
   const Datapath *Lanes;
   WorkLog *Log = nullptr;

@@ -332,6 +332,51 @@ TEST_F(RasterizerTest, listEntryOutOfRangeIsUnmapped) {
   }
 }
 
+TEST_F(RasterizerTest, intersectTagIsCountedAndNoNumber) {
+  const Gaussian Scene[] = {flat(8, 8, 100, 100, 0.5F, 1),
+                            flat(8, 8, 100, 100, 0.25F, 4)};
+  const std::vector<Pixel> Plain = render(Scene);
+  EXPECT_EQ(Agent.counters().Intersecting, 0U);
+  for (const std::uint32_t Tagged : {1U, 2U, 3U}) {
+    const Counters Before = Agent.counters();
+    configure(Scene);
+    const std::uint32_t Entries[] = {Tagged & 1 ? VR_INTERSECT : 0U,
+                                     Tagged & 2 ? VR_INTERSECT | 1U : 1U};
+    Memory.put<std::uint32_t>(List, Entries);
+    ASSERT_EQ(start(), VR_OK);
+    EXPECT_EQ(pixels(), Plain);
+    EXPECT_EQ(Agent.counters().Intersecting - Before.Intersecting,
+              std::uint64_t(std::popcount(Tagged)));
+    EXPECT_EQ(Agent.counters().Blends, Before.Blends + 2 * 64 * 64);
+  }
+  // The number's limits are those of an entry without the bit: the last record
+  // of memory, and the next.
+  const std::uint32_t Last = TestMemory::Base + (8 << 20) - sizeof(Gaussian);
+  configure(Scene);
+  Memory.put<Gaussian>(Last - 48 * 7, Scene);
+  set(Csr::Gaussians, Last - 48 * 7);
+  for (const std::uint32_t Number : {0U, 1U}) {
+    Memory.put<std::uint32_t>(
+        List, std::vector<std::uint32_t>{VR_INTERSECT | Number, Number});
+    EXPECT_EQ(start(), VR_OK);
+  }
+  Memory.put<std::uint32_t>(List,
+                            std::vector<std::uint32_t>{VR_INTERSECT | 8U, 0U});
+  EXPECT_EQ(start(), VR_UNMAPPED);
+}
+
+// In a pushed descriptor the tag is the record's.
+TEST_F(RasterizerTest, intersectTagOfAPushedDescriptor) {
+  configure({}, {.Mode = ModePushed.put(1)});
+  set(Csr::GTag, VR_INTERSECT | 5U);
+  set(Csr::Push, 1U);
+  set(Csr::GTag, 5U);
+  set(Csr::Push, 1U);
+  ASSERT_EQ(start(), VR_OK);
+  EXPECT_EQ(Agent.counters().Gaussians, 2U);
+  EXPECT_EQ(Agent.counters().Intersecting, 1U);
+}
+
 TEST_F(RasterizerTest, nanAnywhereInADescriptor) {
   for (unsigned Word = 0; Word != 12; ++Word) {
     Memory.put<float>(Pixels, std::vector<float>(64 * 64 * 4, 7.0F));

@@ -43,6 +43,7 @@ _start:
   csrw vr_output, a2
   li t0, 128
   csrw vr_output_pitch, t0
+# TAIL: csrw vr_tail_count, t1; li t0, 0x30000; slli t2, s0, 10; add t0, t0, t2; csrw vr_tail_record, t0
   csrw vr_start, zero
   csrr a3, vr_wait
   sw a3, 0x44(zero)

@@ -27,6 +27,14 @@ extern "C" {
                                                  */
 #define CL_EVENT_RASTER_FRAGMENTS_VORION 0x4F65 /* lane slots dispatched */
 #define CL_EVENT_RASTER_BLENDS_VORION 0x4F66    /* pixels changed */
+#define CL_EVENT_RASTER_INTERSECTING_VORION                                    \
+  0x4F67 /* fetched Gaussians that span several tiles */
+/* The pixel unit: commands that went on there, pixels taken over, Gaussians
+ * that those examined, and of these the blended ones. */
+#define CL_EVENT_RASTER_TAILS_VORION 0x4F68
+#define CL_EVENT_RASTER_TAIL_PIXELS_VORION 0x4F69
+#define CL_EVENT_RASTER_TAIL_VISITS_VORION 0x4F6A
+#define CL_EVENT_RASTER_TAIL_BLENDS_VORION 0x4F6B
 
 /* How long the kernel took on the machine, and why: JSON, a NUL-terminated
  * char[] (docs/model.md). Empty unless the environment's VORION_TIME or the

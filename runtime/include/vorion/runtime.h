@@ -203,6 +203,11 @@ typedef struct vx_counters {
   uint64_t raster_clipped;   /* of these, with a box that misses the tile */
   uint64_t raster_fragments; /* lane slots dispatched */
   uint64_t raster_blends;
+  uint64_t raster_intersecting; /* fetched Gaussians that span several tiles */
+  uint64_t raster_tails;        /* commands that went on in a pixel unit */
+  uint64_t raster_tail_pixels;  /* that it took over */
+  uint64_t raster_tail_visits;  /* Gaussians that those examined */
+  uint64_t raster_tail_blends;  /* of these, blended */
 } vx_counters;
 
 /* Texts are NUL-terminated, never NULL, and valid until the device's next

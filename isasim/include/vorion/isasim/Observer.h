@@ -15,7 +15,8 @@
 
 namespace vorion::raster {
 struct Command;
-}
+struct Tail;
+} // namespace vorion::raster
 
 namespace vorion::isasim {
 
@@ -73,6 +74,14 @@ struct RasterWork {
   RasterCounters Work;
 };
 
+/// A tail that a pixel unit has executed.
+struct TailWork {
+  unsigned Unit; ///< the cluster
+  unsigned Core; ///< who started the command
+  const raster::Tail &What;
+  RasterCounters Work;
+};
+
 /// All calls come on the thread that called Machine::run, one at a time, so
 /// that no observer needs a lock.
 class Observer {
@@ -87,6 +96,7 @@ public:
   /// executed yet (docs/abi.md, "Order").
   virtual void syncPoint(std::span<const std::unique_ptr<Core>> /*Cores*/) {}
   virtual void rasterCommand(const RasterWork &) {}
+  virtual void tail(const TailWork &) {}
   virtual void trap(const Trap &) {}
   virtual void runEnds(const RunResult &) {}
 };

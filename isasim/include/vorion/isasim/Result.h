@@ -48,7 +48,7 @@ struct CoreCounters {
   CoreCounters &operator+=(const CoreCounters &Other);
 };
 
-/// Totals of the run over all rasterizers (the vr_n_* CSRs).
+/// Totals of the run over all rasterizers and pixel units (the vr_n_* CSRs).
 struct RasterCounters {
 #define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) uint64_t MEMBER = 0;
 #include "vorion/isasim/Counters.def"

@@ -25,6 +25,16 @@ uint64_t vx_counters::*counterNamed(cl_uint Name) {
     return &vx_counters::raster_fragments;
   case CL_EVENT_RASTER_BLENDS_VORION:
     return &vx_counters::raster_blends;
+  case CL_EVENT_RASTER_INTERSECTING_VORION:
+    return &vx_counters::raster_intersecting;
+  case CL_EVENT_RASTER_TAILS_VORION:
+    return &vx_counters::raster_tails;
+  case CL_EVENT_RASTER_TAIL_PIXELS_VORION:
+    return &vx_counters::raster_tail_pixels;
+  case CL_EVENT_RASTER_TAIL_VISITS_VORION:
+    return &vx_counters::raster_tail_visits;
+  case CL_EVENT_RASTER_TAIL_BLENDS_VORION:
+    return &vx_counters::raster_tail_blends;
   default:
     return nullptr;
   }

@@ -1,0 +1,155 @@
+#include "pixel/PixelUnit.h"
+
+#include "raster/CommandInput.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace vorion::pixel {
+
+using namespace raster;
+
+namespace {
+
+/// What is left of a command, as its vx_tail says: from memory, which anyone
+/// may have overwritten, so it is checked as a command is.
+Command commandOf(const Tail &Record) {
+  Command C;
+  C.List = Record.List;
+  C.Count = Record.Count;
+  C.Gaussians = Record.Gaussians;
+  C.Options = Record.Options;
+  C.Cutoff = Record.Cutoff;
+  C.TileOrigin = Record.TileOrigin;
+  C.TileShape = Record.TileShape;
+  C.Ztile = Record.Ztile;
+  C.Output = Record.Output;
+  C.OutputPitch = Record.OutputPitch;
+  return C;
+}
+
+/// One hand-over in the works.
+class Execution {
+public:
+  Execution(const Tail &Handed, RasterMemory &Global, TileBuffer &Buffer,
+            const Datapath &Unit)
+      : Record(Handed), C(commandOf(Record)), Memory(Global), Tile(Buffer),
+        Lanes(Unit) {}
+
+  std::uint32_t run();
+  const Counters &work() const { return Work; }
+
+private:
+  bool isLive(unsigned Row, unsigned Column) const {
+    return (Record.Live[2 * Row + Column / 32] >> Column % 32 & 1) != 0;
+  }
+  /// Calls Use(row of pixels in memory, its place in the tile, column).
+  template <typename Function> void forLivePixels(Function Use);
+  void loadPixels();
+  std::uint32_t blend();
+  void storePixels();
+
+  const Tail &Record;
+  const Command C;
+  RasterMemory &Memory;
+  TileBuffer &Tile;
+  const Datapath &Lanes;
+  Counters Work;
+};
+
+template <typename Function> void Execution::forLivePixels(Function Use) {
+  const unsigned Width = TileShapeWidth.get(C.TileShape);
+  const unsigned Height = TileShapeHeight.get(C.TileShape);
+  for (unsigned Row = 0; Row != Height; ++Row) {
+    std::byte *Pixels = outputRow(C, Memory, Row);
+    for (unsigned Column = 0; Column != Width; ++Column)
+      if (isLive(Row, Column))
+        Use(Pixels + Column * sizeof(Pixel), Row, Column);
+  }
+}
+
+void Execution::loadPixels() {
+  Tile.reset(TileOriginX.get(C.TileOrigin), TileOriginY.get(C.TileOrigin),
+             TileShapeWidth.get(C.TileShape), TileShapeHeight.get(C.TileShape));
+  // All closed but those that the record names.
+  for (float &T : Tile.T)
+    T = -T;
+  for (std::uint32_t &Live : Tile.RowLive)
+    Live = 0;
+  Tile.Live = 0;
+  forLivePixels([&](const std::byte *From, unsigned Row, unsigned Column) {
+    Pixel P;
+    std::memcpy(&P, From, sizeof(P));
+    const unsigned At = Row * TileBuffer::Stride + Column;
+    Tile.R[At] = P.R;
+    Tile.G[At] = P.G;
+    Tile.B[At] = P.B;
+    Tile.T[At] = std::fabs(P.T);
+    ++Tile.RowLive[Row];
+    ++Tile.Live;
+  });
+}
+
+std::uint32_t Execution::blend() {
+  const BlendOptions Options = blendOptions(C);
+  const GaussianList List(C, Memory);
+  Fetched Entry;
+  for (std::uint32_t I = 0; I != C.Count && Tile.Live != 0; ++I) {
+    Work.TailVisits += Tile.Live;
+    if (const std::uint32_t Status = List.fetch(I, Entry))
+      return Status;
+    Work.TailBlends +=
+        Lanes.Blend[OptionsExp.get(C.Options)](Entry.Record, Options, Tile)
+            .Blends;
+  }
+  return VR_OK;
+}
+
+void Execution::storePixels() {
+  forLivePixels([&](std::byte *To, unsigned Row, unsigned Column) {
+    const unsigned At = Row * TileBuffer::Stride + Column;
+    const Pixel P{Tile.R[At], Tile.G[At], Tile.B[At], std::fabs(Tile.T[At])};
+    std::memcpy(To, &P, sizeof(P));
+  });
+}
+
+std::uint32_t Execution::run() {
+  Work.Tails = 1;
+  if (const std::uint32_t Status = checkCommand(C, Memory))
+    return Status;
+  loadPixels();
+  Work.TailPixels = Tile.Live;
+  if (const std::uint32_t Status = blend())
+    return Status;
+  storePixels();
+  return VR_OK;
+}
+
+} // namespace
+
+PixelUnit::PixelUnit(RasterMemory &Global)
+    : Memory(Global), Tile(std::make_unique<TileBuffer>()),
+      Lanes(datapaths().back()) {}
+
+PixelUnit::~PixelUnit() = default;
+
+void PixelUnit::accept(std::span<const HandOver> Handed) {
+  Queue.insert(Queue.end(), Handed.begin(), Handed.end());
+}
+
+bool PixelUnit::step() {
+  if (Queue.empty())
+    return false;
+  const HandOver Next = Queue.front();
+  Queue.pop_front();
+  Tail Record;
+  std::memcpy(&Record, Memory.range(Next.Record, sizeof(Record)),
+              sizeof(Record));
+  const DefaultFloatEnvironment Environment;
+  Execution Running(Record, Memory, *Tile, *Lanes);
+  const std::uint32_t Status = Running.run();
+  Next.Agent->completeTail(Status, Running.work());
+  return true;
+}
+
+} // namespace vorion::pixel

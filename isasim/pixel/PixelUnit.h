@@ -1,0 +1,52 @@
+/// The pixel unit of a cluster (paper, "Pixel unit"; docs/rasterizer.md).
+#pragma once
+
+#include "raster/RasterAgent.h"
+#include "raster/RasterMemory.h"
+
+#include <deque>
+#include <memory>
+#include <span>
+
+namespace vorion::raster {
+struct Datapath;
+struct TileBuffer;
+} // namespace vorion::raster
+
+namespace vorion::pixel {
+
+/// Goes on with the lists that the rasterizers of its cluster hand over: each
+/// live pixel examines the rest of the list until it is saturated. It has the
+/// rasterizer's arithmetic and order, so a hand-over changes no pixel.
+///
+/// Function only. The machine's unit goes pixel by pixel; a pixel's result does
+/// not depend on when the others get their Gaussians, so here a Gaussian is
+/// blended into all live pixels at once, by the rasterizer's own datapath.
+///
+/// Threads: one at a time; units of different clusters share nothing but
+/// RasterMemory.
+class PixelUnit {
+public:
+  /// \p Memory must outlive it.
+  explicit PixelUnit(raster::RasterMemory &Memory);
+  ~PixelUnit();
+
+  /// Queues \p Handed behind what is there.
+  void accept(std::span<const raster::HandOver> Handed);
+
+  /// What step() executes next, or nullptr.
+  const raster::HandOver *front() const {
+    return Queue.empty() ? nullptr : &Queue.front();
+  }
+
+  /// Executes the next hand-over; false if there is none.
+  bool step();
+
+private:
+  raster::RasterMemory &Memory;
+  std::deque<raster::HandOver> Queue;
+  std::unique_ptr<raster::TileBuffer> Tile;
+  const raster::Datapath *Lanes;
+};
+
+} // namespace vorion::pixel
