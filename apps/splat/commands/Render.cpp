@@ -16,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,7 @@ struct RenderArguments {
   std::string Cameras, View, Output;
   std::string Json, Pairs, Device, KernelFolder;
   std::vector<float> Background{0, 0, 0};
+  std::string PixelUnit = "off";
   bool Explain = false, Time = false;
   std::optional<unsigned> ClockMhz;
   RenderOptions Options;
@@ -75,6 +77,14 @@ Expected<Success> check(const RenderArguments &A) {
   if (O.Blending == Path::Simt && O.Exponential == ExpUnit::Table)
     return Usage("--exp table is the rasterizer's, expected --path raster "
                  "with it");
+  if (O.Blending == Path::Simt &&
+      (O.ZTiles != 1 || O.PixelUnit.any() || O.SkipSaturated))
+    return Usage("--ztiles, --pixel-unit and --skip-saturated are the "
+                 "rasterizer's, expected --path raster with them");
+  if (O.Reach == Support::Official16 && O.SimtTile != 16)
+    return Usage(fmt::format("--simt-tile {}: --support official16 has tiles "
+                             "of 16x16 pixels, expected 16",
+                             O.SimtTile));
   // A render may take minutes: find out now whether it can be kept.
   for (const std::string &File : {A.Output, A.Json, A.Pairs})
     if (auto Writable = checkWritable(File); !Writable)
@@ -162,6 +172,34 @@ Expected<Success> run(const RenderArguments &A) {
   return Success{};
 }
 
+/// A number out of \p Choices.
+void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
+             std::vector<unsigned> Choices, const std::string &Help) {
+  App.add_option(Flag, Value, fmt::format("{} (default {})", Help, Value))
+      ->option_text(fmt::format("{}", fmt::join(Choices, "|")))
+      ->check(CLI::IsMember(std::move(Choices)));
+}
+
+void addRasterOptions(CLI::App &App, RenderArguments &A) {
+  RenderOptions &O = A.Options;
+  App.add_option("--ztiles", O.ZTiles,
+                 "Parts of each tile's list that are blended apart and merged "
+                 "(default 1)")
+      ->option_text(fmt::format("1..{}", MaxZTiles))
+      ->check(CLI::Range(1U, MaxZTiles));
+  App.add_option("--pixel-unit", A.PixelUnit,
+                 "When a list goes on in the pixel unit: so many entries are "
+                 "left, a share of the pixels is full, or the last part of the "
+                 "list is reached (default off)")
+      ->option_text("off|count:N|occluded:P|last:A/B[,...]");
+  App.add_flag("--skip-saturated", O.SkipSaturated,
+               "The rasterizer gives no lane slot to saturated pixels");
+  addSize(App, "--simt-tile", O.SimtTile, {8, 16, 32, 64},
+          "Side of a tile of the cores' path");
+  addSize(App, "--simt-group", O.SimtGroup, {16, 64, 256},
+          "Work-items that draw a tile on the cores' path");
+}
+
 } // namespace
 
 Runner addRender(CLI::App &App) {
@@ -185,6 +223,7 @@ Runner addRender(CLI::App &App) {
             "Who blends: the rasterizer or the cores");
   addChoice(App, "--exp", O.Exponential, {ExpUnit::Exact, ExpUnit::Table},
             "The rasterizer's exponential unit");
+  addRasterOptions(App, *A);
   App.add_flag("--antialiased", O.Antialiased,
                "Compensate opacity for the dilation");
   App.add_option("--background", A->Background, "Colour r,g,b (default 0,0,0)")
@@ -210,6 +249,10 @@ Runner addRender(CLI::App &App) {
   App.add_option("--kernels", A->KernelFolder,
                  "Read the kernel sources from this folder");
   return [A] {
+    auto Tail = parseTailRule(A->PixelUnit);
+    if (!Tail)
+      return Expected<Success>(Tail.error());
+    A->Options.PixelUnit = *Tail;
     std::copy_n(A->Background.begin(), 3, A->Options.Background.begin());
     return run(*A);
   };

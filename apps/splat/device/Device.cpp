@@ -16,6 +16,11 @@ KernelCounters &KernelCounters::operator+=(const KernelCounters &Other) {
   RasterClipped += Other.RasterClipped;
   RasterFragments += Other.RasterFragments;
   RasterBlends += Other.RasterBlends;
+  RasterIntersecting += Other.RasterIntersecting;
+  RasterTails += Other.RasterTails;
+  RasterTailPixels += Other.RasterTailPixels;
+  RasterTailVisits += Other.RasterTailVisits;
+  RasterTailBlends += Other.RasterTailBlends;
   return *this;
 }
 
@@ -123,6 +128,11 @@ std::optional<KernelCounters> Device::counters(const cl::Event &Event) const {
       {CL_EVENT_RASTER_CLIPPED_VORION, &C.RasterClipped},
       {CL_EVENT_RASTER_FRAGMENTS_VORION, &C.RasterFragments},
       {CL_EVENT_RASTER_BLENDS_VORION, &C.RasterBlends},
+      {CL_EVENT_RASTER_INTERSECTING_VORION, &C.RasterIntersecting},
+      {CL_EVENT_RASTER_TAILS_VORION, &C.RasterTails},
+      {CL_EVENT_RASTER_TAIL_PIXELS_VORION, &C.RasterTailPixels},
+      {CL_EVENT_RASTER_TAIL_VISITS_VORION, &C.RasterTailVisits},
+      {CL_EVENT_RASTER_TAIL_BLENDS_VORION, &C.RasterTailBlends},
   };
   for (const auto &[Token, Value] : Queries) {
     cl_ulong Got = 0;

@@ -15,6 +15,9 @@ struct KernelCounters {
   std::uint64_t WarpInstructions = 0, LaneInstructions = 0;
   std::uint64_t RasterCommands = 0, RasterGaussians = 0, RasterClipped = 0;
   std::uint64_t RasterFragments = 0, RasterBlends = 0;
+  std::uint64_t RasterIntersecting = 0;
+  std::uint64_t RasterTails = 0, RasterTailPixels = 0;
+  std::uint64_t RasterTailVisits = 0, RasterTailBlends = 0;
 
   KernelCounters &operator+=(const KernelCounters &Other);
 };

@@ -1,9 +1,14 @@
-// Blending by the cores alone: a group of 16x16 work-items draws a tile, one
-// pixel each, with the rasterizer's arithmetic in the rasterizer's order
-// (docs/abi.md). The list goes through local memory in batches, and the group
-// stops when none of its pixels can change any more.
+// Blending by the cores alone: a group of GROUP work-items draws a tile, each
+// every GROUP-th pixel, with the rasterizer's arithmetic in the rasterizer's
+// order (docs/abi.md). The list goes through local memory in batches, and the
+// group stops when none of its pixels can change any more. The picture has the
+// same bits for every TILE_SIZE and GROUP.
 
 #define BATCH 256
+#define TILE_PIXELS (TILE_SIZE * TILE_SIZE)
+// Pixels of a work-item; the last items have none where the tile is smaller
+// than the group.
+#define OWN ((TILE_PIXELS + GROUP - 1) / GROUP)
 
 // True if a pixel with this transmittance takes no more.
 #ifdef STOP_AT_EQUAL
@@ -12,66 +17,96 @@
 #define SATURATED(t) ((t) < cutoff)
 #endif
 
-__kernel __attribute__((reqd_work_group_size(TILE_SIZE, TILE_SIZE, 1))) void
+typedef struct {
+  float red, green, blue, transmittance;
+  bool done; // takes no more
+} pixel_state;
+
+// Blends the first `entries` of the batch into the pixel with centre (px, py).
+static pixel_state blend_batch(__local const splat_gaussian *batch,
+                               uint entries, float px, float py, float cutoff,
+                               pixel_state p) {
+  for (uint j = 0; j < entries && !p.done; ++j) {
+    __local const splat_gaussian *g = &batch[j];
+    const float dy = g->mean[1] - py;
+    if (fabs(dy) <= g->extent[1]) {
+      const float dx = g->mean[0] - px;
+      const float power = -0.5f * (g->conic[0] * dx * dx +
+                                   g->conic[2] * dy * dy) -
+                          g->conic[1] * dx * dy;
+      // Below MIN_POWER alpha is under 1/255 whatever the opacity, so the
+      // exponential is not worth taking. False for NaN.
+      if (fabs(dx) <= g->extent[0] && power <= 0.0f && power >= MIN_POWER) {
+        const float alpha = fmin(0.99f, g->opacity * falloff(power));
+        const float next = p.transmittance * (1.0f - alpha);
+        // Without branches: most Gaussians that get here are blended, and a
+        // weight of 0 changes no bit.
+        const bool visible = alpha >= 1.0f / 255.0f;
+        const bool full = visible & SATURATED(next);
+        const bool blended = visible & !full;
+        const float weight = blended ? alpha * p.transmittance : 0.0f;
+        p.red += g->color[0] * weight;
+        p.green += g->color[1] * weight;
+        p.blue += g->color[2] * weight;
+        p.transmittance = blended ? next : p.transmittance;
+        p.done = full;
+      }
+    }
+  }
+  return p;
+}
+
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
 blend(__global const splat_gaussian *records, __global const uint *list,
       __global const uint2 *ranges, __global float4 *pixels, uint width,
       uint height, float cutoff) {
   __local splat_gaussian batch[BATCH];
   __local uint live;
 
-  const uint item = get_local_id(1) * TILE_SIZE + get_local_id(0);
-  const uint x = get_global_id(0);
-  const uint y = get_global_id(1);
-  const float px = (float)x + 0.5f;
-  const float py = (float)y + 0.5f;
+  const uint item = get_local_id(0);
+  const uint x0 = get_group_id(0) * TILE_SIZE;
+  const uint y0 = get_group_id(1) * TILE_SIZE;
   const uint2 range = ranges[get_group_id(1) * get_num_groups(0) +
                              get_group_id(0)];
 
-  float red = 0.0f, green = 0.0f, blue = 0.0f, transmittance = 1.0f;
-  bool done = x >= width || y >= height;
+  pixel_state own[OWN];
+  for (uint k = 0; k < OWN; ++k) {
+    const uint place = k * GROUP + item;
+    const bool inside = place < TILE_PIXELS && x0 + place % TILE_SIZE < width &&
+                        y0 + place / TILE_SIZE < height;
+    own[k] = (pixel_state){0.0f, 0.0f, 0.0f, 1.0f, !inside};
+  }
   bool group_live = true;
   for (uint base = range.x; base < range.y && group_live; base += BATCH) {
     const uint entries = min((uint)BATCH, range.y - base);
     if (item == 0)
       live = 0;
-    if (item < entries)
-      batch[item] = records[list[base + item]];
+    for (uint e = item; e < entries; e += GROUP)
+      batch[e] = records[list[base + e] & ~SPANS_TILES];
     barrier(CLK_LOCAL_MEM_FENCE);
 
-    for (uint j = 0; j < entries && !done; ++j) {
-      __local const splat_gaussian *g = &batch[j];
-      const float dy = g->mean[1] - py;
-      if (fabs(dy) <= g->extent[1]) {
-        const float dx = g->mean[0] - px;
-        const float power = -0.5f * (g->conic[0] * dx * dx +
-                                     g->conic[2] * dy * dy) -
-                            g->conic[1] * dx * dy;
-        // Below MIN_POWER alpha is under 1/255 whatever the opacity, so the
-        // exponential is not worth taking. False for NaN.
-        if (fabs(dx) <= g->extent[0] && power <= 0.0f && power >= MIN_POWER) {
-          const float alpha = fmin(0.99f, g->opacity * falloff(power));
-          const float next = transmittance * (1.0f - alpha);
-          // Without branches: most Gaussians that get here are blended, and a
-          // weight of 0 changes no bit.
-          const bool visible = alpha >= 1.0f / 255.0f;
-          const bool full = visible & SATURATED(next);
-          const bool blended = visible & !full;
-          const float weight = blended ? alpha * transmittance : 0.0f;
-          red += g->color[0] * weight;
-          green += g->color[1] * weight;
-          blue += g->color[2] * weight;
-          transmittance = blended ? next : transmittance;
-          done = full;
-        }
-      }
+    bool open = false;
+    for (uint k = 0; k < OWN; ++k) {
+      const uint place = k * GROUP + item;
+      const float px = (float)(x0 + place % TILE_SIZE) + 0.5f;
+      const float py = (float)(y0 + place / TILE_SIZE) + 0.5f;
+      if (!own[k].done)
+        own[k] = blend_batch(batch, entries, px, py, cutoff, own[k]);
+      open |= !own[k].done;
     }
-    if (!done)
+    if (open)
       atomic_or(&live, 1u);
     barrier(CLK_LOCAL_MEM_FENCE);
     group_live = live != 0;
     // Nobody may clear `live` or refill the batch before all have read it.
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  if (x < width && y < height)
-    pixels[y * width + x] = (float4)(red, green, blue, transmittance);
+  for (uint k = 0; k < OWN; ++k) {
+    const uint place = k * GROUP + item;
+    const uint x = x0 + place % TILE_SIZE;
+    const uint y = y0 + place / TILE_SIZE;
+    if (place < TILE_PIXELS && x < width && y < height)
+      pixels[y * width + x] = (float4)(own[k].red, own[k].green, own[k].blue,
+                                       own[k].transmittance);
+  }
 }

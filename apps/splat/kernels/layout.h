@@ -13,7 +13,7 @@ typedef struct {
   float opacity;  ///< 0 to 1
   float color[3]; ///< red, green, blue
   float extent[2]; ///< half width and height of the box it may reach, px
-  uint tag;        ///< number; bit 31: it spans several tiles
+  uint tag;        ///< number, and SPANS_TILES where it does
 } splat_gaussian;
 
 /// A camera, ready for projection.
@@ -32,6 +32,21 @@ typedef struct {
   uint tiles[2]; ///< picture, tiles
 } splat_view;
 
+/// How the rasterizers blend a picture.
+typedef struct {
+  uint size[2];  ///< picture, px
+  uint tiles_x;  ///< tiles of a row
+  uint tiles;    ///< all of them
+  uint parts;    ///< depth parts of each tile's list, blended apart
+  float cutoff;  ///< transmittance at which a pixel is full
+  uint datapath; ///< vr_options of docs/isa.md
+  // When a part's list goes on in the pixel unit: so many entries are left,
+  // this share of them (over, under), or vr_tail_share of its pixels are full.
+  uint tail_count;
+  uint tail_last[2];
+  uint tail_share;
+} splat_blend_options;
+
 /// Planes of the geometry buffer: plane p of Gaussian i is at p * count + i, so
 /// that the lanes of a warp read neighbouring words.
 enum {
@@ -41,6 +56,13 @@ enum {
   PLANE_LOGIT = 10,
   GEOMETRY_PLANES = 11
 };
+
+/// Bit of a record's tag and of a list entry: the Gaussian spans several tiles.
+/// VR_INTERSECT of docs/isa.md, which rasterize.cl checks.
+#define SPANS_TILES 0x80000000U // NOLINT: enumerators of C are signed
+
+/// Bytes of a vx_tail (docs/isa.md), which rasterize.cl checks.
+enum { TAIL_BYTES = 560 };
 
 /// Depth key of a Gaussian that no tile sees; sorts behind every depth.
 enum { CULLED = -1 };

@@ -95,7 +95,7 @@ static bool project_one(__constant const splat_view *view,
   if (!all_finite(g))
     return false;
   const bool spans_tiles = x1 - x0 > 1 || y1 - y0 > 1;
-  g.tag = i | (spans_tiles ? 0x80000000u : 0u);
+  g.tag = i | (spans_tiles ? SPANS_TILES : 0u);
   records[i] = g;
   *depth = z;
   *rectangle = (uint2)(x0 | y0 << 16, x1 | y1 << 16);

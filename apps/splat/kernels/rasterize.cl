@@ -1,26 +1,69 @@
-// Blending by the rasterizer: one group a tile hands the tile's list to the
-// Raster Agent of its core and waits (docs/rasterizer.md). `options` is what
-// vr_options takes; a tile's status code goes to `statuses`.
+// Blending by the rasterizers: every core starts the tile commands that are its
+// own and waits for them at the end (docs/rasterizer.md). One group a core.
 #include <vorion_raster.h>
 
 _Static_assert(sizeof(splat_gaussian) == sizeof(vx_gaussian),
                "kernels/layout.h and docs/abi.md disagree");
+_Static_assert(SPANS_TILES == VR_INTERSECT,
+               "kernels/layout.h and docs/isa.md disagree");
+_Static_assert(sizeof(vx_tail) == TAIL_BYTES,
+               "kernels/layout.h and docs/isa.md disagree");
 
+// What the commands of a picture share.
+typedef struct {
+  uint list, output, tails; // addresses
+  splat_blend_options o;
+} picture_commands;
+
+// Starts depth part `part` of tile `tile`, whose list is `range`; `job` numbers
+// the hand-over records.
+static void start_part(const picture_commands *c, uint tile, uint part,
+                       uint2 range, uint job) {
+  const uint parts = c->o.parts;
+  const uint entries = range.y - range.x;
+  const uint begin = entries * part / parts;
+  const uint count = entries * (part + 1) / parts - begin;
+  const uint x = tile % c->o.tiles_x * TILE_SIZE;
+  const uint y = tile / c->o.tiles_x * TILE_SIZE;
+  vr_ztile_set(part | parts << VR_ZTILE_COUNT_SHIFT);
+  vr_tail_count_set(max(c->o.tail_count,
+                        count * c->o.tail_last[0] / c->o.tail_last[1]));
+  vr_tail_record_set(c->tails + job * (uint)sizeof(vx_tail));
+  const uint first_pixel = (part * c->o.size[1] + y) * c->o.size[0] + x;
+  vx_raster_render(c->list + (range.x + begin) * (uint)sizeof(uint), count, x, y,
+                   min((uint)TILE_SIZE, c->o.size[0] - x),
+                   min((uint)TILE_SIZE, c->o.size[1] - y),
+                   c->output + first_pixel * (uint)sizeof(float4));
+}
+
+// Jobs are (tile, part), tiles by `tile_order`, the parts of a tile together.
+// They are dealt to the rasterizers like cards, forth and back: row r of the
+// deal gives each rasterizer one job, in rising order if r is even, else in
+// falling order, and belongs to core r modulo the cores of each socket. So the
+// rule knows list lengths and nothing of time. `pixels` has `parts` pictures.
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
 rasterize(__global const splat_gaussian *records, __global const uint *list,
-          __global const uint2 *ranges, __global float4 *pixels,
-          __global uint *statuses, uint width, uint height, float cutoff,
-          uint options) {
-  const uint tile = get_group_id(1) * get_num_groups(0) + get_group_id(0);
-  const uint x = get_group_id(0) * TILE_SIZE;
-  const uint y = get_group_id(1) * TILE_SIZE;
-  const uint2 range = ranges[tile];
-  vx_raster_setup((uint)records, cutoff, options, width * sizeof(float4));
-  vx_raster_render((uint)(list + range.x), range.y - range.x, x, y,
-                   min((uint)TILE_SIZE, width - x),
-                   min((uint)TILE_SIZE, height - y),
-                   (uint)(pixels + y * width + x));
+          __global const uint2 *ranges, __global const uint *tile_order,
+          __global float4 *pixels, __global uint *tails,
+          __global uint *statuses, splat_blend_options options) {
+  const uint rasterizers = vx_num_sockets();
+  const uint cores = vx_num_cores() / rasterizers;
+  const uint core = vx_core_id();
+  const uint own = core / cores;
+  const uint jobs = options.tiles * options.parts;
+  const picture_commands c = {(uint)list, (uint)pixels, (uint)tails, options};
+  vx_raster_setup((uint)records, options.cutoff, options.datapath,
+                  options.size[0] * (uint)sizeof(float4));
+  vr_tail_share_set(options.tail_share);
+  for (uint row = core % cores; row * rasterizers < jobs; row += cores) {
+    const uint job =
+        row * rasterizers + (row % 2 == 0 ? own : rasterizers - 1 - own);
+    if (job >= jobs)
+      continue;
+    const uint tile = tile_order[job / options.parts];
+    start_part(&c, tile, job % options.parts, ranges[tile], job);
+  }
   const uint status = vr_wait();
   if (get_local_id(0) == 0)
-    statuses[tile] = status;
+    statuses[core] = status;
 }

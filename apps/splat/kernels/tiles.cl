@@ -33,7 +33,8 @@ __kernel void totals(__global const uint *sorted_depths,
   result[1] = offsets[count];
 }
 
-// One (tile, Gaussian) pair for every tile of every Gaussian, row by row.
+// One (tile, list entry) pair for every tile of every Gaussian, row by row. The
+// entry says whether there are several: the rasterizer's memory keeps those.
 __kernel void duplicate(__global const uint *order,
                         __global const uint2 *rectangles,
                         __global const uint *offsets,
@@ -46,12 +47,14 @@ __kernel void duplicate(__global const uint *order,
   const uint gaussian = order[i];
   const uint2 r = rectangles[gaussian];
   const uint width = (r.y & 0xffff) - (r.x & 0xffff);
+  const uint begin = offsets[i];
   const uint end = offsets[i + 1];
+  const uint entry = gaussian | (end - begin > 1 ? SPANS_TILES : 0u);
   uint tile = (r.x >> 16) * tiles_x + (r.x & 0xffff);
   uint column = 0;
-  for (uint place = offsets[i]; place < end; ++place) {
+  for (uint place = begin; place < end; ++place) {
     pair_tiles[place] = tile + column;
-    pair_gaussians[place] = gaussian;
+    pair_gaussians[place] = entry;
     ++column;
     if (column == width) {
       column = 0;
@@ -81,4 +84,21 @@ __kernel void tile_ranges(__global const uint *pair_tiles,
     return;
   ranges[tile] = (uint2)(first_pair_of(pair_tiles, pairs, tile),
                          first_pair_of(pair_tiles, pairs, tile + 1));
+}
+
+// Tiles by falling length of their lists, equal ones by number: the order in
+// which the rasterizers get them. There are few tiles, so each is compared with
+// all.
+__kernel void order_tiles(__global const uint2 *ranges, __global uint *order,
+                          uint tiles) {
+  const uint tile = get_global_id(0);
+  if (tile >= tiles)
+    return;
+  const uint length = ranges[tile].y - ranges[tile].x;
+  uint rank = 0;
+  for (uint other = 0; other < tiles; ++other) {
+    const uint theirs = ranges[other].y - ranges[other].x;
+    rank += theirs > length || (theirs == length && other < tile) ? 1 : 0;
+  }
+  order[rank] = tile;
 }

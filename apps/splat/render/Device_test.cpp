@@ -199,5 +199,64 @@ __kernel void test(__global const float *in, __global float *out) {
   EXPECT_LE(Worst, 1.1);
 }
 
+// Of depth parts as blending leaves them, against the sum in doubles.
+TEST_F(OnDevice, MergeIsTheSumOfItsParts) {
+  constexpr std::uint32_t Count = 5000;
+  std::uniform_real_distribution<float> Unit(0, 1);
+  for (const std::uint32_t Parts : {2U, 3U, 16U}) {
+    std::vector<float> In(std::size_t{4} * Parts * Count);
+    std::vector<double> Want(std::size_t{4} * Count);
+    for (std::uint32_t I = 0; I < Count; ++I)
+      Want[4 * I + 3] = 1;
+    for (std::uint32_t K = 0; K < Parts; ++K)
+      for (std::uint32_t I = 0; I < Count; ++I) {
+        float *Part = &In[4 * (std::size_t{K} * Count + I)];
+        double *Sum = &Want[4 * std::size_t{I}];
+        Part[3] = I % 7 == K ? 1e-4F * Unit(Random) : Unit(Random);
+        for (int C = 0; C < 3; ++C) {
+          Part[C] = (1 - Part[3]) * Unit(Random);
+          Sum[C] += Sum[3] * double(Part[C]);
+        }
+        Sum[3] *= double(Part[3]);
+      }
+    Launcher L(*Dev, "", {});
+    L.beginStage("test");
+    L.build({MergeProgram, {"merge.cl"}, {}});
+    const cl::Buffer From = L.allocate("parts", 4 * In.size());
+    const cl::Buffer To = L.allocate("pixels", 4 * Want.size());
+    L.write("parts", From, In.data(), 4 * In.size());
+    L.run(MergeProgram, "merge", (Count + 15) / 16 * 16, 16, From, To, Count,
+          Parts);
+    std::vector<float> Out(Want.size());
+    L.read("pixels", Out.data(), To, 4 * Out.size());
+    ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+    double Worst = 0;
+    for (std::size_t I = 0; I < Want.size(); ++I)
+      Worst = std::max(Worst, std::abs(Out[I] - Want[I]));
+    EXPECT_LE(Worst, 8e-7) << Parts;
+  }
+}
+
+TEST_F(OnDevice, TilesAreOrderedByListLength) {
+  std::vector<std::uint32_t> Ranges;
+  std::vector<std::uint32_t> Want(300);
+  for (std::uint32_t T = 0, At = 0; T < Want.size(); ++T) {
+    Ranges.push_back(At);
+    Ranges.push_back(At += Random() % 50);
+  }
+  std::iota(Want.begin(), Want.end(), 0U);
+  std::ranges::sort(Want, {}, [&](std::uint32_t T) {
+    return std::pair(~(Ranges[2 * T + 1] - Ranges[2 * T]), T);
+  });
+  Launcher L(*Dev, "", {});
+  L.beginStage("test");
+  L.build({TilesProgram, {"layout.h", "tiles.cl"}, {}});
+  const auto Count = static_cast<std::uint32_t>(Want.size());
+  const cl::Buffer Order = L.allocate("order", 4 * Want.size());
+  L.run(TilesProgram, "order_tiles", (Count + 15) / 16 * 16, 16,
+        upload(L, Ranges), Order, Count);
+  EXPECT_EQ(download(L, Order, Count), Want);
+}
+
 } // namespace
 } // namespace vorion::splat

@@ -1,6 +1,8 @@
 /// What a render is asked to do, as the command line names it.
 #pragma once
 
+#include "TailRule.h"
+
 #include <array>
 #include <string>
 #include <string_view>
@@ -31,6 +33,8 @@ constexpr std::string_view name(ExpUnit E) {
   return E == ExpUnit::Exact ? "exact" : "table";
 }
 
+inline constexpr unsigned MaxZTiles = 16;
+
 /// The options of one picture that reach the device.
 struct RenderOptions {
   Rules Convention = Rules::Inria;
@@ -42,8 +46,23 @@ struct RenderOptions {
   /// A pixel is full when its transmittance would fall below this: [0, 1).
   float Cutoff = 1e-4F;
 
-  /// Side of a tile, px: the rasterizer's largest, or INRIA's.
-  unsigned tileSize() const { return Blending == Path::Raster ? 64 : 16; }
+  /// \name The rasterizers' path
+  /// @{
+  /// Depth parts of each tile's list, blended apart and merged: 1 to
+  /// MaxZTiles.
+  unsigned ZTiles = 1;
+  TailRule PixelUnit;
+  bool SkipSaturated = false;
+  /// @}
+
+  /// \name The cores' path: pixels a side of a tile, work-items that draw it
+  /// @{
+  unsigned SimtTile = 16;
+  unsigned SimtGroup = 256;
+  /// @}
+
+  /// Side of a tile, px: the rasterizer's largest, or the cores'.
+  unsigned tileSize() const { return Blending == Path::Raster ? 64 : SimtTile; }
 };
 
 } // namespace vorion::splat

@@ -49,6 +49,7 @@ ProgramSpec blendProgram(const RenderOptions &O) {
     P.Files.emplace_back("rasterize.cl");
     return P;
   }
+  P.Defines.push_back(fmt::format("GROUP={}", O.SimtGroup));
   P.Files.emplace_back("falloff.cl");
   P.Files.emplace_back("blend.cl");
   // e^-5.6 < 1/255: no opacity up to 1 makes such a power visible.
@@ -78,13 +79,16 @@ int usedShDegree(const Scene &S) {
 
 RenderPlan planRender(const Scene &S, const RenderOptions &Options) {
   const int ShDegree = usedShDegree(S);
-  return {ShDegree,
-          {projectProgram(ShDegree, Options),
-           {ScanProgram, {"scan.cl"}, {}},
-           {SortProgram, {"sort.cl"}, {}},
-           {TilesProgram, {"layout.h", "tiles.cl"}, {}},
-           blendProgram(Options),
-           {ResolveProgram, {"resolve.cl"}, {}}}};
+  RenderPlan Plan{ShDegree,
+                  {projectProgram(ShDegree, Options),
+                   {ScanProgram, {"scan.cl"}, {}},
+                   {SortProgram, {"sort.cl"}, {}},
+                   {TilesProgram, {"layout.h", "tiles.cl"}, {}},
+                   blendProgram(Options),
+                   {ResolveProgram, {"resolve.cl"}, {}}}};
+  if (Options.ZTiles > 1)
+    Plan.Programs.push_back({MergeProgram, {"merge.cl"}, {}});
+  return Plan;
 }
 
 std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
@@ -130,10 +134,32 @@ std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
   Lines.push_back(fmt::format("stop at T' {} cut-off: {}",
                               Options.Convention == Rules::Gsplat ? "<=" : "<",
                               Raster ? "a bit of vr_options" : "compiled in"));
+  if (Raster) {
+    Lines.push_back(
+        Options.ZTiles > 1
+            ? fmt::format("z-tiles: {}, merged by merge.cl", Options.ZTiles)
+            : "z-tiles: none, merge.cl left out (--ztiles)");
+    Lines.push_back(fmt::format("saturated pixels: {}",
+                                Options.SkipSaturated
+                                    ? "no lane slot, a bit of vr_options"
+                                    : "keep their lane slots"));
+    Lines.push_back(
+        fmt::format("pixel unit: {}", Options.PixelUnit.any()
+                                          ? "vr_tail_* as --pixel-unit asks, " +
+                                                toString(Options.PixelUnit)
+                                          : "off (--pixel-unit)"));
+  } else {
+    Lines.push_back(fmt::format("tiles of {0}x{0} pixels, {1} work-items each: "
+                                "compiled in",
+                                Options.SimtTile, Options.SimtGroup));
+  }
   Lines.emplace_back(
-      Raster
-          ? "simulated on a Vorion device: the cores and the rasterizer"
-          : "simulated on a Vorion device: the cores; the rasterizer is idle");
+      !Raster
+          ? "simulated on a Vorion device: the cores; the rasterizer is idle"
+      : Options.PixelUnit.any()
+          ? "simulated on a Vorion device: the cores, the rasterizers and the "
+            "pixel units"
+          : "simulated on a Vorion device: the cores and the rasterizers");
   return Lines;
 }
 

@@ -20,6 +20,7 @@ inline constexpr const char *SortProgram = "sort";
 inline constexpr const char *ScanProgram = "scan";
 inline constexpr const char *TilesProgram = "tiles";
 inline constexpr const char *BlendProgram = "blend";
+inline constexpr const char *MergeProgram = "merge";
 inline constexpr const char *ResolveProgram = "resolve";
 
 struct RenderPlan {

@@ -78,6 +78,7 @@ private:
   Sorter::Pairs pairs(uint64_t N) {
     return {words("keys to sort", N), words("values to sort", N)};
   }
+  splat_blend_options blendOptions() const;
   void rasterize();
   void shade();
 
@@ -165,33 +166,63 @@ void Pipeline::blend() {
 }
 
 void Pipeline::shade() {
-  const std::size_t Tile = Options.tileSize();
+  const std::size_t Group = Options.SimtGroup;
   L.run(BlendProgram, "blend",
-        cl::NDRange(View.tiles[0] * Tile, View.tiles[1] * Tile),
-        cl::NDRange(Tile, Tile), Records, ByTile.Values, Ranges, Pixels,
+        cl::NDRange(View.tiles[0] * Group, View.tiles[1]),
+        cl::NDRange(Group, 1), Records, ByTile.Values, Ranges, Pixels,
         View.size[0], View.size[1], Options.Cutoff);
+}
+
+splat_blend_options Pipeline::blendOptions() const {
+  const TailRule &Tail = Options.PixelUnit;
+  splat_blend_options O{};
+  O.size[0] = View.size[0];
+  O.size[1] = View.size[1];
+  O.tiles_x = View.tiles[0];
+  O.tiles = tiles();
+  O.parts = Options.ZTiles;
+  O.cutoff = Options.Cutoff;
+  // vr_options of docs/isa.md: exponential unit, stop rule, lane slots.
+  O.datapath = (Options.Exponential == ExpUnit::Table ? 1U : 0U) |
+               (Options.Convention == Rules::Gsplat ? 1U << 2 : 0U) |
+               (Options.SkipSaturated ? 1U << 3 : 0U);
+  O.tail_count = Tail.Count;
+  O.tail_last[0] = Tail.LastOver;
+  O.tail_last[1] = Tail.LastUnder;
+  O.tail_share = Tail.shareBits();
+  return O;
 }
 
 void Pipeline::rasterize() {
   constexpr std::size_t Lanes = 16;
-  const cl::Buffer Statuses = words("tile statuses", tiles());
-  // vr_options of docs/isa.md: exponential unit, stop rule.
-  const uint32_t Datapath =
-      (Options.Exponential == ExpUnit::Table ? 1U : 0U) |
-      (Options.Convention == Rules::Gsplat ? 1U << 2 : 0U);
-  L.run(BlendProgram, "rasterize",
-        cl::NDRange(View.tiles[0] * Lanes, View.tiles[1]),
-        cl::NDRange(Lanes, 1), Records, ByTile.Values, Ranges, Pixels, Statuses,
-        View.size[0], View.size[1], Options.Cutoff, Datapath);
-  std::vector<uint32_t> Host(tiles(), 0);
-  L.read("tile statuses", Host.data(), Statuses, 4 * Host.size());
-  for (std::size_t T = 0; T < Host.size(); ++T)
-    if (Host[T] != 0)
-      L.fail({"",
-              fmt::format("the rasterizer refused tile {} with status code {}, "
-                          "expected 0 (codes: docs/isa.md)",
-                          T, Host[T]),
-              ExitCode::Trap});
+  const splat_blend_options O = blendOptions();
+  const std::size_t Cores = L.device().computeUnits();
+  const cl::Buffer TileOrder = words("tile order", tiles());
+  const cl::Buffer Statuses = words("cores' statuses", Cores);
+  const cl::Buffer Tails = L.allocate(
+      "hand-over records", Options.PixelUnit.any()
+                               ? uint64_t{TAIL_BYTES} * O.parts * O.tiles
+                               : TAIL_BYTES);
+  cl::Buffer Parts = Pixels;
+  if (O.parts > 1)
+    Parts = L.allocate("depth parts", 16 * uint64_t{pixels()} * O.parts);
+  L.run(TilesProgram, "order_tiles", itemsFor(tiles()), GroupSize, Ranges,
+        TileOrder, tiles());
+  L.run(BlendProgram, "rasterize", Cores * Lanes, Lanes, Records, ByTile.Values,
+        Ranges, TileOrder, Parts, Tails, Statuses, O);
+  if (O.parts > 1)
+    L.run(MergeProgram, "merge", itemsFor(pixels()), GroupSize, Parts, Pixels,
+          pixels(), O.parts);
+  std::vector<uint32_t> Host(Cores, 0);
+  L.read("cores' statuses", Host.data(), Statuses, 4 * Host.size());
+  for (std::size_t C = 0; C < Host.size(); ++C)
+    if (Host[C] != 0)
+      L.fail(
+          {"",
+           fmt::format("the rasterizer refused a tile of core {} with status "
+                       "code {}, expected 0 (codes: docs/isa.md)",
+                       C, Host[C]),
+           ExitCode::Trap});
 }
 
 void Pipeline::resolve(const std::array<float, 3> &Background) {
@@ -225,8 +256,10 @@ RenderResult Pipeline::result(bool KeepPairs) {
            4 * uint64_t{Pairs});
     L.read("depths", Bits.data(), Depths.Keys, 4 * uint64_t{Count});
     P.DepthBits.reserve(Pairs);
-    for (const uint32_t G : P.Gaussians)
+    for (uint32_t &G : P.Gaussians) {
+      G &= ~SPANS_TILES;
       P.DepthBits.push_back(Bits[G]);
+    }
     R.Sorted = std::move(P);
   }
   return R;

@@ -22,7 +22,12 @@ Json json(const KernelCounters &C) {
           {"raster_gaussians", C.RasterGaussians},
           {"raster_clipped", C.RasterClipped},
           {"raster_fragments", C.RasterFragments},
-          {"raster_blends", C.RasterBlends}};
+          {"raster_blends", C.RasterBlends},
+          {"raster_intersecting", C.RasterIntersecting},
+          {"raster_tails", C.RasterTails},
+          {"raster_tail_pixels", C.RasterTailPixels},
+          {"raster_tail_visits", C.RasterTailVisits},
+          {"raster_tail_blends", C.RasterTailBlends}};
 }
 
 /// The sum of the counters of all kernels, where they were counted.
@@ -143,6 +148,11 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
               {"path", name(O.Blending)},
               {"options",
                {{"tile", O.tileSize()},
+                {"ztiles", O.ZTiles},
+                {"pixel_unit", toString(O.PixelUnit)},
+                {"skip_saturated", O.SkipSaturated},
+                {"simt_tile", O.SimtTile},
+                {"simt_group", O.SimtGroup},
                 {"antialiased", O.Antialiased},
                 {"background", O.Background},
                 {"cutoff", O.Cutoff},

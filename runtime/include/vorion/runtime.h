@@ -56,7 +56,8 @@ const char *vx_last_error(void);
  * paper's prototype. Keys that are absent keep the prototype's value;
  * VORION_SET, "KEY=VALUE,...", changes what came of it. The
  * environment also says what watches the device's runs (docs/debugging.md), and
- * whether the clock is on: VORION_TIME is "on", or the machine's clock in MHz. */
+ * whether the clock is on: VORION_TIME is "on", or the machine's clock in MHz.
+ */
 vx_status vx_device_open(const char *config, vx_device **device);
 
 /* Waits for a run in progress; images of the device must be freed before. NULL

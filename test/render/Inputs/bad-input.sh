@@ -38,6 +38,12 @@ render "cutoff of 1" s.ply c.json front p.png --cutoff 1
 render "two background values" s.ply c.json front p.png --background 1,2
 render "official16 by raster" s.ply c.json front p.png --support official16
 render "table by simt" s.ply c.json front p.png --path simt --exp table
+render "no z-tiles" s.ply c.json front p.png --ztiles 0
+render "too many z-tiles" s.ply c.json front p.png --ztiles 17
+render "z-tiles by simt" s.ply c.json front p.png --path simt --ztiles 2
+render "unknown hand-over" s.ply c.json front p.png --pixel-unit half
+render "tile of 24" s.ply c.json front p.png --path simt --simt-tile 24
+render "official16 in tiles of 32" s.ply c.json front p.png --path simt --support official16 --simt-tile 32
 attempt "unknown subcommand" draw
 attempt "too few Gaussians" demo-scene -o d.ply --gaussians 3
 attempt "demo into nowhere" demo-scene -o nowhere/s.ply --gaussians 1000

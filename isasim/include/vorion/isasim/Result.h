@@ -82,7 +82,7 @@ struct RunResult {
   RasterCounters Raster;
   /// What the run took; without Config::Timing.Enabled there is none.
   std::optional<TimeReport> Time;
-  uint64_t SyncPoints = 0; ///< times all cores were parked
+  uint64_t SyncPoints = 0;   ///< times all cores were parked
   double HostSeconds = 0;    ///< wall time of the run
   double HostCpuSeconds = 0; ///< processor time of the host in it, all threads
 };

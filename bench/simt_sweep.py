@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Finds the fastest of the kernels that blend without the rasterizer.
+
+Renders a view with --path simt over tiles of {8, 16, 32, 64} pixels and groups
+of {16, 64, 256} work-items, checks that all give the same bits, and prints warp
+instructions: of the blend kernel, the same for each blend (a Gaussian blended
+into a pixel), and of the whole frame. Blends are counted by --path raster.
+
+usage: simt_sweep.py SCENE --cameras CAMERAS --view VIEW --out FOLDER [--json FILE] [OPTIONS of splat render]
+
+FOLDER keeps each run's result; what is there is not run again.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+
+TILES = (8, 16, 32, 64)
+GROUPS = (16, 64, 256)
+
+
+def render(args, name, options):
+    """The JSON of one run and the hash of its picture."""
+    base = os.path.join(args.out, name)
+    if not os.path.exists(base + ".json"):
+        subprocess.run(["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view,
+                        "-o", base + ".pfm", "--json", base + ".json", *args.options, *options],
+                       check=True, stdout=subprocess.DEVNULL)
+    with open(base + ".json", encoding="utf-8") as f:
+        report = json.load(f)
+    with open(base + ".pfm", "rb") as f:
+        return report, hashlib.sha256(f.read()).hexdigest()
+
+
+def kernel(report, name):
+    kernels = [k for s in report["stages"] for k in s["kernels"] if k["name"] == name]
+    return sum(k["counters"]["warp_instructions"] for k in kernels)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("scene")
+    parser.add_argument("--cameras", required=True)
+    parser.add_argument("--view", required=True)
+    parser.add_argument("--out", required=True, help="folder for the runs")
+    parser.add_argument("--json", help="write the table")
+    args, args.options = parser.parse_known_args()
+    os.makedirs(args.out, exist_ok=True)
+
+    raster, _ = render(args, "raster", ["--path", "raster"])
+    blends = raster["total"]["counters"]["raster_blends"]
+    rows, pictures = [], set()
+    for tile in TILES:
+        for group in GROUPS:
+            report, picture = render(args, f"simt-{tile}-{group}",
+                                     ["--path", "simt", "--simt-tile", str(tile), "--simt-group", str(group)])
+            pictures.add(picture)
+            blend = kernel(report, "blend")
+            rows.append({"tile": tile, "group": group, "blend_warp_instructions": blend,
+                         "per_blend": blend / blends, "pairs": report["counts"]["pairs"],
+                         "frame_warp_instructions": report["total"]["counters"]["warp_instructions"]})
+    best = min(rows, key=lambda r: r["blend_warp_instructions"])
+    best_frame = min(rows, key=lambda r: r["frame_warp_instructions"])
+    print(f"{blends} blends; warp instructions")
+    print(f"{'tile':>4} {'group':>5} {'blend kernel':>14} {'a blend':>8} {'frame':>14} {'pairs':>10}")
+    for r in rows:
+        note = " fastest blend" * (r is best) + " fastest frame" * (r is best_frame)
+        print(f"{r['tile']:>4} {r['group']:>5} {r['blend_warp_instructions']:>14} {r['per_blend']:>8.3f} "
+              f"{r['frame_warp_instructions']:>14} {r['pairs']:>10}{note}")
+    if args.json:
+        table = {"scene": args.scene, "view": args.view, "options": args.options, "blends": blends,
+                 "device": raster["device"], "rows": rows, "best": best, "best_frame": best_frame}
+        with open(args.json, "w", encoding="utf-8") as f:
+            json.dump(table, f, indent=2)
+            f.write("\n")
+    if len(pictures) != 1:
+        sys.exit("simt_sweep.py: error: the pictures differ, expected the same bits for every tile and group")
+
+
+if __name__ == "__main__":
+    main()
