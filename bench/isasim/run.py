@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Lane-instructions a second of the simulator, side by side with qemu-riscv32.
 
-usage: run.py [--rounds N] [--programs NAME,...] [--json FILE] [--out DIR] [--no-observers]
+usage: run.py [--rounds N] [--programs NAME,...] [--json FILE] [--out DIR] [--no-observers] [--realtime]
 
 Each program of this folder is compiled twice: for the machine, where 16 lanes of every core work together, and, the
 same source, for one lane as a Linux program. A round runs each on vorion-sim with one host thread, with two, and
 under qemu-riscv32, one right after the other; the figures are medians over the rounds. Rates are by processor time,
-the gain of a second thread is by wall time: it needs a quiet machine. What qemu executes is counted on a machine of one
+the gain of a second thread is by wall time: it needs a quiet machine, or --realtime (chrt -f, as root). What qemu executes is counted on a machine of one
 lane that runs the same object code.
 
 Then two builds of the simulator, with observers and without (VORION_OBSERVERS=OFF), are compared by the instructions
@@ -51,7 +51,8 @@ ONE_LANE = {"clusters": 1, "sockets_per_cluster": 1, "cores_per_socket": 1, "lan
 
 
 class Out:
-    """Where everything is made."""
+    """Where everything is made, and what stands before a measured command."""
+    prefix = []
     folder = os.path.join(ROOT, "build", "bench", "isasim")
 
 
@@ -158,7 +159,7 @@ def arguments(name):
 
 def simulate(name, *options):
     """What the program printed, and the run's statistics."""
-    text, _ = run("vorion-sim", name, "--stats", "stats.json", *options)
+    text, _ = run(*Out.prefix, "vorion-sim", name, "--stats", "stats.json", *options)
     with open(path("stats.json"), encoding="utf-8") as file:
         return text.splitlines()[0], json.load(file)
 
@@ -190,7 +191,7 @@ def measure(name, rounds):
             if text != expected:
                 raise RuntimeError(f"{name}: {text} on 16 lanes, {expected} on one")
             into.append(stats)
-        text, seconds = run(*QEMU, "./" + name + ".linux")
+        text, seconds = run(*Out.prefix, *QEMU, "./" + name + ".linux")
         if text.strip() != expected:
             raise RuntimeError(f"{name}: {text.strip()} under qemu-riscv32, {expected} on one lane of vorion-sim")
         qemu.append(seconds)
@@ -255,7 +256,9 @@ def main():
     parser.add_argument("--out", default=Out.folder, help="default: build/bench/isasim")
     parser.add_argument("--json", help="default: results.json in OUT")
     parser.add_argument("--no-observers", action="store_true", help="leave out the two builds of the simulator")
+    parser.add_argument("--realtime", action="store_true", help="measure under chrt -f, undisturbed by other work (as root)")
     options = parser.parse_args()
+    Out.prefix = ["chrt", "-f", "10"] if options.realtime else []
     Out.folder = os.path.abspath(options.out)
     names = options.programs.split(",")
     unknown = [name for name in names if name not in PROGRAMS]

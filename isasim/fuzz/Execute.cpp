@@ -115,8 +115,10 @@ void require(bool Holds, const char *What) {
 
 void execute(std::span<const std::byte> Bytes) {
   uint32_t First = 0;
-  std::memcpy(&First, Bytes.data(), std::min<size_t>(4, Bytes.size()));
-  Bytes = Bytes.subspan(std::min<size_t>(4, Bytes.size()));
+  const size_t FirstBytes = std::min(sizeof(First), Bytes.size());
+  if (FirstBytes) // an empty input may have no address
+    std::memcpy(&First, Bytes.data(), FirstBytes);
+  Bytes = Bytes.subspan(FirstBytes);
   std::vector<uint32_t> Code = prologue(First);
   const size_t Words = std::min(Bytes.size() / 4, MaxWords);
   const size_t Begin = Code.size();

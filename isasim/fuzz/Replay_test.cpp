@@ -30,7 +30,7 @@ TEST(Replay, Images) {
 
 TEST(Replay, Programs) {
   std::mt19937 Random(2);
-  for (const auto &Seed : fuzz::programSeeds(400, 3)) {
+  for (const auto &Seed : fuzz::programSeeds(300, 3)) {
     fuzz::execute(Seed);
     fuzz::execute(damaged(Seed, Random));
   }
