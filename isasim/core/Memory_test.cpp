@@ -399,6 +399,16 @@ TEST(Memory, StoreToAStackLeavesInactiveLanesAlone) {
   }
 }
 
+TEST(MemoryDeathTest, HostPagesAroundGuestMemoryAreClosed) {
+  WarpRunner R(execTable(false), {encode(Op::RV_ADDI, {})});
+  volatile std::byte *First = R.global(VX_GLOBAL_BASE);
+  volatile std::byte *End = First + R.Shape.GlobalBytes;
+  EXPECT_EQ(std::to_integer<int>(*End), 0); // vectors may read it
+  EXPECT_DEATH(*End = std::byte{1}, "");
+  EXPECT_DEATH(*(First - 1) = std::byte{1}, "");
+  EXPECT_DEATH((void)*(First - 1), "");
+}
+
 TEST(Memory, AccessBySpBeyondTheLanesOwnStackTraps) {
   for (const ExecTable *Table : allTables())
     for (const Op O : {Op::RV_SW, Op::RV_LW, Op::RV_SB, Op::RV_LHU})
