@@ -3,7 +3,7 @@
 // REQUIRES: vorion-clang, vorion-link, vorion-sim
 // RUN: vorion-clang -O1 %s -o %t.elf
 // RUN: not vorion-sim %t.elf --threads 1 2>&1 | FileCheck %s
-// CHECK: vorion-sim: error: {{.*}}: trap: core 2, warp 0, lane 0: stack overflow
+// CHECK: trap: core 2, warp 0, lane 0: stack overflow
 // CHECK-NEXT: <depth
 #include <vorion.h>
 

@@ -56,9 +56,9 @@ public:
   /// Checks \p Elf and takes it apart. \p Name is the file name for messages;
   /// one that ends in .vxbin is no ELF file (mem/VxBinReader.h).
   /// Errors: truncated or malformed file, not a 32-bit little-endian RISC-V
-  /// executable, the ABI neither ilp32f nor ilp32, compressed code, a segment outside the
-  /// image range, overlapping segments, writable code, an entry point outside
-  /// the code, a malformed kernel table.
+  /// executable, the ABI neither ilp32f nor ilp32, compressed code, a segment
+  /// outside the image range, overlapping segments, writable code, an entry
+  /// point outside the code, a malformed kernel table.
   static Expected<std::shared_ptr<const Image>>
   parse(std::span<const std::byte> Elf, std::string Name);
 
