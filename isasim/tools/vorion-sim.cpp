@@ -27,7 +27,7 @@ struct Options {
   std::optional<uint64_t> MaxInstructions;
   std::optional<unsigned> Threads, ClockMhz;
   bool PrintDefaultConfig = false, PrintSchema = false, ListKernels = false,
-       Time = false;
+       Time = false, PrintTiming = false;
   bool OneHart = false;
 };
 
@@ -274,6 +274,8 @@ void declare(CLI::App &App, Options &O) {
       ->type_name("FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
                "print one to start from and exit");
+  App.add_flag("--print-timing-parameters", O.PrintTiming,
+               "print what --time goes by, with sources, and exit");
   App.add_flag("--time", O.Time,
                "say how long the run takes on the machine (docs/model.md)");
   App.add_option("--clock", O.ClockMhz,
@@ -331,6 +333,10 @@ int main(int Argc, char **Argv) {
     if (!C)
       return reportError(Tool, C.error());
     fmt::print("{}", toJson(*C));
+    return 0;
+  }
+  if (O.PrintTiming) {
+    fmt::print("{}", timingMarkdown());
     return 0;
   }
   if (O.Program.empty())

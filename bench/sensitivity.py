@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""How much each parameter of the clock carries: a frame with every parameter 20 % lower and 20 % higher.
+
+usage: sensitivity.py SCENE --cameras FILE --view NAME -o OUT.json [--config FILE] [--share PERCENT] [--only PREFIX]
+
+Parameters are those of the configuration's "timing" object (vorion-sim --print-default-config), as isasim/include/
+vorion/isasim/TimingParams.def lists them; a switch is turned over instead. OUT.json keeps every result, so that a run
+that was broken off goes on where it stopped. The table is printed as Markdown, largest effect first.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+SWITCHES = ("interleaved_stacks", "intersect_hint")
+
+
+def parameters(timing):
+    """(group, name, default) of every parameter."""
+    for group, members in timing.items():
+        if isinstance(members, dict):
+            for name, value in members.items():
+                yield group, name, value
+
+
+def variants(name, value):
+    """What to try: value by label."""
+    if name in SWITCHES:
+        return {"other": 1 - value}
+    step = max(1, round(0.2 * value))
+    return {"-20 %": max(0, value - step), "+20 %": value + step}
+
+
+def frame(args, config, folder):
+    """The frame's time report with a configuration, or the error's text."""
+    report = os.path.join(folder, "report.json")
+    environment = dict(os.environ, VORION_CONFIG=json.dumps(config))
+    done = subprocess.run(
+        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "--time",
+         "-o", os.path.join(folder, "picture.pfm"), "--json", report],
+        env=environment, capture_output=True, text=True)
+    if done.returncode != 0:
+        return {"error": done.stderr.strip().splitlines()[-1]}
+    with open(report) as file:
+        time = json.load(file)["time"]
+    return {"cycles": time["sum"]["cycles"],
+            "stages": {s["name"]: s["time"]["cycles"] for s in time["stages"] if "time" in s}}
+
+
+def table(results, share):
+    base = results["base"]["cycles"]
+    rows = []
+    for key, by_label in results["parameters"].items():
+        changes = {label: 100 * (r["cycles"] / base - 1) for label, r in by_label.items()
+                   if isinstance(r, dict) and "cycles" in r}
+        if changes:
+            rows.append((max(abs(c) for c in changes.values()), key, by_label, changes))
+    rows.sort(key=lambda row: (-row[0], row[1]))
+    print(f"frame: {base} cycles\n")
+    print("| parameter | default | 20 % less | 20 % more |\n|---|--:|--:|--:|")
+    small = 0
+    for effect, key, by_label, changes in rows:
+        if effect < share:
+            small += 1
+            continue
+        less = changes.get("-20 %", changes.get("other"))
+        more = changes.get("+20 %", changes.get("other"))
+        default = by_label["default"]
+        print(f"| `{key}` | {default} | " + " | ".join("" if c is None else f"{c:+.2f} %" for c in (less, more)) + " |")
+    print(f"\n{small} more parameters change the frame by less than {share} %.")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene")
+    parser.add_argument("--cameras", required=True)
+    parser.add_argument("--view", required=True)
+    parser.add_argument("-o", "--output", required=True)
+    parser.add_argument("--config", help="machine configuration, JSON; default: the prototype")
+    parser.add_argument("--share", type=float, default=0.1, help="leave out what changes less, in percent")
+    parser.add_argument("--only", default="", help="only parameters whose group.name begins so")
+    args = parser.parse_args()
+
+    default = json.loads(subprocess.run(["vorion-sim", "--print-default-config"], check=True, capture_output=True,
+                                        text=True).stdout)
+    if args.config:
+        with open(args.config) as file:
+            given = json.load(file)
+        for group, members in given.pop("timing", {}).items():
+            if isinstance(members, dict):
+                default["timing"][group].update(members)
+            else:
+                default["timing"][group] = members
+        default.update(given)
+
+    results = {"parameters": {}}
+    if os.path.exists(args.output):
+        with open(args.output) as file:
+            results = json.load(file)
+
+    def keep():
+        with open(args.output + ".new", "w") as file:
+            json.dump(results, file, indent=1)
+        os.replace(args.output + ".new", args.output)
+
+    with tempfile.TemporaryDirectory() as folder:
+        if "base" not in results:
+            results["base"] = frame(args, default, folder)
+            if "error" in results["base"]:
+                sys.exit("sensitivity.py: error: " + results["base"]["error"])
+            keep()
+        for group, name, value in parameters(default["timing"]):
+            key = f"{group}.{name}"
+            # Launches and copies are added outside of the run's cycles.
+            if group == "host" or not key.startswith(args.only):
+                continue
+            kept = results["parameters"].setdefault(key, {"default": value})
+            for label, tried in variants(name, value).items():
+                if label in kept or tried == value:
+                    continue
+                config = json.loads(json.dumps(default))
+                config["timing"][group][name] = tried
+                kept[label] = frame(args, config, folder)
+                keep()
+    table(results, args.share)
+
+
+if __name__ == "__main__":
+    main()

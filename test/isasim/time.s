@@ -1,0 +1,28 @@
+# The clock of vorion-sim: 1025 instructions of a cycle, 9 taken branches, 6 cycles
+# of start; and
+# docs/model.md has the parameters that there are.
+# REQUIRES: vorion-mc, vorion-sim
+# RUN: vorion-sim --print-timing-parameters > %t.made
+# RUN: sed -n '/begin of what is made/,/end of what is made/{//!p}' %S/../../docs/model.md > %t.kept
+# RUN: cmp %t.made %t.kept
+# RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
+# RUN: vorion-sim %t.elf --time --clock 100 --stats %t.json | FileCheck %s
+# RUN: %python -c 'import json,sys; t = json.load(open(sys.argv[1]))["runs"][0]["time"]; assert t["cycles"] == 1049, t["cycles"]; assert t["clock_mhz"] == 100' %t.json
+# RUN: not vorion-sim %t.elf --time --clock 0 2>&1 | FileCheck %s --check-prefix=WRONG
+# CHECK: cycles 1049 (0.010 ms at 100 MHz)
+# CHECK: cores issue {{.*}} branch {{.*}} ended
+# WRONG: error: --clock: {{.*}}0
+  .globl _start
+_start:
+  csrr a0, vx_core_id
+  bnez a0, 2f
+  li a1, 10
+1:
+  .rept 100
+  addi a2, a2, 1
+  .endr
+  addi a1, a1, -1
+  bnez a1, 1b
+2:
+  li a0, 0
+  .insn r 0x0b, 0, 0, x0, a0, x0
