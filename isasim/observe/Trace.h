@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 namespace vorion::isasim {
 
@@ -39,9 +40,16 @@ private:
     return Categories >> static_cast<unsigned>(C) & 1;
   }
 
+  /// What is the same each time that an instruction executes.
+  struct Texts {
+    std::string Place, Instruction;
+  };
+  const Texts &textsOf(const Step &S);
+
   std::FILE *Out;
   uint32_t Categories;
   std::shared_ptr<const Image> Program;
+  std::unordered_map<uint32_t, Texts> ByPc; ///< of the program
   uint64_t Runs = 0, SyncPoints = 0;
 };
 
