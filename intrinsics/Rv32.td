@@ -56,6 +56,7 @@ class FmaType<string mnemonic, int opcode>
 // RV32I
 def RV_LUI : Rv32<"lui", U, 0x37, 0x7F, "rd, uimm20", "i">;
 def RV_AUIPC : Rv32<"auipc", U, 0x17, 0x7F, "rd, uimm20", "i">;
+let Latency = LatencyBranch in {
 def RV_JAL : Rv32<"jal", J, 0x6F, 0x7F, "rd, target", "i">;
 def RV_JALR : IType<"jalr", 0x67, 0, "i", "rd, imm(rs1)">;
 def RV_BEQ : BType<"beq", 0>;
@@ -64,14 +65,19 @@ def RV_BLT : BType<"blt", 4>;
 def RV_BGE : BType<"bge", 5>;
 def RV_BLTU : BType<"bltu", 6>;
 def RV_BGEU : BType<"bgeu", 7>;
+}
+let Latency = LatencyLoad in {
 def RV_LB : IType<"lb", 0x03, 0, "i", "rd, imm(rs1)">;
 def RV_LH : IType<"lh", 0x03, 1, "i", "rd, imm(rs1)">;
 def RV_LW : IType<"lw", 0x03, 2, "i", "rd, imm(rs1)">;
 def RV_LBU : IType<"lbu", 0x03, 4, "i", "rd, imm(rs1)">;
 def RV_LHU : IType<"lhu", 0x03, 5, "i", "rd, imm(rs1)">;
+}
+let Latency = LatencyStore in {
 def RV_SB : SType<"sb", 0x23, 0, "i">;
 def RV_SH : SType<"sh", 0x23, 1, "i">;
 def RV_SW : SType<"sw", 0x23, 2, "i">;
+}
 def RV_ADDI : IType<"addi", 0x13, 0, "i">;
 def RV_SLTI : IType<"slti", 0x13, 2, "i">;
 def RV_SLTIU : IType<"sltiu", 0x13, 3, "i">;
@@ -93,30 +99,41 @@ def RV_OR : RType<"or", 0x33, 6, 0x00, "i">;
 def RV_AND : RType<"and", 0x33, 7, 0x00, "i">;
 // fence.tso and pause are fences too; fields that a fence does not use are
 // ignored, as the specification asks.
+let Latency = LatencyFence in
 def RV_FENCE : Rv32<"fence", Plain, 0x0F, 0x707F, "fence", "i">;
+let Latency = LatencyCsr in {
 def RV_ECALL : Rv32<"ecall", Plain, 0x73, 0xFFFFFFFF, "", "i">;
 def RV_EBREAK : Rv32<"ebreak", Plain, 0x100073, 0xFFFFFFFF, "", "i">;
+}
 
 // Zifencei, Zicsr
+let Latency = LatencyFence in
 def RV_FENCE_I : Rv32<"fence.i", Plain, 0x100F, 0x707F, "", "zifencei">;
+let Latency = LatencyCsr in {
 def RV_CSRRW : CsrType<"csrrw", 1>;
 def RV_CSRRS : CsrType<"csrrs", 2>;
 def RV_CSRRC : CsrType<"csrrc", 3>;
 def RV_CSRRWI : CsrType<"csrrwi", 5>;
 def RV_CSRRSI : CsrType<"csrrsi", 6>;
 def RV_CSRRCI : CsrType<"csrrci", 7>;
+}
 
 // M
+let Latency = LatencyMul in {
 def RV_MUL : RType<"mul", 0x33, 0, 0x01, "m">;
 def RV_MULH : RType<"mulh", 0x33, 1, 0x01, "m">;
 def RV_MULHSU : RType<"mulhsu", 0x33, 2, 0x01, "m">;
 def RV_MULHU : RType<"mulhu", 0x33, 3, 0x01, "m">;
+}
+let Latency = LatencyDiv in {
 def RV_DIV : RType<"div", 0x33, 4, 0x01, "m">;
 def RV_DIVU : RType<"divu", 0x33, 5, 0x01, "m">;
 def RV_REM : RType<"rem", 0x33, 6, 0x01, "m">;
 def RV_REMU : RType<"remu", 0x33, 7, 0x01, "m">;
+}
 
 // Zaamo, Zacas. The aq and rl bits are ignored (docs/abi.md, Order).
+let Latency = LatencyAtomic in {
 def RV_AMOADD_W : AmoType<"amoadd.w", 0x00, "zaamo">;
 def RV_AMOSWAP_W : AmoType<"amoswap.w", 0x01, "zaamo">;
 def RV_AMOXOR_W : AmoType<"amoxor.w", 0x04, "zaamo">;
@@ -127,6 +144,7 @@ def RV_AMOMAX_W : AmoType<"amomax.w", 0x14, "zaamo">;
 def RV_AMOMINU_W : AmoType<"amominu.w", 0x18, "zaamo">;
 def RV_AMOMAXU_W : AmoType<"amomaxu.w", 0x1C, "zaamo">;
 def RV_AMOCAS_W : AmoType<"amocas.w", 0x05, "zacas">;
+}
 
 // Zicond
 def RV_CZERO_EQZ : RType<"czero.eqz", 0x33, 5, 0x07, "zicond">;
@@ -168,8 +186,11 @@ def RV_BINVI : ShiftType<"binvi", 1, 0x34, "zbs">;
 def RV_BSETI : ShiftType<"bseti", 1, 0x14, "zbs">;
 
 // F
+let Latency = LatencyLoad in
 def RV_FLW : IType<"flw", 0x07, 2, "f", "frd, imm(rs1)">;
+let Latency = LatencyStore in
 def RV_FSW : SType<"fsw", 0x27, 2, "f", "frs2, imm(rs1)">;
+let Latency = LatencyFma in {
 def RV_FMADD_S : FmaType<"fmadd.s", 0x43>;
 def RV_FMSUB_S : FmaType<"fmsub.s", 0x47>;
 def RV_FNMSUB_S : FmaType<"fnmsub.s", 0x4B>;
@@ -177,8 +198,12 @@ def RV_FNMADD_S : FmaType<"fnmadd.s", 0x4F>;
 def RV_FADD_S : FRound<"fadd.s", 0x00>;
 def RV_FSUB_S : FRound<"fsub.s", 0x04>;
 def RV_FMUL_S : FRound<"fmul.s", 0x08>;
+}
+let Latency = LatencyFdiv in
 def RV_FDIV_S : FRound<"fdiv.s", 0x0C>;
+let Latency = LatencyFsqrt in
 def RV_FSQRT_S : FRoundUnary<"fsqrt.s", 0x2C, 0, "frd, frs1, rm">;
+let Latency = LatencyFcmp in {
 def RV_FSGNJ_S : RType<"fsgnj.s", 0x53, 0, 0x10, "f", "frd, frs1, frs2">;
 def RV_FSGNJN_S : RType<"fsgnjn.s", 0x53, 1, 0x10, "f", "frd, frs1, frs2">;
 def RV_FSGNJX_S : RType<"fsgnjx.s", 0x53, 2, 0x10, "f", "frd, frs1, frs2">;
@@ -187,10 +212,14 @@ def RV_FMAX_S : RType<"fmax.s", 0x53, 1, 0x14, "f", "frd, frs1, frs2">;
 def RV_FLE_S : RType<"fle.s", 0x53, 0, 0x50, "f", "rd, frs1, frs2">;
 def RV_FLT_S : RType<"flt.s", 0x53, 1, 0x50, "f", "rd, frs1, frs2">;
 def RV_FEQ_S : RType<"feq.s", 0x53, 2, 0x50, "f", "rd, frs1, frs2">;
+}
+let Latency = LatencyFcvt in {
 def RV_FCVT_W_S : FRoundUnary<"fcvt.w.s", 0x60, 0, "rd, frs1, rm">;
 def RV_FCVT_WU_S : FRoundUnary<"fcvt.wu.s", 0x60, 1, "rd, frs1, rm">;
 def RV_FCVT_S_W : FRoundUnary<"fcvt.s.w", 0x68, 0, "frd, rs1, rm">;
 def RV_FCVT_S_WU : FRoundUnary<"fcvt.s.wu", 0x68, 1, "frd, rs1, rm">;
+}
 def RV_FMV_X_W : Unary<"fmv.x.w", 0x53, 0, 0x70, 0, "f", "rd, frs1">;
+let Latency = LatencyFcmp in
 def RV_FCLASS_S : Unary<"fclass.s", 0x53, 1, 0x70, 0, "f", "rd, frs1">;
 def RV_FMV_W_X : Unary<"fmv.w.x", 0x53, 0, 0x78, 0, "f", "frd, rs1">;

@@ -20,6 +20,7 @@ class Instruction<string mnemonic, Format format, int match, int mask,
   int Match = match;
   int Mask = mask;
   string Extension = extension;
+  LatencyClass Latency = LatencyAlu;
 }
 
 // Where a CSR's state lives: one copy for each of these.
@@ -85,7 +86,7 @@ class Descriptor<string name, list<DescField> fields, string doc> {
 // How the compiler sees an intrinsic that selects a SIMT instruction.
 // Divergence: "source" (lanes differ), "uniform" (never), "operands" (as its operands do).
 class SimtInstruction<string mnemonic, int funct3, int funct7, string outs, string ins,
-                      string divergence, string prototype, string latency, string doc>
+                      string divergence, string prototype, LatencyClass latency, string doc>
     : Instruction<mnemonic, R, 0, 0, "xvortex"> {
   let Match = !or(0x0B, !shl(funct3, 12), !shl(funct7, 25));
   int FixedZero = !or(!if(!eq(outs, ""), 0xF80, 0),           // rd
@@ -97,6 +98,6 @@ class SimtInstruction<string mnemonic, int funct3, int funct7, string outs, stri
   string Ins = ins;                   // "rs1" or "rs1, rs2"
   string Divergence = divergence;
   string Prototype = prototype;       // C, as in vorion.h
-  string Latency = latency;           // class of the timing table
+  let Latency = latency;
   string Doc = doc;
 }

@@ -5,6 +5,7 @@
 //
 //===----------------------------------------------------------------------===//
 
+include "Latencies.td"
 include "Schema.td"
 include "Rv32.td"
 include "Simt.td"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/CodeTable.h"
+#include "timing/Latencies.h"
 #include "vorion/isasim/Timing.h"
 
 #include <cstdint>
@@ -10,32 +11,7 @@
 
 namespace vorion::isasim {
 
-/// Instructions that cost the same.
-enum class OpClass : uint8_t {
-  Alu,
-  Mul,
-  Div,
-  Fma, ///< addition and multiplication too
-  Fcmp,
-  Fcvt,
-  Fdiv,
-  Fsqrt,
-  Simt, ///< votes and shuffles
-  Csr,
-  Branch,
-  Mask, ///< what changes the active lanes
-  Load,
-  Store,
-  Atomic,
-  Fence,
-  Barrier,
-  Count
-};
 std::string_view name(OpClass C);
-
-/// Whom an instruction is given to. The paper's 16 ALUs and 16 SFUs work a warp
-/// at a time; branches and thread control are the SFUs'.
-enum class Unit : uint8_t { Alu, Sfu, Lsu, Count };
 
 /// One instruction. Registers are numbered as in WarpState::R.
 struct OpInfo {

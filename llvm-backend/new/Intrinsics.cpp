@@ -86,6 +86,10 @@ unsigned vorion::divergentMarker(LLVMContext &Context) {
   return Context.getMDKindID("vorion.divergent");
 }
 
+unsigned vorion::uniformMarker(LLVMContext &Context) {
+  return Context.getMDKindID("vorion.uniform");
+}
+
 const TargetIntrinsicInfo *RISCVTargetMachine::getIntrinsicInfo() const {
   static const IntrinsicInfo Info;
   return &Info;

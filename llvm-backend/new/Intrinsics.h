@@ -43,6 +43,9 @@ Function *declareIntrinsic(Module &M, StringRef Name);
 /// (DivergenceAnalysis.cpp says when).
 unsigned divergentMarker(LLVMContext &Context);
 
+/// Kind of the metadata that says that lanes agree in an instruction's result.
+unsigned uniformMarker(LLVMContext &Context);
+
 } // namespace llvm::vorion
 
 #endif

@@ -4,7 +4,8 @@
 //   1. refuse what has no meaning for a warp;
 //   2. branches only: switches become trees of branches;
 //   3. one return, loops that end, no irreducible cycles;
-//   4. short sides of divergent branches become selects;
+//   4. tests that lanes agree in are marked, and short sides of divergent
+//      branches become selects;
 //   5. loops that lanes leave apart get one exit, in the latch;
 //   6. splits, joins and predicates.
 // It does not structurize: lanes meet at the immediate post-dominator, however
@@ -23,6 +24,7 @@
 #include "llvm/Analysis/LazyValueInfo.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/PostDominators.h"
+#include "llvm/Analysis/ScalarEvolution.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
 #include "llvm/Analysis/TargetTransformInfo.h"
 #include "llvm/CodeGen/TargetPassConfig.h"
@@ -101,6 +103,8 @@ public:
   bool runOnFunction(Function &F) override;
 
 private:
+  /// False if \p F is not to be compiled further.
+  static bool lower(Function &F, const TargetMachine &TM);
   static void registerAnalyses(FunctionAnalysisManager &Analyses,
                                const TargetMachine &TM);
   static bool checkCode(Function &F, FunctionAnalysisManager &Analyses);
@@ -137,13 +141,30 @@ bool callsThroughVariable(Function &F) {
   });
 }
 
+/// Nobody asks any more what vx_uniform vouches for; selection makes better
+/// branches without it.
+void removePromises(Function &F) {
+  for (Instruction &I : make_early_inc_range(instructions(F))) {
+    const vorion::IntrinsicRecord *Ours = vorion::findIntrinsic(&I);
+    if (!Ours || Ours->Name != "vx_uniform")
+      continue;
+    I.replaceAllUsesWith(I.getOperand(0));
+    I.eraseFromParent();
+  }
+}
+
 } // namespace
 
 bool LowerDivergence::runOnFunction(Function &F) {
   const auto &TM = getAnalysis<TargetPassConfig>().getTM<TargetMachine>();
   if (!TM.getSubtarget<RISCVSubtarget>(F).hasVendorXVortex())
     return false;
+  if (lower(F, TM))
+    removePromises(F);
+  return true;
+}
 
+bool LowerDivergence::lower(Function &F, const TargetMachine &TM) {
   FunctionAnalysisManager Analyses;
   registerAnalyses(Analyses, TM);
   auto run = [&](auto Pass) { Analyses.invalidate(F, Pass.run(F, Analyses)); };
@@ -155,7 +176,7 @@ bool LowerDivergence::runOnFunction(Function &F) {
   if (callsThroughVariable(F))
     run(PromotePass());
   if (!checkCode(F, Analyses))
-    return true;
+    return false;
   for (const vorion::DivergentBarrier &B : vorion::findDivergentBarriers(F))
     F.getContext().diagnose(DiagnosticInfoUnsupported(
         F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
@@ -164,9 +185,12 @@ bool LowerDivergence::runOnFunction(Function &F) {
   changed();
 
   const auto &Subtarget = TM.getSubtarget<RISCVSubtarget>(F);
-  if (TM.getOptLevel() != CodeGenOptLevel::None && !F.hasOptNone())
+  if (TM.getOptLevel() != CodeGenOptLevel::None && !F.hasOptNone()) {
+    while (vorion::markUniformTests(F, Analyses))
+      changed();
     while (vorion::selectShortSides(F, Analyses, Subtarget))
       changed();
+  }
 
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
   if (none_of(F,
@@ -190,6 +214,7 @@ void LowerDivergence::registerAnalyses(FunctionAnalysisManager &Analyses,
   Analyses.registerPass([] { return LazyValueAnalysis(); });
   Analyses.registerPass([] { return LoopAnalysis(); });
   Analyses.registerPass([] { return PostDominatorTreeAnalysis(); });
+  Analyses.registerPass([] { return ScalarEvolutionAnalysis(); });
   Analyses.registerPass([] { return TargetLibraryAnalysis(); });
   Analyses.registerPass([] { return UniformityInfoAnalysis(); });
 }

@@ -55,6 +55,10 @@ BranchInst *soleExit(const Loop &L, const DominatorTree &Dominators);
 bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
                       const RISCVSubtarget &Subtarget);
 
+/// Marks comparisons that lanes agree in although they differ in what is
+/// compared. True if there was anything new.
+bool markUniformTests(Function &F, FunctionAnalysisManager &Analyses);
+
 /// Gives \p F one return, and every loop a way to it.
 void unifyExits(Function &F, FunctionAnalysisManager &Analyses);
 

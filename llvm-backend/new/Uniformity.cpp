@@ -83,6 +83,8 @@ bool vorion::isAlwaysUniform(const Value *V) {
   const auto *I = dyn_cast<Instruction>(V);
   if (!I || I->hasMetadata(vorion::divergentMarker(I->getContext())))
     return false;
+  if (I->hasMetadata(vorion::uniformMarker(I->getContext())))
+    return true;
   const vorion::IntrinsicRecord *Ours = vorion::findIntrinsic(V);
   return Ours && Ours->Result == vorion::Divergence::Uniform;
 }

@@ -22,9 +22,10 @@ def HasVendorXVorion : Predicate<"Subtarget->hasVendorXVorion()">,
     AssemblerPredicate<(all_of FeatureVendorXVorion), "'XVorion' (Gaussian rasterizer)">;
 
 include "RISCVInstrInfoXVortex.td"
+include "VorionSched.td"
 
 // docs/abi.md, "Target".
-def VORION : RISCVProcessorModel<"vorion", NoSchedModel,
+def VORION : RISCVProcessorModel<"vorion", VorionModel,
     [Feature32Bit, FeatureStdExtI, FeatureStdExtM, FeatureStdExtA, FeatureStdExtF,
      FeatureStdExtZicsr, FeatureStdExtZicond, FeatureStdExtZacas, FeatureStdExtZba,
      FeatureStdExtZbb, FeatureStdExtZbs, FeatureVendorXVortex, FeatureVendorXVorion]>;

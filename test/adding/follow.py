@@ -65,6 +65,7 @@ def check_generated(folder):
     os.makedirs(out)
     generators = os.path.join(folder, "intrinsics", "generate")
     for script, arguments in (("header.py", ["--for", "device", f"{out}/vorion.h"]), ("backend.py", [out]),
+                              ("latencies.py", ["--scheduling", f"{out}/VorionLatencies.td"]),
                               ("isasim.py", [f"{out}/IsaTables.h"])):
         run(folder, sys.executable, os.path.join(generators, script), *arguments)
     expect(read(folder, "docs/isa.md"), r"^\| `vx_absdiff rd, rs1, rs2` \| `0400000b/fe00707f` \|", "docs/isa.md")

@@ -117,6 +117,7 @@ const LoadedKernel *KernelCache::get(_cl_command_node *Command,
     return nullptr;
   }
   New.Image.reset(Image);
+  New.Path = Path;
   if (vx_image_find_kernel(Image, Kernel->name, &New.Number) != VX_OK ||
       vx_image_get_kernel(Image, New.Number, &New.Info) != VX_OK) {
     Problem = vx_last_error();

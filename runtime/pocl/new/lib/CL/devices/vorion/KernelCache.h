@@ -23,6 +23,7 @@ struct LoadedKernel {
   std::unique_ptr<vx_image, ImageDeleter> Image;
   uint32_t Number = 0; ///< of the kernel in the image
   vx_kernel_info Info{};
+  std::string Path; ///< of the image
 };
 
 class KernelCache {

@@ -1,4 +1,5 @@
 #include "Launch.h"
+#include "Capture.h"
 #include "Event.h"
 
 #include <vorion_abi.h>
@@ -79,6 +80,7 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
     Params.local_size[I] = Grid.local_size[I];
     Params.global_offset[I] = Grid.global_offset[I];
   }
+  captureLaunch(*Kernel, *Command);
   vx_result Result;
   Status = vx_start(Device, Kernel->Image.get(), Kernel->Number, &Params,
                     Packed.data(), Packed.size());
