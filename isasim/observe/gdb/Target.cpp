@@ -177,7 +177,9 @@ bool Target::writeMemory(ThreadId T, uint32_t Address, std::string_view Bytes) {
 std::string Target::description() {
   std::string Text =
       "<?xml version=\"1.0\"?><!DOCTYPE target SYSTEM \"gdb-target.dtd\">"
-      "<target version=\"1.0\"><architecture>riscv:rv32</architecture><osabi>none</osabi>"
+      "<target "
+      "version=\"1.0\"><architecture>riscv:rv32</architecture><osabi>none</"
+      "osabi>"
       "<feature name=\"org.gnu.gdb.riscv.cpu\">";
   for (const char *Name : XNames)
     Text += entry(Name, Name == XNames[2] ? "data_ptr" : "int");
