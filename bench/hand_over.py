@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""What z-tiles and the pixel unit do to a view: picture error and work.
+
+Renders a view with --ztiles K, with and without the early stop (--cutoff 0),
+and with --pixel-unit rules, and prints for each: the largest difference from
+the whole list's picture and its PSNR, blends in all and relative to the whole
+list's, lane slots of the rasterizers, and what the pixel unit took over.
+
+usage: hand_over.py SCENE --cameras CAMERAS --view VIEW --out FOLDER [--json FILE] [OPTIONS of splat render]
+
+FOLDER keeps each run's result; what is there is not run again.
+"""
+
+import argparse
+import array
+import json
+import math
+import os
+import subprocess
+
+PARTS = (1, 2, 4, 8, 16)
+RULES = ("last:1/2", "last:1/4", "last:1/8", "count:256", "occluded:0.5", "occluded:0.9", "occluded:0.99")
+
+
+def render(args, name, options):
+    base = os.path.join(args.out, name.replace(":", "-").replace("/", "_"))
+    if not os.path.exists(base + ".json"):
+        subprocess.run(["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view,
+                        "-o", base + ".pfm", "--json", base + ".json", *args.options, *options],
+                       check=True, stdout=subprocess.DEVNULL)
+    with open(base + ".json", encoding="utf-8") as f:
+        counters = json.load(f)["total"]["counters"]
+    with open(base + ".pfm", "rb") as f:
+        for _ in range(3):
+            f.readline()
+        return counters, array.array("f", f.read())
+
+
+def row(name, counters, picture, whole):
+    base, right = whole
+    differences = [abs(a - b) for a, b in zip(right, picture)]
+    mean = sum(d * d for d in differences) / len(differences)
+    blends = counters["raster_blends"] + counters["raster_tail_blends"]
+    return {"run": name, "max_abs": max(differences),
+            "db": -10 * math.log10(mean) if mean else None,
+            "blends": blends, "blend_ratio": blends / (base["raster_blends"] + base["raster_tail_blends"]),
+            **{key: counters["raster_" + key] for key in
+               ("commands", "gaussians", "intersecting", "fragments", "tails", "tail_pixels", "tail_visits",
+                "tail_blends")}}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("scene")
+    parser.add_argument("--cameras", required=True)
+    parser.add_argument("--view", required=True)
+    parser.add_argument("--out", required=True, help="folder for the runs")
+    parser.add_argument("--json", help="write the table")
+    args, args.options = parser.parse_known_args()
+    os.makedirs(args.out, exist_ok=True)
+
+    rows = []
+    for stop, options in (("stop", []), ("no stop", ["--cutoff", "0"])):
+        whole = None
+        for parts in PARTS:
+            name = f"{stop}, K={parts}"
+            result = render(args, name.replace(", ", "-").replace(" ", "-"), [*options, "--ztiles", str(parts)])
+            whole = whole or result
+            rows.append(row(name, *result, whole))
+        if stop == "stop":
+            first = whole
+    for rule in RULES:
+        rows.append(row(rule, *render(args, rule, ["--pixel-unit", rule]), first))
+    rows.append(row("skip saturated", *render(args, "skip", ["--skip-saturated"]), first))
+    print(f"{'run':<16} {'max diff':>9} {'dB':>7} {'blends':>11} {'ratio':>6} {'lane slots':>11} "
+          f"{'tails':>6} {'pixels':>8} {'visits':>12} {'tail blends':>11}")
+    for r in rows:
+        db = "equal" if r["db"] is None else f"{r['db']:.2f}"
+        print(f"{r['run']:<16} {r['max_abs']:>9.2e} {db:>7} {r['blends']:>11} {r['blend_ratio']:>6.3f} "
+              f"{r['fragments']:>11} {r['tails']:>6} {r['tail_pixels']:>8} {r['tail_visits']:>12} "
+              f"{r['tail_blends']:>11}")
+    if args.json:
+        with open(args.json, "w", encoding="utf-8") as f:
+            json.dump({"scene": args.scene, "view": args.view, "options": args.options, "rows": rows}, f, indent=2)
+            f.write("\n")
+
+
+if __name__ == "__main__":
+    main()
