@@ -4,7 +4,13 @@
 // group stops when none of its pixels can change any more. The picture has the
 // same bits for every TILE_SIZE and GROUP.
 
-#define BATCH 256
+// Small, since a pixel that is done waits for the batch's end: letting lanes leave
+// the loop one by one costs more, in instructions on trained scenes.
+#define BATCH 64
+// The 16 lanes of a pass draw 4x4 pixels: fewer boxes touch those than a row.
+#define BLOCKS (TILE_SIZE / 4)
+#define PLACE_X(place) ((place) / 16 % BLOCKS * 4 + (place) % 4)
+#define PLACE_Y(place) ((place) / 16 / BLOCKS * 4 + (place) % 16 / 4)
 #define TILE_PIXELS (TILE_SIZE * TILE_SIZE)
 // Pixels of a work-item; the last items have none where the tile is smaller
 // than the group.
@@ -26,17 +32,17 @@ typedef struct {
 static pixel_state blend_batch(__local const splat_gaussian *batch,
                                uint entries, float px, float py, float cutoff,
                                pixel_state p) {
-  for (uint j = 0; j < entries && !p.done; ++j) {
+  for (uint j = 0; j < entries; ++j) {
     __local const splat_gaussian *g = &batch[j];
+    const float dx = g->mean[0] - px;
     const float dy = g->mean[1] - py;
-    if (fabs(dy) <= g->extent[1]) {
-      const float dx = g->mean[0] - px;
+    if (!p.done & (fabs(dx) <= g->extent[0]) & (fabs(dy) <= g->extent[1])) {
       const float power = -0.5f * (g->conic[0] * dx * dx +
                                    g->conic[2] * dy * dy) -
                           g->conic[1] * dx * dy;
       // Below MIN_POWER alpha is under 1/255 whatever the opacity, so the
       // exponential is not worth taking. False for NaN.
-      if (fabs(dx) <= g->extent[0] && power <= 0.0f && power >= MIN_POWER) {
+      if ((power <= 0.0f) & (power >= MIN_POWER)) {
         const float alpha = fmin(0.99f, g->opacity * falloff(power));
         const float next = p.transmittance * (1.0f - alpha);
         // Without branches: most Gaussians that get here are blended, and a
@@ -72,8 +78,8 @@ blend(__global const splat_gaussian *records, __global const uint *list,
   pixel_state own[OWN];
   for (uint k = 0; k < OWN; ++k) {
     const uint place = k * GROUP + item;
-    const bool inside = place < TILE_PIXELS && x0 + place % TILE_SIZE < width &&
-                        y0 + place / TILE_SIZE < height;
+    const bool inside = place < TILE_PIXELS && x0 + PLACE_X(place) < width &&
+                        y0 + PLACE_Y(place) < height;
     own[k] = (pixel_state){0.0f, 0.0f, 0.0f, 1.0f, !inside};
   }
   bool group_live = true;
@@ -88,8 +94,8 @@ blend(__global const splat_gaussian *records, __global const uint *list,
     bool open = false;
     for (uint k = 0; k < OWN; ++k) {
       const uint place = k * GROUP + item;
-      const float px = (float)(x0 + place % TILE_SIZE) + 0.5f;
-      const float py = (float)(y0 + place / TILE_SIZE) + 0.5f;
+      const float px = (float)(x0 + PLACE_X(place)) + 0.5f;
+      const float py = (float)(y0 + PLACE_Y(place)) + 0.5f;
       if (!own[k].done)
         own[k] = blend_batch(batch, entries, px, py, cutoff, own[k]);
       open |= !own[k].done;
@@ -103,8 +109,8 @@ blend(__global const splat_gaussian *records, __global const uint *list,
   }
   for (uint k = 0; k < OWN; ++k) {
     const uint place = k * GROUP + item;
-    const uint x = x0 + place % TILE_SIZE;
-    const uint y = y0 + place / TILE_SIZE;
+    const uint x = x0 + PLACE_X(place);
+    const uint y = y0 + PLACE_Y(place);
     if (place < TILE_PIXELS && x < width && y < height)
       pixels[y * width + x] = (float4)(own[k].red, own[k].green, own[k].blue,
                                        own[k].transmittance);
