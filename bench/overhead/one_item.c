@@ -24,7 +24,7 @@ static uint stacks[MAX_ITEMS][STACK_WORDS];
 static uint current, finished[MAX_ITEMS], counted, yields, items;
 
 /* Keeps ra and s0 to s11 and fs0 to fs11 on this stack, whose address goes to
-   *from, and goes on with the stack at to. */
+ *from, and goes on with the stack at to. */
 void swap_stacks(uint **from, uint *to);
 __asm__(".globl swap_stacks\n"
         "swap_stacks:\n"
@@ -107,8 +107,8 @@ static void group(const void *args, const vx_launch *launch, uint gx, uint gy,
                   uint gz) {
   const uint linear =
       (gz * launch->num_groups[1] + gy) * launch->num_groups[0] + gx;
-  const uint total = launch->num_groups[0] * launch->num_groups[1] *
-                     launch->num_groups[2];
+  const uint total =
+      launch->num_groups[0] * launch->num_groups[1] * launch->num_groups[2];
   _local_size_x = launch->local_size[0];
   _local_size_y = launch->local_size[1];
   _local_size_z = launch->local_size[2];
@@ -142,8 +142,7 @@ static void group(const void *args, const vx_launch *launch, uint gx, uint gy,
 }
 
 static const vx_kernel_arg arguments[] = {ARGUMENTS};
-__attribute__((section("vorion_kernels"), used)) static const vx_kernel kernel =
-    {(uint)KERNEL_NAME, (uint)group,
-     (uint)arguments,   NUM_ARGUMENTS,
-     ARGUMENTS_BYTES,   0,
-     LOCAL_BYTES,       {0, 0, 0}};
+__attribute__((section("vorion_kernels"),
+               used)) static const vx_kernel kernel = {
+    (uint)KERNEL_NAME, (uint)group, (uint)arguments, NUM_ARGUMENTS,
+    ARGUMENTS_BYTES,   0,           LOCAL_BYTES,     {0, 0, 0}};

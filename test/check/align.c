@@ -7,6 +7,6 @@
 // CHECK: vorion-sim: error: {{.*}}: trap: core 0, warp 0, lane 0: misaligned load
 volatile unsigned offset = 2;
 unsigned char bytes[16] = {1, 2, 3, 4, 5, 6, 7, 8};
-int main(void) {
+int main(void) { // traps
   return *(volatile int *)(bytes + offset);
 }

@@ -1,7 +1,9 @@
 // At -Oz nothing is outlined from functions with splits, whose tokens would be
-// lost; from others, the same code is. REQUIRES: vorion-clang RUN: vorion-clang
-// -Oz -S -o - %s | FileCheck %s RUN: vorion-clang -Oz -S -DBRANCH="if (a & 1)"
-// -o - %s | FileCheck --check-prefix=SPLIT %s CHECK: call t0, OUTLINED_FUNCTION
+// lost; from others, the same code is.
+// REQUIRES: vorion-clang
+// RUN: vorion-clang -Oz -S -o - %s | FileCheck %s
+// RUN: vorion-clang -Oz -S -DBRANCH="if (a & 1)" -o - %s | FileCheck --check-prefix=SPLIT %s
+// CHECK: call t0, OUTLINED_FUNCTION
 // SPLIT: vx_split
 // SPLIT-NOT: OUTLINED_FUNCTION
 #include <vorion.h>

@@ -1,5 +1,5 @@
 // A store to page 0.
-__attribute__((noinline)) void poke(volatile int *where) {
+__attribute__((noinline)) void poke(volatile int *where) { // traps
   *where = 1;
 }
 

@@ -1,7 +1,7 @@
 // Every lane adds up squares; the test stops in it.
 unsigned results[16];
 
-__attribute__((noinline)) unsigned square(unsigned x) {
+__attribute__((noinline)) unsigned square(unsigned x) { // broken at
   return x * x;
 }
 

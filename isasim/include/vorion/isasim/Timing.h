@@ -47,7 +47,8 @@ struct TimingParam {
   uint32_t &(*Of)(TimingConfig &);
 };
 std::span<const TimingParam> timingParams();
-/// The parameters and the rasterizer's units as Markdown tables (docs/model.md).
+/// The parameters and the rasterizer's units as Markdown tables
+/// (docs/model.md).
 std::string timingMarkdown();
 
 /// What a cycle of a core went to: it issued an instruction, or waited.

@@ -49,8 +49,9 @@
   }
 SAFE_SIGNED(8)
 SAFE_SIGNED(16)
-SAFE_SIGNED(32) SAFE_SIGNED(64) SAFE_UNSIGNED(8) SAFE_UNSIGNED(16)
-    SAFE_UNSIGNED(32) SAFE_UNSIGNED(64)
+SAFE_SIGNED(32)
+SAFE_SIGNED(64) SAFE_UNSIGNED(8) SAFE_UNSIGNED(16) SAFE_UNSIGNED(32)
+    SAFE_UNSIGNED(64)
 
     /* The sum of a lane is a variable of its main function. */
     static inline uint mix(uint sum, ulong value) {
