@@ -47,14 +47,19 @@
   static inline UNUSED type safe_rshift_func_##type##_##signs(type a, by b) {  \
     return (unsigned)b >= bits || a < 0 ? a : (type)(a >> b);                  \
   }
+/* clang-format off: it takes these for the head of a function */
 SAFE_SIGNED(8)
 SAFE_SIGNED(16)
 SAFE_SIGNED(32)
-SAFE_SIGNED(64) SAFE_UNSIGNED(8) SAFE_UNSIGNED(16) SAFE_UNSIGNED(32)
-    SAFE_UNSIGNED(64)
+SAFE_SIGNED(64)
+SAFE_UNSIGNED(8)
+SAFE_UNSIGNED(16)
+SAFE_UNSIGNED(32)
+SAFE_UNSIGNED(64)
+/* clang-format on */
 
-    /* The sum of a lane is a variable of its main function. */
-    static inline uint mix(uint sum, ulong value) {
+/* The sum of a lane is a variable of its main function. */
+static inline uint mix(uint sum, ulong value) {
   sum = (sum ^ (uint)value) * 0x9e3779b1u;
   sum = (sum ^ sum >> 15 ^ (uint)(value >> 32)) * 0x85ebca77u;
   return sum ^ sum >> 13;
