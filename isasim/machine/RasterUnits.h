@@ -26,7 +26,12 @@ public:
   bool access(unsigned Core, WarpState *S, const CsrAccess &A);
 
   /// \p Log is told of every command of rasterizer \p N until the next reset().
-  void setLog(unsigned N, raster::WorkLog *Log) { Units[N]->setLog(Log); }
+  /// Pixel units tell the one of their cluster's first rasterizer.
+  void setLog(unsigned N, raster::WorkLog *Log) {
+    Units[N]->setLog(Log);
+    if (N % Shape.SocketsPerCluster == 0)
+      PixelUnits[N / Shape.SocketsPerCluster]->setLog(Log);
+  }
 
   unsigned units() const { return static_cast<unsigned>(Units.size()); }
   unsigned pixelUnits() const {

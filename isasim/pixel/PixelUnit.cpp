@@ -39,6 +39,10 @@ public:
   std::uint32_t run();
   const Counters &work() const { return Work; }
 
+  /// Keeps the details of the work too, of the record at \p Address.
+  void keepWork(std::uint32_t Address);
+  TailWork takeWork() { return std::move(Kept); }
+
 private:
   bool isLive(unsigned Row, unsigned Column) const {
     return (Record.Live[2 * Row + Column / 32] >> Column % 32 & 1) != 0;
@@ -48,6 +52,7 @@ private:
   void loadPixels();
   std::uint32_t blend();
   void storePixels();
+  void keepVisits(std::uint32_t Examined);
 
   const Tail &Record;
   const Command C;
@@ -55,7 +60,29 @@ private:
   TileBuffer &Tile;
   const Datapath &Lanes;
   Counters Work;
+  bool Keeps = false;
+  TailWork Kept;
 };
+
+void Execution::keepWork(std::uint32_t Address) {
+  Keeps = true;
+  Kept = {Address,
+          Record.List,
+          Record.Output,
+          Record.OutputPitch,
+          static_cast<std::uint8_t>(OptionsExp.get(Record.Options)),
+          {},
+          {}};
+}
+
+/// \p Examined Gaussians have been seen by every pixel that is open, or was
+/// until the last of them.
+void Execution::keepVisits(std::uint32_t Examined) {
+  for (TailWork::OpenPixel &P : Kept.Pixels)
+    if (P.Visits == 0 && (Examined == C.Count ||
+                          std::signbit(Tile.T[P.Y * TileBuffer::Stride + P.X])))
+      P.Visits = Examined;
+}
 
 template <typename Function> void Execution::forLivePixels(Function Use) {
   const unsigned Width = TileShapeWidth.get(C.TileShape);
@@ -87,6 +114,9 @@ void Execution::loadPixels() {
     Tile.T[At] = std::fabs(P.T);
     ++Tile.RowLive[Row];
     ++Tile.Live;
+    if (Keeps)
+      Kept.Pixels.push_back({static_cast<std::uint8_t>(Column),
+                             static_cast<std::uint8_t>(Row), 0});
   });
 }
 
@@ -95,12 +125,18 @@ std::uint32_t Execution::blend() {
   const GaussianList List(C, Memory);
   Fetched Entry;
   for (std::uint32_t I = 0; I != C.Count && Tile.Live != 0; ++I) {
-    Work.TailVisits += Tile.Live;
+    const std::uint32_t OpenBefore = Tile.Live;
+    Work.TailVisits += OpenBefore;
     if (const std::uint32_t Status = List.fetch(I, Entry))
       return Status;
     Work.TailBlends +=
         Lanes.Blend[OptionsExp.get(C.Options)](Entry.Record, Options, Tile)
             .Blends;
+    if (Keeps) {
+      Kept.Records.push_back(Entry.Address);
+      if (Tile.Live != OpenBefore || I + 1 == C.Count)
+        keepVisits(I + 1);
+    }
   }
   return VR_OK;
 }
@@ -147,7 +183,11 @@ bool PixelUnit::step() {
               sizeof(Record));
   const DefaultFloatEnvironment Environment;
   Execution Running(Record, Memory, *Tile, *Lanes);
+  if (Log)
+    Running.keepWork(Next.Record);
   const std::uint32_t Status = Running.run();
+  if (Log)
+    Log->tail(Next.Agent->core(), Running.takeWork());
   Next.Agent->completeTail(Status, Running.work());
   return true;
 }

@@ -3,6 +3,7 @@
 
 #include "raster/RasterAgent.h"
 #include "raster/RasterMemory.h"
+#include "raster/WorkLog.h"
 
 #include <deque>
 #include <memory>
@@ -39,6 +40,9 @@ public:
     return Queue.empty() ? nullptr : &Queue.front();
   }
 
+  /// \p Receiver is told of every hand-over's work; nullptr for nobody.
+  void setLog(raster::WorkLog *Receiver) { Log = Receiver; }
+
   /// Executes the next hand-over; false if there is none.
   bool step();
 
@@ -47,6 +51,7 @@ private:
   std::deque<raster::HandOver> Queue;
   std::unique_ptr<raster::TileBuffer> Tile;
   const raster::Datapath *Lanes;
+  raster::WorkLog *Log = nullptr;
 };
 
 } // namespace vorion::pixel

@@ -130,7 +130,8 @@ CommandWork Execution::takeWork(std::uint32_t Status) {
           static_cast<std::uint8_t>(OptionsExp.get(C.Options)),
           Drains,
           Status != VR_OK,
-          std::move(Kept)};
+          std::move(Kept),
+          Status == VR_OK && HandedOver ? C.TailRecord : 0};
 }
 
 void Execution::writeTail(unsigned Core) {

@@ -24,6 +24,23 @@ struct CommandWork {
   bool Drains = false; ///< to the agent, not to memory
   bool Failed = false; ///< writes nothing
   std::vector<GaussianWork> Gaussians;
+  /// Address of the vx_tail with which the pixel unit goes on, 0 if it does
+  /// not.
+  std::uint32_t TailRecord = 0;
+};
+
+/// What a pixel unit did for a hand-over.
+struct TailWork {
+  struct OpenPixel {
+    std::uint8_t X, Y;    ///< in the tile
+    std::uint32_t Visits; ///< Gaussians that it examined
+  };
+  std::uint32_t Record = 0; ///< address of the vx_tail
+  std::uint32_t List = 0;   ///< of its first entry
+  std::uint32_t Output = 0, OutputPitch = 0;
+  std::uint8_t ExpUnit = 0;
+  std::vector<std::uint32_t> Records; ///< of Gaussians, in the list's order
+  std::vector<OpenPixel> Pixels;      ///< in rows
 };
 
 /// Receives the work of every command when it has been executed, on the thread
@@ -33,6 +50,9 @@ public:
   virtual ~WorkLog() = default;
   /// \p Agent: place among the rasterizer's agents.
   virtual void command(unsigned Agent, CommandWork &&Work) = 0;
+  /// Likewise of every hand-over of core \p Core, one at a time for each pixel
+  /// unit.
+  virtual void tail(unsigned Core, TailWork &&Work) = 0;
 };
 
 } // namespace vorion::raster

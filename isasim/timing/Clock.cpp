@@ -14,13 +14,19 @@ constexpr size_t WorthTaking = 1 << 12;
 
 class Clock::SocketLog final : public raster::WorkLog {
 public:
-  explicit SocketLog(RasterClock &ToIn) : To(ToIn) {}
+  SocketLog(RasterClock &ToIn, PixelClock &TailsIn, unsigned FirstIn)
+      : To(ToIn), Tails(TailsIn), First(FirstIn) {}
   void command(unsigned Agent, raster::CommandWork &&Work) override {
     To.expect(Agent, std::move(Work));
+  }
+  void tail(unsigned Core, raster::TailWork &&Work) override {
+    Tails.expect(Core - First, std::move(Work));
   }
 
 private:
   RasterClock &To;
+  PixelClock &Tails;
+  unsigned First; ///< core of the cluster
 };
 
 Clock::Clock(const Config &C)
@@ -35,8 +41,13 @@ Clock::Clock(const Config &C)
   for (unsigned N = 0; N != C.sockets(); ++N)
     Rasters.emplace_back(P, N / C.SocketsPerCluster, C.CoresPerSocket,
                          C.Raster.QueueDepth);
-  for (RasterClock &R : Rasters)
-    Logs.push_back(std::make_unique<SocketLog>(R));
+  for (unsigned N = 0; N != C.Clusters; ++N)
+    Pixels.emplace_back(P, N, CoresPerCluster);
+  for (unsigned N = 0; N != C.sockets(); ++N) {
+    const unsigned Cluster = N / C.SocketsPerCluster;
+    Logs.push_back(std::make_unique<SocketLog>(Rasters[N], Pixels[Cluster],
+                                               Cluster * CoresPerCluster));
+  }
 }
 
 Clock::~Clock() = default;
@@ -56,8 +67,10 @@ void Clock::begin(const CodeTable &Code) {
     C.begin(Ops, Begun);
   for (RasterClock &R : Rasters)
     R.begin(Begun);
+  for (PixelClock &U : Pixels)
+    U.begin(Begun);
   Ended.assign(Cores.size(), false);
-  Keys.assign(Cores.size() + Rasters.size(), Never);
+  Keys.assign(Cores.size() + Rasters.size() + Pixels.size(), Never);
 }
 
 bool Clock::isOverfull() const {
@@ -92,6 +105,8 @@ TimeReport Clock::end() {
     End = std::max(End, C.quietAt());
   for (const RasterClock &R : Rasters)
     End = std::max(End, R.freeAt());
+  for (const PixelClock &U : Pixels)
+    End = std::max(End, U.freeAt());
   End = Memory.endRun(End);
   TimeReport R;
   R.Cycles = End - Begun;
@@ -106,6 +121,10 @@ TimeReport Clock::end() {
   for (RasterClock &C : Rasters) {
     C.end(End);
     R.Rasters.push_back(C.time());
+  }
+  for (PixelClock &U : Pixels) {
+    U.end(End);
+    R.PixelUnits.push_back(U.time());
   }
   Memory.report(R);
   collectActivities(R);
@@ -163,7 +182,10 @@ void Clock::collectActivities(TimeReport &R) const {
 void Clock::update(unsigned Who) {
   Key &K = Keys[Who];
   if (Who >= Cores.size()) {
-    const uint64_t At = Rasters[Who - Cores.size()].when();
+    const bool IsRaster = Who < pixelKey(0);
+    const uint64_t At = IsRaster ? Rasters[Who - rasterKey(0)].when()
+                                 : Pixels[Who - pixelKey(0)].when();
+    static_assert(PixelClock::Never == RasterClock::Never);
     K = At == RasterClock::Never ? Never : 2 * At + 1;
     return;
   }
@@ -211,7 +233,7 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     if (R.isFull(Agent))
       return C.block();
     R.start(Agent, Then);
-    update(static_cast<unsigned>(Cores.size()) + Core / Shape.CoresPerSocket);
+    update(rasterKey(Core / Shape.CoresPerSocket));
     C.resume(Then, CoreCycle::RasterFull);
     break;
   case CoreClock::State::RasterWait:
@@ -247,18 +269,47 @@ bool Clock::step() {
     update(Who);
     return true;
   }
-  const auto Socket = static_cast<unsigned>(Who - Cores.size());
-  const auto Agent = Rasters[Socket].step(Memory);
+  if (Who < pixelKey(0))
+    stepRaster(Who - rasterKey(0), Then);
+  else
+    stepPixels(Who - pixelKey(0), Then);
   update(Who);
-  if (!Agent)
-    return true;
-  const unsigned Core = Socket * Shape.CoresPerSocket + *Agent;
-  if (Cores[Core].isBlocked() &&
-      Cores[Core].state() != CoreClock::State::Barrier) {
-    grant(Core, Then);
-    update(Core);
-  }
   return true;
+}
+
+/// A core that its rasterizer's queue or work had blocked tries again.
+void Clock::wake(unsigned Core, uint64_t Then) {
+  if (!Cores[Core].isBlocked() ||
+      Cores[Core].state() == CoreClock::State::Barrier)
+    return;
+  grant(Core, Then);
+  update(Core);
+}
+
+void Clock::stepRaster(unsigned Socket, uint64_t Then) {
+  const auto Done = Rasters[Socket].step(Memory);
+  if (!Done)
+    return;
+  const unsigned Core = Socket * Shape.CoresPerSocket + Done->Agent;
+  const unsigned Cluster = Socket / Shape.SocketsPerCluster;
+  if (Done->HandedOver) {
+    const unsigned First =
+        Cluster * Shape.SocketsPerCluster * Shape.CoresPerSocket;
+    Pixels[Cluster].accept(Core - First, Rasters[Socket].freeAt());
+    update(pixelKey(Cluster));
+  }
+  wake(Core, Then);
+}
+
+void Clock::stepPixels(unsigned Cluster, uint64_t Then) {
+  const auto Local = Pixels[Cluster].step(Memory);
+  if (!Local)
+    return;
+  const unsigned Core =
+      Cluster * Shape.SocketsPerCluster * Shape.CoresPerSocket + *Local;
+  const unsigned Socket = Core / Shape.CoresPerSocket;
+  Rasters[Socket].tailDone(Core % Shape.CoresPerSocket);
+  wake(Core, Then);
 }
 
 } // namespace vorion::isasim

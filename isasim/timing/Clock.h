@@ -3,6 +3,7 @@
 
 #include "raster/WorkLog.h"
 #include "timing/CoreClock.h"
+#include "timing/PixelClock.h"
 #include "timing/RasterClock.h"
 #include "vorion/isasim/Config.h"
 
@@ -48,6 +49,15 @@ private:
   void update(unsigned Who);
   void grant(unsigned Core, uint64_t Then);
   void arrive(unsigned Core, uint64_t Then);
+  void stepRaster(unsigned Socket, uint64_t Then);
+  void stepPixels(unsigned Cluster, uint64_t Then);
+  void wake(unsigned Core, uint64_t Then);
+  unsigned rasterKey(unsigned Socket) const {
+    return static_cast<unsigned>(Cores.size()) + Socket;
+  }
+  unsigned pixelKey(unsigned Cluster) const {
+    return static_cast<unsigned>(Cores.size() + Rasters.size()) + Cluster;
+  }
   bool isOverfull() const;
   void collectActivities(TimeReport &R) const;
 
@@ -57,11 +67,12 @@ private:
   std::vector<std::unique_ptr<TraceBuffer>> Traces;
   std::vector<CoreClock> Cores;
   std::vector<RasterClock> Rasters;
+  std::vector<PixelClock> Pixels; ///< by cluster
   std::vector<std::unique_ptr<SocketLog>> Logs;
   std::vector<OpInfo> Ops;
   std::vector<bool> Ended;
-  /// Cores, then rasterizers. Even: what comes next is not before half of it;
-  /// odd: a request at half of it.
+  /// Cores, then rasterizers, then pixel units. Even: what comes next is not
+  /// before half of it; odd: a request at half of it.
   std::vector<Key> Keys;
   struct Arrived {
     std::vector<unsigned> Cores;

@@ -54,7 +54,7 @@ void RasterClock::begin(uint64_t Start) {
   Spent = {};
   for (Agent &A : Agents) {
     A.Expected.clear();
-    A.Queued = 0;
+    A.Queued = A.Tails = 0;
   }
   Now = Stage::Idle;
   At = Never;
@@ -69,7 +69,7 @@ void RasterClock::start(unsigned Agent, uint64_t Then) {
   At = std::max(Then, DispatchAt);
 }
 
-std::optional<unsigned> RasterClock::step(MemorySystem &Memory) {
+std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
   switch (Now) {
   case Stage::Take:
     take();
@@ -81,7 +81,7 @@ std::optional<unsigned> RasterClock::step(MemorySystem &Memory) {
     drain(Memory);
     break;
   case Stage::Done:
-    return finish();
+    return finish(Memory);
   case Stage::Idle:
     break;
   }
@@ -262,13 +262,24 @@ void RasterClock::drain(MemorySystem &Memory) {
   }
 }
 
-std::optional<unsigned> RasterClock::finish() {
+RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
+  const bool HandsOver = Work.TailRecord != 0;
+  if (HandsOver) {
+    constexpr unsigned Lines =
+        (sizeof(raster::Tail) + TimingLineBytes - 1) / TimingLineBytes;
+    for (unsigned N = 0; N != Lines; ++N)
+      Memory.access(Cluster, {.Now = DispatchAt + N,
+                              .Address = Work.TailRecord + N * TimingLineBytes,
+                              .Op = CacheOp::Write});
+    spend(RasterCycle::Drain, Lines);
+  }
   --Agents[Serving].Queued;
+  Agents[Serving].Tails += HandsOver;
   const bool More = std::any_of(Agents.begin(), Agents.end(),
                                 [](const Agent &A) { return A.Queued != 0; });
   Now = More ? Stage::Take : Stage::Idle;
   At = More ? DispatchAt : Never;
-  return Serving;
+  return {Serving, HandsOver};
 }
 
 void RasterClock::end(uint64_t End) {

@@ -43,14 +43,22 @@ public:
   bool isFull(unsigned Agent) const {
     return Agents[Agent].Queued >= QueueDepth;
   }
-  bool isBusy(unsigned Agent) const { return Agents[Agent].Queued != 0; }
+  bool isBusy(unsigned Agent) const {
+    return Agents[Agent].Queued != 0 || Agents[Agent].Tails != 0;
+  }
   /// The agent's core starts its next expected command; needs !isFull().
   void start(unsigned Agent, uint64_t Now);
 
   /// When it next does something that others can notice.
   uint64_t when() const { return At; }
+  struct Finished {
+    unsigned Agent;
+    bool HandedOver; ///< the pixel unit goes on
+  };
   /// Does it; returns the agent of a command that is done with it.
-  std::optional<unsigned> step(MemorySystem &Memory);
+  std::optional<Finished> step(MemorySystem &Memory);
+  /// The pixel unit is done with a command of the agent.
+  void tailDone(unsigned Agent) { --Agents[Agent].Tails; }
 
   /// When it was done with all that it was given.
   uint64_t freeAt() const { return DispatchAt; }
@@ -62,6 +70,7 @@ private:
   struct Agent {
     std::deque<raster::CommandWork> Expected;
     unsigned Queued = 0;
+    unsigned Tails = 0; ///< that the pixel unit has
   };
   /// A Gaussian whose pixels may still be in the lanes.
   struct Dispatched {
@@ -84,7 +93,7 @@ private:
   uint64_t safeAt(const raster::GaussianWork &G, unsigned Cycles) const;
   void flush();
   void drain(MemorySystem &Memory);
-  std::optional<unsigned> finish();
+  Finished finish(MemorySystem &Memory);
 
   const RasterTiming P;
   const uint32_t L2HalfHit;

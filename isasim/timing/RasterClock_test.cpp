@@ -170,7 +170,7 @@ TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
   std::vector<unsigned> Served;
   while (R.when() != RasterClock::Never)
     if (const auto Agent = R.step(Memory))
-      Served.push_back(*Agent);
+      Served.push_back(Agent->Agent);
   EXPECT_EQ(Served, (std::vector<unsigned>{2, 3, 0, 2}));
 }
 

@@ -39,6 +39,13 @@ std::string_view name(RasterCycle C) {
   return Names[size_t(C)];
 }
 
+std::string_view name(PixelCycle C) {
+  constexpr std::string_view Names[] = {"evaluate", "fetch", "load", "store",
+                                        "idle"};
+  static_assert(std::size(Names) == size_t(PixelCycle::Count));
+  return Names[size_t(C)];
+}
+
 namespace {
 
 template <typename Reason, typename Time> Json cycles(const Time &T) {
@@ -122,10 +129,18 @@ std::string toJson(const TimeReport &R) {
     One["lane_slots"] = T.LaneSlots;
     Rasters.push_back(std::move(One));
   }
+  Json Pixels = Json::array();
+  for (const PixelTime &T : R.PixelUnits) {
+    Json One = cycles<PixelCycle>(T);
+    One["tails"] = T.Tails;
+    One["visits"] = T.Visits;
+    Pixels.push_back(std::move(One));
+  }
   for (const CacheTime &T : R.L2)
     L2.push_back(json(T));
   J["cores"] = std::move(Cores);
   J["rasterizers"] = std::move(Rasters);
+  J["pixel_units"] = std::move(Pixels);
   J["l2"] = std::move(L2);
   J["llc"] = json(R.Llc);
   J["dram"] = json(R.Dram);
@@ -146,6 +161,7 @@ std::string toText(const TimeReport &R) {
     return Text;
   Text += shares<CoreCycle>("cores", R.Cores, R.Cycles);
   Text += shares<RasterCycle>("rasterizers", R.Rasters, R.Cycles);
+  Text += shares<PixelCycle>("pixel units", R.PixelUnits, R.Cycles);
   for (size_t N = 0; N != R.L2.size(); ++N)
     Text += line(R.L2.size() == 1 ? "l2" : fmt::format("l2 {}", N), R.L2[N]);
   Text += line("llc", R.Llc);

@@ -81,8 +81,18 @@ enum class RasterCycle : uint8_t {
   Idle,   ///< had no command
   Count
 };
+/// What a cycle of a pixel unit went to.
+enum class PixelCycle : uint8_t {
+  Evaluate, ///< lanes were given a Gaussian
+  Fetch,    ///< waited for a Gaussian's record
+  Load,     ///< waited for the hand-over's record or pixels
+  Store,    ///< emptied the lanes and wrote the last pixels
+  Idle,     ///< had no hand-over
+  Count
+};
 std::string_view name(CoreCycle C);
 std::string_view name(RasterCycle C);
+std::string_view name(PixelCycle C);
 
 struct CoreTime {
   std::array<uint64_t, size_t(CoreCycle::Count)> Cycles{};
@@ -91,6 +101,11 @@ struct RasterTime {
   std::array<uint64_t, size_t(RasterCycle::Count)> Cycles{};
   uint64_t Commands = 0, Gaussians = 0, Clipped = 0;
   uint64_t LaneSlots = 0; ///< pixels given to lanes
+};
+struct PixelTime {
+  std::array<uint64_t, size_t(PixelCycle::Count)> Cycles{};
+  uint64_t Tails = 0;
+  uint64_t Visits = 0; ///< Gaussians examined, summed over pixels
 };
 struct CacheTime {
   uint64_t Reads = 0, Writes = 0, Atomics = 0; ///< requests of a line
@@ -121,6 +136,7 @@ struct TimeReport {
   uint32_t ClockMhz = 0;
   std::vector<CoreTime> Cores;
   std::vector<RasterTime> Rasters;
+  std::vector<PixelTime> PixelUnits;
   std::vector<CacheTime> L2;
   CacheTime Llc;
   DramTime Dram;

@@ -1,0 +1,191 @@
+#include "timing/PixelClock.h"
+
+#include "raster/RasterTables.h"
+#include "timing/DatapathUnits.h"
+
+#include <algorithm>
+
+namespace vorion::isasim {
+
+namespace {
+constexpr uint32_t PixelBytes = 16; ///< docs/abi.md: four floats
+constexpr uint32_t LineMask = ~(TimingLineBytes - 1);
+} // namespace
+
+PixelClock::PixelClock(const TimingConfig &Params, unsigned ClusterIn,
+                       unsigned Cores)
+    : P(Params.Pixel), Cluster(ClusterIn), Expected(Cores),
+      EntryFree(P.BufferEntries) {}
+
+void PixelClock::begin(uint64_t Start) {
+  for (auto &E : Expected)
+    E.clear();
+  Queue.clear();
+  Now = Stage::Idle;
+  At = Never;
+  DoneAt = Start;
+  Spent = {};
+}
+
+void PixelClock::accept(unsigned Core, uint64_t Then) {
+  Queue.push_back(Core);
+  if (Now != Stage::Idle)
+    return;
+  Now = Stage::Take;
+  At = std::max(Then, DoneAt);
+}
+
+std::optional<unsigned> PixelClock::step(MemorySystem &Memory) {
+  switch (Now) {
+  case Stage::Take:
+    take(Memory);
+    break;
+  case Stage::Group:
+    startGroup(Memory);
+    break;
+  case Stage::Fetch:
+    fetch(Memory);
+    break;
+  case Stage::Done:
+    Now = Queue.empty() ? Stage::Idle : Stage::Take;
+    At = Queue.empty() ? Never : DoneAt;
+    return Serving;
+  case Stage::Idle:
+    break;
+  }
+  return std::nullopt;
+}
+
+/// One line a cycle, from FetchAt on; returns when the last has come.
+uint64_t PixelClock::readLines(MemorySystem &Memory, uint32_t Address,
+                               unsigned Bytes) {
+  uint64_t Ready = FetchAt;
+  const uint32_t Last = (Address + Bytes - 1) & LineMask;
+  for (uint32_t Line = Address & LineMask; Line <= Last;
+       Line += TimingLineBytes)
+    Ready = std::max(
+        Ready, Memory.access(Cluster, {.Now = FetchAt++, .Address = Line}));
+  return Ready;
+}
+
+/// The lines of a group's pixels; returns when the last has come or been taken.
+uint64_t PixelClock::pixelLines(MemorySystem &Memory, size_t Which,
+                                bool IsWrite) {
+  uint64_t Ready = FetchAt;
+  uint32_t Last = 0;
+  const size_t End =
+      std::min(Work.Pixels.size(), (Which + 1) * size_t{P.Lanes});
+  for (size_t N = Which * P.Lanes; N < End; ++N) {
+    const auto &Pixel = Work.Pixels[N];
+    const uint32_t Line =
+        (Work.Output + Pixel.Y * Work.OutputPitch + Pixel.X * PixelBytes) &
+        LineMask;
+    if (Line == Last)
+      continue;
+    Last = Line;
+    Ready = std::max(
+        Ready, Memory.access(Cluster,
+                             {.Now = FetchAt++,
+                              .Address = Line,
+                              .Op = IsWrite ? CacheOp::Write : CacheOp::Read}));
+  }
+  return Ready;
+}
+
+void PixelClock::take(MemorySystem &Memory) {
+  Serving = Queue.front();
+  Queue.pop_front();
+  Work = {};
+  // A run that failed may have ended before the hand-over was executed.
+  if (!Expected[Serving].empty()) {
+    Work = std::move(Expected[Serving].front());
+    Expected[Serving].pop_front();
+  }
+  ++Spent.Tails;
+  spend(PixelCycle::Idle, At - DoneAt);
+  FetchAt = At;
+  Group = 0;
+  ListLine = 0;
+  std::fill(EntryFree.begin(), EntryFree.end(), At);
+  if (!Work.Record) {
+    Now = Stage::Done;
+    return;
+  }
+  const uint64_t RecordReady =
+      readLines(Memory, Work.Record, sizeof(raster::Tail));
+  FetchAt = std::max(FetchAt, RecordReady);
+  PixelsReady = pixelLines(Memory, 0, false);
+  spend(PixelCycle::Load, std::max(PixelsReady, DoneAt) - DoneAt);
+  Now = groups() == 0 ? Stage::Done : Stage::Group;
+  At = DoneAt;
+}
+
+/// The next group's pixels are read while this one's are worked on.
+void PixelClock::startGroup(MemorySystem &Memory) {
+  if (PixelsReady > DoneAt)
+    spend(PixelCycle::Load, PixelsReady - DoneAt);
+  FetchAt = std::max(FetchAt, At);
+  if (Group + 1 != groups())
+    PixelsReady = pixelLines(Memory, Group + 1, false);
+  ListLine = 0;
+  Visits = 0;
+  const size_t End =
+      std::min(Work.Pixels.size(), (Group + 1) * size_t{P.Lanes});
+  for (size_t N = Group * P.Lanes; N < End; ++N) {
+    Visits = std::max(Visits, Work.Pixels[N].Visits);
+    Spent.Visits += Work.Pixels[N].Visits;
+  }
+  Visits = std::min(Visits, static_cast<uint32_t>(Work.Records.size()));
+  Number = 0;
+  // All Gaussians are still in the buffer, if they fit.
+  if (Group != 0 && Work.Records.size() <= EntryFree.size()) {
+    spend(PixelCycle::Evaluate, Visits);
+    return finishGroup(Memory);
+  }
+  if (Visits == 0)
+    return finishGroup(Memory);
+  Now = Stage::Fetch;
+  At = std::max(FetchAt, EntryFree[0]);
+}
+
+void PixelClock::fetch(MemorySystem &Memory) {
+  FetchAt = std::max(FetchAt, At);
+  const uint32_t Line = (Work.List + 4 * Number) & LineMask;
+  if (Line != ListLine) {
+    ListReady = readLines(Memory, Line, 4);
+    ListLine = Line;
+  }
+  if (ListReady > FetchAt) {
+    At = FetchAt = ListReady;
+    return;
+  }
+  const uint64_t Ready =
+      readLines(Memory, Work.Records[Number], sizeof(raster::Gaussian));
+  if (Ready > DoneAt)
+    spend(PixelCycle::Fetch, Ready - DoneAt);
+  spend(PixelCycle::Evaluate, 1);
+  EntryFree[Number % EntryFree.size()] = DoneAt;
+  if (++Number == Visits)
+    return finishGroup(Memory);
+  At = std::max(FetchAt, EntryFree[Number % EntryFree.size()]);
+}
+
+void PixelClock::finishGroup(MemorySystem &Memory) {
+  FetchAt = std::max(FetchAt, DoneAt + laneDepth(Work.ExpUnit));
+  const uint64_t Taken = pixelLines(Memory, Group, true);
+  if (++Group == groups()) {
+    // The lanes empty, and the last pixels are written.
+    spend(PixelCycle::Store, std::max(Taken, DoneAt) - DoneAt);
+    Now = Stage::Done;
+  } else {
+    Now = Stage::Group;
+  }
+  At = DoneAt;
+}
+
+void PixelClock::end(uint64_t End) {
+  if (End > DoneAt)
+    spend(PixelCycle::Idle, End - DoneAt);
+}
+
+} // namespace vorion::isasim

@@ -1,0 +1,74 @@
+/// How long a pixel unit takes: lanes that hold a pixel each and go through the
+/// rest of a list.
+#pragma once
+
+#include "raster/WorkLog.h"
+#include "timing/MemorySystem.h"
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// One pixel unit. Its owner calls step() in the order of time. Open pixels are
+/// taken in groups of as many as there are lanes; a group ends with the pixel
+/// that examines most. Gaussians that do not all fit the buffer are fetched
+/// again for every group.
+class PixelClock {
+public:
+  PixelClock(const TimingConfig &Params, unsigned Cluster, unsigned Cores);
+
+  static constexpr uint64_t Never = UINT64_MAX;
+
+  /// The work of a hand-over of core \p Core of the cluster, before accept().
+  void expect(unsigned Core, raster::TailWork &&Executed) {
+    Expected[Core].push_back(std::move(Executed));
+  }
+  void begin(uint64_t Now);
+  /// The next expected hand-over of \p Core has reached the queue.
+  void accept(unsigned Core, uint64_t Now);
+
+  /// When it next does something that others can notice.
+  uint64_t when() const { return At; }
+  /// Does it; returns the core of a hand-over that is done with it.
+  std::optional<unsigned> step(MemorySystem &Memory);
+
+  uint64_t freeAt() const { return DoneAt; }
+  void end(uint64_t End);
+  const PixelTime &time() const { return Spent; }
+
+private:
+  enum class Stage : uint8_t { Idle, Take, Group, Fetch, Done };
+
+  void spend(PixelCycle What, uint64_t Cycles) {
+    Spent.Cycles[size_t(What)] += Cycles;
+    DoneAt += Cycles;
+  }
+  void take(MemorySystem &Memory);
+  void startGroup(MemorySystem &Memory);
+  void fetch(MemorySystem &Memory);
+  void finishGroup(MemorySystem &Memory);
+  uint64_t pixelLines(MemorySystem &Memory, size_t Group, bool IsWrite);
+  uint64_t readLines(MemorySystem &Memory, uint32_t Address, unsigned Bytes);
+  size_t groups() const { return (Work.Pixels.size() + P.Lanes - 1) / P.Lanes; }
+
+  const PixelTiming P;
+  unsigned Cluster;
+  std::vector<std::deque<raster::TailWork>> Expected; ///< by core
+  std::deque<unsigned> Queue;                         ///< cores
+
+  Stage Now = Stage::Idle;
+  uint64_t At = Never;
+  uint64_t DoneAt = 0; ///< all cycles before are accounted for
+  unsigned Serving = 0;
+  raster::TailWork Work;
+  size_t Group = 0;
+  uint32_t Visits = 0, Number = 0; ///< of the group
+  uint64_t FetchAt = 0, PixelsReady = 0, ListReady = 0;
+  uint32_t ListLine = 0;
+  std::vector<uint64_t> EntryFree;
+  PixelTime Spent;
+};
+
+} // namespace vorion::isasim
