@@ -256,10 +256,12 @@ void LowerDivergence::alignLoops(Function &F,
   while (Again) {
     Analyses.invalidate(F, LoopSimplifyPass().run(F, Analyses));
     Analyses.invalidate(F, LCSSAPass().run(F, Analyses));
-    Again = mergeLoops(F, Analyses) ||
-            vorion::markRepeatedBlocks(
-                F, Analyses.getResult<UniformityInfoAnalysis>(F),
-                Analyses.getResult<PostDominatorTreeAnalysis>(F));
+    auto mark = [&](auto Function) {
+      return Function(F, Analyses.getResult<UniformityInfoAnalysis>(F),
+                      Analyses.getResult<PostDominatorTreeAnalysis>(F));
+    };
+    Again = mark(vorion::markDivergentJoins) || mergeLoops(F, Analyses) ||
+            mark(vorion::markRepeatedBlocks);
     if (Again)
       Analyses.invalidate(F, PreservedAnalyses::none());
   }

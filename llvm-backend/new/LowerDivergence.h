@@ -72,6 +72,11 @@ void mergeExitsIntoLatch(Loop &L);
 bool markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
                         const PostDominatorTree &PostDominators);
 
+/// Marks PHI nodes that depend on a divergent branch and that the analysis
+/// takes to be uniform. True if there was one.
+bool markDivergentJoins(Function &F, UniformityInfo &Uniform,
+                        const PostDominatorTree &PostDominators);
+
 /// Puts the splits, joins and predicates in. Every loop is in step.
 void insertSplits(Function &F, FunctionAnalysisManager &Analyses);
 
