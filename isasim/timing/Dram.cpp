@@ -23,7 +23,8 @@ uint64_t Dram::Bus::take(uint64_t First, unsigned Length) {
 }
 
 Dram::Dram(const DramTiming &Params)
-    : P(Params), BurstsPerLine(std::max(1U, TimingLineBytes / P.BurstBytes)),
+    : P(Params),
+      BurstsPerLine((TimingLineBytes + P.BurstBytes - 1) / P.BurstBytes),
       Channels(P.Channels) {
   for (Channel &C : Channels)
     C.Banks.resize(P.Banks);

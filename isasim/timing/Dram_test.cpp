@@ -120,6 +120,15 @@ TEST(Dram, AReadWaitsForTheTurnaroundAfterAWrite) {
             transferEnd(P, Written + P.TwtrPs + P.TclPs));
 }
 
+TEST(Dram, ALineTakesWholeBursts) {
+  DramTiming P = quiet();
+  P.BurstBytes = 38; // two hold 76 bytes
+  Dram D(P);
+  D.access(0, 0, false);
+  EXPECT_EQ(D.time().Reads, 2U);
+  EXPECT_EQ(D.time().BusPs, 2U * P.BurstPs);
+}
+
 TEST(Dram, ALateMissDoesNotHoldUpARowHit) {
   DramTiming P = quiet();
   P.Channels = 1;
