@@ -3,6 +3,7 @@
 ; leave one by one.
 ; REQUIRES: vorion-llc
 ; RUN: vorion-llc -mtriple=riscv32 -mcpu=vorion -O2 -disable-lsr < %s | FileCheck %s
+; RUN: vorion-llc -mtriple=riscv32 -mcpu=vorion -O2 < %s | FileCheck %s --check-prefix=REDUCED
 declare i32 @vorion.vx_thread_id()
 
 ; CHECK-LABEL: same_distance:
@@ -67,4 +68,31 @@ side:
   br label %out
 out:
   ret i32 0
+}
+
+; Strength reduction needs no counter beside a lane's address.
+; REDUCED-LABEL: counted:
+; REDUCED: flw
+; REDUCED-NEXT: fadd.s
+; REDUCED-NEXT: addi
+; REDUCED-NEXT: bne
+; REDUCED-NOT: vx_
+; REDUCED: ret
+define float @counted(ptr %p) {
+entry:
+  %lane = call i32 @vorion.vx_thread_id()
+  %own = getelementptr float, ptr %p, i32 %lane
+  br label %loop
+loop:
+  %i = phi i32 [ 0, %entry ], [ %i.next, %loop ]
+  %sum = phi float [ 0.0, %entry ], [ %more, %loop ]
+  %row = shl i32 %i, 4
+  %at = getelementptr float, ptr %own, i32 %row
+  %v = load float, ptr %at
+  %more = fadd float %sum, %v
+  %i.next = add nuw nsw i32 %i, 1
+  %done = icmp eq i32 %i.next, 16
+  br i1 %done, label %out, label %loop
+out:
+  ret float %more
 }
