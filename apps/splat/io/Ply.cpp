@@ -20,6 +20,7 @@ struct Layout {
 
 std::vector<std::string> numbered(const char *Name, int Count) {
   std::vector<std::string> Names;
+  Names.reserve(static_cast<std::size_t>(Count));
   for (int I = 0; I < Count; ++I)
     Names.push_back(fmt::format("{}_{}", Name, I));
   return Names;

@@ -127,9 +127,9 @@ private:
       return fmt::format("element {} appears twice", printable(W[1]));
     PlyElement &E = Result.Elements.emplace_back();
     E.Name = W[1];
-    const char *End = W[2].data() + W[2].size();
-    const auto [Read, Status] = std::from_chars(W[2].data(), End, E.Count);
-    if (Status != std::errc() || Read != End)
+    const auto [Read, Status] =
+        std::from_chars(W[2].begin(), W[2].end(), E.Count);
+    if (Status != std::errc() || Read != W[2].end())
       return fmt::format("{} count `{}` is no number, expected 0 or more",
                          printable(W[1]), printable(W[2]));
     return std::nullopt;

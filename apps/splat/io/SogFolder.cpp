@@ -108,7 +108,8 @@ Expected<SceneFile> readChunks(const std::string &Path) {
   Joiner J;
   const FileSource Read = filesOf(Path);
   for (const std::string &Name : Names) {
-    const auto Part = readDataSet(Path, Name + "/" + MetaName, Read);
+    const auto Part =
+        readDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read);
     if (!Part)
       return Part.error();
     if (auto Added = J.addFile(Path + "/" + Name, *Part); !Added)

@@ -386,7 +386,8 @@ bool GdbServer::answer(std::string_view Packet) {
 } // namespace
 
 Expected<std::unique_ptr<Observer>>
-startGdbServer(unsigned Port, std::function<void(std::string_view)> Say) {
+startGdbServer(unsigned Port,
+               const std::function<void(std::string_view)> &Say) {
   auto Server = std::make_unique<GdbServer>();
   const Expected<unsigned> Got = Server->listen(Port);
   if (!Got)

@@ -16,6 +16,6 @@ namespace vorion::isasim {
 /// first instruction; without one any more, runs go on. Each lane of each warp
 /// is a thread. What the debugger writes changes the run, as is its purpose.
 Expected<std::unique_ptr<Observer>>
-startGdbServer(unsigned Port, std::function<void(std::string_view)> Say);
+startGdbServer(unsigned Port, const std::function<void(std::string_view)> &Say);
 
 } // namespace vorion::isasim

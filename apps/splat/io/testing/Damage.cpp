@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdint>
 #include <cstring>
+#include <fmt/format.h>
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -215,7 +216,7 @@ Folder streamedSogOf(const Scene &Fine, const Scene &Coarse,
   Folder Files;
   const auto Add = [&Files](const std::string &Name, const Scene &S) {
     for (auto &[File, Content] : sogOf(S))
-      Files[Name + "/" + File] = Content;
+      Files[fmt::format("{}/{}", Name, File)] = Content;
   };
   const std::size_t Half = Fine.size() / 2;
   for (const bool Second : {false, true}) {

@@ -251,7 +251,8 @@ std::string spzBodyOf(const Scene &S, int Version) {
       const int Bucket = K < 12 ? 8 : 16;
       const auto Fine =
           static_cast<int>(std::round(S.Sh[ShEach * I + K] * 128)) + 128;
-      putByte(Out, (Fine + Bucket / 2) / Bucket * Bucket);
+      const int Middle = (Fine + Bucket / 2) / Bucket * Bucket;
+      putByte(Out, Middle);
     }
   return Out;
 }
@@ -318,6 +319,7 @@ Folder sogOf(const Scene &S) {
   // Even steps from the least to the largest of some values.
   const auto Book = [](const Range &R) {
     std::vector<double> Steps;
+    Steps.reserve(256);
     for (int I = 0; I < 256; ++I)
       Steps.push_back(R.Low + (R.High - R.Low) * I / 255);
     return Steps;
@@ -328,6 +330,7 @@ Folder sogOf(const Scene &S) {
   Range Bounds[3];
   for (std::size_t A = 0; A < 3; ++A) {
     std::vector<double> Values;
+    Values.reserve(S.size());
     for (std::size_t I = 0; I < S.size(); ++I)
       Values.push_back(LogOf(S.Means[3 * I + A]));
     Bounds[A] = rangeOf(Values);
