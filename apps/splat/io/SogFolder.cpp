@@ -112,7 +112,7 @@ Expected<SceneFile> readChunks(const std::string &Path) {
         readDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read);
     if (!Part)
       return Part.error();
-    if (auto Added = J.addFile(Path + "/" + Name, *Part); !Added)
+    if (auto Added = J.addFile(fmt::format("{}/{}", Path, Name), *Part); !Added)
       return Added.error();
   }
   return std::move(J.Result);
