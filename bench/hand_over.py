@@ -11,29 +11,22 @@ usage: hand_over.py SCENE --cameras CAMERAS --view VIEW --out FOLDER [--json FIL
 FOLDER keeps each run's result; what is there is not run again.
 """
 
-import argparse
 import array
-import json
 import math
-import os
-import subprocess
+
+import frames
 
 PARTS = (1, 2, 4, 8, 16)
 RULES = ("last:1/2", "last:1/4", "last:1/8", "count:256", "occluded:0.5", "occluded:0.9", "occluded:0.99")
 
 
 def render(args, name, options):
-    base = os.path.join(args.out, name.replace(":", "-").replace("/", "_"))
-    if not os.path.exists(base + ".json"):
-        subprocess.run(["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view,
-                        "-o", base + ".pfm", "--json", base + ".json", *args.options, *options],
-                       check=True, stdout=subprocess.DEVNULL)
-    with open(base + ".json", encoding="utf-8") as f:
-        counters = json.load(f)["total"]["counters"]
-    with open(base + ".pfm", "rb") as f:
+    """The counters of a run and the floats of its picture."""
+    report, picture = frames.render(args, name.replace(":", "-").replace("/", "_"), options)
+    with open(picture, "rb") as f:
         for _ in range(3):
             f.readline()
-        return counters, array.array("f", f.read())
+        return report["total"]["counters"], array.array("f", f.read())
 
 
 def row(name, counters, picture, whole):
@@ -50,15 +43,7 @@ def row(name, counters, picture, whole):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("scene")
-    parser.add_argument("--cameras", required=True)
-    parser.add_argument("--view", required=True)
-    parser.add_argument("--out", required=True, help="folder for the runs")
-    parser.add_argument("--json", help="write the table")
-    args, args.options = parser.parse_known_args()
-    os.makedirs(args.out, exist_ok=True)
-
+    args = frames.parse_arguments(__doc__.splitlines()[0])
     rows = []
     for stop, options in (("stop", []), ("no stop", ["--cutoff", "0"])):
         whole = None
@@ -79,10 +64,7 @@ def main():
         print(f"{r['run']:<16} {r['max_abs']:>9.2e} {db:>7} {r['blends']:>11} {r['blend_ratio']:>6.3f} "
               f"{r['fragments']:>11} {r['tails']:>6} {r['tail_pixels']:>8} {r['tail_visits']:>12} "
               f"{r['tail_blends']:>11}")
-    if args.json:
-        with open(args.json, "w", encoding="utf-8") as f:
-            json.dump({"scene": args.scene, "view": args.view, "options": args.options, "rows": rows}, f, indent=2)
-            f.write("\n")
+    frames.write_table(args, {"rows": rows})
 
 
 if __name__ == "__main__":

@@ -11,12 +11,10 @@ usage: simt_sweep.py SCENE --cameras CAMERAS --view VIEW --out FOLDER [--json FI
 FOLDER keeps each run's result; what is there is not run again.
 """
 
-import argparse
 import hashlib
-import json
-import os
-import subprocess
 import sys
+
+import frames
 
 TILES = (8, 16, 32, 64)
 GROUPS = (16, 64, 256)
@@ -24,14 +22,8 @@ GROUPS = (16, 64, 256)
 
 def render(args, name, options):
     """The JSON of one run and the hash of its picture."""
-    base = os.path.join(args.out, name)
-    if not os.path.exists(base + ".json"):
-        subprocess.run(["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view,
-                        "-o", base + ".pfm", "--json", base + ".json", *args.options, *options],
-                       check=True, stdout=subprocess.DEVNULL)
-    with open(base + ".json", encoding="utf-8") as f:
-        report = json.load(f)
-    with open(base + ".pfm", "rb") as f:
+    report, picture = frames.render(args, name, options)
+    with open(picture, "rb") as f:
         return report, hashlib.sha256(f.read()).hexdigest()
 
 
@@ -41,14 +33,7 @@ def kernel(report, name):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("scene")
-    parser.add_argument("--cameras", required=True)
-    parser.add_argument("--view", required=True)
-    parser.add_argument("--out", required=True, help="folder for the runs")
-    parser.add_argument("--json", help="write the table")
-    args, args.options = parser.parse_known_args()
-    os.makedirs(args.out, exist_ok=True)
+    args = frames.parse_arguments(__doc__.splitlines()[0])
 
     raster, _ = render(args, "raster", ["--path", "raster"])
     blends = raster["total"]["counters"]["raster_blends"]
@@ -70,12 +55,8 @@ def main():
         note = " fastest blend" * (r is best) + " fastest frame" * (r is best_frame)
         print(f"{r['tile']:>4} {r['group']:>5} {r['blend_warp_instructions']:>14} {r['per_blend']:>8.3f} "
               f"{r['frame_warp_instructions']:>14} {r['pairs']:>10}{note}")
-    if args.json:
-        table = {"scene": args.scene, "view": args.view, "options": args.options, "blends": blends,
-                 "device": raster["device"], "rows": rows, "best": best, "best_frame": best_frame}
-        with open(args.json, "w", encoding="utf-8") as f:
-            json.dump(table, f, indent=2)
-            f.write("\n")
+    frames.write_table(args, {"blends": blends, "device": raster["device"], "rows": rows, "best": best,
+                              "best_frame": best_frame})
     if len(pictures) != 1:
         sys.exit("simt_sweep.py: error: the pictures differ, expected the same bits for every tile and group")
 

@@ -1,0 +1,38 @@
+"""Renders of one view, kept in a folder: what the programs that compare them share."""
+
+import argparse
+import json
+import os
+import subprocess
+
+
+def parse_arguments(description):
+    """The scene, the view and the folder; unknown arguments become .options, for splat render."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("scene")
+    parser.add_argument("--cameras", required=True)
+    parser.add_argument("--view", required=True)
+    parser.add_argument("--out", required=True, help="folder for the runs")
+    parser.add_argument("--json", help="write the table")
+    args, args.options = parser.parse_known_args()
+    os.makedirs(args.out, exist_ok=True)
+    return args
+
+
+def render(args, name, options):
+    """The JSON of the run called name and its picture's file; a run that is there is not repeated."""
+    base = os.path.join(args.out, name)
+    if not os.path.exists(base + ".json"):
+        subprocess.run(["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view,
+                        "-o", base + ".pfm", "--json", base + ".json", *args.options, *options],
+                       check=True, stdout=subprocess.DEVNULL)
+    with open(base + ".json", encoding="utf-8") as f:
+        return json.load(f), base + ".pfm"
+
+
+def write_table(args, table):
+    """What was found, if --json asks for it, with what made it."""
+    if args.json:
+        with open(args.json, "w", encoding="utf-8") as f:
+            json.dump({"scene": args.scene, "view": args.view, "options": args.options, **table}, f, indent=2)
+            f.write("\n")
