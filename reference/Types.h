@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <string_view>
 #include <vector>
 
 namespace vorion::reference {
@@ -25,6 +26,21 @@ enum class Support {
   Square3,   ///< |dx|, |dy| <= r, r = ceil(3 sqrt(largest eigenvalue))
   Official16 ///< all pixels of the 16x16 tiles that this square touches
 };
+
+/// As on command lines and in results.
+constexpr std::string_view name(Support S) {
+  switch (S) {
+  case Support::Exact:
+    return "exact";
+  case Support::Box3:
+    return "box3";
+  case Support::Square3:
+    return "square3";
+  case Support::Official16:
+    return "official16";
+  }
+  __builtin_unreachable();
+}
 
 /// Activated Gaussians, one entry of each array a Gaussian.
 template <typename Real> struct Gaussians {

@@ -13,20 +13,6 @@
 namespace vorion::test {
 namespace {
 
-std::string nameOf(reference::Support S) {
-  switch (S) {
-  case reference::Support::Exact:
-    return "exact";
-  case reference::Support::Box3:
-    return "box3";
-  case reference::Support::Square3:
-    return "square3";
-  case reference::Support::Official16:
-    return "official16";
-  }
-  return "";
-}
-
 /// `view.npz` of the fixture's own result, so that `splat compare` can read it.
 splat::Npz expectedOf(const Fixture &F) {
   splat::Npz Arrays;
@@ -62,7 +48,7 @@ Expected<Success> run(const std::string &Input, const std::string &Folder) {
 
   const nlohmann::ordered_json Options{
       {"rules", O.Rule == reference::Rules::Inria ? "inria" : "gsplat"},
-      {"support", nameOf(O.Reach)},
+      {"support", reference::name(O.Reach)},
       {"antialiased", O.Antialiased},
       {"background", O.Background},
       {"dilation", O.Dilation},
@@ -85,7 +71,7 @@ Expected<Success> run(const std::string &Input, const std::string &Folder) {
              "fp32 logarithms and logits: {:.1f} dB, {:.1f} dB outside "
              "doubtful pixels ({:.3f} %)\n",
              F->Name, S.size(), C.Width, C.Height,
-             Options["rules"].get<std::string>(), nameOf(O.Reach),
+             Options["rules"].get<std::string>(), reference::name(O.Reach),
              O.Antialiased ? ", antialiased" : "", Loss.PsnrDb, Outside.PsnrDb,
              100 * Exact.doubtfulShare());
   return Success{};

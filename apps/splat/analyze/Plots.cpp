@@ -5,20 +5,6 @@
 
 namespace vorion::splat {
 
-std::string_view name(reference::Support S) {
-  switch (S) {
-  case reference::Support::Exact:
-    return "exact";
-  case reference::Support::Box3:
-    return "box3";
-  case reference::Support::Square3:
-    return "square3";
-  case reference::Support::Official16:
-    return "official16";
-  }
-  __builtin_unreachable();
-}
-
 std::map<std::string, Chart> chartsOf(const Analysis &A,
                                       const std::string &What) {
   Chart Pairs{"Gaussian invocations, " + What,

@@ -16,7 +16,4 @@ namespace vorion::splat {
 std::map<std::string, Chart> chartsOf(const Analysis &A,
                                       const std::string &What);
 
-/// The support's name on command lines.
-std::string_view name(reference::Support S);
-
 } // namespace vorion::splat
