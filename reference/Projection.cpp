@@ -1,5 +1,6 @@
 #include "Projection.h"
 
+#include "Footprint.h"
 #include "SphericalHarmonics.h"
 
 #include <algorithm>
@@ -7,28 +8,6 @@
 
 namespace vorion::reference {
 namespace {
-
-template <typename Real> using Vec2 = glm::vec<2, Real>;
-template <typename Real> using Vec3 = glm::vec<3, Real>;
-template <typename Real> using Mat3 = glm::mat<3, 3, Real>;
-
-/// M v and A B with sums from the left; GLM would do the same, but here the
-/// order is a promise.
-template <typename Real>
-Vec3<Real> multiply(const Mat3<Real> &M, const Vec3<Real> &V) {
-  Vec3<Real> R;
-  for (int I = 0; I < 3; ++I)
-    R[I] = M[0][I] * V[0] + M[1][I] * V[1] + M[2][I] * V[2];
-  return R;
-}
-
-template <typename Real>
-Mat3<Real> multiply(const Mat3<Real> &A, const Mat3<Real> &B) {
-  Mat3<Real> R;
-  for (int J = 0; J < 3; ++J)
-    R[J] = multiply(A, B[J]);
-  return R;
-}
 
 /// z before it is rounded to Real, and the magnitudes of its terms.
 struct ExactDepth {
@@ -46,65 +25,6 @@ ExactDepth exactDepth(const Camera<Real> &C, const Vec3<Real> &Mean) {
   }
   const double Offset = double(C.Translation.z) + double(C.DepthOffsetLow);
   return {D.Z + Offset, D.Magnitude + std::abs(Offset)};
-}
-
-/// The rotation of a unit quaternion (w, x, y, z); none for the zero one.
-template <typename Real> Mat3<Real> rotation(const glm::vec<4, Real> &Q) {
-  const Real W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
-  // GLM's constructor takes columns.
-  return Mat3<Real>(
-      1 - 2 * (Y * Y + Z * Z), 2 * (X * Y + W * Z), 2 * (X * Z - W * Y),
-      2 * (X * Y - W * Z), 1 - 2 * (X * X + Z * Z), 2 * (Y * Z + W * X),
-      2 * (X * Z + W * Y), 2 * (Y * Z - W * X), 1 - 2 * (X * X + Y * Y));
-}
-
-/// Bounds of x/z or y/z in the Jacobian: lower, upper. Beyond the frame the
-/// affine approximation blows up, so it is taken at the bound.
-template <typename Real>
-Vec2<Real> slopeLimits(Rules Rule, Real Size, Real Focal, Real Principal) {
-  const Real Half = Size / (2 * Focal); // tan(fov / 2)
-  if (Rule == Rules::Inria)
-    return {Real(-1.3) * Half, Real(1.3) * Half};
-  return {-(Principal / Focal + Real(0.3) * Half),
-          (Size - Principal) / Focal + Real(0.3) * Half};
-}
-
-/// The rows of J A.
-template <typename Real> struct Footprint {
-  Vec3<Real> X, Y;
-};
-
-template <typename Real>
-Footprint<Real> footprint(const Mat3<Real> &A, const Vec3<Real> &P,
-                          const Camera<Real> &C, Rules Rule) {
-  const Vec2<Real> LimX =
-      slopeLimits(Rule, Real(C.Width), C.Focal.x, C.Principal.x);
-  const Vec2<Real> LimY =
-      slopeLimits(Rule, Real(C.Height), C.Focal.y, C.Principal.y);
-  const Real Tx = std::clamp(P.x / P.z, LimX[0], LimX[1]) * P.z;
-  const Real Ty = std::clamp(P.y / P.z, LimY[0], LimY[1]) * P.z;
-  const Real ZZ = P.z * P.z;
-  const Real J00 = C.Focal.x / P.z, J02 = -(C.Focal.x * Tx) / ZZ;
-  const Real J11 = C.Focal.y / P.z, J12 = -(C.Focal.y * Ty) / ZZ;
-  Footprint<Real> F;
-  for (int K = 0; K < 3; ++K) {
-    F.X[K] = J00 * A[K][0] + J02 * A[K][2];
-    F.Y[K] = J11 * A[K][1] + J12 * A[K][2];
-  }
-  return F;
-}
-
-template <typename Real>
-Real dotFromLeft(const Vec3<Real> &A, const Vec3<Real> &B) {
-  return A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
-}
-
-/// The determinant of the covariance before dilation.
-template <typename Real> Real sharpDeterminant(const Footprint<Real> &F) {
-  const Real M01 = F.X[0] * F.Y[1] - F.X[1] * F.Y[0];
-  const Real M02 = F.X[0] * F.Y[2] - F.X[2] * F.Y[0];
-  const Real M12 = F.X[1] * F.Y[2] - F.X[2] * F.Y[1];
-  return M01 * M01 + M02 * M02 + M12 * M12;
 }
 
 /// sqrt(2 ln(255 o)): standard deviations to the ellipse where alpha is 1/255.
@@ -169,7 +89,8 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   Mat3<Real> A = rotation(G.Quats[I]);
   for (int K = 0; K < 3; ++K)
     A[K] *= G.Scales[I][K];
-  const Footprint<Real> F = footprint(multiply(C.Rotation, A), P, C, O.Rule);
+  const Footprint<Real> F =
+      footprint(multiply(C.Rotation, A), jacobian(P, C, O.Rule));
   const Real H = static_cast<Real>(O.Dilation);
   const Real Sxx = dotFromLeft(F.X, F.X), Syy = dotFromLeft(F.Y, F.Y);
   const Real Det0 = sharpDeterminant(F);

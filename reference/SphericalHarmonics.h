@@ -18,4 +18,10 @@ template <typename Real>
 glm::vec<3, Real> shColor(const glm::vec<3, Real> *Sh, int Degree,
                           const glm::vec<3, Real> &Along);
 
+/// The way back through \c shColor: from dL/dcolour \p Gradient to
+/// dL/dcoefficients, which are written to \p ShGradient, and dL/d\p Along,
+/// which is returned. A channel that is 0 gives nothing back.
+glm::dvec3 shBackward(const glm::dvec3 *Sh, int Degree, const glm::dvec3 &Along,
+                      const glm::dvec3 &Gradient, glm::dvec3 *ShGradient);
+
 } // namespace vorion::reference

@@ -1,0 +1,248 @@
+#include "Backward.h"
+
+#include "Footprint.h"
+#include "SphericalHarmonics.h"
+#include "Walk.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace vorion::reference {
+namespace {
+
+using glm::dmat3;
+using glm::dvec2;
+using glm::dvec3;
+using glm::dvec4;
+
+/// A tile's sums, by place in its list of candidates.
+struct TileSums {
+  std::vector<std::uint32_t> Gaussians;
+  std::vector<SplatSums> Sums;
+};
+
+/// Adds what the pixel with contributions \p Seen, front to back, gives to the
+/// sums of its tile. \p Behind: dL/d(final transmittance).
+void pixelBackward(const std::vector<Candidate<double>> &List,
+                   const std::vector<Contribution<double>> &Seen, double LastT,
+                   const dvec3 &Gradient, double Behind, Rules Rule,
+                   std::vector<SplatSums> &Sums) {
+  dvec3 Accumulated(0); // colour of what lies behind
+  for (std::size_t I = Seen.size(); I-- > 0;) {
+    const Contribution<double> &C = Seen[I];
+    const dvec3 &Color = List[C.Entry].Color;
+    const double ByAlpha = C.T * glm::dot(Color - Accumulated, Gradient) -
+                           LastT / (1 - C.Alpha) * Behind;
+    Accumulated = C.Alpha * Color + (1 - C.Alpha) * Accumulated;
+    SplatSums &Sum = Sums[C.Entry];
+    Sum.Color += C.Alpha * C.T * Gradient;
+    if (Rule == Rules::Gsplat && C.Wanted > mostAlpha<double>())
+      continue;
+    const double S = C.Wanted * ByAlpha;
+    const double Dx = -C.Dx, Dy = -C.Dy;
+    Sum +=
+        {dvec3(0), S, S * dvec2(Dx, Dy), S * dvec3(Dx * Dx, Dx * Dy, Dy * Dy)};
+  }
+}
+
+/// Half of dL/d(symmetric 2x2 matrix) as its entries xx, xy, yy.
+using Symmetric = dvec3;
+
+/// dL/d(covariance) from dL/d(conic), the conic's xy counted once.
+Symmetric covarianceGradient(const dvec3 &K, const dvec3 &G) {
+  // -K G K with G's off-diagonal halved.
+  const double H = 0.5 * G[1];
+  const double Xx = K[0] * G[0] + K[1] * H, Xy = K[0] * H + K[1] * G[2];
+  const double Yx = K[1] * G[0] + K[2] * H, Yy = K[1] * H + K[2] * G[2];
+  return -Symmetric(Xx * K[0] + Xy * K[1], Xx * K[1] + Xy * K[2],
+                    Yx * K[1] + Yy * K[2]);
+}
+
+/// d(ratio of the determinants before and after dilation)/d(covariance).
+Symmetric ratioGradient(const dvec3 &S, double Dilation, double Ratio,
+                        double Det) {
+  const Symmetric Sharp(S[2] - Dilation, -S[1], S[0] - Dilation);
+  const Symmetric Dilated(S[2], -S[1], S[0]);
+  return (Sharp - Ratio * Dilated) / Det;
+}
+
+/// dL/d(unit quaternion) along its tangent from dL/d(rotation matrix).
+dvec4 quaternionGradient(const dvec4 &Q, const dmat3 &G) {
+  const double W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
+  // G[column][row], as GLM has it.
+  const dvec4 D(2 * (X * (G[1][2] - G[2][1]) + Y * (G[2][0] - G[0][2]) +
+                     Z * (G[0][1] - G[1][0])),
+                2 * (Y * (G[0][1] + G[1][0]) + Z * (G[0][2] + G[2][0]) +
+                     W * (G[1][2] - G[2][1])) -
+                    4 * X * (G[1][1] + G[2][2]),
+                2 * (X * (G[0][1] + G[1][0]) + Z * (G[1][2] + G[2][1]) +
+                     W * (G[2][0] - G[0][2])) -
+                    4 * Y * (G[0][0] + G[2][2]),
+                2 * (X * (G[0][2] + G[2][0]) + Y * (G[1][2] + G[2][1]) +
+                     W * (G[0][1] - G[1][0])) -
+                    4 * Z * (G[0][0] + G[1][1]));
+  return D - Q * glm::dot(Q, D);
+}
+
+/// The way back from one Gaussian's sums.
+class ProjectionBackward {
+public:
+  ProjectionBackward(const Gaussians<double> &G, const Camera<double> &C,
+                     const Options &O, Gradients &Out)
+      : G(G), C(C), O(O), Out(Out) {}
+
+  void one(std::size_t I, const Splat<double> &S) {
+    const SplatSums &Sum = Out.Sums[I];
+    const dvec3 &K = S.Conic;
+    Out.Means2d[I] = {K[0] * Sum.Sd.x + K[1] * Sum.Sd.y,
+                      K[1] * Sum.Sd.x + K[2] * Sum.Sd.y};
+    Out.Conics[I] = {-0.5 * Sum.Sdd[0], -Sum.Sdd[1], -0.5 * Sum.Sdd[2]};
+    Out.Colors[I] = Sum.Color;
+    // What is never blended may have an opacity of 0.
+    const double ByOpacity = Sum.S == 0 ? 0 : Sum.S / S.Opacity;
+    Out.Opacities[I] = ByOpacity * S.Compensation;
+
+    Symmetric V = covarianceGradient(K, Out.Conics[I]);
+    if (O.Antialiased) {
+      const double Det =
+          S.Covariance[0] * S.Covariance[2] - S.Covariance[1] * S.Covariance[1];
+      const double Ratio = S.Compensation * S.Compensation;
+      const bool Floored = O.Rule == Rules::Inria && !(Ratio > 2.5e-5);
+      if (!Floored && Ratio > 0)
+        V += ByOpacity * G.Opacities[I] / (2 * S.Compensation) *
+             ratioGradient(S.Covariance, O.Dilation, Ratio, Det);
+    }
+    Out.Means[I] = shape(I, V);
+    if (G.Colors.empty())
+      color(I);
+  }
+
+private:
+  /// From dL/d(covariance) to scales, rotation and, through the mean's place in
+  /// the camera, the mean, which is returned.
+  dvec3 shape(std::size_t I, const Symmetric &V) {
+    const dvec3 P = multiply(C.Rotation, G.Means[I]) + C.Translation;
+    const dmat3 Q = rotation(G.Quats[I]);
+    dmat3 A;
+    for (int N = 0; N < 3; ++N)
+      A[N] = multiply(C.Rotation, Q[N]) * G.Scales[I][N];
+    const Jacobian<double> J = jacobian(P, C, O.Rule);
+    const Footprint<double> F = footprint(A, J);
+    const dvec3 Gx = 2. * (V[0] * F.X + V[1] * F.Y);
+    const dvec3 Gy = 2. * (V[1] * F.X + V[2] * F.Y);
+
+    const dmat3 Back = glm::transpose(C.Rotation);
+    dmat3 ByRotation;
+    double ByXX = 0, ByXZ = 0, ByYY = 0, ByYZ = 0;
+    for (int N = 0; N < 3; ++N) {
+      const dvec3 ByA(J.XX * Gx[N], J.YY * Gy[N], J.XZ * Gx[N] + J.YZ * Gy[N]);
+      const dvec3 InWorld = Back * ByA;
+      Out.Scales[I][N] = glm::dot(Q[N], InWorld);
+      ByRotation[N] = InWorld * G.Scales[I][N];
+      ByXX += Gx[N] * A[N][0];
+      ByXZ += Gx[N] * A[N][2];
+      ByYY += Gy[N] * A[N][1];
+      ByYZ += Gy[N] * A[N][2];
+    }
+    Out.Quats[I] = quaternionGradient(G.Quats[I], ByRotation);
+
+    const double Z = P.z, ZZ = Z * Z;
+    const dvec2 &M = Out.Means2d[I];
+    dvec3 ByP(C.Focal.x / Z * M.x, C.Focal.y / Z * M.y,
+              -(C.Focal.x * P.x * M.x + C.Focal.y * P.y * M.y) / ZZ);
+    ByP.z -= (C.Focal.x * ByXX + C.Focal.y * ByYY) / ZZ;
+    ByP.x += held(J.HeldX, C.Focal.x, J.Tx, Z, ByXZ, ByP.z);
+    ByP.y += held(J.HeldY, C.Focal.y, J.Ty, Z, ByYZ, ByP.z);
+    return Back * ByP;
+  }
+
+  /// The part of the Jacobian's entry -f t / z^2: adds to \p ByZ, returns that
+  /// of the other coordinate.
+  double held(bool Held, double Focal, double T, double Z, double ByEntry,
+              double &ByZ) const {
+    const double ZZ = Z * Z;
+    // t = limit z, so that the entry is -f limit / z; or t is a constant.
+    const double Factor = Held && O.Rule == Rules::Gsplat ? 1 : 2;
+    ByZ += Factor * Focal * T / (ZZ * Z) * ByEntry;
+    return Held ? 0 : -Focal / ZZ * ByEntry;
+  }
+
+  void color(std::size_t I) {
+    const auto Bands = static_cast<std::size_t>(G.ShDegree) + 1;
+    const std::size_t Coefficients = Bands * Bands;
+    Out.Means[I] +=
+        shBackward(&G.Sh[I * Coefficients], G.ShDegree, G.Means[I] - C.Centre,
+                   Out.Colors[I], &Out.Sh[I * Coefficients]);
+  }
+
+  const Gaussians<double> &G;
+  const Camera<double> &C;
+  const Options &O;
+  Gradients &Out;
+};
+
+} // namespace
+
+SplatSums &SplatSums::operator+=(const SplatSums &Other) {
+  Color += Other.Color;
+  S += Other.S;
+  Sd += Other.Sd;
+  Sdd += Other.Sdd;
+  return *this;
+}
+
+std::vector<SplatSums> blendBackward(const std::vector<Splat<double>> &Splats,
+                                     int Width, int Height, const Upstream &U,
+                                     const Options &O) {
+  const TileWalk<double> Walk(Splats, Width, Height, O);
+  const dvec3 Background(O.Background[0], O.Background[1], O.Background[2]);
+  std::vector<TileSums> Tiles(Walk.tiles());
+  forEachTile(Walk.tiles(), O.Threads, [&](std::size_t Tile) {
+    const auto List = Walk.candidates(Tile);
+    TileSums &Own = Tiles[Tile];
+    Own.Sums.resize(List.size());
+    for (const auto &C : List)
+      Own.Gaussians.push_back(static_cast<std::uint32_t>(C.Index));
+    std::vector<Contribution<double>> Seen;
+    const Rect Area = Walk.pixels(Tile);
+    for (int Y = Area.Y0; Y < Area.Y1; ++Y)
+      for (int X = Area.X0; X < Area.X1; ++X) {
+        Seen.clear();
+        const auto End =
+            Walk.pixel(List, X, Y, [&](const auto &C) { Seen.push_back(C); });
+        const auto At =
+            static_cast<std::size_t>(Y) * static_cast<std::size_t>(Width) +
+            static_cast<std::size_t>(X);
+        const double Behind = glm::dot(Background, U.Render[At]) - U.Alpha[At];
+        pixelBackward(List, Seen, End.T, U.Render[At], Behind, O.Rule,
+                      Own.Sums);
+      }
+  });
+  std::vector<SplatSums> Sums(Splats.size());
+  for (const TileSums &T : Tiles)
+    for (std::size_t I = 0; I < T.Sums.size(); ++I)
+      Sums[T.Gaussians[I]] += T.Sums[I];
+  return Sums;
+}
+
+Gradients renderBackward(const Gaussians<double> &G, const Camera<double> &C,
+                         const Upstream &U, const Options &O) {
+  const auto Splats = project(G, C, O);
+  Gradients Out;
+  Out.Sums = blendBackward(Splats, C.Width, C.Height, U, O);
+  const std::size_t N = G.size();
+  Out.Means2d.resize(N, dvec2(0));
+  for (auto *V : {&Out.Conics, &Out.Means, &Out.Scales, &Out.Colors})
+    V->resize(N, dvec3(0));
+  Out.Quats.resize(N, dvec4(0));
+  Out.Opacities.resize(N, 0);
+  Out.Sh.resize(G.Colors.empty() ? G.Sh.size() : 0, dvec3(0));
+  ProjectionBackward Back(G, C, O, Out);
+  for (std::size_t I = 0; I < N; ++I)
+    if (Splats[I].Visible)
+      Back.one(I, Splats[I]);
+  return Out;
+}
+
+} // namespace vorion::reference

@@ -1,0 +1,274 @@
+/// Internal to the reference: a tile's list, and a pixel's way through it.
+/// Blending and its backward pass take the same steps by the same decisions.
+#pragma once
+
+#include "Render.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace vorion::reference {
+
+/// The support's border as pixels may see it: everything inside \c Inner is
+/// surely in the support, everything outside \c Outer is surely not.
+struct Border {
+  double InnerX0, InnerX1, InnerY0, InnerY1;
+  double OuterX0, OuterX1, OuterY0, OuterY1;
+
+  bool doubtful(double X, double Y) const {
+    const bool Inside =
+        InnerX0 <= X && X <= InnerX1 && InnerY0 <= Y && Y <= InnerY1;
+    const bool Outside =
+        X < OuterX0 || OuterX1 < X || Y < OuterY0 || OuterY1 < Y;
+    return !Inside && !Outside;
+  }
+};
+
+/// A splat as the pixels of a tile read it.
+template <typename Real> struct Candidate {
+  glm::vec<2, Real> Mean, Extent;
+  glm::vec<3, Real> Conic, Color;
+  Real Opacity;
+  std::uint32_t NearestKey, FarthestKey; ///< that z may be rounded to
+  Rect Official;                         ///< pixels, for Official16
+  Border Edge;                           ///< for supports with a border
+  std::int32_t Index;
+  bool Listed; ///< in the tile's list, and not only doubtfully so
+};
+
+/// Watches the sort keys of the Gaussians that a pixel sees, front to back.
+class DepthOrder {
+public:
+  /// Takes the next one; true if it may belong before an earlier one. Equal
+  /// keys are in the order of the indices on every machine.
+  bool doubtful(std::uint32_t NearestKey, std::uint32_t FarthestKey,
+                std::int32_t Index) {
+    const bool Doubtful = std::pair(NearestKey, Index) < Farthest;
+    Farthest = std::max(Farthest, std::pair(FarthestKey, Index));
+    return Doubtful;
+  }
+
+private:
+  /// The last place that an earlier one may have.
+  std::pair<std::uint32_t, std::int32_t> Farthest{0, -1};
+};
+
+inline bool near(double Value, double Threshold) {
+  return std::abs(Value - Threshold) <= DoubtBand * Threshold;
+}
+
+/// For the exact support the border is where alpha is 1/255, which \c near
+/// judges; the outer side then only says which tiles to look at.
+template <typename Real>
+Border borderOf(const Splat<Real> &S, Support Reach, int Width, int Height) {
+  const double Mx = S.Mean.x, My = S.Mean.y;
+  if (Reach == Support::Box3 || Reach == Support::Exact) {
+    const double In = 1 - DoubtBand, Out = 1 + DoubtBand;
+    double Ex = S.Extent.x, Ey = S.Extent.y;
+    if (Reach == Support::Exact) {
+      const double E = std::sqrt(
+          2 * std::log(255 * Out * std::max(double(S.Opacity), 1. / 255)));
+      Ex = E * std::sqrt(double(S.Covariance[0]));
+      Ey = E * std::sqrt(double(S.Covariance[2]));
+    }
+    return {Mx - Ex * In,  Mx + Ex * In,  My - Ey * In,  My + Ey * In,
+            Mx - Ex * Out, Mx + Ex * Out, My - Ey * Out, My + Ey * Out};
+  }
+  // Rounding up makes the radius itself a decision.
+  const double Least = std::ceil(S.CircleRadius * (1 - DoubtBand));
+  const double Most = std::ceil(S.CircleRadius * (1 + DoubtBand));
+  if (Reach == Support::Square3) {
+    const double In = Least * (1 - DoubtBand), Out = Most * (1 + DoubtBand);
+    return {Mx - In,  Mx + In,  My - In,  My + In,
+            Mx - Out, Mx + Out, My - Out, My + Out};
+  }
+  // The tile decision takes mean -+ radius, whose rounding in fp32 is relative
+  // to the larger of the two.
+  const auto Slack = [](double M, double R) {
+    return DoubtBand * std::max(std::abs(M), R);
+  };
+  const auto Pixels = [&](double R, double Sign) {
+    const double R0 = R + Sign * std::max(Slack(Mx, R), Slack(My, R));
+    return officialPixels(glm::dvec2(S.Mean), R0, Width, Height);
+  };
+  const Rect In = Pixels(Least, -1), Out = Pixels(Most, 1);
+  return {double(In.X0),  double(In.X1),  double(In.Y0),  double(In.Y1),
+          double(Out.X0), double(Out.X1), double(Out.Y0), double(Out.Y1)};
+}
+
+/// All tiles that hold a pixel of \p B's outer side.
+inline Rect outerTiles(const Border &B, const TileGrid &Grid) {
+  const auto At = [&](double Value, int Count) {
+    return static_cast<int>(
+        std::clamp(std::floor(Value / Grid.Size), -1.0, double(Count)));
+  };
+  return {std::max(At(B.OuterX0, Grid.Columns), 0),
+          std::max(At(B.OuterY0, Grid.Rows), 0),
+          std::min(At(B.OuterX1, Grid.Columns) + 1, Grid.Columns),
+          std::min(At(B.OuterY1, Grid.Rows) + 1, Grid.Rows)};
+}
+
+/// A Gaussian at a pixel that blends it.
+template <typename Real> struct Contribution {
+  std::size_t Entry;  ///< of the tile's list
+  Real Dx, Dy;        ///< from the pixel's centre to the mean
+  Real Wanted, Alpha; ///< opacity times falloff, before the clamp and after it
+  Real T;             ///< transmittance in front of it
+};
+
+/// How a pixel ended.
+template <typename Real> struct PixelEnd {
+  Real T = 1;
+  std::uint8_t Doubts = 0;
+  std::int32_t Last = -1, Stop = -1; ///< as in \c Picture
+  std::uint64_t Walked = 0;          ///< list entries looked at
+};
+
+/// The lists of a picture's tiles, and the walk of a pixel through its own.
+template <typename Real> class TileWalk {
+public:
+  TileWalk(const std::vector<Splat<Real>> &Splats, int Width, int Height,
+           const Options &O)
+      : Splats(Splats), O(O), Width(Width), Height(Height),
+        Grid(O.TileSize, Width, Height), Cutoff(static_cast<Real>(O.Cutoff)),
+        Lists(Grid.count()) {
+    // As tileLists, but with everything whose place in a list is doubtful.
+    for (const std::uint32_t I : depthOrder(Splats)) {
+      const Rect R =
+          outerTiles(borderOf(Splats[I], O.Reach, Width, Height), Grid);
+      for (int Y = R.Y0; Y < R.Y1; ++Y)
+        for (int X = R.X0; X < R.X1; ++X)
+          Lists[Grid.index(X, Y)].push_back(I);
+    }
+  }
+
+  std::size_t tiles() const { return Lists.size(); }
+
+  /// The pixels of \p Tile that the picture has.
+  Rect pixels(std::size_t Tile) const {
+    const int X0 = static_cast<int>(Tile) % Grid.Columns * Grid.Size;
+    const int Y0 = static_cast<int>(Tile) / Grid.Columns * Grid.Size;
+    return {X0, Y0, std::min(X0 + Grid.Size, Width),
+            std::min(Y0 + Grid.Size, Height)};
+  }
+
+  std::vector<Candidate<Real>> candidates(std::size_t Tile) const {
+    std::vector<Candidate<Real>> List;
+    List.reserve(Lists[Tile].size());
+    for (const std::uint32_t I : Lists[Tile])
+      List.push_back(candidate(I, static_cast<int>(Tile) % Grid.Columns,
+                               static_cast<int>(Tile) / Grid.Columns));
+    return List;
+  }
+
+  /// Walks pixel (\p X, \p Y) front to back and calls \p Blend with every
+  /// \c Contribution.
+  template <typename Function>
+  PixelEnd<Real> pixel(const std::vector<Candidate<Real>> &List, int X, int Y,
+                       Function Blend) const {
+    const Real Px = Real(X) + Real(0.5), Py = Real(Y) + Real(0.5);
+    PixelEnd<Real> P;
+    DepthOrder Order;
+    for (const Candidate<Real> &C : List) {
+      P.Walked += C.Listed;
+      const Real Dx = C.Mean.x - Px, Dy = C.Mean.y - Py;
+      const bool Inside = inSupport(C, Dx, Dy, X, Y);
+      const bool EdgeInDoubt =
+          O.Reach != Support::Exact && C.Edge.doubtful(Px, Py);
+      if (!Inside && !EdgeInDoubt)
+        continue;
+      const Real Power =
+          Real(-0.5) * (C.Conic[0] * Dx * Dx + C.Conic[2] * Dy * Dy) -
+          C.Conic[1] * Dx * Dy;
+      if (!(Power <= 0))
+        continue;
+      // Through double: correctly rounded in fp32 but for rare ties.
+      const Real Wanted =
+          C.Opacity * static_cast<Real>(std::exp(double(Power)));
+      const Real Alpha = std::min(mostAlpha<Real>(), Wanted);
+      if (near(Alpha, leastAlpha<double>()) ||
+          (EdgeInDoubt && Alpha >= leastAlpha<Real>()))
+        P.Doubts |= DoubtThreshold;
+      if (!Inside || Alpha < leastAlpha<Real>())
+        continue;
+      if (Order.doubtful(C.NearestKey, C.FarthestKey, C.Index))
+        P.Doubts |= DoubtOrder;
+      const Real Next = P.T * (1 - Alpha);
+      if (near(Next, O.Cutoff))
+        P.Doubts |= DoubtThreshold;
+      if (saturates(Next)) {
+        P.Stop = C.Index;
+        break;
+      }
+      Blend(Contribution<Real>{static_cast<std::size_t>(&C - List.data()), Dx,
+                               Dy, Wanted, Alpha, P.T});
+      P.T = Next;
+      P.Last = C.Index;
+    }
+    return P;
+  }
+
+private:
+  Candidate<Real> candidate(std::uint32_t I, int Column, int Row) const {
+    const Splat<Real> &S = Splats[I];
+    Candidate<Real> C;
+    C.Mean = S.Mean;
+    C.Extent = S.Extent;
+    C.Conic = S.Conic;
+    C.Color = S.Color;
+    C.Opacity = S.Opacity;
+    C.NearestKey = depthBits(double(S.Depth) - S.DepthSlack);
+    C.FarthestKey = depthBits(double(S.Depth) + S.DepthSlack);
+    C.Official = officialPixels(S.Mean, S.Extent.x, Width, Height);
+    C.Edge = borderOf(S, O.Reach, Width, Height);
+    C.Index = static_cast<std::int32_t>(I);
+    C.Listed = tilesOf(S, O.Reach, Grid).contains(Column, Row);
+    return C;
+  }
+
+  bool inSupport(const Candidate<Real> &C, Real Dx, Real Dy, int X,
+                 int Y) const {
+    if (O.Reach == Support::Exact)
+      return true;
+    if (O.Reach == Support::Official16)
+      return C.Official.contains(X, Y);
+    return std::abs(Dx) <= C.Extent.x && std::abs(Dy) <= C.Extent.y;
+  }
+
+  bool saturates(Real T) const {
+    return O.Rule == Rules::Inria ? T < Cutoff : T <= Cutoff;
+  }
+
+  const std::vector<Splat<Real>> &Splats;
+  const Options &O;
+  int Width, Height;
+  TileGrid Grid;
+  Real Cutoff;
+  std::vector<std::vector<std::uint32_t>> Lists;
+};
+
+/// Calls \p Work with every tile from 0 to \p Tiles - 1 on \p Threads
+/// threads, 0 for one a processor; the calls share nothing that depends on
+/// their order.
+template <typename Function>
+void forEachTile(std::size_t Tiles, unsigned Threads, Function Work) {
+  std::atomic<std::size_t> Next = 0;
+  const auto Share = [&] {
+    for (std::size_t T = Next++; T < Tiles; T = Next++)
+      Work(T);
+  };
+  if (Threads == 0)
+    Threads = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::thread> Others;
+  for (unsigned I = 1; I < Threads; ++I)
+    Others.emplace_back(Share);
+  Share();
+  for (std::thread &Other : Others)
+    Other.join();
+}
+
+} // namespace vorion::reference
