@@ -145,7 +145,8 @@ def fixtures(bench, args):
                 picture = os.path.join(folder, path + ".npz")
                 command = ["splat", "render", os.path.join(folder, "scene.ply"), "--cameras",
                            os.path.join(folder, "cameras.json"), "--view", "view", "--rules", options["rules"],
-                           "--support", options["support"], "--path", path, "--background",
+                           "--support", options["support"], "--path", path, "--dilation", str(options["dilation"]),
+                           "--background",
                            ",".join(str(b) for b in options["background"]), "-o", picture]
                 if options["antialiased"]:
                     command.append("--antialiased")

@@ -19,8 +19,8 @@ template <typename Real> int clampedFloor(Real Value, int Most) {
 } // namespace
 
 TileGrid::TileGrid(int Size, int Width, int Height)
-    : Size(Size), Columns((Width + Size - 1) / Size),
-      Rows((Height + Size - 1) / Size) {}
+    : Size(Size), Width(Width), Height(Height),
+      Columns((Width + Size - 1) / Size), Rows((Height + Size - 1) / Size) {}
 
 template <typename Real>
 Rect officialPixels(const glm::vec<2, Real> &Mean, Real Radius, int Width,
@@ -52,6 +52,10 @@ Rect tilesOf(const Splat<Real> &S, Support Reach, const TileGrid &Grid) {
             (P.X1 + Grid.Size - 1) / Grid.Size,
             (P.Y1 + Grid.Size - 1) / Grid.Size};
   }
+  // A NaN fails either test.
+  if (!(S.Mean.x - S.Extent.x < Real(Grid.Width)) ||
+      !(S.Mean.y - S.Extent.y < Real(Grid.Height)))
+    return {};
   const auto First = [&](Real Low, int Count) {
     return clampedFloor(Low / Real(Grid.Size), Count);
   };

@@ -19,6 +19,8 @@ struct Rect {
 /// How a picture is cut into square tiles; the last ones may be partial.
 struct TileGrid {
   int Size = 16; ///< pixels
+  int Width = 0; ///< of the picture, pixels
+  int Height = 0;
   int Columns = 0;
   int Rows = 0;
   TileGrid(int Size, int Width, int Height);
@@ -32,8 +34,9 @@ struct TileGrid {
 
 /// The tiles whose area [t Size, (t + 1) Size) meets the box mean +- extent:
 /// floor((mean - extent) / Size) <= t < floor((mean + extent) / Size) + 1,
-/// clamped to the grid while still in floating point. For Official16 the tiles
-/// that hold a pixel of \c officialPixels.
+/// clamped to the grid while still in floating point; none if the box begins
+/// behind the picture's last pixel, where the last tile may still go on. For
+/// Official16 the tiles that hold a pixel of \c officialPixels.
 template <typename Real>
 Rect tilesOf(const Splat<Real> &S, Support Reach, const TileGrid &Grid);
 

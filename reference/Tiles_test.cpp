@@ -50,6 +50,18 @@ TEST(Tiles, BoxesMeetTileAreas) {
   EXPECT_GE(None.X0, None.X1);
 }
 
+TEST(Tiles, WhatOnlyTheLastTilesRestSeesIsOutside) {
+  const TileGrid G(64, 100, 70); // 28 and 58 px of the last tiles are no pixels
+  const auto Of = [&](double X, double Y) {
+    return tilesOf(boxAt(X, Y, 4, 4), Support::Exact, G);
+  };
+  expectRect(Of(103.9, 73.9), 1, 1, 2, 2);
+  for (const Rect &R : {Of(104, 40), Of(40, 74), Of(110, 100)}) {
+    EXPECT_GE(R.X0, R.X1);
+    EXPECT_GE(R.Y0, R.Y1);
+  }
+}
+
 TEST(Tiles, OfficialTilesCountPixelsAtIntegers) {
   // m = 23.5, r = 8: floor(15.5 / 16) = 0 to floor(46.5 / 16) = 2.
   expectRect(officialPixels(glm::dvec2(24, 24), 8., 64, 48), 0, 0, 32, 32);

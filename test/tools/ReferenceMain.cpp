@@ -57,6 +57,7 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
                                       {"support", A.Support},
                                       {"precision", A.Precision},
                                       {"antialiased", O.Antialiased},
+                                      {"dilation", O.Dilation},
                                       {"background", A.Background},
                                       {"cutoff", O.Cutoff},
                                       {"tile", O.TileSize},
@@ -121,6 +122,10 @@ int main(int Count, char **Values) {
       ->capture_default_str();
   App.add_flag("--antialiased", A.Options.Antialiased,
                "Compensate opacity for the dilation");
+  App.add_option("--dilation", A.Options.Dilation,
+                 "Added to both variances on the picture, px^2")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   App.add_option("--background", A.Background, "Colour r,g,b (default 0,0,0)")
       ->delimiter(',')
       ->expected(3);

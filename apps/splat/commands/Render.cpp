@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -69,6 +70,13 @@ Expected<Success> check(const RenderArguments &A) {
     return Usage(fmt::format(
         "-o {}: unknown kind of picture, expected .png, .pfm or .npz",
         A.Output));
+  if (!(O.Dilation >= 0 && std::isfinite(O.Dilation)))
+    return Usage(fmt::format("--dilation {}: expected a variance of 0 px^2 or "
+                             "more",
+                             O.Dilation));
+  for (const float B : O.Background)
+    if (!std::isfinite(B))
+      return Usage(fmt::format("--background {}: expected finite numbers", B));
   if (!(O.Cutoff >= 0 && O.Cutoff < 1))
     return Usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
   if (O.Blending == Path::Raster && O.Reach == Support::Official16)
@@ -226,6 +234,9 @@ Runner addRender(CLI::App &App) {
   addRasterOptions(App, *A);
   App.add_flag("--antialiased", O.Antialiased,
                "Compensate opacity for the dilation");
+  App.add_option("--dilation", O.Dilation,
+                 "Added to both variances on the picture (default 0.3)")
+      ->option_text("PX2");
   App.add_option("--background", A->Background, "Colour r,g,b (default 0,0,0)")
       ->delimiter(',')
       ->expected(3)

@@ -64,8 +64,19 @@ enum {
 /// Bytes of a vx_tail (docs/isa.md), which rasterize.cl checks.
 enum { TAIL_BYTES = 560 };
 
-/// Depth key of a Gaussian that no tile sees; sorts behind every depth.
-enum { CULLED = -1 };
+/// Why no tile sees a Gaussian, in the order in which it is found out.
+enum {
+  CULL_NEAR,       ///< behind the camera or before the near plane
+  CULL_DEGENERATE, ///< no area on the picture: determinant not above 0
+  CULL_FAINT,      ///< no pixel can reach an alpha of 1/255
+  CULL_OUTSIDE,    ///< its box and the picture have nothing in common
+  CULL_NON_FINITE, ///< a number of it is none, or beyond fp32
+  CULL_REASONS
+};
+
+/// Depth key of a Gaussian that no tile sees, plus the reason; sorts behind
+/// every depth.
+#define CULLED 0x80000000U // NOLINT: enumerators of C are signed
 
 // NOLINTEND(readability-identifier-naming)
 

@@ -1,10 +1,14 @@
 // Projects every Gaussian: activation, covariance, support, colour. Writes the
 // record that both blending kernels read, the depth key and the tile rectangle
 // (x0 | y0 << 16, x1 | y1 << 16, ends excluded). A Gaussian that no tile sees
-// gets the key CULLED, an empty rectangle and no record.
+// gets CULLED and the reason as its key, an empty rectangle and no record.
 
-static bool all_finite(splat_gaussian g) {
-  // x - x is 0 for finite x and NaN otherwise.
+// x - x is 0 for finite x and NaN otherwise.
+static bool all_finite(float a, float b) {
+  return (a - a) + (b - b) == 0.0f;
+}
+
+static bool all_finite_record(splat_gaussian g) {
   const float zero = (g.mean[0] - g.mean[0]) + (g.mean[1] - g.mean[1]) +
                      (g.conic[0] - g.conic[0]) + (g.conic[1] - g.conic[1]) +
                      (g.conic[2] - g.conic[2]) + (g.opacity - g.opacity) +
@@ -29,11 +33,12 @@ static float camera_depth(__constant const splat_view *view, float x, float y,
   return sum.x + sum.y;
 }
 
-static bool project_one(__constant const splat_view *view,
+// The depth key; the rectangle is left alone if the Gaussian is culled.
+static uint project_one(__constant const splat_view *view,
                         __global const float *geometry,
                         __global const float *sh,
                         __global splat_gaussian *records, uint count, uint i,
-                        float *depth, uint2 *rectangle) {
+                        uint2 *rectangle) {
 #define GEOMETRY(plane) geometry[(plane) * count + i]
   const float px = GEOMETRY(PLANE_MEAN);
   const float py = GEOMETRY(PLANE_MEAN + 1);
@@ -41,7 +46,7 @@ static bool project_one(__constant const splat_view *view,
   __constant const float *w = view->rotation;
   const float z = camera_depth(view, px, py, pz);
   if (!(KEEP_DEPTH(z)))
-    return false;
+    return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
   const float x = w[0] * px + w[1] * py + w[2] * pz + view->translation[0];
   const float y = w[3] * px + w[4] * py + w[5] * pz + view->translation[1];
   const float2 ratio = (float2)(x / z, y / z);
@@ -58,9 +63,10 @@ static bool project_one(__constant const splat_view *view,
                clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
   const screen_covariance s =
       project_covariance(view, z, clamped, scale, quaternion);
-  // Degenerate, or beyond what fp32 can hold.
-  if (!(s.det > 0.0f) || isinf(s.det))
-    return false;
+  if (s.det <= 0.0f)
+    return CULLED + CULL_DEGENERATE;
+  if (!isfinite(s.det))
+    return CULLED + CULL_NON_FINITE;
 
   splat_gaussian g;
   g.opacity = activate_opacity(GEOMETRY(PLANE_LOGIT));
@@ -76,12 +82,13 @@ static bool project_one(__constant const splat_view *view,
 
   float2 extent;
   if (!support_extent(s, g.opacity, &extent))
-    return false;
+    return CULLED + CULL_FAINT;
   uint x0, x1, y0, y1;
-  tile_span(g.mean[0], extent.x, view->tiles[0], &x0, &x1);
-  tile_span(g.mean[1], extent.y, view->tiles[1], &y0, &y1);
+  tile_span(g.mean[0], extent.x, view->size[0], view->tiles[0], &x0, &x1);
+  tile_span(g.mean[1], extent.y, view->size[1], view->tiles[1], &y0, &y1);
   if (x0 >= x1 || y0 >= y1)
-    return false;
+    return CULLED + (all_finite(g.mean[0], g.mean[1]) ? CULL_OUTSIDE
+                                                      : CULL_NON_FINITE);
   g.extent[0] = pixel_extent(extent.x);
   g.extent[1] = pixel_extent(extent.y);
 
@@ -92,14 +99,13 @@ static bool project_one(__constant const splat_view *view,
   g.color[0] = color.x;
   g.color[1] = color.y;
   g.color[2] = color.z;
-  if (!all_finite(g))
-    return false;
+  if (!all_finite_record(g))
+    return CULLED + CULL_NON_FINITE;
   const bool spans_tiles = x1 - x0 > 1 || y1 - y0 > 1;
   g.tag = i | (spans_tiles ? SPANS_TILES : 0u);
   records[i] = g;
-  *depth = z;
   *rectangle = (uint2)(x0 | y0 << 16, x1 | y1 << 16);
-  return true;
+  return as_uint(z);
 #undef GEOMETRY
 }
 
@@ -111,11 +117,8 @@ __kernel void project(__constant const splat_view *view,
   const uint i = get_global_id(0);
   if (i >= count)
     return;
-  float depth = 0.0f;
   uint2 rectangle = (uint2)(0, 0);
-  const bool seen = project_one(view, geometry, sh, records, count, i, &depth,
-                                &rectangle);
-  depths[i] = seen ? as_uint(depth) : (uint)CULLED;
+  depths[i] = project_one(view, geometry, sh, records, count, i, &rectangle);
   order[i] = i;
   rectangles[i] = rectangle;
 }

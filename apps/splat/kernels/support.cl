@@ -41,9 +41,9 @@ static uint clamped_floor(float v, uint most) {
   return (uint)fmin(fmax(floor(v), 0.0f), (float)most);
 }
 
-// Tiles [first, last) along one axis.
-static void tile_span(float mean, float extent, uint tiles, uint *first,
-                      uint *last) {
+// Tiles [first, last) along one axis of a picture of so many pixels.
+static void tile_span(float mean, float extent, uint size, uint tiles,
+                      uint *first, uint *last) {
   const float tile = (float)TILE_SIZE;
 #if defined(SUPPORT_OFFICIAL16)
   // As the CUDA code counts them, for which pixels sit at whole numbers.
@@ -52,7 +52,12 @@ static void tile_span(float mean, float extent, uint tiles, uint *first,
   *last = clamped_floor((m + extent + (tile - 1.0f)) / tile, tiles);
 #else
   // Tiles whose area meets the box. That is half a pixel more than the pixel
-  // centres need, so tiles of any size leave the same pixels.
+  // centres need, so tiles of any size leave the same pixels. The last tile may
+  // reach beyond the picture; a box that meets only that is outside.
+  if (!(mean - extent < (float)size)) {
+    *first = *last = tiles;
+    return;
+  }
   *first = clamped_floor((mean - extent) / tile, tiles);
   *last = clamped_floor(floor((mean + extent) / tile) + 1.0f, tiles);
 #endif

@@ -17,20 +17,32 @@ __kernel void count_tiles(__global const uint *order,
   tile_counts[i] = width * height;
 }
 
-// What the host must know: Gaussians seen, and copies.
+// The first of the sorted keys that is not below `key`.
+static uint first_from(__global const uint *keys, uint count, uint key) {
+  uint low = 0, high = count;
+  while (low < high) {
+    const uint middle = (low + high) / 2;
+    if (keys[middle] < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+
+// What the host must know: Gaussians seen, copies, and how many were culled for
+// each reason.
 __kernel void totals(__global const uint *sorted_depths,
                      __global const uint *offsets, __global uint *result,
                      uint count) {
-  uint low = 0, high = count; // first CULLED key is in [low, high]
-  while (low < high) {
-    const uint middle = (low + high) / 2;
-    if (sorted_depths[middle] == (uint)CULLED)
-      high = middle;
-    else
-      low = middle + 1;
-  }
-  result[0] = low;
+  uint first = first_from(sorted_depths, count, CULLED);
+  result[0] = first;
   result[1] = offsets[count];
+  for (uint reason = 0; reason < CULL_REASONS; ++reason) {
+    const uint next = first_from(sorted_depths, count, CULLED + reason + 1);
+    result[2 + reason] = next - first;
+    first = next;
+  }
 }
 
 // One (tile, list entry) pair for every tile of every Gaussian, row by row. The
@@ -63,27 +75,14 @@ __kernel void duplicate(__global const uint *order,
   }
 }
 
-static uint first_pair_of(__global const uint *pair_tiles, uint pairs,
-                          uint tile) {
-  uint low = 0, high = pairs;
-  while (low < high) {
-    const uint middle = (low + high) / 2;
-    if (pair_tiles[middle] < tile)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low;
-}
-
 // Where each tile's list begins and ends in the sorted pairs.
 __kernel void tile_ranges(__global const uint *pair_tiles,
                           __global uint2 *ranges, uint pairs, uint tiles) {
   const uint tile = get_global_id(0);
   if (tile >= tiles)
     return;
-  ranges[tile] = (uint2)(first_pair_of(pair_tiles, pairs, tile),
-                         first_pair_of(pair_tiles, pairs, tile + 1));
+  ranges[tile] = (uint2)(first_from(pair_tiles, pairs, tile),
+                         first_from(pair_tiles, pairs, tile + 1));
 }
 
 // Tiles by falling length of their lists, equal ones by number: the order in

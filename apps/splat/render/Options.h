@@ -42,6 +42,8 @@ struct RenderOptions {
   Path Blending = Path::Raster;
   ExpUnit Exponential = ExpUnit::Exact;
   bool Antialiased = false;
+  /// Added to both variances on the picture, px^2: both conventions' low-pass.
+  float Dilation = 0.3F;
   std::array<float, 3> Background{0, 0, 0};
   /// A pixel is full when its transmittance would fall below this: [0, 1).
   float Cutoff = 1e-4F;

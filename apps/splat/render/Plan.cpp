@@ -30,8 +30,7 @@ ProgramSpec projectProgram(int ShDegree, const RenderOptions &O) {
        "project.cl"},
       {fmt::format("SH_DEGREE={}", ShDegree),
        fmt::format("TILE_SIZE={}", O.tileSize()), supportDefine(O.Reach),
-       // Both conventions add 0.3 px^2 to the diagonal.
-       "DILATION=0.3f",
+       fmt::format("DILATION={:#}f", O.Dilation),
        // Written so that a NaN depth is culled by both.
        Inria ? "KEEP_DEPTH(z)=((z)>0.2f)" : "KEEP_DEPTH(z)=((z)>=0.01f)"}};
   if (O.Antialiased) {

@@ -3,6 +3,7 @@
 #include "Sorter.h"
 #include "View.h"
 
+#include <algorithm>
 #include <bit>
 #include <fmt/format.h>
 #include <limits>
@@ -13,6 +14,8 @@ namespace {
 
 using std::uint32_t;
 using std::uint64_t;
+
+static_assert(CullReasons.size() == CULL_REASONS);
 
 /// Work-items of a group where the kernel has no say.
 constexpr uint32_t GroupSize = 64;
@@ -95,6 +98,7 @@ private:
   Sorter::Pairs ByDepth;
   Sorter::Pairs ByTile;
   uint32_t Visible = 0, Pairs = 0;
+  std::array<uint64_t, CullReasons.size()> Culled{};
   cl::Buffer Ranges, Pixels, Picture;
 };
 
@@ -130,15 +134,16 @@ void Pipeline::sortByDepth() {
 void Pipeline::countPairs() {
   TileCounts = words("tile counts", Count);
   Places = words("places of pairs", uint64_t{Count} + 1);
-  const cl::Buffer Totals = words("totals", 2);
+  std::array<uint32_t, 2 + CULL_REASONS> Host{};
+  const cl::Buffer Totals = words("totals", Host.size());
   L.run(TilesProgram, "count_tiles", itemsFor(Count), GroupSize, ByDepth.Values,
         Rectangles, TileCounts, Count);
   Sort.scan(TileCounts, Places, Count);
   L.run(TilesProgram, "totals", 1, 1, ByDepth.Keys, Places, Totals, Count);
-  uint32_t Host[2] = {0, 0};
-  L.read("totals", Host, Totals, sizeof(Host));
+  L.read("totals", Host.data(), Totals, sizeof(Host));
   Visible = Host[0];
   Pairs = Host[1];
+  std::copy(Host.begin() + 2, Host.end(), Culled.begin());
 }
 
 void Pipeline::duplicate() {
@@ -235,6 +240,7 @@ RenderResult Pipeline::result(bool KeepPairs) {
   RenderResult R;
   R.Visible = Visible;
   R.Pairs = Pairs;
+  R.Culled = Culled;
   R.Picture.Width = static_cast<int>(View.size[0]);
   R.Picture.Height = static_cast<int>(View.size[1]);
   std::vector<float> Rgba(4 * std::size_t{pixels()});

@@ -6,7 +6,9 @@
 #include "../io/Scene.h"
 #include "Plan.h"
 
+#include <array>
 #include <optional>
+#include <string_view>
 
 namespace vorion::splat {
 
@@ -15,10 +17,16 @@ struct SortedPairs {
   std::vector<std::uint32_t> Tiles, DepthBits, Gaussians;
 };
 
+/// Why Gaussians were culled, by the enumerators of kernels/layout.h.
+inline constexpr std::array<std::string_view, 5> CullReasons{
+    "near", "degenerate", "faint", "outside", "non_finite"};
+
 struct RenderResult {
   Image Picture;
   std::uint64_t Visible = 0; ///< Gaussians that some tile sees
   std::uint64_t Pairs = 0;   ///< (tile, Gaussian) pairs
+  /// Gaussians that no tile sees, by \c CullReasons.
+  std::array<std::uint64_t, CullReasons.size()> Culled{};
   std::uint64_t DeviceBytes = 0;
   std::vector<StageReport> Stages;
   std::optional<SortedPairs> Sorted;

@@ -127,6 +127,9 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
   Json Stages = Json::array();
   for (const StageReport &S : R.Result.Stages)
     Stages.push_back(json(S));
+  Json Culled;
+  for (std::size_t I = 0; I < CullReasons.size(); ++I)
+    Culled[std::string(CullReasons[I])] = R.Result.Culled[I];
   const Totals T = totals(R.Result);
   Json Total{{"seconds", T.Seconds}};
   if (T.Counters)
@@ -154,6 +157,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"simt_tile", O.SimtTile},
                 {"simt_group", O.SimtGroup},
                 {"antialiased", O.Antialiased},
+                {"dilation", O.Dilation},
                 {"background", O.Background},
                 {"cutoff", O.Cutoff},
                 {"exp", name(O.Exponential)},
@@ -163,6 +167,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
               {"picture", R.Output},
               {"counts",
                {{"visible", R.Result.Visible},
+                {"culled", Culled},
                 {"pairs", R.Result.Pairs},
                 {"device_bytes", R.Result.DeviceBytes}}},
               {"stages", Stages},
@@ -180,6 +185,11 @@ std::string textReport(const Camera &View, const RenderOptions &Options,
       View.Name, View.Width, View.Height, Dev.name(), name(Options.Convention),
       name(Options.Reach), name(Options.Blending), Result.Visible, Result.Pairs,
       Options.tileSize(), Options.tileSize());
+  Text += "culled:";
+  for (std::size_t I = 0; I < CullReasons.size(); ++I)
+    Text += fmt::format("{} {} {}", I == 0 ? "" : ",", Result.Culled[I],
+                        CullReasons[I]);
+  Text += '\n';
   Text += fmt::format("{:<16}{:>10}{:>16}{:>18}{:>14}\n", "stage", "seconds",
                       "warp instr.", "lane instr.", "raster blends");
   const auto Row = [&](const std::string &Name, double Seconds,

@@ -36,6 +36,9 @@ render "unknown option" s.ply c.json front p.png --nonsense
 attempt "no view" render s.ply --cameras c.json -o p.png
 render "cutoff of 1" s.ply c.json front p.png --cutoff 1
 render "two background values" s.ply c.json front p.png --background 1,2
+render "background not a number" s.ply c.json front p.png --background 0,nan,0
+render "negative dilation" s.ply c.json front p.png --dilation -0.3
+render "dilation not a number" s.ply c.json front p.png --dilation nan
 render "official16 by raster" s.ply c.json front p.png --support official16
 render "table by simt" s.ply c.json front p.png --path simt --exp table
 render "no z-tiles" s.ply c.json front p.png --ztiles 0

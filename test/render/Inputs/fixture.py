@@ -18,7 +18,7 @@ with open(f"{folder}/options.json") as f:
     options = json.load(f)
 doubtful = "2" if os.path.basename(fixture).startswith("hard_") else "0.5"
 flags = ["--rules", options["rules"], "--support", options["support"],
-         "--background", ",".join(map(repr, options["background"]))]
+         "--dilation", repr(options["dilation"]), "--background", ",".join(map(repr, options["background"]))]
 flags += ["--antialiased"] if options["antialiased"] else []
 for path in paths:
     subprocess.run(["splat", "render", f"{folder}/scene.ply", "--cameras", f"{folder}/cameras.json", "--view", "view",
