@@ -1,6 +1,7 @@
 """Renders of one view, kept in a folder: what the programs that compare them share."""
 
 import argparse
+import array
 import json
 import os
 import subprocess
@@ -28,6 +29,20 @@ def render(args, name, options):
                        check=True, stdout=subprocess.DEVNULL)
     with open(base + ".json", encoding="utf-8") as f:
         return json.load(f), base + ".pfm"
+
+
+def floats(picture):
+    """The floats of a .pfm file."""
+    with open(picture, "rb") as f:
+        for _ in range(3):
+            f.readline()
+        return array.array("f", f.read())
+
+
+def difference(a, b):
+    """The largest absolute difference, and the mean of the squares."""
+    differences = [abs(x - y) for x, y in zip(a, b, strict=True)]
+    return max(differences), sum(d * d for d in differences) / len(differences)
 
 
 def write_table(args, table):

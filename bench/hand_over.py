@@ -11,7 +11,6 @@ usage: hand_over.py SCENE --cameras CAMERAS --view VIEW --out FOLDER [--json FIL
 FOLDER keeps each run's result; what is there is not run again.
 """
 
-import array
 import math
 
 import frames
@@ -23,18 +22,14 @@ RULES = ("last:1/2", "last:1/4", "last:1/8", "count:256", "occluded:0.5", "occlu
 def render(args, name, options):
     """The counters of a run and the floats of its picture."""
     report, picture = frames.render(args, name.replace(":", "-").replace("/", "_"), options)
-    with open(picture, "rb") as f:
-        for _ in range(3):
-            f.readline()
-        return report["total"]["counters"], array.array("f", f.read())
+    return report["total"]["counters"], frames.floats(picture)
 
 
 def row(name, counters, picture, whole):
     base, right = whole
-    differences = [abs(a - b) for a, b in zip(right, picture)]
-    mean = sum(d * d for d in differences) / len(differences)
+    largest, mean = frames.difference(right, picture)
     blends = counters["raster_blends"] + counters["raster_tail_blends"]
-    return {"run": name, "max_abs": max(differences),
+    return {"run": name, "max_abs": largest,
             "db": -10 * math.log10(mean) if mean else None,
             "blends": blends, "blend_ratio": blends / (base["raster_blends"] + base["raster_tail_blends"]),
             **{key: counters["raster_" + key] for key in

@@ -7,55 +7,58 @@ build/invocations); those that are there are not made again, so an interrupted r
 """
 
 import argparse
-import glob
 import json
 import os
 import subprocess
 import sys
 import time
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-SCENES = os.path.join(ROOT, "..", "shared", "data", "scenes")
+import scenes
+
 SUPPORTS = ("box3", "square3")
+WIDTHS = (480, 960, 1920, 3840)
+
+
+def file_of(folder, scene, view, width):
+    return os.path.abspath(os.path.join(folder, f"{scene.name}-{view}-{width}.json"))
 
 
 def analysis(folder, scene, view, width):
-    out = os.path.join(folder, f"{scene}-{view}-{width}.json")
+    """The JSON of one `splat analyze`; one that is there is not made again."""
+    out = file_of(folder, scene, view, width)
     if not os.path.exists(out):
-        path = sorted(glob.glob(os.path.join(SCENES, scene + ".*")))[0]
+        os.makedirs(folder, exist_ok=True)
         start = time.monotonic()
-        subprocess.run(["splat", "analyze", path, "--cameras", os.path.join(SCENES, "cameras", scene + ".json"),
-                        "--view", view, "--width", str(width), "--json", out], check=True, stdout=subprocess.DEVNULL)
-        print(f"{scene} {view} {width}: {time.monotonic() - start:.1f} s", file=sys.stderr)
-    with open(out) as f:
-        return json.load(f)["invocations_by_support"]
+        subprocess.run(["splat", "analyze", scene.path, "--cameras", scene.cameras, "--view", view,
+                        "--width", str(width), "--json", out], cwd=scenes.ROOT, check=True, stdout=subprocess.DEVNULL)
+        print(f"{scene.name} {view} {width}: {time.monotonic() - start:.1f} s", file=sys.stderr, flush=True)
+    with open(out, encoding="utf-8") as f:
+        return json.load(f)
 
 
 def main():
-    if not os.path.isdir(SCENES):
+    known = scenes.known()
+    if not known:
         sys.exit("invocations.py: error: no ../shared/data, expected scenes and cameras there")
-    known = sorted(os.path.splitext(os.path.basename(f))[0] for f in glob.glob(os.path.join(SCENES, "cameras", "*.json")))
     parser = argparse.ArgumentParser(description="Gaussian invocations against tile size")
     parser.add_argument("--scenes", nargs="+", choices=known, default=known)
-    parser.add_argument("--widths", nargs="+", type=int, default=[480, 960, 1920, 3840])
-    parser.add_argument("--out", default=os.path.join(ROOT, "build", "invocations"))
+    parser.add_argument("--widths", nargs="+", type=int, default=WIDTHS)
+    parser.add_argument("--out", default=os.path.join(scenes.ROOT, "build", "invocations"))
     options = parser.parse_args()
-    os.makedirs(options.out, exist_ok=True)
 
     columns = [(support, width) for support in SUPPORTS for width in options.widths]
     print("Fewer Gaussian invocations with tiles of 64 than of 16 pixels, percent\n")
     print("| scene | view | " + " | ".join(f"{s} {w}" for s, w in columns) + " |")
     print("|---|---|" + "--:|" * len(columns))
-    for scene in options.scenes:
-        with open(os.path.join(SCENES, "cameras", scene + ".json")) as f:
-            views = [camera["img_name"] for camera in json.load(f)]
-        for view in views:
-            found = {width: analysis(options.out, scene, view, width) for width in options.widths}
+    for scene in map(scenes.shared, options.scenes):
+        for view in scene.views:
+            found = {width: analysis(options.out, scene, view, width)["invocations_by_support"]
+                     for width in options.widths}
             cells = []
             for support, width in columns:
                 pairs = found[width][support]
                 cells.append(f"{100 * (1 - pairs['64'] / pairs['16']):.1f}" if pairs["16"] else "none")
-            print(f"| {scene} | {view} | " + " | ".join(cells) + " |", flush=True)
+            print(f"| {scene.name} | {view} | " + " | ".join(cells) + " |", flush=True)
 
 
 if __name__ == "__main__":

@@ -125,8 +125,13 @@ std::string frameJson(const std::vector<StageReport> &Stages) {
              {"copies", S.Copies},
              {"copied_bytes", S.CopiedBytes},
              {"copy_ms", copyMilliseconds(S, Sum["host"])}};
-    if (const std::string Time = stageTime(S); !Time.empty())
+    if (const std::string Time = stageTime(S); !Time.empty()) {
       One["time"] = Json::parse(Time);
+      for (const KernelReport &K : S.Kernels)
+        if (!K.Time.empty())
+          One["kernels"].push_back(
+              {{"name", K.Name}, {"cycles", Json::parse(K.Time)["cycles"]}});
+    }
     All.push_back(std::move(One));
   }
   return Json{{"frame_ms", F.all()},

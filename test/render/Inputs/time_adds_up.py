@@ -1,4 +1,5 @@
-"""Checks that every unit's reasons add up to the cycles, stage by stage."""
+"""Checks that every unit's reasons add up to the cycles, stage by stage, and
+that kernels add up to their stage."""
 import json
 import sys
 
@@ -15,5 +16,7 @@ for stage in stages:
     for units, reasons in REASONS.items():
         for unit in time[units]:
             assert sum(unit[r] for r in reasons) == time["cycles"], (stage["name"], units)
+    kernels = sum(k["cycles"] for k in stage["kernels"])
+    assert kernels == time["cycles"], stage["name"]
 frame = sum(s["time"]["cycles"] for s in stages if s["of_the_frame"])
 assert frame == report["sum"]["cycles"] > 0

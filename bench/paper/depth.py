@@ -1,0 +1,70 @@
+"""Z-tiling: what parts of a list that are blended apart cost, and what they change."""
+
+import math
+
+import frames
+import runs as r
+from runs import Run
+from writing import chart, mega, table
+
+TITLE = "Z-tiling"
+PARTS = (1, 2, 4, 8, 16)
+STOPS = (("stop", ()), ("no stop", ("--cutoff", "0")))
+MACHINES = ("prototype", "scaled")
+
+
+def measure(store, all_scenes, _every_view):
+    rows = []
+    for scene in all_scenes:
+        view = scene.views[0]
+
+        def run(parts, options, machine):
+            return Run(scene, view, machine, (*r.parted(parts), *options),
+                       picture=machine == MACHINES[0])
+
+        # The scaled machine shows what parts gain, for which one stop rule is enough.
+        store.all([run(k, o, m) for m in MACHINES for _, o in STOPS[:1 if m != MACHINES[0] else None] for k in PARTS], TITLE)
+        for stop, options in STOPS:
+            results = {m: dict(zip(PARTS, store.all([run(k, options, m) for k in PARTS], TITLE)))
+                       for m in MACHINES if m == MACHINES[0] or not options}
+            whole = frames.floats(store.file(run(1, options, MACHINES[0]), ".pfm"))
+            for parts in PARTS:
+                result = results[MACHINES[0]][parts]
+                largest, mean = difference(store, run(parts, options, MACHINES[0]), whole)
+                rows.append({"scene": scene.name, "view": view, "stop": stop, "parts": parts, "max_abs": largest,
+                             "db": -10 * math.log10(mean) if mean else None,
+                             "blends": result["total"]["counters"]["raster_blends"],
+                             "blend_ratio": result["total"]["counters"]["raster_blends"]
+                                            / results[MACHINES[0]][1]["total"]["counters"]["raster_blends"],
+                             "cycles": {m: {"blend": r.kernel_cycles(results[m][parts], "rasterize"),
+                                            "merge": r.kernel_cycles(results[m][parts], "merge"),
+                                            "frame": r.frame_cycles(results[m][parts])} for m in results},
+                             "command": result["command"]})
+    return {"rows": rows}
+
+
+def difference(store, run, whole):
+    return frames.difference(whole, frames.floats(store.file(run, ".pfm")))
+
+
+def text(data):
+    out = ["K parts of each list are blended apart and merged by kernels. Errors are against K = 1 with the same stop rule; *blends*: relative to K = 1, since a part does "
+           "not know that pixels are full in front of it. Cycles in millions: blending / merging / whole frame.", ""]
+    out += table(("scene", "view", "stop rule", "K", "largest difference", "dB", "blends", *MACHINES),
+                 [(row["scene"], row["view"], row["stop"], row["parts"], f"{row['max_abs']:.1e}" if row["max_abs"] else "equal",
+                   "" if row["db"] is None else f"{row['db']:.1f}", f"{row['blend_ratio']:.3f}x",
+                   *(" / ".join(mega(row["cycles"][m][part]) for part in ("blend", "merge", "frame")) if m in row["cycles"] else ""
+                     for m in MACHINES))
+                  for row in data["rows"]])
+    return out
+
+
+def charts(data):
+    def of(machine):
+        series = {}
+        for row in data["rows"]:
+            if row["stop"] == "stop":
+                series.setdefault(row["scene"], []).append(row["cycles"][machine]["blend"] + row["cycles"][machine]["merge"])
+        return {name: [values[0] / v for v in values] for name, values in series.items()}
+    return {"z-tiles": chart("Blending and merging with K z-tiles, relative to K = 1, scaled", "K", "throughput",
+                             list(map(str, PARTS)), of("scaled"))}

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Measures what the paper says about rendering, and writes docs/paper-results.md.
+
+usage: scripts/paper.sh [OPTIONS]
+
+Every run is kept in a file under --out and not repeated while the programs are the same, so a run that is broken off goes on where it
+stopped. Sections whose results are not there yet are named in the document as not measured.
+
+exit codes: 0 done, 1 a run failed or two pictures differ that should not, 2 usage, 3 no scenes
+"""
+
+import argparse
+import json
+import os
+import sys
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(FOLDER))
+
+import clocks  # noqa: E402
+import depth  # noqa: E402
+import document  # noqa: E402
+import identical  # noqa: E402
+import invocations  # noqa: E402
+import runs  # noqa: E402
+import scaling  # noqa: E402
+import scenes  # noqa: E402
+import speedup  # noqa: E402
+import tails  # noqa: E402
+import tiles  # noqa: E402
+
+SECTIONS = {"speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth, "scaling": scaling, "tiles": tiles, "identical": identical}
+# The scenes of the table, chosen before anything was measured.
+SCENES = ("garden_outdoor", "showroom_indoor", "truck", "tower_sh3", "guitar")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="paper.sh", description=__doc__.split("\n\n")[0], epilog=__doc__.split("\n\n")[-1])
+    parser.add_argument("--out", default=os.path.join(scenes.ROOT, "build", "paper"), metavar="FOLDER", help="results (default build/paper)")
+    parser.add_argument("--document", default=os.path.join(scenes.ROOT, "docs", "paper-results.md"), metavar="FILE",
+                        help="what to write (default docs/paper-results.md), charts beside it in images/")
+    parser.add_argument("--scenes", nargs="+", metavar="NAME", help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; sections of counts: all)")
+    parser.add_argument("--scene", nargs=2, metavar=("FILE", "CAMERAS"), help="any other scene instead")
+    parser.add_argument("--sections", nargs="+", choices=SECTIONS, default=list(SECTIONS), help="what to measure (default: all)")
+    parser.add_argument("--widths", nargs="+", type=int, default=invocations.WIDTHS, metavar="PX", help="picture widths of the counts")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time (default 1)")
+    parser.add_argument("--every-view", action="store_true", help="try all twelve choices of the kernels on all views, not on one of each scene")
+    parser.add_argument("--keep", action="store_true", help="take results of other builds, too")
+    parser.add_argument("--only-kept", action="store_true", help="count nothing more: leave out the counts that are not there")
+    args = parser.parse_args()
+    if args.jobs < 1:
+        parser.error(f"--jobs is {args.jobs}, expected at least 1")
+    return args
+
+
+def chosen(args):
+    """The scenes of the frames and those of the counts."""
+    if args.scene:
+        one = [scenes.given(*args.scene)]
+        return one, one
+    known = scenes.known()
+    unknown = [name for name in args.scenes or () if name not in known]
+    if not known or unknown:
+        print(f"paper.sh: error: no scene {unknown[0]} in ../shared/data, expected one of: {' '.join(known)}" if known else
+              "paper.sh: error: no ../shared/data, expected scenes there, or --scene FILE CAMERAS", file=sys.stderr)
+        sys.exit(3)
+    return [scenes.shared(n) for n in args.scenes or SCENES], [scenes.shared(n) for n in args.scenes or known]
+
+
+def main():
+    args = parse_arguments()
+    frames, counts = chosen(args)
+    store = runs.Runs(args.out, args.jobs, args.keep)
+    for name in args.sections:
+        module = SECTIONS[name]
+        if module is tiles:
+            data = module.measure(store, counts, args.every_view, tuple(args.widths), args.only_kept)
+        else:
+            data = module.measure(store, frames, args.every_view)
+        data["builds"] = sorted(store.builds)
+        store.builds.clear()
+        store.write(name, data)
+    document.write(args.document, {name: (module, store.read(name)) for name, module in SECTIONS.items()})
+    same = store.read("identical")
+    if same and not identical.same(same):
+        print("paper.sh: error: pictures or times differ, expected the same for every way to run them", file=sys.stderr)
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except runs.Failed as error:
+        print(f"paper.sh: error: {error}", file=sys.stderr)
+        sys.exit(1)

@@ -1,0 +1,233 @@
+"""Runs of `splat render --time`, each kept in a file of its own: what is there is not run again."""
+
+import array
+import collections
+import concurrent.futures
+import hashlib
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import zipfile
+from dataclasses import dataclass
+
+import machines
+import scenes
+
+
+class Failed(Exception):
+    """A run ended with an error, in one line."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A render of a view on a machine; machine is a name of machines.py."""
+    scene: scenes.Scene
+    view: str
+    machine: str
+    options: tuple = ()
+    clock: int = 0           # MHz; 0: the machine's own, None: no clock
+    threads: int = 0         # of the host; 0: as the machine has it
+    picture: bool = False    # keep it
+
+    def name(self):
+        parts = [self.scene.name, self.view, self.machine, *self.options]
+        parts += ["untimed"] if self.clock is None else [f"{self.clock}MHz"] if self.clock else []
+        parts += [f"{self.threads}threads"] if self.threads else []
+        return re.sub(r"[^A-Za-z0-9_.-]+", "_", "-".join(part.lstrip("-") for part in parts))
+
+    def arguments(self, picture, report):
+        timed = () if self.clock is None else ("--clock", str(self.clock)) if self.clock else ("--time",)
+        return ["splat", "render", self.scene.path, "--cameras", self.scene.cameras, "--view", self.view,
+                "-o", picture, "--json", report, *timed, *self.options]
+
+    def command(self):
+        """What to type in the root of the repository."""
+        return (f"VORION_CONFIG={machines.shown(self.machine)} "
+                + " ".join(self.arguments("out.pfm", "out.json")))
+
+
+def build_hash():
+    """The programs whose change may change a result."""
+    root = os.environ["VORION_ROOT"]
+    files = [os.path.join(root, "bin", name) for name in ("splat", "vorion-clang", "vorion-link")]
+    files += [os.path.join(root, "lib", "libvorion-runtime.so")]
+    for folder, _, names in os.walk(os.path.join(root, "lib", "vorion")):
+        files += [os.path.join(folder, name) for name in names]
+    with open(os.path.join(root, "etc", "OpenCL", "vendors", "vorion.icd"), encoding="utf-8") as f:
+        files.append(f.read().strip())
+    digest = hashlib.sha256()
+    for name in sorted(files):
+        with open(name, "rb") as f:
+            digest.update(hashlib.sha256(f.read()).digest())
+    return digest.hexdigest()[:16]
+
+
+def trimmed(report):
+    """What the sections read: whole frames and cycles of stages."""
+    timed = report.get("time")
+    if timed:
+        timed["sum"].pop("activities", None)
+        for stage in timed["stages"]:
+            if "time" in stage:
+                stage["time"] = {key: stage["time"][key] for key in ("cycles", "dram")}
+    return report
+
+
+class Runs:
+    """The folder of the results. keep: take those of other builds, too."""
+
+    def __init__(self, folder, jobs, keep):
+        self.folder, self.jobs, self.keep = folder, jobs, keep
+        self.build = build_hash()
+        self.builds = set()
+        self.lock = threading.Lock()
+        os.makedirs(os.path.join(folder, "runs"), exist_ok=True)
+
+    def file(self, run, suffix):
+        return os.path.join(self.folder, "runs", run.name() + suffix)
+
+    def kept(self, run):
+        """The result of an earlier run, or None."""
+        try:
+            with open(self.file(run, ".json"), encoding="utf-8") as f:
+                result = json.load(f)
+        except FileNotFoundError:
+            return None
+        stale = result["build"] != self.build and not self.keep
+        return None if stale or (run.picture and not os.path.exists(self.file(run, ".pfm"))) else result
+
+    def execute(self, run):
+        config = machines.config(run.machine)
+        if run.threads:
+            config["host_threads"] = run.threads
+        with tempfile.TemporaryDirectory(dir=self.folder) as folder:
+            picture, report = os.path.join(folder, "out.pfm"), os.path.join(folder, "out.json")
+            start = time.monotonic()
+            done = subprocess.run(run.arguments(picture, report), cwd=scenes.ROOT, capture_output=True, text=True,
+                                  env=dict(os.environ, VORION_CONFIG=json.dumps(config)), check=False)
+            if done.returncode != 0:
+                lines = done.stderr.strip().splitlines() or [f"splat ended with {done.returncode}"]
+                raise Failed(f"{run.name()}: {lines[-1]}")
+            with open(report, encoding="utf-8") as f:
+                result = trimmed(json.load(f))
+            result.pop("picture", None)
+            with open(picture, "rb") as f:
+                result["picture_sha256"] = hashlib.sha256(f.read()).hexdigest()
+            result["channels"] = config.get("timing", {}).get("dram", {}).get("channels")
+            result.update(build=self.build, seconds=time.monotonic() - start, command=run.command())
+            if run.picture:
+                os.replace(picture, self.file(run, ".pfm"))
+            with open(report, "w", encoding="utf-8") as f:
+                json.dump(result, f)
+            os.replace(report, self.file(run, ".json"))
+        return result
+
+    def all(self, wanted, title):
+        """The results of some runs, in order; those that are missing are run, with a line each."""
+        wanted = list(wanted)
+        results = {run: self.kept(run) for run in wanted}
+        missing = [run for run, result in results.items() if result is None]
+        count = 0
+
+        def one(run):
+            nonlocal count
+            result = self.execute(run)
+            with self.lock:
+                count += 1
+                print(f"{title} [{count}/{len(missing)}] {run.name()}: {result['seconds']:.1f} s", file=sys.stderr,
+                      flush=True)
+            return result
+
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            futures = {run: pool.submit(one, run) for run in missing}
+            try:
+                for run, future in futures.items():
+                    results[run] = future.result()
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+        self.builds.update(result["build"] for result in results.values())
+        return [results[run] for run in wanted]
+
+
+    def write(self, section, data):
+        """Keeps what a section found."""
+        file = os.path.join(self.folder, section + ".json")
+        with open(file + ".new", "w", encoding="utf-8") as f:
+            json.dump(data, f, indent=1)
+            f.write("\n")
+        os.replace(file + ".new", file)
+
+    def read(self, section):
+        """The same, or None."""
+        try:
+            with open(os.path.join(self.folder, section + ".json"), encoding="utf-8") as f:
+                return json.load(f)
+        except FileNotFoundError:
+            return None
+
+    def lengths(self, scene, view):
+        """Entries of every tile's list, from the pairs that a render sorts."""
+        out = os.path.join(self.folder, "runs", f"{scene.name}-{view}-lengths.json")
+        if not os.path.exists(out):
+            with tempfile.TemporaryDirectory(dir=self.folder) as folder:
+                pairs, report = (os.path.join(folder, name) for name in ("pairs.npz", "lengths.json"))
+                subprocess.run(["splat", "render", scene.path, "--cameras", scene.cameras, "--view", view, "-o",
+                                os.path.join(folder, "out.pfm"), "--dump-pairs", pairs], cwd=scenes.ROOT, check=True,
+                               stdout=subprocess.DEVNULL)
+                lengths = collections.Counter(_column(pairs, "tile"))
+                with open(report, "w", encoding="utf-8") as f:
+                    json.dump([lengths[tile] for tile in range(tiles(scene, view))], f)
+                os.replace(report, out)
+        with open(out, encoding="utf-8") as f:
+            return json.load(f)
+
+
+def tiles(scene, view, side=64):
+    """How many tiles of that side a view has."""
+    with open(os.path.join(scenes.ROOT, scene.cameras), encoding="utf-8") as f:
+        camera = next(c for c in json.load(f) if c["img_name"] == view)
+    return -(-camera["width"] // side) * -(-camera["height"] // side)
+
+
+def _column(file, name):
+    """A one-dimensional array of 32-bit integers in an .npz file."""
+    with zipfile.ZipFile(file) as archive:
+        content = archive.read(name + ".npy")
+    header = 10 + int.from_bytes(content[8:10], "little")
+    if b"'<u4'" not in content[:header] and b"'<i4'" not in content[:header]:
+        raise Failed(f"{file}: {name} has no 32-bit integers, expected those of --dump-pairs")
+    return array.array("I", content[header:])
+
+
+def stage_cycles(result, stage):
+    return sum(s["time"]["cycles"] for s in result["time"]["stages"] if s["name"] == stage and "time" in s)
+
+
+def parted(parts):
+    """Options of the raster path for K parts; none for one, so that it is the plain frame's run."""
+    return ("--path", "raster", *(("--ztiles", str(parts)) if parts > 1 else ()))
+
+
+def kernel_cycles(result, kernel):
+    """Of all launches of a kernel of the frame."""
+    return sum(k["cycles"] for s in result["time"]["stages"] for k in s.get("kernels", ()) if k["name"] == kernel)
+
+
+def stage_instructions(result, stage):
+    return sum(k["counters"]["warp_instructions"] for s in result["stages"] if s["name"] == stage
+               for k in s["kernels"])
+
+
+def frame_cycles(result):
+    return result["time"]["sum"]["cycles"]
+
+
+def frame_ms(result):
+    """The frame with its launches and small copies."""
+    return result["time"]["frame_ms"]

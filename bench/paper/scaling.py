@@ -1,0 +1,141 @@
+"""From 1 to 128 rasterizers by simulation, to 1,024 by a model that the simulation checks."""
+
+import runs as r
+import tails
+from runs import Run
+from writing import chart, mega, table
+
+TITLE = "Scaling"
+SIMULATED = (1, 2, 4, 8, 16, 32, 64, 128)
+MODELLED = (*SIMULATED, 256, 512, 1024)
+# How many rasterizers are simulated, by number of z-tiles: with 16 the ends and the middle.
+PARTS = {1: SIMULATED, 16: (1, 16, 128)}
+CHANNELS = 16  # twice those of the scaled machine
+# The paper's scaled machine has 51.2 GB/s for this many rasterizers.
+RASTERIZERS_A_MEMORY = 16
+
+
+def deal(costs, rasterizers):
+    """The load of the busiest rasterizer when jobs, longest list first, are dealt forth and back, as kernels/rasterize.cl
+    deals them: within a few percent of longest-processing-time-first where there are many jobs."""
+    loads = [0.0] * rasterizers
+    for job, cost in enumerate(costs):
+        row, place = divmod(job, rasterizers)
+        loads[place if row % 2 == 0 else rasterizers - 1 - place] += cost
+    return max(loads)
+
+
+def jobs_of(lengths, parts):
+    """List lengths of the depth parts of tiles, in the machine's order."""
+    return [n * (k + 1) // parts - n * k // parts for n in sorted(lengths, reverse=True) for k in range(parts)]
+
+
+def model(lengths, parts, single, memory_cycles):
+    """Cycles of blending by number of rasterizers: (as many, memory as it is), and (memory that grows with them).
+
+    A job costs what clearing and writing a tile costs, and its list's length times what an entry costs on average; both
+    come from one run on a single rasterizer, so that only how jobs spread is modelled. memory_cycles: what the
+    scaled machine's DRAM needs for the stage's bytes."""
+    units = single["time"]["sum"]["rasterizers"]
+    commands = sum(u["commands"] for u in units)
+    fixed = sum(u["begin"] + u["flush"] + u["drain"] for u in units) / commands
+    entry = (tails.busy(single) - fixed * commands) / max(1, sum(lengths))
+    costs = [fixed + entry * n for n in jobs_of(lengths, parts)]
+    rows = []
+    for count in MODELLED:
+        compute = deal(costs, count)
+        rows.append({"rasterizers": count, "compute": compute, "memory": memory_cycles, "cycles": max(compute, memory_cycles),
+                     "cycles_with_memory": max(compute, memory_cycles * RASTERIZERS_A_MEMORY / max(count, RASTERIZERS_A_MEMORY))})
+    return rows
+
+
+def memory_cycles(whole, parts):
+    """Cycles for which the DRAM's buses carry the bytes of blending, all channels at work: those of the run without parts, and
+    a picture of 16 bytes a pixel for each further part."""
+    dram = next(s for s in whole["time"]["stages"] if s["name"] == "blend")["time"]["dram"]
+    bursts = dram["read_bursts"] + dram["write_bursts"]
+    width, height = whole["resolution"]
+    more = (parts - 1) * width * height * 16 / whole["time"]["sum"]["host"]["dram_burst_bytes"]
+    picoseconds = dram["bus_ps"] * (1 + more / bursts) / whole["channels"]
+    return picoseconds * whole["time"]["sum"]["clock_mhz"] / 1e6
+
+
+def machine_of(count):
+    return "scaled" if count == RASTERIZERS_A_MEMORY else f"{count}-rasterizers"
+
+
+def measure(store, all_scenes, _every_view):
+    rows, memory = [], []
+    for scene in all_scenes:
+        view = scene.views[0]
+
+        def run(parts, machine):
+            return Run(scene, view, machine, r.parted(parts))
+
+        store.all([run(k, machine_of(n)) for k, counts in PARTS.items() for n in counts], TITLE)
+        lengths = store.lengths(scene, view)
+        whole, = store.all([run(1, machine_of(RASTERIZERS_A_MEMORY))], TITLE)
+        for parts, counts in PARTS.items():
+            results = dict(zip(counts, store.all([run(parts, machine_of(n)) for n in counts], TITLE)))
+            simulated = {n: {"blend_cycles": r.kernel_cycles(result, "rasterize"), "merge_cycles": r.kernel_cycles(result, "merge"),
+                             "fps": result["time"]["fps"], "cores": result["device"]["compute_units"],
+                             "command": result["command"]} for n, result in results.items()}
+            modelled = model(lengths, parts, results[1], memory_cycles(whole, parts))
+            rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths),
+                         "simulated": simulated, "modelled": modelled})
+        one, two = store.all([run(1, "scaled"), run(1, f"scaled-{CHANNELS}-channels")], TITLE)
+        memory.append({"scene": scene.name, "view": view, "blend_gain": r.stage_cycles(one, "blend") / r.stage_cycles(two, "blend"),
+                       "frame_gain": r.frame_ms(one) / r.frame_ms(two),
+                       "bus_share": one["time"]["sum"]["dram"]["bus_ps"] / one["channels"]
+                                    / (r.frame_cycles(one) / one["time"]["sum"]["clock_mhz"] * 1e6),
+                       "command": two["command"]})
+    return {"rows": rows, "memory": memory}
+
+
+def at(row, count):
+    """The simulated point, or None. JSON has words for keys."""
+    return row["simulated"].get(count) or row["simulated"].get(str(count))
+
+
+def gains(row, counts):
+    """Speed-ups over one rasterizer, with a gap where nothing was simulated."""
+    first = at(row, 1)["blend_cycles"]
+    return [f"{first / at(row, n)['blend_cycles']:.1f}x" if at(row, n) else "" for n in counts]
+
+
+def text(data):
+    out = ["Blending's speed-up over one rasterizer at 500 MHz, all with the scaled machine's memory (51.2 GB/s) and clusters of four sockets; four cores a rasterizer, but two at 64 "
+           "and one at 128, since the simulator has room for 240 cores. *model*: a tile's cost is what clearing and writing one takes plus its list's length times the mean cost of an "
+           "entry (both from the single rasterizer's run); jobs, longest list first, are dealt forth and back as the machine's kernel does (nearly LPT), "
+           "and blending is not shorter than its bytes over the DRAM's bandwidth. Merging z-tiles is a kernel of its own and not in these rows.", ""]
+    for parts in sorted({row["parts"] for row in data["rows"]}):
+        rows = [row for row in data["rows"] if row["parts"] == parts]
+        out += [f"### K = {parts}: {rows[0]['tiles']} tiles, {rows[0]['tiles'] * parts} jobs", ""]
+        lines = []
+        for row in rows:
+            first, model_first = at(row, 1)["blend_cycles"], row["modelled"][0]["cycles"]
+            lines.append((row["scene"], row["view"], "simulated", mega(first), *gains(row, MODELLED[1:])))
+            lines.append(("", "", "model", mega(model_first),
+                          *(f"{model_first / m['cycles']:.1f}x" for m in row["modelled"][1:])))
+            lines.append(("", "", "model, memory grows", mega(model_first),
+                          *(f"{model_first / m['cycles_with_memory']:.1f}x" for m in row["modelled"][1:])))
+        out += table(("scene", "view", "", "1: Mcycles", *map(str, MODELLED[1:])), lines)
+        off = [(m["cycles"] / at(row, m["rasterizers"])["blend_cycles"] - 1, row["scene"], m["rasterizers"]) for row in rows
+               for m in row["modelled"] if m["rasterizers"] <= 16 and at(row, m["rasterizers"])]
+        low, high = min(off), max(off)
+        out += [f"Model against simulation up to 16 rasterizers: {100 * low[0]:+.1f} % ({low[1]}, {low[2]}) to {100 * high[0]:+.1f} % ({high[1]}, {high[2]}).", ""]
+    out += ["### Whole frames, K = 1", "", "Frames a second; kernels have four cores a rasterizer up to 32.", ""]
+    out += table(("scene", "view", *map(str, SIMULATED)),
+                 [(row["scene"], row["view"], *(f"{at(row, n)['fps']:.1f}" for n in SIMULATED)) for row in data["rows"] if row["parts"] == 1])
+    out += ["### Twice the memory channels", "",
+            f"The scaled machine with {CHANNELS} channels (102.4 GB/s) against its own 8, and how long the 8 channels' buses are in use in a frame.", ""]
+    out += table(("scene", "view", "blending", "whole frame", "buses in use"),
+                 [(m["scene"], m["view"], f"{m['blend_gain']:.3f}x", f"{m['frame_gain']:.3f}x", f"{100 * m['bus_share']:.0f} %")
+                  for m in data["memory"]])
+    return out
+
+
+def charts(data):
+    rows = [row for row in data["rows"] if row["parts"] == 1]
+    return {"scaling": chart("Blending by rasterizers", "rasterizers", "speed-up over one", list(map(str, SIMULATED)),
+                             {**{row["scene"]: [at(row, 1)["blend_cycles"] / at(row, n)["blend_cycles"] for n in SIMULATED] for row in rows}})}

@@ -1,0 +1,43 @@
+"""The scenes that measurements go through, with their views."""
+
+import glob
+import json
+import os
+from dataclasses import dataclass
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+# As seen from ROOT, where programs run, so that results name no folder of one machine.
+SHARED = os.path.join("..", "shared", "data", "scenes")
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene file and its cameras; paths are absolute or as seen from ROOT."""
+    name: str
+    path: str
+    cameras: str
+    views: tuple
+
+
+def views_of(cameras):
+    with open(os.path.join(ROOT, cameras), encoding="utf-8") as f:
+        return tuple(camera["img_name"] for camera in json.load(f))
+
+
+def known():
+    """Names of the scenes beside the repository; none where there is no ../shared/data."""
+    folder = os.path.join(ROOT, SHARED, "cameras", "*.json")
+    return sorted(os.path.splitext(os.path.basename(f))[0] for f in glob.glob(folder))
+
+
+def shared(name):
+    """One of known()."""
+    path = sorted(glob.glob(os.path.join(ROOT, SHARED, name + ".*")))[0]
+    cameras = os.path.join(SHARED, "cameras", name + ".json")
+    return Scene(name, os.path.join(SHARED, os.path.basename(path)), cameras, views_of(cameras))
+
+
+def given(path, cameras):
+    """Any other scene, called as its file is."""
+    path, cameras = os.path.abspath(path), os.path.abspath(cameras)
+    return Scene(os.path.basename(path).split(".")[0], path, cameras, views_of(cameras))

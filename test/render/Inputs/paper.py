@@ -1,0 +1,50 @@
+"""Helpers of paper.test: shrink CAMERAS OUT (one small view), check OUT DOCUMENT (ratios follow from the runs)."""
+import json
+import os
+import sys
+
+
+def shrink(cameras, out):
+    camera = json.load(open(cameras))[0]
+    scale = 160 / camera["width"]
+    camera.update(width=160, height=96, cx=80, cy=48, fx=camera["fx"] * scale, fy=camera["fy"] * scale)
+    json.dump([camera], open(out, "w"))
+
+
+def near(value, expected):
+    assert abs(value - expected) < 1e-9 * abs(expected), (value, expected)
+
+
+def load(folder, name):
+    return json.load(open(os.path.join(folder, "runs", name + ".json")))
+
+
+def stage(result, name):
+    return next(s["time"]["cycles"] for s in result["time"]["stages"] if s["name"] == name)
+
+
+def check(folder, document):
+    table = open(document).read()
+    rows = json.load(open(os.path.join(folder, "speedup.json")))["rows"]
+    assert [row["machine"] for row in rows] == ["prototype", "scaled"]
+    for row in rows:
+        raster = load(folder, f"scene-front-{row['machine']}-path-raster")
+        simt = {part: load(folder, f"scene-front-{row['machine']}-path-simt-simt-tile-{row['kernels_' + part]['tile']}"
+                                   f"-simt-group-{row['kernels_' + part]['group']}") for part in ("blend", "frame")}
+        near(row["blend_speedup"], stage(simt["blend"], "blend") / stage(raster, "blend"))
+        near(row["frame_speedup"], simt["frame"]["time"]["frame_ms"] / raster["time"]["frame_ms"])
+        share = stage(simt["frame"], "blend") / simt["frame"]["time"]["sum"]["cycles"]
+        near(row["bound"], 1 / (1 - share))
+        near(row["fps"], 1e3 / raster["time"]["frame_ms"])
+        line = next(x for x in table.splitlines() if x.startswith("| scene | front") and f"{row['bound']:.2f}x" in x)
+        assert line.endswith(f"| {row['blend_speedup']:.1f}x | {row['frame_speedup']:.2f}x |"), line
+    swept = json.load(open(os.path.join(folder, "speedup.json")))["sweeps"][0]["rows"]
+    assert len(swept) == 12 and len({row["picture_sha256"] for row in swept}) == 1
+    fastest = min(row["blend_cycles"] for row in swept if "blend_cycles" in row)
+    near(rows[0]["kernels_blend"]["blend_cycles"], fastest)
+    for row in json.load(open(os.path.join(folder, "clocks.json")))["rows"]:
+        for clock, ms in zip(row["clocks_mhz"], row["frame_ms"]):
+            assert abs(row["mcycles"] * 1e3 / clock + row["ms"] - ms) <= row["largest_ms_off"] * (1 + 1e-9)
+
+
+{"shrink": shrink, "check": check}[sys.argv[1]](*sys.argv[2:])
