@@ -73,7 +73,7 @@ Failure Device::prepare(const isasim::Kernel &Kernel,
   const std::uint64_t Items = product(Params.local_size, MaxGroupItems);
   // A core's share begins on a boundary of its own.
   const std::uint64_t Stride =
-      (Items * Kernel.ContextBytes + VX_MEM_ALIGNMENT - 1) / VX_MEM_ALIGNMENT *
+      (Kernel.contextBytesOf(Items) + VX_MEM_ALIGNMENT - 1) / VX_MEM_ALIGNMENT *
       VX_MEM_ALIGNMENT;
   if (Stride > UINT32_MAX)
     return {VX_ERROR_MEMORY,

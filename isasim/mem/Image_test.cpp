@@ -93,6 +93,8 @@ TEST(Image, ReadsTheKernelTable) {
   EXPECT_EQ(K->LocalBytes, 256U);
   EXPECT_EQ(K->LocalSize[0], 16U);
   EXPECT_EQ(K->Lanes, 8U);
+  EXPECT_EQ(K->contextBytesOf(8), 8U * 12);
+  EXPECT_EQ(K->contextBytesOf(9), 16U * 12);
   ASSERT_EQ(K->Args.size(), 2U);
   EXPECT_EQ(K->Args[0].Name, "a");
   EXPECT_EQ(K->Args[0].Kind, VX_ARG_GLOBAL);

@@ -161,7 +161,7 @@ KernelLaunch::writeBlock(const Kernel &K, const KernelRequest &R,
     L.LocalSize[Dim] = Local[Dim];
     Items *= Local[Dim];
   }
-  const uint64_t Stride = alignUp(Items * K.ContextBytes);
+  const uint64_t Stride = alignUp(K.contextBytesOf(Items));
   const Expected<uint32_t> Context =
       reserve(Stride * M->config().cores(), "the memory kept across barriers");
   if (!Context)

@@ -30,6 +30,8 @@ struct Shape {
 
 constexpr U Groups = 11; ///< more than cores, not a multiple
 constexpr U Rounds = 7;  ///< argument k
+/// What the output holds before a kernel runs.
+constexpr U Untouched = ~U{0};
 
 const char *const Source = R"(
 #define ITEM (get_local_id(0) + get_local_size(0) * (get_local_id(1) + get_local_size(1) * get_local_id(2)))
@@ -149,6 +151,23 @@ kernel void conditional_in_loop(global uint *out, local uint *t, uint k) {
     r = r * 3 + l;
   }
   out[get_group_id(0) * n + l] = r;
+}
+
+// Before the first of a conditional's barriers work-items part, and meet again;
+// behind it, too.
+kernel void parting_in_conditional(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, r = l;
+  global uint *mine = out + get_group_id(0) * n + l;
+  for (uint i = 0; i < k; i++)
+    if ((i + get_group_id(0)) & 1) {
+      t[l] = l & 1 ? *mine + i : r * 3;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      r += t[(l + 1) % n];
+      if (l % 3)
+        r += *mine;
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+  *mine = r;
 }
 
 // Lanes leave the inner loop at different times, and all meet at the barrier.
@@ -310,6 +329,21 @@ Values conditionalInLoop(U N, U) {
   return R;
 }
 
+Values partingInConditional(U N, U Group) {
+  Values T(N), R(N);
+  for (U L = 0; L < N; ++L)
+    R[L] = L;
+  for (U I = 0; I < Rounds; ++I) {
+    if (!((I + Group) & 1))
+      continue;
+    for (U L = 0; L < N; ++L)
+      T[L] = L & 1 ? Untouched + I : R[L] * 3;
+    for (U L = 0; L < N; ++L)
+      R[L] += T[(L + 1) % N] + (L % 3 ? Untouched : 0);
+  }
+  return R;
+}
+
 Values loopThenBarrier(U N, U) {
   Values T(N), S(N, 0);
   for (U I = 0; I < Rounds; ++I) {
@@ -360,6 +394,7 @@ const Kernel Kernels[] = {{"straight", straight},
                           {"nested_loops", nestedLoops},
                           {"endless_if_reached", endlessIfReached},
                           {"conditional_in_loop", conditionalInLoop},
+                          {"parting_in_conditional", partingInConditional},
                           {"loop_then_barrier", loopThenBarrier},
                           {"private_array", privateArray},
                           {"prefix_sum", prefixSum}};
@@ -369,7 +404,7 @@ class GroupShapes : public testing::TestWithParam<Shape> {};
 Values run(const TestDevice &Device, const cl::Program &Program,
            const char *Name, Shape Local, cl::NDRange Global, U Items) {
   cl::Kernel K(Program, Name);
-  const cl::Buffer Out = Device.upload(Values(Items, ~U{0}));
+  const cl::Buffer Out = Device.upload(Values(Items, Untouched));
   K.setArg(0, Out);
   K.setArg(1, cl::Local(Local.items() * sizeof(U)));
   K.setArg(2, Rounds);

@@ -4,6 +4,7 @@
 
 #include "vorion/support/Expected.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -34,6 +35,13 @@ struct Kernel {
   uint32_t LocalBytes = 0;             ///< static local memory
   std::array<uint32_t, 3> LocalSize{}; ///< 0 for any
   uint32_t Lanes = 0; ///< of the warps it was compiled for, 0 for any
+
+  /// What a group of \p Items work-items keeps across barriers, in bytes: whole
+  /// passes over the lanes.
+  uint64_t contextBytesOf(uint64_t Items) const {
+    const uint64_t Pass = std::max(Lanes, 1U);
+    return (Items + Pass - 1) / Pass * Pass * ContextBytes;
+  }
 };
 
 /// Immutable after parse(), so that it can be shared between threads.

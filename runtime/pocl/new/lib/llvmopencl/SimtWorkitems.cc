@@ -404,6 +404,50 @@ void SimtLoops::tellAliases() {
     }
 }
 
+/// Pass by pass, and array by array in a pass: what a pass keeps lies within
+/// reach of one address, and lanes that follow each other read words that do.
+uint64_t SimtLoops::placeContextArrays() {
+  if (ContextArrays.empty())
+    return 0;
+  IRBuilder<> Builder(F.getEntryBlock().getTerminator());
+  Value *Context = Builder.CreateLoad(
+      Builder.getPtrTy(),
+      M.getOrInsertGlobal(SimtContextGlobal, Builder.getPtrTy()),
+      "simt_context");
+  // An element's size is a multiple of its alignment. With the largest
+  // alignment first every array of the first pass begins aligned, and the sum
+  // is rounded up so that those of the others do.
+  std::stable_sort(ContextArrays.begin(), ContextArrays.end(),
+                   [](const ContextArray &A, const ContextArray &B) {
+                     return A.Alignment > B.Alignment;
+                   });
+  const DataLayout &Layout = M.getDataLayout();
+  uint64_t Bytes = 0;
+  for (const ContextArray &Array : ContextArrays)
+    Bytes += Layout.getTypeAllocSize(Array.Placeholder->getAllocatedType());
+  Bytes = alignTo(Bytes, ContextArrays.front().Alignment);
+  uint64_t Offset = 0;
+  for (const ContextArray &Array : ContextArrays) {
+    const std::vector<User *> Users(Array.Placeholder->user_begin(),
+                                    Array.Placeholder->user_end());
+    for (User *U : Users) {
+      auto *Element = cast<GetElementPtrInst>(U);
+      Builder.SetInsertPoint(Element);
+      Value *Base = Builder.CreateSub(Element->getOperand(1), Lane);
+      Value *Start = Builder.CreateGEP(
+          Builder.getInt8Ty(), Context,
+          Builder.CreateAdd(Builder.CreateMul(Base, number(Bytes)),
+                            number(Lanes * Offset)),
+          Array.Placeholder->getName());
+      Element->setOperand(0, Start);
+      Element->setOperand(1, Lane);
+    }
+    Offset += Layout.getTypeAllocSize(Array.Placeholder->getAllocatedType());
+    Array.Placeholder->eraseFromParent();
+  }
+  return Bytes;
+}
+
 void SimtLoops::finish() {
   tidyAllocas();
   erase_if(ContextArrays, [](const ContextArray &Array) {
@@ -413,31 +457,7 @@ void SimtLoops::finish() {
     return Unused;
   });
   tellAliases();
-  uint64_t Bytes = 0;
-  if (!ContextArrays.empty()) {
-    IRBuilder<> Builder(F.getEntryBlock().getTerminator());
-    Value *Context = Builder.CreateLoad(
-        Builder.getPtrTy(),
-        M.getOrInsertGlobal(SimtContextGlobal, Builder.getPtrTy()),
-        "simt_context");
-    // An element's size is a multiple of its alignment. With the largest
-    // alignment first every array begins aligned, for any number of work-items,
-    // and nothing lies between them.
-    std::stable_sort(ContextArrays.begin(), ContextArrays.end(),
-                     [](const ContextArray &A, const ContextArray &B) {
-                       return A.Alignment > B.Alignment;
-                     });
-    for (const auto &[Placeholder, Alignment] : ContextArrays) {
-      Value *Start = Builder.CreateGEP(Builder.getInt8Ty(), Context,
-                                       Builder.CreateMul(Items, number(Bytes)),
-                                       Placeholder->getName());
-      Bytes +=
-          M.getDataLayout().getTypeAllocSize(Placeholder->getAllocatedType());
-      Placeholder->replaceAllUsesWith(Start);
-      Placeholder->eraseFromParent();
-    }
-  }
-  setModuleIntMetadata(&M, SimtContextBytes, Bytes);
+  setModuleIntMetadata(&M, SimtContextBytes, placeContextArrays());
 }
 
 } // namespace pocl

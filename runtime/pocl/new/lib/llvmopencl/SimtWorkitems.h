@@ -135,7 +135,7 @@ public:
   /// The branch decides between regions: every work-item takes the same way.
   void makeUniform(llvm::Instruction *Terminator);
 
-  /// Places the context arrays.
+  /// Ends the work; call after anything above.
   void finish();
 
 private:
@@ -148,6 +148,8 @@ private:
   /// Tells the optimiser that context arrays are apart from each other and from
   /// everything else, so that values stay in registers within loops.
   void tellAliases();
+  /// Gives context arrays their memory. Bytes a work-item.
+  uint64_t placeContextArrays();
   void storeLocalIds(llvm::IRBuilder<> &Builder, llvm::Value *Linear);
   llvm::Value *anyLeft(llvm::IRBuilder<> &Builder, llvm::Value *Base);
   llvm::Constant *number(uint64_t N) const;
