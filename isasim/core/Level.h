@@ -193,6 +193,22 @@ VORION_INLINE U swapBytes(U A) {
   return A << 24 | (A & 0xFF00U) << 8 | (A >> 8 & 0xFF00U) | A >> 24;
 }
 
+/// fclass.s.
+VORION_INLINE U classify(U A) {
+  const U Exponent = A >> 23 & 0xFFU, Fraction = A & 0x7FFFFFU;
+  const U Negative = asU(asI(A) < 0);
+  const U Nan =
+      select(asU(Fraction < 0x400000U), splat(1U << 8), splat(1U << 9));
+  const U Infinite = select(Negative, splat(1U << 0), splat(1U << 7));
+  const U Normal = select(Negative, splat(1U << 1), splat(1U << 6));
+  const U Subnormal = select(Negative, splat(1U << 2), splat(1U << 5));
+  const U Zero = select(Negative, splat(1U << 3), splat(1U << 4));
+  const U NoFraction = asU(Fraction == 0U);
+  return select(
+      asU(Exponent == 0xFFU), select(NoFraction, Infinite, Nan),
+      select(asU(Exponent == 0U), select(NoFraction, Zero, Subnormal), Normal));
+}
+
 VORION_INLINE F32 fma(F32 A, F32 B, F32 C) {
   return __builtin_elementwise_fma(A, B, C);
 }

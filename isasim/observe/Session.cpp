@@ -6,6 +6,7 @@
 #include "observe/Trace.h"
 #include "observe/check/Checkers.h"
 #include "observe/gdb/GdbServer.h"
+#include "observe/numerics/Numerics.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
 
@@ -50,6 +51,7 @@ struct Session::Impl {
   Expected<Success> open(const SessionOptions &O);
   Expected<Success> openTrace(const std::string &Text);
   Expected<Success> listenForGdb(const std::string &Text);
+  Expected<Success> openNumerics(const std::string &Text);
 
   std::function<void(std::string_view)> Print;
   SessionOptions Options;
@@ -59,6 +61,7 @@ struct Session::Impl {
   std::unique_ptr<Profile> Profiler;
   std::unique_ptr<Stats> Counts;
   std::unique_ptr<Checkers> Checks;
+  std::unique_ptr<Numerics> Shadow;
   std::unique_ptr<Observer> Debugger;
   std::string Tool;
   double WatchdogSeconds = 0;
@@ -100,6 +103,19 @@ Expected<Success> Session::Impl::listenForGdb(const std::string &Text) {
   return Success{};
 }
 
+Expected<Success> Session::Impl::openNumerics(const std::string &Text) {
+  const Expected<NumericOptions> O = NumericOptions::parse(Text);
+  if (!O)
+    return O.error();
+  if (O->Text == "-" && !Print)
+    return Error{"",
+                 "the numerics report has nowhere to go, expected text=FILE or "
+                 "json=FILE",
+                 ExitCode::Usage};
+  Shadow = std::make_unique<Numerics>(*O);
+  return Success{};
+}
+
 Expected<Success> Session::Impl::open(const SessionOptions &O) {
   Options = O;
   if (!O.Trace.empty())
@@ -117,7 +133,11 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
                  ExitCode::Usage};
   if (!O.Profile.empty())
     Profiler = std::make_unique<Profile>();
-  if ((Tracer || Times || Profiler || !O.Check.empty() || !O.Gdb.empty()) &&
+  if (!O.Numerics.empty())
+    if (Expected<Success> Ok = openNumerics(O.Numerics); !Ok)
+      return Ok;
+  if ((Tracer || Times || Profiler || Shadow || !O.Check.empty() ||
+       !O.Gdb.empty()) &&
       !Machine::canBeObserved())
     return Error{"",
                  "a build without observers, expected one with "
@@ -164,7 +184,7 @@ Session::create(const SessionOptions &O, std::string Tool,
 void Session::attach(Machine &M) {
   std::vector<Observer *> Observers;
   for (Observer *O : std::initializer_list<Observer *>{
-           I->Tracer.get(), I->Times.get(), I->Profiler.get()})
+           I->Tracer.get(), I->Times.get(), I->Profiler.get(), I->Shadow.get()})
     if (O)
       Observers.push_back(O);
   if (I->Checks)
@@ -184,7 +204,7 @@ void Session::nameRun(const std::string &Name) {
     I->Times->nameRun(Name);
 }
 
-bool Session::checksMemory() const { return I->Checks != nullptr; }
+bool Session::checksMemory() const { return I->Checks || I->Shadow; }
 
 void Session::allocated(uint32_t Address, uint64_t Bytes, std::string Name) {
   if (I->Checks)
@@ -199,6 +219,8 @@ void Session::released(uint32_t Address) {
 void Session::written(uint32_t Address, uint64_t Bytes) {
   if (I->Checks)
     I->Checks->written(Address, Bytes);
+  if (I->Shadow)
+    I->Shadow->written(Address, Bytes);
 }
 
 void Session::nameBuffer(uint32_t Address, std::string Name) {
@@ -229,6 +251,9 @@ Expected<Success> Session::runEnded(const RunResult &R) {
         !Ok)
       return Ok;
   }
+  if (I->Shadow)
+    if (Expected<Success> Ok = I->Shadow->write(I->Print); !Ok)
+      return Ok;
   if (I->Profiler) {
     const std::string Report = I->Profiler->report();
     if (I->Options.Profile != "-")

@@ -135,7 +135,8 @@ void describeCompilation(cl_device_id Device, const vx_device_info &Info) {
 /// of their source; both are PoCL's options, which it looks up at each build.
 void keepSourceLines() {
   bool Wanted = false;
-  for (const char *Name : {"VORION_PROFILE", "VORION_CHECK", "VORION_GDB"})
+  for (const char *Name :
+       {"VORION_PROFILE", "VORION_CHECK", "VORION_GDB", "VORION_NUMERICS"})
     Wanted |= getenv(Name) != nullptr;
   if (!Wanted)
     return;
