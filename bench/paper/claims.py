@@ -33,8 +33,10 @@ def verdict(rows, value, good, condition="the view is"):
 def span(rows, value, unit=""):
     """The smallest, the median and the largest value with their views."""
     low, high = min(rows, key=value), max(rows, key=value)
-    return (f"{value(low):.3g}{unit} ({place(low)}) to {value(high):.3g}{unit} ({place(high)}), "
-            f"median {statistics.median(map(value, rows)):.3g}{unit}")
+    return (
+        f"{value(low):.3g}{unit} ({place(low)}) to {value(high):.3g}{unit} ({place(high)}), "
+        f"median {statistics.median(map(value, rows)):.3g}{unit}"
+    )
 
 
 def ratios(rows, value, paper):
@@ -44,9 +46,15 @@ def ratios(rows, value, paper):
 def claim(what, paper, rows, value, good, *, unit="", number=None, bound="", condition="the view is", reads=None):
     """A claim about a figure of each view. number: the paper's, for the ratio."""
     best = max(rows, key=value)
-    return {"claim": what, "paper": paper, "verdict": verdict(rows, value, good, condition), "ours": span(rows, value, unit),
-            "ratio": ratios(rows, value, number) if number else "", "bound": bound,
-            "command": (reads or best).get("command", "")}
+    return {
+        "claim": what,
+        "paper": paper,
+        "verdict": verdict(rows, value, good, condition),
+        "ours": span(rows, value, unit),
+        "ratio": ratios(rows, value, number) if number else "",
+        "bound": bound,
+        "command": (reads or best).get("command", ""),
+    }
 
 
 def at_least(number):
@@ -62,12 +70,34 @@ def of_clocks(data):
     return [
         claim(f"19 frames/s at {last} MHz", "19", rows, lambda row: row["fps"][-1], at_least(19), number=19),
         claim(f"6.4 frames/s at {first} MHz", "6.4", rows, lambda row: row["fps"][0], at_least(6.4), number=6.4),
-        claim(f"{last} MHz give 2.97 times the frames of {first} MHz", "2.97x", rows, lambda row: row["fps"][-1] / row["fps"][0],
-              at_least(19 / 6.4), unit="x", number=19 / 6.4, bound=f"{last / first:.1f}x"),
-        claim("the part of a frame that scales with the clock", f"{clocks.PAPER_MCYCLES} Mcycles (from the two rates)", rows,
-              lambda row: row["mcycles"], about(clocks.PAPER_MCYCLES), unit=" Mcycles", number=clocks.PAPER_MCYCLES),
-        claim("the part that does not", f"{clocks.PAPER_MS} ms (from the two rates)", rows, lambda row: row["ms"], about(clocks.PAPER_MS),
-              unit=" ms", number=clocks.PAPER_MS),
+        claim(
+            f"{last} MHz give 2.97 times the frames of {first} MHz",
+            "2.97x",
+            rows,
+            lambda row: row["fps"][-1] / row["fps"][0],
+            at_least(19 / 6.4),
+            unit="x",
+            number=19 / 6.4,
+            bound=f"{last / first:.1f}x",
+        ),
+        claim(
+            "the part of a frame that scales with the clock",
+            f"{clocks.PAPER_MCYCLES} Mcycles (from the two rates)",
+            rows,
+            lambda row: row["mcycles"],
+            about(clocks.PAPER_MCYCLES),
+            unit=" Mcycles",
+            number=clocks.PAPER_MCYCLES,
+        ),
+        claim(
+            "the part that does not",
+            f"{clocks.PAPER_MS} ms (from the two rates)",
+            rows,
+            lambda row: row["ms"],
+            about(clocks.PAPER_MS),
+            unit=" ms",
+            number=clocks.PAPER_MS,
+        ),
     ]
 
 
@@ -80,18 +110,61 @@ def of_speedup(data):
     share = 1 - 1 / 30.2
     official = [row for row in prototype if row.get("official_frame")]
     out = [
-        claim("blending takes over 70 % of a frame on kernels", "> 70 %", prototype, lambda row: 100 * row["blend_share"], at_least(70), unit=" %"),
-        claim("30.2 to 38.4 times the frames of 8 cores without rasterizer", "30.2-38.4x", prototype, lambda row: row["frame_speedup"], at_least(30.2),
-              unit="x", number=30.2, condition=f"blending takes {100 * share:.1f} % of the kernels' frame, as in",
-              bound=f"{bound['bound']:.2f}x by share ({place(bound)}), {rest['bound_rest']:.2f}x with no blending at all ({place(rest)})"),
-        claim("the same, of blending alone", "30.2-38.4x (read so)", prototype, lambda row: row["blend_speedup"], at_least(30.2), unit="x", number=30.2),
-        claim("the scaled machine reaches 152 frames/s", "152", scaled, lambda row: row["fps"], at_least(152), number=152),
-        claim("it is 8.0 times as fast as the prototype (near-linear)", "152 / 19 = 8.0x", scaled, lambda row: row["fps"] / fps[row["scene"], row["view"]],
-              at_least(152 / 19), unit="x", number=152 / 19, bound=f"{8 * 500 / 530:.2f}x by cores and clock"),
+        claim(
+            "blending takes over 70 % of a frame on kernels",
+            "> 70 %",
+            prototype,
+            lambda row: 100 * row["blend_share"],
+            at_least(70),
+            unit=" %",
+        ),
+        claim(
+            "30.2 to 38.4 times the frames of 8 cores without rasterizer",
+            "30.2-38.4x",
+            prototype,
+            lambda row: row["frame_speedup"],
+            at_least(30.2),
+            unit="x",
+            number=30.2,
+            condition=f"blending takes {100 * share:.1f} % of the kernels' frame, as in",
+            bound=f"{bound['bound']:.2f}x by share ({place(bound)}), {rest['bound_rest']:.2f}x with no blending at all ({place(rest)})",
+        ),
+        claim(
+            "the same, of blending alone",
+            "30.2-38.4x (read so)",
+            prototype,
+            lambda row: row["blend_speedup"],
+            at_least(30.2),
+            unit="x",
+            number=30.2,
+        ),
+        claim(
+            "the scaled machine reaches 152 frames/s", "152", scaled, lambda row: row["fps"], at_least(152), number=152
+        ),
+        claim(
+            "it is 8.0 times as fast as the prototype (near-linear)",
+            "152 / 19 = 8.0x",
+            scaled,
+            lambda row: row["fps"] / fps[row["scene"], row["view"]],
+            at_least(152 / 19),
+            unit="x",
+            number=152 / 19,
+            bound=f"{8 * 500 / 530:.2f}x by cores and clock",
+        ),
     ]
     if official:
-        out.insert(2, claim("the same, over kernels with the official tiles of 16 and groups of 256", "30.2-38.4x (read so)", official,
-                            lambda row: row["official_frame"]["frame_ms"] / row["frame_ms"], at_least(30.2), unit="x", number=30.2))
+        out.insert(
+            2,
+            claim(
+                "the same, over kernels with the official tiles of 16 and groups of 256",
+                "30.2-38.4x (read so)",
+                official,
+                lambda row: row["official_frame"]["frame_ms"] / row["frame_ms"],
+                at_least(30.2),
+                unit="x",
+                number=30.2,
+            ),
+        )
     return out
 
 
@@ -105,10 +178,29 @@ def of_tails(data):
     def gain(row):
         return 100 * (quarter(row)["throughput"] - 1)
 
-    return [claim("the pixel unit gives 82.4 % more from the last quarter, indoors", "+82.4 %", wanted, gain, at_least(100 * tails.PAPER_GAIN),
-                  unit=" %", number=100 * tails.PAPER_GAIN, bound=f"{100 * (best['bound'] - 1):+.0f} % ({place(best)})", reads=quarter(wanted[0])),
-            claim("so that the last quarter held 45.2 % of the time", "45.2 %", wanted, lambda row: 100 * row["last_quarter_share"],
-                  at_least(45.2), unit=" %", number=45.2, reads=quarter(wanted[0]))]
+    return [
+        claim(
+            "the pixel unit gives 82.4 % more from the last quarter, indoors",
+            "+82.4 %",
+            wanted,
+            gain,
+            at_least(100 * tails.PAPER_GAIN),
+            unit=" %",
+            number=100 * tails.PAPER_GAIN,
+            bound=f"{100 * (best['bound'] - 1):+.0f} % ({place(best)})",
+            reads=quarter(wanted[0]),
+        ),
+        claim(
+            "so that the last quarter held 45.2 % of the time",
+            "45.2 %",
+            wanted,
+            lambda row: 100 * row["last_quarter_share"],
+            at_least(45.2),
+            unit=" %",
+            number=45.2,
+            reads=quarter(wanted[0]),
+        ),
+    ]
 
 
 def of_depth(data):
@@ -119,10 +211,18 @@ def of_depth(data):
     most = max((row for row in data["rows"] if row["stop"] == "stop"), key=lambda row: row["blend_ratio"])
     exact = stopped["max_abs"] <= ROUNDING, free["max_abs"] <= ROUNDING
     said = HOLDS if all(exact) else f"{IF} lists are not stopped early" if exact[1] else NOT
-    return [{"claim": "z-tiling is equivalent to one list", "paper": "mathematically equivalent", "verdict": said,
-             "ours": f"largest difference {free['max_abs']:.1e} without stop ({place(free)}, K = {free['parts']}), {stopped['max_abs']:.1e} with it "
-                     f"({place(stopped)}, K = {stopped['parts']}), for up to {most['blend_ratio']:.2f}x the blends ({place(most)}, K = {most['parts']})",
-             "ratio": "", "bound": "1e-2 of the largest colour (the last Gaussian of a part may leave T = 1e-2)", "command": stopped["command"]}]
+    return [
+        {
+            "claim": "z-tiling is equivalent to one list",
+            "paper": "mathematically equivalent",
+            "verdict": said,
+            "ours": f"largest difference {free['max_abs']:.1e} without stop ({place(free)}, K = {free['parts']}), {stopped['max_abs']:.1e} with it "
+            f"({place(stopped)}, K = {stopped['parts']}), for up to {most['blend_ratio']:.2f}x the blends ({place(most)}, K = {most['parts']})",
+            "ratio": "",
+            "bound": "1e-2 of the largest colour (the last Gaussian of a part may leave T = 1e-2)",
+            "command": stopped["command"],
+        }
+    ]
 
 
 def of_scaling(data):
@@ -130,10 +230,26 @@ def of_scaling(data):
         return scaling.at(row, 1)["blend_cycles"] / scaling.at(row, 16)["blend_cycles"]
 
     plain = [row for row in data["rows"] if row["parts"] == 1]
-    return [claim("blending scales near-linearly to 16 rasterizers (taken as 80 %)", "near-linear", plain, gain, at_least(0.8 * 16), unit="x", number=16,
-                  reads=scaling.at(plain[0], 16)),
-            claim("the scaled machine is not limited by memory bandwidth (twice of it gives under 5 %)", "not limited", data["memory"],
-                  lambda row: 100 * (row["frame_gain"] - 1), lambda value: value < 5, unit=" % faster")]
+    return [
+        claim(
+            "blending scales near-linearly to 16 rasterizers (taken as 80 %)",
+            "near-linear",
+            plain,
+            gain,
+            at_least(0.8 * 16),
+            unit="x",
+            number=16,
+            reads=scaling.at(plain[0], 16),
+        ),
+        claim(
+            "the scaled machine is not limited by memory bandwidth (twice as much gives under 5 %)",
+            "not limited",
+            data["memory"],
+            lambda row: 100 * (row["frame_gain"] - 1),
+            lambda value: value < 5,
+            unit=" % faster",
+        ),
+    ]
 
 
 def of_tiles(data):
@@ -143,15 +259,35 @@ def of_tiles(data):
             rows = [row for row in data["rows"] if row["fewer"][support].get(width) is not None]
             if not rows:
                 continue
-            out.append(claim(f"tiles of 64 instead of 16: over 80 % fewer invocations, `{support}`, {width} px", "> 80 %", rows,
-                             lambda row, s=support, w=width: 100 * row["fewer"][s][w], at_least(80), unit=" %", number=80))
-    out.append(claim("beyond some depth over 90 % of the pixels are occluded (taken as: by three quarters of the list)", "> 90 %", data["rows"],
-                     lambda row: 100 * row["occluded"][75], at_least(90), unit=" %", number=90))
+            out.append(
+                claim(
+                    f"tiles of 64 instead of 16: over 80 % fewer invocations, `{support}`, {width} px",
+                    "> 80 %",
+                    rows,
+                    lambda row, s=support, w=width: 100 * row["fewer"][s][w],
+                    at_least(80),
+                    unit=" %",
+                    number=80,
+                )
+            )
+    out.append(
+        claim(
+            "beyond some depth over 90 % of the pixels are occluded (taken as: by three quarters of the list)",
+            "> 90 %",
+            data["rows"],
+            lambda row: 100 * row["occluded"][75],
+            at_least(90),
+            unit=" %",
+            number=90,
+        )
+    )
     return out
 
 
 # What issues no verdict: said in the document.
-LATER = (("training: 2.43 to 4.97 iterations/s, 51 to 58.4 times the kernels, 38.6 iterations/s scaled", OPEN),
-         ("1,024 rasterizers train in under 3 s", OPEN),
-         ("reciprocal within 3 % (gradients)", OPEN),
-         ("power under 600 mW, area, 1.7 times the area efficiency", "out of scope: nothing here models power or area"))
+LATER = (
+    ("training: 2.43 to 4.97 iterations/s, 51 to 58.4 times the kernels, 38.6 iterations/s scaled", OPEN),
+    ("1,024 rasterizers train in under 3 s", OPEN),
+    ("reciprocal within 3 % (gradients)", OPEN),
+    ("power under 600 mW, area, 1.7 times the area efficiency", "out of scope: nothing here models power or area"),
+)

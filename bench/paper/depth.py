@@ -5,7 +5,7 @@ import math
 import frames
 import runs as r
 from runs import Run
-from writing import chart, mega, table
+from writing import chart, mega, paragraph, table
 
 TITLE = "Z-tiling"
 PARTS = (1, 2, 4, 8, 16)
@@ -48,23 +48,23 @@ def difference(store, run, whole):
 
 
 def text(data):
-    out = ["K parts of each list are blended apart and merged by kernels. Errors are against K = 1 with the same stop rule; *blends*: relative to K = 1, since a part does "
-           "not know that pixels are full in front of it. Cycles in millions: blending / merging / whole frame.", ""]
+    out = [paragraph("""K parts of each list are blended apart and merged by kernels. Errors are against K = 1 with the same stop
+        rule; *blends*: relative to K = 1, since a part does not know that pixels are full in front of it. Cycles in millions:
+        blending / merging / whole frame."""), ""]
     out += table(("scene", "view", "stop rule", "K", "largest difference", "dB", "blends", *MACHINES),
-                 [(row["scene"], row["view"], row["stop"], row["parts"], f"{row['max_abs']:.1e}" if row["max_abs"] else "equal",
+                 [(row["scene"], row["view"], row["stop"], row["parts"],
+                   f"{row['max_abs']:.1e}" if row["max_abs"] else "equal",
                    "" if row["db"] is None else f"{row['db']:.1f}", f"{row['blend_ratio']:.3f}x",
-                   *(" / ".join(mega(row["cycles"][m][part]) for part in ("blend", "merge", "frame")) if m in row["cycles"] else ""
-                     for m in MACHINES))
+                   *(" / ".join(map(mega, row["cycles"][m].values())) if m in row["cycles"] else "" for m in MACHINES))
                   for row in data["rows"]])
     return out
 
 
 def charts(data):
-    def of(machine):
-        series = {}
-        for row in data["rows"]:
-            if row["stop"] == "stop":
-                series.setdefault(row["scene"], []).append(row["cycles"][machine]["blend"] + row["cycles"][machine]["merge"])
-        return {name: [values[0] / v for v in values] for name, values in series.items()}
+    series = {}
+    for row in data["rows"]:
+        if "scaled" in row["cycles"]:
+            cycles = row["cycles"]["scaled"]
+            series.setdefault(row["scene"], []).append(cycles["blend"] + cycles["merge"])
     return {"z-tiles": chart("Blending and merging with K z-tiles, relative to K = 1, scaled", "K", "throughput",
-                             list(map(str, PARTS)), of("scaled"))}
+                             list(map(str, PARTS)), {k: [v[0] / c for c in v] for k, v in series.items()})}

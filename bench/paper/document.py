@@ -4,8 +4,8 @@ import os
 
 import claims
 
-CLAIMS = {"speedup": claims.of_speedup, "clocks": claims.of_clocks, "tails": claims.of_tails, "depth": claims.of_depth, "scaling": claims.of_scaling,
-          "tiles": claims.of_tiles}
+CLAIMS = {"speedup": claims.of_speedup, "clocks": claims.of_clocks, "tails": claims.of_tails, "depth": claims.of_depth,
+          "scaling": claims.of_scaling, "tiles": claims.of_tiles}
 
 HEAD = """# The paper's results, measured here
 
@@ -17,33 +17,36 @@ Made by `scripts/paper.sh` (hours on one core, resumable; `scripts/paper.sh --he
   by its result), INRIA's rules, support `exact`. `prototype` (8 cores, 2 rasterizers, 530 MHz, 12.8 GB/s) and `scaled` (64, 16, 500 MHz, 51.2 GB/s) are `isasim/configs/`.
 - A figure *holds* if every view reaches it, *holds if* the view is one of those that do (they are named), and *does not hold* if none does. "About" is within a factor of 2.
   *ratio* is ours over the paper's, from the smallest to the largest view; *bound*: what no machine of this kind could exceed.
-- Power and area are out of scope. Training is measured elsewhere, later.
+- Power and area are out of scope. Training is not measured yet.
 """
 
 
 def _claim_lines(rows):
     out = ["| claim | paper | verdict | ours | ratio | bound |", "|---|---|---|---|---|---|"]
     for row in rows:
-        out.append("| " + " | ".join((row["claim"], row["paper"], f"**{row['verdict']}**", row["ours"], row["ratio"], row["bound"])) + " |")
+        cells = (row["claim"], row["paper"], f"**{row['verdict']}**", row["ours"], row["ratio"], row["bound"])
+        out.append("| " + " | ".join(cells) + " |")
     return [*out, ""]
 
 
-def write(file, sections):
-    """sections: module and data (None: not measured) by name."""
-    out = [HEAD, "## Claims", ""]
+def write(file, sections, build):
+    """sections: module and data (None: not measured) by name; build: of the programs that are there now."""
+    out = [HEAD + f"- Programs: build `{build}` (a hash of the tools and libraries that a result depends on), where a "
+           "section names no other.\n", "## Claims", ""]
     rows = [row for name, (_, data) in sections.items() if data and name in CLAIMS for row in CLAIMS[name](data)]
     out += _claim_lines(rows)
     out += [f"- {what}: {said}." for what, said in claims.LATER] + [""]
-    out += ["The command of each claim (of its best view, or of the one that decides; in the root of the repository, after `. scripts/env.sh`):", ""]
-    out += [f"- {row['claim']}: `{row['command'] or 'splat analyze (bench/invocations.py)'}`" for row in rows] + [""]
+    out += ["The command of each claim (of its best view, or of the one that decides; in the root of the repository, after "
+            "`. scripts/env.sh`):", ""]
+    out += [f"- {row['claim']}: `{row['command'] or 'bench/invocations.py'}`" for row in rows] + [""]
     images = os.path.join(os.path.dirname(os.path.abspath(file)), "images")
     for name, (module, data) in sections.items():
         out += [f"## {module.TITLE}", ""]
         if not data:
             out += [f"Not measured yet: `scripts/paper.sh --sections {name}`.", ""]
             continue
-        if len(data["builds"]) > 1:
-            out += [f"*These runs are of {len(data['builds'])} builds.*", ""]
+        if set(data["builds"]) - {build}:
+            out += ["*Runs of build " + ", ".join(f"`{b}`" for b in data["builds"]) + ".*", ""]
         out += module.text(data)
         for title, svg in module.charts(data).items():
             os.makedirs(images, exist_ok=True)

@@ -1,7 +1,7 @@
 """The same bits with and without the clock, for any number of host threads, on every machine."""
 
 from runs import Run
-from writing import table
+from writing import paragraph, table
 
 TITLE = "The same picture"
 MACHINES = ("prototype", "scaled", "one-core", "twelve-cores")
@@ -27,7 +27,8 @@ def measure(store, all_scenes, _every_view):
             results = store.all([run(machine, options, w) for w in WAYS], TITLE)
             pictures.update(result["picture_sha256"] for result in results)
             times[machine] = sorted({result["time"]["sum"]["cycles"] for result in results if "time" in result})
-        rows.append({"work": work, "options": options, "runs": len(MACHINES) * len(WAYS), "pictures": len(pictures), "cycles": times})
+        rows.append({"work": work, "options": options, "runs": len(MACHINES) * len(WAYS), "pictures": len(pictures),
+                     "cycles": times})
     return {"scene": scene.name, "view": view, "rows": rows}
 
 
@@ -36,8 +37,9 @@ def same(data):
 
 
 def text(data):
-    out = [f"{data['scene']}, {data['view']}, on {', '.join(MACHINES)}; each without the clock on 1 and 3 host threads, and with it on 1 and 2. Kernels alone blend "
-           "in another order of operations than a rasterizer and z-tiles merge, so each row has a picture of its own, but only one.", ""]
+    out = [paragraph(f"""{data['scene']}, {data['view']}, on {', '.join(MACHINES)}; each without the clock on 1 and 3 host threads,
+        and with it on 1 and 2. Kernels alone round otherwise than the rasterizer, and z-tiles merge, so each row may have a picture
+        of its own, but only one."""), ""]
     out += table(("work", "runs", "different pictures", *(f"cycles on {m}" for m in MACHINES)),
                  [(row["work"], row["runs"], row["pictures"], *(" or ".join(map(str, row["cycles"][m])) for m in MACHINES))
                   for row in data["rows"]])

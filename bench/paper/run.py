@@ -3,8 +3,8 @@
 
 usage: scripts/paper.sh [OPTIONS]
 
-Every run is kept in a file under --out and not repeated while the programs are the same, so a run that is broken off goes on where it
-stopped. Sections whose results are not there yet are named in the document as not measured.
+Every run is kept in a file under --out and not repeated while the programs are the same, so a run that is broken
+off goes on where it stopped. Sections whose results are not there yet are named in the document as not measured.
 
 exit codes: 0 done, 1 a run failed or two pictures differ that should not, 2 usage, 3 no scenes
 """
@@ -17,6 +17,7 @@ import sys
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(FOLDER))
 
+import choices  # noqa: E402
 import clocks  # noqa: E402
 import depth  # noqa: E402
 import document  # noqa: E402
@@ -29,24 +30,31 @@ import speedup  # noqa: E402
 import tails  # noqa: E402
 import tiles  # noqa: E402
 
-SECTIONS = {"speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth, "scaling": scaling, "tiles": tiles, "identical": identical}
+SECTIONS = {"choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
+            "scaling": scaling, "tiles": tiles, "identical": identical}
 # The scenes of the table, chosen before anything was measured.
 SCENES = ("garden_outdoor", "showroom_indoor", "truck", "tower_sh3", "guitar")
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="paper.sh", description=__doc__.split("\n\n")[0], epilog=__doc__.split("\n\n")[-1])
-    parser.add_argument("--out", default=os.path.join(scenes.ROOT, "build", "paper"), metavar="FOLDER", help="results (default build/paper)")
+    parser.add_argument("--out", default=os.path.join(scenes.ROOT, "build", "paper"), metavar="FOLDER",
+                        help="results (default build/paper)")
     parser.add_argument("--document", default=os.path.join(scenes.ROOT, "docs", "paper-results.md"), metavar="FILE",
                         help="what to write (default docs/paper-results.md), charts beside it in images/")
-    parser.add_argument("--scenes", nargs="+", metavar="NAME", help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; sections of counts: all)")
+    parser.add_argument("--scenes", nargs="+", metavar="NAME",
+                        help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; section tiles: all)")
     parser.add_argument("--scene", nargs=2, metavar=("FILE", "CAMERAS"), help="any other scene instead")
-    parser.add_argument("--sections", nargs="+", choices=SECTIONS, default=list(SECTIONS), help="what to measure (default: all)")
-    parser.add_argument("--widths", nargs="+", type=int, default=invocations.WIDTHS, metavar="PX", help="picture widths of the counts")
+    parser.add_argument("--sections", nargs="+", choices=SECTIONS, default=list(SECTIONS),
+                        help="what to measure (default: all)")
+    parser.add_argument("--widths", nargs="+", type=int, default=invocations.WIDTHS, metavar="PX",
+                        help="picture widths of the counts")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time (default 1)")
-    parser.add_argument("--every-view", action="store_true", help="try all twelve choices of the kernels on all views, not on one of each scene")
+    parser.add_argument("--every-view", action="store_true",
+                        help="try all twelve choices of the kernels on all views, not on one of each scene")
     parser.add_argument("--keep", action="store_true", help="take results of other builds, too")
-    parser.add_argument("--only-kept", action="store_true", help="count nothing more: leave out the counts that are not there")
+    parser.add_argument("--only-kept", action="store_true",
+                        help="count nothing more: leave out the counts that are not there")
     args = parser.parse_args()
     if args.jobs < 1:
         parser.error(f"--jobs is {args.jobs}, expected at least 1")
@@ -80,7 +88,7 @@ def main():
         data["builds"] = sorted(store.builds)
         store.builds.clear()
         store.write(name, data)
-    document.write(args.document, {name: (module, store.read(name)) for name, module in SECTIONS.items()})
+    document.write(args.document, {name: (module, store.read(name)) for name, module in SECTIONS.items()}, store.build)
     same = store.read("identical")
     if same and not identical.same(same):
         print("paper.sh: error: pictures or times differ, expected the same for every way to run them", file=sys.stderr)

@@ -1,9 +1,10 @@
 """From 1 to 128 rasterizers by simulation, to 1,024 by a model that the simulation checks."""
 
+import machines
 import runs as r
 import tails
 from runs import Run
-from writing import chart, mega, table
+from writing import chart, mega, paragraph, table
 
 TITLE = "Scaling"
 SIMULATED = (1, 2, 4, 8, 16, 32, 64, 128)
@@ -44,8 +45,9 @@ def model(lengths, parts, single, memory_cycles):
     rows = []
     for count in MODELLED:
         compute = deal(costs, count)
-        rows.append({"rasterizers": count, "compute": compute, "memory": memory_cycles, "cycles": max(compute, memory_cycles),
-                     "cycles_with_memory": max(compute, memory_cycles * RASTERIZERS_A_MEMORY / max(count, RASTERIZERS_A_MEMORY))})
+        grown = memory_cycles * RASTERIZERS_A_MEMORY / max(count, RASTERIZERS_A_MEMORY)
+        rows.append({"rasterizers": count, "compute": compute, "memory": memory_cycles,
+                     "cycles": max(compute, memory_cycles), "cycles_with_memory": max(compute, grown)})
     return rows
 
 
@@ -77,14 +79,16 @@ def measure(store, all_scenes, _every_view):
         whole, = store.all([run(1, machine_of(RASTERIZERS_A_MEMORY))], TITLE)
         for parts, counts in PARTS.items():
             results = dict(zip(counts, store.all([run(parts, machine_of(n)) for n in counts], TITLE)))
-            simulated = {n: {"blend_cycles": r.kernel_cycles(result, "rasterize"), "merge_cycles": r.kernel_cycles(result, "merge"),
+            simulated = {n: {"blend_cycles": r.kernel_cycles(result, "rasterize"),
+                             "merge_cycles": r.kernel_cycles(result, "merge"),
                              "fps": result["time"]["fps"], "cores": result["device"]["compute_units"],
                              "command": result["command"]} for n, result in results.items()}
             modelled = model(lengths, parts, results[1], memory_cycles(whole, parts))
             rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths),
                          "simulated": simulated, "modelled": modelled})
         one, two = store.all([run(1, "scaled"), run(1, f"scaled-{CHANNELS}-channels")], TITLE)
-        memory.append({"scene": scene.name, "view": view, "blend_gain": r.stage_cycles(one, "blend") / r.stage_cycles(two, "blend"),
+        memory.append({"scene": scene.name, "view": view,
+                       "blend_gain": r.stage_cycles(one, "blend") / r.stage_cycles(two, "blend"),
                        "frame_gain": r.frame_ms(one) / r.frame_ms(two),
                        "bus_share": one["time"]["sum"]["dram"]["bus_ps"] / one["channels"]
                                     / (r.frame_cycles(one) / one["time"]["sum"]["clock_mhz"] * 1e6),
@@ -104,10 +108,12 @@ def gains(row, counts):
 
 
 def text(data):
-    out = ["Blending's speed-up over one rasterizer at 500 MHz, all with the scaled machine's memory (51.2 GB/s) and clusters of four sockets; four cores a rasterizer, but two at 64 "
-           "and one at 128, since the simulator has room for 240 cores. *model*: a tile's cost is what clearing and writing one takes plus its list's length times the mean cost of an "
-           "entry (both from the single rasterizer's run); jobs, longest list first, are dealt forth and back as the machine's kernel does (nearly LPT), "
-           "and blending is not shorter than its bytes over the DRAM's bandwidth. Merging z-tiles is a kernel of its own and not in these rows.", ""]
+    out = [paragraph(f"""Blending's speed-up over one rasterizer at 500 MHz, all with the scaled machine's memory (51.2 GB/s) and
+        clusters of four sockets; four cores a rasterizer, fewer where there would be more than {machines.MOST_CORES}. *model*: a
+        tile's cost is what clearing and writing one takes plus its list's length times the mean cost of an entry (both from the
+        single rasterizer's run); jobs, longest list first, are dealt forth and back as the machine's kernel does (nearly LPT),
+        and blending is not shorter than its bytes over the DRAM's bandwidth; in the last line bandwidth grows with the
+        rasterizers beyond {RASTERIZERS_A_MEMORY}. Merging z-tiles is a kernel of its own and not in these rows."""), ""]
     for parts in sorted({row["parts"] for row in data["rows"]}):
         rows = [row for row in data["rows"] if row["parts"] == parts]
         out += [f"### K = {parts}: {rows[0]['tiles']} tiles, {rows[0]['tiles'] * parts} jobs", ""]
@@ -115,20 +121,22 @@ def text(data):
         for row in rows:
             first, model_first = at(row, 1)["blend_cycles"], row["modelled"][0]["cycles"]
             lines.append((row["scene"], row["view"], "simulated", mega(first), *gains(row, MODELLED[1:])))
-            lines.append(("", "", "model", mega(model_first),
-                          *(f"{model_first / m['cycles']:.1f}x" for m in row["modelled"][1:])))
-            lines.append(("", "", "model, memory grows", mega(model_first),
-                          *(f"{model_first / m['cycles_with_memory']:.1f}x" for m in row["modelled"][1:])))
+            for name, key in (("model", "cycles"), ("model, memory grows", "cycles_with_memory")):
+                lines.append(("", "", name, mega(model_first),
+                              *(f"{model_first / m[key]:.1f}x" for m in row["modelled"][1:])))
         out += table(("scene", "view", "", "1: Mcycles", *map(str, MODELLED[1:])), lines)
-        off = [(m["cycles"] / at(row, m["rasterizers"])["blend_cycles"] - 1, row["scene"], m["rasterizers"]) for row in rows
-               for m in row["modelled"] if m["rasterizers"] <= 16 and at(row, m["rasterizers"])]
-        low, high = min(off), max(off)
-        out += [f"Model against simulation up to 16 rasterizers: {100 * low[0]:+.1f} % ({low[1]}, {low[2]}) to {100 * high[0]:+.1f} % ({high[1]}, {high[2]}).", ""]
-    out += ["### Whole frames, K = 1", "", "Frames a second; kernels have four cores a rasterizer up to 32.", ""]
+        off = [(m["cycles"] / at(row, m["rasterizers"])["blend_cycles"] - 1, row["scene"], m["rasterizers"])
+               for row in rows for m in row["modelled"] if at(row, m["rasterizers"])]
+        (low, *where_low), (high, *where_high) = min(off), max(off)
+        out += [f"Model over simulation: {100 * low:+.1f} % ({where_low[0]}, {where_low[1]} rasterizers) to "
+                f"{100 * high:+.1f} % ({where_high[0]}, {where_high[1]}).", ""]
+    out += ["### Whole frames, K = 1", "", "Frames a second.", ""]
     out += table(("scene", "view", *map(str, SIMULATED)),
-                 [(row["scene"], row["view"], *(f"{at(row, n)['fps']:.1f}" for n in SIMULATED)) for row in data["rows"] if row["parts"] == 1])
+                 [(row["scene"], row["view"], *(f"{at(row, n)['fps']:.1f}" for n in SIMULATED))
+                  for row in data["rows"] if row["parts"] == 1])
     out += ["### Twice the memory channels", "",
-            f"The scaled machine with {CHANNELS} channels (102.4 GB/s) against its own 8, and how long the 8 channels' buses are in use in a frame.", ""]
+            f"The scaled machine with {CHANNELS} channels (102.4 GB/s) against its own 8, and how long the 8 channels' buses "
+            "are in use in a frame.", ""]
     out += table(("scene", "view", "blending", "whole frame", "buses in use"),
                  [(m["scene"], m["view"], f"{m['blend_gain']:.3f}x", f"{m['frame_gain']:.3f}x", f"{100 * m['bus_share']:.0f} %")
                   for m in data["memory"]])
@@ -138,4 +146,5 @@ def text(data):
 def charts(data):
     rows = [row for row in data["rows"] if row["parts"] == 1]
     return {"scaling": chart("Blending by rasterizers", "rasterizers", "speed-up over one", list(map(str, SIMULATED)),
-                             {**{row["scene"]: [at(row, 1)["blend_cycles"] / at(row, n)["blend_cycles"] for n in SIMULATED] for row in rows}})}
+                             {row["scene"]: [at(row, 1)["blend_cycles"] / at(row, n)["blend_cycles"] for n in SIMULATED]
+                              for row in rows})}

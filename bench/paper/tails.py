@@ -2,10 +2,11 @@
 
 import runs as r
 from runs import Run
-from writing import chart, mega, table
+from writing import chart, mega, paragraph, table
 
 TITLE = "Pixel unit"
-RULES = ("last:1/2", "last:1/4", "last:1/8", "last:1/16", "count:256", "occluded:0.5", "occluded:0.9", "occluded:0.99")
+RULES = ("last:1/2", "last:1/4", "last:1/8", "last:1/16", "count:256", "occluded:0.5", "occluded:0.9",
+         "occluded:0.99")
 QUARTER = "last:1/4"
 # The scene with the strongest occluded tail, and one that hardly saturates (its Gaussians are faint).
 SCENES = ("showroom_indoor", "tower_sh3")
@@ -14,13 +15,14 @@ PAPER_GAIN = 0.824
 
 def busy(result):
     """Cycles in which rasterizers did anything."""
-    return sum(unit["blend"] + unit["clip"] + unit["fetch"] + unit["hazard"] + unit["begin"] + unit["flush"] + unit["drain"]
-               for unit in result["time"]["sum"]["rasterizers"])
+    return on_lists(result) + sum(unit["begin"] + unit["flush"] + unit["drain"]
+                                  for unit in result["time"]["sum"]["rasterizers"])
 
 
 def on_lists(result):
-    """Of these, those that go through lists; the others clear and write tiles."""
-    return sum(unit["blend"] + unit["clip"] + unit["fetch"] + unit["hazard"] for unit in result["time"]["sum"]["rasterizers"])
+    """Cycles in which rasterizers went through lists, not cleared or wrote tiles."""
+    return sum(unit["blend"] + unit["clip"] + unit["fetch"] + unit["hazard"]
+               for unit in result["time"]["sum"]["rasterizers"])
 
 
 def measure(store, all_scenes, _every_view):
@@ -38,13 +40,16 @@ def measure(store, all_scenes, _every_view):
         base = results[0]
         points = []
         for rule, result in zip(("off", *RULES), results):
-            pixel = sum(u["evaluate"] + u["fetch"] + u["load"] + u["store"] for u in result["time"]["sum"]["pixel_units"])
+            pixel = sum(u["evaluate"] + u["fetch"] + u["load"] + u["store"]
+                        for u in result["time"]["sum"]["pixel_units"])
             points.append({"rule": rule, "blend_cycles": r.stage_cycles(result, "blend"),
-                           "frame_cycles": r.frame_cycles(result), "rasterizers_busy": busy(result), "on_lists": on_lists(result), "pixel_units_busy": pixel,
+                           "frame_cycles": r.frame_cycles(result), "rasterizers_busy": busy(result),
+                           "on_lists": on_lists(result), "pixel_units_busy": pixel,
                            "tails": result["total"]["counters"]["raster_tails"],
                            "throughput": r.stage_cycles(base, "blend") / r.stage_cycles(result, "blend"),
                            "frame_throughput": r.frame_ms(base) / r.frame_ms(result),
-                           "same_picture": result["picture_sha256"] == base["picture_sha256"], "command": result["command"]})
+                           "same_picture": result["picture_sha256"] == base["picture_sha256"],
+                           "command": result["command"]})
         quarter = next(p for p in points if p["rule"] == QUARTER)
         share = (points[0]["on_lists"] - quarter["on_lists"]) / points[0]["rasterizers_busy"]
         rows.append({"scene": scene.name, "view": view, "points": points, "last_quarter_share": share,
@@ -53,17 +58,19 @@ def measure(store, all_scenes, _every_view):
 
 
 def text(data):
-    out = ["Throughput of blending on the prototype (one pixel unit for two rasterizers), relative to no hand-over. *last quarter*: the part of the rasterizers' "
-           "busy cycles that the last quarter of each list takes, which is what a hand-over there takes off them; *bound*: 1/(1 - that), if the "
-           "pixel unit and the hand-over cost nothing. The paper's 82.4 % more needs a last quarter of 45.2 %.", ""]
+    out = [paragraph("""Throughput of blending on the prototype (one pixel unit for two rasterizers), relative to no hand-over.
+        *last quarter*: the part of the rasterizers' busy cycles that the last quarter of each list takes, which is what a
+        hand-over there takes off them; *bound*: 1/(1 - that), if the pixel unit and the hand-over cost nothing. The paper's
+        82.4 % more needs a last quarter of 45.2 %."""), ""]
     rows = data["rows"]
     out += table(("scene", "view", "no hand-over, Mcycles", *RULES, "last quarter", "bound"),
                  [(row["scene"], row["view"], mega(row["points"][0]["blend_cycles"]),
                    *(f"{p['throughput']:.3f}" for p in row["points"][1:]), f"{100 * row['last_quarter_share']:.1f} %",
                    f"{row['bound']:.3f}") for row in rows])
-    out += ["Busy cycles of the pixel unit over those of a rasterizer, by hand-over point: above 1 the pixel unit is the longer stage.", ""]
+    out += ["Busy cycles of the pixel unit over those of a rasterizer: above 1 the pixel unit is the longer stage.", ""]
     out += table(("scene", "view", *RULES),
-                 [(row["scene"], row["view"], *(f"{2 * p['pixel_units_busy'] / p['rasterizers_busy']:.2f}" for p in row["points"][1:]))
+                 [(row["scene"], row["view"],
+                   *(f"{2 * p['pixel_units_busy'] / p['rasterizers_busy']:.2f}" for p in row["points"][1:]))
                   for row in rows])
     same = all(p["same_picture"] for row in rows for p in row["points"])
     out += ["All hand-overs give the same bits as none." if same else "**Some hand-over changes the picture.**", ""]
@@ -71,5 +78,7 @@ def text(data):
 
 
 def charts(data):
-    return {"pixel-unit": chart("Blending by hand-over point, relative to none, prototype", "hand-over", "throughput", ("off", *RULES),
-                                {f"{row['scene']} {row['view']}": [p["throughput"] for p in row["points"]] for row in data["rows"]})}
+    return {"pixel-unit": chart("Blending by hand-over point, relative to none, prototype", "hand-over", "throughput",
+                                ("off", *RULES),
+                                {f"{row['scene']} {row['view']}": [p["throughput"] for p in row["points"]]
+                                 for row in data["rows"]})}

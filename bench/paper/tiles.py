@@ -3,7 +3,7 @@
 import os
 
 import invocations
-from writing import chart, table
+from writing import chart, paragraph, table
 
 TITLE = "Tiles and occlusion"
 OCCLUDED_WIDTH = 960
@@ -45,12 +45,13 @@ def shown(share):
 
 def text(data):
     columns = [(s, str(w)) for s in invocations.SUPPORTS for w in data["widths"]]
-    out = ["Fewer (Gaussian, tile) pairs with tiles of 64 than of 16 pixels, in percent, by support and picture width (a dash: not counted yet).", ""]
+    out = [paragraph("""Fewer (Gaussian, tile) pairs with tiles of 64 than of 16 pixels, in percent, by support and picture width
+        (a dash: not counted yet)."""), ""]
     out += table(("scene", "view", *(f"{s} {w}" for s, w in columns)),
                  [(row["scene"], row["view"], *(shown(row["fewer"][s].get(w, "")) for s, w in columns))
                   for row in data["rows"]])
-    out += ["Pixels that are full (nothing more is blended) once so much of the own tile's list is done, in percent, tiles of 64, support `square3`; *from*: the part of "
-            "the list after which 90 % of all pixels are.", ""]
+    out += [paragraph("""Pixels that are full (nothing more is blended) once so much of the own tile's list is done, in percent,
+        tiles of 64, support `square3`; *from*: the part of the list after which 90 % of all pixels are."""), ""]
     out += table(("scene", "view", "25 %", "50 %", "75 %", "all", "from"),
                  [(row["scene"], row["view"], *(f"{100 * row['occluded'][p]:.1f}" for p in (25, 50, 75, 100)),
                    "never" if row["occluded_from"] is None else f"{row['occluded_from']} %") for row in data["rows"]])
@@ -63,5 +64,7 @@ def charts(data):
         first.setdefault(row["scene"], row)
     top = sorted(first.values(), key=lambda row: -row["occluded"][100])[:7]
     percents = range(0, 101, 5)
-    return {"occlusion": chart("Full pixels by depth in the tile's list", "percent of the list", "percent of the pixels", list(map(str, percents)),
-                               {f"{row['scene']} {row['view']}": [100 * row["occluded"][p] for p in percents] for row in top})}
+    return {"occlusion": chart("Full pixels by depth in the tile's list", "percent of the list", "percent of the pixels",
+                               list(map(str, percents)),
+                               {f"{row['scene']} {row['view']}": [100 * row["occluded"][p] for p in percents]
+                                for row in top})}

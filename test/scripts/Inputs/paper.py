@@ -5,13 +5,13 @@ import types
 
 sys.path[:0] = [os.path.join(sys.argv[1], "paper"), sys.argv[1]]
 
+import choices
 import claims
 import clocks
 import machines
 import runs
 import scaling
 import scenes
-import speedup
 import tiles
 
 
@@ -90,14 +90,14 @@ class Store:
 
 def check_sweep():
     """A choice is left out if, and only if, it could not win even at an instruction a cycle."""
-    instructions = {c: 1000 * (k + 1) for k, c in enumerate(speedup.CHOICES)}
-    fast = speedup.CHOICES[2]
+    instructions = {c: 1000 * (k + 1) for k, c in enumerate(choices.CHOICES)}
+    fast = choices.CHOICES[2]
     store = Store(instructions, {fast: 700})
     scene = scenes.Scene("s", "s.ply", "c.json", ("v",))
-    swept = speedup.sweep(store, scene, "v")
+    swept = choices.sweep(store, scene, "v")
     # 700 cycles on 8 cores have room for 5,600 instructions: five choices, not the sixth.
-    assert store.clocked == list(speedup.CHOICES[:5]), store.clocked
-    assert speedup.candidates(swept) == [fast]
+    assert store.clocked == list(choices.CHOICES[:5]), store.clocked
+    assert choices.candidates(swept) == [fast]
 
 
 def check_names():

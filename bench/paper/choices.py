@@ -1,0 +1,63 @@
+"""Which tile and group make the kernels that blend without the rasterizer fastest."""
+
+import runs as r
+from runs import Run
+from writing import mega, paragraph, table
+
+TITLE = "The kernels' choice of tile and group"
+TILES = (8, 16, 32, 64)
+GROUPS = (16, 64, 256)
+CHOICES = tuple((tile, group) for tile in TILES for group in GROUPS)
+
+
+def simt(scene, view, machine, choice, clock=0):
+    return Run(scene, view, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])),
+               clock)
+
+
+def sweep(store, scene, view):
+    """Cycles of each of the twelve choices on the prototype. One whose instructions alone, one a cycle and core, take longer
+    than the fastest so far both in blending and in the frame cannot be the fastest, and is not clocked."""
+    counted = dict(zip(CHOICES, store.all([simt(scene, view, "prototype", c, None) for c in CHOICES], "count")))
+    rows = {c: {"tile": c[0], "group": c[1], "pairs": result["counts"]["pairs"],
+                "blend_instructions": r.stage_instructions(result, "blend"),
+                "frame_instructions": result["total"]["counters"]["warp_instructions"],
+                "picture_sha256": result["picture_sha256"]} for c, result in counted.items()}
+    cores = next(iter(counted.values()))["device"]["compute_units"]
+    waiting = sorted(CHOICES, key=lambda c: rows[c]["blend_instructions"])
+    while waiting:
+        clocked = [row for row in rows.values() if "blend_cycles" in row]
+        fastest = {part: min((row[part + "_cycles"] for row in clocked), default=float("inf"))
+                   for part in ("blend", "frame")}
+        waiting = [c for c in waiting
+                   if any(rows[c][part + "_instructions"] / cores < fastest[part] for part in fastest)]
+        batch, waiting = waiting[:store.jobs], waiting[store.jobs:]
+        for c, result in zip(batch, store.all([simt(scene, view, "prototype", c) for c in batch], "sweep")):
+            rows[c].update(blend_cycles=r.stage_cycles(result, "blend"), frame_cycles=r.frame_cycles(result))
+    return {"scene": scene.name, "view": view, "cores": cores, "rows": list(rows.values())}
+
+
+def candidates(swept):
+    """The choices of the fastest blending and of the fastest frame of a sweep."""
+    rows = [row for row in swept["rows"] if "blend_cycles" in row]
+    return sorted({(best["tile"], best["group"]) for best in (min(rows, key=lambda row, p=part: row[p + "_cycles"])
+                                                              for part in ("blend", "frame"))})
+
+
+def measure(store, all_scenes, every_view):
+    """every_view: of all views, not of one of each scene."""
+    return {"sweeps": [sweep(store, scene, view) for scene in all_scenes
+                       for view in (scene.views if every_view else scene.views[:1])]}
+
+
+def text(data):
+    out = [paragraph("""Mcycles of blending / of the frame on the prototype; a dash: its instructions alone, one a cycle and
+        core, take longer than the fastest, so it cannot be that and was not clocked."""), ""]
+    return out + table(("scene", "view", *(f"{tile}/{group}" for tile, group in CHOICES)),
+                       [(s["scene"], s["view"],
+                         *(f"{mega(row['blend_cycles'])} / {mega(row['frame_cycles'])}" if "blend_cycles" in row else "-"
+                           for row in s["rows"])) for s in data["sweeps"]])
+
+
+def charts(_data):
+    return {}
