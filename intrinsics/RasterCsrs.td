@@ -17,9 +17,11 @@ def VR_MODE : Csr<"vr_mode", 0x7C3, Agent, Scalar, 1, "What a command does."> {
                 CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">];
 }
 def VR_OPTIONS : Csr<"vr_options", 0x7C4, Agent, Scalar, 1, "Datapath options."> {
-  let Fields = [CsrField<"exp", 0, 2, "exponential unit: 0 correctly rounded, 1 table; docs/rasterizer.md#exponential-units">,
-                CsrField<"stop_at_equal", 2, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
-                CsrField<"skip_saturated", 3, 1, "dispatch gives no lane slot to saturated pixels">];
+  let Fields = [CsrField<"exp", 0, 4, "exponential unit: 0 correctly rounded, 1 table of 16, 2 to 4 polynomial of that degree, 5 table of 32, 6 table of 64, 7 piecewise linear, 8 Schraudolph; docs/rasterizer.md#exponential-units">,
+                CsrField<"stop_at_equal", 4, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
+                CsrField<"skip_saturated", 5, 1, "dispatch gives no lane slot to saturated pixels">,
+                CsrField<"blend", 6, 2, "blend arithmetic: 0 fp32, 1 bf16 and 2 fp16 multiplications with fp32 sums; docs/abi.md#rasterizer">,
+                CsrField<"alpha_cutoff", 8, 2, "smallest alpha that is blended: 2^this / 255">];
 }
 def VR_CUTOFF : Csr<"vr_cutoff", 0x7C5, Agent, Scalar, 1, "Transmittance cut-off, float in [0, 1).">;
 def VR_GAUSSIANS : Csr<"vr_gaussians", 0x7C6, Agent, Scalar, 1, "Address of the vx_gaussian records, 16-byte aligned.">;
@@ -98,6 +100,18 @@ def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
 def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile asks for what this machine does not have.">;
 def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
 def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over asked of a command that drains or takes pushed descriptors.">;
+def : Constant<"VR_EXP_EXACT", 0, "Exponential unit: correctly rounded.">;
+def : Constant<"VR_EXP_TABLE", 1, "Exponential unit: table of 16 entries.">;
+def : Constant<"VR_EXP_POLY2", 2, "Exponential unit: base-2 polynomial of degree 2.">;
+def : Constant<"VR_EXP_POLY3", 3, "Exponential unit: base-2 polynomial of degree 3.">;
+def : Constant<"VR_EXP_POLY4", 4, "Exponential unit: base-2 polynomial of degree 4.">;
+def : Constant<"VR_EXP_TABLE32", 5, "Exponential unit: table of 32 entries.">;
+def : Constant<"VR_EXP_TABLE64", 6, "Exponential unit: table of 64 entries.">;
+def : Constant<"VR_EXP_LINEAR", 7, "Exponential unit: four linear pieces an octave.">;
+def : Constant<"VR_EXP_SCHRAUDOLPH", 8, "Exponential unit: Schraudolph's.">;
+def : Constant<"VR_BLEND_FP32", 0, "Blend arithmetic: fp32.">;
+def : Constant<"VR_BLEND_BF16", 1, "Blend arithmetic: bf16 multiplications, fp32 sums.">;
+def : Constant<"VR_BLEND_FP16", 2, "Blend arithmetic: fp16 multiplications, fp32 sums.">;
 def : Constant<"VR_TAIL_WHOLE", 65536, "vr_tail_share of a whole tile.">;
 def : Constant<"VR_INTERSECT", 0x80000000, "Bit of a list entry and of a record's tag: the Gaussian spans several tiles.">;
 def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;

@@ -66,13 +66,8 @@ private:
 
 void Execution::keepWork(std::uint32_t Address) {
   Keeps = true;
-  Kept = {Address,
-          Record.List,
-          Record.Output,
-          Record.OutputPitch,
-          static_cast<std::uint8_t>(OptionsExp.get(Record.Options)),
-          {},
-          {}};
+  Kept = {Address, Record.List, Record.Output, Record.OutputPitch, laneUnits(C),
+          {},      {}};
 }
 
 /// \p Examined Gaussians have been seen by every pixel that is open, or was
@@ -130,8 +125,7 @@ std::uint32_t Execution::blend() {
     if (const std::uint32_t Status = List.fetch(I, Entry))
       return Status;
     Work.TailBlends +=
-        Lanes.Blend[OptionsExp.get(C.Options)](Entry.Record, Options, Tile)
-            .Blends;
+        blendFunction(C, Lanes)(Entry.Record, Options, Tile).Blends;
     if (Keeps) {
       Kept.Records.push_back(Entry.Address);
       if (Tile.Live != OpenBefore || I + 1 == C.Count)

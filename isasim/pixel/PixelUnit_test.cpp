@@ -239,7 +239,7 @@ TEST_F(PixelUnitTest, spoiltRecordsAreStatusCodes) {
   const std::vector<Gaussian> Scene = randomScene(20);
   const std::pair<std::uint32_t Tail::*, std::uint32_t> Spoilt[] = {
       {&Tail::TileShape, 0x00400041},
-      {&Tail::Options, 3},
+      {&Tail::Options, OptionsExp.mask()},
       {&Tail::List, 0xffff0000},
       {&Tail::Count, ~0U},
       {&Tail::Output, 0},

@@ -21,12 +21,14 @@ std::byte *outputRow(const Command &C, RasterMemory &Memory, unsigned Row) {
 
 static bool isKnown(const Command &C) {
   const std::uint32_t KnownMode = ModePushed.put(1) | ModeDrain.put(1);
-  const std::uint32_t KnownOptions = OptionsExp.put(OptionsExp.mask()) |
-                                     OptionsStopAtEqual.put(1) |
-                                     OptionsSkipSaturated.put(1);
+  const std::uint32_t KnownOptions =
+      OptionsExp.put(OptionsExp.mask()) | OptionsStopAtEqual.put(1) |
+      OptionsSkipSaturated.put(1) | OptionsBlend.put(OptionsBlend.mask()) |
+      OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask());
   const std::uint32_t Parts = ZtileCount.get(C.Ztile);
   return (C.Mode & ~KnownMode) == 0 && (C.Options & ~KnownOptions) == 0 &&
          OptionsExp.get(C.Options) < ExpUnitCount &&
+         OptionsBlend.get(C.Options) < BlendUnitCount &&
          ZtileIndex.get(C.Ztile) < (Parts == 0 ? 1 : Parts);
 }
 
@@ -67,7 +69,17 @@ BlendOptions blendOptions(const Command &C) {
   return {OptionsStopAtEqual.get(C.Options)
               ? std::nextafter(Cutoff, std::numeric_limits<float>::infinity())
               : Cutoff,
+          static_cast<float>(1U << OptionsAlphaCutoff.get(C.Options)) / 255.0F,
           OptionsSkipSaturated.get(C.Options) != 0};
+}
+
+Datapath::BlendFunction blendFunction(const Command &C, const Datapath &Lanes) {
+  return Lanes.Blend[OptionsExp.get(C.Options)][OptionsBlend.get(C.Options)];
+}
+
+LaneUnits laneUnits(const Command &C) {
+  return {static_cast<std::uint8_t>(OptionsExp.get(C.Options)),
+          static_cast<std::uint8_t>(OptionsBlend.get(C.Options))};
 }
 
 std::uint32_t checkGaussian(const Gaussian &G) {

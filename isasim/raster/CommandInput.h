@@ -5,6 +5,7 @@
 #include "raster/Command.h"
 #include "raster/Datapath.h"
 #include "raster/RasterMemory.h"
+#include "raster/WorkLog.h"
 
 #include <cfenv>
 
@@ -32,6 +33,12 @@ std::uint32_t checkCommand(const Command &C, RasterMemory &Memory);
 
 /// The datapath's part of vr_options and vr_cutoff.
 BlendOptions blendOptions(const Command &C);
+
+/// The datapath that vr_options of a checked command asks for.
+Datapath::BlendFunction blendFunction(const Command &C, const Datapath &Lanes);
+
+/// The units that it has, for the log of the work.
+LaneUnits laneUnits(const Command &C);
 
 /// Host address of row \p Row of the output of a checked \p C, or nullptr if it
 /// is not all global memory.

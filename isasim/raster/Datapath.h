@@ -3,6 +3,7 @@
 /// same bits.
 #pragma once
 
+#include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
 
 #include <cstddef>
@@ -37,6 +38,8 @@ struct TileBuffer {
 struct BlendOptions {
   /// A pixel is saturated if its transmittance would fall below this.
   float StopBelow;
+  /// The smallest alpha that is blended.
+  float MinAlpha;
   bool SkipSaturated;
 };
 
@@ -52,11 +55,14 @@ struct BlendWork {
 struct Datapath {
   const char *Name;
   bool (*HostHasIt)();
-  /// By vr_options.exp: blends one Gaussian (no NaN) into a tile.
-  BlendWork (*Blend[ExpUnitCount])(const Gaussian &, const BlendOptions &,
-                                   TileBuffer &);
+  /// By vr_options.exp and .blend: blends one Gaussian (no NaN) into a tile.
+  using BlendFunction = BlendWork (*)(const Gaussian &, const BlendOptions &,
+                                      TileBuffer &);
+  BlendFunction Blend[ExpUnitCount][BlendUnitCount];
   /// By vr_options.exp: the unit alone, in place, \p Count a multiple of 16.
   void (*Exp[ExpUnitCount])(float *Values, std::size_t Count);
+  /// By vr_options.blend: rounds what a multiplication takes, in place.
+  void (*Operand[BlendUnitCount])(float *Values, std::size_t Count);
 };
 
 /// The datapaths that this host can run, the fastest last.

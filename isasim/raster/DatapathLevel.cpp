@@ -1,15 +1,14 @@
 // The datapath for one vector level: compiled once for each, with the level's
 // flags and VORION_LEVEL naming it. Includes nothing that defines functions
 // which other files could share (see Vector.h).
+#include "raster/BlendVector.h"
 #include "raster/Datapath.h"
 #include "raster/ExpVector.h"
 
 namespace vorion::raster {
 namespace {
 
-// docs/abi.md, Rasterizer: the smallest alpha that counts and the largest there
-// is.
-constexpr float MinAlpha = 1.0F / 255.0F;
+// docs/abi.md, Rasterizer: the largest alpha there is.
 constexpr float MaxAlpha = 0.99F;
 constexpr unsigned Blocks = TileBuffer::Stride / LaneCount;
 
@@ -26,11 +25,10 @@ VORION_INLINE std::uint64_t inBox(const float *Centres, float Mean,
   return Result;
 }
 
-/// Below this power alpha is surely under MinAlpha, by a margin beyond every
+/// Below this power alpha is surely under \p MinAlpha, by a margin beyond the
 /// unit's error: saves the exponential in a box's corners, changes no result.
 /// NaN or negative opacity: no bound needed, alpha is never MinAlpha.
-VORION_INLINE float powerBound(float Opacity) {
-  constexpr float Margin = 0.01F;
+VORION_INLINE float powerBound(float Opacity, float MinAlpha, float Margin) {
   return __builtin_logf(MinAlpha / Opacity) - Margin;
 }
 
@@ -42,7 +40,7 @@ struct Columns {
   Float16 BX;  ///< b * dx
 };
 
-template <typename Exp>
+template <typename Exp, typename Arithmetic>
 BlendWork blend(const Gaussian &G, const BlendOptions &Options,
                 TileBuffer &Tile) {
   const std::uint64_t InX = inBox(Tile.CentreX, G.Mean[0], G.Extent[0]);
@@ -69,7 +67,11 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
     C.BX = G.Conic[1] * Dx;
   }
 
-  const float Bound = powerBound(G.Opacity);
+  const float Bound = powerBound(G.Opacity, Options.MinAlpha, Exp::Margin);
+  const float MinAlpha = Options.MinAlpha;
+  const Float16 OfRed = Arithmetic::operand(G.Color[0]);
+  const Float16 OfGreen = Arithmetic::operand(G.Color[1]);
+  const Float16 OfBlue = Arithmetic::operand(G.Color[2]);
   const auto SignBit = Int16(static_cast<std::int32_t>(0x80000000U));
   unsigned Blends = 0;
   unsigned LiveInBox = 0;
@@ -95,17 +97,16 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
       if (bits(Counts) == 0)
         continue;
       const Float16 Alpha = Wanted < MaxAlpha ? Wanted : Float16(MaxAlpha);
-      const Float16 NextT = T * (1.0F - Alpha);
+      const auto [NextT, Weight] = Arithmetic::step(Alpha, T);
       const Int16 Stops = Counts & (NextT < Options.StopBelow);
       const Int16 Blended = Counts & ~Stops;
-      const Float16 Weight = Alpha * T;
 
       const Float16 Red = load(Tile.R + At);
       const Float16 Green = load(Tile.G + At);
       const Float16 Blue = load(Tile.B + At);
-      store(Tile.R + At, Blended ? Red + G.Color[0] * Weight : Red);
-      store(Tile.G + At, Blended ? Green + G.Color[1] * Weight : Green);
-      store(Tile.B + At, Blended ? Blue + G.Color[2] * Weight : Blue);
+      store(Tile.R + At, Blended ? Red + OfRed * Weight : Red);
+      store(Tile.G + At, Blended ? Green + OfGreen * Weight : Green);
+      store(Tile.B + At, Blended ? Blue + OfBlue * Weight : Blue);
       const Float16 KeptT = Blended ? NextT : T;
       store(Tile.T + At,
             __builtin_bit_cast(Float16, __builtin_bit_cast(Int16, KeptT) |
@@ -132,6 +133,35 @@ template <typename Exp> void evaluate(float *Values, std::size_t Count) {
     store(Values + I, Exp::evaluate(load(Values + I)));
 }
 
+template <typename Arithmetic>
+void roundOperands(float *Values, std::size_t Count) {
+  for (std::size_t I = 0; I != Count; I += LaneCount)
+    store(Values + I, Arithmetic::operand(load(Values + I)));
+}
+
+/// Units in the order of their options.
+template <typename... Units> struct List {};
+using Exps =
+    List<CorrectlyRoundedExp, TableExp<4>, PolynomialExp<2>, PolynomialExp<3>,
+         PolynomialExp<4>, TableExp<5>, TableExp<6>, LinearExp, SchraudolphExp>;
+using Arithmetics = List<Fp32Blend, NarrowBlend<Bf16>, NarrowBlend<Fp16>>;
+
+template <typename Exp, typename... As>
+constexpr void setBlends(Datapath::BlendFunction *To, List<As...>) {
+  ((*To++ = blend<Exp, As>), ...);
+}
+
+template <typename... Es, typename... As>
+constexpr Datapath makeDatapath(const char *Name, bool (*HostHasIt)(),
+                                List<Es...>, List<As...> All) {
+  static_assert(sizeof...(Es) == ExpUnitCount);
+  static_assert(sizeof...(As) == BlendUnitCount);
+  Datapath D{Name, HostHasIt, {}, {evaluate<Es>...}, {roundOperands<As>...}};
+  std::size_t Unit = 0;
+  (setBlends<Es>(D.Blend[Unit++], All), ...);
+  return D;
+}
+
 bool hostHasLevel() {
 #if defined(__AVX512F__)
   return __builtin_cpu_supports("avx512f") &&
@@ -154,10 +184,7 @@ bool hostHasLevel() {
 #define VORION_JOIN(A, B) VORION_JOIN_OF(A, B)
 
 extern const Datapath VORION_JOIN(Datapath_, VORION_LEVEL);
-const Datapath VORION_JOIN(Datapath_, VORION_LEVEL) = {
-    VORION_STRING(VORION_LEVEL),
-    hostHasLevel,
-    {blend<CorrectlyRoundedExp>, blend<TableExp>},
-    {evaluate<CorrectlyRoundedExp>, evaluate<TableExp>}};
+constexpr Datapath VORION_JOIN(Datapath_, VORION_LEVEL) = makeDatapath(
+    VORION_STRING(VORION_LEVEL), hostHasLevel, Exps(), Arithmetics());
 
 } // namespace vorion::raster

@@ -1,6 +1,6 @@
 /// The exponential units that vr_options.exp chooses between. Their code is
-/// in ExpVector.h; here is what each is, for reports, the timing model and
-/// tests.
+/// in ExpVector.h; here is what each is, for reports and tests. What they cost
+/// and how long they take: timing/DatapathUnits.cpp.
 #pragma once
 
 #include "raster/RasterTables.h"
@@ -12,54 +12,53 @@
 
 namespace vorion::raster {
 
-/// What an exponential unit is and costs, per lane. Latency and multipliers
-/// are our estimates of a plausible build (the paper gives none).
+/// What an exponential unit is.
 struct ExpUnit {
   std::uint32_t Option; ///< value of vr_options.exp
   std::string_view Name;
-  unsigned LatencyCycles;
-  unsigned TableBits;
-  std::string_view Multipliers;
   double MaxRelativeError;      ///< bound for results of at least 2^-125
   std::string_view Explanation; ///< one sentence for `--explain`
 };
 
 /// How many there are: options 0 to ExpUnitCount - 1.
-inline constexpr std::size_t ExpUnitCount = 2;
+inline constexpr std::size_t ExpUnitCount = 9;
 
 /// The units that exist, by option; any other option is VR_BAD_MODE.
 std::span<const ExpUnit> expUnits();
 
-/// Numbers of the table unit: exp(p) = 2^-y; y in fixed point has a whole part,
-/// the number of a table entry, and a rest that interpolates to the next entry.
-namespace table_exp {
-inline constexpr int FractionBits = 16;
-inline constexpr int EntryBits = 4;
-inline constexpr int RestBits = FractionBits - EntryBits;
-inline constexpr int Entries = 1 << EntryBits;
-/// log2(e) * 2^16, as a float.
-inline constexpr float Log2EFixed = 0x1.715476p16F;
-/// Results below 2^-126 are 0: no subnormal numbers in the unit.
+/// What all units but the correctly rounded one share: exp(p) = 2^-y with
+/// y = -p log2(e), whole part and fraction treated apart.
+namespace base2_exp {
+inline constexpr float Log2E = 0x1.715476p0F;
+/// Results below 2^-126 are 0: no subnormal numbers in the units.
 inline constexpr int SmallestExponent = 126;
 /// |p| is held at this, beyond which every result is 0.
 inline constexpr float Largest = 90.0F;
-
-inline constexpr int StartBits = 17;
-inline constexpr int DropBits = 12;
-
-/// Entry i: its start 2^(-i/16) * 2^16, rounded, above DropBits bits of the
-/// drop from there to the next entry's start.
-struct Segments {
-  std::int32_t Words[Entries];
-};
 
 constexpr std::int32_t nearest(double Positive) {
   const auto Down = static_cast<std::int32_t>(Positive);
   return Positive - Down < 0.5 ? Down : Down + 1;
 }
+} // namespace base2_exp
 
-/// Square roots of 1/2 by Newton's method give 2^(-1/16) at compile time.
-constexpr Segments makeSegments() {
+/// Numbers of the table units, of 2^EntryBits entries: y in fixed point has a
+/// whole part, the number of a table entry, and a rest of RestBits that
+/// interpolates to the next entry.
+namespace table_exp {
+inline constexpr int RestBits = 12;
+inline constexpr int DropBits = 12;
+
+template <int EntryBits> struct Table {
+  static constexpr int Entries = 1 << EntryBits;
+  static constexpr int FractionBits = EntryBits + RestBits;
+  static constexpr int StartBits = FractionBits + 1;
+  /// Entry i: its start 2^(-i/Entries) * 2^FractionBits, rounded, above
+  /// DropBits bits of the drop from there to the next entry's start.
+  std::int32_t Words[Entries];
+};
+
+/// Square roots of 1/2 by Newton's method give 2^(-1/Entries) at compile time.
+template <int EntryBits> constexpr Table<EntryBits> makeTable() {
   double Step = 0.5;
   for (int I = 0; I != EntryBits; ++I) {
     double Root = 1.0;
@@ -67,16 +66,56 @@ constexpr Segments makeSegments() {
       Root = 0.5 * (Root + Step / Root);
     Step = Root;
   }
-  Segments S{};
-  double Value = 1 << FractionBits;
-  for (int I = 0; I != Entries; ++I) {
-    const auto Here = nearest(Value);
+  Table<EntryBits> T{};
+  double Value = 1 << Table<EntryBits>::FractionBits;
+  for (int I = 0; I != Table<EntryBits>::Entries; ++I) {
+    const auto Here = base2_exp::nearest(Value);
     Value *= Step;
-    S.Words[I] = Here << DropBits | (Here - nearest(Value));
+    T.Words[I] = Here << DropBits | (Here - base2_exp::nearest(Value));
   }
-  return S;
+  return T;
 }
-inline constexpr Segments Table = makeSegments();
+template <int EntryBits>
+inline constexpr Table<EntryBits> TableOf = makeTable<EntryBits>();
 } // namespace table_exp
+
+/// Numbers of the polynomial units: 2^-g for 0 <= g < 1 as 1 + C1 g + C2 g^2 +
+/// ... in fp32, by Horner's rule. Of all polynomials of the degree that are 1
+/// at 0 and 1/2 at 1, so that the unit is continuous and a Gaussian's centre
+/// keeps its opacity, those of least relative error (found by Lawson's
+/// iteration), rounded to fp32.
+template <unsigned Degree> struct ExpPolynomial;
+template <> struct ExpPolynomial<2> {
+  static constexpr float C[] = {-0x1.56fae8p-1F, 0x1.5beba0p-3F};
+};
+template <> struct ExpPolynomial<3> {
+  static constexpr float C[] = {-0x1.62020ap-1F, 0x1.d82da4p-3F,
+                                -0x1.4095eap-5F};
+};
+template <> struct ExpPolynomial<4> {
+  static constexpr float C[] = {-0x1.62d838p-1F, 0x1.ea4d86p-3F,
+                                -0x1.b338d2p-5F, 0x1.bc31dap-8F};
+};
+
+/// Numbers of the piecewise linear unit: four pieces an octave. Slopes are of
+/// two powers of two each, so that the unit multiplies nothing.
+namespace linear_exp {
+inline constexpr int FractionBits = 16;
+inline constexpr int Pieces = 4;
+inline constexpr int RestBits = FractionBits - 2;
+/// In 1/64: where a piece starts, and how much it falls to the next.
+inline constexpr std::int32_t Start[Pieces] = {64, 54, 45, 38};
+inline constexpr std::int32_t Drop[Pieces] = {10, 9, 7, 6};
+inline constexpr int UnitBits = 6;
+} // namespace linear_exp
+
+/// Numbers of Schraudolph's unit (Neural Computation 11, 1999): the bits of the
+/// result are a linear function of p.
+namespace schraudolph_exp {
+inline constexpr float Slope = 0x1.715476p23F; ///< log2(e) 2^23
+/// The bits of 1, less what makes the largest error above and below equal.
+inline constexpr std::int32_t Offset = (127 << 23) - 366393;
+inline constexpr std::int32_t SmallestNormal = 1 << 23;
+} // namespace schraudolph_exp
 
 } // namespace vorion::raster

@@ -42,6 +42,8 @@ VORION_INLINE Double8 expDouble(Double8 X) {
 }
 
 struct CorrectlyRoundedExp {
+  /// Below log(threshold) less this, a result is surely under the threshold.
+  static constexpr float Margin = 0.01F;
   VORION_INLINE static Float16 evaluate(Float16 Power) {
     // Below -104 the result rounds to 0, as exp(-104) does. Above 0 and NaN
     // are nobody's pixels and only must not disturb.
@@ -56,27 +58,93 @@ struct CorrectlyRoundedExp {
   }
 };
 
-struct TableExp {
+/// What a unit of limited range may be asked for.
+VORION_INLINE Float16 clampPower(Float16 Power) {
+  constexpr float Largest = base2_exp::Largest;
+  const Float16 P = Power > -Largest ? Power : Float16(-Largest);
+  return P < 0.0F ? P : Float16(0.0F);
+}
+
+/// \p Mantissa, positive, times 2^-(\p Whole + \p Scale); 0 where that is
+/// below 2^-126.
+VORION_INLINE Float16 scaleDown(Float16 Mantissa, Int16 Whole, int Scale) {
+  const Int16 Bits =
+      __builtin_bit_cast(Int16, Mantissa) - ((Whole + Scale) << 23);
+  return __builtin_bit_cast(
+      Float16, Whole < base2_exp::SmallestExponent ? Bits : Int16(0));
+}
+
+template <int EntryBits> struct TableExp {
+  static constexpr float Margin = 0.01F;
   VORION_INLINE static Float16 evaluate(Float16 Power) {
     using namespace table_exp;
-    Float16 P = Power > -Largest ? Power : Float16(-Largest);
-    P = P < 0.0F ? P : Float16(0.0F);
+    using Numbers = Table<EntryBits>;
+    const Float16 P = clampPower(Power);
     // -log2(result) in fixed point, truncated.
-    const Int16 Y = __builtin_convertvector(P * -Log2EFixed, Int16);
-    const Int16 Whole = Y >> FractionBits;
-    const Int16 Entry = Y >> RestBits & (Entries - 1);
+    constexpr float Slope =
+        base2_exp::Log2E * static_cast<float>(1 << Numbers::FractionBits);
+    const Int16 Y = __builtin_convertvector(P * -Slope, Int16);
+    const Int16 Whole = Y >> Numbers::FractionBits;
+    const Int16 Entry = Y >> RestBits & (Numbers::Entries - 1);
     const Int16 Rest = Y & ((1 << RestBits) - 1);
     Int16 Word;
     for (unsigned L = 0; L != LaneCount; ++L)
-      Word[L] = Table.Words[Entry[L]];
+      Word[L] = TableOf<EntryBits>.Words[Entry[L]];
     const Int16 Drop = Word & ((1 << DropBits) - 1);
-    // (1/2, 1] * 2^16
+    // (1/2, 1] * 2^FractionBits
     const Int16 Mantissa = (Word >> DropBits) - (Drop * Rest >> RestBits);
+    return scaleDown(__builtin_convertvector(Mantissa, Float16), Whole,
+                     Numbers::FractionBits);
+  }
+};
+
+template <unsigned Degree> struct PolynomialExp {
+  static constexpr float Margin = 0.01F;
+  VORION_INLINE static Float16 evaluate(Float16 Power) {
+    const Float16 Y = clampPower(Power) * -base2_exp::Log2E;
+    const Int16 Whole = __builtin_convertvector(Y, Int16);
+    const Float16 G = Y - __builtin_convertvector(Whole, Float16);
+    constexpr auto &C = ExpPolynomial<Degree>::C;
+    Float16 Sum = C[Degree - 1];
+#pragma clang loop unroll(full)
+    for (unsigned I = Degree - 1; I != 0; --I)
+      Sum = Sum * G + C[I - 1];
+    return scaleDown(Sum * G + 1.0F, Whole, 0);
+  }
+};
+
+struct LinearExp {
+  static constexpr float Margin = 0.02F;
+  VORION_INLINE static Float16 evaluate(Float16 Power) {
+    using namespace linear_exp;
+    constexpr float Slope =
+        base2_exp::Log2E * static_cast<float>(1 << FractionBits);
+    const Int16 Y = __builtin_convertvector(clampPower(Power) * -Slope, Int16);
+    const Int16 Piece = Y >> RestBits & (Pieces - 1);
+    const Int16 Rest = Y & ((1 << RestBits) - 1);
+    const auto Of = [&](const std::int32_t(&Numbers)[Pieces]) {
+      Int16 Value = Numbers[0];
+#pragma clang loop unroll(full)
+      for (int I = 1; I != Pieces; ++I)
+        Value = Piece == I ? Int16(Numbers[I]) : Value;
+      return Value;
+    };
+    const Int16 Mantissa =
+        (Of(Start) << (FractionBits - UnitBits)) -
+        (Of(Drop) * Rest >> (RestBits - FractionBits + UnitBits));
+    return scaleDown(__builtin_convertvector(Mantissa, Float16),
+                     Y >> FractionBits, FractionBits);
+  }
+};
+
+struct SchraudolphExp {
+  static constexpr float Margin = 0.06F;
+  VORION_INLINE static Float16 evaluate(Float16 Power) {
+    using namespace schraudolph_exp;
     const Int16 Bits =
-        __builtin_bit_cast(Int16, __builtin_convertvector(Mantissa, Float16)) -
-        ((Whole + FractionBits) << 23);
+        __builtin_convertvector(clampPower(Power) * Slope, Int16) + Offset;
     return __builtin_bit_cast(Float16,
-                              Whole < SmallestExponent ? Bits : Int16(0));
+                              Bits >= SmallestNormal ? Bits : Int16(0));
   }
 };
 

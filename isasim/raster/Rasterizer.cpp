@@ -61,8 +61,7 @@ private:
 
 void Execution::blendOne(const Gaussian &G, std::uint32_t Address,
                          bool Intersects, const BlendOptions &Options) {
-  const BlendWork Result =
-      Lanes.Blend[OptionsExp.get(C.Options)](G, Options, Tile);
+  const BlendWork Result = blendFunction(C, Lanes)(G, Options, Tile);
   Work.Intersecting += Intersects;
   Work.Clipped += Result.Clipped;
   Work.Fragments += Result.Fragments;
@@ -127,7 +126,7 @@ CommandWork Execution::takeWork(std::uint32_t Status) {
           C.OutputPitch,
           static_cast<std::uint16_t>(Width),
           static_cast<std::uint16_t>(Height),
-          static_cast<std::uint8_t>(OptionsExp.get(C.Options)),
+          laneUnits(C),
           Drains,
           Status != VR_OK,
           std::move(Kept),

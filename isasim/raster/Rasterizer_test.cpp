@@ -1,5 +1,7 @@
 // One command at a time: pixels of closed form, clipping, thresholds, the early
 // end, status codes, order of service.
+#include "raster/BlendUnits.h"
+#include "raster/ExpUnits.h"
 #include "raster/RasterTest.h"
 
 #include <cfenv>
@@ -256,9 +258,10 @@ TEST_F(RasterizerTest, statusCodesOfTheBank) {
   const Case Cases[] = {
       {Csr::Mode, ModeBackward.put(1), VR_BAD_MODE},
       {Csr::Mode, 8, VR_BAD_MODE},
-      {Csr::Options, OptionsExp.put(2), VR_BAD_MODE},
-      {Csr::Options, OptionsExp.put(3), VR_BAD_MODE},
-      {Csr::Options, 0x10, VR_BAD_MODE},
+      {Csr::Options, OptionsExp.put(ExpUnitCount), VR_BAD_MODE},
+      {Csr::Options, OptionsExp.put(15), VR_BAD_MODE},
+      {Csr::Options, OptionsBlend.put(BlendUnitCount), VR_BAD_MODE},
+      {Csr::Options, 0x80000000, VR_BAD_MODE},
       {Csr::Ztile, 0x00010001, VR_BAD_MODE},
       {Csr::Ztile, 0x00000001, VR_BAD_MODE},
       {Csr::Ztile, 0x00040003, VR_OK},

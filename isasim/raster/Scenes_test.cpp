@@ -2,6 +2,7 @@
 // and within tolerance against doubles.
 #include "raster/Datapath.h"
 #include "raster/RasterTest.h"
+#include "raster/ScalarUnits.h"
 
 #include <cmath>
 #include <random>
@@ -54,6 +55,13 @@ Scene randomScene(std::uint32_t Seed) {
   return S;
 }
 
+/// What vr_options may choose in a lane.
+struct Lane {
+  std::uint32_t Exp = VR_EXP_EXACT;
+  std::uint32_t Blend = VR_BLEND_FP32;
+  float MinAlpha = 1.0F / 255.0F;
+};
+
 struct Result {
   std::vector<Pixel> Pixels;
   Counters Work;
@@ -61,7 +69,7 @@ struct Result {
 
 /// docs/abi.md read aloud, one pixel at a time; Gaussian-centric only in that
 /// the tile ends early.
-Result scalar(const Scene &S) {
+Result onePixelAtATime(const Scene &S, const Lane &L = {}) {
   Result Out;
   Out.Pixels.assign(std::size_t{S.Width} * S.Height, {0, 0, 0, 1});
   std::vector<bool> Saturated(Out.Pixels.size());
@@ -88,21 +96,26 @@ Result scalar(const Scene &S) {
           G.Conic[1] * Dx * Dy;
       if (!(Power <= 0.0F))
         continue;
-      const float Vis =
-          static_cast<float>(std::exp(static_cast<double>(Power)));
-      const float Alpha = std::fmin(0.99F, G.Opacity * Vis);
-      if (Alpha < 1.0F / 255.0F)
+      const float Alpha =
+          std::fmin(0.99F, G.Opacity * scalar::exp(L.Exp, Power));
+      if (Alpha < L.MinAlpha)
         continue;
       Pixel &P = Out.Pixels[I];
-      const float NextT = P.T * (1.0F - Alpha);
+      const auto Rounded = [&](float X) { return scalar::operand(L.Blend, X); };
+      float Taken = Alpha * P.T;
+      float NextT = P.T * (1.0F - Alpha);
+      if (L.Blend != VR_BLEND_FP32) {
+        Taken = Rounded(Alpha) * Rounded(P.T);
+        NextT = P.T - Taken;
+      }
       if (S.StopAtEqual ? NextT <= S.Cutoff : NextT < S.Cutoff) {
         Saturated[I] = true;
         --Live;
         continue;
       }
-      P.R += G.Color[0] * (Alpha * P.T);
-      P.G += G.Color[1] * (Alpha * P.T);
-      P.B += G.Color[2] * (Alpha * P.T);
+      P.R += Rounded(G.Color[0]) * Rounded(Taken);
+      P.G += Rounded(G.Color[1]) * Rounded(Taken);
+      P.B += Rounded(G.Color[2]) * Rounded(Taken);
       P.T = NextT;
       ++Out.Work.Blends;
     }
@@ -112,16 +125,17 @@ Result scalar(const Scene &S) {
   return Out;
 }
 
-Result onLevel(const Datapath &Level, const Scene &S, std::uint32_t Exp = 0) {
+Result onLevel(const Datapath &Level, const Scene &S, const Lane &L = {}) {
   auto Tile = std::make_unique<TileBuffer>();
   Tile->reset(S.X, S.Y, S.Width, S.Height);
-  const BlendOptions Options{
-      S.StopAtEqual ? std::nextafter(S.Cutoff, 1.0F) : S.Cutoff, false};
+  const BlendOptions Options{S.StopAtEqual ? std::nextafter(S.Cutoff, 1.0F)
+                                           : S.Cutoff,
+                             L.MinAlpha, false};
   Result Out;
   for (const Gaussian &G : S.Gaussians) {
     if (Tile->Live == 0)
       break;
-    const BlendWork Work = Level.Blend[Exp](G, Options, *Tile);
+    const BlendWork Work = Level.Blend[L.Exp][L.Blend](G, Options, *Tile);
     ++Out.Work.Gaussians;
     Out.Work.Clipped += Work.Clipped;
     Out.Work.Fragments += Work.Fragments;
@@ -146,7 +160,7 @@ TEST_P(EveryLevel, bitsOfTheScalarLoop) {
   Counters All;
   for (std::uint32_t Seed = 0; Seed != 60; ++Seed) {
     const Scene S = randomScene(Seed);
-    const Result Right = scalar(S);
+    const Result Right = onePixelAtATime(S);
     const Result Is = onLevel(*GetParam(), S);
     ASSERT_EQ(Is.Pixels, Right.Pixels) << Seed;
     ASSERT_EQ(Is.Work, Right.Work) << Seed;
@@ -158,14 +172,18 @@ TEST_P(EveryLevel, bitsOfTheScalarLoop) {
   EXPECT_GT(All.Blends, 100000U);
 }
 
-TEST_P(EveryLevel, tableUnitHasTheBitsOfBaseline) {
-  for (std::uint32_t Seed = 0; Seed != 20; ++Seed) {
-    const Scene S = randomScene(Seed);
-    const Result Right = onLevel(*datapaths().front(), S, 1);
-    const Result Is = onLevel(*GetParam(), S, 1);
-    ASSERT_EQ(Is.Pixels, Right.Pixels) << Seed;
-    ASSERT_EQ(Is.Work, Right.Work) << Seed;
-  }
+TEST_P(EveryLevel, everyLaneHasTheBitsOfTheScalarLoop) {
+  std::uint32_t Seed = 0;
+  for (std::uint32_t Exp = 0; Exp != ExpUnitCount; ++Exp)
+    for (std::uint32_t Blend = 0; Blend != BlendUnitCount; ++Blend)
+      for (const float Times : {1.0F, 8.0F}) {
+        const Scene S = randomScene(Seed++ % 7 * 13);
+        const Lane L{Exp, Blend, Times / 255.0F};
+        const Result Right = onePixelAtATime(S, L);
+        const Result Is = onLevel(*GetParam(), S, L);
+        ASSERT_EQ(Is.Pixels, Right.Pixels) << Exp << ' ' << Blend;
+        ASSERT_EQ(Is.Work, Right.Work) << Exp << ' ' << Blend;
+      }
 }
 
 /// In doubles, and whether a pixel had a decision near its threshold, which
@@ -272,21 +290,44 @@ TEST_F(ScenesTest, blendsAreThoseOfDoubles) {
   EXPECT_GT(Compared, 150U);
 }
 
-TEST_F(ScenesTest, tableUnitIsCoarserWithinItsBound) {
-  double Largest = 0;
-  for (std::uint32_t Seed = 100; Seed != 110; ++Seed) {
-    const Scene S = randomScene(Seed);
-    const std::vector<Pixel> Exact = renderScene(S);
-    const std::vector<Pixel> Coarse = renderScene(S, OptionsExp.put(1));
-    const std::vector<DoublePixel> Right = inDoubles(S);
-    for (std::size_t I = 0; I != Exact.size(); ++I)
-      Largest = std::max(
-          Largest, Right[I].Doubtful
-                       ? 0.0
-                       : std::fabs(double{Coarse[I].R} - double{Exact[I].R}));
+// Largest difference from the default lane outside doubtful pixels, over ten
+// scenes of up to 400 layers. Without a cut-off: at one of a few percent a
+// coarser lane may stop a Gaussian earlier, which any amount can hang on.
+TEST_F(ScenesTest, coarserLanesStayWithinTheirBounds) {
+  struct Bound {
+    std::uint32_t Options;
+    double Least, Most;
+  };
+  const auto Exp = [](std::uint32_t Unit) { return OptionsExp.put(Unit); };
+  const auto Blend = [](std::uint32_t Unit) { return OptionsBlend.put(Unit); };
+  for (const Bound &B : {Bound{Exp(VR_EXP_TABLE), 1e-5, 1e-3},
+                         {Exp(VR_EXP_POLY2), 1e-4, 6e-3},
+                         {Exp(VR_EXP_POLY3), 1e-6, 3e-4},
+                         {Exp(VR_EXP_POLY4), 1e-8, 2e-5},
+                         {Exp(VR_EXP_TABLE32), 1e-6, 3e-4},
+                         {Exp(VR_EXP_TABLE64), 1e-6, 1e-4},
+                         {Exp(VR_EXP_LINEAR), 1e-4, 1e-2},
+                         {Exp(VR_EXP_SCHRAUDOLPH), 1e-3, 4e-2},
+                         {Blend(VR_BLEND_BF16), 1e-4, 1e-2},
+                         {Blend(VR_BLEND_FP16), 1e-5, 2e-3},
+                         {OptionsAlphaCutoff.put(1), 1e-4, 3e-2},
+                         {OptionsAlphaCutoff.put(3), 1e-3, 0.2}}) {
+    double Largest = 0;
+    for (std::uint32_t Seed = 100; Seed != 110; ++Seed) {
+      Scene S = randomScene(Seed);
+      S.Cutoff = 0;
+      const std::vector<Pixel> Exact = renderScene(S);
+      const std::vector<Pixel> Coarse = renderScene(S, B.Options);
+      const std::vector<DoublePixel> Right = inDoubles(S);
+      for (std::size_t I = 0; I != Exact.size(); ++I)
+        Largest = std::max(
+            Largest, Right[I].Doubtful
+                         ? 0.0
+                         : std::fabs(double{Coarse[I].R} - double{Exact[I].R}));
+    }
+    EXPECT_GT(Largest, B.Least) << B.Options;
+    EXPECT_LT(Largest, B.Most) << B.Options;
   }
-  EXPECT_GT(Largest, 1e-5);
-  EXPECT_LT(Largest, 1.0 / 255 + 1e-3); // one alpha decision, and the bound
 }
 
 TEST_F(ScenesTest, anotherRasterizerGivesTheSameBits) {

@@ -7,6 +7,12 @@
 
 namespace vorion::raster {
 
+/// The units of a lane that vr_options chooses.
+struct LaneUnits {
+  std::uint8_t Exp = 0;   ///< vr_options.exp
+  std::uint8_t Blend = 0; ///< vr_options.blend
+};
+
 /// A Gaussian that was fetched.
 struct GaussianWork {
   std::uint32_t Address; ///< of its record, 0 for a pushed one
@@ -20,7 +26,7 @@ struct CommandWork {
   std::uint32_t List = 0; ///< address of the index list, 0 for pushed ones
   std::uint32_t Output = 0, OutputPitch = 0;
   std::uint16_t Width = 0, Height = 0;
-  std::uint8_t ExpUnit = 0;
+  LaneUnits Units;
   bool Drains = false; ///< to the agent, not to memory
   bool Failed = false; ///< writes nothing
   std::vector<GaussianWork> Gaussians;
@@ -38,7 +44,7 @@ struct TailWork {
   std::uint32_t Record = 0; ///< address of the vx_tail
   std::uint32_t List = 0;   ///< of its first entry
   std::uint32_t Output = 0, OutputPitch = 0;
-  std::uint8_t ExpUnit = 0;
+  LaneUnits Units;
   std::vector<std::uint32_t> Records; ///< of Gaussians, in the list's order
   std::vector<OpenPixel> Pixels;      ///< in rows
 };

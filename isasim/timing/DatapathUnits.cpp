@@ -1,87 +1,167 @@
 #include "timing/DatapathUnits.h"
 
+#include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
 
 #include <array>
-#include <vector>
+#include <nlohmann/json.hpp>
 
 namespace vorion::isasim {
 
 namespace {
 
+using Lane = std::array<DatapathUnit, 5>;
+
 /// The paper's "streamlined three-stage pipeline", a cycle a stage but for the
-/// exponential, which raster/ExpUnits.cpp describes. Operations are those of
-/// docs/abi.md, "Rasterizer".
-constexpr DatapathUnit Power{
+/// exponential. Operations are those of docs/abi.md, "Rasterizer".
+constexpr DatapathUnit PowerUnit{
     .Name = "power",
     .Latency = 1,
     .Interval = 1,
     .Multipliers = 7,
     .Adders = 4,
+    .ProductBits = 0,
+    .AdderBits = 0,
     .TableBits = 0,
     .Source = "first stage [paper]; a dx dx, c dy dy, b dx dy and the half are "
               "7 multiplications, dx, dy and two sums 4 additions"};
-constexpr DatapathUnit Alpha{
+constexpr DatapathUnit AlphaUnit{
     .Name = "alpha",
     .Latency = 0,
     .Interval = 1,
     .Multipliers = 1,
     .Adders = 2,
+    .ProductBits = 0,
+    .AdderBits = 0,
     .TableBits = 0,
     .Source = "second stage [paper], with the exponential: opacity times it, "
               "two comparisons"};
-constexpr DatapathUnit Blend{
-    .Name = "blend",
+constexpr DatapathUnit GatherUnit{
+    .Name = "gather",
     .Latency = 1,
     .Interval = 1,
-    .Multipliers = 5,
-    .Adders = 5,
+    .Multipliers = 0,
+    .Adders = 0,
+    .ProductBits = 0,
+    .AdderBits = 0,
     .TableBits = 0,
-    .Source =
-        "third stage [paper]; T (1 - alpha), alpha T and three colours "
-        "are 5 multiplications and 4 additions, the cut-off a comparison"};
-constexpr DatapathUnit Gather{.Name = "gather",
-                              .Latency = 1,
-                              .Interval = 1,
-                              .Multipliers = 0,
-                              .Adders = 0,
-                              .TableBits = 0,
-                              .Source =
-                                  "writes back to the pixel buffer [paper]"};
+    .Source = "writes back to the pixel buffer [paper]"};
 
-using Lane = std::array<DatapathUnit, 5>;
+/// The paper names no exponential: latencies and operations are our estimates
+/// of a plausible build. The ones after the first take y = -p log2(e) first.
+constexpr DatapathUnit ExpOf[raster::ExpUnitCount] = {
+    {"correctly-rounded", 8, 1, 0, 0, 16 * 53 * 53, 14 * 53, 0,
+     "16 multipliers of 53 x 53 bits, 14 adders of 53: as the simulator finds "
+     "the nearest number"},
+    {"table", 3, 1, 0, 0, 24 * 24 + 12 * 12, 17 + 8, 16 * (17 + 12),
+     "y 24 x 24 bits, a rest times a drop 12 x 12; a sum of 17, an exponent"},
+    {"poly2", 4, 1, 3, 3, 0, 8, 0,
+     "y, then two steps of Horner's rule, in fp32; y's fraction; an exponent"},
+    {"poly3", 5, 1, 4, 4, 0, 8, 0,
+     "y, then three steps of Horner's rule, in fp32; y's fraction; an "
+     "exponent"},
+    {"poly4", 6, 1, 5, 5, 0, 8, 0,
+     "y, then four steps of Horner's rule, in fp32; y's fraction; an exponent"},
+    {"table32", 3, 1, 0, 0, 24 * 24 + 12 * 12, 18 + 8, 32 * (18 + 12),
+     "as table, with a sum of 18"},
+    {"table64", 3, 1, 0, 0, 24 * 24 + 12 * 12, 19 + 8, 64 * (19 + 12),
+     "as table, with a sum of 19"},
+    {"linear", 2, 1, 0, 0, 24 * 24, 2 * 17 + 8, 0,
+     "y 24 x 24 bits; a drop of two shifted rests, two sums of 17; an "
+     "exponent"},
+    {"schraudolph", 1, 1, 0, 0, 24 * 24, 32, 0,
+     "p log2(e) 24 x 24 bits, a sum of 32"},
+};
 
-Lane makeLane(const raster::ExpUnit &E) {
-  return {Power,
-          {.Name = E.Name,
-           .Latency = E.LatencyCycles,
-           .Interval = 1,
-           .Multipliers = 0, // of other widths: E.Multipliers says which
-           .Adders = 0,
-           .TableBits = E.TableBits,
-           .Source = E.Multipliers},
-          Alpha,
-          Blend,
-          Gather};
+constexpr std::string_view NarrowSource =
+    "alpha T and three colours are 4 multiplications whose products are exact, "
+    "so without rounding or normalisation: a significand product and an "
+    "exponent sum of 8 each; 4 fp32 sums, the cut-off a comparison; 3 operands "
+    "rounded by sums of 16";
+constexpr DatapathUnit BlendOf[raster::BlendUnitCount] = {
+    {"blend", 1, 1, 5, 5, 0, 0, 0,
+     "third stage [paper]; T (1 - alpha), alpha T and three colours are 5 "
+     "multiplications and 4 additions, the cut-off a comparison"},
+    {"blend bf16", 1, 1, 0, 5, 4 * 8 * 8, 4 * 8 + 3 * 16, 0, NarrowSource},
+    {"blend fp16", 1, 1, 0, 5, 4 * 11 * 11, 4 * 8 + 3 * 16, 0, NarrowSource},
+};
+
+/// Areas at 45 nm, um^2: W. Dally, "High-performance hardware for machine
+/// learning", NIPS tutorial 2015 (32-bit floating and fixed point). The last is
+/// ours: a bit of a table in logic.
+constexpr double MultiplierArea = 7700, AdderArea = 4184;
+constexpr double ProductBitArea = 3495.0 / (32 * 32);
+constexpr double AdderBitArea = 137.0 / 32;
+constexpr double TableBitArea = 1;
+
+using Lanes =
+    std::array<std::array<Lane, raster::BlendUnitCount>, raster::ExpUnitCount>;
+
+const Lane &laneOf(raster::LaneUnits Units) {
+  static const Lanes All = [] {
+    Lanes Made;
+    for (std::size_t E = 0; E != Made.size(); ++E)
+      for (std::size_t B = 0; B != Made[E].size(); ++B)
+        Made[E][B] = {PowerUnit, ExpOf[E], AlphaUnit, BlendOf[B], GatherUnit};
+    return Made;
+  }();
+  return All[Units.Exp < All.size() ? Units.Exp : 0]
+            [Units.Blend < raster::BlendUnitCount ? Units.Blend : 0];
 }
 
 } // namespace
 
-std::span<const DatapathUnit> datapathUnits(unsigned ExpUnit) {
-  static const std::vector<Lane> Lanes = [] {
-    std::vector<Lane> All;
-    for (const raster::ExpUnit &E : raster::expUnits())
-      All.push_back(makeLane(E));
-    return All;
-  }();
-  return Lanes[ExpUnit < Lanes.size() ? ExpUnit : 0];
+std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units) {
+  return laneOf(Units);
 }
 
-unsigned laneDepth(unsigned ExpUnit) {
+unsigned laneDepth(raster::LaneUnits Units) {
   unsigned Depth = 0;
-  for (const DatapathUnit &U : datapathUnits(ExpUnit))
+  for (const DatapathUnit &U : laneOf(Units))
     Depth += U.Latency;
   return Depth;
+}
+
+double area(const DatapathUnit &U) {
+  return U.Multipliers * MultiplierArea + U.Adders * AdderArea +
+         U.ProductBits * ProductBitArea + U.AdderBits * AdderBitArea +
+         U.TableBits * TableBitArea;
+}
+
+namespace {
+
+double unitsArea(raster::LaneUnits Units) {
+  double Sum = 0;
+  for (const DatapathUnit &U : laneOf(Units))
+    Sum += area(U);
+  return Sum;
+}
+
+/// What belongs to a lane besides its units. Paper, "Gaussian rasterizer
+/// architecture": three adders and three multipliers a pair of lanes add 7 % to
+/// a lane's area; that lane is taken to have the table unit.
+double restOfLane() {
+  const double PaperLane = 1.5 * (MultiplierArea + AdderArea) / 0.07;
+  return PaperLane - unitsArea({.Exp = raster::VR_EXP_TABLE,
+                                .Blend = raster::VR_BLEND_FP32});
+}
+
+} // namespace
+
+double laneArea(raster::LaneUnits Units) {
+  return restOfLane() + unitsArea(Units);
+}
+
+std::string areasJson() {
+  nlohmann::ordered_json J{{"exp", nlohmann::json::array()},
+                           {"blend", nlohmann::json::array()}};
+  for (const DatapathUnit &U : ExpOf)
+    J["exp"].push_back(area(U));
+  for (const DatapathUnit &U : BlendOf)
+    J["blend"].push_back(area(U));
+  J["other"] =
+      restOfLane() + area(PowerUnit) + area(AlphaUnit) + area(GatherUnit);
+  return J.dump();
 }
 
 } // namespace vorion::isasim

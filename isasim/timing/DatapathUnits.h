@@ -2,27 +2,40 @@
 /// takes latencies from here, reports the rest.
 #pragma once
 
+#include "raster/WorkLog.h"
+
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace vorion::isasim {
 
-/// A unit of every lane, unless \c Shared.
+/// A unit of every lane.
 struct DatapathUnit {
   std::string_view Name;
   unsigned Latency;             ///< cycles
   unsigned Interval;            ///< cycles between two operations
   unsigned Multipliers, Adders; ///< fp32
+  /// Of multipliers of other widths, bits times bits; of other adders, bits.
+  unsigned ProductBits, AdderBits;
   unsigned TableBits;
   std::string_view Source; ///< or derivation
 };
 
-/// In the order in which a pixel passes them. The exponential unit is the one
-/// that raster::expUnits() has for \p ExpUnit.
-std::span<const DatapathUnit> datapathUnits(unsigned ExpUnit);
+/// In the order in which a pixel passes them; units that do not exist count as
+/// the first.
+std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units);
 
 /// Cycles from giving a pixel to a lane until its new value is stored.
-unsigned laneDepth(unsigned ExpUnit);
+unsigned laneDepth(raster::LaneUnits Units);
+
+/// \name Areas, um^2 at 45 nm (docs/model.md, "Area of a lane")
+/// @{
+double area(const DatapathUnit &U);
+/// Of a lane with its share of the rasterizer's buffers, dispatch and gather.
+double laneArea(raster::LaneUnits Units);
+/// The parts of that as JSON: "exp" and "blend", areas by option, and "other".
+std::string areasJson();
+/// @}
 
 } // namespace vorion::isasim

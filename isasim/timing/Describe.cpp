@@ -1,3 +1,4 @@
+#include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
 #include "timing/DatapathUnits.h"
 #include "vorion/isasim/Timing.h"
@@ -29,18 +30,29 @@ std::string timingMarkdown() {
   }
   Text +=
       "\nUnits of a rasterizer's lane\n\n"
-      "| unit | latency | interval | fp32 multipliers | fp32 adders | table "
-      "bits | source |\n|---|--:|--:|--:|--:|--:|---|\n";
+      "| unit | latency | interval | fp32 multipliers | fp32 adders | product "
+      "bits | adder bits | table bits | area, um^2 | source |\n"
+      "|---|--:|--:|--:|--:|--:|--:|--:|--:|---|\n";
   const auto Row = [&Text](const DatapathUnit &U) {
     Text +=
-        fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", U.Name, U.Latency,
-                    U.Interval, U.Multipliers, U.Adders, U.TableBits, U.Source);
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} | {} "
+                    "|\n",
+                    U.Name, U.Latency, U.Interval, U.Multipliers, U.Adders,
+                    U.ProductBits, U.AdderBits, U.TableBits, area(U), U.Source);
   };
-  for (size_t Exp = 0; Exp != raster::expUnits().size(); ++Exp)
-    for (const DatapathUnit &U : datapathUnits(static_cast<unsigned>(Exp)))
-      // What is not an exponential unit is the same in every lane.
-      if (Exp == 0 || U.Name == raster::expUnits()[Exp].Name)
-        Row(U);
+  // A lane as it is, then what can be there instead of its units.
+  const auto Lane = datapathUnits({});
+  for (const DatapathUnit &U : Lane)
+    Row(U);
+  const auto Others = [&](raster::LaneUnits Units) {
+    for (size_t N = 0; N != Lane.size(); ++N)
+      if (datapathUnits(Units)[N].Name != Lane[N].Name)
+        Row(datapathUnits(Units)[N]);
+  };
+  for (uint8_t Exp = 1; Exp != raster::ExpUnitCount; ++Exp)
+    Others({.Exp = Exp});
+  for (uint8_t Blend = 1; Blend != raster::BlendUnitCount; ++Blend)
+    Others({.Blend = Blend});
   return Text;
 }
 

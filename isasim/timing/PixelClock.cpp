@@ -171,7 +171,7 @@ void PixelClock::fetch(MemorySystem &Memory) {
 }
 
 void PixelClock::finishGroup(MemorySystem &Memory) {
-  FetchAt = std::max(FetchAt, DoneAt + laneDepth(Work.ExpUnit));
+  FetchAt = std::max(FetchAt, DoneAt + laneDepth(Work.Units));
   const uint64_t Taken = pixelLines(Memory, Group, true);
   if (++Group == groups()) {
     // The lanes empty, and the last pixels are written.

@@ -228,7 +228,7 @@ uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
 /// Dispatch is done: the lanes empty, then the tile is written.
 void RasterClock::flush() {
   if (!Work.Gaussians.empty())
-    spend(RasterCycle::Flush, laneDepth(Work.ExpUnit));
+    spend(RasterCycle::Flush, laneDepth(Work.Units));
   InLanes = {};
   DrainRow = 0;
   DrainByte = 0;

@@ -69,7 +69,7 @@ TEST_F(RasterClockTest, OneGaussianOfNPixels) {
     EXPECT_EQ(of(T, RasterCycle::Blend), Pixels / 16) << Width;
     EXPECT_EQ(T.LaneSlots, Pixels);
     EXPECT_EQ(of(T, RasterCycle::Begin), P.Raster.StartCycles + 4096 / 16);
-    EXPECT_EQ(of(T, RasterCycle::Flush), laneDepth(0));
+    EXPECT_EQ(of(T, RasterCycle::Flush), laneDepth({}));
   }
 }
 

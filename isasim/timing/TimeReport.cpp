@@ -1,3 +1,4 @@
+#include "timing/DatapathUnits.h"
 #include "vorion/isasim/Timing.h"
 
 #include <fmt/format.h>
@@ -118,6 +119,7 @@ std::string toJson(const TimeReport &R) {
                {"copy_ns", R.Host.CopyNs},
                {"copy_mbps", R.Host.CopyMbps},
                {"dram_burst_bytes", R.DramBurstBytes}};
+  J["lane_areas"] = Json::parse(areasJson());
   Json Cores = Json::array(), Rasters = Json::array(), L2 = Json::array();
   for (const CoreTime &T : R.Cores)
     Cores.push_back(cycles<CoreCycle>(T));

@@ -82,13 +82,16 @@ Expected<Success> check(const RenderArguments &A) {
   if (O.Blending == Path::Raster && O.Reach == Support::Official16)
     return Usage("--support official16 has tiles of 16x16 pixels, expected "
                  "--path simt with it");
-  if (O.Blending == Path::Simt && O.Exponential == ExpUnit::Table)
-    return Usage("--exp table is the rasterizer's, expected --path raster "
-                 "with it");
+  if (O.Blending == Path::Simt && hasTable(O.Exponential))
+    return Usage(fmt::format("--exp {} is the rasterizer's, expected --path "
+                             "raster with it",
+                             name(O.Exponential)));
   if (O.Blending == Path::Simt &&
-      (O.ZTiles != 1 || O.PixelUnit.any() || O.SkipSaturated))
-    return Usage("--ztiles, --pixel-unit and --skip-saturated are the "
-                 "rasterizer's, expected --path raster with them");
+      (O.ZTiles != 1 || O.PixelUnit.any() || O.SkipSaturated ||
+       O.Arithmetic != BlendUnit::Fp32 ||
+       O.RasterTile != RenderOptions().RasterTile))
+    return Usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
+                 "are the rasterizer's, expected --path raster with them");
   if (O.Reach == Support::Official16 && O.SimtTile != 16)
     return Usage(fmt::format("--simt-tile {}: --support official16 has tiles "
                              "of 16x16 pixels, expected 16",
@@ -188,8 +191,34 @@ void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
       ->check(CLI::IsMember(std::move(Choices)));
 }
 
+/// What is given up for time or area, on either path.
+void addDatapathOptions(CLI::App &App, RenderOptions &O) {
+  addChoice(App, "--exp", O.Exponential,
+            {ExpUnit::Exact, ExpUnit::Table, ExpUnit::Table32, ExpUnit::Table64,
+             ExpUnit::Poly2, ExpUnit::Poly3, ExpUnit::Poly4, ExpUnit::Linear,
+             ExpUnit::Schraudolph},
+            "Exponential unit; tables are the rasterizer's");
+  addSize(App, "--alpha-cutoff", O.AlphaCutoff, {1, 2, 4, 8},
+          "Smallest alpha that is blended, in 1/255");
+  App.add_option("--depth-bits", O.DepthBits,
+                 "Leading bits of the depths that decide the order "
+                 "(default 32)")
+      ->option_text("1..32")
+      ->check(CLI::Range(1U, 32U));
+  App.add_option("--sh-degree", O.ShLimit,
+                 "Leave out bands of spherical harmonics above this "
+                 "(default 3)")
+      ->option_text("0..3")
+      ->check(CLI::Range(0, 3));
+}
+
 void addRasterOptions(CLI::App &App, RenderArguments &A) {
   RenderOptions &O = A.Options;
+  addChoice(App, "--blend", O.Arithmetic,
+            {BlendUnit::Fp32, BlendUnit::Bf16, BlendUnit::Fp16},
+            "Multiplications of the rasterizer's blend stage; sums are fp32");
+  addSize(App, "--tile", O.RasterTile, {16, 32, 64},
+          "Side of a tile of the rasterizer's path");
   App.add_option("--ztiles", O.ZTiles,
                  "Parts of each tile's list that are blended apart and merged "
                  "(default 1)")
@@ -229,8 +258,7 @@ Runner addRender(CLI::App &App) {
       "Pixels that a Gaussian may reach");
   addChoice(App, "--path", O.Blending, {Path::Raster, Path::Simt},
             "Who blends: the rasterizer or the cores");
-  addChoice(App, "--exp", O.Exponential, {ExpUnit::Exact, ExpUnit::Table},
-            "The rasterizer's exponential unit");
+  addDatapathOptions(App, O);
   addRasterOptions(App, *A);
   App.add_flag("--antialiased", O.Antialiased,
                "Compensate opacity for the dilation");

@@ -8,7 +8,7 @@ using Json = nlohmann::ordered_json;
 
 /// Members that describe the machine.
 static bool isConstant(const std::string &Name) {
-  return Name == "clock_mhz" || Name == "host";
+  return Name == "clock_mhz" || Name == "host" || Name == "lane_areas";
 }
 
 static void add(Json &To, const Json &From) {

@@ -40,14 +40,14 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
       const float power = -0.5f * (g->conic[0] * dx * dx +
                                    g->conic[2] * dy * dy) -
                           g->conic[1] * dx * dy;
-      // Below MIN_POWER alpha is under 1/255 whatever the opacity, so the
+      // Below MIN_POWER alpha is under the cut-off whatever the opacity, so the
       // exponential is not worth taking. False for NaN.
       if ((power <= 0.0f) & (power >= MIN_POWER)) {
         const float alpha = fmin(0.99f, g->opacity * falloff(power));
         const float next = p.transmittance * (1.0f - alpha);
         // Without branches: most Gaussians that get here are blended, and a
         // weight of 0 changes no bit.
-        const bool visible = alpha >= 1.0f / 255.0f;
+        const bool visible = alpha >= ALPHA_CUTOFF / 255.0f;
         const bool full = visible & SATURATED(next);
         const bool blended = visible & !full;
         const float weight = blended ? alpha * p.transmittance : 0.0f;

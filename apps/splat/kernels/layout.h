@@ -61,6 +61,16 @@ enum {
 /// VR_INTERSECT of docs/isa.md, which rasterize.cl checks.
 #define SPANS_TILES 0x80000000U // NOLINT: enumerators of C are signed
 
+/// The bits of splat_blend_options.datapath: fields of vr_options, which
+/// rasterize.cl checks.
+enum {
+  DATAPATH_EXP = 0,            ///< first bit of the exponential unit
+  DATAPATH_STOP_AT_EQUAL = 16, ///< stop rule
+  DATAPATH_SKIP_SATURATED = 32,
+  DATAPATH_BLEND = 6,       ///< first bit of the blend arithmetic
+  DATAPATH_ALPHA_CUTOFF = 8 ///< first bit of log2(255 times the cut-off)
+};
+
 /// Bytes of a vx_tail (docs/isa.md), which rasterize.cl checks.
 enum { TAIL_BYTES = 560 };
 

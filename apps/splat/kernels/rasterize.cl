@@ -6,6 +6,12 @@ _Static_assert(sizeof(splat_gaussian) == sizeof(vx_gaussian),
                "kernels/layout.h and docs/abi.md disagree");
 _Static_assert(SPANS_TILES == VR_INTERSECT,
                "kernels/layout.h and docs/isa.md disagree");
+_Static_assert(DATAPATH_EXP == VR_OPTIONS_EXP_SHIFT &&
+                   DATAPATH_STOP_AT_EQUAL == VR_OPTIONS_STOP_AT_EQUAL_MASK &&
+                   DATAPATH_SKIP_SATURATED == VR_OPTIONS_SKIP_SATURATED_MASK &&
+                   DATAPATH_BLEND == VR_OPTIONS_BLEND_SHIFT &&
+                   DATAPATH_ALPHA_CUTOFF == VR_OPTIONS_ALPHA_CUTOFF_SHIFT,
+               "kernels/layout.h and docs/isa.md disagree");
 _Static_assert(sizeof(vx_tail) == TAIL_BYTES,
                "kernels/layout.h and docs/isa.md disagree");
 

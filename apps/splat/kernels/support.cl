@@ -5,10 +5,12 @@
 // The half sides of the box in pixels; false if nothing can be reached.
 static bool support_extent(screen_covariance s, float opacity, float2 *extent) {
 #if defined(SUPPORT_EXACT)
-  // alpha >= 1/255 needs d^2 <= 2 ln(255 o) S_ii along each axis.
-  if (!(255.0f * opacity >= 1.0f))
+  // alpha >= 1/255 needs d^2 <= 2 ln(255 o) S_ii along each axis; a higher
+  // cut-off likewise.
+  const float most = 255.0f / ALPHA_CUTOFF;
+  if (!(most * opacity >= 1.0f))
     return false;
-  const float deviations = sqrt(2.0f * fmax(0.0f, log(255.0f * opacity)));
+  const float deviations = sqrt(2.0f * fmax(0.0f, log(most * opacity)));
   *extent = (float2)(deviations * sqrt(s.xx), deviations * sqrt(s.yy));
 #elif defined(SUPPORT_BOX3)
   *extent = (float2)(3.0f * sqrt(s.xx), 3.0f * sqrt(s.yy));

@@ -82,7 +82,7 @@ TEST_P(SortOnDevice, SortIsStableOnItsBits) {
     const Sorter::Pairs In{upload(L, Keys), upload(L, Order)};
     const Sorter::Pairs A{upload(L, Empty), upload(L, Empty)};
     const Sorter::Pairs B{upload(L, Empty), upload(L, Empty)};
-    const Sorter::Pairs Out = S.sort(In, A, B, Count, Bits);
+    const Sorter::Pairs Out = S.sort(In, A, B, Count, {0, Bits});
     std::ranges::sort(Order, {},
                       [&](std::uint32_t I) { return std::pair(Keys[I], I); });
     EXPECT_EQ(download(L, Out.Values, Count), Order) << Bits << " bits";

@@ -15,8 +15,21 @@ enum class Rules { Inria, Gsplat };
 enum class Support { Exact, Box3, Square3, Official16 };
 /// Who blends: the rasterizer, or the cores alone.
 enum class Path { Raster, Simt };
-/// The rasterizer's exponential unit.
-enum class ExpUnit { Exact, Table };
+/// The lane's exponential unit: VR_EXP_* of docs/isa.md. The cores' path has
+/// those that take no table.
+enum class ExpUnit {
+  Exact,
+  Table,
+  Poly2,
+  Poly3,
+  Poly4,
+  Table32,
+  Table64,
+  Linear,
+  Schraudolph
+};
+/// The lane's blend arithmetic: VR_BLEND_* of docs/isa.md.
+enum class BlendUnit { Fp32, Bf16, Fp16 };
 
 constexpr std::string_view name(Rules R) {
   return R == Rules::Inria ? "inria" : "gsplat";
@@ -29,8 +42,18 @@ constexpr std::string_view name(Support S) {
 constexpr std::string_view name(Path P) {
   return P == Path::Raster ? "raster" : "simt";
 }
+constexpr std::array<std::string_view, 9> ExpUnitNames{
+    "exact",   "table",   "poly2",  "poly3",      "poly4",
+    "table32", "table64", "linear", "schraudolph"};
 constexpr std::string_view name(ExpUnit E) {
-  return E == ExpUnit::Exact ? "exact" : "table";
+  return ExpUnitNames[static_cast<std::size_t>(E)];
+}
+constexpr bool hasTable(ExpUnit E) {
+  return E == ExpUnit::Table || E == ExpUnit::Table32 || E == ExpUnit::Table64;
+}
+constexpr std::string_view name(BlendUnit B) {
+  constexpr std::array<std::string_view, 3> Names{"fp32", "bf16", "fp16"};
+  return Names[static_cast<std::size_t>(B)];
 }
 
 inline constexpr unsigned MaxZTiles = 16;
@@ -41,6 +64,13 @@ struct RenderOptions {
   Support Reach = Support::Exact;
   Path Blending = Path::Raster;
   ExpUnit Exponential = ExpUnit::Exact;
+  BlendUnit Arithmetic = BlendUnit::Fp32;
+  /// The smallest alpha that is blended, in 1/255: 1, 2, 4 or 8.
+  unsigned AlphaCutoff = 1;
+  /// Leading bits of the depths that decide the order: 1 to 32.
+  unsigned DepthBits = 32;
+  /// Spherical harmonics of higher bands are left out.
+  int ShLimit = 3;
   bool Antialiased = false;
   /// Added to both variances on the picture, px^2: both conventions' low-pass.
   float Dilation = 0.3F;
@@ -50,6 +80,8 @@ struct RenderOptions {
 
   /// \name The rasterizers' path
   /// @{
+  /// Side of a tile, px: 16, 32 or 64.
+  unsigned RasterTile = 64;
   /// Depth parts of each tile's list, blended apart and merged: 1 to
   /// MaxZTiles.
   unsigned ZTiles = 1;
@@ -63,8 +95,10 @@ struct RenderOptions {
   unsigned SimtGroup = 256;
   /// @}
 
-  /// Side of a tile, px: the rasterizer's largest, or the cores'.
-  unsigned tileSize() const { return Blending == Path::Raster ? 64 : SimtTile; }
+  /// Side of a tile of the path, px.
+  unsigned tileSize() const {
+    return Blending == Path::Raster ? RasterTile : SimtTile;
+  }
 };
 
 } // namespace vorion::splat

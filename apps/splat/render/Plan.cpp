@@ -1,6 +1,7 @@
 #include "Plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -31,6 +32,7 @@ ProgramSpec projectProgram(int ShDegree, const RenderOptions &O) {
       {fmt::format("SH_DEGREE={}", ShDegree),
        fmt::format("TILE_SIZE={}", O.tileSize()), supportDefine(O.Reach),
        fmt::format("DILATION={:#}f", O.Dilation),
+       fmt::format("ALPHA_CUTOFF={}.0f", O.AlphaCutoff),
        // Written so that a NaN depth is culled by both.
        Inria ? "KEEP_DEPTH(z)=((z)>0.2f)" : "KEEP_DEPTH(z)=((z)>=0.01f)"}};
   if (O.Antialiased) {
@@ -41,6 +43,30 @@ ProgramSpec projectProgram(int ShDegree, const RenderOptions &O) {
   return P;
 }
 
+/// Of units.cl.
+std::string falloffDefine(ExpUnit E) {
+  switch (E) {
+  case ExpUnit::Poly2:
+    return "EXP_DEGREE=2";
+  case ExpUnit::Poly3:
+    return "EXP_DEGREE=3";
+  case ExpUnit::Poly4:
+    return "EXP_DEGREE=4";
+  case ExpUnit::Linear:
+    return "EXP_LINEAR";
+  case ExpUnit::Schraudolph:
+    return "EXP_SCHRAUDOLPH";
+  default:
+    return {};
+  }
+}
+
+/// No opacity up to 1 makes a lower power visible, by a margin beyond any
+/// unit's error.
+double leastPower(const RenderOptions &O) {
+  return std::log(O.AlphaCutoff / 255.0) - 0.06;
+}
+
 ProgramSpec blendProgram(const RenderOptions &O) {
   ProgramSpec P{BlendProgram, {"layout.h"}, {}};
   P.Defines.push_back(fmt::format("TILE_SIZE={}", O.tileSize()));
@@ -49,10 +75,13 @@ ProgramSpec blendProgram(const RenderOptions &O) {
     return P;
   }
   P.Defines.push_back(fmt::format("GROUP={}", O.SimtGroup));
-  P.Files.emplace_back("falloff.cl");
+  P.Defines.push_back(fmt::format("ALPHA_CUTOFF={}.0f", O.AlphaCutoff));
+  P.Files.emplace_back(O.Exponential == ExpUnit::Exact ? "falloff.cl"
+                                                       : "units.cl");
+  if (const std::string Define = falloffDefine(O.Exponential); !Define.empty())
+    P.Defines.push_back(Define);
   P.Files.emplace_back("blend.cl");
-  // e^-5.6 < 1/255: no opacity up to 1 makes such a power visible.
-  P.Defines.emplace_back("MIN_POWER=-5.6f");
+  P.Defines.push_back(fmt::format("MIN_POWER={:.6f}f", leastPower(O)));
   if (O.Convention == Rules::Gsplat)
     P.Defines.emplace_back("STOP_AT_EQUAL");
   return P;
@@ -77,7 +106,7 @@ int usedShDegree(const Scene &S) {
 }
 
 RenderPlan planRender(const Scene &S, const RenderOptions &Options) {
-  const int ShDegree = usedShDegree(S);
+  const int ShDegree = std::min(usedShDegree(S), Options.ShLimit);
   RenderPlan Plan{ShDegree,
                   {projectProgram(ShDegree, Options),
                    {ScanProgram, {"scan.cl"}, {}},
@@ -102,10 +131,13 @@ std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
     if (Band <= Plan.ShDegree)
       Lines.push_back(fmt::format("SH band {}: compiled in", Band));
     else
-      Lines.push_back(fmt::format(
-          "SH band {}: left out, {}", Band,
-          Band > S.ShDegree ? fmt::format("the scene has degree {}", S.ShDegree)
-                            : "all its coefficients in the scene are zero"));
+      Lines.push_back(
+          fmt::format("SH band {}: left out, {}", Band,
+                      Band > Options.ShLimit
+                          ? fmt::format("--sh-degree {}", Options.ShLimit)
+                      : Band > S.ShDegree
+                          ? fmt::format("the scene has degree {}", S.ShDegree)
+                          : "all its coefficients in the scene are zero"));
   }
   Lines.emplace_back(
       Options.Antialiased
@@ -126,7 +158,14 @@ std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
   Lines.push_back(
       Raster ? fmt::format("exponential unit {}: a field of vr_options",
                            name(Options.Exponential))
-             : "exponential: falloff.cl, compiled in");
+             : fmt::format("exponential {}: compiled in",
+                           name(Options.Exponential)));
+  if (Raster)
+    Lines.push_back(fmt::format("blend arithmetic {}: a field of vr_options",
+                                name(Options.Arithmetic)));
+  Lines.push_back(
+      fmt::format("alpha cut-off {}/255: {}", Options.AlphaCutoff,
+                  Raster ? "a field of vr_options" : "compiled in"));
   Lines.push_back(
       fmt::format("cut-off {}: {}", Options.Cutoff,
                   Raster ? "vr_cutoff" : "an argument of the kernel"));

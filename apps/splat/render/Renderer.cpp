@@ -127,8 +127,8 @@ void Pipeline::sortByDepth() {
                         words("sorted Gaussians", Count)};
   const Sorter::Pairs B{words("sorted depths", Count),
                         words("sorted Gaussians", Count)};
-  // All 32 bits: CULLED has the sign bit set and must end up last.
-  ByDepth = Sort.sort(Depths, A, B, Count, 32);
+  // The highest bits: CULLED has the sign bit set and must end up last.
+  ByDepth = Sort.sort(Depths, A, B, Count, {32 - Options.DepthBits, 32});
 }
 
 void Pipeline::countPairs() {
@@ -156,7 +156,7 @@ void Pipeline::sortByTile() {
   const Sorter::Pairs Other{words("tiles of pairs", Pairs),
                             words("Gaussians of pairs", Pairs)};
   ByTile = Sort.sort(ByTile, ByTile, Other, Pairs,
-                     static_cast<unsigned>(std::bit_width(tiles() - 1)));
+                     {0, static_cast<unsigned>(std::bit_width(tiles() - 1))});
   Ranges = words("tile ranges", 2 * uint64_t{tiles()});
   L.run(TilesProgram, "tile_ranges", itemsFor(tiles()), GroupSize, ByTile.Keys,
         Ranges, Pairs, tiles());
@@ -187,10 +187,13 @@ splat_blend_options Pipeline::blendOptions() const {
   O.tiles = tiles();
   O.parts = Options.ZTiles;
   O.cutoff = Options.Cutoff;
-  // vr_options of docs/isa.md: exponential unit, stop rule, lane slots.
-  O.datapath = (Options.Exponential == ExpUnit::Table ? 1U : 0U) |
-               (Options.Convention == Rules::Gsplat ? 1U << 2 : 0U) |
-               (Options.SkipSaturated ? 1U << 3 : 0U);
+  O.datapath =
+      static_cast<unsigned>(Options.Exponential) << DATAPATH_EXP |
+      static_cast<unsigned>(Options.Arithmetic) << DATAPATH_BLEND |
+      static_cast<unsigned>(std::countr_zero(Options.AlphaCutoff))
+          << DATAPATH_ALPHA_CUTOFF |
+      (Options.Convention == Rules::Gsplat ? DATAPATH_STOP_AT_EQUAL : 0U) |
+      (Options.SkipSaturated ? DATAPATH_SKIP_SATURATED : 0U);
   O.tail_count = Tail.Count;
   O.tail_last[0] = Tail.LastOver;
   O.tail_last[1] = Tail.LastUnder;

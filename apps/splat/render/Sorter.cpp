@@ -46,17 +46,18 @@ void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out,
 }
 
 Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
-                           std::uint32_t Count, unsigned Bits) {
-  if (Count == 0 || Bits == 0)
+                           std::uint32_t Count, KeyBits Bits) {
+  const unsigned Width = Bits.End - Bits.First;
+  if (Count == 0 || Width == 0)
     return Input;
-  const unsigned Passes = divideUp(Bits, MostDigitBits);
-  const unsigned DigitBits = divideUp(Bits, Passes);
+  const unsigned Passes = divideUp(Width, MostDigitBits);
+  const unsigned DigitBits = divideUp(Width, Passes);
   const std::uint32_t Digits = 1U << DigitBits;
   const Share S = share(Count, LeastSortChunk);
   Pairs From = Input;
   for (unsigned Pass = 0; Pass < Passes; ++Pass) {
     const Pairs &To = From.Keys() == A.Keys() ? B : A;
-    const std::uint32_t Shift = Pass * DigitBits;
+    const std::uint32_t Shift = Bits.First + Pass * DigitBits;
     L.run(SortProgram, "sort_count", S.Items, Lanes, From.Keys, Histogram,
           Count, S.Chunk, Shift, Digits);
     scan(Histogram, Offsets, Digits * S.Items);

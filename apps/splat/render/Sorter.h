@@ -20,11 +20,16 @@ public:
   /// has Count + 1 words and is not \p In.
   void scan(const cl::Buffer &In, const cl::Buffer &Out, std::uint32_t Count);
 
-  /// Sorts \p Count pairs by the low \p Bits bits of their keys. The result
+  /// Bits of a key, from First to below End.
+  struct KeyBits {
+    unsigned First, End;
+  };
+
+  /// Sorts \p Count pairs by some bits of their keys, stably. The result
   /// lies in one of \p A and \p B; \p Input is only read, and may be one of
   /// them if it may be overwritten.
   Pairs sort(const Pairs &Input, const Pairs &A, const Pairs &B,
-             std::uint32_t Count, unsigned Bits);
+             std::uint32_t Count, KeyBits Bits);
 
 private:
   struct Share {

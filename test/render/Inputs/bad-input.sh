@@ -41,6 +41,9 @@ render "negative dilation" s.ply c.json front p.png --dilation -0.3
 render "dilation not a number" s.ply c.json front p.png --dilation nan
 render "official16 by raster" s.ply c.json front p.png --support official16
 render "table by simt" s.ply c.json front p.png --path simt --exp table
+render "bf16 by simt" s.ply c.json front p.png --path simt --blend bf16
+render "tile of 8" s.ply c.json front p.png --tile 8
+render "no depth bits" s.ply c.json front p.png --depth-bits 0
 render "no z-tiles" s.ply c.json front p.png --ztiles 0
 render "too many z-tiles" s.ply c.json front p.png --ztiles 17
 render "z-tiles by simt" s.ply c.json front p.png --path simt --ztiles 2

@@ -1,0 +1,118 @@
+/// The lane's units read aloud for one number at a time: what the tests hold
+/// the vector code against, bit for bit.
+#pragma once
+
+#include "raster/BlendUnits.h"
+#include "raster/ExpUnits.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace vorion::raster::scalar {
+
+inline float held(float Power) {
+  return std::min(std::max(Power, -base2_exp::Largest), 0.0F);
+}
+
+/// Mantissa 2^-(Whole + Scale), 0 below 2^-126.
+inline float scaled(float Mantissa, std::int32_t Whole, int Scale) {
+  return Whole < base2_exp::SmallestExponent
+             ? std::ldexp(Mantissa, -(Whole + Scale))
+             : 0.0F;
+}
+
+template <int EntryBits> float tableExp(float Power) {
+  using namespace table_exp;
+  constexpr int FractionBits = Table<EntryBits>::FractionBits;
+  const auto Y = static_cast<std::int32_t>(
+      held(Power) * -std::ldexp(base2_exp::Log2E, FractionBits));
+  const std::int32_t Fraction = Y % (1 << FractionBits);
+  const std::int32_t Word =
+      TableOf<EntryBits>.Words[Fraction / (1 << RestBits)];
+  const std::int32_t Drop = Word % (1 << DropBits);
+  const std::int32_t Mantissa =
+      Word / (1 << DropBits) -
+      Drop * (Fraction % (1 << RestBits)) / (1 << RestBits);
+  return scaled(static_cast<float>(Mantissa), Y / (1 << FractionBits),
+                FractionBits);
+}
+
+template <unsigned Degree> float polynomialExp(float Power) {
+  const float Y = held(Power) * -base2_exp::Log2E;
+  const float Whole = std::floor(Y);
+  const float G = Y - Whole;
+  float Sum = 0;
+  for (unsigned I = Degree; I != 0; --I)
+    Sum = Sum * G + ExpPolynomial<Degree>::C[I - 1];
+  return scaled(Sum * G + 1.0F, static_cast<std::int32_t>(Whole), 0);
+}
+
+inline float linearExp(float Power) {
+  using namespace linear_exp;
+  const auto Y = static_cast<std::int32_t>(
+      held(Power) * -std::ldexp(base2_exp::Log2E, FractionBits));
+  const std::int32_t Fraction = Y % (1 << FractionBits);
+  const std::int32_t Piece = Fraction / (1 << RestBits);
+  const std::int32_t Rest = Fraction % (1 << RestBits);
+  // A whole piece falls by Drop/64 of 2^FractionBits.
+  const std::int32_t Mantissa =
+      Start[Piece] * (1 << FractionBits) / 64 - Drop[Piece] * Rest / 16;
+  return scaled(static_cast<float>(Mantissa), Y / (1 << FractionBits),
+                FractionBits);
+}
+
+inline float schraudolphExp(float Power) {
+  using namespace schraudolph_exp;
+  const std::int32_t Bits =
+      static_cast<std::int32_t>(held(Power) * Slope) + Offset;
+  return Bits < SmallestNormal ? 0.0F : std::bit_cast<float>(Bits);
+}
+
+/// What unit \p Option makes of \p Power <= 0. The correctly rounded one
+/// through a double: right but for ties that no test meets.
+inline float exp(std::uint32_t Option, float Power) {
+  switch (Option) {
+  case VR_EXP_EXACT:
+    return static_cast<float>(std::exp(static_cast<double>(Power)));
+  case VR_EXP_TABLE:
+    return tableExp<4>(Power);
+  case VR_EXP_POLY2:
+    return polynomialExp<2>(Power);
+  case VR_EXP_POLY3:
+    return polynomialExp<3>(Power);
+  case VR_EXP_POLY4:
+    return polynomialExp<4>(Power);
+  case VR_EXP_TABLE32:
+    return tableExp<5>(Power);
+  case VR_EXP_TABLE64:
+    return tableExp<6>(Power);
+  case VR_EXP_LINEAR:
+    return linearExp(Power);
+  case VR_EXP_SCHRAUDOLPH:
+    return schraudolphExp(Power);
+  }
+  return std::numeric_limits<float>::quiet_NaN();
+}
+
+/// \p X as an operand of blend arithmetic \p Option: rounded in doubles to the
+/// format's step at its exponent.
+inline float operand(std::uint32_t Option, float X) {
+  if (Option == VR_BLEND_FP32 || X == 0 || !std::isfinite(X))
+    return Option == VR_BLEND_FP16 && std::isinf(X) ? std::copysign(65504.0F, X)
+                                                    : X;
+  const bool IsFp16 = Option == VR_BLEND_FP16;
+  const int SmallestExponent = IsFp16 ? -14 : -126;
+  const int DigitsBehind =
+      static_cast<int>(BlendUnits[Option].SignificandBits) - 1;
+  const double Step =
+      std::ldexp(1.0, std::max(std::ilogb(X), SmallestExponent) - DigitsBehind);
+  const double Rounded = std::nearbyint(double{X} / Step) * Step;
+  if (IsFp16)
+    return static_cast<float>(std::clamp(Rounded, -65504.0, 65504.0));
+  return static_cast<float>(Rounded);
+}
+
+} // namespace vorion::raster::scalar
