@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""What accuracy there is, and what it costs, on real scenes.
+"""What accuracy there is on real scenes (what it costs: docs/accuracy.md).
 
-usage: accuracy.py pictures|fixtures|datapath [--data DIR] [--out DIR] [options]
+usage: accuracy.py pictures|fixtures [--data DIR] [--out DIR] [options]
 
 pictures  every view, path and support of room7k_sh3 and box_sh3 against the
           fp64 reference, the two paths against each other, and the sorted
           pairs against the reference run in fp32
 fixtures  the independent fp64 results of DATA/reference
-datapath  box_sh3 front: transmittance cut-offs and exponential units
 
 Prints a Markdown table and writes OUT/<mode>.json. Every row is kept as a file
 below OUT, so that a broken run goes on where it stopped; delete OUT to begin
@@ -170,38 +169,10 @@ def fixtures(bench, args):
     return rows, good
 
 
-def datapath(bench, args):
-    source = (os.path.join(bench.data, "scenes", "box_sh3.ply"), "--cameras",
-              os.path.join(bench.data, "scenes", "cameras", "box_sh3.json"), "--view", "front")
-    reference = bench.make("box_sh3-front-exact-f64.npz", "splat-reference", *source, "--support", "exact", "-o")
-    rows = []
-    for exp in ("exact", "table"):
-        for cutoff in ("0.0001", "0.001", "0.01"):
-            def row():
-                base = f"datapath-{exp}-{cutoff}"
-                picture, report = bench.path(base + ".npz"), bench.path(base + ".json")
-                wall = bench.run("splat", "render", *source, "--path", "raster", "--exp", exp, "--cutoff", cutoff,
-                                 "-o", picture, "--json", report)
-                result = bench.compare(reference, picture, reference, base)
-                with open(report) as f:
-                    told = json.load(f)
-                return {"exp": exp, "cutoff": float(cutoff), "wall_s": wall, "all_db": result["psnr_db"],
-                        "sure_db": result["psnr_db_outside_doubtful"], "report": told}
-            rows.append(bench.once(f"datapath-{exp}-{cutoff}", row))
-    print("box_sh3 front, raster, against the fp64 reference with the exact exponential and cut-off 0.0001\n")
-    print("| exponential | cut-off | PSNR, dB | outside doubtful, dB | blends | fragments | wall, s |")
-    print("|---|---|---|---|---|---|---|")
-    for r in rows:
-        counted = r["report"]["total"]["counters"]
-        print(f"| {r['exp']} | {r['cutoff']} | {db(r['all_db'])} | {db(r['sure_db'])} | {counted['raster_blends']:,} "
-              f"| {counted['raster_fragments']:,} | {r['wall_s']:.1f} |")
-    return rows, all(r["wall_s"] < 30 for r in rows)
-
-
 def main():
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("mode", choices=("pictures", "fixtures", "datapath"))
+    parser.add_argument("mode", choices=("pictures", "fixtures"))
     parser.add_argument("--data", default=os.path.join(root, "..", "shared", "data"))
     parser.add_argument("--out", default=os.path.join(root, "build", "accuracy"))
     parser.add_argument("--scenes", default=",".join(SCENES))
@@ -214,7 +185,7 @@ def main():
         return 3
     bench = Bench(args)
     try:
-        rows, good = {"pictures": pictures, "fixtures": fixtures, "datapath": datapath}[args.mode](bench, args)
+        rows, good = {"pictures": pictures, "fixtures": fixtures}[args.mode](bench, args)
     except RuntimeError as error:
         print(f"accuracy.py: error: {error}", file=sys.stderr)
         return 1

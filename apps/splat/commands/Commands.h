@@ -16,6 +16,7 @@ Runner addAnalyze(CLI::App &App);
 Runner addInfo(CLI::App &App);
 Runner addConvert(CLI::App &App);
 Runner addDemoScene(CLI::App &App);
+Runner addAccuracy(CLI::App &App);
 Runner addCompare(CLI::App &App);
 
 } // namespace vorion::splat

@@ -26,7 +26,7 @@ void flushPng(png_structp /*Png*/) {}
 
 /// Encodes 8-bit RGB rows; false if libpng gave up. No object with a
 /// destructor lives in this frame, since libpng reports errors by longjmp.
-bool encodePng(std::string &Out, unsigned char *Rows, int Width, int Height) {
+bool encodeRows(std::string &Out, unsigned char *Rows, int Width, int Height) {
   png_structp Png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop Info = Png ? png_create_info_struct(Png) : nullptr;
@@ -130,13 +130,20 @@ unsigned char toByte(float Value) {
       std::lround(std::min(Value, 1.0F) * 255.0F));
 }
 
-Expected<Success> writePng(const std::string &Path, const Image &I) {
+Expected<std::string> encodePng(const Image &I) {
   std::vector<unsigned char> Rows(I.Render.size());
   std::transform(I.Render.begin(), I.Render.end(), Rows.begin(), toByte);
   std::string Out;
-  if (!encodePng(Out, Rows.data(), I.Width, I.Height))
-    return Error{Path, "libpng cannot encode the picture", ExitCode::Internal};
-  return writeFileAtomically(Path, Out);
+  if (!encodeRows(Out, Rows.data(), I.Width, I.Height))
+    return Error{"", "libpng cannot encode the picture", ExitCode::Internal};
+  return Out;
+}
+
+Expected<Success> writePng(const std::string &Path, const Image &I) {
+  const auto Png = encodePng(I);
+  return Png ? writeFileAtomically(Path, *Png)
+             : Expected<Success>(
+                   Error{Path, Png.error().What, Png.error().Code});
 }
 
 Expected<Success> writePfm(const std::string &Path, const Image &I) {

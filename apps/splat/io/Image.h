@@ -30,6 +30,9 @@ using ExactImage = BasicImage<double>;
 /// 8-bit value of a channel: clamped to [0, 1], rounded to nearest; NaN is 0.
 unsigned char toByte(float Value);
 
+/// The bytes of the PNG that writePng writes.
+Expected<std::string> encodePng(const Image &I);
+
 /// 8-bit RGB PNG; alpha is not written, as the background is in the picture.
 Expected<Success> writePng(const std::string &Path, const Image &I);
 

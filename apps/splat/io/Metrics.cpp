@@ -2,6 +2,7 @@
 
 #include "Image.h"
 
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -10,6 +11,62 @@ namespace vorion::splat {
 namespace {
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+using Plane = std::vector<double>;
+
+/// SSIM's window along one axis; sums to 1.
+std::array<double, SsimWindow> windowWeights() {
+  std::array<double, SsimWindow> W{};
+  double Sum = 0;
+  for (int I = 0; I < SsimWindow; ++I) {
+    const double D = I - SsimWindow / 2;
+    Sum += W[static_cast<std::size_t>(I)] =
+        std::exp(-D * D / (2 * SsimSigma * SsimSigma));
+  }
+  for (double &Weight : W)
+    Weight /= Sum;
+  return W;
+}
+
+/// \p In under the window along its \p Rows, or along its columns.
+Plane blurAlong(const Plane &In, std::size_t Width, bool Rows) {
+  static const std::array<double, SsimWindow> Weights = windowWeights();
+  const auto W = static_cast<std::ptrdiff_t>(Width);
+  const auto H = static_cast<std::ptrdiff_t>(In.size()) / W;
+  Plane Out(In.size());
+  for (std::ptrdiff_t Y = 0; Y < H; ++Y)
+    for (std::ptrdiff_t X = 0; X < W; ++X) {
+      double Sum = 0;
+      for (std::ptrdiff_t K = 0; K < SsimWindow; ++K) {
+        const std::ptrdiff_t D = K - SsimWindow / 2;
+        const std::ptrdiff_t At = Rows ? X + D : Y + D;
+        if (At >= 0 && At < (Rows ? W : H))
+          Sum += Weights[static_cast<std::size_t>(K)] *
+                 In[static_cast<std::size_t>(Rows ? Y * W + At : At * W + X)];
+      }
+      Out[static_cast<std::size_t>(Y * W + X)] = Sum;
+    }
+  return Out;
+}
+
+Plane blurred(const Plane &In, std::size_t Width) {
+  return blurAlong(blurAlong(In, Width, true), Width, false);
+}
+
+Plane product(const Plane &A, const Plane &B) {
+  Plane Out(A.size());
+  for (std::size_t I = 0; I < A.size(); ++I)
+    Out[I] = A[I] * B[I];
+  return Out;
+}
+
+Plane channel(const std::vector<double> &Pixels, std::size_t Channels,
+              std::size_t C) {
+  Plane Out(Pixels.size() / Channels);
+  for (std::size_t I = 0; I < Out.size(); ++I)
+    Out[I] = Pixels[I * Channels + C];
+  return Out;
+}
 
 } // namespace
 
@@ -22,24 +79,52 @@ Difference compare(const std::vector<double> &A, const std::vector<double> &B,
   Difference D;
   double Squares = 0;
   bool Undefined = false;
+  std::size_t Off = 0;
   for (std::size_t P = 0; P < A.size() / Channels; ++P) {
     if (!Skip.empty() && Skip[P])
       continue;
     ++D.Pixels;
+    bool IsOff = false;
     for (std::size_t I = P * Channels; I < (P + 1) * Channels; ++I) {
       if (A[I] == B[I] || (std::isnan(A[I]) && std::isnan(B[I])))
         continue;
       const double Delta = A[I] - B[I];
       Undefined |= std::isnan(Delta);
+      IsOff |= !(std::abs(Delta) <= 1.0 / 255);
       Squares += Delta * Delta;
       D.MaxAbs = std::fmax(D.MaxAbs, std::abs(Delta));
     }
+    Off += IsOff;
   }
+  if (D.Pixels != 0)
+    D.OffShare = static_cast<double>(Off) / static_cast<double>(D.Pixels);
   if (Undefined)
-    return {D.Pixels, -Infinity, Infinity};
+    return {D.Pixels, -Infinity, Infinity, D.OffShare};
   const double Samples = double(D.Pixels) * double(Channels);
   D.PsnrDb = Squares > 0 ? -10 * std::log10(Squares / Samples) : Infinity;
   return D;
+}
+
+double ssim(const std::vector<double> &A, const std::vector<double> &B,
+            std::size_t Width, std::size_t Channels) {
+  assert(A.size() == B.size() && A.size() % (Width * Channels) == 0 &&
+         "pictures of different sizes");
+  constexpr double C1 = 0.01 * 0.01, C2 = 0.03 * 0.03;
+  double Sum = 0;
+  for (std::size_t C = 0; C < Channels; ++C) {
+    const Plane X = channel(A, Channels, C), Y = channel(B, Channels, C);
+    const Plane MeanX = blurred(X, Width), MeanY = blurred(Y, Width);
+    const Plane XX = blurred(product(X, X), Width);
+    const Plane YY = blurred(product(Y, Y), Width);
+    const Plane XY = blurred(product(X, Y), Width);
+    for (std::size_t I = 0; I < X.size(); ++I) {
+      const double Both = MeanX[I] * MeanY[I];
+      const double Squares = MeanX[I] * MeanX[I] + MeanY[I] * MeanY[I];
+      Sum += (2 * Both + C1) * (2 * (XY[I] - Both) + C2) /
+             ((Squares + C1) * (XX[I] + YY[I] - Squares + C2));
+    }
+  }
+  return A.empty() ? 1 : Sum / static_cast<double>(A.size());
 }
 
 double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B) {

@@ -17,11 +17,24 @@ struct Difference {
   std::size_t Pixels = 0; ///< compared
   double PsnrDb = 0;      ///< infinity for equal pictures or no pixel
   double MaxAbs = 0;      ///< largest absolute difference of a channel
+  /// Share of pixels with a channel that differs by more than 1/255.
+  double OffShare = 0;
 };
+
+/// Side of SSIM's window and its standard deviation, pixels.
+inline constexpr int SsimWindow = 11;
+inline constexpr double SsimSigma = 1.5;
+
+/// Structural similarity (Wang and others, 2004) of pictures \p Width pixels
+/// wide with peak 1: K1 = 0.01, K2 = 0.03, a Gaussian window, zeros beyond the
+/// border, the mean over all pixels and channels. 1 for equal pictures.
+double ssim(const std::vector<double> &A, const std::vector<double> &B,
+            std::size_t Width, std::size_t Channels);
 
 /// Compares \p A and \p B, both \p Channels values a pixel, over the pixels
 /// whose entry of \p Skip is 0 (all, where \p Skip is empty). A NaN on either
-/// side, unless both are NaN, makes PSNR minus infinity and MaxAbs infinity.
+/// side, unless both are NaN, makes PSNR minus infinity, MaxAbs
+/// infinity and the pixel off.
 Difference compare(const std::vector<double> &A, const std::vector<double> &B,
                    std::size_t Channels,
                    const std::vector<std::uint8_t> &Skip = {});

@@ -44,4 +44,32 @@ TEST(Metrics, EightBitValuesAreClampedAndRounded) {
   EXPECT_NEAR(psnr8Bit({0}, {1}), 0, 1e-12);
 }
 
+TEST(Metrics, OffPixelsHaveAChannelBeyondOneOf255) {
+  const std::vector<double> A{0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_EQ(compare(A, {0, 1.0 / 255, 0, 0.004, 0.9, 0.9, 0, 0}, 2).OffShare,
+            0.5);
+}
+
+TEST(Metrics, SsimIsOneForEqualPicturesOnly) {
+  std::vector<double> A;
+  for (int I = 0; I < 40 * 30 * 3; ++I)
+    A.push_back(I * 37 % 101 / 100.0);
+  EXPECT_NEAR(ssim(A, A, 40, 3), 1, 1e-12);
+  std::vector<double> B = A;
+  for (double &V : B)
+    V = 1 - V;
+  EXPECT_LT(ssim(A, B, 40, 3), 0);
+}
+
+// Flat pictures have no variance inside: what is left is the means' term.
+TEST(Metrics, SsimOfFlatPicturesIsTheMeansTerm) {
+  const std::size_t Side = 64;
+  const std::vector<double> A(Side * Side, 0.5), B(Side * Side, 0.25);
+  const double Flat =
+      (2 * 0.5 * 0.25 + 1e-4) / (0.5 * 0.5 + 0.25 * 0.25 + 1e-4);
+  // The border's zeros count in its pixels only.
+  EXPECT_NEAR(ssim(A, B, Side, 1), Flat, 0.15);
+  EXPECT_LT(ssim(A, B, Side, 1), 0.9);
+}
+
 } // namespace

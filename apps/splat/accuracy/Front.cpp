@@ -1,0 +1,87 @@
+#include "Front.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+namespace vorion::splat {
+
+std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,
+                                     TimeAxis A) {
+  std::vector<std::size_t> Order;
+  for (std::size_t I = 0; I < All.size(); ++I)
+    if (All[I].time(A))
+      Order.push_back(I);
+  // Of equally accurate ones the fastest first, then the one that was named
+  // first.
+  std::sort(Order.begin(), Order.end(), [&](std::size_t X, std::size_t Y) {
+    return std::tuple(-All[X].Db, *All[X].time(A), X) <
+           std::tuple(-All[Y].Db, *All[Y].time(A), Y);
+  });
+  std::vector<std::size_t> Front;
+  for (const std::size_t I : Order)
+    if (Front.empty() ||
+        *All[I].time(A) < *All[Front.back()].time(A) * (1 - SameTime))
+      Front.push_back(I);
+  return Front;
+}
+
+std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
+                                     TimeAxis A, double FloorDb) {
+  std::optional<double> Least;
+  for (const Candidate &C : All)
+    if (C.time(A) && C.Db >= FloorDb)
+      Least = std::min(Least.value_or(*C.time(A)), *C.time(A));
+  std::optional<std::size_t> Best;
+  const auto Key = [&](std::size_t I) {
+    return std::tuple(-All[I].Db, All[I].Chosen.size(), *All[I].time(A));
+  };
+  for (std::size_t I = 0; I < All.size(); ++I)
+    if (All[I].time(A) && All[I].Db >= FloorDb &&
+        *All[I].time(A) <= *Least * (1 + SameTime) &&
+        (!Best || Key(I) < Key(*Best)))
+      Best = I;
+  return Best;
+}
+
+std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
+                                     const std::vector<Candidate> &All,
+                                     double FloorDb, std::size_t Most) {
+  std::vector<Candidate> Single;
+  for (const Candidate &C : All)
+    if (C.Chosen.size() <= 1)
+      Single.push_back(C);
+  // Values by rising accuracy, so that the first is the first to go.
+  std::vector<std::tuple<double, std::string, std::string>> Kept;
+  std::set<std::size_t> Seen;
+  for (const TimeAxis A :
+       {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
+    for (const std::size_t I : paretoFront(Single, A))
+      if (Single[I].Db >= FloorDb && Seen.insert(I).second)
+        for (const Knob &K : Knobs)
+          if (Single[I].Chosen.value(K.Name) != K.Values.front())
+            Kept.emplace_back(Single[I].Db, K.Name,
+                              Single[I].Chosen.value(K.Name));
+  std::sort(Kept.begin(), Kept.end());
+
+  const auto Product = [&] {
+    std::vector<Setting> Settings{Setting()};
+    for (const Knob &K : Knobs) {
+      const std::vector<Setting> Before = Settings;
+      for (const auto &[Db, Name, Value] : Kept)
+        if (Name == K.Name)
+          for (const Setting &S : Before)
+            Settings.push_back(S.with(K, Value));
+    }
+    std::erase_if(Settings, [](const Setting &S) { return S.size() < 2; });
+    return Settings;
+  };
+  std::vector<Setting> Settings = Product();
+  while (Settings.size() > Most) {
+    Kept.erase(Kept.begin());
+    Settings = Product();
+  }
+  return Settings;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,72 @@
+#include "Front.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace vorion::splat;
+
+namespace {
+
+Candidate made(const char *Name, double Db, double Cycles) {
+  return {*Setting::parse(Name), Db, {Cycles, Cycles, std::nullopt, 1.0}};
+}
+
+const std::vector<Candidate> All{
+    made("default", 140, 100),     made("exp=poly4", 120, 100),
+    made("exp=linear", 50, 99),    made("tile=32", 140, 80),
+    made("cutoff=0.01", 60, 70),   made("cutoff=0.03", 40, 60),
+    made("depth-bits=24", 90, 75), made("alpha-cutoff=8", 39, 65),
+};
+
+std::vector<std::string> names(const std::vector<std::size_t> &Places) {
+  std::vector<std::string> Names;
+  for (const std::size_t I : Places)
+    Names.push_back(All[I].Chosen.name());
+  return Names;
+}
+
+TEST(Front, HasWhatNothingBeats) {
+  EXPECT_EQ(names(paretoFront(All, TimeAxis::Cycles)),
+            (std::vector<std::string>{"tile=32", "depth-bits=24", "cutoff=0.01",
+                                      "cutoff=0.03"}));
+  EXPECT_TRUE(paretoFront(All, TimeAxis::Cores).empty());
+}
+
+TEST(Front, AFewCyclesAreNoReason) {
+  const std::vector<Candidate> Same{made("exp=linear", 60, 10000),
+                                    made("exp=poly4", 120, 10001),
+                                    made("exp=exact", 120, 10002)};
+  EXPECT_EQ(paretoFront(Same, TimeAxis::Cycles), std::vector<std::size_t>{1});
+  // Of as fast and accurate ones that which changes nothing.
+  EXPECT_EQ(recommend(Same, TimeAxis::Cycles, 50), 2U);
+}
+
+TEST(Front, TheFastestAboveTheFloorIsRecommended) {
+  const auto Name = [](double Floor) {
+    const auto Best = recommend(All, TimeAxis::Cycles, Floor);
+    return Best ? All[*Best].Chosen.name() : std::string("none");
+  };
+  EXPECT_EQ(Name(0), "cutoff=0.03");
+  EXPECT_EQ(Name(50), "cutoff=0.01");
+  EXPECT_EQ(Name(90), "depth-bits=24");
+  EXPECT_EQ(Name(141), "none");
+  EXPECT_EQ(recommend(All, TimeAxis::Cores, 0), std::nullopt);
+}
+
+TEST(Front, ItsKnobsAreMultiplied) {
+  const auto Product = productOfFronts(allKnobs(), All, 50, 100);
+  std::vector<std::string> Names;
+  for (const Setting &S : Product)
+    Names.push_back(S.name());
+  std::sort(Names.begin(), Names.end());
+  EXPECT_EQ(Names,
+            (std::vector<std::string>{
+                "cutoff=0.01,depth-bits=24", "cutoff=0.01,tile=32",
+                "cutoff=0.01,tile=32,depth-bits=24", "tile=32,depth-bits=24"}));
+  // The least accurate goes first.
+  EXPECT_EQ(productOfFronts(allKnobs(), All, 50, 3),
+            (std::vector<Setting>{*Setting::parse("tile=32,depth-bits=24")}));
+  EXPECT_TRUE(productOfFronts(allKnobs(), All, 200, 100).empty());
+}
+
+} // namespace

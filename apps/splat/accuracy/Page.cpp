@@ -1,0 +1,38 @@
+#include "Page.h"
+
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+/// No tag inside a script may end it.
+static std::string forScript(std::string Text) {
+  for (std::size_t At = 0; (At = Text.find("</", At)) != std::string::npos;)
+    Text.replace(At, 2, "<\\/");
+  return Text;
+}
+
+Expected<std::string> pageOf(const SweepPlan &P, const PageHead &Head,
+                             const std::vector<Setting> &Settings) {
+  Json Views = Json::array(), Points = Json::array();
+  for (const Camera &View : P.Views)
+    Views.push_back(View.Name);
+  for (const Point &Of : pointsOf(P, Settings)) {
+    auto Measured = readPoint(P, Of);
+    if (!Measured)
+      return Measured.error();
+    Measured->erase("made_by");
+    Points.push_back(std::move(*Measured));
+  }
+  const Json Data{{"made", Head.Made},
+                  {"floor_db", Head.FloorDb},
+                  {"views", std::move(Views)},
+                  {"chosen_on", Head.ChosenOn},
+                  {"points", std::move(Points)}};
+  constexpr std::string_view Place = "@DATA@";
+  std::string Page(pageTemplate());
+  return Page.replace(Page.find(Place), Place.size(), forScript(Data.dump()));
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,60 @@
+#include "Process.h"
+
+#include "vorion/support/File.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace vorion::splat {
+
+static std::string lastLine(const std::string &File) {
+  const auto Bytes = readFile(File);
+  if (!Bytes)
+    return {};
+  std::string Text(reinterpret_cast<const char *>(Bytes->data()),
+                   Bytes->size());
+  while (!Text.empty() && Text.back() == '\n')
+    Text.pop_back();
+  return Text.substr(Text.rfind('\n') + 1);
+}
+
+Expected<Success> runSplat(const std::vector<std::string> &Arguments,
+                           const std::string &LogFile) {
+  std::vector<std::string> Words{"splat"};
+  Words.insert(Words.end(), Arguments.begin(), Arguments.end());
+  std::vector<char *> Pointers;
+  Pointers.reserve(Words.size() + 1);
+  for (std::string &Word : Words)
+    Pointers.push_back(Word.data());
+  Pointers.push_back(nullptr);
+
+  posix_spawn_file_actions_t Actions;
+  posix_spawn_file_actions_init(&Actions);
+  posix_spawn_file_actions_addopen(&Actions, STDOUT_FILENO, LogFile.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  posix_spawn_file_actions_adddup2(&Actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t Child = 0;
+  const int Problem = posix_spawn(&Child, "/proc/self/exe", &Actions, nullptr,
+                                  Pointers.data(), environ);
+  posix_spawn_file_actions_destroy(&Actions);
+  if (Problem != 0)
+    return Error{"",
+                 fmt::format("cannot start splat: {}", std::strerror(Problem)),
+                 ExitCode::Internal};
+  int Status = 0;
+  while (waitpid(Child, &Status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(Status) && WEXITSTATUS(Status) == 0)
+    return Success{};
+  return Error{
+      "",
+      fmt::format("'{}' failed: {}", fmt::join(Words, " "), lastLine(LogFile)),
+      WIFEXITED(Status) ? static_cast<ExitCode>(WEXITSTATUS(Status))
+                        : ExitCode::Internal};
+}
+
+} // namespace vorion::splat

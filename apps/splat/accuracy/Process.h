@@ -1,0 +1,16 @@
+/// `splat` as a child: each render is a process of its own, as a user's is.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Runs this program with \p Arguments; what it says goes to \p LogFile, whose
+/// last line is in the error if it fails.
+Expected<Success> runSplat(const std::vector<std::string> &Arguments,
+                           const std::string &LogFile);
+
+} // namespace vorion::splat

@@ -1,0 +1,69 @@
+#include "Reference.h"
+
+#include "../analyze/ToReference.h"
+#include "../io/Npz.h"
+#include "reference/Render.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <set>
+
+namespace vorion::splat {
+
+namespace {
+
+std::string referenceFile(const SweepPlan &P, const Point &Of) {
+  return fmt::format("{}/references/{}-{}.npz", P.Folder, Of.View->Id,
+                     Of.Chosen.value("support"));
+}
+
+reference::Support supportOf(const Setting &S) {
+  for (const reference::Support R :
+       {reference::Support::Box3, reference::Support::Square3})
+    if (name(R) == S.value("support"))
+      return R;
+  return reference::Support::Exact;
+}
+
+} // namespace
+
+Expected<Success>
+makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
+               const std::function<void(std::string_view)> &Said) {
+  std::optional<reference::Gaussians<double>> Scene;
+  for (const Point &Of : Points) {
+    const std::string Path = referenceFile(P, Of);
+    if (std::filesystem::exists(Path))
+      continue;
+    if (!Scene) {
+      const auto File = P.Load();
+      if (!File)
+        return File.error();
+      Scene = toReference<double>(File->Gaussians);
+    }
+    reference::Options O;
+    O.Reach = supportOf(Of.Chosen);
+    const auto Picture =
+        reference::render(*Scene, toReference<double>(*Of.View), O);
+    std::vector<double> Render;
+    Render.reserve(3 * Picture.Render.size());
+    for (const auto &Pixel : Picture.Render)
+      Render.insert(Render.end(), {Pixel.x, Pixel.y, Pixel.z});
+    const auto Height = static_cast<std::size_t>(Picture.Height);
+    const auto Width = static_cast<std::size_t>(Picture.Width);
+    if (auto Written = writeNpz(
+            Path, {{"render", NpyArray::of({Height, Width, 3}, Render)}});
+        !Written)
+      return Written;
+    Said(fmt::format("reference of {}, support {}", Of.View->Name,
+                     name(O.Reach)));
+  }
+  return Success{};
+}
+
+Expected<ExactImage> referenceOf(const SweepPlan &P, const Point &Of) {
+  return readImage(referenceFile(P, Of));
+}
+
+} // namespace vorion::splat

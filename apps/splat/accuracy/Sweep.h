@@ -1,0 +1,62 @@
+/// Measuring settings: each on each view, kept as a file.
+#pragma once
+
+#include "Front.h"
+
+#include "../io/Cameras.h"
+#include "../io/SceneFile.h"
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
+namespace vorion::splat {
+
+/// What a sweep measures, and where it keeps it.
+struct SweepPlan {
+  std::string ScenePath, CameraFile, Folder;
+  /// Options for every `splat render`, reading the scene among them.
+  std::vector<std::string> CommonArguments;
+  std::vector<Camera> Views;
+  std::vector<Knob> Knobs;
+  bool Cores = true;         ///< the kernels-only path too
+  unsigned Jobs = 1;         ///< measured at the same time
+  unsigned ThumbWidth = 240; ///< of the page's pictures, px
+  std::function<Expected<SceneFile>()> Load;
+};
+
+/// A setting on a view.
+struct Point {
+  Setting Chosen;
+  const Camera *View;
+
+  /// "exp=poly3@front".
+  std::string name() const;
+};
+
+/// All of \p Settings on all views of \p P.
+std::vector<Point> pointsOf(const SweepPlan &P,
+                            const std::vector<Setting> &Settings);
+
+/// The point with this name.
+Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name);
+
+/// Where the measurement of a point is kept.
+std::string fileOf(const SweepPlan &P, const Point &Of);
+
+/// Those that have no file yet.
+std::vector<Point> missing(const SweepPlan &P, const std::vector<Point> &Of);
+
+/// Measures \p Points and writes a file each; \p Said gets a line for each one
+/// that is done.
+Expected<Success> measure(const SweepPlan &P, const std::vector<Point> &Points,
+                          const std::function<void(std::string_view)> &Said);
+
+/// The measurement of a point.
+Expected<nlohmann::ordered_json> readPoint(const SweepPlan &P, const Point &Of);
+
+/// \p Settings over \p Views, from the files.
+Expected<std::vector<Candidate>>
+candidates(const SweepPlan &P, const std::vector<Setting> &Settings,
+           const std::vector<const Camera *> &Views);
+
+} // namespace vorion::splat

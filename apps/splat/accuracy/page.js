@@ -1,0 +1,308 @@
+// The page of `splat accuracy`: reads the measurements beside it, draws them and
+// lets people choose. Uses nothing of any network.
+'use strict';
+
+const data = JSON.parse(document.getElementById('data').textContent);
+const byId = id => document.getElementById(id);
+
+// What a dot may be judged by. `better`: 1 if more is better.
+const METRICS = {
+  psnr_db: { label: 'PSNR, dB', better: 1, digits: 1 },
+  ssim: { label: 'SSIM', better: 1, digits: 6 },
+  largest: { label: 'largest error', better: -1, digits: 5 },
+  off_share: { label: 'pixels off by more than 1/255, %', better: -1, digits: 4, scale: 100 },
+};
+const AXES = {
+  cycles: { label: 'machine cycles, 16 lanes', scale: 1e-6, unit: 'M' },
+  equal_area_cycles: { label: 'machine cycles at equal area', scale: 1e-6, unit: 'M' },
+  cores_cycles: { label: 'machine cycles, kernels only', scale: 1e-6, unit: 'M' },
+  wall_seconds: { label: "simulator's wall time", scale: 1, unit: 's' },
+};
+// Shown as this where pictures are equal, which JSON has no number for.
+const EQUAL_DB = 200;
+// Time differences below this share are none, as in Front.h: a tile's flush is no choice.
+const FREE = 0.002;
+
+const state = { view: '', metric: 'psnr_db', axis: 'cycles', floor: data.floor_db, selected: null, sort: null };
+
+function valueOf(point, metric, axis) {
+  const errors = axis === 'cores_cycles' && point.cores_errors ? point.cores_errors : point.errors;
+  const value = errors[metric];
+  return metric === 'psnr_db' && value === null ? EQUAL_DB : value;
+}
+
+// One entry a setting: over the views in `views`, the worst error and the sum of times.
+function summarize(views) {
+  const bySetting = new Map();
+  for (const point of data.points) {
+    if (!views.includes(point.view)) continue;
+    if (!bySetting.has(point.setting)) bySetting.set(point.setting, []);
+    bySetting.get(point.setting).push(point);
+  }
+  const all = [];
+  for (const [setting, points] of bySetting) {
+    if (points.length !== views.length) continue;
+    const entry = { setting, points, errors: {}, times: {}, area: points[0].lane_area_relative };
+    for (const [metric, { better }] of Object.entries(METRICS)) {
+      const values = points.map(p => valueOf(p, metric, state.axis));
+      entry.errors[metric] = better > 0 ? Math.min(...values) : Math.max(...values);
+    }
+    for (const axis of Object.keys(AXES)) {
+      const values = points.map(p => p.times[axis]);
+      entry.times[axis] = values.includes(null) ? null : values.reduce((a, b) => a + b, 0);
+    }
+    all.push(entry);
+  }
+  return all;
+}
+
+const changes = setting => setting === 'default' ? 0 : setting.split(',').length;
+
+// Those that are faster than all that are as accurate, the most accurate first.
+function frontOf(entries, metric, axis) {
+  const sign = METRICS[metric].better;
+  const order = entries.filter(e => e.times[axis] !== null)
+    .sort((a, b) => sign * (b.errors[metric] - a.errors[metric]) || a.times[axis] - b.times[axis]);
+  const front = [];
+  for (const e of order)
+    if (!front.length || e.times[axis] < front[front.length - 1].times[axis] * (1 - FREE)) front.push(e);
+  return front;
+}
+
+// The fastest with at least `floor` dB; of those as fast the most accurate, then the one that changes least.
+function recommend(entries, axis, floor) {
+  const able = entries.filter(e => e.times[axis] !== null && e.errors.psnr_db >= floor);
+  const least = Math.min(...able.map(e => e.times[axis]));
+  const best = able.filter(e => e.times[axis] <= least * (1 + FREE));
+  best.sort((a, b) => b.errors.psnr_db - a.errors.psnr_db || changes(a.setting) - changes(b.setting));
+  return best[0];
+}
+
+function format(value, { digits, scale = 1 }) {
+  return value >= EQUAL_DB && digits === 1 ? 'equal' : (value * scale).toFixed(digits);
+}
+function time(value, axis) {
+  return value === null ? '—' : `${(value * AXES[axis].scale).toFixed(3)} ${AXES[axis].unit}`;
+}
+function change(value, base) {
+  if (value === null || base === null) return '';
+  const share = 100 * (value / base - 1);
+  return `${share >= 0 ? '+' : '−'}${Math.abs(share).toFixed(1)} %`;
+}
+
+function element(name, attributes = {}, ...children) {
+  const inSvg = ['circle', 'line', 'path', 'text'].includes(name);
+  const e = inSvg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
+  e.append(...children);
+  return e;
+}
+
+function views() { return state.view === '' ? data.views : [state.view]; }
+
+// Round numbers from low to high.
+function ticks(low, high) {
+  const step = 10 ** Math.floor(Math.log10((high - low) / 4 || 1));
+  const wide = [1, 2, 5, 10].map(f => f * step).find(s => (high - low) / s <= 7);
+  const all = [];
+  for (let t = Math.ceil(low / wide) * wide; t <= high; t += wide) all.push(t);
+  return all;
+}
+
+function drawPlot(entries, front, best) {
+  const [left, right, top, bottom] = [70, 1080, 20, 430];
+  const { metric, axis } = state;
+  const shown = entries.filter(e => e.times[axis] !== null);
+  const svg = byId('plot');
+  svg.replaceChildren();
+  if (!shown.length) return;
+  const metricScale = METRICS[metric].scale ?? 1;
+  // Small errors over many orders of magnitude are shown by their logarithm.
+  const logarithmic = METRICS[metric].better < 0 || metric === 'ssim';
+  const height = e => {
+    const value = e.errors[metric];
+    if (metric === 'ssim') return -Math.log10(Math.max(1e-12, 1 - value));
+    return logarithmic ? Math.log10(Math.max(1e-9, value * metricScale)) : Math.min(value, EQUAL_DB);
+  };
+  const xs = shown.map(e => e.times[axis] * AXES[axis].scale), ys = shown.map(height);
+  const pad = (low, high) => [low - 0.05 * (high - low || 1), high + 0.05 * (high - low || 1)];
+  const [x0, x1] = pad(Math.min(...xs), Math.max(...xs));
+  const [y0, y1] = pad(Math.min(...ys), Math.max(...ys));
+  const px = x => left + (x - x0) / (x1 - x0) * (right - left);
+  const py = y => bottom - (y - y0) / (y1 - y0) * (bottom - top);
+  for (const t of ticks(x0, x1))
+    svg.append(element('line', { class: 'grid', x1: px(t), x2: px(t), y1: top, y2: bottom }),
+      element('text', { x: px(t), y: bottom + 18, 'text-anchor': 'middle' }, +t.toPrecision(6)));
+  for (const t of ticks(y0, y1)) {
+    const label = metric === 'ssim' ? `1−1e${(-t).toFixed(1)}` : logarithmic ? `1e${t.toFixed(1)}` : +t.toPrecision(6);
+    svg.append(element('line', { class: 'grid', x1: left, x2: right, y1: py(t), y2: py(t) }),
+      element('text', { x: left - 6, y: py(t) + 4, 'text-anchor': 'end' }, label));
+  }
+  svg.append(element('text', { x: (left + right) / 2, y: bottom + 40, 'text-anchor': 'middle' },
+    `${AXES[axis].label}, ${AXES[axis].unit}`), element('text', { x: left, y: top - 6 }, METRICS[metric].label));
+  const place = e => [px(e.times[axis] * AXES[axis].scale), py(height(e))];
+  svg.append(element('path', { class: 'front', d: 'M' + front.map(e => place(e).join(' ')).join('L') }));
+  if (metric === 'psnr_db' && state.floor > y0 && state.floor < y1)
+    svg.append(element('line', { class: 'floor', x1: left, x2: right, y1: py(state.floor), y2: py(state.floor) }));
+  for (const e of shown) {
+    const [cx, cy] = place(e);
+    const names = ['dot', front.includes(e) && 'onfront', e === best && 'best', e.setting === 'default' && 'default',
+      e.setting === state.selected && 'selected'].filter(Boolean).join(' ');
+    const dot = element('circle', { class: names, cx, cy, r: 5, 'data-setting': e.setting, tabindex: 0 });
+    dot.addEventListener('mouseenter', event => showTip(e, event));
+    dot.addEventListener('mouseleave', () => { byId('tip').style.display = 'none'; });
+    dot.addEventListener('click', () => select(e.setting));
+    svg.append(dot);
+  }
+}
+
+function pictures(point) {
+  const box = element('div', { class: 'pair' });
+  for (const [source, text] of [[point.picture, `${point.view}`], [point.difference, 'difference, 1e-5 black to 1 white, red beyond 1/255']])
+    box.append(element('div', {}, element('img', { src: source, alt: text }), text));
+  return box;
+}
+
+function showTip(entry, event) {
+  const tip = byId('tip');
+  tip.replaceChildren(element('b', {}, entry.setting), element('div', {},
+    `${format(entry.errors.psnr_db, METRICS.psnr_db)} dB, ${time(entry.times[state.axis], state.axis)}`), pictures(entry.points[0]));
+  tip.style.display = 'block';
+  tip.style.left = Math.min(event.clientX + 15, window.innerWidth - 530) + 'px';
+  tip.style.top = Math.min(event.clientY + 15, window.innerHeight - 230) + 'px';
+}
+
+function rowOf(cells, name = 'td') {
+  return element('tr', {}, ...cells.map(c => element(name, {}, c)));
+}
+
+function drawTable(entries, front, base) {
+  const columns = [['setting', e => e.setting, e => e.setting]];
+  for (const [key, metric] of Object.entries(METRICS))
+    columns.push([metric.label, e => e.errors[key], e => format(e.errors[key], metric)]);
+  for (const axis of Object.keys(AXES))
+    columns.push([AXES[axis].label, e => e.times[axis] ?? Infinity,
+      e => `${time(e.times[axis], axis)} ${base ? change(e.times[axis], base.times[axis]) : ''}`]);
+  columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
+  const header = rowOf(columns.map(c => c[0]), 'th');
+  [...header.children].forEach((cell, n) => cell.addEventListener('click', () => {
+    state.sort = { n, down: state.sort?.n === n && !state.sort.down };
+    draw();
+  }));
+  byId('table').tHead.replaceChildren(header);
+  const order = [...entries];
+  const sort = state.sort ?? { n: 1, down: true };
+  order.sort((a, b) => {
+    const [x, y] = [columns[sort.n][1](a), columns[sort.n][1](b)];
+    return (x < y ? -1 : x > y ? 1 : 0) * (sort.down ? -1 : 1);
+  });
+  byId('table').tBodies[0].replaceChildren(...order.map(e => {
+    const row = rowOf(columns.map(c => c[2](e)));
+    if (front.includes(e)) row.classList.add('onfront');
+    if (e.setting === state.selected) row.classList.add('selected');
+    row.addEventListener('click', () => select(e.setting));
+    return row;
+  }));
+}
+
+function drawRecommended() {
+  const box = byId('recommended');
+  const chosen = recommend(summarize(data.chosen_on), state.axis, state.floor);
+  if (!chosen) {
+    box.textContent = `No setting reaches ${state.floor} dB on ${data.chosen_on.join(', ')} with this time.`;
+    return;
+  }
+  const table = element('table', {}, rowOf(['view', 'used for', 'PSNR, dB', 'SSIM', AXES[state.axis].label, 'against the default'], 'th'));
+  for (const view of data.views) {
+    const all = summarize([view]);
+    const own = all.find(e => e.setting === chosen.setting), base = all.find(e => e.setting === 'default');
+    if (!own || !base) continue;
+    const row = rowOf([view, data.chosen_on.includes(view) ? 'choosing' : 'checking', format(own.errors.psnr_db, METRICS.psnr_db),
+      format(own.errors.ssim, METRICS.ssim), time(own.times[state.axis], state.axis), change(own.times[state.axis], base.times[state.axis])]);
+    row.children[2].className = own.errors.psnr_db >= state.floor ? 'kept' : 'missed';
+    table.append(row);
+  }
+  box.replaceChildren(element('p', {}, element('b', {}, chosen.setting),
+    `, the fastest with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), table);
+}
+
+function drawFree(entries, base) {
+  if (!base) return;
+  const free = entries.filter(e => e.setting !== 'default' && changes(e.setting) === 1 &&
+    Math.abs(e.times.cycles / base.times.cycles - 1) < FREE);
+  const table = element('table', {}, rowOf(['setting', 'cycles', 'PSNR, dB', 'lane area', 'at equal area'], 'th'));
+  for (const e of free)
+    table.append(rowOf([e.setting, 'free: ' + change(e.times.cycles, base.times.cycles), format(e.errors.psnr_db, METRICS.psnr_db),
+      `${(100 * e.area).toFixed(1)} %`, change(e.times.equal_area_cycles, base.times.equal_area_cycles)]));
+  byId('free').replaceChildren(table);
+}
+
+function drawDetails(entries, base) {
+  const e = entries.find(x => x.setting === state.selected);
+  if (!e) return;
+  const list = element('p', {}, element('b', {}, e.setting));
+  for (const [key, metric] of Object.entries(METRICS)) list.append(`; ${metric.label} ${format(e.errors[key], metric)}`);
+  for (const axis of Object.keys(AXES))
+    if (e.times[axis] !== null)
+      list.append(`; ${AXES[axis].label} ${time(e.times[axis], axis)} ${base ? change(e.times[axis], base.times[axis]) : ''}`);
+  byId('details').replaceChildren(list, ...e.points.map(pictures));
+}
+
+function select(setting) {
+  state.selected = setting;
+  draw();
+}
+
+function draw() {
+  const entries = summarize(views());
+  const base = entries.find(e => e.setting === 'default');
+  const front = frontOf(entries, state.metric, state.axis);
+  const best = recommend(entries, state.axis, state.floor);
+  drawPlot(entries, front, best);
+  drawTable(entries, front, base);
+  drawRecommended();
+  drawFree(entries, base);
+  drawDetails(entries, base);
+}
+
+function fill(select, choices, key) {
+  for (const [value, label] of choices) select.append(element('option', { value }, label));
+  select.addEventListener('change', () => { state[key] = select.value; draw(); });
+}
+
+function start() {
+  byId('made').textContent = data.made;
+  fill(byId('view'), [['', 'all (worst error, sum of times)'], ...data.views.map(v => [v, v])], 'view');
+  fill(byId('metric'), Object.entries(METRICS).map(([k, m]) => [k, m.label]), 'metric');
+  fill(byId('axis'), Object.entries(AXES).map(([k, a]) => [k, a.label]), 'axis');
+  byId('floor').value = state.floor;
+  byId('floor').addEventListener('input', () => { state.floor = +byId('floor').value; draw(); });
+  draw();
+}
+
+// Opened with #test, the page tries itself and says in data-test what came out: what a test reads.
+function tryOut() {
+  const dots = [...document.querySelectorAll('.dot')];
+  if (dots.length < 2) throw new Error('fewer than two dots');
+  const dot = dots[dots.length - 1], setting = dot.dataset.setting;
+  dot.dispatchEvent(new MouseEvent('mouseenter', { clientX: 10, clientY: 10 }));
+  if (byId('tip').style.display !== 'block' || !byId('tip').querySelector('img')) throw new Error('no picture on hover');
+  dot.dispatchEvent(new MouseEvent('mouseleave'));
+  dot.dispatchEvent(new MouseEvent('click'));
+  if (!byId('details').textContent.startsWith(setting)) throw new Error('a click selects nothing');
+  if (!document.querySelector('.dot.selected') || !document.querySelector('tr.selected')) throw new Error('no selection shown');
+  for (const id of ['view', 'metric', 'axis'])
+    for (const option of byId(id).options) {
+      byId(id).value = option.value;
+      byId(id).dispatchEvent(new Event('change'));
+    }
+  for (const id of ['view', 'metric', 'axis']) {
+    byId(id).selectedIndex = 0;
+    byId(id).dispatchEvent(new Event('change'));
+  }
+  return `passed with ${dots.length} dots`;
+}
+
+window.addEventListener('error', event => { document.documentElement.dataset.test = 'failed: ' + event.message; });
+start();
+if (location.hash === '#test') document.documentElement.dataset.test = tryOut();

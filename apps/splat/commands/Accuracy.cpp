@@ -1,0 +1,308 @@
+#include "../accuracy/Page.h"
+#include "../accuracy/Sweep.h"
+#include "Commands.h"
+#include "SceneArguments.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <system_error>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct AccuracyArguments {
+  SceneArguments Scene;
+  std::string Cameras, Folder, AtLeast = "50dB";
+  std::vector<std::string> Views, Check, Knobs, Only;
+  unsigned Jobs = 1, Products = 64, ThumbWidth = 240;
+  bool List = false, NoCores = false;
+};
+
+Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
+
+/// "50dB" or "50".
+Expected<double> parseDecibels(std::string_view Text) {
+  double Value = 0;
+  const auto [End, Status] =
+      std::from_chars(Text.data(), Text.data() + Text.size(), Value);
+  const std::string_view Rest(End, Text.data() + Text.size());
+  if (Status != std::errc() || !std::isfinite(Value) ||
+      (!Rest.empty() && Rest != "dB"))
+    return usage(
+        fmt::format("--at-least {}: expected decibels, as 50dB", Text));
+  return Value;
+}
+
+Expected<SweepPlan> planOf(const AccuracyArguments &A) {
+  SweepPlan P;
+  P.ScenePath = A.Scene.Path;
+  P.CameraFile = A.Cameras;
+  P.Folder = A.Folder;
+  if (!A.Scene.Axes.empty())
+    P.CommonArguments = {"--axes", A.Scene.Axes};
+  if (A.Scene.Options.LevelOfDetail != 0) {
+    P.CommonArguments.emplace_back("--lod");
+    P.CommonArguments.push_back(std::to_string(A.Scene.Options.LevelOfDetail));
+  }
+  auto Cameras = readCameras(A.Cameras);
+  if (!Cameras)
+    return Cameras.error();
+  P.Views = std::move(*Cameras);
+  if (!A.Views.empty()) {
+    P.Views.clear();
+    for (const std::string &Name : A.Views) {
+      auto View = readCamera(A.Cameras, Name);
+      if (!View)
+        return View.error();
+      P.Views.push_back(std::move(*View));
+    }
+  }
+  auto Knobs = knobsNamed(A.Knobs);
+  if (!Knobs)
+    return Knobs.error();
+  P.Knobs = std::move(*Knobs);
+  P.Cores = !A.NoCores;
+  P.Jobs = A.Jobs;
+  P.ThumbWidth = A.ThumbWidth;
+  P.Load = [&A] { return loadScene(A.Scene); };
+  for (const char *Name : {"points", "work", "references"}) {
+    std::error_code Problem;
+    std::filesystem::create_directories(A.Folder + "/" + Name, Problem);
+    if (Problem)
+      return Error{A.Folder, fmt::format("cannot make the folder: {}, expected "
+                                         "one that can be written",
+                                         Problem.message())};
+  }
+  return P;
+}
+
+/// Views that choose and views that check.
+struct Split {
+  std::vector<const Camera *> Choose, Check;
+};
+
+Expected<Split> splitViews(const SweepPlan &P,
+                           const std::vector<std::string> &Check) {
+  Split S;
+  for (const std::string &Name : Check)
+    if (std::none_of(P.Views.begin(), P.Views.end(),
+                     [&](const Camera &C) { return C.Name == Name; }))
+      return usage(fmt::format("--check {}: no such view, expected one of "
+                               "those that are measured",
+                               Name));
+  for (const Camera &View : P.Views) {
+    // Unless told, the last of several views checks.
+    const bool Checks =
+        Check.empty()
+            ? P.Views.size() > 1 && &View == &P.Views.back()
+            : std::find(Check.begin(), Check.end(), View.Name) != Check.end();
+    (Checks ? S.Check : S.Choose).push_back(&View);
+  }
+  if (S.Choose.empty())
+    return usage("--check names all views, expected one that chooses");
+  return S;
+}
+
+void say(std::string_view Line) { fmt::print(stderr, "splat: {}\n", Line); }
+
+/// The settings so far: single knobs, and once they are all measured the
+/// product of the fronts.
+Expected<std::vector<Setting>> settingsSoFar(const SweepPlan &P, const Split &V,
+                                             double FloorDb,
+                                             std::size_t Products) {
+  std::vector<Setting> All = oneAtATime(P.Knobs);
+  if (!missing(P, pointsOf(P, All)).empty() || Products == 0)
+    return All;
+  const auto Measured = candidates(P, All, V.Choose);
+  if (!Measured)
+    return Measured.error();
+  for (Setting &S : productOfFronts(P.Knobs, *Measured, FloorDb, Products))
+    All.push_back(std::move(S));
+  return All;
+}
+
+std::vector<std::string> nameList(const std::vector<const Camera *> &Views) {
+  std::vector<std::string> Names;
+  for (const Camera *View : Views)
+    Names.push_back(View->Name);
+  return Names;
+}
+
+std::string names(const std::vector<const Camera *> &Views) {
+  return fmt::format("{}", fmt::join(nameList(Views), ","));
+}
+
+std::vector<const Camera *> pointersTo(const std::vector<Camera> &Views) {
+  std::vector<const Camera *> All;
+  for (const Camera &View : Views)
+    All.push_back(&View);
+  return All;
+}
+
+Expected<std::string> recommendation(const SweepPlan &P, const Split &V,
+                                     const std::vector<Setting> &All,
+                                     double FloorDb) {
+  const auto Measured = candidates(P, All, V.Choose);
+  if (!Measured)
+    return Measured.error();
+  std::string Text = fmt::format("{} settings; at least {} dB on {}:\n",
+                                 All.size(), FloorDb, names(V.Choose));
+  for (std::size_t A = 0; A < TimeAxes; ++A) {
+    const auto Axis = static_cast<TimeAxis>(A);
+    Text += fmt::format("{:<18}", TimeAxisNames[A]);
+    const auto Best = recommend(*Measured, Axis, FloorDb);
+    if (!Best) {
+      Text += "none\n";
+      continue;
+    }
+    const Candidate &C = (*Measured)[*Best];
+    const auto Gain = [&](const Candidate &Of, const Candidate &Base) {
+      return fmt::format("{:.1f} dB, {:+.1f} % of {:.6g}", Of.Db,
+                         100 * (*Of.time(Axis) / *Base.time(Axis) - 1),
+                         *Base.time(Axis));
+    };
+    Text += fmt::format("{}: {}", C.Chosen.name(), Gain(C, Measured->front()));
+    if (!V.Check.empty()) {
+      const auto Checked = candidates(P, {Setting(), C.Chosen}, V.Check);
+      if (!Checked)
+        return Checked.error();
+      Text += fmt::format("; on {}: {}", names(V.Check),
+                          Gain(Checked->back(), Checked->front()));
+    }
+    Text += '\n';
+  }
+  return Text;
+}
+
+/// All measurements without pictures, and the page.
+Expected<Success> writeResults(const SweepPlan &P, const PageHead &Head,
+                               const std::vector<Setting> &All) {
+  Json Points = Json::array();
+  for (const Point &Of : pointsOf(P, All)) {
+    auto One = readPoint(P, Of);
+    if (!One)
+      return One.error();
+    for (const char *Picture : {"picture", "difference"})
+      One->erase(Picture);
+    Points.push_back(std::move(*One));
+  }
+  if (auto Written = writeFileAtomically(
+          P.Folder + "/accuracy.json",
+          Json{{"made", Head.Made}, {"points", std::move(Points)}}.dump(1) +
+              "\n");
+      !Written)
+    return Written;
+  const auto Page = pageOf(P, Head, All);
+  return Page ? writeFileAtomically(P.Folder + "/index.html", *Page)
+              : Expected<Success>(Page.error());
+}
+
+Expected<Success> run(const AccuracyArguments &A) {
+  const auto Floor = parseDecibels(A.AtLeast);
+  if (!Floor)
+    return Floor.error();
+  const auto P = planOf(A);
+  if (!P)
+    return P.error();
+  const auto V = splitViews(*P, A.Check);
+  if (!V)
+    return V.error();
+  if (!A.Only.empty()) {
+    std::vector<Point> Wanted;
+    for (const std::string &Name : A.Only) {
+      auto One = pointNamed(*P, Name);
+      if (!One)
+        return One.error();
+      Wanted.push_back(std::move(*One));
+    }
+    return measure(*P, missing(*P, Wanted), say);
+  }
+  auto All = settingsSoFar(*P, *V, *Floor, A.Products);
+  if (!All)
+    return All.error();
+  if (A.List) {
+    for (const Point &Of : missing(*P, pointsOf(*P, *All)))
+      fmt::print("{}\n", Of.name());
+    return Success{};
+  }
+  // Twice: what the first round finds out says what the second measures.
+  for (int Round = 0; Round < 2; ++Round) {
+    if (auto Done = measure(*P, missing(*P, pointsOf(*P, *All)), say); !Done)
+      return Done;
+    All = settingsSoFar(*P, *V, *Floor, A.Products);
+    if (!All)
+      return All.error();
+  }
+  const PageHead Head{
+      fmt::format("{}, views {} (chosen on {}), {}x{}, rules inria, errors "
+                  "against the fp64 reference of the same support; splat {}",
+                  P->ScenePath, names(pointersTo(P->Views)), names(V->Choose),
+                  P->Views.front().Width, P->Views.front().Height,
+                  VORION_VERSION),
+      *Floor, nameList(V->Choose)};
+  if (auto Written = writeResults(*P, Head, *All); !Written)
+    return Written;
+  const auto Text = recommendation(*P, *V, *All, *Floor);
+  if (!Text)
+    return Text.error();
+  fmt::print("{}{}/index.html\n", *Text, P->Folder);
+  return Success{};
+}
+
+} // namespace
+
+Runner addAccuracy(CLI::App &App) {
+  auto A = std::make_shared<AccuracyArguments>();
+  addSceneOptions(App, A->Scene);
+  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
+      ->required();
+  App.add_option("--out", A->Folder,
+                 "Folder for measurements and page; what is there is kept")
+      ->required();
+  App.add_option("--views", A->Views, "Views to measure (default: all)")
+      ->delimiter(',')
+      ->option_text("VIEW,...");
+  App.add_option("--check", A->Check,
+                 "Of these, views that check the recommended setting and do "
+                 "not choose it (default: the last of several)")
+      ->delimiter(',')
+      ->option_text("VIEW,...");
+  App.add_option("--knobs", A->Knobs, "Options to try (default: all)")
+      ->delimiter(',')
+      ->option_text("KNOB,...");
+  App.add_option("--at-least", A->AtLeast,
+                 "PSNR that the recommended setting has on every view that "
+                 "chooses (default 50dB)")
+      ->option_text("DECIBELS");
+  App.add_option("--products", A->Products,
+                 "Most combinations of the fronts' knobs (default 64)")
+      ->option_text("N");
+  App.add_flag("--no-cores", A->NoCores, "Leave out the kernels-only path");
+  App.add_option("--thumb-width", A->ThumbWidth,
+                 "Width of the page's pictures, px (default 240)")
+      ->check(CLI::Range(8U, 4096U))
+      ->option_text("N");
+  App.add_option("--jobs", A->Jobs, "Points measured at the same time")
+      ->check(CLI::Range(1U, 256U))
+      ->option_text("N");
+  App.add_flag("--list", A->List,
+               "Print the points that are missing, one a line, and measure "
+               "none");
+  App.add_option("--only", A->Only,
+                 "Measure this point alone, as --list prints it; no page")
+      ->option_text("POINT")
+      ->allow_extra_args(false);
+  return [A] { return run(*A); };
+}
+
+} // namespace vorion::splat

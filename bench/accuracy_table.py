@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Prints what `splat accuracy` measured as Markdown: a row a setting, over all views.
+
+usage: accuracy_table.py FOLDER/accuracy.json [--products]
+
+PSNR and SSIM are the worst view's, the largest error and the share of pixels off likewise; times are sums over the views, against the
+default's. Without --products only the default and single choices.
+"""
+
+import argparse
+import json
+
+
+def share(value, base):
+    return "" if value is None or base is None else f"{100 * (value / base - 1):+.1f} %"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file")
+    parser.add_argument("--products", action="store_true", help="combinations too")
+    args = parser.parse_args()
+    with open(args.file, encoding="utf-8") as f:
+        points = json.load(f)["points"]
+    settings = {}
+    for point in points:
+        settings.setdefault(point["setting"], []).append(point)
+
+    def worst(name, pick, key="errors", none=None):
+        values = [none if p[key][name] is None else p[key][name] for p in settings[setting]]
+        return pick(values)
+
+    def total(setting, axis):
+        values = [p["times"][axis] for p in settings[setting]]
+        return None if None in values else sum(values)
+
+    print("| setting | PSNR, dB | SSIM | largest error | pixels off, % | cycles | at equal area | kernels only | lane area |")
+    print("|---|--:|--:|--:|--:|--:|--:|--:|--:|")
+    for setting in settings:
+        if "," in setting and not args.products:
+            continue
+        times = {axis: (f"{total(setting, axis):,.0f}" if total(setting, axis) and setting == "default"
+                        else share(total(setting, axis), total("default", axis)))
+                 for axis in ("cycles", "equal_area_cycles", "cores_cycles")}
+        decibels = worst("psnr_db", min, none=float("inf"))
+        print(f"| {setting} | {decibels:.1f} | {worst('ssim', min):.6f} | {worst('largest', max):.2g} "
+              f"| {100 * worst('off_share', max):.3f} | {times['cycles']} | {times['equal_area_cycles']} | {times['cores_cycles']} "
+              f"| {100 * settings[setting][0]['lane_area_relative']:.1f} % |")
+
+
+if __name__ == "__main__":
+    main()

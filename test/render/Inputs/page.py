@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Opens the page of `splat accuracy` in headless Chromium, from its file and without a network.
+
+usage: page.py index.html
+With #test the page tries itself (page.js, tryOut): it hovers, selects, changes every control. Checked here: what it
+said, that no script error reached the browser's log, and that a screenshot shows something.
+"""
+
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+page = os.path.abspath(sys.argv[1])
+
+
+def chromium(folder, *options):
+    # Offline: everything that would call out is off, and names resolve to nothing.
+    return subprocess.run(
+        ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage",
+         "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", "--v=0", f"--user-data-dir={folder}/user",
+         *options, f"file://{page}#test"], check=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def pixels(file):
+    """The decoded rows of a PNG of 8 bits a channel."""
+    with open(file, "rb") as f:
+        data = f.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, body = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IDAT":
+            body += data[at + 8:at + 8 + size]
+        at += 12 + size
+    return zlib.decompress(body)
+
+
+with open(page, encoding="utf-8") as f:
+    text = f.read()
+for outside in ("http:", "https:", "//cdn", "@import"):
+    assert outside not in text.replace("http://www.w3.org/2000/svg", ""), f"the page names {outside}"
+with tempfile.TemporaryDirectory() as folder:
+    shot = os.path.join(folder, "shot.png")
+    dumped = chromium(folder, "--dump-dom")
+    assert 'data-test="passed with ' in dumped.stdout, dumped.stdout[:300] + dumped.stderr[-2000:]
+    # A script's complaints are logged as CONSOLE.
+    complaints = [line for line in dumped.stderr.splitlines() if "CONSOLE" in line]
+    assert not complaints, complaints
+    chromium(folder, f"--screenshot={shot}", "--window-size=1200,900")
+    assert len(set(pixels(shot))) > 16, "the screenshot shows nothing"
+print("the page works")
