@@ -31,7 +31,7 @@ int main(int ArgumentCount, char **Arguments) {
   Add("analyze", "Counts what a view of a scene asks of a machine",
       splat::addAnalyze);
   Add("accuracy", "Measures what accuracy costs in time", splat::addAccuracy);
-  Add("info", "Prints what is in a scene", splat::addInfo);
+  Add("info", "Prints what is in a scene or a capture", splat::addInfo);
   Add("convert", "Writes a scene of any format as a PLY", splat::addConvert);
   Add("demo-scene", "Writes the project's own scene and its cameras",
       splat::addDemoScene);

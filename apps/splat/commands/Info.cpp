@@ -1,5 +1,7 @@
+#include "../capture/Capture.h"
 #include "../io/Hash.h"
 #include "../io/Statistics.h"
+#include "CaptureInfo.h"
 #include "Commands.h"
 #include "SceneArguments.h"
 #include "vorion/support/File.h"
@@ -86,6 +88,8 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
 }
 
 Expected<Success> run(const InfoArguments &A) {
+  if (isCapture(A.Scene.Path))
+    return describeCapture(A.Scene.Path, A.JsonFile);
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();

@@ -47,7 +47,7 @@ public:
     C.Fy = focal("fy");
     C.Cx = Record.contains("cx") ? number("cx") : 0.5 * C.Width;
     C.Cy = Record.contains("cy") ? number("cy") : 0.5 * C.Height;
-    if (!Problem && !isRotation(C))
+    if (!Problem && !isRotation(C.Rotation))
       wrong("rotation", "orthonormal axes with determinant +1");
     if (Problem)
       return *Problem;
@@ -121,26 +121,6 @@ private:
       wrong(Key, RowWanted);
   }
 
-  /// To three digits: files with few decimals pass, mirrored, scaled or
-  /// transposed-with-position matrices do not.
-  static bool isRotation(const Camera &C) {
-    const auto &R = C.Rotation;
-    constexpr double Slack = 2e-3;
-    for (int I = 0; I < 3; ++I)
-      for (int J = 0; J < 3; ++J) {
-        double Dot = 0;
-        for (int K = 0; K < 3; ++K)
-          Dot += R[K][I] * R[K][J];
-        if (!(std::abs(Dot - (I == J)) < Slack))
-          return false;
-      }
-    const double Determinant =
-        R[0][0] * (R[1][1] * R[2][2] - R[1][2] * R[2][1]) -
-        R[0][1] * (R[1][0] * R[2][2] - R[1][2] * R[2][0]) +
-        R[0][2] * (R[1][0] * R[2][1] - R[1][1] * R[2][0]);
-    return Determinant > 0;
-  }
-
   const std::string &Path;
   std::size_t Index;
   const Json &Record;
@@ -149,6 +129,22 @@ private:
 };
 
 } // namespace
+
+bool isRotation(const std::array<std::array<double, 3>, 3> &R) {
+  constexpr double Slack = 2e-3;
+  for (int I = 0; I < 3; ++I)
+    for (int J = 0; J < 3; ++J) {
+      double Dot = 0;
+      for (int K = 0; K < 3; ++K)
+        Dot += R[K][I] * R[K][J];
+      if (!(std::abs(Dot - (I == J)) < Slack))
+        return false;
+    }
+  const double Determinant = R[0][0] * (R[1][1] * R[2][2] - R[1][2] * R[2][1]) -
+                             R[0][1] * (R[1][0] * R[2][2] - R[1][2] * R[2][0]) +
+                             R[0][2] * (R[1][0] * R[2][1] - R[1][1] * R[2][0]);
+  return Determinant > 0;
+}
 
 std::array<double, 9> Camera::worldToCameraRotation() const {
   std::array<double, 9> R{};

@@ -29,6 +29,10 @@ struct Camera {
   std::array<double, 3> worldToCameraTranslation() const;
 };
 
+/// Whether \p R is a rotation, to three digits: files with few decimals pass,
+/// mirrored or scaled matrices do not.
+bool isRotation(const std::array<std::array<double, 3>, 3> &R);
+
 /// Reads all records: id, img_name, width, height, position, rotation, fx, fy
 /// and optionally cx, cy. Other keys are ignored. Every error names file,
 /// record and key.

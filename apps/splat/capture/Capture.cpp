@@ -1,0 +1,271 @@
+#include "Capture.h"
+
+#include "Colmap.h"
+#include "Photo.h"
+#include "Transforms.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+
+namespace vorion::splat {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isThere(const fs::path &P) {
+  std::error_code Ignored;
+  return fs::exists(P, Ignored);
+}
+
+/// What is at a path, and where its files are.
+struct Found {
+  CaptureFormat Format = CaptureFormat::ColmapBinary;
+  fs::path Model;    ///< folder of COLMAP's files, or the file of transforms
+  fs::path Pictures; ///< folder that pictures' names start from
+};
+
+std::optional<Found> find(const fs::path &Path) {
+  if (Path.extension() == ".json" && isThere(Path))
+    return Found{CaptureFormat::Transforms, Path, Path.parent_path()};
+  for (const char *Sub : {"sparse/0", "sparse", "."})
+    for (const auto &[Ending, Format] :
+         {std::pair(".bin", CaptureFormat::ColmapBinary),
+          std::pair(".txt", CaptureFormat::ColmapText)})
+      if (isThere(Path / Sub / (std::string("cameras") + Ending)))
+        return Found{Format, Path / Sub, Path / "images"};
+  if (isThere(Path / "transforms_train.json"))
+    return Found{CaptureFormat::NerfSynthetic, Path / "transforms_train.json",
+                 Path};
+  if (isThere(Path / "transforms.json"))
+    return Found{CaptureFormat::Transforms, Path / "transforms.json", Path};
+  return std::nullopt;
+}
+
+/// The picture called \p Name, whose ending may be missing.
+fs::path pictureOf(const fs::path &Folder, const std::string &Name) {
+  for (const char *Ending : {"", ".png", ".jpg", ".jpeg", ".webp"})
+    if (fs::path P = Folder / (Name + Ending); isThere(P))
+      return P;
+  return Folder / Name;
+}
+
+Expected<Success> readColmap(const Found &F, Capture &C) {
+  const bool Text = F.Format == CaptureFormat::ColmapText;
+  const char *Ending = Text ? ".txt" : ".bin";
+  ColmapFiles Files;
+  std::vector<std::byte> Contents[3];
+  const struct {
+    const char *Name;
+    ColmapFile &To;
+  } Parts[] = {{"cameras", Files.Cameras},
+               {"images", Files.Images},
+               {"points3D", Files.Points}};
+  for (std::size_t I = 0; I < 3; ++I) {
+    Parts[I].To.Where = (F.Model / (std::string(Parts[I].Name) + Ending))
+                            .lexically_normal()
+                            .string();
+    auto Content = readFile(Parts[I].To.Where);
+    if (!Content)
+      return Content.error();
+    Contents[I] = std::move(*Content);
+    Parts[I].To.Content = Contents[I];
+  }
+  auto Model = Text ? parseColmapText(Files) : parseColmapBinary(Files);
+  if (!Model)
+    return Model.error();
+  C.Views = std::move(Model->Views);
+  C.Points = std::move(Model->Points);
+  for (CaptureView &V : C.Views)
+    V.Picture = (F.Pictures / V.Pose.Name).string();
+  return Success{};
+}
+
+/// Adds the views of \p File; those without a size get their picture's.
+Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
+                                 Capture &C) {
+  const auto Content = readFile(File.string());
+  if (!Content)
+    return Content.error();
+  auto T = parseTransforms(File.string(), *Content);
+  if (!T)
+    return T.error();
+  const fs::path Folder = File.parent_path();
+  for (CaptureView &V : T->Views)
+    V.Picture = pictureOf(Folder, V.Pose.Name).string();
+  if (HeldOut) {
+    C.WithoutPicture = std::erase_if(
+        T->Views, [](const CaptureView &V) { return !isThere(V.Picture); });
+    if (T->Views.empty())
+      return Error{File.string(), "no frame has a picture, expected at least "
+                                  "one"};
+  }
+  for (CaptureView &V : T->Views) {
+    V.HeldOut = HeldOut;
+    C.Views.push_back(std::move(V));
+    if (!T->FieldOfView)
+      continue;
+    // All of a file are of one size; the first says which.
+    Camera &Pose = C.Views.back().Pose;
+    if (&V != &T->Views.front()) {
+      const Camera &First = C.Views[C.Views.size() - 2].Pose;
+      Pose.Width = First.Width;
+      Pose.Height = First.Height;
+    } else {
+      const auto Picture = readFile(C.Views.back().Picture);
+      if (!Picture)
+        return Picture.error();
+      const auto Size = photoSize(C.Views.back().Picture, *Picture);
+      if (!Size)
+        return Size.error();
+      Pose.Width = Size->Width;
+      Pose.Height = Size->Height;
+    }
+    setFieldOfView(Pose, *T->FieldOfView);
+  }
+  if (T->Points.empty())
+    return Success{};
+  const std::string Points = (Folder / T->Points).string();
+  const auto Cloud = readFile(Points);
+  if (!Cloud)
+    return Cloud.error();
+  auto Parsed = parsePointCloud(Points, *Cloud);
+  if (!Parsed)
+    return Parsed.error();
+  C.Points = std::move(*Parsed);
+  return Success{};
+}
+
+/// Whether the user means \p Name by \p Wanted.
+bool isMeant(const std::string &Name, const std::string &Wanted) {
+  const fs::path Path(Name);
+  return Name == Wanted || Path.filename() == Wanted || Path.stem() == Wanted ||
+         // Synthetic captures name pictures without their ending.
+         (!Path.has_extension() && Path.filename() == fs::path(Wanted).stem());
+}
+
+Expected<Success> exclude(const std::string &Path, Capture &C,
+                          const std::vector<std::string> &Names) {
+  for (const std::string &Name : Names)
+    if (std::erase_if(C.Views, [&](const CaptureView &V) {
+          return isMeant(V.Pose.Name, Name);
+        }) == 0)
+      return Error{Path,
+                   fmt::format("no picture {} to exclude, expected one of the "
+                               "capture's",
+                               Name),
+                   ExitCode::Usage};
+  if (C.Views.size() < 2)
+    return Error{Path, fmt::format("{} views, expected at least one to train "
+                                   "on and one to hold out",
+                                   C.Views.size())};
+  return Success{};
+}
+
+Expected<Success> checkPicture(const CaptureView &V) {
+  const auto File = readFile(V.Picture);
+  if (!File)
+    return File.error();
+  const auto Size = photoSize(V.Picture, *File);
+  if (!Size)
+    return Size.error();
+  if (Size->Width != V.Pose.Width || Size->Height != V.Pose.Height)
+    return Error{V.Picture,
+                 fmt::format("{}x{} pixels, expected {}x{} as its camera says",
+                             Size->Width, Size->Height, V.Pose.Width,
+                             V.Pose.Height)};
+  return Success{};
+}
+
+} // namespace
+
+std::string_view name(CaptureFormat F) {
+  constexpr std::array<std::string_view, 4> Names{
+      "colmap-text", "colmap-binary", "nerf-synthetic", "transforms"};
+  return Names[static_cast<std::size_t>(F)];
+}
+
+std::size_t Capture::heldOut() const {
+  return static_cast<std::size_t>(
+      std::ranges::count(Views, true, &CaptureView::HeldOut));
+}
+
+CameraRing cameraRing(const Capture &C) {
+  CameraRing Ring;
+  double Count = 0;
+  for (const CaptureView &V : C.Views)
+    if (!V.HeldOut) {
+      Count += 1;
+      for (std::size_t K = 0; K < 3; ++K)
+        Ring.Centre[K] += V.Pose.Position[K];
+    }
+  for (double &V : Ring.Centre)
+    V /= Count;
+  for (const CaptureView &V : C.Views)
+    if (!V.HeldOut) {
+      double Squares = 0;
+      for (std::size_t K = 0; K < 3; ++K) {
+        const double D = V.Pose.Position[K] - Ring.Centre[K];
+        Squares += D * D;
+      }
+      Ring.Radius = std::max(Ring.Radius, std::sqrt(Squares));
+    }
+  return Ring;
+}
+
+bool isCapture(const std::string &Path) {
+  return find(Path).has_value() &&
+         (!Path.ends_with(".json") ||
+          fs::path(Path).filename().string().starts_with("transforms"));
+}
+
+Expected<Capture> readCapture(const std::string &Path,
+                              const std::vector<std::string> &Exclude) {
+  const auto F = find(Path);
+  if (!F)
+    return Error{Path, "no capture, expected a folder with COLMAP's "
+                       "sparse/0/cameras.bin or .txt, transforms_train.json or "
+                       "transforms.json"};
+  Capture C;
+  C.Format = F->Format;
+  const fs::path Test = fs::path(Path) / "transforms_test.json";
+  const bool OwnTest =
+      F->Format == CaptureFormat::NerfSynthetic && isThere(Test);
+  Expected<Success> Read = Success{};
+  if (F->Format == CaptureFormat::ColmapText ||
+      F->Format == CaptureFormat::ColmapBinary)
+    Read = readColmap(*F, C);
+  else
+    Read = readTransforms(F->Model, /*HeldOut=*/false, C);
+  if (Read && OwnTest)
+    Read = readTransforms(Test, /*HeldOut=*/true, C);
+  if (Read)
+    Read = exclude(Path, C, Exclude);
+  if (!Read)
+    return Read.error();
+
+  std::ranges::sort(C.Views, {}, [](const CaptureView &V) -> const auto & {
+    return V.Pose.Name;
+  });
+  for (std::size_t I = 1; I < C.Views.size(); ++I)
+    if (C.Views[I].Pose.Name == C.Views[I - 1].Pose.Name)
+      return Error{Path, fmt::format("picture {} is there twice, expected it "
+                                     "once",
+                                     printable(C.Views[I].Pose.Name))};
+  if (!OwnTest)
+    for (std::size_t I = 0; I < C.Views.size(); I += HoldOutEvery)
+      C.Views[I].HeldOut = true;
+  C.HeldOutBy = OwnTest ? "transforms_test.json"
+                        : fmt::format("every {}th by name", HoldOutEvery);
+  if (C.heldOut() == C.Views.size())
+    return Error{Path, "no view to train on, expected at least one"};
+  for (const CaptureView &V : C.Views)
+    if (auto Good = checkPicture(V); !Good)
+      return Good.error();
+  return C;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,37 @@
+/// What the tests of captures share.
+#pragma once
+
+#include "CaptureWriters.h"
+#include "TestFiles.h"
+
+#include <algorithm>
+
+namespace vorion::splat::testing {
+
+/// A folder with \p Files, removed at its end.
+class CaptureFolder {
+public:
+  explicit CaptureFolder(const Folder &Files) {
+    for (const auto &[Name, Content] : Files) {
+      std::filesystem::create_directories(
+          std::filesystem::path(Root.path(Name)).parent_path());
+      Root.write(Name, Content);
+    }
+  }
+  std::string path(const std::string &Name = "") const {
+    return Root.path(Name);
+  }
+
+private:
+  TestFolder Root;
+};
+
+/// \p Text with \p What, which must be there, replaced.
+inline std::string replaced(std::string Text, const std::string &What,
+                            const std::string &With) {
+  const std::size_t At = Text.find(What);
+  EXPECT_NE(At, std::string::npos) << What;
+  return At == std::string::npos ? Text : Text.replace(At, What.size(), With);
+}
+
+} // namespace vorion::splat::testing

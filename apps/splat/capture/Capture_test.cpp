@@ -1,0 +1,206 @@
+#include "Capture.h"
+
+#include "CaptureTest.h"
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+/// Where \p C sees world point \p P, in camera coordinates.
+std::array<double, 3> seen(const Camera &C, std::array<double, 3> P) {
+  const auto R = C.worldToCameraRotation();
+  auto T = C.worldToCameraTranslation();
+  for (std::size_t I = 0; I < 3; ++I)
+    for (std::size_t K = 0; K < 3; ++K)
+      T[I] += R[3 * I + K] * P[K];
+  return T;
+}
+
+Folder folderOf(CaptureFormat F, const SampleCapture &C) {
+  switch (F) {
+  case CaptureFormat::ColmapText:
+    return colmapTextOf(C);
+  case CaptureFormat::ColmapBinary:
+    return colmapBinaryOf(C);
+  case CaptureFormat::NerfSynthetic:
+    return nerfSyntheticOf(C);
+  case CaptureFormat::Transforms:
+    return transformsOf(C);
+  }
+  return {};
+}
+
+class Captures : public ::testing::TestWithParam<CaptureFormat> {};
+
+/// In the sample all cameras look at the origin from 3 away, y down.
+TEST_P(Captures, PosesAreThoseThatWereWritten) {
+  const CaptureFolder F(folderOf(GetParam(), sampleCapture()));
+  const auto C = readCapture(F.path());
+  ASSERT_TRUE(C) << C.error().Where << ": " << C.error().What;
+  EXPECT_EQ(C->Format, GetParam());
+  EXPECT_TRUE(isCapture(F.path()));
+  ASSERT_EQ(C->Views.size(), 10U);
+  for (std::size_t I = 0; I < 10; ++I) {
+    const Camera &Pose = C->Views[I].Pose;
+    const auto Origin = seen(Pose, {0, 0, 0});
+    const auto Above = seen(Pose, {0, -1, 0});
+    EXPECT_NEAR(Origin[0], 0, 1e-12);
+    EXPECT_NEAR(Origin[1], 0, 1e-12);
+    EXPECT_NEAR(Origin[2], 3, 1e-12);
+    EXPECT_NEAR(Above[1], -1, 1e-12);
+    // The second camera is turned by 36 degrees: x of the world to its right.
+    const auto Right = seen(Pose, {1, 0, 0});
+    const double Angle = 2 * 3.14159265358979 * double(I) / 10;
+    EXPECT_NEAR(Right[0], std::cos(Angle), 1e-12);
+    EXPECT_NEAR(Right[2], 3 - std::sin(Angle), 1e-12);
+    EXPECT_EQ(Pose.Width, 8);
+    EXPECT_EQ(Pose.Height, 6);
+  }
+  const Camera &Pose = C->Views[0].Pose;
+  if (GetParam() == CaptureFormat::NerfSynthetic) {
+    EXPECT_NEAR(Pose.Fx, 4 / std::tan(0.4), 1e-12);
+    EXPECT_EQ(Pose.Fx, Pose.Fy);
+    EXPECT_EQ(Pose.Cx, 4);
+  } else {
+    EXPECT_EQ(Pose.Fx, 10);
+    EXPECT_EQ(Pose.Fy, 11);
+    EXPECT_EQ(Pose.Cx, 4.25);
+    EXPECT_EQ(Pose.Cy, 3);
+  }
+}
+
+TEST_P(Captures, EveryEighthIsHeldOutUnlessTheFileSays) {
+  const CaptureFolder F(folderOf(GetParam(), sampleCapture()));
+  const auto C = readCapture(F.path());
+  ASSERT_TRUE(C);
+  std::vector<std::size_t> HeldOut;
+  for (std::size_t I = 0; I < C->Views.size(); ++I)
+    if (C->Views[I].HeldOut)
+      HeldOut.push_back(I);
+  EXPECT_EQ(HeldOut, GetParam() == CaptureFormat::NerfSynthetic
+                         ? (std::vector<std::size_t>{8, 9})
+                         : (std::vector<std::size_t>{0, 8}));
+  EXPECT_EQ(C->heldOut(), 2U);
+}
+
+TEST_P(Captures, ExcludedPicturesAreLeftOutFirst) {
+  const CaptureFolder F(folderOf(GetParam(), sampleCapture()));
+  const auto C = readCapture(F.path(), {"a0.png", "a4"});
+  ASSERT_TRUE(C);
+  EXPECT_EQ(C->Views.size(), 8U);
+  const auto Unknown = readCapture(F.path(), {"a77"});
+  ASSERT_FALSE(Unknown);
+  EXPECT_EQ(Unknown.error().Code, ExitCode::Usage);
+  EXPECT_NE(Unknown.error().What.find("no picture a77 to exclude"),
+            std::string::npos);
+}
+
+/// The first picture missing, of another size, and no picture at all.
+TEST_P(Captures, PicturesAreLookedAt) {
+  const struct {
+    const char *Content, *Message;
+  } Cases[] = {{nullptr, "cannot open"},
+               {"text", "not a picture, expected a PNG, JPEG or WebP"},
+               {"small", "3x2 pixels, expected 8x6 as its camera says"}};
+  for (const auto &[Content, Message] : Cases) {
+    Folder Files = folderOf(GetParam(), sampleCapture());
+    auto Picture = std::ranges::find_if(
+        Files, [](const auto &F) { return F.first.ends_with("a1.png"); });
+    ASSERT_NE(Picture, Files.end());
+    if (!Content)
+      Files.erase(Picture);
+    else
+      Picture->second = std::string(Content) == "small"
+                            ? pngOf(3, 2, std::string(24, '\x7f'))
+                            : Content;
+    const CaptureFolder F(Files);
+    const auto C = readCapture(F.path());
+    ASSERT_FALSE(C) << Message;
+    EXPECT_EQ(C.error().Code, ExitCode::InputFile);
+    EXPECT_NE(C.error().Where.find("a1"), std::string::npos);
+    EXPECT_NE(C.error().What.find(Message), std::string::npos)
+        << C.error().What;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Captures,
+                         ::testing::Values(CaptureFormat::ColmapText,
+                                           CaptureFormat::ColmapBinary,
+                                           CaptureFormat::NerfSynthetic,
+                                           CaptureFormat::Transforms),
+                         [](const auto &Info) {
+                           std::string Name(name(Info.param));
+                           std::erase(Name, '-');
+                           return Name;
+                         });
+
+TEST(Capture, RingIsThatOfTheTrainingCameras) {
+  const CaptureFolder F(colmapTextOf(sampleCapture()));
+  const auto C = readCapture(F.path());
+  ASSERT_TRUE(C);
+  // Ten cameras 3 away from the origin add up to nothing; without the first
+  // and the ninth, the centre is minus an eighth of their sum.
+  const CameraRing Ring = cameraRing(*C);
+  const Camera &A = C->Views[0].Pose, &B = C->Views[8].Pose;
+  double Farthest = 0;
+  for (std::size_t K = 0; K < 3; ++K)
+    EXPECT_NEAR(Ring.Centre[K], -(A.Position[K] + B.Position[K]) / 8, 1e-12);
+  for (const CaptureView &V : C->Views) {
+    double Squares = 0;
+    for (std::size_t K = 0; K < 3 && !V.HeldOut; ++K)
+      Squares += std::pow(V.Pose.Position[K] - Ring.Centre[K], 2.0);
+    Farthest = std::max(Farthest, std::sqrt(Squares));
+  }
+  EXPECT_NEAR(Ring.Radius, Farthest, 1e-12);
+  EXPECT_NEAR(Ring.extent(), 1.1 * Farthest, 1e-12);
+}
+
+TEST(Capture, PlacesWithoutOneAreRefused) {
+  const CaptureFolder F({{"readme.txt", "nothing"}});
+  EXPECT_FALSE(isCapture(F.path()));
+  const auto C = readCapture(F.path());
+  ASSERT_FALSE(C);
+  EXPECT_NE(C.error().What.find("no capture"), std::string::npos);
+  const auto None = readCapture(F.path("nowhere"));
+  ASSERT_FALSE(None);
+  EXPECT_NE(None.error().What.find("no capture"), std::string::npos);
+}
+
+TEST(Capture, NamesOccurOnce) {
+  SampleCapture S = sampleCapture();
+  S.Views[3].Name = S.Views[4].Name;
+  const CaptureFolder F(colmapTextOf(S));
+  const auto C = readCapture(F.path());
+  ASSERT_FALSE(C);
+  EXPECT_NE(C.error().What.find("a4.png is there twice"), std::string::npos);
+}
+
+TEST(Capture, TestPicturesMayBeMissingInPart) {
+  Folder Files = nerfSyntheticOf(sampleCapture());
+  Files.erase("all/a9.png");
+  {
+    const CaptureFolder F(Files);
+    const auto C = readCapture(F.path());
+    ASSERT_TRUE(C) << C.error().What;
+    EXPECT_EQ(C->Views.size(), 9U);
+    EXPECT_EQ(C->heldOut(), 1U);
+    EXPECT_EQ(C->WithoutPicture, 1U);
+  }
+  Files.erase("all/a8.png");
+  const CaptureFolder F(Files);
+  const auto C = readCapture(F.path());
+  ASSERT_FALSE(C);
+  EXPECT_NE(C.error().What.find("no frame has a picture"), std::string::npos);
+}
+
+TEST(Capture, OneViewIsTooFew) {
+  const CaptureFolder F(colmapTextOf(sampleCapture(1)));
+  const auto C = readCapture(F.path());
+  ASSERT_FALSE(C);
+  EXPECT_NE(C.error().What.find("1 views, expected at least"),
+            std::string::npos);
+}
+
+} // namespace

@@ -1,0 +1,34 @@
+/// COLMAP's sparse models, text and binary.
+#pragma once
+
+#include "Bytes.h"
+#include "Capture.h"
+
+namespace vorion::splat {
+
+/// The three files of a model, and the names by which errors call them.
+struct ColmapFile {
+  std::string Where;
+  Bytes Content;
+};
+struct ColmapFiles {
+  ColmapFile Cameras, Images, Points;
+};
+
+/// A model: each view has its camera's intrinsics; pictures are not looked
+/// for, and \c Picture is empty.
+struct ColmapModel {
+  std::vector<CaptureView> Views; ///< in the file's order
+  CapturePoints Points;
+};
+
+/// Reads cameras.bin, images.bin, points3D.bin. Refused: distorted camera
+/// models (by name), poses that are no rotation, images of unknown cameras,
+/// values that are not finite, files that are shorter or longer than they
+/// say, models without an image or a point.
+Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files);
+
+/// The same for cameras.txt, images.txt, points3D.txt; errors name the line.
+Expected<ColmapModel> parseColmapText(const ColmapFiles &Files);
+
+} // namespace vorion::splat

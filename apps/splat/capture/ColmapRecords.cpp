@@ -1,0 +1,141 @@
+#include "ColmapRecords.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+namespace {
+
+/// Numbers, names and counts of COLMAP's src/colmap/sensor/models.h.
+constexpr ColmapCameraModel Models[] = {
+    {0, "SIMPLE_PINHOLE", 3, true},
+    {1, "PINHOLE", 4, true},
+    {2, "SIMPLE_RADIAL", 4, false},
+    {3, "RADIAL", 5, false},
+    {4, "OPENCV", 8, false},
+    {5, "OPENCV_FISHEYE", 8, false},
+    {6, "FULL_OPENCV", 12, false},
+    {7, "FOV", 5, false},
+    {8, "SIMPLE_RADIAL_FISHEYE", 4, false},
+    {9, "RADIAL_FISHEYE", 5, false},
+    {10, "THIN_PRISM_FISHEYE", 12, false},
+    {11, "RAD_TAN_THIN_PRISM_FISHEYE", 16, false},
+};
+
+bool allFinite(std::span<const double> Values) {
+  return std::ranges::all_of(Values, [](double V) { return std::isfinite(V); });
+}
+
+} // namespace
+
+std::span<const ColmapCameraModel> colmapCameraModels() { return Models; }
+
+Expected<Success> ColmapBuilder::checkModel(const std::string &Where,
+                                            std::int64_t Id,
+                                            const ColmapCameraModel &Kind) {
+  if (!Kind.Pinhole)
+    return Error{Where,
+                 fmt::format("camera {} has the distorted model {}, expected "
+                             "SIMPLE_PINHOLE or PINHOLE: undistort the capture "
+                             "first (colmap image_undistorter)",
+                             Id, Kind.Name)};
+  return Success{};
+}
+
+Expected<Success> ColmapBuilder::addCamera(const std::string &Where,
+                                           std::int64_t Id,
+                                           const ColmapCameraModel &Kind,
+                                           double Width, double Height,
+                                           std::span<const double> Parameters) {
+  const auto IsSide = [](double Side) {
+    return Side >= 1 && Side <= MaxImageSize && Side == std::floor(Side);
+  };
+  if (!IsSide(Width) || !IsSide(Height))
+    return Error{Where,
+                 fmt::format("camera {} has pictures of {}x{} pixels, expected "
+                             "sides of 1 to {}",
+                             Id, Width, Height, MaxImageSize)};
+  const bool OneFocal = Kind.Parameters == 3;
+  Camera C;
+  C.Width = static_cast<int>(Width);
+  C.Height = static_cast<int>(Height);
+  C.Fx = Parameters[0];
+  C.Fy = Parameters[OneFocal ? 0 : 1];
+  C.Cx = Parameters[OneFocal ? 1 : 2];
+  C.Cy = Parameters[OneFocal ? 2 : 3];
+  if (!allFinite(Parameters) || !(C.Fx > 0) || !(C.Fy > 0))
+    return Error{Where,
+                 fmt::format("camera {} has parameters that are no camera, "
+                             "expected a positive focal length and a finite "
+                             "principal point",
+                             Id)};
+  if (!Cameras.emplace(Id, C).second)
+    return Error{Where, fmt::format("camera {} is there twice, expected it "
+                                    "once",
+                                    Id)};
+  return Success{};
+}
+
+Expected<Success> ColmapBuilder::addImage(const std::string &Where,
+                                          const ColmapImage &I) {
+  const std::string Shown = printable(I.Name);
+  const auto Known = Cameras.find(I.Camera);
+  if (Known == Cameras.end())
+    return Error{Where, fmt::format("image {} has camera {}, expected one of "
+                                    "the {} cameras of the model",
+                                    Shown, I.Camera, Cameras.size())};
+  const auto &Q = I.Quaternion;
+  const double Norm =
+      std::sqrt(Q[0] * Q[0] + Q[1] * Q[1] + Q[2] * Q[2] + Q[3] * Q[3]);
+  // Files of few decimals pass; what is no quaternion at all does not.
+  if (!(std::abs(Norm - 1) < 1e-2) || !allFinite(I.Translation))
+    return Error{Where, fmt::format("image {} has an unreadable pose, expected "
+                                    "a unit quaternion and a finite "
+                                    "translation",
+                                    Shown)};
+  const double W = Q[0] / Norm, X = Q[1] / Norm, Y = Q[2] / Norm,
+               Z = Q[3] / Norm;
+  CaptureView V;
+  V.Pose = Known->second;
+  V.Pose.Id = static_cast<int>(Model.Views.size());
+  V.Pose.Name = I.Name;
+  // Camera to world: the transpose of the stored rotation.
+  V.Pose.Rotation = {
+      {{1 - 2 * (Y * Y + Z * Z), 2 * (X * Y + W * Z), 2 * (X * Z - W * Y)},
+       {2 * (X * Y - W * Z), 1 - 2 * (X * X + Z * Z), 2 * (Y * Z + W * X)},
+       {2 * (X * Z + W * Y), 2 * (Y * Z - W * X), 1 - 2 * (X * X + Y * Y)}}};
+  for (std::size_t R = 0; R < 3; ++R)
+    for (std::size_t K = 0; K < 3; ++K)
+      V.Pose.Position[R] -= V.Pose.Rotation[R][K] * I.Translation[K];
+  Model.Views.push_back(std::move(V));
+  return Success{};
+}
+
+Expected<Success>
+ColmapBuilder::addPoint(const std::string &Where,
+                        const std::array<double, 3> &Position,
+                        const std::array<std::uint8_t, 3> &Colour) {
+  CapturePoints &P = Model.Points;
+  for (const double V : Position) {
+    const auto Rounded = static_cast<float>(V);
+    if (!std::isfinite(Rounded))
+      return Error{Where, fmt::format("point {} holds a NaN or an infinity, "
+                                      "expected finite coordinates",
+                                      P.size())};
+    P.Positions.push_back(Rounded);
+  }
+  P.Colours.insert(P.Colours.end(), Colour.begin(), Colour.end());
+  return Success{};
+}
+
+Expected<ColmapModel> ColmapBuilder::finish(const ColmapFiles &Files) {
+  if (Model.Views.empty())
+    return Error{Files.Images.Where, "no image, expected at least one"};
+  if (Model.Points.size() == 0)
+    return Error{Files.Points.Where,
+                 "no points, expected those that training starts from"};
+  return std::move(Model);
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,51 @@
+/// What both encodings of a COLMAP model share: from records to views.
+#pragma once
+
+#include "Colmap.h"
+
+#include <map>
+#include <span>
+
+namespace vorion::splat {
+
+/// A camera model that COLMAP knows.
+struct ColmapCameraModel {
+  int Id;
+  std::string_view Name;
+  std::size_t Parameters;
+  bool Pinhole; ///< undistorted
+};
+std::span<const ColmapCameraModel> colmapCameraModels();
+
+/// One image as stored: world to camera, quaternion w, x, y, z.
+struct ColmapImage {
+  std::array<double, 4> Quaternion{};
+  std::array<double, 3> Translation{};
+  std::int64_t Camera = 0;
+  std::string Name;
+};
+
+/// Collects records and checks them; \p Where in each call is the file, with
+/// the line where it has lines.
+class ColmapBuilder {
+public:
+  /// That \p Model is undistorted: asked before its parameters are read.
+  static Expected<Success> checkModel(const std::string &Where, std::int64_t Id,
+                                      const ColmapCameraModel &Model);
+  Expected<Success> addCamera(const std::string &Where, std::int64_t Id,
+                              const ColmapCameraModel &Model, double Width,
+                              double Height,
+                              std::span<const double> Parameters);
+  Expected<Success> addImage(const std::string &Where, const ColmapImage &I);
+  Expected<Success> addPoint(const std::string &Where,
+                             const std::array<double, 3> &Position,
+                             const std::array<std::uint8_t, 3> &Colour);
+  /// The model, which must have an image and a point.
+  Expected<ColmapModel> finish(const ColmapFiles &Files);
+
+private:
+  std::map<std::int64_t, Camera> Cameras;
+  ColmapModel Model;
+};
+
+} // namespace vorion::splat

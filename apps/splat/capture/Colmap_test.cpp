@@ -1,0 +1,204 @@
+#include "Colmap.h"
+
+#include "CaptureTest.h"
+
+#include <functional>
+#include <limits>
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+struct Parts {
+  std::string Cameras, Images, Points;
+};
+
+Expected<ColmapModel> parsed(const Parts &P, bool Text) {
+  const auto File = [](const char *Where, const std::string &Content) {
+    return ColmapFile{Where, std::as_bytes(std::span(Content))};
+  };
+  const ColmapFiles Files{File("cameras", P.Cameras), File("images", P.Images),
+                          File("points", P.Points)};
+  return Text ? parseColmapText(Files) : parseColmapBinary(Files);
+}
+
+Parts partsOf(const SampleCapture &C, bool Text) {
+  Folder F = Text ? colmapTextOf(C) : colmapBinaryOf(C);
+  const std::string End = Text ? ".txt" : ".bin";
+  return {F["sparse/0/cameras" + End], F["sparse/0/images" + End],
+          F["sparse/0/points3D" + End]};
+}
+
+template <typename T> void patch(std::string &Text, std::size_t At, T Value) {
+  Text.replace(At, sizeof(T), reinterpret_cast<const char *>(&Value),
+               sizeof(T));
+}
+
+class Colmap : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Colmap, PointsAreThoseThatWereWritten) {
+  const SampleCapture S = sampleCapture();
+  const auto M = parsed(partsOf(S, GetParam()), GetParam());
+  ASSERT_TRUE(M) << M.error().What;
+  ASSERT_EQ(M->Points.size(), S.Points.size());
+  for (std::size_t I = 0; I < S.Points.size(); ++I)
+    for (std::size_t K = 0; K < 3; ++K) {
+      EXPECT_EQ(M->Points.Positions[3 * I + K], S.Points[I].Position[K]);
+      EXPECT_EQ(M->Points.Colours[3 * I + K], S.Points[I].Colour[K]);
+    }
+}
+
+TEST_P(Colmap, QuaternionsNeedNotBeExact) {
+  SampleCapture S = sampleCapture(2);
+  for (double &Q : S.Views[1].Quaternion)
+    Q *= 1.0009;
+  const auto M = parsed(partsOf(S, GetParam()), GetParam());
+  ASSERT_TRUE(M);
+  EXPECT_TRUE(isRotation(M->Views[1].Pose.Rotation));
+}
+
+TEST_P(Colmap, CountsOfNothingAreRefused) {
+  SampleCapture S = sampleCapture();
+  S.Points.clear();
+  const auto NoPoints = parsed(partsOf(S, GetParam()), GetParam());
+  ASSERT_FALSE(NoPoints);
+  EXPECT_EQ(NoPoints.error().Where, "points");
+  EXPECT_EQ(NoPoints.error().What,
+            "no points, expected those that training starts from");
+  S = sampleCapture(0);
+  const auto NoImage = parsed(partsOf(S, GetParam()), GetParam());
+  ASSERT_FALSE(NoImage);
+  EXPECT_EQ(NoImage.error().What, "no image, expected at least one");
+}
+
+TEST_P(Colmap, UnreadablePosesAreRefused) {
+  for (const auto &[Q, T] :
+       {std::pair(0.0, 0.0), {2.0, 0.0}, {1.0, 1.0 / 0.0}}) {
+    SampleCapture S = sampleCapture();
+    S.Views[2].Quaternion = {Q, 0, 0, 0};
+    S.Views[2].Translation[1] = T;
+    const auto M = parsed(partsOf(S, GetParam()), GetParam());
+    ASSERT_FALSE(M);
+    EXPECT_NE(M.error().What.find("image a2.png has an unreadable pose"),
+              std::string::npos)
+        << M.error().What;
+  }
+}
+
+TEST_P(Colmap, PointsAreFinite) {
+  SampleCapture S = sampleCapture();
+  S.Points[3].Position[1] = 1e300; // no float
+  const auto M = parsed(partsOf(S, GetParam()), GetParam());
+  ASSERT_FALSE(M);
+  EXPECT_NE(M.error().What.find("point 3 holds"), std::string::npos);
+}
+
+/// Whatever is cut off or overwritten, there is a model or one line.
+TEST_P(Colmap, DamageIsReadOrRefused) {
+  const Parts Whole = partsOf(sampleCapture(2), GetParam());
+  unsigned Refused = 0, Tried = 0;
+  for (std::string Parts::*Part :
+       {&Parts::Cameras, &Parts::Images, &Parts::Points}) {
+    const std::string &Text = Whole.*Part;
+    const auto Try = [&](std::string Changed) {
+      Parts P = Whole;
+      P.*Part = std::move(Changed);
+      const auto M = parsed(P, GetParam());
+      ++Tried;
+      if (M)
+        return;
+      ++Refused;
+      EXPECT_EQ(M.error().Code, ExitCode::InputFile);
+      const std::string Message = M.error().Where + M.error().What;
+      EXPECT_TRUE(std::ranges::all_of(Message, [](char C) {
+        return C >= ' ' && C <= '~';
+      })) << Message;
+    };
+    for (std::size_t At = 0; At < Text.size(); ++At) {
+      Try(Text.substr(0, At));
+      for (const char Byte : {'\0', '\xff', '9'}) {
+        std::string Changed = Text;
+        Changed[At] = Byte;
+        Try(Changed);
+      }
+    }
+  }
+  EXPECT_GT(Refused, Tried / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Encodings, Colmap, ::testing::Bool(),
+                         [](const auto &Info) {
+                           return Info.param ? "Text" : "Binary";
+                         });
+
+TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
+  const Parts Whole = partsOf(sampleCapture(2), false);
+  const struct {
+    std::function<void(Parts &)> Change;
+    const char *Message;
+  } Cases[] = {{[](Parts &P) { patch<std::int32_t>(P.Cameras, 12, 4); },
+                "cameras: camera 7 has the distorted model OPENCV"},
+               {[](Parts &P) { patch<std::int32_t>(P.Cameras, 12, 99); },
+                "cameras: camera 7 has model number 99"},
+               {[](Parts &P) { patch<std::uint64_t>(P.Cameras, 16, ~0ULL); },
+                "expected sides of 1 to 16384"},
+               {[](Parts &P) { patch<double>(P.Cameras, 32, -1); },
+                "camera 7 has parameters that are no camera"},
+               {[](Parts &P) { patch<std::uint64_t>(P.Cameras, 0, 2); },
+                "cameras: the file ends within camera 1, expected 2 of them"},
+               {[](Parts &P) { patch<std::uint64_t>(P.Points, 0, ~0ULL); },
+                "points: the file ends within point 12"},
+               {[](Parts &P) { P.Points += '\0'; },
+                "points: 1 bytes after the last record"},
+               {[](Parts &P) { P.Images = "1234"; },
+                "images: 4 bytes, expected the number of images first"},
+               {[](Parts &P) { patch<std::int32_t>(P.Images, 68, 3); },
+                "image a0.png has camera 3, expected one of the 1 cameras"},
+               // The number of points that it sees.
+               {[](Parts &P) { patch<std::uint64_t>(P.Images, 79, ~0ULL); },
+                "images: the file ends within image 0"}};
+  for (const auto &[Change, Message] : Cases) {
+    Parts P = Whole;
+    Change(P);
+    const auto M = parsed(P, false);
+    ASSERT_FALSE(M) << Message;
+    const std::string Got = M.error().Where + ": " + M.error().What;
+    EXPECT_NE(Got.find(Message), std::string::npos) << Got;
+  }
+}
+
+TEST(ColmapText, EachKindOfDamageHasItsMessage) {
+  const Parts Whole = partsOf(sampleCapture(2), true);
+  const struct {
+    std::string Parts::*Part;
+    const char *What, *With, *Message;
+  } Cases[] = {
+      {&Parts::Cameras, "PINHOLE", "FOV",
+       "cameras:2: camera 7 has the distorted model FOV"},
+      {&Parts::Cameras, "PINHOLE", "ORANGE",
+       "cameras:2: camera 7 has model ORANGE"},
+      {&Parts::Cameras, "PINHOLE", "SIMPLE_PINHOLE",
+       "cameras:2: a line that is not as it should be"},
+      {&Parts::Cameras, "PINHOLE 8", "PINHOLE 8.5", "8.5x6 pixels"},
+      {&Parts::Cameras, "7 PINHOLE", "seven PINHOLE",
+       "expected CAMERA_ID MODEL"},
+      {&Parts::Cameras, "\r\n", "\n7 PINHOLE 8 6 1 1 1 1",
+       "cameras:3: camera 7 is there twice"},
+      {&Parts::Images, " 7 a0.png", " 7", "images:2: a line"},
+      {&Parts::Images, " 7 a1.png", " 8 a1.png",
+       "images:4: image a1.png has camera 8"},
+      {&Parts::Points, " 255 ", " 256 ", "points:2: a line"},
+      {&Parts::Points, "5 0 0 -0", "5 0 nan -0", "point 0 holds a NaN"}};
+  for (const auto &[Part, What, With, Message] : Cases) {
+    Parts P = Whole;
+    P.*Part = replaced(P.*Part, What, With);
+    const auto M = parsed(P, true);
+    ASSERT_FALSE(M) << Message;
+    const std::string Got = M.error().Where + ": " + M.error().What;
+    EXPECT_NE(Got.find(Message), std::string::npos) << Got;
+  }
+}
+
+} // namespace

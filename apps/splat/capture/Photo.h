@@ -1,0 +1,53 @@
+/// Photographs: decoding, and making them as small as training wants them.
+#pragma once
+
+#include "Bytes.h"
+#include "Cameras.h"
+#include "WebP.h"
+#include "vorion/support/Expected.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+struct PhotoSize {
+  int Width = 0, Height = 0;
+};
+
+/// The size that the header of a PNG, JPEG or WebP states.
+Expected<PhotoSize> photoSize(const std::string &Where, Bytes File);
+
+/// Decodes one to 8-bit r, g, b, a (opaque where the file has no alpha; 16-bit
+/// PNGs are rounded to 8). Told by the content. Damaged, cut or CMYK files are
+/// errors; values stay in the file's colour space, sRGB by custom.
+Expected<Plane> decodePhoto(const std::string &Where, Bytes File);
+
+/// What is trained on and measured against: 8-bit r, g, b.
+struct Photo {
+  int Width = 0, Height = 0;
+  std::vector<std::uint8_t> Rgb; ///< 3 a pixel, rows from the top
+
+  std::size_t pixels() const { return Rgb.size() / 3; }
+};
+
+/// As outputs name the filter of \c shrink.
+inline constexpr const char *PhotoFilter =
+    "area average of 8-bit values, rounded once";
+
+/// \p P over \p Background (0 to 1), each pixel of the result the average of
+/// the area that it covers, which may be parts of pixels. All in double, then
+/// rounded to 8 bits.
+Photo shrink(const Plane &P, int Width, int Height,
+             const std::array<float, 3> &Background);
+Photo shrink(const Photo &P, int Width, int Height);
+
+/// \p C for a picture of another size of the same view.
+Camera resized(const Camera &C, int Width, int Height);
+
+/// The side that \p Factor makes of \p Side: rounded, at least 1.
+int shrunkSide(int Side, int Factor);
+
+} // namespace vorion::splat

@@ -1,0 +1,223 @@
+#include "Transforms.h"
+
+#include "PlyHeader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Reads frames and what they inherit from the file; remembers what is wrong
+/// first.
+class TransformsReader {
+public:
+  TransformsReader(const std::string &Where, const Json &Document)
+      : Where(Where), Document(Document) {}
+
+  Expected<TransformsFile> read();
+
+private:
+  void fail(const std::string &What) {
+    if (!Problem)
+      Problem = Error{Where, View.empty() ? What : View + ": " + What};
+  }
+  /// The value of \p Key in the frame or else in the file.
+  const Json *find(const Json &Frame, const char *Key) const {
+    for (const Json *Object : {&Frame, &Document})
+      if (const auto It = Object->find(Key); It != Object->end())
+        return &*It;
+    return nullptr;
+  }
+  std::optional<double> number(const Json &Frame, const char *Key);
+  void refuseDistortion(const Json &Frame);
+  void readPose(const Json &Frame, Camera &C);
+  void readIntrinsics(const Json &Frame, Camera &C);
+
+  const std::string &Where;
+  const Json &Document;
+  std::string View;
+  std::optional<double> FieldOfView;
+  std::optional<Error> Problem;
+};
+
+std::optional<double> TransformsReader::number(const Json &Frame,
+                                               const char *Key) {
+  const Json *J = find(Frame, Key);
+  if (!J)
+    return std::nullopt;
+  if (!J->is_number() || !std::isfinite(J->get<double>())) {
+    fail(fmt::format("key {} is wrong, expected a finite number", Key));
+    return std::nullopt;
+  }
+  return J->get<double>();
+}
+
+void TransformsReader::refuseDistortion(const Json &Frame) {
+  constexpr const char *Undistort = "expected an undistorted pinhole camera";
+  for (const char *Key : {"k1", "k2", "k3", "k4", "p1", "p2"})
+    if (const auto Value = number(Frame, Key); Value && *Value != 0)
+      fail(fmt::format("a distorted camera ({} is {}), {}", Key, *Value,
+                       Undistort));
+  const Json *Model = find(Frame, "camera_model");
+  const bool Fisheye =
+      find(Frame, "is_fisheye") && *find(Frame, "is_fisheye") == Json(true);
+  const bool Known = !Model || *Model == "PINHOLE" ||
+                     *Model == "SIMPLE_PINHOLE" || *Model == "OPENCV";
+  if (Fisheye || !Known)
+    fail(fmt::format("the distorted camera model {}, {}",
+                     Known
+                         ? "is_fisheye"
+                         : printable(Model->dump(
+                               -1, ' ', false, Json::error_handler_t::replace)),
+                     Undistort));
+}
+
+void TransformsReader::readPose(const Json &Frame, Camera &C) {
+  const auto It = Frame.find("transform_matrix");
+  bool Good = It != Frame.end() && It->is_array() &&
+              (It->size() == 3 || It->size() == 4);
+  for (std::size_t R = 0; Good && R < 3; ++R) {
+    const Json &Row = (*It)[R];
+    Good = Row.is_array() && Row.size() == 4;
+    for (std::size_t K = 0; Good && K < 4; ++K) {
+      Good = Row[K].is_number() && std::isfinite(Row[K].get<double>());
+      if (!Good)
+        break;
+      const double Value = Row[K].get<double>();
+      if (K == 3)
+        C.Position[R] = Value;
+      else // y up and z back become y down and z forward
+        C.Rotation[R][K] = K == 0 ? Value : -Value;
+    }
+  }
+  if (!Good || !isRotation(C.Rotation))
+    fail("an unreadable pose, expected transform_matrix of a rotation and a "
+         "translation, camera to world");
+}
+
+void TransformsReader::readIntrinsics(const Json &Frame, Camera &C) {
+  const auto Fx = number(Frame, "fl_x"), Fy = number(Frame, "fl_y");
+  const auto Side = [&](const char *Key) {
+    const auto Value = number(Frame, Key);
+    if (!Value || !(*Value >= 1 && *Value <= MaxImageSize) ||
+        *Value != std::floor(*Value)) {
+      fail(fmt::format("key {} is missing or wrong, expected 1 to {} pixels",
+                       Key, MaxImageSize));
+      return 1;
+    }
+    return static_cast<int>(*Value);
+  };
+  if (!Fx) {
+    const auto Angle = number(Frame, "camera_angle_x");
+    if (!Angle || !(*Angle > 0 && *Angle < 3.14159))
+      fail("no focal length, expected fl_x, or camera_angle_x between 0 and "
+           "pi");
+    else
+      FieldOfView = Angle;
+    return;
+  }
+  C.Width = Side("w");
+  C.Height = Side("h");
+  C.Fx = *Fx;
+  C.Fy = Fy.value_or(*Fx);
+  C.Cx = number(Frame, "cx").value_or(0.5 * C.Width);
+  C.Cy = number(Frame, "cy").value_or(0.5 * C.Height);
+  if (!(C.Fx > 0) || !(C.Fy > 0))
+    fail("a focal length that is not positive, expected a number of pixels");
+}
+
+Expected<TransformsFile> TransformsReader::read() {
+  if (!Document.is_object())
+    return Error{Where, "not JSON, expected an object with frames"};
+  const auto Frames = Document.find("frames");
+  if (Frames == Document.end() || !Frames->is_array() || Frames->empty())
+    return Error{Where, "no frames, expected a list of at least one"};
+  TransformsFile T;
+  for (const Json &Frame : *Frames) {
+    View.clear();
+    const auto Path = Frame.is_object() ? Frame.find("file_path") : Frame.end();
+    if (!Frame.is_object() || Path == Frame.end() || !Path->is_string() ||
+        Path->get<std::string>().empty()) {
+      fail(fmt::format("frame {} has no file_path, expected a picture's name",
+                       T.Views.size()));
+      break;
+    }
+    CaptureView V;
+    V.Pose.Id = static_cast<int>(T.Views.size());
+    V.Pose.Name = Path->get<std::string>();
+    if (V.Pose.Name.starts_with("./"))
+      V.Pose.Name.erase(0, 2);
+    View = "frame " + printable(V.Pose.Name);
+    refuseDistortion(Frame);
+    readPose(Frame, V.Pose);
+    readIntrinsics(Frame, V.Pose);
+    T.Views.push_back(std::move(V));
+  }
+  View.clear();
+  if (FieldOfView && std::ranges::any_of(T.Views, [](const CaptureView &V) {
+        return V.Pose.Fx > 0;
+      }))
+    fail("some frames have fl_x and some have not, expected it in all or none");
+  if (const auto It = Document.find("ply_file_path"); It != Document.end()) {
+    if (It->is_string())
+      T.Points = It->get<std::string>();
+    else
+      fail("key ply_file_path is wrong, expected a file's name");
+  }
+  if (Problem)
+    return *Problem;
+  T.FieldOfView = FieldOfView;
+  return T;
+}
+
+} // namespace
+
+Expected<TransformsFile> parseTransforms(const std::string &Where, Bytes File) {
+  const std::string_view Text = asText(File);
+  const Json Document = Json::parse(Text.begin(), Text.end(), nullptr,
+                                    /*allow_exceptions=*/false);
+  return TransformsReader(Where, Document).read();
+}
+
+void setFieldOfView(Camera &C, double Radians) {
+  C.Fx = 0.5 * C.Width / std::tan(0.5 * Radians);
+  C.Fy = C.Fx;
+  C.Cx = 0.5 * C.Width;
+  C.Cy = 0.5 * C.Height;
+}
+
+Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
+  const auto H = readPlyHeader(Where, File);
+  if (!H)
+    return H.error();
+  const PlyElement *Vertex = H->find("vertex");
+  if (!Vertex)
+    return Error{Where, "no element vertex, expected the points"};
+  const auto Position = Vertex->offsets(Where, {"x", "y", "z"}, PlyType::Float);
+  if (!Position)
+    return Position.error();
+  const auto Colour =
+      Vertex->offsets(Where, {"red", "green", "blue"}, PlyType::UChar);
+  if (!Colour)
+    return Colour.error();
+  CapturePoints P;
+  for (std::size_t I = 0; I < Vertex->Count; ++I) {
+    const Bytes Row =
+        File.subspan(Vertex->Start + I * Vertex->Stride, Vertex->Stride);
+    for (const std::size_t At : *Position)
+      if (!std::isfinite(P.Positions.emplace_back(load<float>(Row, At))))
+        return Error{Where, fmt::format("point {} holds a NaN or an infinity, "
+                                        "expected finite coordinates",
+                                        I)};
+    for (const std::size_t At : *Colour)
+      P.Colours.push_back(load<std::uint8_t>(Row, At));
+  }
+  return P;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,123 @@
+#include "Transforms.h"
+
+#include "CaptureTest.h"
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+using Json = nlohmann::json;
+
+Expected<TransformsFile> parsed(const std::string &Text) {
+  return parseTransforms("file", std::as_bytes(std::span(Text)));
+}
+
+Json sample() {
+  return Json::parse(transformsOf(sampleCapture(2))["transforms.json"]);
+}
+
+TEST(Transforms, FramesMayHaveTheirOwnCamera) {
+  Json J = sample();
+  J["frames"][1]["fl_x"] = 20;
+  J["frames"][1]["w"] = 16;
+  const auto T = parsed(J.dump());
+  ASSERT_TRUE(T) << T.error().What;
+  EXPECT_EQ(T->Views[0].Pose.Fx, 10);
+  EXPECT_EQ(T->Views[1].Pose.Fx, 20);
+  EXPECT_EQ(T->Views[1].Pose.Width, 16);
+  EXPECT_FALSE(T->FieldOfView);
+  EXPECT_EQ(T->Views[0].Pose.Name, "pictures/a0.png");
+}
+
+TEST(Transforms, EachKindOfDamageHasItsMessage) {
+  const struct {
+    std::function<void(Json &)> Change;
+    const char *Message;
+  } Cases[] = {
+      {[](Json &J) { J = Json::array(); }, "expected an object with frames"},
+      {[](Json &J) { J.erase("frames"); }, "no frames"},
+      {[](Json &J) { J["frames"] = Json::array(); }, "no frames"},
+      {[](Json &J) { J["frames"][1] = 3; }, "frame 1 has no file_path"},
+      {[](Json &J) { J["frames"][1].erase("file_path"); },
+       "frame 1 has no file_path"},
+      {[](Json &J) { J["k1"] = 0.01; },
+       "frame pictures/a0.png: a distorted camera (k1 is 0.01)"},
+      {[](Json &J) { J["camera_model"] = "OPENCV_FISHEYE"; },
+       "the distorted camera model \"OPENCV_FISHEYE\""},
+      {[](Json &J) { J["is_fisheye"] = true; },
+       "the distorted camera model is_fisheye"},
+      {[](Json &J) { J["frames"][1]["transform_matrix"][2] = 0; },
+       "frame pictures/a1.png: an unreadable pose"},
+      {[](Json &J) { J["frames"][1]["transform_matrix"][0][0] = 2; },
+       "an unreadable pose"},
+      {[](Json &J) { J["frames"][1]["transform_matrix"][0][3] = "x"; },
+       "an unreadable pose"},
+      {[](Json &J) { J["frames"][0].erase("transform_matrix"); },
+       "an unreadable pose"},
+      {[](Json &J) { J.erase("w"); }, "key w is missing or wrong"},
+      {[](Json &J) { J["h"] = 6.5; }, "key h is missing or wrong"},
+      {[](Json &J) { J["fl_y"] = -1; }, "a focal length that is not positive"},
+      {[](Json &J) { J["cx"] = "left"; }, "key cx is wrong"},
+      {[](Json &J) { J.erase("fl_x"); }, "no focal length"},
+      {[](Json &J) {
+         J.erase("fl_x");
+         J["camera_angle_x"] = 4;
+       },
+       "no focal length"},
+      {[](Json &J) {
+         J.erase("fl_x");
+         J["camera_angle_x"] = 1;
+         J["frames"][1]["fl_x"] = 4;
+       },
+       "some frames have fl_x and some have not"},
+      {[](Json &J) { J["ply_file_path"] = 1; }, "key ply_file_path is wrong"}};
+  for (const auto &[Change, Message] : Cases) {
+    Json J = sample();
+    Change(J);
+    const auto T = parsed(J.dump());
+    ASSERT_FALSE(T) << Message;
+    EXPECT_EQ(T.error().Where, "file");
+    EXPECT_NE(T.error().What.find(Message), std::string::npos)
+        << T.error().What;
+  }
+}
+
+TEST(Transforms, DamageIsReadOrRefused) {
+  const std::string Text = sample().dump();
+  unsigned Refused = 0;
+  for (std::size_t At = 0; At < Text.size(); ++At) {
+    EXPECT_FALSE(parsed(Text.substr(0, At)));
+    for (const char Byte : {'\0', '\xff', '9'}) {
+      std::string Changed = Text;
+      Changed[At] = Byte;
+      const auto T = parsed(Changed);
+      Refused += !T;
+    }
+  }
+  EXPECT_GT(Refused, Text.size());
+}
+
+TEST(PointCloud, IsReadFromAPly) {
+  std::string Ply = "ply\nformat binary_little_endian 1.0\n"
+                    "element vertex 2\nproperty float x\nproperty float y\n"
+                    "property float z\nproperty uchar red\n"
+                    "property uchar green\nproperty uchar blue\nend_header\n";
+  for (const float V : {1.0F, 2.0F, 3.0F}) // twice the same row
+    Ply.append(reinterpret_cast<const char *>(&V), 4);
+  Ply += "\x01\x02\xff";
+  Ply += Ply.substr(Ply.size() - 15);
+  const auto P = parsePointCloud("file", std::as_bytes(std::span(Ply)));
+  ASSERT_TRUE(P) << P.error().What;
+  EXPECT_EQ(P->size(), 2U);
+  EXPECT_EQ(P->Positions, (std::vector<float>{1, 2, 3, 1, 2, 3}));
+  EXPECT_EQ(P->Colours, (std::vector<std::uint8_t>{1, 2, 255, 1, 2, 255}));
+  const std::string NoRed = replaced(Ply, "uchar red", "uchar rot");
+  EXPECT_FALSE(parsePointCloud("file", std::as_bytes(std::span(NoRed))));
+}
+
+} // namespace

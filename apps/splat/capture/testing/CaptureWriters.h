@@ -1,0 +1,48 @@
+/// Small captures of every format, for tests only, written apart from the
+/// readers.
+#pragma once
+
+#include "SceneWriters.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vorion::splat::testing {
+
+/// What a capture of a test holds. Poses are COLMAP's: world to camera.
+struct SampleCapture {
+  struct View {
+    std::string Name;
+    std::array<double, 4> Quaternion{1, 0, 0, 0}; ///< w, x, y, z
+    std::array<double, 3> Translation{};
+  };
+  struct Point {
+    std::array<double, 3> Position{};
+    std::array<std::uint8_t, 3> Colour{};
+  };
+  int Width = 8, Height = 6;
+  double Fx = 10, Fy = 11, Cx = 4.25, Cy = 3;
+  std::vector<View> Views;
+  std::vector<Point> Points;
+};
+
+/// \p Views cameras on a circle about the origin that look at it, 12 points;
+/// names a0.png, a1.png, ...
+SampleCapture sampleCapture(std::size_t Views = 10);
+
+/// sparse/0/{cameras,images,points3D}.bin or .txt and images/, each picture of
+/// one colour.
+Folder colmapBinaryOf(const SampleCapture &C);
+Folder colmapTextOf(const SampleCapture &C);
+/// transforms.json with fl_x, and the pictures.
+Folder transformsOf(const SampleCapture &C);
+/// transforms_train.json and transforms_test.json (of the last two views) with
+/// camera_angle_x, names without their ending.
+Folder nerfSyntheticOf(const SampleCapture &C);
+
+/// An 8-bit RGBA PNG.
+std::string pngOf(int Width, int Height, const std::string &Rgba);
+
+} // namespace vorion::splat::testing

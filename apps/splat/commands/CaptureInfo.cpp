@@ -1,0 +1,123 @@
+#include "CaptureInfo.h"
+
+#include "../capture/Capture.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Range {
+  double Low, High;
+};
+
+/// Of \p Value over all views.
+template <typename Function> Range rangeOf(const Capture &C, Function Value) {
+  const auto First = static_cast<double>(Value(C.Views.front().Pose));
+  Range R{First, First};
+  for (const CaptureView &V : C.Views) {
+    R.Low = std::min<double>(R.Low, Value(V.Pose));
+    R.High = std::max<double>(R.High, Value(V.Pose));
+  }
+  return R;
+}
+
+/// Of the points along axis \p K; there is at least one.
+Range boundsOf(const CapturePoints &P, std::size_t K) {
+  Range R{P.Positions[K], P.Positions[K]};
+  for (std::size_t I = K; I < P.Positions.size(); I += 3) {
+    R.Low = std::min<double>(R.Low, P.Positions[I]);
+    R.High = std::max<double>(R.High, P.Positions[I]);
+  }
+  return R;
+}
+
+struct Facts {
+  Range Width, Height, FocalX, FocalY;
+  CameraRing Ring;
+
+  explicit Facts(const Capture &C)
+      : Width(rangeOf(C, [](const Camera &P) { return P.Width; })),
+        Height(rangeOf(C, [](const Camera &P) { return P.Height; })),
+        FocalX(rangeOf(C, [](const Camera &P) { return P.Fx; })),
+        FocalY(rangeOf(C, [](const Camera &P) { return P.Fy; })),
+        Ring(cameraRing(C)) {}
+};
+
+std::string textOf(const std::string &Path, const Capture &C) {
+  const Facts F(C);
+  const auto Span = [](const Range &R) {
+    return R.Low == R.High ? fmt::format("{:.6g}", R.Low)
+                           : fmt::format("{:.6g} to {:.6g}", R.Low, R.High);
+  };
+  std::string Text =
+      fmt::format("{}: {} capture\n{} views, {} of them held out ({})\n", Path,
+                  name(C.Format), C.Views.size(), C.heldOut(), C.HeldOutBy);
+  if (C.WithoutPicture > 0)
+    Text += fmt::format("left out     {} held-out views without a picture\n",
+                        C.WithoutPicture);
+  Text += fmt::format("pictures     {} x {} pixels\n", Span(F.Width),
+                      Span(F.Height));
+  Text += fmt::format("focal length x {}, y {} pixels\n", Span(F.FocalX),
+                      Span(F.FocalY));
+  Text += fmt::format("cameras      within {:.6g} of ({:.6g}, {:.6g}, {:.6g}), "
+                      "extent {:.6g}\n",
+                      F.Ring.Radius, F.Ring.Centre[0], F.Ring.Centre[1],
+                      F.Ring.Centre[2], F.Ring.extent());
+  if (C.Points.size() == 0)
+    return Text + "points       none: training starts from random ones\n";
+  return Text + fmt::format("points       {}: x {}, y {}, z {}\n",
+                            C.Points.size(), Span(boundsOf(C.Points, 0)),
+                            Span(boundsOf(C.Points, 1)),
+                            Span(boundsOf(C.Points, 2)));
+}
+
+std::string jsonOf(const std::string &Path, const Capture &C) {
+  const Facts F(C);
+  Json Views = Json::array();
+  for (const CaptureView &V : C.Views)
+    Views.push_back({{"name", V.Pose.Name},
+                     {"width", V.Pose.Width},
+                     {"height", V.Pose.Height},
+                     {"fx", V.Pose.Fx},
+                     {"fy", V.Pose.Fy},
+                     {"cx", V.Pose.Cx},
+                     {"cy", V.Pose.Cy},
+                     {"position", V.Pose.Position},
+                     {"rotation", V.Pose.Rotation},
+                     {"held_out", V.HeldOut}});
+  const Json Report{
+      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+      {"capture", Path},
+      {"format", name(C.Format)},
+      {"held_out_by", C.HeldOutBy},
+      {"without_picture", C.WithoutPicture},
+      {"points", C.Points.size()},
+      {"camera_centre", F.Ring.Centre},
+      {"camera_radius", F.Ring.Radius},
+      {"extent", F.Ring.extent()},
+      {"views", Views}};
+  return Report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace
+
+Expected<Success> describeCapture(const std::string &Path,
+                                  const std::string &JsonFile) {
+  const auto C = readCapture(Path);
+  if (!C)
+    return C.error();
+  if (!JsonFile.empty())
+    if (auto Written = writeFileAtomically(JsonFile, jsonOf(Path, *C));
+        !Written)
+      return Written;
+  fmt::print("{}", textOf(Path, *C));
+  return Success{};
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,15 @@
+/// What `splat info` says about a capture.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <string>
+
+namespace vorion::splat {
+
+/// Reads the capture at \p Path, prints what is in it and, unless \p JsonFile
+/// is empty, writes the same for programs.
+Expected<Success> describeCapture(const std::string &Path,
+                                  const std::string &JsonFile);
+
+} // namespace vorion::splat
