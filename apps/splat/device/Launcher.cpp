@@ -140,19 +140,32 @@ void Launcher::account(KernelReport Report) {
   Known->Time = addTimeReports(Known->Time, Report.Time);
 }
 
+namespace {
+
+/// Told by OpenCL when a buffer is gone.
+struct Release {
+  std::shared_ptr<std::atomic<std::uint64_t>> InUse;
+  std::uint64_t Bytes;
+};
+void CL_CALLBACK releaseBuffer(cl_mem /*Buffer*/, void *Data) {
+  const std::unique_ptr<Release> R(static_cast<Release *>(Data));
+  *R->InUse -= R->Bytes;
+}
+
+} // namespace
+
 cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
   if (Failure)
     return {};
   // OpenCL has no empty buffers.
   const std::uint64_t Size = std::max<std::uint64_t>(Bytes, 4);
-  if (Size > Dev.largestAllocation() ||
-      AllocatedBytes + Size > Dev.globalBytes()) {
+  if (Size > Dev.largestAllocation() || *InUse + Size > Dev.globalBytes()) {
     Failure = Error{
         "",
         fmt::format("the {} need {:.1f} MiB beside {:.1f} MiB in use, but {} "
                     "has {:.1f} MiB of memory, at most {:.1f} MiB in one piece",
-                    What, mebibytes(Size), mebibytes(AllocatedBytes),
-                    Dev.name(), mebibytes(Dev.globalBytes()),
+                    What, mebibytes(Size), mebibytes(*InUse), Dev.name(),
+                    mebibytes(Dev.globalBytes()),
                     mebibytes(Dev.largestAllocation())),
         ExitCode::LimitReached};
     return {};
@@ -166,6 +179,10 @@ cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
     return {};
   }
   AllocatedBytes += Size;
+  *InUse += Size;
+  auto R = std::make_unique<Release>(Release{InUse, Size});
+  if (B.setDestructorCallback(releaseBuffer, R.get()) == CL_SUCCESS)
+    R.release(); // NOLINT(bugprone-unused-return-value): the callback's now
   return B;
 }
 
@@ -187,12 +204,12 @@ void Launcher::write(std::string_view What, const cl::Buffer &To,
 }
 
 void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
-                    std::uint64_t Bytes) {
+                    std::uint64_t Bytes, std::uint64_t Offset) {
   if (Failure || Bytes == 0)
     return;
   countCopy(Bytes);
   const cl_int Status =
-      Dev.queue().enqueueReadBuffer(From, CL_TRUE, 0, Bytes, To);
+      Dev.queue().enqueueReadBuffer(From, CL_TRUE, Offset, Bytes, To);
   if (Status != CL_SUCCESS)
     Failure =
         clError(fmt::format("copying the {} from the device", What), Status);

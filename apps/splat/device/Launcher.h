@@ -3,10 +3,12 @@
 
 #include "Device.h"
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -95,11 +97,14 @@ public:
   cl::Buffer allocate(std::string_view What, std::uint64_t Bytes);
   void write(std::string_view What, const cl::Buffer &To, const void *From,
              std::uint64_t Bytes);
+  /// From byte \p Offset of \p From on.
   void read(std::string_view What, void *To, const cl::Buffer &From,
-            std::uint64_t Bytes);
+            std::uint64_t Bytes, std::uint64_t Offset = 0);
 
-  /// Bytes of all buffers made with \c allocate.
+  /// Bytes of all buffers made with \c allocate, also those gone since.
   std::uint64_t allocatedBytes() const { return AllocatedBytes; }
+  /// Of those that are still there.
+  std::uint64_t bytesInUse() const { return *InUse; }
   const Device &device() const { return Dev; }
 
 private:
@@ -119,6 +124,9 @@ private:
   std::vector<StageReport> Stages;
   std::chrono::steady_clock::time_point StageStart;
   std::uint64_t AllocatedBytes = 0;
+  /// Shared with the buffers, which may outlive this.
+  std::shared_ptr<std::atomic<std::uint64_t>> InUse =
+      std::make_shared<std::atomic<std::uint64_t>>(0);
 };
 
 } // namespace vorion::splat

@@ -2,6 +2,7 @@
 
 #include "Image.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -127,16 +128,26 @@ double ssim(const std::vector<double> &A, const std::vector<double> &B,
   return A.empty() ? 1 : Sum / static_cast<double>(A.size());
 }
 
-double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B) {
+double psnrOfBytes(const std::vector<std::uint8_t> &A,
+                   const std::vector<std::uint8_t> &B) {
   assert(A.size() == B.size() && "pictures of different sizes");
   double Squares = 0;
   for (std::size_t I = 0; I < A.size(); ++I) {
-    const double Delta = int(toByte(A[I])) - int(toByte(B[I]));
+    const double Delta = int{A[I]} - int{B[I]};
     Squares += Delta * Delta;
   }
   return Squares > 0
              ? 10 * std::log10(255.0 * 255.0 * double(A.size()) / Squares)
              : Infinity;
+}
+
+double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B) {
+  const auto Rounded = [](const std::vector<float> &Values) {
+    std::vector<std::uint8_t> Bytes(Values.size());
+    std::ranges::transform(Values, Bytes.begin(), toByte);
+    return Bytes;
+  };
+  return psnrOfBytes(Rounded(A), Rounded(B));
 }
 
 } // namespace vorion::splat

@@ -41,5 +41,8 @@ Difference compare(const std::vector<double> &A, const std::vector<double> &B,
 
 /// PSNR with peak 255 of the clamped, rounded 8-bit values.
 double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B);
+/// Of 8-bit values as they are.
+double psnrOfBytes(const std::vector<std::uint8_t> &A,
+                   const std::vector<std::uint8_t> &B);
 
 } // namespace vorion::splat

@@ -47,6 +47,17 @@ typedef struct {
   uint tail_share;
 } splat_blend_options;
 
+/// When density control clones, splits and drops a Gaussian; infinities switch
+/// a reason off.
+typedef struct {
+  float gradient;        ///< grows above it: mean over views, half pictures
+  float split_log_scale; ///< splits rather than clones above it
+  float split_shrink;    ///< of a split's halves, off the log scales
+  float least_logit;     ///< dropped below it
+  float most_log_scale;  ///< dropped above it
+  float most_radius;     ///< dropped above it, px
+} splat_density;
+
 /// Planes of the geometry buffer: plane p of Gaussian i is at p * count + i, so
 /// that the lanes of a warp read neighbouring words.
 enum {

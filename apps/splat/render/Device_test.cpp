@@ -1,6 +1,7 @@
 // What runs on the OpenCL device, piece by piece. Skipped where there is none.
 
 #include "../device/Kernels.h"
+#include "../device/OnDevice.h"
 #include "../io/Activation.h"
 #include "Plan.h"
 #include "Sorter.h"
@@ -17,32 +18,6 @@
 
 namespace vorion::splat {
 namespace {
-
-class OnDevice : public testing::Test {
-protected:
-  void SetUp() override {
-    auto Opened = Device::open("");
-    if (!Opened)
-      GTEST_SKIP() << "no OpenCL device";
-    Dev.emplace(std::move(*Opened));
-  }
-
-  cl::Buffer upload(Launcher &L, const std::vector<std::uint32_t> &Words) {
-    const cl::Buffer B = L.allocate("words", 4 * Words.size());
-    L.write("words", B, Words.data(), 4 * Words.size());
-    return B;
-  }
-  std::vector<std::uint32_t> download(Launcher &L, const cl::Buffer &B,
-                                      std::size_t Count) {
-    std::vector<std::uint32_t> Words(Count);
-    L.read("words", Words.data(), B, 4 * Count);
-    EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
-    return Words;
-  }
-
-  std::optional<Device> Dev;
-  std::mt19937 Random{7};
-};
 
 /// Counts around the work-items' shares: fewer than one, exact, one over.
 class SortOnDevice : public OnDevice,

@@ -11,6 +11,7 @@ using uint = std::uint32_t;
 static_assert(sizeof(splat_gaussian) == 48, "docs/abi.md: vx_gaussian");
 static_assert(sizeof(splat_blend_options) == 44,
               "4-byte members without padding");
+static_assert(sizeof(splat_density) == 24, "4-byte members without padding");
 static_assert(sizeof(splat_view) == 140, "4-byte members without padding");
 
 } // namespace vorion::splat

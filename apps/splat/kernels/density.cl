@@ -1,0 +1,176 @@
+// Density control (Kerbl et al. 2023, section 5): which Gaussians are cloned,
+// split or dropped, and the new arrays. Places come from a prefix sum over the
+// number of Gaussians that each becomes, so the new order is that of the old
+// ones, what one becomes side by side: it depends on no order of arrival.
+
+enum { FATE_DROP = 0, FATE_KEEP = 1, FATE_CLONE = 2, FATE_SPLIT = 3 };
+
+static uint becomes(uint fate) {
+  return fate == FATE_DROP ? 0 : fate == FATE_KEEP ? 1 : 2;
+}
+
+// INRIA's radius of a projected Gaussian, px: three standard deviations along
+// its longest axis, rounded up. The covariance is the conic's inverse.
+static float screen_radius(splat_gaussian g) {
+  const float det = g.conic[0] * g.conic[2] - g.conic[1] * g.conic[1];
+  const float xx = g.conic[2] / det, yy = g.conic[0] / det;
+  const float xy = -g.conic[1] / det;
+  const float half_difference = (xx - yy) / 2.0f;
+  const float spread = half_difference * half_difference + xy * xy;
+  return ceil(3.0f * sqrt((xx + yy) / 2.0f + sqrt(fmax(0.1f, spread))));
+}
+
+// Notes what one view says about the Gaussians that it saw: the length of the
+// loss's gradient by the projected mean in units of half the picture, how often
+// it was seen, and its largest radius. A radius that is no number stays out. The
+// gradients by x and y are planes of floats, the first at `plane`.
+__kernel void density_note(__global const splat_gaussian *records,
+                           __global const uint *depths,
+                           __global const float *gradients, uint plane,
+                           __global float *sums, __global uint *views,
+                           __global float *radii, uint count, float half_width,
+                           float half_height) {
+  const uint i = get_global_id(0);
+  if (i >= count || depths[i] >= CULLED)
+    return;
+  const float x = gradients[plane * count + i] * half_width;
+  const float y = gradients[(plane + 1) * count + i] * half_height;
+  sums[i] += sqrt(x * x + y * y);
+  views[i] += 1;
+  radii[i] = fmax(radii[i], screen_radius(records[i]));
+}
+
+// What becomes of each Gaussian, and how many; `keys` orders those that grow by
+// falling gradient (the bits of a float that is not negative rise with it).
+__kernel void density_decide(__global const float *geometry,
+                             __global const float *sums,
+                             __global const uint *views,
+                             __global const float *radii, __global uint *fates,
+                             __global uint *counts, __global uint *keys,
+                             __global uint *order, uint count,
+                             splat_density rule) {
+  const uint i = get_global_id(0);
+  if (i >= count)
+    return;
+  const float largest =
+      fmax(fmax(geometry[PLANE_LOG_SCALE * count + i],
+                geometry[(PLANE_LOG_SCALE + 1) * count + i]),
+           geometry[(PLANE_LOG_SCALE + 2) * count + i]);
+  const float gradient = views[i] > 0 ? sums[i] / (float)views[i] : 0.0f;
+  const bool grows = gradient > rule.gradient;
+  const bool splits = grows && largest > rule.split_log_scale;
+  // The halves of a split have no radius yet.
+  const float log_scale = splits ? largest - rule.split_shrink : largest;
+  const bool drops =
+      geometry[PLANE_LOGIT * count + i] < rule.least_logit ||
+      log_scale > rule.most_log_scale ||
+      (!splits && radii[i] > rule.most_radius);
+  const uint fate = drops    ? FATE_DROP
+                    : splits ? FATE_SPLIT
+                    : grows  ? FATE_CLONE
+                             : FATE_KEEP;
+  fates[i] = fate;
+  counts[i] = becomes(fate);
+  keys[i] = becomes(fate) == 2 ? ~as_uint(gradient) : 0xffffffffu;
+  order[i] = i;
+}
+
+// Where there is room for `most` more only: those with the largest gradients
+// grow, the others stay as they are. `order` is sorted by `keys`.
+__kernel void density_limit(__global const uint *order, __global uint *fates,
+                            __global uint *counts, uint count, uint most) {
+  const uint rank = get_global_id(0);
+  if (rank >= count || rank < most)
+    return;
+  const uint i = order[rank];
+  if (counts[i] == 2) {
+    fates[i] = FATE_KEEP;
+    counts[i] = 1;
+  }
+}
+
+// Whether each grows, for counting them.
+__kernel void density_grows(__global const uint *counts, __global uint *grows,
+                            uint count) {
+  const uint i = get_global_id(0);
+  if (i < count)
+    grows[i] = counts[i] == 2 ? 1 : 0;
+}
+
+// One plane for each second index: what is kept keeps its values. Of a clone
+// both have the parameters (`moments` 0); an optimiser's moments stay with the
+// original alone, and those of a split begin at 0.
+__kernel void density_copy(__global const float *in, __global float *out,
+                           __global const uint *fates,
+                           __global const uint *places, uint count,
+                           uint new_count, uint moments) {
+  const uint i = get_global_id(0);
+  if (i >= count || fates[i] == FATE_DROP)
+    return;
+  const uint plane = get_global_id(1);
+  const float value = in[plane * count + i];
+  const uint to = plane * new_count + places[i];
+  const uint fate = fates[i];
+  out[to] = moments && fate == FATE_SPLIT ? 0.0f : value;
+  if (becomes(fate) == 2)
+    out[to + 1] = moments ? 0.0f : value;
+}
+
+// A split's halves: at samples of the Gaussian that they replace, smaller.
+__kernel void density_split(__global const float *geometry,
+                            __global float *new_geometry,
+                            __global const uint *fates,
+                            __global const uint *places, uint count,
+                            uint new_count, uint seed_low, uint seed_high,
+                            uint iteration, float shrink) {
+  const uint i = get_global_id(0);
+  if (i >= count || fates[i] != FATE_SPLIT)
+    return;
+  const float4 u = activate_quaternion(
+      (float4)(geometry[PLANE_QUATERNION * count + i],
+               geometry[(PLANE_QUATERNION + 1) * count + i],
+               geometry[(PLANE_QUATERNION + 2) * count + i],
+               geometry[(PLANE_QUATERNION + 3) * count + i]));
+  const float w = u.x, x = u.y, y = u.z, z = u.w;
+  const float3 column[3] = {
+      (float3)(1.0f - 2.0f * (y * y + z * z), 2.0f * (x * y + w * z),
+               2.0f * (x * z - w * y)),
+      (float3)(2.0f * (x * y - w * z), 1.0f - 2.0f * (x * x + z * z),
+               2.0f * (y * z + w * x)),
+      (float3)(2.0f * (x * z + w * y), 2.0f * (y * z - w * x),
+               1.0f - 2.0f * (x * x + y * y))};
+  for (uint child = 0; child < 2; ++child) {
+    const philox_words r =
+        philox(seed_low, seed_high, i, child, iteration, STREAM_SPLIT);
+    // G. E. P. Box, M. E. Muller 1958: two normal numbers of two uniform ones.
+    const float near = sqrt(-2.0f * log(philox_unit(r.word[0])));
+    const float far = sqrt(-2.0f * log(philox_unit(r.word[2])));
+    const float turn = 2.0f * philox_unit(r.word[1]);
+    const float normal[3] = {near * cospi(turn), near * sinpi(turn),
+                             far * cospi(2.0f * philox_unit(r.word[3]))};
+    float3 offset = (float3)(0.0f, 0.0f, 0.0f);
+    const uint to = places[i] + child;
+    for (uint k = 0; k < 3; ++k) {
+      const float log_scale = geometry[(PLANE_LOG_SCALE + k) * count + i];
+      offset += column[k] * (activate_scale(log_scale) * normal[k]);
+      new_geometry[(PLANE_LOG_SCALE + k) * new_count + to] = log_scale - shrink;
+    }
+    const float shift[3] = {offset.x, offset.y, offset.z};
+    for (uint k = 0; k < 3; ++k)
+      new_geometry[(PLANE_MEAN + k) * new_count + to] =
+          geometry[(PLANE_MEAN + k) * count + i] + shift[k];
+  }
+}
+
+// Opacities down to at most that of `most_logit`; their moments begin again.
+__kernel void reset_opacity(__global float *geometry, __global float *first,
+                            __global float *second, uint count,
+                            float most_logit) {
+  const uint i = get_global_id(0);
+  if (i >= count)
+    return;
+  const uint at = PLANE_LOGIT * count + i;
+  geometry[at] = fmin(geometry[at], most_logit);
+  first[at] = 0.0f;
+  second[at] = 0.0f;
+}

@@ -1,0 +1,21 @@
+/// Scenes as the device has them: a plane of values for each parameter, so that
+/// the lanes of a warp read neighbouring words.
+#pragma once
+
+#include "../io/Scene.h"
+
+#include <vector>
+
+namespace vorion::splat {
+
+/// Planes of layout.h's GEOMETRY_PLANES.
+std::vector<float> geometryPlanes(const Scene &S);
+
+/// Plane 3 k + c holds coefficient k of channel c, up to \p Degree.
+std::vector<float> shPlanes(const Scene &S, int Degree);
+
+/// The scene of degree \p Degree that has these planes.
+Scene sceneOfPlanes(const std::vector<float> &Geometry,
+                    const std::vector<float> &Sh, int Degree);
+
+} // namespace vorion::splat

@@ -1,0 +1,52 @@
+#include "Adam.h"
+
+#include "../render/Layout.h"
+#include "WorkItems.h"
+
+#include <cmath>
+#include <vector>
+
+namespace vorion::splat {
+
+ProgramSpec adamProgram() { return {AdamProgram, {"adam.cl"}, {}}; }
+
+void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
+              const PlanePair &Gradients, unsigned Iteration, double Extent,
+              int ActiveDegree) {
+  const double First = 1 - std::pow(Settings.Beta1, Iteration);
+  const double Second = 1 - std::pow(Settings.Beta2, Iteration);
+  const auto Rate = [&](double R) { return static_cast<float>(R / First); };
+
+  std::vector<float> Geometry(GEOMETRY_PLANES);
+  for (std::size_t K = 0; K < 3; ++K) {
+    Geometry[PLANE_MEAN + K] = Rate(positionRate(Settings, Iteration) * Extent);
+    Geometry[PLANE_LOG_SCALE + K] = Rate(Settings.ScaleRate);
+  }
+  for (std::size_t K = 0; K < 4; ++K)
+    Geometry[PLANE_QUATERNION + K] = Rate(Settings.RotationRate);
+  Geometry[PLANE_LOGIT] = Rate(Settings.OpacityRate);
+  std::vector<float> Sh(3 * shCoefficients(ActiveDegree),
+                        Rate(Settings.LaterColourRate));
+  for (std::size_t K = 0; K < 3; ++K)
+    Sh[K] = Rate(Settings.ColourRate);
+
+  const auto Step = [&](const std::vector<float> &Rates, const cl::Buffer &P,
+                        const cl::Buffer &G, const cl::Buffer &M,
+                        const cl::Buffer &V) {
+    const cl::Buffer RateBuffer = L.allocate("rates", 4 * Rates.size());
+    L.write("rates", RateBuffer, Rates.data(), 4 * Rates.size());
+    L.run(AdamProgram, "adam", cl::NDRange(itemsOf(S.Count)[0], Rates.size()),
+          cl::NDRange(ItemGroup, 1), P, G, M, V, RateBuffer, S.Count,
+          static_cast<float>(Settings.Beta1),
+          static_cast<float>(1 - Settings.Beta1),
+          static_cast<float>(Settings.Beta2),
+          static_cast<float>(1 - Settings.Beta2),
+          static_cast<float>(1 / std::sqrt(Second)),
+          static_cast<float>(Settings.Epsilon));
+  };
+  Step(Geometry, S.Parameters.Geometry, Gradients.Geometry, S.First.Geometry,
+       S.Second.Geometry);
+  Step(Sh, S.Parameters.Sh, Gradients.Sh, S.First.Sh, S.Second.Sh);
+}
+
+} // namespace vorion::splat

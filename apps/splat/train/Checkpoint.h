@@ -1,0 +1,36 @@
+/// The state of a training run in a file.
+#pragma once
+
+#include "Density.h"
+#include "vorion/support/Expected.h"
+
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Everything that the rest of a run depends on. Arrays are planes as the
+/// device has them (DeviceScene.h).
+struct Checkpoint {
+  /// What the run was asked to do, one line; a run goes on only if it is asked
+  /// the same.
+  std::string Run;
+  unsigned Iteration = 0; ///< done
+  int ShDegree = 0;
+  std::vector<float> Geometry, Sh;
+  std::vector<float> FirstGeometry, FirstSh, SecondGeometry, SecondSh;
+  DensityNotes Notes;
+  std::vector<float> Losses; ///< of every iteration
+
+  std::size_t gaussians() const { return Notes.Views.size(); }
+};
+
+/// Writes aside and renames: an interrupted or failed write leaves the file
+/// that was there.
+Expected<Success> writeCheckpoint(const std::string &Path, const Checkpoint &C);
+
+/// Refused: other versions, files that are shorter, longer or otherwise than
+/// they were written (a checksum tells).
+Expected<Checkpoint> readCheckpoint(const std::string &Path);
+
+} // namespace vorion::splat

@@ -1,0 +1,160 @@
+#include "Density.h"
+
+#include "../io/Activation.h"
+#include "../render/Layout.h"
+#include "../render/Plan.h"
+#include "WorkItems.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vorion::splat {
+
+namespace {
+constexpr float Never = std::numeric_limits<float>::infinity();
+} // namespace
+
+std::vector<ProgramSpec> densityPrograms() {
+  return {{DensityProgram,
+           {"layout.h", "activate.cl", "philox.h", "density.cl"},
+           {}},
+          {ScanProgram, {"scan.cl"}, {}},
+          {SortProgram, {"sort.cl"}, {}}};
+}
+
+void DensityControl::restart(std::uint32_t Count) {
+  restore({std::vector<float>(Count), std::vector<std::uint32_t>(Count),
+           std::vector<float>(Count)});
+}
+
+void DensityControl::restore(const DensityNotes &Notes) {
+  const auto Upload = [&](cl::Buffer &To, const auto &Values) {
+    To = words("density control's notes", Values.size());
+    L.write("density control's notes", To, Values.data(), 4 * Values.size());
+  };
+  Upload(GradientSums, Notes.GradientSums);
+  Upload(Views, Notes.Views);
+  Upload(Radii, Notes.Radii);
+}
+
+DensityNotes DensityControl::save(std::uint32_t Count) {
+  DensityNotes N{std::vector<float>(Count), std::vector<std::uint32_t>(Count),
+                 std::vector<float>(Count)};
+  const std::uint64_t Bytes = 4 * std::uint64_t{Count};
+  L.read("density control's notes", N.GradientSums.data(), GradientSums, Bytes);
+  L.read("density control's notes", N.Views.data(), Views, Bytes);
+  L.read("density control's notes", N.Radii.data(), Radii, Bytes);
+  return N;
+}
+
+void DensityControl::note(const SeenView &V, std::uint32_t Count) {
+  L.run(DensityProgram, "density_note", itemsOf(Count), ItemGroup, V.Records,
+        V.Depths, V.Gradients, V.MeanPlane, GradientSums, Views, Radii, Count,
+        0.5F * static_cast<float>(V.Width),
+        0.5F * static_cast<float>(V.Height));
+}
+
+/// The sum of \p Values; their prefix sums are left in Places.
+std::uint32_t DensityControl::total(const cl::Buffer &Values,
+                                    std::uint32_t Count) {
+  Sort.scan(Values, Places, Count);
+  std::uint32_t Sum = 0;
+  L.read("places of Gaussians", &Sum, Places, 4, 4 * std::uint64_t{Count});
+  return Sum;
+}
+
+std::uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
+  const bool DropsLarge = dropsLargeAt(Settings, Iteration);
+  splat_density Rule{};
+  Rule.gradient = static_cast<float>(Settings.DensifyGradient);
+  Rule.split_log_scale =
+      static_cast<float>(std::log(Settings.SplitExtent * Extent));
+  Rule.split_shrink = static_cast<float>(std::log(Settings.SplitShrink));
+  Rule.least_logit = opacityLogit(Settings.LeastOpacity);
+  Rule.most_log_scale =
+      DropsLarge ? static_cast<float>(std::log(Settings.MostExtent * Extent))
+                 : Never;
+  Rule.most_radius =
+      DropsLarge ? static_cast<float>(Settings.MostRadius) : Never;
+  L.run(DensityProgram, "density_decide", itemsOf(S.Count), ItemGroup,
+        S.Parameters.Geometry, GradientSums, Views, Radii, Fates, Counts, Keys,
+        Order, S.Count, Rule);
+  return total(Counts, S.Count);
+}
+
+void DensityControl::limit(std::uint32_t Count, std::uint32_t Total) {
+  const cl::Buffer Grows = words("growing Gaussians", Count);
+  L.run(DensityProgram, "density_grows", itemsOf(Count), ItemGroup, Counts,
+        Grows, Count);
+  // Each that grows becomes one more.
+  const std::uint32_t Kept = Total - total(Grows, Count);
+  const std::uint32_t More =
+      Settings.MostGaussians > Kept ? Settings.MostGaussians - Kept : 0;
+  const Sorter::Pairs A{words("sorted gradients", Count),
+                        words("sorted Gaussians", Count)};
+  const Sorter::Pairs B{words("sorted gradients", Count),
+                        words("sorted Gaussians", Count)};
+  const Sorter::Pairs Sorted = Sort.sort({Keys, Order}, A, B, Count, 32);
+  L.run(DensityProgram, "density_limit", itemsOf(Count), ItemGroup,
+        Sorted.Values, Fates, Counts, Count, More);
+}
+
+DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
+  Fates = words("fates of Gaussians", S.Count);
+  Counts = words("numbers of Gaussians", S.Count);
+  Places = words("places of Gaussians", std::uint64_t{S.Count} + 1);
+  Keys = words("gradients to sort", S.Count);
+  Order = words("Gaussians to sort", S.Count);
+  std::uint32_t After = decide(S, Iteration);
+  if (!L.failure() && After > Settings.MostGaussians) {
+    limit(S.Count, After);
+    After = total(Counts, S.Count);
+  }
+  if (!L.failure() && After == 0)
+    L.fail({"", "density control dropped every Gaussian, expected some to stay",
+            ExitCode::LimitReached});
+  if (L.failure())
+    return {};
+
+  const DensityChange Change{S.Count, After};
+  DeviceScene New;
+  New.Count = After;
+  New.ShDegree = S.ShDegree;
+  const auto Move = [&](const cl::Buffer &From, cl::Buffer &To,
+                        std::uint32_t Planes, bool Moments) {
+    L.run(DensityProgram, "density_copy",
+          cl::NDRange(itemsOf(S.Count)[0], Planes), cl::NDRange(ItemGroup, 1),
+          From, To, Fates, Places, S.Count, After, Moments ? 1U : 0U);
+  };
+  const struct {
+    PlanePair &From, &To;
+    bool Moments;
+  } Pairs[] = {{S.Parameters, New.Parameters, false},
+               {S.First, New.First, true},
+               {S.Second, New.Second, true}};
+  for (const auto &[From, To, Moments] : Pairs) {
+    To = New.allocate(L, After);
+    Move(From.Geometry, To.Geometry, GEOMETRY_PLANES, Moments);
+    Move(From.Sh, To.Sh, S.colourPlanes(), Moments);
+    if (Moments) // what the parameters were is needed below
+      From = {};
+  }
+  L.run(DensityProgram, "density_split", itemsOf(S.Count), ItemGroup,
+        S.Parameters.Geometry, New.Parameters.Geometry, Fates, Places, S.Count,
+        After, static_cast<std::uint32_t>(Seed),
+        static_cast<std::uint32_t>(Seed >> 32), Iteration,
+        static_cast<float>(std::log(Settings.SplitShrink)));
+  S = New;
+  Fates = Counts = Places = Keys = Order = {};
+  restart(After);
+  return Change;
+}
+
+void DensityControl::resetOpacity(DeviceScene &S) {
+  L.run(DensityProgram, "reset_opacity", itemsOf(S.Count), ItemGroup,
+        S.Parameters.Geometry, S.First.Geometry, S.Second.Geometry, S.Count,
+        opacityLogit(Settings.ResetOpacity));
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,74 @@
+/// Density control on the device: clones, splits, drops, resets of opacity.
+#pragma once
+
+#include "../render/Sorter.h"
+#include "DeviceScene.h"
+#include "Settings.h"
+
+#include <vector>
+
+namespace vorion::splat {
+
+inline constexpr const char *DensityProgram = "density";
+/// The programs that density control runs; scan and sort among them.
+std::vector<ProgramSpec> densityPrograms();
+
+/// What one view gives density control to note.
+struct SeenView {
+  cl::Buffer Records;          ///< splat_gaussian of each Gaussian
+  cl::Buffer Depths;           ///< their keys: CULLED or above where not seen
+  cl::Buffer Gradients;        ///< planes of floats, among them those by
+  std::uint32_t MeanPlane = 0; ///< the projected mean, px: this and the next
+  int Width = 0, Height = 0;
+};
+
+/// What was noted since the last change; part of a checkpoint.
+struct DensityNotes {
+  std::vector<float> GradientSums;
+  std::vector<std::uint32_t> Views;
+  std::vector<float> Radii;
+};
+
+/// What a change did.
+struct DensityChange {
+  std::uint32_t Before = 0, After = 0;
+};
+
+class DensityControl {
+public:
+  DensityControl(Launcher &Launch, const TrainSettings &Rules,
+                 std::uint64_t RandomSeed, double CameraExtent)
+      : L(Launch), Settings(Rules), Seed(RandomSeed), Extent(CameraExtent),
+        Sort(Launch) {}
+
+  /// Forgets everything; \p Count Gaussians from now on.
+  void restart(std::uint32_t Count);
+  void note(const SeenView &V, std::uint32_t Count);
+  /// Clones, splits and drops by what was noted, and begins to note anew.
+  /// Moments of what is kept are kept; new Gaussians begin with 0. The random
+  /// numbers depend on seed, iteration and Gaussian only.
+  DensityChange densify(DeviceScene &S, unsigned Iteration);
+  /// Opacities down to at most Settings.ResetOpacity, their moments to 0.
+  void resetOpacity(DeviceScene &S);
+
+  DensityNotes save(std::uint32_t Count);
+  void restore(const DensityNotes &Notes);
+
+private:
+  std::uint32_t decide(const DeviceScene &S, unsigned Iteration);
+  std::uint32_t total(const cl::Buffer &Counts, std::uint32_t Count);
+  void limit(std::uint32_t Count, std::uint32_t Total);
+  cl::Buffer words(std::string_view What, std::uint64_t N) {
+    return L.allocate(What, 4 * N);
+  }
+
+  Launcher &L;
+  const TrainSettings &Settings;
+  std::uint64_t Seed;
+  double Extent;
+  Sorter Sort;
+  cl::Buffer GradientSums, Views, Radii;
+  cl::Buffer Fates, Counts, Places, Keys, Order;
+};
+
+} // namespace vorion::splat

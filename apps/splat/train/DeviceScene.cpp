@@ -1,0 +1,45 @@
+#include "DeviceScene.h"
+
+#include "../render/Layout.h"
+#include "../render/Planes.h"
+
+namespace vorion::splat {
+
+PlanePair DeviceScene::allocate(Launcher &L, std::uint32_t Gaussians) const {
+  return {L.allocate("Gaussians' geometry",
+                     std::uint64_t{4} * GEOMETRY_PLANES * Gaussians),
+          L.allocate("Gaussians' colours",
+                     std::uint64_t{4} * colourPlanes() * Gaussians)};
+}
+
+DeviceScene DeviceScene::upload(Launcher &L, const Scene &S) {
+  DeviceScene D;
+  D.Count = static_cast<std::uint32_t>(S.size());
+  D.ShDegree = S.ShDegree;
+  const auto Write = [&](PlanePair &To, const std::vector<float> &Geometry,
+                         const std::vector<float> &Sh) {
+    To = D.allocate(L, D.Count);
+    L.write("Gaussians' geometry", To.Geometry, Geometry.data(),
+            4 * Geometry.size());
+    L.write("Gaussians' colours", To.Sh, Sh.data(), 4 * Sh.size());
+  };
+  std::vector<float> Geometry = geometryPlanes(S);
+  std::vector<float> Sh = shPlanes(S, S.ShDegree);
+  Write(D.Parameters, Geometry, Sh);
+  Geometry.assign(Geometry.size(), 0);
+  Sh.assign(Sh.size(), 0);
+  Write(D.First, Geometry, Sh);
+  Write(D.Second, Geometry, Sh);
+  return D;
+}
+
+Scene DeviceScene::download(Launcher &L) const {
+  std::vector<float> Geometry(std::size_t{GEOMETRY_PLANES} * Count);
+  std::vector<float> Sh(std::size_t{colourPlanes()} * Count);
+  L.read("Gaussians' geometry", Geometry.data(), Parameters.Geometry,
+         4 * Geometry.size());
+  L.read("Gaussians' colours", Sh.data(), Parameters.Sh, 4 * Sh.size());
+  return sceneOfPlanes(Geometry, Sh, ShDegree);
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,34 @@
+/// What training keeps on the device.
+#pragma once
+
+#include "../device/Launcher.h"
+#include "../io/Scene.h"
+
+namespace vorion::splat {
+
+/// A buffer of planes for the geometry and one for the colours: parameters,
+/// their gradients, or a moment of the optimiser (layout.h, GEOMETRY_PLANES;
+/// plane 3 k + c of the colours has coefficient k of channel c).
+struct PlanePair {
+  cl::Buffer Geometry, Sh;
+};
+
+/// A scene in training. All pairs have the same number of Gaussians and bands.
+struct DeviceScene {
+  std::uint32_t Count = 0;
+  int ShDegree = 0;
+  PlanePair Parameters;
+  PlanePair First, Second; ///< Adam's moments
+
+  std::uint32_t colourPlanes() const {
+    return static_cast<std::uint32_t>(3 * shCoefficients(ShDegree));
+  }
+  /// A pair for \p Gaussians of them.
+  PlanePair allocate(Launcher &L, std::uint32_t Gaussians) const;
+
+  /// \p S with moments of 0.
+  static DeviceScene upload(Launcher &L, const Scene &S);
+  Scene download(Launcher &L) const;
+};
+
+} // namespace vorion::splat

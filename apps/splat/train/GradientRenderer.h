@@ -1,0 +1,34 @@
+/// Renders a scene in training and goes back to its parameters' gradients.
+#pragma once
+
+#include "Density.h"
+#include "DeviceScene.h"
+
+#include "../io/Cameras.h"
+
+namespace vorion::splat {
+
+class GradientRenderer {
+public:
+  virtual ~GradientRenderer() = default;
+
+  /// The picture of \p S, four floats a pixel: colour over the background, and
+  /// alpha. Bands of spherical harmonics above \p ShDegree are left out. The
+  /// buffer is valid until the next call.
+  virtual cl::Buffer forward(const DeviceScene &S, const Camera &C,
+                             int ShDegree) = 0;
+
+  /// What the way back gives, valid until the next call.
+  struct Backward {
+    /// Of all parameters of the scene that \c forward rendered, as they are
+    /// stored; 0 where a Gaussian was not seen. Planes as in DeviceScene.h,
+    /// more may follow; bands that were left out have none.
+    PlanePair Gradients;
+    SeenView Seen;
+  };
+  /// From dL/d(that picture), three floats a pixel, and dL/d(alpha), one.
+  virtual Backward backward(const cl::Buffer &ByRender,
+                            const cl::Buffer &ByAlpha) = 0;
+};
+
+} // namespace vorion::splat

@@ -1,0 +1,47 @@
+/// The loss of a picture on the device, and its gradient.
+#pragma once
+
+#include "../capture/Photo.h"
+#include "../device/Launcher.h"
+
+#include <vector>
+
+namespace vorion::splat {
+
+inline constexpr const char *LossProgram = "loss";
+ProgramSpec lossProgram();
+
+struct LossValues {
+  double Absolute = 0; ///< mean over pixels and channels
+  double Ssim = 0;     ///< mean
+  double Value = 0;    ///< (1 - D) Absolute + D (1 - Ssim)
+};
+
+/// Buffers are kept from picture to picture and grow with the largest one.
+/// Pixels are added in a fixed order: rows in fp32 on the device, their sums
+/// in double.
+class PictureLoss {
+public:
+  PictureLoss(Launcher &Launch, double DSsimShare)
+      : L(Launch), DSsim(DSsimShare) {}
+
+  /// \p Picture has four floats a pixel, of which the first three are compared
+  /// with \p Target; dL/dpicture goes to \c gradient(), three floats a pixel.
+  LossValues evaluate(const cl::Buffer &Picture, const Photo &Target);
+  const cl::Buffer &gradient() const { return Gradient; }
+  /// The loss does not know alpha: a 0 for each pixel.
+  const cl::Buffer &alphaGradient() const { return NoAlpha; }
+
+private:
+  void reserve(std::uint64_t Pixels, std::uint32_t Rows);
+
+  Launcher &L;
+  double DSsim;
+  std::uint64_t Room = 0;
+  std::uint32_t RowRoom = 0;
+  cl::Buffer Packed, Moments, Slopes, Terms, RowSums, Gradient, NoAlpha;
+  std::vector<std::uint32_t> HostPacked;
+  std::vector<float> HostRows;
+};
+
+} // namespace vorion::splat

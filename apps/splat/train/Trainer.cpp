@@ -1,0 +1,124 @@
+#include "Trainer.h"
+
+#include "Adam.h"
+#include "Image.h"
+#include "Metrics.h"
+
+#include "../render/Layout.h"
+
+namespace vorion::splat {
+
+std::vector<ProgramSpec> Trainer::programs() {
+  std::vector<ProgramSpec> Programs = densityPrograms();
+  Programs.push_back(lossProgram());
+  Programs.push_back(adamProgram());
+  return Programs;
+}
+
+Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
+                 const TrainingSet &Photos, const TrainRun &What)
+    : L(Launch), Renderer(Render), Pictures(Photos), Run(What),
+      Order(Photos.Training.size(), What.Seed),
+      Loss(Launch, What.Settings.DSsim),
+      Density(Launch, What.Settings, What.Seed, What.Extent) {}
+
+void Trainer::start(const Scene &From) {
+  S = DeviceScene::upload(L, From);
+  Density.restart(S.Count);
+  Done = 0;
+  Losses.clear();
+}
+
+void Trainer::restore(const Checkpoint &C) {
+  S = DeviceScene();
+  S.Count = static_cast<std::uint32_t>(C.gaussians());
+  S.ShDegree = C.ShDegree;
+  const auto Upload = [&](PlanePair &To, const std::vector<float> &Geometry,
+                          const std::vector<float> &Sh) {
+    To = S.allocate(L, S.Count);
+    L.write("Gaussians' geometry", To.Geometry, Geometry.data(),
+            4 * Geometry.size());
+    L.write("Gaussians' colours", To.Sh, Sh.data(), 4 * Sh.size());
+  };
+  Upload(S.Parameters, C.Geometry, C.Sh);
+  Upload(S.First, C.FirstGeometry, C.FirstSh);
+  Upload(S.Second, C.SecondGeometry, C.SecondSh);
+  Density.restore(C.Notes);
+  Done = C.Iteration;
+  Losses = C.Losses;
+}
+
+Checkpoint Trainer::save() {
+  Checkpoint C;
+  C.Iteration = Done;
+  C.ShDegree = S.ShDegree;
+  const auto Download = [&](const PlanePair &From, std::vector<float> &Geometry,
+                            std::vector<float> &Sh) {
+    Geometry.resize(std::size_t{GEOMETRY_PLANES} * S.Count);
+    Sh.resize(std::size_t{S.colourPlanes()} * S.Count);
+    L.read("Gaussians' geometry", Geometry.data(), From.Geometry,
+           4 * Geometry.size());
+    L.read("Gaussians' colours", Sh.data(), From.Sh, 4 * Sh.size());
+  };
+  Download(S.Parameters, C.Geometry, C.Sh);
+  Download(S.First, C.FirstGeometry, C.FirstSh);
+  Download(S.Second, C.SecondGeometry, C.SecondSh);
+  C.Notes = Density.save(S.Count);
+  C.Losses = Losses;
+  return C;
+}
+
+StepReport Trainer::step() {
+  const TrainSettings &Settings = Run.Settings;
+  StepReport R;
+  R.Iteration = Done + 1;
+  const TrainView &V = Pictures.Training[Order.at(R.Iteration)];
+  const int Degree = shDegreeAt(Settings, R.Iteration, S.ShDegree);
+  const cl::Buffer Picture = Renderer.forward(S, V.Pose, Degree);
+  L.beginStage("loss");
+  R.Loss = Loss.evaluate(Picture, V.Picture);
+  const auto [Gradients, Seen] =
+      Renderer.backward(Loss.gradient(), Loss.alphaGradient());
+  L.beginStage("Adam");
+  stepAdam(L, Settings, S, Gradients, R.Iteration, Run.Extent, Degree);
+  L.beginStage("density control");
+  if (notesAt(Settings, R.Iteration))
+    Density.note(Seen, S.Count);
+  // INRIA's trainer changes the Gaussians before the step, which the new ones
+  // and their neighbours then miss; here every gradient is stepped by.
+  if (densifiesAt(Settings, R.Iteration))
+    R.Density = Density.densify(S, R.Iteration);
+  if (resetsAt(Settings, R.Iteration, Run.WhiteBackground))
+    Density.resetOpacity(S);
+  if (L.failure())
+    return R;
+  Done = R.Iteration;
+  Losses.push_back(static_cast<float>(R.Loss.Value));
+  R.Gaussians = S.Count;
+  return R;
+}
+
+Photo Trainer::render(const Camera &C) {
+  const int Degree = shDegreeAt(Run.Settings, Done, S.ShDegree);
+  const cl::Buffer Picture = Renderer.forward(S, C, Degree);
+  Photo P{C.Width, C.Height, {}};
+  const std::size_t Pixels =
+      static_cast<std::size_t>(C.Width) * static_cast<std::size_t>(C.Height);
+  std::vector<float> Rgba(4 * Pixels);
+  L.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
+  P.Rgb.reserve(3 * Pixels);
+  for (std::size_t I = 0; I < Pixels; ++I)
+    for (std::size_t K = 0; K < 3; ++K)
+      P.Rgb.push_back(toByte(Rgba[4 * I + K]));
+  return P;
+}
+
+std::vector<double> Trainer::evaluate() {
+  std::vector<double> Db;
+  Db.reserve(Pictures.HeldOut.size());
+  for (const TrainView &V : Pictures.HeldOut)
+    Db.push_back(psnrOfBytes(render(V.Pose).Rgb, V.Picture.Rgb));
+  return Db;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,72 @@
+/// The loop: a view, its loss, the way back, a step, density control.
+#pragma once
+
+#include "Checkpoint.h"
+#include "Density.h"
+#include "GradientRenderer.h"
+#include "PictureLoss.h"
+#include "Settings.h"
+#include "TrainingSet.h"
+#include "ViewOrder.h"
+
+#include <optional>
+
+namespace vorion::splat {
+
+/// What makes one run another.
+struct TrainRun {
+  TrainSettings Settings;
+  std::uint64_t Seed = 0;
+  double Extent = 1;            ///< of the cameras
+  bool WhiteBackground = false; ///< which has a reset more
+};
+
+/// What an iteration did.
+struct StepReport {
+  unsigned Iteration = 0; ///< from 1
+  LossValues Loss;
+  std::uint32_t Gaussians = 0;          ///< after it
+  std::optional<DensityChange> Density; ///< if it changed
+};
+
+/// One run on one device. Results depend on run, pictures and starting scene
+/// only; errors stick in the launcher.
+class Trainer {
+public:
+  /// The programs that training runs beside the renderer's.
+  static std::vector<ProgramSpec> programs();
+
+  /// \p Pictures, \p Run and \p Renderer must outlive this.
+  Trainer(Launcher &L, GradientRenderer &Renderer, const TrainingSet &Pictures,
+          const TrainRun &Run);
+
+  void start(const Scene &S);
+  void restore(const Checkpoint &C);
+  /// All but \c Checkpoint::Run.
+  Checkpoint save();
+
+  StepReport step();
+  unsigned iteration() const { return Done; }
+  std::uint32_t gaussians() const { return S.Count; }
+  const std::vector<float> &losses() const { return Losses; }
+  Scene scene() { return S.download(L); }
+
+  /// The scene from \p C, rounded to 8 bits.
+  Photo render(const Camera &C);
+  /// PSNR of 8-bit values of every held-out view, dB, in their order.
+  std::vector<double> evaluate();
+
+private:
+  Launcher &L;
+  GradientRenderer &Renderer;
+  const TrainingSet &Pictures;
+  const TrainRun &Run;
+  ViewOrder Order;
+  PictureLoss Loss;
+  DensityControl Density;
+  DeviceScene S;
+  unsigned Done = 0;
+  std::vector<float> Losses;
+};
+
+} // namespace vorion::splat

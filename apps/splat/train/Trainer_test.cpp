@@ -1,0 +1,229 @@
+// The loop, with the reference as its renderer: what it does with gradients,
+// not how they are made.
+#include "Trainer.h"
+
+#include "../analyze/ToReference.h"
+#include "../device/OnDevice.h"
+#include "../render/Layout.h"
+#include "../render/Planes.h"
+#include "Image.h"
+#include "reference/Backward.h"
+#include "reference/Render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace vorion::splat {
+namespace {
+
+/// Renders and differentiates in fp64 on the host.
+class ReferenceRenderer : public GradientRenderer {
+public:
+  ReferenceRenderer(Launcher &Launch) : L(Launch) {}
+
+  cl::Buffer forward(const DeviceScene &D, const Camera &C,
+                     int ShDegree) override {
+    Pose = C;
+    Now = D.download(L);
+    // Bands above the degree left out.
+    const std::vector<float> Sh = shPlanes(Now, ShDegree);
+    Now = sceneOfPlanes(geometryPlanes(Now), Sh, ShDegree);
+    const auto P = reference::render(toReference<double>(Now),
+                                     toReference<double>(C), Options);
+    std::vector<float> Rgba;
+    for (std::size_t I = 0; I < P.Render.size(); ++I) {
+      for (int K = 0; K < 3; ++K)
+        Rgba.push_back(static_cast<float>(P.Render[I][K]));
+      Rgba.push_back(static_cast<float>(1 - P.Transmittance[I]));
+    }
+    return upload(Rgba);
+  }
+
+  Backward backward(const cl::Buffer &ByRender,
+                    const cl::Buffer & /*ByAlpha*/) override {
+    const std::size_t Pixels =
+        static_cast<std::size_t>(Pose.Width * Pose.Height);
+    std::vector<float> Given(3 * Pixels);
+    L.read("upstream", Given.data(), ByRender, 4 * Given.size());
+    reference::Upstream U;
+    for (std::size_t I = 0; I < Pixels; ++I)
+      U.Render.emplace_back(Given[3 * I], Given[3 * I + 1], Given[3 * I + 2]);
+    U.Alpha.assign(Pixels, 0);
+    const auto G = toReference<double>(Now);
+    const auto B = renderBackward(G, toReference<double>(Pose), U, Options);
+
+    Scene Slopes = Scene::sized(Now.size(), Now.ShDegree);
+    std::vector<float> Means2d(2 * Now.size());
+    std::vector<std::uint32_t> Depths;
+    std::vector<splat_gaussian> Records(Now.size());
+    for (std::size_t I = 0; I < Now.size(); ++I) {
+      double Norm = 0;
+      for (std::size_t K = 0; K < 4; ++K)
+        Norm += double(Now.Quats[4 * I + K]) * Now.Quats[4 * I + K];
+      for (int K = 0; K < 3; ++K) {
+        const auto At = 3 * I + static_cast<std::size_t>(K);
+        Slopes.Means[At] = static_cast<float>(B.Means[I][K]);
+        Slopes.LogScales[At] =
+            static_cast<float>(B.Scales[I][K] * G.Scales[I][K]);
+      }
+      for (int K = 0; K < 4; ++K)
+        Slopes.Quats[4 * I + static_cast<std::size_t>(K)] =
+            static_cast<float>(B.Quats[I][K] / std::sqrt(Norm));
+      Slopes.OpacityLogits[I] = static_cast<float>(
+          B.Opacities[I] * G.Opacities[I] * (1 - G.Opacities[I]));
+      Means2d[I] = static_cast<float>(B.Means2d[I].x);
+      Means2d[Now.size() + I] = static_cast<float>(B.Means2d[I].y);
+      Depths.push_back(0); // all are seen in these tests
+      Records[I].conic[0] = Records[I].conic[2] = 1;
+    }
+    for (std::size_t I = 0; I < B.Sh.size(); ++I)
+      for (int K = 0; K < 3; ++K)
+        Slopes.Sh[3 * I + static_cast<std::size_t>(K)] =
+            static_cast<float>(B.Sh[I][K]);
+    const auto Geometry = geometryPlanes(Slopes);
+    const auto Sh = shPlanes(Slopes, Slopes.ShDegree);
+    return {{upload(Geometry), upload(Sh)},
+            {upload(Records), upload(Depths), upload(Means2d), 0, Pose.Width,
+             Pose.Height}};
+  }
+
+private:
+  template <typename T> cl::Buffer upload(const std::vector<T> &Values) {
+    const cl::Buffer B = L.allocate("values", sizeof(T) * Values.size());
+    L.write("values", B, Values.data(), sizeof(T) * Values.size());
+    return B;
+  }
+
+  Launcher &L;
+  reference::Options Options;
+  Scene Now;
+  Camera Pose;
+};
+
+class TrainerOnDevice : public OnDevice {
+protected:
+  static Camera cameraAt(double Angle) {
+    Camera C;
+    C.Width = 24;
+    C.Height = 20;
+    C.Fx = C.Fy = 30;
+    C.Cx = 12;
+    C.Cy = 10;
+    const double S = std::sin(Angle), K = std::cos(Angle);
+    C.Rotation = {{{K, 0, S}, {0, 1, 0}, {-S, 0, K}}};
+    C.Position = {-3 * S, 0, -3 * K};
+    return C;
+  }
+
+  /// A few blobs about the origin.
+  static Scene blobs(std::uint32_t Count, unsigned Seed) {
+    std::mt19937 Numbers(Seed);
+    std::uniform_real_distribution<float> Unit(-1, 1);
+    Scene S = Scene::sized(Count, 1);
+    for (float &V : S.Means)
+      V = 0.7F * Unit(Numbers);
+    for (float &V : S.LogScales)
+      V = -1.5F + 0.3F * Unit(Numbers);
+    for (std::size_t I = 0; I < Count; ++I) {
+      S.Quats[4 * I] = 1;
+      S.OpacityLogits[I] = 1;
+      for (std::size_t K = 0; K < 3; ++K)
+        S.Sh[12 * I + K] = Unit(Numbers);
+    }
+    return S;
+  }
+
+  /// Pictures of \p S from around.
+  static TrainingSet picturesOf(const Scene &S) {
+    TrainingSet Set;
+    for (int I = 0; I < 6; ++I) {
+      const Camera C = cameraAt(0.25 * I);
+      const auto P =
+          reference::render(toReference<double>(S), toReference<double>(C), {});
+      Photo Picture{C.Width, C.Height, {}};
+      for (const glm::dvec3 &Colour : P.Render)
+        for (int K = 0; K < 3; ++K)
+          Picture.Rgb.push_back(toByte(static_cast<float>(Colour[K])));
+      (I == 2 ? Set.HeldOut : Set.Training).push_back({C, Picture});
+    }
+    return Set;
+  }
+
+  void build(Launcher &L) {
+    L.beginStage("test");
+    for (const ProgramSpec &P : Trainer::programs())
+      L.build(P);
+  }
+};
+
+TEST_F(TrainerOnDevice, LearnsAndGoesOnFromACheckpointBitForBit) {
+  TrainRun Run;
+  // All of a run's events within few steps.
+  Run.Settings.DensifyAfter = 5;
+  Run.Settings.DensifyInterval = 6;
+  Run.Settings.DensifyGradient = 5e-3;
+  Run.Settings.ResetInterval = 17;
+  Run.Settings.ShInterval = 8;
+  Run.Settings.MostGaussians = 60;
+  Run.Settings.PositionRate = 1e-3;
+  Run.Settings.ColourRate = 0.1;
+  Run.Extent = 3;
+  Run.Seed = 5;
+  const TrainingSet Set = picturesOf(blobs(12, 1));
+
+  std::vector<Checkpoint> Unbroken;
+  std::vector<double> Losses;
+  {
+    Launcher L(*Dev, "", {});
+    build(L);
+    ReferenceRenderer R(L);
+    Trainer T(L, R, Set, Run);
+    T.start(blobs(30, 2));
+    const double Before = T.evaluate()[0];
+    bool Grew = false;
+    for (unsigned I = 1; I <= 24; ++I) {
+      const StepReport Step = T.step();
+      ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+      EXPECT_EQ(Step.Iteration, I);
+      EXPECT_EQ(Step.Density.has_value(), I % 6 == 0);
+      Grew |= Step.Density && Step.Density->After > Step.Density->Before;
+      Losses.push_back(Step.Loss.Value);
+      if (I % 8 == 0)
+        Unbroken.push_back(T.save());
+      if (I == 16)
+        EXPECT_GT(T.evaluate()[0], Before + 1) << "dB";
+    }
+    EXPECT_TRUE(Grew);
+    EXPECT_LE(T.gaussians(), 60U);
+  }
+  const auto Mean = [&](std::ptrdiff_t From) {
+    return std::accumulate(Losses.begin() + From, Losses.begin() + From + 5,
+                           0.0) /
+           5;
+  };
+  EXPECT_LT(Mean(11), 0.9 * Mean(0)); // before the reset of opacities
+  // From each checkpoint, in a program of its own so to say.
+  for (std::size_t From = 0; From + 1 < Unbroken.size(); ++From) {
+    Launcher L(*Dev, "", {});
+    build(L);
+    ReferenceRenderer R(L);
+    Trainer T(L, R, Set, Run);
+    T.restore(Unbroken[From]);
+    while (T.iteration() < 24)
+      T.step();
+    const Checkpoint Again = T.save();
+    const Checkpoint &Want = Unbroken.back();
+    EXPECT_EQ(Again.Iteration, Want.Iteration);
+    EXPECT_EQ(Again.Geometry, Want.Geometry);
+    EXPECT_EQ(Again.Sh, Want.Sh);
+    EXPECT_EQ(Again.FirstGeometry, Want.FirstGeometry);
+    EXPECT_EQ(Again.SecondSh, Want.SecondSh);
+    EXPECT_EQ(Again.Notes.GradientSums, Want.Notes.GradientSums);
+    EXPECT_EQ(Again.Notes.Views, Want.Notes.Views);
+    EXPECT_EQ(Again.Losses, Want.Losses);
+  }
+}
+
+} // namespace
+} // namespace vorion::splat
