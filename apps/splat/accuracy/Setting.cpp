@@ -40,6 +40,7 @@ static bool isValue(const Knob &K, const std::string &Value) {
 
 static std::string knobNames() {
   std::vector<std::string> Names;
+  Names.reserve(allKnobs().size());
   for (const Knob &K : allKnobs())
     Names.push_back(K.Name);
   return fmt::format("{}", fmt::join(Names, ", "));

@@ -133,6 +133,7 @@ Expected<std::vector<Setting>> settingsSoFar(const SweepPlan &P, const Split &V,
 
 std::vector<std::string> nameList(const std::vector<const Camera *> &Views) {
   std::vector<std::string> Names;
+  Names.reserve(Views.size());
   for (const Camera *View : Views)
     Names.push_back(View->Name);
   return Names;
@@ -144,6 +145,7 @@ std::string names(const std::vector<const Camera *> &Views) {
 
 std::vector<const Camera *> pointersTo(const std::vector<Camera> &Views) {
   std::vector<const Camera *> All;
+  All.reserve(Views.size());
   for (const Camera &View : Views)
     All.push_back(&View);
   return All;

@@ -15,12 +15,14 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 using Plane = std::vector<double>;
 
+constexpr int HalfWindow = SsimWindow / 2;
+
 /// SSIM's window along one axis; sums to 1.
 std::array<double, SsimWindow> windowWeights() {
   std::array<double, SsimWindow> W{};
   double Sum = 0;
   for (int I = 0; I < SsimWindow; ++I) {
-    const double D = I - SsimWindow / 2;
+    const double D = I - HalfWindow;
     Sum += W[static_cast<std::size_t>(I)] =
         std::exp(-D * D / (2 * SsimSigma * SsimSigma));
   }
@@ -39,7 +41,7 @@ Plane blurAlong(const Plane &In, std::size_t Width, bool Rows) {
     for (std::ptrdiff_t X = 0; X < W; ++X) {
       double Sum = 0;
       for (std::ptrdiff_t K = 0; K < SsimWindow; ++K) {
-        const std::ptrdiff_t D = K - SsimWindow / 2;
+        const std::ptrdiff_t D = K - HalfWindow;
         const std::ptrdiff_t At = Rows ? X + D : Y + D;
         if (At >= 0 && At < (Rows ? W : H))
           Sum += Weights[static_cast<std::size_t>(K)] *
