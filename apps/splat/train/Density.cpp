@@ -95,7 +95,7 @@ void DensityControl::limit(std::uint32_t Count, std::uint32_t Total) {
                         words("sorted Gaussians", Count)};
   const Sorter::Pairs B{words("sorted gradients", Count),
                         words("sorted Gaussians", Count)};
-  const Sorter::Pairs Sorted = Sort.sort({Keys, Order}, A, B, Count, 32);
+  const Sorter::Pairs Sorted = Sort.sort({Keys, Order}, A, B, Count, {0, 32});
   L.run(DensityProgram, "density_limit", itemsOf(Count), ItemGroup,
         Sorted.Values, Fates, Counts, Count, More);
 }
