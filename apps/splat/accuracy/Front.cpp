@@ -47,21 +47,22 @@ std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
 std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
                                      const std::vector<Candidate> &All,
                                      double FloorDb, std::size_t Most) {
-  std::vector<Candidate> Single;
-  for (const Candidate &C : All)
-    if (C.Chosen.size() <= 1)
-      Single.push_back(C);
   // Values by rising accuracy, so that the first is the first to go.
   std::vector<std::tuple<double, std::string, std::string>> Kept;
-  std::set<std::size_t> Seen;
-  for (const TimeAxis A :
-       {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
-    for (const std::size_t I : paretoFront(Single, A))
-      if (Single[I].Db >= FloorDb && Seen.insert(I).second)
-        for (const Knob &K : Knobs)
-          if (Single[I].Chosen.value(K.Name) != K.Values.front())
-            Kept.emplace_back(Single[I].Db, K.Name,
-                              Single[I].Chosen.value(K.Name));
+  for (const Knob &K : Knobs) {
+    std::vector<Candidate> Own;
+    for (const Candidate &C : All)
+      if (C.Chosen.size() == 0 ||
+          (C.Chosen.size() == 1 && C.Chosen.value(K.Name) != K.Values.front()))
+        Own.push_back(C);
+    std::set<std::string> Values;
+    for (const TimeAxis A :
+         {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
+      for (const std::size_t I : paretoFront(Own, A))
+        if (Own[I].Chosen.size() == 1 && Own[I].Db >= FloorDb &&
+            Values.insert(Own[I].Chosen.value(K.Name)).second)
+          Kept.emplace_back(Own[I].Db, K.Name, Own[I].Chosen.value(K.Name));
+  }
   std::sort(Kept.begin(), Kept.end());
 
   const auto Product = [&] {

@@ -43,10 +43,12 @@ std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,
 std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
                                      TimeAxis A, double FloorDb);
 
-/// All combinations of the values of those single-knob candidates of \p All
-/// that are on a front of machine time and have at least \p FloorDb, without
-/// those that change one knob or none. Where they are more than \p Most, the
-/// least accurate values are left out until they are not.
+/// All combinations of the values that are on a front of machine time of their
+/// own knob, by the single-knob candidates of \p All, and have at least
+/// \p FloorDb; without those that change one knob or none. (A knob that saves
+/// much would keep others, whose savings add to its own, off a common front.)
+/// Where they are more than \p Most, the least accurate values are left out
+/// until they are not.
 std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
                                      const std::vector<Candidate> &All,
                                      double FloorDb, std::size_t Most);

@@ -54,7 +54,10 @@ TEST(Front, TheFastestAboveTheFloorIsRecommended) {
 }
 
 TEST(Front, ItsKnobsAreMultiplied) {
-  const auto Product = productOfFronts(allKnobs(), All, 50, 100);
+  // Four values of four knobs: all combinations of two or more.
+  EXPECT_EQ(productOfFronts(allKnobs(), All, 50, 100).size(), 11U);
+  // The least accurate goes first.
+  const auto Product = productOfFronts(allKnobs(), All, 50, 4);
   std::vector<std::string> Names;
   for (const Setting &S : Product)
     Names.push_back(S.name());
@@ -63,7 +66,6 @@ TEST(Front, ItsKnobsAreMultiplied) {
             (std::vector<std::string>{
                 "cutoff=0.01,depth-bits=24", "cutoff=0.01,tile=32",
                 "cutoff=0.01,tile=32,depth-bits=24", "tile=32,depth-bits=24"}));
-  // The least accurate goes first.
   EXPECT_EQ(productOfFronts(allKnobs(), All, 50, 3),
             (std::vector<Setting>{*Setting::parse("tile=32,depth-bits=24")}));
   EXPECT_TRUE(productOfFronts(allKnobs(), All, 200, 100).empty());
