@@ -1,7 +1,7 @@
 #include "Front.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <tuple>
 
 namespace vorion::splat {
@@ -47,7 +47,7 @@ std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
 std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
                                      const std::vector<Candidate> &All,
                                      double FloorDb, std::size_t Most) {
-  // Values by rising accuracy, so that the first is the first to go.
+  // Values by what they save, so that the first is the first to go.
   std::vector<std::tuple<double, std::string, std::string>> Kept;
   for (const Knob &K : Knobs) {
     std::vector<Candidate> Own;
@@ -55,13 +55,17 @@ std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
       if (C.Chosen.size() == 0 ||
           (C.Chosen.size() == 1 && C.Chosen.value(K.Name) != K.Values.front()))
         Own.push_back(C);
-    std::set<std::string> Values;
+    std::map<std::string, double> Savings;
     for (const TimeAxis A :
          {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
       for (const std::size_t I : paretoFront(Own, A))
-        if (Own[I].Chosen.size() == 1 && Own[I].Db >= FloorDb &&
-            Values.insert(Own[I].Chosen.value(K.Name)).second)
-          Kept.emplace_back(Own[I].Db, K.Name, Own[I].Chosen.value(K.Name));
+        if (Own[I].Chosen.size() == 1 && Own[I].Db >= FloorDb) {
+          double &Saved = Savings[Own[I].Chosen.value(K.Name)];
+          if (Own.front().Chosen.size() == 0 && Own.front().time(A))
+            Saved = std::max(Saved, 1 - *Own[I].time(A) / *Own.front().time(A));
+        }
+    for (const auto &[Value, Saving] : Savings)
+      Kept.emplace_back(Saving, K.Name, Value);
   }
   std::sort(Kept.begin(), Kept.end());
 
@@ -69,7 +73,7 @@ std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
     std::vector<Setting> Settings{Setting()};
     for (const Knob &K : Knobs) {
       const std::vector<Setting> Before = Settings;
-      for (const auto &[Db, Name, Value] : Kept)
+      for (const auto &[Saving, Name, Value] : Kept)
         if (Name == K.Name)
           for (const Setting &S : Before)
             Settings.push_back(S.with(K, Value));

@@ -47,7 +47,7 @@ std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
 /// own knob, by the single-knob candidates of \p All, and have at least
 /// \p FloorDb; without those that change one knob or none. (A knob that saves
 /// much would keep others, whose savings add to its own, off a common front.)
-/// Where they are more than \p Most, the least accurate values are left out
+/// Where they are more than \p Most, the values that save least are left out
 /// until they are not.
 std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
                                      const std::vector<Candidate> &All,
