@@ -47,6 +47,7 @@ OBSERVERS = [
     ("--check uninit", ["--check", "uninit"]),
     ("--check race", ["--check", "race"]),
     ("--check all", ["--check", "all"]),
+    ("--numerics", ["--numerics=text=numerics.txt"]),
 ]
 
 

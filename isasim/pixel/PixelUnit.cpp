@@ -9,10 +9,6 @@ namespace vorion::pixel {
 
 using namespace raster;
 
-namespace {
-
-/// What is left of a command, as its vx_tail says: from memory, which anyone
-/// may have overwritten, so it is checked as a command is.
 Command commandOf(const Tail &Record) {
   Command C;
   C.List = Record.List;
@@ -27,6 +23,8 @@ Command commandOf(const Tail &Record) {
   C.OutputPitch = Record.OutputPitch;
   return C;
 }
+
+namespace {
 
 /// One hand-over in the works.
 class Execution {

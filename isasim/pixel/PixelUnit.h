@@ -16,6 +16,10 @@ struct TileBuffer;
 
 namespace vorion::pixel {
 
+/// What is left of a command, as its vx_tail says: from memory, which anyone
+/// may have overwritten, so it is checked as a command is.
+raster::Command commandOf(const raster::Tail &Record);
+
 /// Goes on with the lists that the rasterizers of its cluster hand over: each
 /// live pixel examines the rest of the list until it is saturated. It has the
 /// rasterizer's arithmetic and order, so a hand-over changes no pixel.

@@ -1,5 +1,6 @@
 #include "Choices.h"
 #include "Commands.h"
+#include "NumericsReport.h"
 #include "SceneArguments.h"
 
 #include "../io/Cameras.h"
@@ -36,6 +37,7 @@ struct RenderArguments {
   std::string PixelUnit = "off";
   bool Explain = false, Time = false;
   std::optional<unsigned> ClockMhz;
+  std::string Numerics; ///< settings, empty for no
   RenderOptions Options;
 };
 
@@ -148,6 +150,13 @@ Expected<Success> run(const RenderArguments &A) {
   if (A.Time || A.ClockMhz)
     setenv("VORION_TIME",
            A.ClockMhz ? std::to_string(*A.ClockMhz).c_str() : "on", 1);
+  std::optional<NumericsReport> Numerics;
+  if (!A.Numerics.empty()) {
+    auto Begun = NumericsReport::begin(A.Numerics);
+    if (!Begun)
+      return Begun.error();
+    Numerics.emplace(std::move(*Begun));
+  }
   auto D = Device::open(A.Device);
   if (!D)
     return D.error();
@@ -180,6 +189,12 @@ Expected<Success> run(const RenderArguments &A) {
       return Written.error();
   }
   fmt::print("{}", textReport(*C, A.Options, *D, *R));
+  if (Numerics) {
+    const auto Text = Numerics->text();
+    if (!Text)
+      return Text.error();
+    fmt::print("{}", *Text);
+  }
   return Success{};
 }
 
@@ -283,6 +298,10 @@ Runner addRender(CLI::App &App) {
                  "The same at this clock (default: the machine's, 530)")
       ->option_text("MHZ")
       ->check(CLI::Range(1U, 100000U));
+  App.add_flag("--numerics{on}", A->Numerics,
+               "Say where fp32 parts from double, by source line and stage of "
+               "the rasterizer (docs/debugging.md)")
+      ->option_text("[=SETTING,...]");
   App.add_option("--dump-pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)");
   App.add_option("--kernels", A->KernelFolder,

@@ -11,7 +11,7 @@ namespace {
 
 /// Sums below this part of their larger operand are nothing but the shadow's
 /// own rounding (2^-52), some operations old.
-constexpr double ResidueShare = 0x1p-45;
+constexpr double ResidueShare = 0x1p-40;
 /// Below it fp32 has no normal numbers.
 constexpr double SmallestNormal = 0x1p-126;
 
@@ -183,7 +183,8 @@ void CoreShadow::commitFloat(const Commit &C, Warp &W) {
       for (unsigned L = 0; L != MaxLanes; ++L) {
         const bool Other = (From.Differs >> L & 1) != 0;
         const uint32_t Word = Other ? From.Otherwise[L] : From.Words[L];
-        Out.In[N][L] = Signed ? static_cast<int32_t>(Word) : Word;
+        Out.In[N][L] = Signed ? static_cast<double>(static_cast<int32_t>(Word))
+                              : static_cast<double>(Word);
         Out.InError[L] = Other ? 1 : 0;
       }
     } else if (From.Followed) {
@@ -234,11 +235,10 @@ void CoreShadow::judge(const Commit &C, Warp &W, const Outcome &Out) {
       return;
     }
     ++Counts.Results;
-    Counts.ErrorSum += Error[L];
-    if (Error[L] > Counts.ErrorMax)
-      Counts.ErrorMax = Error[L];
     if (Error[L] > Limits.Relative || Exponent == 0)
       Special |= 1U << L;
+    else
+      Counts.add(Error[L]);
   });
   forLanes(Special, [&](unsigned L) { judgeLane(C, W, Out, L, Result); });
   setShadow(W, shadowPlace(File::F, C.Insn.Rd), C.LaneMask, Result);
@@ -246,7 +246,9 @@ void CoreShadow::judge(const Commit &C, Warp &W, const Outcome &Out) {
 
 NumericSample CoreShadow::sample(const Commit &C, const Warp &W,
                                  const Outcome &Out, unsigned Lane) const {
-  NumericSample S{C.Core, C.Warp, Lane, Out.Operands, {}, {}, {}, 0, 0};
+  NumericSample S{
+      C.Core, C.Warp, Lane, Out.Operands, C.Insn.info().Rs1 == File::X, {}, {},
+      {},     0,      0};
   for (unsigned N = 0; N != Out.Operands; ++N) {
     S.Words[N] = W.In[N].Words[Lane];
     S.Shadows[N] = Out.In[N][Lane];
@@ -276,18 +278,23 @@ void CoreShadow::judgeLane(const Commit &C, const Warp &W, const Outcome &Out,
   if (!std::isfinite(Shadow))
     Result.Value[L] = std::bit_cast<float>(Word);
   if (!(Error > Limits.Relative))
-    return;
+    return Counts.add(Error);
   const double Largest = Out.Largest[L];
-  if (Largest > 0 && std::fabs(Shadow) <= ResidueShare * Largest) {
-    ++Counts.Residues;
+  const bool IsResidue =
+      Largest > 0 && std::fabs(Shadow) <= ResidueShare * Largest;
+  Counts.Residues += IsResidue;
+  if (IsResidue || usesResidue(W, Out, L)) {
+    Result.From[L] |= Origin::ResidueBit;
     return;
   }
+  Counts.add(Error);
   const double Is = std::fabs(std::bit_cast<float>(Word));
   if (Largest > 0 &&
       Largest >= std::ldexp(Is, static_cast<int>(Limits.CancelBits)))
     ++Counts.Cancelled;
   if (Out.InError[L] > Limits.Relative) {
     ++Counts.Inherited;
+    Result.From[L] = worstOrigin(C, W, Out, L);
     return;
   }
   ++Counts.Born;
@@ -296,6 +303,29 @@ void CoreShadow::judgeLane(const Commit &C, const Warp &W, const Outcome &Out,
     S.WorstBorn = Error;
     S.Worst = sample(C, W, Out, L);
   }
+}
+
+/// The origin of the operand that is off by most.
+uint32_t CoreShadow::worstOrigin(const Commit &C, const Warp &W,
+                                 const Outcome &Out, unsigned L) const {
+  float Worst = 0;
+  uint32_t From = Origin::site(Sites.number(C.Pc)).word();
+  for (unsigned N = 0; N != Out.Operands; ++N)
+    if ((W.In[N].Followed >> L & 1) != 0 && W.In[N].Shadow.Error[L] > Worst) {
+      Worst = W.In[N].Shadow.Error[L];
+      From = W.In[N].Shadow.From[L];
+    }
+  return From;
+}
+
+/// Whether an operand is off because it is or comes from a residue.
+bool CoreShadow::usesResidue(const Warp &W, const Outcome &Out,
+                             unsigned L) const {
+  for (unsigned N = 0; N != Out.Operands; ++N)
+    if ((W.In[N].Followed >> L & 1) != 0 &&
+        (W.In[N].Shadow.From[L] & Origin::ResidueBit) != 0)
+      return true;
+  return false;
 }
 
 void CoreShadow::judgeNotFinite(const Commit &C, const Warp &W,

@@ -71,6 +71,9 @@ private:
   void judge(const Commit &C, Warp &W, const Outcome &Out);
   void judgeLane(const Commit &C, const Warp &W, const Outcome &Out, unsigned L,
                  Values &Result);
+  uint32_t worstOrigin(const Commit &C, const Warp &W, const Outcome &Out,
+                       unsigned L) const;
+  bool usesResidue(const Warp &W, const Outcome &Out, unsigned L) const;
   void judgeNotFinite(const Commit &C, const Warp &W, const Outcome &Out,
                       unsigned L, Values &Result);
   NumericSample sample(const Commit &C, const Warp &W, const Outcome &Out,
@@ -90,6 +93,8 @@ private:
   /// The present instruction's integer result is \p Otherwise in the shadow.
   void setOtherwise(const Commit &C, Warp &W, const LaneWords &Otherwise,
                     bool IsDecision);
+  /// If lane \p L of \p From is off, that has come to where it shows.
+  void reach(const Operand &From, unsigned L);
   bool loadLane(const Commit &C, unsigned L, uint32_t Address, Values &To);
   void storeLane(const Commit &C, unsigned L, const Operand &From);
 

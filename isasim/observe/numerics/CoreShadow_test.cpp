@@ -114,6 +114,17 @@ TEST(CoreShadow, CancellationIsBornWhereItHappens) {
   EXPECT_FALSE(Worst.From[1].isKnown());
 }
 
+TEST(CoreShadow, WhatReachesMemoryCountsWhereItWasBorn) {
+  LostDigits S({fsub(4, 3, 1), fmul(5, 4, 1), toX(5, 5), store(5)});
+  S.run();
+  EXPECT_EQ(S.at(1).Reached, AllLanes);
+  EXPECT_EQ(S.at(2).Reached, 0U) << "it only passed it on";
+  LostDigits Local({fsub(4, 3, 1), toX(5, 4), store(5)});
+  Local.x(10, VX_LOCAL_BASE).run();
+  EXPECT_EQ(Local.at(1).Born, AllLanes);
+  EXPECT_EQ(Local.at(1).Reached, 0U);
+}
+
 TEST(CoreShadow, OnlyActiveLanesCount) {
   LostDigits S({fsub(4, 3, 1)});
   S.Run.setActive(0x0411);
@@ -204,6 +215,16 @@ TEST(CoreShadow, ConversionsThatDiffer) {
   EXPECT_EQ(S.at(1).Decisions, AllLanes);
   EXPECT_EQ(S.at(2).Decisions, 0U) << "towards zero both are 2^24";
   EXPECT_EQ(S.at(3).ErrorMax, 0);
+}
+
+TEST(CoreShadow, IntegersAreExactWhateverTheirSign) {
+  Shadowed S({encode(Op::RV_FCVT_S_W, {.Rd = 3, .Rs1 = 5}),
+              encode(Op::RV_FCVT_S_WU, {.Rd = 4, .Rs1 = 5}), fadd(5, 3, 1)});
+  S.x(5, 0xFFFFFFF9U).f(1, 0.5F).run(); // -7
+  for (const unsigned N : {0U, 2U})
+    EXPECT_EQ(S.at(N).ErrorMax, 0) << N;
+  EXPECT_GT(S.at(1).ErrorMax, 0);
+  EXPECT_LT(S.at(1).ErrorMax, 0x1p-24);
 }
 
 TEST(CoreShadow, ShadowsPassThroughIntegerRegistersAndMemory) {
@@ -323,7 +344,8 @@ TEST(CoreShadow, CompensationTermsAreResidues) {
   S.f(1, 3.1415927F).f(2, 0.00271828F).run();
   EXPECT_EQ(S.at(4).Born, 0U);
   EXPECT_EQ(S.at(4).Residues, AllLanes);
-  EXPECT_EQ(S.at(5).Born, 0U);
+  EXPECT_EQ(S.at(5).Born + S.at(5).Inherited, 0U);
+  EXPECT_EQ(S.at(5).ErrorMax, 0) << "what comes of a residue is no error";
   EXPECT_LT(S.at(6).ErrorMax, 0x1p-23) << "the sum is as it should be";
 }
 

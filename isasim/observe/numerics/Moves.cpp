@@ -62,6 +62,12 @@ uint32_t addressOf(const Step &S, unsigned Lane) {
 
 } // namespace
 
+void CoreShadow::reach(const Operand &From, unsigned L) {
+  if ((From.Followed >> L & 1) != 0 && From.Shadow.Error[L] > Limits.Relative &&
+      (From.Shadow.From[L] & Origin::ResidueBit) == 0)
+    Sites.reach(Origin::fromWord(From.Shadow.From[L]));
+}
+
 void CoreShadow::setOtherwise(const Commit &C, Warp &W,
                               const LaneWords &Otherwise, bool IsDecision) {
   const int Rd = shadowPlace(File::X, C.Insn.Rd);
@@ -71,9 +77,14 @@ void CoreShadow::setOtherwise(const Commit &C, Warp &W,
   });
   if (Lanes == 0)
     return;
-  if (IsDecision)
+  if (IsDecision) {
     Sites.at(Sites.number(C.Pc)).Counts.Decisions +=
         static_cast<unsigned>(std::popcount(Lanes));
+    forLanes(Lanes, [&](unsigned L) {
+      for (const Operand *From : {&W.In[0], &W.In[1]})
+        reach(*From, L);
+    });
+  }
   const auto R = static_cast<unsigned>(Rd);
   mergeLanes(W.Otherwise[R], Otherwise, wordsOf(Lanes));
   W.Differs[R] |= Lanes;
@@ -286,7 +297,12 @@ void CoreShadow::commitStore(const Commit &C, Warp &W) {
   take(C, W, 0, shadowPlace(C.Insn.info().Rs2, C.Insn.Rs2));
   if (C.Access->Bytes != 4)
     From.Followed = 0;
-  forLanes(C.LaneMask, [&](unsigned L) { storeLane(C, L, From); });
+  forLanes(C.LaneMask, [&](unsigned L) {
+    storeLane(C, L, From);
+    // What lies above is the program's own: its image, stacks, local memory.
+    if (addressOf(C, L) < VX_IMAGE_BASE)
+      reach(From, L);
+  });
 }
 
 void CoreShadow::commitAtomic(const Commit &C, Warp &W) {

@@ -1,11 +1,11 @@
 #include "observe/numerics/NumericReport.h"
 
 #include "core/SoftFloat.h"
+#include "observe/numerics/RasterReport.h"
 
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace vorion::isasim {
 
@@ -25,14 +25,16 @@ std::string floatText(uint32_t Word) {
 /// "1.5, 0.25 (0.2499) -> 6": operands with their shadows where those differ.
 std::string sampleText(const NumericSample &S) {
   const auto Value = [](uint32_t Word, double Shadow) {
-    const float Is = std::bit_cast<float>(Word);
+    const double Is = std::bit_cast<float>(Word);
     return Is == Shadow || (std::isnan(Is) && std::isnan(Shadow))
                ? floatText(Word)
                : fmt::format("{} (shadow {})", floatText(Word),
                              numberText(Shadow));
   };
   std::string Text;
-  for (unsigned N = 0; N != S.Operands; ++N)
+  if (S.OfInteger)
+    Text = fmt::format("{}", static_cast<int32_t>(S.Words[0]));
+  for (unsigned N = 0; N != S.Operands && !S.OfInteger; ++N)
     Text += (N ? ", " : "") + Value(S.Words[N], S.Shadows[N]);
   return fmt::format("{} -> {}", Text, Value(S.Result, S.Shadow));
 }
@@ -149,10 +151,14 @@ std::string numericText(const NumericFindings &F) {
 #undef VORION_NUMERIC_COUNT
   Text += fmt::format("\n{}{}  total\n", heading(), row(sum(Lines)));
 
-  unsigned Shown = 0, Quiet = 0, Left = 0;
+  unsigned Shown = 0, Quiet = 0, Left = 0, Unused = 0;
   double QuietMax = 0;
   for (const NumericSites::Line &L : Lines) {
-    if (!L.Counts.isNoteworthy()) {
+    if (!L.Counts.matters()) {
+      if (L.Counts.isNoteworthy()) {
+        ++Unused;
+        continue;
+      }
       ++Quiet;
       if (!L.Counts.Inherited)
         QuietMax = std::max(QuietMax, L.Counts.ErrorMax);
@@ -173,6 +179,10 @@ std::string numericText(const NumericFindings &F) {
   }
   if (Left)
     Text += fmt::format("{} more lines like these\n", Left);
+  if (Unused)
+    Text += fmt::format("{} lines whose errors reach nothing: the terms of "
+                        "compensated sums, and what is not used\n",
+                        Unused);
   Text += fmt::format("{} lines with nothing to report, largest error of those "
                       "that use no bad value: {:.1e}\n",
                       Quiet, QuietMax);
@@ -184,7 +194,7 @@ std::string numericText(const NumericFindings &F) {
   };
   Tell("Inf", firstEvent(F, false));
   Tell("NaN", firstEvent(F, true));
-  return Text;
+  return Text + rasterText(F.Units, F.Top);
 }
 
 std::string numericJson(const NumericFindings &F) {
@@ -214,6 +224,7 @@ std::string numericJson(const NumericFindings &F) {
     J["first_inf"] = chainJson(F, *E, 0);
   if (const NumericEvent *E = firstEvent(F, true))
     J["first_nan"] = chainJson(F, *E, 0);
+  J["rasterizers"] = rasterJson(F.Units);
   return J.dump(1) + "\n";
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "observe/numerics/CoreShadow.h"
+#include "observe/numerics/RasterShadow.h"
 
 #include <string>
 
@@ -9,9 +10,10 @@ namespace vorion::isasim {
 
 struct NumericFindings {
   const NumericSites &Sites;
+  const RasterFindings &Units;
   const NumericLimits &Limits;
   uint64_t Runs;
-  unsigned Top; ///< lines that the text shows
+  unsigned Top; ///< lines, Gaussians and pixels that the text shows
 };
 
 std::string numericText(const NumericFindings &F);

@@ -66,19 +66,23 @@ Expected<NumericOptions> NumericOptions::parse(std::string_view Text) {
 }
 
 Numerics::Numerics(NumericOptions O)
-    : Options(std::move(O)), Cores(Sites, Memory, Options.Limits) {}
+    : Options(std::move(O)), Cores(Sites, Memory, Options.Limits),
+      Units(Sites, Memory) {}
 
 void Numerics::runBegins(const RunStart &R) {
   ++Runs;
   Cores.runBegins(R);
+  Units.runBegins(R);
 }
 
 std::string Numerics::text() const {
-  return numericText({Sites, Options.Limits, Runs, Options.Top});
+  return numericText(
+      {Sites, Units.findings(), Options.Limits, Runs, Options.Top});
 }
 
 std::string Numerics::json() const {
-  return numericJson({Sites, Options.Limits, Runs, Options.Top});
+  return numericJson(
+      {Sites, Units.findings(), Options.Limits, Runs, Options.Top});
 }
 
 Expected<Success>

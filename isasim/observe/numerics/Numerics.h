@@ -3,6 +3,7 @@
 #pragma once
 
 #include "observe/numerics/CoreShadow.h"
+#include "observe/numerics/RasterShadow.h"
 #include "vorion/support/Expected.h"
 
 #include <functional>
@@ -35,6 +36,9 @@ public:
   void fetch(const Step &S) override { Cores.fetch(S); }
   void commit(const Commit &C) override { Cores.commit(C); }
 
+  void rasterCommand(const RasterWork &W) override { Units.rasterCommand(W); }
+  void tail(const TailWork &W) override { Units.tail(W); }
+
   /// Of all runs so far.
   std::string text() const;
   std::string json() const;
@@ -47,6 +51,7 @@ private:
   NumericSites Sites;
   ShadowMemory Memory;
   CoreShadow Cores;
+  RasterShadow Units;
   uint64_t Runs = 0;
 };
 

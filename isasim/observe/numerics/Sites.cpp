@@ -17,11 +17,6 @@ NumericCounts &NumericCounts::operator+=(const NumericCounts &Other) {
   return *this;
 }
 
-bool NumericCounts::isNoteworthy() const {
-  return Born || Cancelled || Residues || Subnormal || Flushed || NotFinite ||
-         Decisions || Branches;
-}
-
 NumericSites::NumericSites() : All(1) {}
 
 void NumericSites::useProgram(const std::shared_ptr<const Image> &Code) {
@@ -129,7 +124,8 @@ std::vector<NumericSites::Line> NumericSites::lines() const {
   const auto Weight = [](const Line &L) {
     // A value that is not finite has no digit right.
     const double Worst = L.Counts.NotFinite ? 1 : std::max(L.WorstBorn, 0.0);
-    return std::make_tuple(Worst, L.Counts.Born + L.Counts.NotFinite,
+    return std::make_tuple(L.Counts.Reached + L.Counts.NotFinite != 0, Worst,
+                           L.Counts.Born + L.Counts.NotFinite,
                            L.Counts.Branches + L.Counts.Decisions,
                            L.Counts.isNoteworthy());
   };

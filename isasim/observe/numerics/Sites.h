@@ -15,7 +15,8 @@
 
 namespace vorion::isasim {
 
-/// Where a value comes from: nowhere that is known (0), a site, or, for values
+/// Where a value comes from: nowhere that is known (0), a site (that of the
+/// instruction; of a value that is off, where that was born), or, for values
 /// that are not finite, an event.
 class Origin {
 public:
@@ -27,7 +28,10 @@ public:
   constexpr bool isEvent() const { return (Word & 1) != 0; }
   constexpr bool isKnown() const { return Word != 0; }
   /// Of the site or event.
-  constexpr uint32_t number() const { return Word >> 1; }
+  constexpr uint32_t number() const { return (Word & ~ResidueBit) >> 1; }
+  /// In a word: the value is a residue or what came of one, so that what it is
+  /// off by is no error (NumericCounts.def).
+  static constexpr uint32_t ResidueBit = 1U << 31;
 
 private:
   explicit constexpr Origin(uint32_t W) : Word(W) {}
@@ -38,6 +42,7 @@ private:
 struct NumericSample {
   unsigned Core = 0, Warp = 0, Lane = 0;
   unsigned Operands = 0;
+  bool OfInteger = false;          ///< the operand is an integer
   std::array<uint32_t, 3> Words{}; ///< bits of the operands
   std::array<double, 3> Shadows{}; ///< of the operands
   std::array<Origin, 3> From{};
@@ -49,12 +54,23 @@ struct NumericCounts {
 #define VORION_NUMERIC_COUNT(MEMBER, NAME, DOC) uint64_t MEMBER = 0;
 #include "observe/numerics/NumericCounts.def"
 #undef VORION_NUMERIC_COUNT
-  double ErrorSum = 0; ///< of the relative errors of Results, each at most 1
+  double ErrorSum =
+      0; ///< of the relative errors of Results, each at most 1, but of residues
   double ErrorMax = 0;
 
   NumericCounts &operator+=(const NumericCounts &Other);
+  /// Of a result.
+  void add(double Error) {
+    ErrorSum += Error;
+    ErrorMax = Error > ErrorMax ? Error : ErrorMax;
+  }
   /// Whether there is more to say than how many results and how exact.
-  bool isNoteworthy() const;
+  bool isNoteworthy() const { return Born || Residues || matters(); }
+  /// Whether it shows in what the program does.
+  bool matters() const {
+    return Reached || Subnormal || Flushed || NotFinite || Decisions ||
+           Branches;
+  }
   double errorMean() const {
     return Results ? ErrorSum / static_cast<double>(Results) : 0;
   }
@@ -88,6 +104,13 @@ public:
   uint32_t number(uint32_t Pc) const { return First + (Pc - Low) / 4; }
   Site &at(uint32_t Number) { return All[Number]; }
 
+  /// A value from \p From, which is off, has come to where it shows.
+  void reach(Origin From) {
+    if (From.isKnown())
+      ++All[From.isEvent() ? Events[From.number()].Site : From.number()]
+            .Counts.Reached;
+  }
+
   /// The event of \p What at a site; the site's first one if it has one.
   uint32_t event(uint32_t Number, const NumericSample &What);
   const std::vector<NumericEvent> &events() const { return Events; }
@@ -100,8 +123,8 @@ public:
     double WorstBorn = -1;
     uint32_t WorstSite = 0;
   };
-  /// Lines with results, those that make the largest errors first; equal ones
-  /// by name.
+  /// Lines with results, those first that make the largest errors that reach
+  /// something; equal ones by name.
   std::vector<Line> lines() const;
   /// "file:line (function)" of a site.
   std::string place(uint32_t Number) const;

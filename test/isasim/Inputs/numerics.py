@@ -7,5 +7,5 @@ with open(sys.argv[1]) as text:
     report = json.load(text)
 assert report["format"] == "vorion-numerics 1"
 for line in report["lines"]:
-    if line["born"] or line["nonfin"]:
+    if line["reach"] or line["nonfin"]:
         print(f"{os.path.basename(line['file'])}:{line['line']} {line['function']} born {line['born']} cancel {line['cancel']}")
