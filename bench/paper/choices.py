@@ -16,21 +16,20 @@ def simt(scene, view, machine, choice, clock=0):
 
 
 def sweep(store, scene, view):
-    """Cycles of each of the twelve choices on the prototype. One whose instructions alone, one a cycle and core, take longer
-    than the fastest so far both in blending and in the frame cannot be the fastest, and is not clocked."""
+    """Cycles of each of the twelve choices on the prototype. One is not clocked if its blending, at an instruction a cycle and
+    core, would take longer than the fastest blending so far, and with the shortest rest of a frame so far longer than the
+    fastest frame."""
     counted = dict(zip(CHOICES, store.all([simt(scene, view, "prototype", c, None) for c in CHOICES], "count")))
     rows = {c: {"tile": c[0], "group": c[1], "pairs": result["counts"]["pairs"],
                 "blend_instructions": r.stage_instructions(result, "blend"),
-                "frame_instructions": result["total"]["counters"]["warp_instructions"],
                 "picture_sha256": result["picture_sha256"]} for c, result in counted.items()}
     cores = next(iter(counted.values()))["device"]["compute_units"]
     waiting = sorted(CHOICES, key=lambda c: rows[c]["blend_instructions"])
     while waiting:
         clocked = [row for row in rows.values() if "blend_cycles" in row]
-        fastest = {part: min((row[part + "_cycles"] for row in clocked), default=float("inf"))
-                   for part in ("blend", "frame")}
-        waiting = [c for c in waiting
-                   if any(rows[c][part + "_instructions"] / cores < fastest[part] for part in fastest)]
+        blend, frame = (min((row[part] for row in clocked), default=float("inf")) for part in ("blend_cycles", "frame_cycles"))
+        rest = min((row["frame_cycles"] - row["blend_cycles"] for row in clocked), default=0)
+        waiting = [c for c in waiting if rows[c]["blend_instructions"] / cores < max(blend, frame - rest)]
         batch, waiting = waiting[:store.jobs], waiting[store.jobs:]
         for c, result in zip(batch, store.all([simt(scene, view, "prototype", c) for c in batch], "sweep")):
             rows[c].update(blend_cycles=r.stage_cycles(result, "blend"), frame_cycles=r.frame_cycles(result))
@@ -52,7 +51,8 @@ def measure(store, all_scenes, every_view):
 
 def text(data):
     out = [paragraph("""Mcycles of blending / of the frame on the prototype; a dash: its instructions alone, one a cycle and
-        core, take longer than the fastest, so it cannot be that and was not clocked."""), ""]
+        core, take longer than the fastest blending, and with the shortest rest of a frame longer than the fastest frame, so it
+        was not clocked."""), ""]
     return out + table(("scene", "view", *(f"{tile}/{group}" for tile, group in CHOICES)),
                        [(s["scene"], s["view"],
                          *(f"{mega(row['blend_cycles'])} / {mega(row['frame_cycles'])}" if "blend_cycles" in row else "-"

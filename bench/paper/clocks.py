@@ -36,7 +36,7 @@ def measure(store, all_scenes, _every_view):
         a, b, off = fit(CLOCKS, times)
         rows.append({"scene": scene.name, "view": view, "clocks_mhz": CLOCKS, "frame_ms": times,
                      "fps": [result["time"]["fps"] for result in results], "mcycles": a, "ms": b, "largest_ms_off": off,
-                     "command": results[-1]["command"]})
+                     "command": results[-1]["command"], "slow_command": results[0]["command"]})
     return {"rows": rows}
 
 

@@ -35,8 +35,8 @@ def model(lengths, parts, single, memory_cycles):
     """Cycles of blending by number of rasterizers: (as many, memory as it is), and (memory that grows with them).
 
     A job costs what clearing and writing a tile costs, and its list's length times what an entry costs on average; both
-    come from one run on a single rasterizer, so that only how jobs spread is modelled. memory_cycles: what the
-    scaled machine's DRAM needs for the stage's bytes."""
+    come from one run on a single rasterizer, so that only how jobs spread is modelled. memory_cycles: what the scaled
+    machine's DRAM needs for blending's bytes."""
     units = single["time"]["sum"]["rasterizers"]
     commands = sum(u["commands"] for u in units)
     fixed = sum(u["begin"] + u["flush"] + u["drain"] for u in units) / commands
@@ -51,15 +51,25 @@ def model(lengths, parts, single, memory_cycles):
     return rows
 
 
+def bus_cycles(result):
+    """Cycles of the blend stage in which the DRAM's buses carry data, as if all channels did at once; and all its cycles."""
+    stage = next(s for s in result["time"]["stages"] if s["name"] == "blend")["time"]
+    return stage["dram"]["bus_ps"] / result["channels"] * result["time"]["sum"]["clock_mhz"] / 1e6, stage["cycles"]
+
+
+def reached(result):
+    """The share of the DRAM's bandwidth that the blend stage of a run got."""
+    busy, cycles = bus_cycles(result)
+    return busy / cycles
+
+
 def memory_cycles(whole, parts):
-    """Cycles for which the DRAM's buses carry the bytes of blending, all channels at work: those of the run without parts, and
-    a picture of 16 bytes a pixel for each further part."""
+    """Cycles for which the DRAM's buses carry the bytes of blending: those of the run without parts, and a picture of
+    16 bytes a pixel for each further part."""
     dram = next(s for s in whole["time"]["stages"] if s["name"] == "blend")["time"]["dram"]
-    bursts = dram["read_bursts"] + dram["write_bursts"]
     width, height = whole["resolution"]
     more = (parts - 1) * width * height * 16 / whole["time"]["sum"]["host"]["dram_burst_bytes"]
-    picoseconds = dram["bus_ps"] * (1 + more / bursts) / whole["channels"]
-    return picoseconds * whole["time"]["sum"]["clock_mhz"] / 1e6
+    return bus_cycles(whole)[0] * (1 + more / (dram["read_bursts"] + dram["write_bursts"]))
 
 
 def machine_of(count):
@@ -76,15 +86,15 @@ def measure(store, all_scenes, _every_view):
 
         store.all([run(k, machine_of(n)) for k, counts in PARTS.items() for n in counts], TITLE)
         lengths = store.lengths(scene, view)
-        whole, = store.all([run(1, machine_of(RASTERIZERS_A_MEMORY))], TITLE)
+        whole, widest = store.all([run(1, machine_of(n)) for n in (RASTERIZERS_A_MEMORY, SIMULATED[-1])], TITLE)
         for parts, counts in PARTS.items():
             results = dict(zip(counts, store.all([run(parts, machine_of(n)) for n in counts], TITLE)))
             simulated = {n: {"blend_cycles": r.kernel_cycles(result, "rasterize"),
                              "merge_cycles": r.kernel_cycles(result, "merge"),
                              "fps": result["time"]["fps"], "cores": result["device"]["compute_units"],
                              "command": result["command"]} for n, result in results.items()}
-            modelled = model(lengths, parts, results[1], memory_cycles(whole, parts))
-            rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths),
+            modelled = model(lengths, parts, results[1], memory_cycles(whole, parts) / reached(widest))
+            rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths), "bandwidth_reached": reached(widest),
                          "simulated": simulated, "modelled": modelled})
         one, two = store.all([run(1, "scaled"), run(1, f"scaled-{CHANNELS}-channels")], TITLE)
         memory.append({"scene": scene.name, "view": view,
@@ -112,7 +122,8 @@ def text(data):
         clusters of four sockets; four cores a rasterizer, fewer where there would be more than {machines.MOST_CORES}. *model*: a
         tile's cost is what clearing and writing one takes plus its list's length times the mean cost of an entry (both from the
         single rasterizer's run); jobs, longest list first, are dealt forth and back as the machine's kernel does (nearly LPT),
-        and blending is not shorter than its bytes over the DRAM's bandwidth; in the last line bandwidth grows with the
+        and blending is not shorter than its bytes over the bandwidth that the machine reaches in the run with
+        {SIMULATED[-1]} rasterizers (most lines are in a row of DRAM of their own); in the last line bandwidth grows with the
         rasterizers beyond {RASTERIZERS_A_MEMORY}. Merging z-tiles is a kernel of its own and not in these rows."""), ""]
     for parts in sorted({row["parts"] for row in data["rows"]}):
         rows = [row for row in data["rows"] if row["parts"] == parts]
@@ -128,7 +139,8 @@ def text(data):
         off = [(m["cycles"] / at(row, m["rasterizers"])["blend_cycles"] - 1, row["scene"], m["rasterizers"])
                for row in rows for m in row["modelled"] if at(row, m["rasterizers"])]
         (low, *where_low), (high, *where_high) = min(off), max(off)
-        out += [f"Model over simulation: {100 * low:+.1f} % ({where_low[0]}, {where_low[1]} rasterizers) to "
+        low_share, high_share = (100 * f(row["bandwidth_reached"] for row in rows) for f in (min, max))
+        out += [f"Bandwidth reached: {low_share:.0f} to {high_share:.0f} % of 51.2 GB/s. Model over simulation: {100 * low:+.1f} % ({where_low[0]}, {where_low[1]} rasterizers) to "
                 f"{100 * high:+.1f} % ({where_high[0]}, {where_high[1]}).", ""]
     out += ["### Whole frames, K = 1", "", "Frames a second.", ""]
     out += table(("scene", "view", *map(str, SIMULATED)),

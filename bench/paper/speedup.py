@@ -34,7 +34,10 @@ def compared(with_it, without):
     share = fastest_frame["blend_cycles"] / fastest_frame["frame_cycles"]
     rest = ms * (1 - blend / r.frame_cycles(with_it))
     official = next((row for row in tried if (row["tile"], row["group"]) == OFFICIAL), None)
-    return {"blends": blends, "official_frame": official, "blend_cycles": blend,
+    counters = with_it["total"]["counters"]
+    pixels = with_it["resolution"][0] * with_it["resolution"][1] / counters["raster_commands"]
+    return {"blends": blends, "lane_use": blends / counters["raster_fragments"],
+            "lane_use_unclipped": blends / (counters["raster_gaussians"] * pixels), "official_frame": official, "blend_cycles": blend,
             "frame_cycles": r.frame_cycles(with_it), "frame_ms": ms,
             "fps": with_it["time"]["fps"], "clock_mhz": with_it["time"]["sum"]["clock_mhz"],
             "kernels_blend": fastest_blend, "kernels_frame": fastest_frame,
@@ -70,7 +73,8 @@ def text(data):
         in the section before are tried on every view, and the fastest of them is taken. *share*: blending's part of the fastest
         kernels-only frame; *bound*: what no rasterizer can exceed if all else stays as it is in that frame, 1/(1 - share). All
         else does not quite stay, since larger tiles make shorter lists: *rest* is the kernels-only frame over our frame without
-        any blending, what a rasterizer of no time at all would give here."""), ""]
+        any blending, what a rasterizer of no time at all would give here. *lanes*: the part of the rasterizers' lane slots that
+        blend, and what it would be if a Gaussian's box were not cut to the tile but all its pixels tried."""), ""]
     for machine in MACHINES:
         rows = [row for row in data["rows"] if row["machine"] == machine]
         if not rows:
@@ -78,13 +82,14 @@ def text(data):
         out += [f"### `{machine}`, {rows[0]['clock_mhz']} MHz", ""]
         out += table(("scene", "view", "frame, Mcycles", "frames/s", "blend, Mcycles", "kernels: frame",
                       "kernels: blend", "tile/group", "IPC a core", "instructions a blend", "share", "bound", "rest",
-                      "blending", "whole frame"),
+                      "blending", "whole frame", "lanes"),
                      [(row["scene"], row["view"], mega(row["frame_cycles"]), f"{row['fps']:.1f}", mega(row["blend_cycles"]),
                        mega(row["kernels_frame"]["frame_cycles"]), mega(row["kernels_blend"]["blend_cycles"]),
                        choices_text(row), f"{row['kernels_blend']['ipc']:.2f}",
                        f"{row['kernels_blend']['instructions_a_blend']:.1f}", f"{100 * row['blend_share']:.1f} %",
                        f"{row['bound']:.2f}x", f"{row['bound_rest']:.2f}x", f"{row['blend_speedup']:.1f}x",
-                       f"{row['frame_speedup']:.2f}x") for row in rows])
+                       f"{row['frame_speedup']:.2f}x",
+                       f"{100 * row['lane_use']:.0f} %, {100 * row['lane_use_unclipped']:.1f} %") for row in rows])
     return out
 
 

@@ -11,8 +11,9 @@ DASHES = ("none", "7 3", "2 3", "9 3 2 3", "1 2", "12 3", "4 4")
 
 
 def table(heads, rows):
-    """Lines of a table whose first columns are words and whose others are numbers, with an empty line behind."""
-    words = [all(not any(c.isdigit() for c in str(row[k]).split(" ")[0]) for row in rows) for k in range(len(heads))]
+    """Lines of a table, with an empty line behind; columns of numbers are right-aligned."""
+    number = {*"0123456789+-", ""}
+    words = [any(str(row[k])[:1] not in number for row in rows) for k in range(len(heads))]
     rule = "|" + "".join("---|" if w else "--:|" for w in words)
     return ["| " + " | ".join(heads) + " |", rule, *("| " + " | ".join(map(str, row)) + " |" for row in rows), ""]
 
