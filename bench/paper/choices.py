@@ -45,8 +45,8 @@ def candidates(swept):
 
 def measure(store, all_scenes, every_view):
     """every_view: of all views, not of one of each scene."""
-    return {"sweeps": [sweep(store, scene, view) for scene in all_scenes
-                       for view in (scene.views if every_view else scene.views[:1])]}
+    return {"sweeps": store.rows([(store, scene, view) for scene in all_scenes
+                                  for view in (scene.views if every_view else scene.views[:1])], sweep)}
 
 
 def text(data):

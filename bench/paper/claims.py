@@ -44,7 +44,9 @@ def ratios(rows, value, paper):
 
 
 def claim(what, paper, rows, value, good, *, unit="", number=None, bound="", condition="the view is", reads=None):
-    """A claim about a figure of each view. number: the paper's, for the ratio."""
+    """A claim about a figure of each view, or None if no view was measured. number: the paper's, for the ratio."""
+    if not rows:
+        return None
     best = max(rows, key=value)
     return {
         "claim": what,
@@ -111,10 +113,12 @@ def of_clocks(data):
 
 def of_speedup(data):
     prototype = [row for row in data["rows"] if row["machine"] == "prototype"]
-    scaled = [row for row in data["rows"] if row["machine"] == "scaled"]
+    if not prototype:
+        return []
     bound = max(prototype, key=lambda row: row["bound"])
     rest = max(prototype, key=lambda row: row["bound_rest"])
     fps = {(row["scene"], row["view"]): row["fps"] for row in prototype}
+    scaled = [row for row in data["rows"] if row["machine"] == "scaled" and (row["scene"], row["view"]) in fps]
     share = 1 - 1 / 30.2
     official = [row for row in prototype if row.get("official_frame")]
     out = [
@@ -190,7 +194,7 @@ def of_speedup(data):
 
 def of_tails(data):
     wanted = [row for row in data["rows"] if row["scene"] == tails.SCENES[0]] or data["rows"]
-    best = max(data["rows"], key=lambda row: row["bound"])
+    best = max(wanted, key=lambda row: row["bound"])
 
     def quarter(row):
         return next(p for p in row["points"] if p["rule"] == tails.QUARTER)

@@ -27,17 +27,18 @@ def run_at(scene, view, clock):
 
 
 def measure(store, all_scenes, _every_view):
-    wanted = [(scene, view) for scene in all_scenes for view in scene.views]
-    store.all([run_at(s, v, c) for s, v in wanted for c in CLOCKS], TITLE)
-    rows = []
-    for scene, view in wanted:
+    places = [(scene, view) for scene in all_scenes for view in scene.views]
+    store.prepare([run_at(s, v, c) for s, v in places for c in CLOCKS], TITLE)
+
+    def row(scene, view):
         results = store.all([run_at(scene, view, c) for c in CLOCKS], TITLE)
         times = [r.frame_ms(result) for result in results]
         a, b, off = fit(CLOCKS, times)
-        rows.append({"scene": scene.name, "view": view, "clocks_mhz": CLOCKS, "frame_ms": times,
-                     "fps": [result["time"]["fps"] for result in results], "mcycles": a, "ms": b, "largest_ms_off": off,
-                     "command": results[-1]["command"], "slow_command": results[0]["command"]})
-    return {"rows": rows}
+        return {"scene": scene.name, "view": view, "clocks_mhz": CLOCKS, "frame_ms": times,
+                "fps": [result["time"]["fps"] for result in results], "mcycles": a, "ms": b, "largest_ms_off": off,
+                "command": results[-1]["command"], "slow_command": results[0]["command"]}
+
+    return {"rows": store.rows(places, row)}
 
 
 def text(data):

@@ -13,34 +13,39 @@ STOPS = (("stop", ()), ("no stop", ("--cutoff", "0")))
 MACHINES = ("prototype", "scaled")
 
 
-def measure(store, all_scenes, _every_view):
+def run(scene, parts, options, machine):
+    return Run(scene, scene.views[0], machine, (*r.parted(parts), *options), picture=machine == MACHINES[0])
+
+
+def wanted(scene):
+    """The scaled machine shows what parts gain, for which one stop rule is enough."""
+    return [run(scene, k, o, m) for m in MACHINES for _, o in STOPS[:1 if m != MACHINES[0] else None] for k in PARTS]
+
+
+def rows_of(store, scene):
     rows = []
-    for scene in all_scenes:
-        view = scene.views[0]
+    for stop, options in STOPS:
+        results = {m: dict(zip(PARTS, store.all([run(scene, k, options, m) for k in PARTS], TITLE)))
+                   for m in MACHINES if m == MACHINES[0] or not options}
+        whole = frames.floats(store.file(run(scene, 1, options, MACHINES[0]), ".pfm"))
+        blends = results[MACHINES[0]][1]["total"]["counters"]["raster_blends"]
+        for parts in PARTS:
+            result = results[MACHINES[0]][parts]
+            largest, mean = difference(store, run(scene, parts, options, MACHINES[0]), whole)
+            rows.append({"scene": scene.name, "view": scene.views[0], "stop": stop, "parts": parts, "max_abs": largest,
+                         "db": -10 * math.log10(mean) if mean else None,
+                         "blends": result["total"]["counters"]["raster_blends"],
+                         "blend_ratio": result["total"]["counters"]["raster_blends"] / blends,
+                         "cycles": {m: {"blend": r.kernel_cycles(results[m][parts], "rasterize"),
+                                        "merge": r.kernel_cycles(results[m][parts], "merge"),
+                                        "frame": r.frame_cycles(results[m][parts])} for m in results},
+                         "command": result["command"]})
+    return rows
 
-        def run(parts, options, machine):
-            return Run(scene, view, machine, (*r.parted(parts), *options),
-                       picture=machine == MACHINES[0])
 
-        # The scaled machine shows what parts gain, for which one stop rule is enough.
-        store.all([run(k, o, m) for m in MACHINES for _, o in STOPS[:1 if m != MACHINES[0] else None] for k in PARTS], TITLE)
-        for stop, options in STOPS:
-            results = {m: dict(zip(PARTS, store.all([run(k, options, m) for k in PARTS], TITLE)))
-                       for m in MACHINES if m == MACHINES[0] or not options}
-            whole = frames.floats(store.file(run(1, options, MACHINES[0]), ".pfm"))
-            for parts in PARTS:
-                result = results[MACHINES[0]][parts]
-                largest, mean = difference(store, run(parts, options, MACHINES[0]), whole)
-                rows.append({"scene": scene.name, "view": view, "stop": stop, "parts": parts, "max_abs": largest,
-                             "db": -10 * math.log10(mean) if mean else None,
-                             "blends": result["total"]["counters"]["raster_blends"],
-                             "blend_ratio": result["total"]["counters"]["raster_blends"]
-                                            / results[MACHINES[0]][1]["total"]["counters"]["raster_blends"],
-                             "cycles": {m: {"blend": r.kernel_cycles(results[m][parts], "rasterize"),
-                                            "merge": r.kernel_cycles(results[m][parts], "merge"),
-                                            "frame": r.frame_cycles(results[m][parts])} for m in results},
-                             "command": result["command"]})
-    return {"rows": rows}
+def measure(store, all_scenes, _every_view):
+    store.prepare([run for scene in all_scenes for run in wanted(scene)], TITLE)
+    return {"rows": [row for rows in store.rows([(store, scene) for scene in all_scenes], rows_of) for row in rows]}
 
 
 def difference(store, run, whole):

@@ -33,7 +33,7 @@ def write(file, sections, build):
     """sections: module and data (None: not measured) by name; build: of the programs that are there now."""
     out = [HEAD + f"- Programs: build `{build}` (a hash of the tools and libraries that a result depends on), where a "
            "section names no other.\n", "## Claims", ""]
-    rows = [row for name, (_, data) in sections.items() if data and name in CLAIMS for row in CLAIMS[name](data)]
+    rows = [row for name, (_, data) in sections.items() if data and name in CLAIMS for row in CLAIMS[name](data) if row]
     out += _claim_lines(rows)
     out += [f"- {what}: {said}." for what, said in claims.LATER] + [""]
     out += ["The command of each claim (of its best view, or of the one that decides; in the root of the repository, after "

@@ -54,7 +54,7 @@ def parse_arguments():
                         help="try all twelve choices of the kernels on all views, not on one of each scene")
     parser.add_argument("--keep", action="store_true", help="take results of other builds, too")
     parser.add_argument("--only-kept", action="store_true",
-                        help="count nothing more: leave out the counts that are not there")
+                        help="run nothing: write what there is, and leave out the rest")
     args = parser.parse_args()
     if args.jobs < 1:
         parser.error(f"--jobs is {args.jobs}, expected at least 1")
@@ -78,13 +78,19 @@ def chosen(args):
 def main():
     args = parse_arguments()
     frames, counts = chosen(args)
-    store = runs.Runs(args.out, args.jobs, args.keep)
+    store = runs.Runs(args.out, args.jobs, args.keep, args.only_kept)
     for name in args.sections:
         module = SECTIONS[name]
-        if module is tiles:
-            data = module.measure(store, counts, args.every_view, tuple(args.widths), args.only_kept)
-        else:
-            data = module.measure(store, frames, args.every_view)
+        try:
+            if module is tiles:
+                data = module.measure(store, counts, args.every_view, tuple(args.widths))
+            else:
+                data = module.measure(store, frames, args.every_view)
+        except runs.Missing as missing:
+            print(f"section {name} left out: {missing}", file=sys.stderr)
+            continue
+        if args.only_kept and not any(data.values()):
+            continue
         data["builds"] = sorted(store.builds)
         store.builds.clear()
         store.write(name, data)

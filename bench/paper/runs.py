@@ -23,6 +23,10 @@ class Failed(Exception):
     """A run ended with an error, in one line."""
 
 
+class Missing(Exception):
+    """A run has not been made, and none is to be made now."""
+
+
 @dataclass(frozen=True)
 class Run:
     """A render of a view on a machine; machine is a name of machines.py."""
@@ -79,10 +83,10 @@ def trimmed(report):
 
 
 class Runs:
-    """The folder of the results. keep: take those of other builds, too."""
+    """The folder of the results. keep: take those of other builds, too. only_kept: make no new ones."""
 
-    def __init__(self, folder, jobs, keep):
-        self.folder, self.jobs, self.keep = folder, jobs, keep
+    def __init__(self, folder, jobs, keep, only_kept):
+        self.folder, self.jobs, self.keep, self.only_kept = folder, jobs, keep, only_kept
         self.build = build_hash()
         self.builds = set()
         self.lock = threading.Lock()
@@ -128,10 +132,12 @@ class Runs:
         return result
 
     def all(self, wanted, title):
-        """The results of some runs, in order; those that are missing are run, with a line each."""
+        """The results of some runs, in order; those that are missing are run, with a line each, or else raise Missing."""
         wanted = list(wanted)
         results = {run: self.kept(run) for run in wanted}
         missing = [run for run, result in results.items() if result is None]
+        if missing and self.only_kept:
+            raise Missing(missing[0].name())
         count = 0
 
         def one(run):
@@ -155,6 +161,21 @@ class Runs:
         return [results[run] for run in wanted]
 
 
+    def prepare(self, wanted, title):
+        """Makes all runs that a section will ask for, several at a time."""
+        if not self.only_kept:
+            self.all(wanted, title)
+
+    def rows(self, places, make):
+        """make(*place) for every place whose runs are there: all of them, unless only kept ones are taken."""
+        rows = []
+        for place in places:
+            try:
+                rows.append(make(*place))
+            except Missing as missing:
+                print(f"left out: {missing}", file=sys.stderr)
+        return rows
+
     def write(self, section, data):
         """Keeps what a section found."""
         file = os.path.join(self.folder, section + ".json")
@@ -174,6 +195,8 @@ class Runs:
     def lengths(self, scene, view):
         """Entries of every tile's list, from the pairs that a render sorts."""
         out = os.path.join(self.folder, "runs", f"{scene.name}-{view}-lengths.json")
+        if not os.path.exists(out) and self.only_kept:
+            raise Missing(f"{scene.name}-{view}-lengths")
         if not os.path.exists(out):
             with tempfile.TemporaryDirectory(dir=self.folder) as folder:
                 pairs, report = (os.path.join(folder, name) for name in ("pairs.npz", "lengths.json"))

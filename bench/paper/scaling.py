@@ -76,34 +76,49 @@ def machine_of(count):
     return "scaled" if count == RASTERIZERS_A_MEMORY else f"{count}-rasterizers"
 
 
+def run(scene, parts, machine):
+    return Run(scene, scene.views[0], machine, r.parted(parts))
+
+
+def more_memory(scene):
+    return [run(scene, 1, machine) for machine in ("scaled", f"scaled-{CHANNELS}-channels")]
+
+
+def rows_of(store, scene):
+    """A row for each number of parts."""
+    view = scene.views[0]
+    lengths = store.lengths(scene, view)
+    whole, widest = store.all([run(scene, 1, machine_of(n)) for n in (RASTERIZERS_A_MEMORY, SIMULATED[-1])], TITLE)
+    rows = []
+    for parts, counts in PARTS.items():
+        results = dict(zip(counts, store.all([run(scene, parts, machine_of(n)) for n in counts], TITLE)))
+        simulated = {n: {"blend_cycles": r.kernel_cycles(result, "rasterize"),
+                         "merge_cycles": r.kernel_cycles(result, "merge"), "fps": result["time"]["fps"],
+                         "cores": result["device"]["compute_units"], "command": result["command"]}
+                     for n, result in results.items()}
+        modelled = model(lengths, parts, results[1], memory_cycles(whole, parts) / reached(widest))
+        rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths),
+                     "bandwidth_reached": reached(widest), "simulated": simulated, "modelled": modelled})
+    return rows
+
+
+def memory_row(store, scene):
+    one, two = store.all(more_memory(scene), TITLE)
+    microseconds = r.frame_cycles(one) / one["time"]["sum"]["clock_mhz"]
+    return {"scene": scene.name, "view": scene.views[0],
+            "blend_gain": r.stage_cycles(one, "blend") / r.stage_cycles(two, "blend"),
+            "frame_gain": r.frame_ms(one) / r.frame_ms(two),
+            "bus_share": one["time"]["sum"]["dram"]["bus_ps"] / one["channels"] / (microseconds * 1e6),
+            "command": two["command"]}
+
+
 def measure(store, all_scenes, _every_view):
-    rows, memory = [], []
-    for scene in all_scenes:
-        view = scene.views[0]
-
-        def run(parts, machine):
-            return Run(scene, view, machine, r.parted(parts))
-
-        store.all([run(k, machine_of(n)) for k, counts in PARTS.items() for n in counts], TITLE)
-        lengths = store.lengths(scene, view)
-        whole, widest = store.all([run(1, machine_of(n)) for n in (RASTERIZERS_A_MEMORY, SIMULATED[-1])], TITLE)
-        for parts, counts in PARTS.items():
-            results = dict(zip(counts, store.all([run(parts, machine_of(n)) for n in counts], TITLE)))
-            simulated = {n: {"blend_cycles": r.kernel_cycles(result, "rasterize"),
-                             "merge_cycles": r.kernel_cycles(result, "merge"),
-                             "fps": result["time"]["fps"], "cores": result["device"]["compute_units"],
-                             "command": result["command"]} for n, result in results.items()}
-            modelled = model(lengths, parts, results[1], memory_cycles(whole, parts) / reached(widest))
-            rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths), "bandwidth_reached": reached(widest),
-                         "simulated": simulated, "modelled": modelled})
-        one, two = store.all([run(1, "scaled"), run(1, f"scaled-{CHANNELS}-channels")], TITLE)
-        memory.append({"scene": scene.name, "view": view,
-                       "blend_gain": r.stage_cycles(one, "blend") / r.stage_cycles(two, "blend"),
-                       "frame_gain": r.frame_ms(one) / r.frame_ms(two),
-                       "bus_share": one["time"]["sum"]["dram"]["bus_ps"] / one["channels"]
-                                    / (r.frame_cycles(one) / one["time"]["sum"]["clock_mhz"] * 1e6),
-                       "command": two["command"]})
-    return {"rows": rows, "memory": memory}
+    store.prepare([one for scene in all_scenes for one in
+                   (*(run(scene, k, machine_of(n)) for k, counts in PARTS.items() for n in counts), *more_memory(scene))],
+                  TITLE)
+    places = [(store, scene) for scene in all_scenes]
+    return {"rows": [row for rows in store.rows(places, rows_of) for row in rows],
+            "memory": store.rows(places, memory_row)}
 
 
 def at(row, count):

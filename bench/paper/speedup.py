@@ -49,28 +49,27 @@ def compared(with_it, without):
 def measure(store, all_scenes, _every_view):
     """The choices are those that choices.py found."""
     swept = store.read("choices")
-    rows = []
-    for scene in all_scenes:
-        best = {c for s in swept["sweeps"] if s["scene"] == scene.name for c in candidates(s)} if swept else set()
-        if not best:
-            raise r.Failed(f"no choice of tile and group for {scene.name}, expected section choices to have been measured")
-        choices = {machine: sorted({OFFICIAL, *best} if machine == MACHINES[0] else best) for machine in MACHINES}
-        wanted = [(machine, view) for machine in MACHINES for view in scene.views]
-        store.all([run for m, v in wanted for run in (raster(scene, v, m), *(simt(scene, v, m, c) for c in choices[m]))],
-                  TITLE)
-        for machine, view in wanted:
-            with_it, = store.all([raster(scene, view, machine)], TITLE)
-            without = store.all([simt(scene, view, machine, c) for c in choices[machine]], TITLE)
-            rows.append({"scene": scene.name, "view": view, "machine": machine,
-                         **compared(with_it, dict(zip(choices[machine], without)))})
-    return {"rows": rows}
+    if not swept:
+        raise r.Failed("no choice of tile and group, expected section choices to have been measured")
+    best = {c for s in swept["sweeps"] for c in candidates(s)}
+    choices = {machine: sorted({OFFICIAL, *best} if machine == MACHINES[0] else best) for machine in MACHINES}
+    places = [(scene, view, machine) for scene in all_scenes for machine in MACHINES for view in scene.views]
+    store.prepare([run for s, v, m in places for run in (raster(s, v, m), *(simt(s, v, m, c) for c in choices[m]))], TITLE)
+
+    def row(scene, view, machine):
+        with_it, *without = store.all([raster(scene, view, machine),
+                                       *(simt(scene, view, machine, c) for c in choices[machine])], TITLE)
+        return {"scene": scene.name, "view": view, "machine": machine,
+                **compared(with_it, dict(zip(choices[machine], without)))}
+
+    return {"rows": store.rows(places, row)}
 
 
 def text(data):
     out = [paragraph("""The same frame with the rasterizer (tiles of 64) and with kernels alone, whose lists are staged in local
         memory and which end a tile when its pixels are full. Both are timed by the same clock. The kernels' choice of tile and
         group is the fastest in cycles; one choice may be fastest at blending and another in the whole frame: those that are so
-        in the section before are tried on every view, and the fastest of them is taken. *share*: blending's part of the fastest
+        for some scene in the section before are tried on every view, and the fastest of them is taken. *share*: blending's part of the fastest
         kernels-only frame; *bound*: what no rasterizer can exceed if all else stays as it is in that frame, 1/(1 - share). All
         else does not quite stay, since larger tiles make shorter lists: *rest* is the kernels-only frame over our frame without
         any blending, what a rasterizer of no time at all would give here. *lanes*: the part of the rasterizers' lane slots that

@@ -27,15 +27,15 @@ def on_lists(result):
 
 def measure(store, all_scenes, _every_view):
     chosen = [s for s in all_scenes if s.name in SCENES] or all_scenes[:1]
-    wanted = [(scene, view) for scene in chosen for view in scene.views]
+    places = [(scene, view) for scene in chosen for view in scene.views]
 
     def runs_of(scene, view):
         return [Run(scene, view, "prototype", ("--path", "raster")),
                 *(Run(scene, view, "prototype", ("--path", "raster", "--pixel-unit", rule)) for rule in RULES)]
 
-    store.all([run for s, v in wanted for run in runs_of(s, v)], TITLE)
-    rows = []
-    for scene, view in wanted:
+    store.prepare([run for s, v in places for run in runs_of(s, v)], TITLE)
+
+    def row(scene, view):
         results = store.all(runs_of(scene, view), TITLE)
         base = results[0]
         points = []
@@ -52,9 +52,9 @@ def measure(store, all_scenes, _every_view):
                            "command": result["command"]})
         quarter = next(p for p in points if p["rule"] == QUARTER)
         share = (points[0]["on_lists"] - quarter["on_lists"]) / points[0]["rasterizers_busy"]
-        rows.append({"scene": scene.name, "view": view, "points": points, "last_quarter_share": share,
-                     "bound": 1 / (1 - share)})
-    return {"rows": rows}
+        return {"scene": scene.name, "view": view, "points": points, "last_quarter_share": share, "bound": 1 / (1 - share)}
+
+    return {"rows": store.rows(places, row)}
 
 
 def text(data):

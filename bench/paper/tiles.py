@@ -17,15 +17,14 @@ def reached(curve):
     return next((percent for percent, share in enumerate(curve) if share >= MOST), None)
 
 
-def measure(store, all_scenes, _every_view, widths=invocations.WIDTHS, only_kept=False):
-    """only_kept: leave out what was not counted yet."""
+def measure(store, all_scenes, _every_view, widths=invocations.WIDTHS):
     rows = []
     for scene in all_scenes:
         for view in scene.views:
             row = {"scene": scene.name, "view": view, "fewer": {s: {} for s in invocations.SUPPORTS}}
             for width in widths:
                 folder = os.path.join(store.folder, "analyses")
-                if only_kept and not os.path.exists(invocations.file_of(folder, scene, view, width)):
+                if store.only_kept and not os.path.exists(invocations.file_of(folder, scene, view, width)):
                     continue
                 found = invocations.analysis(folder, scene, view, width)
                 for support in invocations.SUPPORTS:
