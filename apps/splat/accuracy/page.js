@@ -23,6 +23,9 @@ const EQUAL_DB = 200;
 // Time differences below this share are none, as in Front.h: a tile's flush is no choice.
 const FREE = 0.002;
 
+// Times beyond so many times the default's are drawn at the edge.
+const MOST_OF_DEFAULT = 1.4;
+
 const state = { view: '', metric: 'psnr_db', axis: 'cycles', floor: data.floor_db, selected: null, sort: null };
 
 function valueOf(point, metric, axis) {
@@ -126,9 +129,12 @@ function drawPlot(entries, front, best) {
   };
   const xs = shown.map(e => e.times[axis] * AXES[axis].scale), ys = shown.map(height);
   const pad = (low, high) => [low - 0.05 * (high - low || 1), high + 0.05 * (high - low || 1)];
-  const [x0, x1] = pad(Math.min(...xs), Math.max(...xs));
+  // What is much slower than the default would press all others together: it goes to the right edge.
+  const base = entries.find(e => e.setting === 'default')?.times[axis] ?? Infinity;
+  const slowest = Math.min(Math.max(...xs), MOST_OF_DEFAULT * base * AXES[axis].scale);
+  const [x0, x1] = pad(Math.min(...xs), slowest);
   const [y0, y1] = pad(Math.min(...ys), Math.max(...ys));
-  const px = x => left + (x - x0) / (x1 - x0) * (right - left);
+  const px = x => left + Math.min(1, (x - x0) / (x1 - x0)) * (right - left);
   const py = y => bottom - (y - y0) / (y1 - y0) * (bottom - top);
   for (const t of ticks(x0, x1))
     svg.append(element('line', { class: 'grid', x1: px(t), x2: px(t), y1: top, y2: bottom }),
@@ -147,7 +153,7 @@ function drawPlot(entries, front, best) {
   for (const e of shown) {
     const [cx, cy] = place(e);
     const names = ['dot', front.includes(e) && 'onfront', e === best && 'best', e.setting === 'default' && 'default',
-      e.setting === state.selected && 'selected'].filter(Boolean).join(' ');
+      e.setting === state.selected && 'selected', cx >= right && 'beyond'].filter(Boolean).join(' ');
     const dot = element('circle', { class: names, cx, cy, r: 5, 'data-setting': e.setting, tabindex: 0 });
     dot.addEventListener('mouseenter', event => showTip(e, event));
     dot.addEventListener('mouseleave', () => { byId('tip').style.display = 'none'; });
