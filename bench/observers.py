@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """What each observer costs while it is on: host instructions by callgrind, as a ratio to the plain run.
 
-usage: bench/observers.py [--build BUILD] [--json FILE]
+usage: bench/observers.py [--build BUILD] [--without BUILD] [--only NAME,...] [--json FILE]
 
 Runs one kernel (an fp32 matrix product of 64 x 64 with local memory and barriers) on vorion-sim with
 each observer. Instructions, since they do not depend on what else the machine does. Traces and
-profiles go to files below BUILD/observers. Exit codes: 0, 1 a run failed.
+profiles go to files below BUILD/observers. --without names a build with VORION_OBSERVERS=OFF, in
+which none of it is built in, to be compared with the run in which all of it is off. Exit codes: 0,
+1 a run failed.
 """
 
 import argparse
@@ -64,6 +66,8 @@ def instructions(folder, command):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default=os.path.join(ROOT, "build", "dev"))
+    parser.add_argument("--without", help="a build with VORION_OBSERVERS=OFF")
+    parser.add_argument("--only", help="observers to measure, by name (default: all)")
     parser.add_argument("--json")
     options = parser.parse_args()
     folder = os.path.join(options.build, "observers")
@@ -73,16 +77,23 @@ def main():
         source.write(KERNEL)
     subprocess.run([os.path.join(tools, "vorion-clang"), "-g", "multiply.cl", "-o", "multiply.elf"], cwd=folder, check=True)
     # Valgrind 3.19 cannot read clang's debug information.
-    subprocess.run(["strip", "-o", "vorion-sim", os.path.join(tools, "vorion-sim")], cwd=folder, check=True)
-    simulator = ["./vorion-sim", "multiply.elf", "--threads", "1"]
+    builds = [("vorion-sim", tools)]
+    if options.without:
+        builds.append(("vorion-sim-without", os.path.join(os.path.abspath(options.without), "bin")))
+    for name, folder_of in builds:
+        subprocess.run(["strip", "-o", name, os.path.join(folder_of, "vorion-sim")], cwd=folder, check=True)
     run = ["--global", "64,64", "--local", "16,16", "--arg", "buf:16384", "--arg", "buf:16384", "--arg", "out:16384@c.bin"]
-    # What the run itself costs, without reading the program and making the machine.
-    start = instructions(folder, simulator + ["--list-kernels"])
+    wanted = [o for o in OBSERVERS if not options.only or o[0] == "none" or o[0] in options.only.split(",")]
+    if options.without:
+        wanted.insert(1, ("not built in", []))
     rows = []
-    for name, extra in OBSERVERS:
+    for name, extra in wanted:
+        simulator = [f"./{builds[name == 'not built in'][0]}", "multiply.elf", "--threads", "1"]
+        # What the run itself costs, without reading the program and making the machine.
+        start = instructions(folder, simulator + ["--list-kernels"])
         count = instructions(folder, simulator + run + extra) - start
         rows.append({"observer": name, "instructions": count, "ratio": count / (rows[0]["instructions"] if rows else count)})
-        print(f"{name:<26}{count / 1e6:>12.1f} M{rows[-1]['ratio']:>8.1f}x", flush=True)
+        print(f"{name:<26}{count / 1e6:>12.1f} M{rows[-1]['ratio']:>10.4g}x", flush=True)
     if options.json:
         with open(options.json, "w") as out:
             json.dump(rows, out, indent=1)
