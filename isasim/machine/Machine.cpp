@@ -190,6 +190,8 @@ void Machine::Impl::logWork() {
 
 void Machine::Impl::resetRasterizers() {
   Raster.reset();
+  if (Time)
+    Time->reset();
   logWork();
 }
 

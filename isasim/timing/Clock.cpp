@@ -69,6 +69,7 @@ void Clock::begin(const CodeTable &Code) {
     R.begin(Begun);
   for (PixelClock &U : Pixels)
     U.begin(Begun);
+  Horizon = 0;
   Ended.assign(Cores.size(), false);
   Keys.assign(Cores.size() + Rasters.size() + Pixels.size(), Never);
 }
@@ -100,14 +101,9 @@ void Clock::atSyncPoint() {
 TimeReport Clock::end() {
   std::fill(Ended.begin(), Ended.end(), true);
   takeAll();
-  uint64_t End = Begun;
-  for (const CoreClock &C : Cores)
-    End = std::max(End, C.quietAt());
-  for (const RasterClock &R : Rasters)
-    End = std::max(End, R.freeAt());
-  for (const PixelClock &U : Pixels)
-    End = std::max(End, U.freeAt());
-  End = Memory.endRun(End);
+  const uint64_t End = Memory.endRun(coresQuietAt());
+  Horizon = End;
+  takeAll();
   TimeReport R;
   R.Cycles = End - Begun;
   R.ClockMhz = P.ClockMhz;
@@ -121,6 +117,7 @@ TimeReport Clock::end() {
   for (RasterClock &C : Rasters) {
     C.end(End);
     R.Rasters.push_back(C.time());
+    R.CommandsLeft += C.commandsLeft();
   }
   for (PixelClock &U : Pixels) {
     U.end(End);
@@ -130,6 +127,28 @@ TimeReport Clock::end() {
   collectActivities(R);
   Now = End;
   return R;
+}
+
+void Clock::reset() {
+  for (RasterClock &R : Rasters)
+    R.reset();
+  for (PixelClock &U : Pixels)
+    U.reset();
+}
+
+uint64_t Clock::coresQuietAt() const {
+  uint64_t Quiet = Begun;
+  for (const CoreClock &C : Cores)
+    Quiet = std::max(Quiet, C.quietAt());
+  return Quiet;
+}
+
+/// Whether no core will do anything more in this run.
+bool Clock::coresAreDone() const {
+  for (size_t N = 0; N != Cores.size(); ++N)
+    if (!Ended[N] || Keys[N] != Never || Cores[N].isBlocked())
+      return false;
+  return true;
 }
 
 void Clock::collectActivities(TimeReport &R) const {
@@ -269,6 +288,8 @@ bool Clock::step() {
     update(Who);
     return true;
   }
+  if (coresAreDone() && Then > std::max(Horizon, coresQuietAt()))
+    return false;
   if (Who < pixelKey(0))
     stepRaster(Who - rasterKey(0), Then);
   else

@@ -14,7 +14,8 @@ namespace vorion::isasim {
 
 /// Reads the traces of the cores and the logs of the rasterizers, on the thread
 /// of Machine::run, while all cores are parked. Caches, DRAM and time go on
-/// from run to run.
+/// from run to run, and so do rasterizers and pixel units: a run ends with its
+/// cores, and what they have not waited for goes on in the next one.
 class Clock {
 public:
   explicit Clock(const Config &C);
@@ -36,6 +37,8 @@ public:
   void atSyncPoint();
   /// The run is over; all is taken.
   TimeReport end();
+  /// The rasterizers and pixel units were made anew: what they had is dropped.
+  void reset();
 
 private:
   class SocketLog;
@@ -59,6 +62,8 @@ private:
     return static_cast<unsigned>(Cores.size() + Rasters.size()) + Cluster;
   }
   bool isOverfull() const;
+  bool coresAreDone() const;
+  uint64_t coresQuietAt() const;
   void collectActivities(TimeReport &R) const;
 
   const Config &Shape;
@@ -80,6 +85,9 @@ private:
   std::vector<Arrived> Barriers;
   uint64_t Now = 0; ///< where the last run ended
   uint64_t Begun = 0;
+  /// No rasterizer and no pixel unit goes beyond this in a run whose cores are
+  /// done, nor beyond the cores.
+  uint64_t Horizon = 0;
   uint64_t OutOfOrder = 0;
 };
 

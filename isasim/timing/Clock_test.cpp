@@ -290,14 +290,64 @@ TEST_F(ClockTest, AFullQueueStallsTheStart) {
   const Words Start = {csrw(raster::Csr::Start, 0)};
   const TimeReport Two = run(emptyTile() + repeat(2, Start));
   EXPECT_EQ(of(Two, CoreCycle::RasterFull), 0U);
-  const TimeReport Five = run(emptyTile() + repeat(5, Start));
+  const Words Wait = {csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
+  const TimeReport Five = run(emptyTile() + repeat(5, Start) + Wait);
   EXPECT_NEAR(static_cast<double>(of(Five, CoreCycle::RasterFull)), 3.0 * Tile,
               8);
   EXPECT_EQ(Five.Rasters[0].Commands, 5U);
-  const TimeReport Waited =
-      run(emptyTile() + Start +
-          Words{csrr(15, static_cast<unsigned>(raster::Csr::Wait))});
+  const TimeReport Waited = run(emptyTile() + Start + Wait);
   EXPECT_NEAR(static_cast<double>(of(Waited, CoreCycle::RasterWait)), Tile, 2);
+}
+
+// n cycles of the rasterizer that a run starts and a later one of m cycles
+// waits for take the longer of the two, counted from the start.
+TEST_F(ClockTest, TilesOutliveTheirRun) {
+  const unsigned Tile = C.Timing.Raster.StartCycles + 4096 / 16 + 1024;
+  const Words Start = emptyTile() + Words{csrw(raster::Csr::Start, 0)};
+  const Words Wait = {csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
+  for (const unsigned Adds : {10U, 500U, 3000U}) {
+    auto M = Machine::create(C);
+    ASSERT_TRUE(M);
+    const auto Run = [&](const Words &Body) {
+      (*M)->load(codeImage(program(Body)));
+      const TimeReport R = *(*M)->run().Time;
+      for (const RasterTime &T : R.Rasters)
+        EXPECT_EQ(std::reduce(T.Cycles.begin(), T.Cycles.end()), R.Cycles)
+            << "every cycle has one reason";
+      return R;
+    };
+    const TimeReport First = Run(Start);
+    EXPECT_EQ(First.CommandsLeft, 1U);
+    EXPECT_LT(First.Cycles, Tile / 4);
+    const TimeReport Second = Run(repeat(Adds, {addi(10, 10, 1)}) + Wait);
+    EXPECT_EQ(Second.CommandsLeft, 0U);
+    const uint64_t Idle = First.Rasters[0].Cycles[size_t(RasterCycle::Idle)];
+    const uint64_t Left = Idle + Tile - First.Cycles;
+    const uint64_t Alone = run(repeat(Adds, {addi(10, 10, 1)}) + Wait).Cycles;
+    EXPECT_NEAR(static_cast<double>(Second.Cycles),
+                static_cast<double>(std::max<uint64_t>(Left, Alone)), 8)
+        << Adds;
+    // All of the tile is in the two reports.
+    const auto Busy = [](const TimeReport &R) {
+      return R.Cycles - R.Rasters[0].Cycles[size_t(RasterCycle::Idle)];
+    };
+    EXPECT_NEAR(static_cast<double>(Busy(First) + Busy(Second)), Tile, 2);
+  }
+}
+
+// What a run left keeps its places in the queue.
+TEST_F(ClockTest, AQueueStaysFullFromRunToRun) {
+  C.Raster.QueueDepth = 2;
+  const unsigned Tile = C.Timing.Raster.StartCycles + 4096 / 16 + 1024;
+  auto M = Machine::create(C);
+  ASSERT_TRUE(M);
+  const Words Start = {csrw(raster::Csr::Start, 0)};
+  (*M)->load(codeImage(program(emptyTile() + repeat(2, Start))));
+  EXPECT_EQ((*M)->run().Time->CommandsLeft, 2U);
+  const TimeReport Next = *(*M)->run().Time;
+  EXPECT_EQ(Next.CommandsLeft, 2U);
+  EXPECT_NEAR(static_cast<double>(of(Next, CoreCycle::RasterFull)), 2.0 * Tile,
+              100);
 }
 
 /// Lanes of all cores draw numbers from one counter, use local memory, spin
@@ -357,6 +407,13 @@ TEST(Clock, IsTheSameForAnyNumberOfHostThreads) {
     (*M)->load(codeImage(program(everything())));
     // The second run begins with warm caches.
     Reports.push_back(toJson(*(*M)->run().Time) + toJson(*(*M)->run().Time));
+    // The last of these waits for what the others left.
+    Words NoWait = everything();
+    NoWait.pop_back();
+    (*M)->load(codeImage(program(NoWait)));
+    Reports.back() += toJson(*(*M)->run().Time) + toJson(*(*M)->run().Time);
+    (*M)->load(codeImage(program(everything())));
+    Reports.back() += toJson(*(*M)->run().Time);
     EXPECT_EQ(Reports.back(), Reports.front()) << Threads;
   }
 }

@@ -18,13 +18,19 @@ PixelClock::PixelClock(const TimingConfig &Params, unsigned ClusterIn,
       EntryFree(P.BufferEntries) {}
 
 void PixelClock::begin(uint64_t Start) {
+  if (Now == Stage::Idle)
+    DoneAt = std::max(DoneAt, Start);
+  Ledger.begin(Start);
+  Spent = {};
+}
+
+void PixelClock::reset() {
   for (auto &E : Expected)
     E.clear();
   Queue.clear();
   Now = Stage::Idle;
   At = Never;
-  DoneAt = Start;
-  Spent = {};
+  Ledger.clear();
 }
 
 void PixelClock::accept(unsigned Core, uint64_t Then) {
@@ -36,6 +42,7 @@ void PixelClock::accept(unsigned Core, uint64_t Then) {
 }
 
 std::optional<unsigned> PixelClock::step(MemorySystem &Memory) {
+  Ledger.settle(At);
   switch (Now) {
   case Stage::Take:
     take(Memory);
@@ -184,8 +191,11 @@ void PixelClock::finishGroup(MemorySystem &Memory) {
 }
 
 void PixelClock::end(uint64_t End) {
-  if (End > DoneAt)
-    spend(PixelCycle::Idle, End - DoneAt);
+  const PixelCycle Rest = Now == Stage::Group   ? PixelCycle::Load
+                          : Now == Stage::Fetch ? PixelCycle::Fetch
+                          : Now == Stage::Done  ? PixelCycle::Store
+                                                : PixelCycle::Idle;
+  Spent.Cycles = Ledger.end(End, Rest);
 }
 
 } // namespace vorion::isasim

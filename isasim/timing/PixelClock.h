@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raster/WorkLog.h"
+#include "timing/CycleLedger.h"
 #include "timing/MemorySystem.h"
 
 #include <deque>
@@ -25,7 +26,10 @@ public:
   void expect(unsigned Core, raster::TailWork &&Executed) {
     Expected[Core].push_back(std::move(Executed));
   }
+  /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);
+  /// Everything that it was given is dropped.
+  void reset();
   /// The next expected hand-over of \p Core has reached the queue.
   void accept(unsigned Core, uint64_t Now);
 
@@ -42,8 +46,8 @@ private:
   enum class Stage : uint8_t { Idle, Take, Group, Fetch, Done };
 
   void spend(PixelCycle What, uint64_t Cycles) {
-    Spent.Cycles[size_t(What)] += Cycles;
     DoneAt += Cycles;
+    Ledger.spend(What, DoneAt);
   }
   void take(MemorySystem &Memory);
   void startGroup(MemorySystem &Memory);
@@ -68,6 +72,7 @@ private:
   uint64_t FetchAt = 0, PixelsReady = 0, ListReady = 0;
   uint32_t ListLine = 0;
   std::vector<uint64_t> EntryFree;
+  CycleLedger<PixelCycle> Ledger;
   PixelTime Spent;
 };
 

@@ -50,8 +50,13 @@ RasterClock::RasterClock(const TimingConfig &Params, unsigned ClusterIn,
       EntryFree(P.BufferEntries) {}
 
 void RasterClock::begin(uint64_t Start) {
-  DispatchAt = Start;
+  if (Now == Stage::Idle)
+    DispatchAt = std::max(DispatchAt, Start);
+  Ledger.begin(Start);
   Spent = {};
+}
+
+void RasterClock::reset() {
   for (Agent &A : Agents) {
     A.Expected.clear();
     A.Queued = A.Tails = 0;
@@ -59,6 +64,14 @@ void RasterClock::begin(uint64_t Start) {
   Now = Stage::Idle;
   At = Never;
   InLanes = {};
+  Ledger.clear();
+}
+
+uint64_t RasterClock::commandsLeft() const {
+  uint64_t Left = 0;
+  for (const Agent &A : Agents)
+    Left += A.Queued + A.Tails;
+  return Left;
 }
 
 void RasterClock::start(unsigned Agent, uint64_t Then) {
@@ -70,6 +83,7 @@ void RasterClock::start(unsigned Agent, uint64_t Then) {
 }
 
 std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
+  Ledger.settle(At);
   switch (Now) {
   case Stage::Take:
     take();
@@ -283,8 +297,11 @@ RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
 }
 
 void RasterClock::end(uint64_t End) {
-  if (End > DispatchAt)
-    spend(RasterCycle::Idle, End - DispatchAt);
+  // Between two commands nothing is spent but by the one that comes.
+  const RasterCycle Rest = Now == Stage::Fetch   ? RasterCycle::Fetch
+                           : Now == Stage::Drain ? RasterCycle::Drain
+                                                 : RasterCycle::Idle;
+  Spent.Cycles = Ledger.end(End, Rest);
 }
 
 } // namespace vorion::isasim

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raster/WorkLog.h"
+#include "timing/CycleLedger.h"
 #include "timing/MemorySystem.h"
 
 #include <array>
@@ -39,7 +40,10 @@ public:
     Agents[Agent].Expected.push_back(std::move(Executed));
   }
 
+  /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);
+  /// Everything that it was given is dropped.
+  void reset();
   bool isFull(unsigned Agent) const {
     return Agents[Agent].Queued >= QueueDepth;
   }
@@ -62,6 +66,8 @@ public:
 
   /// When it was done with all that it was given.
   uint64_t freeAt() const { return DispatchAt; }
+  /// Commands that it or the pixel unit is not done with.
+  uint64_t commandsLeft() const;
   /// The run ended at \p End.
   void end(uint64_t End);
   const RasterTime &time() const { return Spent; }
@@ -81,8 +87,8 @@ private:
   enum class Stage : uint8_t { Idle, Take, Fetch, Drain, Done };
 
   void spend(RasterCycle What, uint64_t Cycles) {
-    Spent.Cycles[size_t(What)] += Cycles;
     DispatchAt += Cycles;
+    Ledger.spend(What, DispatchAt);
   }
   void take();
   void fetch(MemorySystem &Memory);
@@ -119,6 +125,7 @@ private:
   unsigned DrainRow = 0;
   uint32_t DrainByte = 0; ///< of the row
 
+  CycleLedger<RasterCycle> Ledger;
   RasterTime Spent;
 };
 

@@ -151,6 +151,7 @@ std::string toJson(const TimeReport &R) {
     Activities.push_back(
         {{"unit", A.Unit}, {"event", A.Event}, {"count", A.Count}});
   J["activities"] = std::move(Activities);
+  J["commands_left"] = R.CommandsLeft;
   J["out_of_order"] = R.OutOfOrder;
   return J.dump();
 }
@@ -173,6 +174,10 @@ std::string toText(const TimeReport &R) {
                       Rows ? 100.0 * static_cast<double>(R.Dram.RowHits) /
                                  static_cast<double>(Rows)
                            : 0.0);
+  if (R.CommandsLeft)
+    Text +=
+        fmt::format("left         {} tile commands that nobody waited for\n",
+                    R.CommandsLeft);
   return Text;
 }
 

@@ -11,12 +11,17 @@ static bool isConstant(const std::string &Name) {
   return Name == "clock_mhz" || Name == "host" || Name == "lane_areas";
 }
 
+/// Members of which the later one counts.
+static bool isState(const std::string &Name) { return Name == "commands_left"; }
+
 static void add(Json &To, const Json &From) {
   if (To.is_number_unsigned()) {
     To = To.get<std::uint64_t>() + From.get<std::uint64_t>();
   } else if (To.is_object()) {
     for (auto &[Name, Value] : To.items())
-      if (!isConstant(Name) && From.contains(Name))
+      if (isState(Name) && From.contains(Name))
+        Value = From[Name];
+      else if (!isConstant(Name) && From.contains(Name))
         add(Value, From[Name]);
   } else if (To.is_array()) {
     for (std::size_t N = 0; N != To.size() && N != From.size(); ++N)

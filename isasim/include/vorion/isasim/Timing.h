@@ -132,7 +132,7 @@ struct Activity {
 
 /// What a run took. Sums over a unit's cycles are exactly \c Cycles.
 struct TimeReport {
-  uint64_t Cycles = 0; ///< from the launch until the last unit was done
+  uint64_t Cycles = 0; ///< from the launch until the last core was done
   uint32_t ClockMhz = 0;
   std::vector<CoreTime> Cores;
   std::vector<RasterTime> Rasters;
@@ -143,6 +143,8 @@ struct TimeReport {
   std::vector<Activity> Activities;
   HostTiming Host; ///< what launches and copies cost beside the run
   uint32_t DramBurstBytes = 0;
+  /// Tile commands that nobody has waited for: they go on in the next run.
+  uint64_t CommandsLeft = 0;
   /// Times that a trace grew beyond its bound, so that order was guessed.
   uint64_t OutOfOrder = 0;
 };
