@@ -25,12 +25,13 @@ template <typename Function>
 void forWindow(int X, int Y, int Width, int Height, const LossRule &Rule,
                const std::vector<double> &Weights, Function Visit) {
   const int R = Rule.Reach;
+  const std::size_t Side = 2 * static_cast<std::size_t>(R) + 1;
   for (int V = std::max(0, Y - R); V <= std::min(Height - 1, Y + R); ++V)
     for (int U = std::max(0, X - R); U <= std::min(Width - 1, X + R); ++U)
       Visit(static_cast<std::size_t>(V) * static_cast<std::size_t>(Width) +
                 static_cast<std::size_t>(U),
-            Weights[static_cast<std::size_t>((V - Y + R) * (2 * R + 1) +
-                                             (U - X + R))]);
+            Weights[static_cast<std::size_t>(V - Y + R) * Side +
+                    static_cast<std::size_t>(U - X + R)]);
 }
 
 } // namespace

@@ -103,28 +103,24 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
       return Error{File.string(), "no frame has a picture, expected at least "
                                   "one"};
   }
+  if (T->FieldOfView) {
+    // All of a file are of one size; the first says which.
+    const std::string &First = T->Views.front().Picture;
+    const auto Picture = readFile(First);
+    if (!Picture)
+      return Picture.error();
+    const auto Size = photoSize(First, *Picture);
+    if (!Size)
+      return Size.error();
+    for (CaptureView &V : T->Views) {
+      V.Pose.Width = Size->Width;
+      V.Pose.Height = Size->Height;
+      setFieldOfView(V.Pose, *T->FieldOfView);
+    }
+  }
   for (CaptureView &V : T->Views) {
     V.HeldOut = HeldOut;
     C.Views.push_back(std::move(V));
-    if (!T->FieldOfView)
-      continue;
-    // All of a file are of one size; the first says which.
-    Camera &Pose = C.Views.back().Pose;
-    if (&V != &T->Views.front()) {
-      const Camera &First = C.Views[C.Views.size() - 2].Pose;
-      Pose.Width = First.Width;
-      Pose.Height = First.Height;
-    } else {
-      const auto Picture = readFile(C.Views.back().Picture);
-      if (!Picture)
-        return Picture.error();
-      const auto Size = photoSize(C.Views.back().Picture, *Picture);
-      if (!Size)
-        return Size.error();
-      Pose.Width = Size->Width;
-      Pose.Height = Size->Height;
-    }
-    setFieldOfView(Pose, *T->FieldOfView);
   }
   if (T->Points.empty())
     return Success{};

@@ -107,9 +107,10 @@ Expected<Checkpoint> readCheckpoint(const std::string &Path) {
   forArrays(C, [&](const auto &A) { Size += 4 * A.size(); });
   if (Size != Text.size())
     return damaged(Path);
+  std::size_t At = File->size() - Size;
   forArrays(C, [&](auto &A) {
-    std::memcpy(A.data(), Text.data(), 4 * A.size());
-    Text.remove_prefix(4 * A.size());
+    std::memcpy(A.data(), File->data() + At, 4 * A.size());
+    At += 4 * A.size();
   });
   return C;
 }

@@ -23,6 +23,7 @@ Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
       Density(Launch, What.Settings, What.Seed, What.Extent) {}
 
 void Trainer::start(const Scene &From) {
+  L.beginStage("upload");
   S = DeviceScene::upload(L, From);
   Density.restart(S.Count);
   Done = 0;
@@ -30,6 +31,7 @@ void Trainer::start(const Scene &From) {
 }
 
 void Trainer::restore(const Checkpoint &C) {
+  L.beginStage("upload");
   S = DeviceScene();
   S.Count = static_cast<std::uint32_t>(C.gaussians());
   S.ShDegree = C.ShDegree;
@@ -49,6 +51,7 @@ void Trainer::restore(const Checkpoint &C) {
 }
 
 Checkpoint Trainer::save() {
+  L.beginStage("read back");
   Checkpoint C;
   C.Iteration = Done;
   C.ShDegree = S.ShDegree;
@@ -98,9 +101,15 @@ StepReport Trainer::step() {
   return R;
 }
 
+Scene Trainer::scene() {
+  L.beginStage("read back");
+  return S.download(L);
+}
+
 Photo Trainer::render(const Camera &C) {
   const int Degree = shDegreeAt(Run.Settings, Done, S.ShDegree);
   const cl::Buffer Picture = Renderer.forward(S, C, Degree);
+  L.beginStage("read back");
   Photo P{C.Width, C.Height, {}};
   const std::size_t Pixels =
       static_cast<std::size_t>(C.Width) * static_cast<std::size_t>(C.Height);

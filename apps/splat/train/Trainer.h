@@ -49,7 +49,7 @@ public:
   unsigned iteration() const { return Done; }
   std::uint32_t gaussians() const { return S.Count; }
   const std::vector<float> &losses() const { return Losses; }
-  Scene scene() { return S.download(L); }
+  Scene scene();
 
   /// The scene from \p C, rounded to 8 bits.
   Photo render(const Camera &C);
