@@ -9,14 +9,18 @@ CLAIMS = {"speedup": claims.of_speedup, "clocks": claims.of_clocks, "tails": cla
 
 HEAD = """# The paper's results, measured here
 
-Made by `scripts/paper.sh` (hours on one core, resumable; `scripts/paper.sh --help`); do not edit. What the paper says about rendering, each figure with ours beside it.
+Made by `scripts/paper.sh` (about an hour of one quiet core, resumable; `scripts/paper.sh --help`); do not edit. What the paper
+says about rendering, each figure with ours beside it.
 
-- Times are of the machine's clock ([model.md](model.md)), whose parameters come from the paper's text or a stated source: none is fitted to a result. A
-  frame is from projecting to the finished picture with its launches and small copies, without uploading a scene or reading the picture back.
-- The paper names no scene, resolution or kernel for its rates, so every view of five scenes is measured at 960x544 (the three views of each, none picked
-  by its result), INRIA's rules, support `exact`. `prototype` (8 cores, 2 rasterizers, 530 MHz, 12.8 GB/s) and `scaled` (64, 16, 500 MHz, 51.2 GB/s) are `isasim/configs/`.
-- A figure *holds* if every view reaches it, *holds if* the view is one of those that do (they are named), and *does not hold* if none does. "About" is within a factor of 2.
-  *ratio* is ours over the paper's, from the smallest to the largest view; *bound*: what no machine of this kind could exceed.
+- Times are of the machine's clock ([model.md](model.md)), whose parameters come from the paper's text or a stated source: none
+  is fitted to a result. A frame is from projecting to the finished picture with its launches and small copies, without uploading
+  a scene or reading the picture back.
+- The paper names no scene, resolution or kernel for its rates, so the three views of five scenes are measured at 960x544, none
+  picked by its result (what is not measured yet is named at each table), with INRIA's rules and support `exact`. `prototype`
+  (8 cores, 2 rasterizers, 530 MHz, 12.8 GB/s) and `scaled` (64, 16, 500 MHz, 51.2 GB/s) are in `isasim/configs/`.
+- A figure *holds* if every view reaches it, *holds if* the view is one of those that do (they are named), and *does not hold* if
+  none does. "About" is within a factor of 2. *ratio* is ours over the paper's, from the smallest to the largest view; *bound*:
+  what no machine of this kind could exceed.
 - Power and area are out of scope. Training is not measured yet.
 """
 
@@ -47,6 +51,8 @@ def write(file, sections, build):
             continue
         if set(data["builds"]) - {build}:
             out += ["*Runs of build " + ", ".join(f"`{b}`" for b in data["builds"]) + ".*", ""]
+        if data.get("left_out"):
+            out += [f"*Not measured yet: {', '.join(data['left_out'])}.*", ""]
         out += module.text(data)
         for title, svg in module.charts(data).items():
             os.makedirs(images, exist_ok=True)

@@ -81,6 +81,7 @@ def main():
     store = runs.Runs(args.out, args.jobs, args.keep, args.only_kept)
     for name in args.sections:
         module = SECTIONS[name]
+        store.builds, store.left_out = set(), []
         try:
             if module is tiles:
                 data = module.measure(store, counts, args.every_view, tuple(args.widths))
@@ -92,7 +93,7 @@ def main():
         if args.only_kept and not any(data.values()):
             continue
         data["builds"] = sorted(store.builds)
-        store.builds.clear()
+        data["left_out"] = store.left_out
         store.write(name, data)
     document.write(args.document, {name: (module, store.read(name)) for name, module in SECTIONS.items()}, store.build)
     same = store.read("identical")

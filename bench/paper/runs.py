@@ -88,7 +88,7 @@ class Runs:
     def __init__(self, folder, jobs, keep, only_kept):
         self.folder, self.jobs, self.keep, self.only_kept = folder, jobs, keep, only_kept
         self.build = build_hash()
-        self.builds = set()
+        self.builds, self.left_out = set(), []
         self.lock = threading.Lock()
         os.makedirs(os.path.join(folder, "runs"), exist_ok=True)
 
@@ -174,6 +174,7 @@ class Runs:
                 rows.append(make(*place))
             except Missing as missing:
                 print(f"left out: {missing}", file=sys.stderr)
+                self.left_out.append(" ".join(getattr(part, "name", part) for part in place if part is not self))
         return rows
 
     def write(self, section, data):
