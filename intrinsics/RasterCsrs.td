@@ -12,9 +12,10 @@ def VR_STATUS : Csr<"vr_status", 0x7C0, Agent, ReadOnly, 1, "State of the agent'
 def VR_START : Csr<"vr_start", 0x7C1, Agent, Scalar, 1, "A write queues the bank's content as a command (the value is ignored) and is a release of the core's earlier stores; a full queue stalls the write.">;
 def VR_WAIT : Csr<"vr_wait", 0x7C2, Agent, ReadOnly, 1, "A read waits for the agent's commands, is an acquire, returns the status code of the first failed one (0 if none) and clears it.">;
 def VR_MODE : Csr<"vr_mode", 0x7C3, Agent, Scalar, 1, "What a command does."> {
-  let Fields = [CsrField<"backward", 0, 1, "0 render, 1 backward (not yet built: status bad-mode)">,
+  let Fields = [CsrField<"backward", 0, 1, "0 render, 1 gradients of what was rendered, handed over through vr_grad_*">,
                 CsrField<"pushed", 1, 1, "0 index list in memory, 1 descriptors pushed with vr_push">,
-                CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">];
+                CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">,
+                CsrField<"keep_last", 3, 1, "a render stores each pixel's last contributor at vr_last">];
 }
 def VR_OPTIONS : Csr<"vr_options", 0x7C4, Agent, Scalar, 1, "Datapath options."> {
   let Fields = [CsrField<"exp", 0, 4, "exponential unit: 0 correctly rounded, 1 table of 16, 2 to 4 polynomial of that degree, 5 table of 32, 6 table of 64, 7 piecewise linear, 8 Schraudolph; docs/rasterizer.md#exponential-units">,
@@ -38,6 +39,15 @@ def VR_ZTILE : Csr<"vr_ztile", 0x7CB, Agent, Scalar, 1, "Which part of the tile'
 }
 def VR_OUTPUT : Csr<"vr_output", 0x7CC, Agent, Scalar, 1, "Address of the tile's first pixel (4 floats: r, g, b, T), 16-byte aligned.">;
 def VR_OUTPUT_PITCH : Csr<"vr_output_pitch", 0x7CD, Agent, Scalar, 1, "Bytes from one pixel row to the next, a multiple of 16.">;
+
+// Training (paper, "Training"; docs/rasterizer.md#the-backward-mode).
+def VR_LAST : Csr<"vr_last", 0x7CE, Agent, Scalar, 1, "Address of the word of the tile's first pixel, 4-byte aligned: how many entries of the list up to and with the last one blended, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes, backward reads it.">;
+def VR_UPSTREAM : Csr<"vr_upstream", 0x7CF, Agent, Scalar, 1, "Backward: address of the tile's first pixel's gradient (4 floats: dL/dr, dL/dg, dL/db, dL/dT of the final transmittance), 16-byte aligned, rows vr_output_pitch apart.">;
+def VR_BACKWARD : Csr<"vr_backward", 0x7EB, Agent, Scalar, 1, "Options of the backward mode."> {
+  let Fields = [CsrField<"reciprocal", 0, 3, "unit for 1/(1 - alpha): 0 exact; docs/rasterizer.md#reciprocal-units">,
+                CsrField<"clamp_stops", 3, 1, "no gradient but the colour's where alpha is held at 0.99 (gsplat)">,
+                CsrField<"in_rows", 4, 1, "gather adds the rows of a tile one after the other, not as a tree">];
+}
 
 // A pushed descriptor: the lane writes its fields, then vr_push.
 def VR_G_MEAN_X : Csr<"vr_g_mean_x", 0x7D0, Lane, PerLane, 0, "Float: mean, column.">;
@@ -67,6 +77,22 @@ def VR_PIXEL_G : Csr<"vr_pixel_g", 0x7E2, Lane, ReadOnly, 0, "Float: green of pi
 def VR_PIXEL_B : Csr<"vr_pixel_b", 0x7E3, Lane, ReadOnly, 0, "Float: blue of pixel vr_pixel_index.">;
 def VR_PIXEL_T : Csr<"vr_pixel_t", 0x7E4, Lane, ReadOnly, 0, "Float: transmittance of pixel vr_pixel_index.">;
 
+// What a backward command hands over, 16 Gaussians at a time, one a lane.
+def VR_GRAD_NEXT : Csr<"vr_grad_next", 0x7F0, Agent, ReadOnly, 1, "A read waits for the next batch of the agent's backward commands and makes it the one that vr_grad_* show; 0 at the end of each command, and where none is queued."> {
+  let Fields = [CsrField<"count", 0, 5, "Gaussians of the batch, in lanes 0 to count - 1">,
+                CsrField<"batch", 5, 27, "lane i has entry 16 batch + i of the command's list">];
+}
+def VR_GRAD_TAG : Csr<"vr_grad_tag", 0x7F1, Lane, ReadOnly, 0, "Tag of the lane's Gaussian; 0 like all of vr_grad_* in lanes that have none.">;
+def VR_GRAD_R : Csr<"vr_grad_r", 0x7F2, Lane, ReadOnly, 0, "Float: dL/d(red), the sum of alpha T dL/dr over the tile.">;
+def VR_GRAD_G : Csr<"vr_grad_g", 0x7F3, Lane, ReadOnly, 0, "Float: dL/d(green).">;
+def VR_GRAD_B : Csr<"vr_grad_b", 0x7F4, Lane, ReadOnly, 0, "Float: dL/d(blue).">;
+def VR_GRAD_S : Csr<"vr_grad_s", 0x7F5, Lane, ReadOnly, 0, "Float: sum of s = opacity exp(power) dL/dalpha over the tile.">;
+def VR_GRAD_SX : Csr<"vr_grad_sx", 0x7F6, Lane, ReadOnly, 0, "Float: sum of s dx, dx from the mean to the pixel.">;
+def VR_GRAD_SY : Csr<"vr_grad_sy", 0x7F7, Lane, ReadOnly, 0, "Float: sum of s dy.">;
+def VR_GRAD_SXX : Csr<"vr_grad_sxx", 0x7F8, Lane, ReadOnly, 0, "Float: sum of s dx dx.">;
+def VR_GRAD_SXY : Csr<"vr_grad_sxy", 0x7F9, Lane, ReadOnly, 0, "Float: sum of s dx dy.">;
+def VR_GRAD_SYY : Csr<"vr_grad_syy", 0x7FA, Lane, ReadOnly, 0, "Float: sum of s dy dy.">;
+
 // Counters of the agent's completed commands, low and high words.
 def VR_N_COMMANDS : Csr<"vr_n_commands", 0xFD0, Agent, ReadOnly, 1, "Commands completed.">;
 def VR_N_GAUSSIANS : Csr<"vr_n_gaussians", 0xFD1, Agent, ReadOnly, 1, "Gaussians fetched.">;
@@ -92,14 +118,14 @@ def VR_N_INTERSECTINGH : Csr<"vr_n_intersectingh", 0xFDD, Agent, ReadOnly, 1, "H
 
 // Status codes of a command (vr_status.code, vr_wait).
 def : Constant<"VR_OK", 0, "Done.">;
-def : Constant<"VR_BAD_SHAPE", 1, "vr_tile_shape outside 1 to 64.">;
+def : Constant<"VR_BAD_SHAPE", 1, "vr_tile_shape outside 1 to 64, or a backward tile of more than VR_MAX_BACKWARD pixels.">;
 def : Constant<"VR_MISALIGNED", 2, "An address or the pitch is misaligned.">;
 def : Constant<"VR_UNMAPPED", 3, "An address range is not global memory (local memory included).">;
 def : Constant<"VR_BAD_COUNT", 4, "vr_count above VR_MAX_COUNT, or more pushes than VR_MAX_PUSHED.">;
 def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
 def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile asks for what this machine does not have.">;
 def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
-def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over asked of a command that drains or takes pushed descriptors.">;
+def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over asked of a command that drains, takes pushed descriptors, keeps last contributors or goes backward.">;
 def : Constant<"VR_EXP_EXACT", 0, "Exponential unit: correctly rounded.">;
 def : Constant<"VR_EXP_TABLE", 1, "Exponential unit: table of 16 entries.">;
 def : Constant<"VR_EXP_POLY2", 2, "Exponential unit: base-2 polynomial of degree 2.">;
@@ -117,3 +143,5 @@ def : Constant<"VR_INTERSECT", 0x80000000, "Bit of a list entry and of a record'
 def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;
 def : Constant<"VR_MAX_PUSHED", 4096, "Descriptors that the push buffer holds.">;
 def : Constant<"VR_MAX_TILE", 64, "Largest tile width and height.">;
+def : Constant<"VR_MAX_BACKWARD", 2048, "Pixels of the largest backward tile.">;
+def : Constant<"VR_GRAD_LANES", 16, "Gaussians that a backward command hands over at a time.">;

@@ -61,6 +61,8 @@ Event rasterEvent(const WarpState &S) {
   case raster::Csr::Wait:
   case raster::Csr::Status:
     return Event::RasterWait;
+  case raster::Csr::GradNext:
+    return Event::RasterTake;
   default:
     return Event::RasterOther;
   }
@@ -271,7 +273,7 @@ void Machine::Impl::atSyncPoint() {
   for (const auto &C : Cores)
     for (WarpState &S : C->warps())
       executeParked(*C, S);
-  if (Raster.isBusy()) {
+  if (Raster.canRun()) {
     Progress = true;
     if (isObserved())
       for (unsigned N = 0; N != Raster.units(); ++N)

@@ -34,7 +34,8 @@ bool RasterUnits::access(unsigned Core, WarpState *S, const CsrAccess &A) {
   raster::RasterAgent &Agent = *Agents[Core];
   const auto C = static_cast<raster::Csr>(A.Number);
   if ((A.Writes && C == raster::Csr::Start && !Agent.canStart()) ||
-      (A.Reads && C == raster::Csr::Wait && Agent.isBusy()))
+      (A.Reads && C == raster::Csr::Wait && Agent.isBusy()) ||
+      (A.Reads && C == raster::Csr::GradNext && !Agent.canTakeBatch()))
     return false;
   std::array<uint32_t, MaxLanes> Old{}, New{};
   if (A.Reads)
@@ -51,9 +52,9 @@ bool RasterUnits::access(unsigned Core, WarpState *S, const CsrAccess &A) {
   return true;
 }
 
-bool RasterUnits::isBusy() const {
-  return std::any_of(Agents.begin(), Agents.end(),
-                     [](const auto &A) { return A->isBusy(); });
+bool RasterUnits::canRun() const {
+  return std::any_of(Units.begin(), Units.end(),
+                     [](const auto &U) { return U->canStep(); });
 }
 
 void RasterUnits::runUnit(unsigned N) {
@@ -114,12 +115,22 @@ void RasterUnits::runPixelUnit(
 std::optional<uint32_t> RasterUnits::hostRead(unsigned Core, unsigned Number) {
   if (Core >= Agents.size() || !raster::findCsr(Number))
     return std::nullopt;
-  return Agents[Core]->read(static_cast<raster::Csr>(Number), 0);
+  // A backward command may have halted until its batches are taken.
+  const auto C = static_cast<raster::Csr>(Number);
+  if (C == raster::Csr::Wait && Agents[Core]->isBusy())
+    return std::nullopt;
+  const uint32_t Value = Agents[Core]->read(C, 0);
+  if (C == raster::Csr::GradNext)
+    runUnit(Core / Shape.CoresPerSocket);
+  return Value;
 }
 
 bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
   const CsrInfo *Info = raster::findCsr(Number);
   if (Core >= Agents.size() || !Info || Info->Rule == WriteRule::None)
+    return false;
+  if (Number == static_cast<unsigned>(raster::Csr::Start) &&
+      !Agents[Core]->canStart())
     return false;
   std::array<uint32_t, MaxLanes> Lanes{};
   Lanes[0] = Value;

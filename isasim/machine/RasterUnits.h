@@ -37,8 +37,8 @@ public:
   unsigned pixelUnits() const {
     return static_cast<unsigned>(PixelUnits.size());
   }
-  /// Whether any command is queued.
-  bool isBusy() const;
+  /// Whether a rasterizer can go on with a command.
+  bool canRun() const;
   /// Executes all commands of rasterizer \p N. Different rasterizers may run
   /// at the same time.
   void runUnit(unsigned N);

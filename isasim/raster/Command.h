@@ -3,6 +3,7 @@
 
 #include "raster/RasterTables.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,11 +26,15 @@ struct Command {
   std::uint32_t TailCount = 0;
   std::uint32_t TailShare = 0;
   std::uint32_t TailRecord = 0;
+  std::uint32_t Last = 0;
+  std::uint32_t Upstream = 0;
+  std::uint32_t Backward = 0;   ///< options of that mode
   std::vector<Gaussian> Pushed; ///< descriptors of mode "pushed", in order
   bool PushedTooMany = false;   ///< some did not fit the push buffer
 
   /// Whether the pixel unit may be asked to go on.
   bool mayHandOver() const { return TailCount != 0 || TailShare != 0; }
+  bool isBackward() const { return ModeBackward.get(Mode) != 0; }
 };
 
 class RasterAgent;
@@ -80,5 +85,22 @@ struct Pixel {
   bool operator==(const Pixel &) const = default;
 };
 static_assert(sizeof(Pixel) == 16, "docs/abi.md: four floats a pixel");
+
+/// What a Gaussian is handed over with: the words of vr_grad_tag to _syy.
+struct GradientSums {
+  std::uint32_t Tag = 0;
+  /// dL/dr, dL/dg, dL/db; s, s dx, s dy, s dx dx, s dx dy, s dy dy.
+  std::array<float, 9> Sums{};
+
+  bool operator==(const GradientSums &) const = default;
+};
+
+/// Gaussians that a backward command hands over together: entries
+/// VR_GRAD_LANES Number on of its list.
+struct GradientBatch {
+  std::uint32_t Number = 0;
+  std::uint32_t Count = 0; ///< 1 to VR_GRAD_LANES; 0: the command has ended
+  std::array<GradientSums, VR_GRAD_LANES> Gaussians{};
+};
 
 } // namespace vorion::raster

@@ -31,6 +31,9 @@ private:
 /// docs/rasterizer.md#status-codes but those of list entries.
 std::uint32_t checkCommand(const Command &C, RasterMemory &Memory);
 
+/// The smallest alpha that \p C blends.
+float leastAlpha(const Command &C);
+
 /// The datapath's part of vr_options and vr_cutoff.
 BlendOptions blendOptions(const Command &C);
 
@@ -43,6 +46,11 @@ LaneUnits laneUnits(const Command &C);
 /// Host address of row \p Row of the output of a checked \p C, or nullptr if it
 /// is not all global memory.
 std::byte *outputRow(const Command &C, RasterMemory &Memory, unsigned Row);
+
+/// Likewise the row of last contributors of a command that keeps or reads them,
+/// and the row of gradients of a backward one.
+std::byte *lastRow(const Command &C, RasterMemory &Memory, unsigned Row);
+std::byte *upstreamRow(const Command &C, RasterMemory &Memory, unsigned Row);
 
 /// One entry of a list, and the record that it names.
 struct Fetched {

@@ -1,7 +1,6 @@
 #include "raster/Datapath.h"
 
-#include <limits>
-#include <vector>
+#include "raster/LevelChoice.h"
 
 namespace vorion::raster {
 
@@ -11,13 +10,12 @@ void TileBuffer::reset(unsigned X, unsigned Y, unsigned Width,
   for (unsigned I = 0; I != Pixels; ++I) {
     R[I] = G[I] = B[I] = 0.0F;
     T[I] = 1.0F;
+    Last[I] = 0;
   }
-  constexpr float Nowhere = std::numeric_limits<float>::quiet_NaN();
-  for (unsigned I = 0; I != Stride; ++I) {
-    CentreX[I] = I < Width ? static_cast<float>(X + I) + 0.5F : Nowhere;
-    CentreY[I] = I < Height ? static_cast<float>(Y + I) + 0.5F : Nowhere;
+  setCentres(CentreX, X, Width);
+  setCentres(CentreY, Y, Height);
+  for (unsigned I = 0; I != Stride; ++I)
     RowLive[I] = I < Height ? Width : 0;
-  }
   Live = Width * Height;
 }
 
@@ -26,17 +24,11 @@ void TileBuffer::reset(unsigned X, unsigned Y, unsigned Width,
 #undef VORION_LEVEL
 
 std::span<const Datapath *const> datapaths() {
-  static const std::vector<const Datapath *> Usable = [] {
-    std::vector<const Datapath *> Result;
-    for (const Datapath *Level : {
+  static const std::vector<const Datapath *> Usable = usableLevels({
 #define VORION_LEVEL(Name) &Datapath_##Name,
 #include "raster/Levels.inc"
 #undef VORION_LEVEL
-         })
-      if (Level->HostHasIt())
-        Result.push_back(Level);
-    return Result;
-  }();
+  });
   return Usable;
 }
 

@@ -22,6 +22,9 @@ struct TileBuffer {
   alignas(64) float B[Pixels];
   /// Transmittance; the sign bit is set once the pixel is saturated.
   alignas(64) float T[Pixels];
+  /// Entries of the list up to and with the last one blended, where the command
+  /// keeps them.
+  alignas(64) std::uint32_t Last[Pixels];
   /// Pixel centres; NaN outside the tile, which no box contains.
   alignas(64) float CentreX[Stride];
   alignas(64) float CentreY[Stride];
@@ -41,6 +44,10 @@ struct BlendOptions {
   /// The smallest alpha that is blended.
   float MinAlpha;
   bool SkipSaturated;
+  /// Whether TileBuffer::Last gets Entry + 1, for the entry of the list that is
+  /// blended next.
+  bool KeepLast = false;
+  std::uint32_t Entry = 0;
 };
 
 struct BlendWork {

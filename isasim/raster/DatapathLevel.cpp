@@ -3,34 +3,10 @@
 // which other files could share (see Vector.h).
 #include "raster/BlendVector.h"
 #include "raster/Datapath.h"
-#include "raster/ExpVector.h"
+#include "raster/DatapathParts.h"
 
 namespace vorion::raster {
 namespace {
-
-// docs/abi.md, Rasterizer: the largest alpha there is.
-constexpr float MaxAlpha = 0.99F;
-constexpr unsigned Blocks = TileBuffer::Stride / LaneCount;
-
-/// Bit i is set if centre i lies in the box, found by the definition itself, so
-/// that no coordinate is ever converted to an integer. Always one run of bits.
-VORION_INLINE std::uint64_t inBox(const float *Centres, float Mean,
-                                  float Extent) {
-  std::uint64_t Result = 0;
-  for (unsigned B = 0; B != Blocks; ++B) {
-    const Float16 Distance =
-        __builtin_elementwise_abs(load(Centres + B * LaneCount) - Mean);
-    Result |= std::uint64_t{bits(Distance <= Extent)} << (B * LaneCount);
-  }
-  return Result;
-}
-
-/// Below this power alpha is surely under \p MinAlpha, by a margin beyond the
-/// unit's error: saves the exponential in a box's corners, changes no result.
-/// NaN or negative opacity: no bound needed, alpha is never MinAlpha.
-VORION_INLINE float powerBound(float Opacity, float MinAlpha, float Margin) {
-  return __builtin_logf(MinAlpha / Opacity) - Margin;
-}
 
 /// What of a Gaussian is the same in all rows, for the 16 columns from First.
 struct Columns {
@@ -43,19 +19,14 @@ struct Columns {
 template <typename Exp, typename Arithmetic>
 BlendWork blend(const Gaussian &G, const BlendOptions &Options,
                 TileBuffer &Tile) {
-  const std::uint64_t InX = inBox(Tile.CentreX, G.Mean[0], G.Extent[0]);
-  const std::uint64_t InY = inBox(Tile.CentreY, G.Mean[1], G.Extent[1]);
-  if (InX == 0 || InY == 0)
+  const CutBox Box = cutBox(G, Tile.CentreX, Tile.CentreY);
+  if (Box.Missed)
     return {0, 0, true, 0, 0, 0, 0};
 
-  const unsigned FirstX = static_cast<unsigned>(__builtin_ctzll(InX));
-  const unsigned LastX = 63 - static_cast<unsigned>(__builtin_clzll(InX));
-  const unsigned FirstY = static_cast<unsigned>(__builtin_ctzll(InY));
-  const unsigned LastY = 63 - static_cast<unsigned>(__builtin_clzll(InY));
-  const unsigned Groups = (LastX - FirstX) / LaneCount + 1;
+  const unsigned Groups = (Box.LastX - Box.FirstX) / LaneCount + 1;
   // As few vectors as the width allows, none beyond the row's end.
   const unsigned Latest = TileBuffer::Stride - Groups * LaneCount;
-  const unsigned Start = FirstX < Latest ? FirstX : Latest;
+  const unsigned Start = Box.FirstX < Latest ? Box.FirstX : Latest;
 
   Columns Column[Blocks];
   for (unsigned I = 0; I != Groups; ++I) {
@@ -75,7 +46,7 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
   const auto SignBit = Int16(static_cast<std::int32_t>(0x80000000U));
   unsigned Blends = 0;
   unsigned LiveInBox = 0;
-  for (unsigned Row = FirstY; Row <= LastY; ++Row) {
+  for (unsigned Row = Box.FirstY; Row <= Box.LastY; ++Row) {
     if (Tile.RowLive[Row] == 0)
       continue;
     const float Dy = G.Mean[1] - Tile.CentreY[Row];
@@ -111,6 +82,12 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
       store(Tile.T + At,
             __builtin_bit_cast(Float16, __builtin_bit_cast(Int16, KeptT) |
                                             (Stops & SignBit)));
+      if (Options.KeepLast) {
+        std::uint32_t *Last = Tile.Last + At;
+        store(Last, Blended
+                        ? Int16(static_cast<std::int32_t>(Options.Entry + 1))
+                        : load(Last));
+      }
       Blends += countBits(bits(Blended));
       if (const std::uint32_t Stopped = bits(Stops)) {
         Tile.RowLive[Row] -= countBits(Stopped);
@@ -118,14 +95,13 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
       }
     }
   }
-  const unsigned Width = LastX - FirstX + 1, Height = LastY - FirstY + 1;
-  return {Options.SkipSaturated ? LiveInBox : Width * Height,
+  return {Options.SkipSaturated ? LiveInBox : Box.width() * Box.height(),
           Blends,
           false,
-          static_cast<std::uint8_t>(FirstX),
-          static_cast<std::uint8_t>(FirstY),
-          static_cast<std::uint8_t>(Width),
-          static_cast<std::uint8_t>(Height)};
+          static_cast<std::uint8_t>(Box.FirstX),
+          static_cast<std::uint8_t>(Box.FirstY),
+          static_cast<std::uint8_t>(Box.width()),
+          static_cast<std::uint8_t>(Box.height())};
 }
 
 template <typename Exp> void evaluate(float *Values, std::size_t Count) {
@@ -139,11 +115,7 @@ void roundOperands(float *Values, std::size_t Count) {
     store(Values + I, Arithmetic::operand(load(Values + I)));
 }
 
-/// Units in the order of their options.
-template <typename... Units> struct List {};
-using Exps =
-    List<CorrectlyRoundedExp, TableExp<4>, PolynomialExp<2>, PolynomialExp<3>,
-         PolynomialExp<4>, TableExp<5>, TableExp<6>, LinearExp, SchraudolphExp>;
+/// In the order of their options.
 using Arithmetics = List<Fp32Blend, NarrowBlend<Bf16>, NarrowBlend<Fp16>>;
 
 template <typename Exp, typename... As>
@@ -162,26 +134,7 @@ constexpr Datapath makeDatapath(const char *Name, bool (*HostHasIt)(),
   return D;
 }
 
-bool hostHasLevel() {
-#if defined(__AVX512F__)
-  return __builtin_cpu_supports("avx512f") &&
-         __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl");
-#elif defined(__AVX2__)
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") &&
-         __builtin_cpu_supports("popcnt");
-#else
-  return true;
-#endif
-}
-
 } // namespace
-
-#define VORION_STRING_OF(Name) #Name
-#define VORION_STRING(Name) VORION_STRING_OF(Name)
-#define VORION_JOIN_OF(A, B) A##B
-#define VORION_JOIN(A, B) VORION_JOIN_OF(A, B)
 
 extern const Datapath VORION_JOIN(Datapath_, VORION_LEVEL);
 constexpr Datapath VORION_JOIN(Datapath_, VORION_LEVEL) = makeDatapath(

@@ -1,5 +1,6 @@
 #include "raster/RasterAgent.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cstring>
@@ -17,6 +18,15 @@ static bool isGaussianWord(Csr C) { return C >= Csr::GMeanX && C <= Csr::GTag; }
 
 static unsigned gaussianWord(Csr C) {
   return static_cast<unsigned>(C) - static_cast<unsigned>(Csr::GMeanX);
+}
+
+/// The CSRs of a handed-over Gaussian are the words of GradientSums.
+static_assert(static_cast<unsigned>(Csr::GradSyy) -
+                  static_cast<unsigned>(Csr::GradTag) + 1 ==
+              sizeof(GradientSums) / 4);
+
+static bool isGradientWord(Csr C) {
+  return C >= Csr::GradTag && C <= Csr::GradSyy;
 }
 
 static unsigned lastLane(std::uint32_t Mask) {
@@ -63,6 +73,12 @@ std::uint32_t *RasterAgent::bankWord(Csr C) {
     return &Bank.TailShare;
   case Csr::TailRecord:
     return &Bank.TailRecord;
+  case Csr::Last:
+    return &Bank.Last;
+  case Csr::Upstream:
+    return &Bank.Upstream;
+  case Csr::Backward:
+    return &Bank.Backward;
   default:
     return nullptr;
   }
@@ -107,6 +123,8 @@ std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
                 4);
     return Word;
   }
+  if (isGradientWord(C))
+    return gradientWord(C, Lane);
   const auto OfPixel = [&](float Pixel::*Part) -> std::uint32_t {
     // Outside the tile, and before there is one, a pixel reads as 0.
     const std::uint32_t Index = PixelIndex[Lane];
@@ -124,6 +142,8 @@ std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
     FirstFailure = VR_OK;
     return Code;
   }
+  case Csr::GradNext:
+    return takeBatch();
   case Csr::Start:
   case Csr::Push:
     return 0;
@@ -140,6 +160,37 @@ std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
   default:
     return readCounter(C);
   }
+}
+
+bool RasterAgent::canTakeBatch() const {
+  return !Batches.empty() ||
+         std::none_of(Queue.begin(), Queue.end(),
+                      [](const Command &C) { return C.isBackward(); });
+}
+
+std::uint32_t RasterAgent::takeBatch() {
+  Shown = {};
+  if (!Batches.empty()) {
+    Shown = Batches.front();
+    Batches.pop_front();
+    WaitingBatches -= Shown.Count != 0;
+  }
+  return GradNextCount.put(Shown.Count) | GradNextBatch.put(Shown.Number);
+}
+
+std::uint32_t RasterAgent::gradientWord(Csr C, unsigned Lane) const {
+  if (Lane >= Shown.Count)
+    return 0;
+  const GradientSums &G = Shown.Gaussians[Lane];
+  const unsigned Word =
+      static_cast<unsigned>(C) - static_cast<unsigned>(Csr::GradTag);
+  return Word == 0 ? G.Tag : std::bit_cast<std::uint32_t>(G.Sums[Word - 1]);
+}
+
+void RasterAgent::offer(const GradientBatch &Batch) {
+  assert(Batch.Count == 0 || hasRoom());
+  WaitingBatches += Batch.Count != 0;
+  Batches.push_back(Batch);
 }
 
 void RasterAgent::readLanes(Csr C, std::uint32_t Mask,

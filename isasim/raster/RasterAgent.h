@@ -20,6 +20,7 @@ struct AgentConfig {
   unsigned Lanes = 16;
   unsigned QueueDepth = 4; ///< commands, the running one included
   unsigned Core = 0;       ///< whose agent it is
+  unsigned BatchDepth = 2; ///< batches of gradients that wait for the core
 };
 
 /// One core's bank of configuration CSRs, push buffer, command queue, sticky
@@ -40,8 +41,13 @@ public:
   /// stalls until it is false.
   bool isBusy() const { return hasCommand() || Tails != 0; }
 
+  /// Whether a read of vr_grad_next can be answered: a batch, or the end of a
+  /// backward command, is there, or none is queued. Otherwise it stalls.
+  bool canTakeBatch() const;
+
   /// What lane \p Lane reads from \p C. Reading vr_wait needs !isBusy() and
-  /// clears the status: a uniform CSR (CsrInfo) is read once for all lanes.
+  /// clears the status, reading vr_grad_next needs canTakeBatch() and goes on
+  /// to the next batch: a uniform CSR (CsrInfo) is read once for all lanes.
   std::uint32_t read(Csr C, unsigned Lane);
 
   /// Reads \p C for the lanes of \p Mask into \p LaneValues (indexed by lane);
@@ -78,6 +84,13 @@ public:
   /// The pixel unit's part of a command has ended.
   void completeTail(std::uint32_t Status, const Counters &Work);
 
+  /// Whether there is room for a batch of gradients; a rasterizer that has one
+  /// halts until there is.
+  bool hasRoom() const { return WaitingBatches < Config.BatchDepth; }
+  /// Takes a batch, which needs hasRoom(), or one of Count 0, the end of a
+  /// backward command.
+  void offer(const GradientBatch &Batch);
+
   /// Where a drained tile goes, row by row.
   std::vector<Pixel> &drainedTile() { return Drained; }
   /// @}
@@ -85,6 +98,8 @@ public:
 private:
   std::uint32_t readCounter(Csr C) const;
   std::uint32_t *bankWord(Csr C);
+  std::uint32_t takeBatch();
+  std::uint32_t gradientWord(Csr C, unsigned Lane) const;
   void push(std::uint32_t Mask);
   void start();
   void finish(std::uint32_t Status, const Counters &Work);
@@ -97,7 +112,10 @@ private:
   std::vector<std::uint32_t> PixelIndex;
   std::deque<Command> Queue;
   std::vector<Pixel> Drained;
-  unsigned Tails = 0; ///< commands that the pixel unit has
+  std::deque<GradientBatch> Batches; ///< and ends of commands
+  unsigned WaitingBatches = 0;       ///< of these, batches
+  GradientBatch Shown;               ///< by vr_grad_*
+  unsigned Tails = 0;                ///< commands that the pixel unit has
   std::uint32_t FirstFailure = VR_OK;
   Counters Totals;
 };

@@ -17,7 +17,7 @@ std::array<std::uint32_t, 16> lanes(std::uint32_t First) {
 TEST(RasterAgentCsrs, onlyTheAgentsOwnAreFound) {
   for (const CsrInfo &Info : isasim::CsrTable)
     EXPECT_EQ(findCsr(Info.Number), Info.Raster ? &Info : nullptr) << Info.Name;
-  EXPECT_EQ(findCsr(0x7ce), nullptr);
+  EXPECT_EQ(findCsr(0x7dd), nullptr);
   EXPECT_EQ(findCsr(0xfff), nullptr);
 }
 

@@ -1,7 +1,9 @@
 #include "raster/Rasterizer.h"
 
+#include "raster/BackwardRun.h"
 #include "raster/CommandInput.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -18,8 +20,8 @@ public:
       : C(Configured), Memory(Global), Tile(Buffer), Lanes(Unit),
         Width(TileShapeWidth.get(C.TileShape)),
         Height(TileShapeHeight.get(C.TileShape)),
-        Drains(ModeDrain.get(C.Mode) != 0), Takes(ModePushed.get(C.Mode) != 0) {
-  }
+        Drains(ModeDrain.get(C.Mode) != 0), Takes(ModePushed.get(C.Mode) != 0),
+        KeepsLast(ModeKeepLast.get(C.Mode) != 0) {}
 
   /// Returns a status code; \p Drained gets the pixels of a draining command.
   std::uint32_t run(std::vector<Pixel> &Drained);
@@ -52,6 +54,7 @@ private:
   unsigned Height;
   bool Drains;
   bool Takes; ///< pushed descriptors instead of a list
+  bool KeepsLast;
   bool HandedOver = false;
   std::uint32_t Done = 0; ///< entries of the list
   Counters Work;
@@ -94,7 +97,8 @@ bool Execution::isTail(std::uint32_t Remaining) const {
 }
 
 std::uint32_t Execution::blendList() {
-  const BlendOptions Options = blendOptions(C);
+  BlendOptions Options = blendOptions(C);
+  Options.KeepLast = KeepsLast;
   const GaussianList List(C, Memory);
   Fetched Entry;
   for (; Done != C.Count && Tile.Live != 0; ++Done) {
@@ -106,6 +110,7 @@ std::uint32_t Execution::blendList() {
     Work.Gaussians += Status != VR_UNMAPPED;
     if (Status)
       return Status;
+    Options.Entry = Done;
     blendOne(Entry.Record, Entry.Address, Entry.Intersects, Options);
   }
   return VR_OK;
@@ -130,7 +135,8 @@ CommandWork Execution::takeWork(std::uint32_t Status) {
           Drains,
           Status != VR_OK,
           std::move(Kept),
-          Status == VR_OK && HandedOver ? C.TailRecord : 0};
+          Status == VR_OK && HandedOver ? C.TailRecord : 0,
+          KeepsLast ? C.Last : 0};
 }
 
 void Execution::writeTail(unsigned Core) {
@@ -165,6 +171,9 @@ std::uint32_t Execution::run(std::vector<Pixel> &Drained) {
     return Status;
   if (Drains)
     Drained.resize(std::size_t{Width} * Height);
+  for (unsigned Row = 0; KeepsLast && Row != Height; ++Row)
+    std::memcpy(lastRow(C, Memory, Row), Tile.Last + Row * TileBuffer::Stride,
+                Width * sizeof(*Tile.Last));
   for (unsigned Row = 0; Row != Height; ++Row)
     copyRow(Row, Drains ? reinterpret_cast<std::byte *>(&Drained[Row * Width])
                         : outputRow(C, Memory, Row));
@@ -175,30 +184,78 @@ std::uint32_t Execution::run(std::vector<Pixel> &Drained) {
 
 Rasterizer::Rasterizer(RasterMemory &Global, std::vector<RasterAgent *> Served)
     : Memory(Global), Agents(std::move(Served)),
-      Tile(std::make_unique<TileBuffer>()), Lanes(datapaths().back()) {}
+      Tile(std::make_unique<TileBuffer>()), Lanes(datapaths().back()),
+      BackwardLanes(backwardDatapaths().back()) {}
 
 Rasterizer::~Rasterizer() = default;
 
+bool Rasterizer::canStep() const {
+  if (Backward)
+    return Agents[Backward->Turn]->hasRoom();
+  return std::any_of(Agents.begin(), Agents.end(),
+                     [](const RasterAgent *A) { return A->hasCommand(); });
+}
+
+/// Executes the command as a whole, so that its work is known when its agent's
+/// core goes on; only the hand-over takes its time.
+void Rasterizer::startBackward(std::size_t Turn) {
+  if (!BackwardTile)
+    BackwardTile = std::make_unique<BackwardBuffer>();
+  BackwardRun Run(Agents[Turn]->front(), Memory, *BackwardTile, *BackwardLanes,
+                  Log != nullptr);
+  Backward = Halted{Turn, {}, VR_OK, {}};
+  while (auto Batch = Run.next())
+    Backward->Batches.push_back(*Batch);
+  Backward->Status = Run.status();
+  Backward->Work = Run.work();
+  if (Log)
+    Log->command(static_cast<unsigned>(Turn), Run.takeWork());
+}
+
+/// Hands a batch over, or ends the command.
+void Rasterizer::stepBackward() {
+  RasterAgent &Agent = *Agents[Backward->Turn];
+  if (!Backward->Batches.empty()) {
+    Agent.offer(Backward->Batches.front());
+    Backward->Batches.pop_front();
+    return;
+  }
+  Agent.offer({});
+  Agent.complete(Backward->Status, Backward->Work);
+  Backward.reset();
+}
+
 bool Rasterizer::step() {
+  if (!canStep())
+    return false;
+  const DefaultFloatEnvironment Environment;
+  if (Backward) {
+    stepBackward();
+    return true;
+  }
   for (std::size_t Tried = 0; Tried != Agents.size(); ++Tried) {
     const std::size_t Turn = Next;
     RasterAgent &Agent = *Agents[Turn];
     Next = (Next + 1) % Agents.size();
     if (!Agent.hasCommand())
       continue;
-    const DefaultFloatEnvironment Environment;
-    Execution Running(Agent.front(), Memory, *Tile, *Lanes);
+    if (Agent.front().isBackward()) {
+      startBackward(Turn);
+      stepBackward();
+      return true;
+    }
+    Execution Work(Agent.front(), Memory, *Tile, *Lanes);
     if (Log)
-      Running.keepWork();
-    const std::uint32_t Status = Running.run(Agent.drainedTile());
+      Work.keepWork();
+    const std::uint32_t Status = Work.run(Agent.drainedTile());
     if (Log)
-      Log->command(static_cast<unsigned>(Turn), Running.takeWork(Status));
-    if (Status == VR_OK && Running.handsOver()) {
-      Running.writeTail(Agent.core());
+      Log->command(static_cast<unsigned>(Turn), Work.takeWork(Status));
+    if (Status == VR_OK && Work.handsOver()) {
+      Work.writeTail(Agent.core());
       HandOvers.push_back({&Agent, Agent.front().TailRecord});
-      Agent.handOver(Running.work());
+      Agent.handOver(Work.work());
     } else {
-      Agent.complete(Status, Running.work());
+      Agent.complete(Status, Work.work());
     }
     return true;
   }
@@ -210,13 +267,13 @@ std::vector<HandOver> Rasterizer::takeHandOvers() {
 }
 
 void Rasterizer::makeRoom(const RasterAgent &Agent) {
-  while (!Agent.canStart())
-    step();
+  while (!Agent.canStart() && step()) {
+  }
 }
 
 void Rasterizer::finish(const RasterAgent &Agent) {
-  while (Agent.hasCommand())
-    step();
+  while (Agent.hasCommand() && step()) {
+  }
 }
 
 } // namespace vorion::raster

@@ -1,4 +1,4 @@
-/// The forward Gaussian rasterizer of a socket (paper, "Gaussian rasterizer
+/// The Gaussian rasterizer of a socket (paper, "Gaussian rasterizer
 /// architecture"; docs/rasterizer.md).
 #pragma once
 
@@ -6,17 +6,22 @@
 #include "raster/RasterMemory.h"
 #include "raster/WorkLog.h"
 
+#include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace vorion::raster {
 
+struct BackwardBuffer;
+struct BackwardDatapath;
 struct Datapath;
 struct TileBuffer;
 
 /// Serves the Raster Agents of its socket round-robin, one tile command at a
-/// time. Function only: a command's result depends on nothing but the command
-/// and memory when it is executed.
+/// time. A backward command halts it while its agent has no room for a batch.
+/// Function only: a command's result depends on nothing but the command and
+/// memory when it is executed.
 ///
 /// Threads: one at a time; rasterizers of different sockets share nothing but
 /// \c RasterMemory.
@@ -26,8 +31,11 @@ public:
   Rasterizer(RasterMemory &Memory, std::vector<RasterAgent *> Agents);
   ~Rasterizer();
 
-  /// Executes the next command; false if no agent has one.
+  /// Executes the next command, or goes on with a backward one to its next
+  /// batch; false if canStep() is.
   bool step();
+  /// Whether there is a command, and no agent has to take a batch first.
+  bool canStep() const;
 
   /// \p Receiver is told of every command's work; nullptr for nobody.
   void setLog(WorkLog *Receiver) { Log = Receiver; }
@@ -36,21 +44,36 @@ public:
   /// order.
   std::vector<HandOver> takeHandOvers();
 
-  /// Executes commands until \p Agent accepts a start.
+  /// Executes commands until \p Agent accepts a start, or an agent has to take
+  /// a batch first.
   void makeRoom(const RasterAgent &Agent);
 
   /// Executes commands until \p Agent has none that the pixel unit has not
-  /// taken. Other agents' commands are
+  /// taken, or an agent has to take a batch first. Other agents' commands are
   /// executed when it is their turn.
   void finish(const RasterAgent &Agent);
 
 private:
+  /// A backward command that has been executed, and what of it waits for room
+  /// in its agent.
+  struct Halted {
+    std::size_t Turn; ///< the agent's
+    std::deque<GradientBatch> Batches;
+    std::uint32_t Status;
+    Counters Work;
+  };
+  void startBackward(std::size_t Turn);
+  void stepBackward();
+
   RasterMemory &Memory;
   std::vector<RasterAgent *> Agents;
   std::size_t Next = 0; ///< agent whose turn it is
   std::vector<HandOver> HandOvers;
   std::unique_ptr<TileBuffer> Tile;
   const Datapath *Lanes;
+  std::unique_ptr<BackwardBuffer> BackwardTile; ///< made when first needed
+  const BackwardDatapath *BackwardLanes;
+  std::optional<Halted> Backward;
   WorkLog *Log = nullptr;
 };
 

@@ -256,8 +256,7 @@ TEST_F(RasterizerTest, statusCodesOfTheBank) {
   const auto F = [](float X) { return std::bit_cast<std::uint32_t>(X); };
   const std::uint32_t End = TestMemory::Base + (8 << 20);
   const Case Cases[] = {
-      {Csr::Mode, ModeBackward.put(1), VR_BAD_MODE},
-      {Csr::Mode, 8, VR_BAD_MODE},
+      {Csr::Mode, 16, VR_BAD_MODE},
       {Csr::Options, OptionsExp.put(ExpUnitCount), VR_BAD_MODE},
       {Csr::Options, OptionsExp.put(15), VR_BAD_MODE},
       {Csr::Options, OptionsBlend.put(BlendUnitCount), VR_BAD_MODE},
@@ -308,7 +307,7 @@ TEST_F(RasterizerTest, statusCodesOfTheBank) {
 TEST_F(RasterizerTest, firstCheckDecides) {
   // Everything is wrong; repaired in the documented order.
   configure({});
-  set(Csr::Mode, 1U);
+  set(Csr::Mode, 16U);
   set(Csr::TileShape, 0U);
   set(Csr::Cutoff, 1.0F);
   set(Csr::Count, 0xffffffffU);

@@ -43,5 +43,15 @@ VORION_INLINE void store(float *To, Float16 V) {
   __builtin_memcpy(To, &V, sizeof(V));
 }
 
+VORION_INLINE Int16 load(const std::uint32_t *From) {
+  Int16 V;
+  __builtin_memcpy(&V, From, sizeof(V));
+  return V;
+}
+
+VORION_INLINE void store(std::uint32_t *To, Int16 V) {
+  __builtin_memcpy(To, &V, sizeof(V));
+}
+
 } // namespace
 } // namespace vorion::raster

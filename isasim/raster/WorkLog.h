@@ -33,6 +33,15 @@ struct CommandWork {
   /// Address of the vx_tail with which the pixel unit goes on, 0 if it does
   /// not.
   std::uint32_t TailRecord = 0;
+  /// Address of the last contributors, 0 if none are kept or read.
+  std::uint32_t Last = 0;
+
+  /// \name Of a backward command
+  /// @{
+  bool Backward = false; ///< Gaussians are in the order of the fetches
+  std::uint8_t Reciprocal = 0;
+  std::uint32_t Upstream = 0; ///< address of the pixels' gradients
+  /// @}
 };
 
 /// What a pixel unit did for a hand-over.

@@ -260,6 +260,13 @@ void Clock::grant(unsigned Core, uint64_t Then) {
       return C.block();
     C.resume(Then, CoreCycle::RasterWait);
     break;
+  case CoreClock::State::RasterTake:
+    if (!R.canTake(Agent))
+      return C.block();
+    R.takeBatch(Agent, Then);
+    update(rasterKey(Core / Shape.CoresPerSocket));
+    C.resume(Then, CoreCycle::RasterWait);
+    break;
   case CoreClock::State::Starved:
     break;
   }

@@ -139,6 +139,10 @@ bool CoreClock::advanceParked(const RunRecord &R) {
     Trace.popWords(1);
     Now = State::RasterWait;
     break;
+  case Event::RasterTake:
+    Trace.popWords(1);
+    Now = State::RasterTake;
+    break;
   case Event::RasterOther:
     Trace.popWords(1);
     UnitFree[size_t(O.On)] = Next + O.Interval;

@@ -27,6 +27,7 @@ public:
     Barrier, ///< arrives at a barrier at when()
     RasterStart,
     RasterWait,
+    RasterTake,
   };
   /// Goes on to the next request, or to the trace's end.
   void advance();

@@ -2,9 +2,11 @@
 
 #include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
+#include "raster/Reciprocals.h"
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace vorion::isasim {
 
@@ -109,10 +111,62 @@ const Lane &laneOf(raster::LaneUnits Units) {
             [Units.Blend < raster::BlendUnitCount ? Units.Blend : 0];
 }
 
+/// Beyond two rendering lanes, whose multipliers and adders the gradients use
+/// (docs/rasterizer.md, "The backward mode").
+constexpr DatapathUnit GradientUnit{
+    "gradients",
+    2,
+    1,
+    0,
+    0,
+    0,
+    0,
+    0,
+    "16 multiplications and 4 additions a pixel, in the 17 multipliers that "
+    "alpha leaves of both lanes; ours"};
+constexpr DatapathUnit SumUnit{
+    "sums",
+    4,
+    1,
+    0,
+    9,
+    0,
+    0,
+    0,
+    "nine accumulators a pair; across 8 pairs a tree of 3 levels, and one for "
+    "the rows; ours"};
+
+using BackwardPair = std::array<DatapathUnit, 3>;
+
+BackwardPair makePair(const raster::ReciprocalUnit &R) {
+  const bool Divides = R.Option == 0;
+  return {DatapathUnit{R.Name, R.LatencyCycles, 1, Divides ? 0U : 3U,
+                       Divides ? 0U : 3U, 0, Divides ? 24U * 26U : 0U,
+                       R.TableBits, R.Cost},
+          GradientUnit, SumUnit};
+}
+
 } // namespace
 
 std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units) {
   return laneOf(Units);
+}
+
+std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal) {
+  static const std::vector<BackwardPair> Pairs = [] {
+    std::vector<BackwardPair> All;
+    for (const raster::ReciprocalUnit &R : raster::reciprocalUnits())
+      All.push_back(makePair(R));
+    return All;
+  }();
+  return Pairs[Reciprocal < Pairs.size() ? Reciprocal : 0];
+}
+
+unsigned backwardDepth(raster::LaneUnits Units, unsigned Reciprocal) {
+  unsigned Depth = laneDepth(Units);
+  for (const DatapathUnit &U : backwardUnits(Reciprocal))
+    Depth += U.Latency;
+  return Depth;
 }
 
 unsigned laneDepth(raster::LaneUnits Units) {

@@ -1,5 +1,6 @@
 #include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
+#include "raster/Reciprocals.h"
 #include "timing/DatapathUnits.h"
 #include "vorion/isasim/Timing.h"
 
@@ -53,6 +54,15 @@ std::string timingMarkdown() {
     Others({.Exp = Exp});
   for (uint8_t Blend = 1; Blend != raster::BlendUnitCount; ++Blend)
     Others({.Blend = Blend});
+  Text +=
+      "\nUnits of a pair of lanes in the backward mode, beyond two lanes\n\n"
+      "| unit | latency | interval | fp32 multipliers | fp32 adders | product "
+      "bits | adder bits | table bits | area, um^2 | source |\n"
+      "|---|--:|--:|--:|--:|--:|--:|--:|--:|---|\n";
+  for (size_t R = 0; R != raster::reciprocalUnits().size(); ++R)
+    for (const DatapathUnit &U : backwardUnits(static_cast<unsigned>(R)))
+      if (R == 0 || U.Name == raster::reciprocalUnits()[R].Name)
+        Row(U);
   return Text;
 }
 

@@ -13,6 +13,11 @@ namespace {
 constexpr unsigned TableSide = raster::VR_MAX_TILE + 1;
 constexpr uint32_t PixelBytes = 16; ///< docs/abi.md: four floats
 constexpr uint32_t LineMask = ~(TimingLineBytes - 1);
+
+RasterTiming inPairs(RasterTiming P) {
+  P.Lanes = std::max(1U, P.Lanes / 2);
+  return P;
+}
 } // namespace
 
 DispatchTable::DispatchTable(const RasterTiming &Params)
@@ -46,8 +51,8 @@ unsigned DispatchTable::count(unsigned Width, unsigned Height) const {
 RasterClock::RasterClock(const TimingConfig &Params, unsigned ClusterIn,
                          unsigned NumAgents, unsigned QueueDepthIn)
     : P(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Cluster(ClusterIn),
-      QueueDepth(QueueDepthIn), Table(P), Agents(NumAgents),
-      EntryFree(P.BufferEntries) {}
+      QueueDepth(QueueDepthIn), Table(P), PairTable(inPairs(P)),
+      Agents(NumAgents), EntryFree(P.BufferEntries) {}
 
 void RasterClock::begin(uint64_t Start) {
   if (Now == Stage::Idle)
@@ -59,7 +64,8 @@ void RasterClock::begin(uint64_t Start) {
 void RasterClock::reset() {
   for (Agent &A : Agents) {
     A.Expected.clear();
-    A.Queued = A.Tails = 0;
+    A.Queued = A.Tails = A.Waiting = 0;
+    A.Batches.clear();
   }
   Now = Stage::Idle;
   At = Never;
@@ -82,15 +88,42 @@ void RasterClock::start(unsigned Agent, uint64_t Then) {
   At = std::max(Then, DispatchAt);
 }
 
+void RasterClock::takeBatch(unsigned Agent, uint64_t Then) {
+  auto &A = Agents[Agent];
+  if (A.Batches.empty())
+    return;
+  A.Waiting -= A.Batches.front();
+  A.Batches.pop_front();
+  // It may have been what the rasterizer waits for.
+  if (Now == Stage::HandOver && At == Never && Serving == Agent)
+    At = std::max(Then, DispatchAt);
+}
+
+/// The batch is complete, the lanes are empty and the agent has room.
+void RasterClock::handOver() {
+  spend(RasterCycle::Drain, At - DispatchAt);
+  Agents[Serving].Batches.push_back(true);
+  ++Agents[Serving].Waiting;
+  if (Number == Work.Gaussians.size())
+    return flush();
+  Now = Stage::Fetch;
+  At = std::max(FetchAt, EntryFree[Number % EntryFree.size()]);
+}
+
 std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
   Ledger.settle(At);
   switch (Now) {
   case Stage::Take:
     take();
+    if (Work.Backward && !Work.Failed)
+      load(Memory);
     break;
   case Stage::Fetch:
     fetch(Memory);
     break;
+  case Stage::HandOver:
+    handOver();
+    return Finished{Serving, false};
   case Stage::Drain:
     drain(Memory);
     break;
@@ -116,6 +149,9 @@ void RasterClock::take() {
     A.Expected.pop_front();
   }
   ++Spent.Commands;
+  // Of a backward command that failed only the end is known.
+  if (Work.Backward && Work.Failed)
+    Work.Gaussians.clear();
 
   spend(RasterCycle::Idle, At - DispatchAt);
   FetchAt = At + P.StartCycles;
@@ -129,6 +165,30 @@ void RasterClock::take() {
     return flush();
   Now = Stage::Fetch;
   At = FetchAt;
+}
+
+/// A backward tile begins with its pixels' transmittances, gradients and last
+/// contributors, a line a cycle.
+void RasterClock::load(MemorySystem &Memory) {
+  uint64_t Ready = DispatchAt;
+  const auto Read = [&](uint32_t First, unsigned Row, uint32_t Bytes) {
+    const uint32_t Pitch = Work.OutputPitch / PixelBytes * Bytes;
+    Ready = std::max(Ready, requestLines(Memory, First + Row * Pitch,
+                                         Work.Width * Bytes, false));
+  };
+  for (unsigned Row = 0; Row != Work.Height; ++Row) {
+    Read(Work.Output, Row, PixelBytes);
+    Read(Work.Upstream, Row, PixelBytes);
+    Read(Work.Last, Row, sizeof(uint32_t));
+  }
+  spend(RasterCycle::Begin, Ready - DispatchAt);
+  At = std::max(At, Now == Stage::Fetch ? FetchAt : DispatchAt);
+}
+
+/// The place in its list of a Gaussian in the order of the fetches.
+uint32_t RasterClock::entryOf(size_t Gaussian) const {
+  return static_cast<uint32_t>(
+      Work.Backward ? Work.Gaussians.size() - 1 - Gaussian : Gaussian);
 }
 
 /// One line a cycle, from FetchAt on; returns when the last has come.
@@ -149,12 +209,14 @@ uint64_t RasterClock::requestLines(MemorySystem &Memory, uint32_t Address,
 /// FetchAt becomes the time at which it is. The line behind is asked for when
 /// the first entry of a line is used.
 bool RasterClock::listReady(MemorySystem &Memory) {
-  const uint32_t Entry = Work.List + static_cast<uint32_t>(4 * Number);
+  const uint32_t Entry = Work.List + 4 * entryOf(Number);
   const uint32_t Line = Entry & LineMask;
   if (Line != ListLine) {
     const bool First = ListLine == 0;
     ListReady = First ? requestLines(Memory, Line, 4, false) : NextListReady;
-    NextListReady = requestLines(Memory, Line + TimingLineBytes, 4, false);
+    NextListReady = requestLines(
+        Memory, Work.Backward ? Line - TimingLineBytes : Line + TimingLineBytes,
+        4, false);
     ListLine = Line;
   }
   if (ListReady <= FetchAt)
@@ -180,7 +242,15 @@ void RasterClock::fetch(MemorySystem &Memory) {
   dispatch(G, Ready);
   uint64_t &Entry = EntryFree[Number % EntryFree.size()];
   Entry = DispatchAt;
-  if (++Number == Work.Gaussians.size())
+  ++Number;
+  if (Work.Backward && entryOf(Number - 1) % raster::VR_GRAD_LANES == 0) {
+    // The gather empties before its sums go.
+    spend(RasterCycle::Flush, backwardDepth(Work.Units, Work.Reciprocal));
+    Now = Stage::HandOver;
+    At = Agents[Serving].Waiting < BatchDepth ? DispatchAt : Never;
+    return;
+  }
+  if (Number == Work.Gaussians.size())
     return flush();
   // The next one needs the entry of whoever had it before.
   At = std::max(FetchAt, EntryFree[Number % EntryFree.size()]);
@@ -195,10 +265,12 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
     spend(RasterCycle::Clip, P.ClipCycles);
     return;
   }
-  unsigned Cycles = Table.cycles(G.Width, G.Height);
+  const unsigned Lanes = Work.Backward ? P.Lanes / 2 : P.Lanes;
+  unsigned Cycles =
+      (Work.Backward ? PairTable : Table).cycles(G.Width, G.Height);
   // Where saturated pixels get no slot (an option), only the others are packed.
   if (G.Slots < unsigned{G.Width} * G.Height)
-    Cycles = std::min(Cycles, std::max(1U, (G.Slots + P.Lanes - 1) / P.Lanes));
+    Cycles = std::min(Cycles, std::max(1U, (G.Slots + Lanes - 1) / Lanes));
   const uint64_t Safe = safeAt(G, Cycles);
   if (Safe > DispatchAt)
     spend(RasterCycle::Hazard, Safe - DispatchAt);
@@ -241,13 +313,14 @@ uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
 
 /// Dispatch is done: the lanes empty, then the tile is written.
 void RasterClock::flush() {
-  if (!Work.Gaussians.empty())
+  if (!Work.Gaussians.empty() && !Work.Backward)
     spend(RasterCycle::Flush, laneDepth(Work.Units));
   InLanes = {};
   DrainRow = 0;
   DrainByte = 0;
   At = DispatchAt;
-  Now = Work.Drains || Work.Failed ? Stage::Done : Stage::Drain;
+  Now =
+      Work.Drains || Work.Backward || Work.Failed ? Stage::Done : Stage::Drain;
 }
 
 /// A line of the tile.
@@ -276,8 +349,26 @@ void RasterClock::drain(MemorySystem &Memory) {
   }
 }
 
+/// Rows of last contributors, a line a cycle.
+void RasterClock::storeLast(MemorySystem &Memory) {
+  for (unsigned Row = 0; Row != Work.Height; ++Row) {
+    const uint32_t First = Work.Last + Row * (Work.OutputPitch / 4);
+    const uint32_t End = First + Work.Width * 4;
+    for (uint32_t Line = First & LineMask; Line < End;
+         Line += TimingLineBytes) {
+      Memory.access(Cluster,
+                    {.Now = DispatchAt, .Address = Line, .Op = CacheOp::Write});
+      spend(RasterCycle::Drain, 1);
+    }
+  }
+}
+
 RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
   const bool HandsOver = Work.TailRecord != 0;
+  if (Work.Backward)
+    Agents[Serving].Batches.push_back(false);
+  else if (Work.Last && !Work.Failed)
+    storeLast(Memory);
   if (HandsOver) {
     constexpr unsigned Lines =
         (sizeof(raster::Tail) + TimingLineBytes - 1) / TimingLineBytes;

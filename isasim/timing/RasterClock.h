@@ -2,6 +2,7 @@
 /// lanes, drain.
 #pragma once
 
+#include "raster/RasterAgent.h"
 #include "raster/WorkLog.h"
 #include "timing/CycleLedger.h"
 #include "timing/MemorySystem.h"
@@ -34,6 +35,8 @@ public:
               unsigned QueueDepth);
 
   static constexpr uint64_t Never = UINT64_MAX;
+  /// Batches of gradients that an agent holds (raster::AgentConfig).
+  static constexpr unsigned BatchDepth = raster::AgentConfig().BatchDepth;
 
   /// The work of a command of an agent, before its start() is told.
   void expect(unsigned Agent, raster::CommandWork &&Executed) {
@@ -53,13 +56,22 @@ public:
   /// The agent's core starts its next expected command; needs !isFull().
   void start(unsigned Agent, uint64_t Now);
 
+  /// Whether a batch of gradients, or the end of a backward command, waits for
+  /// the agent's core, or nothing will come.
+  bool canTake(unsigned Agent) const {
+    return !Agents[Agent].Batches.empty() || Agents[Agent].Queued == 0;
+  }
+  /// The core takes it; needs canTake().
+  void takeBatch(unsigned Agent, uint64_t Now);
+
   /// When it next does something that others can notice.
   uint64_t when() const { return At; }
   struct Finished {
     unsigned Agent;
     bool HandedOver; ///< the pixel unit goes on
   };
-  /// Does it; returns the agent of a command that is done with it.
+  /// Does it; returns the agent of a command that is done with it, or has a
+  /// batch of gradients.
   std::optional<Finished> step(MemorySystem &Memory);
   /// The pixel unit is done with a command of the agent.
   void tailDone(unsigned Agent) { --Agents[Agent].Tails; }
@@ -77,6 +89,9 @@ private:
     std::deque<raster::CommandWork> Expected;
     unsigned Queued = 0;
     unsigned Tails = 0; ///< that the pixel unit has
+    /// Of gradients, waiting for the core; false for the end of a command.
+    std::deque<bool> Batches;
+    unsigned Waiting = 0; ///< of these, batches
   };
   /// A Gaussian whose pixels may still be in the lanes.
   struct Dispatched {
@@ -84,13 +99,16 @@ private:
     uint64_t Start = 0;
     unsigned Cycles = 0;
   };
-  enum class Stage : uint8_t { Idle, Take, Fetch, Drain, Done };
+  enum class Stage : uint8_t { Idle, Take, Fetch, HandOver, Drain, Done };
 
   void spend(RasterCycle What, uint64_t Cycles) {
     DispatchAt += Cycles;
     Ledger.spend(What, DispatchAt);
   }
   void take();
+  void load(MemorySystem &Memory);
+  uint32_t entryOf(size_t Gaussian) const;
+  void handOver();
   void fetch(MemorySystem &Memory);
   uint64_t requestLines(MemorySystem &Memory, uint32_t Address, unsigned Bytes,
                         bool Keep);
@@ -99,12 +117,14 @@ private:
   uint64_t safeAt(const raster::GaussianWork &G, unsigned Cycles) const;
   void flush();
   void drain(MemorySystem &Memory);
+  void storeLast(MemorySystem &Memory);
   Finished finish(MemorySystem &Memory);
 
   const RasterTiming P;
   const uint32_t L2HalfHit;
   unsigned Cluster, QueueDepth;
   DispatchTable Table;
+  DispatchTable PairTable; ///< of pairs of lanes, for the backward mode
   std::vector<Agent> Agents;
   unsigned NextAgent = 0, Serving = 0;
 

@@ -174,4 +174,61 @@ TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
   EXPECT_EQ(Served, (std::vector<unsigned>{2, 3, 0, 2}));
 }
 
+/// A backward command of \p Gaussians; every line it reads is at address 0.
+CommandWork backward(std::vector<GaussianWork> Gaussians) {
+  CommandWork W;
+  W.Width = 32;
+  W.Height = 64;
+  W.OutputPitch = 512;
+  W.Backward = true;
+  W.Gaussians = std::move(Gaussians);
+  return W;
+}
+
+TEST_F(RasterClockTest, BackwardAPixelTakesAPairOfLanes) {
+  const RasterTime Back = timeOf(backward({box(0, 0, 32, 64)}));
+  EXPECT_EQ(of(Back, RasterCycle::Blend), 2048U / 8);
+  EXPECT_EQ(Back.LaneSlots, 2048U);
+  EXPECT_EQ(of(Back, RasterCycle::Flush), backwardDepth({}, 0));
+  EXPECT_GT(backwardDepth({}, 0), laneDepth({}));
+  // Rows of 512, 512 and 128 bytes to load, a line a cycle at best.
+  EXPECT_GE(of(Back, RasterCycle::Begin), 64U * (512 + 512 + 128) / 64);
+}
+
+TEST_F(RasterClockTest, EveryBatchEmptiesTheGather) {
+  for (const unsigned Count : {15U, 16U, 17U, 32U})
+    EXPECT_EQ(of(timeOf(backward(std::vector(Count, box(0, 0, 8, 8)))),
+                 RasterCycle::Flush),
+              (Count + 15) / 16 * backwardDepth({}, 0))
+        << Count;
+}
+
+TEST_F(RasterClockTest, HaltsWhileTwoBatchesWait) {
+  RasterClock R(P, 0, 1, 4);
+  R.begin(0);
+  R.expect(0, backward(std::vector(16 * 4, box(0, 0, 8, 8))));
+  R.start(0, 0);
+  const auto Halt = [&] {
+    while (R.when() != RasterClock::Never)
+      R.step(Memory);
+    return R.freeAt();
+  };
+  const uint64_t First = Halt(); // with the third batch
+  EXPECT_TRUE(R.isBusy(0));
+  EXPECT_TRUE(R.canTake(0));
+  R.takeBatch(0, First + 1000);
+  Halt();
+  R.takeBatch(0, First + 1000);
+  Halt();
+  EXPECT_FALSE(R.isBusy(0));
+  // Two batches and the end are left.
+  for (unsigned Left = 3; Left != 0; --Left) {
+    EXPECT_TRUE(R.canTake(0));
+    R.takeBatch(0, R.freeAt());
+  }
+  EXPECT_TRUE(R.canTake(0)); // nothing will come
+  R.end(R.freeAt());
+  EXPECT_EQ(of(R.time(), RasterCycle::Drain), 1000U);
+}
+
 } // namespace

@@ -38,6 +38,7 @@ enum class Event : std::uint32_t {
   RasterStart, ///< the agent's next command
   RasterWait,  ///< until the agent's commands are done
   RasterOther, ///< any other access to a raster CSR
+  RasterTake,  ///< until the agent has a batch of gradients, or has ended one
 };
 
 /// A core's trace being written. Owned by TraceBuffer (TraceWriter.h).

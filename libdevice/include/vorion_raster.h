@@ -37,4 +37,26 @@ static inline void vx_raster_render(uint list, uint count, uint x, uint y,
   vr_start_set(1);
 }
 
+/* For training, after vx_raster_setup: tiles rendered from here on leave each
+   pixel's last contributor at `last` + 4 bytes a pixel. The other addresses are
+   of a tile's first pixel, as `output` of vx_raster_render. */
+static inline void vx_raster_keep_last(uint last) {
+  vr_mode_set(1 << VR_MODE_KEEP_LAST_SHIFT);
+  vr_last_set(last);
+}
+
+/* For training: queues the way back through a tile that vx_raster_render has
+   left at `output` with its last contributors at `last`; `upstream` has the
+   pixels' gradients, `options` is vr_backward. The core has to take what is
+   handed over with vr_grad_next() until that is 0. */
+static inline void vx_raster_backward(uint list, uint count, uint x, uint y,
+                                      uint width, uint height, uint output,
+                                      uint last, uint upstream, uint options) {
+  vr_mode_set(1 << VR_MODE_BACKWARD_SHIFT);
+  vr_last_set(last);
+  vr_upstream_set(upstream);
+  vr_backward_set(options);
+  vx_raster_render(list, count, x, y, width, height, output);
+}
+
 #endif

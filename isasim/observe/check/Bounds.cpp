@@ -48,9 +48,20 @@ void BoundsCheck::rasterCommand(const RasterWork &W) {
   if (!ModePushed.get(W.What.Mode))
     checkRange(W, "index list", W.What.List, uint64_t{W.What.Count} * 4);
   const unsigned Rows = TileShapeHeight.get(W.What.TileShape);
-  for (unsigned Row = 0; !ModeDrain.get(W.What.Mode) && Row < Rows; ++Row)
-    checkRange(W, "row of output", W.What.Output + Row * W.What.OutputPitch,
-               TileShapeWidth.get(W.What.TileShape) * sizeof(Pixel));
+  const unsigned Width = TileShapeWidth.get(W.What.TileShape);
+  const uint32_t Pitch = W.What.OutputPitch;
+  const bool Back = W.What.isBackward();
+  for (unsigned Row = 0; Row < Rows; ++Row) {
+    if (!ModeDrain.get(W.What.Mode))
+      checkRange(W, "row of output", W.What.Output + Row * Pitch,
+                 Width * sizeof(Pixel));
+    if (Back || ModeKeepLast.get(W.What.Mode))
+      checkRange(W, "row of last contributors", W.What.Last + Row * (Pitch / 4),
+                 Width * sizeof(uint32_t));
+    if (Back)
+      checkRange(W, "row of gradients", W.What.Upstream + Row * Pitch,
+                 Width * sizeof(Pixel));
+  }
 }
 
 void AlignCheck::fetch(const Step &S) {

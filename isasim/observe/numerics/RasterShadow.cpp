@@ -353,6 +353,9 @@ void RasterShadow::finish(const Command &C, const Tile &T) {
 
 void RasterShadow::rasterCommand(const RasterWork &W) {
   const Command &C = W.What;
+  // Gradients go to the core, which follows them no further.
+  if (C.isBackward())
+    return;
   if (checkCommand(C, *Global) != VR_OK)
     return;
   auto T = std::make_unique<Tile>();

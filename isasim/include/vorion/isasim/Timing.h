@@ -75,9 +75,9 @@ enum class RasterCycle : uint8_t {
   Clip,   ///< a Gaussian that misses the tile was dropped
   Fetch,  ///< waited for a Gaussian's record
   Hazard, ///< waited for a pixel that was still being updated
-  Begin,  ///< took a command and cleared the pixel buffer
+  Begin,  ///< took a command and cleared or loaded the pixel buffer
   Flush,  ///< waited for the lanes to empty
-  Drain,  ///< wrote the tile
+  Drain,  ///< wrote the tile, or waited for a core to take gradients
   Idle,   ///< had no command
   Count
 };
