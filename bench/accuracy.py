@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """What accuracy there is on real scenes (what it costs: docs/accuracy.md).
 
-usage: accuracy.py pictures|fixtures [--data DIR] [--out DIR] [options]
+usage: accuracy.py pictures|fixtures|gradients [--data DIR] [--out DIR] [options]
 
 pictures  every view, path and support of room7k_sh3 and box_sh3 against the
           fp64 reference, the two paths against each other, and the sorted
           pairs against the reference run in fp32
 fixtures  the independent fp64 results of DATA/reference
+gradients  the same fixtures' gradients and hand-over sums, by path and, with
+          --units, by reciprocal unit and order of the sums
 
 Prints a Markdown table and writes OUT/<mode>.json. Every row is kept as a file
 below OUT, so that a broken run goes on where it stopped; delete OUT to begin
@@ -125,30 +127,40 @@ def pictures(bench, args):
     return rows, good
 
 
+def fixture_names(bench):
+    return sorted(n[:-4] for n in os.listdir(os.path.join(bench.data, "reference"))
+                  if n.endswith(".npz") and not n.endswith("_more.npz"))
+
+
+def converted(bench, name):
+    """The folder of fixture `name` as splat reads it, and its options."""
+    folder = bench.path(name)
+    bench.once(name + "-fixture", lambda: bench.run(
+        "splat-fixture", os.path.join(bench.data, "reference", name + ".npz"), "-o", folder))
+    with open(os.path.join(folder, "options.json")) as f:
+        return folder, json.load(f)
+
+
+def fixture_flags(folder, options):
+    flags = [os.path.join(folder, "scene.ply"), "--cameras", os.path.join(folder, "cameras.json"), "--view", "view",
+             "--rules", options["rules"], "--support", options["support"], "--dilation", str(options["dilation"]),
+             "--background", ",".join(str(b) for b in options["background"])]
+    return flags + (["--antialiased"] if options["antialiased"] else [])
+
+
 def fixtures(bench, args):
-    names = sorted(n[:-4] for n in os.listdir(os.path.join(bench.data, "reference"))
-                   if n.endswith(".npz") and not n.endswith("_more.npz"))
+    names = fixture_names(bench)
     wanted = ("random2k_sh3", "garden_crop192x144", "guitar256")
     rows = []
     for name in names:
         required = name in wanted or name.startswith("inria_")
         if not required and not args.hard:
             continue
-        folder = bench.path(name)
-        bench.once(name + "-fixture", lambda: bench.run(
-            "splat-fixture", os.path.join(bench.data, "reference", name + ".npz"), "-o", folder))
-        with open(os.path.join(folder, "options.json")) as f:
-            options = json.load(f)
+        folder, options = converted(bench, name)
         for path in ("simt", "raster"):
             def row(path=path):
                 picture = os.path.join(folder, path + ".npz")
-                command = ["splat", "render", os.path.join(folder, "scene.ply"), "--cameras",
-                           os.path.join(folder, "cameras.json"), "--view", "view", "--rules", options["rules"],
-                           "--support", options["support"], "--path", path, "--dilation", str(options["dilation"]),
-                           "--background",
-                           ",".join(str(b) for b in options["background"]), "-o", picture]
-                if options["antialiased"]:
-                    command.append("--antialiased")
+                command = ["splat", "render", *fixture_flags(folder, options), "--path", path, "-o", picture]
                 bench.run(*command)
                 mask = os.path.join(folder, "reference.npz")
                 result = bench.compare(os.path.join(folder, "expected.npz"), picture, mask, f"{name}-{path}")
@@ -169,15 +181,54 @@ def fixtures(bench, args):
     return rows, good
 
 
+UNITS = ("exact", "even-left", "even-best", "log-left", "log-best", "mantissa-2", "mantissa-3")
+
+
+def gradients(bench, args):
+    variants = [("simt", "exact", "tree"), ("raster", "exact", "tree")]
+    if args.units:
+        variants += [("raster", unit, "tree") for unit in UNITS[1:]] + [("raster", "exact", "rows")]
+    rows = []
+    for name in fixture_names(bench):
+        if name.startswith("hard_") and not args.hard:
+            continue
+        folder, options = converted(bench, name)
+        for path, unit, order in variants:
+            def row(path=path, unit=unit, order=order):
+                base = os.path.join(folder, f"gradients-{path}-{unit}-{order}")
+                choice = ["--reciprocal", unit, "--sum", order] if path == "raster" else []
+                wall = bench.run("splat", "gradients", *fixture_flags(folder, options), "--path", path, *choice,
+                                 "--upstream", os.path.join(folder, "upstream.npz"), "-o", base + ".npz")
+                subprocess.run(("splat-check-gradients", os.path.join(folder, "gradients.npz"), base + ".npz", "--json",
+                                base + ".json"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                with open(base + ".json") as f:
+                    return {"fixture": name, "path": path, "reciprocal": unit, "sum": order, "rules": options["rules"],
+                            "wall_s": wall, "arrays": json.load(f)}
+            rows.append(bench.once(f"{name}-gradients-{path}-{unit}-{order}", row))
+    print("Relative L2 difference from fp64 (the largest, and of which array); beyond: arrays above 1e-5 and above twice the\n"
+          "fixture's own fp32 error\n")
+    print("| fixture | path | reciprocal | sum | largest error | of | beyond | wall, s |")
+    print("|---|---|---|---|---|---|---|---|")
+    good = True
+    for r in rows:
+        worst = max(r["arrays"], key=lambda a: r["arrays"][a]["error"])
+        beyond = [a for a, v in r["arrays"].items() if not v["error"] <= v["limit"]]
+        good &= not beyond or r["reciprocal"] not in ("exact", "mantissa-3")
+        print(f"| {r['fixture']} | {r['path']} | {r['reciprocal']} | {r['sum']} | {r['arrays'][worst]['error']:.1e} "
+              f"| {worst[4:]} | {' '.join(b[4:] for b in beyond)} | {r['wall_s']:.1f} |")
+    return rows, good
+
+
 def main():
     root = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("mode", choices=("pictures", "fixtures"))
+    parser.add_argument("mode", choices=("pictures", "fixtures", "gradients"))
     parser.add_argument("--data", default=os.path.join(root, "..", "shared", "data"))
     parser.add_argument("--out", default=os.path.join(root, "build", "accuracy"))
     parser.add_argument("--scenes", default=",".join(SCENES))
     parser.add_argument("--views", default=",".join(VIEWS))
-    parser.add_argument("--hard", action="store_true", help="fixtures: the numerically hard ones too")
+    parser.add_argument("--hard", action="store_true", help="fixtures, gradients: the hard ones too")
+    parser.add_argument("--units", action="store_true", help="gradients: every reciprocal unit and order of sums")
     args = parser.parse_args()
     if not os.path.isdir(args.data):
         print(f"accuracy.py: error: {args.data}: no such folder, expected the data with scenes/ and reference/",
@@ -185,7 +236,8 @@ def main():
         return 3
     bench = Bench(args)
     try:
-        rows, good = {"pictures": pictures, "fixtures": fixtures}[args.mode](bench, args)
+        modes = {"pictures": pictures, "fixtures": fixtures, "gradients": gradients}
+        rows, good = modes[args.mode](bench, args)
     except RuntimeError as error:
         print(f"accuracy.py: error: {error}", file=sys.stderr)
         return 1

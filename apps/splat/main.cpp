@@ -28,6 +28,8 @@ int main(int ArgumentCount, char **Arguments) {
     Commands.emplace_back(Command, Declare(*Command));
   };
   Add("render", "Renders one view of a scene", splat::addRender);
+  Add("gradients", "Takes a loss's gradients back from one view to a scene",
+      splat::addGradients);
   Add("analyze", "Counts what a view of a scene asks of a machine",
       splat::addAnalyze);
   Add("accuracy", "Measures what accuracy costs in time", splat::addAccuracy);

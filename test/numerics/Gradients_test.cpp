@@ -1,8 +1,7 @@
 // The reference's gradients in fp64 against every fixture's: parameters, what
 // lies between, and the sums that the rasterizer hands over.
 
-#include "Fixture.h"
-#include "reference/Backward.h"
+#include "Gradients.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +36,6 @@ std::vector<std::string> names() {
   return Names.empty() ? std::vector<std::string>{"none"} : Names;
 }
 
-double norm(const std::vector<double> &V) {
-  double Sum = 0;
-  for (const double E : V)
-    Sum += E * E;
-  return std::sqrt(Sum);
-}
-
 class GradientFixture : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
@@ -59,15 +51,6 @@ protected:
       ASSERT_TRUE(Arrays) << Arrays.error().What;
       F.Arrays.merge(*Arrays);
     }
-  }
-
-  reference::Upstream upstream() const {
-    reference::Upstream U;
-    const auto V = F.doubles("in_v_render");
-    for (std::size_t I = 0; I + 2 < V.size(); I += 3)
-      U.Render.emplace_back(V[I], V[I + 1], V[I + 2]);
-    U.Alpha = F.doubles("in_v_alpha");
-    return U;
   }
 
   /// Compares \p Actual with \p Array, where there is one, against the larger
@@ -110,8 +93,8 @@ std::vector<double> flat(const std::vector<T> &V, int Count, Function Get) {
 }
 
 TEST_P(GradientFixture, AllOfThem) {
-  const auto D =
-      reference::renderBackward(F.Gaussians, F.Camera, upstream(), F.Options);
+  const auto D = reference::renderBackward(F.Gaussians, F.Camera, upstreamOf(F),
+                                           F.Options);
   const auto Same = [](const auto &V) { return V; };
   expect("f64_g_means2d", flat(D.Means2d, 2, Same));
   expect("f64_g_conics", flat(D.Conics, 3, Same));

@@ -1,6 +1,7 @@
 // splat-fixture: turns a fixture into files that `splat render` reads.
 
 #include "Convert.h"
+#include "Gradients.h"
 #include "Metrics.h"
 #include "Ply.h"
 #include "Tool.h"
@@ -63,6 +64,12 @@ Expected<Success> run(const std::string &Input, const std::string &Folder) {
     return W;
   if (auto W = splat::writeNpz(Prefix + "reference.npz", toNpz(Exact)); !W)
     return W;
+  const GradientFiles Gradients = gradientsOf(*F, Doubtful);
+  if (auto W = splat::writeNpz(Prefix + "upstream.npz", Gradients.Upstream); !W)
+    return W;
+  if (auto W = splat::writeNpz(Prefix + "gradients.npz", Gradients.Expected);
+      !W)
+    return W;
   if (auto W =
           writeFileAtomically(Prefix + "options.json", Options.dump(2) + "\n");
       !W)
@@ -84,7 +91,9 @@ int main(int Count, char **Values) {
   CLI::App App("Turns a fixture into a scene (scene.ply), a view "
                "(cameras.json, named view), its options (options.json), the "
                "result to expect (expected.npz) and the reference's with "
-               "masks of doubtful pixels (reference.npz).",
+               "masks of doubtful pixels (reference.npz); and the loss "
+               "without doubtful pixels (upstream.npz) with its gradients "
+               "(gradients.npz).",
                "splat-fixture");
   std::string Input, Folder;
   App.add_option("fixture", Input, "Inputs and results (.npz)")->required();

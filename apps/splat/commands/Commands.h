@@ -12,6 +12,7 @@ namespace vorion::splat {
 using Runner = std::function<Expected<Success>()>;
 
 Runner addRender(CLI::App &App);
+Runner addGradients(CLI::App &App);
 Runner addAnalyze(CLI::App &App);
 Runner addInfo(CLI::App &App);
 Runner addConvert(CLI::App &App);

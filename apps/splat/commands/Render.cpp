@@ -1,6 +1,8 @@
 #include "Choices.h"
 #include "Commands.h"
 #include "NumericsReport.h"
+#include "OutputFile.h"
+#include "Progress.h"
 #include "SceneArguments.h"
 
 #include "../io/Cameras.h"
@@ -43,22 +45,6 @@ struct RenderArguments {
 
 bool endsWith(const std::string &Text, std::string_view End) {
   return std::string_view(Text).ends_with(End);
-}
-
-/// Whether \p File, if any, could be written.
-Expected<Success> checkWritable(const std::string &File) {
-  if (File.empty())
-    return Success{};
-  const std::filesystem::path Path(File);
-  std::error_code Ignored;
-  if (std::filesystem::is_directory(Path, Ignored))
-    return Error{File, "cannot write: is a folder, expected a file"};
-  const std::string Folder =
-      Path.has_parent_path() ? Path.parent_path().string() : ".";
-  if (access(Folder.c_str(), W_OK | X_OK) != 0)
-    return Error{File, std::string("cannot write: ") + std::strerror(errno) +
-                           ", expected a folder that can be written"};
-  return Success{};
 }
 
 /// What can be said to be wrong before anything is read.
@@ -114,21 +100,6 @@ Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
   return writeNpz(File, {{"tile", Words(P.Tiles)},
                          {"depth_bits", Words(P.DepthBits)},
                          {"index", Words(P.Gaussians)}});
-}
-
-/// A line on a terminal that says what is going on; nothing elsewhere.
-std::function<void(std::string_view)> progress() {
-  if (isatty(STDERR_FILENO) == 0)
-    return {};
-  return [](std::string_view Stage) {
-    fmt::print(stderr, "\r\033[Ksplat: {} ...", Stage);
-    std::fflush(stderr);
-  };
-}
-
-void endProgress() {
-  if (isatty(STDERR_FILENO) != 0)
-    fmt::print(stderr, "\r\033[K");
 }
 
 Expected<Success> run(const RenderArguments &A) {

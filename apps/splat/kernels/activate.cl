@@ -78,12 +78,16 @@ static float activate_opacity(float logit) {
   return q + q * (fma(-q, d.x, 1.0f) - q * d.y);
 }
 
-// Unit length; a zero quaternion stays zero, which turns nothing.
-static float4 activate_quaternion(float4 q) {
-  // Squares of very short or long ones would leave fp32's range.
+// A power of two that brings a quaternion to where squares stay in fp32's range.
+static float quaternion_factor(float4 q) {
   const float largest =
       fmax(fmax(fabs(q.x), fabs(q.y)), fmax(fabs(q.z), fabs(q.w)));
-  q *= largest < 0x1p-50f ? 0x1p110f : largest > 0x1p60f ? 0x1p-66f : 1.0f;
+  return largest < 0x1p-50f ? 0x1p110f : largest > 0x1p60f ? 0x1p-66f : 1.0f;
+}
+
+// Unit length; a zero quaternion stays zero, which turns nothing.
+static float4 activate_quaternion(float4 q) {
+  q *= quaternion_factor(q);
   const float part[4] = {q.x, q.y, q.z, q.w};
   float2 squares = (float2)(0.0f, 0.0f);
   for (int k = 0; k < 4; ++k) {

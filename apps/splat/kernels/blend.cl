@@ -26,11 +26,15 @@
 typedef struct {
   float red, green, blue, transmittance;
   bool done; // takes no more
+#ifdef KEEP_LAST
+  uint last; // entries of the list up to the last one blended
+#endif
 } pixel_state;
 
-// Blends the first `entries` of the batch into the pixel with centre (px, py).
+// Blends the first `entries` of the batch, which is `before` entries behind the
+// list's first, into the pixel with centre (px, py).
 static pixel_state blend_batch(__local const splat_gaussian *batch,
-                               uint entries, float px, float py, float cutoff,
+                               uint entries, uint before, float px, float py, float cutoff,
                                pixel_state p) {
   for (uint j = 0; j < entries; ++j) {
     __local const splat_gaussian *g = &batch[j];
@@ -56,6 +60,9 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
         p.blue += g->color[2] * weight;
         p.transmittance = blended ? next : p.transmittance;
         p.done = full;
+#ifdef KEEP_LAST
+        p.last = blended ? before + j + 1 : p.last;
+#endif
       }
     }
   }
@@ -64,8 +71,8 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
 blend(__global const splat_gaussian *records, __global const uint *list,
-      __global const uint2 *ranges, __global float4 *pixels, uint width,
-      uint height, float cutoff) {
+      __global const uint2 *ranges, __global float4 *pixels,
+      __global uint *last, uint width, uint height, float cutoff) {
   __local splat_gaussian batch[BATCH];
   __local uint live;
 
@@ -97,7 +104,8 @@ blend(__global const splat_gaussian *records, __global const uint *list,
       const float px = (float)(x0 + PLACE_X(place)) + 0.5f;
       const float py = (float)(y0 + PLACE_Y(place)) + 0.5f;
       if (!own[k].done)
-        own[k] = blend_batch(batch, entries, px, py, cutoff, own[k]);
+        own[k] = blend_batch(batch, entries, base - range.x, px, py, cutoff,
+                             own[k]);
       open |= !own[k].done;
     }
     if (open)
@@ -111,8 +119,12 @@ blend(__global const splat_gaussian *records, __global const uint *list,
     const uint place = k * GROUP + item;
     const uint x = x0 + PLACE_X(place);
     const uint y = y0 + PLACE_Y(place);
-    if (place < TILE_PIXELS && x < width && y < height)
+    if (place < TILE_PIXELS && x < width && y < height) {
       pixels[y * width + x] = (float4)(own[k].red, own[k].green, own[k].blue,
                                        own[k].transmittance);
+#ifdef KEEP_LAST
+      last[y * width + x] = own[k].last;
+#endif
+    }
   }
 }

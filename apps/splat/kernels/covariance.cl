@@ -12,6 +12,57 @@ static float dot_in_order(float3 a, float3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+// The axes of a rotated Gaussian; `unit` is (w, x, y, z).
+typedef struct {
+  float3 q0, q1, q2; // columns of Q, in the world
+} world_axes;
+
+static world_axes rotate_axes(float4 unit) {
+  const float w = unit.x, x = unit.y, y = unit.z, k = unit.w;
+  world_axes a;
+  a.q0 = (float3)(1.0f - 2.0f * (y * y + k * k), 2.0f * (x * y + w * k),
+                  2.0f * (x * k - w * y));
+  a.q1 = (float3)(2.0f * (x * y - w * k), 1.0f - 2.0f * (x * x + k * k),
+                  2.0f * (y * k + w * x));
+  a.q2 = (float3)(2.0f * (x * k + w * y), 2.0f * (y * k - w * x),
+                  1.0f - 2.0f * (x * x + y * y));
+  return a;
+}
+
+// Rows of the camera's rotation times three columns.
+typedef struct {
+  float3 x, y, z;
+} camera_axes;
+
+static camera_axes to_camera(__constant const splat_view *view, world_axes q) {
+  __constant const float *r = view->rotation;
+  const float3 r0 = (float3)(r[0], r[1], r[2]);
+  const float3 r1 = (float3)(r[3], r[4], r[5]);
+  const float3 r2 = (float3)(r[6], r[7], r[8]);
+  camera_axes a;
+  a.x = (float3)(dot_in_order(r0, q.q0), dot_in_order(r0, q.q1),
+                 dot_in_order(r0, q.q2));
+  a.y = (float3)(dot_in_order(r1, q.q0), dot_in_order(r1, q.q1),
+                 dot_in_order(r1, q.q2));
+  a.z = (float3)(dot_in_order(r2, q.q0), dot_in_order(r2, q.q1),
+                 dot_in_order(r2, q.q2));
+  return a;
+}
+
+// The entries of the projection's Jacobian that are not 0, at depth z with the
+// camera-space x/z and y/z, already clamped, in `ratio`.
+typedef struct {
+  float xx, xz, yy, yz;
+} jacobian;
+
+static jacobian project_jacobian(__constant const splat_view *view, float z,
+                                 float2 ratio) {
+  const float fx = view->focal[0], fy = view->focal[1];
+  const jacobian j = {fx / z, -fx * (ratio.x * z) / (z * z), fy / z,
+                      -fy * (ratio.y * z) / (z * z)};
+  return j;
+}
+
 // Covariance on the picture of a Gaussian at depth z whose camera-space x/z and
 // y/z, already clamped, are `ratio`. The determinant of B B^T + h I is taken as
 // the sum of B's squared minors and h tr + h^2 (Cauchy-Binet): the difference
@@ -19,31 +70,14 @@ static float dot_in_order(float3 a, float3 b) {
 static screen_covariance project_covariance(__constant const splat_view *view,
                                             float z, float2 ratio, float3 scale,
                                             float4 unit) {
-  const float w = unit.x, x = unit.y, y = unit.z, k = unit.w;
-  // Columns of Q diag(s).
-  const float3 q0 = (float3)(1.0f - 2.0f * (y * y + k * k),
-                             2.0f * (x * y + w * k), 2.0f * (x * k - w * y)) *
-                    scale.x;
-  const float3 q1 = (float3)(2.0f * (x * y - w * k),
-                             1.0f - 2.0f * (x * x + k * k),
-                             2.0f * (y * k + w * x)) *
-                    scale.y;
-  const float3 q2 = (float3)(2.0f * (x * k + w * y), 2.0f * (y * k - w * x),
-                             1.0f - 2.0f * (x * x + y * y)) *
-                    scale.z;
-  __constant const float *r = view->rotation;
-  const float3 r0 = (float3)(r[0], r[1], r[2]);
-  const float3 r1 = (float3)(r[3], r[4], r[5]);
-  const float3 r2 = (float3)(r[6], r[7], r[8]);
-  const float3 a0 = (float3)(dot_in_order(r0, q0), dot_in_order(r0, q1),
-                             dot_in_order(r0, q2));
-  const float3 a1 = (float3)(dot_in_order(r1, q0), dot_in_order(r1, q1),
-                             dot_in_order(r1, q2));
-  const float3 a2 = (float3)(dot_in_order(r2, q0), dot_in_order(r2, q1),
-                             dot_in_order(r2, q2));
-  const float fx = view->focal[0], fy = view->focal[1];
-  const float3 b = (fx / z) * a0 + (-fx * (ratio.x * z) / (z * z)) * a2;
-  const float3 c = (fy / z) * a1 + (-fy * (ratio.y * z) / (z * z)) * a2;
+  world_axes q = rotate_axes(unit);
+  q.q0 *= scale.x;
+  q.q1 *= scale.y;
+  q.q2 *= scale.z;
+  const camera_axes a = to_camera(view, q);
+  const jacobian j = project_jacobian(view, z, ratio);
+  const float3 b = j.xx * a.x + j.xz * a.z;
+  const float3 c = j.yy * a.y + j.yz * a.z;
   const float xx = dot_in_order(b, b);
   const float yy = dot_in_order(c, c);
   const float3 minors = (float3)(b.x * c.y - b.y * c.x, b.x * c.z - b.z * c.x,

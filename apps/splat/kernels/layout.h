@@ -99,6 +99,27 @@ enum {
 /// every depth.
 #define CULLED 0x80000000U // NOLINT: enumerators of C are signed
 
+/// What blending gives back of a Gaussian (docs/abi.md, "Backward"): the words
+/// of vr_grad_r to vr_grad_syy.
+enum {
+  SUM_COLOR = 0,
+  SUM_S = 3,
+  SUM_SX = 4, ///< and SUM_SX + 1: y
+  SUM_SXX = 6, ///< then xy, yy
+  SUM_WORDS = 9
+};
+
+/// Planes of the gradients' buffer, as GEOMETRY_PLANES.
+enum {
+  GRADIENT_MEAN = 0,
+  GRADIENT_SCALE = 3,      ///< of the activated or the stored scale
+  GRADIENT_QUATERNION = 6, ///< of the stored one
+  GRADIENT_OPACITY = 10,   ///< of the activated or the stored opacity
+  GRADIENT_MEAN_2D = 11,   ///< px
+  GRADIENT_CONIC = 13,     ///< xx, xy (once), yy
+  GRADIENT_PLANES = 16
+};
+
 // NOLINTEND(readability-identifier-naming)
 
 #endif

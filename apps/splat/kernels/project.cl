@@ -84,8 +84,10 @@ static uint project_one(__constant const splat_view *view,
   if (!support_extent(s, g.opacity, &extent))
     return CULLED + CULL_FAINT;
   uint x0, x1, y0, y1;
-  tile_span(g.mean[0], extent.x, view->size[0], view->tiles[0], &x0, &x1);
-  tile_span(g.mean[1], extent.y, view->size[1], view->tiles[1], &y0, &y1);
+  tile_span(g.mean[0], extent.x, TILE_SIZE, view->size[0], view->tiles[0], &x0,
+            &x1);
+  tile_span(g.mean[1], extent.y, TILE_HEIGHT, view->size[1], view->tiles[1],
+            &y0, &y1);
   if (x0 >= x1 || y0 >= y1)
     return CULLED + (all_finite(g.mean[0], g.mean[1]) ? CULL_OUTSIDE
                                                       : CULL_NON_FINITE);

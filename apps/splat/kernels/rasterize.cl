@@ -15,9 +15,14 @@ _Static_assert(DATAPATH_EXP == VR_OPTIONS_EXP_SHIFT &&
 _Static_assert(sizeof(vx_tail) == TAIL_BYTES,
                "kernels/layout.h and docs/isa.md disagree");
 
+// Square tiles, unless the plan says otherwise.
+#ifndef TILE_HEIGHT
+#define TILE_HEIGHT TILE_SIZE
+#endif
+
 // What the commands of a picture share.
 typedef struct {
-  uint list, output, tails; // addresses
+  uint list, output, last, tails; // addresses
   splat_blend_options o;
 } picture_commands;
 
@@ -30,46 +35,40 @@ static void start_part(const picture_commands *c, uint tile, uint part,
   const uint begin = entries * part / parts;
   const uint count = entries * (part + 1) / parts - begin;
   const uint x = tile % c->o.tiles_x * TILE_SIZE;
-  const uint y = tile / c->o.tiles_x * TILE_SIZE;
+  const uint y = tile / c->o.tiles_x * TILE_HEIGHT;
   vr_ztile_set(part | parts << VR_ZTILE_COUNT_SHIFT);
   vr_tail_count_set(max(c->o.tail_count,
                         count * c->o.tail_last[0] / c->o.tail_last[1]));
   vr_tail_record_set(c->tails + job * (uint)sizeof(vx_tail));
   const uint first_pixel = (part * c->o.size[1] + y) * c->o.size[0] + x;
+#ifdef KEEP_LAST
+  vx_raster_keep_last(c->last + first_pixel * (uint)sizeof(uint));
+#endif
   vx_raster_render(c->list + (range.x + begin) * (uint)sizeof(uint), count, x, y,
                    min((uint)TILE_SIZE, c->o.size[0] - x),
-                   min((uint)TILE_SIZE, c->o.size[1] - y),
+                   min((uint)TILE_HEIGHT, c->o.size[1] - y),
                    c->output + first_pixel * (uint)sizeof(float4));
 }
 
 // Jobs are (tile, part), tiles by `tile_order`, the parts of a tile together.
-// They are dealt to the rasterizers like cards, forth and back: row r of the
-// deal gives each rasterizer one job, in rising order if r is even, else in
-// falling order, and belongs to core r modulo the cores of each socket. So the
-// rule knows list lengths and nothing of time. `pixels` has `parts` pictures.
+// `pixels` has `parts` pictures.
 __kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
 rasterize(__global const splat_gaussian *records, __global const uint *list,
           __global const uint2 *ranges, __global const uint *tile_order,
-          __global float4 *pixels, __global uint *tails,
+          __global float4 *pixels, __global uint *last, __global uint *tails,
           __global uint *statuses, splat_blend_options options) {
-  const uint rasterizers = vx_num_sockets();
-  const uint cores = vx_num_cores() / rasterizers;
-  const uint core = vx_core_id();
-  const uint own = core / cores;
   const uint jobs = options.tiles * options.parts;
-  const picture_commands c = {(uint)list, (uint)pixels, (uint)tails, options};
+  const picture_commands c = {(uint)list, (uint)pixels, (uint)last, (uint)tails,
+                              options};
   vx_raster_setup((uint)records, options.cutoff, options.datapath,
                   options.size[0] * (uint)sizeof(float4));
   vr_tail_share_set(options.tail_share);
-  for (uint row = core % cores; row * rasterizers < jobs; row += cores) {
-    const uint job =
-        row * rasterizers + (row % 2 == 0 ? own : rasterizers - 1 - own);
-    if (job >= jobs)
-      continue;
+  for (deal d = first_job(); d.job < jobs; d = next_job(d)) {
+    const uint job = d.job;
     const uint tile = tile_order[job / options.parts];
     start_part(&c, tile, job % options.parts, ranges[tile], job);
   }
   const uint status = vr_wait();
   if (get_local_id(0) == 0)
-    statuses[core] = status;
+    statuses[vx_core_id()] = status;
 }

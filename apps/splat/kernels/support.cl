@@ -43,10 +43,15 @@ static uint clamped_floor(float v, uint most) {
   return (uint)fmin(fmax(floor(v), 0.0f), (float)most);
 }
 
-// Tiles [first, last) along one axis of a picture of so many pixels.
-static void tile_span(float mean, float extent, uint size, uint tiles,
-                      uint *first, uint *last) {
-  const float tile = (float)TILE_SIZE;
+// Square tiles, unless the plan says otherwise.
+#ifndef TILE_HEIGHT
+#define TILE_HEIGHT TILE_SIZE
+#endif
+
+// Tiles [first, last), `tile` pixels each, along one axis of a picture of so
+// many pixels.
+static void tile_span(float mean, float extent, float tile, uint size,
+                      uint tiles, uint *first, uint *last) {
 #if defined(SUPPORT_OFFICIAL16)
   // As the CUDA code counts them, for which pixels sit at whole numbers.
   const float m = mean - 0.5f;

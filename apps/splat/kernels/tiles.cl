@@ -75,6 +75,20 @@ __kernel void duplicate(__global const uint *order,
   }
 }
 
+// 0, 1, 2, ...
+__kernel void number(__global uint *values, uint count) {
+  const uint i = get_global_id(0);
+  if (i < count)
+    values[i] = i;
+}
+
+__kernel void look_up(__global const uint *places, __global const uint *values,
+                      __global uint *found, uint count) {
+  const uint i = get_global_id(0);
+  if (i < count)
+    found[i] = values[places[i]];
+}
+
 // Where each tile's list begins and ends in the sorted pairs.
 __kernel void tile_ranges(__global const uint *pair_tiles,
                           __global uint2 *ranges, uint pairs, uint tiles) {

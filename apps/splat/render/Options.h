@@ -95,9 +95,16 @@ struct RenderOptions {
   unsigned SimtGroup = 256;
   /// @}
 
-  /// Side of a tile of the path, px.
+  /// Draw so that gradients can be taken back: smaller tiles of the rasterizer
+  /// (docs/rasterizer.md, "The backward mode"), last contributors kept.
+  bool Training = false;
+
+  /// Width and height of a tile of the path, px.
   unsigned tileSize() const {
-    return Blending == Path::Raster ? RasterTile : SimtTile;
+    return Blending == Path::Simt ? SimtTile : Training ? 32 : RasterTile;
+  }
+  unsigned tileHeight() const {
+    return Blending == Path::Raster && Training ? 64 : tileSize();
   }
 };
 

@@ -24,22 +24,18 @@ std::string supportDefine(Support S) {
 }
 
 ProgramSpec projectProgram(int ShDegree, const RenderOptions &O) {
-  const bool Inria = O.Convention == Rules::Inria;
-  ProgramSpec P{
-      ProjectProgram,
-      {"layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl",
-       "project.cl"},
-      {fmt::format("SH_DEGREE={}", ShDegree),
-       fmt::format("TILE_SIZE={}", O.tileSize()), supportDefine(O.Reach),
-       fmt::format("DILATION={:#}f", O.Dilation),
-       fmt::format("ALPHA_CUTOFF={}.0f", O.AlphaCutoff),
-       // Written so that a NaN depth is culled by both.
-       Inria ? "KEEP_DEPTH(z)=((z)>0.2f)" : "KEEP_DEPTH(z)=((z)>=0.01f)"}};
-  if (O.Antialiased) {
-    P.Defines.emplace_back("ANTIALIASED");
-    P.Defines.emplace_back(Inria ? "ANTIALIAS_FLOOR=2.5e-5f"
-                                 : "ANTIALIAS_FLOOR=0.0f");
-  }
+  ProgramSpec P{ProjectProgram,
+                {"layout.h", "activate.cl", "covariance.cl", "support.cl",
+                 "sh.cl", "project.cl"},
+                projectionDefines(ShDegree, O)};
+  P.Defines.push_back(supportDefine(O.Reach));
+  P.Defines.push_back(alphaCutoffDefine(O));
+  // Written so that a NaN depth is culled by both.
+  P.Defines.emplace_back(O.Convention == Rules::Inria
+                             ? "KEEP_DEPTH(z)=((z)>0.2f)"
+                             : "KEEP_DEPTH(z)=((z)>=0.01f)");
+  for (std::string &D : tileDefines(O))
+    P.Defines.push_back(std::move(D));
   return P;
 }
 
@@ -61,33 +57,57 @@ std::string falloffDefine(ExpUnit E) {
   }
 }
 
-/// No opacity up to 1 makes a lower power visible, by a margin beyond any
-/// unit's error.
-double leastPower(const RenderOptions &O) {
-  return std::log(O.AlphaCutoff / 255.0) - 0.06;
-}
-
 ProgramSpec blendProgram(const RenderOptions &O) {
-  ProgramSpec P{BlendProgram, {"layout.h"}, {}};
-  P.Defines.push_back(fmt::format("TILE_SIZE={}", O.tileSize()));
+  ProgramSpec P{BlendProgram, {"layout.h"}, tileDefines(O)};
+  if (O.Training)
+    P.Defines.emplace_back("KEEP_LAST");
   if (O.Blending == Path::Raster) {
-    P.Files.emplace_back("rasterize.cl");
+    P.Files.insert(P.Files.end(), {"deal.cl", "rasterize.cl"});
     return P;
   }
   P.Defines.push_back(fmt::format("GROUP={}", O.SimtGroup));
-  P.Defines.push_back(fmt::format("ALPHA_CUTOFF={}.0f", O.AlphaCutoff));
+  P.Defines.push_back(alphaCutoffDefine(O));
   P.Files.emplace_back(O.Exponential == ExpUnit::Exact ? "falloff.cl"
                                                        : "units.cl");
   if (const std::string Define = falloffDefine(O.Exponential); !Define.empty())
     P.Defines.push_back(Define);
   P.Files.emplace_back("blend.cl");
-  P.Defines.push_back(fmt::format("MIN_POWER={:.6f}f", leastPower(O)));
+  P.Defines.push_back(minPowerDefine(O));
   if (O.Convention == Rules::Gsplat)
     P.Defines.emplace_back("STOP_AT_EQUAL");
   return P;
 }
 
 } // namespace
+
+std::string alphaCutoffDefine(const RenderOptions &O) {
+  return fmt::format("ALPHA_CUTOFF={}.0f", O.AlphaCutoff);
+}
+
+std::string minPowerDefine(const RenderOptions &O) {
+  return fmt::format("MIN_POWER={:.6f}f",
+                     std::log(O.AlphaCutoff / 255.0) - 0.06);
+}
+
+std::vector<std::string> tileDefines(const RenderOptions &O) {
+  std::vector<std::string> Defines{fmt::format("TILE_SIZE={}", O.tileSize())};
+  if (O.tileHeight() != O.tileSize())
+    Defines.push_back(fmt::format("TILE_HEIGHT={}", O.tileHeight()));
+  return Defines;
+}
+
+std::vector<std::string> projectionDefines(int ShDegree,
+                                           const RenderOptions &O) {
+  std::vector<std::string> Defines{fmt::format("SH_DEGREE={}", ShDegree),
+                                   fmt::format("DILATION={:#}f", O.Dilation)};
+  if (O.Antialiased) {
+    Defines.emplace_back("ANTIALIASED");
+    Defines.emplace_back(O.Convention == Rules::Inria
+                             ? "ANTIALIAS_FLOOR=2.5e-5f"
+                             : "ANTIALIAS_FLOOR=0.0f");
+  }
+  return Defines;
+}
 
 int usedShDegree(const Scene &S) {
   const std::size_t Stride = 3 * S.coefficients();
@@ -106,7 +126,10 @@ int usedShDegree(const Scene &S) {
 }
 
 RenderPlan planRender(const Scene &S, const RenderOptions &Options) {
-  const int ShDegree = std::min(usedShDegree(S), Options.ShLimit);
+  return planRender(std::min(usedShDegree(S), Options.ShLimit), Options);
+}
+
+RenderPlan planRender(int ShDegree, const RenderOptions &Options) {
   RenderPlan Plan{ShDegree,
                   {projectProgram(ShDegree, Options),
                    {ScanProgram, {"scan.cl"}, {}},

@@ -1,3 +1,4 @@
+#include "Backward.h"
 #include "Plan.h"
 
 #include <algorithm>
@@ -56,6 +57,34 @@ TEST(Plan, OnlyWhatIsNeededIsCompiled) {
   EXPECT_TRUE(Has(P, ProjectProgram, "TILE_SIZE=64"));
   EXPECT_TRUE(Has(P, BlendProgram, "rasterize.cl"));
   EXPECT_FALSE(Has(P, BlendProgram, "blend.cl"));
+}
+
+TEST(Plan, TrainingHasTilesOfItsOwnAndKeepsLastContributors) {
+  const auto Defines = [](const std::vector<ProgramSpec> &Programs,
+                          std::string_view Program, const char *Word) {
+    const auto Found = std::ranges::find(Programs, Program, &ProgramSpec::Name);
+    return std::ranges::count(Found->Defines, Word) == 1;
+  };
+  RenderOptions O;
+  O.Training = true;
+  const auto Raster = planRender(2, O).Programs;
+  EXPECT_TRUE(Defines(Raster, ProjectProgram, "SH_DEGREE=2"));
+  for (const char *Program : {ProjectProgram, BlendProgram}) {
+    EXPECT_TRUE(Defines(Raster, Program, "TILE_SIZE=32"));
+    EXPECT_TRUE(Defines(Raster, Program, "TILE_HEIGHT=64"));
+  }
+  EXPECT_TRUE(Defines(Raster, BlendProgram, "KEEP_LAST"));
+  O.Blending = Path::Simt;
+  EXPECT_TRUE(Defines(planRender(2, O).Programs, BlendProgram, "TILE_SIZE=16"));
+  const auto InriaBack = planBackward(2, O, {});
+  O.Convention = Rules::Gsplat;
+  const auto GsplatBack = planBackward(2, O, {});
+  for (const auto &[Program, Word] :
+       {std::pair("blend backward", "CLAMP_STOPS"),
+        std::pair("project backward", "LIMIT_FOLLOWS_DEPTH")}) {
+    EXPECT_FALSE(Defines(InriaBack, Program, Word));
+    EXPECT_TRUE(Defines(GsplatBack, Program, Word));
+  }
 }
 
 TEST(Plan, ExplanationNamesTheReason) {

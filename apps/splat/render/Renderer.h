@@ -4,11 +4,10 @@
 #include "../io/Cameras.h"
 #include "../io/Image.h"
 #include "../io/Scene.h"
-#include "Plan.h"
+#include "Pipeline.h"
 
 #include <array>
 #include <optional>
-#include <string_view>
 
 namespace vorion::splat {
 
@@ -16,10 +15,6 @@ namespace vorion::splat {
 struct SortedPairs {
   std::vector<std::uint32_t> Tiles, DepthBits, Gaussians;
 };
-
-/// Why Gaussians were culled, by the enumerators of kernels/layout.h.
-inline constexpr std::array<std::string_view, 5> CullReasons{
-    "near", "degenerate", "faint", "outside", "non_finite"};
 
 struct RenderResult {
   Image Picture;
@@ -31,6 +26,11 @@ struct RenderResult {
   std::vector<StageReport> Stages;
   std::optional<SortedPairs> Sorted;
 };
+
+/// The picture of \p F in front of \p Background, and its copy for the host.
+cl::Buffer resolve(Launcher &L, const Frame &F,
+                   const std::array<float, 3> &Background);
+Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture);
 
 /// Uploads \p S and runs every stage with \p L, whose programs are built from
 /// \p Plan. Only the picture, two counts and, on the raster path, a status a

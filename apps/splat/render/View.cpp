@@ -28,12 +28,12 @@ splat_view makeView(const Camera &C, const RenderOptions &Options) {
   const double Focal[2] = {C.Fx, C.Fy};
   const double Center[2] = {C.Cx, C.Cy};
   const int Size[2] = {C.Width, C.Height};
-  const unsigned Tile = Options.tileSize();
+  const unsigned Tile[2] = {Options.tileSize(), Options.tileHeight()};
   for (int A = 0; A < 2; ++A) {
     V.focal[A] = static_cast<float>(Focal[A]);
     V.center[A] = static_cast<float>(Center[A]);
     V.size[A] = static_cast<uint>(Size[A]);
-    V.tiles[A] = (V.size[A] + Tile - 1) / Tile;
+    V.tiles[A] = (V.size[A] + Tile[A] - 1) / Tile[A];
     // Where x/z (or y/z) is clamped in the Jacobian: INRIA at 1.3 times the
     // half field of view, gsplat 0.3 times beyond each edge of the picture. In
     // fp32, as the reference in fp32 has it.

@@ -1,0 +1,209 @@
+#include "Choices.h"
+#include "Commands.h"
+#include "OutputFile.h"
+#include "Progress.h"
+#include "SceneArguments.h"
+
+#include "../io/Npz.h"
+#include "../render/Gradients.h"
+#include "vorion/support/Diagnostics.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+namespace vorion::splat {
+
+namespace {
+
+struct GradientArguments {
+  SceneArguments Scene;
+  std::string Cameras, View, Upstream, Output, Device, KernelFolder;
+  std::vector<float> Background{0, 0, 0};
+  RenderOptions Options;
+  BackwardOptions Backward;
+};
+
+/// The array \p Name of \p File with \p Count elements.
+Expected<std::vector<float>> arrayOf(const std::string &File, const Npz &Arrays,
+                                     const std::string &Name,
+                                     std::size_t Count) {
+  const auto Found = Arrays.find(Name);
+  if (Found == Arrays.end())
+    return Error{File, fmt::format("no array {}", Name)};
+  std::vector<float> Values = Found->second.toFloats();
+  if (Values.size() != Count)
+    return Error{File, fmt::format("array {} has {} elements, expected {} for "
+                                   "the view's pixels",
+                                   Name, Values.size(), Count)};
+  return Values;
+}
+
+Expected<PixelGradients> readUpstream(const std::string &File,
+                                      const Camera &C) {
+  const auto Arrays = readNpz(File);
+  if (!Arrays)
+    return Arrays.error();
+  const std::size_t Pixels =
+      static_cast<std::size_t>(C.Width) * static_cast<std::size_t>(C.Height);
+  auto Render = arrayOf(File, *Arrays, "in_v_render", 3 * Pixels);
+  if (!Render)
+    return Render.error();
+  auto Alpha = arrayOf(File, *Arrays, "in_v_alpha", Pixels);
+  if (!Alpha)
+    return Alpha.error();
+  return PixelGradients{std::move(*Render), std::move(*Alpha)};
+}
+
+/// Under the names of the reference results, whose fp32 arrays are "f32_".
+Npz arraysOf(const GradientResult &R, const Scene &S) {
+  const SceneGradients &G = R.Gradients;
+  const std::size_t N = S.size();
+  const auto W = static_cast<std::size_t>(R.Picture.Width);
+  const auto H = static_cast<std::size_t>(R.Picture.Height);
+  Npz Out{{"f32_render", NpyArray::of({H, W, 3}, R.Picture.Render)},
+          {"f32_alpha", NpyArray::of({H, W}, R.Picture.Alpha)},
+          {"f32_g_means2d", NpyArray::of({N, 2}, G.Means2d)},
+          {"f32_g_conics", NpyArray::of({N, 3}, G.Conics)},
+          {"f32_g_means", NpyArray::of({N, 3}, G.Means)},
+          {"f32_g_quats", NpyArray::of({N, 4}, G.Quats)},
+          {"f32_g_scales", NpyArray::of({N, 3}, G.Scales)},
+          {"f32_g_opacities", NpyArray::of({N}, G.Opacities)},
+          {"f32_g_colors", NpyArray::of({N, S.coefficients(), 3}, G.Sh)}};
+  const auto Plane = [&](std::size_t P) {
+    const auto Begin = G.Sums.begin() + static_cast<std::ptrdiff_t>(P * N);
+    return std::vector<float>(Begin, Begin + static_cast<std::ptrdiff_t>(N));
+  };
+  std::vector<float> Colors(3 * N);
+  for (std::size_t I = 0; I < N; ++I)
+    for (std::size_t K = 0; K < 3; ++K)
+      Colors[3 * I + K] = G.Sums[K * N + I];
+  Out["f32_h_dc"] = NpyArray::of({N, 3}, Colors);
+  constexpr const char *Moments[] = {"f32_h_s",    "f32_h_sdx",  "f32_h_sdy",
+                                     "f32_h_sdxx", "f32_h_sdxy", "f32_h_sdyy"};
+  for (std::size_t M = 0; M < std::size(Moments); ++M)
+    Out[Moments[M]] = NpyArray::of({N}, Plane(SUM_S + M));
+  return Out;
+}
+
+Expected<Success> check(const GradientArguments &A) {
+  const RenderOptions &O = A.Options;
+  if (!(O.Cutoff >= 0 && O.Cutoff < 1))
+    return Error{"", fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff),
+                 ExitCode::Usage};
+  if (!(O.Dilation >= 0 && O.Dilation < 1e6F))
+    return Error{
+        "", fmt::format("--dilation {}: expected px^2, at least 0", O.Dilation),
+        ExitCode::Usage};
+  if (O.Reach == Support::Official16 && O.Blending == Path::Raster)
+    return Error{"",
+                 "--support official16 has tiles of 16x16 pixels, expected "
+                 "--path simt with it",
+                 ExitCode::Usage};
+  return checkWritable(A.Output);
+}
+
+Expected<Success> run(const GradientArguments &A) {
+  if (auto Checked = check(A); !Checked)
+    return Checked.error();
+  const auto File = loadScene(A.Scene);
+  if (!File)
+    return File.error();
+  const auto C = readCamera(A.Cameras, A.View);
+  if (!C)
+    return C.error();
+  const auto U = readUpstream(A.Upstream, *C);
+  if (!U)
+    return U.error();
+  auto D = Device::open(A.Device);
+  if (!D)
+    return D.error();
+  if (A.Options.Blending == Path::Raster && !D->isVorion())
+    return Error{"",
+                 fmt::format("{} has no rasterizer, expected a Vorion "
+                             "device or --path simt",
+                             D->name()),
+                 ExitCode::Usage};
+  Launcher L(*D, A.KernelFolder, progress());
+  const auto R =
+      takeGradients(L, File->Gaussians, *C, A.Options, A.Backward, *U);
+  endProgress();
+  if (!R) {
+    if (!L.buildLog().empty())
+      fmt::print(stderr, "{}\n", L.buildLog());
+    return R.error();
+  }
+  if (auto Written = writeNpz(A.Output, arraysOf(*R, File->Gaussians));
+      !Written)
+    return Written.error();
+  fmt::print(
+      "{} {}x{} on {}: {} rules, support {}, path {}{}\n"
+      "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
+      C->Name, C->Width, C->Height, D->name(), name(A.Options.Convention),
+      name(A.Options.Reach), name(A.Options.Blending),
+      A.Options.Blending == Path::Raster
+          ? fmt::format(", reciprocal {}, sums in {} order",
+                        name(A.Backward.Unit), name(A.Backward.Order))
+          : "",
+      R->Visible, R->Pairs, A.Options.tileSize(), A.Options.tileHeight());
+  for (const StageReport &S : R->Stages)
+    fmt::print("{:<18}{:>8.3f} s\n", S.Name, S.Seconds);
+  return Success{};
+}
+
+} // namespace
+
+Runner addGradients(CLI::App &App) {
+  auto A = std::make_shared<GradientArguments>();
+  RenderOptions &O = A->Options;
+  O.Training = true;
+  addSceneOptions(App, A->Scene);
+  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
+      ->required();
+  App.add_option("--view", A->View, "img_name or id of the view")->required();
+  App.add_option("--upstream", A->Upstream,
+                 "The loss's gradients (.npz): in_v_render by the picture with "
+                 "its background, in_v_alpha by alpha")
+      ->required();
+  App.add_option("-o,--output", A->Output,
+                 "Gradients and hand-over sums (.npz), named as in the "
+                 "reference results")
+      ->required();
+  addChoice(App, "--rules", O.Convention, {Rules::Inria, Rules::Gsplat},
+            "Convention to follow");
+  addChoice(
+      App, "--support", O.Reach,
+      {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
+      "Pixels that a Gaussian may reach");
+  addChoice(App, "--path", O.Blending, {Path::Raster, Path::Simt},
+            "Who blends: the rasterizer or the cores");
+  addChoice(App, "--reciprocal", A->Backward.Unit,
+            {Reciprocal::Exact, Reciprocal::EvenLeft, Reciprocal::EvenBest,
+             Reciprocal::LogLeft, Reciprocal::LogBest, Reciprocal::Mantissa2,
+             Reciprocal::Mantissa3},
+            "The rasterizer's unit for 1/(1 - alpha)");
+  addChoice(App, "--sum", A->Backward.Order,
+            {GatherOrder::Tree, GatherOrder::Rows},
+            "How the rasterizer's gather adds up rows");
+  App.add_flag("--antialiased", O.Antialiased,
+               "Compensate opacity for the dilation");
+  App.add_option("--dilation", O.Dilation,
+                 "Added to both variances on the picture, px^2 (default 0.3)");
+  App.add_option("--background", A->Background, "Colour r,g,b (default 0,0,0)")
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("R,G,B");
+  App.add_option("--cutoff", O.Cutoff,
+                 "Transmittance at which a pixel is full (default 0.0001)");
+  App.add_option("--device", A->Device,
+                 "Part of the OpenCL device's name (default Vorion, else the "
+                 "first device)");
+  App.add_option("--kernels", A->KernelFolder,
+                 "Read the kernel sources from this folder");
+  return [A] {
+    std::copy_n(A->Background.begin(), 3, A->Options.Background.begin());
+    return run(*A);
+  };
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,224 @@
+// From a Gaussian's sums back to its parameters: the way of project.cl, with the
+// footprint (columns u_n of J R Q) taken once and the rest expressed in it, so
+// that what must vanish for round Gaussians does. Gaussians that no tile sees
+// get 0.
+
+// Whether z and a coordinate's part of the Jacobian follow when that coordinate
+// is held at its limit: gsplat differentiates t = limit z, INRIA holds t.
+#ifdef LIMIT_FOLLOWS_DEPTH
+#define HELD_FACTOR 1.0f
+#else
+#define HELD_FACTOR 2.0f
+#endif
+
+// Of the parameters as they are stored, or of activated scales and opacities.
+#ifdef STORED_PARAMETERS
+#define BY_SCALE(gradient, scale) ((gradient) * (scale))
+#define BY_OPACITY(gradient, opacity)                                          \
+  ((gradient) * ((opacity) * (1.0f - (opacity))))
+#else
+#define BY_SCALE(gradient, scale) (gradient)
+#define BY_OPACITY(gradient, opacity) (gradient)
+#endif
+
+typedef struct {
+  float xx, xy, yy;
+} symmetric;
+
+static float quadratic(symmetric g, float2 a, float2 b) {
+  return g.xx * a.x * b.x + g.xy * (a.x * b.y + a.y * b.x) + g.yy * a.y * b.y;
+}
+
+static float2 apply(symmetric m, float2 a) {
+  return (float2)(m.xx * a.x + m.xy * a.y, m.xy * a.x + m.yy * a.y);
+}
+
+// a x b with one rounding error of each product kept (Kahan).
+static float cross2(float2 a, float2 b) {
+  const float w = a.y * b.x;
+  return fma(a.x, b.y, -w) - fma(a.y, b.x, -w);
+}
+
+#define GEOMETRY(plane) geometry[(plane) * count + i]
+#define GRADIENT(plane) gradients[(plane) * count + i]
+#define SUM(word) sums[(word) * count + i]
+
+static void project_backward_one(__constant const splat_view *view,
+                                 __global const float *geometry,
+                                 __global const float *sh,
+                                 const splat_gaussian record, float z,
+                                 __global const float *sums,
+                                 __global float *gradients,
+                                 __global float *sh_gradients, uint count,
+                                 uint i) {
+  const float3 conic =
+      (float3)(record.conic[0], record.conic[1], record.conic[2]);
+  const float sx = SUM(SUM_SX), sy = SUM(SUM_SX + 1);
+  const float2 by_mean2d =
+      (float2)(conic.x * sx + conic.y * sy, conic.y * sx + conic.z * sy);
+  const float3 by_conic = (float3)(-0.5f * SUM(SUM_SXX), -SUM(SUM_SXX + 1),
+                                   -0.5f * SUM(SUM_SXX + 2));
+  GRADIENT(GRADIENT_MEAN_2D) = by_mean2d.x;
+  GRADIENT(GRADIENT_MEAN_2D + 1) = by_mean2d.y;
+  GRADIENT(GRADIENT_CONIC) = by_conic.x;
+  GRADIENT(GRADIENT_CONIC + 1) = by_conic.y;
+  GRADIENT(GRADIENT_CONIC + 2) = by_conic.z;
+  const symmetric moments = {by_conic.x, 0.5f * by_conic.y, by_conic.z};
+
+  const float3 mean = (float3)(GEOMETRY(PLANE_MEAN), GEOMETRY(PLANE_MEAN + 1),
+                               GEOMETRY(PLANE_MEAN + 2));
+  __constant const float *r = view->rotation;
+  const float x =
+      r[0] * mean.x + r[1] * mean.y + r[2] * mean.z + view->translation[0];
+  const float y =
+      r[3] * mean.x + r[4] * mean.y + r[5] * mean.z + view->translation[1];
+  const float2 ratio = (float2)(x / z, y / z);
+  const float2 clamped =
+      (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
+               clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
+  const float scale[3] = {activate_scale(GEOMETRY(PLANE_LOG_SCALE)),
+                          activate_scale(GEOMETRY(PLANE_LOG_SCALE + 1)),
+                          activate_scale(GEOMETRY(PLANE_LOG_SCALE + 2))};
+  const float4 stored =
+      (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
+               GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
+  const float4 unit = activate_quaternion(stored);
+  const camera_axes axes = to_camera(view, rotate_axes(unit));
+  const jacobian j = project_jacobian(view, z, clamped);
+  const float3 fx = j.xx * axes.x + j.xz * axes.z;
+  const float3 fy = j.yy * axes.y + j.yz * axes.z;
+  const float2 u[3] = {(float2)(fx.x, fy.x), (float2)(fx.y, fy.y),
+                       (float2)(fx.z, fy.z)};
+
+  // p_n = K u_n with the conic K as the adjugate over the determinant. The
+  // covariance is h I + sum s_n^2 u_n u_n^T, so a needle's long axis drops out of
+  // its own p, of which K in fp32 has lost all digits.
+  const screen_covariance s = project_covariance(
+      view, z, clamped, (float3)(scale[0], scale[1], scale[2]), unit);
+  const float c01 = cross2(u[0], u[1]), c12 = cross2(u[1], u[2]);
+  const float c20 = cross2(u[2], u[0]);
+  const float2 turned[3] = {scale[0] * scale[0] * (float2)(-u[0].y, u[0].x),
+                            scale[1] * scale[1] * (float2)(-u[1].y, u[1].x),
+                            scale[2] * scale[2] * (float2)(-u[2].y, u[2].x)};
+  const float2 adjugate[3] = {c20 * turned[2] - c01 * turned[1],
+                              c01 * turned[0] - c12 * turned[2],
+                              c12 * turned[1] - c20 * turned[0]};
+  float2 p[3];
+  for (uint n = 0; n < 3; ++n)
+    p[n] = (adjugate[n] + DILATION * u[n]) / s.det;
+
+  const float opacity = activate_opacity(GEOMETRY(PLANE_LOGIT));
+  // Never 0 where something was blended.
+  const float by_compensated = SUM(SUM_S) == 0.0f ? 0.0f : SUM(SUM_S) / record.opacity;
+  float2 by_axis[3]; // dL/d(covariance) u_n
+  for (uint n = 0; n < 3; ++n) {
+    const float2 v = apply(moments, p[n]);
+    by_axis[n] = (float2)(-(conic.x * v.x + conic.y * v.y),
+                          -(conic.y * v.x + conic.z * v.y));
+  }
+  float by_pair[3][3]; // u_m . dL/d(covariance) u_n, m <= n
+  for (uint m = 0; m < 3; ++m)
+    for (uint n = m; n < 3; ++n)
+      by_pair[m][n] = -quadratic(moments, p[m], p[n]);
+#ifdef ANTIALIASED
+  const float kept = s.det_sharp / s.det;
+  const float compensation = sqrt(fmax(ANTIALIAS_FLOOR, kept));
+  GRADIENT(GRADIENT_OPACITY) =
+      BY_OPACITY(by_compensated * compensation, opacity);
+  if (kept > ANTIALIAS_FLOOR) {
+    // Both determinants' gradients are adjugates; 1 - kept without cancelling.
+    const float f = by_compensated * opacity / (2.0f * compensation * s.det);
+    const float lost = DILATION * (s.xx + s.yy - DILATION) / s.det;
+    for (uint n = 0; n < 3; ++n) {
+      const float2 v = f * (lost * adjugate[n] - kept * DILATION * u[n]);
+      by_axis[n] += v;
+      for (uint m = 0; m <= n; ++m)
+        by_pair[m][n] += u[m].x * v.x + u[m].y * v.y;
+    }
+  }
+#else
+  GRADIENT(GRADIENT_OPACITY) = BY_OPACITY(by_compensated, opacity);
+#endif
+
+  for (uint n = 0; n < 3; ++n)
+    GRADIENT(GRADIENT_SCALE + n) =
+        BY_SCALE(2.0f * scale[n] * by_pair[n][n], scale[n]);
+  // dL/d(rotation about the Gaussian's axes), and with it dL/dq = 2 q (0, turn).
+  const float3 turn =
+      2.0f *
+      (float3)((scale[1] - scale[2]) * (scale[1] + scale[2]) * by_pair[1][2],
+               (scale[2] - scale[0]) * (scale[2] + scale[0]) * by_pair[0][2],
+               (scale[0] - scale[1]) * (scale[0] + scale[1]) * by_pair[0][1]);
+  const float factor = quaternion_factor(stored);
+  const float4 near = stored * factor;
+  const float length = sqrt(near.x * near.x + near.y * near.y +
+                            near.z * near.z + near.w * near.w);
+  const float back = length > 0.0f ? 2.0f * factor / length : 0.0f;
+  const float3 axis = (float3)(unit.y, unit.z, unit.w);
+  const float3 vector = unit.x * turn + cross(axis, turn);
+  GRADIENT(GRADIENT_QUATERNION) = -back * dot_in_order(axis, turn);
+  GRADIENT(GRADIENT_QUATERNION + 1) = back * vector.x;
+  GRADIENT(GRADIENT_QUATERNION + 2) = back * vector.y;
+  GRADIENT(GRADIENT_QUATERNION + 3) = back * vector.z;
+
+  // dL/d(Jacobian's entries): 2 V U diag(s^2) times the axes.
+  float by_xx = 0.0f, by_xz = 0.0f, by_yy = 0.0f, by_yz = 0.0f;
+  const float ax[3] = {axes.x.x, axes.x.y, axes.x.z};
+  const float ay[3] = {axes.y.x, axes.y.y, axes.y.z};
+  const float az[3] = {axes.z.x, axes.z.y, axes.z.z};
+  for (uint n = 0; n < 3; ++n) {
+    const float weight = 2.0f * scale[n] * scale[n];
+    const float gx = weight * by_axis[n].x, gy = weight * by_axis[n].y;
+    by_xx += gx * ax[n];
+    by_xz += gx * az[n];
+    by_yy += gy * ay[n];
+    by_yz += gy * az[n];
+  }
+  const float focal_x = view->focal[0] / z, focal_y = view->focal[1] / z;
+  const bool held_x = clamped.x != ratio.x, held_y = clamped.y != ratio.y;
+  float3 by_place = (float3)(focal_x * by_mean2d.x, focal_y * by_mean2d.y, 0.0f);
+  by_place.z = -(by_place.x * ratio.x + by_place.y * ratio.y);
+  by_place.z -= (focal_x * by_xx + focal_y * by_yy) / z;
+  by_place.z += (held_x ? HELD_FACTOR : 2.0f) * focal_x * clamped.x * by_xz / z;
+  by_place.z += (held_y ? HELD_FACTOR : 2.0f) * focal_y * clamped.y * by_yz / z;
+  by_place.x -= held_x ? 0.0f : focal_x * by_xz / z;
+  by_place.y -= held_y ? 0.0f : focal_y * by_yz / z;
+
+  const float3 g =
+      (float3)(record.color[0] > 0.0f ? SUM(SUM_COLOR) : 0.0f,
+               record.color[1] > 0.0f ? SUM(SUM_COLOR + 1) : 0.0f,
+               record.color[2] > 0.0f ? SUM(SUM_COLOR + 2) : 0.0f);
+  const float3 by_direction = sh_backward(
+      sh, count, i,
+      (float3)(mean.x - view->position[0], mean.y - view->position[1],
+               mean.z - view->position[2]),
+      g, sh_gradients);
+  GRADIENT(GRADIENT_MEAN) = r[0] * by_place.x + r[3] * by_place.y +
+                            r[6] * by_place.z + by_direction.x;
+  GRADIENT(GRADIENT_MEAN + 1) = r[1] * by_place.x + r[4] * by_place.y +
+                                r[7] * by_place.z + by_direction.y;
+  GRADIENT(GRADIENT_MEAN + 2) = r[2] * by_place.x + r[5] * by_place.y +
+                                r[8] * by_place.z + by_direction.z;
+}
+
+__kernel void project_backward(__constant const splat_view *view,
+                               __global const float *geometry,
+                               __global const float *sh,
+                               __global const splat_gaussian *records,
+                               __global const uint *depths,
+                               __global const float *sums,
+                               __global float *gradients,
+                               __global float *sh_gradients, uint count) {
+  const uint i = get_global_id(0);
+  if (i >= count)
+    return;
+  if (depths[i] < CULLED) {
+    project_backward_one(view, geometry, sh, records[i], as_float(depths[i]),
+                         sums, gradients, sh_gradients, count, i);
+    return;
+  }
+  for (uint plane = 0; plane < GRADIENT_PLANES; ++plane)
+    GRADIENT(plane) = 0.0f;
+  for (uint plane = 0; plane < 3 * (SH_DEGREE + 1) * (SH_DEGREE + 1); ++plane)
+    sh_gradients[plane * count + i] = 0.0f;
+}

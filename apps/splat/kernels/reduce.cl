@@ -1,0 +1,22 @@
+// A Gaussian's sums over its tiles, which lie side by side in the order of the
+// tiles. Each partial sum keeps what rounding takes from it (T. J. Dekker 1971):
+// hundreds of tiles lose no more than one. Without atomics, in a fixed order.
+
+__kernel void reduce_sums(__global const float *pair_sums,
+                          __global const uint *order,
+                          __global const uint *offsets,
+                          __global float *sums, uint count) {
+  const uint i = get_global_id(0);
+  if (i >= count)
+    return;
+  const uint gaussian = order[i];
+  const uint end = offsets[i + 1];
+  for (uint k = 0; k < SUM_WORDS; ++k) {
+    float2 total = (float2)(0.0f, 0.0f);
+    for (uint place = offsets[i]; place < end; ++place) {
+      const float2 next = two_sum(total.x, pair_sums[place * SUM_WORDS + k]);
+      total = (float2)(next.x, total.y + next.y);
+    }
+    sums[k * count + gaussian] = total.x + total.y;
+  }
+}

@@ -1,0 +1,107 @@
+#include "Backward.h"
+
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+namespace {
+
+constexpr const char *UpstreamProgram = "upstream";
+constexpr const char *BlendBackwardProgram = "blend backward";
+constexpr const char *ReduceProgram = "reduce";
+constexpr const char *ProjectBackwardProgram = "project backward";
+
+/// Lanes of a warp, and Gaussians that are handed over together.
+constexpr std::size_t Lanes = 16;
+
+} // namespace
+
+std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
+                                      const BackwardOptions &B) {
+  const bool Gsplat = O.Convention == Rules::Gsplat;
+  ProgramSpec Blend{BlendBackwardProgram, {"layout.h"}, tileDefines(O)};
+  if (O.Blending == Path::Raster) {
+    Blend.Files.insert(Blend.Files.end(), {"deal.cl", "rasterize_backward.cl"});
+  } else {
+    Blend.Files.insert(Blend.Files.end(), {"falloff.cl", "blend_backward.cl"});
+    Blend.Defines.push_back(minPowerDefine(O));
+    Blend.Defines.push_back(alphaCutoffDefine(O));
+    if (Gsplat)
+      Blend.Defines.emplace_back("CLAMP_STOPS");
+  }
+  ProgramSpec Project{ProjectBackwardProgram,
+                      {"layout.h", "activate.cl", "covariance.cl", "sh.cl",
+                       "sh_backward.cl", "project_backward.cl"},
+                      projectionDefines(ShDegree, O)};
+  if (Gsplat)
+    Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
+  if (B.Parameters == GradientsOf::Stored)
+    Project.Defines.emplace_back("STORED_PARAMETERS");
+  return {{UpstreamProgram, {"upstream.cl"}, {}},
+          Blend,
+          {ReduceProgram, {"layout.h", "activate.cl", "reduce.cl"}, {}},
+          Project};
+}
+
+void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
+                                   const cl::Buffer &ByAlpha) {
+  const auto &Background = Options.Background;
+  Upstream = L.allocate("pixels' gradients", 16 * std::uint64_t{F.pixels()});
+  L.run(UpstreamProgram, "upstream", itemsFor(F.pixels()), GroupSize, ByRender,
+        ByAlpha, Upstream, F.pixels(), Background[0], Background[1],
+        Background[2]);
+}
+
+void BackwardPipeline::run(Pipeline &Forward) {
+  const Frame &F = Forward.frame();
+  L.beginStage("blend backward");
+  blend(Forward);
+  L.beginStage("reduce");
+  reduce(F);
+  L.beginStage("project backward");
+  project(F);
+}
+
+void BackwardPipeline::blend(Pipeline &Forward) {
+  const Frame &F = Forward.frame();
+  PairSums = L.allocate("pairs' sums", 4 * SUM_WORDS * std::uint64_t{F.Pairs});
+  if (Options.Blending == Path::Simt) {
+    L.run(BlendBackwardProgram, "blend_backward",
+          cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
+          cl::NDRange(Lanes, 1), F.Records, F.List, F.Ranges, F.Pixels, F.Last,
+          Upstream, F.ByTile.Values, PairSums, F.View.size[0], F.View.size[1]);
+    return;
+  }
+  // vr_backward of docs/isa.md: reciprocal unit, alpha's clamp, gather.
+  const auto Backward = static_cast<std::uint32_t>(
+      static_cast<std::uint32_t>(Choice.Unit) |
+      (Options.Convention == Rules::Gsplat ? 1U << 3 : 0U) |
+      (Choice.Order == GatherOrder::Rows ? 1U << 4 : 0U));
+  const std::size_t Cores = L.device().computeUnits();
+  const cl::Buffer Statuses = L.allocate("cores' statuses", 4 * Cores);
+  L.run(BlendBackwardProgram, "rasterize_backward", Cores * Lanes, Lanes,
+        F.Records, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last, Upstream,
+        F.ByTile.Values, PairSums, Statuses, Forward.blendOptions(), Backward);
+  Forward.checkStatuses(Statuses);
+}
+
+void BackwardPipeline::reduce(const Frame &F) {
+  const std::uint32_t Count = F.Gaussians.Count;
+  Sums = L.allocate("Gaussians' sums", 4 * SUM_WORDS * std::uint64_t{Count});
+  L.run(ReduceProgram, "reduce_sums", itemsFor(Count), GroupSize, PairSums,
+        F.ByDepth.Values, F.Places, Sums, Count);
+}
+
+void BackwardPipeline::project(const Frame &F) {
+  const std::uint32_t Count = F.Gaussians.Count;
+  Gradients =
+      L.allocate("gradients", 4 * GRADIENT_PLANES * std::uint64_t{Count});
+  ShGradients =
+      L.allocate("colours' gradients",
+                 4 * 3 * shCoefficients(ShDegree) * std::uint64_t{Count});
+  L.run(ProjectBackwardProgram, "project_backward", itemsFor(Count), GroupSize,
+        F.Camera, F.Gaussians.Geometry, F.Gaussians.Sh, F.Records,
+        F.Depths.Keys, Sums, Gradients, ShGradients, Count);
+}
+
+} // namespace vorion::splat

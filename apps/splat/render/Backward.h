@@ -1,0 +1,87 @@
+/// From a loss's gradients by the pixels of a frame to those by its Gaussians,
+/// on the device.
+#pragma once
+
+#include "Pipeline.h"
+
+#include <string_view>
+
+namespace vorion::splat {
+
+/// The rasterizer's unit for 1 / (1 - alpha), by vr_backward.reciprocal.
+enum class Reciprocal {
+  Exact,
+  EvenLeft,
+  EvenBest,
+  LogLeft,
+  LogBest,
+  Mantissa2,
+  Mantissa3
+};
+
+constexpr std::string_view name(Reciprocal R) {
+  constexpr std::array<std::string_view, 7> Names{
+      "exact",    "even-left",  "even-best", "log-left",
+      "log-best", "mantissa-2", "mantissa-3"};
+  return Names[static_cast<std::size_t>(R)];
+}
+
+/// How the rasterizer's gather adds up the rows of a tile.
+enum class GatherOrder { Tree, Rows };
+
+constexpr std::string_view name(GatherOrder O) {
+  return O == GatherOrder::Tree ? "tree" : "rows";
+}
+
+/// Whose gradients are wanted: of scales and opacities as they are activated,
+/// or of their logarithms and logits, as they are stored.
+enum class GradientsOf { Activated, Stored };
+
+struct BackwardOptions {
+  Reciprocal Unit = Reciprocal::Exact;
+  GatherOrder Order = GatherOrder::Tree;
+  GradientsOf Parameters = GradientsOf::Activated;
+};
+
+/// The programs that the way back needs beside those of \c planRender.
+std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
+                                      const BackwardOptions &B);
+
+/// Takes gradients back through frames that a \c Pipeline drew with the option
+/// Training. Errors stick in the launcher.
+class BackwardPipeline {
+public:
+  /// Keeps references to all but \p B. \p ShDegree: of the Gaussians' buffers.
+  BackwardPipeline(Launcher &Launch, const RenderOptions &O,
+                   const BackwardOptions &B, int ShDegree)
+      : L(Launch), Options(O), Choice(B), ShDegree(ShDegree) {}
+
+  /// What the loss says of each pixel: dL/d(red, green, blue) of the picture
+  /// with its background, and dL/d(alpha), 3 floats and 1.
+  void setUpstream(const Frame &F, const cl::Buffer &ByRender,
+                   const cl::Buffer &ByAlpha);
+  /// Back through blending and projection of the frame that \p Forward has
+  /// drawn, in stages of the launcher's.
+  void run(Pipeline &Forward);
+
+  /// \name Results, planes of as many floats as there are Gaussians
+  /// @{
+  const cl::Buffer &sums() const { return Sums; } ///< SUM_WORDS planes
+  const cl::Buffer &gradients() const { return Gradients; } ///< GRADIENT_PLANES
+  /// Plane 3 k + c: of coefficient k of channel c.
+  const cl::Buffer &shGradients() const { return ShGradients; }
+  /// @}
+
+private:
+  void blend(Pipeline &Forward);
+  void reduce(const Frame &F);
+  void project(const Frame &F);
+
+  Launcher &L;
+  const RenderOptions &Options;
+  BackwardOptions Choice;
+  int ShDegree;
+  cl::Buffer Upstream, PairSums, Sums, Gradients, ShGradients;
+};
+
+} // namespace vorion::splat

@@ -1,0 +1,89 @@
+#include "Gradients.h"
+
+#include "Renderer.h"
+
+namespace vorion::splat {
+
+namespace {
+
+/// \p Each planes of \p Planes from \p First on, interleaved.
+std::vector<float> interleaved(const std::vector<float> &Planes,
+                               std::size_t Count, std::size_t First,
+                               std::size_t Each) {
+  std::vector<float> Out(Count * Each);
+  for (std::size_t I = 0; I < Count; ++I)
+    for (std::size_t K = 0; K < Each; ++K)
+      Out[I * Each + K] = Planes[(First + K) * Count + I];
+  return Out;
+}
+
+SceneGradients readGradients(Launcher &L, const BackwardPipeline &Back,
+                             const Scene &S, int UsedDegree) {
+  const std::size_t N = S.size();
+  const std::size_t Used = 3 * shCoefficients(UsedDegree);
+  std::vector<float> Planes(GRADIENT_PLANES * N), Sh(Used * N);
+  SceneGradients G;
+  G.Sums.resize(SUM_WORDS * N);
+  L.read("gradients", Planes.data(), Back.gradients(), 4 * Planes.size());
+  L.read("colours' gradients", Sh.data(), Back.shGradients(), 4 * Sh.size());
+  L.read("sums", G.Sums.data(), Back.sums(), 4 * G.Sums.size());
+  G.Means = interleaved(Planes, N, GRADIENT_MEAN, 3);
+  G.Scales = interleaved(Planes, N, GRADIENT_SCALE, 3);
+  G.Quats = interleaved(Planes, N, GRADIENT_QUATERNION, 4);
+  G.Opacities = interleaved(Planes, N, GRADIENT_OPACITY, 1);
+  G.Means2d = interleaved(Planes, N, GRADIENT_MEAN_2D, 2);
+  G.Conics = interleaved(Planes, N, GRADIENT_CONIC, 3);
+  G.Sh = interleaved(Sh, N, 0, Used);
+  return G;
+}
+
+} // namespace
+
+Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
+                                       const Camera &C,
+                                       const RenderOptions &Options,
+                                       const BackwardOptions &Backward,
+                                       const PixelGradients &U) {
+  // A band of zeros has gradients too.
+  const int ShDegree = S.ShDegree;
+  L.beginStage("build");
+  RenderPlan Plan = planRender(ShDegree, Options);
+  for (const ProgramSpec &Program : Plan.Programs)
+    L.build(Program);
+  for (const ProgramSpec &Program : planBackward(ShDegree, Options, Backward))
+    L.build(Program);
+  if (L.failure())
+    return *L.failure();
+
+  L.beginStage("upload");
+  const GaussianBuffers Gaussians = uploadGaussians(L, S, ShDegree);
+  const cl::Buffer ByRender =
+      L.allocate("pictures' gradients", 4 * U.Render.size());
+  const cl::Buffer ByAlpha =
+      L.allocate("alphas' gradients", 4 * U.Alpha.size());
+  L.write("pictures' gradients", ByRender, U.Render.data(),
+          4 * U.Render.size());
+  L.write("alphas' gradients", ByAlpha, U.Alpha.data(), 4 * U.Alpha.size());
+
+  Pipeline Forward(L, Options);
+  Forward.draw(Gaussians, C);
+  BackwardPipeline Back(L, Options, Backward, ShDegree);
+  L.beginStage("upstream");
+  Back.setUpstream(Forward.frame(), ByRender, ByAlpha);
+  Back.run(Forward);
+
+  L.beginStage("resolve");
+  const cl::Buffer Picture = resolve(L, Forward.frame(), Options.Background);
+  L.beginStage("read back");
+  GradientResult R;
+  R.Picture = readPicture(L, Forward.frame(), Picture);
+  R.Gradients = readGradients(L, Back, S, ShDegree);
+  if (L.failure())
+    return *L.failure();
+  R.Visible = Forward.frame().Visible;
+  R.Pairs = Forward.frame().Pairs;
+  R.Stages = L.takeStages();
+  return R;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,100 @@
+/// The stages of a picture on the device, from Gaussians to blended pixels.
+#pragma once
+
+#include "../io/Cameras.h"
+#include "../io/Scene.h"
+#include "Layout.h"
+#include "Plan.h"
+#include "Sorter.h"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace vorion::splat {
+
+/// Work-items of a group where a kernel has no say.
+inline constexpr std::uint32_t GroupSize = 64;
+
+/// Whole groups with a work-item for each of \p Count things.
+cl::NDRange itemsFor(std::uint32_t Count);
+
+/// Why Gaussians were culled, by the enumerators of kernels/layout.h.
+inline constexpr std::array<std::string_view, 5> CullReasons{
+    "near", "degenerate", "faint", "outside", "non_finite"};
+
+/// Gaussians in the device's memory, before activation.
+struct GaussianBuffers {
+  cl::Buffer Geometry; ///< planes of layout.h's GEOMETRY_PLANES
+  cl::Buffer Sh;       ///< plane 3 k + c: coefficient k of channel c
+  std::uint32_t Count = 0;
+};
+
+/// Copies \p S to the device, harmonics up to \p ShDegree.
+GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree);
+
+/// The buffers of one picture, in the order in which they are filled.
+struct Frame {
+  splat_view View{};
+  GaussianBuffers Gaussians;
+  cl::Buffer Camera, Records, Rectangles;
+  Sorter::Pairs Depths; ///< keys and numbers of every Gaussian, as projected
+  Sorter::Pairs ByDepth;
+  cl::Buffer TileCounts;
+  /// Where the pairs of the i-th Gaussian by depth begin, before they are
+  /// sorted by tile; one more for the end.
+  cl::Buffer Places;
+  /// Tiles of the pairs, and the lists of all tiles. In training the values are
+  /// the pairs' places before the sort, and List is what they name.
+  Sorter::Pairs ByTile;
+  cl::Buffer List;
+  cl::Buffer Ranges;    ///< of each tile in the list
+  cl::Buffer TileOrder; ///< tiles by length, where rasterizers draw
+  cl::Buffer Pixels;    ///< colour in front of the background, transmittance
+  cl::Buffer Last; ///< in training: entries of its list that a pixel has taken
+  std::uint32_t Visible = 0, Pairs = 0;
+  std::array<std::uint64_t, CullReasons.size()> Culled{};
+
+  std::uint32_t tiles() const { return View.tiles[0] * View.tiles[1]; }
+  std::uint32_t pixels() const { return View.size[0] * View.size[1]; }
+};
+
+/// Draws pictures of one size and kind. Needs the programs of \c planRender
+/// for the same options; errors stick in the launcher.
+class Pipeline {
+public:
+  /// Keeps references to \p Launch and \p O.
+  Pipeline(Launcher &Launch, const RenderOptions &O)
+      : L(Launch), Options(O), Sort(Launch) {}
+
+  /// Projects, sorts and blends \p Gaussians as \p C sees them; each step is a
+  /// stage of the launcher's. Buffers of the frame before are released.
+  void draw(const GaussianBuffers &Gaussians, const Camera &C);
+
+  const Frame &frame() const { return F; }
+
+  /// What the rasterizers are told of a picture.
+  splat_blend_options blendOptions() const;
+  /// Fails if a core's status among \p Statuses is not 0.
+  void checkStatuses(const cl::Buffer &Statuses);
+
+private:
+  void project();
+  void sortByDepth();
+  void countPairs();
+  void duplicate();
+  void sortByTile();
+  void blend();
+  void rasterize();
+  void shade();
+  cl::Buffer words(std::string_view What, std::uint64_t N) {
+    return L.allocate(What, 4 * N);
+  }
+
+  Launcher &L;
+  const RenderOptions &Options;
+  Sorter Sort;
+  Frame F;
+};
+
+} // namespace vorion::splat

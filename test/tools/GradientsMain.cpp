@@ -1,0 +1,85 @@
+// splat-check-gradients: judges what `splat gradients` wrote for a fixture.
+
+#include "Gradients.h"
+#include "Tool.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::test {
+namespace {
+
+struct Arguments {
+  std::string Expected, Actual, Json;
+  double Most = 1e-5;
+};
+
+double numberOf(const splat::Npz &Arrays, const std::string &Name) {
+  return Arrays.at(Name).toDoubles().at(0);
+}
+
+Expected<Success> run(const Arguments &A) {
+  const auto Want = splat::readNpz(A.Expected);
+  if (!Want)
+    return Want.error();
+  const auto Have = splat::readNpz(A.Actual);
+  if (!Have)
+    return Have.error();
+  nlohmann::ordered_json Rows;
+  std::string Beyond;
+  for (const auto &[Name, Array] : *Want) {
+    if (!Name.starts_with("f64_"))
+      continue;
+    const auto Found = Have->find("f32_" + Name.substr(4));
+    const auto Exact = Array.toDoubles();
+    if (Found == Have->end() || Found->second.elements() != Exact.size())
+      return Error{A.Actual, fmt::format("no array f32_{} with {} elements",
+                                         Name.substr(4), Exact.size())};
+    const auto Actual = Found->second.toDoubles();
+    std::vector<double> Difference;
+    Difference.reserve(Exact.size());
+    for (std::size_t I = 0; I < Exact.size(); ++I)
+      Difference.push_back(Actual[I] - Exact[I]);
+    const double Norm = numberOf(*Want, "norm_" + Name);
+    const double Limit = std::max(A.Most, numberOf(*Want, "limit_" + Name));
+    // All gradients are 0 where nothing is seen: then so must these be.
+    const double Error = norm(Difference) / std::max(Norm, 1e-300);
+    const bool Bad =
+        !(Error <= Limit) || std::any_of(Actual.begin(), Actual.end(),
+                                         [](double V) { return V != V; });
+    fmt::print("{:<18}{:>10.1e}   at most {:.1e}{}\n", Name, Error, Limit,
+               Bad ? "   BEYOND" : "");
+    Rows[Name] = {{"error", Error}, {"limit", Limit}};
+    if (Bad)
+      Beyond += (Beyond.empty() ? "" : ", ") + Name;
+  }
+  if (!A.Json.empty())
+    if (auto W = writeFileAtomically(A.Json, Rows.dump(2) + "\n"); !W)
+      return W;
+  if (!Beyond.empty())
+    return Error{A.Actual, "errors beyond their limits: " + Beyond,
+                 ExitCode::GuestFailed};
+  return Success{};
+}
+
+} // namespace
+} // namespace vorion::test
+
+int main(int Count, char **Values) {
+  using namespace vorion::test;
+  CLI::App App("Compares gradients with those that splat-fixture expects, by "
+               "their relative difference in the L2 norm.",
+               "splat-check-gradients");
+  Arguments A;
+  App.add_option("expected", A.Expected, "gradients.npz of splat-fixture")
+      ->required();
+  App.add_option("actual", A.Actual, "Result of splat gradients")->required();
+  App.add_option("--max", A.Most,
+                 "Largest error; twice that of the fixture's own fp32 result "
+                 "where that is more")
+      ->capture_default_str();
+  App.add_option("--json", A.Json, "The table, for programs");
+  return runTool(App, Count, Values, [&A] { return run(A); });
+}
