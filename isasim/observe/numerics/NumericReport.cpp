@@ -83,6 +83,14 @@ const NumericEvent *firstEvent(const NumericFindings &F, bool Nan) {
   return nullptr;
 }
 
+/// Where operand \p N of \p S comes from, a site.
+std::string fromText(const NumericFindings &F, const NumericSample &S,
+                     unsigned N) {
+  return fmt::format("{} from {}: {}\n", floatText(S.Words[N]),
+                     F.Sites.place(S.From[N].number()),
+                     F.Sites.text(S.From[N].number()));
+}
+
 /// The chain that ends at \p E, a link a line.
 void addChain(const NumericFindings &F, const NumericEvent &E, unsigned Depth,
               std::string &Text) {
@@ -96,10 +104,7 @@ void addChain(const NumericFindings &F, const NumericEvent &E, unsigned Depth,
     if (From.isEvent())
       addChain(F, F.Sites.events()[From.number()], Depth + 1, Text);
     else if (From.isKnown())
-      Text +=
-          fmt::format("{:{}}{} from {}: {}\n", "", 2 * Depth + 4,
-                      floatText(E.What.Words[N]), F.Sites.place(From.number()),
-                      F.Sites.text(From.number()));
+      Text += fmt::format("{:{}}{}", "", 2 * Depth + 4, fromText(F, E.What, N));
   }
 }
 
@@ -175,6 +180,9 @@ std::string numericText(const NumericFindings &F) {
       Text +=
           fmt::format("{:>29}worst: {}: {}, {}\n", "",
                       F.Sites.text(L.WorstSite), sampleText(S), whereText(S));
+      for (unsigned N = 0; N != S.Operands; ++N)
+        if (S.From[N].isKnown() && !S.From[N].isEvent())
+          Text += fmt::format("{:>31}{}", "", fromText(F, S, N));
     }
   }
   if (Left)
