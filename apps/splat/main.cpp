@@ -37,6 +37,7 @@ int main(int ArgumentCount, char **Arguments) {
   Add("convert", "Writes a scene of any format as a PLY", splat::addConvert);
   Add("demo-scene", "Writes the project's own scene and its cameras",
       splat::addDemoScene);
+  Add("train", "Makes a scene from photographs with poses", splat::addTrain);
   Add("compare", "Compares two pictures, or two lists of pairs",
       splat::addCompare);
 

@@ -144,7 +144,8 @@ std::string frameJson(const std::vector<StageReport> &Stages) {
       .dump();
 }
 
-std::string frameText(const std::vector<StageReport> &Stages) {
+std::string frameText(const std::vector<StageReport> &Stages,
+                      const std::string &What) {
   const std::string Sum = frameTime(Stages);
   if (Sum.empty())
     return {};
@@ -159,11 +160,11 @@ std::string frameText(const std::vector<StageReport> &Stages) {
   for (const StageReport &S : Stages)
     if (const std::string Time = stageTime(S); !Time.empty())
       Text += row(S.Name, Json::parse(Time), Cycles);
-  Text += row("frame", Whole, Cycles);
+  Text += row(What, Whole, Cycles);
   const FrameMilliseconds F = frameMilliseconds(Stages, Whole);
-  return Text + fmt::format("frame {:.3f} ms, of it launches {:.3f} and copies "
-                            "{:.3f}: {:.2f} frames a second\n",
-                            F.all(), F.Launches, F.Copies, 1e3 / F.all());
+  return Text + fmt::format("{0} {1:.3f} ms, of it launches {2:.3f} and copies "
+                            "{3:.3f}: {4:.2f} {0}s a second\n",
+                            What, F.all(), F.Launches, F.Copies, 1e3 / F.all());
 }
 
 } // namespace vorion::splat

@@ -12,7 +12,8 @@ namespace vorion::splat {
 /// from projecting to the finished picture; uploading a scene and reading the
 /// picture back are told apart. Empty without the clock.
 std::string frameJson(const std::vector<StageReport> &Stages);
-/// The same as a table.
-std::string frameText(const std::vector<StageReport> &Stages);
+/// The same as a table, in which \p What stands for a frame ("iteration").
+std::string frameText(const std::vector<StageReport> &Stages,
+                      const std::string &What = "frame");
 
 } // namespace vorion::splat

@@ -1,7 +1,7 @@
 #include "Adam.h"
 
 #include "../render/Layout.h"
-#include "WorkItems.h"
+#include "../render/Pipeline.h"
 
 #include <cmath>
 #include <vector>
@@ -35,8 +35,8 @@ void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
                         const cl::Buffer &V) {
     const cl::Buffer RateBuffer = L.allocate("rates", 4 * Rates.size());
     L.write("rates", RateBuffer, Rates.data(), 4 * Rates.size());
-    L.run(AdamProgram, "adam", cl::NDRange(itemsOf(S.Count)[0], Rates.size()),
-          cl::NDRange(ItemGroup, 1), P, G, M, V, RateBuffer, S.Count,
+    L.run(AdamProgram, "adam", cl::NDRange(itemsFor(S.Count)[0], Rates.size()),
+          cl::NDRange(GroupSize, 1), P, G, M, V, RateBuffer, S.Count,
           static_cast<float>(Settings.Beta1),
           static_cast<float>(1 - Settings.Beta1),
           static_cast<float>(Settings.Beta2),

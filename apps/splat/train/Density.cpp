@@ -2,8 +2,8 @@
 
 #include "../io/Activation.h"
 #include "../render/Layout.h"
+#include "../render/Pipeline.h"
 #include "../render/Plan.h"
-#include "WorkItems.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ DensityNotes DensityControl::save(std::uint32_t Count) {
 }
 
 void DensityControl::note(const SeenView &V, std::uint32_t Count) {
-  L.run(DensityProgram, "density_note", itemsOf(Count), ItemGroup, V.Records,
+  L.run(DensityProgram, "density_note", itemsFor(Count), GroupSize, V.Records,
         V.Depths, V.Gradients, V.MeanPlane, GradientSums, Views, Radii, Count,
         0.5F * static_cast<float>(V.Width),
         0.5F * static_cast<float>(V.Height));
@@ -77,7 +77,7 @@ std::uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
                  : Never;
   Rule.most_radius =
       DropsLarge ? static_cast<float>(Settings.MostRadius) : Never;
-  L.run(DensityProgram, "density_decide", itemsOf(S.Count), ItemGroup,
+  L.run(DensityProgram, "density_decide", itemsFor(S.Count), GroupSize,
         S.Parameters.Geometry, GradientSums, Views, Radii, Fates, Counts, Keys,
         Order, S.Count, Rule);
   return total(Counts, S.Count);
@@ -85,7 +85,7 @@ std::uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
 
 void DensityControl::limit(std::uint32_t Count, std::uint32_t Total) {
   const cl::Buffer Grows = words("growing Gaussians", Count);
-  L.run(DensityProgram, "density_grows", itemsOf(Count), ItemGroup, Counts,
+  L.run(DensityProgram, "density_grows", itemsFor(Count), GroupSize, Counts,
         Grows, Count);
   // Each that grows becomes one more.
   const std::uint32_t Kept = Total - total(Grows, Count);
@@ -96,7 +96,7 @@ void DensityControl::limit(std::uint32_t Count, std::uint32_t Total) {
   const Sorter::Pairs B{words("sorted gradients", Count),
                         words("sorted Gaussians", Count)};
   const Sorter::Pairs Sorted = Sort.sort({Keys, Order}, A, B, Count, {0, 32});
-  L.run(DensityProgram, "density_limit", itemsOf(Count), ItemGroup,
+  L.run(DensityProgram, "density_limit", itemsFor(Count), GroupSize,
         Sorted.Values, Fates, Counts, Count, More);
 }
 
@@ -124,7 +124,7 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   const auto Move = [&](const cl::Buffer &From, cl::Buffer &To,
                         std::uint32_t Planes, bool Moments) {
     L.run(DensityProgram, "density_copy",
-          cl::NDRange(itemsOf(S.Count)[0], Planes), cl::NDRange(ItemGroup, 1),
+          cl::NDRange(itemsFor(S.Count)[0], Planes), cl::NDRange(GroupSize, 1),
           From, To, Fates, Places, S.Count, After, Moments ? 1U : 0U);
   };
   const struct {
@@ -140,7 +140,7 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
     if (Moments) // what the parameters were is needed below
       From = {};
   }
-  L.run(DensityProgram, "density_split", itemsOf(S.Count), ItemGroup,
+  L.run(DensityProgram, "density_split", itemsFor(S.Count), GroupSize,
         S.Parameters.Geometry, New.Parameters.Geometry, Fates, Places, S.Count,
         After, static_cast<std::uint32_t>(Seed),
         static_cast<std::uint32_t>(Seed >> 32), Iteration,
@@ -152,7 +152,7 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
 }
 
 void DensityControl::resetOpacity(DeviceScene &S) {
-  L.run(DensityProgram, "reset_opacity", itemsOf(S.Count), ItemGroup,
+  L.run(DensityProgram, "reset_opacity", itemsFor(S.Count), GroupSize,
         S.Parameters.Geometry, S.First.Geometry, S.Second.Geometry, S.Count,
         opacityLogit(Settings.ResetOpacity));
 }

@@ -1,6 +1,6 @@
 #include "PictureLoss.h"
 
-#include "WorkItems.h"
+#include "../render/Pipeline.h"
 
 namespace vorion::splat {
 namespace {
@@ -43,19 +43,19 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
   L.write("photograph", Packed, HostPacked.data(), 4 * HostPacked.size());
 
   const double Samples = 3.0 * Pixels;
-  const cl::NDRange Items = itemsOf(Pixels);
-  L.run(LossProgram, "loss_rows", Items, ItemGroup, Picture, Packed, Moments,
+  const cl::NDRange Items = itemsFor(Pixels);
+  L.run(LossProgram, "loss_rows", Items, GroupSize, Picture, Packed, Moments,
         Width, Height);
-  L.run(LossProgram, "loss_columns", Items, ItemGroup, Picture, Packed, Moments,
+  L.run(LossProgram, "loss_columns", Items, GroupSize, Picture, Packed, Moments,
         Slopes, Terms, Width, Height);
   // The sums are done with; their buffer takes the slopes' window along rows.
-  L.run(LossProgram, "loss_spread", Items, ItemGroup, Slopes, Moments, Width,
+  L.run(LossProgram, "loss_spread", Items, GroupSize, Slopes, Moments, Width,
         Height);
-  L.run(LossProgram, "loss_gradient", Items, ItemGroup, Picture, Packed,
+  L.run(LossProgram, "loss_gradient", Items, GroupSize, Picture, Packed,
         Moments, Gradient, Width, Height,
         static_cast<float>((1 - DSsim) / Samples),
         static_cast<float>(DSsim / Samples));
-  L.run(LossProgram, "loss_sum", itemsOf(Height), ItemGroup, Terms, RowSums,
+  L.run(LossProgram, "loss_sum", itemsFor(Height), GroupSize, Terms, RowSums,
         Width, Height);
 
   HostRows.assign(2 * std::size_t{Height}, 0);

@@ -1,0 +1,383 @@
+#include "Choices.h"
+#include "Commands.h"
+#include "OutputFile.h"
+
+#include "../analyze/Chart.h"
+#include "../capture/Capture.h"
+#include "../io/Ply.h"
+#include "../render/FrameTime.h"
+#include "../train/Baselines.h"
+#include "../train/DeviceRenderer.h"
+#include "../train/RunText.h"
+#include "../train/Start.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <unistd.h>
+
+namespace vorion::splat {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+struct TrainArguments {
+  std::string Capture, Output, Json, Curve, Checkpoint, Device;
+  std::vector<std::string> Exclude;
+  std::vector<float> Background{0, 0, 0};
+  int Downscale = 1, ShDegree = MaxShDegree;
+  unsigned CheckpointEvery = 1000;
+  bool Resume = false, Breakdown = false;
+  Path Blending = Path::Raster;
+  BackwardOptions Backward;
+  TrainRun Run;
+};
+
+/// Set by an interrupt; the loop then ends after the iteration at hand.
+volatile std::sig_atomic_t Interrupted = 0;
+
+void onInterrupt(int /*Signal*/) { Interrupted = 1; }
+
+/// What the whole run is about, once everything is read.
+struct Work {
+  Work(const TrainArguments &Arguments, const Capture &From,
+       const TrainingSet &Set)
+      : A(Arguments), C(From), Pictures(Set) {}
+
+  const TrainArguments &A;
+  const Capture &C;
+  const TrainingSet &Pictures;
+  std::string Run; ///< as checkpoints have it
+  double Seconds = 0;
+  unsigned First = 0; ///< iterations that were done before
+  /// \name With the machine's clock on
+  /// @{
+  std::vector<double> Milliseconds;  ///< of each iteration
+  std::vector<StageReport> LastTime; ///< of the last one
+  /// @}
+};
+
+/// One line that says how far the run is; on a terminal it is overwritten.
+void showProgress(const Work &W, const StepReport &R, Clock::time_point Start) {
+  const bool Terminal = isatty(STDERR_FILENO) != 0;
+  constexpr unsigned Every = 50;
+  if (!Terminal && R.Iteration % Every != 0 && R.Iteration != 1)
+    return;
+  const double Seconds =
+      std::chrono::duration<double>(Clock::now() - Start).count();
+  fmt::print(stderr,
+             "{}iteration {}/{}: loss {:.5f}, {} Gaussians, {:.2f} it/s of "
+             "wall time{}",
+             Terminal ? "\r\033[K" : "", R.Iteration,
+             W.A.Run.Settings.Iterations, R.Loss.Value, R.Gaussians,
+             (R.Iteration - W.First) / Seconds, Terminal ? "" : "\n");
+  std::fflush(stderr);
+}
+
+Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
+  Checkpoint C = T.save();
+  if (L.failure())
+    return *L.failure();
+  C.Run = W.Run;
+  return writeCheckpoint(W.A.Checkpoint, C);
+}
+
+Expected<Success> loop(Work &W, Launcher &L, Trainer &T) {
+  const Clock::time_point Start = Clock::now();
+  W.First = T.iteration();
+  const unsigned Last = W.A.Run.Settings.Iterations;
+  while (T.iteration() < Last && Interrupted == 0) {
+    const StepReport R = T.step();
+    std::vector<StageReport> Stages = L.takeStages();
+    if (L.failure()) {
+      if (!L.buildLog().empty())
+        fmt::print(stderr, "{}\n", L.buildLog());
+      return *L.failure();
+    }
+    if (W.A.Breakdown) {
+      W.Milliseconds.push_back(
+          Json::parse(frameJson(Stages))["frame_ms"].get<double>());
+      W.LastTime = std::move(Stages);
+    }
+    showProgress(W, R, Start);
+    if (R.Iteration % W.A.CheckpointEvery == 0 && R.Iteration != Last)
+      if (auto Kept = keep(W, L, T); !Kept)
+        return Kept;
+  }
+  if (isatty(STDERR_FILENO) != 0)
+    fmt::print(stderr, "\n");
+  W.Seconds = std::chrono::duration<double>(Clock::now() - Start).count();
+  if (auto Kept = keep(W, L, T); !Kept)
+    return Kept;
+  if (T.iteration() < Last)
+    return Error{W.A.Checkpoint,
+                 fmt::format("interrupted after iteration {} of {}, which is "
+                             "kept; --resume goes on",
+                             T.iteration(), Last),
+                 ExitCode::LimitReached};
+  return Success{};
+}
+
+double mean(const std::vector<double> &Values) {
+  return std::accumulate(Values.begin(), Values.end(), 0.0) /
+         static_cast<double>(Values.size());
+}
+
+std::string jsonReport(const Work &W, const Device &D, Trainer &T,
+                       const std::vector<double> &Db, const Baselines &B) {
+  Json Views = Json::array();
+  for (std::size_t I = 0; I < Db.size(); ++I)
+    Views.push_back(
+        {{"name", W.Pictures.HeldOut[I].Pose.Name}, {"psnr8_db", Db[I]}});
+  const Json Report{
+      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+      {"device", {{"name", D.name()}, {"version", D.version()}}},
+      {"capture", W.A.Capture},
+      {"run", Json::parse(W.Run)},
+      {"picture_filter", PhotoFilter},
+      {"held_out_by", W.C.HeldOutBy},
+      {"rules", name(Rules::Inria)},
+      {"support", name(Support::Exact)},
+      {"iterations", T.iteration()},
+      {"gaussians", T.gaussians()},
+      {"seconds", W.Seconds},
+      {"iterations_timed", T.iteration() - W.First},
+      {"machine_ms", W.Milliseconds},
+      {"psnr8_db", mean(Db)},
+      {"views", Views},
+      {"baselines_db",
+       {{"constant", B.Constant},
+        {"mean_picture", B.Mean},
+        {"best_training_view", B.BestView}}},
+      {"losses", T.losses()}};
+  return Report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// The losses in so many parts of the run, as means.
+std::string curveOf(const Trainer &T, const std::string &What) {
+  const std::vector<float> &Losses = T.losses();
+  const std::size_t Parts = std::min<std::size_t>(50, Losses.size());
+  Chart C{"Loss in training, " + What, "iteration", "loss", {}, 10, {}, false};
+  ChartSeries Means{"mean of a part", {}};
+  for (std::size_t P = 0; P < Parts; ++P) {
+    const auto Begin = static_cast<std::ptrdiff_t>(P * Losses.size() / Parts);
+    const auto End =
+        static_cast<std::ptrdiff_t>((P + 1) * Losses.size() / Parts);
+    C.Places.push_back(std::to_string(Begin + 1));
+    Means.Values.push_back(
+        std::accumulate(Losses.begin() + Begin, Losses.begin() + End, 0.0) /
+        static_cast<double>(End - Begin));
+  }
+  C.Series.push_back(std::move(Means));
+  return svgOf(C);
+}
+
+Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
+                         Trainer &T) {
+  const Scene S = T.scene();
+  const std::vector<double> Db = T.evaluate();
+  if (L.failure())
+    return *L.failure();
+  if (auto Written = writePly(W.A.Output, S); !Written)
+    return Written;
+  if (!W.A.Curve.empty())
+    if (auto Written = writeFileAtomically(
+            W.A.Curve,
+            curveOf(T, std::filesystem::path(W.A.Capture).filename().string()));
+        !Written)
+      return Written;
+  const Baselines B = baselinesOf(W.Pictures);
+  if (!W.A.Json.empty())
+    if (auto Written =
+            writeFileAtomically(W.A.Json, jsonReport(W, D, T, Db, B));
+        !Written)
+      return Written;
+  fmt::print("{}: {} Gaussians after {} iterations\n", W.A.Output, S.size(),
+             T.iteration());
+  fmt::print("pictures     {} to train on, {} held out ({}); {}\n",
+             W.Pictures.Training.size(), W.Pictures.HeldOut.size(),
+             W.C.HeldOutBy, PhotoFilter);
+  fmt::print("rules        inria, support exact, path {}{}, opacity rate {}\n",
+             name(W.A.Blending),
+             W.A.Blending == Path::Raster
+                 ? fmt::format(", reciprocal {}, sums in {} order",
+                               name(W.A.Backward.Unit),
+                               name(W.A.Backward.Order))
+                 : "",
+             W.A.Run.Settings.OpacityRate);
+  if (T.iteration() > W.First)
+    fmt::print("wall time    {:.1f} s, {:.3f} it/s\n", W.Seconds,
+               (T.iteration() - W.First) / W.Seconds);
+  if (!W.Milliseconds.empty()) {
+    const auto [Least, Most] = std::ranges::minmax(W.Milliseconds);
+    fmt::print("machine time {:.3f} it/s; {:.3f} ms an iteration, {:.3f} to "
+               "{:.3f}\n",
+               1e3 / mean(W.Milliseconds), mean(W.Milliseconds), Least, Most);
+  }
+  fmt::print("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n",
+             mean(Db));
+  fmt::print("without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
+             "training view {:.3f} dB\n",
+             B.Constant, B.Mean, B.BestView);
+  if (!W.LastTime.empty())
+    fmt::print("{}", frameText(W.LastTime, "iteration"));
+  return Success{};
+}
+
+Expected<Success> check(const TrainArguments &A) {
+  if (!A.Output.ends_with(".ply"))
+    return Error{"", fmt::format("-o {}: expected a .ply", A.Output),
+                 ExitCode::Usage};
+  for (const float V : A.Background)
+    if (!(V >= 0 && V <= 1))
+      return Error{"",
+                   fmt::format("--background {}: expected values of 0 to 1", V),
+                   ExitCode::Usage};
+  for (const std::string &File : {A.Output, A.Json, A.Curve, A.Checkpoint})
+    if (auto Writable = checkWritable(File); !Writable)
+      return Writable;
+  return Success{};
+}
+
+Expected<Success> run(TrainArguments &A) {
+  if (auto Checked = check(A); !Checked)
+    return Checked;
+  const auto C = readCapture(A.Capture, A.Exclude);
+  if (!C)
+    return C.error();
+  A.Run.Extent = cameraRing(*C).extent();
+  if (!(A.Run.Extent > 0))
+    return Error{A.Capture, "all training cameras are at one place, expected "
+                            "them around the scene"};
+  std::array<float, 3> Background{};
+  std::copy_n(A.Background.begin(), 3, Background.begin());
+  A.Run.WhiteBackground = Background == std::array<float, 3>{1, 1, 1};
+  const auto Pictures = loadTrainingSet(*C, A.Downscale, Background);
+  if (!Pictures)
+    return Pictures.error();
+  const PictureSource Source{std::string(name(C->Format)), A.Downscale,
+                             Background};
+  Work W(A, *C, *Pictures);
+  W.Run = runText(A.Run, *Pictures, Source, A.ShDegree, A.Blending, A.Backward);
+
+  // The platform reads it when it opens its devices (cl_vorion.h).
+  if (A.Breakdown)
+    setenv("VORION_TIME", "on", 1);
+  auto D = Device::open(A.Device);
+  if (!D)
+    return D.error();
+  if (A.Breakdown && !D->isVorion())
+    return Error{"",
+                 fmt::format("{} has no clock for --breakdown, expected a "
+                             "Vorion device",
+                             D->name()),
+                 ExitCode::Usage};
+  if (A.Blending == Path::Raster && !D->isVorion())
+    return Error{"",
+                 fmt::format("{} has no rasterizer, expected a Vorion device "
+                             "or --path simt",
+                             D->name()),
+                 ExitCode::Usage};
+  Launcher L(*D, "", {});
+  L.beginStage("build");
+  for (const ProgramSpec &P : Trainer::programs())
+    L.build(P);
+  DeviceRenderer Renderer(L, A.Blending, A.Backward, Background);
+  Trainer T(L, Renderer, *Pictures, A.Run);
+  if (A.Resume && std::filesystem::exists(A.Checkpoint)) {
+    const auto Kept = readCheckpoint(A.Checkpoint);
+    if (!Kept)
+      return Kept.error();
+    if (auto Same = checkSameRun(A.Checkpoint, Kept->Run, W.Run); !Same)
+      return Same;
+    T.restore(*Kept);
+    fmt::print(stderr, "going on after iteration {} of {}\n", T.iteration(),
+               A.Checkpoint);
+  } else {
+    T.start(startingScene(
+        *C, {A.Run.Seed, A.ShDegree, A.Run.Settings.MostGaussians}));
+  }
+  if (L.failure()) {
+    if (!L.buildLog().empty())
+      fmt::print(stderr, "{}\n", L.buildLog());
+    return *L.failure();
+  }
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  if (auto Done = loop(W, L, T); !Done)
+    return Done;
+  return finish(W, *D, L, T);
+}
+
+} // namespace
+
+Runner addTrain(CLI::App &App) {
+  auto A = std::make_shared<TrainArguments>();
+  TrainSettings &S = A->Run.Settings;
+  App.add_option("capture", A->Capture,
+                 "Photographs with poses: COLMAP, NeRF-synthetic, "
+                 "transforms.json")
+      ->required();
+  App.add_option("-o,--output", A->Output, "Scene: INRIA's PLY")->required();
+  App.add_option("--iterations", S.Iterations,
+                 fmt::format("Iterations in all (default {})", S.Iterations))
+      ->check(CLI::Range(1U, 10000000U));
+  App.add_option("--downscale", A->Downscale,
+                 "Pictures so many times smaller (default 1)")
+      ->check(CLI::Range(1, 64));
+  App.add_option("--max-gaussians", S.MostGaussians,
+                 fmt::format("No more Gaussians than this (default {})",
+                             S.MostGaussians))
+      ->check(CLI::Range(4U, 100000000U));
+  App.add_option("--exclude", A->Exclude, "Leave out this picture");
+  App.add_option("--seed", A->Run.Seed, "Of all random numbers (default 0)");
+  App.add_option("--sh-degree", A->ShDegree,
+                 "Bands of spherical harmonics (default 3)")
+      ->check(CLI::Range(0, MaxShDegree));
+  App.add_option("--background", A->Background,
+                 "Colour r,g,b behind the scene and under transparent pixels "
+                 "(default 0,0,0)")
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("R,G,B");
+  addChoice(App, "--path", A->Blending, {Path::Raster, Path::Simt},
+            "Who blends and goes back: the rasterizer or the cores");
+  addChoice(App, "--reciprocal", A->Backward.Unit,
+            {Reciprocal::Exact, Reciprocal::EvenLeft, Reciprocal::EvenBest,
+             Reciprocal::LogLeft, Reciprocal::LogBest, Reciprocal::Mantissa2,
+             Reciprocal::Mantissa3},
+            "The rasterizer's unit for 1/(1 - alpha)");
+  addChoice(App, "--sum", A->Backward.Order,
+            {GatherOrder::Tree, GatherOrder::Rows},
+            "How the rasterizer's gather adds up rows");
+  App.add_option("--checkpoint", A->Checkpoint,
+                 "Where the run is kept (default: the output's name and "
+                 ".checkpoint)");
+  App.add_option("--checkpoint-every", A->CheckpointEvery,
+                 "Iterations from one to the next (default 1000)")
+      ->check(CLI::PositiveNumber);
+  App.add_flag("--resume", A->Resume,
+               "Go on from the checkpoint, if there is one");
+  App.add_flag("--breakdown", A->Breakdown,
+               "Time every iteration on the machine (docs/model.md), the last "
+               "one by stage");
+  App.add_option("--json", A->Json, "Write what was done, and its losses");
+  App.add_option("--curve", A->Curve, "Draw the losses (.svg)");
+  App.add_option("--device", A->Device, "Part of the OpenCL device's name");
+  return [A] {
+    if (A->Checkpoint.empty())
+      A->Checkpoint = A->Output + ".checkpoint";
+    return run(*A);
+  };
+}
+
+} // namespace vorion::splat

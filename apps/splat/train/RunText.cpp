@@ -1,0 +1,88 @@
+#include "RunText.h"
+
+#include "Hash.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Of all that the pictures and their poses say.
+std::string hashOf(const TrainingSet &Set) {
+  std::string All;
+  const auto Add = [&All](const auto *Values, std::size_t Count) {
+    All.append(reinterpret_cast<const char *>(Values), Count * sizeof(*Values));
+  };
+  for (const auto *Views : {&Set.Training, &Set.HeldOut}) {
+    All += fmt::format("{};", Views->size());
+    for (const TrainView &V : *Views) {
+      const Camera &C = V.Pose;
+      All += fmt::format("{};{};{};", C.Name, C.Width, C.Height);
+      for (const double D : {C.Fx, C.Fy, C.Cx, C.Cy})
+        Add(&D, 1);
+      Add(C.Position.data(), 3);
+      for (const auto &Row : C.Rotation)
+        Add(Row.data(), 3);
+      Add(V.Picture.Rgb.data(), V.Picture.Rgb.size());
+    }
+  }
+  return fnv1a64(All);
+}
+
+} // namespace
+
+std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
+                    const PictureSource &Source, int ShDegree, Path Blending,
+                    const BackwardOptions &Backward) {
+  const TrainSettings &S = Run.Settings;
+  const Json J{
+      {"capture", Source.Format},
+      {"pictures", hashOf(Pictures)},
+      {"downscale", Source.Downscale},
+      {"background", Source.Background},
+      {"extent", Run.Extent},
+      {"seed", Run.Seed},
+      {"sh_degree", ShDegree},
+      {"path", name(Blending)},
+      {"reciprocal", name(Backward.Unit)},
+      {"sums", name(Backward.Order)},
+      {"max_gaussians", S.MostGaussians},
+      {"adam", {S.Beta1, S.Beta2, S.Epsilon}},
+      {"position_rate", {S.PositionRate, S.LastPositionRate, S.PositionSteps}},
+      {"rates",
+       {S.ColourRate, S.LaterColourRate, S.OpacityRate, S.ScaleRate,
+        S.RotationRate}},
+      {"dssim", S.DSsim},
+      {"sh_interval", S.ShInterval},
+      {"densify",
+       {S.DensifyInterval, S.DensifyAfter, S.DensifyUntil, S.DensifyGradient,
+        S.SplitExtent, S.SplitShrink}},
+      {"prune", {S.LeastOpacity, S.MostExtent, S.MostRadius}},
+      {"reset", {S.ResetInterval, S.ResetOpacity, S.WhiteReset}}};
+  return J.dump();
+}
+
+Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
+                               const std::string &Wanted) {
+  if (Has == Wanted)
+    return Success{};
+  const Json A = Json::parse(Has, nullptr, false);
+  const Json B = Json::parse(Wanted, nullptr, false);
+  for (const auto &[Key, Value] : B.items())
+    if (!A.is_object() || !A.contains(Key) || A[Key] != Value)
+      return Error{File,
+                   fmt::format("a checkpoint of another run: {} is {}, "
+                               "expected {}",
+                               Key,
+                               A.is_object() && A.contains(Key) ? A[Key].dump()
+                                                                : "missing",
+                               Value.dump()),
+                   ExitCode::Usage};
+  return Error{File, "a checkpoint of another run, expected one of this",
+               ExitCode::Usage};
+}
+
+} // namespace vorion::splat

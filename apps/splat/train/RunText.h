@@ -1,0 +1,31 @@
+/// What a training run was asked to do, as checkpoints and reports have it.
+#pragma once
+
+#include "../render/Backward.h"
+#include "Trainer.h"
+
+#include <array>
+#include <string>
+
+namespace vorion::splat {
+
+/// How the pictures were made from the capture.
+struct PictureSource {
+  std::string Format; ///< of the capture
+  int Downscale = 1;
+  std::array<float, 3> Background{};
+};
+
+/// One line of JSON that differs where results would: pictures and poses (by
+/// hash), settings, seed, spherical harmonics, who renders. The number of
+/// iterations is not part of it, so that a run can go on for longer.
+std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
+                    const PictureSource &Source, int ShDegree, Path Blending,
+                    const BackwardOptions &Backward);
+
+/// An Error of usage that names the first thing in which \p Wanted differs from
+/// what \p File was written for, or nothing.
+Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
+                               const std::string &Wanted);
+
+} // namespace vorion::splat
