@@ -356,7 +356,7 @@ void RasterShadow::rasterCommand(const RasterWork &W) {
   // Gradients go to the core, which follows them no further.
   if (C.isBackward())
     return;
-  if (checkCommand(C, *Global) != VR_OK)
+  if (C.isBackward() || checkCommand(C, *Global) != VR_OK)
     return;
   auto T = std::make_unique<Tile>();
   T->reset(C);

@@ -64,10 +64,10 @@ struct RasterFindings {
   static constexpr size_t WorstKept = 100;
 };
 
-/// Repeats each command with the unit's own datapath on a tile of its own, and
-/// beside it each fragment in double from the shadows of the records. Follows
-/// the decisions of the datapath; counts those that the shadow takes
-/// otherwise. What the commands write has shadows afterwards.
+/// Repeats each command that renders with the unit's own datapath on a tile of
+/// its own, and beside it each fragment in double from the shadows of the
+/// records. Follows the decisions of the datapath; counts those that the shadow
+/// takes otherwise. What the commands write has shadows afterwards.
 class RasterShadow : public Observer {
 public:
   /// \p Lanes: what the units have.

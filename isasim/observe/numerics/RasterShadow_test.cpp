@@ -1,6 +1,7 @@
 #include "observe/numerics/RasterShadow.h"
 
 #include "pixel/PixelUnit.h"
+#include "raster/CommandInput.h"
 #include "raster/RasterTest.h"
 
 #include <random>
@@ -236,6 +237,23 @@ TEST_F(RasterShadowTest, followsPushedAndRefusedCommands) {
   Bad[3].Opacity = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(render(Bad).Commands, 0U);
   EXPECT_EQ(render(scene(), {.Cutoff = 2}).Commands, 0U);
+}
+
+TEST_F(RasterShadowTest, leavesTheWayBackAlone) {
+  configure(scene(), {.Height = 32});
+  set(Csr::Start, 1U);
+  Command C = Agent.front();
+  Unit.finish(Agent);
+  C.Mode = ModeBackward.put(1);
+  C.Upstream = Pixels + 0x80000;
+  C.Last = Pixels + 0xC0000;
+  ASSERT_EQ(checkCommand(C, Memory), VR_OK);
+  RasterShadow S(Sites, Shadows);
+  S.useMemory(Memory);
+  RasterCounters Work;
+  Work.Gaussians = C.Count;
+  S.rasterCommand({0, 0, C, Work});
+  EXPECT_EQ(S.findings().Commands, 0U);
 }
 
 TEST_F(RasterShadowTest, goesOnWhereThePixelUnitDoes) {
