@@ -2,6 +2,9 @@
 
 #include "../io/Axes.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace vorion::splat {
 
 void addSceneOptions(CLI::App &App, SceneArguments &A) {
@@ -27,8 +30,14 @@ Expected<SceneFile> loadScene(const SceneArguments &A) {
     Change = *Parsed;
   }
   auto File = readScene(A.Path, A.Options);
-  if (File)
-    changeAxes(File->Gaussians, Change);
+  if (!File)
+    return File;
+  changeAxes(File->Gaussians, Change);
+  if (!File->Skipped.empty())
+    fmt::print(stderr,
+               "splat: warning: {}: skips properties that no effect here "
+               "reads: {}\n",
+               A.Path, fmt::join(File->Skipped, ", "));
   return File;
 }
 

@@ -1,7 +1,9 @@
 #include "Cameras.h"
 
+#include "Unsupported.h"
 #include "vorion/support/File.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -47,6 +49,7 @@ public:
     C.Fy = focal("fy");
     C.Cx = Record.contains("cx") ? number("cx") : 0.5 * C.Width;
     C.Cy = Record.contains("cy") ? number("cy") : 0.5 * C.Height;
+    refuseUnsupported();
     if (!Problem && !isRotation(C.Rotation))
       wrong("rotation", "orthonormal axes with determinant +1");
     if (Problem)
@@ -119,6 +122,31 @@ private:
     }
     if (!Good)
       wrong(Key, RowWanted);
+  }
+
+  /// Whether \p J says nothing: zero, false, empty, or made of such.
+  static bool isNothing(const Json &J) {
+    if (J.is_array() || J.is_object())
+      return std::all_of(J.begin(), J.end(), isNothing);
+    return J.is_null() || (J.is_number() && J.get<double>() == 0) ||
+           (J.is_boolean() && !J.get<bool>()) ||
+           (J.is_string() && J.get_ref<const std::string &>().empty());
+  }
+
+  void refuseUnsupported() {
+    for (const auto &[Key, Value] : Record.items()) {
+      if (const auto Meaning = unsupportedCameraKey(Key);
+          Meaning && !isNothing(Value))
+        fail(fmt::format("key {} calls for {}, which is not supported, "
+                         "expected a pinhole camera",
+                         Key, *Meaning));
+      if (isCameraModelKey(Key) && Value.is_string() &&
+          !isPinholeModel(Value.get<std::string>()))
+        fail(fmt::format(
+            "key {} calls for the camera model {}, which is not "
+            "supported, expected a pinhole camera",
+            Key, Value.dump(-1, ' ', true, Json::error_handler_t::replace)));
+    }
   }
 
   const std::string &Path;

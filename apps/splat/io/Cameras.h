@@ -34,8 +34,9 @@ struct Camera {
 bool isRotation(const std::array<std::array<double, 3>, 3> &R);
 
 /// Reads all records: id, img_name, width, height, position, rotation, fx, fy
-/// and optionally cx, cy. Other keys are ignored. Every error names file,
-/// record and key.
+/// and optionally cx, cy. Keys that call for another camera than a pinhole's
+/// (Unsupported.h) are errors, unless they are zero; others are ignored. Every
+/// error names file, record and key.
 Expected<std::vector<Camera>> readCameras(const std::string &Path);
 
 /// The camera of \p Path whose img_name is \p View, or else whose id is

@@ -109,6 +109,38 @@ TEST(Cameras, EveryMissingKeyIsNamedWithItsView) {
             "record 1: key img_name is missing, expected a string");
 }
 
+TEST(Cameras, WhatIsNoPinholeIsRefusedByName) {
+  const TestFolder Folder;
+  const auto With = [&](const char *Key, const nlohmann::json &Value) {
+    auto R = record();
+    R[Key] = Value;
+    return errorOf(Folder, nlohmann::json::array({R}).dump());
+  };
+  EXPECT_EQ(With("k1", -1e-9),
+            "view front: key k1 calls for lens distortion, which is not "
+            "supported, expected a pinhole camera");
+  EXPECT_NE(With("distortion", {0, 0, 1e-3}).find("lens distortion"),
+            std::string::npos);
+  EXPECT_NE(With("distortion_params", {{"k1", 0.1}}).find("lens distortion"),
+            std::string::npos);
+  EXPECT_NE(With("skew", 0.5).find("skewed pixels"), std::string::npos);
+  EXPECT_NE(With("is_fisheye", true).find("key is_fisheye calls for"),
+            std::string::npos);
+  EXPECT_NE(With("camera_model", "EQUIRECTANGULAR")
+                .find("key camera_model calls for the camera model "
+                      "\"EQUIRECTANGULAR\", which is not supported"),
+            std::string::npos);
+  for (const auto &[Key, Value] :
+       std::initializer_list<std::pair<const char *, nlohmann::json>>{
+           {"k1", 0},
+           {"distortion", {0, 0.0, -0.0, 0}},
+           {"is_fisheye", false},
+           {"camera_model", "SIMPLE_PINHOLE"},
+           {"model", "OPENCV"},
+           {"comment", "k1"}})
+    EXPECT_EQ(With(Key, Value), "") << Key;
+}
+
 TEST(Cameras, WrongValuesAreNamed) {
   const TestFolder Folder;
   const auto Expect = [&](const char *Key, const nlohmann::json &Value) {

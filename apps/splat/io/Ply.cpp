@@ -2,11 +2,14 @@
 
 #include "CompressedPly.h"
 #include "PlyHeader.h"
+#include "Unsupported.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <set>
+#include <string_view>
 #include <vector>
 
 namespace vorion::splat {
@@ -16,6 +19,7 @@ namespace {
 struct Layout {
   int ShDegree = 0;
   std::vector<std::size_t> Means, LogScales, Quats, Opacity, Sh;
+  std::vector<std::string> Skipped; ///< names of other properties
 };
 
 std::vector<std::string> numbered(const char *Name, int Count) {
@@ -24,6 +28,14 @@ std::vector<std::string> numbered(const char *Name, int Count) {
   for (int I = 0; I < Count; ++I)
     Names.push_back(fmt::format("{}_{}", Name, I));
   return Names;
+}
+
+/// Viewers write these for others; a scene's own colours and shapes are in
+/// what is read.
+bool isHarmless(std::string_view Name) {
+  constexpr std::array<std::string_view, 7> Names{
+      "nx", "ny", "nz", "red", "green", "blue", "alpha"};
+  return std::ranges::find(Names, Name) != Names.end();
 }
 
 /// Finds the needed properties; the degree follows from the number of f_rest.
@@ -49,11 +61,21 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
                 {L.Quats, numbered("rot", 4)},
                 {L.Opacity, {"opacity"}},
                 {L.Sh, std::move(ShNames)}};
+  std::set<std::string> Known;
   for (const auto &[To, Names] : Needed) {
     auto Offsets = Vertex.offsets(Where, Names, PlyType::Float);
     if (!Offsets)
       return Offsets.error();
     To = std::move(*Offsets);
+    Known.insert(Names.begin(), Names.end());
+  }
+  for (const PlyProperty &P : Vertex.Properties) {
+    if (const auto Meaning = unsupportedProperty(P.Name))
+      return Error{Where, fmt::format("property {} of element {} calls for {}, "
+                                      "which is not supported",
+                                      P.Name, Vertex.Name, *Meaning)};
+    if (!Known.contains(P.Name) && !isHarmless(P.Name))
+      L.Skipped.push_back(P.Name);
   }
   return L;
 }
@@ -76,6 +98,7 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File) {
 
   SceneFile Result;
   Result.Format = SceneFormat::Ply;
+  Result.Skipped = L->Skipped;
   Scene &S = Result.Gaussians = Scene::sized(Vertex->Count, L->ShDegree);
   const struct {
     std::vector<float> &To;

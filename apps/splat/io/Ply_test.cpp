@@ -77,7 +77,7 @@ TEST(Ply, AcceptsAnyPropertyOrderAndSkipsWhatItDoesNotNeed) {
     Body += 'p';
     Next += 1;
   }
-  File += "property double time\r\nend_header\r\n" + Body + "12345678";
+  File += "property double weight\r\nend_header\r\n" + Body + "12345678";
   const auto S = readPly(Folder.write("s.ply", File));
   ASSERT_TRUE(S) << S.error().What;
   EXPECT_EQ(S->Means, (std::vector<float>{9, 8, 10}));
@@ -85,6 +85,27 @@ TEST(Ply, AcceptsAnyPropertyOrderAndSkipsWhatItDoesNotNeed) {
   EXPECT_EQ(S->Quats, (std::vector<float>{11, 12, 2, 1}));
   EXPECT_EQ(S->OpacityLogits, (std::vector<float>{4}));
   EXPECT_EQ(S->Sh, (std::vector<float>{13, 14, 3}));
+}
+
+TEST(Ply, PropertiesThatWouldChangeThePictureAreRefusedOthersNamed) {
+  const TestFolder Folder;
+  const std::string File = formatPly(numberedScene(2, 0));
+  const auto With = [&](const std::string &Name) {
+    std::string Changed = File;
+    Changed.replace(Changed.find("float nx"), 8, "float " + Name);
+    return Changed;
+  };
+  EXPECT_EQ(errorOf(Folder, With("filter_3D")),
+            "property filter_3D of element vertex calls for Mip-Splatting's 3D "
+            "filter, which is not supported");
+  EXPECT_NE(errorOf(Folder, With("trbf_center")).find("motion over time"),
+            std::string::npos);
+  const auto Plain = readScene(Folder.write("s.ply", File));
+  ASSERT_TRUE(Plain);
+  EXPECT_TRUE(Plain->Skipped.empty());
+  const auto Labelled = readScene(Folder.write("s.ply", With("label")));
+  ASSERT_TRUE(Labelled);
+  EXPECT_EQ(Labelled->Skipped, std::vector<std::string>{"label"});
 }
 
 TEST(Ply, EveryTruncationIsAnError) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -29,6 +30,9 @@ struct SceneFile {
   /// `--antialiased`); false where the format cannot say.
   bool Antialiased = false;
   std::size_t Files = 1; ///< data sets that were joined: chunks of a folder
+  /// Properties of a PLY that were not read and are not known to mean anything
+  /// for the picture; what is known to is an error (Unsupported.h).
+  std::vector<std::string> Skipped;
 };
 
 /// What a reader may choose.

@@ -75,7 +75,7 @@ public:
     return Added;
   }
 
-  SceneFile Result{{}, SceneFormat::StreamedSog, 0, false, 0};
+  SceneFile Result{{}, SceneFormat::StreamedSog, 0, false, 0, {}};
 };
 
 /// Sub-folders of \p Path that hold a data set, by name.

@@ -1,0 +1,103 @@
+#include "Unsupported.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+
+namespace vorion::splat {
+
+namespace {
+
+/// A name, or with a `*` at its end all that begin so.
+struct Meaning {
+  std::string_view Name, Effect;
+};
+
+std::optional<std::string_view> find(std::span<const Meaning> Known,
+                                     std::string_view Name) {
+  for (const Meaning &M : Known) {
+    const bool Prefix = M.Name.ends_with('*');
+    const std::string_view Word = M.Name.substr(0, M.Name.size() - Prefix);
+    if (Prefix ? Name.starts_with(Word) : Name == Word)
+      return M.Effect;
+  }
+  return std::nullopt;
+}
+
+constexpr std::string_view Motion = "motion over time";
+constexpr std::string_view Shading = "shading by lights";
+constexpr std::string_view Falloff = "another falloff than the Gaussian's";
+constexpr std::string_view Lobes = "colour by spherical Gaussians";
+
+constexpr std::array Properties{
+    Meaning{"filter_3D", "Mip-Splatting's 3D filter"},
+    Meaning{"filter_3d", "Mip-Splatting's 3D filter"},
+    Meaning{"t", Motion},
+    Meaning{"time", Motion},
+    Meaning{"scale_t", Motion},
+    Meaning{"trbf_*", Motion},
+    Meaning{"motion_*", Motion},
+    Meaning{"omega_*", Motion},
+    Meaning{"rot_r_*", Motion},
+    Meaning{"beta", Falloff},
+    Meaning{"betas", Falloff},
+    Meaning{"shape", Falloff},
+    Meaning{"sg_*", Lobes},
+    Meaning{"f_sg_*", Lobes},
+    Meaning{"f_asg_*", Lobes},
+    Meaning{"albedo*", Shading},
+    Meaning{"metallic", Shading},
+    Meaning{"roughness", Shading},
+    Meaning{"specular*", Shading},
+};
+
+constexpr std::string_view Distortion = "lens distortion";
+constexpr std::string_view Projection = "a projection other than a pinhole's";
+
+constexpr std::array CameraKeys{
+    Meaning{"k1", Distortion},
+    Meaning{"k2", Distortion},
+    Meaning{"k3", Distortion},
+    Meaning{"k4", Distortion},
+    Meaning{"k5", Distortion},
+    Meaning{"k6", Distortion},
+    Meaning{"p1", Distortion},
+    Meaning{"p2", Distortion},
+    Meaning{"dist_coeffs", Distortion},
+    Meaning{"distortion*", Distortion},
+    Meaning{"radial_*", Distortion},
+    Meaning{"tangential_*", Distortion},
+    Meaning{"thin_prism*", Distortion},
+    Meaning{"fisheye*", Projection},
+    Meaning{"is_fisheye", Projection},
+    Meaning{"ortho*", Projection},
+    Meaning{"skew", "skewed pixels"},
+    Meaning{"rolling_shutter*", "a rolling shutter"},
+};
+
+} // namespace
+
+std::optional<std::string_view> unsupportedProperty(std::string_view Name) {
+  return find(Properties, Name);
+}
+
+std::optional<std::string_view> unsupportedCameraKey(std::string_view Key) {
+  return find(CameraKeys, Key);
+}
+
+bool isCameraModelKey(std::string_view Key) {
+  return Key == "camera_model" || Key == "model" || Key == "projection" ||
+         Key == "projection_type";
+}
+
+bool isPinholeModel(std::string Model) {
+  std::ranges::transform(Model, Model.begin(), [](unsigned char C) {
+    return static_cast<char>(std::tolower(C));
+  });
+  // OpenCV's model is a pinhole where its coefficients are zero.
+  return Model == "pinhole" || Model == "simple_pinhole" ||
+         Model == "perspective" || Model == "opencv";
+}
+
+} // namespace vorion::splat
