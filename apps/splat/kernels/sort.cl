@@ -1,50 +1,143 @@
 // One pass of a stable least-significant-digit radix sort of (key, value)
-// pairs. Each work-item owns one stretch of `chunk` pairs and counts it alone,
-// so the result depends on no order of arrival and needs no atomics:
-//   sort_count    histogram[digit][item] of every work-item's stretch
-//   (exclusive scan of the histogram: scan.cl)
+// pairs. Each group owns one stretch of `chunk` pairs:
+//   sort_count    histogram[group][digit] of every group's stretch
+//   sort_offsets  sums each digit's column of that, from the first group on
 //   sort_scatter  every pair to its digit's next place
-// The counters of the 16 work-items of a group are interleaved in local memory
-// (digit * 16 + lane), one bank a lane. BINS is the most digits of a pass.
+//
+// A group is one warp, so that what neighbouring lanes read lies in one line
+// and a digit has one open line a core. Its lanes take neighbouring pairs, and
+// a digit's next place is an atomic addition of all of them at once, which a
+// Vorion core does in lane order (docs/abi.md): that keeps the sort stable. On
+// any other device a group must be a single work-item (Sorter.cpp).
 
-#define BINS 256
-#define LANES 16
+#define BINS 1024
+#define MOST_LANES 16
+// Loads in flight of each work-item.
+#define BATCH 4
 
-__kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
-sort_count(__global const uint *keys, __global uint *histogram, uint count,
-           uint chunk, uint shift, uint digits) {
-  __local uint bins[BINS * LANES];
-  const uint lane = get_local_id(0);
-  const uint item = get_global_id(0);
-  const uint items = get_global_size(0);
-  for (uint d = 0; d < digits; ++d)
-    bins[d * LANES + lane] = 0;
-  const uint begin = min(item * chunk, count);
-  const uint end = min(begin + chunk, count);
-  for (uint i = begin; i < end; ++i)
-    ++bins[(keys[i] >> shift & (digits - 1)) * LANES + lane];
-  for (uint d = 0; d < digits; ++d)
-    histogram[d * items + item] = bins[d * LANES + lane];
+typedef struct {
+  uint begin, end; // pairs
+} stretch;
+
+static stretch own_stretch(uint count, uint chunk) {
+  const uint begin = min((uint)get_group_id(0) * chunk, count);
+  return (stretch){begin, min(begin + chunk, count)};
 }
 
-__kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
-sort_scatter(__global const uint *keys, __global const uint *values,
-             __global const uint *offsets, __global uint *keys_out,
-             __global uint *values_out, uint count, uint chunk, uint shift,
-             uint digits) {
-  __local uint places[BINS * LANES];
+__kernel void sort_count(__global const uint *keys, __global uint *histogram,
+                         uint count, uint chunk, uint shift, uint digits) {
+  __local uint bins[BINS];
   const uint lane = get_local_id(0);
-  const uint item = get_global_id(0);
-  const uint items = get_global_size(0);
-  for (uint d = 0; d < digits; ++d)
-    places[d * LANES + lane] = offsets[d * items + item];
-  const uint begin = min(item * chunk, count);
-  const uint end = min(begin + chunk, count);
-  for (uint i = begin; i < end; ++i) {
+  const uint lanes = get_local_size(0);
+  const uint mask = digits - 1;
+  for (uint d = lane; d < digits; d += lanes)
+    bins[d] = 0;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const stretch own = own_stretch(count, chunk);
+  // All lanes leave the first loop together, which keeps pairs in order.
+  uint line = own.begin;
+  for (; line + BATCH * lanes <= own.end; line += BATCH * lanes) {
+    uint key[BATCH];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k)
+      key[k] = keys[line + k * lanes + lane];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k)
+      atomic_inc(&bins[key[k] >> shift & mask]);
+  }
+  for (uint i = line + lane; i < own.end; i += lanes)
+    atomic_inc(&bins[keys[i] >> shift & mask]);
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint d = lane; d < digits; d += lanes)
+    histogram[get_group_id(0) * digits + d] = bins[d];
+}
+
+// A work-item a digit; totals[digit] gets all of it.
+__kernel void sort_offsets(__global uint *histogram, __global uint *totals,
+                           uint groups, uint digits) {
+  const uint digit = get_global_id(0);
+  uint sum = 0;
+  for (uint group = 0; group < groups; ++group) {
+    const uint own = histogram[group * digits + digit];
+    histogram[group * digits + digit] = sum;
+    sum += own;
+  }
+  totals[digit] = sum;
+}
+
+typedef struct {
+  uint places[BINS];
+  uint sums[BINS + MOST_LANES];
+  uint shares[MOST_LANES];
+} workspace;
+
+// places[digit] = the group's first place for it. The digits are summed by
+// lanes, each a share of its own, which are apart by an odd number of words so
+// that lanes meet in no bank.
+static void first_places(__global const uint *histogram,
+                         __global const uint *totals, uint digits,
+                         __local workspace *w) {
+  const uint lane = get_local_id(0);
+  const uint lanes = get_local_size(0);
+  const uint share = (digits + lanes - 1) / lanes | 1;
+  for (uint d = lane; d < digits; d += lanes)
+    w->sums[d] = totals[d];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  const uint begin = min(lane * share, digits);
+  const uint end = min(begin + share, digits);
+  uint sum = 0;
+  for (uint d = begin; d < end; ++d) {
+    const uint own = w->sums[d];
+    w->sums[d] = sum;
+    sum += own;
+  }
+  w->shares[lane] = sum;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint before = 0;
+  for (uint other = 0; other < lanes; ++other)
+    before += other < lane ? w->shares[other] : 0;
+  for (uint d = begin; d < end; ++d)
+    w->sums[d] += before;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  for (uint d = lane; d < digits; d += lanes)
+    w->places[d] = w->sums[d] + histogram[get_group_id(0) * digits + d];
+  barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+__kernel void sort_scatter(__global const uint *keys,
+                           __global const uint *values,
+                           __global const uint *histogram,
+                           __global const uint *totals, __global uint *keys_out,
+                           __global uint *values_out, uint count, uint chunk,
+                           uint shift, uint digits) {
+  __local workspace w;
+  first_places(histogram, totals, digits, &w);
+  const uint lane = get_local_id(0);
+  const uint lanes = get_local_size(0);
+  const uint mask = digits - 1;
+  const stretch own = own_stretch(count, chunk);
+  // As in sort_count.
+  uint line = own.begin;
+  for (; line + BATCH * lanes <= own.end; line += BATCH * lanes) {
+    uint key[BATCH], value[BATCH], place[BATCH];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k)
+      key[k] = keys[line + k * lanes + lane];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k)
+      value[k] = values[line + k * lanes + lane];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k)
+      place[k] = atomic_inc(&w.places[key[k] >> shift & mask]);
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k) {
+      keys_out[place[k]] = key[k];
+      values_out[place[k]] = value[k];
+    }
+  }
+  for (uint i = line + lane; i < own.end; i += lanes) {
     const uint key = keys[i];
-    const uint bin = (key >> shift & (digits - 1)) * LANES + lane;
-    const uint place = places[bin];
-    places[bin] = place + 1;
+    const uint place = atomic_inc(&w.places[key >> shift & mask]);
     keys_out[place] = key;
     values_out[place] = values[i];
   }

@@ -7,65 +7,94 @@
 namespace vorion::splat {
 
 namespace {
-constexpr std::uint32_t Lanes = 16;
-/// Digits of one pass: what a group's counters in local memory allow
-/// (kernels/sort.cl, BINS).
-constexpr unsigned MostDigitBits = 8;
-/// Below this, a work-item's own cost (a counter a digit) outweighs its share.
-constexpr std::uint32_t LeastSortChunk = 256;
+/// Of one pass: as many as half an L2 slice holds open lines for, and at most
+/// BINS of kernels/sort.cl.
+constexpr unsigned MostDigitBits = 10;
+/// Words of a cache line, which neighbouring stretches do not share.
+constexpr std::uint32_t LineWords = 16;
+/// Below this, a group's own cost outweighs its share.
+constexpr std::uint32_t LeastChunk = 256;
 constexpr std::uint32_t LeastScanChunk = 64;
 
 std::uint32_t divideUp(std::uint32_t A, std::uint32_t B) {
   return A / B + (A % B != 0 ? 1 : 0);
 }
+
+/// Work-items that a core of \p D steps together, in order where they meet in
+/// local memory (docs/abi.md); 1 on a device that says nothing of its order.
+std::uint32_t lanesOf(const Device &D) {
+  // CL_DEVICE_PREFERRED_WORK_GROUP_SIZE_MULTIPLE, which OpenCL 1.2 lacks.
+  constexpr cl_device_info GroupMultiple = 0x1067;
+  std::size_t Lanes = 1;
+  if (!D.isVorion() || D.handle().getInfo(GroupMultiple, &Lanes) != CL_SUCCESS)
+    return 1;
+  return static_cast<std::uint32_t>(Lanes);
+}
+
+/// Passes of equal width.
+struct Passes {
+  explicit Passes(unsigned Bits)
+      : Number(std::max(1U, divideUp(Bits, MostDigitBits))),
+        DigitBits(std::max(1U, divideUp(Bits, Number))),
+        Digits(1U << DigitBits) {}
+  unsigned Number, DigitBits;
+  std::uint32_t Digits;
+};
 } // namespace
 
 Sorter::Sorter(Launcher &Launch)
-    : L(Launch),
-      // Two groups a core even out what the groups' contents make uneven.
-      MostItems(2 * Lanes * std::max(1U, Launch.device().computeUnits())) {
-  const std::uint64_t Words = std::uint64_t{MostItems} << MostDigitBits;
-  Sums = L.allocate("prefix sums", 4 * std::uint64_t{MostItems});
-  Histogram = L.allocate("sort's histograms", 4 * Words);
-  Offsets = L.allocate("sort's offsets", 4 * (Words + 1));
+    : L(Launch), Groups(std::max(1U, Launch.device().computeUnits())),
+      Lanes(lanesOf(Launch.device())) {
+  constexpr std::uint64_t Digits = 1U << MostDigitBits;
+  Histogram = L.allocate("sort's histograms", 4 * Digits * Groups);
+  Totals = L.allocate("sort's totals", 4 * Digits);
+  Sums = L.allocate("prefix sums", 4 * std::uint64_t{scanItems()});
 }
 
-Sorter::Share Sorter::share(std::uint32_t Count,
-                            std::uint32_t LeastChunk) const {
-  const std::uint32_t Chunk = std::max(LeastChunk, divideUp(Count, MostItems));
-  return {divideUp(divideUp(Count, Chunk), Lanes) * Lanes, Chunk};
-}
+std::uint32_t Sorter::scanItems() const { return 2 * LineWords * Groups; }
 
 void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out,
                   std::uint32_t Count) {
-  const Share S = share(Count, LeastScanChunk);
-  L.run(ScanProgram, "scan_sums", S.Items, Lanes, In, Sums, Count, S.Chunk);
-  L.run(ScanProgram, "scan_partials", 1, 1, Sums, S.Items);
-  L.run(ScanProgram, "scan_apply", S.Items, Lanes, In, Sums, Out, Count,
-        S.Chunk);
+  const std::uint32_t Chunk =
+      std::max(LeastScanChunk, divideUp(Count, scanItems()));
+  const std::uint32_t Items =
+      divideUp(divideUp(Count, Chunk), LineWords) * LineWords;
+  L.run(ScanProgram, "scan_sums", Items, LineWords, In, Sums, Count, Chunk);
+  L.run(ScanProgram, "scan_partials", 1, 1, Sums, Items);
+  L.run(ScanProgram, "scan_apply", Items, LineWords, In, Sums, Out, Count,
+        Chunk);
+}
+
+Sorter::Share Sorter::share(std::uint32_t Count) const {
+  const std::uint32_t Lines =
+      divideUp(std::max(LeastChunk, divideUp(Count, Groups)), LineWords);
+  return {std::max(1U, divideUp(Count, Lines * LineWords)), Lanes,
+          Lines * LineWords};
 }
 
 Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
                            std::uint32_t Count, KeyBits Bits) {
-  const unsigned Width = Bits.End - Bits.First;
-  if (Count == 0 || Width == 0)
+  if (Count == 0 || Bits.First == Bits.End)
     return Input;
-  const unsigned Passes = divideUp(Width, MostDigitBits);
-  const unsigned DigitBits = divideUp(Width, Passes);
-  const std::uint32_t Digits = 1U << DigitBits;
-  const Share S = share(Count, LeastSortChunk);
+  const Passes P(Bits.End - Bits.First);
   Pairs From = Input;
-  for (unsigned Pass = 0; Pass < Passes; ++Pass) {
+  for (unsigned Pass = 0; Pass < P.Number; ++Pass) {
     const Pairs &To = From.Keys() == A.Keys() ? B : A;
-    const std::uint32_t Shift = Bits.First + Pass * DigitBits;
-    L.run(SortProgram, "sort_count", S.Items, Lanes, From.Keys, Histogram,
-          Count, S.Chunk, Shift, Digits);
-    scan(Histogram, Offsets, Digits * S.Items);
-    L.run(SortProgram, "sort_scatter", S.Items, Lanes, From.Keys, From.Values,
-          Offsets, To.Keys, To.Values, Count, S.Chunk, Shift, Digits);
+    pass(From, To, Count, Bits.First + Pass * P.DigitBits, P.Digits);
     From = To;
   }
   return From;
+}
+
+void Sorter::pass(const Pairs &From, const Pairs &To, std::uint32_t Count,
+                  unsigned Shift, std::uint32_t Digits) {
+  const Share S = share(Count);
+  L.run(SortProgram, "sort_count", S.items(), S.Lanes, From.Keys, Histogram,
+        Count, S.Chunk, Shift, Digits);
+  L.run(SortProgram, "sort_offsets", Digits, std::min(Digits, LineWords),
+        Histogram, Totals, S.Groups, Digits);
+  L.run(SortProgram, "sort_scatter", S.items(), S.Lanes, From.Keys, From.Values,
+        Histogram, Totals, To.Keys, To.Values, Count, S.Chunk, Shift, Digits);
 }
 
 } // namespace vorion::splat

@@ -6,14 +6,13 @@
 namespace vorion::splat {
 
 /// Needs the programs scan and sort to be built. Results depend on the input
-/// alone, not on how many work-items share the work.
+/// alone, not on how many groups share the work.
 class Sorter {
 public:
-  /// Keys and values of \p Count pairs, sorted.
+  /// Keys and values of some pairs.
   struct Pairs {
     cl::Buffer Keys, Values;
   };
-
   explicit Sorter(Launcher &L);
 
   /// Out[i] = In[0] + ... + In[i-1] for i in [0, Count], saturating; \p Out
@@ -32,14 +31,21 @@ public:
              std::uint32_t Count, KeyBits Bits);
 
 private:
+  /// How \p Count things are shared out: groups of \c Lanes work-items have
+  /// stretches of \c Chunk.
   struct Share {
-    std::uint32_t Items, Chunk;
+    std::uint32_t Groups, Lanes, Chunk;
+    std::size_t items() const { return std::size_t{Groups} * Lanes; }
   };
-  Share share(std::uint32_t Count, std::uint32_t LeastChunk) const;
+  /// A group a core, a lane a work-item; stretches of whole lines.
+  Share share(std::uint32_t Count) const;
+  std::uint32_t scanItems() const;
+  void pass(const Pairs &From, const Pairs &To, std::uint32_t Count,
+            unsigned Shift, std::uint32_t Digits);
 
   Launcher &L;
-  std::uint32_t MostItems;
-  cl::Buffer Sums, Histogram, Offsets;
+  std::uint32_t Groups, Lanes;
+  cl::Buffer Histogram, Totals, Sums;
 };
 
 } // namespace vorion::splat
