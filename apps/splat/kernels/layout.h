@@ -104,7 +104,7 @@ enum {
 enum {
   SUM_COLOR = 0,
   SUM_S = 3,
-  SUM_SX = 4, ///< and SUM_SX + 1: y
+  SUM_SX = 4,  ///< and SUM_SX + 1: y
   SUM_SXX = 6, ///< then xy, yy
   SUM_WORDS = 9
 };
