@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace vorion::reference {
 namespace {
@@ -73,7 +74,12 @@ template <typename Real>
 Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
                     const Camera<Real> &C, const Options &O) {
   Splat<Real> S;
-  Vec3<Real> P = multiply(C.Rotation, G.Means[I]) + C.Translation;
+  const Vec3<Real> FromCamera = (G.Means[I] - C.Centre) - C.CentreLow;
+  Vec3<Real> P = multiply(C.Rotation, FromCamera);
+  // Cameras of fixtures have a rotation to fp32's precision only, and are
+  // meant by R and t.
+  if constexpr (std::is_same_v<Real, double>)
+    P = multiply(C.Rotation, G.Means[I]) + C.Translation;
   const ExactDepth Exact = exactDepth(C, G.Means[I]);
   P.z = static_cast<Real>(Exact.Z);
   // A NaN fails either test.
@@ -118,7 +124,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   const int Coefficients = (G.ShDegree + 1) * (G.ShDegree + 1);
   S.Color = G.Colors.empty()
                 ? shColor(&G.Sh[I * static_cast<std::size_t>(Coefficients)],
-                          G.ShDegree, G.Means[I] - C.Centre)
+                          G.ShDegree, FromCamera)
                 : G.Colors[I];
   S.Visible = true;
   return S;

@@ -35,7 +35,9 @@ template <typename Real> struct Splat {
 /// and Extent bit for bit, so the order of operations is part of the contract:
 /// sums and products associate from the left, nothing is contracted, and
 ///
-///     p       = R m + t, each row ((r0 m0 + r1 m1) + r2 m2) + t
+///     d       = (m - c) - c', c + c' being the camera's centre
+///     p       = R d, each row (r0 d0 + r1 d1) + r2 d2: R m + t would lose what
+///               the distance from the origin takes (in fp64 p is R m + t)
 ///     p.z     = as if exact, then rounded once: it decides the order, and
 ///               rounding must not turn Gaussians round whose depths differ
 ///     mean    = f p.xy / p.z + c

@@ -70,6 +70,7 @@ template <typename Real> struct Camera {
   /// depths are computed from the sums (see project).
   glm::vec<3, Real> DepthAxisLow{0};
   Real DepthOffsetLow = 0;
+  glm::vec<3, Real> CentreLow{0}; ///< and from Centre
 };
 
 /// How to render.

@@ -43,7 +43,9 @@ template <typename Real> reference::Camera<Real> toReference(const Camera &C) {
       R.Rotation[J][I] = static_cast<Real>(Rotation[std::size_t(3) * I + J]);
     R.Translation[I] =
         static_cast<Real>(Translation[static_cast<std::size_t>(I)]);
-    R.Centre[I] = static_cast<Real>(C.Position[static_cast<std::size_t>(I)]);
+    const double Centre = C.Position[static_cast<std::size_t>(I)];
+    R.Centre[I] = static_cast<Real>(Centre);
+    R.CentreLow[I] = static_cast<Real>(Centre - double(R.Centre[I]));
   }
   R.Focal = {C.Fx, C.Fy};
   R.Principal = {C.Cx, C.Cy};

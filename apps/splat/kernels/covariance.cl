@@ -8,6 +8,16 @@ typedef struct {
   float det_sharp;  // without the dilation
 } screen_covariance;
 
+// A point from the camera's centre, in the world's axes. Far from the origin the
+// difference of R p and t would have lost what is left of it.
+static float3 from_camera(__constant const splat_view *view, float3 p) {
+  const float3 high =
+      (float3)(view->position[0], view->position[1], view->position[2]);
+  const float3 low = (float3)(view->position_low[0], view->position_low[1],
+                              view->position_low[2]);
+  return p - high - low;
+}
+
 static float dot_in_order(float3 a, float3 b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

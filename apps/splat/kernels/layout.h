@@ -18,10 +18,10 @@ typedef struct {
 
 /// A camera, ready for projection.
 typedef struct {
-  float rotation[9];    ///< world to camera, row-major
-  float translation[3]; ///< p_camera = rotation p_world + translation
-  float position[3];    ///< camera centre, world
-  float depth_axis[3];  ///< depth = axis . p + offset, each as high + low
+  float rotation[9];     ///< world to camera, row-major
+  float position[3];     ///< camera centre, world, as high + low:
+  float position_low[3]; ///< p_camera = rotation (p_world - centre)
+  float depth_axis[3];   ///< depth = axis . p + offset, each as high + low
   float depth_axis_low[3];
   float depth_offset[2];
   float focal[2];     ///< px

@@ -47,8 +47,9 @@ static uint project_one(__constant const splat_view *view,
   const float z = camera_depth(view, px, py, pz);
   if (!(KEEP_DEPTH(z)))
     return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
-  const float x = w[0] * px + w[1] * py + w[2] * pz + view->translation[0];
-  const float y = w[3] * px + w[4] * py + w[5] * pz + view->translation[1];
+  const float3 d = from_camera(view, (float3)(px, py, pz));
+  const float x = w[0] * d.x + w[1] * d.y + w[2] * d.z;
+  const float y = w[3] * d.x + w[4] * d.y + w[5] * d.z;
   const float2 ratio = (float2)(x / z, y / z);
 
   const float3 scale =
@@ -94,10 +95,7 @@ static uint project_one(__constant const splat_view *view,
   g.extent[0] = pixel_extent(extent.x);
   g.extent[1] = pixel_extent(extent.y);
 
-  const float3 color =
-      sh_color(sh, count, i,
-               (float3)(px - view->position[0], py - view->position[1],
-                        pz - view->position[2]));
+  const float3 color = sh_color(sh, count, i, d);
   g.color[0] = color.x;
   g.color[1] = color.y;
   g.color[2] = color.z;

@@ -68,10 +68,9 @@ static void project_backward_one(__constant const splat_view *view,
   const float3 mean = (float3)(GEOMETRY(PLANE_MEAN), GEOMETRY(PLANE_MEAN + 1),
                                GEOMETRY(PLANE_MEAN + 2));
   __constant const float *r = view->rotation;
-  const float x =
-      r[0] * mean.x + r[1] * mean.y + r[2] * mean.z + view->translation[0];
-  const float y =
-      r[3] * mean.x + r[4] * mean.y + r[5] * mean.z + view->translation[1];
+  const float3 d = from_camera(view, mean);
+  const float x = r[0] * d.x + r[1] * d.y + r[2] * d.z;
+  const float y = r[3] * d.x + r[4] * d.y + r[5] * d.z;
   const float2 ratio = (float2)(x / z, y / z);
   const float2 clamped =
       (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
@@ -188,11 +187,7 @@ static void project_backward_one(__constant const splat_view *view,
       (float3)(record.color[0] > 0.0f ? SUM(SUM_COLOR) : 0.0f,
                record.color[1] > 0.0f ? SUM(SUM_COLOR + 1) : 0.0f,
                record.color[2] > 0.0f ? SUM(SUM_COLOR + 2) : 0.0f);
-  const float3 by_direction = sh_backward(
-      sh, count, i,
-      (float3)(mean.x - view->position[0], mean.y - view->position[1],
-               mean.z - view->position[2]),
-      g, sh_gradients);
+  const float3 by_direction = sh_backward(sh, count, i, d, g, sh_gradients);
   GRADIENT(GRADIENT_MEAN) = r[0] * by_place.x + r[3] * by_place.y +
                             r[6] * by_place.z + by_direction.x;
   GRADIENT(GRADIENT_MEAN + 1) = r[1] * by_place.x + r[4] * by_place.y +

@@ -6,18 +6,17 @@ splat_view makeView(const Camera &C, const RenderOptions &Options) {
   splat_view V{};
   const auto Rotation = C.worldToCameraRotation();
   const auto Translation = C.worldToCameraTranslation();
-  for (std::size_t I = 0; I < 9; ++I)
-    V.rotation[I] = static_cast<float>(Rotation[I]);
-  for (std::size_t I = 0; I < 3; ++I) {
-    V.translation[I] = static_cast<float>(Translation[I]);
-    V.position[I] = static_cast<float>(C.Position[I]);
-  }
-
   // What the rounding to fp32 takes away goes into the low parts.
   const auto Low = [](double Value) {
     return static_cast<float>(Value -
                               static_cast<double>(static_cast<float>(Value)));
   };
+  for (std::size_t I = 0; I < 9; ++I)
+    V.rotation[I] = static_cast<float>(Rotation[I]);
+  for (std::size_t I = 0; I < 3; ++I) {
+    V.position[I] = static_cast<float>(C.Position[I]);
+    V.position_low[I] = Low(C.Position[I]);
+  }
   for (std::size_t I = 0; I < 3; ++I) {
     V.depth_axis[I] = static_cast<float>(Rotation[6 + I]);
     V.depth_axis_low[I] = Low(Rotation[6 + I]);
