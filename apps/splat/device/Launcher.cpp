@@ -25,8 +25,10 @@ double mebibytes(std::uint64_t Bytes) {
 } // namespace
 
 Launcher::Launcher(const Device &D, std::string Folder,
-                   std::function<void(std::string_view)> Listener)
-    : Dev(D), KernelFolder(std::move(Folder)), Progress(std::move(Listener)) {}
+                   std::function<void(std::string_view)> Listener,
+                   ProgramCache *Shared)
+    : Dev(D), KernelFolder(std::move(Folder)), Progress(std::move(Listener)),
+      Shared(Shared) {}
 
 void Launcher::endStage() {
   if (!Stages.empty())
@@ -78,6 +80,13 @@ void Launcher::build(const ProgramSpec &Spec) {
   std::string Options;
   for (const std::string &Define : Spec.Defines)
     Options += (Options.empty() ? "-D" : " -D") + Define;
+  if (Shared) {
+    const auto Built = Shared->find({*Source, Options});
+    if (Built != Shared->end()) {
+      Programs[Spec.Name] = Built->second;
+      return;
+    }
+  }
   cl_int Status = CL_SUCCESS;
   cl::Program Program(Dev.context(), *Source, false, &Status);
   if (Status == CL_SUCCESS)
@@ -94,6 +103,8 @@ void Launcher::build(const ProgramSpec &Spec) {
     return;
   }
   Programs[Spec.Name] = Program;
+  if (Shared)
+    Shared->emplace(std::pair(std::move(*Source), std::move(Options)), Program);
 }
 
 void Launcher::launch(const cl::Kernel &K, const std::string &Name,

@@ -25,6 +25,10 @@ struct ProgramSpec {
   std::vector<std::string> Defines; ///< "NAME" or "NAME=value"
 };
 
+/// Programs that were built, by source and options, for launchers of one device
+/// to share.
+using ProgramCache = std::map<std::pair<std::string, std::string>, cl::Program>;
+
 /// What one kernel did over all its launches in a stage.
 struct KernelReport {
   std::string Name;
@@ -51,8 +55,10 @@ public:
   /// \p Listener, if set, is told each stage's name as it begins.
   /// \p Folder, if not empty: read kernel sources there rather than from the
   /// program.
+  /// \p Shared, if set, has what need not be built again; must outlive this.
   Launcher(const Device &D, std::string Folder,
-           std::function<void(std::string_view)> Listener);
+           std::function<void(std::string_view)> Listener,
+           ProgramCache *Shared = nullptr);
 
   const std::optional<Error> &failure() const { return Failure; }
   /// Makes \p E the error that sticks, unless there is one already.
@@ -118,6 +124,7 @@ private:
   const Device &Dev;
   std::string KernelFolder;
   std::function<void(std::string_view)> Progress;
+  ProgramCache *Shared;
   std::map<std::string, cl::Program> Programs;
   std::optional<Error> Failure;
   std::string BuildLog;

@@ -1,0 +1,190 @@
+#include "Broken.h"
+
+#include "../../../apps/splat/device/Kernels.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <cassert>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace vorion::test {
+namespace {
+
+using splat::Path;
+
+constexpr std::string_view Files[] = {
+    "layout.h",   "activate.cl", "covariance.cl", "support.cl", "sh.cl",
+    "project.cl", "scan.cl",     "sort.cl",       "tiles.cl",   "falloff.cl",
+    "units.cl",   "blend.cl",    "rasterize.cl",  "resolve.cl", "merge.cl"};
+
+constexpr std::string_view PlainProduct =
+    "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
+
+} // namespace
+
+const std::vector<BrokenKernel> &brokenKernels() {
+  static const std::vector<BrokenKernel> All{
+      {"determinant-by-difference",
+       {},
+       {{"covariance.cl", "s.det_sharp = dot_in_order(minors, minors);",
+         PlainProduct}}},
+      {"determinant-unchecked",
+       {},
+       {{"project.cl", "if (s.det <= 0.0f)", "if (false)"}}},
+      {"dilation-fixed",
+       {},
+       {{"covariance.cl", "static float dot_in_order",
+         "#undef DILATION\n#define DILATION 0.3f\nstatic float dot_in_order"}}},
+      {"dilation-lost",
+       {},
+       {{"covariance.cl", "s.xx = xx + DILATION;", "s.xx = xx;"}}},
+      {"non-finite-unchecked",
+       {},
+       {{"project.cl", "if (!isfinite(s.det))", "if (false)"},
+        {"project.cl", "if (!all_finite_record(g))", "if (false)"}}},
+      {"exponent-wraps",
+       {},
+       {{"activate.cl", "clamp(log_scale, -150.0f, 150.0f)", "log_scale"},
+        {"activate.cl", "clamp(-logit, -80.0f, 80.0f)", "-logit"}}},
+      {"zero-quaternion-unchecked",
+       {},
+       {{"activate.cl", "if (!(squares.x > 0.0f))", "if (false)"}}},
+      {"quaternion-range",
+       {},
+       {{"activate.cl", "q *= quaternion_factor(q);", ""}}},
+      {"quaternion-not-normalised",
+       {},
+       {{"activate.cl", "const float norm = sqrt(squares.x);",
+         "const float norm = 1.0f;"}}},
+      {"opacity-of-9-bits",
+       {},
+       {{"project.cl", "g.opacity = activate_opacity(GEOMETRY(PLANE_LOGIT));",
+         "g.opacity = as_float(as_uint(activate_opacity("
+         "GEOMETRY(PLANE_LOGIT))) & 0xffff8000u);"}}},
+      {"near-plane-at-0",
+       {},
+       {{"project.cl", "if (!(KEEP_DEPTH(z)))", "if (!(z > 0.0f))"}}},
+      {"behind-mirrored",
+       {},
+       {{"project.cl", "if (!(KEEP_DEPTH(z)))", "if (z == 0.0f)"}}},
+      {"jacobian-unclamped",
+       {},
+       {{"project.cl", "project_covariance(view, z, clamped,",
+         "project_covariance(view, z, ratio + 0.0f * clamped,"}}},
+      {"depth-by-plain-sum",
+       {},
+       {{"project.cl", "return sum.x + sum.y;", "return sum.x;"}}},
+      {"centre-of-one-float",
+       {},
+       {{"covariance.cl", "return p - high - low;", "return p - high;"}}},
+      {"ties-reversed",
+       {},
+       {{"project.cl", "depths[i] = project_one(",
+         "depths[count - 1 - i] = project_one("},
+        {"project.cl", "order[i] = i;", "order[count - 1 - i] = i;"}}},
+      {"negative-tiles-wrap",
+       {},
+       {{"support.cl", "return (uint)fmin(fmax(floor(v), 0.0f), (float)most);",
+         "return min((uint)(int)floor(v), most);"}}},
+      {"boxes-beyond-the-picture",
+       {},
+       {{"support.cl", "if (!(mean - extent < (float)size)) {",
+         "if (false) {"}}},
+      {"radius-of-16-bits",
+       {},
+       {{"support.cl", "*extent = (float2)(radius, radius);",
+         "*extent = (float2)((float)(short)(int)radius, "
+         "(float)(short)(int)radius);"}}},
+      {"box-without-its-border",
+       {},
+       {{"project.cl", "g.extent[0] = pixel_extent(extent.x);",
+         "g.extent[0] = pixel_extent(extent.x) * 0.9999999f;"}}},
+      {"negative-colors",
+       {},
+       {{"sh.cl", "return fmax(color + 0.5f, 0.0f);", "return color + 0.5f;"}}},
+      {"background-twice",
+       {},
+       {{"resolve.cl", "+ transmittance * background;",
+         "+ 2.0f * transmittance * background;"}}},
+      {"never-stops",
+       {},
+       {{"rasterize.cl", "vx_raster_setup((uint)records, options.cutoff,",
+         "vx_raster_setup((uint)records, 0.0f,"},
+        {"blend.cl", "#define SATURATED(t) ((t) < cutoff)",
+         "#define SATURATED(t) (false)"}}},
+      {"list-cut-at-8",
+       {},
+       {{"rasterize.cl",
+         "const uint count = entries * (part + 1) / parts - begin;",
+         "const uint count = min(8u, entries * (part + 1) / parts - begin);"},
+        {"blend.cl", "const uint entries = min((uint)BATCH, range.y - base);",
+         "const uint entries = base == range.x ? min(8u, range.y - base) "
+         ": 0u;"}}},
+      {"last-entry-lost",
+       {},
+       {{"rasterize.cl",
+         "const uint count = entries * (part + 1) / parts - begin;",
+         "const uint count = entries * (part + 1) / parts - begin - "
+         "(entries > 0u ? 1u : 0u);"},
+        {"blend.cl", "const uint entries = min((uint)BATCH, range.y - base);",
+         "const uint entries = min((uint)BATCH, range.y - base - 1u);"}}},
+      {"last-column-lost",
+       {},
+       {{"rasterize.cl", "min((uint)TILE_SIZE, c->o.size[0] - x)",
+         "min((uint)TILE_SIZE, c->o.size[0] - 1u - x)"},
+        {"blend.cl", "x0 + PLACE_X(place) < width &&",
+         "x0 + PLACE_X(place) < width - 1u &&"}}},
+      // The rasterizer's own arithmetic is no kernel's; its datapath is held
+      // against a scalar loop, and so are that loop's broken variants
+      // (isasim/raster/HardCases_test.cpp).
+      {"alpha-reaches-1",
+       Path::Simt,
+       {{"blend.cl", "fmin(0.99f, ", "fmin(1.0f, "}}},
+      {"alpha-cut-at-200th",
+       Path::Simt,
+       {{"blend.cl", "alpha >= ALPHA_CUTOFF / 255.0f",
+         "alpha >= 1.0f / 200.0f"}}},
+      {"transmittance-of-bf16",
+       Path::Simt,
+       {{"blend.cl", "p.transmittance = blended ? next : p.transmittance;",
+         "p.transmittance = blended ? as_float(as_uint(next) & 0xffff0000u) : "
+         "p.transmittance;"}}},
+  };
+  return All;
+}
+
+const BrokenKernel &brokenKernel(std::string_view Name) {
+  const auto &All = brokenKernels();
+  const auto Found = std::ranges::find(All, Name, &BrokenKernel::Name);
+  assert(Found != All.end() && "a case names a kernel that does not exist");
+  return *Found;
+}
+
+Expected<Success> writeKernels(const std::string &Folder,
+                               const BrokenKernel &B) {
+  std::error_code Failed;
+  std::filesystem::create_directories(Folder, Failed);
+  for (const std::string_view File : Files) {
+    std::string Text(splat::kernelSource(File));
+    for (const KernelEdit &E : B.Edits) {
+      if (E.File != File)
+        continue;
+      const std::size_t At = Text.find(E.Guard);
+      if (At == std::string::npos ||
+          Text.find(E.Guard, At + 1) != std::string::npos)
+        return Error{std::string(File),
+                     fmt::format("'{}' of the broken kernel {}, expected it "
+                                 "once",
+                                 E.Guard, B.Name),
+                     ExitCode::Internal};
+      Text.replace(At, E.Guard.size(), E.Instead);
+    }
+    if (auto W = writeFileAtomically(Folder + "/" + std::string(File), Text);
+        !W)
+      return W;
+  }
+  return Success{};
+}
+
+} // namespace vorion::test

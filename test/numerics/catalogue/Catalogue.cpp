@@ -1,0 +1,41 @@
+#include "HardCase.h"
+
+namespace vorion::test {
+
+std::vector<HardCase> catalogue() {
+  std::vector<HardCase> Cases;
+  addShapes(Cases);
+  addOpacities(Cases);
+  addViews(Cases);
+  addLists(Cases);
+  return Cases;
+}
+
+std::vector<CaseElsewhere> casesElsewhere() {
+  const std::string Units = "isasim/raster/HardCases_test.cpp";
+  return {
+      {"lists of 0, 1, 16, 17 and 2^20 entries",
+       "the scalar loop's bits; 2^20 layers within 1e-6 of their limit", Units},
+      {"unsorted lists, duplicate entries",
+       "blended in the list's order, as often as they stand there", Units},
+      {"box edges on pixel centres +-1 ulp, up to coordinate 65535.5",
+       "the pixels whose centres satisfy the comparison in fp32", Units},
+      {"radius beyond an int, infinite boxes", "every pixel of the tile",
+       Units},
+      {"64 layers of 0.99 without a cut-off",
+       "the scalar loop's bits, T within 1e-5 of 0.01^n in relation", Units},
+      {"NaN in a record", "status VR_NAN, no pixel written",
+       "isasim/raster/Rasterizer_test.cpp"},
+      {"NaN or infinity in a scene file, every parameter",
+       "one line that names the Gaussian, exit code 3",
+       "test/numerics/not-finite.test"},
+      {"NaN or infinity in a camera, cut-off, background or dilation",
+       "one line, exit code 2 or 3", "test/numerics/not-finite.test"},
+      {"no Gaussian at all", "one line, exit code 3",
+       "test/numerics/not-finite.test"},
+      {"pairs beyond memory, and beyond 2^32",
+       "one line that says how much, exit code 5",
+       "test/numerics/not-finite.test"}};
+}
+
+} // namespace vorion::test

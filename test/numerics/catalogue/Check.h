@@ -1,0 +1,30 @@
+/// Runs the catalogue on the device: cases, settings, broken kernels.
+#pragma once
+
+#include "Judge.h"
+#include "Knobs.h"
+#include "Machine.h"
+#include "Rows.h"
+
+namespace vorion::test {
+
+/// What is to be checked, and how much of it.
+struct CheckPlan {
+  std::vector<std::string> Cases; ///< by name; all if empty
+  bool Long = false;              ///< the long ones too
+  bool Alone = false;             ///< each knob alone
+  std::uint32_t Random = 0;       ///< combinations of knobs
+  std::uint32_t Seed = 1;
+  bool Broken = false;          ///< that broken kernels are noticed
+  std::uint32_t OneIn = 1;      ///< of settings and broken kernels
+  std::string RowFile, Scratch; ///< rows kept; folder for broken kernels
+};
+
+struct CheckCounts {
+  std::uint32_t Checked = 0, Kept = 0, Failed = 0;
+};
+
+/// Prints a line for every check that fails, and all of them with \p Loud.
+Expected<CheckCounts> check(const CheckPlan &P, bool Loud);
+
+} // namespace vorion::test

@@ -1,0 +1,60 @@
+/// The catalogue of numerically hard scenes: what each is, why it is hard, and
+/// what must come out of it (docs/numerics.md, "Catalogue of hard cases").
+#pragma once
+
+#include "../../../apps/splat/render/Options.h"
+#include "../../../apps/splat/render/Renderer.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vorion::test {
+
+/// Gaussians culled for each reason, by \c splat::CullReasons.
+using Culled = std::array<std::uint64_t, splat::CullReasons.size()>;
+
+/// One hard scene with its view and contract.
+struct HardCase {
+  std::string Name;
+  std::string Why; ///< one sentence
+  splat::Scene Scene;
+  splat::Camera View;
+  /// On either path; knobs change them further.
+  splat::RenderOptions Options;
+  /// Gaussians that fp32 culls and fp64 would not, being beyond fp32's range or
+  /// on a threshold: left out of the fp64 picture too where fp32 does.
+  std::vector<std::uint32_t> BeyondSingle{};
+  Culled MustCull{};
+  /// Largest error of a pixel that is not doubtful, whatever the error of the
+  /// fp32 reference is; under the case's own options.
+  double Cap = 1e-5;
+  /// Largest share of doubtful pixels.
+  double MostDoubtful = 0.02;
+  /// Names of \c brokenKernels that this case must notice, on each path that
+  /// they are in.
+  std::vector<std::string> NoticedIn{};
+  /// Left out of the tests' share.
+  bool Long = false;
+};
+
+/// All of them, in the order of the documentation.
+std::vector<HardCase> catalogue();
+
+/// A case that has no scene because it is about a unit's input or a file's
+/// content: its test stands elsewhere.
+struct CaseElsewhere {
+  std::string Name, Contract, Test;
+};
+std::vector<CaseElsewhere> casesElsewhere();
+
+/// \name Parts of \c catalogue
+/// @{
+void addShapes(std::vector<HardCase> &Cases);
+void addOpacities(std::vector<HardCase> &Cases);
+void addViews(std::vector<HardCase> &Cases);
+void addLists(std::vector<HardCase> &Cases);
+/// @}
+
+} // namespace vorion::test

@@ -1,0 +1,134 @@
+#include "Judge.h"
+
+#include "Convert.h"
+#include "Tool.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace vorion::test {
+namespace {
+
+/// How many times the fp32 reference's error is allowed.
+constexpr double Times = 10;
+/// The fp32 reference counts as no better than this, in parts of the largest
+/// colour: an exact result by luck binds nobody.
+constexpr double LeastError = 0x1p-22;
+/// Share of the doubtful pixels that may decide as neither reference does.
+constexpr double ThirdWayShare = 0.05;
+
+splat::Scene without(const splat::Scene &S,
+                     const std::vector<std::uint32_t> &Out) {
+  splat::Scene Rest = splat::Scene::sized(0, S.ShDegree);
+  for (std::uint32_t I = 0; I < S.size(); ++I)
+    if (std::ranges::find(Out, I) == Out.end())
+      append(Rest, S, I, 1);
+  return Rest;
+}
+
+} // namespace
+
+reference::Options referenceOptions(const splat::RenderOptions &O) {
+  reference::Options R;
+  R.Rule = O.Convention == splat::Rules::Inria ? reference::Rules::Inria
+                                               : reference::Rules::Gsplat;
+  R.Reach = supportNamed(std::string(name(O.Reach)));
+  R.Antialiased = O.Antialiased;
+  R.Dilation = double(O.Dilation);
+  R.Cutoff = double(O.Cutoff);
+  for (std::size_t K = 0; K < 3; ++K)
+    R.Background[K] = double(O.Background[K]);
+  R.Threads = 1;
+  return R;
+}
+
+Judge::Judge(const HardCase &C, const splat::RenderOptions &O)
+    : Case(C), Cutoff(double(O.Cutoff)) {
+  const reference::Options R = referenceOptions(O);
+  const auto View = splat::toReference<double>(C.View);
+  const auto SingleSplats = reference::project(
+      splat::toReference<float>(C.Scene), splat::toReference<float>(C.View), R);
+  // Under other rules fp32 may draw them.
+  std::vector<std::uint32_t> LeftOut;
+  std::ranges::copy_if(
+      C.BeyondSingle, std::back_inserter(LeftOut),
+      [&](std::uint32_t I) { return !SingleSplats[I].Visible; });
+  const auto Splats = reference::project(
+      splat::toReference<double>(without(C.Scene, LeftOut)), View, R);
+  for (const auto &S : Splats)
+    if (S.Visible)
+      for (int K = 0; K < 3; ++K)
+        Peak = std::max(Peak, std::abs(S.Color[K]));
+  const auto P = reference::blend(Splats, View.Width, View.Height, R);
+  Exact = renderOf(P);
+  Doubts = P.Doubts;
+  Single = renderOf(reference::blend(SingleSplats, View.Width, View.Height, R));
+}
+
+Verdict Judge::judge(const splat::RenderResult &R, double Allowance,
+                     bool OwnOptions) const {
+  Verdict V;
+  std::size_t Doubtful = 0;
+  for (const std::uint8_t D : Doubts)
+    Doubtful += D != 0;
+  V.Doubtful = double(Doubtful) / double(Doubts.size());
+  for (std::size_t I = 0; I < Exact.size(); ++I)
+    if (Doubts[I / 3] == 0)
+      V.Single = std::max(V.Single, std::abs(Single[I] - Exact[I]));
+  V.Bound = std::min(Times * std::max(V.Single, LeastError * Peak),
+                     OwnOptions ? Case.Cap : HUGE_VAL) +
+            Allowance * Peak;
+
+  // A doubtful pixel shows what fp32 or fp64 decides; a few may take a third
+  // way, which one decision more or less is apart from either: an alpha at
+  // 1/255, T at the cut-off, or two Gaussians of nearly one depth.
+  const double Decision =
+      Peak * std::min(1.0, 2. / 255 + 100 * Cutoff) + V.Bound;
+  bool WorseThanDecision = false;
+  std::size_t ThirdWay = 0;
+  for (std::size_t I = 0; I < Exact.size(); ++I) {
+    const double Is = R.Picture.Render[I];
+    const double Off = std::isfinite(Is) ? std::abs(Is - Exact[I]) : HUGE_VAL;
+    if (Doubts[I / 3] == 0) {
+      V.Error = std::max(V.Error, Off);
+      continue;
+    }
+    V.DoubtfulError = std::max(V.DoubtfulError, Off);
+    const double Least = std::min(Off, std::abs(Is - Single[I]));
+    const bool Ordered = (Doubts[I / 3] & reference::DoubtOrder) == 0;
+    WorseThanDecision |= !(Least <= (Ordered ? Decision : Peak));
+    ThirdWay += Least > V.Bound;
+  }
+
+  std::uint64_t Sum = R.Visible;
+  for (const std::uint64_t N : R.Culled)
+    Sum += N;
+  if (!(V.Error <= V.Bound))
+    V.Broken =
+        fmt::format("error {:.3g}, expected at most {:.3g}", V.Error, V.Bound);
+  else if (WorseThanDecision)
+    V.Broken = fmt::format("a doubtful pixel is off by {:.3g}, expected one "
+                           "decision, {:.3g}",
+                           V.DoubtfulError, Decision);
+  else if (double(ThirdWay) >
+           std::max(6.0, 3 * ThirdWayShare * double(Doubtful)))
+    V.Broken = fmt::format("{} channels of {} doubtful pixels are neither "
+                           "fp32's nor fp64's",
+                           ThirdWay, Doubtful);
+  else if (OwnOptions && V.Doubtful > Case.MostDoubtful)
+    V.Broken = fmt::format("{:.1f} % doubtful, expected {:.1f} %",
+                           100 * V.Doubtful, 100 * Case.MostDoubtful);
+  else if (Sum != Case.Scene.size())
+    V.Broken = fmt::format("{} Gaussians seen or culled, expected {}", Sum,
+                           Case.Scene.size());
+  else if (OwnOptions && R.Culled != Case.MustCull)
+    for (std::size_t K = 0; K < R.Culled.size(); ++K)
+      if (R.Culled[K] != Case.MustCull[K])
+        V.Broken = fmt::format("{} culled as {}, expected {}", R.Culled[K],
+                               splat::CullReasons[K], Case.MustCull[K]);
+  return V;
+}
+
+} // namespace vorion::test

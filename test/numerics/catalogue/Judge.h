@@ -1,0 +1,41 @@
+/// Holds a picture against the references in fp64 and fp32.
+#pragma once
+
+#include "HardCase.h"
+#include "reference/Types.h"
+
+namespace vorion::test {
+
+/// \p O as the reference has it; what it has not changes no picture there.
+reference::Options referenceOptions(const splat::RenderOptions &O);
+
+/// What was found, and whether the contract is kept.
+struct Verdict {
+  double Error = 0;  ///< largest of a pixel that is not doubtful
+  double Single = 0; ///< the same of the fp32 reference
+  double Bound = 0;
+  double DoubtfulError = 0; ///< largest of a doubtful pixel
+  double Doubtful = 0;      ///< share of such pixels
+  std::string Broken;       ///< what the contract says otherwise; empty: kept
+};
+
+/// The pictures that a case must come close to under some options. Reused for
+/// every setting that does not change them.
+class Judge {
+public:
+  Judge(const HardCase &C, const splat::RenderOptions &O);
+
+  /// \p Allowance is in parts of the largest colour. \p OwnOptions: those of
+  /// the case, for which it says how many are culled and how good fp32 is.
+  Verdict judge(const splat::RenderResult &R, double Allowance,
+                bool OwnOptions) const;
+
+private:
+  const HardCase &Case;
+  double Cutoff;
+  double Peak = 1; ///< largest colour
+  std::vector<double> Exact, Single;
+  std::vector<std::uint8_t> Doubts;
+};
+
+} // namespace vorion::test

@@ -1,0 +1,195 @@
+#include "Knobs.h"
+
+#include <algorithm>
+#include <random>
+
+namespace vorion::test {
+namespace {
+
+using splat::ExpUnit;
+using splat::Path;
+using splat::RenderOptions;
+using splat::Support;
+
+double none(const RenderOptions &) { return 0; }
+
+/// A part that does not know that a pixel is full adds at most what was let
+/// through before the stop: T, of which the next Gaussian would have left less
+/// than the cut-off, and at least a hundredth.
+double behindTheStop(const RenderOptions &O) {
+  return std::min(1.0, 100 * double(O.Cutoff));
+}
+
+/// A unit's relative error of an alpha (docs/rasterizer.md), which moves a
+/// colour by no more than that, two alphas on the other side of 1/255, and a
+/// pixel that stops one Gaussian sooner or later.
+double expUnit(const RenderOptions &O) {
+  constexpr double Relative[] = {0x1p-24, 2.85e-4, 2.7e-3, 1.1e-4, 7.2e-6,
+                                 8.3e-5,  2.65e-5, 5.7e-3, 3.1e-2};
+  return Relative[static_cast<std::size_t>(O.Exponential)] + 2. / 255 +
+         behindTheStop(O);
+}
+
+template <splat::ExpUnit Unit> void takeExp(RenderOptions &O) {
+  O.Exponential = Unit;
+}
+
+template <unsigned Size> void takeTile(RenderOptions &O) {
+  O.RasterTile = Size;
+}
+
+} // namespace
+
+const std::vector<Knob> &knobs() {
+  static const std::vector<Knob> All{
+      {"--support box3",
+       "support",
+       {},
+       [](RenderOptions &O) { O.Reach = Support::Box3; },
+       none},
+      {"--support square3",
+       "support",
+       {},
+       [](RenderOptions &O) { O.Reach = Support::Square3; },
+       none},
+      {"--support official16", "support", Path::Simt,
+       [](RenderOptions &O) {
+         O.Reach = Support::Official16;
+         O.SimtTile = 16;
+       },
+       none},
+      {"--rules gsplat",
+       "rules",
+       {},
+       [](RenderOptions &O) { O.Convention = splat::Rules::Gsplat; },
+       none},
+      {"--antialiased",
+       "antialiased",
+       {},
+       [](RenderOptions &O) { O.Antialiased = true; },
+       none},
+      {"--dilation 0",
+       "dilation",
+       {},
+       [](RenderOptions &O) { O.Dilation = 0; },
+       none},
+      {"--dilation 1",
+       "dilation",
+       {},
+       [](RenderOptions &O) { O.Dilation = 1; },
+       none},
+      {"--background 0.1,0.7,0.4",
+       "background",
+       {},
+       [](RenderOptions &O) { O.Background = {0.1F, 0.7F, 0.4F}; },
+       none},
+      {"--cutoff 0",
+       "cutoff",
+       {},
+       [](RenderOptions &O) { O.Cutoff = 0; },
+       none},
+      {"--cutoff 0.05",
+       "cutoff",
+       {},
+       [](RenderOptions &O) { O.Cutoff = 0.05F; },
+       none},
+      {"--exp poly2", "exp", {}, takeExp<ExpUnit::Poly2>, expUnit},
+      {"--exp poly3", "exp", {}, takeExp<ExpUnit::Poly3>, expUnit},
+      {"--exp poly4", "exp", {}, takeExp<ExpUnit::Poly4>, expUnit},
+      {"--exp linear", "exp", {}, takeExp<ExpUnit::Linear>, expUnit},
+      {"--exp schraudolph", "exp", {}, takeExp<ExpUnit::Schraudolph>, expUnit},
+      {"--exp table", "exp", Path::Raster, takeExp<ExpUnit::Table>, expUnit},
+      {"--exp table32", "exp", Path::Raster, takeExp<ExpUnit::Table32>,
+       expUnit},
+      {"--exp table64", "exp", Path::Raster, takeExp<ExpUnit::Table64>,
+       expUnit},
+      {"--tile 16", "tile", Path::Raster, takeTile<16>, none},
+      {"--tile 32", "tile", Path::Raster, takeTile<32>, none},
+      {"--ztiles 2", "ztiles", Path::Raster,
+       [](RenderOptions &O) { O.ZTiles = 2; }, behindTheStop},
+      {"--ztiles 16", "ztiles", Path::Raster,
+       [](RenderOptions &O) { O.ZTiles = 16; }, behindTheStop},
+      {"--pixel-unit count:8", "pixel-unit", Path::Raster,
+       [](RenderOptions &O) { O.PixelUnit.Count = 8; }, none},
+      {"--pixel-unit occluded:0.5", "pixel-unit", Path::Raster,
+       [](RenderOptions &O) { O.PixelUnit.OccludedShare = 0.5F; }, none},
+      {"--pixel-unit last:1/4", "pixel-unit", Path::Raster,
+       [](RenderOptions &O) {
+         O.PixelUnit.LastOver = 1;
+         O.PixelUnit.LastUnder = 4;
+       },
+       none},
+      {"--skip-saturated", "skip-saturated", Path::Raster,
+       [](RenderOptions &O) { O.SkipSaturated = true; }, none},
+      {"--simt-tile 8", "simt-tile", Path::Simt,
+       [](RenderOptions &O) { O.SimtTile = 8; }, none},
+      {"--simt-tile 32", "simt-tile", Path::Simt,
+       [](RenderOptions &O) { O.SimtTile = 32; }, none},
+      {"--simt-tile 64", "simt-tile", Path::Simt,
+       [](RenderOptions &O) { O.SimtTile = 64; }, none},
+      {"--simt-group 16", "simt-group", Path::Simt,
+       [](RenderOptions &O) { O.SimtGroup = 16; }, none},
+      {"--simt-group 64", "simt-group", Path::Simt,
+       [](RenderOptions &O) { O.SimtGroup = 64; }, none},
+  };
+  return All;
+}
+
+std::string flagsOf(Path P, const Setting &S) {
+  std::string Flags = "--path " + std::string(name(P));
+  for (const Knob *K : S)
+    Flags += " " + K->Flags;
+  return Flags;
+}
+
+RenderOptions turned(RenderOptions Base, Path P, const Setting &S) {
+  Base.Blending = P;
+  for (const Knob *K : S)
+    K->Turn(Base);
+  return Base;
+}
+
+double allowanceOf(const Setting &S, const RenderOptions &O) {
+  double Sum = 0;
+  for (const Knob *K : S)
+    Sum += K->Allowance(O);
+  return Sum;
+}
+
+std::vector<Setting> eachAlone(Path P) {
+  std::vector<Setting> All{{}};
+  for (const Knob &K : knobs())
+    if (!K.Only || *K.Only == P)
+      All.push_back({&K});
+  return All;
+}
+
+Setting combination(Path P, std::uint32_t Seed) {
+  std::mt19937 Engine(Seed);
+  Setting S;
+  std::size_t Begin = 0;
+  const auto &All = knobs();
+  while (Begin < All.size()) {
+    // The knobs of one dimension stand together.
+    const std::size_t End = static_cast<std::size_t>(
+        std::find_if(All.begin() + static_cast<std::ptrdiff_t>(Begin),
+                     All.end(),
+                     [&](const Knob &K) {
+                       return K.Dimension != All[Begin].Dimension;
+                     }) -
+        All.begin());
+    const Knob &K = All[Begin + Engine() % (End - Begin)];
+    const bool Turn = Engine() % 2 == 0;
+    // Official16 has tiles of 16 pixels.
+    const bool Fits = K.Dimension != "simt-tile" || S.empty() ||
+                      std::ranges::none_of(S, [](const Knob *Other) {
+                        return Other->Flags == "--support official16";
+                      });
+    if (Turn && Fits && (!K.Only || *K.Only == P))
+      S.push_back(&K);
+    Begin = End;
+  }
+  return S;
+}
+
+} // namespace vorion::test

@@ -1,0 +1,46 @@
+/// The options of a render that a case must hold under, by their names on
+/// `splat render`'s command line.
+#pragma once
+
+#include "../../../apps/splat/render/Options.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vorion::test {
+
+struct Knob {
+  std::string Flags; ///< as on the command line
+  /// What of the machine it turns; one of each is turned at a time.
+  std::string Dimension;
+  std::optional<splat::Path> Only; ///< the path that has it
+  void (*Turn)(splat::RenderOptions &);
+  /// How far the picture may move, in parts of its largest colour, beyond the
+  /// bound of the reference, which follows every option that it has.
+  double (*Allowance)(const splat::RenderOptions &);
+};
+
+const std::vector<Knob> &knobs();
+
+/// Some of the knobs, turned together.
+using Setting = std::vector<const Knob *>;
+
+/// "--path raster --ztiles 2".
+std::string flagsOf(splat::Path Path, const Setting &S);
+
+/// \p Base on \p Path with \p S turned.
+splat::RenderOptions turned(splat::RenderOptions Base, splat::Path Path,
+                            const Setting &S);
+
+/// The sum of the allowances of \p S under \p O.
+double allowanceOf(const Setting &S, const splat::RenderOptions &O);
+
+/// Every knob of \p Path alone, after none.
+std::vector<Setting> eachAlone(splat::Path Path);
+
+/// A random combination of knobs of \p Path: each dimension with even odds.
+Setting combination(splat::Path Path, std::uint32_t Seed);
+
+} // namespace vorion::test

@@ -1,0 +1,26 @@
+/// Renders cases on the OpenCL device, building each program once.
+#pragma once
+
+#include "../../../apps/splat/device/Launcher.h"
+#include "HardCase.h"
+
+namespace vorion::test {
+
+class Machine {
+public:
+  /// The device that `splat render` takes by default.
+  static Expected<Machine> open();
+
+  /// \p KernelFolder as of `splat render --kernels`; empty for splat's own.
+  Expected<splat::RenderResult> render(const HardCase &C,
+                                       const splat::RenderOptions &O,
+                                       const std::string &KernelFolder);
+
+private:
+  explicit Machine(splat::Device D) : Dev(std::move(D)) {}
+
+  splat::Device Dev;
+  splat::ProgramCache Programs;
+};
+
+} // namespace vorion::test

@@ -1,0 +1,116 @@
+// splat-hard-cases: holds the catalogue of hard cases against its contracts.
+
+#include "Check.h"
+#include "Fuzz.h"
+#include "Ply.h"
+#include "Table.h"
+#include "Tool.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace vorion::test {
+namespace {
+
+struct Arguments {
+  CheckPlan Plan;
+  FuzzPlan Fuzz;
+  bool List = false, Loud = false, Table = false;
+  std::string Write;
+};
+
+/// scene.ply and cameras.json of the cases, for `splat render`.
+Expected<Success> write(const Arguments &A) {
+  for (const HardCase &C : catalogue()) {
+    if (!A.Plan.Cases.empty() &&
+        std::ranges::find(A.Plan.Cases, C.Name) == A.Plan.Cases.end())
+      continue;
+    const std::string Folder = A.Write + "/" + C.Name;
+    std::error_code Failed;
+    std::filesystem::create_directories(Folder, Failed);
+    if (auto W = splat::writePly(Folder + "/scene.ply", C.Scene); !W)
+      return W;
+    if (auto W = splat::writeCameras(Folder + "/cameras.json", {C.View}); !W)
+      return W;
+  }
+  return Success{};
+}
+
+Expected<Success> run(const Arguments &A) {
+  if (A.List) {
+    for (const HardCase &C : catalogue())
+      fmt::print("{:<28}{}{}\n", C.Name, C.Why, C.Long ? " (--long)" : "");
+    return Success{};
+  }
+  if (!A.Write.empty())
+    return write(A);
+  if (A.Table) {
+    const auto R = Rows::open(A.Plan.RowFile);
+    if (!R)
+      return R.error();
+    fmt::print("{}", tableOf(*R));
+    return Success{};
+  }
+  if (A.Fuzz.Groups != 0 || A.Fuzz.Minutes > 0) {
+    FuzzPlan P = A.Fuzz;
+    P.Seed = A.Plan.Seed;
+    P.RowFile = A.Plan.RowFile;
+    return fuzz(P);
+  }
+  const auto Counts = check(A.Plan, A.Loud);
+  if (!Counts)
+    return Counts.error();
+  fmt::print("{} checks: {} kept, {} broken\n", Counts->Checked, Counts->Kept,
+             Counts->Failed);
+  if (Counts->Failed != 0)
+    return Error{
+        "",
+        fmt::format("{} contracts are broken, expected none", Counts->Failed),
+        ExitCode::GuestFailed};
+  return Success{};
+}
+
+} // namespace
+} // namespace vorion::test
+
+int main(int Count, char **Values) {
+  CLI::App App("Renders numerically hard cases on both paths and holds them to "
+               "their contracts: each as it stands and, on request, under each "
+               "knob alone, under random combinations of knobs, and with "
+               "broken kernels, which it must notice.",
+               "splat-hard-cases");
+  vorion::test::Arguments A;
+  App.add_option("cases", A.Plan.Cases, "Names; all if none is given");
+  App.add_flag("--list", A.List, "Print names and reasons instead");
+  App.add_option("--write", A.Write,
+                 "Write scenes and views below this folder instead");
+  App.add_flag("--long", A.Plan.Long, "The long cases too");
+  App.add_flag("--alone", A.Plan.Alone, "Under each knob alone");
+  App.add_option("--random", A.Plan.Random,
+                 "Under so many random combinations of knobs");
+  App.add_option("--fuzz", A.Fuzz.Groups,
+                 "Check so many groups of ten random scenes instead");
+  App.add_option("--fuzz-minutes", A.Fuzz.Minutes,
+                 "Check random scenes for so long instead; with --rows it goes "
+                 "on where it stopped");
+  App.add_option("--seed", A.Plan.Seed,
+                 "Of the first combination, or of the first group")
+      ->capture_default_str();
+  App.add_flag("--broken", A.Plan.Broken, "With the broken kernels");
+  App.add_option("--one-in", A.Plan.OneIn,
+                 "Only one in so many of the settings and broken kernels")
+      ->check(CLI::Range(1U, 1000000U))
+      ->capture_default_str();
+  App.add_option("--rows", A.Plan.RowFile,
+                 "Keep results here, and do not repeat what it has");
+  App.add_option("--scratch", A.Plan.Scratch,
+                 "Folder for the broken kernels' sources")
+      ->default_val("broken-kernels");
+  App.add_flag("--table", A.Table,
+               "Print what --rows has as the table of docs/numerics.md "
+               "instead");
+  App.add_flag("-v,--verbose", A.Loud, "A line for every check");
+  return vorion::test::runTool(App, Count, Values,
+                               [&A] { return vorion::test::run(A); });
+}

@@ -1,0 +1,73 @@
+#include "Table.h"
+
+#include "HardCase.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace vorion::test {
+namespace {
+
+/// What the rows say about a case.
+struct Found {
+  double Raster = 0, Simt = 0, Single = 0, Bound = 0;
+  unsigned Checks = 0, Kept = 0, Broken = 0, Noticed = 0;
+};
+
+Found foundOf(const Rows &R, const std::string &Name) {
+  Found F;
+  for (const auto &[Key, Row] : R.all()) {
+    if (Row["case"] != Name)
+      continue;
+    const bool Good = Row["broken"].get<std::string>().empty();
+    if (Row.contains("kernel")) {
+      ++F.Broken;
+      F.Noticed += Good;
+      continue;
+    }
+    ++F.Checks;
+    F.Kept += Good;
+    if (Row["settings"] != 0)
+      continue;
+    // Where every pixel is doubtful, what they are off fp64 is the figure.
+    const double Error = std::max(Row["error"].get<double>(),
+                                  Row["doubtful_error"].get<double>());
+    (Row["path"] == "raster" ? F.Raster : F.Simt) = Error;
+    F.Single = Row["single"];
+    F.Bound = Row["bound"];
+  }
+  return F;
+}
+
+std::string contractOf(const HardCase &C, const Found &F) {
+  std::string Text = fmt::format("{:.1e}", F.Bound);
+  if (C.MostDoubtful == 1)
+    Text += ", as fp32 or fp64 stops";
+  for (std::size_t K = 0; K < C.MustCull.size(); ++K)
+    if (C.MustCull[K] != 0)
+      Text += fmt::format(", {} {}", C.MustCull[K], splat::CullReasons[K]);
+  return Text;
+}
+
+} // namespace
+
+std::string tableOf(const Rows &R) {
+  std::string Text =
+      "| case | why | contract | raster | simt | fp32 reference | settings "
+      "kept | broken kernels noticed |\n|---|---|---|---|---|---|---|---|\n";
+  for (const HardCase &C : catalogue()) {
+    const Found F = foundOf(R, C.Name);
+    if (F.Checks == 0)
+      continue;
+    Text += fmt::format("| {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {} of {} "
+                        "| {} of {} |\n",
+                        C.Name, C.Why, contractOf(C, F), F.Raster, F.Simt,
+                        F.Single, F.Kept, F.Checks, F.Noticed, F.Broken);
+  }
+  Text += "\n| case | contract | test |\n|---|---|---|\n";
+  for (const CaseElsewhere &C : casesElsewhere())
+    Text += fmt::format("| {} | {} | `{}` |\n", C.Name, C.Contract, C.Test);
+  return Text;
+}
+
+} // namespace vorion::test
