@@ -14,9 +14,10 @@ namespace {
 using splat::Path;
 
 constexpr std::string_view Files[] = {
-    "layout.h",   "activate.cl", "covariance.cl", "support.cl", "sh.cl",
-    "project.cl", "scan.cl",     "sort.cl",       "tiles.cl",   "falloff.cl",
-    "units.cl",   "blend.cl",    "rasterize.cl",  "resolve.cl", "merge.cl"};
+    "layout.h",     "activate.cl", "covariance.cl", "support.cl",
+    "sh.cl",        "project.cl",  "scan.cl",       "sort.cl",
+    "tiles.cl",     "falloff.cl",  "units.cl",      "blend.cl",
+    "rasterize.cl", "resolve.cl",  "merge.cl",      "deal.cl"};
 
 constexpr std::string_view PlainProduct =
     "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
