@@ -100,6 +100,8 @@ void Clock::atSyncPoint() {
 
 TimeReport Clock::end() {
   std::fill(Ended.begin(), Ended.end(), true);
+  for (RasterClock &R : Rasters)
+    R.lastWork();
   takeAll();
   const uint64_t End = Memory.endRun(coresQuietAt());
   Horizon = End;
@@ -202,10 +204,11 @@ void Clock::update(unsigned Who) {
   Key &K = Keys[Who];
   if (Who >= Cores.size()) {
     const bool IsRaster = Who < pixelKey(0);
+    const bool IsStarved = IsRaster && Rasters[Who - rasterKey(0)].isStarved();
     const uint64_t At = IsRaster ? Rasters[Who - rasterKey(0)].when()
                                  : Pixels[Who - pixelKey(0)].when();
     static_assert(PixelClock::Never == RasterClock::Never);
-    K = At == RasterClock::Never ? Never : 2 * At + 1;
+    K = At == RasterClock::Never ? Never : 2 * At + !IsStarved;
     return;
   }
   CoreClock &C = Cores[Who];

@@ -350,6 +350,65 @@ TEST_F(ClockTest, AQueueStaysFullFromRunToRun) {
               100);
 }
 
+/// Two backward commands of three batches each. Cores spin before they start
+/// them and, 256 times as long, before they take what comes; the first longest.
+Words gradients() {
+  const Words Spin = {addi(13, 13, -1), // loop
+                      encode(Op::RV_BNE, {.Rs1 = 13, .Rs2 = 0, .Imm = -4})};
+  const uint32_t Next = csrr(19, static_cast<unsigned>(raster::Csr::GradNext));
+  return Words{lui(14, 0x200000),
+               csrw(raster::Csr::Gaussians, 14),
+               csrw(raster::Csr::List, 14),
+               lui(14, 0x240000),
+               csrw(raster::Csr::Output, 14),
+               lui(14, 0x280000),
+               csrw(raster::Csr::Upstream, 14),
+               lui(14, 0x2c0000),
+               csrw(raster::Csr::Last, 14),
+               addi(15, 0, 48),
+               sw(15, 0, 14),
+               csrw(raster::Csr::Count, 15),
+               addi(14, 0, 512),
+               csrw(raster::Csr::OutputPitch, 14),
+               lui(14, 0x400000),
+               addi(14, 14, 32),
+               csrw(raster::Csr::TileShape, 14),
+               addi(14, 0, 1),
+               csrw(raster::Csr::Mode, 14),
+               csrr(12, CSR_MHARTID),
+               encode(Op::RV_ANDI, {.Rd = 12, .Rs1 = 12, .Imm = 0x30}),
+               encode(Op::RV_XORI, {.Rd = 12, .Rs1 = 12, .Imm = 0x3f}),
+               addi(13, 12, 0)} +
+         Spin +
+         Words{csrw(raster::Csr::Start, 0), csrw(raster::Csr::Start, 0),
+               encode(Op::RV_SLLI, {.Rd = 13, .Rs1 = 12, .Imm = 8})} +
+         Spin + repeat(8, {Next}) +
+         Words{csrr(19, static_cast<unsigned>(raster::Csr::Wait))};
+}
+
+// The machine's rasterizer, halted by the first core's batches, has not
+// executed the others' commands when the clock wants to serve them.
+TEST_F(ClockTest, CommandsBehindAHaltedOneAreWaitedFor) {
+  C = timed(4);
+  C.Quantum = 1024;
+  std::vector<std::string> Reports;
+  for (const unsigned Threads : {1U, 2U, 8U}) {
+    C.HostThreads = Threads;
+    const TimeReport R = run(gradients());
+    Reports.push_back(toJson(R));
+    EXPECT_EQ(Reports.back(), Reports.front()) << Threads;
+    EXPECT_EQ(R.OutOfOrder, 0U);
+    EXPECT_EQ(R.CommandsLeft, 0U);
+    EXPECT_EQ(R.Rasters[0].Commands, 8U);
+    EXPECT_EQ(R.Rasters[0].Gaussians, 8U * 48);
+    // The first core's spinning, and a little.
+    const uint64_t Spin = (0x3fU << 8) * (2 + C.Timing.Core.BranchPenalty);
+    EXPECT_GT(R.Cycles, Spin);
+    EXPECT_LT(R.Cycles, Spin + Spin / 2);
+    EXPECT_GT(R.Rasters[0].Cycles[size_t(RasterCycle::Drain)], Spin / 2);
+  }
+}
+
 /// Lanes of all cores draw numbers from one counter, use local memory, spin
 /// through loops of different lengths, and start tiles.
 Words everything() {

@@ -55,8 +55,11 @@ RasterClock::RasterClock(const TimingConfig &Params, unsigned ClusterIn,
       Agents(NumAgents), EntryFree(P.BufferEntries) {}
 
 void RasterClock::begin(uint64_t Start) {
-  if (Now == Stage::Idle)
+  MoreWork = true;
+  if (Now == Stage::Idle || Now == Stage::Take)
     DispatchAt = std::max(DispatchAt, Start);
+  if (Now == Stage::Take)
+    At = std::max(At, DispatchAt);
   Ledger.begin(Start);
   Spent = {};
 }
@@ -95,7 +98,8 @@ void RasterClock::takeBatch(unsigned Agent, uint64_t Then) {
   A.Waiting -= A.Batches.front();
   A.Batches.pop_front();
   // It may have been what the rasterizer waits for.
-  if (Now == Stage::HandOver && At == Never && Serving == Agent)
+  if (Now == Stage::HandOver && At == Never && Serving == Agent &&
+      A.Waiting < BatchDepth)
     At = std::max(Then, DispatchAt);
 }
 
@@ -136,18 +140,23 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
 }
 
 /// Round-robin over the agents that have a command by now.
-void RasterClock::take() {
-  while (Agents[NextAgent].Queued == 0)
-    NextAgent = (NextAgent + 1) % Agents.size();
-  Serving = NextAgent;
-  NextAgent = (NextAgent + 1) % Agents.size();
-  Agent &A = Agents[Serving];
-  Work = {};
-  // A run that failed may have ended before the command was executed.
-  if (!A.Expected.empty()) {
-    Work = std::move(A.Expected.front());
-    A.Expected.pop_front();
+std::optional<unsigned> RasterClock::nextAgent() const {
+  for (unsigned Tried = 0; Tried != Agents.size(); ++Tried) {
+    const auto Turn =
+        static_cast<unsigned>((NextAgent + Tried) % Agents.size());
+    const Agent &A = Agents[Turn];
+    if (A.Queued != 0 && (MoreWork || !A.Expected.empty()))
+      return Turn;
   }
+  return std::nullopt;
+}
+
+void RasterClock::take() {
+  Serving = *nextAgent();
+  NextAgent = static_cast<unsigned>((Serving + 1) % Agents.size());
+  Agent &A = Agents[Serving];
+  Work = std::move(A.Expected.front());
+  A.Expected.pop_front();
   ++Spent.Commands;
   // Of a backward command that failed only the end is known.
   if (Work.Backward && Work.Failed)
@@ -389,9 +398,10 @@ RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
 
 void RasterClock::end(uint64_t End) {
   // Between two commands nothing is spent but by the one that comes.
-  const RasterCycle Rest = Now == Stage::Fetch   ? RasterCycle::Fetch
-                           : Now == Stage::Drain ? RasterCycle::Drain
-                                                 : RasterCycle::Idle;
+  const RasterCycle Rest = Now == Stage::Fetch ? RasterCycle::Fetch
+                           : Now == Stage::Drain || Now == Stage::HandOver
+                               ? RasterCycle::Drain
+                               : RasterCycle::Idle;
   Spent.Cycles = Ledger.end(End, Rest);
 }
 

@@ -38,13 +38,18 @@ public:
   /// Batches of gradients that an agent holds (raster::AgentConfig).
   static constexpr unsigned BatchDepth = raster::AgentConfig().BatchDepth;
 
-  /// The work of a command of an agent, before its start() is told.
+  /// The work of a command of an agent. A command may have been started before
+  /// it is known: while the machine's rasterizer is halted by an agent's
+  /// batches, it executes no other command.
   void expect(unsigned Agent, raster::CommandWork &&Executed) {
     Agents[Agent].Expected.push_back(std::move(Executed));
   }
 
   /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);
+  /// No more work will be known in this run: what has none yet waits for the
+  /// next run and is passed over.
+  void lastWork() { MoreWork = false; }
   /// Everything that it was given is dropped.
   void reset();
   bool isFull(unsigned Agent) const {
@@ -53,7 +58,7 @@ public:
   bool isBusy(unsigned Agent) const {
     return Agents[Agent].Queued != 0 || Agents[Agent].Tails != 0;
   }
-  /// The agent's core starts its next expected command; needs !isFull().
+  /// The agent's core starts its next command; needs !isFull().
   void start(unsigned Agent, uint64_t Now);
 
   /// Whether a batch of gradients, or the end of a backward command, waits for
@@ -65,13 +70,20 @@ public:
   void takeBatch(unsigned Agent, uint64_t Now);
 
   /// When it next does something that others can notice.
-  uint64_t when() const { return At; }
+  uint64_t when() const {
+    return Now == Stage::Take && !nextAgent() ? Never : At;
+  }
+  /// Whether the work of what it does at when() is not known yet.
+  bool isStarved() const {
+    const std::optional<unsigned> Next = nextAgent();
+    return Now == Stage::Take && Next && Agents[*Next].Expected.empty();
+  }
   struct Finished {
     unsigned Agent;
     bool HandedOver; ///< the pixel unit goes on
   };
-  /// Does it; returns the agent of a command that is done with it, or has a
-  /// batch of gradients.
+  /// Does it, which needs !isStarved(); returns the agent of a command that is
+  /// done with it, or has a batch of gradients.
   std::optional<Finished> step(MemorySystem &Memory);
   /// The pixel unit is done with a command of the agent.
   void tailDone(unsigned Agent) { --Agents[Agent].Tails; }
@@ -105,6 +117,7 @@ private:
     DispatchAt += Cycles;
     Ledger.spend(What, DispatchAt);
   }
+  std::optional<unsigned> nextAgent() const;
   void take();
   void load(MemorySystem &Memory);
   uint32_t entryOf(size_t Gaussian) const;
@@ -127,6 +140,7 @@ private:
   DispatchTable PairTable; ///< of pairs of lanes, for the backward mode
   std::vector<Agent> Agents;
   unsigned NextAgent = 0, Serving = 0;
+  bool MoreWork = true; ///< see lastWork()
 
   Stage Now = Stage::Idle;
   uint64_t At = Never;

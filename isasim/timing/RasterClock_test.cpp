@@ -174,6 +174,48 @@ TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
   EXPECT_EQ(Served, (std::vector<unsigned>{2, 3, 0, 2}));
 }
 
+TEST_F(RasterClockTest, ACommandWaitsUntilItsWorkIsKnown) {
+  RasterClock R(P, 0, 2, 4);
+  R.begin(0);
+  R.start(0, 0); // not executed yet
+  R.expect(1, pushed({box(0, 0, 64, 64)}));
+  R.start(1, 5);
+  EXPECT_TRUE(R.isStarved());
+  EXPECT_EQ(R.when(), 0U);
+  R.expect(0, pushed({box(0, 0, 64, 64)}));
+  EXPECT_FALSE(R.isStarved());
+  std::vector<unsigned> Served;
+  while (R.when() != RasterClock::Never)
+    if (const auto Agent = R.step(Memory))
+      Served.push_back(Agent->Agent);
+  EXPECT_EQ(Served, (std::vector<unsigned>{0, 1}));
+}
+
+TEST_F(RasterClockTest, ACommandWithoutWorkWaitsForTheNextRun) {
+  RasterClock R(P, 0, 2, 4);
+  R.begin(0);
+  R.start(0, 0);
+  R.expect(1, pushed({box(0, 0, 64, 64)}));
+  R.start(1, 5);
+  R.lastWork();
+  EXPECT_FALSE(R.isStarved());
+  finish(R); // the other agent's
+  EXPECT_FALSE(R.isBusy(1));
+  EXPECT_EQ(R.commandsLeft(), 1U);
+  const uint64_t End = R.freeAt() + 1000;
+  R.end(End);
+  EXPECT_EQ(of(R.time(), RasterCycle::Idle), 1000U);
+  R.begin(End);
+  EXPECT_TRUE(R.isStarved());
+  R.expect(0, pushed({box(0, 0, 64, 64)}));
+  EXPECT_EQ(R.when(), End);
+  const uint64_t Done = finish(R);
+  EXPECT_EQ(R.commandsLeft(), 0U);
+  R.end(Done);
+  EXPECT_EQ(of(R.time(), RasterCycle::Idle), 0U);
+  EXPECT_EQ(of(R.time(), RasterCycle::Blend), 256U);
+}
+
 /// A backward command of \p Gaussians; every line it reads is at address 0.
 CommandWork backward(std::vector<GaussianWork> Gaussians) {
   CommandWork W;
@@ -228,6 +270,38 @@ TEST_F(RasterClockTest, HaltsWhileTwoBatchesWait) {
   }
   EXPECT_TRUE(R.canTake(0)); // nothing will come
   R.end(R.freeAt());
+  EXPECT_EQ(of(R.time(), RasterCycle::Drain), 1000U);
+}
+
+TEST_F(RasterClockTest, TheEndOfACommandMakesNoRoomForABatch) {
+  RasterClock R(P, 0, 1, 4);
+  R.begin(0);
+  for (const unsigned Batches : {1U, 2U}) {
+    R.expect(0, backward(std::vector(16 * Batches, box(0, 0, 8, 8))));
+    R.start(0, 0);
+  }
+  const uint64_t First = finish(R); // with the second's last batch
+  R.takeBatch(0, First);            // one batch is left, and an end before it
+  finish(R);
+  EXPECT_FALSE(R.isBusy(0));
+  // The same with two batches behind the end.
+  R.expect(0, backward({box(0, 0, 8, 8)}));
+  R.start(0, R.freeAt());
+  finish(R);
+  EXPECT_TRUE(R.isBusy(0));
+  R.takeBatch(0, R.freeAt()); // the end of the first
+  EXPECT_EQ(R.when(), RasterClock::Never);
+  R.takeBatch(0, R.freeAt()); // a batch
+  EXPECT_NE(R.when(), RasterClock::Never);
+}
+
+TEST_F(RasterClockTest, ARunThatEndsInAHaltDrains) {
+  RasterClock R(P, 0, 1, 4);
+  R.begin(0);
+  R.expect(0, backward(std::vector(16 * 3, box(0, 0, 8, 8))));
+  R.start(0, 0);
+  const uint64_t Halted = finish(R);
+  R.end(Halted + 1000);
   EXPECT_EQ(of(R.time(), RasterCycle::Drain), 1000U);
 }
 
