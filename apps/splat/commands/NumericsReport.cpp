@@ -19,10 +19,10 @@ Expected<NumericsReport> NumericsReport::begin(const std::string &Settings) {
                              std::strerror(errno) +
                              ", expected TMPDIR to be one that can be written"};
   NumericsReport R(Folder);
-  setenv("VORION_NUMERICS",
-         ((Settings == "on" ? "" : Settings + ",") + "text=" + R.file())
-             .c_str(),
-         1);
+  setenv(
+      "VORION_NUMERICS",
+      ((Settings == "on" ? "" : Settings + ",") + "text=" + R.file()).c_str(),
+      1);
   return R;
 }
 
