@@ -40,7 +40,10 @@ OBSERVED = ("matmul", "radixsort")  # what is run with and without observers bui
 
 # What render/Plan.cpp compiles the projection with by default, for a scene with all bands of colour.
 PROJECT_FILES = ("layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl", "project.cl")
-PROJECT_DEFINES = ("-DSH_DEGREE=3", "-DTILE_SIZE=64", "-DSUPPORT_EXACT", "-DDILATION=0.3f", "-DKEEP_DEPTH(z)=((z)>0.2f)")
+PROJECT_DEFINES = ("-DTILE_SIZE=64", "-DSUPPORT_EXACT", "-DDILATION=0.3f", "-DALPHA_CUTOFF=1.0f",
+                   "-DKEEP_DEPTH(z)=((z)>0.2f)", "-DANTIALIAS_FLOOR=2.5e-5f", "-DUSE_SH1=1", "-DUSE_SH2=1", "-DUSE_SH3=1",
+                   "-DUSE_VIEW_COLOR=1", "-DUSE_ANTIALIAS=0", "-DUSE_NEAR_PLANE=1", "-DUSE_FIELD_OF_VIEW=1",
+                   "-DUSE_FAINT=1", "-DUSE_INTERSECT_TAGS=1")
 DEVICE_COUNT, SCALAR_COUNT = 1 << 19, 1 << 14  # Gaussians
 GEOMETRY_PLANES, SH_PLANES, RECORD_BYTES = 11, 48, 48
 
@@ -97,7 +100,7 @@ def scene(prefix, count):
     view = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, focal, focal, size[0] / 2, size[1] / 2,
             -0.78, -0.442, 0.78, 0.442]
     tiles = [(s + 63) // 64 for s in size]
-    write(prefix + "view.bin", struct.pack("<31f4I", *view, *size, *tiles))
+    write(prefix + "view.bin", struct.pack("<31f5I", *view, *size, *tiles, 0))
     planes = [lambda: rng.uniform(-3, 3), lambda: rng.uniform(-2, 2), lambda: rng.uniform(0.1, 8)]
     planes += [lambda: rng.uniform(-5, -2)] * 3 + [lambda: rng.gauss(0, 1)] * 4 + [lambda: rng.gauss(0, 2)]
     assert len(planes) == GEOMETRY_PLANES

@@ -5,11 +5,15 @@
 #include "Progress.h"
 #include "SceneArguments.h"
 
+#include "../effects/Explain.h"
+#include "../effects/Fallback.h"
+#include "../effects/Measure.h"
 #include "../io/Cameras.h"
 #include "../io/Image.h"
 #include "../io/Npz.h"
 #include "../render/Renderer.h"
 #include "../render/Report.h"
+#include "../render/View.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
@@ -36,8 +40,10 @@ struct RenderArguments {
   std::string Cameras, View, Output;
   std::string Json, Pairs, Device, KernelFolder;
   std::vector<float> Background{0, 0, 0};
-  std::string PixelUnit = "off";
-  bool Explain = false, Time = false;
+  std::string PixelUnit = "off", Effects = "auto";
+  EffectRequest Request;
+  std::string Explain; ///< empty, "plan" or "measure"
+  bool Time = false;
   std::optional<unsigned> ClockMhz;
   std::string Numerics; ///< settings, empty for no
   RenderOptions Options;
@@ -102,6 +108,35 @@ Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
                          {"index", Words(P.Gaussians)}});
 }
 
+RenderPlan planAsAsked(const RenderArguments &A, const EffectInputs &In) {
+  RenderPlan Plan = planRender(EffectPlan(A.Request, In), A.Options);
+  for (const Effect *E : Plan.Effects.missing())
+    fmt::print(stderr,
+               "splat: warning: --effects {} leaves out {}, which the scene "
+               "calls for ({}): the picture differs\n",
+               A.Effects, E->Name, Plan.Effects.of(*E).Found.Figure);
+  if (!A.Explain.empty())
+    fmt::print("{}", explain(Plan));
+  return Plan;
+}
+
+/// Draws by run-time flags where that is faster for one frame.
+void fallBack(const RenderArguments &A, const Launcher &L,
+              const EffectInputs &In, RenderPlan &Plan) {
+  // The counts of a frame must not depend on what was compiled before.
+  const bool FiguresWanted = !A.Json.empty() || !A.Explain.empty() ||
+                             !A.Numerics.empty() || A.Time ||
+                             A.ClockMhz.has_value();
+  if (A.Request.How != EffectRequest::Mode::Auto || FiguresWanted)
+    return;
+  RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
+  if (Cheaper.Programs == Plan.Programs)
+    return;
+  fmt::print("effects: by run-time flags, whose programs are compiled "
+             "already\n");
+  Plan = std::move(Cheaper);
+}
+
 Expected<Success> run(const RenderArguments &A) {
   if (auto Checked = check(A); !Checked)
     return Checked.error();
@@ -112,11 +147,6 @@ Expected<Success> run(const RenderArguments &A) {
   auto C = readCamera(A.Cameras, A.View);
   if (!C)
     return C.error();
-  const RenderPlan Plan = planRender(*S, A.Options);
-  if (A.Explain)
-    for (const std::string &Line : explain(Plan, *S, A.Options))
-      fmt::print("{}\n", Line);
-
   // The platform reads it when it opens its devices (cl_vorion.h).
   if (A.Time || A.ClockMhz)
     setenv("VORION_TIME",
@@ -128,6 +158,11 @@ Expected<Success> run(const RenderArguments &A) {
       return Begun.error();
     Numerics.emplace(std::move(*Begun));
   }
+  const ViewFacts Facts =
+      factsOf(*S, makeView(*C, A.Options), nearLimit(A.Options.Convention));
+  const EffectInputs Inputs{*S, A.Options, Facts, !A.Pairs.empty()};
+  RenderPlan Plan = planAsAsked(A, Inputs);
+
   auto D = Device::open(A.Device);
   if (!D)
     return D.error();
@@ -138,6 +173,7 @@ Expected<Success> run(const RenderArguments &A) {
                              D->name()),
                  ExitCode::Usage};
   Launcher L(*D, A.KernelFolder, progress());
+  fallBack(A, L, Inputs, Plan);
   auto R = render(L, Plan, *S, *C, A.Options, !A.Pairs.empty());
   endProgress();
   if (!R) {
@@ -145,6 +181,7 @@ Expected<Success> run(const RenderArguments &A) {
       fmt::print(stderr, "{}\n", L.buildLog());
     return R.error();
   }
+  L.recordBuilds();
 
   if (auto Written = writeImage(A.Output, R->Picture); !Written)
     return Written.error();
@@ -165,6 +202,14 @@ Expected<Success> run(const RenderArguments &A) {
     if (!Text)
       return Text.error();
     fmt::print("{}", *Text);
+  }
+  if (A.Explain == "measure") {
+    const auto Costs =
+        measureEffects(*D, A.KernelFolder, A.Request, Inputs, *C, progress());
+    endProgress();
+    if (!Costs)
+      return Costs.error();
+    fmt::print("{}", toString(*Costs));
   }
   return Success{};
 }
@@ -260,9 +305,16 @@ Runner addRender(CLI::App &App) {
   App.add_option("--device", A->Device,
                  "Part of the OpenCL device's name (default Vorion, else the "
                  "first device)");
-  App.add_flag(
-      "--explain", A->Explain,
-      "Say what is compiled into the kernels and what is not, and why");
+  App.add_flag("--explain{plan}", A->Explain,
+               "Say of each effect whether it is on, and what decided; with "
+               "=measure also what it costs, by rendering with and without")
+      ->option_text("[=measure]")
+      ->check(CLI::IsMember({"plan", "measure"}));
+  App.add_option("--effects", A->Effects,
+                 "Effects compiled into the kernels: what the scene calls for, "
+                 "all, all behind run-time flags, or those named (default "
+                 "auto; docs/effects.md)")
+      ->option_text("auto|all|flags|NAME,...");
   App.add_flag("--time", A->Time,
                "Say how long the frame takes on the machine (docs/model.md)");
   App.add_option("--clock", A->ClockMhz,
@@ -282,6 +334,10 @@ Runner addRender(CLI::App &App) {
     if (!Tail)
       return Expected<Success>(Tail.error());
     A->Options.PixelUnit = *Tail;
+    auto Request = parseEffectRequest(A->Effects);
+    if (!Request)
+      return Expected<Success>(Request.error());
+    A->Request = std::move(*Request);
     std::copy_n(A->Background.begin(), 3, A->Options.Background.begin());
     return run(*A);
   };

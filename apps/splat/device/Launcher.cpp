@@ -1,5 +1,6 @@
 #include "Launcher.h"
 
+#include "../io/Hash.h"
 #include "Kernels.h"
 #include "TimeReports.h"
 #include "vorion/support/File.h"
@@ -16,6 +17,14 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point Start) {
   return std::chrono::duration<double>(Clock::now() - Start).count();
+}
+
+/// What the compiler is told.
+std::string optionsOf(const ProgramSpec &Spec) {
+  std::string Options;
+  for (const std::string &Define : Spec.Defines)
+    Options += (Options.empty() ? "-D" : " -D") + Define;
+  return Options;
 }
 
 double mebibytes(std::uint64_t Bytes) {
@@ -69,6 +78,22 @@ Expected<std::string> Launcher::sourceOf(const ProgramSpec &Spec) const {
   return Source;
 }
 
+std::string Launcher::keyOf(const std::string &Source,
+                            const std::string &Options) const {
+  return fnv1a64(fmt::format("{}\n{}\n{}\n{}", Dev.name(), Dev.version(),
+                             Options, Source));
+}
+
+bool Launcher::wasBuilt(const ProgramSpec &Spec) const {
+  const auto Source = sourceOf(Spec);
+  return Source && Record.has(keyOf(*Source, optionsOf(Spec)));
+}
+
+void Launcher::recordBuilds() const {
+  for (const std::string &Key : BuiltKeys)
+    Record.add(Key);
+}
+
 void Launcher::build(const ProgramSpec &Spec) {
   if (Failure)
     return;
@@ -77,9 +102,7 @@ void Launcher::build(const ProgramSpec &Spec) {
     Failure = Source.error();
     return;
   }
-  std::string Options;
-  for (const std::string &Define : Spec.Defines)
-    Options += (Options.empty() ? "-D" : " -D") + Define;
+  const std::string Options = optionsOf(Spec);
   if (Shared) {
     const auto Built = Shared->find({*Source, Options});
     if (Built != Shared->end()) {
@@ -103,8 +126,9 @@ void Launcher::build(const ProgramSpec &Spec) {
     return;
   }
   Programs[Spec.Name] = Program;
+  BuiltKeys.push_back(keyOf(*Source, Options));
   if (Shared)
-    Shared->emplace(std::pair(std::move(*Source), std::move(Options)), Program);
+    Shared->emplace(std::pair(std::move(*Source), Options), Program);
 }
 
 void Launcher::launch(const cl::Kernel &K, const std::string &Name,

@@ -1,6 +1,7 @@
 /// Builds programs and runs kernels one after the other, keeping account.
 #pragma once
 
+#include "BuildRecord.h"
 #include "Device.h"
 
 #include <atomic>
@@ -23,6 +24,8 @@ struct ProgramSpec {
   std::string Name;
   std::vector<std::string> Files;   ///< names in kernels/
   std::vector<std::string> Defines; ///< "NAME" or "NAME=value"
+
+  bool operator==(const ProgramSpec &) const = default;
 };
 
 /// Programs that were built, by source and options, for launchers of one device
@@ -77,6 +80,11 @@ public:
   /// Builds \p Spec; \c run finds it by its name.
   void build(const ProgramSpec &Spec);
 
+  /// Whether \p Spec was built on this computer and ran, now or before.
+  bool wasBuilt(const ProgramSpec &Spec) const;
+  /// Marks what was built as having run.
+  void recordBuilds() const;
+
   /// Runs kernel \p Kernel of program \p Program and waits for it.
   template <typename... Args>
   void run(const std::string &Program, const char *Kernel,
@@ -120,12 +128,17 @@ private:
   void countCopy(std::uint64_t Bytes);
   void endStage();
   Expected<std::string> sourceOf(const ProgramSpec &Spec) const;
+  /// Of the program made of \p Source with \p Options, for the build record.
+  std::string keyOf(const std::string &Source,
+                    const std::string &Options) const;
 
   const Device &Dev;
   std::string KernelFolder;
   std::function<void(std::string_view)> Progress;
   ProgramCache *Shared;
   std::map<std::string, cl::Program> Programs;
+  BuildRecord Record;
+  std::vector<std::string> BuiltKeys;
   std::optional<Error> Failure;
   std::string BuildLog;
   std::vector<StageReport> Stages;

@@ -34,8 +34,8 @@ typedef struct {
 // Blends the first `entries` of the batch, which is `before` entries behind the
 // list's first, into the pixel with centre (px, py).
 static pixel_state blend_batch(__local const splat_gaussian *batch,
-                               uint entries, uint before, float px, float py, float cutoff,
-                               pixel_state p) {
+                               uint entries, uint before, float px, float py,
+                               float cutoff, uint effects, pixel_state p) {
   for (uint j = 0; j < entries; ++j) {
     __local const splat_gaussian *g = &batch[j];
     const float dx = g->mean[0] - px;
@@ -47,7 +47,9 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
       // Below MIN_POWER alpha is under the cut-off whatever the opacity, so the
       // exponential is not worth taking. False for NaN.
       if ((power <= 0.0f) & (power >= MIN_POWER)) {
-        const float alpha = fmin(0.99f, g->opacity * falloff(power));
+        const float unclamped = g->opacity * falloff(power);
+        const float alpha =
+            USE_ALPHA_CLAMP ? fmin(0.99f, unclamped) : unclamped;
         const float next = p.transmittance * (1.0f - alpha);
         // Without branches: most Gaussians that get here are blended, and a
         // weight of 0 changes no bit.
@@ -72,7 +74,8 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
 blend(__global const splat_gaussian *records, __global const uint *list,
       __global const uint2 *ranges, __global float4 *pixels,
-      __global uint *last, uint width, uint height, float cutoff) {
+      __global uint *last, uint width, uint height, float cutoff,
+      uint effects) {
   __local splat_gaussian batch[BATCH];
   __local uint live;
 
@@ -95,7 +98,8 @@ blend(__global const splat_gaussian *records, __global const uint *list,
     if (item == 0)
       live = 0;
     for (uint e = item; e < entries; e += GROUP)
-      batch[e] = records[list[base + e] & ~SPANS_TILES];
+      batch[e] =
+          records[list[base + e] & (USE_INTERSECT_TAGS ? ~SPANS_TILES : ~0u)];
     barrier(CLK_LOCAL_MEM_FENCE);
 
     bool open = false;
@@ -105,7 +109,7 @@ blend(__global const splat_gaussian *records, __global const uint *list,
       const float py = (float)(y0 + PLACE_Y(place)) + 0.5f;
       if (!own[k].done)
         own[k] = blend_batch(batch, entries, base - range.x, px, py, cutoff,
-                             own[k]);
+                             effects, own[k]);
       open |= !own[k].done;
     }
     if (open)

@@ -30,6 +30,7 @@ typedef struct {
   float ratio_high[2];
   uint size[2];  ///< picture, px
   uint tiles[2]; ///< picture, tiles
+  uint effects;  ///< a bit an effect (effects/EffectPlan.h)
 } splat_view;
 
 /// How the rasterizers blend a picture.
@@ -45,6 +46,7 @@ typedef struct {
   uint tail_count;
   uint tail_last[2];
   uint tail_share;
+  uint effects; ///< a bit an effect (effects/EffectPlan.h)
 } splat_blend_options;
 
 /// When density control clones, splits and drops a Gaussian; infinities switch

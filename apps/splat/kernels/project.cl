@@ -43,14 +43,18 @@ static uint project_one(__constant const splat_view *view,
   const float px = GEOMETRY(PLANE_MEAN);
   const float py = GEOMETRY(PLANE_MEAN + 1);
   const float pz = GEOMETRY(PLANE_MEAN + 2);
+  const uint effects = view->effects;
   __constant const float *w = view->rotation;
   const float z = camera_depth(view, px, py, pz);
-  if (!(KEEP_DEPTH(z)))
+  if (USE_NEAR_PLANE && !(KEEP_DEPTH(z)))
     return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
   const float3 d = from_camera(view, (float3)(px, py, pz));
   const float x = w[0] * d.x + w[1] * d.y + w[2] * d.z;
   const float y = w[3] * d.x + w[4] * d.y + w[5] * d.z;
-  const float2 ratio = (float2)(x / z, y / z);
+  float2 ratio = (float2)(x / z, y / z);
+  if (USE_FIELD_OF_VIEW)
+    ratio = (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
+                     clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
 
   const float3 scale =
       (float3)(activate_scale(GEOMETRY(PLANE_LOG_SCALE)),
@@ -59,11 +63,8 @@ static uint project_one(__constant const splat_view *view,
   const float4 quaternion = activate_quaternion(
       (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3)));
-  const float2 clamped =
-      (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
-               clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
   const screen_covariance s =
-      project_covariance(view, z, clamped, scale, quaternion);
+      project_covariance(view, z, ratio, scale, quaternion);
   if (s.det <= 0.0f)
     return CULLED + CULL_DEGENERATE;
   if (!isfinite(s.det))
@@ -71,9 +72,8 @@ static uint project_one(__constant const splat_view *view,
 
   splat_gaussian g;
   g.opacity = activate_opacity(GEOMETRY(PLANE_LOGIT));
-#ifdef ANTIALIASED
-  g.opacity *= sqrt(fmax(ANTIALIAS_FLOOR, s.det_sharp / s.det));
-#endif
+  if (USE_ANTIALIAS)
+    g.opacity *= sqrt(fmax(ANTIALIAS_FLOOR, s.det_sharp / s.det));
   g.mean[0] = view->focal[0] * x / z + view->center[0];
   g.mean[1] = view->focal[1] * y / z + view->center[1];
   const float inverse = 1.0f / s.det;
@@ -82,7 +82,7 @@ static uint project_one(__constant const splat_view *view,
   g.conic[2] = s.xx * inverse;
 
   float2 extent;
-  if (!support_extent(s, g.opacity, &extent))
+  if (!support_extent(s, g.opacity, effects, &extent))
     return CULLED + CULL_FAINT;
   uint x0, x1, y0, y1;
   tile_span(g.mean[0], extent.x, TILE_SIZE, view->size[0], view->tiles[0], &x0,
@@ -95,14 +95,15 @@ static uint project_one(__constant const splat_view *view,
   g.extent[0] = pixel_extent(extent.x);
   g.extent[1] = pixel_extent(extent.y);
 
-  const float3 color = sh_color(sh, count, i, d);
+  const float3 color = sh_color(sh, count, i, d, effects);
   g.color[0] = color.x;
   g.color[1] = color.y;
   g.color[2] = color.z;
   if (!all_finite_record(g))
     return CULLED + CULL_NON_FINITE;
-  const bool spans_tiles = x1 - x0 > 1 || y1 - y0 > 1;
-  g.tag = i | (spans_tiles ? SPANS_TILES : 0u);
+  g.tag = i;
+  if (USE_INTERSECT_TAGS && (x1 - x0 > 1 || y1 - y0 > 1))
+    g.tag |= SPANS_TILES;
   records[i] = g;
   *rectangle = (uint2)(x0 | y0 << 16, x1 | y1 << 16);
   return as_uint(z);

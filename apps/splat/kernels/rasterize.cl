@@ -30,17 +30,24 @@ typedef struct {
 // the hand-over records.
 static void start_part(const picture_commands *c, uint tile, uint part,
                        uint2 range, uint job) {
-  const uint parts = c->o.parts;
-  const uint entries = range.y - range.x;
-  const uint begin = entries * part / parts;
-  const uint count = entries * (part + 1) / parts - begin;
+  const uint effects = c->o.effects;
   const uint x = tile % c->o.tiles_x * TILE_SIZE;
   const uint y = tile / c->o.tiles_x * TILE_HEIGHT;
-  vr_ztile_set(part | parts << VR_ZTILE_COUNT_SHIFT);
-  vr_tail_count_set(max(c->o.tail_count,
-                        count * c->o.tail_last[0] / c->o.tail_last[1]));
-  vr_tail_record_set(c->tails + job * (uint)sizeof(vx_tail));
-  const uint first_pixel = (part * c->o.size[1] + y) * c->o.size[0] + x;
+  uint begin = 0, count = range.y - range.x;
+  uint first_pixel = y * c->o.size[0] + x;
+  if (USE_ZTILES) {
+    const uint parts = c->o.parts;
+    const uint entries = count;
+    begin = entries * part / parts;
+    count = entries * (part + 1) / parts - begin;
+    first_pixel += part * c->o.size[1] * c->o.size[0];
+    vr_ztile_set(part | parts << VR_ZTILE_COUNT_SHIFT);
+  }
+  if (USE_PIXEL_UNIT) {
+    vr_tail_count_set(max(c->o.tail_count,
+                          count * c->o.tail_last[0] / c->o.tail_last[1]));
+    vr_tail_record_set(c->tails + job * (uint)sizeof(vx_tail));
+  }
 #ifdef KEEP_LAST
   vx_raster_keep_last(c->last + first_pixel * (uint)sizeof(uint));
 #endif
@@ -57,16 +64,20 @@ rasterize(__global const splat_gaussian *records, __global const uint *list,
           __global const uint2 *ranges, __global const uint *tile_order,
           __global float4 *pixels, __global uint *last, __global uint *tails,
           __global uint *statuses, splat_blend_options options) {
-  const uint jobs = options.tiles * options.parts;
+  const uint effects = options.effects;
+  const uint parts = USE_ZTILES ? options.parts : 1;
+  const uint jobs = options.tiles * parts;
   const picture_commands c = {(uint)list, (uint)pixels, (uint)last, (uint)tails,
                               options};
   vx_raster_setup((uint)records, options.cutoff, options.datapath,
                   options.size[0] * (uint)sizeof(float4));
-  vr_tail_share_set(options.tail_share);
+  // Without the pixel unit: no reason to hand over, whatever ran before.
+  vr_tail_count_set(0);
+  vr_tail_share_set(USE_PIXEL_UNIT ? options.tail_share : 0);
   for (deal d = first_job(); d.job < jobs; d = next_job(d)) {
     const uint job = d.job;
-    const uint tile = tile_order[job / options.parts];
-    start_part(&c, tile, job % options.parts, ranges[tile], job);
+    const uint tile = tile_order[job / parts];
+    start_part(&c, tile, job % parts, ranges[tile], job);
   }
   const uint status = vr_wait();
   if (get_local_id(0) == 0)

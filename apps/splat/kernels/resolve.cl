@@ -1,4 +1,5 @@
-// From (r, g, b, transmittance) to the picture: the background shows through
+// Where there is a background (effects/Background.cpp):
+// from (r, g, b, transmittance) to the picture: the background shows through
 // what is left, and the fourth channel becomes alpha. A work-item has a channel
 // of four pixels rather than a pixel, so that a warp reads and writes whole
 // lines: the cache fetches a line of which it gets a part.
@@ -12,11 +13,13 @@ static float resolved(float own, float transmittance, float background,
 
 // As many work-items as pixels, or more; a multiple of four in a group.
 __kernel void resolve(__global const float *pixels, __global float *picture,
-                      uint count, float red, float green, float blue) {
+                      uint count, float red, float green, float blue,
+                      uint effects) {
   const uint channel = get_local_id(0) % 4;
   const int is_alpha = channel == 3 ? -1 : 0;
-  const float background = channel == 3   ? -1.0f
-                           : channel == 0 ? red
+  const float background = channel == 3        ? -1.0f
+                           : !(USE_BACKGROUND) ? 0.0f
+                           : channel == 0      ? red
                            : channel == 1 ? green
                                           : blue;
   const uint step = get_local_size(0);

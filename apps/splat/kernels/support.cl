@@ -3,18 +3,19 @@
 // tiles are those of reference/Projection.h and Tiles.h.
 
 // The half sides of the box in pixels; false if nothing can be reached.
-static bool support_extent(screen_covariance s, float opacity, float2 *extent) {
+static bool support_extent(screen_covariance s, float opacity, uint effects,
+                           float2 *extent) {
 #if defined(SUPPORT_EXACT)
   // alpha >= 1/255 needs d^2 <= 2 ln(255 o) S_ii along each axis; a higher
   // cut-off likewise.
   const float most = 255.0f / ALPHA_CUTOFF;
-  if (!(most * opacity >= 1.0f))
+  if (USE_FAINT && !(most * opacity >= 1.0f))
     return false;
   const float deviations = sqrt(2.0f * fmax(0.0f, log(most * opacity)));
   *extent = (float2)(deviations * sqrt(s.xx), deviations * sqrt(s.yy));
 #elif defined(SUPPORT_BOX3)
   *extent = (float2)(3.0f * sqrt(s.xx), 3.0f * sqrt(s.yy));
-#else
+#elif defined(SUPPORT_SQUARE3) || defined(SUPPORT_OFFICIAL16)
   // INRIA's radius, with mid^2 - det written as a sum of squares: the
   // difference's rounding would move the radius of large round Gaussians.
   const float mid = (s.xx + s.yy) / 2.0f;

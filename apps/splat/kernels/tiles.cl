@@ -52,7 +52,7 @@ __kernel void duplicate(__global const uint *order,
                         __global const uint *offsets,
                         __global uint *pair_tiles,
                         __global uint *pair_gaussians, uint count,
-                        uint tiles_x) {
+                        uint tiles_x, uint effects) {
   const uint i = get_global_id(0);
   if (i >= count)
     return;
@@ -61,7 +61,8 @@ __kernel void duplicate(__global const uint *order,
   const uint width = (r.y & 0xffff) - (r.x & 0xffff);
   const uint begin = offsets[i];
   const uint end = offsets[i + 1];
-  const uint entry = gaussian | (end - begin > 1 ? SPANS_TILES : 0u);
+  const uint entry =
+      gaussian | (USE_INTERSECT_TAGS && end - begin > 1 ? SPANS_TILES : 0u);
   uint tile = (r.x >> 16) * tiles_x + (r.x & 0xffff);
   uint column = 0;
   for (uint place = begin; place < end; ++place) {

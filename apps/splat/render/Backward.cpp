@@ -30,8 +30,8 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
       Blend.Defines.emplace_back("CLAMP_STOPS");
   }
   ProgramSpec Project{ProjectBackwardProgram,
-                      {"layout.h", "activate.cl", "covariance.cl", "sh.cl",
-                       "sh_backward.cl", "project_backward.cl"},
+                      {"layout.h", "activate.cl", "covariance.cl",
+                       "sh_planes.h", "sh_backward.cl", "project_backward.cl"},
                       projectionDefines(ShDegree, O)};
   if (Gsplat)
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");

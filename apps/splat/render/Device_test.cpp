@@ -228,7 +228,7 @@ TEST_F(OnDevice, TilesAreOrderedByListLength) {
   });
   Launcher L(*Dev, "", {});
   L.beginStage("test");
-  L.build({TilesProgram, {"layout.h", "tiles.cl"}, {}});
+  L.build({TilesProgram, {"layout.h", "tiles.cl"}, {"USE_INTERSECT_TAGS=1"}});
   const auto Count = static_cast<std::uint32_t>(Want.size());
   const cl::Buffer Order = L.allocate("order", 4 * Want.size());
   L.run(TilesProgram, "order_tiles", (Count + 15) / 16 * 16, 16,

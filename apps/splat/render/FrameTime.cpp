@@ -167,4 +167,9 @@ std::string frameText(const std::vector<StageReport> &Stages,
                             What, F.all(), F.Launches, F.Copies, 1e3 / F.all());
 }
 
+std::uint64_t frameCycles(const std::vector<StageReport> &Stages) {
+  const std::string Sum = frameTime(Stages);
+  return Sum.empty() ? 0 : Json::parse(Sum)["cycles"].get<std::uint64_t>();
+}
+
 } // namespace vorion::splat

@@ -3,6 +3,7 @@
 
 #include "../device/Launcher.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,7 @@ std::string frameJson(const std::vector<StageReport> &Stages);
 /// The same as a table, in which \p What stands for a frame ("iteration").
 std::string frameText(const std::vector<StageReport> &Stages,
                       const std::string &What = "frame");
+/// The frame's cycles on the machine; 0 without the clock.
+std::uint64_t frameCycles(const std::vector<StageReport> &Stages);
 
 } // namespace vorion::splat

@@ -65,7 +65,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
           4 * U.Render.size());
   L.write("alphas' gradients", ByAlpha, U.Alpha.data(), 4 * U.Alpha.size());
 
-  Pipeline Forward(L, Options);
+  Pipeline Forward(L, Options, Plan.Effects);
   Forward.draw(Gaussians, C);
   BackwardPipeline Back(L, Options, Backward, ShDegree);
   L.beginStage("upstream");

@@ -9,9 +9,9 @@ using uint = std::uint32_t;
 #include "../kernels/layout.h"
 
 static_assert(sizeof(splat_gaussian) == 48, "docs/abi.md: vx_gaussian");
-static_assert(sizeof(splat_blend_options) == 44,
+static_assert(sizeof(splat_blend_options) == 48,
               "4-byte members without padding");
 static_assert(sizeof(splat_density) == 24, "4-byte members without padding");
-static_assert(sizeof(splat_view) == 140, "4-byte members without padding");
+static_assert(sizeof(splat_view) == 144, "4-byte members without padding");
 
 } // namespace vorion::splat

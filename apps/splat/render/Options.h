@@ -56,6 +56,10 @@ constexpr std::string_view name(BlendUnit B) {
   return Names[static_cast<std::size_t>(B)];
 }
 
+/// The least depth that is drawn: beyond it by INRIA's rules, from it on by
+/// gsplat's.
+constexpr float nearLimit(Rules R) { return R == Rules::Inria ? 0.2F : 0.01F; }
+
 inline constexpr unsigned MaxZTiles = 16;
 
 /// The options of one picture that reach the device.

@@ -1,5 +1,6 @@
 #include "Pipeline.h"
 
+#include "../effects/Registry.h"
 #include "Planes.h"
 #include "View.h"
 
@@ -19,9 +20,31 @@ cl::NDRange itemsFor(uint32_t Count) {
           GroupSize};
 }
 
-GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree) {
+namespace {
+
+/// The coefficients of \p S that \p Plan evaluates, a plane each for channel 0,
+/// 1, 2 of each coefficient; zeros where the scene has no such band.
+std::vector<float> bandPlanes(const Scene &S, const EffectPlan &Plan) {
+  const Effect *const Bands[] = {&effects::Sh1, &effects::Sh2, &effects::Sh3};
+  std::vector<std::size_t> Sources{0, 1, 2};
+  for (int Band = 1; Band <= MaxShDegree; ++Band)
+    if (Plan.done(*Bands[Band - 1]))
+      for (std::size_t P = 3 * shCoefficients(Band - 1);
+           P < 3 * shCoefficients(Band); ++P)
+        Sources.push_back(P);
+  const std::size_t N = S.size();
+  const std::size_t Stride = 3 * S.coefficients();
+  std::vector<float> Out(Sources.size() * N);
+  for (std::size_t I = 0; I < N; ++I)
+    for (std::size_t P = 0; P < Sources.size(); ++P)
+      if (Sources[P] < Stride)
+        Out[P * N + I] = S.Sh[I * Stride + Sources[P]];
+  return Out;
+}
+
+GaussianBuffers upload(Launcher &L, const Scene &S,
+                       const std::vector<float> &Sh) {
   const std::vector<float> Geometry = geometryPlanes(S);
-  const std::vector<float> Sh = shPlanes(S, ShDegree);
   const GaussianBuffers B{
       L.allocate("Gaussians' geometry", 4 * Geometry.size()),
       L.allocate("Gaussians' colours", 4 * Sh.size()),
@@ -31,9 +54,21 @@ GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree) {
   return B;
 }
 
+} // namespace
+
+GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree) {
+  return upload(L, S, shPlanes(S, ShDegree));
+}
+
+GaussianBuffers uploadGaussians(Launcher &L, const Scene &S,
+                                const EffectPlan &Plan) {
+  return upload(L, S, bandPlanes(S, Plan));
+}
+
 void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   F = {};
   F.View = makeView(C, Options);
+  F.View.effects = Plan.flags();
   F.Gaussians = Gaussians;
   L.beginStage("project");
   project();
@@ -93,7 +128,7 @@ void Pipeline::duplicate() {
               words("Gaussians of pairs", F.Pairs)};
   L.run(TilesProgram, "duplicate", itemsFor(F.Gaussians.Count), GroupSize,
         F.ByDepth.Values, F.Rectangles, F.Places, F.ByTile.Keys,
-        F.ByTile.Values, F.Gaussians.Count, F.View.tiles[0]);
+        F.ByTile.Values, F.Gaussians.Count, F.View.tiles[0], F.View.effects);
 }
 
 void Pipeline::sortByTile() {
@@ -134,7 +169,7 @@ void Pipeline::shade() {
   L.run(BlendProgram, "blend",
         cl::NDRange(F.View.tiles[0] * Group, F.View.tiles[1]),
         cl::NDRange(Group, 1), F.Records, F.List, F.Ranges, F.Pixels, F.Last,
-        F.View.size[0], F.View.size[1], Options.Cutoff);
+        F.View.size[0], F.View.size[1], Options.Cutoff, F.View.effects);
 }
 
 splat_blend_options Pipeline::blendOptions() const {
@@ -157,6 +192,7 @@ splat_blend_options Pipeline::blendOptions() const {
   O.tail_last[0] = Tail.LastOver;
   O.tail_last[1] = Tail.LastUnder;
   O.tail_share = Tail.shareBits();
+  O.effects = Plan.flags();
   return O;
 }
 
@@ -167,17 +203,18 @@ void Pipeline::rasterize() {
   F.TileOrder = words("tile order", F.tiles());
   const cl::Buffer Statuses = words("cores' statuses", Cores);
   const cl::Buffer Tails = L.allocate(
-      "hand-over records", Options.PixelUnit.any()
+      "hand-over records", Plan.done(effects::PixelUnit)
                                ? uint64_t{TAIL_BYTES} * O.parts * O.tiles
                                : TAIL_BYTES);
   cl::Buffer Parts = F.Pixels;
-  if (O.parts > 1)
+  const bool Merged = Plan.done(effects::ZTiles);
+  if (Merged)
     Parts = L.allocate("depth parts", 16 * uint64_t{F.pixels()} * O.parts);
   L.run(TilesProgram, "order_tiles", itemsFor(F.tiles()), GroupSize, F.Ranges,
         F.TileOrder, F.tiles());
   L.run(BlendProgram, "rasterize", Cores * Lanes, Lanes, F.Records, F.List,
         F.Ranges, F.TileOrder, Parts, F.Last, Tails, Statuses, O);
-  if (O.parts > 1)
+  if (Merged)
     L.run(MergeProgram, "merge", itemsFor(F.pixels()), GroupSize, Parts,
           F.Pixels, F.pixels(), O.parts);
   checkStatuses(Statuses);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -26,12 +27,15 @@ inline constexpr std::array<std::string_view, 5> CullReasons{
 /// Gaussians in the device's memory, before activation.
 struct GaussianBuffers {
   cl::Buffer Geometry; ///< planes of layout.h's GEOMETRY_PLANES
-  cl::Buffer Sh;       ///< plane 3 k + c: coefficient k of channel c
+  cl::Buffer Sh; ///< plane 3 k + c: coefficient k, of those there, of channel c
   std::uint32_t Count = 0;
 };
 
 /// Copies \p S to the device, harmonics up to \p ShDegree.
 GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree);
+/// The same with the bands that \p Plan evaluates, zeros where \p S has none.
+GaussianBuffers uploadGaussians(Launcher &L, const Scene &S,
+                                const EffectPlan &Plan);
 
 /// The buffers of one picture, in the order in which they are filled.
 struct Frame {
@@ -63,9 +67,9 @@ struct Frame {
 /// for the same options; errors stick in the launcher.
 class Pipeline {
 public:
-  /// Keeps references to \p Launch and \p O.
-  Pipeline(Launcher &Launch, const RenderOptions &O)
-      : L(Launch), Options(O), Sort(Launch) {}
+  /// Keeps references to \p Launch and \p O. \p Effects: of the programs.
+  Pipeline(Launcher &Launch, const RenderOptions &O, EffectPlan Effects)
+      : L(Launch), Options(O), Plan(std::move(Effects)), Sort(Launch) {}
 
   /// Projects, sorts and blends \p Gaussians as \p C sees them; each step is a
   /// stage of the launcher's. Buffers of the frame before are released.
@@ -93,6 +97,7 @@ private:
 
   Launcher &L;
   const RenderOptions &Options;
+  EffectPlan Plan;
   Sorter Sort;
   Frame F;
 };

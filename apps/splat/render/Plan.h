@@ -2,17 +2,13 @@
 #pragma once
 
 #include "../device/Launcher.h"
-#include "../io/Scene.h"
+#include "../effects/EffectPlan.h"
 #include "Options.h"
 
 #include <string>
 #include <vector>
 
 namespace vorion::splat {
-
-/// The highest band of spherical harmonics of \p S with a coefficient that is
-/// not zero: what a kernel has to evaluate.
-int usedShDegree(const Scene &S);
 
 /// Names of the programs, by which kernels are run.
 inline constexpr const char *ProjectProgram = "project";
@@ -30,24 +26,22 @@ std::string alphaCutoffDefine(const RenderOptions &O);
 std::string minPowerDefine(const RenderOptions &O);
 
 /// The macros that the programs of one picture share: its tiles, square but for
-/// training's, and what of a projection is compiled in.
+/// training's, and what of a projection the way back is compiled with.
 std::vector<std::string> tileDefines(const RenderOptions &O);
 std::vector<std::string> projectionDefines(int ShDegree,
                                            const RenderOptions &O);
 
 struct RenderPlan {
-  int ShDegree = 0; ///< compiled in
+  EffectPlan Effects;
   std::vector<ProgramSpec> Programs;
 };
 
-/// The programs for \p S under \p Options. Effects that are not asked for and
-/// bands that the scene has not are left out of them.
-RenderPlan planRender(const Scene &S, const RenderOptions &Options);
-/// The same with harmonics up to \p ShDegree, whatever they are.
+/// The programs for \p Effects under \p Options: each is built with the macros
+/// of its own files and no others, so that what another needs does not make it
+/// anew.
+RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options);
+/// Of training, which knows no scene and decides nothing by data: harmonics up
+/// to \p ShDegree, whatever they are, and all guards.
 RenderPlan planRender(int ShDegree, const RenderOptions &Options);
-
-/// What \p Plan compiles in and leaves out, and why: a line each.
-std::vector<std::string> explain(const RenderPlan &Plan, const Scene &S,
-                                 const RenderOptions &Options);
 
 } // namespace vorion::splat

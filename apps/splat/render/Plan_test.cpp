@@ -1,5 +1,7 @@
+#include "../effects/Registry.h"
 #include "Backward.h"
 #include "Plan.h"
+#include "View.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -7,56 +9,73 @@
 namespace vorion::splat {
 namespace {
 
-Scene twoGaussians(int Degree) {
-  Scene S;
-  S.ShDegree = Degree;
-  S.OpacityLogits = {0, 0};
-  S.Sh.assign(2 * 3 * S.coefficients(), 0);
-  return S;
+Camera camera() {
+  Camera C;
+  C.Width = 64;
+  C.Height = 48;
+  C.Fx = C.Fy = 50;
+  C.Cx = 32;
+  C.Cy = 24;
+  for (std::size_t I = 0; I < 3; ++I)
+    C.Rotation[I][I] = 1;
+  return C;
 }
 
-TEST(Plan, BandsOfZerosAreNotUsed) {
-  Scene S = twoGaussians(3);
-  EXPECT_EQ(usedShDegree(S), 0);
-  S.Sh[3 * S.coefficients() + 3 * 8 + 2] = 0.5F; // band 2 of the second
-  EXPECT_EQ(usedShDegree(S), 2);
-  S.Sh.back() = -1e-30F;
-  EXPECT_EQ(usedShDegree(S), 3);
+RenderPlan planFor(const Scene &S, const RenderOptions &O,
+                   const std::string &Request = "auto") {
+  const ViewFacts Facts =
+      factsOf(S, makeView(camera(), O), nearLimit(O.Convention));
+  return planRender(
+      EffectPlan(*parseEffectRequest(Request), {S, O, Facts, false}), O);
+}
+
+bool has(const RenderPlan &P, const char *Program, const char *Word) {
+  const auto Found = std::ranges::find(P.Programs, Program, &ProgramSpec::Name);
+  return Found != P.Programs.end() &&
+         std::ranges::count(Found->Files, Word) +
+                 std::ranges::count(Found->Defines, Word) ==
+             1;
+}
+
+bool hasProgram(const RenderPlan &P, const char *Program) {
+  return std::ranges::count(P.Programs, Program, &ProgramSpec::Name) == 1;
 }
 
 TEST(Plan, OnlyWhatIsNeededIsCompiled) {
-  Scene S = twoGaussians(1);
+  Scene S = Scene::sized(2, 1);
+  S.Means = {0, 0, 2, 0, 0, 3};
   S.Sh.back() = 1;
   RenderOptions O;
   O.Blending = Path::Simt;
   O.Reach = Support::Box3;
-  const auto Has = [](const RenderPlan &P, const char *Program,
-                      const char *Word) {
-    const auto Found =
-        std::ranges::find(P.Programs, Program, &ProgramSpec::Name);
-    return std::ranges::count(Found->Files, Word) +
-               std::ranges::count(Found->Defines, Word) ==
-           1;
-  };
-  RenderPlan P = planRender(S, O);
-  EXPECT_TRUE(Has(P, ProjectProgram, "SH_DEGREE=1"));
-  EXPECT_TRUE(Has(P, ProjectProgram, "SUPPORT_BOX3"));
-  EXPECT_TRUE(Has(P, ProjectProgram, "TILE_SIZE=16"));
-  EXPECT_FALSE(Has(P, ProjectProgram, "ANTIALIASED"));
-  EXPECT_TRUE(Has(P, BlendProgram, "blend.cl"));
-  EXPECT_FALSE(Has(P, BlendProgram, "STOP_AT_EQUAL"));
+  RenderPlan P = planFor(S, O);
+  EXPECT_TRUE(has(P, ProjectProgram, "USE_SH1=1"));
+  EXPECT_TRUE(has(P, ProjectProgram, "USE_SH2=0"));
+  EXPECT_TRUE(has(P, ProjectProgram, "SUPPORT_BOX3"));
+  EXPECT_TRUE(has(P, ProjectProgram, "TILE_SIZE=16"));
+  EXPECT_TRUE(has(P, ProjectProgram, "USE_ANTIALIAS=0"));
+  EXPECT_TRUE(has(P, ProjectProgram, "USE_NEAR_PLANE=0"));
+  EXPECT_TRUE(has(P, ProjectProgram, "KEEP_DEPTH(z)=((z)>0.2f)"));
+  EXPECT_TRUE(has(P, BlendProgram, "blend.cl"));
+  EXPECT_FALSE(has(P, BlendProgram, "STOP_AT_EQUAL"));
+  EXPECT_FALSE(hasProgram(P, ResolveProgram));
 
   O.Antialiased = true;
   O.Convention = Rules::Gsplat;
-  P = planRender(S, O);
-  EXPECT_TRUE(Has(P, ProjectProgram, "ANTIALIASED"));
-  EXPECT_TRUE(Has(P, BlendProgram, "STOP_AT_EQUAL"));
+  O.Background[1] = 1;
+  P = planFor(S, O);
+  EXPECT_TRUE(has(P, ProjectProgram, "USE_ANTIALIAS=1"));
+  EXPECT_TRUE(has(P, ProjectProgram, "KEEP_DEPTH(z)=((z)>=0.01f)"));
+  EXPECT_TRUE(has(P, BlendProgram, "STOP_AT_EQUAL"));
+  EXPECT_TRUE(hasProgram(P, ResolveProgram));
 
   O.Blending = Path::Raster;
-  P = planRender(S, O);
-  EXPECT_TRUE(Has(P, ProjectProgram, "TILE_SIZE=64"));
-  EXPECT_TRUE(Has(P, BlendProgram, "rasterize.cl"));
-  EXPECT_FALSE(Has(P, BlendProgram, "blend.cl"));
+  P = planFor(S, O);
+  EXPECT_TRUE(has(P, ProjectProgram, "TILE_SIZE=64"));
+  EXPECT_TRUE(has(P, BlendProgram, "rasterize.cl"));
+  EXPECT_TRUE(has(P, BlendProgram, "USE_ZTILES=0"));
+  EXPECT_FALSE(has(P, BlendProgram, "blend.cl"));
+  EXPECT_FALSE(hasProgram(P, MergeProgram));
 }
 
 TEST(Plan, TrainingHasTilesOfItsOwnAndKeepsLastContributors) {
@@ -68,7 +87,7 @@ TEST(Plan, TrainingHasTilesOfItsOwnAndKeepsLastContributors) {
   RenderOptions O;
   O.Training = true;
   const auto Raster = planRender(2, O).Programs;
-  EXPECT_TRUE(Defines(Raster, ProjectProgram, "SH_DEGREE=2"));
+  EXPECT_TRUE(Defines(Raster, ProjectProgram, "USE_SH2=1"));
   for (const char *Program : {ProjectProgram, BlendProgram}) {
     EXPECT_TRUE(Defines(Raster, Program, "TILE_SIZE=32"));
     EXPECT_TRUE(Defines(Raster, Program, "TILE_HEIGHT=64"));
@@ -87,17 +106,44 @@ TEST(Plan, TrainingHasTilesOfItsOwnAndKeepsLastContributors) {
   }
 }
 
-TEST(Plan, ExplanationNamesTheReason) {
-  Scene S = twoGaussians(2);
-  S.Sh[3 * 1] = 1; // band 1 of the first
-  const auto Lines = explain(planRender(S, {}), S, {});
-  const auto Says = [&](const char *Line) {
-    return std::ranges::count(Lines, Line) == 1;
-  };
-  EXPECT_TRUE(Says("SH band 1: compiled in"));
-  EXPECT_TRUE(
-      Says("SH band 2: left out, all its coefficients in the scene are zero"));
-  EXPECT_TRUE(Says("SH band 3: left out, the scene has degree 2"));
+TEST(Plan, AProgramKnowsTheMacrosOfItsOwnFilesOnly) {
+  const RenderPlan P = planFor(Scene::sized(1, 3), {});
+  for (const ProgramSpec &Program : P.Programs)
+    if (Program.Name == SortProgram || Program.Name == ScanProgram)
+      EXPECT_TRUE(Program.Defines.empty()) << Program.Name;
+  EXPECT_FALSE(has(P, TilesProgram, "USE_SH1=0"));
+}
+
+TEST(Plan, WhatIsNotNeutralIsBehindItsFlagUnlessAskedFor) {
+  const Scene S = Scene::sized(1, 0);
+  RenderOptions O;
+  const RenderPlan All = planFor(S, O, "all");
+  EXPECT_TRUE(has(All, ProjectProgram, "USE_SH3=1"));
+  EXPECT_TRUE(has(All, ProjectProgram, "USE_NEAR_PLANE=1"));
+  EXPECT_FALSE(has(All, ProjectProgram, "USE_ANTIALIAS=1"));
+  EXPECT_TRUE(All.Effects.compiled(effects::Antialias));
+  EXPECT_FALSE(All.Effects.done(effects::Antialias));
+  O.Antialiased = true;
+  EXPECT_TRUE(has(planFor(S, O, "all"), ProjectProgram, "USE_ANTIALIAS=1"));
+}
+
+TEST(Plan, FlagsGiveOneProgramForEveryScene) {
+  Scene S = Scene::sized(1, 0);
+  S.Means = {0, 0, 2};
+  RenderOptions O;
+  const RenderPlan Plain = planFor(S, O, "flags");
+  S = Scene::sized(1, 3);
+  S.Sh.back() = 1;
+  S.Means = {5, 0, -2};
+  O.Antialiased = true;
+  O.Background = {1, 1, 1};
+  const RenderPlan Full = planFor(S, O, "flags");
+  ASSERT_EQ(Plain.Programs.size(), Full.Programs.size());
+  for (std::size_t I = 0; I < Plain.Programs.size(); ++I)
+    EXPECT_EQ(Plain.Programs[I].Defines, Full.Programs[I].Defines);
+  EXPECT_NE(Plain.Effects.flags(), Full.Effects.flags());
+  EXPECT_FALSE(Plain.Effects.done(effects::Sh3));
+  EXPECT_TRUE(Full.Effects.done(effects::Sh3));
 }
 
 } // namespace

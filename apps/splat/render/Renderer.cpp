@@ -1,5 +1,6 @@
 #include "Renderer.h"
 
+#include "../effects/Registry.h"
 #include "Pipeline.h"
 
 #include <fmt/format.h>
@@ -36,11 +37,13 @@ cl::Buffer resolve(Launcher &L, const Frame &F,
                    const std::array<float, 3> &Background) {
   cl::Buffer Picture = L.allocate("picture", 16 * uint64_t{F.pixels()});
   L.run(ResolveProgram, "resolve", itemsFor(F.pixels()), GroupSize, F.Pixels,
-        Picture, F.pixels(), Background[0], Background[1], Background[2]);
+        Picture, F.pixels(), Background[0], Background[1], Background[2],
+        F.View.effects);
   return Picture;
 }
 
-Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture) {
+Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture,
+                  bool Resolved) {
   Image I;
   I.Width = static_cast<int>(F.View.size[0]);
   I.Height = static_cast<int>(F.View.size[1]);
@@ -51,7 +54,7 @@ Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture) {
   for (std::size_t P = 0; P < F.pixels(); ++P) {
     for (std::size_t K = 0; K < 3; ++K)
       I.Render[3 * P + K] = Rgba[4 * P + K];
-    I.Alpha[P] = Rgba[4 * P + 3];
+    I.Alpha[P] = Resolved ? Rgba[4 * P + 3] : 1 - Rgba[4 * P + 3];
   }
   return I;
 }
@@ -67,17 +70,22 @@ Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
     L.build(Program);
 
   L.beginStage("upload");
-  const GaussianBuffers Gaussians = uploadGaussians(L, S, Plan.ShDegree);
-  Pipeline P(L, Options);
+  const GaussianBuffers Gaussians = uploadGaussians(L, S, Plan.Effects);
+  Pipeline P(L, Options, Plan.Effects);
   P.draw(Gaussians, C);
-  L.beginStage("resolve");
-  const cl::Buffer Picture = resolve(L, P.frame(), Options.Background);
+  // Without a background the pixels are the picture, but for 1 - T.
+  const bool Resolved = Plan.Effects.done(effects::Background);
+  cl::Buffer Picture = P.frame().Pixels;
+  if (Resolved) {
+    L.beginStage("resolve");
+    Picture = resolve(L, P.frame(), Options.Background);
+  }
   L.beginStage("read back");
   RenderResult R;
   R.Visible = P.frame().Visible;
   R.Pairs = P.frame().Pairs;
   R.Culled = P.frame().Culled;
-  R.Picture = readPicture(L, P.frame(), Picture);
+  R.Picture = readPicture(L, P.frame(), Picture, Resolved);
   if (KeepPairs)
     R.Sorted = readPairs(L, P.frame());
   if (L.failure())

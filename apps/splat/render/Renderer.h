@@ -30,7 +30,9 @@ struct RenderResult {
 /// The picture of \p F in front of \p Background, and its copy for the host.
 cl::Buffer resolve(Launcher &L, const Frame &F,
                    const std::array<float, 3> &Background);
-Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture);
+/// \p Resolved: the fourth channel is alpha already, not the transmittance.
+Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture,
+                  bool Resolved = true);
 
 /// Uploads \p S and runs every stage with \p L, whose programs are built from
 /// \p Plan. Only the picture, two counts and, on the raster path, a status a

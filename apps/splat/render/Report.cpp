@@ -1,5 +1,6 @@
 #include "Report.h"
 
+#include "../effects/Explain.h"
 #include "../io/Hash.h"
 #include "FrameTime.h"
 #include "vorion/support/File.h"
@@ -164,8 +165,8 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"depth_bits", O.DepthBits},
                 {"sh_limit", O.ShLimit},
                 {"exp", name(O.Exponential)},
-                {"blend", name(O.Arithmetic)},
-                {"sh_degree_compiled", R.Plan.ShDegree}}},
+                {"blend", name(O.Arithmetic)}}},
+              {"effects", Json::parse(effectsJson(R.Plan.Effects))},
               {"programs", json(R.Plan.Programs)},
               {"device", Device},
               {"picture", R.Output},

@@ -21,7 +21,7 @@ DeviceRenderer::DeviceRenderer(Launcher &Launch, Path Blending,
                                const BackwardOptions &How,
                                const std::array<float, 3> &Background)
     : L(Launch), Choice(How), Options(trainingOptions(Blending, Background)),
-      Drawing(Launch, Options) {
+      Drawing(Launch, Options, EffectPlan::forAnyScene(MaxShDegree, Options)) {
   Choice.Parameters = GradientsOf::Stored;
 }
 

@@ -14,10 +14,10 @@ namespace {
 using splat::Path;
 
 constexpr std::string_view Files[] = {
-    "layout.h",     "activate.cl", "covariance.cl", "support.cl",
-    "sh.cl",        "project.cl",  "scan.cl",       "sort.cl",
-    "tiles.cl",     "falloff.cl",  "units.cl",      "blend.cl",
-    "rasterize.cl", "resolve.cl",  "merge.cl",      "deal.cl"};
+    "layout.h",   "activate.cl", "covariance.cl", "support.cl", "sh.cl",
+    "project.cl", "scan.cl",     "sort.cl",       "tiles.cl",   "falloff.cl",
+    "units.cl",   "blend.cl",    "rasterize.cl",  "resolve.cl", "merge.cl",
+    "deal.cl",    "sh_planes.h"};
 
 constexpr std::string_view PlainProduct =
     "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
@@ -65,14 +65,13 @@ const std::vector<BrokenKernel> &brokenKernels() {
          "GEOMETRY(PLANE_LOGIT))) & 0xffff8000u);"}}},
       {"near-plane-at-0",
        {},
-       {{"project.cl", "if (!(KEEP_DEPTH(z)))", "if (!(z > 0.0f))"}}},
+       {{"project.cl", "!(KEEP_DEPTH(z))", "!(z > 0.0f)"}}},
       {"behind-mirrored",
        {},
-       {{"project.cl", "if (!(KEEP_DEPTH(z)))", "if (z == 0.0f)"}}},
+       {{"project.cl", "!(KEEP_DEPTH(z))", "z == 0.0f"}}},
       {"jacobian-unclamped",
        {},
-       {{"project.cl", "project_covariance(view, z, clamped,",
-         "project_covariance(view, z, ratio + 0.0f * clamped,"}}},
+       {{"project.cl", "if (USE_FIELD_OF_VIEW)", "if (false)"}}},
       {"depth-by-plain-sum",
        {},
        {{"project.cl", "return sum.x + sum.y;", "return sum.x;"}}},
@@ -116,18 +115,15 @@ const std::vector<BrokenKernel> &brokenKernels() {
          "#define SATURATED(t) (false)"}}},
       {"list-cut-at-8",
        {},
-       {{"rasterize.cl",
-         "const uint count = entries * (part + 1) / parts - begin;",
-         "const uint count = min(8u, entries * (part + 1) / parts - begin);"},
+       {{"rasterize.cl", "(uint)sizeof(uint), count, x, y,",
+         "(uint)sizeof(uint), min(8u, count), x, y,"},
         {"blend.cl", "const uint entries = min((uint)BATCH, range.y - base);",
          "const uint entries = base == range.x ? min(8u, range.y - base) "
          ": 0u;"}}},
       {"last-entry-lost",
        {},
-       {{"rasterize.cl",
-         "const uint count = entries * (part + 1) / parts - begin;",
-         "const uint count = entries * (part + 1) / parts - begin - "
-         "(entries > 0u ? 1u : 0u);"},
+       {{"rasterize.cl", "(uint)sizeof(uint), count, x, y,",
+         "(uint)sizeof(uint), count - (count > 0u ? 1u : 0u), x, y,"},
         {"blend.cl", "const uint entries = min((uint)BATCH, range.y - base);",
          "const uint entries = min((uint)BATCH, range.y - base - 1u);"}}},
       {"last-column-lost",

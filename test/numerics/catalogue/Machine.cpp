@@ -1,8 +1,26 @@
 #include "Machine.h"
 
+#include "../../../apps/splat/effects/ViewFacts.h"
+#include "../../../apps/splat/render/View.h"
+
 #include <cstdio>
 
 namespace vorion::test {
+
+namespace {
+
+/// With flags, so that cases share programs; that effects left out change
+/// nothing is for test/render/effects.test.
+splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O) {
+  const splat::ViewFacts Facts = splat::factsOf(
+      C.Scene, splat::makeView(C.View, O), splat::nearLimit(O.Convention));
+  splat::EffectRequest Flags;
+  Flags.How = splat::EffectRequest::Mode::Flags;
+  return splat::planRender(splat::EffectPlan(Flags, {C.Scene, O, Facts, false}),
+                           O);
+}
+
+} // namespace
 
 Expected<Machine> Machine::open() {
   auto D = splat::Device::open("");
@@ -15,7 +33,7 @@ Expected<splat::RenderResult> Machine::render(const HardCase &C,
                                               const splat::RenderOptions &O,
                                               const std::string &KernelFolder) {
   splat::Launcher L(Dev, KernelFolder, {}, &Programs);
-  auto R = splat::render(L, splat::planRender(C.Scene, O), C.Scene, C.View, O,
+  auto R = splat::render(L, planFor(C, O), C.Scene, C.View, O,
                          /*KeepPairs=*/false);
   if (!R && !L.buildLog().empty())
     std::fputs(L.buildLog().c_str(), stderr);

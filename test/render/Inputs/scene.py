@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
 """Writes a small scene and its camera.
 
-usage: scene.py one|random|degenerate|dc SCENE.ply CAMERAS.json
+usage: scene.py one|random|degenerate|dc|front|late SCENE.ply CAMERAS.json
 one: a round Gaussian in the middle of 64x48 pixels
 random: 600 Gaussians of all shapes and SH degree 3, 150x100 pixels (partial
     tiles on both paths), some behind the camera, at its plane and huge
 degenerate: what must not draw or fail: zero quaternion, zero and infinite
     extent, opacity 0 and 1, at the camera, far outside
 dc: 40 Gaussians without the higher bands
+front: a bare scene, that calls for no effect: degree 3, but zeros and -0; all
+    in view, in front of the camera, of middling opacity
+late: random, with the higher bands' coefficients zero (some of them -0) but
+    the last one of the last Gaussian
 """
 
 import json
@@ -59,6 +63,24 @@ def degenerate():
     return 0, out, camera(64, 48, 50)
 
 
+def bare():
+    degree, out, view = rand(200)
+    for mean, _, _, _, sh in out:
+        mean[0], mean[1], mean[2] = 0.3 * mean[0], 0.3 * mean[1], 2 + abs(mean[2])
+        sh[3:] = [-0.0 if i % 2 else 0.0 for i in range(len(sh) - 3)]
+    return degree, [(m, s, q, min(max(logit, -4), 4), sh) for m, s, q, logit, sh in out], view
+
+
+def late():
+    degree, out, view = rand()
+    for *_, sh in out:
+        sh[3:] = [-0.0 if i % 2 else 0.0 for i in range(len(sh) - 3)]
+    mean, scales, quat, _, sh = out[-1]
+    sh[-3:] = [2, 2, 2]
+    out[-1] = ([0.2, 0.1, 1], [math.log(0.2)] * 3, quat, 4, sh)
+    return degree, out, view
+
+
 def camera(width, height, focal):
     return {"id": 0, "img_name": "front", "width": width, "height": height, "position": [0, 0, 0],
             "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "fx": focal, "fy": focal}
@@ -80,7 +102,8 @@ def write(path, degree, gaussians):
             f.write(struct.pack(f"<{len(row)}f", *row))
 
 
-kinds = {"one": one, "random": rand, "degenerate": degenerate, "dc": lambda: rand(40, 0, 64, 48)}
+kinds = {"one": one, "random": rand, "degenerate": degenerate, "dc": lambda: rand(40, 0, 64, 48),
+         "front": bare, "late": late}
 degree, gaussians, view = kinds[sys.argv[1]]()
 write(sys.argv[2], degree, gaussians)
 with open(sys.argv[3], "w") as f:

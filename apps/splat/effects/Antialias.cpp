@@ -1,0 +1,25 @@
+// Compensation of the opacity for the dilation (Mip-Splatting, gsplat's and
+// INRIA's antialiased rules).
+
+#include "Registry.h"
+
+namespace vorion::splat {
+
+namespace {
+
+Finding detect(const EffectInputs &In) {
+  return In.Options.Antialiased ? Finding{true, "--antialiased"}
+                                : Finding{false, "not asked (--antialiased)"};
+}
+
+} // namespace
+
+const Effect effects::Antialias{
+    .Name = "antialias",
+    .Kind = EffectKind::Scene,
+    .What = "opacity times the root of the determinants' ratio",
+    .Macro = "USE_ANTIALIAS",
+    .Detect = detect,
+    .Neutral = false};
+
+} // namespace vorion::splat

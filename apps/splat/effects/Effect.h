@@ -1,0 +1,58 @@
+/// One thing that a picture may need beyond the bare pipeline: how it is told
+/// that it is needed, and what it adds.
+#pragma once
+
+#include "../io/Scene.h"
+#include "../render/Options.h"
+#include "ViewFacts.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace vorion::splat {
+
+enum class EffectKind {
+  Scene,      ///< from data; on or off where it is not needed, same bits
+  Machine,    ///< changes time, and at most rounding within its bound
+  Observation ///< by option only; changes nothing
+};
+
+std::string_view name(EffectKind K);
+
+/// Whether an effect is needed, and the figure that decided.
+struct Finding {
+  bool Needed = false;
+  std::string Figure;
+  /// False where the options rule it out: it is then not even done unneeded.
+  bool Applies = true;
+};
+
+/// What detection looks at.
+struct EffectInputs {
+  const Scene &S;
+  const RenderOptions &Options;
+  const ViewFacts &Facts;
+  bool KeepPairs = false; ///< --dump-pairs
+};
+
+/// A record of the registry; each is defined in a file of its own.
+struct Effect {
+  /// As --effects and reports have it.
+  std::string_view Name;
+  EffectKind Kind;
+  /// What it is and what it adds: code, unit, model.
+  std::string_view What;
+  /// The macro of its code in the kernels, 0, 1 or a test of a flag (see
+  /// EffectPlan.h); empty where it has no code of its own.
+  std::string_view Macro = ""; // NOLINT(readability-redundant-string-init)
+  Finding (*Detect)(const EffectInputs &) = nullptr;
+  /// The effect that encloses its code, which is done where this one is; later
+  /// in the registry.
+  const Effect *Within = nullptr;
+  /// Done where it is not needed, it changes no bit. What is not neutral is
+  /// told by an option, and compiled in unneeded only behind its flag.
+  bool Neutral = true;
+};
+
+} // namespace vorion::splat

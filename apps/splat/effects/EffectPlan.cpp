@@ -1,0 +1,184 @@
+#include "EffectPlan.h"
+
+#include "Registry.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <utility>
+
+namespace vorion::splat {
+
+namespace {
+
+using Mode = EffectRequest::Mode;
+
+/// The bit of \p E in the kernels' variable `effects`: its place among those
+/// with code.
+std::uint32_t bitOf(const Effect &E) {
+  std::uint32_t Bit = 1;
+  for (const Effect *Other : effects::all()) {
+    if (Other == &E)
+      break;
+    if (!Other->Macro.empty())
+      Bit <<= 1;
+  }
+  return Bit;
+}
+
+std::string define(const Effect &E, EffectCode Code) {
+  switch (Code) {
+  case EffectCode::Absent:
+    return fmt::format("{}=0", E.Macro);
+  case EffectCode::Compiled:
+    return fmt::format("{}=1", E.Macro);
+  case EffectCode::Flagged:
+    return fmt::format("{}=(effects&{}u)", E.Macro, bitOf(E));
+  }
+  return {};
+}
+
+/// Whether --effects may name it: an option decides the others.
+bool byData(const Effect &E) {
+  return E.Kind == EffectKind::Scene && E.Neutral;
+}
+
+bool wanted(const EffectRequest &R, const Effect &E, const Finding &Found) {
+  const bool Listed = std::ranges::find(R.List, &E) != R.List.end();
+  const bool Wanted = R.How == Mode::List && byData(E) ? Listed : Found.Needed;
+  return Wanted != (R.Toggled == &E);
+}
+
+EffectCode codeOf(const EffectRequest &R, const Effect &E, bool Wanted) {
+  if (E.Macro.empty())
+    return EffectCode::Absent;
+  if (R.How == Mode::Flags)
+    return EffectCode::Flagged;
+  if (Wanted)
+    return EffectCode::Compiled;
+  if (R.How != Mode::All || R.Toggled == &E)
+    return EffectCode::Absent;
+  return E.Neutral ? EffectCode::Compiled : EffectCode::Flagged;
+}
+
+} // namespace
+
+std::string_view name(EffectCode C) {
+  switch (C) {
+  case EffectCode::Absent:
+    return "absent";
+  case EffectCode::Compiled:
+    return "compiled";
+  case EffectCode::Flagged:
+    return "flagged";
+  }
+  return {};
+}
+
+std::string_view name(Mode M) {
+  switch (M) {
+  case Mode::Auto:
+    return "auto";
+  case Mode::All:
+    return "all";
+  case Mode::Flags:
+    return "flags";
+  case Mode::List:
+    return "list";
+  }
+  return {};
+}
+
+Expected<EffectRequest> parseEffectRequest(const std::string &Text) {
+  EffectRequest R;
+  for (const Mode M : {Mode::Auto, Mode::All, Mode::Flags})
+    if (Text == name(M)) {
+      R.How = M;
+      return R;
+    }
+  R.How = Mode::List;
+  std::string_view Rest = Text;
+  for (;;) {
+    const std::size_t Comma = Rest.find(',');
+    const std::string_view Name = Rest.substr(0, Comma);
+    const Effect *E = effects::find(Name);
+    if (!E || !byData(*E)) {
+      std::string Known;
+      for (const Effect *Other : effects::all())
+        if (byData(*Other))
+          Known += fmt::format(", {}", Other->Name);
+      return Error{
+          "",
+          E ? fmt::format("--effects {}: {} is decided by its own option "
+                          "(--explain names it), expected auto, all, flags{}",
+                          Text, Name, Known)
+            : fmt::format("--effects {}: no effect is called \"{}\", expected "
+                          "auto, all, flags{}",
+                          Text, Name, Known),
+          ExitCode::Usage};
+    }
+    R.List.push_back(E);
+    if (Comma == std::string_view::npos)
+      return R;
+    Rest.remove_prefix(Comma + 1);
+  }
+}
+
+EffectPlan::EffectPlan(const EffectRequest &R, const EffectInputs &In) {
+  std::vector<const Effect *> Enclosing;
+  for (const Effect *E : effects::all()) {
+    EffectDecision D;
+    D.E = E;
+    D.Found = E->Detect(In);
+    const bool Wanted =
+        D.Found.Applies && (wanted(R, *E, D.Found) ||
+                            std::ranges::find(Enclosing, E) != Enclosing.end());
+    D.Code = D.Found.Applies || R.How == Mode::Flags ? codeOf(R, *E, Wanted)
+                                                     : EffectCode::Absent;
+    D.Done = D.Code == EffectCode::Compiled || Wanted;
+    if (D.Done && E->Within)
+      Enclosing.push_back(E->Within);
+    Decisions.push_back(std::move(D));
+  }
+}
+
+EffectPlan EffectPlan::forAnyScene(int ShDegree, const RenderOptions &O) {
+  RenderOptions Limited = O;
+  Limited.ShLimit = ShDegree;
+  EffectRequest R;
+  R.How = Mode::List;
+  std::ranges::copy_if(effects::all(), std::back_inserter(R.List),
+                       [](const Effect *E) { return byData(*E); });
+  const Scene None = Scene::sized(0, MaxShDegree);
+  return {R, {None, Limited, ViewFacts(), false}};
+}
+
+const EffectDecision &EffectPlan::of(const Effect &E) const {
+  return *std::ranges::find(Decisions, &E, &EffectDecision::E);
+}
+
+std::vector<std::string> EffectPlan::defines() const {
+  std::vector<std::string> Defines;
+  for (const EffectDecision &D : Decisions)
+    if (!D.E->Macro.empty())
+      Defines.push_back(define(*D.E, D.Code));
+  return Defines;
+}
+
+std::uint32_t EffectPlan::flags() const {
+  std::uint32_t Flags = 0;
+  for (const EffectDecision &D : Decisions)
+    if (D.Done && !D.E->Macro.empty())
+      Flags |= bitOf(*D.E);
+  return Flags;
+}
+
+std::vector<const Effect *> EffectPlan::missing() const {
+  std::vector<const Effect *> Missing;
+  for (const EffectDecision &D : Decisions)
+    if (D.Found.Needed && !D.Done)
+      Missing.push_back(D.E);
+  return Missing;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,78 @@
+/// Which effects a picture gets, and in which form.
+#pragma once
+
+#include "Effect.h"
+
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// The code of an effect in the kernels.
+enum class EffectCode {
+  Absent,   ///< not in the program
+  Compiled, ///< in the program, always done
+  Flagged   ///< in the program, done where its bit of `effects` is set
+};
+
+std::string_view name(EffectCode C);
+
+struct EffectDecision {
+  const Effect *E = nullptr;
+  Finding Found;
+  EffectCode Code = EffectCode::Absent;
+  /// Whether it is done: compiled in, or flagged with its bit set. For an
+  /// effect without code: whether it is on.
+  bool Done = false;
+};
+
+/// What --effects asks for.
+struct EffectRequest {
+  enum class Mode {
+    Auto,  ///< what is needed, and no code of anything else
+    All,   ///< everything compiled in
+    Flags, ///< everything compiled in behind run-time flags
+    List   ///< of those decided by data: these and no others
+  };
+  Mode How = Mode::Auto;
+  std::vector<const Effect *> List; ///< for Mode::List
+  /// Compiled in if false, left out if true, whatever How says; for measuring.
+  const Effect *Toggled = nullptr;
+};
+
+std::string_view name(EffectRequest::Mode M);
+
+/// Reads "auto", "all", "flags" or names of effects joined by commas; of an
+/// effect that an option decides, the error names the option.
+Expected<EffectRequest> parseEffectRequest(const std::string &Text);
+
+class EffectPlan {
+public:
+  EffectPlan() = default;
+  EffectPlan(const EffectRequest &R, const EffectInputs &In);
+  /// For scenes that are not known yet: harmonics up to \p ShDegree and all
+  /// that data could call for; the rest as \p O has it.
+  static EffectPlan forAnyScene(int ShDegree, const RenderOptions &O);
+
+  const std::vector<EffectDecision> &decisions() const { return Decisions; }
+  const EffectDecision &of(const Effect &E) const;
+  bool done(const Effect &E) const { return of(E).Done; }
+  bool compiled(const Effect &E) const {
+    return of(E).Code != EffectCode::Absent;
+  }
+
+  /// "MACRO=value" of each effect with code; the value is 0, 1 or a test of the
+  /// variable `effects`, which kernels get with flags().
+  std::vector<std::string> defines() const;
+  /// The bits of the effects that are done.
+  std::uint32_t flags() const;
+
+  /// Effects that are needed but left out, as a list can ask: the picture
+  /// differs.
+  std::vector<const Effect *> missing() const;
+
+private:
+  std::vector<EffectDecision> Decisions;
+};
+
+} // namespace vorion::splat

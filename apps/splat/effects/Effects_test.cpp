@@ -1,0 +1,329 @@
+// That each effect is found where it is needed, and only there; that kernels
+// and registry know the same macros.
+
+#include "../device/Kernels.h"
+#include "../render/View.h"
+#include "EffectPlan.h"
+#include "Registry.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace vorion::splat {
+namespace {
+
+using Mode = EffectRequest::Mode;
+
+constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
+
+class Effects : public testing::Test {
+protected:
+  Effects() {
+    C.Width = 64;
+    C.Height = 48;
+    C.Fx = C.Fy = 50;
+    C.Cx = 32;
+    C.Cy = 24;
+    for (std::size_t I = 0; I < 3; ++I)
+      C.Rotation[I][I] = 1;
+    // In front of the camera, opacity 1/2.
+    for (std::size_t I = 0; I < S.size(); ++I)
+      S.Means[3 * I + 2] = 2;
+  }
+
+  EffectPlan plan(const std::string &Request = "auto") const {
+    const auto R = parseEffectRequest(Request);
+    EXPECT_TRUE(R);
+    return {*R,
+            {S, O, factsOf(S, makeView(C, O), nearLimit(O.Convention)), false}};
+  }
+  bool needed(const Effect &E) const { return plan().of(E).Found.Needed; }
+
+  Scene S = Scene::sized(3, 3);
+  RenderOptions O;
+  Camera C;
+};
+
+TEST_F(Effects, ABareSceneNeedsNone) {
+  for (const EffectDecision &D : plan().decisions())
+    if (D.E->Kind == EffectKind::Scene) {
+      EXPECT_FALSE(D.Found.Needed) << D.E->Name << ": " << D.Found.Figure;
+      EXPECT_EQ(D.Code, EffectCode::Absent) << D.E->Name;
+      EXPECT_FALSE(D.Done) << D.E->Name;
+    }
+}
+
+TEST_F(Effects, EachBandIsFoundByItself) {
+  const Effect *Bands[] = {&effects::Sh1, &effects::Sh2, &effects::Sh3};
+  for (std::size_t Band = 1; Band <= 3; ++Band) {
+    // The last coefficient of the last Gaussian's band.
+    std::ranges::fill(S.Sh, -0.0F);
+    S.Sh[2 * 3 * S.coefficients() + 3 * (Band + 1) * (Band + 1) - 1] = 1e-40F;
+    for (std::size_t Other = 1; Other <= 3; ++Other)
+      EXPECT_EQ(needed(*Bands[Other - 1]), Other == Band) << Band << Other;
+    EXPECT_TRUE(needed(effects::ViewColor));
+  }
+}
+
+TEST_F(Effects, NaNIsNoZero) {
+  S.Sh.back() = NaN;
+  O.Background[2] = NaN;
+  S.Means[0] = NaN;
+  S.OpacityLogits[0] = NaN;
+  O.Blending = Path::Simt;
+  for (const Effect *E :
+       {&effects::Sh3, &effects::Background, &effects::NearPlane,
+        &effects::FieldOfView, &effects::Faint, &effects::AlphaClamp})
+    EXPECT_TRUE(needed(*E)) << E->Name;
+}
+
+TEST_F(Effects, OneCoefficientInAMillionGaussiansIsFound) {
+  S = Scene::sized(1000000, 3);
+  EXPECT_FALSE(needed(effects::Sh3));
+  S.Sh[S.Sh.size() - 5] = 1e-45F;
+  EXPECT_TRUE(needed(effects::Sh3));
+  EXPECT_FALSE(needed(effects::Sh2));
+  EXPECT_EQ(plan().of(effects::Sh3).Found.Figure,
+            "Gaussian 999999 has a coefficient that is not 0");
+}
+
+// 0 times a direction that overflowed would be a NaN.
+TEST_F(Effects, DirectionsThatMayOverflowNeedTheirBands) {
+  S.Means[1] = 1e19F;
+  EXPECT_TRUE(needed(effects::Sh1));
+  EXPECT_TRUE(needed(effects::ViewColor));
+  S.Means[1] = 0;
+  C.Position[0] = -1e19;
+  EXPECT_TRUE(needed(effects::Sh1));
+}
+
+TEST_F(Effects, ABackgroundIsAnyButZero) {
+  O.Background = {0, -0.0F, 0};
+  EXPECT_FALSE(needed(effects::Background));
+  O.Background[2] = 1e-8F;
+  EXPECT_TRUE(needed(effects::Background));
+}
+
+TEST_F(Effects, TheNearPlaneIsNeededUpToItsLimitAndABit) {
+  for (const Rules R : {Rules::Inria, Rules::Gsplat}) {
+    O.Convention = R;
+    const float Limit = nearLimit(R);
+    for (const float Z : {-1.0F, 0.0F, Limit, std::nextafter(Limit, 1.0F)}) {
+      S.Means[5] = Z;
+      EXPECT_TRUE(needed(effects::NearPlane)) << Z;
+    }
+    S.Means[5] = 1.001F * Limit;
+    EXPECT_FALSE(needed(effects::NearPlane));
+  }
+}
+
+TEST_F(Effects, TheFieldOfViewIsNeededUpToItsLimitAndABit) {
+  // 1.3 times the half field of view, at depth 2.
+  const float Limit = 1.3F * 32 / 50 * 2;
+  for (const float Side : {-1.0F, 1.0F}) {
+    S.Means[3] = Side * Limit;
+    EXPECT_TRUE(needed(effects::FieldOfView));
+    S.Means[3] = Side * 0.9999F * Limit;
+    EXPECT_FALSE(needed(effects::FieldOfView));
+    S.Means[3] = Side * 9;
+    EXPECT_TRUE(needed(effects::FieldOfView));
+    // What the near plane takes away does not count.
+    S.Means[5] = -2;
+    EXPECT_FALSE(needed(effects::FieldOfView));
+    S.Means[5] = 2;
+    S.Means[3] = 0;
+  }
+}
+
+TEST_F(Effects, OpacitiesDecideFaintAndClamp) {
+  O.Blending = Path::Simt;
+  S.OpacityLogits[1] = 4.5951F; // 0.98999983
+  EXPECT_FALSE(needed(effects::AlphaClamp));
+  S.OpacityLogits[1] = 4.59512F; // 0.99
+  EXPECT_TRUE(needed(effects::AlphaClamp));
+  S.OpacityLogits[1] = 0;
+  EXPECT_FALSE(needed(effects::AlphaClamp));
+  O.Exponential = ExpUnit::Linear; // exceeds 1
+  EXPECT_TRUE(needed(effects::AlphaClamp));
+  O.Blending = Path::Raster;
+  EXPECT_FALSE(needed(effects::AlphaClamp));
+
+  S.OpacityLogits[1] = -5.5373F;
+  EXPECT_FALSE(needed(effects::Faint));
+  S.OpacityLogits[1] = -5.53734F;
+  EXPECT_TRUE(needed(effects::Faint));
+  O.AlphaCutoff = 8;
+  S.OpacityLogits[1] = -3.42F;
+  EXPECT_FALSE(needed(effects::Faint));
+  S.OpacityLogits[1] = -3.44F;
+  EXPECT_TRUE(needed(effects::Faint));
+  O.Reach = Support::Box3;
+  EXPECT_FALSE(needed(effects::Faint));
+  S.OpacityLogits[1] = 0;
+  O.Reach = Support::Exact;
+  O.Antialiased = true;
+  EXPECT_TRUE(needed(effects::Faint));
+}
+
+TEST_F(Effects, OptionsDecideTheRest) {
+  EXPECT_TRUE(needed(effects::IntersectTags));
+  EXPECT_FALSE(needed(effects::ZTiles));
+  O.ZTiles = 2;
+  O.PixelUnit.Count = 1;
+  O.SkipSaturated = true;
+  O.Antialiased = true;
+  for (const Effect *E : {&effects::ZTiles, &effects::PixelUnit,
+                          &effects::SkipSaturated, &effects::Antialias})
+    EXPECT_TRUE(needed(*E)) << E->Name;
+  O.Blending = Path::Simt;
+  EXPECT_FALSE(needed(effects::IntersectTags));
+}
+
+TEST_F(Effects, AListSaysWhichOfThoseDecidedByData) {
+  S.Sh.back() = 1;
+  O.Background[0] = 1;
+  const EffectPlan P = plan("sh1,near-plane");
+  EXPECT_TRUE(P.done(effects::Sh1));
+  EXPECT_TRUE(P.done(effects::ViewColor)); // its code encloses sh1's
+  EXPECT_TRUE(P.done(effects::NearPlane));
+  EXPECT_FALSE(P.compiled(effects::Sh3));
+  EXPECT_TRUE(P.done(effects::IntersectTags)); // not the list's affair
+  EXPECT_EQ(P.missing(),
+            (std::vector<const Effect *>{&effects::Sh3, &effects::Background}));
+  EXPECT_TRUE(plan("all").missing().empty());
+}
+
+// What an option rules out is not even done unneeded: it would draw another
+// picture.
+TEST_F(Effects, ABandBeyondTheLimitIsNeverDone) {
+  S.Sh.back() = 1;
+  O.ShLimit = 2;
+  for (const char *Request : {"auto", "all", "flags", "sh3"})
+    EXPECT_FALSE(plan(Request).done(effects::Sh3)) << Request;
+  EXPECT_FALSE(plan("all").compiled(effects::Sh3));
+  EXPECT_TRUE(plan("all").done(effects::Sh2));
+  EXPECT_FALSE(needed(effects::ViewColor));
+}
+
+TEST_F(Effects, UnknownNamesAreErrors) {
+  const auto Message = [](const std::string &Text) {
+    const auto R = parseEffectRequest(Text);
+    return R ? std::string() : R.error().What;
+  };
+  EXPECT_EQ(Message("all"), "");
+  EXPECT_EQ(Message("sh1,background"), "");
+  EXPECT_NE(Message("sh1,lens")
+                .find("no effect is called \"lens\", expected "
+                      "auto, all, flags, sh1, sh2"),
+            std::string::npos);
+  EXPECT_NE(Message("").find("no effect is called \"\""), std::string::npos);
+  EXPECT_NE(Message("antialias").find("decided by its own option"),
+            std::string::npos);
+  EXPECT_NE(Message("clock").find("decided by its own option"),
+            std::string::npos);
+}
+
+TEST_F(Effects, FlagsHaveABitEach) {
+  const EffectPlan P = plan("flags");
+  std::set<std::string> Tests;
+  for (const std::string &Define : P.defines()) {
+    EXPECT_NE(Define.find("=(effects&"), std::string::npos);
+    Tests.insert(Define.substr(Define.find('=')));
+  }
+  EXPECT_EQ(Tests.size(), P.defines().size());
+}
+
+/// \p Text without comments.
+std::string code(std::string_view Text) {
+  std::string Code;
+  for (std::size_t I = 0; I < Text.size(); ++I) {
+    if (Text.substr(I, 2) == "//")
+      I = std::min(Text.find('\n', I), Text.size() - 1);
+    if (Text.substr(I, 2) == "/*")
+      I = Text.find("*/", I) + 2;
+    Code += Text[I];
+  }
+  return Code;
+}
+
+/// The words of \p Code that look like macros, and how often each is there.
+std::map<std::string, int> macros(const std::string &Code) {
+  std::map<std::string, int> Found;
+  std::string Word;
+  for (const char C : Code + " ") {
+    if (std::isalnum(static_cast<unsigned char>(C)) || C == '_') {
+      Word += C;
+      continue;
+    }
+    const bool Upper =
+        Word.size() > 3 && std::isupper(static_cast<unsigned char>(Word[0])) &&
+        std::ranges::none_of(Word,
+                             [](unsigned char L) { return std::islower(L); });
+    if (Upper)
+      ++Found[Word];
+    Word.clear();
+  }
+  return Found;
+}
+
+TEST(Registry, KernelsAndRegistryKnowTheSameMacros) {
+  std::string All;
+  for (const std::string_view File : kernelFiles())
+    All += code(kernelSource(File)) + "\n";
+  const std::map<std::string, int> Used = macros(All);
+  std::set<std::string> Known;
+  for (const Effect *E : effects::all())
+    if (!E->Macro.empty()) {
+      EXPECT_TRUE(Known.emplace(E->Macro).second) << E->Macro;
+      EXPECT_TRUE(Used.contains(std::string(E->Macro)))
+          << E->Name << " has no code";
+    }
+  for (const effects::Parameter &P : effects::parameters()) {
+    EXPECT_TRUE(Known.emplace(P.Name).second) << P.Name;
+    EXPECT_TRUE(Used.contains(std::string(P.Name))) << P.Name;
+  }
+  // Beside those: what kernels define or enumerate themselves, and the device's
+  // headers.
+  std::string Enumerations;
+  for (std::size_t At = All.find("enum {"); At != std::string::npos;
+       At = All.find("enum {", At + 1))
+    Enumerations += All.substr(At, All.find('}', At) - At);
+  const std::map<std::string, int> Enumerators = macros(Enumerations);
+  const auto Defined = [&](const std::string &Word) {
+    return Enumerators.contains(Word) ||
+           All.find("#define " + Word) != std::string::npos ||
+           Word.starts_with("VR_") || Word.starts_with("CLK_") ||
+           Word == "INFINITY";
+  };
+  for (const auto &[Word, Count] : Used)
+    if (!Known.contains(Word) && !Defined(Word))
+      ADD_FAILURE() << Word << " of the kernels is neither an effect's macro "
+                    << "nor a parameter in effects/Registry.cpp";
+}
+
+TEST(Registry, NamesAreUniqueAndEveryKindIsThere) {
+  std::set<std::string_view> Names;
+  std::set<EffectKind> Kinds;
+  const Effect *Last = nullptr;
+  for (const Effect *E : effects::all()) {
+    EXPECT_TRUE(Names.insert(E->Name).second) << E->Name;
+    EXPECT_EQ(effects::find(E->Name), E);
+    EXPECT_FALSE(E->What.empty()) << E->Name;
+    EXPECT_NE(E->Detect, nullptr) << E->Name;
+    // Kinds stand together, and what encloses comes after what it encloses.
+    EXPECT_TRUE(!Last || Last->Kind <= E->Kind) << E->Name;
+    EXPECT_FALSE(E->Within && Names.contains(E->Within->Name)) << E->Name;
+    Kinds.insert(E->Kind);
+    Last = E;
+  }
+  EXPECT_EQ(Kinds.size(), 3U);
+  EXPECT_EQ(effects::find("lens"), nullptr);
+}
+
+} // namespace
+} // namespace vorion::splat

@@ -1,0 +1,65 @@
+#include "Explain.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view heading(EffectKind K) {
+  switch (K) {
+  case EffectKind::Scene:
+    return "scene effects: same bits with and without where not needed";
+  case EffectKind::Machine:
+    return "machine effects: time, and rounding within their bounds";
+  case EffectKind::Observation:
+    return "observations: by option only";
+  }
+  return {};
+}
+
+/// What is said of an effect's code; "on" where it has none of its own.
+std::string_view state(const EffectDecision &D) {
+  if (!D.Done)
+    return D.Code == EffectCode::Flagged ? "off, flagged" : "off";
+  if (D.Code == EffectCode::Flagged)
+    return "on, flagged";
+  return D.Found.Needed ? "on" : "on, unneeded";
+}
+
+} // namespace
+
+std::string explain(const RenderPlan &Plan) {
+  std::string Text;
+  for (const ProgramSpec &P : Plan.Programs)
+    Text +=
+        fmt::format("program {}: {}{}{}\n", P.Name, fmt::join(P.Files, " "),
+                    P.Defines.empty() ? "" : "; ", fmt::join(P.Defines, " "));
+  const EffectKind *Last = nullptr;
+  for (const EffectDecision &D : Plan.Effects.decisions()) {
+    if (!Last || *Last != D.E->Kind)
+      Text += fmt::format("{}\n", heading(D.E->Kind));
+    Last = &D.E->Kind;
+    Text += fmt::format("  {:<15}{:<13} {} ({})\n", D.E->Name, state(D),
+                        D.Found.Figure, D.E->What);
+  }
+  return Text;
+}
+
+std::string effectsJson(const EffectPlan &Plan) {
+  Json All = Json::array();
+  for (const EffectDecision &D : Plan.decisions())
+    All.push_back({{"name", D.E->Name},
+                   {"kind", name(D.E->Kind)},
+                   {"needed", D.Found.Needed},
+                   {"on", D.Done},
+                   {"code", name(D.Code)},
+                   {"figure", D.Found.Figure}});
+  return All.dump();
+}
+
+} // namespace vorion::splat

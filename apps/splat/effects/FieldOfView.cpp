@@ -1,0 +1,26 @@
+// The projection's Jacobian is taken no further out than the rules' limits.
+
+#include "Registry.h"
+
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+namespace {
+
+Finding detect(const EffectInputs &In) {
+  return {In.Facts.BeyondField != 0,
+          fmt::format("{} of {} means at or beyond the limits of x/z and y/z",
+                      In.Facts.BeyondField, In.S.size())};
+}
+
+} // namespace
+
+const Effect effects::FieldOfView{
+    .Name = "field-of-view",
+    .Kind = EffectKind::Scene,
+    .What = "the clamp of x/z and y/z in the Jacobian",
+    .Macro = "USE_FIELD_OF_VIEW",
+    .Detect = detect};
+
+} // namespace vorion::splat

@@ -1,0 +1,150 @@
+#include "Measure.h"
+
+#include "../render/FrameTime.h"
+#include "Registry.h"
+
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+namespace {
+
+struct Figures {
+  std::uint64_t Instructions = 0, Cycles = 0;
+  double Seconds = 0;
+};
+
+Figures figuresOf(const RenderResult &R) {
+  Figures F;
+  for (const StageReport &S : R.Stages)
+    for (const KernelReport &K : S.Kernels) {
+      F.Seconds += K.Seconds;
+      if (K.Counters)
+        F.Instructions += K.Counters->WarpInstructions;
+    }
+  F.Cycles = frameCycles(R.Stages);
+  return F;
+}
+
+class Measurer {
+public:
+  Measurer(const Device &Dev, const std::string &Folder,
+           const EffectInputs &Inputs, const Camera &View)
+      : D(Dev), KernelFolder(Folder), In(Inputs), C(View) {}
+
+  RenderPlan plan(const EffectRequest &R) const {
+    return planRender(EffectPlan(R, In), In.Options);
+  }
+
+  Expected<Figures> measure(const RenderPlan &P) const {
+    // The first compiles.
+    if (auto First = once(P); !First)
+      return First;
+    return once(P);
+  }
+
+private:
+  Expected<Figures> once(const RenderPlan &P) const {
+    Launcher L(D, KernelFolder, {});
+    const auto R = render(L, P, In.S, C, In.Options, In.KeepPairs);
+    if (!R)
+      return R.error();
+    return figuresOf(*R);
+  }
+
+  const Device &D;
+  const std::string &KernelFolder;
+  const EffectInputs &In;
+  const Camera &C;
+};
+
+bool samePrograms(const RenderPlan &A, const RenderPlan &B) {
+  return A.Programs == B.Programs && A.Effects.flags() == B.Effects.flags();
+}
+
+std::int64_t difference(std::uint64_t A, std::uint64_t B) {
+  return static_cast<std::int64_t>(A) - static_cast<std::int64_t>(B);
+}
+
+EffectCost costOf(const Effect &E, bool Done, const Figures &Asked,
+                  const Figures &Switched) {
+  const Figures &With = Done ? Asked : Switched;
+  const Figures &Without = Done ? Switched : Asked;
+  return {&E,
+          Done,
+          difference(With.Instructions, Without.Instructions),
+          difference(With.Cycles, Without.Cycles),
+          With.Seconds - Without.Seconds,
+          {}};
+}
+
+double percent(double Part, double Whole) {
+  return Whole > 0 ? 100 * Part / Whole : 0;
+}
+
+} // namespace
+
+Expected<EffectCosts>
+measureEffects(const Device &D, const std::string &KernelFolder,
+               const EffectRequest &Request, const EffectInputs &In,
+               const Camera &C,
+               const std::function<void(std::string_view)> &Progress) {
+  const Measurer M(D, KernelFolder, In, C);
+  const auto Tell = [&](std::string_view What) {
+    if (Progress)
+      Progress(fmt::format("measuring {}", What));
+  };
+  Tell("the frame");
+  const RenderPlan Asked = M.plan(Request);
+  const auto Frame = M.measure(Asked);
+  if (!Frame)
+    return Frame.error();
+  EffectCosts Costs{Frame->Instructions, Frame->Cycles, Frame->Seconds, {}};
+  for (const Effect *E : effects::all()) {
+    if (E->Macro.empty())
+      continue;
+    EffectRequest Switched = Request;
+    Switched.Toggled = E;
+    const RenderPlan Plan = M.plan(Switched);
+    if (samePrograms(Plan, Asked))
+      continue;
+    Tell(E->Name);
+    const bool Done = Asked.Effects.done(*E);
+    // Without what it needs, a frame may end in an error: that is no failure of
+    // what was asked for.
+    const auto Other = M.measure(Plan);
+    if (Other)
+      Costs.Effects.push_back(costOf(*E, Done, *Frame, *Other));
+    else
+      Costs.Effects.push_back({E, Done, 0, 0, 0, Other.error().What});
+  }
+  return Costs;
+}
+
+std::string toString(const EffectCosts &Costs) {
+  std::string Text =
+      fmt::format("measured: the frame with the effect less the frame without, "
+                  "of {} warp instructions{}, {:.3f} s in kernels\n",
+                  Costs.Instructions,
+                  Costs.Cycles ? fmt::format(", {} cycles", Costs.Cycles) : "",
+                  Costs.Seconds);
+  for (const EffectCost &C : Costs.Effects) {
+    Text += fmt::format("  {:<15}{:<4}", C.E->Name, C.Done ? "on" : "off");
+    if (!C.Failure.empty()) {
+      Text += fmt::format("not to be told: {}\n", C.Failure);
+      continue;
+    }
+    Text += fmt::format("{} {:+} warp instructions ({:+.2f} %)",
+                        C.Done ? "costs" : "saved", C.Instructions,
+                        percent(static_cast<double>(C.Instructions),
+                                static_cast<double>(Costs.Instructions)));
+    if (Costs.Cycles)
+      Text += fmt::format(", {:+} cycles ({:+.2f} %)", C.Cycles,
+                          percent(static_cast<double>(C.Cycles),
+                                  static_cast<double>(Costs.Cycles)));
+    Text += fmt::format(", {:+.4f} s\n", C.Seconds);
+  }
+  return Text;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,46 @@
+/// What each effect costs a frame, by rendering it with and without.
+#pragma once
+
+#include "../render/Renderer.h"
+#include "EffectPlan.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::splat {
+
+/// The frame with an effect less the frame without it; the second render of
+/// each, when everything is compiled.
+struct EffectCost {
+  const Effect *E = nullptr;
+  bool Done = false; ///< in the picture that was asked for
+  std::int64_t Instructions = 0;
+  std::int64_t Cycles = 0; ///< 0 without the clock
+  double Seconds = 0;      ///< of the host, in kernels
+  std::string Failure;     ///< why there is no figure, or empty
+};
+
+struct EffectCosts {
+  /// Of the frame as asked for.
+  std::uint64_t Instructions = 0;
+  std::uint64_t Cycles = 0;
+  double Seconds = 0;
+  /// Effects whose code can be told from the rest, in the registry's order.
+  std::vector<EffectCost> Effects;
+};
+
+/// Renders the frame of \p Request again, and once with each effect switched;
+/// twice each. \p Progress is told which.
+Expected<EffectCosts>
+measureEffects(const Device &D, const std::string &KernelFolder,
+               const EffectRequest &Request, const EffectInputs &In,
+               const Camera &C,
+               const std::function<void(std::string_view)> &Progress);
+
+/// A line an effect.
+std::string toString(const EffectCosts &Costs);
+
+} // namespace vorion::splat

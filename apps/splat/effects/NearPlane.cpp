@@ -1,0 +1,27 @@
+// Gaussians behind the rules' least depth are not drawn.
+
+#include "Registry.h"
+
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+namespace {
+
+Finding detect(const EffectInputs &In) {
+  const float Limit = nearLimit(In.Options.Convention);
+  const ViewFacts &F = In.Facts;
+  return {!(F.NearestDepth - F.DepthSlack > Limit),
+          fmt::format("nearest mean at depth {:.6g}, limit {:g}",
+                      F.NearestDepth, Limit)};
+}
+
+} // namespace
+
+const Effect effects::NearPlane{.Name = "near-plane",
+                                .Kind = EffectKind::Scene,
+                                .What = "the test of each depth",
+                                .Macro = "USE_NEAR_PLANE",
+                                .Detect = detect};
+
+} // namespace vorion::splat

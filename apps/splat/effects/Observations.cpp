@@ -1,0 +1,91 @@
+// What watches a picture being made, and changes nothing of it. The platform
+// reads the variables when it opens its devices (docs/debugging.md).
+
+#include "Registry.h"
+
+#include <cstdlib>
+#include <initializer_list>
+
+namespace vorion::splat {
+
+namespace {
+
+/// On if one of \p Variables is set to more than nothing.
+Finding environment(std::initializer_list<const char *> Variables) {
+  std::string Names;
+  for (const char *Name : Variables) {
+    const char *Value = std::getenv(Name);
+    if (Value && *Value)
+      return {true, std::string(Name) + "=" + Value};
+    Names += (Names.empty() ? "" : ", ") + std::string(Name);
+  }
+  return {false, "not asked (" + Names + ")"};
+}
+
+Finding detectClock(const EffectInputs &) {
+  Finding F = environment({"VORION_TIME"});
+  if (!F.Needed)
+    F.Figure = "not asked (--time, --clock)";
+  return F;
+}
+
+Finding detectNumerics(const EffectInputs &) {
+  return environment({"VORION_NUMERICS"});
+}
+
+Finding detectCheckers(const EffectInputs &) {
+  return environment({"VORION_CHECK"});
+}
+
+Finding detectTraces(const EffectInputs &) {
+  return environment(
+      {"VORION_TRACE", "VORION_TIMELINE", "VORION_PROFILE", "VORION_STATS"});
+}
+
+Finding detectDebugger(const EffectInputs &) {
+  return environment({"VORION_GDB"});
+}
+
+Finding detectPairs(const EffectInputs &In) {
+  return In.KeepPairs ? Finding{true, "--dump-pairs"}
+                      : Finding{false, "not asked (--dump-pairs)"};
+}
+
+} // namespace
+
+namespace effects {
+
+const Effect Clock{
+    .Name = "clock",
+    .Kind = EffectKind::Observation,
+    .What = "the machine's time: cores, caches, DRAM, rasterizers, pixel units",
+    .Detect = detectClock};
+
+const Effect Numerics{
+    .Name = "numerics",
+    .Kind = EffectKind::Observation,
+    .What = "a double beside every fp32 value of cores and rasterizers",
+    .Detect = detectNumerics};
+
+const Effect Checkers{.Name = "checkers",
+                      .Kind = EffectKind::Observation,
+                      .What = "bounds, uninit, race, align, barrier",
+                      .Detect = detectCheckers};
+
+const Effect Traces{.Name = "traces",
+                    .Kind = EffectKind::Observation,
+                    .What = "trace, timeline, profile and counters in files",
+                    .Detect = detectTraces};
+
+const Effect Debugger{.Name = "debugger",
+                      .Kind = EffectKind::Observation,
+                      .What = "a port for gdb",
+                      .Detect = detectDebugger};
+
+const Effect SortedPairs{.Name = "sorted-pairs",
+                         .Kind = EffectKind::Observation,
+                         .What = "the sorted pairs, read back",
+                         .Detect = detectPairs};
+
+} // namespace effects
+} // namespace vorion::splat

@@ -1,0 +1,65 @@
+#include "Registry.h"
+
+#include <algorithm>
+#include <array>
+
+namespace vorion::splat {
+
+std::string_view name(EffectKind K) {
+  switch (K) {
+  case EffectKind::Scene:
+    return "scene";
+  case EffectKind::Machine:
+    return "machine";
+  case EffectKind::Observation:
+    return "observation";
+  }
+  return {};
+}
+
+namespace effects {
+
+std::span<const Effect *const> all() {
+  static constexpr std::array List{
+      &Sh1,           &Sh2,         &Sh3,       &ViewColor,     &Antialias,
+      &NearPlane,     &FieldOfView, &Faint,     &AlphaClamp,    &Background,
+      &IntersectTags, &ZTiles,      &PixelUnit, &SkipSaturated, &Clock,
+      &Numerics,      &Checkers,    &Traces,    &Debugger,      &SortedPairs};
+  return List;
+}
+
+const Effect *find(std::string_view Name) {
+  const auto At = std::ranges::find(all(), Name, &Effect::Name);
+  return At == all().end() ? nullptr : *At;
+}
+
+std::span<const Parameter> parameters() {
+  static constexpr std::array List{
+      Parameter{"TILE_SIZE", "side of a tile, px"},
+      Parameter{"TILE_HEIGHT", "the same, of training's tiles upright"},
+      Parameter{"KEEP_LAST", "training: pixels keep their last contributor"},
+      Parameter{"SH_DEGREE", "the way back: bands that have gradients"},
+      Parameter{"ANTIALIASED", "the way back through the compensation"},
+      Parameter{"CLAMP_STOPS", "the way back, gsplat: none through 0.99"},
+      Parameter{"LIMIT_FOLLOWS_DEPTH", "the way back, gsplat: of the limits"},
+      Parameter{"STORED_PARAMETERS", "the way back ends before activation"},
+      Parameter{"GROUP", "work-items that draw a tile of the cores' path"},
+      Parameter{"DILATION", "added to the covariance's diagonal, px^2"},
+      Parameter{"KEEP_DEPTH", "the rules' test of a depth"},
+      Parameter{"ANTIALIAS_FLOOR", "the rules' least ratio of determinants"},
+      Parameter{"ALPHA_CUTOFF", "alpha that is blended, in 255ths"},
+      Parameter{"EXP_DEGREE", "exponential of the cores' path: a polynomial"},
+      Parameter{"EXP_LINEAR", "the same: linear pieces"},
+      Parameter{"EXP_SCHRAUDOLPH", "the same: Schraudolph's"},
+      Parameter{"MIN_POWER", "exponent below which no opacity is visible"},
+      Parameter{"STOP_AT_EQUAL", "the rules' stop is T' <= cut-off, not <"},
+      Parameter{"SUPPORT_EXACT", "support: every pixel with alpha >= 1/255"},
+      Parameter{"SUPPORT_BOX3", "support: the box of 3 sigma an axis"},
+      Parameter{"SUPPORT_SQUARE3", "support: INRIA's radius as a square"},
+      Parameter{"SUPPORT_OFFICIAL16", "support: the square's 16x16 tiles"},
+  };
+  return List;
+}
+
+} // namespace effects
+} // namespace vorion::splat

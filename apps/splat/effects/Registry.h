@@ -1,0 +1,49 @@
+/// All effects, in the order in which they are decided and explained.
+#pragma once
+
+#include "Effect.h"
+
+#include <span>
+
+namespace vorion::splat::effects {
+
+/// \name Scene effects
+/// @{
+extern const Effect Sh1, Sh2, Sh3; // ShBands.cpp
+extern const Effect ViewColor;
+extern const Effect Antialias;
+extern const Effect NearPlane;
+extern const Effect FieldOfView;
+extern const Effect Faint;
+extern const Effect AlphaClamp;
+extern const Effect Background;
+/// @}
+
+/// \name Machine effects
+/// @{
+extern const Effect IntersectTags;
+extern const Effect ZTiles;
+extern const Effect PixelUnit;
+extern const Effect SkipSaturated;
+/// @}
+
+/// \name Observations
+/// @{
+extern const Effect Clock, Numerics, Checkers, Traces,
+    Debugger; // Observations.cpp
+extern const Effect SortedPairs;
+/// @}
+
+std::span<const Effect *const> all();
+
+/// The effect of that name, or null.
+const Effect *find(std::string_view Name);
+
+/// The macros that every program's kernels are built with beside the effects':
+/// sizes and rules of the pipeline, which no scene switches off.
+struct Parameter {
+  std::string_view Name, Meaning;
+};
+std::span<const Parameter> parameters();
+
+} // namespace vorion::splat::effects

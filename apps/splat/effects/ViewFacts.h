@@ -1,0 +1,36 @@
+/// Figures about a scene as one camera sees it, by which effects are decided.
+#pragma once
+
+#include "../io/Scene.h"
+#include "../render/Layout.h"
+
+#include <array>
+#include <cstddef>
+
+namespace vorion::splat {
+
+/// From the stored parameters, in double precision. Bounds allow for what the
+/// kernels round, so that a figure may say "needed" too often, never too
+/// rarely.
+struct ViewFacts {
+  /// The smallest depth of a mean along the camera's axis, and how far from it
+  /// the kernels' own may be.
+  double NearestDepth = 0, DepthSlack = 0;
+  /// Gaussians whose x/z or y/z may lie beyond the Jacobian's limits, among
+  /// those in front of \c NearLimit.
+  std::size_t BeyondField = 0;
+  /// Of a mean's coordinates and the camera's, the largest magnitude.
+  double Reach = 0;
+  float LeastLogit = 0, MostLogit = 0; ///< of opacity
+  /// Per band from 1: a Gaussian with a coefficient other than zero, the first
+  /// there is, or \c NoWitness.
+  static constexpr std::size_t NoWitness = ~std::size_t{0};
+  std::array<std::size_t, MaxShDegree> BandWitness{NoWitness, NoWitness,
+                                                   NoWitness};
+};
+
+/// \p NearLimit is the least depth that is drawn. A NaN among the values gives
+/// figures by which everything is needed.
+ViewFacts factsOf(const Scene &S, const splat_view &View, double NearLimit);
+
+} // namespace vorion::splat

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Every scene and view with what it calls for compiled in, with everything, and with run-time flags.
+
+usage: bench/effects.py --out FOLDER [--scenes NAME,...] [--views NAME,...] [--clock] [--first-frame] [--json FILE]
+                        [-- OPTIONS of splat render]
+
+Renders each view of each scene of ../shared/data with --effects auto, all and flags, and prints the
+effects that are on, warp instructions of the frame (with --clock also cycles), processor seconds of the
+process, and whether the three pictures have the same bits. Small scenes come first. FOLDER keeps each
+run's result and PoCL's cache; what is there is not run again, so it goes on where it broke off.
+--first-frame instead renders each view four times: auto and flags with an empty cache, which counts
+compiling, and both again. Exit codes: 0, 1 a run failed or pictures differ.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import scenes
+
+MODES = ("auto", "all", "flags")
+
+
+def size(path):
+    if os.path.isfile(path):
+        return os.path.getsize(path)
+    return sum(os.path.getsize(os.path.join(folder, f)) for folder, _, files in os.walk(path) for f in files)
+
+
+def chosen(names):
+    """The scenes beside the repository that are among names, or all; small files first."""
+    found = [scenes.shared(name) for name in scenes.known() if not names or name in names]
+    return sorted(found, key=lambda scene: size(os.path.join(scenes.ROOT, scene.path)))
+
+
+def processor_seconds():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def render(args, key, scene, view, mode, cache):
+    """One run's result, kept in the folder under its key."""
+    kept = os.path.join(args.out, key.replace("/", "_") + ".json")
+    if os.path.exists(kept):
+        with open(kept, encoding="utf-8") as f:
+            return json.load(f)
+    with tempfile.TemporaryDirectory(dir=args.out) as folder:
+        picture, report = os.path.join(folder, "p.npz"), os.path.join(folder, "r.json")
+        command = ["splat", "render", scene.path, "--cameras", scene.cameras, "--view", view, "--effects", mode,
+                   "-o", picture, "--json", report] + (["--time"] if args.clock else []) + args.options
+        before = processor_seconds()
+        run = subprocess.run(command, env={**os.environ, "POCL_CACHE_DIR": cache}, cwd=scenes.ROOT,
+                             capture_output=True, text=True)
+        seconds = processor_seconds() - before
+        if run.returncode != 0:
+            sys.exit(f"effects.py: error: {' '.join(command)} failed: {run.stderr[-500:]}")
+        with open(picture, "rb") as f:
+            sha256 = hashlib.sha256(f.read()).hexdigest()
+        with open(report, encoding="utf-8") as f:
+            full = json.load(f)
+    result = {"scene": full["scene"], "view": view, "mode": mode, "device": full["device"],
+              "options": full["options"], "effects": full["effects"], "programs": full["programs"],
+              "counts": full["counts"], "picture_sha256": sha256, "processor_seconds": seconds,
+              "warp_instructions": full["total"]["counters"]["warp_instructions"],
+              "by_stage": {s["name"]: sum(k["counters"]["warp_instructions"] for k in s["kernels"])
+                           for s in full["stages"]},
+              "seconds_by_stage": {s["name"]: s["seconds"] for s in full["stages"]}}
+    if args.clock:
+        result["cycles"] = full["time"]["sum"]["cycles"]
+    with open(kept + ".new", "w", encoding="utf-8") as f:
+        json.dump(result, f, indent=1)
+    os.rename(kept + ".new", kept)
+    return result
+
+
+def on(result):
+    """The effects of scene and machine that the view calls for."""
+    return [e["name"] for e in result["effects"] if e["needed"] and e["kind"] != "observation"]
+
+
+def change(value, base):
+    return f"{100 * (value - base) / base:+.1f} %"
+
+
+def compare(args):
+    rows, differing = [], []
+    print("| scene | view | on | instructions auto | all | flags |" + (" cycles auto | all | flags |" if args.clock else "")
+          + " processor s auto | all | flags | same bits |")
+    for scene in chosen(args.scenes):
+        for view in scene.views:
+            if args.views and view not in args.views:
+                continue
+            clock = "-clock" if args.clock else ""
+            runs = {m: render(args, f"{scene.name}-{view}-{m}{clock}", scene, view, m, os.path.join(args.out, "cache")) for m in MODES}
+            auto = runs["auto"]
+            same = len({r["picture_sha256"] for r in runs.values()}) == 1
+            if not same:
+                differing.append(f"{scene.name} {view}")
+            cells = [scene.name, view, " ".join(on(auto)), f"{auto['warp_instructions']:,}"]
+            cells += [change(runs[m]["warp_instructions"], auto["warp_instructions"]) for m in MODES[1:]]
+            if args.clock:
+                cells += [f"{auto['cycles']:,}"]
+                cells += [change(runs[m]["cycles"], auto["cycles"]) for m in MODES[1:]]
+            cells += [f"{runs[m]['processor_seconds']:.2f}" for m in MODES] + ["yes" if same else "NO"]
+            print("| " + " | ".join(cells) + " |", flush=True)
+            rows.append(runs)
+    return rows, differing
+
+
+def first_frames(args):
+    """Processor seconds of a whole process, compiling included and not."""
+    rows = []
+    print("| scene | view | auto, empty cache | flags, empty cache | auto, cached | flags, cached |")
+    for scene in chosen(args.scenes):
+        view = args.views[0] if args.views else scene.views[0]
+        caches = {m: os.path.join(args.out, f"first-{m}") for m in ("auto", "flags")}
+        for cache in caches.values():
+            shutil.rmtree(cache, ignore_errors=True)
+        runs = {(m, turn): render(args, f"{scene.name}-{view}-{m}-{turn}", scene, view, m, caches[m])
+                for turn in ("first", "second") for m in ("auto", "flags")}
+        cells = [f"{runs[m, turn]['processor_seconds']:.2f} s" for turn in ("first", "second")
+                 for m in ("auto", "flags")]
+        print("| " + " | ".join([scene.name, view] + cells) + " |", flush=True)
+        rows.append({f"{m}-{turn}": r for (m, turn), r in runs.items()})
+    return rows, []
+
+
+def names(text):
+    return text.split(",") if text else []
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--out", required=True, help="folder for the runs")
+    parser.add_argument("--scenes", type=names, default=[])
+    parser.add_argument("--views", type=names, default=[])
+    parser.add_argument("--clock", action="store_true", help="cycles too")
+    parser.add_argument("--first-frame", action="store_true", help="with and without compiling")
+    parser.add_argument("--json", help="write all results")
+    parser.add_argument("options", nargs="*", help="for splat render, after --")
+    args = parser.parse_args()
+    if not scenes.known():
+        sys.exit("effects.py: error: ../shared/data is missing, expected the scenes there")
+    args.out = os.path.abspath(args.out)
+    os.makedirs(args.out, exist_ok=True)
+    rows, differing = first_frames(args) if args.first_frame else compare(args)
+    if args.json:
+        with open(args.json, "w", encoding="utf-8") as f:
+            json.dump(rows, f, indent=1)
+    if differing:
+        sys.exit(f"effects.py: error: pictures differ: {', '.join(differing)}")
+
+
+if __name__ == "__main__":
+    main()
