@@ -50,7 +50,8 @@ protected:
 };
 
 TEST_F(Effects, ABareSceneNeedsNone) {
-  for (const EffectDecision &D : plan().decisions())
+  const EffectPlan Plan = plan();
+  for (const EffectDecision &D : Plan.decisions())
     if (D.E->Kind == EffectKind::Scene) {
       EXPECT_FALSE(D.Found.Needed) << D.E->Name << ": " << D.Found.Figure;
       EXPECT_EQ(D.Code, EffectCode::Absent) << D.E->Name;
