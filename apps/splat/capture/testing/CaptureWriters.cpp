@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <turbojpeg.h>
 #include <zlib.h>
 
 namespace vorion::splat::testing {
@@ -79,6 +80,20 @@ std::string pngOf(int Width, int Height, const std::string &Rgba) {
   putChunk(Out, "IDAT", Packed);
   putChunk(Out, "IEND", "");
   return Out;
+}
+
+std::string jpegOf(int Width, int Height, const std::string &Rgba) {
+  tjhandle Compressor = tjInitCompress();
+  unsigned char *Out = nullptr;
+  unsigned long Size = 0;
+  std::string Text;
+  if (tjCompress2(Compressor,
+                  reinterpret_cast<const unsigned char *>(Rgba.data()), Width,
+                  0, Height, TJPF_RGBA, &Out, &Size, TJSAMP_444, 95, 0) == 0)
+    Text.assign(reinterpret_cast<const char *>(Out), Size);
+  tjFree(Out);
+  tjDestroy(Compressor);
+  return Text;
 }
 
 SampleCapture sampleCapture(std::size_t Views) {
@@ -174,6 +189,22 @@ Folder transformsOf(const SampleCapture &C) {
   Folder F{{"transforms.json", J.dump(1)}};
   addPictures(F, C, "pictures/");
   return F;
+}
+
+std::string pointCloudOf(const SampleCapture &C) {
+  std::string Ply = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "end_header\n",
+      C.Points.size());
+  for (const auto &P : C.Points) {
+    for (const double X : P.Position)
+      put(Ply, static_cast<float>(X));
+    for (const std::uint8_t B : P.Colour)
+      put(Ply, B);
+  }
+  return Ply;
 }
 
 Folder nerfSyntheticOf(const SampleCapture &C) {

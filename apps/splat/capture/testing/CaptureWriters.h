@@ -42,7 +42,12 @@ Folder transformsOf(const SampleCapture &C);
 /// camera_angle_x, names without their ending.
 Folder nerfSyntheticOf(const SampleCapture &C);
 
+/// The points as a binary PLY, as transforms.json may name one.
+std::string pointCloudOf(const SampleCapture &C);
+
 /// An 8-bit RGBA PNG.
 std::string pngOf(int Width, int Height, const std::string &Rgba);
+/// A JPEG of the colours of \p Rgba, nearly lossless.
+std::string jpegOf(int Width, int Height, const std::string &Rgba);
 
 } // namespace vorion::splat::testing

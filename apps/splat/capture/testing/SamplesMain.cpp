@@ -1,6 +1,7 @@
 // splat-capture-samples: writes a small capture of every format, and the same
 // as seeds of the fuzzers.
 #include "CaptureWriters.h"
+#include "fuzz/Targets.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
@@ -10,6 +11,7 @@
 namespace {
 
 using namespace vorion;
+using namespace vorion::splat;
 using namespace vorion::splat::testing;
 namespace fs = std::filesystem;
 
@@ -24,19 +26,6 @@ Expected<Success> write(const fs::path &File, const std::string &Content) {
   return writeFileAtomically(File.string(), Content);
 }
 
-/// A model as ColmapFuzzer.cpp reads it.
-std::string bundled(Folder F, bool Text) {
-  std::string Out(1, Text ? '\1' : '\0');
-  for (const char *Name : {"cameras", "images", "points3D"}) {
-    const std::string &Content =
-        F[fmt::format("sparse/0/{}.{}", Name, Text ? "txt" : "bin")];
-    for (const int Shift : {0, 8})
-      Out += static_cast<char>(Content.size() >> Shift & 0xFF);
-    Out += Content;
-  }
-  return Out;
-}
-
 Expected<Success> run(const fs::path &Root) {
   const SampleCapture C = sampleCapture();
   const std::pair<const char *, Folder> Captures[] = {
@@ -49,16 +38,14 @@ Expected<Success> run(const fs::path &Root) {
       if (auto Written = write(Root / "captures" / Name / File, Content);
           !Written)
         return Written;
-  const std::pair<const char *, std::string> Seeds[] = {
-      {"colmap/text", bundled(colmapTextOf(C), true)},
-      {"colmap/binary", bundled(colmapBinaryOf(C), false)},
-      {"transforms/own", transformsOf(C)["transforms.json"]},
-      {"transforms/nerf", nerfSyntheticOf(C)["transforms_train.json"]},
-      {"photo/png", pngOf(2, 2, std::string(16, '\x33'))},
-      {"photo/webp", webpOf(2, 2, std::string(16, '\x33'))}};
-  for (const auto &[Name, Content] : Seeds)
-    if (auto Written = write(Root / "seeds" / Name, Content); !Written)
-      return Written;
+  const std::pair<const char *, fuzz::Seeds> Kinds[] = {
+      {"colmap", fuzz::colmapSeeds()},
+      {"transforms", fuzz::transformsSeeds()},
+      {"photo", fuzz::photoSeeds()}};
+  for (const auto &[Kind, Seeds] : Kinds)
+    for (const auto &[Name, Content] : Seeds)
+      if (auto Written = write(Root / "seeds" / Kind / Name, Content); !Written)
+        return Written;
   return Success{};
 }
 

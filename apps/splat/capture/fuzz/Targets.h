@@ -1,0 +1,27 @@
+/// What the fuzzers of captures call, and a test replays: any bytes give
+/// something whole or an error of one line; otherwise the program aborts.
+#pragma once
+
+#include "Bytes.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vorion::splat::fuzz {
+
+/// A COLMAP model: a byte that says whether it is text, then cameras, images
+/// and points, each after its size in 16 bits.
+void readColmap(Bytes Input);
+/// A transforms.json, and a point cloud.
+void readTransforms(Bytes Input);
+/// A PNG, JPEG or WebP.
+void readPhoto(Bytes Input);
+
+/// Small whole inputs, by name.
+using Seeds = std::vector<std::pair<std::string, std::string>>;
+Seeds colmapSeeds();
+Seeds transformsSeeds();
+Seeds photoSeeds();
+
+} // namespace vorion::splat::fuzz
