@@ -3,6 +3,7 @@
 /// same bits.
 #pragma once
 
+#include "raster/BoxWork.h"
 #include "raster/Command.h"
 #include "raster/ExpUnits.h"
 #include "raster/Reciprocals.h"
@@ -49,22 +50,14 @@ struct BackwardOptions {
   std::uint32_t Entry = 0;
 };
 
-struct BackwardWork {
-  std::uint32_t Fragments; ///< slots of pairs of lanes
-  std::uint32_t Blends;    ///< pixels that gave something
-  bool Clipped;            ///< the box misses the tile
-  /// The box cut to the tile, in its pixels; 0 if it misses.
-  std::uint8_t X, Y, Width, Height;
-};
-
 /// One compilation of the datapath.
 struct BackwardDatapath {
   const char *Name;
   bool (*HostHasIt)();
   /// By vr_options.exp: takes one Gaussian (no NaN) through a tile and writes
   /// its sums.
-  BackwardWork (*Back[ExpUnitCount])(const Gaussian &, const BackwardOptions &,
-                                     BackwardBuffer &, GradientSums &);
+  BoxWork (*Back[ExpUnitCount])(const Gaussian &, const BackwardOptions &,
+                                BackwardBuffer &, GradientSums &);
   /// The reciprocal unit alone, in place, \p Count a multiple of 16.
   void (*Reciprocals)(Reciprocal Unit, float *Values, std::size_t Count);
 };

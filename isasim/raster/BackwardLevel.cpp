@@ -68,15 +68,6 @@ VORION_INLINE float acrossColumns(Float16 V) {
   return T.x + T.y;
 }
 
-/// What of a Gaussian is the same in all rows, for an aligned block of columns.
-struct Columns {
-  unsigned First;
-  Int16 Inside;
-  Float16 Dx;  ///< from the pixel to the mean
-  Float16 AX2; ///< a * dx * dx
-  Float16 BX;  ///< b * dx
-};
-
 /// One block of pixels of one row.
 struct Block {
   const Columns &C;
@@ -120,25 +111,19 @@ VORION_INLINE void through(const Block &P, const Gaussian &G,
 }
 
 template <typename Exp>
-BackwardWork back(const Gaussian &G, const BackwardOptions &Options,
-                  BackwardBuffer &Tile, GradientSums &Out) {
+BoxWork back(const Gaussian &G, const BackwardOptions &Options,
+             BackwardBuffer &Tile, GradientSums &Out) {
   Out = {G.Tag, {}};
   const CutBox Box = cutBox(G, Tile.CentreX, Tile.CentreY);
   if (Box.Missed)
-    return {0, 0, true, 0, 0, 0, 0};
+    return missed();
 
   // Aligned, since a column's place decides where the gather adds it.
   const unsigned FirstBlock = Box.FirstX / LaneCount;
   const unsigned Used = Box.LastX / LaneCount - FirstBlock + 1;
   Columns Column[Blocks];
-  for (unsigned I = 0; I != Used; ++I) {
-    Columns &C = Column[I];
-    C.First = (FirstBlock + I) * LaneCount;
-    C.Dx = G.Mean[0] - load(Tile.CentreX + C.First);
-    C.Inside = __builtin_elementwise_abs(C.Dx) <= G.Extent[0];
-    C.AX2 = G.Conic[0] * C.Dx * C.Dx;
-    C.BX = G.Conic[1] * C.Dx;
-  }
+  for (unsigned I = 0; I != Used; ++I)
+    Column[I] = columnsFrom((FirstBlock + I) * LaneCount, G, Tile.CentreX);
 
   const float Bound = powerBound(G.Opacity, Options.MinAlpha, Exp::Margin);
   const auto Entry = static_cast<std::int32_t>(Options.Entry);
@@ -148,23 +133,18 @@ BackwardWork back(const Gaussian &G, const BackwardOptions &Options,
   for (unsigned Y = Box.FirstY; Y <= Box.LastY; ++Y) {
     Columns16 Row = zeroColumns();
     const unsigned Skipped = Tile.RowLast[Y] <= Options.Entry ? Used : 0;
-    const float Dy = G.Mean[1] - Tile.CentreY[Y];
-    const float CY2 = G.Conic[2] * Dy * Dy;
+    const RowTerms Terms = rowTerms(G, Tile.CentreY[Y]);
     for (unsigned I = Skipped; I != Used; ++I) {
       const Columns &C = Column[I];
       const unsigned At = Y * BackwardBuffer::Stride + C.First;
       const Int16 Live = C.Inside & (load(Tile.Last + At) > Entry);
       if (Options.SkipSaturated)
         LiveInBox += countBits(bits(Live));
-      const Float16 Power = -0.5F * (C.AX2 + CY2) - C.BX * Dy;
-      const Int16 Near = Live & (Power <= 0.0F) & ~(Power < Bound);
-      if (bits(Near) == 0)
-        continue;
-      const Float16 Wanted = G.Opacity * Exp::evaluate(Power);
-      const Int16 Counts = Near & (Wanted >= Options.MinAlpha);
+      const auto [Counts, Wanted] =
+          reach<Exp>(G, C, Terms, Live, Bound, Options.MinAlpha);
       if (bits(Counts) == 0)
         continue;
-      through({C, At, Dy, Wanted, Counts}, G, Options, Tile, Row);
+      through({C, At, Terms.Dy, Wanted, Counts}, G, Options, Tile, Row);
       Blends += countBits(bits(Counts));
     }
     if (Options.InRows)
@@ -176,13 +156,9 @@ BackwardWork back(const Gaussian &G, const BackwardOptions &Options,
     Sum = Tree.sum();
   for (unsigned K = 0; K != SumCount; ++K)
     Out.Sums[K] = acrossColumns(Sum.Sum[K]);
-  return {Options.SkipSaturated ? LiveInBox : Box.width() * Box.height(),
-          Blends,
-          false,
-          static_cast<std::uint8_t>(Box.FirstX),
-          static_cast<std::uint8_t>(Box.FirstY),
-          static_cast<std::uint8_t>(Box.width()),
-          static_cast<std::uint8_t>(Box.height())};
+  return workOf(Box,
+                Options.SkipSaturated ? LiveInBox : Box.width() * Box.height(),
+                Blends);
 }
 
 void evaluateReciprocals(Reciprocal Unit, float *Values, std::size_t Count) {

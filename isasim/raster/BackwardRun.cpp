@@ -68,7 +68,7 @@ std::uint32_t BackwardRun::through(std::uint32_t Entry, GradientSums &Sums) {
   if (Found)
     return Found;
   Options.Entry = Entry;
-  const BackwardWork Done =
+  const BoxWork Done =
       Unit.Back[OptionsExp.get(C.Options)](Input.Record, Options, Tile, Sums);
   Work.Intersecting += Input.Intersects;
   Work.Clipped += Done.Clipped;

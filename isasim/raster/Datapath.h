@@ -4,6 +4,7 @@
 #pragma once
 
 #include "raster/BlendUnits.h"
+#include "raster/BoxWork.h"
 #include "raster/ExpUnits.h"
 
 #include <cstddef>
@@ -50,21 +51,13 @@ struct BlendOptions {
   std::uint32_t Entry = 0;
 };
 
-struct BlendWork {
-  std::uint32_t Fragments; ///< 0: the box misses the tile's pixels
-  std::uint32_t Blends;
-  bool Clipped; ///< the box misses the tile
-  /// The box cut to the tile, in its pixels; 0 if it misses.
-  std::uint8_t X, Y, Width, Height;
-};
-
 /// One compilation of the datapath.
 struct Datapath {
   const char *Name;
   bool (*HostHasIt)();
   /// By vr_options.exp and .blend: blends one Gaussian (no NaN) into a tile.
-  using BlendFunction = BlendWork (*)(const Gaussian &, const BlendOptions &,
-                                      TileBuffer &);
+  using BlendFunction = BoxWork (*)(const Gaussian &, const BlendOptions &,
+                                    TileBuffer &);
   BlendFunction Blend[ExpUnitCount][BlendUnitCount];
   /// By vr_options.exp: the unit alone, in place, \p Count a multiple of 16.
   void (*Exp[ExpUnitCount])(float *Values, std::size_t Count);

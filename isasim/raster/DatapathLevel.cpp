@@ -8,20 +8,12 @@
 namespace vorion::raster {
 namespace {
 
-/// What of a Gaussian is the same in all rows, for the 16 columns from First.
-struct Columns {
-  unsigned First;
-  Int16 Inside;
-  Float16 AX2; ///< a * dx * dx
-  Float16 BX;  ///< b * dx
-};
-
 template <typename Exp, typename Arithmetic>
-BlendWork blend(const Gaussian &G, const BlendOptions &Options,
-                TileBuffer &Tile) {
+BoxWork blend(const Gaussian &G, const BlendOptions &Options,
+              TileBuffer &Tile) {
   const CutBox Box = cutBox(G, Tile.CentreX, Tile.CentreY);
   if (Box.Missed)
-    return {0, 0, true, 0, 0, 0, 0};
+    return missed();
 
   const unsigned Groups = (Box.LastX - Box.FirstX) / LaneCount + 1;
   // As few vectors as the width allows, none beyond the row's end.
@@ -29,17 +21,10 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
   const unsigned Start = Box.FirstX < Latest ? Box.FirstX : Latest;
 
   Columns Column[Blocks];
-  for (unsigned I = 0; I != Groups; ++I) {
-    Columns &C = Column[I];
-    C.First = Start + I * LaneCount;
-    const Float16 Dx = G.Mean[0] - load(Tile.CentreX + C.First);
-    C.Inside = __builtin_elementwise_abs(Dx) <= G.Extent[0];
-    C.AX2 = G.Conic[0] * Dx * Dx;
-    C.BX = G.Conic[1] * Dx;
-  }
+  for (unsigned I = 0; I != Groups; ++I)
+    Column[I] = columnsFrom(Start + I * LaneCount, G, Tile.CentreX);
 
   const float Bound = powerBound(G.Opacity, Options.MinAlpha, Exp::Margin);
-  const float MinAlpha = Options.MinAlpha;
   const Float16 OfRed = Arithmetic::operand(G.Color[0]);
   const Float16 OfGreen = Arithmetic::operand(G.Color[1]);
   const Float16 OfBlue = Arithmetic::operand(G.Color[2]);
@@ -49,8 +34,7 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
   for (unsigned Row = Box.FirstY; Row <= Box.LastY; ++Row) {
     if (Tile.RowLive[Row] == 0)
       continue;
-    const float Dy = G.Mean[1] - Tile.CentreY[Row];
-    const float CY2 = G.Conic[2] * Dy * Dy;
+    const RowTerms Terms = rowTerms(G, Tile.CentreY[Row]);
     for (unsigned I = 0; I != Groups; ++I) {
       const Columns &C = Column[I];
       const unsigned At = Row * TileBuffer::Stride + C.First;
@@ -59,12 +43,8 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
       if (Options.SkipSaturated)
         LiveInBox += countBits(bits(Open));
 
-      const Float16 Power = -0.5F * (C.AX2 + CY2) - C.BX * Dy;
-      const Int16 Near = Open & (Power <= 0.0F) & ~(Power < Bound);
-      if (bits(Near) == 0)
-        continue;
-      const Float16 Wanted = G.Opacity * Exp::evaluate(Power);
-      const Int16 Counts = Near & (Wanted >= MinAlpha);
+      const auto [Counts, Wanted] =
+          reach<Exp>(G, C, Terms, Open, Bound, Options.MinAlpha);
       if (bits(Counts) == 0)
         continue;
       const Float16 Alpha = Wanted < MaxAlpha ? Wanted : Float16(MaxAlpha);
@@ -95,13 +75,9 @@ BlendWork blend(const Gaussian &G, const BlendOptions &Options,
       }
     }
   }
-  return {Options.SkipSaturated ? LiveInBox : Box.width() * Box.height(),
-          Blends,
-          false,
-          static_cast<std::uint8_t>(Box.FirstX),
-          static_cast<std::uint8_t>(Box.FirstY),
-          static_cast<std::uint8_t>(Box.width()),
-          static_cast<std::uint8_t>(Box.height())};
+  return workOf(Box,
+                Options.SkipSaturated ? LiveInBox : Box.width() * Box.height(),
+                Blends);
 }
 
 template <typename Exp> void evaluate(float *Values, std::size_t Count) {

@@ -2,6 +2,7 @@
 /// level, as Vector.h.
 #pragma once
 
+#include "raster/BoxWork.h"
 #include "raster/ExpVector.h"
 #include "raster/RasterTables.h"
 #include "raster/Vector.h"
@@ -52,6 +53,66 @@ VORION_INLINE CutBox cutBox(const Gaussian &G, const float *CentreX,
 /// NaN or negative opacity: no bound needed, alpha is never MinAlpha.
 VORION_INLINE float powerBound(float Opacity, float MinAlpha, float Margin) {
   return __builtin_logf(MinAlpha / Opacity) - Margin;
+}
+
+/// What of a Gaussian is the same in all rows, for the 16 columns from First.
+struct Columns {
+  unsigned First;
+  Float16 Dx; ///< from the pixel to the mean
+  Int16 Inside;
+  Float16 AX2; ///< a * dx * dx
+  Float16 BX;  ///< b * dx
+};
+
+VORION_INLINE Columns columnsFrom(unsigned First, const Gaussian &G,
+                                  const float *CentreX) {
+  const Float16 Dx = G.Mean[0] - load(CentreX + First);
+  return {First, Dx, __builtin_elementwise_abs(Dx) <= G.Extent[0],
+          G.Conic[0] * Dx * Dx, G.Conic[1] * Dx};
+}
+
+/// What of a Gaussian is the same in a row.
+struct RowTerms {
+  float Dy;  ///< from the pixel to the mean
+  float CY2; ///< c * dy * dy
+};
+
+VORION_INLINE RowTerms rowTerms(const Gaussian &G, float CentreY) {
+  const float Dy = G.Mean[1] - CentreY;
+  return {Dy, G.Conic[2] * Dy * Dy};
+}
+
+/// What a Gaussian is to 16 pixels of a row.
+struct Reach {
+  Int16 Counts;   ///< the pixels that it is blended into
+  Float16 Wanted; ///< opacity times falloff; meaningful where it counts
+};
+
+/// \p Open: the pixels that it may be blended into. One definition for both
+/// directions: gradients go through what the picture holds, and nothing else.
+template <typename Exp>
+VORION_INLINE Reach reach(const Gaussian &G, const Columns &C,
+                          const RowTerms &R, Int16 Open, float Bound,
+                          float MinAlpha) {
+  const Float16 Power = -0.5F * (C.AX2 + R.CY2) - C.BX * R.Dy;
+  const Int16 Near = Open & (Power <= 0.0F) & ~(Power < Bound);
+  if (bits(Near) == 0)
+    return {Near, Power};
+  const Float16 Wanted = G.Opacity * Exp::evaluate(Power);
+  return {Near & (Wanted >= MinAlpha), Wanted};
+}
+
+VORION_INLINE BoxWork missed() { return {0, 0, true, 0, 0, 0, 0}; }
+
+VORION_INLINE BoxWork workOf(const CutBox &Box, unsigned Fragments,
+                             unsigned Blends) {
+  return {Fragments,
+          Blends,
+          false,
+          static_cast<std::uint8_t>(Box.FirstX),
+          static_cast<std::uint8_t>(Box.FirstY),
+          static_cast<std::uint8_t>(Box.width()),
+          static_cast<std::uint8_t>(Box.height())};
 }
 
 /// Units in the order of their options.

@@ -64,7 +64,7 @@ private:
 
 void Execution::blendOne(const Gaussian &G, std::uint32_t Address,
                          bool Intersects, const BlendOptions &Options) {
-  const BlendWork Result = blendFunction(C, Lanes)(G, Options, Tile);
+  const BoxWork Result = blendFunction(C, Lanes)(G, Options, Tile);
   Work.Intersecting += Intersects;
   Work.Clipped += Result.Clipped;
   Work.Fragments += Result.Fragments;

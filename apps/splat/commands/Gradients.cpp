@@ -1,6 +1,7 @@
-#include "Choices.h"
 #include "Commands.h"
+#include "DeviceArguments.h"
 #include "OutputFile.h"
+#include "PictureOptions.h"
 #include "Progress.h"
 #include "SceneArguments.h"
 
@@ -8,7 +9,6 @@
 #include "../render/Gradients.h"
 #include "vorion/support/Diagnostics.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -19,7 +19,6 @@ namespace {
 struct GradientArguments {
   SceneArguments Scene;
   std::string Cameras, View, Upstream, Output, Device, KernelFolder;
-  std::vector<float> Background{0, 0, 0};
   RenderOptions Options;
   BackwardOptions Backward;
 };
@@ -86,26 +85,11 @@ Npz arraysOf(const GradientResult &R, const Scene &S) {
   return Out;
 }
 
-Expected<Success> check(const GradientArguments &A) {
-  const RenderOptions &O = A.Options;
-  if (!(O.Cutoff >= 0 && O.Cutoff < 1))
-    return Error{"", fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff),
-                 ExitCode::Usage};
-  if (!(O.Dilation >= 0 && O.Dilation < 1e6F))
-    return Error{
-        "", fmt::format("--dilation {}: expected px^2, at least 0", O.Dilation),
-        ExitCode::Usage};
-  if (O.Reach == Support::Official16 && O.Blending == Path::Raster)
-    return Error{"",
-                 "--support official16 has tiles of 16x16 pixels, expected "
-                 "--path simt with it",
-                 ExitCode::Usage};
-  return checkWritable(A.Output);
-}
-
 Expected<Success> run(const GradientArguments &A) {
-  if (auto Checked = check(A); !Checked)
-    return Checked.error();
+  if (auto Checked = checkPictureOptions(A.Options); !Checked)
+    return Checked;
+  if (auto Writable = checkWritable(A.Output); !Writable)
+    return Writable;
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
@@ -115,37 +99,27 @@ Expected<Success> run(const GradientArguments &A) {
   const auto U = readUpstream(A.Upstream, *C);
   if (!U)
     return U.error();
-  auto D = Device::open(A.Device);
+  auto D = openDevice(A.Device, A.Options.Blending);
   if (!D)
     return D.error();
-  if (A.Options.Blending == Path::Raster && !D->isVorion())
-    return Error{"",
-                 fmt::format("{} has no rasterizer, expected a Vorion "
-                             "device or --path simt",
-                             D->name()),
-                 ExitCode::Usage};
   Launcher L(*D, A.KernelFolder, progress());
   const auto R =
       takeGradients(L, File->Gaussians, *C, A.Options, A.Backward, *U);
   endProgress();
   if (!R) {
-    if (!L.buildLog().empty())
-      fmt::print(stderr, "{}\n", L.buildLog());
+    showBuildLog(L);
     return R.error();
   }
   if (auto Written = writeNpz(A.Output, arraysOf(*R, File->Gaussians));
       !Written)
     return Written.error();
-  fmt::print(
-      "{} {}x{} on {}: {} rules, support {}, path {}{}\n"
-      "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
-      C->Name, C->Width, C->Height, D->name(), name(A.Options.Convention),
-      name(A.Options.Reach), name(A.Options.Blending),
-      A.Options.Blending == Path::Raster
-          ? fmt::format(", reciprocal {}, sums in {} order",
-                        name(A.Backward.Unit), name(A.Backward.Order))
-          : "",
-      R->Visible, R->Pairs, A.Options.tileSize(), A.Options.tileHeight());
+  fmt::print("{} {}x{} on {}: {} rules, support {}, path {}{}\n"
+             "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
+             C->Name, C->Width, C->Height, D->name(),
+             name(A.Options.Convention), name(A.Options.Reach),
+             name(A.Options.Blending), toString(A.Backward, A.Options.Blending),
+             R->Visible, R->Pairs, A.Options.tileSize(),
+             A.Options.tileHeight());
   for (const StageReport &S : R->Stages)
     fmt::print("{:<18}{:>8.3f} s\n", S.Name, S.Seconds);
   return Success{};
@@ -169,41 +143,11 @@ Runner addGradients(CLI::App &App) {
                  "Gradients and hand-over sums (.npz), named as in the "
                  "reference results")
       ->required();
-  addChoice(App, "--rules", O.Convention, {Rules::Inria, Rules::Gsplat},
-            "Convention to follow");
-  addChoice(
-      App, "--support", O.Reach,
-      {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
-      "Pixels that a Gaussian may reach");
-  addChoice(App, "--path", O.Blending, {Path::Raster, Path::Simt},
-            "Who blends: the rasterizer or the cores");
-  addChoice(App, "--reciprocal", A->Backward.Unit,
-            {Reciprocal::Exact, Reciprocal::EvenLeft, Reciprocal::EvenBest,
-             Reciprocal::LogLeft, Reciprocal::LogBest, Reciprocal::Mantissa2,
-             Reciprocal::Mantissa3},
-            "The rasterizer's unit for 1/(1 - alpha)");
-  addChoice(App, "--sum", A->Backward.Order,
-            {GatherOrder::Tree, GatherOrder::Rows},
-            "How the rasterizer's gather adds up rows");
-  App.add_flag("--antialiased", O.Antialiased,
-               "Compensate opacity for the dilation");
-  App.add_option("--dilation", O.Dilation,
-                 "Added to both variances on the picture, px^2 (default 0.3)");
-  App.add_option("--background", A->Background, "Colour r,g,b (default 0,0,0)")
-      ->delimiter(',')
-      ->expected(3)
-      ->option_text("R,G,B");
-  App.add_option("--cutoff", O.Cutoff,
-                 "Transmittance at which a pixel is full (default 0.0001)");
-  App.add_option("--device", A->Device,
-                 "Part of the OpenCL device's name (default Vorion, else the "
-                 "first device)");
-  App.add_option("--kernels", A->KernelFolder,
-                 "Read the kernel sources from this folder");
-  return [A] {
-    std::copy_n(A->Background.begin(), 3, A->Options.Background.begin());
-    return run(*A);
-  };
+  addPictureOptions(App, O);
+  addBackwardOptions(App, A->Backward);
+  addDeviceOption(App, A->Device);
+  addKernelsOption(App, A->KernelFolder);
+  return [A] { return run(*A); };
 }
 
 } // namespace vorion::splat

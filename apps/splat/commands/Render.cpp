@@ -1,7 +1,9 @@
 #include "Choices.h"
 #include "Commands.h"
+#include "DeviceArguments.h"
 #include "NumericsReport.h"
 #include "OutputFile.h"
+#include "PictureOptions.h"
 #include "Progress.h"
 #include "SceneArguments.h"
 
@@ -17,10 +19,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -39,7 +38,6 @@ struct RenderArguments {
   SceneArguments Scene;
   std::string Cameras, View, Output;
   std::string Json, Pairs, Device, KernelFolder;
-  std::vector<float> Background{0, 0, 0};
   std::string PixelUnit = "off", Effects = "auto";
   EffectRequest Request;
   std::string Explain; ///< empty, "plan" or "measure"
@@ -64,18 +62,8 @@ Expected<Success> check(const RenderArguments &A) {
     return Usage(fmt::format(
         "-o {}: unknown kind of picture, expected .png, .pfm or .npz",
         A.Output));
-  if (!(O.Dilation >= 0 && std::isfinite(O.Dilation)))
-    return Usage(fmt::format("--dilation {}: expected a variance of 0 px^2 or "
-                             "more",
-                             O.Dilation));
-  for (const float B : O.Background)
-    if (!std::isfinite(B))
-      return Usage(fmt::format("--background {}: expected finite numbers", B));
-  if (!(O.Cutoff >= 0 && O.Cutoff < 1))
-    return Usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
-  if (O.Blending == Path::Raster && O.Reach == Support::Official16)
-    return Usage("--support official16 has tiles of 16x16 pixels, expected "
-                 "--path simt with it");
+  if (auto Checked = checkPictureOptions(O); !Checked)
+    return Checked;
   if (O.Blending == Path::Simt && hasTable(O.Exponential))
     return Usage(fmt::format("--exp {} is the rasterizer's, expected --path "
                              "raster with it",
@@ -147,10 +135,8 @@ Expected<Success> run(const RenderArguments &A) {
   auto C = readCamera(A.Cameras, A.View);
   if (!C)
     return C.error();
-  // The platform reads it when it opens its devices (cl_vorion.h).
   if (A.Time || A.ClockMhz)
-    setenv("VORION_TIME",
-           A.ClockMhz ? std::to_string(*A.ClockMhz).c_str() : "on", 1);
+    turnClockOn(A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
     auto Begun = NumericsReport::begin(A.Numerics);
@@ -163,22 +149,15 @@ Expected<Success> run(const RenderArguments &A) {
   const EffectInputs Inputs{*S, A.Options, Facts, !A.Pairs.empty()};
   RenderPlan Plan = planAsAsked(A, Inputs);
 
-  auto D = Device::open(A.Device);
+  auto D = openDevice(A.Device, A.Options.Blending);
   if (!D)
     return D.error();
-  if (A.Options.Blending == Path::Raster && !D->isVorion())
-    return Error{"",
-                 fmt::format("{} has no rasterizer, expected a Vorion "
-                             "device or --path simt",
-                             D->name()),
-                 ExitCode::Usage};
   Launcher L(*D, A.KernelFolder, progress());
   fallBack(A, L, Inputs, Plan);
   auto R = render(L, Plan, *S, *C, A.Options, !A.Pairs.empty());
   endProgress();
   if (!R) {
-    if (!L.buildLog().empty())
-      fmt::print(stderr, "{}\n", L.buildLog());
+    showBuildLog(L);
     return R.error();
   }
   L.recordBuilds();
@@ -281,30 +260,10 @@ Runner addRender(CLI::App &App) {
                  "Picture: .png, or .pfm or .npz for linear floats")
       ->required();
   App.add_option("--json", A->Json, "Write what was done, and how much of it");
-  addChoice(App, "--rules", O.Convention, {Rules::Inria, Rules::Gsplat},
-            "Convention to follow");
-  addChoice(
-      App, "--support", O.Reach,
-      {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
-      "Pixels that a Gaussian may reach");
-  addChoice(App, "--path", O.Blending, {Path::Raster, Path::Simt},
-            "Who blends: the rasterizer or the cores");
+  addPictureOptions(App, O);
   addDatapathOptions(App, O);
   addRasterOptions(App, *A);
-  App.add_flag("--antialiased", O.Antialiased,
-               "Compensate opacity for the dilation");
-  App.add_option("--dilation", O.Dilation,
-                 "Added to both variances on the picture (default 0.3)")
-      ->option_text("PX2");
-  App.add_option("--background", A->Background, "Colour r,g,b (default 0,0,0)")
-      ->delimiter(',')
-      ->expected(3)
-      ->option_text("R,G,B");
-  App.add_option("--cutoff", O.Cutoff,
-                 "Transmittance at which a pixel is full (default 0.0001)");
-  App.add_option("--device", A->Device,
-                 "Part of the OpenCL device's name (default Vorion, else the "
-                 "first device)");
+  addDeviceOption(App, A->Device);
   App.add_flag("--explain{plan}", A->Explain,
                "Say of each effect whether it is on, and what decided; with "
                "=measure also what it costs, by rendering with and without")
@@ -327,8 +286,7 @@ Runner addRender(CLI::App &App) {
       ->option_text("[=SETTING,...]");
   App.add_option("--dump-pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)");
-  App.add_option("--kernels", A->KernelFolder,
-                 "Read the kernel sources from this folder");
+  addKernelsOption(App, A->KernelFolder);
   return [A] {
     auto Tail = parseTailRule(A->PixelUnit);
     if (!Tail)
@@ -338,7 +296,6 @@ Runner addRender(CLI::App &App) {
     if (!Request)
       return Expected<Success>(Request.error());
     A->Request = std::move(*Request);
-    std::copy_n(A->Background.begin(), 3, A->Options.Background.begin());
     return run(*A);
   };
 }

@@ -1,6 +1,7 @@
-#include "Choices.h"
 #include "Commands.h"
+#include "DeviceArguments.h"
 #include "OutputFile.h"
+#include "PictureOptions.h"
 
 #include "../analyze/Chart.h"
 #include "../capture/Capture.h"
@@ -13,9 +14,9 @@
 #include "vorion/support/File.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -33,7 +34,7 @@ using Json = nlohmann::ordered_json;
 struct TrainArguments {
   std::string Capture, Output, Json, Curve, Checkpoint, Device;
   std::vector<std::string> Exclude;
-  std::vector<float> Background{0, 0, 0};
+  std::array<float, 3> Background{0, 0, 0};
   int Downscale = 1, ShDegree = MaxShDegree;
   unsigned CheckpointEvery = 1000;
   bool Resume = false, Breakdown = false;
@@ -99,8 +100,7 @@ Expected<Success> loop(Work &W, Launcher &L, Trainer &T) {
     const StepReport R = T.step();
     std::vector<StageReport> Stages = L.takeStages();
     if (L.failure()) {
-      if (!L.buildLog().empty())
-        fmt::print(stderr, "{}\n", L.buildLog());
+      showBuildLog(L);
       return *L.failure();
     }
     if (W.A.Breakdown) {
@@ -207,12 +207,7 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
              W.Pictures.Training.size(), W.Pictures.HeldOut.size(),
              W.C.HeldOutBy, PhotoFilter);
   fmt::print("rules        inria, support exact, path {}{}, opacity rate {}\n",
-             name(W.A.Blending),
-             W.A.Blending == Path::Raster
-                 ? fmt::format(", reciprocal {}, sums in {} order",
-                               name(W.A.Backward.Unit),
-                               name(W.A.Backward.Order))
-                 : "",
+             name(W.A.Blending), toString(W.A.Backward, W.A.Blending),
              W.A.Run.Settings.OpacityRate);
   if (T.iteration() > W.First)
     fmt::print("wall time    {:.1f} s, {:.3f} it/s\n", W.Seconds,
@@ -258,21 +253,18 @@ Expected<Success> run(TrainArguments &A) {
   if (!(A.Run.Extent > 0))
     return Error{A.Capture, "all training cameras are at one place, expected "
                             "them around the scene"};
-  std::array<float, 3> Background{};
-  std::copy_n(A.Background.begin(), 3, Background.begin());
-  A.Run.WhiteBackground = Background == std::array<float, 3>{1, 1, 1};
-  const auto Pictures = loadTrainingSet(*C, A.Downscale, Background);
+  A.Run.WhiteBackground = A.Background == std::array<float, 3>{1, 1, 1};
+  const auto Pictures = loadTrainingSet(*C, A.Downscale, A.Background);
   if (!Pictures)
     return Pictures.error();
   const PictureSource Source{std::string(name(C->Format)), A.Downscale,
-                             Background};
+                             A.Background};
   Work W(A, *C, *Pictures);
   W.Run = runText(A.Run, *Pictures, Source, A.ShDegree, A.Blending, A.Backward);
 
-  // The platform reads it when it opens its devices (cl_vorion.h).
   if (A.Breakdown)
-    setenv("VORION_TIME", "on", 1);
-  auto D = Device::open(A.Device);
+    turnClockOn("on");
+  auto D = openDevice(A.Device, A.Blending);
   if (!D)
     return D.error();
   if (A.Breakdown && !D->isVorion())
@@ -281,17 +273,11 @@ Expected<Success> run(TrainArguments &A) {
                              "Vorion device",
                              D->name()),
                  ExitCode::Usage};
-  if (A.Blending == Path::Raster && !D->isVorion())
-    return Error{"",
-                 fmt::format("{} has no rasterizer, expected a Vorion device "
-                             "or --path simt",
-                             D->name()),
-                 ExitCode::Usage};
   Launcher L(*D, "", {});
   L.beginStage("build");
   for (const ProgramSpec &P : Trainer::programs())
     L.build(P);
-  DeviceRenderer Renderer(L, A.Blending, A.Backward, Background);
+  DeviceRenderer Renderer(L, A.Blending, A.Backward, A.Background);
   Trainer T(L, Renderer, *Pictures, A.Run);
   if (A.Resume && std::filesystem::exists(A.Checkpoint)) {
     const auto Kept = readCheckpoint(A.Checkpoint);
@@ -307,8 +293,7 @@ Expected<Success> run(TrainArguments &A) {
         *C, {A.Run.Seed, A.ShDegree, A.Run.Settings.MostGaussians}));
   }
   if (L.failure()) {
-    if (!L.buildLog().empty())
-      fmt::print(stderr, "{}\n", L.buildLog());
+    showBuildLog(L);
     return *L.failure();
   }
   std::signal(SIGINT, onInterrupt);
@@ -343,22 +328,12 @@ Runner addTrain(CLI::App &App) {
   App.add_option("--sh-degree", A->ShDegree,
                  "Bands of spherical harmonics (default 3)")
       ->check(CLI::Range(0, MaxShDegree));
-  App.add_option("--background", A->Background,
-                 "Colour r,g,b behind the scene and under transparent pixels "
-                 "(default 0,0,0)")
-      ->delimiter(',')
-      ->expected(3)
-      ->option_text("R,G,B");
-  addChoice(App, "--path", A->Blending, {Path::Raster, Path::Simt},
-            "Who blends and goes back: the rasterizer or the cores");
-  addChoice(App, "--reciprocal", A->Backward.Unit,
-            {Reciprocal::Exact, Reciprocal::EvenLeft, Reciprocal::EvenBest,
-             Reciprocal::LogLeft, Reciprocal::LogBest, Reciprocal::Mantissa2,
-             Reciprocal::Mantissa3},
-            "The rasterizer's unit for 1/(1 - alpha)");
-  addChoice(App, "--sum", A->Backward.Order,
-            {GatherOrder::Tree, GatherOrder::Rows},
-            "How the rasterizer's gather adds up rows");
+  addBackgroundOption(App, A->Background,
+                      "Colour r,g,b behind the scene and under transparent "
+                      "pixels (default 0,0,0)");
+  addPathOption(App, A->Blending,
+                "Who blends and goes back: the rasterizer or the cores");
+  addBackwardOptions(App, A->Backward);
   App.add_option("--checkpoint", A->Checkpoint,
                  "Where the run is kept (default: the output's name and "
                  ".checkpoint)");
@@ -372,7 +347,7 @@ Runner addTrain(CLI::App &App) {
                "one by stage");
   App.add_option("--json", A->Json, "Write what was done, and its losses");
   App.add_option("--curve", A->Curve, "Draw the losses (.svg)");
-  App.add_option("--device", A->Device, "Part of the OpenCL device's name");
+  addDeviceOption(App, A->Device);
   return [A] {
     if (A->Checkpoint.empty())
       A->Checkpoint = A->Output + ".checkpoint";

@@ -171,15 +171,12 @@ void addBackdrop(Builder &B, int Count) {
 /// Camera at \p Eye looking at \p Target, up towards +y.
 Camera lookAt(int Id, const std::string &Name, const glm::dvec3 &Eye,
               const glm::dvec3 &Target) {
-  Camera C;
+  constexpr int Width = 960, Height = 544;
+  // 60 degrees across.
+  Camera C = Camera::ahead(Width, Height,
+                           0.5 * Width / std::tan(std::numbers::pi / 6));
   C.Id = Id;
   C.Name = Name;
-  C.Width = 960;
-  C.Height = 544;
-  // 60 degrees across.
-  C.Fx = C.Fy = 0.5 * C.Width / std::tan(std::numbers::pi / 6);
-  C.Cx = 0.5 * C.Width;
-  C.Cy = 0.5 * C.Height;
   const glm::dvec3 Forward = glm::normalize(Target - Eye);
   const glm::dvec3 Right =
       glm::normalize(glm::cross(Forward, glm::dvec3(0, 1, 0)));

@@ -24,13 +24,6 @@ constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
 class Effects : public testing::Test {
 protected:
   Effects() {
-    C.Width = 64;
-    C.Height = 48;
-    C.Fx = C.Fy = 50;
-    C.Cx = 32;
-    C.Cy = 24;
-    for (std::size_t I = 0; I < 3; ++I)
-      C.Rotation[I][I] = 1;
     // In front of the camera, opacity 1/2.
     for (std::size_t I = 0; I < S.size(); ++I)
       S.Means[3 * I + 2] = 2;
@@ -46,7 +39,7 @@ protected:
 
   Scene S = Scene::sized(3, 3);
   RenderOptions O;
-  Camera C;
+  Camera C = Camera::ahead(64, 48, 50);
 };
 
 TEST_F(Effects, ABareSceneNeedsNone) {

@@ -174,6 +174,18 @@ bool isRotation(const std::array<std::array<double, 3>, 3> &R) {
   return Determinant > 0;
 }
 
+Camera Camera::ahead(int Width, int Height, double Focal) {
+  Camera C;
+  C.Width = Width;
+  C.Height = Height;
+  for (std::size_t I = 0; I < 3; ++I)
+    C.Rotation[I][I] = 1;
+  C.Fx = C.Fy = Focal;
+  C.Cx = 0.5 * Width;
+  C.Cy = 0.5 * Height;
+  return C;
+}
+
 std::array<double, 9> Camera::worldToCameraRotation() const {
   std::array<double, 9> R{};
   for (int I = 0; I < 3; ++I)

@@ -24,6 +24,10 @@ struct Camera {
   double Fx = 0, Fy = 0; ///< focal lengths, pixels
   double Cx = 0, Cy = 0; ///< principal point; the picture's centre if absent
 
+  /// At the origin, looking along +z; pixels of \p Focal length, the principal
+  /// point in the picture's middle.
+  static Camera ahead(int Width, int Height, double Focal);
+
   /// World to camera: row-major R with p_camera = R p_world + t.
   std::array<double, 9> worldToCameraRotation() const;
   std::array<double, 3> worldToCameraTranslation() const;

@@ -9,22 +9,10 @@
 namespace vorion::splat {
 namespace {
 
-Camera camera() {
-  Camera C;
-  C.Width = 64;
-  C.Height = 48;
-  C.Fx = C.Fy = 50;
-  C.Cx = 32;
-  C.Cy = 24;
-  for (std::size_t I = 0; I < 3; ++I)
-    C.Rotation[I][I] = 1;
-  return C;
-}
-
 RenderPlan planFor(const Scene &S, const RenderOptions &O,
                    const std::string &Request = "auto") {
-  const ViewFacts Facts =
-      factsOf(S, makeView(camera(), O), nearLimit(O.Convention));
+  const ViewFacts Facts = factsOf(S, makeView(Camera::ahead(64, 48, 50), O),
+                                  nearLimit(O.Convention));
   return planRender(
       EffectPlan(*parseEffectRequest(Request), {S, O, Facts, false}), O);
 }

@@ -104,12 +104,7 @@ private:
 class TrainerOnDevice : public OnDevice {
 protected:
   static Camera cameraAt(double Angle) {
-    Camera C;
-    C.Width = 24;
-    C.Height = 20;
-    C.Fx = C.Fy = 30;
-    C.Cx = 12;
-    C.Cy = 10;
+    Camera C = Camera::ahead(24, 20, 30);
     const double S = std::sin(Angle), K = std::cos(Angle);
     C.Rotation = {{{K, 0, S}, {0, 1, 0}, {-S, 0, K}}};
     C.Position = {-3 * S, 0, -3 * K};

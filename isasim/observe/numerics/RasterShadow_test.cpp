@@ -76,10 +76,10 @@ void brokenExp(float *Values, std::size_t Count) {
 }
 
 /// A unit that loses a thousandth of what gets through.
-BlendWork brokenTransmittance(const Gaussian &G, const BlendOptions &Options,
-                              TileBuffer &Tile) {
+BoxWork brokenTransmittance(const Gaussian &G, const BlendOptions &Options,
+                            TileBuffer &Tile) {
   std::vector<float> Before(Tile.T, Tile.T + TileBuffer::Pixels);
-  const BlendWork W =
+  const BoxWork W =
       datapaths().back()->Blend[VR_EXP_EXACT][VR_BLEND_FP32](G, Options, Tile);
   for (unsigned N = 0; N != TileBuffer::Pixels; ++N)
     if (Tile.T[N] != Before[N])

@@ -18,15 +18,8 @@ void add(splat::Scene &S, const Blob &B) {
 }
 
 splat::Camera frontView(int Width, int Height, double Focal) {
-  splat::Camera C;
+  auto C = splat::Camera::ahead(Width, Height, Focal);
   C.Name = "view";
-  C.Width = Width;
-  C.Height = Height;
-  for (std::size_t I = 0; I < 3; ++I)
-    C.Rotation[I][I] = 1;
-  C.Fx = C.Fy = Focal;
-  C.Cx = 0.5 * Width;
-  C.Cy = 0.5 * Height;
   return C;
 }
 

@@ -1,9 +1,9 @@
 // splat-capture-samples: writes a small capture of every format, and the same
 // as seeds of the fuzzers.
+#include "../../io/testing/WriteSample.h"
 #include "CaptureWriters.h"
 #include "fuzz/Targets.h"
 #include "vorion/support/Diagnostics.h"
-#include "vorion/support/File.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -15,17 +15,6 @@ using namespace vorion::splat;
 using namespace vorion::splat::testing;
 namespace fs = std::filesystem;
 
-Expected<Success> write(const fs::path &File, const std::string &Content) {
-  std::error_code Failed;
-  fs::create_directories(File.parent_path(), Failed);
-  if (Failed)
-    return Error{File.parent_path().string(),
-                 fmt::format("cannot make the folder: {}, expected a folder "
-                             "that can be written",
-                             Failed.message())};
-  return writeFileAtomically(File.string(), Content);
-}
-
 Expected<Success> run(const fs::path &Root) {
   const SampleCapture C = sampleCapture();
   const std::pair<const char *, Folder> Captures[] = {
@@ -35,7 +24,7 @@ Expected<Success> run(const fs::path &Root) {
       {"nerf-synthetic", nerfSyntheticOf(C)}};
   for (const auto &[Name, Files] : Captures)
     for (const auto &[File, Content] : Files)
-      if (auto Written = write(Root / "captures" / Name / File, Content);
+      if (auto Written = writeSample(Root / "captures" / Name / File, Content);
           !Written)
         return Written;
   const std::pair<const char *, fuzz::Seeds> Kinds[] = {
@@ -44,7 +33,8 @@ Expected<Success> run(const fs::path &Root) {
       {"photo", fuzz::photoSeeds()}};
   for (const auto &[Kind, Seeds] : Kinds)
     for (const auto &[Name, Content] : Seeds)
-      if (auto Written = write(Root / "seeds" / Kind / Name, Content); !Written)
+      if (auto Written = writeSample(Root / "seeds" / Kind / Name, Content);
+          !Written)
         return Written;
   return Success{};
 }

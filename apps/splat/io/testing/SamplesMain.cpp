@@ -1,10 +1,9 @@
 // splat-scene-samples: writes small scenes of every format and damaged copies.
 #include "Damage.h"
+#include "WriteSample.h"
 #include "vorion/support/Diagnostics.h"
-#include "vorion/support/File.h"
 
 #include <filesystem>
-#include <fmt/format.h>
 
 namespace {
 
@@ -12,20 +11,9 @@ using namespace vorion;
 using namespace vorion::splat::testing;
 namespace fs = std::filesystem;
 
-Expected<Success> write(const fs::path &File, const std::string &Content) {
-  std::error_code Failed;
-  fs::create_directories(File.parent_path(), Failed);
-  if (Failed)
-    return Error{File.parent_path().string(),
-                 fmt::format("cannot make the folder: {}, expected a folder "
-                             "that can be written",
-                             Failed.message())};
-  return writeFileAtomically(File.string(), Content);
-}
-
 Expected<Success> write(const fs::path &Where, const Folder &Files) {
   for (const auto &[Name, Content] : Files)
-    if (auto Written = write(Where / Name, Content); !Written)
+    if (auto Written = writeSample(Where / Name, Content); !Written)
       return Written;
   return Success{};
 }
@@ -44,10 +32,12 @@ std::string bundled(const Folder &Files) {
 
 Expected<Success> run(const fs::path &Root) {
   for (const SampleFile &F : sampleFiles())
-    if (auto Written = write(Root / "whole" / F.Name, F.Content); !Written)
+    if (auto Written = writeSample(Root / "whole" / F.Name, F.Content);
+        !Written)
       return Written;
   for (const DamagedFile &F : damagedFiles())
-    if (auto Written = write(Root / "damaged" / F.Name, F.Content); !Written)
+    if (auto Written = writeSample(Root / "damaged" / F.Name, F.Content);
+        !Written)
       return Written;
   for (const DamagedFolder &F : damagedFolders()) {
     if (auto Written = write(Root / "damaged" / (F.Name + ".sog.d"), F.Files);
@@ -55,7 +45,8 @@ Expected<Success> run(const fs::path &Root) {
       return Written;
     // A picture of 16 million pixels teaches a fuzzer nothing.
     if (F.Name != "plane-bomb")
-      if (auto Written = write(Root / "bundles" / F.Name, bundled(F.Files));
+      if (auto Written =
+              writeSample(Root / "bundles" / F.Name, bundled(F.Files));
           !Written)
         return Written;
   }
@@ -64,7 +55,7 @@ Expected<Success> run(const fs::path &Root) {
   if (auto Written = write(Root / "whole" / "streamed.sog.d", Streamed);
       !Written)
     return Written;
-  return write(Root / "bundles" / "streamed", bundled(Streamed));
+  return writeSample(Root / "bundles" / "streamed", bundled(Streamed));
 }
 
 } // namespace

@@ -1,0 +1,40 @@
+#include "DeviceArguments.h"
+
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+void addDeviceOption(CLI::App &App, std::string &Name) {
+  App.add_option("--device", Name,
+                 "Part of the OpenCL device's name (default Vorion, else the "
+                 "first device)");
+}
+
+void addKernelsOption(CLI::App &App, std::string &Folder) {
+  App.add_option("--kernels", Folder,
+                 "Read the kernel sources from this folder");
+}
+
+void turnClockOn(const std::string &Setting) {
+  // The platform reads it when it opens its devices (cl_vorion.h).
+  setenv("VORION_TIME", Setting.c_str(), 1);
+}
+
+Expected<Device> openDevice(const std::string &Name, Path Blending) {
+  auto D = Device::open(Name);
+  if (D && Blending == Path::Raster && !D->isVorion())
+    return Error{"",
+                 fmt::format("{} has no rasterizer, expected a Vorion device "
+                             "or --path simt",
+                             D->name()),
+                 ExitCode::Usage};
+  return D;
+}
+
+void showBuildLog(const Launcher &L) {
+  if (!L.buildLog().empty())
+    fmt::print(stderr, "{}\n", L.buildLog());
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,29 @@
+/// What every subcommand that works on a device takes.
+#pragma once
+
+#include "../device/Launcher.h"
+#include "../render/Options.h"
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace vorion::splat {
+
+/// Declares --device; \p Name must outlive the parsing.
+void addDeviceOption(CLI::App &App, std::string &Name);
+
+/// Declares --kernels; \p Folder must outlive the parsing.
+void addKernelsOption(CLI::App &App, std::string &Folder);
+
+/// Turns on the clock of the devices that are opened from now on, \p Setting
+/// being "on" or their MHz.
+void turnClockOn(const std::string &Setting);
+
+/// Opens the device that \p Name asks for; an error where it cannot blend by
+/// \p Blending.
+Expected<Device> openDevice(const std::string &Name, Path Blending);
+
+/// Shows what the compiler said of a program that failed to build.
+void showBuildLog(const Launcher &L);
+
+} // namespace vorion::splat

@@ -1,0 +1,75 @@
+#include "PictureOptions.h"
+
+#include "Choices.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+void addPictureOptions(CLI::App &App, RenderOptions &O) {
+  addChoice(App, "--rules", O.Convention, {Rules::Inria, Rules::Gsplat},
+            "Convention to follow");
+  addChoice(
+      App, "--support", O.Reach,
+      {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
+      "Pixels that a Gaussian may reach");
+  addPathOption(App, O.Blending, "Who blends: the rasterizer or the cores");
+  App.add_flag("--antialiased", O.Antialiased,
+               "Compensate opacity for the dilation");
+  App.add_option("--dilation", O.Dilation,
+                 "Added to both variances on the picture (default 0.3)")
+      ->option_text("PX2");
+  addBackgroundOption(App, O.Background, "Colour r,g,b (default 0,0,0)");
+  App.add_option("--cutoff", O.Cutoff,
+                 "Transmittance at which a pixel is full (default 0.0001)");
+}
+
+Expected<Success> checkPictureOptions(const RenderOptions &O) {
+  const auto Usage = [](std::string What) {
+    return Error{"", std::move(What), ExitCode::Usage};
+  };
+  if (!(O.Dilation >= 0 && std::isfinite(O.Dilation)))
+    return Usage(fmt::format("--dilation {}: expected a variance of 0 px^2 or "
+                             "more",
+                             O.Dilation));
+  for (const float B : O.Background)
+    if (!std::isfinite(B))
+      return Usage(fmt::format("--background {}: expected finite numbers", B));
+  if (!(O.Cutoff >= 0 && O.Cutoff < 1))
+    return Usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
+  if (O.Blending == Path::Raster && O.Reach == Support::Official16)
+    return Usage("--support official16 has tiles of 16x16 pixels, expected "
+                 "--path simt with it");
+  return Success{};
+}
+
+void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
+                         const std::string &Help) {
+  App.add_option("--background", Colour, Help)
+      ->delimiter(',')
+      ->option_text("R,G,B");
+}
+
+void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
+  addChoice(App, "--path", Blending, {Path::Raster, Path::Simt}, Help);
+}
+
+void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
+  addChoice(App, "--reciprocal", B.Unit,
+            {Reciprocal::Exact, Reciprocal::EvenLeft, Reciprocal::EvenBest,
+             Reciprocal::LogLeft, Reciprocal::LogBest, Reciprocal::Mantissa2,
+             Reciprocal::Mantissa3},
+            "The rasterizer's unit for 1/(1 - alpha)");
+  addChoice(App, "--sum", B.Order, {GatherOrder::Tree, GatherOrder::Rows},
+            "How the rasterizer's gather adds up rows");
+}
+
+std::string toString(const BackwardOptions &B, Path Blending) {
+  if (Blending != Path::Raster)
+    return "";
+  return fmt::format(", reciprocal {}, sums in {} order", name(B.Unit),
+                     name(B.Order));
+}
+
+} // namespace vorion::splat

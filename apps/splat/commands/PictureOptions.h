@@ -1,0 +1,33 @@
+/// The options that say what a picture is, and how its gradients are taken:
+/// one meaning in every subcommand that draws.
+#pragma once
+
+#include "../render/Backward.h"
+#include "../render/Options.h"
+#include "vorion/support/Expected.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <string>
+
+namespace vorion::splat {
+
+/// Rules, support, path, dilation, background and cut-off. \p O must outlive
+/// the parsing, here and below.
+void addPictureOptions(CLI::App &App, RenderOptions &O);
+
+/// Whether the values of these go together; an error is one of usage.
+Expected<Success> checkPictureOptions(const RenderOptions &O);
+
+void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
+                         const std::string &Help);
+
+void addPathOption(CLI::App &App, Path &Blending, const std::string &Help);
+
+/// What the rasterizer's backward mode computes with.
+void addBackwardOptions(CLI::App &App, BackwardOptions &B);
+
+/// These as a report says them, after a comma; empty where the cores go back.
+std::string toString(const BackwardOptions &B, Path Blending);
+
+} // namespace vorion::splat
