@@ -9,7 +9,8 @@
 // x the picture and y the photograph; of these, x, x^2 and x y depend on the
 // picture. Plane p of pixel i is at p * pixels + i. Beyond the picture a weight
 // is 0 rather than left out, and loops are unrolled: lanes stay together, and
-// the sums in registers.
+// the sums in registers. Numbers before 0 wrap to large ones, so that a place is
+// inside by one comparison, which needs no branch.
 
 #define REACH 5
 #define MOMENTS 5
@@ -39,13 +40,13 @@ __kernel void loss_rows(__global const float4 *picture,
   const uint pixels = width * height;
   if (i >= pixels)
     return;
-  const int column = i % width;
+  const uint column = i % width;
   float sums[3 * MOMENTS];
   for (uint k = 0; k < 3 * MOMENTS; ++k)
     sums[k] = 0.0f;
 #pragma unroll
   for (int d = -REACH; d <= REACH; ++d) {
-    const bool inside = column + d >= 0 && column + d < (int)width;
+    const bool inside = column + d < width;
     const float weight = inside ? window[abs(d)] : 0.0f;
     const uint at = inside ? i + d : i;
     const float4 x4 = picture[at];
@@ -71,7 +72,7 @@ static float column_sum(__global const float *plane, uint i, uint row,
   float sum = 0.0f;
 #pragma unroll
   for (int d = -REACH; d <= REACH; ++d) {
-    const bool inside = (int)row + d >= 0 && (int)row + d < (int)height;
+    const bool inside = row + d < height;
     sum = fma(inside ? window[abs(d)] : 0.0f,
               plane[inside ? i + d * (int)width : i], sum);
   }
@@ -128,13 +129,13 @@ __kernel void loss_spread(__global const float *slopes, __global float *spread,
   const uint pixels = width * height;
   if (i >= pixels)
     return;
-  const int column = i % width;
+  const uint column = i % width;
   float sums[3 * SLOPES];
   for (uint k = 0; k < 3 * SLOPES; ++k)
     sums[k] = 0.0f;
 #pragma unroll
   for (int d = -REACH; d <= REACH; ++d) {
-    const bool inside = column + d >= 0 && column + d < (int)width;
+    const bool inside = column + d < width;
     const float weight = inside ? window[abs(d)] : 0.0f;
     const uint at = inside ? i + d : i;
 #pragma unroll

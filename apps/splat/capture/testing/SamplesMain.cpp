@@ -6,7 +6,6 @@
 #include "vorion/support/Diagnostics.h"
 
 #include <filesystem>
-#include <fmt/format.h>
 
 namespace {
 
