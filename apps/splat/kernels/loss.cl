@@ -9,8 +9,7 @@
 // x the picture and y the photograph; of these, x, x^2 and x y depend on the
 // picture. Plane p of pixel i is at p * pixels + i. Beyond the picture a weight
 // is 0 rather than left out, and loops are unrolled: lanes stay together, and
-// the sums in registers. Numbers before 0 wrap to large ones, so that a place is
-// inside by one comparison, which needs no branch.
+// the sums in registers.
 
 #define REACH 5
 #define MOMENTS 5
@@ -19,6 +18,21 @@
 __constant float window[REACH + 1] = {0.2660117248617943f,   0.21300553771125366f,
                                       0.1093606895097f,      0.03600077212843082f,
                                       0.007598758135239184f, 0.0010283800844791099f};
+
+// A place of the window that lies on pixel i: its weight, and what to read.
+typedef struct {
+  float weight;
+  uint at;
+} tap;
+
+// `d` pixels after pixel i, which stands at `place` of a line of `length` whose
+// pixels are `step` apart. Places before 0 wrap to large ones, so that one
+// comparison finds both ends, without a branch.
+static tap window_tap(uint i, uint place, int d, uint length, uint step) {
+  const bool inside = place + d < length;
+  const tap t = {inside ? window[abs(d)] : 0.0f, inside ? i + d * step : i};
+  return t;
+}
 
 // SSIM's constants for values from 0 to 1.
 #define C1 1e-4f
@@ -46,15 +60,13 @@ __kernel void loss_rows(__global const float4 *picture,
     sums[k] = 0.0f;
 #pragma unroll
   for (int d = -REACH; d <= REACH; ++d) {
-    const bool inside = column + d < width;
-    const float weight = inside ? window[abs(d)] : 0.0f;
-    const uint at = inside ? i + d : i;
-    const float4 x4 = picture[at];
-    const uint packed = photo[at];
+    const tap t = window_tap(i, column, d, width, 1);
+    const float4 x4 = picture[t.at];
+    const uint packed = photo[t.at];
 #pragma unroll
     for (uint c = 0; c < 3; ++c) {
       const float x = channel(x4, c), y = photo_value(packed, c);
-      const float wx = weight * x, wy = weight * y;
+      const float wx = t.weight * x, wy = t.weight * y;
       sums[MOMENTS * c] += wx;
       sums[MOMENTS * c + 1] += wy;
       sums[MOMENTS * c + 2] = fma(wx, x, sums[MOMENTS * c + 2]);
@@ -72,9 +84,8 @@ static float column_sum(__global const float *plane, uint i, uint row,
   float sum = 0.0f;
 #pragma unroll
   for (int d = -REACH; d <= REACH; ++d) {
-    const bool inside = row + d < height;
-    sum = fma(inside ? window[abs(d)] : 0.0f,
-              plane[inside ? i + d * (int)width : i], sum);
+    const tap t = window_tap(i, row, d, height, width);
+    sum = fma(t.weight, plane[t.at], sum);
   }
   return sum;
 }
@@ -135,12 +146,10 @@ __kernel void loss_spread(__global const float *slopes, __global float *spread,
     sums[k] = 0.0f;
 #pragma unroll
   for (int d = -REACH; d <= REACH; ++d) {
-    const bool inside = column + d < width;
-    const float weight = inside ? window[abs(d)] : 0.0f;
-    const uint at = inside ? i + d : i;
+    const tap t = window_tap(i, column, d, width, 1);
 #pragma unroll
     for (uint k = 0; k < 3 * SLOPES; ++k)
-      sums[k] = fma(weight, slopes[k * pixels + at], sums[k]);
+      sums[k] = fma(t.weight, slopes[k * pixels + t.at], sums[k]);
   }
   for (uint k = 0; k < 3 * SLOPES; ++k)
     spread[k * pixels + i] = sums[k];
