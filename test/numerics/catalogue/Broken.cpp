@@ -14,10 +14,13 @@ namespace {
 using splat::Path;
 
 constexpr std::string_view Files[] = {
-    "layout.h",   "activate.cl", "covariance.cl", "support.cl", "sh.cl",
-    "project.cl", "scan.cl",     "sort.cl",       "tiles.cl",   "falloff.cl",
-    "units.cl",   "blend.cl",    "rasterize.cl",  "resolve.cl", "merge.cl",
-    "deal.cl",    "sh_planes.h"};
+    "layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl",
+    "project.cl", "scan.cl", "sort.cl", "tiles.cl", "falloff.cl", "units.cl",
+    "blend.cl", "rasterize.cl", "resolve.cl", "merge.cl", "deal.cl",
+    "sh_planes.h",
+    // Training's.
+    "upstream.cl", "rasterize_backward.cl", "blend_backward.cl", "reduce.cl",
+    "project_backward.cl", "sh_backward.cl", "adam.cl", "loss.cl"};
 
 constexpr std::string_view PlainProduct =
     "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
@@ -147,6 +150,54 @@ const std::vector<BrokenKernel> &brokenKernels() {
        {{"blend.cl", "p.transmittance = blended ? next : p.transmittance;",
          "p.transmittance = blended ? as_float(as_uint(next) & 0xffff0000u) : "
          "p.transmittance;"}}},
+      // Training.
+      {"culled-go-back",
+       {},
+       {{"project_backward.cl", "if (depths[i] < CULLED) {", "if (true) {"}}},
+      {"sixteenth-lost",
+       {},
+       {{"rasterize_backward.cl", "as_float(vr_grad_s());",
+         "get_local_id(0) == 15 ? 0.0f : as_float(vr_grad_s());"},
+        {"blend_backward.cl", "to[k] = (c0 + c2) + (c1 + c3);",
+         "to[k] = lane == 15 ? 0.0f : (c0 + c2) + (c1 + c3);"}}},
+      {"seventeenth-lost",
+       {},
+       {{"rasterize_backward.cl",
+         "range.x + VR_GRAD_LANES * (next >> VR_GRAD_NEXT_BATCH_SHIFT);",
+         "range.x;"},
+        {"blend_backward.cl", "to[k] = (c0 + c2) + (c1 + c3);",
+         "to[k] = first != 0 ? 0.0f : (c0 + c2) + (c1 + c3);"}}},
+      // The rasterizer's unit has variants of its own that must be noticed
+      // (isasim/raster/HardBackward_test.cpp).
+      {"reciprocal-rounded",
+       Path::Simt,
+       {{"blend_backward.cl", "s.x / (1.0f - alpha)",
+         "s.x * (1.0f / (1.0f - alpha))"}}},
+      {"adam-uncorrected",
+       {},
+       {{"adam.cl", "sqrt(v) * correction", "sqrt(v)"}}},
+      {"adam-without-epsilon",
+       {},
+       {{"adam.cl", "(sqrt(v) * correction + epsilon)",
+         "(sqrt(v) * correction)"}}},
+      {"adam-epsilon-under-the-root",
+       {},
+       {{"adam.cl", "(sqrt(v) * correction + epsilon)",
+         "sqrt(v * correction * correction + epsilon)"}}},
+      {"ssim-without-c1",
+       {},
+       {{"loss.cl", "#define C1 1e-4f", "#define C1 0.0f"}}},
+      {"ssim-without-c2",
+       {},
+       {{"loss.cl", "#define C2 9e-4f", "#define C2 0.0f"}}},
+      {"ssim-weight-lost",
+       {},
+       {{"loss.cl", "per_absolute * side - per_ssim * ssim;",
+         "per_absolute * side;"}}},
+      {"sign-of-equal",
+       {},
+       {{"loss.cl", "x > y ? 1.0f : x < y ? -1.0f : 0.0f",
+         "x >= y ? 1.0f : -1.0f"}}},
   };
   return All;
 }

@@ -1,4 +1,5 @@
 #include "HardCase.h"
+#include "TrainingCase.h"
 
 namespace vorion::test {
 
@@ -8,6 +9,13 @@ std::vector<HardCase> catalogue() {
   addOpacities(Cases);
   addViews(Cases);
   addLists(Cases);
+  return Cases;
+}
+
+std::vector<TrainingCase> trainingCases() {
+  std::vector<TrainingCase> Cases;
+  addGradients(Cases);
+  addSteps(Cases);
   return Cases;
 }
 
@@ -24,6 +32,10 @@ std::vector<CaseElsewhere> casesElsewhere() {
        Units},
       {"64 layers of 0.99 without a cut-off",
        "the scalar loop's bits, T within 1e-5 of 0.01^n in relation", Units},
+      {"T above 1 on the way back, with every approximate reciprocal",
+       "the scalar loop's bits, T within the unit's error to the power of the "
+       "layers",
+       "isasim/raster/HardBackward_test.cpp"},
       {"NaN in a record", "status VR_NAN, no pixel written",
        "isasim/raster/Rasterizer_test.cpp"},
       {"NaN or infinity in a scene file, every parameter",

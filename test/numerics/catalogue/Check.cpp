@@ -1,6 +1,7 @@
 #include "Check.h"
 
 #include "Broken.h"
+#include "TrainingCase.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,12 +20,21 @@ public:
 
   /// The case as it stands, then its settings and its broken kernels.
   Expected<Success> all(const HardCase &C);
+  Expected<Success> all(const TrainingCase &C);
 
   CheckCounts Counts;
 
 private:
   Expected<Success> setting(const HardCase &C, Path P, const Setting &S);
   Expected<Success> broken(const HardCase &C, Path P, const BrokenKernel &B);
+  /// As it stands, or with broken kernels.
+  Expected<Success> training(const TrainingCase &C, Path P,
+                             const BrokenKernel *B);
+  /// The row of a check with \p B, of which \p Noticed says what it was, or why
+  /// it did not run.
+  nlohmann::json rowOf(const std::string &Key, const std::string &Case, Path P,
+                       const BrokenKernel &B,
+                       const Expected<std::string> &Noticed);
   Expected<Success> keep(const nlohmann::json &Row);
   /// Whether it is this one's turn, of those that are more than the case
   /// itself.
@@ -57,18 +67,23 @@ Expected<Success> Checker::keep(const nlohmann::json &Row) {
   const bool Good = Row["broken"].get<std::string>().empty();
   ++Counts.Checked;
   ++(Good ? Counts.Kept : Counts.Failed);
+  std::string Found;
+  if (Row.contains("doubtful"))
+    Found = fmt::format(
+        " (error {:.2g}, fp32's {:.2g}, bound {:.2g}, doubtful {:.2f} %, off "
+        "by {:.2g})",
+        Row["error"].get<double>(), Row["single"].get<double>(),
+        Row["bound"].get<double>(), 100 * Row["doubtful"].get<double>(),
+        Row["doubtful_error"].get<double>());
+  else if (Row.contains("error"))
+    Found = fmt::format(" (error {:.2g}, bound {:.2g})",
+                        Row["error"].get<double>(), Row["bound"].get<double>());
+  else
+    Found = fmt::format(" ({})", Row["noticed"].get<std::string>());
   if (!Good || Loud)
     fmt::print("{}: {}{}\n", Row["key"].get<std::string>(),
                Good ? "kept" : "BROKEN: " + Row["broken"].get<std::string>(),
-               Row.contains("error")
-                   ? fmt::format(" (error {:.2g}, fp32's {:.2g}, bound {:.2g}, "
-                                 "doubtful {:.2f} %, off by {:.2g})",
-                                 Row["error"].get<double>(),
-                                 Row["single"].get<double>(),
-                                 Row["bound"].get<double>(),
-                                 100 * Row["doubtful"].get<double>(),
-                                 Row["doubtful_error"].get<double>())
-                   : "");
+               Found);
   std::fflush(stdout);
   return Success{};
 }
@@ -100,6 +115,25 @@ Expected<Success> Checker::setting(const HardCase &C, Path P,
   return keep(Row);
 }
 
+nlohmann::json Checker::rowOf(const std::string &Key, const std::string &Case,
+                              Path P, const BrokenKernel &B,
+                              const Expected<std::string> &Noticed) {
+  // A fault of the machine is noticed too; that it does not compile is not.
+  std::string What;
+  if (Noticed)
+    What = *Noticed;
+  else if (Noticed.error().Code != ExitCode::InputFile)
+    What = Noticed.error().What;
+  return {{"key", Key},
+          {"case", Case},
+          {"path", name(P)},
+          {"kernel", B.Name},
+          {"noticed", What},
+          {"broken", !What.empty() ? ""
+                     : Noticed     ? "not noticed"
+                                   : "the broken kernel does not compile"}};
+}
+
 Expected<Success> Checker::broken(const HardCase &C, Path P,
                                   const BrokenKernel &B) {
   const std::string Key =
@@ -111,21 +145,11 @@ Expected<Success> Checker::broken(const HardCase &C, Path P,
     return Written;
   const splat::RenderOptions O = turned(C.Options, P, {});
   const auto R = Device.render(C, O, Folder);
-  // A fault of the machine is noticed too; that it does not compile is not.
-  std::string Noticed;
-  if (R)
-    Noticed = judgeOf(C, O).judge(*R, 0, /*OwnOptions=*/true).Broken;
-  else if (R.error().Code != ExitCode::InputFile)
-    Noticed = R.error().What;
-  const nlohmann::json Row{
-      {"key", Key},
-      {"case", C.Name},
-      {"path", name(P)},
-      {"kernel", B.Name},
-      {"noticed", Noticed},
-      {"broken", !Noticed.empty() ? ""
-                 : R              ? "not noticed"
-                                  : "the broken kernel does not compile"}};
+  const nlohmann::json Row =
+      rowOf(Key, C.Name, P, B,
+            R ? Expected<std::string>(
+                    judgeOf(C, O).judge(*R, 0, /*OwnOptions=*/true).Broken)
+              : R.error());
   if (auto Done = Kept.add(Row); !Done)
     return Done;
   return keep(Row);
@@ -154,6 +178,51 @@ Expected<Success> Checker::all(const HardCase &C) {
   return Success{};
 }
 
+Expected<Success> Checker::training(const TrainingCase &C, Path P,
+                                    const BrokenKernel *B) {
+  const std::string Key = C.Name + (C.Blends ? " " + flagsOf(P, {}) : "") +
+                          (B ? fmt::format(" with {}", B->Name) : "");
+  if (const nlohmann::json *Row = Kept.find(Key))
+    return keep(*Row);
+  const std::string Folder = B ? Plan.Scratch + "/" + std::string(B->Name) : "";
+  if (B)
+    if (auto Written = writeKernels(Folder, *B); !Written)
+      return Written;
+  splat::Launcher L = Device.launcher(Folder);
+  const auto F = C.Run(L, P);
+  nlohmann::json Row;
+  if (B)
+    Row = rowOf(Key, C.Name, P, *B,
+                F ? Expected<std::string>(F->Broken) : F.error());
+  else
+    Row = {{"key", Key},
+           {"case", C.Name},
+           {"path", name(P)},
+           {"settings", 0},
+           {"error", F ? F->Error : 0},
+           {"bound", F ? F->Bound : 0},
+           {"broken", F ? F->Broken : F.error().What}};
+  if (auto Done = Kept.add(Row); !Done)
+    return Done;
+  return keep(Row);
+}
+
+Expected<Success> Checker::all(const TrainingCase &C) {
+  for (const Path P : Paths) {
+    if (!C.Blends && P != Paths[0])
+      continue;
+    if (auto Done = training(C, P, nullptr); !Done)
+      return Done;
+    for (const std::string &Name : C.NoticedIn) {
+      const BrokenKernel &B = brokenKernel(Name);
+      if (Plan.Broken && (!B.Only || *B.Only == P) && inShare())
+        if (auto Done = training(C, P, &B); !Done)
+          return Done;
+    }
+  }
+  return Success{};
+}
+
 } // namespace
 
 Expected<CheckCounts> check(const CheckPlan &P, bool Loud) {
@@ -163,16 +232,24 @@ Expected<CheckCounts> check(const CheckPlan &P, bool Loud) {
   auto R = Rows::open(P.RowFile);
   if (!R)
     return R.error();
-  const std::vector<HardCase> All = catalogue();
+  const std::vector<HardCase> Pictures = catalogue();
+  const std::vector<TrainingCase> Training = trainingCases();
   for (const std::string &Name : P.Cases)
-    if (std::ranges::find(All, Name, &HardCase::Name) == All.end())
+    if (std::ranges::find(Pictures, Name, &HardCase::Name) == Pictures.end() &&
+        std::ranges::find(Training, Name, &TrainingCase::Name) ==
+            Training.end())
       return Error{"", fmt::format("no case {}, expected one of --list", Name),
                    ExitCode::Usage};
+  const auto Named = [&](const std::string &Name) {
+    return std::ranges::find(P.Cases, Name) != P.Cases.end();
+  };
   Checker C(P, *M, *R, Loud);
-  for (const HardCase &Case : All)
-    if (P.Cases.empty()
-            ? P.Long || !Case.Long
-            : std::ranges::find(P.Cases, Case.Name) != P.Cases.end())
+  for (const HardCase &Case : Pictures)
+    if (P.Cases.empty() ? P.Long || !Case.Long : Named(Case.Name))
+      if (auto Done = C.all(Case); !Done)
+        return Done.error();
+  for (const TrainingCase &Case : Training)
+    if (P.Cases.empty() || Named(Case.Name))
       if (auto Done = C.all(Case); !Done)
         return Done.error();
   return C.Counts;

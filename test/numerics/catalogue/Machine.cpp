@@ -32,7 +32,7 @@ Expected<Machine> Machine::open() {
 Expected<splat::RenderResult> Machine::render(const HardCase &C,
                                               const splat::RenderOptions &O,
                                               const std::string &KernelFolder) {
-  splat::Launcher L(Dev, KernelFolder, {}, &Programs);
+  splat::Launcher L = launcher(KernelFolder);
   auto R = splat::render(L, planFor(C, O), C.Scene, C.View, O,
                          /*KeepPairs=*/false);
   if (!R && !L.buildLog().empty())

@@ -16,6 +16,11 @@ public:
                                        const splat::RenderOptions &O,
                                        const std::string &KernelFolder);
 
+  /// For what is not a picture, with the same kernels and programs kept.
+  splat::Launcher launcher(const std::string &KernelFolder) {
+    return {Dev, KernelFolder, {}, &Programs};
+  }
+
 private:
   explicit Machine(splat::Device D) : Dev(std::move(D)) {}
 

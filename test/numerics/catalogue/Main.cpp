@@ -5,6 +5,7 @@
 #include "Ply.h"
 #include "Table.h"
 #include "Tool.h"
+#include "TrainingCase.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -41,6 +42,8 @@ Expected<Success> run(const Arguments &A) {
   if (A.List) {
     for (const HardCase &C : catalogue())
       fmt::print("{:<28}{}{}\n", C.Name, C.Why, C.Long ? " (--long)" : "");
+    for (const TrainingCase &C : trainingCases())
+      fmt::print("{:<28}{}\n", C.Name, C.Why);
     return Success{};
   }
   if (!A.Write.empty())

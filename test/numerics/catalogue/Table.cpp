@@ -1,6 +1,7 @@
 #include "Table.h"
 
 #include "HardCase.h"
+#include "TrainingCase.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -29,12 +30,14 @@ Found foundOf(const Rows &R, const std::string &Name) {
     F.Kept += Good;
     if (Row["settings"] != 0)
       continue;
-    // Where every pixel is doubtful, what they are off fp64 is the figure.
-    const double Error = std::max(Row["error"].get<double>(),
-                                  Row["doubtful_error"].get<double>());
-    (Row["path"] == "raster" ? F.Raster : F.Simt) = Error;
-    F.Single = Row["single"];
     F.Bound = Row["bound"];
+    double &Error = Row["path"] == "raster" ? F.Raster : F.Simt;
+    Error = Row["error"];
+    if (!Row.contains("doubtful")) // training's
+      continue;
+    // Where every pixel is doubtful, what they are off fp64 is the figure.
+    Error = std::max(Error, Row["doubtful_error"].get<double>());
+    F.Single = Row["single"];
   }
   return F;
 }
@@ -63,6 +66,17 @@ std::string tableOf(const Rows &R) {
                         "| {} of {} |\n",
                         C.Name, C.Why, contractOf(C, F), F.Raster, F.Simt,
                         F.Single, F.Kept, F.Checks, F.Noticed, F.Broken);
+  }
+  Text += "\n| case of training | why | contract | raster | simt | broken "
+          "kernels noticed |\n|---|---|---|---|---|---|\n";
+  for (const TrainingCase &C : trainingCases()) {
+    const Found F = foundOf(R, C.Name);
+    if (F.Checks == 0)
+      continue;
+    Text += fmt::format("| {} | {} | {} | {:.1e} | {} | {} of {} |\n", C.Name,
+                        C.Why, C.Contract, F.Raster,
+                        C.Blends ? fmt::format("{:.1e}", F.Simt) : "the same",
+                        F.Noticed, F.Broken);
   }
   Text += "\n| case | contract | test |\n|---|---|---|\n";
   for (const CaseElsewhere &C : casesElsewhere())

@@ -1,0 +1,25 @@
+/// Holds a scene's gradients on the device against the reference's in fp64.
+#pragma once
+
+#include "HardCase.h"
+#include "TrainingCase.h"
+
+namespace vorion::test {
+
+/// A scene with its view, and what must come of it.
+struct GradientScene {
+  splat::Scene Scene;
+  splat::Camera View;
+  splat::RenderOptions Options;
+  /// Gaussians that are culled: all their gradients must be 0 exactly. The
+  /// reference does without them.
+  std::vector<std::uint32_t> Culled{};
+};
+
+/// Largest relative difference in the L2 norm of any kind of gradient
+/// (docs/numerics.md, "Gradients"), which is at most \p Bound. The loss is a
+/// random number for every channel of the pixels that are not doubtful.
+Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
+                                 const GradientScene &S, double Bound);
+
+} // namespace vorion::test

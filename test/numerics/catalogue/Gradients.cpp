@@ -1,0 +1,113 @@
+// Scenes whose gradients are hard: culled neighbours, hand-overs that are just
+// full, deep stacks.
+#include "Build.h"
+#include "GradientJudge.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace vorion::test {
+namespace {
+
+/// docs/numerics.md, "Gradients".
+constexpr double Allowed = 1e-5;
+
+TrainingCase caseOf(std::string Name, std::string Why, GradientScene S,
+                    std::vector<std::string> NoticedIn) {
+  return {
+      std::move(Name), std::move(Why),
+      S.Culled.empty()
+          ? fmt::format("{:.0e} of the fp64 gradients", Allowed)
+          : fmt::format("{:.0e} of the fp64 gradients, culled ones 0", Allowed),
+      [Shared = std::make_shared<GradientScene>(std::move(S))](
+          splat::Launcher &L, splat::Path P) {
+        return judgeGradients(L, P, *Shared, Allowed);
+      },
+      std::move(NoticedIn)};
+}
+
+/// Something to be seen beside what a case is about.
+void addBlob(splat::Scene &S, Numbers &R, float X, float Y) {
+  add(S, {.Mean = {X, Y, static_cast<float>(R.uniform(1.9, 2.1))},
+          .Scale = {0.06, 0.1, 0.08},
+          .Quat = R.turn(),
+          .Opacity = R.uniform(0.3, 0.9),
+          .Color = R.color()});
+}
+
+TrainingCase culled() {
+  GradientScene G{{}, frontView(70, 50, 50), {}};
+  Numbers R(51);
+  const Blob Unseen[] = {
+      {.Mean = {0, 0, 0.1F}},                           // near
+      {.Mean = {0, 0, 0}},                              // at the camera
+      {.Mean = {0.2F, 0, -2}, .Scale = {9, 9, 9}},      // behind
+      {.Mean = {40, 0, 2}},                             // outside
+      {.Mean = {0, 0.1F, 2}, .Opacity = 0.0035},        // faint
+      {.Mean = {0, 0, 2}, .Scale = {1e30, 1e30, 1e30}}, // beyond fp32
+      {.Mean = {1e38F, 1e38F, 2}}};
+  for (const Blob &B : Unseen) {
+    addBlob(G.Scene, R, static_cast<float>(R.uniform(-0.8, 0.8)),
+            static_cast<float>(R.uniform(-0.6, 0.6)));
+    G.Culled.push_back(static_cast<std::uint32_t>(G.Scene.size()));
+    add(G.Scene, B);
+  }
+  return caseOf("gradients-of-culled",
+                "near, behind, outside, faint and beyond fp32 beside what is "
+                "seen: 0 exactly, though their z divides by 0",
+                std::move(G), {"culled-go-back"});
+}
+
+/// Lists of \p Length Gaussians in neighbouring tiles of either path.
+TrainingCase handOver(unsigned Length) {
+  GradientScene G{{}, frontView(128, 16, 50), {}};
+  Numbers R(60 + Length);
+  for (int Tile = 0; Tile < 4; ++Tile)
+    for (unsigned I = 0; I < Length; ++I) {
+      const double Column = 32 * Tile + 8 + R.uniform(-3, 3);
+      add(G.Scene, {.Mean = {static_cast<float>((Column - 64) / 25),
+                             static_cast<float>(R.uniform(-0.12, 0.12)),
+                             static_cast<float>(2 + 0.001 * I)},
+                    .Scale = {0.03, 0.02, 0.02},
+                    .Quat = R.turn(),
+                    .Opacity = 0.15,
+                    .Color = R.color()});
+    }
+  std::vector<std::string> NoticedIn;
+  if (Length >= 16)
+    NoticedIn.emplace_back("sixteenth-lost");
+  if (Length > 16)
+    NoticedIn.emplace_back("seventeenth-lost");
+  return caseOf(fmt::format("hand-over-{}", Length),
+                "16 Gaussians are handed over together: one less, just full, "
+                "one more, two full",
+                std::move(G), std::move(NoticedIn));
+}
+
+TrainingCase deepStack() {
+  GradientScene G{{}, frontView(18, 16, 50), {}};
+  // Transmittance on the way back is a product of thousands of quotients; that
+  // of rounded reciprocals would drift, and rise above 1.
+  G.Options.Cutoff = 0;
+  Numbers R(52);
+  for (int I = 0; I < 4000; ++I)
+    add(G.Scene, {.Mean = {0, 0, static_cast<float>(2 + 0.0005 * I)},
+                  .Scale = {40, 40, 40},
+                  .Opacity = 0.0045,
+                  .Color = R.color()});
+  return caseOf("transmittance-back-through-4000",
+                "4,000 layers of one alpha: a rounded reciprocal makes the "
+                "same error in each, and T rises above 1",
+                std::move(G), {"reciprocal-rounded"});
+}
+
+} // namespace
+
+void addGradients(std::vector<TrainingCase> &Cases) {
+  Cases.push_back(culled());
+  for (const unsigned Length : {15U, 16U, 17U, 32U, 33U})
+    Cases.push_back(handOver(Length));
+  Cases.push_back(deepStack());
+}
+
+} // namespace vorion::test
