@@ -45,6 +45,7 @@ features["gdb-multiarch"] = shutil.which("gdb-multiarch") or "gdb-multiarch"
 features["qemu-riscv32"] = shutil.which("qemu-riscv32") or "qemu-riscv32"
 features["csmith"] = shutil.which("csmith") or "csmith"
 features["chromium"] = shutil.which("chromium") or "chromium"
+features["mpirun"] = shutil.which("mpirun") or "mpirun"
 features["parallel"] = shutil.which("parallel") or "parallel"
 config.substitutions.append(("%llvm-tests", features["llvm-tests"]))
 for feature, path in features.items():

@@ -5,6 +5,7 @@
 
 #include "../analyze/Chart.h"
 #include "../capture/Capture.h"
+#include "../io/Hash.h"
 #include "../io/Ply.h"
 #include "../render/FrameTime.h"
 #include "../train/Baselines.h"
@@ -51,12 +52,13 @@ void onInterrupt(int /*Signal*/) { Interrupted = 1; }
 /// What the whole run is about, once everything is read.
 struct Work {
   Work(const TrainArguments &Arguments, const Capture &From,
-       const TrainingSet &Set)
-      : A(Arguments), C(From), Pictures(Set) {}
+       const TrainingSet &Set, Ranks &Processes)
+      : A(Arguments), C(From), Pictures(Set), Together(Processes) {}
 
   const TrainArguments &A;
   const Capture &C;
   const TrainingSet &Pictures;
+  Ranks &Together;
   std::string Run; ///< as checkpoints have it
   double Seconds = 0;
   unsigned First = 0; ///< iterations that were done before
@@ -84,7 +86,7 @@ void showProgress(const Work &W, const StepReport &R, Clock::time_point Start) {
   std::fflush(stderr);
 }
 
-Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
+Expected<Success> writeState(const Work &W, Launcher &L, Trainer &T) {
   Checkpoint C = T.save();
   if (L.failure())
     return *L.failure();
@@ -92,11 +94,16 @@ Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
   return writeCheckpoint(W.A.Checkpoint, C);
 }
 
+/// Of all processes, which have the same state, the first writes it.
+Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
+  return W.Together.agree(W.Together.first() ? writeState(W, L, T) : Success{});
+}
+
 Expected<Success> loop(Work &W, Launcher &L, Trainer &T) {
   const Clock::time_point Start = Clock::now();
   W.First = T.iteration();
   const unsigned Last = W.A.Run.Settings.Iterations;
-  while (T.iteration() < Last && Interrupted == 0) {
+  while (T.iteration() < Last && !W.Together.any(Interrupted != 0)) {
     const StepReport R = T.step();
     std::vector<StageReport> Stages = L.takeStages();
     if (L.failure()) {
@@ -183,6 +190,8 @@ std::string curveOf(const Trainer &T, const std::string &What) {
 
 Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
                          Trainer &T) {
+  if (!W.Together.first())
+    return Success{};
   const Scene S = T.scene();
   const std::vector<double> Db = T.evaluate();
   if (L.failure())
@@ -206,6 +215,9 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
   fmt::print("pictures     {} to train on, {} held out ({}); {}\n",
              W.Pictures.Training.size(), W.Pictures.HeldOut.size(),
              W.C.HeldOutBy, PhotoFilter);
+  if (W.A.Run.Batch != 1 || W.Together.size() != 1)
+    fmt::print("views        {} an iteration, on {} devices\n", W.A.Run.Batch,
+               W.Together.size());
   fmt::print("rules        inria, support exact, path {}{}, opacity rate {}\n",
              name(W.A.Blending), toString(W.A.Backward, W.A.Blending),
              W.A.Run.Settings.OpacityRate);
@@ -243,7 +255,22 @@ Expected<Success> check(const TrainArguments &A) {
   return Success{};
 }
 
-Expected<Success> run(TrainArguments &A) {
+/// That all processes are about to do the same; for the first error.
+Expected<Success> checkSameStart(const Work &W, unsigned Iteration) {
+  const std::string Mine = fmt::format("{} {:010}", fnv1a64(W.Run), Iteration);
+  std::string First = Mine;
+  W.Together.share(0, First.data(), First.size());
+  if (First == Mine)
+    return W.Together.agree(Success{});
+  return W.Together.agree(
+      Error{W.A.Capture,
+            fmt::format("process {} reads another capture or checkpoint, "
+                        "expected those of the first",
+                        W.Together.rank())});
+}
+
+/// \p Ready becomes true once every process has come as far as to train.
+Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
   if (auto Checked = check(A); !Checked)
     return Checked;
   const auto C = readCapture(A.Capture, A.Exclude);
@@ -259,7 +286,7 @@ Expected<Success> run(TrainArguments &A) {
     return Pictures.error();
   const PictureSource Source{std::string(name(C->Format)), A.Downscale,
                              A.Background};
-  Work W(A, *C, *Pictures);
+  Work W(A, *C, *Pictures, Together);
   W.Run = runText(A.Run, *Pictures, Source, A.ShDegree, A.Blending, A.Backward);
 
   if (A.Breakdown)
@@ -278,7 +305,7 @@ Expected<Success> run(TrainArguments &A) {
   for (const ProgramSpec &P : Trainer::programs())
     L.build(P);
   DeviceRenderer Renderer(L, A.Blending, A.Backward, A.Background);
-  Trainer T(L, Renderer, *Pictures, A.Run);
+  Trainer T(L, Renderer, *Pictures, A.Run, Together);
   if (A.Resume && std::filesystem::exists(A.Checkpoint)) {
     const auto Kept = readCheckpoint(A.Checkpoint);
     if (!Kept)
@@ -296,11 +323,28 @@ Expected<Success> run(TrainArguments &A) {
     showBuildLog(L);
     return *L.failure();
   }
+  Ready = true;
+  if (auto All = Together.agree(Success{}); !All)
+    return All;
+  if (auto Same = checkSameStart(W, T.iteration()); !Same)
+    return Same;
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
   if (auto Done = loop(W, L, T); !Done)
     return Done;
   return finish(W, *D, L, T);
+}
+
+Expected<Success> run(TrainArguments &A) {
+  const auto Together = openRanks();
+  if (!Together)
+    return Together.error();
+  bool Ready = false;
+  const auto Done = runOne(A, **Together, Ready);
+  const auto All = Ready ? Done : (*Together)->agree(Done);
+  // mpirun ends everything at the first exit code that is not 0: that must be
+  // the process's that says why.
+  return (*Together)->first() ? All : Success{};
 }
 
 } // namespace
@@ -324,6 +368,10 @@ Runner addTrain(CLI::App &App) {
                              S.MostGaussians))
       ->check(CLI::Range(4U, 100000000U));
   App.add_option("--exclude", A->Exclude, "Leave out this picture");
+  App.add_option("--batch", A->Run.Batch,
+                 "Views an iteration, shared out to the processes that mpirun "
+                 "started, each with a device of its own (default 1)")
+      ->check(CLI::Range(1U, 4096U));
   App.add_option("--seed", A->Run.Seed, "Of all random numbers (default 0)");
   App.add_option("--sh-degree", A->ShDegree,
                  "Bands of spherical harmonics (default 3)")

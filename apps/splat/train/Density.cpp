@@ -23,36 +23,63 @@ std::vector<ProgramSpec> densityPrograms() {
           {SortProgram, {"sort.cl"}, {}}};
 }
 
-void DensityControl::restart(std::uint32_t Count) {
-  restore({std::vector<float>(Count), std::vector<std::uint32_t>(Count),
-           std::vector<float>(Count)});
+ProgramSpec batchProgram() { return {BatchProgram, {"batch.cl"}, {}}; }
+
+namespace {
+
+DensityNotes nothing(std::uint32_t Count) {
+  return {std::vector<float>(Count), std::vector<std::uint32_t>(Count),
+          std::vector<float>(Count)};
 }
 
-void DensityControl::restore(const DensityNotes &Notes) {
-  const auto Upload = [&](cl::Buffer &To, const auto &Values) {
-    To = words("density control's notes", Values.size());
+} // namespace
+
+void DensityControl::restart(std::uint32_t Count) { restore(nothing(Count)); }
+
+DensityControl::Notebook DensityControl::upload(const DensityNotes &N) {
+  const auto Upload = [&](const auto &Values) {
+    const cl::Buffer To = words("density control's notes", Values.size());
     L.write("density control's notes", To, Values.data(), 4 * Values.size());
+    return To;
   };
-  Upload(GradientSums, Notes.GradientSums);
-  Upload(Views, Notes.Views);
-  Upload(Radii, Notes.Radii);
+  return {Upload(N.GradientSums), Upload(N.Views), Upload(N.Radii)};
 }
 
-DensityNotes DensityControl::save(std::uint32_t Count) {
-  DensityNotes N{std::vector<float>(Count), std::vector<std::uint32_t>(Count),
-                 std::vector<float>(Count)};
+DensityNotes DensityControl::download(const Notebook &From,
+                                      std::uint32_t Count) {
+  DensityNotes N = nothing(Count);
   const std::uint64_t Bytes = 4 * std::uint64_t{Count};
-  L.read("density control's notes", N.GradientSums.data(), GradientSums, Bytes);
-  L.read("density control's notes", N.Views.data(), Views, Bytes);
-  L.read("density control's notes", N.Radii.data(), Radii, Bytes);
+  L.read("density control's notes", N.GradientSums.data(), From.GradientSums,
+         Bytes);
+  L.read("density control's notes", N.Views.data(), From.Views, Bytes);
+  L.read("density control's notes", N.Radii.data(), From.Radii, Bytes);
   return N;
 }
 
-void DensityControl::note(const SeenView &V, std::uint32_t Count) {
+void DensityControl::note(const Notebook &In, const SeenView &V,
+                          std::uint32_t Count) {
   L.run(DensityProgram, "density_note", itemsFor(Count), GroupSize, V.Records,
-        V.Depths, V.Gradients, V.MeanPlane, GradientSums, Views, Radii, Count,
-        0.5F * static_cast<float>(V.Width),
+        V.Depths, V.Gradients, V.MeanPlane, In.GradientSums, In.Views, In.Radii,
+        Count, 0.5F * static_cast<float>(V.Width),
         0.5F * static_cast<float>(V.Height));
+}
+
+void DensityControl::note(const SeenView &V, std::uint32_t Count) {
+  note(Noted, V, Count);
+}
+
+DensityNotes DensityControl::noteAlone(const SeenView &V, std::uint32_t Count) {
+  const Notebook Alone = upload(nothing(Count));
+  note(Alone, V, Count);
+  return download(Alone, Count);
+}
+
+void DensityControl::merge(const DensityNotes &OfAView) {
+  const auto Count = static_cast<std::uint32_t>(OfAView.Views.size());
+  const Notebook Added = upload(OfAView);
+  L.run(BatchProgram, "batch_note", itemsFor(Count), GroupSize,
+        Noted.GradientSums, Noted.Views, Noted.Radii, Added.GradientSums,
+        Added.Views, Added.Radii, Count);
 }
 
 /// The sum of \p Values; their prefix sums are left in Places.
@@ -78,8 +105,8 @@ std::uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
   Rule.most_radius =
       DropsLarge ? static_cast<float>(Settings.MostRadius) : Never;
   L.run(DensityProgram, "density_decide", itemsFor(S.Count), GroupSize,
-        S.Parameters.Geometry, GradientSums, Views, Radii, Fates, Counts, Keys,
-        Order, S.Count, Rule);
+        S.Parameters.Geometry, Noted.GradientSums, Noted.Views, Noted.Radii,
+        Fates, Counts, Keys, Order, S.Count, Rule);
   return total(Counts, S.Count);
 }
 

@@ -10,6 +10,9 @@
 namespace vorion::splat {
 
 inline constexpr const char *DensityProgram = "density";
+/// Adds up views (kernels/batch.cl).
+inline constexpr const char *BatchProgram = "batch";
+ProgramSpec batchProgram();
 /// The programs that density control runs; scan and sort among them.
 std::vector<ProgramSpec> densityPrograms();
 
@@ -44,6 +47,10 @@ public:
   /// Forgets everything; \p Count Gaussians from now on.
   void restart(std::uint32_t Count);
   void note(const SeenView &V, std::uint32_t Count);
+  /// What \c note would add to nothing, for another process, whose \c merge has
+  /// the effect of \c note to the bit.
+  DensityNotes noteAlone(const SeenView &V, std::uint32_t Count);
+  void merge(const DensityNotes &OfAView);
   /// Clones, splits and drops by what was noted, and begins to note anew.
   /// Moments of what is kept are kept; new Gaussians begin with 0. The random
   /// numbers depend on seed, iteration and Gaussian only.
@@ -51,10 +58,17 @@ public:
   /// Opacities down to at most Settings.ResetOpacity, their moments to 0.
   void resetOpacity(DeviceScene &S);
 
-  DensityNotes save(std::uint32_t Count);
-  void restore(const DensityNotes &Notes);
+  DensityNotes save(std::uint32_t Count) { return download(Noted, Count); }
+  void restore(const DensityNotes &Notes) { Noted = upload(Notes); }
 
 private:
+  /// On the device.
+  struct Notebook {
+    cl::Buffer GradientSums, Views, Radii;
+  };
+  Notebook upload(const DensityNotes &N);
+  DensityNotes download(const Notebook &From, std::uint32_t Count);
+  void note(const Notebook &In, const SeenView &V, std::uint32_t Count);
   std::uint32_t decide(const DeviceScene &S, unsigned Iteration);
   std::uint32_t total(const cl::Buffer &Counts, std::uint32_t Count);
   void limit(std::uint32_t Count, std::uint32_t Total);
@@ -67,7 +81,7 @@ private:
   std::uint64_t Seed;
   double Extent;
   Sorter Sort;
-  cl::Buffer GradientSums, Views, Radii;
+  Notebook Noted;
   cl::Buffer Fates, Counts, Places, Keys, Order;
 };
 

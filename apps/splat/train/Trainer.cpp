@@ -12,15 +12,18 @@ std::vector<ProgramSpec> Trainer::programs() {
   std::vector<ProgramSpec> Programs = densityPrograms();
   Programs.push_back(lossProgram());
   Programs.push_back(adamProgram());
+  Programs.push_back(batchProgram());
   return Programs;
 }
 
 Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
-                 const TrainingSet &Photos, const TrainRun &What)
+                 const TrainingSet &Photos, const TrainRun &What,
+                 Ranks &Processes)
     : L(Launch), Renderer(Render), Pictures(Photos), Run(What),
       Order(Photos.Training.size(), What.Seed),
-      Loss(Launch, What.Settings.DSsim),
-      Density(Launch, What.Settings, What.Seed, What.Extent) {}
+      Loss(Launch, What.Settings.DSsim), Together(Processes),
+      Density(Launch, What.Settings, What.Seed, What.Extent),
+      Batch(Launch, Processes, Density, What.Batch) {}
 
 void Trainer::start(const Scene &From) {
   L.beginStage("upload");
@@ -71,29 +74,66 @@ Checkpoint Trainer::save() {
   return C;
 }
 
+ViewBatch::Given Trainer::take(const TrainView &V, int ShDegree) {
+  const cl::Buffer Picture = Renderer.forward(S, V.Pose, ShDegree);
+  L.beginStage("loss");
+  const LossValues Values = Loss.evaluate(Picture, V.Picture);
+  return {Values, Renderer.backward(Loss.gradient(), Loss.alphaGradient())};
+}
+
+/// What is due after the last iteration, once there is a next one: a scene that
+/// was just split or made transparent is worse than the one before, and no run
+/// ends with it. (INRIA's trainer saves before the change, too, but makes it
+/// before the step, which the new Gaussians and their neighbours then miss.)
+std::optional<DensityChange> Trainer::changeDensity() {
+  L.beginStage("density control");
+  std::optional<DensityChange> Change;
+  if (densifiesAt(Run.Settings, Done))
+    Change = Density.densify(S, Done);
+  if (resetsAt(Run.Settings, Done, Run.WhiteBackground))
+    Density.resetOpacity(S);
+  return Change;
+}
+
+bool Trainer::isChangeDue() const {
+  return Done != 0 && (densifiesAt(Run.Settings, Done) ||
+                       resetsAt(Run.Settings, Done, Run.WhiteBackground));
+}
+
+/// Whether no process has failed; if one has, all have its error.
+bool Trainer::goesOn() {
+  const Expected<Success> Mine =
+      L.failure() ? Expected<Success>(*L.failure()) : Success{};
+  const auto All = Together.agree(Mine);
+  if (!All)
+    L.fail(All.error());
+  return static_cast<bool>(All);
+}
+
 StepReport Trainer::step() {
   const TrainSettings &Settings = Run.Settings;
   StepReport R;
   R.Iteration = Done + 1;
-  const TrainView &V = Pictures.Training[Order.at(R.Iteration)];
+  // A process that failed here would have other sizes than the others.
+  if (isChangeDue()) {
+    R.Density = changeDensity();
+    if (!goesOn())
+      return R;
+  }
   const int Degree = shDegreeAt(Settings, R.Iteration, S.ShDegree);
-  const cl::Buffer Picture = Renderer.forward(S, V.Pose, Degree);
-  L.beginStage("loss");
-  R.Loss = Loss.evaluate(Picture, V.Picture);
-  const auto [Gradients, Seen] =
-      Renderer.backward(Loss.gradient(), Loss.alphaGradient());
+  Batch.begin(S, Degree, notesAt(Settings, R.Iteration));
+  while (!Batch.complete()) {
+    std::optional<ViewBatch::Given> Mine;
+    if (Batch.next() < Run.Batch)
+      Mine = take(Pictures.Training[Order.at(std::uint64_t{Done} * Run.Batch +
+                                             Batch.next() + 1)],
+                  Degree);
+    Batch.add(Mine ? &*Mine : nullptr);
+  }
+  R.Loss = Batch.loss();
   L.beginStage("Adam");
-  stepAdam(L, Settings, S, Gradients, R.Iteration, Run.Extent, Degree);
-  L.beginStage("density control");
-  if (notesAt(Settings, R.Iteration))
-    Density.note(Seen, S.Count);
-  // INRIA's trainer changes the Gaussians before the step, which the new ones
-  // and their neighbours then miss; here every gradient is stepped by.
-  if (densifiesAt(Settings, R.Iteration))
-    R.Density = Density.densify(S, R.Iteration);
-  if (resetsAt(Settings, R.Iteration, Run.WhiteBackground))
-    Density.resetOpacity(S);
-  if (L.failure())
+  stepAdam(L, Settings, S, Batch.gradients(), R.Iteration, Run.Extent, Degree);
+  if (!goesOn())
     return R;
   Done = R.Iteration;
   Losses.push_back(static_cast<float>(R.Loss.Value));

@@ -1,12 +1,14 @@
-/// The loop: a view, its loss, the way back, a step, density control.
+/// The loop: density control, views, their loss, the way back, a step.
 #pragma once
 
 #include "Checkpoint.h"
 #include "Density.h"
 #include "GradientRenderer.h"
 #include "PictureLoss.h"
+#include "Ranks.h"
 #include "Settings.h"
 #include "TrainingSet.h"
+#include "ViewBatch.h"
 #include "ViewOrder.h"
 
 #include <optional>
@@ -18,6 +20,7 @@ struct TrainRun {
   TrainSettings Settings;
   std::uint64_t Seed = 0;
   double Extent = 1;            ///< of the cameras
+  unsigned Batch = 1;           ///< views an iteration
   bool WhiteBackground = false; ///< which has a reset more
 };
 
@@ -26,19 +29,20 @@ struct StepReport {
   unsigned Iteration = 0; ///< from 1
   LossValues Loss;
   std::uint32_t Gaussians = 0;          ///< after it
-  std::optional<DensityChange> Density; ///< if it changed
+  std::optional<DensityChange> Density; ///< if it changed before the views
 };
 
-/// One run on one device. Results depend on run, pictures and starting scene
-/// only; errors stick in the launcher.
+/// One run, on a device of each process. Results depend on run, pictures and
+/// starting scene only, not on the number of processes; errors stick in the
+/// launcher, those of step() in the launchers of all processes.
 class Trainer {
 public:
   /// The programs that training runs beside the renderer's.
   static std::vector<ProgramSpec> programs();
 
-  /// \p Pictures, \p Run and \p Renderer must outlive this.
+  /// \p Pictures, \p Run, \p Renderer and \p Together must outlive this.
   Trainer(Launcher &L, GradientRenderer &Renderer, const TrainingSet &Pictures,
-          const TrainRun &Run);
+          const TrainRun &Run, Ranks &Together);
 
   void start(const Scene &S);
   void restore(const Checkpoint &C);
@@ -57,13 +61,20 @@ public:
   std::vector<double> evaluate();
 
 private:
+  bool isChangeDue() const;
+  std::optional<DensityChange> changeDensity();
+  bool goesOn();
+  ViewBatch::Given take(const TrainView &V, int ShDegree);
+
   Launcher &L;
   GradientRenderer &Renderer;
   const TrainingSet &Pictures;
   const TrainRun &Run;
   ViewOrder Order;
   PictureLoss Loss;
+  Ranks &Together;
   DensityControl Density;
+  ViewBatch Batch;
   DeviceScene S;
   unsigned Done = 0;
   std::vector<float> Losses;

@@ -11,8 +11,11 @@
 #include "reference/Render.h"
 
 #include <algorithm>
+#include <barrier>
 #include <cmath>
+#include <cstring>
 #include <numeric>
+#include <thread>
 
 namespace vorion::splat {
 namespace {
@@ -101,6 +104,48 @@ private:
   Camera Pose;
 };
 
+/// Processes of a run as threads of this one.
+class ThreadRanks : public Ranks {
+public:
+  /// What they have in common.
+  struct Room {
+    explicit Room(unsigned Count) : Size(Count), Everybody(Count) {}
+    unsigned Size;
+    std::barrier<> Everybody;
+    void *Data = nullptr;
+  };
+  ThreadRanks(Room &In, unsigned Number) : Shared(In), Own(Number) {}
+
+  unsigned rank() const override { return Own; }
+  unsigned size() const override { return Shared.Size; }
+  void share(unsigned From, void *Data, std::size_t Bytes) override {
+    if (Own == From)
+      Shared.Data = Data;
+    Shared.Everybody.arrive_and_wait();
+    if (Own != From && Bytes != 0)
+      std::memcpy(Data, Shared.Data, Bytes);
+    Shared.Everybody.arrive_and_wait();
+  }
+
+private:
+  Room &Shared;
+  unsigned Own;
+};
+
+void expectSame(const Checkpoint &A, const Checkpoint &B) {
+  EXPECT_EQ(A.Iteration, B.Iteration);
+  EXPECT_EQ(A.Geometry, B.Geometry);
+  EXPECT_EQ(A.Sh, B.Sh);
+  EXPECT_EQ(A.FirstGeometry, B.FirstGeometry);
+  EXPECT_EQ(A.FirstSh, B.FirstSh);
+  EXPECT_EQ(A.SecondGeometry, B.SecondGeometry);
+  EXPECT_EQ(A.SecondSh, B.SecondSh);
+  EXPECT_EQ(A.Notes.GradientSums, B.Notes.GradientSums);
+  EXPECT_EQ(A.Notes.Views, B.Notes.Views);
+  EXPECT_EQ(A.Notes.Radii, B.Notes.Radii);
+  EXPECT_EQ(A.Losses, B.Losses);
+}
+
 class TrainerOnDevice : public OnDevice {
 protected:
   static Camera cameraAt(double Angle) {
@@ -173,15 +218,20 @@ TEST_F(TrainerOnDevice, LearnsAndGoesOnFromACheckpointBitForBit) {
     Launcher L(*Dev, "", {});
     build(L);
     ReferenceRenderer R(L);
-    Trainer T(L, R, Set, Run);
+    OneRank Alone;
+    Trainer T(L, R, Set, Run, Alone);
     T.start(blobs(30, 2));
     const double Before = T.evaluate()[0];
     bool Grew = false;
     for (unsigned I = 1; I <= 24; ++I) {
+      const std::uint32_t Count = T.gaussians();
       const StepReport Step = T.step();
       ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
       EXPECT_EQ(Step.Iteration, I);
-      EXPECT_EQ(Step.Density.has_value(), I % 6 == 0);
+      // What is due after a sixth one waits for the next: no run ends with it.
+      EXPECT_EQ(Step.Density.has_value(), I > 6 && I % 6 == 1);
+      if (I % 6 == 0)
+        EXPECT_EQ(T.gaussians(), Count);
       Grew |= Step.Density && Step.Density->After > Step.Density->Before;
       Losses.push_back(Step.Loss.Value);
       if (I % 8 == 0)
@@ -203,21 +253,93 @@ TEST_F(TrainerOnDevice, LearnsAndGoesOnFromACheckpointBitForBit) {
     Launcher L(*Dev, "", {});
     build(L);
     ReferenceRenderer R(L);
-    Trainer T(L, R, Set, Run);
+    OneRank Alone;
+    Trainer T(L, R, Set, Run, Alone);
     T.restore(Unbroken[From]);
     while (T.iteration() < 24)
       T.step();
-    const Checkpoint Again = T.save();
-    const Checkpoint &Want = Unbroken.back();
-    EXPECT_EQ(Again.Iteration, Want.Iteration);
-    EXPECT_EQ(Again.Geometry, Want.Geometry);
-    EXPECT_EQ(Again.Sh, Want.Sh);
-    EXPECT_EQ(Again.FirstGeometry, Want.FirstGeometry);
-    EXPECT_EQ(Again.SecondSh, Want.SecondSh);
-    EXPECT_EQ(Again.Notes.GradientSums, Want.Notes.GradientSums);
-    EXPECT_EQ(Again.Notes.Views, Want.Notes.Views);
-    EXPECT_EQ(Again.Losses, Want.Losses);
+    expectSame(T.save(), Unbroken.back());
   }
+}
+
+/// Three views an iteration on one process, two and three: one renders two of
+/// them, or one each.
+TEST_F(TrainerOnDevice, AnyNumberOfProcessesHasTheSameBits) {
+  TrainRun Run;
+  Run.Settings.DensifyAfter = 1;
+  Run.Settings.DensifyInterval = 3;
+  Run.Settings.DensifyGradient = 5e-3;
+  Run.Settings.ShInterval = 2;
+  Run.Settings.PositionRate = 1e-3;
+  Run.Extent = 3;
+  Run.Batch = 3;
+  const TrainingSet Set = picturesOf(blobs(12, 1));
+  const Scene Start = blobs(20, 2);
+  // By process; a run ends between two changes of density, notes being kept.
+  const auto Train = [&](unsigned Processes) {
+    std::vector<Checkpoint> Kept(Processes);
+    ThreadRanks::Room Room(Processes);
+    std::vector<std::thread> Threads;
+    for (unsigned Own = 0; Own < Processes; ++Own)
+      Threads.emplace_back([&, Own] {
+        Launcher L(*Dev, "", {});
+        build(L);
+        ReferenceRenderer R(L);
+        ThreadRanks Together(Room, Own);
+        Trainer T(L, R, Set, Run, Together);
+        T.start(Start);
+        for (int I = 0; I < 5; ++I)
+          T.step();
+        Kept[Own] = T.save();
+        EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+      });
+    for (std::thread &T : Threads)
+      T.join();
+    return Kept;
+  };
+  const Checkpoint Alone = Train(1)[0];
+  EXPECT_GT(Alone.gaussians(), Start.size());
+  EXPECT_NE(std::ranges::count(Alone.Notes.Views, 6U), 0); // two iterations
+  for (const unsigned Processes : {2U, 3U})
+    for (const Checkpoint &C : Train(Processes))
+      expectSame(C, Alone);
+}
+
+/// An iteration of two views is the mean of their gradients and losses.
+TEST_F(TrainerOnDevice, ABatchIsTheMeanOfItsViews) {
+  TrainRun Run;
+  Run.Extent = 3;
+  const TrainingSet Set = picturesOf(blobs(12, 1));
+  const Scene Start = blobs(20, 2);
+  const auto FirstLosses = [&](unsigned Batch, unsigned Steps) {
+    Run.Batch = Batch;
+    Run.Settings.PositionRate = Run.Settings.ColourRate =
+        Run.Settings.OpacityRate = Run.Settings.ScaleRate =
+            Run.Settings.RotationRate = 1e-12; // the scene stays as it is
+    Launcher L(*Dev, "", {});
+    build(L);
+    ReferenceRenderer R(L);
+    OneRank Alone;
+    Trainer T(L, R, Set, Run, Alone);
+    T.start(Start);
+    for (unsigned I = 0; I < Steps; ++I)
+      T.step();
+    return std::pair(T.losses(), T.save());
+  };
+  const auto [Each, AfterBoth] = FirstLosses(1, 2);
+  const auto [Both, Once] = FirstLosses(2, 1);
+  EXPECT_NEAR(Both[0], (Each[0] + Each[1]) / 2, 1e-6);
+  // Adam's first moment after one step is a tenth of the mean gradient, after
+  // two 0.09 of the first and 0.1 of the second.
+  double Off = 0, Whole = 0;
+  Checkpoint Single = FirstLosses(1, 1).second;
+  for (std::size_t I = 0; I < Once.FirstGeometry.size(); ++I) {
+    const double A = Single.FirstGeometry[I] / 0.1;
+    const double B = (AfterBoth.FirstGeometry[I] - 0.09 * A) / 0.1;
+    Off += std::pow(Once.FirstGeometry[I] - 0.1 * (A + B) / 2, 2);
+    Whole += std::pow(Once.FirstGeometry[I], 2);
+  }
+  EXPECT_LT(std::sqrt(Off / Whole), 1e-4);
 }
 
 } // namespace

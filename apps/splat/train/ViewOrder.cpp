@@ -7,8 +7,8 @@
 
 namespace vorion::splat {
 
-std::size_t ViewOrder::at(unsigned Iteration) {
-  const std::size_t Wanted = (Iteration - 1) / Count;
+std::size_t ViewOrder::at(std::uint64_t Place) {
+  const std::size_t Wanted = (Place - 1) / Count;
   if (Wanted != Round) {
     Round = Wanted;
     Order.resize(Count);
@@ -23,7 +23,7 @@ std::size_t ViewOrder::at(unsigned Iteration) {
       std::swap(Order[Left - 1], Order[Chosen]);
     }
   }
-  return Order[(Iteration - 1) % Count];
+  return Order[(Place - 1) % Count];
 }
 
 } // namespace vorion::splat

@@ -8,15 +8,16 @@
 namespace vorion::splat {
 
 /// Rounds in each of which every view comes once, in random order. A view
-/// depends on the seed, the number of views and the iteration only, so a run
+/// depends on the seed, the number of views and its place only, so a run
 /// that goes on from a checkpoint sees what an unbroken one sees.
 class ViewOrder {
 public:
   ViewOrder(std::size_t ViewCount, std::uint64_t RandomSeed)
       : Count(ViewCount), Seed(RandomSeed) {}
 
-  /// Of iteration \p Iteration, from 1.
-  std::size_t at(unsigned Iteration);
+  /// The \p Place th view of a run, from 1: with one view an iteration, that of
+  /// iteration \p Place.
+  std::size_t at(std::uint64_t Place);
 
 private:
   std::size_t Count;

@@ -1,0 +1,59 @@
+/// What the views of one iteration give, added up over all processes.
+#pragma once
+
+#include "Density.h"
+#include "GradientRenderer.h"
+#include "PictureLoss.h"
+#include "Ranks.h"
+
+namespace vorion::splat {
+
+/// Views are numbered in an iteration and added in that order, one after the
+/// other: results are the same bits for any number of processes. Process r has
+/// views r, r + size, ... Errors stick in the launcher.
+class ViewBatch {
+public:
+  /// \p Views of an iteration.
+  ViewBatch(Launcher &Launch, Ranks &Processes, DensityControl &Control,
+            unsigned Views)
+      : L(Launch), Together(Processes), Density(Control), Views(Views) {}
+
+  /// Forgets the last iteration. Gradients of \p Of, whose bands up to
+  /// \p ShDegree are in use; \p Notes: density control notes the views.
+  void begin(const DeviceScene &Of, int ShDegree, bool Notes);
+  bool complete() const { return Taken == Views; }
+  /// The view that this process renders next; \c Views or more: none.
+  unsigned next() const { return Taken + Together.rank(); }
+
+  struct Given {
+    LossValues Loss;
+    GradientRenderer::Backward Back;
+  };
+  /// Adds a view of each process; \p Mine is null where \c next() is none.
+  void add(const Given *Mine);
+
+  /// \name Means over the views, once complete
+  /// @{
+  const PlanePair &gradients() const { return Sum; }
+  LossValues loss() const;
+  /// @}
+
+private:
+  void addOwn(const Given &Mine);
+  void addShared(const Given *Mine, unsigned Count);
+  void addGradients(const PlanePair &Of);
+
+  Launcher &L;
+  Ranks &Together;
+  DensityControl &Density;
+  unsigned Views;
+
+  std::uint32_t Gaussians = 0;
+  std::size_t GeometrySize = 0, ShSize = 0; ///< floats
+  bool Notes = false;
+  unsigned Taken = 0;
+  LossValues Losses;
+  PlanePair Sum;
+};
+
+} // namespace vorion::splat
