@@ -1,30 +1,34 @@
-/* The projection kernel of splat, compiled for one lane: work(0, 1) calls it
-   for each Gaussian. On the device it is launched as a kernel, on the same
+/* The projection kernel of splat, compiled for one lane: work(0, 1) calls it as
+   the one group there is. On the device it is launched as a kernel, on the same
    input. */
 #include "bench.h"
 
 extern const uint32_t project_view[], project_geometry[], project_sh[];
 /* bench/isasim/run.py writes the numbers down: COUNT. */
-static uint32_t records[COUNT * 12], depths[COUNT], order[COUNT];
+static uint32_t records[COUNT * 12], depths[COUNT];
 static uint64_t rectangles[COUNT];
-/* Volatile: to the compiler, get_global_id is a constant that nothing changes.
- */
-static volatile uint32_t item;
+static uint32_t seen[9], local[384];
 
 void project(const void *view, const void *geometry, const void *sh,
-             void *records, void *depths, void *order, void *rectangles,
-             uint32_t count);
+             void *records, void *depths, void *rectangles, void *seen,
+             uint32_t count, void *local);
 
-/* OpenCL's get_global_id. */
-uint32_t _Z13get_global_idj(uint32_t dimension) {
-  (void)dimension;
-  return item;
-}
+/* OpenCL's, of the first work-item of a group of one. */
+#define WORK_ITEM_FUNCTION(name, value)                                        \
+  uint32_t name(uint32_t dimension) {                                          \
+    (void)dimension;                                                           \
+    return value;                                                              \
+  }
+WORK_ITEM_FUNCTION(_Z13get_global_idj, 0)
+WORK_ITEM_FUNCTION(_Z12get_local_idj, 0)
+WORK_ITEM_FUNCTION(_Z12get_group_idj, 0)
+WORK_ITEM_FUNCTION(_Z14get_num_groupsj, 1)
+void _Z7barrierj(uint32_t flags) { (void)flags; }
 
 uint32_t work(uint32_t lane, uint32_t lanes) {
-  for (item = lane; item < COUNT; item += lanes)
-    project(project_view, project_geometry, project_sh, records, depths, order,
-            rectangles, COUNT);
+  (void)lane, (void)lanes;
+  project(project_view, project_geometry, project_sh, records, depths,
+          rectangles, seen, COUNT, local);
   uint32_t sum = 0;
   for (uint32_t n = 0; n < COUNT; ++n)
     sum = sum * 31 + depths[n];

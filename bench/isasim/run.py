@@ -39,13 +39,14 @@ TITLES = {"integer": "integer mix", "matmul": "fp32 matrix product 128", "radixs
 OBSERVED = ("matmul", "radixsort")  # what is run with and without observers built in
 
 # What render/Plan.cpp compiles the projection with by default, for a scene with all bands of colour.
-PROJECT_FILES = ("layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl", "project.cl")
+PROJECT_FILES = ("layout.h", "activate.cl", "covariance.cl", "support.cl", "planes.h", "sh.cl", "rectangle.cl", "project.cl")
 PROJECT_DEFINES = ("-DTILE_SIZE=64", "-DSUPPORT_EXACT", "-DDILATION=0.3f", "-DALPHA_CUTOFF=1.0f",
                    "-DKEEP_DEPTH(z)=((z)>0.2f)", "-DANTIALIAS_FLOOR=2.5e-5f", "-DUSE_SH1=1", "-DUSE_SH2=1", "-DUSE_SH3=1",
                    "-DUSE_VIEW_COLOR=1", "-DUSE_ANTIALIAS=0", "-DUSE_NEAR_PLANE=1", "-DUSE_FIELD_OF_VIEW=1",
-                   "-DUSE_FAINT=1", "-DUSE_INTERSECT_TAGS=1")
+                   "-DUSE_FAINT=1", "-DUSE_INTERSECT_TAGS=1", "-DCONSTANTS=__local", "-DVIEW_SPACE=__local")
 DEVICE_COUNT, SCALAR_COUNT = 1 << 19, 1 << 14  # Gaussians
-GEOMETRY_PLANES, SH_PLANES, RECORD_BYTES = 11, 48, 48
+GEOMETRY_PLANES, SH_PLANES, RECORD_BYTES, SEEN_BYTES, LOCAL_BYTES = 11, 48, 48, 36, 1536
+CORES = 64
 
 TARGET = ["--target=riscv32-unknown-elf", "-march=rv32imaf_zba_zbb_zbs", "-mabi=ilp32f", "-O3"]
 FREESTANDING = ["-ffreestanding", "-fno-math-errno", "-mno-relax"]
@@ -121,11 +122,12 @@ def build_project(device_repeats, scalar_repeats):
     scene("device-", DEVICE_COUNT)
     scene("", SCALAR_COUNT)
     run("vorion-clang", "-O3", *PROJECT_DEFINES, "project.cl", "-o", "project.elf")
-    # The same kernel and OpenCL's built-in functions, for one lane: a plain function, into which the library's
-    # are inlined (they were compiled with -fno-builtin and go into nothing else).
+    # The same kernel and OpenCL's built-in functions, for a group of one lane: a plain function, into which the
+    # library's are inlined (they were compiled with -fno-builtin and go into nothing else).
     pocl = os.path.join(BUILD, "pocl", "share", "pocl")
     includes = [flag for file in ("_builtin_renames.h", "opencl-c-base.h", "opencl-c.h") for flag in ("-include", file)]
-    run("clang-19", *TARGET, "-x", "cl", "-cl-std=CL1.2", "-D__kernel=", "-fno-builtin", "-I", os.path.join(pocl, "include"), *includes,
+    run("clang-19", *TARGET, "-x", "cl", "-cl-std=CL1.2", "-D__kernel=",
+        "-Dreqd_work_group_size(x,y,z)=", "-DLANES=1", "-fno-builtin", "-I", os.path.join(pocl, "include"), *includes,
         *PROJECT_DEFINES, "-emit-llvm", "-c", "project.cl", "-o", "kernel.bc")
     for suffix, flags in variants(scalar_repeats):
         compiled = []
@@ -155,9 +157,11 @@ def arguments(name):
     if name != "project":
         return []
     count = DEVICE_COUNT
+    items = 16 * CORES
     args = ["buf@device-view.bin", "buf@device-geometry.bin", "buf@device-sh.bin", f"buf:{RECORD_BYTES * count}",
-            f"out:{4 * count}@depths.bin", f"buf:{4 * count}", f"buf:{8 * count}", f"u32:{count}"]
-    return ["--global", str(count), "--local", "64", *(word for arg in args for word in ("--arg", arg))]
+            f"out:{4 * count}@depths.bin", f"buf:{8 * count}", f"buf:{SEEN_BYTES * items}", f"u32:{count}",
+            f"local:{LOCAL_BYTES}"]
+    return ["--global", str(items), "--local", "16", *(word for arg in args for word in ("--arg", arg))]
 
 
 def simulate(name, *options):

@@ -106,6 +106,13 @@ Expected<Device> Device::open(const std::string &Wanted) {
     D.EventInfo = reinterpret_cast<clGetEventInfoVORION_fn>(
         clGetExtensionFunctionAddressForPlatform(
             D.Handle.getInfo<CL_DEVICE_PLATFORM>(), "clGetEventInfoVORION"));
+  if (D.isVorion()) {
+    // CL_DEVICE_PREFERRED_WORK_GROUP_SIZE_MULTIPLE, which OpenCL 1.2 lacks.
+    constexpr cl_device_info GroupMultiple = 0x1067;
+    std::size_t Lanes = 1;
+    if (D.Handle.getInfo(GroupMultiple, &Lanes) == CL_SUCCESS)
+      D.Lanes = static_cast<unsigned>(Lanes);
+  }
   return D;
 }
 

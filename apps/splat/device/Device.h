@@ -40,6 +40,9 @@ public:
   /// Whether it has a rasterizer and counters (extension cl_vorion).
   bool isVorion() const { return EventInfo != nullptr; }
   unsigned computeUnits() const { return ComputeUnits; }
+  /// Work-items that a core steps together, in order where they meet in local
+  /// memory (docs/abi.md); 1 on a device that says nothing of its order.
+  unsigned lanes() const { return Lanes; }
   std::uint64_t globalBytes() const { return GlobalBytes; }
   std::uint64_t largestAllocation() const { return LargestAllocation; }
 
@@ -56,7 +59,7 @@ private:
   cl::Context Context;
   cl::CommandQueue Queue;
   std::string Name;
-  unsigned ComputeUnits = 1;
+  unsigned ComputeUnits = 1, Lanes = 1;
   std::uint64_t GlobalBytes = 0, LargestAllocation = 0;
   clGetEventInfoVORION_fn EventInfo = nullptr;
 };

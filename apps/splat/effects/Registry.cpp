@@ -38,6 +38,8 @@ std::span<const Parameter> parameters() {
       Parameter{"TILE_SIZE", "side of a tile, px"},
       Parameter{"TILE_HEIGHT", "the same, of training's tiles upright"},
       Parameter{"KEEP_LAST", "training: pixels keep their last contributor"},
+      Parameter{"KEEP_PLACES", "training: and where each's pairs begin"},
+      Parameter{"SCENE_IN_BLOCKS", "parameters as drawing has them (layout.h)"},
       Parameter{"SH_DEGREE", "the way back: bands that have gradients"},
       Parameter{"ANTIALIASED", "the way back through the compensation"},
       Parameter{"CLAMP_STOPS", "the way back, gsplat: none through 0.99"},

@@ -16,10 +16,28 @@ static float2 fast_two_sum(float a, float b) {
   return (float2)(sum, b - (sum - a));
 }
 
-static float2 square_pair(float2 a) {
-  const float high = a.x * a.x;
-  const float low = fma(a.x, a.x, -high) + 2.0f * a.x * a.y;
-  return fast_two_sum(high, low);
+// Four numbers at once, as an unevaluated sum each. A core waits for the result
+// of an operation, so four chains take little more time than one.
+typedef struct {
+  float4 high, low;
+} pair4;
+
+static pair4 two_sum4(float4 a, float4 b) {
+  const float4 sum = a + b;
+  const float4 shadow = sum - a;
+  return (pair4){sum, (a - (sum - shadow)) + (b - shadow)};
+}
+
+// Needs |a| >= |b| or a == 0 everywhere; then two_sum4's very bits.
+static pair4 fast_two_sum4(float4 a, float4 b) {
+  const float4 sum = a + b;
+  return (pair4){sum, b - (sum - a)};
+}
+
+static pair4 square_pair4(pair4 a) {
+  const float4 high = a.high * a.high;
+  const float4 low = fma(a.high, a.high, -high) + 2.0f * a.high * a.low;
+  return fast_two_sum4(high, low);
 }
 
 // a 2^n without intermediate overflow for |n| <= 252.
@@ -29,53 +47,76 @@ static float scale_by_power(float a, int n) {
          as_float((n - half_n + 127) << 23);
 }
 
-// e^x = (high + low) 2^power for |x| <= 150.
-static float2 exp_pair(float x, int *power) {
+// Where a kernel keeps constants: private, or __local, whose words a core has in
+// 3 cycles. What a loop does not change the compiler would keep on the stack,
+// which is several times as far.
+#ifndef CONSTANTS
+#define CONSTANTS __private
+#endif
+
+typedef struct {
+  float log2_e;
   // ln 2 in three parts; the first has 9 bits, so that n times it is exact.
-  const float ln2_high = 0x1.62p-1f;
-  const float ln2_middle = 0x1.c85fep-10f;
-  const float ln2_low = -0x1.718432p-35f;
-  const float n = rint(x * 1.44269504f);
-  const float exact = fma(-n, ln2_high, x);
-  const float product = n * ln2_middle;
-  const float product_low = fma(n, ln2_middle, -product);
-  float2 r = two_sum(exact, -product);
-  r = fast_two_sum(r.x, r.y - product_low - n * ln2_low);
+  float ln2_high, ln2_middle, ln2_low;
+  float third, fourth, fifth; // 1 / 3!, 1 / 4!, 1 / 5!
+  // Beyond these the result is infinite or 0, or the opacity 0 or 1, anyway.
+  float most_scale, most_logit;
+} activation_constants;
+
+static activation_constants make_activation_constants(void) {
+  return (activation_constants){1.44269504f,      0x1.62p-1f,  0x1.c85fep-10f,
+                                -0x1.718432p-35f, 0.16666667f, 0.041666668f,
+                                0.008333334f,     150.0f,      80.0f};
+}
+
+// e^x = (high + low) 2^power for |x| <= 150.
+static pair4 exp_pair4(CONSTANTS const activation_constants *c, float4 x,
+                       int4 *power) {
+  const float4 n = rint(x * c->log2_e);
+  const float4 exact = fma(-n, (float4)c->ln2_high, x);
+  const float4 product = n * c->ln2_middle;
+  const float4 product_low = fma(n, (float4)c->ln2_middle, -product);
+  pair4 r = two_sum4(exact, -product);
+  r = fast_two_sum4(r.high, r.low - product_low - n * c->ln2_low);
 
   // e^r - 1 from e^(r/64) - 1 = t + t^2/2 + t^3/6 + ..., of which only the
-  // first two terms need both floats, and six times s -> 2 s + s^2.
-  const float2 t = r * 0.015625f;
-  const float2 half_square = square_pair(t) * 0.5f;
-  const float rest =
-      t.x * t.x * t.x * (0.16666667f + t.x * (0.041666668f + t.x * 0.008333334f));
-  float2 s = two_sum(t.x, half_square.x);
-  s = fast_two_sum(s.x, s.y + (t.y + half_square.y + rest));
+  // first two terms need both floats, and six times s -> 2 s + s^2. All of
+  // these are under 1, so that the larger summand is known.
+  const pair4 t = {r.high * 0.015625f, r.low * 0.015625f};
+  pair4 half_square = square_pair4(t);
+  half_square.high *= 0.5f;
+  half_square.low *= 0.5f;
+  const float4 rest = t.high * t.high * t.high *
+                      (c->third + t.high * (c->fourth + t.high * c->fifth));
+  pair4 s = fast_two_sum4(t.high, half_square.high);
+  s = fast_two_sum4(s.high, s.low + (t.low + half_square.low + rest));
   for (int i = 0; i < 6; ++i) {
-    const float2 square = square_pair(s);
-    const float2 sum = two_sum(2.0f * s.x, square.x);
-    s = fast_two_sum(sum.x, sum.y + (2.0f * s.y + square.y));
+    const pair4 square = square_pair4(s);
+    const pair4 sum = fast_two_sum4(2.0f * s.high, square.high);
+    s = fast_two_sum4(sum.high, sum.low + (2.0f * s.low + square.low));
   }
-  *power = (int)n;
-  const float2 one = fast_two_sum(1.0f, s.x);
-  return fast_two_sum(one.x, one.y + s.y);
+  *power = convert_int4(n);
+  const pair4 one = fast_two_sum4((float4)1.0f, s.high);
+  return fast_two_sum4(one.high, one.low + s.low);
 }
 
-static float activate_scale(float log_scale) {
-  int power;
-  // Beyond these the result is infinite or 0 anyway.
-  const float2 e = exp_pair(clamp(log_scale, -150.0f, 150.0f), &power);
-  return scale_by_power(e.x, power);
-}
-
-static float activate_opacity(float logit) {
-  int power;
-  const float2 e = exp_pair(clamp(-logit, -80.0f, 80.0f), &power);
-  const float high = scale_by_power(e.x, power);
-  const float low = scale_by_power(e.y, power);
+// From (log scales x, y, z; logit of the opacity) to scales and opacity.
+static float4 activate_scales_and_opacity(CONSTANTS const activation_constants *c,
+                                          float4 stored) {
+  const float4 limit =
+      (float4)(c->most_scale, c->most_scale, c->most_scale, c->most_logit);
+  const float4 x = (float4)(stored.x, stored.y, stored.z, -stored.w);
+  int4 power;
+  const pair4 e = exp_pair4(c, clamp(x, -limit, limit), &power);
+  const float high = scale_by_power(e.high.w, power.w);
+  const float low = scale_by_power(e.low.w, power.w);
   const float2 sum = two_sum(1.0f, high);
   const float2 d = fast_two_sum(sum.x, sum.y + low);
   const float q = 1.0f / d.x;
-  return q + q * (fma(-q, d.x, 1.0f) - q * d.y);
+  return (float4)(scale_by_power(e.high.x, power.x),
+                  scale_by_power(e.high.y, power.y),
+                  scale_by_power(e.high.z, power.z),
+                  q + q * (fma(-q, d.x, 1.0f) - q * d.y));
 }
 
 // A power of two that brings a quaternion to where squares stay in fp32's range.
@@ -89,12 +130,14 @@ static float quaternion_factor(float4 q) {
 static float4 activate_quaternion(float4 q) {
   q *= quaternion_factor(q);
   const float part[4] = {q.x, q.y, q.z, q.w};
-  float2 squares = (float2)(0.0f, 0.0f);
-  for (int k = 0; k < 4; ++k) {
+  const float first = part[0] * part[0];
+  float2 squares = (float2)(first, fma(part[0], part[0], -first));
+#pragma unroll
+  for (int k = 1; k < 4; ++k) {
     const float high = part[k] * part[k];
     const float2 sum = two_sum(squares.x, high);
-    squares = fast_two_sum(
-        sum.x, sum.y + (squares.y + fma(part[k], part[k], -high)));
+    squares =
+        fast_two_sum(sum.x, sum.y + (squares.y + fma(part[k], part[k], -high)));
   }
   if (!(squares.x > 0.0f))
     return (float4)(0.0f, 0.0f, 0.0f, 0.0f);
@@ -102,6 +145,7 @@ static float4 activate_quaternion(float4 q) {
   const float norm_low =
       (fma(-norm, norm, squares.x) + squares.y) / (2.0f * norm);
   float unit[4];
+#pragma unroll
   for (int k = 0; k < 4; ++k) {
     const float quotient = part[k] / norm;
     const float rest = fma(-quotient, norm, part[k]) - quotient * norm_low;

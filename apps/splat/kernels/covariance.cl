@@ -2,6 +2,11 @@
 // Zwicker et al. 2001, "EWA volume splatting", with the 3DGS clamp). The order
 // of operations is that of reference/Projection.h, which gives the same bits.
 
+// Where a kernel keeps the camera.
+#ifndef VIEW_SPACE
+#define VIEW_SPACE __constant
+#endif
+
 typedef struct {
   float xx, xy, yy; // with the dilation
   float det;        // of that
@@ -10,7 +15,7 @@ typedef struct {
 
 // A point from the camera's centre, in the world's axes. Far from the origin the
 // difference of R p and t would have lost what is left of it.
-static float3 from_camera(__constant const splat_view *view, float3 p) {
+static float3 from_camera(VIEW_SPACE const splat_view *view, float3 p) {
   const float3 high =
       (float3)(view->position[0], view->position[1], view->position[2]);
   const float3 low = (float3)(view->position_low[0], view->position_low[1],
@@ -44,8 +49,8 @@ typedef struct {
   float3 x, y, z;
 } camera_axes;
 
-static camera_axes to_camera(__constant const splat_view *view, world_axes q) {
-  __constant const float *r = view->rotation;
+static camera_axes to_camera(VIEW_SPACE const splat_view *view, world_axes q) {
+  VIEW_SPACE const float *r = view->rotation;
   const float3 r0 = (float3)(r[0], r[1], r[2]);
   const float3 r1 = (float3)(r[3], r[4], r[5]);
   const float3 r2 = (float3)(r[6], r[7], r[8]);
@@ -65,7 +70,7 @@ typedef struct {
   float xx, xz, yy, yz;
 } jacobian;
 
-static jacobian project_jacobian(__constant const splat_view *view, float z,
+static jacobian project_jacobian(VIEW_SPACE const splat_view *view, float z,
                                  float2 ratio) {
   const float fx = view->focal[0], fy = view->focal[1];
   const jacobian j = {fx / z, -fx * (ratio.x * z) / (z * z), fy / z,
@@ -77,7 +82,7 @@ static jacobian project_jacobian(__constant const splat_view *view, float z,
 // y/z, already clamped, are `ratio`. The determinant of B B^T + h I is taken as
 // the sum of B's squared minors and h tr + h^2 (Cauchy-Binet): the difference
 // xx yy - xy^2 would lose a needle's whole short axis in fp32.
-static screen_covariance project_covariance(__constant const splat_view *view,
+static screen_covariance project_covariance(VIEW_SPACE const splat_view *view,
                                             float z, float2 ratio, float3 scale,
                                             float4 unit) {
   world_axes q = rotate_axes(unit);

@@ -16,6 +16,8 @@ typedef struct {
   uint tag;        ///< number, and SPANS_TILES where it does
 } splat_gaussian;
 
+enum { RECORD_WORDS = 12 }; ///< of a splat_gaussian
+
 /// A camera, ready for projection.
 typedef struct {
   float rotation[9];     ///< world to camera, row-major
@@ -60,8 +62,14 @@ typedef struct {
   float most_radius;     ///< dropped above it, px
 } splat_density;
 
-/// Planes of the geometry buffer: plane p of Gaussian i is at p * count + i, so
-/// that the lanes of a warp read neighbouring words.
+/// A scene's parameters lie in planes, plane p of Gaussian i at p * count + i,
+/// where they are trained; or, where they are only drawn, in blocks of
+/// LINE_WORDS Gaussians: a block has a cache line for each plane, word
+/// p * LINE_WORDS + i % LINE_WORDS of block i / LINE_WORDS. Then a warp's lines
+/// lie together, at distances that the compiler knows.
+enum { LINE_WORDS = 16 };
+
+/// Planes of the geometry buffer.
 enum {
   PLANE_MEAN = 0,
   PLANE_LOG_SCALE = 3,
@@ -100,6 +108,17 @@ enum {
 /// Depth key of a Gaussian that no tile sees, plus the reason; sorts behind
 /// every depth.
 #define CULLED 0x80000000U // NOLINT: enumerators of C are signed
+
+/// What a work-item of the projection found.
+typedef struct {
+  uint gaussians;               ///< that a tile sees
+  uint culled[CULL_REASONS];    ///< that none does
+  uint pairs;                   ///< tiles of the first, saturating
+  uint least_key, greatest_key; ///< of the first; ~0 and 0 for none
+} splat_seen;
+
+/// Local memory that a group of project.cl is given.
+enum { PROJECT_LOCAL_BYTES = 1536 };
 
 /// What blending gives back of a Gaussian (docs/abi.md, "Backward"): the words
 /// of vr_grad_r to vr_grad_syy.

@@ -39,7 +39,6 @@ static float cross2(float2 a, float2 b) {
   return fma(a.x, b.y, -w) - fma(a.y, b.x, -w);
 }
 
-#define GEOMETRY(plane) geometry[(plane) * count + i]
 #define GRADIENT(plane) gradients[(plane) * count + i]
 #define SUM(word) sums[(word) * count + i]
 
@@ -75,9 +74,12 @@ static void project_backward_one(__constant const splat_view *view,
   const float2 clamped =
       (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
                clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
-  const float scale[3] = {activate_scale(GEOMETRY(PLANE_LOG_SCALE)),
-                          activate_scale(GEOMETRY(PLANE_LOG_SCALE + 1)),
-                          activate_scale(GEOMETRY(PLANE_LOG_SCALE + 2))};
+  const activation_constants constants = make_activation_constants();
+  const float4 activated = activate_scales_and_opacity(
+      &constants,
+      (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
+               GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT)));
+  const float scale[3] = {activated.x, activated.y, activated.z};
   const float4 stored =
       (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
@@ -106,7 +108,7 @@ static void project_backward_one(__constant const splat_view *view,
   for (uint n = 0; n < 3; ++n)
     p[n] = (adjugate[n] + DILATION * u[n]) / s.det;
 
-  const float opacity = activate_opacity(GEOMETRY(PLANE_LOGIT));
+  const float opacity = activated.w;
   // Never 0 where something was blended.
   const float by_compensated = SUM(SUM_S) == 0.0f ? 0.0f : SUM(SUM_S) / record.opacity;
   float2 by_axis[3]; // dL/d(covariance) u_n

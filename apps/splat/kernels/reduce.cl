@@ -5,9 +5,9 @@
 __kernel void reduce_sums(__global const float *pair_sums,
                           __global const uint *order,
                           __global const uint *offsets,
-                          __global float *sums, uint count) {
+                          __global float *sums, uint seen, uint count) {
   const uint i = get_global_id(0);
-  if (i >= count)
+  if (i >= seen)
     return;
   const uint gaussian = order[i];
   const uint end = offsets[i + 1];

@@ -1,8 +1,11 @@
 // Where there is a background (effects/Background.cpp):
 // from (r, g, b, transmittance) to the picture: the background shows through
-// what is left, and the fourth channel becomes alpha. A work-item has a channel
-// of four pixels rather than a pixel, so that a warp reads and writes whole
-// lines: the cache fetches a line of which it gets a part.
+// what is left, and the fourth channel becomes alpha. A work-item has one
+// channel of many pixels, so that a warp reads and writes whole lines.
+
+#define LANES 16
+// Lines that a group has in flight.
+#define BATCH 4
 
 // Of the value `own` of a channel.
 static float resolved(float own, float transmittance, float background,
@@ -11,10 +14,10 @@ static float resolved(float own, float transmittance, float background,
   return select(own, 1.0f, is_alpha) + transmittance * background;
 }
 
-// As many work-items as pixels, or more; a multiple of four in a group.
-__kernel void resolve(__global const float *pixels, __global float *picture,
-                      uint count, float red, float green, float blue,
-                      uint effects) {
+// `values` is four times the pixels.
+__kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
+resolve(__global const float *pixels, __global float *picture, uint values,
+        float red, float green, float blue, uint effects) {
   const uint channel = get_local_id(0) % 4;
   const int is_alpha = channel == 3 ? -1 : 0;
   const float background = channel == 3        ? -1.0f
@@ -22,23 +25,22 @@ __kernel void resolve(__global const float *pixels, __global float *picture,
                            : channel == 0      ? red
                            : channel == 1 ? green
                                           : blue;
-  const uint step = get_local_size(0);
-  const uint begin = 4 * step * get_group_id(0);
-  const uint i = begin + get_local_id(0);
-  if (begin + 4 * step <= 4 * count) {
-    float own[4], transmittance[4];
+  const uint step = get_num_groups(0) * LANES * BATCH;
+  uint i = get_group_id(0) * LANES * BATCH + get_local_id(0);
+  for (; i + (BATCH - 1) * LANES < values; i += step) {
+    __global const float *from = pixels + i;
+    float own[BATCH], transmittance[BATCH];
 #pragma unroll
-    for (uint k = 0; k < 4; ++k) {
-      own[k] = pixels[i + k * step];
-      transmittance[k] = pixels[i + k * step + 3 - channel];
+    for (uint k = 0; k < BATCH; ++k) {
+      own[k] = from[k * LANES];
+      transmittance[k] = from[k * LANES + 3 - channel];
     }
 #pragma unroll
-    for (uint k = 0; k < 4; ++k)
-      picture[i + k * step] =
+    for (uint k = 0; k < BATCH; ++k)
+      picture[i + k * LANES] =
           resolved(own[k], transmittance[k], background, is_alpha);
-    return;
   }
-  for (uint place = i; place < 4 * count; place += step)
-    picture[place] = resolved(pixels[place], pixels[place + 3 - channel],
-                              background, is_alpha);
+  for (; i < values; i += LANES)
+    picture[i] =
+        resolved(pixels[i], pixels[i + 3 - channel], background, is_alpha);
 }

@@ -1,7 +1,31 @@
 // Colour from spherical harmonics. Bands are effects (effects/ShBands.cpp): what
-// is not done is neither in the buffer nor, without flags, in the program.
-// Constants are the real spherical harmonics' normalisations, in the sign
-// convention that 3DGS scenes store.
+// is not done is neither in the buffer nor, without flags, in the program. Signs
+// are those of the convention that 3DGS scenes store.
+
+// Normalisations of the real spherical harmonics by band and polynomial, kept
+// where activate.cl says.
+typedef struct {
+  float c0, c1, c2xy, c2zz, c2xx, c3y, c3xyz, c3xzz, c3zzz, c3zxx;
+} sh_constants;
+
+// Of the bands that are done.
+static void make_sh_constants(CONSTANTS sh_constants *n, uint effects) {
+  n->c0 = 0.28209479177387814f;
+  if (USE_SH1)
+    n->c1 = 0.4886025119029199f;
+  if (USE_SH2) {
+    n->c2xy = 1.0925484305920792f;
+    n->c2zz = 0.31539156525252005f;
+    n->c2xx = 0.5462742152960396f;
+  }
+  if (USE_SH3) {
+    n->c3y = 0.5900435899266435f;
+    n->c3xyz = 2.890611442640554f;
+    n->c3xzz = 0.4570457994644658f;
+    n->c3zzz = 0.3731763325901154f;
+    n->c3zxx = 1.445305721320277f;
+  }
+}
 
 // Adds basis * coefficient k of every channel.
 #define ADD_SH(k, basis)                                                       \
@@ -14,9 +38,10 @@
 
 // Colour of Gaussian i seen along `direction`, from the camera to its mean, of
 // any length; of zero length leaves the constant band alone.
-static float3 sh_color(__global const float *sh, uint count, uint i,
+static float3 sh_color(CONSTANTS const sh_constants *n,
+                       __global const float *sh, uint count, uint i,
                        float3 direction, uint effects) {
-  float3 color = 0.28209479177387814f * (float3)(SH(0, 0), SH(0, 1), SH(0, 2));
+  float3 color = n->c0 * (float3)(SH(0, 0), SH(0, 1), SH(0, 2));
   if (USE_VIEW_COLOR) {
     const float length_squared = direction.x * direction.x +
                                  direction.y * direction.y +
@@ -29,28 +54,27 @@ static float3 sh_color(__global const float *sh, uint count, uint i,
       const float xx = x * x, yy = y * y, zz = z * z;
       uint k = 1; // where the next band's coefficients begin
       if (USE_SH1) {
-        ADD_SH(k, -0.4886025119029199f * y);
-        ADD_SH(k + 1, 0.4886025119029199f * z);
-        ADD_SH(k + 2, -0.4886025119029199f * x);
+        ADD_SH(k, -n->c1 * y);
+        ADD_SH(k + 1, n->c1 * z);
+        ADD_SH(k + 2, -n->c1 * x);
         k += 3;
       }
       if (USE_SH2) {
-        ADD_SH(k, 1.0925484305920792f * x * y);
-        ADD_SH(k + 1, -1.0925484305920792f * y * z);
-        ADD_SH(k + 2, 0.31539156525252005f * (2.0f * zz - xx - yy));
-        ADD_SH(k + 3, -1.0925484305920792f * x * z);
-        ADD_SH(k + 4, 0.5462742152960396f * (xx - yy));
+        ADD_SH(k, n->c2xy * x * y);
+        ADD_SH(k + 1, -n->c2xy * y * z);
+        ADD_SH(k + 2, n->c2zz * (2.0f * zz - xx - yy));
+        ADD_SH(k + 3, -n->c2xy * x * z);
+        ADD_SH(k + 4, n->c2xx * (xx - yy));
         k += 5;
       }
       if (USE_SH3) {
-        ADD_SH(k, -0.5900435899266435f * y * (3.0f * xx - yy));
-        ADD_SH(k + 1, 2.890611442640554f * x * y * z);
-        ADD_SH(k + 2, -0.4570457994644658f * y * (4.0f * zz - xx - yy));
-        ADD_SH(k + 3,
-               0.3731763325901154f * z * (2.0f * zz - 3.0f * xx - 3.0f * yy));
-        ADD_SH(k + 4, -0.4570457994644658f * x * (4.0f * zz - xx - yy));
-        ADD_SH(k + 5, 1.445305721320277f * z * (xx - yy));
-        ADD_SH(k + 6, -0.5900435899266435f * x * (xx - 3.0f * yy));
+        ADD_SH(k, -n->c3y * y * (3.0f * xx - yy));
+        ADD_SH(k + 1, n->c3xyz * x * y * z);
+        ADD_SH(k + 2, -n->c3xzz * y * (4.0f * zz - xx - yy));
+        ADD_SH(k + 3, n->c3zzz * z * (2.0f * zz - 3.0f * xx - 3.0f * yy));
+        ADD_SH(k + 4, -n->c3xzz * x * (4.0f * zz - xx - yy));
+        ADD_SH(k + 5, n->c3zxx * z * (xx - yy));
+        ADD_SH(k + 6, -n->c3y * x * (xx - 3.0f * yy));
       }
     }
   }

@@ -4,74 +4,117 @@
 // has the same depth), and the copies, made in depth order, are sorted stably
 // by tile. The lists are those of a sort by the whole key.
 
-// Tiles of each Gaussian, in depth order.
+// Loads in flight of each work-item.
+#define BATCH 4
+
+// Each group has a stretch of `chunk` Gaussians of the depth order. Brings
+// their rectangles into that order, and adds up each work-item's tiles.
 __kernel void count_tiles(__global const uint *order,
                           __global const uint2 *rectangles,
-                          __global uint *tile_counts, uint count) {
-  const uint i = get_global_id(0);
-  if (i >= count)
-    return;
-  const uint2 r = rectangles[order[i]];
-  const uint width = (r.y & 0xffff) - (r.x & 0xffff);
-  const uint height = (r.y >> 16) - (r.x >> 16);
-  tile_counts[i] = width * height;
-}
-
-// The first of the sorted keys that is not below `key`.
-static uint first_from(__global const uint *keys, uint count, uint key) {
-  uint low = 0, high = count;
-  while (low < high) {
-    const uint middle = (low + high) / 2;
-    if (keys[middle] < key)
-      low = middle + 1;
-    else
-      high = middle;
+                          __global uint2 *ordered, __global uint *sums,
+                          uint count, uint chunk) {
+  const uint begin = min((uint)get_group_id(0) * chunk, count);
+  const uint end = min(begin + chunk, count);
+  const uint lanes = get_local_size(0);
+  uint sum = 0;
+  const uint lane = get_local_id(0);
+  uint line = begin;
+  for (; line + BATCH * lanes <= end; line += BATCH * lanes) {
+    const uint i = line + lane;
+    uint2 r[BATCH];
+    uint o[BATCH];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k)
+      o[k] = order[i + k * lanes];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k)
+      r[k] = rectangles[o[k]];
+#pragma unroll
+    for (uint k = 0; k < BATCH; ++k) {
+      ordered[i + k * lanes] = r[k];
+      sum += rectangle_tiles(r[k]);
+    }
   }
-  return low;
-}
-
-// What the host must know: Gaussians seen, copies, and how many were culled for
-// each reason.
-__kernel void totals(__global const uint *sorted_depths,
-                     __global const uint *offsets, __global uint *result,
-                     uint count) {
-  uint first = first_from(sorted_depths, count, CULLED);
-  result[0] = first;
-  result[1] = offsets[count];
-  for (uint reason = 0; reason < CULL_REASONS; ++reason) {
-    const uint next = first_from(sorted_depths, count, CULLED + reason + 1);
-    result[2 + reason] = next - first;
-    first = next;
+  for (uint i = line + lane; i < end; i += lanes) {
+    const uint2 r = rectangles[order[i]];
+    ordered[i] = r;
+    sum += rectangle_tiles(r);
   }
+  sums[get_global_id(0)] = sum;
 }
 
-// One (tile, list entry) pair for every tile of every Gaussian, row by row. The
-// entry says whether there are several: the rasterizer's memory keeps those.
+#define MOST_LANES 16
+
+// The sum of `own` over the lanes before, and of all lanes in `all`. The first
+// MOST_LANES words of `sums` are 0, so that no lane has to ask whether there
+// are so many before it. Needs lanes to be a power of two.
+static uint sum_before(__local uint *sums, uint own, uint *all) {
+  const uint lane = get_local_id(0);
+  const uint lanes = get_local_size(0);
+  uint sum = own;
+#pragma unroll
+  for (uint distance = 1; distance < MOST_LANES; distance *= 2) {
+    barrier(CLK_LOCAL_MEM_FENCE);
+    sums[MOST_LANES + lane] = sum;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    sum += sums[MOST_LANES + lane - distance];
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  sums[MOST_LANES + lane] = sum;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  *all = sums[MOST_LANES + lanes - 1];
+  return sum - own;
+}
+
+// One (tile, list entry) pair for every tile of every Gaussian, row by row, in
+// depth order; stretches as in count_tiles. The entry says whether there are
+// several tiles: the rasterizer's memory keeps those. With KEEP_PLACES, `places`
+// says where each Gaussian's pairs begin, and behind the last one how many there
+// are.
 __kernel void duplicate(__global const uint *order,
-                        __global const uint2 *rectangles,
-                        __global const uint *offsets,
-                        __global uint *pair_tiles,
-                        __global uint *pair_gaussians, uint count,
-                        uint tiles_x, uint effects) {
-  const uint i = get_global_id(0);
-  if (i >= count)
-    return;
-  const uint gaussian = order[i];
-  const uint2 r = rectangles[gaussian];
-  const uint width = (r.y & 0xffff) - (r.x & 0xffff);
-  const uint begin = offsets[i];
-  const uint end = offsets[i + 1];
-  const uint entry =
-      gaussian | (USE_INTERSECT_TAGS && end - begin > 1 ? SPANS_TILES : 0u);
-  uint tile = (r.x >> 16) * tiles_x + (r.x & 0xffff);
-  uint column = 0;
-  for (uint place = begin; place < end; ++place) {
-    pair_tiles[place] = tile + column;
-    pair_gaussians[place] = entry;
-    ++column;
-    if (column == width) {
-      column = 0;
-      tile += tiles_x;
+                        __global const uint2 *ordered,
+                        __global const uint *sums, __global uint *pair_tiles,
+                        __global uint *pair_gaussians, __global uint *places,
+                        uint count, uint chunk, uint tiles_x, uint effects) {
+  __local uint lane_sums[2 * MOST_LANES];
+  const uint lane = get_local_id(0);
+  const uint lanes = get_local_size(0);
+  const uint begin = min((uint)get_group_id(0) * chunk, count);
+  const uint end = min(begin + chunk, count);
+  for (uint k = lane; k < MOST_LANES; k += lanes)
+    lane_sums[k] = 0;
+  // Pairs of the groups before.
+  uint share = 0;
+  for (uint i = lane; i < get_group_id(0) * lanes; i += lanes)
+    share += sums[i];
+  uint next;
+  sum_before(lane_sums, share, &next);
+  for (uint first = begin; first < end; first += lanes) {
+    const uint i = first + lane;
+    const uint2 r = i < end ? ordered[i] : (uint2)(0, 0);
+    const uint own = rectangle_tiles(r);
+    const uint entry = (i < end ? order[i] : 0u) |
+                       (USE_INTERSECT_TAGS && own > 1 ? SPANS_TILES : 0u);
+    uint all;
+    uint place = next + sum_before(lane_sums, own, &all);
+    next += all;
+#ifdef KEEP_PLACES
+    if (i < end)
+      places[i] = place;
+    if (i + 1 == count)
+      places[count] = next;
+#endif
+    const uint width = rectangle_width(r);
+    uint tile = (r.x >> 16) * tiles_x + (r.x & 0xffff);
+    uint column = 0;
+    for (const uint last = place + own; place < last; ++place) {
+      pair_tiles[place] = tile + column;
+      pair_gaussians[place] = entry;
+      ++column;
+      if (column == width) {
+        column = 0;
+        tile += tiles_x;
+      }
     }
   }
 }
@@ -88,6 +131,19 @@ __kernel void look_up(__global const uint *places, __global const uint *values,
   const uint i = get_global_id(0);
   if (i < count)
     found[i] = values[places[i]];
+}
+
+// The first of the sorted keys that is not below `key`.
+static uint first_from(__global const uint *keys, uint count, uint key) {
+  uint low = 0, high = count;
+  while (low < high) {
+    const uint middle = (low + high) / 2;
+    if (keys[middle] < key)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
 }
 
 // Where each tile's list begins and ends in the sorted pairs.

@@ -11,9 +11,6 @@ constexpr const char *BlendBackwardProgram = "blend backward";
 constexpr const char *ReduceProgram = "reduce";
 constexpr const char *ProjectBackwardProgram = "project backward";
 
-/// Lanes of a warp, and Gaussians that are handed over together.
-constexpr std::size_t Lanes = 16;
-
 } // namespace
 
 std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
@@ -30,8 +27,8 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
       Blend.Defines.emplace_back("CLAMP_STOPS");
   }
   ProgramSpec Project{ProjectBackwardProgram,
-                      {"layout.h", "activate.cl", "covariance.cl",
-                       "sh_planes.h", "sh_backward.cl", "project_backward.cl"},
+                      {"layout.h", "activate.cl", "covariance.cl", "planes.h",
+                       "sh_backward.cl", "project_backward.cl"},
                       projectionDefines(ShDegree, O)};
   if (Gsplat)
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
@@ -88,8 +85,8 @@ void BackwardPipeline::blend(Pipeline &Forward) {
 void BackwardPipeline::reduce(const Frame &F) {
   const std::uint32_t Count = F.Gaussians.Count;
   Sums = L.allocate("Gaussians' sums", 4 * SUM_WORDS * std::uint64_t{Count});
-  L.run(ReduceProgram, "reduce_sums", itemsFor(Count), GroupSize, PairSums,
-        F.ByDepth.Values, F.Places, Sums, Count);
+  L.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize, PairSums,
+        F.Order, F.Places, Sums, F.Visible, Count);
 }
 
 void BackwardPipeline::project(const Frame &F) {

@@ -64,6 +64,44 @@ TEST_P(SortOnDevice, SortIsStableOnItsBits) {
   }
 }
 
+// Depths as the projection leaves them: some left out, the others' bits within
+// a range that asks for one to four passes, low ones of no meaning.
+TEST_P(SortOnDevice, SortKeptLeavesOutAndNumbers) {
+  Launcher L(*Dev, "", {});
+  L.beginStage("test");
+  L.build({ScanProgram, {"scan.cl"}, {}});
+  L.build({SortProgram, {"sort.cl"}, {}});
+  Sorter S(L);
+  Sorter::KeptKeys What{GetParam(), 0, 0, 0, 0};
+  constexpr std::uint32_t Base = 0x3e4ccccd;
+  for (const std::uint32_t Range : {1U, 1000U, 1U << 27U, (1U << 31U) - Base})
+    for (const unsigned FirstBit : {0U, 16U}) {
+      std::vector<std::uint32_t> Keys(What.Count);
+      std::vector<std::uint32_t> Want;
+      What.Least = ~0U;
+      What.Most = 0;
+      What.FirstBit = FirstBit;
+      for (std::uint32_t I = 0; I < What.Count; ++I) {
+        const std::uint32_t Word = Random();
+        Keys[I] = Word % 3 == 0 ? Word | 1U << 31U : Base + Random() % Range;
+        if (Keys[I] >> 31U)
+          continue;
+        Want.push_back(I);
+        What.Least = std::min(What.Least, Keys[I]);
+        What.Most = std::max(What.Most, Keys[I]);
+      }
+      What.Kept = static_cast<std::uint32_t>(Want.size());
+      const std::vector<std::uint32_t> Empty(std::max(What.Kept, 1U));
+      const Sorter::Pairs A{upload(L, Empty), upload(L, Empty)};
+      const Sorter::Pairs B{upload(L, Empty), upload(L, Empty)};
+      const cl::Buffer Out = S.sortKept(upload(L, Keys), What, A, B);
+      std::ranges::sort(Want, {}, [&](std::uint32_t I) {
+        return std::pair(Keys[I] >> FirstBit, I);
+      });
+      EXPECT_EQ(download(L, Out, What.Kept), Want) << Range;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Counts, SortOnDevice,
                          testing::Values(1, 15, 16, 255, 257, 4096, 70001));
 
@@ -121,9 +159,9 @@ protected:
 TEST_F(KernelOnDevice, ActivationIsRoundedOnce) {
   const KernelFolder Folder("activation", {"activate.cl"}, R"(
 __kernel void test(__global const float4 *in, __global float4 *out) {
+  const activation_constants constants = make_activation_constants();
   const uint i = 2 * get_global_id(0);
-  out[i] = (float4)(activate_scale(in[i].x), activate_scale(in[i].y),
-                    activate_scale(in[i].z), activate_opacity(in[i].w));
+  out[i] = activate_scales_and_opacity(&constants, in[i]);
   out[i + 1] = activate_quaternion(in[i + 1]);
 })");
   constexpr std::uint32_t Count = 20000;
@@ -228,7 +266,9 @@ TEST_F(OnDevice, TilesAreOrderedByListLength) {
   });
   Launcher L(*Dev, "", {});
   L.beginStage("test");
-  L.build({TilesProgram, {"layout.h", "tiles.cl"}, {"USE_INTERSECT_TAGS=1"}});
+  L.build({TilesProgram,
+           {"layout.h", "rectangle.cl", "tiles.cl"},
+           {"USE_INTERSECT_TAGS=1"}});
   const auto Count = static_cast<std::uint32_t>(Want.size());
   const cl::Buffer Order = L.allocate("order", 4 * Want.size());
   L.run(TilesProgram, "order_tiles", (Count + 15) / 16 * 16, 16,

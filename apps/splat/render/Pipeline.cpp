@@ -22,29 +22,22 @@ cl::NDRange itemsFor(uint32_t Count) {
 
 namespace {
 
-/// The coefficients of \p S that \p Plan evaluates, a plane each for channel 0,
-/// 1, 2 of each coefficient; zeros where the scene has no such band.
-std::vector<float> bandPlanes(const Scene &S, const EffectPlan &Plan) {
+/// The planes of \p S that \p Plan evaluates, those of channels 0, 1, 2 of each
+/// coefficient.
+std::vector<std::size_t> bandPlanes(const EffectPlan &Plan) {
   const Effect *const Bands[] = {&effects::Sh1, &effects::Sh2, &effects::Sh3};
-  std::vector<std::size_t> Sources{0, 1, 2};
+  std::vector<std::size_t> Planes{0, 1, 2};
   for (int Band = 1; Band <= MaxShDegree; ++Band)
     if (Plan.done(*Bands[Band - 1]))
       for (std::size_t P = 3 * shCoefficients(Band - 1);
            P < 3 * shCoefficients(Band); ++P)
-        Sources.push_back(P);
-  const std::size_t N = S.size();
-  const std::size_t Stride = 3 * S.coefficients();
-  std::vector<float> Out(Sources.size() * N);
-  for (std::size_t I = 0; I < N; ++I)
-    for (std::size_t P = 0; P < Sources.size(); ++P)
-      if (Sources[P] < Stride)
-        Out[P * N + I] = S.Sh[I * Stride + Sources[P]];
-  return Out;
+        Planes.push_back(P);
+  return Planes;
 }
 
 GaussianBuffers upload(Launcher &L, const Scene &S,
+                       const std::vector<float> &Geometry,
                        const std::vector<float> &Sh) {
-  const std::vector<float> Geometry = geometryPlanes(S);
   const GaussianBuffers B{
       L.allocate("Gaussians' geometry", 4 * Geometry.size()),
       L.allocate("Gaussians' colours", 4 * Sh.size()),
@@ -57,12 +50,12 @@ GaussianBuffers upload(Launcher &L, const Scene &S,
 } // namespace
 
 GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree) {
-  return upload(L, S, shPlanes(S, ShDegree));
+  return upload(L, S, geometryPlanes(S), shPlanes(S, ShDegree));
 }
 
 GaussianBuffers uploadGaussians(Launcher &L, const Scene &S,
                                 const EffectPlan &Plan) {
-  return upload(L, S, bandPlanes(S, Plan));
+  return upload(L, S, geometryBlocks(S), shBlocks(S, bandPlanes(Plan)));
 }
 
 void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
@@ -72,6 +65,9 @@ void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   F.Gaussians = Gaussians;
   L.beginStage("project");
   project();
+  // What was read back says how much memory the rest needs.
+  if (L.failure())
+    return;
   L.beginStage("sort by depth");
   sortByDepth();
   L.beginStage("count pairs");
@@ -87,48 +83,62 @@ void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
 void Pipeline::project() {
   F.Camera = L.allocate("camera", sizeof(F.View));
   L.write("camera", F.Camera, &F.View, sizeof(F.View));
+  const uint32_t Count = F.Gaussians.Count;
+  const uint64_t Blocks = (uint64_t{Count} + LINE_WORDS - 1) / LINE_WORDS;
   F.Records = L.allocate("projected Gaussians",
-                         sizeof(splat_gaussian) * uint64_t{F.Gaussians.Count});
-  F.Depths = {words("depths", F.Gaussians.Count),
-              words("Gaussian numbers", F.Gaussians.Count)};
-  F.Rectangles = words("tile rectangles", 2 * uint64_t{F.Gaussians.Count});
-  L.run(ProjectProgram, "project", itemsFor(F.Gaussians.Count), GroupSize,
-        F.Camera, F.Gaussians.Geometry, F.Gaussians.Sh, F.Records,
-        F.Depths.Keys, F.Depths.Values, F.Rectangles, F.Gaussians.Count);
+                         sizeof(splat_gaussian) * LINE_WORDS * Blocks);
+  F.Depths.Keys = words("depths", Count);
+  F.Rectangles = words("tile rectangles", 2 * uint64_t{Count});
+  const std::size_t Items = L.device().computeUnits() * Lanes;
+  const cl::Buffer Seen =
+      L.allocate("what is seen", sizeof(splat_seen) * Items);
+  L.run(ProjectProgram, "project", Items, Lanes, F.Camera, F.Gaussians.Geometry,
+        F.Gaussians.Sh, F.Records, F.Depths.Keys, F.Rectangles, Seen, Count,
+        cl::Local(PROJECT_LOCAL_BYTES));
+  std::vector<splat_seen> Host(Items);
+  L.read("what is seen", Host.data(), Seen, sizeof(splat_seen) * Items);
+  uint64_t Pairs = 0;
+  F.LeastKey = ~0U;
+  for (const splat_seen &One : Host) {
+    F.Visible += One.gaussians;
+    Pairs += One.pairs;
+    F.LeastKey = std::min(F.LeastKey, One.least_key);
+    F.GreatestKey = std::max(F.GreatestKey, One.greatest_key);
+    for (std::size_t R = 0; R < F.Culled.size(); ++R)
+      F.Culled[R] += One.culled[R];
+  }
+  // Too many fail where they are allocated.
+  F.Pairs = static_cast<uint32_t>(std::min<uint64_t>(Pairs, ~0U));
 }
 
 void Pipeline::sortByDepth() {
-  const Sorter::Pairs A{words("sorted depths", F.Gaussians.Count),
-                        words("sorted Gaussians", F.Gaussians.Count)};
-  const Sorter::Pairs B{words("sorted depths", F.Gaussians.Count),
-                        words("sorted Gaussians", F.Gaussians.Count)};
-  // The highest bits: CULLED has the sign bit set and must end up last.
-  F.ByDepth = Sort.sort(F.Depths, A, B, F.Gaussians.Count,
-                        {32 - Options.DepthBits, 32});
+  const Sorter::Pairs A{words("sorted depths", F.Visible),
+                        words("sorted Gaussians", F.Visible)};
+  const Sorter::Pairs B{words("sorted depths", F.Visible),
+                        words("sorted Gaussians", F.Visible)};
+  F.Order = Sort.sortKept(F.Depths.Keys,
+                          {F.Gaussians.Count, F.Visible, F.LeastKey,
+                           F.GreatestKey, 32 - Options.DepthBits},
+                          A, B);
 }
 
 void Pipeline::countPairs() {
-  F.TileCounts = words("tile counts", F.Gaussians.Count);
-  F.Places = words("places of pairs", uint64_t{F.Gaussians.Count} + 1);
-  std::array<uint32_t, 2 + CULL_REASONS> Host{};
-  const cl::Buffer Totals = words("totals", Host.size());
-  L.run(TilesProgram, "count_tiles", itemsFor(F.Gaussians.Count), GroupSize,
-        F.ByDepth.Values, F.Rectangles, F.TileCounts, F.Gaussians.Count);
-  Sort.scan(F.TileCounts, F.Places, F.Gaussians.Count);
-  L.run(TilesProgram, "totals", 1, 1, F.ByDepth.Keys, F.Places, Totals,
-        F.Gaussians.Count);
-  L.read("totals", Host.data(), Totals, sizeof(Host));
-  F.Visible = Host[0];
-  F.Pairs = Host[1];
-  std::copy(Host.begin() + 2, Host.end(), F.Culled.begin());
+  const Sorter::Share By = Sort.share(F.Visible);
+  F.Ordered = words("tile rectangles", 2 * uint64_t{F.Visible});
+  F.Sums = words("sums of pairs", By.items());
+  L.run(TilesProgram, "count_tiles", By.items(), By.Lanes, F.Order,
+        F.Rectangles, F.Ordered, F.Sums, F.Visible, By.Chunk);
 }
 
 void Pipeline::duplicate() {
+  const Sorter::Share By = Sort.share(F.Visible);
   F.ByTile = {words("tiles of pairs", F.Pairs),
               words("Gaussians of pairs", F.Pairs)};
-  L.run(TilesProgram, "duplicate", itemsFor(F.Gaussians.Count), GroupSize,
-        F.ByDepth.Values, F.Rectangles, F.Places, F.ByTile.Keys,
-        F.ByTile.Values, F.Gaussians.Count, F.View.tiles[0], F.View.effects);
+  F.Places =
+      words("places of pairs", Options.Training ? uint64_t{F.Visible} + 1 : 1);
+  L.run(TilesProgram, "duplicate", By.items(), By.Lanes, F.Order, F.Ordered,
+        F.Sums, F.ByTile.Keys, F.ByTile.Values, F.Places, F.Visible, By.Chunk,
+        F.View.tiles[0], F.View.effects);
 }
 
 void Pipeline::sortByTile() {
@@ -197,7 +207,6 @@ splat_blend_options Pipeline::blendOptions() const {
 }
 
 void Pipeline::rasterize() {
-  constexpr std::size_t Lanes = 16;
   const splat_blend_options O = blendOptions();
   const std::size_t Cores = L.device().computeUnits();
   F.TileOrder = words("tile order", F.tiles());

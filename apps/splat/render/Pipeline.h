@@ -24,16 +24,20 @@ cl::NDRange itemsFor(std::uint32_t Count);
 inline constexpr std::array<std::string_view, 5> CullReasons{
     "near", "degenerate", "faint", "outside", "non_finite"};
 
-/// Gaussians in the device's memory, before activation.
+/// Work-items of a group that has a core for itself: a warp.
+inline constexpr std::size_t Lanes = 16;
+
+/// Gaussians in the device's memory, before activation: in training in planes,
+/// else in blocks of them (kernels/layout.h).
 struct GaussianBuffers {
   cl::Buffer Geometry; ///< planes of layout.h's GEOMETRY_PLANES
   cl::Buffer Sh; ///< plane 3 k + c: coefficient k, of those there, of channel c
   std::uint32_t Count = 0;
 };
 
-/// Copies \p S to the device, harmonics up to \p ShDegree.
+/// Copies \p S to the device in planes, harmonics up to \p ShDegree.
 GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree);
-/// The same with the bands that \p Plan evaluates, zeros where \p S has none.
+/// In blocks, the bands that \p Plan evaluates, zeros where \p S has none.
 GaussianBuffers uploadGaussians(Launcher &L, const Scene &S,
                                 const EffectPlan &Plan);
 
@@ -42,10 +46,11 @@ struct Frame {
   splat_view View{};
   GaussianBuffers Gaussians;
   cl::Buffer Camera, Records, Rectangles;
-  Sorter::Pairs Depths; ///< keys and numbers of every Gaussian, as projected
-  Sorter::Pairs ByDepth;
-  cl::Buffer TileCounts;
-  /// Where the pairs of the i-th Gaussian by depth begin, before they are
+  Sorter::Pairs Depths; ///< keys of every Gaussian, as projected
+  cl::Buffer Order;     ///< the Gaussians seen, by depth
+  cl::Buffer Ordered;   ///< their rectangles
+  cl::Buffer Sums;      ///< and tiles, a sum a work-item
+  /// In training: where the pairs of the i-th of them begin, before they are
   /// sorted by tile; one more for the end.
   cl::Buffer Places;
   /// Tiles of the pairs, and the lists of all tiles. In training the values are
@@ -57,6 +62,7 @@ struct Frame {
   cl::Buffer Pixels;    ///< colour in front of the background, transmittance
   cl::Buffer Last; ///< in training: entries of its list that a pixel has taken
   std::uint32_t Visible = 0, Pairs = 0;
+  std::uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
   std::array<std::uint64_t, CullReasons.size()> Culled{};
 
   std::uint32_t tiles() const { return View.tiles[0] * View.tiles[1]; }

@@ -64,7 +64,9 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
   if (!Inria)
     Defines.emplace_back("STOP_AT_EQUAL");
   if (O.Training)
-    Defines.emplace_back("KEEP_LAST");
+    Defines.insert(Defines.end(), {"KEEP_LAST", "KEEP_PLACES"});
+  else
+    Defines.emplace_back("SCENE_IN_BLOCKS");
   return Defines;
 }
 
@@ -130,12 +132,11 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   RenderPlan Plan{
       std::move(Effects),
       {{ProjectProgram,
-        {"layout.h", "activate.cl", "covariance.cl", "support.cl",
-         "sh_planes.h", "sh.cl", "project.cl"},
-        {}},
-       {ScanProgram, {"scan.cl"}, {}},
+        {"layout.h", "activate.cl", "covariance.cl", "support.cl", "planes.h",
+         "sh.cl", "rectangle.cl", "project.cl"},
+        {"CONSTANTS=__local", "VIEW_SPACE=__local"}},
        {SortProgram, {"sort.cl"}, {}},
-       {TilesProgram, {"layout.h", "tiles.cl"}, {}},
+       {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},
        {BlendProgram,
         Raster ? std::vector<std::string>{"layout.h", "deal.cl", "rasterize.cl"}
                : std::vector<std::string>{"layout.h", Falloff, "blend.cl"},

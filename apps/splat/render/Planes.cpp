@@ -30,6 +30,40 @@ std::vector<float> shPlanes(const Scene &S, int Degree) {
   return Out;
 }
 
+namespace {
+
+/// Blocks of \p Planes parameters: plane p of Gaussian i is Get(i, p).
+template <typename Function>
+std::vector<float> toBlocks(std::size_t Count, std::size_t Planes,
+                            Function Get) {
+  const std::size_t Blocks = (Count + LINE_WORDS - 1) / LINE_WORDS;
+  std::vector<float> Words(Blocks * Planes * LINE_WORDS);
+  for (std::size_t I = 0; I < Count; ++I)
+    for (std::size_t P = 0; P < Planes; ++P)
+      Words[(I / LINE_WORDS * Planes + P) * LINE_WORDS + I % LINE_WORDS] =
+          Get(I, P);
+  return Words;
+}
+
+} // namespace
+
+std::vector<float> geometryBlocks(const Scene &S) {
+  return toBlocks(S.size(), GEOMETRY_PLANES, [&](std::size_t I, std::size_t P) {
+    return P < PLANE_LOG_SCALE    ? S.Means[3 * I + P - PLANE_MEAN]
+           : P < PLANE_QUATERNION ? S.LogScales[3 * I + P - PLANE_LOG_SCALE]
+           : P < PLANE_LOGIT      ? S.Quats[4 * I + P - PLANE_QUATERNION]
+                                  : S.OpacityLogits[I];
+  });
+}
+
+std::vector<float> shBlocks(const Scene &S,
+                            const std::vector<std::size_t> &Planes) {
+  const std::size_t Stride = 3 * S.coefficients();
+  return toBlocks(S.size(), Planes.size(), [&](std::size_t I, std::size_t P) {
+    return Planes[P] < Stride ? S.Sh[I * Stride + Planes[P]] : 0.0F;
+  });
+}
+
 Scene sceneOfPlanes(const std::vector<float> &Geometry,
                     const std::vector<float> &Sh, int Degree) {
   const std::size_t N = Geometry.size() / GEOMETRY_PLANES;

@@ -1,5 +1,6 @@
 /// Scenes as the device has them: a plane of values for each parameter, so that
-/// the lanes of a warp read neighbouring words.
+/// the lanes of a warp read neighbouring words, or the planes of 16 Gaussians
+/// side by side (kernels/layout.h).
 #pragma once
 
 #include "../io/Scene.h"
@@ -13,6 +14,12 @@ std::vector<float> geometryPlanes(const Scene &S);
 
 /// Plane 3 k + c holds coefficient k of channel c, up to \p Degree.
 std::vector<float> shPlanes(const Scene &S, int Degree);
+
+/// The same in blocks; of the colours' planes those of \p Planes, zeros where
+/// the scene has none.
+std::vector<float> geometryBlocks(const Scene &S);
+std::vector<float> shBlocks(const Scene &S,
+                            const std::vector<std::size_t> &Planes);
 
 /// The scene of degree \p Degree that has these planes.
 Scene sceneOfPlanes(const std::vector<float> &Geometry,

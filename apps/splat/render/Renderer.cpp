@@ -36,9 +36,9 @@ SortedPairs readPairs(Launcher &L, const Frame &F) {
 cl::Buffer resolve(Launcher &L, const Frame &F,
                    const std::array<float, 3> &Background) {
   cl::Buffer Picture = L.allocate("picture", 16 * uint64_t{F.pixels()});
-  L.run(ResolveProgram, "resolve", itemsFor(F.pixels()), GroupSize, F.Pixels,
-        Picture, F.pixels(), Background[0], Background[1], Background[2],
-        F.View.effects);
+  L.run(ResolveProgram, "resolve", L.device().computeUnits() * Lanes, Lanes,
+        F.Pixels, Picture, 4 * F.pixels(), Background[0], Background[1],
+        Background[2], F.View.effects);
   return Picture;
 }
 

@@ -3,6 +3,7 @@
 #include "Plan.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace vorion::splat {
 
@@ -20,17 +21,6 @@ std::uint32_t divideUp(std::uint32_t A, std::uint32_t B) {
   return A / B + (A % B != 0 ? 1 : 0);
 }
 
-/// Work-items that a core of \p D steps together, in order where they meet in
-/// local memory (docs/abi.md); 1 on a device that says nothing of its order.
-std::uint32_t lanesOf(const Device &D) {
-  // CL_DEVICE_PREFERRED_WORK_GROUP_SIZE_MULTIPLE, which OpenCL 1.2 lacks.
-  constexpr cl_device_info GroupMultiple = 0x1067;
-  std::size_t Lanes = 1;
-  if (!D.isVorion() || D.handle().getInfo(GroupMultiple, &Lanes) != CL_SUCCESS)
-    return 1;
-  return static_cast<std::uint32_t>(Lanes);
-}
-
 /// Passes of equal width.
 struct Passes {
   explicit Passes(unsigned Bits)
@@ -43,8 +33,7 @@ struct Passes {
 } // namespace
 
 Sorter::Sorter(Launcher &Launch)
-    : L(Launch), Groups(std::max(1U, Launch.device().computeUnits())),
-      Lanes(lanesOf(Launch.device())) {
+    : L(Launch), Groups(std::max(1U, Launch.device().computeUnits())) {
   constexpr std::uint64_t Digits = 1U << MostDigitBits;
   Histogram = L.allocate("sort's histograms", 4 * Digits * Groups);
   Totals = L.allocate("sort's totals", 4 * Digits);
@@ -68,7 +57,7 @@ void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out,
 Sorter::Share Sorter::share(std::uint32_t Count) const {
   const std::uint32_t Lines =
       divideUp(std::max(LeastChunk, divideUp(Count, Groups)), LineWords);
-  return {std::max(1U, divideUp(Count, Lines * LineWords)), Lanes,
+  return {std::max(1U, divideUp(Count, Lines * LineWords)), L.device().lanes(),
           Lines * LineWords};
 }
 
@@ -84,6 +73,30 @@ Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
     From = To;
   }
   return From;
+}
+
+cl::Buffer Sorter::sortKept(const cl::Buffer &Keys, const KeptKeys &What,
+                            const Pairs &A, const Pairs &B) {
+  if (What.Kept == 0)
+    return A.Values;
+  const std::uint32_t Base = What.Least >> What.FirstBit;
+  const Passes P(static_cast<unsigned>(
+      std::bit_width((What.Most >> What.FirstBit) - Base)));
+  const Share S = share(What.Count);
+  L.run(SortProgram, "sort_count_kept", S.items(), S.Lanes, Keys, Histogram,
+        What.Count, S.Chunk, What.FirstBit, P.Digits, Base);
+  L.run(SortProgram, "sort_offsets", P.Digits, std::min(P.Digits, LineWords),
+        Histogram, Totals, S.Groups, P.Digits);
+  L.run(SortProgram, "sort_scatter_kept", S.items(), S.Lanes, Keys, Histogram,
+        Totals, A.Keys, A.Values, What.Count, S.Chunk, What.FirstBit, P.Digits,
+        Base);
+  Pairs From = A;
+  for (unsigned Pass = 1; Pass < P.Number; ++Pass) {
+    const Pairs &To = From.Keys() == A.Keys() ? B : A;
+    pass(From, To, What.Kept, Pass * P.DigitBits, P.Digits);
+    From = To;
+  }
+  return From.Values;
 }
 
 void Sorter::pass(const Pairs &From, const Pairs &To, std::uint32_t Count,

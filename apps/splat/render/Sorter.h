@@ -13,6 +13,13 @@ public:
   struct Pairs {
     cl::Buffer Keys, Values;
   };
+  /// How \p Count things are shared out: groups of \c Lanes work-items have
+  /// stretches of \c Chunk.
+  struct Share {
+    std::uint32_t Groups, Lanes, Chunk;
+    std::size_t items() const { return std::size_t{Groups} * Lanes; }
+  };
+
   explicit Sorter(Launcher &L);
 
   /// Out[i] = In[0] + ... + In[i-1] for i in [0, Count], saturating; \p Out
@@ -30,21 +37,28 @@ public:
   Pairs sort(const Pairs &Input, const Pairs &A, const Pairs &B,
              std::uint32_t Count, KeyBits Bits);
 
-private:
-  /// How \p Count things are shared out: groups of \c Lanes work-items have
-  /// stretches of \c Chunk.
-  struct Share {
-    std::uint32_t Groups, Lanes, Chunk;
-    std::size_t items() const { return std::size_t{Groups} * Lanes; }
+  /// Keys of which some are left out: those with the highest bit.
+  struct KeptKeys {
+    std::uint32_t Count;
+    std::uint32_t Kept;        ///< of them
+    std::uint32_t Least, Most; ///< of those
+    unsigned FirstBit;         ///< lower ones decide nothing
   };
+  /// The numbers of the kept ones by their keys, stably, as the values of \p A
+  /// or \p B, which hold so many pairs.
+  cl::Buffer sortKept(const cl::Buffer &Keys, const KeptKeys &What,
+                      const Pairs &A, const Pairs &B);
+
   /// A group a core, a lane a work-item; stretches of whole lines.
   Share share(std::uint32_t Count) const;
+
+private:
   std::uint32_t scanItems() const;
   void pass(const Pairs &From, const Pairs &To, std::uint32_t Count,
             unsigned Shift, std::uint32_t Digits);
 
   Launcher &L;
-  std::uint32_t Groups, Lanes;
+  std::uint32_t Groups;
   cl::Buffer Histogram, Totals, Sums;
 };
 

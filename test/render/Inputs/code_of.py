@@ -3,7 +3,7 @@
 
 usage: code_of.py CACHE KERNEL WORD...
 Prints how often each WORD is there: a mnemonic or the name of a CSR in the disassembly, or a number as a
-32-bit constant among the read-only data. A kernel that is not in CACHE is "not built".
+32-bit constant among the read-only data or put together by lui and addi. A kernel that is not in CACHE is "not built".
 """
 
 import glob
@@ -25,6 +25,13 @@ data = subprocess.run(["vorion-objdump", "-s", "-j", ".rodata", found[0]], check
                       text=True).stdout
 constants = re.findall(r"\b[0-9a-f]{8}\b", "\n".join(line[9:45] for line in data.splitlines()))
 instructions = re.findall(r"\t(\S+)\t?(.*)", text)
+upper = {}  # register: what its last lui put there
+for name, operands in instructions:
+    operands = operands.replace(",", " ").split()
+    if name == "lui":
+        upper[operands[0]] = int(operands[1], 0) << 12
+    elif name == "addi" and operands[1] in upper:
+        constants.append(struct.pack("<I", upper[operands[1]] + int(operands[2], 0) & 0xFFFFFFFF).hex())
 for word in words:
     if re.fullmatch(r"-?[0-9.e-]+", word):
         bits = struct.pack("<f", float(word)).hex()
