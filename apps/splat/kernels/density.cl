@@ -139,6 +139,13 @@ __kernel void density_split(__global const float *geometry,
                2.0f * (y * z + w * x)),
       (float3)(2.0f * (x * z + w * y), 2.0f * (y * z - w * x),
                1.0f - 2.0f * (x * x + y * y))};
+  const activation_constants constants = make_activation_constants();
+  const float4 activated = activate_scales_and_opacity(
+      &constants,
+      (float4)(geometry[PLANE_LOG_SCALE * count + i],
+               geometry[(PLANE_LOG_SCALE + 1) * count + i],
+               geometry[(PLANE_LOG_SCALE + 2) * count + i], 0.0f));
+  const float scale[3] = {activated.x, activated.y, activated.z};
   for (uint child = 0; child < 2; ++child) {
     const philox_words r =
         philox(seed_low, seed_high, i, child, iteration, STREAM_SPLIT);
@@ -152,7 +159,7 @@ __kernel void density_split(__global const float *geometry,
     const uint to = places[i] + child;
     for (uint k = 0; k < 3; ++k) {
       const float log_scale = geometry[(PLANE_LOG_SCALE + k) * count + i];
-      offset += column[k] * (activate_scale(log_scale) * normal[k]);
+      offset += column[k] * (scale[k] * normal[k]);
       new_geometry[(PLANE_LOG_SCALE + k) * new_count + to] = log_scale - shrink;
     }
     const float shift[3] = {offset.x, offset.y, offset.z};

@@ -157,6 +157,10 @@ project(__constant const splat_view *camera, __global const float *geometry,
   const uint step = get_num_groups(0) * LANES;
   for (uint k = lane; k < sizeof(splat_view) / 4; k += LANES)
     ((__local uint *)&w->view)[k] = ((__constant const uint *)camera)[k];
+  // What is written of a line may belong to nobody.
+#pragma unroll
+  for (uint k = 0; k < RECORD_WORDS; ++k)
+    w->stage[k * LANES + lane] = 0;
   if (lane == 0) {
     w->activation = make_activation_constants();
     make_sh_constants(&w->sh, effects);
