@@ -137,7 +137,7 @@ TrainingCase constants(const char *Name, const char *Why, float Offset,
 
 void addSteps(std::vector<TrainingCase> &Cases) {
   const auto Step = [&](const char *Name, const char *Why, double Bound,
-                        std::vector<float> Gradients,
+                        const std::vector<float> &Gradients,
                         std::vector<std::string> NoticedIn) {
     Cases.push_back(
         {Name, Why,
