@@ -8,8 +8,7 @@
 namespace vorion::splat {
 
 void addPictureOptions(CLI::App &App, RenderOptions &O) {
-  addChoice(App, "--rules", O.Convention, {Rules::Inria, Rules::Gsplat},
-            "Convention to follow");
+  addRulesOption(App, O.Convention);
   addChoice(
       App, "--support", O.Reach,
       {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
@@ -49,6 +48,11 @@ void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
   App.add_option("--background", Colour, Help)
       ->delimiter(',')
       ->option_text("R,G,B");
+}
+
+void addRulesOption(CLI::App &App, Rules &Convention) {
+  addChoice(App, "--rules", Convention, {Rules::Inria, Rules::Gsplat},
+            "Convention to follow");
 }
 
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {

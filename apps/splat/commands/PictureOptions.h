@@ -22,6 +22,8 @@ Expected<Success> checkPictureOptions(const RenderOptions &O);
 void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
                          const std::string &Help);
 
+void addRulesOption(CLI::App &App, Rules &Convention);
+
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help);
 
 /// What the rasterizer's backward mode computes with.

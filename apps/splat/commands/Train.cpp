@@ -39,6 +39,7 @@ struct TrainArguments {
   int Downscale = 1, ShDegree = MaxShDegree;
   unsigned CheckpointEvery = 1000;
   bool Resume = false, Breakdown = false;
+  Rules Convention = Rules::Inria;
   Path Blending = Path::Raster;
   BackwardOptions Backward;
   TrainRun Run;
@@ -152,7 +153,7 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"run", Json::parse(W.Run)},
       {"picture_filter", PhotoFilter},
       {"held_out_by", W.C.HeldOutBy},
-      {"rules", name(Rules::Inria)},
+      {"rules", name(W.A.Convention)},
       {"support", name(Support::Exact)},
       {"iterations", T.iteration()},
       {"gaussians", T.gaussians()},
@@ -218,8 +219,9 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
   if (W.A.Run.Batch != 1 || W.Together.size() != 1)
     fmt::print("views        {} an iteration, on {} devices\n", W.A.Run.Batch,
                W.Together.size());
-  fmt::print("rules        inria, support exact, path {}{}, opacity rate {}\n",
-             name(W.A.Blending), toString(W.A.Backward, W.A.Blending),
+  fmt::print("rules        {}, support exact, path {}{}, opacity rate {}\n",
+             name(W.A.Convention), name(W.A.Blending),
+             toString(W.A.Backward, W.A.Blending),
              W.A.Run.Settings.OpacityRate);
   if (T.iteration() > W.First)
     fmt::print("wall time    {:.1f} s, {:.3f} it/s\n", W.Seconds,
@@ -287,7 +289,8 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
   const PictureSource Source{std::string(name(C->Format)), A.Downscale,
                              A.Background};
   Work W(A, *C, *Pictures, Together);
-  W.Run = runText(A.Run, *Pictures, Source, A.ShDegree, A.Blending, A.Backward);
+  W.Run = runText(A.Run, *Pictures, Source, A.ShDegree, A.Convention,
+                  A.Blending, A.Backward);
 
   if (A.Breakdown)
     turnClockOn("on");
@@ -304,7 +307,8 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
   L.beginStage("build");
   for (const ProgramSpec &P : Trainer::programs())
     L.build(P);
-  DeviceRenderer Renderer(L, A.Blending, A.Backward, A.Background);
+  DeviceRenderer Renderer(L, A.Convention, A.Blending, A.Backward,
+                          A.Background);
   Trainer T(L, Renderer, *Pictures, A.Run, Together);
   if (A.Resume && std::filesystem::exists(A.Checkpoint)) {
     const auto Kept = readCheckpoint(A.Checkpoint);
@@ -379,6 +383,7 @@ Runner addTrain(CLI::App &App) {
   addBackgroundOption(App, A->Background,
                       "Colour r,g,b behind the scene and under transparent "
                       "pixels (default 0,0,0)");
+  addRulesOption(App, A->Convention);
   addPathOption(App, A->Blending,
                 "Who blends and goes back: the rasterizer or the cores");
   addBackwardOptions(App, A->Backward);

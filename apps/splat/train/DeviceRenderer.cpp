@@ -6,9 +6,10 @@ namespace vorion::splat {
 
 namespace {
 
-RenderOptions trainingOptions(Path Blending,
+RenderOptions trainingOptions(Rules Convention, Path Blending,
                               const std::array<float, 3> &Background) {
   RenderOptions O;
+  O.Convention = Convention;
   O.Blending = Blending;
   O.Background = Background;
   O.Training = true;
@@ -17,10 +18,11 @@ RenderOptions trainingOptions(Path Blending,
 
 } // namespace
 
-DeviceRenderer::DeviceRenderer(Launcher &Launch, Path Blending,
-                               const BackwardOptions &How,
+DeviceRenderer::DeviceRenderer(Launcher &Launch, Rules Convention,
+                               Path Blending, const BackwardOptions &How,
                                const std::array<float, 3> &Background)
-    : L(Launch), Choice(How), Options(trainingOptions(Blending, Background)),
+    : L(Launch), Choice(How),
+      Options(trainingOptions(Convention, Blending, Background)),
       Drawing(Launch, Options, EffectPlan::forAnyScene(MaxShDegree, Options)) {
   Choice.Parameters = GradientsOf::Stored;
 }

@@ -11,8 +11,8 @@ namespace vorion::splat {
 
 class DeviceRenderer : public GradientRenderer {
 public:
-  /// Renders over \p Background by INRIA's rules, support `exact`.
-  DeviceRenderer(Launcher &Launch, Path Blending,
+  /// Renders over \p Background by the rules of \p Convention, support `exact`.
+  DeviceRenderer(Launcher &Launch, Rules Convention, Path Blending,
                  const BackwardOptions &Backward,
                  const std::array<float, 3> &Background);
 

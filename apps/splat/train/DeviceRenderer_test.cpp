@@ -12,8 +12,9 @@
 namespace vorion::splat {
 namespace {
 
-class GradientsOnDevice : public OnDevice,
-                          public testing::WithParamInterface<Path> {
+class GradientsOnDevice
+    : public OnDevice,
+      public testing::WithParamInterface<std::tuple<Rules, Path>> {
 protected:
   struct Case {
     std::uint32_t Count;
@@ -73,7 +74,10 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     Launcher L(*Dev, "", {});
     const Scene S = sceneOf(K);
     const Camera C = camera();
+    const auto [Convention, Blending] = GetParam();
     reference::Options O;
+    O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
+                                        : reference::Rules::Gsplat;
     std::array<float, 3> Background{};
     if (K.Background) {
       Background = {0.75F, 0.5F, 0.25F};
@@ -100,7 +104,7 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     const auto B = reference::renderBackward(G, Pose, U, O);
 
     L.beginStage("test");
-    DeviceRenderer R(L, GetParam(), {}, Background);
+    DeviceRenderer R(L, Convention, Blending, {}, Background);
     DeviceScene D = DeviceScene::upload(L, S);
     const cl::Buffer Picture = R.forward(D, C, K.ShDegree);
     const auto [Gradients, Seen] =
@@ -154,11 +158,14 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Paths, GradientsOnDevice,
-                         testing::Values(Path::Raster, Path::Simt),
-                         [](const auto &Info) {
-                           return std::string(name(Info.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Paths, GradientsOnDevice,
+    testing::Combine(testing::Values(Rules::Inria, Rules::Gsplat),
+                     testing::Values(Path::Raster, Path::Simt)),
+    [](const auto &Info) {
+      return std::string(name(std::get<0>(Info.param))) + "_" +
+             std::string(name(std::get<1>(Info.param)));
+    });
 
 } // namespace
 } // namespace vorion::splat

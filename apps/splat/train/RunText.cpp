@@ -35,8 +35,8 @@ std::string hashOf(const TrainingSet &Set) {
 } // namespace
 
 std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
-                    const PictureSource &Source, int ShDegree, Path Blending,
-                    const BackwardOptions &Backward) {
+                    const PictureSource &Source, int ShDegree, Rules Convention,
+                    Path Blending, const BackwardOptions &Backward) {
   const TrainSettings &S = Run.Settings;
   const Json J{
       {"capture", Source.Format},
@@ -47,6 +47,7 @@ std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
       {"seed", Run.Seed},
       {"batch", Run.Batch},
       {"sh_degree", ShDegree},
+      {"rules", name(Convention)},
       {"path", name(Blending)},
       {"reciprocal", name(Backward.Unit)},
       {"sums", name(Backward.Order)},

@@ -20,8 +20,8 @@ struct PictureSource {
 /// hash), settings, seed, spherical harmonics, who renders. The number of
 /// iterations is not part of it, so that a run can go on for longer.
 std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
-                    const PictureSource &Source, int ShDegree, Path Blending,
-                    const BackwardOptions &Backward);
+                    const PictureSource &Source, int ShDegree, Rules Convention,
+                    Path Blending, const BackwardOptions &Backward);
 
 /// An Error of usage that names the first thing in which \p Wanted differs from
 /// what \p File was written for, or nothing.
