@@ -324,10 +324,13 @@ TEST_F(TrainerOnDevice, ABatchIsTheMeanOfItsViews) {
     T.start(Start);
     for (unsigned I = 0; I < Steps; ++I)
       T.step();
+    EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
     return std::pair(T.losses(), T.save());
   };
   const auto [Each, AfterBoth] = FirstLosses(1, 2);
   const auto [Both, Once] = FirstLosses(2, 1);
+  ASSERT_EQ(Each.size(), 2U);
+  ASSERT_EQ(Both.size(), 1U);
   EXPECT_NEAR(Both[0], (Each[0] + Each[1]) / 2, 1e-6);
   // Adam's first moment after one step is a tenth of the mean gradient, after
   // two 0.09 of the first and 0.1 of the second.
