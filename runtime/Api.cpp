@@ -20,8 +20,8 @@ using namespace vorion::runtime;
 /// The handles of the C interface.
 struct vx_device {
   vx_device(std::unique_ptr<isasim::Machine> Machine,
-            std::unique_ptr<isasim::Session> Watch)
-      : Impl(std::move(Machine), std::move(Watch)) {}
+            std::unique_ptr<isasim::Session> Watch, bool OnlyProfiled)
+      : Impl(std::move(Machine), std::move(Watch), OnlyProfiled) {}
   Device Impl;
 };
 struct vx_image {
@@ -90,19 +90,22 @@ Failure findConfig(const char *Text, isasim::Config &Config) {
   return {};
 }
 
-/// Whether the environment's VORION_TIME asks for the clock.
-Failure findTime(isasim::Config &Config) {
+/// Whether the environment's VORION_TIME asks for the clock, and whether it
+/// does for profiled runs only.
+Failure findTime(isasim::Config &Config, bool &OnlyProfiled) {
   const char *Text = std::getenv("VORION_TIME");
   if (!Text || !*Text)
     return {};
   Config.Timing.Enabled = true;
-  if (std::strcmp(Text, "on") == 0)
+  OnlyProfiled = std::strcmp(Text, "profiled") == 0;
+  if (OnlyProfiled || std::strcmp(Text, "on") == 0)
     return {};
   const char *End = Text + std::strlen(Text);
   const auto [Rest, Wrong] = std::from_chars(Text, End, Config.Timing.ClockMhz);
   if (Wrong != std::errc() || Rest != End)
     return {VX_ERROR_CONFIG,
-            fmt::format("VORION_TIME is '{}', expected 'on' or a clock in MHz",
+            fmt::format("VORION_TIME is '{}', expected 'on', 'profiled' or a "
+                        "clock in MHz",
                         Text)};
   return {};
 }
@@ -182,7 +185,8 @@ vx_status vx_device_open(const char *config, vx_device **device) {
     isasim::Config Config;
     if (Failure Failed = findConfig(config, Config))
       return Failed;
-    if (Failure Failed = findTime(Config))
+    bool OnlyProfiled = false;
+    if (Failure Failed = findTime(Config, OnlyProfiled))
       return Failed;
     auto Machine = isasim::Machine::create(Config);
     if (!Machine)
@@ -191,7 +195,8 @@ vx_status vx_device_open(const char *config, vx_device **device) {
         isasim::SessionOptions::fromEnvironment(), "vorion");
     if (!Watch)
       return failure(VX_ERROR_CONFIG, Watch.error());
-    *device = new vx_device(std::move(*Machine), std::move(*Watch));
+    *device =
+        new vx_device(std::move(*Machine), std::move(*Watch), OnlyProfiled);
     return {};
   });
 }
@@ -199,6 +204,15 @@ vx_status vx_device_open(const char *config, vx_device **device) {
 vx_status vx_device_close(vx_device *device) {
   return guarded([&]() -> Failure {
     delete device;
+    return {};
+  });
+}
+
+vx_status vx_device_set_profiled(vx_device *device, int profiled) {
+  return guarded([&]() -> Failure {
+    if (!device)
+      return isNull("device");
+    device->Impl.setProfiled(profiled != 0);
     return {};
   });
 }

@@ -441,6 +441,32 @@ private:
   std::string Path;
 };
 
+TEST(RuntimeOpen, ClockForProfiledRunsOnly) {
+  ASSERT_EQ(setenv("VORION_TIME", "profiled", 1), 0);
+  vx_device *Device = nullptr;
+  ASSERT_EQ(vx_device_open(Config, &Device), VX_OK) << vx_last_error();
+  unsetenv("VORION_TIME");
+  vx_image *Image = nullptr;
+  ASSERT_EQ(vx_image_load_file(Device, Elf, &Image), VX_OK);
+  std::uint32_t Kernel = 0;
+  ASSERT_EQ(vx_image_find_kernel(Image, "exit_seven", &Kernel), VX_OK);
+  const auto Report = [&] {
+    const vx_launch_params Params{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+    vx_result Result{};
+    EXPECT_EQ(vx_start(Device, Image, Kernel, &Params, nullptr, 0), VX_OK)
+        << vx_last_error();
+    EXPECT_EQ(vx_wait(Device, &Result), VX_OK);
+    return std::string(Result.time_report);
+  };
+  EXPECT_EQ(Report(), "");
+  EXPECT_EQ(vx_device_set_profiled(Device, 1), VX_OK);
+  EXPECT_NE(Report().find("\"cycles\""), std::string::npos);
+  EXPECT_EQ(vx_device_set_profiled(Device, 0), VX_OK);
+  EXPECT_EQ(Report(), "");
+  EXPECT_EQ(vx_image_free(Image), VX_OK);
+  EXPECT_EQ(vx_device_close(Device), VX_OK);
+}
+
 TEST(RuntimeOpen, BadImagesAreRefused) {
   vx_device *Device = nullptr;
   ASSERT_EQ(vx_device_open(Config, &Device), VX_OK);
@@ -500,6 +526,7 @@ TEST(RuntimeOpen, NullArgumentsNeverCrash) {
   EXPECT_EQ(vx_device_open("{}", nullptr), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_device_get_info(nullptr, &Info), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_device_get_config(nullptr, &Text), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_device_set_profiled(nullptr, 1), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_mem_alloc(nullptr, 1, &Number), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_mem_free(nullptr, 1), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_copy_to_device(nullptr, 1, &Size, 8), VX_ERROR_ARGUMENT);

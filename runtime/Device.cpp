@@ -11,10 +11,11 @@ using namespace vorion;
 using namespace vorion::runtime;
 
 Device::Device(std::unique_ptr<isasim::Machine> TheMachine,
-               std::unique_ptr<isasim::Session> TheWatch)
+               std::unique_ptr<isasim::Session> TheWatch, bool OnlyProfiled)
     : Machine(std::move(TheMachine)), Watch(std::move(TheWatch)),
-      ConfigText(isasim::toJson(Machine->config())),
+      ConfigText(isasim::toJson(Machine->config())), OnlyProfiled(OnlyProfiled),
       Memory(VX_GLOBAL_BASE, Machine->config().GlobalBytes) {
+  Machine->setClocked(!OnlyProfiled);
   Machine->setConsole([this](std::string_view Text) { keepConsole(Text); });
   Watch->attach(*Machine);
 }
@@ -238,6 +239,13 @@ void Device::nameBuffers(const isasim::Kernel &Kernel, const void *Args) {
   // Else vx_image_place_locals has said it.
   if (!HasLocals)
     Watch->useLocal(Kernel.LocalBytes);
+}
+
+void Device::setProfiled(bool Profiled) {
+  Lock Held(Mutex);
+  waitForRun(Held);
+  if (OnlyProfiled)
+    Machine->setClocked(Profiled);
 }
 
 void Device::forget(const LoadedImage *Image) {

@@ -18,8 +18,9 @@ namespace vorion::runtime {
 /// goes on beside it. Arguments that are pointers have been checked for NULL.
 class Device {
 public:
+  /// \p OnlyProfiled: a clock goes on in profiled runs only.
   Device(std::unique_ptr<isasim::Machine> Machine,
-         std::unique_ptr<isasim::Session> Watch);
+         std::unique_ptr<isasim::Session> Watch, bool OnlyProfiled);
   ~Device();
   Device(const Device &) = delete;
   Device &operator=(const Device &) = delete;
@@ -40,6 +41,9 @@ public:
   Failure written(std::uint32_t Address, std::uint64_t Size);
   /// Tells them how much local memory the next run's kernel has.
   void useLocal(std::uint64_t Bytes);
+
+  /// Whether the next runs are profiled.
+  void setProfiled(bool Profiled);
 
   /// Waits for the run in progress and forgets the image if it is loaded.
   void forget(const LoadedImage *Image);
@@ -83,6 +87,7 @@ private:
   std::unique_ptr<isasim::Machine> Machine;
   std::unique_ptr<isasim::Session> Watch;
   std::string ConfigText;
+  const bool OnlyProfiled;
 
   std::mutex Mutex;
   std::condition_variable Ended;

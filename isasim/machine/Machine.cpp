@@ -108,6 +108,7 @@ struct Machine::Impl {
   void logWork();
   void resetRasterizers();
   void takeTime();
+  bool isClocked() const { return Time && Clocked; }
 
   const Config Shape;
   std::unique_ptr<Memory> Storage;
@@ -124,6 +125,7 @@ struct Machine::Impl {
   std::chrono::steady_clock::time_point Begin; ///< of the run
   std::atomic<bool> StopRequested = false;
   std::unique_ptr<Clock> Time; ///< if Shape.Timing.Enabled
+  bool Clocked = true;         ///< whether it goes on in the following runs
   std::function<void(std::string_view)> Console = [](std::string_view Text) {
     std::fwrite(Text.data(), 1, Text.size(), stdout);
     std::fflush(stdout);
@@ -161,7 +163,7 @@ void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   for (const auto &C : Cores)
     C->reset(*Code, Program->entry(), LaunchBlock, Storage->view(C->id()),
              Observed ? &Watcher : nullptr);
-  if (Time) {
+  if (isClocked()) {
     Time->begin(*Code);
     for (const auto &C : Cores)
       C->setTrace(Time->trace(C->id()));
@@ -180,14 +182,16 @@ uint64_t Machine::Impl::retired() const {
 }
 
 const ExecTable &Machine::Impl::exec() const {
-  return isObserved() || !Time ? execTable(isObserved()) : timedExecTable();
+  return isObserved() || !isClocked() ? execTable(isObserved())
+                                      : timedExecTable();
 }
 
-/// The rasterizers were made anew, or for the first time.
+/// The rasterizers were made anew, or for the first time, or the clock was
+/// stopped or goes on.
 void Machine::Impl::logWork() {
   if (Time)
     for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket)
-      Raster.setLog(Socket, Time->log(Socket));
+      Raster.setLog(Socket, Clocked ? Time->log(Socket) : nullptr);
 }
 
 void Machine::Impl::resetRasterizers() {
@@ -198,7 +202,7 @@ void Machine::Impl::resetRasterizers() {
 }
 
 void Machine::Impl::takeTime() {
-  if (!Time)
+  if (!isClocked())
     return;
   for (const auto &C : Cores)
     if (C->hasEnded())
@@ -449,7 +453,7 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   } while (!I->decideEnd(R));
   I->flushConsole(true);
   I->count(R);
-  if (I->Time)
+  if (I->isClocked())
     R.Time = I->Time->end();
   if (R.End == Outcome::Done && R.ExitCode != 0)
     R.End = Outcome::GuestFailed;
@@ -479,6 +483,14 @@ void Machine::setWatchdog(double Seconds) { I->WatchdogSeconds = Seconds; }
 
 void Machine::requestStop() {
   I->StopRequested.store(true, std::memory_order_relaxed);
+}
+
+void Machine::setClocked(bool Clocked) {
+  if (!I->Time || I->Clocked == Clocked)
+    return;
+  I->Clocked = Clocked;
+  I->Time->reset();
+  I->logWork();
 }
 
 std::optional<uint32_t> Machine::readRasterCsr(unsigned Core, unsigned Csr) {

@@ -454,6 +454,23 @@ TEST(Clock, ChangesNothing) {
   EXPECT_EQ(Total[0].LaneInstructions, Total[1].LaneInstructions);
 }
 
+TEST(Clock, TakesNoNoticeOfRunsWithoutIt) {
+  const auto Reports = [](bool Between) {
+    auto M = Machine::create(timed(4));
+    EXPECT_TRUE(M);
+    (*M)->load(codeImage(program(everything())));
+    std::string Text = toJson(*(*M)->run().Time);
+    if (Between) {
+      (*M)->setClocked(false);
+      EXPECT_FALSE((*M)->run().Time);
+      EXPECT_FALSE((*M)->run().Time);
+      (*M)->setClocked(true);
+    }
+    return Text + toJson(*(*M)->run().Time);
+  };
+  EXPECT_EQ(Reports(true), Reports(false));
+}
+
 TEST(Clock, IsTheSameForAnyNumberOfHostThreads) {
   Config C = timed(4);
   C.SocketsPerCluster = 2;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,15 @@ void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
          fmt::format("{} (default {})", Help, name(Value)))
       ->option_text(Listed)
       ->check(CLI::IsMember(std::move(Names)));
+}
+
+/// An option whose value is a number out of \p Choices; \p Value must outlive
+/// the parsing.
+inline void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
+                    std::vector<unsigned> Choices, const std::string &Help) {
+  App.add_option(Flag, Value, fmt::format("{} (default {})", Help, Value))
+      ->option_text(fmt::format("{}", fmt::join(Choices, "|")))
+      ->check(CLI::IsMember(std::move(Choices)));
 }
 
 } // namespace vorion::splat

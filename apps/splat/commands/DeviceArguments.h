@@ -16,7 +16,7 @@ void addDeviceOption(CLI::App &App, std::string &Name);
 void addKernelsOption(CLI::App &App, std::string &Folder);
 
 /// Turns on the clock of the devices that are opened from now on, \p Setting
-/// being "on" or their MHz.
+/// being "on", their MHz, or "profiled" (Device::queue()).
 void turnClockOn(const std::string &Setting);
 
 /// Opens the device that \p Name asks for; an error where it cannot blend by

@@ -6,8 +6,11 @@
 #include "SceneArguments.h"
 
 #include "../io/Npz.h"
+#include "../render/FrameTime.h"
 #include "../render/Gradients.h"
+#include "../render/Report.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -18,7 +21,8 @@ namespace {
 
 struct GradientArguments {
   SceneArguments Scene;
-  std::string Cameras, View, Upstream, Output, Device, KernelFolder;
+  std::string Cameras, View, Upstream, Output, Json, Device, KernelFolder;
+  bool Time = false;
   RenderOptions Options;
   BackwardOptions Backward;
 };
@@ -85,11 +89,23 @@ Npz arraysOf(const GradientResult &R, const Scene &S) {
   return Out;
 }
 
+Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
+                              const Camera &C, const Device &D,
+                              const GradientResult &R) {
+  const RenderPlan Plan = planRender(File.Gaussians.ShDegree, A.Options);
+  const auto Report = jsonReport({A.Scene.Path, A.Scene.Axes, A.Cameras,
+                                  A.Output, File, C, A.Options, Plan, D, R,
+                                  BackwardRecord{A.Backward, A.Upstream}});
+  return Report ? writeFileAtomically(A.Json, *Report)
+                : Expected<Success>(Report.error());
+}
+
 Expected<Success> run(const GradientArguments &A) {
   if (auto Checked = checkPictureOptions(A.Options); !Checked)
     return Checked;
-  if (auto Writable = checkWritable(A.Output); !Writable)
-    return Writable;
+  for (const std::string &File : {A.Output, A.Json})
+    if (auto Writable = checkWritable(File); !Writable)
+      return Writable;
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
@@ -99,6 +115,8 @@ Expected<Success> run(const GradientArguments &A) {
   const auto U = readUpstream(A.Upstream, *C);
   if (!U)
     return U.error();
+  if (A.Time)
+    turnClockOn("on");
   auto D = openDevice(A.Device, A.Options.Blending);
   if (!D)
     return D.error();
@@ -113,6 +131,9 @@ Expected<Success> run(const GradientArguments &A) {
   if (auto Written = writeNpz(A.Output, arraysOf(*R, File->Gaussians));
       !Written)
     return Written.error();
+  if (!A.Json.empty())
+    if (auto Reported = writeReport(A, *File, *C, *D, *R); !Reported)
+      return Reported;
   fmt::print("{} {}x{} on {}: {} rules, support {}, path {}{}\n"
              "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
              C->Name, C->Width, C->Height, D->name(),
@@ -122,6 +143,7 @@ Expected<Success> run(const GradientArguments &A) {
              A.Options.tileHeight());
   for (const StageReport &S : R->Stages)
     fmt::print("{:<18}{:>8.3f} s\n", S.Name, S.Seconds);
+  fmt::print("{}", frameText(R->Stages));
   return Success{};
 }
 
@@ -143,7 +165,11 @@ Runner addGradients(CLI::App &App) {
                  "Gradients and hand-over sums (.npz), named as in the "
                  "reference results")
       ->required();
+  App.add_option("--json", A->Json, "Write what was done, and how much of it");
+  App.add_flag("--time", A->Time,
+               "Say how long both passes take on the machine (docs/model.md)");
   addPictureOptions(App, O);
+  addSimtOptions(App, O.SimtTile, O.SimtGroup, SimtTilesBack);
   addBackwardOptions(App, A->Backward);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);

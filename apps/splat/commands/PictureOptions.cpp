@@ -59,6 +59,14 @@ void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
   addChoice(App, "--path", Blending, {Path::Raster, Path::Simt}, Help);
 }
 
+void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
+                    std::vector<unsigned> Tiles) {
+  addSize(App, "--simt-tile", Tile, std::move(Tiles),
+          "Side of a tile of the cores' path");
+  addSize(App, "--simt-group", Group, {16, 64, 256},
+          "Work-items that draw a tile on the cores' path");
+}
+
 void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
   addChoice(App, "--reciprocal", B.Unit,
             {Reciprocal::Exact, Reciprocal::EvenLeft, Reciprocal::EvenBest,

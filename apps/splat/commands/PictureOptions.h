@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -25,6 +26,13 @@ void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
 void addRulesOption(CLI::App &App, Rules &Convention);
 
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help);
+
+/// Tile and group of the cores' path.
+void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
+                    std::vector<unsigned> Tiles);
+/// What the tile may be where gradients are taken back: the cores keep one in
+/// local memory.
+inline const std::vector<unsigned> SimtTilesBack{8, 16};
 
 /// What the rasterizer's backward mode computes with.
 void addBackwardOptions(CLI::App &App, BackwardOptions &B);

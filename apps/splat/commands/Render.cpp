@@ -23,7 +23,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 #include <string>
@@ -193,14 +192,6 @@ Expected<Success> run(const RenderArguments &A) {
   return Success{};
 }
 
-/// A number out of \p Choices.
-void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
-             std::vector<unsigned> Choices, const std::string &Help) {
-  App.add_option(Flag, Value, fmt::format("{} (default {})", Help, Value))
-      ->option_text(fmt::format("{}", fmt::join(Choices, "|")))
-      ->check(CLI::IsMember(std::move(Choices)));
-}
-
 /// What is given up for time or area, on either path.
 void addDatapathOptions(CLI::App &App, RenderOptions &O) {
   addChoice(App, "--exp", O.Exponential,
@@ -241,10 +232,7 @@ void addRasterOptions(CLI::App &App, RenderArguments &A) {
       ->option_text("off|count:N|occluded:P|last:A/B[,...]");
   App.add_flag("--skip-saturated", O.SkipSaturated,
                "The rasterizer gives no lane slot to saturated pixels");
-  addSize(App, "--simt-tile", O.SimtTile, {8, 16, 32, 64},
-          "Side of a tile of the cores' path");
-  addSize(App, "--simt-group", O.SimtGroup, {16, 64, 256},
-          "Work-items that draw a tile on the cores' path");
+  addSimtOptions(App, O.SimtTile, O.SimtGroup, {8, 16, 32, 64});
 }
 
 } // namespace

@@ -7,8 +7,8 @@
 #include "../capture/Capture.h"
 #include "../io/Hash.h"
 #include "../io/Ply.h"
-#include "../render/FrameTime.h"
 #include "../train/Baselines.h"
+#include "../train/ClockSamples.h"
 #include "../train/DeviceRenderer.h"
 #include "../train/RunText.h"
 #include "../train/Start.h"
@@ -33,16 +33,22 @@ using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
 struct TrainArguments {
-  std::string Capture, Output, Json, Curve, Checkpoint, Device;
+  std::string Capture, Output, Json, Curve, Checkpoint, From, Device;
   std::vector<std::string> Exclude;
   std::array<float, 3> Background{0, 0, 0};
   int Downscale = 1, ShDegree = MaxShDegree;
   unsigned CheckpointEvery = 1000;
-  bool Resume = false, Breakdown = false;
+  bool Resume = false, Time = false, Breakdown = false;
+  unsigned TimeEvery = 50, ScoreEvery = 0;
   Rules Convention = Rules::Inria;
   Path Blending = Path::Raster;
+  unsigned SimtTile = Blender(Path::Simt).SimtTile;
+  unsigned SimtGroup = Blender(Path::Simt).SimtGroup;
   BackwardOptions Backward;
   TrainRun Run;
+
+  bool isClocked() const { return Time || Breakdown; }
+  Blender blender() const { return {Blending, SimtTile, SimtGroup}; }
 };
 
 /// Set by an interrupt; the loop then ends after the iteration at hand.
@@ -63,11 +69,9 @@ struct Work {
   std::string Run; ///< as checkpoints have it
   double Seconds = 0;
   unsigned First = 0; ///< iterations that were done before
-  /// \name With the machine's clock on
-  /// @{
-  std::vector<double> Milliseconds;  ///< of each iteration
-  std::vector<StageReport> LastTime; ///< of the last one
-  /// @}
+  ClockSamples Timed;
+  /// Iterations, and the held-out views' PSNR after them.
+  std::vector<std::pair<unsigned, double>> Scores;
 };
 
 /// One line that says how far the run is; on a terminal it is overwritten.
@@ -80,10 +84,14 @@ void showProgress(const Work &W, const StepReport &R, Clock::time_point Start) {
       std::chrono::duration<double>(Clock::now() - Start).count();
   fmt::print(stderr,
              "{}iteration {}/{}: loss {:.5f}, {} Gaussians, {:.2f} it/s of "
-             "wall time{}",
+             "wall time{}{}",
              Terminal ? "\r\033[K" : "", R.Iteration,
              W.A.Run.Settings.Iterations, R.Loss.Value, R.Gaussians,
-             (R.Iteration - W.First) / Seconds, Terminal ? "" : "\n");
+             (R.Iteration - W.First) / Seconds,
+             W.Timed.empty() ? ""
+                             : fmt::format(", {:.3f} of the machine's clock",
+                                           W.Timed.rate()),
+             Terminal ? "" : "\n");
   std::fflush(stderr);
 }
 
@@ -100,27 +108,41 @@ Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
   return W.Together.agree(W.Together.first() ? writeState(W, L, T) : Success{});
 }
 
-Expected<Success> loop(Work &W, Launcher &L, Trainer &T) {
+double mean(const std::vector<double> &Values) {
+  return std::accumulate(Values.begin(), Values.end(), 0.0) /
+         static_cast<double>(Values.size());
+}
+
+Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
+                       Trainer &T) {
   const Clock::time_point Start = Clock::now();
   W.First = T.iteration();
   const unsigned Last = W.A.Run.Settings.Iterations;
   while (T.iteration() < Last && !W.Together.any(Interrupted != 0)) {
+    const bool Timed = W.A.isClocked() &&
+                       isTimed(W.A.Run.Seed, W.A.TimeEvery, T.iteration() + 1);
+    L.setProfiled(Timed);
     const StepReport R = T.step();
     std::vector<StageReport> Stages = L.takeStages();
     if (L.failure()) {
       showBuildLog(L);
       return *L.failure();
     }
-    if (W.A.Breakdown) {
-      W.Milliseconds.push_back(
-          Json::parse(frameJson(Stages))["frame_ms"].get<double>());
-      W.LastTime = std::move(Stages);
-    }
+    if (Timed)
+      W.Timed.add({R.Iteration, R.Gaussians, Renderer.listLengths(),
+                   std::move(Stages)});
     showProgress(W, R, Start);
+    if (W.Together.first() && W.A.ScoreEvery != 0 &&
+        R.Iteration % W.A.ScoreEvery == 0) {
+      L.setProfiled(false);
+      W.Scores.emplace_back(R.Iteration, mean(T.evaluate()));
+      L.takeStages();
+    }
     if (R.Iteration % W.A.CheckpointEvery == 0 && R.Iteration != Last)
       if (auto Kept = keep(W, L, T); !Kept)
         return Kept;
   }
+  L.setProfiled(false);
   if (isatty(STDERR_FILENO) != 0)
     fmt::print(stderr, "\n");
   W.Seconds = std::chrono::duration<double>(Clock::now() - Start).count();
@@ -135,21 +157,21 @@ Expected<Success> loop(Work &W, Launcher &L, Trainer &T) {
   return Success{};
 }
 
-double mean(const std::vector<double> &Values) {
-  return std::accumulate(Values.begin(), Values.end(), 0.0) /
-         static_cast<double>(Values.size());
-}
-
 std::string jsonReport(const Work &W, const Device &D, Trainer &T,
                        const std::vector<double> &Db, const Baselines &B) {
   Json Views = Json::array();
   for (std::size_t I = 0; I < Db.size(); ++I)
     Views.push_back(
         {{"name", W.Pictures.HeldOut[I].Pose.Name}, {"psnr8_db", Db[I]}});
+  Json Scores = Json::array();
+  for (const auto &[Iteration, Psnr] : W.Scores)
+    Scores.push_back({{"iteration", Iteration}, {"psnr8_db", Psnr}});
+  const Camera &First = W.Pictures.Training.front().Pose;
   const Json Report{
       {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
       {"device", {{"name", D.name()}, {"version", D.version()}}},
       {"capture", W.A.Capture},
+      {"resolution", {First.Width, First.Height}},
       {"run", Json::parse(W.Run)},
       {"picture_filter", PhotoFilter},
       {"held_out_by", W.C.HeldOutBy},
@@ -159,8 +181,9 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"gaussians", T.gaussians()},
       {"seconds", W.Seconds},
       {"iterations_timed", T.iteration() - W.First},
-      {"machine_ms", W.Milliseconds},
+      {"timed", Json::parse(W.Timed.json())},
       {"psnr8_db", mean(Db)},
+      {"scores", Scores},
       {"views", Views},
       {"baselines_db",
        {{"constant", B.Constant},
@@ -226,19 +249,15 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
   if (T.iteration() > W.First)
     fmt::print("wall time    {:.1f} s, {:.3f} it/s\n", W.Seconds,
                (T.iteration() - W.First) / W.Seconds);
-  if (!W.Milliseconds.empty()) {
-    const auto [Least, Most] = std::ranges::minmax(W.Milliseconds);
-    fmt::print("machine time {:.3f} it/s; {:.3f} ms an iteration, {:.3f} to "
-               "{:.3f}\n",
-               1e3 / mean(W.Milliseconds), mean(W.Milliseconds), Least, Most);
-  }
+  if (!W.Timed.empty())
+    fmt::print("machine time {}\n", W.Timed.text());
   fmt::print("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n",
              mean(Db));
   fmt::print("without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
              "training view {:.3f} dB\n",
              B.Constant, B.Mean, B.BestView);
-  if (!W.LastTime.empty())
-    fmt::print("{}", frameText(W.LastTime, "iteration"));
+  if (W.A.Breakdown && !W.Timed.empty())
+    fmt::print("{}", W.Timed.lastByStage());
   return Success{};
 }
 
@@ -271,6 +290,42 @@ Expected<Success> checkSameStart(const Work &W, unsigned Iteration) {
                         W.Together.rank())});
 }
 
+/// Gives \p T what it begins with: its own checkpoint, another run's, or the
+/// capture's points.
+Expected<Success> start(const TrainArguments &A, const Work &W, Trainer &T) {
+  const TrainSettings &S = A.Run.Settings;
+  if (A.Resume && std::filesystem::exists(A.Checkpoint)) {
+    const auto Kept = readCheckpoint(A.Checkpoint);
+    if (!Kept)
+      return Kept.error();
+    if (auto Same = checkSameRun(A.Checkpoint, Kept->Run, W.Run); !Same)
+      return Same;
+    T.restore(*Kept);
+    fmt::print(stderr, "going on after iteration {} of {}\n", T.iteration(),
+               A.Checkpoint);
+    return Success{};
+  }
+  if (A.From.empty()) {
+    T.start(startingScene(W.C, {A.Run.Seed, A.ShDegree, S.MostGaussians}));
+    return Success{};
+  }
+  const auto Other = readCheckpoint(A.From);
+  if (!Other)
+    return Other.error();
+  if (Other->ShDegree != A.ShDegree || Other->gaussians() > S.MostGaussians ||
+      Other->Iteration >= S.Iterations)
+    return Error{A.From,
+                 fmt::format("{} Gaussians of SH degree {} after iteration {}, "
+                             "expected at most {} of degree {} and less than "
+                             "{} iterations",
+                             Other->gaussians(), Other->ShDegree,
+                             Other->Iteration, S.MostGaussians, A.ShDegree,
+                             S.Iterations),
+                 ExitCode::Usage};
+  T.restore(*Other);
+  return Success{};
+}
+
 /// \p Ready becomes true once every process has come as far as to train.
 Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
   if (auto Checked = check(A); !Checked)
@@ -283,6 +338,12 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
     return Error{A.Capture, "all training cameras are at one place, expected "
                             "them around the scene"};
   A.Run.WhiteBackground = A.Background == std::array<float, 3>{1, 1, 1};
+  if (!A.From.empty()) {
+    auto Hash = hashFile(A.From);
+    if (!Hash)
+      return Hash.error();
+    A.Run.From = *Hash;
+  }
   const auto Pictures = loadTrainingSet(*C, A.Downscale, A.Background);
   if (!Pictures)
     return Pictures.error();
@@ -290,39 +351,28 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
                              A.Background};
   Work W(A, *C, *Pictures, Together);
   W.Run = runText(A.Run, *Pictures, Source, A.ShDegree, A.Convention,
-                  A.Blending, A.Backward);
+                  A.blender(), A.Backward);
 
-  if (A.Breakdown)
-    turnClockOn("on");
+  if (A.isClocked())
+    turnClockOn("profiled");
   auto D = openDevice(A.Device, A.Blending);
   if (!D)
     return D.error();
-  if (A.Breakdown && !D->isVorion())
+  if (A.isClocked() && !D->isVorion())
     return Error{"",
-                 fmt::format("{} has no clock for --breakdown, expected a "
-                             "Vorion device",
+                 fmt::format("{} has no clock for --time and --breakdown, "
+                             "expected a Vorion device",
                              D->name()),
                  ExitCode::Usage};
   Launcher L(*D, "", {});
   L.beginStage("build");
   for (const ProgramSpec &P : Trainer::programs())
     L.build(P);
-  DeviceRenderer Renderer(L, A.Convention, A.Blending, A.Backward,
+  DeviceRenderer Renderer(L, A.Convention, A.blender(), A.Backward,
                           A.Background);
   Trainer T(L, Renderer, *Pictures, A.Run, Together);
-  if (A.Resume && std::filesystem::exists(A.Checkpoint)) {
-    const auto Kept = readCheckpoint(A.Checkpoint);
-    if (!Kept)
-      return Kept.error();
-    if (auto Same = checkSameRun(A.Checkpoint, Kept->Run, W.Run); !Same)
-      return Same;
-    T.restore(*Kept);
-    fmt::print(stderr, "going on after iteration {} of {}\n", T.iteration(),
-               A.Checkpoint);
-  } else {
-    T.start(startingScene(
-        *C, {A.Run.Seed, A.ShDegree, A.Run.Settings.MostGaussians}));
-  }
+  if (auto Started = start(A, W, T); !Started)
+    return Started;
   if (L.failure()) {
     showBuildLog(L);
     return *L.failure();
@@ -334,7 +384,7 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
     return Same;
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
-  if (auto Done = loop(W, L, T); !Done)
+  if (auto Done = loop(W, L, Renderer, T); !Done)
     return Done;
   return finish(W, *D, L, T);
 }
@@ -386,6 +436,7 @@ Runner addTrain(CLI::App &App) {
   addRulesOption(App, A->Convention);
   addPathOption(App, A->Blending,
                 "Who blends and goes back: the rasterizer or the cores");
+  addSimtOptions(App, A->SimtTile, A->SimtGroup, SimtTilesBack);
   addBackwardOptions(App, A->Backward);
   App.add_option("--checkpoint", A->Checkpoint,
                  "Where the run is kept (default: the output's name and "
@@ -395,9 +446,20 @@ Runner addTrain(CLI::App &App) {
       ->check(CLI::PositiveNumber);
   App.add_flag("--resume", A->Resume,
                "Go on from the checkpoint, if there is one");
+  App.add_option("--from", A->From,
+                 "Begin with the scene, the moments and the iteration of "
+                 "another run's checkpoint");
+  App.add_flag("--time", A->Time,
+               "Say how long iterations take on the machine (docs/model.md)");
   App.add_flag("--breakdown", A->Breakdown,
-               "Time every iteration on the machine (docs/model.md), the last "
-               "one by stage");
+               "The same, with the last one that is timed by stage");
+  App.add_option("--time-every", A->TimeEvery,
+                 "Of so many iterations one is timed, drawn at random from the "
+                 "seed (default 50)")
+      ->check(CLI::PositiveNumber);
+  App.add_option("--score-every", A->ScoreEvery,
+                 "Score the held-out views after every so many iterations, "
+                 "for --json (default: at the end alone)");
   App.add_option("--json", A->Json, "Write what was done, and its losses");
   App.add_option("--curve", A->Curve, "Draw the losses (.svg)");
   addDeviceOption(App, A->Device);

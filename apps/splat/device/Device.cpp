@@ -96,10 +96,13 @@ Expected<Device> Device::open(const std::string &Wanted) {
   D.Context = cl::Context(D.Handle, nullptr, nullptr, nullptr, &Status);
   if (Status != CL_SUCCESS)
     return clError("creating a context on " + D.Name, Status);
-  D.Queue =
-      cl::CommandQueue(D.Context, D.Handle, cl::QueueProperties::None, &Status);
-  if (Status != CL_SUCCESS)
-    return clError("creating a queue on " + D.Name, Status);
+  for (const auto &[Queue, Properties] :
+       {std::pair(&D.Queue, cl::QueueProperties::None),
+        std::pair(&D.ProfiledQueue, cl::QueueProperties::Profiling)}) {
+    *Queue = cl::CommandQueue(D.Context, D.Handle, Properties, &Status);
+    if (Status != CL_SUCCESS)
+      return clError("creating a queue on " + D.Name, Status);
+  }
 
   const auto Extensions = D.Handle.getInfo<CL_DEVICE_EXTENSIONS>();
   if (Extensions.find(CL_VORION_EXTENSION_NAME) != std::string::npos)

@@ -22,7 +22,7 @@ struct KernelCounters {
   KernelCounters &operator+=(const KernelCounters &Other);
 };
 
-/// An opened device with its context and one in-order queue.
+/// An opened device with its context and its in-order queues.
 class Device {
 public:
   /// Opens the first device whose name contains \p Wanted, or, where that is
@@ -31,7 +31,12 @@ public:
   static Expected<Device> open(const std::string &Wanted);
 
   const cl::Context &context() const { return Context; }
-  const cl::CommandQueue &queue() const { return Queue; }
+  /// \p Profiled: the one whose kernels are clocked where the environment's
+  /// VORION_TIME is "profiled". What is given to one queue must have ended
+  /// before something is given to the other.
+  const cl::CommandQueue &queue(bool Profiled = false) const {
+    return Profiled ? ProfiledQueue : Queue;
+  }
   const cl::Device &handle() const { return Handle; }
 
   const std::string &name() const { return Name; }
@@ -57,7 +62,7 @@ private:
 
   cl::Device Handle;
   cl::Context Context;
-  cl::CommandQueue Queue;
+  cl::CommandQueue Queue, ProfiledQueue;
   std::string Name;
   unsigned ComputeUnits = 1, Lanes = 1;
   std::uint64_t GlobalBytes = 0, LargestAllocation = 0;

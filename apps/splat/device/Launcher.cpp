@@ -135,8 +135,8 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
                       const cl::NDRange &Global, const cl::NDRange &Local) {
   const Clock::time_point Start = Clock::now();
   cl::Event Done;
-  cl_int Status = Dev.queue().enqueueNDRangeKernel(K, cl::NullRange, Global,
-                                                   Local, nullptr, &Done);
+  cl_int Status = Dev.queue(Profiled).enqueueNDRangeKernel(
+      K, cl::NullRange, Global, Local, nullptr, &Done);
   if (Status != CL_SUCCESS) {
     Failure = clError("starting kernel " + Name, Status);
     return;

@@ -72,6 +72,10 @@ public:
   /// The compiler's messages where \c build failed.
   const std::string &buildLog() const { return BuildLog; }
 
+  /// Whether the kernels that follow are profiled (Device::queue()); not at
+  /// first.
+  void setProfiled(bool P) { Profiled = P; }
+
   /// What follows is accounted to a new stage. Begin one first of all.
   void beginStage(std::string_view Name);
   /// Ends the last stage and gives all of them.
@@ -141,6 +145,7 @@ private:
   std::vector<std::string> BuiltKeys;
   std::optional<Error> Failure;
   std::string BuildLog;
+  bool Profiled = false;
   std::vector<StageReport> Stages;
   std::chrono::steady_clock::time_point StageStart;
   std::uint64_t AllocatedBytes = 0;

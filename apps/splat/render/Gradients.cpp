@@ -1,7 +1,5 @@
 #include "Gradients.h"
 
-#include "Renderer.h"
-
 namespace vorion::splat {
 
 namespace {
@@ -82,6 +80,8 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
     return *L.failure();
   R.Visible = Forward.frame().Visible;
   R.Pairs = Forward.frame().Pairs;
+  R.Culled = Forward.frame().Culled;
+  R.DeviceBytes = L.allocatedBytes();
   R.Stages = L.takeStages();
   return R;
 }

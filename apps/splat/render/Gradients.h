@@ -5,6 +5,7 @@
 #include "../io/Image.h"
 #include "../io/Scene.h"
 #include "Backward.h"
+#include "Renderer.h"
 
 #include <vector>
 
@@ -28,11 +29,9 @@ struct SceneGradients {
   std::vector<float> Sums;
 };
 
-struct GradientResult {
-  Image Picture;
+/// The picture, the stages of both passes, and what came back.
+struct GradientResult : RenderResult {
   SceneGradients Gradients;
-  std::uint64_t Visible = 0, Pairs = 0;
-  std::vector<StageReport> Stages;
 };
 
 /// Renders \p S as \p C sees it and takes \p U back. \p Options has Training

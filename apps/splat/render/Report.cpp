@@ -107,6 +107,13 @@ Totals totals(const RenderResult &R) {
 
 } // namespace
 
+std::string stagesJson(const std::vector<StageReport> &Stages) {
+  Json All = Json::array();
+  for (const StageReport &S : Stages)
+    All.push_back(json(S));
+  return All.dump();
+}
+
 Expected<std::string> jsonReport(const RenderRecord &R) {
   auto SceneHash = hashScene(R.ScenePath);
   if (!SceneHash)
@@ -125,9 +132,6 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
     Device["configuration"] = std::move(*Configuration);
   }
   const RenderOptions &O = R.Options;
-  Json Stages = Json::array();
-  for (const StageReport &S : R.Result.Stages)
-    Stages.push_back(json(S));
   Json Culled;
   for (std::size_t I = 0; I < CullReasons.size(); ++I)
     Culled[std::string(CullReasons[I])] = R.Result.Culled[I];
@@ -155,6 +159,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"ztiles", O.ZTiles},
                 {"pixel_unit", toString(O.PixelUnit)},
                 {"skip_saturated", O.SkipSaturated},
+                {"tile_height", O.tileHeight()},
                 {"simt_tile", O.SimtTile},
                 {"simt_group", O.SimtGroup},
                 {"antialiased", O.Antialiased},
@@ -175,8 +180,17 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"culled", Culled},
                 {"pairs", R.Result.Pairs},
                 {"device_bytes", R.Result.DeviceBytes}}},
-              {"stages", Stages},
+              {"stages", Json::parse(stagesJson(R.Result.Stages))},
               {"total", Total}};
+  if (R.Back) {
+    auto Hash = hashFile(R.Back->Upstream);
+    if (!Hash)
+      return Hash.error();
+    Report["backward"] = {{"reciprocal", name(R.Back->Options.Unit)},
+                          {"sums", name(R.Back->Options.Order)},
+                          {"upstream", R.Back->Upstream},
+                          {"fnv1a64", *Hash}};
+  }
   if (const std::string Time = frameJson(R.Result.Stages); !Time.empty())
     Report["time"] = Json::parse(Time);
   return Report.dump(2) + "\n";

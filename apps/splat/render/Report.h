@@ -2,13 +2,21 @@
 #pragma once
 
 #include "../io/SceneFile.h"
+#include "Backward.h"
 #include "Renderer.h"
 
+#include <optional>
 #include <string>
 
 namespace vorion::splat {
 
-/// Everything that made a picture.
+/// What gradients were taken back with: the loss's by the pixels in a file.
+struct BackwardRecord {
+  const BackwardOptions &Options;
+  const std::string &Upstream;
+};
+
+/// Everything that made a picture, and gradients where there are some.
 struct RenderRecord {
   const std::string &ScenePath, &AxesChange, &CameraFile, &Output;
   const SceneFile &Input;
@@ -17,12 +25,16 @@ struct RenderRecord {
   const RenderPlan &Plan;
   const Device &Dev;
   const RenderResult &Result;
+  std::optional<BackwardRecord> Back = std::nullopt;
 };
 
 /// JSON with inputs and their hashes, options, programs, device with its
 /// configuration, versions, counts, and time and counters of every stage and
 /// kernel. Fails if an input cannot be read again.
 Expected<std::string> jsonReport(const RenderRecord &R);
+
+/// JSON array of stages: seconds, kernels with launches and counters.
+std::string stagesJson(const std::vector<StageReport> &Stages);
 
 /// A short table.
 std::string textReport(const Camera &View, const RenderOptions &Options,

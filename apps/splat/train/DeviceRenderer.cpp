@@ -6,11 +6,13 @@ namespace vorion::splat {
 
 namespace {
 
-RenderOptions trainingOptions(Rules Convention, Path Blending,
+RenderOptions trainingOptions(Rules Convention, const Blender &By,
                               const std::array<float, 3> &Background) {
   RenderOptions O;
   O.Convention = Convention;
-  O.Blending = Blending;
+  O.Blending = By.Who;
+  O.SimtTile = By.SimtTile;
+  O.SimtGroup = By.SimtGroup;
   O.Background = Background;
   O.Training = true;
   return O;
@@ -19,10 +21,10 @@ RenderOptions trainingOptions(Rules Convention, Path Blending,
 } // namespace
 
 DeviceRenderer::DeviceRenderer(Launcher &Launch, Rules Convention,
-                               Path Blending, const BackwardOptions &How,
+                               const Blender &By, const BackwardOptions &How,
                                const std::array<float, 3> &Background)
     : L(Launch), Choice(How),
-      Options(trainingOptions(Convention, Blending, Background)),
+      Options(trainingOptions(Convention, By, Background)),
       Drawing(Launch, Options, EffectPlan::forAnyScene(MaxShDegree, Options)) {
   Choice.Parameters = GradientsOf::Stored;
 }
@@ -45,6 +47,18 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
   L.beginStage("resolve");
   Picture = resolve(L, Drawing.frame(), Options.Background);
   return Picture;
+}
+
+std::vector<std::uint32_t> DeviceRenderer::listLengths() {
+  const Frame &F = Drawing.frame();
+  std::vector<std::array<std::uint32_t, 2>> Ranges(F.tiles());
+  L.beginStage("read back");
+  L.read("lists' places", Ranges.data(), F.Ranges, 8 * Ranges.size());
+  std::vector<std::uint32_t> Lengths;
+  Lengths.reserve(Ranges.size());
+  for (const auto &[Begin, End] : Ranges)
+    Lengths.push_back(End - Begin);
+  return Lengths;
 }
 
 GradientRenderer::Backward DeviceRenderer::backward(const cl::Buffer &ByRender,

@@ -9,10 +9,21 @@
 
 namespace vorion::splat {
 
+/// Who blends and goes back.
+struct Blender {
+  Blender(Path P) : Who(P) {}
+  Blender(Path P, unsigned SimtTile, unsigned SimtGroup)
+      : Who(P), SimtTile(SimtTile), SimtGroup(SimtGroup) {}
+
+  Path Who;
+  /// Of the cores alone (RenderOptions); going back has groups of 16.
+  unsigned SimtTile = 16, SimtGroup = 256;
+};
+
 class DeviceRenderer : public GradientRenderer {
 public:
   /// Renders over \p Background by the rules of \p Convention, support `exact`.
-  DeviceRenderer(Launcher &Launch, Rules Convention, Path Blending,
+  DeviceRenderer(Launcher &Launch, Rules Convention, const Blender &By,
                  const BackwardOptions &Backward,
                  const std::array<float, 3> &Background);
 
@@ -20,6 +31,9 @@ public:
                      int ShDegree) override;
   Backward backward(const cl::Buffer &ByRender,
                     const cl::Buffer &ByAlpha) override;
+
+  /// Pairs of every tile of the last picture; copied from the device.
+  std::vector<std::uint32_t> listLengths();
 
 private:
   void build(int ShDegree);

@@ -36,9 +36,9 @@ std::string hashOf(const TrainingSet &Set) {
 
 std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
                     const PictureSource &Source, int ShDegree, Rules Convention,
-                    Path Blending, const BackwardOptions &Backward) {
+                    const Blender &By, const BackwardOptions &Backward) {
   const TrainSettings &S = Run.Settings;
-  const Json J{
+  Json J{
       {"capture", Source.Format},
       {"pictures", hashOf(Pictures)},
       {"downscale", Source.Downscale},
@@ -48,7 +48,7 @@ std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
       {"batch", Run.Batch},
       {"sh_degree", ShDegree},
       {"rules", name(Convention)},
-      {"path", name(Blending)},
+      {"path", name(By.Who)},
       {"reciprocal", name(Backward.Unit)},
       {"sums", name(Backward.Order)},
       {"max_gaussians", S.MostGaussians},
@@ -64,6 +64,11 @@ std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
         S.SplitExtent, S.SplitShrink}},
       {"prune", {S.LeastOpacity, S.MostExtent, S.MostRadius}},
       {"reset", {S.ResetInterval, S.ResetOpacity, S.WhiteReset}}};
+  // What the order of the cores' sums depends on.
+  if (By.Who == Path::Simt && By.SimtTile != Blender(By.Who).SimtTile)
+    J["simt_tile"] = By.SimtTile;
+  if (!Run.From.empty())
+    J["from"] = Run.From;
   return J.dump();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../render/Backward.h"
+#include "DeviceRenderer.h"
 #include "Trainer.h"
 
 #include <array>
@@ -21,7 +22,7 @@ struct PictureSource {
 /// iterations is not part of it, so that a run can go on for longer.
 std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
                     const PictureSource &Source, int ShDegree, Rules Convention,
-                    Path Blending, const BackwardOptions &Backward);
+                    const Blender &By, const BackwardOptions &Backward);
 
 /// An Error of usage that names the first thing in which \p Wanted differs from
 /// what \p File was written for, or nothing.

@@ -19,6 +19,8 @@ namespace vorion::splat {
 struct TrainRun {
   TrainSettings Settings;
   std::uint64_t Seed = 0;
+  /// Hash of the checkpoint of another run that it begins with, or empty.
+  std::string From;
   double Extent = 1;            ///< of the cameras
   unsigned Batch = 1;           ///< views an iteration
   bool WhiteBackground = false; ///< which has a reset more

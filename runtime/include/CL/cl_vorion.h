@@ -38,7 +38,9 @@ extern "C" {
 
 /* How long the kernel took on the machine, and why: JSON, a NUL-terminated
  * char[] (docs/model.md). Empty unless the environment's VORION_TIME or the
- * configuration turned the clock on when the platform was opened. */
+ * configuration turned the clock on when the platform was opened;
+ * VORION_TIME=profiled does so for the kernels of queues that have
+ * CL_QUEUE_PROFILING_ENABLE. */
 #define CL_EVENT_TIME_REPORT_VORION 0x4F80
 
 /* As clGetEventInfo. CL_INVALID_EVENT: not an event of a kernel on a Vorion

@@ -56,9 +56,14 @@ const char *vx_last_error(void);
  * paper's prototype. Keys that are absent keep the prototype's value;
  * VORION_SET, "KEY=VALUE,...", changes what came of it. The
  * environment also says what watches the device's runs (docs/debugging.md), and
- * whether the clock is on: VORION_TIME is "on", or the machine's clock in MHz.
- */
+ * whether the clock is on: VORION_TIME is "on", or the machine's clock in MHz,
+ * or "profiled": on, but only in runs after vx_device_set_profiled. */
 vx_status vx_device_open(const char *config, vx_device **device);
+
+/* profiled: not 0 if the next runs are to be clocked where the clock is for
+ * profiled runs only; they are not at first. What a machine's clock is not on
+ * for takes no time on it and is not seen by its caches. */
+vx_status vx_device_set_profiled(vx_device *device, int profiled);
 
 /* Waits for a run in progress; images of the device must be freed before. NULL
  * is allowed. */

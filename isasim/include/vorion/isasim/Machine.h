@@ -69,6 +69,12 @@ public:
   /// which then use one host thread. They change no result.
   void setObservers(std::vector<Observer *> Observers);
 
+  /// Whether the clock, where there is one, goes on in the following runs; it
+  /// does from the beginning. Runs without it take no time, have no
+  /// RunResult::Time, and leave its caches as they were; rasterizers' commands
+  /// that are under way when this changes are done with for the clock.
+  void setClocked(bool Clocked);
+
   /// Ends a run that takes longer, with Outcome::LimitReached; 0 for no limit.
   /// Looked at where all cores are parked.
   void setWatchdog(double Seconds);

@@ -81,6 +81,9 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
     Params.global_offset[I] = Grid.global_offset[I];
   }
   captureLaunch(*Kernel, *Command);
+  const cl_command_queue Queue = Command->sync.event.event->queue;
+  vx_device_set_profiled(Device,
+                         (Queue->properties & CL_QUEUE_PROFILING_ENABLE) != 0);
   vx_result Result;
   Status = vx_start(Device, Kernel->Image.get(), Kernel->Number, &Params,
                     Packed.data(), Packed.size());

@@ -1,0 +1,78 @@
+#include "ClockSamples.h"
+
+#include "Philox.h"
+
+#include "../render/FrameTime.h"
+#include "../render/Report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace vorion::splat {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double meanOf(const std::vector<double> &Values) {
+  return std::accumulate(Values.begin(), Values.end(), 0.0) /
+         static_cast<double>(Values.size());
+}
+
+/// Of a sample; 0 for one value.
+double deviationOf(const std::vector<double> &Values) {
+  const double Mean = meanOf(Values);
+  double Squares = 0;
+  for (const double V : Values)
+    Squares += (V - Mean) * (V - Mean);
+  return Values.size() < 2
+             ? 0
+             : std::sqrt(Squares / static_cast<double>(Values.size() - 1));
+}
+
+} // namespace
+
+bool isTimed(std::uint64_t Seed, unsigned Every, unsigned Iteration) {
+  const unsigned Block = (Iteration - 1) / Every;
+  const philox_words W =
+      philox(static_cast<uint>(Seed), static_cast<uint>(Seed >> 32), Block,
+             Every, 0, STREAM_CLOCK);
+  return (Iteration - 1) % Every ==
+         static_cast<unsigned>(ulong{W.word[0]} * Every >> 32);
+}
+
+void ClockSamples::add(TimedIteration T) {
+  Milliseconds.push_back(
+      Json::parse(frameJson(T.Stages))["frame_ms"].get<double>());
+  All.push_back(std::move(T));
+}
+
+double ClockSamples::rate() const { return 1e3 / meanOf(Milliseconds); }
+
+std::string ClockSamples::text() const {
+  const auto [Least, Most] = std::ranges::minmax(Milliseconds);
+  return fmt::format("{:.3f} it/s; {:.3f} ms an iteration, standard deviation "
+                     "{:.3f}, {:.3f} to {:.3f}, of {} that were timed",
+                     rate(), meanOf(Milliseconds), deviationOf(Milliseconds),
+                     Least, Most, Milliseconds.size());
+}
+
+std::string ClockSamples::lastByStage() const {
+  return frameText(All.back().Stages, "iteration");
+}
+
+std::string ClockSamples::json() const {
+  Json J = Json::array();
+  for (const TimedIteration &T : All)
+    J.push_back({{"iteration", T.Number},
+                 {"gaussians", T.Gaussians},
+                 {"list_lengths", T.ListLengths},
+                 {"stages", Json::parse(stagesJson(T.Stages))},
+                 {"time", Json::parse(frameJson(T.Stages))}});
+  return J.dump();
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,45 @@
+/// Which iterations of a run the machine's clock times, and how long they took.
+#pragma once
+
+#include "../device/Launcher.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Whether iteration \p Iteration, from 1, is the one of its \p Every that is
+/// timed. Drawn by counting random numbers from \p Seed: what is done every
+/// hundredth iteration is timed as often as it comes.
+bool isTimed(std::uint64_t Seed, unsigned Every, unsigned Iteration);
+
+struct TimedIteration {
+  unsigned Number = 0;                    ///< from 1
+  std::uint32_t Gaussians = 0;            ///< after it
+  std::vector<std::uint32_t> ListLengths; ///< pairs of the last view's tiles
+  std::vector<StageReport> Stages;        ///< of the iteration, with time
+};
+
+/// The timed iterations of a run.
+class ClockSamples {
+public:
+  void add(TimedIteration T);
+
+  bool empty() const { return Milliseconds.empty(); }
+  /// Iterations a second, by the mean.
+  double rate() const;
+  /// A line: mean, standard deviation, least and most.
+  std::string text() const;
+  /// The last one by stage (FrameTime.h).
+  std::string lastByStage() const;
+  /// JSON array, an iteration each: number, Gaussians, list lengths, stages
+  /// with kernels and counters, and time.
+  std::string json() const;
+
+private:
+  std::vector<TimedIteration> All;
+  std::vector<double> Milliseconds;
+};
+
+} // namespace vorion::splat
