@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Measures what the paper says about rendering and writes docs/paper-results.md.
+# Measures what the paper says about rendering and training, and writes docs/paper-results.md.
 # usage: scripts/paper.sh [--out FOLDER] [--scenes NAME...] [--jobs N] ...   (--help: all options)
 source "$(dirname "$0")/lib.sh"
 source "$Root/scripts/env.sh"

@@ -5,12 +5,12 @@ import os
 import claims
 
 CLAIMS = {"speedup": claims.of_speedup, "clocks": claims.of_clocks, "tails": claims.of_tails, "depth": claims.of_depth,
-          "scaling": claims.of_scaling, "tiles": claims.of_tiles}
+          "scaling": claims.of_scaling, "tiles": claims.of_tiles, "training": claims.of_training}
 
 HEAD = """# The paper's results, measured here
 
 Made by `scripts/paper.sh` (about an hour of one quiet core, resumable; `scripts/paper.sh --help`); do not edit. What the paper
-says about rendering, each figure with ours beside it.
+says about rendering and training, each figure with ours beside it.
 
 - Times are of the machine's clock ([model.md](model.md)), whose parameters come from the paper's text or a stated source: none
   is fitted to a result. A frame is from projecting to the finished picture with its launches and small copies, without uploading
@@ -21,7 +21,7 @@ says about rendering, each figure with ours beside it.
 - A figure *holds* if every view reaches it, *holds if* the view is one of those that do (they are named), and *does not hold* if
   none does. "About" is within a factor of 2. *ratio* is ours over the paper's, from the smallest to the largest view; *bound*:
   what no machine of this kind could exceed.
-- Power and area are out of scope. Training is not measured yet.
+- Power and area are out of scope.
 """
 
 
@@ -39,7 +39,8 @@ def write(file, sections, build):
            "section names no other.\n", "## Claims", ""]
     rows = [row for name, (_, data) in sections.items() if data and name in CLAIMS for row in CLAIMS[name](data) if row]
     out += _claim_lines(rows)
-    out += [f"- {what}: {said}." for what, said in claims.LATER] + [""]
+    trained = "training" in sections and sections["training"][1]
+    out += [f"- {what}: {said}." for what, said in (() if trained else claims.LATER_TRAINING) + claims.LATER] + [""]
     out += ["The command of each claim (of its best view, or of the one that decides; in the root of the repository, after "
             "`. scripts/env.sh`):", ""]
     out += [f"- {row['claim']}: `{row['command'] or 'bench/invocations.py'}`" for row in rows] + [""]

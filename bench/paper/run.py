@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what the paper says about rendering, and writes docs/paper-results.md.
+"""Measures what the paper says about rendering and training, and writes docs/paper-results.md.
 
 usage: scripts/paper.sh [OPTIONS]
 
@@ -29,9 +29,10 @@ import scenes  # noqa: E402
 import speedup  # noqa: E402
 import tails  # noqa: E402
 import tiles  # noqa: E402
+import training  # noqa: E402
 
 SECTIONS = {"choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
-            "scaling": scaling, "tiles": tiles, "identical": identical}
+            "scaling": scaling, "tiles": tiles, "identical": identical, "training": training}
 # The scenes of the table, chosen before anything was measured.
 SCENES = ("garden_outdoor", "showroom_indoor", "truck", "tower_sh3", "guitar")
 
@@ -45,6 +46,11 @@ def parse_arguments():
     parser.add_argument("--scenes", nargs="+", metavar="NAME",
                         help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; section tiles: all)")
     parser.add_argument("--scene", nargs=2, metavar=("FILE", "CAMERAS"), help="any other scene instead")
+    parser.add_argument("--captures", nargs="+", metavar="NAME",
+                        help="captures of ../shared/data, or folders, that section training measures (default: "
+                        f"{' '.join(training.DEFAULT_CAPTURES)})")
+    parser.add_argument("--iterations", type=int, default=1050, metavar="N",
+                        help="of training before those that section training measures (default 1050)")
     parser.add_argument("--sections", nargs="+", choices=SECTIONS, default=list(SECTIONS),
                         help="what to measure (default: all)")
     parser.add_argument("--widths", nargs="+", type=int, default=invocations.WIDTHS, metavar="PX",
@@ -56,8 +62,8 @@ def parse_arguments():
     parser.add_argument("--only-kept", action="store_true",
                         help="run nothing: write what there is, and leave out the rest")
     args = parser.parse_args()
-    if args.jobs < 1:
-        parser.error(f"--jobs is {args.jobs}, expected at least 1")
+    if args.jobs < 1 or args.iterations < 1:
+        parser.error(f"--jobs is {args.jobs} and --iterations {args.iterations}, expected at least 1")
     return args
 
 
@@ -75,9 +81,20 @@ def chosen(args):
     return [scenes.shared(n) for n in args.scenes or SCENES], [scenes.shared(n) for n in args.scenes or known]
 
 
+def captures_of(args):
+    """The captures of section training; where none are named, those that are there."""
+    named = [training.Capture.named(name) for name in args.captures or training.DEFAULT_CAPTURES]
+    gone = [capture for capture in named if not capture.is_there()]
+    if args.captures and gone:
+        print(f"paper.sh: error: no capture {gone[0].path}, expected one of ../shared/data or a folder", file=sys.stderr)
+        sys.exit(3)
+    return [capture for capture in named if capture not in gone]
+
+
 def main():
     args = parse_arguments()
-    frames, counts = chosen(args)
+    frames, counts = chosen(args) if set(args.sections) - {"training"} else ([], [])
+    captures = captures_of(args) if "training" in args.sections else []
     store = runs.Runs(args.out, args.jobs, args.keep, args.only_kept)
     for name in args.sections:
         module = SECTIONS[name]
@@ -85,6 +102,8 @@ def main():
         try:
             if module is tiles:
                 data = module.measure(store, counts, args.every_view, tuple(args.widths))
+            elif module is training:
+                data = module.measure(store, captures, args.every_view, args.iterations)
             else:
                 data = module.measure(store, frames, args.every_view)
         except runs.Missing as missing:

@@ -1,4 +1,4 @@
-"""Runs of `splat render --time`, each kept in a file of its own: what is there is not run again."""
+"""Runs of splat on a machine, each kept in a file of its own: what is there is not run again."""
 
 import array
 import collections
@@ -37,22 +37,55 @@ class Run:
     clock: int = 0           # MHz; 0: the machine's own, None: no clock
     threads: int = 0         # of the host; 0: as the machine has it
     picture: bool = False    # keep it
+    output = "out.pfm"       # what splat writes
+    any_build = False        # whether one that another build made is as good
 
     def name(self):
         parts = [self.scene.name, self.view, self.machine, *self.options]
         parts += ["untimed"] if self.clock is None else [f"{self.clock}MHz"] if self.clock else []
         parts += [f"{self.threads}threads"] if self.threads else []
-        return re.sub(r"[^A-Za-z0-9_.-]+", "_", "-".join(part.lstrip("-") for part in parts))
+        return file_name(parts)
 
-    def arguments(self, picture, report):
+    def keeps(self):
+        """The ending of what is kept of the output, or nothing."""
+        return ".pfm" if self.picture else ""
+
+    def arguments(self, output, report):
         timed = () if self.clock is None else ("--clock", str(self.clock)) if self.clock else ("--time",)
         return ["splat", "render", self.scene.path, "--cameras", self.scene.cameras, "--view", self.view,
-                "-o", picture, "--json", report, *timed, *self.options]
+                "-o", output, "--json", report, *timed, *self.options]
+
+    def config(self):
+        """The machine, as VORION_CONFIG takes it."""
+        config = machines.config(self.machine)
+        if self.threads:
+            config["host_threads"] = self.threads
+        return config
 
     def command(self):
         """What to type in the root of the repository."""
         return (f"VORION_CONFIG={machines.shown(self.machine)} "
-                + " ".join(self.arguments("out.pfm", "out.json")))
+                + " ".join(self.arguments(self.output, "out.json")))
+
+    @staticmethod
+    def trimmed(report):
+        """What the sections read: whole frames and cycles of stages."""
+        if timed := report.get("time"):
+            trim(timed)
+        return report
+
+
+def file_name(parts):
+    return re.sub(r"[^A-Za-z0-9_.-]+", "_", "-".join(part.lstrip("-") for part in parts))
+
+
+def trim(timed, whole=()):
+    """Drops what no section reads; of the stages that `whole` names, the rasterizers stay."""
+    timed["sum"].pop("activities", None)
+    for stage in timed["stages"]:
+        if "time" in stage:
+            keys = ("cycles", "dram", "rasterizers") if stage["name"] in whole else ("cycles", "dram")
+            stage["time"] = {key: stage["time"][key] for key in keys}
 
 
 def build_hash():
@@ -69,17 +102,6 @@ def build_hash():
         with open(name, "rb") as f:
             digest.update(hashlib.sha256(f.read()).digest())
     return digest.hexdigest()[:16]
-
-
-def trimmed(report):
-    """What the sections read: whole frames and cycles of stages."""
-    timed = report.get("time")
-    if timed:
-        timed["sum"].pop("activities", None)
-        for stage in timed["stages"]:
-            if "time" in stage:
-                stage["time"] = {key: stage["time"][key] for key in ("cycles", "dram")}
-    return report
 
 
 class Runs:
@@ -102,30 +124,28 @@ class Runs:
                 result = json.load(f)
         except FileNotFoundError:
             return None
-        stale = result["build"] != self.build and not self.keep
-        return None if stale or (run.picture and not os.path.exists(self.file(run, ".pfm"))) else result
+        stale = result["build"] != self.build and not self.keep and not run.any_build
+        return None if stale or (run.keeps() and not os.path.exists(self.file(run, run.keeps()))) else result
 
     def execute(self, run):
-        config = machines.config(run.machine)
-        if run.threads:
-            config["host_threads"] = run.threads
+        config = run.config()
         with tempfile.TemporaryDirectory(dir=self.folder) as folder:
-            picture, report = os.path.join(folder, "out.pfm"), os.path.join(folder, "out.json")
+            output, report = os.path.join(folder, run.output), os.path.join(folder, "out.json")
             start = time.monotonic()
-            done = subprocess.run(run.arguments(picture, report), cwd=scenes.ROOT, capture_output=True, text=True,
+            done = subprocess.run(run.arguments(output, report), cwd=scenes.ROOT, capture_output=True, text=True,
                                   env=dict(os.environ, VORION_CONFIG=json.dumps(config)), check=False)
             if done.returncode != 0:
                 lines = done.stderr.strip().splitlines() or [f"splat ended with {done.returncode}"]
                 raise Failed(f"{run.name()}: {lines[-1]}")
             with open(report, encoding="utf-8") as f:
-                result = trimmed(json.load(f))
+                result = run.trimmed(json.load(f))
             result.pop("picture", None)
-            with open(picture, "rb") as f:
+            with open(output, "rb") as f:
                 result["picture_sha256"] = hashlib.sha256(f.read()).hexdigest()
             result["channels"] = config.get("timing", {}).get("dram", {}).get("channels")
             result.update(build=self.build, seconds=time.monotonic() - start, command=run.command())
-            if run.picture:
-                os.replace(picture, self.file(run, ".pfm"))
+            if run.keeps():
+                os.replace(output, self.file(run, run.keeps()))
             with open(report, "w", encoding="utf-8") as f:
                 json.dump(result, f)
             os.replace(report, self.file(run, ".json"))

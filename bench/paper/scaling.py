@@ -31,16 +31,15 @@ def jobs_of(lengths, parts):
     return [n * (k + 1) // parts - n * k // parts for n in sorted(lengths, reverse=True) for k in range(parts)]
 
 
-def model(lengths, parts, single, memory_cycles):
+def model(lengths, parts, units, memory_cycles, on_tiles=tails.ON_TILES):
     """Cycles of blending by number of rasterizers: (as many, memory as it is), and (memory that grows with them).
 
     A job costs what clearing and writing a tile costs, and its list's length times what an entry costs on average; both
-    come from one run on a single rasterizer, so that only how jobs spread is modelled. memory_cycles: what the scaled
-    machine's DRAM needs for blending's bytes."""
-    units = single["time"]["sum"]["rasterizers"]
+    come from one run on a single rasterizer, whose reports units are, so that only how jobs spread is modelled.
+    memory_cycles: what the scaled machine's DRAM needs for blending's bytes. on_tiles: the reasons that are a tile's."""
     commands = sum(u["commands"] for u in units)
-    fixed = sum(u["begin"] + u["flush"] + u["drain"] for u in units) / commands
-    entry = (tails.busy(single) - fixed * commands) / max(1, sum(lengths))
+    fixed = tails.spent(units, on_tiles) / commands
+    entry = (tails.spent(units, tails.ON_TILES + tails.ON_LISTS) - fixed * commands) / max(1, sum(lengths))
     costs = [fixed + entry * n for n in jobs_of(lengths, parts)]
     rows = []
     for count in MODELLED:
@@ -96,7 +95,7 @@ def rows_of(store, scene):
                          "merge_cycles": r.kernel_cycles(result, "merge"), "fps": result["time"]["fps"],
                          "cores": result["device"]["compute_units"], "command": result["command"]}
                      for n, result in results.items()}
-        modelled = model(lengths, parts, results[1], memory_cycles(whole, parts) / reached(widest))
+        modelled = model(lengths, parts, results[1]["time"]["sum"]["rasterizers"], memory_cycles(whole, parts) / reached(widest))
         rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths),
                      "bandwidth_reached": reached(widest), "simulated": simulated, "modelled": modelled})
     return rows

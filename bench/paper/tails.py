@@ -11,18 +11,24 @@ QUARTER = "last:1/4"
 # The scene with the strongest occluded tail, and one that hardly saturates (its Gaussians are faint).
 SCENES = ("showroom_indoor", "tower_sh3")
 PAPER_GAIN = 0.824
+# What a rasterizer does once a tile, and what for each entry of its list.
+ON_TILES = ("begin", "flush", "drain")
+ON_LISTS = ("blend", "clip", "fetch", "hazard")
+
+
+def spent(units, reasons):
+    """Cycles that rasterizers' reports have under some reasons."""
+    return sum(unit[reason] for unit in units for reason in reasons)
 
 
 def busy(result):
     """Cycles in which rasterizers did anything."""
-    return on_lists(result) + sum(unit["begin"] + unit["flush"] + unit["drain"]
-                                  for unit in result["time"]["sum"]["rasterizers"])
+    return on_lists(result) + spent(result["time"]["sum"]["rasterizers"], ON_TILES)
 
 
 def on_lists(result):
     """Cycles in which rasterizers went through lists, not cleared or wrote tiles."""
-    return sum(unit["blend"] + unit["clip"] + unit["fetch"] + unit["hazard"]
-               for unit in result["time"]["sum"]["rasterizers"])
+    return spent(result["time"]["sum"]["rasterizers"], ON_LISTS)
 
 
 def measure(store, all_scenes, _every_view):

@@ -1,4 +1,5 @@
-"""Helpers of paper.test: shrink CAMERAS OUT (one small view), check OUT DOCUMENT (ratios follow from the runs)."""
+"""Helpers of the tests of paper.sh: shrink CAMERAS OUT (one small view), check OUT DOCUMENT (ratios follow from the runs),
+check-training OUT DOCUMENT (the same of training)."""
 import json
 import os
 import sys
@@ -49,4 +50,36 @@ def check(folder, document):
             assert abs(row["mcycles"] * 1e3 / clock + row["ms"] - ms) <= row["largest_ms_off"] * (1 + 1e-9)
 
 
-{"shrink": shrink, "check": check}[sys.argv[1]](*sys.argv[2:])
+def check_training(folder, document):
+    table = open(document).read()
+    row, = json.load(open(os.path.join(folder, "training.json")))["rows"]
+    state = f"colmap-binary-train-{row['view'].split()[-1]}"
+    for machine in ("prototype", "scaled"):
+        ours = load(folder, f"{state}-{machine}-path-raster")["timed"]
+        assert len(ours) == 3
+        whole = row[machine]["kernels_whole"]
+        theirs = load(folder, f"{state}-{machine}-path-simt-simt-tile-{whole['tile']}-simt-group-{whole['group']}")["timed"]
+
+        def ms(samples):
+            return sum(s["time"]["frame_ms"] for s in samples) / 3
+
+        def cycles(samples, *names):
+            return sum(stage(s, name) for s in samples for name in names) / 3
+
+        near(row[machine]["speedup"], ms(theirs) / ms(ours))
+        near(row[machine]["its"], 1e3 / ms(ours))
+        blending = cycles(theirs, "blend", "blend backward", "reduce")
+        share = blending / (sum(s["time"]["sum"]["cycles"] for s in theirs) / 3)
+        near(row[machine]["bound"], 1 / (1 - share))
+        near(row[machine]["ours"]["backward"], cycles(ours, "blend backward", "reduce"))
+        fewest = min(tried["backward"] for tried in row[machine]["tried"])
+        near(row[machine]["back_speedup"], fewest / row[machine]["ours"]["backward"])
+        assert f"| {row[machine]['back_speedup']:.1f}x | {row[machine]['speedup']:.2f}x |" in table
+        near(row[machine]["pairs"], sum(sum(s["list_lengths"]) for s in ours) / 3)
+        # Every list entry that is seen changes a pixel, and none changes more than a tile's.
+        assert 0 < row[machine]["blends_back"] <= row[machine]["pairs"] * 32 * 64
+    large = row["largest"]
+    assert 0 < large["rasterizers_ms"] + large["kernels_ms"] < row["scaled"]["ours"]["ms"], large
+
+
+{"shrink": shrink, "check": check, "check-training": check_training}[sys.argv[1]](*sys.argv[2:])

@@ -1,0 +1,304 @@
+"""Training: iterations with the rasterizer and by kernels alone, by stage, by clock and by rasterizers."""
+
+import os
+import statistics
+from dataclasses import dataclass
+
+import machines
+import runs as r
+import scaling
+import scenes
+from writing import chart, mega, paragraph, table
+
+TITLE = "Training"
+CAPTURES = {
+    "chair_synthetic": ("--downscale", "4", "--background", "1,1,1"),
+    "carving_colmap": ("--downscale", "4"),
+    "desk_colmap": ("--downscale", "4", "--exclude", "input_0001"),
+}
+DEFAULT_CAPTURES = ("chair_synthetic", "carving_colmap")
+SHARED = os.path.join("..", "shared", "data", "captures")
+TIMED = 3  # iterations after the state, each of another view
+# The kernels' choices of tile and group. The way back has groups of 16 whatever the way forward has, and keeps a tile in local
+# memory, for which larger ones are too large.
+CHOICES = ((8, 16), (8, 64), (16, 64), (16, 256))
+CLOCKS = (100, 530)
+RASTERIZERS = 1024
+FULL = (7000, 30000)  # iterations of a training: INRIA's two evaluation points
+# Sums of a pixel and Gaussian that INRIA's way back adds to memory, one atomic each: colour, mean, conic, opacity.
+ATOMICS = 9
+PARTS = {
+    "project": ("project",),
+    "sort": ("sort by depth", "count pairs", "duplicate", "sort by tile"),
+    "blend": ("blend",),
+    "loss": ("resolve", "loss", "upstream"),
+    "blend backward": ("blend backward",),
+    "reduce": ("reduce",),
+    "project backward": ("project backward",),
+    "Adam": ("views' sum", "Adam"),
+    "density control": ("density control",),
+}
+RASTERIZED = ("blend", "blend backward")
+
+
+@dataclass(frozen=True)
+class Capture:
+    name: str
+    path: str
+    options: tuple
+
+    @classmethod
+    def named(cls, name):
+        """One of CAPTURES, or any folder."""
+        if name in CAPTURES:
+            return cls(name, os.path.join(SHARED, name), CAPTURES[name])
+        return cls(os.path.basename(os.path.normpath(name)), os.path.abspath(name), ())
+
+    def is_there(self):
+        return os.path.isdir(os.path.join(scenes.ROOT, self.path))
+
+
+@dataclass(frozen=True)
+class State:
+    """A training run without clock whose checkpoint others begin with. It goes on where it was broken off."""
+    capture: Capture
+    iterations: int
+    folder: str
+    output = "out.ply"
+    any_build = True
+
+    def name(self):
+        return r.file_name([self.capture.name, "train", str(self.iterations)])
+
+    def checkpoint(self):
+        return os.path.relpath(os.path.join(self.folder, "runs", self.name() + ".checkpoint"), scenes.ROOT)
+
+    def keeps(self):
+        return ""
+
+    def arguments(self, output, report):
+        return ["splat", "train", self.capture.path, *self.capture.options, "--iterations", str(self.iterations),
+                "--checkpoint", self.checkpoint(), "--checkpoint-every", "50", "--resume", "-o", output, "--json", report]
+
+    def config(self):
+        return machines.config("prototype")
+
+    def command(self):
+        return " ".join(self.arguments(self.output, "out.json"))
+
+    @staticmethod
+    def trimmed(report):
+        return report
+
+
+@dataclass(frozen=True)
+class Timed:
+    """The TIMED iterations after a state, on a machine with its clock on."""
+    state: State
+    machine: str
+    options: tuple
+    clock: int = 0  # MHz; 0: the machine's own
+    output = "out.ply"
+    any_build = False
+
+    def name(self):
+        return r.file_name([self.state.name(), self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
+
+    def keeps(self):
+        return ""
+
+    def arguments(self, output, report):
+        state = self.state
+        return ["splat", "train", state.capture.path, *state.capture.options, "--from", state.checkpoint(),
+                "--iterations", str(state.iterations + TIMED), "--time", "--time-every", "1", *self.options,
+                "-o", output, "--json", report]
+
+    def config(self):
+        config = machines.config(self.machine)
+        if self.clock:
+            config.setdefault("timing", {})["clock_mhz"] = self.clock
+        return config
+
+    def command(self):
+        setting = f"VORION_SET=timing.clock_mhz={self.clock} " if self.clock else ""
+        return f"{setting}VORION_CONFIG={machines.shown(self.machine)} " + " ".join(self.arguments(self.output, "out.json"))
+
+    @staticmethod
+    def trimmed(report):
+        for sample in report["timed"]:
+            r.trim(sample["time"], RASTERIZED)
+        report.pop("losses")
+        return report
+
+
+def raster(state, machine, clock=0):
+    return Timed(state, machine, ("--path", "raster"), clock)
+
+
+def simt(state, machine, choice):
+    return Timed(state, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])))
+
+
+def mean(result, of):
+    """Over the timed iterations."""
+    return statistics.fmean(of(sample) for sample in result["timed"])
+
+
+def parts_of(result):
+    """Mean cycles by part of an iteration, in the order of PARTS."""
+    return {part: mean(result, lambda s, names=names: sum(r.stage_cycles(s, name) for name in names))
+            for part, names in PARTS.items()}
+
+
+def megabytes(result, stages=None):
+    """What an iteration, or some stages of it, reads and writes in DRAM."""
+    burst = result["timed"][0]["time"]["sum"]["host"]["dram_burst_bytes"]
+
+    def bursts(sample):
+        return sum(s["time"]["dram"]["read_bursts"] + s["time"]["dram"]["write_bursts"] for s in sample["time"]["stages"]
+                   if "time" in s and s["of_the_frame"] and (stages is None or s["name"] in stages))
+
+    return burst * mean(result, bursts) / 1e6
+
+
+def blends_back(result):
+    """Pixels of Gaussians that the rasterizers' way back goes through."""
+    return mean(result, lambda sample: sum(k["counters"]["raster_blends"] for s in sample["stages"]
+                                           if s["name"] == "blend backward" for k in s["kernels"]))
+
+
+def summary(result):
+    parts = parts_of(result)
+    cycles = sum(parts.values())
+    return {"parts": parts, "cycles": cycles, "ms": mean(result, r.frame_ms), "dram_mb": megabytes(result),
+            "backward_mb": megabytes(result, ("blend backward", "reduce")),
+            # What the rasterizer's way back takes the place of: with atomics there would be no sum over tiles.
+            "backward": parts["blend backward"] + parts["reduce"],
+            "command": result["command"]}
+
+
+def compared(with_it, without):
+    """A row of the table; without: results of the kernels by choice."""
+    ours = summary(with_it)
+    tried = [{"tile": choice[0], "group": choice[1], **summary(result)} for choice, result in without.items()]
+    back = min(tried, key=lambda row: row["backward"])
+    whole = min(tried, key=lambda row: row["ms"])
+    share = (whole["parts"]["blend"] + whole["backward"]) / whole["cycles"]
+    rest = ours["ms"] * (1 - sum(ours["parts"][part] for part in RASTERIZED) / ours["cycles"])
+    return {"ours": ours, "tried": tried, "kernels_back": back, "kernels_whole": whole, "clock_mhz":
+            with_it["timed"][0]["time"]["sum"]["clock_mhz"], "gaussians": with_it["timed"][0]["gaussians"],
+            "its": 1e3 / ours["ms"], "back_speedup": back["backward"] / ours["backward"],
+            "speedup": whole["ms"] / ours["ms"], "share": share, "bound": 1 / (1 - share), "bound_rest": whole["ms"] / rest,
+            "accumulation_share": back["backward"] / back["cycles"],
+            "pairs": mean(with_it, lambda sample: sum(sample["list_lengths"])), "blends_back": blends_back(with_it),
+            "command": with_it["command"]}
+
+
+def largest(single, scaled):
+    """Milliseconds of an iteration with RASTERIZERS of them: by the model of section scaling for both stages of the
+    rasterizers, all other work spread over as many times the cores; and what launches and copies take whatever there is."""
+    clock = scaled["timed"][0]["time"]["sum"]["clock_mhz"]
+    more = RASTERIZERS / scaling.RASTERIZERS_A_MEMORY
+
+    def modelled(one, many):
+        cycles = 0
+        for name in RASTERIZED:
+            units = next(s for s in one["time"]["stages"] if s["name"] == name)["time"]["rasterizers"]
+            dram = next(s for s in many["time"]["stages"] if s["name"] == name)["time"]["dram"]
+            memory = dram["bus_ps"] / scaled["channels"] * clock / 1e6
+            on_tiles = ("begin",) if name == "blend backward" else scaling.tails.ON_TILES
+            rows = scaling.model(one["list_lengths"], 1, units, memory, on_tiles)
+            cycles += next(m["cycles_with_memory"] for m in rows if m["rasterizers"] == RASTERIZERS)
+        rest = r.frame_cycles(many) - sum(r.stage_cycles(many, name) for name in RASTERIZED)
+        return cycles / clock / 1e3, rest / more / clock / 1e3
+
+    both = [modelled(one, many) for one, many in zip(single["timed"], scaled["timed"])]
+    return {"rasterizers_ms": statistics.fmean(b for b, _ in both), "kernels_ms": statistics.fmean(k for _, k in both),
+            "host_ms": mean(scaled, lambda s: s["time"]["launch_ms"] + s["time"]["copy_ms"]),
+            "tiles": len(single["timed"][0]["list_lengths"])}
+
+
+def row_of(store, capture, iterations):
+    state = State(capture, iterations, store.folder)
+    store.all([state], TITLE)
+    prototype = store.all([raster(state, "prototype"), *(simt(state, "prototype", c) for c in CHOICES)], TITLE)
+    row = {"scene": capture.name, "view": f"after {iterations}", "prototype":
+           compared(prototype[0], dict(zip(CHOICES, prototype[1:])))}
+    best = sorted({(k["tile"], k["group"]) for k in (row["prototype"]["kernels_back"], row["prototype"]["kernels_whole"])})
+    scaled = store.all([raster(state, "scaled"), *(simt(state, "scaled", c) for c in best)], TITLE)
+    row["scaled"] = compared(scaled[0], dict(zip(best, scaled[1:])))
+    single, slow = store.all([raster(state, "1-rasterizers"), raster(state, "prototype", CLOCKS[0])], TITLE)
+    row["largest"] = largest(single, scaled[0])
+    row["slow_its"], row["slow_command"] = 1e3 / mean(slow, r.frame_ms), slow["command"]
+    row["resolution"] = slow["resolution"]
+    return row
+
+
+def measure(store, captures, _every_view, iterations):
+    if not captures:
+        raise r.Missing("no ../shared/data/captures, expected captures there, or --captures FOLDER")
+    return {"rows": store.rows([(store, capture, str(iterations)) for capture in captures],
+                               lambda s, capture, count: row_of(s, capture, int(count)))}
+
+
+def seconds(row, iterations, host):
+    """Of so many iterations with RASTERIZERS of them. host: launches and copies too."""
+    large = row["largest"]
+    return iterations * (large["rasterizers_ms"] + large["kernels_ms"] + (large["host_ms"] if host else 0)) / 1e3
+
+
+def choices_text(row):
+    back, whole = ((row[k]["tile"], row[k]["group"]) for k in ("kernels_back", "kernels_whole"))
+    shown = f"{back[0]}/{back[1]}"
+    return shown if back == whole else f"{shown}, whole {whole[0]}/{whole[1]}"
+
+
+def text(data):
+    rows = data["rows"]
+    out = [paragraph(f"""The {TIMED} iterations after so many of a training run (settings of [training.md](training.md)), each of
+        another view, means of them; those before went without the clock. The number of Gaussians changes after every 100th iteration,
+        not in these. Pictures: """ + ", ".join(f"{row['scene']} {row['resolution'][0]}x{row['resolution'][1]}" for row in rows)
+        + f""". Tiles of the rasterizer are 32x64. The kernels' choice of tile and group is the fastest of
+        {', '.join(f'{t}/{g}' for t, g in CHOICES)}. *back*: from the pixels' gradients to nine sums a Gaussian, which is blending
+        backward and the sum over tiles. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:
+        1/(1 - share); *rest*: the kernels-only iteration over ours without the stages of the rasterizer."""), ""]
+    for machine in ("prototype", "scaled"):
+        out += [f"### Training on `{machine}`, {rows[0][machine]['clock_mhz']} MHz", ""]
+        out += table(("capture", "state", "Gaussians", "iteration, Mcycles", "it/s", "back, Mcycles", "kernels: iteration",
+                      "kernels: back", "tile/group", "share", "bound", "rest", "back", "iteration"),
+                     [(row["scene"], row["view"], m["gaussians"], mega(m["ours"]["cycles"]), f"{m['its']:.2f}",
+                       mega(m["ours"]["backward"]), mega(m["kernels_whole"]["cycles"]), mega(m["kernels_back"]["backward"]),
+                       choices_text(m), f"{100 * m['share']:.1f} %", f"{m['bound']:.2f}x", f"{m['bound_rest']:.2f}x",
+                       f"{m['back_speedup']:.1f}x", f"{m['speedup']:.2f}x") for row in rows for m in (row[machine],)])
+    out += ["### By stage, prototype", "", "Percent of an iteration's cycles.", ""]
+    out += table(("capture", "path", *PARTS),
+                 [(row["scene"], path, *(f"{100 * of['parts'][part] / of['cycles']:.1f}" for part in PARTS)) for row in rows
+                  for path, of in (("rasterizer", row["prototype"]["ours"]), ("kernels", row["prototype"]["kernels_whole"]))])
+    out += ["### Bytes and atomics", "",
+            paragraph(f"""DRAM traffic of an iteration and of its way back. *atomics avoided*: {ATOMICS} a pixel and Gaussian, as
+            INRIA's way back adds to memory; *stores*: {ATOMICS} a Gaussian and tile, which the hand-over leaves of them."""), ""]
+    out += table(("capture", "MB", "kernels: MB", "back, MB", "kernels: back, MB", "atomics avoided, M", "stores, M", "ratio"),
+                 [(row["scene"], f"{m['ours']['dram_mb']:.2f}", f"{m['kernels_whole']['dram_mb']:.2f}",
+                   f"{m['ours']['backward_mb']:.2f}", f"{m['kernels_back']['backward_mb']:.2f}",
+                   mega(ATOMICS * m["blends_back"]), mega(ATOMICS * m["pairs"]), f"{m['blends_back'] / m['pairs']:.1f}x")
+                  for row in rows for m in (row["prototype"],)])
+    out += [f"### {RASTERIZERS} rasterizers", "",
+            paragraph(f"""An iteration of the scaled machine, and of one with {RASTERIZERS} rasterizers by the model of section
+            *Scaling* for both stages of the rasterizers, with memory that grows with them and is used to the full; all other work
+            is spread evenly over as many times the cores; launches and copies take what they take. Seconds of a whole training:
+            so many of these iterations, with and without launches and copies."""), ""]
+    out += table(("capture", "tiles", "scaled, ms", "rasterizers, ms", "kernels, ms", "launches and copies, ms",
+                  *(f"{n}: s" for n in FULL), *(f"{n} without: s" for n in FULL)),
+                 [(row["scene"], row["largest"]["tiles"], f"{row['scaled']['ours']['ms']:.2f}",
+                   f"{row['largest']['rasterizers_ms']:.3f}", f"{row['largest']['kernels_ms']:.3f}",
+                   f"{row['largest']['host_ms']:.3f}", *(f"{seconds(row, n, True):.1f}" for n in FULL),
+                   *(f"{seconds(row, n, False):.1f}" for n in FULL)) for row in rows])
+    return out
+
+
+def charts(data):
+    rows = [(f"{row['scene'].split('_')[0]} {path}", of) for row in data["rows"]
+            for path, of in (("rasterizer", row["prototype"]["ours"]), ("kernels", row["prototype"]["kernels_whole"]))]
+    return {"training": chart("An iteration by stage, prototype", "stage", "percent of the cycles", list(PARTS),
+                              {name: [100 * of["parts"][part] / of["cycles"] for part in PARTS] for name, of in rows},
+                              bars=True)}
