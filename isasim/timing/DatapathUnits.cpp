@@ -208,11 +208,14 @@ double laneArea(raster::LaneUnits Units) {
 
 std::string areasJson() {
   nlohmann::ordered_json J{{"exp", nlohmann::json::array()},
-                           {"blend", nlohmann::json::array()}};
+                           {"blend", nlohmann::json::array()},
+                           {"reciprocal", nlohmann::json::array()}};
   for (const DatapathUnit &U : ExpOf)
     J["exp"].push_back(area(U));
   for (const DatapathUnit &U : BlendOf)
     J["blend"].push_back(area(U));
+  for (const raster::ReciprocalUnit &R : raster::reciprocalUnits())
+    J["reciprocal"].push_back(area(backwardUnits(R.Option).front()));
   J["other"] =
       restOfLane() + area(PowerUnit) + area(AlphaUnit) + area(GatherUnit);
   return J.dump();

@@ -34,7 +34,8 @@ unsigned laneDepth(raster::LaneUnits Units);
 double area(const DatapathUnit &U);
 /// Of a lane with its share of the rasterizer's buffers, dispatch and gather.
 double laneArea(raster::LaneUnits Units);
-/// The parts of that as JSON: "exp" and "blend", areas by option, and "other".
+/// The parts of that as JSON: "exp" and "blend", areas by option, and "other";
+/// and "reciprocal", by option, of a pair of lanes.
 std::string areasJson();
 /// @}
 

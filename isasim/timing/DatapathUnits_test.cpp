@@ -3,6 +3,7 @@
 
 #include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
+#include "raster/Reciprocals.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -73,6 +74,11 @@ TEST(DatapathUnits, JsonHasTheParts) {
                     J["blend"][L.Blend].get<double>(),
                 laneArea(L), 1e-6);
   });
+  const auto &Reciprocals = J["reciprocal"];
+  ASSERT_EQ(Reciprocals.size(), raster::ReciprocalCount);
+  for (std::size_t R = 0; R != Reciprocals.size(); ++R)
+    EXPECT_NEAR(Reciprocals[R].get<double>(),
+                area(backwardUnits(static_cast<unsigned>(R)).front()), 1e-6);
 }
 
 } // namespace

@@ -27,8 +27,20 @@ const std::vector<Knob> &allKnobs() {
   return All;
 }
 
-static const Knob *find(const std::string &Name) {
-  for (const Knob &K : allKnobs())
+const std::vector<Knob> &trainKnobs() {
+  static const std::vector<Knob> All{
+      {"reciprocal",
+       {"exact", "even-left", "even-best", "log-left", "log-best", "mantissa-2",
+        "mantissa-3"},
+       ""},
+      {"sum", {"tree", "rows"}, ""},
+  };
+  return All;
+}
+
+static const Knob *findIn(const std::vector<Knob> &Knobs,
+                          const std::string &Name) {
+  for (const Knob &K : Knobs)
     if (K.Name == Name)
       return &K;
   return nullptr;
@@ -48,7 +60,7 @@ static std::string knobNames() {
 
 Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names) {
   for (const std::string &Name : Names)
-    if (!find(Name))
+    if (!findIn(allKnobs(), Name))
       return Error{"",
                    fmt::format("--knobs {}: no such knob, expected some of {}",
                                Name, knobNames()),
@@ -89,7 +101,7 @@ Expected<Setting> Setting::parse(const std::string &Name) {
   std::istringstream In(Name);
   for (std::string Part; std::getline(In, Part, ',');) {
     const std::size_t Equals = Part.find('=');
-    const Knob *K = find(Part.substr(0, Equals));
+    const Knob *K = findIn(allKnobs(), Part.substr(0, Equals));
     if (Equals == std::string::npos || !K ||
         !isValue(*K, Part.substr(Equals + 1)))
       return Wrong(fmt::format("'{}' is no choice", Part));
@@ -110,7 +122,9 @@ std::string Setting::value(const std::string &Name) const {
   for (const auto &[Chosen, Value] : Choices)
     if (Chosen == Name)
       return Value;
-  const Knob *K = find(Name);
+  const Knob *K = findIn(allKnobs(), Name);
+  if (!K)
+    K = findIn(trainKnobs(), Name);
   return K ? K->Values.front() : std::string();
 }
 
@@ -132,7 +146,7 @@ std::vector<std::string> Setting::arguments() const {
 std::optional<std::vector<std::string>> Setting::coresArguments() const {
   std::vector<std::string> Out{"--path", "simt"};
   for (const auto &[Name, Value] : Choices) {
-    const Knob *K = find(Name);
+    const Knob *K = findIn(allKnobs(), Name);
     if (K->CoresName.empty() || (Name == "exp" && Value.starts_with("table")))
       return std::nullopt;
     append(Out, K->CoresName, Value);

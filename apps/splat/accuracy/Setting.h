@@ -20,6 +20,9 @@ struct Knob {
 /// All of them.
 const std::vector<Knob> &allKnobs();
 
+/// Options of `splat train` and `splat gradients` likewise.
+const std::vector<Knob> &trainKnobs();
+
 /// Those of \p Names, in the order of allKnobs(); all for an empty list.
 Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names);
 
@@ -33,7 +36,7 @@ public:
 
   /// "default", or "exp=poly3,tile=32".
   std::string name() const;
-  /// Reads a name.
+  /// Reads a name, with knobs of allKnobs().
   static Expected<Setting> parse(const std::string &Name);
 
   std::size_t size() const { return Choices.size(); }

@@ -2,42 +2,23 @@
 
 #include "../io/Metrics.h"
 #include "../render/Options.h"
+#include "Points.h"
 #include "Process.h"
 #include "Reference.h"
 #include "Thumbnail.h"
-#include "vorion/support/File.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
-#include <mutex>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-/// The name of a file: no folders in it.
-std::string asFileName(std::string Name) {
-  std::replace(Name.begin(), Name.end(), '/', '_');
-  return Name;
-}
-
-Expected<Json> readJson(const std::string &Path) {
-  const auto Bytes = readFile(Path);
-  if (!Bytes)
-    return Bytes.error();
-  Json J = Json::parse(Bytes->begin(), Bytes->end(), nullptr, false);
-  if (J.is_discarded())
-    return Error{Path, "is no JSON, expected what splat wrote there"};
-  return J;
-}
 
 /// One run of `splat render` for a point.
 struct Run {
@@ -235,42 +216,17 @@ Expected<Success> measure(const SweepPlan &P, const std::vector<Point> &Points,
                           const std::function<void(std::string_view)> &Said) {
   if (auto Made = makeReferences(P, Points, Said); !Made)
     return Made;
-  std::atomic<std::size_t> Next = 0;
-  std::mutex Lock;
-  std::size_t Done = 0;
-  std::optional<Error> Failure;
-  const auto Work = [&] {
-    for (std::size_t I = Next++; I < Points.size(); I = Next++) {
-      auto Measured = PointMeasurement(P, Points[I]).measure();
-      std::optional<Error> Problem;
-      if (!Measured)
-        Problem = Measured.error();
-      else if (auto Kept = writeFileAtomically(fileOf(P, Points[I]),
-                                               Measured->dump(1) + "\n");
-               !Kept)
-        Problem = Kept.error();
-      const std::lock_guard Guard(Lock);
-      if (Problem) {
-        Failure = Problem;
-        Next = Points.size();
-        return;
-      }
-      const Json &M = *Measured;
-      Said(fmt::format("[{}/{}] {}: {:.1f} dB, {:.0f} cycles", ++Done,
-                       Points.size(), Points[I].name(),
-                       decibels(M["errors"]["psnr_db"]),
-                       M["times"]["cycles"].get<double>()));
-    }
-  };
-  std::vector<std::thread> Others;
-  for (unsigned I = 1; I < P.Jobs; ++I)
-    Others.emplace_back(Work);
-  Work();
-  for (std::thread &Other : Others)
-    Other.join();
-  if (Failure)
-    return *Failure;
-  return Success{};
+  std::vector<Measuring> Wanted;
+  Wanted.reserve(Points.size());
+  for (const Point &Of : Points)
+    Wanted.push_back({Of.name(), fileOf(P, Of),
+                      [&P, &Of] { return PointMeasurement(P, Of).measure(); },
+                      [](const Json &M) {
+                        return fmt::format("{:.1f} dB, {:.0f} cycles",
+                                           decibels(M["errors"]["psnr_db"]),
+                                           M["times"]["cycles"].get<double>());
+                      }});
+  return measureAll(Wanted, P.Jobs, Said);
 }
 
 Expected<std::vector<Candidate>>

@@ -1,5 +1,7 @@
 #include "../accuracy/Page.h"
+#include "../accuracy/Points.h"
 #include "../accuracy/Sweep.h"
+#include "AccuracyTrain.h"
 #include "Commands.h"
 #include "SceneArguments.h"
 #include "vorion/support/File.h"
@@ -7,7 +9,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -26,6 +27,7 @@ struct AccuracyArguments {
   std::vector<std::string> Views, Check, Knobs, Only;
   unsigned Jobs = 1, Products = 64, ThumbWidth = 240;
   bool List = false, NoCores = false;
+  TrainSweepPlan Train; ///< where a capture is given
 };
 
 Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
@@ -75,14 +77,8 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A) {
   P.Jobs = A.Jobs;
   P.ThumbWidth = A.ThumbWidth;
   P.Load = [&A] { return loadScene(A.Scene); };
-  for (const char *Name : {"points", "work", "references"}) {
-    std::error_code Problem;
-    std::filesystem::create_directories(A.Folder + "/" + Name, Problem);
-    if (Problem)
-      return Error{A.Folder, fmt::format("cannot make the folder: {}, expected "
-                                         "one that can be written",
-                                         Problem.message())};
-  }
+  if (auto Made = makeFolders(A.Folder); !Made)
+    return Made.error();
   return P;
 }
 
@@ -209,7 +205,14 @@ Expected<Success> writeResults(const SweepPlan &P, const PageHead &Head,
               : Expected<Success>(Page.error());
 }
 
-Expected<Success> run(const AccuracyArguments &A) {
+Expected<Success> run(AccuracyArguments &A) {
+  if (!A.Train.Capture.empty()) {
+    A.Train.Folder = A.Folder;
+    A.Train.Jobs = A.Jobs;
+    return measureTraining(A.Train, A.List, A.Only, say);
+  }
+  if (A.Scene.Path.empty() || A.Cameras.empty())
+    return usage("expected a scene and --cameras, or --train");
   const auto Floor = parseDecibels(A.AtLeast);
   if (!Floor)
     return Floor.error();
@@ -266,8 +269,8 @@ Expected<Success> run(const AccuracyArguments &A) {
 Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
-      ->required();
+  App.get_option("scene")->required(false);
+  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json");
   App.add_option("--out", A->Folder,
                  "Folder for measurements and page; what is there is kept")
       ->required();
@@ -304,6 +307,7 @@ Runner addAccuracy(CLI::App &App) {
                  "Measure this point alone, as --list prints it; no page")
       ->option_text("POINT")
       ->allow_extra_args(false);
+  addTrainOptions(App, A->Train);
   return [A] { return run(*A); };
 }
 

@@ -1,0 +1,334 @@
+#include "TrainSweep.h"
+
+#include "../capture/Capture.h"
+#include "../io/SceneFile.h"
+#include "GradientReference.h"
+#include "Points.h"
+#include "Process.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char *GradientPoint = "gradients";
+
+std::string fileOf(const TrainSweepPlan &P, const TrainPoint &Of) {
+  return fmt::format("{}/points/{}.json", P.Folder, asFileName(Of.name()));
+}
+
+std::string references(const TrainSweepPlan &P) {
+  return P.Folder + "/references";
+}
+
+std::string stateFile(const TrainSweepPlan &P) {
+  return references(P) + "/state.ply";
+}
+
+std::string background(const TrainSweepPlan &P) {
+  return fmt::format("{}", fmt::join(P.Background, ","));
+}
+
+/// Of every `splat train`.
+std::vector<std::string> trainArguments(const TrainSweepPlan &P,
+                                        const std::string &Output) {
+  std::vector<std::string> Words{"train",        P.Capture,
+                                 "-o",           Output,
+                                 "--iterations", std::to_string(P.Iterations),
+                                 "--downscale",  std::to_string(P.Downscale),
+                                 "--background", background(P)};
+  for (const std::string &Name : P.Exclude)
+    Words.insert(Words.end(), {"--exclude", Name});
+  if (P.MostGaussians != 0)
+    Words.insert(Words.end(),
+                 {"--max-gaussians", std::to_string(P.MostGaussians)});
+  return Words;
+}
+
+/// The scene at which gradients are compared, and their reference.
+Expected<Success> makeState(const TrainSweepPlan &P,
+                            const std::function<void(std::string_view)> &Said) {
+  const GradientFiles Files(references(P));
+  if (std::filesystem::exists(Files.Gradients))
+    return Success{};
+  if (!std::filesystem::exists(stateFile(P))) {
+    Said("the scene for gradients: the default's run with seed 0");
+    std::vector<std::string> Words = trainArguments(P, stateFile(P));
+    Words.insert(Words.end(), {"--resume", "--checkpoint-every", "50"});
+    if (auto Done = runSplat(Words, references(P) + "/state.log"); !Done)
+      return Done;
+  }
+  const auto State = readScene(stateFile(P));
+  if (!State)
+    return State.error();
+  const auto C = readCapture(P.Capture, P.Exclude);
+  if (!C)
+    return C.error();
+  const auto Pictures = loadTrainingSet(*C, P.Downscale, P.Background);
+  if (!Pictures)
+    return Pictures.error();
+  Said("gradients in fp64");
+  return writeGradientReference(Files, State->Gaussians,
+                                Pictures->Training.front(), P.Background);
+}
+
+/// The rasterizer's units alone: their values, without the path.
+std::vector<std::string> unitArguments(const Setting &S) {
+  std::vector<std::string> Words;
+  for (const Knob &K : trainKnobs())
+    Words.insert(Words.end(), {"--" + K.Name, S.value(K.Name)});
+  return Words;
+}
+
+Expected<Json> measureGradients(const TrainSweepPlan &P, const TrainPoint &Of,
+                                const std::string &Base) {
+  const GradientFiles Files(references(P));
+  std::vector<std::string> Words{"gradients",   stateFile(P),   "--cameras",
+                                 Files.Cameras, "--view",       Files.View,
+                                 "--upstream",  Files.Upstream, "-o",
+                                 Base + ".npz", "--background", background(P)};
+  const auto Units = unitArguments(Of.Chosen);
+  Words.insert(Words.end(), Units.begin(), Units.end());
+  if (auto Done = runSplat(Words, Base + ".log"); !Done)
+    return Done.error();
+  auto Errors = gradientErrors(Files, Base + ".npz");
+  if (!Errors)
+    return Errors;
+  for (const char *Ending : {".npz", ".log"})
+    std::filesystem::remove(Base + Ending);
+  return Json{{"setting", Of.Chosen.name()}, {"errors", std::move(*Errors)}};
+}
+
+/// Machine-seconds after each scored iteration. An iteration that was not timed
+/// takes what the timed one of its block takes, or the last that there is.
+Json curveOf(const Json &Report, unsigned TimeEvery) {
+  const Json &Timed = Report["timed"];
+  std::vector<double> ByBlock;
+  for (const Json &T : Timed) {
+    const std::size_t Block = (T["iteration"].get<unsigned>() - 1) / TimeEvery;
+    ByBlock.resize(Block + 1, T["time"]["frame_ms"].get<double>());
+  }
+  Json Curve = Json::array();
+  if (ByBlock.empty())
+    return Curve;
+  double Seconds = 0;
+  unsigned Done = 0;
+  for (const Json &S : Report["scores"]) {
+    for (; Done < S["iteration"].get<unsigned>(); ++Done)
+      Seconds +=
+          1e-3 *
+          ByBlock[std::min<std::size_t>(Done / TimeEvery, ByBlock.size() - 1)];
+    Curve.push_back({{"iteration", Done},
+                     {"machine_seconds", Seconds},
+                     {"psnr8_db", S["psnr8_db"]}});
+  }
+  return Curve;
+}
+
+Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
+                          const std::string &Base) {
+  std::vector<std::string> Words = trainArguments(P, Base + ".ply");
+  const auto Units = unitArguments(Of.Chosen);
+  Words.insert(Words.end(), Units.begin(), Units.end());
+  Words.insert(Words.end(),
+               {"--seed", Of.At.substr(4), "--time", "--time-every",
+                std::to_string(P.TimeEvery), "--score-every",
+                std::to_string(P.ScoreEvery), "--json", Base + ".json"});
+  if (auto Done = runSplat(Words, Base + ".log"); !Done)
+    return Done.error();
+  auto Report = readJson(Base + ".json");
+  if (!Report)
+    return Report;
+  for (const char *Ending : {".ply", ".ply.checkpoint", ".json", ".log"})
+    std::filesystem::remove(Base + Ending);
+  Json Curve = curveOf(*Report, P.TimeEvery);
+  double Cycles = 0;
+  for (const Json &T : (*Report)["timed"])
+    Cycles += T["time"]["sum"]["cycles"].get<double>();
+  const Json Areas =
+      (*Report)["timed"].empty()
+          ? Json()
+          : (*Report)["timed"][0]["time"]["sum"]["lane_areas"]["reciprocal"];
+  Report->erase("losses");
+  Report->erase("scores");
+  const std::size_t Samples = (*Report)["timed"].size();
+  Report->erase("timed");
+  return Json{{"setting", Of.Chosen.name()},
+              {"seed", Of.At},
+              {"psnr8_db", (*Report)["psnr8_db"]},
+              {"timed", Samples},
+              {"cycles", Samples == 0 ? 0.0 : Cycles / double(Samples)},
+              {"reciprocal_um2", Areas},
+              {"curve", std::move(Curve)},
+              {"made_by", std::move(*Report)}};
+}
+
+std::string lineOf(const Json &Measured) {
+  if (Measured.contains("errors"))
+    return fmt::format("{:.1e}", Measured["errors"]["largest"].get<double>());
+  return fmt::format("{:.2f} dB, {:.0f} cycles an iteration",
+                     Measured["psnr8_db"].get<double>(),
+                     Measured["cycles"].get<double>());
+}
+
+} // namespace
+
+std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P) {
+  const std::vector<Setting> Settings = oneAtATime(trainKnobs());
+  std::vector<TrainPoint> All;
+  All.reserve(Settings.size() * (std::size_t{P.Seeds} + 1));
+  for (const Setting &S : Settings)
+    All.push_back({S, GradientPoint});
+  for (unsigned Seed = 0; Seed < P.Seeds; ++Seed)
+    for (const Setting &S : Settings)
+      All.push_back({S, fmt::format("seed{}", Seed)});
+  return All;
+}
+
+std::vector<TrainPoint> missing(const TrainSweepPlan &P,
+                                const std::vector<TrainPoint> &Of) {
+  std::vector<TrainPoint> Left;
+  for (const TrainPoint &One : Of)
+    if (!std::filesystem::exists(fileOf(P, One)))
+      Left.push_back(One);
+  return Left;
+}
+
+Expected<Success> measure(const TrainSweepPlan &P,
+                          const std::vector<TrainPoint> &Points,
+                          const std::function<void(std::string_view)> &Said) {
+  std::vector<Measuring> Wanted;
+  bool Gradients = false;
+  for (const TrainPoint &Of : Points) {
+    const std::string Base =
+        fmt::format("{}/work/{}", P.Folder, asFileName(Of.name()));
+    const bool OfGradients = Of.At == GradientPoint;
+    Gradients |= OfGradients;
+    Wanted.push_back({Of.name(), fileOf(P, Of),
+                      [&P, Of, Base, OfGradients] {
+                        return OfGradients ? measureGradients(P, Of, Base)
+                                           : measureRun(P, Of, Base);
+                      },
+                      lineOf});
+  }
+  if (Gradients)
+    if (auto Made = makeState(P, Said); !Made)
+      return Made;
+  return measureAll(Wanted, P.Jobs, Said);
+}
+
+namespace {
+
+/// Mean, and least and most.
+Json spreadOf(const std::vector<double> &Values) {
+  if (Values.empty())
+    return {};
+  const auto [Least, Most] = std::ranges::minmax(Values);
+  return {{"mean", std::accumulate(Values.begin(), Values.end(), 0.0) /
+                       double(Values.size())},
+          {"least", Least},
+          {"most", Most}};
+}
+
+/// Machine-seconds until a curve has \p Db, between scores by a line; the last
+/// score's if it never does.
+double secondsUntil(const Json &Curve, double Db) {
+  double Before = 0, Had = -std::numeric_limits<double>::infinity();
+  for (const Json &At : Curve) {
+    const double Seconds = At["machine_seconds"].get<double>();
+    const double Has = At["psnr8_db"].get<double>();
+    if (Has >= Db)
+      return Had > -1e9 ? Before + (Seconds - Before) * (Db - Had) / (Has - Had)
+                        : Seconds;
+    Before = Seconds;
+    Had = Has;
+  }
+  return Before;
+}
+
+double bestOf(const Json &Curve) {
+  double Best = -std::numeric_limits<double>::infinity();
+  for (const Json &At : Curve)
+    Best = std::max(Best, At["psnr8_db"].get<double>());
+  return Best;
+}
+
+} // namespace
+
+Expected<Json> trainResults(const TrainSweepPlan &P) {
+  Json Points = Json::array();
+  double Reached = std::numeric_limits<double>::infinity();
+  for (const TrainPoint &Of : trainPoints(P)) {
+    auto One = readJson(fileOf(P, Of));
+    if (!One)
+      return One.error();
+    if (One->contains("curve"))
+      Reached = std::min(Reached, bestOf((*One)["curve"]));
+    Points.push_back(std::move(*One));
+  }
+  Json Settings = Json::array();
+  for (const Setting &S : oneAtATime(trainKnobs())) {
+    Json Row{{"setting", S.name()}};
+    std::vector<double> Cycles, Db, Seconds;
+    for (const Json &One : Points) {
+      if (One["setting"] != S.name())
+        continue;
+      if (One.contains("errors")) {
+        Row["gradient_error"] = One["errors"];
+        continue;
+      }
+      Cycles.push_back(One["cycles"].get<double>());
+      Db.push_back(One["psnr8_db"].get<double>());
+      Seconds.push_back(secondsUntil(One["curve"], Reached));
+      const auto &Units = trainKnobs().front().Values;
+      const auto Unit = std::find(Units.begin(), Units.end(),
+                                  S.value(trainKnobs().front().Name));
+      Row["reciprocal_um2"] =
+          One["reciprocal_um2"].at(std::size_t(Unit - Units.begin()));
+    }
+    Row["cycles"] = spreadOf(Cycles);
+    Row["psnr8_db"] = spreadOf(Db);
+    Row["machine_seconds"] = spreadOf(Seconds);
+    Settings.push_back(std::move(Row));
+  }
+  return Json{{"capture", P.Capture},
+              {"iterations", P.Iterations},
+              {"seeds", P.Seeds},
+              {"reached_db", Reached},
+              {"settings", std::move(Settings)},
+              {"points", std::move(Points)}};
+}
+
+std::string trainTable(const Json &Results) {
+  std::string Text = fmt::format(
+      "| setting | gradient error | area of the unit, um^2 a pair | Mcycles an "
+      "iteration | PSNR after {}, dB | machine-seconds to {:.2f} dB |\n"
+      "|---|--:|--:|--:|--:|--:|\n",
+      Results["iterations"].get<unsigned>(),
+      Results["reached_db"].get<double>());
+  const auto Spread = [](const Json &J, double Unit, int Digits) {
+    return fmt::format("{0:.{3}g} ({1:.{3}g} to {2:.{3}g})",
+                       J["mean"].get<double>() / Unit,
+                       J["least"].get<double>() / Unit,
+                       J["most"].get<double>() / Unit, Digits);
+  };
+  for (const Json &Row : Results["settings"])
+    Text += fmt::format(
+        "| {} | {:.1e} | {:.0f} | {} | {} | {} |\n",
+        Row["setting"].get<std::string>(),
+        Row["gradient_error"]["largest"].get<double>(),
+        Row["reciprocal_um2"].get<double>(), Spread(Row["cycles"], 1e6, 4),
+        Spread(Row["psnr8_db"], 1, 4), Spread(Row["machine_seconds"], 1, 3));
+  return Text;
+}
+
+} // namespace vorion::splat

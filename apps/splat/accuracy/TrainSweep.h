@@ -1,0 +1,58 @@
+/// Measuring training: each reciprocal unit and order of sums, over seeds.
+#pragma once
+
+#include "Setting.h"
+
+#include <array>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::splat {
+
+/// What is trained, how often, and where measurements are kept.
+struct TrainSweepPlan {
+  std::string Capture, Folder;
+  std::vector<std::string> Exclude;
+  int Downscale = 1;
+  std::array<float, 3> Background{};
+  unsigned MostGaussians = 0; ///< 0: as `splat train` has it
+  unsigned Iterations = 500;
+  unsigned Seeds = 3; ///< 0, 1, ...
+  unsigned ScoreEvery = 25, TimeEvery = 25;
+  unsigned Jobs = 1; ///< measured at the same time
+};
+
+/// A training run with a setting and a seed, or what a setting makes of the
+/// gradients at the end of the default's run with seed 0.
+struct TrainPoint {
+  Setting Chosen;
+  std::string At; ///< "gradients" or "seed0", ...
+
+  std::string name() const { return Chosen.name() + "@" + At; }
+};
+
+/// All points of the settings of trainKnobs(), one knob at a time.
+std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P);
+
+/// Those that have no file yet.
+std::vector<TrainPoint> missing(const TrainSweepPlan &P,
+                                const std::vector<TrainPoint> &Of);
+
+/// Measures \p Points and writes a file each; \p Said gets a line for each one
+/// that is done.
+Expected<Success> measure(const TrainSweepPlan &P,
+                          const std::vector<TrainPoint> &Points,
+                          const std::function<void(std::string_view)> &Said);
+
+/// All points from their files, and what they say together: of each setting
+/// gradient error, area, cycles, PSNR, and machine-seconds until a PSNR that
+/// every run reaches.
+Expected<nlohmann::ordered_json> trainResults(const TrainSweepPlan &P);
+
+/// These as a Markdown table.
+std::string trainTable(const nlohmann::ordered_json &Results);
+
+} // namespace vorion::splat

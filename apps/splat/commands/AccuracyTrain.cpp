@@ -1,0 +1,87 @@
+#include "AccuracyTrain.h"
+
+#include "../accuracy/Points.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+
+void addTrainOptions(CLI::App &App, TrainSweepPlan &P) {
+  App.add_option("--train", P.Capture,
+                 "Measure training on this capture instead of pictures of a "
+                 "scene: gradients, time and PSNR under every reciprocal unit "
+                 "and order of sums (docs/accuracy.md)")
+      ->option_text("CAPTURE");
+  App.add_option("--iterations", P.Iterations,
+                 fmt::format("--train: of a run (default {})", P.Iterations))
+      ->check(CLI::Range(1U, 10000000U));
+  App.add_option(
+         "--seeds", P.Seeds,
+         fmt::format("--train: runs of a setting (default {})", P.Seeds))
+      ->check(CLI::Range(1U, 1000U));
+  App.add_option("--score-every", P.ScoreEvery,
+                 fmt::format("--train: iterations from one PSNR of the "
+                             "held-out views to the next (default {})",
+                             P.ScoreEvery))
+      ->check(CLI::PositiveNumber);
+  App.add_option("--time-every", P.TimeEvery,
+                 fmt::format("--train: of so many iterations one is timed "
+                             "(default {})",
+                             P.TimeEvery))
+      ->check(CLI::PositiveNumber);
+  App.add_option("--downscale", P.Downscale,
+                 "--train: pictures so many times smaller (default 1)")
+      ->check(CLI::Range(1, 64));
+  App.add_option("--max-gaussians", P.MostGaussians,
+                 "--train: no more Gaussians than this");
+  App.add_option("--exclude", P.Exclude, "--train: leave out this picture")
+      ->allow_extra_args(false);
+  App.add_option("--background", P.Background,
+                 "--train: colour r,g,b behind the scene (default 0,0,0)")
+      ->delimiter(',')
+      ->option_text("R,G,B");
+}
+
+Expected<Success>
+measureTraining(const TrainSweepPlan &P, bool List,
+                const std::vector<std::string> &Only,
+                const std::function<void(std::string_view)> &Said) {
+  if (auto Made = makeFolders(P.Folder); !Made)
+    return Made;
+  std::vector<TrainPoint> Wanted = missing(P, trainPoints(P));
+  if (List) {
+    for (const TrainPoint &Of : Wanted)
+      fmt::print("{}\n", Of.name());
+    return Success{};
+  }
+  if (!Only.empty()) {
+    std::vector<TrainPoint> Chosen;
+    for (const TrainPoint &Of : trainPoints(P))
+      if (std::find(Only.begin(), Only.end(), Of.name()) != Only.end())
+        Chosen.push_back(Of);
+    if (Chosen.size() != Only.size())
+      return Error{"",
+                   fmt::format("--only {}: no such point, expected those that "
+                               "--list prints",
+                               fmt::join(Only, " --only ")),
+                   ExitCode::Usage};
+    return measure(P, missing(P, Chosen), Said);
+  }
+  if (auto Done = measure(P, Wanted, Said); !Done)
+    return Done;
+  const auto Results = trainResults(P);
+  if (!Results)
+    return Results.error();
+  if (auto Written = writeFileAtomically(P.Folder + "/training.json",
+                                         Results->dump(1) + "\n");
+      !Written)
+    return Written;
+  fmt::print("{}", trainTable(*Results));
+  return Success{};
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,25 @@
+/// `splat accuracy --train`.
+#pragma once
+
+#include "../accuracy/TrainSweep.h"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Declares --train and what goes with it; \p P must outlive the parsing.
+void addTrainOptions(CLI::App &App, TrainSweepPlan &P);
+
+/// Measures the points that are missing, writes all of them to training.json
+/// and prints a table; with \p List prints their names alone, with \p Only
+/// measures those alone.
+Expected<Success>
+measureTraining(const TrainSweepPlan &P, bool List,
+                const std::vector<std::string> &Only,
+                const std::function<void(std::string_view)> &Said);
+
+} // namespace vorion::splat
