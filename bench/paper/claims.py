@@ -350,6 +350,8 @@ def of_training(data):
     bound = max(prototype, key=lambda row: row["bound"])
     rest = max(prototype, key=lambda row: row["bound_rest"])
     last = training.CLOCKS[-1]
+    # The paper names no resolution; ours decides a rate.
+    sizes = "pictures of " + ", ".join(sorted({"x".join(map(str, row["resolution"])) for row in rows}))
     return [
         claim(
             "gradients and their accumulation take over 60 % of an iteration on kernels",
@@ -379,18 +381,32 @@ def of_training(data):
             unit="x",
             number=51,
         ),
-        claim(f"4.97 iterations/s at {last} MHz", "4.97", prototype, lambda row: row["its"], at_least(4.97), number=4.97),
         claim(
-            f"2.43 iterations/s at {training.CLOCKS[0]} MHz",
+            f"4.97 iterations/s at {last} MHz, {sizes}",
+            "4.97",
+            prototype,
+            lambda row: row["its"],
+            at_least(4.97),
+            number=4.97,
+        ),
+        claim(
+            f"2.43 iterations/s at {training.CLOCKS[0]} MHz, {sizes}",
             "2.43",
             slow,
             lambda row: row["slow_its"],
             at_least(2.43),
             number=2.43,
         ),
-        claim("the scaled machine reaches 38.6 iterations/s", "38.6", scaled, lambda row: row["its"], at_least(38.6), number=38.6),
         claim(
-            f"{training.RASTERIZERS} rasterizers train in under 3 s (taken as {training.FULL[0]} iterations)",
+            f"the scaled machine reaches 38.6 iterations/s, {sizes}",
+            "38.6",
+            scaled,
+            lambda row: row["its"],
+            at_least(38.6),
+            number=38.6,
+        ),
+        claim(
+            f"{training.RASTERIZERS} rasterizers train in under 3 s (taken as {training.FULL[0]} iterations, {sizes})",
             "< 3 s",
             rows,
             lambda row: training.seconds(row, training.FULL[0], True),
