@@ -13,6 +13,7 @@
 #include "../io/Cameras.h"
 #include "../io/Image.h"
 #include "../io/Npz.h"
+#include "../render/FrameTime.h"
 #include "../render/Renderer.h"
 #include "../render/Report.h"
 #include "../render/View.h"
@@ -24,6 +25,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -35,12 +37,13 @@ namespace {
 
 struct RenderArguments {
   SceneArguments Scene;
-  std::string Cameras, View, Output;
+  std::string Cameras, Output;
+  std::vector<std::string> Views;
   std::string Json, Pairs, Device, KernelFolder;
   std::string PixelUnit = "off", Effects = "auto";
   EffectRequest Request;
   std::string Explain; ///< empty, "plan" or "measure"
-  bool Time = false;
+  bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
   std::string Numerics; ///< settings, empty for no
   RenderOptions Options;
@@ -48,6 +51,11 @@ struct RenderArguments {
 
 bool endsWith(const std::string &Text, std::string_view End) {
   return std::string_view(Text).ends_with(End);
+}
+
+/// Whether one picture is asked for; "all" may be one too.
+bool isOne(const RenderArguments &A) {
+  return A.Views.size() == 1 && A.Views.front() != "all";
 }
 
 /// What can be said to be wrong before anything is read.
@@ -73,6 +81,16 @@ Expected<Success> check(const RenderArguments &A) {
        O.RasterTile != RenderOptions().RasterTile))
     return Usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
                  "are the rasterizer's, expected --path raster with them");
+  if (A.Overlap && O.Blending == Path::Simt)
+    return Usage("--overlap is for cores beside rasterizers, expected --path "
+                 "raster with it");
+  if (A.Overlap && isOne(A))
+    return Usage("--overlap is for several pictures, expected --view all or "
+                 "several --view");
+  if (!isOne(A) && !A.Pairs.empty())
+    return Usage("--dump-pairs writes one picture's, expected one --view");
+  if (!isOne(A) && A.Explain == "measure")
+    return Usage("--explain=measure renders one picture, expected one --view");
   if (O.Reach == Support::Official16 && O.SimtTile != 16)
     return Usage(fmt::format("--simt-tile {}: --support official16 has tiles "
                              "of 16x16 pixels, expected 16",
@@ -124,6 +142,113 @@ void fallBack(const RenderArguments &A, const Launcher &L,
   Plan = std::move(Cheaper);
 }
 
+/// The cameras that are asked for.
+Expected<std::vector<Camera>> findCameras(const RenderArguments &A) {
+  if (A.Views.size() == 1 && A.Views.front() == "all")
+    return readCameras(A.Cameras);
+  std::vector<Camera> Found;
+  for (const std::string &View : A.Views) {
+    auto C = readCamera(A.Cameras, View);
+    if (!C)
+      return C.error();
+    Found.push_back(std::move(*C));
+  }
+  return Found;
+}
+
+/// By which every effect is needed that some view needs.
+ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
+                     const RenderOptions &O) {
+  std::optional<ViewFacts> All;
+  for (const Camera &C : Cameras) {
+    const ViewFacts Own = factsOf(S, makeView(C, O), nearLimit(O.Convention));
+    All = All ? ofBoth(*All, Own) : Own;
+  }
+  return *All;
+}
+
+/// Everything that pictures are made with.
+struct Job {
+  const RenderArguments &A;
+  const SceneFile &File;
+  const RenderPlan &Plan;
+  const Device &Dev;
+  Launcher &L;
+};
+
+Expected<std::string> report(const Job &J, const std::string &Output,
+                             const Camera &C, const RenderResult &R) {
+  return jsonReport({J.A.Scene.Path, J.A.Scene.Axes, J.A.Cameras, Output,
+                     J.File, C, J.A.Options, J.Plan, J.Dev, R});
+}
+
+Expected<Success> renderOne(const Job &J, const Camera &C) {
+  const RenderArguments &A = J.A;
+  auto R =
+      render(J.L, J.Plan, J.File.Gaussians, C, A.Options, !A.Pairs.empty());
+  endProgress();
+  if (!R) {
+    showBuildLog(J.L);
+    return R.error();
+  }
+  if (auto Written = writeImage(A.Output, R->Picture); !Written)
+    return Written.error();
+  if (!A.Pairs.empty())
+    if (auto Written = writePairs(A.Pairs, *R->Sorted); !Written)
+      return Written.error();
+  if (!A.Json.empty()) {
+    auto Report = report(J, A.Output, C, *R);
+    if (!Report)
+      return Report.error();
+    if (auto Written = writeFileAtomically(A.Json, *Report); !Written)
+      return Written.error();
+  }
+  fmt::print("{}", textReport(C, A.Options, J.Dev, *R));
+  return Success{};
+}
+
+/// out.png for view front is out.front.png.
+std::string outputOf(const std::string &Output, const Camera &C) {
+  const std::filesystem::path Path(Output);
+  return (Path.parent_path() /
+          (Path.stem().string() + "." + C.Name + Path.extension().string()))
+      .string();
+}
+
+Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
+  const RenderArguments &A = J.A;
+  auto R = renderSequence(J.L, J.Plan, J.File.Gaussians, Cameras, A.Options,
+                          A.Overlap);
+  endProgress();
+  if (!R) {
+    showBuildLog(J.L);
+    return R.error();
+  }
+  nlohmann::ordered_json Reports = nlohmann::ordered_json::array();
+  for (std::size_t N = 0; N < Cameras.size(); ++N) {
+    const std::string Output = outputOf(A.Output, Cameras[N]);
+    if (auto Written = writeImage(Output, R->Frames[N].Picture); !Written)
+      return Written.error();
+    fmt::print("{}\n", Output);
+    if (A.Json.empty())
+      continue;
+    auto Report = report(J, Output, Cameras[N], R->Frames[N]);
+    if (!Report)
+      return Report.error();
+    Reports.push_back(nlohmann::ordered_json::parse(*Report));
+  }
+  if (!A.Json.empty()) {
+    nlohmann::ordered_json All{{"overlap", A.Overlap}, {"pictures", Reports}};
+    if (const std::string Time = sequenceJson(*R); !Time.empty())
+      All["time"] = nlohmann::ordered_json::parse(Time);
+    if (auto Written = writeFileAtomically(A.Json, All.dump(2) + "\n");
+        !Written)
+      return Written.error();
+  }
+  fmt::print("{}", sequenceText(*R));
+  return Success{};
+}
+
 Expected<Success> run(const RenderArguments &A) {
   if (auto Checked = check(A); !Checked)
     return Checked.error();
@@ -131,9 +256,9 @@ Expected<Success> run(const RenderArguments &A) {
   if (!File)
     return File.error();
   const Scene *S = &File->Gaussians;
-  auto C = readCamera(A.Cameras, A.View);
-  if (!C)
-    return C.error();
+  auto Cameras = findCameras(A);
+  if (!Cameras)
+    return Cameras.error();
   if (A.Time || A.ClockMhz)
     turnClockOn(A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;
@@ -143,8 +268,7 @@ Expected<Success> run(const RenderArguments &A) {
       return Begun.error();
     Numerics.emplace(std::move(*Begun));
   }
-  const ViewFacts Facts =
-      factsOf(*S, makeView(*C, A.Options), nearLimit(A.Options.Convention));
+  const ViewFacts Facts = factsOfAll(*S, *Cameras, A.Options);
   const EffectInputs Inputs{*S, A.Options, Facts, !A.Pairs.empty()};
   RenderPlan Plan = planAsAsked(A, Inputs);
 
@@ -153,28 +277,12 @@ Expected<Success> run(const RenderArguments &A) {
     return D.error();
   Launcher L(*D, A.KernelFolder, progress());
   fallBack(A, L, Inputs, Plan);
-  auto R = render(L, Plan, *S, *C, A.Options, !A.Pairs.empty());
-  endProgress();
-  if (!R) {
-    showBuildLog(L);
-    return R.error();
-  }
+  const Job J{A, *File, Plan, *D, L};
+  auto Rendered =
+      isOne(A) ? renderOne(J, Cameras->front()) : renderAll(J, *Cameras);
+  if (!Rendered)
+    return Rendered;
   L.recordBuilds();
-
-  if (auto Written = writeImage(A.Output, R->Picture); !Written)
-    return Written.error();
-  if (!A.Pairs.empty())
-    if (auto Written = writePairs(A.Pairs, *R->Sorted); !Written)
-      return Written.error();
-  if (!A.Json.empty()) {
-    auto Report = jsonReport({A.Scene.Path, A.Scene.Axes, A.Cameras, A.Output,
-                              *File, *C, A.Options, Plan, *D, *R});
-    if (!Report)
-      return Report.error();
-    if (auto Written = writeFileAtomically(A.Json, *Report); !Written)
-      return Written.error();
-  }
-  fmt::print("{}", textReport(*C, A.Options, *D, *R));
   if (Numerics) {
     const auto Text = Numerics->text();
     if (!Text)
@@ -182,8 +290,8 @@ Expected<Success> run(const RenderArguments &A) {
     fmt::print("{}", *Text);
   }
   if (A.Explain == "measure") {
-    const auto Costs =
-        measureEffects(*D, A.KernelFolder, A.Request, Inputs, *C, progress());
+    const auto Costs = measureEffects(*D, A.KernelFolder, A.Request, Inputs,
+                                      Cameras->front(), progress());
     endProgress();
     if (!Costs)
       return Costs.error();
@@ -243,7 +351,15 @@ Runner addRender(CLI::App &App) {
   addSceneOptions(App, A->Scene);
   App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
       ->required();
-  App.add_option("--view", A->View, "img_name or id of the view")->required();
+  App.add_option("--view", A->Views,
+                 "img_name or id of the view; several times, or \"all\", for "
+                 "several pictures, whose files then have the view's name in "
+                 "front of their ending")
+      ->required()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  App.add_flag("--overlap", A->Overlap,
+               "Of several pictures, prepare one while another is blended");
   App.add_option("-o,--output", A->Output,
                  "Picture: .png, or .pfm or .npz for linear floats")
       ->required();

@@ -78,6 +78,8 @@ public:
 
   /// What follows is accounted to a new stage. Begin one first of all.
   void beginStage(std::string_view Name);
+  /// How many stages there are.
+  std::size_t stages() const { return Stages.size(); }
   /// Ends the last stage and gives all of them.
   std::vector<StageReport> takeStages();
 

@@ -134,6 +134,21 @@ TEST_F(Effects, TheFieldOfViewIsNeededUpToItsLimitAndABit) {
   }
 }
 
+TEST_F(Effects, OfTwoViewsEitherCallsForAnEffect) {
+  const auto Facts = [&] {
+    return factsOf(S, makeView(C, O), nearLimit(O.Convention));
+  };
+  const auto NeedsNearPlane = [&](const ViewFacts &F) {
+    return effects::NearPlane.Detect({S, O, F, false}).Needed;
+  };
+  const ViewFacts Before = Facts();
+  C.Position[2] = 10;
+  const ViewFacts Beyond = Facts();
+  EXPECT_FALSE(NeedsNearPlane(ofBoth(Before, Before)));
+  EXPECT_TRUE(NeedsNearPlane(ofBoth(Before, Beyond)));
+  EXPECT_TRUE(NeedsNearPlane(ofBoth(Beyond, Before)));
+}
+
 TEST_F(Effects, OpacitiesDecideFaintAndClamp) {
   O.Blending = Path::Simt;
   S.OpacityLogits[1] = 4.5951F; // 0.98999983

@@ -122,4 +122,14 @@ ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit) {
   return F;
 }
 
+ViewFacts ofBoth(const ViewFacts &A, const ViewFacts &B) {
+  const double NearestA = A.NearestDepth - A.DepthSlack;
+  const double NearestB = B.NearestDepth - B.DepthSlack;
+  // A NaN decides, as it does alone.
+  ViewFacts Both = std::isnan(NearestA) || NearestA <= NearestB ? A : B;
+  Both.BeyondField = std::max(A.BeyondField, B.BeyondField);
+  Both.Reach = std::max(A.Reach, B.Reach);
+  return Both;
+}
+
 } // namespace vorion::splat

@@ -33,4 +33,7 @@ struct ViewFacts {
 /// figures by which everything is needed.
 ViewFacts factsOf(const Scene &S, const splat_view &View, double NearLimit);
 
+/// Of two views of one scene: by these is needed what either needs.
+ViewFacts ofBoth(const ViewFacts &A, const ViewFacts &B);
+
 } // namespace vorion::splat

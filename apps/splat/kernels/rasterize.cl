@@ -1,5 +1,6 @@
 // Blending by the rasterizers: every core starts the tile commands that are its
-// own and waits for them at the end (docs/rasterizer.md). One group a core.
+// own and waits for them at the end, or in a later kernel (docs/rasterizer.md).
+// One group a core.
 #include <vorion_raster.h>
 
 _Static_assert(sizeof(splat_gaussian) == sizeof(vx_gaussian),
@@ -59,11 +60,11 @@ static void start_part(const picture_commands *c, uint tile, uint part,
 
 // Jobs are (tile, part), tiles by `tile_order`, the parts of a tile together.
 // `pixels` has `parts` pictures.
-__kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
-rasterize(__global const splat_gaussian *records, __global const uint *list,
-          __global const uint2 *ranges, __global const uint *tile_order,
-          __global float4 *pixels, __global uint *last, __global uint *tails,
-          __global uint *statuses, splat_blend_options options) {
+static void start_jobs(__global const splat_gaussian *records,
+                       __global const uint *list, __global const uint2 *ranges,
+                       __global const uint *tile_order,
+                       __global float4 *pixels, __global uint *last,
+                       __global uint *tails, splat_blend_options options) {
   const uint effects = options.effects;
   const uint parts = USE_ZTILES ? options.parts : 1;
   const uint jobs = options.tiles * parts;
@@ -79,7 +80,35 @@ rasterize(__global const splat_gaussian *records, __global const uint *list,
     const uint tile = tile_order[job / parts];
     start_part(&c, tile, job % parts, ranges[tile], job);
   }
+}
+
+static void wait_for_jobs(__global uint *statuses) {
   const uint status = vr_wait();
   if (get_local_id(0) == 0)
     statuses[vx_core_id()] = status;
+}
+
+__kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
+rasterize(__global const splat_gaussian *records, __global const uint *list,
+          __global const uint2 *ranges, __global const uint *tile_order,
+          __global float4 *pixels, __global uint *last, __global uint *tails,
+          __global uint *statuses, splat_blend_options options) {
+  start_jobs(records, list, ranges, tile_order, pixels, last, tails, options);
+  wait_for_jobs(statuses);
+}
+
+// The two halves of that: between them other kernels may run, while the
+// rasterizers and pixel units work.
+__kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
+rasterize_start(__global const splat_gaussian *records,
+                __global const uint *list, __global const uint2 *ranges,
+                __global const uint *tile_order, __global float4 *pixels,
+                __global uint *last, __global uint *tails,
+                splat_blend_options options) {
+  start_jobs(records, list, ranges, tile_order, pixels, last, tails, options);
+}
+
+__kernel __attribute__((reqd_work_group_size(16, 1, 1))) void
+rasterize_wait(__global uint *statuses) {
+  wait_for_jobs(statuses);
 }

@@ -98,7 +98,7 @@ std::string row(const std::string &Name, const Json &T, double FrameCycles) {
   const double Operand = share(T, "cores", {"operand", "unit"});
   const double Raster = share(T, "cores", {"raster_full", "raster_wait"});
   const auto Cycles = T["cycles"].get<std::uint64_t>();
-  return fmt::format("{:<15}{:>12}{:>7.1f}{:>9.3f} |{:>7.1f}{:>8.1f}{:>9.1f}"
+  return fmt::format("{:<18}{:>12}{:>7.1f}{:>9.3f} |{:>7.1f}{:>8.1f}{:>9.1f}"
                      "{:>8.1f}{:>7.1f} |{:>7.1f}{:>7.1f} |{:>9.2f}\n",
                      Name, Cycles,
                      100 * static_cast<double>(Cycles) / FrameCycles,
@@ -106,6 +106,71 @@ std::string row(const std::string &Name, const Json &T, double FrameCycles) {
                      Cycles ? 100 - Issue - Memory - Operand - Raster : 0.0,
                      share(T, "rasterizers", {"blend"}),
                      share(T, "rasterizers", {"fetch"}), dramMegabytes(T));
+}
+
+std::string head(const Json &Whole) {
+  return fmt::format(
+      "\n{:<18}{:>12}{:>7}{:>9} |{:>31} in % |{:>15}|\n{:<18}{:>12}{:>7}{:>9} "
+      "|{:>7}{:>8}{:>9}{:>8}{:>7} |{:>7}{:>7} |{:>9}\n",
+      fmt::format("at {} MHz", Whole["clock_mhz"].get<unsigned>()), "", "", "",
+      "cycles of cores", "rasterizers ", "stage", "cycles", "%", "ms", "issue",
+      "memory", "operand", "raster", "other", "blend", "fetch", "DRAM MB");
+}
+
+/// Cycles in which the busiest of the units \p Units was not idle.
+std::uint64_t busyCycles(const Json &Report, const char *Units) {
+  std::uint64_t Most = 0;
+  for (const Json &U : Report[Units])
+    Most = std::max(Most, Report["cycles"].get<std::uint64_t>() -
+                              U["idle"].get<std::uint64_t>());
+  return Most;
+}
+
+/// How long the stages of a sequence took, those of the same name in one.
+struct SequenceTimes {
+  explicit SequenceTimes(const SequenceResult &R);
+
+  std::vector<StageReport> ByName;
+  Json Sum;
+  double Total = 0;               ///< ms, launches and copies included
+  std::vector<double> Latency;    ///< ms, by picture
+  double Cores = 0;               ///< ms that they did not wait for rasterizers
+  double Rasters = 0, Pixels = 0; ///< ms of the busiest
+  double all() const { return Cores + Rasters + Pixels; }
+  double bound() const { return std::max({Cores, Rasters, Pixels}); }
+  double kernels() const { return milliseconds(Sum); }
+};
+
+SequenceTimes::SequenceTimes(const SequenceResult &R)
+    : Sum(Json::parse(frameTime(R.Stages))), Latency(R.Frames.size()) {
+  std::vector<double> Begins(R.Frames.size(), -1);
+  for (std::size_t N = 0; N < R.Stages.size(); ++N) {
+    const StageReport &S = R.Stages[N];
+    const std::string Time = stageTime(S);
+    if (!isOfTheFrame(S) || Time.empty())
+      continue;
+    double &Begin = Begins[R.FrameOf[N]];
+    if (Begin < 0)
+      Begin = Total;
+    Total += milliseconds(Json::parse(Time)) +
+             launchMilliseconds(S, Sum["host"]) +
+             copyMilliseconds(S, Sum["host"]);
+    Latency[R.FrameOf[N]] = Total - Begin;
+    const auto Same = std::ranges::find(ByName, S.Name, &StageReport::Name);
+    if (Same == ByName.end()) {
+      ByName.push_back(S);
+      continue;
+    }
+    Same->Kernels.insert(Same->Kernels.end(), S.Kernels.begin(),
+                         S.Kernels.end());
+    Same->Copies += S.Copies;
+    Same->CopiedBytes += S.CopiedBytes;
+  }
+  const double PerCycle = 1 / (1e3 * Sum["clock_mhz"].get<double>());
+  Cores = kernels() *
+          (1 - share(Sum, "cores", {"raster_full", "raster_wait"}) / 100);
+  Rasters = PerCycle * static_cast<double>(busyCycles(Sum, "rasterizers"));
+  Pixels = PerCycle * static_cast<double>(busyCycles(Sum, "pixel_units"));
 }
 
 } // namespace
@@ -151,12 +216,7 @@ std::string frameText(const std::vector<StageReport> &Stages,
     return {};
   const Json Whole = Json::parse(Sum);
   const double Cycles = std::max(1.0, Whole["cycles"].get<double>());
-  std::string Text = fmt::format(
-      "\n{:<15}{:>12}{:>7}{:>9} |{:>31} in % |{:>15}|\n{:<15}{:>12}{:>7}{:>9} "
-      "|{:>7}{:>8}{:>9}{:>8}{:>7} |{:>7}{:>7} |{:>9}\n",
-      fmt::format("at {} MHz", Whole["clock_mhz"].get<unsigned>()), "", "", "",
-      "cycles of cores", "rasterizers ", "stage", "cycles", "%", "ms", "issue",
-      "memory", "operand", "raster", "other", "blend", "fetch", "DRAM MB");
+  std::string Text = head(Whole);
   for (const StageReport &S : Stages)
     if (const std::string Time = stageTime(S); !Time.empty())
       Text += row(S.Name, Json::parse(Time), Cycles);
@@ -170,6 +230,50 @@ std::string frameText(const std::vector<StageReport> &Stages,
 std::uint64_t frameCycles(const std::vector<StageReport> &Stages) {
   const std::string Sum = frameTime(Stages);
   return Sum.empty() ? 0 : Json::parse(Sum)["cycles"].get<std::uint64_t>();
+}
+
+std::string sequenceJson(const SequenceResult &R) {
+  if (frameTime(R.Stages).empty())
+    return {};
+  const SequenceTimes T(R);
+  Json Stages = Json::array();
+  for (const StageReport &S : T.ByName)
+    Stages.push_back({{"name", S.Name}, {"time", Json::parse(stageTime(S))}});
+  return Json{{"pictures", R.Frames.size()},
+              {"total_ms", T.Total},
+              {"fps", 1e3 * static_cast<double>(R.Frames.size()) / T.Total},
+              {"latency_ms", T.Latency},
+              {"kernel_ms", T.kernels()},
+              {"core_busy_ms", T.Cores},
+              {"rasterizer_busy_ms", T.Rasters},
+              {"pixel_unit_busy_ms", T.Pixels},
+              {"bound_ms", T.bound()},
+              {"beside_ms", T.all() - T.kernels()},
+              {"sum", T.Sum},
+              {"stages", Stages}}
+      .dump();
+}
+
+std::string sequenceText(const SequenceResult &R) {
+  if (frameTime(R.Stages).empty())
+    return {};
+  const SequenceTimes T(R);
+  const double Cycles = std::max(1.0, T.Sum["cycles"].get<double>());
+  std::string Text = head(T.Sum);
+  for (const StageReport &S : T.ByName)
+    Text += row(S.Name, Json::parse(stageTime(S)), Cycles);
+  Text += row("all", T.Sum, Cycles);
+  const double Mean = std::accumulate(T.Latency.begin(), T.Latency.end(), 0.0) /
+                      static_cast<double>(T.Latency.size());
+  return Text +
+         fmt::format(
+             "{} pictures in {:.3f} ms: {:.2f} a second, {:.3f} ms from a "
+             "picture's beginning to its end\nbusy: cores {:.3f} ms, "
+             "rasterizers {:.3f}, pixel units {:.3f}; {:.3f} ms beside each "
+             "other, bound {:.3f} ms\n",
+             R.Frames.size(), T.Total,
+             1e3 * static_cast<double>(R.Frames.size()) / T.Total, Mean,
+             T.Cores, T.Rasters, T.Pixels, T.all() - T.kernels(), T.bound());
 }
 
 } // namespace vorion::splat

@@ -59,6 +59,14 @@ GaussianBuffers uploadGaussians(Launcher &L, const Scene &S,
 }
 
 void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
+  prepare(Gaussians, C);
+  if (L.failure())
+    return;
+  L.beginStage("blend");
+  blend();
+}
+
+void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   F = {};
   F.View = makeView(C, Options);
   F.View.effects = Plan.flags();
@@ -76,8 +84,6 @@ void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   duplicate();
   L.beginStage("sort by tile");
   sortByTile();
-  L.beginStage("blend");
-  blend();
 }
 
 void Pipeline::project() {
@@ -166,15 +172,22 @@ void Pipeline::sortByTile() {
 }
 
 void Pipeline::blend() {
+  if (Options.Blending == Path::Simt)
+    return shade();
+  prepareRasterizers();
+  L.run(BlendProgram, "rasterize", L.device().computeUnits() * Lanes, Lanes,
+        F.Records, F.List, F.Ranges, F.TileOrder, F.Parts, F.Last, F.Tails,
+        F.Statuses, blendOptions());
+  endBlending();
+}
+
+void Pipeline::allocatePixels() {
   F.Pixels = L.allocate("pixels", 16 * uint64_t{F.pixels()});
   F.Last = words("last contributors", Options.Training ? F.pixels() : 1);
-  if (Options.Blending == Path::Raster)
-    rasterize();
-  else
-    shade();
 }
 
 void Pipeline::shade() {
+  allocatePixels();
   const std::size_t Group = Options.SimtGroup;
   L.run(BlendProgram, "blend",
         cl::NDRange(F.View.tiles[0] * Group, F.View.tiles[1]),
@@ -206,27 +219,38 @@ splat_blend_options Pipeline::blendOptions() const {
   return O;
 }
 
-void Pipeline::rasterize() {
-  const splat_blend_options O = blendOptions();
-  const std::size_t Cores = L.device().computeUnits();
+void Pipeline::prepareRasterizers() {
+  allocatePixels();
+  F.Parts = F.Pixels;
+  if (Plan.done(effects::ZTiles))
+    F.Parts =
+        L.allocate("depth parts", 16 * uint64_t{F.pixels()} * Options.ZTiles);
   F.TileOrder = words("tile order", F.tiles());
-  const cl::Buffer Statuses = words("cores' statuses", Cores);
-  const cl::Buffer Tails = L.allocate(
-      "hand-over records", Plan.done(effects::PixelUnit)
-                               ? uint64_t{TAIL_BYTES} * O.parts * O.tiles
-                               : TAIL_BYTES);
-  cl::Buffer Parts = F.Pixels;
-  const bool Merged = Plan.done(effects::ZTiles);
-  if (Merged)
-    Parts = L.allocate("depth parts", 16 * uint64_t{F.pixels()} * O.parts);
+  F.Statuses = words("cores' statuses", L.device().computeUnits());
+  F.Tails = L.allocate("hand-over records",
+                       Plan.done(effects::PixelUnit)
+                           ? uint64_t{TAIL_BYTES} * Options.ZTiles * F.tiles()
+                           : TAIL_BYTES);
   L.run(TilesProgram, "order_tiles", itemsFor(F.tiles()), GroupSize, F.Ranges,
         F.TileOrder, F.tiles());
-  L.run(BlendProgram, "rasterize", Cores * Lanes, Lanes, F.Records, F.List,
-        F.Ranges, F.TileOrder, Parts, F.Last, Tails, Statuses, O);
-  if (Merged)
-    L.run(MergeProgram, "merge", itemsFor(F.pixels()), GroupSize, Parts,
-          F.Pixels, F.pixels(), O.parts);
-  checkStatuses(Statuses);
+}
+
+void Pipeline::startBlending() {
+  L.run(BlendProgram, "rasterize_start", L.device().computeUnits() * Lanes,
+        Lanes, F.Records, F.List, F.Ranges, F.TileOrder, F.Parts, F.Last,
+        F.Tails, blendOptions());
+}
+
+void Pipeline::waitForBlending() {
+  L.run(BlendProgram, "rasterize_wait", L.device().computeUnits() * Lanes,
+        Lanes, F.Statuses);
+}
+
+void Pipeline::endBlending() {
+  if (Plan.done(effects::ZTiles))
+    L.run(MergeProgram, "merge", itemsFor(F.pixels()), GroupSize, F.Parts,
+          F.Pixels, F.pixels(), Options.ZTiles);
+  checkStatuses(F.Statuses);
 }
 
 void Pipeline::checkStatuses(const cl::Buffer &Statuses) {

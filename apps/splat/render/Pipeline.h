@@ -59,6 +59,9 @@ struct Frame {
   cl::Buffer List;
   cl::Buffer Ranges;    ///< of each tile in the list
   cl::Buffer TileOrder; ///< tiles by length, where rasterizers draw
+  cl::Buffer Parts;     ///< what they draw: Pixels, or its depth parts
+  cl::Buffer Tails;     ///< their hand-over records
+  cl::Buffer Statuses;  ///< of the cores that started them
   cl::Buffer Pixels;    ///< colour in front of the background, transmittance
   cl::Buffer Last; ///< in training: entries of its list that a pixel has taken
   std::uint32_t Visible = 0, Pairs = 0;
@@ -81,6 +84,18 @@ public:
   /// stage of the launcher's. Buffers of the frame before are released.
   void draw(const GaussianBuffers &Gaussians, const Camera &C);
 
+  /// \name The same in steps, for the rasterizers' path
+  /// Between startBlending() and waitForBlending() other kernels may run, of
+  /// other pipelines too, but only one pipeline may be between them.
+  /// @{
+  void prepare(const GaussianBuffers &Gaussians, const Camera &C);
+  /// Tiles by length, and what blending needs of memory.
+  void prepareRasterizers();
+  void startBlending();
+  void waitForBlending();
+  void endBlending();
+  /// @}
+
   const Frame &frame() const { return F; }
 
   /// What the rasterizers are told of a picture.
@@ -95,7 +110,7 @@ private:
   void duplicate();
   void sortByTile();
   void blend();
-  void rasterize();
+  void allocatePixels();
   void shade();
   cl::Buffer words(std::string_view What, std::uint64_t N) {
     return L.allocate(What, 4 * N);

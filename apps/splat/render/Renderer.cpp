@@ -59,33 +59,138 @@ Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture,
   return I;
 }
 
-Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
-                              const Scene &S, const Camera &C,
-                              const RenderOptions &Options, bool KeepPairs) {
+namespace {
+
+/// What can be said to be wrong before the device is asked; builds the
+/// programs.
+Expected<Success> begin(Launcher &L, const RenderPlan &Plan, const Scene &S) {
   if (S.size() > std::numeric_limits<std::int32_t>::max())
     return Error{"", "more than 2^31 - 1 Gaussians, whose numbers have 31 bits",
                  ExitCode::LimitReached};
   L.beginStage("build");
   for (const ProgramSpec &Program : Plan.Programs)
     L.build(Program);
-
   L.beginStage("upload");
-  const GaussianBuffers Gaussians = uploadGaussians(L, S, Plan.Effects);
-  Pipeline P(L, Options, Plan.Effects);
-  P.draw(Gaussians, C);
+  return Success{};
+}
+
+/// From blended pixels to the host.
+RenderResult finish(Launcher &L, const RenderPlan &Plan, const Frame &F,
+                    const RenderOptions &Options) {
   // Without a background the pixels are the picture, but for 1 - T.
   const bool Resolved = Plan.Effects.done(effects::Background);
-  cl::Buffer Picture = P.frame().Pixels;
+  cl::Buffer Picture = F.Pixels;
   if (Resolved) {
     L.beginStage("resolve");
-    Picture = resolve(L, P.frame(), Options.Background);
+    Picture = resolve(L, F, Options.Background);
   }
   L.beginStage("read back");
   RenderResult R;
-  R.Visible = P.frame().Visible;
-  R.Pairs = P.frame().Pairs;
-  R.Culled = P.frame().Culled;
-  R.Picture = readPicture(L, P.frame(), Picture, Resolved);
+  R.Visible = F.Visible;
+  R.Pairs = F.Pairs;
+  R.Culled = F.Culled;
+  R.Picture = readPicture(L, F, Picture, Resolved);
+  return R;
+}
+
+/// Renders the pictures of a sequence, and knows which stage is whose.
+class Sequence {
+public:
+  Sequence(Launcher &Launch, const RenderPlan &P, const GaussianBuffers &Input,
+           const std::vector<Camera> &Views, const RenderOptions &O)
+      : L(Launch), Plan(P), Gaussians(Input), Cameras(Views), Options(O),
+        FirstStage(L.stages()) {
+    R.Frames.resize(Views.size());
+  }
+
+  /// One after the other.
+  void apart() {
+    Pipeline P(L, Options, Plan.Effects);
+    for (std::size_t Frame = 0; Frame < Cameras.size(); ++Frame) {
+      P.draw(Gaussians, Cameras[Frame]);
+      take(Frame, P);
+    }
+  }
+
+  /// While a picture is blended the next one is prepared. The rasterizers get
+  /// that as soon as they are done, before the first one is resolved.
+  void overlapped() {
+    Pipeline Both[2] = {{L, Options, Plan.Effects}, {L, Options, Plan.Effects}};
+    for (std::size_t Frame = 0; Frame < Cameras.size(); ++Frame) {
+      Pipeline &P = Both[Frame % 2];
+      P.prepare(Gaussians, Cameras[Frame]);
+      if (L.failure())
+        return;
+      P.prepareRasterizers();
+      own(Frame);
+      if (Frame != 0)
+        wait(Frame - 1, Both[(Frame - 1) % 2]);
+      L.beginStage("start blending");
+      P.startBlending();
+      own(Frame);
+      if (Frame != 0)
+        end(Frame - 1, Both[(Frame - 1) % 2]);
+    }
+    const std::size_t Last = Cameras.size() - 1;
+    wait(Last, Both[Last % 2]);
+    end(Last, Both[Last % 2]);
+  }
+
+  /// Needs that nothing failed.
+  SequenceResult result() {
+    const std::vector<StageReport> All = L.takeStages();
+    for (std::size_t N = 0; N < R.FrameOf.size(); ++N) {
+      R.Stages.push_back(All[FirstStage + N]);
+      R.Frames[R.FrameOf[N]].Stages.push_back(All[FirstStage + N]);
+    }
+    return std::move(R);
+  }
+
+private:
+  /// What has been begun since the last call is \p Frame's.
+  void own(std::size_t Frame) {
+    R.FrameOf.resize(L.stages() - FirstStage, Frame);
+  }
+  void wait(std::size_t Frame, Pipeline &P) {
+    L.beginStage("wait for blending");
+    P.waitForBlending();
+    own(Frame);
+  }
+  void end(std::size_t Frame, Pipeline &P) {
+    L.beginStage("end blending");
+    P.endBlending();
+    take(Frame, P);
+  }
+  void take(std::size_t Frame, const Pipeline &P) {
+    if (L.failure())
+      return;
+    R.Frames[Frame] = finish(L, Plan, P.frame(), Options);
+    R.Frames[Frame].DeviceBytes = L.bytesInUse();
+    own(Frame);
+  }
+
+  Launcher &L;
+  const RenderPlan &Plan;
+  const GaussianBuffers &Gaussians;
+  const std::vector<Camera> &Cameras;
+  const RenderOptions &Options;
+  std::size_t FirstStage;
+  SequenceResult R;
+};
+
+} // namespace
+
+Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
+                              const Scene &S, const Camera &C,
+                              const RenderOptions &Options, bool KeepPairs) {
+  if (auto Begun = begin(L, Plan, S); !Begun)
+    return Begun.error();
+  const GaussianBuffers Gaussians = uploadGaussians(L, S, Plan.Effects);
+  Pipeline P(L, Options, Plan.Effects);
+  P.draw(Gaussians, C);
+  if (L.failure())
+    return *L.failure();
+  RenderResult R = finish(L, Plan, P.frame(), Options);
   if (KeepPairs)
     R.Sorted = readPairs(L, P.frame());
   if (L.failure())
@@ -93,6 +198,24 @@ Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
   R.DeviceBytes = L.allocatedBytes();
   R.Stages = L.takeStages();
   return R;
+}
+
+Expected<SequenceResult> renderSequence(Launcher &L, const RenderPlan &Plan,
+                                        const Scene &S,
+                                        const std::vector<Camera> &Cameras,
+                                        const RenderOptions &Options,
+                                        bool Overlap) {
+  if (auto Begun = begin(L, Plan, S); !Begun)
+    return Begun.error();
+  const GaussianBuffers Gaussians = uploadGaussians(L, S, Plan.Effects);
+  Sequence Views(L, Plan, Gaussians, Cameras, Options);
+  if (Overlap)
+    Views.overlapped();
+  else
+    Views.apart();
+  if (L.failure())
+    return *L.failure();
+  return Views.result();
 }
 
 } // namespace vorion::splat

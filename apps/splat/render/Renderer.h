@@ -41,4 +41,21 @@ Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
                               const Scene &S, const Camera &C,
                               const RenderOptions &Options, bool KeepPairs);
 
+/// Several pictures of one scene.
+struct SequenceResult {
+  std::vector<RenderResult> Frames;
+  std::vector<StageReport> Stages;  ///< of all, in the order of time
+  std::vector<std::size_t> FrameOf; ///< whose each of these is
+};
+
+/// The same for every one of \p Cameras, at least one. With \p Overlap, for the
+/// rasterizers' path, the rasterizers blend a picture while the cores prepare
+/// the next one (docs/rasterizer.md, "What runs at the same time"); pictures
+/// are the same.
+Expected<SequenceResult> renderSequence(Launcher &L, const RenderPlan &Plan,
+                                        const Scene &S,
+                                        const std::vector<Camera> &Cameras,
+                                        const RenderOptions &Options,
+                                        bool Overlap);
+
 } // namespace vorion::splat

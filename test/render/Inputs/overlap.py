@@ -1,0 +1,22 @@
+"""Checks what a sequence's reports say of overlapping: APART.json OVERLAPPED.json."""
+import json
+import sys
+
+apart, beside = (json.load(open(f))["time"] for f in sys.argv[1:])
+for report in apart, beside:
+    assert report["pictures"] == len(report["latency_ms"]) == 3
+    assert report["bound_ms"] <= report["kernel_ms"] <= report["total_ms"]
+    assert sum(report["sum"]["cores"][0].values()) == report["sum"]["cycles"]
+    busy = [sum(v for k, v in unit.items() if k in
+                "blend clip fetch hazard begin flush drain idle".split())
+            for unit in report["sum"]["rasterizers"]]
+    assert set(busy) == {report["sum"]["cycles"]}, busy
+# The rasterizers' work does not change with what else runs, but for memory.
+assert abs(beside["rasterizer_busy_ms"] / apart["rasterizer_busy_ms"] - 1) < 0.2
+working = lambda r, names: sum(s["time"]["cycles"] - s["time"]["rasterizers"][0]["idle"]
+                               for s in r["stages"] if s["name"] in names)
+BEFORE = "project", "sort by depth", "count pairs", "duplicate", "sort by tile"
+assert working(apart, BEFORE) == 0
+assert working(beside, BEFORE) > 0
+assert beside["beside_ms"] > apart["beside_ms"]
+assert beside["total_ms"] < apart["total_ms"]
