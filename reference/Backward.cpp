@@ -171,9 +171,9 @@ private:
   void color(std::size_t I) {
     const auto Bands = static_cast<std::size_t>(G.ShDegree) + 1;
     const std::size_t Coefficients = Bands * Bands;
-    Out.Means[I] +=
-        shBackward(&G.Sh[I * Coefficients], G.ShDegree, G.Means[I] - C.Centre,
-                   Out.Colors[I], &Out.Sh[I * Coefficients]);
+    Out.Means[I] += shBackward(
+        &G.Sh[I * Coefficients], std::min(G.ShDegree, O.ShLimit),
+        G.Means[I] - C.Centre, Out.Colors[I], &Out.Sh[I * Coefficients]);
   }
 
   const Gaussians<double> &G;

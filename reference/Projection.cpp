@@ -29,9 +29,9 @@ ExactDepth exactDepth(const Camera<Real> &C, const Vec3<Real> &Mean) {
 }
 
 /// sqrt(2 ln(255 o)): standard deviations to the ellipse where alpha is 1/255.
-/// \p Opacity is at least 1/255.
-template <typename Real> Real deviations(Real Opacity) {
-  return std::sqrt(2 * std::max(Real(0), std::log(255 * Opacity)));
+/// \p Ratio, the opacity over the smallest alpha there, is at least 1.
+template <typename Real> Real deviations(Real Ratio) {
+  return std::sqrt(2 * std::max(Real(0), std::log(Ratio)));
 }
 
 template <typename Real> void setRadii(Splat<Real> &S, Rules Rule) {
@@ -46,19 +46,24 @@ template <typename Real> void setRadii(Splat<Real> &S, Rules Rule) {
         static_cast<int>(std::min(std::ceil(S.CircleRadius), Real(1 << 30))));
     return;
   }
-  const Real E = std::min(Real(3.33), deviations(S.Opacity));
+  const Real E = std::min(Real(3.33), deviations(255 * S.Opacity));
   for (int K = 0; K < 2; ++K)
     S.Radius[K] = static_cast<int>(
         std::min(std::ceil(E * std::sqrt(S.Covariance[2 * K])), Real(1 << 30)));
 }
 
+/// 255 o, or less under a higher cut-off; the kernels' order of operations.
+template <typename Real> Real overLeastAlpha(Real Opacity, int Cutoff) {
+  return Real(255) / Real(Cutoff) * Opacity;
+}
+
 template <typename Real>
-Vec2<Real> extent(const Splat<Real> &S, Support Reach) {
+Vec2<Real> extent(const Splat<Real> &S, const Options &O) {
   const Vec2<Real> Sigma(std::sqrt(S.Covariance[0]),
                          std::sqrt(S.Covariance[2]));
-  switch (Reach) {
+  switch (O.Reach) {
   case Support::Exact:
-    return deviations(S.Opacity) * Sigma;
+    return deviations(overLeastAlpha(S.Opacity, O.AlphaCutoff)) * Sigma;
   case Support::Box3:
     return Real(3) * Sigma;
   case Support::Square3:
@@ -115,16 +120,18 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
     S.Compensation = std::sqrt(std::max(Floor, Det0 / Det));
   }
   S.Opacity = G.Opacities[I] * S.Compensation;
-  // No pixel can reach 1/255: with the exact support there is no box at all.
-  if (O.Reach == Support::Exact && !(255 * S.Opacity >= 1))
+  // No pixel can reach the smallest alpha: with the exact support there is no
+  // box at all.
+  if (O.Reach == Support::Exact &&
+      !(overLeastAlpha(S.Opacity, O.AlphaCutoff) >= 1))
     return S;
   setRadii(S, O.Rule);
-  S.Extent = extent(S, O.Reach);
+  S.Extent = extent(S, O);
 
   const int Coefficients = (G.ShDegree + 1) * (G.ShDegree + 1);
   S.Color = G.Colors.empty()
                 ? shColor(&G.Sh[I * static_cast<std::size_t>(Coefficients)],
-                          G.ShDegree, FromCamera)
+                          std::min(G.ShDegree, O.ShLimit), FromCamera)
                 : G.Colors[I];
   S.Visible = true;
   return S;

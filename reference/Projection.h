@@ -62,9 +62,9 @@ template <typename Real>
 std::vector<Splat<Real>> project(const Gaussians<Real> &G,
                                  const Camera<Real> &C, const Options &O);
 
-/// Smallest alpha that is blended.
-template <typename Real> constexpr Real leastAlpha() {
-  return Real(1) / Real(255);
+/// Smallest alpha that is blended, \p Cutoff being \c Options::AlphaCutoff.
+template <typename Real> constexpr Real leastAlpha(int Cutoff) {
+  return Real(Cutoff) / Real(255);
 }
 /// Largest alpha: keeps 1 / (1 - alpha) finite in training.
 template <typename Real> constexpr Real mostAlpha() { return Real(0.99); }

@@ -137,6 +137,74 @@ TEST(Render, AlphaNearItsThresholdIsDoubtful) {
   EXPECT_EQ(DoubtsOf(0.5), 0);
 }
 
+TEST(Render, AlphasBelowTheCutOffAreLeftOut) {
+  Gaussians<double> G;
+  addRound(G, {0, 0, 2}, 0.1, 0.9, {1, 1, 1});
+  addRound(G, {0, 0, 3}, 0.1, 1.9 / 255, {1, 1, 1}); // never reaches 2/255
+  Options O;
+  O.AlphaCutoff = 2;
+  EXPECT_FALSE(project(G, frontCamera(Side, Side, 50), O)[1].Visible);
+  const auto P = renderRound(G, O);
+  for (int Y = 0; Y < Side; ++Y)
+    for (int X = 0; X < Side; ++X) {
+      const double A = alphaAt(X, Y, 6.55, 0.9);
+      EXPECT_NEAR(P.Render[at(X, Y)].r, A < 2. / 255 ? 0 : A, 1e-14);
+    }
+}
+
+TEST(Render, FewerDepthBitsOrderEqualOnesByNumber) {
+  Gaussians<double> G;
+  addRound(G, {0, 0, 2.0001}, 30, 0.5, {0, 0, 1});
+  addRound(G, {0, 0, 2}, 30, 0.5, {1, 0, 0});
+  Options O;
+  EXPECT_GT(renderRound(G, O).Render[at(16, 16)].r, 0.4);
+  O.DepthBits = 16; // 7 bits of the significand: 1/64 at a depth of 2
+  EXPECT_GT(renderRound(G, O).Render[at(16, 16)].b, 0.4);
+  O.DepthBits = 1;
+  EXPECT_GT(renderRound(G, O).Render[at(16, 16)].b, 0.4);
+}
+
+/// What docs/numerics.md says options may lose: each Gaussian whose alpha is
+/// left out at most that alpha, neglected bands at most what they add to a
+/// colour.
+TEST(Render, CoarserOptionsLoseAtMostTheirBounds) {
+  auto G = randomGaussians(12, 7);
+  G.Colors.clear();
+  G.ShDegree = 2;
+  double Neglected = 0;
+  for (std::size_t I = 0; I < G.size(); ++I) {
+    glm::dvec3 Band(0);
+    for (int K = 0; K < 9; ++K) {
+      // Nothing is clamped: 0.5 is more than all of them.
+      const double V = 0.05 * std::sin(double(I) * 9 + K);
+      G.Sh.emplace_back(V, -V, 0.5 * V);
+      if (K >= 4)
+        Band += glm::abs(G.Sh.back()) * 1.1; // the bases are below 1.1
+    }
+    Neglected = std::max({Neglected, Band.x, Band.y, Band.z});
+  }
+  const auto Off = [&](const Options &O) {
+    Options Full = O;
+    Full.AlphaCutoff = 1;
+    Full.ShLimit = 3;
+    const auto A = renderRound(G, O), B = renderRound(G, Full);
+    double Most = 0;
+    for (std::size_t I = 0; I < A.Render.size(); ++I)
+      for (int K = 0; K < 3; ++K)
+        Most = std::max(Most, std::abs(A.Render[I][K] - B.Render[I][K]));
+    return Most;
+  };
+  Options O;
+  O.Cutoff = 0;
+  O.ShLimit = 1;
+  EXPECT_GT(Off(O), 0.01 * Neglected);
+  EXPECT_LT(Off(O), Neglected);
+  O.ShLimit = 3;
+  O.AlphaCutoff = 4;
+  EXPECT_GT(Off(O), 1. / 255);
+  EXPECT_LT(Off(O), double(G.size()) * 4 / 255);
+}
+
 TEST(Render, TheBorderOfASupportIsDoubtful) {
   // Box of 3 sigma that ends at a pixel's centre: sigma = 2.5 px, mean at a
   // pixel centre 7.5 px away.

@@ -79,19 +79,24 @@ std::uint32_t depthBits(double Depth) {
   return std::bit_cast<std::uint32_t>(static_cast<float>(Depth));
 }
 
+std::uint32_t orderKey(double Depth, int DepthBits) {
+  return depthBits(Depth) >> (32 - DepthBits);
+}
+
 std::uint64_t sortKey(std::size_t Tile, double Depth) {
   return std::uint64_t(Tile) << 32 | depthBits(Depth);
 }
 
 template <typename Real>
-std::vector<std::uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats) {
+std::vector<std::uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats,
+                                      int DepthBits) {
   std::vector<std::uint32_t> Order;
   for (std::size_t I = 0; I < Splats.size(); ++I)
     if (Splats[I].Visible)
       Order.push_back(static_cast<std::uint32_t>(I));
   std::sort(Order.begin(), Order.end(), [&](std::uint32_t A, std::uint32_t B) {
-    return std::pair(depthBits(Splats[A].Depth), A) <
-           std::pair(depthBits(Splats[B].Depth), B);
+    return std::pair(orderKey(Splats[A].Depth, DepthBits), A) <
+           std::pair(orderKey(Splats[B].Depth, DepthBits), B);
   });
   return Order;
 }
@@ -119,8 +124,8 @@ template TileLists tileLists(const std::vector<Splat<float>> &, Support, int,
 template TileLists tileLists(const std::vector<Splat<double>> &, Support, int,
                              int, int);
 template std::vector<std::uint32_t>
-depthOrder(const std::vector<Splat<float>> &);
+depthOrder(const std::vector<Splat<float>> &, int);
 template std::vector<std::uint32_t>
-depthOrder(const std::vector<Splat<double>> &);
+depthOrder(const std::vector<Splat<double>> &, int);
 
 } // namespace vorion::reference

@@ -61,12 +61,17 @@ template <typename Real>
 TileLists tileLists(const std::vector<Splat<Real>> &Splats, Support Reach,
                     int TileSize, int Width, int Height);
 
-/// Visible Gaussians front to back, as in the lists.
+/// Visible Gaussians front to back, as in the lists; by the leading
+/// \p DepthBits of their depths, equal ones by number.
 template <typename Real>
-std::vector<std::uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats);
+std::vector<std::uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats,
+                                      int DepthBits = 32);
 
 /// The bits of \p Depth > 0 in fp32, which sort as the value does.
 std::uint32_t depthBits(double Depth);
+
+/// The leading \p DepthBits (1 to 32) of that.
+std::uint32_t orderKey(double Depth, int DepthBits);
 
 /// The sort key of an entry: tile << 32 | depth bits.
 std::uint64_t sortKey(std::size_t Tile, double Depth);

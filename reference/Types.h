@@ -80,6 +80,9 @@ struct Options {
   bool Antialiased = false;
   double Dilation = 0.3; ///< added to both variances, px^2
   double Cutoff = 1e-4;  ///< transmittance at which a pixel ends
+  int AlphaCutoff = 1;   ///< smallest alpha that is blended, in 1/255
+  int DepthBits = 32;    ///< leading bits of a depth's fp32 that order: 1 to 32
+  int ShLimit = 3;       ///< harmonics of higher bands are left out
   std::array<double, 3> Background{};
   int TileSize = 16;    ///< pixels; of the tile lists
   unsigned Threads = 0; ///< 0: one for each processor; changes no result

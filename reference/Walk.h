@@ -64,14 +64,16 @@ inline bool near(double Value, double Threshold) {
 /// For the exact support the border is where alpha is 1/255, which \c near
 /// judges; the outer side then only says which tiles to look at.
 template <typename Real>
-Border borderOf(const Splat<Real> &S, Support Reach, int Width, int Height) {
+Border borderOf(const Splat<Real> &S, const Options &O, int Width, int Height) {
+  const Support Reach = O.Reach;
   const double Mx = S.Mean.x, My = S.Mean.y;
   if (Reach == Support::Box3 || Reach == Support::Exact) {
     const double In = 1 - DoubtBand, Out = 1 + DoubtBand;
     double Ex = S.Extent.x, Ey = S.Extent.y;
     if (Reach == Support::Exact) {
+      const auto Least = leastAlpha<double>(O.AlphaCutoff);
       const double E = std::sqrt(
-          2 * std::log(255 * Out * std::max(double(S.Opacity), 1. / 255)));
+          2 * std::log(Out * std::max(double(S.Opacity), Least) / Least));
       Ex = E * std::sqrt(double(S.Covariance[0]));
       Ey = E * std::sqrt(double(S.Covariance[2]));
     }
@@ -135,11 +137,10 @@ public:
            const Options &O)
       : Splats(Splats), O(O), Width(Width), Height(Height),
         Grid(O.TileSize, Width, Height), Cutoff(static_cast<Real>(O.Cutoff)),
-        Lists(Grid.count()) {
+        Least(leastAlpha<Real>(O.AlphaCutoff)), Lists(Grid.count()) {
     // As tileLists, but with everything whose place in a list is doubtful.
-    for (const std::uint32_t I : depthOrder(Splats)) {
-      const Rect R =
-          outerTiles(borderOf(Splats[I], O.Reach, Width, Height), Grid);
+    for (const std::uint32_t I : depthOrder(Splats, O.DepthBits)) {
+      const Rect R = outerTiles(borderOf(Splats[I], O, Width, Height), Grid);
       for (int Y = R.Y0; Y < R.Y1; ++Y)
         for (int X = R.X0; X < R.X1; ++X)
           Lists[Grid.index(X, Y)].push_back(I);
@@ -190,10 +191,10 @@ public:
       const Real Wanted =
           C.Opacity * static_cast<Real>(std::exp(double(Power)));
       const Real Alpha = std::min(mostAlpha<Real>(), Wanted);
-      if (near(Alpha, leastAlpha<double>()) ||
-          (EdgeInDoubt && Alpha >= leastAlpha<Real>()))
+      if (near(Alpha, leastAlpha<double>(O.AlphaCutoff)) ||
+          (EdgeInDoubt && Alpha >= Least))
         P.Doubts |= DoubtThreshold;
-      if (!Inside || Alpha < leastAlpha<Real>())
+      if (!Inside || Alpha < Least)
         continue;
       if (Order.doubtful(C.NearestKey, C.FarthestKey, C.Index))
         P.Doubts |= DoubtOrder;
@@ -221,10 +222,10 @@ private:
     C.Conic = S.Conic;
     C.Color = S.Color;
     C.Opacity = S.Opacity;
-    C.NearestKey = depthBits(double(S.Depth) - S.DepthSlack);
-    C.FarthestKey = depthBits(double(S.Depth) + S.DepthSlack);
+    C.NearestKey = orderKey(double(S.Depth) - S.DepthSlack, O.DepthBits);
+    C.FarthestKey = orderKey(double(S.Depth) + S.DepthSlack, O.DepthBits);
     C.Official = officialPixels(S.Mean, S.Extent.x, Width, Height);
-    C.Edge = borderOf(S, O.Reach, Width, Height);
+    C.Edge = borderOf(S, O, Width, Height);
     C.Index = static_cast<std::int32_t>(I);
     C.Listed = tilesOf(S, O.Reach, Grid).contains(Column, Row);
     return C;
@@ -247,7 +248,7 @@ private:
   const Options &O;
   int Width, Height;
   TileGrid Grid;
-  Real Cutoff;
+  Real Cutoff, Least;
   std::vector<std::vector<std::uint32_t>> Lists;
 };
 

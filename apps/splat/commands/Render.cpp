@@ -39,7 +39,7 @@ struct RenderArguments {
   SceneArguments Scene;
   std::string Cameras, Output;
   std::vector<std::string> Views;
-  std::string Json, Pairs, Device, KernelFolder;
+  std::string Json, Pairs, Depth, Device, KernelFolder;
   std::string PixelUnit = "off", Effects = "auto";
   EffectRequest Request;
   std::string Explain; ///< empty, "plan" or "measure"
@@ -69,6 +69,11 @@ Expected<Success> check(const RenderArguments &A) {
     return Usage(fmt::format(
         "-o {}: unknown kind of picture, expected .png, .pfm or .npz",
         A.Output));
+  if (!A.Depth.empty() && !endsWith(A.Depth, ".pfm") &&
+      !endsWith(A.Depth, ".npz"))
+    return Usage(fmt::format("--depth {}: unknown kind of file, expected .pfm "
+                             "or .npz",
+                             A.Depth));
   if (auto Checked = checkPictureOptions(O); !Checked)
     return Checked;
   if (O.Blending == Path::Simt && hasTable(O.Exponential))
@@ -89,6 +94,8 @@ Expected<Success> check(const RenderArguments &A) {
                  "several --view");
   if (!isOne(A) && !A.Pairs.empty())
     return Usage("--dump-pairs writes one picture's, expected one --view");
+  if (!isOne(A) && !A.Depth.empty())
+    return Usage("--depth writes one picture's, expected one --view");
   if (!isOne(A) && A.Explain == "measure")
     return Usage("--explain=measure renders one picture, expected one --view");
   if (O.Reach == Support::Official16 && O.SimtTile != 16)
@@ -96,7 +103,7 @@ Expected<Success> check(const RenderArguments &A) {
                              "of 16x16 pixels, expected 16",
                              O.SimtTile));
   // A render may take minutes: find out now whether it can be kept.
-  for (const std::string &File : {A.Output, A.Json, A.Pairs})
+  for (const std::string &File : {A.Output, A.Json, A.Pairs, A.Depth})
     if (auto Writable = checkWritable(File); !Writable)
       return Writable;
   return Success{};
@@ -196,6 +203,9 @@ Expected<Success> renderOne(const Job &J, const Camera &C) {
   if (!A.Pairs.empty())
     if (auto Written = writePairs(A.Pairs, *R->Sorted); !Written)
       return Written.error();
+  if (!A.Depth.empty())
+    if (auto Written = writeDepth(A.Depth, *R->Depths); !Written)
+      return Written.error();
   if (!A.Json.empty()) {
     auto Report = report(J, A.Output, C, *R);
     if (!Report)
@@ -269,7 +279,8 @@ Expected<Success> run(const RenderArguments &A) {
     Numerics.emplace(std::move(*Begun));
   }
   const ViewFacts Facts = factsOfAll(*S, *Cameras, A.Options);
-  const EffectInputs Inputs{*S, A.Options, Facts, !A.Pairs.empty()};
+  const EffectInputs Inputs{*S, A.Options, Facts, !A.Pairs.empty(),
+                            !A.Depth.empty()};
   RenderPlan Plan = planAsAsked(A, Inputs);
 
   auto D = openDevice(A.Device, A.Options.Blending);
@@ -388,6 +399,11 @@ Runner addRender(CLI::App &App) {
                "Say where fp32 parts from double, by source line and stage of "
                "the rasterizer (docs/debugging.md)")
       ->option_text("[=SETTING,...]");
+  App.add_option(
+         "--depth", A->Depth,
+         "Write each pixel's sum of weights times depths, and its alpha "
+         "(.npz; .pfm: the first alone), by a second blend")
+      ->option_text("FILE");
   App.add_option("--dump-pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)");
   addKernelsOption(App, A->KernelFolder);

@@ -34,6 +34,7 @@ struct EffectInputs {
   const RenderOptions &Options;
   const ViewFacts &Facts;
   bool KeepPairs = false; ///< --dump-pairs
+  bool Depth = false;     ///< --depth
 };
 
 /// A record of the registry; each is defined in a file of its own.

@@ -24,7 +24,8 @@ std::span<const Effect *const> all() {
       &Sh1,           &Sh2,         &Sh3,       &ViewColor,     &Antialias,
       &NearPlane,     &FieldOfView, &Faint,     &AlphaClamp,    &Background,
       &IntersectTags, &ZTiles,      &PixelUnit, &SkipSaturated, &Clock,
-      &Numerics,      &Checkers,    &Traces,    &Debugger,      &SortedPairs};
+      &Numerics,      &Checkers,    &Traces,    &Debugger,      &SortedPairs,
+      &Depth};
   return List;
 }
 

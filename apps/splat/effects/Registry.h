@@ -32,6 +32,7 @@ extern const Effect SkipSaturated;
 extern const Effect Clock, Numerics, Checkers, Traces,
     Debugger; // Observations.cpp
 extern const Effect SortedPairs;
+extern const Effect Depth;
 /// @}
 
 std::span<const Effect *const> all();

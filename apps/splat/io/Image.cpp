@@ -146,13 +146,33 @@ Expected<Success> writePng(const std::string &Path, const Image &I) {
                    Error{Path, Png.error().What, Png.error().Code});
 }
 
-Expected<Success> writePfm(const std::string &Path, const Image &I) {
-  std::string Out = fmt::format("PF\n{} {}\n-1.0\n", I.Width, I.Height);
-  const std::size_t Row = static_cast<std::size_t>(I.Width) * 3;
-  for (auto Y = static_cast<std::size_t>(I.Height); Y-- > 0;)
-    Out.append(reinterpret_cast<const char *>(&I.Render[Y * Row]),
+/// \p Pixels of so many rows, three or one to a pixel.
+static Expected<Success> writePfmRows(const std::string &Path, const char *Kind,
+                                      int Width, int Height,
+                                      const std::vector<float> &Pixels) {
+  std::string Out = fmt::format("{}\n{} {}\n-1.0\n", Kind, Width, Height);
+  const auto Rows = static_cast<std::size_t>(Height);
+  const std::size_t Row = Pixels.size() / Rows;
+  for (std::size_t Y = Rows; Y-- > 0;)
+    Out.append(reinterpret_cast<const char *>(&Pixels[Y * Row]),
                Row * sizeof(float));
   return writeFileAtomically(Path, Out);
+}
+
+Expected<Success> writePfm(const std::string &Path, const Image &I) {
+  return writePfmRows(Path, "PF", I.Width, I.Height, I.Render);
+}
+
+Expected<Success> writeDepth(const std::string &Path, const DepthMap &D) {
+  if (Path.ends_with(".pfm"))
+    return writePfmRows(Path, "Pf", D.Width, D.Height, D.Depth);
+  if (!Path.ends_with(".npz"))
+    return Error{Path, "unknown ending, expected .pfm or .npz",
+                 ExitCode::Usage};
+  const auto H = static_cast<std::size_t>(D.Height);
+  const auto W = static_cast<std::size_t>(D.Width);
+  return writeNpz(Path, {{"depth", NpyArray::of({H, W}, D.Depth)},
+                         {"alpha", NpyArray::of({H, W}, D.Alpha)}});
 }
 
 Expected<Success> writeImageNpz(const std::string &Path, const Image &I) {

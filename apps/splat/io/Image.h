@@ -39,6 +39,19 @@ Expected<Success> writePng(const std::string &Path, const Image &I);
 /// PFM ("PF", little endian, rows from the bottom as the format has them).
 Expected<Success> writePfm(const std::string &Path, const Image &I);
 
+/// How deep a picture is, rows from the top.
+struct DepthMap {
+  int Width = 0, Height = 0;
+  /// The sum of weights times depths (camera z) of each pixel; over alpha it is
+  /// the mean depth of what is seen there.
+  std::vector<float> Depth;
+  std::vector<float> Alpha; ///< the sum of weights
+};
+
+/// By the ending of \p Path: .npz with `depth` and `alpha` (H, W), float32, or
+/// .pfm ("Pf", else as \c writePfm) with the first alone.
+Expected<Success> writeDepth(const std::string &Path, const DepthMap &D);
+
 /// NPZ with `render` (H, W, 3) and `alpha` (H, W), float32.
 Expected<Success> writeImageNpz(const std::string &Path, const Image &I);
 

@@ -98,6 +98,23 @@ TEST(Image, UnknownEndingsAndUnwritablePathsAreErrors) {
   EXPECT_FALSE(readImage(Folder.path("i.png")));
 }
 
+TEST(Image, DepthsAreWrittenWithAndWithoutAlpha) {
+  const TestFolder Folder;
+  const DepthMap D{3, 2, {1, 2, 3, 4, 5, 6}, sample().Alpha};
+  ASSERT_TRUE(writeDepth(Folder.path("d.npz"), D));
+  const auto Arrays = readNpz(Folder.path("d.npz"));
+  ASSERT_TRUE(Arrays) << Arrays.error().What;
+  EXPECT_EQ(Arrays->at("depth").Shape, (std::vector<std::size_t>{2, 3}));
+  EXPECT_EQ(Arrays->at("depth").toDoubles(), exact(D.Depth));
+  EXPECT_EQ(Arrays->at("alpha").toDoubles(), exact(D.Alpha));
+
+  ASSERT_TRUE(writeDepth(Folder.path("d.pfm"), D));
+  const std::string File = Folder.read("d.pfm");
+  ASSERT_EQ(File.size(), 12 + 6 * sizeof(float));
+  EXPECT_EQ(File.substr(0, 12), "Pf\n3 2\n-1.0\n");
+  EXPECT_FALSE(writeDepth(Folder.path("d.png"), D));
+}
+
 TEST(Image, TruncatedPfmIsAnError) {
   const TestFolder Folder;
   ASSERT_TRUE(writeImage(Folder.path("i.pfm"), sample()));

@@ -8,10 +8,12 @@ static bool support_extent(screen_covariance s, float opacity, uint effects,
 #if defined(SUPPORT_EXACT)
   // alpha >= 1/255 needs d^2 <= 2 ln(255 o) S_ii along each axis; a higher
   // cut-off likewise.
-  const float most = 255.0f / ALPHA_CUTOFF;
-  if (USE_FAINT && !(most * opacity >= 1.0f))
+  const float ratio = 255.0f / ALPHA_CUTOFF * opacity;
+  if (USE_FAINT && !(ratio >= 1.0f))
     return false;
-  const float deviations = sqrt(2.0f * fmax(0.0f, log(most * opacity)));
+  // The maximum goes before the logarithm, whose guards for what is below 0 or
+  // no number it makes needless; where that test is absent they would cost more.
+  const float deviations = sqrt(2.0f * log(fmax(1.0f, ratio)));
   *extent = (float2)(deviations * sqrt(s.xx), deviations * sqrt(s.yy));
 #elif defined(SUPPORT_BOX3)
   *extent = (float2)(3.0f * sqrt(s.xx), 3.0f * sqrt(s.yy));

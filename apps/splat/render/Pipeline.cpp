@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <fmt/format.h>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -184,6 +185,14 @@ void Pipeline::blend() {
 void Pipeline::allocatePixels() {
   F.Pixels = L.allocate("pixels", 16 * uint64_t{F.pixels()});
   F.Last = words("last contributors", Options.Training ? F.pixels() : 1);
+}
+
+cl::Buffer Pipeline::drawDepths() {
+  L.run(DepthProgram, "depths_for_colors", itemsFor(F.Gaussians.Count),
+        GroupSize, F.Depths.Keys, F.Records, F.Gaussians.Count);
+  const cl::Buffer Picture = F.Pixels;
+  blend();
+  return std::exchange(F.Pixels, Picture);
 }
 
 void Pipeline::shade() {

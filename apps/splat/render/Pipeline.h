@@ -96,6 +96,11 @@ public:
   void endBlending();
   /// @}
 
+  /// Blends the frame's lists once more, with depths for the colours of its
+  /// records; of what comes back the first channel is the sum of weights times
+  /// depths. Needs the effect \c Depth; the frame's own pixels stay.
+  cl::Buffer drawDepths();
+
   const Frame &frame() const { return F; }
 
   /// What the rasterizers are told of a picture.

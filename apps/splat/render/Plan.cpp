@@ -145,6 +145,8 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
     Plan.Programs.push_back({MergeProgram, {"merge.cl"}, {}});
   if (Plan.Effects.compiled(effects::Background))
     Plan.Programs.push_back({ResolveProgram, {"resolve.cl"}, {}});
+  if (Plan.Effects.done(effects::Depth))
+    Plan.Programs.push_back({DepthProgram, {"layout.h", "depth.cl"}, {}});
 
   std::vector<std::string> Defines = parameterDefines(Options);
   for (std::string &Define : Plan.Effects.defines())

@@ -18,6 +18,7 @@ inline constexpr const char *TilesProgram = "tiles";
 inline constexpr const char *BlendProgram = "blend";
 inline constexpr const char *MergeProgram = "merge";
 inline constexpr const char *ResolveProgram = "resolve";
+inline constexpr const char *DepthProgram = "depth";
 
 /// The smallest alpha that is blended, in 1/255.
 std::string alphaCutoffDefine(const RenderOptions &O);

@@ -31,6 +31,16 @@ SortedPairs readPairs(Launcher &L, const Frame &F) {
   return P;
 }
 
+/// Of the pixels that \c Pipeline::drawDepths left.
+DepthMap readDepths(Launcher &L, const Frame &F, const cl::Buffer &Pixels) {
+  const Image Drawn = readPicture(L, F, Pixels, /*Resolved=*/false);
+  DepthMap D{Drawn.Width, Drawn.Height, {}, Drawn.Alpha};
+  D.Depth.reserve(Drawn.pixels());
+  for (std::size_t P = 0; P < Drawn.pixels(); ++P)
+    D.Depth.push_back(Drawn.Render[3 * P]);
+  return D;
+}
+
 } // namespace
 
 cl::Buffer resolve(Launcher &L, const Frame &F,
@@ -193,6 +203,10 @@ Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
   RenderResult R = finish(L, Plan, P.frame(), Options);
   if (KeepPairs)
     R.Sorted = readPairs(L, P.frame());
+  if (Plan.Effects.done(effects::Depth)) {
+    L.beginStage("depth");
+    R.Depths = readDepths(L, P.frame(), P.drawDepths());
+  }
   if (L.failure())
     return *L.failure();
   R.DeviceBytes = L.allocatedBytes();

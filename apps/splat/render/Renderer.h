@@ -25,6 +25,7 @@ struct RenderResult {
   std::uint64_t DeviceBytes = 0;
   std::vector<StageReport> Stages;
   std::optional<SortedPairs> Sorted;
+  std::optional<DepthMap> Depths; ///< where the effect \c Depth is on
 };
 
 /// The picture of \p F in front of \p Background, and its copy for the host.

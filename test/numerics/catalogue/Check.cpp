@@ -1,6 +1,7 @@
 #include "Check.h"
 
 #include "Broken.h"
+#include "Oracle.h"
 #include "TrainingCase.h"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ public:
 
 private:
   Expected<Success> setting(const HardCase &C, Path P, const Setting &S);
+  Expected<Success> depth(const HardCase &C, Path P);
   Expected<Success> broken(const HardCase &C, Path P, const BrokenKernel &B);
   /// As it stands, or with broken kernels.
   Expected<Success> training(const TrainingCase &C, Path P,
@@ -35,7 +37,9 @@ private:
   nlohmann::json rowOf(const std::string &Key, const std::string &Case, Path P,
                        const BrokenKernel &B,
                        const Expected<std::string> &Noticed);
+  Expected<Success> oracle(const HardCase &C, const Setting &S);
   Expected<Success> keep(const nlohmann::json &Row);
+  Expected<Success> keepNew(const nlohmann::json &Row);
   /// Whether it is this one's turn, of those that are more than the case
   /// itself.
   bool inShare() { return Turn++ % Plan.OneIn == 0; }
@@ -54,9 +58,10 @@ private:
 const Judge &Checker::judgeOf(const HardCase &C,
                               const splat::RenderOptions &O) {
   const std::string Key =
-      fmt::format("{} {} {} {} {} {} {} {} {}", C.Name, name(O.Reach),
+      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", C.Name, name(O.Reach),
                   name(O.Convention), O.Antialiased, O.Dilation, O.Cutoff,
-                  O.Background[0], O.Background[1], O.Background[2]);
+                  O.AlphaCutoff, O.DepthBits, O.ShLimit, O.Background[0],
+                  O.Background[1], O.Background[2]);
   if (!Last || Key != JudgedFor)
     Last.emplace(C, O);
   JudgedFor = Key;
@@ -78,6 +83,12 @@ Expected<Success> Checker::keep(const nlohmann::json &Row) {
   else if (Row.contains("error"))
     Found = fmt::format(" (error {:.2g}, bound {:.2g})",
                         Row["error"].get<double>(), Row["bound"].get<double>());
+  else if (Row.contains("digits"))
+    Found = fmt::format(" (fp64 has {:.1f} digits, {} of {} pixels decide too "
+                        "closely)",
+                        Row["digits"].get<double>(),
+                        Row["close"].get<std::uint64_t>(),
+                        Row["pixels"].get<std::uint64_t>());
   else
     Found = fmt::format(" ({})", Row["noticed"].get<std::string>());
   if (!Good || Loud)
@@ -86,6 +97,27 @@ Expected<Success> Checker::keep(const nlohmann::json &Row) {
                Found);
   std::fflush(stdout);
   return Success{};
+}
+
+Expected<Success> Checker::keepNew(const nlohmann::json &Row) {
+  if (auto Done = Kept.add(Row); !Done)
+    return Done;
+  return keep(Row);
+}
+
+/// Of a picture.
+nlohmann::json pictureRow(const std::string &Key, const HardCase &C, Path P,
+                          std::size_t Settings, const Verdict &V) {
+  return {{"key", Key},
+          {"case", C.Name},
+          {"path", name(P)},
+          {"settings", Settings},
+          {"error", V.Error},
+          {"single", V.Single},
+          {"bound", V.Bound},
+          {"doubtful", V.Doubtful},
+          {"doubtful_error", V.DoubtfulError},
+          {"broken", V.Broken}};
 }
 
 Expected<Success> Checker::setting(const HardCase &C, Path P,
@@ -97,22 +129,36 @@ Expected<Success> Checker::setting(const HardCase &C, Path P,
   const auto R = Device.render(C, O, "");
   Verdict V;
   if (R)
-    V = judgeOf(C, O).judge(*R, allowanceOf(S, O), /*OwnOptions=*/S.empty());
-  else
+    V = judgeOf(C, O).judge(*R, allowanceOf(S, O, C.Scene.size()),
+                            /*OwnOptions=*/S.empty());
+  else if (!C.MayExceedMemory || S.empty() ||
+           R.error().Code != ExitCode::LimitReached)
     V.Broken = R.error().What;
-  const nlohmann::json Row{{"key", Key},
-                           {"case", C.Name},
-                           {"path", name(P)},
-                           {"settings", S.size()},
-                           {"error", V.Error},
-                           {"single", V.Single},
-                           {"bound", V.Bound},
-                           {"doubtful", V.Doubtful},
-                           {"doubtful_error", V.DoubtfulError},
-                           {"broken", V.Broken}};
-  if (auto Done = Kept.add(Row); !Done)
-    return Done;
-  return keep(Row);
+  return keepNew(pictureRow(Key, C, P, S.size(), V));
+}
+
+Expected<Success> Checker::depth(const HardCase &C, Path P) {
+  const std::string Key = fmt::format("{} {} --depth", C.Name, flagsOf(P, {}));
+  if (const nlohmann::json *Row = Kept.find(Key))
+    return keep(*Row);
+  const splat::RenderOptions O = turned(C.Options, P, {});
+  const auto Plain = Device.render(C, O, "");
+  auto R = Device.render(C, O, "", /*Depth=*/true);
+  Verdict V;
+  if (!Plain || !R)
+    V.Broken = (Plain ? R : Plain).error().What;
+  else if (Plain->Picture.Render != R->Picture.Render ||
+           Plain->Picture.Alpha != R->Picture.Alpha ||
+           R->Depths->Alpha.size() != R->Picture.Alpha.size())
+    V.Broken = "--depth changes the picture";
+  else {
+    for (std::size_t I = 0; I < R->Depths->Depth.size(); ++I) {
+      R->Picture.Render[3 * I] = R->Depths->Depth[I];
+      R->Picture.Render[3 * I + 1] = R->Picture.Render[3 * I + 2] = 0;
+    }
+    V = Judge(C, O, Judge::Shown::Depths).judge(*R, 0, /*OwnOptions=*/false);
+  }
+  return keepNew(pictureRow(Key, C, P, /*Settings=*/1, V));
 }
 
 nlohmann::json Checker::rowOf(const std::string &Key, const std::string &Case,
@@ -145,19 +191,42 @@ Expected<Success> Checker::broken(const HardCase &C, Path P,
     return Written;
   const splat::RenderOptions O = turned(C.Options, P, {});
   const auto R = Device.render(C, O, Folder);
-  const nlohmann::json Row =
+  return keepNew(
       rowOf(Key, C.Name, P, B,
             R ? Expected<std::string>(
                     judgeOf(C, O).judge(*R, 0, /*OwnOptions=*/true).Broken)
-              : R.error());
-  if (auto Done = Kept.add(Row); !Done)
-    return Done;
-  return keep(Row);
+              : R.error()));
+}
+
+Expected<Success> Checker::oracle(const HardCase &C, const Setting &S) {
+  const std::string Key =
+      fmt::format("{} {} oracle", C.Name, flagsOf(Path::Raster, S));
+  if (const nlohmann::json *Row = Kept.find(Key))
+    return keep(*Row);
+  const splat::RenderOptions O = turned(C.Options, Path::Raster, S);
+  OracleVerdict V = compareWithOracle(C, O, Plan.Oracle);
+  if (V.Broken.empty() && !(V.digits() >= C.ExactDigits))
+    V.Broken = fmt::format("fp64 has {:.1f} digits, expected {}", V.digits(),
+                           C.ExactDigits);
+  const nlohmann::json Row{{"key", Key},         {"case", C.Name},
+                           {"oracle", S.size()}, {"digits", V.digits()},
+                           {"pixels", V.Pixels}, {"close", V.Close},
+                           {"broken", V.Broken}};
+  return keepNew(Row);
 }
 
 Expected<Success> Checker::all(const HardCase &C) {
+  if (Plan.Oracle != 0) {
+    // Without dilation a footprint is all that its determinant is.
+    const auto Sharp = std::ranges::find(knobs(), "--dilation 0", &Knob::Flags);
+    for (const Setting &S : {Setting{}, Setting{&*Sharp}})
+      if (auto Done = oracle(C, S); !Done)
+        return Done;
+  }
   for (const Path P : Paths) {
     if (auto Done = setting(C, P, {}); !Done)
+      return Done;
+    if (auto Done = depth(C, P); !Done)
       return Done;
     std::vector<Setting> Settings;
     if (Plan.Alone)
@@ -202,9 +271,7 @@ Expected<Success> Checker::training(const TrainingCase &C, Path P,
            {"error", F ? F->Error : 0},
            {"bound", F ? F->Bound : 0},
            {"broken", F ? F->Broken : F.error().What}};
-  if (auto Done = Kept.add(Row); !Done)
-    return Done;
-  return keep(Row);
+  return keepNew(Row);
 }
 
 Expected<Success> Checker::all(const TrainingCase &C) {

@@ -15,7 +15,9 @@ struct CheckPlan {
   bool Alone = false;             ///< each knob alone
   std::uint32_t Random = 0;       ///< combinations of knobs
   std::uint32_t Seed = 1;
-  bool Broken = false;          ///< that broken kernels are noticed
+  bool Broken = false; ///< that broken kernels are noticed
+  /// Evaluations a case at which fp64 is held against the oracle.
+  std::uint64_t Oracle = 0;
   std::uint32_t OneIn = 1;      ///< of settings and broken kernels
   std::string RowFile, Scratch; ///< rows kept; folder for broken kernels
 };

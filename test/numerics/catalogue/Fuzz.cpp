@@ -98,7 +98,9 @@ std::string Fuzzer::againstReferences(HardCase C, Path P, const Setting &S) {
   const auto R = Device.render(C, O, "");
   if (!R)
     return R.error().What;
-  return Judge(C, O).judge(*R, allowanceOf(S, O), /*OwnOptions=*/false).Broken;
+  return Judge(C, O)
+      .judge(*R, allowanceOf(S, O, C.Scene.size()), /*OwnOptions=*/false)
+      .Broken;
 }
 
 std::string Fuzzer::weights(HardCase C, Path P, const Setting &S) {
@@ -108,8 +110,11 @@ std::string Fuzzer::weights(HardCase C, Path P, const Setting &S) {
   const auto R = Device.render(C, O, "");
   if (!R)
     return R.error().What;
-  // Three roundings a Gaussian, of values up to 1.
-  const double Bound = 3 * 0x1p-24 * double(C.Scene.size() + 2);
+  // Three roundings a Gaussian, of values up to 1; and of each weight, where
+  // multiplications are narrow.
+  const double Bound =
+      3 * 0x1p-24 * double(C.Scene.size() + 2) +
+      (O.Arithmetic == splat::BlendUnit::Fp32 ? 0 : unitRoundoff(O.Arithmetic));
   for (const float V : R->Picture.Render)
     if (!(std::abs(double(V) - 1) <= Bound))
       return fmt::format("{}: weights and T add up to {:.9g}, expected 1 to "

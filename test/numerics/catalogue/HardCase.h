@@ -35,6 +35,12 @@ struct HardCase {
   /// Names of \c brokenKernels that this case must notice, on each path that
   /// they are in.
   std::vector<std::string> NoticedIn{};
+  /// Decimal digits of the largest colour that fp64 has of it, with and
+  /// without dilation: at least.
+  double ExactDigits = 10;
+  /// Under a knob it may need more memory than the machine has, which one line
+  /// says.
+  bool MayExceedMemory = false;
   /// Left out of the tests' share.
   bool Long = false;
 };

@@ -28,6 +28,13 @@ splat::Scene without(const splat::Scene &S,
   return Rest;
 }
 
+/// Depths for colours.
+template <typename Real>
+void showDepths(std::vector<reference::Splat<Real>> &Splats) {
+  for (auto &S : Splats)
+    S.Color = {S.Depth, 0, 0};
+}
+
 } // namespace
 
 reference::Options referenceOptions(const splat::RenderOptions &O) {
@@ -38,25 +45,34 @@ reference::Options referenceOptions(const splat::RenderOptions &O) {
   R.Antialiased = O.Antialiased;
   R.Dilation = double(O.Dilation);
   R.Cutoff = double(O.Cutoff);
+  R.AlphaCutoff = static_cast<int>(O.AlphaCutoff);
+  R.DepthBits = static_cast<int>(O.DepthBits);
+  R.ShLimit = O.ShLimit;
   for (std::size_t K = 0; K < 3; ++K)
     R.Background[K] = double(O.Background[K]);
   R.Threads = 1;
   return R;
 }
 
-Judge::Judge(const HardCase &C, const splat::RenderOptions &O)
-    : Case(C), Cutoff(double(O.Cutoff)) {
-  const reference::Options R = referenceOptions(O);
+Judge::Judge(const HardCase &C, const splat::RenderOptions &O, Shown What)
+    : Case(C), Cutoff(double(O.Cutoff)),
+      LeastAlpha(double(O.AlphaCutoff) / 255) {
+  reference::Options R = referenceOptions(O);
   const auto View = splat::toReference<double>(C.View);
-  const auto SingleSplats = reference::project(
-      splat::toReference<float>(C.Scene), splat::toReference<float>(C.View), R);
+  auto SingleSplats = reference::project(splat::toReference<float>(C.Scene),
+                                         splat::toReference<float>(C.View), R);
   // Under other rules fp32 may draw them.
   std::vector<std::uint32_t> LeftOut;
   std::ranges::copy_if(
       C.BeyondSingle, std::back_inserter(LeftOut),
       [&](std::uint32_t I) { return !SingleSplats[I].Visible; });
-  const auto Splats = reference::project(
+  auto Splats = reference::project(
       splat::toReference<double>(without(C.Scene, LeftOut)), View, R);
+  if (What == Shown::Depths) {
+    showDepths(SingleSplats);
+    showDepths(Splats);
+    R.Background = {};
+  }
   for (const auto &S : Splats)
     if (S.Visible)
       for (int K = 0; K < 3; ++K)
@@ -83,9 +99,9 @@ Verdict Judge::judge(const splat::RenderResult &R, double Allowance,
 
   // A doubtful pixel shows what fp32 or fp64 decides; a few may take a third
   // way, which one decision more or less is apart from either: an alpha at
-  // 1/255, T at the cut-off, or two Gaussians of nearly one depth.
+  // the smallest, T at the cut-off, or two Gaussians of nearly one depth.
   const double Decision =
-      Peak * std::min(1.0, 2. / 255 + 100 * Cutoff) + V.Bound;
+      Peak * std::min(1.0, 2 * LeastAlpha + 100 * Cutoff) + V.Bound;
   bool WorseThanDecision = false;
   std::size_t ThirdWay = 0;
   for (std::size_t I = 0; I < Exact.size(); ++I) {

@@ -23,7 +23,13 @@ struct Verdict {
 /// every setting that does not change them.
 class Judge {
 public:
-  Judge(const HardCase &C, const splat::RenderOptions &O);
+  /// What a picture shows.
+  enum class Shown {
+    Colors,
+    Depths ///< in the first channel, as \c splat::DepthMap has them
+  };
+  Judge(const HardCase &C, const splat::RenderOptions &O,
+        Shown What = Shown::Colors);
 
   /// \p Allowance is in parts of the largest colour. \p OwnOptions: those of
   /// the case, for which it says how many are culled and how good fp32 is.
@@ -32,7 +38,7 @@ public:
 
 private:
   const HardCase &Case;
-  double Cutoff;
+  double Cutoff, LeastAlpha;
   double Peak = 1; ///< largest colour
   std::vector<double> Exact, Single;
   std::vector<std::uint8_t> Doubts;

@@ -11,23 +11,42 @@ using splat::Path;
 using splat::RenderOptions;
 using splat::Support;
 
-double none(const RenderOptions &) { return 0; }
+double none(const RenderOptions &, std::size_t) { return 0; }
 
 /// A part that does not know that a pixel is full adds at most what was let
 /// through before the stop: T, of which the next Gaussian would have left less
 /// than the cut-off, and at least a hundredth.
-double behindTheStop(const RenderOptions &O) {
+double behindTheStop(const RenderOptions &O, std::size_t) {
   return std::min(1.0, 100 * double(O.Cutoff));
 }
 
 /// A unit's relative error of an alpha (docs/rasterizer.md), which moves a
-/// colour by no more than that, two alphas on the other side of 1/255, and a
-/// pixel that stops one Gaussian sooner or later.
-double expUnit(const RenderOptions &O) {
+/// colour by no more than that, two alphas on the other side of the smallest,
+/// and a pixel that stops one Gaussian sooner or later.
+double expUnit(const RenderOptions &O, std::size_t Gaussians) {
   constexpr double Relative[] = {0x1p-24, 2.85e-4, 2.7e-3, 1.1e-4, 7.2e-6,
                                  8.3e-5,  2.65e-5, 5.7e-3, 3.1e-2};
-  return Relative[static_cast<std::size_t>(O.Exponential)] + 2. / 255 +
-         behindTheStop(O);
+  return Relative[static_cast<std::size_t>(O.Exponential)] +
+         2. * O.AlphaCutoff / 255 + behindTheStop(O, Gaussians);
+}
+
+/// Operands of the blend's multiplications rounded to a unit roundoff u
+/// (docs/numerics.md, "Narrow blending", has the proof): a product is off by
+/// d = 2 u + u^2, a colour by 3 d / (1 - d) however many layers there are.
+/// Where one arithmetic stops and the other does not, what lies behind adds the
+/// other's T, of which the layer leaves at least 1 - 0.99 (1 + d).
+double blendUnit(const RenderOptions &O, std::size_t Gaussians) {
+  const bool Fp16 = O.Arithmetic == splat::BlendUnit::Fp16;
+  const double U = unitRoundoff(O.Arithmetic);
+  const double D = 2 * U + U * U;
+  const double Behind = double(O.Cutoff) / (1 - 0.99 * (1 + D));
+  // fp16's subnormal weights and colours are off by 2^-25 whatever they are,
+  // and a T below its normal numbers, which only a lower cut-off leaves, by
+  // itself.
+  const double Subnormal = Fp16 ? 0x1p-25 * (double(Gaussians) + 1) +
+                                      (O.Cutoff < 0x1p-14F ? 2 * 0x1p-14 : 0)
+                                : 0;
+  return 3 * D / (1 - D) + std::min(1.0, Behind) + Subnormal;
 }
 
 template <splat::ExpUnit Unit> void takeExp(RenderOptions &O) {
@@ -93,6 +112,36 @@ const std::vector<Knob> &knobs() {
        {},
        [](RenderOptions &O) { O.Cutoff = 0.05F; },
        none},
+      {"--alpha-cutoff 2",
+       "alpha-cutoff",
+       {},
+       [](RenderOptions &O) { O.AlphaCutoff = 2; },
+       none},
+      {"--alpha-cutoff 8",
+       "alpha-cutoff",
+       {},
+       [](RenderOptions &O) { O.AlphaCutoff = 8; },
+       none},
+      {"--depth-bits 24",
+       "depth-bits",
+       {},
+       [](RenderOptions &O) { O.DepthBits = 24; },
+       none},
+      {"--depth-bits 12",
+       "depth-bits",
+       {},
+       [](RenderOptions &O) { O.DepthBits = 12; },
+       none},
+      {"--sh-degree 0",
+       "sh-degree",
+       {},
+       [](RenderOptions &O) { O.ShLimit = 0; },
+       none},
+      {"--sh-degree 2",
+       "sh-degree",
+       {},
+       [](RenderOptions &O) { O.ShLimit = 2; },
+       none},
       {"--exp poly2", "exp", {}, takeExp<ExpUnit::Poly2>, expUnit},
       {"--exp poly3", "exp", {}, takeExp<ExpUnit::Poly3>, expUnit},
       {"--exp poly4", "exp", {}, takeExp<ExpUnit::Poly4>, expUnit},
@@ -103,6 +152,12 @@ const std::vector<Knob> &knobs() {
        expUnit},
       {"--exp table64", "exp", Path::Raster, takeExp<ExpUnit::Table64>,
        expUnit},
+      {"--blend bf16", "blend", Path::Raster,
+       [](RenderOptions &O) { O.Arithmetic = splat::BlendUnit::Bf16; },
+       blendUnit},
+      {"--blend fp16", "blend", Path::Raster,
+       [](RenderOptions &O) { O.Arithmetic = splat::BlendUnit::Fp16; },
+       blendUnit},
       {"--tile 16", "tile", Path::Raster, takeTile<16>, none},
       {"--tile 32", "tile", Path::Raster, takeTile<32>, none},
       {"--ztiles 2", "ztiles", Path::Raster,
@@ -135,6 +190,11 @@ const std::vector<Knob> &knobs() {
   return All;
 }
 
+double unitRoundoff(splat::BlendUnit B) {
+  constexpr double Roundoffs[] = {0x1p-24, 0x1p-8, 0x1p-11};
+  return Roundoffs[static_cast<std::size_t>(B)];
+}
+
 std::string flagsOf(Path P, const Setting &S) {
   std::string Flags = "--path " + std::string(name(P));
   for (const Knob *K : S)
@@ -149,10 +209,11 @@ RenderOptions turned(RenderOptions Base, Path P, const Setting &S) {
   return Base;
 }
 
-double allowanceOf(const Setting &S, const RenderOptions &O) {
+double allowanceOf(const Setting &S, const RenderOptions &O,
+                   std::size_t Gaussians) {
   double Sum = 0;
   for (const Knob *K : S)
-    Sum += K->Allowance(O);
+    Sum += K->Allowance(O, Gaussians);
   return Sum;
 }
 

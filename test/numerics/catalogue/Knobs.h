@@ -17,9 +17,10 @@ struct Knob {
   std::string Dimension;
   std::optional<splat::Path> Only; ///< the path that has it
   void (*Turn)(splat::RenderOptions &);
-  /// How far the picture may move, in parts of its largest colour, beyond the
-  /// bound of the reference, which follows every option that it has.
-  double (*Allowance)(const splat::RenderOptions &);
+  /// How far the picture of a scene of \p Gaussians may move, in parts of its
+  /// largest colour, beyond the bound of the reference, which follows every
+  /// option that it has.
+  double (*Allowance)(const splat::RenderOptions &, std::size_t Gaussians);
 };
 
 const std::vector<Knob> &knobs();
@@ -34,8 +35,13 @@ std::string flagsOf(splat::Path Path, const Setting &S);
 splat::RenderOptions turned(splat::RenderOptions Base, splat::Path Path,
                             const Setting &S);
 
-/// The sum of the allowances of \p S under \p O.
-double allowanceOf(const Setting &S, const splat::RenderOptions &O);
+/// Of the multiplications' operands.
+double unitRoundoff(splat::BlendUnit B);
+
+/// The sum of the allowances of \p S under \p O, of a scene of so many
+/// Gaussians.
+double allowanceOf(const Setting &S, const splat::RenderOptions &O,
+                   std::size_t Gaussians);
 
 /// Every knob of \p Path alone, after none.
 std::vector<Setting> eachAlone(splat::Path Path);

@@ -11,13 +11,14 @@ namespace {
 
 /// With flags, so that cases share programs; that effects left out change
 /// nothing is for test/render/effects.test.
-splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O) {
+splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O,
+                          bool Depth) {
   const splat::ViewFacts Facts = splat::factsOf(
       C.Scene, splat::makeView(C.View, O), splat::nearLimit(O.Convention));
   splat::EffectRequest Flags;
   Flags.How = splat::EffectRequest::Mode::Flags;
-  return splat::planRender(splat::EffectPlan(Flags, {C.Scene, O, Facts, false}),
-                           O);
+  return splat::planRender(
+      splat::EffectPlan(Flags, {C.Scene, O, Facts, false, Depth}), O);
 }
 
 } // namespace
@@ -31,9 +32,10 @@ Expected<Machine> Machine::open() {
 
 Expected<splat::RenderResult> Machine::render(const HardCase &C,
                                               const splat::RenderOptions &O,
-                                              const std::string &KernelFolder) {
+                                              const std::string &KernelFolder,
+                                              bool Depth) {
   splat::Launcher L = launcher(KernelFolder);
-  auto R = splat::render(L, planFor(C, O), C.Scene, C.View, O,
+  auto R = splat::render(L, planFor(C, O, Depth), C.Scene, C.View, O,
                          /*KeepPairs=*/false);
   if (!R && !L.buildLog().empty())
     std::fputs(L.buildLog().c_str(), stderr);

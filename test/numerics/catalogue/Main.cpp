@@ -101,6 +101,9 @@ int main(int Count, char **Values) {
                  "Of the first combination, or of the first group")
       ->capture_default_str();
   App.add_flag("--broken", A.Plan.Broken, "With the broken kernels");
+  App.add_option("--oracle", A.Plan.Oracle,
+                 "Hold the reference in fp64 against 256 bits, at about so "
+                 "many (pixel, Gaussian) pairs a case");
   App.add_option("--one-in", A.Plan.OneIn,
                  "Only one in so many of the settings and broken kernels")
       ->check(CLI::Range(1U, 1000000U))

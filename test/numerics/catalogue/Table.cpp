@@ -4,6 +4,7 @@
 #include "TrainingCase.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace vorion::test {
@@ -12,6 +13,8 @@ namespace {
 /// What the rows say about a case.
 struct Found {
   double Raster = 0, Simt = 0, Single = 0, Bound = 0;
+  /// Of fp64, with the case's dilation and without.
+  std::string Digits[2] = {"-", "-"};
   unsigned Checks = 0, Kept = 0, Broken = 0, Noticed = 0;
 };
 
@@ -21,6 +24,11 @@ Found foundOf(const Rows &R, const std::string &Name) {
     if (Row["case"] != Name)
       continue;
     const bool Good = Row["broken"].get<std::string>().empty();
+    if (Row.contains("digits")) {
+      F.Digits[Row["oracle"].get<unsigned>()] =
+          fmt::format("{:.0f}", std::floor(Row["digits"].get<double>()));
+      continue;
+    }
     if (Row.contains("kernel")) {
       ++F.Broken;
       F.Noticed += Good;
@@ -56,16 +64,18 @@ std::string contractOf(const HardCase &C, const Found &F) {
 
 std::string tableOf(const Rows &R) {
   std::string Text =
-      "| case | why | contract | raster | simt | fp32 reference | settings "
-      "kept | broken kernels noticed |\n|---|---|---|---|---|---|---|---|\n";
+      "| case | why | contract | raster | simt | fp32 reference | digits of "
+      "fp64 | settings kept | broken kernels noticed |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   for (const HardCase &C : catalogue()) {
     const Found F = foundOf(R, C.Name);
     if (F.Checks == 0)
       continue;
-    Text += fmt::format("| {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {} of {} "
-                        "| {} of {} |\n",
+    Text += fmt::format("| {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {}, {} "
+                        "| {} of {} | {} of {} |\n",
                         C.Name, C.Why, contractOf(C, F), F.Raster, F.Simt,
-                        F.Single, F.Kept, F.Checks, F.Noticed, F.Broken);
+                        F.Single, F.Digits[0], F.Digits[1], F.Kept, F.Checks,
+                        F.Noticed, F.Broken);
   }
   Text += "\n| case of training | why | contract | raster | simt | broken "
           "kernels noticed |\n|---|---|---|---|---|---|\n";

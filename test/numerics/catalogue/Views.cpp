@@ -191,6 +191,7 @@ HardCase wide() {
                 .Scale = {0.9, 0.5, 0.5},
                 .Opacity = 0.97});
   C.NoticedIn = {"opacity-of-9-bits"};
+  C.MayExceedMemory = true; // 16 depth parts
   C.Long = true;
   return C;
 }
