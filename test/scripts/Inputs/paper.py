@@ -39,12 +39,11 @@ def check_deal():
 
 def check_model():
     unit = {"blend": 700, "clip": 0, "fetch": 0, "hazard": 0, "begin": 20, "flush": 0, "drain": 80, "idle": 5, "commands": 2}
-    single = {"time": {"sum": {"rasterizers": [unit]}}}
-    rows = {row["rasterizers"]: row for row in scaling.model([5, 2], 1, single, 300)}
+    rows = {row["rasterizers"]: row for row in scaling.model([5, 2], 1, [unit], 300)}
     near(rows[1]["compute"], 800)
     near(rows[2]["compute"], 550)
     near(rows[1024]["compute"], 550)
-    rows = {row["rasterizers"]: row for row in scaling.model([5, 2], 1, single, 6400)}
+    rows = {row["rasterizers"]: row for row in scaling.model([5, 2], 1, [unit], 6400)}
     near(rows[16]["cycles_with_memory"], 6400)
     near(rows[64]["cycles"], 6400)
     near(rows[64]["cycles_with_memory"], 1600)
