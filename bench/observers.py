@@ -50,6 +50,7 @@ OBSERVERS = [
     ("--check race", ["--check", "race"]),
     ("--check all", ["--check", "all"]),
     ("--numerics", ["--numerics=text=numerics.txt"]),
+    ("--time", ["--time"]),
 ]
 
 
