@@ -38,7 +38,7 @@ void DensityControl::restart(std::uint32_t Count) { restore(nothing(Count)); }
 
 DensityControl::Notebook DensityControl::upload(const DensityNotes &N) {
   const auto Upload = [&](const auto &Values) {
-    const cl::Buffer To = words("density control's notes", Values.size());
+    cl::Buffer To = words("density control's notes", Values.size());
     L.write("density control's notes", To, Values.data(), 4 * Values.size());
     return To;
   };
