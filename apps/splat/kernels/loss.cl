@@ -5,117 +5,179 @@
 // along rows, then along columns, and the gradient goes back the same way, as
 // the window is its own adjoint. reference/Loss.h is the same in fp64.
 //
-// Per channel there are MOMENTS sums: of x, y, x^2, y^2, x y over the window,
-// x the picture and y the photograph; of these, x, x^2 and x y depend on the
-// picture. Plane p of pixel i is at p * pixels + i. Beyond the picture a weight
-// is 0 rather than left out, and loops are unrolled: lanes stay together, and
-// the sums in registers.
+// A group is a warp and has a channel of a tile, LANES columns by TILE_ROWS
+// rows (both from the host). What the tile's windows cover is read once, into
+// local memory, zero where it is beyond the picture. For sums along rows a
+// work-item has a row, along columns a column; it adds up a run of sums
+// together, so that a value that was read serves all of them. Only the slopes go through
+// memory, in planes of whole tiles, zero beyond the picture.
 
 #define REACH 5
 #define MOMENTS 5
 #define SLOPES 3
 
+// Sums that a work-item adds up at a time: as many as registers hold.
+#define MOMENT_RUN 4
+#define ROW_RUN 8
+#define COLUMN_RUN 7
+// Rows that are read before the first of them is stored: the compiler does not
+// move a read over a store.
+#define PICTURE_AHEAD 2
+#define SLOPES_AHEAD 2
+#define GRADIENTS_AHEAD 3
+#if LANES % MOMENT_RUN || LANES % ROW_RUN || TILE_ROWS % COLUMN_RUN ||         \
+    TILE_ROWS % GRADIENTS_AHEAD
+#error a run of rows or columns leaves the tile
+#endif
+
+// Rows that windows cover, and more for whole warps of them; the same of
+// columns. In local memory a row's values lie together, a quantity after the
+// other, so that constants tell them apart; rows begin in banks of their own,
+// by a word more.
+#define ROWS ((TILE_ROWS + 2 * REACH + LANES - 1) / LANES * LANES)
+#define COLUMNS (2 * LANES)
+#if LANES < 2 * REACH
+#error windows cover more than two tiles
+#endif
+#define READ_PITCH(quantities) ((quantities) * COLUMNS + 1)
+#define SUM_PITCH(quantities) ((quantities) * LANES + 1)
+
 __constant float window[REACH + 1] = {0.2660117248617943f,   0.21300553771125366f,
                                       0.1093606895097f,      0.03600077212843082f,
                                       0.007598758135239184f, 0.0010283800844791099f};
-
-// A place of the window that lies on pixel i: its weight, and what to read.
-typedef struct {
-  float weight;
-  uint at;
-} tap;
-
-// `d` pixels after pixel i, which stands at `place` of a line of `length` whose
-// pixels are `step` apart. Places before 0 wrap to large ones, so that one
-// comparison finds both ends, without a branch.
-static tap window_tap(uint i, uint place, int d, uint length, uint step) {
-  const bool inside = place + d < length;
-  const tap t = {inside ? window[abs(d)] : 0.0f, inside ? i + d * step : i};
-  return t;
-}
 
 // SSIM's constants for values from 0 to 1.
 #define C1 1e-4f
 #define C2 9e-4f
 
-// Channel c of a photograph's pixel, 0 to 1.
-static float photo_value(uint packed, uint c) {
-  return (float)(packed >> 8 * c & 0xff) / 255.0f;
+// Of a channel of a photograph, 0 to 1.
+static float photo_value(uchar level) { return (float)level / 255.0f; }
+
+// The window of values `pitch` apart, for `run` places that follow each other,
+// the first REACH values after `v`.
+static inline __attribute__((always_inline)) void
+window_sums(__local const float *v, uint pitch, int run, float *sums) {
+#pragma unroll
+  for (int j = 0; j < run + 2 * REACH; ++j) {
+    const float value = v[j * pitch];
+#pragma unroll
+    for (int o = 0; o < run; ++o)
+      if (j >= o && j <= o + 2 * REACH) {
+        const float weight = window[abs(j - o - REACH)];
+        sums[o] = j == o ? weight * value : fma(weight, value, sums[o]);
+      }
+  }
 }
 
-static float channel(float4 p, uint c) {
-  return c == 0 ? p.x : c == 1 ? p.y : p.z;
+// As window_sums along a row, of v, v^2 and, unless `by` is null, v by: a
+// quantity after the other from `to` on.
+static inline __attribute__((always_inline)) void
+moment_sums(__local const float *v, __local const float *by,
+            __local float *to) {
+  float plain[MOMENT_RUN], square[MOMENT_RUN], mixed[MOMENT_RUN];
+#pragma unroll
+  for (int j = 0; j < MOMENT_RUN + 2 * REACH; ++j) {
+    const float value = v[j], other = by ? by[j] : 0.0f;
+#pragma unroll
+    for (int o = 0; o < MOMENT_RUN; ++o)
+      if (j >= o && j <= o + 2 * REACH) {
+        const float weighted = window[abs(j - o - REACH)] * value;
+        plain[o] = j == o ? weighted : plain[o] + weighted;
+        square[o] = j == o ? weighted * value : fma(weighted, value, square[o]);
+        mixed[o] = j == o ? weighted * other : fma(weighted, other, mixed[o]);
+      }
+  }
+#pragma unroll
+  for (uint o = 0; o < MOMENT_RUN; ++o) {
+    to[o] = plain[o];
+    to[LANES + o] = square[o];
+    if (by)
+      to[2 * LANES + o] = mixed[o];
+  }
 }
 
-__kernel void loss_rows(__global const float4 *picture,
-                        __global const uint *photo, __global float *moments,
-                        uint width, uint height) {
-  const uint i = get_global_id(0);
-  const uint pixels = width * height;
-  if (i >= pixels)
-    return;
-  const uint column = i % width;
-  float sums[3 * MOMENTS];
-  for (uint k = 0; k < 3 * MOMENTS; ++k)
-    sums[k] = 0.0f;
+// The window along columns of sums along rows, which give way to it: only this
+// work-item reads its column.
+static inline __attribute__((always_inline)) void
+column_sums(__local float *rows, uint quantities, uint lane) {
+  for (uint k = 0; k < quantities; ++k)
+    for (uint row = 0; row < TILE_ROWS; row += COLUMN_RUN) {
+      __local float *own =
+          rows + row * SUM_PITCH(quantities) + k * LANES + lane;
+      float sums[COLUMN_RUN];
+      window_sums(own, SUM_PITCH(quantities), COLUMN_RUN, sums);
 #pragma unroll
-  for (int d = -REACH; d <= REACH; ++d) {
-    const tap t = window_tap(i, column, d, width, 1);
-    const float4 x4 = picture[t.at];
-    const uint packed = photo[t.at];
+      for (uint o = 0; o < COLUMN_RUN; ++o)
+        own[o * SUM_PITCH(quantities)] = sums[o];
+    }
+}
+
+// Where the slopes of row y of a tile begin: LANES of a quantity, then of the
+// next. Then come those of the next of the `across` tiles.
+static uint slopes_at(uint c, uint y, uint tile, uint across) {
+  return ((c * get_num_groups(1) * TILE_ROWS + y) * across + tile) * SLOPES *
+         LANES;
+}
+
+// SSIM of every pixel and channel, and its slopes by the windows' means of x,
+// x^2 and x y, x being the picture and y the photograph. `totals` gets each
+// group's sums of |x - y| and SSIM.
+__kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
+loss_slopes(__global const float *picture, __global const uchar *photo,
+            __global float *slopes, __global float *totals, uint width,
+            uint height) {
+  __local float values[ROWS * READ_PITCH(2)];
+  __local float rows[ROWS * SUM_PITCH(MOMENTS)];
+  __local float parts[2 * LANES];
+
+  const uint lane = get_local_id(0);
+  const uint x0 = get_group_id(0) * LANES, y0 = get_group_id(1) * TILE_ROWS;
+  const uint c = get_group_id(2);
+
+  for (uint first = 0; first < ROWS; first += PICTURE_AHEAD) {
+    float own[2 * PICTURE_AHEAD];
+    uchar level[2 * PICTURE_AHEAD];
+    int inside[2 * PICTURE_AHEAD];
 #pragma unroll
-    for (uint c = 0; c < 3; ++c) {
-      const float x = channel(x4, c), y = photo_value(packed, c);
-      const float wx = t.weight * x, wy = t.weight * y;
-      sums[MOMENTS * c] += wx;
-      sums[MOMENTS * c + 1] += wy;
-      sums[MOMENTS * c + 2] = fma(wx, x, sums[MOMENTS * c + 2]);
-      sums[MOMENTS * c + 3] = fma(wy, y, sums[MOMENTS * c + 3]);
-      sums[MOMENTS * c + 4] = fma(wx, y, sums[MOMENTS * c + 4]);
+    for (uint k = 0; k < 2 * PICTURE_AHEAD; ++k) {
+      // Before the picture's sides a place wraps to a large one.
+      const uint x = x0 + k % 2 * LANES + lane - REACH;
+      const uint y = y0 + first + k / 2 - REACH;
+      inside[k] = (x < width) & (y < height);
+      const uint at = 4 * (inside[k] ? y * width + x : 0) + c;
+      own[k] = picture[at];
+      level[k] = photo[at];
+    }
+#pragma unroll
+    for (uint k = 0; k < 2 * PICTURE_AHEAD; ++k) {
+      __local float *to =
+          values + (first + k / 2) * READ_PITCH(2) + k % 2 * LANES + lane;
+      to[0] = select(0.0f, own[k], inside[k]);
+      to[COLUMNS] = select(0.0f, photo_value(level[k]), inside[k]);
     }
   }
-  for (uint k = 0; k < 3 * MOMENTS; ++k)
-    moments[k * pixels + i] = sums[k];
-}
+  barrier(CLK_LOCAL_MEM_FENCE);
 
-// The window along the column of pixel i, of one plane.
-static float column_sum(__global const float *plane, uint i, uint row,
-                        uint width, uint height) {
-  float sum = 0.0f;
-#pragma unroll
-  for (int d = -REACH; d <= REACH; ++d) {
-    const tap t = window_tap(i, row, d, height, width);
-    sum = fma(t.weight, plane[t.at], sum);
-  }
-  return sum;
-}
+  for (uint first = 0; first < ROWS; first += LANES)
+    for (uint column = 0; column < LANES; column += MOMENT_RUN) {
+      __local const float *x =
+          values + (first + lane) * READ_PITCH(2) + column;
+      __local float *to =
+          rows + (first + lane) * SUM_PITCH(MOMENTS) + column;
+      moment_sums(x, x + COLUMNS, to);
+      moment_sums(x + COLUMNS, 0, to + 3 * LANES);
+    }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  column_sums(rows, MOMENTS, lane);
 
-// SSIM of every pixel and channel, and its slopes by the sums of x, x^2 and
-// x y. `terms` gets a pixel's sums over channels of |x - y| and SSIM.
-__kernel void loss_columns(__global const float4 *picture,
-                           __global const uint *photo,
-                           __global const float *moments,
-                           __global float *slopes, __global float2 *terms,
-                           uint width, uint height) {
-  const uint i = get_global_id(0);
-  const uint pixels = width * height;
-  if (i >= pixels)
-    return;
-  const uint row = i / width;
-  const float4 x4 = picture[i];
-  const uint packed = photo[i];
-  float2 sum = (float2)(0.0f, 0.0f);
-#pragma unroll
-  for (uint c = 0; c < 3; ++c) {
-    float m[MOMENTS];
-#pragma unroll
-    for (uint k = 0; k < MOMENTS; ++k)
-      m[k] = column_sum(moments + (MOMENTS * c + k) * pixels, i, row, width,
-                        height);
-    const float mean_x = m[0], mean_y = m[1];
-    const float variance_x = fma(-mean_x, mean_x, m[2]);
-    const float variance_y = fma(-mean_y, mean_y, m[3]);
-    const float covariance = fma(-mean_x, mean_y, m[4]);
+  float absolute = 0.0f, total = 0.0f;
+#pragma unroll 3
+  for (uint row = 0; row < TILE_ROWS; ++row) {
+    __local const float *m = rows + row * SUM_PITCH(MOMENTS) + lane;
+    const float mean_x = m[0], mean_y = m[3 * LANES];
+    const float variance_x = fma(-mean_x, mean_x, m[LANES]);
+    const float variance_y = fma(-mean_y, mean_y, m[4 * LANES]);
+    const float covariance = fma(-mean_x, mean_y, m[2 * LANES]);
     const float a = 2.0f * mean_x * mean_y + C1;
     const float b = 2.0f * covariance + C2;
     const float p = mean_x * mean_x + mean_y * mean_y + C1;
@@ -123,72 +185,110 @@ __kernel void loss_columns(__global const float4 *picture,
     const float inverse = 1.0f / (p * q);
     const float ssim = a * b * inverse;
     // Of ssim = a b / (p q), with the variances' own dependence on the mean.
-    const float by_mean =
-        2.0f * (mean_y * (b - a) * inverse + mean_x * ssim * (1.0f / q - 1.0f / p));
-    slopes[(SLOPES * c) * pixels + i] = by_mean;
-    slopes[(SLOPES * c + 1) * pixels + i] = -ssim / q;
-    slopes[(SLOPES * c + 2) * pixels + i] = 2.0f * a * inverse;
-    sum.x += fabs(channel(x4, c) - photo_value(packed, c));
-    sum.y += ssim;
+    const float by_mean = 2.0f * (mean_y * (b - a) * inverse +
+                                  mean_x * ssim * (1.0f / q - 1.0f / p));
+    const int inside = (x0 + lane < width) & (y0 + row < height);
+    __global float *to =
+        slopes +
+        slopes_at(c, y0 + row, get_group_id(0), get_num_groups(0)) + lane;
+    to[0] = select(0.0f, by_mean, inside);
+    to[LANES] = select(0.0f, -ssim / q, inside);
+    to[2 * LANES] = select(0.0f, 2.0f * a * inverse, inside);
+    __local const float *own =
+        values + (row + REACH) * READ_PITCH(2) + lane + REACH;
+    absolute += fabs(own[0] - own[COLUMNS]);
+    total += select(0.0f, ssim, inside);
   }
-  terms[i] = sum;
-}
 
-__kernel void loss_spread(__global const float *slopes, __global float *spread,
-                          uint width, uint height) {
-  const uint i = get_global_id(0);
-  const uint pixels = width * height;
-  if (i >= pixels)
-    return;
-  const uint column = i % width;
-  float sums[3 * SLOPES];
-  for (uint k = 0; k < 3 * SLOPES; ++k)
-    sums[k] = 0.0f;
-#pragma unroll
-  for (int d = -REACH; d <= REACH; ++d) {
-    const tap t = window_tap(i, column, d, width, 1);
-#pragma unroll
-    for (uint k = 0; k < 3 * SLOPES; ++k)
-      sums[k] = fma(t.weight, slopes[k * pixels + t.at], sums[k]);
+  parts[lane] = absolute;
+  parts[LANES + lane] = total;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  if (lane < 2) {
+    float sum = 0.0f;
+    for (uint k = 0; k < LANES; ++k)
+      sum += parts[lane * LANES + k];
+    const uint group = (c * get_num_groups(1) + get_group_id(1)) *
+                           get_num_groups(0) +
+                       get_group_id(0);
+    totals[2 * group + lane] = sum;
   }
-  for (uint k = 0; k < 3 * SLOPES; ++k)
-    spread[k * pixels + i] = sums[k];
 }
 
 // dL/d(picture): `per_absolute` and `per_ssim` are the shares of one pixel's
-// channel in the loss. The sign of 0 is 0. Three floats a pixel.
-__kernel void loss_gradient(__global const float4 *picture,
-                            __global const uint *photo,
-                            __global const float *spread,
-                            __global float *gradient, uint width, uint height,
-                            float per_absolute, float per_ssim) {
-  const uint i = get_global_id(0);
-  const uint pixels = width * height;
-  if (i >= pixels)
-    return;
-  const uint row = i / width;
-  const float4 x4 = picture[i];
-  const uint packed = photo[i];
-  for (uint c = 0; c < 3; ++c) {
-    const float x = channel(x4, c), y = photo_value(packed, c);
-    float s[SLOPES];
-    for (uint k = 0; k < SLOPES; ++k)
-      s[k] = column_sum(spread + (SLOPES * c + k) * pixels, i, row, width,
-                        height);
-    const float ssim = s[0] + 2.0f * x * s[1] + y * s[2];
-    const float side = x > y ? 1.0f : x < y ? -1.0f : 0.0f;
-    gradient[3 * i + c] = per_absolute * side - per_ssim * ssim;
-  }
-}
+// channel in the loss. The sign of 0 is 0. Three floats a pixel, of all rows of
+// the tiles: what is below the picture has no meaning.
+__kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
+loss_gradient(__global const float *picture, __global const uchar *photo,
+              __global const float *slopes, __global float *gradient,
+              uint width, uint height, float per_absolute, float per_ssim) {
+  __local float values[ROWS * READ_PITCH(SLOPES)];
+  __local float rows[ROWS * SUM_PITCH(SLOPES)];
 
-// Sums of `terms` over each row, so that the host adds few numbers.
-__kernel void loss_sum(__global const float2 *terms, __global float2 *rows,
-                       uint width, uint height) {
-  const uint row = get_global_id(0);
-  if (row >= height)
+  const uint lane = get_local_id(0);
+  const uint x0 = get_group_id(0) * LANES, y0 = get_group_id(1) * TILE_ROWS;
+  const uint c = get_group_id(2);
+  const uint across = get_num_groups(0);
+  const uint all_rows = get_num_groups(1) * TILE_ROWS;
+
+  for (uint first = 0; first < ROWS; first += SLOPES_AHEAD) {
+    float slope[2 * SLOPES_AHEAD][SLOPES];
+    int inside[2 * SLOPES_AHEAD];
+#pragma unroll
+    for (uint k = 0; k < 2 * SLOPES_AHEAD; ++k) {
+      const uint x = x0 + k % 2 * LANES + lane - REACH;
+      const uint y = y0 + first + k / 2 - REACH;
+      inside[k] = (x < across * LANES) & (y < all_rows);
+      const uint at = slopes_at(c, y, x / LANES, across) + x % LANES;
+      __global const float *from = slopes + (inside[k] ? at : 0);
+#pragma unroll
+      for (uint p = 0; p < SLOPES; ++p)
+        slope[k][p] = from[p * LANES];
+    }
+#pragma unroll
+    for (uint k = 0; k < 2 * SLOPES_AHEAD; ++k)
+#pragma unroll
+      for (uint p = 0; p < SLOPES; ++p)
+        values[(first + k / 2) * READ_PITCH(SLOPES) + p * COLUMNS +
+               k % 2 * LANES + lane] = select(0.0f, slope[k][p], inside[k]);
+  }
+  barrier(CLK_LOCAL_MEM_FENCE);
+
+  for (uint first = 0; first < ROWS; first += LANES)
+    for (uint column = 0; column < LANES; column += ROW_RUN)
+#pragma unroll
+      for (uint p = 0; p < SLOPES; ++p) {
+        float sums[ROW_RUN];
+        window_sums(values + (first + lane) * READ_PITCH(SLOPES) +
+                        p * COLUMNS + column,
+                    1, ROW_RUN, sums);
+#pragma unroll
+        for (uint o = 0; o < ROW_RUN; ++o)
+          rows[(first + lane) * SUM_PITCH(SLOPES) + p * LANES + column + o] =
+              sums[o];
+      }
+  barrier(CLK_LOCAL_MEM_FENCE);
+  column_sums(rows, SLOPES, lane);
+
+  if (x0 + lane >= width)
     return;
-  float2 sum = (float2)(0.0f, 0.0f);
-  for (uint x = 0; x < width; ++x)
-    sum += terms[row * width + x];
-  rows[row] = sum;
+  for (uint row = 0; row < TILE_ROWS; row += GRADIENTS_AHEAD) {
+    float x[GRADIENTS_AHEAD];
+    uchar level[GRADIENTS_AHEAD];
+#pragma unroll
+    for (uint o = 0; o < GRADIENTS_AHEAD; ++o) {
+      const uint y = min(y0 + row + o, height - 1);
+      const uint at = 4 * (y * width + x0 + lane) + c;
+      x[o] = picture[at];
+      level[o] = photo[at];
+    }
+#pragma unroll
+    for (uint o = 0; o < GRADIENTS_AHEAD; ++o) {
+      __local const float *s = rows + (row + o) * SUM_PITCH(SLOPES) + lane;
+      const float y = photo_value(level[o]);
+      const float ssim = s[0] + 2.0f * x[o] * s[LANES] + y * s[2 * LANES];
+      const float side = x[o] > y ? 1.0f : x[o] < y ? -1.0f : 0.0f;
+      gradient[3 * ((y0 + row + o) * width + x0 + lane) + c] =
+          per_absolute * side - per_ssim * ssim;
+    }
+  }
 }

@@ -1,32 +1,42 @@
 #include "PictureLoss.h"
 
-#include "../render/Pipeline.h"
+#include <fmt/format.h>
 
 namespace vorion::splat {
 namespace {
 
-// As kernels/loss.cl has them: planes of three channels.
-constexpr std::uint64_t MomentPlanes = 3 * 5, SlopePlanes = 3 * 3;
+// A group of kernels/loss.cl has a channel of a tile; with its windows' reach a
+// tile has two warps of rows.
+constexpr std::uint32_t Lanes = 16, TileRows = 21, Channels = 3;
+constexpr std::uint64_t SlopePlanes = std::uint64_t{3} * Channels;
+
+constexpr std::uint32_t divideUp(std::uint32_t A, std::uint32_t B) {
+  return (A + B - 1) / B;
+}
 
 } // namespace
 
-ProgramSpec lossProgram() { return {LossProgram, {"loss.cl"}, {}}; }
+ProgramSpec lossProgram() {
+  return {
+      LossProgram,
+      {"loss.cl"},
+      {fmt::format("LANES={}", Lanes), fmt::format("TILE_ROWS={}", TileRows)}};
+}
 
-void PictureLoss::reserve(std::uint64_t Pixels, std::uint32_t Rows) {
+void PictureLoss::reserve(std::uint64_t Pixels, std::uint64_t Tiles) {
   if (Pixels > Room) {
     Room = Pixels;
     Packed = L.allocate("photograph", 4 * Pixels);
-    Moments = L.allocate("loss's sums", 4 * MomentPlanes * Pixels);
-    Slopes = L.allocate("loss's slopes", 4 * SlopePlanes * Pixels);
-    Terms = L.allocate("loss's terms", 8 * Pixels);
     Gradient = L.allocate("picture's gradient", 12 * Pixels);
     NoAlpha = L.allocate("alpha's gradient", 4 * Pixels);
     const std::vector<float> Zeros(Pixels, 0);
     L.write("alpha's gradient", NoAlpha, Zeros.data(), 4 * Zeros.size());
   }
-  if (Rows > RowRoom) {
-    RowRoom = Rows;
-    RowSums = L.allocate("loss's rows", 8 * std::uint64_t{Rows});
+  if (Tiles > TileRoom) {
+    TileRoom = Tiles;
+    Slopes =
+        L.allocate("loss's slopes", 4 * SlopePlanes * Tiles * Lanes * TileRows);
+    Totals = L.allocate("loss's sums", 8 * Channels * Tiles);
   }
 }
 
@@ -35,7 +45,10 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
   const auto Width = static_cast<std::uint32_t>(Target.Width);
   const auto Height = static_cast<std::uint32_t>(Target.Height);
   const auto Pixels = static_cast<std::uint32_t>(Target.pixels());
-  reserve(Pixels, Height);
+  const std::uint32_t Across = divideUp(Width, Lanes);
+  const std::uint32_t Down = divideUp(Height, TileRows);
+  // The gradient is written for all rows of the tiles.
+  reserve(std::uint64_t{Width} * Down * TileRows, std::uint64_t{Across} * Down);
   HostPacked.resize(Pixels);
   for (std::size_t I = 0; I < Pixels; ++I)
     HostPacked[I] = Target.Rgb[3 * I] | Target.Rgb[3 * I + 1] << 8 |
@@ -43,27 +56,20 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
   L.write("photograph", Packed, HostPacked.data(), 4 * HostPacked.size());
 
   const double Samples = 3.0 * Pixels;
-  const cl::NDRange Items = itemsFor(Pixels);
-  L.run(LossProgram, "loss_rows", Items, GroupSize, Picture, Packed, Moments,
-        Width, Height);
-  L.run(LossProgram, "loss_columns", Items, GroupSize, Picture, Packed, Moments,
-        Slopes, Terms, Width, Height);
-  // The sums are done with; their buffer takes the slopes' window along rows.
-  L.run(LossProgram, "loss_spread", Items, GroupSize, Slopes, Moments, Width,
-        Height);
-  L.run(LossProgram, "loss_gradient", Items, GroupSize, Picture, Packed,
-        Moments, Gradient, Width, Height,
-        static_cast<float>((1 - DSsim) / Samples),
+  const cl::NDRange Items(std::size_t{Across} * Lanes, Down, Channels);
+  const cl::NDRange Group(Lanes, 1, 1);
+  L.run(LossProgram, "loss_slopes", Items, Group, Picture, Packed, Slopes,
+        Totals, Width, Height);
+  L.run(LossProgram, "loss_gradient", Items, Group, Picture, Packed, Slopes,
+        Gradient, Width, Height, static_cast<float>((1 - DSsim) / Samples),
         static_cast<float>(DSsim / Samples));
-  L.run(LossProgram, "loss_sum", itemsFor(Height), GroupSize, Terms, RowSums,
-        Width, Height);
 
-  HostRows.assign(2 * std::size_t{Height}, 0);
-  L.read("loss", HostRows.data(), RowSums, 4 * HostRows.size());
+  HostTotals.assign(std::size_t{2} * Channels * Across * Down, 0);
+  L.read("loss", HostTotals.data(), Totals, 4 * HostTotals.size());
   LossValues V;
-  for (std::size_t Row = 0; Row < Height; ++Row) {
-    V.Absolute += HostRows[2 * Row];
-    V.Ssim += HostRows[2 * Row + 1];
+  for (std::size_t I = 0; I < HostTotals.size(); I += 2) {
+    V.Absolute += HostTotals[I];
+    V.Ssim += HostTotals[I + 1];
   }
   V.Absolute /= Samples;
   V.Ssim /= Samples;

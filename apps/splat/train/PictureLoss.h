@@ -18,8 +18,8 @@ struct LossValues {
 };
 
 /// Buffers are kept from picture to picture and grow with the largest one.
-/// Pixels are added in a fixed order: rows in fp32 on the device, their sums
-/// in double.
+/// Pixels are added in a fixed order: of tiles in fp32 on the device, their
+/// sums in double.
 class PictureLoss {
 public:
   PictureLoss(Launcher &Launch, double DSsimShare)
@@ -33,15 +33,14 @@ public:
   const cl::Buffer &alphaGradient() const { return NoAlpha; }
 
 private:
-  void reserve(std::uint64_t Pixels, std::uint32_t Rows);
+  void reserve(std::uint64_t Pixels, std::uint64_t Tiles);
 
   Launcher &L;
   double DSsim;
-  std::uint64_t Room = 0;
-  std::uint32_t RowRoom = 0;
-  cl::Buffer Packed, Moments, Slopes, Terms, RowSums, Gradient, NoAlpha;
+  std::uint64_t Room = 0, TileRoom = 0;
+  cl::Buffer Packed, Slopes, Totals, Gradient, NoAlpha;
   std::vector<std::uint32_t> HostPacked;
-  std::vector<float> HostRows;
+  std::vector<float> HostTotals;
 };
 
 } // namespace vorion::splat

@@ -67,9 +67,9 @@ protected:
 TEST_F(LossOnDevice, IsTheReferencesOnPicturesOfAnySize) {
   std::mt19937 Random(12);
   std::uniform_real_distribution<float> Value(-0.1F, 1.2F);
-  // Smaller than the window, one row, one pixel, more than a group.
-  const std::pair<int, int> Sizes[] = {{37, 23}, {8, 6}, {30, 1},
-                                       {1, 12},  {1, 1}, {64, 5}};
+  // Smaller than the window, one row, one pixel, several tiles each way.
+  const std::pair<int, int> Sizes[] = {{37, 23}, {8, 6},  {30, 1}, {1, 12},
+                                       {1, 1},   {64, 5}, {19, 66}};
   for (const auto &[Width, Height] : Sizes) {
     std::vector<float> Picture(std::size_t{4} *
                                static_cast<unsigned>(Width * Height));
