@@ -272,21 +272,21 @@ loss_gradient(__global const float *picture, __global const uchar *photo,
   if (x0 + lane >= width)
     return;
   for (uint row = 0; row < TILE_ROWS; row += GRADIENTS_AHEAD) {
-    float x[GRADIENTS_AHEAD];
+    float own[GRADIENTS_AHEAD];
     uchar level[GRADIENTS_AHEAD];
 #pragma unroll
     for (uint o = 0; o < GRADIENTS_AHEAD; ++o) {
       const uint y = min(y0 + row + o, height - 1);
       const uint at = 4 * (y * width + x0 + lane) + c;
-      x[o] = picture[at];
+      own[o] = picture[at];
       level[o] = photo[at];
     }
 #pragma unroll
     for (uint o = 0; o < GRADIENTS_AHEAD; ++o) {
       __local const float *s = rows + (row + o) * SUM_PITCH(SLOPES) + lane;
-      const float y = photo_value(level[o]);
-      const float ssim = s[0] + 2.0f * x[o] * s[LANES] + y * s[2 * LANES];
-      const float side = x[o] > y ? 1.0f : x[o] < y ? -1.0f : 0.0f;
+      const float x = own[o], y = photo_value(level[o]);
+      const float ssim = s[0] + 2.0f * x * s[LANES] + y * s[2 * LANES];
+      const float side = x > y ? 1.0f : x < y ? -1.0f : 0.0f;
       gradient[3 * ((y0 + row + o) * width + x0 + lane) + c] =
           per_absolute * side - per_ssim * ssim;
     }
