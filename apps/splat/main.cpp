@@ -27,7 +27,7 @@ int main(int ArgumentCount, char **Arguments) {
     Command->footer(std::string(ExitCodeHelp));
     Commands.emplace_back(Command, Declare(*Command));
   };
-  Add("render", "Renders one view of a scene", splat::addRender);
+  Add("render", "Renders views of a scene", splat::addRender);
   Add("gradients", "Takes a loss's gradients back from one view to a scene",
       splat::addGradients);
   Add("analyze", "Counts what a view of a scene asks of a machine",

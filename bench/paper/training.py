@@ -259,8 +259,8 @@ def text(data):
         another view, means of them; those before went without the clock. The number of Gaussians changes after every 100th iteration,
         not in these. Pictures: """ + ", ".join(f"{row['scene']} {row['resolution'][0]}x{row['resolution'][1]}" for row in rows)
         + f""". Tiles of the rasterizer are 32x64. The kernels' choice of tile and group is the fastest of
-        {', '.join(f'{t}/{g}' for t, g in CHOICES)}. *back*: from the pixels' gradients to nine sums a Gaussian, which is blending
-        backward and the sum over tiles. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:
+        {', '.join(f'{t}/{g}' for t, g in CHOICES)}, on the scaled machine of those that are fastest on the
+        prototype. *back*: from the pixels' gradients to nine sums a Gaussian, which is blending backward and the sum over tiles. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:
         1/(1 - share); *rest*: the kernels-only iteration over ours without the stages of the rasterizer."""), ""]
     for machine in ("prototype", "scaled"):
         out += [f"### Training on `{machine}`, {rows[0][machine]['clock_mhz']} MHz", ""]

@@ -38,6 +38,18 @@ std::string background(const TrainSweepPlan &P) {
   return fmt::format("{}", fmt::join(P.Background, ","));
 }
 
+/// What a point depends on beside its name.
+Json askedOf(const TrainSweepPlan &P) {
+  return {{"capture", P.Capture},
+          {"exclude", P.Exclude},
+          {"downscale", P.Downscale},
+          {"background", P.Background},
+          {"max_gaussians", P.MostGaussians},
+          {"iterations", P.Iterations},
+          {"score_every", P.ScoreEvery},
+          {"time_every", P.TimeEvery}};
+}
+
 /// Of every `splat train`.
 std::vector<std::string> trainArguments(const TrainSweepPlan &P,
                                         const std::string &Output) {
@@ -105,7 +117,9 @@ Expected<Json> measureGradients(const TrainSweepPlan &P, const TrainPoint &Of,
     return Errors;
   for (const char *Ending : {".npz", ".log"})
     std::filesystem::remove(Base + Ending);
-  return Json{{"setting", Of.Chosen.name()}, {"errors", std::move(*Errors)}};
+  return Json{{"setting", Of.Chosen.name()},
+              {"asked", askedOf(P)},
+              {"errors", std::move(*Errors)}};
 }
 
 /// Machine-seconds after each scored iteration. An iteration that was not timed
@@ -163,6 +177,7 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   const std::size_t Samples = (*Report)["timed"].size();
   Report->erase("timed");
   return Json{{"setting", Of.Chosen.name()},
+              {"asked", askedOf(P)},
               {"seed", Of.At},
               {"psnr8_db", (*Report)["psnr8_db"]},
               {"timed", Samples},
@@ -201,6 +216,23 @@ std::vector<TrainPoint> missing(const TrainSweepPlan &P,
     if (!std::filesystem::exists(fileOf(P, One)))
       Left.push_back(One);
   return Left;
+}
+
+Expected<Success> checkKept(const TrainSweepPlan &P) {
+  const Json Asked = askedOf(P);
+  for (const TrainPoint &Of : trainPoints(P)) {
+    const std::string File = fileOf(P, Of);
+    if (!std::filesystem::exists(File))
+      continue;
+    const auto Kept = readJson(File);
+    if (!Kept)
+      return Kept.error();
+    if (const Json Had = Kept->value("asked", Json()); Had != Asked)
+      return Error{File, fmt::format("measured with {}, expected {} or another "
+                                     "folder",
+                                     Had.dump(), Asked.dump())};
+  }
+  return Success{};
 }
 
 Expected<Success> measure(const TrainSweepPlan &P,

@@ -41,6 +41,9 @@ std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P);
 std::vector<TrainPoint> missing(const TrainSweepPlan &P,
                                 const std::vector<TrainPoint> &Of);
 
+/// That what is kept in the folder was measured as \p P asks.
+Expected<Success> checkKept(const TrainSweepPlan &P);
+
 /// Measures \p Points and writes a file each; \p Said gets a line for each one
 /// that is done.
 Expected<Success> measure(const TrainSweepPlan &P,

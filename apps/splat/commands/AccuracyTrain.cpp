@@ -1,5 +1,8 @@
 #include "AccuracyTrain.h"
 
+#include "Choices.h"
+#include "PictureOptions.h"
+
 #include "../accuracy/Points.h"
 #include "vorion/support/File.h"
 
@@ -18,7 +21,7 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P) {
       ->option_text("CAPTURE");
   App.add_option("--iterations", P.Iterations,
                  fmt::format("--train: of a run (default {})", P.Iterations))
-      ->check(CLI::Range(1U, 10000000U));
+      ->check(isIterations());
   App.add_option(
          "--seeds", P.Seeds,
          fmt::format("--train: runs of a setting (default {})", P.Seeds))
@@ -27,12 +30,12 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P) {
                  fmt::format("--train: iterations from one PSNR of the "
                              "held-out views to the next (default {})",
                              P.ScoreEvery))
-      ->check(CLI::PositiveNumber);
+      ->check(isIterations());
   App.add_option("--time-every", P.TimeEvery,
                  fmt::format("--train: of so many iterations one is timed "
                              "(default {})",
                              P.TimeEvery))
-      ->check(CLI::PositiveNumber);
+      ->check(isIterations());
   App.add_option("--downscale", P.Downscale,
                  "--train: pictures so many times smaller (default 1)")
       ->check(CLI::Range(1, 64));
@@ -40,16 +43,28 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P) {
                  "--train: no more Gaussians than this");
   App.add_option("--exclude", P.Exclude, "--train: leave out this picture")
       ->allow_extra_args(false);
-  App.add_option("--background", P.Background,
-                 "--train: colour r,g,b behind the scene (default 0,0,0)")
-      ->delimiter(',')
-      ->option_text("R,G,B");
+  addBackgroundOption(App, P.Background,
+                      "--train: colour r,g,b behind the scene (default 0,0,0)");
+}
+
+/// That every run will have times and scores, and may stand beside those kept.
+static Expected<Success> check(const TrainSweepPlan &P) {
+  for (const auto &[Option, Every] : {std::pair("--score-every", P.ScoreEvery),
+                                      std::pair("--time-every", P.TimeEvery)})
+    if (Every > P.Iterations)
+      return Error{"",
+                   fmt::format("{} {}: expected at most --iterations, {}",
+                               Option, Every, P.Iterations),
+                   ExitCode::Usage};
+  return checkKept(P);
 }
 
 Expected<Success>
 measureTraining(const TrainSweepPlan &P, bool List,
                 const std::vector<std::string> &Only,
                 const std::function<void(std::string_view)> &Said) {
+  if (auto Checked = check(P); !Checked)
+    return Checked;
   if (auto Made = makeFolders(P.Folder); !Made)
     return Made;
   std::vector<TrainPoint> Wanted = missing(P, trainPoints(P));

@@ -42,4 +42,7 @@ inline void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
       ->check(CLI::IsMember(std::move(Choices)));
 }
 
+/// For options that are numbers of iterations.
+inline CLI::Range isIterations() { return {1U, 10000000U}; }
+
 } // namespace vorion::splat

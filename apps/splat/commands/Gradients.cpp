@@ -103,6 +103,9 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
 Expected<Success> run(const GradientArguments &A) {
   if (auto Checked = checkPictureOptions(A.Options); !Checked)
     return Checked;
+  if (auto Checked = checkBackwardOptions(A.Backward, A.Options.Blending);
+      !Checked)
+    return Checked;
   for (const std::string &File : {A.Output, A.Json})
     if (auto Writable = checkWritable(File); !Writable)
       return Writable;

@@ -77,6 +77,18 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
             "How the rasterizer's gather adds up rows");
 }
 
+Expected<Success> checkBackwardOptions(const BackwardOptions &B,
+                                       Path Blending) {
+  const BackwardOptions Default;
+  if (Blending == Path::Simt &&
+      (B.Unit != Default.Unit || B.Order != Default.Order))
+    return Error{"",
+                 "--reciprocal and --sum are the rasterizer's, expected --path "
+                 "raster with them",
+                 ExitCode::Usage};
+  return Success{};
+}
+
 std::string toString(const BackwardOptions &B, Path Blending) {
   if (Blending != Path::Raster)
     return "";

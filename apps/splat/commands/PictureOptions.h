@@ -37,6 +37,9 @@ inline const std::vector<unsigned> SimtTilesBack{8, 16};
 /// What the rasterizer's backward mode computes with.
 void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 
+/// Whether the values fit \p Blending; an error is one of usage.
+Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
+
 /// These as a report says them, after a comma; empty where the cores go back.
 std::string toString(const BackwardOptions &B, Path Blending);
 

@@ -7,6 +7,7 @@
 #include "Progress.h"
 #include "SceneArguments.h"
 
+#include "../accuracy/Points.h"
 #include "../effects/Explain.h"
 #include "../effects/Fallback.h"
 #include "../effects/Measure.h"
@@ -27,6 +28,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <unistd.h>
@@ -217,12 +219,26 @@ Expected<Success> renderOne(const Job &J, const Camera &C) {
   return Success{};
 }
 
-/// out.png for view front is out.front.png.
+/// out.png for view front is out.front.png, for a/front out.a_front.png.
 std::string outputOf(const std::string &Output, const Camera &C) {
   const std::filesystem::path Path(Output);
-  return (Path.parent_path() /
-          (Path.stem().string() + "." + C.Name + Path.extension().string()))
+  return (Path.parent_path() / (Path.stem().string() + "." +
+                                asFileName(C.Name) + Path.extension().string()))
       .string();
+}
+
+/// That no picture would take another's place.
+Expected<Success> checkOutputs(const RenderArguments &A,
+                               const std::vector<Camera> &Cameras) {
+  std::set<std::string> Files;
+  for (const Camera &C : Cameras)
+    if (const auto [File, IsNew] = Files.insert(outputOf(A.Output, C)); !IsNew)
+      return Error{A.Cameras,
+                   fmt::format("two of the views would be {}, expected views "
+                               "of different names",
+                               *File),
+                   ExitCode::Usage};
+  return Success{};
 }
 
 Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
@@ -269,6 +285,9 @@ Expected<Success> run(const RenderArguments &A) {
   auto Cameras = findCameras(A);
   if (!Cameras)
     return Cameras.error();
+  if (!isOne(A))
+    if (auto Checked = checkOutputs(A, *Cameras); !Checked)
+      return Checked;
   if (A.Time || A.ClockMhz)
     turnClockOn(A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;

@@ -18,7 +18,7 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
       ->option_text("FROM:TO");
   App.add_option("--lod", A.Options.LevelOfDetail,
                  "Level of detail of a streamed scene (default 0, the finest)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 1000));
 }
 
 Expected<SceneFile> loadScene(const SceneArguments &A) {

@@ -1,3 +1,4 @@
+#include "Choices.h"
 #include "Commands.h"
 #include "DeviceArguments.h"
 #include "OutputFile.h"
@@ -128,9 +129,13 @@ Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
       showBuildLog(L);
       return *L.failure();
     }
-    if (Timed)
-      W.Timed.add({R.Iteration, R.Gaussians, Renderer.listLengths(),
-                   std::move(Stages)});
+    // All processes then end with it at the next step.
+    if (Timed && !W.Timed.add({R.Iteration, R.Gaussians, Renderer.listLengths(),
+                               std::move(Stages)}))
+      L.fail({"",
+              "the device gave no time of a kernel, expected a runtime that "
+              "knows VORION_TIME=profiled",
+              ExitCode::Internal});
     showProgress(W, R, Start);
     if (W.Together.first() && W.A.ScoreEvery != 0 &&
         R.Iteration % W.A.ScoreEvery == 0) {
@@ -251,6 +256,10 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
                (T.iteration() - W.First) / W.Seconds);
   if (!W.Timed.empty())
     fmt::print("machine time {}\n", W.Timed.text());
+  else if (W.A.isClocked())
+    fmt::print("machine time unknown: of iterations {} to {} none was timed, "
+               "expected a smaller --time-every than {}\n",
+               W.First + 1, T.iteration(), W.A.TimeEvery);
   fmt::print("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n",
              mean(Db));
   fmt::print("without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
@@ -265,6 +274,8 @@ Expected<Success> check(const TrainArguments &A) {
   if (!A.Output.ends_with(".ply"))
     return Error{"", fmt::format("-o {}: expected a .ply", A.Output),
                  ExitCode::Usage};
+  if (auto Checked = checkBackwardOptions(A.Backward, A.Blending); !Checked)
+    return Checked;
   for (const float V : A.Background)
     if (!(V >= 0 && V <= 1))
       return Error{"",
@@ -413,7 +424,7 @@ Runner addTrain(CLI::App &App) {
   App.add_option("-o,--output", A->Output, "Scene: INRIA's PLY")->required();
   App.add_option("--iterations", S.Iterations,
                  fmt::format("Iterations in all (default {})", S.Iterations))
-      ->check(CLI::Range(1U, 10000000U));
+      ->check(isIterations());
   App.add_option("--downscale", A->Downscale,
                  "Pictures so many times smaller (default 1)")
       ->check(CLI::Range(1, 64));
@@ -421,7 +432,8 @@ Runner addTrain(CLI::App &App) {
                  fmt::format("No more Gaussians than this (default {})",
                              S.MostGaussians))
       ->check(CLI::Range(4U, 100000000U));
-  App.add_option("--exclude", A->Exclude, "Leave out this picture");
+  App.add_option("--exclude", A->Exclude, "Leave out this picture")
+      ->allow_extra_args(false);
   App.add_option("--batch", A->Run.Batch,
                  "Views an iteration, shared out to the processes that mpirun "
                  "started, each with a device of its own (default 1)")
@@ -443,7 +455,7 @@ Runner addTrain(CLI::App &App) {
                  ".checkpoint)");
   App.add_option("--checkpoint-every", A->CheckpointEvery,
                  "Iterations from one to the next (default 1000)")
-      ->check(CLI::PositiveNumber);
+      ->check(isIterations());
   App.add_flag("--resume", A->Resume,
                "Go on from the checkpoint, if there is one");
   App.add_option("--from", A->From,
@@ -456,7 +468,7 @@ Runner addTrain(CLI::App &App) {
   App.add_option("--time-every", A->TimeEvery,
                  "Of so many iterations one is timed, drawn at random from the "
                  "seed (default 50)")
-      ->check(CLI::PositiveNumber);
+      ->check(isIterations());
   App.add_option("--score-every", A->ScoreEvery,
                  "Score the held-out views after every so many iterations, "
                  "for --json (default: at the end alone)");

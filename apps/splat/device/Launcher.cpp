@@ -133,6 +133,10 @@ void Launcher::build(const ProgramSpec &Spec) {
 
 void Launcher::launch(const cl::Kernel &K, const std::string &Name,
                       const cl::NDRange &Global, const cl::NDRange &Local) {
+  // OpenCL 1.2 has no launches of nothing.
+  if (std::any_of(Global.get(), Global.get() + Global.dimensions(),
+                  [](std::size_t Items) { return Items == 0; }))
+    return;
   const Clock::time_point Start = Clock::now();
   cl::Event Done;
   cl_int Status = Dev.queue(Profiled).enqueueNDRangeKernel(

@@ -44,10 +44,13 @@ bool isTimed(std::uint64_t Seed, unsigned Every, unsigned Iteration) {
          static_cast<unsigned>(ulong{W.word[0]} * Every >> 32);
 }
 
-void ClockSamples::add(TimedIteration T) {
-  Milliseconds.push_back(
-      Json::parse(frameJson(T.Stages))["frame_ms"].get<double>());
+bool ClockSamples::add(TimedIteration T) {
+  const std::string Time = frameJson(T.Stages);
+  if (Time.empty())
+    return false;
+  Milliseconds.push_back(Json::parse(Time)["frame_ms"].get<double>());
   All.push_back(std::move(T));
+  return true;
 }
 
 double ClockSamples::rate() const { return 1e3 / meanOf(Milliseconds); }

@@ -24,7 +24,8 @@ struct TimedIteration {
 /// The timed iterations of a run.
 class ClockSamples {
 public:
-  void add(TimedIteration T);
+  /// False, and nothing is added, if the device gave no time.
+  [[nodiscard]] bool add(TimedIteration T);
 
   bool empty() const { return Milliseconds.empty(); }
   /// Iterations a second, by the mean.

@@ -25,6 +25,12 @@ TEST(ClockSamples, AllOfEveryOne) {
     EXPECT_TRUE(isTimed(0, 1, I));
 }
 
+TEST(ClockSamples, TakesNoIterationWithoutTime) {
+  ClockSamples Samples;
+  EXPECT_FALSE(Samples.add({1, 1, {}, {}}));
+  EXPECT_TRUE(Samples.empty());
+}
+
 TEST(ClockSamples, SeedsDiffer) {
   unsigned Same = 0;
   for (unsigned I = 1; I <= 1000; ++I)

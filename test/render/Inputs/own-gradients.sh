@@ -38,3 +38,4 @@ attempt "missing array" --upstream empty.npz -o g.npz
 attempt "wrong size" --upstream small.npz -o g.npz
 attempt "no folder" --upstream up.npz -o nowhere/g.npz
 attempt "support" --upstream up.npz --support official16 -o g.npz
+attempt "cores" --upstream up.npz --path simt --sum rows -o g.npz
