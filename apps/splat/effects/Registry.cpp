@@ -47,6 +47,7 @@ std::span<const Parameter> parameters() {
       Parameter{"LIMIT_FOLLOWS_DEPTH", "the way back, gsplat: of the limits"},
       Parameter{"STORED_PARAMETERS", "the way back ends before activation"},
       Parameter{"GROUP", "work-items that draw a tile of the cores' path"},
+      Parameter{"TILE_ROWS", "the loss: rows of a group's tile"},
       Parameter{"DILATION", "added to the covariance's diagonal, px^2"},
       Parameter{"KEEP_DEPTH", "the rules' test of a depth"},
       Parameter{"ANTIALIAS_FLOOR", "the rules' least ratio of determinants"},
