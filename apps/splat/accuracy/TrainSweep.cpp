@@ -1,6 +1,7 @@
 #include "TrainSweep.h"
 
 #include "../capture/Capture.h"
+#include "../io/Mean.h"
 #include "../io/SceneFile.h"
 #include "GradientReference.h"
 #include "Points.h"
@@ -12,7 +13,6 @@
 #include <fmt/ranges.h>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 namespace vorion::splat {
 
@@ -265,10 +265,7 @@ Json spreadOf(const std::vector<double> &Values) {
   if (Values.empty())
     return {};
   const auto [Least, Most] = std::ranges::minmax(Values);
-  return {{"mean", std::accumulate(Values.begin(), Values.end(), 0.0) /
-                       double(Values.size())},
-          {"least", Least},
-          {"most", Most}};
+  return {{"mean", meanOf(Values)}, {"least", Least}, {"most", Most}};
 }
 
 /// Machine-seconds until a curve has \p Db, between scores by a line; the last

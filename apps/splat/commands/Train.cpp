@@ -7,6 +7,7 @@
 #include "../analyze/Chart.h"
 #include "../capture/Capture.h"
 #include "../io/Hash.h"
+#include "../io/Mean.h"
 #include "../io/Ply.h"
 #include "../train/Baselines.h"
 #include "../train/ClockSamples.h"
@@ -109,11 +110,6 @@ Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
   return W.Together.agree(W.Together.first() ? writeState(W, L, T) : Success{});
 }
 
-double mean(const std::vector<double> &Values) {
-  return std::accumulate(Values.begin(), Values.end(), 0.0) /
-         static_cast<double>(Values.size());
-}
-
 Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
                        Trainer &T) {
   const Clock::time_point Start = Clock::now();
@@ -140,7 +136,7 @@ Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
     if (W.Together.first() && W.A.ScoreEvery != 0 &&
         R.Iteration % W.A.ScoreEvery == 0) {
       L.setProfiled(false);
-      W.Scores.emplace_back(R.Iteration, mean(T.evaluate()));
+      W.Scores.emplace_back(R.Iteration, meanOf(T.evaluate()));
       L.takeStages();
     }
     if (R.Iteration % W.A.CheckpointEvery == 0 && R.Iteration != Last)
@@ -187,7 +183,7 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"seconds", W.Seconds},
       {"iterations_timed", T.iteration() - W.First},
       {"timed", Json::parse(W.Timed.json())},
-      {"psnr8_db", mean(Db)},
+      {"psnr8_db", meanOf(Db)},
       {"scores", Scores},
       {"views", Views},
       {"baselines_db",
@@ -261,7 +257,7 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
                "expected a smaller --time-every than {}\n",
                W.First + 1, T.iteration(), W.A.TimeEvery);
   fmt::print("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n",
-             mean(Db));
+             meanOf(Db));
   fmt::print("without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
              "training view {:.3f} dB\n",
              B.Constant, B.Mean, B.BestView);

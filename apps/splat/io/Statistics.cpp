@@ -1,10 +1,10 @@
 #include "Statistics.h"
 
 #include "Activation.h"
+#include "Mean.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace vorion::splat {
@@ -23,9 +23,8 @@ double quantile(std::vector<double> &Values, double Share) {
 }
 
 Spread spreadOf(std::vector<double> Values) {
-  const double Sum = std::accumulate(Values.begin(), Values.end(), 0.0);
   Spread S;
-  S.Mean = Sum / static_cast<double>(Values.size());
+  S.Mean = meanOf(Values);
   S.Least = *std::min_element(Values.begin(), Values.end());
   S.Largest = *std::max_element(Values.begin(), Values.end());
   S.Median = quantile(Values, 0.5);

@@ -2,28 +2,27 @@
 // is not done is neither in the buffer nor, without flags, in the program. Signs
 // are those of the convention that 3DGS scenes store.
 
-// Normalisations of the real spherical harmonics by band and polynomial, kept
-// where activate.cl says.
+// The normalisations (sh_basis.h), kept where activate.cl says.
 typedef struct {
   float c0, c1, c2xy, c2zz, c2xx, c3y, c3xyz, c3xzz, c3zzz, c3zxx;
 } sh_constants;
 
 // Of the bands that are done.
 static void make_sh_constants(CONSTANTS sh_constants *n, uint effects) {
-  n->c0 = 0.28209479177387814f;
+  n->c0 = SH_C0;
   if (USE_SH1)
-    n->c1 = 0.4886025119029199f;
+    n->c1 = SH_C1;
   if (USE_SH2) {
-    n->c2xy = 1.0925484305920792f;
-    n->c2zz = 0.31539156525252005f;
-    n->c2xx = 0.5462742152960396f;
+    n->c2xy = SH_C2XY;
+    n->c2zz = SH_C2ZZ;
+    n->c2xx = SH_C2XX;
   }
   if (USE_SH3) {
-    n->c3y = 0.5900435899266435f;
-    n->c3xyz = 2.890611442640554f;
-    n->c3xzz = 0.4570457994644658f;
-    n->c3zzz = 0.3731763325901154f;
-    n->c3zxx = 1.445305721320277f;
+    n->c3y = SH_C3Y;
+    n->c3xyz = SH_C3XYZ;
+    n->c3xzz = SH_C3XZZ;
+    n->c3zzz = SH_C3ZZZ;
+    n->c3zxx = SH_C3ZXX;
   }
 }
 
@@ -43,9 +42,7 @@ static float3 sh_color(CONSTANTS const sh_constants *n,
                        float3 direction, uint effects) {
   float3 color = n->c0 * (float3)(SH(0, 0), SH(0, 1), SH(0, 2));
   if (USE_VIEW_COLOR) {
-    const float length_squared = direction.x * direction.x +
-                                 direction.y * direction.y +
-                                 direction.z * direction.z;
+    const float length_squared = squared_length(direction);
     if (length_squared > 0.0f) {
       const float length = sqrt(length_squared);
       const float x = direction.x / length;

@@ -24,26 +24,24 @@
 static float3 sh_backward(__global const float *sh, uint count, uint i,
                           float3 direction, float3 g,
                           __global float *sh_gradients) {
-  BACK_SH(0, 0.28209479177387814f);
+  BACK_SH(0, SH_C0);
   float3 by_direction = (float3)(0.0f, 0.0f, 0.0f);
 #if SH_DEGREE > 0
-  const float length_squared = direction.x * direction.x +
-                               direction.y * direction.y +
-                               direction.z * direction.z;
+  const float length_squared = squared_length(direction);
   if (length_squared > 0.0f) {
     const float length = sqrt(length_squared);
     const float x = direction.x / length;
     const float y = direction.y / length;
     const float z = direction.z / length;
     float3 by_unit = (float3)(0.0f, 0.0f, 0.0f);
-    const float c1 = 0.4886025119029199f;
+    const float c1 = SH_C1;
     BACK_SH_ALONG(1, -c1 * y, 0.0f, -c1, 0.0f);
     BACK_SH_ALONG(2, c1 * z, 0.0f, 0.0f, c1);
     BACK_SH_ALONG(3, -c1 * x, -c1, 0.0f, 0.0f);
 #if SH_DEGREE > 1
     const float xx = x * x, yy = y * y, zz = z * z;
-    const float c4 = 1.0925484305920792f, c6 = 0.31539156525252005f;
-    const float c8 = 0.5462742152960396f;
+    const float c4 = SH_C2XY, c6 = SH_C2ZZ;
+    const float c8 = SH_C2XX;
     BACK_SH_ALONG(4, c4 * x * y, c4 * y, c4 * x, 0.0f);
     BACK_SH_ALONG(5, -c4 * y * z, 0.0f, -c4 * z, -c4 * y);
     BACK_SH_ALONG(6, c6 * (2.0f * zz - xx - yy), -2.0f * c6 * x, -2.0f * c6 * y,
@@ -51,9 +49,9 @@ static float3 sh_backward(__global const float *sh, uint count, uint i,
     BACK_SH_ALONG(7, -c4 * x * z, -c4 * z, 0.0f, -c4 * x);
     BACK_SH_ALONG(8, c8 * (xx - yy), 2.0f * c8 * x, -2.0f * c8 * y, 0.0f);
 #if SH_DEGREE > 2
-    const float c9 = 0.5900435899266435f, c10 = 2.890611442640554f;
-    const float c11 = 0.4570457994644658f, c12 = 0.3731763325901154f;
-    const float c14 = 1.445305721320277f;
+    const float c9 = SH_C3Y, c10 = SH_C3XYZ;
+    const float c11 = SH_C3XZZ, c12 = SH_C3ZZZ;
+    const float c14 = SH_C3ZXX;
     BACK_SH_ALONG(9, -c9 * y * (3.0f * xx - yy), -6.0f * c9 * x * y,
                   -3.0f * c9 * (xx - yy), 0.0f);
     BACK_SH_ALONG(10, c10 * x * y * z, c10 * y * z, c10 * x * z, c10 * x * y);

@@ -28,7 +28,7 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   }
   ProgramSpec Project{ProjectBackwardProgram,
                       {"layout.h", "activate.cl", "covariance.cl", "planes.h",
-                       "sh_backward.cl", "project_backward.cl"},
+                       "sh_basis.h", "sh_backward.cl", "project_backward.cl"},
                       projectionDefines(ShDegree, O)};
   if (Gsplat)
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");

@@ -1,6 +1,7 @@
 #include "FrameTime.h"
 
 #include "../device/TimeReports.h"
+#include "../io/Mean.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -263,8 +264,6 @@ std::string sequenceText(const SequenceResult &R) {
   for (const StageReport &S : T.ByName)
     Text += row(S.Name, Json::parse(stageTime(S)), Cycles);
   Text += row("all", T.Sum, Cycles);
-  const double Mean = std::accumulate(T.Latency.begin(), T.Latency.end(), 0.0) /
-                      static_cast<double>(T.Latency.size());
   return Text +
          fmt::format(
              "{} pictures in {:.3f} ms: {:.2f} a second, {:.3f} ms from a "
@@ -272,8 +271,9 @@ std::string sequenceText(const SequenceResult &R) {
              "rasterizers {:.3f}, pixel units {:.3f}; {:.3f} ms beside each "
              "other, bound {:.3f} ms\n",
              R.Frames.size(), T.Total,
-             1e3 * static_cast<double>(R.Frames.size()) / T.Total, Mean,
-             T.Cores, T.Rasters, T.Pixels, T.all() - T.kernels(), T.bound());
+             1e3 * static_cast<double>(R.Frames.size()) / T.Total,
+             meanOf(T.Latency), T.Cores, T.Rasters, T.Pixels,
+             T.all() - T.kernels(), T.bound());
 }
 
 } // namespace vorion::splat

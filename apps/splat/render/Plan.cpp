@@ -133,7 +133,7 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
       std::move(Effects),
       {{ProjectProgram,
         {"layout.h", "activate.cl", "covariance.cl", "support.cl", "planes.h",
-         "sh.cl", "rectangle.cl", "project.cl"},
+         "sh_basis.h", "sh.cl", "rectangle.cl", "project.cl"},
         {"CONSTANTS=__local", "VIEW_SPACE=__local"}},
        {SortProgram, {"sort.cl"}, {}},
        {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},

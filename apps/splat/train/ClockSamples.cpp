@@ -2,6 +2,7 @@
 
 #include "Philox.h"
 
+#include "../io/Mean.h"
 #include "../render/FrameTime.h"
 #include "../render/Report.h"
 
@@ -9,18 +10,12 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 namespace vorion::splat {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double meanOf(const std::vector<double> &Values) {
-  return std::accumulate(Values.begin(), Values.end(), 0.0) /
-         static_cast<double>(Values.size());
-}
 
 /// Of a sample; 0 for one value.
 double deviationOf(const std::vector<double> &Values) {

@@ -1,0 +1,15 @@
+/// The mean of measured values.
+#pragma once
+
+#include <numeric>
+#include <vector>
+
+namespace vorion::splat {
+
+/// In the order of \p Values; not a number where there are none.
+inline double meanOf(const std::vector<double> &Values) {
+  return std::accumulate(Values.begin(), Values.end(), 0.0) /
+         static_cast<double>(Values.size());
+}
+
+} // namespace vorion::splat
