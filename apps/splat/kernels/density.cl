@@ -116,9 +116,30 @@ __kernel void density_copy(__global const float *in, __global float *out,
     out[to + 1] = moments ? 0.0f : value;
 }
 
+// Identities: random numbers are counted by them, not by places, so that what
+// is decided about one Gaussian moves no other one's samples. What is kept, and
+// the original of a clone, keeps its own; a new one's follows from its parent's.
+// Of n Gaussians some n^2 / 2^33 pairs have the same one by chance, and then
+// split alike if they do at the same iteration.
+__kernel void density_identify(__global const uint *in, __global uint *out,
+                               __global const uint *fates,
+                               __global const uint *places, uint count,
+                               uint seed_low, uint seed_high, uint iteration) {
+  const uint i = get_global_id(0);
+  if (i >= count || fates[i] == FATE_DROP)
+    return;
+  const uint children = becomes(fates[i]);
+  out[places[i]] = in[i];
+  for (uint child = fates[i] == FATE_SPLIT ? 0 : 1; child < children; ++child)
+    out[places[i] + child] =
+        philox(seed_low, seed_high, in[i], child, iteration, STREAM_CHILD)
+            .word[0];
+}
+
 // A split's halves: at samples of the Gaussian that they replace, smaller.
 __kernel void density_split(__global const float *geometry,
                             __global float *new_geometry,
+                            __global const uint *identities,
                             __global const uint *fates,
                             __global const uint *places, uint count,
                             uint new_count, uint seed_low, uint seed_high,
@@ -148,7 +169,8 @@ __kernel void density_split(__global const float *geometry,
   const float scale[3] = {activated.x, activated.y, activated.z};
   for (uint child = 0; child < 2; ++child) {
     const philox_words r =
-        philox(seed_low, seed_high, i, child, iteration, STREAM_SPLIT);
+        philox(seed_low, seed_high, identities[i], child, iteration,
+               STREAM_SPLIT);
     // G. E. P. Box, M. E. Muller 1958: two normal numbers of two uniform ones.
     const float near = sqrt(-2.0f * log(philox_unit(r.word[0])));
     const float far = sqrt(-2.0f * log(philox_unit(r.word[2])));

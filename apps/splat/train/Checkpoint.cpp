@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 /// The first line is "Magic VERSION HASH", the hash of all that follows: a
 /// line of JSON with the sizes, then the arrays.
 constexpr std::string_view Magic = "vorion-checkpoint";
-constexpr int Version = 1;
+constexpr int Version = 2;
 
 /// Calls \p Visit with every array of \p C, in the file's order.
 template <typename Kind, typename Function>
@@ -27,6 +27,7 @@ void forArrays(Kind &C, Function Visit) {
   Visit(C.FirstSh);
   Visit(C.SecondGeometry);
   Visit(C.SecondSh);
+  Visit(C.Identities);
   Visit(C.Notes.GradientSums);
   Visit(C.Notes.Views);
   Visit(C.Notes.Radii);
@@ -41,6 +42,7 @@ void resize(Checkpoint &C, std::size_t Gaussians) {
     A->resize(Geometry);
   for (auto *A : {&C.Sh, &C.FirstSh, &C.SecondSh})
     A->resize(Sh);
+  C.Identities.resize(Gaussians);
   C.Notes.GradientSums.resize(Gaussians);
   C.Notes.Views.resize(Gaussians);
   C.Notes.Radii.resize(Gaussians);

@@ -19,6 +19,7 @@ struct Checkpoint {
   int ShDegree = 0;
   std::vector<float> Geometry, Sh;
   std::vector<float> FirstGeometry, FirstSh, SecondGeometry, SecondSh;
+  std::vector<std::uint32_t> Identities; ///< of Gaussians, DeviceScene.h
   DensityNotes Notes;
   std::vector<float> Losses; ///< of every iteration
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 using namespace vorion;
@@ -28,6 +29,7 @@ Checkpoint sample() {
     Fill(*A, GEOMETRY_PLANES * Count);
   for (auto *A : {&C.Sh, &C.FirstSh, &C.SecondSh})
     Fill(*A, 12 * Count);
+  Fill(C.Identities, Count);
   Fill(C.Notes.GradientSums, Count);
   Fill(C.Notes.Views, Count);
   Fill(C.Notes.Radii, Count);
@@ -46,6 +48,7 @@ TEST(Checkpoint, HoldsWhatWasWritten) {
   EXPECT_EQ(B->gaussians(), 6U);
   EXPECT_EQ(B->Geometry, A.Geometry);
   EXPECT_EQ(B->SecondSh, A.SecondSh);
+  EXPECT_EQ(B->Identities, A.Identities);
   EXPECT_EQ(B->Notes.Views, A.Notes.Views);
   EXPECT_EQ(B->Losses, A.Losses);
 }
@@ -68,10 +71,12 @@ TEST(Checkpoint, DamageIsNoticed) {
   const auto Longer = readCheckpoint(F.path("d"));
   ASSERT_FALSE(Longer);
   EXPECT_NE(Longer.error().What.find("damaged checkpoint"), std::string::npos);
-  F.write("d", "vorion-checkpoint 2 0\n{}\n");
-  const auto Newer = readCheckpoint(F.path("d"));
-  ASSERT_FALSE(Newer);
-  EXPECT_NE(Newer.error().What.find("another version"), std::string::npos);
+  for (const char *Other : {"1", "3"}) {
+    F.write("d", fmt::format("vorion-checkpoint {} 0\n{{}}\n", Other));
+    const auto Read = readCheckpoint(F.path("d"));
+    ASSERT_FALSE(Read);
+    EXPECT_NE(Read.error().What.find("another version"), std::string::npos);
+  }
 }
 
 /// Where nothing can be written, the old one stays.

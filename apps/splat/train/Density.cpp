@@ -167,11 +167,16 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
     if (Moments) // what the parameters were is needed below
       From = {};
   }
+  const auto SeedLow = static_cast<std::uint32_t>(Seed);
+  const auto SeedHigh = static_cast<std::uint32_t>(Seed >> 32);
   L.run(DensityProgram, "density_split", itemsFor(S.Count), GroupSize,
-        S.Parameters.Geometry, New.Parameters.Geometry, Fates, Places, S.Count,
-        After, static_cast<std::uint32_t>(Seed),
-        static_cast<std::uint32_t>(Seed >> 32), Iteration,
+        S.Parameters.Geometry, New.Parameters.Geometry, S.Identities, Fates,
+        Places, S.Count, After, SeedLow, SeedHigh, Iteration,
         static_cast<float>(std::log(Settings.SplitShrink)));
+  New.Identities = words("Gaussians' identities", After);
+  L.run(DensityProgram, "density_identify", itemsFor(S.Count), GroupSize,
+        S.Identities, New.Identities, Fates, Places, S.Count, SeedLow, SeedHigh,
+        Iteration);
   S = New;
   Fates = Counts = Places = Keys = Order = {};
   restart(After);

@@ -53,7 +53,7 @@ public:
   void merge(const DensityNotes &OfAView);
   /// Clones, splits and drops by what was noted, and begins to note anew.
   /// Moments of what is kept are kept; new Gaussians begin with 0. The random
-  /// numbers depend on seed, iteration and Gaussian only.
+  /// numbers depend on seed, iteration and the Gaussian's identity only.
   DensityChange densify(DeviceScene &S, unsigned Iteration);
   /// Opacities down to at most Settings.ResetOpacity, their moments to 0.
   void resetOpacity(DeviceScene &S);

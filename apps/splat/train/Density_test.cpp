@@ -9,9 +9,12 @@
 #include "reference/Density.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace vorion::splat {
 namespace {
@@ -99,6 +102,7 @@ TEST_F(DensityOnDevice, LeavesWhatTheReferencesRuleLeaves) {
                                        std::size_t{GEOMETRY_PLANES} * S.Count);
 
     const std::vector<Fate> Want = fates(Before, Notes, T, Iteration);
+    const std::vector<std::uint32_t> Identities = S.downloadIdentities(L);
     std::size_t At = 0, Splits = 0, Clones = 0;
     const std::size_t Left = std::accumulate(
         Want.begin(), Want.end(), std::size_t{0},
@@ -122,9 +126,11 @@ TEST_F(DensityOnDevice, LeavesWhatTheReferencesRuleLeaves) {
         const bool Kept = Child == 0 && !Split;
         EXPECT_EQ(First[PLANE_LOGIT * S.Count + At],
                   Kept ? Moments[PLANE_LOGIT * Count + I] : 0);
+        EXPECT_EQ(Identities[At] == I, Kept);
         Splits += Split;
         Clones += Want[I] == Fate::Clone;
       }
+    EXPECT_EQ(std::set(Identities.begin(), Identities.end()).size(), Left);
     if (Most >= 1700) {
       EXPECT_GT(Splits, 20U);
       EXPECT_GT(Clones, 20U);
@@ -185,6 +191,47 @@ TEST_F(DensityOnDevice, HalvesAreSamplesOfWhatTheyReplace) {
   EXPECT_EQ(Means, Split(1, 600));
   EXPECT_NE(Means, Split(2, 600));
   EXPECT_NE(Means, Split(1, 700));
+}
+
+/// Where a threshold is met by rounding alone, runs that are otherwise equal
+/// decide differently about one Gaussian: the others then still split the same.
+TEST_F(DensityOnDevice, OneFateMovesNoOtherGaussiansHalves) {
+  constexpr std::uint32_t Count = 300, Odd = 7;
+  const Scene Start = sample(Count);
+  // Every Gaussian's mean by its identity, after two changes in which all that
+  // are opaque enough grow; the odd one is transparent or not.
+  const auto Grown = [&](float OddLogit) {
+    Launcher L(*Dev, "", {});
+    build(L);
+    const TrainSettings T;
+    DensityControl D(L, T, 3, Extent);
+    Scene Before = Start;
+    Before.OpacityLogits[Odd] = OddLogit;
+    DeviceScene S = DeviceScene::upload(L, Before);
+    for (const unsigned Iteration : {600U, 700U}) {
+      D.restore({std::vector<float>(S.Count, 1),
+                 std::vector<std::uint32_t>(S.Count, 1),
+                 std::vector<float>(S.Count, 0)});
+      D.densify(S, Iteration);
+    }
+    const Scene After = S.download(L);
+    const std::vector<std::uint32_t> Identities = S.downloadIdentities(L);
+    EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+    std::map<std::uint32_t, std::array<float, 3>> Means;
+    for (std::size_t I = 0; I < After.size(); ++I)
+      Means[Identities[I]] = {After.Means[3 * I], After.Means[3 * I + 1],
+                              After.Means[3 * I + 2]};
+    EXPECT_EQ(Means.size(), After.size());
+    return Means;
+  };
+  const auto Without = Grown(-20), With = Grown(1);
+  EXPECT_EQ(With.size(), Without.size() + 4); // of two changes
+  for (const auto &[Identity, Mean] : Without) {
+    const auto Same = With.find(Identity);
+    ASSERT_NE(Same, With.end());
+    EXPECT_EQ(Same->second, Mean);
+  }
+  EXPECT_GT(Without.size(), 2 * Count); // children of children among them
 }
 
 TEST_F(DensityOnDevice, NotesAddUpOverTheViewsThatSawIt) {

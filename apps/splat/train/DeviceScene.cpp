@@ -3,6 +3,8 @@
 #include "../render/Layout.h"
 #include "../render/Planes.h"
 
+#include <numeric>
+
 namespace vorion::splat {
 
 PlanePair DeviceScene::allocate(Launcher &L, std::uint32_t Gaussians) const {
@@ -30,7 +32,22 @@ DeviceScene DeviceScene::upload(Launcher &L, const Scene &S) {
   Sh.assign(Sh.size(), 0);
   Write(D.First, Geometry, Sh);
   Write(D.Second, Geometry, Sh);
+  std::vector<std::uint32_t> Numbers(D.Count);
+  std::iota(Numbers.begin(), Numbers.end(), 0U);
+  D.uploadIdentities(L, Numbers);
   return D;
+}
+
+void DeviceScene::uploadIdentities(Launcher &L,
+                                   const std::vector<std::uint32_t> &From) {
+  Identities = L.allocate("Gaussians' identities", 4 * From.size());
+  L.write("Gaussians' identities", Identities, From.data(), 4 * From.size());
+}
+
+std::vector<std::uint32_t> DeviceScene::downloadIdentities(Launcher &L) const {
+  std::vector<std::uint32_t> To(Count);
+  L.read("Gaussians' identities", To.data(), Identities, 4 * To.size());
+  return To;
 }
 
 Scene DeviceScene::download(Launcher &L) const {

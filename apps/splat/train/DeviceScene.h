@@ -4,6 +4,9 @@
 #include "../device/Launcher.h"
 #include "../io/Scene.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace vorion::splat {
 
 /// A buffer of planes for the geometry and one for the colours: parameters,
@@ -19,6 +22,9 @@ struct DeviceScene {
   int ShDegree = 0;
   PlanePair Parameters;
   PlanePair First, Second; ///< Adam's moments
+  /// A number of each Gaussian that stays its own whatever becomes of others
+  /// (density.cl).
+  cl::Buffer Identities;
 
   std::uint32_t colourPlanes() const {
     return static_cast<std::uint32_t>(3 * shCoefficients(ShDegree));
@@ -26,9 +32,11 @@ struct DeviceScene {
   /// A pair for \p Gaussians of them.
   PlanePair allocate(Launcher &L, std::uint32_t Gaussians) const;
 
-  /// \p S with moments of 0.
+  /// \p S with moments of 0; identities count from 0.
   static DeviceScene upload(Launcher &L, const Scene &S);
   Scene download(Launcher &L) const;
+  void uploadIdentities(Launcher &L, const std::vector<std::uint32_t> &From);
+  std::vector<std::uint32_t> downloadIdentities(Launcher &L) const;
 };
 
 } // namespace vorion::splat

@@ -48,6 +48,7 @@ void Trainer::restore(const Checkpoint &C) {
   Upload(S.Parameters, C.Geometry, C.Sh);
   Upload(S.First, C.FirstGeometry, C.FirstSh);
   Upload(S.Second, C.SecondGeometry, C.SecondSh);
+  S.uploadIdentities(L, C.Identities);
   Density.restore(C.Notes);
   Done = C.Iteration;
   Losses = C.Losses;
@@ -69,6 +70,7 @@ Checkpoint Trainer::save() {
   Download(S.Parameters, C.Geometry, C.Sh);
   Download(S.First, C.FirstGeometry, C.FirstSh);
   Download(S.Second, C.SecondGeometry, C.SecondSh);
+  C.Identities = S.downloadIdentities(L);
   C.Notes = Density.save(S.Count);
   C.Losses = Losses;
   return C;

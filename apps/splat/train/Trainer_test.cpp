@@ -140,6 +140,7 @@ void expectSame(const Checkpoint &A, const Checkpoint &B) {
   EXPECT_EQ(A.FirstSh, B.FirstSh);
   EXPECT_EQ(A.SecondGeometry, B.SecondGeometry);
   EXPECT_EQ(A.SecondSh, B.SecondSh);
+  EXPECT_EQ(A.Identities, B.Identities);
   EXPECT_EQ(A.Notes.GradientSums, B.Notes.GradientSums);
   EXPECT_EQ(A.Notes.Views, B.Notes.Views);
   EXPECT_EQ(A.Notes.Radii, B.Notes.Radii);
