@@ -7,7 +7,7 @@ extern const uint32_t project_view[], project_geometry[], project_sh[];
 /* bench/isasim/run.py writes the numbers down: COUNT. */
 static uint32_t records[COUNT * 12], depths[COUNT];
 static uint64_t rectangles[COUNT];
-static uint32_t seen[9], local[384];
+static uint32_t seen[9], local[512];
 
 void project(const void *view, const void *geometry, const void *sh,
              void *records, void *depths, void *rectangles, void *seen,

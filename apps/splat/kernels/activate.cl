@@ -56,23 +56,25 @@ static float scale_by_power(float a, int n) {
 
 typedef struct {
   float log2_e;
+  float to_integer; // added and taken off, it rounds to the nearest integer
   // ln 2 in three parts; the first has 9 bits, so that n times it is exact.
   float ln2_high, ln2_middle, ln2_low;
-  float third, fourth, fifth; // 1 / 3!, 1 / 4!, 1 / 5!
+  float part, second, third, fourth, fifth; // 1 / 64; 1 / 2!, 1 / 3! and so on
   // Beyond these the result is infinite or 0, or the opacity 0 or 1, anyway.
   float most_scale, most_logit;
 } activation_constants;
 
 static activation_constants make_activation_constants(void) {
-  return (activation_constants){1.44269504f,      0x1.62p-1f,  0x1.c85fep-10f,
-                                -0x1.718432p-35f, 0.16666667f, 0.041666668f,
-                                0.008333334f,     150.0f,      80.0f};
+  return (activation_constants){1.44269504f,    0x1.8p23f,        0x1.62p-1f,
+                                0x1.c85fep-10f, -0x1.718432p-35f, 0.015625f,
+                                0.5f,           0.16666667f,      0.041666668f,
+                                0.008333334f,   150.0f,           80.0f};
 }
 
 // e^x = (high + low) 2^power for |x| <= 150.
 static pair4 exp_pair4(CONSTANTS const activation_constants *c, float4 x,
                        int4 *power) {
-  const float4 n = rint(x * c->log2_e);
+  const float4 n = (x * c->log2_e + c->to_integer) - c->to_integer;
   const float4 exact = fma(-n, (float4)c->ln2_high, x);
   const float4 product = n * c->ln2_middle;
   const float4 product_low = fma(n, (float4)c->ln2_middle, -product);
@@ -82,10 +84,10 @@ static pair4 exp_pair4(CONSTANTS const activation_constants *c, float4 x,
   // e^r - 1 from e^(r/64) - 1 = t + t^2/2 + t^3/6 + ..., of which only the
   // first two terms need both floats, and six times s -> 2 s + s^2. All of
   // these are under 1, so that the larger summand is known.
-  const pair4 t = {r.high * 0.015625f, r.low * 0.015625f};
+  const pair4 t = {r.high * c->part, r.low * c->part};
   pair4 half_square = square_pair4(t);
-  half_square.high *= 0.5f;
-  half_square.low *= 0.5f;
+  half_square.high *= c->second;
+  half_square.low *= c->second;
   const float4 rest = t.high * t.high * t.high *
                       (c->third + t.high * (c->fourth + t.high * c->fifth));
   pair4 s = fast_two_sum4(t.high, half_square.high);

@@ -118,7 +118,7 @@ typedef struct {
 } splat_seen;
 
 /// Local memory that a group of project.cl is given.
-enum { PROJECT_LOCAL_BYTES = 1536 };
+enum { PROJECT_LOCAL_BYTES = 2048 };
 
 /// What blending gives back of a Gaussian (docs/abi.md, "Backward"): the words
 /// of vr_grad_r to vr_grad_syy.

@@ -41,9 +41,10 @@ static float pixel_extent(float extent) {
 #endif
 }
 
-// The floor of v within [0, most]; NaN gives 0.
+// The floor of v within [0, most]; NaN gives 0. What is not negative a
+// conversion rounds down.
 static uint clamped_floor(float v, uint most) {
-  return (uint)fmin(fmax(floor(v), 0.0f), (float)most);
+  return (uint)fmin(fmax(v, 0.0f), (float)most);
 }
 
 // Square tiles, unless the plan says otherwise.
