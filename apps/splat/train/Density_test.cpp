@@ -152,9 +152,10 @@ TEST_F(DensityOnDevice, HalvesAreSamplesOfWhatTheyReplace) {
       Before.Means[3 * I + K] = static_cast<float>(K);
       Before.LogScales[3 * I + K] = static_cast<float>(std::log(Scales[K]));
     }
-    // A quarter turn about z: x of the Gaussian is y of the world.
-    Before.Quats[4 * I] = 2;
-    Before.Quats[4 * I + 3] = 2;
+    // A third of a turn about (1, 1, 1): x of the Gaussian is y of the world,
+    // y is z and z is x; turned the other way they would be others.
+    for (std::size_t K = 0; K < 4; ++K)
+      Before.Quats[4 * I + K] = 2;
   }
   const DensityNotes Notes{std::vector<float>(Count, 1),
                            std::vector<std::uint32_t>(Count, 1),
@@ -171,7 +172,7 @@ TEST_F(DensityOnDevice, HalvesAreSamplesOfWhatTheyReplace) {
   };
   const std::vector<float> Means = Split(1, 600);
   ASSERT_EQ(Means.size(), 6 * std::size_t{Count});
-  const double Wanted[] = {2, 0.5, 0.1};
+  const double Wanted[] = {0.1, 0.5, 2};
   for (std::size_t K = 0; K < 3; ++K) {
     double Sum = 0, Squares = 0, Fourth = 0, Halves = 0;
     for (std::size_t I = K; I < Means.size(); I += 3) {
