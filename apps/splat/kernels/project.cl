@@ -36,8 +36,18 @@ static float camera_depth(__local const splat_view *view, float x, float y,
 // Planes of colours that are there: a number where no band has a flag.
 #define SH_PLANES                                                              \
   (3u * (1u + (USE_SH1 ? 3u : 0u) + (USE_SH2 ? 5u : 0u) + (USE_SH3 ? 7u : 0u)))
-// Words that a lane asks for ahead of their use: of geometry, and of all bands.
+// In blocks, a lane asks for words ahead of their use, each in another line, so
+// that the warp asks for all lines: of the next geometry, and, so many a time,
+// of its colours. Never at once: 59 lines fill the L2 slice's places for
+// misses, and whatever comes next waits behind them, 80 to 190 cycles for a
+// word of the stack. Spread, they save 12 % of this kernel's cycles on box_sh3.
 #define SH_AHEAD 3
+#ifdef SCENE_IN_BLOCKS
+#define ASK_FOR_SH(k)                                                          \
+  ((k) * LANES < SH_PLANES ? as_uint(sh[c->lines[1 + (k)][lane]]) : 0u)
+#else
+#define ASK_FOR_SH(k) 0u
+#endif
 
 // Local memory of a group. An argument of the kernel, so that the compiler
 // reaches all of it from one register. What a lane needs seldom is here, and a
@@ -48,16 +58,18 @@ typedef struct {
   splat_view view;
   activation_constants activation;
   sh_constants sh;
-  __global uint *records, *depths; // what is written, as the kernel has it
+  __global const float *geometry, *colors; // the kernel's own arguments
+  __global uint *records, *depths;
   __global uint2 *rectangles;
-  uint latest; // beginning of the last line with a record
+  uint step, last;                 // a group's way to its next; of Gaussians
+  uint lines[1 + SH_AHEAD][LANES]; // from a lane's own word to one it asks for
+  uint latest;                     // beginning of the last line with a record
   uint stage[LANES * RECORD_WORDS];
-  uint touched[1 + SH_AHEAD][LANES]; // nobody reads them
+  uint unread[LANES]; // written, so that it is known by then
   // That a tile sees; culled, by reason; without one, behind a camera whose
   // near plane is left out.
   uint found[2 + CULL_REASONS][LANES];
   uint pairs[LANES], least_key[LANES], greatest_key[LANES]; // of the first
-  float depth[LANES];                                       // nobody reads it
 } workspace;
 _Static_assert(sizeof(workspace) <= PROJECT_LOCAL_BYTES,
                "kernels/layout.h has too few");
@@ -68,8 +80,8 @@ _Static_assert(sizeof(workspace) <= PROJECT_LOCAL_BYTES,
 // is alive across the loop of the exponential.
 static uint project_one(__local const workspace *c,
                         __global const float *geometry,
-                        __global const float *sh, uint count, uint i,
-                        uint effects, __local float *depth,
+                        __global const float *sh, uint count, uint i, uint lane,
+                        uint effects, __local uint *unread,
                         __local splat_gaussian *restrict g, uint2 *rectangle) {
   const float px = GEOMETRY(PLANE_MEAN);
   const float py = GEOMETRY(PLANE_MEAN + 1);
@@ -80,16 +92,19 @@ static uint project_one(__local const workspace *c,
   // So that it is known here. The compiler moves what only later code needs
   // behind the loop, and this sum would have 20 terms alive across it: 8 % more
   // cycles where no test of the depth holds it here.
-  *depth = z;
+  *unread = as_uint(z);
   if (USE_NEAR_PLANE && !(KEEP_DEPTH(z)))
     return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
+  const uint asked0 = ASK_FOR_SH(0);
   const float4 activated = activate_scales_and_opacity(
       &c->activation,
       (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
                GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT)));
+  const uint asked1 = ASK_FOR_SH(1);
   const float4 unit = activate_quaternion(
       (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3)));
+  const uint asked2 = ASK_FOR_SH(2);
   const float3 d = from_camera(view, (float3)(px, py, pz));
   const float x = w[0] * d.x + w[1] * d.y + w[2] * d.z;
   const float y = w[3] * d.x + w[4] * d.y + w[5] * d.z;
@@ -139,6 +154,7 @@ static uint project_one(__local const workspace *c,
       USE_INTERSECT_TAGS && (x1 - x0 > 1 || y1 - y0 > 1) ? i | SPANS_TILES : i;
   *rectangle = make_rectangle(x0, y0, x1, y1);
 
+  *unread = asked0 ^ asked1 ^ asked2;
   const float3 color = sh_color(&c->sh, sh, count, i, d, effects);
   g->color[0] = color.x;
   g->color[1] = color.y;
@@ -147,19 +163,6 @@ static uint project_one(__local const workspace *c,
     return CULLED + CULL_NON_FINITE;
   return as_uint(z);
 }
-
-#ifdef SCENE_IN_BLOCKS
-// Asks for the lines of a block of Gaussians: each lane reads a word of other
-// lines. Whoever uses the words waits for them.
-static void touch(__global const uint *geometry, __global const uint *sh,
-                  uint sh_planes, uint lane, uint *words) {
-  words[0] = geometry[min(lane, GEOMETRY_PLANES - 1u) * LINE_WORDS];
-#pragma unroll
-  for (uint k = 0; k < SH_AHEAD; ++k)
-    if (k * LANES < sh_planes)
-      words[1 + k] = sh[min(k * LANES + lane, sh_planes - 1) * LINE_WORDS];
-}
-#endif
 
 // A group is a warp and takes every so many LINE_WORDS Gaussians. Records go
 // through local memory, so that they are written as whole lines: the cache
@@ -171,7 +174,6 @@ project(__constant const splat_view *camera, __global const float *geometry,
         __local workspace *w) {
   const uint effects = camera->effects;
   const uint lane = get_local_id(0);
-  const uint step = get_num_groups(0) * LANES;
   for (uint k = lane; k < sizeof(splat_view) / 4; k += LANES)
     ((__local uint *)&w->view)[k] = ((__constant const uint *)camera)[k];
   // What is written of a line may belong to nobody.
@@ -184,7 +186,19 @@ project(__constant const splat_view *camera, __global const float *geometry,
   w->pairs[lane] = 0;
   w->least_key[lane] = ~0u;
   w->greatest_key[lane] = 0;
+#ifdef SCENE_IN_BLOCKS
+  const uint sh_planes = SH_PLANES;
+  w->lines[0][lane] = min(lane, GEOMETRY_PLANES - 1u) * LINE_WORDS - lane;
+#pragma unroll
+  for (uint k = 0; k < SH_AHEAD; ++k)
+    w->lines[1 + k][lane] =
+        min(k * LANES + lane, sh_planes - 1) * LINE_WORDS - lane;
+#endif
   if (lane == 0) {
+    w->geometry = geometry;
+    w->colors = sh;
+    w->step = get_num_groups(0) * LANES;
+    w->last = count - 1;
     w->records = records;
     w->depths = depths;
     w->rectangles = rectangles;
@@ -194,20 +208,15 @@ project(__constant const splat_view *camera, __global const float *geometry,
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-#ifdef SCENE_IN_BLOCKS
-  const uint sh_planes = SH_PLANES;
-#endif
-  for (uint first = get_group_id(0) * LANES; first < count; first += step) {
+  for (uint first = get_group_id(0) * LANES; first < count; first += w->step) {
     const uint i = first + lane;
 #ifdef SCENE_IN_BLOCKS
-    const uint next = min(first + step, count - 1) / LANES;
-    uint ahead[1 + SH_AHEAD];
-    touch((__global const uint *)geometry + next * GEOMETRY_PLANES * LINE_WORDS,
-          (__global const uint *)sh + next * sh_planes * LINE_WORDS, sh_planes,
-          lane, ahead);
+    const uint next = min(first + w->step, w->last) / LANES;
+    const float ahead = w->geometry[next * (GEOMETRY_PLANES * LINE_WORDS) +
+                                    lane + w->lines[0][lane]];
     __global const float *own_geometry =
-        geometry + first * GEOMETRY_PLANES + lane;
-    __global const float *own_sh = sh + first * sh_planes + lane;
+        w->geometry + first * GEOMETRY_PLANES + lane;
+    __global const float *own_sh = w->colors + first * sh_planes + lane;
 #else
     __global const float *own_geometry = geometry;
     __global const float *own_sh = sh;
@@ -215,7 +224,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
     if (i < count) {
       uint2 rectangle;
       const uint key = project_one(
-          w, own_geometry, own_sh, count, i, effects, &w->depth[lane],
+          w, own_geometry, own_sh, count, i, lane, effects, &w->unread[lane],
           (__local splat_gaussian *)&w->stage[lane * RECORD_WORDS], &rectangle);
       w->depths[i] = key;
       ++w->found[key < CULLED ? 0 : 1 + min(key - CULLED, (uint)CULL_REASONS)]
@@ -242,11 +251,8 @@ project(__constant const splat_view *camera, __global const float *geometry,
     }
     barrier(CLK_LOCAL_MEM_FENCE);
 #ifdef SCENE_IN_BLOCKS
-    // Not before, so that nothing has waited for them.
-#pragma unroll
-    for (uint k = 0; k < 1 + SH_AHEAD; ++k)
-      if (k == 0 || (k - 1) * LANES < sh_planes)
-        w->touched[k][lane] = ahead[k];
+    // Not before, so that nothing has waited for it.
+    w->unread[lane] = as_uint(ahead);
 #endif
   }
   splat_seen seen = {w->found[0][lane],
