@@ -9,9 +9,9 @@ namespace {
 
 /// Of one program, from OpenCL C to an image (bench/effects.py --first-frame).
 constexpr double BuildSeconds = 0.24;
-/// What testing flags costs: 80 instructions for 16 Gaussians, at 1.5e8 a
+/// What testing flags costs: 52 instructions for 16 Gaussians, at 1.5e8 a
 /// second.
-constexpr double FlagSecondsPerGaussian = 80.0 / 16 / 1.5e8;
+constexpr double FlagSecondsPerGaussian = 52.0 / 16 / 1.5e8;
 
 } // namespace
 
