@@ -25,13 +25,15 @@ enum class Reciprocal : std::uint8_t {
 /// How many there are: options 0 to ReciprocalCount - 1.
 inline constexpr std::size_t ReciprocalCount = 7;
 
-/// What a unit is and costs, a pair of lanes. Latency and multipliers are our
-/// estimates of a plausible build (the paper gives none).
+/// What a unit is and costs, a pair of lanes (in um^2: timing/DatapathUnits.h).
+/// Latency and multipliers are our estimates of a plausible build (the paper
+/// gives none).
 struct ReciprocalUnit {
   std::uint32_t Option; ///< value of vr_backward.reciprocal
   std::string_view Name;
   unsigned LatencyCycles;
   unsigned TableBits;
+  unsigned Multipliers;  ///< fp32, so that it takes a pixel a cycle
   std::string_view Cost; ///< in words
   /// Bound over alpha in [1/255, 0.99], rounding included.
   double MaxRelativeError;

@@ -89,11 +89,14 @@ constexpr DatapathUnit BlendOf[raster::BlendUnitCount] = {
 };
 
 /// Areas at 45 nm, um^2: W. Dally, "High-performance hardware for machine
-/// learning", NIPS tutorial 2015 (32-bit floating and fixed point). The last is
-/// ours: a bit of a table in logic.
+/// learning", NIPS tutorial 2015 (32-bit floating and fixed point). Choices and
+/// registers are the cells MUX2_X1 and DFF_X1 of the Nangate 45 nm Open Cell
+/// Library, whose full adder, FA_X1 with 4.256, is Dally's bit of an adder. A
+/// bit of a table in logic is ours.
 constexpr double MultiplierArea = 7700, AdderArea = 4184;
 constexpr double ProductBitArea = 3495.0 / (32 * 32);
 constexpr double AdderBitArea = 137.0 / 32;
+constexpr double ChoiceBitArea = 1.862, RegisterBitArea = 4.522;
 constexpr double TableBitArea = 1;
 
 using Lanes =
@@ -138,12 +141,45 @@ constexpr DatapathUnit SumUnit{
 
 using BackwardPair = std::array<DatapathUnit, 3>;
 
+/// An fp32 multiplier and a divider differ in what is between exponents and
+/// rounding: there a product of 24 x 24 bits, here a row of 24 bits for each
+/// bit of the quotient, with a choice between remainder and difference (the bit
+/// above a row's needs no subtraction: if it is set, the row's succeeds).
+DatapathUnit divider(const raster::ReciprocalUnit &R) {
+  constexpr unsigned Significand = 24, Exponent = 8, Rows = 26;
+  // Between stages: remainder, divisor, exponent, half the quotient on average.
+  constexpr unsigned Alive = 2 * Significand + Exponent + Rows / 2;
+  return {.Name = R.Name,
+          .Latency = R.LatencyCycles,
+          .Interval = 1,
+          .Multipliers = R.Multipliers,
+          .Adders = 0,
+          .ProductBits = -static_cast<int>(Significand * Significand),
+          .AdderBits = Rows * Significand,
+          .TableBits = 0,
+          .Source = R.Cost,
+          .ChoiceBits = Rows * Significand,
+          .RegisterBits = (R.LatencyCycles - 1) * Alive};
+}
+
+/// From a table's entry, or by the Taylor series.
+DatapathUnit iterated(const raster::ReciprocalUnit &R) {
+  // Between stages: 1 - alpha, or alpha, and what is made of it so far.
+  constexpr unsigned Alive = 2 * 32;
+  return {.Name = R.Name,
+          .Latency = R.LatencyCycles,
+          .Interval = 1,
+          .Multipliers = R.Multipliers,
+          .Adders = 3,
+          .ProductBits = 0,
+          .AdderBits = 0,
+          .TableBits = R.TableBits,
+          .Source = R.Cost,
+          .RegisterBits = (R.LatencyCycles - 1) * Alive};
+}
+
 BackwardPair makePair(const raster::ReciprocalUnit &R) {
-  const bool Divides = R.Option == 0;
-  return {DatapathUnit{R.Name, R.LatencyCycles, 1, Divides ? 0U : 3U,
-                       Divides ? 0U : 3U, 0, Divides ? 24U * 26U : 0U,
-                       R.TableBits, R.Cost},
-          GradientUnit, SumUnit};
+  return {R.TableBits == 0 ? divider(R) : iterated(R), GradientUnit, SumUnit};
 }
 
 } // namespace
@@ -179,7 +215,8 @@ unsigned laneDepth(raster::LaneUnits Units) {
 double area(const DatapathUnit &U) {
   return U.Multipliers * MultiplierArea + U.Adders * AdderArea +
          U.ProductBits * ProductBitArea + U.AdderBits * AdderBitArea +
-         U.TableBits * TableBitArea;
+         U.TableBits * TableBitArea + U.ChoiceBits * ChoiceBitArea +
+         U.RegisterBits * RegisterBitArea;
 }
 
 namespace {

@@ -16,10 +16,15 @@ struct DatapathUnit {
   unsigned Latency;             ///< cycles
   unsigned Interval;            ///< cycles between two operations
   unsigned Multipliers, Adders; ///< fp32
-  /// Of multipliers of other widths, bits times bits; of other adders, bits.
-  unsigned ProductBits, AdderBits;
+  /// Of multipliers of other widths, bits times bits; below 0, what an fp32
+  /// multiplier above has less than a whole one.
+  int ProductBits;
+  unsigned AdderBits; ///< of other adders
   unsigned TableBits;
   std::string_view Source; ///< or derivation
+  /// Where registers between its stages are counted; a lane's are part of what
+  /// it is besides its units.
+  unsigned ChoiceBits = 0, RegisterBits = 0;
 };
 
 /// In the order in which a pixel passes them; units that do not exist count as

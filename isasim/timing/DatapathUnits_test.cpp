@@ -6,6 +6,7 @@
 #include "raster/Reciprocals.h"
 
 #include <gtest/gtest.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -65,6 +66,35 @@ TEST(DatapathUnits, UnitsHaveTheNamesOfTheirOptions) {
     Names.insert(E.Name);
   }
   EXPECT_EQ(Names.size(), raster::ExpUnitCount);
+}
+
+TEST(DatapathUnits, ADividerIsAMultiplierWithRowsInsteadOfAProduct) {
+  // Published areas: an fp32 multiplier, a bit of a product and of an adder.
+  const double Product = 3495.0 / (32 * 32), Adder = 137.0 / 32;
+  const DatapathUnit &Divider = backwardUnits(0).front();
+  EXPECT_NEAR(area(Divider),
+              7700 - 24 * 24 * Product + 26 * 24 * (Adder + 1.862) +
+                  Divider.RegisterBits * 4.522,
+              1e-6);
+  // Stages there are between latencies, each with remainder and divisor.
+  EXPECT_GE(Divider.RegisterBits, (Divider.Latency - 1) * 48);
+}
+
+TEST(DatapathUnits, AReciprocalTakesAPixelACycle) {
+  // So it has a multiplier for each of its multiplications: the pair's spare
+  // one, and its own.
+  const std::map<std::string_view, unsigned> Multiplications{
+      {"even-left", 4}, {"even-best", 4},  {"log-left", 4},
+      {"log-best", 4},  {"mantissa-2", 4}, {"mantissa-3", 6}};
+  for (const raster::ReciprocalUnit &R : raster::reciprocalUnits()) {
+    const DatapathUnit &U = backwardUnits(R.Option).front();
+    EXPECT_EQ(U.Interval, 1U) << R.Name;
+    EXPECT_GT(U.RegisterBits, 0U) << R.Name;
+    if (R.Option != 0)
+      EXPECT_EQ(U.Multipliers + 1, Multiplications.at(R.Name)) << R.Name;
+  }
+  // Of as many multipliers, the deeper one has more registers.
+  EXPECT_LT(area(backwardUnits(5).front()), area(backwardUnits(1).front()));
 }
 
 TEST(DatapathUnits, JsonHasTheParts) {

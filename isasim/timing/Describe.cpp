@@ -29,17 +29,19 @@ std::string timingMarkdown() {
         Text += fmt::format("| `{}` | {} | {} | {} |\n", P.Name, P.Default,
                             P.Unit, P.Source);
   }
-  Text +=
-      "\nUnits of a rasterizer's lane\n\n"
+  constexpr std::string_view Head =
       "| unit | latency | interval | fp32 multipliers | fp32 adders | product "
-      "bits | adder bits | table bits | area, um^2 | source |\n"
-      "|---|--:|--:|--:|--:|--:|--:|--:|--:|---|\n";
+      "bits | adder bits | table bits | choice bits | register bits | area, "
+      "um^2 | source |\n"
+      "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|---|\n";
+  Text += fmt::format("\nUnits of a rasterizer's lane\n\n{}", Head);
   const auto Row = [&Text](const DatapathUnit &U) {
-    Text +=
-        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} | {} "
-                    "|\n",
-                    U.Name, U.Latency, U.Interval, U.Multipliers, U.Adders,
-                    U.ProductBits, U.AdderBits, U.TableBits, area(U), U.Source);
+    Text += fmt::format(
+        "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} "
+        "| {} |\n",
+        U.Name, U.Latency, U.Interval, U.Multipliers, U.Adders, U.ProductBits,
+        U.AdderBits, U.TableBits, U.ChoiceBits, U.RegisterBits, area(U),
+        U.Source);
   };
   // A lane as it is, then what can be there instead of its units.
   const auto Lane = datapathUnits({});
@@ -54,11 +56,9 @@ std::string timingMarkdown() {
     Others({.Exp = Exp});
   for (uint8_t Blend = 1; Blend != raster::BlendUnitCount; ++Blend)
     Others({.Blend = Blend});
-  Text +=
-      "\nUnits of a pair of lanes in the backward mode, beyond two lanes\n\n"
-      "| unit | latency | interval | fp32 multipliers | fp32 adders | product "
-      "bits | adder bits | table bits | area, um^2 | source |\n"
-      "|---|--:|--:|--:|--:|--:|--:|--:|--:|---|\n";
+  Text += fmt::format(
+      "\nUnits of a pair of lanes in the backward mode, beyond two lanes\n\n{}",
+      Head);
   for (size_t R = 0; R != raster::reciprocalUnits().size(); ++R)
     for (const DatapathUnit &U : backwardUnits(static_cast<unsigned>(R)))
       if (R == 0 || U.Name == raster::reciprocalUnits()[R].Name)
