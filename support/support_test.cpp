@@ -1,5 +1,6 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/TemporaryFolder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
@@ -51,6 +52,28 @@ TEST(File, UnwritablePathIsAnErrorNamingIt) {
   EXPECT_EQ(Result.error().Where, "/nonexistent-folder/x");
   EXPECT_EQ(Result.error().What, "cannot write: No such file or directory, "
                                  "expected a folder that can be written");
+}
+
+TEST(TemporaryFolder, GoesWithWhatIsInIt) {
+  std::string Path;
+  {
+    auto Folder = TemporaryFolder::make("vorion-support");
+    ASSERT_TRUE(Folder);
+    const TemporaryFolder Moved = std::move(*Folder);
+    Path = Moved.path();
+    ASSERT_TRUE(writeFileAtomically(Path + "/file", "text"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(Path));
+}
+
+TEST(TemporaryFolder, NeedsOneToBeIn) {
+  setenv("TMPDIR", "/nonexistent-folder", 1);
+  const auto Folder = TemporaryFolder::make("vorion-support");
+  unsetenv("TMPDIR");
+  ASSERT_FALSE(Folder);
+  EXPECT_EQ(Folder.error().What,
+            "cannot make a temporary folder: No such file or directory, "
+            "expected TMPDIR to allow one");
 }
 
 } // namespace

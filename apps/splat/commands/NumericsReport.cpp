@@ -2,37 +2,21 @@
 
 #include "vorion/support/File.h"
 
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <utility>
 
 namespace vorion::splat {
 
 Expected<NumericsReport> NumericsReport::begin(const std::string &Settings) {
-  std::error_code Failed;
-  std::string Folder = std::filesystem::temp_directory_path(Failed).string() +
-                       "/splat-numerics-XXXXXX";
-  if (Failed || !mkdtemp(Folder.data()))
-    return Error{Folder, std::string("cannot make a folder: ") +
-                             std::strerror(errno) +
-                             ", expected TMPDIR to be one that can be written"};
-  NumericsReport R(Folder);
+  auto Folder = TemporaryFolder::make("splat-numerics");
+  if (!Folder)
+    return Folder.error();
+  NumericsReport R(std::move(*Folder));
   setenv(
       "VORION_NUMERICS",
       ((Settings == "on" ? "" : Settings + ",") + "text=" + R.file()).c_str(),
       1);
   return R;
-}
-
-NumericsReport::NumericsReport(NumericsReport &&From) noexcept
-    : Folder(std::exchange(From.Folder, {})) {}
-
-NumericsReport::~NumericsReport() {
-  std::error_code Ignored;
-  if (!Folder.empty())
-    std::filesystem::remove_all(Folder, Ignored);
 }
 
 Expected<std::string> NumericsReport::text() const {

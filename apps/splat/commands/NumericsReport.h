@@ -2,7 +2,7 @@
 /// (docs/debugging.md, "Numerics").
 #pragma once
 
-#include "vorion/support/Expected.h"
+#include "vorion/support/TemporaryFolder.h"
 
 #include <string>
 
@@ -14,17 +14,15 @@ class NumericsReport {
 public:
   /// \p Settings as VORION_NUMERICS has them. Errors: no temporary folder.
   static Expected<NumericsReport> begin(const std::string &Settings);
-  NumericsReport(NumericsReport &&From) noexcept;
-  NumericsReport &operator=(NumericsReport &&) = delete;
-  ~NumericsReport(); ///< with the file
 
   /// What has been found so far. Error: the device wrote nothing.
   Expected<std::string> text() const;
 
 private:
-  explicit NumericsReport(std::string FolderIn) : Folder(std::move(FolderIn)) {}
-  std::string file() const { return Folder + "/report.txt"; }
-  std::string Folder;
+  explicit NumericsReport(TemporaryFolder FolderIn)
+      : Folder(std::move(FolderIn)) {}
+  std::string file() const { return Folder.path() + "/report.txt"; }
+  TemporaryFolder Folder;
 };
 
 } // namespace vorion::splat

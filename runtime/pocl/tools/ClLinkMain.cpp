@@ -9,6 +9,7 @@
 #include "ClDiagnostics.h"
 
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/TemporaryFolder.h"
 
 #include <algorithm>
 #include <array>
@@ -49,27 +50,6 @@ constexpr std::string_view Usage =
     "  -cl-...                options of OpenCL C\n"
     "  -O0 to -O3, -Os, -Oz   accepted; kernels are always compiled with -O2\n"
     "\n";
-
-/// A folder that goes when its user does.
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::error_code Problem;
-    std::string Template =
-        (fs::temp_directory_path(Problem) / "vorion-XXXXXX").string();
-    if (!Problem && mkdtemp(Template.data()))
-      Path = Template;
-  }
-  ~TemporaryFolder() {
-    std::error_code Ignored;
-    if (!Path.empty())
-      fs::remove_all(Path, Ignored);
-  }
-  TemporaryFolder(const TemporaryFolder &) = delete;
-  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
-
-  fs::path Path;
-};
 
 struct Ran {
   bool Succeeded = false;
@@ -243,11 +223,9 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
       return Good;
   if (const Expected<Success> Good = checkOutput(Line); !Good)
     return Good;
-  const TemporaryFolder Folder;
-  if (Folder.Path.empty())
-    return Error{"", std::string("cannot make a temporary folder: ") +
-                         std::strerror(errno) +
-                         ", expected TMPDIR to allow one"};
+  const auto Folder = TemporaryFolder::make("vorion");
+  if (!Folder)
+    return Folder.error();
   // The loader takes a library here, too: no path is written anywhere.
   setenv("OCL_ICD_VENDORS", (Root / "pocl/lib/libpocl.so").c_str(), 1);
   setenv("VORION_ROOT", Root.c_str(), 1);
@@ -258,7 +236,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   for (size_t I = 0; I < Line.Inputs.size(); ++I) {
     const std::string Input = Line.Inputs[I].string();
     const Expected<Built> Found =
-        compileOne(Line, Line.Inputs[I], Root, Folder.Path / std::to_string(I));
+        compileOne(Line, Line.Inputs[I], Root,
+                   fs::path(Folder->path()) / std::to_string(I));
     if (!Found)
       return Found.error();
     for (const auto &[Kernel, Object] : Found->Objects) {

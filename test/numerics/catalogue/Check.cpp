@@ -3,6 +3,7 @@
 #include "Broken.h"
 #include "Oracle.h"
 #include "TrainingCase.h"
+#include "vorion/support/TemporaryFolder.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,8 +17,10 @@ constexpr Path Paths[] = {Path::Raster, Path::Simt};
 
 class Checker {
 public:
-  Checker(const CheckPlan &P, Machine &M, Rows &R, bool Loud)
-      : Plan(P), Device(M), Kept(R), Loud(Loud) {}
+  /// \p Scratch: folder for the broken kernels' sources.
+  Checker(const CheckPlan &P, Machine &M, Rows &R, std::string Scratch,
+          bool Loud)
+      : Plan(P), Device(M), Kept(R), Scratch(std::move(Scratch)), Loud(Loud) {}
 
   /// The case as it stands, then its settings and its broken kernels.
   Expected<Success> all(const HardCase &C);
@@ -48,6 +51,7 @@ private:
   const CheckPlan &Plan;
   Machine &Device;
   Rows &Kept;
+  std::string Scratch;
   bool Loud;
   std::uint32_t Turn = 0;
   /// The last one, with what it is for.
@@ -186,7 +190,7 @@ Expected<Success> Checker::broken(const HardCase &C, Path P,
       fmt::format("{} {} with {}", C.Name, flagsOf(P, {}), B.Name);
   if (const nlohmann::json *Row = Kept.find(Key))
     return keep(*Row);
-  const std::string Folder = Plan.Scratch + "/" + std::string(B.Name);
+  const std::string Folder = Scratch + "/" + std::string(B.Name);
   if (auto Written = writeKernels(Folder, B); !Written)
     return Written;
   const splat::RenderOptions O = turned(C.Options, P, {});
@@ -253,7 +257,7 @@ Expected<Success> Checker::training(const TrainingCase &C, Path P,
                           (B ? fmt::format(" with {}", B->Name) : "");
   if (const nlohmann::json *Row = Kept.find(Key))
     return keep(*Row);
-  const std::string Folder = B ? Plan.Scratch + "/" + std::string(B->Name) : "";
+  const std::string Folder = B ? Scratch + "/" + std::string(B->Name) : "";
   if (B)
     if (auto Written = writeKernels(Folder, *B); !Written)
       return Written;
@@ -310,7 +314,14 @@ Expected<CheckCounts> check(const CheckPlan &P, bool Loud) {
   const auto Named = [&](const std::string &Name) {
     return std::ranges::find(P.Cases, Name) != P.Cases.end();
   };
-  Checker C(P, *M, *R, Loud);
+  std::optional<TemporaryFolder> Temporary;
+  if (P.Broken && P.Scratch.empty()) {
+    auto Made = TemporaryFolder::make("splat-hard-cases");
+    if (!Made)
+      return Made.error();
+    Temporary.emplace(std::move(*Made));
+  }
+  Checker C(P, *M, *R, Temporary ? Temporary->path() : P.Scratch, Loud);
   for (const HardCase &Case : Pictures)
     if (P.Cases.empty() ? P.Long || !Case.Long : Named(Case.Name))
       if (auto Done = C.all(Case); !Done)

@@ -18,8 +18,9 @@ struct CheckPlan {
   bool Broken = false; ///< that broken kernels are noticed
   /// Evaluations a case at which fp64 is held against the oracle.
   std::uint64_t Oracle = 0;
-  std::uint32_t OneIn = 1;      ///< of settings and broken kernels
-  std::string RowFile, Scratch; ///< rows kept; folder for broken kernels
+  std::uint32_t OneIn = 1; ///< of settings and broken kernels
+  std::string RowFile;     ///< rows are kept there
+  std::string Scratch; ///< folder for broken kernels; a temporary one if empty
 };
 
 struct CheckCounts {

@@ -111,8 +111,7 @@ int main(int Count, char **Values) {
   App.add_option("--rows", A.Plan.RowFile,
                  "Keep results here, and do not repeat what it has");
   App.add_option("--scratch", A.Plan.Scratch,
-                 "Folder for the broken kernels' sources")
-      ->default_val("broken-kernels");
+                 "Keep the broken kernels' sources in this folder");
   App.add_flag("--table", A.Table,
                "Print what --rows has as the table of docs/numerics.md "
                "instead");
