@@ -80,7 +80,8 @@ struct Work {
 void showProgress(const Work &W, const StepReport &R, Clock::time_point Start) {
   const bool Terminal = isatty(STDERR_FILENO) != 0;
   constexpr unsigned Every = 50;
-  if (!Terminal && R.Iteration % Every != 0 && R.Iteration != 1)
+  if (!W.Together.first() ||
+      (!Terminal && R.Iteration % Every != 0 && R.Iteration != 1))
     return;
   const double Seconds =
       std::chrono::duration<double>(Clock::now() - Start).count();
@@ -144,7 +145,7 @@ Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
         return Kept;
   }
   L.setProfiled(false);
-  if (isatty(STDERR_FILENO) != 0)
+  if (W.Together.first() && isatty(STDERR_FILENO) != 0)
     fmt::print(stderr, "\n");
   W.Seconds = std::chrono::duration<double>(Clock::now() - Start).count();
   if (auto Kept = keep(W, L, T); !Kept)
@@ -290,11 +291,9 @@ Expected<Success> checkSameStart(const Work &W, unsigned Iteration) {
   W.Together.share(0, First.data(), First.size());
   if (First == Mine)
     return W.Together.agree(Success{});
-  return W.Together.agree(
-      Error{W.A.Capture,
-            fmt::format("process {} reads another capture or checkpoint, "
-                        "expected those of the first",
-                        W.Together.rank())});
+  return W.Together.agree(Error{
+      W.A.Capture, "another capture or checkpoint, expected those of the first "
+                   "process"});
 }
 
 /// Gives \p T what it begins with: its own checkpoint, another run's, or the
@@ -308,8 +307,9 @@ Expected<Success> start(const TrainArguments &A, const Work &W, Trainer &T) {
     if (auto Same = checkSameRun(A.Checkpoint, Kept->Run, W.Run); !Same)
       return Same;
     T.restore(*Kept);
-    fmt::print(stderr, "going on after iteration {} of {}\n", T.iteration(),
-               A.Checkpoint);
+    if (W.Together.first())
+      fmt::print(stderr, "going on after iteration {} of {}\n", T.iteration(),
+                 A.Checkpoint);
     return Success{};
   }
   if (A.From.empty()) {

@@ -66,11 +66,9 @@ Expected<std::unique_ptr<Ranks>> openRanks() {
     return Error{"", "MPI did not start, expected OpenMPI's mpirun",
                  ExitCode::Internal};
   auto Together = std::make_unique<MpiRanks>();
-  if (!Together->first())
-    for (std::FILE *Stream : {stdout, stderr})
-      if (!std::freopen("/dev/null", "w", Stream))
-        return Error{"/dev/null",
-                     fmt::format("cannot write: {}", std::strerror(errno))};
+  if (!Together->first() && !std::freopen("/dev/null", "w", stdout))
+    return Error{"/dev/null",
+                 fmt::format("cannot write: {}", std::strerror(errno))};
   return std::unique_ptr<Ranks>(std::move(Together));
 #else
   if (std::strcmp(startedTogether(), "1") != 0)

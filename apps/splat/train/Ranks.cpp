@@ -1,5 +1,6 @@
 #include "Ranks.h"
 
+#include <fmt/format.h>
 #include <string>
 
 namespace vorion::splat {
@@ -30,6 +31,8 @@ Expected<Success> Ranks::agree(const Expected<Success> &Mine) {
       continue;
     ShareText(From, Theirs.Where);
     ShareText(From, Theirs.What);
+    if (From != 0)
+      Theirs.What += fmt::format(" (process {})", From);
     return Theirs;
   }
   return Success{};

@@ -25,7 +25,8 @@ public:
   /// Whether \p Mine is true in any process.
   bool any(bool Mine);
   /// What the first process with an error has, for all of them, so that none
-  /// waits for one that has given up.
+  /// waits for one that has given up; it says which process, unless that is the
+  /// first one.
   Expected<Success> agree(const Expected<Success> &Mine);
 };
 
@@ -38,9 +39,10 @@ public:
              std::size_t /*Bytes*/) override {}
 };
 
-/// Those that mpirun started, or the only one. Of several, only the first
-/// prints from now on. An error where mpirun has started several and this build
-/// is without MPI.
+/// Those that mpirun started, or the only one. Of several, only the first has a
+/// standard output from now on; all have a standard error, for what the device
+/// says and for how a process dies. An error where mpirun has started several
+/// and this build is without MPI.
 Expected<std::unique_ptr<Ranks>> openRanks();
 
 } // namespace vorion::splat
