@@ -77,8 +77,6 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A) {
   P.Jobs = A.Jobs;
   P.ThumbWidth = A.ThumbWidth;
   P.Load = [&A] { return loadScene(A.Scene); };
-  if (auto Made = makeFolders(A.Folder); !Made)
-    return Made.error();
   return P;
 }
 
@@ -222,6 +220,9 @@ Expected<Success> run(AccuracyArguments &A) {
   const auto V = splitViews(*P, A.Check);
   if (!V)
     return V.error();
+  if (!A.List)
+    if (auto Made = makeFolders(A.Folder); !Made)
+      return Made.error();
   if (!A.Only.empty()) {
     std::vector<Point> Wanted;
     for (const std::string &Name : A.Only) {
@@ -268,12 +269,23 @@ Expected<Success> run(AccuracyArguments &A) {
 
 Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
-  addSceneOptions(App, A->Scene);
-  App.get_option("scene")->required(false);
-  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json");
   App.add_option("--out", A->Folder,
                  "Folder for measurements and page; what is there is kept")
       ->required();
+  App.add_option("--jobs", A->Jobs, "Points measured at the same time")
+      ->check(CLI::Range(1U, 256U))
+      ->option_text("N");
+  App.add_flag("--list", A->List,
+               "Print the points that are missing, one a line, and measure "
+               "none");
+  App.add_option("--only", A->Only,
+                 "Measure this point alone, as --list prints it; no page")
+      ->option_text("POINT")
+      ->allow_extra_args(false);
+  const std::size_t First = App.get_options().size();
+  addSceneOptions(App, A->Scene);
+  App.get_option("scene")->required(false);
+  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json");
   App.add_option("--views", A->Views, "Views to measure (default: all)")
       ->delimiter(',')
       ->option_text("VIEW,...");
@@ -297,17 +309,7 @@ Runner addAccuracy(CLI::App &App) {
                  "Width of the page's pictures, px (default 240)")
       ->check(CLI::Range(8U, 4096U))
       ->option_text("N");
-  App.add_option("--jobs", A->Jobs, "Points measured at the same time")
-      ->check(CLI::Range(1U, 256U))
-      ->option_text("N");
-  App.add_flag("--list", A->List,
-               "Print the points that are missing, one a line, and measure "
-               "none");
-  App.add_option("--only", A->Only,
-                 "Measure this point alone, as --list prints it; no page")
-      ->option_text("POINT")
-      ->allow_extra_args(false);
-  addTrainOptions(App, A->Train);
+  addTrainOptions(App, A->Train, optionsFrom(App, First));
   return [A] { return run(*A); };
 }
 

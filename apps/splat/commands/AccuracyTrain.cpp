@@ -13,12 +13,22 @@
 
 namespace vorion::splat {
 
-void addTrainOptions(CLI::App &App, TrainSweepPlan &P) {
-  App.add_option("--train", P.Capture,
-                 "Measure training on this capture instead of pictures of a "
-                 "scene: gradients, time and PSNR under every reciprocal unit "
-                 "and order of sums (docs/accuracy.md)")
-      ->option_text("CAPTURE");
+std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First) {
+  const std::vector<CLI::Option *> All = App.get_options();
+  return {All.begin() + static_cast<std::ptrdiff_t>(First), All.end()};
+}
+
+void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
+                     const std::vector<CLI::Option *> &OfScenes) {
+  CLI::Option *Train = App.add_option(
+      "--train", P.Capture,
+      "Measure training on this capture instead of pictures of a scene: "
+      "gradients, time and PSNR under every reciprocal unit and order of sums "
+      "(docs/accuracy.md)");
+  Train->option_text("CAPTURE");
+  for (CLI::Option *O : OfScenes)
+    Train->excludes(O);
+  const std::size_t First = App.get_options().size();
   App.add_option("--iterations", P.Iterations,
                  fmt::format("--train: of a run (default {})", P.Iterations))
       ->check(isIterations());
@@ -45,9 +55,12 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P) {
       ->allow_extra_args(false);
   addBackgroundOption(App, P.Background,
                       "--train: colour r,g,b behind the scene (default 0,0,0)");
+  for (CLI::Option *O : optionsFrom(App, First))
+    O->needs(Train);
 }
 
 /// That every run will have times and scores, and may stand beside those kept.
+/// Writes nothing.
 static Expected<Success> check(const TrainSweepPlan &P) {
   for (const auto &[Option, Every] : {std::pair("--score-every", P.ScoreEvery),
                                       std::pair("--time-every", P.TimeEvery)})
@@ -56,6 +69,11 @@ static Expected<Success> check(const TrainSweepPlan &P) {
                    fmt::format("{} {}: expected at most --iterations, {}",
                                Option, Every, P.Iterations),
                    ExitCode::Usage};
+  const auto C = readCapture(P.Capture, P.Exclude);
+  if (!C)
+    return C.error();
+  if (C->heldOut() == 0)
+    return Error{P.Capture, "no held-out views, expected some for the PSNR"};
   return checkKept(P);
 }
 
@@ -65,14 +83,14 @@ measureTraining(const TrainSweepPlan &P, bool List,
                 const std::function<void(std::string_view)> &Said) {
   if (auto Checked = check(P); !Checked)
     return Checked;
-  if (auto Made = makeFolders(P.Folder); !Made)
-    return Made;
   std::vector<TrainPoint> Wanted = missing(P, trainPoints(P));
   if (List) {
     for (const TrainPoint &Of : Wanted)
       fmt::print("{}\n", Of.name());
     return Success{};
   }
+  if (auto Made = makeFolders(P.Folder); !Made)
+    return Made;
   if (!Only.empty()) {
     std::vector<TrainPoint> Chosen;
     for (const TrainPoint &Of : trainPoints(P))

@@ -11,12 +11,17 @@
 
 namespace vorion::splat {
 
-/// Declares --train and what goes with it; \p P must outlive the parsing.
-void addTrainOptions(CLI::App &App, TrainSweepPlan &P);
+/// The options of \p App from the one numbered \p First on.
+std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First);
+
+/// Declares --train, which excludes \p OfScenes, and what needs it; \p P must
+/// outlive the parsing.
+void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
+                     const std::vector<CLI::Option *> &OfScenes);
 
 /// Measures the points that are missing, writes all of them to training.json
-/// and prints a table; with \p List prints their names alone, with \p Only
-/// measures those alone.
+/// and a page, and prints a table; with \p List prints their names alone, with
+/// \p Only measures those alone.
 Expected<Success>
 measureTraining(const TrainSweepPlan &P, bool List,
                 const std::vector<std::string> &Only,

@@ -25,6 +25,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <unistd.h>
 
 namespace vorion::splat {
@@ -41,7 +42,8 @@ struct TrainArguments {
   int Downscale = 1, ShDegree = MaxShDegree;
   unsigned CheckpointEvery = 1000;
   bool Resume = false, Time = false, Breakdown = false;
-  unsigned TimeEvery = 50, ScoreEvery = 0;
+  std::optional<unsigned> GivenTimeEvery;
+  unsigned ScoreEvery = 0;
   Rules Convention = Rules::Inria;
   Path Blending = Path::Raster;
   unsigned SimtTile = Blender(Path::Simt).SimtTile;
@@ -50,6 +52,7 @@ struct TrainArguments {
   TrainRun Run;
 
   bool isClocked() const { return Time || Breakdown; }
+  unsigned timeEvery() const { return GivenTimeEvery.value_or(50); }
   Blender blender() const { return {Blending, SimtTile, SimtGroup}; }
 };
 
@@ -117,8 +120,8 @@ Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
   W.First = T.iteration();
   const unsigned Last = W.A.Run.Settings.Iterations;
   while (T.iteration() < Last && !W.Together.any(Interrupted != 0)) {
-    const bool Timed = W.A.isClocked() &&
-                       isTimed(W.A.Run.Seed, W.A.TimeEvery, T.iteration() + 1);
+    const bool Timed = W.A.isClocked() && isTimed(W.A.Run.Seed, W.A.timeEvery(),
+                                                  T.iteration() + 1);
     L.setProfiled(Timed);
     const StepReport R = T.step();
     std::vector<StageReport> Stages = L.takeStages();
@@ -135,7 +138,7 @@ Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
               ExitCode::Internal});
     showProgress(W, R, Start);
     if (W.Together.first() && W.A.ScoreEvery != 0 &&
-        R.Iteration % W.A.ScoreEvery == 0) {
+        R.Iteration % W.A.ScoreEvery == 0 && !W.Pictures.HeldOut.empty()) {
       L.setProfiled(false);
       W.Scores.emplace_back(R.Iteration, meanOf(T.evaluate()));
       L.takeStages();
@@ -160,7 +163,8 @@ Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
 }
 
 std::string jsonReport(const Work &W, const Device &D, Trainer &T,
-                       const std::vector<double> &Db, const Baselines &B) {
+                       const std::vector<double> &Db,
+                       const std::optional<Baselines> &B) {
   Json Views = Json::array();
   for (std::size_t I = 0; I < Db.size(); ++I)
     Views.push_back(
@@ -184,13 +188,13 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"seconds", W.Seconds},
       {"iterations_timed", T.iteration() - W.First},
       {"timed", Json::parse(W.Timed.json())},
-      {"psnr8_db", meanOf(Db)},
+      {"psnr8_db", B ? Json(meanOf(Db)) : Json()},
       {"scores", Scores},
       {"views", Views},
-      {"baselines_db",
-       {{"constant", B.Constant},
-        {"mean_picture", B.Mean},
-        {"best_training_view", B.BestView}}},
+      {"baselines_db", B ? Json{{"constant", B->Constant},
+                                {"mean_picture", B->Mean},
+                                {"best_training_view", B->BestView}}
+                         : Json()},
       {"losses", T.losses()}};
   return Report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -230,7 +234,7 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
             curveOf(T, std::filesystem::path(W.A.Capture).filename().string()));
         !Written)
       return Written;
-  const Baselines B = baselinesOf(W.Pictures);
+  const std::optional<Baselines> B = baselinesOf(W.Pictures);
   if (!W.A.Json.empty())
     if (auto Written =
             writeFileAtomically(W.A.Json, jsonReport(W, D, T, Db, B));
@@ -256,12 +260,14 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
   else if (W.A.isClocked())
     fmt::print("machine time unknown: of iterations {} to {} none was timed, "
                "expected a smaller --time-every than {}\n",
-               W.First + 1, T.iteration(), W.A.TimeEvery);
-  fmt::print("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n",
-             meanOf(Db));
-  fmt::print("without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
-             "training view {:.3f} dB\n",
-             B.Constant, B.Mean, B.BestView);
+               W.First + 1, T.iteration(), W.A.timeEvery());
+  if (B)
+    fmt::print("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n"
+               "without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
+               "training view {:.3f} dB\n",
+               meanOf(Db), B->Constant, B->Mean, B->BestView);
+  else
+    fmt::print("held out     no held-out views\n");
   if (W.A.Breakdown && !W.Timed.empty())
     fmt::print("{}", W.Timed.lastByStage());
   return Success{};
@@ -273,6 +279,11 @@ Expected<Success> check(const TrainArguments &A) {
                  ExitCode::Usage};
   if (auto Checked = checkBackwardOptions(A.Backward, A.Blending); !Checked)
     return Checked;
+  if (A.GivenTimeEvery && !A.isClocked())
+    return Error{"", "--time-every: expected --time or --breakdown with it",
+                 ExitCode::Usage};
+  if (A.ScoreEvery != 0 && A.Json.empty())
+    return Error{"", "--score-every: expected --json with it", ExitCode::Usage};
   for (const float V : A.Background)
     if (!(V >= 0 && V <= 1))
       return Error{"",
@@ -461,7 +472,7 @@ Runner addTrain(CLI::App &App) {
                "Say how long iterations take on the machine (docs/model.md)");
   App.add_flag("--breakdown", A->Breakdown,
                "The same, with the last one that is timed by stage");
-  App.add_option("--time-every", A->TimeEvery,
+  App.add_option("--time-every", A->GivenTimeEvery,
                  "Of so many iterations one is timed, drawn at random from the "
                  "seed (default 50)")
       ->check(isIterations());

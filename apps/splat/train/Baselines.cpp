@@ -27,7 +27,9 @@ std::array<double, 3> meanColour(const std::vector<TrainView> &Views) {
 
 } // namespace
 
-Baselines baselinesOf(const TrainingSet &Set) {
+std::optional<Baselines> baselinesOf(const TrainingSet &Set) {
+  if (Set.HeldOut.empty())
+    return {};
   Baselines B;
   const std::array<double, 3> Colour = meanColour(Set.Training);
   for (const TrainView &V : Set.HeldOut) {

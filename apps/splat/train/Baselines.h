@@ -3,6 +3,8 @@
 
 #include "TrainingSet.h"
 
+#include <optional>
+
 namespace vorion::splat {
 
 /// Means over held-out views of the PSNR of 8-bit values, dB.
@@ -13,7 +15,7 @@ struct Baselines {
 };
 
 /// Training pictures are brought to the size of the view that they are compared
-/// with by area average.
-Baselines baselinesOf(const TrainingSet &Set);
+/// with by area average. None where no view is held out.
+std::optional<Baselines> baselinesOf(const TrainingSet &Set);
 
 } // namespace vorion::splat

@@ -66,13 +66,16 @@ TEST(Baselines, AreTheirDefinitions) {
   TrainingSet Set;
   Set.Training = {viewOf(0, 100), viewOf(40, 180)};
   Set.HeldOut = {viewOf(30, 150)};
-  const Baselines B = baselinesOf(Set);
+  const auto B = baselinesOf(Set);
+  ASSERT_TRUE(B);
   const auto Db = [](double A, double C) {
     return 10 * std::log10(255.0 * 255.0 * 2 / (A * A + C * C));
   };
-  EXPECT_NEAR(B.Constant, Db(80 - 30, 80 - 150), 1e-9);
-  EXPECT_NEAR(B.Mean, Db(20 - 30, 140 - 150), 1e-9);
-  EXPECT_NEAR(B.BestView, Db(40 - 30, 180 - 150), 1e-9);
+  EXPECT_NEAR(B->Constant, Db(80 - 30, 80 - 150), 1e-9);
+  EXPECT_NEAR(B->Mean, Db(20 - 30, 140 - 150), 1e-9);
+  EXPECT_NEAR(B->BestView, Db(40 - 30, 180 - 150), 1e-9);
+  Set.HeldOut.clear();
+  EXPECT_FALSE(baselinesOf(Set));
 }
 
 } // namespace
