@@ -217,8 +217,7 @@ cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
         Status);
     return {};
   }
-  AllocatedBytes += Size;
-  *InUse += Size;
+  MostBytes = std::max(MostBytes, *InUse += Size);
   auto R = std::make_unique<Release>(Release{InUse, Size});
   if (B.setDestructorCallback(releaseBuffer, R.get()) == CL_SUCCESS)
     R.release(); // NOLINT(bugprone-unused-return-value): the callback's now

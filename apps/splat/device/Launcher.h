@@ -121,10 +121,8 @@ public:
   void read(std::string_view What, void *To, const cl::Buffer &From,
             std::uint64_t Bytes, std::uint64_t Offset = 0);
 
-  /// Bytes of all buffers made with \c allocate, also those gone since.
-  std::uint64_t allocatedBytes() const { return AllocatedBytes; }
-  /// Of those that are still there.
-  std::uint64_t bytesInUse() const { return *InUse; }
+  /// Most bytes of buffers made with \c allocate that were there at once.
+  std::uint64_t mostBytes() const { return MostBytes; }
   const Device &device() const { return Dev; }
 
 private:
@@ -150,7 +148,7 @@ private:
   bool Profiled = false;
   std::vector<StageReport> Stages;
   std::chrono::steady_clock::time_point StageStart;
-  std::uint64_t AllocatedBytes = 0;
+  std::uint64_t MostBytes = 0;
   /// Shared with the buffers, which may outlive this.
   std::shared_ptr<std::atomic<std::uint64_t>> InUse =
       std::make_shared<std::atomic<std::uint64_t>>(0);

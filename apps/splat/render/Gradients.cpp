@@ -93,7 +93,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   R.Visible = Forward.frame().Visible;
   R.Pairs = Forward.frame().Pairs;
   R.Culled = Forward.frame().Culled;
-  R.DeviceBytes = L.allocatedBytes();
+  R.DeviceBytes = L.mostBytes();
   R.Stages = L.takeStages();
   return R;
 }

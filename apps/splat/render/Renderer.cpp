@@ -175,7 +175,7 @@ private:
     if (L.failure())
       return;
     R.Frames[Frame] = finish(L, Plan, P.frame(), Options);
-    R.Frames[Frame].DeviceBytes = L.bytesInUse();
+    R.Frames[Frame].DeviceBytes = L.mostBytes();
     own(Frame);
   }
 
@@ -209,7 +209,7 @@ Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
   }
   if (L.failure())
     return *L.failure();
-  R.DeviceBytes = L.allocatedBytes();
+  R.DeviceBytes = L.mostBytes();
   R.Stages = L.takeStages();
   return R;
 }

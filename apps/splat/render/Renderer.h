@@ -22,6 +22,8 @@ struct RenderResult {
   std::uint64_t Pairs = 0;   ///< (tile, Gaussian) pairs
   /// Gaussians that no tile sees, by \c CullReasons.
   std::array<std::uint64_t, CullReasons.size()> Culled{};
+  /// Most bytes of buffers that were on the device at once until the picture
+  /// was read; of a sequence, since its first picture.
   std::uint64_t DeviceBytes = 0;
   std::vector<StageReport> Stages;
   std::optional<SortedPairs> Sorted;

@@ -186,10 +186,12 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
     auto Hash = hashFile(R.Back->Upstream);
     if (!Hash)
       return Hash.error();
-    Report["backward"] = {{"reciprocal", name(R.Back->Options.Unit)},
-                          {"sums", name(R.Back->Options.Order)},
-                          {"upstream", R.Back->Upstream},
-                          {"fnv1a64", *Hash}};
+    Report["backward"] = {{"upstream", R.Back->Upstream}, {"fnv1a64", *Hash}};
+    // Units that the cores do not have.
+    if (O.Blending == Path::Raster) {
+      Report["backward"]["reciprocal"] = name(R.Back->Options.Unit);
+      Report["backward"]["sums"] = name(R.Back->Options.Order);
+    }
   }
   if (const std::string Time = frameJson(R.Result.Stages); !Time.empty())
     Report["time"] = Json::parse(Time);
