@@ -13,6 +13,12 @@ static std::string forScript(std::string Text) {
   return Text;
 }
 
+static std::string filled(std::string_view Template, const Json &Data) {
+  constexpr std::string_view Place = "@DATA@";
+  std::string Page(Template);
+  return Page.replace(Page.find(Place), Place.size(), forScript(Data.dump()));
+}
+
 Expected<std::string> pageOf(const SweepPlan &P, const PageHead &Head,
                              const std::vector<Setting> &Settings) {
   Json Views = Json::array(), Points = Json::array();
@@ -30,9 +36,21 @@ Expected<std::string> pageOf(const SweepPlan &P, const PageHead &Head,
                   {"views", std::move(Views)},
                   {"chosen_on", Head.ChosenOn},
                   {"points", std::move(Points)}};
-  constexpr std::string_view Place = "@DATA@";
-  std::string Page(pageTemplate());
-  return Page.replace(Page.find(Place), Place.size(), forScript(Data.dump()));
+  return filled(pageTemplate(), Data);
+}
+
+std::string trainPageOf(const Json &Results, const std::string &Made) {
+  Json Curves = Json::array();
+  for (const Json &Point : Results["points"])
+    if (Point.contains("curve"))
+      Curves.push_back({{"setting", Point["setting"]},
+                        {"seed", Point["seed"]},
+                        {"curve", Point["curve"]}});
+  return filled(trainPageTemplate(), {{"made", Made},
+                                      {"iterations", Results["iterations"]},
+                                      {"reached_db", Results["reached_db"]},
+                                      {"settings", Results["settings"]},
+                                      {"curves", std::move(Curves)}});
 }
 
 } // namespace vorion::splat

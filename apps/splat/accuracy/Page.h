@@ -1,15 +1,18 @@
-/// The HTML page of a sweep: one file that needs no other and no network.
+/// The HTML pages of sweeps: each one file that needs no other and no network.
 #pragma once
 
 #include "Sweep.h"
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
 namespace vorion::splat {
 
-/// page.html with page.js in it; @DATA@ stands where the measurements go.
+/// page.html and train.html with their scripts; @DATA@ stands where the
+/// measurements go.
 std::string_view pageTemplate();
+std::string_view trainPageTemplate();
 
 /// What the page is told besides the measurements.
 struct PageHead {
@@ -21,5 +24,9 @@ struct PageHead {
 /// The page of \p Settings on all views, from the points' files.
 Expected<std::string> pageOf(const SweepPlan &P, const PageHead &Head,
                              const std::vector<Setting> &Settings);
+
+/// The page of trainResults() (TrainSweep.h); \p Made: a line, what made it.
+std::string trainPageOf(const nlohmann::ordered_json &Results,
+                        const std::string &Made);
 
 } // namespace vorion::splat

@@ -1,9 +1,4 @@
-// The page of `splat accuracy`: reads the measurements beside it, draws them and
-// lets people choose. Uses nothing of any network.
-'use strict';
-
-const data = JSON.parse(document.getElementById('data').textContent);
-const byId = id => document.getElementById(id);
+// The page of `splat accuracy SCENE`: draws the measurements and lets people choose.
 
 // What a dot may be judged by. `better`: 1 if more is better.
 const METRICS = {
@@ -93,27 +88,10 @@ function change(value, base) {
   return `${share >= 0 ? '+' : '−'}${Math.abs(share).toFixed(1)} %`;
 }
 
-function element(name, attributes = {}, ...children) {
-  const inSvg = ['circle', 'line', 'path', 'text'].includes(name);
-  const e = inSvg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  e.append(...children);
-  return e;
-}
-
 function views() { return state.view === '' ? data.views : [state.view]; }
 
-// Round numbers from low to high.
-function ticks(low, high) {
-  const step = 10 ** Math.floor(Math.log10((high - low) / 4 || 1));
-  const wide = [1, 2, 5, 10].map(f => f * step).find(s => (high - low) / s <= 7);
-  const all = [];
-  for (let t = Math.ceil(low / wide) * wide; t <= high; t += wide) all.push(t);
-  return all;
-}
-
 function drawPlot(entries, front, best) {
-  const [left, right, top, bottom] = [70, 1080, 20, 430];
+  const { left, right } = PLOT;
   const { metric, axis } = state;
   const shown = entries.filter(e => e.times[axis] !== null);
   const svg = byId('plot');
@@ -127,25 +105,12 @@ function drawPlot(entries, front, best) {
     if (metric === 'ssim') return -Math.log10(Math.max(1e-12, 1 - value));
     return logarithmic ? Math.log10(Math.max(1e-9, value * metricScale)) : Math.min(value, EQUAL_DB);
   };
-  const xs = shown.map(e => e.times[axis] * AXES[axis].scale), ys = shown.map(height);
-  const pad = (low, high) => [low - 0.05 * (high - low || 1), high + 0.05 * (high - low || 1)];
   // What is much slower than the default would press all others together: it goes to the right edge.
   const base = entries.find(e => e.setting === 'default')?.times[axis] ?? Infinity;
-  const slowest = Math.min(Math.max(...xs), MOST_OF_DEFAULT * base * AXES[axis].scale);
-  const [x0, x1] = pad(Math.min(...xs), slowest);
-  const [y0, y1] = pad(Math.min(...ys), Math.max(...ys));
-  const px = x => left + Math.min(1, (x - x0) / (x1 - x0)) * (right - left);
-  const py = y => bottom - (y - y0) / (y1 - y0) * (bottom - top);
-  for (const t of ticks(x0, x1))
-    svg.append(element('line', { class: 'grid', x1: px(t), x2: px(t), y1: top, y2: bottom }),
-      element('text', { x: px(t), y: bottom + 18, 'text-anchor': 'middle' }, +t.toPrecision(6)));
-  for (const t of ticks(y0, y1)) {
-    const label = metric === 'ssim' ? `1−1e${(-t).toFixed(1)}` : logarithmic ? `1e${t.toFixed(1)}` : +t.toPrecision(6);
-    svg.append(element('line', { class: 'grid', x1: left, x2: right, y1: py(t), y2: py(t) }),
-      element('text', { x: left - 6, y: py(t) + 4, 'text-anchor': 'end' }, label));
-  }
-  svg.append(element('text', { x: (left + right) / 2, y: bottom + 40, 'text-anchor': 'middle' },
-    `${AXES[axis].label}, ${AXES[axis].unit}`), element('text', { x: left, y: top - 6 }, METRICS[metric].label));
+  const times = shown.map(e => Math.min(e.times[axis], MOST_OF_DEFAULT * base) * AXES[axis].scale);
+  const tick = metric === 'ssim' ? t => `1−1e${(-t).toFixed(1)}` : logarithmic ? t => `1e${t.toFixed(1)}` : undefined;
+  const { px, py, y0, y1 } = drawAxes(svg, { values: times, label: `${AXES[axis].label}, ${AXES[axis].unit}` },
+    { values: shown.map(height), label: METRICS[metric].label, tick });
   const place = e => [px(e.times[axis] * AXES[axis].scale), py(height(e))];
   svg.append(element('path', { class: 'front', d: 'M' + front.map(e => place(e).join(' ')).join('L') }));
   if (metric === 'psnr_db' && state.floor > y0 && state.floor < y1)
@@ -178,10 +143,6 @@ function showTip(entry, event) {
   tip.style.top = Math.min(event.clientY + 15, window.innerHeight - 230) + 'px';
 }
 
-function rowOf(cells, name = 'td') {
-  return element('tr', {}, ...cells.map(c => element(name, {}, c)));
-}
-
 function drawTable(entries, front, base) {
   const columns = [['setting', e => e.setting, e => e.setting]];
   for (const [key, metric] of Object.entries(METRICS))
@@ -190,25 +151,11 @@ function drawTable(entries, front, base) {
     columns.push([AXES[axis].label, e => e.times[axis] ?? Infinity,
       e => `${time(e.times[axis], axis)} ${base ? change(e.times[axis], base.times[axis]) : ''}`]);
   columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
-  const header = rowOf(columns.map(c => c[0]), 'th');
-  [...header.children].forEach((cell, n) => cell.addEventListener('click', () => {
-    state.sort = { n, down: state.sort?.n === n && !state.sort.down };
-    draw();
-  }));
-  byId('table').tHead.replaceChildren(header);
-  const order = [...entries];
-  const sort = state.sort ?? { n: 1, down: true };
-  order.sort((a, b) => {
-    const [x, y] = [columns[sort.n][1](a), columns[sort.n][1](b)];
-    return (x < y ? -1 : x > y ? 1 : 0) * (sort.down ? -1 : 1);
-  });
-  byId('table').tBodies[0].replaceChildren(...order.map(e => {
-    const row = rowOf(columns.map(c => c[2](e)));
+  drawColumns(byId('table'), columns, entries, state.sort ?? { n: 1, down: true }, sort => { state.sort = sort; draw(); }, (row, e) => {
     if (front.includes(e)) row.classList.add('onfront');
     if (e.setting === state.selected) row.classList.add('selected');
     row.addEventListener('click', () => select(e.setting));
-    return row;
-  }));
+  });
 }
 
 function drawRecommended() {
@@ -271,22 +218,16 @@ function draw() {
   drawDetails(entries, base);
 }
 
-function fill(select, choices, key) {
-  for (const [value, label] of choices) select.append(element('option', { value }, label));
-  select.addEventListener('change', () => { state[key] = select.value; draw(); });
-}
-
 function start() {
-  byId('made').textContent = data.made;
-  fill(byId('view'), [['', 'all (worst error, sum of times)'], ...data.views.map(v => [v, v])], 'view');
-  fill(byId('metric'), Object.entries(METRICS).map(([k, m]) => [k, m.label]), 'metric');
-  fill(byId('axis'), Object.entries(AXES).map(([k, a]) => [k, a.label]), 'axis');
+  const choose = (id, choices) => fill(byId(id), choices, value => { state[id] = value; draw(); });
+  choose('view', [['', 'all (worst error, sum of times)'], ...data.views.map(v => [v, v])]);
+  choose('metric', Object.entries(METRICS).map(([k, m]) => [k, m.label]));
+  choose('axis', Object.entries(AXES).map(([k, a]) => [k, a.label]));
   byId('floor').value = state.floor;
   byId('floor').addEventListener('input', () => { state.floor = +byId('floor').value; draw(); });
   draw();
 }
 
-// Opened with #test, the page tries itself and says in data-test what came out: what a test reads.
 function tryOut() {
   const dots = [...document.querySelectorAll('.dot')];
   if (dots.length < 2) throw new Error('fewer than two dots');
@@ -297,18 +238,8 @@ function tryOut() {
   dot.dispatchEvent(new MouseEvent('click'));
   if (!byId('details').textContent.startsWith(setting)) throw new Error('a click selects nothing');
   if (!document.querySelector('.dot.selected') || !document.querySelector('tr.selected')) throw new Error('no selection shown');
-  for (const id of ['view', 'metric', 'axis'])
-    for (const option of byId(id).options) {
-      byId(id).value = option.value;
-      byId(id).dispatchEvent(new Event('change'));
-    }
-  for (const id of ['view', 'metric', 'axis']) {
-    byId(id).selectedIndex = 0;
-    byId(id).dispatchEvent(new Event('change'));
-  }
+  tryControls(['view', 'metric', 'axis']);
   return `passed with ${dots.length} dots`;
 }
 
-window.addEventListener('error', event => { document.documentElement.dataset.test = 'failed: ' + event.message; });
-start();
-if (location.hash === '#test') document.documentElement.dataset.test = tryOut();
+openPage(start, tryOut);

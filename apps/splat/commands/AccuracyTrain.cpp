@@ -3,7 +3,9 @@
 #include "Choices.h"
 #include "PictureOptions.h"
 
+#include "../accuracy/Page.h"
 #include "../accuracy/Points.h"
+#include "../capture/Capture.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -113,7 +115,14 @@ measureTraining(const TrainSweepPlan &P, bool List,
                                          Results->dump(1) + "\n");
       !Written)
     return Written;
-  fmt::print("{}", trainTable(*Results));
+  const std::string Made = fmt::format(
+      "{}, {} iterations, seeds 0 to {}, pictures {} times smaller; splat {}",
+      P.Capture, P.Iterations, P.Seeds - 1, P.Downscale, VORION_VERSION);
+  if (auto Written = writeFileAtomically(P.Folder + "/index.html",
+                                         trainPageOf(*Results, Made));
+      !Written)
+    return Written;
+  fmt::print("{}{}/index.html\n", trainTable(*Results), P.Folder);
   return Success{};
 }
 

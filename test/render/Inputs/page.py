@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Opens the page of `splat accuracy` in headless Chromium, from its file and without a network.
+"""Opens a page of `splat accuracy` in headless Chromium, from its file and without a network.
 
 usage: page.py index.html
-With #test the page tries itself (page.js, tryOut): it hovers, selects, changes every control. Checked here: what it
+With #test a page tries itself (its script's tryOut): it selects, changes every control. Checked here: what it
 said, that no script error reached the browser's log, and that a screenshot shows something.
 """
 
