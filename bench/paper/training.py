@@ -218,9 +218,26 @@ def largest(single, scaled):
             "tiles": len(single["timed"][0]["list_lengths"])}
 
 
+def density(trained, result):
+    """How often the number of Gaussians may change, and whether it did in the timed iterations after `trained`."""
+    counts = {trained["gaussians"], *(sample["gaussians"] for sample in result["timed"])}
+    return {"interval": result["run"]["densify"][0], "changed": len(counts) > 1}
+
+
+def density_text(rows):
+    """A sentence of `rows` that say so."""
+    rows = [row for row in rows if "density" in row]
+    if not rows:
+        return ""
+    intervals = sorted({row["density"]["interval"] for row in rows})
+    changed = [row["scene"] for row in rows if row["density"]["changed"]]
+    return (f"The number of Gaussians changes after every {' or '.join(map(str, intervals))} iterations, "
+            f"{'in those of ' + ', '.join(changed) if changed else 'not in these'}.")
+
+
 def row_of(store, capture, iterations):
     state = State(capture, iterations, store.folder)
-    store.all([state], TITLE)
+    trained, = store.all([state], TITLE)
     prototype = store.all([raster(state, "prototype"), *(simt(state, "prototype", c) for c in CHOICES)], TITLE)
     row = {"scene": capture.name, "view": f"after {iterations}", "prototype":
            compared(prototype[0], dict(zip(CHOICES, prototype[1:])))}
@@ -231,6 +248,7 @@ def row_of(store, capture, iterations):
     row["largest"] = largest(single, scaled[0])
     row["slow_its"], row["slow_command"] = 1e3 / mean(slow, r.frame_ms), slow["command"]
     row["resolution"] = slow["resolution"]
+    row["density"] = density(trained, prototype[0])
     return row
 
 
@@ -256,8 +274,7 @@ def choices_text(row):
 def text(data):
     rows = data["rows"]
     out = [paragraph(f"""The {TIMED} iterations after so many of a training run (settings of [training.md](training.md)), each of
-        another view, means of them; those before went without the clock. The number of Gaussians changes after every 100th iteration,
-        not in these. Pictures: """ + ", ".join(f"{row['scene']} {row['resolution'][0]}x{row['resolution'][1]}" for row in rows)
+        another view, means of them; those before went without the clock. {density_text(rows)} Pictures: """ + ", ".join(f"{row['scene']} {row['resolution'][0]}x{row['resolution'][1]}" for row in rows)
         + f""". Tiles of the rasterizer are 32x64. The kernels' choice of tile and group is the fastest of
         {', '.join(f'{t}/{g}' for t, g in CHOICES)}, on the scaled machine of those that are fastest on the
         prototype. *back*: from the pixels' gradients to nine sums a Gaussian, which is blending backward and the sum over tiles. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:

@@ -78,6 +78,9 @@ def check_training(folder, document):
         near(row[machine]["pairs"], sum(sum(s["list_lengths"]) for s in ours) / 3)
         # Every list entry that is seen changes a pixel, and none changes more than a tile's.
         assert 0 < row[machine]["blends_back"] <= row[machine]["pairs"] * 32 * 64
+    timed = load(folder, f"{state}-prototype-path-raster")
+    assert row["density"] == {"interval": timed["run"]["densify"][0], "changed": False}, row["density"]
+    assert f"changes after every {timed['run']['densify'][0]} iterations, not in these." in table
     large = row["largest"]
     assert 0 < large["rasterizers_ms"] + large["kernels_ms"] < row["scaled"]["ours"]["ms"], large
 
