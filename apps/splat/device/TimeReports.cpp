@@ -29,11 +29,18 @@ static void add(Json &To, const Json &From) {
   }
 }
 
+void addTimeReport(Json &Sum, const Json &Report) {
+  if (Sum.is_null())
+    Sum = Report;
+  else if (!Report.is_null())
+    add(Sum, Report);
+}
+
 std::string addTimeReports(const std::string &A, const std::string &B) {
   if (A.empty() || B.empty())
     return A.empty() ? B : A;
   Json Sum = Json::parse(A);
-  add(Sum, Json::parse(B));
+  addTimeReport(Sum, Json::parse(B));
   return Sum.dump();
 }
 

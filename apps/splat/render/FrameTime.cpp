@@ -24,20 +24,21 @@ unsigned launches(const StageReport &S) {
       [](unsigned Sum, const KernelReport &K) { return Sum + K.Launches; });
 }
 
-/// The sum over the kernels of a stage; empty without the clock.
-std::string stageTime(const StageReport &S) {
-  std::string Sum;
+/// The sum over the kernels of a stage; null without the clock.
+Json stageTime(const StageReport &S) {
+  Json Sum;
   for (const KernelReport &K : S.Kernels)
-    Sum = addTimeReports(Sum, K.Time);
+    if (!K.Time.empty())
+      addTimeReport(Sum, Json::parse(K.Time));
   return Sum;
 }
 
-/// The frame's kernels in one report, or empty.
-std::string frameTime(const std::vector<StageReport> &Stages) {
-  std::string Sum;
+/// The frame's kernels in one report, or null.
+Json frameTime(const std::vector<StageReport> &Stages) {
+  Json Sum;
   for (const StageReport &S : Stages)
     if (isOfTheFrame(S))
-      Sum = addTimeReports(Sum, stageTime(S));
+      addTimeReport(Sum, stageTime(S));
   return Sum;
 }
 
@@ -127,7 +128,8 @@ std::uint64_t busyCycles(const Json &Report, const char *Units) {
   return Most;
 }
 
-/// How long the stages of a sequence took, those of the same name in one.
+/// How long the stages of a sequence took, those of the same name in one. Sum
+/// is null, and nothing else known, without the clock.
 struct SequenceTimes {
   explicit SequenceTimes(const SequenceResult &R);
 
@@ -143,18 +145,17 @@ struct SequenceTimes {
 };
 
 SequenceTimes::SequenceTimes(const SequenceResult &R)
-    : Sum(Json::parse(frameTime(R.Stages))), Latency(R.Frames.size()) {
+    : Sum(frameTime(R.Stages)), Latency(R.Frames.size()) {
   std::vector<double> Begins(R.Frames.size(), -1);
   for (std::size_t N = 0; N < R.Stages.size(); ++N) {
     const StageReport &S = R.Stages[N];
-    const std::string Time = stageTime(S);
-    if (!isOfTheFrame(S) || Time.empty())
+    const Json Time = stageTime(S);
+    if (!isOfTheFrame(S) || Time.is_null())
       continue;
     double &Begin = Begins[R.FrameOf[N]];
     if (Begin < 0)
       Begin = Total;
-    Total += milliseconds(Json::parse(Time)) +
-             launchMilliseconds(S, Sum["host"]) +
+    Total += milliseconds(Time) + launchMilliseconds(S, Sum["host"]) +
              copyMilliseconds(S, Sum["host"]);
     Latency[R.FrameOf[N]] = Total - Begin;
     const auto Same = std::ranges::find(ByName, S.Name, &StageReport::Name);
@@ -167,6 +168,8 @@ SequenceTimes::SequenceTimes(const SequenceResult &R)
     Same->Copies += S.Copies;
     Same->CopiedBytes += S.CopiedBytes;
   }
+  if (Sum.is_null())
+    return;
   const double PerCycle = 1 / (1e3 * Sum["clock_mhz"].get<double>());
   Cores = kernels() *
           (1 - share(Sum, "cores", {"raster_full", "raster_wait"}) / 100);
@@ -177,10 +180,9 @@ SequenceTimes::SequenceTimes(const SequenceResult &R)
 } // namespace
 
 std::string frameJson(const std::vector<StageReport> &Stages) {
-  const std::string Text = frameTime(Stages);
-  if (Text.empty())
+  const Json Sum = frameTime(Stages);
+  if (Sum.is_null())
     return {};
-  const Json Sum = Json::parse(Text);
   const FrameMilliseconds F = frameMilliseconds(Stages, Sum);
   Json All = Json::array();
   for (const StageReport &S : Stages) {
@@ -191,8 +193,8 @@ std::string frameJson(const std::vector<StageReport> &Stages) {
              {"copies", S.Copies},
              {"copied_bytes", S.CopiedBytes},
              {"copy_ms", copyMilliseconds(S, Sum["host"])}};
-    if (const std::string Time = stageTime(S); !Time.empty()) {
-      One["time"] = Json::parse(Time);
+    if (Json Time = stageTime(S); !Time.is_null()) {
+      One["time"] = std::move(Time);
       for (const KernelReport &K : S.Kernels)
         if (!K.Time.empty())
           One["kernels"].push_back(
@@ -212,15 +214,14 @@ std::string frameJson(const std::vector<StageReport> &Stages) {
 
 std::string frameText(const std::vector<StageReport> &Stages,
                       const std::string &What) {
-  const std::string Sum = frameTime(Stages);
-  if (Sum.empty())
+  const Json Whole = frameTime(Stages);
+  if (Whole.is_null())
     return {};
-  const Json Whole = Json::parse(Sum);
   const double Cycles = std::max(1.0, Whole["cycles"].get<double>());
   std::string Text = head(Whole);
   for (const StageReport &S : Stages)
-    if (const std::string Time = stageTime(S); !Time.empty())
-      Text += row(S.Name, Json::parse(Time), Cycles);
+    if (const Json Time = stageTime(S); !Time.is_null())
+      Text += row(S.Name, Time, Cycles);
   Text += row(What, Whole, Cycles);
   const FrameMilliseconds F = frameMilliseconds(Stages, Whole);
   return Text + fmt::format("{0} {1:.3f} ms, of it launches {2:.3f} and copies "
@@ -229,17 +230,17 @@ std::string frameText(const std::vector<StageReport> &Stages,
 }
 
 std::uint64_t frameCycles(const std::vector<StageReport> &Stages) {
-  const std::string Sum = frameTime(Stages);
-  return Sum.empty() ? 0 : Json::parse(Sum)["cycles"].get<std::uint64_t>();
+  const Json Sum = frameTime(Stages);
+  return Sum.is_null() ? 0 : Sum["cycles"].get<std::uint64_t>();
 }
 
 std::string sequenceJson(const SequenceResult &R) {
-  if (frameTime(R.Stages).empty())
-    return {};
   const SequenceTimes T(R);
+  if (T.Sum.is_null())
+    return {};
   Json Stages = Json::array();
   for (const StageReport &S : T.ByName)
-    Stages.push_back({{"name", S.Name}, {"time", Json::parse(stageTime(S))}});
+    Stages.push_back({{"name", S.Name}, {"time", stageTime(S)}});
   return Json{{"pictures", R.Frames.size()},
               {"total_ms", T.Total},
               {"fps", 1e3 * static_cast<double>(R.Frames.size()) / T.Total},
@@ -256,13 +257,13 @@ std::string sequenceJson(const SequenceResult &R) {
 }
 
 std::string sequenceText(const SequenceResult &R) {
-  if (frameTime(R.Stages).empty())
-    return {};
   const SequenceTimes T(R);
+  if (T.Sum.is_null())
+    return {};
   const double Cycles = std::max(1.0, T.Sum["cycles"].get<double>());
   std::string Text = head(T.Sum);
   for (const StageReport &S : T.ByName)
-    Text += row(S.Name, Json::parse(stageTime(S)), Cycles);
+    Text += row(S.Name, stageTime(S), Cycles);
   Text += row("all", T.Sum, Cycles);
   return Text +
          fmt::format(
