@@ -1,5 +1,7 @@
 #include "Gradients.h"
 
+#include "Metrics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -80,10 +82,8 @@ std::string gradientLike(const std::string &Name) {
 double ownError(const Fixture &F, const std::string &Name, double Scale) {
   const auto Exact = F.doubles("f64_" + Name),
              Single = F.doubles("f32_" + Name);
-  std::vector<double> Difference;
-  for (std::size_t I = 0; I < std::min(Exact.size(), Single.size()); ++I)
-    Difference.push_back(Single[I] - Exact[I]);
-  return norm(Difference) / std::max({norm(Exact), Scale, 1e-300});
+  return Exact.size() == Single.size() ? splat::relativeL2(Single, Exact, Scale)
+                                       : 0;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // splat-check-gradients: judges what `splat gradients` wrote for a fixture.
 
 #include "Gradients.h"
+#include "Metrics.h"
 #include "Tool.h"
 #include "vorion/support/File.h"
 
@@ -38,17 +39,10 @@ Expected<Success> run(const Arguments &A) {
       return Error{A.Actual, fmt::format("no array f32_{} with {} elements",
                                          Name.substr(4), Exact.size())};
     const auto Actual = Found->second.toDoubles();
-    std::vector<double> Difference;
-    Difference.reserve(Exact.size());
-    for (std::size_t I = 0; I < Exact.size(); ++I)
-      Difference.push_back(Actual[I] - Exact[I]);
     const double Norm = numberOf(*Want, "norm_" + Name);
     const double Limit = std::max(A.Most, numberOf(*Want, "limit_" + Name));
-    // All gradients are 0 where nothing is seen: then so must these be.
-    const double Error = norm(Difference) / std::max(Norm, 1e-300);
-    const bool Bad =
-        !(Error <= Limit) || std::any_of(Actual.begin(), Actual.end(),
-                                         [](double V) { return V != V; });
+    const double Error = splat::relativeL2(Actual, Exact, Norm);
+    const bool Bad = !(Error <= Limit);
     fmt::print("{:<18}{:>10.1e}   at most {:.1e}{}\n", Name, Error, Limit,
                Bad ? "   BEYOND" : "");
     Rows[Name] = {{"error", Error}, {"limit", Limit}};

@@ -2,6 +2,7 @@
 
 #include "../analyze/ToReference.h"
 #include "../io/Cameras.h"
+#include "../io/Metrics.h"
 #include "../io/Npz.h"
 #include "reference/Backward.h"
 #include "reference/Loss.h"
@@ -149,18 +150,11 @@ Expected<Json> gradientErrors(const GradientFiles &Files,
                    fmt::format("gradients of {} are not those of {}, expected "
                                "the same scene",
                                Name, Files.Gradients)};
-    const std::vector<double> A = Right->second.toDoubles(),
-                              B = Ours->second.toDoubles();
     const auto Least = Want->find(fmt::format("least_norm_{}", Name));
     const double Floor =
         Least == Want->end() ? 0 : Least->second.toDoubles().front();
-    double Apart = 0, Whole = 0;
-    for (std::size_t I = 0; I < A.size(); ++I) {
-      Apart += (A[I] - B[I]) * (A[I] - B[I]);
-      Whole += A[I] * A[I];
-    }
-    const double Norm = std::max(std::sqrt(Whole), Floor);
-    const double Error = Norm > 0 ? std::sqrt(Apart) / Norm : 0;
+    const double Error =
+        relativeL2(Ours->second.toDoubles(), Right->second.toDoubles(), Floor);
     Errors[Name] = Error;
     Largest = std::max(Largest, Error);
   }

@@ -152,4 +152,17 @@ double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B) {
   return psnrOfBytes(Rounded(A), Rounded(B));
 }
 
+double relativeL2(std::span<const double> A, std::span<const double> B,
+                  double Least) {
+  assert(A.size() == B.size() && "gradients of different scenes");
+  double Off = 0, Whole = 0;
+  for (std::size_t I = 0; I < B.size(); ++I)
+    if (!std::isnan(B[I])) {
+      Off += (A[I] - B[I]) * (A[I] - B[I]);
+      Whole += B[I] * B[I];
+    }
+  // Where all are 0, so must the others be.
+  return std::sqrt(Off) / std::max({std::sqrt(Whole), Least, 1e-300});
+}
+
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-/// The project's only definitions of picture differences.
+/// The project's only definitions of the differences of pictures and gradients.
 ///
 /// For numerics, PSNR has peak 1 and is taken on linear, unclamped floats over
 /// all channels: -10 log10(mean squared difference). Equal pictures are at
@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vorion::splat {
@@ -44,5 +45,11 @@ double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B);
 /// Of 8-bit values as they are.
 double psnrOfBytes(const std::vector<std::uint8_t> &A,
                    const std::vector<std::uint8_t> &B);
+
+/// How far gradients \p A are off from \p B: the difference's L2 norm relative
+/// to that of \p B, or to \p Least if that is more. What is NaN in \p B is left
+/// out; another NaN makes it NaN, which is within no limit.
+double relativeL2(std::span<const double> A, std::span<const double> B,
+                  double Least = 0);
 
 } // namespace vorion::splat

@@ -50,6 +50,17 @@ TEST(Metrics, OffPixelsHaveAChannelBeyondOneOf255) {
             0.5);
 }
 
+TEST(Metrics, GradientsAreOffRelativeToThoseThatAreRight) {
+  using Values = std::vector<double>;
+  const double Nan = std::nan("");
+  EXPECT_NEAR(relativeL2(Values{3, 4, 1}, Values{3, 4, 0}), 0.2, 1e-15);
+  EXPECT_NEAR(relativeL2(Values{3, 4, 1}, Values{3, 4, 0}, 10), 0.1, 1e-15);
+  EXPECT_EQ(relativeL2(Values{0, 0}, Values{0, 0}), 0);
+  EXPECT_GT(relativeL2(Values{1e-9, 0}, Values{0, 0}), 1e200);
+  EXPECT_EQ(relativeL2(Values{7, 1}, Values{Nan, 1}), 0);
+  EXPECT_TRUE(std::isnan(relativeL2(Values{Nan, 1}, Values{0, 1})));
+}
+
 TEST(Metrics, SsimIsOneForEqualPicturesOnly) {
   std::vector<double> A;
   for (int I = 0; I < 40 * 30 * 3; ++I)

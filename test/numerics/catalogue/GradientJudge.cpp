@@ -5,6 +5,7 @@
 #include "Convert.h"
 #include "Gradients.h"
 #include "Judge.h"
+#include "Metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,15 +120,15 @@ Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
                                  "expected 0",
                                  I, K.Name, K.Got[I * K.Each + N]);
     // Round Gaussians' quaternions have none: see numerics.md.
-    double Off = 0,
-           Norm = K.Name == std::string("quaternion") ? 1e-6 * LogScales : 0;
-    double Whole = 0;
+    const double Least =
+        K.Name == std::string("quaternion") ? 1e-3 * std::sqrt(LogScales) : 0;
+    std::vector<double> Ours, Right;
     for (std::size_t I = 0; I < Places.size(); ++I)
       for (std::size_t N = 0; N < K.Each; ++N) {
-        Off += std::pow(K.Got[Places[I] * K.Each + N] - K.Of(I, N), 2);
-        Whole += std::pow(K.Of(I, N), 2);
+        Ours.push_back(K.Got[Places[I] * K.Each + N]);
+        Right.push_back(K.Of(I, N));
       }
-    const double Error = std::sqrt(Off / std::max({Norm, Whole, 1e-300}));
+    const double Error = splat::relativeL2(Ours, Right, Least);
     // Not a number must be the worst.
     if (!(Error <= F.Error))
       F.Error = Error;
