@@ -14,6 +14,8 @@ import subprocess
 import sys
 import time
 
+import command_line
+
 
 def run(capture, output, options, limit=None):
     """True if the run ended by itself."""
@@ -36,11 +38,7 @@ def main():
     parser.add_argument("--kills", type=int, default=10)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("build/train-resume"))
-    own = sys.argv[1:]
-    options = []
-    if "--" in own:
-        own, options = own[: own.index("--")], own[own.index("--") + 1 :]
-    arguments = parser.parse_args(own)
+    arguments, options = command_line.parse(parser)
     arguments.folder.mkdir(parents=True, exist_ok=True)
     whole, broken = arguments.folder / "whole.ply", arguments.folder / "broken.ply"
     for output in (whole, broken):

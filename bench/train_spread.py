@@ -16,6 +16,8 @@ import struct
 import subprocess
 import sys
 
+import command_line
+
 
 def fnv1a64(data):
     value = 0xCBF29CE484222325
@@ -55,11 +57,7 @@ def main():
     parser.add_argument("--iterations", type=int, default=1000)
     parser.add_argument("--paths", default="raster,simt")
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("build/train-spread"))
-    own = sys.argv[1:]
-    options = []
-    if "--" in own:
-        own, options = own[: own.index("--")], own[own.index("--") + 1 :]
-    arguments = parser.parse_args(own)
+    arguments, options = command_line.parse(parser)
     arguments.folder.mkdir(parents=True, exist_ok=True)
     first = None
     for path in arguments.paths.split(","):
