@@ -59,6 +59,10 @@ def main():
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("build/train-spread"))
     arguments, options = command_line.parse(parser)
     arguments.folder.mkdir(parents=True, exist_ok=True)
+    asked, of = {"capture": arguments.capture, "options": options}, arguments.folder / "asked.json"
+    if of.exists() and json.loads(of.read_text()) != asked:
+        sys.exit(f"train_spread.py: error: {of}: other runs, expected {json.dumps(asked)} or another --folder")
+    of.write_text(json.dumps(asked))
     first = None
     for path in arguments.paths.split(","):
         scores = []
@@ -77,6 +81,8 @@ def main():
             if not result.exists() or json.loads(result.read_text())["iterations"] < arguments.iterations:
                 train(arguments.capture, output, arguments.iterations, [*options, "--path", path])
             report = json.loads(result.read_text())
+            if report["iterations"] != arguments.iterations or report["psnr8_db"] is None:
+                sys.exit(f"train_spread.py: error: {result}: expected {arguments.iterations} iterations and held-out views")
             first = first or report
             scores.append(report["psnr8_db"])
             where = [parted(report["losses"], first["losses"], r) for r in (1e-6, 1e-3)]

@@ -5,6 +5,7 @@
 #include "raster/Reciprocals.h"
 
 #include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -179,7 +180,9 @@ DatapathUnit iterated(const raster::ReciprocalUnit &R) {
 }
 
 BackwardPair makePair(const raster::ReciprocalUnit &R) {
-  return {R.TableBits == 0 ? divider(R) : iterated(R), GradientUnit, SumUnit};
+  const bool Exact =
+      R.Option == static_cast<std::uint32_t>(raster::Reciprocal::Exact);
+  return {Exact ? divider(R) : iterated(R), GradientUnit, SumUnit};
 }
 
 } // namespace

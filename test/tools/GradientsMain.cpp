@@ -6,6 +6,7 @@
 #include "vorion/support/File.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -42,7 +43,9 @@ Expected<Success> run(const Arguments &A) {
     const double Norm = numberOf(*Want, "norm_" + Name);
     const double Limit = std::max(A.Most, numberOf(*Want, "limit_" + Name));
     const double Error = splat::relativeL2(Actual, Exact, Norm);
-    const bool Bad = !(Error <= Limit);
+    const bool Bad =
+        !(Error <= Limit) ||
+        std::ranges::any_of(Actual, [](double V) { return std::isnan(V); });
     fmt::print("{:<18}{:>10.1e}   at most {:.1e}{}\n", Name, Error, Limit,
                Bad ? "   BEYOND" : "");
     Rows[Name] = {{"error", Error}, {"limit", Limit}};

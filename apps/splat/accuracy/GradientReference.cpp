@@ -155,6 +155,12 @@ Expected<Json> gradientErrors(const GradientFiles &Files,
         Least == Want->end() ? 0 : Least->second.toDoubles().front();
     const double Error =
         relativeL2(Ours->second.toDoubles(), Right->second.toDoubles(), Floor);
+    if (!std::isfinite(Error))
+      return vorion::Error{
+          File,
+          fmt::format("gradients of {} are not all numbers, expected finite "
+                      "ones",
+                      Name)};
     Errors[Name] = Error;
     Largest = std::max(Largest, Error);
   }

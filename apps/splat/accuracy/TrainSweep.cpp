@@ -41,6 +41,9 @@ std::string background(const TrainSweepPlan &P) {
 /// What a point depends on beside its name.
 Json askedOf(const TrainSweepPlan &P) {
   return {{"capture", P.Capture},
+          // One more where the same options come to mean other points: 2 since
+          // a split's random numbers are counted by identity.
+          {"meaning", 2},
           {"exclude", P.Exclude},
           {"downscale", P.Downscale},
           {"background", P.Background},

@@ -281,7 +281,8 @@ Runner addAccuracy(CLI::App &App) {
   App.add_option("--only", A->Only,
                  "Measure this point alone, as --list prints it; no page")
       ->option_text("POINT")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->excludes("--list");
   const std::size_t First = App.get_options().size();
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);

@@ -38,9 +38,10 @@ static float camera_depth(__local const splat_view *view, float x, float y,
   (3u * (1u + (USE_SH1 ? 3u : 0u) + (USE_SH2 ? 5u : 0u) + (USE_SH3 ? 7u : 0u)))
 // In blocks, a lane asks for words ahead of their use, each in another line, so
 // that the warp asks for all lines: of the next geometry, and, so many a time,
-// of its colours. Never at once: 59 lines fill the L2 slice's places for
-// misses, and whatever comes next waits behind them, 80 to 190 cycles for a
-// word of the stack. Spread, they save 12 % of this kernel's cycles on box_sh3.
+// of its colours (but those of lanes whose Gaussian is behind the camera).
+// Never at once: 59 lines fill the L2 slice's places for misses, and whatever
+// comes next waits behind them, 80 to 190 cycles for a word of the stack.
+// Spread, they save 12 % of this kernel's cycles on box_sh3.
 #define SH_AHEAD 3
 #ifdef SCENE_IN_BLOCKS
 #define ASK_FOR_SH(k)                                                          \
@@ -64,7 +65,10 @@ typedef struct {
   uint step, last;                 // a group's way to its next; of Gaussians
   uint lines[1 + SH_AHEAD][LANES]; // from a lane's own word to one it asks for
   uint latest;                     // beginning of the last line with a record
-  uint stage[LANES * RECORD_WORDS];
+  union {
+    splat_gaussian records[LANES];
+    uint words[LANES * RECORD_WORDS];
+  } stage;
   uint unread[LANES]; // written, so that it is known by then
   // That a tile sees; culled, by reason; without one, behind a camera whose
   // near plane is left out.
@@ -179,7 +183,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
   // What is written of a line may belong to nobody.
 #pragma unroll
   for (uint k = 0; k < RECORD_WORDS; ++k)
-    w->stage[k * LANES + lane] = 0;
+    w->stage.words[k * LANES + lane] = 0;
 #pragma unroll
   for (uint k = 0; k < 2 + CULL_REASONS; ++k)
     w->found[k][lane] = 0;
@@ -223,9 +227,9 @@ project(__constant const splat_view *camera, __global const float *geometry,
 #endif
     if (i < count) {
       uint2 rectangle;
-      const uint key = project_one(
-          w, own_geometry, own_sh, count, i, lane, effects, &w->unread[lane],
-          (__local splat_gaussian *)&w->stage[lane * RECORD_WORDS], &rectangle);
+      const uint key =
+          project_one(w, own_geometry, own_sh, count, i, lane, effects,
+                      &w->unread[lane], &w->stage.records[lane], &rectangle);
       w->depths[i] = key;
       ++w->found[key < CULLED ? 0 : 1 + min(key - CULLED, (uint)CULL_REASONS)]
                 [lane];
@@ -244,7 +248,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
       uint words[RECORD_WORDS];
 #pragma unroll
       for (uint k = 0; k < RECORD_WORDS; ++k)
-        words[k] = w->stage[k * LANES + lane];
+        words[k] = w->stage.words[k * LANES + lane];
 #pragma unroll
       for (uint k = 0; k < RECORD_WORDS; ++k)
         w->records[first * RECORD_WORDS + k * LANES + lane] = words[k];

@@ -127,6 +127,9 @@ Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
       for (std::size_t N = 0; N < K.Each; ++N) {
         Ours.push_back(K.Got[Places[I] * K.Each + N]);
         Right.push_back(K.Of(I, N));
+        if (std::isnan(Right.back()))
+          F.Broken = fmt::format("{} gradient of the reference is not a number",
+                                 K.Name);
       }
     const double Error = splat::relativeL2(Ours, Right, Least);
     // Not a number must be the worst.

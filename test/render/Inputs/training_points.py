@@ -10,7 +10,7 @@ import sys
 
 capture, folder = sys.argv[1:]
 UNITS = ["exact", "even-left", "even-best", "log-left", "log-best", "mantissa-2", "mantissa-3"]
-asked = {"capture": capture, "exclude": [], "downscale": 1, "background": [0.0, 0.0, 0.0], "max_gaussians": 0,
+asked = {"capture": capture, "meaning": 2, "exclude": [], "downscale": 1, "background": [0.0, 0.0, 0.0], "max_gaussians": 0,
          "iterations": 20, "score_every": 5, "time_every": 10}
 os.makedirs(os.path.join(folder, "points"))
 for number, name in enumerate(line.strip() for line in sys.stdin):
