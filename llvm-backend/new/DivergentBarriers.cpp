@@ -1,9 +1,11 @@
 //===- DivergentBarriers.cpp - barriers that lanes may miss ---------------===//
 
 #include "DivergentBarriers.h"
+#include "UnifyExits.h"
 #include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/ADT/StringExtras.h"
 #include "llvm/ADT/StringSwitch.h"
+#include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/PostDominators.h"
 #include "llvm/IR/DebugInfoMetadata.h"
 #include "llvm/IR/Dominators.h"
@@ -181,6 +183,10 @@ std::string vorion::divergentBarrierLog(const Module &M) {
     if (F.isDeclaration())
       continue;
     promoteVariables(F);
+    // A work-item that stays in an endless loop or traps misses what follows,
+    // whatever decides about that.
+    unifyExits(F, LoopInfo(DominatorTree(F)),
+               [](IRBuilder<> &Builder) { return Builder.getTrue(); });
     for (const DivergentBarrier &B : findDivergentBarriers(F)) {
       Log += "warning: " + placeOf(B.Call->getDebugLoc()) + B.Warning + "\n";
     }

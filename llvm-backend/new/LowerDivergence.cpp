@@ -3,7 +3,7 @@
 // The last pass over IR: nothing may move a branch after it. In order:
 //   1. refuse what has no meaning for a warp;
 //   2. branches only: switches become trees of branches;
-//   3. one return, loops that end, no irreducible cycles;
+//   3. no irreducible cycles, one return that every path leads to;
 //   4. tests that lanes agree in are marked, and short sides of divergent
 //      branches become selects;
 //   5. loops that lanes leave apart get one exit, in the latch;
@@ -17,6 +17,7 @@
 #include "DivergentBarriers.h"
 #include "Intrinsics.h"
 #include "RISCVSubtarget.h"
+#include "UnifyExits.h"
 #include "Vorion.h"
 #include "llvm/ADT/DepthFirstIterator.h"
 #include "llvm/Analysis/AssumptionCache.h"
@@ -177,12 +178,13 @@ bool LowerDivergence::lower(Function &F, const TargetMachine &TM) {
     run(PromotePass());
   if (!checkCode(F, Analyses))
     return false;
+  run(FixIrreduciblePass());
+  vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F),
+                     [](IRBuilder<> &Builder) { return Builder.getTrue(); });
+  changed();
   for (const vorion::DivergentBarrier &B : vorion::findDivergentBarriers(F))
     F.getContext().diagnose(DiagnosticInfoUnsupported(
         F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
-  run(FixIrreduciblePass());
-  vorion::unifyExits(F, Analyses);
-  changed();
 
   const auto &Subtarget = TM.getSubtarget<RISCVSubtarget>(F);
   if (TM.getOptLevel() != CodeGenOptLevel::None && !F.hasOptNone()) {

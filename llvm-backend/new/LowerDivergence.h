@@ -59,9 +59,6 @@ bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
 /// compared. True if there was anything new.
 bool markUniformTests(Function &F, FunctionAnalysisManager &Analyses);
 
-/// Gives \p F one return, and every loop a way to it.
-void unifyExits(Function &F, FunctionAnalysisManager &Analyses);
-
 /// Makes \p L's exits go through one new latch, which is the only block that
 /// leaves the loop. \p L is in loop-simplify and LCSSA form.
 void mergeExitsIntoLatch(Loop &L);

@@ -1,69 +1,144 @@
-//===- UnifyExits.cpp - one return ----------------------------------------===//
+//===- UnifyExits.cpp - one return that every path leads to ---------------===//
 //
-// Lanes meet at a branch's immediate post-dominator, so every path must lead to
-// one place. Lanes that reach `unreachable` have no further business: they wait
-// at the return. A loop without end gets an exit that is never taken.
+// Lanes meet at a branch's immediate post-dominator. A dead end on one side of
+// a branch has none in common with the other side, so that all lanes which ever
+// came to the branch would meet at the end of the function only: past every
+// barrier, and though no lane ever goes to the dead end. An edge from it to
+// where the other paths meet puts that right. Values stay defined where they
+// are used: the edge starts in what the branch dominates and leads to what
+// post-dominates the branch without it, and whatever dominates that, but stands
+// behind the branch, would post-dominate the branch earlier.
 //
 //===----------------------------------------------------------------------===//
 
-#include "LowerDivergence.h"
+#include "UnifyExits.h"
+#include "llvm/ADT/DepthFirstIterator.h"
+#include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/Analysis/LoopInfo.h"
+#include "llvm/IR/CFG.h"
 #include "llvm/IR/Constants.h"
+#include "llvm/IR/Dominators.h"
 #include "llvm/IR/Instructions.h"
 
 using namespace llvm;
 
-void vorion::unifyExits(Function &F, FunctionAnalysisManager &Analyses) {
-  SmallVector<BasicBlock *, 4> Ends;
-  for (BasicBlock &Block : F)
-    if (isa<ReturnInst, UnreachableInst>(Block.getTerminator()))
-      Ends.push_back(&Block);
-  SmallVector<Loop *, 2> Endless;
-  for (Loop *L : Analyses.getResult<LoopAnalysis>(F).getLoopsInPreorder())
-    if (L->hasNoExitBlocks())
-      Endless.push_back(L);
-  if (Ends.size() + Endless.size() <= 1)
-    return;
+namespace {
 
+/// The block of \p F's only return, made if there is none or several.
+BasicBlock *mergeReturns(Function &F) {
+  SmallVector<ReturnInst *, 4> Returns;
+  for (BasicBlock &Block : F)
+    if (auto *Return = dyn_cast<ReturnInst>(Block.getTerminator()))
+      Returns.push_back(Return);
+  if (Returns.size() == 1)
+    return Returns.front()->getParent();
   LLVMContext &Context = F.getContext();
-  BasicBlock *Return = BasicBlock::Create(Context, "return", &F);
+  BasicBlock *Merged = BasicBlock::Create(Context, "return", &F);
   PHINode *Value = nullptr;
   if (!F.getReturnType()->isVoidTy())
-    Value = PHINode::Create(F.getReturnType(), Ends.size(), "result", Return);
-  ReturnInst::Create(Context, Value, Return);
-  auto addSource = [&](BasicBlock *From, llvm::Value *Result) {
+    Value =
+        PHINode::Create(F.getReturnType(), Returns.size(), "result", Merged);
+  ReturnInst::Create(Context, Value, Merged);
+  for (ReturnInst *Return : Returns) {
     if (Value)
-      Value->addIncoming(Result ? Result : PoisonValue::get(Value->getType()),
-                         From);
-  };
+      Value->addIncoming(Return->getReturnValue(), Return->getParent());
+    BranchInst::Create(Merged, Return->getIterator())
+        ->setDebugLoc(Return->getDebugLoc());
+    Return->eraseFromParent();
+  }
+  return Merged;
+}
 
-  for (BasicBlock *End : Ends) {
-    Instruction *Old = End->getTerminator();
-    auto *OldReturn = dyn_cast<ReturnInst>(Old);
-    addSource(End, OldReturn ? OldReturn->getReturnValue() : nullptr);
-    BranchInst::Create(Return, Old->getIterator())
+bool reaches(BasicBlock *From, BasicBlock *To, BasicBlock *Without) {
+  df_iterator_default_set<BasicBlock *, 16> Seen;
+  Seen.insert(Without);
+  return is_contained(depth_first_ext(From, Seen), To);
+}
+
+/// The first block that every path from \p From to \p Return passes. It stands
+/// on any one of them.
+BasicBlock *meetingAfter(BasicBlock *From, BasicBlock *Return) {
+  auto Path = df_begin(From);
+  while (*Path != Return)
+    ++Path;
+  for (unsigned I = 1; I < Path.getPathLength(); ++I)
+    if (!reaches(From, Return, Path.getPath(I)))
+      return Path.getPath(I);
+  llvm_unreachable("the last block of the path is the return");
+}
+
+struct DeadEnd {
+  BasicBlock *Start;   ///< ends in `unreachable`, or is the endless loop's head
+  const Loop *Endless; ///< null if it is no loop
+  BasicBlock *Meeting;
+};
+
+/// From here on control goes to \p To, which nothing does: its values there do
+/// not matter.
+void addEdge(BasicBlock *From, BasicBlock *To) {
+  for (PHINode &Phi : To->phis())
+    Phi.addIncoming(PoisonValue::get(Phi.getType()), From);
+}
+
+void leaveLoop(const DeadEnd &End,
+               function_ref<Value *(IRBuilder<> &)> MakeTrue) {
+  BasicBlock *Header = End.Start;
+  BasicBlock *From = BasicBlock::Create(Header->getContext(), "endless",
+                                        Header->getParent(), Header);
+  for (BasicBlock *Latch : SmallVector<BasicBlock *, 4>(predecessors(Header)))
+    if (End.Endless->contains(Latch))
+      Latch->getTerminator()->replaceSuccessorWith(Header, From);
+  for (PHINode &Phi : Header->phis()) {
+    PHINode *Merged =
+        PHINode::Create(Phi.getType(), 2, Phi.getName(), From->end());
+    for (unsigned I = Phi.getNumIncomingValues(); I-- > 0;)
+      if (End.Endless->contains(Phi.getIncomingBlock(I))) {
+        Merged->addIncoming(Phi.getIncomingValue(I), Phi.getIncomingBlock(I));
+        Phi.removeIncomingValue(I, /*DeletePHIIfEmpty=*/false);
+      }
+    Phi.addIncoming(Merged, From);
+  }
+  IRBuilder<> Builder(From);
+  Builder.CreateCondBr(MakeTrue(Builder), Header, End.Meeting);
+  addEdge(From, End.Meeting);
+}
+
+} // namespace
+
+bool vorion::unifyExits(Function &F, const LoopInfo &Loops,
+                        function_ref<Value *(IRBuilder<> &)> MakeTrue) {
+  const size_t Blocks = F.size();
+  SmallVector<DeadEnd, 4> DeadEnds;
+  for (BasicBlock &Block : F)
+    if (isa<UnreachableInst>(Block.getTerminator()))
+      DeadEnds.push_back({&Block, nullptr, nullptr});
+  for (const Loop *L : Loops.getLoopsInPreorder())
+    if (L->hasNoExitBlocks())
+      DeadEnds.push_back({L->getHeader(), L, nullptr});
+
+  BasicBlock *Return = mergeReturns(F);
+  if (DeadEnds.empty())
+    return F.size() != Blocks;
+  SmallPtrSet<BasicBlock *, 16> Returning;
+  for (BasicBlock *Block : inverse_depth_first(Return))
+    Returning.insert(Block);
+  const DominatorTree Dominators(F);
+  for (DeadEnd &End : DeadEnds) {
+    const DomTreeNode *Node = Dominators.getNode(End.Start);
+    while (Node && !Returning.count(Node->getBlock()))
+      Node = Node->getIDom();
+    End.Meeting = Node ? meetingAfter(Node->getBlock(), Return) : Return;
+  }
+  for (const DeadEnd &End : DeadEnds) {
+    if (End.Endless) {
+      leaveLoop(End, MakeTrue);
+      continue;
+    }
+    Instruction *Old = End.Start->getTerminator();
+    addEdge(End.Start, End.Meeting);
+    BranchInst::Create(End.Meeting, Old->getIterator())
         ->setDebugLoc(Old->getDebugLoc());
     Old->eraseFromParent();
   }
-  for (Loop *L : Endless) {
-    // Any block of the loop will do; one with a single successor is simplest,
-    // and a loop all of whose blocks branch has one after splitting an edge.
-    BasicBlock *Header = L->getHeader();
-    BasicBlock *From = BasicBlock::Create(Context, "endless", &F, Header);
-    for (BasicBlock *Latch : SmallVector<BasicBlock *, 4>(predecessors(Header)))
-      if (L->contains(Latch))
-        Latch->getTerminator()->replaceSuccessorWith(Header, From);
-    BranchInst::Create(Header, Return, ConstantInt::getTrue(Context), From);
-    for (PHINode &Phi : Header->phis()) {
-      PHINode *Merged =
-          PHINode::Create(Phi.getType(), 2, Phi.getName(), From->begin());
-      for (unsigned I = Phi.getNumIncomingValues(); I-- > 0;)
-        if (L->contains(Phi.getIncomingBlock(I))) {
-          Merged->addIncoming(Phi.getIncomingValue(I), Phi.getIncomingBlock(I));
-          Phi.removeIncomingValue(I, /*DeletePHIIfEmpty=*/false);
-        }
-      Phi.addIncoming(Merged, From);
-    }
-    addSource(From, nullptr);
-  }
+  return true;
 }

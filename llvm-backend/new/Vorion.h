@@ -17,7 +17,9 @@ class Function;
 class FunctionPass;
 class MachineInstr;
 class Pass;
+class PassBuilder;
 class RISCVSubtarget;
+class RISCVTargetMachine;
 class SDNode;
 class SDValue;
 class SelectionDAG;
@@ -58,6 +60,10 @@ bool expandsToCompareExchange(const AtomicRMWInst &Operation,
 void preferModuleTarget(const std::string &ModuleCPU,
                         const std::string &ModuleFeatures, std::string &CPU,
                         std::string &TuneCPU, std::string &Features);
+
+/// Puts what must be known of a module for our machine before anything else in
+/// its optimisation (SharedVariables.cpp).
+void registerFirstPasses(PassBuilder &PB, const RISCVTargetMachine &TM);
 
 /// The passes that lower divergence, in order; last before selection. Each does
 /// nothing to functions that are not for our machine.

@@ -69,6 +69,13 @@ typedef struct {
 #define PLAIN static
 #define UNUSED __attribute__((unused))
 
+/* Never anything but 0. The compiler sees only that others may write it. */
+uint impossible;
+__attribute__((noreturn)) NOINLINE UNUSED void stay(void) {
+  for (;;)
+    ;
+}
+
 /* What a lane keeps across barriers and what is compared in the end. */
 typedef struct {
   uint x, y, z, u, v, r;

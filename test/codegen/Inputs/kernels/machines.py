@@ -13,6 +13,9 @@ ROOT = os.path.normpath(os.path.join(FOLDER, *[os.pardir] * 4))
 TIMEOUT = 600       # seconds for one step, which takes less than a few on a calm machine
 LINUX_SECONDS = 3   # of processor time, for programs that take hundredths
 MAX_WARP_INSTRUCTIONS = 100_000_000
+# C lets a compiler take for granted that most loops end, and then drop the code that leads to one that does not. Random sources
+# may have such loops, and both sides are to agree about them.
+LOOPS = "-fno-finite-loops"
 LEVELS = ["-O0", "-O1", "-O2", "-O3", "-Os"]
 # What of compiler-rt rv32imf needs for the programs made here.
 BUILTINS = ["udivmoddi4", "udivdi3", "umoddi3", "divdi3", "moddi3", "fixsfdi", "fixunssfdi", "floatdisf", "floatundisf", "adddf3", "subdf3",
@@ -66,7 +69,7 @@ class Linux:
     """rv32imf under qemu-riscv32."""
 
     FLAGS = ["--target=riscv32-unknown-linux-gnu", "-march=rv32imaf", "-mabi=ilp32f", "-ffp-contract=off", "-fno-math-errno",
-             "-fno-pic", "-mno-relax", "-nostdlibinc", "-w"]
+             "-fno-pic", "-mno-relax", "-nostdlibinc", "-w", LOOPS]
 
     def __init__(self, folder):
         """Compiles into the folder what all programs link."""
@@ -102,7 +105,7 @@ class Device:
 
     def compile(self, source, base, configuration, options=(), ending=".elf"):
         program = base + ending
-        built = run(["vorion-clang", "-w", *configuration.flags(), "-fno-math-errno", f"-I{FOLDER}", *options, source,
+        built = run(["vorion-clang", "-w", *configuration.flags(), "-fno-math-errno", LOOPS, f"-I{FOLDER}", *options, source,
                      "-o", program])
         if built.returncode:
             raise Refused(failure(built))

@@ -28,15 +28,22 @@ def options(description, name, unit):
 
 
 def version():
-    """Of the sources here and the two tools: with others, earlier results mean nothing."""
+    """Of the sources here, those of the program that runs, the two tools and the platform that compiles OpenCL C: with others,
+    earlier results mean nothing."""
     digest = hashlib.sha256()
-    for path in sorted(glob.glob(os.path.join(FOLDER, "*.[hp]*"))):
-        with open(path, "rb") as file:
-            digest.update(file.read())
+    for folder in sorted({FOLDER, os.path.dirname(os.path.abspath(sys.argv[0]))}):
+        for path in sorted(glob.glob(os.path.join(folder, "*.[hp]*"))):
+            with open(path, "rb") as file:
+                digest.update(file.read())
+    programs = []
     for tool in ("vorion-clang", "vorion-sim"):
         path = shutil.which(tool)
         if not path:
             sys.exit(f"{os.path.basename(sys.argv[0])}: error: {tool} is not on the path, expected . scripts/env.sh")
+        programs.append(path)
+    root = os.path.dirname(os.path.dirname(os.path.realpath(programs[0])))
+    programs += sorted(glob.glob(os.path.join(root, "pocl", "lib", "libpocl.so*")))
+    for path in programs:
         digest.update(str(os.stat(path).st_size).encode() + str(os.stat(path).st_mtime_ns).encode())
     return digest.hexdigest()
 

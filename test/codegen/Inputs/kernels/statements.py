@@ -108,6 +108,7 @@ class Statements(Expressions):
         makers = [(40, self.simple)]
         if depth < self.deepest:
             makers += [(24, lambda: self.branch(depth, loop)), (8, lambda: self.switch(depth, loop))]
+            makers += [(2, self.dead_end)]
             if self.weight <= 200:
                 makers += [(12, lambda: self.loop(depth)), (2, lambda: self.entered_twice(depth)),
                            (2, lambda: self.entered_by_switch(depth)), (2, lambda: self.blocks(depth))]
@@ -116,6 +117,18 @@ class Statements(Expressions):
         makers += [(3, lambda: f"if ((({self.integer(2)} + t) & 7u) == {self.random.randrange(8)}u) {self.pick(self.leave)}")]
         weights, functions = zip(*makers)
         return self.random.choices(functions, weights)[0]()
+
+    def dead_end(self):
+        """Where no lane goes, which the compiler does not know: loops without end and what follows a trap."""
+        to, i = self.pick(self.scope.ints), self.fresh("i")
+        never = self.pick(["impossible", f"(impossible & {self.integer(2)})"])
+        return self.pick([
+            f"if ({never}) for (;;) ;",
+            f"if ({never}) while (1) {to} = {self.integer(1)};",
+            f"while ({never}) {to} ^= 1u;",
+            f"for (uint {i} = 1u << 31; {i} != 0; {i} += {never} ? 0u : 1u << 31) {to}++;",
+            f"if ({never}) __builtin_trap();",
+            f"if ({never}) stay();"])
 
     def top_condition(self):
         """A condition of a statement may have effects, in the order that && and || say."""

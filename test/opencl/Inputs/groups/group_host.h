@@ -7,18 +7,23 @@
 #include <string.h>
 #include <ucontext.h>
 
+typedef unsigned char uchar;
+typedef unsigned short ushort;
 typedef unsigned int uint;
 typedef unsigned long ulong;
+typedef uint uint4 __attribute__((ext_vector_type(4)));
 #define kernel static
 #define global
 #define local
 #define LOCAL_ARRAY static
+#define LOCAL_POINTER(name) static uint *name
 #define CLK_LOCAL_MEM_FENCE 1
 #define CLK_GLOBAL_MEM_FENCE 2
 #define REQUIRED_SIZE(n)
 
 typedef void entry(uint *out, const uint *in, uint *t, uint k);
 
+/* LOCAL_WORDS: of the local memory that is an argument, for a work-item. */
 enum { MAX_ITEMS = 64, STACK_BYTES = 1 << 16 };
 
 static ucontext_t Scheduler, Items[MAX_ITEMS];
@@ -94,7 +99,7 @@ static void run_group(void) {
 
 static void run_kernel(entry *run, uint size, uint groups, uint words,
                        const uint *in, uint k) {
-  static uint out[1 << 16], t[MAX_ITEMS];
+  static uint out[1 << 16], t[LOCAL_WORDS * MAX_ITEMS];
   memset(out, 0, 4 * words);
   Size = size;
   for (Group = 0; Group < groups; Group++) {

@@ -6,14 +6,18 @@ decide about code with barriers. Between two barriers nobody reads what another 
 
 import random
 
+import local_memory
+
 GROUPS = 3
 SIZES = [1, 7, 16, 17, 20, 64]
 IN_WORDS = 64
 ITEM_WORDS = 8  # of the output for a work-item
+LOCAL_WORDS = 4  # of the local memory that is an argument, for a work-item: one of `t`, three of the structures behind it
 
 PROLOGUE = """
 #ifndef GROUPS_ON_HOST
 #define LOCAL_ARRAY local
+#define LOCAL_POINTER(name) local uint *local name
 #define REQUIRED_SIZE(n) __attribute__((reqd_work_group_size(n, 1, 1)))
 #endif
 static uint bits_of(float f) { return f != f ? 0x7fc00000 : as_uint(f); }
@@ -25,6 +29,13 @@ static uint pass_on(local uint *t, uint value, uint by) {
   uint got = t[(l + by) % n];
   barrier(CLK_LOCAL_MEM_FENCE);
   return got;
+}
+""" + local_memory.PROLOGUE + """
+/* The input has no such word and k is small, which the compiler does not know: no work-item comes to a dead end. */
+#define NEVER 0xfeedf00du
+static uint stuck(uint word) {
+  if (word == NEVER) for (;;) ;
+  return word;
 }
 """
 
@@ -39,6 +50,7 @@ class Kernel:
         self.names = 0
         self.weight = 1
         self.counters = []
+        self.memory = local_memory.LocalMemory(self)
         self.deepest = rand.choice([1, 2, 2, 3])
 
     def pick(self, choices):
@@ -87,6 +99,8 @@ class Kernel:
             return self.pick([f"{self.pick('xyz')} = {self.value()};", f"{self.pick('xyz')} += {self.value()};",
                               f"a[({self.value(2)}) & 3] = {self.value(1)};", f"w = w * 5 + {self.value(1)};",
                               f"f = f * 0.5f + (float)(int)({self.value(2)});"])
+        if kind < 0.53:
+            return self.dead_end()
         body = self.own_block(depth + 1, loop)
         if kind < 0.7:
             return f"if ({self.condition()}) {{ {body} }}" + (f" else {{ {self.own_block(depth + 1, loop)} }}" if self.chance(0.5) else "")
@@ -97,6 +111,17 @@ class Kernel:
             return f"if ({self.condition()}) {self.pick(['break;', 'continue;'])}"
         i = self.fresh("i")
         return f"for (uint {i} = 0; {i} < (({self.value(1)}) & 3u); {i}++) {{ {self.own_block(depth + 1, True)} }}"
+
+    def dead_end(self):
+        """Where no work-item goes: loops without end and what follows a trap."""
+        never, j = self.pick(["k > 1000u", f"in[({self.value(2)}) % {IN_WORDS}u] == NEVER"]), self.fresh("j")
+        return self.pick([
+            f"if ({never}) for (;;) ;",
+            f"if ({never}) while (1) {{ out[l] = x++; }}",
+            f"while ({never}) x ^= 1u;",
+            f"{self.pick('xyz')} += stuck(in[({self.value(2)}) % {IN_WORDS}u]);",
+            f"for (uint {j} = 1u << 31; {j} != 0; {j} += {never} ? 0u : 1u << 31) y++;",
+            f"if ({never}) __builtin_trap();"])
 
     def own_block(self, depth, loop):
         return " ".join(self.own(depth, loop) for _ in range(self.random.randint(1, 3)))
@@ -135,7 +160,7 @@ class Kernel:
         if kind < 0.34:
             return self.own()
         if kind < 0.62 or depth > 2:
-            return self.meeting()
+            return self.memory.statement() if self.chance(0.5) else self.meeting()
         if kind < 0.66:
             return f"{self.pick('uv')} = {self.uniform()};"
         if kind < 0.8:
@@ -166,15 +191,18 @@ class Kernel:
         return "\n  ".join(self.together(depth, loop) for _ in range(self.random.randint(1, 3)))
 
     def source(self):
-        body = "\n  ".join(self.together(0) for _ in range(self.random.randint(2, 5)))
+        declarations, start = self.memory.declarations(), self.memory.start()
+        statements = [self.together(0) for _ in range(self.random.randint(2, 5))]
+        statements.insert(self.random.randint(0, len(statements)), self.memory.statement())
+        body = "\n  ".join(statements)
         attribute = f"REQUIRED_SIZE({self.required}) " if self.required else ""
         return (f"{attribute}kernel void {self.name}(global uint *out, global const uint *in, local uint *t, uint k) {{\n"
-                "  LOCAL_ARRAY uint counter, kept[16][3];\n"
+                f"  LOCAL_ARRAY uint counter, kept[16][3];\n{declarations}"
                 "  uint l = get_local_id(0), n = get_local_size(0), x = l * 7 + k, y = l ^ 5, z = get_group_id(0), u = k, v = 3;\n"
                 f"  uint a[4] = {{1, l, n, 4}};\n  ulong w = l;\n  float f = 0.5f;\n"
                 f"  global uint *mine = out + (get_group_id(0) * n + l) * {ITEM_WORDS};\n"
                 f"  global uint *shared = out + {GROUPS * ITEM_WORDS} * n + get_group_id(0) * n;\n"
-                f"  {body}\n"
+                f"{start}  {body}\n"
                 " done:\n  mine[0] = x; mine[1] = y; mine[2] = z; mine[3] = u ^ v << 16; mine[4] = bits_of(f);\n"
                 "  mine[5] = (uint)w ^ (uint)(w >> 32); mine[6] = a[0] ^ a[1] << 8; mine[7] = a[2] ^ a[3] << 8;\n}\n")
 
@@ -201,5 +229,5 @@ class Program:
     def host_source(self):
         calls = "".join(f"  run_kernel({name}, {size}, {GROUPS}, {self.out_words(size)}, in, {self.argument});\n"
                         for name, size in self.runs())
-        return (f"#define GROUPS_ON_HOST\n#include \"group_host.h\"\n{self.text}\nint main(void) {{\n"
+        return (f"#define GROUPS_ON_HOST\n#define LOCAL_WORDS {LOCAL_WORDS}\n#include \"group_host.h\"\n{self.text}\nint main(void) {{\n"
                 f"  static const uint in[] = {{{', '.join(f'{word}u' for word in self.input)}}};\n{calls}  return fclose(stdout);\n}}\n")

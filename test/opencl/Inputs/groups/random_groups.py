@@ -17,7 +17,7 @@ import sys
 INPUTS = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(INPUTS, *[os.pardir] * 3, "codegen", "Inputs", "kernels"))
 import seeds  # noqa: E402
-from group_kernel import GROUPS, Program  # noqa: E402
+from group_kernel import GROUPS, LOCAL_WORDS, Program  # noqa: E402
 from machines import failure, run  # noqa: E402
 
 KERNELS = 6
@@ -56,7 +56,7 @@ def check(kernels, seed, folder):
         share, want = want[:4 * program.out_words(size)], want[4 * program.out_words(size):]
         command = ["vorion-sim", "--threads", "1", "--max-instructions", "20000000", at("kernels.elf"), "--kernel", name,
                    "--global", str(GROUPS * size), "--local", str(size), "--arg", f"out:{len(share)}@{at('out')}",
-                   "--arg", f"buf@{at('in')}", "--arg", f"local:{4 * size}", "--arg", f"u32:{program.argument}"]
+                   "--arg", f"buf@{at('in')}", "--arg", f"local:{4 * LOCAL_WORDS * size}", "--arg", f"u32:{program.argument}"]
         ran = run(command)
         if ran.returncode:
             bad.append(f"{name}, groups of {size}: {failure(ran)}")

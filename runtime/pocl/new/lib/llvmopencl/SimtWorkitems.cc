@@ -4,6 +4,7 @@
 
 #include "Barrier.h"
 #include "LLVMUtils.h"
+#include "SharedVariables.h"
 #include "VariableUniformityAnalysis.h"
 #include "VariableUniformityAnalysisResult.hh"
 #include "Workgroup.h"
@@ -14,6 +15,7 @@
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/MDBuilder.h>
+#include <llvm/Passes/PassBuilder.h>
 
 #include <cstddef>
 #include <map>
@@ -111,10 +113,16 @@ bool fitsOneWarp(const Module &M) {
   return !Dynamic && X * Y * Z <= simtLanes(M);
 }
 
+void addFirstSimtPasses(PassBuilder &PB) {
+  PB.registerPipelineStartEPCallback(
+      [](ModulePassManager &Passes, OptimizationLevel) {
+        Passes.addPass(vorion::ShareVariables());
+      });
+}
+
 void prepareSimtModule(Module &M) {
+  vorion::shareVariables(M);
   for (Function &F : M) {
-    if (!F.isDeclaration())
-      F.addFnAttr(Attribute::MustProgress);
     if (!isKernelToProcess(F))
       continue;
     for (Argument &A : F.args()) {
@@ -130,6 +138,13 @@ void prepareSimtModule(Module &M) {
                            M.getDataLayout().getTypeAllocSize(T));
     }
   }
+}
+
+Value *createUniform(IRBuilder<> &Builder, Value *Word) {
+  Type *I32 = Builder.getInt32Ty();
+  return Builder.CreateCall(intrinsic(*Builder.GetInsertBlock()->getModule(),
+                                      "vorion.vx_uniform", I32, {I32}),
+                            {Word});
 }
 
 bool lowerSimtBarriers(Function &F) {
@@ -325,12 +340,10 @@ void SimtLoops::setFirstPass(BasicBlock *Entry) {
 }
 
 void SimtLoops::makeUniform(Instruction *Terminator) {
-  Type *I32 = Type::getInt32Ty(F.getContext());
-  FunctionCallee Uniform = intrinsic(M, "vorion.vx_uniform", I32, {I32});
   IRBuilder<> Builder(Terminator);
   auto Same = [&](Value *Condition) {
-    Value *Wide = Builder.CreateZExtOrTrunc(Condition, I32);
-    return Builder.CreateZExtOrTrunc(Builder.CreateCall(Uniform, {Wide}),
+    Value *Wide = Builder.CreateZExtOrTrunc(Condition, Builder.getInt32Ty());
+    return Builder.CreateZExtOrTrunc(createUniform(Builder, Wide),
                                      Condition->getType());
   };
   if (auto *Branch = dyn_cast<BranchInst>(Terminator)) {

@@ -22,6 +22,10 @@
 #include <set>
 #include <vector>
 
+namespace llvm {
+class PassBuilder;
+}
+
 namespace pocl {
 
 /// Pseudo variable: where the core's share of launch->context begins. The
@@ -41,12 +45,18 @@ unsigned simtLanes(const llvm::Module &M);
 /// work-item is a lane.
 bool fitsOneWarp(const llvm::Module &M);
 
-/// Before any other pass. Makes kernels work on their own copy of a by-value
-/// structure that they change; all work-items share the one in the argument
-/// buffer. And says that loops end: of a loop that might not, nothing after it
-/// is sure to be reached, so that lanes that part before it could only meet at
-/// the kernel's end.
+/// To the optimisation of a whole program in the front end: says first that
+/// local variables are shared.
+void addFirstSimtPasses(llvm::PassBuilder &PB);
+
+/// To one kernel's module, before any other pass, the same; and makes kernels
+/// work on their own copy of a by-value structure that they change; all
+/// work-items share the one in the argument buffer.
 void prepareSimtModule(llvm::Module &M);
+
+/// \p Word, a 32-bit integer, with the promise that all lanes agree in it. The
+/// optimiser does not know that it is the same value.
+llvm::Value *createUniform(llvm::IRBuilder<> &Builder, llvm::Value *Word);
 
 /// Removes PoCL's barriers, where there are no loops in favour of the
 /// machine's.

@@ -1,5 +1,6 @@
 #include "KernelModule.h"
 
+#include "SharedVariables.h"
 #include "SimtWorkitems.h"
 #include "pocl_llvm_api.h"
 
@@ -66,6 +67,7 @@ public:
     Entry->setName(Kernel.Name);
     keepLines(*Entry, *Body);
 
+    llvm::vorion::forgetSharedVariables(M);
     const uint64_t LocalBytes = placeLocals();
     if (LocalBytes > UINT32_MAX - VX_LOCAL_BASE)
       return Kernel.Name + " uses " + std::to_string(LocalBytes) +

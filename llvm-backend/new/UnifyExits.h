@@ -1,0 +1,30 @@
+//===- UnifyExits.h - one return that every path leads to -------*- C++ -*-===//
+//
+// Shared with PoCL, whose regions between barriers need the same.
+//
+//===----------------------------------------------------------------------===//
+
+#ifndef VORION_LLVM_BACKEND_UNIFYEXITS_H
+#define VORION_LLVM_BACKEND_UNIFYEXITS_H
+
+#include "llvm/ADT/STLFunctionalExtras.h"
+#include "llvm/IR/IRBuilder.h"
+
+namespace llvm {
+class LoopInfo;
+
+namespace vorion {
+
+/// Gives \p F one return and every path a way to it. What never comes to a
+/// return by itself, a loop without end or an `unreachable`, gets an edge to
+/// the place where the other paths from the last common branch meet: so the
+/// post-dominators of everything else are as if the dead end were not there.
+/// The edge out of a loop is never taken; \p MakeTrue makes the condition that
+/// keeps to the loop. True if \p F was changed.
+bool unifyExits(Function &F, const LoopInfo &Loops,
+                function_ref<Value *(IRBuilder<> &)> MakeTrue);
+
+} // namespace vorion
+} // namespace llvm
+
+#endif
