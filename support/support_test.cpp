@@ -9,12 +9,6 @@ using namespace vorion;
 
 namespace {
 
-std::string temporaryPath(const char *Name) {
-  return (std::filesystem::temp_directory_path() /
-          (std::string(Name) + std::to_string(getpid())))
-      .string();
-}
-
 TEST(Expected, HoldsAValueOrAnError) {
   Expected<int> Value = 3;
   ASSERT_TRUE(Value);
@@ -31,27 +25,6 @@ TEST(Diagnostics, HasTheHouseForm) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "tool: error: file:3: bad, expected good\n");
   EXPECT_EQ(Code, 3);
-}
-
-TEST(File, RoundTripsAndLeavesNothingAside) {
-  const std::string Path = temporaryPath("vorion-support");
-  ASSERT_TRUE(writeFileAtomically(Path, std::string("abc\0d", 5)));
-  const auto Bytes = readFile(Path);
-  ASSERT_TRUE(Bytes);
-  EXPECT_EQ(Bytes->size(), 5u);
-  std::filesystem::remove(Path);
-  const auto Gone = readFile(Path);
-  ASSERT_FALSE(Gone);
-  EXPECT_EQ(Gone.error().What,
-            "cannot open: No such file or directory, expected a readable file");
-}
-
-TEST(File, UnwritablePathIsAnErrorNamingIt) {
-  const auto Result = writeFileAtomically("/nonexistent-folder/x", "y");
-  ASSERT_FALSE(Result);
-  EXPECT_EQ(Result.error().Where, "/nonexistent-folder/x");
-  EXPECT_EQ(Result.error().What, "cannot write: No such file or directory, "
-                                 "expected a folder that can be written");
 }
 
 TEST(TemporaryFolder, GoesWithWhatIsInIt) {

@@ -1,6 +1,7 @@
 #include "vorion/isasim/Config.h"
 
 #include "core/IsaTables.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <bit>
@@ -201,7 +202,7 @@ std::string configSchema() {
     if (K.Multiple != 1)
       Value["multipleOf"] = K.Multiple;
   }
-  return Schema.dump(2) + "\n";
+  return jsonText(Schema, 2) + "\n";
 }
 
 Expected<Success> setValue(Config &C, std::string_view Assignment) {
@@ -259,17 +260,16 @@ std::string toJson(const Config &C) {
       In = &(*In)[std::string(Left.substr(0, Dot))];
     (*In)[std::string(Left)] = K.Get(C);
   }
-  return Object.dump(2) + "\n";
+  return jsonText(Object, 2) + "\n";
 }
 
 Expected<Config> parseConfig(std::string_view Text, const std::string &Where) {
-  const Json Object = Json::parse(Text.begin(), Text.end(), nullptr,
-                                  /*allow_exceptions=*/false);
-  if (Object.is_discarded())
-    return Error{Where, "not JSON, expected a configuration as "
-                        "--print-default-config writes it"};
+  const auto Object = parseJson<Json>(
+      Text, Where, "a configuration as --print-default-config writes it");
+  if (!Object)
+    return Object.error();
   Config C;
-  if (std::string Wrong = readObject(Object, "", C); !Wrong.empty())
+  if (std::string Wrong = readObject(*Object, "", C); !Wrong.empty())
     return Error{Where, std::move(Wrong)};
   if (Expected<Success> Ok = validate(C); !Ok)
     return Error{Where, Ok.error().What};

@@ -1,5 +1,7 @@
 #include "vorion/isasim/Result.h"
 
+#include "vorion/support/Json.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -149,11 +151,11 @@ std::string toJson(const RunResult &R) {
     Object["cores"].push_back(json(C));
   Object["raster"] = json(R.Raster);
   if (R.Time)
-    Object["time"] = Json::parse(toJson(*R.Time));
+    Object["time"] = ownJson<Json>(toJson(*R.Time));
   Object["sync_points"] = R.SyncPoints;
   Object["host_seconds"] = R.HostSeconds;
   Object["host_cpu_seconds"] = R.HostCpuSeconds;
-  return Object.dump(2) + "\n";
+  return jsonText(Object, 2) + "\n";
 }
 
 } // namespace vorion::isasim

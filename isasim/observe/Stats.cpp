@@ -1,5 +1,7 @@
 #include "observe/Stats.h"
 
+#include "vorion/support/Json.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -13,21 +15,21 @@ void Stats::add(const std::string &Name, const RunResult &R) {
   Sum.HostSeconds += R.HostSeconds;
   Sum.HostCpuSeconds += R.HostCpuSeconds;
   Json Run = {{"name", Name}};
-  Run.update(Json::parse(toJson(R)));
-  Runs.push_back(Run.dump());
+  Run.update(ownJson<Json>(toJson(R)));
+  Runs.push_back(jsonText(Run));
 }
 
 std::string Stats::json() const {
   Json Object = {{"format", "vorion-stats 1"}};
-  Object["config"] = Json::parse(Machine);
-  const Json All = Json::parse(toJson(Sum));
+  Object["config"] = ownJson<Json>(Machine);
+  const Json All = ownJson<Json>(toJson(Sum));
   for (const char *Key :
        {"total", "raster", "host_seconds", "host_cpu_seconds"})
     Object[Key] = All[Key];
   Object["runs"] = Json::array();
   for (const std::string &Run : Runs)
-    Object["runs"].push_back(Json::parse(Run));
-  return Object.dump(2) + "\n";
+    Object["runs"].push_back(ownJson<Json>(Run));
+  return jsonText(Object, 2) + "\n";
 }
 
 std::string Stats::table(const RunResult &R) {

@@ -3,6 +3,7 @@
 #include "core/Core.h"
 #include "machine/Report.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,9 +19,8 @@ enum Process : unsigned { Runs = 1, Cores = 2, Rasterizers = 3 };
 /// Lane slots a clock (VORION.md, section 1: the rasterizer's 16 lanes).
 constexpr uint64_t RasterLanes = 16;
 
-std::string jsonText(const std::string &Text) {
-  return nlohmann::json(Text).dump(-1, ' ', false,
-                                   nlohmann::json::error_handler_t::replace);
+std::string jsonName(const std::string &Text) {
+  return jsonText(nlohmann::json(Text));
 }
 
 } // namespace
@@ -39,14 +39,14 @@ void Timeline::event(const std::string &Json) {
 void Timeline::nameRow(const Row &R, const std::string &Name) {
   event(fmt::format("{{\"ph\": \"M\", \"name\": \"thread_name\", \"pid\": {}, "
                     "\"tid\": {}, \"args\": {{\"name\": {}}}}}",
-                    R.Process, R.Thread, jsonText(Name)));
+                    R.Process, R.Thread, jsonName(Name)));
 }
 
 void Timeline::flush(Row &R) {
   if (R.Last.To > R.Last.From)
     event(fmt::format("{{\"ph\": \"X\", \"name\": {}, \"pid\": {}, \"tid\": "
                       "{}, \"ts\": {}, \"dur\": {}}}",
-                      jsonText(R.Last.Name), R.Process, R.Thread, R.Last.From,
+                      jsonName(R.Last.Name), R.Process, R.Thread, R.Last.From,
                       R.Last.To - R.Last.From));
   R.Last = {};
 }
@@ -137,7 +137,7 @@ void Timeline::runEnds(const RunResult &Result) {
   event(fmt::format("{{\"ph\": \"X\", \"name\": {}, \"pid\": {}, \"tid\": 0, "
                     "\"ts\": {}, \"dur\": {}, \"args\": {{\"outcome\": \"{}\", "
                     "\"warp_instructions\": {}}}}}",
-                    jsonText(RunName.empty() ? Program->name() : RunName),
+                    jsonName(RunName.empty() ? Program->name() : RunName),
                     static_cast<unsigned>(Process::Runs), RunBegan,
                     Now - RunBegan, describe(Result.End),
                     Result.Total.WarpInstructions));

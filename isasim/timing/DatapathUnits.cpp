@@ -3,6 +3,7 @@
 #include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
 #include "raster/Reciprocals.h"
+#include "vorion/support/Json.h"
 
 #include <array>
 #include <cstdint>
@@ -258,7 +259,7 @@ std::string areasJson() {
     J["reciprocal"].push_back(area(backwardUnits(R.Option).front()));
   J["other"] =
       restOfLane() + area(PowerUnit) + area(AlphaUnit) + area(GatherUnit);
-  return J.dump();
+  return jsonText(J);
 }
 
 } // namespace vorion::isasim

@@ -1,5 +1,6 @@
 #include "timing/DatapathUnits.h"
 #include "vorion/isasim/Timing.h"
+#include "vorion/support/Json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -119,7 +120,7 @@ std::string toJson(const TimeReport &R) {
                {"copy_ns", R.Host.CopyNs},
                {"copy_mbps", R.Host.CopyMbps},
                {"dram_burst_bytes", R.DramBurstBytes}};
-  J["lane_areas"] = Json::parse(areasJson());
+  J["lane_areas"] = ownJson<Json>(areasJson());
   Json Cores = Json::array(), Rasters = Json::array(), L2 = Json::array();
   for (const CoreTime &T : R.Cores)
     Cores.push_back(cycles<CoreCycle>(T));
@@ -153,7 +154,7 @@ std::string toJson(const TimeReport &R) {
   J["activities"] = std::move(Activities);
   J["commands_left"] = R.CommandsLeft;
   J["out_of_order"] = R.OutOfOrder;
-  return J.dump();
+  return jsonText(J);
 }
 
 std::string toText(const TimeReport &R) {

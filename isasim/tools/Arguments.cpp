@@ -1,5 +1,7 @@
 #include "tools/Arguments.h"
 
+#include "vorion/support/Json.h"
+
 #include <charconv>
 #include <cstring>
 #include <fmt/format.h>
@@ -132,10 +134,13 @@ unsigned parseSizes(std::string_view Text, std::array<uint32_t, 3> &Sizes) {
 Expected<KernelRequest> parseRequest(std::string_view Text,
                                      const std::string &Where) {
   using Json = nlohmann::json;
-  const Json Object = Json::parse(Text.begin(), Text.end(), nullptr, false);
-  if (!Object.is_object())
-    return Error{Where, "not a JSON object, expected {\"kernel\", \"global\", "
-                        "\"local\", \"args\"}"};
+  constexpr const char *Wanted =
+      R"(an object of "kernel", "global", "local", "args")";
+  const auto Object = parseJson<Json>(Text, Where, Wanted);
+  if (!Object)
+    return Object.error();
+  if (!Object->is_object())
+    return Error{Where, fmt::format("no JSON object, expected {}", Wanted)};
   KernelRequest R;
   auto Sizes = [](const Json &Value, std::array<uint32_t, 3> &To) -> unsigned {
     if (!Value.is_array() || Value.empty() || Value.size() > 3)
@@ -149,7 +154,7 @@ Expected<KernelRequest> parseRequest(std::string_view Text,
     }
     return static_cast<unsigned>(Value.size());
   };
-  for (const auto &[Key, Value] : Object.items()) {
+  for (const auto &[Key, Value] : Object->items()) {
     if (Key == "kernel" && Value.is_string()) {
       R.Kernel = Value.get<std::string>();
     } else if (Key == "global") {

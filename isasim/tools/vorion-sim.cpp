@@ -10,6 +10,7 @@
 #include "vorion/support/File.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 using namespace vorion;
 using namespace vorion::isasim;

@@ -1,11 +1,17 @@
 #include "Fixture.h"
 
+#include "vorion/support/Json.h"
+#include "vorion/support/JsonShape.h"
+
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <system_error>
 
 namespace vorion::test {
 namespace {
@@ -36,22 +42,43 @@ bool isTrue(const nlohmann::json &J) {
                         : J.is_string() && J.get<std::string>() == "True";
 }
 
-double asNumber(const nlohmann::json &J) {
-  return J.is_number() ? J.get<double>() : std::stod(J.get<std::string>());
+/// Numbers may be written as strings; nothing for what is neither.
+std::optional<double> asNumber(const nlohmann::json &J) {
+  if (J.is_number())
+    return J.get<double>();
+  const auto Text = J.is_string() ? J.get<std::string>() : std::string();
+  double Value = 0;
+  const auto [End, Problem] =
+      std::from_chars(Text.data(), Text.data() + Text.size(), Value);
+  if (Problem != std::errc() || End != Text.data() + Text.size())
+    return std::nullopt;
+  return Value;
 }
 
-void setOptions(Fixture &F, const nlohmann::json &Meta) {
+Expected<Success> setOptions(const std::string &Path, Fixture &F,
+                             const nlohmann::json &Meta) {
   const bool Inria = F.Name.starts_with("inria_");
+  const auto Options = JsonShape::object({});
+  const auto Shape = Inria ? JsonShape::object({{"rules", Options}}) : Options;
+  if (auto Ok = Shape.check(Meta, Path); !Ok)
+    return Ok;
   F.Options.Rule = Inria ? reference::Rules::Inria : reference::Rules::Gsplat;
   F.Options.Reach =
       Inria ? reference::Support::Square3 : reference::Support::Exact;
   const nlohmann::json &Where = Inria ? Meta["rules"] : Meta;
   F.Options.Antialiased =
       isTrue(Where.value(Inria ? "antialiased" : "aa", nlohmann::json(false)));
-  if (Where.contains("eps2d"))
-    F.Options.Dilation = asNumber(Where["eps2d"]);
+  if (Where.contains("eps2d")) {
+    const auto Dilation = asNumber(Where["eps2d"]);
+    if (!Dilation)
+      return Error{Path, "eps2d is wrong, expected a number"};
+    F.Options.Dilation = *Dilation;
+  }
   const auto B = F.doubles("in_background");
+  if (B.size() != 3)
+    return Error{Path, "array in_background is wrong, expected three numbers"};
   F.Options.Background = {B[0], B[1], B[2]};
+  return Success{};
 }
 
 } // namespace
@@ -106,11 +133,12 @@ Expected<Fixture> readFixture(const std::string &Path) {
   C.Centre = -(glm::transpose(C.Rotation) * C.Translation);
   C.Focal = {K[0], K[4]};
   C.Principal = {K[2], K[5]};
-  const auto Meta = nlohmann::json::parse(F.Arrays["meta"].toText(), nullptr,
-                                          /*allow_exceptions=*/false);
-  if (!Meta.is_object())
-    return Error{Path, "array meta is not JSON"};
-  setOptions(F, Meta);
+  const auto Meta = parseJson<nlohmann::json>(
+      F.Arrays["meta"].toText(), Path + ": array meta", "a fixture's options");
+  if (!Meta)
+    return Meta.error();
+  if (auto Ok = setOptions(Path + ": array meta", F, *Meta); !Ok)
+    return Ok.error();
   return F;
 }
 

@@ -6,6 +6,7 @@
 #include "Ply.h"
 #include "Tool.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -70,8 +71,8 @@ Expected<Success> run(const std::string &Input, const std::string &Folder) {
   if (auto W = splat::writeNpz(Prefix + "gradients.npz", Gradients.Expected);
       !W)
     return W;
-  if (auto W =
-          writeFileAtomically(Prefix + "options.json", Options.dump(2) + "\n");
+  if (auto W = writeFileAtomically(Prefix + "options.json",
+                                   jsonText(Options, 2) + "\n");
       !W)
     return W;
   fmt::print("{}: {} Gaussians, {}x{}, {} rules, support {}{}\nconversion to "

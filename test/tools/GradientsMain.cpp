@@ -4,6 +4,7 @@
 #include "Metrics.h"
 #include "Tool.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,7 @@ Expected<Success> run(const Arguments &A) {
       Beyond += (Beyond.empty() ? "" : ", ") + Name;
   }
   if (!A.Json.empty())
-    if (auto W = writeFileAtomically(A.Json, Rows.dump(2) + "\n"); !W)
+    if (auto W = writeFileAtomically(A.Json, jsonText(Rows, 2) + "\n"); !W)
       return W;
   if (!Beyond.empty())
     return Error{A.Actual, "errors beyond their limits: " + Beyond,

@@ -4,6 +4,7 @@
 #include "SceneFile.h"
 #include "Tool.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -69,7 +70,7 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
                                       {"doubtful_share", P.doubtfulShare()},
                                       {"seconds", Seconds.count()}};
   if (!A.Json.empty())
-    if (auto W = writeFileAtomically(A.Json, Report.dump(2) + "\n"); !W)
+    if (auto W = writeFileAtomically(A.Json, jsonText(Report, 2) + "\n"); !W)
       return W;
   fmt::print("{} {}x{} in {}: {} rules, support {}\n{} Gaussians seen, {} "
              "pairs with tiles of {}x{}\n{:.2f} blends, {:.1f} list entries a "

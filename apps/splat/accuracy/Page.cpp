@@ -1,5 +1,7 @@
 #include "Page.h"
 
+#include "vorion/support/Json.h"
+
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -16,7 +18,8 @@ static std::string forScript(std::string Text) {
 static std::string filled(std::string_view Template, const Json &Data) {
   constexpr std::string_view Place = "@DATA@";
   std::string Page(Template);
-  return Page.replace(Page.find(Place), Place.size(), forScript(Data.dump()));
+  return Page.replace(Page.find(Place), Place.size(),
+                      forScript(jsonText(Data)));
 }
 
 Expected<std::string> pageOf(const SweepPlan &P, const PageHead &Head,

@@ -1,6 +1,7 @@
 #include "Points.h"
 
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <atomic>
@@ -22,13 +23,7 @@ std::string asFileName(std::string Name) {
 }
 
 Expected<Json> readJson(const std::string &Path) {
-  const auto Bytes = readFile(Path);
-  if (!Bytes)
-    return Bytes.error();
-  Json J = Json::parse(Bytes->begin(), Bytes->end(), nullptr, false);
-  if (J.is_discarded())
-    return Error{Path, "is no JSON, expected what splat wrote there"};
-  return J;
+  return vorion::readJson<Json>(Path, "what splat wrote there");
 }
 
 Expected<Success> makeFolders(const std::string &Folder) {
@@ -57,7 +52,7 @@ measureAll(const std::vector<Measuring> &Wanted, unsigned Jobs,
       if (!Measured)
         Problem = Measured.error();
       else if (auto Kept = writeFileAtomically(Wanted[I].File,
-                                               Measured->dump(1) + "\n");
+                                               jsonText(*Measured, 1) + "\n");
                !Kept)
         Problem = Kept.error();
       const std::lock_guard Guard(Lock);

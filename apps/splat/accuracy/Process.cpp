@@ -2,6 +2,8 @@
 
 #include "vorion/support/File.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -6,6 +6,7 @@
 #include "GradientReference.h"
 #include "Points.h"
 #include "Process.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -233,7 +234,7 @@ Expected<Success> checkKept(const TrainSweepPlan &P) {
     if (const Json Had = Kept->value("asked", Json()); Had != Asked)
       return Error{File, fmt::format("measured with {}, expected {} or another "
                                      "folder",
-                                     Had.dump(), Asked.dump())};
+                                     jsonText(Had), jsonText(Asked))};
   }
   return Success{};
 }

@@ -1,6 +1,7 @@
 #include "Transforms.h"
 
 #include "PlyHeader.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,10 +71,7 @@ void TransformsReader::refuseDistortion(const Json &Frame) {
                      *Model == "SIMPLE_PINHOLE" || *Model == "OPENCV";
   if (Fisheye || !Known)
     fail(fmt::format("the distorted camera model {}, {}",
-                     Known
-                         ? "is_fisheye"
-                         : printable(Model->dump(
-                               -1, ' ', false, Json::error_handler_t::replace)),
+                     Known ? "is_fisheye" : printable(jsonText(*Model)),
                      Undistort));
 }
 
@@ -133,7 +131,7 @@ void TransformsReader::readIntrinsics(const Json &Frame, Camera &C) {
 
 Expected<TransformsFile> TransformsReader::read() {
   if (!Document.is_object())
-    return Error{Where, "not JSON, expected an object with frames"};
+    return Error{Where, "no JSON object, expected an object with frames"};
   const auto Frames = Document.find("frames");
   if (Frames == Document.end() || !Frames->is_array() || Frames->empty())
     return Error{Where, "no frames, expected a list of at least one"};
@@ -178,10 +176,11 @@ Expected<TransformsFile> TransformsReader::read() {
 } // namespace
 
 Expected<TransformsFile> parseTransforms(const std::string &Where, Bytes File) {
-  const std::string_view Text = asText(File);
-  const Json Document = Json::parse(Text.begin(), Text.end(), nullptr,
-                                    /*allow_exceptions=*/false);
-  return TransformsReader(Where, Document).read();
+  const auto Document =
+      parseJson<Json>(asText(File), Where, "an object with frames");
+  if (!Document)
+    return Document.error();
+  return TransformsReader(Where, *Document).read();
 }
 
 void setFieldOfView(Camera &C, double Radians) {

@@ -5,6 +5,7 @@
 #include "Commands.h"
 #include "SceneArguments.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <charconv>
@@ -194,7 +195,8 @@ Expected<Success> writeResults(const SweepPlan &P, const PageHead &Head,
   }
   if (auto Written = writeFileAtomically(
           P.Folder + "/accuracy.json",
-          Json{{"made", Head.Made}, {"points", std::move(Points)}}.dump(1) +
+          jsonText(Json{{"made", Head.Made}, {"points", std::move(Points)}},
+                   1) +
               "\n");
       !Written)
     return Written;

@@ -7,6 +7,7 @@
 #include "../accuracy/Points.h"
 #include "../capture/Capture.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -112,7 +113,7 @@ measureTraining(const TrainSweepPlan &P, bool List,
   if (!Results)
     return Results.error();
   if (auto Written = writeFileAtomically(P.Folder + "/training.json",
-                                         Results->dump(1) + "\n");
+                                         jsonText(*Results, 1) + "\n");
       !Written)
     return Written;
   const std::string Made = fmt::format(

@@ -8,6 +8,7 @@
 #include "Commands.h"
 #include "SceneArguments.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,7 +86,7 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
       {"covered_share", static_cast<double>(R.Covered) / Pixels},
       {"saturated_share", static_cast<double>(R.Saturated) / Pixels},
       {"mean_transmittance", R.MeanTransmittance}};
-  return Report.dump(2) + "\n";
+  return jsonText(Report, 2) + "\n";
 }
 
 std::string textReport(const AnalyzeArguments &A, const Camera &C,

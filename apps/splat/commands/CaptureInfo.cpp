@@ -2,6 +2,7 @@
 
 #include "../capture/Capture.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -102,7 +103,7 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
       {"camera_radius", F.Ring.Radius},
       {"extent", F.Ring.extent()},
       {"views", Views}};
-  return Report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(Report, 2) + "\n";
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "../io/Metrics.h"
 #include "../io/Npz.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <cmath>
 #include <cstdint>
@@ -127,7 +128,7 @@ Expected<Success> comparePictures(const CompareArguments &A) {
                    {"doubtful_share", Share},
                    {"psnr_db_outside_doubtful", finite(Outside.PsnrDb)},
                    {"max_abs_outside_doubtful", finite(Outside.MaxAbs)}});
-    if (auto Written = writeFileAtomically(A.Json, Report.dump(2) + "\n");
+    if (auto Written = writeFileAtomically(A.Json, jsonText(Report, 2) + "\n");
         !Written)
       return Written;
   }

@@ -5,6 +5,7 @@
 #include "Commands.h"
 #include "SceneArguments.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -47,7 +48,7 @@ std::string jsonReport(const InfoArguments &A, const SceneFile &F,
       {"transparent_share", S.Transparent},
       {"largest_scale", json(S.LargestScale)},
       {"axis_ratio", json(S.AxisRatio)}};
-  return Report.dump(2) + "\n";
+  return jsonText(Report, 2) + "\n";
 }
 
 std::string textReport(const InfoArguments &A, const SceneFile &F,

@@ -20,6 +20,7 @@
 #include "../render/View.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <cerrno>
 #include <cstring>
@@ -261,13 +262,13 @@ Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
     auto Report = report(J, Output, Cameras[N], R->Frames[N]);
     if (!Report)
       return Report.error();
-    Reports.push_back(nlohmann::ordered_json::parse(*Report));
+    Reports.push_back(ownJson<nlohmann::ordered_json>(*Report));
   }
   if (!A.Json.empty()) {
     nlohmann::ordered_json All{{"overlap", A.Overlap}, {"pictures", Reports}};
     if (const std::string Time = sequenceJson(*R); !Time.empty())
-      All["time"] = nlohmann::ordered_json::parse(Time);
-    if (auto Written = writeFileAtomically(A.Json, All.dump(2) + "\n");
+      All["time"] = ownJson<nlohmann::ordered_json>(Time);
+    if (auto Written = writeFileAtomically(A.Json, jsonText(All, 2) + "\n");
         !Written)
       return Written.error();
   }

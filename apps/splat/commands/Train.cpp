@@ -15,11 +15,13 @@
 #include "../train/RunText.h"
 #include "../train/Start.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -178,7 +180,7 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"device", {{"name", D.name()}, {"version", D.version()}}},
       {"capture", W.A.Capture},
       {"resolution", {First.Width, First.Height}},
-      {"run", Json::parse(W.Run)},
+      {"run", ownJson<Json>(W.Run)},
       {"picture_filter", PhotoFilter},
       {"held_out_by", W.C.HeldOutBy},
       {"rules", name(W.A.Convention)},
@@ -187,7 +189,7 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"gaussians", T.gaussians()},
       {"seconds", W.Seconds},
       {"iterations_timed", T.iteration() - W.First},
-      {"timed", Json::parse(W.Timed.json())},
+      {"timed", ownJson<Json>(W.Timed.json())},
       {"psnr8_db", Db.empty() ? Json() : Json(meanOf(Db))},
       {"scores", Scores},
       {"views", Views},
@@ -196,7 +198,7 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
                                 {"best_training_view", B->BestView}}
                          : Json()},
       {"losses", T.losses()}};
-  return Report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(Report, 2) + "\n";
 }
 
 /// The losses in so many parts of the run, as means.

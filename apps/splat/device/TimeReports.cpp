@@ -1,5 +1,7 @@
 #include "TimeReports.h"
 
+#include "vorion/support/Json.h"
+
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -39,9 +41,9 @@ void addTimeReport(Json &Sum, const Json &Report) {
 std::string addTimeReports(const std::string &A, const std::string &B) {
   if (A.empty() || B.empty())
     return A.empty() ? B : A;
-  Json Sum = Json::parse(A);
-  addTimeReport(Sum, Json::parse(B));
-  return Sum.dump();
+  Json Sum = ownJson<Json>(A);
+  addTimeReport(Sum, ownJson<Json>(B));
+  return jsonText(Sum);
 }
 
 } // namespace vorion::splat

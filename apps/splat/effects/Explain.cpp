@@ -1,5 +1,7 @@
 #include "Explain.h"
 
+#include "vorion/support/Json.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -59,7 +61,7 @@ std::string effectsJson(const EffectPlan &Plan) {
                    {"on", D.Done},
                    {"code", name(D.Code)},
                    {"figure", D.Found.Figure}});
-  return All.dump();
+  return jsonText(All);
 }
 
 } // namespace vorion::splat

@@ -1,6 +1,8 @@
 /// Looking into the bytes of a file.
 #pragma once
 
+#include "vorion/support/Printable.h"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -32,17 +34,6 @@ template <typename T> T load(Bytes B, std::size_t At) {
 
 inline unsigned byteAt(Bytes B, std::size_t At) {
   return load<std::uint8_t>(B, At);
-}
-
-/// \p Text as a message of one line may show it: of a damaged file, it may be
-/// anything.
-inline std::string printable(std::string_view Text) {
-  constexpr std::size_t Longest = 80;
-  std::string Shown(Text.substr(0, Longest));
-  std::replace_if(
-      Shown.begin(), Shown.end(), [](char C) { return C < ' ' || C > '~'; },
-      '?');
-  return Shown;
 }
 
 /// The most that \p Encoded bytes of an archive or picture may unpack to:

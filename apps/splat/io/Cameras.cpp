@@ -2,6 +2,7 @@
 
 #include "Unsupported.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -142,10 +143,9 @@ private:
                          Key, *Meaning));
       if (isCameraModelKey(Key) && Value.is_string() &&
           !isPinholeModel(Value.get<std::string>()))
-        fail(fmt::format(
-            "key {} calls for the camera model {}, which is not "
-            "supported, expected a pinhole camera",
-            Key, Value.dump(-1, ' ', true, Json::error_handler_t::replace)));
+        fail(fmt::format("key {} calls for the camera model {}, which is not "
+                         "supported, expected a pinhole camera",
+                         Key, jsonText(Value)));
     }
   }
 
@@ -203,19 +203,14 @@ std::array<double, 3> Camera::worldToCameraTranslation() const {
 }
 
 Expected<std::vector<Camera>> readCameras(const std::string &Path) {
-  const auto File = readFile(Path);
-  if (!File)
-    return File.error();
-  const char *Text = reinterpret_cast<const char *>(File->data());
-  const Json Document = Json::parse(Text, Text + File->size(), nullptr,
-                                    /*allow_exceptions=*/false);
-  if (!Document.is_array() || Document.empty())
-    return Error{Path, Document.is_discarded()
-                           ? "not JSON, expected an array of cameras"
-                           : "expected a non-empty array of cameras"};
+  const auto Document = readJson<Json>(Path, "an array of cameras");
+  if (!Document)
+    return Document.error();
+  if (!Document->is_array() || Document->empty())
+    return Error{Path, "expected a non-empty array of cameras"};
   std::vector<Camera> Cameras;
-  for (std::size_t I = 0; I < Document.size(); ++I) {
-    auto C = RecordReader(Path, I, Document[I]).read();
+  for (std::size_t I = 0; I < Document->size(); ++I) {
+    auto C = RecordReader(Path, I, (*Document)[I]).read();
     if (!C)
       return C.error();
     Cameras.push_back(std::move(*C));
@@ -258,9 +253,7 @@ Expected<Success> writeCameras(const std::string &Path,
                         {"fy", C.Fy},
                         {"cx", C.Cx},
                         {"cy", C.Cy}});
-  return writeFileAtomically(
-      Path,
-      Document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return writeFileAtomically(Path, jsonText(Document, 1) + "\n");
 }
 
 } // namespace vorion::splat

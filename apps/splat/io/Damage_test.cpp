@@ -28,9 +28,7 @@ bool refused(const std::string &Content, const std::string &About) {
   EXPECT_TRUE(Read.error().Where.starts_with("file")) << About;
   EXPECT_FALSE(Read.error().What.empty()) << About;
   for (const std::string &Text : {Read.error().Where, Read.error().What})
-    EXPECT_TRUE(std::all_of(Text.begin(), Text.end(),
-                            [](char C) { return C >= ' ' && C <= '~'; }))
-        << About << ": " << Text;
+    EXPECT_EQ(Text, escaped(Text)) << About;
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <csetjmp>
+#include <cstring>
 #include <fmt/format.h>
 #include <png.h>
 

@@ -3,6 +3,7 @@
 #include "Dequantize.h"
 #include "WebP.h"
 #include "Zip.h"
+#include "vorion/support/Json.h"
 
 #include <array>
 #include <cmath>
@@ -24,9 +25,8 @@ constexpr std::size_t CodebookSize = 256;
 /// Once something is wrong, \c Problem says what, and nothing more is done.
 class Reader {
 public:
-  Reader(const std::string &Where, Bytes Meta, const FileSource &Read)
-      : Where(Where), Read(Read),
-        Root(Json::parse(asText(Meta), nullptr, /*allow_exceptions=*/false)) {}
+  Reader(const std::string &Where, Json Meta, const FileSource &Read)
+      : Where(Where), Read(Read), Root(std::move(Meta)) {}
 
   Expected<SceneFile> read() {
     if (!Root.is_object())
@@ -250,7 +250,10 @@ private:
 
 Expected<SceneFile> parseSog(const std::string &Where, Bytes Meta,
                              const FileSource &Read) {
-  return Reader(Where, Meta, Read).read();
+  auto Root =
+      parseJson<Json>(asText(Meta), Where + ": meta.json", "SOG's description");
+  return Root ? Reader(Where, std::move(*Root), Read).read()
+              : Expected<SceneFile>(Root.error());
 }
 
 Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File) {

@@ -1,6 +1,7 @@
 #include "SogFolder.h"
 
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -236,9 +237,12 @@ Expected<Success> checkIndex(const std::string &Where, const Json &Index,
 Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
                                      const FileSource &Read,
                                      const ReadOptions &Options) {
-  const Json Index =
-      Json::parse(asText(Content), nullptr, /*allow_exceptions=*/false);
   const std::string IndexWhere = Where + ": " + IndexName;
+  const auto Parsed = parseJson<Json>(asText(Content), IndexWhere,
+                                      "the index of a streamed SOG scene");
+  if (!Parsed)
+    return Parsed.error();
+  const Json &Index = *Parsed;
   if (auto Checked = checkIndex(IndexWhere, Index, Options); !Checked)
     return Checked.error();
   TreeWalk Tree(Index, Options.LevelOfDetail);
@@ -286,9 +290,11 @@ Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
   fs::path Folder = fs::path(Path).parent_path();
   if (Folder.empty())
     Folder = ".";
-  const Json Root =
-      Json::parse(asText(File), nullptr, /*allow_exceptions=*/false);
-  if (Root.is_object() && (Root.contains("tree") || Root.contains("lodLevels")))
+  const auto Root =
+      parseJson<Json>(asText(File), Path, "SOG's description or an index");
+  if (!Root)
+    return Root.error();
+  if (Root->contains("tree") || Root->contains("lodLevels"))
     return parseStreamedSog(Folder.string(), File, filesOf(Folder), Options);
   return parseSog(Folder.string(), File, filesOf(Folder));
 }

@@ -90,7 +90,7 @@ TEST(SogFolder, EachKindOfDamageHasItsMessage) {
   }
 }
 
-TEST(SogFolder, ADeepTreeIsWalkedWithoutRecursion) {
+TEST(SogFolder, ATreeDeeperThanAnySceneIsAnError) {
   std::string Tree = R"({"lods":{}})";
   constexpr int Depth = 20000;
   std::string Open, Close;
@@ -107,8 +107,10 @@ TEST(SogFolder, ADeepTreeIsWalkedWithoutRecursion) {
         return Error{Name, "not asked for"};
       },
       {});
-  ASSERT_TRUE(Read) << Read.error().What; // readScene refuses that it is empty
-  EXPECT_EQ(Read->Gaussians.size(), 0U);
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().Where, "s: lod-meta.json");
+  EXPECT_EQ(Read.error().What, "lists and objects more than 256 deep in each "
+                               "other, expected fewer");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "../device/TimeReports.h"
 #include "../io/Mean.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ Json stageTime(const StageReport &S) {
   Json Sum;
   for (const KernelReport &K : S.Kernels)
     if (!K.Time.empty())
-      addTimeReport(Sum, Json::parse(K.Time));
+      addTimeReport(Sum, ownJson<Json>(K.Time));
   return Sum;
 }
 
@@ -198,18 +199,17 @@ std::string frameJson(const std::vector<StageReport> &Stages) {
       for (const KernelReport &K : S.Kernels)
         if (!K.Time.empty())
           One["kernels"].push_back(
-              {{"name", K.Name}, {"cycles", Json::parse(K.Time)["cycles"]}});
+              {{"name", K.Name}, {"cycles", ownJson<Json>(K.Time)["cycles"]}});
     }
     All.push_back(std::move(One));
   }
-  return Json{{"frame_ms", F.all()},
-              {"kernel_ms", F.Kernels},
-              {"launch_ms", F.Launches},
-              {"copy_ms", F.Copies},
-              {"fps", 1e3 / F.all()},
-              {"sum", Sum},
-              {"stages", All}}
-      .dump();
+  return jsonText(Json{{"frame_ms", F.all()},
+                       {"kernel_ms", F.Kernels},
+                       {"launch_ms", F.Launches},
+                       {"copy_ms", F.Copies},
+                       {"fps", 1e3 / F.all()},
+                       {"sum", Sum},
+                       {"stages", All}});
 }
 
 std::string frameText(const std::vector<StageReport> &Stages,
@@ -241,19 +241,19 @@ std::string sequenceJson(const SequenceResult &R) {
   Json Stages = Json::array();
   for (const StageReport &S : T.ByName)
     Stages.push_back({{"name", S.Name}, {"time", stageTime(S)}});
-  return Json{{"pictures", R.Frames.size()},
-              {"total_ms", T.Total},
-              {"fps", 1e3 * static_cast<double>(R.Frames.size()) / T.Total},
-              {"latency_ms", T.Latency},
-              {"kernel_ms", T.kernels()},
-              {"core_busy_ms", T.Cores},
-              {"rasterizer_busy_ms", T.Rasters},
-              {"pixel_unit_busy_ms", T.Pixels},
-              {"bound_ms", T.bound()},
-              {"beside_ms", T.all() - T.kernels()},
-              {"sum", T.Sum},
-              {"stages", Stages}}
-      .dump();
+  return jsonText(
+      Json{{"pictures", R.Frames.size()},
+           {"total_ms", T.Total},
+           {"fps", 1e3 * static_cast<double>(R.Frames.size()) / T.Total},
+           {"latency_ms", T.Latency},
+           {"kernel_ms", T.kernels()},
+           {"core_busy_ms", T.Cores},
+           {"rasterizer_busy_ms", T.Rasters},
+           {"pixel_unit_busy_ms", T.Pixels},
+           {"bound_ms", T.bound()},
+           {"beside_ms", T.all() - T.kernels()},
+           {"sum", T.Sum},
+           {"stages", Stages}});
 }
 
 std::string sequenceText(const SequenceResult &R) {

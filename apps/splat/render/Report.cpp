@@ -4,6 +4,7 @@
 #include "../io/Hash.h"
 #include "FrameTime.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -111,7 +112,7 @@ std::string stagesJson(const std::vector<StageReport> &Stages) {
   Json All = Json::array();
   for (const StageReport &S : Stages)
     All.push_back(json(S));
-  return All.dump();
+  return jsonText(All);
 }
 
 Expected<std::string> jsonReport(const RenderRecord &R) {
@@ -171,7 +172,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"sh_limit", O.ShLimit},
                 {"exp", name(O.Exponential)},
                 {"blend", name(O.Arithmetic)}}},
-              {"effects", Json::parse(effectsJson(R.Plan.Effects))},
+              {"effects", ownJson<Json>(effectsJson(R.Plan.Effects))},
               {"programs", json(R.Plan.Programs)},
               {"device", Device},
               {"picture", R.Output},
@@ -180,7 +181,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"culled", Culled},
                 {"pairs", R.Result.Pairs},
                 {"device_bytes", R.Result.DeviceBytes}}},
-              {"stages", Json::parse(stagesJson(R.Result.Stages))},
+              {"stages", ownJson<Json>(stagesJson(R.Result.Stages))},
               {"total", Total}};
   if (R.Back) {
     auto Hash = hashFile(R.Back->Upstream);
@@ -194,8 +195,8 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
     }
   }
   if (const std::string Time = frameJson(R.Result.Stages); !Time.empty())
-    Report["time"] = Json::parse(Time);
-  return Report.dump(2) + "\n";
+    Report["time"] = ownJson<Json>(Time);
+  return jsonText(Report, 2) + "\n";
 }
 
 std::string textReport(const Camera &View, const RenderOptions &Options,

@@ -4,7 +4,10 @@
 #include "../io/Hash.h"
 #include "../render/Layout.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+#include "vorion/support/JsonShape.h"
 
+#include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -61,8 +64,7 @@ Expected<Success> writeCheckpoint(const std::string &Path,
                     {"iteration", C.Iteration},
                     {"sh_degree", C.ShDegree},
                     {"gaussians", C.gaussians()}};
-  std::string Body =
-      Header.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::string Body = jsonText(Header) + "\n";
   forArrays(C, [&](const auto &A) {
     Body.append(reinterpret_cast<const char *>(A.data()), 4 * A.size());
   });
@@ -91,19 +93,23 @@ Expected<Checkpoint> readCheckpoint(const std::string &Path) {
   if (First != fmt::format("{} {} {}", Magic, Version, fnv1a64(Text)))
     return damaged(Path);
   const std::string_view HeaderText = Line();
-  const Json Header =
-      Json::parse(HeaderText.begin(), HeaderText.end(), nullptr, false);
+  const auto Read = parseJson<Json>(HeaderText, Path, "a checkpoint's sizes");
+  if (!Read)
+    return Read.error();
+  const Json &Header = *Read;
+  // The hash says that these bytes were written, not that we wrote them.
+  const JsonShape Shape =
+      JsonShape::object({{"run", JsonShape::text()},
+                         {"iteration", JsonShape::whole(0, Text.size())},
+                         {"sh_degree", JsonShape::whole(0, MaxShDegree)},
+                         {"gaussians", JsonShape::whole(0, Text.size())}});
+  if (auto Ok = Shape.check(Header, Path); !Ok)
+    return Ok.error();
   Checkpoint C;
-  // The hash says that these are what was written.
-  if (!Header.is_object())
-    return damaged(Path);
-  C.Run = Header.value("run", "");
-  C.Iteration = Header.value("iteration", 0U);
-  C.ShDegree = Header.value("sh_degree", 0);
-  const auto Gaussians = Header.value("gaussians", std::size_t{0});
-  if (C.ShDegree < 0 || C.ShDegree > MaxShDegree || Gaussians > Text.size() ||
-      C.Iteration > Text.size())
-    return damaged(Path);
+  C.Run = Header["run"].get<std::string>();
+  C.Iteration = Header["iteration"].get<unsigned>();
+  C.ShDegree = Header["sh_degree"].get<int>();
+  const auto Gaussians = Header["gaussians"].get<std::size_t>();
   resize(C, Gaussians);
   std::size_t Size = 0;
   forArrays(C, [&](const auto &A) { Size += 4 * A.size(); });

@@ -1,5 +1,6 @@
 #include "Checkpoint.h"
 
+#include "../io/Hash.h"
 #include "../io/TestFiles.h"
 #include "../render/Layout.h"
 
@@ -80,6 +81,34 @@ TEST(Checkpoint, DamageIsNoticed) {
 }
 
 /// Where nothing can be written, the old one stays.
+TEST(Checkpoint, AHeaderOfAnotherShapeIsAnError) {
+  const TestFolder F;
+  ASSERT_TRUE(writeCheckpoint(F.path("c"), sample()));
+  const std::string Whole = F.read("c");
+  const std::size_t Header = Whole.find('\n') + 1;
+  const std::size_t Arrays = Whole.find('\n', Header);
+  const auto With = [&](const std::string &Text) {
+    const std::string Body = Text + Whole.substr(Arrays);
+    F.write("d", fmt::format("vorion-checkpoint 2 {}\n", fnv1a64(Body)) + Body);
+    const auto Read = readCheckpoint(F.path("d"));
+    return Read ? std::string() : Read.error().What;
+  };
+  EXPECT_EQ(With(Whole.substr(Header, Arrays - Header)), "");
+  EXPECT_EQ(With("[]"), "a document of type array, expected an object");
+  EXPECT_EQ(With(R"({"run": 1, "iteration": 4, "sh_degree": 1})"),
+            "key run is 1, expected a string");
+  EXPECT_EQ(With(R"({"run": "", "iteration": "4", "sh_degree": 1})"),
+            "key iteration is of type string, expected a whole number, 0 to "
+            "1768");
+  EXPECT_EQ(With(R"({"run": "", "iteration": 4, "sh_degree": 9})"),
+            "key sh_degree is 9, expected a whole number, 0 to 3");
+  EXPECT_EQ(With(R"({"run": "", "iteration": 4, "sh_degree": 1})"),
+            "key gaussians is missing, expected a whole number, 0 to 1768");
+  EXPECT_EQ(With(std::string(200'000, '[')),
+            "lists and objects more than 256 deep in each other, expected "
+            "fewer");
+}
+
 TEST(Checkpoint, FailedWritesLeaveTheOldOne) {
   const TestFolder F;
   ASSERT_TRUE(writeCheckpoint(F.path("c"), sample()));

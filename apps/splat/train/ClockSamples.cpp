@@ -5,6 +5,7 @@
 #include "../io/Mean.h"
 #include "../render/FrameTime.h"
 #include "../render/Report.h"
+#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ bool ClockSamples::add(TimedIteration T) {
   const std::string Time = frameJson(T.Stages);
   if (Time.empty())
     return false;
-  Milliseconds.push_back(Json::parse(Time)["frame_ms"].get<double>());
+  Milliseconds.push_back(ownJson<Json>(Time)["frame_ms"].get<double>());
   All.push_back(std::move(T));
   return true;
 }
@@ -68,9 +69,9 @@ std::string ClockSamples::json() const {
     J.push_back({{"iteration", T.Number},
                  {"gaussians", T.Gaussians},
                  {"list_lengths", T.ListLengths},
-                 {"stages", Json::parse(stagesJson(T.Stages))},
-                 {"time", Json::parse(frameJson(T.Stages))}});
-  return J.dump();
+                 {"stages", ownJson<Json>(stagesJson(T.Stages))},
+                 {"time", ownJson<Json>(frameJson(T.Stages))}});
+  return jsonText(J);
 }
 
 } // namespace vorion::splat

@@ -1,6 +1,7 @@
 #include "RunText.h"
 
 #include "Hash.h"
+#include "vorion/support/Json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,24 +70,28 @@ std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
     J["simt_tile"] = By.SimtTile;
   if (!Run.From.empty())
     J["from"] = Run.From;
-  return J.dump();
+  return jsonText(J);
 }
 
 Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
                                const std::string &Wanted) {
   if (Has == Wanted)
     return Success{};
-  const Json A = Json::parse(Has, nullptr, false);
-  const Json B = Json::parse(Wanted, nullptr, false);
+  const auto Read = parseJson<Json>(Has, File, "a run's settings");
+  if (!Read)
+    return Read.error();
+  const Json &A = *Read;
+  const Json B = ownJson<Json>(Wanted);
   for (const auto &[Key, Value] : B.items())
     if (!A.is_object() || !A.contains(Key) || A[Key] != Value)
       return Error{File,
                    fmt::format("a checkpoint of another run: {} is {}, "
                                "expected {}",
                                Key,
-                               A.is_object() && A.contains(Key) ? A[Key].dump()
-                                                                : "missing",
-                               Value.dump()),
+                               A.is_object() && A.contains(Key)
+                                   ? jsonText(A[Key])
+                                   : "missing",
+                               jsonText(Value)),
                    ExitCode::Usage};
   return Error{File, "a checkpoint of another run, expected one of this",
                ExitCode::Usage};

@@ -2,6 +2,7 @@
 
 #include "core/SoftFloat.h"
 #include "observe/numerics/RasterReport.h"
+#include "vorion/support/Json.h"
 
 #include <bit>
 #include <cmath>
@@ -233,7 +234,7 @@ std::string numericJson(const NumericFindings &F) {
   if (const NumericEvent *E = firstEvent(F, true))
     J["first_nan"] = chainJson(F, *E, 0);
   J["rasterizers"] = rasterJson(F.Units);
-  return J.dump(1) + "\n";
+  return jsonText(J, 1) + "\n";
 }
 
 } // namespace vorion::isasim

@@ -194,7 +194,7 @@ std::vector<DamagedFolder> sogDamage() {
        [](Json &M) { M["shN"]["count"] = 2; });
   Meta("palette-large", "for 65 palette entries",
        [](Json &M) { M["shN"]["count"] = 65; });
-  File("meta-text", "meta.json", "no JSON", "not a JSON object");
+  File("meta-text", "meta.json", "no JSON", "not JSON, expected");
   File("plane-text", "quats.webp", "no picture", "not a WebP picture");
   File("plane-short", "quats.webp", cut(Whole.at("quats.webp"), 8),
        "damaged WebP picture");

@@ -4,62 +4,29 @@
 
 #include "vorion/support/Expected.h"
 
-#include <cerrno>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
+#include <cstdint>
 #include <string>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <string_view>
 #include <vector>
 
 namespace vorion {
 
-/// Reads all of \p Path; directories and unreadable files are errors.
-inline Expected<std::vector<std::byte>> readFile(const std::string &Path) {
-  std::FILE *F = std::fopen(Path.c_str(), "rb");
-  if (!F)
-    return Error{Path, std::string("cannot open: ") + std::strerror(errno) +
-                           ", expected a readable file"};
-  std::vector<std::byte> Bytes;
-  struct stat Info{};
-  if (fstat(fileno(F), &Info) == 0 && S_ISREG(Info.st_mode))
-    Bytes.reserve(static_cast<std::size_t>(Info.st_size));
-  std::byte Chunk[1 << 16];
-  std::size_t Got = 0;
-  while ((Got = std::fread(Chunk, 1, sizeof(Chunk), F)) > 0)
-    Bytes.insert(Bytes.end(), Chunk, Chunk + Got);
-  const int ReadErrno = std::ferror(F) ? errno : 0;
-  std::fclose(F);
-  if (ReadErrno)
-    return Error{Path, std::string("cannot read: ") + std::strerror(ReadErrno) +
-                           ", expected a readable file"};
-  return Bytes;
-}
+/// What is read at most of a device or a pipe, which does not say its size.
+inline constexpr std::uint64_t StreamLimit = std::uint64_t{1} << 30;
+
+/// Reads all of \p Path, of \p Most bytes at most. A regular file says how many
+/// it has, and one that the machine's memory cannot hold is an error before
+/// memory is taken. Of devices and pipes, StreamLimit bytes are read at most.
+/// Directories and unreadable files are errors.
+Expected<std::vector<std::byte>> readFile(const std::string &Path,
+                                          std::uint64_t Most = UINT64_MAX);
 
 /// Writes \p Size bytes beside \p Path and renames the result to it, so that
 /// an interrupted run leaves either the old file or the new one.
-inline Expected<Success> writeFileAtomically(const std::string &Path,
-                                             const void *Data,
-                                             std::size_t Size) {
-  const std::string Aside = Path + ".tmp" + std::to_string(getpid());
-  std::FILE *F = std::fopen(Aside.c_str(), "wb");
-  if (!F)
-    return Error{Path, std::string("cannot write: ") + std::strerror(errno) +
-                           ", expected a folder that can be written"};
-  const bool Wrote = std::fwrite(Data, 1, Size, F) == Size;
-  const bool Closed = std::fclose(F) == 0;
-  if (Wrote && Closed && std::rename(Aside.c_str(), Path.c_str()) == 0)
-    return Success{};
-  const int Cause = errno;
-  std::remove(Aside.c_str());
-  return Error{Path, std::string("cannot write: ") + std::strerror(Cause) +
-                         ", expected a folder that can be written"};
-}
-
-inline Expected<Success> writeFileAtomically(const std::string &Path,
-                                             const std::string &Text) {
-  return writeFileAtomically(Path, Text.data(), Text.size());
-}
+Expected<Success> writeFileAtomically(const std::string &Path, const void *Data,
+                                      std::size_t Size);
+Expected<Success> writeFileAtomically(const std::string &Path,
+                                      std::string_view Text);
 
 } // namespace vorion

@@ -1,0 +1,93 @@
+#include "vorion/support/File.h"
+#include "vorion/support/TemporaryFolder.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace vorion;
+
+namespace {
+
+class FileTest : public testing::Test {
+protected:
+  void SetUp() override {
+    auto Made = TemporaryFolder::make("vorion-support");
+    ASSERT_TRUE(Made);
+    Folder.emplace(std::move(*Made));
+  }
+  std::string path(const std::string &Name) const {
+    return Folder->path() + "/" + Name;
+  }
+
+private:
+  std::optional<TemporaryFolder> Folder;
+};
+
+TEST_F(FileTest, RoundTripsAndLeavesNothingAside) {
+  ASSERT_TRUE(writeFileAtomically(path("f"), std::string("abc\0d", 5)));
+  const auto Bytes = readFile(path("f"));
+  ASSERT_TRUE(Bytes);
+  EXPECT_EQ(Bytes->size(), 5U);
+  std::filesystem::remove(path("f"));
+  EXPECT_TRUE(std::filesystem::is_empty(path(".")));
+  const auto Gone = readFile(path("f"));
+  ASSERT_FALSE(Gone);
+  EXPECT_EQ(Gone.error().What,
+            "cannot open: No such file or directory, expected a readable file");
+}
+
+TEST_F(FileTest, AFolderIsNoFile) {
+  const auto Read = readFile(path(""));
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().What,
+            "cannot read: Is a directory, expected a readable file");
+}
+
+TEST_F(FileTest, AFileThatMemoryCannotHoldIsRefusedBeforeItIsRead) {
+  ASSERT_TRUE(writeFileAtomically(path("huge"), "x"));
+  // Sparse: it takes no room on the disk.
+  ASSERT_EQ(::truncate(path("huge").c_str(), off_t{1} << 42), 0);
+  const auto Read = readFile(path("huge"));
+  ASSERT_FALSE(Read);
+  EXPECT_TRUE(Read.error().What.starts_with(
+      "a file of 4398046511104 bytes, expected at most "))
+      << Read.error().What;
+}
+
+TEST_F(FileTest, AnEndlessDeviceIsReadToItsBound) {
+  const auto Read = readFile("/dev/zero", 1 << 20);
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().What,
+            "more than 1048576 bytes without an end, expected at most 1048576");
+  const auto Empty = readFile("/dev/null");
+  ASSERT_TRUE(Empty);
+  EXPECT_TRUE(Empty->empty());
+}
+
+TEST_F(FileTest, APipeIsReadToItsEnd) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  std::thread Writer([this] {
+    std::FILE *F = std::fopen(path("pipe").c_str(), "w");
+    const std::string Text(200'000, 'a');
+    std::fwrite(Text.data(), 1, Text.size(), F);
+    std::fclose(F);
+  });
+  const auto Read = readFile(path("pipe"));
+  Writer.join();
+  ASSERT_TRUE(Read);
+  EXPECT_EQ(Read->size(), 200'000U);
+}
+
+TEST_F(FileTest, UnwritablePathIsAnErrorNamingIt) {
+  const auto Result = writeFileAtomically("/nonexistent-folder/x", "y");
+  ASSERT_FALSE(Result);
+  EXPECT_EQ(Result.error().Where, "/nonexistent-folder/x");
+  EXPECT_EQ(Result.error().What, "cannot write: No such file or directory, "
+                                 "expected a folder that can be written");
+}
+
+} // namespace

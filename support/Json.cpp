@@ -1,0 +1,120 @@
+#include "vorion/support/Json.h"
+
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <cassert>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace vorion {
+namespace {
+
+/// A list or an object that has begun, and its commas by now.
+struct Bracket {
+  bool IsObject;
+  std::size_t Commas = 0;
+};
+
+/// What \p Text asks for beyond \p Limits, found before anything is made of it.
+/// Up to the first error of syntax this sees brackets and strings as the parser
+/// does.
+std::string beyond(std::string_view Text, const JsonLimits &Limits) {
+  if (Text.size() > Limits.Bytes)
+    return fmt::format("{} bytes of JSON, expected at most {}", Text.size(),
+                       Limits.Bytes);
+  std::size_t Values = 1;
+  std::vector<Bracket> Open;
+  bool InText = false;
+  for (std::size_t I = 0; I < Text.size(); ++I) {
+    const char C = Text[I];
+    if (InText) {
+      I += C == '\\';
+      InText = C != '"';
+      continue;
+    }
+    InText = C == '"';
+    Values += C == '[' || C == '{' || C == ',';
+    if (C == '[' || C == '{')
+      Open.push_back({C == '{'});
+    else if (Open.empty())
+      continue;
+    else if (C == ']' || C == '}')
+      Open.pop_back();
+    else if (C == ',')
+      ++Open.back().Commas;
+    if (Open.size() > Limits.Depth)
+      return fmt::format("lists and objects more than {} deep in each other, "
+                         "expected fewer",
+                         Limits.Depth);
+    if (!Open.empty() && Open.back().IsObject &&
+        Open.back().Commas >= Limits.Keys)
+      return fmt::format("an object of more than {} keys, expected fewer",
+                         Limits.Keys);
+    if (Values > Limits.Values)
+      return fmt::format("more than {} values, expected fewer", Limits.Values);
+  }
+  return {};
+}
+
+std::string lineOf(std::string_view Text, std::size_t Byte,
+                   const std::string &Where) {
+  const std::string_view Before = Text.substr(0, Byte > 0 ? Byte - 1 : 0);
+  return fmt::format("{}:{}", Where,
+                     1 + std::count(Before.begin(), Before.end(), '\n'));
+}
+
+} // namespace
+
+template <typename Kind>
+Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
+                         std::string_view Wanted, const JsonLimits &Limits) {
+  if (std::string Problem = beyond(Text, Limits); !Problem.empty())
+    return Error{Where, std::move(Problem)};
+  try {
+    return Kind::parse(Text.begin(), Text.end());
+  } catch (const nlohmann::json::parse_error &E) {
+    return Error{lineOf(Text, E.byte, Where),
+                 fmt::format("not JSON, expected {}", Wanted)};
+  } catch (const nlohmann::json::out_of_range &) {
+    return Error{Where, "a number beyond what a double holds, expected one "
+                        "below 1.8e308"};
+  }
+}
+
+template <typename Kind>
+Expected<Kind> readJson(const std::string &Path, std::string_view Wanted,
+                        const JsonLimits &Limits) {
+  const auto Bytes = readFile(Path, Limits.Bytes);
+  if (!Bytes)
+    return Bytes.error();
+  return parseJson<Kind>(
+      {reinterpret_cast<const char *>(Bytes->data()), Bytes->size()}, Path,
+      Wanted, Limits);
+}
+
+template <typename Kind> Kind ownJson(std::string_view Text) {
+  Kind J = Kind::parse(Text.begin(), Text.end(), nullptr,
+                       /*allow_exceptions=*/false);
+  assert(!J.is_discarded() && "JSON of ours that is none");
+  return J;
+}
+
+template <typename Kind> std::string jsonText(const Kind &J, int Indent) {
+  return J.dump(Indent, ' ', /*ensure_ascii=*/false,
+                Kind::error_handler_t::replace);
+}
+
+#define VORION_INSTANTIATE(KIND)                                               \
+  template Expected<KIND> parseJson(std::string_view, const std::string &,     \
+                                    std::string_view, const JsonLimits &);     \
+  template Expected<KIND> readJson(const std::string &, std::string_view,      \
+                                   const JsonLimits &);                        \
+  template KIND ownJson(std::string_view);                                     \
+  template std::string jsonText(const KIND &, int);
+VORION_INSTANTIATE(nlohmann::json)
+VORION_INSTANTIATE(nlohmann::ordered_json)
+#undef VORION_INSTANTIATE
+
+} // namespace vorion

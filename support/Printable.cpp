@@ -1,0 +1,70 @@
+#include "vorion/support/Printable.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <fmt/format.h>
+
+namespace vorion {
+namespace {
+
+/// A character of UTF-8 and its bytes; none for what is no UTF-8.
+struct Character {
+  char32_t Code = 0;
+  std::size_t Bytes = 0;
+};
+
+Character characterAt(std::string_view Text, std::size_t At) {
+  const auto Byte = [&](std::size_t I) {
+    return At + I < Text.size() ? static_cast<std::uint8_t>(Text[At + I]) : 0U;
+  };
+  const unsigned First = Byte(0);
+  if (First < 0x80)
+    return {First, 1};
+  const std::size_t Bytes = First >= 0xf0 ? 4 : First >= 0xe0 ? 3 : 2;
+  // Overlong forms, surrogates and what is above U+10FFFF are no UTF-8.
+  constexpr char32_t Least[] = {0, 0, 0x80, 0x800, 0x10000};
+  char32_t Code = First & (0xffU >> (Bytes + 1));
+  for (std::size_t I = 1; I < Bytes; ++I) {
+    if ((Byte(I) & 0xc0) != 0x80)
+      return {};
+    Code = Code << 6 | (Byte(I) & 0x3f);
+  }
+  if (First < 0xc0 || First > 0xf4 || Code < Least[Bytes] || Code > 0x10ffff ||
+      (Code >= 0xd800 && Code <= 0xdfff))
+    return {};
+  return {Code, Bytes};
+}
+
+bool isObeyed(char32_t C) {
+  return C < 0x20 || (C >= 0x7f && C < 0xa0) // C0, DEL, C1
+         || C == 0x200e || C == 0x200f       // marks of direction
+         || (C >= 0x2028 && C <= 0x202e)     // lines, embeddings
+         || (C >= 0x2066 && C <= 0x2069)     // isolates
+         || C == 0xfeff || C == 0x61c;       // nothing to see
+}
+
+} // namespace
+
+std::string escaped(std::string_view Text) {
+  std::string Shown;
+  Shown.reserve(Text.size());
+  for (std::size_t At = 0; At < Text.size();) {
+    const Character C = characterAt(Text, At);
+    const std::size_t Bytes = C.Bytes == 0 ? 1 : C.Bytes;
+    if (C.Bytes != 0 && !isObeyed(C.Code))
+      Shown += Text.substr(At, Bytes);
+    else
+      for (std::size_t I = 0; I < Bytes; ++I)
+        Shown +=
+            fmt::format("\\x{:02x}", static_cast<std::uint8_t>(Text[At + I]));
+    At += Bytes;
+  }
+  return Shown;
+}
+
+std::string printable(std::string_view Text, std::size_t Most) {
+  return Text.size() <= Most ? escaped(Text)
+                             : escaped(Text.substr(0, Most)) + "...";
+}
+
+} // namespace vorion
