@@ -3,6 +3,7 @@
 
 #include "Device.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Printable.h"
 #include "vorion_abi.h"
 
 #include <charconv>
@@ -40,7 +41,7 @@ template <typename Function> vx_status guarded(Function Body) noexcept {
   try {
     Failure Failed = Body();
     if (Failed)
-      LastError = std::move(Failed.Text);
+      LastError = escapedLines(Failed.Text);
     return Failed.Status;
   } catch (const std::bad_alloc &) {
     LastError.clear(); // fits without allocating

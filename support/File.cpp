@@ -1,8 +1,9 @@
 #include "vorion/support/File.h"
 
+#include "Descriptor.h"
+
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,29 +14,10 @@
 namespace vorion {
 namespace {
 
-/// An open file, closed at the end of its scope.
-class Descriptor {
-public:
-  explicit Descriptor(int Number) : Number(Number) {}
-  Descriptor(const Descriptor &) = delete;
-  Descriptor &operator=(const Descriptor &) = delete;
-  ~Descriptor() {
-    if (Number >= 0)
-      ::close(Number);
-  }
-  int number() const { return Number; }
-
-private:
-  int Number;
-};
-
-Error cannot(const std::string &Path, const char *Do, int Cause,
-             const char *Wanted) {
-  return {Path, fmt::format("cannot {}: {}, expected {}", Do,
-                            std::strerror(Cause), Wanted)};
+Error cannot(const std::string &Path, const char *Do, int Cause) {
+  return {Path, fmt::format("cannot {}: {}, expected a readable file", Do,
+                            std::strerror(Cause))};
 }
-
-constexpr const char *Readable = "a readable file";
 
 std::uint64_t memoryOfMachine() {
   return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
@@ -60,7 +42,7 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
   const Descriptor File(::open(Path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat Info{};
   if (File.number() < 0 || ::fstat(File.number(), &Info) != 0)
-    return cannot(Path, "open", errno, Readable);
+    return cannot(Path, "open", errno);
   // Files of /proc call themselves regular and empty.
   const bool SaysSize = S_ISREG(Info.st_mode) && Info.st_size > 0;
   if (SaysSize) {
@@ -78,7 +60,7 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
   for (;;) {
     const auto Got = readSome(File.number(), Chunk.data(), Chunk.size());
     if (!Got)
-      return cannot(Path, "read", errno, Readable);
+      return cannot(Path, "read", errno);
     if (*Got == 0)
       return Bytes;
     if (Bytes.size() + *Got > Most)
@@ -88,27 +70,6 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
     Bytes.insert(Bytes.end(), Chunk.begin(),
                  Chunk.begin() + static_cast<std::ptrdiff_t>(*Got));
   }
-}
-
-Expected<Success> writeFileAtomically(const std::string &Path, const void *Data,
-                                      std::size_t Size) {
-  constexpr const char *Writable = "a folder that can be written";
-  const std::string Aside = Path + ".tmp" + std::to_string(getpid());
-  std::FILE *F = std::fopen(Aside.c_str(), "wb");
-  if (!F)
-    return cannot(Path, "write", errno, Writable);
-  const bool Wrote = std::fwrite(Data, 1, Size, F) == Size;
-  const bool Closed = std::fclose(F) == 0;
-  if (Wrote && Closed && std::rename(Aside.c_str(), Path.c_str()) == 0)
-    return Success{};
-  const int Cause = errno;
-  std::remove(Aside.c_str());
-  return cannot(Path, "write", Cause, Writable);
-}
-
-Expected<Success> writeFileAtomically(const std::string &Path,
-                                      std::string_view Text) {
-  return writeFileAtomically(Path, Text.data(), Text.size());
 }
 
 } // namespace vorion

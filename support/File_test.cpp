@@ -82,12 +82,4 @@ TEST_F(FileTest, APipeIsReadToItsEnd) {
   EXPECT_EQ(Read->size(), 200'000U);
 }
 
-TEST_F(FileTest, UnwritablePathIsAnErrorNamingIt) {
-  const auto Result = writeFileAtomically("/nonexistent-folder/x", "y");
-  ASSERT_FALSE(Result);
-  EXPECT_EQ(Result.error().Where, "/nonexistent-folder/x");
-  EXPECT_EQ(Result.error().What, "cannot write: No such file or directory, "
-                                 "expected a folder that can be written");
-}
-
 } // namespace

@@ -62,6 +62,14 @@ std::string escaped(std::string_view Text) {
   return Shown;
 }
 
+std::string escapedLines(std::string_view Text) {
+  std::string Shown;
+  for (std::size_t End = 0; (End = Text.find('\n')) != std::string_view::npos;
+       Text.remove_prefix(End + 1))
+    Shown += escaped(Text.substr(0, End)) + '\n';
+  return Shown + escaped(Text);
+}
+
 std::string printable(std::string_view Text, std::size_t Most) {
   return Text.size() <= Most ? escaped(Text)
                              : escaped(Text.substr(0, Most)) + "...";

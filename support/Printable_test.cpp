@@ -36,6 +36,13 @@ TEST(Printable, EscapesWhatIsNoUtf8) {
   EXPECT_EQ(escaped("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
 }
 
+TEST(Printable, KeepsTheLinesOfReports) {
+  EXPECT_EQ(escapedLines("a\n\x1b"
+                         "b\n"),
+            "a\n\\x1bb\n");
+  EXPECT_EQ(escapedLines("a"), "a");
+}
+
 TEST(Printable, ShortensLongNames) {
   EXPECT_EQ(printable("abc", 3), "abc");
   EXPECT_EQ(printable("ab\ncd", 3), "ab\\x0a...");

@@ -36,6 +36,8 @@ programs = ["vorion-clang", "vorion-cl-link", "vorion-link", "vorion-llc", "vori
             "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "sample-vecadd"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
+# What makes calls of programs fail (test/faults).
+features["failing-calls"] = os.path.join(build, "lib", "libvorion-failing-calls.so")
 # The OpenCL platform of the build and no other, as scripts/env.sh has it.
 features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join(build, "etc", "OpenCL", "vendors")
 features["data"] = os.path.join(root, "..", "shared", "data")

@@ -1,15 +1,20 @@
 // splat: renders 3D Gaussian scenes on an OpenCL device.
 
 #include "commands/Commands.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Tool.h"
 
 #include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
 
-int main(int ArgumentCount, char **Arguments) {
-  using namespace vorion;
+namespace {
+
+using namespace vorion;
+
+int run(std::vector<std::string> Arguments) {
   CLI::App App("Renders 3D Gaussian scenes on an OpenCL device.", "splat");
   App.footer(std::string(ExitCodeHelp));
   App.require_subcommand(1);
@@ -41,13 +46,8 @@ int main(int ArgumentCount, char **Arguments) {
   Add("compare", "Compares two pictures, or two lists of pairs",
       splat::addCompare);
 
-  try {
-    App.parse(ArgumentCount, Arguments);
-  } catch (const CLI::Success &E) {
-    return App.exit(E); // --help
-  } catch (const CLI::ParseError &E) {
-    return reportUsageError("splat", E.what());
-  }
+  if (const auto Ended = parseCommandLine(App, std::move(Arguments)))
+    return *Ended;
   if (!Set.empty())
     setenv("VORION_SET", Set.c_str(), 1);
   for (auto &[Command, Run] : Commands)
@@ -55,4 +55,10 @@ int main(int ArgumentCount, char **Arguments) {
       if (const auto Done = Run(); !Done)
         return reportError("splat", Done.error());
   return EXIT_SUCCESS;
+}
+
+} // namespace
+
+int main(int Count, char **Values) {
+  return runTool("splat", [&] { return run({Values + 1, Values + Count}); });
 }

@@ -8,6 +8,7 @@
 #include "observe/gdb/GdbServer.h"
 #include "observe/numerics/Numerics.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
 #include <cerrno>
@@ -48,6 +49,21 @@ SessionOptions SessionOptions::fromEnvironment() {
   return O;
 }
 
+std::vector<NamedFile> SessionOptions::outputs() const {
+  std::vector<NamedFile> Files{{"--stats", Stats}, {"--timeline", Timeline}};
+  if (Profile != StandardOutput)
+    Files.push_back({"--profile", Profile});
+  // What does not parse is told when the session begins.
+  if (const auto Request = TraceRequest::parse(Trace))
+    Files.push_back({"--trace", Request->File});
+  if (const auto O = NumericOptions::parse(Numerics); O && !Numerics.empty()) {
+    if (O->Text != StandardOutput)
+      Files.push_back({"text= of --numerics", O->Text});
+    Files.push_back({"json= of --numerics", O->Json});
+  }
+  return Files;
+}
+
 struct Session::Impl {
   Expected<Success> open(const SessionOptions &O);
   Expected<Success> openTrace(const std::string &Text);
@@ -57,6 +73,7 @@ struct Session::Impl {
   std::function<void(std::string_view)> Print;
   SessionOptions Options;
   GrowingFile TraceFile, TimelineFile;
+  std::string TraceName;
   std::unique_ptr<Trace> Tracer;
   std::unique_ptr<Timeline> Times;
   std::unique_ptr<Profile> Profiler;
@@ -81,6 +98,7 @@ Expected<Success> Session::Impl::openTrace(const std::string &Text) {
     if (!F)
       return F.error();
     TraceFile = std::move(*F);
+    TraceName = Request->File;
   }
   Tracer = std::make_unique<Trace>(TraceFile ? TraceFile.get() : stderr,
                                    Request->Categories);
@@ -95,7 +113,7 @@ Expected<Success> Session::Impl::listenForGdb(const std::string &Text) {
     return Error{"", fmt::format("gdb port '{}', expected 0 to 65535", Text),
                  ExitCode::Usage};
   auto Made = startGdbServer(Port, [this](std::string_view Line) {
-    fmt::print(stderr, "{}: {}\n", Tool, Line);
+    printNote(fmt::format("{}: {}\n", Tool, Line));
     std::fflush(stderr);
   });
   if (!Made)
@@ -160,7 +178,7 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
     Counts = std::make_unique<Stats>();
   if (!O.Check.empty()) {
     auto Made = Checkers::create(O.Check, [this](std::string_view Text) {
-      fmt::print(stderr, "{}: {}\n", Tool, Text);
+      printNote(fmt::format("{}: {}\n", Tool, Text));
     });
     if (!Made)
       return Made.error();
@@ -242,7 +260,21 @@ uint64_t Session::findings() const {
   return I->Checks ? I->Checks->findings() : 0;
 }
 
+/// Whether \p F, a growing file or none, has all that was written to it.
+static Expected<Success> checkGrown(std::FILE *F, const std::string &Path) {
+  if (!F || (std::fflush(F) == 0 && !std::ferror(F)))
+    return Success{};
+  return Error{Path, "cannot write all of it, expected room for what is "
+                     "observed"};
+}
+
 Expected<Success> Session::runEnded(const RunResult &R) {
+  if (Expected<Success> Ok = checkGrown(I->TraceFile.get(), I->TraceName); !Ok)
+    return Ok;
+  if (Expected<Success> Ok =
+          checkGrown(I->TimelineFile.get(), I->Options.Timeline);
+      !Ok)
+    return Ok;
   if (I->Counts) {
     I->Counts->add(I->RunName, R);
     if (I->Print)

@@ -2,6 +2,7 @@
 
 #include "core/Core.h"
 #include "machine/Report.h"
+#include "observe/GrowingFile.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/Json.h"
 
@@ -27,12 +28,12 @@ std::string jsonName(const std::string &Text) {
 
 void Timeline::event(const std::string &Json) {
   if (End == 0)
-    fmt::print(Out, "{{\"otherData\": {{\"format\": \"vorion-timeline 1\", "
-                    "\"unit\": \"1 us = 1 warp instruction of a core, or 1 "
-                    "clock of a rasterizer's lanes\"}},\n\"traceEvents\": [\n");
+    append(Out, "{{\"otherData\": {{\"format\": \"vorion-timeline 1\", "
+                "\"unit\": \"1 us = 1 warp instruction of a core, or 1 "
+                "clock of a rasterizer's lanes\"}},\n\"traceEvents\": [\n");
   else
-    fmt::print(Out, ",\n");
-  fmt::print(Out, "{}", Json);
+    append(Out, ",\n");
+  append(Out, "{}", Json);
   End = 1;
 }
 
@@ -144,7 +145,7 @@ void Timeline::runEnds(const RunResult &Result) {
   // Complete now; the next run writes over the end.
   std::fflush(Out);
   End = std::ftell(Out);
-  fmt::print(Out, "\n]}}\n");
+  append(Out, "\n]}}\n");
   std::fflush(Out);
   std::fseek(Out, End, SEEK_SET);
 }

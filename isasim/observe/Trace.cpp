@@ -3,6 +3,7 @@
 #include "core/Core.h"
 #include "core/Isa.h"
 #include "machine/Report.h"
+#include "observe/GrowingFile.h"
 #include "raster/Command.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ Expected<TraceRequest> TraceRequest::parse(std::string_view Text) {
 
 Trace::Trace(std::FILE *OutIn, uint32_t CategoriesIn)
     : Out(OutIn), Categories(CategoriesIn) {
-  fmt::print(Out, "# vorion-trace {}\n", FormatVersion);
+  append(Out, "# vorion-trace {}\n", FormatVersion);
 }
 
 enum class Trace::Category : unsigned {
@@ -136,8 +137,8 @@ void Trace::runBegins(const RunStart &R) {
     ByPc.clear();
   Program = R.Program;
   SyncPoints = 0;
-  fmt::print(Out, "run {} {} launch 0x{:08x}\n", ++Runs, Program->name(),
-             R.LaunchBlock);
+  append(Out, "run {} {} launch 0x{:08x}\n", ++Runs, Program->name(),
+         R.LaunchBlock);
 }
 
 void Trace::commit(const Commit &C) {
@@ -146,59 +147,59 @@ void Trace::commit(const Commit &C) {
     if (!Result.empty())
       Result = " ->" + Result;
     const Texts &T = textsOf(C);
-    fmt::print(Out, "{} {}.{} {} {:04x} {}{}\n",
-               wants(Category::insn) ? "insn" : "simt", C.Core, C.Warp, T.Place,
-               C.LaneMask, T.Instruction, Result);
+    append(Out, "{} {}.{} {} {:04x} {}{}\n",
+           wants(Category::insn) ? "insn" : "simt", C.Core, C.Warp, T.Place,
+           C.LaneMask, T.Instruction, Result);
   }
   if (C.Access && wants(Category::mem))
-    fmt::print(Out, "mem {}.{} 0x{:08x} {:04x} {} {}{}\n", C.Core, C.Warp, C.Pc,
-               C.LaneMask, nameOf(C.Access->What), C.Access->Bytes,
-               laneWords(C.Access->Addresses, C.LaneMask));
+    append(Out, "mem {}.{} 0x{:08x} {:04x} {} {}{}\n", C.Core, C.Warp, C.Pc,
+           C.LaneMask, nameOf(C.Access->What), C.Access->Bytes,
+           laneWords(C.Access->Addresses, C.LaneMask));
 }
 
 void Trace::syncPoint(std::span<const std::unique_ptr<Core>> Cores) {
   ++SyncPoints;
   if (!wants(Category::sync))
     return;
-  fmt::print(Out, "sync {}\n", SyncPoints);
+  append(Out, "sync {}\n", SyncPoints);
   for (const auto &C : Cores)
     for (const WarpState &S : std::as_const(*C).warps())
       if (S.Why != Stop::Ended)
-        fmt::print(Out, "sync {}.{} 0x{:08x} {}\n", C->id(), S.WarpId,
-                   S.pcOf(S.Next), waitsFor(S));
+        append(Out, "sync {}.{} 0x{:08x} {}\n", C->id(), S.WarpId,
+               S.pcOf(S.Next), waitsFor(S));
 }
 
 void Trace::rasterCommand(const RasterWork &W) {
   if (wants(Category::raster))
-    fmt::print(Out,
-               "raster {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
-               "count {} output 0x{:08x} gaussians {} clipped {} fragments {} "
-               "blends {}\n",
-               W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
-               W.What.Count, W.What.Output, W.Work.Gaussians, W.Work.Clipped,
-               W.Work.Fragments, W.Work.Blends);
+    append(Out,
+           "raster {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
+           "count {} output 0x{:08x} gaussians {} clipped {} fragments {} "
+           "blends {}\n",
+           W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
+           W.What.Count, W.What.Output, W.Work.Gaussians, W.Work.Clipped,
+           W.Work.Fragments, W.Work.Blends);
 }
 
 void Trace::tail(const TailWork &W) {
   if (wants(Category::raster))
-    fmt::print(Out,
-               "tail {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
-               "count {} pixels {} visits {} blends {}\n",
-               W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
-               W.What.Count, W.Work.TailPixels, W.Work.TailVisits,
-               W.Work.TailBlends);
+    append(Out,
+           "tail {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
+           "count {} pixels {} visits {} blends {}\n",
+           W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
+           W.What.Count, W.Work.TailPixels, W.Work.TailVisits,
+           W.Work.TailBlends);
 }
 
 void Trace::trap(const Trap &T) {
   if (wants(Category::trap))
-    fmt::print(Out, "trap {}.{} 0x{:08x} <{}> {:04x} lane {} {} 0x{:08x}\n",
-               T.Core, T.Warp, T.Pc, T.Symbol, T.LaneMask, T.Lane,
-               describe(T.Cause), T.Address);
+    append(Out, "trap {}.{} 0x{:08x} <{}> {:04x} lane {} {} 0x{:08x}\n", T.Core,
+           T.Warp, T.Pc, T.Symbol, T.LaneMask, T.Lane, describe(T.Cause),
+           T.Address);
 }
 
 void Trace::runEnds(const RunResult &R) {
-  fmt::print(Out, "end {} exit {} instructions {}\n", describe(R.End),
-             R.ExitCode, R.Total.WarpInstructions);
+  append(Out, "end {} exit {} instructions {}\n", describe(R.End), R.ExitCode,
+         R.Total.WarpInstructions);
   std::fflush(Out);
 }
 

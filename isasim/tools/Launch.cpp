@@ -1,6 +1,7 @@
 #include "tools/Launch.h"
 
 #include "core/IsaTables.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
 #include <cstring>
@@ -221,7 +222,7 @@ Expected<Success> KernelLaunch::finish() const {
   M->read(L.PrintBuffer, std::as_writable_bytes(std::span(Text)));
   std::fwrite(Text.data(), 1, Text.size(), stdout);
   if (L.PrintUsed > L.PrintCapacity)
-    fmt::print("[{} bytes of printf dropped]\n", L.PrintUsed - L.PrintCapacity);
+    printOut("[{} bytes of printf dropped]\n", L.PrintUsed - L.PrintCapacity);
   for (const Output &O : Outputs) {
     const std::byte *From = M->hostPointer(O.Address, O.Bytes);
     if (Expected<Success> Ok = writeFileAtomically(O.File, From, O.Bytes); !Ok)

@@ -6,8 +6,10 @@
 #include "tools/Signature.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Tool.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -96,14 +98,31 @@ Expected<KernelRequest> makeRequest(const Options &O) {
   return R;
 }
 
+/// What the run reads and writes, which nothing else may be.
+Expected<Success> claimFiles(const Options &O, const KernelRequest &Request) {
+  std::vector<NamedFile> Outputs = O.Watch.outputs();
+  Outputs.push_back({"--signature", O.SignatureFile});
+  std::vector<NamedFile> Inputs{{"the program", O.Program},
+                                {"--config", O.ConfigFile},
+                                {"--args", O.ArgsFile}};
+  for (const std::string &Text : Request.Args)
+    if (const Expected<KernelInput> In = parseInput(Text)) {
+      Outputs.push_back({"argument " + Text, In->WriteTo});
+      // What inout: changes in its place is meant.
+      if (In->ReadFrom != In->WriteTo)
+        Inputs.push_back({"argument " + Text, In->ReadFrom});
+    }
+  return claimOutputs(Outputs, Inputs);
+}
+
 void printKernels(const Image &Program) {
   for (const Kernel &K : Program.kernels()) {
-    fmt::print("{}(", K.Name);
+    printOut("{}(", K.Name);
     constexpr const char *Kinds[] = {"value", "global", "local"};
     for (size_t N = 0; N != K.Args.size(); ++N)
-      fmt::print("{}{} {}[{}]", N ? ", " : "", Kinds[K.Args[N].Kind],
-                 K.Args[N].Name, K.Args[N].Size);
-    fmt::print(")\n");
+      printOut("{}{} {}[{}]", N ? ", " : "", Kinds[K.Args[N].Kind],
+               K.Args[N].Name, K.Args[N].Size);
+    printOut(")\n");
   }
 }
 
@@ -142,7 +161,7 @@ int finish(const RunResult &R, const Options &O, const Machine &M,
     if (const Expected<Success> Ok = Launch->finish(); !Ok)
       Code = reportError(Tool, Ok.error());
   if (R.Time)
-    fmt::print("{}", toText(*R.Time));
+    printOut("{}", toText(*R.Time));
   const bool Ended = R.End == Outcome::Done || R.End == Outcome::GuestFailed;
   if (Ended && !O.SignatureFile.empty())
     if (const Expected<Success> Ok =
@@ -163,6 +182,8 @@ int run(const Options &O) {
   const Expected<KernelRequest> Request = makeRequest(O);
   if (!Request)
     return reportError(Tool, Request.error());
+  if (const Expected<Success> Claimed = claimFiles(O, *Request); !Claimed)
+    return reportError(Tool, Claimed.error());
   const Expected<std::vector<std::byte>> Elf = readFile(O.Program);
   if (!Elf)
     return reportError(Tool, Elf.error());
@@ -181,7 +202,7 @@ int run(const Options &O) {
     return reportError(Tool, missingGlobal());
   const Expected<std::unique_ptr<Session>> Watch =
       Session::create(O.Watch, std::string(Tool),
-                      [](std::string_view Text) { fmt::print("{}", Text); });
+                      [](std::string_view Text) { printOut("{}", Text); });
   if (!Watch)
     return reportError(Tool, Watch.error());
   Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
@@ -302,7 +323,7 @@ void declare(CLI::App &App, Options &O) {
 /// them: +signature=FILE is --signature=FILE.
 std::vector<std::string> argumentsOf(int Argc, char **Argv) {
   std::vector<std::string> Arguments;
-  for (int N = Argc - 1; N > 0; --N) { // CLI11 takes them from the end
+  for (int N = 1; N < Argc; ++N) {
     const std::string_view Text = Argv[N];
     Arguments.push_back(Text.starts_with("+signature")
                             ? fmt::format("--{}", Text.substr(1))
@@ -311,33 +332,26 @@ std::vector<std::string> argumentsOf(int Argc, char **Argv) {
   return Arguments;
 }
 
-} // namespace
-
-int main(int Argc, char **Argv) {
+int mainOf(int Argc, char **Argv) {
   CLI::App App{"Runs a program for the Vorion machine on the ISA simulator.",
                std::string(Tool)};
   Options O;
   declare(App, O);
-  try {
-    App.parse(argumentsOf(Argc, Argv));
-  } catch (const CLI::CallForHelp &E) {
-    return App.exit(E);
-  } catch (const CLI::ParseError &E) {
-    return reportUsageError(Tool, E.what());
-  }
+  if (const auto Ended = parseCommandLine(App, argumentsOf(Argc, Argv)))
+    return *Ended;
   if (O.PrintSchema) {
-    fmt::print("{}", configSchema());
+    printOut("{}", configSchema());
     return 0;
   }
   if (O.PrintDefaultConfig) {
     const Expected<Config> C = makeConfig(O);
     if (!C)
       return reportError(Tool, C.error());
-    fmt::print("{}", toJson(*C));
+    printOut("{}", toJson(*C));
     return 0;
   }
   if (O.PrintTiming) {
-    fmt::print("{}", timingMarkdown());
+    printOut("{}", timingMarkdown());
     return 0;
   }
   if (O.Program.empty())
@@ -346,4 +360,10 @@ int main(int Argc, char **Argv) {
                                    "--help)",
                                    ExitCode::Usage});
   return run(O);
+}
+
+} // namespace
+
+int main(int Argc, char **Argv) {
+  return runTool(Tool, [&] { return mainOf(Argc, Argv); });
 }

@@ -6,6 +6,7 @@
 #include "ObjectCheck.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Tool.h"
 
 #include <algorithm>
 #include <array>
@@ -177,12 +178,10 @@ Expected<Success> linkProgram(const CommandLine &Line) {
   return runLinker(Arguments);
 }
 
-} // namespace
-
-int main(int Argc, char **Argv) {
+int run(int Argc, char **Argv) {
   for (int I = 1; I < Argc; ++I)
     if (std::strcmp(Argv[I], "--help") == 0) {
-      fmt::print("{}{}\n", Usage, ExitCodeHelp);
+      printOut("{}{}\n", Usage, ExitCodeHelp);
       return 0;
     }
   const auto Line = parse(Argc, Argv);
@@ -190,4 +189,10 @@ int main(int Argc, char **Argv) {
     return reportError(Tool, Line.error());
   const auto Linked = linkProgram(*Line);
   return Linked ? 0 : reportError(Tool, Linked.error());
+}
+
+} // namespace
+
+int main(int Argc, char **Argv) {
+  return runTool(Tool, [&] { return run(Argc, Argv); });
 }

@@ -1,5 +1,8 @@
 #include "Tool.h"
 
+#include "vorion/support/CommandLine.h"
+#include "vorion/support/Tool.h"
+
 #include <cassert>
 
 namespace vorion::test {
@@ -7,15 +10,12 @@ namespace vorion::test {
 int runTool(CLI::App &App, int Count, char **Values,
             const std::function<Expected<Success>()> &Run) {
   App.footer(std::string(ExitCodeHelp));
-  try {
-    App.parse(Count, Values);
-  } catch (const CLI::Success &E) {
-    return App.exit(E); // --help
-  } catch (const CLI::ParseError &E) {
-    return reportUsageError(App.get_name(), E.what());
-  }
-  const auto Done = Run();
-  return Done ? 0 : reportError(App.get_name(), Done.error());
+  return vorion::runTool(App.get_name(), [&] {
+    if (const auto Ended = parseCommandLine(App, {Values + 1, Values + Count}))
+      return *Ended;
+    const auto Done = Run();
+    return Done ? 0 : reportError(App.get_name(), Done.error());
+  });
 }
 
 reference::Support supportNamed(const std::string &Name) {

@@ -4,6 +4,7 @@
 #include "AccuracyTrain.h"
 #include "Commands.h"
 #include "SceneArguments.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -108,7 +109,7 @@ Expected<Split> splitViews(const SweepPlan &P,
   return S;
 }
 
-void say(std::string_view Line) { fmt::print(stderr, "splat: {}\n", Line); }
+void say(std::string_view Line) { printNote(fmt::format("splat: {}\n", Line)); }
 
 /// The settings so far: single knobs, and once they are all measured the
 /// product of the fronts.
@@ -240,7 +241,7 @@ Expected<Success> run(AccuracyArguments &A) {
     return All.error();
   if (A.List) {
     for (const Point &Of : missing(*P, pointsOf(*P, *All)))
-      fmt::print("{}\n", Of.name());
+      printOut("{}\n", Of.name());
     return Success{};
   }
   // Twice: what the first round finds out says what the second measures.
@@ -263,7 +264,7 @@ Expected<Success> run(AccuracyArguments &A) {
   const auto Text = recommendation(*P, *V, *All, *Floor);
   if (!Text)
     return Text.error();
-  fmt::print("{}{}/index.html\n", *Text, P->Folder);
+  printOut("{}{}/index.html\n", *Text, P->Folder);
   return Success{};
 }
 

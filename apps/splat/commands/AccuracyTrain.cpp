@@ -6,6 +6,7 @@
 #include "../accuracy/Page.h"
 #include "../accuracy/Points.h"
 #include "../capture/Capture.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -89,7 +90,7 @@ measureTraining(const TrainSweepPlan &P, bool List,
   std::vector<TrainPoint> Wanted = missing(P, trainPoints(P));
   if (List) {
     for (const TrainPoint &Of : Wanted)
-      fmt::print("{}\n", Of.name());
+      printOut("{}\n", Of.name());
     return Success{};
   }
   if (auto Made = makeFolders(P.Folder); !Made)
@@ -123,7 +124,7 @@ measureTraining(const TrainSweepPlan &P, bool List,
                                          trainPageOf(*Results, Made));
       !Written)
     return Written;
-  fmt::print("{}{}/index.html\n", trainTable(*Results), P.Folder);
+  printOut("{}{}/index.html\n", trainTable(*Results), P.Folder);
   return Success{};
 }
 

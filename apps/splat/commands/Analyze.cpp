@@ -7,8 +7,10 @@
 #include "Choices.h"
 #include "Commands.h"
 #include "SceneArguments.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +141,11 @@ void resize(Camera &C, int Width) {
 }
 
 Expected<Success> run(AnalyzeArguments A) {
+  if (auto Claimed =
+          claimOutputs({{"--json", A.JsonFile}},
+                       {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
+      !Claimed)
+    return Claimed;
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
@@ -166,7 +173,7 @@ Expected<Success> run(AnalyzeArguments A) {
               fmt::format("{}-{}.svg", A.Plots, Name), svgOf(Plot));
           !Written)
         return Written;
-  fmt::print("{}", textReport(A, *C, R));
+  printOut("{}", textReport(A, *C, R));
   return Success{};
 }
 

@@ -1,6 +1,7 @@
 #include "CaptureInfo.h"
 
 #include "../capture/Capture.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -117,7 +118,7 @@ Expected<Success> describeCapture(const std::string &Path,
     if (auto Written = writeFileAtomically(JsonFile, jsonOf(Path, *C));
         !Written)
       return Written;
-  fmt::print("{}", textOf(Path, *C));
+  printOut("{}", textOf(Path, *C));
   return Success{};
 }
 

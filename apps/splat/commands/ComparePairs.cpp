@@ -1,6 +1,7 @@
 #include "Compare.h"
 
 #include "../io/Npz.h"
+#include "vorion/support/Diagnostics.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ Expected<Success> comparePairs(const CompareArguments &A) {
                              A.A),
                  ExitCode::GuestFailed};
   }
-  fmt::print("equal: {} pairs\n", First->at("tile").elements());
+  printOut("equal: {} pairs\n", First->at("tile").elements());
   return Success{};
 }
 

@@ -4,8 +4,10 @@
 #include "../io/Image.h"
 #include "../io/Metrics.h"
 #include "../io/Npz.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
 
 #include <cmath>
 #include <cstdint>
@@ -47,8 +49,8 @@ Expected<std::vector<std::uint8_t>> readMask(const std::string &File,
 }
 
 void print(const char *What, const Difference &D) {
-  fmt::print("{}: {:.2f} dB, largest difference {:.3g}, {} pixels\n", What,
-             D.PsnrDb, D.MaxAbs, D.Pixels);
+  printOut("{}: {:.2f} dB, largest difference {:.3g}, {} pixels\n", What,
+           D.PsnrDb, D.MaxAbs, D.Pixels);
 }
 
 /// JSON has no infinity; equal pictures get null.
@@ -80,6 +82,11 @@ Expected<Success> require(const std::string &File, const char *What,
 } // namespace
 
 Expected<Success> comparePictures(const CompareArguments &A) {
+  if (auto Claimed = claimOutputs(
+          {{"--json", A.Json}},
+          {{"a picture", A.A}, {"a picture", A.B}, {"--mask", A.Mask}});
+      !Claimed)
+    return Claimed;
   const auto First = readImage(A.A);
   if (!First)
     return First.error();
@@ -102,11 +109,11 @@ Expected<Success> comparePictures(const CompareArguments &A) {
   const Difference Outside = compare(First->Render, Second->Render, 3, Mask);
   const double Share =
       1 - double(Outside.Pixels) / static_cast<double>(First->pixels());
-  fmt::print("metric: {}\n", Metric);
+  printOut("metric: {}\n", Metric);
   print("render, all pixels", All);
   if (!Mask.empty()) {
     print("render, outside the mask", Outside);
-    fmt::print("masked: {:.3f} %\n", 100 * Share);
+    printOut("masked: {:.3f} %\n", 100 * Share);
   }
   if (!First->Alpha.empty() && !Second->Alpha.empty())
     print(Mask.empty() ? "alpha, all pixels" : "alpha, outside the mask",

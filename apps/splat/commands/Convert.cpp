@@ -1,6 +1,8 @@
 #include "../io/Ply.h"
 #include "Commands.h"
 #include "SceneArguments.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/Outputs.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -18,13 +20,17 @@ Runner addConvert(CLI::App &App) {
   App.add_option("-o,--output", A->Output, "Scene to write (INRIA's PLY)")
       ->required();
   return [A]() -> Expected<Success> {
+    if (auto Claimed =
+            claimOutputs({{"-o", A->Output}}, {{"the scene", A->Scene.Path}});
+        !Claimed)
+      return Claimed;
     const auto File = loadScene(A->Scene);
     if (!File)
       return File.error();
     if (auto Written = writePly(A->Output, File->Gaussians); !Written)
       return Written.error();
-    fmt::print("{}: {} Gaussians, SH degree {}\n", A->Output,
-               File->Gaussians.size(), File->Gaussians.ShDegree);
+    printOut("{}: {} Gaussians, SH degree {}\n", A->Output,
+             File->Gaussians.size(), File->Gaussians.ShDegree);
     return Success{};
   };
 }

@@ -2,6 +2,8 @@
 
 #include "../io/Ply.h"
 #include "Commands.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/Outputs.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -17,18 +19,20 @@ struct DemoArguments {
 };
 
 Expected<Success> run(const DemoArguments &A) {
+  if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--cameras", A.Cameras}});
+      !Claimed)
+    return Claimed;
   const Scene S = demo::makeScene(A.Gaussians);
   if (auto Written = writePly(A.Output, S); !Written)
     return Written.error();
-  fmt::print("{}: {} Gaussians, SH degree {}\n", A.Output, S.size(),
-             S.ShDegree);
+  printOut("{}: {} Gaussians, SH degree {}\n", A.Output, S.size(), S.ShDegree);
   if (A.Cameras.empty())
     return Success{};
   const std::vector<Camera> Cameras = demo::makeCameras();
   if (auto Written = writeCameras(A.Cameras, Cameras); !Written)
     return Written.error();
   for (const Camera &C : Cameras)
-    fmt::print("{}: view {}, {}x{}\n", A.Cameras, C.Name, C.Width, C.Height);
+    printOut("{}: view {}, {}x{}\n", A.Cameras, C.Name, C.Width, C.Height);
   return Success{};
 }
 

@@ -1,4 +1,5 @@
 #include "DeviceArguments.h"
+#include "vorion/support/Diagnostics.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ Expected<Device> openDevice(const std::string &Name, Path Blending) {
 
 void showBuildLog(const Launcher &L) {
   if (!L.buildLog().empty())
-    fmt::print(stderr, "{}\n", L.buildLog());
+    printNote(L.buildLog() + "\n");
 }
 
 } // namespace vorion::splat

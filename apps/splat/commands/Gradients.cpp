@@ -1,6 +1,5 @@
 #include "Commands.h"
 #include "DeviceArguments.h"
-#include "OutputFile.h"
 #include "PictureOptions.h"
 #include "Progress.h"
 #include "SceneArguments.h"
@@ -11,6 +10,7 @@
 #include "../render/Report.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Outputs.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -106,9 +106,12 @@ Expected<Success> run(const GradientArguments &A) {
   if (auto Checked = checkBackwardOptions(A.Backward, A.Options.Blending);
       !Checked)
     return Checked;
-  for (const std::string &File : {A.Output, A.Json})
-    if (auto Writable = checkWritable(File); !Writable)
-      return Writable;
+  if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--json", A.Json}},
+                                  {{"the scene", A.Scene.Path},
+                                   {"--cameras", A.Cameras},
+                                   {"--upstream", A.Upstream}});
+      !Claimed)
+    return Claimed;
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
@@ -137,16 +140,15 @@ Expected<Success> run(const GradientArguments &A) {
   if (!A.Json.empty())
     if (auto Reported = writeReport(A, *File, *C, *D, *R); !Reported)
       return Reported;
-  fmt::print("{} {}x{} on {}: {} rules, support {}, path {}{}\n"
-             "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
-             C->Name, C->Width, C->Height, D->name(),
-             name(A.Options.Convention), name(A.Options.Reach),
-             name(A.Options.Blending), toString(A.Backward, A.Options.Blending),
-             R->Visible, R->Pairs, A.Options.tileSize(),
-             A.Options.tileHeight());
+  printOut("{} {}x{} on {}: {} rules, support {}, path {}{}\n"
+           "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
+           C->Name, C->Width, C->Height, D->name(), name(A.Options.Convention),
+           name(A.Options.Reach), name(A.Options.Blending),
+           toString(A.Backward, A.Options.Blending), R->Visible, R->Pairs,
+           A.Options.tileSize(), A.Options.tileHeight());
   for (const StageReport &S : R->Stages)
-    fmt::print("{:<18}{:>8.3f} s\n", S.Name, S.Seconds);
-  fmt::print("{}", frameText(R->Stages));
+    printOut("{:<18}{:>8.3f} s\n", S.Name, S.Seconds);
+  printOut("{}", frameText(R->Stages));
   return Success{};
 }
 

@@ -4,8 +4,10 @@
 #include "CaptureInfo.h"
 #include "Commands.h"
 #include "SceneArguments.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -89,6 +91,10 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
 }
 
 Expected<Success> run(const InfoArguments &A) {
+  if (auto Claimed =
+          claimOutputs({{"--json", A.JsonFile}}, {{"the scene", A.Scene.Path}});
+      !Claimed)
+    return Claimed;
   if (isCapture(A.Scene.Path))
     return describeCapture(A.Scene.Path, A.JsonFile);
   const auto File = loadScene(A.Scene);
@@ -104,7 +110,7 @@ Expected<Success> run(const InfoArguments &A) {
         !Written)
       return Written;
   }
-  fmt::print("{}", textReport(A, *File, S));
+  printOut("{}", textReport(A, *File, S));
   return Success{};
 }
 

@@ -10,14 +10,13 @@ std::function<void(std::string_view)> progress() {
   if (isatty(STDERR_FILENO) == 0)
     return {};
   return [](std::string_view Stage) {
-    fmt::print(stderr, "\r\033[Ksplat: {} ...", Stage);
-    std::fflush(stderr);
+    std::fputs(fmt::format("\r\033[Ksplat: {} ...", Stage).c_str(), stderr);
   };
 }
 
 void endProgress() {
   if (isatty(STDERR_FILENO) != 0)
-    fmt::print(stderr, "\r\033[K");
+    std::fputs("\r\033[K", stderr);
 }
 
 } // namespace vorion::splat

@@ -2,7 +2,6 @@
 #include "Commands.h"
 #include "DeviceArguments.h"
 #include "NumericsReport.h"
-#include "OutputFile.h"
 #include "PictureOptions.h"
 #include "Progress.h"
 #include "SceneArguments.h"
@@ -21,6 +20,8 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <cerrno>
 #include <cstring>
@@ -106,10 +107,11 @@ Expected<Success> check(const RenderArguments &A) {
                              "of 16x16 pixels, expected 16",
                              O.SimtTile));
   // A render may take minutes: find out now whether it can be kept.
-  for (const std::string &File : {A.Output, A.Json, A.Pairs, A.Depth})
-    if (auto Writable = checkWritable(File); !Writable)
-      return Writable;
-  return Success{};
+  return claimOutputs({{"-o", isOne(A) ? A.Output : ""},
+                       {"--json", A.Json},
+                       {"--dump-pairs", A.Pairs},
+                       {"--depth", A.Depth}},
+                      {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
 }
 
 Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
@@ -126,12 +128,13 @@ Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
 RenderPlan planAsAsked(const RenderArguments &A, const EffectInputs &In) {
   RenderPlan Plan = planRender(EffectPlan(A.Request, In), A.Options);
   for (const Effect *E : Plan.Effects.missing())
-    fmt::print(stderr,
-               "splat: warning: --effects {} leaves out {}, which the scene "
-               "calls for ({}): the picture differs\n",
-               A.Effects, E->Name, Plan.Effects.of(*E).Found.Figure);
+    printDiagnostic("splat", "warning", "",
+                    fmt::format("--effects {} leaves out {}, which the scene "
+                                "calls for ({}): the picture differs",
+                                A.Effects, E->Name,
+                                Plan.Effects.of(*E).Found.Figure));
   if (!A.Explain.empty())
-    fmt::print("{}", explain(Plan));
+    printOut("{}", explain(Plan));
   return Plan;
 }
 
@@ -147,8 +150,8 @@ void fallBack(const RenderArguments &A, const Launcher &L,
   RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
   if (Cheaper.Programs == Plan.Programs)
     return;
-  fmt::print("effects: by run-time flags, whose programs are compiled "
-             "already\n");
+  printOut("effects: by run-time flags, whose programs are compiled "
+           "already\n");
   Plan = std::move(Cheaper);
 }
 
@@ -216,7 +219,7 @@ Expected<Success> renderOne(const Job &J, const Camera &C) {
     if (auto Written = writeFileAtomically(A.Json, *Report); !Written)
       return Written.error();
   }
-  fmt::print("{}", textReport(C, A.Options, J.Dev, *R));
+  printOut("{}", textReport(C, A.Options, J.Dev, *R));
   return Success{};
 }
 
@@ -228,10 +231,11 @@ std::string outputOf(const std::string &Output, const Camera &C) {
       .string();
 }
 
-/// That no picture would take another's place.
-Expected<Success> checkOutputs(const RenderArguments &A,
-                               const std::vector<Camera> &Cameras) {
+/// That no picture would take the place of another or of another file.
+Expected<Success> claimPictures(const RenderArguments &A,
+                                const std::vector<Camera> &Cameras) {
   std::set<std::string> Files;
+  std::vector<NamedFile> Pictures;
   for (const Camera &C : Cameras)
     if (const auto [File, IsNew] = Files.insert(outputOf(A.Output, C)); !IsNew)
       return Error{A.Cameras,
@@ -239,7 +243,11 @@ Expected<Success> checkOutputs(const RenderArguments &A,
                                "of different names",
                                *File),
                    ExitCode::Usage};
-  return Success{};
+    else
+      Pictures.push_back({"the picture of view " + printable(C.Name), *File});
+  return claimOutputs(Pictures, {{"the scene", A.Scene.Path},
+                                 {"--cameras", A.Cameras},
+                                 {"--json", A.Json}});
 }
 
 Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
@@ -256,7 +264,7 @@ Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
     const std::string Output = outputOf(A.Output, Cameras[N]);
     if (auto Written = writeImage(Output, R->Frames[N].Picture); !Written)
       return Written.error();
-    fmt::print("{}\n", Output);
+    printOut("{}\n", Output);
     if (A.Json.empty())
       continue;
     auto Report = report(J, Output, Cameras[N], R->Frames[N]);
@@ -272,7 +280,7 @@ Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
         !Written)
       return Written.error();
   }
-  fmt::print("{}", sequenceText(*R));
+  printOut("{}", sequenceText(*R));
   return Success{};
 }
 
@@ -287,7 +295,7 @@ Expected<Success> run(const RenderArguments &A) {
   if (!Cameras)
     return Cameras.error();
   if (!isOne(A))
-    if (auto Checked = checkOutputs(A, *Cameras); !Checked)
+    if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;
   if (A.Time || A.ClockMhz)
     turnClockOn(A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
@@ -318,7 +326,7 @@ Expected<Success> run(const RenderArguments &A) {
     const auto Text = Numerics->text();
     if (!Text)
       return Text.error();
-    fmt::print("{}", *Text);
+    printOut("{}", *Text);
   }
   if (A.Explain == "measure") {
     const auto Costs = measureEffects(*D, A.KernelFolder, A.Request, Inputs,
@@ -326,7 +334,7 @@ Expected<Success> run(const RenderArguments &A) {
     endProgress();
     if (!Costs)
       return Costs.error();
-    fmt::print("{}", toString(*Costs));
+    printOut("{}", toString(*Costs));
   }
   return Success{};
 }

@@ -1,6 +1,8 @@
 #include "SceneArguments.h"
 
 #include "../io/Axes.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -34,10 +36,10 @@ Expected<SceneFile> loadScene(const SceneArguments &A) {
     return File;
   changeAxes(File->Gaussians, Change);
   if (!File->Skipped.empty())
-    fmt::print(stderr,
-               "splat: warning: {}: skips properties that no effect here "
-               "reads: {}\n",
-               A.Path, fmt::join(File->Skipped, ", "));
+    printDiagnostic("splat", "warning", A.Path,
+                    escaped(fmt::format("skips properties that no effect here "
+                                        "reads: {}",
+                                        fmt::join(File->Skipped, ", "))));
   return File;
 }
 

@@ -1,7 +1,6 @@
 #include "Choices.h"
 #include "Commands.h"
 #include "DeviceArguments.h"
-#include "OutputFile.h"
 #include "PictureOptions.h"
 
 #include "../analyze/Chart.h"
@@ -14,8 +13,10 @@
 #include "../train/DeviceRenderer.h"
 #include "../train/RunText.h"
 #include "../train/Start.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
 
 #include <algorithm>
 #include <array>
@@ -90,17 +91,17 @@ void showProgress(const Work &W, const StepReport &R, Clock::time_point Start) {
     return;
   const double Seconds =
       std::chrono::duration<double>(Clock::now() - Start).count();
-  fmt::print(stderr,
-             "{}iteration {}/{}: loss {:.5f}, {} Gaussians, {:.2f} it/s of "
-             "wall time{}{}",
-             Terminal ? "\r\033[K" : "", R.Iteration,
-             W.A.Run.Settings.Iterations, R.Loss.Value, R.Gaussians,
-             (R.Iteration - W.First) / Seconds,
-             W.Timed.empty() ? ""
-                             : fmt::format(", {:.3f} of the machine's clock",
-                                           W.Timed.rate()),
-             Terminal ? "" : "\n");
-  std::fflush(stderr);
+  const std::string Line = fmt::format(
+      "{}iteration {}/{}: loss {:.5f}, {} Gaussians, {:.2f} it/s of wall "
+      "time{}{}",
+      Terminal ? "\r\033[K" : "", R.Iteration, W.A.Run.Settings.Iterations,
+      R.Loss.Value, R.Gaussians, (R.Iteration - W.First) / Seconds,
+      W.Timed.empty()
+          ? ""
+          : fmt::format(", {:.3f} of the machine's clock", W.Timed.rate()),
+      Terminal ? "" : "\n");
+  // Not printNote(), which would escape what clears the line.
+  std::fputs(Line.c_str(), stderr);
 }
 
 Expected<Success> writeState(const Work &W, Launcher &L, Trainer &T) {
@@ -151,7 +152,7 @@ Expected<Success> loop(Work &W, Launcher &L, DeviceRenderer &Renderer,
   }
   L.setProfiled(false);
   if (W.Together.first() && isatty(STDERR_FILENO) != 0)
-    fmt::print(stderr, "\n");
+    printNote("\n");
   W.Seconds = std::chrono::duration<double>(Clock::now() - Start).count();
   if (auto Kept = keep(W, L, T); !Kept)
     return Kept;
@@ -242,36 +243,35 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
             writeFileAtomically(W.A.Json, jsonReport(W, D, T, Db, B));
         !Written)
       return Written;
-  fmt::print("{}: {} Gaussians after {} iterations\n", W.A.Output, S.size(),
-             T.iteration());
-  fmt::print("pictures     {} to train on, {} held out ({}); {}\n",
-             W.Pictures.Training.size(), W.Pictures.HeldOut.size(),
-             W.C.HeldOutBy, PhotoFilter);
+  printOut("{}: {} Gaussians after {} iterations\n", W.A.Output, S.size(),
+           T.iteration());
+  printOut("pictures     {} to train on, {} held out ({}); {}\n",
+           W.Pictures.Training.size(), W.Pictures.HeldOut.size(), W.C.HeldOutBy,
+           PhotoFilter);
   if (W.A.Run.Batch != 1 || W.Together.size() != 1)
-    fmt::print("views        {} an iteration, on {} devices\n", W.A.Run.Batch,
-               W.Together.size());
-  fmt::print("rules        {}, support exact, path {}{}, opacity rate {}\n",
-             name(W.A.Convention), name(W.A.Blending),
-             toString(W.A.Backward, W.A.Blending),
-             W.A.Run.Settings.OpacityRate);
+    printOut("views        {} an iteration, on {} devices\n", W.A.Run.Batch,
+             W.Together.size());
+  printOut("rules        {}, support exact, path {}{}, opacity rate {}\n",
+           name(W.A.Convention), name(W.A.Blending),
+           toString(W.A.Backward, W.A.Blending), W.A.Run.Settings.OpacityRate);
   if (T.iteration() > W.First)
-    fmt::print("wall time    {:.1f} s, {:.3f} it/s\n", W.Seconds,
-               (T.iteration() - W.First) / W.Seconds);
+    printOut("wall time    {:.1f} s, {:.3f} it/s\n", W.Seconds,
+             (T.iteration() - W.First) / W.Seconds);
   if (!W.Timed.empty())
-    fmt::print("machine time {}\n", W.Timed.text());
+    printOut("machine time {}\n", W.Timed.text());
   else if (W.A.isClocked())
-    fmt::print("machine time unknown: of iterations {} to {} none was timed, "
-               "expected a smaller --time-every than {}\n",
-               W.First + 1, T.iteration(), W.A.timeEvery());
+    printOut("machine time unknown: of iterations {} to {} none was timed, "
+             "expected a smaller --time-every than {}\n",
+             W.First + 1, T.iteration(), W.A.timeEvery());
   if (B)
-    fmt::print("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n"
-               "without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
-               "training view {:.3f} dB\n",
-               meanOf(Db), B->Constant, B->Mean, B->BestView);
+    printOut("held out     {:.3f} dB (PSNR of 8-bit values, mean of views)\n"
+             "without it   constant {:.3f} dB, mean picture {:.3f} dB, best "
+             "training view {:.3f} dB\n",
+             meanOf(Db), B->Constant, B->Mean, B->BestView);
   else
-    fmt::print("held out     no held-out views\n");
+    printOut("held out     no held-out views\n");
   if (W.A.Breakdown && !W.Timed.empty())
-    fmt::print("{}", W.Timed.lastByStage());
+    printOut("{}", W.Timed.lastByStage());
   return Success{};
 }
 
@@ -291,10 +291,11 @@ Expected<Success> check(const TrainArguments &A) {
       return Error{"",
                    fmt::format("--background {}: expected values of 0 to 1", V),
                    ExitCode::Usage};
-  for (const std::string &File : {A.Output, A.Json, A.Curve, A.Checkpoint})
-    if (auto Writable = checkWritable(File); !Writable)
-      return Writable;
-  return Success{};
+  return claimOutputs({{"-o", A.Output},
+                       {"--json", A.Json},
+                       {"--curve", A.Curve},
+                       {"--checkpoint", A.Checkpoint}},
+                      {{"--from", A.From}});
 }
 
 /// That all processes are about to do the same; for the first error.
@@ -321,8 +322,8 @@ Expected<Success> start(const TrainArguments &A, const Work &W, Trainer &T) {
       return Same;
     T.restore(*Kept);
     if (W.Together.first())
-      fmt::print(stderr, "going on after iteration {} of {}\n", T.iteration(),
-                 A.Checkpoint);
+      printNote(fmt::format("going on after iteration {} of {}\n",
+                            T.iteration(), A.Checkpoint));
     return Success{};
   }
   if (A.From.empty()) {

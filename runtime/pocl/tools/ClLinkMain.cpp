@@ -9,7 +9,9 @@
 #include "ClDiagnostics.h"
 
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Outputs.h"
 #include "vorion/support/TemporaryFolder.h"
+#include "vorion/support/Tool.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +20,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <set>
 #include <spawn.h>
@@ -139,25 +140,11 @@ Expected<Built> findBuilt(const fs::path &Cache, const std::string &Input) {
 }
 
 /// Refuses an output that could not be written, before any work is done.
-Expected<Success> checkOutput(const ClCommandLine &Line) {
-  std::error_code Problem;
-  const std::string Output = Line.Output.string();
-  if (fs::is_directory(Line.Output, Problem))
-    return Error{Output, "is a folder, expected a file name"};
+Expected<Success> claimOutput(const ClCommandLine &Line) {
+  std::vector<NamedFile> Inputs;
   for (const fs::path &Input : Line.Inputs)
-    if (fs::equivalent(Input, Line.Output, Problem))
-      return Error{Output, "is an input, expected another file name",
-                   ExitCode::Usage};
-  // A trial, since permissions alone do not tell for root or in /proc.
-  std::string Trial = Output + ".XXXXXX";
-  const int File = mkstemp(Trial.data());
-  if (File < 0)
-    return Error{Output, std::string("cannot be written: ") +
-                             std::strerror(errno) +
-                             ", expected a folder that can be written"};
-  close(File);
-  unlink(Trial.c_str());
-  return Success{};
+    Inputs.push_back({"an input", Input.string()});
+  return claimOutputs({{"-o", Line.Output.string()}}, Inputs);
 }
 
 Expected<Success> checkInput(const fs::path &Input) {
@@ -221,7 +208,7 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   for (const fs::path &Input : Line.Inputs)
     if (const Expected<Success> Good = checkInput(Input); !Good)
       return Good;
-  if (const Expected<Success> Good = checkOutput(Line); !Good)
+  if (const Expected<Success> Good = claimOutput(Line); !Good)
     return Good;
   const auto Folder = TemporaryFolder::make("vorion");
   if (!Folder)
@@ -254,11 +241,9 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   return Success{};
 }
 
-} // namespace
-
-int main(int Argc, char **Argv) {
+int run(int Argc, char **Argv) {
   if (Argc == 2 && !std::strcmp(Argv[1], "--help")) {
-    std::cout << Usage << ExitCodeHelp << "\n";
+    printOut("{}{}\n", Usage, ExitCodeHelp);
     return 0;
   }
   std::error_code Problem;
@@ -270,4 +255,10 @@ int main(int Argc, char **Argv) {
     return reportError(Tool, Line.error());
   const Expected<Success> Done = compile(*Line, Root);
   return Done ? 0 : reportError(Tool, Done.error());
+}
+
+} // namespace
+
+int main(int Argc, char **Argv) {
+  return runTool(Tool, [&] { return run(Argc, Argv); });
 }

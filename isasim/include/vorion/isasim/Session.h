@@ -4,11 +4,13 @@
 
 #include "vorion/isasim/Observer.h"
 #include "vorion/support/Expected.h"
+#include "vorion/support/Outputs.h"
 
 #include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vorion::isasim {
 
@@ -21,6 +23,8 @@ struct SessionOptions {
 
   /// What the environment's variables say (docs/debugging.md).
   static SessionOptions fromEnvironment();
+  /// The files that will be written, but for standard output.
+  std::vector<NamedFile> outputs() const;
 };
 
 class Session {

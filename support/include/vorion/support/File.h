@@ -22,11 +22,26 @@ inline constexpr std::uint64_t StreamLimit = std::uint64_t{1} << 30;
 Expected<std::vector<std::byte>> readFile(const std::string &Path,
                                           std::uint64_t Most = UINT64_MAX);
 
-/// Writes \p Size bytes beside \p Path and renames the result to it, so that
-/// an interrupted run leaves either the old file or the new one.
+/// The path that means standard output to whatever writes a file.
+inline constexpr std::string_view StandardOutput = "-";
+
+/// Writes \p Size bytes to \p Path. A regular file is written aside,
+/// synchronized with its disk and renamed, so that an interrupted run leaves
+/// either the old file or the new one; it keeps the permissions of the one that
+/// it replaces and, as far as we may, its owner. Of a symbolic link the target
+/// is replaced. Devices, pipes and standard output, whose name is
+/// StandardOutput, are written through.
 Expected<Success> writeFileAtomically(const std::string &Path, const void *Data,
                                       std::size_t Size);
 Expected<Success> writeFileAtomically(const std::string &Path,
                                       std::string_view Text);
+
+/// Whether writeFileAtomically() could write \p Path, asked before the work
+/// whose result it gets. Makes a file in its folder for a moment.
+Expected<Success> checkWritable(const std::string &Path);
+
+/// The file that \p Path names through symbolic links; the last of them may
+/// name one that is not there yet.
+std::string targetOf(const std::string &Path);
 
 } // namespace vorion

@@ -11,8 +11,11 @@ namespace vorion {
 /// UTF-8 become \xNN, byte by byte. Other letters stay as they are.
 std::string escaped(std::string_view Text);
 
-/// The same of the first \p Most bytes, with "..." if there are more: a damaged
-/// file may hold a name of any length.
+/// The same, but with the line ends of \p Text.
+std::string escapedLines(std::string_view Text);
+
+/// As escaped(), the first \p Most bytes, with "..." if there are more: a
+/// damaged file may hold a name of any length.
 std::string printable(std::string_view Text, std::size_t Most = 80);
 
 } // namespace vorion

@@ -1,0 +1,60 @@
+#include "vorion/support/CommandLine.h"
+
+#include <gtest/gtest.h>
+
+using namespace vorion;
+
+namespace {
+
+/// What is said of \p Arguments to a tool with two commands.
+std::string said(std::vector<std::string> Arguments) {
+  CLI::App App("A tool.", "tool");
+  App.require_subcommand(1);
+  App.fallthrough();
+  std::string Set, Cameras, Json;
+  App.add_option("--set", Set);
+  CLI::App *Render = App.add_subcommand("render", "");
+  Render->add_option("--cameras", Cameras)->required();
+  Render->add_option("-j,--json", Json);
+  App.add_subcommand("train", "");
+  testing::internal::CaptureStderr();
+  const auto Code = parseCommandLine(App, std::move(Arguments));
+  const std::string Text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(Code.value_or(0), Text.empty() ? 0 : 2);
+  return Text;
+}
+
+TEST(CommandLine, WhatIsRightIsParsed) {
+  EXPECT_EQ(said({"render", "--cameras", "c", "--set", "a=b"}), "");
+  EXPECT_EQ(said({"train"}), "");
+}
+
+TEST(CommandLine, WhatIsNearlyRightIsNamed) {
+  EXPECT_EQ(said({"rendr", "--cameras", "c"}),
+            "tool: error: unknown subcommand rendr, did you mean render? "
+            "(see --help)\n");
+  EXPECT_EQ(said({"render", "--camera", "c"}),
+            "tool: error: unknown option --camera, did you mean --cameras? "
+            "(see --help)\n");
+  EXPECT_EQ(said({"render", "--cameras", "c", "--jsno=f"}),
+            "tool: error: unknown option --jsno, did you mean --json? "
+            "(see --help)\n");
+  EXPECT_EQ(said({"train", "--sets", "a=b"}),
+            "tool: error: unknown option --sets, did you mean --set? "
+            "(see --help)\n");
+}
+
+TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {
+  EXPECT_EQ(said({"paint"}),
+            "tool: error: unknown subcommand paint, expected: see --help\n");
+  EXPECT_EQ(said({"render", "--nonsense", "c"}),
+            "tool: error: unknown option --nonsense, expected: see --help\n");
+  EXPECT_EQ(said({"render"}),
+            "tool: error: --cameras is required, expected: see --help\n");
+  EXPECT_EQ(said({}),
+            "tool: error: A subcommand is required, expected: see --help\n");
+  EXPECT_EQ(said({"render", "--\x1b[31m"}),
+            "tool: error: unknown option --\\x1b[31m, expected: see --help\n");
+}
+
+} // namespace

@@ -1,0 +1,83 @@
+#include "vorion/support/Outputs.h"
+
+#include "vorion/support/File.h"
+#include "vorion/support/TemporaryFolder.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <optional>
+#include <sys/stat.h>
+#include <vector>
+
+using namespace vorion;
+namespace fs = std::filesystem;
+
+namespace {
+
+class OutputsTest : public testing::Test {
+protected:
+  void SetUp() override {
+    auto Made = TemporaryFolder::make("vorion-support");
+    ASSERT_TRUE(Made);
+    Folder.emplace(std::move(*Made));
+    ASSERT_TRUE(writeFileAtomically(path("a"), "text"));
+  }
+  std::string path(const std::string &Name) const {
+    return Folder->path() + "/" + Name;
+  }
+  /// Whether two outputs, and an output and an input, clash.
+  static bool clash(const std::string &A, const std::string &B) {
+    const std::vector<NamedFile> First{{"-o", A}}, Second{{"--json", B}};
+    const auto Apart = claimOutputs(Second, First);
+    const auto Both = claimOutputs(std::vector<NamedFile>{First[0], Second[0]});
+    EXPECT_EQ(bool(Apart), bool(Both)) << A << ", " << B;
+    if (!Both) {
+      EXPECT_EQ(Both.error().What,
+                "is named for -o and for --json, expected two files");
+      EXPECT_EQ(Both.error().Code, ExitCode::Usage);
+    }
+    return !Both;
+  }
+
+private:
+  std::optional<TemporaryFolder> Folder;
+};
+
+TEST_F(OutputsTest, OneFileUnderTwoNamesIsRefused) {
+  fs::create_hard_link(path("a"), path("hard"));
+  fs::create_symlink("a", path("soft"));
+  fs::create_symlink("new", path("dangling"));
+  fs::create_directory(path("sub"));
+  EXPECT_TRUE(clash(path("a"), path("a")));
+  EXPECT_TRUE(clash(path("a"), path("sub/../a")));
+  EXPECT_TRUE(clash(path("a"), path("hard")));
+  EXPECT_TRUE(clash(path("a"), path("soft")));
+  EXPECT_TRUE(clash(path("new"), path("./new"))) << "not there yet";
+  EXPECT_TRUE(clash(path("new"), path("sub/../new")));
+  EXPECT_TRUE(clash(path("new"), path("dangling")));
+  EXPECT_TRUE(clash("-", "-"));
+}
+
+TEST_F(OutputsTest, TwoFilesAreFine) {
+  EXPECT_FALSE(clash(path("a"), path("b")));
+  EXPECT_FALSE(clash(path("b"), path("c")));
+  EXPECT_FALSE(clash(path("b"), "-"));
+  EXPECT_FALSE(clash("", "")) << "not asked for";
+}
+
+TEST_F(OutputsTest, DevicesAndPipesMayBeNamedTwice) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(clash(path("pipe"), path("pipe")));
+  EXPECT_FALSE(clash("/dev/null", "/dev/null"));
+}
+
+TEST_F(OutputsTest, WhatCannotBeWrittenIsRefusedBeforeTheWork) {
+  const auto Checked =
+      claimOutputs(std::vector<NamedFile>{{"-o", path("none/x")}});
+  ASSERT_FALSE(Checked);
+  EXPECT_EQ(Checked.error().What, "cannot write: No such file or directory, "
+                                  "expected a folder that can be written");
+  EXPECT_EQ(Checked.error().Code, ExitCode::InputFile);
+}
+
+} // namespace

@@ -1,0 +1,20 @@
+#include "vorion/support/Suggest.h"
+
+#include <gtest/gtest.h>
+#include <vector>
+
+using namespace vorion;
+
+TEST(Suggest, FindsTheNearestWord) {
+  const std::vector<std::string> Known = {"--cameras", "--json", "--view",
+                                          "render", "train"};
+  EXPECT_EQ(closestTo("--camera", Known), "--cameras");
+  EXPECT_EQ(closestTo("--jsno", Known), "--json") << "swapped";
+  EXPECT_EQ(closestTo("rendr", Known), "render") << "left out";
+  EXPECT_EQ(closestTo("traain", Known), "train") << "put in";
+  EXPECT_EQ(closestTo("--vieq", Known), "--view") << "changed";
+  EXPECT_EQ(closestTo("--nonsense", Known), "");
+  EXPECT_EQ(closestTo("x", Known), "");
+  EXPECT_EQ(closestTo("", Known), "");
+  EXPECT_EQ(closestTo(std::string(100'000, 'a'), Known), "");
+}

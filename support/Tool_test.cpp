@@ -1,0 +1,52 @@
+#include "vorion/support/Tool.h"
+
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <new>
+#include <stdexcept>
+#include <unistd.h>
+
+using namespace vorion;
+
+namespace {
+
+/// The exit code of \p Body and what it said on stderr.
+std::pair<int, std::string> ran(const std::function<int()> &Body) {
+  testing::internal::CaptureStderr();
+  const int Code = runTool("tool", Body);
+  return {Code, testing::internal::GetCapturedStderr()};
+}
+
+TEST(Tool, GivesTheCodeOfItsBody) {
+  EXPECT_EQ(ran([] { return 4; }), std::pair(4, std::string()));
+}
+
+TEST(Tool, WhatIsThrownIsOneLine) {
+  EXPECT_EQ(ran([]() -> int { throw std::bad_alloc(); }),
+            std::pair(5, std::string("tool: error: memory ran out, expected a "
+                                     "smaller input or a machine with "
+                                     "more\n")));
+  EXPECT_EQ(ran([]() -> int { throw std::runtime_error("this\nthat"); }),
+            std::pair(70, std::string("tool: error: a bug: this\\x0athat, "
+                                      "expected no exception\n")));
+}
+
+TEST(Tool, OutputThatIsFullIsSeen) {
+  std::fflush(stdout);
+  const int Saved = dup(STDOUT_FILENO);
+  ASSERT_TRUE(std::freopen("/dev/full", "w", stdout));
+  const auto Result = ran([] {
+    std::printf("text\n");
+    return 0;
+  });
+  std::fflush(stdout);
+  ASSERT_EQ(dup2(Saved, STDOUT_FILENO), STDOUT_FILENO);
+  close(Saved);
+  std::clearerr(stdout);
+  EXPECT_EQ(Result,
+            std::pair(3, std::string("tool: error: standard output: cannot "
+                                     "write: No space left on device, expected "
+                                     "one that takes what is printed\n")));
+}
+
+} // namespace

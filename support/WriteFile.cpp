@@ -1,0 +1,219 @@
+#include "vorion/support/File.h"
+
+#include "Descriptor.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <string_view>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace vorion {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *WritableFolder = "a folder that can be written";
+
+Error cannotWrite(const std::string &Path, int Cause,
+                  std::string_view Wanted = WritableFolder) {
+  return {Path, fmt::format("cannot write: {}, expected {}",
+                            std::strerror(Cause), Wanted)};
+}
+
+Error isFolder(const std::string &Path) {
+  return {Path, "cannot write: is a folder, expected a file"};
+}
+
+/// What \p Path names, through links; nothing for what is not there.
+std::optional<struct stat> statusOf(const std::string &Path) {
+  struct stat Info{};
+  if (::stat(Path.c_str(), &Info) != 0)
+    return std::nullopt;
+  return Info;
+}
+
+bool isSame(const struct stat &A, const struct stat &B) {
+  return A.st_dev == B.st_dev && A.st_ino == B.st_ino;
+}
+
+/// The folder of \p Path, as open() takes it.
+fs::path folderOf(const fs::path &Path) {
+  return Path.has_parent_path() ? Path.parent_path() : fs::path(".");
+}
+
+/// A new file in the folder of the one that it will become. It goes with this
+/// unless it was renamed.
+class Aside {
+public:
+  /// With \p Mode, less the process's umask.
+  /// \p Path is what the user calls \p Target.
+  static Expected<Aside> make(const std::string &Path,
+                              const std::string &Target, mode_t Mode) {
+    // A short name of its own: the target's may already be as long as names
+    // get, and two threads may write at a time.
+    static std::atomic<unsigned> Count = 0;
+    for (;;) {
+      std::string Name =
+          (folderOf(Target) / fmt::format(".vorion-{}-{}", ::getpid(), Count++))
+              .string();
+      const int Number =
+          ::open(Name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, Mode);
+      if (Number >= 0)
+        return Aside(std::move(Name), Number);
+      if (errno != EEXIST)
+        return cannotWrite(Path, errno);
+    }
+  }
+  Aside(Aside &&From) noexcept
+      : Name(std::exchange(From.Name, {})), File(std::move(From.File)) {}
+  Aside &operator=(Aside &&) = delete;
+  ~Aside() {
+    if (!Name.empty())
+      ::unlink(Name.c_str());
+  }
+
+  Descriptor &file() { return File; }
+  /// False leaves errno.
+  bool rename(const std::string &Target) {
+    if (::rename(Name.c_str(), Target.c_str()) != 0)
+      return false;
+    Name.clear();
+    return true;
+  }
+
+private:
+  Aside(std::string NameIn, int Number)
+      : Name(std::move(NameIn)), File(Number) {}
+  std::string Name;
+  Descriptor File;
+};
+
+/// Gives \p New, whose owner is us, what \p Old had, as far as we may.
+bool keepRights(int New, const struct stat &Old) {
+  // Only root gives files away, and groups are those that we are in.
+  if (::fchown(New, Old.st_uid, Old.st_gid) != 0 &&
+      ::fchown(New, static_cast<uid_t>(-1), Old.st_gid) != 0)
+    errno = 0;
+  // Without set-user-ID: what we wrote is not what was trusted.
+  return ::fchmod(New, Old.st_mode & 0777) == 0;
+}
+
+/// Whether all that was written will outlast the machine; some file systems
+/// know nothing of that.
+bool synchronize(int File) {
+  return ::fsync(File) == 0 || errno == EINVAL || errno == ENOSYS ||
+         errno == EROFS;
+}
+
+Expected<Success> replace(const std::string &Path, const std::string &Target,
+                          const std::optional<struct stat> &Old,
+                          const void *Data, std::size_t Size) {
+  if (Old && ::access(Target.c_str(), W_OK) != 0)
+    return cannotWrite(Path, errno, "a file that can be written");
+  // What only its owner could read is never open to others.
+  auto New = Aside::make(Path, Target, Old ? 0600 : 0666);
+  if (!New)
+    return New.error();
+  Descriptor &File = New->file();
+  if (writeAll(File.number(), Data, Size) &&
+      (!Old || keepRights(File.number(), *Old)) && synchronize(File.number()) &&
+      File.close() && New->rename(Target))
+    return Success{};
+  return cannotWrite(Path, errno);
+}
+
+Expected<Success> writeThrough(const std::string &Path, const void *Data,
+                               std::size_t Size) {
+  Descriptor File(
+      ::open(Path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NOCTTY));
+  if (File.number() >= 0 && writeAll(File.number(), Data, Size) && File.close())
+    return Success{};
+  return cannotWrite(Path, errno, "a device or a pipe that takes it");
+}
+
+Expected<Success> writeStandardOutput(const void *Data, std::size_t Size) {
+  // What was printed before comes first.
+  if (std::fflush(stdout) == 0 && writeAll(STDOUT_FILENO, Data, Size))
+    return Success{};
+  return cannotWrite("standard output", errno, "one that takes it");
+}
+
+bool isStandardOutput(const std::string &Path,
+                      const std::optional<struct stat> &Info) {
+  struct stat Own{};
+  return Path == StandardOutput ||
+         (Info && ::fstat(STDOUT_FILENO, &Own) == 0 && isSame(*Info, Own));
+}
+
+/// Whether a file beside \p Target may take its place.
+bool isReplaced(const std::string &Target,
+                const std::optional<struct stat> &Info) {
+  if (!Info)
+    return true;
+  // A name in /proc may say nothing of where its file is.
+  const auto There = statusOf(Target);
+  return S_ISREG(Info->st_mode) && There && isSame(*There, *Info);
+}
+
+} // namespace
+
+std::string targetOf(const std::string &Path) {
+  constexpr int MostLinks = 40; // as many as Linux follows
+  fs::path Target = Path;
+  std::error_code Failed;
+  for (int I = 0; I < MostLinks; ++I) {
+    const fs::path Next = fs::read_symlink(Target, Failed);
+    if (Failed)
+      break;
+    Target = folderOf(Target) / Next; // Next itself if it is absolute
+  }
+  return Target.string();
+}
+
+Expected<Success> checkWritable(const std::string &Path) {
+  const auto Info = statusOf(Path);
+  if (isStandardOutput(Path, Info))
+    return Success{};
+  if (!Info && errno != ENOENT)
+    return cannotWrite(Path, errno);
+  if (Info && S_ISDIR(Info->st_mode))
+    return isFolder(Path);
+  if (Info && ::access(Path.c_str(), W_OK) != 0)
+    return cannotWrite(Path, errno, "a file that can be written");
+  const std::string Target = targetOf(Path);
+  if (!isReplaced(Target, Info))
+    return Success{};
+  // A trial, since permissions alone do not tell for root or in /proc.
+  const auto Trial = Aside::make(Path, Target, 0600);
+  return Trial ? Expected<Success>(Success{}) : Trial.error();
+}
+
+Expected<Success> writeFileAtomically(const std::string &Path, const void *Data,
+                                      std::size_t Size) {
+  const auto Info = statusOf(Path);
+  if (isStandardOutput(Path, Info))
+    return writeStandardOutput(Data, Size);
+  if (!Info && errno != ENOENT)
+    return cannotWrite(Path, errno);
+  if (Info && S_ISDIR(Info->st_mode))
+    return isFolder(Path);
+  const std::string Target = targetOf(Path);
+  return isReplaced(Target, Info) ? replace(Path, Target, Info, Data, Size)
+                                  : writeThrough(Path, Data, Size);
+}
+
+Expected<Success> writeFileAtomically(const std::string &Path,
+                                      std::string_view Text) {
+  return writeFileAtomically(Path, Text.data(), Text.size());
+}
+
+} // namespace vorion

@@ -1,0 +1,15 @@
+/// What every main function does around its work.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace vorion {
+
+/// Calls \p Body and gives the exit code that it says. What it throws, and
+/// standard output that does not take what was printed, end in one line under
+/// the name of \p Tool: memory that ran out as a limit, anything else as a bug
+/// of ours.
+int runTool(std::string_view Tool, const std::function<int()> &Body);
+
+} // namespace vorion

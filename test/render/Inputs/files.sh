@@ -1,0 +1,64 @@
+#!/bin/sh
+# Gives splat every kind of file to write to, in FOLDER, which has s.ply and c.json.
+# usage: files.sh FOLDER
+cd "$1" || exit 1
+
+attempt() {
+  printf '%s: ' "$1"
+  shift
+  "$@" 2>&1
+  echo "ended with $?"
+}
+info="splat info s.ply --json"
+
+echo old >new.json
+chmod 604 new.json
+attempt "a file with rights of its own" $info new.json >said
+tail -n 1 said
+stat -c 'has %a' new.json
+mkdir sub
+ln -s sub/target.json link.json
+attempt "a link" $info link.json >said
+tail -n 1 said
+[ -L link.json ] && grep -c fnv1a64 sub/target.json
+mkfifo pipe
+timeout 60 cat pipe >piped.json &
+attempt "a pipe" $info pipe >said
+wait
+tail -n 1 said
+[ -p pipe ] && cmp piped.json new.json && echo same through the pipe
+# A null device of our own, where one may be made; else the pipe has shown it.
+mknod null c 1 3 2>/dev/null || mkfifo null
+[ -p null ] && timeout 60 cat null >/dev/null &
+attempt "a device" $info null >said
+tail -n 1 said
+[ -f null ] || echo still no file
+wait
+splat info s.ply --json - 2>said >out.json
+echo "standard output: ended with $?, $(cmp out.json new.json && echo same), $(grep -c Gaussians said) lines beside it"
+splat info s.ply --json /dev/stdout 2>said >out.json
+echo "standard output by its other name: ended with $?, $(grep -c 'fnv1a64\|Gaussians,' out.json) lines"
+
+attempt "a full device" $info /dev/full
+printf 'full standard output: '
+splat info s.ply 2>&1 >/dev/full
+echo "ended with $?"
+printf 'full standard output for JSON: '
+splat info s.ply --json - 2>&1 >/dev/full | grep error
+printf 'closed standard output: '
+splat info s.ply 2>&1 >&- | grep error
+printf 'closed standard output is no file: '
+splat info s.ply --json closed.json >&- 2>/dev/null
+cmp closed.json new.json && echo true
+
+ln s.ply hard.ply
+cp s.ply before.ply
+attempt "the scene itself" splat convert s.ply -o s.ply
+attempt "its other spelling" splat convert s.ply -o sub/../s.ply
+attempt "its hard link" splat convert s.ply -o hard.ply
+attempt "its symbolic link" sh -c 'ln -s s.ply soft.ply; splat convert s.ply -o soft.ply'
+attempt "the cameras as JSON" splat analyze s.ply --cameras c.json --view front --json ./c.json
+attempt "two outputs of one name" splat demo-scene -o d.ply --cameras ./d.ply --gaussians 1000
+attempt "a picture compared with itself" splat compare p.pfm p.pfm --json p.pfm
+cmp s.ply before.ply && echo the scene is what it was
+ls -A | grep '^\.' || echo nothing is left beside
