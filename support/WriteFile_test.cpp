@@ -111,7 +111,10 @@ TEST_F(WriteFileTest, ADeviceIsWrittenThrough) {
 }
 
 TEST_F(WriteFileTest, ADeviceWithoutRoomIsAnError) {
-  EXPECT_EQ(errorOf(writeFileAtomically("/dev/full", "text")),
+  // Full, by a name of our own: a mistake must not cost the machine's.
+  if (::mknod(path("full").c_str(), S_IFCHR | 0600, ::makedev(1, 7)) != 0)
+    GTEST_SKIP() << "devices cannot be made here";
+  EXPECT_EQ(errorOf(writeFileAtomically(path("full"), "text")),
             "cannot write: No space left on device, expected a device or a "
             "pipe that takes it");
 }
@@ -120,7 +123,8 @@ TEST_F(WriteFileTest, StandardOutputHasAName) {
   testing::internal::CaptureStdout();
   std::printf("before ");
   EXPECT_TRUE(writeFileAtomically("-", "text"));
-  EXPECT_TRUE(writeFileAtomically("/dev/stdout", " again"));
+  fs::create_symlink("/proc/self/fd/1", path("stdout"));
+  EXPECT_TRUE(writeFileAtomically(path("stdout"), " again"));
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "before text again");
 }
 

@@ -45,8 +45,10 @@ Expected<Success> runSplat(const std::vector<std::string> &Arguments,
   posix_spawn_file_actions_destroy(&Actions);
   if (Problem != 0)
     return Error{"",
-                 fmt::format("cannot start splat: {}", std::strerror(Problem)),
-                 ExitCode::Internal};
+                 fmt::format("cannot start splat: {}, expected a machine with "
+                             "room for a process",
+                             std::strerror(Problem)),
+                 ExitCode::LimitReached};
   int Status = 0;
   while (waitpid(Child, &Status, 0) < 0 && errno == EINTR) {
   }

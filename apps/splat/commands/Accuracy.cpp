@@ -7,6 +7,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <charconv>
@@ -109,7 +110,9 @@ Expected<Split> splitViews(const SweepPlan &P,
   return S;
 }
 
-void say(std::string_view Line) { printNote(fmt::format("splat: {}\n", Line)); }
+void say(std::string_view Line) {
+  printNote(fmt::format("splat: {}\n", escaped(Line)));
+}
 
 /// The settings so far: single knobs, and once they are all measured the
 /// product of the fronts.
@@ -241,7 +244,7 @@ Expected<Success> run(AccuracyArguments &A) {
     return All.error();
   if (A.List) {
     for (const Point &Of : missing(*P, pointsOf(*P, *All)))
-      printOut("{}\n", Of.name());
+      printOut("{}\n", escaped(Of.name()));
     return Success{};
   }
   // Twice: what the first round finds out says what the second measures.

@@ -9,6 +9,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -90,7 +91,7 @@ measureTraining(const TrainSweepPlan &P, bool List,
   std::vector<TrainPoint> Wanted = missing(P, trainPoints(P));
   if (List) {
     for (const TrainPoint &Of : Wanted)
-      printOut("{}\n", Of.name());
+      printOut("{}\n", escaped(Of.name()));
     return Success{};
   }
   if (auto Made = makeFolders(P.Folder); !Made)

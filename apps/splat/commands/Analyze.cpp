@@ -11,6 +11,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +98,8 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
   std::string Text = fmt::format(
       "{} {}x{}: {} rules, support {}\n{} Gaussians seen, {:.2f} blends a "
       "pixel, {:.2f} % saturated\n{:<22}",
-      C.Name, C.Width, C.Height, name(A.Convention), name(A.Reach), R.Visible,
-      static_cast<double>(R.Blends) / Pixels,
+      escaped(C.Name), C.Width, C.Height, name(A.Convention), name(A.Reach),
+      R.Visible, static_cast<double>(R.Blends) / Pixels,
       100 * static_cast<double>(R.Saturated) / Pixels, "tile size (pixels)");
   for (const int Size : AnalyzedTiles)
     Text += fmt::format("{:>12}", Size);

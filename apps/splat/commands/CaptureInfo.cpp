@@ -4,6 +4,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -57,9 +58,9 @@ std::string textOf(const std::string &Path, const Capture &C) {
     return R.Low == R.High ? fmt::format("{:.6g}", R.Low)
                            : fmt::format("{:.6g} to {:.6g}", R.Low, R.High);
   };
-  std::string Text =
-      fmt::format("{}: {} capture\n{} views, {} of them held out ({})\n", Path,
-                  name(C.Format), C.Views.size(), C.heldOut(), C.HeldOutBy);
+  std::string Text = fmt::format(
+      "{}: {} capture\n{} views, {} of them held out ({})\n", escaped(Path),
+      name(C.Format), C.Views.size(), C.heldOut(), C.HeldOutBy);
   if (C.WithoutPicture > 0)
     Text += fmt::format("left out     {} held-out views without a picture\n",
                         C.WithoutPicture);

@@ -3,6 +3,7 @@
 #include "SceneArguments.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -29,7 +30,7 @@ Runner addConvert(CLI::App &App) {
       return File.error();
     if (auto Written = writePly(A->Output, File->Gaussians); !Written)
       return Written.error();
-    printOut("{}: {} Gaussians, SH degree {}\n", A->Output,
+    printOut("{}: {} Gaussians, SH degree {}\n", escaped(A->Output),
              File->Gaussians.size(), File->Gaussians.ShDegree);
     return Success{};
   };

@@ -4,6 +4,7 @@
 #include "Commands.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -25,14 +26,16 @@ Expected<Success> run(const DemoArguments &A) {
   const Scene S = demo::makeScene(A.Gaussians);
   if (auto Written = writePly(A.Output, S); !Written)
     return Written.error();
-  printOut("{}: {} Gaussians, SH degree {}\n", A.Output, S.size(), S.ShDegree);
+  printOut("{}: {} Gaussians, SH degree {}\n", escaped(A.Output), S.size(),
+           S.ShDegree);
   if (A.Cameras.empty())
     return Success{};
   const std::vector<Camera> Cameras = demo::makeCameras();
   if (auto Written = writeCameras(A.Cameras, Cameras); !Written)
     return Written.error();
   for (const Camera &C : Cameras)
-    printOut("{}: view {}, {}x{}\n", A.Cameras, C.Name, C.Width, C.Height);
+    printOut("{}: view {}, {}x{}\n", escaped(A.Cameras), C.Name, C.Width,
+             C.Height);
   return Success{};
 }
 

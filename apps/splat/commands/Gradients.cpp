@@ -11,6 +11,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -142,10 +143,10 @@ Expected<Success> run(const GradientArguments &A) {
       return Reported;
   printOut("{} {}x{} on {}: {} rules, support {}, path {}{}\n"
            "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
-           C->Name, C->Width, C->Height, D->name(), name(A.Options.Convention),
-           name(A.Options.Reach), name(A.Options.Blending),
-           toString(A.Backward, A.Options.Blending), R->Visible, R->Pairs,
-           A.Options.tileSize(), A.Options.tileHeight());
+           escaped(C->Name), C->Width, C->Height, D->name(),
+           name(A.Options.Convention), name(A.Options.Reach),
+           name(A.Options.Blending), toString(A.Backward, A.Options.Blending),
+           R->Visible, R->Pairs, A.Options.tileSize(), A.Options.tileHeight());
   for (const StageReport &S : R->Stages)
     printOut("{:<18}{:>8.3f} s\n", S.Name, S.Seconds);
   printOut("{}", frameText(R->Stages));

@@ -8,6 +8,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -55,7 +56,8 @@ std::string jsonReport(const InfoArguments &A, const SceneFile &F,
 
 std::string textReport(const InfoArguments &A, const SceneFile &F,
                        const SceneStatistics &S) {
-  std::string Text = fmt::format("{}: {}", A.Scene.Path, name(F.Format));
+  std::string Text =
+      fmt::format("{}: {}", escaped(A.Scene.Path), name(F.Format));
   if (F.Version != 0)
     Text += fmt::format(" version {}", F.Version);
   if (F.Files > 1)

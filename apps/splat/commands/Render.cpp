@@ -264,7 +264,7 @@ Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
     const std::string Output = outputOf(A.Output, Cameras[N]);
     if (auto Written = writeImage(Output, R->Frames[N].Picture); !Written)
       return Written.error();
-    printOut("{}\n", Output);
+    printOut("{}\n", escaped(Output));
     if (A.Json.empty())
       continue;
     auto Report = report(J, Output, Cameras[N], R->Frames[N]);

@@ -17,6 +17,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <array>
@@ -243,8 +244,8 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
             writeFileAtomically(W.A.Json, jsonReport(W, D, T, Db, B));
         !Written)
       return Written;
-  printOut("{}: {} Gaussians after {} iterations\n", W.A.Output, S.size(),
-           T.iteration());
+  printOut("{}: {} Gaussians after {} iterations\n", escaped(W.A.Output),
+           S.size(), T.iteration());
   printOut("pictures     {} to train on, {} held out ({}); {}\n",
            W.Pictures.Training.size(), W.Pictures.HeldOut.size(), W.C.HeldOutBy,
            PhotoFilter);

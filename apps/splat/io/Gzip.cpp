@@ -19,7 +19,8 @@ Expected<std::vector<std::byte>> unpackGzip(const std::string &Where,
   z_stream Stream{};
   constexpr int GzipOnly = 16;
   if (inflateInit2(&Stream, MAX_WBITS + GzipOnly) != Z_OK)
-    return Error{Where, "cannot start zlib", ExitCode::Internal};
+    return Error{Where, "cannot start zlib, expected memory for it",
+                 ExitCode::LimitReached};
   const std::unique_ptr<z_stream, int (*)(z_stream *)> End(&Stream, inflateEnd);
   Stream.next_in = const_cast<Bytef *>( // zlib's, which only reads
       reinterpret_cast<const Bytef *>(File.data()));

@@ -136,7 +136,8 @@ Expected<std::string> encodePng(const Image &I) {
   std::transform(I.Render.begin(), I.Render.end(), Rows.begin(), toByte);
   std::string Out;
   if (!encodeRows(Out, Rows.data(), I.Width, I.Height))
-    return Error{"", "libpng cannot encode the picture", ExitCode::Internal};
+    return Error{"", "libpng cannot encode the picture, expected memory for it",
+                 ExitCode::LimitReached};
   return Out;
 }
 

@@ -39,7 +39,7 @@ Expected<ZipArchive> ZipArchive::open(const std::string &Where,
   zip_source_t *Memory =
       zip_source_buffer_create(File.data(), File.size(), 0, &E);
   if (!Memory)
-    return Error{Where, describe(E), ExitCode::Internal};
+    return Error{Where, describe(E), ExitCode::LimitReached};
   zip_t *Z = zip_open_from_source(Memory, ZIP_RDONLY, &E);
   if (!Z) {
     zip_source_free(Memory);
@@ -101,13 +101,13 @@ makeZip(const std::string &Where,
   zip_error_init(&E);
   const Source Memory(zip_source_buffer_create(nullptr, 0, 0, &E));
   if (!Memory)
-    return Error{Where, describe(E), ExitCode::Internal};
+    return Error{Where, describe(E), ExitCode::LimitReached};
   zip_source_keep(Memory.get()); // closing the archive gives up its share
   std::unique_ptr<zip_t, void (*)(zip_t *)> Z(
       zip_open_from_source(Memory.get(), ZIP_TRUNCATE, &E), zip_discard);
   if (!Z) {
     zip_source_free(Memory.get());
-    return Error{Where, describe(E), ExitCode::Internal};
+    return Error{Where, describe(E), ExitCode::LimitReached};
   }
   for (const auto &[Name, Content] : Entries) { // read on closing
     zip_source_t *S =
@@ -116,7 +116,7 @@ makeZip(const std::string &Where,
         S ? zip_file_add(Z.get(), Name.c_str(), S, ZIP_FL_ENC_UTF_8) : -1;
     if (Index < 0) {
       zip_source_free(S);
-      return Error{Where, zip_strerror(Z.get()), ExitCode::Internal};
+      return Error{Where, zip_strerror(Z.get()), ExitCode::LimitReached};
     }
     // A fixed date (1 January 1980), so that equal entries make equal files.
     constexpr zip_uint16_t FirstDay = (1 << 5) | 1;
@@ -124,18 +124,18 @@ makeZip(const std::string &Where,
                          0);
   }
   if (zip_close(Z.get()) != 0)
-    return Error{Where, zip_strerror(Z.get()), ExitCode::Internal};
+    return Error{Where, zip_strerror(Z.get()), ExitCode::LimitReached};
   [[maybe_unused]] zip_t *Closed = Z.release();
 
   zip_stat_t Stat;
   if (zip_source_stat(Memory.get(), &Stat) != 0 ||
       zip_source_open(Memory.get()) != 0)
-    return Error{Where, "cannot read the archive back", ExitCode::Internal};
+    return Error{Where, "cannot read the archive back", ExitCode::LimitReached};
   std::string Out(Stat.size, '\0');
   const zip_int64_t Got = zip_source_read(Memory.get(), Out.data(), Out.size());
   zip_source_close(Memory.get());
   if (Got != static_cast<zip_int64_t>(Out.size()))
-    return Error{Where, "cannot read the archive back", ExitCode::Internal};
+    return Error{Where, "cannot read the archive back", ExitCode::LimitReached};
   return Out;
 }
 

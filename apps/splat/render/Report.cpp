@@ -5,6 +5,7 @@
 #include "FrameTime.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -204,9 +205,9 @@ std::string textReport(const Camera &View, const RenderOptions &Options,
   std::string Text = fmt::format(
       "{} {}x{} on {}: {} rules, support {}, path {}\n{} Gaussians seen, {} "
       "pairs with tiles of {}x{}\n",
-      View.Name, View.Width, View.Height, Dev.name(), name(Options.Convention),
-      name(Options.Reach), name(Options.Blending), Result.Visible, Result.Pairs,
-      Options.tileSize(), Options.tileSize());
+      escaped(View.Name), View.Width, View.Height, Dev.name(),
+      name(Options.Convention), name(Options.Reach), name(Options.Blending),
+      Result.Visible, Result.Pairs, Options.tileSize(), Options.tileSize());
   Text += "culled:";
   for (std::size_t I = 0; I < CullReasons.size(); ++I)
     Text += fmt::format("{} {} {}", I == 0 ? "" : ",", Result.Culled[I],

@@ -14,6 +14,9 @@ folder = sys.argv[1]
 DEEP = 200_000
 TEXTS = {
     "nested": "[" * DEEP + "]" * DEEP,
+    # What looks into a value of any kind, and what writes one into a message, may recurse.
+    "nested values": '[{"img_name": "a", "distortion": ' + "[" * DEEP + "]" * DEEP + "}]",
+    "nested model": '{"frames": [{"file_path": "a"}], "camera_model": ' + "[" * DEEP + "]" * DEEP + "}",
     "nested objects": '{"a":' * DEEP + "1" + "}" * DEEP,
     "open": "[" * DEEP,
     "keys": "{" + ",".join(f'"k{n}":1' for n in range(60_000)) + "}",
