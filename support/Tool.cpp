@@ -7,8 +7,10 @@
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
 #include <new>
+#include <system_error>
 #include <unistd.h>
 
 namespace vorion {
@@ -30,20 +32,29 @@ int reportFullOutput(std::string_view Tool, int Cause) {
                          Cause ? std::strerror(Cause) : "not all was taken")});
 }
 
+/// Of the tool, for what cannot get it otherwise.
+std::string_view ToolName;
+
 /// Without taking memory, of which there may be none.
-int reportNoMemory(std::string_view Tool) {
+int reportNoMemory() {
   for (const std::string_view Part :
-       {Tool, std::string_view(": error: memory ran out, expected a smaller "
-                               "input or a machine with more\n")})
+       {ToolName, std::string_view(": error: memory ran out, expected a "
+                                   "smaller input or a machine with more\n")})
     if (::write(STDERR_FILENO, Part.data(), Part.size()) < 0)
       break;
   return static_cast<int>(ExitCode::LimitReached);
 }
 
+/// Memory may run out in any thread and in code of others, where an exception
+/// would end the process with neither a message nor an exit code.
+[[noreturn]] void endWithoutMemory() { ::_exit(reportNoMemory()); }
+
 } // namespace
 
 int runTool(std::string_view Tool, const std::function<int()> &Body) {
   keepStandardStreams();
+  ToolName = Tool;
+  std::set_new_handler(endWithoutMemory);
   int Code = 0;
   try {
     Code = Body();
@@ -52,15 +63,25 @@ int runTool(std::string_view Tool, const std::function<int()> &Body) {
     if ((!Flushed || std::ferror(stdout)) && Code == 0)
       Code = reportFullOutput(Tool, errno);
   } catch (const std::bad_alloc &) {
-    Code = reportNoMemory(Tool);
-  } catch (const std::exception &E) {
+    Code = reportNoMemory();
+  } catch (const std::filesystem::filesystem_error &E) {
+    Code = reportError(Tool, {E.path1().string(),
+                              fmt::format("{}, expected a path that can be "
+                                          "followed",
+                                          E.code().message())});
+  } catch (const std::system_error &E) {
+    // A full standard output, or no room for a thread.
     Code = std::ferror(stdout)
-               ? reportFullOutput(Tool, errno)
+               ? reportFullOutput(Tool, E.code().value())
                : reportError(Tool, {"",
-                                    fmt::format("a bug: {}, expected no "
-                                                "exception",
+                                    fmt::format("{}, expected a machine that "
+                                                "has room for it",
                                                 E.what()),
-                                    ExitCode::Internal});
+                                    ExitCode::LimitReached});
+  } catch (const std::exception &E) {
+    Code = reportError(
+        Tool, {"", fmt::format("a bug: {}, expected no exception", E.what()),
+               ExitCode::Internal});
   }
   return Code;
 }

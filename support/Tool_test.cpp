@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <new>
 #include <stdexcept>
+#include <thread>
 #include <unistd.h>
 
 using namespace vorion;
@@ -29,6 +30,19 @@ TEST(Tool, WhatIsThrownIsOneLine) {
   EXPECT_EQ(ran([]() -> int { throw std::runtime_error("this\nthat"); }),
             std::pair(70, std::string("tool: error: a bug: this\\x0athat, "
                                       "expected no exception\n")));
+}
+
+TEST(Tool, MemoryThatRunsOutInAThreadIsOneLine) {
+  const auto TakeTooMuch = [] {
+    std::thread Taker([] {
+      ::operator delete(::operator new(std::size_t{1} << 62));
+    });
+    Taker.join();
+    return 0;
+  };
+  EXPECT_EXIT(runTool("tool", TakeTooMuch), testing::ExitedWithCode(5),
+              "^tool: error: memory ran out, expected a smaller input or a "
+              "machine with more\n$");
 }
 
 TEST(Tool, OutputThatIsFullIsSeen) {

@@ -8,8 +8,8 @@ namespace vorion {
 
 /// Calls \p Body and gives the exit code that it says. What it throws, and
 /// standard output that does not take what was printed, end in one line under
-/// the name of \p Tool: memory that ran out as a limit, anything else as a bug
-/// of ours.
+/// the name of \p Tool: memory that ran out, in whatever thread, as a
+/// limit, anything else as a bug of ours.
 int runTool(std::string_view Tool, const std::function<int()> &Body);
 
 } // namespace vorion
