@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <tuple>
+#include <utility>
 
 namespace vorion::isasim {
 
@@ -20,9 +21,12 @@ constexpr uint32_t FlagRve = 0x8;
 
 constexpr char KernelSection[] = "vorion_kernels";
 constexpr uint32_t MaxArgs = 4096; ///< more than OpenCL's 256 KiB could hold
-/// Of all names together. Many entries may name the same bytes of a file, which
-/// must not become more memory than any program's names need.
-constexpr size_t MaxNameBytes = 256 << 20;
+constexpr uint32_t MaxArgsBytes = 256 << 10;
+
+// Many entries may name the same bytes of a file. What comes of them together
+// is bounded by the file's size, with room for what programs really share.
+constexpr size_t NameBytesPerByte = 4; ///< an ending of a longer name
+constexpr size_t BytesPerArg = 4;      ///< a table of arguments
 
 } // namespace
 
@@ -53,26 +57,25 @@ std::optional<T> ImageParser::load(uint32_t Address) const {
 }
 
 std::optional<std::string> ImageParser::loadString(uint32_t Address) {
-  std::string Text;
-  for (;; ++Address) {
-    const auto Byte = Result->bytesAt(Address, 1);
-    if (Byte.empty())
-      return std::nullopt;
-    if (Byte[0] == std::byte{0})
-      return Text;
-    if (++NameBytes > MaxNameBytes)
-      return std::nullopt;
-    Text += static_cast<char>(Byte[0]);
-  }
+  const Image::Segment *S = Result->segmentAt(Address);
+  if (!S || Address - S->Address >= S->Bytes.size())
+    return std::nullopt;
+  const std::span Rest = std::span(S->Bytes).subspan(Address - S->Address);
+  const auto *First = reinterpret_cast<const char *>(Rest.data());
+  const size_t Length = strnlen(First, Rest.size());
+  if (Length == Rest.size() || !countName(Length))
+    return std::nullopt;
+  return std::string(First, Length);
+}
+
+bool ImageParser::countName(size_t Bytes) {
+  NameBytes += Bytes;
+  return NameBytes <= NameBytesPerByte * File.size();
 }
 
 bool ImageParser::isCode(uint32_t Address) const {
-  return Address % 4 == 0 &&
-         std::any_of(Result->Segments.begin(), Result->Segments.end(),
-                     [&](const Image::Segment &S) {
-                       return S.Executable && Address >= S.Address &&
-                              Address - S.Address < S.MemBytes;
-                     });
+  const Image::Segment *S = Result->segmentAt(Address);
+  return Address % 4 == 0 && S && S->Executable;
 }
 
 std::string ImageParser::readHeader() {
@@ -190,11 +193,14 @@ std::string ImageParser::readSections() {
   if (!Names || !part(Names->sh_offset, Names->sh_size))
     return "truncated: the section names lie beyond the end of the file";
   const auto SectionNames = *part(Names->sh_offset, Names->sh_size);
+  bool HasSymbols = false;
   for (unsigned N = 0; N != Header.e_shnum; ++N) {
     const auto S = Section(N);
     if (!S)
       return "truncated: the section headers lie beyond the end of the file";
     if (S->sh_type == SHT_SYMTAB) {
+      if (std::exchange(HasSymbols, true))
+        return "more than one symbol table, expected one (gABI, \"Sections\")";
       if (std::string Wrong = readSymbols(*S); !Wrong.empty())
         return Wrong;
     }
@@ -222,8 +228,7 @@ std::string ImageParser::readSymbols(const Elf32_Shdr &Table) {
   for (uint64_t N = 1; (N + 1) * sizeof(Elf32_Sym) <= Entries->size(); ++N) {
     const auto Sym = get<Elf32_Sym>(Table.sh_offset + N * sizeof(Elf32_Sym));
     const unsigned Type = ELF32_ST_TYPE(Sym->st_info);
-    if (Sym->st_shndx == SHN_UNDEF || Sym->st_shndx == SHN_ABS ||
-        Sym->st_name >= Text->size() ||
+    if (Sym->st_shndx == SHN_UNDEF || Sym->st_name >= Text->size() ||
         (Type != STT_NOTYPE && Type != STT_FUNC && Type != STT_OBJECT))
       continue;
     const auto *First =
@@ -233,11 +238,13 @@ std::string ImageParser::readSymbols(const Elf32_Shdr &Table) {
     if (SymbolName.empty() || SymbolName[0] == '$' ||
         SymbolName.starts_with(".L"))
       continue;
-    NameBytes += SymbolName.size();
-    if (NameBytes > MaxNameBytes)
-      return fmt::format("symbol names of more than {} bytes", MaxNameBytes);
-    Result->Symbols.push_back(
-        {Sym->st_value, Sym->st_size, Type == STT_FUNC, std::move(SymbolName)});
+    if (!countName(SymbolName.size()))
+      return fmt::format("symbols with names of more than {} bytes in a file "
+                         "of {}",
+                         NameBytesPerByte * File.size(), File.size());
+    Result->Symbols.push_back({Sym->st_value, Sym->st_size, Type == STT_FUNC,
+                               Sym->st_shndx == SHN_ABS,
+                               std::move(SymbolName)});
   }
   std::sort(Result->Symbols.begin(), Result->Symbols.end(),
             [](const Image::Symbol &A, const Image::Symbol &B) {
@@ -280,6 +287,21 @@ std::string ImageParser::readKernel(uint32_t Address) {
   if (Record->NumArgs > MaxArgs)
     return Where + fmt::format("'{}' has {} arguments, expected at most {}",
                                K.Name, Record->NumArgs, MaxArgs);
+  if (Record->ArgsBytes > MaxArgsBytes)
+    return Where + fmt::format("'{}' has {} bytes of arguments, expected at "
+                               "most {}",
+                               K.Name, Record->ArgsBytes, MaxArgsBytes);
+  const auto *const Local = Record->LocalSize;
+  const auto Zeros = std::count(Local, Local + 3, 0U);
+  if (Zeros != 0 && Zeros != 3)
+    return Where + fmt::format("'{}' was compiled for groups of {},{},{}, "
+                               "expected three sizes above 0, or 0,0,0 for any",
+                               K.Name, Local[0], Local[1], Local[2]);
+  NumArgs += Record->NumArgs;
+  if (NumArgs * BytesPerArg > File.size())
+    return Where + fmt::format("{} arguments of kernels so far in a file of {} "
+                               "bytes, expected at most one for {}",
+                               NumArgs, File.size(), BytesPerArg);
   K.Entry = Record->Entry;
   K.ArgsBytes = Record->ArgsBytes;
   K.ContextBytes = Record->ContextBytes;

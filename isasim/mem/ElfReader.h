@@ -33,6 +33,8 @@ private:
                                                  uint64_t Bytes) const;
   template <typename T> std::optional<T> get(uint64_t Offset) const;
   template <typename T> std::optional<T> load(uint32_t Address) const;
+  /// Whether names of so many bytes more are not too much for the file.
+  bool countName(size_t Bytes);
   /// The NUL-terminated string in the image at \p Address.
   std::optional<std::string> loadString(uint32_t Address);
   bool isCode(uint32_t Address) const;
@@ -42,6 +44,7 @@ private:
   Elf32_Ehdr Header{};
   uint32_t KernelsLo = 0, KernelsHi = 0;
   size_t NameBytes = 0; ///< of names read so far
+  size_t NumArgs = 0;   ///< of kernels read so far
 };
 
 } // namespace vorion::isasim

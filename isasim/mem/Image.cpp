@@ -33,28 +33,42 @@ std::optional<uint32_t> Image::findSymbol(std::string_view SymbolName) const {
 
 std::string Image::symbolize(uint32_t Address) const {
   // The nearest function at or below; sizes are often missing in assembly.
-  const Symbol *Best = nullptr;
+  const Symbol *Best = nullptr, *Number = nullptr;
   for (const Symbol &S : Symbols) {
     if (S.Address > Address)
       break;
+    if (S.IsAbsolute) {
+      Number = S.Address == Address ? &S : Number;
+      continue;
+    }
     const bool Covers = S.Size == 0 || Address - S.Address < S.Size;
     if (Covers && (!Best || S.Address > Best->Address ||
                    (S.IsFunction && !Best->IsFunction)))
       Best = &S;
   }
   if (!Best)
-    return {};
+    return Number ? Number->Name : "";
   const uint32_t Offset = Address - Best->Address;
   return Offset ? fmt::format("{}+0x{:x}", Best->Name, Offset) : Best->Name;
 }
 
+const Image::Segment *Image::segmentAt(uint32_t Address) const {
+  const auto After = std::upper_bound(
+      Segments.begin(), Segments.end(), Address,
+      [](uint32_t A, const Segment &S) { return A < S.Address; });
+  if (After == Segments.begin())
+    return nullptr;
+  const Segment &S = *std::prev(After);
+  return Address - S.Address < S.MemBytes ? &S : nullptr;
+}
+
 std::span<const std::byte> Image::bytesAt(uint32_t Address,
                                           uint32_t Bytes) const {
-  for (const Segment &S : Segments)
-    if (Address >= S.Address && Address - S.Address <= S.Bytes.size() &&
-        Bytes <= S.Bytes.size() - (Address - S.Address))
-      return std::span(S.Bytes).subspan(Address - S.Address, Bytes);
-  return {};
+  const Segment *S = segmentAt(Address);
+  const uint32_t Within = S ? Address - S->Address : 0;
+  if (!S || Within > S->Bytes.size() || Bytes > S->Bytes.size() - Within)
+    return {};
+  return std::span(S->Bytes).subspan(Within, Bytes);
 }
 
 Expected<std::shared_ptr<const Image>>

@@ -198,6 +198,83 @@ TEST(Image, RefusesBadKernelTables) {
   EXPECT_EQ(wrongIn(O), "kernel table of 40 bytes, expected a multiple of 44");
 }
 
+TEST(Image, GroupSizesAreAllZeroOrNone) {
+  ElfOptions O = withKernel();
+  O.Segments[1].Words[8] = 0; // 16,0,1
+  EXPECT_EQ(wrongIn(O),
+            "kernel table at 0x80001000: 'add' was compiled for groups of "
+            "16,0,1, expected three sizes above 0, or 0,0,0 for any");
+  O.Segments[1].Words[7] = 0; // 0,0,1
+  EXPECT_NE(wrongIn(O), "");
+  O.Segments[1].Words[9] = 0;
+  EXPECT_EQ(wrongIn(O), "");
+}
+
+TEST(Image, ArgumentsThatNoKernelHasAreRefused) {
+  ElfOptions O = withKernel();
+  O.Segments[1].Words[4] = 0xFFFFFFFF;
+  EXPECT_EQ(wrongIn(O), "kernel table at 0x80001000: 'add' has 4294967295 "
+                        "bytes of arguments, expected at most 262144");
+}
+
+/// 20,000 kernels of one table with 4,000 arguments each: gigabytes of a file
+/// of one megabyte.
+TEST(Image, ManyKernelsOfOneTableAreRefused) {
+  constexpr uint32_t Kernels = 20000, Args = 4000;
+  constexpr uint32_t ArgTable = Table + Kernels * uint32_t{sizeof(VxKernel)};
+  constexpr uint32_t Name = ArgTable + Args * uint32_t{sizeof(VxKernelArg)};
+  ElfOptions O = good();
+  std::vector<uint32_t> Words;
+  for (uint32_t N = 0; N != Kernels; ++N)
+    Words.insert(Words.end(),
+                 {Name, VX_IMAGE_BASE, ArgTable, Args, 4, 0, 0, 0, 0, 0, 0});
+  for (uint32_t N = 0; N != Args; ++N)
+    Words.insert(Words.end(), {Name, VX_ARG_VALUE, 0, 4});
+  Words.push_back('k');
+  O.Segments.push_back({Table, PF_R, Words, 0});
+  O.Symbols.push_back({"__start_vorion_kernels", Table});
+  O.Symbols.push_back({"__stop_vorion_kernels", ArgTable});
+  EXPECT_NE(wrongIn(O).find("arguments of kernels so far in a file of"),
+            std::string::npos)
+      << wrongIn(O);
+}
+
+/// Arguments whose names all begin in one long string.
+TEST(Image, NamesThatShareOneStringAreRefused) {
+  constexpr uint32_t Args = 4000, NameBytes = 20000;
+  constexpr uint32_t ArgTable = Table + sizeof(VxKernel);
+  constexpr uint32_t Names = ArgTable + Args * uint32_t{sizeof(VxKernelArg)};
+  ElfOptions O = good();
+  std::vector<uint32_t> Words = {
+      Names, VX_IMAGE_BASE, ArgTable, Args, 4, 0, 0, 0, 0, 0, 0};
+  for (uint32_t N = 0; N != Args; ++N)
+    Words.insert(Words.end(), {Names, VX_ARG_VALUE, 0, 4});
+  Words.insert(Words.end(), NameBytes / 4, 0x61616161);
+  Words.push_back(0);
+  O.Segments.push_back({Table, PF_R, Words, 0});
+  O.Symbols.push_back({"__start_vorion_kernels", Table});
+  O.Symbols.push_back({"__stop_vorion_kernels", ArgTable});
+  EXPECT_NE(wrongIn(O), "");
+}
+
+TEST(Image, AbsoluteSymbolsCount) {
+  ElfOptions O = good();
+  O.AbsoluteSymbols = {{"begin_signature", VX_IMAGE_BASE + 0x2000},
+                       {"stack_size", VX_IMAGE_BASE - 0x1000}};
+  O.Symbols.clear();
+  const auto I = Image::parse(buildElf(O), "x.elf");
+  ASSERT_TRUE(I) << I.error().What;
+  EXPECT_EQ((*I)->findSymbol("begin_signature"), VX_IMAGE_BASE + 0x2000);
+  EXPECT_EQ((*I)->symbolize(VX_IMAGE_BASE + 0x2000), "begin_signature");
+  // A number is no function that goes on behind it, and takes no one's place.
+  EXPECT_EQ((*I)->symbolize(VX_IMAGE_BASE), "");
+  O.Symbols = {{"_start", VX_IMAGE_BASE}};
+  O.AbsoluteSymbols = {{"VX_IMAGE_BASE", VX_IMAGE_BASE}};
+  const auto Both = Image::parse(buildElf(O), "x.elf");
+  ASSERT_TRUE(Both) << Both.error().What;
+  EXPECT_EQ((*Both)->symbolize(VX_IMAGE_BASE), "_start");
+}
+
 TEST(Image, EveryTruncationIsAnError) {
   const std::vector<std::byte> Whole = buildElf(withKernel());
   ASSERT_TRUE(Image::parse(Whole, "x.elf"));

@@ -27,6 +27,7 @@ struct ElfOptions {
   uint32_t Flags = 2; ///< ilp32f
   /// Symbols of no type in section 1.
   std::vector<std::pair<std::string, uint32_t>> Symbols;
+  std::vector<std::pair<std::string, uint32_t>> AbsoluteSymbols;
 };
 
 inline std::vector<std::byte> buildElf(const ElfOptions &O) {
@@ -54,14 +55,18 @@ inline std::vector<std::byte> buildElf(const ElfOptions &O) {
   // Sections: none, strings (of symbols and sections), symbols.
   std::string Strings(1, '\0');
   std::vector<Elf32_Sym> Symbols(1);
-  for (const auto &[Name, Address] : O.Symbols) {
-    Elf32_Sym S{};
-    S.st_name = static_cast<uint32_t>(Strings.size());
-    S.st_value = Address;
-    S.st_shndx = 1;
-    Strings += Name + '\0';
-    Symbols.push_back(S);
-  }
+  const auto AddSymbols = [&](const auto &Each, uint16_t Section) {
+    for (const auto &[Name, Address] : Each) {
+      Elf32_Sym S{};
+      S.st_name = static_cast<uint32_t>(Strings.size());
+      S.st_value = Address;
+      S.st_shndx = Section;
+      Strings += Name + '\0';
+      Symbols.push_back(S);
+    }
+  };
+  AddSymbols(O.Symbols, 1);
+  AddSymbols(O.AbsoluteSymbols, SHN_ABS);
   Elf32_Shdr Sections[3] = {};
   Sections[1].sh_type = SHT_STRTAB;
   Sections[1].sh_offset = Append(Strings.data(), Strings.size());

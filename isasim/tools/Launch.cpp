@@ -100,6 +100,13 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
   if (R.Args.size() != K.Args.size())
     return usage(fmt::format("{} arguments, expected {} for kernel '{}'",
                              R.Args.size(), K.Args.size(), K.Name));
+  const auto NoRoom = [&] {
+    return usage(fmt::format("kernel '{}' needs more than the {} bytes of "
+                             "local memory",
+                             K.Name, M->config().LocalBytes));
+  };
+  if (K.LocalBytes > M->config().LocalBytes)
+    return NoRoom();
   std::vector<std::byte> Packed(K.ArgsBytes);
   uint64_t LocalEnd = alignUp(K.LocalBytes), LocalUsed = K.LocalBytes;
   for (size_t N = 0; N != K.Args.size(); ++N) {
@@ -122,9 +129,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     } else if (In->What == KernelInput::Local) {
       if (In->Size > M->config().LocalBytes ||
           LocalEnd + In->Size > M->config().LocalBytes)
-        return usage(fmt::format("kernel '{}' needs more than the {} bytes of "
-                                 "local memory",
-                                 K.Name, M->config().LocalBytes));
+        return NoRoom();
       Address = VX_LOCAL_BASE + static_cast<uint32_t>(LocalEnd);
       LocalUsed = LocalEnd + In->Size;
       LocalEnd = alignUp(LocalUsed);
@@ -178,6 +183,7 @@ KernelLaunch::writeBlock(const Kernel &K, const KernelRequest &R,
   L.PrintBuffer = *Print;
   L.PrintCapacity = PrintBytes;
   Block = *Address;
+  PrintBuffer = *Print;
   M->write(Block, std::as_bytes(std::span(&L, 1)));
   Watch->written(Block, sizeof(L));
   return Success{};
@@ -218,11 +224,13 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
 Expected<Success> KernelLaunch::finish() const {
   VxLaunch L{};
   M->read(Block, std::as_writable_bytes(std::span(&L, 1)));
-  std::string Text(std::min(L.PrintUsed, L.PrintCapacity), '\0');
-  M->read(L.PrintBuffer, std::as_writable_bytes(std::span(Text)));
+  // The program may have written anything there: only how much it printed is
+  // taken from it.
+  std::string Text(std::min(L.PrintUsed, PrintBytes), '\0');
+  M->read(PrintBuffer, std::as_writable_bytes(std::span(Text)));
   std::fwrite(Text.data(), 1, Text.size(), stdout);
-  if (L.PrintUsed > L.PrintCapacity)
-    printOut("[{} bytes of printf dropped]\n", L.PrintUsed - L.PrintCapacity);
+  if (L.PrintUsed > PrintBytes)
+    printOut("[{} bytes of printf dropped]\n", L.PrintUsed - PrintBytes);
   for (const Output &O : Outputs) {
     const std::byte *From = M->hostPointer(O.Address, O.Bytes);
     if (Expected<Success> Ok = writeFileAtomically(O.File, From, O.Bytes); !Ok)

@@ -44,7 +44,7 @@ private:
   Session *Watch;
   std::string Name;
   uint64_t NextFree = 0; ///< in global memory; nothing is ever freed
-  uint32_t Block = 0, Args = 0;
+  uint32_t Block = 0, Args = 0, PrintBuffer = 0;
   std::vector<Output> Outputs;
 };
 

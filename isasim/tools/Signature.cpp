@@ -1,5 +1,6 @@
 #include "tools/Signature.h"
 
+#include "core/IsaTables.h"
 #include "vorion/support/File.h"
 
 #include <fmt/format.h>
@@ -15,8 +16,10 @@ Expected<Success> writeSignature(const Machine &M, const std::string &File,
   if (!Begin || !End || *End < *Begin)
     return Error{Program.name(), "no signature, expected the symbols "
                                  "begin_signature and end_signature"};
-  std::vector<std::byte> Bytes(*End - *Begin);
-  if (!M.read(*Begin, Bytes))
+  const uint32_t Size = *End - *Begin;
+  const bool Fits = Size <= VX_IMAGE_SIZE || Size <= M.config().GlobalBytes;
+  std::vector<std::byte> Bytes(Fits ? Size : 0);
+  if (!Fits || !M.read(*Begin, Bytes))
     return Error{Program.name(),
                  fmt::format("signature from 0x{:08x} to 0x{:08x}, expected "
                              "memory of the program",

@@ -135,6 +135,7 @@ def sections(elf):
                 yield f"{title}-{field}-{value:x}", elf.set(elf.section, base, **{field: value})
     for value in (elf.shnum, HUGE):
         yield f"symbols-link-{value:x}", elf.set(elf.section, symbols, link=value)
+    yield "symbols-twice", elf.set(elf.section, strings, type=SYMTAB)
 
 
 def kernels(elf):
@@ -149,10 +150,12 @@ def kernels(elf):
     first = elf.file_place(elf.get(kernel, record, "args"))
     total = elf.get(kernel, record, "args_bytes")
     bad = {"name": (0, 0x80FFFFFF, HUGE), "entry": (0, 2, 0x80000002, 0x80FFFFFC, HUGE), "args": (0, 0x80FFFFFC, HUGE),
-           "nargs": (4097, HUGE), "args_bytes": (0, total - 1)}
+           "nargs": (4097, HUGE), "args_bytes": (0, total - 1, 0x40001, 0xFFFFFFFF)}
     for field, values in bad.items():
         for value in values:
             yield f"kernel-{field}-{value:x}", elf.set(kernel, record, **{field: value})
+    for number, sizes in enumerate(((16, 0, 0), (0, 0, 1), (16, 16, 0), (0, 1, 1))):
+        yield f"kernel-groups-{number}", elf.set(kernel, record, **dict(zip("xyz", sizes)))
     for field, values in {"name": (0, HUGE), "kind": (3, HUGE), "offset": (total, HUGE), "size": (total + 1, HUGE)}.items():
         for value in values:
             yield f"arg-{field}-{value:x}", elf.set(arg, first, **{field: value})

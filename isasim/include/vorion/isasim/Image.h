@@ -58,6 +58,7 @@ public:
     uint32_t Address = 0;
     uint32_t Size = 0;
     bool IsFunction = false;
+    bool IsAbsolute = false; ///< a number rather than a place in the image
     std::string Name;
   };
 
@@ -66,7 +67,8 @@ public:
   /// Errors: truncated or malformed file, not a 32-bit little-endian RISC-V
   /// executable, the ABI neither ilp32f nor ilp32, compressed code, a segment
   /// outside the image range, overlapping segments, writable code, an entry
-  /// point outside the code, a malformed kernel table.
+  /// point outside the code, a malformed kernel table; names and arguments that
+  /// would take many times the file's size.
   static Expected<std::shared_ptr<const Image>>
   parse(std::span<const std::byte> Elf, std::string Name);
 
@@ -85,13 +87,18 @@ public:
   /// it would give some work-items to no lane, or to two.
   Expected<Success> checkLanes(uint32_t Lanes) const;
   std::optional<uint32_t> findSymbol(std::string_view SymbolName) const;
-  /// "function+0x1c" for the symbol that covers \p Address, or empty.
+  /// "function+0x1c" for the symbol that covers \p Address, or empty. Absolute
+  /// symbols, most of which are sizes, name the one address that they are where
+  /// no other symbol covers it.
   std::string symbolize(uint32_t Address) const;
   /// The initial bytes at [Address, Address + Bytes) if they lie in one
   /// segment's file contents, else an empty span.
   std::span<const std::byte> bytesAt(uint32_t Address, uint32_t Bytes) const;
 
 private:
+  /// The segment with \p Address in its memory, or nullptr.
+  const Segment *segmentAt(uint32_t Address) const;
+
   std::string Name;
   std::vector<std::byte> File;
   uint32_t Entry = 0;
