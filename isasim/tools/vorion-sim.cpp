@@ -126,12 +126,25 @@ void printKernels(const Image &Program) {
   }
 }
 
+/// A program's exit code N is the tool's, unless the tool would say something
+/// else by it, or the system has no such code: then it is GuestFailed.
+bool canPassOn(uint32_t N) {
+  constexpr uint32_t Largest = 255;
+  for (const ExitCode Own :
+       {ExitCode::Ok, ExitCode::Usage, ExitCode::InputFile, ExitCode::Trap,
+        ExitCode::LimitReached, ExitCode::Internal})
+    if (N == static_cast<uint32_t>(Own))
+      return false;
+  return N <= Largest;
+}
+
 int exitCode(const RunResult &R) {
   switch (R.End) {
   case Outcome::Done:
     return static_cast<int>(ExitCode::Ok);
   case Outcome::GuestFailed:
-    return static_cast<int>(ExitCode::GuestFailed);
+    return canPassOn(R.ExitCode) ? static_cast<int>(R.ExitCode)
+                                 : static_cast<int>(ExitCode::GuestFailed);
   case Outcome::Trap:
     return static_cast<int>(ExitCode::Trap);
   case Outcome::Hang:
@@ -151,7 +164,10 @@ int finish(const RunResult &R, const Options &O, const Machine &M,
   if (R.End == Outcome::GuestFailed)
     printDiagnostic(
         Tool, "error", O.Program,
-        fmt::format("the program failed with exit code {}", R.ExitCode));
+        fmt::format("the program failed with exit code {}{}", R.ExitCode,
+                    canPassOn(R.ExitCode)
+                        ? ""
+                        : ", for which vorion-sim ends with 1 (see --help)"));
   else if (R.End != Outcome::Done)
     printDiagnostic(Tool, "error", O.Program,
                     fmt::format("{}: {}", describe(R.End), Report));
@@ -316,7 +332,9 @@ void declare(CLI::App &App, Options &O) {
   declareWatch(App, OPTION, O.Watch.MEMBER, VALUE, ALONE, HELP);
 #include "vorion/isasim/SessionOptions.def"
 #undef VORION_SESSION_OPTION
-  App.footer(std::string(ExitCodeHelp));
+  App.footer(std::string(ExitCodeHelp) +
+             "\na program that exits with N above 0 ends this with N, too, or "
+             "with 1 if N is in the\nlist or above 255");
 }
 
 /// Arguments that begin with a plus are options too, as test frameworks write
