@@ -153,6 +153,28 @@ TEST(Simt, PredNarrowsUntilNoLaneIsLeft) {
     }
 }
 
+TEST(Simt, PredThatTurnsLanesOffDivides) {
+  for (const ExecTable *Table : allTables())
+    for (const Op O : {Op::VX_PRED, Op::VX_PRED_N}) {
+      WarpRunner R(*Table, {encode(O, {.Rs1 = 10, .Rs2 = 11})});
+      const uint32_t Flip = O == Op::VX_PRED_N ? 0xFFFF : 0;
+      const auto Divided = [&](uint32_t Active, uint32_t Stay) {
+        R.reset();
+        R.setX(10, bitsOf(Stay ^ Flip));
+        R.setX(11, all(0xFFFF));
+        R.setActive(Active);
+        R.run();
+        EXPECT_EQ(R.warp().Count.Splits, 1U);
+        return R.warp().Count.DivergentSplits;
+      };
+      EXPECT_EQ(Divided(0xFFFF, 0x00FF), 1U); // half of them leave a loop
+      EXPECT_EQ(Divided(0x00FF, 0xFFFF), 0U); // all stay
+      EXPECT_EQ(Divided(0x00FF, 0x0000),
+                0U); // the last leave: the mask is back
+      EXPECT_EQ(Divided(0x0F0F, 0x0001), 1U);
+    }
+}
+
 TEST(Simt, PredThatLeavesNoLaneTraps) {
   for (const ExecTable *Table : allTables()) {
     WarpRunner R(*Table, {encode(Op::VX_PRED, {.Rs1 = 0, .Rs2 = 0})});

@@ -79,7 +79,8 @@ void Profile::commit(const Commit &C) {
   Cost &At = Current->ByWord[(C.Pc - Current->Low) / 4];
   ++At.Warp;
   At.Lanes += static_cast<unsigned>(std::popcount(C.LaneMask));
-  At.Splits += C.Insn.O == Op::VX_SPLIT || C.Insn.O == Op::VX_SPLIT_N;
+  At.Splits += C.Insn.O == Op::VX_SPLIT || C.Insn.O == Op::VX_SPLIT_N ||
+               C.Insn.O == Op::VX_PRED || C.Insn.O == Op::VX_PRED_N;
   At.Divergent += C.Diverged;
   if (C.Access) {
     ++At.Accesses;
@@ -127,9 +128,10 @@ std::string Profile::report() const {
 
   std::string Text = "# vorion-profile 1\n"
                      "# warp: warp instructions; lanes: active on average; "
-                     "diverg.: splits that divided\n"
-                     "# the lanes; accesses: loads, stores, atomics; lines/a.: "
-                     "64-byte pieces each touched\n\n";
+                     "splits: vx_split, vx_pred;\n"
+                     "# diverg.: those that divided the lanes; accesses: "
+                     "loads, stores, atomics;\n"
+                     "# lines/a.: 64-byte pieces each touched\n\n";
   Text += fmt::format("{}{}total\n", Heading, row(All, All.Warp));
   for (const auto &[File, Lines] : Files) {
     Cost Sum;

@@ -202,8 +202,8 @@ typedef struct vx_counters {
   uint64_t warp_instructions;      /* retired */
   uint64_t lane_instructions;      /* the same times active lanes */
   uint64_t loads, stores, atomics; /* of these warp instructions */
-  uint64_t splits;
-  uint64_t divergent_splits; /* of these, those that divided the lanes */
+  uint64_t splits;                 /* vx_split and vx_pred */
+  uint64_t divergent_splits;       /* of these, those that divided the lanes */
   uint64_t raster_commands;
   uint64_t raster_gaussians; /* fetched */
   uint64_t raster_clipped;   /* of these, with a box that misses the tile */

@@ -62,7 +62,7 @@ struct Step {
 struct Commit : Step {
   /// The destination register by lane, empty if there is none.
   std::span<const uint32_t> Result;
-  /// A vx_split whose lanes went different ways.
+  /// A vx_split or vx_pred whose lanes went different ways.
   bool Diverged;
 };
 
