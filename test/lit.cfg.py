@@ -5,6 +5,7 @@
 # repository; a test that needs one says REQUIRES: and is skipped where it is
 # missing, which is printed below.
 import os
+import platform
 import shutil
 import sys
 
@@ -49,6 +50,10 @@ features["csmith"] = shutil.which("csmith") or "csmith"
 features["chromium"] = shutil.which("chromium") or "chromium"
 features["mpirun"] = shutil.which("mpirun") or "mpirun"
 features["parallel"] = shutil.which("parallel") or "parallel"
+if platform.machine() == "x86_64":
+    config.available_features.add("x86-host")
+else:
+    lit_config.note(f"x86-host is missing: tests that require it are skipped (this is {platform.machine()})")
 config.substitutions.append(("%llvm-tests", features["llvm-tests"]))
 for feature, path in features.items():
     if os.path.exists(path):

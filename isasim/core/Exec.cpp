@@ -19,16 +19,17 @@
 #include "vorion/isasim/TrapCause.h"
 
 #ifdef VORION_OBSERVED
-#define VORION_REPORT(S, I) observeCommit(S, I)
+#define VORION_REPORT(S, I) outside<observeCommit>(S, I)
 #else
 #define VORION_REPORT(S, I) ((void)0)
 #endif
 #ifdef VORION_TIMED
 // For the clock (timing/TraceWriter.h).
 #define VORION_TRACE_RUN(S, START, END)                                        \
-  ((S)->Trace ? traceRun(S, START, END) : (void)0)
+  ((S)->Trace ? outside<traceRun>(S, START, END) : (void)0)
 #define VORION_TRACE_ACCESS(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC)          \
-  ((S)->Trace ? traceAccess(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC) : (void)0)
+  ((S)->Trace ? outside<traceAccess>(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC) \
+              : (void)0)
 #else
 #define VORION_TRACE_RUN(S, START, END) ((void)0)
 #define VORION_TRACE_ACCESS(S, ADDRESSES, BYTES, IS_STORE, IS_ATOMIC) ((void)0)
@@ -61,7 +62,7 @@ namespace {
 #ifdef VORION_OBSERVED
 template <typename Body> struct Watched {
   static void run(WarpState *S, const Insn *I, const Insn *Start) {
-    observeFetch(S, I, Start);
+    outside<observeFetch>(S, I, Start);
     VORION_TAIL Body::run(S, I, Start);
   }
 };
