@@ -8,6 +8,10 @@
 
 namespace vorion::isasim {
 
+/// Instructions of a warp between two looks at whether the run must stop:
+/// milliseconds with every checker on, far more than a look costs without.
+static constexpr uint64_t LongestStretch = 1 << 14;
+
 Core::Core(const Config &C, unsigned IdIn)
     : Shape(C), Id(IdIn), Warps(C.WarpsPerCore),
       Stacks(size_t{C.WarpsPerCore} * C.DivergenceDepth), Arrived(C.Barriers) {}
@@ -46,23 +50,37 @@ void Core::reset(const CodeTable &CodeIn, uint32_t Entry,
   setMask(&Warps[0], 1);
 }
 
-void Core::runRound(const ExecTable &Exec, uint32_t QuantumIn) {
+void Core::runRound(const ExecTable &Exec, uint32_t Quantum,
+                    const std::function<bool()> &MustStop) {
   const HostFp Host;
-  Quantum = QuantumIn;
+  // All of them now: one that starts others again and again must not give them
+  // more than one turn.
   for (WarpState &S : Warps)
-    S.RetireLimit = S.Count.Retired + Quantum;
+    S.TurnEnd = S.Count.Retired + Quantum;
   // A barrier may release warps that have had their turn.
   for (bool Ran = true; Ran;) {
     Ran = false;
-    for (WarpState &S : Warps) {
-      if (S.Why != Stop::Ready || S.Count.Retired >= S.RetireLimit)
-        continue;
-      setFrm(&S, S.Frm);
-      Exec.Enter(&S);
-      S.Fflags |= HostFp::takeFlags();
-      Ran = true;
-    }
+    for (WarpState &S : Warps)
+      while (S.Why == Stop::Ready && S.Count.Retired < S.TurnEnd) {
+        if (MustStop())
+          return;
+        S.RetireLimit = std::min(S.TurnEnd, S.Count.Retired + LongestStretch);
+        setFrm(&S, S.Frm);
+        Exec.Enter(&S);
+        S.Fflags |= HostFp::takeFlags();
+        Ran = true;
+      }
   }
+}
+
+void Core::runApart(WarpState &S, const ExecTable &Exec, uint64_t Most) {
+  const HostFp Host; // keeps what it has of the warp that is running
+  S.RetireLimit = S.Count.Retired + Most;
+  setFrm(&S, S.Frm);
+  Exec.Enter(&S);
+  S.Fflags |= HostFp::takeFlags();
+  if (S.Why == Stop::Atomic && amoNow(&S, S.Next, amoKind(S.Next)))
+    complete(S);
 }
 
 bool Core::isReady() const {
@@ -92,18 +110,27 @@ void Core::complete(WarpState &S) {
   S.AtBarrier = false;
 }
 
-void Core::spawn(uint32_t Count, uint32_t Entry) {
+bool Core::spawn(WarpState &S, uint32_t Count, uint32_t Entry) {
   const auto Limit = std::min<size_t>(Count, Warps.size());
   for (size_t W = 1; W < Limit; ++W) {
-    WarpState &S = Warps[W];
-    if (S.Why != Stop::Ended)
+    WarpState &Other = Warps[W];
+    if (Other.Why != Stop::Ended)
       continue; // vx_wspawn starts warps, it does not stop them
-    S.Next = Code->find(Entry);
-    S.Why = Stop::Ready;
-    S.StackDepth = 0;
-    S.RetireLimit = S.Count.Retired + Quantum;
-    setMask(&S, 1);
+    const Insn *First = Code->find(Entry);
+    // Here, where it is known who named it.
+    if (First == Code->begin() + Code->count()) {
+      raise(&S,
+            static_cast<uint32_t>(Entry % 4 ? TrapCause::MisalignedFetch
+                                            : TrapCause::FetchFault),
+            S.LastLane, Entry);
+      return false;
+    }
+    Other.Next = First;
+    Other.Why = Stop::Ready;
+    Other.StackDepth = 0;
+    setMask(&Other, 1);
   }
+  return true;
 }
 
 bool Core::arrive(WarpState &S, uint32_t BarrierId, uint32_t Count) {

@@ -5,6 +5,7 @@
 #include "core/State.h"
 #include "vorion/isasim/Config.h"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,7 +27,14 @@ public:
   void setTrace(CoreTrace *Trace) { Warps[0].Trace = Trace; }
 
   /// Runs every warp until it stops or has used \p Quantum instructions.
-  void runRound(const ExecTable &Exec, uint32_t Quantum);
+  /// \p MustStop is asked now and then; true ends the round where it is.
+  void runRound(
+      const ExecTable &Exec, uint32_t Quantum,
+      const std::function<bool()> &MustStop = [] { return false; });
+
+  /// Runs \p S out of turn, until it stops or has used \p Most instructions;
+  /// an atomic does not wait. For observers, also while a warp is running.
+  static void runApart(WarpState &S, const ExecTable &Exec, uint64_t Most);
 
   unsigned id() const { return Id; }
   std::span<WarpState> warps() { return Warps; }
@@ -41,8 +49,12 @@ public:
   /// The parked instruction of \p S has been executed: goes on behind it.
   static void complete(WarpState &S);
 
+  /// The instruction at \p Pc, or the one behind the code, which traps.
+  const Insn *find(uint32_t Pc) const { return Code->find(Pc); }
+
   // For instructions.
-  void spawn(uint32_t Count, uint32_t Entry);
+  /// vx_wspawn by \p S; false if it trapped, since \p Entry is no code.
+  bool spawn(WarpState &S, uint32_t Count, uint32_t Entry);
   bool arrive(WarpState &S, uint32_t Id, uint32_t Count);
   uint32_t activeWarps() const;
   void print(char Byte) { Console.push_back(Byte); }
@@ -56,7 +68,6 @@ public:
 private:
   unsigned Id;
   const CodeTable *Code = nullptr;
-  uint32_t Quantum = 0;
   std::vector<WarpState> Warps;
   std::vector<Divergence> Stacks;
   std::vector<uint32_t> Arrived; ///< by barrier

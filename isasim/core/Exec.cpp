@@ -63,6 +63,10 @@ namespace {
 template <typename Body> struct Watched {
   static void run(WarpState *S, const Insn *I, const Insn *Start) {
     outside<observeFetch>(S, I, Start);
+    if (VORION_RARE(S->Moved)) {
+      S->Moved = false;
+      return;
+    }
     VORION_TAIL Body::run(S, I, Start);
   }
 };

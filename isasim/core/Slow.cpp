@@ -327,8 +327,8 @@ bool softFp(WarpState *S, const Insn *I, FpOp O) {
   return true;
 }
 
-void spawnWarps(WarpState *S, uint32_t Warps, uint32_t Entry) {
-  S->Owner->spawn(Warps, Entry);
+bool spawnWarps(WarpState *S, uint32_t Warps, uint32_t Entry) {
+  return S->Owner->spawn(*S, Warps, Entry);
 }
 
 bool barrier(WarpState *S, uint32_t Id, uint32_t Count) {

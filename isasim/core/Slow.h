@@ -76,8 +76,8 @@ enum class FpOp : std::uint8_t {
 };
 bool softFp(WarpState *S, const Insn *I, FpOp O);
 
-/// vx_wspawn and vx_bar, see Simt.td. vx_bar returns false if the warp waits.
-void spawnWarps(WarpState *S, std::uint32_t Warps, std::uint32_t Entry);
+/// vx_wspawn and vx_bar, see Simt.td. False if the warp traps or waits.
+bool spawnWarps(WarpState *S, std::uint32_t Warps, std::uint32_t Entry);
 bool barrier(WarpState *S, std::uint32_t Id, std::uint32_t Count);
 
 /// Sets the active lanes and everything that depends on them.

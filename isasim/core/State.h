@@ -133,8 +133,11 @@ struct alignas(64) WarpState {
   const MemoryView *Mem = nullptr;
 
   WarpCounters Count;
-  std::uint64_t RetireLimit = 0; ///< stop at a branch when Retired reaches it
-  const Insn *Next = nullptr;    ///< where to go on
+  /// Stop where the program may go back (branch, jump, vx_join) when Retired
+  /// has reached it.
+  std::uint64_t RetireLimit = 0;
+  std::uint64_t TurnEnd = 0;  ///< the RetireLimit of the whole round
+  const Insn *Next = nullptr; ///< where to go on
   Stop Why = Stop::Ended;
 
   Divergence *Stack = nullptr;
@@ -160,7 +163,8 @@ struct alignas(64) WarpState {
   std::uint32_t FaultAddress = 0;
 
   Core *Owner = nullptr;
-  Watch *Watcher = nullptr;   ///< of the observed level
+  Watch *Watcher = nullptr; ///< of the observed level
+  bool Moved = false; ///< by an observer, which sets it: it goes on elsewhere
   CoreTrace *Trace = nullptr; ///< for the clock, or nullptr
 
   std::uint32_t pcOf(const Insn *I) const {

@@ -53,7 +53,7 @@ Watch::Pending &Watch::pendingOf(const WarpState *S) {
 }
 
 void Watch::fetch(WarpState *S, const Insn *I, uint64_t Retired) {
-  Pending &P = pendingOf(S);
+  Pending P;
   const Decoded &D = Insns[static_cast<size_t>(I - S->Code)];
   P.HasAccess = describeAccess(D, P.Access);
   if (P.HasAccess) {
@@ -75,6 +75,8 @@ void Watch::fetch(WarpState *S, const Insn *I, uint64_t Retired) {
                   P.HasAccess ? &P.Access : nullptr,
                   *S};
   tell([&](Observer &O) { O.fetch(What); });
+  // Last: the debugger may have let the warp execute others in between.
+  pendingOf(S) = P;
 }
 
 void Watch::commit(WarpState *S, const Insn *I) {

@@ -73,7 +73,7 @@ Event rasterEvent(const WarpState &S) {
 struct Machine::Impl {
   Impl(const Config &C, std::unique_ptr<Memory> Mem)
       : Shape(C), Storage(std::move(Mem)), Pool(C.HostThreads),
-        Raster(Shape, *Storage),
+        Raster(Shape, *Storage, [this] { return mustStop(); }),
         Host(*Storage, [this](char Byte) { Cores[0]->print(Byte); }) {
     for (unsigned Id = 0; Id != Shape.cores(); ++Id)
       Cores.push_back(std::make_unique<Core>(Shape, Id));
@@ -103,6 +103,15 @@ struct Machine::Impl {
                                          Begin)
         .count();
   }
+  bool stopRequested() const {
+    return StopRequested.load(std::memory_order_relaxed);
+  }
+  bool watchdogBites() const {
+    return WatchdogSeconds > 0 && secondsSoFar() > WatchdogSeconds;
+  }
+  bool mustStop() const {
+    return Running && (stopRequested() || watchdogBites());
+  }
   uint64_t retired() const;
   const ExecTable &exec() const;
   void logWork();
@@ -124,6 +133,7 @@ struct Machine::Impl {
   double WatchdogSeconds = 0;
   std::chrono::steady_clock::time_point Begin; ///< of the run
   std::atomic<bool> StopRequested = false;
+  bool Running = false;        ///< between the run's beginning and its end
   std::unique_ptr<Clock> Time; ///< if Shape.Timing.Enabled
   bool Clocked = true;         ///< whether it goes on in the following runs
   std::function<void(std::string_view)> Console = [](std::string_view Text) {
@@ -222,7 +232,8 @@ void Machine::Impl::runCores() {
   const ExecTable &Exec = exec();
   const bool Alone = isObserved() || LastRound < ShortRound;
   Pool.run(static_cast<unsigned>(Ready.size()), Alone, [&](unsigned N) {
-    Ready[N]->runRound(Exec, static_cast<uint32_t>(Quantum));
+    Ready[N]->runRound(Exec, static_cast<uint32_t>(Quantum),
+                       [this] { return mustStop(); });
   });
   LastRound = retired() - Before;
 }
@@ -348,9 +359,9 @@ bool Machine::Impl::decideEnd(RunResult &R) {
   std::string Limit;
   if (Shape.MaxInstructions && retired() >= Shape.MaxInstructions)
     Limit = "instruction limit reached";
-  else if (StopRequested.load(std::memory_order_relaxed))
+  else if (stopRequested())
     Limit = "stopped from outside";
-  else if (WatchdogSeconds > 0 && secondsSoFar() > WatchdogSeconds)
+  else if (watchdogBites())
     Limit =
         fmt::format("watchdog: the run took longer than {} s", WatchdogSeconds);
   if (!Limit.empty()) {
@@ -437,6 +448,7 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   I->Begin = std::chrono::steady_clock::now();
   const std::clock_t CpuBegin = std::clock();
   I->StopRequested = false;
+  I->Running = true;
   const RasterCounters Before = I->Raster.counters();
   I->resetCores(LaunchBlock);
   I->Watcher.tell([&](Observer &O) {
@@ -451,6 +463,7 @@ RunResult Machine::run(uint32_t LaunchBlock) {
     I->atSyncPoint();
     I->takeTime();
   } while (!I->decideEnd(R));
+  I->Running = false;
   I->flushConsole(true);
   I->count(R);
   if (I->isClocked())
@@ -484,6 +497,8 @@ void Machine::setWatchdog(double Seconds) { I->WatchdogSeconds = Seconds; }
 void Machine::requestStop() {
   I->StopRequested.store(true, std::memory_order_relaxed);
 }
+
+bool Machine::mustStop() const { return I->mustStop(); }
 
 void Machine::setClocked(bool Clocked) {
   if (!I->Time || I->Clocked == Clocked)

@@ -128,6 +128,28 @@ public:
 
 } // namespace
 
+TEST(Machine, AWspawnToNoCodeNamesTheAddress) {
+  Config C = small();
+  C.WarpsPerCore = 4;
+  for (const auto &[Address, Cause] :
+       {std::pair{0x12345000U, TrapCause::FetchFault},
+        std::pair{VX_IMAGE_BASE + 2, TrapCause::MisalignedFetch}}) {
+    std::vector<uint32_t> Words = {lui(6, Address), addi(6, 6, Address & 0xFFF),
+                                   addi(7, 0, 3),
+                                   encode(Op::VX_WSPAWN, {.Rs1 = 7, .Rs2 = 6})};
+    const RunResult R = make(C, Words)->run();
+    EXPECT_EQ(R.End, Outcome::Trap);
+    EXPECT_EQ(R.Fault.Cause, Cause);
+    EXPECT_EQ(R.Fault.Address, Address);
+    EXPECT_EQ(R.Fault.Pc, VX_IMAGE_BASE + 12);
+    EXPECT_EQ(R.Fault.Warp, 0U);
+    // Nobody goes there if no warp is free.
+    Words[2] = addi(7, 0, 1);
+    Words.push_back(encode(Op::VX_TMC, {.Rs1 = 0}));
+    EXPECT_EQ(make(C, Words)->run().End, Outcome::Done);
+  }
+}
+
 TEST(Machine, ThreadsChangeNothing) {
   const Snapshot One = runWith(1, 1 << 16);
   EXPECT_EQ(One.Result.End, Outcome::Done);

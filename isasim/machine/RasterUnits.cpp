@@ -8,8 +8,9 @@
 
 namespace vorion::isasim {
 
-RasterUnits::RasterUnits(const Config &C, Memory &Storage)
-    : Shape(C), View(Storage) {
+RasterUnits::RasterUnits(const Config &C, Memory &Storage,
+                         std::function<bool()> IsOver)
+    : Shape(C), View(Storage, std::move(IsOver)) {
   reset();
 }
 

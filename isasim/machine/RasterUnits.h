@@ -18,8 +18,9 @@ namespace vorion::isasim {
 
 class RasterUnits {
 public:
-  /// Keeps references to both.
-  RasterUnits(const Config &C, Memory &Storage);
+  /// Keeps references to both. Where \p IsOver says true, commands end early
+  /// and their results are not to be used.
+  RasterUnits(const Config &C, Memory &Storage, std::function<bool()> IsOver);
 
   /// Executes the CSR instruction at which \p S of core \p Core is parked;
   /// false if it has to wait until runUnit() has made room or finished.
@@ -67,11 +68,14 @@ private:
   RasterCounters countersOf(unsigned Core) const;
 
   struct GlobalMemory final : raster::RasterMemory {
-    explicit GlobalMemory(Memory &StorageIn) : Storage(StorageIn) {}
+    GlobalMemory(Memory &StorageIn, std::function<bool()> IsOverIn)
+        : Storage(StorageIn), Over(std::move(IsOverIn)) {}
     std::byte *range(uint32_t Addr, uint64_t Bytes) override {
       return Storage.global(Addr, Bytes);
     }
+    bool isOver() override { return Over(); }
     Memory &Storage;
+    std::function<bool()> Over;
   };
 
   const Config &Shape;

@@ -202,15 +202,16 @@ Session::create(const SessionOptions &O, std::string Tool,
 
 void Session::attach(Machine &M) {
   std::vector<Observer *> Observers;
+  // The debugger first: what it calls is over before others hear of the
+  // instruction that the warp stands at.
   for (Observer *O : std::initializer_list<Observer *>{
-           I->Tracer.get(), I->Times.get(), I->Profiler.get(), I->Shadow.get()})
+           I->Debugger.get(), I->Tracer.get(), I->Times.get(),
+           I->Profiler.get(), I->Shadow.get()})
     if (O)
       Observers.push_back(O);
   if (I->Checks)
     for (Observer *O : I->Checks->observers())
       Observers.push_back(O);
-  if (I->Debugger)
-    Observers.push_back(I->Debugger.get());
   M.setObservers(std::move(Observers));
   M.setWatchdog(I->WatchdogSeconds);
   if (I->Counts)

@@ -15,6 +15,8 @@ namespace vorion::isasim::gdb {
 namespace {
 
 constexpr char Interrupt = 3;
+/// More than gdb puts into a packet, whose size the server tells it.
+constexpr size_t LongestPacket = 1 << 16;
 
 unsigned char sumOf(std::string_view Contents) {
   unsigned char Sum = 0;
@@ -85,7 +87,19 @@ Expected<unsigned> Connection::listen(unsigned Port) {
   return unsigned{ntohs(Address.sin_port)};
 }
 
+bool Connection::waitFor(int Descriptor, short Events) const {
+  constexpr int Milliseconds = 50;
+  for (pollfd Poll{Descriptor, Events, 0}; !GiveUp();) {
+    const int Ready = poll(&Poll, 1, Milliseconds);
+    if (Ready > 0 || (Ready < 0 && errno != EINTR))
+      return true; // what follows says what is wrong
+  }
+  return false;
+}
+
 bool Connection::accept() {
+  if (!waitFor(Listener, POLLIN))
+    return false;
   do
     Socket = accept4(Listener, nullptr, nullptr, SOCK_CLOEXEC);
   while (Socket < 0 && errno == EINTR);
@@ -98,6 +112,8 @@ bool Connection::accept() {
 
 int Connection::next() {
   if (At == Buffer.size()) {
+    if (!waitFor(Socket, POLLIN))
+      return -1;
     Buffer.resize(4096);
     ssize_t Got = 0;
     do
@@ -119,8 +135,11 @@ std::optional<std::string> Connection::receive() {
     if (C >= 0 && C != '$')
       continue; // an acknowledgement
     std::string Contents;
-    while (C >= 0 && (C = next()) >= 0 && C != '#')
+    while (C >= 0 && (C = next()) >= 0 && C != '#') {
       Contents += static_cast<char>(C);
+      if (Contents.size() > LongestPacket)
+        C = -1; // no debugger
+    }
     const int High = C < 0 ? -1 : next(), Low = High < 0 ? -1 : next();
     if (Low < 0)
       break;
@@ -138,9 +157,11 @@ std::optional<std::string> Connection::receive() {
 
 void Connection::put(std::string_view Bytes) {
   while (!Bytes.empty() && isOpen()) {
+    if (!waitFor(Socket, POLLOUT))
+      return close();
     const ssize_t Sent =
-        ::send(Socket, Bytes.data(), Bytes.size(), MSG_NOSIGNAL);
-    if (Sent < 0 && errno == EINTR)
+        ::send(Socket, Bytes.data(), Bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (Sent < 0 && (errno == EINTR || errno == EAGAIN))
       continue;
     if (Sent <= 0)
       return close();

@@ -3,6 +3,7 @@
 
 #include "vorion/support/Expected.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,8 +19,15 @@ public:
 
   /// Listens on 127.0.0.1; gives the port.
   Expected<unsigned> listen(unsigned Port);
+  /// While something is waited for, \p MustStop is asked every now and then;
+  /// true ends the wait and the connection.
+  void stopWaitingWhen(std::function<bool()> MustStop) {
+    GiveUp = std::move(MustStop);
+  }
   /// Waits for a debugger; false if none can come.
   bool accept();
+  /// Takes over a connected socket instead.
+  void adopt(int Descriptor) { Socket = Descriptor; }
   bool isOpen() const { return Socket >= 0; }
   void close();
 
@@ -34,9 +42,12 @@ public:
 private:
   int next();
   void put(std::string_view Bytes);
+  /// Whether \p Descriptor is ready for \p Events (poll's) before GiveUp.
+  bool waitFor(int Descriptor, short Events) const;
 
   int Listener = -1, Socket = -1;
   bool Acknowledges = true;
+  std::function<bool()> GiveUp = [] { return false; };
   std::string Buffer;
   size_t At = 0;
 };

@@ -1,6 +1,9 @@
 #include "observe/gdb/GdbServer.h"
 
 #include "core/Core.h"
+#include "core/HostFp.h"
+#include "core/Slow.h"
+#include "observe/gdb/Call.h"
 #include "observe/gdb/Connection.h"
 #include "observe/gdb/Target.h"
 #include "vorion/isasim/Machine.h"
@@ -19,7 +22,13 @@ namespace {
 using namespace gdb;
 
 /// Signals as gdb numbers them (its include/gdb/signals.def).
-enum Signal : unsigned { SigInt = 2, SigIll = 4, SigTrap = 5, SigSegv = 11 };
+enum Signal : unsigned {
+  SigInt = 2,
+  SigIll = 4,
+  SigTrap = 5,
+  SigSegv = 11,
+  SigSys = 12 ///< a call needs the rest of the machine, which stands still
+};
 
 /// Instructions between two looks at whether the debugger wants a stop.
 constexpr unsigned PollEvery = 4096;
@@ -55,6 +64,11 @@ unsigned signalOf(TrapCause Cause) {
 
 class GdbServer final : public Observer {
 public:
+  GdbServer() = default;
+  /// For a debugger that is connected already.
+  explicit GdbServer(int Socket) : WasConnected(true), StopNext(true) {
+    Peer.adopt(Socket);
+  }
   ~GdbServer() override {
     if (Peer.isOpen())
       Peer.send(fmt::format("W{:02x}", ExitStatus & 0xFF));
@@ -63,6 +77,7 @@ public:
 
   void runBegins(const RunStart &R) override {
     Lanes.begin(R);
+    Peer.stopWaitingWhen([&M = R.Device] { return M.mustStop(); });
     if (!WasConnected) {
       WasConnected = Peer.accept();
       StopNext = WasConnected;
@@ -75,7 +90,10 @@ public:
       return;
     if (++Fetches % PollEvery == 0 && Peer.interrupted())
       return stop(S.State, S.LaneMask, SigInt, "");
-    if (!StopNext && Stepping != &S.State && !Breakpoints.contains(S.Pc))
+    const bool Steps = Stepping == &S.State;
+    if (Steps && std::exchange(CallBegins, false))
+      return;
+    if (!StopNext && !Steps && !Breakpoints.contains(S.Pc))
       return;
     StopNext = false;
     std::string Why;
@@ -118,6 +136,8 @@ public:
   }
 
   void runEnds(const RunResult &R) override {
+    // Those that wait for a machine that is gone must not ask it.
+    Peer.stopWaitingWhen([] { return false; });
     ExitStatus = R.End == Outcome::Done          ? 0
                  : R.End == Outcome::GuestFailed ? 1
                  : R.End == Outcome::Trap        ? 4
@@ -131,13 +151,17 @@ private:
     bool operator==(const Watchpoint &) const = default;
   };
 
-  void stop(const WarpState &S, uint32_t Mask, unsigned Reason,
+  /// \p S is running.
+  void stop(WarpState &S, uint32_t Mask, unsigned Reason,
             const std::string &More) {
     // Stay with the thread that the user looks at, if it is of this warp.
     if (!Lanes.isActive(Current) || Lanes.warpOf(Current) != &S)
       Current =
           Lanes.threadOf(S, static_cast<unsigned>(std::countr_zero(Mask)));
+    // Flags and rounding mode are the host's unit's as long as it runs.
+    S.Fflags |= HostFp::takeFlags();
     serve(Reason, More);
+    setFrm(&S, S.Frm);
   }
 
   std::string stopReply() const {
@@ -145,29 +169,69 @@ private:
                        StopDetail, Current, Lanes.coreOf(Current));
   }
 
-  /// Answers the debugger until it lets the machine go on.
-  void serve(unsigned Reason, const std::string &More) {
+  void tellStop(unsigned Reason, const std::string &More) {
     StopSignal = Reason;
     StopDetail = More;
     Stepping = nullptr;
     if (Waiting)
       Peer.send(stopReply());
     Waiting = false;
+  }
+
+  /// Answers the debugger until it lets the machine go on. Calls that it makes
+  /// run in here, and stops within them come back to here.
+  void serve(unsigned Reason, const std::string &More) {
+    tellStop(Reason, More);
     while (!Waiting) {
       const std::optional<std::string> Packet = Peer.receive();
-      if (!Packet)
-        return;
-      if (answer(*Packet))
-        return;
+      if (!Packet || answer(*Packet))
+        break;
+      while (Waiting && !Calls.empty() && !Calls.back()->isRunning())
+        runCall();
     }
+    // Gone in the middle of a call: the guest goes on as if there had been
+    // none.
+    while (!Peer.isOpen() && !Calls.empty() && !Calls.back()->isRunning())
+      endCall(true);
+  }
+
+  bool movePc(uint32_t Pc);
+  void beginCall();
+  void runCall();
+  void endCall(bool UndoWrites) {
+    Calls.back()->end(UndoWrites);
+    Calls.pop_back();
+    ReturnTo.reset();
+    Lanes.takeWrites();
+    PutsBack = true;
   }
 
   void resume(ThreadId Step) {
-    if (Step) {
+    if (Lanes.warpOf(Step)) {
       Stepping = Lanes.warpOf(Step);
       Current = Step;
     }
     Waiting = true;
+    if (beginsCall())
+      beginCall();
+    ReturnTo.reset();
+    CallEntry.reset();
+    Lanes.takeWrites();
+  }
+
+  /// Whether the debugger has made the current lane return to its stack, which
+  /// is how it calls functions: its breakpoint lies there. Where a call that
+  /// has ended was made within another one, that one's address is put back.
+  bool beginsCall() const {
+    constexpr uint32_t MostArguments = 1 << 16;
+    if (!ReturnTo || ReturnTo->first != Current)
+      return false;
+    for (const std::shared_ptr<Call> &C : Calls)
+      if (C->returnsWith(Current, ReturnTo->second))
+        return false;
+    return ReturnTo->second -
+               Lanes.readRegister(Current, SpNumber).value_or(0) <
+           MostArguments;
   }
 
   /// Whether the debugger has gone.
@@ -184,6 +248,13 @@ private:
 
   Connection Peer;
   Target Lanes;
+  std::vector<std::shared_ptr<Call>> Calls; ///< each made while the last stood
+  bool CallBegins = false; ///< its first instruction is not a step's end
+  /// What the debugger has put into a thread's ra since the machine last ran.
+  std::optional<std::pair<ThreadId, uint32_t>> ReturnTo;
+  std::optional<uint32_t> CallEntry; ///< what it has put into the pc then
+  /// A call has ended, and registers after the pc are still being put back.
+  bool PutsBack = false;
   bool WasConnected = false, StopNext = false;
   bool Waiting = false; ///< gdb waits for the machine to stop
   const WarpState *Stepping = nullptr;
@@ -220,8 +291,65 @@ void GdbServer::answerRegister(std::string_view Packet) {
   uint32_t Value = 0;
   if (Bytes.size() == sizeof(Value))
     std::memcpy(&Value, Bytes.data(), sizeof(Value));
-  reply(Bytes.size() == sizeof(Value) &&
-        Lanes.writeRegister(Current, Number, Value));
+  if (Bytes.size() != sizeof(Value))
+    return reply(false);
+  if (Number == PcNumber)
+    return reply(movePc(Value));
+  if (Number == RaNumber)
+    ReturnTo = {Current, Value};
+  reply(Lanes.writeRegister(Current, Number, Value));
+  if (PutsBack)
+    Lanes.takeWrites();
+}
+
+/// The pc is the warp's, and moves with all of its lanes: only calls write it,
+/// first to go to the function and at last to go back.
+bool GdbServer::movePc(uint32_t Pc) {
+  if (!Calls.empty() && !beginsCall() && Calls.back()->endsWith(Current, Pc)) {
+    endCall(false);
+    return true;
+  }
+  if (!Calls.empty() && Calls.back()->returnsWith(Current, Pc)) {
+    Calls.back()->goBack();
+    return true;
+  }
+  if (CallEntry) { // it has changed its mind
+    CallEntry.reset();
+    Lanes.showPc(0, 0);
+  }
+  if (Lanes.readRegister(Current, PcNumber) == Pc)
+    return true;
+  if (!beginsCall())
+    return false;
+  CallEntry = Pc;
+  Lanes.showPc(Current, Pc);
+  return true;
+}
+
+void GdbServer::beginCall() {
+  const uint32_t Entry =
+      CallEntry.value_or(*Lanes.readRegister(Current, PcNumber));
+  Calls.push_back(std::make_shared<Call>(Lanes, Current, Entry,
+                                         ReturnTo->second, Lanes.takeWrites()));
+}
+
+void GdbServer::runCall() {
+  // It may be ended while it runs.
+  const std::shared_ptr<Call> Running = Calls.back();
+  CallBegins = true;
+  const Call::Pause Why =
+      Running->run([this] { return Lanes.device().mustStop(); });
+  CallBegins = false;
+  switch (Why) {
+  case Call::Pause::Returned:
+    return tellStop(SigTrap, "");
+  case Call::Pause::Trapped:
+    return tellStop(signalOf(Running->cause()), "");
+  case Call::Pause::Stuck:
+    return tellStop(SigSys, "");
+  case Call::Pause::Ended:
+    return; // the debugger has let the machine go on
+  }
 }
 
 void GdbServer::answerPoint(std::string_view Packet) {
@@ -316,6 +444,7 @@ void GdbServer::answerContinue(std::string_view Packet) {
 }
 
 bool GdbServer::answer(std::string_view Packet) {
+  PutsBack &= Packet.starts_with('P');
   switch (Packet.empty() ? '\0' : Packet[0]) {
   case '?':
     Peer.send(stopReply());
@@ -384,6 +513,10 @@ bool GdbServer::answer(std::string_view Packet) {
 }
 
 } // namespace
+
+std::unique_ptr<Observer> serveGdb(int Socket) {
+  return std::make_unique<GdbServer>(Socket);
+}
 
 Expected<std::unique_ptr<Observer>>
 startGdbServer(unsigned Port,

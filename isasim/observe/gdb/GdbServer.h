@@ -18,4 +18,7 @@ namespace vorion::isasim {
 Expected<std::unique_ptr<Observer>>
 startGdbServer(unsigned Port, const std::function<void(std::string_view)> &Say);
 
+/// The same for a debugger at the other end of \p Socket, which it takes over.
+std::unique_ptr<Observer> serveGdb(int Socket);
+
 } // namespace vorion::isasim

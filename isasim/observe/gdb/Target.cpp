@@ -1,6 +1,7 @@
 #include "observe/gdb/Target.h"
 
 #include "core/Core.h"
+#include "core/HostFp.h"
 #include "core/IsaTables.h"
 #include "core/Slow.h"
 #include "vorion/isasim/Machine.h"
@@ -16,7 +17,7 @@ namespace {
 // Numbers of registers. x0 to x31, pc, f0 to f31 and the three after them are
 // as gdb numbers RISC-V's; the rest is ours.
 enum Register : unsigned {
-  Pc = 32,
+  Pc = PcNumber,
   FirstF = 33,
   Fflags = 65,
   Frm,
@@ -86,6 +87,8 @@ std::string Target::describe(ThreadId T) const {
 /// there; any other that is off goes on with its warp.
 uint32_t Target::pc(ThreadId T) const {
   const WarpState &S = *warpOf(T);
+  if (Shown.first == T)
+    return Shown.second;
   for (uint32_t D = S.StackDepth; D-- != 0 && !isActive(T);)
     if (S.Stack[D].Other >> laneOf(T) & 1)
       return S.pcOf(S.Stack[D].Pc);
@@ -127,16 +130,25 @@ std::string Target::registers(ThreadId T) const {
 
 bool Target::writeRegister(ThreadId T, unsigned N, uint32_t Value) {
   WarpState *S = warpOf(T);
+  // gdb writes everything back after a call.
   if (!S || N == 0 || (N >= Fflags && N != Fflags && N != Frm) || N == Pc)
-    return false;
+    return readRegister(T, N) == Value;
   if (N == Fflags)
     S->Fflags = Value & 31;
-  else if (N == Frm)
+  else if (N == Frm) {
+    const HostFp Host; // which may be another warp's
     setFrm(S, Value & 7);
-  else
-    S->lanes((N < Pc ? XBase + N : FBase + (N - FirstF)) *
-             sizeof(LaneWords))[laneOf(T)] = Value;
+  } else {
+    uint32_t *Word = &S->lanes((N < Pc ? XBase + N : FBase + (N - FirstF)) *
+                               sizeof(LaneWords))[laneOf(T)];
+    Writes.push_back({Word, std::exchange(*Word, Value)});
+  }
   return true;
+}
+
+void Target::undo(const std::vector<RegisterWrite> &Writes) {
+  for (auto W = Writes.rbegin(); W != Writes.rend(); ++W)
+    *W->Word = W->Before;
 }
 
 std::string Target::readMemory(ThreadId T, uint32_t Address,
@@ -182,7 +194,7 @@ std::string Target::description() {
       "osabi>"
       "<feature name=\"org.gnu.gdb.riscv.cpu\">";
   for (const char *Name : XNames)
-    Text += entry(Name, Name == XNames[2] ? "data_ptr" : "int");
+    Text += entry(Name, Name == XNames[SpNumber] ? "data_ptr" : "int");
   Text += entry("pc", "code_ptr");
   Text += "</feature><feature name=\"org.gnu.gdb.riscv.fpu\">";
   for (const char *Name : FNames)

@@ -6,11 +6,22 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace vorion::isasim::gdb {
 
 /// A lane: 1 + (core * warps + warp) * lanes + lane.
 using ThreadId = uint32_t;
+
+/// Numbers of registers, as gdb counts RISC-V's.
+enum : unsigned { RaNumber = 1, SpNumber = 2, PcNumber = 32 };
+
+/// A register's word before the debugger wrote it.
+struct RegisterWrite {
+  uint32_t *Word;
+  uint32_t Before;
+};
 
 class Target {
 public:
@@ -31,8 +42,13 @@ public:
   /// All registers, in the description's order.
   std::string registers(ThreadId T) const;
   std::optional<uint32_t> readRegister(ThreadId T, unsigned Number) const;
-  /// Not for pc and what identifies the lane.
+  /// Not for pc and what identifies the lane, unless it has the value already.
   bool writeRegister(ThreadId T, unsigned Number, uint32_t Value);
+  /// The words of x and f registers that were written since the last call.
+  std::vector<RegisterWrite> takeWrites() { return std::exchange(Writes, {}); }
+  static void undo(const std::vector<RegisterWrite> &Writes);
+  /// \p T says that it is at \p Pc, though its warp is not; 0: no lane does.
+  void showPc(ThreadId T, uint32_t Pc) { Shown = {T, Pc}; }
   /// As many bytes as are mapped from \p Address on.
   std::string readMemory(ThreadId T, uint32_t Address, uint32_t Bytes) const;
   /// Not to code, which is decoded once.
@@ -49,6 +65,8 @@ private:
   const std::shared_ptr<const Image> *Program = nullptr;
   std::span<const std::unique_ptr<Core>> Cores;
   unsigned WarpsPerCore = 1, Lanes = 1, Warps = 0;
+  std::vector<RegisterWrite> Writes;
+  std::pair<ThreadId, uint32_t> Shown{0, 0};
 };
 
 } // namespace vorion::isasim::gdb

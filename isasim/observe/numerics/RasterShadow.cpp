@@ -30,6 +30,7 @@ struct MachineMemory final : RasterMemory {
   std::byte *range(uint32_t Addr, uint64_t Bytes) override {
     return Device.hostPointer(Addr, Bytes);
   }
+  bool isOver() override { return Device.mustStop(); }
   Machine &Device;
 };
 

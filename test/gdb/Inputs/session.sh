@@ -10,7 +10,8 @@ while [ -z "$port" ]; do
   sleep 0.05
   port=$(sed -n 's/.*waiting on port \([0-9]*\).*/\1/p' "$log")
 done
-gdb-multiarch -q -nx -batch -ex 'set pagination off' -ex "target remote 127.0.0.1:$port" -x "$commands" "$program" 2>&1
+# Standard input rather than -x, which ends at the first error.
+gdb-multiarch -q -nx -ex 'set pagination off' -ex 'set confirm off' -ex 'set width 0' -ex 'set prompt' -ex "target remote 127.0.0.1:$port" "$program" < "$commands" 2>&1
 wait $simulator
 echo "vorion-sim ended with $?"
 cat "$log"

@@ -76,11 +76,16 @@ public:
   void setClocked(bool Clocked);
 
   /// Ends a run that takes longer, with Outcome::LimitReached; 0 for no limit.
-  /// Looked at where all cores are parked.
+  /// Looked at every few thousand instructions of a core, every few thousand
+  /// Gaussians of a rasterizer, and while a debugger is waited for.
   void setWatchdog(double Seconds);
 
   /// Ends the run in progress likewise. From any thread, or an observer.
   void requestStop();
+
+  /// Whether the run in progress has been asked to end, or has taken longer
+  /// than the watchdog allows. From any thread.
+  bool mustStop() const;
 
   /// The raster CSR window of docs/abi.md as the host sees it (lane 0 of a CSR
   /// that every lane has); not during a run. nullopt or false for a core or CSR

@@ -1,0 +1,70 @@
+#include "observe/gdb/Call.h"
+
+#include "core/Core.h"
+#include "core/Exec.h"
+#include "core/Slow.h"
+
+#include <cstring>
+#include <utility>
+
+namespace vorion::isasim::gdb {
+
+Call::Call(Target &LanesIn, ThreadId T, uint32_t EntryIn, uint32_t ReturnToIn,
+           std::vector<RegisterWrite> WrittenIn)
+    : Lanes(LanesIn), Lane(T), S(*Lanes.warpOf(T)), Saved(S), Entry(EntryIn),
+      ReturnTo(ReturnToIn), Written(std::move(WrittenIn)) {
+  Lanes.showPc(0, 0);
+  PcBefore = Lanes.readRegister(T, PcNumber).value_or(0);
+  setMask(&S, 1U << Lanes.laneOf(T));
+  S.WholeMask = 0; // a barrier is not for one lane: it traps
+  S.Trace = nullptr;
+  S.Next = S.Owner->find(Entry);
+  Lanes.showPc(Lane, Entry);
+}
+
+void Call::goBack() {
+  raise(&S, static_cast<uint32_t>(TrapCause::FetchFault), Lanes.laneOf(Lane),
+        ReturnTo);
+  S.Moved = Running;
+  IsBack = true;
+  Lanes.showPc(Lane, ReturnTo);
+}
+
+Call::Pause Call::run(const std::function<bool()> &MustStop) {
+  constexpr uint64_t LongestStretch = 1 << 12;
+  Lanes.showPc(0, 0);
+  Running = true;
+  if (!IsBack)
+    S.Why = Stop::Ready;
+  while (!Over && S.Why == Stop::Ready && !MustStop())
+    S.Owner->runApart(S, execTable(true), LongestStretch);
+  Running = false;
+  if (Over) {
+    S.Fflags = Saved.Fflags; // the host's unit still had the call's
+    return Pause::Ended;
+  }
+  if (S.Why != Stop::Trapped)
+    return Pause::Stuck;
+  const bool NoCode = cause() == TrapCause::FetchFault;
+  if (NoCode && S.FaultAddress == ReturnTo) {
+    Lanes.showPc(Lane, ReturnTo);
+    return Pause::Returned;
+  }
+  if (NoCode && S.Next == S.Owner->find(Entry))
+    Lanes.showPc(Lane, Entry);
+  return Pause::Trapped;
+}
+
+void Call::end(bool UndoWrites) {
+  if (!UndoWrites)
+    std::memcpy(Saved.R, S.R, sizeof(S.R));
+  S = Saved;
+  // Handlers that are running it must not go on where the call was.
+  S.Moved = Running;
+  Over = true;
+  Lanes.showPc(0, 0);
+  if (UndoWrites)
+    Target::undo(std::exchange(Written, {}));
+}
+
+} // namespace vorion::isasim::gdb

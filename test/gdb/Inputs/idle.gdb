@@ -1,0 +1,3 @@
+break square
+shell sleep 5
+continue
