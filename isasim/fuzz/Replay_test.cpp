@@ -36,3 +36,20 @@ TEST(Replay, Programs) {
   }
   fuzz::execute({});
 }
+
+TEST(Replay, Debuggers) {
+  std::mt19937 Random(4);
+  for (const auto &Seed : fuzz::debuggerSeeds())
+    for (int N = 0; N != 100; ++N)
+      fuzz::debug(N ? damaged(Seed, Random) : Seed);
+  fuzz::debug({});
+}
+
+TEST(Replay, Rasterizers) {
+  std::mt19937 Random(5);
+  for (const auto &Seed : fuzz::rasterSeeds(200, 6)) {
+    fuzz::rasterize(Seed);
+    fuzz::rasterize(damaged(Seed, Random));
+  }
+  fuzz::rasterize({});
+}

@@ -17,9 +17,23 @@ void readImage(std::span<const std::byte> Bytes);
 /// observer.
 void execute(std::span<const std::byte> Bytes);
 
+/// The bytes as what a debugger says, a packet a line; lines that begin with
+/// '!' are sent without a frame. Aborts if a debugger that only looks changes
+/// the run.
+void debug(std::span<const std::byte> Bytes);
+
+/// The bytes as a program that writes and reads rasterizer CSRs and memory in
+/// any order, on cores of two sockets. Aborts if the run differs with the
+/// clock, an observer, the checkers or the numeric sanitizer.
+void rasterize(std::span<const std::byte> Bytes);
+
 /// Inputs to begin with: programs whole and damaged.
 std::vector<std::vector<std::byte>> imageSeeds();
 /// Programs of random instructions, mostly valid ones.
 std::vector<std::vector<std::byte>> programSeeds(unsigned Count, unsigned Seed);
+/// Sessions with gdb.
+std::vector<std::vector<std::byte>> debuggerSeeds();
+/// Commands of every mode, most of them valid.
+std::vector<std::vector<std::byte>> rasterSeeds(unsigned Count, unsigned Seed);
 
 } // namespace vorion::isasim::fuzz

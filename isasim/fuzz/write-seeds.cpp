@@ -1,5 +1,5 @@
 /// Writes the fuzzers' first inputs: isasim-fuzz-seeds FOLDER makes
-/// FOLDER/image and FOLDER/execute.
+/// FOLDER/image, FOLDER/execute, FOLDER/gdb and FOLDER/raster.
 
 #include "fuzz/Targets.h"
 #include "vorion/support/Diagnostics.h"
@@ -18,7 +18,9 @@ int main(int Argc, char **Argv) {
         Tool, Error{"", "one argument, expected a folder", ExitCode::Usage});
   const std::pair<const char *, std::vector<std::vector<std::byte>>> Kinds[] = {
       {"image", isasim::fuzz::imageSeeds()},
-      {"execute", isasim::fuzz::programSeeds(Programs, 1)}};
+      {"execute", isasim::fuzz::programSeeds(Programs, 1)},
+      {"gdb", isasim::fuzz::debuggerSeeds()},
+      {"raster", isasim::fuzz::rasterSeeds(Programs, 1)}};
   for (const auto &[Kind, Seeds] : Kinds) {
     const std::string Folder = fmt::format("{}/{}", Argv[1], Kind);
     std::error_code Failed;

@@ -55,6 +55,7 @@ struct RasterCounters {
 #undef VORION_RASTER_COUNTER
   RasterCounters &operator+=(const RasterCounters &Other);
   RasterCounters operator-(const RasterCounters &Other) const;
+  bool operator==(const RasterCounters &) const = default;
 };
 
 /// A counter by name, for tables.
