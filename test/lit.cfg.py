@@ -46,6 +46,7 @@ features["data"] = os.path.join(root, "..", "shared", "data")
 features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES", os.path.join(root, "build", "sources")), "llvm-tests")
 features["gdb-multiarch"] = shutil.which("gdb-multiarch") or "gdb-multiarch"
 features["qemu-riscv32"] = shutil.which("qemu-riscv32") or "qemu-riscv32"
+features["qemu-x86_64"] = shutil.which("qemu-x86_64") or "qemu-x86_64"
 features["csmith"] = shutil.which("csmith") or "csmith"
 features["chromium"] = shutil.which("chromium") or "chromium"
 features["mpirun"] = shutil.which("mpirun") or "mpirun"

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Runs the simulator's unit tests as on a host without AVX: under qemu-x86_64 -cpu Nehalem.
+# usage: scripts/old-host.sh [PROGRAM...]   (PROGRAM: a test program of build/dev/bin; default: all of isasim/)
+# exit codes: 0 all pass, 1 some fail
+source "$(dirname "$0")/lib.sh"
+command -v qemu-x86_64 >/dev/null || fail "no qemu-x86_64, expected the package qemu-user"
+Programs=("$@")
+if [ $# -eq 0 ]; then
+  while read -r Source; do
+    Name=$(basename "$Source" .cpp)
+    case "$Source" in isasim/raster/* | isasim/pixel/*) ;; *) Name=isasim_$Name ;; esac
+    Programs+=("$Name")
+  done < <(cd "$Root" && find isasim -name '*_test.cpp' | sort)
+fi
+
+mkdir -p "$Logs"
+Failed=0
+for Program in "${Programs[@]}"; do
+  [ -x "$Build/bin/$Program" ] || fail "no test program '$Program' in $Build/bin"
+  Begun=$SECONDS Status=0
+  qemu-x86_64 -cpu Nehalem "$Build/bin/$Program" --gtest_brief=1 >"$Logs/old-host-$Program.log" 2>&1 || Status=$?
+  Ran=$(sed -nE 's/^\[=+\] (.*) ran\..*/\1/p' "$Logs/old-host-$Program.log")
+  printf '%s: %s, ended with %d after %d s\n' "$Program" "${Ran:-no count of tests}" "$Status" $((SECONDS - Begun))
+  [ "$Status" -eq 0 ] || { Failed=1; grep -A 8 'Failure' "$Logs/old-host-$Program.log" | head -n 40 || tail -n 5 "$Logs/old-host-$Program.log"; }
+done
+exit "$Failed"
