@@ -343,8 +343,8 @@ void submit(_cl_command_node *Node, cl_command_queue) {
 void notify(cl_device_id, cl_event Event, cl_event Finished) {
   _cl_command_node *Node = Event->command;
   if (Finished->status < CL_COMPLETE)
-    pocl_update_event_failed(Event);
-  else if (Node->ready)
+    Event->dependency_failed = 1;
+  if (Node->ready)
     submitReady(Node);
 }
 

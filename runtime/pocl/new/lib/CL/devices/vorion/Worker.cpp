@@ -42,12 +42,20 @@ void Worker::run() {
 }
 
 void Worker::execute(_cl_command_node *Command) {
+  cl_event Event = Command->sync.event.event;
+  // PoCL's own commands, which bring a buffer to where it is used, only wait:
+  // a buffer that a failed command was given is no dependency.
+  if (Event->dependency_failed &&
+      !(Event->queue->properties & CL_QUEUE_HIDDEN)) {
+    pocl_update_event_finished(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST,
+                               __func__, __LINE__, Event, "dependent");
+    return;
+  }
   // PoCL's own way to execute a kernel command cannot fail.
   if (Command->type != CL_COMMAND_NDRANGE_KERNEL) {
     pocl_exec_command(Command);
     return;
   }
-  cl_event Event = Command->sync.event.event;
   pocl_update_event_running(Event);
   const cl_int Status = runKernel(Device, Kernels, Command);
   pocl_update_event_finished(Status, __func__, __LINE__, Event, "kernel");

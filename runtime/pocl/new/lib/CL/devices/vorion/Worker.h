@@ -18,7 +18,8 @@ public:
   /// Executes what was pushed, then ends the thread.
   ~Worker();
 
-  /// \p Command depends on nothing any more.
+  /// \p Command waits for nothing any more; if something that it depends on
+  /// has failed, it is not executed and fails, too.
   void push(_cl_command_node *Command);
 
 private:
