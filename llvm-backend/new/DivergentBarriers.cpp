@@ -188,7 +188,7 @@ std::string vorion::divergentBarrierLog(const Module &M) {
     unifyExits(F, LoopInfo(DominatorTree(F)),
                [](IRBuilder<> &Builder) { return Builder.getTrue(); });
     for (const DivergentBarrier &B : findDivergentBarriers(F)) {
-      Log += "warning: " + placeOf(B.Call->getDebugLoc()) + B.Warning + "\n";
+      Log += placeOf(B.Call->getDebugLoc()) + "warning: " + B.Warning + "\n";
     }
   }
   return Log;

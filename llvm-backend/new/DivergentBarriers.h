@@ -33,7 +33,7 @@ struct DivergentBarrier {
 std::vector<DivergentBarrier> findDivergentBarriers(Function &F);
 
 /// The same for all of \p M, which has not been optimised: a line
-/// "warning: file:line:column: text" for each, as compilers' logs have them.
+/// "file:line:column: warning: text" for each, as compilers' logs have them.
 std::string divergentBarrierLog(const Module &M);
 
 } // namespace vorion

@@ -296,8 +296,10 @@ TEST(Launches, DoublePrecisionIsRefusedInTheBuildLog) {
       "kernel void f(global float *o) {\n  double x = o[0];\n  o[0] = x;\n}",
       Log);
   testing::internal::GetCapturedStderr();
-  EXPECT_NE(Log.find(":2:3: use of type 'double' requires cl_khr_fp64 support"),
-            std::string::npos)
+  EXPECT_NE(
+      Log.find(
+          ":2:3: error: use of type 'double' requires cl_khr_fp64 support"),
+      std::string::npos)
       << Log;
 }
 

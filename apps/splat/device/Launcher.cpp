@@ -27,6 +27,15 @@ std::string optionsOf(const ProgramSpec &Spec) {
   return Options;
 }
 
+/// What keeps the platform from keeping compiled kernels, if \p Log of a
+/// program tells of that.
+std::optional<Error> cacheError(const std::string &Log) {
+  const std::size_t At = Log.find(CL_KERNEL_CACHE_PROBLEM_VORION);
+  if (At == std::string::npos)
+    return std::nullopt;
+  return Error{"", Log.substr(At, Log.find('\n', At) - At)};
+}
+
 double mebibytes(std::uint64_t Bytes) {
   return static_cast<double>(Bytes) / (1024.0 * 1024.0);
 }
@@ -116,6 +125,11 @@ void Launcher::build(const ProgramSpec &Spec) {
     Status = Program.build(Dev.handle(), Options.c_str());
   if (Status != CL_SUCCESS) {
     BuildLog = Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Dev.handle());
+    if (auto Cache = cacheError(BuildLog)) {
+      Failure = std::move(Cache);
+      BuildLog.clear(); // it says the same
+      return;
+    }
     // Sources of the user's folder are input; our own must compile anywhere.
     Failure =
         Error{KernelFolder,
@@ -147,6 +161,14 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
   }
   Status = Done.wait();
   const auto Outcome = Done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
+  // Compiled when it is started.
+  if (Outcome == CL_OUT_OF_HOST_MEMORY)
+    if (auto Cache = cacheError(
+            K.getInfo<CL_KERNEL_PROGRAM>().getBuildInfo<CL_PROGRAM_BUILD_LOG>(
+                Dev.handle()))) {
+      Failure = std::move(Cache);
+      return;
+    }
   if (Outcome == CL_MEM_OBJECT_ALLOCATION_FAILURE) {
     Failure = clError("running kernel " + Name, Outcome);
     return;

@@ -43,6 +43,12 @@ extern "C" {
  * CL_QUEUE_PROFILING_ENABLE. */
 #define CL_EVENT_TIME_REPORT_VORION 0x4F80
 
+/* A line of a program's build log contains this, and the reason after it, if
+ * compiled kernels could not be kept: the source may be good. Then
+ * clBuildProgram gives CL_BUILD_PROGRAM_FAILURE, and a kernel that is compiled
+ * when it is started ends with CL_OUT_OF_HOST_MEMORY. */
+#define CL_KERNEL_CACHE_PROBLEM_VORION "kernel cache: "
+
 /* As clGetEventInfo. CL_INVALID_EVENT: not an event of a kernel on a Vorion
  * device. CL_PROFILING_INFO_NOT_AVAILABLE: the kernel has not ended, or has
  * failed. CL_INVALID_VALUE: an unknown name, or size too small for the value.

@@ -1,6 +1,9 @@
 #include "ClCommandLine.h"
 
+#include "vorion/support/Nearest.h"
+
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace vorion {
@@ -46,10 +49,39 @@ bool isWarningName(const std::string &Name) {
              std::string::npos;
 }
 
-/// Options without effect: kernels are always compiled with -O2 in the end, and
-/// warnings are no errors unless told so.
-const std::set<std::string> Ignored = {"-O",  "-O0", "-O1", "-O2",       "-O3",
+/// Options without effect: kernels are compiled with -O2 in the end unless told
+/// -O0, and warnings are no errors unless told so.
+const std::set<std::string> Ignored = {"-O",  "-O1", "-O2", "-O3",
                                        "-Os", "-Oz", "-g0", "-Wno-error"};
+
+/// OpenCL C's options that are handed on.
+const std::set<std::string> OpenClOptions = {
+    "-cl-denorms-are-zero",
+    "-cl-fast-relaxed-math",
+    "-cl-finite-math-only",
+    "-cl-fp32-correctly-rounded-divide-sqrt",
+    "-cl-kernel-arg-info",
+    "-cl-mad-enable",
+    "-cl-no-signed-zeros",
+    "-cl-opt-disable",
+    "-cl-single-precision-constant",
+    "-cl-std=CL1.0",
+    "-cl-std=CL1.1",
+    "-cl-std=CL1.2",
+    "-cl-strict-aliasing",
+    "-cl-unsafe-math-optimizations"};
+
+/// Refuses \p Option, with the one that was meant if there is one like it.
+Error unknownOption(const std::string &Option) {
+  std::vector<std::string> Known = {"-o", "-D", "-U",  "-I",     "-g",
+                                    "-w", "-W", "-O0", "-Werror"};
+  Known.insert(Known.end(), Ignored.begin(), Ignored.end());
+  Known.insert(Known.end(), OpenClOptions.begin(), OpenClOptions.end());
+  const std::optional<std::string> Meant = nearest(Option, Known);
+  return usageError(Option + ": unknown option, " +
+                    (Meant ? "did you mean " + *Meant + "?"
+                           : "expected one that vorion-clang --help lists"));
+}
 
 } // namespace
 
@@ -98,15 +130,15 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
     } else if (Argument == "-g" || Argument == "-g1" || Argument == "-g2" ||
                Argument == "-g3") {
       Line.BuildOptions += "-g ";
+    } else if (Argument == "-O0") {
+      Line.BuildOptions += "-cl-opt-disable ";
     } else if (Argument == "-w" || Argument == "-Werror" ||
-               (Argument.starts_with("-cl-") &&
-                Argument.find_first_of(" \"") == std::string::npos)) {
+               OpenClOptions.contains(Argument)) {
       Line.BuildOptions += Argument + " ";
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
       Line.Prelude += warningLine(Argument.substr(2));
     } else {
-      return usageError(Argument + ": unknown option, expected one that "
-                                   "vorion-clang --help lists");
+      return unknownOption(Argument);
     }
   }
   if (Line.Inputs.empty())

@@ -1,84 +1,109 @@
 #include "ClDiagnostics.h"
 
+#include <CL/cl_vorion.h>
+
+#include <algorithm>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 namespace vorion {
 
 namespace {
 
-/// Longer lines are cut: std::regex needs stack for every character.
-constexpr size_t MaxLine = 2000;
+constexpr const char *Wanted = ", expected OpenCL C that compiles";
+/// What the platform says of a kernel that it cannot compile, and of what
+/// cannot.
+constexpr std::string_view KernelRefused = "vorion: error: ";
+constexpr std::string_view CompilerFailed = "vorion-clang failed";
 
 std::vector<std::string> linesOf(const std::string &Text) {
   std::vector<std::string> Lines;
   std::istringstream Stream(Text);
   for (std::string Line; std::getline(Stream, Line);)
-    Lines.push_back(Line.substr(0, MaxLine));
+    Lines.push_back(Line);
   return Lines;
 }
 
-/// "SEVERITY: file:1:2: words" as PoCL writes it; where a macro is at fault its
-/// own place follows the first in angle brackets, which we leave out.
-std::optional<Error> parse(const std::string &Line, std::string_view Severity) {
-  static const std::regex Form(
-      "(error|warning): (.*?:[0-9]+:[0-9]+)( <Spelling=.*?>)?: (.*)");
-  std::smatch Parts;
-  if (!std::regex_match(Line, Parts, Form) || Parts.str(1) != Severity)
+/// What stands in \p Text behind \p Words up to the end of the line.
+std::optional<std::string> after(const std::string &Text,
+                                 std::string_view Words) {
+  const std::size_t At = Text.find(Words);
+  if (At == std::string::npos)
     return std::nullopt;
-  return Error{Parts.str(2), Parts.str(4)};
+  const std::size_t Begin = At + Words.size();
+  return Text.substr(Begin, Text.find('\n', Begin) - Begin);
+}
+
+/// A cache that cannot be written is no fault of the source.
+std::optional<Error> fileError(const std::string &Text) {
+  const auto Problem = after(Text, CL_KERNEL_CACHE_PROBLEM_VORION);
+  if (!Problem)
+    return std::nullopt;
+  return Error{"", *Problem, ExitCode::InputFile};
 }
 
 } // namespace
 
-std::vector<Error> compilerWarnings(const std::string &Log) {
-  std::vector<Error> Warnings;
-  for (const std::string &Line : linesOf(Log))
-    if (const std::optional<Error> Warning = parse(Line, "warning"))
-      Warnings.push_back(*Warning);
-  return Warnings;
+Error compilerError(const std::string &Input, const std::string &Log,
+                    const std::string &Output) {
+  if (const auto Files = fileError(Log + Output))
+    return *Files;
+  const std::vector<std::string> Lines = linesOf(Log);
+  const auto Errors = std::ranges::count_if(Lines, [](const std::string &L) {
+    return L.find(": error: ") != std::string::npos ||
+           L.find(": fatal error: ") != std::string::npos;
+  });
+  if (Errors > 0)
+    return {Input,
+            (Errors == 1 ? "1 error" : std::to_string(Errors) + " errors") +
+                std::string(Wanted)};
+  if (const auto Symbol = after(Output, "Cannot find symbol "))
+    return {Input, "there is no function " +
+                       Symbol->substr(0, Symbol->find(' ')) +
+                       ", expected its definition in the file"};
+  if (const auto Option = after(Output, "Invalid build option: "))
+    return {"", *Option + ": unknown option, expected one of OpenCL C 1.2's",
+            ExitCode::Usage};
+  const std::vector<std::string> Said = linesOf(Output);
+  const auto First = std::ranges::find_if(
+      Said, [](const std::string &Line) { return !Line.empty(); });
+  return {Input, "does not compile" +
+                     (First == Said.end() ? "" : " (" + *First + ")") + Wanted};
 }
 
-Error compilerError(const std::string &Input, const std::string &Output) {
-  static const std::regex Counts("[0-9]+ (warning|error)s?.* generated\\.");
-  static const std::regex Symbol("Cannot find symbol (.*) in kernel library");
-  static const std::regex Option("Invalid build option: (.*)");
-  constexpr const char *Wanted = ", expected OpenCL C that compiles";
-  std::string FirstWords;
-  for (const std::string &Line : linesOf(Output)) {
-    std::smatch Parts;
-    if (std::optional<Error> Found = parse(Line, "error")) {
-      Found->What += Wanted;
-      return *Found;
-    }
-    if (std::regex_match(Line, Parts, Symbol))
-      return {Input, "there is no function " + Parts.str(1) +
-                         ", expected its definition in the file"};
-    if (std::regex_match(Line, Parts, Option))
-      return {"",
-              Parts.str(1) + ": unknown option, expected one of OpenCL C 1.2's",
-              ExitCode::Usage};
-    if (FirstWords.empty() && !Line.empty() && !parse(Line, "warning") &&
-        !std::regex_match(Line, Counts))
-      FirstWords = Line;
+std::string machineLog(const std::string &Output) {
+  const std::size_t Refused = Output.find(CompilerFailed);
+  const std::size_t Begin = Output.find('\n', Refused);
+  if (Refused == std::string::npos || Begin == std::string::npos)
+    return {};
+  // The next kernel begins with a line of the platform.
+  const std::size_t End = Output.find(KernelRefused, Begin);
+  std::string Log = Output.substr(Begin + 1, End - Begin - 1);
+  while (Log.ends_with("\n\n"))
+    Log.pop_back();
+  return Log;
+}
+
+Error kernelError(const std::string &Input, const std::string &Output) {
+  if (const auto Files = fileError(Output))
+    return *Files;
+  if (const auto Reason = after(Output, KernelRefused)) {
+    const std::size_t Compiler = Reason->find(CompilerFailed);
+    // "kernel NAME: FOLDER/vorion-clang failed"
+    return {Input, (Compiler == std::string::npos
+                        ? *Reason
+                        : Reason->substr(0, Reason->find(": ")) +
+                              " cannot be compiled for the machine") +
+                       ", expected a kernel that can"};
   }
-  return {Input, "does not compile" +
-                     (FirstWords.empty() ? "" : " (" + FirstWords + ")") +
-                     Wanted};
+  return {Input, "no code was made of it, expected at least one kernel"};
 }
 
 Error linkerError(const std::string &Image, const std::string &Output) {
-  std::string Cause;
-  for (const std::string &Line : linesOf(Output)) {
-    const size_t At = Line.find("error: ");
-    if (At == std::string::npos)
-      continue;
-    Cause = " (" + Line.substr(At + std::string_view("error: ").size()) + ")";
-    break;
-  }
-  return {Image, "cannot be linked" + Cause +
+  const auto Cause = after(Output, "error: ");
+  return {Image, "cannot be linked" + (Cause ? " (" + *Cause + ")" : "") +
                      ", expected kernels that make one program"};
 }
 

@@ -1,20 +1,26 @@
-/// PoCL's words about a build in the house's form.
+/// What the programs that build OpenCL C leave, in the house's form.
 #pragma once
 
 #include "vorion/support/Expected.h"
 
 #include <string>
-#include <vector>
 
 namespace vorion {
 
-/// The warnings in a build log or the compiler's output.
-std::vector<Error> compilerWarnings(const std::string &Log);
+/// The one error that tells why \p Input was not built, after the compiler's
+/// \p Log was shown: how many errors are in it, or a function without
+/// definition, an option, a file that cannot be written; else the first words
+/// of \p Output, which is all that was printed.
+Error compilerError(const std::string &Input, const std::string &Log,
+                    const std::string &Output);
 
-/// The one error that tells why \p Input was not built: the compiler's first,
-/// an unknown option, or a function without definition; else the first words of
-/// \p Output.
-Error compilerError(const std::string &Input, const std::string &Output);
+/// What the machine's compiler said of the first kernel in \p Output that it
+/// refused; empty if it refused none.
+std::string machineLog(const std::string &Output);
+
+/// Why the kernels of \p Input, which has no errors, could not be compiled for
+/// the machine, by what was printed.
+Error kernelError(const std::string &Input, const std::string &Output);
 
 /// The linker's first error, without the names of the programs that said it.
 Error linkerError(const std::string &Image, const std::string &Output);

@@ -21,7 +21,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <set>
+#include <optional>
 #include <spawn.h>
 #include <string>
 #include <sys/wait.h>
@@ -49,11 +49,15 @@ constexpr std::string_view Usage =
     "  -g                     with line numbers\n"
     "  -w, -Werror, -W[no-|error=]NAME\n"
     "  -cl-...                options of OpenCL C\n"
-    "  -O0 to -O3, -Os, -Oz   accepted; kernels are always compiled with -O2\n"
+    "  -O0                    variables stay where a debugger finds them\n"
+    "  -O1 to -O3, -Os, -Oz   accepted; otherwise kernels are compiled with "
+    "-O2\n"
     "\n";
 
 struct Ran {
   bool Succeeded = false;
+  /// The signal that ended it, or 0.
+  int Signal = 0;
   /// Standard output and standard error as they came.
   std::string Output;
 };
@@ -61,7 +65,7 @@ struct Ran {
 Ran run(const std::vector<std::string> &Arguments) {
   std::array<int, 2> Pipe{};
   if (pipe(Pipe.data()) != 0)
-    return {false, std::strerror(errno)};
+    return {false, 0, std::strerror(errno)};
   std::vector<char *> Pointers;
   Pointers.reserve(Arguments.size() + 1);
   for (const std::string &Argument : Arguments)
@@ -84,10 +88,11 @@ Ran run(const std::vector<std::string> &Arguments) {
     Result.Output.append(Chunk.data(), static_cast<size_t>(Got));
   close(Pipe[0]);
   if (Problem != 0)
-    return {false, Arguments[0] + ": " + std::strerror(Problem)};
+    return {false, 0, Arguments[0] + ": " + std::strerror(Problem)};
   int Status = 0;
   Result.Succeeded = waitpid(Child, &Status, 0) == Child && WIFEXITED(Status) &&
                      WEXITSTATUS(Status) == 0;
+  Result.Signal = WIFSIGNALED(Status) ? WTERMSIG(Status) : 0;
   return Result;
 }
 
@@ -100,12 +105,14 @@ std::string textOf(const fs::path &File) {
 struct Built {
   /// A kernel's name to its object.
   std::map<std::string, std::string> Objects;
+  /// Whether a kernel was not compiled: the innermost folder has no object.
+  bool Missing = false;
+  /// What the compiler said.
   std::string Log;
 };
 
-/// An object lies in each innermost folder. A folder without one is a kernel
-/// that was not compiled.
-Expected<Built> findBuilt(const fs::path &Cache, const std::string &Input) {
+/// An object lies in each innermost folder.
+Expected<Built> findBuilt(const fs::path &Cache) {
   Built Found;
   std::error_code Problem;
   fs::recursive_directory_iterator Entry(Cache, Problem);
@@ -127,15 +134,13 @@ Expected<Built> findBuilt(const fs::path &Cache, const std::string &Input) {
     if (!Innermost || Entry->path().filename() == "tempfiles")
       continue;
     if (Object.empty())
-      return Error{Input,
-                   "no code was made of it, expected at least one kernel"};
-    Found.Objects[Object.stem().string()] = Object.string();
+      Found.Missing = true;
+    else
+      Found.Objects[Object.stem().string()] = Object.string();
   }
   if (Problem)
     return Error{Cache.string(), "cannot be read: " + Problem.message() +
                                      ", expected a folder of compiled kernels"};
-  if (Found.Objects.empty())
-    return Error{Input, "there is no kernel in it, expected at least one"};
   return Found;
 }
 
@@ -191,16 +196,27 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
   const Ran Compiler = run({(Root / "pocl/bin/poclcc").string(), "-b",
                             Line.BuildOptions + *Beside, "-o",
                             (Folder / "binary").string(), Copy.string()});
-  if (!Compiler.Succeeded)
-    return compilerError(Input.string(), Compiler.Output);
-  Expected<Built> Found = findBuilt(Cache, Input.string());
+  Expected<Built> Found = findBuilt(Cache);
   if (!Found)
     return Found;
-  // The log has a file's warnings once for each time that it was read.
-  std::set<std::string> Seen;
-  for (const Error &Warning : compilerWarnings(Found->Log))
-    if (Seen.insert(Warning.Where + " " + Warning.What).second)
-      printDiagnostic(Tool, "warning", Warning.Where, Warning.What);
+  // Errors and warnings as clang prints them: with lines, carets and notes.
+  // What PoCL's linker says of them follows, and is said below.
+  std::cerr << Found->Log.substr(0, Found->Log.find("Error(s) while linking"))
+            << std::flush;
+  if (Compiler.Signal != 0)
+    return Error{Input.string(),
+                 std::string("the compiler crashed (") +
+                     strsignal(Compiler.Signal) +
+                     "), expected an image or errors in the file",
+                 ExitCode::Internal};
+  if (!Compiler.Succeeded)
+    return compilerError(Input.string(), Found->Log, Compiler.Output);
+  std::cerr << machineLog(Compiler.Output) << std::flush;
+  if (Found->Missing)
+    return kernelError(Input.string(), Compiler.Output);
+  if (Found->Objects.empty())
+    return Error{Input.string(),
+                 "there is no kernel in it, expected at least one"};
   return Found;
 }
 
@@ -220,13 +236,19 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   std::vector<std::string> Link = {(Root / "bin/vorion-link").string(), "-o",
                                    Line.Output.string()};
   std::map<std::string, std::string> Owners;
+  // As clang does, all files are compiled, whatever is wrong with the first.
+  std::optional<Error> Failed;
   for (size_t I = 0; I < Line.Inputs.size(); ++I) {
     const std::string Input = Line.Inputs[I].string();
     const Expected<Built> Found =
         compileOne(Line, Line.Inputs[I], Root,
                    fs::path(Folder->path()) / std::to_string(I));
-    if (!Found)
-      return Found.error();
+    if (!Found) {
+      if (Failed)
+        reportError(Tool, *Failed);
+      Failed = Found.error();
+      continue;
+    }
     for (const auto &[Kernel, Object] : Found->Objects) {
       const auto [Owner, New] = Owners.emplace(Kernel, Input);
       if (!New)
@@ -236,6 +258,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
       Link.push_back(Object);
     }
   }
+  if (Failed)
+    return *Failed;
   if (const Ran Linker = run(Link); !Linker.Succeeded)
     return linkerError(Line.Output.string(), Linker.Output);
   return Success{};

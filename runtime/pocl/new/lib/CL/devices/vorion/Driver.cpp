@@ -187,6 +187,8 @@ char *buildHash(cl_device_id Device) {
 char *initBuild(void *Data) {
   const std::string Options =
       "-target-feature +m -target-feature +a -target-feature +f -D__VORION__=1 "
+      // asm is a keyword.
+      "-fgnu-keywords "
       // A fault names its line, whatever the options.
       "-debug-info-kind=line-tables-only -dwarf-version=4 "
       "\"-I" +
@@ -302,7 +304,6 @@ void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
   // PoCL asks for this when a program's binary is wanted, and no error is
   // possible; it is in the build log too, and a run of the kernel fails its
   // event.
-  std::string Path;
   if (!Command || Command->type != CL_COMMAND_NDRANGE_KERNEL)
     return;
   // A size that the source requires is the one to compile for; not so the
@@ -311,10 +312,10 @@ void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
     Command->command.run.pc.global_offset[0] = 1;
     Specialize = 1;
   }
-  const std::string Problem =
-      deviceOf(Device).Kernels.compile(Command, Kernel, Specialize, Path);
-  if (!Problem.empty())
-    fprintf(stderr, "vorion: error: %s\n", Problem.c_str());
+  const KernelCache::Problem Problem =
+      deviceOf(Device).Kernels.compile(Command, Kernel, Specialize);
+  if (!Problem.Text.empty())
+    fprintf(stderr, "vorion: error: %s\n", Problem.Text.c_str());
 }
 
 int freeProgram(cl_device_id Device, cl_program Program, unsigned Index) {

@@ -3,13 +3,17 @@
 
 extern "C" {
 #include "pocl_cache.h"
+#include "pocl_checked_file.h"
 #include "pocl_file_util.h"
 #include "pocl_llvm.h"
 #include "pocl_util.h"
 }
 
+#include <CL/cl_vorion.h>
 #include <vorion_abi.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -40,87 +44,139 @@ KernelDescription describe(cl_kernel Kernel, const size_t *LocalSize) {
 /// Another process may make the same file at the same time: each writes its own
 /// and renames it.
 std::string renameInto(const std::string &From, const std::string &To) {
-  std::error_code Error;
-  fs::rename(From, To, Error);
-  return Error ? To + ": " + Error.message() : std::string();
+  return pocl_rename(From.c_str(), To.c_str()) == 0
+             ? std::string()
+             : To + ": " + std::strerror(errno);
+}
+
+/// Puts the image that the linker left in \p From into the cache.
+std::string keepImage(const std::string &From, const std::string &To) {
+  char *Bytes = nullptr;
+  uint64_t Size = 0;
+  if (pocl_read_file(From.c_str(), &Bytes, &Size) != 0)
+    return From + ": cannot be read";
+  const int Status = pocl_write_checked_file(To.c_str(), Bytes, Size);
+  free(Bytes);
+  pocl_remove(From.c_str());
+  return Status == 0 ? std::string() : To + ": cannot be written";
+}
+
+/// Whether the cache has \p Path, unchanged since it was written.
+bool hasWhole(const std::string &Path) {
+  char *Bytes = nullptr;
+  uint64_t Size = 0;
+  const auto Found = pocl_read_checked_file(Path.c_str(), &Bytes, &Size);
+  free(Bytes);
+  return Found == POCL_CHECKED_FILE_OK;
+}
+
+/// Whether \p Output of a program says that files cannot be written, rather
+/// than what is wrong with their contents.
+bool tellsOfFiles(const std::string &Output) {
+  for (const int Reason : {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO})
+    if (Output.find(std::strerror(Reason)) != std::string::npos)
+      return true;
+  return false;
 }
 
 } // namespace
 
-std::string KernelCache::compile(_cl_command_node *Command, cl_kernel Kernel,
-                                 bool Specialize, std::string &ImagePath) {
+std::string KernelCache::imagePath(_cl_command_node *Command, cl_kernel Kernel,
+                                   bool Specialize) {
   // Small grids gain nothing from code of their own.
   Command->command.run.force_large_grid_wg_func = 1;
-  const unsigned DeviceIndex = Command->program_device_i;
   char Path[POCL_MAX_PATHNAME_LENGTH];
-  pocl_cache_final_binary_path(Path, Kernel->program, DeviceIndex, Kernel,
-                               Command, Specialize);
-  const std::string Base = fs::path(Path).replace_extension().string();
-  ImagePath = Base + ".elf";
-  if (pocl_exists(ImagePath.c_str()))
-    return {};
-
-  const auto Fail = [&](std::string Text) {
-    char *Log = strdup((Text + "\n").c_str());
-    pocl_append_to_buildlog(Kernel->program, DeviceIndex, Log, strlen(Log));
-    return Text;
-  };
-  if (pocl_mkdir_p(fs::path(Base).parent_path().c_str()))
-    return Fail("cannot make the folder of " + Base);
-
-  void *Module = nullptr;
-  if (pocl_llvm_generate_workgroup_function_nowrite(
-          DeviceIndex, Command->device, Kernel, Command, &Module, Specialize) ||
-      !Module)
-    return Fail(std::string("cannot make a work-group function of ") +
-                Kernel->name);
-  const size_t AnySize[3] = {0, 0, 0};
-  const std::string Own = Base + "." + std::to_string(getpid());
-  std::string Problem = writeKernelModule(
-      Module,
-      describe(Kernel,
-               Specialize ? Command->command.run.pc.local_size : AnySize),
-      Own + ".bc");
-  pocl_destroy_llvm_module(Module, Kernel->context);
-  if (Problem.empty())
-    Problem = ToolSet.compile(Own + ".bc", Own + ".o");
-  if (Problem.empty())
-    Problem = ToolSet.link(Own + ".o", Own + ".elf");
-  const bool Keep =
-      pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0);
-  if (!Keep)
-    pocl_remove((Own + ".bc").c_str());
-  for (const char *Kind : {".o", ".elf"})
-    if (Problem.empty())
-      Problem = renameInto(Own + Kind, Base + Kind);
-  if (!Problem.empty())
-    return Fail(std::string("kernel ") + Kernel->name + ": " + Problem);
-  return {};
+  pocl_cache_final_binary_path(Path, Kernel->program, Command->program_device_i,
+                               Kernel, Command, Specialize);
+  return fs::path(Path).replace_extension(".elf").string();
 }
 
-const LoadedKernel *KernelCache::get(_cl_command_node *Command,
-                                     std::string &Problem) {
+KernelCache::Problem KernelCache::make(_cl_command_node *Command,
+                                       cl_kernel Kernel, bool Specialize,
+                                       const std::string &ImagePath) {
+  const unsigned DeviceIndex = Command->program_device_i;
+  const std::string Base = fs::path(ImagePath).replace_extension().string();
+  const std::string Own = Base + "." + std::to_string(getpid());
+
+  const char *Options = Kernel->program->compiler_options;
+  const bool Optimize = !Options || !strstr(Options, "-cl-opt-disable");
+
+  pocl_forget_file_problem();
+  std::string Text;
+  void *Module = nullptr;
+  if (pocl_mkdir_p(fs::path(Base).parent_path().c_str()))
+    Text = "cannot make the folder of " + Base;
+  else if (pocl_llvm_generate_workgroup_function_nowrite(
+               DeviceIndex, Command->device, Kernel, Command, &Module,
+               Specialize) ||
+           !Module)
+    Text = "cannot make a work-group function of it";
+  if (Module) {
+    const size_t AnySize[3] = {0, 0, 0};
+    Text = writeKernelModule(
+        Module,
+        describe(Kernel,
+                 Specialize ? Command->command.run.pc.local_size : AnySize),
+        Own + ".bc");
+    pocl_destroy_llvm_module(Module, Kernel->context);
+    if (Text.empty())
+      Text = ToolSet.compile(Own + ".bc", Own + ".o", Optimize);
+    if (Text.empty())
+      Text = ToolSet.link(Own + ".o", Own + ".elf");
+    if (Text.empty())
+      Text = renameInto(Own + ".o", Base + ".o");
+    if (Text.empty())
+      Text = keepImage(Own + ".elf", ImagePath);
+    if (!pocl_get_bool_option("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", 0))
+      pocl_remove((Own + ".bc").c_str());
+    if (!Text.empty()) // nothing half made stays
+      for (const char *Kind : {".o", ".elf"})
+        pocl_remove((Own + Kind).c_str());
+  }
+  if (Text.empty())
+    return {};
+
+  Problem P;
+  P.Files = pocl_file_problem() != nullptr || tellsOfFiles(Text);
+  P.Text = std::string("kernel ") + Kernel->name + ": ";
+  if (pocl_file_problem())
+    P.Text += pocl_file_problem();
+  else if (P.Files)
+    P.Text += CL_KERNEL_CACHE_PROBLEM_VORION + Text;
+  else
+    P.Text += Text;
+  const std::string Line = P.Text + "\n";
+  pocl_append_to_buildlog(Kernel->program, DeviceIndex, strdup(Line.c_str()),
+                          Line.size());
+  return P;
+}
+
+KernelCache::Problem KernelCache::compile(_cl_command_node *Command,
+                                          cl_kernel Kernel, bool Specialize) {
+  const std::string Path = imagePath(Command, Kernel, Specialize);
+  return hasWhole(Path) ? Problem() : make(Command, Kernel, Specialize, Path);
+}
+
+const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P) {
   cl_kernel Kernel = Command->command.run.kernel;
   std::lock_guard Guard(CompileLock);
-  std::string Path;
-  Problem = compile(Command, Kernel, true, Path);
-  if (!Problem.empty())
-    return nullptr;
+  const std::string Path = imagePath(Command, Kernel, true);
   auto &Kernels = Loaded[Kernel->program];
   if (auto Found = Kernels.find(Path); Found != Kernels.end())
     return &Found->second;
 
+  P = compile(Command, Kernel, true);
+  if (!P.Text.empty())
+    return nullptr;
   LoadedKernel New;
   vx_image *Image = nullptr;
-  if (vx_image_load_file(Device, Path.c_str(), &Image) != VX_OK) {
-    Problem = vx_last_error();
-    return nullptr;
-  }
+  const vx_status Status = vx_image_load_file(Device, Path.c_str(), &Image);
   New.Image.reset(Image);
   New.Path = Path;
-  if (vx_image_find_kernel(Image, Kernel->name, &New.Number) != VX_OK ||
+  if (Status != VX_OK ||
+      vx_image_find_kernel(Image, Kernel->name, &New.Number) != VX_OK ||
       vx_image_get_kernel(Image, New.Number, &New.Info) != VX_OK) {
-    Problem = vx_last_error();
+    P = {std::string("kernel ") + Kernel->name + ": " + vx_last_error(), false};
     return nullptr;
   }
   return &Kernels.emplace(Path, std::move(New)).first->second;

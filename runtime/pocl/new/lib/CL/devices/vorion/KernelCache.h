@@ -32,21 +32,30 @@ public:
 
   const Tools &tools() const { return ToolSet; }
 
-  /// Makes the object and the image of the command's kernel in the cache
-  /// folder, for its group size if \p Specialize, else for any. Returns "" and
-  /// the image's path, or what went wrong, which is also added to the build
-  /// log.
-  std::string compile(_cl_command_node *Command, cl_kernel Kernel,
-                      bool Specialize, std::string &ImagePath);
+  /// Why there is no image of a kernel.
+  struct Problem {
+    std::string Text;   ///< empty if nothing is wrong
+    bool Files = false; ///< the cache cannot be written, the kernel is good
+  };
 
-  /// The command's kernel, compiled and loaded; null and \p Problem on failure.
-  /// Valid until the next call of forget().
-  const LoadedKernel *get(_cl_command_node *Command, std::string &Problem);
+  /// Makes the object and the image of the command's kernel in the cache
+  /// folder, for its group size if \p Specialize, else for any, unless they are
+  /// there. What goes wrong is also added to the build log.
+  Problem compile(_cl_command_node *Command, cl_kernel Kernel, bool Specialize);
+
+  /// The command's kernel, compiled and loaded; null and \p P on failure. Valid
+  /// until the next call of forget().
+  const LoadedKernel *get(_cl_command_node *Command, Problem &P);
 
   /// Unloads the kernels of a program that is being freed.
   void forget(cl_program Program);
 
 private:
+  static std::string imagePath(_cl_command_node *Command, cl_kernel Kernel,
+                               bool Specialize);
+  Problem make(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
+               const std::string &ImagePath);
+
   vx_device *Device;
   Tools ToolSet;
   std::mutex CompileLock; ///< also guards Loaded

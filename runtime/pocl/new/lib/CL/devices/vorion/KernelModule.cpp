@@ -70,7 +70,7 @@ public:
     llvm::vorion::forgetSharedVariables(M);
     const uint64_t LocalBytes = placeLocals();
     if (LocalBytes > UINT32_MAX - VX_LOCAL_BASE)
-      return Kernel.Name + " uses " + std::to_string(LocalBytes) +
+      return "it uses " + std::to_string(LocalBytes) +
              " bytes of static local memory, more than there are addresses for";
     addRecord(*Entry, *Body, LocalBytes);
     if (GlobalVariable *Context = M.getGlobalVariable(pocl::SimtContextGlobal))

@@ -11,9 +11,13 @@ namespace vorion {
 
 namespace {
 
-cl_int failed(const char *Kernel, cl_int Status, const char *Text) {
-  fprintf(stderr, "vorion: error: kernel %s: %s\n", Kernel, Text);
+cl_int failed(cl_int Status, const std::string &Text) {
+  fprintf(stderr, "vorion: error: %s\n", Text.c_str());
   return Status;
+}
+
+cl_int failed(const char *Kernel, cl_int Status, const char *Text) {
+  return failed(Status, std::string("kernel ") + Kernel + ": " + Text);
 }
 
 cl_int statusOf(vx_status Status) {
@@ -42,10 +46,12 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
   const pocl_context &Grid = Run.pc;
   const char *Name = Run.kernel->name;
 
-  std::string Problem;
+  KernelCache::Problem Problem;
   const LoadedKernel *Kernel = Kernels.get(Command, Problem);
   if (!Kernel)
-    return failed(Name, CL_BUILD_PROGRAM_FAILURE, Problem.c_str());
+    return failed(Problem.Files ? CL_OUT_OF_HOST_MEMORY
+                                : CL_BUILD_PROGRAM_FAILURE,
+                  Problem.Text);
 
   const pocl_kernel_metadata_t &Meta = *Run.kernel->meta;
   std::vector<unsigned char> Packed(Kernel->Info.args_bytes);

@@ -98,8 +98,8 @@ std::string Tools::run(std::vector<std::string> Arguments) const {
 }
 
 std::string Tools::compile(const std::string &Bitcode,
-                           const std::string &Object) const {
-  return run({Root + "/bin/vorion-clang", "-x", "ir", "-O2",
+                           const std::string &Object, bool Optimize) const {
+  return run({Root + "/bin/vorion-clang", "-x", "ir", Optimize ? "-O2" : "-O0",
               "-ffp-contract=off", "-c", Bitcode, "-o", Object});
 }
 

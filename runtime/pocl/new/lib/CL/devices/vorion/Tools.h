@@ -24,9 +24,10 @@ public:
   /// the key of cached binaries.
   std::string fingerprint() const;
 
-  /// Bitcode to a relocatable object. Empty on success, else the tool's output.
-  std::string compile(const std::string &Bitcode,
-                      const std::string &Object) const;
+  /// Bitcode to a relocatable object; unless \p Optimize, with variables where
+  /// debuggers find them. Empty on success, else the tool's output.
+  std::string compile(const std::string &Bitcode, const std::string &Object,
+                      bool Optimize) const;
 
   /// An object to an image that can be loaded.
   std::string link(const std::string &Object, const std::string &Image) const;
