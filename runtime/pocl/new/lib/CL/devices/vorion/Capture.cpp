@@ -49,6 +49,23 @@ std::string list(const size_t *Values, unsigned Count, const size_t *Factors) {
   return Text + "]";
 }
 
+/// \p Text as a JSON string.
+std::string jsonText(const std::string &Text) {
+  std::string Json = "\"";
+  std::array<char, 7> Code{};
+  for (const char C : Text) {
+    if (C == '"' || C == '\\') {
+      Json += {'\\', C};
+    } else if (static_cast<unsigned char>(C) < ' ') {
+      snprintf(Code.data(), Code.size(), "\\u%04x", C);
+      Json += Code.data();
+    } else {
+      Json += C;
+    }
+  }
+  return Json + "\"";
+}
+
 } // namespace
 
 void captureLaunch(const LoadedKernel &Kernel,
@@ -58,8 +75,11 @@ void captureLaunch(const LoadedKernel &Kernel,
     return;
   static std::atomic<unsigned> Launches{0};
   const _cl_command_run &Run = Command.command.run;
+  std::error_code Problem;
+  // Whole names, so that it does not matter where the launch is repeated.
   const std::string Base =
-      (fs::path(Folder) / (std::to_string(Launches++) + "-" + Run.kernel->name))
+      (fs::absolute(Folder, Problem) /
+       (std::to_string(Launches++) + "-" + Run.kernel->name))
           .string();
 
   bool Good = true;
@@ -85,12 +105,11 @@ void captureLaunch(const LoadedKernel &Kernel,
                     std::min<size_t>(Info.size, Argument.size));
       Text = hex(Value.data(), Value.size());
     }
-    Arguments += (I ? ", \"" : "\"") + Text + "\"";
+    Arguments += (I ? ", " : "") + jsonText(Text);
   }
 
   const pocl_context &Grid = Run.pc;
   constexpr std::array<size_t, 3> Ones{1, 1, 1};
-  std::error_code Problem;
   fs::copy_file(Kernel.Path, Base + ".elf",
                 fs::copy_options::overwrite_existing, Problem);
   Good &= !Problem;
