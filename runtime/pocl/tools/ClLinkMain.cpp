@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -270,6 +271,9 @@ int run(int Argc, char **Argv) {
     printOut("{}{}\n", Usage, ExitCodeHelp);
     return 0;
   }
+  // A file that may not grow is an error of the write, here and in what runs
+  // below, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   std::error_code Problem;
   const fs::path Root =
       fs::read_symlink("/proc/self/exe", Problem).parent_path().parent_path();
