@@ -34,7 +34,7 @@ config.substitutions += [
 
 programs = ["vorion-clang", "vorion-cl-link", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
             "isasim-decode-words",
-            "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "sample-vecadd"]
+            "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "splat-reader-work", "sample-vecadd"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
 # What makes calls of programs fail (test/faults).
@@ -50,6 +50,7 @@ features["qemu-x86_64"] = shutil.which("qemu-x86_64") or "qemu-x86_64"
 features["csmith"] = shutil.which("csmith") or "csmith"
 features["chromium"] = shutil.which("chromium") or "chromium"
 features["mpirun"] = shutil.which("mpirun") or "mpirun"
+features["valgrind"] = shutil.which("valgrind") or "valgrind"
 features["parallel"] = shutil.which("parallel") or "parallel"
 if platform.machine() == "x86_64":
     config.available_features.add("x86-host")

@@ -17,6 +17,7 @@ struct Arguments {
   std::string Scene, Cameras, View, Output, Json, Pairs;
   std::string Rules = "inria", Support = "exact", Precision = "f64";
   std::vector<float> Background{0, 0, 0};
+  splat::ReadOptions Read;
   reference::Options Options;
 };
 
@@ -83,10 +84,12 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
   return Success{};
 }
 
-Expected<Success> run(const Arguments &A) {
-  const auto File = splat::readScene(A.Scene);
+Expected<Success> run(Arguments &A) {
+  const auto File = splat::readScene(A.Scene, A.Read);
   if (!File)
     return File.error();
+  A.Options.Antialiased = File->DrawnAs.Antialiased;
+  A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
   const auto View = splat::readCamera(A.Cameras, A.View);
   if (!View)
     return View.error();
@@ -121,12 +124,15 @@ int main(int Count, char **Values) {
   App.add_option("--precision", A.Precision, "Of all arithmetic")
       ->check(CLI::IsMember({"f64", "f32"}))
       ->capture_default_str();
-  App.add_flag("--antialiased", A.Options.Antialiased,
-               "Compensate opacity for the dilation");
-  App.add_option("--dilation", A.Options.Dilation,
-                 "Added to both variances on the picture, px^2")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  App.add_flag("--antialiased,!--no-antialiased", A.Read.Drawn.Antialiased,
+               "Compensate opacity for the dilation, or do not (default: as "
+               "the scene's file says)");
+  App.add_option("--dilation", A.Read.Drawn.Dilation,
+                 "Added to both variances on the picture, px^2 (default: as "
+                 "the scene's file says, or 0.3)")
+      ->check(CLI::NonNegativeNumber);
+  App.add_flag("--drop-nonfinite", A.Read.DropNonFinite,
+               "Leave out Gaussians with a NaN or an infinity");
   App.add_option("--background", A.Background, "Colour r,g,b (default 0,0,0)")
       ->delimiter(',')
       ->expected(3);

@@ -32,6 +32,7 @@ Expected<Success>
 makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
                const std::function<void(std::string_view)> &Said) {
   std::optional<reference::Gaussians<double>> Scene;
+  Drawing DrawnAs;
   for (const Point &Of : Points) {
     const std::string Path = referenceFile(P, Of);
     if (std::filesystem::exists(Path))
@@ -41,9 +42,12 @@ makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
       if (!File)
         return File.error();
       Scene = toReference<double>(File->Gaussians);
+      DrawnAs = File->DrawnAs;
     }
     reference::Options O;
     O.Reach = supportOf(Of.Chosen);
+    O.Antialiased = DrawnAs.Antialiased;
+    O.Dilation = DrawnAs.Dilation.value_or(O.Dilation);
     const auto Picture =
         reference::render(*Scene, toReference<double>(*Of.View), O);
     std::vector<double> Render;

@@ -64,6 +64,8 @@ std::vector<std::string> trainArguments(const TrainSweepPlan &P,
                                  "--background", background(P)};
   for (const std::string &Name : P.Exclude)
     Words.insert(Words.end(), {"--exclude", Name});
+  if (P.AllowOutside)
+    Words.emplace_back("--allow-outside");
   if (P.MostGaussians != 0)
     Words.insert(Words.end(),
                  {"--max-gaussians", std::to_string(P.MostGaussians)});
@@ -86,7 +88,7 @@ Expected<Success> makeState(const TrainSweepPlan &P,
   const auto State = readScene(stateFile(P));
   if (!State)
     return State.error();
-  const auto C = readCapture(P.Capture, P.Exclude);
+  const auto C = readCapture(P.Capture, {P.Exclude, P.AllowOutside});
   if (!C)
     return C.error();
   const auto Pictures = loadTrainingSet(*C, P.Downscale, P.Background);

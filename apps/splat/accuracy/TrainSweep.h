@@ -16,6 +16,7 @@ namespace vorion::splat {
 struct TrainSweepPlan {
   std::string Capture, Folder;
   std::vector<std::string> Exclude;
+  bool AllowOutside = false; ///< of the capture's folder (CaptureOptions)
   int Downscale = 1;
   std::array<float, 3> Background{};
   unsigned MostGaussians = 0; ///< 0: as `splat train` has it

@@ -1,6 +1,7 @@
 #include "Capture.h"
 
 #include "Colmap.h"
+#include "Inside.h"
 #include "Photo.h"
 #include "Transforms.h"
 #include "vorion/support/File.h"
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
+#include <set>
 
 namespace vorion::splat {
 namespace {
@@ -53,7 +55,18 @@ fs::path pictureOf(const fs::path &Folder, const std::string &Name) {
   return Folder / Name;
 }
 
-Expected<Success> readColmap(const Found &F, Capture &C) {
+/// That \p Name, which \p File gives, lies in the folder it starts from.
+Expected<Success> checkInside(const std::string &File, const std::string &Name,
+                              const CaptureOptions &Options) {
+  if (Options.AllowOutside || staysInside(Name))
+    return Success{};
+  return Error{File, fmt::format("names the file `{}`, expected one inside the "
+                                 "folder, or --allow-outside",
+                                 printable(Name))};
+}
+
+Expected<Success> readColmap(const Found &F, const CaptureOptions &Options,
+                             Capture &C) {
   const bool Text = F.Format == CaptureFormat::ColmapText;
   const char *Ending = Text ? ".txt" : ".bin";
   ColmapFiles Files;
@@ -79,14 +92,18 @@ Expected<Success> readColmap(const Found &F, Capture &C) {
     return Model.error();
   C.Views = std::move(Model->Views);
   C.Points = std::move(Model->Points);
-  for (CaptureView &V : C.Views)
+  for (CaptureView &V : C.Views) {
+    if (auto Inside = checkInside(Files.Images.Where, V.Pose.Name, Options);
+        !Inside)
+      return Inside;
     V.Picture = (F.Pictures / V.Pose.Name).string();
+  }
   return Success{};
 }
 
 /// Adds the views of \p File; those without a size get their picture's.
 Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
-                                 Capture &C) {
+                                 const CaptureOptions &Options, Capture &C) {
   const auto Content = readFile(File.string());
   if (!Content)
     return Content.error();
@@ -94,8 +111,11 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
   if (!T)
     return T.error();
   const fs::path Folder = File.parent_path();
-  for (CaptureView &V : T->Views)
+  for (CaptureView &V : T->Views) {
+    if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
+      return Inside;
     V.Picture = pictureOf(Folder, V.Pose.Name).string();
+  }
   if (HeldOut) {
     C.WithoutPicture = std::erase_if(
         T->Views, [](const CaptureView &V) { return !isThere(V.Picture); });
@@ -124,6 +144,8 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
   }
   if (T->Points.empty())
     return Success{};
+  if (auto Inside = checkInside(File.string(), T->Points, Options); !Inside)
+    return Inside;
   const std::string Points = (Folder / T->Points).string();
   const auto Cloud = readFile(Points);
   if (!Cloud)
@@ -158,6 +180,20 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
     return Error{Path, fmt::format("{} views, expected at least one to train "
                                    "on and one to hold out",
                                    C.Views.size())};
+  return Success{};
+}
+
+/// That no two of \p Views are the same picture, under whatever names: it would
+/// be trained on several times, and take that much memory.
+Expected<Success> checkOnce(const std::string &Path,
+                            const std::vector<CaptureView> &Views) {
+  std::set<std::string> Pictures;
+  for (const CaptureView &V : Views)
+    if (!Pictures.insert(fs::path(V.Picture).lexically_normal().string())
+             .second)
+      return Error{Path, fmt::format("picture {} is there twice, expected it "
+                                     "once",
+                                     printable(V.Pose.Name))};
   return Success{};
 }
 
@@ -219,7 +255,7 @@ bool isCapture(const std::string &Path) {
 }
 
 Expected<Capture> readCapture(const std::string &Path,
-                              const std::vector<std::string> &Exclude) {
+                              const CaptureOptions &Options) {
   const auto F = find(Path);
   if (!F)
     return Error{Path, "no capture, expected a folder with COLMAP's "
@@ -233,24 +269,21 @@ Expected<Capture> readCapture(const std::string &Path,
   Expected<Success> Read = Success{};
   if (F->Format == CaptureFormat::ColmapText ||
       F->Format == CaptureFormat::ColmapBinary)
-    Read = readColmap(*F, C);
+    Read = readColmap(*F, Options, C);
   else
-    Read = readTransforms(F->Model, /*HeldOut=*/false, C);
+    Read = readTransforms(F->Model, /*HeldOut=*/false, Options, C);
   if (Read && OwnTest)
-    Read = readTransforms(Test, /*HeldOut=*/true, C);
+    Read = readTransforms(Test, /*HeldOut=*/true, Options, C);
   if (Read)
-    Read = exclude(Path, C, Exclude);
+    Read = exclude(Path, C, Options.Exclude);
   if (!Read)
     return Read.error();
 
   std::ranges::sort(C.Views, {}, [](const CaptureView &V) -> const auto & {
     return V.Pose.Name;
   });
-  for (std::size_t I = 1; I < C.Views.size(); ++I)
-    if (C.Views[I].Pose.Name == C.Views[I - 1].Pose.Name)
-      return Error{Path, fmt::format("picture {} is there twice, expected it "
-                                     "once",
-                                     printable(C.Views[I].Pose.Name))};
+  if (auto Once = checkOnce(Path, C.Views); !Once)
+    return Once.error();
   if (!OwnTest)
     for (std::size_t I = 0; I < C.Views.size(); I += HoldOutEvery)
       C.Views[I].HeldOut = true;

@@ -66,17 +66,24 @@ CameraRing cameraRing(const Capture &C);
 /// Every so many-th view by name is held out, the first one included.
 inline constexpr std::size_t HoldOutEvery = 8;
 
+/// What who reads a capture may choose.
+struct CaptureOptions {
+  /// Views to leave out, by name (with or without folder and ending).
+  std::vector<std::string> Exclude;
+  /// Whether pictures and points may lie outside the capture's folder.
+  bool AllowOutside = false;
+};
+
 /// Reads the capture at \p Path, a folder or a transforms.json:
 /// - `sparse/0`, `sparse` or the folder itself with COLMAP's cameras, images
 ///   and points3D as .bin or .txt; pictures in `images`;
 /// - `transforms_train.json`, whose `transforms_test.json`, if there, has the
 ///   views to hold out;
 /// - `transforms.json`.
-/// Leaves out the views that \p Exclude names (with or without folder and
-/// ending). Pictures are looked at, not decoded: each must be there, of the
-/// size that its camera says.
+/// Pictures are looked at, not decoded: each must be there, once, of the size
+/// that its camera says, and inside the folder unless \p Options allow more.
 Expected<Capture> readCapture(const std::string &Path,
-                              const std::vector<std::string> &Exclude = {});
+                              const CaptureOptions &Options = {});
 
 /// Whether \p Path is a folder or file that readCapture would take, as far as
 /// names tell.

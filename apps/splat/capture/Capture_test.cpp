@@ -87,10 +87,10 @@ TEST_P(Captures, EveryEighthIsHeldOutUnlessTheFileSays) {
 
 TEST_P(Captures, ExcludedPicturesAreLeftOutFirst) {
   const CaptureFolder F(folderOf(GetParam(), sampleCapture()));
-  const auto C = readCapture(F.path(), {"a0.png", "a4"});
+  const auto C = readCapture(F.path(), {.Exclude = {"a0.png", "a4"}});
   ASSERT_TRUE(C);
   EXPECT_EQ(C->Views.size(), 8U);
-  const auto Unknown = readCapture(F.path(), {"a77"});
+  const auto Unknown = readCapture(F.path(), {.Exclude = {"a77"}});
   ASSERT_FALSE(Unknown);
   EXPECT_EQ(Unknown.error().Code, ExitCode::Usage);
   EXPECT_NE(Unknown.error().What.find("no picture a77 to exclude"),
@@ -175,6 +175,75 @@ TEST(Capture, NamesOccurOnce) {
   const auto C = readCapture(F.path());
   ASSERT_FALSE(C);
   EXPECT_NE(C.error().What.find("a4.png is there twice"), std::string::npos);
+}
+
+// One picture as so many views would be that often in memory.
+TEST(Capture, APictureOccursOnceUnderAnyName) {
+  for (const char *Other : {"pictures/.//a0.png", "pictures/a0"}) {
+    Folder Files = transformsOf(sampleCapture());
+    Files["transforms.json"] =
+        replaced(Files["transforms.json"], "pictures/a1.png", Other);
+    const CaptureFolder F(Files);
+    const auto C = readCapture(F.path());
+    ASSERT_FALSE(C) << Other;
+    EXPECT_NE(C.error().What.find("is there twice"), std::string::npos)
+        << C.error().What;
+  }
+}
+
+TEST(Capture, PathsStayInTheFolderUnlessAllowed) {
+  const auto Expect = [](const CaptureFolder &F, const std::string &Path,
+                         const std::string &File) {
+    const auto C = readCapture(Path);
+    ASSERT_FALSE(C);
+    EXPECT_EQ(C.error().Code, ExitCode::InputFile);
+    EXPECT_TRUE(C.error().Where.ends_with(File)) << C.error().Where;
+    EXPECT_NE(C.error().What.find("expected one inside the folder, or "
+                                  "--allow-outside"),
+              std::string::npos)
+        << C.error().What;
+    EXPECT_TRUE(readCapture(Path, {{}, true})) << F.path();
+  };
+  {
+    Folder Files = transformsOf(sampleCapture());
+    Files["inner/transforms.json"] = Files["transforms.json"];
+    for (int I = 0; I < 10; ++I)
+      Files["inner/transforms.json"] = replaced(
+          Files["inner/transforms.json"], "./pictures/a" + std::to_string(I),
+          "../pictures/a" + std::to_string(I));
+    const CaptureFolder F(Files);
+    Expect(F, F.path("inner"), "inner/transforms.json");
+  }
+  {
+    Folder Files = transformsOf(sampleCapture());
+    Files["outside.ply"] = pointCloudOf(sampleCapture());
+    const CaptureFolder Outside(Files);
+    Files["transforms.json"] =
+        replaced(Files["transforms.json"], "\"frames\"",
+                 "\"ply_file_path\": \"" + Outside.path("outside.ply") +
+                     "\", \"frames\"");
+    const CaptureFolder F(Files);
+    Expect(F, F.path(), "transforms.json");
+  }
+  {
+    Folder Files = colmapTextOf(sampleCapture());
+    Files["elsewhere.png"] = Files["images/a3.png"];
+    Files["sparse/0/images.txt"] =
+        replaced(Files["sparse/0/images.txt"], "a3.png", "../elsewhere.png");
+    const CaptureFolder F(Files);
+    Expect(F, F.path(), "sparse/0/images.txt");
+  }
+}
+
+TEST(Capture, APointCloudThatNeverEndsIsAnError) {
+  Folder Files = transformsOf(sampleCapture());
+  Files["transforms.json"] =
+      replaced(Files["transforms.json"], "\"frames\"",
+               "\"ply_file_path\": \"/dev/zero\", \"frames\"");
+  const CaptureFolder F(Files);
+  const auto C = readCapture(F.path(), {{}, true});
+  ASSERT_FALSE(C);
+  EXPECT_EQ(C.error().Where, "/dev/zero");
 }
 
 TEST(Capture, TestPicturesMayBeMissingInPart) {

@@ -95,7 +95,8 @@ Expected<Plane> decodeJpeg(const std::string &Where, Bytes File, Plane P) {
           J.get(), reinterpret_cast<const unsigned char *>(File.data()),
           File.size(), reinterpret_cast<unsigned char *>(P.Rgba.data()),
           static_cast<int>(P.Width), 0, static_cast<int>(P.Height), TJPF_RGBA,
-          TJFLAG_ACCURATEDCT) != 0)
+          // Each scan goes over all pixels, and a file may have any number.
+          TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0)
     return damaged(Where, "JPEG", tjGetErrorStr2(J.get()));
   return P;
 }

@@ -53,25 +53,12 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A) {
   P.ScenePath = A.Scene.Path;
   P.CameraFile = A.Cameras;
   P.Folder = A.Folder;
-  if (!A.Scene.Axes.empty())
-    P.CommonArguments = {"--axes", A.Scene.Axes};
-  if (A.Scene.Options.LevelOfDetail != 0) {
-    P.CommonArguments.emplace_back("--lod");
-    P.CommonArguments.push_back(std::to_string(A.Scene.Options.LevelOfDetail));
-  }
-  auto Cameras = readCameras(A.Cameras);
+  P.CommonArguments = wordsOf(A.Scene);
+  auto Cameras = A.Views.empty() ? readCameras(A.Cameras)
+                                 : readCameras(A.Cameras, A.Views);
   if (!Cameras)
     return Cameras.error();
   P.Views = std::move(*Cameras);
-  if (!A.Views.empty()) {
-    P.Views.clear();
-    for (const std::string &Name : A.Views) {
-      auto View = readCamera(A.Cameras, Name);
-      if (!View)
-        return View.error();
-      P.Views.push_back(std::move(*View));
-    }
-  }
   auto Knobs = knobsNamed(A.Knobs);
   if (!Knobs)
     return Knobs.error();

@@ -1,5 +1,6 @@
 #include "AccuracyTrain.h"
 
+#include "CaptureInfo.h"
 #include "Choices.h"
 #include "PictureOptions.h"
 
@@ -58,6 +59,7 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
                  "--train: no more Gaussians than this");
   App.add_option("--exclude", P.Exclude, "--train: leave out this picture")
       ->allow_extra_args(false);
+  addOutsideOption(App, P.AllowOutside);
   addBackgroundOption(App, P.Background,
                       "--train: colour r,g,b behind the scene (default 0,0,0)");
   for (CLI::Option *O : optionsFrom(App, First))
@@ -74,7 +76,7 @@ static Expected<Success> check(const TrainSweepPlan &P) {
                    fmt::format("{} {}: expected at most --iterations, {}",
                                Option, Every, P.Iterations),
                    ExitCode::Usage};
-  const auto C = readCapture(P.Capture, P.Exclude);
+  const auto C = readCapture(P.Capture, {P.Exclude, P.AllowOutside});
   if (!C)
     return C.error();
   if (C->heldOut() == 0)

@@ -6,6 +6,7 @@
 #include "../render/Options.h"
 #include "Choices.h"
 #include "Commands.h"
+#include "OutputFile.h"
 #include "SceneArguments.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -71,6 +72,7 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
        {{"file", A.Scene.Path},
         {"fnv1a64", *SceneHash},
         {"gaussians", F.Gaussians.size()},
+        {"dropped_nonfinite", F.Dropped},
         {"sh_degree", F.Gaussians.ShDegree},
         {"format", name(F.Format)},
         {"axes_changed", A.Scene.Axes}}},
@@ -80,6 +82,8 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
       {"rules", name(A.Convention)},
       {"support", name(A.Reach)},
       {"antialiased", A.Options.Antialiased},
+      {"antialiased_by", F.DrawnAs.Said},
+      {"dilation", A.Options.Dilation},
       {"cutoff", A.Options.Cutoff},
       {"visible", R.Visible},
       {"invocations", json(R.BySupport[static_cast<std::size_t>(A.Reach)])},
@@ -142,6 +146,10 @@ void resize(Camera &C, int Width) {
 }
 
 Expected<Success> run(AnalyzeArguments A) {
+  for (const auto &Checked :
+       {checkJsonName(A.JsonFile), checkPrefix("--plots", A.Plots)})
+    if (!Checked)
+      return Checked;
   if (auto Claimed =
           claimOutputs({{"--json", A.JsonFile}},
                        {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
@@ -150,6 +158,8 @@ Expected<Success> run(AnalyzeArguments A) {
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
+  A.Options.Antialiased = File->DrawnAs.Antialiased;
+  A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
   auto C = readCamera(A.Cameras, A.View);
   if (!C)
     return C.error();
@@ -199,8 +209,6 @@ Runner addAnalyze(CLI::App &App) {
       App, "--support", A->Reach,
       {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
       "Pixels that a Gaussian may reach, for lists and occlusion");
-  App.add_flag("--antialiased", A->Options.Antialiased,
-               "Compensate opacity for the dilation");
   App.add_option("--cutoff", A->Options.Cutoff,
                  "Transmittance at which a pixel is full (default 0.0001)")
       ->check(CLI::Range(0.0, 1.0));

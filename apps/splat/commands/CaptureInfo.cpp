@@ -111,8 +111,9 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
 } // namespace
 
 Expected<Success> describeCapture(const std::string &Path,
-                                  const std::string &JsonFile) {
-  const auto C = readCapture(Path);
+                                  const std::string &JsonFile,
+                                  bool AllowOutside) {
+  const auto C = readCapture(Path, {{}, AllowOutside});
   if (!C)
     return C.error();
   if (!JsonFile.empty())
@@ -121,6 +122,11 @@ Expected<Success> describeCapture(const std::string &Path,
       return Written;
   printOut("{}", textOf(Path, *C));
   return Success{};
+}
+
+void addOutsideOption(CLI::App &App, bool &Allow) {
+  App.add_flag("--allow-outside", Allow,
+               "A capture's pictures and points may lie outside its folder");
 }
 
 } // namespace vorion::splat

@@ -3,6 +3,7 @@
 
 #include "vorion/support/Expected.h"
 
+#include <CLI/CLI.hpp>
 #include <string>
 
 namespace vorion::splat {
@@ -10,6 +11,11 @@ namespace vorion::splat {
 /// Reads the capture at \p Path, prints what is in it and, unless \p JsonFile
 /// is empty, writes the same for programs.
 Expected<Success> describeCapture(const std::string &Path,
-                                  const std::string &JsonFile);
+                                  const std::string &JsonFile,
+                                  bool AllowOutside);
+
+/// Declares --allow-outside, of every command that reads captures
+/// (CaptureOptions); \p Allow must outlive the parsing.
+void addOutsideOption(CLI::App &App, bool &Allow);
 
 } // namespace vorion::splat

@@ -1,4 +1,5 @@
 #include "Compare.h"
+#include "OutputFile.h"
 
 #include "../io/Hash.h"
 #include "../io/Image.h"
@@ -82,6 +83,8 @@ Expected<Success> require(const std::string &File, const char *What,
 } // namespace
 
 Expected<Success> comparePictures(const CompareArguments &A) {
+  if (auto Checked = checkJsonName(A.Json); !Checked)
+    return Checked;
   if (auto Claimed = claimOutputs(
           {{"--json", A.Json}},
           {{"a picture", A.A}, {"a picture", A.B}, {"--mask", A.Mask}});

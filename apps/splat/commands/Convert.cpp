@@ -1,5 +1,6 @@
 #include "../io/Ply.h"
 #include "Commands.h"
+#include "OutputFile.h"
 #include "SceneArguments.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
@@ -18,9 +19,12 @@ Runner addConvert(CLI::App &App) {
   };
   auto A = std::make_shared<Arguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("-o,--output", A->Output, "Scene to write (INRIA's PLY)")
+  App.add_option("-o,--output", A->Output,
+                 "Scene to write (.ply, as INRIA has it)")
       ->required();
   return [A]() -> Expected<Success> {
+    if (auto Checked = checkEnding("-o", A->Output, {".ply"}); !Checked)
+      return Checked;
     if (auto Claimed =
             claimOutputs({{"-o", A->Output}}, {{"the scene", A->Scene.Path}});
         !Claimed)
@@ -28,10 +32,12 @@ Runner addConvert(CLI::App &App) {
     const auto File = loadScene(A->Scene);
     if (!File)
       return File.error();
-    if (auto Written = writePly(A->Output, File->Gaussians); !Written)
+    if (auto Written = writePly(A->Output, File->Gaussians, File->DrawnAs);
+        !Written)
       return Written.error();
-    printOut("{}: {} Gaussians, SH degree {}\n", escaped(A->Output),
-             File->Gaussians.size(), File->Gaussians.ShDegree);
+    printOut("{}: {} Gaussians, SH degree {}{}\n", escaped(A->Output),
+             File->Gaussians.size(), File->Gaussians.ShDegree,
+             File->DrawnAs.Antialiased ? ", trained antialiased" : "");
     return Success{};
   };
 }

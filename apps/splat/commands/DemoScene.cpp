@@ -2,6 +2,7 @@
 
 #include "../io/Ply.h"
 #include "Commands.h"
+#include "OutputFile.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
@@ -20,6 +21,10 @@ struct DemoArguments {
 };
 
 Expected<Success> run(const DemoArguments &A) {
+  for (const auto &Checked : {checkEnding("-o", A.Output, {".ply"}),
+                              checkEnding("--cameras", A.Cameras, {".json"})})
+    if (!Checked)
+      return Checked;
   if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--cameras", A.Cameras}});
       !Claimed)
     return Claimed;

@@ -101,12 +101,16 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
                 : Expected<Success>(Report.error());
 }
 
-Expected<Success> run(const GradientArguments &A) {
+Expected<Success> run(GradientArguments &A) {
   if (auto Checked = checkPictureOptions(A.Options); !Checked)
     return Checked;
   if (auto Checked = checkBackwardOptions(A.Backward, A.Options.Blending);
       !Checked)
     return Checked;
+  for (const auto &Checked :
+       {checkEnding("-o", A.Output, {".npz"}), checkJsonName(A.Json)})
+    if (!Checked)
+      return Checked;
   if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--json", A.Json}},
                                   {{"the scene", A.Scene.Path},
                                    {"--cameras", A.Cameras},
@@ -116,6 +120,7 @@ Expected<Success> run(const GradientArguments &A) {
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
+  drawAs(A.Options, File->DrawnAs);
   const auto C = readCamera(A.Cameras, A.View);
   if (!C)
     return C.error();

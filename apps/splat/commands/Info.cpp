@@ -3,6 +3,7 @@
 #include "../io/Statistics.h"
 #include "CaptureInfo.h"
 #include "Commands.h"
+#include "OutputFile.h"
 #include "SceneArguments.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -23,6 +24,7 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
   SceneArguments Scene;
   std::string JsonFile;
+  bool AllowOutside = false; ///< of a capture
 };
 
 Json json(const Spread &S) {
@@ -42,7 +44,10 @@ std::string jsonReport(const InfoArguments &A, const SceneFile &F,
       {"data_sets", F.Files},
       {"gaussians", F.Gaussians.size()},
       {"sh_degree", F.Gaussians.ShDegree},
-      {"antialiased", F.Antialiased},
+      {"dropped_nonfinite", F.Dropped},
+      {"antialiased", F.DrawnAs.Antialiased},
+      {"antialiased_by", F.DrawnAs.Said},
+      {"dilation", F.DrawnAs.Dilation ? Json(*F.DrawnAs.Dilation) : Json()},
       {"documented_axes", documentedAxes(F.Format)},
       {"axes_changed", A.Scene.Axes},
       {"bounds", {{"min", S.Low}, {"max", S.High}}},
@@ -64,7 +69,13 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
     Text += fmt::format(", {} data sets", F.Files);
   Text += fmt::format("\n{} Gaussians, SH degree {}{}\n", F.Gaussians.size(),
                       F.Gaussians.ShDegree,
-                      F.Antialiased ? ", trained antialiased" : "");
+                      F.DrawnAs.Antialiased ? ", trained antialiased" : "");
+  if (!F.DrawnAs.Said.empty() || F.DrawnAs.Dilation)
+    Text += fmt::format(
+        "drawn        {} ({}){}\n",
+        F.DrawnAs.Antialiased ? "antialiased" : "classic", F.DrawnAs.Said,
+        F.DrawnAs.Dilation ? fmt::format(", dilation {}", *F.DrawnAs.Dilation)
+                           : "");
   Text += fmt::format("axes         {} by the format's documentation; {}\n",
                       documentedAxes(F.Format),
                       A.Scene.Axes.empty()
@@ -93,12 +104,14 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
 }
 
 Expected<Success> run(const InfoArguments &A) {
+  if (auto Checked = checkJsonName(A.JsonFile); !Checked)
+    return Checked;
   if (auto Claimed =
           claimOutputs({{"--json", A.JsonFile}}, {{"the scene", A.Scene.Path}});
       !Claimed)
     return Claimed;
   if (isCapture(A.Scene.Path))
-    return describeCapture(A.Scene.Path, A.JsonFile);
+    return describeCapture(A.Scene.Path, A.JsonFile, A.AllowOutside);
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
@@ -122,6 +135,7 @@ Runner addInfo(CLI::App &App) {
   auto A = std::make_shared<InfoArguments>();
   addSceneOptions(App, A->Scene);
   App.add_option("--json", A->JsonFile, "Write the same for programs");
+  addOutsideOption(App, A->AllowOutside);
   return [A] { return run(*A); };
 }
 

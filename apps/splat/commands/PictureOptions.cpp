@@ -14,24 +14,21 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
       {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
       "Pixels that a Gaussian may reach");
   addPathOption(App, O.Blending, "Who blends: the rasterizer or the cores");
-  App.add_flag("--antialiased", O.Antialiased,
-               "Compensate opacity for the dilation");
-  App.add_option("--dilation", O.Dilation,
-                 "Added to both variances on the picture (default 0.3)")
-      ->option_text("PX2");
   addBackgroundOption(App, O.Background, "Colour r,g,b (default 0,0,0)");
   App.add_option("--cutoff", O.Cutoff,
                  "Transmittance at which a pixel is full (default 0.0001)");
+}
+
+void drawAs(RenderOptions &O, const Drawing &D) {
+  O.Antialiased = D.Antialiased;
+  O.AntialiasedBy = D.Said;
+  O.Dilation = static_cast<float>(D.Dilation.value_or(O.Dilation));
 }
 
 Expected<Success> checkPictureOptions(const RenderOptions &O) {
   const auto Usage = [](std::string What) {
     return Error{"", std::move(What), ExitCode::Usage};
   };
-  if (!(O.Dilation >= 0 && std::isfinite(O.Dilation)))
-    return Usage(fmt::format("--dilation {}: expected a variance of 0 px^2 or "
-                             "more",
-                             O.Dilation));
   for (const float B : O.Background)
     if (!std::isfinite(B))
       return Usage(fmt::format("--background {}: expected finite numbers", B));

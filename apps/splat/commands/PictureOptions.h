@@ -2,6 +2,7 @@
 /// one meaning in every subcommand that draws.
 #pragma once
 
+#include "../io/Drawing.h"
 #include "../render/Backward.h"
 #include "../render/Options.h"
 #include "vorion/support/Expected.h"
@@ -13,9 +14,12 @@
 
 namespace vorion::splat {
 
-/// Rules, support, path, dilation, background and cut-off. \p O must outlive
-/// the parsing, here and below.
+/// Rules, support, path, background and cut-off. \p O must outlive the
+/// parsing, here and below.
 void addPictureOptions(CLI::App &App, RenderOptions &O);
+
+/// Draws as the scene's file says, or the user against it.
+void drawAs(RenderOptions &O, const Drawing &D);
 
 /// Whether the values of these go together; an error is one of usage.
 Expected<Success> checkPictureOptions(const RenderOptions &O);

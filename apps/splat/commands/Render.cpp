@@ -53,10 +53,6 @@ struct RenderArguments {
   RenderOptions Options;
 };
 
-bool endsWith(const std::string &Text, std::string_view End) {
-  return std::string_view(Text).ends_with(End);
-}
-
 /// Whether one picture is asked for; "all" may be one too.
 bool isOne(const RenderArguments &A) {
   return A.Views.size() == 1 && A.Views.front() != "all";
@@ -68,16 +64,12 @@ Expected<Success> check(const RenderArguments &A) {
     return Error{"", std::move(What), ExitCode::Usage};
   };
   const RenderOptions &O = A.Options;
-  if (!endsWith(A.Output, ".png") && !endsWith(A.Output, ".pfm") &&
-      !endsWith(A.Output, ".npz"))
-    return Usage(fmt::format(
-        "-o {}: unknown kind of picture, expected .png, .pfm or .npz",
-        A.Output));
-  if (!A.Depth.empty() && !endsWith(A.Depth, ".pfm") &&
-      !endsWith(A.Depth, ".npz"))
-    return Usage(fmt::format("--depth {}: unknown kind of file, expected .pfm "
-                             "or .npz",
-                             A.Depth));
+  for (const auto &Checked :
+       {checkEnding("-o", A.Output, {".png", ".pfm", ".npz"}),
+        checkEnding("--depth", A.Depth, {".pfm", ".npz"}),
+        checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json)})
+    if (!Checked)
+      return Checked;
   if (auto Checked = checkPictureOptions(O); !Checked)
     return Checked;
   if (O.Blending == Path::Simt && hasTable(O.Exponential))
@@ -157,16 +149,9 @@ void fallBack(const RenderArguments &A, const Launcher &L,
 
 /// The cameras that are asked for.
 Expected<std::vector<Camera>> findCameras(const RenderArguments &A) {
-  if (A.Views.size() == 1 && A.Views.front() == "all")
-    return readCameras(A.Cameras);
-  std::vector<Camera> Found;
-  for (const std::string &View : A.Views) {
-    auto C = readCamera(A.Cameras, View);
-    if (!C)
-      return C.error();
-    Found.push_back(std::move(*C));
-  }
-  return Found;
+  return A.Views.size() == 1 && A.Views.front() == "all"
+             ? readCameras(A.Cameras)
+             : readCameras(A.Cameras, A.Views);
 }
 
 /// By which every effect is needed that some view needs.
@@ -284,12 +269,13 @@ Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
   return Success{};
 }
 
-Expected<Success> run(const RenderArguments &A) {
+Expected<Success> run(RenderArguments &A) {
   if (auto Checked = check(A); !Checked)
     return Checked.error();
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
+  drawAs(A.Options, File->DrawnAs);
   const Scene *S = &File->Gaussians;
   auto Cameras = findCameras(A);
   if (!Cameras)

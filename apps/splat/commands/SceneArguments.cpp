@@ -4,6 +4,8 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,9 +23,26 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
   App.add_option("--lod", A.Options.LevelOfDetail,
                  "Level of detail of a streamed scene (default 0, the finest)")
       ->check(CLI::Range(0, 1000));
+  App.add_flag("--drop-nonfinite", A.Options.DropNonFinite,
+               "Leave out Gaussians with a NaN or an infinity, and count them "
+               "(default: they are an error)");
+  App.add_flag("--antialiased,!--no-antialiased", A.Options.Drawn.Antialiased,
+               "Compensate opacity for the dilation, or do not (default: as "
+               "the scene's file says; without a word in it, do not)");
+  App.add_option("--dilation", A.Options.Drawn.Dilation,
+                 "Added to both variances on the picture (default: as the "
+                 "scene's file says, or 0.3)")
+      ->option_text("PX2");
 }
 
 Expected<SceneFile> loadScene(const SceneArguments &A) {
+  if (const auto Dilation = A.Options.Drawn.Dilation;
+      Dilation && !(*Dilation >= 0 && std::isfinite(*Dilation)))
+    return Error{"",
+                 fmt::format("--dilation {}: expected a variance of 0 px^2 or "
+                             "more",
+                             *Dilation),
+                 ExitCode::Usage};
   AxesChange Change;
   if (!A.Axes.empty()) {
     const auto Parsed = parseAxesChange("--axes", A.Axes);
@@ -35,12 +54,45 @@ Expected<SceneFile> loadScene(const SceneArguments &A) {
   if (!File)
     return File;
   changeAxes(File->Gaussians, Change);
-  if (!File->Skipped.empty())
-    printDiagnostic("splat", "warning", A.Path,
-                    escaped(fmt::format("skips properties that no effect here "
-                                        "reads: {}",
-                                        fmt::join(File->Skipped, ", "))));
+  if (!File->Skipped.empty()) {
+    // A long list helps nobody.
+    constexpr std::size_t MostNamed = 12;
+    const std::size_t Named = std::min(File->Skipped.size(), MostNamed);
+    std::vector<std::string> Names;
+    for (std::size_t I = 0; I < Named; ++I)
+      Names.push_back(printable(File->Skipped[I]));
+    printDiagnostic(
+        "splat", "warning", A.Path,
+        fmt::format(
+            "skips properties that no effect here reads: {}{}",
+            fmt::join(Names, ", "),
+            Named == File->Skipped.size()
+                ? ""
+                : fmt::format(" and {} more", File->Skipped.size() - Named)));
+  }
+  if (File->Dropped > 0)
+    printDiagnostic(
+        "splat", "warning", A.Path,
+        fmt::format("leaves out {} of {} Gaussians, which hold a NaN or an "
+                    "infinity",
+                    File->Dropped, File->Dropped + File->Gaussians.size()));
   return File;
+}
+
+std::vector<std::string> wordsOf(const SceneArguments &A) {
+  std::vector<std::string> Words;
+  if (!A.Axes.empty())
+    Words.insert(Words.end(), {"--axes", A.Axes});
+  if (A.Options.LevelOfDetail != 0)
+    Words.insert(Words.end(),
+                 {"--lod", std::to_string(A.Options.LevelOfDetail)});
+  if (A.Options.DropNonFinite)
+    Words.emplace_back("--drop-nonfinite");
+  if (const auto Asked = A.Options.Drawn.Antialiased)
+    Words.emplace_back(*Asked ? "--antialiased" : "--no-antialiased");
+  if (const auto Asked = A.Options.Drawn.Dilation)
+    Words.insert(Words.end(), {"--dilation", fmt::format("{}", *Asked)});
+  return Words;
 }
 
 } // namespace vorion::splat

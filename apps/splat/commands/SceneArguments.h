@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -18,7 +19,11 @@ struct SceneArguments {
 /// parsing.
 void addSceneOptions(CLI::App &App, SceneArguments &A);
 
-/// Reads the scene, in the axes that were asked for.
+/// Reads the scene, in the axes that were asked for; says on the terminal what
+/// was left out.
 Expected<SceneFile> loadScene(const SceneArguments &A);
+
+/// The options of \p A as words of a command line, without the scene.
+std::vector<std::string> wordsOf(const SceneArguments &A);
 
 } // namespace vorion::splat

@@ -1,3 +1,4 @@
+#include "CaptureInfo.h"
 #include "Choices.h"
 #include "Commands.h"
 #include "DeviceArguments.h"
@@ -46,6 +47,7 @@ struct TrainArguments {
   int Downscale = 1, ShDegree = MaxShDegree;
   unsigned CheckpointEvery = 1000;
   bool Resume = false, Time = false, Breakdown = false;
+  bool AllowOutside = false;
   std::optional<unsigned> GivenTimeEvery;
   unsigned ScoreEvery = 0;
   Rules Convention = Rules::Inria;
@@ -277,9 +279,11 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
 }
 
 Expected<Success> check(const TrainArguments &A) {
-  if (!A.Output.ends_with(".ply"))
-    return Error{"", fmt::format("-o {}: expected a .ply", A.Output),
-                 ExitCode::Usage};
+  for (const auto &Checked :
+       {checkEnding("-o", A.Output, {".ply"}),
+        checkEnding("--curve", A.Curve, {".svg"}), checkJsonName(A.Json)})
+    if (!Checked)
+      return Checked;
   if (auto Checked = checkBackwardOptions(A.Backward, A.Blending); !Checked)
     return Checked;
   if (A.GivenTimeEvery && !A.isClocked())
@@ -352,7 +356,7 @@ Expected<Success> start(const TrainArguments &A, const Work &W, Trainer &T) {
 Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
   if (auto Checked = check(A); !Checked)
     return Checked;
-  const auto C = readCapture(A.Capture, A.Exclude);
+  const auto C = readCapture(A.Capture, {A.Exclude, A.AllowOutside});
   if (!C)
     return C.error();
   A.Run.Extent = cameraRing(*C).extent();
@@ -445,6 +449,7 @@ Runner addTrain(CLI::App &App) {
       ->check(CLI::Range(4U, 100000000U));
   App.add_option("--exclude", A->Exclude, "Leave out this picture")
       ->allow_extra_args(false);
+  addOutsideOption(App, A->AllowOutside);
   App.add_option("--batch", A->Run.Batch,
                  "Views an iteration, shared out to the processes that mpirun "
                  "started, each with a device of its own (default 1)")

@@ -8,8 +8,10 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
-  return In.Options.Antialiased ? Finding{true, "--antialiased"}
-                                : Finding{false, "not asked (--antialiased)"};
+  const RenderOptions &O = In.Options;
+  return {O.Antialiased, O.AntialiasedBy.empty()
+                             ? "neither the scene's file nor --antialiased"
+                             : O.AntialiasedBy};
 }
 
 } // namespace

@@ -218,25 +218,47 @@ Expected<std::vector<Camera>> readCameras(const std::string &Path) {
   return Cameras;
 }
 
-Expected<Camera> readCamera(const std::string &Path, const std::string &View) {
-  const auto Cameras = readCameras(Path);
-  if (!Cameras)
-    return Cameras.error();
-  for (const Camera &C : *Cameras)
+/// The one of \p Cameras, which \p Path has, that is called \p View.
+static Expected<Camera> cameraNamed(const std::string &Path,
+                                    const std::vector<Camera> &Cameras,
+                                    const std::string &View) {
+  for (const Camera &C : Cameras)
     if (C.Name == View)
       return C;
-  for (const Camera &C : *Cameras)
+  for (const Camera &C : Cameras)
     if (std::to_string(C.Id) == View)
       return C;
   // A long list helps nobody.
   constexpr std::size_t MostNamed = 12;
   std::string Known;
-  for (std::size_t I = 0; I < Cameras->size() && I < MostNamed; ++I)
-    Known += (I ? ", " : "") + (*Cameras)[I].Name;
-  if (Cameras->size() > MostNamed)
-    Known += fmt::format(" and {} more", Cameras->size() - MostNamed);
+  for (std::size_t I = 0; I < Cameras.size() && I < MostNamed; ++I)
+    Known += (I ? ", " : "") + Cameras[I].Name;
+  if (Cameras.size() > MostNamed)
+    Known += fmt::format(" and {} more", Cameras.size() - MostNamed);
   return Error{Path,
                fmt::format("no view {}, expected one of {}", View, Known)};
+}
+
+Expected<std::vector<Camera>>
+readCameras(const std::string &Path, const std::vector<std::string> &Views) {
+  const auto Cameras = readCameras(Path);
+  if (!Cameras)
+    return Cameras.error();
+  std::vector<Camera> Found;
+  for (const std::string &View : Views) {
+    auto C = cameraNamed(Path, *Cameras, View);
+    if (!C)
+      return C.error();
+    Found.push_back(std::move(*C));
+  }
+  return Found;
+}
+
+Expected<Camera> readCamera(const std::string &Path, const std::string &View) {
+  auto Cameras = readCameras(Path, {View});
+  if (!Cameras)
+    return Cameras.error();
+  return std::move(Cameras->front());
 }
 
 Expected<Success> writeCameras(const std::string &Path,

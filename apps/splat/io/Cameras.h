@@ -47,6 +47,10 @@ Expected<std::vector<Camera>> readCameras(const std::string &Path);
 /// \p View written as a number; an unknown view's error lists what there is.
 Expected<Camera> readCamera(const std::string &Path, const std::string &View);
 
+/// The same for each of \p Views; the file is read once.
+Expected<std::vector<Camera>>
+readCameras(const std::string &Path, const std::vector<std::string> &Views);
+
 /// Writes \p Cameras, with cx and cy, so that reading gives the same doubles.
 Expected<Success> writeCameras(const std::string &Path,
                                const std::vector<Camera> &Cameras);

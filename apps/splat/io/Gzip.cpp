@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <memory>
+#include <utility>
 #include <zlib.h>
 
 namespace vorion::splat {
@@ -12,50 +12,71 @@ bool isGzip(Bytes File) {
   return File.size() >= 2 && byteAt(File, 0) == 0x1F && byteAt(File, 1) == 0x8B;
 }
 
-Expected<std::vector<std::byte>> unpackGzip(const std::string &Where,
-                                            Bytes File) {
+void GzipReader::End::operator()(z_stream_s *S) const {
+  inflateEnd(S);
+  delete S;
+}
+
+GzipReader::GzipReader(std::string Where, std::size_t FileSize,
+                       std::unique_ptr<z_stream_s, End> Stream)
+    : Where(std::move(Where)), FileSize(FileSize), Stream(std::move(Stream)) {}
+
+Expected<GzipReader> GzipReader::open(const std::string &Where, Bytes File) {
   if (File.size() > std::numeric_limits<uInt>::max())
     return Error{Where, "gzip stream of 4 GiB or more, expected less"};
-  z_stream Stream{};
+  auto Fresh = std::make_unique<z_stream>();
   constexpr int GzipOnly = 16;
-  if (inflateInit2(&Stream, MAX_WBITS + GzipOnly) != Z_OK)
+  if (inflateInit2(Fresh.get(), MAX_WBITS + GzipOnly) != Z_OK)
     return Error{Where, "cannot start zlib, expected memory for it",
                  ExitCode::LimitReached};
-  const std::unique_ptr<z_stream, int (*)(z_stream *)> End(&Stream, inflateEnd);
-  Stream.next_in = const_cast<Bytef *>( // zlib's, which only reads
+  std::unique_ptr<z_stream_s, End> Stream(Fresh.release());
+  Stream->next_in = const_cast<Bytef *>( // zlib's, which only reads
       reinterpret_cast<const Bytef *>(File.data()));
-  Stream.avail_in = static_cast<uInt>(File.size());
+  Stream->avail_in = static_cast<uInt>(File.size());
+  return GzipReader(Where, File.size(), std::move(Stream));
+}
 
-  // The stream's last word is its content's size, if it is to be believed.
+Error GzipReader::damaged() const {
+  return {Where, fmt::format("damaged gzip stream ({}), expected a whole one",
+                             Stream->msg ? Stream->msg : "it ends early")};
+}
+
+Expected<std::vector<std::byte>> GzipReader::read(std::size_t Size) {
+  // Twice as much each time: what is asked for need not be there.
   constexpr std::size_t Least = std::size_t(1) << 16;
-  const std::size_t Claimed =
-      File.size() >= 4 ? load<std::uint32_t>(File, File.size() - 4) : 0;
-  std::vector<std::byte> Out(
-      std::clamp(Claimed + 1, Least, unpackLimit(File.size())));
-  std::size_t Size = 0;
-  while (true) {
-    if (Size == Out.size())
-      Out.resize(2 * Size); // what Deflate gives is bounded by what it takes
-    Stream.next_out = reinterpret_cast<Bytef *>(Out.data() + Size);
-    Stream.avail_out = static_cast<uInt>(std::min<std::size_t>(
-        Out.size() - Size, std::numeric_limits<uInt>::max()));
-    const uInt Room = Stream.avail_out;
-    const int Status = inflate(&Stream, Z_NO_FLUSH);
-    Size += Room - Stream.avail_out;
-    if (Status == Z_STREAM_END)
-      break;
-    if (Status != Z_OK || (Stream.avail_in == 0 && Stream.avail_out != 0))
-      return Error{Where,
-                   fmt::format("damaged gzip stream ({}), expected a "
-                               "whole one",
-                               Stream.msg ? Stream.msg : "it ends early")};
+  const std::size_t Most = std::min(Size, unpackLimit(FileSize));
+  std::vector<std::byte> Out;
+  std::size_t Have = 0;
+  while (Have < Most && !Ended) {
+    if (Have == Out.size())
+      Out.resize(std::min(Most, std::max(2 * Have, Least)));
+    Stream->next_out = reinterpret_cast<Bytef *>(Out.data() + Have);
+    Stream->avail_out = static_cast<uInt>(std::min<std::size_t>(
+        Out.size() - Have, std::numeric_limits<uInt>::max()));
+    const uInt Room = Stream->avail_out;
+    const int Status = inflate(Stream.get(), Z_NO_FLUSH);
+    Have += Room - Stream->avail_out;
+    Ended = Status == Z_STREAM_END;
+    if (!Ended &&
+        (Status != Z_OK || (Stream->avail_in == 0 && Stream->avail_out != 0)))
+      return damaged();
   }
-  if (Stream.avail_in != 0)
+  Out.resize(Have);
+  return Out;
+}
+
+Expected<Success> GzipReader::finish() {
+  const auto More = read(1);
+  if (!More)
+    return More.error();
+  if (!More->empty())
+    return Error{Where, "the gzip stream goes on, expected no more than its "
+                        "header says"};
+  if (Stream->avail_in != 0)
     return Error{Where, fmt::format("{} bytes after the gzip stream, expected "
                                     "the file's end",
-                                    Stream.avail_in)};
-  Out.resize(Size);
-  return Out;
+                                    Stream->avail_in)};
+  return Success{};
 }
 
 } // namespace vorion::splat

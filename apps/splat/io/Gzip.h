@@ -4,15 +4,42 @@
 #include "Bytes.h"
 #include "vorion/support/Expected.h"
 
+#include <memory>
 #include <string>
 #include <vector>
+
+struct z_stream_s;
 
 namespace vorion::splat {
 
 bool isGzip(Bytes File);
 
-/// The content of a file that is one gzip stream, checksum included.
-Expected<std::vector<std::byte>> unpackGzip(const std::string &Where,
-                                            Bytes File);
+/// Unpacks a file that is one gzip stream as far as it is asked for, so that
+/// what comes first can say how much there is to be.
+class GzipReader {
+public:
+  /// Views \p File, which must outlive it.
+  static Expected<GzipReader> open(const std::string &Where, Bytes File);
+
+  /// The next \p Size bytes, or fewer where the stream ends. Memory is taken
+  /// for no more than Deflate can have packed into the file.
+  Expected<std::vector<std::byte>> read(std::size_t Size);
+  /// That nothing follows, in the stream or behind it, and its checksum.
+  Expected<Success> finish();
+
+private:
+  struct End {
+    void operator()(z_stream_s *S) const;
+  };
+  GzipReader(std::string Where, std::size_t FileSize,
+             std::unique_ptr<z_stream_s, End> Stream);
+
+  Error damaged() const;
+
+  std::string Where;
+  std::size_t FileSize;
+  std::unique_ptr<z_stream_s, End> Stream;
+  bool Ended = false;
+};
 
 } // namespace vorion::splat

@@ -17,6 +17,9 @@ namespace {
 
 constexpr std::string_view Magic = "\x93NUMPY";
 
+/// NumPy has no more; each costs time for every element.
+constexpr std::size_t MostAxes = 64;
+
 /// Bytes of an element of \p Type; 0 for what is not read.
 std::size_t elementSize(std::string_view Type) {
   if (Type == "b1" || Type == "u1")
@@ -216,6 +219,9 @@ Expected<NpyArray> parseNpy(const std::string &Where,
     return Error{Where, fmt::format("element type `{}`, expected little-endian "
                                     "f4, f8, i4, i8, u1, u4, b1 or text",
                                     Type.substr(0, 40))};
+  if (Shape->size() > MostAxes)
+    return Error{Where, fmt::format("an array of {} axes, expected at most {}",
+                                    Shape->size(), MostAxes)};
   const auto Size = bytesOf(*Shape, elementSize(Type.substr(1)));
   const std::size_t Body = All.size() - Start - Length;
   if (!Size || *Size != Body)

@@ -15,7 +15,7 @@ Expected<Npz> readNpz(const std::string &Path) {
   const auto File = readFile(Path);
   if (!File)
     return File.error();
-  const auto Z = ZipArchive::open(Path, "an .npz archive", *File);
+  auto Z = ZipArchive::open(Path, "an .npz archive", *File);
   if (!Z)
     return Z.error();
   Npz Arrays;

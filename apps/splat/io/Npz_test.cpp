@@ -117,6 +117,10 @@ TEST(Npy, EachKindOfDamageHasItsMessage) {
   Expect(npy(header("<f4", "(-1,)"), Four), "malformed");
   Expect(npy(header("<f4", "(1,"), Four), "malformed");
   Expect(npy("{'descr': '<f4', }", Four), "malformed");
+  std::string Axes = "(";
+  for (int I = 0; I < 65; ++I)
+    Axes += "1,";
+  Expect(npy(header("|u1", Axes + "4)", "True"), Four), "an array of 66 axes");
 }
 
 TEST(Npy, EveryTruncationIsAnError) {
@@ -140,6 +144,33 @@ TEST(Npz, TruncatedAndForeignArchivesAreErrors) {
   std::string Damaged = File;
   Damaged[60] = static_cast<char>(Damaged[60] ^ 1);
   EXPECT_FALSE(readNpz(Folder.write("t.npz", Damaged)));
+}
+
+// What Deflate packs a thousandfold, under many names: an archive of
+// kilobytes would be gigabytes.
+TEST(Npz, EntriesThatShareTheirBytesDoNotMultiplyThem) {
+  const TestFolder Folder;
+  constexpr std::size_t Zeros = std::size_t(1) << 21;
+  ASSERT_TRUE(
+      writeNpz(Folder.path("a.npz"),
+               {{"a", NpyArray::of({Zeros}, std::vector<float>(Zeros))}}));
+  const std::string File = Folder.read("a.npz");
+  const std::size_t Directory = File.rfind("PK\1\2"),
+                    End = File.rfind("PK\5\6");
+  const std::string Entry = File.substr(Directory, End - Directory);
+  constexpr std::uint16_t Count = 500;
+  std::string Many = File.substr(0, End), Tail = File.substr(End);
+  for (int I = 1; I < Count; ++I)
+    Many += Entry;
+  const auto Size = static_cast<std::uint32_t>(Count * Entry.size());
+  std::memcpy(Tail.data() + 8, &Count, sizeof(Count));
+  std::memcpy(Tail.data() + 10, &Count, sizeof(Count));
+  std::memcpy(Tail.data() + 12, &Size, sizeof(Size));
+  const auto Read = readNpz(Folder.write("b.npz", Many + Tail));
+  ASSERT_FALSE(Read);
+  EXPECT_NE(Read.error().What.find("bytes of entries in an archive of"),
+            std::string::npos)
+      << Read.error().What;
 }
 
 TEST(Npz, PicturesOfTheWrongShapeAreErrors) {

@@ -53,6 +53,8 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
   for (std::string &Name : plyRestNames(L.ShDegree))
     ShNames.push_back(std::move(Name));
 
+  if (Vertex.find("scale_1") && !Vertex.find("scale_2"))
+    return flatGaussians(Where, "element vertex with scale_1 and no scale_2");
   const struct {
     std::vector<std::size_t> &To;
     std::vector<std::string> Names;
@@ -86,8 +88,15 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File) {
   const auto H = readPlyHeader(Where, File);
   if (!H)
     return H.error();
-  if (H->find("chunk"))
-    return parseCompressedPly(Where, File, *H);
+  auto DrawnAs = drawingOfComments(Where, H->Comments);
+  if (!DrawnAs)
+    return DrawnAs.error();
+  if (H->find("chunk")) {
+    auto Compressed = parseCompressedPly(Where, File, *H);
+    if (Compressed)
+      Compressed->DrawnAs = std::move(*DrawnAs);
+    return Compressed;
+  }
   const PlyElement *Vertex = H->find("vertex");
   if (!Vertex || H->Elements.size() != 1)
     return Error{Where, "expected one element, `element vertex <count>`, or "
@@ -98,6 +107,7 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File) {
 
   SceneFile Result;
   Result.Format = SceneFormat::Ply;
+  Result.DrawnAs = std::move(*DrawnAs);
   Result.Skipped = L->Skipped;
   Scene &S = Result.Gaussians = Scene::sized(Vertex->Count, L->ShDegree);
   const struct {
@@ -118,10 +128,11 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File) {
   return Result;
 }
 
-std::string formatPly(const Scene &S) {
+std::string formatPly(const Scene &S, const Drawing &D) {
   const std::size_t Later = S.coefficients() - 1;
-  std::string Out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n", S.size());
+  std::string Out =
+      fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\n",
+                  drawingComments(D), S.size());
   const auto Declare = [&](const std::string &Name) {
     Out += fmt::format("property float {}\n", Name);
   };
@@ -157,8 +168,9 @@ std::string formatPly(const Scene &S) {
   return Out;
 }
 
-Expected<Success> writePly(const std::string &Path, const Scene &S) {
-  return writeFileAtomically(Path, formatPly(S));
+Expected<Success> writePly(const std::string &Path, const Scene &S,
+                           const Drawing &D) {
+  return writeFileAtomically(Path, formatPly(S, D));
 }
 
 } // namespace vorion::splat

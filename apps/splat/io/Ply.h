@@ -16,9 +16,12 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File);
 
 /// \p S in the layout and property order of INRIA's trainer (with zero
 /// normals).
-std::string formatPly(const Scene &S);
+/// The comments of \p D, if it is not the classic way, come before the
+/// elements.
+std::string formatPly(const Scene &S, const Drawing &D = {});
 
 /// Writes that to a file.
-Expected<Success> writePly(const std::string &Path, const Scene &S);
+Expected<Success> writePly(const std::string &Path, const Scene &S,
+                           const Drawing &D = {});
 
 } // namespace vorion::splat

@@ -63,8 +63,12 @@ public:
       if (!Line)
         return error("header ends early, expected `end_header`");
       const auto W = words(*Line);
-      if (W.empty() || W[0] == "comment" || W[0] == "obj_info")
+      if (W.empty() || W[0] == "obj_info")
         continue;
+      if (W[0] == "comment") {
+        Result.Comments.emplace_back(W[0].end(), Line->end());
+        continue;
+      }
       if (W[0] == "end_header")
         break;
       if (auto Problem = declare(W))
@@ -123,12 +127,11 @@ private:
   declareElement(const std::vector<std::string_view> &W) {
     if (W.size() != 3)
       return "expected `element <name> <count>`";
-    if (Result.find(W[1]))
+    PlyElement *E = Result.add(W[1]);
+    if (!E)
       return fmt::format("element {} appears twice", printable(W[1]));
-    PlyElement &E = Result.Elements.emplace_back();
-    E.Name = W[1];
     const auto [Read, Status] =
-        std::from_chars(W[2].begin(), W[2].end(), E.Count);
+        std::from_chars(W[2].begin(), W[2].end(), E->Count);
     if (Status != std::errc() || Read != W[2].end())
       return fmt::format("{} count `{}` is no number, expected 0 or more",
                          printable(W[1]), printable(W[2]));
@@ -143,11 +146,8 @@ private:
     const ScalarType *T = W.size() == 3 ? scalarType(W[1]) : nullptr;
     if (!T)
       return "expected `property <scalar type> <name>`";
-    PlyElement &E = Result.Elements.back();
-    if (E.find(W[2]))
+    if (!Result.Elements.back().add(W[2], T->Type, T->Size))
       return fmt::format("property {} appears twice", printable(W[2]));
-    E.Properties.push_back({std::string(W[2]), E.Stride, T->Type});
-    E.Stride += T->Size;
     return std::nullopt;
   }
 
@@ -161,11 +161,18 @@ private:
 
 } // namespace
 
+bool PlyElement::add(std::string_view Property, PlyType Type,
+                     std::size_t Size) {
+  if (!Places.emplace(Property, Properties.size()).second)
+    return false;
+  Properties.push_back({std::string(Property), Stride, Type});
+  Stride += Size;
+  return true;
+}
+
 const PlyProperty *PlyElement::find(std::string_view Property) const {
-  const auto It =
-      std::find_if(Properties.begin(), Properties.end(),
-                   [&](const PlyProperty &P) { return P.Name == Property; });
-  return It == Properties.end() ? nullptr : &*It;
+  const auto It = Places.find(Property);
+  return It == Places.end() ? nullptr : &Properties[It->second];
 }
 
 Expected<std::vector<std::size_t>>
@@ -191,11 +198,17 @@ PlyElement::offsets(const std::string &Where,
   return Offsets;
 }
 
+PlyElement *PlyHeader::add(std::string_view Element) {
+  if (!Places.emplace(Element, Elements.size()).second)
+    return nullptr;
+  PlyElement &E = Elements.emplace_back();
+  E.Name = Element;
+  return &E;
+}
+
 const PlyElement *PlyHeader::find(std::string_view Element) const {
-  const auto It =
-      std::find_if(Elements.begin(), Elements.end(),
-                   [&](const auto &E) { return E.Name == Element; });
-  return It == Elements.end() ? nullptr : &*It;
+  const auto It = Places.find(Element);
+  return It == Places.end() ? nullptr : &Elements[It->second];
 }
 
 std::vector<std::string> plyRestNames(int ShDegree) {

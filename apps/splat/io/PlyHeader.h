@@ -5,6 +5,7 @@
 #include "vorion/support/Expected.h"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,17 +29,28 @@ struct PlyElement {
   std::size_t Start = 0;  ///< of the first row, bytes from the file's start
   std::vector<PlyProperty> Properties;
 
+  /// Appends a property of \p Size bytes; false if there is one of its name.
+  bool add(std::string_view Property, PlyType Type, std::size_t Size);
   const PlyProperty *find(std::string_view Property) const;
   /// The offsets in a row of \p Names, which must all have type \p Type.
   Expected<std::vector<std::size_t>>
   offsets(const std::string &Where, const std::vector<std::string> &Names,
           PlyType Type) const;
+
+private:
+  std::map<std::string, std::size_t, std::less<>> Places; ///< in Properties
 };
 
 struct PlyHeader {
   std::vector<PlyElement> Elements;
+  std::vector<std::string> Comments; ///< without their keyword
 
+  /// Appends an element; null if there is one of its name.
+  PlyElement *add(std::string_view Element);
   const PlyElement *find(std::string_view Element) const;
+
+private:
+  std::map<std::string, std::size_t, std::less<>> Places; ///< in Elements
 };
 
 /// The properties f_rest_* for \p ShDegree in the scene's order: a file numbers
@@ -47,7 +59,8 @@ std::vector<std::string> plyRestNames(int ShDegree);
 
 /// Reads the header of a binary little-endian PLY of scalar properties; \p File
 /// holds exactly the rows that it declares, or the result is an error. Errors
-/// of the header name the line.
+/// of the header name the line. A header may declare any number of things, so
+/// nothing here looks through all of them for each.
 Expected<PlyHeader> readPlyHeader(const std::string &Where, Bytes File);
 
 } // namespace vorion::splat

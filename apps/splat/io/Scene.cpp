@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -36,6 +37,30 @@ Expected<Success> checkFinite(const std::string &Where, const Scene &S) {
                                     "expected finite values",
                                     First)};
   return Success{};
+}
+
+std::size_t dropNonFinite(Scene &S) {
+  const std::size_t Count = S.size();
+  // Each parameter's values and how many of them a Gaussian has.
+  const std::pair<std::vector<float> *, std::size_t> Parameters[] = {
+      {&S.Means, 3},
+      {&S.LogScales, 3},
+      {&S.Quats, 4},
+      {&S.OpacityLogits, 1},
+      {&S.Sh, 3 * S.coefficients()}};
+  std::vector<bool> Finite(Count, true);
+  for (const auto &[Values, Each] : Parameters)
+    for (std::size_t I = 0; I < Values->size(); ++I)
+      if (!std::isfinite((*Values)[I]))
+        Finite[I / Each] = false;
+  for (const auto &[Values, Each] : Parameters) {
+    std::size_t To = 0;
+    for (std::size_t I = 0; I < Values->size(); ++I)
+      if (Finite[I / Each])
+        (*Values)[To++] = (*Values)[I];
+    Values->resize(To);
+  }
+  return Count - S.size();
 }
 
 void append(Scene &To, const Scene &From, std::size_t First,

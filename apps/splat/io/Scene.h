@@ -52,6 +52,10 @@ struct Scene {
 /// the renderers, whose comparisons would go either way.
 Expected<Success> checkFinite(const std::string &Where, const Scene &S);
 
+/// Leaves out the Gaussians with a NaN or an infinity, in the order of the
+/// others, and gives how many there were.
+std::size_t dropNonFinite(Scene &S);
+
 /// Appends \p Count Gaussians of \p From, starting at \p First, to \p To; both
 /// of the same degree.
 void append(Scene &To, const Scene &From, std::size_t First, std::size_t Count);

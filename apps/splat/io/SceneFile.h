@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Bytes.h"
+#include "Drawing.h"
 #include "Scene.h"
 #include "vorion/support/Expected.h"
 
@@ -25,28 +26,33 @@ std::string_view documentedAxes(SceneFormat F);
 struct SceneFile {
   Scene Gaussians;
   SceneFormat Format = SceneFormat::Ply;
-  int Version = 0; ///< of the format; 0 where files carry none
-  /// Trained with opacity compensated for the dilation (render it so with
-  /// `--antialiased`); false where the format cannot say.
-  bool Antialiased = false;
+  int Version = 0;       ///< of the format; 0 where files carry none
+  Drawing DrawnAs;       ///< as the file says, unless ReadOptions say otherwise
   std::size_t Files = 1; ///< data sets that were joined: chunks of a folder
   /// Properties of a PLY that were not read and are not known to mean anything
   /// for the picture; what is known to is an error (Unsupported.h).
   std::vector<std::string> Skipped;
+  /// Gaussians that were left out because of a NaN or an infinity.
+  std::size_t Dropped = 0;
 };
 
 /// What a reader may choose.
 struct ReadOptions {
   int LevelOfDetail = 0; ///< of a streamed scene; 0 is the finest
+  /// Leave out Gaussians with a NaN or an infinity, where it is an error else.
+  bool DropNonFinite = false;
+  DrawingRequest Drawn;
 };
 
 /// Reads a file or, for SOG, a folder. Every reader gives finite values only;
 /// see docs/scenes.md for what each format keeps and what is refused.
-/// Memory follows the size of what is read, never a count that a header claims.
+/// Memory follows the size of what is read and what it says that it holds,
+/// whichever is less.
 Expected<SceneFile> readScene(const std::string &Path,
                               const ReadOptions &Options = {});
 
 /// The same for the content of a file that stands alone (no folder).
-Expected<SceneFile> parseScene(const std::string &Where, Bytes File);
+Expected<SceneFile> parseScene(const std::string &Where, Bytes File,
+                               const ReadOptions &Options = {});
 
 } // namespace vorion::splat

@@ -1,8 +1,11 @@
 #include "Damage.h"
+#include "Ply.h"
 #include "SceneFile.h"
 #include "TestFiles.h"
 
+#include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -49,6 +52,84 @@ TEST(SceneFile, EveryValueThatIsNotFiniteIsFound) {
                                       "expected finite values");
     }
   EXPECT_TRUE(checkFinite("s", numberedScene(3, 1)));
+}
+
+constexpr float NaN = std::numeric_limits<float>::quiet_NaN();
+
+TEST(SceneFile, GaussiansThatAreNotFiniteAreDroppedOnRequestAndCounted) {
+  const TestFolder Root;
+  const Scene S = numberedScene(5, 1);
+  for (int Field = 0; Field < 5; ++Field) {
+    Scene Bad = S;
+    std::vector<float> *Fields[] = {&Bad.Means, &Bad.LogScales, &Bad.Quats,
+                                    &Bad.OpacityLogits, &Bad.Sh};
+    std::vector<float> &V = *Fields[Field];
+    V[V.size() / 5] = NaN; // the first of Gaussian 1
+    V.back() = -std::numeric_limits<float>::infinity();
+    const std::string Path = Root.write("s.ply", formatPly(Bad));
+    EXPECT_FALSE(readScene(Path));
+    const auto Read = readScene(Path, {.DropNonFinite = true, .Drawn = {}});
+    ASSERT_TRUE(Read) << Read.error().What;
+    EXPECT_EQ(Read->Dropped, 2U);
+    Scene Left = Scene::sized(0, 1);
+    append(Left, S, 0, 1);
+    append(Left, S, 2, 2);
+    EXPECT_EQ(Read->Gaussians.Means, Left.Means);
+    EXPECT_EQ(Read->Gaussians.LogScales, Left.LogScales);
+    EXPECT_EQ(Read->Gaussians.Quats, Left.Quats);
+    EXPECT_EQ(Read->Gaussians.OpacityLogits, Left.OpacityLogits);
+    EXPECT_EQ(Read->Gaussians.Sh, Left.Sh);
+  }
+  const auto None = readScene(Root.write("s.ply", formatPly(S)),
+                              {.DropNonFinite = true, .Drawn = {}});
+  ASSERT_TRUE(None);
+  EXPECT_EQ(None->Dropped, 0U);
+}
+
+TEST(SceneFile, ASceneOfNothingElseIsAnErrorAllTheSame) {
+  Scene S = numberedScene(3, 0);
+  for (float &V : S.Means)
+    V = NaN;
+  const std::string Ply = formatPly(S);
+  const auto Read = parseScene("s", std::as_bytes(std::span(Ply)),
+                               {.DropNonFinite = true, .Drawn = {}});
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().What, "none of 3 Gaussians is without a NaN or an "
+                               "infinity, expected at least one");
+}
+
+// Two formats see such values before a scene is there.
+TEST(SceneFile, SplatAndSogDropToo) {
+  const Scene S = randomScene(5, 0, 1);
+  std::string Splat = splatOf(S);
+  std::memcpy(Splat.data() + 32, &NaN, sizeof(NaN));
+  const float Minus = -std::numeric_limits<float>::infinity();
+  std::memcpy(Splat.data() + 3 * 32 + 16, &Minus, sizeof(Minus));
+  const auto ReadSplat = parseScene("s", std::as_bytes(std::span(Splat)),
+                                    {.DropNonFinite = true, .Drawn = {}});
+  ASSERT_TRUE(ReadSplat) << ReadSplat.error().What;
+  EXPECT_EQ(ReadSplat->Dropped, 2U);
+
+  // Older writers of SOG left null where a codebook began with a NaN.
+  Folder Files = sogOf(S);
+  nlohmann::json Meta = nlohmann::json::parse(Files["meta.json"]);
+  Meta["scales"]["codebook"][0] = nullptr;
+  Files["meta.json"] = Meta.dump();
+  const std::string Sog = zipOf(Files);
+  EXPECT_FALSE(parseScene("s", std::as_bytes(std::span(Sog))));
+  const auto ReadSog = parseScene("s", std::as_bytes(std::span(Sog)),
+                                  {.DropNonFinite = true, .Drawn = {}});
+  ASSERT_TRUE(ReadSog) << ReadSog.error().What;
+  // The writer's first step is the least scale, which one Gaussian has.
+  EXPECT_EQ(ReadSog->Dropped, 1U);
+  EXPECT_EQ(ReadSog->Gaussians.size(), 4U);
+}
+
+TEST(SceneFile, WhatNeverEndsIsAnError) {
+  const auto Read = readScene("/dev/zero");
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().Where, "/dev/zero");
+  EXPECT_EQ(Read.error().Code, ExitCode::InputFile);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
@@ -17,6 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// A WebP's sides have 14 bits.
+constexpr std::size_t MostPixels = std::size_t(1) << 28;
 /// Entries of the SH palette in a row of its plane.
 constexpr std::size_t PaletteRow = 64;
 constexpr std::size_t CodebookSize = 256;
@@ -25,8 +28,10 @@ constexpr std::size_t CodebookSize = 256;
 /// Once something is wrong, \c Problem says what, and nothing more is done.
 class Reader {
 public:
-  Reader(const std::string &Where, Json Meta, const FileSource &Read)
-      : Where(Where), Read(Read), Root(std::move(Meta)) {}
+  Reader(const std::string &Where, Json Meta, const FileSource &Read,
+         const ReadOptions &Options)
+      : Where(Where), Read(Read), NullIsNaN(Options.DropNonFinite),
+        Root(std::move(Meta)) {}
 
   Expected<SceneFile> read() {
     if (!Root.is_object())
@@ -40,6 +45,9 @@ public:
     if (Claimed == Root.end() || !Claimed->is_number_unsigned())
       return metaError("count is no whole number, expected 1 or more");
     Count = Claimed->get<std::uint64_t>();
+    auto DrawnAs = drawing();
+    if (!DrawnAs)
+      return DrawnAs.error();
 
     // Every plane is there before the scene is made, so that its size is
     // bounded by the pictures' and not by what the description says.
@@ -59,8 +67,7 @@ public:
     SceneFile Result;
     Result.Format = SceneFormat::Sog;
     Result.Version = 2;
-    const auto Antialias = Root.find("antialias");
-    Result.Antialiased = Antialias != Root.end() && *Antialias == true;
+    Result.DrawnAs = std::move(*DrawnAs);
     Scene &S = Result.Gaussians = Scene::sized(Count, Later.Degree);
     const std::size_t ShEach = 3 * S.coefficients();
     for (std::size_t I = 0; I < Count; ++I) {
@@ -136,6 +143,29 @@ private:
     return Error{Where + ": meta.json", std::move(What)};
   }
 
+  /// What the keys "model" and "antialias" say; older writers have the latter.
+  Expected<Drawing> drawing() const {
+    const auto Flag = Root.find("antialias"), Model = Root.find("model");
+    Drawing D;
+    if (Flag != Root.end() && !Flag->is_null()) {
+      if (!Flag->is_boolean())
+        return metaError("antialias is no truth value, expected true or false");
+      D = {Flag->get<bool>(), std::nullopt,
+           fmt::format("antialias {}", Flag->get<bool>())};
+    }
+    if (Model == Root.end() || Model->is_null())
+      return D;
+    if (!Model->is_string())
+      return metaError("model is no name, expected default or antialiased");
+    auto Named =
+        drawingOfModel(Where + ": meta.json", Model->get<std::string>());
+    if (Named && !D.Said.empty() && !Named->isAs(D))
+      return metaError(fmt::format("{} and {} contradict each other, expected "
+                                   "one of them",
+                                   Named->Said, D.Said));
+    return Named;
+  }
+
   /// Keeps the first thing that is wrong.
   void fail(Error E) {
     if (!Problem)
@@ -156,10 +186,13 @@ private:
                               std::size_t Size) {
     const Json &V = value(Group, Key);
     std::vector<double> Result;
-    if (V.is_array() && V.size() == Size)
+    if (V.is_array() && V.size() == Size) {
       for (const Json &N : V)
         if (N.is_number())
           Result.push_back(N.get<double>());
+        else if (N.is_null() && NullIsNaN) // what JSON has for it
+          Result.push_back(std::numeric_limits<double>::quiet_NaN());
+    }
     if (Result.size() != Size)
       fail(metaError(
           fmt::format("{}.{}: expected {} finite numbers", Group, Key, Size)));
@@ -173,8 +206,9 @@ private:
                        printable(Files[Index].get_ref<const std::string &>()));
   }
 
-  /// A picture as it is.
-  Plane picture(const char *Group, std::size_t Index) {
+  /// A picture as it is, which the description needs \p Pixels of: some more
+  /// for whole rows and blocks are let be.
+  Plane picture(const char *Group, std::size_t Index, std::size_t Pixels) {
     if (Problem)
       return {};
     const Json &Files = value(Group, "files");
@@ -190,17 +224,21 @@ private:
       return {};
     }
     FileSizes += Content->size();
-    auto P = decodeWebP(file(Group, Index), *Content, unpackLimit(FileSizes));
+    constexpr std::size_t Padding = 4, Small = std::size_t(4) << 20;
+    const std::size_t Said = 4 * Padding * std::min(Pixels, MostPixels) + Small;
+    auto P = decodeWebP(file(Group, Index), *Content,
+                        std::min(unpackLimit(FileSizes) - Unpacked, Said));
     if (!P) {
       fail(P.error());
       return {};
     }
+    Unpacked += P->Rgba.size();
     return std::move(*P);
   }
 
   /// A picture with a pixel for each Gaussian.
   Plane plane(const char *Group, std::size_t Index) {
-    Plane P = picture(Group, Index);
+    Plane P = picture(Group, Index, Count);
     if (!Problem && P.pixels() < Count)
       fail({file(Group, Index),
             fmt::format("{}x{} pixels, expected one for each of {} Gaussians",
@@ -223,9 +261,10 @@ private:
     }
     P.Entries = Entries.get<std::uint64_t>();
     P.Book = numbers("shN", "codebook", CodebookSize);
-    P.Centroids = picture("shN", 0);
+    const std::size_t Later = shCoefficients(P.Degree) - 1;
+    const std::size_t Width = PaletteRow * Later;
+    P.Centroids = picture("shN", 0, std::min(P.Entries, MostPixels) * Later);
     P.Labels = plane("shN", 1);
-    const std::size_t Width = PaletteRow * (shCoefficients(P.Degree) - 1);
     if (!Problem && (P.Centroids.Width != Width ||
                      P.Entries > P.Centroids.Height * PaletteRow))
       fail({file("shN", 0),
@@ -240,31 +279,36 @@ private:
 
   const std::string &Where;
   const FileSource &Read;
+  bool NullIsNaN; ///< in a codebook; an error else
   Json Root;
   std::size_t Count = 0;
   std::size_t FileSizes = 0; ///< of all pictures so far
+  std::size_t Unpacked = 0;  ///< what they unpacked to, bytes
   std::optional<Error> Problem;
 };
 
 } // namespace
 
 Expected<SceneFile> parseSog(const std::string &Where, Bytes Meta,
-                             const FileSource &Read) {
+                             const FileSource &Read,
+                             const ReadOptions &Options) {
   auto Root =
       parseJson<Json>(asText(Meta), Where + ": meta.json", "SOG's description");
-  return Root ? Reader(Where, std::move(*Root), Read).read()
+  return Root ? Reader(Where, std::move(*Root), Read, Options).read()
               : Expected<SceneFile>(Root.error());
 }
 
-Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File) {
-  const auto Z = ZipArchive::open(Where, "a SOG archive", File);
+Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File,
+                                const ReadOptions &Options) {
+  auto Z = ZipArchive::open(Where, "a SOG archive", File);
   if (!Z)
     return Z.error();
   const auto Meta = Z->read("meta.json");
   if (!Meta)
     return Meta.error();
-  return parseSog(Where, *Meta,
-                  [&Z](const std::string &Name) { return Z->read(Name); });
+  return parseSog(
+      Where, *Meta, [&Z](const std::string &Name) { return Z->read(Name); },
+      Options);
 }
 
 } // namespace vorion::splat

@@ -19,11 +19,14 @@ using FileSource =
 /// of up to 65,536 entries; rotations of 8 bits for each of the three smallest
 /// components; opacity of 8 bits. \p Where names the data set. Refused:
 /// version 1, planes smaller than the count or out of proportion to their
-/// file, indices outside codebook or palette.
+/// files or to the count, indices outside codebook or palette, models other
+/// than default and antialiased.
 Expected<SceneFile> parseSog(const std::string &Where, Bytes Meta,
-                             const FileSource &Read);
+                             const FileSource &Read,
+                             const ReadOptions &Options = {});
 
 /// A data set in a zip archive.
-Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File);
+Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File,
+                                const ReadOptions &Options = {});
 
 } // namespace vorion::splat

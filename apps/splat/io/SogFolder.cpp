@@ -1,5 +1,6 @@
 #include "SogFolder.h"
 
+#include "Inside.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -24,22 +25,34 @@ constexpr const char *MetaName = "meta.json";
 /// Reads files below \p Folder, and none outside that a description names.
 FileSource filesOf(const fs::path &Folder) {
   return [Folder](const std::string &Name) -> Expected<std::vector<std::byte>> {
-    const fs::path Relative(Name);
-    if (Name.empty() || Name.find('\0') != std::string::npos ||
-        Relative.is_absolute() ||
-        std::find(Relative.begin(), Relative.end(), "..") != Relative.end())
+    if (!staysInside(Name))
       return Error{Folder.string(),
                    fmt::format("names the file `{}`, expected one inside the "
                                "folder",
                                printable(Name))};
-    return readFile((Folder / Relative).string());
+    return readFile((Folder / Name).string());
   };
+}
+
+/// The same, but no file twice: of a scene that says the same thing again and
+/// again, memory would follow what it says and not its size.
+FileSource eachOnce(const std::string &Where, const FileSource &Read) {
+  return
+      [&Where, &Read, Names = std::set<std::string>()](
+          const std::string &Name) mutable -> Expected<std::vector<std::byte>> {
+        if (!Names.insert(fs::path(Name).lexically_normal().string()).second)
+          return Error{Where,
+                       fmt::format("names the file `{}` twice, expected each "
+                                   "file of a scene once",
+                                   printable(Name))};
+        return Read(Name);
+      };
 }
 
 /// The data set whose description is \p Meta, a path from where \p Read starts.
 Expected<SceneFile> readDataSet(const std::string &Where,
-                                const std::string &Meta,
-                                const FileSource &Read) {
+                                const std::string &Meta, const FileSource &Read,
+                                const ReadOptions &Options) {
   const auto Content = Read(Meta);
   if (!Content)
     return Content.error();
@@ -47,26 +60,34 @@ Expected<SceneFile> readDataSet(const std::string &Where,
   return parseSog(
       Folder.empty() ? Where : Where + "/" + printable(Folder.string()),
       *Content,
-      [&](const std::string &Name) { return Read((Folder / Name).string()); });
+      [&](const std::string &Name) { return Read((Folder / Name).string()); },
+      Options);
 }
 
 /// Joins data sets of one scene.
 class Joiner {
 public:
+  explicit Joiner(const ReadOptions &Options) : Options(Options) {}
+
   /// Appends Gaussians \p First to \p First + \p Count of \p Part.
   Expected<Success> add(const std::string &Where, const SceneFile &Part,
                         std::size_t First, std::size_t Count) {
     if (Result.Files == 0) {
       Result.Version = Part.Version;
       Result.Gaussians.ShDegree = Part.Gaussians.ShDegree;
+      Result.DrawnAs = Part.DrawnAs;
     }
+    if (!Options.Drawn.Antialiased && !Part.DrawnAs.isAs(Result.DrawnAs))
+      return Error{Where,
+                   fmt::format("{}, expected {} as in the first chunk, or "
+                               "--antialiased or --no-antialiased to decide",
+                               said(Part.DrawnAs), said(Result.DrawnAs))};
     if (Result.Gaussians.ShDegree != Part.Gaussians.ShDegree)
       return Error{Where, fmt::format("SH degree {}, expected {} as in the "
                                       "first chunk",
                                       Part.Gaussians.ShDegree,
                                       Result.Gaussians.ShDegree)};
     append(Result.Gaussians, Part.Gaussians, First, Count);
-    Result.Antialiased |= Part.Antialiased;
     return Success{};
   }
 
@@ -76,7 +97,14 @@ public:
     return Added;
   }
 
-  SceneFile Result{{}, SceneFormat::StreamedSog, 0, false, 0, {}};
+  SceneFile Result{{}, SceneFormat::StreamedSog, 0, {}, 0, {}, 0};
+
+private:
+  static std::string said(const Drawing &D) {
+    return D.Said.empty() ? "no model" : D.Said;
+  }
+
+  const ReadOptions &Options;
 };
 
 /// Sub-folders of \p Path that hold a data set, by name.
@@ -91,7 +119,8 @@ std::vector<std::string> chunksOf(const fs::path &Path) {
   return Names;
 }
 
-Expected<SceneFile> readChunks(const std::string &Path) {
+Expected<SceneFile> readChunks(const std::string &Path,
+                               const ReadOptions &Options) {
   const auto Names = chunksOf(Path);
   if (Names.empty())
     return Error{Path, "a folder without meta.json, lod-meta.json or chunks, "
@@ -106,11 +135,11 @@ Expected<SceneFile> readChunks(const std::string &Path) {
     return Error{Path, fmt::format("chunks of {} levels of detail, expected "
                                    "one, or {} that tells them apart",
                                    Levels.size(), IndexName)};
-  Joiner J;
-  const FileSource Read = filesOf(Path);
+  Joiner J(Options);
+  const FileSource Files = filesOf(Path), Read = eachOnce(Path, Files);
   for (const std::string &Name : Names) {
     const auto Part =
-        readDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read);
+        readDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read, Options);
     if (!Part)
       return Part.error();
     if (auto Added = J.addFile(fmt::format("{}/{}", Path, Name), *Part); !Added)
@@ -235,7 +264,7 @@ Expected<Success> checkIndex(const std::string &Where, const Json &Index,
 } // namespace
 
 Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
-                                     const FileSource &Read,
+                                     const FileSource &Files,
                                      const ReadOptions &Options) {
   const std::string IndexWhere = Where + ": " + IndexName;
   const auto Parsed = parseJson<Json>(asText(Content), IndexWhere,
@@ -249,10 +278,11 @@ Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
   if (auto Problem = Tree.walk())
     return Error{IndexWhere, *Problem};
 
-  Joiner J;
+  const FileSource Read = eachOnce(IndexWhere, Files);
+  Joiner J(Options);
   for (auto &[File, Runs] : Tree.Runs) {
     const auto Name = Index["filenames"][File].get<std::string>();
-    const auto Part = readDataSet(Where, Name, Read);
+    const auto Part = readDataSet(Where, Name, Read, Options);
     if (!Part)
       return Part.error();
     if (auto Added =
@@ -262,7 +292,7 @@ Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
   }
   if (const auto E = Index.find("environment");
       E != Index.end() && E->is_string()) {
-    const auto Part = readDataSet(Where, E->get<std::string>(), Read);
+    const auto Part = readDataSet(Where, E->get<std::string>(), Read, Options);
     if (!Part)
       return Part.error();
     if (auto Added = J.addFile(Where + ": environment", *Part); !Added)
@@ -282,7 +312,7 @@ Expected<SceneFile> readSogFolder(const std::string &Path,
         return Content.error();
       return readSogJson(File.string(), *Content, Options);
     }
-  return readChunks(Path);
+  return readChunks(Path, Options);
 }
 
 Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
@@ -296,7 +326,7 @@ Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
     return Root.error();
   if (Root->contains("tree") || Root->contains("lodLevels"))
     return parseStreamedSog(Folder.string(), File, filesOf(Folder), Options);
-  return parseSog(Folder.string(), File, filesOf(Folder));
+  return parseSog(Folder.string(), File, filesOf(Folder), Options);
 }
 
 } // namespace vorion::splat

@@ -3,11 +3,16 @@
 #include "SogFolder.h"
 #include "TestFiles.h"
 
+#include <functional>
+#include <nlohmann/json.hpp>
+
 using namespace vorion;
 using namespace vorion::splat;
 using namespace vorion::splat::testing;
 
 namespace {
+
+using Json = nlohmann::json;
 
 /// Writes \p Files below \p Name and gives the path.
 std::string written(const TestFolder &Root, const std::string &Name,
@@ -71,11 +76,113 @@ TEST(SogFolder, AStreamedSceneIsOneLevelAndTheEnvironment) {
 
   Expected = Coarse;
   append(Expected, Far, 0, Far.size());
-  expectNear(read(Path, {1}).Gaussians, Expected);
-  const auto None = readScene(Path, {2});
+  expectNear(read(Path, {.LevelOfDetail = 1, .Drawn = {}}).Gaussians, Expected);
+  const auto None = readScene(Path, {.LevelOfDetail = 2, .Drawn = {}});
   ASSERT_FALSE(None);
   EXPECT_EQ(None.error().Code, ExitCode::Usage);
   EXPECT_NE(None.error().What.find("no level of detail 2"), std::string::npos);
+}
+
+/// What \p Change makes of each chunk's description.
+Folder
+withChunks(Folder Files,
+           const std::function<void(const std::string &, Json &)> &Change) {
+  for (auto &[Name, Content] : Files)
+    if (Name.ends_with("/meta.json")) {
+      Json Meta = Json::parse(Content);
+      Change(Name, Meta);
+      Content = Meta.dump();
+    }
+  return Files;
+}
+
+TEST(SogFolder, ChunksThatAreDrawnInTwoWaysNeedADecision) {
+  const TestFolder Root;
+  const Folder Whole = streamedSogOf(randomScene(9, 1, 2), randomScene(4, 1, 3),
+                                     randomScene(3, 1, 4));
+  const auto All = read(written(
+      Root, "all", withChunks(Whole, [](const std::string &, Json &Meta) {
+        Meta["model"] = "antialiased";
+      })));
+  EXPECT_TRUE(All.DrawnAs.Antialiased);
+  const std::string Mixed = written(
+      Root, "mixed", withChunks(Whole, [](const std::string &Name, Json &Meta) {
+        if (Name.starts_with("0_1"))
+          Meta["model"] = "antialiased";
+      }));
+  const auto Read = readScene(Mixed);
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().What,
+            "model antialiased, expected no model as in the first chunk, or "
+            "--antialiased or --no-antialiased to decide");
+  EXPECT_FALSE(read(Mixed, {.Drawn = {.Antialiased = false, .Dilation = {}}})
+                   .DrawnAs.Antialiased);
+}
+
+/// A source that gives what \p Files has and counts what it is asked for.
+struct CountedFiles {
+  Folder Files;
+  std::size_t Asked = 0;
+
+  Expected<SceneFile> read() {
+    const std::string &Index = Files.at("lod-meta.json");
+    return parseStreamedSog(
+        "s", std::as_bytes(std::span(Index)),
+        [this](const std::string &Name) -> Expected<std::vector<std::byte>> {
+          ++Asked;
+          const auto B = std::as_bytes(std::span(
+              Files.at(std::filesystem::path(Name).lexically_normal())));
+          return std::vector<std::byte>(B.begin(), B.end());
+        },
+        {});
+  }
+};
+
+TEST(SogFolder, AChunkNamedManyTimesIsReadOnce) {
+  const Scene S = randomScene(9, 0, 2);
+  Json Names, Leaves;
+  for (int I = 0; I < 600; ++I) {
+    // The same file under names that differ.
+    Names.push_back(I % 2 ? "c/meta.json" : "./c//meta.json");
+    Leaves.push_back(
+        {{"lods", {{"0", {{"file", I}, {"offset", 0}, {"count", S.size()}}}}}});
+  }
+  CountedFiles Files;
+  for (const auto &[Name, Content] : sogOf(S))
+    Files.Files["c/" + Name] = Content;
+  Files.Files["lod-meta.json"] = Json{
+      {"version", 1},
+      {"lodLevels", 1},
+      {"filenames", Names},
+      {"tree",
+       {{"children", Leaves}}}}.dump();
+  const auto Read = Files.read();
+  ASSERT_FALSE(Read);
+  EXPECT_NE(Read.error().What.find("twice, expected each file of a scene once"),
+            std::string::npos)
+      << Read.error().What;
+  EXPECT_LE(Files.Asked, 6U);
+}
+
+// The same pictures under another description are the same defect.
+TEST(SogFolder, PicturesNamedByManyChunksAreReadOnce) {
+  const Scene S = randomScene(9, 0, 2);
+  CountedFiles Files{sogOf(S)};
+  Json Names, Leaves;
+  for (int I = 0; I < 600; ++I) {
+    Names.push_back("meta" + std::to_string(I) + ".json");
+    Files.Files[Names.back()] = Files.Files["meta.json"];
+    Leaves.push_back(
+        {{"lods", {{"0", {{"file", I}, {"offset", 0}, {"count", S.size()}}}}}});
+  }
+  Files.Files["lod-meta.json"] = Json{
+      {"version", 1},
+      {"lodLevels", 1},
+      {"filenames", Names},
+      {"tree",
+       {{"children", Leaves}}}}.dump();
+  EXPECT_FALSE(Files.read());
+  EXPECT_LE(Files.Asked, 7U);
 }
 
 TEST(SogFolder, EachKindOfDamageHasItsMessage) {

@@ -52,7 +52,8 @@ TEST(Sog, TakesTheFilesThatItsDescriptionNames) {
   Meta["antialias"] = true;
   Files["meta.json"] = Meta.dump();
   const SceneFile Read = parsed(zipOf(Files));
-  EXPECT_TRUE(Read.Antialiased);
+  EXPECT_TRUE(Read.DrawnAs.Antialiased);
+  EXPECT_EQ(Read.DrawnAs.Said, "antialias true");
   EXPECT_LE(differencesOf(Read.Gaussians, S).Quat, 0.01);
 }
 

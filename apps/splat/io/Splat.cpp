@@ -14,7 +14,8 @@ constexpr float Plausible = 1e9F;
 
 } // namespace
 
-Expected<SceneFile> parseSplat(const std::string &Where, Bytes File) {
+Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
+                               const ReadOptions &Options) {
   if (File.size() % RecordSize != 0)
     return Error{Where, fmt::format("{} bytes and none of the other formats' "
                                     "marks, expected .splat records of {} "
@@ -30,9 +31,11 @@ Expected<SceneFile> parseSplat(const std::string &Where, Bytes File) {
     for (std::size_t A = 0; A < 3; ++A) {
       const auto Position = load<float>(Record, 4 * A);
       const auto Scale = load<float>(Record, 12 + 4 * A);
+      const bool Dropped = Options.DropNonFinite &&
+                           (!std::isfinite(Position) || !std::isfinite(Scale));
       // Written so that a NaN fails too.
-      if (!(std::abs(Position) <= Plausible) ||
-          !(Scale >= 0 && Scale <= Plausible))
+      if (!Dropped && (!(std::abs(Position) <= Plausible) ||
+                       !(Scale >= 0 && Scale <= Plausible)))
         return Error{Where,
                      fmt::format("record {} has position {} and scale {} on "
                                  "axis {}, expected a .splat file (numbers "
@@ -40,7 +43,9 @@ Expected<SceneFile> parseSplat(const std::string &Where, Bytes File) {
                                  I, Position, Scale, A)};
       S.Means[3 * I + A] = Position;
       S.LogScales[3 * I + A] =
-          std::log(std::max(Scale, std::numeric_limits<float>::min()));
+          Dropped
+              ? std::numeric_limits<float>::quiet_NaN()
+              : std::log(std::max(Scale, std::numeric_limits<float>::min()));
       S.Sh[3 * I + A] = shOfColor(byteAt(Record, 24 + A) / 255.0);
     }
     S.OpacityLogits[I] = Logits[byteAt(Record, 27)];

@@ -12,6 +12,7 @@ namespace vorion::splat {
 /// know it, so positions and scales beyond 1e9 and negative scales, which no
 /// scene has but text and other files soon do, are errors. A scale of zero
 /// becomes the smallest normal float, whose logarithm is finite.
-Expected<SceneFile> parseSplat(const std::string &Where, Bytes File);
+Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
+                               const ReadOptions &Options = {});
 
 } // namespace vorion::splat

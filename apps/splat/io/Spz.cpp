@@ -31,8 +31,15 @@ struct Header {
   std::size_t laterHarmonics() const {
     return 3 * (shCoefficients(ShDegree) - 1);
   }
+  /// Bytes of a Gaussian.
+  std::size_t each() const {
+    return 9 + 1 + 3 + 3 + rotationSize() + laterHarmonics();
+  }
+  /// Of all Gaussians; a count of 32 bits times that fits.
+  std::size_t bodySize() const { return Count * each(); }
 };
 
+/// Of the first bytes of \p File, whatever follows them.
 Expected<Header> readHeader(const std::string &Where, Bytes File) {
   if (File.size() < HeaderSize || load<std::uint32_t>(File, 0) != Magic)
     return Error{Where, "not an SPZ file, expected `NGSP` and a header of 16 "
@@ -60,14 +67,13 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
     return Error{Where, fmt::format("flags {:#04x} and reserved byte {:#04x}, "
                                     "expected no more than flag 0x01",
                                     Flags, byteAt(File, 15))};
-  const std::size_t Each =
-      9 + 1 + 3 + 3 + H.rotationSize() + H.laterHarmonics();
-  const std::size_t Body = File.size() - HeaderSize;
-  if (Body % Each != 0 || Body / Each != H.Count)
-    return Error{Where, fmt::format("{} bytes after the header, expected {} "
-                                    "Gaussians of {} bytes",
-                                    Body, H.Count, Each)};
   return H;
+}
+
+Error wrongSize(const std::string &Where, const Header &H, std::size_t Body) {
+  return {Where, fmt::format("{} bytes after the header, expected {} Gaussians "
+                             "of {} bytes",
+                             Body, H.Count, H.each())};
 }
 
 /// A little-endian signed number of 24 bits.
@@ -99,18 +105,16 @@ std::array<double, 4> unpackQuat3(Bytes B, std::size_t At) {
   return {Xyzw[3], Xyzw[0], Xyzw[1], Xyzw[2]};
 }
 
-Expected<SceneFile> decode(const std::string &Where, Bytes File) {
-  const auto H = readHeader(Where, File);
-  if (!H)
-    return H.error();
+/// \p Rest has as many bytes as \p H says.
+SceneFile decode(const Header &H, Bytes Rest) {
   SceneFile Result;
   Result.Format = SceneFormat::Spz;
-  Result.Version = H->Version;
-  Result.Antialiased = H->Antialiased;
-  const std::size_t Count = H->Count;
-  Scene &S = Result.Gaussians = Scene::sized(Count, H->ShDegree);
+  Result.Version = H.Version;
+  if (H.Antialiased)
+    Result.DrawnAs = {true, std::nullopt, "flag 0x01 of the SPZ header"};
+  const std::size_t Count = H.Count;
+  Scene &S = Result.Gaussians = Scene::sized(Count, H.ShDegree);
 
-  Bytes Rest = File.subspan(HeaderSize);
   const auto Take = [&Rest](std::size_t Size) {
     const Bytes Array = Rest.first(Size);
     Rest = Rest.subspan(Size);
@@ -118,19 +122,19 @@ Expected<SceneFile> decode(const std::string &Where, Bytes File) {
   };
   const Bytes Positions = Take(9 * Count), Opacities = Take(Count),
               Colors = Take(3 * Count), Scales = Take(3 * Count),
-              Rotations = Take(H->rotationSize() * Count),
-              Harmonics = Take(H->laterHarmonics() * Count);
-  const double Step = std::ldexp(1.0, -H->FractionalBits);
+              Rotations = Take(H.rotationSize() * Count),
+              Harmonics = Take(H.laterHarmonics() * Count);
+  const double Step = std::ldexp(1.0, -H.FractionalBits);
   for (std::size_t I = 0; I < 3 * Count; ++I) {
     S.Means[I] = static_cast<float>(signed24(Positions, 3 * I) * Step);
     S.LogScales[I] = static_cast<float>(byteAt(Scales, I)) / 16 - 10;
   }
   const auto &Logits = byteOpacityLogits();
-  const std::size_t Later = H->laterHarmonics(), ShEach = Later + 3;
+  const std::size_t Later = H.laterHarmonics(), ShEach = Later + 3;
   for (std::size_t I = 0; I < Count; ++I) {
     S.OpacityLogits[I] = Logits[byteAt(Opacities, I)];
-    const auto Quat = H->Version == 2 ? unpackQuat2(Rotations, 3 * I)
-                                      : unpackQuat3(Rotations, 4 * I);
+    const auto Quat = H.Version == 2 ? unpackQuat2(Rotations, 3 * I)
+                                     : unpackQuat3(Rotations, 4 * I);
     for (std::size_t K = 0; K < 4; ++K)
       S.Quats[4 * I + K] = static_cast<float>(Quat[K]);
     for (std::size_t C = 0; C < 3; ++C)
@@ -143,15 +147,38 @@ Expected<SceneFile> decode(const std::string &Where, Bytes File) {
   return Result;
 }
 
+Expected<SceneFile> unpackAndDecode(const std::string &Where, Bytes File) {
+  auto Stream = GzipReader::open(Where, File);
+  if (!Stream)
+    return Stream.error();
+  const auto Start = Stream->read(HeaderSize);
+  if (!Start)
+    return Start.error();
+  const auto H = readHeader(Where, *Start);
+  if (!H)
+    return H.error();
+  const auto Body = Stream->read(H->bodySize());
+  if (!Body)
+    return Body.error();
+  if (Body->size() != H->bodySize())
+    return wrongSize(Where, *H, Body->size());
+  if (auto Whole = Stream->finish(); !Whole)
+    return Whole.error();
+  return decode(*H, *Body);
+}
+
 } // namespace
 
 Expected<SceneFile> parseSpz(const std::string &Where, Bytes File) {
-  if (!isGzip(File))
-    return decode(Where, File);
-  const auto Unpacked = unpackGzip(Where, File);
-  if (!Unpacked)
-    return Unpacked.error();
-  return decode(Where, *Unpacked);
+  if (isGzip(File))
+    return unpackAndDecode(Where, File);
+  const auto H = readHeader(Where, File);
+  if (!H)
+    return H.error();
+  const Bytes Body = File.subspan(HeaderSize);
+  if (Body.size() != H->bodySize())
+    return wrongSize(Where, *H, Body.size());
+  return decode(*H, Body);
 }
 
 } // namespace vorion::splat

@@ -23,7 +23,7 @@ TEST(Spz, RoundTripsBothVersionsAtEveryDegree) {
       const Scene S = randomScene(100, Degree, 7);
       const SceneFile Read = parsed(gzipOf(spzBodyOf(S, Version)));
       EXPECT_EQ(Read.Version, Version);
-      EXPECT_FALSE(Read.Antialiased);
+      EXPECT_FALSE(Read.DrawnAs.Antialiased);
       const auto D = differencesOf(Read.Gaussians, S);
       EXPECT_LE(D.Mean, 0.5 / 4096 + 1e-6);
       EXPECT_LE(D.LogScale, 0.5 / 16 + 1e-6);
@@ -50,6 +50,17 @@ TEST(Spz, IsReadAsWellWithoutCompression) {
   EXPECT_EQ(parsed(Body).Gaussians.Quats, parsed(gzipOf(Body)).Gaussians.Quats);
 }
 
+TEST(Spz, AStreamThatGoesOnBeyondTheHeadersCountIsAnError) {
+  // One Gaussian, and then what Deflate packs a thousandfold.
+  std::string Body = spzBodyOf(randomScene(1, 0, 1), 3);
+  Body.resize(std::size_t(16) << 20);
+  const std::string File = gzipOf(Body);
+  const auto Read = parseScene("s", std::as_bytes(std::span(File)));
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().What, "the gzip stream goes on, expected no more than "
+                               "its header says");
+}
+
 TEST(Spz, BytesOfEachVersion) {
   std::string Body = spzBodyOf(randomScene(1, 0, 1), 3);
   const std::string Tail("\xff\xff\xff\x00\x10\x00\x00\x00\x80" // -1, 4096, min
@@ -62,7 +73,7 @@ TEST(Spz, BytesOfEachVersion) {
   Body[14] = 1; // trained with antialiasing
   const SceneFile Read = parsed(Body);
   const Scene &S = Read.Gaussians;
-  EXPECT_TRUE(Read.Antialiased);
+  EXPECT_TRUE(Read.DrawnAs.Antialiased);
   EXPECT_EQ(S.Means, (std::vector<float>{-1.0F / 4096, 1, -2048}));
   EXPECT_LT(activate<double>(S).Opacities[0], 1e-12);
   EXPECT_NEAR(S.Sh[0], -0.5 / 0.15, 1e-6);

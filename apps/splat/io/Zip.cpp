@@ -58,7 +58,7 @@ std::string ZipArchive::name(std::uint64_t Entry) const {
   return Name ? printable(Name) : "";
 }
 
-Expected<std::vector<std::byte>> ZipArchive::read(std::uint64_t Entry) const {
+Expected<std::vector<std::byte>> ZipArchive::read(std::uint64_t Entry) {
   const std::string Place = fmt::format("{}: {}", Where, name(Entry));
   const std::unique_ptr<zip_file_t, CloseEntry> F(
       zip_fopen_index(Handle.get(), Entry, 0));
@@ -67,7 +67,6 @@ Expected<std::vector<std::byte>> ZipArchive::read(std::uint64_t Entry) const {
                                     zip_strerror(Handle.get()))};
   std::vector<std::byte> Content;
   constexpr std::size_t Chunk = 1 << 16;
-  const std::size_t Limit = unpackLimit(Size);
   while (true) {
     const std::size_t Old = Content.size();
     Content.resize(Old + Chunk);
@@ -78,15 +77,15 @@ Expected<std::vector<std::byte>> ZipArchive::read(std::uint64_t Entry) const {
                                       zip_file_strerror(F.get()))};
     if (Got == 0)
       return Content;
-    if (Content.size() > Limit)
-      return Error{Place, fmt::format("an entry of more than {} bytes in an "
+    if (static_cast<std::size_t>(Got) > Left)
+      return Error{Place, fmt::format("more than {} bytes of entries in an "
                                       "archive of {}, expected less",
-                                      Limit, Size)};
+                                      unpackLimit(Size), Size)};
+    Left -= static_cast<std::size_t>(Got);
   }
 }
 
-Expected<std::vector<std::byte>>
-ZipArchive::read(const std::string &Name) const {
+Expected<std::vector<std::byte>> ZipArchive::read(const std::string &Name) {
   const zip_int64_t Entry = zip_name_locate(Handle.get(), Name.c_str(), 0);
   if (Entry < 0)
     return Error{fmt::format("{}: {}", Where, Name),

@@ -27,21 +27,24 @@ public:
   /// The name of an entry; empty if it has none.
   std::string name(std::uint64_t Entry) const;
   /// The content of an entry, checksum included. What the directory claims of
-  /// its size is not believed before the bytes are there, and no more than
-  /// \c unpackLimit of the archive's size is read.
-  Expected<std::vector<std::byte>> read(std::uint64_t Entry) const;
+  /// its size is not believed before the bytes are there, and of all entries
+  /// that are read no more than \c unpackLimit of the archive's size: several
+  /// may stand for the same bytes.
+  Expected<std::vector<std::byte>> read(std::uint64_t Entry);
   /// The content of the entry called \p Name.
-  Expected<std::vector<std::byte>> read(const std::string &Name) const;
+  Expected<std::vector<std::byte>> read(const std::string &Name);
 
 private:
   struct Discard {
     void operator()(zip *Z) const;
   };
   ZipArchive(std::string Where, std::size_t Size, zip *Z)
-      : Where(std::move(Where)), Size(Size), Handle(Z) {}
+      : Where(std::move(Where)), Size(Size), Left(unpackLimit(Size)),
+        Handle(Z) {}
 
   std::string Where;
   std::size_t Size;
+  std::size_t Left; ///< bytes that may still be unpacked
   std::unique_ptr<zip, Discard> Handle;
 };
 

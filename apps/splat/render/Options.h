@@ -76,6 +76,9 @@ struct RenderOptions {
   /// Spherical harmonics of higher bands are left out.
   int ShLimit = 3;
   bool Antialiased = false;
+  /// What decided that: an option, or what the scene's file says; empty where
+  /// nothing did.
+  std::string AntialiasedBy;
   /// Added to both variances on the picture, px^2: both conventions' low-pass.
   float Dilation = 0.3F;
   std::array<float, 3> Background{0, 0, 0};

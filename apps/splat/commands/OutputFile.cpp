@@ -1,0 +1,92 @@
+#include "OutputFile.h"
+
+#include "vorion/support/File.h"
+#include "vorion/support/Printable.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fmt/format.h>
+#include <system_error>
+
+namespace vorion::splat {
+namespace {
+
+/// Endings that promise a kind of file to whoever sees them.
+constexpr std::array<std::string_view, 19> KnownKinds{
+    ".ply",  ".spz",  ".splat", ".sog",  ".ksplat", ".png", ".jpg",
+    ".jpeg", ".webp", ".exr",   ".pfm",  ".npz",    ".npy", ".svg",
+    ".pdf",  ".html", ".csv",   ".json", ".glb"};
+
+Error badName(std::string_view Option, const std::string &File,
+              std::string_view What) {
+  return {"", fmt::format("{} {}: {}", Option, printable(File), What),
+          ExitCode::Usage};
+}
+
+std::string lowered(std::string Text) {
+  std::ranges::transform(Text, Text.begin(), [](unsigned char C) {
+    return static_cast<char>(std::tolower(C));
+  });
+  return Text;
+}
+
+/// The known kind that \p File's ending promises, or nothing.
+std::string_view promised(const std::string &File) {
+  const std::string Lower = lowered(File);
+  const auto Kind =
+      std::ranges::find_if(KnownKinds, [&](std::string_view Ending) {
+        return Lower.ends_with(Ending);
+      });
+  return Kind == KnownKinds.end() ? std::string_view() : *Kind;
+}
+
+/// Standard output, a device or a pipe, whose name promises nothing.
+bool isStream(const std::string &File) {
+  std::error_code Ignored;
+  const std::filesystem::file_status Status =
+      std::filesystem::status(File, Ignored);
+  return File == StandardOutput || (std::filesystem::exists(Status) &&
+                                    !std::filesystem::is_regular_file(Status) &&
+                                    !std::filesystem::is_directory(Status));
+}
+
+} // namespace
+
+Expected<Success> checkEnding(std::string_view Option, const std::string &File,
+                              std::initializer_list<std::string_view> Endings) {
+  const auto Ends = [&File](std::string_view E) { return File.ends_with(E); };
+  // Another format, whose ending ends with PLY's.
+  constexpr std::string_view CompressedPly = ".compressed.ply";
+  if (File.empty() || isStream(File) ||
+      (std::ranges::any_of(Endings, Ends) &&
+       !lowered(File).ends_with(CompressedPly)))
+    return Success{};
+  std::string Listed;
+  for (const std::string_view &E : Endings)
+    Listed += fmt::format("{}{}",
+                          &E == Endings.begin()     ? ""
+                          : &E + 1 == Endings.end() ? " or "
+                                                    : ", ",
+                          E);
+  return badName(Option, File,
+                 fmt::format("unknown kind of file, expected {}", Listed));
+}
+
+Expected<Success> checkJsonName(const std::string &File) {
+  const std::string_view Kind = promised(File);
+  if (Kind.empty() || Kind == ".json")
+    return Success{};
+  return badName("--json", File, "is JSON, expected .json");
+}
+
+Expected<Success> checkPrefix(std::string_view Option,
+                              const std::string &Prefix) {
+  if (promised(Prefix).empty())
+    return Success{};
+  return badName(Option, Prefix,
+                 "begins several names, expected one without an ending");
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,137 @@
+#include "Drawing.h"
+
+#include "Bytes.h"
+
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+namespace {
+
+constexpr std::string_view ModeKey = "splatrendermode:";
+constexpr std::string_view FlagKey = "antialiased ";
+constexpr std::string_view DilationKey = "dilation:";
+/// What Brush dilates by where it compensates, as Mip-Splatting does.
+constexpr double BrushDilation = 0.1;
+
+std::string_view trimmed(std::string_view Text) {
+  const std::size_t First = Text.find_first_not_of(" \t");
+  if (First == std::string_view::npos)
+    return {};
+  return Text.substr(First, Text.find_last_not_of(" \t") - First + 1);
+}
+
+std::string lowered(std::string_view Text) {
+  std::string Lower(trimmed(Text));
+  for (char &C : Lower)
+    if (C >= 'A' && C <= 'Z')
+      C = static_cast<char>(C - 'A' + 'a');
+  return Lower;
+}
+
+/// The value after \p Key, if \p Text begins with it.
+std::optional<std::string_view> after(std::string_view Key,
+                                      std::string_view Text) {
+  if (!Text.starts_with(Key))
+    return std::nullopt;
+  return trimmed(Text.substr(Key.size()));
+}
+
+Error unknown(const std::string &Where, std::string_view Said,
+              std::string_view Expected) {
+  return {Where, fmt::format("{} calls for a way of drawing that is not known, "
+                             "expected {}",
+                             printable(Said), Expected)};
+}
+
+/// Takes one comment of those that say something into \p D.
+std::optional<Error> take(const std::string &Where, std::string_view Comment,
+                          Drawing &D) {
+  const std::string Lower = lowered(Comment);
+  const auto Said = [Comment] {
+    return "comment " + printable(trimmed(Comment));
+  };
+  if (const auto Mode = after(ModeKey, Lower)) {
+    if (*Mode == "2dgs")
+      return flatGaussians(Where, Said());
+    if (*Mode != "default" && *Mode != "mip")
+      return unknown(Where, Said(), "SplatRenderMode: default or mip");
+    D.Antialiased = *Mode == "mip";
+    D.Said = Said();
+  } else if (const auto Flag = after(FlagKey, Lower)) {
+    // Another word makes it a sentence about something.
+    if (*Flag != "0" && *Flag != "1")
+      return std::nullopt;
+    D.Antialiased = *Flag == "1";
+    D.Said = Said();
+  } else if (const auto Value = after(DilationKey, Lower)) {
+    double Dilation = 0;
+    const auto [End, Status] =
+        std::from_chars(Value->begin(), Value->end(), Dilation);
+    if (Status != std::errc() || End != Value->end() ||
+        !(Dilation >= 0 && std::isfinite(Dilation)))
+      return unknown(Where, Said(), "a variance of 0 px^2 or more");
+    D.Dilation = Dilation;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Expected<Drawing> drawingOfComments(const std::string &Where,
+                                    std::span<const std::string> Comments) {
+  Drawing D;
+  bool FromBrush = false;
+  for (const std::string &Comment : Comments) {
+    FromBrush |= lowered(Comment) == "exported from brush";
+    if (auto Wrong = take(Where, Comment, D))
+      return *Wrong;
+  }
+  if (FromBrush && D.Antialiased && !D.Dilation)
+    D.Dilation = BrushDilation;
+  return D;
+}
+
+Expected<Drawing> drawingOfModel(const std::string &Where,
+                                 std::string_view Model) {
+  const std::string Said = fmt::format("model {}", printable(Model));
+  if (Model == "2dgs")
+    return flatGaussians(Where, Said);
+  if (Model != "default" && Model != "antialiased")
+    return unknown(Where, Said, "model default or antialiased");
+  return Drawing{Model == "antialiased", std::nullopt, Said};
+}
+
+Error flatGaussians(const std::string &Where, std::string_view Said) {
+  return {Where, fmt::format("{} calls for 2D Gaussians (2DGS), which are not "
+                             "supported, expected Gaussians of three axes",
+                             Said)};
+}
+
+Drawing overruled(Drawing D, const DrawingRequest &R) {
+  if (R.Antialiased) {
+    const bool Against = *R.Antialiased != D.Antialiased;
+    std::string Said = *R.Antialiased ? "--antialiased" : "--no-antialiased";
+    if (Against && !D.Said.empty())
+      Said += ", against " + D.Said;
+    if (Against) // what the file dilates by belongs to its way
+      D.Dilation.reset();
+    D.Antialiased = *R.Antialiased;
+    D.Said = std::move(Said);
+  }
+  if (R.Dilation)
+    D.Dilation = R.Dilation;
+  return D;
+}
+
+std::string drawingComments(const Drawing &D) {
+  std::string Lines;
+  if (D.Antialiased)
+    Lines += "comment SplatRenderMode: mip\n";
+  if (D.Dilation)
+    Lines += fmt::format("comment Dilation: {}\n", *D.Dilation);
+  return Lines;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,165 @@
+// What files say of how a scene is to be drawn, and what becomes of it.
+#include "Drawing.h"
+#include "Ply.h"
+#include "SceneWriters.h"
+#include "TestFiles.h"
+
+#include <nlohmann/json.hpp>
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+using Json = nlohmann::json;
+
+Expected<Drawing> of(const std::vector<std::string> &Comments) {
+  return drawingOfComments("file", Comments);
+}
+
+TEST(Drawing, CommentsOfEachProgramAreKnown) {
+  const struct {
+    std::vector<std::string> Comments;
+    bool Antialiased;
+    const char *Said;
+  } Cases[] = {
+      {{}, false, ""},
+      {{" Exported from Brush", " SH degree: 3"}, false, ""},
+      {{" SplatRenderMode: mip"}, true, "comment SplatRenderMode: mip"},
+      {{" SplatRenderMode: default"},
+       false,
+       "comment SplatRenderMode: default"},
+      {{"   SPLATRENDERMODE:   MIP\t"}, true, "comment SPLATRENDERMODE:   MIP"},
+      {{" antialiased 1"}, true, "comment antialiased 1"},
+      {{" antialiased 0"}, false, "comment antialiased 0"},
+      {{" antialiased photographs"}, false, ""},
+      // The last one counts.
+      {{" antialiased 1", " SplatRenderMode: default"},
+       false,
+       "comment SplatRenderMode: default"},
+      {{" SplatRenderMode: default", " antialiased 1"},
+       true,
+       "comment antialiased 1"}};
+  for (const auto &Case : Cases) {
+    const auto D = of(Case.Comments);
+    ASSERT_TRUE(D) << D.error().What;
+    EXPECT_EQ(D->Antialiased, Case.Antialiased) << Case.Said;
+    EXPECT_EQ(D->Said, Case.Said);
+    EXPECT_FALSE(D->Dilation);
+  }
+}
+
+TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
+  for (const char *Comment :
+       {" SplatRenderMode: 2dgs", " splatrendermode:2DGS"}) {
+    const auto D = of({Comment});
+    ASSERT_FALSE(D);
+    EXPECT_EQ(D.error().Code, ExitCode::InputFile);
+    EXPECT_NE(
+        D.error().What.find("calls for 2D Gaussians (2DGS), which are not "
+                            "supported"),
+        std::string::npos)
+        << D.error().What;
+  }
+  const auto Other = of({" SplatRenderMode: banana\x1b[31m"});
+  ASSERT_FALSE(Other);
+  EXPECT_EQ(Other.error().What,
+            "comment SplatRenderMode: banana?[31m calls for a way of drawing "
+            "that is not known, expected SplatRenderMode: default or mip");
+  EXPECT_FALSE(of({" Dilation: much"}));
+  EXPECT_FALSE(of({" Dilation: -1"}));
+}
+
+TEST(Drawing, BrushsFilesAreDilatedAsBrushDoes) {
+  const auto Mip = of({" Exported from Brush", " SplatRenderMode: mip"});
+  ASSERT_TRUE(Mip);
+  EXPECT_EQ(Mip->Dilation, 0.1);
+  const auto Classic =
+      of({" Exported from Brush", " SplatRenderMode: default"});
+  ASSERT_TRUE(Classic);
+  EXPECT_FALSE(Classic->Dilation);
+}
+
+TEST(Drawing, TheUserDecidesAgainstTheFile) {
+  const Drawing Mip{true, 0.1, "comment SplatRenderMode: mip"};
+  const Drawing Classic = overruled(Mip, {false, {}});
+  EXPECT_FALSE(Classic.Antialiased);
+  EXPECT_FALSE(Classic.Dilation);
+  EXPECT_EQ(Classic.Said,
+            "--no-antialiased, against comment SplatRenderMode: mip");
+  const Drawing Same = overruled(Mip, {true, 0.2});
+  EXPECT_TRUE(Same.Antialiased);
+  EXPECT_EQ(Same.Dilation, 0.2);
+  EXPECT_EQ(Same.Said, "--antialiased");
+  EXPECT_EQ(overruled({}, {true, {}}).Said, "--antialiased");
+  EXPECT_EQ(overruled(Mip, {}).Said, Mip.Said);
+}
+
+TEST(Drawing, APlySaysWhatItsSceneWas) {
+  const TestFolder Root;
+  const Scene S = numberedScene(4, 1);
+  for (const Drawing &D :
+       {Drawing{}, Drawing{true, {}, "x"}, Drawing{true, 0.1, "x"}}) {
+    ASSERT_TRUE(writePly(Root.path("s.ply"), S, D));
+    const auto Read = readScene(Root.path("s.ply"));
+    ASSERT_TRUE(Read) << Read.error().What;
+    EXPECT_TRUE(Read->DrawnAs.isAs(D));
+    EXPECT_EQ(Read->Gaussians.Sh, S.Sh);
+  }
+}
+
+/// \p Text with \p Line after its first line.
+std::string withLine(std::string Text, const std::string &Line) {
+  return Text.insert(Text.find('\n') + 1, Line + "\n");
+}
+
+TEST(Drawing, EveryFormatThatCanSayItIsHeard) {
+  const TestFolder Root;
+  const Scene S = randomScene(5, 1, 1);
+  const std::string Compressed = Root.write(
+      "c.ply", withLine(compressedPlyOf(S), "comment SplatRenderMode: mip"));
+  const auto Read = readScene(Compressed);
+  ASSERT_TRUE(Read) << Read.error().What;
+  EXPECT_TRUE(Read->DrawnAs.Antialiased);
+
+  const auto Sog = [&](const Json &Extra) {
+    Folder Files = sogOf(S);
+    Json Meta = Json::parse(Files["meta.json"]);
+    Meta.update(Extra);
+    Files["meta.json"] = Meta.dump();
+    return readScene(Root.write("s.sog", zipOf(Files)));
+  };
+  const auto Named = Sog({{"model", "antialiased"}});
+  ASSERT_TRUE(Named) << Named.error().What;
+  EXPECT_TRUE(Named->DrawnAs.Antialiased);
+  EXPECT_EQ(Named->DrawnAs.Said, "model antialiased");
+  const auto Default = Sog({{"model", "default"}, {"antialias", nullptr}});
+  ASSERT_TRUE(Default);
+  EXPECT_FALSE(Default->DrawnAs.Antialiased);
+  const std::pair<Json, const char *> Refused[] = {
+      {{{"model", "2dgs"}}, "model 2dgs calls for 2D Gaussians"},
+      {{{"model", "5dgs"}}, "way of drawing that is not known"},
+      {{{"model", 2}}, "model is no name"},
+      {{{"antialias", "yes"}}, "antialias is no truth value"},
+      {{{"model", "default"}, {"antialias", true}}, "contradict each other"}};
+  for (const auto &[Extra, Message] : Refused) {
+    const auto Bad = Sog(Extra);
+    ASSERT_FALSE(Bad) << Message;
+    EXPECT_NE(Bad.error().What.find(Message), std::string::npos)
+        << Bad.error().What;
+  }
+}
+
+TEST(Drawing, APlyOfFlatGaussiansIsRefusedByName) {
+  const TestFolder Root;
+  std::string Flat = formatPly(numberedScene(2, 0));
+  const std::string Line = "property float scale_2\n";
+  Flat.replace(Flat.find(Line), Line.size(), "property float other\n");
+  const auto Read = readScene(Root.write("s.ply", Flat));
+  ASSERT_FALSE(Read);
+  EXPECT_NE(Read.error().What.find("2D Gaussians (2DGS)"), std::string::npos)
+      << Read.error().What;
+}
+
+} // namespace
