@@ -124,9 +124,13 @@ int main(int Count, char **Values) {
   App.add_option("--precision", A.Precision, "Of all arithmetic")
       ->check(CLI::IsMember({"f64", "f32"}))
       ->capture_default_str();
-  App.add_flag("--antialiased,!--no-antialiased", A.Read.Drawn.Antialiased,
-               "Compensate opacity for the dilation, or do not (default: as "
-               "the scene's file says)");
+  App.add_flag_callback(
+      "--antialiased", [&A] { A.Read.Drawn.Antialiased = true; },
+      "Compensate opacity for the dilation (default: as the scene's file "
+      "says)");
+  App.add_flag_callback(
+      "--no-antialiased", [&A] { A.Read.Drawn.Antialiased = false; },
+      "Do not, whatever the file says");
   App.add_option("--dilation", A.Read.Drawn.Dilation,
                  "Added to both variances on the picture, px^2 (default: as "
                  "the scene's file says, or 0.3)")

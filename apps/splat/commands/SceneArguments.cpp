@@ -26,9 +26,15 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
   App.add_flag("--drop-nonfinite", A.Options.DropNonFinite,
                "Leave out Gaussians with a NaN or an infinity, and count them "
                "(default: they are an error)");
-  App.add_flag("--antialiased,!--no-antialiased", A.Options.Drawn.Antialiased,
-               "Compensate opacity for the dilation, or do not (default: as "
-               "the scene's file says; without a word in it, do not)");
+  std::optional<bool> &Antialiased = A.Options.Drawn.Antialiased;
+  CLI::Option *Yes = App.add_flag_callback(
+      "--antialiased", [&Antialiased] { Antialiased = true; },
+      "Compensate opacity for the dilation (default: as the scene's file "
+      "says; without a word in it, do not)");
+  App.add_flag_callback(
+         "--no-antialiased", [&Antialiased] { Antialiased = false; },
+         "Do not, whatever the file says")
+      ->excludes(Yes);
   App.add_option("--dilation", A.Options.Drawn.Dilation,
                  "Added to both variances on the picture (default: as the "
                  "scene's file says, or 0.3)")

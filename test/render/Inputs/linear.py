@@ -3,30 +3,28 @@
 times as many: what is linear takes ten times, or less where something is done once; what looks through everything for
 each thing takes a hundred times.
 
-usage: linear.py READER_WORK FOLDER LIMIT"""
+usage: linear.py READER_WORK FOLDER LIMIT, which leaves its files in FOLDER"""
 import os
 import re
 import subprocess
 import sys
 
 program, folder, limit = sys.argv[1], sys.argv[2], float(sys.argv[3])
-out = os.path.join(folder, "callgrind.out")
-# Collects within the call alone, and writes a file of its own at each call's end.
-said = subprocess.run(
-    ["valgrind", "--tool=callgrind", "--toggle-collect=readOnce*", "--dump-after=readOnce*", f"--callgrind-out-file={out}", program],
-    check=True, capture_output=True, text=True).stdout.split("\n")
-calls = [line.split() for line in said if line]
-
-
-def instructions(number):
-    with open(f"{out}.{number}") as dump:
-        return int(re.search(r"^(?:summary|totals): (\d+)", dump.read(), re.M).group(1))
-
+# valgrind cannot read clang's debug information; names are enough.
+bare, out = os.path.join(folder, "reader-work"), os.path.join(folder, "callgrind.out")
+subprocess.run(["llvm-strip", "--strip-debug", "-o", bare, program], check=True)
+said = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=bool readOnce*", f"--callgrind-out-file={out}", bare],
+                      check=True, capture_output=True, text=True).stdout
+calls = [line.split() for line in said.splitlines()]
+annotated = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", out], check=True, capture_output=True,
+                           text=True).stdout
+counts = {int(number): int(count.replace(",", ""))
+          for count, number in re.findall(r"^ *([\d,]+) .*?bool readOnce<(\d+)ul>", annotated, re.M)}
 
 slow = []
 for place in range(0, len(calls), 2):
     (name, small), (_, large) = calls[place], calls[place + 1]
-    few, many = instructions(place + 1), instructions(place + 2)
+    few, many = counts[place], counts[place + 1]
     print(f"{name}: {few} instructions for {small}, {many} for {large}, {many / few:.1f} times")
     if not few < many <= limit * few:
         slow.append(name)

@@ -1,6 +1,6 @@
 // splat-reader-work: has every reader read something of one size and of ten
-// times the size, each in a call of readOnce(). test/render/Inputs/linear.py
-// counts the instructions of these calls.
+// times the size, each in a readOnce() of its own number.
+// test/render/Inputs/linear.py counts the instructions of these.
 #include "../../io/testing/SceneWriters.h"
 #include "CaptureWriters.h"
 #include "Colmap.h"
@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -24,11 +25,22 @@ using Json = nlohmann::json;
 /// Whether what was read is right; asked so that nothing is left out.
 using Reading = std::function<bool()>;
 
-/// Under a name of its own, by which the work is counted.
-[[gnu::noinline]] bool readOnce(const Reading &Read);
-bool readOnce(const Reading &Read) { return Read(); }
+/// Each call under a name of its own, by which its work is counted.
+template <std::size_t Call>
+[[gnu::noinline]] bool readOnce(const Reading &Read) {
+  return Read();
+}
 
 namespace {
+
+constexpr std::size_t MostCalls = 40;
+
+/// Calls the readOnce() of number \p Call.
+template <std::size_t... Calls>
+bool readNumbered(std::size_t Call, const Reading &Read,
+                  std::index_sequence<Calls...> /*All*/) {
+  return ((Calls == Call && readOnce<Calls>(Read)) || ...);
+}
 
 /// One reader, and how to make what takes it \p Size of work.
 struct Reader {
@@ -234,10 +246,11 @@ Expected<Success> run() {
   const auto Folder = TemporaryFolder::make("splat-reader-work");
   if (!Folder)
     return Folder.error();
+  std::size_t Call = 0;
   for (const Reader &R : readers(Folder->path()))
     for (const std::size_t Times : {1, 10}) {
       const Reading Read = R.Prepare(Times * R.Size);
-      if (!readOnce(Read))
+      if (!readNumbered(Call++, Read, std::make_index_sequence<MostCalls>()))
         return Error{R.Name, "not read as it should be", ExitCode::Internal};
       fmt::print("{} {}\n", R.Name, Times * R.Size);
     }
