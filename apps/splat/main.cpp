@@ -1,11 +1,13 @@
 // splat: renders 3D Gaussian scenes on an OpenCL device.
 
 #include "commands/Commands.h"
+#include "device/Programs.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Tool.h"
 
 #include <cstdlib>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,10 +16,20 @@ namespace {
 
 using namespace vorion;
 
+/// "splat 0.1.0, programs 0123456789abcdef".
+std::string programsText() {
+  const auto Programs = splat::hashPrograms();
+  return fmt::format("splat " VORION_VERSION ", programs {}",
+                     Programs ? *Programs : Programs.error().What);
+}
+
 int run(std::vector<std::string> Arguments) {
   CLI::App App("Renders 3D Gaussian scenes on an OpenCL device.", "splat");
   App.footer(std::string(ExitCodeHelp));
   App.require_subcommand(1);
+  App.set_version_flag("--version", programsText,
+                       "Print the version, and a hash of all programs that "
+                       "results depend on");
   // Of the device, which reads the environment; after a command too.
   std::string Set;
   App.add_option("--set", Set,

@@ -10,12 +10,12 @@
 
 namespace vorion::splat {
 
-/// The times that a setting may be judged by.
-enum class TimeAxis { Cycles, EqualArea, Cores, Wall };
-inline constexpr std::size_t TimeAxes = 4;
+/// The times that a setting may be judged by: counts, which every run repeats.
+enum class TimeAxis { Cycles, EqualArea, Cores };
+inline constexpr std::size_t TimeAxes = 3;
 /// Their names in files.
 inline constexpr std::array<std::string_view, TimeAxes> TimeAxisNames{
-    "cycles", "equal_area_cycles", "cores_cycles", "wall_seconds"};
+    "cycles", "equal_area_cycles", "cores_cycles"};
 
 /// A setting over several views.
 struct Candidate {

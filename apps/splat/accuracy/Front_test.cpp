@@ -8,7 +8,7 @@ using namespace vorion::splat;
 namespace {
 
 Candidate made(const char *Name, double Db, double Cycles) {
-  return {*Setting::parse(Name), Db, {Cycles, Cycles, std::nullopt, 1.0}};
+  return {*Setting::parse(Name), Db, {Cycles, Cycles, std::nullopt}};
 }
 
 const std::vector<Candidate> All{

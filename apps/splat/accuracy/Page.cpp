@@ -22,16 +22,18 @@ static std::string filled(std::string_view Template, const Json &Data) {
                       forScript(jsonText(Data)));
 }
 
-Expected<std::string> pageOf(const SweepPlan &P, const PageHead &Head,
+Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
+                             const PageHead &Head,
                              const std::vector<Setting> &Settings) {
   Json Views = Json::array(), Points = Json::array();
   for (const Camera &View : P.Views)
     Views.push_back(View.Name);
   for (const Point &Of : pointsOf(P, Settings)) {
-    auto Measured = readPoint(P, Of);
+    auto Measured = readPoint(P, Kept, Of);
     if (!Measured)
       return Measured.error();
-    Measured->erase("made_by");
+    for (const char *Key : {"made_by", "made_from"})
+      Measured->erase(Key);
     Points.push_back(std::move(*Measured));
   }
   const Json Data{{"made", Head.Made},

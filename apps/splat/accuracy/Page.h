@@ -21,8 +21,9 @@ struct PageHead {
   std::vector<std::string> ChosenOn; ///< views that choose the recommended one
 };
 
-/// The page of \p Settings on all views, from the points' files.
-Expected<std::string> pageOf(const SweepPlan &P, const PageHead &Head,
+/// The page of \p Settings on all views, all of which are measured.
+Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
+                             const PageHead &Head,
                              const std::vector<Setting> &Settings);
 
 /// The page of trainResults() (TrainSweep.h); \p Made: a line, what made it.

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -26,6 +26,15 @@ Expected<Json> readJson(const std::string &Path) {
   return vorion::readJson<Json>(Path, "what splat wrote there");
 }
 
+bool hasNumber(const Json &J, const char *Key) {
+  return J.is_object() && J.contains(Key) && J[Key].is_number();
+}
+
+bool hasNumberOrNull(const Json &J, const char *Key) {
+  return hasNumber(J, Key) ||
+         (J.is_object() && J.contains(Key) && J[Key].is_null());
+}
+
 Expected<Success> makeFolders(const std::string &Folder) {
   for (const char *Name : {"points", "work", "references"}) {
     std::error_code Problem;
@@ -38,30 +47,78 @@ Expected<Success> makeFolders(const std::string &Folder) {
   return Success{};
 }
 
+KeptPoints::KeptPoints(std::string Where,
+                       std::function<bool(const Json &)> IsOne,
+                       std::function<void(std::string_view)> Say)
+    : Folder(std::move(Where)), IsMeasurement(std::move(IsOne)),
+      Said(std::move(Say)) {}
+
+std::string KeptPoints::fileOf(const std::string &Name) const {
+  return fmt::format("{}/points/{}.json", Folder, asFileName(Name));
+}
+
+std::string KeptPoints::problem(const std::string &Name,
+                                const Expected<Json> &Read,
+                                const Origin &From) const {
+  if (!Read)
+    return Read.error().What;
+  if (!Read->is_object() || Read->value("point", Json()) != Name)
+    return "another point, expected the one of that name";
+  if (const auto Other = difference(Read->value("made_from", Json()), From);
+      !Other.empty())
+    return fmt::format("stale, differs in {}", Other);
+  return IsMeasurement(*Read) ? "" : "damaged, expected what a sweep wrote";
+}
+
+const Json *KeptPoints::find(const std::string &Name, const Origin &From) {
+  const auto [At, IsNew] = Known.try_emplace(Name);
+  std::error_code Ignored;
+  if (IsNew && std::filesystem::exists(fileOf(Name), Ignored)) {
+    auto Read = readJson(fileOf(Name));
+    if (const std::string Why = problem(Name, Read, From); !Why.empty())
+      Said(fmt::format("{}: {}: not used", fileOf(Name), Why));
+    else
+      At->second = std::move(*Read);
+  }
+  return At->second.is_null() ? nullptr : &At->second;
+}
+
+Expected<Success> KeptPoints::keep(const std::string &Name, const Origin &From,
+                                   Json Measured) {
+  Json Point{{"point", Name}, {"made_from", From}};
+  Point.update(Measured);
+  if (!IsMeasurement(Point))
+    return Error{Name, "figures are missing or are no finite numbers, expected "
+                       "a measurement"};
+  if (auto Written =
+          writeFileAtomically(fileOf(Name), jsonText(Point, 1) + "\n");
+      !Written)
+    return Written;
+  Known[Name] = std::move(Point);
+  return Success{};
+}
+
 Expected<Success>
-measureAll(const std::vector<Measuring> &Wanted, unsigned Jobs,
-           const std::function<void(std::string_view)> &Said) {
+measureAll(KeptPoints &Kept, const std::vector<Measuring> &Wanted,
+           unsigned Jobs, const std::function<void(std::string_view)> &Said) {
   std::atomic<std::size_t> Next = 0;
   std::mutex Lock;
-  std::size_t Done = 0;
+  std::size_t Count = 0;
   std::optional<Error> Failure;
   const auto Work = [&] {
     for (std::size_t I = Next++; I < Wanted.size(); I = Next++) {
       auto Measured = Wanted[I].Measure();
-      std::optional<Error> Problem;
-      if (!Measured)
-        Problem = Measured.error();
-      else if (auto Kept = writeFileAtomically(Wanted[I].File,
-                                               jsonText(*Measured, 1) + "\n");
-               !Kept)
-        Problem = Kept.error();
       const std::lock_guard Guard(Lock);
-      if (Problem) {
-        Failure = Problem;
+      if (!Measured)
+        Failure = Measured.error();
+      else if (auto Done = Kept.keep(Wanted[I].Name, Wanted[I].From, *Measured);
+               !Done)
+        Failure = Done.error();
+      if (Failure) {
         Next = Wanted.size();
         return;
       }
-      Said(fmt::format("[{}/{}] {}: {}", ++Done, Wanted.size(), Wanted[I].Name,
+      Said(fmt::format("[{}/{}] {}: {}", ++Count, Wanted.size(), Wanted[I].Name,
                        Wanted[I].Say(*Measured)));
     }
   };

@@ -2,10 +2,12 @@
 /// stopped.
 #pragma once
 
+#include "Origin.h"
 #include "vorion/support/Expected.h"
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,20 +20,59 @@ std::string asFileName(std::string Name);
 /// A JSON file that splat wrote.
 Expected<nlohmann::ordered_json> readJson(const std::string &Path);
 
+/// Whether key \p Key of \p J, which may be anything, is a number.
+bool hasNumber(const nlohmann::ordered_json &J, const char *Key);
+/// The same, or null, which stands for a number that JSON has not.
+bool hasNumberOrNull(const nlohmann::ordered_json &J, const char *Key);
+
 /// Makes the folders of a sweep below \p Folder.
 Expected<Success> makeFolders(const std::string &Folder);
 
-/// A measurement, made by \c Measure, of which a line is said.
+/// The measurements of a sweep: each has a name, a file, and what it was made
+/// from.
+class KeptPoints {
+public:
+  using Json = nlohmann::ordered_json;
+
+  /// Those of \p Folder. \p IsMeasurement says of any object whose "point" is
+  /// the point's name whether the rest is a measurement of it; \p Said gets a
+  /// line for each file that is not used.
+  KeptPoints(std::string Folder,
+             std::function<bool(const Json &)> IsMeasurement,
+             std::function<void(std::string_view)> Said);
+
+  /// The measurement called \p Name if it was made from \p From. Each file is
+  /// read once.
+  const Json *find(const std::string &Name, const Origin &From);
+  /// Writes \p Measured and has it from now on.
+  Expected<Success> keep(const std::string &Name, const Origin &From,
+                         Json Measured);
+
+private:
+  std::string fileOf(const std::string &Name) const;
+  /// Why the file called \p Name does not serve, or nothing.
+  std::string problem(const std::string &Name, const Expected<Json> &Read,
+                      const Origin &From) const;
+
+  std::string Folder;
+  std::function<bool(const Json &)> IsMeasurement;
+  std::function<void(std::string_view)> Said;
+  /// By name; null where no file serves.
+  std::map<std::string, Json> Known;
+};
+
+/// A measurement to be made, by \c Measure, of which a line is said.
 struct Measuring {
-  std::string Name, File;
+  std::string Name;
+  Origin From;
   std::function<Expected<nlohmann::ordered_json>()> Measure;
   std::function<std::string(const nlohmann::ordered_json &)> Say;
 };
 
-/// Measures all of \p Wanted, \p Jobs at a time, and writes a file each;
-/// \p Said gets a line for each one that is done. Ends with the first that
-/// fails.
-Expected<Success> measureAll(const std::vector<Measuring> &Wanted,
+/// Measures all of \p Wanted, \p Jobs at a time, and keeps them; \p Said gets a
+/// line for each one that is done. Ends with the first that fails.
+Expected<Success> measureAll(KeptPoints &Kept,
+                             const std::vector<Measuring> &Wanted,
                              unsigned Jobs,
                              const std::function<void(std::string_view)> &Said);
 

@@ -4,18 +4,16 @@
 #include "../io/Npz.h"
 #include "reference/Render.h"
 
-#include <filesystem>
 #include <fmt/format.h>
 #include <optional>
-#include <set>
 
 namespace vorion::splat {
 
 namespace {
 
 std::string referenceFile(const SweepPlan &P, const Point &Of) {
-  return fmt::format("{}/references/{}-{}.npz", P.Folder, Of.View->Id,
-                     Of.Chosen.value("support"));
+  return fmt::format("{}/references/{}-{}.npz", P.Folder,
+                     asFileName(Of.View->Name), Of.Chosen.value("support"));
 }
 
 reference::Support supportOf(const Setting &S) {
@@ -24,6 +22,24 @@ reference::Support supportOf(const Setting &S) {
     if (name(R) == S.value("support"))
       return R;
   return reference::Support::Exact;
+}
+
+Expected<Success> writeReference(const std::string &Path,
+                                 const reference::Gaussians<double> &Scene,
+                                 const Camera &View, reference::Support Reach,
+                                 const Drawing &DrawnAs) {
+  reference::Options O;
+  O.Reach = Reach;
+  O.Antialiased = DrawnAs.Antialiased;
+  O.Dilation = DrawnAs.Dilation.value_or(O.Dilation);
+  const auto Picture = reference::render(Scene, toReference<double>(View), O);
+  std::vector<double> Render;
+  Render.reserve(3 * Picture.Render.size());
+  for (const auto &Pixel : Picture.Render)
+    Render.insert(Render.end(), {Pixel.x, Pixel.y, Pixel.z});
+  const auto Height = static_cast<std::size_t>(Picture.Height);
+  const auto Width = static_cast<std::size_t>(Picture.Width);
+  return writeNpz(Path, {{"render", NpyArray::of({Height, Width, 3}, Render)}});
 }
 
 } // namespace
@@ -35,33 +51,23 @@ makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
   Drawing DrawnAs;
   for (const Point &Of : Points) {
     const std::string Path = referenceFile(P, Of);
-    if (std::filesystem::exists(Path))
-      continue;
-    if (!Scene) {
-      const auto File = P.Load();
-      if (!File)
-        return File.error();
-      Scene = toReference<double>(File->Gaussians);
-      DrawnAs = File->DrawnAs;
-    }
-    reference::Options O;
-    O.Reach = supportOf(Of.Chosen);
-    O.Antialiased = DrawnAs.Antialiased;
-    O.Dilation = DrawnAs.Dilation.value_or(O.Dilation);
-    const auto Picture =
-        reference::render(*Scene, toReference<double>(*Of.View), O);
-    std::vector<double> Render;
-    Render.reserve(3 * Picture.Render.size());
-    for (const auto &Pixel : Picture.Render)
-      Render.insert(Render.end(), {Pixel.x, Pixel.y, Pixel.z});
-    const auto Height = static_cast<std::size_t>(Picture.Height);
-    const auto Width = static_cast<std::size_t>(Picture.Width);
-    if (auto Written = writeNpz(
-            Path, {{"render", NpyArray::of({Height, Width, 3}, Render)}});
-        !Written)
-      return Written;
-    Said(fmt::format("reference of {}, support {}", Of.View->Name,
-                     name(O.Reach)));
+    const reference::Support Reach = supportOf(Of.Chosen);
+    Origin From = originOf(P, Of);
+    From["support"] = name(Reach);
+    const auto Make = [&]() -> Expected<Success> {
+      if (!Scene) {
+        const auto File = P.Load();
+        if (!File)
+          return File.error();
+        Scene = toReference<double>(File->Gaussians);
+        DrawnAs = File->DrawnAs;
+      }
+      Said(fmt::format("reference of {}, support {}", Of.View->Name,
+                       name(Reach)));
+      return writeReference(Path, *Scene, *Of.View, Reach, DrawnAs);
+    };
+    if (auto Made = makeOnce({Path}, From, Make); !Made)
+      return Made;
   }
   return Success{};
 }

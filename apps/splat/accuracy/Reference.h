@@ -8,7 +8,7 @@
 
 namespace vorion::splat {
 
-/// Renders those of \p Points that have no file yet.
+/// Renders those of \p Points that are not there, made from the same.
 Expected<Success>
 makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
                const std::function<void(std::string_view)> &Said);

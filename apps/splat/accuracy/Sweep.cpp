@@ -69,6 +69,14 @@ Expected<Json> PointMeasurement::errors(const ExactImage &Picture,
     return Error{Base, "picture and reference differ in size, expected a "
                        "folder of this scene and these cameras"};
   const Difference D = compare(Right.Render, Picture.Render, 3);
+  if (D.NotFinite != 0)
+    return Error{
+        Of.name(),
+        fmt::format("{} pixels have values that are no finite numbers, "
+                    "expected a picture: leave out this choice with "
+                    "--knobs",
+                    D.NotFinite),
+        ExitCode::GuestFailed};
   Json J{{"ssim", ssim(Right.Render, Picture.Render,
                        static_cast<std::size_t>(Right.Width), 3)},
          {"largest", D.MaxAbs},
@@ -76,15 +84,6 @@ Expected<Json> PointMeasurement::errors(const ExactImage &Picture,
   // JSON has no infinity: nothing stands for equal pictures.
   J["psnr_db"] = std::isfinite(D.PsnrDb) ? Json(D.PsnrDb) : Json();
   return J;
-}
-
-/// Seconds of what a user waits for each frame: not compiling the kernels.
-double wallSeconds(const Json &Report) {
-  double Sum = 0;
-  for (const Json &S : Report["stages"])
-    if (S["name"] != "build")
-      Sum += S["seconds"].get<double>();
-  return Sum;
 }
 
 double laneArea(const Json &Areas, const Setting &S) {
@@ -113,16 +112,12 @@ Expected<Json> PointMeasurement::measure() {
   const auto Right = referenceOf(P, Of);
   if (!Right)
     return Right.error();
-  // Without the clock for the simulator's own speed, with it for the machine's.
-  const auto Plain = run(Of.Chosen.arguments());
-  if (!Plain)
-    return Plain.error();
   std::vector<std::string> Timed = Of.Chosen.arguments();
   Timed.emplace_back("--time");
   const auto Clocked = run(Timed);
   if (!Clocked)
     return Clocked.error();
-  auto Errors = errors(Plain->Picture, *Right);
+  auto Errors = errors(Clocked->Picture, *Right);
   if (!Errors)
     return Errors.error();
 
@@ -133,8 +128,7 @@ Expected<Json> PointMeasurement::measure() {
   const double LaneCycles = laneCycles(Time);
   Json Times{{"cycles", Cycles},
              {"equal_area_cycles", Cycles + LaneCycles * (Relative - 1)},
-             {"cores_cycles", nullptr},
-             {"wall_seconds", wallSeconds(Plain->Report)}};
+             {"cores_cycles", nullptr}};
   Json Kernels;
   if (auto Cores = Of.Chosen.coresArguments(); Cores && P.Cores) {
     Cores->emplace_back("--time");
@@ -147,12 +141,15 @@ Expected<Json> PointMeasurement::measure() {
       return Their.error();
     Kernels = std::move(*Their);
   }
-  auto Small = thumbnail(Plain->Picture, P.ThumbWidth);
-  auto Apart = differenceThumbnail(Plain->Picture, *Right, P.ThumbWidth);
+  auto Small = thumbnail(Clocked->Picture, P.ThumbWidth);
+  auto Apart = differenceThumbnail(Clocked->Picture, *Right, P.ThumbWidth);
   if (!Small || !Apart)
     return Small ? Apart.error() : Small.error();
-  Json Made = Plain->Report;
-  Made.erase("stages");
+  // Seconds of the host, of one run, are no figure.
+  Json Made = Clocked->Report;
+  for (const char *Key : {"stages", "time"})
+    Made.erase(Key);
+  Made["total"].erase("seconds");
   return Json{
       {"setting", Of.Chosen.name()},    {"view", Of.View->Name},
       {"errors", std::move(*Errors)},   {"cores_errors", std::move(Kernels)},
@@ -160,6 +157,31 @@ Expected<Json> PointMeasurement::measure() {
       {"lane_area_um2", Area},          {"lane_area_relative", Relative},
       {"made_by", std::move(Made)},     {"picture", std::move(*Small)},
       {"difference", std::move(*Apart)}};
+}
+
+bool isErrors(const Json &J) {
+  return hasNumberOrNull(J, "psnr_db") && hasNumber(J, "ssim") &&
+         hasNumber(J, "largest") && hasNumber(J, "off_share");
+}
+
+/// Whether \p J has what candidates() and the page take.
+bool isMeasurement(const Json &J) {
+  const auto Object = [&J](const char *Key) {
+    return J.contains(Key) && J[Key].is_object();
+  };
+  const auto Text = [&J](const char *Key) {
+    return J.contains(Key) && J[Key].is_string();
+  };
+  return Text("setting") && Text("view") &&
+         J["point"] == J["setting"].get<std::string>() + "@" +
+                           J["view"].get<std::string>() &&
+         Text("picture") && Text("difference") && Object("errors") &&
+         isErrors(J["errors"]) && J.contains("cores_errors") &&
+         (J["cores_errors"].is_null() || isErrors(J["cores_errors"])) &&
+         Object("times") && hasNumber(J["times"], "cycles") &&
+         hasNumber(J["times"], "equal_area_cycles") &&
+         hasNumberOrNull(J["times"], "cores_cycles") &&
+         hasNumber(J, "lane_area_relative") && Object("made_by");
 }
 
 /// Of equal pictures, for orders: beyond any PSNR of unequal ones.
@@ -196,48 +218,63 @@ Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name) {
                ExitCode::Usage};
 }
 
-std::string fileOf(const SweepPlan &P, const Point &Of) {
-  return fmt::format("{}/points/{}.json", P.Folder, asFileName(Of.name()));
+Origin originOf(const SweepPlan &P, const Point &Of) {
+  Origin From = P.From;
+  From["view"] = hashView(*Of.View);
+  return From;
 }
 
-std::vector<Point> missing(const SweepPlan &P, const std::vector<Point> &Of) {
+KeptPoints keptPoints(const SweepPlan &P,
+                      std::function<void(std::string_view)> Said) {
+  return {P.Folder, isMeasurement, std::move(Said)};
+}
+
+std::vector<Point> missing(const SweepPlan &P, KeptPoints &Kept,
+                           const std::vector<Point> &Of) {
   std::vector<Point> Left;
   for (const Point &One : Of)
-    if (!std::filesystem::exists(fileOf(P, One)))
+    if (!Kept.find(One.name(), originOf(P, One)))
       Left.push_back(One);
   return Left;
 }
 
-Expected<Json> readPoint(const SweepPlan &P, const Point &Of) {
-  return readJson(fileOf(P, Of));
+Expected<Json> readPoint(const SweepPlan &P, KeptPoints &Kept,
+                         const Point &Of) {
+  if (const Json *Found = Kept.find(Of.name(), originOf(P, Of)))
+    return *Found;
+  return Error{P.Folder,
+               fmt::format("point {} is missing, expected it to be measured",
+                           Of.name())};
 }
 
-Expected<Success> measure(const SweepPlan &P, const std::vector<Point> &Points,
+Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
+                          const std::vector<Point> &Points,
                           const std::function<void(std::string_view)> &Said) {
   if (auto Made = makeReferences(P, Points, Said); !Made)
     return Made;
   std::vector<Measuring> Wanted;
   Wanted.reserve(Points.size());
   for (const Point &Of : Points)
-    Wanted.push_back({Of.name(), fileOf(P, Of),
+    Wanted.push_back({Of.name(), originOf(P, Of),
                       [&P, &Of] { return PointMeasurement(P, Of).measure(); },
                       [](const Json &M) {
                         return fmt::format("{:.1f} dB, {:.0f} cycles",
                                            decibels(M["errors"]["psnr_db"]),
                                            M["times"]["cycles"].get<double>());
                       }});
-  return measureAll(Wanted, P.Jobs, Said);
+  return measureAll(Kept, Wanted, P.Jobs, Said);
 }
 
 Expected<std::vector<Candidate>>
-candidates(const SweepPlan &P, const std::vector<Setting> &Settings,
+candidates(const SweepPlan &P, KeptPoints &Kept,
+           const std::vector<Setting> &Settings,
            const std::vector<const Camera *> &Views) {
   std::vector<Candidate> All;
   for (const Setting &S : Settings) {
     Candidate C{S, std::numeric_limits<double>::infinity(), {}};
     C.Times.fill(0.0);
     for (const Camera *View : Views) {
-      const auto M = readPoint(P, {S, View});
+      const auto M = readPoint(P, Kept, {S, View});
       if (!M)
         return M.error();
       C.Db = std::min(C.Db, decibels((*M)["errors"]["psnr_db"]));

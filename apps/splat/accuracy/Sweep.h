@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Front.h"
+#include "Points.h"
 
 #include "../io/Cameras.h"
 #include "../io/SceneFile.h"
@@ -21,6 +22,7 @@ struct SweepPlan {
   bool Cores = true;         ///< the kernels-only path too
   unsigned Jobs = 1;         ///< measured at the same time
   unsigned ThumbWidth = 240; ///< of the page's pictures, px
+  Origin From;               ///< what all points are made from
   std::function<Expected<SceneFile>()> Load;
 };
 
@@ -40,23 +42,32 @@ std::vector<Point> pointsOf(const SweepPlan &P,
 /// The point with this name.
 Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name);
 
-/// Where the measurement of a point is kept.
-std::string fileOf(const SweepPlan &P, const Point &Of);
+/// What the measurement of a point is made from.
+Origin originOf(const SweepPlan &P, const Point &Of);
 
-/// Those that have no file yet.
-std::vector<Point> missing(const SweepPlan &P, const std::vector<Point> &Of);
+/// The measurements that \p P's folder has; \p Said is told of each file that
+/// is not used.
+KeptPoints keptPoints(const SweepPlan &P,
+                      std::function<void(std::string_view)> Said);
 
-/// Measures \p Points and writes a file each; \p Said gets a line for each one
-/// that is done.
-Expected<Success> measure(const SweepPlan &P, const std::vector<Point> &Points,
+/// Those of \p Of that are to be measured.
+std::vector<Point> missing(const SweepPlan &P, KeptPoints &Kept,
+                           const std::vector<Point> &Of);
+
+/// Measures \p Points and keeps them; \p Said gets a line for each one that is
+/// done.
+Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
+                          const std::vector<Point> &Points,
                           const std::function<void(std::string_view)> &Said);
 
-/// The measurement of a point.
-Expected<nlohmann::ordered_json> readPoint(const SweepPlan &P, const Point &Of);
+/// The measurement of a point that is there; an Error of one that is not.
+Expected<nlohmann::ordered_json> readPoint(const SweepPlan &P, KeptPoints &Kept,
+                                           const Point &Of);
 
-/// \p Settings over \p Views, from the files.
+/// \p Settings over \p Views, all of which are measured.
 Expected<std::vector<Candidate>>
-candidates(const SweepPlan &P, const std::vector<Setting> &Settings,
+candidates(const SweepPlan &P, KeptPoints &Kept,
+           const std::vector<Setting> &Settings,
            const std::vector<const Camera *> &Views);
 
 } // namespace vorion::splat

@@ -1,6 +1,7 @@
 #include "TrainSweep.h"
 
 #include "../capture/Capture.h"
+#include "../io/Hash.h"
 #include "../io/Mean.h"
 #include "../io/SceneFile.h"
 #include "GradientReference.h"
@@ -23,10 +24,6 @@ namespace {
 
 constexpr const char *GradientPoint = "gradients";
 
-std::string fileOf(const TrainSweepPlan &P, const TrainPoint &Of) {
-  return fmt::format("{}/points/{}.json", P.Folder, asFileName(Of.name()));
-}
-
 std::string references(const TrainSweepPlan &P) {
   return P.Folder + "/references";
 }
@@ -37,21 +34,6 @@ std::string stateFile(const TrainSweepPlan &P) {
 
 std::string background(const TrainSweepPlan &P) {
   return fmt::format("{}", fmt::join(P.Background, ","));
-}
-
-/// What a point depends on beside its name.
-Json askedOf(const TrainSweepPlan &P) {
-  return {{"capture", P.Capture},
-          // One more where the same options come to mean other points: 2 since
-          // a split's random numbers are counted by identity.
-          {"meaning", 2},
-          {"exclude", P.Exclude},
-          {"downscale", P.Downscale},
-          {"background", P.Background},
-          {"max_gaussians", P.MostGaussians},
-          {"iterations", P.Iterations},
-          {"score_every", P.ScoreEvery},
-          {"time_every", P.TimeEvery}};
 }
 
 /// Of every `splat train`.
@@ -72,31 +54,48 @@ std::vector<std::string> trainArguments(const TrainSweepPlan &P,
   return Words;
 }
 
-/// The scene at which gradients are compared, and their reference.
+/// The scene at which gradients are compared: the default's run with seed 0.
 Expected<Success> makeState(const TrainSweepPlan &P,
                             const std::function<void(std::string_view)> &Said) {
-  const GradientFiles Files(references(P));
-  if (std::filesystem::exists(Files.Gradients))
-    return Success{};
-  if (!std::filesystem::exists(stateFile(P))) {
+  return makeOnce({stateFile(P)}, P.From, [&]() -> Expected<Success> {
     Said("the scene for gradients: the default's run with seed 0");
     std::vector<std::string> Words = trainArguments(P, stateFile(P));
-    Words.insert(Words.end(), {"--resume", "--checkpoint-every", "50"});
-    if (auto Done = runSplat(Words, references(P) + "/state.log"); !Done)
-      return Done;
-  }
-  const auto State = readScene(stateFile(P));
-  if (!State)
-    return State.error();
-  const auto C = readCapture(P.Capture, {P.Exclude, P.AllowOutside});
-  if (!C)
-    return C.error();
-  const auto Pictures = loadTrainingSet(*C, P.Downscale, P.Background);
-  if (!Pictures)
-    return Pictures.error();
-  Said("gradients in fp64");
-  return writeGradientReference(Files, State->Gaussians,
-                                Pictures->Training.front(), P.Background);
+    // A run that was broken off goes on, unless it was made from other things.
+    const std::string Checkpoint =
+        fmt::format("{}/state-{}.checkpoint", references(P),
+                    fnv1a64(fmt::format("{}", P.From)));
+    Words.insert(Words.end(), {"--resume", "--checkpoint-every", "50",
+                               "--checkpoint", Checkpoint});
+    auto Done = runSplat(Words, references(P) + "/state.log");
+    if (Done)
+      std::filesystem::remove(Checkpoint);
+    return Done;
+  });
+}
+
+/// That scene and its reference.
+Expected<Success>
+makeReference(const TrainSweepPlan &P,
+              const std::function<void(std::string_view)> &Said) {
+  if (auto Made = makeState(P, Said); !Made)
+    return Made;
+  const GradientFiles Files(references(P));
+  const auto Make = [&]() -> Expected<Success> {
+    const auto State = readScene(stateFile(P));
+    if (!State)
+      return State.error();
+    const auto C = readCapture(P.Capture, {P.Exclude, P.AllowOutside});
+    if (!C)
+      return C.error();
+    const auto Pictures = loadTrainingSet(*C, P.Downscale, P.Background);
+    if (!Pictures)
+      return Pictures.error();
+    Said("gradients in fp64");
+    return writeGradientReference(Files, State->Gaussians,
+                                  Pictures->Training.front(), P.Background);
+  };
+  return makeOnce({Files.Gradients, Files.Upstream, Files.Cameras}, P.From,
+                  Make);
 }
 
 /// The rasterizer's units alone: their values, without the path.
@@ -123,9 +122,7 @@ Expected<Json> measureGradients(const TrainSweepPlan &P, const TrainPoint &Of,
     return Errors;
   for (const char *Ending : {".npz", ".log"})
     std::filesystem::remove(Base + Ending);
-  return Json{{"setting", Of.Chosen.name()},
-              {"asked", askedOf(P)},
-              {"errors", std::move(*Errors)}};
+  return Json{{"setting", Of.Chosen.name()}, {"errors", std::move(*Errors)}};
 }
 
 /// Machine-seconds after each scored iteration. An iteration that was not timed
@@ -178,12 +175,11 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
       (*Report)["timed"].empty()
           ? Json()
           : (*Report)["timed"][0]["time"]["sum"]["lane_areas"]["reciprocal"];
-  Report->erase("losses");
-  Report->erase("scores");
   const std::size_t Samples = (*Report)["timed"].size();
-  Report->erase("timed");
+  // Seconds of the host, of one run, are no figure.
+  for (const char *Key : {"losses", "scores", "seconds", "timed"})
+    Report->erase(Key);
   return Json{{"setting", Of.Chosen.name()},
-              {"asked", askedOf(P)},
               {"seed", Of.At},
               {"psnr8_db", (*Report)["psnr8_db"]},
               {"timed", Samples},
@@ -191,6 +187,35 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
               {"reciprocal_um2", Areas},
               {"curve", std::move(Curve)},
               {"made_by", std::move(*Report)}};
+}
+
+/// Whether \p J has what trainResults() and the page take.
+bool isMeasurement(const Json &J) {
+  const auto IsNamed = [&J](const std::string &At) {
+    return J.contains("setting") && J["setting"].is_string() &&
+           J["point"] == J["setting"].get<std::string>() + "@" + At;
+  };
+  const auto AreNumbers = [](const Json &Of,
+                             std::initializer_list<const char *> Keys) {
+    return std::ranges::all_of(
+        Keys, [&Of](const char *Key) { return hasNumber(Of, Key); });
+  };
+  if (J.contains("errors"))
+    return IsNamed(GradientPoint) &&
+           AreNumbers(J["errors"], {"means", "quats", "scales", "opacities",
+                                    "colors", "largest"});
+  const auto List = [&J](const char *Key, std::size_t Least) {
+    return J.contains(Key) && J[Key].is_array() && J[Key].size() >= Least;
+  };
+  return AreNumbers(J, {"psnr8_db", "cycles"}) && J.contains("seed") &&
+         J["seed"].is_string() && J["seed"] != GradientPoint &&
+         IsNamed(J["seed"].get<std::string>()) &&
+         List("reciprocal_um2", trainKnobs().front().Values.size()) &&
+         std::ranges::all_of(J["reciprocal_um2"], &Json::is_number) &&
+         List("curve", 1) &&
+         std::ranges::all_of(J["curve"], [&](const Json &At) {
+           return AreNumbers(At, {"iteration", "machine_seconds", "psnr8_db"});
+         });
 }
 
 std::string lineOf(const Json &Measured) {
@@ -215,33 +240,38 @@ std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P) {
   return All;
 }
 
-std::vector<TrainPoint> missing(const TrainSweepPlan &P,
+Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C) {
+  auto From = commonOrigin();
+  if (!From)
+    return From;
+  auto Hash = hashCapture(C);
+  if (!Hash)
+    return Hash.error();
+  From->insert({{"capture", std::move(*Hash)},
+                {"downscale", std::to_string(P.Downscale)},
+                {"background", background(P)},
+                {"max_gaussians", std::to_string(P.MostGaussians)},
+                {"iterations", std::to_string(P.Iterations)},
+                {"score_every", std::to_string(P.ScoreEvery)},
+                {"time_every", std::to_string(P.TimeEvery)}});
+  return From;
+}
+
+KeptPoints keptPoints(const TrainSweepPlan &P,
+                      std::function<void(std::string_view)> Said) {
+  return {P.Folder, isMeasurement, std::move(Said)};
+}
+
+std::vector<TrainPoint> missing(const TrainSweepPlan &P, KeptPoints &Kept,
                                 const std::vector<TrainPoint> &Of) {
   std::vector<TrainPoint> Left;
   for (const TrainPoint &One : Of)
-    if (!std::filesystem::exists(fileOf(P, One)))
+    if (!Kept.find(One.name(), P.From))
       Left.push_back(One);
   return Left;
 }
 
-Expected<Success> checkKept(const TrainSweepPlan &P) {
-  const Json Asked = askedOf(P);
-  for (const TrainPoint &Of : trainPoints(P)) {
-    const std::string File = fileOf(P, Of);
-    if (!std::filesystem::exists(File))
-      continue;
-    const auto Kept = readJson(File);
-    if (!Kept)
-      return Kept.error();
-    if (const Json Had = Kept->value("asked", Json()); Had != Asked)
-      return Error{File, fmt::format("measured with {}, expected {} or another "
-                                     "folder",
-                                     jsonText(Had), jsonText(Asked))};
-  }
-  return Success{};
-}
-
-Expected<Success> measure(const TrainSweepPlan &P,
+Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
                           const std::vector<TrainPoint> &Points,
                           const std::function<void(std::string_view)> &Said) {
   std::vector<Measuring> Wanted;
@@ -251,7 +281,7 @@ Expected<Success> measure(const TrainSweepPlan &P,
         fmt::format("{}/work/{}", P.Folder, asFileName(Of.name()));
     const bool OfGradients = Of.At == GradientPoint;
     Gradients |= OfGradients;
-    Wanted.push_back({Of.name(), fileOf(P, Of),
+    Wanted.push_back({Of.name(), P.From,
                       [&P, Of, Base, OfGradients] {
                         return OfGradients ? measureGradients(P, Of, Base)
                                            : measureRun(P, Of, Base);
@@ -259,9 +289,9 @@ Expected<Success> measure(const TrainSweepPlan &P,
                       lineOf});
   }
   if (Gradients)
-    if (auto Made = makeState(P, Said); !Made)
+    if (auto Made = makeReference(P, Said); !Made)
       return Made;
-  return measureAll(Wanted, P.Jobs, Said);
+  return measureAll(Kept, Wanted, P.Jobs, Said);
 }
 
 namespace {
@@ -299,16 +329,19 @@ double bestOf(const Json &Curve) {
 
 } // namespace
 
-Expected<Json> trainResults(const TrainSweepPlan &P) {
+Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
   Json Points = Json::array();
   double Reached = std::numeric_limits<double>::infinity();
   for (const TrainPoint &Of : trainPoints(P)) {
-    auto One = readJson(fileOf(P, Of));
+    const Json *One = Kept.find(Of.name(), P.From);
     if (!One)
-      return One.error();
+      return Error{
+          P.Folder,
+          fmt::format("point {} is missing, expected it to be measured",
+                      Of.name())};
     if (One->contains("curve"))
       Reached = std::min(Reached, bestOf((*One)["curve"]));
-    Points.push_back(std::move(*One));
+    Points.push_back(*One);
   }
   Json Settings = Json::array();
   for (const Setting &S : oneAtATime(trainKnobs())) {

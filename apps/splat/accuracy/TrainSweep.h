@@ -1,6 +1,7 @@
 /// Measuring training: each reciprocal unit and order of sums, over seeds.
 #pragma once
 
+#include "Points.h"
 #include "Setting.h"
 
 #include <array>
@@ -24,6 +25,7 @@ struct TrainSweepPlan {
   unsigned Seeds = 3; ///< 0, 1, ...
   unsigned ScoreEvery = 25, TimeEvery = 25;
   unsigned Jobs = 1; ///< measured at the same time
+  Origin From;       ///< what all points are made from: originOf()
 };
 
 /// A training run with a setting and a seed, or what a setting makes of the
@@ -38,23 +40,29 @@ struct TrainPoint {
 /// All points of the settings of trainKnobs(), one knob at a time.
 std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P);
 
-/// Those that have no file yet.
-std::vector<TrainPoint> missing(const TrainSweepPlan &P,
+/// What all points of \p P, whose capture is \p C, are made from.
+Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C);
+
+/// The measurements that \p P's folder has; \p Said is told of each file that
+/// is not used.
+KeptPoints keptPoints(const TrainSweepPlan &P,
+                      std::function<void(std::string_view)> Said);
+
+/// Those of \p Of that are to be measured.
+std::vector<TrainPoint> missing(const TrainSweepPlan &P, KeptPoints &Kept,
                                 const std::vector<TrainPoint> &Of);
 
-/// That what is kept in the folder was measured as \p P asks.
-Expected<Success> checkKept(const TrainSweepPlan &P);
-
-/// Measures \p Points and writes a file each; \p Said gets a line for each one
-/// that is done.
-Expected<Success> measure(const TrainSweepPlan &P,
+/// Measures \p Points and keeps them; \p Said gets a line for each one that is
+/// done.
+Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
                           const std::vector<TrainPoint> &Points,
                           const std::function<void(std::string_view)> &Said);
 
-/// All points from their files, and what they say together: of each setting
+/// All points, which are measured, and what they say together: of each setting
 /// gradient error, area, cycles, PSNR, and machine-seconds until a PSNR that
 /// every run reaches.
-Expected<nlohmann::ordered_json> trainResults(const TrainSweepPlan &P);
+Expected<nlohmann::ordered_json> trainResults(const TrainSweepPlan &P,
+                                              KeptPoints &Kept);
 
 /// These as a Markdown table.
 std::string trainTable(const nlohmann::ordered_json &Results);

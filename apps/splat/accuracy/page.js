@@ -11,7 +11,6 @@ const AXES = {
   cycles: { label: 'machine cycles, 16 lanes', scale: 1e-6, unit: 'M' },
   equal_area_cycles: { label: 'machine cycles at equal area', scale: 1e-6, unit: 'M' },
   cores_cycles: { label: 'machine cycles, kernels only', scale: 1e-6, unit: 'M' },
-  wall_seconds: { label: "simulator's wall time", scale: 1, unit: 's' },
 };
 // Shown as this where pictures are equal, which JSON has no number for.
 const EQUAL_DB = 200;

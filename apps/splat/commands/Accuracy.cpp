@@ -1,6 +1,7 @@
 #include "../accuracy/Page.h"
 #include "../accuracy/Points.h"
 #include "../accuracy/Sweep.h"
+#include "../io/Hash.h"
 #include "AccuracyTrain.h"
 #include "Commands.h"
 #include "SceneArguments.h"
@@ -16,6 +17,7 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <system_error>
 
@@ -48,6 +50,19 @@ Expected<double> parseDecibels(std::string_view Text) {
   return Value;
 }
 
+/// That no view's files would take another's place.
+Expected<Success> checkNames(const SweepPlan &P) {
+  std::set<std::string> Names;
+  for (const Camera &View : P.Views)
+    if (!Names.insert(asFileName(View.Name)).second)
+      return Error{P.CameraFile,
+                   fmt::format("two of the views would be kept as {}, expected "
+                               "views of different names",
+                               asFileName(View.Name)),
+                   ExitCode::Usage};
+  return Success{};
+}
+
 Expected<SweepPlan> planOf(const AccuracyArguments &A) {
   SweepPlan P;
   P.ScenePath = A.Scene.Path;
@@ -67,6 +82,19 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A) {
   P.Jobs = A.Jobs;
   P.ThumbWidth = A.ThumbWidth;
   P.Load = [&A] { return loadScene(A.Scene); };
+  if (auto Checked = checkNames(P); !Checked)
+    return Checked.error();
+  auto From = commonOrigin();
+  if (!From)
+    return From.error();
+  P.From = std::move(*From);
+  auto Scene = hashScene(P.ScenePath);
+  if (!Scene)
+    return Scene.error();
+  P.From["scene"] = std::move(*Scene);
+  P.From["options"] =
+      fmt::format("{}{} --thumb-width {}", fmt::join(P.CommonArguments, " "),
+                  P.Cores ? "" : " --no-cores", P.ThumbWidth);
   return P;
 }
 
@@ -103,13 +131,14 @@ void say(std::string_view Line) {
 
 /// The settings so far: single knobs, and once they are all measured the
 /// product of the fronts.
-Expected<std::vector<Setting>> settingsSoFar(const SweepPlan &P, const Split &V,
+Expected<std::vector<Setting>> settingsSoFar(const SweepPlan &P,
+                                             KeptPoints &Kept, const Split &V,
                                              double FloorDb,
                                              std::size_t Products) {
   std::vector<Setting> All = oneAtATime(P.Knobs);
-  if (!missing(P, pointsOf(P, All)).empty() || Products == 0)
+  if (!missing(P, Kept, pointsOf(P, All)).empty() || Products == 0)
     return All;
-  const auto Measured = candidates(P, All, V.Choose);
+  const auto Measured = candidates(P, Kept, All, V.Choose);
   if (!Measured)
     return Measured.error();
   for (Setting &S : productOfFronts(P.Knobs, *Measured, FloorDb, Products))
@@ -137,10 +166,11 @@ std::vector<const Camera *> pointersTo(const std::vector<Camera> &Views) {
   return All;
 }
 
-Expected<std::string> recommendation(const SweepPlan &P, const Split &V,
+Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
+                                     const Split &V,
                                      const std::vector<Setting> &All,
                                      double FloorDb) {
-  const auto Measured = candidates(P, All, V.Choose);
+  const auto Measured = candidates(P, Kept, All, V.Choose);
   if (!Measured)
     return Measured.error();
   std::string Text = fmt::format("{} settings; at least {} dB on {}:\n",
@@ -161,7 +191,7 @@ Expected<std::string> recommendation(const SweepPlan &P, const Split &V,
     };
     Text += fmt::format("{}: {}", C.Chosen.name(), Gain(C, Measured->front()));
     if (!V.Check.empty()) {
-      const auto Checked = candidates(P, {Setting(), C.Chosen}, V.Check);
+      const auto Checked = candidates(P, Kept, {Setting(), C.Chosen}, V.Check);
       if (!Checked)
         return Checked.error();
       Text += fmt::format("; on {}: {}", names(V.Check),
@@ -173,11 +203,12 @@ Expected<std::string> recommendation(const SweepPlan &P, const Split &V,
 }
 
 /// All measurements without pictures, and the page.
-Expected<Success> writeResults(const SweepPlan &P, const PageHead &Head,
+Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
+                               const PageHead &Head,
                                const std::vector<Setting> &All) {
   Json Points = Json::array();
   for (const Point &Of : pointsOf(P, All)) {
-    auto One = readPoint(P, Of);
+    auto One = readPoint(P, Kept, Of);
     if (!One)
       return One.error();
     for (const char *Picture : {"picture", "difference"})
@@ -191,7 +222,7 @@ Expected<Success> writeResults(const SweepPlan &P, const PageHead &Head,
               "\n");
       !Written)
     return Written;
-  const auto Page = pageOf(P, Head, All);
+  const auto Page = pageOf(P, Kept, Head, All);
   return Page ? writeFileAtomically(P.Folder + "/index.html", *Page)
               : Expected<Success>(Page.error());
 }
@@ -216,6 +247,7 @@ Expected<Success> run(AccuracyArguments &A) {
   if (!A.List)
     if (auto Made = makeFolders(A.Folder); !Made)
       return Made.error();
+  KeptPoints Kept = keptPoints(*P, say);
   if (!A.Only.empty()) {
     std::vector<Point> Wanted;
     for (const std::string &Name : A.Only) {
@@ -224,21 +256,23 @@ Expected<Success> run(AccuracyArguments &A) {
         return One.error();
       Wanted.push_back(std::move(*One));
     }
-    return measure(*P, missing(*P, Wanted), say);
+    return measure(*P, Kept, missing(*P, Kept, Wanted), say);
   }
-  auto All = settingsSoFar(*P, *V, *Floor, A.Products);
+  auto All = settingsSoFar(*P, Kept, *V, *Floor, A.Products);
   if (!All)
     return All.error();
   if (A.List) {
-    for (const Point &Of : missing(*P, pointsOf(*P, *All)))
+    for (const Point &Of : missing(*P, Kept, pointsOf(*P, *All)))
       printOut("{}\n", escaped(Of.name()));
     return Success{};
   }
   // Twice: what the first round finds out says what the second measures.
   for (int Round = 0; Round < 2; ++Round) {
-    if (auto Done = measure(*P, missing(*P, pointsOf(*P, *All)), say); !Done)
+    if (auto Done =
+            measure(*P, Kept, missing(*P, Kept, pointsOf(*P, *All)), say);
+        !Done)
       return Done;
-    All = settingsSoFar(*P, *V, *Floor, A.Products);
+    All = settingsSoFar(*P, Kept, *V, *Floor, A.Products);
     if (!All)
       return All.error();
   }
@@ -249,9 +283,9 @@ Expected<Success> run(AccuracyArguments &A) {
                   P->Views.front().Width, P->Views.front().Height,
                   VORION_VERSION),
       *Floor, nameList(V->Choose)};
-  if (auto Written = writeResults(*P, Head, *All); !Written)
+  if (auto Written = writeResults(*P, Kept, Head, *All); !Written)
     return Written;
-  const auto Text = recommendation(*P, *V, *All, *Floor);
+  const auto Text = recommendation(*P, Kept, *V, *All, *Floor);
   if (!Text)
     return Text.error();
   printOut("{}{}/index.html\n", *Text, P->Folder);
@@ -262,8 +296,10 @@ Expected<Success> run(AccuracyArguments &A) {
 
 Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
-  App.add_option("--out", A->Folder,
-                 "Folder for measurements and page; what is there is kept")
+  App.add_option(
+         "--out", A->Folder,
+         "Folder for measurements and page; what is there, made from the "
+         "same, is used")
       ->required();
   App.add_option("--jobs", A->Jobs, "Points measured at the same time")
       ->check(CLI::Range(1U, 256U))

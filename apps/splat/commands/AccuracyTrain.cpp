@@ -66,9 +66,8 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
     O->needs(Train);
 }
 
-/// That every run will have times and scores, and may stand beside those kept.
-/// Writes nothing.
-static Expected<Success> check(const TrainSweepPlan &P) {
+/// That every run will have times and scores; gives what it is made from.
+static Expected<Origin> check(const TrainSweepPlan &P) {
   for (const auto &[Option, Every] : {std::pair("--score-every", P.ScoreEvery),
                                       std::pair("--time-every", P.TimeEvery)})
     if (Every > P.Iterations)
@@ -81,18 +80,20 @@ static Expected<Success> check(const TrainSweepPlan &P) {
     return C.error();
   if (C->heldOut() == 0)
     return Error{P.Capture, "no held-out views, expected some for the PSNR"};
-  return checkKept(P);
+  return originOf(P, *C);
 }
 
 Expected<Success>
-measureTraining(const TrainSweepPlan &P, bool List,
+measureTraining(TrainSweepPlan P, bool List,
                 const std::vector<std::string> &Only,
                 const std::function<void(std::string_view)> &Said) {
-  if (auto Checked = check(P); !Checked)
-    return Checked;
-  std::vector<TrainPoint> Wanted = missing(P, trainPoints(P));
+  auto From = check(P);
+  if (!From)
+    return From.error();
+  P.From = std::move(*From);
+  KeptPoints Kept = keptPoints(P, Said);
   if (List) {
-    for (const TrainPoint &Of : Wanted)
+    for (const TrainPoint &Of : missing(P, Kept, trainPoints(P)))
       printOut("{}\n", escaped(Of.name()));
     return Success{};
   }
@@ -109,11 +110,12 @@ measureTraining(const TrainSweepPlan &P, bool List,
                                "--list prints",
                                fmt::join(Only, " --only ")),
                    ExitCode::Usage};
-    return measure(P, missing(P, Chosen), Said);
+    return measure(P, Kept, missing(P, Kept, Chosen), Said);
   }
-  if (auto Done = measure(P, Wanted, Said); !Done)
+  if (auto Done = measure(P, Kept, missing(P, Kept, trainPoints(P)), Said);
+      !Done)
     return Done;
-  const auto Results = trainResults(P);
+  const auto Results = trainResults(P, Kept);
   if (!Results)
     return Results.error();
   if (auto Written = writeFileAtomically(P.Folder + "/training.json",

@@ -23,7 +23,7 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
 /// and a page, and prints a table; with \p List prints their names alone, with
 /// \p Only measures those alone.
 Expected<Success>
-measureTraining(const TrainSweepPlan &P, bool List,
+measureTraining(TrainSweepPlan P, bool List,
                 const std::vector<std::string> &Only,
                 const std::function<void(std::string_view)> &Said);
 

@@ -49,12 +49,23 @@ Expected<std::vector<std::uint8_t>> readMask(const std::string &File,
   return Mask;
 }
 
-void print(const char *What, const Difference &D) {
-  printOut("{}: {:.2f} dB, largest difference {:.3g}, {} pixels\n", What,
-           D.PsnrDb, D.MaxAbs, D.Pixels);
+/// What a reader must know of figures that are infinite.
+std::string notFinite(const Difference &D) {
+  return D.NotFinite == 0
+             ? ""
+             : fmt::format(", {} of them with values that are no finite "
+                           "numbers",
+                           D.NotFinite);
 }
 
-/// JSON has no infinity; equal pictures get null.
+void print(const char *What, const Difference &D) {
+  printOut("{}: {:.2f} dB, largest difference {:.3g}, {} pixels{}\n", What,
+           D.PsnrDb, D.MaxAbs, D.Pixels, notFinite(D));
+}
+
+/// JSON has no infinity. So the PSNR of equal pictures, whose largest
+/// difference is 0, is null, and both are null where values are no finite
+/// numbers.
 nlohmann::ordered_json finite(double Value) {
   return std::isfinite(Value) ? nlohmann::ordered_json(Value) : nullptr;
 }
@@ -75,8 +86,8 @@ Expected<Success> require(const std::string &File, const char *What,
   if (!Least || D.PsnrDb >= *Least)
     return Success{};
   return Error{File,
-               fmt::format("{} {:.2f} dB, expected at least {} dB", What,
-                           D.PsnrDb, *Least),
+               fmt::format("{} {:.2f} dB{}, expected at least {} dB", What,
+                           D.PsnrDb, notFinite(D), *Least),
                ExitCode::GuestFailed};
 }
 
@@ -137,7 +148,9 @@ Expected<Success> comparePictures(const CompareArguments &A) {
                    {"max_abs", finite(All.MaxAbs)},
                    {"doubtful_share", Share},
                    {"psnr_db_outside_doubtful", finite(Outside.PsnrDb)},
-                   {"max_abs_outside_doubtful", finite(Outside.MaxAbs)}});
+                   {"max_abs_outside_doubtful", finite(Outside.MaxAbs)},
+                   {"not_finite", All.NotFinite},
+                   {"not_finite_outside_doubtful", Outside.NotFinite}});
     if (auto Written = writeFileAtomically(A.Json, jsonText(Report, 2) + "\n");
         !Written)
       return Written;

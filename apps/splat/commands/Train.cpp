@@ -325,6 +325,12 @@ Expected<Success> start(const TrainArguments &A, const Work &W, Trainer &T) {
       return Kept.error();
     if (auto Same = checkSameRun(A.Checkpoint, Kept->Run, W.Run); !Same)
       return Same;
+    if (Kept->Iteration > S.Iterations)
+      return Error{A.Checkpoint,
+                   fmt::format("after iteration {} already, expected "
+                               "--iterations of at least that, not {}",
+                               Kept->Iteration, S.Iterations),
+                   ExitCode::Usage};
     T.restore(*Kept);
     if (W.Together.first())
       printNote(fmt::format("going on after iteration {} of {}\n",
@@ -364,7 +370,9 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
     return Error{A.Capture, "all training cameras are at one place, expected "
                             "them around the scene"};
   A.Run.WhiteBackground = A.Background == std::array<float, 3>{1, 1, 1};
-  if (!A.From.empty()) {
+  if (A.From.empty()) {
+    A.Run.Points = hashPoints(C->Points);
+  } else {
     auto Hash = hashFile(A.From);
     if (!Hash)
       return Hash.error();

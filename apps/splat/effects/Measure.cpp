@@ -11,17 +11,14 @@ namespace {
 
 struct Figures {
   std::uint64_t Instructions = 0, Cycles = 0;
-  double Seconds = 0;
 };
 
 Figures figuresOf(const RenderResult &R) {
   Figures F;
   for (const StageReport &S : R.Stages)
-    for (const KernelReport &K : S.Kernels) {
-      F.Seconds += K.Seconds;
+    for (const KernelReport &K : S.Kernels)
       if (K.Counters)
         F.Instructions += K.Counters->WarpInstructions;
-    }
   F.Cycles = frameCycles(R.Stages);
   return F;
 }
@@ -74,7 +71,6 @@ EffectCost costOf(const Effect &E, bool Done, const Figures &Asked,
           Done,
           difference(With.Instructions, Without.Instructions),
           difference(With.Cycles, Without.Cycles),
-          With.Seconds - Without.Seconds,
           {}};
 }
 
@@ -99,7 +95,7 @@ measureEffects(const Device &D, const std::string &KernelFolder,
   const auto Frame = M.measure(Asked);
   if (!Frame)
     return Frame.error();
-  EffectCosts Costs{Frame->Instructions, Frame->Cycles, Frame->Seconds, {}};
+  EffectCosts Costs{Frame->Instructions, Frame->Cycles, {}};
   for (const Effect *E : effects::all()) {
     if (E->Macro.empty())
       continue;
@@ -116,7 +112,7 @@ measureEffects(const Device &D, const std::string &KernelFolder,
     if (Other)
       Costs.Effects.push_back(costOf(*E, Done, *Frame, *Other));
     else
-      Costs.Effects.push_back({E, Done, 0, 0, 0, Other.error().What});
+      Costs.Effects.push_back({E, Done, 0, 0, Other.error().What});
   }
   return Costs;
 }
@@ -124,10 +120,9 @@ measureEffects(const Device &D, const std::string &KernelFolder,
 std::string toString(const EffectCosts &Costs) {
   std::string Text =
       fmt::format("measured: the frame with the effect less the frame without, "
-                  "of {} warp instructions{}, {:.3f} s in kernels\n",
+                  "of {} warp instructions{}\n",
                   Costs.Instructions,
-                  Costs.Cycles ? fmt::format(", {} cycles", Costs.Cycles) : "",
-                  Costs.Seconds);
+                  Costs.Cycles ? fmt::format(", {} cycles", Costs.Cycles) : "");
   for (const EffectCost &C : Costs.Effects) {
     Text += fmt::format("  {:<15}{:<4}", C.E->Name, C.Done ? "on" : "off");
     if (!C.Failure.empty()) {
@@ -142,7 +137,7 @@ std::string toString(const EffectCosts &Costs) {
       Text += fmt::format(", {:+} cycles ({:+.2f} %)", C.Cycles,
                           percent(static_cast<double>(C.Cycles),
                                   static_cast<double>(Costs.Cycles)));
-    Text += fmt::format(", {:+.4f} s\n", C.Seconds);
+    Text += '\n';
   }
   return Text;
 }

@@ -19,7 +19,6 @@ struct EffectCost {
   bool Done = false; ///< in the picture that was asked for
   std::int64_t Instructions = 0;
   std::int64_t Cycles = 0; ///< 0 without the clock
-  double Seconds = 0;      ///< of the host, in kernels
   std::string Failure;     ///< why there is no figure, or empty
 };
 
@@ -27,7 +26,6 @@ struct EffectCosts {
   /// Of the frame as asked for.
   std::uint64_t Instructions = 0;
   std::uint64_t Cycles = 0;
-  double Seconds = 0;
   /// Effects whose code can be told from the rest, in the registry's order.
   std::vector<EffectCost> Effects;
 };

@@ -81,28 +81,29 @@ Difference compare(const std::vector<double> &A, const std::vector<double> &B,
          "mask of another size");
   Difference D;
   double Squares = 0;
-  bool Undefined = false;
   std::size_t Off = 0;
   for (std::size_t P = 0; P < A.size() / Channels; ++P) {
     if (!Skip.empty() && Skip[P])
       continue;
     ++D.Pixels;
-    bool IsOff = false;
+    bool IsOff = false, Finite = true;
     for (std::size_t I = P * Channels; I < (P + 1) * Channels; ++I) {
-      if (A[I] == B[I] || (std::isnan(A[I]) && std::isnan(B[I])))
-        continue;
+      Finite &= std::isfinite(A[I]) && std::isfinite(B[I]);
       const double Delta = A[I] - B[I];
-      Undefined |= std::isnan(Delta);
       IsOff |= !(std::abs(Delta) <= 1.0 / 255);
       Squares += Delta * Delta;
       D.MaxAbs = std::fmax(D.MaxAbs, std::abs(Delta));
     }
     Off += IsOff;
+    D.NotFinite += !Finite;
   }
   if (D.Pixels != 0)
     D.OffShare = static_cast<double>(Off) / static_cast<double>(D.Pixels);
-  if (Undefined)
-    return {D.Pixels, -Infinity, Infinity, D.OffShare};
+  if (D.NotFinite != 0) {
+    D.PsnrDb = -Infinity;
+    D.MaxAbs = Infinity;
+    return D;
+  }
   const double Samples = double(D.Pixels) * double(Channels);
   D.PsnrDb = Squares > 0 ? -10 * std::log10(Squares / Samples) : Infinity;
   return D;

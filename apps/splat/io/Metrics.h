@@ -2,7 +2,8 @@
 ///
 /// For numerics, PSNR has peak 1 and is taken on linear, unclamped floats over
 /// all channels: -10 log10(mean squared difference). Equal pictures are at
-/// infinity. Against photographs, take it on the 8-bit values that `toByte`
+/// infinity. What is no finite number is no picture: it equals nothing, itself
+/// neither. Against photographs, take it on the 8-bit values that `toByte`
 /// gives (\c psnr8Bit); a set's figure is the mean of its pictures' dB.
 #pragma once
 
@@ -18,6 +19,8 @@ struct Difference {
   std::size_t Pixels = 0; ///< compared
   double PsnrDb = 0;      ///< infinity for equal pictures or no pixel
   double MaxAbs = 0;      ///< largest absolute difference of a channel
+  /// Pixels with a value that is no finite number on either side.
+  std::size_t NotFinite = 0;
   /// Share of pixels with a channel that differs by more than 1/255.
   double OffShare = 0;
 };
@@ -33,8 +36,8 @@ double ssim(const std::vector<double> &A, const std::vector<double> &B,
             std::size_t Width, std::size_t Channels);
 
 /// Compares \p A and \p B, both \p Channels values a pixel, over the pixels
-/// whose entry of \p Skip is 0 (all, where \p Skip is empty). A NaN on either
-/// side, unless both are NaN, makes PSNR minus infinity, MaxAbs
+/// whose entry of \p Skip is 0 (all, where \p Skip is empty). A value that is
+/// no finite number, on either side or both, makes PSNR minus infinity, MaxAbs
 /// infinity and the pixel off.
 Difference compare(const std::vector<double> &A, const std::vector<double> &B,
                    std::size_t Channels,

@@ -1,5 +1,6 @@
 #include "Report.h"
 
+#include "../device/Configuration.h"
 #include "../effects/Explain.h"
 #include "../io/Hash.h"
 #include "FrameTime.h"
@@ -7,8 +8,6 @@
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
-#include <cstdlib>
-#include <cstring>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -64,32 +63,6 @@ Json json(const std::vector<ProgramSpec> &Programs) {
   return All;
 }
 
-/// What the environment's VORION_CONFIG names, a file or the text itself
-/// (runtime/include/vorion/runtime.h).
-Expected<Json> namedConfiguration() {
-  const char *Value = std::getenv("VORION_CONFIG");
-  if (!Value || !*Value)
-    return Json("default prototype");
-  if (Value[std::strspn(Value, " \t\r\n")] == '{')
-    return Json{{"fnv1a64", fnv1a64(Value)}, {"text", Value}};
-  const auto Bytes = readFile(Value);
-  if (!Bytes)
-    return Bytes.error();
-  const std::string Text(reinterpret_cast<const char *>(Bytes->data()),
-                         Bytes->size());
-  return Json{{"file", Value}, {"fnv1a64", fnv1a64(Text)}, {"text", Text}};
-}
-
-/// The machine that a Vorion device is: that configuration, with the values
-/// that VORION_SET changes.
-Expected<Json> configuration() {
-  Expected<Json> Base = namedConfiguration();
-  const char *Set = std::getenv("VORION_SET");
-  if (!Base || !Set || !*Set)
-    return Base;
-  return Json{{"base", *Base}, {"set", Set}};
-}
-
 struct Totals {
   double Seconds = 0;
   std::optional<KernelCounters> Counters;
@@ -128,7 +101,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
               {"compute_units", R.Dev.computeUnits()},
               {"global_bytes", R.Dev.globalBytes()}};
   if (R.Dev.isVorion()) {
-    auto Configuration = configuration();
+    auto Configuration = machineConfiguration();
     if (!Configuration)
       return Configuration.error();
     Device["configuration"] = std::move(*Configuration);

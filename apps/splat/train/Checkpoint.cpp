@@ -7,9 +7,12 @@
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 namespace vorion::splat {
 namespace {
@@ -21,35 +24,83 @@ using Json = nlohmann::json;
 constexpr std::string_view Magic = "vorion-checkpoint";
 constexpr int Version = 2;
 
-/// Calls \p Visit with every array of \p C, in the file's order.
+/// How long the arrays are.
+struct Sizes {
+  std::size_t Gaussians = 0;
+  int ShDegree = 0;
+  std::size_t Losses = 0;
+
+  std::size_t geometry() const { return GEOMETRY_PLANES * Gaussians; }
+  std::size_t sh() const { return 3 * shCoefficients(ShDegree) * Gaussians; }
+};
+
+/// Calls \p Visit with every array of \p C, in the file's order, with its name
+/// and with its length by \p S.
 template <typename Kind, typename Function>
-void forArrays(Kind &C, Function Visit) {
-  Visit(C.Geometry);
-  Visit(C.Sh);
-  Visit(C.FirstGeometry);
-  Visit(C.FirstSh);
-  Visit(C.SecondGeometry);
-  Visit(C.SecondSh);
-  Visit(C.Identities);
-  Visit(C.Notes.GradientSums);
-  Visit(C.Notes.Views);
-  Visit(C.Notes.Radii);
-  Visit(C.Losses);
+void forArrays(Kind &C, const Sizes &S, Function Visit) {
+  Visit(C.Geometry, "geometry", S.geometry());
+  Visit(C.Sh, "colours", S.sh());
+  Visit(C.FirstGeometry, "geometry's first moments", S.geometry());
+  Visit(C.FirstSh, "colours' first moments", S.sh());
+  Visit(C.SecondGeometry, "geometry's second moments", S.geometry());
+  Visit(C.SecondSh, "colours' second moments", S.sh());
+  Visit(C.Identities, "identities", S.Gaussians);
+  Visit(C.Notes.GradientSums, "sums of gradients", S.Gaussians);
+  Visit(C.Notes.Views, "counts of views", S.Gaussians);
+  Visit(C.Notes.Radii, "radii", S.Gaussians);
+  Visit(C.Losses, "losses", S.Losses);
 }
 
-/// Makes room in \p C for what its sizes say.
-void resize(Checkpoint &C, std::size_t Gaussians) {
-  const std::size_t Geometry = GEOMETRY_PLANES * Gaussians;
-  const std::size_t Sh = 3 * shCoefficients(C.ShDegree) * Gaussians;
-  for (auto *A : {&C.Geometry, &C.FirstGeometry, &C.SecondGeometry})
-    A->resize(Geometry);
-  for (auto *A : {&C.Sh, &C.FirstSh, &C.SecondSh})
-    A->resize(Sh);
-  C.Identities.resize(Gaussians);
-  C.Notes.GradientSums.resize(Gaussians);
-  C.Notes.Views.resize(Gaussians);
-  C.Notes.Radii.resize(Gaussians);
-  C.Losses.resize(C.Iteration);
+Sizes sizesOf(const Checkpoint &C) {
+  return {C.gaussians(), C.ShDegree, C.Losses.size()};
+}
+
+/// The first value of a run that is no finite number: nothing can be trained
+/// from it, and nothing that comes of it can be told from a result.
+Expected<Success> checkFinite(const std::string &Path, const Checkpoint &C) {
+  Expected<Success> Found = Success{};
+  forArrays(C, sizesOf(C),
+            [&]<typename Value>(const std::vector<Value> &A, const char *Name,
+                                std::size_t /*Size*/) {
+              if constexpr (std::is_floating_point_v<Value>) {
+                const auto Bad = std::ranges::find_if_not(
+                    A, [](float V) { return std::isfinite(V); });
+                if (Found && Bad != A.end())
+                  Found = Error{Path, fmt::format("{} after iteration {}: "
+                                                  "value {} is {}, expected "
+                                                  "finite numbers",
+                                                  Name, C.Iteration,
+                                                  Bad - A.begin(), *Bad)};
+              }
+            });
+  return Found;
+}
+
+/// The second line of a file.
+struct Header {
+  std::string Run;
+  Sizes Lengths;
+};
+
+/// The hash before \p Text says that these bytes were written, not that we
+/// wrote them.
+Expected<Header> readHeader(const std::string &Path, std::string_view Text) {
+  const auto Read = parseJson<Json>(Text, Path, "a checkpoint's sizes");
+  if (!Read)
+    return Read.error();
+  // So that no sum of sizes overflows.
+  constexpr std::uint64_t Most = std::numeric_limits<std::uint32_t>::max();
+  const JsonShape Shape =
+      JsonShape::object({{"run", JsonShape::text()},
+                         {"iteration", JsonShape::whole(0, Most)},
+                         {"sh_degree", JsonShape::whole(0, MaxShDegree)},
+                         {"gaussians", JsonShape::whole(0, Most)}});
+  if (auto Ok = Shape.check(*Read, Path); !Ok)
+    return Ok.error();
+  const Json &J = *Read;
+  return Header{J["run"].get<std::string>(),
+                {J["gaussians"].get<std::size_t>(), J["sh_degree"].get<int>(),
+                 J["iteration"].get<std::size_t>()}};
 }
 
 Error damaged(const std::string &Path) {
@@ -60,12 +111,15 @@ Error damaged(const std::string &Path) {
 
 Expected<Success> writeCheckpoint(const std::string &Path,
                                   const Checkpoint &C) {
+  if (auto Checked = checkFinite(Path, C); !Checked)
+    return Error{Path, fmt::format("not written: {}", Checked.error().What),
+                 ExitCode::GuestFailed};
   const Json Header{{"run", C.Run},
                     {"iteration", C.Iteration},
                     {"sh_degree", C.ShDegree},
                     {"gaussians", C.gaussians()}};
   std::string Body = jsonText(Header) + "\n";
-  forArrays(C, [&](const auto &A) {
+  forArrays(C, sizesOf(C), [&](const auto &A, const char *, std::size_t) {
     Body.append(reinterpret_cast<const char *>(A.data()), 4 * A.size());
   });
   return writeFileAtomically(
@@ -74,9 +128,11 @@ Expected<Success> writeCheckpoint(const std::string &Path,
 
 Expected<Checkpoint> readCheckpoint(const std::string &Path) {
   const auto File = readFile(Path);
-  if (!File)
-    return File.error();
-  std::string_view Text = asText(*File);
+  return File ? parseCheckpoint(Path, *File) : File.error();
+}
+
+Expected<Checkpoint> parseCheckpoint(const std::string &Path, Bytes File) {
+  std::string_view Text = asText(File);
   if (!Text.starts_with(Magic))
     return Error{Path, "not a checkpoint, expected one of splat train"};
   const auto Line = [&Text] {
@@ -93,33 +149,28 @@ Expected<Checkpoint> readCheckpoint(const std::string &Path) {
   if (First != fmt::format("{} {} {}", Magic, Version, fnv1a64(Text)))
     return damaged(Path);
   const std::string_view HeaderText = Line();
-  const auto Read = parseJson<Json>(HeaderText, Path, "a checkpoint's sizes");
-  if (!Read)
-    return Read.error();
-  const Json &Header = *Read;
-  // The hash says that these bytes were written, not that we wrote them.
-  const JsonShape Shape =
-      JsonShape::object({{"run", JsonShape::text()},
-                         {"iteration", JsonShape::whole(0, Text.size())},
-                         {"sh_degree", JsonShape::whole(0, MaxShDegree)},
-                         {"gaussians", JsonShape::whole(0, Text.size())}});
-  if (auto Ok = Shape.check(Header, Path); !Ok)
-    return Ok.error();
+  const auto Header = readHeader(Path, HeaderText);
+  if (!Header)
+    return Header.error();
+  // Nothing is allocated before the file is known to have it.
   Checkpoint C;
-  C.Run = Header["run"].get<std::string>();
-  C.Iteration = Header["iteration"].get<unsigned>();
-  C.ShDegree = Header["sh_degree"].get<int>();
-  const auto Gaussians = Header["gaussians"].get<std::size_t>();
-  resize(C, Gaussians);
-  std::size_t Size = 0;
-  forArrays(C, [&](const auto &A) { Size += 4 * A.size(); });
-  if (Size != Text.size())
+  std::size_t Words = 0;
+  forArrays(
+      C, Header->Lengths,
+      [&](const auto &, const char *, std::size_t Size) { Words += Size; });
+  if (4 * Words != Text.size())
     return damaged(Path);
-  std::size_t At = File->size() - Size;
-  forArrays(C, [&](auto &A) {
-    std::memcpy(A.data(), File->data() + At, 4 * A.size());
-    At += 4 * A.size();
+  C.Run = Header->Run;
+  C.Iteration = static_cast<unsigned>(Header->Lengths.Losses);
+  C.ShDegree = Header->Lengths.ShDegree;
+  const char *From = Text.data();
+  forArrays(C, Header->Lengths, [&](auto &A, const char *, std::size_t Size) {
+    A.resize(Size);
+    std::copy_n(From, 4 * Size, reinterpret_cast<char *>(A.data()));
+    From += 4 * Size;
   });
+  if (auto Checked = checkFinite(Path, C); !Checked)
+    return Checked.error();
   return C;
 }
 

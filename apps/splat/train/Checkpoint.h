@@ -1,6 +1,7 @@
 /// The state of a training run in a file.
 #pragma once
 
+#include "../io/Bytes.h"
 #include "Density.h"
 #include "vorion/support/Expected.h"
 
@@ -27,11 +28,16 @@ struct Checkpoint {
 };
 
 /// Writes aside and renames: an interrupted or failed write leaves the file
-/// that was there.
+/// that was there. So does a run whose values are no finite numbers any more,
+/// which is an Error (GuestFailed).
 Expected<Success> writeCheckpoint(const std::string &Path, const Checkpoint &C);
 
 /// Refused: other versions, files that are shorter, longer or otherwise than
-/// they were written (a checksum tells).
+/// they were written (a checksum tells), values that are no finite numbers.
+/// Takes no more memory than a few times the file's size.
 Expected<Checkpoint> readCheckpoint(const std::string &Path);
+
+/// The same of \p File, the bytes of \p Path.
+Expected<Checkpoint> parseCheckpoint(const std::string &Path, Bytes File);
 
 } // namespace vorion::splat

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <sys/resource.h>
 
 using namespace vorion;
@@ -78,6 +80,91 @@ TEST(Checkpoint, DamageIsNoticed) {
     ASSERT_FALSE(Read);
     EXPECT_NE(Read.error().What.find("another version"), std::string::npos);
   }
+}
+
+/// A whole file around \p Body, as a checkpoint's first line has it.
+std::string signedFile(const std::string &Body) {
+  return fmt::format("vorion-checkpoint 2 {}\n", fnv1a64(Body)) + Body;
+}
+
+/// The checksum guards against accidents: whoever writes one that is right must
+/// not end the program, whatever the fields are.
+TEST(Checkpoint, FieldsOfOtherTypesAreDamage) {
+  const TestFolder F;
+  for (const char *Header :
+       {"{}", "[]", "7",
+        R"({"run": 1, "iteration": 0, "sh_degree": 0, "gaussians": 0})",
+        R"({"run": "", "iteration": "4", "sh_degree": 0, "gaussians": 0})",
+        R"({"run": "", "iteration": -1, "sh_degree": 0, "gaussians": 0})",
+        R"({"run": "", "iteration": 0, "sh_degree": 4, "gaussians": 0})",
+        R"({"run": "", "iteration": 0, "sh_degree": 0.5, "gaussians": 0})",
+        R"({"run": "", "iteration": 0, "sh_degree": 0, "gaussians": []})",
+        R"({"run": "", "iteration": 0, "sh_degree": 0})",
+        R"({"run": "", "iteration": 0, "sh_degree": 0, "gaussians": 1e300})"}) {
+    F.write("d", signedFile(std::string(Header) + "\n"));
+    const auto Read = readCheckpoint(F.path("d"));
+    ASSERT_FALSE(Read) << Header;
+    EXPECT_NE(Read.error().What.find("damaged checkpoint"), std::string::npos)
+        << Header;
+  }
+  F.write("d",
+          signedFile(
+              R"({"run": "x", "iteration": 0, "sh_degree": 0, "gaussians": 0})"
+              "\n"));
+  EXPECT_TRUE(readCheckpoint(F.path("d")));
+}
+
+/// What a header asks for is held against the file before it is allocated.
+TEST(Checkpoint, AHeaderMakesNoMemory) {
+  const TestFolder F;
+  constexpr std::size_t Size = 4'000'000;
+  const std::string Header = fmt::format(
+      R"({{"run": "", "iteration": {0}, "sh_degree": 3, "gaussians": {0}}})"
+      "\n",
+      Size);
+  F.write("d", signedFile(Header + std::string(Size, '\0')));
+  const auto PeakKib = [] {
+    rusage Usage{};
+    getrusage(RUSAGE_SELF, &Usage);
+    return Usage.ru_maxrss;
+  };
+  const long Before = PeakKib();
+  const auto Read = readCheckpoint(F.path("d"));
+  EXPECT_LT(PeakKib() - Before, 64 * 1024);
+  ASSERT_FALSE(Read);
+  EXPECT_NE(Read.error().What.find("damaged checkpoint"), std::string::npos);
+}
+
+TEST(Checkpoint, ValuesThatAreNoNumbersAreSaid) {
+  const TestFolder F;
+  ASSERT_TRUE(writeCheckpoint(F.path("c"), sample()));
+  const std::string Whole = F.read("c");
+  const std::size_t Begin = Whole.find('\n') + 1;
+  const std::string Body = Whole.substr(Begin);
+  const std::size_t Arrays = Body.find('\n') + 1;
+  for (const float Bad : {std::numeric_limits<float>::quiet_NaN(),
+                          std::numeric_limits<float>::infinity()}) {
+    std::string Changed = Body;
+    std::memcpy(Changed.data() + Arrays + 4 * 5, &Bad, 4);
+    F.write("d", signedFile(Changed));
+    const auto Read = readCheckpoint(F.path("d"));
+    ASSERT_FALSE(Read);
+    EXPECT_EQ(Read.error().What,
+              fmt::format("geometry after iteration 4: value 5 is {}, expected "
+                          "finite numbers",
+                          Bad));
+    EXPECT_EQ(Read.error().Code, ExitCode::InputFile);
+  }
+  // A run that has come to that keeps its last good state.
+  Checkpoint C = sample();
+  C.SecondSh[7] = std::numeric_limits<float>::quiet_NaN();
+  const auto Written = writeCheckpoint(F.path("c"), C);
+  ASSERT_FALSE(Written);
+  EXPECT_EQ(Written.error().What,
+            "not written: colours' second moments after iteration 4: value 7 "
+            "is nan, expected finite numbers");
+  EXPECT_EQ(Written.error().Code, ExitCode::GuestFailed);
+  EXPECT_EQ(F.read("c"), Whole);
 }
 
 /// Where nothing can be written, the old one stays.

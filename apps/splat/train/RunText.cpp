@@ -2,7 +2,9 @@
 
 #include "Hash.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -33,7 +35,27 @@ std::string hashOf(const TrainingSet &Set) {
   return fnv1a64(All);
 }
 
+/// As an error shows it: a value or a list of values. Text of a checkpoint may
+/// be anything.
+std::string shown(const Json &Value) {
+  if (std::ranges::any_of(Value, &Json::is_structured))
+    return "nested";
+  return printable(jsonText(Value));
+}
+
 } // namespace
+
+std::string hashPoints(const CapturePoints &Points) {
+  std::string All;
+  const auto Add = [&All](const auto &Values) {
+    All += fmt::format("{};", Values.size());
+    All.append(reinterpret_cast<const char *>(Values.data()),
+               Values.size() * sizeof(Values[0]));
+  };
+  Add(Points.Positions);
+  Add(Points.Colours);
+  return fnv1a64(All);
+}
 
 std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
                     const PictureSource &Source, int ShDegree, Rules Convention,
@@ -68,7 +90,9 @@ std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
   // What the order of the cores' sums depends on.
   if (By.Who == Path::Simt && By.SimtTile != Blender(By.Who).SimtTile)
     J["simt_tile"] = By.SimtTile;
-  if (!Run.From.empty())
+  if (Run.From.empty())
+    J["points"] = Run.Points;
+  else
     J["from"] = Run.From;
   return jsonText(J);
 }
@@ -88,10 +112,9 @@ Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
                    fmt::format("a checkpoint of another run: {} is {}, "
                                "expected {}",
                                Key,
-                               A.is_object() && A.contains(Key)
-                                   ? jsonText(A[Key])
-                                   : "missing",
-                               jsonText(Value)),
+                               A.is_object() && A.contains(Key) ? shown(A[Key])
+                                                                : "missing",
+                               shown(Value)),
                    ExitCode::Usage};
   return Error{File, "a checkpoint of another run, expected one of this",
                ExitCode::Usage};

@@ -1,6 +1,7 @@
 /// What a training run was asked to do, as checkpoints and reports have it.
 #pragma once
 
+#include "../capture/Capture.h"
 #include "../render/Backward.h"
 #include "DeviceRenderer.h"
 #include "Trainer.h"
@@ -17,9 +18,12 @@ struct PictureSource {
   std::array<float, 3> Background{};
 };
 
-/// One line of JSON that differs where results would: pictures and poses (by
-/// hash), settings, seed, spherical harmonics, who renders. The number of
-/// iterations is not part of it, so that a run can go on for longer.
+/// Of the points that training starts from.
+std::string hashPoints(const CapturePoints &Points);
+
+/// One line of JSON that differs where results would: pictures, poses and first
+/// points (by hash), settings, seed, spherical harmonics, who renders. The
+/// number of iterations is not part of it, so that a run can go on for longer.
 std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
                     const PictureSource &Source, int ShDegree, Rules Convention,
                     const Blender &By, const BackwardOptions &Backward);

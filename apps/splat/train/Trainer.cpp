@@ -1,10 +1,15 @@
 #include "Trainer.h"
 
 #include "Adam.h"
+#include "Bytes.h"
 #include "Image.h"
 #include "Metrics.h"
 
 #include "../render/Layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace vorion::splat {
 
@@ -133,6 +138,12 @@ StepReport Trainer::step() {
     Batch.add(Mine ? &*Mine : nullptr);
   }
   R.Loss = Batch.loss();
+  if (!std::isfinite(R.Loss.Value))
+    L.fail({"",
+            fmt::format("the loss of iteration {} is {}, expected a number: "
+                        "the scene has become none",
+                        R.Iteration, R.Loss.Value),
+            ExitCode::GuestFailed});
   L.beginStage("Adam");
   stepAdam(L, Settings, S, Batch.gradients(), R.Iteration, Run.Extent, Degree);
   if (!goesOn())
@@ -157,6 +168,13 @@ Photo Trainer::render(const Camera &C) {
       static_cast<std::size_t>(C.Width) * static_cast<std::size_t>(C.Height);
   std::vector<float> Rgba(4 * Pixels);
   L.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
+  // As a byte a NaN would be black.
+  if (std::ranges::any_of(Rgba, [](float V) { return std::isnan(V); }))
+    L.fail({"",
+            fmt::format("view {} of the trained scene has values that are no "
+                        "numbers, expected a picture",
+                        printable(C.Name)),
+            ExitCode::GuestFailed});
   P.Rgb.reserve(3 * Pixels);
   for (std::size_t I = 0; I < Pixels; ++I)
     for (std::size_t K = 0; K < 3; ++K)

@@ -21,6 +21,7 @@ struct TrainRun {
   std::uint64_t Seed = 0;
   /// Hash of the checkpoint of another run that it begins with, or empty.
   std::string From;
+  std::string Points;           ///< else hash of those that it begins with
   double Extent = 1;            ///< of the cameras
   unsigned Batch = 1;           ///< views an iteration
   bool WhiteBackground = false; ///< which has a reset more

@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
 """Writes made-up points of `splat accuracy --train CAPTURE`, whose names come from its --list on standard input.
 
-usage: training_points.py CAPTURE FOLDER < list
+usage: training_points.py FOLDER < list
+They say that they were made from what the folder's default@gradients was.
 """
 
 import json
 import os
 import sys
 
-capture, folder = sys.argv[1:]
+folder, = sys.argv[1:]
 UNITS = ["exact", "even-left", "even-best", "log-left", "log-best", "mantissa-2", "mantissa-3"]
-asked = {"capture": capture, "meaning": 2, "exclude": [], "downscale": 1, "background": [0.0, 0.0, 0.0], "max_gaussians": 0,
-         "iterations": 20, "score_every": 5, "time_every": 10}
-os.makedirs(os.path.join(folder, "points"))
-for number, name in enumerate(line.strip() for line in sys.stdin):
+with open(os.path.join(folder, "points", "default@gradients.json"), encoding="utf-8") as f:
+    made_from = json.load(f)["made_from"]
+for number, name in enumerate((line.strip() for line in sys.stdin), 1):
     setting, at = name.split("@")
-    point = {"setting": setting, "asked": asked}
+    point = {"point": name, "made_from": made_from, "setting": setting}
     if at == "gradients":
         point["errors"] = {kind: 10.0 ** -(number + 1) for kind in ("means", "quats", "scales", "opacities", "colors", "largest")}
     else:

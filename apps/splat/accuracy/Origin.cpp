@@ -1,0 +1,115 @@
+#include "Origin.h"
+
+#include "../device/Configuration.h"
+#include "../device/Programs.h"
+#include "../io/Hash.h"
+#include "Points.h"
+#include "vorion/support/File.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Files are called otherwise elsewhere: what they hold counts.
+std::string hashMachine(Json Configuration) {
+  if (Configuration.is_object()) {
+    Configuration.erase("file");
+    if (Configuration.contains("base") && Configuration["base"].is_object())
+      Configuration["base"].erase("file");
+  }
+  return fnv1a64(jsonText(Configuration));
+}
+
+void append(std::string &To, const auto &Values) {
+  To += fmt::format("{};", Values.size());
+  To.append(reinterpret_cast<const char *>(Values.data()),
+            Values.size() * sizeof(Values[0]));
+}
+
+/// The files' hashes, or nothing if one is missing.
+Json hashesOf(const std::vector<std::string> &Files) {
+  Json Hashes = Json::array();
+  for (const std::string &File : Files) {
+    const auto Hash = hashFile(File);
+    if (!Hash)
+      return {};
+    Hashes.push_back(*Hash);
+  }
+  return Hashes;
+}
+
+} // namespace
+
+Expected<Origin> commonOrigin() {
+  const auto Programs = hashPrograms();
+  if (!Programs)
+    return Programs.error();
+  auto Machine = machineConfiguration();
+  if (!Machine)
+    return Machine.error();
+  return Origin{{"programs", *Programs},
+                {"machine", hashMachine(std::move(*Machine))}};
+}
+
+std::string hashView(const Camera &View) {
+  std::string All = fmt::format("{};{};", View.Width, View.Height);
+  append(All, std::array{View.Fx, View.Fy, View.Cx, View.Cy});
+  append(All, View.Position);
+  for (const auto &Row : View.Rotation)
+    append(All, Row);
+  return fnv1a64(All);
+}
+
+Expected<std::string> hashCapture(const Capture &C) {
+  std::string All = fmt::format("{};{};", name(C.Format), C.HeldOutBy);
+  for (const CaptureView &V : C.Views) {
+    const auto Picture = hashFile(V.Picture);
+    if (!Picture)
+      return Picture;
+    All += fmt::format("{};{};{};{};", V.Pose.Name, hashView(V.Pose), *Picture,
+                       V.HeldOut);
+  }
+  append(All, C.Points.Positions);
+  append(All, C.Points.Colours);
+  return fnv1a64(All);
+}
+
+std::string difference(const Json &Had, const Origin &Wanted) {
+  std::vector<std::string> Names;
+  for (const auto &[Name, Is] : Wanted)
+    if (!Had.is_object() || !Had.contains(Name) || Had[Name] != Is)
+      Names.push_back(Name);
+  std::string Text;
+  for (std::size_t I = 0; I < Names.size(); ++I)
+    Text += (I == 0 ? "" : I + 1 == Names.size() ? " and " : ", ") + Names[I];
+  return Text;
+}
+
+Expected<Success> makeOnce(const std::vector<std::string> &Files,
+                           const Origin &From,
+                           const std::function<Expected<Success>()> &Make) {
+  const std::string Beside = Files.front() + ".origin";
+  if (const auto Had = readJson(Beside))
+    if (Had->is_object() &&
+        difference(Had->value("made_from", Json()), From).empty() &&
+        Had->value("fnv1a64", Json()) == hashesOf(Files))
+      return Success{};
+  // Broken off in the middle, the files are of nothing.
+  std::error_code Ignored;
+  std::filesystem::remove(Beside, Ignored);
+  if (auto Made = Make(); !Made)
+    return Made;
+  return writeFileAtomically(
+      Beside,
+      jsonText(Json{{"made_from", From}, {"fnv1a64", hashesOf(Files)}}, 1) +
+          "\n");
+}
+
+} // namespace vorion::splat

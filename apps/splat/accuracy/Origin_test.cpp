@@ -1,0 +1,115 @@
+#include "Origin.h"
+
+#include "io/TestFiles.h"
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+using namespace vorion;
+using namespace vorion::splat;
+
+namespace {
+
+TEST(Origin, WhatDiffersIsNamed) {
+  using Json = nlohmann::ordered_json;
+  const Origin Wanted{{"machine", "m"}, {"programs", "p"}, {"scene", "s"}};
+  EXPECT_EQ(difference(Json(Wanted), Wanted), "");
+  EXPECT_EQ(difference(Json{{"machine", "m"}, {"programs", "p"}}, Wanted),
+            "scene");
+  EXPECT_EQ(difference(Json{{"machine", 7}, {"programs", "p"}}, Wanted),
+            "machine and scene");
+  for (const Json &Other : {Json(), Json("x"), Json::array({1})})
+    EXPECT_EQ(difference(Other, Wanted), "machine, programs and scene");
+}
+
+TEST(Origin, AViewIsWhatItSeesNotItsName) {
+  Camera A = Camera::ahead(64, 48, 50);
+  Camera B = A;
+  B.Name = "other";
+  B.Id = 7;
+  EXPECT_EQ(hashView(A), hashView(B));
+  B.Rotation[1][2] = 1e-9;
+  EXPECT_NE(hashView(A), hashView(B));
+}
+
+TEST(Origin, TheMachineIsWhatItsFileSays) {
+  const TestFolder F;
+  const auto MachineOf = [&](const char *Config, const char *Set) {
+    setenv("VORION_CONFIG", Config, 1);
+    setenv("VORION_SET", Set, 1);
+    const auto All = commonOrigin();
+    unsetenv("VORION_CONFIG");
+    unsetenv("VORION_SET");
+    EXPECT_TRUE(All);
+    return All ? All->at("machine") : "";
+  };
+  const std::string One = F.write("one.json", "{\"cores\": 1}");
+  const std::string Same = F.write("same.json", "{\"cores\": 1}");
+  const std::string Two = F.write("two.json", "{\"cores\": 2}");
+  EXPECT_EQ(MachineOf(One.c_str(), ""), MachineOf(Same.c_str(), ""));
+  EXPECT_NE(MachineOf(One.c_str(), ""), MachineOf(Two.c_str(), ""));
+  EXPECT_NE(MachineOf(One.c_str(), ""), MachineOf(One.c_str(), "cores=3"));
+  EXPECT_EQ(MachineOf(One.c_str(), "cores=3"),
+            MachineOf(Same.c_str(), "cores=3"));
+}
+
+/// Whatever a compiler is called: another one makes other results.
+TEST(Origin, AChangedProgramIsAnother) {
+  const TestFolder F;
+  std::filesystem::create_directories(F.path("bin"));
+  std::filesystem::create_directories(F.path("lib/vorion"));
+  setenv("VORION_ROOT", F.path("").c_str(), 1);
+  const auto Programs = [] { return commonOrigin()->at("programs"); };
+  F.write("bin/vorion-clang", "a");
+  F.write("lib/vorion/libdevice.a", "b");
+  const std::string Before = Programs();
+  EXPECT_EQ(Programs(), Before);
+  F.write("lib/vorion/libdevice.a", "c");
+  EXPECT_NE(Programs(), Before);
+  F.write("lib/vorion/libdevice.a", "b");
+  EXPECT_EQ(Programs(), Before);
+  F.write("bin/vorion-clang", "b");
+  EXPECT_NE(Programs(), Before);
+  unsetenv("VORION_ROOT");
+}
+
+TEST(Origin, FilesAreMadeOnceForTheSame) {
+  const TestFolder F;
+  const std::vector<std::string> Files{F.path("a"), F.path("b")};
+  int Made = 0;
+  const auto Make = [&](const Origin &From) {
+    const auto Done = makeOnce(Files, From, [&]() -> Expected<Success> {
+      ++Made;
+      F.write("a", From.at("scene"));
+      F.write("b", "b");
+      return Success{};
+    });
+    EXPECT_TRUE(Done);
+    return F.read("a");
+  };
+  const Origin One{{"scene", "1"}}, Two{{"scene", "2"}};
+  EXPECT_EQ(Make(One), "1");
+  EXPECT_EQ(Make(One), "1");
+  EXPECT_EQ(Made, 1);
+  EXPECT_EQ(Make(Two), "2");
+  EXPECT_EQ(Make(One), "1");
+  EXPECT_EQ(Made, 3);
+  // A file that somebody changed, or that is gone, is made again.
+  F.write("b", "c");
+  EXPECT_EQ(Make(One), "1");
+  EXPECT_EQ(F.read("b"), "b");
+  std::filesystem::remove(F.path("a"));
+  EXPECT_EQ(Make(One), "1");
+  EXPECT_EQ(Made, 5);
+  // What was broken off is not taken for what was there before.
+  const auto Broken = makeOnce(Files, Two, [&]() -> Expected<Success> {
+    F.write("a", "2");
+    return Error{"", "broken off"};
+  });
+  EXPECT_FALSE(Broken);
+  F.write("a", "1");
+  EXPECT_EQ(Make(One), "1");
+  EXPECT_EQ(Made, 6);
+}
+
+} // namespace

@@ -1,0 +1,88 @@
+#include "Points.h"
+
+#include "io/TestFiles.h"
+
+#include <fmt/format.h>
+
+using namespace vorion;
+using namespace vorion::splat;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class KeptPointsTest : public ::testing::Test {
+protected:
+  KeptPointsTest() { EXPECT_TRUE(makeFolders(F.path("o"))); }
+
+  KeptPoints open() {
+    Said.clear();
+    return {F.path("o"), [](const Json &J) { return hasNumber(J, "cycles"); },
+            [this](std::string_view Line) { Said += Line; }};
+  }
+
+  TestFolder F;
+  std::string Said;
+};
+
+const Origin From{{"programs", "p"}, {"scene", "A"}};
+const Origin Other{{"programs", "p"}, {"scene", "B"}};
+
+TEST_F(KeptPointsTest, AreUsedForTheSameAlone) {
+  KeptPoints First = open();
+  EXPECT_EQ(First.find("a@front", From), nullptr);
+  ASSERT_TRUE(First.keep("a@front", From, Json{{"cycles", 7}}));
+  EXPECT_EQ((*First.find("a@front", From))["cycles"], 7);
+  EXPECT_EQ(Said, "");
+
+  KeptPoints Second = open();
+  ASSERT_NE(Second.find("a@front", From), nullptr);
+  EXPECT_EQ((*Second.find("a@front", From))["made_from"]["scene"], "A");
+  EXPECT_EQ(Said, "");
+
+  KeptPoints Third = open();
+  EXPECT_EQ(Third.find("a@front", Other), nullptr);
+  EXPECT_EQ(Third.find("a@front", Other), nullptr);
+  EXPECT_EQ(Said, fmt::format("{}: stale, differs in scene: not used",
+                              F.path("o/points/a@front.json")));
+}
+
+/// Each is one line and no measurement.
+TEST_F(KeptPointsTest, WhatIsNoMeasurementIsNotUsed) {
+  KeptPoints Kept = open();
+  ASSERT_TRUE(Kept.keep("a", From, Json{{"cycles", 7}}));
+  const std::string Whole = F.read("o/points/a.json");
+  const auto Cut = [&](std::string_view What, std::string_view By) {
+    std::string Text = Whole;
+    return Text.replace(Text.find(What), What.size(), By);
+  };
+  const std::pair<std::string, const char *> Files[] = {
+      {"", "no JSON"},
+      {"{}", "another point"},
+      {"[]", "another point"},
+      {"7", "another point"},
+      {std::string(200000, '['), "no JSON"},
+      {std::string(100, '[') + std::string(100, ']'), "another point"},
+      {Whole.substr(0, Whole.size() / 2), "no JSON"},
+      {Cut("\"a\"", "\"b\""), "another point"},
+      {Cut("7", "\"7\""), "damaged"},
+      {Cut("7", "null"), "damaged"},
+      {Cut("\"p\"", "{}"), "stale, differs in programs"}};
+  for (const auto &[Text, Why] : Files) {
+    F.write("o/points/a.json", Text);
+    KeptPoints Again = open();
+    EXPECT_EQ(Again.find("a", From), nullptr) << Text.substr(0, 80);
+    EXPECT_NE(Said.find(Why), std::string::npos) << Said;
+    EXPECT_EQ(Said.find('\n'), std::string::npos);
+  }
+}
+
+TEST_F(KeptPointsTest, NoMeasurementIsNotKept) {
+  KeptPoints Kept = open();
+  const auto Done = Kept.keep("a", From, Json{{"cycles", nullptr}});
+  ASSERT_FALSE(Done);
+  EXPECT_EQ(Done.error().Where, "a");
+  EXPECT_FALSE(std::filesystem::exists(F.path("o/points/a.json")));
+}
+
+} // namespace
