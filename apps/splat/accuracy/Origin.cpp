@@ -5,6 +5,7 @@
 #include "../io/Hash.h"
 #include "Points.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -297,7 +297,17 @@ Expected<Success> run(RenderArguments &A) {
                             !A.Depth.empty()};
   RenderPlan Plan = planAsAsked(A, Inputs);
 
-  auto D = openDevice(A.Device, A.Options.Blending);
+  const auto Open = [&A] { return openDevice(A.Device, A.Options.Blending); };
+  std::string Measured;
+  if (A.Explain == "measure") {
+    const auto Costs = measureEffects(Open, A.KernelFolder, A.Request, Inputs,
+                                      Cameras->front(), progress());
+    endProgress();
+    if (!Costs)
+      return Costs.error();
+    Measured = toString(*Costs);
+  }
+  auto D = Open();
   if (!D)
     return D.error();
   Launcher L(*D, A.KernelFolder, progress());
@@ -314,14 +324,7 @@ Expected<Success> run(RenderArguments &A) {
       return Text.error();
     printOut("{}", *Text);
   }
-  if (A.Explain == "measure") {
-    const auto Costs = measureEffects(*D, A.KernelFolder, A.Request, Inputs,
-                                      Cameras->front(), progress());
-    endProgress();
-    if (!Costs)
-      return Costs.error();
-    printOut("{}", toString(*Costs));
-  }
+  printOut("{}", Measured);
   return Success{};
 }
 

@@ -12,8 +12,7 @@
 
 namespace vorion::splat {
 
-/// The frame with an effect less the frame without it; the second render of
-/// each, when everything is compiled.
+/// The frame with an effect less the frame without it.
 struct EffectCost {
   const Effect *E = nullptr;
   bool Done = false; ///< in the picture that was asked for
@@ -30,10 +29,15 @@ struct EffectCosts {
   std::vector<EffectCost> Effects;
 };
 
-/// Renders the frame of \p Request again, and once with each effect switched;
-/// twice each. \p Progress is told which.
+/// What opens the device.
+using DeviceOpener = std::function<Expected<Device>()>;
+
+/// Renders the frame of \p Request, and once with each effect switched: each in
+/// a process of its own, so that all begin with the same machine, whose caches
+/// are empty, as any first frame does. To be called before a device is opened
+/// here. \p Progress is told which.
 Expected<EffectCosts>
-measureEffects(const Device &D, const std::string &KernelFolder,
+measureEffects(const DeviceOpener &Open, const std::string &KernelFolder,
                const EffectRequest &Request, const EffectInputs &In,
                const Camera &C,
                const std::function<void(std::string_view)> &Progress);
