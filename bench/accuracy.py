@@ -11,18 +11,24 @@ gradients  the same fixtures' gradients and hand-over sums, by path and, with
           --units, by reciprocal unit and order of the sums
 
 Prints a Markdown table and writes OUT/<mode>.json. Every row is kept as a file
-below OUT, so that a broken run goes on where it stopped; delete OUT to begin
-anew. Exit codes: 0 all rows within the bounds, 1 some are not, 3 no data.
+below OUT, so that a broken run goes on where it stopped; rows that were made
+from other programs or data are named and made again. Exit codes: 0 all rows within the bounds, 1 some are not, 3 no data.
 The tools (splat, splat-reference, ...) are taken from the PATH: . scripts/env.sh
 """
 
 import argparse
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
 
+import kept
+
+# What makes results beside splat's programs.
+TOOLS = {name: shutil.which(name) for name in ("splat-reference", "splat-fixture", "splat-check-gradients")
+         if shutil.which(name)}
 SCENES = ("room7k_sh3", "box_sh3")
 VIEWS = ("front", "close", "far")
 SUPPORTS = {"simt": ("exact", "box3", "square3", "official16"), "raster": ("exact", "box3", "square3")}
@@ -45,21 +51,14 @@ class Bench:
             raise RuntimeError(f"{' '.join(command)}: exit code {done.returncode}: {done.stderr.strip()[-400:]}")
         return time.monotonic() - begin
 
-    def once(self, name, make):
-        """The JSON file `name` below OUT; make() returns it the first time."""
-        file = self.path(name + ".row.json")
-        if not os.path.exists(file):
-            row = make()
-            with open(file + ".tmp", "w") as f:
-                json.dump(row, f, indent=1)
-            os.rename(file + ".tmp", file)
-        with open(file) as f:
-            return json.load(f)
+    def once(self, name, inputs, make):
+        """The JSON file `name` below OUT; make() returns it the first time, from files and folders by what they are."""
+        return kept.result(self.path(name + ".row.json"), kept.origin({**TOOLS, **inputs}, [name]), make)
 
-    def make(self, file, *command):
+    def make(self, file, inputs, *command):
         """File below OUT made by command, which ends in the file's name."""
-        if not os.path.exists(self.path(file)):
-            self.run(*command, self.path(file))
+        made_from = kept.origin({**TOOLS, **inputs}, command)
+        kept.once([self.path(file)], made_from, lambda: self.run(*command, self.path(file)))
         return self.path(file)
 
     def compare(self, expected, actual, mask, name):
@@ -78,6 +77,13 @@ def reached(value, bound):
     return value is None or value >= bound
 
 
+def decibels(result, where=""):
+    """A PSNR of `splat compare`: None for no difference, and minus infinity where values are no finite numbers."""
+    if result["not_finite" + where]:
+        return float("-inf")
+    return result["psnr_db" + where]
+
+
 def pictures(bench, args):
     rows = []
     for scene in args.scenes.split(","):
@@ -85,9 +91,10 @@ def pictures(bench, args):
             ply = os.path.join(bench.data, "scenes", scene + ".ply")
             cameras = os.path.join(bench.data, "scenes", "cameras", scene + ".json")
             source = (ply, "--cameras", cameras, "--view", view)
+            inputs = {"scene": os.path.abspath(ply), "cameras": os.path.abspath(cameras)}
             for support in SUPPORTS["simt"]:
                 name = f"{scene}-{view}-{support}"
-                reference = bench.make(f"{name}-f64.npz", "splat-reference", *source, "--support", support, "-o")
+                reference = bench.make(f"{name}-f64.npz", inputs, "splat-reference", *source, "--support", support, "-o")
                 made = {}
                 for path in (p for p in SUPPORTS if support in SUPPORTS[p]):
                     def row(path=path):
@@ -97,7 +104,7 @@ def pictures(bench, args):
                         wall = bench.run("splat", "render", *source, "--support", support, "--path", path,
                                          "-o", picture, "--json", report, "--dump-pairs", pairs)
                         tile = "64" if path == "raster" else "16"
-                        wanted = bench.make(f"{name}-pairs{tile}.npz", "splat-reference", *source, "--support", support,
+                        wanted = bench.make(f"{name}-pairs{tile}.npz", inputs, "splat-reference", *source, "--support", support,
                                             "--precision", "f32", "--tile", tile, "--pairs")
                         same = subprocess.run(("splat", "compare", wanted, pairs, "--pairs"), capture_output=True,
                                               text=True)
@@ -105,15 +112,15 @@ def pictures(bench, args):
                         with open(report) as f:
                             told = json.load(f)
                         return {"scene": scene, "view": view, "support": support, "path": path, "wall_s": wall,
-                                "all_db": result["psnr_db"], "sure_db": result["psnr_db_outside_doubtful"],
+                                "all_db": decibels(result), "sure_db": decibels(result, "_outside_doubtful"),
                                 "doubtful": result["doubtful_share"], "pairs_equal": same.returncode == 0,
                                 "pairs_said": (same.stdout or same.stderr).strip(), "report": told}
-                    made[path] = bench.once(f"{name}-{path}", row)
+                    made[path] = bench.once(f"{name}-{path}", inputs, row)
                     rows.append(made[path])
                 if len(made) == 2:
-                    between = bench.once(f"{name}-paths", lambda: bench.compare(
+                    between = bench.once(f"{name}-paths", inputs, lambda: bench.compare(
                         bench.path(f"{name}-simt.npz"), bench.path(f"{name}-raster.npz"), reference, f"{name}-paths"))
-                    made["raster"]["paths_db"] = between["psnr_db_outside_doubtful"]
+                    made["raster"]["paths_db"] = decibels(between, "_outside_doubtful")
     print("| scene | view | support | path | all, dB | sure, dB | doubtful, % | paths, dB | pairs = fp32 | wall, s |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     good = True
@@ -132,10 +139,15 @@ def fixture_names(bench):
                   if n.endswith(".npz") and not n.endswith("_more.npz"))
 
 
+def fixture_of(bench, name):
+    """The file of a fixture, as what a result is made from."""
+    return {"fixture": os.path.abspath(os.path.join(bench.data, "reference", name + ".npz"))}
+
+
 def converted(bench, name):
     """The folder of fixture `name` as splat reads it, and its options."""
     folder = bench.path(name)
-    bench.once(name + "-fixture", lambda: bench.run(
+    bench.once(name + "-fixture", fixture_of(bench, name), lambda: bench.run(
         "splat-fixture", os.path.join(bench.data, "reference", name + ".npz"), "-o", folder))
     with open(os.path.join(folder, "options.json")) as f:
         return folder, json.load(f)
@@ -165,10 +177,10 @@ def fixtures(bench, args):
                 mask = os.path.join(folder, "reference.npz")
                 result = bench.compare(os.path.join(folder, "expected.npz"), picture, mask, f"{name}-{path}")
                 return {"fixture": name, "path": path, "rules": options["rules"], "support": options["support"],
-                        "all_db": result["psnr_db"], "sure_db": result["psnr_db_outside_doubtful"],
+                        "all_db": decibels(result), "sure_db": decibels(result, "_outside_doubtful"),
                         "doubtful": result["doubtful_share"], "required": required,
                         "conversion_db": options["conversion_db_outside_doubtful"]}
-            rows.append(bench.once(f"{name}-{path}", row))
+            rows.append(bench.once(f"{name}-{path}", fixture_of(bench, name), row))
     print("| fixture | rules | support | path | all, dB | sure, dB | doubtful, % | the conversion alone, dB |")
     print("|---|---|---|---|---|---|---|---|")
     good = True
@@ -179,6 +191,10 @@ def fixtures(bench, args):
               f"| {db(r['sure_db'])} | {100 * r['doubtful']:.3f} | {db(r['conversion_db'])} |"
               f"{'' if row_good else ' OUT OF BOUNDS'}")
     return rows, good
+
+
+def error_of(array):
+    return float("inf") if array["error"] is None else array["error"]
 
 
 UNITS = ("exact", "even-left", "even-best", "log-left", "log-best", "mantissa-2", "mantissa-3")
@@ -204,17 +220,18 @@ def gradients(bench, args):
                 with open(base + ".json") as f:
                     return {"fixture": name, "path": path, "reciprocal": unit, "sum": order, "rules": options["rules"],
                             "wall_s": wall, "arrays": json.load(f)}
-            rows.append(bench.once(f"{name}-gradients-{path}-{unit}-{order}", row))
+            rows.append(bench.once(f"{name}-gradients-{path}-{unit}-{order}", fixture_of(bench, name), row))
     print("Relative L2 difference from fp64 (the largest, and of which array); beyond: arrays above 1e-5 and above twice the\n"
           "fixture's own fp32 error\n")
     print("| fixture | path | reciprocal | sum | largest error | of | beyond | wall, s |")
     print("|---|---|---|---|---|---|---|---|")
     good = True
     for r in rows:
-        worst = max(r["arrays"], key=lambda a: r["arrays"][a]["error"])
-        beyond = [a for a, v in r["arrays"].items() if not v["error"] <= v["limit"]]
+        worst = max(r["arrays"], key=lambda a: error_of(r["arrays"][a]))
+        # JSON has no NaN: an error that is one is null.
+        beyond = [a for a, v in r["arrays"].items() if v["error"] is None or not v["error"] <= v["limit"]]
         good &= not beyond or r["reciprocal"] not in ("exact", "mantissa-3")
-        print(f"| {r['fixture']} | {r['path']} | {r['reciprocal']} | {r['sum']} | {r['arrays'][worst]['error']:.1e} "
+        print(f"| {r['fixture']} | {r['path']} | {r['reciprocal']} | {r['sum']} | {error_of(r['arrays'][worst]):.1e} "
               f"| {worst[4:]} | {' '.join(b[4:] for b in beyond)} | {r['wall_s']:.1f} |")
     return rows, good
 

@@ -7,7 +7,7 @@ usage: bench/effects.py --out FOLDER [--scenes NAME,...] [--views NAME,...] [--c
 Renders each view of each scene of ../shared/data with --effects auto, all and flags, and prints the
 effects that are on, warp instructions of the frame (with --clock also cycles), processor seconds of the
 process, and whether the three pictures have the same bits. Small scenes come first. FOLDER keeps each
-run's result and PoCL's cache; what is there is not run again, so it goes on where it broke off.
+run's result and PoCL's cache; what is there, made from the same, is not run again, so it goes on where it broke off.
 --first-frame instead renders each view four times: auto and flags with an empty cache, which counts
 compiling, and both again. Exit codes: 0, 1 a run failed or pictures differ.
 """
@@ -22,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 
+import kept
 import scenes
 
 MODES = ("auto", "all", "flags")
@@ -46,10 +47,15 @@ def processor_seconds():
 
 def render(args, key, scene, view, mode, cache):
     """One run's result, kept in the folder under its key."""
-    kept = os.path.join(args.out, key.replace("/", "_") + ".json")
-    if os.path.exists(kept):
-        with open(kept, encoding="utf-8") as f:
-            return json.load(f)
+    clock = ["--time"] if args.clock else []
+    made_from = kept.origin({"scene": scene.path, "cameras": scene.cameras},
+                            ["--view", view, "--effects", mode, *clock, *args.options])
+    return kept.result(os.path.join(args.out, key.replace("/", "_") + ".json"), made_from,
+                       lambda: run_once(args, scene, view, mode, cache))
+
+
+def run_once(args, scene, view, mode, cache):
+    """A render, and what it took."""
     with tempfile.TemporaryDirectory(dir=args.out) as folder:
         picture, report = os.path.join(folder, "p.npz"), os.path.join(folder, "r.json")
         command = ["splat", "render", scene.path, "--cameras", scene.cameras, "--view", view, "--effects", mode,
@@ -73,9 +79,6 @@ def render(args, key, scene, view, mode, cache):
               "seconds_by_stage": {s["name"]: s["seconds"] for s in full["stages"]}}
     if args.clock:
         result["cycles"] = full["time"]["sum"]["cycles"]
-    with open(kept + ".new", "w", encoding="utf-8") as f:
-        json.dump(result, f, indent=1)
-    os.rename(kept + ".new", kept)
     return result
 
 

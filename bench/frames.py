@@ -3,8 +3,11 @@
 import argparse
 import array
 import json
+import math
 import os
 import subprocess
+
+import kept
 
 
 def parse_arguments(description):
@@ -21,12 +24,13 @@ def parse_arguments(description):
 
 
 def render(args, name, options):
-    """The JSON of the run called name and its picture's file; a run that is there is not repeated."""
+    """The JSON of the run called name and its picture's file; a run that is there, made from the same, is not repeated."""
     base = os.path.join(args.out, name)
-    if not os.path.exists(base + ".json"):
-        subprocess.run(["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view,
-                        "-o", base + ".pfm", "--json", base + ".json", *args.options, *options],
-                       check=True, stdout=subprocess.DEVNULL)
+    inputs = {"scene": os.path.abspath(args.scene), "cameras": os.path.abspath(args.cameras)}
+    made_from = kept.origin(inputs, ["--view", args.view, *args.options, *options])
+    kept.once([base + ".json", base + ".pfm"], made_from, lambda: subprocess.run(
+        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "-o", base + ".pfm", "--json",
+         base + ".json", *args.options, *options], check=True, stdout=subprocess.DEVNULL))
     with open(base + ".json", encoding="utf-8") as f:
         return json.load(f), base + ".pfm"
 
@@ -40,8 +44,10 @@ def floats(picture):
 
 
 def difference(a, b):
-    """The largest absolute difference, and the mean of the squares."""
+    """The largest absolute difference, and the mean of the squares. Numbers that are not finite are no picture."""
     differences = [abs(x - y) for x, y in zip(a, b, strict=True)]
+    if not all(map(math.isfinite, differences)):
+        raise SystemExit("error: a picture has values that are no finite numbers, expected a picture")
     return max(differences), sum(d * d for d in differences) / len(differences)
 
 

@@ -3,7 +3,8 @@
 
 usage: bench/invocations.py [--scenes NAME...] [--widths PX...] [--out FOLDER]
 Needs `splat` on the path (scripts/env.sh) and scenes in ../shared/data. Each analysis is a JSON file in FOLDER (default
-build/invocations); those that are there are not made again, so an interrupted run goes on where it stopped.
+build/invocations); those that are there, made from the same, are not made again, so an interrupted run goes on where it
+stopped.
 """
 
 import argparse
@@ -13,6 +14,7 @@ import subprocess
 import sys
 import time
 
+import kept
 import scenes
 
 SUPPORTS = ("box3", "square3")
@@ -23,15 +25,23 @@ def file_of(folder, scene, view, width):
     return os.path.abspath(os.path.join(folder, f"{scene.name}-{view}-{width}.json"))
 
 
+def origin_of(scene, view, width):
+    """What an analysis is made from."""
+    return kept.origin({"scene": scene.path, "cameras": scene.cameras}, ["--view", view, "--width", str(width)])
+
+
 def analysis(folder, scene, view, width):
-    """The JSON of one `splat analyze`; one that is there is not made again."""
+    """The JSON of one `splat analyze`; one that is there, made from the same, is not made again."""
     out = file_of(folder, scene, view, width)
-    if not os.path.exists(out):
-        os.makedirs(folder, exist_ok=True)
+    os.makedirs(folder, exist_ok=True)
+
+    def make():
         start = time.monotonic()
         subprocess.run(["splat", "analyze", scene.path, "--cameras", scene.cameras, "--view", view,
                         "--width", str(width), "--json", out], cwd=scenes.ROOT, check=True, stdout=subprocess.DEVNULL)
         print(f"{scene.name} {view} {width}: {time.monotonic() - start:.1f} s", file=sys.stderr, flush=True)
+
+    kept.once([out], origin_of(scene, view, width), make)
     with open(out, encoding="utf-8") as f:
         return json.load(f)
 

@@ -5,7 +5,7 @@ usage: sensitivity.py SCENE --cameras FILE --view NAME -o OUT.json [--config FIL
 
 Parameters are those of the configuration's "timing" object (vorion-sim --print-default-config), as isasim/include/
 vorion/isasim/TimingParams.def lists them; a switch is turned over instead. OUT.json keeps every result, so that a run
-that was broken off goes on where it stopped. The table is printed as Markdown, largest effect first.
+that was broken off goes on where it stopped, unless it was made from other things. The table is printed as Markdown, largest effect first.
 """
 
 import argparse
@@ -14,6 +14,8 @@ import os
 import subprocess
 import sys
 import tempfile
+
+import kept
 
 SWITCHES = ("interleaved_stacks", "intersect_hint")
 
@@ -96,10 +98,16 @@ def main():
                 default["timing"][group] = members
         default.update(given)
 
-    results = {"parameters": {}}
+    made_from = kept.origin({"scene": os.path.abspath(args.scene), "cameras": os.path.abspath(args.cameras)},
+                            ["--view", args.view, json.dumps(default)])
+    results = {"made_from": made_from, "parameters": {}}
     if os.path.exists(args.output):
         with open(args.output) as file:
-            results = json.load(file)
+            had = json.load(file)
+        if kept.differences(had.get("made_from"), made_from):
+            kept.say_stale(args.output, had.get("made_from"), made_from)
+        else:
+            results = had
 
     def keep():
         with open(args.output + ".new", "w") as file:

@@ -10,6 +10,7 @@ What paths differ by beyond that is not rounding's. Runs that were made are not 
 """
 import argparse
 import json
+import os
 import pathlib
 import statistics
 import struct
@@ -17,6 +18,7 @@ import subprocess
 import sys
 
 import command_line
+import kept
 
 
 def fnv1a64(data):
@@ -59,9 +61,10 @@ def main():
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("build/train-spread"))
     arguments, options = command_line.parse(parser)
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    asked, of = {"capture": arguments.capture, "options": options}, arguments.folder / "asked.json"
+    asked, of = kept.origin({"capture": os.path.abspath(arguments.capture)}, options), arguments.folder / "asked.json"
     if of.exists() and json.loads(of.read_text()) != asked:
-        sys.exit(f"train_spread.py: error: {of}: other runs, expected {json.dumps(asked)} or another --folder")
+        sys.exit(f"train_spread.py: error: {of}: runs of other {', '.join(kept.differences(json.loads(of.read_text()), asked))}, "
+                 "expected the same or another --folder")
     of.write_text(json.dumps(asked))
     first = None
     for path in arguments.paths.split(","):

@@ -1,7 +1,7 @@
 #!/bin/bash
 # `splat accuracy ARGUMENTS` with its points under GNU parallel, or as a Slurm
-# array: the same points, files and page. What is measured already is not
-# measured again, so a broken sweep goes on where it stopped.
+# array: the same points, files and page. What is measured already, made from the
+# same, is not measured again, so a broken sweep goes on where it stopped.
 #   scripts/accuracy-sweep.sh [--jobs N] [--slurm] ARGUMENTS
 #   scripts/accuracy-sweep.sh --jobs 8 scene.ply --cameras cameras.json --out FOLDER
 # With --slurm the folder must be one that all nodes see.

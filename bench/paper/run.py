@@ -3,8 +3,8 @@
 
 usage: scripts/paper.sh [OPTIONS]
 
-Every run is kept in a file under --out and not repeated while the programs are the same, so a run that is broken
-off goes on where it stopped. Sections whose results are not there yet are named in the document as not measured.
+Every run is kept in a file under --out and not repeated while programs, inputs and options are the same, so a run that
+is broken off goes on where it stopped. Sections whose results are not there yet are named in the document as not measured.
 
 exit codes: 0 done, 1 a run failed or two pictures differ that should not, 2 usage, 3 no scenes
 """
@@ -58,7 +58,7 @@ def parse_arguments():
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time (default 1)")
     parser.add_argument("--every-view", action="store_true",
                         help="try all twelve choices of the kernels on all views, not on one of each scene")
-    parser.add_argument("--keep", action="store_true", help="take results of other builds, too")
+    parser.add_argument("--keep", action="store_true", help="take runs of other builds, too")
     parser.add_argument("--only-kept", action="store_true",
                         help="run nothing: write what there is, and leave out the rest")
     args = parser.parse_args()

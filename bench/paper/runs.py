@@ -15,6 +15,7 @@ import time
 import zipfile
 from dataclasses import dataclass
 
+import kept
 import machines
 import scenes
 
@@ -46,9 +47,13 @@ class Run:
         parts += [f"{self.threads}threads"] if self.threads else []
         return file_name(parts)
 
-    def keeps(self):
-        """The ending of what is kept of the output, or nothing."""
-        return ".pfm" if self.picture else ""
+    def inputs(self):
+        """The files and folders that it reads, by what they are."""
+        return {"scene": self.scene.path, "cameras": self.scene.cameras}
+
+    def beside(self):
+        """The endings of files that are kept beside the result."""
+        return [".pfm"] if self.picture else []
 
     def arguments(self, output, report):
         timed = () if self.clock is None else ("--clock", str(self.clock)) if self.clock else ("--time",)
@@ -88,28 +93,12 @@ def trim(timed, whole=()):
             stage["time"] = {key: stage["time"][key] for key in keys}
 
 
-def build_hash():
-    """The programs whose change may change a result."""
-    root = os.environ["VORION_ROOT"]
-    files = [os.path.join(root, "bin", name) for name in ("splat", "vorion-clang", "vorion-link")]
-    files += [os.path.join(root, "lib", "libvorion-runtime.so")]
-    for folder, _, names in os.walk(os.path.join(root, "lib", "vorion")):
-        files += [os.path.join(folder, name) for name in names]
-    with open(os.path.join(root, "etc", "OpenCL", "vendors", "vorion.icd"), encoding="utf-8") as f:
-        files.append(f.read().strip())
-    digest = hashlib.sha256()
-    for name in sorted(files):
-        with open(name, "rb") as f:
-            digest.update(hashlib.sha256(f.read()).digest())
-    return digest.hexdigest()[:16]
-
-
 class Runs:
     """The folder of the results. keep: take those of other builds, too. only_kept: make no new ones."""
 
     def __init__(self, folder, jobs, keep, only_kept):
         self.folder, self.jobs, self.keep, self.only_kept = folder, jobs, keep, only_kept
-        self.build = build_hash()
+        self.build = kept.programs()
         self.builds, self.left_out = set(), []
         self.lock = threading.Lock()
         os.makedirs(os.path.join(folder, "runs"), exist_ok=True)
@@ -124,8 +113,21 @@ class Runs:
                 result = json.load(f)
         except FileNotFoundError:
             return None
-        stale = result["build"] != self.build and not self.keep and not run.any_build
-        return None if stale or (run.keeps() and not os.path.exists(self.file(run, run.keeps()))) else result
+        other_build = result["build"] != self.build and not self.keep and not run.any_build
+        if other_build or not all(os.path.exists(self.file(run, ending)) for ending in run.beside()):
+            return None
+        if kept.differences(result.get("made_from"), self.origin(run)):
+            kept.say_stale(self.file(run, ".json"), result.get("made_from"), self.origin(run))
+            for ending in run.beside():  # a training run would go on from its checkpoint
+                os.remove(self.file(run, ending))
+            return None
+        return result
+
+    @staticmethod
+    def origin(run):
+        """What a run is made from beside the programs, as its result says."""
+        return {**{what: kept.content(path) for what, path in run.inputs().items()}, "machine": run.config(),
+                "command": run.arguments("OUTPUT", "REPORT")}
 
     def execute(self, run):
         config = run.config()
@@ -143,9 +145,9 @@ class Runs:
             with open(output, "rb") as f:
                 result["picture_sha256"] = hashlib.sha256(f.read()).hexdigest()
             result["channels"] = config.get("timing", {}).get("dram", {}).get("channels")
-            result.update(build=self.build, seconds=time.monotonic() - start, command=run.command())
-            if run.keeps():
-                os.replace(output, self.file(run, run.keeps()))
+            result.update(build=self.build, made_from=self.origin(run), seconds=time.monotonic() - start, command=run.command())
+            if ".pfm" in run.beside():
+                os.replace(output, self.file(run, ".pfm"))
             with open(report, "w", encoding="utf-8") as f:
                 json.dump(result, f)
             os.replace(report, self.file(run, ".json"))
@@ -216,20 +218,20 @@ class Runs:
     def lengths(self, scene, view):
         """Entries of every tile's list, from the pairs that a render sorts."""
         out = os.path.join(self.folder, "runs", f"{scene.name}-{view}-lengths.json")
-        if not os.path.exists(out) and self.only_kept:
+        made_from = kept.origin({"scene": scene.path, "cameras": scene.cameras}, ["--view", view])
+        if self.only_kept and not kept.is_kept([out], made_from):
             raise Missing(f"{scene.name}-{view}-lengths")
-        if not os.path.exists(out):
+
+        def make():
             with tempfile.TemporaryDirectory(dir=self.folder) as folder:
-                pairs, report = (os.path.join(folder, name) for name in ("pairs.npz", "lengths.json"))
+                pairs = os.path.join(folder, "pairs.npz")
                 subprocess.run(["splat", "render", scene.path, "--cameras", scene.cameras, "--view", view, "-o",
                                 os.path.join(folder, "out.pfm"), "--dump-pairs", pairs], cwd=scenes.ROOT, check=True,
                                stdout=subprocess.DEVNULL)
                 lengths = collections.Counter(_column(pairs, "tile"))
-                with open(report, "w", encoding="utf-8") as f:
-                    json.dump([lengths[tile] for tile in range(tiles(scene, view))], f)
-                os.replace(report, out)
-        with open(out, encoding="utf-8") as f:
-            return json.load(f)
+            return [lengths[tile] for tile in range(tiles(scene, view))]
+
+        return kept.result(out, made_from, make)
 
 
 def tiles(scene, view, side=64):

@@ -3,6 +3,7 @@
 import os
 
 import invocations
+import kept
 from writing import chart, paragraph, table
 
 TITLE = "Tiles and occlusion"
@@ -24,7 +25,8 @@ def measure(store, all_scenes, _every_view, widths=invocations.WIDTHS):
             row = {"scene": scene.name, "view": view, "fewer": {s: {} for s in invocations.SUPPORTS}}
             for width in widths:
                 folder = os.path.join(store.folder, "analyses")
-                if store.only_kept and not os.path.exists(invocations.file_of(folder, scene, view, width)):
+                if store.only_kept and not kept.is_kept([invocations.file_of(folder, scene, view, width)],
+                                                        invocations.origin_of(scene, view, width)):
                     continue
                 found = invocations.analysis(folder, scene, view, width)
                 for support in invocations.SUPPORTS:

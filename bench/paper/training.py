@@ -73,8 +73,11 @@ class State:
     def checkpoint(self):
         return os.path.relpath(os.path.join(self.folder, "runs", self.name() + ".checkpoint"), scenes.ROOT)
 
-    def keeps(self):
-        return ""
+    def inputs(self):
+        return {"capture": self.capture.path}
+
+    def beside(self):
+        return [".checkpoint"]
 
     def arguments(self, output, report):
         return ["splat", "train", self.capture.path, *self.capture.options, "--iterations", str(self.iterations),
@@ -104,8 +107,11 @@ class Timed:
     def name(self):
         return r.file_name([self.state.name(), self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
 
-    def keeps(self):
-        return ""
+    def inputs(self):
+        return {"capture": self.state.capture.path, "state": self.state.checkpoint()}
+
+    def beside(self):
+        return []
 
     def arguments(self, output, report):
         state = self.state
