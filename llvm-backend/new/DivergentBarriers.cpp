@@ -185,7 +185,7 @@ std::string vorion::divergentBarrierLog(const Module &M) {
     promoteVariables(F);
     // A work-item that stays in an endless loop or traps misses what follows,
     // whatever decides about that.
-    unifyExits(F, LoopInfo(DominatorTree(F)),
+    unifyExits(F, LoopInfo(DominatorTree(F)), /*Known=*/true,
                [](IRBuilder<> &Builder) { return Builder.getTrue(); });
     for (const DivergentBarrier &B : findDivergentBarriers(F)) {
       Log += placeOf(B.Call->getDebugLoc()) + "warning: " + B.Warning + "\n";

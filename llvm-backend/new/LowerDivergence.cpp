@@ -179,7 +179,7 @@ bool LowerDivergence::lower(Function &F, const TargetMachine &TM) {
   if (!checkCode(F, Analyses))
     return false;
   run(FixIrreduciblePass());
-  vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F),
+  vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F), /*Known=*/true,
                      [](IRBuilder<> &Builder) { return Builder.getTrue(); });
   changed();
   for (const vorion::DivergentBarrier &B : vorion::findDivergentBarriers(F))

@@ -73,14 +73,18 @@ struct DeadEnd {
   BasicBlock *Meeting;
 };
 
-/// From here on control goes to \p To, which nothing does: its values there do
-/// not matter.
-void addEdge(BasicBlock *From, BasicBlock *To) {
-  for (PHINode &Phi : To->phis())
-    Phi.addIncoming(PoisonValue::get(Phi.getType()), From);
+/// For an edge from the block that \p Builder is at, which nothing takes: its
+/// values do not matter.
+void addValues(IRBuilder<> &Builder, BasicBlock *To, bool Known) {
+  for (PHINode &Phi : To->phis()) {
+    Value *Any = PoisonValue::get(Phi.getType());
+    if (!Known)
+      Any = Builder.Insert(new FreezeInst(Any));
+    Phi.addIncoming(Any, Builder.GetInsertBlock());
+  }
 }
 
-void leaveLoop(const DeadEnd &End,
+void leaveLoop(const DeadEnd &End, bool Known,
                function_ref<Value *(IRBuilder<> &)> MakeTrue) {
   BasicBlock *Header = End.Start;
   BasicBlock *From = BasicBlock::Create(Header->getContext(), "endless",
@@ -99,13 +103,13 @@ void leaveLoop(const DeadEnd &End,
     Phi.addIncoming(Merged, From);
   }
   IRBuilder<> Builder(From);
+  addValues(Builder, End.Meeting, Known);
   Builder.CreateCondBr(MakeTrue(Builder), Header, End.Meeting);
-  addEdge(From, End.Meeting);
 }
 
 } // namespace
 
-bool vorion::unifyExits(Function &F, const LoopInfo &Loops,
+bool vorion::unifyExits(Function &F, const LoopInfo &Loops, bool Known,
                         function_ref<Value *(IRBuilder<> &)> MakeTrue) {
   const size_t Blocks = F.size();
   SmallVector<DeadEnd, 4> DeadEnds;
@@ -131,13 +135,13 @@ bool vorion::unifyExits(Function &F, const LoopInfo &Loops,
   }
   for (const DeadEnd &End : DeadEnds) {
     if (End.Endless) {
-      leaveLoop(End, MakeTrue);
+      leaveLoop(End, Known, MakeTrue);
       continue;
     }
     Instruction *Old = End.Start->getTerminator();
-    addEdge(End.Start, End.Meeting);
-    BranchInst::Create(End.Meeting, Old->getIterator())
-        ->setDebugLoc(Old->getDebugLoc());
+    IRBuilder<> Builder(Old);
+    addValues(Builder, End.Meeting, Known);
+    Builder.CreateBr(End.Meeting);
     Old->eraseFromParent();
   }
   return true;

@@ -19,9 +19,12 @@ namespace vorion {
 /// return by itself, a loop without end or an `unreachable`, gets an edge to
 /// the place where the other paths from the last common branch meet: so the
 /// post-dominators of everything else are as if the dead end were not there.
-/// The edge out of a loop is never taken; \p MakeTrue makes the condition that
-/// keeps to the loop. True if \p F was changed.
-bool unifyExits(Function &F, const LoopInfo &Loops,
+/// The edge is never taken. True if \p F was changed.
+/// \p Known: whether the optimiser may know that. If it may not, because it has
+/// yet to run, \p MakeTrue makes the condition that keeps to a loop, and values
+/// that come along the edge are frozen: where one is used that is poison, the
+/// edge could be cut again. Calls that do not return must be none by then.
+bool unifyExits(Function &F, const LoopInfo &Loops, bool Known,
                 function_ref<Value *(IRBuilder<> &)> MakeTrue);
 
 } // namespace vorion

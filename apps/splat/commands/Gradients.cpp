@@ -1,5 +1,6 @@
 #include "Commands.h"
 #include "DeviceArguments.h"
+#include "OutputFile.h"
 #include "PictureOptions.h"
 #include "Progress.h"
 #include "SceneArguments.h"

@@ -2,6 +2,7 @@
 #include "Commands.h"
 #include "DeviceArguments.h"
 #include "NumericsReport.h"
+#include "OutputFile.h"
 #include "PictureOptions.h"
 #include "Progress.h"
 #include "SceneArguments.h"

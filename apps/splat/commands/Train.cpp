@@ -2,6 +2,7 @@
 #include "Choices.h"
 #include "Commands.h"
 #include "DeviceArguments.h"
+#include "OutputFile.h"
 #include "PictureOptions.h"
 
 #include "../analyze/Chart.h"

@@ -7,8 +7,10 @@
 #include "WorkitemHandlerChooser.h"
 
 #include <llvm/Analysis/LoopInfo.h>
+#include <llvm/IR/Dominators.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/IntrinsicInst.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
 
 using namespace llvm;
 
@@ -52,14 +54,34 @@ bool forgetNoReturn(Function &F) {
   return Changed;
 }
 
+/// A switch whose default is never taken takes a case for the default.
+bool giveSwitchesDefaults(Function &F) {
+  bool Changed = false;
+  for (BasicBlock &Block : F) {
+    auto *Switch = dyn_cast<SwitchInst>(Block.getTerminator());
+    if (!Switch || Switch->getNumCases() == 0 ||
+        !isa<UnreachableInst>(Switch->getDefaultDest()->getFirstNonPHI()))
+      continue;
+    Switch->getDefaultDest()->removePredecessor(&Block);
+    const auto Last = std::prev(Switch->case_end());
+    Switch->setDefaultDest(Last->getCaseSuccessor());
+    Switch->removeCase(Last);
+    Changed = true;
+  }
+  if (Changed)
+    EliminateUnreachableBlocks(F);
+  return Changed;
+}
+
 } // namespace
 
-PreservedAnalyses SimtExits::run(Function &F, FunctionAnalysisManager &AM) {
+PreservedAnalyses SimtExits::run(Function &F, FunctionAnalysisManager &) {
   if (!isKernelToProcess(F))
     return PreservedAnalyses::all();
   bool Changed = forgetNoReturn(F);
+  Changed |= giveSwitchesDefaults(F);
   Changed |= vorion::unifyExits(
-      F, AM.getResult<LoopAnalysis>(F), [](IRBuilder<> &Builder) {
+      F, LoopInfo(DominatorTree(F)), /*Known=*/false, [](IRBuilder<> &Builder) {
         Value *One = createUniform(Builder, Builder.getInt32(1));
         return Builder.CreateICmpNE(One, Builder.getInt32(0));
       });
