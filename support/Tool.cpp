@@ -32,14 +32,16 @@ int reportFullOutput(std::string_view Tool, int Cause) {
                          Cause ? std::strerror(Cause) : "not all was taken")});
 }
 
-/// Of the tool, for what cannot get it otherwise.
+/// Of the tool; empty before its main function.
 std::string_view ToolName;
 
 /// Without taking memory, of which there may be none.
 int reportNoMemory() {
   for (const std::string_view Part :
-       {ToolName, std::string_view(": error: memory ran out, expected a "
-                                   "smaller input or a machine with more\n")})
+       {ToolName.empty() ? std::string_view(program_invocation_short_name)
+                         : ToolName,
+        std::string_view(": error: memory ran out, expected a "
+                         "smaller input or a machine with more\n")})
     if (::write(STDERR_FILENO, Part.data(), Part.size()) < 0)
       break;
   return static_cast<int>(ExitCode::LimitReached);
@@ -49,12 +51,17 @@ int reportNoMemory() {
 /// would end the process with neither a message nor an exit code.
 [[noreturn]] void endWithoutMemory() { ::_exit(reportNoMemory()); }
 
+/// Before the objects of the program that are made before its main function:
+/// these take memory too. 101 is the first that programs may have.
+[[gnu::constructor(101)]] void catchMissingMemory() {
+  std::set_new_handler(endWithoutMemory);
+}
+
 } // namespace
 
 int runTool(std::string_view Tool, const std::function<int()> &Body) {
   keepStandardStreams();
   ToolName = Tool;
-  std::set_new_handler(endWithoutMemory);
   int Code = 0;
   try {
     Code = Body();

@@ -109,12 +109,17 @@ class Runner:
             os.makedirs(making)
             prepare(making)
             os.rename(making, self.inputs)
-        self.version = hashlib.sha256()
-        for program in ("bin/splat", "bin/vorion-sim", "lib/libvorion-runtime.so", "lib/libvorion-failing-calls.so",
-                        "pocl/lib/libpocl.so"):
-            with open(os.path.join(build, program), "rb") as f:
-                self.version.update(f.read())
-        self.version = self.version.hexdigest()[:16]
+
+    def version(self, scenario):
+        """Of what a scenario's results come from."""
+        files = [f"bin/{scenario.program}", "lib/libvorion-failing-calls.so"]
+        if scenario.program == "splat":
+            files += ["lib/libvorion-runtime.so", "pocl/lib/libpocl.so"]
+        all_of_them = hashlib.sha256()
+        for file in files:
+            with open(os.path.join(self.build, file), "rb") as f:
+                all_of_them.update(f.read())
+        return all_of_them.hexdigest()[:16]
 
     def run(self, scenario, case, fault):
         """Runs it in a folder of its own; exit code, what it said, its log and its results."""
@@ -208,7 +213,7 @@ def main():
     for scenario in SCENARIOS:
         if arguments.only and scenario.name not in arguments.only:
             continue
-        kept_file = os.path.join(out, f"{scenario.name}-{runner.version}.jsonl")
+        kept_file = os.path.join(out, f"{scenario.name}-{runner.version(scenario)}.jsonl")
         kept = {}
         if os.path.exists(kept_file):
             with open(kept_file) as f:
