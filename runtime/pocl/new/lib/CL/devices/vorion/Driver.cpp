@@ -291,6 +291,22 @@ void fill(void *Data, pocl_mem_identifier *To, cl_mem Buffer, size_t Size,
   tellWritten(Data, To, Offset, Size);
 }
 
+/// The machine's memory is the host's, too. Only what the program wants to have
+/// in memory of its own is copied there.
+cl_int mappingPointer(void *, pocl_mem_identifier *Id, cl_mem Buffer,
+                      mem_mapping_t *Map) {
+  void *Base = Buffer->flags & CL_MEM_USE_HOST_PTR ? Buffer->mem_host_ptr
+                                                   : Id->mem_ptr;
+  Map->host_ptr = static_cast<char *>(Base) + Map->offset;
+  return CL_SUCCESS;
+}
+
+cl_int freeMappingPointer(void *, pocl_mem_identifier *, cl_mem,
+                          mem_mapping_t *Map) {
+  Map->host_ptr = nullptr;
+  return CL_SUCCESS;
+}
+
 cl_int unmap(void *Data, pocl_mem_identifier *To, cl_mem Buffer,
              mem_mapping_t *Map) {
   const cl_int Status = pocl_driver_unmap_mem(Data, To, Buffer, Map);
@@ -418,8 +434,8 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
   Ops->memfill = fill;
   Ops->map_mem = pocl_driver_map_mem;
   Ops->unmap_mem = unmap;
-  Ops->get_mapping_ptr = pocl_driver_get_mapping_ptr;
-  Ops->free_mapping_ptr = pocl_driver_free_mapping_ptr;
+  Ops->get_mapping_ptr = mappingPointer;
+  Ops->free_mapping_ptr = freeMappingPointer;
 
   Ops->build_source = pocl_driver_build_source;
   Ops->link_program = pocl_driver_link_program;
