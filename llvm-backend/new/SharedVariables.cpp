@@ -33,4 +33,7 @@ void vorion::forgetSharedVariables(Module &M) {
     const auto *G = dyn_cast<GlobalVariable>(Used);
     return G && G->hasLocalLinkage() && !G->isConstant();
   });
+  // The list itself was a use, and outlives what it was the value of.
+  for (GlobalVariable &G : M.globals())
+    G.removeDeadConstantUsers();
 }
