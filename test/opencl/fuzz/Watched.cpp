@@ -123,7 +123,7 @@ int runWatched(int Argc, char **Argv, const char *Name,
   const Clock::time_point Start = Clock::now();
   for (; Seed < S.First + S.Count && since(Start) < S.Seconds; ++Seed, ++Done) {
     if (const std::string Wrong = watch(Seed, S.Limit, Case); !Wrong.empty()) {
-      std::cout << "seed " << Seed << ": " << Wrong << std::endl;
+      std::cout << "seed " << Seed << ": " << Wrong << "\n" << std::flush;
       ++Finds;
     }
     if (!S.Resume.empty())

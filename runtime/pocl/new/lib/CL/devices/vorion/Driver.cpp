@@ -295,8 +295,8 @@ void fill(void *Data, pocl_mem_identifier *To, cl_mem Buffer, size_t Size,
 /// in memory of its own is copied there.
 cl_int mappingPointer(void *, pocl_mem_identifier *Id, cl_mem Buffer,
                       mem_mapping_t *Map) {
-  void *Base = Buffer->flags & CL_MEM_USE_HOST_PTR ? Buffer->mem_host_ptr
-                                                   : Id->mem_ptr;
+  void *Base =
+      Buffer->flags & CL_MEM_USE_HOST_PTR ? Buffer->mem_host_ptr : Id->mem_ptr;
   Map->host_ptr = static_cast<char *>(Base) + Map->offset;
   return CL_SUCCESS;
 }
