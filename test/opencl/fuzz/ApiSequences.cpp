@@ -403,8 +403,9 @@ private:
       return {};
     std::vector<unsigned char> Binary(Bytes);
     unsigned char *Pointer = Binary.data();
-    if (Bytes == 0 || clGetProgramInfo(P, CL_PROGRAM_BINARIES, sizeof(Pointer),
-                                       &Pointer, nullptr) != CL_SUCCESS)
+    if (Bytes == 0 ||
+        clGetProgramInfo(P, CL_PROGRAM_BINARIES, sizeof(Pointer),
+                         static_cast<void *>(&Pointer), nullptr) != CL_SUCCESS)
       return {};
     return Binary;
   }
@@ -493,7 +494,9 @@ private:
           nullptr);
       break;
     default:
-      Status = clSetKernelArg(K, Index, sizeof(B), chance(97) ? &B : nullptr);
+      Status =
+          clSetKernelArg(K, Index, sizeof(cl_mem),
+                         chance(97) ? static_cast<const void *>(&B) : nullptr);
     }
     check("clSetKernelArg", Status,
           {CL_INVALID_KERNEL, CL_INVALID_ARG_INDEX, CL_INVALID_ARG_VALUE,
@@ -802,7 +805,7 @@ private:
     const cl_kernel K = clCreateKernel(P, "add", &S);
     const cl_int Addend = 5;
     const std::size_t Items = Data.size();
-    clSetKernelArg(K, 0, sizeof(B), &B);
+    clSetKernelArg(K, 0, sizeof(cl_mem), static_cast<const void *>(&B));
     clSetKernelArg(K, 1, sizeof(Addend), &Addend);
     clEnqueueNDRangeKernel(Q, K, 1, nullptr, &Items, &Items, 0, nullptr,
                            nullptr);
