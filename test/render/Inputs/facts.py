@@ -24,7 +24,7 @@ path = sorted(glob.glob(os.path.join(data, "scenes", scene + ".*")))[0]
 
 def analyze(support):
     out = os.path.join(folder, f"{scene}-{support}.json")
-    subprocess.run(["splat", "analyze", path, "--cameras", os.path.join(data, "scenes/cameras", scene + ".json"),
+    subprocess.run(["splat", "analyze", path, "--no-antialiased", "--cameras", os.path.join(data, "scenes/cameras", scene + ".json"),
                     "--view", view, "--support", support, "--json", out], check=True, stdout=subprocess.DEVNULL)
     with open(out) as f:
         return json.load(f)
