@@ -26,15 +26,6 @@ Expected<Json> readJson(const std::string &Path) {
   return vorion::readJson<Json>(Path, "what splat wrote there");
 }
 
-bool hasNumber(const Json &J, const char *Key) {
-  return J.is_object() && J.contains(Key) && J[Key].is_number();
-}
-
-bool hasNumberOrNull(const Json &J, const char *Key) {
-  return hasNumber(J, Key) ||
-         (J.is_object() && J.contains(Key) && J[Key].is_null());
-}
-
 Expected<Success> makeFolders(const std::string &Folder) {
   for (const char *Name : {"points", "work", "references"}) {
     std::error_code Problem;

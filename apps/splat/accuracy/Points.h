@@ -20,11 +20,6 @@ std::string asFileName(std::string Name);
 /// A JSON file that splat wrote.
 Expected<nlohmann::ordered_json> readJson(const std::string &Path);
 
-/// Whether key \p Key of \p J, which may be anything, is a number.
-bool hasNumber(const nlohmann::ordered_json &J, const char *Key);
-/// The same, or null, which stands for a number that JSON has not.
-bool hasNumberOrNull(const nlohmann::ordered_json &J, const char *Key);
-
 /// Makes the folders of a sweep below \p Folder.
 Expected<Success> makeFolders(const std::string &Folder);
 

@@ -6,6 +6,7 @@
 #include "Process.h"
 #include "Reference.h"
 #include "Thumbnail.h"
+#include "vorion/support/JsonShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -159,29 +160,30 @@ Expected<Json> PointMeasurement::measure() {
       {"difference", std::move(*Apart)}};
 }
 
-bool isErrors(const Json &J) {
-  return hasNumberOrNull(J, "psnr_db") && hasNumber(J, "ssim") &&
-         hasNumber(J, "largest") && hasNumber(J, "off_share");
-}
-
 /// Whether \p J has what candidates() and the page take.
 bool isMeasurement(const Json &J) {
-  const auto Object = [&J](const char *Key) {
-    return J.contains(Key) && J[Key].is_object();
-  };
-  const auto Text = [&J](const char *Key) {
-    return J.contains(Key) && J[Key].is_string();
-  };
-  return Text("setting") && Text("view") &&
-         J["point"] == J["setting"].get<std::string>() + "@" +
-                           J["view"].get<std::string>() &&
-         Text("picture") && Text("difference") && Object("errors") &&
-         isErrors(J["errors"]) && J.contains("cores_errors") &&
-         (J["cores_errors"].is_null() || isErrors(J["cores_errors"])) &&
-         Object("times") && hasNumber(J["times"], "cycles") &&
-         hasNumber(J["times"], "equal_area_cycles") &&
-         hasNumberOrNull(J["times"], "cores_cycles") &&
-         hasNumber(J, "lane_area_relative") && Object("made_by");
+  const JsonShape Number = JsonShape::number(), Text = JsonShape::text();
+  // JSON has no infinity: null stands for equal pictures.
+  const JsonShape Errors = JsonShape::object({{"psnr_db", Number.orNull()},
+                                              {"ssim", Number},
+                                              {"largest", Number},
+                                              {"off_share", Number}});
+  const JsonShape Times =
+      JsonShape::object({{"cycles", Number},
+                         {"equal_area_cycles", Number},
+                         {"cores_cycles", Number.orNull()}});
+  const JsonShape Shape = JsonShape::object({{"setting", Text},
+                                             {"view", Text},
+                                             {"errors", Errors},
+                                             {"cores_errors", Errors.orNull()},
+                                             {"times", Times},
+                                             {"lane_area_relative", Number},
+                                             {"made_by", JsonShape::object({})},
+                                             {"picture", Text},
+                                             {"difference", Text}});
+  return Shape.check(J, "") && J["point"] == J["setting"].get<std::string>() +
+                                                 "@" +
+                                                 J["view"].get<std::string>();
 }
 
 /// Of equal pictures, for orders: beyond any PSNR of unequal ones.

@@ -8,6 +8,7 @@
 #include "Points.h"
 #include "Process.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/JsonShape.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -191,31 +192,35 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
 
 /// Whether \p J has what trainResults() and the page take.
 bool isMeasurement(const Json &J) {
-  const auto IsNamed = [&J](const std::string &At) {
-    return J.contains("setting") && J["setting"].is_string() &&
-           J["point"] == J["setting"].get<std::string>() + "@" + At;
-  };
-  const auto AreNumbers = [](const Json &Of,
-                             std::initializer_list<const char *> Keys) {
-    return std::ranges::all_of(
-        Keys, [&Of](const char *Key) { return hasNumber(Of, Key); });
-  };
-  if (J.contains("errors"))
-    return IsNamed(GradientPoint) &&
-           AreNumbers(J["errors"], {"means", "quats", "scales", "opacities",
-                                    "colors", "largest"});
-  const auto List = [&J](const char *Key, std::size_t Least) {
-    return J.contains(Key) && J[Key].is_array() && J[Key].size() >= Least;
-  };
-  return AreNumbers(J, {"psnr8_db", "cycles"}) && J.contains("seed") &&
-         J["seed"].is_string() && J["seed"] != GradientPoint &&
-         IsNamed(J["seed"].get<std::string>()) &&
-         List("reciprocal_um2", trainKnobs().front().Values.size()) &&
-         std::ranges::all_of(J["reciprocal_um2"], &Json::is_number) &&
-         List("curve", 1) &&
-         std::ranges::all_of(J["curve"], [&](const Json &At) {
-           return AreNumbers(At, {"iteration", "machine_seconds", "psnr8_db"});
-         });
+  const JsonShape Number = JsonShape::number(), Text = JsonShape::text();
+  const JsonShape Errors = JsonShape::object({{"means", Number},
+                                              {"quats", Number},
+                                              {"scales", Number},
+                                              {"opacities", Number},
+                                              {"colors", Number},
+                                              {"largest", Number}});
+  const JsonShape Gradients =
+      JsonShape::object({{"setting", Text}, {"errors", Errors}});
+  const JsonShape Curve =
+      JsonShape::list(JsonShape::object({{"iteration", Number},
+                                         {"machine_seconds", Number},
+                                         {"psnr8_db", Number}}),
+                      1);
+  const JsonShape Run = JsonShape::object(
+      {{"setting", Text},
+       {"seed", Text},
+       {"psnr8_db", Number},
+       {"cycles", Number},
+       {"reciprocal_um2",
+        JsonShape::list(Number, trainKnobs().front().Values.size())},
+       {"curve", Curve}});
+  const bool OfGradients = J.contains("errors");
+  if (!(OfGradients ? Gradients : Run).check(J, ""))
+    return false;
+  const std::string At =
+      OfGradients ? GradientPoint : J["seed"].get<std::string>();
+  return (At == GradientPoint) == OfGradients &&
+         J["point"] == J["setting"].get<std::string>() + "@" + At;
 }
 
 std::string lineOf(const Json &Measured) {

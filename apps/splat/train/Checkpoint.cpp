@@ -82,13 +82,15 @@ struct Header {
   Sizes Lengths;
 };
 
-/// The hash before \p Text says that these bytes were written, not that we
-/// wrote them.
-Expected<Header> readHeader(const std::string &Path, std::string_view Text) {
-  const auto Read = parseJson<Json>(Text, Path, "a checkpoint's sizes");
+/// Refused: what is no such line, with its reason.
+Expected<Header> readHeader(std::string_view Text, const std::string &Path) {
+  // writeCheckpoint()'s is a twentieth of that.
+  JsonLimits Limits;
+  Limits.Bytes = std::size_t{1} << 16;
+  const auto Read = parseJson<Json>(Text, Path, "a checkpoint's sizes", Limits);
   if (!Read)
     return Read.error();
-  // So that no sum of sizes overflows.
+  // Sums of these sizes do not overflow.
   constexpr std::uint64_t Most = std::numeric_limits<std::uint32_t>::max();
   const JsonShape Shape =
       JsonShape::object({{"run", JsonShape::text()},
@@ -97,10 +99,10 @@ Expected<Header> readHeader(const std::string &Path, std::string_view Text) {
                          {"gaussians", JsonShape::whole(0, Most)}});
   if (auto Ok = Shape.check(*Read, Path); !Ok)
     return Ok.error();
-  const Json &J = *Read;
-  return Header{J["run"].get<std::string>(),
-                {J["gaussians"].get<std::size_t>(), J["sh_degree"].get<int>(),
-                 J["iteration"].get<std::size_t>()}};
+  return Header{(*Read)["run"].get<std::string>(),
+                {(*Read)["gaussians"].get<std::size_t>(),
+                 (*Read)["sh_degree"].get<int>(),
+                 (*Read)["iteration"].get<std::size_t>()}};
 }
 
 Error damaged(const std::string &Path) {
@@ -149,7 +151,7 @@ Expected<Checkpoint> parseCheckpoint(const std::string &Path, Bytes File) {
   if (First != fmt::format("{} {} {}", Magic, Version, fnv1a64(Text)))
     return damaged(Path);
   const std::string_view HeaderText = Line();
-  const auto Header = readHeader(Path, HeaderText);
+  const auto Header = readHeader(HeaderText, Path);
   if (!Header)
     return Header.error();
   // Nothing is allocated before the file is known to have it.

@@ -2,9 +2,7 @@
 
 #include "Hash.h"
 #include "vorion/support/Json.h"
-#include "vorion/support/Printable.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -33,14 +31,6 @@ std::string hashOf(const TrainingSet &Set) {
     }
   }
   return fnv1a64(All);
-}
-
-/// As an error shows it: a value or a list of values. Text of a checkpoint may
-/// be anything.
-std::string shown(const Json &Value) {
-  if (std::ranges::any_of(Value, &Json::is_structured))
-    return "nested";
-  return printable(jsonText(Value));
 }
 
 } // namespace
@@ -112,9 +102,10 @@ Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
                    fmt::format("a checkpoint of another run: {} is {}, "
                                "expected {}",
                                Key,
-                               A.is_object() && A.contains(Key) ? shown(A[Key])
-                                                                : "missing",
-                               shown(Value)),
+                               A.is_object() && A.contains(Key)
+                                   ? jsonText(A[Key])
+                                   : "missing",
+                               jsonText(Value)),
                    ExitCode::Usage};
   return Error{File, "a checkpoint of another run, expected one of this",
                ExitCode::Usage};
