@@ -5,8 +5,21 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <new>
 
 namespace vorion::isasim {
+
+namespace {
+
+/// libdw would end the process with a message and an exit code of its own. The
+/// attribute, unlike [[noreturn]], is part of the type, which is as C has it.
+__attribute__((noreturn)) void memoryRanOut() {
+  if (const std::new_handler Handler = std::get_new_handler())
+    Handler();
+  throw std::bad_alloc();
+}
+
+} // namespace
 
 std::string SourcePlace::text() const {
   return fmt::format("{}:{}", File, Line);
@@ -20,6 +33,8 @@ SourceLines::SourceLines(std::shared_ptr<const Image> ProgramIn)
   File = elf_memory(Bytes.data(), Bytes.size());
   if (File)
     Info = dwarf_begin_elf(File, DWARF_C_READ, nullptr);
+  if (Info)
+    dwarf_new_oom_handler(Info, memoryRanOut);
 }
 
 SourceLines::~SourceLines() {

@@ -64,9 +64,10 @@ TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
   }
   const auto Other = of({" SplatRenderMode: banana\x1b[31m"});
   ASSERT_FALSE(Other);
-  EXPECT_EQ(Other.error().What,
-            "comment SplatRenderMode: banana?[31m calls for a way of drawing "
-            "that is not known, expected SplatRenderMode: default or mip");
+  EXPECT_EQ(
+      Other.error().What,
+      "comment SplatRenderMode: banana\\x1b[31m calls for a way of drawing "
+      "that is not known, expected SplatRenderMode: default or mip");
   EXPECT_FALSE(of({" Dilation: much"}));
   EXPECT_FALSE(of({" Dilation: -1"}));
 }

@@ -13,45 +13,43 @@ extern "C" {
 #endif
 
 /* What pocl_read_checked_file() found. */
-typedef enum
-{
+typedef enum {
   POCL_CHECKED_FILE_OK,
   POCL_CHECKED_FILE_NONE,   /* it is not there */
   POCL_CHECKED_FILE_DAMAGED /* it cannot be read or was changed */
 } pocl_checked_file_status;
 
-/* Writes a file as pocl_write_file() does, with the checksum of its place in the
- * cache and its contents behind it: eight bytes, which readers of bitcode and of
- * ELF files ignore. 0 on success. */
+/* Writes a file as pocl_write_file() does, with the checksum of its place in
+ * the cache and its contents behind it: eight bytes, which readers of bitcode
+ * and of ELF files ignore. 0 on success. */
 POCL_EXPORT
-int pocl_write_checked_file (const char *path, const char *content,
-                             uint64_t size);
+int pocl_write_checked_file(const char *path, const char *content,
+                            uint64_t size);
 
 /* The contents without the checksum, to be freed by the caller. A damaged file
  * is removed, which standard error is told of. */
 POCL_EXPORT
-pocl_checked_file_status pocl_read_checked_file (const char *path,
-                                                 char **content,
-                                                 uint64_t *size);
+pocl_checked_file_status pocl_read_checked_file(const char *path,
+                                                char **content, uint64_t *size);
 
 /* Writes all bytes, in as many pieces as it takes. 0 on success, else -1 with
  * errno. */
-int pocl_write_all (int fd, const char *content, uint64_t size);
+int pocl_write_all(int fd, const char *content, uint64_t size);
 
 /* The checksum of bytes: FNV-1a of 64 bits, which any change of a single byte
  * changes. */
-uint64_t pocl_checksum (const void *bytes, uint64_t size);
+uint64_t pocl_checksum(const void *bytes, uint64_t size);
 
 /* Keeps errno as the reason why something cannot be done with the path, unless
  * this thread keeps another reason already. */
-void pocl_note_file_problem (const char *path, const char *what);
+void pocl_note_file_problem(const char *path, const char *what);
 
 /* The sentence of this thread's first noted problem since the last call of
  * pocl_forget_file_problem(); NULL if there is none. */
 POCL_EXPORT
-const char *pocl_file_problem (void);
+const char *pocl_file_problem(void);
 POCL_EXPORT
-void pocl_forget_file_problem (void);
+void pocl_forget_file_problem(void);
 
 #ifdef __cplusplus
 }
