@@ -75,7 +75,7 @@ const Json *KeptPoints::find(const std::string &Name, const Origin &From) {
 }
 
 Expected<Success> KeptPoints::keep(const std::string &Name, const Origin &From,
-                                   Json Measured) {
+                                   const Json &Measured) {
   Json Point{{"point", Name}, {"made_from", From}};
   Point.update(Measured);
   if (!IsMeasurement(Point))

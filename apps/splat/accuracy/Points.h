@@ -41,7 +41,7 @@ public:
   const Json *find(const std::string &Name, const Origin &From);
   /// Writes \p Measured and has it from now on.
   Expected<Success> keep(const std::string &Name, const Origin &From,
-                         Json Measured);
+                         const Json &Measured);
 
 private:
   std::string fileOf(const std::string &Name) const;

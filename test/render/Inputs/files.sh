@@ -58,7 +58,9 @@ attempt "its other spelling" splat convert s.ply -o sub/../s.ply
 attempt "its hard link" splat convert s.ply -o hard.ply
 attempt "its symbolic link" sh -c 'ln -s s.ply soft.ply; splat convert s.ply -o soft.ply'
 attempt "the cameras as JSON" splat analyze s.ply --cameras c.json --view front --json ./c.json
-attempt "two outputs of one name" splat demo-scene -o d.ply --cameras ./d.ply --gaussians 1000
-attempt "a picture compared with itself" splat compare p.pfm p.pfm --json p.pfm
+ln -s d.ply d.json
+attempt "two outputs of one file" splat demo-scene -o d.ply --cameras ./d.json --gaussians 1000
+ln -s p.pfm p.json
+attempt "a picture compared with itself" splat compare p.pfm p.pfm --json p.json
 cmp s.ply before.ply && echo the scene is what it was
 ls -A | grep '^\.' || echo nothing is left beside
