@@ -213,10 +213,10 @@ std::vector<std::vector<std::byte>> debuggerSeeds() {
       Hello + "Z0,80000008,4\nc\n" + call(Square, Stack) + "D\n",
       Hello + "Hg2\n" + call(Park, Stack - 4096) + "!\x03" + "c\nk\n",
       "!$g#00\n!$g#67\n!+++---\n!$$$#00#\n?\n!$qSupported#37",
-      "T1\nTffff\nHgffffffff\nHg-1\nH\nP\nP20=\nPzz="
-      "00\np45\npffffffff\nv\nvCont\n"
-      "vCont;\nvCont;s:ffffffff\nZ\nz\nZ9\nZ0\nqXfer:\nqXfer:threads:read::"
-      "zz\n",
+      // Packets that are cut short or ask for what is not there.
+      std::string("T1\nTffff\nHgffffffff\nHg-1\nH\nP\nP20=\nPzz=00\n") +
+          "p45\npffffffff\nv\nvCont\nvCont;\nvCont;s:ffffffff\n" +
+          "Z\nz\nZ9\nZ0\nqXfer:\nqXfer:threads:read::zz\n",
   };
   std::vector<std::vector<std::byte>> Seeds;
   for (const std::string &Text : Texts) {

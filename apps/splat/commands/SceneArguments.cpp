@@ -65,6 +65,7 @@ Expected<SceneFile> loadScene(const SceneArguments &A) {
     constexpr std::size_t MostNamed = 12;
     const std::size_t Named = std::min(File->Skipped.size(), MostNamed);
     std::vector<std::string> Names;
+    Names.reserve(Named);
     for (std::size_t I = 0; I < Named; ++I)
       Names.push_back(printable(File->Skipped[I]));
     printDiagnostic(
