@@ -67,6 +67,7 @@ _Unwind_Reason_Code addCaller(_Unwind_Context *Context, void *To) {
   auto &C = *static_cast<Callers *>(To);
   if (C.Count == Callers::Most)
     return _URC_END_OF_STACK;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): that is how it comes.
   C.At[C.Count++] = reinterpret_cast<void *>(_Unwind_GetIP(Context));
   return _URC_NO_REASON;
 }
@@ -193,6 +194,7 @@ __attribute__((destructor)) void end() {
   }
 VORION_OPEN(open)
 VORION_OPEN(open64)
+// NOLINTBEGIN(bugprone-macro-parentheses): a type and a list of parameters.
 #define VORION_CALL(KIND, FAILURE, RESULT, NAME, PARAMETERS, ARGUMENTS)        \
   extern "C" RESULT NAME PARAMETERS {                                          \
     static const auto Real = next<RESULT(*) PARAMETERS>(#NAME);                \
@@ -214,6 +216,8 @@ VORION_CALL(Map, MAP_FAILED, void *, mmap,
 VORION_CALL(Map, MAP_FAILED, void *, mmap64,
             (void *A, size_t B, int C, int D, int E, off_t F),
             (A, B, C, D, E, F))
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 // Closed all the same, as the kernel does it.
 extern "C" int close(int File) {
@@ -249,10 +253,12 @@ extern "C" int fflush(FILE *File) {
 
 // glibc's own names: dlsym, which finds all others, allocates.
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void *__libc_malloc(size_t);
 void *__libc_calloc(size_t, size_t);
 void *__libc_realloc(void *, size_t);
 void *__libc_memalign(size_t, size_t);
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void *malloc(size_t Size) {
   return fails(Alloc) ? nullptr : __libc_malloc(Size);

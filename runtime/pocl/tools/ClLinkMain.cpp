@@ -149,6 +149,7 @@ Expected<Built> findBuilt(const fs::path &Cache) {
 /// Refuses an output that could not be written, before any work is done.
 Expected<Success> claimOutput(const ClCommandLine &Line) {
   std::vector<NamedFile> Inputs;
+  Inputs.reserve(Line.Inputs.size());
   for (const fs::path &Input : Line.Inputs)
     Inputs.push_back({"an input", Input.string()});
   return claimOutputs({{"-o", Line.Output.string()}}, Inputs);
