@@ -36,9 +36,8 @@ TEST(Tool, WhatIsThrownIsOneLine) {
 #if !__has_feature(address_sanitizer)
 TEST(Tool, MemoryThatRunsOutInAThreadIsOneLine) {
   const auto TakeTooMuch = [] {
-    std::thread Taker([] {
-      ::operator delete(::operator new(std::size_t{1} << 62));
-    });
+    std::thread Taker(
+        [] { ::operator delete(::operator new(std::size_t{1} << 62)); });
     Taker.join();
     return 0;
   };
