@@ -5,7 +5,9 @@ unsigned results[16], called;
 
 __attribute__((noinline)) unsigned square(unsigned x) { return x * x; }
 __attribute__((noinline, used)) float half(float x) { return x * 0.5f; }
-__attribute__((noinline, used)) unsigned peek(volatile unsigned *where) { return *where; }
+__attribute__((noinline, used)) unsigned peek(volatile unsigned *where) {
+  return *where;
+}
 __attribute__((noinline, used)) unsigned add(unsigned by) {
   return __atomic_add_fetch(&called, by, __ATOMIC_RELAXED);
 }
