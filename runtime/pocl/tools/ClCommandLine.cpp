@@ -1,9 +1,8 @@
 #include "ClCommandLine.h"
 
-#include "vorion/support/Nearest.h"
+#include "vorion/support/Suggest.h"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 namespace vorion {
@@ -77,10 +76,11 @@ Error unknownOption(const std::string &Option) {
                                     "-w", "-W", "-O0", "-Werror"};
   Known.insert(Known.end(), Ignored.begin(), Ignored.end());
   Known.insert(Known.end(), OpenClOptions.begin(), OpenClOptions.end());
-  const std::optional<std::string> Meant = nearest(Option, Known);
+  const std::string_view Meant = closestTo(Option, Known);
   return usageError(Option + ": unknown option, " +
-                    (Meant ? "did you mean " + *Meant + "?"
-                           : "expected one that vorion-clang --help lists"));
+                    (Meant.empty()
+                         ? "expected one that vorion-clang --help lists"
+                         : "did you mean " + std::string(Meant) + "?"));
 }
 
 } // namespace
