@@ -1,5 +1,5 @@
+#include "FolderTest.h"
 #include "vorion/support/File.h"
-#include "vorion/support/TemporaryFolder.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -12,20 +12,7 @@ using namespace vorion;
 
 namespace {
 
-class FileTest : public testing::Test {
-protected:
-  void SetUp() override {
-    auto Made = TemporaryFolder::make("vorion-support");
-    ASSERT_TRUE(Made);
-    Folder.emplace(std::move(*Made));
-  }
-  std::string path(const std::string &Name) const {
-    return Folder->path() + "/" + Name;
-  }
-
-private:
-  std::optional<TemporaryFolder> Folder;
-};
+using FileTest = FolderTest;
 
 TEST_F(FileTest, RoundTripsAndLeavesNothingAside) {
   ASSERT_TRUE(writeFileAtomically(path("f"), std::string("abc\0d", 5)));

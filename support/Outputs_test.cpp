@@ -1,11 +1,10 @@
 #include "vorion/support/Outputs.h"
 
+#include "FolderTest.h"
 #include "vorion/support/File.h"
-#include "vorion/support/TemporaryFolder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <optional>
 #include <sys/stat.h>
 #include <vector>
 
@@ -14,16 +13,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class OutputsTest : public testing::Test {
+class OutputsTest : public FolderTest {
 protected:
   void SetUp() override {
-    auto Made = TemporaryFolder::make("vorion-support");
-    ASSERT_TRUE(Made);
-    Folder.emplace(std::move(*Made));
+    FolderTest::SetUp();
+    ASSERT_FALSE(HasFatalFailure());
     ASSERT_TRUE(writeFileAtomically(path("a"), "text"));
-  }
-  std::string path(const std::string &Name) const {
-    return Folder->path() + "/" + Name;
   }
   /// Whether two outputs, and an output and an input, clash.
   static bool clash(const std::string &A, const std::string &B) {
@@ -38,9 +33,6 @@ protected:
     }
     return !Both;
   }
-
-private:
-  std::optional<TemporaryFolder> Folder;
 };
 
 TEST_F(OutputsTest, OneFileUnderTwoNamesIsRefused) {

@@ -1,11 +1,10 @@
+#include "FolderTest.h"
 #include "vorion/support/File.h"
-#include "vorion/support/TemporaryFolder.h"
 
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -16,30 +15,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class WriteFileTest : public testing::Test {
+class WriteFileTest : public FolderTest {
 protected:
-  void SetUp() override {
-    auto Made = TemporaryFolder::make("vorion-support");
-    ASSERT_TRUE(Made);
-    Folder.emplace(std::move(*Made));
-  }
-  std::string path(const std::string &Name) const {
-    return Folder->path() + "/" + Name;
-  }
   static std::string contentOf(const std::string &Path) {
     std::ifstream In(Path, std::ios::binary);
     return {std::istreambuf_iterator<char>(In), {}};
   }
   /// Nothing was left beside the \p Count entries that belong there.
   void expectEntries(std::ptrdiff_t Count) const {
-    EXPECT_EQ(std::distance(fs::directory_iterator(Folder->path()), {}), Count);
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("")), {}), Count);
   }
   static std::string errorOf(const Expected<Success> &E) {
     return E ? std::string() : E.error().What;
   }
-
-private:
-  std::optional<TemporaryFolder> Folder;
 };
 
 TEST_F(WriteFileTest, ANewFileHasTheRightsOfAllNewFiles) {
