@@ -28,16 +28,10 @@ import scenes
 MODES = ("auto", "all", "flags")
 
 
-def size(path):
-    if os.path.isfile(path):
-        return os.path.getsize(path)
-    return sum(os.path.getsize(os.path.join(folder, f)) for folder, _, files in os.walk(path) for f in files)
-
-
 def chosen(names):
     """The scenes beside the repository that are among names, or all; small files first."""
     found = [scenes.shared(name) for name in scenes.known() if not names or name in names]
-    return sorted(found, key=lambda scene: size(os.path.join(scenes.ROOT, scene.path)))
+    return sorted(found, key=scenes.size)
 
 
 def processor_seconds():

@@ -37,6 +37,14 @@ def shared(name):
     return Scene(name, os.path.join(SHARED, os.path.basename(path)), cameras, views_of(cameras))
 
 
+def size(scene):
+    """Bytes of a scene's file, or of all files of its folder."""
+    path = os.path.join(ROOT, scene.path)
+    if os.path.isfile(path):
+        return os.path.getsize(path)
+    return sum(os.path.getsize(os.path.join(folder, f)) for folder, _, files in os.walk(path) for f in files)
+
+
 def given(path, cameras):
     """Any other scene, called as its file is."""
     path, cameras = os.path.abspath(path), os.path.abspath(cameras)
