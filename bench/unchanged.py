@@ -30,7 +30,7 @@ CAPTURE = os.path.join("..", "shared", "data", "captures", "chair_synthetic")
 
 
 class Build:
-    """A folder with bin/ and etc/OpenCL/vendors."""
+    """A folder with bin/ and pocl/lib/libpocl.so."""
 
     def __init__(self, folder, out, name):
         self.folder = os.path.abspath(folder)
@@ -38,7 +38,7 @@ class Build:
             sys.exit(f"unchanged.py: error: {folder}: has no bin/splat, expected a build folder or an installed Vorion")
         self.name = name
         self.environment = os.environ | {
-            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.folder, "etc", "OpenCL", "vendors"),
+            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.folder, "pocl", "lib", "libpocl.so"),
             "PATH": os.path.join(self.folder, "bin") + os.pathsep + os.environ["PATH"],
             "POCL_CACHE_DIR": os.path.join(out, f"cache-{name}")}
 
@@ -54,13 +54,14 @@ class Build:
         return run.stdout
 
 
-def comparable(value):
-    """A report without what is the host's."""
+def comparable(value, folder):
+    """A report without what is the host's, and without the name of the folder that it lay in."""
     if isinstance(value, dict):
-        return {key: comparable(v) for key, v in value.items() if key not in HOST_KEYS and not key.endswith("_seconds")}
+        return {key: comparable(v, folder) for key, v in value.items()
+                if key not in HOST_KEYS and not key.endswith("_seconds")}
     if isinstance(value, list):
-        return [comparable(v) for v in value]
-    return value
+        return [comparable(v, folder) for v in value]
+    return value.replace(folder, "") if isinstance(value, str) else value
 
 
 def differences(before, after, where=""):
@@ -90,7 +91,7 @@ def outcome(build, out, key, command, result):
         with open(paths[0], "rb") as f:
             content = hashlib.sha256(f.read()).hexdigest()
         with open(paths[1], encoding="utf-8") as f:
-            report = comparable(json.load(f))
+            report = comparable(json.load(f), folder)
     document = {"made_from": made_from, "outcome": {"result": content, "report": report}}
     with open(kept + ".new", "w", encoding="utf-8") as f:
         json.dump(document, f)

@@ -1,7 +1,7 @@
 #include "machine/Report.h"
 
 #include "core/Isa.h"
-#include "observe/SourceLines.h"
+#include "mem/SourceLines.h"
 
 #include <fmt/format.h>
 #include <map>

@@ -1,7 +1,7 @@
 /// Where the instructions go: an annotated source listing.
 #pragma once
 
-#include "observe/SourceLines.h"
+#include "mem/SourceLines.h"
 #include "vorion/isasim/Observer.h"
 
 #include <map>

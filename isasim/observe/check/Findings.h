@@ -1,7 +1,7 @@
 /// What the checkers have found, said once for each place in the program.
 #pragma once
 
-#include "observe/SourceLines.h"
+#include "mem/SourceLines.h"
 #include "vorion/isasim/Observer.h"
 
 #include <functional>

@@ -2,7 +2,7 @@
 /// the chains that led to values that are not finite.
 #pragma once
 
-#include "observe/SourceLines.h"
+#include "mem/SourceLines.h"
 #include "vorion/isasim/Observer.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "observe/SourceLines.h"
+#include "mem/SourceLines.h"
 
 #include <dwarf.h>
 #include <elfutils/libdw.h>
