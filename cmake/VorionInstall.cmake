@@ -16,6 +16,17 @@ function(vorion_public_headers Target Folder)
   install(DIRECTORY "${Folder}/" DESTINATION include)
 endfunction()
 
+# vorion_generated_headers(TARGET HEADER...): headers of ${VORION_GENERATED}/include
+# that are part of TARGET's interface, and are installed.
+function(vorion_generated_headers Target)
+  target_include_directories(${Target} PUBLIC "$<BUILD_INTERFACE:${VORION_GENERATED}/include>")
+  add_dependencies(${Target} vorion_generated)
+  foreach(Header IN LISTS ARGN)
+    get_filename_component(Folder "${Header}" DIRECTORY)
+    install(FILES "${VORION_GENERATED}/include/${Header}" DESTINATION "include/${Folder}")
+  endforeach()
+endfunction()
+
 # vorion_install(TARGET...): each is installed, and known to find_package(Vorion)
 # as Vorion::NAME, without our own prefix.
 function(vorion_install)

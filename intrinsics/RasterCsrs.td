@@ -92,28 +92,6 @@ def VR_GRAD_SY : Csr<"vr_grad_sy", 0x7F7, Lane, ReadOnly, 0, "Float: sum of s dy
 def VR_GRAD_SXX : Csr<"vr_grad_sxx", 0x7F8, Lane, ReadOnly, 0, "Float: sum of s dx dx.">;
 def VR_GRAD_SXY : Csr<"vr_grad_sxy", 0x7F9, Lane, ReadOnly, 0, "Float: sum of s dx dy.">;
 def VR_GRAD_SYY : Csr<"vr_grad_syy", 0x7FA, Lane, ReadOnly, 0, "Float: sum of s dy dy.">;
-
-// Counters of the agent's completed commands, low and high words.
-def VR_N_COMMANDS : Csr<"vr_n_commands", 0xFD0, Agent, ReadOnly, 1, "Commands completed.">;
-def VR_N_GAUSSIANS : Csr<"vr_n_gaussians", 0xFD1, Agent, ReadOnly, 1, "Gaussians fetched.">;
-def VR_N_CLIPPED : Csr<"vr_n_clipped", 0xFD2, Agent, ReadOnly, 1, "Of these, with a box that misses the tile.">;
-def VR_N_FRAGMENTS : Csr<"vr_n_fragments", 0xFD3, Agent, ReadOnly, 1, "Lane slots dispatched: pixels of box and tile.">;
-def VR_N_BLENDS : Csr<"vr_n_blends", 0xFD4, Agent, ReadOnly, 1, "Of these, blended into a pixel.">;
-def VR_N_INTERSECTING : Csr<"vr_n_intersecting", 0xFD5, Agent, ReadOnly, 1, "Of the Gaussians fetched, tagged VR_INTERSECT.">;
-def VR_N_COMMANDSH : Csr<"vr_n_commandsh", 0xFD8, Agent, ReadOnly, 1, "High word of vr_n_commands.">;
-def VR_N_GAUSSIANSH : Csr<"vr_n_gaussiansh", 0xFD9, Agent, ReadOnly, 1, "High word of vr_n_gaussians.">;
-def VR_N_CLIPPEDH : Csr<"vr_n_clippedh", 0xFDA, Agent, ReadOnly, 1, "High word of vr_n_clipped.">;
-def VR_N_FRAGMENTSH : Csr<"vr_n_fragmentsh", 0xFDB, Agent, ReadOnly, 1, "High word of vr_n_fragments.">;
-def VR_N_BLENDSH : Csr<"vr_n_blendsh", 0xFDC, Agent, ReadOnly, 1, "High word of vr_n_blends.">;
-def VR_N_TAILS : Csr<"vr_n_tails", 0xFE0, Agent, ReadOnly, 1, "Commands that went on in the pixel unit.">;
-def VR_N_TAIL_PIXELS : Csr<"vr_n_tail_pixels", 0xFE1, Agent, ReadOnly, 1, "Pixels that it took over.">;
-def VR_N_TAIL_VISITS : Csr<"vr_n_tail_visits", 0xFE2, Agent, ReadOnly, 1, "Gaussians that its pixels examined, each up to the one that saturates it.">;
-def VR_N_TAIL_BLENDS : Csr<"vr_n_tail_blends", 0xFE3, Agent, ReadOnly, 1, "Of these, blended.">;
-def VR_N_TAILSH : Csr<"vr_n_tailsh", 0xFE8, Agent, ReadOnly, 1, "High word of vr_n_tails.">;
-def VR_N_TAIL_PIXELSH : Csr<"vr_n_tail_pixelsh", 0xFE9, Agent, ReadOnly, 1, "High word of vr_n_tail_pixels.">;
-def VR_N_TAIL_VISITSH : Csr<"vr_n_tail_visitsh", 0xFEA, Agent, ReadOnly, 1, "High word of vr_n_tail_visits.">;
-def VR_N_TAIL_BLENDSH : Csr<"vr_n_tail_blendsh", 0xFEB, Agent, ReadOnly, 1, "High word of vr_n_tail_blends.">;
-def VR_N_INTERSECTINGH : Csr<"vr_n_intersectingh", 0xFDD, Agent, ReadOnly, 1, "High word of vr_n_intersecting.">;
 }
 
 // Status codes of a command (vr_status.code, vr_wait).

@@ -62,6 +62,29 @@ class Csr<string name, int number, Scope scope, WriteRule rule, bit uniform,
   bit HasIntrinsic = 1;
 }
 
+// What the machine counts in a run. Its name is that of the reports, and of the
+// driver's structure with "raster_" in front of a rasterizer's. Token: what
+// clGetEventInfoVORION knows it by, 0 where OpenCL programs do not see it.
+class Counter<string name, int token, string doc> {
+  string Counter = name;
+  int Token = token;
+  string Counts = doc;                // lower case, no full stop
+}
+
+class CoreCounter<string name, int token, string doc> : Counter<name, token, doc>;
+
+// A counter of the Raster Agents is a CSR that reads its low word.
+class RasterCounter<string name, int number, int token, string doc>
+    : Csr<"vr_n_" # name, number, Agent, ReadOnly, 1,
+          !toupper(!substr(doc, 0, 1)) # !substr(doc, 1) # ".">,
+      Counter<name, token, doc>;
+
+// The counter, and the CSR of its high word, which follows 8 numbers later.
+multiclass RasterCounter<string name, int number, int token, string doc> {
+  def "" : RasterCounter<name, number, token, doc>;
+  def H : Csr<"vr_n_" # name # "h", !add(number, 8), Agent, ReadOnly, 1, "High word of vr_n_" # name # ".">;
+}
+
 // A named number of the ABI, for headers of the host and of the device.
 class Constant<string name, int value, string doc> {
   string Name = name;

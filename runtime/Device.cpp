@@ -1,5 +1,6 @@
 #include "Device.h"
 #include "Limits.h"
+#include "vorion/RunCounters.h" // generated from intrinsics/Counters.td
 #include "vorion/support/Diagnostics.h"
 #include "vorion_abi.h"
 
@@ -374,23 +375,6 @@ Failure Device::wait(vx_result &Result) {
   Result.console_dropped = ConsoleDropped;
   Result.host_seconds = Last.HostSeconds;
   Result.time_report = TimeText.c_str();
-  vx_counters &C = Result.counters;
-  C.warp_instructions = Last.Total.WarpInstructions;
-  C.lane_instructions = Last.Total.LaneInstructions;
-  C.loads = Last.Total.Loads;
-  C.stores = Last.Total.Stores;
-  C.atomics = Last.Total.Atomics;
-  C.splits = Last.Total.Splits;
-  C.divergent_splits = Last.Total.DivergentSplits;
-  C.raster_commands = Last.Raster.Commands;
-  C.raster_gaussians = Last.Raster.Gaussians;
-  C.raster_clipped = Last.Raster.Clipped;
-  C.raster_fragments = Last.Raster.Fragments;
-  C.raster_blends = Last.Raster.Blends;
-  C.raster_intersecting = Last.Raster.Intersecting;
-  C.raster_tails = Last.Raster.Tails;
-  C.raster_tail_pixels = Last.Raster.TailPixels;
-  C.raster_tail_visits = Last.Raster.TailVisits;
-  C.raster_tail_blends = Last.Raster.TailBlends;
+  Result.counters = toDriver(Last.Total, Last.Raster);
   return {};
 }

@@ -2,25 +2,31 @@
 """Writes the ABI's numbers for assembly or for a linker script.
 
 usage: assembly.py [--tblgen PATH] --format asm|ld OUTPUT
-asm: #define lines of the constants, and VX_<STRUCT>_<FIELD>, each field's byte offset.
+asm: #define lines of the constants, of VX_CSR_<NAME>, each CSR's number, and of VX_<STRUCT>_<FIELD>, each field's offset.
 ld: assignments of the image's place and size (each becomes a symbol of the program, so no more than these).
 """
 
 import argparse
 
+from printing import csr_macro, note, word
 from records import Records, write
 
 
 def numbers(records):
     for c in records.of("Constant"):
-        yield c.Name, c.Value & 0xFFFFFFFF
+        yield c.Name, word(c.Value)
+
+
+def csrs(records):
+    for c in records.of("Csr"):
+        yield csr_macro(c), word(c.Number)
 
 
 def offsets(records):
     for d in records.of("Descriptor"):
         offset = 0
         for f in d.Fields:
-            yield f"{d.Name}_{f.Name}".upper(), offset
+            yield f"{d.Name}_{f.Name}".upper(), word(offset)
             offset += 4 * f.Count
 
 
@@ -31,12 +37,11 @@ def main():
     parser.add_argument("output")
     options = parser.parse_args()
     records = Records(options.tblgen)
-    note = "Generated from the records of intrinsics/ by intrinsics/generate/assembly.py; do not edit."
-    lines = [f"/* {note} */"]
+    lines = [note("assembly.py", "/*", "*/")]
     if options.format == "asm":
-        lines += [f"#define {name} {value:#x}" for name, value in [*numbers(records), *offsets(records)]]
+        lines += [f"#define {name} {value}" for name, value in [*numbers(records), *csrs(records), *offsets(records)]]
     else:
-        lines += [f"{name} = {value:#x};" for name, value in numbers(records) if name.startswith("VX_IMAGE_")]
+        lines += [f"{name} = {value};" for name, value in numbers(records) if name.startswith("VX_IMAGE_")]
     write(options.output, "\n".join(lines) + "\n")
 
 

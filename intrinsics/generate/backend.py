@@ -5,15 +5,16 @@ usage: backend.py [--tblgen PATH] OUTPUT_FOLDER
 
 RISCVInstrInfoXVortex.td  instructions and CSR names, for LLVM's TableGen
 VorionIntrinsics.def      one line an intrinsic: name, opcode, CSR, operands, divergence
+VorionCsrs.h              the numbers of our CSRs
 """
 
 import argparse
 import os
 
 from intrinsics import intrinsics
+from printing import note
 from records import Records, write
 
-NOTE = "Generated from the records of intrinsics/ by intrinsics/generate/backend.py; do not edit."
 PREDICATES = {"xvortex": "HasVendorXVortex", "xvorion": "HasVendorXVorion"}
 FEATURES = {"xvortex": "FeatureVendorXVortex", "xvorion": "FeatureVendorXVorion"}
 # Where the format R of the unprivileged specification puts its registers.
@@ -32,7 +33,7 @@ def instruction(record):
 
 
 def target_records(records):
-    yield f"// {NOTE}\n"
+    yield note("backend.py") + "\n"
     # Lanes stay in step only while nothing moves across these.
     yield """class VortexInstruction<bits<7> funct7, bits<3> funct3, dag outs, dag ins, string mnemonic, string operands>
     : RVInstR<funct7, funct3, OPC_CUSTOM_0, outs, ins, mnemonic, operands> {
@@ -53,7 +54,7 @@ def target_records(records):
 
 
 def table(records):
-    yield f"// {NOTE}"
+    yield note("backend.py")
     yield "// VORION_INTRINSIC(C name, opcode, CSR or -1, inputs, has a result, divergence of the result, extension)"
     opcodes = {"compiler": "COPY", "read": "CSRRS", "write": "CSRRW"}
     for i in intrinsics(records):
@@ -64,13 +65,23 @@ def table(records):
     yield "#undef VORION_INTRINSIC"
 
 
+def csr_numbers(records):
+    yield note("backend.py")
+    yield "#pragma once\n\nnamespace llvm::vorion::csr {"
+    for record in records.of("Csr"):
+        if record.Extension in FEATURES:
+            yield f"constexpr unsigned {record.Name} = {record.Number:#x};"
+    yield "} // namespace llvm::vorion::csr"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tblgen", default="llvm-tblgen-19")
     parser.add_argument("folder")
     options = parser.parse_args()
     records = Records(options.tblgen)
-    for name, lines in (("RISCVInstrInfoXVortex.td", target_records), ("VorionIntrinsics.def", table)):
+    for name, lines in (("RISCVInstrInfoXVortex.td", target_records), ("VorionIntrinsics.def", table),
+                        ("VorionCsrs.h", csr_numbers)):
         write(os.path.join(options.folder, name), "\n".join(lines(records)) + "\n")
 
 

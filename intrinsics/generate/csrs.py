@@ -6,9 +6,10 @@ usage: csrs.py [--tblgen PATH] OUTPUT
 
 import argparse
 
+from printing import camel, flag, note
 from records import Records, write
 
-HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/csrs.py; do not edit.
+HEAD = note("csrs.py") + """
 #pragma once
 
 #include <algorithm>
@@ -41,14 +42,6 @@ constexpr const CsrInfo *findCsrInfo(unsigned Number) {
 
 } // namespace vorion::isasim
 """
-
-
-def camel(name):
-    return "".join(part.capitalize() for part in name.split("_"))
-
-
-def flag(value):
-    return "true" if value else "false"
 
 
 def table(records):

@@ -45,6 +45,18 @@ def csrs(records):
     yield table(("CSR", "number", "scope", "write", "extension", "meaning"), rows)
 
 
+def counters(records):
+    yield "\n## Counters\n"
+    yield ("Of the cores, and of the Raster Agents' completed commands with the pixel units' part of them. Reports and "
+           "`vx_counters` have each; `clGetEventInfoVORION` those with a token, after their name in `vx_counters`.\n")
+    rows = []
+    for kind, prefix in (("CoreCounter", ""), ("RasterCounter", "raster_")):
+        for c in records.of(kind):
+            rows.append((f"`{prefix}{c.Counter}`", f"`{c.Name}`" if prefix else "", hex(c.Token) if c.Token else "",
+                         c.Counts))
+    yield table(("counter", "low word", "OpenCL token", "counts"), rows)
+
+
 def descriptors(records):
     yield "\n## Descriptors\n"
     for d in records.of("Descriptor"):
@@ -79,7 +91,7 @@ def main():
     parser.add_argument("output")
     args = parser.parse_args()
     records = Records(args.tblgen)
-    parts = (simt, csrs, descriptors, constants, base)
+    parts = (simt, csrs, counters, descriptors, constants, base)
     text = HEAD + "".join(chunk if chunk.endswith("\n") and chunk.startswith("|") else chunk + "\n"
                           for part in parts for chunk in part(records))
     if args.check:

@@ -9,9 +9,8 @@ host: vorion_abi.h, for C and C++: constants, CSR numbers, descriptors
 import argparse
 
 from intrinsics import intrinsics
+from printing import C, csr_macro, note
 from records import Records, write
-
-NOTE = "Generated from the records of intrinsics/ by intrinsics/generate/header.py; do not edit."
 
 DEVICE_HEAD = """#ifndef VORION_H
 #define VORION_H
@@ -47,9 +46,8 @@ HOST_HEAD = """#ifndef VORION_ABI_H
 """
 
 
-def constants(records):
-    for c in records.of("Constant"):
-        yield f"#define {c.Name} {c.Value & 0xffffffff:#x}u /* {c.Doc} */"
+def constants(records, language):
+    yield from (language.constant(c) for c in records.of("Constant"))
     for c in records.of("Csr"):
         for f in c.Fields:
             name = f"{c.Name}_{f.Name}".upper()
@@ -57,13 +55,9 @@ def constants(records):
             yield f"#define {name}_MASK {((1 << f.Width) - 1) << f.Low:#x}u"
 
 
-def descriptors(records, types):
+def descriptors(records, language):
     for d in records.of("Descriptor"):
-        yield f"\n/* {d.Doc} */\ntypedef struct {d.Name} {{"
-        for f in d.Fields:
-            count = f"[{f.Count}]" if f.Count > 1 else ""
-            yield f"  {types[f.Type]} {f.Name}{count}; /* {f.Doc} */"
-        yield f"}} {d.Name};"
+        yield from language.structure(d.Name, d.Doc, d.Fields)
 
 
 def device(records):
@@ -72,17 +66,19 @@ def device(records):
         macro = "VORION_INTRINSIC" if i.extension == "xvortex" else f"VORION_{i.extension.upper()}_INTRINSIC"
         yield f"/* {i.doc} */\n{i.prototype} {macro}({i.name});"
     yield "\n#ifdef __cplusplus\n}\n#endif\n"
-    yield from constants(records)
-    yield from descriptors(records, {"u32": "uint", "f32": "float"})
+    language = C(u32="uint", f32="float")
+    yield from constants(records, language)
+    yield from descriptors(records, language)
     yield "\n#endif"
 
 
 def host(records):
     yield HOST_HEAD
-    yield from constants(records)
+    language = C(u32="uint32_t", f32="float")
+    yield from constants(records, language)
     for c in records.of("Csr"):
-        yield f"#define VX_CSR_{c.Name.upper()} {c.Number:#x}u /* {c.Doc} */"
-    yield from descriptors(records, {"u32": "uint32_t", "f32": "float"})
+        yield f"#define {csr_macro(c)} {c.Number:#x}u /* {c.Doc} */"
+    yield from descriptors(records, language)
     yield "\n#endif"
 
 
@@ -93,7 +89,7 @@ def main():
     parser.add_argument("output")
     options = parser.parse_args()
     lines = {"device": device, "host": host}[options.reader](Records(options.tblgen))
-    write(options.output, f"/* {NOTE} */\n" + "\n".join(lines) + "\n")
+    write(options.output, note("header.py", "/*", "*/") + "\n" + "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

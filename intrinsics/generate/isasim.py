@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Writes the simulator's instruction, constant and descriptor tables as a C++ header (csrs.py writes the CSRs').
+"""Writes the simulator's instructions, constants and descriptors as a C++ header (csrs.py writes the CSRs, raster.py
+what is the rasterizer's).
 
 usage: isasim.py [--tblgen PATH] OUTPUT
 """
 
 import argparse
 
+from printing import Cpp, camel, flag, note, word
+from raster import is_raster
 from records import Records, write
 
-HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/isasim.py; do not edit.
+HEAD = note("isasim.py") + """
 #pragma once
 
 #include "core/CsrTable.h"
@@ -32,18 +35,6 @@ struct InsnInfo {
   bool HasRm; ///< a rounding mode stands where funct3 is
 };
 """
-
-
-def hex32(value):
-    return f"{value & 0xFFFFFFFF:#x}"
-
-
-def flag(value):
-    return "true" if value else "false"
-
-
-def camel(name):
-    return "".join(part.capitalize() for part in name.split("_"))
 
 
 def syntax(insn):
@@ -73,26 +64,16 @@ def instructions(records):
     for i in insns:
         operands = syntax(i)
         files = ", ".join(f"File::{file_of(operands, r)}" for r in ("rd", "rs1", "rs2", "rs3"))
-        yield (f'    {{"{i.Mnemonic}", "{operands}", {hex32(i.Match)}, {hex32(i.Mask)}, '
+        yield (f'    {{"{i.Mnemonic}", "{operands}", {word(i.Match)}, {word(i.Mask)}, '
                f"Format::{i.Fmt.id}, {files}, {flag(operands.endswith('rm'))}}},")
     yield "};\n"
 
 
 def abi(records):
-    yield "// The names of the ABI, as in every other language."
-    yield "// NOLINTBEGIN(readability-identifier-naming)"
-    for c in records.of("Constant"):
-        yield f"inline constexpr std::uint32_t {c.Name} = {hex32(c.Value)}; ///< {c.Doc}"
-    yield "// NOLINTEND(readability-identifier-naming)"
-    yield ""
-    kinds = {"u32": "std::uint32_t", "f32": "float"}
+    yield from Cpp().constants(c for c in records.of("Constant") if not is_raster(c))
     for d in records.of("Descriptor"):
-        yield f"/// {d.Doc}"
-        yield f"struct {camel(d.Name)} {{"
-        for f in d.Fields:
-            count = f"[{f.Count}]" if f.Count > 1 else ""
-            yield f"  {kinds[f.Type]} {camel(f.Name)}{count}; ///< {f.Doc}"
-        yield "};\n"
+        if not is_raster(d):
+            yield from Cpp().structure(camel(d.Name), d.Doc, d.Fields)
 
 
 def main():

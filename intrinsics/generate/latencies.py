@@ -9,9 +9,9 @@ usage: latencies.py [--tblgen PATH] (--scheduling | --clock) OUTPUT
 
 import argparse
 
+from printing import note
 from records import Records, write
 
-NOTE = "Generated from the records of intrinsics/ by intrinsics/generate/latencies.py; do not edit."
 # Instructions that LLVM calls otherwise than after their mnemonic.
 LLVM_NAMES = {"zext.h": "ZEXT_H_RV32", "rev8": "REV8_RV32"}
 
@@ -26,7 +26,7 @@ def llvm_name(record):
 
 def scheduling(records):
     classes = records.of("LatencyClass")
-    yield f"// {NOTE}\n"
+    yield note("latencies.py") + "\n"
     load = next(c for c in classes if c.Name == "load")
     yield f"def VorionModel : VorionPipeline {{ let LoadLatency = {load.Cycles}; }}"
     for c in classes:
@@ -47,7 +47,7 @@ def scheduling(records):
 
 def clock(records):
     classes = records.of("LatencyClass")
-    yield f"// {NOTE}"
+    yield note("latencies.py")
     yield "#pragma once\n"
     yield "#include \"core/IsaTables.h\"\n"
     yield "namespace vorion::isasim {\n"

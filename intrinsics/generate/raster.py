@@ -1,20 +1,23 @@
 #!/usr/bin/env python3
-"""Writes the rasterizer's CSR names and fields, constants and record layouts as a C++ header (csrs.py has the table).
+"""Writes what is the rasterizer's of CSRs, counters, constants and descriptors as a C++ header (csrs.py has the table).
 
 usage: raster.py [--tblgen PATH] OUTPUT
 """
 
 import argparse
 
+from printing import Cpp, camel, note
 from records import Records, write
 
-HEAD = """// Generated from intrinsics/*.td by intrinsics/generate/raster.py; do not edit.
+HEAD = note("raster.py") + """
 #pragma once
 
 #include "core/CsrTable.h"
+#include "vorion/isasim/Counters.h"
 
 namespace vorion::raster {
 
+using Counters = isasim::RasterCounters;
 using isasim::CsrInfo;
 using isasim::WriteRule;
 
@@ -28,46 +31,49 @@ struct BitField {
 """
 
 
-def camel(name):
-    return "".join(part.capitalize() for part in name.split("_"))
+# Descriptors that the rasterizer reads or writes.
+DESCRIPTORS = ("vx_gaussian", "vx_tail")
+
+
+def is_raster(record):
+    """Whether a constant or descriptor is the rasterizer's."""
+    return record.Name.startswith("VR_") or record.Name in DESCRIPTORS
+
+
+def csr_name(csr):
+    return camel(csr.Name.removeprefix("vr_"))
 
 
 def enum_csrs(csrs):
     yield "enum class Csr : std::uint16_t {"
     for c in csrs:
-        yield f"  {camel(c.Name.removeprefix('vr_'))} = {c.Number:#05x}, ///< {c.Doc}"
+        yield f"  {csr_name(c)} = {c.Number:#05x}, ///< {c.Doc}"
+    yield "};\n"
+
+
+def counters(records):
+    csrs = {c.Name: c for c in records.of("Csr")}
+    yield "/// The CSRs of a counter's two words."
+    yield "struct CounterWords {\n  Csr Low, High;\n  std::uint64_t Counters::*Value;\n};"
+    yield "inline constexpr CounterWords CounterTable[] = {"
+    for c in records.of("RasterCounter"):
+        yield f"    {{Csr::{csr_name(c)}, Csr::{csr_name(csrs[c.Name + 'h'])}, &Counters::{camel(c.Counter)}}},"
     yield "};\n"
 
 
 def fields(csrs):
     for c in csrs:
         for f in c.Fields:
-            name = camel(c.Name.removeprefix("vr_")) + camel(f.Name)
-            yield f"inline constexpr BitField {name}{{{f.Low}, {f.Width}}}; ///< {f.Doc}"
+            yield f"inline constexpr BitField {csr_name(c)}{camel(f.Name)}{{{f.Low}, {f.Width}}}; ///< {f.Doc}"
     yield ""
 
 
-def constants(records):
-    yield "// The names of the ABI, as in every other language."
-    yield "// NOLINTBEGIN(readability-identifier-naming)"
-    for c in records.of("Constant"):
-        if c.Name.startswith("VR_"):
-            yield f"inline constexpr std::uint32_t {c.Name} = {c.Value:#x}; ///< {c.Doc}"
-    yield "// NOLINTEND(readability-identifier-naming)\n"
-
-
 def descriptors(records):
-    types = {"f32": "float", "u32": "std::uint32_t"}
-    for name, type_name in (("vx_gaussian", "Gaussian"), ("vx_tail", "Tail")):
-        record = next(d for d in records.of("Descriptor") if d.Name == name)
-        yield f"/// {record.Doc}"
-        yield f"struct {type_name} {{"
-        for f in record.Fields:
-            count = f"[{f.Count}]" if f.Count > 1 else ""
-            yield f"  {types[f.Type]} {camel(f.Name)}{count}; ///< {f.Doc}"
-        yield "};"
-        size = 4 * sum(f.Count for f in record.Fields)
-        yield f"static_assert(sizeof({type_name}) == {size});\n"
+    for d in records.of("Descriptor"):
+        if is_raster(d):
+            name = camel(d.Name.removeprefix("vx_"))
+            yield from Cpp().structure(name, d.Doc, d.Fields)
+            yield f"static_assert(sizeof({name}) == {4 * sum(f.Count for f in d.Fields)});\n"
 
 
 def main():
@@ -77,7 +83,8 @@ def main():
     args = parser.parse_args()
     records = Records(args.tblgen)
     csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
-    parts = (enum_csrs(csrs), fields(csrs), constants(records), descriptors(records))
+    constants = Cpp().constants(c for c in records.of("Constant") if is_raster(c))
+    parts = (enum_csrs(csrs), fields(csrs), counters(records), constants, descriptors(records))
     lines = [HEAD, *(line for part in parts for line in part), "} // namespace vorion::raster"]
     write(args.output, "\n".join(lines) + "\n")
 

@@ -56,15 +56,16 @@ void Core::runRound(const ExecTable &Exec, uint32_t Quantum,
   // All of them now: one that starts others again and again must not give them
   // more than one turn.
   for (WarpState &S : Warps)
-    S.TurnEnd = S.Count.Retired + Quantum;
+    S.TurnEnd = S.Count.WarpInstructions + Quantum;
   // A barrier may release warps that have had their turn.
   for (bool Ran = true; Ran;) {
     Ran = false;
     for (WarpState &S : Warps)
-      while (S.Why == Stop::Ready && S.Count.Retired < S.TurnEnd) {
+      while (S.Why == Stop::Ready && S.Count.WarpInstructions < S.TurnEnd) {
         if (MustStop())
           return;
-        S.RetireLimit = std::min(S.TurnEnd, S.Count.Retired + LongestStretch);
+        S.RetireLimit =
+            std::min(S.TurnEnd, S.Count.WarpInstructions + LongestStretch);
         setFrm(&S, S.Frm);
         Exec.Enter(&S);
         S.Fflags |= HostFp::takeFlags();
@@ -75,7 +76,7 @@ void Core::runRound(const ExecTable &Exec, uint32_t Quantum,
 
 void Core::runApart(WarpState &S, const ExecTable &Exec, uint64_t Most) {
   const HostFp Host; // keeps what it has of the warp that is running
-  S.RetireLimit = S.Count.Retired + Most;
+  S.RetireLimit = S.Count.WarpInstructions + Most;
   setFrm(&S, S.Frm);
   Exec.Enter(&S);
   S.Fflags |= HostFp::takeFlags();
@@ -96,15 +97,15 @@ bool Core::hasEnded() const {
 uint64_t Core::retired() const {
   uint64_t Sum = 0;
   for (const WarpState &S : Warps)
-    Sum += S.Count.Retired;
+    Sum += S.Count.WarpInstructions;
   return Sum;
 }
 
 void Core::complete(WarpState &S) {
   if (VORION_OBSERVERS && S.Watcher)
     observeCommit(&S, S.Next);
-  ++S.Count.Retired;
-  S.Count.LaneRetired += S.LaneCount;
+  ++S.Count.WarpInstructions;
+  S.Count.LaneInstructions += S.LaneCount;
   ++S.Next;
   S.Why = Stop::Ready;
   S.AtBarrier = false;

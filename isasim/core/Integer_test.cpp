@@ -205,7 +205,7 @@ TEST(Integer, CountsWarpAndLaneInstructions) {
                           encode(Op::RV_ADDI, {.Rd = 5, .Imm = 5})});
     R.setActive(0x0013);
     R.run();
-    EXPECT_EQ(R.warp().Count.Retired, 3U);
-    EXPECT_EQ(R.warp().Count.LaneRetired, 9U);
+    EXPECT_EQ(R.warp().Count.WarpInstructions, 3U);
+    EXPECT_EQ(R.warp().Count.LaneInstructions, 9U);
   }
 }

@@ -181,7 +181,7 @@ TEST(Memory, FaultsNameTheLowestLane) {
     EXPECT_EQ(Load.cause(), TrapCause::LoadFault);
     EXPECT_EQ(Load.warp().FaultLane, 5U);
     EXPECT_EQ(Load.warp().FaultAddress, End);
-    EXPECT_EQ(Load.warp().Count.Retired, 0U);
+    EXPECT_EQ(Load.warp().Count.WarpInstructions, 0U);
     // Inactive lanes do not fault.
     runOn(Load, 0x001F, Addresses, {});
     EXPECT_TRUE(Load.ranToEnd());

@@ -391,10 +391,10 @@ void expectSame(WarpRunner &R, const Model &M) {
     ASSERT_EQ(R.cause(), *M.Trap);
     ASSERT_EQ(S.FaultLane, M.TrapLane);
     ASSERT_EQ(S.Next, R.Code.begin());
-    ASSERT_EQ(S.Count.Retired, 0U);
+    ASSERT_EQ(S.Count.WarpInstructions, 0U);
   } else if (M.Why == Stop::Ready) {
     ASSERT_TRUE(R.ranToEnd());
-    ASSERT_EQ(S.Count.Retired, 1 + Length - M.Pc);
+    ASSERT_EQ(S.Count.WarpInstructions, 1 + Length - M.Pc);
   } else {
     ASSERT_EQ(S.Why, M.Why);
   }

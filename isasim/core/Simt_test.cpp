@@ -53,7 +53,7 @@ TEST(Simt, TmcOfZeroEndsTheWarp) {
     WarpRunner R(*Table, {addi(11, 0, 1), encode(Op::VX_TMC, {.Rs1 = 0})});
     R.run();
     EXPECT_EQ(R.warp().Why, Stop::Ended);
-    EXPECT_EQ(R.warp().Count.Retired, 2U);
+    EXPECT_EQ(R.warp().Count.WarpInstructions, 2U);
   }
 }
 
@@ -343,7 +343,7 @@ TEST(Control, BranchesCompareActiveLanes) {
         ASSERT_TRUE(R.ranToEnd());
         EXPECT_EQ(R.getX(12), C.Taken ? all(0) : bitsOf(Mask));
         EXPECT_EQ(R.getX(13), bitsOf(Mask));
-        EXPECT_EQ(R.warp().Count.Retired, C.Taken ? 2U : 3U);
+        EXPECT_EQ(R.warp().Count.WarpInstructions, C.Taken ? 2U : 3U);
       }
 }
 
@@ -358,7 +358,7 @@ TEST(Control, DivergentBranchTrapsAtItsPc) {
     EXPECT_EQ(R.cause(), TrapCause::DivergentBranch);
     EXPECT_EQ(R.warp().pcOf(R.warp().Next), VX_IMAGE_BASE + 4);
     EXPECT_EQ(R.warp().FaultLane, 4U);
-    EXPECT_EQ(R.warp().Count.Retired, 1U);
+    EXPECT_EQ(R.warp().Count.WarpInstructions, 1U);
   }
 }
 
@@ -374,7 +374,7 @@ TEST(Control, JumpsLinkAndReturn) {
     EXPECT_EQ(R.getX(12), all(1));
     EXPECT_EQ(R.getX(13), all(1));
     EXPECT_EQ(R.getX(1), all(VX_IMAGE_BASE + 4));
-    EXPECT_EQ(R.warp().Count.Retired, 6U);
+    EXPECT_EQ(R.warp().Count.WarpInstructions, 6U);
   }
 }
 

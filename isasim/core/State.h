@@ -3,6 +3,8 @@
 /// in library code that the linker could merge across levels.
 #pragma once
 
+#include "vorion/isasim/Counters.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -101,12 +103,8 @@ struct Divergence {
   const Insn *Pc;      ///< where that side starts
 };
 
-struct WarpCounters {
-  std::uint64_t Retired = 0;     ///< warp instructions
-  std::uint64_t LaneRetired = 0; ///< times active lanes
-  std::uint64_t Loads = 0, Stores = 0, Atomics = 0;
-  std::uint64_t Splits = 0, DivergentSplits = 0;
-  std::uint64_t Parks = 0;
+/// A warp's part of its core's counters.
+struct WarpCounters : CoreCounters {
   /// Atomics that changed memory, and reads of what changes by itself: with
   /// Stores, what tells a warp that waits in vain (machine/HangDetector.h).
   std::uint64_t Changes = 0;
@@ -133,8 +131,8 @@ struct alignas(64) WarpState {
   const MemoryView *Mem = nullptr;
 
   WarpCounters Count;
-  /// Stop where the program may go back (branch, jump, vx_join) when Retired
-  /// has reached it.
+  /// Stop where the program may go back (branch, jump, vx_join) when
+  /// Count.WarpInstructions has reached it.
   std::uint64_t RetireLimit = 0;
   std::uint64_t TurnEnd = 0;  ///< the RetireLimit of the whole round
   const Insn *Next = nullptr; ///< where to go on

@@ -96,7 +96,8 @@ void Watch::commit(WarpState *S, const Insn *I) {
 void observeFetch(WarpState *S, const Insn *I, const Insn *Start) {
   // So that an observer finds every warp's place alike.
   S->Next = I;
-  S->Watcher->fetch(S, I, S->Count.Retired + static_cast<uint64_t>(I - Start));
+  S->Watcher->fetch(
+      S, I, S->Count.WarpInstructions + static_cast<uint64_t>(I - Start));
 }
 
 void observeCommit(WarpState *S, const Insn *I) { S->Watcher->commit(S, I); }

@@ -32,12 +32,6 @@ constexpr uint64_t ShortRound = 20000;
 /// A core's console text goes out without its line's end when there is more.
 constexpr size_t LongestLine = 64 << 10;
 
-void addCounters(CoreCounters &To, const WarpCounters &C) {
-#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) To.MEMBER += C.SOURCE;
-#include "vorion/isasim/Counters.def"
-#undef VORION_CORE_COUNTER
-}
-
 // What the clock has to know of parked instructions. For an atomic before it is
 // executed, since its result may overwrite its addresses.
 
@@ -377,7 +371,7 @@ void Machine::Impl::count(RunResult &R) const {
   for (const auto &C : Cores) {
     CoreCounters Sum;
     for (const WarpState &S : C->warps())
-      addCounters(Sum, S.Count);
+      Sum += S.Count;
     R.Total += Sum;
     R.Cores.push_back(Sum);
     if (C->ExitCode && R.ExitCode == 0)

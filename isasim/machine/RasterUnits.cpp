@@ -145,12 +145,7 @@ bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
 }
 
 RasterCounters RasterUnits::countersOf(unsigned Core) const {
-  const raster::Counters &C = Agents[Core]->counters();
-  RasterCounters Copy;
-#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) Copy.MEMBER = C.MEMBER;
-#include "vorion/isasim/Counters.def"
-#undef VORION_RASTER_COUNTER
-  return Copy;
+  return Agents[Core]->counters();
 }
 
 RasterCounters RasterUnits::counters() const {

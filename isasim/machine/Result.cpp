@@ -11,19 +11,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json(const CoreCounters &C) {
+Json json(const auto &Table, const auto &Counters) {
   Json Object;
-#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) Object[#NAME] = C.MEMBER;
-#include "vorion/isasim/Counters.def"
-#undef VORION_CORE_COUNTER
-  return Object;
-}
-
-Json json(const RasterCounters &C) {
-  Json Object;
-#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) Object[#NAME] = C.MEMBER;
-#include "vorion/isasim/Counters.def"
-#undef VORION_RASTER_COUNTER
+  for (const auto &C : Table)
+    Object[C.Name] = Counters.*C.Member;
   return Object;
 }
 
@@ -106,38 +97,13 @@ std::string_view describe(Outcome O) {
   return "unknown";
 }
 
-CoreCounters &CoreCounters::operator+=(const CoreCounters &Other) {
-#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) MEMBER += Other.MEMBER;
-#include "vorion/isasim/Counters.def"
-#undef VORION_CORE_COUNTER
-  return *this;
-}
-
-RasterCounters &RasterCounters::operator+=(const RasterCounters &Other) {
-#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) MEMBER += Other.MEMBER;
-#include "vorion/isasim/Counters.def"
-#undef VORION_RASTER_COUNTER
-  return *this;
-}
-
-RasterCounters RasterCounters::operator-(const RasterCounters &Other) const {
-  RasterCounters Result = *this;
-#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) Result.MEMBER -= Other.MEMBER;
-#include "vorion/isasim/Counters.def"
-#undef VORION_RASTER_COUNTER
-  return Result;
-}
-
 std::vector<NamedCounter> counters(const RunResult &R) {
-  return {
-#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC)                         \
-  {"core", #NAME, DOC, R.Total.MEMBER},
-#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC)                               \
-  {"raster", #NAME, DOC, R.Raster.MEMBER},
-#include "vorion/isasim/Counters.def"
-#undef VORION_CORE_COUNTER
-#undef VORION_RASTER_COUNTER
-  };
+  std::vector<NamedCounter> All;
+  for (const auto &C : CoreCounterTable)
+    All.push_back({"core", C.Name, C.Doc, R.Total.*C.Member});
+  for (const auto &C : RasterCounterTable)
+    All.push_back({"raster", C.Name, C.Doc, R.Raster.*C.Member});
+  return All;
 }
 
 std::string toJson(const RunResult &R) {
@@ -146,10 +112,10 @@ std::string toJson(const RunResult &R) {
   Object["exit_code"] = R.ExitCode;
   if (R.End == Outcome::Trap)
     Object["trap"] = fault(R.Fault);
-  Object["total"] = json(R.Total);
+  Object["total"] = json(CoreCounterTable, R.Total);
   for (const CoreCounters &C : R.Cores)
-    Object["cores"].push_back(json(C));
-  Object["raster"] = json(R.Raster);
+    Object["cores"].push_back(json(CoreCounterTable, C));
+  Object["raster"] = json(RasterCounterTable, R.Raster);
   if (R.Time)
     Object["time"] = ownJson<Json>(toJson(*R.Time));
   Object["sync_points"] = R.SyncPoints;

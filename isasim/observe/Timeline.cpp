@@ -98,8 +98,8 @@ void Timeline::syncPoint(std::span<const std::unique_ptr<Core>> All) {
     uint64_t At = Now;
     for (const WarpState &S : std::as_const(*C).warps()) {
       Row &R = Warps[N++];
-      const uint64_t Count = S.Count.Retired - R.Retired;
-      R.Retired = S.Count.Retired;
+      const uint64_t Count = S.Count.WarpInstructions - R.Retired;
+      R.Retired = S.Count.WarpInstructions;
       add(R, "running", At, At + Count);
       At += Count;
     }

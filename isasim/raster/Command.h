@@ -45,38 +45,6 @@ struct HandOver {
   std::uint32_t Record;
 };
 
-/// Work of completed commands. A failed command counts as one command, with
-/// the work it did before it failed.
-struct Counters {
-  std::uint64_t Commands = 0;
-  std::uint64_t Gaussians = 0;    ///< fetched
-  std::uint64_t Clipped = 0;      ///< of these, box misses the tile
-  std::uint64_t Fragments = 0;    ///< lane slots dispatched
-  std::uint64_t Blends = 0;       ///< of these, blended into a pixel
-  std::uint64_t Intersecting = 0; ///< of the fetched, tagged VR_INTERSECT
-
-  // The pixel unit's part.
-  std::uint64_t Tails = 0;      ///< commands that went on there
-  std::uint64_t TailPixels = 0; ///< taken over
-  std::uint64_t TailVisits = 0; ///< Gaussians examined, summed over pixels
-  std::uint64_t TailBlends = 0; ///< of these, blended
-
-  Counters &operator+=(const Counters &Other) {
-    Commands += Other.Commands;
-    Gaussians += Other.Gaussians;
-    Clipped += Other.Clipped;
-    Fragments += Other.Fragments;
-    Blends += Other.Blends;
-    Intersecting += Other.Intersecting;
-    Tails += Other.Tails;
-    TailPixels += Other.TailPixels;
-    TailVisits += Other.TailVisits;
-    TailBlends += Other.TailBlends;
-    return *this;
-  }
-  bool operator==(const Counters &) const = default;
-};
-
 /// A pixel as it leaves the rasterizer; the background is not applied.
 struct Pixel {
   float R = 0, G = 0, B = 0;

@@ -85,23 +85,7 @@ std::uint32_t *RasterAgent::bankWord(Csr C) {
 }
 
 std::uint32_t RasterAgent::readCounter(Csr C) const {
-  struct Words {
-    Csr Low, High;
-    std::uint64_t Counters::*Value;
-  };
-  static constexpr Words All[] = {
-      {Csr::NCommands, Csr::NCommandsh, &Counters::Commands},
-      {Csr::NGaussians, Csr::NGaussiansh, &Counters::Gaussians},
-      {Csr::NClipped, Csr::NClippedh, &Counters::Clipped},
-      {Csr::NFragments, Csr::NFragmentsh, &Counters::Fragments},
-      {Csr::NBlends, Csr::NBlendsh, &Counters::Blends},
-      {Csr::NIntersecting, Csr::NIntersectingh, &Counters::Intersecting},
-      {Csr::NTails, Csr::NTailsh, &Counters::Tails},
-      {Csr::NTailPixels, Csr::NTailPixelsh, &Counters::TailPixels},
-      {Csr::NTailVisits, Csr::NTailVisitsh, &Counters::TailVisits},
-      {Csr::NTailBlends, Csr::NTailBlendsh, &Counters::TailBlends},
-  };
-  for (const Words &W : All) {
+  for (const CounterWords &W : CounterTable) {
     if (C == W.Low)
       return static_cast<std::uint32_t>(Totals.*W.Value);
     if (C == W.High)

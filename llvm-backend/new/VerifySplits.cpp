@@ -12,6 +12,7 @@
 
 #include "RISCVSubtarget.h"
 #include "Vorion.h"
+#include "VorionCsrs.h"
 #include "llvm/ADT/PostOrderIterator.h"
 #include "llvm/CodeGen/MachineFunctionPass.h"
 #include "llvm/CodeGen/PseudoSourceValue.h"
@@ -80,8 +81,6 @@ std::optional<Place> slotOf(const MachineInstr &MI) {
     return std::nullopt;
   return Place{true, Slot->getFrameIndex()};
 }
-
-constexpr unsigned ActiveThreads = 0xCC4;
 
 /// For each block the slots that are loaded before they are stored to again:
 /// what others hold is of no use, and would only make states differ.
@@ -174,7 +173,7 @@ bool VerifySplits::step(const MachineInstr &MI, PathState &State) {
       return fail(MI, "vx_pred with a mask that is not the loop's own");
     return true;
   case RISCV::CSRRS:
-    if (MI.getOperand(1).getImm() != ActiveThreads)
+    if (MI.getOperand(1).getImm() != vorion::csr::vx_active_threads)
       break;
     define(place(MI.getOperand(0).getReg()), State.Depth);
     return true;

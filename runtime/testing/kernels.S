@@ -3,8 +3,6 @@
 
 #include "vorion_asm.h"
 
-#define VX_CORE_ID_CSR 0xcc2 /* the packaged assembler does not know its name */
-
 .macro vx_tmc_zero
     .insn r 0x0b, 0, 0, x0, x0, x0
 .endm
@@ -25,7 +23,7 @@ _start:
 1:  lw      t0, VX_LAUNCH_ENTRY(s1)
     lw      a0, VX_LAUNCH_ARGS(s1)
     mv      a1, s1
-    csrr    a2, VX_CORE_ID_CSR
+    csrr    a2, VX_CSR_VX_CORE_ID   # the packaged assembler does not know its name
     jalr    t0
     vx_tmc_zero
 

@@ -8,22 +8,6 @@
 
 namespace vorion::splat {
 
-KernelCounters &KernelCounters::operator+=(const KernelCounters &Other) {
-  WarpInstructions += Other.WarpInstructions;
-  LaneInstructions += Other.LaneInstructions;
-  RasterCommands += Other.RasterCommands;
-  RasterGaussians += Other.RasterGaussians;
-  RasterClipped += Other.RasterClipped;
-  RasterFragments += Other.RasterFragments;
-  RasterBlends += Other.RasterBlends;
-  RasterIntersecting += Other.RasterIntersecting;
-  RasterTails += Other.RasterTails;
-  RasterTailPixels += Other.RasterTailPixels;
-  RasterTailVisits += Other.RasterTailVisits;
-  RasterTailBlends += Other.RasterTailBlends;
-  return *this;
-}
-
 namespace {
 
 struct Candidate {
@@ -130,25 +114,12 @@ std::optional<KernelCounters> Device::counters(const cl::Event &Event) const {
   if (!EventInfo)
     return std::nullopt;
   KernelCounters C;
-  const std::pair<cl_uint, std::uint64_t *> Queries[] = {
-      {CL_EVENT_WARP_INSTRUCTIONS_VORION, &C.WarpInstructions},
-      {CL_EVENT_LANE_INSTRUCTIONS_VORION, &C.LaneInstructions},
-      {CL_EVENT_RASTER_COMMANDS_VORION, &C.RasterCommands},
-      {CL_EVENT_RASTER_GAUSSIANS_VORION, &C.RasterGaussians},
-      {CL_EVENT_RASTER_CLIPPED_VORION, &C.RasterClipped},
-      {CL_EVENT_RASTER_FRAGMENTS_VORION, &C.RasterFragments},
-      {CL_EVENT_RASTER_BLENDS_VORION, &C.RasterBlends},
-      {CL_EVENT_RASTER_INTERSECTING_VORION, &C.RasterIntersecting},
-      {CL_EVENT_RASTER_TAILS_VORION, &C.RasterTails},
-      {CL_EVENT_RASTER_TAIL_PIXELS_VORION, &C.RasterTailPixels},
-      {CL_EVENT_RASTER_TAIL_VISITS_VORION, &C.RasterTailVisits},
-      {CL_EVENT_RASTER_TAIL_BLENDS_VORION, &C.RasterTailBlends},
-  };
-  for (const auto &[Token, Value] : Queries) {
+  for (const CounterInfo &Counter : KernelCounterTable) {
     cl_ulong Got = 0;
-    if (EventInfo(Event(), Token, sizeof(Got), &Got, nullptr) != CL_SUCCESS)
+    if (EventInfo(Event(), Counter.Token, sizeof(Got), &Got, nullptr) !=
+        CL_SUCCESS)
       return std::nullopt;
-    *Value = Got;
+    C.*Counter.Member = Got;
   }
   return C;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "OpenCl.h"
+#include "splat/KernelCounters.h" // generated from intrinsics/Counters.td
 
 #include <CL/cl_vorion.h>
 #include <cstdint>
@@ -9,18 +10,6 @@
 #include <string>
 
 namespace vorion::splat {
-
-/// What a Vorion device counted for one kernel; zeros are counts too.
-struct KernelCounters {
-  std::uint64_t WarpInstructions = 0, LaneInstructions = 0;
-  std::uint64_t RasterCommands = 0, RasterGaussians = 0, RasterClipped = 0;
-  std::uint64_t RasterFragments = 0, RasterBlends = 0;
-  std::uint64_t RasterIntersecting = 0;
-  std::uint64_t RasterTails = 0, RasterTailPixels = 0;
-  std::uint64_t RasterTailVisits = 0, RasterTailBlends = 0;
-
-  KernelCounters &operator+=(const KernelCounters &Other);
-};
 
 /// An opened device with its context and its in-order queues.
 class Device {

@@ -18,18 +18,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json json(const KernelCounters &C) {
-  return {{"warp_instructions", C.WarpInstructions},
-          {"lane_instructions", C.LaneInstructions},
-          {"raster_commands", C.RasterCommands},
-          {"raster_gaussians", C.RasterGaussians},
-          {"raster_clipped", C.RasterClipped},
-          {"raster_fragments", C.RasterFragments},
-          {"raster_blends", C.RasterBlends},
-          {"raster_intersecting", C.RasterIntersecting},
-          {"raster_tails", C.RasterTails},
-          {"raster_tail_pixels", C.RasterTailPixels},
-          {"raster_tail_visits", C.RasterTailVisits},
-          {"raster_tail_blends", C.RasterTailBlends}};
+  Json Object;
+  for (const CounterInfo &Counter : KernelCounterTable)
+    Object[Counter.Name] = C.*Counter.Member;
+  return Object;
 }
 
 /// The sum of the counters of all kernels, where they were counted.

@@ -7,6 +7,7 @@
 #define CL_VORION_H
 
 #include <CL/cl.h>
+#include <CL/cl_vorion_counters.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,25 +17,8 @@ extern "C" {
 #define CL_VORION_EXTENSION_NAME "cl_vorion"
 
 /* What clGetEventInfoVORION tells about the event of a kernel that has ended:
- * each is a cl_ulong, the sum over the cores for this kernel alone. */
-#define CL_EVENT_WARP_INSTRUCTIONS_VORION 0x4F60 /* retired, one a warp */
-#define CL_EVENT_LANE_INSTRUCTIONS_VORION                                      \
-  0x4F61                                       /* retired, one an active lane */
-#define CL_EVENT_RASTER_COMMANDS_VORION 0x4F62 /* tiles drawn */
-#define CL_EVENT_RASTER_GAUSSIANS_VORION 0x4F63 /* fetched, once a tile */
-#define CL_EVENT_RASTER_CLIPPED_VORION                                         \
-  0x4F64                                        /* of these, beside their tile \
-                                                 */
-#define CL_EVENT_RASTER_FRAGMENTS_VORION 0x4F65 /* lane slots dispatched */
-#define CL_EVENT_RASTER_BLENDS_VORION 0x4F66    /* pixels changed */
-#define CL_EVENT_RASTER_INTERSECTING_VORION                                    \
-  0x4F67 /* fetched Gaussians that span several tiles */
-/* The pixel unit: commands that went on there, pixels taken over, Gaussians
- * that those examined, and of these the blended ones. */
-#define CL_EVENT_RASTER_TAILS_VORION 0x4F68
-#define CL_EVENT_RASTER_TAIL_PIXELS_VORION 0x4F69
-#define CL_EVENT_RASTER_TAIL_VISITS_VORION 0x4F6A
-#define CL_EVENT_RASTER_TAIL_BLENDS_VORION 0x4F6B
+ * each name of cl_vorion_counters.h is a cl_ulong, the sum over the cores and
+ * rasterizers for this kernel alone. */
 
 /* How long the kernel took on the machine, and why: JSON, a NUL-terminated
  * char[] (docs/model.md). Empty unless the environment's VORION_TIME or the

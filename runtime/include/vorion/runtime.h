@@ -20,6 +20,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <vorion/counters.h> /* vx_counters, generated */
 
 #ifdef __cplusplus
 extern "C" {
@@ -197,25 +198,6 @@ typedef enum vx_outcome {
   VX_OUTCOME_LIMIT = 4 /* the configuration's instruction limit reached */
 } vx_outcome;
 
-/* Sums over cores and rasterizers of one run. */
-typedef struct vx_counters {
-  uint64_t warp_instructions;      /* retired */
-  uint64_t lane_instructions;      /* the same times active lanes */
-  uint64_t loads, stores, atomics; /* of these warp instructions */
-  uint64_t splits;                 /* vx_split and vx_pred */
-  uint64_t divergent_splits;       /* of these, those that divided the lanes */
-  uint64_t raster_commands;
-  uint64_t raster_gaussians; /* fetched */
-  uint64_t raster_clipped;   /* of these, with a box that misses the tile */
-  uint64_t raster_fragments; /* lane slots dispatched */
-  uint64_t raster_blends;
-  uint64_t raster_intersecting; /* fetched Gaussians that span several tiles */
-  uint64_t raster_tails;        /* commands that went on in a pixel unit */
-  uint64_t raster_tail_pixels;  /* that it took over */
-  uint64_t raster_tail_visits;  /* Gaussians that those examined */
-  uint64_t raster_tail_blends;  /* of these, blended */
-} vx_counters;
-
 /* Texts are NUL-terminated, never NULL, and valid until the device's next
  * start or close. */
 typedef struct vx_result {
@@ -229,7 +211,7 @@ typedef struct vx_result {
   size_t console_bytes;
   uint64_t console_dropped; /* bytes beyond the first MiB, which is kept */
   double host_seconds;
-  vx_counters counters;
+  vx_counters counters; /* sums over cores and rasterizers */
   /* How long the run took on the machine, as JSON (docs/model.md); "" without
    * the clock. */
   const char *time_report;

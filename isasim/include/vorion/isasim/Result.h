@@ -2,6 +2,7 @@
 /// never the host's death.
 #pragma once
 
+#include "vorion/isasim/Counters.h" // generated from intrinsics/Counters.td
 #include "vorion/isasim/SourcePlace.h"
 #include "vorion/isasim/Timing.h"
 #include "vorion/isasim/TrapCause.h"
@@ -40,24 +41,6 @@ struct Trap {
   std::vector<SourcePlace> Source; ///< of Pc, innermost first
 };
 
-/// Of one core, or sums over cores; Counters.def says what each counts.
-struct CoreCounters {
-#define VORION_CORE_COUNTER(MEMBER, NAME, SOURCE, DOC) uint64_t MEMBER = 0;
-#include "vorion/isasim/Counters.def"
-#undef VORION_CORE_COUNTER
-  CoreCounters &operator+=(const CoreCounters &Other);
-};
-
-/// Totals of the run over all rasterizers and pixel units (the vr_n_* CSRs).
-struct RasterCounters {
-#define VORION_RASTER_COUNTER(MEMBER, NAME, DOC) uint64_t MEMBER = 0;
-#include "vorion/isasim/Counters.def"
-#undef VORION_RASTER_COUNTER
-  RasterCounters &operator+=(const RasterCounters &Other);
-  RasterCounters operator-(const RasterCounters &Other) const;
-  bool operator==(const RasterCounters &) const = default;
-};
-
 /// A counter by name, for tables.
 struct NamedCounter {
   const char *Group; ///< "core" or "raster"
@@ -66,7 +49,7 @@ struct NamedCounter {
   uint64_t Value;
 };
 struct RunResult;
-/// All totals of \p R, in the registry's order.
+/// All totals of \p R, in the order of intrinsics/Counters.td.
 std::vector<NamedCounter> counters(const RunResult &R);
 
 struct RunResult {
@@ -80,7 +63,7 @@ struct RunResult {
 
   CoreCounters Total;
   std::vector<CoreCounters> Cores;
-  RasterCounters Raster;
+  RasterCounters Raster; ///< over all rasterizers and pixel units
   /// What the run took; without Config::Timing.Enabled there is none.
   std::optional<TimeReport> Time;
   uint64_t SyncPoints = 0;   ///< times all cores were parked
