@@ -2,15 +2,15 @@
 /// last error's text are kept, and no exception leaves.
 
 #include "Device.h"
+#include "Options.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
 #include "vorion_abi.h"
 
-#include <charconv>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <fmt/format.h>
+#include <span>
 
 using namespace vorion;
 using namespace vorion::runtime;
@@ -57,57 +57,41 @@ Failure isNull(const char *Name) {
   return badArgument(fmt::format("{} is NULL", Name));
 }
 
-/// The configuration file or text that \p Text, or else the environment, names.
-Failure readConfig(const char *Text, isasim::Config &Config) {
-  if (!Text)
-    Text = std::getenv("VORION_CONFIG");
-  if (!Text || !*Text)
-    return {};
-  std::string Json = Text, Where = "configuration";
-  if (Text[std::strspn(Text, " \t\r\n")] != '{') {
-    const auto Bytes = readFile(Text);
-    if (!Bytes)
-      return failure(VX_ERROR_FILE, Bytes.error());
-    Json.assign(reinterpret_cast<const char *>(Bytes->data()), Bytes->size());
-    Where = Text;
+/// The texts that \p Given sets, else the environment's variables.
+Failure findOptions(std::span<const vx_option> Given, DeviceOptions &Options) {
+  Options = DeviceOptions::fromEnvironment();
+  for (const vx_option &Option : Given) {
+    if (!Option.name || !Option.text)
+      return isNull(Option.name ? "text" : "name");
+    std::string *Text = Options.find(Option.name);
+    if (!Text)
+      return badArgument(
+          fmt::format("no option '{}', expected the name of one of the "
+                      "environment's variables (docs/debugging.md)",
+                      Option.name));
+    *Text = Option.text;
   }
-  auto Parsed = isasim::parseConfig(Json, Where);
-  if (!Parsed)
-    return failure(VX_ERROR_CONFIG, Parsed.error());
-  Config = *Parsed;
   return {};
 }
 
-/// The configuration that vx_device_open's argument names, changed as the
-/// environment's VORION_SET says.
-Failure findConfig(const char *Text, isasim::Config &Config) {
-  if (Failure Failed = readConfig(Text, Config))
+Failure openDevice(std::span<const vx_option> Given, vx_device **Device) {
+  DeviceOptions Options;
+  if (Failure Failed = findOptions(Given, Options))
     return Failed;
-  const char *Values = std::getenv("VORION_SET");
-  if (!Values || !*Values)
-    return {};
-  if (const auto Set = isasim::setValues(Config, Values); !Set)
-    return {VX_ERROR_CONFIG, "VORION_SET: " + Set.error().What};
-  return {};
-}
-
-/// Whether the environment's VORION_TIME asks for the clock, and whether it
-/// does for profiled runs only.
-Failure findTime(isasim::Config &Config, bool &OnlyProfiled) {
-  const char *Text = std::getenv("VORION_TIME");
-  if (!Text || !*Text)
-    return {};
-  Config.Timing.Enabled = true;
-  OnlyProfiled = std::strcmp(Text, "profiled") == 0;
-  if (OnlyProfiled || std::strcmp(Text, "on") == 0)
-    return {};
-  const char *End = Text + std::strlen(Text);
-  const auto [Rest, Wrong] = std::from_chars(Text, End, Config.Timing.ClockMhz);
-  if (Wrong != std::errc() || Rest != End)
-    return {VX_ERROR_CONFIG,
-            fmt::format("VORION_TIME is '{}', expected 'on', 'profiled' or a "
-                        "clock in MHz",
-                        Text)};
+  isasim::Config Config;
+  if (Failure Failed = Options.machine(Config))
+    return Failed;
+  auto Machine = isasim::Machine::create(Config);
+  if (!Machine)
+    return failure(Machine.error().Code == ExitCode::LimitReached
+                       ? VX_ERROR_MEMORY
+                       : VX_ERROR_CONFIG,
+                   Machine.error());
+  auto Watch = isasim::Session::create(Options.Watch, "vorion");
+  if (!Watch)
+    return failure(VX_ERROR_CONFIG, Watch.error());
+  *Device = new vx_device(std::move(*Machine), std::move(*Watch),
+                          Options.onlyProfiled());
   return {};
 }
 
@@ -138,11 +122,7 @@ Failure findKernel(const vx_image *Image, std::uint32_t Number,
 Failure placeLocals(const vx_image &Image, const isasim::Kernel &Kernel,
                     std::span<const std::uint64_t> Sizes, std::byte *PackedArgs,
                     std::uint32_t &Total) {
-  const auto AlignUp = [](std::uint64_t Bytes) {
-    return (Bytes + VX_MEM_ALIGNMENT - 1) / VX_MEM_ALIGNMENT * VX_MEM_ALIGNMENT;
-  };
-  const std::uint32_t Capacity = Image.Owner->Impl.localBytes();
-  std::uint64_t End = Kernel.LocalBytes;
+  isasim::LocalPlaces Places(Kernel, Image.Owner->Impl.config());
   std::size_t Next = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> Placed;
   for (const isasim::KernelArg &Arg : Kernel.Args) {
@@ -152,16 +132,10 @@ Failure placeLocals(const vx_image &Image, const isasim::Kernel &Kernel,
       return badArgument(
           fmt::format("{} sizes of local-memory arguments, kernel {} has more",
                       Sizes.size(), Kernel.Name));
-    const std::uint64_t Begin = AlignUp(End);
-    const std::uint64_t Size = Sizes[Next++];
-    if (Begin > Capacity || Size > Capacity - Begin)
-      return {VX_ERROR_MEMORY,
-              fmt::format("local memory of kernel {} needs more than the "
-                          "device's {} bytes",
-                          Kernel.Name, Capacity)};
-    End = Begin + Size;
-    Placed.emplace_back(Arg.Offset,
-                        static_cast<std::uint32_t>(VX_LOCAL_BASE + Begin));
+    const auto Address = Places.place(Sizes[Next++]);
+    if (!Address)
+      return failure(VX_ERROR_MEMORY, Address.error());
+    Placed.emplace_back(Arg.Offset, *Address);
   }
   if (Next != Sizes.size())
     return badArgument(
@@ -169,7 +143,7 @@ Failure placeLocals(const vx_image &Image, const isasim::Kernel &Kernel,
                     Sizes.size(), Kernel.Name, Next));
   for (const auto &[Offset, Address] : Placed)
     std::memcpy(PackedArgs + Offset, &Address, sizeof(Address));
-  Total = static_cast<std::uint32_t>(End);
+  Total = static_cast<std::uint32_t>(Places.used());
   return {};
 }
 
@@ -180,25 +154,16 @@ extern "C" {
 const char *vx_last_error(void) { return LastError.c_str(); }
 
 vx_status vx_device_open(const char *config, vx_device **device) {
+  const vx_option Option{"VORION_CONFIG", config};
+  return vx_device_open_with(&Option, config ? 1 : 0, device);
+}
+
+vx_status vx_device_open_with(const vx_option *options, uint32_t num_options,
+                              vx_device **device) {
   return guarded([&]() -> Failure {
-    if (!device)
-      return isNull("device");
-    isasim::Config Config;
-    if (Failure Failed = findConfig(config, Config))
-      return Failed;
-    bool OnlyProfiled = false;
-    if (Failure Failed = findTime(Config, OnlyProfiled))
-      return Failed;
-    auto Machine = isasim::Machine::create(Config);
-    if (!Machine)
-      return failure(VX_ERROR_CONFIG, Machine.error());
-    auto Watch = isasim::Session::create(
-        isasim::SessionOptions::fromEnvironment(), "vorion");
-    if (!Watch)
-      return failure(VX_ERROR_CONFIG, Watch.error());
-    *device =
-        new vx_device(std::move(*Machine), std::move(*Watch), OnlyProfiled);
-    return {};
+    if (!device || (!options && num_options))
+      return isNull(device ? "options" : "device");
+    return openDevice({options, num_options}, device);
   });
 }
 
@@ -301,7 +266,15 @@ vx_status vx_mem_written(vx_device *device, uint32_t address, uint64_t size) {
   return guarded([&]() -> Failure {
     if (!device)
       return isNull("device");
-    return device->Impl.written(address, size);
+    return device->Impl.hostWrote(address, size);
+  });
+}
+
+vx_status vx_mem_read(vx_device *device, uint32_t address, uint64_t size) {
+  return guarded([&]() -> Failure {
+    if (!device)
+      return isNull("device");
+    return device->Impl.hostRead(address, size);
   });
 }
 
@@ -413,7 +386,7 @@ vx_status vx_image_place_locals(vx_image *image, uint32_t kernel,
     if (!Failed && total)
       *total = Used;
     if (!Failed)
-      image->Owner->Impl.useLocal(Used);
+      image->Owner->Impl.localUsed(Used);
     return Failed;
   });
 }

@@ -1,5 +1,4 @@
 #include "Device.h"
-#include "Limits.h"
 #include "vorion/RunCounters.h" // generated from intrinsics/Counters.td
 #include "vorion/support/Diagnostics.h"
 #include "vorion_abi.h"
@@ -10,6 +9,32 @@
 
 using namespace vorion;
 using namespace vorion::runtime;
+
+static_assert(VX_MEM_ALIGNMENT == isasim::LaunchAlignment);
+
+namespace {
+
+/// Console text of a run that is kept, in bytes: a guest that writes forever
+/// must not take the host's memory.
+constexpr std::size_t ConsoleBytes = std::size_t{1} << 20;
+
+/// The parts of a launch in the order in which they are allocated.
+constexpr std::pair<std::uint64_t isasim::LaunchParts::*, const char *>
+    LaunchPartNames[] = {{&isasim::LaunchParts::Block, "the launch block"},
+                         {&isasim::LaunchParts::Print, "the print buffer"},
+                         {&isasim::LaunchParts::Args, "the arguments"},
+                         {&isasim::LaunchParts::Context,
+                          "the memory that a kernel keeps across barriers"}};
+
+isasim::LaunchShape shapeOf(const vx_launch_params &P) {
+  isasim::LaunchShape S{.WorkDim = P.work_dim};
+  std::ranges::copy(P.num_groups, S.NumGroups.begin());
+  std::ranges::copy(P.local_size, S.LocalSize.begin());
+  std::ranges::copy(P.global_offset, S.GlobalOffset.begin());
+  return S;
+}
+
+} // namespace
 
 Device::Device(std::unique_ptr<isasim::Machine> TheMachine,
                std::unique_ptr<isasim::Session> TheWatch, bool OnlyProfiled)
@@ -39,6 +64,11 @@ void Device::waitForRun(Lock &Held) {
   Ended.wait(Held, [this] { return !Running; });
 }
 
+void Device::waitIfObserved(Lock &Held) {
+  if (Watch->observes())
+    waitForRun(Held);
+}
+
 vx_device_info Device::info() {
   const isasim::Config &C = Machine->config();
   const Lock Held(Mutex);
@@ -57,7 +87,7 @@ vx_device_info Device::info() {
   Info.global_bytes = C.GlobalBytes;
   Info.free_bytes = Memory.freeBytes();
   Info.largest_free_bytes = Memory.largestFree();
-  Info.max_group_items = MaxGroupItems;
+  Info.max_group_items = isasim::MaxGroupItems;
   return Info;
 }
 
@@ -78,12 +108,14 @@ Failure Device::allocateLocked(std::uint64_t Size, const char *What,
 }
 
 Failure Device::allocate(std::uint64_t Size, std::uint32_t &Address) {
-  const Lock Held(Mutex);
+  Lock Held(Mutex);
+  waitIfObserved(Held);
   return allocateLocked(Size, "buffer", Address);
 }
 
 Failure Device::release(std::uint32_t Address) {
-  const Lock Held(Mutex);
+  Lock Held(Mutex);
+  waitIfObserved(Held);
   if (Address && !Memory.release(Address))
     return badArgument(
         fmt::format("{:#x} is not the address of an allocation", Address));
@@ -139,7 +171,7 @@ Failure Device::copyIn(std::uint32_t To, const void *From, std::uint64_t Size) {
   if (Failure Failed = globalRange(To, Size, &Bytes))
     return Failed;
   std::memcpy(Bytes, From, Size);
-  Watch->written(To, Size);
+  Watch->hostWrote(To, Size);
   return {};
 }
 
@@ -157,6 +189,7 @@ Failure Device::copyOut(void *To, std::uint32_t From, std::uint64_t Size) {
   if (Failure Failed = globalRange(From, Size, &Bytes))
     return Failed;
   std::memcpy(To, Bytes, Size);
+  Watch->hostRead(From, Size);
   return {};
 }
 
@@ -170,7 +203,8 @@ Failure Device::copyWithin(std::uint32_t To, std::uint32_t From,
   if (Failure Failed = globalRange(From, Size, &Source))
     return Failed;
   std::memmove(Target, Source, Size);
-  Watch->written(To, Size);
+  Watch->hostRead(From, Size);
+  Watch->hostWrote(To, Size);
   return {};
 }
 
@@ -190,7 +224,7 @@ Failure Device::fill(std::uint32_t To, const void *Pattern,
     return Failed;
   for (std::uint64_t At = 0; At < Size; At += PatternSize)
     std::memcpy(Bytes + At, Pattern, PatternSize);
-  Watch->written(To, Size);
+  Watch->hostWrote(To, Size);
   return {};
 }
 
@@ -203,28 +237,36 @@ Failure Device::hostPointer(std::uint32_t Address, std::uint64_t Size,
   return {};
 }
 
-Failure Device::written(std::uint32_t Address, std::uint64_t Size) {
+Failure Device::tellHost(Told What, std::uint32_t Address, std::uint64_t Size) {
   std::byte *Bytes = nullptr;
   if (Failure Failed = globalRange(Address, Size, &Bytes))
     return Failed;
-  if (!Watch->checksMemory())
+  if (!Watch->observes())
     return {};
   Lock Held(Mutex);
   waitForRun(Held);
-  Watch->written(Address, Size);
+  (*Watch.*What)(Address, Size);
   return {};
 }
 
-void Device::useLocal(std::uint64_t Bytes) {
-  if (!Watch->checksMemory())
+Failure Device::hostWrote(std::uint32_t Address, std::uint64_t Size) {
+  return tellHost(&isasim::Session::hostWrote, Address, Size);
+}
+
+Failure Device::hostRead(std::uint32_t Address, std::uint64_t Size) {
+  return tellHost(&isasim::Session::hostRead, Address, Size);
+}
+
+void Device::localUsed(std::uint64_t Bytes) {
+  if (!Watch->observes())
     return;
   Lock Held(Mutex);
   waitForRun(Held);
-  Watch->useLocal(Bytes);
+  Watch->localUsed(Bytes);
 }
 
 void Device::nameBuffers(const isasim::Kernel &Kernel, const void *Args) {
-  if (!Watch->checksMemory())
+  if (!Watch->observes())
     return;
   bool HasLocals = false;
   for (const isasim::KernelArg &Arg : Kernel.Args) {
@@ -234,12 +276,12 @@ void Device::nameBuffers(const isasim::Kernel &Kernel, const void *Args) {
     std::uint32_t Address = 0;
     std::memcpy(&Address, static_cast<const std::byte *>(Args) + Arg.Offset,
                 sizeof(Address));
-    Watch->nameBuffer(Address,
-                      fmt::format("buffer '{}' of {}", Arg.Name, Kernel.Name));
+    Watch->bufferNamed(Address,
+                       fmt::format("buffer '{}' of {}", Arg.Name, Kernel.Name));
   }
   // Else vx_image_place_locals has said it.
   if (!HasLocals)
-    Watch->useLocal(Kernel.LocalBytes);
+    Watch->localUsed(Kernel.LocalBytes);
 }
 
 void Device::setProfiled(bool Profiled) {
@@ -265,10 +307,28 @@ void Device::makeCurrent(LoadedImage &Image) {
   Current = &Image;
 }
 
+Failure Device::prepare(const isasim::Launch &Planned,
+                        std::span<const std::byte> Args) {
+  for (const auto &[Part, What] : LaunchPartNames) {
+    std::uint32_t Address = 0;
+    if (const std::uint64_t Bytes = Planned.bytes().*Part)
+      if (Failure Failed = allocateLocked(Bytes, What, Address))
+        return Failed;
+    InUse.*Part = Address;
+  }
+  Planned.write(*Machine, *Watch, InUse, Args);
+  return {};
+}
+
+void Device::finish(isasim::RunResult Run) {
+  TimeText = Run.Time ? isasim::toJson(*Run.Time) : std::string();
+  Last = std::move(Run);
+  Print = InUse.Block ? isasim::printedBy(*Machine, InUse) : isasim::Printed();
+}
+
 void Device::freeRunMemory() {
-  for (const std::uint32_t Address :
-       {InUse.Launch, InUse.Args, InUse.Context, InUse.Print})
-    if (Address) {
+  for (const auto &[Part, What] : LaunchPartNames)
+    if (const auto Address = static_cast<std::uint32_t>(InUse.*Part)) {
       Memory.release(Address);
       Watch->released(Address);
     }
@@ -313,21 +373,30 @@ Failure Device::start(LoadedImage &Image, std::uint32_t Kernel,
   if (Kernel >= Kernels.size())
     return {VX_ERROR_NOT_FOUND, fmt::format("kernel {} of an image with {}",
                                             Kernel, Kernels.size())};
-  if (Failure Failed =
-          checkLaunch(Kernels[Kernel], Params, ArgsBytes, localBytes()))
-    return Failed;
+  const isasim::Kernel &K = Kernels[Kernel];
+  const auto Planned = isasim::Launch::plan(K, shapeOf(Params), config());
+  if (!Planned)
+    return failure(Planned.error().Code == ExitCode::LimitReached
+                       ? VX_ERROR_MEMORY
+                       : VX_ERROR_ARGUMENT,
+                   Planned.error());
+  if (ArgsBytes != K.ArgsBytes)
+    return badArgument(
+        fmt::format("{} bytes of packed arguments, expected {} for kernel {}",
+                    ArgsBytes, K.ArgsBytes, K.Name));
   if (ArgsBytes && !Args)
     return badArgument("args is NULL, expected the packed arguments");
   Lock Held(Mutex);
   if (Running)
     return {VX_ERROR_BUSY, "a run is in progress"};
-  if (Failure Failed = prepare(Kernels[Kernel], Params, Args)) {
+  if (Failure Failed = prepare(
+          *Planned, {static_cast<const std::byte *>(Args), ArgsBytes})) {
     freeRunMemory();
     return Failed;
   }
-  Watch->nameRun(Kernels[Kernel].Name);
-  nameBuffers(Kernels[Kernel], Args);
-  launch(Held, Image, InUse.Launch);
+  Watch->runNamed(K.Name);
+  nameBuffers(K, Args);
+  launch(Held, Image, static_cast<std::uint32_t>(InUse.Block));
   return {};
 }
 
@@ -335,7 +404,7 @@ Failure Device::startMain(LoadedImage &Image) {
   Lock Held(Mutex);
   if (Running)
     return {VX_ERROR_BUSY, "a run is in progress"};
-  Watch->nameRun("main");
+  Watch->runNamed("main");
   launch(Held, Image, 0);
   return {};
 }
@@ -367,9 +436,9 @@ Failure Device::wait(vx_result &Result) {
   }
   Result.exit_code = Last.ExitCode;
   Result.report = Last.Report.c_str();
-  Result.print_text = PrintText.c_str();
-  Result.print_bytes = PrintText.size();
-  Result.print_dropped = PrintDropped;
+  Result.print_text = Print.Text.c_str();
+  Result.print_bytes = Print.Text.size();
+  Result.print_dropped = Print.Dropped;
   Result.console_text = ConsoleText.c_str();
   Result.console_bytes = ConsoleText.size();
   Result.console_dropped = ConsoleDropped;

@@ -4,6 +4,7 @@
 #include "Allocator.h"
 #include "Failure.h"
 #include "LoadedImage.h"
+#include "vorion/isasim/Launch.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
 
@@ -37,10 +38,11 @@ public:
                std::uint64_t Size);
   Failure hostPointer(std::uint32_t Address, std::uint64_t Size, void **To);
 
-  /// Tells the checkers what the host wrote through hostPointer().
-  Failure written(std::uint32_t Address, std::uint64_t Size);
+  /// Tells observers what the host did through hostPointer().
+  Failure hostWrote(std::uint32_t Address, std::uint64_t Size);
+  Failure hostRead(std::uint32_t Address, std::uint64_t Size);
   /// Tells them how much local memory the next run's kernel has.
-  void useLocal(std::uint64_t Bytes);
+  void localUsed(std::uint64_t Bytes);
 
   /// Whether the next runs are profiled.
   void setProfiled(bool Profiled);
@@ -54,16 +56,15 @@ public:
   Failure startMain(LoadedImage &Image);
   Failure wait(vx_result &Result);
 
-  std::uint32_t localBytes() const { return Machine->config().LocalBytes; }
+  const isasim::Config &config() const { return Machine->config(); }
 
 private:
-  /// Device memory of one run.
-  struct RunMemory {
-    std::uint32_t Launch = 0, Args = 0, Context = 0, Print = 0;
-  };
   using Lock = std::unique_lock<std::mutex>;
+  using Told = void (isasim::Session::*)(std::uint32_t, std::uint64_t);
 
   void waitForRun(Lock &Held);
+  /// Observers hear of what the host does between runs only.
+  void waitIfObserved(Lock &Held);
   void keepConsole(std::string_view Text);
   Failure allocateLocked(std::uint64_t Size, const char *What,
                          std::uint32_t &Address);
@@ -76,10 +77,11 @@ private:
                         Function Use);
   Failure globalRange(std::uint32_t Address, std::uint64_t Size,
                       std::byte **Bytes);
+  Failure tellHost(Told What, std::uint32_t Address, std::uint64_t Size);
   void freeRunMemory();
   void nameBuffers(const isasim::Kernel &Kernel, const void *Args);
-  Failure prepare(const isasim::Kernel &Kernel, const vx_launch_params &Params,
-                  const void *Args);
+  Failure prepare(const isasim::Launch &Planned,
+                  std::span<const std::byte> Args);
   void makeCurrent(LoadedImage &Image);
   void launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock);
   void finish(isasim::RunResult Run);
@@ -93,22 +95,17 @@ private:
   std::condition_variable Ended;
   Allocator Memory;
   LoadedImage *Current = nullptr; ///< the image in the machine
-  RunMemory InUse;
+  isasim::LaunchParts InUse;      ///< addresses of the run's parts
   bool Running = false;
   bool EverStarted = false;
   std::thread Runner; ///< joined before the next run and at the end
 
   // The last run's result.
   isasim::RunResult Last;
-  std::string PrintText, ConsoleText, TimeText;
+  isasim::Printed Print;
+  std::string ConsoleText, TimeText;
   std::string BugText; ///< of an exception out of the simulator, else empty
-  std::uint64_t PrintDropped = 0, ConsoleDropped = 0;
+  std::uint64_t ConsoleDropped = 0;
 };
-
-/// Whether \p Kernel can run with \p Params on a machine with \p LocalBytes of
-/// local memory.
-Failure checkLaunch(const isasim::Kernel &Kernel,
-                    const vx_launch_params &Params, std::uint32_t ArgsBytes,
-                    std::uint32_t LocalBytes);
 
 } // namespace vorion::runtime

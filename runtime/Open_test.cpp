@@ -37,10 +37,10 @@ private:
 };
 
 TEST(RuntimeOpen, ClockForProfiledRunsOnly) {
-  ASSERT_EQ(setenv("VORION_TIME", "profiled", 1), 0);
+  const vx_option Options[] = {{"VORION_CONFIG", SmallMemory},
+                               {"VORION_TIME", "profiled"}};
   vx_device *Device = nullptr;
-  ASSERT_EQ(vx_device_open(SmallMemory, &Device), VX_OK) << vx_last_error();
-  unsetenv("VORION_TIME");
+  ASSERT_EQ(vx_device_open_with(Options, 2, &Device), VX_OK) << vx_last_error();
   vx_image *Image = nullptr;
   ASSERT_EQ(vx_image_load_file(Device, KERNELS_ELF, &Image), VX_OK);
   std::uint32_t Kernel = 0;
@@ -107,7 +107,37 @@ TEST(RuntimeOpen, ConfigurationsByTextFileAndEnvironment) {
   EXPECT_EQ(vx_device_close(Device), VX_OK);
 }
 
+TEST(RuntimeOpen, OptionsGoBeforeTheEnvironment) {
+  const ConfigOfEnvironment File(R"({"clusters": 2, "global_bytes": 1048576})");
+  vx_device *Device = nullptr;
+  const auto CoresWith = [&](std::initializer_list<vx_option> Options) {
+    vx_device_info Info{};
+    EXPECT_EQ(vx_device_open_with(std::data(Options),
+                                  static_cast<std::uint32_t>(Options.size()),
+                                  &Device),
+              VX_OK)
+        << vx_last_error();
+    EXPECT_EQ(vx_device_get_info(Device, &Info), VX_OK);
+    EXPECT_EQ(vx_device_close(Device), VX_OK);
+    return Info.cores;
+  };
+  EXPECT_EQ(CoresWith({}), 16u);
+  EXPECT_EQ(CoresWith({{"VORION_SET", "clusters=1"}}), 8u);
+  EXPECT_EQ(CoresWith({{"VORION_CONFIG", SmallMemory}}), 8u);
+
+  const vx_option Wrong[] = {{"VORION_CLOCK", "on"},
+                             {"VORION_TIME", "fast"},
+                             {"VORION_TIME", nullptr},
+                             {nullptr, "on"}};
+  const vx_status Statuses[] = {VX_ERROR_ARGUMENT, VX_ERROR_CONFIG,
+                                VX_ERROR_ARGUMENT, VX_ERROR_ARGUMENT};
+  for (std::size_t I = 0; I != std::size(Wrong); ++I)
+    EXPECT_EQ(vx_device_open_with(&Wrong[I], 1, &Device), Statuses[I])
+        << vx_last_error();
+}
+
 TEST(RuntimeOpen, NullArgumentsNeverCrash) {
+  vx_device *Device = nullptr;
   std::uint32_t Number = 0;
   std::uint64_t Size = 0;
   void *Pointer = nullptr;
@@ -119,6 +149,9 @@ TEST(RuntimeOpen, NullArgumentsNeverCrash) {
   vx_launch_params Params{};
   vx_result Result{};
   EXPECT_EQ(vx_device_open("{}", nullptr), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_device_open_with(nullptr, 1, &Device), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_mem_written(nullptr, 1, 8), VX_ERROR_ARGUMENT);
+  EXPECT_EQ(vx_mem_read(nullptr, 1, 8), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_device_get_info(nullptr, &Info), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_device_get_config(nullptr, &Text), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_device_set_profiled(nullptr, 1), VX_ERROR_ARGUMENT);

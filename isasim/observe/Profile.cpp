@@ -1,6 +1,7 @@
 #include "observe/Profile.h"
 
 #include "core/Isa.h"
+#include "observe/Tool.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -157,5 +158,43 @@ std::string Profile::report() const {
     Text += fmt::format("{}{}\n", row(C, All.Warp), Name);
   return Text;
 }
+
+namespace {
+
+class ProfileTool : public Tool {
+public:
+  ProfileTool(std::string FileIn, const ToolOutput &To)
+      : File(std::move(FileIn)), Print(To.Print) {}
+  std::vector<Observer *> observers() override { return {&Costs}; }
+  Expected<Success> runEnded(const std::string &, const RunResult &) override {
+    const std::string Report = Costs.report();
+    if (File != StandardOutput)
+      return writeFileAtomically(File, Report);
+    Print(Report);
+    return Success{};
+  }
+
+private:
+  std::string File;
+  std::function<void(std::string_view)> Print;
+  Profile Costs;
+};
+
+Expected<std::unique_ptr<Tool>> make(const std::string &Text,
+                                     const ToolOutput &To) {
+  if (Text == StandardOutput && !To.Print)
+    return Error{"", "the profile has nowhere to go, expected a file name",
+                 ExitCode::Usage};
+  return std::unique_ptr<Tool>(std::make_unique<ProfileTool>(Text, To));
+}
+
+std::vector<NamedFile> outputs(const std::string &Text) {
+  return Text == StandardOutput ? std::vector<NamedFile>{}
+                                : std::vector<NamedFile>{{"--profile", Text}};
+}
+
+} // namespace
+
+const ToolKind tools::Profile{.Make = make, .Outputs = outputs};
 
 } // namespace vorion::isasim

@@ -1,5 +1,8 @@
 #include "observe/Stats.h"
 
+#include "observe/Tool.h"
+#include "vorion/isasim/Machine.h"
+#include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
 #include <fmt/format.h>
@@ -41,5 +44,39 @@ std::string Stats::table(const RunResult &R) {
   Text += fmt::format("{:<24}{:>14.3f} s\n", "host time", R.HostSeconds);
   return Text;
 }
+
+namespace {
+
+class StatsTool : public Tool {
+public:
+  StatsTool(std::string FileIn, const ToolOutput &To)
+      : File(std::move(FileIn)), Print(To.Print) {}
+  void attach(Machine &M) override { Counts.setConfig(M.config()); }
+  Expected<Success> runEnded(const std::string &Name,
+                             const RunResult &R) override {
+    Counts.add(Name, R);
+    if (Print)
+      Print(Stats::table(R));
+    return writeFileAtomically(File, Counts.json());
+  }
+
+private:
+  std::string File;
+  std::function<void(std::string_view)> Print;
+  Stats Counts;
+};
+
+Expected<std::unique_ptr<Tool>> make(const std::string &Text,
+                                     const ToolOutput &To) {
+  return std::unique_ptr<Tool>(std::make_unique<StatsTool>(Text, To));
+}
+
+std::vector<NamedFile> outputs(const std::string &Text) {
+  return {{"--stats", Text}};
+}
+
+} // namespace
+
+const ToolKind tools::Stats{.Make = make, .Outputs = outputs};
 
 } // namespace vorion::isasim

@@ -3,6 +3,7 @@
 #include "core/Core.h"
 #include "machine/Report.h"
 #include "observe/GrowingFile.h"
+#include "observe/Tool.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/Json.h"
 
@@ -149,5 +150,38 @@ void Timeline::runEnds(const RunResult &Result) {
   std::fflush(Out);
   std::fseek(Out, End, SEEK_SET);
 }
+
+namespace {
+
+class TimelineTool : public Tool {
+public:
+  explicit TimelineTool(GrowingFile FileIn)
+      : File(std::move(FileIn)), Times(File.stream()) {}
+  std::vector<Observer *> observers() override { return {&Times}; }
+  Expected<Success> runEnded(const std::string &, const RunResult &) override {
+    return File.complete();
+  }
+
+private:
+  GrowingFile File;
+  Timeline Times;
+};
+
+Expected<std::unique_ptr<Tool>> make(const std::string &Text,
+                                     const ToolOutput &) {
+  Expected<GrowingFile> File = GrowingFile::open(Text);
+  if (!File)
+    return File.error();
+  return std::unique_ptr<Tool>(
+      std::make_unique<TimelineTool>(std::move(*File)));
+}
+
+std::vector<NamedFile> outputs(const std::string &Text) {
+  return {{"--timeline", Text}};
+}
+
+} // namespace
+
+const ToolKind tools::Timeline{.Make = make, .Outputs = outputs};
 
 } // namespace vorion::isasim

@@ -22,9 +22,7 @@ public:
   /// timeline. The file is complete after every run.
   explicit Timeline(std::FILE *OutIn) : Out(OutIn) {}
 
-  /// What the next run is called.
-  void nameRun(const std::string &Name) { RunName = Name; }
-
+  void runNamed(const std::string &Name) override { RunName = Name; }
   void runBegins(const RunStart &R) override;
   void syncPoint(std::span<const std::unique_ptr<Core>> Cores) override;
   void rasterCommand(const RasterWork &W) override;

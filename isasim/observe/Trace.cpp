@@ -4,10 +4,12 @@
 #include "core/Isa.h"
 #include "machine/Report.h"
 #include "observe/GrowingFile.h"
+#include "observe/Tool.h"
 #include "raster/Command.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 
 namespace vorion::isasim {
 
@@ -202,5 +204,48 @@ void Trace::runEnds(const RunResult &R) {
          R.Total.WarpInstructions);
   std::fflush(Out);
 }
+
+namespace {
+
+class TraceTool : public Tool {
+public:
+  TraceTool(std::optional<GrowingFile> FileIn, uint32_t Categories)
+      : File(std::move(FileIn)),
+        Lines(File ? File->stream() : stderr, Categories) {}
+  std::vector<Observer *> observers() override { return {&Lines}; }
+  Expected<Success> runEnded(const std::string &, const RunResult &) override {
+    return File ? File->complete() : Success{};
+  }
+
+private:
+  std::optional<GrowingFile> File;
+  Trace Lines;
+};
+
+Expected<std::unique_ptr<Tool>> make(const std::string &Text,
+                                     const ToolOutput &) {
+  const Expected<TraceRequest> Request = TraceRequest::parse(Text);
+  if (!Request)
+    return Request.error();
+  std::optional<GrowingFile> File;
+  if (!Request->File.empty()) {
+    Expected<GrowingFile> Opened = GrowingFile::open(Request->File);
+    if (!Opened)
+      return Opened.error();
+    File = std::move(*Opened);
+  }
+  return std::unique_ptr<Tool>(
+      std::make_unique<TraceTool>(std::move(File), Request->Categories));
+}
+
+std::vector<NamedFile> outputs(const std::string &Text) {
+  const Expected<TraceRequest> Request = TraceRequest::parse(Text);
+  return Request ? std::vector<NamedFile>{{"--trace", Request->File}}
+                 : std::vector<NamedFile>{};
+}
+
+} // namespace
+
+const ToolKind tools::Trace{.Make = make, .Outputs = outputs};
 
 } // namespace vorion::isasim

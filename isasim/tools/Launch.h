@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/Arguments.h"
+#include "vorion/isasim/Launch.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
 
@@ -18,7 +19,7 @@ public:
   /// The kernel's name.
   const std::string &kernel() const { return Name; }
   /// What Machine::run takes.
-  uint32_t launchBlock() const { return Block; }
+  uint32_t launchBlock() const { return static_cast<uint32_t>(Parts.Block); }
 
   /// Prints what the kernel's printf wrote and writes the buffers that have a
   /// file.
@@ -31,8 +32,8 @@ private:
   Expected<uint32_t> placeBuffer(const KernelInput &In,
                                  const std::string &ArgName);
   Expected<Success> packArguments(const Kernel &K, const KernelRequest &R);
-  Expected<Success> writeBlock(const Kernel &K, const KernelRequest &R,
-                               const std::array<uint32_t, 3> &Local);
+  /// Allocates what \p L needs and writes it there.
+  Expected<Success> write(const Launch &L);
 
   struct Output {
     std::string File;
@@ -43,8 +44,9 @@ private:
   Machine *M;
   Session *Watch;
   std::string Name;
-  uint64_t NextFree = 0; ///< in global memory; nothing is ever freed
-  uint32_t Block = 0, Args = 0, PrintBuffer = 0;
+  uint64_t NextFree = 0;       ///< in global memory; nothing is ever freed
+  std::vector<std::byte> Args; ///< packed
+  LaunchParts Parts;           ///< addresses
   std::vector<Output> Outputs;
 };
 

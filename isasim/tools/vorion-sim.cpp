@@ -232,20 +232,19 @@ int run(const Options &O) {
       KernelLaunch::prepare(**M, *Request, **Watch);
   if (!Launch)
     return reportError(Tool, Launch.error());
-  (*Watch)->nameRun(Launch->kernel());
+  (*Watch)->runNamed(Launch->kernel());
   return finish((*M)->run(Launch->launchBlock()), O, **M, &*Launch, **Watch);
 }
 
 /// An option of SessionOptions.def. One that may stand alone takes a value as
 /// --option=VALUE only, so that it does not swallow the program's name.
-void declareWatch(CLI::App &App, const std::string &Name, std::string &To,
-                  const char *Value, const char *Alone, const char *Help) {
+void declareWatch(CLI::App &App, const SessionOption &S, std::string &To) {
   CLI::Option *Added = nullptr;
-  if (Alone)
-    Added = App.add_flag(fmt::format("{}{{{}}}", Name, Alone), To, Help)
-                ->type_name(fmt::format("[={}]", Value));
+  if (S.Alone)
+    Added = App.add_flag(fmt::format("{}{{{}}}", S.Option, S.Alone), To, S.Help)
+                ->type_name(fmt::format("[={}]", S.Value));
   else
-    Added = App.add_option(Name, To, Help)->type_name(Value);
+    Added = App.add_option(S.Option, To, S.Help)->type_name(S.Value);
   Added->group("Watching a run (docs/debugging.md)");
 }
 
@@ -328,10 +327,8 @@ void declare(CLI::App &App, Options &O) {
       ->type_name("N");
   declareLaunch(App, O);
   declareTestPrograms(App, O);
-#define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
-  declareWatch(App, OPTION, O.Watch.MEMBER, VALUE, ALONE, HELP);
-#include "vorion/isasim/SessionOptions.def"
-#undef VORION_SESSION_OPTION
+  for (const SessionOption &S : sessionOptions())
+    declareWatch(App, S, O.Watch.*S.Text);
   App.footer(std::string(ExitCodeHelp) +
              "\na program that exits with N above 0 ends this with N, too, or "
              "with 1 if N is in the\nlist or above 255");

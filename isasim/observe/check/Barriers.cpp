@@ -38,4 +38,8 @@ void BarrierCheck::trap(const Trap &T) {
                         T.Lane, std::countr_zero(T.LaneMask)));
 }
 
+std::unique_ptr<Check> makeBarrierCheck(Findings &Out, const Places &) {
+  return std::make_unique<BarrierCheck>(Out);
+}
+
 } // namespace vorion::isasim

@@ -1,7 +1,7 @@
 /// Checker of barriers that not all work-items of a group reach.
 #pragma once
 
-#include "observe/check/Findings.h"
+#include "observe/check/Check.h"
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace vorion::isasim {
 /// barrier of OpenCL C that stands under a condition is compiled as if the
 /// condition were the same for all (docs/adr/0006-work-item-loops.md): where it
 /// is not, the branch traps, which this explains.
-class BarrierCheck : public Observer {
+class BarrierCheck : public Check {
 public:
   explicit BarrierCheck(Findings &OutIn) : Out(OutIn) {}
   void runBegins(const RunStart &R) override;

@@ -75,4 +75,12 @@ void AlignCheck::fetch(const Step &S) {
   }
 }
 
+std::unique_ptr<Check> makeBoundsCheck(Findings &Out, const Places &Where) {
+  return std::make_unique<BoundsCheck>(Out, Where);
+}
+
+std::unique_ptr<Check> makeAlignCheck(Findings &Out, const Places &Where) {
+  return std::make_unique<AlignCheck>(Out, Where);
+}
+
 } // namespace vorion::isasim

@@ -2,17 +2,18 @@
 /// misaligned.
 #pragma once
 
-#include "observe/check/Findings.h"
-#include "observe/check/Places.h"
+#include "observe/check/Check.h"
 
 #include <vector>
 
 namespace vorion::isasim {
 
-class BoundsCheck : public Observer {
+class BoundsCheck : public Check {
 public:
   BoundsCheck(Findings &OutIn, const Places &WhereIn)
       : Out(OutIn), Where(WhereIn) {}
+  /// What runs over the end of a buffer does not reach the next one.
+  uint64_t guardBytes() const override { return 4096; }
   void runBegins(const RunStart &R) override;
   void fetch(const Step &S) override;
   void rasterCommand(const RasterWork &W) override;
@@ -26,7 +27,7 @@ private:
   std::vector<Culprit> Starts; ///< who started a command last, by core
 };
 
-class AlignCheck : public Observer {
+class AlignCheck : public Check {
 public:
   AlignCheck(Findings &OutIn, const Places &WhereIn)
       : Out(OutIn), Where(WhereIn) {}

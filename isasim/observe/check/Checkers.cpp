@@ -1,9 +1,6 @@
 #include "observe/check/Checkers.h"
 
-#include "observe/check/Barriers.h"
-#include "observe/check/Bounds.h"
-#include "observe/check/Races.h"
-#include "observe/check/Uninit.h"
+#include "observe/Tool.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -12,15 +9,15 @@ namespace vorion::isasim {
 
 namespace {
 
-enum Check : unsigned {
-#define VORION_CHECK(NAME, DOC) NAME,
+constexpr std::string_view Names[] = {
+#define VORION_CHECK(NAME, MAKE, DOC) #NAME,
 #include "observe/check/Checks.def"
 #undef VORION_CHECK
-  NumChecks
 };
 
-constexpr std::string_view Names[] = {
-#define VORION_CHECK(NAME, DOC) #NAME,
+/// By the number of their name.
+constexpr std::unique_ptr<Check> (*Makers[])(Findings &, const Places &) = {
+#define VORION_CHECK(NAME, MAKE, DOC) MAKE,
 #include "observe/check/Checks.def"
 #undef VORION_CHECK
 };
@@ -33,7 +30,7 @@ Expected<uint32_t> parse(std::string_view Text) {
     const std::string_view Name = Text.substr(0, Comma);
     const auto *Found = std::find(std::begin(Names), std::end(Names), Name);
     if (Name == "all")
-      Wanted = (1U << NumChecks) - 1;
+      Wanted = (1U << std::size(Names)) - 1;
     else if (Found != std::end(Names))
       Wanted |= 1U << (Found - std::begin(Names));
     else
@@ -49,8 +46,6 @@ Expected<uint32_t> parse(std::string_view Text) {
 
 } // namespace
 
-Checkers::~Checkers() = default;
-
 Expected<std::unique_ptr<Checkers>>
 Checkers::create(std::string_view Text,
                  std::function<void(std::string_view)> Say) {
@@ -58,21 +53,9 @@ Checkers::create(std::string_view Text,
   if (!Wanted)
     return Wanted.error();
   std::unique_ptr<Checkers> C(new Checkers(std::move(Say)));
-  const auto Wants = [&](Check Which) { return *Wanted >> Which & 1; };
-  C->GuardsWanted = Wants(bounds);
-  if (Wants(bounds))
-    C->Each.push_back(std::make_unique<BoundsCheck>(C->Found, C->Where));
-  if (Wants(align))
-    C->Each.push_back(std::make_unique<AlignCheck>(C->Found, C->Where));
-  if (Wants(uninit)) {
-    auto Own = std::make_unique<UninitCheck>(C->Found, C->Where);
-    C->Uninit = Own.get();
-    C->Each.push_back(std::move(Own));
-  }
-  if (Wants(race))
-    C->Each.push_back(std::make_unique<RaceCheck>(C->Found, C->Where));
-  if (Wants(barrier))
-    C->Each.push_back(std::make_unique<BarrierCheck>(C->Found));
+  for (size_t N = 0; N != std::size(Makers); ++N)
+    if (*Wanted >> N & 1)
+      C->Each.push_back(Makers[N](C->Found, C->Where));
   return C;
 }
 
@@ -83,15 +66,11 @@ std::vector<Observer *> Checkers::observers() {
   return All;
 }
 
-void Checkers::allocated(uint32_t Address, uint64_t Bytes, std::string Name) {
-  Where.Held.add(Address, Bytes, std::move(Name));
-  if (Uninit)
-    Uninit->allocated(Address, Bytes);
-}
-
-void Checkers::written(uint32_t Address, uint64_t Bytes) {
-  if (Uninit)
-    Uninit->written(Address, Bytes);
+uint64_t Checkers::guardBytes() const {
+  uint64_t Most = 0;
+  for (const auto &C : Each)
+    Most = std::max(Most, C->guardBytes());
+  return Most;
 }
 
 void Checkers::runBegins(const RunStart &R) {
@@ -100,5 +79,31 @@ void Checkers::runBegins(const RunStart &R) {
 }
 
 void Checkers::runEnds(const RunResult &) { Found.sayRepeats(); }
+
+namespace {
+
+class CheckTool : public Tool {
+public:
+  explicit CheckTool(std::unique_ptr<Checkers> ChecksIn)
+      : Checks(std::move(ChecksIn)) {}
+  std::vector<Observer *> observers() override { return Checks->observers(); }
+  uint64_t guardBytes() const override { return Checks->guardBytes(); }
+  uint64_t findings() const override { return Checks->findings(); }
+
+private:
+  std::unique_ptr<Checkers> Checks;
+};
+
+Expected<std::unique_ptr<Tool>> make(const std::string &Text,
+                                     const ToolOutput &To) {
+  auto Checks = Checkers::create(Text, To.Say);
+  if (!Checks)
+    return Checks.error();
+  return std::unique_ptr<Tool>(std::make_unique<CheckTool>(std::move(*Checks)));
+}
+
+} // namespace
+
+const ToolKind tools::Check{.Make = make};
 
 } // namespace vorion::isasim

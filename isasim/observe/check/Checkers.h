@@ -1,8 +1,7 @@
 /// The checkers that `--check` asks for, and what they share.
 #pragma once
 
-#include "observe/check/Findings.h"
-#include "observe/check/Places.h"
+#include "observe/check/Check.h"
 #include "vorion/support/Expected.h"
 
 #include <memory>
@@ -11,8 +10,6 @@
 
 namespace vorion::isasim {
 
-class UninitCheck;
-
 /// An observer itself: told before its checkers, it sets up what they share.
 class Checkers : public Observer {
 public:
@@ -20,25 +17,23 @@ public:
   /// reports.
   static Expected<std::unique_ptr<Checkers>>
   create(std::string_view Names, std::function<void(std::string_view)> Say);
-  ~Checkers() override;
 
   /// This and all checkers, in the order in which they are to be told.
   std::vector<Observer *> observers();
 
-  // What the driver does, between runs.
-  void allocated(uint32_t Address, uint64_t Bytes, std::string Name);
-  void released(uint32_t Address) { Where.Held.remove(Address); }
-  void written(uint32_t Address, uint64_t Bytes);
-  void rename(uint32_t Address, std::string Name) {
-    Where.Held.rename(Address, std::move(Name));
-  }
-  void useLocal(uint64_t Bytes) { Where.LocalUsed = Bytes; }
-  /// Bytes to leave free behind each buffer, so that what runs over its end
-  /// does not reach the next one.
-  uint64_t guardBytes() const { return GuardsWanted ? 4096 : 0; }
-
+  /// Bytes to leave free behind each buffer.
+  uint64_t guardBytes() const;
   uint64_t findings() const { return Found.count(); }
 
+  void allocated(uint32_t Address, uint64_t Bytes,
+                 const std::string &Name) override {
+    Where.Held.add(Address, Bytes, Name);
+  }
+  void released(uint32_t Address) override { Where.Held.remove(Address); }
+  void bufferNamed(uint32_t Address, const std::string &Name) override {
+    Where.Held.rename(Address, Name);
+  }
+  void localUsed(uint64_t Bytes) override { Where.LocalUsed = Bytes; }
   void runBegins(const RunStart &R) override;
   void runEnds(const RunResult &R) override;
 
@@ -48,9 +43,7 @@ private:
 
   Findings Found;
   Places Where;
-  std::vector<std::unique_ptr<Observer>> Each;
-  UninitCheck *Uninit = nullptr; ///< one of them
-  bool GuardsWanted = false;
+  std::vector<std::unique_ptr<Check>> Each;
 };
 
 } // namespace vorion::isasim

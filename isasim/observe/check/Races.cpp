@@ -199,4 +199,8 @@ void RaceCheck::commit(const Commit &C) {
     ++Cores[C.Core].Now;
 }
 
+std::unique_ptr<Check> makeRaceCheck(Findings &Out, const Places &Where) {
+  return std::make_unique<RaceCheck>(Out, Where);
+}
+
 } // namespace vorion::isasim

@@ -1,8 +1,7 @@
 /// Checker of accesses that nothing orders.
 #pragma once
 
-#include "observe/check/Findings.h"
-#include "observe/check/Places.h"
+#include "observe/check/Check.h"
 
 #include <array>
 #include <memory>
@@ -20,7 +19,7 @@ namespace vorion::isasim {
 /// for one, so that a race between these is missed. Lanes that store the same
 /// value in one instruction do not race. Of each word the last write and two
 /// reads are kept, so that a race with an older access may be missed.
-class RaceCheck : public Observer {
+class RaceCheck : public Check {
 public:
   RaceCheck(Findings &OutIn, const Places &WhereIn)
       : Out(OutIn), Where(WhereIn) {}

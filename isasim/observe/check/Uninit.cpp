@@ -271,4 +271,8 @@ void UninitCheck::rasterCommand(const RasterWork &W) {
                TileShapeWidth.get(W.What.TileShape) * sizeof(Pixel), true);
 }
 
+std::unique_ptr<Check> makeUninitCheck(Findings &Out, const Places &Where) {
+  return std::make_unique<UninitCheck>(Out, Where);
+}
+
 } // namespace vorion::isasim

@@ -1,8 +1,7 @@
 /// Checker of uses of memory that nothing was written to.
 #pragma once
 
-#include "observe/check/Findings.h"
-#include "observe/check/Places.h"
+#include "observe/check/Check.h"
 #include "observe/check/ShadowBits.h"
 
 #include <vector>
@@ -15,16 +14,16 @@ namespace vorion::isasim {
 /// writing a CSR, an atomic, and storing to a buffer are. A word counts as a
 /// whole: one byte of it that was not written spoils results of the word,
 /// except where an and, or or conditional zero with a constant hides it.
-class UninitCheck : public Observer {
+class UninitCheck : public Check {
 public:
   UninitCheck(Findings &OutIn, const Places &WhereIn)
       : Out(OutIn), Where(WhereIn) {}
 
-  // Global memory as the driver sees it, between runs.
-  void allocated(uint32_t Address, uint64_t Bytes) {
+  void allocated(uint32_t Address, uint64_t Bytes,
+                 const std::string &) override {
     Global.set(Address, Bytes, false);
   }
-  void written(uint32_t Address, uint64_t Bytes) {
+  void hostWrote(uint32_t Address, uint64_t Bytes) override {
     Global.set(Address, Bytes, true);
   }
 

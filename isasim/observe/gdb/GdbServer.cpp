@@ -3,6 +3,7 @@
 #include "core/Core.h"
 #include "core/HostFp.h"
 #include "core/Slow.h"
+#include "observe/Tool.h"
 #include "observe/gdb/Call.h"
 #include "observe/gdb/Connection.h"
 #include "observe/gdb/Target.h"
@@ -530,5 +531,36 @@ startGdbServer(unsigned Port,
                   *Got));
   return std::unique_ptr<Observer>(std::move(Server));
 }
+
+namespace {
+
+class GdbTool : public Tool {
+public:
+  explicit GdbTool(std::unique_ptr<Observer> ServerIn)
+      : Server(std::move(ServerIn)) {}
+  std::vector<Observer *> observers() override { return {Server.get()}; }
+  bool changesRuns() const override { return true; }
+
+private:
+  std::unique_ptr<Observer> Server;
+};
+
+Expected<std::unique_ptr<Tool>> make(const std::string &Text,
+                                     const ToolOutput &To) {
+  unsigned Port = 0;
+  const char *End = Text.data() + Text.size();
+  const auto Read = std::from_chars(Text.data(), End, Port);
+  if (Read.ec != std::errc() || Read.ptr != End || Port > 65535)
+    return Error{"", fmt::format("gdb port '{}', expected 0 to 65535", Text),
+                 ExitCode::Usage};
+  auto Server = startGdbServer(Port, To.Say);
+  if (!Server)
+    return Server.error();
+  return std::unique_ptr<Tool>(std::make_unique<GdbTool>(std::move(*Server)));
+}
+
+} // namespace
+
+const ToolKind tools::Gdb{.Make = make};
 
 } // namespace vorion::isasim

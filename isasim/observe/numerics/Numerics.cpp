@@ -1,5 +1,6 @@
 #include "observe/numerics/Numerics.h"
 
+#include "observe/Tool.h"
 #include "observe/numerics/NumericReport.h"
 #include "vorion/support/File.h"
 
@@ -85,16 +86,56 @@ std::string Numerics::json() const {
       {Sites, Units.findings(), Options.Limits, Runs, Options.Top});
 }
 
-Expected<Success>
-Numerics::write(const std::function<void(std::string_view)> &Print) const {
-  if (Options.Text == "-")
-    Print(text());
-  else if (!Options.Text.empty())
-    if (Expected<Success> Ok = writeFileAtomically(Options.Text, text()); !Ok)
-      return Ok;
-  if (!Options.Json.empty())
-    return writeFileAtomically(Options.Json, json());
-  return Success{};
+namespace {
+
+class NumericsTool : public Tool {
+public:
+  NumericsTool(NumericOptions OIn, const ToolOutput &To)
+      : O(std::move(OIn)), Shadow(O), Print(To.Print) {}
+  std::vector<Observer *> observers() override { return {&Shadow}; }
+  Expected<Success> runEnded(const std::string &, const RunResult &) override {
+    if (O.Text == StandardOutput)
+      Print(Shadow.text());
+    else if (!O.Text.empty())
+      if (Expected<Success> Ok = writeFileAtomically(O.Text, Shadow.text());
+          !Ok)
+        return Ok;
+    if (!O.Json.empty())
+      return writeFileAtomically(O.Json, Shadow.json());
+    return Success{};
+  }
+
+private:
+  NumericOptions O;
+  Numerics Shadow;
+  std::function<void(std::string_view)> Print;
+};
+
+Expected<std::unique_ptr<Tool>> make(const std::string &Text,
+                                     const ToolOutput &To) {
+  const Expected<NumericOptions> O = NumericOptions::parse(Text);
+  if (!O)
+    return O.error();
+  if (O->Text == StandardOutput && !To.Print)
+    return Error{"",
+                 "the numerics report has nowhere to go, expected text=FILE or "
+                 "json=FILE",
+                 ExitCode::Usage};
+  return std::unique_ptr<Tool>(std::make_unique<NumericsTool>(*O, To));
 }
+
+std::vector<NamedFile> outputs(const std::string &Text) {
+  std::vector<NamedFile> Files;
+  if (const auto O = NumericOptions::parse(Text)) {
+    if (O->Text != StandardOutput)
+      Files.push_back({"text= of --numerics", O->Text});
+    Files.push_back({"json= of --numerics", O->Json});
+  }
+  return Files;
+}
+
+} // namespace
+
+const ToolKind tools::Numerics{.Make = make, .Outputs = outputs};
 
 } // namespace vorion::isasim

@@ -6,7 +6,6 @@
 #include "observe/numerics/RasterShadow.h"
 #include "vorion/support/Expected.h"
 
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -28,7 +27,7 @@ public:
   explicit Numerics(NumericOptions O);
 
   /// The host has written global memory: that is exact as it is.
-  void written(uint32_t Address, uint64_t Bytes) {
+  void hostWrote(uint32_t Address, uint64_t Bytes) override {
     Memory.drop(0, Address, Bytes);
   }
 
@@ -42,9 +41,6 @@ public:
   /// Of all runs so far.
   std::string text() const;
   std::string json() const;
-  /// Writes the files; \p Print gets the text that is meant for stdout.
-  Expected<Success>
-  write(const std::function<void(std::string_view)> &Print) const;
 
 private:
   NumericOptions Options;

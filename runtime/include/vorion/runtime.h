@@ -10,9 +10,9 @@
  * arguments give VX_ERROR_ARGUMENT. Outputs are written only on VX_OK.
  *
  * Threads: any thread may call. A device does one run at a time; vx_start
- * while one is in progress gives VX_ERROR_BUSY. Allocation never waits; copies,
- * fills and vx_wait wait until the run in progress has ended. Handles must not
- * be closed while another thread uses them.
+ * while one is in progress gives VX_ERROR_BUSY. Copies, fills and vx_wait wait
+ * until the run in progress has ended; allocation does so only where something
+ * watches the runs. Handles must not be closed while another thread uses them.
  *
  * Addresses and layouts: docs/abi.md. */
 #ifndef VORION_RUNTIME_H
@@ -34,7 +34,7 @@ typedef enum vx_status {
   VX_ERROR_CONFIG = 2,    /* malformed or impossible configuration */
   VX_ERROR_FILE = 3,      /* unreadable file */
   VX_ERROR_IMAGE = 4,     /* not an ELF for this machine */
-  VX_ERROR_MEMORY = 5,    /* device or local memory exhausted */
+  VX_ERROR_MEMORY = 5,    /* device, local or host memory exhausted */
   VX_ERROR_BUSY = 6,      /* a run is in progress, or none is */
   VX_ERROR_NOT_FOUND = 7, /* no kernel or argument of that name or number */
   VX_ERROR_INTERNAL = 70  /* a bug of ours */
@@ -52,13 +52,27 @@ const char *vx_last_error(void);
 
 /* --- Devices ------------------------------------------------------------ */
 
-/* Opens a machine. config: JSON text (begins with '{'), the name of a JSON
- * file, or NULL: the file that the environment's VORION_CONFIG names, else the
- * paper's prototype. Keys that are absent keep the prototype's value;
- * VORION_SET, "KEY=VALUE,...", changes what came of it. The
- * environment also says what watches the device's runs (docs/debugging.md), and
- * whether the clock is on: VORION_TIME is "on", or the machine's clock in MHz,
- * or "profiled": on, but only in runs after vx_device_set_profiled. */
+/* What a machine is opened with: the name of one of the environment's variables
+ * that follow, and its text.
+ *   VORION_CONFIG  the machine: JSON text (begins with '{') or the name of a
+ *                  JSON file; keys that are absent, or "", keep the values of
+ *                  the paper's prototype
+ *   VORION_SET     "KEY=VALUE,...", changes what came of it
+ *   VORION_TIME    the clock: "on", or the machine's clock in MHz, or
+ *                  "profiled": on, but only in runs after
+ *                  vx_device_set_profiled
+ *   VORION_TRACE and the others of docs/debugging.md: what watches runs */
+typedef struct vx_option {
+  const char *name;
+  const char *text;
+} vx_option;
+
+/* Opens a machine. The environment's variables count where no option has their
+ * name. VX_ERROR_MEMORY: the host has no room for the machine's memory. */
+vx_status vx_device_open_with(const vx_option *options, uint32_t num_options,
+                              vx_device **device);
+
+/* With one option, VORION_CONFIG, or none if config is NULL. */
 vx_status vx_device_open(const char *config, vx_device **device);
 
 /* profiled: not 0 if the next runs are to be clocked where the clock is for
@@ -119,10 +133,12 @@ vx_status vx_fill_device(vx_device *device, uint32_t to, const void *pattern,
 vx_status vx_mem_host_pointer(vx_device *device, uint32_t address,
                               uint64_t size, void **pointer);
 
-/* To be called after the host has written [address, address + size) through
- * such a pointer, so that the check for uninitialised memory knows it
- * (docs/debugging.md). Waits for a run in progress; costs nothing without. */
+/* To be called after the host has written or read [address, address + size)
+ * through such a pointer, so that what watches runs knows it, as the check for
+ * uninitialised memory has to (docs/debugging.md). Wait for a run in progress;
+ * cost nothing where nothing watches. */
 vx_status vx_mem_written(vx_device *device, uint32_t address, uint64_t size);
+vx_status vx_mem_read(vx_device *device, uint32_t address, uint64_t size);
 
 /* --- Images and kernels -------------------------------------------------- */
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace vorion::raster {
@@ -82,11 +83,28 @@ struct TailWork {
   RasterCounters Work;
 };
 
-/// All calls come on the thread that called Machine::run, one at a time, so
-/// that no observer needs a lock.
+/// Calls come one at a time, those of a run on the thread that called
+/// Machine::run and those of the host between runs, so that no observer needs a
+/// lock.
 class Observer {
 public:
   virtual ~Observer() = default;
+
+  // What the host does. Addresses are of global memory.
+  /// \p Name says what for: "buffer", "the arguments".
+  virtual void allocated(uint32_t /*Address*/, uint64_t /*Bytes*/,
+                         const std::string & /*Name*/) {}
+  virtual void released(uint32_t /*Address*/) {}
+  virtual void hostWrote(uint32_t /*Address*/, uint64_t /*Bytes*/) {}
+  virtual void hostRead(uint32_t /*Address*/, uint64_t /*Bytes*/) {}
+  /// What the buffer that holds \p Address is for the next run.
+  virtual void bufferNamed(uint32_t /*Address*/, const std::string & /*Name*/) {
+  }
+  /// Local memory that the next run's kernel has; at first, all there is.
+  virtual void localUsed(uint64_t /*Bytes*/) {}
+  virtual void runNamed(const std::string & /*Name*/) {}
+
+  // What a run does.
   virtual void runBegins(const RunStart &) {}
   /// The instruction is about to execute. One that waits is fetched once.
   virtual void fetch(const Step &) {}

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,11 +22,20 @@ struct SessionOptions {
 #include "vorion/isasim/SessionOptions.def"
 #undef VORION_SESSION_OPTION
 
-  /// What the environment's variables say (docs/debugging.md).
-  static SessionOptions fromEnvironment();
   /// The files that will be written, but for standard output.
   std::vector<NamedFile> outputs() const;
 };
+
+/// A line of SessionOptions.def.
+struct SessionOption {
+  std::string SessionOptions::*Text;
+  const char *Option;   ///< of vorion-sim
+  const char *Variable; ///< of the environment
+  const char *Value;    ///< what --help calls the text
+  const char *Alone;    ///< the text where none is given; null: one has to be
+  const char *Help;
+};
+std::span<const SessionOption> sessionOptions();
 
 class Session {
 public:
@@ -44,25 +54,25 @@ public:
   /// plain.
   void attach(Machine &M);
 
-  /// Before a run: what it is called, for timeline and counters.
-  void nameRun(const std::string &Name);
   /// After a run: every file is complete.
   Expected<Success> runEnded(const RunResult &R);
 
-  /// Whether the driver has to say what it does with global memory, with what
-  /// follows. All of it does nothing where not.
-  bool checksMemory() const;
-  void allocated(uint32_t Address, uint64_t Bytes, std::string Name);
+  /// Whether anything observes the machine. The driver has to tell what the
+  /// host does, with what follows (Observer.h); where nothing observes, that
+  /// does nothing.
+  bool observes() const;
+  void allocated(uint32_t Address, uint64_t Bytes, const std::string &Name);
   void released(uint32_t Address);
-  void written(uint32_t Address, uint64_t Bytes);
-  /// What the buffer at \p Address is for the next run.
-  void nameBuffer(uint32_t Address, std::string Name);
-  /// Local memory that the next run's kernel has; at first, all there is.
-  void useLocal(uint64_t Bytes);
+  void hostWrote(uint32_t Address, uint64_t Bytes);
+  void hostRead(uint32_t Address, uint64_t Bytes);
+  void bufferNamed(uint32_t Address, const std::string &Name);
+  void localUsed(uint64_t Bytes);
+  /// What the next run is called. To be told in any case: reports name it, too.
+  void runNamed(const std::string &Name);
+
   /// Bytes to leave free behind each buffer.
   uint64_t guardBytes() const;
-
-  /// What the checkers have found so far.
+  /// What checkers have found so far.
   uint64_t findings() const;
 
 private:

@@ -1,0 +1,133 @@
+#include "vorion/isasim/Launch.h"
+
+#include "core/IsaTables.h"
+#include "vorion/isasim/Machine.h"
+#include "vorion/isasim/Session.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace vorion::isasim {
+
+namespace {
+
+Error badShape(std::string What) {
+  return {"", std::move(What), ExitCode::Usage};
+}
+
+Error noMemory(std::string What) {
+  return {"", std::move(What), ExitCode::LimitReached};
+}
+
+Error noLocalMemory(const std::string &Name, uint64_t Capacity) {
+  return noMemory(fmt::format("kernel {} needs more than the {} bytes of local "
+                              "memory",
+                              Name, Capacity));
+}
+
+/// Above \p Limit if it is more: no product of three 32-bit numbers may wrap.
+uint64_t product(const std::array<uint32_t, 3> &Sizes, uint64_t Limit) {
+  if (std::ranges::count(Sizes, 0U))
+    return 0;
+  uint64_t Result = 1;
+  for (const uint32_t Size : Sizes)
+    Result = Result > Limit ? Result : Result * Size;
+  return Result;
+}
+
+Expected<Success> check(const Kernel &K, const LaunchShape &S) {
+  if (S.WorkDim < 1 || S.WorkDim > 3)
+    return badShape(fmt::format("work_dim is {}, expected 1 to 3", S.WorkDim));
+  for (unsigned I = S.WorkDim; I < 3; ++I)
+    if (S.NumGroups[I] != 1 || S.LocalSize[I] != 1)
+      return badShape(fmt::format("dimension {} is beyond work_dim, expected "
+                                  "a size of 1 there",
+                                  I));
+  const uint64_t Items = product(S.LocalSize, MaxGroupItems);
+  if (Items < 1 || Items > MaxGroupItems)
+    return badShape(fmt::format(
+        "work-group of {} x {} x {} work-items, expected 1 to {} in all",
+        S.LocalSize[0], S.LocalSize[1], S.LocalSize[2], MaxGroupItems));
+  if (product(S.NumGroups, MaxGroups) > MaxGroups)
+    return badShape(
+        fmt::format("more than {} work-groups in a launch", MaxGroups));
+  if (K.LocalSize[0] != 0 && K.LocalSize != S.LocalSize)
+    return badShape(fmt::format(
+        "kernel {} was compiled for groups of {} x {} x {}, expected these",
+        K.Name, K.LocalSize[0], K.LocalSize[1], K.LocalSize[2]));
+  return Success{};
+}
+
+template <typename T> std::span<std::byte> bytesOf(T &Value) {
+  return std::as_writable_bytes(std::span(&Value, 1));
+}
+
+uint32_t address(uint64_t Part) { return static_cast<uint32_t>(Part); }
+
+} // namespace
+
+Expected<Launch> Launch::plan(const Kernel &K, const LaunchShape &S,
+                              const Config &C) {
+  if (const Expected<Success> Ok = check(K, S); !Ok)
+    return Ok.error();
+  if (K.LocalBytes > C.LocalBytes)
+    return noLocalMemory(K.Name, C.LocalBytes);
+  const uint64_t Items = product(S.LocalSize, MaxGroupItems);
+  // A core's share begins on a boundary of its own.
+  const uint64_t Stride = alignLaunch(K.contextBytesOf(Items));
+  if (Stride > UINT32_MAX)
+    return noMemory(
+        fmt::format("kernel {} keeps {} bytes a work-item across barriers, "
+                    "too much for groups of {}",
+                    K.Name, K.ContextBytes, Items));
+  Launch L(K, S);
+  L.ContextStride = static_cast<uint32_t>(Stride);
+  L.Bytes = {.Block = sizeof(VxLaunch),
+             .Args = K.ArgsBytes,
+             .Context = Stride * C.cores(),
+             .Print = PrintBytes};
+  return L;
+}
+
+void Launch::write(Machine &M, Session &Watch, const LaunchParts &Addresses,
+                   std::span<const std::byte> Args) const {
+  VxLaunch Block{};
+  Block.Entry = Entry;
+  Block.Args = address(Addresses.Args);
+  Block.WorkDim = Shape.WorkDim;
+  std::ranges::copy(Shape.NumGroups, Block.NumGroups);
+  std::ranges::copy(Shape.LocalSize, Block.LocalSize);
+  std::ranges::copy(Shape.GlobalOffset, Block.GlobalOffset);
+  Block.Context = address(Addresses.Context);
+  Block.ContextStride = ContextStride;
+  Block.PrintBuffer = address(Addresses.Print);
+  Block.PrintCapacity = PrintBytes;
+  M.write(address(Addresses.Block), bytesOf(Block));
+  Watch.hostWrote(address(Addresses.Block), sizeof(Block));
+  if (Args.empty())
+    return;
+  M.write(address(Addresses.Args), Args);
+  Watch.hostWrote(address(Addresses.Args), Args.size());
+}
+
+Printed printedBy(Machine &M, const LaunchParts &Addresses) {
+  VxLaunch Block{};
+  M.read(address(Addresses.Block), bytesOf(Block));
+  // The program may have written anything there: only how much it printed is
+  // taken from it.
+  const uint32_t Kept = std::min(Block.PrintUsed, PrintBytes);
+  Printed P{.Text = std::string(Kept, '\0'), .Dropped = Block.PrintUsed - Kept};
+  M.read(address(Addresses.Print), std::as_writable_bytes(std::span(P.Text)));
+  return P;
+}
+
+Expected<uint32_t> LocalPlaces::place(uint64_t Bytes) {
+  const uint64_t Begin = alignLaunch(End);
+  if (Begin > Capacity || Bytes > Capacity - Begin)
+    return noLocalMemory(Name, Capacity);
+  End = Begin + Bytes;
+  return static_cast<uint32_t>(VX_LOCAL_BASE + Begin);
+}
+
+} // namespace vorion::isasim

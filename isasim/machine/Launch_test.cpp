@@ -1,0 +1,114 @@
+#include "vorion/isasim/Launch.h"
+
+#include "core/IsaTables.h"
+#include "vorion/isasim/Machine.h"
+#include "vorion/isasim/Session.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+
+using namespace vorion;
+using namespace vorion::isasim;
+
+namespace {
+
+Config smallMachine() {
+  Config C;
+  C.Clusters = 1;
+  C.GlobalBytes = 1 << 23;
+  return C;
+}
+
+Kernel someKernel() {
+  Kernel K;
+  K.Name = "k";
+  K.Entry = 0x80000000;
+  K.ArgsBytes = 8;
+  K.ContextBytes = 4;
+  K.LocalBytes = 100;
+  return K;
+}
+
+TEST(Launch, PartsHaveTheBytesThatTheMachineNeeds) {
+  const Config C = smallMachine();
+  const auto L = Launch::plan(someKernel(), {.LocalSize = {33, 1, 1}}, C);
+  ASSERT_TRUE(L);
+  EXPECT_EQ(L->bytes().Block, sizeof(VxLaunch));
+  EXPECT_EQ(L->bytes().Args, 8u);
+  EXPECT_EQ(L->bytes().Print, PrintBytes);
+  // 33 items of 4 bytes, in pieces of 128 bytes, for each core.
+  EXPECT_EQ(L->bytes().Context, 256u * C.cores());
+}
+
+TEST(Launch, WhatCannotRunIsRefused) {
+  const Config C = smallMachine();
+  const auto CodeOf = [&](const Kernel &K, const LaunchShape &S) {
+    const auto L = Launch::plan(K, S, C);
+    return L ? ExitCode::Ok : L.error().Code;
+  };
+  const Kernel K = someKernel();
+  EXPECT_EQ(CodeOf(K, {.WorkDim = 4}), ExitCode::Usage);
+  EXPECT_EQ(CodeOf(K, {.NumGroups = {1, 2, 1}}), ExitCode::Usage);
+  EXPECT_EQ(CodeOf(K, {.LocalSize = {MaxGroupItems + 1, 1, 1}}),
+            ExitCode::Usage);
+  EXPECT_EQ(CodeOf(K, {.LocalSize = {0, 1, 1}}), ExitCode::Usage);
+  EXPECT_EQ(CodeOf(K, {.WorkDim = 3, .NumGroups = {1U << 31, 2, 0}}),
+            ExitCode::Ok); // nothing to run
+  EXPECT_EQ(CodeOf(K, {.WorkDim = 2, .NumGroups = {1U << 31, 2, 1}}),
+            ExitCode::Usage);
+  Kernel Sized = K;
+  Sized.LocalSize = {16, 1, 1};
+  EXPECT_EQ(CodeOf(Sized, {.LocalSize = {8, 1, 1}}), ExitCode::Usage);
+  Kernel Large = K;
+  Large.LocalBytes = C.LocalBytes + 1;
+  EXPECT_EQ(CodeOf(Large, {}), ExitCode::LimitReached);
+}
+
+TEST(Launch, TheBlockIsWrittenAndItsPrintingRead) {
+  const auto M = Machine::create(smallMachine());
+  const auto Watch = Session::create({}, "test");
+  ASSERT_TRUE(M && Watch);
+  const auto L = Launch::plan(someKernel(),
+                              {.NumGroups = {3, 1, 1}, .LocalSize = {16, 1, 1}},
+                              (*M)->config());
+  ASSERT_TRUE(L);
+  const LaunchParts At{.Block = VX_GLOBAL_BASE,
+                       .Args = VX_GLOBAL_BASE + 128,
+                       .Context = VX_GLOBAL_BASE + 256,
+                       .Print = VX_GLOBAL_BASE + 65536};
+  const uint64_t Args = 0x0123456789abcdef;
+  L->write(**M, **Watch, At, std::as_bytes(std::span(&Args, 1)));
+  VxLaunch Block{};
+  std::memcpy(&Block, (*M)->hostPointer(VX_GLOBAL_BASE, sizeof(Block)),
+              sizeof(Block));
+  EXPECT_EQ(Block.Entry, 0x80000000u);
+  EXPECT_EQ(Block.Args, At.Args);
+  EXPECT_EQ(Block.NumGroups[0], 3u);
+  EXPECT_EQ(Block.ContextStride, 128u);
+  EXPECT_EQ(std::memcmp((*M)->hostPointer(VX_GLOBAL_BASE + 128, 8), &Args, 8),
+            0);
+
+  // What the program says that it printed is more than there is room for.
+  Block.PrintUsed = PrintBytes + 5;
+  std::memcpy((*M)->hostPointer(VX_GLOBAL_BASE, sizeof(Block)), &Block,
+              sizeof(Block));
+  std::memcpy((*M)->hostPointer(VX_GLOBAL_BASE + 65536, 5), "hello", 5);
+  const Printed P = printedBy(**M, At);
+  EXPECT_EQ(P.Text.size(), PrintBytes);
+  EXPECT_EQ(P.Text.substr(0, 5), "hello");
+  EXPECT_EQ(P.Dropped, 5u);
+}
+
+TEST(Launch, LocalArgumentsLieBehindTheKernelsOwnMemory) {
+  const Config C = smallMachine();
+  LocalPlaces Places(someKernel(), C);
+  const auto First = Places.place(1), Second = Places.place(8);
+  ASSERT_TRUE(First && Second);
+  EXPECT_EQ(*First, VX_LOCAL_BASE + 128);
+  EXPECT_EQ(*Second, VX_LOCAL_BASE + 256);
+  EXPECT_EQ(Places.used(), 264u);
+  EXPECT_FALSE(Places.place(C.LocalBytes));
+  EXPECT_EQ(Places.used(), 264u);
+}
+
+} // namespace

@@ -1,0 +1,25 @@
+/// One checker of `--check`. A new one is its own files and one line of
+/// Checks.def.
+#pragma once
+
+#include "observe/check/Findings.h"
+#include "observe/check/Places.h"
+
+#include <memory>
+
+namespace vorion::isasim {
+
+class Check : public Observer {
+public:
+  /// Bytes that are to stay free behind each buffer.
+  virtual uint64_t guardBytes() const { return 0; }
+};
+
+/// What makes each checker, which tells \p Out what it finds. Both arguments
+/// must outlive it.
+#define VORION_CHECK(NAME, MAKE, DOC)                                          \
+  std::unique_ptr<Check> MAKE(Findings &Out, const Places &Where);
+#include "observe/check/Checks.def"
+#undef VORION_CHECK
+
+} // namespace vorion::isasim

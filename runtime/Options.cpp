@@ -1,0 +1,89 @@
+#include "Options.h"
+
+#include "vorion/support/File.h"
+
+#include <charconv>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <utility>
+
+using namespace vorion;
+using namespace vorion::runtime;
+
+namespace {
+
+constexpr std::pair<std::string DeviceOptions::*, const char *> OfTheMachine[] =
+    {{&DeviceOptions::Config, "VORION_CONFIG"},
+     {&DeviceOptions::Set, "VORION_SET"},
+     {&DeviceOptions::Time, "VORION_TIME"}};
+
+void readVariable(const char *Name, std::string &Text) {
+  if (const char *Value = std::getenv(Name))
+    Text = Value;
+}
+
+} // namespace
+
+DeviceOptions DeviceOptions::fromEnvironment() {
+  DeviceOptions O;
+  for (const auto &[Member, Name] : OfTheMachine)
+    readVariable(Name, O.*Member);
+  for (const isasim::SessionOption &S : isasim::sessionOptions())
+    readVariable(S.Variable, O.Watch.*S.Text);
+  return O;
+}
+
+std::string *DeviceOptions::find(std::string_view Name) {
+  for (const auto &[Member, Known] : OfTheMachine)
+    if (Name == Known)
+      return &(this->*Member);
+  for (const isasim::SessionOption &S : isasim::sessionOptions())
+    if (Name == S.Variable)
+      return &(Watch.*S.Text);
+  return nullptr;
+}
+
+Failure DeviceOptions::readConfig(isasim::Config &C) const {
+  if (Config.empty())
+    return {};
+  std::string Json = Config, Where = "configuration";
+  const std::size_t First = Config.find_first_not_of(" \t\r\n");
+  if (First == std::string::npos || Config[First] != '{') {
+    const auto Bytes = readFile(Config);
+    if (!Bytes)
+      return failure(VX_ERROR_FILE, Bytes.error());
+    Json.assign(reinterpret_cast<const char *>(Bytes->data()), Bytes->size());
+    Where = Config;
+  }
+  auto Parsed = isasim::parseConfig(Json, Where);
+  if (!Parsed)
+    return failure(VX_ERROR_CONFIG, Parsed.error());
+  C = *Parsed;
+  return {};
+}
+
+Failure DeviceOptions::readTime(isasim::Config &C) const {
+  if (Time.empty())
+    return {};
+  C.Timing.Enabled = true;
+  if (onlyProfiled() || Time == "on")
+    return {};
+  const char *End = Time.data() + Time.size();
+  const auto [Rest, Wrong] =
+      std::from_chars(Time.data(), End, C.Timing.ClockMhz);
+  if (Wrong != std::errc() || Rest != End)
+    return {VX_ERROR_CONFIG,
+            fmt::format("VORION_TIME is '{}', expected 'on', 'profiled' or a "
+                        "clock in MHz",
+                        Time)};
+  return {};
+}
+
+Failure DeviceOptions::machine(isasim::Config &C) const {
+  if (Failure Failed = readConfig(C))
+    return Failed;
+  if (!Set.empty())
+    if (const auto Done = isasim::setValues(C, Set); !Done)
+      return {VX_ERROR_CONFIG, "VORION_SET: " + Done.error().What};
+  return readTime(C);
+}

@@ -1,0 +1,36 @@
+/// What a device is opened with (vx_option of vorion/runtime.h).
+#pragma once
+
+#include "Failure.h"
+#include "vorion/isasim/Config.h"
+#include "vorion/isasim/Session.h"
+
+#include <string>
+#include <string_view>
+
+namespace vorion::runtime {
+
+/// Texts as the environment's variables have them; empty for what nobody asked
+/// for.
+struct DeviceOptions {
+  std::string Config; ///< JSON, or the name of a file with it
+  std::string Set;    ///< "KEY=VALUE,...", changes what Config says
+  std::string Time;   ///< "on", the clock in MHz, or "profiled"
+  isasim::SessionOptions Watch;
+
+  static DeviceOptions fromEnvironment();
+
+  /// The text of the variable \p Name; null for one that is not ours.
+  std::string *find(std::string_view Name);
+
+  /// The machine that Config, Set and Time ask for.
+  Failure machine(isasim::Config &C) const;
+  /// Whether the clock goes on in profiled runs only.
+  bool onlyProfiled() const { return Time == "profiled"; }
+
+private:
+  Failure readConfig(isasim::Config &C) const;
+  Failure readTime(isasim::Config &C) const;
+};
+
+} // namespace vorion::runtime
