@@ -3,8 +3,8 @@
 #include "Convert.h"
 #include "Gradients.h"
 #include "Metrics.h"
-#include "Ply.h"
 #include "Tool.h"
+#include "formats/Ply.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 

@@ -2,7 +2,7 @@
 /// unit and order of sums is held against.
 #pragma once
 
-#include "../io/Scene.h"
+#include "../scene/Scene.h"
 #include "../train/TrainingSet.h"
 #include "vorion/support/Expected.h"
 

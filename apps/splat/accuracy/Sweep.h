@@ -5,7 +5,7 @@
 #include "Points.h"
 
 #include "../io/Cameras.h"
-#include "../io/SceneFile.h"
+#include "../scene/SceneFile.h"
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>

@@ -3,7 +3,7 @@
 #include "../capture/Capture.h"
 #include "../io/Hash.h"
 #include "../io/Mean.h"
-#include "../io/SceneFile.h"
+#include "../scene/SceneFile.h"
 #include "GradientReference.h"
 #include "Points.h"
 #include "Process.h"

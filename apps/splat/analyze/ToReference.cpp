@@ -1,6 +1,6 @@
 #include "ToReference.h"
 
-#include "../io/Activation.h"
+#include "../scene/Activation.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../io/Cameras.h"
-#include "../io/Scene.h"
+#include "../scene/Scene.h"
 #include "reference/Types.h"
 
 namespace vorion::splat {

@@ -5,6 +5,7 @@
 #include "TestFiles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vorion::splat::testing {
 

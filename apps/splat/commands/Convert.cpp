@@ -1,4 +1,4 @@
-#include "../io/Ply.h"
+#include "../scene/formats/Ply.h"
 #include "Commands.h"
 #include "OutputFile.h"
 #include "SceneArguments.h"

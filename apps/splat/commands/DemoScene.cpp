@@ -1,6 +1,6 @@
 #include "../demo/DemoScene.h"
 
-#include "../io/Ply.h"
+#include "../scene/formats/Ply.h"
 #include "Commands.h"
 #include "OutputFile.h"
 #include "vorion/support/Diagnostics.h"

@@ -1,6 +1,6 @@
 #include "../capture/Capture.h"
 #include "../io/Hash.h"
-#include "../io/Statistics.h"
+#include "../scene/Statistics.h"
 #include "CaptureInfo.h"
 #include "Commands.h"
 #include "OutputFile.h"

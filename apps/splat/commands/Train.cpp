@@ -9,7 +9,7 @@
 #include "../capture/Capture.h"
 #include "../io/Hash.h"
 #include "../io/Mean.h"
-#include "../io/Ply.h"
+#include "../scene/formats/Ply.h"
 #include "../train/Baselines.h"
 #include "../train/ClockSamples.h"
 #include "../train/DeviceRenderer.h"

@@ -1,7 +1,7 @@
 // Alpha is at most 0.99. The cores' kernel only: the rasterizer's lanes clamp
 // in hardware.
 
-#include "../io/Activation.h"
+#include "../scene/Activation.h"
 #include "Registry.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 /// that it is needed, and what it adds.
 #pragma once
 
-#include "../io/Scene.h"
 #include "../render/Options.h"
+#include "../scene/Scene.h"
 #include "ViewFacts.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Gaussians too transparent to reach the alpha cut-off anywhere have no
 // support.
 
-#include "../io/Activation.h"
+#include "../scene/Activation.h"
 #include "Registry.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 /// Figures about a scene as one camera sees it, by which effects are decided.
 #pragma once
 
-#include "../io/Scene.h"
 #include "../render/Layout.h"
+#include "../scene/Scene.h"
 
 #include <array>
 #include <cstddef>

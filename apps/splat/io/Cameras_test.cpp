@@ -1,6 +1,7 @@
 #include "Cameras.h"
 #include "TestFiles.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

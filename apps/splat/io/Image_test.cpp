@@ -2,6 +2,7 @@
 #include "Npz.h"
 #include "TestFiles.h"
 
+#include <cmath>
 #include <cstring>
 #include <png.h>
 

@@ -1,7 +1,5 @@
 #include "PlyHeader.h"
 
-#include "Scene.h"
-
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
@@ -209,15 +207,6 @@ PlyElement *PlyHeader::add(std::string_view Element) {
 const PlyElement *PlyHeader::find(std::string_view Element) const {
   const auto It = Places.find(Element);
   return It == Places.end() ? nullptr : &Elements[It->second];
-}
-
-std::vector<std::string> plyRestNames(int ShDegree) {
-  std::vector<std::string> Names;
-  const std::size_t Later = shCoefficients(ShDegree) - 1;
-  for (std::size_t K = 0; K < Later; ++K)
-    for (std::size_t C = 0; C < 3; ++C)
-      Names.push_back(fmt::format("f_rest_{}", C * Later + K));
-  return Names;
 }
 
 Expected<PlyHeader> readPlyHeader(const std::string &Where, Bytes File) {

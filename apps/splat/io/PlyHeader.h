@@ -53,10 +53,6 @@ private:
   std::map<std::string, std::size_t, std::less<>> Places; ///< in Elements
 };
 
-/// The properties f_rest_* for \p ShDegree in the scene's order: a file numbers
-/// them channel by channel, the scene has them coefficient by coefficient.
-std::vector<std::string> plyRestNames(int ShDegree);
-
 /// Reads the header of a binary little-endian PLY of scalar properties; \p File
 /// holds exactly the rows that it declares, or the result is an error. Errors
 /// of the header name the line. A header may declare any number of things, so

@@ -1,10 +1,8 @@
 /// A folder for one test's files, removed at its end.
 #pragma once
 
-#include "Scene.h"
 #include "vorion/support/File.h"
 
-#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
@@ -45,22 +43,5 @@ public:
 private:
   std::filesystem::path Root;
 };
-
-/// \p Count Gaussians with a different value in every field.
-inline Scene numberedScene(std::size_t Count, int ShDegree) {
-  Scene S;
-  S.ShDegree = ShDegree;
-  float Next = 0;
-  const auto Fill = [&](std::vector<float> &Values, std::size_t Each) {
-    for (std::size_t I = 0; I < Count * Each; ++I)
-      Values.push_back(std::sin(Next += 0.37F));
-  };
-  Fill(S.Means, 3);
-  Fill(S.LogScales, 3);
-  Fill(S.Quats, 4);
-  Fill(S.OpacityLogits, 1);
-  Fill(S.Sh, 3 * S.coefficients());
-  return S;
-}
 
 } // namespace vorion::splat

@@ -2,7 +2,7 @@
 
 #include "../device/Kernels.h"
 #include "../device/OnDevice.h"
-#include "../io/Activation.h"
+#include "../scene/Activation.h"
 #include "Plan.h"
 #include "Sorter.h"
 #include "vorion/support/File.h"

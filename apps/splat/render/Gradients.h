@@ -3,7 +3,7 @@
 
 #include "../io/Cameras.h"
 #include "../io/Image.h"
-#include "../io/Scene.h"
+#include "../scene/Scene.h"
 #include "Backward.h"
 #include "Renderer.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../io/Cameras.h"
-#include "../io/Scene.h"
+#include "../scene/Scene.h"
 #include "Layout.h"
 #include "Plan.h"
 #include "Sorter.h"

@@ -1,7 +1,7 @@
 /// What a render did, for people and for programs.
 #pragma once
 
-#include "../io/SceneFile.h"
+#include "../scene/SceneFile.h"
 #include "Backward.h"
 #include "Renderer.h"
 

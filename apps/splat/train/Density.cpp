@@ -1,9 +1,9 @@
 #include "Density.h"
 
-#include "../io/Activation.h"
 #include "../render/Layout.h"
 #include "../render/Pipeline.h"
 #include "../render/Plan.h"
+#include "../scene/Activation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 #include "Density.h"
 
 #include "../device/OnDevice.h"
-#include "../io/Activation.h"
 #include "../render/Layout.h"
 #include "../render/Plan.h"
 #include "../render/Planes.h"
+#include "../scene/Activation.h"
 #include "reference/Density.h"
 
 #include <algorithm>

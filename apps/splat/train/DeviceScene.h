@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../device/Launcher.h"
-#include "../io/Scene.h"
+#include "../scene/Scene.h"
 
 #include <cstdint>
 #include <vector>

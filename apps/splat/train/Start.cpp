@@ -1,6 +1,6 @@
 #include "Start.h"
 
-#include "../io/Activation.h"
+#include "../scene/Activation.h"
 #include "Neighbours.h"
 #include "Philox.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../capture/Capture.h"
-#include "../io/Scene.h"
+#include "../scene/Scene.h"
 
 #include <cstdint>
 

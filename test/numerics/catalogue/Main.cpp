@@ -2,10 +2,10 @@
 
 #include "Check.h"
 #include "Fuzz.h"
-#include "Ply.h"
 #include "Table.h"
 #include "Tool.h"
 #include "TrainingCase.h"
+#include "formats/Ply.h"
 
 #include <algorithm>
 #include <filesystem>

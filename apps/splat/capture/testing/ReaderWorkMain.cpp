@@ -1,13 +1,13 @@
 // splat-reader-work: has every reader read something of one size and of ten
 // times the size, each in a readOnce() of its own number.
 // test/render/Inputs/linear.py counts the instructions of these.
-#include "../../io/testing/SceneWriters.h"
+#include "../../scene/testing/SceneWriters.h"
 #include "CaptureWriters.h"
 #include "Colmap.h"
 #include "Npz.h"
-#include "Ply.h"
-#include "SogFolder.h"
 #include "Transforms.h"
+#include "formats/Ply.h"
+#include "formats/SogFolder.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/TemporaryFolder.h"
 

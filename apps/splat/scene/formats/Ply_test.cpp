@@ -1,8 +1,10 @@
 #include "Ply.h"
+#include "SceneWriters.h"
 #include "TestFiles.h"
 
 using namespace vorion;
 using namespace vorion::splat;
+using namespace vorion::splat::testing;
 
 namespace {
 

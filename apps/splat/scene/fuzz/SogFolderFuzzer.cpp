@@ -1,6 +1,6 @@
 // Data sets and indices of streamed scenes in memory: the bytes are a file
 // after another, each after its name's and its own length.
-#include "SogFolder.h"
+#include "formats/SogFolder.h"
 
 #include <cstdint>
 #include <cstdlib>

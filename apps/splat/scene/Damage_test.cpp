@@ -2,8 +2,8 @@
 // scene that is whole.
 #include "Damage.h"
 #include "Invariants.h"
-#include "Ply.h"
-#include "Splat.h"
+#include "formats/Ply.h"
+#include "formats/Splat.h"
 
 #include <gtest/gtest.h>
 

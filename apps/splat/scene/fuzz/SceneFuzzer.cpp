@@ -1,9 +1,9 @@
 // Whatever the bytes are, a reader gives a whole scene or one message.
-#include "Ply.h"
 #include "SceneFile.h"
-#include "Sog.h"
-#include "Splat.h"
-#include "Spz.h"
+#include "formats/Ply.h"
+#include "formats/Sog.h"
+#include "formats/Splat.h"
+#include "formats/Spz.h"
 
 #include <cstdint>
 #include <cstdlib>

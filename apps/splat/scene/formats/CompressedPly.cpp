@@ -1,6 +1,7 @@
 #include "CompressedPly.h"
 
 #include "Dequantize.h"
+#include "Ply.h"
 
 #include <array>
 #include <fmt/format.h>

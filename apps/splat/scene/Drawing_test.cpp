@@ -1,8 +1,8 @@
 // What files say of how a scene is to be drawn, and what becomes of it.
 #include "Drawing.h"
-#include "Ply.h"
 #include "SceneWriters.h"
 #include "TestFiles.h"
+#include "formats/Ply.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 #include "Damage.h"
-#include "Ply.h"
 #include "SceneFile.h"
 #include "TestFiles.h"
+#include "formats/Ply.h"
 
 #include <cstring>
 #include <limits>

@@ -1,11 +1,11 @@
 #include "SceneFile.h"
 
 #include "Gzip.h"
-#include "Ply.h"
-#include "SogFolder.h"
-#include "Splat.h"
-#include "Spz.h"
 #include "Zip.h"
+#include "formats/Ply.h"
+#include "formats/SogFolder.h"
+#include "formats/Splat.h"
+#include "formats/Spz.h"
 #include "vorion/support/File.h"
 
 #include <filesystem>

@@ -1,7 +1,11 @@
 #include "Activation.h"
-#include "TestFiles.h"
+#include "SceneWriters.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
 
 using namespace vorion::splat;
+using namespace vorion::splat::testing;
 
 namespace {
 

@@ -14,6 +14,10 @@ namespace vorion::splat {
 /// longer than the header says, values that are not finite, no vertex at all.
 Expected<SceneFile> parsePly(const std::string &Where, Bytes File);
 
+/// The properties f_rest_* for \p ShDegree in the scene's order: a file numbers
+/// them channel by channel, the scene has them coefficient by coefficient.
+std::vector<std::string> plyRestNames(int ShDegree);
+
 /// \p S in the layout and property order of INRIA's trainer (with zero
 /// normals).
 /// The comments of \p D, if it is not the classic way, come before the

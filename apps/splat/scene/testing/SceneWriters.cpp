@@ -78,6 +78,22 @@ Range rangeOf(const std::vector<double> &Values) {
 
 } // namespace
 
+Scene numberedScene(std::size_t Count, int ShDegree) {
+  Scene S;
+  S.ShDegree = ShDegree;
+  float Next = 0;
+  const auto Fill = [&](std::vector<float> &Values, std::size_t Each) {
+    for (std::size_t I = 0; I < Count * Each; ++I)
+      Values.push_back(std::sin(Next += 0.37F));
+  };
+  Fill(S.Means, 3);
+  Fill(S.LogScales, 3);
+  Fill(S.Quats, 4);
+  Fill(S.OpacityLogits, 1);
+  Fill(S.Sh, 3 * S.coefficients());
+  return S;
+}
+
 Scene randomScene(std::size_t Count, int ShDegree, unsigned Seed) {
   std::mt19937 Engine(Seed); // whose numbers the standard fixes
   const auto Next = [&](double Low, double High) {

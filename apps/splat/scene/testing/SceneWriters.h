@@ -14,6 +14,9 @@ namespace vorion::splat::testing {
 /// within 0.9; the same on every host.
 Scene randomScene(std::size_t Count, int ShDegree, unsigned Seed);
 
+/// \p Count Gaussians with a different value in every field.
+Scene numberedScene(std::size_t Count, int ShDegree);
+
 /// Files by name: a folder, or what goes into a zip archive.
 using Folder = std::map<std::string, std::string>;
 

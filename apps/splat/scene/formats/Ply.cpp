@@ -84,6 +84,15 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
 
 } // namespace
 
+std::vector<std::string> plyRestNames(int ShDegree) {
+  std::vector<std::string> Names;
+  const std::size_t Later = shCoefficients(ShDegree) - 1;
+  for (std::size_t K = 0; K < Later; ++K)
+    for (std::size_t C = 0; C < 3; ++C)
+      Names.push_back(fmt::format("f_rest_{}", C * Later + K));
+  return Names;
+}
+
 Expected<SceneFile> parsePly(const std::string &Where, Bytes File) {
   const auto H = readPlyHeader(Where, File);
   if (!H)

@@ -1,6 +1,6 @@
 #include "Damage.h"
 
-#include "Ply.h"
+#include "formats/Ply.h"
 
 #include <cassert>
 #include <cstdint>
@@ -184,8 +184,9 @@ std::vector<DamagedFolder> sogDamage() {
     for (Json &V : M["scales"]["codebook"])
       V = 1e200;
   });
-  Meta("means-huge", "holds a NaN or an infinity",
-       [](Json &M) { M["means"]["maxs"] = {1e9, 1e9, 1e9}; });
+  Meta("means-huge", "holds a NaN or an infinity", [](Json &M) {
+    M["means"]["maxs"] = {1e9, 1e9, 1e9};
+  });
   Meta("bands", "shN.bands: expected 1, 2 or 3",
        [](Json &M) { M["shN"]["bands"] = 4; });
   Meta("other-bands", "palette entries of degree 2",
