@@ -1,7 +1,7 @@
 #include "Sweep.h"
 
 #include "../io/Metrics.h"
-#include "../render/Options.h"
+#include "../picture/Options.h"
 #include "Points.h"
 #include "Process.h"
 #include "Reference.h"

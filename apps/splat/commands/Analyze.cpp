@@ -3,7 +3,7 @@
 #include "../analyze/ToReference.h"
 #include "../io/Cameras.h"
 #include "../io/Hash.h"
-#include "../render/Options.h"
+#include "../picture/Options.h"
 #include "Choices.h"
 #include "Commands.h"
 #include "OutputFile.h"

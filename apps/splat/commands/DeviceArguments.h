@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../device/Launcher.h"
-#include "../render/Options.h"
+#include "../picture/Options.h"
 
 #include <CLI/CLI.hpp>
 #include <string>

@@ -2,8 +2,8 @@
 /// one meaning in every subcommand that draws.
 #pragma once
 
+#include "../picture/Options.h"
 #include "../render/Backward.h"
-#include "../render/Options.h"
 #include "../scene/Drawing.h"
 #include "vorion/support/Expected.h"
 

@@ -2,7 +2,7 @@
 /// that it is needed, and what it adds.
 #pragma once
 
-#include "../render/Options.h"
+#include "../picture/Options.h"
 #include "../scene/Scene.h"
 #include "ViewFacts.h"
 

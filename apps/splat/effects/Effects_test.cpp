@@ -2,7 +2,7 @@
 // and registry know the same macros.
 
 #include "../device/Kernels.h"
-#include "../render/View.h"
+#include "../picture/View.h"
 #include "EffectPlan.h"
 #include "Registry.h"
 

@@ -1,7 +1,7 @@
 /// Figures about a scene as one camera sees it, by which effects are decided.
 #pragma once
 
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "../scene/Scene.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "Pipeline.h"
 
 #include "../effects/Registry.h"
+#include "../picture/View.h"
 #include "Planes.h"
-#include "View.h"
 
 #include <algorithm>
 #include <bit>

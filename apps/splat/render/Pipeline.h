@@ -2,8 +2,8 @@
 #pragma once
 
 #include "../io/Cameras.h"
+#include "../picture/Layout.h"
 #include "../scene/Scene.h"
-#include "Layout.h"
 #include "Plan.h"
 #include "Sorter.h"
 

@@ -3,7 +3,7 @@
 
 #include "../device/Launcher.h"
 #include "../effects/EffectPlan.h"
-#include "Options.h"
+#include "../picture/Options.h"
 
 #include <string>
 #include <vector>

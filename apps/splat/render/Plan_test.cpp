@@ -1,7 +1,7 @@
 #include "../effects/Registry.h"
+#include "../picture/View.h"
 #include "Backward.h"
 #include "Plan.h"
-#include "View.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "Planes.h"
 
-#include "Layout.h"
+#include "../picture/Layout.h"
 
 namespace vorion::splat {
 

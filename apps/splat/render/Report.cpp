@@ -1,8 +1,8 @@
 #include "Report.h"
 
 #include "../device/Configuration.h"
-#include "../effects/Explain.h"
 #include "../io/Hash.h"
+#include "Explain.h"
 #include "FrameTime.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"

@@ -1,6 +1,6 @@
 #include "Adam.h"
 
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "../render/Pipeline.h"
 
 #include <cmath>

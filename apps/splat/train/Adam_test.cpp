@@ -3,7 +3,7 @@
 #include "Adam.h"
 
 #include "../device/OnDevice.h"
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "../render/Planes.h"
 #include "reference/Adam.h"
 

@@ -2,7 +2,7 @@
 
 #include "../io/Bytes.h"
 #include "../io/Hash.h"
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"

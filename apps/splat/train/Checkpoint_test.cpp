@@ -2,7 +2,7 @@
 
 #include "../io/Hash.h"
 #include "../io/TestFiles.h"
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 
 #include <algorithm>
 #include <csignal>

@@ -1,6 +1,6 @@
 #include "Density.h"
 
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "../render/Pipeline.h"
 #include "../render/Plan.h"
 #include "../scene/Activation.h"

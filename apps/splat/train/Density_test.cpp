@@ -2,7 +2,7 @@
 #include "Density.h"
 
 #include "../device/OnDevice.h"
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "../render/Plan.h"
 #include "../render/Planes.h"
 #include "../scene/Activation.h"

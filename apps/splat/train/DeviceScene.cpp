@@ -1,6 +1,6 @@
 #include "DeviceScene.h"
 
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "../render/Planes.h"
 
 #include <numeric>

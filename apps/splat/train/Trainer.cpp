@@ -5,7 +5,7 @@
 #include "Image.h"
 #include "Metrics.h"
 
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "../analyze/ToReference.h"
 #include "../device/OnDevice.h"
-#include "../render/Layout.h"
+#include "../picture/Layout.h"
 #include "../render/Planes.h"
 #include "Image.h"
 #include "reference/Backward.h"

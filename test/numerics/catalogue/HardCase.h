@@ -2,7 +2,7 @@
 /// what must come out of it (docs/numerics.md, "Catalogue of hard cases").
 #pragma once
 
-#include "../../../apps/splat/render/Options.h"
+#include "../../../apps/splat/picture/Options.h"
 #include "../../../apps/splat/render/Renderer.h"
 
 #include <array>

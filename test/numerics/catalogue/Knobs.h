@@ -2,7 +2,7 @@
 /// `splat render`'s command line.
 #pragma once
 
-#include "../../../apps/splat/render/Options.h"
+#include "../../../apps/splat/picture/Options.h"
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "Machine.h"
 
 #include "../../../apps/splat/effects/ViewFacts.h"
-#include "../../../apps/splat/render/View.h"
+#include "../../../apps/splat/picture/View.h"
 
 #include <cstdio>
 

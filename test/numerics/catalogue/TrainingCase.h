@@ -4,7 +4,7 @@
 #pragma once
 
 #include "../../../apps/splat/device/Launcher.h"
-#include "../../../apps/splat/render/Options.h"
+#include "../../../apps/splat/picture/Options.h"
 
 #include <functional>
 #include <string>

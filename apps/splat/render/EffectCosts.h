@@ -1,8 +1,8 @@
 /// What each effect costs a frame, by rendering it with and without.
 #pragma once
 
-#include "../render/Renderer.h"
-#include "EffectPlan.h"
+#include "../effects/EffectPlan.h"
+#include "Renderer.h"
 
 #include <cstdint>
 #include <functional>

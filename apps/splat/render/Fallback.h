@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../device/Launcher.h"
-#include "../render/Plan.h"
+#include "Plan.h"
 
 #include <cstddef>
 

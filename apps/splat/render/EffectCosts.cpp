@@ -1,8 +1,8 @@
-#include "Measure.h"
+#include "EffectCosts.h"
 
-#include "../render/FrameTime.h"
+#include "../effects/Registry.h"
+#include "FrameTime.h"
 #include "OwnProcess.h"
-#include "Registry.h"
 
 #include <fmt/format.h>
 #include <sstream>
