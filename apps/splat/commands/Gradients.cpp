@@ -11,11 +11,13 @@
 #include "../render/Report.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 namespace vorion::splat {
 
@@ -98,7 +100,7 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
   const auto Report = jsonReport({A.Scene.Path, A.Scene.Axes, A.Cameras,
                                   A.Output, File, C, A.Options, Plan, D, R,
                                   BackwardRecord{A.Backward, A.Upstream}});
-  return Report ? writeFileAtomically(A.Json, *Report)
+  return Report ? writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n")
                 : Expected<Success>(Report.error());
 }
 
@@ -154,7 +156,7 @@ Expected<Success> run(GradientArguments &A) {
            name(A.Options.Blending), toString(A.Backward, A.Options.Blending),
            R->Visible, R->Pairs, A.Options.tileSize(), A.Options.tileHeight());
   for (const StageReport &S : R->Stages)
-    printOut("{:<18}{:>8.3f} s\n", S.Name, S.Seconds);
+    printOut("{:<18}{:>8.3f} s\n", name(S.Kind), S.Seconds);
   printOut("{}", frameText(R->Stages));
   return Success{};
 }

@@ -175,8 +175,9 @@ struct Job {
   Launcher &L;
 };
 
-Expected<std::string> report(const Job &J, const std::string &Output,
-                             const Camera &C, const RenderResult &R) {
+Expected<nlohmann::ordered_json> report(const Job &J, const std::string &Output,
+                                        const Camera &C,
+                                        const RenderResult &R) {
   return jsonReport({J.A.Scene.Path, J.A.Scene.Axes, J.A.Cameras, Output,
                      J.File, C, J.A.Options, J.Plan, J.Dev, R});
 }
@@ -202,7 +203,8 @@ Expected<Success> renderOne(const Job &J, const Camera &C) {
     auto Report = report(J, A.Output, C, *R);
     if (!Report)
       return Report.error();
-    if (auto Written = writeFileAtomically(A.Json, *Report); !Written)
+    if (auto Written = writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n");
+        !Written)
       return Written.error();
   }
   printOut("{}", textReport(C, A.Options, J.Dev, *R));
@@ -256,12 +258,12 @@ Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
     auto Report = report(J, Output, Cameras[N], R->Frames[N]);
     if (!Report)
       return Report.error();
-    Reports.push_back(ownJson<nlohmann::ordered_json>(*Report));
+    Reports.push_back(std::move(*Report));
   }
   if (!A.Json.empty()) {
     nlohmann::ordered_json All{{"overlap", A.Overlap}, {"pictures", Reports}};
-    if (const std::string Time = sequenceJson(*R); !Time.empty())
-      All["time"] = ownJson<nlohmann::ordered_json>(Time);
+    if (auto Time = sequenceJson(*R); !Time.is_null())
+      All["time"] = std::move(Time);
     if (auto Written = writeFileAtomically(A.Json, jsonText(All, 2) + "\n");
         !Written)
       return Written.error();

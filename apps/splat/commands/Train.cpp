@@ -13,7 +13,7 @@
 #include "../train/Baselines.h"
 #include "../train/ClockSamples.h"
 #include "../train/DeviceRenderer.h"
-#include "../train/RunText.h"
+#include "../train/RunRecord.h"
 #include "../train/Start.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -78,7 +78,7 @@ struct Work {
   const Capture &C;
   const TrainingSet &Pictures;
   Ranks &Together;
-  std::string Run; ///< as checkpoints have it
+  Json Run; ///< as checkpoints have it
   double Seconds = 0;
   unsigned First = 0; ///< iterations that were done before
   ClockSamples Timed;
@@ -112,7 +112,7 @@ Expected<Success> writeState(const Work &W, Launcher &L, Trainer &T) {
   Checkpoint C = T.save();
   if (L.failure())
     return *L.failure();
-  C.Run = W.Run;
+  C.Run = jsonText(W.Run);
   return writeCheckpoint(W.A.Checkpoint, C);
 }
 
@@ -185,7 +185,7 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"device", {{"name", D.name()}, {"version", D.version()}}},
       {"capture", W.A.Capture},
       {"resolution", {First.Width, First.Height}},
-      {"run", ownJson<Json>(W.Run)},
+      {"run", W.Run},
       {"picture_filter", PhotoFilter},
       {"held_out_by", W.C.HeldOutBy},
       {"rules", name(W.A.Convention)},
@@ -194,7 +194,7 @@ std::string jsonReport(const Work &W, const Device &D, Trainer &T,
       {"gaussians", T.gaussians()},
       {"seconds", W.Seconds},
       {"iterations_timed", T.iteration() - W.First},
-      {"timed", ownJson<Json>(W.Timed.json())},
+      {"timed", W.Timed.json()},
       {"psnr8_db", Db.empty() ? Json() : Json(meanOf(Db))},
       {"scores", Scores},
       {"views", Views},
@@ -306,7 +306,8 @@ Expected<Success> check(const TrainArguments &A) {
 
 /// That all processes are about to do the same; for the first error.
 Expected<Success> checkSameStart(const Work &W, unsigned Iteration) {
-  const std::string Mine = fmt::format("{} {:010}", fnv1a64(W.Run), Iteration);
+  const std::string Mine =
+      fmt::format("{} {:010}", fnv1a64(jsonText(W.Run)), Iteration);
   std::string First = Mine;
   W.Together.share(0, First.data(), First.size());
   if (First == Mine)
@@ -385,8 +386,8 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
   const PictureSource Source{std::string(name(C->Format)), A.Downscale,
                              A.Background};
   Work W(A, *C, *Pictures, Together);
-  W.Run = runText(A.Run, *Pictures, Source, A.ShDegree, A.Convention,
-                  A.blender(), A.Backward);
+  W.Run = runRecord(A.Run, *Pictures, Source, A.ShDegree, A.Convention,
+                    A.blender(), A.Backward);
 
   if (A.isClocked())
     turnClockOn("profiled");
@@ -400,7 +401,7 @@ Expected<Success> runOne(TrainArguments &A, Ranks &Together, bool &Ready) {
                              D->name()),
                  ExitCode::Usage};
   Launcher L(*D, "", {});
-  L.beginStage("build");
+  L.beginStage(Stage::Build);
   for (const ProgramSpec &P : Trainer::programs())
     L.build(P);
   DeviceRenderer Renderer(L, A.Convention, A.blender(), A.Backward,

@@ -124,17 +124,24 @@ std::optional<KernelCounters> Device::counters(const cl::Event &Event) const {
   return C;
 }
 
-std::string Device::timeReport(const cl::Event &Event) const {
+Expected<std::optional<TimeReport>>
+Device::timeReport(const cl::Event &Event) const {
+  std::optional<TimeReport> None;
   std::size_t Bytes = 0;
   if (!EventInfo || EventInfo(Event(), CL_EVENT_TIME_REPORT_VORION, 0, nullptr,
                               &Bytes) != CL_SUCCESS)
-    return {};
+    return None;
   std::string Text(Bytes, '\0');
   if (Bytes == 0 || EventInfo(Event(), CL_EVENT_TIME_REPORT_VORION, Bytes,
                               Text.data(), nullptr) != CL_SUCCESS)
-    return {};
+    return None;
   Text.pop_back(); // the terminator
-  return Text;
+  if (Text.empty())
+    return None;
+  auto Report = parseTimeReport(Text);
+  if (!Report)
+    return Report.error();
+  return std::optional(std::move(*Report));
 }
 
 } // namespace vorion::splat

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "OpenCl.h"
+#include "TimeReport.h"
 #include "splat/KernelCounters.h" // generated from intrinsics/Counters.td
 
 #include <CL/cl_vorion.h>
@@ -42,9 +43,9 @@ public:
 
   /// The counters of an ended kernel; nothing where the device has none.
   std::optional<KernelCounters> counters(const cl::Event &Event) const;
-  /// How long an ended kernel took on the machine (TimeReports.h); empty where
-  /// the device has no clock or it is off.
-  std::string timeReport(const cl::Event &Event) const;
+  /// How long an ended kernel took on the machine; nothing where the device has
+  /// no clock or it is off. An Error if the device says what cannot be read.
+  Expected<std::optional<TimeReport>> timeReport(const cl::Event &Event) const;
 
 private:
   Device() = default;

@@ -2,7 +2,6 @@
 
 #include "../io/Hash.h"
 #include "Kernels.h"
-#include "TimeReports.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -53,14 +52,14 @@ void Launcher::endStage() {
     Stages.back().Seconds = secondsSince(StageStart);
 }
 
-void Launcher::beginStage(std::string_view Name) {
+void Launcher::beginStage(Stage Kind) {
   if (Failure)
     return;
   endStage();
-  Stages.push_back({std::string(Name), 0, {}, 0, 0});
+  Stages.push_back({Kind, 0, {}, 0, 0});
   StageStart = Clock::now();
   if (Progress)
-    Progress(Name);
+    Progress(name(Kind));
 }
 
 std::vector<StageReport> Launcher::takeStages() {
@@ -182,8 +181,13 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
                     ExitCode::Trap};
     return;
   }
-  account(
-      {Name, 1, secondsSince(Start), Dev.counters(Done), Dev.timeReport(Done)});
+  const double Seconds = secondsSince(Start);
+  auto Time = Dev.timeReport(Done);
+  if (!Time) {
+    Failure = Time.error();
+    return;
+  }
+  account({Name, 1, Seconds, Dev.counters(Done), std::move(*Time)});
 }
 
 void Launcher::account(KernelReport Report) {
@@ -198,7 +202,7 @@ void Launcher::account(KernelReport Report) {
   Known->Seconds += Report.Seconds;
   if (Known->Counters && Report.Counters)
     *Known->Counters += *Report.Counters;
-  Known->Time = addTimeReports(Known->Time, Report.Time);
+  add(Known->Time, Report.Time);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "BuildRecord.h"
 #include "Device.h"
+#include "Stage.h"
 
 #include <atomic>
 #include <chrono>
@@ -38,12 +39,12 @@ struct KernelReport {
   unsigned Launches = 0;
   double Seconds = 0; ///< host wall time from launch to end
   std::optional<KernelCounters> Counters;
-  std::string Time; ///< sum of time reports (TimeReports.h), or empty
+  std::optional<TimeReport> Time; ///< sum over the launches
 };
 
-/// A stage of the pipeline: consecutive work under one name.
+/// Consecutive work of one stage.
 struct StageReport {
-  std::string Name;
+  Stage Kind;
   double Seconds = 0; ///< host wall time, copies and compilation included
   std::vector<KernelReport> Kernels;
   unsigned Copies = 0; ///< between host and device
@@ -77,7 +78,7 @@ public:
   void setProfiled(bool P) { Profiled = P; }
 
   /// What follows is accounted to a new stage. Begin one first of all.
-  void beginStage(std::string_view Name);
+  void beginStage(Stage Kind);
   /// How many stages there are.
   std::size_t stages() const { return Stages.size(); }
   /// Ends the last stage and gives all of them.

@@ -51,11 +51,11 @@ void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
 
 void BackwardPipeline::run(Pipeline &Forward) {
   const Frame &F = Forward.frame();
-  L.beginStage("blend backward");
+  L.beginStage(Stage::BlendBackward);
   blend(Forward);
-  L.beginStage("reduce");
+  L.beginStage(Stage::Reduce);
   reduce(F);
-  L.beginStage("project backward");
+  L.beginStage(Stage::ProjectBackward);
   project(F);
 }
 

@@ -25,7 +25,7 @@ class SortOnDevice : public OnDevice,
 
 TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build({ScanProgram, {"scan.cl"}, {}});
   Sorter S(L);
   const std::uint32_t Count = GetParam();
@@ -40,7 +40,7 @@ TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
 
 TEST_P(SortOnDevice, SortIsStableOnItsBits) {
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build({ScanProgram, {"scan.cl"}, {}});
   L.build({SortProgram, {"sort.cl"}, {}});
   Sorter S(L);
@@ -68,7 +68,7 @@ TEST_P(SortOnDevice, SortIsStableOnItsBits) {
 // a range that asks for one to four passes, low ones of no meaning.
 TEST_P(SortOnDevice, SortKeptLeavesOutAndNumbers) {
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build({ScanProgram, {"scan.cl"}, {}});
   L.build({SortProgram, {"sort.cl"}, {}});
   Sorter S(L);
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Counts, SortOnDevice,
 
 TEST_F(OnDevice, ScanSaturates) {
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build({ScanProgram, {"scan.cl"}, {}});
   Sorter S(L);
   const cl::Buffer Out = L.allocate("sums", 4 * 1001);
@@ -142,7 +142,7 @@ protected:
                              std::vector<std::string> Files,
                              const std::vector<float> &In, unsigned PerItem) {
     Launcher L(*Dev, Folder.Path, {});
-    L.beginStage("test");
+    L.beginStage(Stage::Blend);
     Files.emplace_back("test.cl");
     L.build({"test", std::move(Files), {}});
     const cl::Buffer From = L.allocate("in", 4 * In.size());
@@ -236,7 +236,7 @@ TEST_F(OnDevice, MergeIsTheSumOfItsParts) {
         Sum[3] *= double(Part[3]);
       }
     Launcher L(*Dev, "", {});
-    L.beginStage("test");
+    L.beginStage(Stage::Blend);
     L.build({MergeProgram, {"merge.cl"}, {}});
     const cl::Buffer From = L.allocate("parts", 4 * In.size());
     const cl::Buffer To = L.allocate("pixels", 4 * Want.size());
@@ -265,7 +265,7 @@ TEST_F(OnDevice, TilesAreOrderedByListLength) {
     return std::pair(~(Ranges[2 * T + 1] - Ranges[2 * T]), T);
   });
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build({TilesProgram,
            {"layout.h", "rectangle.cl", "tiles.cl"},
            {"USE_INTERSECT_TAGS=1"}});

@@ -1,16 +1,14 @@
 #include "Explain.h"
 
-#include "vorion/support/Json.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 std::string_view heading(EffectKind K) {
   switch (K) {
@@ -52,7 +50,7 @@ std::string explain(const RenderPlan &Plan) {
   return Text;
 }
 
-std::string effectsJson(const EffectPlan &Plan) {
+Json effectsJson(const EffectPlan &Plan) {
   Json All = Json::array();
   for (const EffectDecision &D : Plan.decisions())
     All.push_back({{"name", D.E->Name},
@@ -61,7 +59,7 @@ std::string effectsJson(const EffectPlan &Plan) {
                    {"on", D.Done},
                    {"code", name(D.Code)},
                    {"figure", D.Found.Figure}});
-  return jsonText(All);
+  return All;
 }
 
 } // namespace vorion::splat

@@ -3,6 +3,7 @@
 
 #include "Plan.h"
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace vorion::splat {
@@ -13,6 +14,6 @@ namespace vorion::splat {
 std::string explain(const RenderPlan &Plan);
 
 /// JSON array of the same: name, kind, needed, on, code, figure.
-std::string effectsJson(const EffectPlan &Plan);
+nlohmann::ordered_json effectsJson(const EffectPlan &Plan);
 
 } // namespace vorion::splat

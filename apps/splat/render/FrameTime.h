@@ -4,26 +4,38 @@
 #include "Renderer.h"
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vorion::splat {
 
-/// JSON of the frame: cycles a stage and a unit, frames a second. The frame is
-/// from projecting to the finished picture; uploading a scene and reading the
-/// picture back are told apart. Empty without the clock.
-std::string frameJson(const std::vector<StageReport> &Stages);
-/// The same as a table, in which \p What stands for a frame ("iteration").
-std::string frameText(const std::vector<StageReport> &Stages,
-                      const std::string &What = "frame");
+/// Of a frame, which is from projecting to the finished picture: uploading a
+/// scene and reading the picture back are told apart.
+struct FrameMilliseconds {
+  double Kernels = 0, Launches = 0, Copies = 0;
+  double all() const { return Kernels + Launches + Copies; }
+};
+/// Nothing without the clock.
+std::optional<FrameMilliseconds>
+frameMilliseconds(const std::vector<StageReport> &Stages);
 /// The frame's cycles on the machine; 0 without the clock.
 std::uint64_t frameCycles(const std::vector<StageReport> &Stages);
 
+/// JSON of the frame: cycles a stage and a unit, frames a second. Null without
+/// the clock.
+nlohmann::ordered_json frameJson(const std::vector<StageReport> &Stages);
+/// The same as a table, in which \p What stands for a frame ("iteration");
+/// empty without the clock.
+std::string frameText(const std::vector<StageReport> &Stages,
+                      const std::string &What = "frame");
+
 /// JSON of a sequence: throughput, each picture's latency, how long cores,
 /// rasterizers and pixel units were busy, which of them bounds the rest, and
-/// how much of their work ran beside another's. Empty without the clock.
-std::string sequenceJson(const SequenceResult &R);
-/// The same as a table.
+/// how much of their work ran beside another's. Null without the clock.
+nlohmann::ordered_json sequenceJson(const SequenceResult &R);
+/// The same as a table; empty without the clock.
 std::string sequenceText(const SequenceResult &R);
 
 } // namespace vorion::splat

@@ -56,7 +56,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
                                        const PixelGradients &U) {
   // A band of zeros has gradients too.
   const int ShDegree = S.ShDegree;
-  L.beginStage("build");
+  L.beginStage(Stage::Build);
   RenderPlan Plan = planRender(ShDegree, Options);
   for (const ProgramSpec &Program : Plan.Programs)
     L.build(Program);
@@ -65,7 +65,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   if (L.failure())
     return *L.failure();
 
-  L.beginStage("upload");
+  L.beginStage(Stage::Upload);
   const GaussianBuffers Gaussians = uploadGaussians(L, S, ShDegree);
   const cl::Buffer ByRender =
       L.allocate("pictures' gradients", 4 * U.Render.size());
@@ -78,13 +78,13 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   Pipeline Forward(L, Options, Plan.Effects);
   Forward.draw(Gaussians, C);
   BackwardPipeline Back(L, Options, Backward, ShDegree);
-  L.beginStage("upstream");
+  L.beginStage(Stage::Upstream);
   Back.setUpstream(Forward.frame(), ByRender, ByAlpha);
   Back.run(Forward);
 
-  L.beginStage("resolve");
+  L.beginStage(Stage::Resolve);
   const cl::Buffer Picture = resolve(L, Forward.frame(), Options.Background);
-  L.beginStage("read back");
+  L.beginStage(Stage::ReadBack);
   GradientResult R;
   R.Picture = readPicture(L, Forward.frame(), Picture);
   R.Gradients = readGradients(L, Back, Forward.frame(), ShDegree);

@@ -28,7 +28,7 @@ protected:
       S.Quats[4 * I] = 1;
     }
     Launcher L(*Dev, "", {});
-    L.beginStage("before");
+    L.beginStage(Stage::Blend);
     upload(L, std::vector<float>(1 << 20,
                                  std::numeric_limits<float>::quiet_NaN()));
     const auto R = takeGradients(L, S, Camera::ahead(16, 16, 16), O, {}, U);

@@ -63,7 +63,7 @@ void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   prepare(Gaussians, C);
   if (L.failure())
     return;
-  L.beginStage("blend");
+  L.beginStage(Stage::Blend);
   blend();
 }
 
@@ -72,18 +72,18 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   F.View = makeView(C, Options);
   F.View.effects = Plan.flags();
   F.Gaussians = Gaussians;
-  L.beginStage("project");
+  L.beginStage(Stage::Project);
   project();
   // What was read back says how much memory the rest needs.
   if (L.failure())
     return;
-  L.beginStage("sort by depth");
+  L.beginStage(Stage::SortByDepth);
   sortByDepth();
-  L.beginStage("count pairs");
+  L.beginStage(Stage::CountPairs);
   countPairs();
-  L.beginStage("duplicate");
+  L.beginStage(Stage::Duplicate);
   duplicate();
-  L.beginStage("sort by tile");
+  L.beginStage(Stage::SortByTile);
   sortByTile();
 }
 

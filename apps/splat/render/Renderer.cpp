@@ -77,10 +77,10 @@ Expected<Success> begin(Launcher &L, const RenderPlan &Plan, const Scene &S) {
   if (S.size() > std::numeric_limits<std::int32_t>::max())
     return Error{"", "more than 2^31 - 1 Gaussians, whose numbers have 31 bits",
                  ExitCode::LimitReached};
-  L.beginStage("build");
+  L.beginStage(Stage::Build);
   for (const ProgramSpec &Program : Plan.Programs)
     L.build(Program);
-  L.beginStage("upload");
+  L.beginStage(Stage::Upload);
   return Success{};
 }
 
@@ -91,10 +91,10 @@ RenderResult finish(Launcher &L, const RenderPlan &Plan, const Frame &F,
   const bool Resolved = Plan.Effects.done(effects::Background);
   cl::Buffer Picture = F.Pixels;
   if (Resolved) {
-    L.beginStage("resolve");
+    L.beginStage(Stage::Resolve);
     Picture = resolve(L, F, Options.Background);
   }
-  L.beginStage("read back");
+  L.beginStage(Stage::ReadBack);
   RenderResult R;
   R.Visible = F.Visible;
   R.Pairs = F.Pairs;
@@ -135,7 +135,7 @@ public:
       own(Frame);
       if (Frame != 0)
         wait(Frame - 1, Both[(Frame - 1) % 2]);
-      L.beginStage("start blending");
+      L.beginStage(Stage::StartBlending);
       P.startBlending();
       own(Frame);
       if (Frame != 0)
@@ -162,12 +162,12 @@ private:
     R.FrameOf.resize(L.stages() - FirstStage, Frame);
   }
   void wait(std::size_t Frame, Pipeline &P) {
-    L.beginStage("wait for blending");
+    L.beginStage(Stage::WaitForBlending);
     P.waitForBlending();
     own(Frame);
   }
   void end(std::size_t Frame, Pipeline &P) {
-    L.beginStage("end blending");
+    L.beginStage(Stage::EndBlending);
     P.endBlending();
     take(Frame, P);
   }
@@ -204,7 +204,7 @@ Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
   if (KeepPairs)
     R.Sorted = readPairs(L, P.frame());
   if (Plan.Effects.done(effects::Depth)) {
-    L.beginStage("depth");
+    L.beginStage(Stage::Depth);
     R.Depths = readDepths(L, P.frame(), P.drawDepths());
   }
   if (L.failure())

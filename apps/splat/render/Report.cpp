@@ -5,7 +5,6 @@
 #include "Explain.h"
 #include "FrameTime.h"
 #include "vorion/support/File.h"
-#include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
@@ -13,9 +12,9 @@
 
 namespace vorion::splat {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 Json json(const KernelCounters &C) {
   Json Object;
@@ -44,7 +43,7 @@ Json json(const StageReport &S) {
       One["counters"] = json(*K.Counters);
     Kernels.push_back(std::move(One));
   }
-  return {{"name", S.Name}, {"seconds", S.Seconds}, {"kernels", Kernels}};
+  return {{"name", name(S.Kind)}, {"seconds", S.Seconds}, {"kernels", Kernels}};
 }
 
 Json json(const std::vector<ProgramSpec> &Programs) {
@@ -74,14 +73,14 @@ Totals totals(const RenderResult &R) {
 
 } // namespace
 
-std::string stagesJson(const std::vector<StageReport> &Stages) {
+Json stagesJson(const std::vector<StageReport> &Stages) {
   Json All = Json::array();
   for (const StageReport &S : Stages)
     All.push_back(json(S));
-  return jsonText(All);
+  return All;
 }
 
-Expected<std::string> jsonReport(const RenderRecord &R) {
+Expected<Json> jsonReport(const RenderRecord &R) {
   auto SceneHash = hashScene(R.ScenePath);
   if (!SceneHash)
     return SceneHash.error();
@@ -140,7 +139,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"sh_limit", O.ShLimit},
                 {"exp", name(O.Exponential)},
                 {"blend", name(O.Arithmetic)}}},
-              {"effects", ownJson<Json>(effectsJson(R.Plan.Effects))},
+              {"effects", effectsJson(R.Plan.Effects)},
               {"programs", json(R.Plan.Programs)},
               {"device", Device},
               {"picture", R.Output},
@@ -149,7 +148,7 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
                 {"culled", Culled},
                 {"pairs", R.Result.Pairs},
                 {"device_bytes", R.Result.DeviceBytes}}},
-              {"stages", ownJson<Json>(stagesJson(R.Result.Stages))},
+              {"stages", stagesJson(R.Result.Stages)},
               {"total", Total}};
   if (R.Back) {
     auto Hash = hashFile(R.Back->Upstream);
@@ -162,9 +161,9 @@ Expected<std::string> jsonReport(const RenderRecord &R) {
       Report["backward"]["sums"] = name(R.Back->Options.Order);
     }
   }
-  if (const std::string Time = frameJson(R.Result.Stages); !Time.empty())
-    Report["time"] = ownJson<Json>(Time);
-  return jsonText(Report, 2) + "\n";
+  if (Json Time = frameJson(R.Result.Stages); !Time.is_null())
+    Report["time"] = std::move(Time);
+  return Report;
 }
 
 std::string textReport(const Camera &View, const RenderOptions &Options,
@@ -182,7 +181,7 @@ std::string textReport(const Camera &View, const RenderOptions &Options,
   Text += '\n';
   Text += fmt::format("{:<16}{:>10}{:>16}{:>18}{:>14}\n", "stage", "seconds",
                       "warp instr.", "lane instr.", "raster blends");
-  const auto Row = [&](const std::string &Name, double Seconds,
+  const auto Row = [&](std::string_view Name, double Seconds,
                        const std::optional<KernelCounters> &C) {
     Text += fmt::format("{:<16}{:>10.3f}", Name, Seconds);
     if (C)
@@ -191,7 +190,7 @@ std::string textReport(const Camera &View, const RenderOptions &Options,
     Text += '\n';
   };
   for (const StageReport &S : Result.Stages)
-    Row(S.Name, S.Seconds, sum(S.Kernels));
+    Row(name(S.Kind), S.Seconds, sum(S.Kernels));
   const Totals T = totals(Result);
   Row("total", T.Seconds, T.Counters);
   return Text + frameText(Result.Stages);

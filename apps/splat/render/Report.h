@@ -5,6 +5,7 @@
 #include "Backward.h"
 #include "Renderer.h"
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -31,10 +32,10 @@ struct RenderRecord {
 /// JSON with inputs and their hashes, options, programs, device with its
 /// configuration, versions, counts, and time and counters of every stage and
 /// kernel. Fails if an input cannot be read again.
-Expected<std::string> jsonReport(const RenderRecord &R);
+Expected<nlohmann::ordered_json> jsonReport(const RenderRecord &R);
 
 /// JSON array of stages: seconds, kernels with launches and counters.
-std::string stagesJson(const std::vector<StageReport> &Stages);
+nlohmann::ordered_json stagesJson(const std::vector<StageReport> &Stages);
 
 /// A short table.
 std::string textReport(const Camera &View, const RenderOptions &Options,

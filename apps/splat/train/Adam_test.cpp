@@ -30,7 +30,7 @@ protected:
 
 TEST_F(AdamOnDevice, StepsAreTheReferences) {
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build(adamProgram());
   const std::size_t GeometrySize = std::size_t{GEOMETRY_PLANES} * Count;
   const std::size_t ShSize = 3 * shCoefficients(Degree) * Count;
@@ -81,7 +81,7 @@ TEST_F(AdamOnDevice, StepsAreTheReferences) {
 /// gradients are subnormal or 0 in fp32, and epsilon then decides.
 TEST_F(AdamOnDevice, GradientsAtTheEndsOfTheRangeStepAsTheReference) {
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build(adamProgram());
   const float Cases[] = {0.0F,   1e-45F, 1e-38F,  1e-30F, 1e-23F,
                          1e-22F, 1e-20F, 1e-19F,  1e-17F, 1e-15F,

@@ -5,7 +5,6 @@
 #include "../io/Mean.h"
 #include "../render/FrameTime.h"
 #include "../render/Report.h"
-#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +13,9 @@
 
 namespace vorion::splat {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 /// Of a sample; 0 for one value.
 double deviationOf(const std::vector<double> &Values) {
@@ -41,10 +40,10 @@ bool isTimed(std::uint64_t Seed, unsigned Every, unsigned Iteration) {
 }
 
 bool ClockSamples::add(TimedIteration T) {
-  const std::string Time = frameJson(T.Stages);
-  if (Time.empty())
+  const auto Time = frameMilliseconds(T.Stages);
+  if (!Time)
     return false;
-  Milliseconds.push_back(ownJson<Json>(Time)["frame_ms"].get<double>());
+  Milliseconds.push_back(Time->all());
   All.push_back(std::move(T));
   return true;
 }
@@ -63,15 +62,15 @@ std::string ClockSamples::lastByStage() const {
   return frameText(All.back().Stages, "iteration");
 }
 
-std::string ClockSamples::json() const {
+Json ClockSamples::json() const {
   Json J = Json::array();
   for (const TimedIteration &T : All)
     J.push_back({{"iteration", T.Number},
                  {"gaussians", T.Gaussians},
                  {"list_lengths", T.ListLengths},
-                 {"stages", ownJson<Json>(stagesJson(T.Stages))},
-                 {"time", ownJson<Json>(frameJson(T.Stages))}});
-  return jsonText(J);
+                 {"stages", stagesJson(T.Stages)},
+                 {"time", frameJson(T.Stages)}});
+  return J;
 }
 
 } // namespace vorion::splat

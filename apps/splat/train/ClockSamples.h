@@ -4,6 +4,7 @@
 #include "../device/Launcher.h"
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,7 @@ public:
   std::string lastByStage() const;
   /// JSON array, an iteration each: number, Gaussians, list lengths, stages
   /// with kernels and counters, and time.
-  std::string json() const;
+  nlohmann::ordered_json json() const;
 
 private:
   std::vector<TimedIteration> All;

@@ -70,7 +70,7 @@ protected:
   }
 
   void build(Launcher &L) {
-    L.beginStage("test");
+    L.beginStage(Stage::Blend);
     for (const ProgramSpec &P : densityPrograms())
       L.build(P);
   }

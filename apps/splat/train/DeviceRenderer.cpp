@@ -30,7 +30,7 @@ DeviceRenderer::DeviceRenderer(Launcher &Launch, Rules Convention,
 }
 
 void DeviceRenderer::build(int ShDegree) {
-  L.beginStage("build");
+  L.beginStage(Stage::Build);
   for (const ProgramSpec &P : planRender(ShDegree, Options).Programs)
     L.build(P);
   for (const ProgramSpec &P : planBackward(ShDegree, Options, Choice))
@@ -44,7 +44,7 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
   if (BuiltDegree != ShDegree)
     build(ShDegree);
   Drawing.draw({S.Parameters.Geometry, S.Parameters.Sh, S.Count}, C);
-  L.beginStage("resolve");
+  L.beginStage(Stage::Resolve);
   Picture = resolve(L, Drawing.frame(), Options.Background);
   return Picture;
 }
@@ -52,7 +52,7 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
 std::vector<std::uint32_t> DeviceRenderer::listLengths() {
   const Frame &F = Drawing.frame();
   std::vector<std::array<std::uint32_t, 2>> Ranges(F.tiles());
-  L.beginStage("read back");
+  L.beginStage(Stage::ReadBack);
   L.read("lists' places", Ranges.data(), F.Ranges, 8 * Ranges.size());
   std::vector<std::uint32_t> Lengths;
   Lengths.reserve(Ranges.size());
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> DeviceRenderer::listLengths() {
 GradientRenderer::Backward DeviceRenderer::backward(const cl::Buffer &ByRender,
                                                     const cl::Buffer &ByAlpha) {
   const Frame &F = Drawing.frame();
-  L.beginStage("upstream");
+  L.beginStage(Stage::Upstream);
   Back->setUpstream(F, ByRender, ByAlpha);
   Back->run(Drawing);
   return {{Back->gradients(), Back->shGradients()},

@@ -103,7 +103,7 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     }
     const auto B = reference::renderBackward(G, Pose, U, O);
 
-    L.beginStage("test");
+    L.beginStage(Stage::Blend);
     DeviceRenderer R(L, Convention, Blending, {}, Background);
     DeviceScene D = DeviceScene::upload(L, S);
     const cl::Buffer Picture = R.forward(D, C, K.ShDegree);

@@ -22,7 +22,7 @@ protected:
   /// Four floats a pixel; the fourth must not matter.
   Result run(const std::vector<float> &Picture, const Photo &Target) {
     Launcher L(*Dev, "", {});
-    L.beginStage("test");
+    L.beginStage(Stage::Blend);
     L.build(lossProgram());
     PictureLoss Loss(L, 0.2);
     Result R;
@@ -102,7 +102,7 @@ TEST_F(LossOnDevice, ConstantPicturesHaveTheReferencesGradient) {
 
 TEST_F(LossOnDevice, LaterPicturesMayBeSmallerOrLarger) {
   Launcher L(*Dev, "", {});
-  L.beginStage("test");
+  L.beginStage(Stage::Blend);
   L.build(lossProgram());
   PictureLoss Loss(L, 0.2);
   std::vector<double> Values;

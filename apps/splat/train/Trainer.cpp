@@ -31,7 +31,7 @@ Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
       Batch(Launch, Processes, Density, What.Batch) {}
 
 void Trainer::start(const Scene &From) {
-  L.beginStage("upload");
+  L.beginStage(Stage::Upload);
   S = DeviceScene::upload(L, From);
   Density.restart(S.Count);
   Done = 0;
@@ -39,7 +39,7 @@ void Trainer::start(const Scene &From) {
 }
 
 void Trainer::restore(const Checkpoint &C) {
-  L.beginStage("upload");
+  L.beginStage(Stage::Upload);
   S = DeviceScene();
   S.Count = static_cast<std::uint32_t>(C.gaussians());
   S.ShDegree = C.ShDegree;
@@ -60,7 +60,7 @@ void Trainer::restore(const Checkpoint &C) {
 }
 
 Checkpoint Trainer::save() {
-  L.beginStage("read back");
+  L.beginStage(Stage::ReadBack);
   Checkpoint C;
   C.Iteration = Done;
   C.ShDegree = S.ShDegree;
@@ -83,7 +83,7 @@ Checkpoint Trainer::save() {
 
 ViewBatch::Given Trainer::take(const TrainView &V, int ShDegree) {
   const cl::Buffer Picture = Renderer.forward(S, V.Pose, ShDegree);
-  L.beginStage("loss");
+  L.beginStage(Stage::Loss);
   const LossValues Values = Loss.evaluate(Picture, V.Picture);
   return {Values, Renderer.backward(Loss.gradient(), Loss.alphaGradient())};
 }
@@ -93,7 +93,7 @@ ViewBatch::Given Trainer::take(const TrainView &V, int ShDegree) {
 /// ends with it. (INRIA's trainer saves before the change, too, but makes it
 /// before the step, which the new Gaussians and their neighbours then miss.)
 std::optional<DensityChange> Trainer::changeDensity() {
-  L.beginStage("density control");
+  L.beginStage(Stage::DensityControl);
   std::optional<DensityChange> Change;
   if (densifiesAt(Run.Settings, Done))
     Change = Density.densify(S, Done);
@@ -144,7 +144,7 @@ StepReport Trainer::step() {
                         "the scene has become none",
                         R.Iteration, R.Loss.Value),
             ExitCode::GuestFailed});
-  L.beginStage("Adam");
+  L.beginStage(Stage::Adam);
   stepAdam(L, Settings, S, Batch.gradients(), R.Iteration, Run.Extent, Degree);
   if (!goesOn())
     return R;
@@ -155,14 +155,14 @@ StepReport Trainer::step() {
 }
 
 Scene Trainer::scene() {
-  L.beginStage("read back");
+  L.beginStage(Stage::ReadBack);
   return S.download(L);
 }
 
 Photo Trainer::render(const Camera &C) {
   const int Degree = shDegreeAt(Run.Settings, Done, S.ShDegree);
   const cl::Buffer Picture = Renderer.forward(S, C, Degree);
-  L.beginStage("read back");
+  L.beginStage(Stage::ReadBack);
   Photo P{C.Width, C.Height, {}};
   const std::size_t Pixels =
       static_cast<std::size_t>(C.Width) * static_cast<std::size_t>(C.Height);

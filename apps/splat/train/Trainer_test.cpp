@@ -192,7 +192,7 @@ protected:
   }
 
   void build(Launcher &L) {
-    L.beginStage("test");
+    L.beginStage(Stage::Blend);
     for (const ProgramSpec &P : Trainer::programs())
       L.build(P);
   }

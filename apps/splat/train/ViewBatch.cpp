@@ -56,11 +56,11 @@ void ViewBatch::addOwn(const Given &Mine) {
   if (Views == 1) {
     Sum = Mine.Back.Gradients; // nothing to add up
   } else {
-    L.beginStage("views' sum");
+    L.beginStage(Stage::ViewsSum);
     addGradients(Mine.Back.Gradients);
   }
   if (Notes) {
-    L.beginStage("density control");
+    L.beginStage(Stage::DensityControl);
     Density.note(Mine.Back.Seen, Gaussians);
   }
   addTo(Losses, Mine.Loss);
@@ -68,7 +68,7 @@ void ViewBatch::addOwn(const Given &Mine) {
 }
 
 void ViewBatch::addShared(const Given *Mine, unsigned Count) {
-  L.beginStage("views' sum");
+  L.beginStage(Stage::ViewsSum);
   // Sized alike in all processes whether or not the device failed in one.
   std::vector<float> Geometry(GeometrySize), Sh(ShSize);
   DensityNotes Of;

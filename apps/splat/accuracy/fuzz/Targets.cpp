@@ -7,7 +7,7 @@
 
 #include "io/Hash.h"
 #include "train/Checkpoint.h"
-#include "train/RunText.h"
+#include "train/RunRecord.h"
 #include "vorion/support/File.h"
 #include "vorion/support/TemporaryFolder.h"
 
@@ -173,7 +173,7 @@ void tryCheckpoint(std::string_view Text, std::size_t &Whole) {
   require(Read->Losses.size() == Read->Iteration);
   require(Read->Sh.size() % 3 == 0);
   require(Read->Identities.size() == Read->gaussians());
-  if (const auto Same = checkSameRun("input", Read->Run, R"({"seed":3})");
+  if (const auto Same = checkSameRun("input", Read->Run, Json{{"seed", 3}});
       !Same)
     requireOneLine(Same.error().What);
 }

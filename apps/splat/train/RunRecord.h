@@ -7,6 +7,7 @@
 #include "Trainer.h"
 
 #include <array>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace vorion::splat {
@@ -21,16 +22,18 @@ struct PictureSource {
 /// Of the points that training starts from.
 std::string hashPoints(const CapturePoints &Points);
 
-/// One line of JSON that differs where results would: pictures, poses and first
+/// JSON that differs where results would: pictures, poses and first
 /// points (by hash), settings, seed, spherical harmonics, who renders. The
 /// number of iterations is not part of it, so that a run can go on for longer.
-std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
-                    const PictureSource &Source, int ShDegree, Rules Convention,
-                    const Blender &By, const BackwardOptions &Backward);
+nlohmann::ordered_json runRecord(const TrainRun &Run,
+                                 const TrainingSet &Pictures,
+                                 const PictureSource &Source, int ShDegree,
+                                 Rules Convention, const Blender &By,
+                                 const BackwardOptions &Backward);
 
 /// An Error of usage that names the first thing in which \p Wanted differs from
-/// what \p File was written for, or nothing.
+/// what \p File was written for, the text \p Has, or nothing.
 Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
-                               const std::string &Wanted);
+                               const nlohmann::ordered_json &Wanted);
 
 } // namespace vorion::splat

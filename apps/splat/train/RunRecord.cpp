@@ -1,4 +1,4 @@
-#include "RunText.h"
+#include "RunRecord.h"
 
 #include "Hash.h"
 #include "vorion/support/Json.h"
@@ -47,9 +47,9 @@ std::string hashPoints(const CapturePoints &Points) {
   return fnv1a64(All);
 }
 
-std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
-                    const PictureSource &Source, int ShDegree, Rules Convention,
-                    const Blender &By, const BackwardOptions &Backward) {
+Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
+               const PictureSource &Source, int ShDegree, Rules Convention,
+               const Blender &By, const BackwardOptions &Backward) {
   const TrainSettings &S = Run.Settings;
   Json J{
       {"capture", Source.Format},
@@ -84,19 +84,18 @@ std::string runText(const TrainRun &Run, const TrainingSet &Pictures,
     J["points"] = Run.Points;
   else
     J["from"] = Run.From;
-  return jsonText(J);
+  return J;
 }
 
 Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
-                               const std::string &Wanted) {
-  if (Has == Wanted)
+                               const Json &Wanted) {
+  if (Has == jsonText(Wanted))
     return Success{};
   const auto Read = parseJson<Json>(Has, File, "a run's settings");
   if (!Read)
     return Read.error();
   const Json &A = *Read;
-  const Json B = ownJson<Json>(Wanted);
-  for (const auto &[Key, Value] : B.items())
+  for (const auto &[Key, Value] : Wanted.items())
     if (!A.is_object() || !A.contains(Key) || A[Key] != Value)
       return Error{File,
                    fmt::format("a checkpoint of another run: {} is {}, "

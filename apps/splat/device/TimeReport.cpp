@@ -1,0 +1,189 @@
+#include "TimeReport.h"
+
+#include "vorion/support/Json.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// \name The members of a report with their keys, in the report's order
+/// Reading and writing follow from these.
+/// @{
+template <typename Count, typename Visitor>
+void visit(UnitCounts<Count> &U, const Visitor &Visit) {
+  for (std::size_t I = 0; I != U.Values.size(); ++I)
+    Visit(CountNames<Count>[I], U.Values[I]);
+}
+
+template <typename Visitor> void visit(HostTiming &H, const Visitor &Visit) {
+  Visit("launch_ns", H.LaunchNs);
+  Visit("copy_ns", H.CopyNs);
+  Visit("copy_mbps", H.CopyMbps);
+  Visit("dram_burst_bytes", H.DramBurstBytes);
+}
+
+template <typename Visitor> void visit(LaneAreas &A, const Visitor &Visit) {
+  Visit("exp", A.Exponential);
+  Visit("blend", A.Blend);
+  Visit("reciprocal", A.Reciprocal);
+  Visit("other", A.Other);
+}
+
+template <typename Visitor> void visit(Activity &A, const Visitor &Visit) {
+  Visit("unit", A.Unit);
+  Visit("event", A.Event);
+  Visit("count", A.Count);
+}
+
+template <typename Visitor> void visit(TimeReport &R, const Visitor &Visit) {
+  Visit("cycles", R.Cycles);
+  Visit("clock_mhz", R.ClockMhz);
+  Visit("host", R.Host);
+  Visit("lane_areas", R.Areas);
+  Visit("cores", R.Cores);
+  Visit("rasterizers", R.Rasterizers);
+  Visit("pixel_units", R.PixelUnits);
+  Visit("l2", R.L2);
+  Visit("llc", R.Llc);
+  Visit("dram", R.Dram);
+  Visit("activities", R.Activities);
+  Visit("commands_left", R.CommandsLeft);
+  Visit("out_of_order", R.OutOfOrder);
+}
+/// @}
+
+class Reader {
+public:
+  void read(const Json &From, std::uint64_t &To) {
+    if (expect(From.is_number_unsigned(), "a count"))
+      To = From.get<std::uint64_t>();
+  }
+  void read(const Json &From, unsigned &To) {
+    std::uint64_t Wide = 0;
+    read(From, Wide);
+    if (expect(Wide <= std::numeric_limits<unsigned>::max(), "32 bits"))
+      To = static_cast<unsigned>(Wide);
+  }
+  void read(const Json &From, double &To) {
+    if (expect(From.is_number(), "a number"))
+      To = From.get<double>();
+  }
+  void read(const Json &From, std::string &To) {
+    if (expect(From.is_string(), "a text"))
+      To = From.get<std::string>();
+  }
+  template <typename T> void read(const Json &From, std::vector<T> &To) {
+    if (!expect(From.is_array(), "a list"))
+      return;
+    To.resize(From.size());
+    for (std::size_t I = 0; I != To.size(); ++I)
+      read(From[I], To[I]);
+  }
+  template <typename T> void read(const Json &From, T &To) {
+    if (!expect(From.is_object(), "an object"))
+      return;
+    std::size_t Known = 0;
+    visit(To, [&](std::string_view Key, auto &Member) {
+      const std::string Outer = Where;
+      Where += fmt::format("/{}", Key);
+      const auto Found = From.find(std::string(Key));
+      if (expect(Found != From.end(), "this member"))
+        read(*Found, Member);
+      Where = Outer;
+      ++Known;
+    });
+    expect(From.size() == Known, fmt::format("{} members", Known));
+  }
+
+  /// The first thing that is wrong, or nothing.
+  const std::optional<Error> &problem() const { return Problem; }
+
+private:
+  bool expect(bool IsSo, std::string_view What) {
+    if (!IsSo && !Problem)
+      Problem = Error{
+          "the device's time report",
+          fmt::format("{}: expected {}", Where.empty() ? "/" : Where, What)};
+    return IsSo;
+  }
+
+  std::string Where;
+  std::optional<Error> Problem;
+};
+
+template <typename T> Json written(T &Value);
+template <typename T> Json written(std::vector<T> &Values) {
+  Json J = Json::array();
+  for (T &Value : Values)
+    J.push_back(written(Value));
+  return J;
+}
+template <typename T> Json written(T &Value) {
+  if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
+    return Value;
+  } else {
+    Json J;
+    visit(Value, [&J](std::string_view Key, auto &Member) {
+      J[std::string(Key)] = written(Member);
+    });
+    return J;
+  }
+}
+
+/// Of units in their order; those of one machine are as many.
+template <typename T>
+void addEach(std::vector<T> &To, const std::vector<T> &Of) {
+  for (std::size_t I = 0; I != std::min(To.size(), Of.size()); ++I)
+    To[I] += Of[I];
+}
+
+} // namespace
+
+TimeReport &TimeReport::operator+=(const TimeReport &Later) {
+  Cycles += Later.Cycles;
+  addEach(Cores, Later.Cores);
+  addEach(Rasterizers, Later.Rasterizers);
+  addEach(PixelUnits, Later.PixelUnits);
+  addEach(L2, Later.L2);
+  Llc += Later.Llc;
+  Dram += Later.Dram;
+  for (std::size_t I = 0;
+       I != std::min(Activities.size(), Later.Activities.size()); ++I)
+    Activities[I].Count += Later.Activities[I].Count;
+  CommandsLeft = Later.CommandsLeft;
+  OutOfOrder += Later.OutOfOrder;
+  return *this;
+}
+
+void add(std::optional<TimeReport> &Sum,
+         const std::optional<TimeReport> &Later) {
+  if (!Sum)
+    Sum = Later;
+  else if (Later)
+    *Sum += *Later;
+}
+
+Expected<TimeReport> parseTimeReport(std::string_view Text) {
+  const auto Whole =
+      parseJson<Json>(Text, "the device's time report", "an object");
+  if (!Whole)
+    return Whole.error();
+  TimeReport R;
+  Reader In;
+  In.read(*Whole, R);
+  if (In.problem())
+    return *In.problem();
+  return R;
+}
+
+Json toJson(TimeReport R) { return written(R); }
+
+} // namespace vorion::splat
