@@ -48,35 +48,43 @@ std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
                                      const std::vector<Candidate> &All,
                                      double FloorDb, std::size_t Most) {
   // Values by what they save, so that the first is the first to go.
-  std::vector<std::tuple<double, std::string, std::string>> Kept;
+  struct KeptValue {
+    double Saving;
+    std::string Name, Text; // of equal savings these decide
+    KnobId Of;
+    std::size_t Value;
+  };
+  std::vector<KeptValue> Kept;
   for (const Knob &K : Knobs) {
     std::vector<Candidate> Own;
     for (const Candidate &C : All)
       if (C.Chosen.size() == 0 ||
-          (C.Chosen.size() == 1 && C.Chosen.value(K.Name) != K.Values.front()))
+          (C.Chosen.size() == 1 && C.Chosen.place(K.Id) != 0))
         Own.push_back(C);
-    std::map<std::string, double> Savings;
+    std::map<std::size_t, double> Savings;
     for (const TimeAxis A :
          {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
       for (const std::size_t I : paretoFront(Own, A))
         if (Own[I].Chosen.size() == 1 && Own[I].Db >= FloorDb) {
-          double &Saved = Savings[Own[I].Chosen.value(K.Name)];
+          double &Saved = Savings[Own[I].Chosen.place(K.Id)];
           if (Own.front().Chosen.size() == 0 && Own.front().time(A))
             Saved = std::max(Saved, 1 - *Own[I].time(A) / *Own.front().time(A));
         }
     for (const auto &[Value, Saving] : Savings)
-      Kept.emplace_back(Saving, K.Name, Value);
+      Kept.push_back({Saving, K.Name, K.Values[Value], K.Id, Value});
   }
-  std::sort(Kept.begin(), Kept.end());
+  std::ranges::sort(Kept, {}, [](const KeptValue &V) {
+    return std::tie(V.Saving, V.Name, V.Text);
+  });
 
   const auto Product = [&] {
     std::vector<Setting> Settings{Setting()};
     for (const Knob &K : Knobs) {
       const std::vector<Setting> Before = Settings;
-      for (const auto &[Saving, Name, Value] : Kept)
-        if (Name == K.Name)
+      for (const KeptValue &V : Kept)
+        if (V.Of == K.Id)
           for (const Setting &S : Before)
-            Settings.push_back(S.with(K, Value));
+            Settings.push_back(S.with(K, V.Value));
     }
     std::erase_if(Settings, [](const Setting &S) { return S.size() < 2; });
     return Settings;

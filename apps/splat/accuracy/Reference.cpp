@@ -13,13 +13,14 @@ namespace {
 
 std::string referenceFile(const SweepPlan &P, const Point &Of) {
   return fmt::format("{}/references/{}-{}.npz", P.Folder,
-                     asFileName(Of.View->Name), Of.Chosen.value("support"));
+                     asFileName(Of.View->Name),
+                     Of.Chosen.value(KnobId::Support));
 }
 
 reference::Support supportOf(const Setting &S) {
   for (const reference::Support R :
        {reference::Support::Box3, reference::Support::Square3})
-    if (name(R) == S.value("support"))
+    if (name(R) == S.value(KnobId::Support))
       return R;
   return reference::Support::Exact;
 }

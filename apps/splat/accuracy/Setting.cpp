@@ -1,53 +1,81 @@
 #include "Setting.h"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sstream>
 
 namespace vorion::splat {
 
+/// The values of a knob whose choices are an enumeration's.
+template <typename Choices>
+static std::vector<std::string> namesOf(const Choices &Of) {
+  std::vector<std::string> Names;
+  for (const auto One : Of)
+    Names.emplace_back(name(One));
+  return Names;
+}
+
+constexpr std::array ExpChoices{
+    ExpUnit::Exact,   ExpUnit::Table,  ExpUnit::Table32,
+    ExpUnit::Table64, ExpUnit::Poly2,  ExpUnit::Poly3,
+    ExpUnit::Poly4,   ExpUnit::Linear, ExpUnit::Schraudolph};
+constexpr std::array BlendChoices{BlendUnit::Fp32, BlendUnit::Bf16,
+                                  BlendUnit::Fp16};
+
 const std::vector<Knob> &allKnobs() {
   static const std::vector<Knob> All{
-      {"exp",
-       {"exact", "table", "table32", "table64", "poly2", "poly3", "poly4",
-        "linear", "schraudolph"},
-       "exp"},
-      {"blend", {"fp32", "bf16", "fp16"}, ""},
-      {"alpha-cutoff", {"1", "2", "4", "8"}, "alpha-cutoff"},
-      {"cutoff", {"0.0001", "0.001", "0.003", "0.01", "0.03"}, "cutoff"},
-      {"tile", {"64", "32", "16"}, ""},
-      {"support", {"exact", "box3", "square3"}, "support"},
-      {"sh-degree", {"3", "2", "1", "0"}, "sh-degree"},
-      {"depth-bits", {"32", "24", "20", "16", "12"}, "depth-bits"},
-      {"ztiles", {"1", "2", "4", "8"}, ""},
-      {"pixel-unit", {"off", "last:1/4", "last:1/2", "occluded:0.9"}, ""},
-      {"skip-saturated", {"off", "on"}, ""},
+      {KnobId::Exp, "exp", namesOf(ExpChoices), "exp"},
+      {KnobId::Blend, "blend", namesOf(BlendChoices), ""},
+      {KnobId::AlphaCutoff,
+       "alpha-cutoff",
+       {"1", "2", "4", "8"},
+       "alpha-cutoff"},
+      {KnobId::Cutoff,
+       "cutoff",
+       {"0.0001", "0.001", "0.003", "0.01", "0.03"},
+       "cutoff"},
+      {KnobId::Tile, "tile", {"64", "32", "16"}, ""},
+      {KnobId::Support, "support", {"exact", "box3", "square3"}, "support"},
+      {KnobId::ShDegree, "sh-degree", {"3", "2", "1", "0"}, "sh-degree"},
+      {KnobId::DepthBits,
+       "depth-bits",
+       {"32", "24", "20", "16", "12"},
+       "depth-bits"},
+      {KnobId::ZTiles, "ztiles", {"1", "2", "4", "8"}, ""},
+      {KnobId::PixelUnit,
+       "pixel-unit",
+       {"off", "last:1/4", "last:1/2", "occluded:0.9"},
+       ""},
+      {KnobId::SkipSaturated, "skip-saturated", {"off", "on"}, ""},
   };
   return All;
 }
 
 const std::vector<Knob> &trainKnobs() {
   static const std::vector<Knob> All{
-      {"reciprocal",
+      {KnobId::Reciprocal,
+       "reciprocal",
        {"exact", "even-left", "even-best", "log-left", "log-best", "mantissa-2",
         "mantissa-3"},
        ""},
-      {"sum", {"tree", "rows"}, ""},
+      {KnobId::Sum, "sum", {"tree", "rows"}, ""},
   };
   return All;
 }
 
-static const Knob *findIn(const std::vector<Knob> &Knobs,
-                          const std::string &Name) {
-  for (const Knob &K : Knobs)
-    if (K.Name == Name)
-      return &K;
-  return nullptr;
+const Knob &knob(KnobId Id) {
+  const auto Found = std::ranges::find(allKnobs(), Id, &Knob::Id);
+  return Found != allKnobs().end()
+             ? *Found
+             : *std::ranges::find(trainKnobs(), Id, &Knob::Id);
 }
 
-static bool isValue(const Knob &K, const std::string &Value) {
-  return std::find(K.Values.begin(), K.Values.end(), Value) != K.Values.end();
+static const Knob *findIn(const std::vector<Knob> &Knobs,
+                          const std::string &Name) {
+  const auto Found = std::ranges::find(Knobs, Name, &Knob::Name);
+  return Found == Knobs.end() ? nullptr : &*Found;
 }
 
 static std::string knobNames() {
@@ -73,17 +101,30 @@ Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names) {
   return Found;
 }
 
-Setting Setting::with(const Knob &K, const std::string &Value) const {
+/// Reads "exp=poly3"; nothing if that is no choice.
+static std::optional<Choice> choiceOf(const std::string &Text) {
+  const std::size_t Equals = Text.find('=');
+  const Knob *K = findIn(allKnobs(), Text.substr(0, Equals));
+  if (!K || Equals == std::string::npos)
+    return std::nullopt;
+  const auto Value = std::ranges::find(K->Values, Text.substr(Equals + 1));
+  if (Value == K->Values.end())
+    return std::nullopt;
+  return Choice{K->Id, static_cast<std::size_t>(Value - K->Values.begin())};
+}
+
+Setting Setting::with(const Knob &K, std::size_t Value) const {
   Setting S = *this;
-  if (Value != K.Values.front())
-    S.Choices.emplace_back(K.Name, Value);
+  if (Value != 0)
+    S.Choices.push_back({K.Id, Value});
   return S;
 }
 
 std::string Setting::name() const {
   std::string Text;
-  for (const auto &[Name, Value] : Choices)
-    Text += fmt::format("{}{}={}", Text.empty() ? "" : ",", Name, Value);
+  for (const Choice &C : Choices)
+    Text += fmt::format("{}{}={}", Text.empty() ? "" : ",", knob(C.Of).Name,
+                        value(C.Of));
   return Text.empty() ? "default" : Text;
 }
 
@@ -97,35 +138,35 @@ Expected<Setting> Setting::parse(const std::string &Name) {
   };
   if (Name == "default")
     return Setting();
-  std::vector<std::pair<const Knob *, std::string>> Parts;
+  std::vector<Choice> Parts;
   std::istringstream In(Name);
   for (std::string Part; std::getline(In, Part, ',');) {
-    const std::size_t Equals = Part.find('=');
-    const Knob *K = findIn(allKnobs(), Part.substr(0, Equals));
-    if (Equals == std::string::npos || !K ||
-        !isValue(*K, Part.substr(Equals + 1)))
+    const auto Found = choiceOf(Part);
+    if (!Found)
       return Wrong(fmt::format("'{}' is no choice", Part));
-    Parts.emplace_back(K, Part.substr(Equals + 1));
+    Parts.push_back(*Found);
   }
-  // One order, so that a setting has one name; knobs lie in one array.
-  std::sort(Parts.begin(), Parts.end());
+  // One order, so that a setting has one name.
+  std::ranges::sort(Parts, {}, &Choice::Of);
   Setting S;
   for (std::size_t I = 0; I < Parts.size(); ++I) {
-    if (I > 0 && Parts[I - 1].first == Parts[I].first)
-      return Wrong(fmt::format("{} is there twice", Parts[I].first->Name));
-    S = S.with(*Parts[I].first, Parts[I].second);
+    const Knob &K = knob(Parts[I].Of);
+    if (I > 0 && Parts[I - 1].Of == Parts[I].Of)
+      return Wrong(fmt::format("{} is there twice", K.Name));
+    S = S.with(K, Parts[I].Value);
   }
   return S;
 }
 
-std::string Setting::value(const std::string &Name) const {
-  for (const auto &[Chosen, Value] : Choices)
-    if (Chosen == Name)
-      return Value;
-  const Knob *K = findIn(allKnobs(), Name);
-  if (!K)
-    K = findIn(trainKnobs(), Name);
-  return K ? K->Values.front() : std::string();
+std::size_t Setting::place(KnobId Id) const {
+  const auto Found = std::ranges::find(Choices, Id, &Choice::Of);
+  return Found == Choices.end() ? 0 : Found->Value;
+}
+
+ExpUnit Setting::exponential() const { return ExpChoices[place(KnobId::Exp)]; }
+
+BlendUnit Setting::arithmetic() const {
+  return BlendChoices[place(KnobId::Blend)];
 }
 
 /// A flag has the values off and on.
@@ -138,18 +179,20 @@ static void append(std::vector<std::string> &To, const std::string &Option,
 
 std::vector<std::string> Setting::arguments() const {
   std::vector<std::string> Out{"--path", "raster"};
-  for (const auto &[Name, Value] : Choices)
-    append(Out, Name, Value);
+  for (const Choice &C : Choices)
+    append(Out, knob(C.Of).Name, value(C.Of));
   return Out;
 }
 
 std::optional<std::vector<std::string>> Setting::coresArguments() const {
   std::vector<std::string> Out{"--path", "simt"};
-  for (const auto &[Name, Value] : Choices) {
-    const Knob *K = findIn(allKnobs(), Name);
-    if (K->CoresName.empty() || (Name == "exp" && Value.starts_with("table")))
+  if (hasTable(exponential()))
+    return std::nullopt;
+  for (const Choice &C : Choices) {
+    const std::string &Option = knob(C.Of).CoresName;
+    if (Option.empty())
       return std::nullopt;
-    append(Out, K->CoresName, Value);
+    append(Out, Option, value(C.Of));
   }
   return Out;
 }
@@ -158,7 +201,7 @@ std::vector<Setting> oneAtATime(const std::vector<Knob> &Knobs) {
   std::vector<Setting> All{Setting()};
   for (const Knob &K : Knobs)
     for (std::size_t V = 1; V < K.Values.size(); ++V)
-      All.push_back(Setting().with(K, K.Values[V]));
+      All.push_back(Setting().with(K, V));
   return All;
 }
 

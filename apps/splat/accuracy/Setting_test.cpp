@@ -15,8 +15,8 @@ TEST(Setting, NamesAreReadBackInAnyOrder) {
   const auto S = Setting::parse("tile=32,exp=poly3");
   ASSERT_TRUE(S);
   EXPECT_EQ(S->name(), "exp=poly3,tile=32");
-  EXPECT_EQ(S->value("tile"), "32");
-  EXPECT_EQ(S->value("blend"), "fp32");
+  EXPECT_EQ(S->value(KnobId::Tile), "32");
+  EXPECT_EQ(S->value(KnobId::Blend), "fp32");
   EXPECT_EQ(*Setting::parse(S->name()), *S);
   EXPECT_EQ(Setting::parse("exp=exact")->name(), "default");
   EXPECT_EQ(Setting::parse("default")->size(), 0U);

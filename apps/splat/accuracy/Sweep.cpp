@@ -1,7 +1,6 @@
 #include "Sweep.h"
 
 #include "../io/Metrics.h"
-#include "../picture/Options.h"
 #include "Points.h"
 #include "Process.h"
 #include "Reference.h"
@@ -88,17 +87,13 @@ Expected<Json> PointMeasurement::errors(const ExactImage &Picture,
 }
 
 double laneArea(const Json &Areas, const Setting &S) {
-  const auto Of = [&](const char *Knob,
-                      const std::vector<std::string> &ByNumber) {
-    const auto Place =
-        std::find(ByNumber.begin(), ByNumber.end(), S.value(Knob));
-    return Areas[Knob]
-        .at(static_cast<std::size_t>(Place - ByNumber.begin()))
-        .get<double>();
+  const auto Of = [&Areas](const char *Units, auto Unit) {
+    return Areas[Units]
+        .at(static_cast<std::size_t>(Unit))
+        .template get<double>();
   };
-  std::vector<std::string> Exps(ExpUnitNames.begin(), ExpUnitNames.end());
-  return Areas["other"].get<double>() + Of("exp", Exps) +
-         Of("blend", {"fp32", "bf16", "fp16"});
+  return Areas["other"].get<double>() + Of("exp", S.exponential()) +
+         Of("blend", S.arithmetic());
 }
 
 /// Cycles in which the busiest rasterizer gives pixels to lanes.

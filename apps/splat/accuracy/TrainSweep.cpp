@@ -103,7 +103,7 @@ makeReference(const TrainSweepPlan &P,
 std::vector<std::string> unitArguments(const Setting &S) {
   std::vector<std::string> Words;
   for (const Knob &K : trainKnobs())
-    Words.insert(Words.end(), {"--" + K.Name, S.value(K.Name)});
+    Words.insert(Words.end(), {"--" + K.Name, S.value(K.Id)});
   return Words;
 }
 
@@ -158,7 +158,7 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   const auto Units = unitArguments(Of.Chosen);
   Words.insert(Words.end(), Units.begin(), Units.end());
   Words.insert(Words.end(),
-               {"--seed", Of.At.substr(4), "--time", "--time-every",
+               {"--seed", std::to_string(*Of.Seed), "--time", "--time-every",
                 std::to_string(P.TimeEvery), "--score-every",
                 std::to_string(P.ScoreEvery), "--json", Base + ".json"});
   if (auto Done = runSplat(Words, Base + ".log"); !Done)
@@ -181,7 +181,7 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   for (const char *Key : {"losses", "scores", "seconds", "timed"})
     Report->erase(Key);
   return Json{{"setting", Of.Chosen.name()},
-              {"seed", Of.At},
+              {"seed", Of.at()},
               {"psnr8_db", (*Report)["psnr8_db"]},
               {"timed", Samples},
               {"cycles", Samples == 0 ? 0.0 : Cycles / double(Samples)},
@@ -212,7 +212,7 @@ bool isMeasurement(const Json &J) {
        {"psnr8_db", Number},
        {"cycles", Number},
        {"reciprocal_um2",
-        JsonShape::list(Number, trainKnobs().front().Values.size())},
+        JsonShape::list(Number, knob(KnobId::Reciprocal).Values.size())},
        {"curve", Curve}});
   const bool OfGradients = J.contains("errors");
   if (!(OfGradients ? Gradients : Run).check(J, ""))
@@ -233,15 +233,19 @@ std::string lineOf(const Json &Measured) {
 
 } // namespace
 
+std::string TrainPoint::at() const {
+  return Seed ? fmt::format("seed{}", *Seed) : GradientPoint;
+}
+
 std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P) {
   const std::vector<Setting> Settings = oneAtATime(trainKnobs());
   std::vector<TrainPoint> All;
   All.reserve(Settings.size() * (std::size_t{P.Seeds} + 1));
   for (const Setting &S : Settings)
-    All.push_back({S, GradientPoint});
+    All.push_back({S, std::nullopt});
   for (unsigned Seed = 0; Seed < P.Seeds; ++Seed)
     for (const Setting &S : Settings)
-      All.push_back({S, fmt::format("seed{}", Seed)});
+      All.push_back({S, Seed});
   return All;
 }
 
@@ -284,7 +288,7 @@ Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
   for (const TrainPoint &Of : Points) {
     const std::string Base =
         fmt::format("{}/work/{}", P.Folder, asFileName(Of.name()));
-    const bool OfGradients = Of.At == GradientPoint;
+    const bool OfGradients = !Of.Seed;
     Gradients |= OfGradients;
     Wanted.push_back({Of.name(), P.From,
                       [&P, Of, Base, OfGradients] {
@@ -337,14 +341,15 @@ double bestOf(const Json &Curve) {
 Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
   Json Points = Json::array();
   double Reached = std::numeric_limits<double>::infinity();
-  for (const TrainPoint &Of : trainPoints(P)) {
+  const std::vector<TrainPoint> All = trainPoints(P);
+  for (const TrainPoint &Of : All) {
     const Json *One = Kept.find(Of.name(), P.From);
     if (!One)
       return Error{
           P.Folder,
           fmt::format("point {} is missing, expected it to be measured",
                       Of.name())};
-    if (One->contains("curve"))
+    if (Of.Seed)
       Reached = std::min(Reached, bestOf((*One)["curve"]));
     Points.push_back(*One);
   }
@@ -352,21 +357,19 @@ Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
   for (const Setting &S : oneAtATime(trainKnobs())) {
     Json Row{{"setting", S.name()}};
     std::vector<double> Cycles, Db, Seconds;
-    for (const Json &One : Points) {
-      if (One["setting"] != S.name())
+    for (std::size_t I = 0; I != All.size(); ++I) {
+      if (All[I].Chosen != S)
         continue;
-      if (One.contains("errors")) {
+      const Json &One = Points[I];
+      if (!All[I].Seed) {
         Row["gradient_error"] = One["errors"];
         continue;
       }
       Cycles.push_back(One["cycles"].get<double>());
       Db.push_back(One["psnr8_db"].get<double>());
       Seconds.push_back(secondsUntil(One["curve"], Reached));
-      const auto &Units = trainKnobs().front().Values;
-      const auto Unit = std::find(Units.begin(), Units.end(),
-                                  S.value(trainKnobs().front().Name));
       Row["reciprocal_um2"] =
-          One["reciprocal_um2"].at(std::size_t(Unit - Units.begin()));
+          One["reciprocal_um2"].at(S.place(KnobId::Reciprocal));
     }
     Row["cycles"] = spreadOf(Cycles);
     Row["psnr8_db"] = spreadOf(Db);

@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,9 +33,11 @@ struct TrainSweepPlan {
 /// gradients at the end of the default's run with seed 0.
 struct TrainPoint {
   Setting Chosen;
-  std::string At; ///< "gradients" or "seed0", ...
+  std::optional<unsigned> Seed; ///< of the run; nothing: the gradients
 
-  std::string name() const { return Chosen.name() + "@" + At; }
+  /// "gradients" or "seed0", ...
+  std::string at() const;
+  std::string name() const { return Chosen.name() + "@" + at(); }
 };
 
 /// All points of the settings of trainKnobs(), one knob at a time.

@@ -83,7 +83,7 @@ SweepPlan smallSweep(const std::string &Folder) {
   P.Folder = Folder;
   P.Views = {Camera::ahead(2, 2, 2)};
   P.Views.front().Name = "front";
-  P.Knobs = {{"tile", {"64", "32"}, ""}};
+  P.Knobs = {{KnobId::Tile, "tile", {"64", "32"}, ""}};
   P.From = {{"programs", "1"}, {"scene", "2"}};
   P.Load = []() -> Expected<SceneFile> {
     SceneFile File;
@@ -143,7 +143,7 @@ std::vector<std::string> filesOf(const TrainSweepPlan &P) {
 }
 
 Json measured(const TrainPoint &Of) {
-  if (Of.At == "gradients")
+  if (!Of.Seed)
     return {{"setting", Of.Chosen.name()},
             {"errors",
              {{"means", 1e-6},
@@ -158,7 +158,7 @@ Json measured(const TrainPoint &Of) {
                 {"psnr8_db", 10.0 + Iteration}};
   };
   return {{"setting", Of.Chosen.name()},
-          {"seed", Of.At},
+          {"seed", Of.at()},
           {"psnr8_db", 12.0},
           {"cycles", 1e6},
           {"reciprocal_um2", {1, 2, 3, 4, 5, 6, 7}},
