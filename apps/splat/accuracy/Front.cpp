@@ -1,47 +1,114 @@
 #include "Front.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace vorion::splat {
 
-std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,
-                                     TimeAxis A) {
+namespace {
+
+std::vector<Judged> judgedByDb(const std::vector<Candidate> &All, TimeAxis A) {
+  std::vector<Judged> Of;
+  Of.reserve(All.size());
+  for (const Candidate &C : All)
+    Of.push_back({C.db(), C.time(A), C.Chosen.size()});
+  return Of;
+}
+
+bool isSameTime(double Time, double Base) {
+  return std::abs(Time / Base - 1) < SameTime;
+}
+
+} // namespace
+
+std::vector<Judged> judged(const std::vector<Candidate> &All, ErrorKind K,
+                           TimeAxis A) {
+  std::vector<Judged> Of;
+  Of.reserve(All.size());
+  for (const Candidate &C : All) {
+    const Errors &Worst =
+        A == TimeAxis::Cores && C.CoresWorst ? *C.CoresWorst : C.Worst;
+    const double Value = Worst[static_cast<std::size_t>(K)];
+    Of.push_back(
+        {moreIsBetter(K) ? Value : -Value, C.time(A), C.Chosen.size()});
+  }
+  return Of;
+}
+
+std::vector<std::size_t> paretoFront(const std::vector<Judged> &All) {
   std::vector<std::size_t> Order;
   for (std::size_t I = 0; I < All.size(); ++I)
-    if (All[I].time(A))
+    if (All[I].Time)
       Order.push_back(I);
   // Of equally accurate ones the fastest first, then the one that was named
   // first.
-  std::sort(Order.begin(), Order.end(), [&](std::size_t X, std::size_t Y) {
-    return std::tuple(-All[X].Db, *All[X].time(A), X) <
-           std::tuple(-All[Y].Db, *All[Y].time(A), Y);
+  std::ranges::sort(Order, {}, [&](std::size_t I) {
+    return std::tuple(-All[I].Merit, *All[I].Time, I);
   });
   std::vector<std::size_t> Front;
   for (const std::size_t I : Order)
     if (Front.empty() ||
-        *All[I].time(A) < *All[Front.back()].time(A) * (1 - SameTime))
+        *All[I].Time < *All[Front.back()].Time * (1 - SameTime))
       Front.push_back(I);
   return Front;
 }
 
-std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
-                                     TimeAxis A, double FloorDb) {
+std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,
+                                     TimeAxis A) {
+  return paretoFront(judgedByDb(All, A));
+}
+
+std::optional<std::size_t> recommend(const std::vector<Judged> &All,
+                                     double Floor) {
   std::optional<double> Least;
-  for (const Candidate &C : All)
-    if (C.time(A) && C.Db >= FloorDb)
-      Least = std::min(Least.value_or(*C.time(A)), *C.time(A));
+  for (const Judged &J : All)
+    if (J.Time && J.Merit >= Floor)
+      Least = std::min(Least.value_or(*J.Time), *J.Time);
   std::optional<std::size_t> Best;
   const auto Key = [&](std::size_t I) {
-    return std::tuple(-All[I].Db, All[I].Chosen.size(), *All[I].time(A));
+    return std::tuple(-All[I].Merit, All[I].Changes, *All[I].Time);
   };
   for (std::size_t I = 0; I < All.size(); ++I)
-    if (All[I].time(A) && All[I].Db >= FloorDb &&
-        *All[I].time(A) <= *Least * (1 + SameTime) &&
+    if (All[I].Time && All[I].Merit >= Floor &&
+        *All[I].Time <= *Least * (1 + SameTime) &&
         (!Best || Key(I) < Key(*Best)))
       Best = I;
   return Best;
+}
+
+std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
+                                     TimeAxis A, double FloorDb) {
+  return recommend(judgedByDb(All, A), FloorDb);
+}
+
+std::vector<FloorStep> recommendations(const std::vector<Judged> &All) {
+  std::set<double> Floors;
+  for (const Judged &J : All)
+    if (J.Time)
+      Floors.insert(J.Merit);
+  std::vector<FloorStep> Steps;
+  for (const double Floor : Floors) {
+    const std::size_t Best = *recommend(All, Floor);
+    if (Steps.empty() || Steps.back().Best != Best)
+      Steps.push_back({Floor, Best});
+    else
+      Steps.back().Most = Floor;
+  }
+  return Steps;
+}
+
+std::vector<std::size_t> sameTimeAs(const Candidate &Base,
+                                    const std::vector<Candidate> &All,
+                                    TimeAxis A) {
+  std::vector<std::size_t> Same;
+  for (std::size_t I = 0; I < All.size(); ++I)
+    if (All[I].Chosen.size() == 1 && All[I].time(A) && Base.time(A) &&
+        isSameTime(*All[I].time(A), *Base.time(A)))
+      Same.push_back(I);
+  return Same;
 }
 
 std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
@@ -65,7 +132,7 @@ std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
     for (const TimeAxis A :
          {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
       for (const std::size_t I : paretoFront(Own, A))
-        if (Own[I].Chosen.size() == 1 && Own[I].Db >= FloorDb) {
+        if (Own[I].Chosen.size() == 1 && Own[I].db() >= FloorDb) {
           double &Saved = Savings[Own[I].Chosen.place(K.Id)];
           if (Own.front().Chosen.size() == 0 && Own.front().time(A))
             Saved = std::max(Saved, 1 - *Own[I].time(A) / *Own.front().time(A));

@@ -8,7 +8,7 @@ using namespace vorion::splat;
 namespace {
 
 Candidate made(const char *Name, double Db, double Cycles) {
-  return {*Setting::parse(Name), Db, {Cycles, Cycles, std::nullopt}};
+  return {*Setting::parse(Name), {Db}, {Cycles, Cycles, std::nullopt}};
 }
 
 const std::vector<Candidate> All{
@@ -51,6 +51,37 @@ TEST(Front, TheFastestAboveTheFloorIsRecommended) {
   EXPECT_EQ(Name(90), "depth-bits=24");
   EXPECT_EQ(Name(141), "none");
   EXPECT_EQ(recommend(All, TimeAxis::Cores, 0), std::nullopt);
+}
+
+TEST(Front, EveryFloorHasItsRecommendation) {
+  const auto Judgements = judged(All, ErrorKind::Psnr, TimeAxis::Cycles);
+  const auto Steps = recommendations(Judgements);
+  std::size_t Step = 0;
+  for (double Floor = 0; Floor <= 150; Floor += 0.5) {
+    while (Step < Steps.size() && Floor > Steps[Step].Most)
+      ++Step;
+    EXPECT_EQ(recommend(Judgements, Floor),
+              Step < Steps.size() ? std::optional(Steps[Step].Best)
+                                  : std::nullopt)
+        << Floor;
+  }
+  EXPECT_TRUE(
+      recommendations(judged(All, ErrorKind::Psnr, TimeAxis::Cores)).empty());
+}
+
+TEST(Front, TheCoresAreJudgedByTheirOwnPictures) {
+  Candidate C = made("cutoff=0.01", 60, 70);
+  C.Times[2] = 5;
+  C.CoresWorst = Errors{50, 0.5, 0.25, 0.125};
+  EXPECT_EQ(judged({C}, ErrorKind::Psnr, TimeAxis::Cores)[0].Merit, 50);
+  EXPECT_EQ(judged({C}, ErrorKind::Largest, TimeAxis::Cores)[0].Merit, -0.25);
+  EXPECT_EQ(judged({C}, ErrorKind::Psnr, TimeAxis::Cycles)[0].Merit, 60);
+}
+
+TEST(Front, SingleKnobsThatTakeNoTimeAreFree) {
+  // Of the default's time; cutoffs save, exp=linear does by 1 %.
+  EXPECT_EQ(names(sameTimeAs(All.front(), All, TimeAxis::Cycles)),
+            std::vector<std::string>{"exp=poly4"});
 }
 
 TEST(Front, ItsKnobsAreMultiplied) {

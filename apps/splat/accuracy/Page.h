@@ -16,12 +16,14 @@ std::string_view trainPageTemplate();
 
 /// What the page is told besides the measurements.
 struct PageHead {
-  std::string Made;                  ///< a line: what made it
-  double FloorDb;                    ///< to begin with
-  std::vector<std::string> ChosenOn; ///< views that choose the recommended one
+  std::string Made; ///< a line: what made it
+  double FloorDb;   ///< to begin with
+  /// Views that choose the recommended one.
+  std::vector<const Camera *> ChosenOn;
 };
 
-/// The page of \p Settings on all views, all of which are measured.
+/// The page of \p Settings, the default first, on all views, all of which are
+/// measured.
 Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
                              const PageHead &Head,
                              const std::vector<Setting> &Settings);

@@ -1,5 +1,6 @@
 #include "Sweep.h"
 
+#include "../io/Inside.h"
 #include "../io/Metrics.h"
 #include "Points.h"
 #include "Process.h"
@@ -181,10 +182,50 @@ bool isMeasurement(const Json &J) {
                                                  J["view"].get<std::string>();
 }
 
-/// Of equal pictures, for orders: beyond any PSNR of unequal ones.
-double decibels(const Json &Value) {
+/// An error's value; of equal pictures, for orders, beyond any PSNR of unequal
+/// ones.
+double valueOf(const Json &Value) {
   return Value.is_null() ? std::numeric_limits<double>::infinity()
                          : Value.get<double>();
+}
+
+Errors errorsOf(const Json &J) {
+  Errors E{};
+  for (std::size_t K = 0; K < ErrorKinds; ++K)
+    E[K] = valueOf(J[std::string(ErrorNames[K])]);
+  return E;
+}
+
+Errors worseOf(const Errors &A, const Errors &B) {
+  Errors Worse{};
+  for (std::size_t K = 0; K < ErrorKinds; ++K)
+    Worse[K] = moreIsBetter(static_cast<ErrorKind>(K)) ? std::min(A[K], B[K])
+                                                       : std::max(A[K], B[K]);
+  return Worse;
+}
+
+/// Adds the measurement \p M of a view to \p C; \p IsFirst: of the first.
+void addView(Candidate &C, const Json &M, bool IsFirst) {
+  const Errors Own = errorsOf(M["errors"]);
+  C.Worst = IsFirst ? Own : worseOf(C.Worst, Own);
+  const Json &Cores = M["cores_errors"];
+  if (Cores.is_null())
+    C.CoresWorst.reset();
+  else if (IsFirst)
+    C.CoresWorst = errorsOf(Cores);
+  else if (C.CoresWorst)
+    C.CoresWorst = worseOf(*C.CoresWorst, errorsOf(Cores));
+  for (std::size_t A = 0; A < TimeAxes; ++A) {
+    const Json &Value = M["times"][std::string(TimeAxisNames[A])];
+    if (Value.is_null())
+      C.Times[A].reset();
+    else if (IsFirst)
+      C.Times[A] = Value.get<double>();
+    else if (C.Times[A])
+      *C.Times[A] += Value.get<double>();
+  }
+  if (IsFirst)
+    C.LaneArea = M["lane_area_relative"].get<double>();
 }
 
 } // namespace
@@ -256,7 +297,7 @@ Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
                       [&P, &Of] { return PointMeasurement(P, Of).measure(); },
                       [](const Json &M) {
                         return fmt::format("{:.1f} dB, {:.0f} cycles",
-                                           decibels(M["errors"]["psnr_db"]),
+                                           valueOf(M["errors"]["psnr_db"]),
                                            M["times"]["cycles"].get<double>());
                       }});
   return measureAll(Kept, Wanted, P.Jobs, Said);
@@ -268,20 +309,12 @@ candidates(const SweepPlan &P, KeptPoints &Kept,
            const std::vector<const Camera *> &Views) {
   std::vector<Candidate> All;
   for (const Setting &S : Settings) {
-    Candidate C{S, std::numeric_limits<double>::infinity(), {}};
-    C.Times.fill(0.0);
+    Candidate C{.Chosen = S};
     for (const Camera *View : Views) {
       const auto M = readPoint(P, Kept, {S, View});
       if (!M)
         return M.error();
-      C.Db = std::min(C.Db, decibels((*M)["errors"]["psnr_db"]));
-      for (std::size_t A = 0; A < TimeAxes; ++A) {
-        const Json &Value = (*M)["times"][std::string(TimeAxisNames[A])];
-        if (Value.is_null())
-          C.Times[A].reset();
-        else if (C.Times[A])
-          *C.Times[A] += Value.get<double>();
-      }
+      addView(C, *M, View == Views.front());
     }
     All.push_back(std::move(C));
   }

@@ -1,11 +1,11 @@
 // The page of `splat accuracy SCENE`: draws the measurements and lets people choose.
 
-// What a dot may be judged by. `better`: 1 if more is better.
+// What a dot may be judged by. `logarithmic`: small errors over many orders of magnitude are shown by their logarithm.
 const METRICS = {
-  psnr_db: { label: 'PSNR, dB', better: 1, digits: 1 },
-  ssim: { label: 'SSIM', better: 1, digits: 6 },
-  largest: { label: 'largest error', better: -1, digits: 5 },
-  off_share: { label: 'pixels off by more than 1/255, %', better: -1, digits: 4, scale: 100 },
+  psnr_db: { label: 'PSNR, dB', digits: 1 },
+  ssim: { label: 'SSIM', digits: 6, logarithmic: true },
+  largest: { label: 'largest error', digits: 5, logarithmic: true },
+  off_share: { label: 'pixels off by more than 1/255, %', digits: 4, scale: 100, logarithmic: true },
 };
 const AXES = {
   cycles: { label: 'machine cycles, 16 lanes', scale: 1e-6, unit: 'M' },
@@ -14,65 +14,25 @@ const AXES = {
 };
 // Shown as this where pictures are equal, which JSON has no number for.
 const EQUAL_DB = 200;
-// Time differences below this share are none, as in Front.h: a tile's flush is no choice.
-const FREE = 0.002;
-
 // Times beyond so many times the default's are drawn at the edge.
 const MOST_OF_DEFAULT = 1.4;
 
-const state = { view: '', metric: 'psnr_db', axis: 'cycles', floor: data.floor_db, selected: null, sort: null };
+// `view`: 0 for all views together, else the number of one.
+const state = { view: 0, metric: 'psnr_db', axis: 'cycles', floor: data.floor_db, selected: null, sort: null };
 
-function valueOf(point, metric, axis) {
-  const errors = axis === 'cores_cycles' && point.cores_errors ? point.cores_errors : point.errors;
-  const value = errors[metric];
-  return metric === 'psnr_db' && value === null ? EQUAL_DB : value;
+// The settings over a choice of views, from one of data.summaries: with the errors of the pictures that the axis times.
+function entriesOf(summary) {
+  return summary.settings.map(one => {
+    const errors = { ...(state.axis === 'cores_cycles' && one.cores_errors ? one.cores_errors : one.errors) };
+    errors.psnr_db ??= EQUAL_DB;
+    return { ...one, errors };
+  });
 }
 
-// One entry a setting: over the views in `views`, the worst error and the sum of times.
-function summarize(views) {
-  const bySetting = new Map();
-  for (const point of data.points) {
-    if (!views.includes(point.view)) continue;
-    if (!bySetting.has(point.setting)) bySetting.set(point.setting, []);
-    bySetting.get(point.setting).push(point);
-  }
-  const all = [];
-  for (const [setting, points] of bySetting) {
-    if (points.length !== views.length) continue;
-    const entry = { setting, points, errors: {}, times: {}, area: points[0].lane_area_relative };
-    for (const [metric, { better }] of Object.entries(METRICS)) {
-      const values = points.map(p => valueOf(p, metric, state.axis));
-      entry.errors[metric] = better > 0 ? Math.min(...values) : Math.max(...values);
-    }
-    for (const axis of Object.keys(AXES)) {
-      const values = points.map(p => p.times[axis]);
-      entry.times[axis] = values.includes(null) ? null : values.reduce((a, b) => a + b, 0);
-    }
-    all.push(entry);
-  }
-  return all;
-}
-
-const changes = setting => setting === 'default' ? 0 : setting.split(',').length;
-
-// Those that are faster than all that are as accurate, the most accurate first.
-function frontOf(entries, metric, axis) {
-  const sign = METRICS[metric].better;
-  const order = entries.filter(e => e.times[axis] !== null)
-    .sort((a, b) => sign * (b.errors[metric] - a.errors[metric]) || a.times[axis] - b.times[axis]);
-  const front = [];
-  for (const e of order)
-    if (!front.length || e.times[axis] < front[front.length - 1].times[axis] * (1 - FREE)) front.push(e);
-  return front;
-}
-
-// The fastest with at least `floor` dB; of those as fast the most accurate, then the one that changes least.
-function recommend(entries, axis, floor) {
-  const able = entries.filter(e => e.times[axis] !== null && e.errors.psnr_db >= floor);
-  const least = Math.min(...able.map(e => e.times[axis]));
-  const best = able.filter(e => e.times[axis] <= least * (1 + FREE));
-  best.sort((a, b) => b.errors.psnr_db - a.errors.psnr_db || changes(a.setting) - changes(b.setting));
-  return best[0];
+// The entry that is recommended for `floor` dB, if any.
+function recommend(summary, entries, floor) {
+  const step = summary.recommended[state.axis].find(s => s.most_db === null || floor <= s.most_db);
+  return step && entries[step.best];
 }
 
 function format(value, { digits, scale = 1 }) {
@@ -87,8 +47,6 @@ function change(value, base) {
   return `${share >= 0 ? '+' : '−'}${Math.abs(share).toFixed(1)} %`;
 }
 
-function views() { return state.view === '' ? data.views : [state.view]; }
-
 function drawPlot(entries, front, best) {
   const { left, right } = PLOT;
   const { metric, axis } = state;
@@ -97,8 +55,7 @@ function drawPlot(entries, front, best) {
   svg.replaceChildren();
   if (!shown.length) return;
   const metricScale = METRICS[metric].scale ?? 1;
-  // Small errors over many orders of magnitude are shown by their logarithm.
-  const logarithmic = METRICS[metric].better < 0 || metric === 'ssim';
+  const { logarithmic } = METRICS[metric];
   const height = e => {
     const value = e.errors[metric];
     if (metric === 'ssim') return -Math.log10(Math.max(1e-12, 1 - value));
@@ -126,6 +83,8 @@ function drawPlot(entries, front, best) {
   }
 }
 
+const pointsOf = setting => data.points.filter(p => p.setting === setting && (state.view === 0 || p.view === data.views[state.view - 1]));
+
 function pictures(point) {
   const box = element('div', { class: 'pair' });
   for (const [source, text] of [[point.picture, `${point.view}`], [point.difference, 'difference, 1e-5 black to 1 white, red beyond 1/255']])
@@ -136,7 +95,7 @@ function pictures(point) {
 function showTip(entry, event) {
   const tip = byId('tip');
   tip.replaceChildren(element('b', {}, entry.setting), element('div', {},
-    `${format(entry.errors.psnr_db, METRICS.psnr_db)} dB, ${time(entry.times[state.axis], state.axis)}`), pictures(entry.points[0]));
+    `${format(entry.errors.psnr_db, METRICS.psnr_db)} dB, ${time(entry.times[state.axis], state.axis)}`), pictures(pointsOf(entry.setting)[0]));
   tip.style.display = 'block';
   tip.style.left = Math.min(event.clientX + 15, window.innerWidth - 530) + 'px';
   tip.style.top = Math.min(event.clientY + 15, window.innerHeight - 230) + 'px';
@@ -159,14 +118,14 @@ function drawTable(entries, front, base) {
 
 function drawRecommended() {
   const box = byId('recommended');
-  const chosen = recommend(summarize(data.chosen_on), state.axis, state.floor);
+  const chosen = recommend(data.chosen, entriesOf(data.chosen), state.floor);
   if (!chosen) {
     box.textContent = `No setting reaches ${state.floor} dB on ${data.chosen_on.join(', ')} with this time.`;
     return;
   }
   const table = element('table', {}, rowOf(['view', 'used for', 'PSNR, dB', 'SSIM', AXES[state.axis].label, 'against the default'], 'th'));
-  for (const view of data.views) {
-    const all = summarize([view]);
+  for (const [n, view] of data.views.entries()) {
+    const all = entriesOf(data.summaries[n + 1]);
     const own = all.find(e => e.setting === chosen.setting), base = all.find(e => e.setting === 'default');
     if (!own || !base) continue;
     const row = rowOf([view, data.chosen_on.includes(view) ? 'choosing' : 'checking', format(own.errors.psnr_db, METRICS.psnr_db),
@@ -178,10 +137,8 @@ function drawRecommended() {
     `, the fastest with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), table);
 }
 
-function drawFree(entries, base) {
+function drawFree(free, base) {
   if (!base) return;
-  const free = entries.filter(e => e.setting !== 'default' && changes(e.setting) === 1 &&
-    Math.abs(e.times.cycles / base.times.cycles - 1) < FREE);
   const table = element('table', {}, rowOf(['setting', 'cycles', 'PSNR, dB', 'lane area', 'at equal area'], 'th'));
   for (const e of free)
     table.append(rowOf([e.setting, 'free: ' + change(e.times.cycles, base.times.cycles), format(e.errors.psnr_db, METRICS.psnr_db),
@@ -197,7 +154,7 @@ function drawDetails(entries, base) {
   for (const axis of Object.keys(AXES))
     if (e.times[axis] !== null)
       list.append(`; ${AXES[axis].label} ${time(e.times[axis], axis)} ${base ? change(e.times[axis], base.times[axis]) : ''}`);
-  byId('details').replaceChildren(list, ...e.points.map(pictures));
+  byId('details').replaceChildren(list, ...pointsOf(e.setting).map(pictures));
 }
 
 function select(setting) {
@@ -206,20 +163,20 @@ function select(setting) {
 }
 
 function draw() {
-  const entries = summarize(views());
+  const summary = data.summaries[state.view], entries = entriesOf(summary);
   const base = entries.find(e => e.setting === 'default');
-  const front = frontOf(entries, state.metric, state.axis);
-  const best = recommend(entries, state.axis, state.floor);
+  const front = summary.fronts[state.metric][state.axis].map(n => entries[n]);
+  const best = recommend(summary, entries, state.floor);
   drawPlot(entries, front, best);
   drawTable(entries, front, base);
   drawRecommended();
-  drawFree(entries, base);
+  drawFree(summary.free.map(n => entries[n]), base);
   drawDetails(entries, base);
 }
 
 function start() {
-  const choose = (id, choices) => fill(byId(id), choices, value => { state[id] = value; draw(); });
-  choose('view', [['', 'all (worst error, sum of times)'], ...data.views.map(v => [v, v])]);
+  const choose = (id, choices, read = v => v) => fill(byId(id), choices, value => { state[id] = read(value); draw(); });
+  choose('view', [[0, 'all (worst error, sum of times)'], ...data.views.map((v, n) => [n + 1, v])], Number);
   choose('metric', Object.entries(METRICS).map(([k, m]) => [k, m.label]));
   choose('axis', Object.entries(AXES).map(([k, a]) => [k, a.label]));
   byId('floor').value = state.floor;

@@ -2,6 +2,7 @@
 #include "../accuracy/Points.h"
 #include "../accuracy/Sweep.h"
 #include "../io/Hash.h"
+#include "../io/Inside.h"
 #include "AccuracyTrain.h"
 #include "Commands.h"
 #include "SceneArguments.h"
@@ -185,7 +186,7 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
     }
     const Candidate &C = (*Measured)[*Best];
     const auto Gain = [&](const Candidate &Of, const Candidate &Base) {
-      return fmt::format("{:.1f} dB, {:+.1f} % of {:.6g}", Of.Db,
+      return fmt::format("{:.1f} dB, {:+.1f} % of {:.6g}", Of.db(),
                          100 * (*Of.time(Axis) / *Base.time(Axis) - 1),
                          *Base.time(Axis));
     };
@@ -282,7 +283,7 @@ Expected<Success> run(AccuracyArguments &A) {
                   P->ScenePath, names(pointersTo(P->Views)), names(V->Choose),
                   P->Views.front().Width, P->Views.front().Height,
                   VORION_VERSION),
-      *Floor, nameList(V->Choose)};
+      *Floor, V->Choose};
   if (auto Written = writeResults(*P, Kept, Head, *All); !Written)
     return Written;
   const auto Text = recommendation(*P, Kept, *V, *All, *Floor);
