@@ -1,5 +1,6 @@
 #include "Points.h"
 
+#include "../io/Inside.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -16,11 +17,6 @@
 namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
-
-std::string asFileName(std::string Name) {
-  std::replace(Name.begin(), Name.end(), '/', '_');
-  return Name;
-}
 
 Expected<Json> readJson(const std::string &Path) {
   return vorion::readJson<Json>(Path, "what splat wrote there");

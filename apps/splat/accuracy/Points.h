@@ -14,9 +14,6 @@
 
 namespace vorion::splat {
 
-/// The name of a file: no folders in it.
-std::string asFileName(std::string Name);
-
 /// A JSON file that splat wrote.
 Expected<nlohmann::ordered_json> readJson(const std::string &Path);
 

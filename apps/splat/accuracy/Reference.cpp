@@ -1,6 +1,7 @@
 #include "Reference.h"
 
 #include "../analyze/ToReference.h"
+#include "../io/Inside.h"
 #include "../io/Npz.h"
 #include "reference/Render.h"
 

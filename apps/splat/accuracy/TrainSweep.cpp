@@ -2,6 +2,7 @@
 
 #include "../capture/Capture.h"
 #include "../io/Hash.h"
+#include "../io/Inside.h"
 #include "../io/Mean.h"
 #include "../scene/SceneFile.h"
 #include "GradientReference.h"

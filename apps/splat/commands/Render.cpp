@@ -7,34 +7,22 @@
 #include "Progress.h"
 #include "SceneArguments.h"
 
-#include "../accuracy/Points.h"
 #include "../io/Cameras.h"
-#include "../io/Image.h"
-#include "../io/Npz.h"
-#include "../picture/View.h"
 #include "../render/EffectCosts.h"
 #include "../render/Explain.h"
 #include "../render/Fallback.h"
 #include "../render/FrameTime.h"
-#include "../render/Renderer.h"
+#include "../render/Pictures.h"
 #include "../render/Report.h"
 #include "vorion/support/Diagnostics.h"
-#include "vorion/support/File.h"
-#include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
-#include <system_error>
-#include <unistd.h>
 
 namespace vorion::splat {
 
@@ -107,17 +95,6 @@ Expected<Success> check(const RenderArguments &A) {
                       {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
 }
 
-Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
-  // The bits are those of unsigned words; NumPy's view("u4") shows them so.
-  const auto Words = [](const std::vector<std::uint32_t> &V) {
-    return NpyArray::of({V.size()},
-                        std::vector<std::int32_t>(V.begin(), V.end()));
-  };
-  return writeNpz(File, {{"tile", Words(P.Tiles)},
-                         {"depth_bits", Words(P.DepthBits)},
-                         {"index", Words(P.Gaussians)}});
-}
-
 RenderPlan planAsAsked(const RenderArguments &A, const EffectInputs &In) {
   RenderPlan Plan = planRender(EffectPlan(A.Request, In), A.Options);
   for (const Effect *E : Plan.Effects.missing())
@@ -155,68 +132,17 @@ Expected<std::vector<Camera>> findCameras(const RenderArguments &A) {
              : readCameras(A.Cameras, A.Views);
 }
 
-/// By which every effect is needed that some view needs.
-ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
-                     const RenderOptions &O) {
-  std::optional<ViewFacts> All;
-  for (const Camera &C : Cameras) {
-    const ViewFacts Own = factsOf(S, makeView(C, O), nearLimit(O.Convention));
-    All = All ? ofBoth(*All, Own) : Own;
-  }
-  return *All;
-}
-
-/// Everything that pictures are made with.
-struct Job {
-  const RenderArguments &A;
-  const SceneFile &File;
-  const RenderPlan &Plan;
-  const Device &Dev;
-  Launcher &L;
-};
-
-Expected<nlohmann::ordered_json> report(const Job &J, const std::string &Output,
-                                        const Camera &C,
-                                        const RenderResult &R) {
-  return jsonReport({J.A.Scene.Path, J.A.Scene.Axes, J.A.Cameras, Output,
-                     J.File, C, J.A.Options, J.Plan, J.Dev, R});
-}
-
-Expected<Success> renderOne(const Job &J, const Camera &C) {
-  const RenderArguments &A = J.A;
-  auto R =
-      render(J.L, J.Plan, J.File.Gaussians, C, A.Options, !A.Pairs.empty());
+Expected<Success> renderOne(const PictureJob &J, const Camera &C) {
+  const auto R = drawPicture(J, C);
   endProgress();
   if (!R) {
     showBuildLog(J.L);
     return R.error();
   }
-  if (auto Written = writeImage(A.Output, R->Picture); !Written)
-    return Written.error();
-  if (!A.Pairs.empty())
-    if (auto Written = writePairs(A.Pairs, *R->Sorted); !Written)
-      return Written.error();
-  if (!A.Depth.empty())
-    if (auto Written = writeDepth(A.Depth, *R->Depths); !Written)
-      return Written.error();
-  if (!A.Json.empty()) {
-    auto Report = report(J, A.Output, C, *R);
-    if (!Report)
-      return Report.error();
-    if (auto Written = writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n");
-        !Written)
-      return Written.error();
-  }
-  printOut("{}", textReport(C, A.Options, J.Dev, *R));
+  if (auto Written = writePicture(J, C, *R); !Written)
+    return Written;
+  printOut("{}", textReport(C, J.Options, J.L.device(), *R));
   return Success{};
-}
-
-/// out.png for view front is out.front.png, for a/front out.a_front.png.
-std::string outputOf(const std::string &Output, const Camera &C) {
-  const std::filesystem::path Path(Output);
-  return (Path.parent_path() / (Path.stem().string() + "." +
-                                asFileName(C.Name) + Path.extension().string()))
-      .string();
 }
 
 /// That no picture would take the place of another or of another file.
@@ -225,7 +151,8 @@ Expected<Success> claimPictures(const RenderArguments &A,
   std::set<std::string> Files;
   std::vector<NamedFile> Pictures;
   for (const Camera &C : Cameras)
-    if (const auto [File, IsNew] = Files.insert(outputOf(A.Output, C)); !IsNew)
+    if (const auto [File, IsNew] = Files.insert(pictureFile(A.Output, C));
+        !IsNew)
       return Error{A.Cameras,
                    fmt::format("two of the views would be {}, expected views "
                                "of different names",
@@ -238,36 +165,20 @@ Expected<Success> claimPictures(const RenderArguments &A,
                                  {"--json", A.Json}});
 }
 
-Expected<Success> renderAll(const Job &J, const std::vector<Camera> &Cameras) {
-  const RenderArguments &A = J.A;
-  auto R = renderSequence(J.L, J.Plan, J.File.Gaussians, Cameras, A.Options,
-                          A.Overlap);
+Expected<Success> renderAll(const PictureJob &J,
+                            const std::vector<Camera> &Cameras, bool Overlap) {
+  const auto R = renderSequence(J.L, J.Plan, J.Input.Gaussians, Cameras,
+                                J.Options, Overlap);
   endProgress();
   if (!R) {
     showBuildLog(J.L);
     return R.error();
   }
-  nlohmann::ordered_json Reports = nlohmann::ordered_json::array();
-  for (std::size_t N = 0; N < Cameras.size(); ++N) {
-    const std::string Output = outputOf(A.Output, Cameras[N]);
-    if (auto Written = writeImage(Output, R->Frames[N].Picture); !Written)
-      return Written.error();
-    printOut("{}\n", escaped(Output));
-    if (A.Json.empty())
-      continue;
-    auto Report = report(J, Output, Cameras[N], R->Frames[N]);
-    if (!Report)
-      return Report.error();
-    Reports.push_back(std::move(*Report));
-  }
-  if (!A.Json.empty()) {
-    nlohmann::ordered_json All{{"overlap", A.Overlap}, {"pictures", Reports}};
-    if (auto Time = sequenceJson(*R); !Time.is_null())
-      All["time"] = std::move(Time);
-    if (auto Written = writeFileAtomically(A.Json, jsonText(All, 2) + "\n");
-        !Written)
-      return Written.error();
-  }
+  if (auto Written = writePictures(
+          J, Cameras, Overlap, *R,
+          [](const std::string &File) { printOut("{}\n", escaped(File)); });
+      !Written)
+    return Written;
   printOut("{}", sequenceText(*R));
   return Success{};
 }
@@ -315,9 +226,11 @@ Expected<Success> run(RenderArguments &A) {
     return D.error();
   Launcher L(*D, A.KernelFolder, progress());
   fallBack(A, L, Inputs, Plan);
-  const Job J{A, *File, Plan, *D, L};
-  auto Rendered =
-      isOne(A) ? renderOne(J, Cameras->front()) : renderAll(J, *Cameras);
+  const PictureJob J{A.Scene.Path, A.Scene.Axes, A.Cameras, *File,
+                     A.Options,    Plan,         L,         A.Output,
+                     A.Json,       A.Pairs,      A.Depth};
+  auto Rendered = isOne(A) ? renderOne(J, Cameras->front())
+                           : renderAll(J, *Cameras, A.Overlap);
   if (!Rendered)
     return Rendered;
   L.recordBuilds();

@@ -1,6 +1,7 @@
 /// Names of other files, as files have them.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -18,6 +19,12 @@ inline bool staysInside(const std::string &Name) {
     if (Part == "..")
       return false;
   return true;
+}
+
+/// \p Name, in which there may be folders, as the name of one file.
+inline std::string asFileName(std::string Name) {
+  std::ranges::replace(Name, '/', '_');
+  return Name;
 }
 
 } // namespace vorion::splat

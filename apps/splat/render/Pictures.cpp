@@ -1,0 +1,105 @@
+#include "Pictures.h"
+
+#include "../io/Inside.h"
+#include "../io/Npz.h"
+#include "../picture/View.h"
+#include "FrameTime.h"
+#include "Report.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
+  // The bits are those of unsigned words; NumPy's view("u4") shows them so.
+  const auto Words = [](const std::vector<std::uint32_t> &V) {
+    return NpyArray::of({V.size()},
+                        std::vector<std::int32_t>(V.begin(), V.end()));
+  };
+  return writeNpz(File, {{"tile", Words(P.Tiles)},
+                         {"depth_bits", Words(P.DepthBits)},
+                         {"index", Words(P.Gaussians)}});
+}
+
+Expected<Json> report(const PictureJob &J, const std::string &Output,
+                      const Camera &C, const RenderResult &R) {
+  return jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input,
+                     C, J.Options, J.Plan, J.L.device(), R});
+}
+
+} // namespace
+
+ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
+                     const RenderOptions &O) {
+  std::optional<ViewFacts> All;
+  for (const Camera &C : Cameras) {
+    const ViewFacts Own = factsOf(S, makeView(C, O), nearLimit(O.Convention));
+    All = All ? ofBoth(*All, Own) : Own;
+  }
+  return *All;
+}
+
+Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C) {
+  return render(J.L, J.Plan, J.Input.Gaussians, C, J.Options, !J.Pairs.empty());
+}
+
+Expected<Success> writePicture(const PictureJob &J, const Camera &C,
+                               const RenderResult &R) {
+  if (auto Written = writeImage(J.Output, R.Picture); !Written)
+    return Written;
+  if (!J.Pairs.empty())
+    if (auto Written = writePairs(J.Pairs, *R.Sorted); !Written)
+      return Written;
+  if (!J.Depth.empty())
+    if (auto Written = writeDepth(J.Depth, *R.Depths); !Written)
+      return Written;
+  if (J.Json.empty())
+    return Success{};
+  const auto Report = report(J, J.Output, C, R);
+  if (!Report)
+    return Report.error();
+  return writeFileAtomically(J.Json, jsonText(*Report, 2) + "\n");
+}
+
+std::string pictureFile(const std::string &Output, const Camera &C) {
+  const std::filesystem::path Path(Output);
+  return (Path.parent_path() / (Path.stem().string() + "." +
+                                asFileName(C.Name) + Path.extension().string()))
+      .string();
+}
+
+Expected<Success>
+writePictures(const PictureJob &J, const std::vector<Camera> &Cameras,
+              bool Overlap, const SequenceResult &R,
+              const std::function<void(const std::string &)> &Written) {
+  Json Reports = Json::array();
+  for (std::size_t N = 0; N < Cameras.size(); ++N) {
+    const std::string Output = pictureFile(J.Output, Cameras[N]);
+    if (auto Done = writeImage(Output, R.Frames[N].Picture); !Done)
+      return Done;
+    Written(Output);
+    if (J.Json.empty())
+      continue;
+    auto Report = report(J, Output, Cameras[N], R.Frames[N]);
+    if (!Report)
+      return Report.error();
+    Reports.push_back(std::move(*Report));
+  }
+  if (J.Json.empty())
+    return Success{};
+  Json All{{"overlap", Overlap}, {"pictures", std::move(Reports)}};
+  if (Json Time = sequenceJson(R); !Time.is_null())
+    All["time"] = std::move(Time);
+  return writeFileAtomically(J.Json, jsonText(All, 2) + "\n");
+}
+
+} // namespace vorion::splat

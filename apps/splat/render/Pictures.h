@@ -1,0 +1,48 @@
+/// Pictures of a scene with their files and reports.
+#pragma once
+
+#include "../scene/SceneFile.h"
+#include "Renderer.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// What pictures are made of, where they go, and what makes them.
+struct PictureJob {
+  /// For reports: how the scene and its views were asked for.
+  std::string ScenePath, AxesChange, CameraFile;
+  const SceneFile &Input;
+  const RenderOptions &Options;
+  const RenderPlan &Plan;
+  Launcher &L;
+  /// \name Files, of which all but the first may be empty: not wanted
+  /// @{
+  std::string Output, Json, Pairs, Depth;
+  /// @}
+};
+
+/// The facts by which every effect is needed that some view needs.
+ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
+                     const RenderOptions &O);
+
+/// Renders one view.
+Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C);
+/// Writes what \p J asks for of the picture of \p C.
+Expected<Success> writePicture(const PictureJob &J, const Camera &C,
+                               const RenderResult &R);
+
+/// The picture's file of one of several views: for out.png and view front
+/// out.front.png, for a/front out.a_front.png.
+std::string pictureFile(const std::string &Output, const Camera &C);
+
+/// Writes the pictures of \p Cameras and one report of all. \p Written is told
+/// each picture's file.
+Expected<Success>
+writePictures(const PictureJob &J, const std::vector<Camera> &Cameras,
+              bool Overlap, const SequenceResult &R,
+              const std::function<void(const std::string &)> &Written);
+
+} // namespace vorion::splat

@@ -1,0 +1,41 @@
+#include "TrainReport.h"
+
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+Json trainReport(const TrainRequest &R, const TrainOutcome &Out) {
+  Json Views = Json::array(), Scores = Json::array();
+  for (const auto &[Name, Db] : Out.HeldOut)
+    Views.push_back({{"name", Name}, {"psnr8_db", Db}});
+  for (const auto &[Iteration, Db] : Out.Scores)
+    Scores.push_back({{"iteration", Iteration}, {"psnr8_db", Db}});
+  const auto &B = Out.Without;
+  return {
+      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+      {"device", {{"name", Out.DeviceName}, {"version", Out.DeviceVersion}}},
+      {"capture", R.Capture},
+      {"resolution", {Out.Width, Out.Height}},
+      {"run", Out.Record},
+      {"picture_filter", PhotoFilter},
+      {"held_out_by", Out.HeldOutBy},
+      {"rules", name(R.Convention)},
+      {"support", name(Support::Exact)},
+      {"iterations", Out.Iterations},
+      {"gaussians", Out.Result.size()},
+      {"seconds", Out.Seconds},
+      {"iterations_timed", Out.Iterations - Out.First},
+      {"timed", Out.Timed.json()},
+      {"psnr8_db", Out.HeldOut.empty() ? Json() : Json(Out.meanDb())},
+      {"scores", Scores},
+      {"views", Views},
+      {"baselines_db", B ? Json{{"constant", B->Constant},
+                                {"mean_picture", B->Mean},
+                                {"best_training_view", B->BestView}}
+                         : Json()},
+      {"losses", Out.Losses}};
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,290 @@
+#include "Training.h"
+
+#include "Hash.h"
+#include "Mean.h"
+#include "RunRecord.h"
+#include "Start.h"
+#include "vorion/support/Json.h"
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+/// Set by an interrupt; the loop then ends after the iteration at hand.
+volatile std::sig_atomic_t Interrupted = 0;
+
+void onInterrupt(int /*Signal*/) { Interrupted = 1; }
+
+/// What the whole run is about, once everything is read.
+struct Work {
+  const TrainRequest &R;
+  const TrainHost &Host;
+  const Capture &C;
+  const TrainingSet &Pictures;
+  Ranks &Together;
+  Json Record;
+  TrainOutcome &Out;
+};
+
+Expected<Success> writeState(const Work &W, Launcher &L, Trainer &T) {
+  Checkpoint C = T.save();
+  if (L.failure())
+    return *L.failure();
+  C.Run = jsonText(W.Record);
+  return writeCheckpoint(W.R.Checkpoint, C);
+}
+
+/// Of all processes, which have the same state, the first writes it.
+Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
+  return W.Together.agree(W.Together.first() ? writeState(W, L, T) : Success{});
+}
+
+double secondsSince(Clock::time_point Start) {
+  return std::chrono::duration<double>(Clock::now() - Start).count();
+}
+
+Expected<Success> loop(const Work &W, Launcher &L, DeviceRenderer &Renderer,
+                       Trainer &T) {
+  const Clock::time_point Start = Clock::now();
+  const unsigned First = W.Out.First = T.iteration();
+  const unsigned Last = W.R.Run.Settings.Iterations;
+  ClockSamples &Samples = W.Out.Timed;
+  while (T.iteration() < Last && !W.Together.any(Interrupted != 0)) {
+    const bool Timed = W.R.TimeEvery &&
+                       isTimed(W.R.Run.Seed, *W.R.TimeEvery, T.iteration() + 1);
+    L.setProfiled(Timed);
+    const StepReport Step = T.step();
+    std::vector<StageReport> Stages = L.takeStages();
+    if (L.failure()) {
+      W.Host.ShowBuildLog(L);
+      return *L.failure();
+    }
+    // All processes then end with it at the next step.
+    if (Timed && !Samples.add({Step.Iteration, Step.Gaussians,
+                               Renderer.listLengths(), std::move(Stages)}))
+      L.fail({"",
+              "the device gave no time of a kernel, expected a runtime that "
+              "knows VORION_TIME=profiled",
+              ExitCode::Internal});
+    if (W.Together.first())
+      W.Host.Progress(
+          {Step, First, Last, secondsSince(Start),
+           Samples.empty() ? std::nullopt : std::optional(Samples.rate())});
+    if (W.Together.first() && W.R.ScoreEvery != 0 &&
+        Step.Iteration % W.R.ScoreEvery == 0 && !W.Pictures.HeldOut.empty()) {
+      L.setProfiled(false);
+      W.Out.Scores.emplace_back(Step.Iteration, meanOf(T.evaluate()));
+      L.takeStages();
+    }
+    if (Step.Iteration % W.R.CheckpointEvery == 0 && Step.Iteration != Last)
+      if (auto Kept = keep(W, L, T); !Kept)
+        return Kept;
+  }
+  L.setProfiled(false);
+  if (W.Together.first())
+    W.Host.EndProgress();
+  W.Out.Seconds = secondsSince(Start);
+  if (auto Kept = keep(W, L, T); !Kept)
+    return Kept;
+  if (T.iteration() < Last)
+    return Error{W.R.Checkpoint,
+                 fmt::format("interrupted after iteration {} of {}, which is "
+                             "kept; --resume goes on",
+                             T.iteration(), Last),
+                 ExitCode::LimitReached};
+  return Success{};
+}
+
+/// That all processes are about to do the same; for the first error.
+Expected<Success> checkSameStart(const Work &W, unsigned Iteration) {
+  const std::string Mine =
+      fmt::format("{} {:010}", fnv1a64(jsonText(W.Record)), Iteration);
+  std::string First = Mine;
+  W.Together.share(0, First.data(), First.size());
+  if (First == Mine)
+    return W.Together.agree(Success{});
+  return W.Together.agree(Error{
+      W.R.Capture, "another capture or checkpoint, expected those of the first "
+                   "process"});
+}
+
+/// Gives \p T the run's own checkpoint.
+Expected<Success> resume(const Work &W, Trainer &T) {
+  const TrainRequest &R = W.R;
+  const auto Kept = readCheckpoint(R.Checkpoint);
+  if (!Kept)
+    return Kept.error();
+  if (auto Same = checkSameRun(R.Checkpoint, Kept->Run, W.Record); !Same)
+    return Same;
+  if (Kept->Iteration > R.Run.Settings.Iterations)
+    return Error{R.Checkpoint,
+                 fmt::format("after iteration {} already, expected "
+                             "--iterations of at least that, not {}",
+                             Kept->Iteration, R.Run.Settings.Iterations),
+                 ExitCode::Usage};
+  T.restore(*Kept);
+  if (W.Together.first())
+    W.Host.Note(fmt::format("going on after iteration {} of {}", T.iteration(),
+                            R.Checkpoint));
+  return Success{};
+}
+
+/// Gives \p T what it begins with: its own checkpoint, another run's, or the
+/// capture's points.
+Expected<Success> start(const Work &W, Trainer &T) {
+  const TrainRequest &R = W.R;
+  const TrainSettings &S = R.Run.Settings;
+  if (R.Resume && std::filesystem::exists(R.Checkpoint))
+    return resume(W, T);
+  if (R.From.empty()) {
+    T.start(startingScene(W.C, {R.Run.Seed, R.ShDegree, S.MostGaussians}));
+    return Success{};
+  }
+  const auto Other = readCheckpoint(R.From);
+  if (!Other)
+    return Other.error();
+  if (Other->ShDegree != R.ShDegree || Other->gaussians() > S.MostGaussians ||
+      Other->Iteration >= S.Iterations)
+    return Error{R.From,
+                 fmt::format("{} Gaussians of SH degree {} after iteration {}, "
+                             "expected at most {} of degree {} and less than "
+                             "{} iterations",
+                             Other->gaussians(), Other->ShDegree,
+                             Other->Iteration, S.MostGaussians, R.ShDegree,
+                             S.Iterations),
+                 ExitCode::Usage};
+  T.restore(*Other);
+  return Success{};
+}
+
+/// Finds out what the request leaves open: the cameras' extent, and hashes of
+/// what the run begins with.
+Expected<Success> complete(TrainRequest &R, const Capture &C) {
+  R.Run.Extent = cameraRing(C).extent();
+  if (!(R.Run.Extent > 0))
+    return Error{R.Capture, "all training cameras are at one place, expected "
+                            "them around the scene"};
+  R.Run.WhiteBackground = R.Background == std::array<float, 3>{1, 1, 1};
+  if (R.From.empty()) {
+    R.Run.Points = hashPoints(C.Points);
+    return Success{};
+  }
+  auto Hash = hashFile(R.From);
+  if (!Hash)
+    return Hash.error();
+  R.Run.From = *Hash;
+  return Success{};
+}
+
+/// What is measured at the end, in the first process.
+Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
+                         Trainer &T) {
+  TrainOutcome &Out = W.Out;
+  Out.Result = T.scene();
+  const std::vector<double> Db = T.evaluate();
+  if (L.failure())
+    return *L.failure();
+  for (std::size_t I = 0; I < Db.size(); ++I)
+    Out.HeldOut.emplace_back(W.Pictures.HeldOut[I].Pose.Name, Db[I]);
+  Out.Record = W.Record;
+  Out.DeviceName = D.name();
+  Out.DeviceVersion = D.version();
+  const Camera &First = W.Pictures.Training.front().Pose;
+  Out.Width = First.Width;
+  Out.Height = First.Height;
+  Out.TrainingViews = W.Pictures.Training.size();
+  Out.HeldOutBy = W.C.HeldOutBy;
+  Out.Processes = W.Together.size();
+  Out.Iterations = T.iteration();
+  Out.Losses = T.losses();
+  Out.Without = baselinesOf(W.Pictures);
+  return Success{};
+}
+
+/// \p Ready becomes true once every process has come as far as to train.
+Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
+                            Ranks &Together, bool &Ready, TrainOutcome &Out) {
+  if (auto Checked = Host.Check(); !Checked)
+    return Checked;
+  const auto C = readCapture(R.Capture, R.Read);
+  if (!C)
+    return C.error();
+  if (auto Completed = complete(R, *C); !Completed)
+    return Completed;
+  const auto Pictures = loadTrainingSet(*C, R.Downscale, R.Background);
+  if (!Pictures)
+    return Pictures.error();
+  const PictureSource Source{std::string(name(C->Format)), R.Downscale,
+                             R.Background};
+  const Work W{R,
+               Host,
+               *C,
+               *Pictures,
+               Together,
+               runRecord(R.Run, *Pictures, Source, R.ShDegree, R.Convention,
+                         R.By, R.Backward),
+               Out};
+  const auto D = Host.OpenDevice();
+  if (!D)
+    return D.error();
+  Launcher L(*D, "", {});
+  L.beginStage(Stage::Build);
+  for (const ProgramSpec &P : Trainer::programs())
+    L.build(P);
+  DeviceRenderer Renderer(L, R.Convention, R.By, R.Backward, R.Background);
+  Trainer T(L, Renderer, *Pictures, R.Run, Together);
+  if (auto Started = start(W, T); !Started)
+    return Started;
+  if (L.failure()) {
+    Host.ShowBuildLog(L);
+    return *L.failure();
+  }
+  Ready = true;
+  if (auto All = Together.agree(Success{}); !All)
+    return All;
+  if (auto Same = checkSameStart(W, T.iteration()); !Same)
+    return Same;
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  if (auto Done = loop(W, L, Renderer, T); !Done)
+    return Done;
+  return Together.first() ? finish(W, *D, L, T) : Success{};
+}
+
+} // namespace
+
+double TrainOutcome::meanDb() const {
+  std::vector<double> Db;
+  Db.reserve(HeldOut.size());
+  for (const auto &[Name, Value] : HeldOut)
+    Db.push_back(Value);
+  return meanOf(Db);
+}
+
+Expected<std::optional<TrainOutcome>> train(TrainRequest R,
+                                            const TrainHost &Host) {
+  const auto Together = openRanks();
+  if (!Together)
+    return Together.error();
+  bool Ready = false;
+  TrainOutcome Out;
+  const auto Done = trainHere(R, Host, **Together, Ready, Out);
+  const auto All = Ready ? Done : (*Together)->agree(Done);
+  // mpirun ends everything at the first exit code that is not 0: that must be
+  // the process's that says why.
+  if (!(*Together)->first())
+    return std::optional<TrainOutcome>();
+  if (!All)
+    return All.error();
+  return std::optional(std::move(Out));
+}
+
+} // namespace vorion::splat
