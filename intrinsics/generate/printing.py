@@ -43,7 +43,7 @@ class C:
 
 
 class Cpp:
-    """types: as above. Members are named as LLVM does."""
+    """Members are named as LLVM does. A type that records do not know is a structure's name."""
 
     _TYPES = {"u32": "std::uint32_t", "f32": "float", "u64": "std::uint64_t"}
 
@@ -59,7 +59,7 @@ class Cpp:
         yield f"/// {doc}"
         yield f"struct {name} {{"
         for f in fields:
-            yield f"  {self._TYPES[f.Type]} {camel(f.Name)}{_extent(f)}{initial and ' = ' + initial}; ///< {f.Doc}"
+            yield f"  {self._TYPES.get(f.Type, f.Type)} {camel(f.Name)}{_extent(f)}{initial and ' = ' + initial}; ///< {f.Doc}"
         yield from functions
         yield "};\n"
 

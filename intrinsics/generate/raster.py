@@ -5,6 +5,7 @@ usage: raster.py [--tblgen PATH] OUTPUT
 """
 
 import argparse
+from types import SimpleNamespace
 
 from printing import Cpp, camel, note
 from records import Records, write
@@ -68,12 +69,17 @@ def fields(csrs):
     yield ""
 
 
-def descriptors(records):
-    for d in records.of("Descriptor"):
-        if is_raster(d):
-            name = camel(d.Name.removeprefix("vx_"))
-            yield from Cpp().structure(name, d.Doc, d.Fields)
-            yield f"static_assert(sizeof({name}) == {4 * sum(f.Count for f in d.Fields)});\n"
+def descriptors(records, csrs):
+    gaussian, tail = (next(d for d in records.of("Descriptor") if d.Name == name) for name in DESCRIPTORS)
+    # A vx_tail begins with words of the command, under the names of their CSRs.
+    bank = {c.Name.removeprefix("vr_") for c in csrs}
+    handed = [f for f in tail.Fields if f.Name in bank]
+    words = SimpleNamespace(Type="TileWords", Name="rest", Count=1, Doc="of the command")
+    yield from Cpp().structure("Gaussian", gaussian.Doc, gaussian.Fields)
+    yield from Cpp().structure("TileWords", "The words of a command that are handed over.", handed, initial="0")
+    yield from Cpp().structure("Tail", tail.Doc, [words, *tail.Fields[len(handed):]])
+    for name, d in (("Gaussian", gaussian), ("Tail", tail)):
+        yield f"static_assert(sizeof({name}) == {4 * sum(f.Count for f in d.Fields)});\n"
 
 
 def main():
@@ -84,7 +90,7 @@ def main():
     records = Records(args.tblgen)
     csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
     constants = Cpp().constants(c for c in records.of("Constant") if is_raster(c))
-    parts = (enum_csrs(csrs), fields(csrs), counters(records), constants, descriptors(records))
+    parts = (enum_csrs(csrs), fields(csrs), counters(records), constants, descriptors(records, csrs))
     lines = [HEAD, *(line for part in parts for line in part), "} // namespace vorion::raster"]
     write(args.output, "\n".join(lines) + "\n")
 

@@ -64,18 +64,20 @@ Event rasterEvent(const WarpState &S) {
 
 } // namespace
 
-struct Machine::Impl {
+struct Machine::Impl final : raster::WorkLog {
   Impl(const Config &C, std::unique_ptr<Memory> Mem)
       : Shape(C), Storage(std::move(Mem)), Pool(C.HostThreads),
         Raster(Shape, *Storage, [this] { return mustStop(); }),
         Host(*Storage, [this](char Byte) { Cores[0]->print(Byte); }) {
     for (unsigned Id = 0; Id != Shape.cores(); ++Id)
       Cores.push_back(std::make_unique<Core>(Shape, Id));
-    if (!Shape.Timing.Enabled)
-      return;
-    Time = std::make_unique<Clock>(Shape);
-    logWork();
+    if (Shape.Timing.Enabled)
+      Time = std::make_unique<Clock>(Shape);
+    chooseLog();
   }
+
+  void command(raster::CommandWork &&Work) override;
+  void tail(raster::TailWork &&Work) override;
 
   /// Calls Use(host address, offset, bytes) for the pieces of a range of
   /// global memory, the image or the stacks; false, and no call, if it is not
@@ -108,7 +110,7 @@ struct Machine::Impl {
   }
   uint64_t retired() const;
   const ExecTable &exec() const;
-  void logWork();
+  void chooseLog();
   void resetRasterizers();
   void takeTime();
   bool isClocked() const { return Time && Clocked; }
@@ -190,19 +192,31 @@ const ExecTable &Machine::Impl::exec() const {
                                       : timedExecTable();
 }
 
-/// The rasterizers were made anew, or for the first time, or the clock was
-/// stopped or goes on.
-void Machine::Impl::logWork() {
-  if (Time)
-    for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket)
-      Raster.setLog(Socket, Clocked ? Time->log(Socket) : nullptr);
+/// Rasterizers and pixel units say what they do where somebody wants to know.
+void Machine::Impl::chooseLog() {
+  Raster.setLog(isObserved() || isClocked() ? this : nullptr);
+}
+
+// Observers follow runs, not what the driver does between them.
+
+void Machine::Impl::command(raster::CommandWork &&Work) {
+  if (Running)
+    Watcher.tell([&](Observer &O) { O.rasterCommand(Work); });
+  if (isClocked())
+    Time->expect(std::move(Work));
+}
+
+void Machine::Impl::tail(raster::TailWork &&Work) {
+  if (Running)
+    Watcher.tell([&](Observer &O) { O.tail(Work); });
+  if (isClocked())
+    Time->expect(std::move(Work));
 }
 
 void Machine::Impl::resetRasterizers() {
   Raster.reset();
   if (Time)
     Time->reset();
-  logWork();
 }
 
 void Machine::Impl::takeTime() {
@@ -282,26 +296,14 @@ void Machine::Impl::atSyncPoint() {
   for (const auto &C : Cores)
     for (WarpState &S : C->warps())
       executeParked(*C, S);
-  if (Raster.canRun()) {
-    Progress = true;
-    if (isObserved())
-      for (unsigned N = 0; N != Raster.units(); ++N)
-        Raster.runUnit(N, [&](const RasterWork &W) {
-          Watcher.tell([&](Observer &O) { O.rasterCommand(W); });
-        });
-    else
-      Pool.run(Raster.units(), false, [&](unsigned N) { Raster.runUnit(N); });
-    if (!Raster.handOver())
-      return;
-    if (isObserved())
-      for (unsigned N = 0; N != Raster.pixelUnits(); ++N)
-        Raster.runPixelUnit(N, [&](const TailWork &W) {
-          Watcher.tell([&](Observer &O) { O.tail(W); });
-        });
-    else
-      Pool.run(Raster.pixelUnits(), false,
-               [&](unsigned N) { Raster.runPixelUnit(N); });
-  }
+  if (!Raster.canRun())
+    return;
+  Progress = true;
+  Pool.run(Raster.units(), isObserved(),
+           [&](unsigned N) { Raster.runUnit(N); });
+  if (Raster.handOver())
+    Pool.run(Raster.pixelUnits(), isObserved(),
+             [&](unsigned N) { Raster.runPixelUnit(N); });
 }
 
 void Machine::Impl::flushConsole(bool All) {
@@ -484,6 +486,7 @@ void Machine::setObservers(std::vector<Observer *> Observers) {
   assert((Observers.empty() || canBeObserved()) &&
          "this build has no observers");
   I->Watcher.Observers = std::move(Observers);
+  I->chooseLog();
 }
 
 void Machine::setWatchdog(double Seconds) { I->WatchdogSeconds = Seconds; }
@@ -499,7 +502,7 @@ void Machine::setClocked(bool Clocked) {
     return;
   I->Clocked = Clocked;
   I->Time->reset();
-  I->logWork();
+  I->chooseLog();
 }
 
 std::optional<uint32_t> Machine::readRasterCsr(unsigned Core, unsigned Csr) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace vorion::isasim {
 
@@ -29,6 +28,15 @@ void RasterUnits::reset() {
   }
   for (unsigned Cluster = 0; Cluster != Shape.Clusters; ++Cluster)
     PixelUnits.push_back(std::make_unique<pixel::PixelUnit>(View));
+  setLog(Log);
+}
+
+void RasterUnits::setLog(raster::WorkLog *Receiver) {
+  Log = Receiver;
+  for (const auto &U : Units)
+    U->setLog(Log);
+  for (const auto &U : PixelUnits)
+    U->setLog(Log);
 }
 
 bool RasterUnits::access(unsigned Core, WarpState *S, const CsrAccess &A) {
@@ -63,28 +71,6 @@ void RasterUnits::runUnit(unsigned N) {
   }
 }
 
-void RasterUnits::runUnit(unsigned N,
-                          const std::function<void(const RasterWork &)> &Tell) {
-  const unsigned First = N * Shape.CoresPerSocket;
-  for (;;) {
-    // The unit says nothing of what it does next: one of the agents' oldest.
-    std::vector<raster::Command> Oldest(Shape.CoresPerSocket);
-    std::vector<RasterCounters> Before(Shape.CoresPerSocket);
-    for (unsigned A = 0; A != Shape.CoresPerSocket; ++A) {
-      Before[A] = countersOf(First + A);
-      if (Agents[First + A]->hasCommand())
-        Oldest[A] = Agents[First + A]->front();
-    }
-    if (!Units[N]->step())
-      return;
-    for (unsigned A = 0; A != Shape.CoresPerSocket; ++A) {
-      const RasterCounters Work = countersOf(First + A) - Before[A];
-      if (Work.Commands)
-        Tell({N, First + A, Oldest[A], Work});
-    }
-  }
-}
-
 bool RasterUnits::handOver() {
   bool Any = false;
   for (unsigned Socket = 0; Socket != Shape.sockets(); ++Socket) {
@@ -100,19 +86,6 @@ void RasterUnits::runPixelUnit(unsigned N) {
   }
 }
 
-void RasterUnits::runPixelUnit(
-    unsigned N, const std::function<void(const TailWork &)> &Tell) {
-  while (const raster::HandOver *Next = PixelUnits[N]->front()) {
-    raster::Tail Record;
-    std::memcpy(&Record, View.range(Next->Record, sizeof(Record)),
-                sizeof(Record));
-    const unsigned Core = Next->Agent->core();
-    const RasterCounters Before = countersOf(Core);
-    PixelUnits[N]->step();
-    Tell({N, Core, Record, countersOf(Core) - Before});
-  }
-}
-
 std::optional<uint32_t> RasterUnits::hostRead(unsigned Core, unsigned Number) {
   if (Core >= Agents.size() || !raster::findCsr(Number))
     return std::nullopt;
@@ -122,7 +95,7 @@ std::optional<uint32_t> RasterUnits::hostRead(unsigned Core, unsigned Number) {
     return std::nullopt;
   const uint32_t Value = Agents[Core]->read(C, 0);
   if (C == raster::Csr::GradNext)
-    runUnit(Core / Shape.CoresPerSocket);
+    runUnit(Shape.socketOf(Core));
   return Value;
 }
 
@@ -137,21 +110,16 @@ bool RasterUnits::hostWrite(unsigned Core, unsigned Number, uint32_t Value) {
   Lanes[0] = Value;
   Agents[Core]->write(static_cast<raster::Csr>(Number),
                       std::span(Lanes).first(Shape.LanesPerWarp), 1);
-  const unsigned Socket = Core / Shape.CoresPerSocket;
-  runUnit(Socket);
+  runUnit(Shape.socketOf(Core));
   if (handOver())
-    runPixelUnit(Socket / Shape.SocketsPerCluster);
+    runPixelUnit(Shape.clusterOf(Core));
   return true;
-}
-
-RasterCounters RasterUnits::countersOf(unsigned Core) const {
-  return Agents[Core]->counters();
 }
 
 RasterCounters RasterUnits::counters() const {
   RasterCounters Sum;
-  for (unsigned Core = 0; Core != Agents.size(); ++Core)
-    Sum += countersOf(Core);
+  for (const auto &A : Agents)
+    Sum += A->counters();
   return Sum;
 }
 

@@ -7,7 +7,7 @@
 #include "pixel/PixelUnit.h"
 #include "raster/Rasterizer.h"
 #include "vorion/isasim/Config.h"
-#include "vorion/isasim/Observer.h"
+#include "vorion/isasim/Result.h"
 
 #include <functional>
 #include <memory>
@@ -26,13 +26,8 @@ public:
   /// false if it has to wait until runUnit() has made room or finished.
   bool access(unsigned Core, WarpState *S, const CsrAccess &A);
 
-  /// \p Log is told of every command of rasterizer \p N until the next reset().
-  /// Pixel units tell the one of their cluster's first rasterizer.
-  void setLog(unsigned N, raster::WorkLog *Log) {
-    Units[N]->setLog(Log);
-    if (N % Shape.SocketsPerCluster == 0)
-      PixelUnits[N / Shape.SocketsPerCluster]->setLog(Log);
-  }
+  /// \p Receiver is told of every command and hand-over; nullptr for nobody.
+  void setLog(raster::WorkLog *Receiver);
 
   unsigned units() const { return static_cast<unsigned>(Units.size()); }
   unsigned pixelUnits() const {
@@ -43,8 +38,6 @@ public:
   /// Executes all commands of rasterizer \p N. Different rasterizers may run
   /// at the same time.
   void runUnit(unsigned N);
-  /// The same, and tells of each command.
-  void runUnit(unsigned N, const std::function<void(const RasterWork &)> &Tell);
 
   /// Gives the pixel units what the rasterizers handed over, in the order of
   /// sockets; false if that was nothing.
@@ -52,9 +45,6 @@ public:
   /// Executes all that pixel unit \p N has been given. Different ones may run
   /// at the same time.
   void runPixelUnit(unsigned N);
-  /// The same, telling of every tail.
-  void runPixelUnit(unsigned N,
-                    const std::function<void(const TailWork &)> &Tell);
 
   std::optional<uint32_t> hostRead(unsigned Core, unsigned Number);
   bool hostWrite(unsigned Core, unsigned Number, uint32_t Value);
@@ -65,8 +55,6 @@ public:
   RasterCounters counters() const;
 
 private:
-  RasterCounters countersOf(unsigned Core) const;
-
   struct GlobalMemory final : raster::RasterMemory {
     GlobalMemory(Memory &StorageIn, std::function<bool()> IsOverIn)
         : Storage(StorageIn), Over(std::move(IsOverIn)) {}
@@ -83,6 +71,7 @@ private:
   std::vector<std::unique_ptr<raster::RasterAgent>> Agents;  ///< by core
   std::vector<std::unique_ptr<raster::Rasterizer>> Units;    ///< by socket
   std::vector<std::unique_ptr<pixel::PixelUnit>> PixelUnits; ///< by cluster
+  raster::WorkLog *Log = nullptr;
 };
 
 } // namespace vorion::isasim

@@ -4,6 +4,7 @@
 #include "machine/Report.h"
 #include "observe/GrowingFile.h"
 #include "observe/Tool.h"
+#include "raster/WorkLog.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/Json.h"
 
@@ -69,6 +70,7 @@ void Timeline::runBegins(const RunStart &R) {
   Program = R.Program;
   RunBegan = Now;
   const Config &Shape = R.Device.config();
+  CoresPerUnit = Shape.CoresPerSocket;
   if (Runs++ == 0) {
     for (const auto &[Id, Name] : {std::pair{Process::Runs, "runs"},
                                    {Cores, "cores"},
@@ -116,18 +118,19 @@ void Timeline::syncPoint(std::span<const std::unique_ptr<Core>> All) {
   Now += Longest;
 }
 
-void Timeline::rasterCommand(const RasterWork &W) {
-  Row &R = Units[W.Unit];
+void Timeline::rasterCommand(const raster::CommandWork &W) {
+  Row &R = Units[W.Core / CoresPerUnit];
   const uint64_t From = std::max(Now, R.Retired); // where its last span ended
-  R.Retired = From + std::max<uint64_t>(
-                         1, (W.Work.Fragments + RasterLanes - 1) / RasterLanes);
+  R.Retired =
+      From + std::max<uint64_t>(1, (W.Counts.Fragments + RasterLanes - 1) /
+                                       RasterLanes);
   event(fmt::format("{{\"ph\": \"X\", \"name\": \"tile\", \"pid\": {}, "
                     "\"tid\": {}, \"ts\": {}, \"dur\": {}, \"args\": "
                     "{{\"core\": {}, \"gaussians\": {}, \"clipped\": {}, "
                     "\"fragments\": {}, \"blends\": {}}}}}",
                     R.Process, R.Thread, From, R.Retired - From, W.Core,
-                    W.Work.Gaussians, W.Work.Clipped, W.Work.Fragments,
-                    W.Work.Blends));
+                    W.Counts.Gaussians, W.Counts.Clipped, W.Counts.Fragments,
+                    W.Counts.Blends));
 }
 
 void Timeline::runEnds(const RunResult &Result) {

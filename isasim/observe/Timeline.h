@@ -25,7 +25,7 @@ public:
   void runNamed(const std::string &Name) override { RunName = Name; }
   void runBegins(const RunStart &R) override;
   void syncPoint(std::span<const std::unique_ptr<Core>> Cores) override;
-  void rasterCommand(const RasterWork &W) override;
+  void rasterCommand(const raster::CommandWork &W) override;
   void runEnds(const RunResult &R) override;
 
 private:
@@ -50,6 +50,7 @@ private:
   std::string RunName;
   std::shared_ptr<const Image> Program;
   std::vector<Row> Warps, Units;
+  unsigned CoresPerUnit = 1;
   uint64_t Now = 0, RunBegan = 0;
   unsigned Runs = 0;
 };

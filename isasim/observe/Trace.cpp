@@ -5,7 +5,8 @@
 #include "machine/Report.h"
 #include "observe/GrowingFile.h"
 #include "observe/Tool.h"
-#include "raster/Command.h"
+#include "raster/WorkLog.h"
+#include "vorion/isasim/Machine.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -86,6 +87,16 @@ std::string text(uint32_t Word, uint32_t Pc) {
   return Text;
 }
 
+/// The tile and the list of a command, as in its CSRs.
+std::string tileAndList(const raster::Job &J) {
+  using namespace raster;
+  return fmt::format("origin 0x{:08x} shape 0x{:08x} list 0x{:08x} count {}",
+                     TileOriginX.put(J.X) | TileOriginY.put(J.Y),
+                     TileShapeWidth.put(J.Width) |
+                         TileShapeHeight.put(J.Height),
+                     J.List, J.Count);
+}
+
 } // namespace
 
 Expected<TraceRequest> TraceRequest::parse(std::string_view Text) {
@@ -139,6 +150,8 @@ void Trace::runBegins(const RunStart &R) {
     ByPc.clear();
   Program = R.Program;
   SyncPoints = 0;
+  CoresPerSocket = R.Device.config().CoresPerSocket;
+  CoresPerCluster = R.Device.config().coresPerCluster();
   append(Out, "run {} {} launch 0x{:08x}\n", ++Runs, Program->name(),
          R.LaunchBlock);
 }
@@ -171,25 +184,21 @@ void Trace::syncPoint(std::span<const std::unique_ptr<Core>> Cores) {
                S.pcOf(S.Next), waitsFor(S));
 }
 
-void Trace::rasterCommand(const RasterWork &W) {
+void Trace::rasterCommand(const raster::CommandWork &W) {
   if (wants(Category::raster))
     append(Out,
-           "raster {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
-           "count {} output 0x{:08x} gaussians {} clipped {} fragments {} "
-           "blends {}\n",
-           W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
-           W.What.Count, W.What.Output, W.Work.Gaussians, W.Work.Clipped,
-           W.Work.Fragments, W.Work.Blends);
+           "raster {} core {} {} output 0x{:08x} gaussians {} clipped {} "
+           "fragments {} blends {}\n",
+           W.Core / CoresPerSocket, W.Core, tileAndList(W.What), W.What.Output,
+           W.Counts.Gaussians, W.Counts.Clipped, W.Counts.Fragments,
+           W.Counts.Blends);
 }
 
-void Trace::tail(const TailWork &W) {
+void Trace::tail(const raster::TailWork &W) {
   if (wants(Category::raster))
-    append(Out,
-           "tail {} core {} origin 0x{:08x} shape 0x{:08x} list 0x{:08x} "
-           "count {} pixels {} visits {} blends {}\n",
-           W.Unit, W.Core, W.What.TileOrigin, W.What.TileShape, W.What.List,
-           W.What.Count, W.Work.TailPixels, W.Work.TailVisits,
-           W.Work.TailBlends);
+    append(Out, "tail {} core {} {} pixels {} visits {} blends {}\n",
+           W.Core / CoresPerCluster, W.Core, tileAndList(W.What),
+           W.Counts.TailPixels, W.Counts.TailVisits, W.Counts.TailBlends);
 }
 
 void Trace::trap(const Trap &T) {

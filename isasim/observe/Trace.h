@@ -29,8 +29,8 @@ public:
   void runBegins(const RunStart &R) override;
   void commit(const Commit &C) override;
   void syncPoint(std::span<const std::unique_ptr<Core>> Cores) override;
-  void rasterCommand(const RasterWork &W) override;
-  void tail(const TailWork &W) override;
+  void rasterCommand(const raster::CommandWork &W) override;
+  void tail(const raster::TailWork &W) override;
   void trap(const Trap &T) override;
   void runEnds(const RunResult &R) override;
 
@@ -49,6 +49,7 @@ private:
   std::FILE *Out;
   uint32_t Categories;
   std::shared_ptr<const Image> Program;
+  unsigned CoresPerSocket = 1, CoresPerCluster = 1;
   std::unordered_map<uint32_t, Texts> ByPc; ///< of the program
   uint64_t Runs = 0, SyncPoints = 0;
 };

@@ -9,37 +9,17 @@ namespace vorion::pixel {
 
 using namespace raster;
 
-Command commandOf(const Tail &Record) {
-  Command C;
-  C.List = Record.List;
-  C.Count = Record.Count;
-  C.Gaussians = Record.Gaussians;
-  C.Options = Record.Options;
-  C.Cutoff = Record.Cutoff;
-  C.TileOrigin = Record.TileOrigin;
-  C.TileShape = Record.TileShape;
-  C.Ztile = Record.Ztile;
-  C.Output = Record.Output;
-  C.OutputPitch = Record.OutputPitch;
-  return C;
-}
-
 namespace {
 
 /// One hand-over in the works.
 class Execution {
 public:
-  Execution(const Tail &Handed, RasterMemory &Global, TileBuffer &Buffer,
-            const Datapath &Unit)
-      : Record(Handed), C(commandOf(Record)), Memory(Global), Tile(Buffer),
-        Lanes(Unit) {}
+  /// \p KeepDetails: records and pixels too, for the log.
+  Execution(const HandOver &Next, RasterMemory &Global, TileBuffer &Buffer,
+            const Datapath &Unit, bool KeepDetails);
 
-  std::uint32_t run();
-  const Counters &work() const { return Work; }
-
-  /// Keeps the details of the work too, of the record at \p Address.
-  void keepWork(std::uint32_t Address);
-  TailWork takeWork() { return std::move(Kept); }
+  /// To be called once.
+  TailWork run();
 
 private:
   bool isLive(unsigned Row, unsigned Column) const {
@@ -52,45 +32,51 @@ private:
   void storePixels();
   void keepVisits(std::uint32_t Examined);
 
-  const Tail &Record;
-  const Command C;
   RasterMemory &Memory;
   TileBuffer &Tile;
   const Datapath &Lanes;
-  Counters Work;
-  bool Keeps = false;
-  TailWork Kept;
+  bool Keeps;
+  Tail Record;
+  TailWork Work;
+  const Job &J = Work.What;
 };
 
-void Execution::keepWork(std::uint32_t Address) {
-  Keeps = true;
-  Kept = {Address, Record.List, Record.Output, Record.OutputPitch, laneUnits(C),
-          {},      {}};
+Execution::Execution(const HandOver &Next, RasterMemory &Global,
+                     TileBuffer &Buffer, const Datapath &Unit, bool KeepDetails)
+    : Memory(Global), Tile(Buffer), Lanes(Unit), Keeps(KeepDetails) {
+  std::memcpy(&Record, Memory.range(Next.Record, sizeof(Record)),
+              sizeof(Record));
+  Work.Core = Next.Agent->core();
+  Work.Record = Next.Record;
+  // From memory, which anyone may have overwritten: it is checked as a command
+  // is.
+  Command Rest;
+  static_cast<TileWords &>(Rest) = Record.Rest;
+  Work.What = checkCommand(Rest, Memory);
+  Work.Status = J.Refusal;
+  Work.Counts.Tails = 1;
 }
 
 /// \p Examined Gaussians have been seen by every pixel that is open, or was
 /// until the last of them.
 void Execution::keepVisits(std::uint32_t Examined) {
-  for (TailWork::OpenPixel &P : Kept.Pixels)
-    if (P.Visits == 0 && (Examined == C.Count ||
+  for (TailWork::OpenPixel &P : Work.Pixels)
+    if (P.Visits == 0 && (Examined == J.Count ||
                           std::signbit(Tile.T[P.Y * TileBuffer::Stride + P.X])))
       P.Visits = Examined;
 }
 
 template <typename Function> void Execution::forLivePixels(Function Use) {
-  const unsigned Width = TileShapeWidth.get(C.TileShape);
-  const unsigned Height = TileShapeHeight.get(C.TileShape);
-  for (unsigned Row = 0; Row != Height; ++Row) {
-    std::byte *Pixels = outputRow(C, Memory, Row);
-    for (unsigned Column = 0; Column != Width; ++Column)
+  for (unsigned Row = 0; Row != J.Height; ++Row) {
+    std::byte *Pixels = outputRow(J, Memory, Row);
+    for (unsigned Column = 0; Column != J.Width; ++Column)
       if (isLive(Row, Column))
         Use(Pixels + Column * sizeof(Pixel), Row, Column);
   }
 }
 
 void Execution::loadPixels() {
-  Tile.reset(TileOriginX.get(C.TileOrigin), TileOriginY.get(C.TileOrigin),
-             TileShapeWidth.get(C.TileShape), TileShapeHeight.get(C.TileShape));
+  Tile.reset(J.X, J.Y, J.Width, J.Height);
   // All closed but those that the record names.
   for (float &T : Tile.T)
     T = -T;
@@ -108,25 +94,24 @@ void Execution::loadPixels() {
     ++Tile.RowLive[Row];
     ++Tile.Live;
     if (Keeps)
-      Kept.Pixels.push_back({static_cast<std::uint8_t>(Column),
+      Work.Pixels.push_back({static_cast<std::uint8_t>(Column),
                              static_cast<std::uint8_t>(Row), 0});
   });
 }
 
 std::uint32_t Execution::blend() {
-  const BlendOptions Options = blendOptions(C);
-  const GaussianList List(C, Memory);
+  const GaussianList List(J, Memory);
   Fetched Entry;
-  for (std::uint32_t I = 0; I != C.Count && Tile.Live != 0; ++I) {
+  for (std::uint32_t I = 0; I != J.Count && Tile.Live != 0; ++I) {
     const std::uint32_t OpenBefore = Tile.Live;
-    Work.TailVisits += OpenBefore;
+    Work.Counts.TailVisits += OpenBefore;
     if (const std::uint32_t Status = List.fetch(I, Entry))
       return Status;
-    Work.TailBlends +=
-        blendFunction(C, Lanes)(Entry.Record, Options, Tile).Blends;
+    Work.Counts.TailBlends +=
+        blendFunction(J, Lanes)(Entry.Record, J.Blend, Tile).Blends;
     if (Keeps) {
-      Kept.Records.push_back(Entry.Address);
-      if (Tile.Live != OpenBefore || I + 1 == C.Count)
+      Work.Records.push_back(Entry.Address);
+      if (Tile.Live != OpenBefore || I + 1 == J.Count)
         keepVisits(I + 1);
     }
   }
@@ -141,16 +126,15 @@ void Execution::storePixels() {
   });
 }
 
-std::uint32_t Execution::run() {
-  Work.Tails = 1;
-  if (const std::uint32_t Status = checkCommand(C, Memory))
-    return Status;
-  loadPixels();
-  Work.TailPixels = Tile.Live;
-  if (const std::uint32_t Status = blend())
-    return Status;
-  storePixels();
-  return VR_OK;
+TailWork Execution::run() {
+  if (!J.Refusal) {
+    loadPixels();
+    Work.Counts.TailPixels = Tile.Live;
+    Work.Status = blend();
+  }
+  if (Work.Status == VR_OK)
+    storePixels();
+  return std::move(Work);
 }
 
 } // namespace
@@ -170,17 +154,11 @@ bool PixelUnit::step() {
     return false;
   const HandOver Next = Queue.front();
   Queue.pop_front();
-  Tail Record;
-  std::memcpy(&Record, Memory.range(Next.Record, sizeof(Record)),
-              sizeof(Record));
   const DefaultFloatEnvironment Environment;
-  Execution Running(Record, Memory, *Tile, *Lanes);
+  TailWork Done = Execution(Next, Memory, *Tile, *Lanes, Log != nullptr).run();
+  Next.Agent->completeTail(Done.Status, Done.Counts);
   if (Log)
-    Running.keepWork(Next.Record);
-  const std::uint32_t Status = Running.run();
-  if (Log)
-    Log->tail(Next.Agent->core(), Running.takeWork());
-  Next.Agent->completeTail(Status, Running.work());
+    Log->tail(std::move(Done));
   return true;
 }
 

@@ -16,10 +16,6 @@ struct TileBuffer;
 
 namespace vorion::pixel {
 
-/// What is left of a command, as its vx_tail says: from memory, which anyone
-/// may have overwritten, so it is checked as a command is.
-raster::Command commandOf(const raster::Tail &Record);
-
 /// Goes on with the lists that the rasterizers of its cluster hand over: each
 /// live pixel examines the rest of the list until it is saturated. It has the
 /// rasterizer's arithmetic and order, so a hand-over changes no pixel.
@@ -39,12 +35,7 @@ public:
   /// Queues \p Handed behind what is there.
   void accept(std::span<const raster::HandOver> Handed);
 
-  /// What step() executes next, or nullptr.
-  const raster::HandOver *front() const {
-    return Queue.empty() ? nullptr : &Queue.front();
-  }
-
-  /// \p Receiver is told of every hand-over's work; nullptr for nobody.
+  /// \p Receiver is told of every hand-over; nullptr for nobody.
   void setLog(raster::WorkLog *Receiver) { Log = Receiver; }
 
   /// Executes the next hand-over; false if there is none.

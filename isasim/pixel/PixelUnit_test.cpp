@@ -113,12 +113,12 @@ TEST_F(PixelUnitTest, recordAndCountersOfAKnownList) {
   rasterize();
 
   const Tail T = record();
-  EXPECT_EQ(T.List, List + 8);
-  EXPECT_EQ(T.Count, 4U);
-  EXPECT_EQ(T.Gaussians, Records);
-  EXPECT_EQ(T.Output, Pixels);
-  EXPECT_EQ(T.OutputPitch, Pitch);
-  EXPECT_EQ(T.Ztile, ZtileCount.put(3) | ZtileIndex.put(1));
+  EXPECT_EQ(T.Rest.List, List + 8);
+  EXPECT_EQ(T.Rest.Count, 4U);
+  EXPECT_EQ(T.Rest.Gaussians, Records);
+  EXPECT_EQ(T.Rest.Output, Pixels);
+  EXPECT_EQ(T.Rest.OutputPitch, Pitch);
+  EXPECT_EQ(T.Rest.Ztile, ZtileCount.put(3) | ZtileIndex.put(1));
   EXPECT_EQ(T.LiveCount, 120U);
   for (unsigned Row = 0; Row != 64; ++Row) {
     EXPECT_EQ(T.Live[2 * Row], Row < 10 ? 0xfff00U : 0U);
@@ -237,21 +237,21 @@ TEST_F(PixelUnitTest, badEntryOfTheTail) {
 // The record lies in memory, where a program can spoil it.
 TEST_F(PixelUnitTest, spoiltRecordsAreStatusCodes) {
   const std::vector<Gaussian> Scene = randomScene(20);
-  const std::pair<std::uint32_t Tail::*, std::uint32_t> Spoilt[] = {
-      {&Tail::TileShape, 0x00400041},
-      {&Tail::Options, OptionsExp.mask()},
-      {&Tail::List, 0xffff0000},
-      {&Tail::Count, ~0U},
-      {&Tail::Output, 0},
-      {&Tail::Cutoff, 0x7fc00000},
-      {&Tail::Gaussians, 0xfffffff0}};
+  const std::pair<std::uint32_t TileWords::*, std::uint32_t> Spoilt[] = {
+      {&TileWords::TileShape, 0x00400041},
+      {&TileWords::Options, OptionsExp.mask()},
+      {&TileWords::List, 0xffff0000},
+      {&TileWords::Count, ~0U},
+      {&TileWords::Output, 0},
+      {&TileWords::Cutoff, 0x7fc00000},
+      {&TileWords::Gaussians, 0xfffffff0}};
   for (const auto &[Member, Value] : Spoilt) {
     configure(Scene);
     handOverAt(10);
     set(Csr::Start, 1U);
     rasterize();
     Tail T = record();
-    T.*Member = Value;
+    T.Rest.*Member = Value;
     Memory.put<Tail>(Record, std::span(&T, 1));
     EXPECT_TRUE(Tails.step());
     EXPECT_NE(Agent.read(Csr::Wait, 0), VR_OK) << Value;

@@ -2,46 +2,43 @@
 #pragma once
 
 #include "raster/Backward.h"
-#include "raster/Command.h"
 #include "raster/CommandInput.h"
 #include "raster/RasterMemory.h"
 #include "raster/WorkLog.h"
 
 #include <optional>
+#include <utility>
 
 namespace vorion::raster {
 
 class BackwardRun {
 public:
-  /// Keeps references, which must outlive it. \p KeepWork: see takeWork().
-  BackwardRun(const Command &C, RasterMemory &Memory, BackwardBuffer &Tile,
-              const BackwardDatapath &Unit, bool KeepWork);
+  /// The oldest command of \p Agent. Keeps references to the others, which must
+  /// outlive it. \p KeepDetails: the Gaussians too, for the log.
+  BackwardRun(const RasterAgent &Agent, RasterMemory &Memory,
+              BackwardBuffer &Tile, const BackwardDatapath &Unit,
+              bool KeepDetails);
 
   /// The next batch, or nothing once there is no other or the command has
   /// failed.
   std::optional<GradientBatch> next();
 
-  /// What has been found so far; final when next() gives nothing.
-  std::uint32_t status() const { return Status; }
-  const Counters &work() const { return Work; }
-  /// The details of the work, where they are kept.
-  CommandWork takeWork();
+  /// What has been done, once next() has given nothing.
+  CommandWork takeWork() { return std::move(Work); }
 
 private:
   void load();
   std::uint32_t through(std::uint32_t Entry, GradientSums &Sums);
 
-  const Command &C;
+  CommandWork Work;
+  const Job &J = Work.What;
   RasterMemory &Memory;
   BackwardBuffer &Tile;
   const BackwardDatapath &Unit;
   BackwardOptions Options;
-  std::uint32_t Status;
   GaussianList List;
   std::uint32_t Left = 0; ///< entries in front of what has been handed over
-  Counters Work;
   bool Keeps;
-  std::vector<GaussianWork> Kept;
 };
 
 } // namespace vorion::raster

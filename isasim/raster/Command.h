@@ -9,20 +9,10 @@
 
 namespace vorion::raster {
 
-/// The configuration bank at the write of vr_start, as written: the rasterizer
-/// judges it (docs/rasterizer.md#status-codes).
-struct Command {
+/// The configuration bank at the write of vr_start, as written: checkCommand()
+/// reads and judges it (Job.h).
+struct Command : TileWords {
   std::uint32_t Mode = 0;
-  std::uint32_t Options = 0;
-  std::uint32_t Cutoff = 0; ///< bits of a float
-  std::uint32_t Gaussians = 0;
-  std::uint32_t List = 0;
-  std::uint32_t Count = 0;
-  std::uint32_t TileOrigin = 0;
-  std::uint32_t TileShape = 0;
-  std::uint32_t Ztile = 0;
-  std::uint32_t Output = 0;
-  std::uint32_t OutputPitch = 0;
   std::uint32_t TailCount = 0;
   std::uint32_t TailShare = 0;
   std::uint32_t TailRecord = 0;
@@ -32,8 +22,6 @@ struct Command {
   std::vector<Gaussian> Pushed; ///< descriptors of mode "pushed", in order
   bool PushedTooMany = false;   ///< some did not fit the push buffer
 
-  /// Whether the pixel unit may be asked to go on.
-  bool mayHandOver() const { return TailCount != 0 || TailShare != 0; }
   bool isBackward() const { return ModeBackward.get(Mode) != 0; }
 };
 

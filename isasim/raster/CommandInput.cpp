@@ -1,13 +1,19 @@
 #include "raster/CommandInput.h"
 
-#include "raster/Reciprocals.h"
-
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
 namespace vorion::raster {
+
+CommandWork beginCommand(const RasterAgent &Agent, RasterMemory &Memory) {
+  CommandWork W;
+  W.Core = Agent.core();
+  W.What = checkCommand(Agent.front(), Memory);
+  W.Status = W.What.Refusal;
+  W.Counts.Commands = 1;
+  return W;
+}
 
 static std::byte *rangeAt(RasterMemory &Memory, std::uint64_t Addr,
                           std::uint64_t Bytes) {
@@ -16,119 +22,22 @@ static std::byte *rangeAt(RasterMemory &Memory, std::uint64_t Addr,
              : nullptr;
 }
 
-static std::byte *pixelRow(const Command &C, RasterMemory &Memory,
+static std::byte *pixelRow(const Job &J, RasterMemory &Memory,
                            std::uint32_t First, unsigned Row, unsigned Bytes) {
-  const std::uint64_t Pitch = C.OutputPitch / sizeof(Pixel) * Bytes;
-  return rangeAt(Memory, First + Row * Pitch,
-                 std::uint64_t{TileShapeWidth.get(C.TileShape)} * Bytes);
+  const std::uint64_t Pitch = J.OutputPitch / sizeof(Pixel) * Bytes;
+  return rangeAt(Memory, First + Row * Pitch, std::uint64_t{J.Width} * Bytes);
 }
 
-std::byte *outputRow(const Command &C, RasterMemory &Memory, unsigned Row) {
-  return pixelRow(C, Memory, C.Output, Row, sizeof(Pixel));
+std::byte *outputRow(const Job &J, RasterMemory &Memory, unsigned Row) {
+  return pixelRow(J, Memory, J.Output, Row, sizeof(Pixel));
 }
 
-std::byte *lastRow(const Command &C, RasterMemory &Memory, unsigned Row) {
-  return pixelRow(C, Memory, C.Last, Row, sizeof(std::uint32_t));
+std::byte *lastRow(const Job &J, RasterMemory &Memory, unsigned Row) {
+  return pixelRow(J, Memory, J.Last, Row, sizeof(std::uint32_t));
 }
 
-std::byte *upstreamRow(const Command &C, RasterMemory &Memory, unsigned Row) {
-  return pixelRow(C, Memory, C.Upstream, Row, sizeof(Pixel));
-}
-
-/// Training takes whole lists in memory: positions in them are what a pixel's
-/// last contributor is.
-static bool isKnownTraining(const Command &C) {
-  const std::uint32_t Known =
-      BackwardReciprocal.put(BackwardReciprocal.mask()) |
-      BackwardClampStops.put(1) | BackwardInRows.put(1);
-  if (!C.isBackward())
-    return ModeKeepLast.get(C.Mode) == 0 ||
-           (C.Mode == ModeKeepLast.put(1) && ZtileCount.get(C.Ztile) <= 1);
-  return C.Mode == ModeBackward.put(1) &&
-         OptionsBlend.get(C.Options) == VR_BLEND_FP32 &&
-         ZtileCount.get(C.Ztile) <= 1 && (C.Backward & ~Known) == 0 &&
-         BackwardReciprocal.get(C.Backward) < ReciprocalCount;
-}
-
-static bool isKnown(const Command &C) {
-  const std::uint32_t KnownMode = ModeBackward.put(1) | ModePushed.put(1) |
-                                  ModeDrain.put(1) | ModeKeepLast.put(1);
-  const std::uint32_t KnownOptions =
-      OptionsExp.put(OptionsExp.mask()) | OptionsStopAtEqual.put(1) |
-      OptionsSkipSaturated.put(1) | OptionsBlend.put(OptionsBlend.mask()) |
-      OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask());
-  const std::uint32_t Parts = ZtileCount.get(C.Ztile);
-  return (C.Mode & ~KnownMode) == 0 && (C.Options & ~KnownOptions) == 0 &&
-         OptionsExp.get(C.Options) < ExpUnitCount &&
-         OptionsBlend.get(C.Options) < BlendUnitCount &&
-         ZtileIndex.get(C.Ztile) < (Parts == 0 ? 1 : Parts) &&
-         isKnownTraining(C);
-}
-
-static bool isShape(const Command &C) {
-  const unsigned Width = TileShapeWidth.get(C.TileShape);
-  const unsigned Height = TileShapeHeight.get(C.TileShape);
-  return Width >= 1 && Width <= VR_MAX_TILE && Height >= 1 &&
-         Height <= VR_MAX_TILE &&
-         (!C.isBackward() || Width * Height <= VR_MAX_BACKWARD);
-}
-
-/// The order of these checks is the order of docs/rasterizer.md#status-codes.
-std::uint32_t checkCommand(const Command &C, RasterMemory &Memory) {
-  const bool Takes = ModePushed.get(C.Mode) != 0;
-  const bool Drains = ModeDrain.get(C.Mode) != 0;
-  const bool Back = C.isBackward();
-  const bool Lasts = Back || ModeKeepLast.get(C.Mode) != 0;
-  if (!isKnown(C))
-    return VR_BAD_MODE;
-  if (!isShape(C))
-    return VR_BAD_SHAPE;
-  const auto Cutoff = std::bit_cast<float>(C.Cutoff);
-  if (!(Cutoff >= 0.0F && Cutoff < 1.0F))
-    return VR_BAD_CUTOFF;
-  if (Takes ? C.PushedTooMany : C.Count > VR_MAX_COUNT)
-    return VR_BAD_COUNT;
-  if (C.TailShare > VR_TAIL_WHOLE ||
-      (C.mayHandOver() && (Takes || Drains || Lasts)))
-    return VR_BAD_TAIL;
-  if ((!Takes && (C.Gaussians % 16 != 0 || C.List % 4 != 0)) ||
-      (!Drains && (C.Output % 16 != 0 || C.OutputPitch % 16 != 0)) ||
-      (C.mayHandOver() && C.TailRecord % 16 != 0) ||
-      (Lasts && C.Last % 4 != 0) || (Back && C.Upstream % 16 != 0))
-    return VR_MISALIGNED;
-  if (!Takes && C.Count != 0 && !Memory.range(C.List, 4ULL * C.Count))
-    return VR_UNMAPPED;
-  const unsigned Height = TileShapeHeight.get(C.TileShape);
-  for (unsigned Row = 0; Row != Height; ++Row)
-    if ((!Drains && !outputRow(C, Memory, Row)) ||
-        (Lasts && !lastRow(C, Memory, Row)) ||
-        (Back && !upstreamRow(C, Memory, Row)))
-      return VR_UNMAPPED;
-  if (C.mayHandOver() && !Memory.range(C.TailRecord, sizeof(Tail)))
-    return VR_UNMAPPED;
-  return VR_OK;
-}
-
-float leastAlpha(const Command &C) {
-  return static_cast<float>(1U << OptionsAlphaCutoff.get(C.Options)) / 255.0F;
-}
-
-BlendOptions blendOptions(const Command &C) {
-  const auto Cutoff = std::bit_cast<float>(C.Cutoff);
-  // T' <= cutoff is T' < the next float: one comparison serves both rules.
-  return {OptionsStopAtEqual.get(C.Options)
-              ? std::nextafter(Cutoff, std::numeric_limits<float>::infinity())
-              : Cutoff,
-          leastAlpha(C), OptionsSkipSaturated.get(C.Options) != 0};
-}
-
-Datapath::BlendFunction blendFunction(const Command &C, const Datapath &Lanes) {
-  return Lanes.Blend[OptionsExp.get(C.Options)][OptionsBlend.get(C.Options)];
-}
-
-LaneUnits laneUnits(const Command &C) {
-  return {static_cast<std::uint8_t>(OptionsExp.get(C.Options)),
-          static_cast<std::uint8_t>(OptionsBlend.get(C.Options))};
+std::byte *upstreamRow(const Job &J, RasterMemory &Memory, unsigned Row) {
+  return pixelRow(J, Memory, J.Upstream, Row, sizeof(Pixel));
 }
 
 std::uint32_t checkGaussian(const Gaussian &G) {
@@ -141,9 +50,9 @@ std::uint32_t checkGaussian(const Gaussian &G) {
   return Found ? VR_NAN : VR_OK;
 }
 
-GaussianList::GaussianList(const Command &Of, RasterMemory &Global)
-    : C(Of), Memory(Global),
-      Entries(C.Count == 0 ? nullptr : Memory.range(C.List, 4ULL * C.Count)) {}
+GaussianList::GaussianList(const Job &J, RasterMemory &Global)
+    : Gaussians(J.Gaussians), Count(J.Count), Memory(Global),
+      Entries(Count == 0 ? nullptr : Memory.range(J.List, 4ULL * Count)) {}
 
 std::uint32_t GaussianList::entry(std::uint32_t I) const {
   std::uint32_t Word = 0;
@@ -153,7 +62,7 @@ std::uint32_t GaussianList::entry(std::uint32_t I) const {
 
 std::uint64_t GaussianList::address(std::uint32_t Entry) const {
   const std::uint64_t Number = Entry & ~VR_INTERSECT;
-  return C.Gaussians + Number * sizeof(Gaussian);
+  return Gaussians + Number * sizeof(Gaussian);
 }
 
 /// The record that a list's word names, or nullptr if it is not there.
@@ -169,7 +78,7 @@ std::uint32_t GaussianList::fetch(std::uint32_t I, Fetched &Out) const {
   // The host's caches do not see a list's records coming: a third of the time
   // of small Gaussians, measured in bench/raster.
   constexpr std::uint32_t Ahead = 8;
-  if (I + Ahead < C.Count)
+  if (I + Ahead < Count)
     if (const std::byte *Soon = record(entry(I + Ahead)))
       __builtin_prefetch(Soon);
   const std::uint32_t Entry = entry(I);

@@ -1,10 +1,8 @@
-/// What rasterizer and pixel unit have in common in how they take a command:
-/// its checks, its list, its rows of pixels.
+/// What rasterizer and pixel unit have in common in how they execute a command:
+/// its list, its rows of pixels.
 #pragma once
 
-#include "raster/Command.h"
-#include "raster/Datapath.h"
-#include "raster/RasterMemory.h"
+#include "raster/RasterAgent.h"
 #include "raster/WorkLog.h"
 
 #include <cfenv>
@@ -27,30 +25,23 @@ private:
   std::fenv_t Saved;
 };
 
-/// The status code of \p C before anything is blended: all checks of
-/// docs/rasterizer.md#status-codes but those of list entries.
-std::uint32_t checkCommand(const Command &C, RasterMemory &Memory);
+/// The oldest command of \p Agent, checked and not begun.
+CommandWork beginCommand(const RasterAgent &Agent, RasterMemory &Memory);
 
-/// The smallest alpha that \p C blends.
-float leastAlpha(const Command &C);
+/// The datapath of \p Lanes that \p J, which was not refused, asks for.
+inline Datapath::BlendFunction blendFunction(const Job &J,
+                                             const Datapath &Lanes) {
+  return Lanes.Blend[J.Units.Exp][J.Units.Blend];
+}
 
-/// The datapath's part of vr_options and vr_cutoff.
-BlendOptions blendOptions(const Command &C);
-
-/// The datapath that vr_options of a checked command asks for.
-Datapath::BlendFunction blendFunction(const Command &C, const Datapath &Lanes);
-
-/// The units that it has, for the log of the work.
-LaneUnits laneUnits(const Command &C);
-
-/// Host address of row \p Row of the output of a checked \p C, or nullptr if it
-/// is not all global memory.
-std::byte *outputRow(const Command &C, RasterMemory &Memory, unsigned Row);
+/// Host address of row \p Row of the output of \p J, or nullptr if it is not
+/// all global memory.
+std::byte *outputRow(const Job &J, RasterMemory &Memory, unsigned Row);
 
 /// Likewise the row of last contributors of a command that keeps or reads them,
 /// and the row of gradients of a backward one.
-std::byte *lastRow(const Command &C, RasterMemory &Memory, unsigned Row);
-std::byte *upstreamRow(const Command &C, RasterMemory &Memory, unsigned Row);
+std::byte *lastRow(const Job &J, RasterMemory &Memory, unsigned Row);
+std::byte *upstreamRow(const Job &J, RasterMemory &Memory, unsigned Row);
 
 /// One entry of a list, and the record that it names.
 struct Fetched {
@@ -62,10 +53,10 @@ struct Fetched {
 /// VR_NAN if a float of \p G is a NaN, else VR_OK.
 std::uint32_t checkGaussian(const Gaussian &G);
 
-/// The list of a checked command.
+/// The list of a command that was not refused.
 class GaussianList {
 public:
-  GaussianList(const Command &C, RasterMemory &Memory);
+  GaussianList(const Job &J, RasterMemory &Memory);
 
   /// Reads entry \p I, below vr_count, with its record: VR_OK, VR_UNMAPPED or
   /// VR_NAN.
@@ -76,7 +67,8 @@ private:
   std::uint64_t address(std::uint32_t Entry) const;
   const std::byte *record(std::uint32_t Entry) const;
 
-  const Command &C;
+  std::uint32_t Gaussians; ///< address of the records
+  std::uint32_t Count;
   RasterMemory &Memory;
   const std::byte *Entries;
 };

@@ -15,29 +15,17 @@ namespace {
 /// One command in the works: checked, executed, written out.
 class Execution {
 public:
-  Execution(const Command &Configured, RasterMemory &Global, TileBuffer &Buffer,
-            const Datapath &Unit)
-      : C(Configured), Memory(Global), Tile(Buffer), Lanes(Unit),
-        Width(TileShapeWidth.get(C.TileShape)),
-        Height(TileShapeHeight.get(C.TileShape)),
-        Drains(ModeDrain.get(C.Mode) != 0), Takes(ModePushed.get(C.Mode) != 0),
-        KeepsLast(ModeKeepLast.get(C.Mode) != 0) {}
+  /// \p KeepDetails: the Gaussians too, for the log.
+  Execution(RasterAgent &Served, RasterMemory &Global, TileBuffer &Buffer,
+            const Datapath &Unit, bool KeepDetails)
+      : Agent(Served), C(Served.front()), Work(beginCommand(Served, Global)),
+        Memory(Global), Tile(Buffer), Lanes(Unit), Keeps(KeepDetails) {}
 
-  /// Returns a status code; \p Drained gets the pixels of a draining command.
-  std::uint32_t run(std::vector<Pixel> &Drained);
-
-  /// Whether run() ended because the pixel unit has to go on.
-  bool handsOver() const { return HandedOver; }
-  /// Fills the command's vx_tail, for core \p Core.
-  void writeTail(unsigned Core);
-
-  const Counters &work() const { return Work; }
-
-  /// Keeps the details of the work too.
-  void keepWork() { Keeps = true; }
-  CommandWork takeWork(std::uint32_t Status);
+  /// To be called once.
+  CommandWork run();
 
 private:
+  std::uint32_t blend();
   std::uint32_t blendPushed();
   std::uint32_t blendList();
   /// \p G has been checked. \p Address: of the record, 0 if it was pushed.
@@ -45,69 +33,65 @@ private:
                 const BlendOptions &Options);
   bool isTail(std::uint32_t Remaining) const;
   void copyRow(unsigned Row, std::byte *To) const;
+  void writePixels() const;
+  void writeTail() const;
 
+  RasterAgent &Agent;
   const Command &C;
+  CommandWork Work;
+  const Job &J = Work.What;
   RasterMemory &Memory;
   TileBuffer &Tile;
   const Datapath &Lanes;
-  unsigned Width;
-  unsigned Height;
-  bool Drains;
-  bool Takes; ///< pushed descriptors instead of a list
-  bool KeepsLast;
-  bool HandedOver = false;
+  bool Keeps;
   std::uint32_t Done = 0; ///< entries of the list
-  Counters Work;
-  bool Keeps = false;
-  std::vector<GaussianWork> Kept;
 };
 
 void Execution::blendOne(const Gaussian &G, std::uint32_t Address,
                          bool Intersects, const BlendOptions &Options) {
-  const BoxWork Result = blendFunction(C, Lanes)(G, Options, Tile);
-  Work.Intersecting += Intersects;
-  Work.Clipped += Result.Clipped;
-  Work.Fragments += Result.Fragments;
-  Work.Blends += Result.Blends;
+  const BoxWork Result = blendFunction(J, Lanes)(G, Options, Tile);
+  Work.Counts.Intersecting += Intersects;
+  Work.Counts.Clipped += Result.Clipped;
+  Work.Counts.Fragments += Result.Fragments;
+  Work.Counts.Blends += Result.Blends;
   if (Keeps)
-    Kept.push_back({Address, Result.X, Result.Y, Result.Width, Result.Height,
-                    static_cast<std::uint16_t>(Result.Fragments), Intersects});
+    Work.Gaussians.push_back(
+        {Address, Result.X, Result.Y, Result.Width, Result.Height,
+         static_cast<std::uint16_t>(Result.Fragments), Intersects});
 }
 
 std::uint32_t Execution::blendPushed() {
-  const BlendOptions Options = blendOptions(C);
   for (const Gaussian &G : C.Pushed) {
     if (Tile.Live == 0)
       break;
-    ++Work.Gaussians;
+    ++Work.Counts.Gaussians;
     if (const std::uint32_t Status = checkGaussian(G))
       return Status;
-    blendOne(G, 0, (G.Tag & VR_INTERSECT) != 0, Options);
+    blendOne(G, 0, (G.Tag & VR_INTERSECT) != 0, J.Blend);
   }
   return VR_OK;
 }
 
 /// Whether a reason to hand over holds with \p Remaining entries left.
 bool Execution::isTail(std::uint32_t Remaining) const {
-  const std::uint64_t Pixels = std::uint64_t{Width} * Height;
+  const std::uint64_t Pixels = std::uint64_t{J.Width} * J.Height;
   const std::uint64_t Saturated = Pixels - Tile.Live;
-  return Remaining <= C.TailCount ||
-         (C.TailShare != 0 &&
-          Saturated * VR_TAIL_WHOLE >= C.TailShare * Pixels);
+  return Remaining <= J.TailCount ||
+         (J.TailShare != 0 &&
+          Saturated * VR_TAIL_WHOLE >= J.TailShare * Pixels);
 }
 
 std::uint32_t Execution::blendList() {
-  BlendOptions Options = blendOptions(C);
-  Options.KeepLast = KeepsLast;
-  const GaussianList List(C, Memory);
+  BlendOptions Options = J.Blend;
+  const GaussianList List(J, Memory);
   Fetched Entry;
-  for (; Done != C.Count && Tile.Live != 0; ++Done) {
-    if (C.mayHandOver() && isTail(C.Count - Done)) {
-      HandedOver = true;
+  for (; Done != J.Count && Tile.Live != 0; ++Done) {
+    if (J.mayHandOver() && isTail(J.Count - Done)) {
+      Work.HandedOver = true;
       break;
     }
     const std::uint32_t Status = List.fetch(Done, Entry);
-    Work.Gaussians += Status != VR_UNMAPPED;
+    Work.Counts.Gaussians += Status != VR_UNMAPPED;
     if (Status)
       return Status;
     Options.Entry = Done;
@@ -116,8 +100,15 @@ std::uint32_t Execution::blendList() {
   return VR_OK;
 }
 
+std::uint32_t Execution::blend() {
+  if (J.Refusal)
+    return J.Refusal;
+  Tile.reset(J.X, J.Y, J.Width, J.Height);
+  return J.TakesPushed ? blendPushed() : blendList();
+}
+
 void Execution::copyRow(unsigned Row, std::byte *To) const {
-  for (unsigned Column = 0; Column != Width; ++Column) {
+  for (unsigned Column = 0; Column != J.Width; ++Column) {
     const unsigned At = Row * TileBuffer::Stride + Column;
     // T's sign says "saturated", no more.
     const Pixel P{Tile.R[At], Tile.G[At], Tile.B[At], std::fabs(Tile.T[At])};
@@ -125,59 +116,44 @@ void Execution::copyRow(unsigned Row, std::byte *To) const {
   }
 }
 
-CommandWork Execution::takeWork(std::uint32_t Status) {
-  return {Takes ? 0 : C.List,
-          C.Output,
-          C.OutputPitch,
-          static_cast<std::uint16_t>(Width),
-          static_cast<std::uint16_t>(Height),
-          laneUnits(C),
-          Drains,
-          Status != VR_OK,
-          std::move(Kept),
-          Status == VR_OK && HandedOver ? C.TailRecord : 0,
-          KeepsLast ? C.Last : 0};
+void Execution::writePixels() const {
+  std::vector<Pixel> &Drained = Agent.drainedTile();
+  if (J.Drains)
+    Drained.resize(std::size_t{J.Width} * J.Height);
+  for (unsigned Row = 0; J.KeepsLast && Row != J.Height; ++Row)
+    std::memcpy(lastRow(J, Memory, Row), Tile.Last + Row * TileBuffer::Stride,
+                J.Width * sizeof(*Tile.Last));
+  for (unsigned Row = 0; Row != J.Height; ++Row)
+    copyRow(Row, J.Drains
+                     ? reinterpret_cast<std::byte *>(&Drained[Row * J.Width])
+                     : outputRow(J, Memory, Row));
 }
 
-void Execution::writeTail(unsigned Core) {
+/// Fills the command's vx_tail.
+void Execution::writeTail() const {
   Tail Record{};
-  Record.List = C.List + 4 * Done;
-  Record.Count = C.Count - Done;
-  Record.Gaussians = C.Gaussians;
-  Record.Options = C.Options;
-  Record.Cutoff = C.Cutoff;
-  Record.TileOrigin = C.TileOrigin;
-  Record.TileShape = C.TileShape;
-  Record.Ztile = C.Ztile;
-  Record.Output = C.Output;
-  Record.OutputPitch = C.OutputPitch;
-  Record.Core = Core;
+  Record.Rest = C;
+  Record.Rest.List += 4 * Done;
+  Record.Rest.Count -= Done;
+  Record.Core = Work.Core;
   Record.LiveCount = Tile.Live;
-  for (unsigned Row = 0; Row != Height; ++Row)
-    for (unsigned Column = 0; Column != Width; ++Column)
+  for (unsigned Row = 0; Row != J.Height; ++Row)
+    for (unsigned Column = 0; Column != J.Width; ++Column)
       if (!std::signbit(Tile.T[Row * TileBuffer::Stride + Column]))
         Record.Live[2 * Row + Column / 32] |= 1U << Column % 32;
-  std::memcpy(Memory.range(C.TailRecord, sizeof(Record)), &Record,
+  std::memcpy(Memory.range(J.TailRecord, sizeof(Record)), &Record,
               sizeof(Record));
 }
 
-std::uint32_t Execution::run(std::vector<Pixel> &Drained) {
-  Work.Commands = 1;
-  if (const std::uint32_t Status = checkCommand(C, Memory))
-    return Status;
-  Tile.reset(TileOriginX.get(C.TileOrigin), TileOriginY.get(C.TileOrigin),
-             Width, Height);
-  if (const std::uint32_t Status = Takes ? blendPushed() : blendList())
-    return Status;
-  if (Drains)
-    Drained.resize(std::size_t{Width} * Height);
-  for (unsigned Row = 0; KeepsLast && Row != Height; ++Row)
-    std::memcpy(lastRow(C, Memory, Row), Tile.Last + Row * TileBuffer::Stride,
-                Width * sizeof(*Tile.Last));
-  for (unsigned Row = 0; Row != Height; ++Row)
-    copyRow(Row, Drains ? reinterpret_cast<std::byte *>(&Drained[Row * Width])
-                        : outputRow(C, Memory, Row));
-  return VR_OK;
+CommandWork Execution::run() {
+  if (Keeps)
+    Work.Pushed = C.Pushed;
+  Work.Status = blend();
+  if (!Work.hasFailed())
+    writePixels();
+  if (Work.HandedOver)
+    writeTail();
+  return std::move(Work);
 }
 
 } // namespace
@@ -201,15 +177,16 @@ bool Rasterizer::canStep() const {
 void Rasterizer::startBackward(std::size_t Turn) {
   if (!BackwardTile)
     BackwardTile = std::make_unique<BackwardBuffer>();
-  BackwardRun Run(Agents[Turn]->front(), Memory, *BackwardTile, *BackwardLanes,
+  BackwardRun Run(*Agents[Turn], Memory, *BackwardTile, *BackwardLanes,
                   Log != nullptr);
   Backward = Halted{Turn, {}, VR_OK, {}};
   while (auto Batch = Run.next())
     Backward->Batches.push_back(*Batch);
-  Backward->Status = Run.status();
-  Backward->Work = Run.work();
+  CommandWork Done = Run.takeWork();
+  Backward->Status = Done.Status;
+  Backward->Work = Done.Counts;
   if (Log)
-    Log->command(static_cast<unsigned>(Turn), Run.takeWork());
+    Log->command(std::move(Done));
 }
 
 /// Hands a batch over, or ends the command.
@@ -244,19 +221,16 @@ bool Rasterizer::step() {
       stepBackward();
       return true;
     }
-    Execution Work(Agent.front(), Memory, *Tile, *Lanes);
-    if (Log)
-      Work.keepWork();
-    const std::uint32_t Status = Work.run(Agent.drainedTile());
-    if (Log)
-      Log->command(static_cast<unsigned>(Turn), Work.takeWork(Status));
-    if (Status == VR_OK && Work.handsOver()) {
-      Work.writeTail(Agent.core());
-      HandOvers.push_back({&Agent, Agent.front().TailRecord});
-      Agent.handOver(Work.work());
+    CommandWork Done =
+        Execution(Agent, Memory, *Tile, *Lanes, Log != nullptr).run();
+    if (Done.HandedOver) {
+      HandOvers.push_back({&Agent, Done.What.TailRecord});
+      Agent.handOver(Done.Counts);
     } else {
-      Agent.complete(Status, Work.work());
+      Agent.complete(Done.Status, Done.Counts);
     }
+    if (Log)
+      Log->command(std::move(Done));
     return true;
   }
   return false;

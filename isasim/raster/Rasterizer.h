@@ -37,7 +37,7 @@ public:
   /// Whether there is a command, and no agent has to take a batch first.
   bool canStep() const;
 
-  /// \p Receiver is told of every command's work; nullptr for nobody.
+  /// \p Receiver is told of every command; nullptr for nobody.
   void setLog(WorkLog *Receiver) { Log = Receiver; }
 
   /// Commands since the last call that the pixel unit has to go on with, in

@@ -1,6 +1,7 @@
 #include "timing/Clock.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vorion::isasim {
 
@@ -12,47 +13,34 @@ constexpr size_t LongestBacklog = 1 << 20;
 constexpr size_t WorthTaking = 1 << 12;
 } // namespace
 
-class Clock::SocketLog final : public raster::WorkLog {
-public:
-  SocketLog(RasterClock &ToIn, PixelClock &TailsIn, unsigned FirstIn)
-      : To(ToIn), Tails(TailsIn), First(FirstIn) {}
-  void command(unsigned Agent, raster::CommandWork &&Work) override {
-    To.expect(Agent, std::move(Work));
-  }
-  void tail(unsigned Core, raster::TailWork &&Work) override {
-    Tails.expect(Core - First, std::move(Work));
-  }
-
-private:
-  RasterClock &To;
-  PixelClock &Tails;
-  unsigned First; ///< core of the cluster
-};
-
 Clock::Clock(const Config &C)
     : Shape(C), P(C.Timing), Memory(P, C.Clusters), Barriers(C.Barriers) {
-  const unsigned CoresPerCluster = C.SocketsPerCluster * C.CoresPerSocket;
   for (unsigned N = 0; N != C.cores(); ++N) {
     Traces.push_back(std::make_unique<TraceBuffer>());
     Traces.back()->LocalBanks = P.Core.LocalBanks;
     Traces.back()->InterleavedStacks = P.Core.InterleavedStacks != 0;
-    Cores.emplace_back(P.Core, N / CoresPerCluster, *Traces.back());
+    Cores.emplace_back(P.Core, C.clusterOf(N), *Traces.back());
   }
   for (unsigned N = 0; N != C.sockets(); ++N)
     Rasters.emplace_back(P, N / C.SocketsPerCluster, C.CoresPerSocket,
                          C.Raster.QueueDepth);
   for (unsigned N = 0; N != C.Clusters; ++N)
-    Pixels.emplace_back(P, N, CoresPerCluster);
-  for (unsigned N = 0; N != C.sockets(); ++N) {
-    const unsigned Cluster = N / C.SocketsPerCluster;
-    Logs.push_back(std::make_unique<SocketLog>(Rasters[N], Pixels[Cluster],
-                                               Cluster * CoresPerCluster));
-  }
+    Pixels.emplace_back(P, N, C.coresPerCluster());
 }
 
 Clock::~Clock() = default;
 
-raster::WorkLog *Clock::log(unsigned Socket) { return Logs[Socket].get(); }
+void Clock::expect(raster::CommandWork &&Work) {
+  const unsigned Core = Work.Core;
+  Rasters[Shape.socketOf(Core)].expect(Core % Shape.CoresPerSocket,
+                                       std::move(Work));
+}
+
+void Clock::expect(raster::TailWork &&Work) {
+  const unsigned Core = Work.Core;
+  Pixels[Shape.clusterOf(Core)].expect(Core % Shape.coresPerCluster(),
+                                       std::move(Work));
+}
 
 void Clock::begin(const CodeTable &Code) {
   Ops = describeProgram(Code, P.Core);
@@ -242,7 +230,8 @@ void Clock::arrive(unsigned Core, uint64_t Then) {
 /// Does the request of \p Core at \p Then, or blocks the core.
 void Clock::grant(unsigned Core, uint64_t Then) {
   CoreClock &C = Cores[Core];
-  RasterClock &R = Rasters[Core / Shape.CoresPerSocket];
+  const unsigned Socket = Shape.socketOf(Core);
+  RasterClock &R = Rasters[Socket];
   const unsigned Agent = Core % Shape.CoresPerSocket;
   switch (C.state()) {
   case CoreClock::State::Access:
@@ -255,7 +244,7 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     if (R.isFull(Agent))
       return C.block();
     R.start(Agent, Then);
-    update(rasterKey(Core / Shape.CoresPerSocket));
+    update(rasterKey(Socket));
     C.resume(Then, CoreCycle::RasterFull);
     break;
   case CoreClock::State::RasterWait:
@@ -267,7 +256,7 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     if (!R.canTake(Agent))
       return C.block();
     R.takeBatch(Agent, Then);
-    update(rasterKey(Core / Shape.CoresPerSocket));
+    update(rasterKey(Socket));
     C.resume(Then, CoreCycle::RasterWait);
     break;
   case CoreClock::State::Starved:
@@ -322,11 +311,10 @@ void Clock::stepRaster(unsigned Socket, uint64_t Then) {
   if (!Done)
     return;
   const unsigned Core = Socket * Shape.CoresPerSocket + Done->Agent;
-  const unsigned Cluster = Socket / Shape.SocketsPerCluster;
   if (Done->HandedOver) {
-    const unsigned First =
-        Cluster * Shape.SocketsPerCluster * Shape.CoresPerSocket;
-    Pixels[Cluster].accept(Core - First, Rasters[Socket].freeAt());
+    const unsigned Cluster = Shape.clusterOf(Core);
+    Pixels[Cluster].accept(Core % Shape.coresPerCluster(),
+                           Rasters[Socket].freeAt());
     update(pixelKey(Cluster));
   }
   wake(Core, Then);
@@ -336,10 +324,8 @@ void Clock::stepPixels(unsigned Cluster, uint64_t Then) {
   const auto Local = Pixels[Cluster].step(Memory);
   if (!Local)
     return;
-  const unsigned Core =
-      Cluster * Shape.SocketsPerCluster * Shape.CoresPerSocket + *Local;
-  const unsigned Socket = Core / Shape.CoresPerSocket;
-  Rasters[Socket].tailDone(Core % Shape.CoresPerSocket);
+  const unsigned Core = Cluster * Shape.coresPerCluster() + *Local;
+  Rasters[Shape.socketOf(Core)].tailDone(Core % Shape.CoresPerSocket);
   wake(Core, Then);
 }
 

@@ -25,9 +25,10 @@ public:
 
   /// Where core \p Core writes its trace.
   CoreTrace *trace(unsigned Core) { return Traces[Core].get(); }
-  /// Where the rasterizer of \p Socket logs its commands. Loggers of different
-  /// sockets may be used at the same time.
-  raster::WorkLog *log(unsigned Socket);
+  /// A rasterizer or a pixel unit has executed \p Work. Those of different
+  /// sockets and clusters may call at the same time.
+  void expect(raster::CommandWork &&Work);
+  void expect(raster::TailWork &&Work);
 
   /// A run of \p Code begins.
   void begin(const CodeTable &Code);
@@ -41,8 +42,6 @@ public:
   void reset();
 
 private:
-  class SocketLog;
-
   /// Somebody's place in the order of time.
   using Key = uint64_t;
   static constexpr Key Never = UINT64_MAX;
@@ -73,7 +72,6 @@ private:
   std::vector<CoreClock> Cores;
   std::vector<RasterClock> Rasters;
   std::vector<PixelClock> Pixels; ///< by cluster
-  std::vector<std::unique_ptr<SocketLog>> Logs;
   std::vector<OpInfo> Ops;
   std::vector<bool> Ended;
   /// Cores, then rasterizers, then pixel units. Even: what comes next is not

@@ -84,9 +84,9 @@ uint64_t PixelClock::pixelLines(MemorySystem &Memory, size_t Which,
       std::min(Work.Pixels.size(), (Which + 1) * size_t{P.Lanes});
   for (size_t N = Which * P.Lanes; N < End; ++N) {
     const auto &Pixel = Work.Pixels[N];
-    const uint32_t Line =
-        (Work.Output + Pixel.Y * Work.OutputPitch + Pixel.X * PixelBytes) &
-        LineMask;
+    const uint32_t Line = (Work.What.Output + Pixel.Y * Work.What.OutputPitch +
+                           Pixel.X * PixelBytes) &
+                          LineMask;
     if (Line == Last)
       continue;
     Last = Line;
@@ -157,7 +157,7 @@ void PixelClock::startGroup(MemorySystem &Memory) {
 
 void PixelClock::fetch(MemorySystem &Memory) {
   FetchAt = std::max(FetchAt, At);
-  const uint32_t Line = (Work.List + 4 * Number) & LineMask;
+  const uint32_t Line = (Work.What.List + 4 * Number) & LineMask;
   if (Line != ListLine) {
     ListReady = readLines(Memory, Line, 4);
     ListLine = Line;
@@ -178,7 +178,7 @@ void PixelClock::fetch(MemorySystem &Memory) {
 }
 
 void PixelClock::finishGroup(MemorySystem &Memory) {
-  FetchAt = std::max(FetchAt, DoneAt + laneDepth(Work.Units));
+  FetchAt = std::max(FetchAt, DoneAt + laneDepth(Work.What.Units));
   const uint64_t Taken = pixelLines(Memory, Group, true);
   if (++Group == groups()) {
     // The lanes empty, and the last pixels are written.

@@ -15,9 +15,9 @@ protected:
   static TailWork tail(unsigned Pixels, unsigned Gaussians) {
     TailWork W;
     W.Record = 0x100000;
-    W.List = 0x110000;
-    W.Output = 0x200000;
-    W.OutputPitch = 1024;
+    W.What.List = 0x110000;
+    W.What.Output = 0x200000;
+    W.What.OutputPitch = 1024;
     for (unsigned N = 0; N != Gaussians; ++N)
       W.Records.push_back(0x300000 + 64 * N);
     for (unsigned N = 0; N != Pixels; ++N)

@@ -119,7 +119,7 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
   switch (Now) {
   case Stage::Take:
     take();
-    if (Work.Backward && !Work.Failed)
+    if (Work.What.IsBackward && !Work.hasFailed())
       load(Memory);
     break;
   case Stage::Fetch:
@@ -159,13 +159,13 @@ void RasterClock::take() {
   A.Expected.pop_front();
   ++Spent.Commands;
   // Of a backward command that failed only the end is known.
-  if (Work.Backward && Work.Failed)
+  if (Work.What.IsBackward && Work.hasFailed())
     Work.Gaussians.clear();
 
   spend(RasterCycle::Idle, At - DispatchAt);
   FetchAt = At + P.StartCycles;
   // The whole tile is cleared, a row of banks at a time.
-  const unsigned Pixels = unsigned{Work.Width} * Work.Height;
+  const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
   spend(RasterCycle::Begin, P.StartCycles + (Pixels + P.Banks - 1) / P.Banks);
   std::fill(EntryFree.begin(), EntryFree.end(), FetchAt);
   Number = 0;
@@ -181,14 +181,14 @@ void RasterClock::take() {
 void RasterClock::load(MemorySystem &Memory) {
   uint64_t Ready = DispatchAt;
   const auto Read = [&](uint32_t First, unsigned Row, uint32_t Bytes) {
-    const uint32_t Pitch = Work.OutputPitch / PixelBytes * Bytes;
+    const uint32_t Pitch = Work.What.OutputPitch / PixelBytes * Bytes;
     Ready = std::max(Ready, requestLines(Memory, First + Row * Pitch,
-                                         Work.Width * Bytes, false));
+                                         Work.What.Width * Bytes, false));
   };
-  for (unsigned Row = 0; Row != Work.Height; ++Row) {
-    Read(Work.Output, Row, PixelBytes);
-    Read(Work.Upstream, Row, PixelBytes);
-    Read(Work.Last, Row, sizeof(uint32_t));
+  for (unsigned Row = 0; Row != Work.What.Height; ++Row) {
+    Read(Work.What.Output, Row, PixelBytes);
+    Read(Work.What.Upstream, Row, PixelBytes);
+    Read(Work.What.Last, Row, sizeof(uint32_t));
   }
   spend(RasterCycle::Begin, Ready - DispatchAt);
   At = std::max(At, Now == Stage::Fetch ? FetchAt : DispatchAt);
@@ -197,7 +197,7 @@ void RasterClock::load(MemorySystem &Memory) {
 /// The place in its list of a Gaussian in the order of the fetches.
 uint32_t RasterClock::entryOf(size_t Gaussian) const {
   return static_cast<uint32_t>(
-      Work.Backward ? Work.Gaussians.size() - 1 - Gaussian : Gaussian);
+      Work.What.IsBackward ? Work.Gaussians.size() - 1 - Gaussian : Gaussian);
 }
 
 /// One line a cycle, from FetchAt on; returns when the last has come.
@@ -218,14 +218,15 @@ uint64_t RasterClock::requestLines(MemorySystem &Memory, uint32_t Address,
 /// FetchAt becomes the time at which it is. The line behind is asked for when
 /// the first entry of a line is used.
 bool RasterClock::listReady(MemorySystem &Memory) {
-  const uint32_t Entry = Work.List + 4 * entryOf(Number);
+  const uint32_t Entry = Work.What.List + 4 * entryOf(Number);
   const uint32_t Line = Entry & LineMask;
   if (Line != ListLine) {
     const bool First = ListLine == 0;
     ListReady = First ? requestLines(Memory, Line, 4, false) : NextListReady;
-    NextListReady = requestLines(
-        Memory, Work.Backward ? Line - TimingLineBytes : Line + TimingLineBytes,
-        4, false);
+    NextListReady = requestLines(Memory,
+                                 Work.What.IsBackward ? Line - TimingLineBytes
+                                                      : Line + TimingLineBytes,
+                                 4, false);
     ListLine = Line;
   }
   if (ListReady <= FetchAt)
@@ -252,9 +253,12 @@ void RasterClock::fetch(MemorySystem &Memory) {
   uint64_t &Entry = EntryFree[Number % EntryFree.size()];
   Entry = DispatchAt;
   ++Number;
-  if (Work.Backward && entryOf(Number - 1) % raster::VR_GRAD_LANES == 0) {
+  if (Work.What.IsBackward &&
+      entryOf(Number - 1) % raster::VR_GRAD_LANES == 0) {
     // The gather empties before its sums go.
-    spend(RasterCycle::Flush, backwardDepth(Work.Units, Work.Reciprocal));
+    spend(RasterCycle::Flush,
+          backwardDepth(Work.What.Units,
+                        static_cast<unsigned>(Work.What.Backward.Unit)));
     Now = Stage::HandOver;
     At = Agents[Serving].Waiting < BatchDepth ? DispatchAt : Never;
     return;
@@ -274,9 +278,9 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
     spend(RasterCycle::Clip, P.ClipCycles);
     return;
   }
-  const unsigned Lanes = Work.Backward ? P.Lanes / 2 : P.Lanes;
+  const unsigned Lanes = Work.What.IsBackward ? P.Lanes / 2 : P.Lanes;
   unsigned Cycles =
-      (Work.Backward ? PairTable : Table).cycles(G.Width, G.Height);
+      (Work.What.IsBackward ? PairTable : Table).cycles(G.Width, G.Height);
   // Where saturated pixels get no slot (an option), only the others are packed.
   if (G.Slots < unsigned{G.Width} * G.Height)
     Cycles = std::min(Cycles, std::max(1U, (G.Slots + Lanes - 1) / Lanes));
@@ -322,21 +326,22 @@ uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
 
 /// Dispatch is done: the lanes empty, then the tile is written.
 void RasterClock::flush() {
-  if (!Work.Gaussians.empty() && !Work.Backward)
-    spend(RasterCycle::Flush, laneDepth(Work.Units));
+  if (!Work.Gaussians.empty() && !Work.What.IsBackward)
+    spend(RasterCycle::Flush, laneDepth(Work.What.Units));
   InLanes = {};
   DrainRow = 0;
   DrainByte = 0;
   At = DispatchAt;
-  Now =
-      Work.Drains || Work.Backward || Work.Failed ? Stage::Done : Stage::Drain;
+  Now = Work.What.Drains || Work.What.IsBackward || Work.hasFailed()
+            ? Stage::Done
+            : Stage::Drain;
 }
 
 /// A line of the tile.
 void RasterClock::drain(MemorySystem &Memory) {
-  const uint32_t RowBytes = Work.Width * PixelBytes;
+  const uint32_t RowBytes = Work.What.Width * PixelBytes;
   const uint32_t Address =
-      Work.Output + DrainRow * Work.OutputPitch + DrainByte;
+      Work.What.Output + DrainRow * Work.What.OutputPitch + DrainByte;
   const uint32_t Line = Address & LineMask;
   const uint32_t Bytes =
       std::min(Line + TimingLineBytes - Address, RowBytes - DrainByte);
@@ -353,16 +358,16 @@ void RasterClock::drain(MemorySystem &Memory) {
   DrainByte += Bytes;
   if (DrainByte == RowBytes) {
     DrainByte = 0;
-    if (++DrainRow == Work.Height)
+    if (++DrainRow == Work.What.Height)
       Now = Stage::Done;
   }
 }
 
 /// Rows of last contributors, a line a cycle.
 void RasterClock::storeLast(MemorySystem &Memory) {
-  for (unsigned Row = 0; Row != Work.Height; ++Row) {
-    const uint32_t First = Work.Last + Row * (Work.OutputPitch / 4);
-    const uint32_t End = First + Work.Width * 4;
+  for (unsigned Row = 0; Row != Work.What.Height; ++Row) {
+    const uint32_t First = Work.What.Last + Row * (Work.What.OutputPitch / 4);
+    const uint32_t End = First + Work.What.Width * 4;
     for (uint32_t Line = First & LineMask; Line < End;
          Line += TimingLineBytes) {
       Memory.access(Cluster,
@@ -373,27 +378,27 @@ void RasterClock::storeLast(MemorySystem &Memory) {
 }
 
 RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
-  const bool HandsOver = Work.TailRecord != 0;
-  if (Work.Backward)
+  if (Work.What.IsBackward)
     Agents[Serving].Batches.push_back(false);
-  else if (Work.Last && !Work.Failed)
+  else if (Work.What.KeepsLast && !Work.hasFailed())
     storeLast(Memory);
-  if (HandsOver) {
+  if (Work.HandedOver) {
     constexpr unsigned Lines =
         (sizeof(raster::Tail) + TimingLineBytes - 1) / TimingLineBytes;
     for (unsigned N = 0; N != Lines; ++N)
-      Memory.access(Cluster, {.Now = DispatchAt + N,
-                              .Address = Work.TailRecord + N * TimingLineBytes,
-                              .Op = CacheOp::Write});
+      Memory.access(Cluster,
+                    {.Now = DispatchAt + N,
+                     .Address = Work.What.TailRecord + N * TimingLineBytes,
+                     .Op = CacheOp::Write});
     spend(RasterCycle::Drain, Lines);
   }
   --Agents[Serving].Queued;
-  Agents[Serving].Tails += HandsOver;
+  Agents[Serving].Tails += Work.HandedOver;
   const bool More = std::any_of(Agents.begin(), Agents.end(),
                                 [](const Agent &A) { return A.Queued != 0; });
   Now = More ? Stage::Take : Stage::Idle;
   At = More ? DispatchAt : Never;
-  return {Serving, HandsOver};
+  return {Serving, Work.HandedOver};
 }
 
 void RasterClock::end(uint64_t End) {

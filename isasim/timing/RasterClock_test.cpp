@@ -24,8 +24,8 @@ GaussianWork box(unsigned X, unsigned Y, unsigned Width, unsigned Height) {
 /// Pushed Gaussians into a tile that its core drains: no memory at all.
 CommandWork pushed(std::vector<GaussianWork> Gaussians) {
   CommandWork W;
-  W.Width = W.Height = 64;
-  W.Drains = true;
+  W.What.Width = W.What.Height = 64;
+  W.What.Drains = true;
   W.Gaussians = std::move(Gaussians);
   return W;
 }
@@ -123,7 +123,7 @@ TEST_F(RasterClockTest, TheBufferHidesTheLatencyOfL2) {
   constexpr unsigned Count = 200;
   const auto Listed = [] {
     CommandWork W = pushed({});
-    W.List = 0x100000;
+    W.What.List = 0x100000;
     for (unsigned N = 0; N != Count; ++N) {
       GaussianWork G = box(N % 64, N / 64, 1, 1);
       G.Address = 0x200000 + N * 64;
@@ -146,9 +146,9 @@ TEST_F(RasterClockTest, TheBufferHidesTheLatencyOfL2) {
 
 TEST_F(RasterClockTest, DrainWritesALineACycle) {
   CommandWork W = pushed({});
-  W.Drains = false;
-  W.Output = 0x300000;
-  W.OutputPitch = 64 * 16;
+  W.What.Drains = false;
+  W.What.Output = 0x300000;
+  W.What.OutputPitch = 64 * 16;
   const RasterTime T = timeOf(std::move(W));
   EXPECT_EQ(of(T, RasterCycle::Drain), 64U * 64 * 16 / TimingLineBytes);
 }
@@ -219,10 +219,10 @@ TEST_F(RasterClockTest, ACommandWithoutWorkWaitsForTheNextRun) {
 /// A backward command of \p Gaussians; every line it reads is at address 0.
 CommandWork backward(std::vector<GaussianWork> Gaussians) {
   CommandWork W;
-  W.Width = 32;
-  W.Height = 64;
-  W.OutputPitch = 512;
-  W.Backward = true;
+  W.What.Width = 32;
+  W.What.Height = 64;
+  W.What.OutputPitch = 512;
+  W.What.IsBackward = true;
   W.Gaussians = std::move(Gaussians);
   return W;
 }

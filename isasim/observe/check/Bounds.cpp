@@ -1,7 +1,7 @@
 #include "observe/check/Bounds.h"
 
 #include "core/Isa.h"
-#include "raster/Command.h"
+#include "raster/WorkLog.h"
 #include "vorion/isasim/Machine.h"
 
 #include <bit>
@@ -34,7 +34,7 @@ void BoundsCheck::fetch(const Step &S) {
   }
 }
 
-void BoundsCheck::checkRange(const RasterWork &W, const char *What,
+void BoundsCheck::checkRange(const raster::CommandWork &W, const char *What,
                              uint32_t Address, uint64_t Bytes) {
   if (Where.Held.empty() || Bytes == 0 || Where.Held.find(Address, Bytes))
     return;
@@ -43,24 +43,22 @@ void BoundsCheck::checkRange(const RasterWork &W, const char *What,
                       Bytes, Address, Where.Held.describe(Address)));
 }
 
-void BoundsCheck::rasterCommand(const RasterWork &W) {
+void BoundsCheck::rasterCommand(const raster::CommandWork &W) {
   using namespace raster;
-  if (!ModePushed.get(W.What.Mode))
-    checkRange(W, "index list", W.What.List, uint64_t{W.What.Count} * 4);
-  const unsigned Rows = TileShapeHeight.get(W.What.TileShape);
-  const unsigned Width = TileShapeWidth.get(W.What.TileShape);
-  const uint32_t Pitch = W.What.OutputPitch;
-  const bool Back = W.What.isBackward();
-  for (unsigned Row = 0; Row < Rows; ++Row) {
-    if (!ModeDrain.get(W.What.Mode))
-      checkRange(W, "row of output", W.What.Output + Row * Pitch,
-                 Width * sizeof(Pixel));
-    if (Back || ModeKeepLast.get(W.What.Mode))
-      checkRange(W, "row of last contributors", W.What.Last + Row * (Pitch / 4),
-                 Width * sizeof(uint32_t));
-    if (Back)
-      checkRange(W, "row of gradients", W.What.Upstream + Row * Pitch,
-                 Width * sizeof(Pixel));
+  const Job &J = W.What;
+  if (!J.TakesPushed)
+    checkRange(W, "index list", J.List, uint64_t{J.Count} * 4);
+  for (unsigned Row = 0; Row < J.Height; ++Row) {
+    if (!J.Drains)
+      checkRange(W, "row of output", J.Output + Row * J.OutputPitch,
+                 J.Width * sizeof(Pixel));
+    if (J.IsBackward || J.KeepsLast)
+      checkRange(W, "row of last contributors",
+                 J.Last + Row * (J.OutputPitch / 4),
+                 J.Width * sizeof(uint32_t));
+    if (J.IsBackward)
+      checkRange(W, "row of gradients", J.Upstream + Row * J.OutputPitch,
+                 J.Width * sizeof(Pixel));
   }
 }
 

@@ -16,11 +16,11 @@ public:
   uint64_t guardBytes() const override { return 4096; }
   void runBegins(const RunStart &R) override;
   void fetch(const Step &S) override;
-  void rasterCommand(const RasterWork &W) override;
+  void rasterCommand(const raster::CommandWork &W) override;
 
 private:
-  void checkRange(const RasterWork &W, const char *What, uint32_t Address,
-                  uint64_t Bytes);
+  void checkRange(const raster::CommandWork &W, const char *What,
+                  uint32_t Address, uint64_t Bytes);
 
   Findings &Out;
   const Places &Where;

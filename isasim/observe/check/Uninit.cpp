@@ -2,7 +2,7 @@
 
 #include "core/Isa.h"
 #include "core/State.h"
-#include "raster/Command.h"
+#include "raster/WorkLog.h"
 #include "vorion/isasim/Machine.h"
 
 #include <bit>
@@ -261,14 +261,13 @@ void UninitCheck::commit(const Commit &C) {
     moveStack(C, W);
 }
 
-void UninitCheck::rasterCommand(const RasterWork &W) {
-  using namespace raster;
-  if (ModeDrain.get(W.What.Mode))
+void UninitCheck::rasterCommand(const raster::CommandWork &W) {
+  const raster::Job &J = W.What;
+  if (J.Drains)
     return;
-  const unsigned Rows = TileShapeHeight.get(W.What.TileShape);
-  for (unsigned Row = 0; Row < Rows; ++Row)
-    Global.set(W.What.Output + Row * W.What.OutputPitch,
-               TileShapeWidth.get(W.What.TileShape) * sizeof(Pixel), true);
+  for (unsigned Row = 0; Row < J.Height; ++Row)
+    Global.set(J.Output + Row * J.OutputPitch, J.Width * sizeof(raster::Pixel),
+               true);
 }
 
 std::unique_ptr<Check> makeUninitCheck(Findings &Out, const Places &Where) {

@@ -30,7 +30,7 @@ public:
   void runBegins(const RunStart &R) override;
   void fetch(const Step &S) override;
   void commit(const Commit &C) override;
-  void rasterCommand(const RasterWork &W) override;
+  void rasterCommand(const raster::CommandWork &W) override;
 
 private:
   struct Warp {

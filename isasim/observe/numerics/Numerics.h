@@ -35,8 +35,10 @@ public:
   void fetch(const Step &S) override { Cores.fetch(S); }
   void commit(const Commit &C) override { Cores.commit(C); }
 
-  void rasterCommand(const RasterWork &W) override { Units.rasterCommand(W); }
-  void tail(const TailWork &W) override { Units.tail(W); }
+  void rasterCommand(const raster::CommandWork &W) override {
+    Units.rasterCommand(W);
+  }
+  void tail(const raster::TailWork &W) override { Units.tail(W); }
 
   /// Of all runs so far.
   std::string text() const;

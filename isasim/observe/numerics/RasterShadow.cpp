@@ -1,7 +1,6 @@
 #include "observe/numerics/RasterShadow.h"
 
 #include "observe/numerics/ShadowMath.h"
-#include "pixel/PixelUnit.h"
 #include "raster/CommandInput.h"
 #include "vorion/isasim/Machine.h"
 
@@ -41,10 +40,8 @@ struct RasterShadow::Tile {
   double Color[3][TileBuffer::Pixels];
   double T[TileBuffer::Pixels];
 
-  void reset(const Command &C) {
-    Real.reset(TileOriginX.get(C.TileOrigin), TileOriginY.get(C.TileOrigin),
-               TileShapeWidth.get(C.TileShape),
-               TileShapeHeight.get(C.TileShape));
+  void reset(const Job &J) {
+    Real.reset(J.X, J.Y, J.Width, J.Height);
     for (auto &Plane : Color)
       std::fill(std::begin(Plane), std::end(Plane), 0.0);
     std::fill(std::begin(T), std::end(T), 1.0);
@@ -54,9 +51,8 @@ struct RasterShadow::Tile {
 /// One Gaussian after the other into a tile.
 class RasterShadow::Replay {
 public:
-  Replay(RasterShadow &Of, const Command &Configured, Tile &To)
-      : Out(Of.Found), Memory(Of.Memory), Lanes(Of.Lanes), C(Configured), T(To),
-        Options(blendOptions(C)) {}
+  Replay(RasterShadow &Of, const Job &What, Tile &To)
+      : Out(Of.Found), Memory(Of.Memory), Lanes(Of.Lanes), J(What), T(To) {}
 
   /// \p Address of the record, 0 for a pushed one.
   void blend(const Gaussian &G, uint32_t Number, uint32_t Address);
@@ -90,9 +86,8 @@ private:
   RasterFindings &Out;
   const ShadowMemory &Memory;
   const Datapath &Lanes;
-  const Command &C;
+  const Job &J;
   Tile &T;
-  const BlendOptions Options;
 
   uint32_t Number = 0;
   GaussianCounts *Current = nullptr;
@@ -138,8 +133,8 @@ void RasterShadow::Replay::count(RasterStage Which, float Is, double Own,
     return;
   To.OwnMax = OwnError;
   To.Gaussian = Number;
-  To.X = TileOriginX.get(C.TileOrigin) + X;
-  To.Y = TileOriginY.get(C.TileOrigin) + Y;
+  To.X = J.X + X;
+  To.Y = J.Y + Y;
   To.Is = Is;
   To.Should = Own;
 }
@@ -169,7 +164,7 @@ void RasterShadow::Replay::compareBoxes(const Gaussian &G,
 void RasterShadow::Replay::collect(const Gaussian &G, const ShadowGaussian &S,
                                    unsigned AtRow) {
   // By more than any unit's error.
-  const double Bound = std::log(Options.MinAlpha / G.Opacity) - 0.25;
+  const double Bound = std::log(J.Blend.MinAlpha / G.Opacity) - 0.25;
   const float Dy = G.Mean[1] - T.Real.CentreY[AtRow];
   const double Dy2 = S.Mean[1] - T.Real.CentreY[AtRow];
   for (unsigned Column = 0; Column != Side; ++Column) {
@@ -207,10 +202,10 @@ void RasterShadow::Replay::judge(const Gaussian &G, const ShadowGaussian &S,
   const unsigned At = F.At;
   const float Wanted = G.Opacity * Exp;
   const double Exp2 = std::exp(F.Power2), Wanted2 = S.Opacity * Exp2;
-  const bool Counts = Wanted >= Options.MinAlpha;
-  if (Counts != (Wanted2 >= Options.MinAlpha))
+  const bool Counts = Wanted >= J.Blend.MinAlpha;
+  if (Counts != (Wanted2 >= J.Blend.MinAlpha))
     differ(RasterStage::Alpha);
-  if (!Counts && !(Wanted2 >= Options.MinAlpha))
+  if (!Counts && !(Wanted2 >= J.Blend.MinAlpha))
     return;
   count(RasterStage::Power, F.Power, F.OwnPower, F.Power2);
   count(RasterStage::Exp, Exp, std::exp(double{F.Power}), Exp2);
@@ -226,7 +221,7 @@ void RasterShadow::Replay::judge(const Gaussian &G, const ShadowGaussian &S,
 
   const double NextT2 = T.T[At] * (1 - Alpha2);
   const bool Stops = std::signbit(T.Real.T[At]);
-  if (Stops != (NextT2 < Options.StopBelow))
+  if (Stops != (NextT2 < J.Blend.StopBelow))
     differ(RasterStage::Transmittance);
   if (Stops)
     return;
@@ -273,8 +268,8 @@ void RasterShadow::Replay::blend(const Gaussian &G, uint32_t GaussianNumber,
   Exps.assign((Fragments.size() + Lanes16 - 1) / Lanes16 * Lanes16, 0.0F);
   for (size_t N = 0; N != Fragments.size(); ++N)
     Exps[N] = Fragments[N].Power;
-  Lanes.Exp[OptionsExp.get(C.Options)](Exps.data(), Exps.size());
-  blendFunction(C, Lanes)(G, Options, T.Real);
+  Lanes.Exp[J.Units.Exp](Exps.data(), Exps.size());
+  blendFunction(J, Lanes)(G, J.Blend, T.Real);
   for (size_t N = 0; N != Fragments.size(); ++N) {
     X = Fragments[N].Column;
     Y = Fragments[N].At / Side;
@@ -283,13 +278,13 @@ void RasterShadow::Replay::blend(const Gaussian &G, uint32_t GaussianNumber,
 }
 
 bool RasterShadow::Replay::blendList(RasterMemory &Storage, uint64_t Entries) {
-  const GaussianList List(C, Storage);
+  const GaussianList List(J, Storage);
   Fetched Entry;
   for (uint32_t N = 0; N != Entries && T.Real.Live != 0; ++N) {
     if (List.fetch(N, Entry) != VR_OK)
       return false;
     blend(Entry.Record,
-          (Entry.Address - C.Gaussians) / uint32_t{sizeof(Gaussian)},
+          (Entry.Address - J.Gaussians) / uint32_t{sizeof(Gaussian)},
           Entry.Address);
   }
   return true;
@@ -309,17 +304,14 @@ void RasterShadow::runBegins(const RunStart &R) {
 }
 
 /// The pixels as the units wrote them get their shadows.
-void RasterShadow::finish(const Command &C, const Tile &T) {
-  const unsigned Width = TileShapeWidth.get(C.TileShape);
-  const unsigned Height = TileShapeHeight.get(C.TileShape);
-  for (unsigned Y = 0; Y != Height; ++Y) {
-    const std::byte *Row =
-        ModeDrain.get(C.Mode) ? nullptr : outputRow(C, *Global, Y);
-    for (unsigned X = 0; X != Width; ++X) {
+void RasterShadow::finish(const Job &J, const Tile &T) {
+  for (unsigned Y = 0; Y != J.Height; ++Y) {
+    const std::byte *Row = J.Drains ? nullptr : outputRow(J, *Global, Y);
+    for (unsigned X = 0; X != J.Width; ++X) {
       const unsigned At = Y * Side + X;
       PixelFinding F{
-          TileOriginX.get(C.TileOrigin) + X,
-          TileOriginY.get(C.TileOrigin) + Y,
+          J.X + X,
+          J.Y + Y,
           {T.Real.R[At], T.Real.G[At], T.Real.B[At], std::fabs(T.Real.T[At])},
           {T.Color[0][At], T.Color[1][At], T.Color[2][At], T.T[At]},
           0};
@@ -344,7 +336,7 @@ void RasterShadow::finish(const Command &C, const Tile &T) {
       std::memcpy(Words.data(), Row + X * sizeof(Pixel), sizeof(Words));
       Found.NotReplayed += Words != std::bit_cast<decltype(Words)>(F.Is);
       const uint32_t Address =
-          C.Output + Y * C.OutputPitch + X * uint32_t{sizeof(Pixel)};
+          J.Output + Y * J.OutputPitch + X * uint32_t{sizeof(Pixel)};
       for (unsigned N = 0; N != 4; ++N)
         Memory.set(0, Address + 4 * N,
                    {F.Should[N], Words[N], Origin::site(Site).word()});
@@ -352,21 +344,19 @@ void RasterShadow::finish(const Command &C, const Tile &T) {
   }
 }
 
-void RasterShadow::rasterCommand(const RasterWork &W) {
-  const Command &C = W.What;
+void RasterShadow::rasterCommand(const raster::CommandWork &W) {
+  const Job &J = W.What;
   // Gradients go to the core, which follows them no further.
-  if (C.isBackward())
-    return;
-  if (C.isBackward() || checkCommand(C, *Global) != VR_OK)
+  if (J.Refusal || J.IsBackward)
     return;
   auto T = std::make_unique<Tile>();
-  T->reset(C);
-  Replay R(*this, C, *T);
+  T->reset(J);
+  Replay R(*this, J, *T);
   // The unit says how far it went; what it refused has no result.
-  const uint64_t Fetched = W.Work.Gaussians;
-  if (ModePushed.get(C.Mode)) {
+  const uint64_t Fetched = W.Counts.Gaussians;
+  if (J.TakesPushed) {
     for (uint64_t N = 0; N != Fetched; ++N) {
-      const Gaussian &G = C.Pushed[N];
+      const Gaussian &G = W.Pushed[N];
       if (checkGaussian(G) != VR_OK)
         return;
       R.blend(G, G.Tag & ~VR_INTERSECT, 0);
@@ -374,32 +364,31 @@ void RasterShadow::rasterCommand(const RasterWork &W) {
   } else {
     if (!R.blendList(*Global, Fetched))
       return;
-    if (Fetched != C.Count && T->Real.Live != 0) {
-      if (!C.mayHandOver())
+    if (Fetched != J.Count && T->Real.Live != 0) {
+      if (!J.mayHandOver())
         return; // the next record is not there
-      HandedOver[{W.Core, C.Output}] = std::move(T);
+      HandedOver[{W.Core, J.Output}] = std::move(T);
       return;
     }
   }
   ++Found.Commands;
-  finish(C, *T);
+  finish(J, *T);
 }
 
-void RasterShadow::tail(const TailWork &W) {
+void RasterShadow::tail(const raster::TailWork &W) {
   const auto Handed = HandedOver.find({W.Core, W.What.Output});
   if (Handed == HandedOver.end())
     return;
   const std::unique_ptr<Tile> T = std::move(Handed->second);
   HandedOver.erase(Handed);
-  const Command C = pixel::commandOf(W.What);
-  if (checkCommand(C, *Global) != VR_OK)
+  if (W.What.Refusal)
     return;
-  Replay R(*this, C, *T);
-  if (!R.blendList(*Global, C.Count))
+  Replay R(*this, W.What, *T);
+  if (!R.blendList(*Global, W.What.Count))
     return;
   ++Found.Commands;
   ++Found.Tails;
-  finish(C, *T);
+  finish(W.What, *T);
 }
 
 } // namespace vorion::isasim

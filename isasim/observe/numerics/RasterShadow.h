@@ -2,9 +2,7 @@
 #pragma once
 
 #include "observe/numerics/ShadowMemory.h"
-#include "raster/Command.h"
-#include "raster/Datapath.h"
-#include "raster/RasterMemory.h"
+#include "raster/WorkLog.h"
 #include "vorion/isasim/Observer.h"
 
 #include <map>
@@ -76,8 +74,8 @@ public:
   ~RasterShadow() override;
 
   void runBegins(const RunStart &R) override;
-  void rasterCommand(const RasterWork &W) override;
-  void tail(const TailWork &W) override;
+  void rasterCommand(const raster::CommandWork &W) override;
+  void tail(const raster::TailWork &W) override;
 
   /// The same for tests: \p Storage is what the commands see.
   void useMemory(raster::RasterMemory &Storage) { Global = &Storage; }
@@ -88,7 +86,7 @@ private:
   struct Tile;
   class Replay;
 
-  void finish(const raster::Command &C, const Tile &T);
+  void finish(const raster::Job &J, const Tile &T);
 
   ShadowMemory &Memory;
   const raster::Datapath &Lanes;

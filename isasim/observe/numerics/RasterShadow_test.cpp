@@ -29,6 +29,14 @@ std::vector<Gaussian> scene(float X = 0, float Y = 0) {
   return All;
 }
 
+/// Shows what units do to an observer.
+struct Teller : WorkLog {
+  explicit Teller(Observer &Shown) : To(Shown) {}
+  void command(CommandWork &&Work) override { To.rasterCommand(Work); }
+  void tail(TailWork &&Work) override { To.tail(Work); }
+  Observer &To;
+};
+
 class RasterShadowTest : public RasterTest {
 protected:
   NumericSites Sites;
@@ -39,13 +47,11 @@ protected:
   /// The present bank, executed and then shown to \p To.
   void execute(RasterShadow &To) {
     To.useMemory(Memory);
+    Teller Shown(To);
+    Unit.setLog(&Shown);
     set(Csr::Start, 1U);
-    const Command C = Agent.front();
-    const Counters Before = Agent.counters();
     Unit.finish(Agent);
-    RasterCounters Work;
-    Work.Gaussians = Agent.counters().Gaussians - Before.Gaussians;
-    To.rasterCommand({0, 0, C, Work});
+    Unit.setLog(nullptr);
   }
   RasterFindings render(std::span<const Gaussian> Scene,
                         const TileCommand &T = {},
@@ -240,20 +246,18 @@ TEST_F(RasterShadowTest, followsPushedAndRefusedCommands) {
 }
 
 TEST_F(RasterShadowTest, leavesTheWayBackAlone) {
-  configure(scene(), {.Height = 32});
-  set(Csr::Start, 1U);
-  Command C = Agent.front();
-  Unit.finish(Agent);
-  C.Mode = ModeBackward.put(1);
-  C.Upstream = Pixels + 0x80000;
-  C.Last = Pixels + 0xC0000;
-  ASSERT_EQ(checkCommand(C, Memory), VR_OK);
+  const std::vector<Gaussian> Scene = scene();
+  configure(std::span(Scene).first(10), {.Height = 32});
+  set(Csr::Mode, ModeBackward.put(1));
+  set(Csr::Upstream, Pixels + 0x80000);
+  set(Csr::Last, Pixels + 0xC0000);
+  Memory.put<uint32_t>(Pixels + 0xC0000, std::vector<uint32_t>(64, 10));
   RasterShadow S(Sites, Shadows);
-  S.useMemory(Memory);
-  RasterCounters Work;
-  Work.Gaussians = C.Count;
-  S.rasterCommand({0, 0, C, Work});
+  execute(S);
   EXPECT_EQ(S.findings().Commands, 0U);
+  EXPECT_EQ(Agent.counters().Commands, 1U);
+  EXPECT_EQ(Agent.counters().Gaussians, 10U);
+  EXPECT_EQ(Agent.read(Csr::Wait, 0), VR_OK);
 }
 
 TEST_F(RasterShadowTest, goesOnWhereThePixelUnitDoes) {
@@ -265,11 +269,10 @@ TEST_F(RasterShadowTest, goesOnWhereThePixelUnitDoes) {
   execute(S);
   EXPECT_EQ(S.findings().Commands, 0U) << "it is not done";
   pixel::PixelUnit Tails{Memory};
+  Teller Shown(S);
+  Tails.setLog(&Shown);
   Tails.accept(Unit.takeHandOvers());
-  ASSERT_NE(Tails.front(), nullptr);
-  const Tail What = Memory.get<Tail>(Record, 1)[0];
   EXPECT_TRUE(Tails.step());
-  S.tail({0, 0, What, {}});
   EXPECT_EQ(S.findings().Commands, 1U);
   EXPECT_EQ(S.findings().Tails, 1U);
   EXPECT_EQ(S.findings().NotReplayed, 0U);

@@ -47,6 +47,11 @@ struct Config {
 
   unsigned sockets() const { return Clusters * SocketsPerCluster; }
   unsigned cores() const { return sockets() * CoresPerSocket; }
+  unsigned coresPerCluster() const {
+    return SocketsPerCluster * CoresPerSocket;
+  }
+  unsigned socketOf(unsigned Core) const { return Core / CoresPerSocket; }
+  unsigned clusterOf(unsigned Core) const { return Core / coresPerCluster(); }
 };
 
 /// Checks the ranges above and that the memory map (docs/abi.md) has room.

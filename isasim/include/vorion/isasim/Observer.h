@@ -15,8 +15,8 @@
 #include <vector>
 
 namespace vorion::raster {
-struct Command;
-struct Tail;
+struct CommandWork;
+struct TailWork;
 } // namespace vorion::raster
 
 namespace vorion::isasim {
@@ -67,22 +67,6 @@ struct Commit : Step {
   bool Diverged;
 };
 
-/// A command that a rasterizer has executed.
-struct RasterWork {
-  unsigned Unit; ///< the socket
-  unsigned Core; ///< who started it
-  const raster::Command &What;
-  RasterCounters Work;
-};
-
-/// A tail that a pixel unit has executed.
-struct TailWork {
-  unsigned Unit; ///< the cluster
-  unsigned Core; ///< who started the command
-  const raster::Tail &What;
-  RasterCounters Work;
-};
-
 /// Calls come one at a time, those of a run on the thread that called
 /// Machine::run and those of the host between runs, so that no observer needs a
 /// lock.
@@ -113,8 +97,10 @@ public:
   /// Every core has stopped or used its quantum; what waits has not been
   /// executed yet (docs/abi.md, "Order").
   virtual void syncPoint(std::span<const std::unique_ptr<Core>> /*Cores*/) {}
-  virtual void rasterCommand(const RasterWork &) {}
-  virtual void tail(const TailWork &) {}
+  /// A rasterizer has executed a command, or a pixel unit the rest of one
+  /// (raster/WorkLog.h, for observers of this library).
+  virtual void rasterCommand(const raster::CommandWork &) {}
+  virtual void tail(const raster::TailWork &) {}
   virtual void trap(const Trap &) {}
   virtual void runEnds(const RunResult &) {}
 };

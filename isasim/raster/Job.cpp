@@ -1,0 +1,146 @@
+#include "raster/Job.h"
+
+#include "raster/CommandInput.h"
+#include "raster/Reciprocals.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace vorion::raster {
+
+static BlendOptions blendOptions(const Command &C) {
+  const auto Cutoff = std::bit_cast<float>(C.Cutoff);
+  BlendOptions O{};
+  // T' <= cutoff is T' < the next float: one comparison serves both rules.
+  O.StopBelow =
+      OptionsStopAtEqual.get(C.Options)
+          ? std::nextafter(Cutoff, std::numeric_limits<float>::infinity())
+          : Cutoff;
+  O.MinAlpha =
+      static_cast<float>(1U << OptionsAlphaCutoff.get(C.Options)) / 255.0F;
+  O.SkipSaturated = OptionsSkipSaturated.get(C.Options) != 0;
+  O.KeepLast = ModeKeepLast.get(C.Mode) != 0;
+  return O;
+}
+
+static BackwardOptions backwardOptions(const Command &C,
+                                       const BlendOptions &Forward) {
+  BackwardOptions O;
+  O.Unit = static_cast<Reciprocal>(BackwardReciprocal.get(C.Backward));
+  O.ClampStops = BackwardClampStops.get(C.Backward) != 0;
+  O.InRows = BackwardInRows.get(C.Backward) != 0;
+  O.SkipSaturated = Forward.SkipSaturated;
+  O.MinAlpha = Forward.MinAlpha;
+  return O;
+}
+
+static Job decode(const Command &C) {
+  Job J;
+  J.IsBackward = C.isBackward();
+  J.TakesPushed = ModePushed.get(C.Mode) != 0;
+  J.Drains = ModeDrain.get(C.Mode) != 0;
+  J.KeepsLast = ModeKeepLast.get(C.Mode) != 0;
+  J.X = static_cast<std::uint16_t>(TileOriginX.get(C.TileOrigin));
+  J.Y = static_cast<std::uint16_t>(TileOriginY.get(C.TileOrigin));
+  J.Width = static_cast<std::uint16_t>(TileShapeWidth.get(C.TileShape));
+  J.Height = static_cast<std::uint16_t>(TileShapeHeight.get(C.TileShape));
+  J.Gaussians = C.Gaussians;
+  J.List = C.List;
+  J.Count = C.Count;
+  J.Output = C.Output;
+  J.OutputPitch = C.OutputPitch;
+  J.Last = C.Last;
+  J.Upstream = C.Upstream;
+  J.TailCount = C.TailCount;
+  J.TailShare = C.TailShare;
+  J.TailRecord = C.TailRecord;
+  J.Units = {static_cast<std::uint8_t>(OptionsExp.get(C.Options)),
+             static_cast<std::uint8_t>(OptionsBlend.get(C.Options))};
+  J.Blend = blendOptions(C);
+  J.Backward = backwardOptions(C, J.Blend);
+  return J;
+}
+
+/// Training takes whole lists in memory: positions in them are what a pixel's
+/// last contributor is.
+static bool isKnownTraining(const Command &C, const Job &J) {
+  const std::uint32_t Known =
+      BackwardReciprocal.put(BackwardReciprocal.mask()) |
+      BackwardClampStops.put(1) | BackwardInRows.put(1);
+  if (!J.IsBackward)
+    return !J.KeepsLast ||
+           (C.Mode == ModeKeepLast.put(1) && ZtileCount.get(C.Ztile) <= 1);
+  return C.Mode == ModeBackward.put(1) && J.Units.Blend == VR_BLEND_FP32 &&
+         ZtileCount.get(C.Ztile) <= 1 && (C.Backward & ~Known) == 0 &&
+         static_cast<std::size_t>(J.Backward.Unit) < ReciprocalCount;
+}
+
+static bool isKnown(const Command &C, const Job &J) {
+  const std::uint32_t KnownMode = ModeBackward.put(1) | ModePushed.put(1) |
+                                  ModeDrain.put(1) | ModeKeepLast.put(1);
+  const std::uint32_t KnownOptions =
+      OptionsExp.put(OptionsExp.mask()) | OptionsStopAtEqual.put(1) |
+      OptionsSkipSaturated.put(1) | OptionsBlend.put(OptionsBlend.mask()) |
+      OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask());
+  const std::uint32_t Parts = ZtileCount.get(C.Ztile);
+  return (C.Mode & ~KnownMode) == 0 && (C.Options & ~KnownOptions) == 0 &&
+         J.Units.Exp < ExpUnitCount && J.Units.Blend < BlendUnitCount &&
+         ZtileIndex.get(C.Ztile) < (Parts == 0 ? 1 : Parts) &&
+         isKnownTraining(C, J);
+}
+
+static bool isShape(const Job &J) {
+  return J.Width >= 1 && J.Width <= VR_MAX_TILE && J.Height >= 1 &&
+         J.Height <= VR_MAX_TILE &&
+         (!J.IsBackward || J.Width * J.Height <= VR_MAX_BACKWARD);
+}
+
+static bool isAligned(const Job &J) {
+  const bool Lasts = J.IsBackward || J.KeepsLast;
+  return (J.TakesPushed || (J.Gaussians % 16 == 0 && J.List % 4 == 0)) &&
+         (J.Drains || (J.Output % 16 == 0 && J.OutputPitch % 16 == 0)) &&
+         (!J.mayHandOver() || J.TailRecord % 16 == 0) &&
+         (!Lasts || J.Last % 4 == 0) && (!J.IsBackward || J.Upstream % 16 == 0);
+}
+
+/// Whether all that \p J reads and writes, but the records, is global memory.
+static bool isMapped(const Job &J, RasterMemory &Memory) {
+  if (!J.TakesPushed && J.Count != 0 && !Memory.range(J.List, 4ULL * J.Count))
+    return false;
+  for (unsigned Row = 0; Row != J.Height; ++Row)
+    if ((!J.Drains && !outputRow(J, Memory, Row)) ||
+        ((J.IsBackward || J.KeepsLast) && !lastRow(J, Memory, Row)) ||
+        (J.IsBackward && !upstreamRow(J, Memory, Row)))
+      return false;
+  return !J.mayHandOver() || Memory.range(J.TailRecord, sizeof(Tail));
+}
+
+/// The order of these checks is the order of docs/rasterizer.md#status-codes.
+static std::uint32_t refusal(const Command &C, const Job &J,
+                             RasterMemory &Memory) {
+  if (!isKnown(C, J))
+    return VR_BAD_MODE;
+  if (!isShape(J))
+    return VR_BAD_SHAPE;
+  const auto Cutoff = std::bit_cast<float>(C.Cutoff);
+  if (!(Cutoff >= 0.0F && Cutoff < 1.0F))
+    return VR_BAD_CUTOFF;
+  if (J.TakesPushed ? C.PushedTooMany : J.Count > VR_MAX_COUNT)
+    return VR_BAD_COUNT;
+  if (J.TailShare > VR_TAIL_WHOLE ||
+      (J.mayHandOver() &&
+       (J.TakesPushed || J.Drains || J.IsBackward || J.KeepsLast)))
+    return VR_BAD_TAIL;
+  if (!isAligned(J))
+    return VR_MISALIGNED;
+  return isMapped(J, Memory) ? VR_OK : VR_UNMAPPED;
+}
+
+Job checkCommand(const Command &C, RasterMemory &Memory) {
+  Job J = decode(C);
+  J.Refusal = refusal(C, J, Memory);
+  return J;
+}
+
+} // namespace vorion::raster
