@@ -59,7 +59,7 @@ void Clock::begin(const CodeTable &Code) {
     U.begin(Begun);
   Horizon = 0;
   Ended.assign(Cores.size(), false);
-  Keys.assign(Cores.size() + Rasters.size() + Pixels.size(), Never);
+  Turns.assign(Cores.size() + Rasters.size() + Pixels.size(), Turn());
 }
 
 bool Clock::isOverfull() const {
@@ -69,7 +69,7 @@ bool Clock::isOverfull() const {
 }
 
 void Clock::takeAll() {
-  for (unsigned N = 0; N != Keys.size(); ++N)
+  for (unsigned N = 0; N != Turns.size(); ++N)
     update(N);
   while (step()) {
   }
@@ -136,7 +136,7 @@ uint64_t Clock::coresQuietAt() const {
 /// Whether no core will do anything more in this run.
 bool Clock::coresAreDone() const {
   for (size_t N = 0; N != Cores.size(); ++N)
-    if (!Ended[N] || Keys[N] != Never || Cores[N].isBlocked())
+    if (!Ended[N] || Turns[N].At != Turn::Never || Cores[N].isBlocked())
       return false;
   return true;
 }
@@ -189,25 +189,16 @@ void Clock::collectActivities(TimeReport &R) const {
 }
 
 void Clock::update(unsigned Who) {
-  Key &K = Keys[Who];
-  if (Who >= Cores.size()) {
-    const bool IsRaster = Who < pixelKey(0);
-    const bool IsStarved = IsRaster && Rasters[Who - rasterKey(0)].isStarved();
-    const uint64_t At = IsRaster ? Rasters[Who - rasterKey(0)].when()
-                                 : Pixels[Who - pixelKey(0)].when();
-    static_assert(PixelClock::Never == RasterClock::Never);
-    K = At == RasterClock::Never ? Never : 2 * At + !IsStarved;
+  if (Who >= placeOfRaster(0)) {
+    Turns[Who] = Who < placeOfPixels(0) ? Rasters[Who - placeOfRaster(0)].turn()
+                                        : Pixels[Who - placeOfPixels(0)].turn();
     return;
   }
   CoreClock &C = Cores[Who];
   if (C.state() == CoreClock::State::Starved)
     C.advance();
-  if (C.isBlocked())
-    K = Never;
-  else if (C.state() != CoreClock::State::Starved)
-    K = 2 * C.when() + 1;
-  else
-    K = Ended[Who] ? Never : 2 * C.now();
+  const Turn Next = C.turn();
+  Turns[Who] = Next.IsKnown || !Ended[Who] ? Next : Turn();
 }
 
 /// The last of those that a barrier counts lets all go on.
@@ -230,8 +221,7 @@ void Clock::arrive(unsigned Core, uint64_t Then) {
 /// Does the request of \p Core at \p Then, or blocks the core.
 void Clock::grant(unsigned Core, uint64_t Then) {
   CoreClock &C = Cores[Core];
-  const unsigned Socket = Shape.socketOf(Core);
-  RasterClock &R = Rasters[Socket];
+  RasterClock &R = Rasters[Shape.socketOf(Core)];
   const unsigned Agent = Core % Shape.CoresPerSocket;
   switch (C.state()) {
   case CoreClock::State::Access:
@@ -244,7 +234,7 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     if (R.isFull(Agent))
       return C.block();
     R.start(Agent, Then);
-    update(rasterKey(Socket));
+    update(placeOfRaster(Shape.socketOf(Core)));
     C.resume(Then, CoreCycle::RasterFull);
     break;
   case CoreClock::State::RasterWait:
@@ -256,7 +246,7 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     if (!R.canTake(Agent))
       return C.block();
     R.takeBatch(Agent, Then);
-    update(rasterKey(Socket));
+    update(placeOfRaster(Shape.socketOf(Core)));
     C.resume(Then, CoreCycle::RasterWait);
     break;
   case CoreClock::State::Starved:
@@ -269,19 +259,20 @@ void Clock::grant(unsigned Core, uint64_t Then) {
 /// Does the next request in the order of time; false if there is none, or if a
 /// core might still make an earlier one.
 bool Clock::step() {
-  auto First = std::min_element(Keys.begin(), Keys.end());
-  if (*First != Never && *First % 2 == 0) {
+  auto First = std::min_element(Turns.begin(), Turns.end());
+  if (!First->IsKnown) {
     if (!isOverfull())
       return false;
     ++OutOfOrder;
-    First = std::min_element(Keys.begin(), Keys.end(), [](Key A, Key B) {
-      return (A % 2 == 0 ? Never : A) < (B % 2 == 0 ? Never : B);
+    const auto Known = [](Turn T) { return T.IsKnown ? T : Turn(); };
+    First = std::min_element(Turns.begin(), Turns.end(), [&](Turn A, Turn B) {
+      return Known(A) < Known(B);
     });
   }
-  if (*First == Never || *First % 2 == 0)
+  if (!First->IsKnown || First->At == Turn::Never)
     return false;
-  const auto Who = static_cast<unsigned>(First - Keys.begin());
-  const uint64_t Then = *First / 2;
+  const auto Who = static_cast<unsigned>(First - Turns.begin());
+  const uint64_t Then = First->At;
   if (Who < Cores.size()) {
     grant(Who, Then);
     update(Who);
@@ -289,10 +280,10 @@ bool Clock::step() {
   }
   if (coresAreDone() && Then > std::max(Horizon, coresQuietAt()))
     return false;
-  if (Who < pixelKey(0))
-    stepRaster(Who - rasterKey(0), Then);
+  if (Who < placeOfPixels(0))
+    stepRaster(Who - placeOfRaster(0), Then);
   else
-    stepPixels(Who - pixelKey(0), Then);
+    stepPixels(Who - placeOfPixels(0), Then);
   update(Who);
   return true;
 }
@@ -315,7 +306,7 @@ void Clock::stepRaster(unsigned Socket, uint64_t Then) {
     const unsigned Cluster = Shape.clusterOf(Core);
     Pixels[Cluster].accept(Core % Shape.coresPerCluster(),
                            Rasters[Socket].freeAt());
-    update(pixelKey(Cluster));
+    update(placeOfPixels(Cluster));
   }
   wake(Core, Then);
 }

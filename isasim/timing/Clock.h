@@ -42,10 +42,6 @@ public:
   void reset();
 
 private:
-  /// Somebody's place in the order of time.
-  using Key = uint64_t;
-  static constexpr Key Never = UINT64_MAX;
-
   void takeAll();
   bool step();
   void update(unsigned Who);
@@ -54,10 +50,11 @@ private:
   void stepRaster(unsigned Socket, uint64_t Then);
   void stepPixels(unsigned Cluster, uint64_t Then);
   void wake(unsigned Core, uint64_t Then);
-  unsigned rasterKey(unsigned Socket) const {
+  /// Places in Turns.
+  unsigned placeOfRaster(unsigned Socket) const {
     return static_cast<unsigned>(Cores.size()) + Socket;
   }
-  unsigned pixelKey(unsigned Cluster) const {
+  unsigned placeOfPixels(unsigned Cluster) const {
     return static_cast<unsigned>(Cores.size() + Rasters.size()) + Cluster;
   }
   bool isOverfull() const;
@@ -74,9 +71,7 @@ private:
   std::vector<PixelClock> Pixels; ///< by cluster
   std::vector<OpInfo> Ops;
   std::vector<bool> Ended;
-  /// Cores, then rasterizers, then pixel units. Even: what comes next is not
-  /// before half of it; odd: a request at half of it.
-  std::vector<Key> Keys;
+  std::vector<Turn> Turns; ///< of cores, rasterizers, pixel units
   struct Arrived {
     std::vector<unsigned> Cores;
   };

@@ -4,6 +4,7 @@
 #include "timing/MemorySystem.h"
 #include "timing/OpClass.h"
 #include "timing/TraceWriter.h"
+#include "timing/Turn.h"
 
 #include <array>
 #include <vector>
@@ -22,9 +23,9 @@ public:
   void begin(const std::vector<OpInfo> &Ops, uint64_t Now);
 
   enum class State : uint8_t {
-    Starved, ///< the trace is used up: what comes is not before now()
-    Access,  ///< wants memory at when()
-    Barrier, ///< arrives at a barrier at when()
+    Starved, ///< the trace is used up
+    Access,  ///< wants memory
+    Barrier, ///< arrives at a barrier
     RasterStart,
     RasterWait,
     RasterTake,
@@ -35,10 +36,12 @@ public:
   State state() const { return Now; }
   /// Whether its request had to wait: until resume().
   bool isBlocked() const { return Blocked; }
-  /// When the request that is next is made.
-  uint64_t when() const { return At; }
-  /// The earliest time of whatever comes next.
-  uint64_t now() const { return Next; }
+  /// When it makes its request; never while that has to wait.
+  Turn turn() const {
+    if (Blocked)
+      return Turn();
+    return Now == State::Starved ? Turn(Next, false) : Turn(At);
+  }
   /// How much trace is waiting.
   size_t backlog() const { return Trace.size(); }
 
@@ -47,7 +50,7 @@ public:
   uint32_t barrier() const { return Words[0]; }
   uint32_t barrierCount() const { return Words[1]; }
   /// The request of any other state has been granted at \p Then, which is not
-  /// before when(); what lies between is for \p Why.
+  /// before its turn; what lies between is for \p Why.
   void resume(uint64_t Then, CoreCycle Why);
   /// It has not.
   void block() { Blocked = true; }

@@ -8,14 +8,13 @@
 namespace vorion::isasim {
 
 namespace {
-constexpr uint32_t PixelBytes = 16; ///< docs/abi.md: four floats
-constexpr uint32_t LineMask = ~(TimingLineBytes - 1);
+constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
 } // namespace
 
 PixelClock::PixelClock(const TimingConfig &Params, unsigned ClusterIn,
                        unsigned Cores)
     : P(Params.Pixel), Cluster(ClusterIn), Expected(Cores),
-      EntryFree(P.BufferEntries) {}
+      Fetch(Cluster, P.BufferEntries) {}
 
 void PixelClock::begin(uint64_t Start) {
   if (Now == Stage::Idle)
@@ -29,7 +28,7 @@ void PixelClock::reset() {
     E.clear();
   Queue.clear();
   Now = Stage::Idle;
-  At = Never;
+  At = Turn::Never;
   Ledger.clear();
 }
 
@@ -55,7 +54,7 @@ std::optional<unsigned> PixelClock::step(MemorySystem &Memory) {
     break;
   case Stage::Done:
     Now = Queue.empty() ? Stage::Idle : Stage::Take;
-    At = Queue.empty() ? Never : DoneAt;
+    At = Queue.empty() ? Turn::Never : DoneAt;
     return Serving;
   case Stage::Idle:
     break;
@@ -63,38 +62,24 @@ std::optional<unsigned> PixelClock::step(MemorySystem &Memory) {
   return std::nullopt;
 }
 
-/// One line a cycle, from FetchAt on; returns when the last has come.
-uint64_t PixelClock::readLines(MemorySystem &Memory, uint32_t Address,
-                               unsigned Bytes) {
-  uint64_t Ready = FetchAt;
-  const uint32_t Last = (Address + Bytes - 1) & LineMask;
-  for (uint32_t Line = Address & LineMask; Line <= Last;
-       Line += TimingLineBytes)
-    Ready = std::max(
-        Ready, Memory.access(Cluster, {.Now = FetchAt++, .Address = Line}));
-  return Ready;
-}
-
 /// The lines of a group's pixels; returns when the last has come or been taken.
 uint64_t PixelClock::pixelLines(MemorySystem &Memory, size_t Which,
                                 bool IsWrite) {
-  uint64_t Ready = FetchAt;
+  uint64_t Ready = Fetch.now();
   uint32_t Last = 0;
   const size_t End =
       std::min(Work.Pixels.size(), (Which + 1) * size_t{P.Lanes});
   for (size_t N = Which * P.Lanes; N < End; ++N) {
     const auto &Pixel = Work.Pixels[N];
-    const uint32_t Line = (Work.What.Output + Pixel.Y * Work.What.OutputPitch +
-                           Pixel.X * PixelBytes) &
-                          LineMask;
+    const uint32_t Line =
+        lineOf(Work.What.Output + Pixel.Y * Work.What.OutputPitch +
+               Pixel.X * PixelBytes);
     if (Line == Last)
       continue;
     Last = Line;
-    Ready = std::max(
-        Ready, Memory.access(Cluster,
-                             {.Now = FetchAt++,
-                              .Address = Line,
-                              .Op = IsWrite ? CacheOp::Write : CacheOp::Read}));
+    Ready =
+        std::max(Ready, Fetch.line(Memory, Line,
+                                   IsWrite ? CacheOp::Write : CacheOp::Read));
   }
   return Ready;
 }
@@ -110,17 +95,13 @@ void PixelClock::take(MemorySystem &Memory) {
   }
   ++Spent.Tails;
   spend(PixelCycle::Idle, At - DoneAt);
-  FetchAt = At;
+  Fetch.begin(At);
   Group = 0;
-  ListLine = 0;
-  std::fill(EntryFree.begin(), EntryFree.end(), At);
   if (!Work.Record) {
     Now = Stage::Done;
     return;
   }
-  const uint64_t RecordReady =
-      readLines(Memory, Work.Record, sizeof(raster::Tail));
-  FetchAt = std::max(FetchAt, RecordReady);
+  Fetch.waitUntil(Fetch.read(Memory, Work.Record, sizeof(raster::Tail)));
   PixelsReady = pixelLines(Memory, 0, false);
   spend(PixelCycle::Load, std::max(PixelsReady, DoneAt) - DoneAt);
   Now = groups() == 0 ? Stage::Done : Stage::Group;
@@ -131,10 +112,10 @@ void PixelClock::take(MemorySystem &Memory) {
 void PixelClock::startGroup(MemorySystem &Memory) {
   if (PixelsReady > DoneAt)
     spend(PixelCycle::Load, PixelsReady - DoneAt);
-  FetchAt = std::max(FetchAt, At);
+  Fetch.waitUntil(At);
   if (Group + 1 != groups())
     PixelsReady = pixelLines(Memory, Group + 1, false);
-  ListLine = 0;
+  Fetch.beginList();
   Visits = 0;
   const size_t End =
       std::min(Work.Pixels.size(), (Group + 1) * size_t{P.Lanes});
@@ -145,40 +126,34 @@ void PixelClock::startGroup(MemorySystem &Memory) {
   Visits = std::min(Visits, static_cast<uint32_t>(Work.Records.size()));
   Number = 0;
   // All Gaussians are still in the buffer, if they fit.
-  if (Group != 0 && Work.Records.size() <= EntryFree.size()) {
+  if (Group != 0 && Work.Records.size() <= Fetch.entries()) {
     spend(PixelCycle::Evaluate, Visits);
     return finishGroup(Memory);
   }
   if (Visits == 0)
     return finishGroup(Memory);
   Now = Stage::Fetch;
-  At = std::max(FetchAt, EntryFree[0]);
+  At = Fetch.startOf(0);
 }
 
 void PixelClock::fetch(MemorySystem &Memory) {
-  FetchAt = std::max(FetchAt, At);
-  const uint32_t Line = (Work.What.List + 4 * Number) & LineMask;
-  if (Line != ListLine) {
-    ListReady = readLines(Memory, Line, 4);
-    ListLine = Line;
-  }
-  if (ListReady > FetchAt) {
-    At = FetchAt = ListReady;
+  Fetch.waitUntil(At);
+  if (!Fetch.hasEntry(Memory, Work.What.List + 4 * Number)) {
+    At = Fetch.now();
     return;
   }
-  const uint64_t Ready =
-      readLines(Memory, Work.Records[Number], sizeof(raster::Gaussian));
+  const uint64_t Ready = Fetch.readRecord(Memory, Work.Records[Number]);
   if (Ready > DoneAt)
     spend(PixelCycle::Fetch, Ready - DoneAt);
   spend(PixelCycle::Evaluate, 1);
-  EntryFree[Number % EntryFree.size()] = DoneAt;
+  Fetch.hold(Number, DoneAt);
   if (++Number == Visits)
     return finishGroup(Memory);
-  At = std::max(FetchAt, EntryFree[Number % EntryFree.size()]);
+  At = Fetch.startOf(Number);
 }
 
 void PixelClock::finishGroup(MemorySystem &Memory) {
-  FetchAt = std::max(FetchAt, DoneAt + laneDepth(Work.What.Units));
+  Fetch.waitUntil(DoneAt + laneDepth(Work.What.Units));
   const uint64_t Taken = pixelLines(Memory, Group, true);
   if (++Group == groups()) {
     // The lanes empty, and the last pixels are written.

@@ -4,7 +4,9 @@
 
 #include "raster/WorkLog.h"
 #include "timing/CycleLedger.h"
+#include "timing/GaussianFetch.h"
 #include "timing/MemorySystem.h"
+#include "timing/Turn.h"
 
 #include <deque>
 #include <optional>
@@ -20,8 +22,6 @@ class PixelClock {
 public:
   PixelClock(const TimingConfig &Params, unsigned Cluster, unsigned Cores);
 
-  static constexpr uint64_t Never = UINT64_MAX;
-
   /// The work of a hand-over of core \p Core of the cluster, before accept().
   void expect(unsigned Core, raster::TailWork &&Executed) {
     Expected[Core].push_back(std::move(Executed));
@@ -33,8 +33,7 @@ public:
   /// The next expected hand-over of \p Core has reached the queue.
   void accept(unsigned Core, uint64_t Now);
 
-  /// When it next does something that others can notice.
-  uint64_t when() const { return At; }
+  Turn turn() const { return Turn(At); }
   /// Does it; returns the core of a hand-over that is done with it.
   std::optional<unsigned> step(MemorySystem &Memory);
 
@@ -54,7 +53,6 @@ private:
   void fetch(MemorySystem &Memory);
   void finishGroup(MemorySystem &Memory);
   uint64_t pixelLines(MemorySystem &Memory, size_t Group, bool IsWrite);
-  uint64_t readLines(MemorySystem &Memory, uint32_t Address, unsigned Bytes);
   size_t groups() const { return (Work.Pixels.size() + P.Lanes - 1) / P.Lanes; }
 
   const PixelTiming P;
@@ -63,15 +61,14 @@ private:
   std::deque<unsigned> Queue;                         ///< cores
 
   Stage Now = Stage::Idle;
-  uint64_t At = Never;
+  uint64_t At = Turn::Never;
   uint64_t DoneAt = 0; ///< all cycles before are accounted for
   unsigned Serving = 0;
   raster::TailWork Work;
   size_t Group = 0;
   uint32_t Visits = 0, Number = 0; ///< of the group
-  uint64_t FetchAt = 0, PixelsReady = 0, ListReady = 0;
-  uint32_t ListLine = 0;
-  std::vector<uint64_t> EntryFree;
+  uint64_t PixelsReady = 0;
+  GaussianFetch Fetch;
   CycleLedger<PixelCycle> Ledger;
   PixelTime Spent;
 };

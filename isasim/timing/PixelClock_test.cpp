@@ -32,7 +32,7 @@ protected:
     U.expect(0, std::move(Copy));
     U.accept(0, Now);
     unsigned Served = 0;
-    while (U.when() != PixelClock::Never)
+    while (U.turn().At != Turn::Never)
       Served += U.step(Memory).has_value();
     EXPECT_EQ(Served, 1U);
     const uint64_t End = U.freeAt();

@@ -11,8 +11,7 @@ using raster::GaussianWork;
 
 namespace {
 constexpr unsigned TableSide = raster::VR_MAX_TILE + 1;
-constexpr uint32_t PixelBytes = 16; ///< docs/abi.md: four floats
-constexpr uint32_t LineMask = ~(TimingLineBytes - 1);
+constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
 
 RasterTiming inPairs(RasterTiming P) {
   P.Lanes = std::max(1U, P.Lanes / 2);
@@ -52,7 +51,7 @@ RasterClock::RasterClock(const TimingConfig &Params, unsigned ClusterIn,
                          unsigned NumAgents, unsigned QueueDepthIn)
     : P(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Cluster(ClusterIn),
       QueueDepth(QueueDepthIn), Table(P), PairTable(inPairs(P)),
-      Agents(NumAgents), EntryFree(P.BufferEntries) {}
+      Agents(NumAgents), Fetch(Cluster, P.BufferEntries) {}
 
 void RasterClock::begin(uint64_t Start) {
   MoreWork = true;
@@ -71,7 +70,7 @@ void RasterClock::reset() {
     A.Batches.clear();
   }
   Now = Stage::Idle;
-  At = Never;
+  At = Turn::Never;
   InLanes = {};
   Ledger.clear();
 }
@@ -98,7 +97,7 @@ void RasterClock::takeBatch(unsigned Agent, uint64_t Then) {
   A.Waiting -= A.Batches.front();
   A.Batches.pop_front();
   // It may have been what the rasterizer waits for.
-  if (Now == Stage::HandOver && At == Never && Serving == Agent &&
+  if (Now == Stage::HandOver && At == Turn::Never && Serving == Agent &&
       A.Waiting < BatchDepth)
     At = std::max(Then, DispatchAt);
 }
@@ -111,7 +110,7 @@ void RasterClock::handOver() {
   if (Number == Work.Gaussians.size())
     return flush();
   Now = Stage::Fetch;
-  At = std::max(FetchAt, EntryFree[Number % EntryFree.size()]);
+  At = Fetch.startOf(Number);
 }
 
 std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
@@ -163,17 +162,16 @@ void RasterClock::take() {
     Work.Gaussians.clear();
 
   spend(RasterCycle::Idle, At - DispatchAt);
-  FetchAt = At + P.StartCycles;
+  const uint64_t Begun = At + P.StartCycles;
   // The whole tile is cleared, a row of banks at a time.
   const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
   spend(RasterCycle::Begin, P.StartCycles + (Pixels + P.Banks - 1) / P.Banks);
-  std::fill(EntryFree.begin(), EntryFree.end(), FetchAt);
+  Fetch.begin(Begun);
   Number = 0;
-  ListLine = 0;
   if (Work.Gaussians.empty())
     return flush();
   Now = Stage::Fetch;
-  At = FetchAt;
+  At = Begun;
 }
 
 /// A backward tile begins with its pixels' transmittances, gradients and last
@@ -182,8 +180,8 @@ void RasterClock::load(MemorySystem &Memory) {
   uint64_t Ready = DispatchAt;
   const auto Read = [&](uint32_t First, unsigned Row, uint32_t Bytes) {
     const uint32_t Pitch = Work.What.OutputPitch / PixelBytes * Bytes;
-    Ready = std::max(Ready, requestLines(Memory, First + Row * Pitch,
-                                         Work.What.Width * Bytes, false));
+    Ready = std::max(Ready, Fetch.read(Memory, First + Row * Pitch,
+                                       Work.What.Width * Bytes));
   };
   for (unsigned Row = 0; Row != Work.What.Height; ++Row) {
     Read(Work.What.Output, Row, PixelBytes);
@@ -191,7 +189,7 @@ void RasterClock::load(MemorySystem &Memory) {
     Read(Work.What.Last, Row, sizeof(uint32_t));
   }
   spend(RasterCycle::Begin, Ready - DispatchAt);
-  At = std::max(At, Now == Stage::Fetch ? FetchAt : DispatchAt);
+  At = std::max(At, Now == Stage::Fetch ? Fetch.now() : DispatchAt);
 }
 
 /// The place in its list of a Gaussian in the order of the fetches.
@@ -200,59 +198,27 @@ uint32_t RasterClock::entryOf(size_t Gaussian) const {
       Work.What.IsBackward ? Work.Gaussians.size() - 1 - Gaussian : Gaussian);
 }
 
-/// One line a cycle, from FetchAt on; returns when the last has come.
-uint64_t RasterClock::requestLines(MemorySystem &Memory, uint32_t Address,
-                                   unsigned Bytes, bool Keep) {
-  uint64_t Ready = 0;
-  const uint32_t Last = (Address + Bytes - 1) & LineMask;
-  for (uint32_t Line = Address & LineMask;; Line += TimingLineBytes) {
-    Ready = std::max(
-        Ready, Memory.access(
-                   Cluster, {.Now = FetchAt++, .Address = Line, .Keep = Keep}));
-    if (Line == Last)
-      return Ready;
-  }
-}
-
-/// Whether the list's entry for the next Gaussian is there at FetchAt; if not,
-/// FetchAt becomes the time at which it is. The line behind is asked for when
-/// the first entry of a line is used.
-bool RasterClock::listReady(MemorySystem &Memory) {
-  const uint32_t Entry = Work.What.List + 4 * entryOf(Number);
-  const uint32_t Line = Entry & LineMask;
-  if (Line != ListLine) {
-    const bool First = ListLine == 0;
-    ListReady = First ? requestLines(Memory, Line, 4, false) : NextListReady;
-    NextListReady = requestLines(Memory,
-                                 Work.What.IsBackward ? Line - TimingLineBytes
-                                                      : Line + TimingLineBytes,
-                                 4, false);
-    ListLine = Line;
-  }
-  if (ListReady <= FetchAt)
-    return true;
-  FetchAt = ListReady;
-  return false;
+/// Whether the list's entry for the next Gaussian is there.
+bool RasterClock::hasEntry(MemorySystem &Memory) {
+  constexpr int LineBytes = TimingLineBytes;
+  return Fetch.hasEntry(Memory, Work.What.List + 4 * entryOf(Number),
+                        Work.What.IsBackward ? -LineBytes : LineBytes);
 }
 
 void RasterClock::fetch(MemorySystem &Memory) {
   const GaussianWork &G = Work.Gaussians[Number];
-  FetchAt = std::max(FetchAt, At);
-  uint64_t Ready = FetchAt;
-  if (G.Address) {
-    if (!listReady(Memory)) {
-      At = FetchAt;
-      return;
-    }
-    Ready =
-        requestLines(Memory, G.Address, sizeof(raster::Gaussian), G.SpansTiles);
+  Fetch.waitUntil(At);
+  uint64_t Ready = Fetch.now();
+  if (!G.Address) {
+    Fetch.skip();
+  } else if (hasEntry(Memory)) {
+    Ready = Fetch.readRecord(Memory, G.Address, G.SpansTiles);
   } else {
-    ++FetchAt;
+    At = Fetch.now();
+    return;
   }
   dispatch(G, Ready);
-  uint64_t &Entry = EntryFree[Number % EntryFree.size()];
-  Entry = DispatchAt;
-  ++Number;
+  Fetch.hold(Number++, DispatchAt);
   if (Work.What.IsBackward &&
       entryOf(Number - 1) % raster::VR_GRAD_LANES == 0) {
     // The gather empties before its sums go.
@@ -260,13 +226,13 @@ void RasterClock::fetch(MemorySystem &Memory) {
           backwardDepth(Work.What.Units,
                         static_cast<unsigned>(Work.What.Backward.Unit)));
     Now = Stage::HandOver;
-    At = Agents[Serving].Waiting < BatchDepth ? DispatchAt : Never;
+    At = Agents[Serving].Waiting < BatchDepth ? DispatchAt : Turn::Never;
     return;
   }
   if (Number == Work.Gaussians.size())
     return flush();
   // The next one needs the entry of whoever had it before.
-  At = std::max(FetchAt, EntryFree[Number % EntryFree.size()]);
+  At = Fetch.startOf(Number);
 }
 
 void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
@@ -342,7 +308,7 @@ void RasterClock::drain(MemorySystem &Memory) {
   const uint32_t RowBytes = Work.What.Width * PixelBytes;
   const uint32_t Address =
       Work.What.Output + DrainRow * Work.What.OutputPitch + DrainByte;
-  const uint32_t Line = Address & LineMask;
+  const uint32_t Line = lineOf(Address);
   const uint32_t Bytes =
       std::min(Line + TimingLineBytes - Address, RowBytes - DrainByte);
   const uint64_t Taken = Memory.access(
@@ -368,8 +334,7 @@ void RasterClock::storeLast(MemorySystem &Memory) {
   for (unsigned Row = 0; Row != Work.What.Height; ++Row) {
     const uint32_t First = Work.What.Last + Row * (Work.What.OutputPitch / 4);
     const uint32_t End = First + Work.What.Width * 4;
-    for (uint32_t Line = First & LineMask; Line < End;
-         Line += TimingLineBytes) {
+    for (uint32_t Line = lineOf(First); Line < End; Line += TimingLineBytes) {
       Memory.access(Cluster,
                     {.Now = DispatchAt, .Address = Line, .Op = CacheOp::Write});
       spend(RasterCycle::Drain, 1);
@@ -397,7 +362,7 @@ RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
   const bool More = std::any_of(Agents.begin(), Agents.end(),
                                 [](const Agent &A) { return A.Queued != 0; });
   Now = More ? Stage::Take : Stage::Idle;
-  At = More ? DispatchAt : Never;
+  At = More ? DispatchAt : Turn::Never;
   return {Serving, Work.HandedOver};
 }
 

@@ -5,7 +5,9 @@
 #include "raster/RasterAgent.h"
 #include "raster/WorkLog.h"
 #include "timing/CycleLedger.h"
+#include "timing/GaussianFetch.h"
 #include "timing/MemorySystem.h"
+#include "timing/Turn.h"
 
 #include <array>
 #include <deque>
@@ -34,7 +36,6 @@ public:
   RasterClock(const TimingConfig &Params, unsigned Cluster, unsigned Agents,
               unsigned QueueDepth);
 
-  static constexpr uint64_t Never = UINT64_MAX;
   /// Batches of gradients that an agent holds (raster::AgentConfig).
   static constexpr unsigned BatchDepth = raster::AgentConfig().BatchDepth;
 
@@ -69,20 +70,18 @@ public:
   /// The core takes it; needs canTake().
   void takeBatch(unsigned Agent, uint64_t Now);
 
-  /// When it next does something that others can notice.
-  uint64_t when() const {
-    return Now == Stage::Take && !nextAgent() ? Never : At;
-  }
-  /// Whether the work of what it does at when() is not known yet.
-  bool isStarved() const {
+  /// What it does next is not known as long as its work is not.
+  Turn turn() const {
+    if (Now != Stage::Take)
+      return Turn(At);
     const std::optional<unsigned> Next = nextAgent();
-    return Now == Stage::Take && Next && Agents[*Next].Expected.empty();
+    return Next ? Turn(At, !Agents[*Next].Expected.empty()) : Turn();
   }
   struct Finished {
     unsigned Agent;
     bool HandedOver; ///< the pixel unit goes on
   };
-  /// Does it, which needs !isStarved(); returns the agent of a command that is
+  /// Does it, if it is known; returns the agent of a command that is
   /// done with it, or has a batch of gradients.
   std::optional<Finished> step(MemorySystem &Memory);
   /// The pixel unit is done with a command of the agent.
@@ -121,11 +120,9 @@ private:
   void take();
   void load(MemorySystem &Memory);
   uint32_t entryOf(size_t Gaussian) const;
+  bool hasEntry(MemorySystem &Memory);
   void handOver();
   void fetch(MemorySystem &Memory);
-  uint64_t requestLines(MemorySystem &Memory, uint32_t Address, unsigned Bytes,
-                        bool Keep);
-  bool listReady(MemorySystem &Memory);
   void dispatch(const raster::GaussianWork &G, uint64_t Ready);
   uint64_t safeAt(const raster::GaussianWork &G, unsigned Cycles) const;
   void flush();
@@ -143,16 +140,13 @@ private:
   bool MoreWork = true; ///< see lastWork()
 
   Stage Now = Stage::Idle;
-  uint64_t At = Never;
+  uint64_t At = Turn::Never;
   /// The next cycle in which dispatch can give pixels to lanes. All cycles
   /// before are accounted for.
   uint64_t DispatchAt = 0;
   raster::CommandWork Work;
   size_t Number = 0; ///< of the Gaussian that is fetched next
-  uint64_t FetchAt = 0;
-  std::vector<uint64_t> EntryFree; ///< when entries of the buffer become free
-  uint32_t ListLine = 0;           ///< line of the list that was asked for last
-  uint64_t ListReady = 0, NextListReady = 0;
+  GaussianFetch Fetch;
   static constexpr size_t Recent = 8;
   std::array<Dispatched, Recent> InLanes{};
   size_t NextInLanes = 0;

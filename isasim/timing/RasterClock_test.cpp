@@ -34,7 +34,7 @@ class RasterClockTest : public testing::Test {
 protected:
   /// Runs what was queued and returns when it was done.
   uint64_t finish(RasterClock &R) {
-    while (R.when() != RasterClock::Never)
+    while (R.turn().At != Turn::Never)
       R.step(Memory);
     return R.freeAt();
   }
@@ -168,7 +168,7 @@ TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
   Start(0, 10);
   Start(3, 11);
   std::vector<unsigned> Served;
-  while (R.when() != RasterClock::Never)
+  while (R.turn().At != Turn::Never)
     if (const auto Agent = R.step(Memory))
       Served.push_back(Agent->Agent);
   EXPECT_EQ(Served, (std::vector<unsigned>{2, 3, 0, 2}));
@@ -180,12 +180,12 @@ TEST_F(RasterClockTest, ACommandWaitsUntilItsWorkIsKnown) {
   R.start(0, 0); // not executed yet
   R.expect(1, pushed({box(0, 0, 64, 64)}));
   R.start(1, 5);
-  EXPECT_TRUE(R.isStarved());
-  EXPECT_EQ(R.when(), 0U);
+  EXPECT_FALSE(R.turn().IsKnown);
+  EXPECT_EQ(R.turn().At, 0U);
   R.expect(0, pushed({box(0, 0, 64, 64)}));
-  EXPECT_FALSE(R.isStarved());
+  EXPECT_TRUE(R.turn().IsKnown);
   std::vector<unsigned> Served;
-  while (R.when() != RasterClock::Never)
+  while (R.turn().At != Turn::Never)
     if (const auto Agent = R.step(Memory))
       Served.push_back(Agent->Agent);
   EXPECT_EQ(Served, (std::vector<unsigned>{0, 1}));
@@ -198,7 +198,7 @@ TEST_F(RasterClockTest, ACommandWithoutWorkWaitsForTheNextRun) {
   R.expect(1, pushed({box(0, 0, 64, 64)}));
   R.start(1, 5);
   R.lastWork();
-  EXPECT_FALSE(R.isStarved());
+  EXPECT_TRUE(R.turn().IsKnown);
   finish(R); // the other agent's
   EXPECT_FALSE(R.isBusy(1));
   EXPECT_EQ(R.commandsLeft(), 1U);
@@ -206,9 +206,9 @@ TEST_F(RasterClockTest, ACommandWithoutWorkWaitsForTheNextRun) {
   R.end(End);
   EXPECT_EQ(of(R.time(), RasterCycle::Idle), 1000U);
   R.begin(End);
-  EXPECT_TRUE(R.isStarved());
+  EXPECT_FALSE(R.turn().IsKnown);
   R.expect(0, pushed({box(0, 0, 64, 64)}));
-  EXPECT_EQ(R.when(), End);
+  EXPECT_EQ(R.turn().At, End);
   const uint64_t Done = finish(R);
   EXPECT_EQ(R.commandsLeft(), 0U);
   R.end(Done);
@@ -251,7 +251,7 @@ TEST_F(RasterClockTest, HaltsWhileTwoBatchesWait) {
   R.expect(0, backward(std::vector(16 * 4, box(0, 0, 8, 8))));
   R.start(0, 0);
   const auto Halt = [&] {
-    while (R.when() != RasterClock::Never)
+    while (R.turn().At != Turn::Never)
       R.step(Memory);
     return R.freeAt();
   };
@@ -290,9 +290,9 @@ TEST_F(RasterClockTest, TheEndOfACommandMakesNoRoomForABatch) {
   finish(R);
   EXPECT_TRUE(R.isBusy(0));
   R.takeBatch(0, R.freeAt()); // the end of the first
-  EXPECT_EQ(R.when(), RasterClock::Never);
+  EXPECT_EQ(R.turn().At, Turn::Never);
   R.takeBatch(0, R.freeAt()); // a batch
-  EXPECT_NE(R.when(), RasterClock::Never);
+  EXPECT_NE(R.turn().At, Turn::Never);
 }
 
 TEST_F(RasterClockTest, ARunThatEndsInAHaltDrains) {
