@@ -1,7 +1,10 @@
 #include "core/Core.h"
 
+#include "core/Atomics.h"
 #include "core/HostFp.h"
-#include "core/Slow.h"
+#include "core/Observing.h"
+#include "core/Rounding.h"
+#include "core/Warps.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <algorithm>

@@ -1,9 +1,12 @@
 //===- Csr.cpp - CSRs that are a core's own -------------------------------===//
 
+#include "core/Csr.h"
+
 #include "core/Core.h"
 #include "core/HostFp.h"
 #include "core/Isa.h"
-#include "core/Slow.h"
+#include "core/Rounding.h"
+#include "core/Warps.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <cassert>

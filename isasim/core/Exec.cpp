@@ -12,9 +12,15 @@
 //===----------------------------------------------------------------------===//
 
 #include "core/Exec.h"
+
+#include "core/Atomics.h"
+#include "core/Csr.h"
+#include "core/LaneMemory.h"
 #include "core/Level.h"
-#include "core/Slow.h"
+#include "core/Observing.h"
+#include "core/Rounding.h"
 #include "core/SoftFloat.h"
+#include "core/Warps.h"
 #include "timing/TraceAppend.h"
 #include "vorion/isasim/TrapCause.h"
 

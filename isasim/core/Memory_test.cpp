@@ -1,6 +1,7 @@
 /// Loads, stores and atomics of a warp: every shape of addresses on every
 /// level and mask, faults, and the order of lanes.
 
+#include "core/Atomics.h"
 #include "testing/WarpRunner.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 /// specification, Zaamo, Zacas and Zicond), for each single lane, all lanes and
 /// random masks, with operands in any registers, the same one twice included.
 
+#include "core/Atomics.h"
 #include "testing/WarpRunner.h"
 
 #include <algorithm>

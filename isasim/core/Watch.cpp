@@ -1,7 +1,7 @@
 #include "core/Watch.h"
 
 #include "core/Core.h"
-#include "core/Slow.h"
+#include "core/Observing.h"
 
 #include <algorithm>
 

@@ -1,7 +1,8 @@
 #include "vorion/isasim/Machine.h"
 
+#include "core/Atomics.h"
 #include "core/Core.h"
-#include "core/Slow.h"
+#include "core/Csr.h"
 #include "core/Watch.h"
 #include "machine/HangDetector.h"
 #include "machine/HostInterface.h"

@@ -2,7 +2,7 @@
 /// cores.
 #pragma once
 
-#include "core/Slow.h"
+#include "core/Csr.h"
 #include "mem/Memory.h"
 #include "pixel/PixelUnit.h"
 #include "raster/Rasterizer.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/Core.h"
-#include "core/Slow.h"
+#include "core/Warps.h"
 #include "core/Watch.h"
 #include "mem/Memory.h"
 #include "testing/ElfBuilder.h"

@@ -2,7 +2,7 @@
 
 #include "core/Core.h"
 #include "core/Exec.h"
-#include "core/Slow.h"
+#include "core/Warps.h"
 
 #include <cstring>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include "core/Core.h"
 #include "core/HostFp.h"
-#include "core/Slow.h"
+#include "core/Rounding.h"
 #include "observe/Tool.h"
 #include "observe/gdb/Call.h"
 #include "observe/gdb/Connection.h"

@@ -3,7 +3,7 @@
 #include "core/Core.h"
 #include "core/HostFp.h"
 #include "core/IsaTables.h"
-#include "core/Slow.h"
+#include "core/Rounding.h"
 #include "vorion/isasim/Machine.h"
 
 #include <algorithm>

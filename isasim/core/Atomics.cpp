@@ -1,0 +1,151 @@
+#include "core/Atomics.h"
+
+#include "core/Isa.h"
+#include "core/Lanes.h"
+#include "core/Reach.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace vorion::isasim {
+
+namespace {
+
+[[gnu::always_inline]] inline uint32_t
+applyAmo(Amo Kind, uint32_t Old, uint32_t Operand, uint32_t Compare) {
+  const auto SOld = static_cast<int32_t>(Old);
+  const auto SOperand = static_cast<int32_t>(Operand);
+  switch (Kind) {
+  case Amo::Add:
+    return Old + Operand;
+  case Amo::Swap:
+    return Operand;
+  case Amo::Xor:
+    return Old ^ Operand;
+  case Amo::And:
+    return Old & Operand;
+  case Amo::Or:
+    return Old | Operand;
+  case Amo::Min:
+    return SOld < SOperand ? Old : Operand;
+  case Amo::Max:
+    return SOld < SOperand ? Operand : Old;
+  case Amo::Minu:
+    return std::min(Old, Operand);
+  case Amo::Maxu:
+    return std::max(Old, Operand);
+  case Amo::Cas:
+    return Old == Compare ? Operand : Old;
+  }
+  return Old;
+}
+
+bool allLanesIn(WarpState *S, const Insn *I, const Region &R) {
+  const uint32_t *Addresses = S->lanes(I->Rs1);
+  return forLanes(S, [&](unsigned L) {
+    return Addresses[L] % 4 == 0 && inside(R, Addresses[L], 4);
+  });
+}
+
+constexpr unsigned SinkOffset = SinkRegister * sizeof(LaneWords);
+
+/// The atomic in lane order, at the places that Find gives for an address.
+template <Amo Kind, typename Function>
+bool amoLanes(WarpState *S, const Insn *I, Function Find) {
+  uint32_t Olds[MaxLanes] = {};
+  const uint32_t *Addresses = S->lanes(I->Rs1);
+  const uint32_t *Operands = S->lanes(I->Rs2);
+  const uint32_t *Compares = S->lanes(I->Rs3);
+  const bool Ok = forLanes(S, [&](unsigned L) {
+    std::byte *At = Addresses[L] % 4 == 0 ? Find(Addresses[L]) : nullptr;
+    if (!At)
+      return fault(S,
+                   Addresses[L] % 4 ? TrapCause::MisalignedStore
+                                    : TrapCause::StoreFault,
+                   L, Addresses[L]);
+    std::memcpy(&Olds[L], At, 4);
+    const uint32_t New = applyAmo(Kind, Olds[L], Operands[L], Compares[L]);
+    S->Count.Changes += New != Olds[L];
+    std::memcpy(At, &New, 4);
+    return true;
+  });
+  if (Ok)
+    writeLanes(S, I->Rd, Olds);
+  return Ok;
+}
+
+template <typename Function>
+bool amoWhere(WarpState *S, const Insn *I, Amo Kind, Function Find) {
+  switch (Kind) {
+#define VORION_AMO(NAME)                                                       \
+  case Amo::NAME:                                                              \
+    return amoLanes<Amo::NAME>(S, I, Find);
+    VORION_AMO(Add)
+    VORION_AMO(Swap)
+    VORION_AMO(Xor)
+    VORION_AMO(And)
+    VORION_AMO(Or)
+    VORION_AMO(Min)
+    VORION_AMO(Max)
+    VORION_AMO(Minu)
+    VORION_AMO(Maxu)
+    VORION_AMO(Cas)
+#undef VORION_AMO
+  }
+  return false;
+}
+
+} // namespace
+
+Amo amoKind(const Insn *I) {
+  switch (decode(I->Word)->O) {
+  case Op::RV_AMOADD_W:
+    return Amo::Add;
+  case Op::RV_AMOSWAP_W:
+    return Amo::Swap;
+  case Op::RV_AMOXOR_W:
+    return Amo::Xor;
+  case Op::RV_AMOAND_W:
+    return Amo::And;
+  case Op::RV_AMOOR_W:
+    return Amo::Or;
+  case Op::RV_AMOMIN_W:
+    return Amo::Min;
+  case Op::RV_AMOMAX_W:
+    return Amo::Max;
+  case Op::RV_AMOMINU_W:
+    return Amo::Minu;
+  case Op::RV_AMOMAXU_W:
+    return Amo::Maxu;
+  default:
+    return Amo::Cas;
+  }
+}
+
+bool amoNow(WarpState *S, const Insn *I, Amo Kind) {
+  return amoWhere(S, I, Kind,
+                  [S](uint32_t Addr) { return writableAt(*S->Mem, Addr, 4); });
+}
+
+bool amoOrPark(WarpState *S, const Insn *I, Amo Kind) {
+  if (allLanesIn(S, I, S->Mem->Local))
+    return amoWhere(S, I, Kind,
+                    [S](uint32_t Addr) { return S->Mem->Local.at(Addr); });
+  // Additions commute, so their order among the cores does not show; other
+  // kinds would, mixed on one word.
+  if (Kind == Amo::Add && I->Rd == SinkOffset &&
+      allLanesIn(S, I, S->Mem->Global))
+    return forLanes(S, [&](unsigned L) {
+      auto *Word =
+          reinterpret_cast<uint32_t *>(S->Mem->Global.at(S->lanes(I->Rs1)[L]));
+      const uint32_t Addend = S->lanes(I->Rs2)[L];
+      S->Count.Changes += Addend != 0;
+      __atomic_fetch_add(Word, Addend, __ATOMIC_ACQ_REL);
+      return true;
+    });
+  S->Why = Stop::Atomic;
+  ++S->Count.Parks;
+  return false;
+}
+
+} // namespace vorion::isasim

@@ -1,0 +1,32 @@
+/// Atomics, lane by lane. Compiled once, for any host.
+#pragma once
+
+#include "core/State.h"
+
+namespace vorion::isasim {
+
+enum class Amo : std::uint8_t {
+  Add,
+  Swap,
+  Xor,
+  And,
+  Or,
+  Min,
+  Max,
+  Minu,
+  Maxu,
+  Cas
+};
+
+// False if the warp stops (WarpState::Why says why): the instruction has not
+// been executed.
+
+/// Executes an atomic if it need not wait for the other cores: all of its
+/// addresses are in local memory, or it is an addition without a result.
+bool amoOrPark(WarpState *S, const Insn *I, Amo Kind);
+/// Executes an atomic lane by lane; all cores are parked.
+bool amoNow(WarpState *S, const Insn *I, Amo Kind);
+/// The kind of the atomic \p I.
+Amo amoKind(const Insn *I);
+
+} // namespace vorion::isasim
