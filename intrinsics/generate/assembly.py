@@ -14,19 +14,19 @@ from records import Records, write
 
 def numbers(records):
     for c in records.of("Constant"):
-        yield c.Name, word(c.Value)
+        yield c.Name, c.Value
 
 
 def csrs(records):
     for c in records.of("Csr"):
-        yield csr_macro(c), word(c.Number)
+        yield csr_macro(c), c.Number
 
 
 def offsets(records):
     for d in records.of("Descriptor"):
         offset = 0
         for f in d.Fields:
-            yield f"{d.Name}_{f.Name}".upper(), word(offset)
+            yield f"{d.Name}_{f.Name}".upper(), offset
             offset += 4 * f.Count
 
 
@@ -39,9 +39,10 @@ def main():
     records = Records(options.tblgen)
     lines = [note("assembly.py", "/*", "*/")]
     if options.format == "asm":
-        lines += [f"#define {name} {value}" for name, value in [*numbers(records), *csrs(records), *offsets(records)]]
+        known = [*numbers(records), *csrs(records), *offsets(records)]
+        lines += [f"#define {name} {word(value)}" for name, value in known]
     else:
-        lines += [f"{name} = {value};" for name, value in numbers(records) if name.startswith("VX_IMAGE_")]
+        lines += [f"{name} = {word(value)};" for name, value in numbers(records) if name.startswith("VX_IMAGE_")]
     write(options.output, "\n".join(lines) + "\n")
 
 
