@@ -95,6 +95,7 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
     return summaryOf(*All);
   };
   std::vector<const Camera *> All;
+  All.reserve(P.Views.size());
   for (const Camera &View : P.Views)
     All.push_back(&View);
   std::vector<std::vector<const Camera *>> Choices{All};

@@ -12,6 +12,7 @@ namespace vorion::splat {
 template <typename Choices>
 static std::vector<std::string> namesOf(const Choices &Of) {
   std::vector<std::string> Names;
+  Names.reserve(Of.size());
   for (const auto One : Of)
     Names.emplace_back(name(One));
   return Names;

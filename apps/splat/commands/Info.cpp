@@ -48,7 +48,7 @@ std::string jsonReport(const InfoArguments &A, const SceneFile &F,
       {"antialiased", F.DrawnAs.Antialiased},
       {"antialiased_by", F.DrawnAs.Said},
       {"dilation", F.DrawnAs.Dilation ? Json(*F.DrawnAs.Dilation) : Json()},
-      {"documented_axes", documentedAxes(F.Format)},
+      {"documented_axes", recordOf(F.Format).Axes},
       {"axes_changed", A.Scene.Axes},
       {"bounds", {{"min", S.Low}, {"max", S.High}}},
       {"inner_bounds", {{"min", S.InnerLow}, {"max", S.InnerHigh}}},
@@ -77,7 +77,7 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
         F.DrawnAs.Dilation ? fmt::format(", dilation {}", *F.DrawnAs.Dilation)
                            : "");
   Text += fmt::format("axes         {} by the format's documentation; {}\n",
-                      documentedAxes(F.Format),
+                      recordOf(F.Format).Axes,
                       A.Scene.Axes.empty()
                           ? "read as the file has them"
                           : "changed " + A.Scene.Axes + " as asked for");

@@ -1,5 +1,6 @@
 #include "OutputFile.h"
 
+#include "../scene/SceneFile.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
 
@@ -13,11 +14,11 @@
 namespace vorion::splat {
 namespace {
 
-/// Endings that promise a kind of file to whoever sees them.
-constexpr std::array<std::string_view, 19> KnownKinds{
-    ".ply",  ".spz",  ".splat", ".sog",  ".ksplat", ".png", ".jpg",
-    ".jpeg", ".webp", ".exr",   ".pfm",  ".npz",    ".npy", ".svg",
-    ".pdf",  ".html", ".csv",   ".json", ".glb"};
+/// Endings that promise a kind of file to whoever sees them, besides those of
+/// scenes.
+constexpr std::array<std::string_view, 15> OtherKinds{
+    ".ksplat", ".png", ".jpg", ".jpeg", ".webp", ".exr",  ".pfm", ".npz",
+    ".npy",    ".svg", ".pdf", ".html", ".csv",  ".json", ".glb"};
 
 Error badName(std::string_view Option, const std::string &File,
               std::string_view What) {
@@ -32,14 +33,20 @@ std::string lowered(std::string Text) {
   return Text;
 }
 
-/// The known kind that \p File's ending promises, or nothing.
+/// The known kind that \p File's ending promises, the longest that there is
+/// (a compressed PLY's ending ends with PLY's), or nothing.
 std::string_view promised(const std::string &File) {
   const std::string Lower = lowered(File);
-  const auto Kind =
-      std::ranges::find_if(KnownKinds, [&](std::string_view Ending) {
-        return Lower.ends_with(Ending);
-      });
-  return Kind == KnownKinds.end() ? std::string_view() : *Kind;
+  std::string_view Longest;
+  const auto Try = [&](std::string_view Ending) {
+    if (Lower.ends_with(Ending) && Ending.size() > Longest.size())
+      Longest = Ending;
+  };
+  for (const SceneFormatRecord &F : sceneFormats())
+    Try(F.Ending);
+  for (const std::string_view Ending : OtherKinds)
+    Try(Ending);
+  return Longest;
 }
 
 /// Standard output, a device or a pipe, whose name promises nothing.
@@ -57,11 +64,10 @@ bool isStream(const std::string &File) {
 Expected<Success> checkEnding(std::string_view Option, const std::string &File,
                               std::initializer_list<std::string_view> Endings) {
   const auto Ends = [&File](std::string_view E) { return File.ends_with(E); };
-  // Another format, whose ending ends with PLY's.
-  constexpr std::string_view CompressedPly = ".compressed.ply";
+  const std::string_view Kind = promised(File);
   if (File.empty() || isStream(File) ||
       (std::ranges::any_of(Endings, Ends) &&
-       !lowered(File).ends_with(CompressedPly)))
+       (Kind.empty() || std::ranges::find(Endings, Kind) != Endings.end())))
     return Success{};
   std::string Listed;
   for (const std::string_view &E : Endings)

@@ -8,13 +8,18 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <string_view>
+#include <vector>
 
 namespace vorion::splat {
 
 void addSceneOptions(CLI::App &App, SceneArguments &A) {
+  std::vector<std::string_view> Titles;
+  Titles.reserve(sceneFormats().size());
+  for (const SceneFormatRecord &F : sceneFormats())
+    Titles.push_back(F.Title);
   App.add_option("scene", A.Path,
-                 "Scene: INRIA's or compressed PLY, .splat, .spz, or SOG (zip "
-                 "or folder)")
+                 fmt::format("Scene: {}", fmt::join(Titles, ", ")))
       ->required();
   App.add_option("--axes", A.Axes,
                  "Mirror the scene between conventions, as rub:rdf (default: "

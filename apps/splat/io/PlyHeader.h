@@ -53,6 +53,12 @@ private:
   std::map<std::string, std::size_t, std::less<>> Places; ///< in Elements
 };
 
+/// Whether \p File begins as PLYs do.
+inline bool isPlyFile(Bytes File) {
+  const std::string_view Text = asText(File);
+  return Text.starts_with("ply\n") || Text.starts_with("ply\r");
+}
+
 /// Reads the header of a binary little-endian PLY of scalar properties; \p File
 /// holds exactly the rows that it declares, or the result is an error. Errors
 /// of the header name the line. A header may declare any number of things, so

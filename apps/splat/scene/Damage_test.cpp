@@ -2,8 +2,6 @@
 // scene that is whole.
 #include "Damage.h"
 #include "Invariants.h"
-#include "formats/Ply.h"
-#include "formats/Splat.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // What files say of how a scene is to be drawn, and what becomes of it.
 #include "Drawing.h"
+#include "SceneFile.h"
 #include "SceneWriters.h"
 #include "TestFiles.h"
 #include "formats/Ply.h"

@@ -1,11 +1,7 @@
 #include "SceneFile.h"
 
-#include "Gzip.h"
-#include "Zip.h"
-#include "formats/Ply.h"
+#include "formats/Formats.h"
 #include "formats/SogFolder.h"
-#include "formats/Splat.h"
-#include "formats/Spz.h"
 #include "vorion/support/File.h"
 
 #include <filesystem>
@@ -38,48 +34,28 @@ Expected<SceneFile> checked(const std::string &Where, Expected<SceneFile> Read,
 
 Expected<SceneFile> parse(const std::string &Where, Bytes File,
                           const ReadOptions &Options) {
-  const std::string_view Text = asText(File);
-  if (Text.starts_with("ply\n") || Text.starts_with("ply\r"))
-    return parsePly(Where, File);
-  if (isGzip(File) || Text.starts_with("NGSP"))
-    return parseSpz(Where, File);
-  if (isZip(File))
-    return parseSogZip(Where, File, Options);
+#define SCENE_FORMAT(ID, NAME, AXES, ENDING, TITLE)                            \
+  if (is##ID(File))                                                            \
+    return parse##ID(Where, File, Options);
+#define SCENE_FOLDER(ID, NAME, AXES, ENDING, TITLE)
+#include "formats/Formats.def"
+#undef SCENE_FORMAT
+#undef SCENE_FOLDER
   return parseSplat(Where, File, Options);
 }
 
 } // namespace
 
-std::string_view name(SceneFormat F) {
-  switch (F) {
-  case SceneFormat::Ply:
-    return "ply";
-  case SceneFormat::CompressedPly:
-    return "compressed-ply";
-  case SceneFormat::Splat:
-    return "splat";
-  case SceneFormat::Spz:
-    return "spz";
-  case SceneFormat::Sog:
-    return "sog";
-  case SceneFormat::StreamedSog:
-    return "streamed-sog";
-  }
-  __builtin_unreachable();
-}
-
-std::string_view documentedAxes(SceneFormat F) {
-  switch (F) {
-  case SceneFormat::Ply:
-  case SceneFormat::CompressedPly:
-  case SceneFormat::Splat:
-    return "rdf";
-  case SceneFormat::Spz:
-  case SceneFormat::Sog:
-  case SceneFormat::StreamedSog:
-    return "rub";
-  }
-  __builtin_unreachable();
+std::span<const SceneFormatRecord> sceneFormats() {
+  static constexpr SceneFormatRecord All[] = {
+#define SCENE_FORMAT(ID, NAME, AXES, ENDING, TITLE)                            \
+  {SceneFormat::ID, NAME, AXES, ENDING, TITLE},
+#define SCENE_FOLDER SCENE_FORMAT
+#include "formats/Formats.def"
+#undef SCENE_FORMAT
+#undef SCENE_FOLDER
+  };
+  return All;
 }
 
 Expected<SceneFile> parseScene(const std::string &Where, Bytes File,

@@ -7,20 +7,39 @@
 #include "vorion/support/Expected.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace vorion::splat {
 
-enum class SceneFormat { Ply, CompressedPly, Splat, Spz, Sog, StreamedSog };
+enum class SceneFormat {
+#define SCENE_FORMAT(ID, NAME, AXES, ENDING, TITLE) ID,
+#define SCENE_FOLDER SCENE_FORMAT
+#include "formats/Formats.def"
+#undef SCENE_FORMAT
+#undef SCENE_FOLDER
+};
 
-/// As reports have it: ply, compressed-ply, splat, spz, sog, streamed-sog.
-std::string_view name(SceneFormat F);
+struct SceneFormatRecord {
+  SceneFormat Format;
+  std::string_view Name; ///< as reports have it: "compressed-ply"
+  /// The directions of +x, +y and +z that the format's own documentation
+  /// states, as in Axes.h ("rdf", "rub"); readers never convert to or from
+  /// them.
+  std::string_view Axes;
+  std::string_view Ending; ///< of files' names, ".spz"; empty for folders
+  std::string_view Title;  ///< for people
+};
 
-/// The directions of +x, +y and +z that the format's own documentation states,
-/// as in Axes.h ("rdf", "rub"); readers never convert to or from them.
-std::string_view documentedAxes(SceneFormat F);
+/// All of them, by the number of \c SceneFormat.
+std::span<const SceneFormatRecord> sceneFormats();
+
+inline const SceneFormatRecord &recordOf(SceneFormat F) {
+  return sceneFormats()[static_cast<std::size_t>(F)];
+}
+inline std::string_view name(SceneFormat F) { return recordOf(F).Name; }
 
 /// A scene and what its file says about it.
 struct SceneFile {

@@ -3,7 +3,10 @@
 #include "TestFiles.h"
 #include "formats/Ply.h"
 
+#include <algorithm>
 #include <cstring>
+#include <fmt/format.h>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -18,12 +21,28 @@ TEST(SceneFile, IsToldByItsContentNotItsName) {
   for (const SampleFile &F : sampleFiles()) {
     const auto Read = readScene(Root.write("scene.ply", F.Content));
     ASSERT_TRUE(Read) << F.Name << ": " << Read.error().What;
-    const std::string_view Ending = name(Read->Format);
-    EXPECT_NE(
-        F.Name.find(Ending == "compressed-ply" ? "compressed.ply" : Ending),
-        std::string::npos)
-        << F.Name << " read as " << Ending;
+    EXPECT_TRUE(F.Name.ends_with(recordOf(Read->Format).Ending))
+        << F.Name << " read as " << name(Read->Format);
   }
+}
+
+TEST(SceneFile, EveryFormatIsInTheDocuments) {
+  std::ifstream Document("docs/scenes.md");
+  ASSERT_TRUE(Document);
+  std::vector<std::string> Rows;
+  for (std::string Line; std::getline(Document, Line);)
+    if (Line.starts_with("| ")) {
+      std::erase(Line, '`');
+      Rows.push_back(Line);
+    }
+  for (const SceneFormatRecord &F : sceneFormats())
+    EXPECT_TRUE(std::ranges::any_of(
+        Rows,
+        [&](const std::string &Row) {
+          return Row.starts_with(fmt::format("| {}", F.Title)) &&
+                 Row.find(F.Axes) != std::string::npos;
+        }))
+        << F.Title << ", " << F.Axes;
 }
 
 TEST(SceneFile, MissingFilesAndEmptyFoldersAreErrors) {

@@ -6,6 +6,7 @@
 #include "Colmap.h"
 #include "Npz.h"
 #include "Transforms.h"
+#include "formats/Formats.h"
 #include "formats/Ply.h"
 #include "formats/SogFolder.h"
 #include "vorion/support/Diagnostics.h"
@@ -94,7 +95,7 @@ Reading plyElements(std::size_t Size) {
                }) +
       "end_header\n";
   // Of a scene that many elements are one error, at the header's end.
-  return [File] { return !parsePly("file", bytesOf(File)); };
+  return [File] { return !parsePly("file", bytesOf(File), {}); };
 }
 
 Reading sog(std::size_t Size) {

@@ -1,12 +1,22 @@
-#include "CompressedPly.h"
-
+// PlayCanvas's compressed PLY: chunks of 256 Gaussians, each with its bounds,
+// and four 32-bit words a Gaussian.
+// https://github.com/playcanvas/splat-transform (compressed PLY)
+//
+// The elements chunk, vertex and, from degree 1, sh. Between a
+// chunk's bounds, positions and log scales have 11, 10 and 11 bits, colours 8;
+// rotations have 10 bits for each of the three components that are not the
+// largest, opacity 8, harmonics 8 for -4 to 4. Older files have no bounds of
+// the colour, which then goes from 0 to 1.
 #include "Dequantize.h"
+#include "Formats.h"
 #include "Ply.h"
+#include "PlyHeader.h"
 
 #include <array>
 #include <fmt/format.h>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace vorion::splat {
@@ -97,8 +107,22 @@ Expected<Harmonics> harmonicsOf(const std::string &Where, const PlyHeader &H,
 
 } // namespace
 
+bool isCompressedPly(Bytes File) {
+  if (!isPlyFile(File))
+    return false;
+  const auto Header = readPlyHeader("", File);
+  return Header && Header->find("chunk");
+}
+
 Expected<SceneFile> parseCompressedPly(const std::string &Where, Bytes File,
-                                       const PlyHeader &Header) {
+                                       const ReadOptions & /*Options*/) {
+  const auto Read = readPlyHeader(Where, File);
+  if (!Read)
+    return Read.error();
+  const PlyHeader &Header = *Read;
+  auto DrawnAs = drawingOfComments(Where, Header.Comments);
+  if (!DrawnAs)
+    return DrawnAs.error();
   const PlyElement *Chunk = Header.find("chunk");
   const PlyElement *Vertex = Header.find("vertex");
   if (!Chunk || !Vertex)
@@ -134,6 +158,7 @@ Expected<SceneFile> parseCompressedPly(const std::string &Where, Bytes File,
 
   SceneFile Result;
   Result.Format = SceneFormat::CompressedPly;
+  Result.DrawnAs = std::move(*DrawnAs);
   Scene &S = Result.Gaussians = Scene::sized(Vertex->Count, Later->Degree);
   const auto &Logits = byteOpacityLogits();
   const std::size_t ShEach = 3 * S.coefficients();

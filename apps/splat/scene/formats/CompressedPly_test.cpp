@@ -1,5 +1,5 @@
 #include "Compare.h"
-#include "CompressedPly.h"
+#include "SceneFile.h"
 #include "SceneWriters.h"
 
 using namespace vorion;

@@ -1,6 +1,14 @@
+// Trained scenes in INRIA's PLY layout.
+//
+// A binary little-endian PLY whose one element, vertex, has the
+// properties x, y, z, f_dc_0..2, f_rest_0.. (0, 9, 24 or 45 of them: degree 0
+// to 3), opacity, scale_0..2 and rot_0..3 as floats, in any order; other
+// scalar properties (nx, ny, nz) are skipped. Refused, each with its reason:
+// other encodings, missing, repeated or list properties, a file shorter or
+// longer than the header says, values that are not finite, no vertex at all.
 #include "Ply.h"
 
-#include "CompressedPly.h"
+#include "Formats.h"
 #include "PlyHeader.h"
 #include "Unsupported.h"
 #include "vorion/support/File.h"
@@ -93,19 +101,16 @@ std::vector<std::string> plyRestNames(int ShDegree) {
   return Names;
 }
 
-Expected<SceneFile> parsePly(const std::string &Where, Bytes File) {
+bool isPly(Bytes File) { return isPlyFile(File) && !isCompressedPly(File); }
+
+Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
+                             const ReadOptions & /*Options*/) {
   const auto H = readPlyHeader(Where, File);
   if (!H)
     return H.error();
   auto DrawnAs = drawingOfComments(Where, H->Comments);
   if (!DrawnAs)
     return DrawnAs.error();
-  if (H->find("chunk")) {
-    auto Compressed = parseCompressedPly(Where, File, *H);
-    if (Compressed)
-      Compressed->DrawnAs = std::move(*DrawnAs);
-    return Compressed;
-  }
   const PlyElement *Vertex = H->find("vertex");
   if (!Vertex || H->Elements.size() != 1)
     return Error{Where, "expected one element, `element vertex <count>`, or "

@@ -1,6 +1,9 @@
 #include "Ply.h"
+#include "SceneFile.h"
 #include "SceneWriters.h"
 #include "TestFiles.h"
+
+#include <cstring>
 
 using namespace vorion;
 using namespace vorion::splat;

@@ -1,6 +1,7 @@
 #include "Sog.h"
 
 #include "Dequantize.h"
+#include "Formats.h"
 #include "WebP.h"
 #include "Zip.h"
 #include "vorion/support/Json.h"
@@ -289,24 +290,26 @@ private:
 
 } // namespace
 
-Expected<SceneFile> parseSog(const std::string &Where, Bytes Meta,
-                             const FileSource &Read,
-                             const ReadOptions &Options) {
+Expected<SceneFile> parseSogData(const std::string &Where, Bytes Meta,
+                                 const FileSource &Read,
+                                 const ReadOptions &Options) {
   auto Root =
       parseJson<Json>(asText(Meta), Where + ": meta.json", "SOG's description");
   return Root ? Reader(Where, std::move(*Root), Read, Options).read()
               : Expected<SceneFile>(Root.error());
 }
 
-Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File,
-                                const ReadOptions &Options) {
+bool isSog(Bytes File) { return isZip(File); }
+
+Expected<SceneFile> parseSog(const std::string &Where, Bytes File,
+                             const ReadOptions &Options) {
   auto Z = ZipArchive::open(Where, "a SOG archive", File);
   if (!Z)
     return Z.error();
   const auto Meta = Z->read("meta.json");
   if (!Meta)
     return Meta.error();
-  return parseSog(
+  return parseSogData(
       Where, *Meta, [&Z](const std::string &Name) { return Z->read(Name); },
       Options);
 }

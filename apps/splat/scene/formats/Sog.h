@@ -21,12 +21,8 @@ using FileSource =
 /// version 1, planes smaller than the count or out of proportion to their
 /// files or to the count, indices outside codebook or palette, models other
 /// than default and antialiased.
-Expected<SceneFile> parseSog(const std::string &Where, Bytes Meta,
-                             const FileSource &Read,
-                             const ReadOptions &Options = {});
-
-/// A data set in a zip archive.
-Expected<SceneFile> parseSogZip(const std::string &Where, Bytes File,
-                                const ReadOptions &Options = {});
+Expected<SceneFile> parseSogData(const std::string &Where, Bytes Meta,
+                                 const FileSource &Read,
+                                 const ReadOptions &Options = {});
 
 } // namespace vorion::splat

@@ -57,7 +57,7 @@ Expected<SceneFile> readDataSet(const std::string &Where,
   if (!Content)
     return Content.error();
   const fs::path Folder = fs::path(Meta).parent_path();
-  return parseSog(
+  return parseSogData(
       Folder.empty() ? Where : Where + "/" + printable(Folder.string()),
       *Content,
       [&](const std::string &Name) { return Read((Folder / Name).string()); },
@@ -326,7 +326,7 @@ Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
     return Root.error();
   if (Root->contains("tree") || Root->contains("lodLevels"))
     return parseStreamedSog(Folder.string(), File, filesOf(Folder), Options);
-  return parseSog(Folder.string(), File, filesOf(Folder), Options);
+  return parseSogData(Folder.string(), File, filesOf(Folder), Options);
 }
 
 } // namespace vorion::splat

@@ -1,6 +1,6 @@
 #include "Compare.h"
+#include "SceneFile.h"
 #include "SceneWriters.h"
-#include "Sog.h"
 
 #include <nlohmann/json.hpp>
 

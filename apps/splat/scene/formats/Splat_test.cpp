@@ -1,6 +1,6 @@
 #include "Compare.h"
+#include "SceneFile.h"
 #include "SceneWriters.h"
-#include "Splat.h"
 
 using namespace vorion;
 using namespace vorion::splat;

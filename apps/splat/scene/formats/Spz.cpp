@@ -1,6 +1,13 @@
-#include "Spz.h"
-
+// Niantic's `.spz`, versions 2 and 3.
+// https://github.com/nianticlabs/spz
+//
+// A gzip stream (or what is in one) of a 16-byte header and one array
+// for each parameter: positions of 24-bit fixed point, opacities, colours,
+// log scales in sixteenths, rotations (version 2: 8 bits for each of x, y, z;
+// version 3: the three smallest components, 10 bits each), harmonics of 8
+// bits. Refused: versions 1 and 4, degree 4, extensions.
 #include "Dequantize.h"
+#include "Formats.h"
 #include "Gzip.h"
 
 #include <array>
@@ -169,7 +176,12 @@ Expected<SceneFile> unpackAndDecode(const std::string &Where, Bytes File) {
 
 } // namespace
 
-Expected<SceneFile> parseSpz(const std::string &Where, Bytes File) {
+bool isSpz(Bytes File) {
+  return isGzip(File) || asText(File).starts_with("NGSP");
+}
+
+Expected<SceneFile> parseSpz(const std::string &Where, Bytes File,
+                             const ReadOptions & /*Options*/) {
   if (isGzip(File))
     return unpackAndDecode(Where, File);
   const auto H = readHeader(Where, File);

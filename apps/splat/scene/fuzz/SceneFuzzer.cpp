@@ -1,9 +1,5 @@
 // Whatever the bytes are, a reader gives a whole scene or one message.
-#include "SceneFile.h"
-#include "formats/Ply.h"
-#include "formats/Sog.h"
-#include "formats/Splat.h"
-#include "formats/Spz.h"
+#include "formats/Formats.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -12,8 +8,8 @@ using namespace vorion::splat;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *Data,
                                       std::size_t Size) {
-  const auto Read =
-      FUZZ_PARSE("input", {reinterpret_cast<const std::byte *>(Data), Size});
+  const auto Read = FUZZ_PARSE(
+      "input", {reinterpret_cast<const std::byte *>(Data), Size}, {});
   if (!Read) {
     if (Read.error().What.empty() ||
         Read.error().What.find('\n') != std::string::npos)
