@@ -11,7 +11,6 @@ def Splits : CoreCounter<"splits", 0, "vx_split and vx_pred, and their negations
 def DivergentSplits : CoreCounter<"divergent_splits", 0, "of these, those that divided the lanes">;
 def Parks : CoreCounter<"parks", 0, "operations that waited for all cores to be parked">;
 
-let Extension = "xvorion" in {
 defm VR_N_COMMANDS : RasterCounter<"commands", 0xFD0, 0x4F62, "tile commands">;
 defm VR_N_GAUSSIANS : RasterCounter<"gaussians", 0xFD1, 0x4F63, "Gaussians fetched">;
 defm VR_N_CLIPPED : RasterCounter<"clipped", 0xFD2, 0x4F64, "of these, those whose box misses the tile">;
@@ -22,4 +21,3 @@ defm VR_N_TAILS : RasterCounter<"tails", 0xFE0, 0x4F68, "commands that went on i
 defm VR_N_TAIL_PIXELS : RasterCounter<"tail_pixels", 0xFE1, 0x4F69, "pixels that it took over">;
 defm VR_N_TAIL_VISITS : RasterCounter<"tail_visits", 0xFE2, 0x4F6A, "Gaussians that those examined">;
 defm VR_N_TAIL_BLENDS : RasterCounter<"tail_blends", 0xFE3, 0x4F6B, "of these, blended">;
-}

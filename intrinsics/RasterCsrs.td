@@ -11,40 +11,40 @@ def VR_STATUS : Csr<"vr_status", 0x7C0, Agent, ReadOnly, 1, "State of the agent'
 }
 def VR_START : Csr<"vr_start", 0x7C1, Agent, Scalar, 1, "A write queues the bank's content as a command (the value is ignored) and is a release of the core's earlier stores; a full queue stalls the write.">;
 def VR_WAIT : Csr<"vr_wait", 0x7C2, Agent, ReadOnly, 1, "A read waits for the agent's commands, is an acquire, returns the status code of the first failed one (0 if none) and clears it.">;
-def VR_MODE : Csr<"vr_mode", 0x7C3, Agent, Scalar, 1, "What a command does."> {
+def VR_MODE : BankCsr<"vr_mode", 0x7C3, "What a command does."> {
   let Fields = [CsrField<"backward", 0, 1, "0 render, 1 gradients of what was rendered, handed over through vr_grad_*">,
                 CsrField<"pushed", 1, 1, "0 index list in memory, 1 descriptors pushed with vr_push">,
                 CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">,
                 CsrField<"keep_last", 3, 1, "a render stores each pixel's last contributor at vr_last">];
 }
-def VR_OPTIONS : Csr<"vr_options", 0x7C4, Agent, Scalar, 1, "Datapath options."> {
-  let Fields = [CsrField<"exp", 0, 4, "exponential unit: 0 correctly rounded, 1 table of 16, 2 to 4 polynomial of that degree, 5 table of 32, 6 table of 64, 7 piecewise linear, 8 Schraudolph; docs/rasterizer.md#exponential-units">,
+def VR_OPTIONS : BankCsr<"vr_options", 0x7C4, "Datapath options."> {
+  let Fields = [CsrField<"exp", 0, 4, "exponential unit, VR_EXP_*; docs/rasterizer.md#exponential-units">,
                 CsrField<"stop_at_equal", 4, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
                 CsrField<"skip_saturated", 5, 1, "dispatch gives no lane slot to saturated pixels">,
-                CsrField<"blend", 6, 2, "blend arithmetic: 0 fp32, 1 bf16 and 2 fp16 multiplications with fp32 sums; docs/abi.md#rasterizer">,
+                CsrField<"blend", 6, 2, "blend arithmetic, VR_BLEND_*; docs/abi.md#rasterizer">,
                 CsrField<"alpha_cutoff", 8, 2, "smallest alpha that is blended: 2^this / 255">];
 }
-def VR_CUTOFF : Csr<"vr_cutoff", 0x7C5, Agent, Scalar, 1, "Transmittance cut-off, float in [0, 1).">;
-def VR_GAUSSIANS : Csr<"vr_gaussians", 0x7C6, Agent, Scalar, 1, "Address of the vx_gaussian records, 16-byte aligned.">;
-def VR_LIST : Csr<"vr_list", 0x7C7, Agent, Scalar, 1, "Address of the depth-sorted list, 4-byte aligned: a record number an entry, and VR_INTERSECT where the Gaussian spans several tiles.">;
-def VR_COUNT : Csr<"vr_count", 0x7C8, Agent, Scalar, 1, "Entries of the list; 0 is a valid empty tile.">;
-def VR_TILE_ORIGIN : Csr<"vr_tile_origin", 0x7C9, Agent, Scalar, 1, "Picture coordinates of the tile's first pixel."> {
+def VR_CUTOFF : BankCsr<"vr_cutoff", 0x7C5, "Transmittance cut-off, float in [0, 1).">;
+def VR_GAUSSIANS : BankCsr<"vr_gaussians", 0x7C6, "Address of the vx_gaussian records, 16-byte aligned.">;
+def VR_LIST : BankCsr<"vr_list", 0x7C7, "Address of the depth-sorted list, 4-byte aligned: a record number an entry, and VR_INTERSECT where the Gaussian spans several tiles.">;
+def VR_COUNT : BankCsr<"vr_count", 0x7C8, "Entries of the list; 0 is a valid empty tile.">;
+def VR_TILE_ORIGIN : BankCsr<"vr_tile_origin", 0x7C9, "Picture coordinates of the tile's first pixel."> {
   let Fields = [CsrField<"x", 0, 16, "column">, CsrField<"y", 16, 16, "row">];
 }
-def VR_TILE_SHAPE : Csr<"vr_tile_shape", 0x7CA, Agent, Scalar, 1, "Pixels of the tile, 1 to 64 each."> {
+def VR_TILE_SHAPE : BankCsr<"vr_tile_shape", 0x7CA, "Pixels of the tile, 1 to 64 each."> {
   let Fields = [CsrField<"width", 0, 16, "columns">, CsrField<"height", 16, 16, "rows">];
 }
-def VR_ZTILE : Csr<"vr_ztile", 0x7CB, Agent, Scalar, 1, "Which part of the tile's list this command is."> {
+def VR_ZTILE : BankCsr<"vr_ztile", 0x7CB, "Which part of the tile's list this command is."> {
   let Fields = [CsrField<"index", 0, 16, "number of the part">, CsrField<"count", 16, 16, "parts; 0 or 1 for the whole list">];
 }
-def VR_OUTPUT : Csr<"vr_output", 0x7CC, Agent, Scalar, 1, "Address of the tile's first pixel (4 floats: r, g, b, T), 16-byte aligned.">;
-def VR_OUTPUT_PITCH : Csr<"vr_output_pitch", 0x7CD, Agent, Scalar, 1, "Bytes from one pixel row to the next, a multiple of 16.">;
+def VR_OUTPUT : BankCsr<"vr_output", 0x7CC, "Address of the tile's first pixel (4 floats: r, g, b, T), 16-byte aligned.">;
+def VR_OUTPUT_PITCH : BankCsr<"vr_output_pitch", 0x7CD, "Bytes from one pixel row to the next, a multiple of 16.">;
 
 // Training (paper, "Training"; docs/rasterizer.md#the-backward-mode).
-def VR_LAST : Csr<"vr_last", 0x7CE, Agent, Scalar, 1, "Address of the word of the tile's first pixel, 4-byte aligned: how many entries of the list up to and with the last one blended, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes, backward reads it.">;
-def VR_UPSTREAM : Csr<"vr_upstream", 0x7CF, Agent, Scalar, 1, "Backward: address of the tile's first pixel's gradient (4 floats: dL/dr, dL/dg, dL/db, dL/dT of the final transmittance), 16-byte aligned, rows vr_output_pitch apart.">;
-def VR_BACKWARD : Csr<"vr_backward", 0x7EB, Agent, Scalar, 1, "Options of the backward mode."> {
-  let Fields = [CsrField<"reciprocal", 0, 3, "unit for 1/(1 - alpha): 0 exact; docs/rasterizer.md#reciprocal-units">,
+def VR_LAST : BankCsr<"vr_last", 0x7CE, "Address of the word of the tile's first pixel, 4-byte aligned: how many entries of the list up to and with the last one blended, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes, backward reads it.">;
+def VR_UPSTREAM : BankCsr<"vr_upstream", 0x7CF, "Backward: address of the tile's first pixel's gradient (4 floats: dL/dr, dL/dg, dL/db, dL/dT of the final transmittance), 16-byte aligned, rows vr_output_pitch apart.">;
+def VR_BACKWARD : BankCsr<"vr_backward", 0x7EB, "Options of the backward mode."> {
+  let Fields = [CsrField<"reciprocal", 0, 3, "unit for 1/(1 - alpha), VR_RECIPROCAL_*; docs/rasterizer.md#reciprocal-units">,
                 CsrField<"clamp_stops", 3, 1, "no gradient but the colour's where alpha is held at 0.99 (gsplat)">,
                 CsrField<"in_rows", 4, 1, "gather adds the rows of a tile one after the other, not as a tree">];
 }
@@ -66,9 +66,9 @@ def VR_PUSH : Csr<"vr_push", 0x7DC, Agent, Push, 1, "A write appends one descrip
 
 // Hand-over of a list's tail to the pixel unit of the cluster (paper, "Pixel
 // unit"; docs/rasterizer.md#the-pixel-unit).
-def VR_TAIL_COUNT : Csr<"vr_tail_count", 0x7E8, Agent, Scalar, 1, "The command goes on in the pixel unit once at most so many entries of its list are left; 0: never for this reason.">;
-def VR_TAIL_SHARE : Csr<"vr_tail_share", 0x7E9, Agent, Scalar, 1, "The command goes on in the pixel unit once this share of the tile's pixels, in 1/VR_TAIL_WHOLE, is saturated; 0: never for this reason.">;
-def VR_TAIL_RECORD : Csr<"vr_tail_record", 0x7EA, Agent, Scalar, 1, "Address of the vx_tail that a hand-over fills, 16-byte aligned; not used while both reasons are 0.">;
+def VR_TAIL_COUNT : BankCsr<"vr_tail_count", 0x7E8, "The command goes on in the pixel unit once at most so many entries of its list are left; 0: never for this reason.">;
+def VR_TAIL_SHARE : BankCsr<"vr_tail_share", 0x7E9, "The command goes on in the pixel unit once this share of the tile's pixels, in 1/VR_TAIL_WHOLE, is saturated; 0: never for this reason.">;
+def VR_TAIL_RECORD : BankCsr<"vr_tail_record", 0x7EA, "Address of the vx_tail that a hand-over fills, 16-byte aligned; not used while both reasons are 0.">;
 
 // Draining a tile by the core that issued it.
 def VR_PIXEL_INDEX : Csr<"vr_pixel_index", 0x7E0, Lane, PerLane, 0, "Pixel of the drained tile: row * width + column.">;
@@ -104,18 +104,6 @@ def : Constant<"VR_NAN", 5, "A descriptor holds a NaN.">;
 def : Constant<"VR_BAD_MODE", 6, "vr_mode, vr_options or vr_ztile asks for what this machine does not have.">;
 def : Constant<"VR_BAD_CUTOFF", 7, "vr_cutoff is not in [0, 1).">;
 def : Constant<"VR_BAD_TAIL", 8, "vr_tail_share above VR_TAIL_WHOLE, or a hand-over asked of a command that drains, takes pushed descriptors, keeps last contributors or goes backward.">;
-def : Constant<"VR_EXP_EXACT", 0, "Exponential unit: correctly rounded.">;
-def : Constant<"VR_EXP_TABLE", 1, "Exponential unit: table of 16 entries.">;
-def : Constant<"VR_EXP_POLY2", 2, "Exponential unit: base-2 polynomial of degree 2.">;
-def : Constant<"VR_EXP_POLY3", 3, "Exponential unit: base-2 polynomial of degree 3.">;
-def : Constant<"VR_EXP_POLY4", 4, "Exponential unit: base-2 polynomial of degree 4.">;
-def : Constant<"VR_EXP_TABLE32", 5, "Exponential unit: table of 32 entries.">;
-def : Constant<"VR_EXP_TABLE64", 6, "Exponential unit: table of 64 entries.">;
-def : Constant<"VR_EXP_LINEAR", 7, "Exponential unit: four linear pieces an octave.">;
-def : Constant<"VR_EXP_SCHRAUDOLPH", 8, "Exponential unit: Schraudolph's.">;
-def : Constant<"VR_BLEND_FP32", 0, "Blend arithmetic: fp32.">;
-def : Constant<"VR_BLEND_BF16", 1, "Blend arithmetic: bf16 multiplications, fp32 sums.">;
-def : Constant<"VR_BLEND_FP16", 2, "Blend arithmetic: fp16 multiplications, fp32 sums.">;
 def : Constant<"VR_TAIL_WHOLE", 65536, "vr_tail_share of a whole tile.">;
 def : Constant<"VR_INTERSECT", 0x80000000, "Bit of a list entry and of a record's tag: the Gaussian spans several tiles.">;
 def : Constant<"VR_MAX_COUNT", 0x1000000, "Largest list of one command.">;

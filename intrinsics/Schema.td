@@ -81,9 +81,15 @@ class RasterCounter<string name, int number, int token, string doc>
 
 // The counter, and the CSR of its high word, which follows 8 numbers later.
 multiclass RasterCounter<string name, int number, int token, string doc> {
+  let Extension = "xvorion" in {
   def "" : RasterCounter<name, number, token, doc>;
   def H : Csr<"vr_n_" # name # "h", !add(number, 8), Agent, ReadOnly, 1, "High word of vr_n_" # name # ".">;
+  }
 }
+
+// A word of the configuration bank, all of which a write of vr_start queues as
+// a command.
+class BankCsr<string name, int number, string doc> : Csr<name, number, Agent, Scalar, 1, doc>;
 
 // A named number of the ABI, for headers of the host and of the device.
 class Constant<string name, int value, string doc> {

@@ -158,7 +158,7 @@ void exponentials(benchmark::State &State, const Datapath *Level,
 
 const bool Registered = [] {
   for (const Datapath *Level : datapaths())
-    for (const ExpUnit &Unit : expUnits())
+    for (const ExpUnit &Unit : ExpUnits)
       benchmark::RegisterBenchmark(("exponentials/" + std::string(Level->Name) +
                                     "/" + std::string(Unit.Name))
                                        .c_str(),

@@ -2,7 +2,7 @@
 """Writes the ABI's numbers for assembly or for a linker script.
 
 usage: assembly.py [--tblgen PATH] --format asm|ld OUTPUT
-asm: #define lines of the constants, of VX_CSR_<NAME>, each CSR's number, and of VX_<STRUCT>_<FIELD>, each field's offset.
+asm: #define lines of the constants, of VX_CSR_<NAME>, a CSR's number, and of VX_<STRUCT>_<FIELD>, a field's byte offset.
 ld: assignments of the image's place and size (each becomes a symbol of the program, so no more than these).
 """
 

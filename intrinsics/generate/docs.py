@@ -69,6 +69,19 @@ def descriptors(records):
         yield table(("offset", "field", "type", "meaning"), rows)
 
 
+def units(records):
+    yield "\n## Units of a rasterizer's lane\n"
+    yield ("What a field of a CSR chooses between. The cycles of a reciprocal are a pair of lanes'. What a unit is made of "
+           "is in [model.md](model.md#parameters), what it does in [rasterizer.md](rasterizer.md#the-lanes-units).\n")
+    rows = []
+    for kind, field in (("Exp", "`vr_options.exp`"), ("Blend", "`vr_options.blend`"),
+                        ("Reciprocal", "`vr_backward.reciprocal`")):
+        for u in sorted(records.of(kind + "Unit"), key=lambda u: u.Value):
+            bound = getattr(u, "MaxRelativeError", "").replace("0x1p", "2^")
+            rows.append((field, u.Value, f"`{u.Choice}`", bound, u.Latency, u.Doc.split(": ", 1)[1]))
+    yield table(("field", "number", "option", "largest relative error", "cycles", "unit"), rows)
+
+
 def constants(records):
     yield "\n## Constants\n"
     yield table(("name", "value", "meaning"),
@@ -91,7 +104,7 @@ def main():
     parser.add_argument("output")
     args = parser.parse_args()
     records = Records(args.tblgen)
-    parts = (simt, csrs, counters, descriptors, constants, base)
+    parts = (simt, csrs, counters, units, descriptors, constants, base)
     text = HEAD + "".join(chunk if chunk.endswith("\n") and chunk.startswith("|") else chunk + "\n"
                           for part in parts for chunk in part(records))
     if args.check:

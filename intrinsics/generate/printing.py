@@ -54,12 +54,13 @@ class Cpp:
             yield f"inline constexpr std::uint32_t {r.Name} = {word(r.Value)}; ///< {r.Doc}"
         yield "// NOLINTEND(readability-identifier-naming)\n"
 
-    def structure(self, name, doc, fields, *, initial="", functions=()):
+    def structure(self, name, doc, fields, *, base="", initial="", functions=()):
         """initial: what every member starts as; functions: lines that follow the members."""
         yield f"/// {doc}"
-        yield f"struct {name} {{"
+        yield f"struct {name}{base and ' : ' + base} {{"
         for f in fields:
-            yield f"  {self._TYPES.get(f.Type, f.Type)} {camel(f.Name)}{_extent(f)}{initial and ' = ' + initial}; ///< {f.Doc}"
+            kind = self._TYPES.get(f.Type, f.Type)
+            yield f"  {kind} {camel(f.Name)}{_extent(f)}{initial and ' = ' + initial}; ///< {f.Doc}"
         yield from functions
         yield "};\n"
 

@@ -52,6 +52,23 @@ def enum_csrs(csrs):
     yield "};\n"
 
 
+def field_name(csr):
+    return csr.Name.removeprefix("vr_")
+
+
+def bank(records):
+    words = records.of("BankCsr")
+    handed = {f.Name for f in handed_over(records)}
+    own = [SimpleNamespace(Type="u32", Name=field_name(c), Count=1, Doc=c.Doc) for c in words
+           if field_name(c) not in handed]
+    yield from Cpp().structure("BankWords", "The configuration bank, as written.", own, base="TileWords", initial="0")
+    yield "/// The word of the bank that \\p C is, or null."
+    yield "constexpr std::uint32_t BankWords::*bankWord(Csr C) {"
+    yield "  switch (C) {"
+    yield from (f"  case Csr::{csr_name(c)}:\n    return &BankWords::{csr_name(c)};" for c in words)
+    yield "  default:\n    return nullptr;\n  }\n}\n"
+
+
 def counters(records):
     csrs = {c.Name: c for c in records.of("Csr")}
     yield "/// The CSRs of a counter's two words."
@@ -69,11 +86,16 @@ def fields(csrs):
     yield ""
 
 
-def descriptors(records, csrs):
+def handed_over(records):
+    """A vx_tail begins with words of the command, under the names of their CSRs."""
+    bank_names = {field_name(c) for c in records.of("BankCsr")}
+    tail = next(d for d in records.of("Descriptor") if d.Name == "vx_tail")
+    return [f for f in tail.Fields if f.Name in bank_names]
+
+
+def descriptors(records):
     gaussian, tail = (next(d for d in records.of("Descriptor") if d.Name == name) for name in DESCRIPTORS)
-    # A vx_tail begins with words of the command, under the names of their CSRs.
-    bank = {c.Name.removeprefix("vr_") for c in csrs}
-    handed = [f for f in tail.Fields if f.Name in bank]
+    handed = handed_over(records)
     words = SimpleNamespace(Type="TileWords", Name="rest", Count=1, Doc="of the command")
     yield from Cpp().structure("Gaussian", gaussian.Doc, gaussian.Fields)
     yield from Cpp().structure("TileWords", "The words of a command that are handed over.", handed, initial="0")
@@ -90,7 +112,7 @@ def main():
     records = Records(args.tblgen)
     csrs = sorted((c for c in records.of("Csr") if c.Extension == "xvorion"), key=lambda c: c.Number)
     constants = Cpp().constants(c for c in records.of("Constant") if is_raster(c))
-    parts = (enum_csrs(csrs), fields(csrs), counters(records), constants, descriptors(records, csrs))
+    parts = (enum_csrs(csrs), fields(csrs), counters(records), constants, descriptors(records), bank(records))
     lines = [HEAD, *(line for part in parts for line in part), "} // namespace vorion::raster"]
     write(args.output, "\n".join(lines) + "\n")
 

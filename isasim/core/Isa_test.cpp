@@ -111,7 +111,8 @@ TEST(Isa, DisassemblesWithNames) {
   EXPECT_EQ(disassemble(encode(Op::VX_SPLIT, {.Rd = 10, .Rs1 = 11}), 0),
             "vx_split\ta0, a1");
   EXPECT_EQ(
-      disassemble(encode(Op::RV_CSRRW, {.Rd = 0, .Rs1 = 10, .Csr = 0x7C1}), 0),
+      disassemble(
+          encode(Op::RV_CSRRW, {.Rd = 0, .Rs1 = 10, .Csr = CSR_VR_START}), 0),
       "csrrw\tzero, vr_start, a0");
   EXPECT_EQ(disassemble(encode(Op::RV_BNE, {.Rs1 = 5, .Rs2 = 6, .Imm = -8}),
                         0x80000010),

@@ -14,7 +14,7 @@ extern const ExecTable Table;
 namespace timed {
 extern const ExecTable Table;
 }
-#if defined(__x86_64__)
+#if defined(__x86_64__) && VORION_WIDE_VECTORS
 namespace avx2 {
 extern const ExecTable Table;
 }
@@ -25,7 +25,7 @@ extern const ExecTable Table;
 
 ExecLevels hostLevels() {
   ExecLevels L;
-#if defined(__x86_64__)
+#if defined(__x86_64__) && VORION_WIDE_VECTORS
   // The x86-64-v3 level of the psABI, which Exec.cpp is compiled for.
   if (__builtin_cpu_supports("x86-64-v3"))
     L.Tables[L.Count++] = &avx2::Table;
@@ -44,7 +44,7 @@ const ExecTable &execTable([[maybe_unused]] bool Observed) {
 }
 
 const ExecTable &timedExecTable() {
-#if defined(__x86_64__)
+#if defined(__x86_64__) && VORION_WIDE_VECTORS
   if (__builtin_cpu_supports("x86-64-v3"))
     return timed_avx2::Table;
 #endif

@@ -3,6 +3,7 @@
 #include "observe/check/Checkers.h"
 #include "observe/numerics/Numerics.h"
 #include "raster/RasterTables.h"
+#include "raster/UnitTables.h"
 #include "testing/Encode.h"
 #include "vorion/isasim/Machine.h"
 
@@ -82,8 +83,9 @@ uint32_t likelyValue(unsigned Number, uint8_t Choice) {
     return Modes[Choice % std::size(Modes)];
   }
   case Csr::Options:
-    return raster::OptionsExp.put(Choice % 9) |
-           raster::OptionsBlend.put(Choice / 9 % 3) |
+    return raster::OptionsExp.put(Choice % raster::ExpUnitCount) |
+           raster::OptionsBlend.put(Choice / raster::ExpUnitCount %
+                                    raster::BlendUnitCount) |
            raster::OptionsSkipSaturated.put(Choice / 27 % 2);
   case Csr::Cutoff:
     return std::bit_cast<uint32_t>(static_cast<float>(Choice) / 256.0F);
@@ -247,7 +249,7 @@ std::vector<std::byte> memoryOf(uint32_t Seed) {
   }
   for (uint32_t N = 0; N != (Pixels - List) / 4; ++N) {
     const uint32_t Entry = static_cast<uint32_t>(Random() % Records) |
-                           (Random() % 4 ? 0U : VR_INTERSECT);
+                           (Random() % 4 ? 0U : raster::VR_INTERSECT);
     std::memcpy(Bytes.data() + List + 4 * N, &Entry, sizeof(Entry));
   }
   return Bytes;

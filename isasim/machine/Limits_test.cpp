@@ -137,7 +137,7 @@ TEST(Limits, WatchdogWithinARasterizer) {
   };
   Write(raster::Csr::Gaussians, VX_GLOBAL_BASE);
   Write(raster::Csr::List, List);
-  Write(raster::Csr::Count, VR_MAX_COUNT);
+  Write(raster::Csr::Count, raster::VR_MAX_COUNT);
   Write(raster::Csr::TileShape,
         raster::TileShapeWidth.put(64) | raster::TileShapeHeight.put(64));
   Write(raster::Csr::Output, Output);
@@ -149,7 +149,7 @@ TEST(Limits, WatchdogWithinARasterizer) {
              {.Rd = 6, .Csr = static_cast<unsigned>(raster::Csr::Wait)}));
   Words.push_back(encode(Op::VX_TMC, {.Rs1 = 0}));
   Config C = small();
-  C.GlobalBytes = 0x100000 + 4ULL * VR_MAX_COUNT;
+  C.GlobalBytes = 0x100000 + 4ULL * raster::VR_MAX_COUNT;
   const Ended E = runOf(C, Words, 0.05, [](Machine &M) {
     raster::Gaussian G{};
     G.Extent[0] = G.Extent[1] = std::numeric_limits<float>::infinity();

@@ -5,8 +5,7 @@
 
 #include "raster/BoxWork.h"
 #include "raster/Command.h"
-#include "raster/ExpUnits.h"
-#include "raster/Reciprocals.h"
+#include "raster/UnitTables.h"
 
 #include <cstddef>
 #include <cstdint>

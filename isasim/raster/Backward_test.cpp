@@ -343,7 +343,7 @@ TEST_P(EveryBackwardLevel, HasTheBitsOfTheScalarLoop) {
   for (std::uint32_t Seed = 0; Seed != 42; ++Seed) {
     const Scene S = randomScene(Seed);
     BackwardOptions O;
-    O.Unit = static_cast<Reciprocal>(Seed % ReciprocalCount);
+    O.Unit = static_cast<Reciprocal>(Seed % ReciprocalUnitCount);
     O.ClampStops = Seed % 3 == 0;
     O.InRows = Seed % 2 == 0;
     const auto Expected = scalar(S, O), Actual = onLevel(*GetParam(), S, O);
@@ -404,10 +404,10 @@ double errorAgainstDoubles(const Scene &S,
 }
 
 TEST(Backward, TheExactUnitIsNearDoublesAndTheOthersAreWhereTheyShouldBe) {
-  double Worst[ReciprocalCount] = {};
+  double Worst[ReciprocalUnitCount] = {};
   for (std::uint32_t Seed = 100; Seed != 110; ++Seed) {
     const Scene S = randomScene(Seed);
-    for (unsigned U = 0; U != ReciprocalCount; ++U) {
+    for (unsigned U = 0; U != ReciprocalUnitCount; ++U) {
       BackwardOptions O;
       O.Unit = static_cast<Reciprocal>(U);
       Worst[U] = std::max(

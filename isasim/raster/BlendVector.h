@@ -2,6 +2,7 @@
 /// Included once per vector level, as Vector.h.
 #pragma once
 
+#include "raster/RasterTables.h"
 #include "raster/Vector.h"
 
 namespace vorion::raster {
@@ -12,7 +13,10 @@ struct BlendStep {
   Float16 NextT, Weight;
 };
 
-struct Fp32Blend {
+/// The arithmetic of number \p Number; one that has no body does not compile.
+template <std::uint32_t Number> struct BlendBody;
+
+template <> struct BlendBody<VR_BLEND_FP32> {
   VORION_INLINE static Float16 operand(Float16 X) { return X; }
   VORION_INLINE static BlendStep step(Float16 Alpha, Float16 T) {
     return {T * (1.0F - Alpha), Alpha * T};
@@ -66,6 +70,9 @@ template <typename Format> struct NarrowBlend {
     return {T - Taken, Format::round(Taken)};
   }
 };
+
+template <> struct BlendBody<VR_BLEND_BF16> : NarrowBlend<Bf16> {};
+template <> struct BlendBody<VR_BLEND_FP16> : NarrowBlend<Fp16> {};
 
 } // namespace
 } // namespace vorion::raster

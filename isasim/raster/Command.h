@@ -11,14 +11,7 @@ namespace vorion::raster {
 
 /// The configuration bank at the write of vr_start, as written: checkCommand()
 /// reads and judges it (Job.h).
-struct Command : TileWords {
-  std::uint32_t Mode = 0;
-  std::uint32_t TailCount = 0;
-  std::uint32_t TailShare = 0;
-  std::uint32_t TailRecord = 0;
-  std::uint32_t Last = 0;
-  std::uint32_t Upstream = 0;
-  std::uint32_t Backward = 0;   ///< options of that mode
+struct Command : BankWords {
   std::vector<Gaussian> Pushed; ///< descriptors of mode "pushed", in order
   bool PushedTooMany = false;   ///< some did not fit the push buffer
 

@@ -3,9 +3,8 @@
 /// same bits.
 #pragma once
 
-#include "raster/BlendUnits.h"
 #include "raster/BoxWork.h"
-#include "raster/ExpUnits.h"
+#include "raster/UnitTables.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -91,8 +91,7 @@ void roundOperands(float *Values, std::size_t Count) {
     store(Values + I, Arithmetic::operand(load(Values + I)));
 }
 
-/// In the order of their options.
-using Arithmetics = List<Fp32Blend, NarrowBlend<Bf16>, NarrowBlend<Fp16>>;
+using Arithmetics = Bodies<BlendBody, BlendUnitCount>;
 
 template <typename Exp, typename... As>
 constexpr void setBlends(Datapath::BlendFunction *To, List<As...>) {
@@ -102,8 +101,6 @@ constexpr void setBlends(Datapath::BlendFunction *To, List<As...>) {
 template <typename... Es, typename... As>
 constexpr Datapath makeDatapath(const char *Name, bool (*HostHasIt)(),
                                 List<Es...>, List<As...> All) {
-  static_assert(sizeof...(Es) == ExpUnitCount);
-  static_assert(sizeof...(As) == BlendUnitCount);
   Datapath D{Name, HostHasIt, {}, {evaluate<Es>...}, {roundOperands<As>...}};
   std::size_t Unit = 0;
   (setBlends<Es>(D.Blend[Unit++], All), ...);

@@ -5,7 +5,10 @@
 #include "raster/BoxWork.h"
 #include "raster/ExpVector.h"
 #include "raster/RasterTables.h"
+#include "raster/UnitTables.h"
 #include "raster/Vector.h"
+
+#include <utility>
 
 namespace vorion::raster {
 namespace {
@@ -115,11 +118,14 @@ VORION_INLINE BoxWork workOf(const CutBox &Box, unsigned Fragments,
           static_cast<std::uint8_t>(Box.height())};
 }
 
-/// Units in the order of their options.
+/// The bodies of a kind's units, by number.
 template <typename... Units> struct List {};
-using Exps =
-    List<CorrectlyRoundedExp, TableExp<4>, PolynomialExp<2>, PolynomialExp<3>,
-         PolynomialExp<4>, TableExp<5>, TableExp<6>, LinearExp, SchraudolphExp>;
+template <template <std::uint32_t> class Body, std::uint32_t... Numbers>
+List<Body<Numbers>...> listOf(std::integer_sequence<std::uint32_t, Numbers...>);
+template <template <std::uint32_t> class Body, std::uint32_t Count>
+using Bodies =
+    decltype(listOf<Body>(std::make_integer_sequence<std::uint32_t, Count>()));
+using Exps = Bodies<ExpBody, ExpUnitCount>;
 
 [[maybe_unused]] bool hostHasLevel() {
 #if defined(__AVX512F__)

@@ -1,30 +1,11 @@
-/// The exponential units that vr_options.exp chooses between. Their code is
-/// in ExpVector.h; here is what each is, for reports and tests. What they cost
-/// and how long they take: timing/DatapathUnits.cpp.
+/// The numbers of the exponential units that vr_options.exp chooses between.
+/// Their code is in ExpVector.h and ScalarUnits.h; what they are and cost is in
+/// intrinsics/Units.td.
 #pragma once
 
-#include "raster/RasterTables.h"
-
-#include <cstddef>
 #include <cstdint>
-#include <span>
-#include <string_view>
 
 namespace vorion::raster {
-
-/// What an exponential unit is.
-struct ExpUnit {
-  std::uint32_t Option; ///< value of vr_options.exp
-  std::string_view Name;
-  double MaxRelativeError;      ///< bound for results of at least 2^-125
-  std::string_view Explanation; ///< one sentence for `--explain`
-};
-
-/// How many there are: options 0 to ExpUnitCount - 1.
-inline constexpr std::size_t ExpUnitCount = 9;
-
-/// The units that exist, by option; any other option is VR_BAD_MODE.
-std::span<const ExpUnit> expUnits();
 
 /// What all units but the correctly rounded one share: exp(p) = 2^-y with
 /// y = -p log2(e), whole part and fraction treated apart.

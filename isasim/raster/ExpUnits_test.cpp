@@ -1,6 +1,7 @@
 // The exponential units and the blend arithmetics' rounding against MPFR and
 // doubles, on every vector level of this host.
 #include "raster/ExpUnits.h"
+#include "raster/UnitTables.h"
 
 #include "raster/Datapath.h"
 #include "raster/ScalarUnits.h"
@@ -147,7 +148,7 @@ TEST_P(EveryLevel, endsOfTheRange) {
 }
 
 TEST_P(EveryLevel, unitsKeepTheirBoundsAndFall) {
-  for (const ExpUnit &Unit : expUnits()) {
+  for (const ExpUnit &Unit : ExpUnits) {
     double Largest = 0;
     float Previous = 2.0F;
     std::uint64_t Rises = 0;
@@ -233,10 +234,10 @@ TEST_P(EveryLevel, operandsAreRoundedToNearest) {
 }
 
 TEST(ExpUnits, optionsAreTheirPlaces) {
-  for (std::size_t I = 0; I != blendUnits().size(); ++I)
-    EXPECT_EQ(blendUnits()[I].Option, I);
-  for (std::size_t I = 0; I != expUnits().size(); ++I)
-    EXPECT_EQ(expUnits()[I].Option, I);
+  for (std::size_t I = 0; I != std::size(BlendUnits); ++I)
+    EXPECT_EQ(BlendUnits[I].Option, I);
+  for (std::size_t I = 0; I != std::size(ExpUnits); ++I)
+    EXPECT_EQ(ExpUnits[I].Option, I);
 }
 
 } // namespace

@@ -1,9 +1,10 @@
-/// The exponential units, 16 lanes at a time. What they are and cost:
-/// ExpUnits.h and docs/rasterizer.md#exponential-units. Included once per
-/// vector level, as Vector.h.
+/// The exponential units, 16 lanes at a time. What they are:
+/// docs/rasterizer.md#exponential-units. Included once per vector level, as
+/// Vector.h.
 #pragma once
 
 #include "raster/ExpUnits.h"
+#include "raster/RasterTables.h"
 #include "raster/Vector.h"
 
 namespace vorion::raster {
@@ -41,7 +42,10 @@ VORION_INLINE Double8 expDouble(Double8 X) {
                                 (__builtin_bit_cast(Long8, Shifted) << 52));
 }
 
-struct CorrectlyRoundedExp {
+/// The unit of number \p Number; one that has no body does not compile.
+template <std::uint32_t Number> struct ExpBody;
+
+template <> struct ExpBody<VR_EXP_EXACT> {
   /// Below log(threshold) less this, a result is surely under the threshold.
   static constexpr float Margin = 0.01F;
   VORION_INLINE static Float16 evaluate(Float16 Power) {
@@ -98,6 +102,10 @@ template <int EntryBits> struct TableExp {
   }
 };
 
+template <> struct ExpBody<VR_EXP_TABLE> : TableExp<4> {};
+template <> struct ExpBody<VR_EXP_TABLE32> : TableExp<5> {};
+template <> struct ExpBody<VR_EXP_TABLE64> : TableExp<6> {};
+
 template <unsigned Degree> struct PolynomialExp {
   static constexpr float Margin = 0.01F;
   VORION_INLINE static Float16 evaluate(Float16 Power) {
@@ -113,7 +121,11 @@ template <unsigned Degree> struct PolynomialExp {
   }
 };
 
-struct LinearExp {
+template <> struct ExpBody<VR_EXP_POLY2> : PolynomialExp<2> {};
+template <> struct ExpBody<VR_EXP_POLY3> : PolynomialExp<3> {};
+template <> struct ExpBody<VR_EXP_POLY4> : PolynomialExp<4> {};
+
+template <> struct ExpBody<VR_EXP_LINEAR> {
   static constexpr float Margin = 0.02F;
   VORION_INLINE static Float16 evaluate(Float16 Power) {
     using namespace linear_exp;
@@ -137,7 +149,7 @@ struct LinearExp {
   }
 };
 
-struct SchraudolphExp {
+template <> struct ExpBody<VR_EXP_SCHRAUDOLPH> {
   static constexpr float Margin = 0.06F;
   VORION_INLINE static Float16 evaluate(Float16 Power) {
     using namespace schraudolph_exp;

@@ -3,7 +3,7 @@
 // loop is the contract; the loop with a guard or a rounding changed must
 // differ.
 #include "raster/BackwardLoop.h"
-#include "raster/Reciprocals.h"
+#include "raster/UnitTables.h"
 
 namespace vorion::raster {
 namespace {
@@ -44,7 +44,7 @@ class HardBackward : public testing::TestWithParam<unsigned> {};
 /// front one's gradient with it. Held at 1 it would be another gradient than
 /// that of the layers behind.
 TEST_P(HardBackward, transmittanceMayRiseAbove1) {
-  const ReciprocalUnit &Unit = reciprocalUnits()[GetParam()];
+  const ReciprocalUnit &Unit = ReciprocalUnits[GetParam()];
   BackwardOptions O;
   O.Unit = static_cast<Reciprocal>(GetParam());
   constexpr std::size_t Layers = 40;
@@ -71,7 +71,7 @@ TEST_P(HardBackward, transmittanceMayRiseAbove1) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Reciprocals, HardBackward,
-                         testing::Range(0U, unsigned{ReciprocalCount}));
+                         testing::Range(0U, unsigned{ReciprocalUnitCount}));
 
 } // namespace
 } // namespace vorion::raster

@@ -1,7 +1,7 @@
 #include "raster/Job.h"
 
 #include "raster/CommandInput.h"
-#include "raster/Reciprocals.h"
+#include "raster/UnitTables.h"
 
 #include <bit>
 #include <cmath>
@@ -73,7 +73,7 @@ static bool isKnownTraining(const Command &C, const Job &J) {
            (C.Mode == ModeKeepLast.put(1) && ZtileCount.get(C.Ztile) <= 1);
   return C.Mode == ModeBackward.put(1) && J.Units.Blend == VR_BLEND_FP32 &&
          ZtileCount.get(C.Ztile) <= 1 && (C.Backward & ~Known) == 0 &&
-         static_cast<std::size_t>(J.Backward.Unit) < ReciprocalCount;
+         static_cast<std::size_t>(J.Backward.Unit) < ReciprocalUnitCount;
 }
 
 static bool isKnown(const Command &C, const Job &J) {

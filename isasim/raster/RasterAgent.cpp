@@ -43,47 +43,6 @@ RasterAgent::RasterAgent(const AgentConfig &Sizes)
   assert(Config.Lanes >= 1 && Config.Lanes <= 32 && Config.QueueDepth >= 1);
 }
 
-std::uint32_t *RasterAgent::bankWord(Csr C) {
-  switch (C) {
-  case Csr::Mode:
-    return &Bank.Mode;
-  case Csr::Options:
-    return &Bank.Options;
-  case Csr::Cutoff:
-    return &Bank.Cutoff;
-  case Csr::Gaussians:
-    return &Bank.Gaussians;
-  case Csr::List:
-    return &Bank.List;
-  case Csr::Count:
-    return &Bank.Count;
-  case Csr::TileOrigin:
-    return &Bank.TileOrigin;
-  case Csr::TileShape:
-    return &Bank.TileShape;
-  case Csr::Ztile:
-    return &Bank.Ztile;
-  case Csr::Output:
-    return &Bank.Output;
-  case Csr::OutputPitch:
-    return &Bank.OutputPitch;
-  case Csr::TailCount:
-    return &Bank.TailCount;
-  case Csr::TailShare:
-    return &Bank.TailShare;
-  case Csr::TailRecord:
-    return &Bank.TailRecord;
-  case Csr::Last:
-    return &Bank.Last;
-  case Csr::Upstream:
-    return &Bank.Upstream;
-  case Csr::Backward:
-    return &Bank.Backward;
-  default:
-    return nullptr;
-  }
-}
-
 std::uint32_t RasterAgent::readCounter(Csr C) const {
   for (const CounterWords &W : CounterTable) {
     if (C == W.Low)
@@ -97,8 +56,8 @@ std::uint32_t RasterAgent::readCounter(Csr C) const {
 
 std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
   assert(Lane < Config.Lanes);
-  if (const std::uint32_t *Word = bankWord(C))
-    return *Word;
+  if (const auto Word = bankWord(C))
+    return Bank.*Word;
   if (isGaussianWord(C)) {
     std::uint32_t Word = 0;
     std::memcpy(&Word,
@@ -202,7 +161,7 @@ void RasterAgent::write(Csr C, std::span<const std::uint32_t> LaneValues,
   case WriteRule::Scalar:
     if (C == Csr::Start)
       return start();
-    *bankWord(C) = LaneValues[lastLane(Mask)];
+    Bank.*bankWord(C) = LaneValues[lastLane(Mask)];
     return;
   case WriteRule::Lane:
     for (std::uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {

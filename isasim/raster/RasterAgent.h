@@ -97,7 +97,6 @@ public:
 
 private:
   std::uint32_t readCounter(Csr C) const;
-  std::uint32_t *bankWord(Csr C);
   std::uint32_t takeBatch();
   std::uint32_t gradientWord(Csr C, unsigned Lane) const;
   void push(std::uint32_t Mask);

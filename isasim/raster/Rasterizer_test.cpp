@@ -1,8 +1,7 @@
 // One command at a time: pixels of closed form, clipping, thresholds, the early
 // end, status codes, order of service.
-#include "raster/BlendUnits.h"
-#include "raster/ExpUnits.h"
 #include "raster/RasterTest.h"
+#include "raster/UnitTables.h"
 
 #include <cfenv>
 #include <cmath>

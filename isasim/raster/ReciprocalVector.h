@@ -4,6 +4,7 @@
 #pragma once
 
 #include "raster/Reciprocals.h"
+#include "raster/UnitTables.h"
 #include "raster/Vector.h"
 
 namespace vorion::raster {

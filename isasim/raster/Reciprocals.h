@@ -1,47 +1,9 @@
-/// The units for 1 / (1 - alpha) that vr_backward.reciprocal chooses between
-/// (paper, "Training"). Their code is in ReciprocalVector.h; here are their
-/// numbers, and what each is, for reports, the timing model and tests.
+/// The numbers of the units for 1 / (1 - alpha) that vr_backward.reciprocal
+/// chooses between (paper, "Training"). Their code is in ReciprocalVector.h;
+/// what they are and cost is in intrinsics/Units.td.
 #pragma once
 
-#include "raster/RasterTables.h"
-
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <string_view>
-
 namespace vorion::raster {
-
-enum class Reciprocal : std::uint8_t {
-  Exact,
-  EvenLeft,  ///< the paper's, table spaced evenly in alpha, seeds at its left
-  EvenBest,  ///< the same, seeds with the least error of an interval
-  LogLeft,   ///< the paper's, table spaced evenly in log(1 - alpha)
-  LogBest,   ///< the same, best seeds
-  Mantissa2, ///< one table for all alpha, indexed by the mantissa; 2 steps
-  Mantissa3, ///< the same, 3 steps
-};
-
-/// How many there are: options 0 to ReciprocalCount - 1.
-inline constexpr std::size_t ReciprocalCount = 7;
-
-/// What a unit is and costs, a pair of lanes (in um^2: timing/DatapathUnits.h).
-/// Latency and multipliers are our estimates of a plausible build (the paper
-/// gives none).
-struct ReciprocalUnit {
-  std::uint32_t Option; ///< value of vr_backward.reciprocal
-  std::string_view Name;
-  unsigned LatencyCycles;
-  unsigned TableBits;
-  unsigned Multipliers;  ///< fp32, so that it takes a pixel a cycle
-  std::string_view Cost; ///< in words
-  /// Bound over alpha in [1/255, 0.99], rounding included.
-  double MaxRelativeError;
-  std::string_view Explanation; ///< one sentence for `--explain`
-};
-
-/// The units that exist, by option; any other option is VR_BAD_MODE.
-std::span<const ReciprocalUnit> reciprocalUnits();
 
 namespace reciprocal_tables {
 

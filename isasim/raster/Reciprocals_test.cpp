@@ -1,7 +1,7 @@
 // Every unit for 1 / (1 - alpha) against MPFR over its whole range: the errors
 // that the paper and docs/rasterizer.md name.
 #include "raster/Backward.h"
-#include "raster/Reciprocals.h"
+#include "raster/UnitTables.h"
 
 #include <cmath>
 #include <cstring>
@@ -71,7 +71,7 @@ Errors errors(Reciprocal Unit, float From, float To) {
 }
 
 TEST(Reciprocals, UnitsStayWithinTheirBounds) {
-  for (const ReciprocalUnit &U : reciprocalUnits()) {
+  for (const ReciprocalUnit &U : ReciprocalUnits) {
     const Errors E = errors(static_cast<Reciprocal>(U.Option), Least, Most);
     RecordProperty(std::string(U.Name), std::to_string(E.Worst));
     EXPECT_LE(E.Worst, U.MaxRelativeError) << U.Name;
@@ -100,7 +100,7 @@ TEST(Reciprocals, SpacingOfTheTableDecidesTheUpperHalf) {
 }
 
 TEST(Reciprocals, ApproximationsAreTooSmallButForRounding) {
-  for (const ReciprocalUnit &U : reciprocalUnits())
+  for (const ReciprocalUnit &U : ReciprocalUnits)
     EXPECT_LE(errors(static_cast<Reciprocal>(U.Option), Least, Most).Highest,
               1.7e-7)
         << U.Name;
@@ -108,7 +108,7 @@ TEST(Reciprocals, ApproximationsAreTooSmallButForRounding) {
 
 TEST(Reciprocals, SameBitsOnEveryLevel) {
   const auto In = alphas(Least, Most, 49999);
-  for (const ReciprocalUnit &U : reciprocalUnits()) {
+  for (const ReciprocalUnit &U : ReciprocalUnits) {
     const auto Unit = static_cast<Reciprocal>(U.Option);
     const auto Expected = evaluate(*backwardDatapaths().front(), Unit, In);
     for (const BackwardDatapath *Level : backwardDatapaths())

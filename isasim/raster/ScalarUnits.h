@@ -2,14 +2,14 @@
 /// the vector code against, bit for bit.
 #pragma once
 
-#include "raster/BlendUnits.h"
 #include "raster/ExpUnits.h"
+#include "raster/UnitTables.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <utility>
 
 namespace vorion::raster::scalar {
 
@@ -71,30 +71,49 @@ inline float schraudolphExp(float Power) {
   return Bits < SmallestNormal ? 0.0F : std::bit_cast<float>(Bits);
 }
 
-/// What unit \p Option makes of \p Power <= 0. The correctly rounded one
-/// through a double: right but for ties that no test meets.
+/// The unit of number \p Number; one that has no body does not compile.
+template <std::uint32_t Number> float expBody(float Power) = delete;
+
+/// Through a double: right but for ties that no test meets.
+template <> inline float expBody<VR_EXP_EXACT>(float Power) {
+  return static_cast<float>(std::exp(static_cast<double>(Power)));
+}
+template <> inline float expBody<VR_EXP_TABLE>(float Power) {
+  return tableExp<4>(Power);
+}
+template <> inline float expBody<VR_EXP_TABLE32>(float Power) {
+  return tableExp<5>(Power);
+}
+template <> inline float expBody<VR_EXP_TABLE64>(float Power) {
+  return tableExp<6>(Power);
+}
+template <> inline float expBody<VR_EXP_POLY2>(float Power) {
+  return polynomialExp<2>(Power);
+}
+template <> inline float expBody<VR_EXP_POLY3>(float Power) {
+  return polynomialExp<3>(Power);
+}
+template <> inline float expBody<VR_EXP_POLY4>(float Power) {
+  return polynomialExp<4>(Power);
+}
+template <> inline float expBody<VR_EXP_LINEAR>(float Power) {
+  return linearExp(Power);
+}
+template <> inline float expBody<VR_EXP_SCHRAUDOLPH>(float Power) {
+  return schraudolphExp(Power);
+}
+
+template <std::uint32_t... Numbers>
+float exp(std::uint32_t Option, float Power,
+          std::integer_sequence<std::uint32_t, Numbers...> /*All*/) {
+  static constexpr float (*Bodies[])(float) = {expBody<Numbers>...};
+  return Bodies[Option](Power);
+}
+
+/// What unit \p Option makes of \p Power <= 0.
 inline float exp(std::uint32_t Option, float Power) {
-  switch (Option) {
-  case VR_EXP_EXACT:
-    return static_cast<float>(std::exp(static_cast<double>(Power)));
-  case VR_EXP_TABLE:
-    return tableExp<4>(Power);
-  case VR_EXP_POLY2:
-    return polynomialExp<2>(Power);
-  case VR_EXP_POLY3:
-    return polynomialExp<3>(Power);
-  case VR_EXP_POLY4:
-    return polynomialExp<4>(Power);
-  case VR_EXP_TABLE32:
-    return tableExp<5>(Power);
-  case VR_EXP_TABLE64:
-    return tableExp<6>(Power);
-  case VR_EXP_LINEAR:
-    return linearExp(Power);
-  case VR_EXP_SCHRAUDOLPH:
-    return schraudolphExp(Power);
-  }
-  return std::numeric_limits<float>::quiet_NaN();
+  return exp(Option, Power,
+             std::make_integer_sequence<std::uint32_t, ExpUnitCount>());
 }
 
 /// \p X as an operand of blend arithmetic \p Option: rounded in doubles to the

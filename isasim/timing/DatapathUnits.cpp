@@ -1,8 +1,6 @@
 #include "timing/DatapathUnits.h"
 
-#include "raster/BlendUnits.h"
-#include "raster/ExpUnits.h"
-#include "raster/Reciprocals.h"
+#include "timing/UnitParts.h"
 #include "vorion/support/Json.h"
 
 #include <array>
@@ -51,45 +49,6 @@ constexpr DatapathUnit GatherUnit{
     .TableBits = 0,
     .Source = "writes back to the pixel buffer [paper]"};
 
-/// The paper names no exponential: latencies and operations are our estimates
-/// of a plausible build. The ones after the first take y = -p log2(e) first.
-constexpr DatapathUnit ExpOf[raster::ExpUnitCount] = {
-    {"correctly-rounded", 8, 1, 0, 0, 16 * 53 * 53, 14 * 53, 0,
-     "16 multipliers of 53 x 53 bits, 14 adders of 53: as the simulator finds "
-     "the nearest number"},
-    {"table", 3, 1, 0, 0, 24 * 24 + 12 * 12, 17 + 8, 16 * (17 + 12),
-     "y 24 x 24 bits, a rest times a drop 12 x 12; a sum of 17, an exponent"},
-    {"poly2", 4, 1, 3, 3, 0, 8, 0,
-     "y, then two steps of Horner's rule, in fp32; y's fraction; an exponent"},
-    {"poly3", 5, 1, 4, 4, 0, 8, 0,
-     "y, then three steps of Horner's rule, in fp32; y's fraction; an "
-     "exponent"},
-    {"poly4", 6, 1, 5, 5, 0, 8, 0,
-     "y, then four steps of Horner's rule, in fp32; y's fraction; an exponent"},
-    {"table32", 3, 1, 0, 0, 24 * 24 + 12 * 12, 18 + 8, 32 * (18 + 12),
-     "as table, with a sum of 18"},
-    {"table64", 3, 1, 0, 0, 24 * 24 + 12 * 12, 19 + 8, 64 * (19 + 12),
-     "as table, with a sum of 19"},
-    {"linear", 2, 1, 0, 0, 24 * 24, 2 * 17 + 8, 0,
-     "y 24 x 24 bits; a drop of two shifted rests, two sums of 17; an "
-     "exponent"},
-    {"schraudolph", 1, 1, 0, 0, 24 * 24, 32, 0,
-     "p log2(e) 24 x 24 bits, a sum of 32"},
-};
-
-constexpr std::string_view NarrowSource =
-    "alpha T and three colours are 4 multiplications whose products are exact, "
-    "so without rounding or normalisation: a significand product and an "
-    "exponent sum of 8 each; 4 fp32 sums, the cut-off a comparison; 3 operands "
-    "rounded by sums of 16";
-constexpr DatapathUnit BlendOf[raster::BlendUnitCount] = {
-    {"blend", 1, 1, 5, 5, 0, 0, 0,
-     "third stage [paper]; T (1 - alpha), alpha T and three colours are 5 "
-     "multiplications and 4 additions, the cut-off a comparison"},
-    {"blend bf16", 1, 1, 0, 5, 4 * 8 * 8, 4 * 8 + 3 * 16, 0, NarrowSource},
-    {"blend fp16", 1, 1, 0, 5, 4 * 11 * 11, 4 * 8 + 3 * 16, 0, NarrowSource},
-};
-
 /// Areas at 45 nm, um^2: W. Dally, "High-performance hardware for machine
 /// learning", NIPS tutorial 2015 (32-bit floating and fixed point). Choices and
 /// registers are the cells MUX2_X1 and DFF_X1 of the Nangate 45 nm Open Cell
@@ -109,7 +68,8 @@ const Lane &laneOf(raster::LaneUnits Units) {
     Lanes Made;
     for (std::size_t E = 0; E != Made.size(); ++E)
       for (std::size_t B = 0; B != Made[E].size(); ++B)
-        Made[E][B] = {PowerUnit, ExpOf[E], AlphaUnit, BlendOf[B], GatherUnit};
+        Made[E][B] = {PowerUnit, ExpParts[E], AlphaUnit, BlendParts[B],
+                      GatherUnit};
     return Made;
   }();
   return All[Units.Exp < All.size() ? Units.Exp : 0]
@@ -143,49 +103,6 @@ constexpr DatapathUnit SumUnit{
 
 using BackwardPair = std::array<DatapathUnit, 3>;
 
-/// An fp32 multiplier and a divider differ in what is between exponents and
-/// rounding: there a product of 24 x 24 bits, here a row of 24 bits for each
-/// bit of the quotient, with a choice between remainder and difference (the bit
-/// above a row's needs no subtraction: if it is set, the row's succeeds).
-DatapathUnit divider(const raster::ReciprocalUnit &R) {
-  constexpr unsigned Significand = 24, Exponent = 8, Rows = 26;
-  // Between stages: remainder, divisor, exponent, half the quotient on average.
-  constexpr unsigned Alive = 2 * Significand + Exponent + Rows / 2;
-  return {.Name = R.Name,
-          .Latency = R.LatencyCycles,
-          .Interval = 1,
-          .Multipliers = R.Multipliers,
-          .Adders = 0,
-          .ProductBits = -static_cast<int>(Significand * Significand),
-          .AdderBits = Rows * Significand,
-          .TableBits = 0,
-          .Source = R.Cost,
-          .ChoiceBits = Rows * Significand,
-          .RegisterBits = (R.LatencyCycles - 1) * Alive};
-}
-
-/// From a table's entry, or by the Taylor series.
-DatapathUnit iterated(const raster::ReciprocalUnit &R) {
-  // Between stages: 1 - alpha, or alpha, and what is made of it so far.
-  constexpr unsigned Alive = 2 * 32;
-  return {.Name = R.Name,
-          .Latency = R.LatencyCycles,
-          .Interval = 1,
-          .Multipliers = R.Multipliers,
-          .Adders = 3,
-          .ProductBits = 0,
-          .AdderBits = 0,
-          .TableBits = R.TableBits,
-          .Source = R.Cost,
-          .RegisterBits = (R.LatencyCycles - 1) * Alive};
-}
-
-BackwardPair makePair(const raster::ReciprocalUnit &R) {
-  const bool Exact =
-      R.Option == static_cast<std::uint32_t>(raster::Reciprocal::Exact);
-  return {Exact ? divider(R) : iterated(R), GradientUnit, SumUnit};
-}
-
 } // namespace
 
 std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units) {
@@ -195,8 +112,8 @@ std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units) {
 std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal) {
   static const std::vector<BackwardPair> Pairs = [] {
     std::vector<BackwardPair> All;
-    for (const raster::ReciprocalUnit &R : raster::reciprocalUnits())
-      All.push_back(makePair(R));
+    for (const DatapathUnit &Unit : ReciprocalParts)
+      All.push_back({Unit, GradientUnit, SumUnit});
     return All;
   }();
   return Pairs[Reciprocal < Pairs.size() ? Reciprocal : 0];
@@ -251,12 +168,12 @@ std::string areasJson() {
   nlohmann::ordered_json J{{"exp", nlohmann::json::array()},
                            {"blend", nlohmann::json::array()},
                            {"reciprocal", nlohmann::json::array()}};
-  for (const DatapathUnit &U : ExpOf)
+  for (const DatapathUnit &U : ExpParts)
     J["exp"].push_back(area(U));
-  for (const DatapathUnit &U : BlendOf)
+  for (const DatapathUnit &U : BlendParts)
     J["blend"].push_back(area(U));
-  for (const raster::ReciprocalUnit &R : raster::reciprocalUnits())
-    J["reciprocal"].push_back(area(backwardUnits(R.Option).front()));
+  for (const DatapathUnit &U : ReciprocalParts)
+    J["reciprocal"].push_back(area(U));
   J["other"] =
       restOfLane() + area(PowerUnit) + area(AlphaUnit) + area(GatherUnit);
   return jsonText(J);

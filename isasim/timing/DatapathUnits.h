@@ -45,7 +45,7 @@ std::string areasJson();
 /// @}
 
 /// What a pair of lanes has beyond two lanes in the backward mode, with the
-/// unit that raster::reciprocalUnits() has for \p Reciprocal.
+/// unit that raster::ReciprocalUnits has for \p Reciprocal.
 std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal);
 
 /// Cycles from giving a pixel to a pair until it is in its Gaussian's sums.

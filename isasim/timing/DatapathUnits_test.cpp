@@ -1,9 +1,7 @@
 // Depths and areas of a rasterizer's lane against their definitions.
 #include "timing/DatapathUnits.h"
 
-#include "raster/BlendUnits.h"
-#include "raster/ExpUnits.h"
-#include "raster/Reciprocals.h"
+#include "raster/UnitTables.h"
 
 #include <gtest/gtest.h>
 #include <map>
@@ -60,7 +58,7 @@ TEST(DatapathUnits, DepthIsTheSumOfLatencies) {
 
 TEST(DatapathUnits, UnitsHaveTheNamesOfTheirOptions) {
   std::set<std::string_view> Names;
-  for (const raster::ExpUnit &E : raster::expUnits()) {
+  for (const raster::ExpUnit &E : raster::ExpUnits) {
     const raster::LaneUnits L{static_cast<uint8_t>(E.Option), 0};
     EXPECT_EQ(datapathUnits(L)[1].Name, E.Name);
     Names.insert(E.Name);
@@ -86,7 +84,7 @@ TEST(DatapathUnits, AReciprocalTakesAPixelACycle) {
   const std::map<std::string_view, unsigned> Multiplications{
       {"even-left", 4}, {"even-best", 4},  {"log-left", 4},
       {"log-best", 4},  {"mantissa-2", 4}, {"mantissa-3", 6}};
-  for (const raster::ReciprocalUnit &R : raster::reciprocalUnits()) {
+  for (const raster::ReciprocalUnit &R : raster::ReciprocalUnits) {
     const DatapathUnit &U = backwardUnits(R.Option).front();
     EXPECT_EQ(U.Interval, 1U) << R.Name;
     EXPECT_GT(U.RegisterBits, 0U) << R.Name;
@@ -105,7 +103,7 @@ TEST(DatapathUnits, JsonHasTheParts) {
                 laneArea(L), 1e-6);
   });
   const auto &Reciprocals = J["reciprocal"];
-  ASSERT_EQ(Reciprocals.size(), raster::ReciprocalCount);
+  ASSERT_EQ(Reciprocals.size(), raster::ReciprocalUnitCount);
   for (std::size_t R = 0; R != Reciprocals.size(); ++R)
     EXPECT_NEAR(Reciprocals[R].get<double>(),
                 area(backwardUnits(static_cast<unsigned>(R)).front()), 1e-6);

@@ -1,6 +1,4 @@
-#include "raster/BlendUnits.h"
-#include "raster/ExpUnits.h"
-#include "raster/Reciprocals.h"
+#include "raster/UnitTables.h"
 #include "timing/DatapathUnits.h"
 #include "vorion/isasim/Timing.h"
 
@@ -59,9 +57,9 @@ std::string timingMarkdown() {
   Text += fmt::format(
       "\nUnits of a pair of lanes in the backward mode, beyond two lanes\n\n{}",
       Head);
-  for (size_t R = 0; R != raster::reciprocalUnits().size(); ++R)
+  for (size_t R = 0; R != std::size(raster::ReciprocalUnits); ++R)
     for (const DatapathUnit &U : backwardUnits(static_cast<unsigned>(R)))
-      if (R == 0 || U.Name == raster::reciprocalUnits()[R].Name)
+      if (R == 0 || U.Name == raster::ReciprocalUnits[R].Name)
         Row(U);
   return Text;
 }

@@ -2,7 +2,7 @@
 // whose turn it is, with its own coordinates and the starting mask of its size.
 // REQUIRES: vorion-clang, vorion-link, vorion-runtime
 // RUN: vorion-clang -O2 %s -o %t.elf
-// RUN: clang-19 -Wall -Wextra -Werror -I %root/runtime/include -I %build/intrinsics/generated/include %S/Inputs/groups-host.c -L %build/lib -lvorion-runtime -Wl,-rpath,%build/lib -o %t.exe
+// RUN: clang-19 -Wall -Wextra -Werror -I %root/runtime/include -I %include %S/Inputs/groups-host.c -L %build/lib -lvorion-runtime -Wl,-rpath,%build/lib -o %t.exe
 // RUN: %t.exe %t.elf | FileCheck %s
 // CHECK: 9 launches right
 #include <vorion.h>

@@ -1,7 +1,6 @@
 #include "Setting.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sstream>
@@ -18,17 +17,10 @@ static std::vector<std::string> namesOf(const Choices &Of) {
   return Names;
 }
 
-constexpr std::array ExpChoices{
-    ExpUnit::Exact,   ExpUnit::Table,  ExpUnit::Table32,
-    ExpUnit::Table64, ExpUnit::Poly2,  ExpUnit::Poly3,
-    ExpUnit::Poly4,   ExpUnit::Linear, ExpUnit::Schraudolph};
-constexpr std::array BlendChoices{BlendUnit::Fp32, BlendUnit::Bf16,
-                                  BlendUnit::Fp16};
-
 const std::vector<Knob> &allKnobs() {
   static const std::vector<Knob> All{
-      {KnobId::Exp, "exp", namesOf(ExpChoices), "exp"},
-      {KnobId::Blend, "blend", namesOf(BlendChoices), ""},
+      {KnobId::Exp, "exp", namesOf(ExpUnits), "exp"},
+      {KnobId::Blend, "blend", namesOf(BlendUnits), ""},
       {KnobId::AlphaCutoff,
        "alpha-cutoff",
        {"1", "2", "4", "8"},
@@ -56,11 +48,7 @@ const std::vector<Knob> &allKnobs() {
 
 const std::vector<Knob> &trainKnobs() {
   static const std::vector<Knob> All{
-      {KnobId::Reciprocal,
-       "reciprocal",
-       {"exact", "even-left", "even-best", "log-left", "log-best", "mantissa-2",
-        "mantissa-3"},
-       ""},
+      {KnobId::Reciprocal, "reciprocal", namesOf(Reciprocals), ""},
       {KnobId::Sum, "sum", {"tree", "rows"}, ""},
   };
   return All;
@@ -164,10 +152,10 @@ std::size_t Setting::place(KnobId Id) const {
   return Found == Choices.end() ? 0 : Found->Value;
 }
 
-ExpUnit Setting::exponential() const { return ExpChoices[place(KnobId::Exp)]; }
+ExpUnit Setting::exponential() const { return ExpUnits[place(KnobId::Exp)]; }
 
 BlendUnit Setting::arithmetic() const {
-  return BlendChoices[place(KnobId::Blend)];
+  return BlendUnits[place(KnobId::Blend)];
 }
 
 /// A flag has the values off and on.
@@ -187,7 +175,7 @@ std::vector<std::string> Setting::arguments() const {
 
 std::optional<std::vector<std::string>> Setting::coresArguments() const {
   std::vector<std::string> Out{"--path", "simt"};
-  if (hasTable(exponential()))
+  if (!isOnCores(exponential()))
     return std::nullopt;
   for (const Choice &C : Choices) {
     const std::string &Option = knob(C.Of).CoresName;

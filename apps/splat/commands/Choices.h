@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cstddef>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <string>
@@ -31,6 +33,13 @@ void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
          fmt::format("{} (default {})", Help, name(Value)))
       ->option_text(Listed)
       ->check(CLI::IsMember(std::move(Names)));
+}
+
+/// The same of all that there is.
+template <typename Enum, std::size_t Count>
+void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
+               const std::array<Enum, Count> &All, const std::string &Help) {
+  addChoice(App, Flag, Value, std::vector<Enum>(All.begin(), All.end()), Help);
 }
 
 /// An option whose value is a number out of \p Choices; \p Value must outlive

@@ -65,10 +65,7 @@ void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
 }
 
 void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
-  addChoice(App, "--reciprocal", B.Unit,
-            {Reciprocal::Exact, Reciprocal::EvenLeft, Reciprocal::EvenBest,
-             Reciprocal::LogLeft, Reciprocal::LogBest, Reciprocal::Mantissa2,
-             Reciprocal::Mantissa3},
+  addChoice(App, "--reciprocal", B.Unit, Reciprocals,
             "The rasterizer's unit for 1/(1 - alpha)");
   addChoice(App, "--sum", B.Order, {GatherOrder::Tree, GatherOrder::Rows},
             "How the rasterizer's gather adds up rows");

@@ -61,7 +61,7 @@ Expected<Success> check(const RenderArguments &A) {
       return Checked;
   if (auto Checked = checkPictureOptions(O); !Checked)
     return Checked;
-  if (O.Blending == Path::Simt && hasTable(O.Exponential))
+  if (O.Blending == Path::Simt && !isOnCores(O.Exponential))
     return Usage(fmt::format("--exp {} is the rasterizer's, expected --path "
                              "raster with it",
                              name(O.Exponential)));
@@ -246,10 +246,7 @@ Expected<Success> run(RenderArguments &A) {
 
 /// What is given up for time or area, on either path.
 void addDatapathOptions(CLI::App &App, RenderOptions &O) {
-  addChoice(App, "--exp", O.Exponential,
-            {ExpUnit::Exact, ExpUnit::Table, ExpUnit::Table32, ExpUnit::Table64,
-             ExpUnit::Poly2, ExpUnit::Poly3, ExpUnit::Poly4, ExpUnit::Linear,
-             ExpUnit::Schraudolph},
+  addChoice(App, "--exp", O.Exponential, ExpUnits,
             "Exponential unit; tables are the rasterizer's");
   addSize(App, "--alpha-cutoff", O.AlphaCutoff, {1, 2, 4, 8},
           "Smallest alpha that is blended, in 1/255");
@@ -267,8 +264,7 @@ void addDatapathOptions(CLI::App &App, RenderOptions &O) {
 
 void addRasterOptions(CLI::App &App, RenderArguments &A) {
   RenderOptions &O = A.Options;
-  addChoice(App, "--blend", O.Arithmetic,
-            {BlendUnit::Fp32, BlendUnit::Bf16, BlendUnit::Fp16},
+  addChoice(App, "--blend", O.Arithmetic, BlendUnits,
             "Multiplications of the rasterizer's blend stage; sums are fp32");
   addSize(App, "--tile", O.RasterTile, {16, 32, 64},
           "Side of a tile of the rasterizer's path");

@@ -1,7 +1,10 @@
 #include "Registry.h"
 
+#include "splat/LaneUnits.h"
+
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -34,8 +37,8 @@ const Effect *find(std::string_view Name) {
   return At == all().end() ? nullptr : *At;
 }
 
-std::span<const Parameter> parameters() {
-  static constexpr std::array List{
+static std::vector<Parameter> makeParameters() {
+  std::vector<Parameter> List{
       Parameter{"TILE_SIZE", "side of a tile, px"},
       Parameter{"TILE_HEIGHT", "the same, of training's tiles upright"},
       Parameter{"KEEP_LAST", "training: pixels keep their last contributor"},
@@ -52,9 +55,6 @@ std::span<const Parameter> parameters() {
       Parameter{"KEEP_DEPTH", "the rules' test of a depth"},
       Parameter{"ANTIALIAS_FLOOR", "the rules' least ratio of determinants"},
       Parameter{"ALPHA_CUTOFF", "alpha that is blended, in 255ths"},
-      Parameter{"EXP_DEGREE", "exponential of the cores' path: a polynomial"},
-      Parameter{"EXP_LINEAR", "the same: linear pieces"},
-      Parameter{"EXP_SCHRAUDOLPH", "the same: Schraudolph's"},
       Parameter{"MIN_POWER", "exponent below which no opacity is visible"},
       Parameter{"STOP_AT_EQUAL", "the rules' stop is T' <= cut-off, not <"},
       Parameter{"SUPPORT_EXACT", "support: every pixel with alpha >= 1/255"},
@@ -62,6 +62,13 @@ std::span<const Parameter> parameters() {
       Parameter{"SUPPORT_SQUARE3", "support: INRIA's radius as a square"},
       Parameter{"SUPPORT_OFFICIAL16", "support: the square's 16x16 tiles"},
   };
+  for (const std::string_view Macro : ExpMacros)
+    List.push_back({Macro, "exponential unit of the cores' path"});
+  return List;
+}
+
+std::span<const Parameter> parameters() {
+  static const std::vector<Parameter> List = makeParameters();
   return List;
 }
 

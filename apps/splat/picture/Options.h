@@ -2,6 +2,7 @@
 #pragma once
 
 #include "TailRule.h"
+#include "splat/LaneUnits.h" // generated from intrinsics/Units.td
 
 #include <array>
 #include <string>
@@ -15,21 +16,6 @@ enum class Rules { Inria, Gsplat };
 enum class Support { Exact, Box3, Square3, Official16 };
 /// Who blends: the rasterizer, or the cores alone.
 enum class Path { Raster, Simt };
-/// The lane's exponential unit: VR_EXP_* of docs/isa.md. The cores' path has
-/// those that take no table.
-enum class ExpUnit {
-  Exact,
-  Table,
-  Poly2,
-  Poly3,
-  Poly4,
-  Table32,
-  Table64,
-  Linear,
-  Schraudolph
-};
-/// The lane's blend arithmetic: VR_BLEND_* of docs/isa.md.
-enum class BlendUnit { Fp32, Bf16, Fp16 };
 
 constexpr std::string_view name(Rules R) {
   return R == Rules::Inria ? "inria" : "gsplat";
@@ -42,19 +28,8 @@ constexpr std::string_view name(Support S) {
 constexpr std::string_view name(Path P) {
   return P == Path::Raster ? "raster" : "simt";
 }
-constexpr std::array<std::string_view, 9> ExpUnitNames{
-    "exact",   "table",   "poly2",  "poly3",      "poly4",
-    "table32", "table64", "linear", "schraudolph"};
-constexpr std::string_view name(ExpUnit E) {
-  return ExpUnitNames[static_cast<std::size_t>(E)];
-}
-constexpr bool hasTable(ExpUnit E) {
-  return E == ExpUnit::Table || E == ExpUnit::Table32 || E == ExpUnit::Table64;
-}
-constexpr std::string_view name(BlendUnit B) {
-  constexpr std::array<std::string_view, 3> Names{"fp32", "bf16", "fp16"};
-  return Names[static_cast<std::size_t>(B)];
-}
+/// Whether the cores' path has \p E.
+constexpr bool isOnCores(ExpUnit E) { return !kernelOf(E).empty(); }
 
 /// The least depth that is drawn: beyond it by INRIA's rules, from it on by
 /// gsplat's.

@@ -8,24 +8,6 @@
 
 namespace vorion::splat {
 
-/// The rasterizer's unit for 1 / (1 - alpha), by vr_backward.reciprocal.
-enum class Reciprocal {
-  Exact,
-  EvenLeft,
-  EvenBest,
-  LogLeft,
-  LogBest,
-  Mantissa2,
-  Mantissa3
-};
-
-constexpr std::string_view name(Reciprocal R) {
-  constexpr std::array<std::string_view, 7> Names{
-      "exact",    "even-left",  "even-best", "log-left",
-      "log-best", "mantissa-2", "mantissa-3"};
-  return Names[static_cast<std::size_t>(R)];
-}
-
 /// How the rasterizer's gather adds up the rows of a tile.
 enum class GatherOrder { Tree, Rows };
 

@@ -28,24 +28,6 @@ std::string supportDefine(Support S) {
   return {};
 }
 
-/// Of units.cl.
-std::string falloffDefine(ExpUnit E) {
-  switch (E) {
-  case ExpUnit::Poly2:
-    return "EXP_DEGREE=2";
-  case ExpUnit::Poly3:
-    return "EXP_DEGREE=3";
-  case ExpUnit::Poly4:
-    return "EXP_DEGREE=4";
-  case ExpUnit::Linear:
-    return "EXP_LINEAR";
-  case ExpUnit::Schraudolph:
-    return "EXP_SCHRAUDOLPH";
-  default:
-    return {};
-  }
-}
-
 /// The parameters of effects/Registry.h that hold for \p O.
 std::vector<std::string> parameterDefines(const RenderOptions &O) {
   const bool Inria = O.Convention == Rules::Inria;
@@ -59,7 +41,7 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
                               Inria ? ">" : ">=", nearLimit(O.Convention)),
                   Inria ? "ANTIALIAS_FLOOR=2.5e-5f" : "ANTIALIAS_FLOOR=0.0f",
                   fmt::format("GROUP={}", O.SimtGroup), minPowerDefine(O)});
-  if (const std::string Define = falloffDefine(O.Exponential); !Define.empty())
+  if (const std::string Define(defineOf(O.Exponential)); !Define.empty())
     Defines.push_back(Define);
   if (!Inria)
     Defines.emplace_back("STOP_AT_EQUAL");
@@ -127,8 +109,7 @@ std::vector<std::string> projectionDefines(int ShDegree,
 
 RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   const bool Raster = Options.Blending == Path::Raster;
-  const char *Falloff =
-      Options.Exponential == ExpUnit::Exact ? "falloff.cl" : "units.cl";
+  const std::string Falloff(kernelOf(Options.Exponential));
   RenderPlan Plan{
       std::move(Effects),
       {{ProjectProgram,

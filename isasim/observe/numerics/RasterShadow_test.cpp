@@ -125,7 +125,7 @@ TEST_F(RasterShadowTest, writtenPixelsHaveShadows) {
 }
 
 TEST_F(RasterShadowTest, aCoarseExponentialShowsInItsStageAlone) {
-  for (const ExpUnit &Unit : expUnits()) {
+  for (const ExpUnit &Unit : ExpUnits) {
     SCOPED_TRACE(Unit.Name);
     const RasterFindings F =
         render(scene(), {.Options = OptionsExp.put(Unit.Option)});

@@ -1,6 +1,7 @@
 #include "Knobs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace vorion::test {
@@ -49,18 +50,13 @@ double blendUnit(const RenderOptions &O, std::size_t Gaussians) {
   return 3 * D / (1 - D) + std::min(1.0, Behind) + Subnormal;
 }
 
-template <splat::ExpUnit Unit> void takeExp(RenderOptions &O) {
-  O.Exponential = Unit;
-}
-
 template <unsigned Size> void takeTile(RenderOptions &O) {
   O.RasterTile = Size;
 }
 
-} // namespace
-
-const std::vector<Knob> &knobs() {
-  static const std::vector<Knob> All{
+/// Of the picture, on both paths.
+std::vector<Knob> pictureKnobs() {
+  return {
       {"--support box3",
        "support",
        {},
@@ -100,7 +96,9 @@ const std::vector<Knob> &knobs() {
       {"--background 0.1,0.7,0.4",
        "background",
        {},
-       [](RenderOptions &O) { O.Background = {0.1F, 0.7F, 0.4F}; },
+       [](RenderOptions &O) {
+         O.Background = {0.1F, 0.7F, 0.4F};
+       },
        none},
       {"--cutoff 0",
        "cutoff",
@@ -142,22 +140,32 @@ const std::vector<Knob> &knobs() {
        {},
        [](RenderOptions &O) { O.ShLimit = 2; },
        none},
-      {"--exp poly2", "exp", {}, takeExp<ExpUnit::Poly2>, expUnit},
-      {"--exp poly3", "exp", {}, takeExp<ExpUnit::Poly3>, expUnit},
-      {"--exp poly4", "exp", {}, takeExp<ExpUnit::Poly4>, expUnit},
-      {"--exp linear", "exp", {}, takeExp<ExpUnit::Linear>, expUnit},
-      {"--exp schraudolph", "exp", {}, takeExp<ExpUnit::Schraudolph>, expUnit},
-      {"--exp table", "exp", Path::Raster, takeExp<ExpUnit::Table>, expUnit},
-      {"--exp table32", "exp", Path::Raster, takeExp<ExpUnit::Table32>,
-       expUnit},
-      {"--exp table64", "exp", Path::Raster, takeExp<ExpUnit::Table64>,
-       expUnit},
-      {"--blend bf16", "blend", Path::Raster,
-       [](RenderOptions &O) { O.Arithmetic = splat::BlendUnit::Bf16; },
-       blendUnit},
-      {"--blend fp16", "blend", Path::Raster,
-       [](RenderOptions &O) { O.Arithmetic = splat::BlendUnit::Fp16; },
-       blendUnit},
+  };
+}
+
+/// Of the lane's units: those of both paths, then the rasterizer's.
+std::vector<Knob> unitKnobs() {
+  std::vector<Knob> All;
+  const auto AddExps = [&](bool OnCores, std::optional<Path> Only) {
+    for (const ExpUnit Unit : splat::ExpUnits)
+      if (Unit != ExpUnit::Exact && splat::isOnCores(Unit) == OnCores)
+        All.push_back({"--exp " + std::string(name(Unit)), "exp", Only,
+                       [Unit](RenderOptions &O) { O.Exponential = Unit; },
+                       expUnit});
+  };
+  AddExps(true, {});
+  AddExps(false, Path::Raster);
+  for (const splat::BlendUnit Unit : splat::BlendUnits)
+    if (Unit != splat::BlendUnit::Fp32)
+      All.push_back(
+          {"--blend " + std::string(name(Unit)), "blend", Path::Raster,
+           [Unit](RenderOptions &O) { O.Arithmetic = Unit; }, blendUnit});
+  return All;
+}
+
+/// Of one path alone.
+std::vector<Knob> pathKnobs() {
+  return {
       {"--tile 16", "tile", Path::Raster, takeTile<16>, none},
       {"--tile 32", "tile", Path::Raster, takeTile<32>, none},
       {"--ztiles 2", "ztiles", Path::Raster,
@@ -187,12 +195,22 @@ const std::vector<Knob> &knobs() {
       {"--simt-group 64", "simt-group", Path::Simt,
        [](RenderOptions &O) { O.SimtGroup = 64; }, none},
   };
+}
+
+} // namespace
+
+const std::vector<Knob> &knobs() {
+  static const std::vector<Knob> All = [] {
+    std::vector<Knob> List = pictureKnobs();
+    for (const auto &More : {unitKnobs(), pathKnobs()})
+      List.insert(List.end(), More.begin(), More.end());
+    return List;
+  }();
   return All;
 }
 
 double unitRoundoff(splat::BlendUnit B) {
-  constexpr double Roundoffs[] = {0x1p-24, 0x1p-8, 0x1p-11};
-  return Roundoffs[static_cast<std::size_t>(B)];
+  return std::ldexp(1.0, -static_cast<int>(significandBits(B)));
 }
 
 std::string flagsOf(Path P, const Setting &S) {

@@ -5,6 +5,7 @@
 #include "../../../apps/splat/picture/Options.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ struct Knob {
   /// What of the machine it turns; one of each is turned at a time.
   std::string Dimension;
   std::optional<splat::Path> Only; ///< the path that has it
-  void (*Turn)(splat::RenderOptions &);
+  std::function<void(splat::RenderOptions &)> Turn;
   /// How far the picture of a scene of \p Gaussians may move, in parts of its
   /// largest colour, beyond the bound of the reference, which follows every
   /// option that it has.

@@ -1,0 +1,145 @@
+// The units of a rasterizer's lane that a field of a CSR chooses between, in the
+// order in which command lines show them; docs/adding-a-lane-unit.md. The paper
+// names no exponential and gives no reciprocal's cost: latencies and operations
+// without another source are our estimates of a plausible build.
+
+// The number is the field's value, and a constant of the ABI.
+class LaneUnit<string prefix, string choice, int number, string doc>
+    : Constant<prefix # !toupper(!subst("-", "_", choice)), number, doc> {
+  string Choice = choice;             // its name on command lines
+  string Report = choice;             // and in reports of the clock
+  // Time in cycles, and what it is made of: docs/model.md#area-of-a-lane.
+  int Latency = 1;
+  int Interval = 1;
+  int Multipliers = 0;                // fp32
+  int Adders = 0;                     // fp32
+  int ProductBits = 0;                // of other multipliers; below 0, what an fp32 one has less
+  int AdderBits = 0;                  // of other adders
+  int TableBits = 0;
+  int ChoiceBits = 0;
+  int RegisterBits = 0;               // between stages, where they are no part of the lane's rest
+  string Source = ?;                  // or derivation
+}
+
+// vr_options.exp. Its bodies: ExpVector.h and ScalarUnits.h of isasim/raster/.
+class ExpUnit<string choice, int number, string bound, string doc>
+    : LaneUnit<"VR_EXP_", choice, number, "Exponential unit: " # doc # "."> {
+  string MaxRelativeError = bound;    // for results of at least 2^-125
+  // What the cores' path is compiled with, if it has the unit: the file of
+  // apps/splat/kernels/, and a macro that chooses the unit in it.
+  string Kernel = "units.cl";
+  string Define = "";
+}
+class TableExpUnit<string choice, int number, string bound, int entries, int startBits>
+    : ExpUnit<choice, number, bound, "table of " # entries # " entries"> {
+  let Kernel = "";
+  let Latency = 3;
+  let ProductBits = !add(!mul(24, 24), !mul(12, 12));
+  let AdderBits = !add(startBits, 8);
+  let TableBits = !mul(entries, !add(startBits, 12));
+}
+class PolynomialExpUnit<int degree, int number, string bound, string steps>
+    : ExpUnit<"poly" # degree, number, bound, "base-2 polynomial of degree " # degree> {
+  let Define = "EXP_DEGREE=" # degree;
+  let Latency = !add(degree, 2);
+  let Multipliers = !add(degree, 1);
+  let Adders = !add(degree, 1);
+  let AdderBits = 8;
+  let Source = "y, then " # steps # " steps of Horner's rule, in fp32; y's fraction; an exponent";
+}
+
+def : ExpUnit<"exact", 0, "0x1p-24", "correctly rounded"> {
+  let Report = "correctly-rounded";
+  let Kernel = "falloff.cl";
+  let Latency = 8;
+  let ProductBits = !mul(16, 53, 53);
+  let AdderBits = !mul(14, 53);
+  let Source = "16 multipliers of 53 x 53 bits, 14 adders of 53: as the simulator finds the nearest number";
+}
+def : TableExpUnit<"table", 1, "2.85e-4", 16, 17> {
+  let Source = "y 24 x 24 bits, a rest times a drop 12 x 12; a sum of 17, an exponent";
+}
+def : TableExpUnit<"table32", 5, "8.3e-5", 32, 18> { let Source = "as table, with a sum of 18"; }
+def : TableExpUnit<"table64", 6, "2.65e-5", 64, 19> { let Source = "as table, with a sum of 19"; }
+def : PolynomialExpUnit<2, 2, "2.7e-3", "two">;
+def : PolynomialExpUnit<3, 3, "1.1e-4", "three">;
+def : PolynomialExpUnit<4, 4, "7.2e-6", "four">;
+def : ExpUnit<"linear", 7, "5.7e-3", "four linear pieces an octave"> {
+  let Define = "EXP_LINEAR";
+  let Latency = 2;
+  let ProductBits = !mul(24, 24);
+  let AdderBits = !add(17, 17, 8);
+  let Source = "y 24 x 24 bits; a drop of two shifted rests, two sums of 17; an exponent";
+}
+def : ExpUnit<"schraudolph", 8, "3.1e-2", "Schraudolph's"> {
+  let Define = "EXP_SCHRAUDOLPH";
+  let ProductBits = !mul(24, 24);
+  let AdderBits = 32;
+  let Source = "p log2(e) 24 x 24 bits, a sum of 32";
+}
+
+// vr_options.blend. Its bodies: BlendVector.h and ScalarUnits.h.
+class BlendUnit<string choice, int number, int significandBits, string doc>
+    : LaneUnit<"VR_BLEND_", choice, number, "Blend arithmetic: " # doc # "."> {
+  int SignificandBits = significandBits; // of a multiplication's operands
+  let Adders = 5;
+}
+class NarrowBlendUnit<string choice, int number, int significandBits>
+    : BlendUnit<choice, number, significandBits, choice # " multiplications, fp32 sums"> {
+  let Report = "blend " # choice;
+  let ProductBits = !mul(4, significandBits, significandBits);
+  let AdderBits = !add(!mul(4, 8), !mul(3, 16));
+  let Source = "alpha T and three colours are 4 multiplications whose products are exact, so without rounding or normalisation: a significand product and an exponent sum of 8 each; 4 fp32 sums, the cut-off a comparison; 3 operands rounded by sums of 16";
+}
+
+def : BlendUnit<"fp32", 0, 24, "fp32"> {
+  let Report = "blend";
+  let Multipliers = 5;
+  let Source = "third stage [paper]; T (1 - alpha), alpha T and three colours are 5 multiplications and 4 additions, the cut-off a comparison";
+}
+def : NarrowBlendUnit<"bf16", 1, 8>;
+def : NarrowBlendUnit<"fp16", 2, 11>;
+
+// vr_backward.reciprocal, of a pair of lanes. Its body: ReciprocalVector.h.
+class ReciprocalUnit<string choice, int number, string bound, int latency, string doc>
+    : LaneUnit<"VR_RECIPROCAL_", choice, number, "Reciprocal unit: " # doc # "."> {
+  string MaxRelativeError = bound;    // over alpha in [1/255, 0.99], rounding included
+  let Latency = latency;
+}
+// From a table's entry, or by the Taylor series. The paper's units take 3
+// multiplications below 0.5 and 4 above, one after the other, and an addition
+// each; three steps take 6. A pair of lanes has one multiplier to spare
+// (docs/rasterizer.md, "The backward mode").
+class IteratedReciprocalUnit<string choice, int number, string bound, int latency, string doc>
+    : ReciprocalUnit<choice, number, bound, latency, doc> {
+  let Multipliers = 3;
+  let Adders = 3;
+  let TableBits = !mul(8, 24);
+  // Between stages: 1 - alpha, or alpha, and what is made of it so far.
+  let RegisterBits = !mul(!sub(latency, 1), 2, 32);
+  let Source = "three multipliers and three adders [paper], the fourth multiplication in the pair's spare multiplier";
+}
+
+// An fp32 multiplier and a divider differ in what is between exponents and
+// rounding: there a product of 24 x 24 bits, here a row of 24 bits for each of
+// the 26 bits of the quotient, one before the point that may be 0 and one to
+// round by, 3 or 4 a cycle. A row has a choice between remainder and difference
+// (the bit above a row's needs no subtraction: if it is set, the row's succeeds).
+def : ReciprocalUnit<"exact", 0, "0x1p-23", 8, "T / (1 - alpha), correctly rounded"> {
+  let Multipliers = 1;
+  let ProductBits = !sub(0, !mul(24, 24));
+  let AdderBits = !mul(26, 24);
+  let ChoiceBits = !mul(26, 24);
+  // Between stages: remainder, divisor, exponent, half the quotient on average.
+  let RegisterBits = !mul(!sub(8, 1), !add(24, 24, 8, 13));
+  let Source = "a divider, an fp32 multiplier with 26 subtractions of 24 bits in place of the product, and registers; ours";
+}
+def : IteratedReciprocalUnit<"even-left", 1, "0.5462", 6, "Taylor to alpha^4 below 0.5; above, two Newton-Raphson steps from 8 entries evenly spaced in alpha, exact at their left ends">;
+def : IteratedReciprocalUnit<"even-best", 2, "0.3230", 6, "as VR_RECIPROCAL_EVEN_LEFT, with the entries' best seeds">;
+def : IteratedReciprocalUnit<"log-left", 3, "0.0313", 6, "as VR_RECIPROCAL_EVEN_LEFT, with entries evenly spaced in log(1 - alpha)">;
+def : IteratedReciprocalUnit<"log-best", 4, "0.0313", 6, "as VR_RECIPROCAL_LOG_LEFT, with the entries' best seeds">;
+def : IteratedReciprocalUnit<"mantissa-2", 5, "1.25e-5", 5, "8 entries by the mantissa of 1 - alpha, two Newton-Raphson steps">;
+def : IteratedReciprocalUnit<"mantissa-3", 6, "1.7e-7", 7, "8 entries by the mantissa of 1 - alpha, three Newton-Raphson steps"> {
+  let Multipliers = 5;
+  let Source = "six multiplications, in five multipliers and the pair's spare one, and three adders; ours";
+}
