@@ -12,7 +12,7 @@
 namespace vorion::isasim {
 
 /// The line of memory that holds an address.
-inline constexpr uint32_t lineOf(uint32_t Address) {
+constexpr uint32_t lineOf(uint32_t Address) {
   return Address & ~(TimingLineBytes - 1);
 }
 
