@@ -1,0 +1,238 @@
+/// The controller of one DRAM channel: requests go in, replies come out when
+/// they are decided. It goes from one command to the next, never tick by tick,
+/// and what it does depends on requests and their times alone.
+#pragma once
+
+#include "timing/dram/TimingTable.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <vector>
+
+namespace vorion::isasim::dram {
+
+/// Later than everything.
+inline constexpr uint64_t Never = std::numeric_limits<uint64_t>::max();
+
+/// Where a line lies in its channel.
+struct Place {
+  uint32_t Bank = 0; ///< (rank * bank groups + group) * banks a group + bank
+  uint32_t Row = 0;
+};
+
+struct Request {
+  uint64_t At = 0; ///< tick at which the controller gets it
+  uint64_t Id = 0; ///< whatever the sender knows it by; orders equal times
+  uint64_t Line = 0;
+  Place Where;
+  bool IsWrite = false;
+};
+
+struct Reply {
+  uint64_t Id = 0;
+  /// Tick after a read's last byte has arrived, or a write's has been written.
+  uint64_t Done = 0;
+  bool IsWrite = false;
+};
+
+/// A command as it was issued, for whoever checks or records them.
+struct Issued {
+  uint64_t At;
+  Command What;
+  Place Where; ///< of a rank's command: its first bank
+};
+
+struct ControllerOptions {
+  uint32_t LineBytes = 64;
+  /// Room for bursts that have not been taken up, of reads and of writes.
+  uint32_t ReadQueue = 64, WriteQueue = 64;
+  /// Writes are drained from more than this part of their queue on, in per
+  /// cent, until there is less than the other.
+  uint32_t DrainAbove = 80, DrainBelow = 20;
+  /// Bursts written while reads wait before reads have their turn.
+  uint32_t MostDrained = 256;
+  /// Accesses to a row since it was opened after which it loses its precedence
+  /// over older requests: those beyond the first.
+  uint32_t RowHitCap = 16;
+  /// Ticks after which an open row that nobody waits for is closed; Never
+  /// leaves it open, 0 closes it at once.
+  uint64_t CloseRowAfter = Never;
+  enum class RefreshBy : uint8_t { Rank, Bank, Nothing };
+  RefreshBy Refresh = RefreshBy::Rank;
+};
+
+struct ControllerCounts {
+  uint64_t Reads = 0, Writes = 0; ///< bursts
+  /// Requests whose row was open, whose bank was closed, whose bank had another
+  /// row open, when they were first taken up.
+  uint64_t RowHits = 0, RowMisses = 0, RowConflicts = 0;
+  uint64_t Forwarded = 0; ///< reads answered by a waiting write
+  uint64_t Activations = 0, Refreshes = 0;
+  uint64_t BusTicks = 0; ///< for which the data bus was taken
+};
+
+/// What is wrong with \p Options for a device of \p Table, as one line that
+/// names the option, or success.
+Expected<Success> check(const TimingTable &Table,
+                        const ControllerOptions &Options);
+
+/// First ready, first come first served: of the requests whose next command may
+/// be issued now, the oldest goes first, whatever that command is. Those whose
+/// row was opened for them go before all others, then refreshes, then reads or,
+/// while writes are drained, writes. docs/dram.md has the rules one by one.
+class Controller {
+public:
+  /// \p Options must have passed check(); \p Table must outlive this.
+  explicit Controller(const TimingTable &Table,
+                      const ControllerOptions &Options = {});
+
+  /// Takes a request. Its time is not before the last tick that advance() has
+  /// come to. Requests of one time may be submitted in any order. One whose
+  /// queue is full waits in front of it, behind earlier ones of its kind.
+  void submit(const Request &R);
+
+  /// Lines for which the queue of reads or writes has room beyond what waits.
+  uint32_t room(bool IsWrite) const;
+
+  /// The next tick at which something may be decided, if nothing more is
+  /// submitted; Never if there is no request.
+  uint64_t nextEvent() const;
+
+  /// Goes on to the end of tick \p Until and appends what was decided, in the
+  /// order of decisions. A reply's time may lie beyond.
+  void advance(uint64_t Until, std::vector<Reply> &Replies);
+
+  const ControllerCounts &counts() const { return Counted; }
+  /// From now on commands are appended to \p Log; null for none.
+  void record(std::vector<Issued> *Log) { Recorded = Log; }
+
+private:
+  static constexpr uint32_t None = UINT32_MAX;
+
+  /// A request that is known to the scheduler.
+  struct Entry {
+    uint64_t Order, Id, Line;
+    uint32_t Bank, Row;
+    uint32_t Next, Previous; ///< in its bank's queue
+    uint16_t Queued;         ///< bursts that have not been taken up
+    uint16_t Left;           ///< bursts that have not been issued
+    bool IsWrite, IsSeen;
+  };
+  /// One kind's requests to a bank, oldest first.
+  struct BankQueue {
+    uint32_t First = None, Last = None;
+    uint32_t Hit = None;  ///< the oldest to the open row
+    uint32_t Miss = None; ///< the oldest to none or another
+    uint64_t HitOrder = 0, MissOrder = 0;
+  };
+  struct Queue {
+    uint64_t Banks = 0;  ///< bit set of those with requests
+    uint32_t Bursts = 0; ///< not taken up
+    uint32_t Capacity = 0;
+    std::vector<BankQueue> Of;
+    std::deque<Request> Waiting; ///< not yet taken in, by time and id
+  };
+  using Ticks = std::array<uint64_t, Commands>;
+  struct Bank {
+    Ticks Next{}; ///< earliest of each command, as this bank's past allows
+    uint64_t LastUse = 0;
+    uint32_t Row = 0;
+    uint32_t Uses = 0; ///< since the row was opened
+    uint32_t Group = 0, Rank = 0;
+    bool IsOpen = false;
+  };
+  struct Rank {
+    Ticks Next{}; ///< of commands to all banks
+    std::vector<uint64_t> Activations;
+    uint32_t OldestActivation = 0;
+    uint32_t RefreshesDue = 0, BankToRefresh = 0;
+    uint64_t NextRefresh = Never;
+  };
+  /// What is decided next.
+  struct Choice {
+    uint64_t Begin = Never; ///< first tick of the command
+    uint64_t Order = Never;
+    uint8_t Class = 0;
+    Command What = Command::Count;
+    uint32_t Bank = 0;             ///< of a rank's command: its first
+    uint32_t Entry = None;         ///< on whose behalf, if any
+    uint32_t PlacePromoted = None; ///< where, if it is promoted
+  };
+  struct Step {
+    Command To;
+    uint32_t Ticks;
+  };
+
+  static bool isOfRank(Command C) {
+    return C == Command::PrechargeAll || C == Command::Refresh;
+  }
+  bool hasRoom(const Queue &Q) const {
+    return Q.Bursts + BurstsOfLine <= Q.Capacity;
+  }
+  uint64_t nextTakenIn() const;
+  uint64_t nextRefresh() const;
+  bool settle(std::vector<Reply> &Replies);
+  bool takeIn(std::vector<Reply> &Replies);
+  bool enter(const Request &R, std::vector<Reply> &Replies);
+  bool isBeingWritten(const Request &R) const;
+  bool noteRefreshes();
+  void chooseQueue();
+
+  void decide();
+  void considerPromoted();
+  uint64_t considerRefreshes();
+  void considerQueue(const Queue &Q, Command Column, uint64_t Blocked);
+  void considerCapped(const Queue &Q, Command Column, uint64_t Blocked);
+  void considerClosing(uint64_t Blocked);
+  void consider(uint64_t Ready, uint64_t Order, uint8_t Class, Command What,
+                uint32_t Bank, uint32_t Entry, uint32_t PlacePromoted);
+  uint64_t ready(Command C, const Bank &B) const;
+
+  void issue(std::vector<Reply> &Replies);
+  void restrict(Command C, const Bank &B, Ticks &OfBank, uint64_t At);
+  void promote(uint32_t Which);
+  void access(uint64_t At, std::vector<Reply> &Replies);
+  void open(uint32_t Which, uint32_t Row, uint64_t At);
+  void close(uint32_t Which);
+  void findFirsts(Queue &Q, uint32_t Which);
+  void leaveQueue(uint32_t Which);
+
+  const TimingTable &T;
+  const ControllerOptions O;
+  const uint32_t BurstsOfLine;
+  uint32_t Above, Below; ///< drain marks, in bursts
+  uint64_t RefreshInterval = Never;
+  std::array<std::array<std::vector<Step>, size_t(Scope::Count)>, Commands>
+      Steps; ///< what each command forbids, by scope
+  uint32_t Window = 0, WindowTicks = 0;
+
+  uint64_t Told = 0;                 ///< how far advance() came
+  uint64_t Now = 0;                  ///< no command is begun before
+  std::array<uint64_t, 2> BusFree{}; ///< of the command buses: the first tick
+  /// By command: its bus, its ticks but the last, the earliest first one.
+  std::array<uint8_t, Commands> BusOf{};
+  std::array<uint32_t, Commands> LaterTicks{};
+  std::array<uint64_t, Commands> Earliest{};
+  std::vector<Bank> Banks;
+  std::vector<Ticks> Groups; ///< what group, rank and channel allow
+  std::vector<Rank> Ranks;
+  uint64_t Open = 0;           ///< bit set of banks
+  std::array<Queue, 2> Queues; ///< reads, writes
+  bool IsDraining = false;
+  uint32_t ReadsOut = 0; ///< bursts taken in and not issued
+  uint32_t Drained = 0;  ///< bursts, while reads waited
+  uint32_t Owed = 0;     ///< bursts read before the next drain
+  std::vector<Entry> Entries;
+  std::vector<uint32_t> Free;
+  std::vector<uint32_t> Promoted; ///< a burst each, whose row was opened for it
+  uint64_t NextOrder = 0;
+  uint64_t Unanswered = 0;
+  Choice Next;
+  bool IsDecided = false;
+  ControllerCounts Counted;
+  std::vector<Issued> *Recorded = nullptr;
+};
+
+} // namespace vorion::isasim::dram
