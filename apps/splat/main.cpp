@@ -30,11 +30,13 @@ int run(std::vector<std::string> Arguments) {
   App.set_version_flag("--version", programsText,
                        "Print the version, and a hash of all programs that "
                        "results depend on");
-  // Of the device, which reads the environment; after a command too.
-  std::string Set;
-  App.add_option("--set", Set,
-                 "change the Vorion device's configuration (as VORION_SET)")
+  splat::DeviceOptions Device;
+  App.add_option_function<std::string>(
+         "--set",
+         [&](const std::string &Set) { Device.give("VORION_SET", Set); },
+         "change the Vorion device's configuration (as VORION_SET)")
       ->type_name("KEY=VALUE,...");
+  // After a command, too.
   App.fallthrough();
 
   std::vector<std::pair<CLI::App *, splat::Runner>> Commands;
@@ -60,11 +62,9 @@ int run(std::vector<std::string> Arguments) {
 
   if (const auto Ended = parseCommandLine(App, std::move(Arguments)))
     return *Ended;
-  if (!Set.empty())
-    setenv("VORION_SET", Set.c_str(), 1);
   for (auto &[Command, Run] : Commands)
     if (Command->parsed())
-      if (const auto Done = Run(); !Done)
+      if (const auto Done = Run(Device); !Done)
         return reportError("splat", Done.error());
   return EXIT_SUCCESS;
 }

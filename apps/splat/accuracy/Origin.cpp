@@ -48,11 +48,11 @@ Json hashesOf(const std::vector<std::string> &Files) {
 
 } // namespace
 
-Expected<Origin> commonOrigin() {
+Expected<Origin> commonOrigin(const DeviceOptions &Options) {
   const auto Programs = hashPrograms();
   if (!Programs)
     return Programs.error();
-  auto Machine = machineConfiguration();
+  auto Machine = machineConfiguration(Options);
   if (!Machine)
     return Machine.error();
   return Origin{{"programs", *Programs},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "../capture/Capture.h"
+#include "../device/DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <functional>
@@ -19,7 +20,7 @@ namespace vorion::splat {
 using Origin = std::map<std::string, std::string>;
 
 /// What every measurement is made from: the programs and the machine.
-Expected<Origin> commonOrigin();
+Expected<Origin> commonOrigin(const DeviceOptions &Machine);
 
 /// Of a view: what its picture depends on, its name and number not.
 std::string hashView(const Camera &View);

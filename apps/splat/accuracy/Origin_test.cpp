@@ -35,11 +35,10 @@ TEST(Origin, AViewIsWhatItSeesNotItsName) {
 TEST(Origin, TheMachineIsWhatItsFileSays) {
   const TestFolder F;
   const auto MachineOf = [&](const char *Config, const char *Set) {
-    setenv("VORION_CONFIG", Config, 1);
-    setenv("VORION_SET", Set, 1);
-    const auto All = commonOrigin();
-    unsetenv("VORION_CONFIG");
-    unsetenv("VORION_SET");
+    DeviceOptions Machine;
+    Machine.give("VORION_CONFIG", Config);
+    Machine.give("VORION_SET", Set);
+    const auto All = commonOrigin(Machine);
     EXPECT_TRUE(All);
     return All ? All->at("machine") : "";
   };
@@ -59,7 +58,7 @@ TEST(Origin, AChangedProgramIsAnother) {
   std::filesystem::create_directories(F.path("bin"));
   std::filesystem::create_directories(F.path("lib/vorion"));
   setenv("VORION_ROOT", F.path("").c_str(), 1);
-  const auto Programs = [] { return commonOrigin()->at("programs"); };
+  const auto Programs = [] { return commonOrigin({})->at("programs"); };
   F.write("bin/vorion-clang", "a");
   F.write("lib/vorion/libdevice.a", "b");
   const std::string Before = Programs();

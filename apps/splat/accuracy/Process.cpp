@@ -24,15 +24,35 @@ static std::string lastLine(const std::string &File) {
   return Text.substr(Text.rfind('\n') + 1);
 }
 
-Expected<Success> runSplat(const std::vector<std::string> &Arguments,
-                           const std::string &LogFile) {
-  std::vector<std::string> Words{"splat"};
-  Words.insert(Words.end(), Arguments.begin(), Arguments.end());
+/// As exec() wants them.
+static std::vector<char *> pointersTo(std::vector<std::string> &Words) {
   std::vector<char *> Pointers;
   Pointers.reserve(Words.size() + 1);
   for (std::string &Word : Words)
     Pointers.push_back(Word.data());
   Pointers.push_back(nullptr);
+  return Pointers;
+}
+
+/// This process's environment, with what \p Machine was given in place of
+/// variables of the same names.
+static std::vector<std::string> environmentWith(const DeviceOptions &Machine) {
+  std::vector<std::string> All;
+  for (char **Each = environ; *Each; ++Each)
+    if (const std::string Text = *Each;
+        !Machine.given().contains(Text.substr(0, Text.find('='))))
+      All.push_back(Text);
+  for (const auto &[Name, Text] : Machine.given())
+    All.push_back(Name + "=" + Text);
+  return All;
+}
+
+Expected<Success> runSplat(const std::vector<std::string> &Arguments,
+                           const DeviceOptions &Machine,
+                           const std::string &LogFile) {
+  std::vector<std::string> Words{"splat"};
+  Words.insert(Words.end(), Arguments.begin(), Arguments.end());
+  std::vector<std::string> Environment = environmentWith(Machine);
 
   posix_spawn_file_actions_t Actions;
   posix_spawn_file_actions_init(&Actions);
@@ -40,8 +60,9 @@ Expected<Success> runSplat(const std::vector<std::string> &Arguments,
                                    O_WRONLY | O_CREAT | O_TRUNC, 0666);
   posix_spawn_file_actions_adddup2(&Actions, STDOUT_FILENO, STDERR_FILENO);
   pid_t Child = 0;
-  const int Problem = posix_spawn(&Child, "/proc/self/exe", &Actions, nullptr,
-                                  Pointers.data(), environ);
+  const int Problem =
+      posix_spawn(&Child, "/proc/self/exe", &Actions, nullptr,
+                  pointersTo(Words).data(), pointersTo(Environment).data());
   posix_spawn_file_actions_destroy(&Actions);
   if (Problem != 0)
     return Error{"",

@@ -1,6 +1,7 @@
 /// `splat` as a child: each render is a process of its own, as a user's is.
 #pragma once
 
+#include "../device/DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <string>
@@ -11,6 +12,7 @@ namespace vorion::splat {
 /// Runs this program with \p Arguments; what it says goes to \p LogFile, whose
 /// last line is in the error if it fails.
 Expected<Success> runSplat(const std::vector<std::string> &Arguments,
+                           const DeviceOptions &Machine,
                            const std::string &LogFile);
 
 } // namespace vorion::splat

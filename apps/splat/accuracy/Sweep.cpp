@@ -51,7 +51,7 @@ Expected<Run> PointMeasurement::run(const std::vector<std::string> &Arguments) {
       Of.View->Name, "-o",        PictureFile, "--json",     ReportFile};
   Words.insert(Words.end(), P.CommonArguments.begin(), P.CommonArguments.end());
   Words.insert(Words.end(), Arguments.begin(), Arguments.end());
-  if (auto Done = runSplat(Words, Base + ".log"); !Done)
+  if (auto Done = runSplat(Words, P.Machine, Base + ".log"); !Done)
     return Done.error();
   auto Report = readJson(ReportFile);
   if (!Report)

@@ -4,6 +4,7 @@
 #include "Front.h"
 #include "Points.h"
 
+#include "../device/DeviceOptions.h"
 #include "../io/Cameras.h"
 #include "../scene/SceneFile.h"
 
@@ -15,6 +16,7 @@ namespace vorion::splat {
 /// What a sweep measures, and where it keeps it.
 struct SweepPlan {
   std::string ScenePath, CameraFile, Folder;
+  DeviceOptions Machine;
   /// Options for every `splat render`, reading the scene among them.
   std::vector<std::string> CommonArguments;
   std::vector<Camera> Views;

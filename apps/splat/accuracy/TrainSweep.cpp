@@ -68,7 +68,7 @@ Expected<Success> makeState(const TrainSweepPlan &P,
                     fnv1a64(fmt::format("{}", P.From)));
     Words.insert(Words.end(), {"--resume", "--checkpoint-every", "50",
                                "--checkpoint", Checkpoint});
-    auto Done = runSplat(Words, references(P) + "/state.log");
+    auto Done = runSplat(Words, P.Machine, references(P) + "/state.log");
     if (Done)
       std::filesystem::remove(Checkpoint);
     return Done;
@@ -117,7 +117,7 @@ Expected<Json> measureGradients(const TrainSweepPlan &P, const TrainPoint &Of,
                                  Base + ".npz", "--background", background(P)};
   const auto Units = unitArguments(Of.Chosen);
   Words.insert(Words.end(), Units.begin(), Units.end());
-  if (auto Done = runSplat(Words, Base + ".log"); !Done)
+  if (auto Done = runSplat(Words, P.Machine, Base + ".log"); !Done)
     return Done.error();
   auto Errors = gradientErrors(Files, Base + ".npz");
   if (!Errors)
@@ -162,7 +162,7 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
                {"--seed", std::to_string(*Of.Seed), "--time", "--time-every",
                 std::to_string(P.TimeEvery), "--score-every",
                 std::to_string(P.ScoreEvery), "--json", Base + ".json"});
-  if (auto Done = runSplat(Words, Base + ".log"); !Done)
+  if (auto Done = runSplat(Words, P.Machine, Base + ".log"); !Done)
     return Done.error();
   auto Report = readJson(Base + ".json");
   if (!Report)
@@ -251,7 +251,7 @@ std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P) {
 }
 
 Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C) {
-  auto From = commonOrigin();
+  auto From = commonOrigin(P.Machine);
   if (!From)
     return From;
   auto Hash = hashCapture(C);

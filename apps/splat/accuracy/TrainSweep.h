@@ -4,6 +4,8 @@
 #include "Points.h"
 #include "Setting.h"
 
+#include "../device/DeviceOptions.h"
+
 #include <array>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -17,6 +19,7 @@ namespace vorion::splat {
 /// What is trained, how often, and where measurements are kept.
 struct TrainSweepPlan {
   std::string Capture, Folder;
+  DeviceOptions Machine;
   std::vector<std::string> Exclude;
   bool AllowOutside = false; ///< of the capture's folder (CaptureOptions)
   int Downscale = 1;

@@ -64,8 +64,10 @@ Expected<Success> checkNames(const SweepPlan &P) {
   return Success{};
 }
 
-Expected<SweepPlan> planOf(const AccuracyArguments &A) {
+Expected<SweepPlan> planOf(const AccuracyArguments &A,
+                           const DeviceOptions &Machine) {
   SweepPlan P;
+  P.Machine = Machine;
   P.ScenePath = A.Scene.Path;
   P.CameraFile = A.Cameras;
   P.Folder = A.Folder;
@@ -85,7 +87,7 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A) {
   P.Load = [&A] { return loadScene(A.Scene); };
   if (auto Checked = checkNames(P); !Checked)
     return Checked.error();
-  auto From = commonOrigin();
+  auto From = commonOrigin(Machine);
   if (!From)
     return From.error();
   P.From = std::move(*From);
@@ -228,10 +230,11 @@ Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
               : Expected<Success>(Page.error());
 }
 
-Expected<Success> run(AccuracyArguments &A) {
+Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   if (!A.Train.Capture.empty()) {
     A.Train.Folder = A.Folder;
     A.Train.Jobs = A.Jobs;
+    A.Train.Machine = Machine;
     return measureTraining(A.Train, A.List, A.Only, say);
   }
   if (A.Scene.Path.empty() || A.Cameras.empty())
@@ -239,7 +242,7 @@ Expected<Success> run(AccuracyArguments &A) {
   const auto Floor = parseDecibels(A.AtLeast);
   if (!Floor)
     return Floor.error();
-  const auto P = planOf(A);
+  const auto P = planOf(A, Machine);
   if (!P)
     return P.error();
   const auto V = splitViews(*P, A.Check);
@@ -341,7 +344,7 @@ Runner addAccuracy(CLI::App &App) {
       ->check(CLI::Range(8U, 4096U))
       ->option_text("N");
   addTrainOptions(App, A->Train, optionsFrom(App, First));
-  return [A] { return run(*A); };
+  return [A](const DeviceOptions &Machine) { return run(*A, Machine); };
 }
 
 } // namespace vorion::splat

@@ -215,7 +215,7 @@ Runner addAnalyze(CLI::App &App) {
   App.add_option("--threads", A->Options.Threads,
                  "Host threads, 0 for all; changes no result")
       ->check(CLI::Range(0U, 1024U));
-  return [A] { return run(*A); };
+  return [A](const DeviceOptions &) { return run(*A); };
 }
 
 } // namespace vorion::splat

@@ -2,6 +2,7 @@
 /// it once they are parsed.
 #pragma once
 
+#include "../device/DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>
@@ -9,7 +10,8 @@
 
 namespace vorion::splat {
 
-using Runner = std::function<Expected<Success>()>;
+/// Takes what the command line says of the device for all subcommands.
+using Runner = std::function<Expected<Success>(const DeviceOptions &)>;
 
 Runner addRender(CLI::App &App);
 Runner addGradients(CLI::App &App);

@@ -27,7 +27,9 @@ Runner addCompare(CLI::App &App) {
                 "Exit with 1 if it is less over all pixels");
   AddOfPictures("--max-doubtful", A->MaxDoubtful,
                 "Exit with 1 if more pixels are doubtful, per cent");
-  return [A] { return A->Pairs ? comparePairs(*A) : comparePictures(*A); };
+  return [A](const DeviceOptions &) {
+    return A->Pairs ? comparePairs(*A) : comparePictures(*A);
+  };
 }
 
 } // namespace vorion::splat

@@ -22,7 +22,7 @@ Runner addConvert(CLI::App &App) {
   App.add_option("-o,--output", A->Output,
                  "Scene to write (.ply, as INRIA has it)")
       ->required();
-  return [A]() -> Expected<Success> {
+  return [A](const DeviceOptions &) -> Expected<Success> {
     if (auto Checked = checkEnding("-o", A->Output, {".ply"}); !Checked)
       return Checked;
     if (auto Claimed =

@@ -54,7 +54,7 @@ Runner addDemoScene(CLI::App &App) {
          "--gaussians", A->Gaussians,
          fmt::format("About how many (default {})", demo::DefaultGaussians))
       ->check(CLI::Range(demo::FewestGaussians, demo::MostGaussians));
-  return [A] { return run(*A); };
+  return [A](const DeviceOptions &) { return run(*A); };
 }
 
 } // namespace vorion::splat

@@ -1,7 +1,6 @@
 #include "DeviceArguments.h"
 #include "vorion/support/Diagnostics.h"
 
-#include <cstdlib>
 #include <fmt/format.h>
 
 namespace vorion::splat {
@@ -17,13 +16,9 @@ void addKernelsOption(CLI::App &App, std::string &Folder) {
                  "Read the kernel sources from this folder");
 }
 
-void turnClockOn(const std::string &Setting) {
-  // The platform reads it when it opens its devices (cl_vorion.h).
-  setenv("VORION_TIME", Setting.c_str(), 1);
-}
-
-Expected<Device> openDevice(const std::string &Name, Path Blending) {
-  auto D = Device::open(Name);
+Expected<Device> openDevice(const std::string &Name, Path Blending,
+                            const DeviceOptions &Options) {
+  auto D = Device::open(Name, Options);
   if (D && Blending == Path::Raster && !D->isVorion())
     return Error{"",
                  fmt::format("{} has no rasterizer, expected a Vorion device "

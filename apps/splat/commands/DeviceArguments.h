@@ -15,13 +15,10 @@ void addDeviceOption(CLI::App &App, std::string &Name);
 /// Declares --kernels; \p Folder must outlive the parsing.
 void addKernelsOption(CLI::App &App, std::string &Folder);
 
-/// Turns on the clock of the devices that are opened from now on, \p Setting
-/// being "on", their MHz, or "profiled" (Device::queue()).
-void turnClockOn(const std::string &Setting);
-
 /// Opens the device that \p Name asks for; an error where it cannot blend by
 /// \p Blending.
-Expected<Device> openDevice(const std::string &Name, Path Blending);
+Expected<Device> openDevice(const std::string &Name, Path Blending,
+                            const DeviceOptions &Options);
 
 /// Shows what the compiler said of a program that failed to build.
 void showBuildLog(const Launcher &L);

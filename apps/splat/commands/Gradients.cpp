@@ -104,7 +104,7 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
                 : Expected<Success>(Report.error());
 }
 
-Expected<Success> run(GradientArguments &A) {
+Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   if (auto Checked = checkPictureOptions(A.Options); !Checked)
     return Checked;
   if (auto Checked = checkBackwardOptions(A.Backward, A.Options.Blending);
@@ -131,8 +131,8 @@ Expected<Success> run(GradientArguments &A) {
   if (!U)
     return U.error();
   if (A.Time)
-    turnClockOn("on");
-  auto D = openDevice(A.Device, A.Options.Blending);
+    Machine.give("VORION_TIME", "on");
+  auto D = openDevice(A.Device, A.Options.Blending, Machine);
   if (!D)
     return D.error();
   Launcher L(*D, A.KernelFolder, progress());
@@ -187,7 +187,7 @@ Runner addGradients(CLI::App &App) {
   addBackwardOptions(App, A->Backward);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);
-  return [A] { return run(*A); };
+  return [A](const DeviceOptions &Machine) { return run(*A, Machine); };
 }
 
 } // namespace vorion::splat

@@ -136,7 +136,7 @@ Runner addInfo(CLI::App &App) {
   addSceneOptions(App, A->Scene);
   App.add_option("--json", A->JsonFile, "Write the same for programs");
   addOutsideOption(App, A->AllowOutside);
-  return [A] { return run(*A); };
+  return [A](const DeviceOptions &) { return run(*A); };
 }
 
 } // namespace vorion::splat

@@ -2,20 +2,18 @@
 
 #include "vorion/support/File.h"
 
-#include <cstdlib>
 #include <utility>
 
 namespace vorion::splat {
 
-Expected<NumericsReport> NumericsReport::begin(const std::string &Settings) {
+Expected<NumericsReport> NumericsReport::begin(const std::string &Settings,
+                                               DeviceOptions &Options) {
   auto Folder = TemporaryFolder::make("splat-numerics");
   if (!Folder)
     return Folder.error();
   NumericsReport R(std::move(*Folder));
-  setenv(
-      "VORION_NUMERICS",
-      ((Settings == "on" ? "" : Settings + ",") + "text=" + R.file()).c_str(),
-      1);
+  Options.give("VORION_NUMERICS",
+               (Settings == "on" ? "" : Settings + ",") + "text=" + R.file());
   return R;
 }
 

@@ -2,18 +2,21 @@
 /// (docs/debugging.md, "Numerics").
 #pragma once
 
+#include "../device/DeviceOptions.h"
 #include "vorion/support/TemporaryFolder.h"
 
 #include <string>
 
 namespace vorion::splat {
 
-/// Turned on for devices that are opened while it lives; it is the platform's,
-/// which reads its settings from the environment and reports to a file.
+/// Of devices that are opened while it lives. The platform makes it, which
+/// reports to a file.
 class NumericsReport {
 public:
-  /// \p Settings as VORION_NUMERICS has them. Errors: no temporary folder.
-  static Expected<NumericsReport> begin(const std::string &Settings);
+  /// Adds it to \p Options, with \p Settings as VORION_NUMERICS has them.
+  /// Errors: no temporary folder.
+  static Expected<NumericsReport> begin(const std::string &Settings,
+                                        DeviceOptions &Options);
 
   /// What has been found so far. Error: the device wrote nothing.
   Expected<std::string> text() const;

@@ -183,7 +183,7 @@ Expected<Success> renderAll(const PictureJob &J,
   return Success{};
 }
 
-Expected<Success> run(RenderArguments &A) {
+Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   if (auto Checked = check(A); !Checked)
     return Checked.error();
   const auto File = loadScene(A.Scene);
@@ -198,20 +198,23 @@ Expected<Success> run(RenderArguments &A) {
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;
   if (A.Time || A.ClockMhz)
-    turnClockOn(A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
+    Machine.give("VORION_TIME",
+                 A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
-    auto Begun = NumericsReport::begin(A.Numerics);
+    auto Begun = NumericsReport::begin(A.Numerics, Machine);
     if (!Begun)
       return Begun.error();
     Numerics.emplace(std::move(*Begun));
   }
   const ViewFacts Facts = factsOfAll(*S, *Cameras, A.Options);
-  const EffectInputs Inputs{*S, A.Options, Facts, !A.Pairs.empty(),
-                            !A.Depth.empty()};
+  const EffectInputs Inputs{
+      *S, A.Options, Facts, !A.Pairs.empty(), !A.Depth.empty(), Machine};
   RenderPlan Plan = planAsAsked(A, Inputs);
 
-  const auto Open = [&A] { return openDevice(A.Device, A.Options.Blending); };
+  const auto Open = [&] {
+    return openDevice(A.Device, A.Options.Blending, Machine);
+  };
   std::string Measured;
   if (A.Explain == "measure") {
     const auto Costs = measureEffects(Open, A.KernelFolder, A.Request, Inputs,
@@ -336,7 +339,7 @@ Runner addRender(CLI::App &App) {
   App.add_option("--dump-pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)");
   addKernelsOption(App, A->KernelFolder);
-  return [A] {
+  return [A](const DeviceOptions &Machine) {
     auto Tail = parseTailRule(A->PixelUnit);
     if (!Tail)
       return Expected<Success>(Tail.error());
@@ -345,7 +348,7 @@ Runner addRender(CLI::App &App) {
     if (!Request)
       return Expected<Success>(Request.error());
     A->Request = std::move(*Request);
-    return run(*A);
+    return run(*A, Machine);
   };
 }
 

@@ -157,10 +157,10 @@ Expected<Success> check(const TrainArguments &A) {
                       {{"--from", R.From}});
 }
 
-Expected<Device> openClocked(const TrainArguments &A) {
+Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
   if (A.isClocked())
-    turnClockOn("profiled");
-  auto D = openDevice(A.Device, A.Request.By.Who);
+    Machine.give("VORION_TIME", "profiled");
+  auto D = openDevice(A.Device, A.Request.By.Who, Machine);
   if (D && A.isClocked() && !D->isVorion())
     return Error{"",
                  fmt::format("{} has no clock for --time and --breakdown, "
@@ -170,13 +170,13 @@ Expected<Device> openClocked(const TrainArguments &A) {
   return D;
 }
 
-Expected<Success> run(TrainArguments &A) {
+Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
   if (A.isClocked())
     A.Request.TimeEvery = A.timeEvery();
   const auto Out = train(
       A.Request,
       {.Check = [&A] { return check(A); },
-       .OpenDevice = [&A] { return openClocked(A); },
+       .OpenDevice = [&] { return openClocked(A, Machine); },
        .ShowBuildLog = showBuildLog,
        .Progress = showProgress,
        .EndProgress = endTrainProgress,
@@ -257,10 +257,10 @@ Runner addTrain(CLI::App &App) {
   App.add_option("--json", A->Json, "Write what was done, and its losses");
   App.add_option("--curve", A->Curve, "Draw the losses (.svg)");
   addDeviceOption(App, A->Device);
-  return [A] {
+  return [A](const DeviceOptions &Machine) {
     if (A->Request.Checkpoint.empty())
       A->Request.Checkpoint = A->Output + ".checkpoint";
-    return run(*A);
+    return run(*A, Machine);
   };
 }
 

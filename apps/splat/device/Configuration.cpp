@@ -3,21 +3,17 @@
 #include "Hash.h"
 #include "vorion/support/File.h"
 
-#include <cstdlib>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
 
-/// What the environment's VORION_CONFIG names, a file or the text itself
-/// (runtime/include/vorion/runtime.h).
-static Expected<Json> namedConfiguration() {
-  const char *Value = std::getenv("VORION_CONFIG");
-  if (!Value || !*Value)
+static Expected<Json> namedConfiguration(const std::string &Value) {
+  if (Value.empty())
     return Json("default prototype");
-  if (Value[std::strspn(Value, " \t\r\n")] == '{')
+  const std::size_t First = Value.find_first_not_of(" \t\r\n");
+  if (First != std::string::npos && Value[First] == '{')
     return Json{{"fnv1a64", fnv1a64(Value)}, {"text", Value}};
   const auto Bytes = readFile(Value);
   if (!Bytes)
@@ -27,10 +23,10 @@ static Expected<Json> namedConfiguration() {
   return Json{{"file", Value}, {"fnv1a64", fnv1a64(Text)}, {"text", Text}};
 }
 
-Expected<Json> machineConfiguration() {
-  Expected<Json> Base = namedConfiguration();
-  const char *Set = std::getenv("VORION_SET");
-  if (!Base || !Set || !*Set)
+Expected<Json> machineConfiguration(const DeviceOptions &O) {
+  Expected<Json> Base = namedConfiguration(O.text("VORION_CONFIG"));
+  const std::string Set = O.text("VORION_SET");
+  if (!Base || Set.empty())
     return Base;
   return Json{{"base", *Base}, {"set", Set}};
 }

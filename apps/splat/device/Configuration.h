@@ -1,14 +1,15 @@
-/// The machine that a Vorion device is, as the environment asks for it.
+/// The machine that a Vorion device is, as reports have it.
 #pragma once
 
+#include "DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace vorion::splat {
 
-/// What VORION_CONFIG names, a file or the text itself, with the values that
-/// VORION_SET changes, as reports have it (runtime/include/vorion/runtime.h).
-Expected<nlohmann::ordered_json> machineConfiguration();
+/// What VORION_CONFIG of \p O names, a file or the text itself, with the values
+/// that VORION_SET changes (runtime/include/vorion/runtime.h).
+Expected<nlohmann::ordered_json> machineConfiguration(const DeviceOptions &O);
 
 } // namespace vorion::splat

@@ -1,8 +1,9 @@
 #include "Device.h"
 
-#include <cstdlib>
+#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -15,13 +16,42 @@ struct Candidate {
   std::string Name;
 };
 
-std::vector<Candidate> allDevices() {
+/// Opens the devices of \p P with \p Options if it is a Vorion platform. The
+/// error says why it has none.
+Expected<Success> openPlatform(const cl::Platform &P,
+                               const DeviceOptions &Options) {
+  const auto Open = reinterpret_cast<clOpenDevicesVORION_fn>(
+      clGetExtensionFunctionAddressForPlatform(P(), "clOpenDevicesVORION"));
+  if (!Open)
+    return Success{};
+  std::vector<cl_option_vorion> List;
+  for (const auto &[Name, Text] : Options.given())
+    List.push_back({Name.c_str(), Text.c_str()});
+  std::array<char, 4096> Problem{};
+  const cl_int Status = Open(P(), static_cast<cl_uint>(List.size()),
+                             List.data(), Problem.size(), Problem.data());
+  if (Status == CL_SUCCESS)
+    return Success{};
+  if (Problem[0] == '\0')
+    return clError("opening the Vorion device", Status);
+  return Error{"", Problem.data(),
+               Status == CL_OUT_OF_HOST_MEMORY ? ExitCode::LimitReached
+                                               : ExitCode::InputFile};
+}
+
+/// All devices that can be opened; \p Problem is why a platform has none.
+std::vector<Candidate> allDevices(const DeviceOptions &Options,
+                                  std::optional<Error> &Problem) {
   std::vector<cl::Platform> Platforms;
   // No platform at all is an error code here and an empty list for us.
   if (cl::Platform::get(&Platforms) != CL_SUCCESS)
     return {};
   std::vector<Candidate> Found;
   for (const cl::Platform &P : Platforms) {
+    if (auto Opened = openPlatform(P, Options); !Opened) {
+      Problem = Opened.error();
+      continue;
+    }
     std::vector<cl::Device> Devices;
     if (P.getDevices(CL_DEVICE_TYPE_ALL, &Devices) != CL_SUCCESS)
       continue;
@@ -41,12 +71,6 @@ const Candidate *choose(const std::vector<Candidate> &All,
 }
 
 Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
-  const char *Config = std::getenv("VORION_CONFIG");
-  if (All.empty() && Config && *Config)
-    return Error{"", fmt::format("no OpenCL device, expected a valid "
-                                 "VORION_CONFIG, which is \"{}\", and a Vorion "
-                                 "platform (source scripts/env.sh)",
-                                 Config)};
   if (All.empty())
     return Error{"", "no OpenCL device, expected one of a Vorion platform "
                      "(source scripts/env.sh)"};
@@ -63,13 +87,36 @@ Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
 
 } // namespace
 
-Expected<Device> Device::open(const std::string &Wanted) {
-  const std::vector<Candidate> All = allDevices();
+/// What the platform tells of commands that fail, on threads of its own.
+struct Device::Messages {
+  std::mutex Lock;
+  std::string Last;
+
+  static void CL_CALLBACK receive(const char *Text, const void * /*Status*/,
+                                  std::size_t /*Bytes*/, void *Data) {
+    auto &M = *static_cast<Messages *>(Data);
+    const std::lock_guard Held(M.Lock);
+    M.Last = Text;
+  }
+};
+
+Device::Device() : Told(std::make_shared<Messages>()) {}
+
+std::string Device::takeMessage() const {
+  const std::lock_guard Held(Told->Lock);
+  return std::exchange(Told->Last, {});
+}
+
+Expected<Device> Device::open(const std::string &Wanted,
+                              const DeviceOptions &Options) {
+  std::optional<Error> Problem;
+  const std::vector<Candidate> All = allDevices(Options, Problem);
   const Candidate *Chosen = choose(All, Wanted);
   if (!Chosen)
-    return noDevice(All, Wanted);
+    return Problem ? *Problem : noDevice(All, Wanted);
 
   Device D;
+  D.Options = Options;
   D.Handle = Chosen->Handle;
   D.Name = Chosen->Name;
   D.ComputeUnits = D.Handle.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
@@ -77,7 +124,8 @@ Expected<Device> Device::open(const std::string &Wanted) {
   D.LargestAllocation = D.Handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
 
   cl_int Status = CL_SUCCESS;
-  D.Context = cl::Context(D.Handle, nullptr, nullptr, nullptr, &Status);
+  D.Context =
+      cl::Context(D.Handle, nullptr, Messages::receive, D.Told.get(), &Status);
   if (Status != CL_SUCCESS)
     return clError("creating a context on " + D.Name, Status);
   for (const auto &[Queue, Properties] :

@@ -1,12 +1,14 @@
 /// The OpenCL device that renders.
 #pragma once
 
+#include "DeviceOptions.h"
 #include "OpenCl.h"
 #include "TimeReport.h"
 #include "splat/KernelCounters.h" // generated from intrinsics/Counters.td
 
 #include <CL/cl_vorion.h>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -17,17 +19,24 @@ class Device {
 public:
   /// Opens the first device whose name contains \p Wanted, or, where that is
   /// empty, "Vorion", or else the first device there is. The error lists what
-  /// was found.
-  static Expected<Device> open(const std::string &Wanted);
+  /// was found, or says why a Vorion platform has no device. \p Options are for
+  /// that platform alone.
+  static Expected<Device> open(const std::string &Wanted,
+                               const DeviceOptions &Options = {});
 
   const cl::Context &context() const { return Context; }
-  /// \p Profiled: the one whose kernels are clocked where the environment's
+  /// \p Profiled: the one whose kernels are clocked where the option
   /// VORION_TIME is "profiled". What is given to one queue must have ended
   /// before something is given to the other.
   const cl::CommandQueue &queue(bool Profiled = false) const {
     return Profiled ? ProfiledQueue : Queue;
   }
   const cl::Device &handle() const { return Handle; }
+  /// What it was opened with.
+  const DeviceOptions &options() const { return Options; }
+  /// Why the last command failed, in the platform's words; empty where it does
+  /// not say. A second call gives nothing.
+  std::string takeMessage() const;
 
   const std::string &name() const { return Name; }
   /// Device and driver version, and the platform's.
@@ -48,8 +57,11 @@ public:
   Expected<std::optional<TimeReport>> timeReport(const cl::Event &Event) const;
 
 private:
-  Device() = default;
+  struct Messages;
+  Device();
 
+  DeviceOptions Options;
+  std::shared_ptr<Messages> Told; ///< before the context, which tells it
   cl::Device Handle;
   cl::Context Context;
   cl::CommandQueue Queue, ProfiledQueue;

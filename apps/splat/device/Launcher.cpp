@@ -2,6 +2,7 @@
 
 #include "../io/Hash.h"
 #include "Kernels.h"
+#include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -26,13 +27,27 @@ std::string optionsOf(const ProgramSpec &Spec) {
   return Options;
 }
 
-/// What keeps the platform from keeping compiled kernels, if \p Log of a
-/// program tells of that.
-std::optional<Error> cacheError(const std::string &Log) {
-  const std::size_t At = Log.find(CL_KERNEL_CACHE_PROBLEM_VORION);
-  if (At == std::string::npos)
-    return std::nullopt;
-  return Error{"", Log.substr(At, Log.find('\n', At) - At)};
+/// From \p Words in \p Log to the end of the line; empty if it lacks them.
+std::string lineFrom(std::string_view Words, const std::string &Log) {
+  const std::size_t At = Log.find(Words);
+  return At == std::string::npos ? std::string()
+                                 : Log.substr(At, Log.find('\n', At) - At);
+}
+
+/// The file that kept program \p Name from being compiled, if \p Log tells of
+/// one: the platform's of its cache, clang's of any other. Its source may be
+/// good.
+std::optional<Error> fileError(const std::string &Name,
+                               const std::string &Log) {
+  if (std::string Cache = lineFrom(CL_KERNEL_CACHE_PROBLEM_VORION, Log);
+      !Cache.empty())
+    return Error{"", std::move(Cache)};
+  for (const char *Words : {"cannot open file '", "error reading '"})
+    if (const std::string Unread = lineFrom(Words, Log); !Unread.empty())
+      return Error{"", fmt::format("kernel program '{}' cannot be compiled: "
+                                   "{}, expected files that can be read",
+                                   Name, Unread)};
+  return std::nullopt;
 }
 
 double mebibytes(std::uint64_t Bytes) {
@@ -124,8 +139,8 @@ void Launcher::build(const ProgramSpec &Spec) {
     Status = Program.build(Dev.handle(), Options.c_str());
   if (Status != CL_SUCCESS) {
     BuildLog = Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Dev.handle());
-    if (auto Cache = cacheError(BuildLog)) {
-      Failure = std::move(Cache);
+    if (auto File = fileError(Spec.Name, BuildLog)) {
+      Failure = std::move(File);
       BuildLog.clear(); // it says the same
       return;
     }
@@ -160,25 +175,8 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
   }
   Status = Done.wait();
   const auto Outcome = Done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>();
-  // Compiled when it is started.
-  if (Outcome == CL_OUT_OF_HOST_MEMORY)
-    if (auto Cache = cacheError(
-            K.getInfo<CL_KERNEL_PROGRAM>().getBuildInfo<CL_PROGRAM_BUILD_LOG>(
-                Dev.handle()))) {
-      Failure = std::move(Cache);
-      return;
-    }
-  if (Outcome == CL_MEM_OBJECT_ALLOCATION_FAILURE) {
-    Failure = clError("running kernel " + Name, Outcome);
-    return;
-  }
   if (Status != CL_SUCCESS || Outcome < 0) {
-    Failure = Error{"",
-                    fmt::format("kernel '{}' failed on {} ({}), expected it to "
-                                "run to its end",
-                                Name, Dev.name(),
-                                statusName(Outcome < 0 ? Outcome : Status)),
-                    ExitCode::Trap};
+    Failure = launchError(Name, Outcome < 0 ? Outcome : Status);
     return;
   }
   const double Seconds = secondsSince(Start);
@@ -188,6 +186,22 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
     return;
   }
   account({Name, 1, Seconds, Dev.counters(Done), std::move(*Time)});
+}
+
+Error Launcher::launchError(const std::string &Name, cl_int Status) const {
+  const std::string Message = Dev.takeMessage();
+  // Compiled when it is started: what is wrong are files, not the kernel.
+  if (Status == CL_OUT_OF_HOST_MEMORY && !Message.empty())
+    return Error{"", Message};
+  if (!Message.empty())
+    printNote(fmt::format("vorion: error: {}\n", Message));
+  if (Status == CL_MEM_OBJECT_ALLOCATION_FAILURE)
+    return clError("running kernel " + Name, Status);
+  return Error{"",
+               fmt::format("kernel '{}' failed on {} ({}), expected it to run "
+                           "to its end",
+                           Name, Dev.name(), statusName(Status)),
+               ExitCode::Trap};
 }
 
 void Launcher::account(KernelReport Report) {

@@ -129,6 +129,9 @@ public:
 private:
   void launch(const cl::Kernel &K, const std::string &Name,
               const cl::NDRange &Global, const cl::NDRange &Local);
+  /// Why a launch of kernel \p Name ended with \p Status; says what the
+  /// platform tells beside it.
+  Error launchError(const std::string &Name, cl_int Status) const;
   void account(KernelReport Report);
   void countCopy(std::uint64_t Bytes);
   void endStage();

@@ -2,6 +2,7 @@
 /// that it is needed, and what it adds.
 #pragma once
 
+#include "../device/DeviceOptions.h"
 #include "../picture/Options.h"
 #include "../scene/Scene.h"
 #include "ViewFacts.h"
@@ -33,8 +34,9 @@ struct EffectInputs {
   const Scene &S;
   const RenderOptions &Options;
   const ViewFacts &Facts;
-  bool KeepPairs = false; ///< --dump-pairs
-  bool Depth = false;     ///< --depth
+  bool KeepPairs = false;     ///< --dump-pairs
+  bool Depth = false;         ///< --depth
+  DeviceOptions Machine = {}; ///< what the device is opened with
 };
 
 /// A record of the registry; each is defined in a file of its own.

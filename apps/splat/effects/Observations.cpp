@@ -3,7 +3,6 @@
 
 #include "Registry.h"
 
-#include <cstdlib>
 #include <initializer_list>
 
 namespace vorion::splat {
@@ -11,39 +10,40 @@ namespace vorion::splat {
 namespace {
 
 /// On if one of \p Variables is set to more than nothing.
-Finding environment(std::initializer_list<const char *> Variables) {
+Finding asked(const EffectInputs &In,
+              std::initializer_list<const char *> Variables) {
   std::string Names;
   for (const char *Name : Variables) {
-    const char *Value = std::getenv(Name);
-    if (Value && *Value)
-      return {true, std::string(Name) + "=" + Value};
+    const std::string Text = In.Machine.text(Name);
+    if (!Text.empty())
+      return {true, std::string(Name) + "=" + Text};
     Names += (Names.empty() ? "" : ", ") + std::string(Name);
   }
   return {false, "not asked (" + Names + ")"};
 }
 
-Finding detectClock(const EffectInputs &) {
-  Finding F = environment({"VORION_TIME"});
+Finding detectClock(const EffectInputs &In) {
+  Finding F = asked(In, {"VORION_TIME"});
   if (!F.Needed)
     F.Figure = "not asked (--time, --clock)";
   return F;
 }
 
-Finding detectNumerics(const EffectInputs &) {
-  return environment({"VORION_NUMERICS"});
+Finding detectNumerics(const EffectInputs &In) {
+  return asked(In, {"VORION_NUMERICS"});
 }
 
-Finding detectCheckers(const EffectInputs &) {
-  return environment({"VORION_CHECK"});
+Finding detectCheckers(const EffectInputs &In) {
+  return asked(In, {"VORION_CHECK"});
 }
 
-Finding detectTraces(const EffectInputs &) {
-  return environment(
-      {"VORION_TRACE", "VORION_TIMELINE", "VORION_PROFILE", "VORION_STATS"});
+Finding detectTraces(const EffectInputs &In) {
+  return asked(In, {"VORION_TRACE", "VORION_TIMELINE", "VORION_PROFILE",
+                    "VORION_STATS"});
 }
 
-Finding detectDebugger(const EffectInputs &) {
-  return environment({"VORION_GDB"});
+Finding detectDebugger(const EffectInputs &In) {
+  return asked(In, {"VORION_GDB"});
 }
 
 Finding detectPairs(const EffectInputs &In) {

@@ -92,7 +92,7 @@ Expected<Json> jsonReport(const RenderRecord &R) {
               {"compute_units", R.Dev.computeUnits()},
               {"global_bytes", R.Dev.globalBytes()}};
   if (R.Dev.isVorion()) {
-    auto Configuration = machineConfiguration();
+    auto Configuration = machineConfiguration(R.Dev.options());
     if (!Configuration)
       return Configuration.error();
     Device["configuration"] = std::move(*Configuration);

@@ -21,8 +21,8 @@ extern "C" {
  * rasterizers for this kernel alone. */
 
 /* How long the kernel took on the machine, and why: JSON, a NUL-terminated
- * char[] (docs/model.md). Empty unless the environment's VORION_TIME or the
- * configuration turned the clock on when the platform was opened;
+ * char[] (docs/model.md). Empty unless the option VORION_TIME or the
+ * configuration turned the clock on when the devices were opened;
  * VORION_TIME=profiled does so for the kernels of queues that have
  * CL_QUEUE_PROFILING_ENABLE. */
 #define CL_EVENT_TIME_REPORT_VORION 0x4F80
@@ -33,12 +33,39 @@ extern "C" {
  * when it is started ends with CL_OUT_OF_HOST_MEMORY. */
 #define CL_KERNEL_CACHE_PROBLEM_VORION "kernel cache: "
 
+/* Messages. The platform tells of a kernel that fails through the function that
+ * the program gave clCreateContext: the first argument is the text, the second
+ * the cl_int that the kernel's event ends with. Without such a function it
+ * writes the text to standard error. */
+
+/* Parameters are named as in CL/cl.h.
+ * NOLINTBEGIN(readability-identifier-naming) */
+
+/* What devices are opened with: the name of one of the environment's variables
+ * that they read (VORION_SET, VORION_TIME, VORION_TRACE and others,
+ * docs/debugging.md), and its text. */
+typedef struct cl_option_vorion {
+  const char *name;
+  const char *text;
+} cl_option_vorion;
+
+/* Opens the platform's devices, which clGetDeviceIDs else does, with options
+ * that go before the environment's variables of their names. Devices stay open,
+ * as they were opened, for as long as the process. problem, if not NULL,
+ * receives why they cannot be opened, NUL-terminated and cut off at size;
+ * nothing is printed then.
+ * CL_INVALID_VALUE: an option that there is not.
+ * CL_INVALID_OPERATION: the devices are open with other options.
+ * CL_OUT_OF_HOST_MEMORY: no room for a machine's memory.
+ * CL_DEVICE_NOT_AVAILABLE: an option whose text is wrong. */
+typedef cl_int(CL_API_CALL *clOpenDevicesVORION_fn)(
+    cl_platform_id platform, cl_uint num_options,
+    const cl_option_vorion *options, size_t size, char *problem);
+
 /* As clGetEventInfo. CL_INVALID_EVENT: not an event of a kernel on a Vorion
  * device. CL_PROFILING_INFO_NOT_AVAILABLE: the kernel has not ended, or has
  * failed. CL_INVALID_VALUE: an unknown name, or size too small for the value.
  */
-/* Parameters are named as in CL/cl.h.
- * NOLINTBEGIN(readability-identifier-naming) */
 typedef cl_int(CL_API_CALL *clGetEventInfoVORION_fn)(cl_event event,
                                                      cl_uint name, size_t size,
                                                      void *value,

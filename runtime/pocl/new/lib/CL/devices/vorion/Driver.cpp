@@ -4,6 +4,8 @@
 
 #include "Event.h"
 #include "KernelCache.h"
+#include "Messages.h"
+#include "Opening.h"
 #include "Worker.h"
 
 extern "C" {
@@ -38,15 +40,12 @@ constexpr size_t PrintBufferBytes = 1u << 20;
 /// "VO" of Vorion; there is no PCI vendor number.
 constexpr cl_uint VendorId = 0x564F;
 
-struct DeviceCloser {
-  void operator()(vx_device *Device) const { vx_device_close(Device); }
-};
-
 /// One device of the platform.
 struct VorionDevice {
-  explicit VorionDevice(vx_device *Opened)
-      : Machine(Opened), Kernels(Opened), Thread(Opened, Kernels) {}
-  std::unique_ptr<vx_device, DeviceCloser> Machine;
+  explicit VorionDevice(Machine Opened)
+      : Opened(std::move(Opened)), Kernels(this->Opened.get()),
+        Thread(this->Opened.get(), Kernels) {}
+  Machine Opened;
   vx_device_info Info{};
   std::string Name, BuildHash;
   cl_bool Available = CL_TRUE;
@@ -137,7 +136,7 @@ void keepSourceLines() {
   bool Wanted = false;
   for (const char *Name :
        {"VORION_PROFILE", "VORION_CHECK", "VORION_GDB", "VORION_NUMERICS"})
-    Wanted |= getenv(Name) != nullptr;
+    Wanted |= isOptionSet(Name);
   if (!Wanted)
     return;
   const char *Flags = getenv("POCL_EXTRA_BUILD_FLAGS");
@@ -148,14 +147,12 @@ void keepSourceLines() {
 
 cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
   keepSourceLines();
-  vx_device *Opened = nullptr;
-  if (vx_device_open(Parameters && *Parameters ? Parameters : nullptr,
-                     &Opened) != VX_OK) {
-    fprintf(stderr, "vorion: error: %s\n", vx_last_error());
-    return CL_DEVICE_NOT_AVAILABLE;
-  }
-  auto Own = std::make_unique<VorionDevice>(Opened);
-  if (vx_device_get_info(Opened, &Own->Info) != VX_OK)
+  cl_int Status = CL_SUCCESS;
+  Machine Opened = openMachine(Parameters, Status);
+  if (!Opened)
+    return Status;
+  auto Own = std::make_unique<VorionDevice>(std::move(Opened));
+  if (vx_device_get_info(Own->Opened.get(), &Own->Info) != VX_OK)
     return CL_DEVICE_NOT_AVAILABLE;
   const vx_device_info &Info = Own->Info;
   Own->BuildHash = "vorion-xvortex2-xvorion1-" + std::to_string(Info.lanes) +
@@ -203,11 +200,11 @@ cl_int allocate(cl_device_id Device, cl_mem Buffer, void *) {
     return CL_MEM_OBJECT_ALLOCATION_FAILURE;
   uint32_t Address = 0;
   void *Host = nullptr;
-  if (vx_mem_alloc(Own.Machine.get(), Buffer->size, &Address) != VX_OK)
+  if (vx_mem_alloc(Own.Opened.get(), Buffer->size, &Address) != VX_OK)
     return CL_MEM_OBJECT_ALLOCATION_FAILURE;
-  if (vx_mem_host_pointer(Own.Machine.get(), Address, Buffer->size, &Host) !=
+  if (vx_mem_host_pointer(Own.Opened.get(), Address, Buffer->size, &Host) !=
       VX_OK) {
-    vx_mem_free(Own.Machine.get(), Address);
+    vx_mem_free(Own.Opened.get(), Address);
     return CL_MEM_OBJECT_ALLOCATION_FAILURE;
   }
   pocl_mem_identifier &Id = Buffer->device_ptrs[Device->global_mem_id];
@@ -222,22 +219,51 @@ cl_int allocate(cl_device_id Device, cl_mem Buffer, void *) {
 void release(cl_device_id Device, cl_mem Buffer) {
   pocl_mem_identifier &Id = Buffer->device_ptrs[Device->global_mem_id];
   vx_mem_free(
-      deviceOf(Device).Machine.get(),
+      deviceOf(Device).Opened.get(),
       static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id.device_addr)));
   Id.mem_ptr = nullptr;
   Id.device_addr = nullptr;
   Id.version = 0;
 }
 
-// PoCL's copying code writes through the host's view of the memory: what it
-// wrote is said afterwards, of rectangles the whole buffer.
+// PoCL's copying code uses the host's view of the memory: what it did is said
+// afterwards, of rectangles the whole buffer.
+
+using Told = vx_status (*)(vx_device *, uint32_t, uint64_t);
+
+void tell(Told What, void *Data, const pocl_mem_identifier *Id, size_t Offset,
+          size_t Size) {
+  const auto Address =
+      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr));
+  What(static_cast<VorionDevice *>(Data)->Opened.get(),
+       static_cast<uint32_t>(Address + Offset), Size);
+}
 
 void tellWritten(void *Data, const pocl_mem_identifier *Id, size_t Offset,
                  size_t Size) {
-  const auto Address =
-      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr));
-  vx_mem_written(static_cast<VorionDevice *>(Data)->Machine.get(),
-                 static_cast<uint32_t>(Address + Offset), Size);
+  tell(vx_mem_written, Data, Id, Offset, Size);
+}
+
+void tellRead(void *Data, const pocl_mem_identifier *Id, size_t Offset,
+              size_t Size) {
+  tell(vx_mem_read, Data, Id, Offset, Size);
+}
+
+void read(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
+          size_t Offset, size_t Size) {
+  pocl_driver_read(Data, To, From, Buffer, Offset, Size);
+  tellRead(Data, From, Offset, Size);
+}
+
+void readRect(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
+              const size_t *BufferOrigin, const size_t *HostOrigin,
+              const size_t *Region, size_t BufferRowPitch,
+              size_t BufferSlicePitch, size_t HostRowPitch,
+              size_t HostSlicePitch) {
+  pocl_driver_read_rect(Data, To, From, Buffer, BufferOrigin, HostOrigin,
+                        Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
+                        HostSlicePitch);
+  tellRead(Data, From, 0, Buffer->size);
 }
 
 void write(void *Data, const void *From, pocl_mem_identifier *To, cl_mem Buffer,
@@ -262,6 +288,7 @@ void copy(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
           size_t FromOffset, size_t Size) {
   pocl_driver_copy(Data, To, ToBuffer, From, FromBuffer, ToOffset, FromOffset,
                    Size);
+  tellRead(Data, From, FromOffset, Size);
   tellWritten(Data, To, ToOffset, Size);
 }
 
@@ -271,6 +298,7 @@ void copyWithSize(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
                   size_t ToOffset, size_t FromOffset, size_t Size) {
   pocl_driver_copy_with_size(Data, To, ToBuffer, From, FromBuffer, SizeId,
                              SizeBuffer, ToOffset, FromOffset, Size);
+  tellRead(Data, From, FromOffset, Size);
   tellWritten(Data, To, ToOffset, Size);
 }
 
@@ -282,6 +310,7 @@ void copyRect(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
   pocl_driver_copy_rect(Data, To, ToBuffer, From, FromBuffer, ToOrigin,
                         FromOrigin, Region, ToRowPitch, ToSlicePitch,
                         FromRowPitch, FromSlicePitch);
+  tellRead(Data, From, 0, FromBuffer->size);
   tellWritten(Data, To, 0, ToBuffer->size);
 }
 
@@ -305,6 +334,14 @@ cl_int freeMappingPointer(void *, pocl_mem_identifier *, cl_mem,
                           mem_mapping_t *Map) {
   Map->host_ptr = nullptr;
   return CL_SUCCESS;
+}
+
+cl_int map(void *Data, pocl_mem_identifier *From, cl_mem Buffer,
+           mem_mapping_t *Map) {
+  const cl_int Status = pocl_driver_map_mem(Data, From, Buffer, Map);
+  if (Map->map_flags & CL_MAP_READ)
+    tellRead(Data, From, Map->offset, Map->size);
+  return Status;
 }
 
 cl_int unmap(void *Data, pocl_mem_identifier *To, cl_mem Buffer,
@@ -331,7 +368,7 @@ void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
   const KernelCache::Problem Problem =
       deviceOf(Device).Kernels.compile(Command, Kernel, Specialize);
   if (!Problem.Text.empty())
-    fprintf(stderr, "vorion: error: %s\n", Problem.Text.c_str());
+    tellFailure(Kernel->context, Problem.status(), Problem.Text);
 }
 
 int freeProgram(cl_device_id Device, cl_program Program, unsigned Index) {
@@ -424,15 +461,15 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
 
   Ops->alloc_mem_obj = allocate;
   Ops->free = release;
-  Ops->read = pocl_driver_read;
-  Ops->read_rect = pocl_driver_read_rect;
+  Ops->read = read;
+  Ops->read_rect = readRect;
   Ops->write = write;
   Ops->write_rect = writeRect;
   Ops->copy = copy;
   Ops->copy_with_size = copyWithSize;
   Ops->copy_rect = copyRect;
   Ops->memfill = fill;
-  Ops->map_mem = pocl_driver_map_mem;
+  Ops->map_mem = map;
   Ops->unmap_mem = unmap;
   Ops->get_mapping_ptr = mappingPointer;
   Ops->free_mapping_ptr = freeMappingPointer;

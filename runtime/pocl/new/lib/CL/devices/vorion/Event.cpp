@@ -5,11 +5,10 @@
 #include <cstring>
 #include <vorion/EventCounters.h>
 
-using namespace vorion;
+namespace vorion {
 
-cl_int CL_API_CALL pocl_vorion_get_event_info(cl_event Event, cl_uint Name,
-                                              size_t Size, void *Value,
-                                              size_t *SizeRet) {
+cl_int CL_API_CALL getEventInfo(cl_event Event, cl_uint Name, size_t Size,
+                                void *Value, size_t *SizeRet) {
   if (!IS_CL_OBJECT_VALID(Event) ||
       Event->command_type != CL_COMMAND_NDRANGE_KERNEL || !Event->queue ||
       strcmp(Event->queue->device->ops->device_name, "vorion") != 0)
@@ -36,3 +35,5 @@ cl_int CL_API_CALL pocl_vorion_get_event_info(cl_event Event, cl_uint Name,
   POCL_UNLOCK_OBJ(Event);
   return Status;
 }
+
+} // namespace vorion

@@ -22,4 +22,8 @@ inline EventData *eventData(cl_event Event) {
   return static_cast<EventData *>(Event->data);
 }
 
+/// clGetEventInfoVORION of CL/cl_vorion.h.
+cl_int CL_API_CALL getEventInfo(cl_event Event, cl_uint Name, size_t Size,
+                                void *Value, size_t *SizeRet);
+
 } // namespace vorion

@@ -54,7 +54,7 @@ std::string keepImage(const std::string &From, const std::string &To) {
   char *Bytes = nullptr;
   uint64_t Size = 0;
   if (pocl_read_file(From.c_str(), &Bytes, &Size) != 0)
-    return From + ": cannot be read";
+    return From + ": cannot be read: " + std::strerror(errno);
   const int Status = pocl_write_checked_file(To.c_str(), Bytes, Size);
   free(Bytes);
   pocl_remove(From.c_str());
@@ -70,10 +70,11 @@ bool hasWhole(const std::string &Path) {
   return Found == POCL_CHECKED_FILE_OK;
 }
 
-/// Whether \p Output of a program says that files cannot be written, rather
-/// than what is wrong with their contents.
+/// Whether \p Output of a program says that files cannot be read or written,
+/// rather than what is wrong with their contents.
 bool tellsOfFiles(const std::string &Output) {
-  for (const int Reason : {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO})
+  for (const int Reason :
+       {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO, EMFILE, ENFILE})
     if (Output.find(std::strerror(Reason)) != std::string::npos)
       return true;
   return false;
@@ -89,6 +90,20 @@ std::string KernelCache::imagePath(_cl_command_node *Command, cl_kernel Kernel,
   pocl_cache_final_binary_path(Path, Kernel->program, Command->program_device_i,
                                Kernel, Command, Specialize);
   return fs::path(Path).replace_extension(".elf").string();
+}
+
+KernelCache::Problem KernelCache::problem(_cl_command_node *Command,
+                                          cl_kernel Kernel,
+                                          const std::string &Text, bool Files) {
+  Problem P{Text, Files};
+  if (!Files)
+    P.Text = std::string("kernel ") + Kernel->name + ": " + Text;
+  else if (!Text.starts_with(CL_KERNEL_CACHE_PROBLEM_VORION))
+    P.Text = CL_KERNEL_CACHE_PROBLEM_VORION + Text;
+  const std::string Line = P.Text + "\n";
+  pocl_append_to_buildlog(Kernel->program, Command->program_device_i,
+                          strdup(Line.c_str()), Line.size());
+  return P;
 }
 
 KernelCache::Problem KernelCache::make(_cl_command_node *Command,
@@ -136,19 +151,9 @@ KernelCache::Problem KernelCache::make(_cl_command_node *Command,
   if (Text.empty())
     return {};
 
-  Problem P;
-  P.Files = pocl_file_problem() != nullptr || tellsOfFiles(Text);
-  P.Text = std::string("kernel ") + Kernel->name + ": ";
   if (pocl_file_problem())
-    P.Text += pocl_file_problem();
-  else if (P.Files)
-    P.Text += CL_KERNEL_CACHE_PROBLEM_VORION + Text;
-  else
-    P.Text += Text;
-  const std::string Line = P.Text + "\n";
-  pocl_append_to_buildlog(Kernel->program, DeviceIndex, strdup(Line.c_str()),
-                          Line.size());
-  return P;
+    return problem(Command, Kernel, pocl_file_problem(), true);
+  return problem(Command, Kernel, Text, tellsOfFiles(Text));
 }
 
 KernelCache::Problem KernelCache::compile(_cl_command_node *Command,
@@ -176,7 +181,7 @@ const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P) {
   if (Status != VX_OK ||
       vx_image_find_kernel(Image, Kernel->name, &New.Number) != VX_OK ||
       vx_image_get_kernel(Image, New.Number, &New.Info) != VX_OK) {
-    P = {std::string("kernel ") + Kernel->name + ": " + vx_last_error(), false};
+    P = problem(Command, Kernel, vx_last_error(), Status == VX_ERROR_FILE);
     return nullptr;
   }
   return &Kernels.emplace(Path, std::move(New)).first->second;

@@ -35,7 +35,12 @@ public:
   /// Why there is no image of a kernel.
   struct Problem {
     std::string Text;   ///< empty if nothing is wrong
-    bool Files = false; ///< the cache cannot be written, the kernel is good
+    bool Files = false; ///< the cache cannot be used, the kernel is good
+
+    /// What a command that needed the image ends with.
+    cl_int status() const {
+      return Files ? CL_OUT_OF_HOST_MEMORY : CL_BUILD_PROGRAM_FAILURE;
+    }
   };
 
   /// Makes the object and the image of the command's kernel in the cache
@@ -53,6 +58,9 @@ public:
 private:
   static std::string imagePath(_cl_command_node *Command, cl_kernel Kernel,
                                bool Specialize);
+  /// What is wrong about the command's kernel, in the build log too.
+  static Problem problem(_cl_command_node *Command, cl_kernel Kernel,
+                         const std::string &Text, bool Files);
   Problem make(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
                const std::string &ImagePath);
 

@@ -1,6 +1,7 @@
 #include "Launch.h"
 #include "Capture.h"
 #include "Event.h"
+#include "Messages.h"
 
 #include <vorion_abi.h>
 
@@ -11,14 +12,20 @@ namespace vorion {
 
 namespace {
 
-cl_int failed(cl_int Status, const std::string &Text) {
-  fprintf(stderr, "vorion: error: %s\n", Text.c_str());
-  return Status;
-}
+/// Fails one command.
+struct Failing {
+  const _cl_command_node &Command;
 
-cl_int failed(const char *Kernel, cl_int Status, const char *Text) {
-  return failed(Status, std::string("kernel ") + Kernel + ": " + Text);
-}
+  cl_int with(cl_int Status, const std::string &Text) const {
+    tellFailure(Command.sync.event.event->context, Status, Text);
+    return Status;
+  }
+  /// \p Text is about the command's kernel.
+  cl_int kernel(cl_int Status, const char *Text) const {
+    return with(Status, std::string("kernel ") +
+                            Command.command.run.kernel->name + ": " + Text);
+  }
+};
 
 cl_int statusOf(vx_status Status) {
   return Status == VX_ERROR_MEMORY ? CL_MEM_OBJECT_ALLOCATION_FAILURE
@@ -44,14 +51,12 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
                  _cl_command_node *Command) {
   _cl_command_run &Run = Command->command.run;
   const pocl_context &Grid = Run.pc;
-  const char *Name = Run.kernel->name;
+  const Failing Fail{*Command};
 
   KernelCache::Problem Problem;
   const LoadedKernel *Kernel = Kernels.get(Command, Problem);
   if (!Kernel)
-    return failed(Problem.Files ? CL_OUT_OF_HOST_MEMORY
-                                : CL_BUILD_PROGRAM_FAILURE,
-                  Problem.Text);
+    return Fail.with(Problem.status(), Problem.Text);
 
   const pocl_kernel_metadata_t &Meta = *Run.kernel->meta;
   std::vector<unsigned char> Packed(Kernel->Info.args_bytes);
@@ -60,7 +65,7 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
     vx_arg_info Info;
     if (vx_image_get_arg(Kernel->Image.get(), Kernel->Number, I, &Info) !=
         VX_OK)
-      return failed(Name, CL_INVALID_KERNEL_ARGS, vx_last_error());
+      return Fail.kernel(CL_INVALID_KERNEL_ARGS, vx_last_error());
     const pocl_argument &Argument = Run.arguments[I];
     if (Info.kind == VX_ARG_LOCAL) {
       LocalSizes.push_back(Argument.size);
@@ -77,7 +82,7 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
                                            LocalSizes.data(), LocalSizes.size(),
                                            Packed.data(), nullptr);
   if (Status != VX_OK)
-    return failed(Name, CL_OUT_OF_RESOURCES, vx_last_error());
+    return Fail.kernel(CL_OUT_OF_RESOURCES, vx_last_error());
 
   vx_launch_params Params{};
   Params.work_dim = Grid.work_dim;
@@ -96,7 +101,7 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
   if (Status == VX_OK)
     Status = vx_wait(Device, &Result);
   if (Status != VX_OK)
-    return failed(Name, statusOf(Status), vx_last_error());
+    return Fail.kernel(statusOf(Status), vx_last_error());
 
   if (Result.print_bytes) {
     fwrite(Result.print_text, 1, Result.print_bytes, stdout);
@@ -106,13 +111,14 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
     fprintf(stderr,
             "vorion: warning: kernel %s: the print buffer is full, %llu bytes "
             "of printf were dropped\n",
-            Name, static_cast<unsigned long long>(Result.print_dropped));
+            Run.kernel->name,
+            static_cast<unsigned long long>(Result.print_dropped));
   if (Result.outcome != VX_OUTCOME_DONE) {
     const std::string Exit =
         "ended with exit code " + std::to_string(Result.exit_code);
-    return failed(Name, CL_OUT_OF_RESOURCES,
-                  Result.outcome == VX_OUTCOME_EXIT ? Exit.c_str()
-                                                    : Result.report);
+    return Fail.kernel(CL_OUT_OF_RESOURCES, Result.outcome == VX_OUTCOME_EXIT
+                                                ? Exit.c_str()
+                                                : Result.report);
   }
   if (EventData *Data = eventData(Command->sync.event.event)) {
     Data->Counters = Result.counters;

@@ -10,10 +10,8 @@ extern "C" {
 
 void pocl_vorion_init_device_ops(struct pocl_device_ops *ops);
 
-/* clGetEventInfoVORION of CL/cl_vorion.h. */
-cl_int CL_API_CALL pocl_vorion_get_event_info(cl_event event, cl_uint name,
-                                              size_t size, void *value,
-                                              size_t *size_ret);
+/* The function of CL/cl_vorion.h that has this name, or NULL. */
+void *pocl_vorion_extension_function(const char *name);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,14 @@
+#include "DeviceOptions.h"
+
+#include <cstdlib>
+
+namespace vorion::splat {
+
+std::string DeviceOptions::text(const std::string &Variable) const {
+  if (const auto Found = Given.find(Variable); Found != Given.end())
+    return Found->second;
+  const char *Value = std::getenv(Variable.c_str());
+  return Value ? Value : "";
+}
+
+} // namespace vorion::splat

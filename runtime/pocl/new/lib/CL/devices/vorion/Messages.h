@@ -1,0 +1,14 @@
+/// What the driver tells the program.
+#pragma once
+
+#include "vorion.h"
+
+#include <string>
+
+namespace vorion {
+
+/// Tells of a kernel that fails with \p Status: the function that the program
+/// gave clCreateContext, or, if it gave none, standard error.
+void tellFailure(cl_context Context, cl_int Status, const std::string &Text);
+
+} // namespace vorion

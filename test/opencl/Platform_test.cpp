@@ -1,0 +1,103 @@
+/// How a program opens the devices with options of its own, and how it is told
+/// of what goes wrong.
+
+#include "TestDevice.h"
+
+#include <CL/cl_vorion.h>
+
+#include <array>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// The first platform that has the extension; its devices are not open yet.
+class Platform : public testing::Test {
+protected:
+  void SetUp() override {
+    std::vector<cl::Platform> All;
+    cl::Platform::get(&All);
+    for (const cl::Platform &P : All) {
+      Open = reinterpret_cast<clOpenDevicesVORION_fn>(
+          clGetExtensionFunctionAddressForPlatform(P(), "clOpenDevicesVORION"));
+      Chosen = P;
+      if (Open)
+        return;
+    }
+    GTEST_SKIP() << "no Vorion platform: source scripts/env.sh";
+  }
+
+  cl_int open(const std::vector<cl_option_vorion> &Options) {
+    return Open(Chosen(), static_cast<cl_uint>(Options.size()), Options.data(),
+                Problem.size(), Problem.data());
+  }
+  cl::Device device() const {
+    std::vector<cl::Device> Devices;
+    Chosen.getDevices(CL_DEVICE_TYPE_ALL, &Devices);
+    return Devices.at(0);
+  }
+
+  cl::Platform Chosen;
+  clOpenDevicesVORION_fn Open = nullptr;
+  std::array<char, 256> Problem{};
+};
+
+TEST_F(Platform, OptionsOpenAnotherMachineAndWrongOnesSayWhy) {
+  const auto Said = [&] { return std::string(Problem.data()); };
+  EXPECT_EQ(open({{"VORION_CLOCK", "on"}}), CL_INVALID_VALUE);
+  EXPECT_NE(Said().find("no option 'VORION_CLOCK'"), std::string::npos)
+      << Said();
+  EXPECT_EQ(open({{"VORION_SET", "cores=2"}}), CL_DEVICE_NOT_AVAILABLE);
+  EXPECT_NE(Said().find("VORION_SET: unknown key 'cores'"), std::string::npos)
+      << Said();
+  EXPECT_EQ(open({{"VORION_SET", nullptr}}), CL_INVALID_VALUE);
+  EXPECT_EQ(Open(Chosen(), 1, nullptr, 0, nullptr), CL_INVALID_VALUE);
+
+  ASSERT_EQ(open({{"VORION_SET", "clusters=2"}}), CL_SUCCESS) << Said();
+  EXPECT_EQ(device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 16u);
+  // Again the same, but nothing else while they are open.
+  EXPECT_EQ(open({{"VORION_SET", "clusters=2"}}), CL_SUCCESS);
+  EXPECT_EQ(open({}), CL_INVALID_OPERATION);
+  EXPECT_NE(Said().find("other options"), std::string::npos) << Said();
+}
+
+/// What a context's function is told.
+struct Told {
+  std::mutex Lock;
+  std::string Text;
+  cl_int Status = CL_SUCCESS;
+
+  static void CL_CALLBACK receive(const char *Text, const void *Status,
+                                  std::size_t Bytes, void *Data) {
+    auto &T = *static_cast<Told *>(Data);
+    const std::lock_guard Held(T.Lock);
+    T.Text = Text;
+    if (Bytes == sizeof(T.Status))
+      T.Status = *static_cast<const cl_int *>(Status);
+  }
+};
+
+TEST_F(Platform, AContextsFunctionIsToldOfATrapAndNothingIsPrinted) {
+  Told T;
+  const cl::Device Device = device();
+  const cl::Context Context(Device, nullptr, Told::receive, &T);
+  const cl::CommandQueue Queue(Context, Device);
+  cl::Program Program(Context,
+                      "kernel void fault(int x) { *(global int *)8 = x; }");
+  ASSERT_EQ(Program.build(), CL_SUCCESS);
+  cl::Kernel Kernel(Program, "fault");
+  ASSERT_EQ(Kernel.setArg(0, 1), CL_SUCCESS);
+  testing::internal::CaptureStderr();
+  cl::Event Done;
+  EXPECT_EQ(Queue.enqueueNDRangeKernel(Kernel, cl::NullRange, cl::NDRange(16),
+                                       cl::NDRange(16), nullptr, &Done),
+            CL_SUCCESS);
+  EXPECT_NE(Done.wait(), CL_SUCCESS);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  const std::lock_guard Held(T.Lock);
+  EXPECT_EQ(T.Text.substr(0, 13), "kernel fault:") << T.Text;
+  EXPECT_EQ(T.Status, Done.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>());
+}
+
+} // namespace
