@@ -8,8 +8,8 @@ FOLDER is made anew. A fenced text of the page is put where the line before it s
     In `FILE`, before `LINE`:
     In `FILE`, after `LINE`:
 
-LINE is the beginning of a line, without what it is indented by. Texts of language sh are commands, and are run; "sh
-minutes" is run with --all alone.
+A file that is not there is made. LINE is the beginning of a line, without what it is indented by. Texts of language
+sh are commands, and are run; "sh minutes" is run with --all alone.
 Exit codes: 0 all as the page says, 1 not, 2 usage.
 """
 
@@ -48,11 +48,13 @@ def place_of(text, side, line, where):
 
 def put(folder, file, side, line, body):
     path = os.path.join(folder, file)
-    with open(path, encoding="utf-8") as opened:
-        text = opened.read()
+    text = ""
+    if side or os.path.exists(path):
+        with open(path, encoding="utf-8") as opened:
+            text = opened.read()
     at = place_of(text, side, line, file) if side else len(text)
     with open(path, "w", encoding="utf-8") as opened:
-        opened.write(text[:at] + ("" if side else "\n") + body + text[at:])
+        opened.write(text[:at] + ("\n" if text and not side else "") + body + text[at:])
     print(f"put into {file}")
 
 
