@@ -55,9 +55,13 @@ private:
   /// Commands that the constraint's time does not yet let be past.
   unsigned count(const Constraint &C, size_t Index) const {
     unsigned Near = 0;
-    for (size_t J = Index; J-- != 0 && All[J].At + Horizon > All[Index].At;)
-      Near += All[J].What == C.From && isIn(C.Within, All[J], All[Index]) &&
-              All[J].At + C.Ticks > All[Index].At;
+    for (size_t J = Index; J != 0; --J) {
+      const Issued &Past = All[J - 1];
+      if (Past.At + Horizon <= All[Index].At)
+        break;
+      Near += Past.What == C.From && isIn(C.Within, Past, All[Index]) &&
+              Past.At + C.Ticks > All[Index].At;
+    }
     return Near;
   }
 
