@@ -21,7 +21,7 @@ constexpr double Rate = 0.05;
 /// Adam's first step on \p Gradients, from moments and parameters of 0.
 Expected<Finding> firstStep(splat::Launcher &L,
                             const std::vector<float> &Gradients, double Bound) {
-  L.beginStage(Stage::Blend);
+  L.beginStage(splat::Stage::Blend);
   L.build(splat::adamProgram());
   splat::DeviceScene S =
       splat::DeviceScene::upload(L, splat::Scene::sized(Gradients.size(), 0));
@@ -63,7 +63,7 @@ Expected<Finding> constant(splat::Launcher &L, float Value, int Level,
                            double Bound) {
   constexpr int Width = 24, Height = 20;
   constexpr std::size_t Pixels = std::size_t{Width} * Height;
-  L.beginStage(Stage::Blend);
+  L.beginStage(splat::Stage::Blend);
   L.build(splat::lossProgram());
   const splat::Photo Target{
       Width, Height,
