@@ -147,8 +147,9 @@ class LocalMemory:
         change = self.kernel.pick([f"if ({self.one()}) {{ {element}.a = {self.value()}; {element}.b[1] = (ushort)({self.value()}); }}",
                                    f"if ({self.one()}) {element} = turned(&{element}, {self.value()});",
                                    f"if ({self.one()}) {element}.c = (float)(int)({self.value()});"])
-        return (f"{first} {BARRIER} {change} {BARRIER} {self.read(f'{element}.a + {element}.b[0] * 7u + {element}.b[1]')} "
-                f"f += {element}.c; {BARRIER}")
+        # The words come last: they may go to `u` or `v`, which choose the element.
+        return (f"{first} {BARRIER} {change} {BARRIER} f += {element}.c; "
+                f"{self.read(f'{element}.a + {element}.b[0] * 7u + {element}.b[1]')} {BARRIER}")
 
     def passed(self):
         """To functions, some of which have barriers."""
