@@ -5,7 +5,7 @@
 source "$(dirname "$0")/lib.sh"
 cd "$Root"
 
-mapfile -t Sources < <(git ls-files '*.cpp' '*.cc' '*.h' '*.c' | grep -v '^runtime/pocl/new/lib/kernel/')
+mapfile -t Sources < <(git ls-files '*.cpp' '*.cc' '*.h' '*.c')
 if [ "${1:-}" = --fix ]; then
   clang-format-19 -i "${Sources[@]}"
   exit 0
