@@ -15,6 +15,7 @@ import os
 import re
 import subprocess
 import sys
+import textwrap
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BEGIN, END = "<!-- house -->\n", "<!-- /house -->\n"
@@ -106,15 +107,16 @@ def upward(found, order):
 
 
 def drawing(found, order, up):
-    lines = ["| folder | uses, within its floor | and below |", "|---|---|---|"]
+    lines = ["| folder | uses in its own component | uses in other components |", "|---|---|---|"]
     for r in order:
         own = sorted(t for t in found[r] if floor(t) == floor(r))
         below = sorted(t for t in found[r] if floor(t) != floor(r))
         top = r.split("/")[0]
-        short = [(t[len(top) + 1:] or t) + (" (upward)" if (r, t) in up else "") for t in own]
+        short = [(t[len(top) + 1:] or t) + (" (exception)" if (r, t) in up else "") for t in own]
         lines.append(f"| `{r}` | {', '.join(short)} | {', '.join(below)} |")
-    lines += ["", "Arrows upward: " + ("none." if not up else "")]
-    lines += [f"- `{r}` uses `{t}`: {EXCEPTIONS.get((r, t), 'NO REASON GIVEN')}." for r, t in sorted(up)]
+    lines += ["", "Exceptions to the order:" + (" none." if not up else "")]
+    lines += [textwrap.fill(f"- `{r}` uses `{t}`: {EXCEPTIONS.get((r, t), 'NO REASON GIVEN')}.", 100, subsequent_indent="  ",
+                            break_on_hyphens=False) for r, t in sorted(up)]
     return "\n".join(lines).rstrip() + "\n"
 
 
