@@ -18,7 +18,7 @@ using glm::dvec4;
 
 /// A tile's sums, by place in its list of candidates.
 struct TileSums {
-  std::vector<std::uint32_t> Gaussians;
+  std::vector<uint32_t> Gaussians;
   std::vector<SplatSums> Sums;
 };
 
@@ -203,7 +203,7 @@ std::vector<SplatSums> blendBackward(const std::vector<Splat<double>> &Splats,
     TileSums &Own = Tiles[Tile];
     Own.Sums.resize(List.size());
     for (const auto &C : List)
-      Own.Gaussians.push_back(static_cast<std::uint32_t>(C.Index));
+      Own.Gaussians.push_back(static_cast<uint32_t>(C.Index));
     std::vector<Contribution<double>> Seen;
     const Rect Area = Walk.pixels(Tile);
     for (int Y = Area.Y0; Y < Area.Y1; ++Y)

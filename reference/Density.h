@@ -7,7 +7,7 @@
 
 namespace vorion::reference {
 
-enum class Fate : std::uint8_t { Drop, Keep, Clone, Split };
+enum class Fate : uint8_t { Drop, Keep, Clone, Split };
 
 /// Gaussians that a fate leaves.
 constexpr std::size_t becomes(Fate F) {

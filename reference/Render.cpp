@@ -6,7 +6,7 @@ namespace vorion::reference {
 
 template <typename Real> double Picture<Real>::doubtfulShare() const {
   const auto Doubtful = std::count_if(Doubts.begin(), Doubts.end(),
-                                      [](std::uint8_t D) { return D != 0; });
+                                      [](uint8_t D) { return D != 0; });
   return Doubts.empty() ? 0 : double(Doubtful) / double(Doubts.size());
 }
 
@@ -26,14 +26,14 @@ Picture<Real> blend(const std::vector<Splat<Real>> &Splats, int Width,
 
   // Tiles write pixels of their own, and counts are integers, so that neither
   // the number of threads nor their order shows in the result.
-  std::atomic<std::uint64_t> Blends = 0, Walked = 0, Saturated = 0;
+  std::atomic<uint64_t> Blends = 0, Walked = 0, Saturated = 0;
   const glm::vec<3, Real> Background(O.Background[0], O.Background[1],
                                      O.Background[2]);
   const TileWalk<Real> Walk(Splats, Width, Height, O);
   forEachTile(Walk.tiles(), O.Threads, [&](std::size_t Tile) {
     const auto List = Walk.candidates(Tile);
     const Rect Area = Walk.pixels(Tile);
-    std::uint64_t TileBlends = 0, TileWalked = 0, TileSaturated = 0;
+    uint64_t TileBlends = 0, TileWalked = 0, TileSaturated = 0;
     for (int Y = Area.Y0; Y < Area.Y1; ++Y)
       for (int X = Area.X0; X < Area.X1; ++X) {
         glm::vec<3, Real> Color(0);

@@ -10,7 +10,7 @@ namespace vorion::reference {
 
 /// Why a pixel is doubtful: fp32 may decide differently there without being
 /// wrong. Bits of \c Picture::Doubts.
-enum Doubt : std::uint8_t {
+enum Doubt : uint8_t {
   /// A decision at alpha = 1/255, at the transmittance cut-off or at the border
   /// of the support lies within \c DoubtBand of its threshold.
   DoubtThreshold = 1,
@@ -28,18 +28,18 @@ template <typename Real> struct Picture {
   int Width = 0, Height = 0;
   std::vector<glm::vec<3, Real>> Render; ///< with background, unclamped
   std::vector<Real> Transmittance;       ///< final; alpha is 1 minus this
-  std::vector<std::uint8_t> Doubts;      ///< of \c Doubt
+  std::vector<uint8_t> Doubts;           ///< of \c Doubt
   /// Last Gaussian that was blended, -1 if none.
-  std::vector<std::int32_t> Last;
+  std::vector<int32_t> Last;
   /// The Gaussian at which the pixel ended at the cut-off, -1 if it did not.
-  std::vector<std::int32_t> Stop;
+  std::vector<int32_t> Stop;
 
   /// Blended (Gaussian, pixel) pairs.
-  std::uint64_t Blends = 0;
+  uint64_t Blends = 0;
   /// List entries that pixels looked at, the saturating one included.
-  std::uint64_t Walked = 0;
+  uint64_t Walked = 0;
   /// Pixels that ended at the cut-off.
-  std::uint64_t Saturated = 0;
+  uint64_t Saturated = 0;
 
   double doubtfulShare() const;
 };

@@ -31,7 +31,7 @@ TEST(Render, OneGaussianHasItsClosedForm) {
   Options O;
   O.Background = {0.2, 0.3, 0.4};
   const auto P = renderRound(G, O);
-  std::uint64_t Blends = 0;
+  uint64_t Blends = 0;
   for (int Y = 0; Y < Side; ++Y)
     for (int X = 0; X < Side; ++X) {
       const double A = alphaAt(X, Y, 6.55, 0.8);

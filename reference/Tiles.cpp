@@ -68,33 +68,33 @@ Rect tilesOf(const Splat<Real> &S, Support Reach, const TileGrid &Grid) {
           End(S.Mean.y + S.Extent.y, Grid.Rows)};
 }
 
-std::uint64_t TileLists::pairs() const {
-  std::uint64_t Sum = 0;
+uint64_t TileLists::pairs() const {
+  uint64_t Sum = 0;
   for (const auto &List : Lists)
     Sum += List.size();
   return Sum;
 }
 
-std::uint32_t depthBits(double Depth) {
-  return std::bit_cast<std::uint32_t>(static_cast<float>(Depth));
+uint32_t depthBits(double Depth) {
+  return std::bit_cast<uint32_t>(static_cast<float>(Depth));
 }
 
-std::uint32_t orderKey(double Depth, int DepthBits) {
+uint32_t orderKey(double Depth, int DepthBits) {
   return depthBits(Depth) >> (32 - DepthBits);
 }
 
-std::uint64_t sortKey(std::size_t Tile, double Depth) {
-  return std::uint64_t(Tile) << 32 | depthBits(Depth);
+uint64_t sortKey(std::size_t Tile, double Depth) {
+  return uint64_t(Tile) << 32 | depthBits(Depth);
 }
 
 template <typename Real>
-std::vector<std::uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats,
-                                      int DepthBits) {
-  std::vector<std::uint32_t> Order;
+std::vector<uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats,
+                                 int DepthBits) {
+  std::vector<uint32_t> Order;
   for (std::size_t I = 0; I < Splats.size(); ++I)
     if (Splats[I].Visible)
-      Order.push_back(static_cast<std::uint32_t>(I));
-  std::sort(Order.begin(), Order.end(), [&](std::uint32_t A, std::uint32_t B) {
+      Order.push_back(static_cast<uint32_t>(I));
+  std::sort(Order.begin(), Order.end(), [&](uint32_t A, uint32_t B) {
     return std::pair(orderKey(Splats[A].Depth, DepthBits), A) <
            std::pair(orderKey(Splats[B].Depth, DepthBits), B);
   });
@@ -106,7 +106,7 @@ TileLists tileLists(const std::vector<Splat<Real>> &Splats, Support Reach,
                     int TileSize, int Width, int Height) {
   TileLists T{TileGrid(TileSize, Width, Height), {}};
   T.Lists.resize(T.Grid.count());
-  for (const std::uint32_t I : depthOrder(Splats)) {
+  for (const uint32_t I : depthOrder(Splats)) {
     const Rect R = tilesOf(Splats[I], Reach, T.Grid);
     for (int Y = R.Y0; Y < R.Y1; ++Y)
       for (int X = R.X0; X < R.X1; ++X)
@@ -123,9 +123,9 @@ template TileLists tileLists(const std::vector<Splat<float>> &, Support, int,
                              int, int);
 template TileLists tileLists(const std::vector<Splat<double>> &, Support, int,
                              int, int);
-template std::vector<std::uint32_t>
-depthOrder(const std::vector<Splat<float>> &, int);
-template std::vector<std::uint32_t>
-depthOrder(const std::vector<Splat<double>> &, int);
+template std::vector<uint32_t> depthOrder(const std::vector<Splat<float>> &,
+                                          int);
+template std::vector<uint32_t> depthOrder(const std::vector<Splat<double>> &,
+                                          int);
 
 } // namespace vorion::reference

@@ -52,9 +52,9 @@ struct TileLists {
   TileGrid Grid;
   /// Gaussians of each tile front to back: by the bits of z in fp32, ties by
   /// index, as a stable sort by tile << 32 | depth bits leaves them.
-  std::vector<std::vector<std::uint32_t>> Lists;
+  std::vector<std::vector<uint32_t>> Lists;
 
-  std::uint64_t pairs() const;
+  uint64_t pairs() const;
 };
 
 template <typename Real>
@@ -64,16 +64,16 @@ TileLists tileLists(const std::vector<Splat<Real>> &Splats, Support Reach,
 /// Visible Gaussians front to back, as in the lists; by the leading
 /// \p DepthBits of their depths, equal ones by number.
 template <typename Real>
-std::vector<std::uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats,
-                                      int DepthBits = 32);
+std::vector<uint32_t> depthOrder(const std::vector<Splat<Real>> &Splats,
+                                 int DepthBits = 32);
 
 /// The bits of \p Depth > 0 in fp32, which sort as the value does.
-std::uint32_t depthBits(double Depth);
+uint32_t depthBits(double Depth);
 
 /// The leading \p DepthBits (1 to 32) of that.
-std::uint32_t orderKey(double Depth, int DepthBits);
+uint32_t orderKey(double Depth, int DepthBits);
 
 /// The sort key of an entry: tile << 32 | depth bits.
-std::uint64_t sortKey(std::size_t Tile, double Depth);
+uint64_t sortKey(std::size_t Tile, double Depth);
 
 } // namespace vorion::reference

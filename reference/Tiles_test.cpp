@@ -88,7 +88,7 @@ TEST(Tiles, ListsAreSortedByDepthBitsThenIndex) {
   Splats[4].Visible = false;
   const auto T = tileLists(Splats, Support::Box3, 16, 16, 16);
   ASSERT_EQ(T.Lists.size(), 1U);
-  EXPECT_EQ(T.Lists[0], (std::vector<std::uint32_t>{3, 1, 2, 0}));
+  EXPECT_EQ(T.Lists[0], (std::vector<uint32_t>{3, 1, 2, 0}));
   EXPECT_EQ(T.pairs(), 4U);
   EXPECT_EQ(sortKey(3, 1.0), 0x3'3f800000U);
 }
@@ -100,7 +100,7 @@ TEST(Tiles, EveryPixelThatCountsIsInAList) {
   const auto Splats = project(G, C, O);
   for (const int Size : {16, 64}) {
     const auto T = tileLists(Splats, Support::Exact, Size, C.Width, C.Height);
-    for (std::uint32_t I = 0; I < Splats.size(); ++I) {
+    for (uint32_t I = 0; I < Splats.size(); ++I) {
       const auto &S = Splats[I];
       for (int Y = 0; S.Visible && Y < C.Height; ++Y)
         for (int X = 0; X < C.Width; ++X) {

@@ -33,10 +33,10 @@ template <typename Real> struct Candidate {
   glm::vec<2, Real> Mean, Extent;
   glm::vec<3, Real> Conic, Color;
   Real Opacity;
-  std::uint32_t NearestKey, FarthestKey; ///< that z may be rounded to
-  Rect Official;                         ///< pixels, for Official16
-  Border Edge;                           ///< for supports with a border
-  std::int32_t Index;
+  uint32_t NearestKey, FarthestKey; ///< that z may be rounded to
+  Rect Official;                    ///< pixels, for Official16
+  Border Edge;                      ///< for supports with a border
+  int32_t Index;
   bool Listed; ///< in the tile's list, and not only doubtfully so
 };
 
@@ -45,8 +45,7 @@ class DepthOrder {
 public:
   /// Takes the next one; true if it may belong before an earlier one. Equal
   /// keys are in the order of the indices on every machine.
-  bool doubtful(std::uint32_t NearestKey, std::uint32_t FarthestKey,
-                std::int32_t Index) {
+  bool doubtful(uint32_t NearestKey, uint32_t FarthestKey, int32_t Index) {
     const bool Doubtful = std::pair(NearestKey, Index) < Farthest;
     Farthest = std::max(Farthest, std::pair(FarthestKey, Index));
     return Doubtful;
@@ -54,7 +53,7 @@ public:
 
 private:
   /// The last place that an earlier one may have.
-  std::pair<std::uint32_t, std::int32_t> Farthest{0, -1};
+  std::pair<uint32_t, int32_t> Farthest{0, -1};
 };
 
 inline bool near(double Value, double Threshold) {
@@ -125,9 +124,9 @@ template <typename Real> struct Contribution {
 /// How a pixel ended.
 template <typename Real> struct PixelEnd {
   Real T = 1;
-  std::uint8_t Doubts = 0;
-  std::int32_t Last = -1, Stop = -1; ///< as in \c Picture
-  std::uint64_t Walked = 0;          ///< list entries looked at
+  uint8_t Doubts = 0;
+  int32_t Last = -1, Stop = -1; ///< as in \c Picture
+  uint64_t Walked = 0;          ///< list entries looked at
 };
 
 /// The lists of a picture's tiles, and the walk of a pixel through its own.
@@ -139,7 +138,7 @@ public:
         Grid(O.TileSize, Width, Height), Cutoff(static_cast<Real>(O.Cutoff)),
         Least(leastAlpha<Real>(O.AlphaCutoff)), Lists(Grid.count()) {
     // As tileLists, but with everything whose place in a list is doubtful.
-    for (const std::uint32_t I : depthOrder(Splats, O.DepthBits)) {
+    for (const uint32_t I : depthOrder(Splats, O.DepthBits)) {
       const Rect R = outerTiles(borderOf(Splats[I], O, Width, Height), Grid);
       for (int Y = R.Y0; Y < R.Y1; ++Y)
         for (int X = R.X0; X < R.X1; ++X)
@@ -160,7 +159,7 @@ public:
   std::vector<Candidate<Real>> candidates(std::size_t Tile) const {
     std::vector<Candidate<Real>> List;
     List.reserve(Lists[Tile].size());
-    for (const std::uint32_t I : Lists[Tile])
+    for (const uint32_t I : Lists[Tile])
       List.push_back(candidate(I, static_cast<int>(Tile) % Grid.Columns,
                                static_cast<int>(Tile) / Grid.Columns));
     return List;
@@ -214,7 +213,7 @@ public:
   }
 
 private:
-  Candidate<Real> candidate(std::uint32_t I, int Column, int Row) const {
+  Candidate<Real> candidate(uint32_t I, int Column, int Row) const {
     const Splat<Real> &S = Splats[I];
     Candidate<Real> C;
     C.Mean = S.Mean;
@@ -226,7 +225,7 @@ private:
     C.FarthestKey = orderKey(double(S.Depth) + S.DepthSlack, O.DepthBits);
     C.Official = officialPixels(S.Mean, S.Extent.x, Width, Height);
     C.Edge = borderOf(S, O, Width, Height);
-    C.Index = static_cast<std::int32_t>(I);
+    C.Index = static_cast<int32_t>(I);
     C.Listed = tilesOf(S, O.Reach, Grid).contains(Column, Row);
     return C;
   }
@@ -249,7 +248,7 @@ private:
   int Width, Height;
   TileGrid Grid;
   Real Cutoff, Least;
-  std::vector<std::vector<std::uint32_t>> Lists;
+  std::vector<std::vector<uint32_t>> Lists;
 };
 
 /// Calls \p Work with every tile from 0 to \p Tiles - 1 on \p Threads

@@ -5,20 +5,20 @@
 
 using namespace vorion::runtime;
 
-Allocator::Allocator(std::uint64_t Base, std::uint64_t Size) {
-  const std::uint64_t First = (Base + Alignment - 1) / Alignment * Alignment;
-  const std::uint64_t End = (Base + Size) / Alignment * Alignment;
+Allocator::Allocator(uint64_t Base, uint64_t Size) {
+  const uint64_t First = (Base + Alignment - 1) / Alignment * Alignment;
+  const uint64_t End = (Base + Size) / Alignment * Alignment;
   if (End > First) {
     Free = End - First;
     FreeRanges[First] = Free;
   }
 }
 
-std::optional<std::uint64_t> Allocator::allocate(std::uint64_t Size) {
+std::optional<uint64_t> Allocator::allocate(uint64_t Size) {
   // Checked before rounding up, which could wrap.
   if (Size > Free)
     return std::nullopt;
-  const std::uint64_t Want =
+  const uint64_t Want =
       std::max(Alignment, (Size + Alignment - 1) / Alignment * Alignment);
   for (auto Range = FreeRanges.begin(); Range != FreeRanges.end(); ++Range) {
     const auto [Address, Length] = *Range;
@@ -34,12 +34,12 @@ std::optional<std::uint64_t> Allocator::allocate(std::uint64_t Size) {
   return std::nullopt;
 }
 
-bool Allocator::release(std::uint64_t Address) {
+bool Allocator::release(uint64_t Address) {
   const auto Block = Blocks.find(Address);
   if (Block == Blocks.end())
     return false;
-  std::uint64_t First = Address;
-  std::uint64_t Length = Block->second;
+  uint64_t First = Address;
+  uint64_t Length = Block->second;
   Free += Length;
   Blocks.erase(Block);
 
@@ -60,8 +60,8 @@ bool Allocator::release(std::uint64_t Address) {
   return true;
 }
 
-std::uint64_t Allocator::largestFree() const {
-  std::uint64_t Largest = 0;
+uint64_t Allocator::largestFree() const {
+  uint64_t Largest = 0;
   for (const auto &[Address, Length] : FreeRanges)
     Largest = std::max(Largest, Length);
   return Largest;

@@ -12,25 +12,25 @@ namespace vorion::runtime {
 /// thread-safe.
 class Allocator {
 public:
-  static constexpr std::uint64_t Alignment = 128;
+  static constexpr uint64_t Alignment = 128;
 
   /// Manages [\p Base, \p Base + \p Size); both ends are rounded inwards.
-  Allocator(std::uint64_t Base, std::uint64_t Size);
+  Allocator(uint64_t Base, uint64_t Size);
 
   /// The block's address, or nothing if no free range holds \p Size bytes. A
   /// size of 0 is one unit of alignment, so that addresses stay distinct.
-  std::optional<std::uint64_t> allocate(std::uint64_t Size);
+  std::optional<uint64_t> allocate(uint64_t Size);
 
   /// False if no block begins at \p Address (never allocated or freed twice).
-  bool release(std::uint64_t Address);
+  bool release(uint64_t Address);
 
-  std::uint64_t freeBytes() const { return Free; }
-  std::uint64_t largestFree() const;
+  uint64_t freeBytes() const { return Free; }
+  uint64_t largestFree() const;
 
 private:
   /// Address to size.
-  std::map<std::uint64_t, std::uint64_t> FreeRanges, Blocks;
-  std::uint64_t Free = 0;
+  std::map<uint64_t, uint64_t> FreeRanges, Blocks;
+  uint64_t Free = 0;
 };
 
 } // namespace vorion::runtime

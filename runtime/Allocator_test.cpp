@@ -47,27 +47,26 @@ TEST(Allocator, ReleasingTwiceOrInsideABlockIsRefused) {
 // Any sequence of allocations and releases: blocks are aligned, inside, and
 // disjoint; the bytes add up; a request fails only if no free range holds it;
 // and when all are released one range is left.
-RC_GTEST_PROP(Allocator, KeepsItsBooks,
-              (const std::vector<std::uint16_t> &Steps)) {
-  constexpr std::uint64_t Base = 0x10000, Size = 1 << 18;
+RC_GTEST_PROP(Allocator, KeepsItsBooks, (const std::vector<uint16_t> &Steps)) {
+  constexpr uint64_t Base = 0x10000, Size = 1 << 18;
   Allocator A(Base, Size);
-  std::map<std::uint64_t, std::uint64_t> Held;
-  std::uint64_t HeldBytes = 0;
-  for (const std::uint16_t Step : Steps) {
+  std::map<uint64_t, uint64_t> Held;
+  uint64_t HeldBytes = 0;
+  for (const uint16_t Step : Steps) {
     if (Step % 3 == 0 && !Held.empty()) {
       const auto Block = std::next(Held.begin(), Step % Held.size());
       RC_ASSERT(A.release(Block->first));
       HeldBytes -= Block->second;
       Held.erase(Block);
     } else {
-      const std::uint64_t Largest = A.largestFree();
+      const uint64_t Largest = A.largestFree();
       const auto Address = A.allocate(Step);
       RC_ASSERT(Address.has_value() ==
-                (Largest >= std::max<std::uint64_t>(Step, 1)));
+                (Largest >= std::max<uint64_t>(Step, 1)));
       if (!Address)
         continue;
-      const std::uint64_t Length =
-          std::max<std::uint64_t>(1, (Step + 127u) / 128u) * 128u;
+      const uint64_t Length =
+          std::max<uint64_t>(1, (Step + 127u) / 128u) * 128u;
       RC_ASSERT(*Address % Allocator::Alignment == 0u);
       RC_ASSERT(*Address >= Base);
       RC_ASSERT(*Address + Length <= Base + Size);

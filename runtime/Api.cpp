@@ -107,7 +107,7 @@ Failure loadImage(vx_device *Device, std::span<const std::byte> Elf,
   return {};
 }
 
-Failure findKernel(const vx_image *Image, std::uint32_t Number,
+Failure findKernel(const vx_image *Image, uint32_t Number,
                    const isasim::Kernel **Kernel) {
   if (!Image)
     return isNull("image");
@@ -120,11 +120,11 @@ Failure findKernel(const vx_image *Image, std::uint32_t Number,
 }
 
 Failure placeLocals(const vx_image &Image, const isasim::Kernel &Kernel,
-                    std::span<const std::uint64_t> Sizes, std::byte *PackedArgs,
-                    std::uint32_t &Total) {
+                    std::span<const uint64_t> Sizes, std::byte *PackedArgs,
+                    uint32_t &Total) {
   isasim::LocalPlaces Places(Kernel, Image.Owner->Impl.config());
   std::size_t Next = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> Placed;
+  std::vector<std::pair<uint32_t, uint32_t>> Placed;
   for (const isasim::KernelArg &Arg : Kernel.Args) {
     if (Arg.Kind != VX_ARG_LOCAL)
       continue;
@@ -143,7 +143,7 @@ Failure placeLocals(const vx_image &Image, const isasim::Kernel &Kernel,
                     Sizes.size(), Kernel.Name, Next));
   for (const auto &[Offset, Address] : Placed)
     std::memcpy(PackedArgs + Offset, &Address, sizeof(Address));
-  Total = static_cast<std::uint32_t>(Places.used());
+  Total = static_cast<uint32_t>(Places.used());
   return {};
 }
 
@@ -313,7 +313,7 @@ vx_status vx_image_num_kernels(vx_image *image, uint32_t *count) {
   return guarded([&]() -> Failure {
     if (!image || !count)
       return isNull(image ? "count" : "image");
-    *count = static_cast<std::uint32_t>(image->Impl.program().kernels().size());
+    *count = static_cast<uint32_t>(image->Impl.program().kernels().size());
     return {};
   });
 }
@@ -327,8 +327,8 @@ vx_status vx_image_find_kernel(vx_image *image, const char *name,
     if (!Found)
       return {VX_ERROR_NOT_FOUND,
               fmt::format("the image has no kernel {}", name)};
-    *kernel = static_cast<std::uint32_t>(
-        Found - image->Impl.program().kernels().data());
+    *kernel =
+        static_cast<uint32_t>(Found - image->Impl.program().kernels().data());
     return {};
   });
 }
@@ -342,7 +342,7 @@ vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
     if (!info)
       return isNull("info");
     info->name = Found->Name.c_str();
-    info->num_args = static_cast<std::uint32_t>(Found->Args.size());
+    info->num_args = static_cast<uint32_t>(Found->Args.size());
     info->args_bytes = Found->ArgsBytes;
     info->context_bytes = Found->ContextBytes;
     info->local_bytes = Found->LocalBytes;
@@ -380,7 +380,7 @@ vx_status vx_image_place_locals(vx_image *image, uint32_t kernel,
       return Failed;
     if (num_sizes && (!sizes || !packed_args))
       return isNull(sizes ? "packed_args" : "sizes");
-    std::uint32_t Used = 0;
+    uint32_t Used = 0;
     Failure Failed = placeLocals(*image, *Found, {sizes, num_sizes},
                                  static_cast<std::byte *>(packed_args), Used);
     if (!Failed && total)

@@ -29,35 +29,35 @@ protected:
     EXPECT_EQ(vx_device_close(Device), VX_OK);
   }
 
-  std::uint32_t find(const char *Name) {
-    std::uint32_t Kernel = ~0U;
+  uint32_t find(const char *Name) {
+    uint32_t Kernel = ~0U;
     EXPECT_EQ(vx_image_find_kernel(Image, Name, &Kernel), VX_OK)
         << vx_last_error();
     return Kernel;
   }
-  std::uint32_t allocate(std::uint64_t Size) {
-    std::uint32_t Address = 0;
+  uint32_t allocate(uint64_t Size) {
+    uint32_t Address = 0;
     EXPECT_EQ(vx_mem_alloc(Device, Size, &Address), VX_OK) << vx_last_error();
     return Address;
   }
-  std::vector<std::uint32_t> words(std::uint32_t Address, std::size_t Count) {
-    std::vector<std::uint32_t> Words(Count);
+  std::vector<uint32_t> words(uint32_t Address, std::size_t Count) {
+    std::vector<uint32_t> Words(Count);
     EXPECT_EQ(vx_copy_from_device(Device, Words.data(), Address, 4 * Count),
               VX_OK)
         << vx_last_error();
     return Words;
   }
-  vx_status start(const char *Kernel, const std::vector<std::uint32_t> &Args,
+  vx_status start(const char *Kernel, const std::vector<uint32_t> &Args,
                   const vx_launch_params &Params = OneItem) {
     return vx_start(Device, Image, find(Kernel), &Params, Args.data(),
-                    static_cast<std::uint32_t>(4 * Args.size()));
+                    static_cast<uint32_t>(4 * Args.size()));
   }
   vx_result wait() {
     vx_result Result{};
     EXPECT_EQ(vx_wait(Device, &Result), VX_OK) << vx_last_error();
     return Result;
   }
-  vx_result run(const char *Kernel, const std::vector<std::uint32_t> &Args) {
+  vx_result run(const char *Kernel, const std::vector<uint32_t> &Args) {
     EXPECT_EQ(start(Kernel, Args), VX_OK) << vx_last_error();
     return wait();
   }
@@ -69,19 +69,19 @@ protected:
 };
 
 TEST_F(Runtime, RunsAKernelOnEveryCore) {
-  const std::uint32_t Out = allocate(4 * Info.cores);
+  const uint32_t Out = allocate(4 * Info.cores);
   const vx_result Result = run("store", {Out, 100});
   EXPECT_EQ(Result.outcome, VX_OUTCOME_DONE) << Result.report;
   EXPECT_STREQ(Result.report, "");
   EXPECT_GT(Result.counters.warp_instructions, 8 * Info.cores);
   EXPECT_EQ(Result.counters.stores, Info.cores);
-  std::vector<std::uint32_t> Expected(Info.cores);
+  std::vector<uint32_t> Expected(Info.cores);
   std::iota(Expected.begin(), Expected.end(), 100);
   EXPECT_EQ(words(Out, Info.cores), Expected);
 }
 
 TEST_F(Runtime, ListsKernelsAndArguments) {
-  std::uint32_t Count = 0;
+  uint32_t Count = 0;
   ASSERT_EQ(vx_image_num_kernels(Image, &Count), VX_OK);
   EXPECT_EQ(Count, 10u);
   vx_kernel_info Kernel{};
@@ -128,7 +128,7 @@ TEST_F(Runtime, RefusesKernelsForOtherLanes) {
 }
 
 TEST_F(Runtime, FillsTheLaunchBlock) {
-  const std::uint32_t Out = allocate(sizeof(vx_launch));
+  const uint32_t Out = allocate(sizeof(vx_launch));
   const vx_launch_params Params{2, {3, 5, 1}, {4, 2, 1}, {7, 8, 9}};
   ASSERT_EQ(start("copy_launch", {Out}, Params), VX_OK) << vx_last_error();
   EXPECT_EQ(wait().outcome, VX_OUTCOME_DONE);
@@ -146,7 +146,7 @@ TEST_F(Runtime, FillsTheLaunchBlock) {
 }
 
 TEST_F(Runtime, GivesBackWhatARunUsed) {
-  const std::uint32_t Out = allocate(sizeof(vx_launch));
+  const uint32_t Out = allocate(sizeof(vx_launch));
   vx_device_info Before{}, After{};
   ASSERT_EQ(vx_device_get_info(Device, &Before), VX_OK);
   const vx_launch_params Params{2, {1, 1, 1}, {4, 2, 1}, {0, 0, 0}};
@@ -158,10 +158,10 @@ TEST_F(Runtime, GivesBackWhatARunUsed) {
 }
 
 TEST_F(Runtime, PlacesLocalArgumentsAfterStaticOnes) {
-  const std::uint32_t Out = allocate(8);
-  std::uint32_t Args[3] = {Out, 0, 0};
-  const std::uint64_t Sizes[2] = {130, 4};
-  std::uint32_t Total = 0;
+  const uint32_t Out = allocate(8);
+  uint32_t Args[3] = {Out, 0, 0};
+  const uint64_t Sizes[2] = {130, 4};
+  uint32_t Total = 0;
   ASSERT_EQ(
       vx_image_place_locals(Image, find("locals"), Sizes, 2, Args, &Total),
       VX_OK)
@@ -171,16 +171,16 @@ TEST_F(Runtime, PlacesLocalArgumentsAfterStaticOnes) {
   EXPECT_EQ(Args[2], VX_LOCAL_BASE + 128 + 256);
   EXPECT_EQ(Total, 128u + 256u + 4u);
   run("locals", {Args[0], Args[1], Args[2]});
-  EXPECT_EQ(words(Out, 2), (std::vector<std::uint32_t>{Args[1], Args[2]}));
+  EXPECT_EQ(words(Out, 2), (std::vector<uint32_t>{Args[1], Args[2]}));
 
-  const std::uint64_t TooLarge[2] = {130, Info.local_bytes};
+  const uint64_t TooLarge[2] = {130, Info.local_bytes};
   EXPECT_EQ(
       vx_image_place_locals(Image, find("locals"), TooLarge, 2, Args, nullptr),
       VX_ERROR_MEMORY);
   EXPECT_EQ(
       vx_image_place_locals(Image, find("locals"), Sizes, 1, Args, nullptr),
       VX_ERROR_ARGUMENT);
-  const std::uint64_t Huge[2] = {UINT64_MAX, UINT64_MAX};
+  const uint64_t Huge[2] = {UINT64_MAX, UINT64_MAX};
   EXPECT_EQ(
       vx_image_place_locals(Image, find("locals"), Huge, 2, Args, nullptr),
       VX_ERROR_MEMORY);
@@ -189,7 +189,7 @@ TEST_F(Runtime, PlacesLocalArgumentsAfterStaticOnes) {
 TEST_F(Runtime, AnImageKeepsItsDataWhileOthersRun) {
   vx_image *Other = nullptr;
   ASSERT_EQ(vx_image_load_file(Device, Elf, &Other), VX_OK);
-  const std::uint32_t Out = allocate(4);
+  const uint32_t Out = allocate(4);
   run("count", {Out});
   EXPECT_EQ(words(Out, 1)[0], 41u);
   std::swap(Image, Other);
@@ -220,7 +220,7 @@ TEST_F(Runtime, AFaultIsAResultAndTheDeviceGoesOn) {
   EXPECT_EQ(Result.outcome, VX_OUTCOME_FAULT);
   EXPECT_NE(std::string(Result.report).find("fault"), std::string::npos)
       << Result.report;
-  const std::uint32_t Out = allocate(4 * Info.cores);
+  const uint32_t Out = allocate(4 * Info.cores);
   Result = run("store", {Out, 5});
   EXPECT_EQ(Result.outcome, VX_OUTCOME_DONE) << Result.report;
   EXPECT_EQ(words(Out, 1)[0], 5u);
@@ -251,10 +251,10 @@ TEST(RuntimeConsole, KeepsABoundedPart) {
   ASSERT_EQ(vx_device_open("{\"cores_per_socket\": 1}", &Device), VX_OK);
   vx_image *Image = nullptr;
   ASSERT_EQ(vx_image_load_file(Device, Elf, &Image), VX_OK);
-  std::uint32_t Kernel = 0;
+  uint32_t Kernel = 0;
   ASSERT_EQ(vx_image_find_kernel(Image, "chatter", &Kernel), VX_OK);
   const vx_launch_params Params{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
-  const std::uint32_t Words = (1 << 20) + 100;
+  const uint32_t Words = (1 << 20) + 100;
   ASSERT_EQ(vx_start(Device, Image, Kernel, &Params, &Words, 4), VX_OK);
   vx_result Result{};
   ASSERT_EQ(vx_wait(Device, &Result), VX_OK);
@@ -272,7 +272,7 @@ TEST_F(Runtime, NoGroupsRunNothing) {
 }
 
 TEST_F(Runtime, WaitingTwiceGivesTheSameResult) {
-  const std::uint32_t Out = allocate(4 * Info.cores);
+  const uint32_t Out = allocate(4 * Info.cores);
   const vx_result First = run("store", {Out, 1});
   const vx_result Second = wait();
   EXPECT_EQ(First.counters.warp_instructions,
@@ -286,14 +286,14 @@ TEST_F(Runtime, WaitingForNothingIsAnError) {
 }
 
 TEST_F(Runtime, CopiesWaitForTheRun) {
-  const std::uint32_t Out = allocate(4 * Info.cores);
+  const uint32_t Out = allocate(4 * Info.cores);
   ASSERT_EQ(start("store", {Out, 9}), VX_OK);
   EXPECT_EQ(words(Out, 1)[0], 9u); // no vx_wait before
 }
 
 TEST_F(Runtime, RefusesBadLaunches) {
-  const std::uint32_t Out = allocate(4 * Info.cores);
-  const std::uint32_t Args[2] = {Out, 1};
+  const uint32_t Out = allocate(4 * Info.cores);
+  const uint32_t Args[2] = {Out, 1};
   const auto Status = [&](const vx_launch_params &Params) {
     return vx_start(Device, Image, find("store"), &Params, Args, 8);
   };
@@ -322,7 +322,7 @@ TEST_F(Runtime, RefusesImagesOfAnotherDevice) {
 }
 
 TEST_F(Runtime, MemoryExhaustionIsAnError) {
-  std::uint32_t Address = 0;
+  uint32_t Address = 0;
   EXPECT_EQ(vx_mem_alloc(Device, Info.global_bytes + 1, &Address),
             VX_ERROR_MEMORY);
   ASSERT_EQ(vx_mem_alloc(Device, Info.largest_free_bytes, &Address), VX_OK);
@@ -335,22 +335,21 @@ TEST_F(Runtime, MemoryExhaustionIsAnError) {
 }
 
 TEST_F(Runtime, CopiesFillsAndRangesAreChecked) {
-  const std::uint32_t A = allocate(64), B = allocate(64);
-  const std::uint32_t Pattern = 0x12345678;
+  const uint32_t A = allocate(64), B = allocate(64);
+  const uint32_t Pattern = 0x12345678;
   ASSERT_EQ(vx_fill_device(Device, A, &Pattern, 4, 64), VX_OK);
   ASSERT_EQ(vx_copy_on_device(Device, B, A, 64), VX_OK);
-  EXPECT_EQ(words(B, 16), std::vector<std::uint32_t>(16, Pattern));
+  EXPECT_EQ(words(B, 16), std::vector<uint32_t>(16, Pattern));
   EXPECT_EQ(vx_fill_device(Device, A, &Pattern, 4, 63), VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_fill_device(Device, A, &Pattern, 0, 64), VX_ERROR_ARGUMENT);
 
   void *Host = nullptr;
   ASSERT_EQ(vx_mem_host_pointer(Device, B, 64, &Host), VX_OK);
-  EXPECT_EQ(*static_cast<std::uint32_t *>(Host), Pattern);
+  EXPECT_EQ(*static_cast<uint32_t *>(Host), Pattern);
 
   std::byte Bytes[16];
-  const auto End =
-      static_cast<std::uint32_t>(Info.global_base + Info.global_bytes);
-  for (const std::uint32_t Bad :
+  const auto End = static_cast<uint32_t>(Info.global_base + Info.global_bytes);
+  for (const uint32_t Bad :
        {0U, 0x40U, End - 8, VX_IMAGE_BASE, VX_LOCAL_BASE, 0xfffffff8U}) {
     EXPECT_EQ(vx_copy_from_device(Device, Bytes, Bad, 16), VX_ERROR_ARGUMENT);
     EXPECT_EQ(vx_copy_to_device(Device, Bad, Bytes, 16), VX_ERROR_ARGUMENT);
@@ -365,22 +364,22 @@ TEST_F(Runtime, CopiesReachTheRasterWindow) {
     return VX_IO_RASTER + Core * VX_IO_RASTER_STRIDE +
            4 * (Csr - VX_CSR_VR_STATUS);
   };
-  const auto Write = [&](unsigned Csr, std::uint32_t Value) {
+  const auto Write = [&](unsigned Csr, uint32_t Value) {
     EXPECT_EQ(vx_copy_to_device(Device, At(7, Csr), &Value, 4), VX_OK)
         << vx_last_error();
   };
   // A tile of one pixel without Gaussians: black, transmittance 1.
-  const std::uint32_t Out = allocate(16);
+  const uint32_t Out = allocate(16);
   Write(VX_CSR_VR_OUTPUT, Out);
   Write(VX_CSR_VR_OUTPUT_PITCH, 16);
   Write(VX_CSR_VR_TILE_SHAPE, 0x00010001);
   Write(VX_CSR_VR_START, 0);
   EXPECT_EQ(words(At(7, VX_CSR_VR_WAIT), 1)[0], 0u);
   EXPECT_EQ(words(At(7, VX_CSR_VR_OUTPUT), 1)[0], Out);
-  EXPECT_EQ(words(Out, 4), (std::vector<std::uint32_t>{0, 0, 0, 0x3f800000}));
+  EXPECT_EQ(words(Out, 4), (std::vector<uint32_t>{0, 0, 0, 0x3f800000}));
 
-  std::uint32_t Word[2] = {};
-  const std::uint32_t Last = VX_GLOBAL_BASE - 4;
+  uint32_t Word[2] = {};
+  const uint32_t Last = VX_GLOBAL_BASE - 4;
   for (const auto &[Address, Size] : {std::pair{At(8, VX_CSR_VR_OUTPUT), 4},
                                       {At(0, VX_CSR_VR_OUTPUT), 2},
                                       {At(0, VX_CSR_VR_OUTPUT) + 2, 4},
@@ -396,13 +395,13 @@ TEST_F(Runtime, CopiesReachTheRasterWindow) {
 }
 
 TEST_F(Runtime, ThreadsTakeTurns) {
-  const std::uint32_t Out = allocate(4 * Info.cores);
+  const uint32_t Out = allocate(4 * Info.cores);
   std::vector<std::thread> Threads;
   Threads.reserve(4);
   for (unsigned T = 0; T < 4; ++T)
     Threads.emplace_back([&] {
       for (unsigned I = 0; I < 20; ++I) {
-        std::uint32_t Address = 0;
+        uint32_t Address = 0;
         EXPECT_EQ(vx_mem_alloc(Device, 1000, &Address), VX_OK);
         const vx_status Status = start("store", {Out, 1});
         EXPECT_TRUE(Status == VX_OK || Status == VX_ERROR_BUSY)

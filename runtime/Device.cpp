@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t ConsoleBytes = std::size_t{1} << 20;
 
 /// The parts of a launch in the order in which they are allocated.
-constexpr std::pair<std::uint64_t isasim::LaunchParts::*, const char *>
+constexpr std::pair<uint64_t isasim::LaunchParts::*, const char *>
     LaunchPartNames[] = {{&isasim::LaunchParts::Block, "the launch block"},
                          {&isasim::LaunchParts::Print, "the print buffer"},
                          {&isasim::LaunchParts::Args, "the arguments"},
@@ -91,8 +91,8 @@ vx_device_info Device::info() {
   return Info;
 }
 
-Failure Device::allocateLocked(std::uint64_t Size, const char *What,
-                               std::uint32_t &Address) {
+Failure Device::allocateLocked(uint64_t Size, const char *What,
+                               uint32_t &Address) {
   // What is asked for and cannot be had fails below.
   const auto Found = Memory.allocate(Size + Watch->guardBytes());
   if (!Found)
@@ -102,18 +102,18 @@ Failure Device::allocateLocked(std::uint64_t Size, const char *What,
                         What, Size, Memory.freeBytes(),
                         Machine->config().GlobalBytes, Memory.largestFree())};
   // Global memory ends below 2 GiB.
-  Address = static_cast<std::uint32_t>(*Found);
+  Address = static_cast<uint32_t>(*Found);
   Watch->allocated(Address, Size, What);
   return {};
 }
 
-Failure Device::allocate(std::uint64_t Size, std::uint32_t &Address) {
+Failure Device::allocate(uint64_t Size, uint32_t &Address) {
   Lock Held(Mutex);
   waitIfObserved(Held);
   return allocateLocked(Size, "buffer", Address);
 }
 
-Failure Device::release(std::uint32_t Address) {
+Failure Device::release(uint32_t Address) {
   Lock Held(Mutex);
   waitIfObserved(Held);
   if (Address && !Memory.release(Address))
@@ -123,7 +123,7 @@ Failure Device::release(std::uint32_t Address) {
   return {};
 }
 
-Failure Device::globalRange(std::uint32_t Address, std::uint64_t Size,
+Failure Device::globalRange(uint32_t Address, uint64_t Size,
                             std::byte **Bytes) {
   *Bytes = Machine->hostPointer(Address, Size);
   if (!*Bytes)
@@ -134,21 +134,20 @@ Failure Device::globalRange(std::uint32_t Address, std::uint64_t Size,
   return {};
 }
 
-bool Device::isRasterWindow(std::uint32_t Address) {
+bool Device::isRasterWindow(uint32_t Address) {
   return Address >= VX_IO_RASTER && Address < VX_GLOBAL_BASE;
 }
 
 template <typename Function>
-Failure Device::forRasterCsrs(std::uint32_t Address, std::uint64_t Size,
-                              Function Use) {
+Failure Device::forRasterCsrs(uint32_t Address, uint64_t Size, Function Use) {
   if (Address % 4 || Size % 4 || Size > VX_GLOBAL_BASE - Address)
     return badArgument(fmt::format(
         "[{:#x}, +{:#x}), expected whole aligned words of the I/O window, "
         "[{:#x}, {:#x})",
         Address, Size, VX_IO_RASTER, VX_GLOBAL_BASE));
-  for (std::uint32_t Offset = 0; Offset != Size; Offset += 4) {
-    const std::uint32_t At = Address + Offset - VX_IO_RASTER;
-    const std::uint32_t Csr = VX_CSR_VR_STATUS + At % VX_IO_RASTER_STRIDE / 4;
+  for (uint32_t Offset = 0; Offset != Size; Offset += 4) {
+    const uint32_t At = Address + Offset - VX_IO_RASTER;
+    const uint32_t Csr = VX_CSR_VR_STATUS + At % VX_IO_RASTER_STRIDE / 4;
     if (!Use(At / VX_IO_RASTER_STRIDE, Csr, Offset))
       return badArgument(fmt::format(
           "no such access to {:#x} of the I/O window, expected a raster CSR of "
@@ -158,12 +157,12 @@ Failure Device::forRasterCsrs(std::uint32_t Address, std::uint64_t Size,
   return {};
 }
 
-Failure Device::copyIn(std::uint32_t To, const void *From, std::uint64_t Size) {
+Failure Device::copyIn(uint32_t To, const void *From, uint64_t Size) {
   Lock Held(Mutex);
   waitForRun(Held);
   if (isRasterWindow(To))
     return forRasterCsrs(To, Size, [&](unsigned Core, unsigned Csr, auto At) {
-      std::uint32_t Value = 0;
+      uint32_t Value = 0;
       std::memcpy(&Value, static_cast<const std::byte *>(From) + At, 4);
       return Machine->writeRasterCsr(Core, Csr, Value);
     });
@@ -175,7 +174,7 @@ Failure Device::copyIn(std::uint32_t To, const void *From, std::uint64_t Size) {
   return {};
 }
 
-Failure Device::copyOut(void *To, std::uint32_t From, std::uint64_t Size) {
+Failure Device::copyOut(void *To, uint32_t From, uint64_t Size) {
   Lock Held(Mutex);
   waitForRun(Held);
   if (isRasterWindow(From))
@@ -193,8 +192,7 @@ Failure Device::copyOut(void *To, std::uint32_t From, std::uint64_t Size) {
   return {};
 }
 
-Failure Device::copyWithin(std::uint32_t To, std::uint32_t From,
-                           std::uint64_t Size) {
+Failure Device::copyWithin(uint32_t To, uint32_t From, uint64_t Size) {
   Lock Held(Mutex);
   waitForRun(Held);
   std::byte *Target = nullptr, *Source = nullptr;
@@ -208,8 +206,8 @@ Failure Device::copyWithin(std::uint32_t To, std::uint32_t From,
   return {};
 }
 
-Failure Device::fill(std::uint32_t To, const void *Pattern,
-                     std::uint32_t PatternSize, std::uint64_t Size) {
+Failure Device::fill(uint32_t To, const void *Pattern, uint32_t PatternSize,
+                     uint64_t Size) {
   if (PatternSize < 1 || PatternSize > 128)
     return badArgument(
         fmt::format("pattern of {} bytes, expected 1 to 128", PatternSize));
@@ -222,14 +220,13 @@ Failure Device::fill(std::uint32_t To, const void *Pattern,
   std::byte *Bytes = nullptr;
   if (Failure Failed = globalRange(To, Size, &Bytes))
     return Failed;
-  for (std::uint64_t At = 0; At < Size; At += PatternSize)
+  for (uint64_t At = 0; At < Size; At += PatternSize)
     std::memcpy(Bytes + At, Pattern, PatternSize);
   Watch->hostWrote(To, Size);
   return {};
 }
 
-Failure Device::hostPointer(std::uint32_t Address, std::uint64_t Size,
-                            void **To) {
+Failure Device::hostPointer(uint32_t Address, uint64_t Size, void **To) {
   std::byte *Bytes = nullptr;
   if (Failure Failed = globalRange(Address, Size, &Bytes))
     return Failed;
@@ -237,7 +234,7 @@ Failure Device::hostPointer(std::uint32_t Address, std::uint64_t Size,
   return {};
 }
 
-Failure Device::tellHost(Told What, std::uint32_t Address, std::uint64_t Size) {
+Failure Device::tellHost(Told What, uint32_t Address, uint64_t Size) {
   std::byte *Bytes = nullptr;
   if (Failure Failed = globalRange(Address, Size, &Bytes))
     return Failed;
@@ -249,15 +246,15 @@ Failure Device::tellHost(Told What, std::uint32_t Address, std::uint64_t Size) {
   return {};
 }
 
-Failure Device::hostWrote(std::uint32_t Address, std::uint64_t Size) {
+Failure Device::hostWrote(uint32_t Address, uint64_t Size) {
   return tellHost(&isasim::Session::hostWrote, Address, Size);
 }
 
-Failure Device::hostRead(std::uint32_t Address, std::uint64_t Size) {
+Failure Device::hostRead(uint32_t Address, uint64_t Size) {
   return tellHost(&isasim::Session::hostRead, Address, Size);
 }
 
-void Device::localUsed(std::uint64_t Bytes) {
+void Device::localUsed(uint64_t Bytes) {
   if (!Watch->observes())
     return;
   Lock Held(Mutex);
@@ -273,7 +270,7 @@ void Device::nameBuffers(const isasim::Kernel &Kernel, const void *Args) {
     HasLocals |= Arg.Kind == VX_ARG_LOCAL;
     if (Arg.Kind != VX_ARG_GLOBAL)
       continue;
-    std::uint32_t Address = 0;
+    uint32_t Address = 0;
     std::memcpy(&Address, static_cast<const std::byte *>(Args) + Arg.Offset,
                 sizeof(Address));
     Watch->bufferNamed(Address,
@@ -310,8 +307,8 @@ void Device::makeCurrent(LoadedImage &Image) {
 Failure Device::prepare(const isasim::Launch &Planned,
                         std::span<const std::byte> Args) {
   for (const auto &[Part, What] : LaunchPartNames) {
-    std::uint32_t Address = 0;
-    if (const std::uint64_t Bytes = Planned.bytes().*Part)
+    uint32_t Address = 0;
+    if (const uint64_t Bytes = Planned.bytes().*Part)
       if (Failure Failed = allocateLocked(Bytes, What, Address))
         return Failed;
     InUse.*Part = Address;
@@ -328,14 +325,14 @@ void Device::finish(isasim::RunResult Run) {
 
 void Device::freeRunMemory() {
   for (const auto &[Part, What] : LaunchPartNames)
-    if (const auto Address = static_cast<std::uint32_t>(InUse.*Part)) {
+    if (const auto Address = static_cast<uint32_t>(InUse.*Part)) {
       Memory.release(Address);
       Watch->released(Address);
     }
   InUse = {};
 }
 
-void Device::launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock) {
+void Device::launch(Lock &Held, LoadedImage &Image, uint32_t LaunchBlock) {
   if (Runner.joinable())
     Runner.join(); // it has ended: Running is false
   makeCurrent(Image);
@@ -366,9 +363,9 @@ void Device::launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock) {
   Held.unlock();
 }
 
-Failure Device::start(LoadedImage &Image, std::uint32_t Kernel,
+Failure Device::start(LoadedImage &Image, uint32_t Kernel,
                       const vx_launch_params &Params, const void *Args,
-                      std::uint32_t ArgsBytes) {
+                      uint32_t ArgsBytes) {
   const auto &Kernels = Image.program().kernels();
   if (Kernel >= Kernels.size())
     return {VX_ERROR_NOT_FOUND, fmt::format("kernel {} of an image with {}",
@@ -396,7 +393,7 @@ Failure Device::start(LoadedImage &Image, std::uint32_t Kernel,
   }
   Watch->runNamed(K.Name);
   nameBuffers(K, Args);
-  launch(Held, Image, static_cast<std::uint32_t>(InUse.Block));
+  launch(Held, Image, static_cast<uint32_t>(InUse.Block));
   return {};
 }
 

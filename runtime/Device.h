@@ -29,20 +29,20 @@ public:
   vx_device_info info();
   const std::string &configText() const { return ConfigText; }
 
-  Failure allocate(std::uint64_t Size, std::uint32_t &Address);
-  Failure release(std::uint32_t Address);
-  Failure copyIn(std::uint32_t To, const void *From, std::uint64_t Size);
-  Failure copyOut(void *To, std::uint32_t From, std::uint64_t Size);
-  Failure copyWithin(std::uint32_t To, std::uint32_t From, std::uint64_t Size);
-  Failure fill(std::uint32_t To, const void *Pattern, std::uint32_t PatternSize,
-               std::uint64_t Size);
-  Failure hostPointer(std::uint32_t Address, std::uint64_t Size, void **To);
+  Failure allocate(uint64_t Size, uint32_t &Address);
+  Failure release(uint32_t Address);
+  Failure copyIn(uint32_t To, const void *From, uint64_t Size);
+  Failure copyOut(void *To, uint32_t From, uint64_t Size);
+  Failure copyWithin(uint32_t To, uint32_t From, uint64_t Size);
+  Failure fill(uint32_t To, const void *Pattern, uint32_t PatternSize,
+               uint64_t Size);
+  Failure hostPointer(uint32_t Address, uint64_t Size, void **To);
 
   /// Tells observers what the host did through hostPointer().
-  Failure hostWrote(std::uint32_t Address, std::uint64_t Size);
-  Failure hostRead(std::uint32_t Address, std::uint64_t Size);
+  Failure hostWrote(uint32_t Address, uint64_t Size);
+  Failure hostRead(uint32_t Address, uint64_t Size);
   /// Tells them how much local memory the next run's kernel has.
-  void localUsed(std::uint64_t Bytes);
+  void localUsed(uint64_t Bytes);
 
   /// Whether the next runs are profiled.
   void setProfiled(bool Profiled);
@@ -50,9 +50,9 @@ public:
   /// Waits for the run in progress and forgets the image if it is loaded.
   void forget(const LoadedImage *Image);
 
-  Failure start(LoadedImage &Image, std::uint32_t Kernel,
+  Failure start(LoadedImage &Image, uint32_t Kernel,
                 const vx_launch_params &Params, const void *Args,
-                std::uint32_t ArgsBytes);
+                uint32_t ArgsBytes);
   Failure startMain(LoadedImage &Image);
   Failure wait(vx_result &Result);
 
@@ -60,30 +60,27 @@ public:
 
 private:
   using Lock = std::unique_lock<std::mutex>;
-  using Told = void (isasim::Session::*)(std::uint32_t, std::uint64_t);
+  using Told = void (isasim::Session::*)(uint32_t, uint64_t);
 
   void waitForRun(Lock &Held);
   /// Observers hear of what the host does between runs only.
   void waitIfObserved(Lock &Held);
   void keepConsole(std::string_view Text);
-  Failure allocateLocked(std::uint64_t Size, const char *What,
-                         std::uint32_t &Address);
+  Failure allocateLocked(uint64_t Size, const char *What, uint32_t &Address);
   /// Whether \p Address lies in the I/O window (docs/abi.md, "Memory map").
-  static bool isRasterWindow(std::uint32_t Address);
+  static bool isRasterWindow(uint32_t Address);
   /// Calls Use(core, csr, offset) for each word of a range of the window, until
   /// it returns false.
   template <typename Function>
-  Failure forRasterCsrs(std::uint32_t Address, std::uint64_t Size,
-                        Function Use);
-  Failure globalRange(std::uint32_t Address, std::uint64_t Size,
-                      std::byte **Bytes);
-  Failure tellHost(Told What, std::uint32_t Address, std::uint64_t Size);
+  Failure forRasterCsrs(uint32_t Address, uint64_t Size, Function Use);
+  Failure globalRange(uint32_t Address, uint64_t Size, std::byte **Bytes);
+  Failure tellHost(Told What, uint32_t Address, uint64_t Size);
   void freeRunMemory();
   void nameBuffers(const isasim::Kernel &Kernel, const void *Args);
   Failure prepare(const isasim::Launch &Planned,
                   std::span<const std::byte> Args);
   void makeCurrent(LoadedImage &Image);
-  void launch(Lock &Held, LoadedImage &Image, std::uint32_t LaunchBlock);
+  void launch(Lock &Held, LoadedImage &Image, uint32_t LaunchBlock);
   void finish(isasim::RunResult Run);
 
   std::unique_ptr<isasim::Machine> Machine;
@@ -105,7 +102,7 @@ private:
   isasim::Printed Print;
   std::string ConsoleText, TimeText;
   std::string BugText; ///< of an exception out of the simulator, else empty
-  std::uint64_t ConsoleDropped = 0;
+  uint64_t ConsoleDropped = 0;
 };
 
 } // namespace vorion::runtime

@@ -43,7 +43,7 @@ TEST(RuntimeOpen, ClockForProfiledRunsOnly) {
   ASSERT_EQ(vx_device_open_with(Options, 2, &Device), VX_OK) << vx_last_error();
   vx_image *Image = nullptr;
   ASSERT_EQ(vx_image_load_file(Device, KERNELS_ELF, &Image), VX_OK);
-  std::uint32_t Kernel = 0;
+  uint32_t Kernel = 0;
   ASSERT_EQ(vx_image_find_kernel(Image, "exit_seven", &Kernel), VX_OK);
   const auto Report = [&] {
     const vx_launch_params Params{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
@@ -113,7 +113,7 @@ TEST(RuntimeOpen, OptionsGoBeforeTheEnvironment) {
   const auto CoresWith = [&](std::initializer_list<vx_option> Options) {
     vx_device_info Info{};
     EXPECT_EQ(vx_device_open_with(std::data(Options),
-                                  static_cast<std::uint32_t>(Options.size()),
+                                  static_cast<uint32_t>(Options.size()),
                                   &Device),
               VX_OK)
         << vx_last_error();
@@ -138,8 +138,8 @@ TEST(RuntimeOpen, OptionsGoBeforeTheEnvironment) {
 
 TEST(RuntimeOpen, NullArgumentsNeverCrash) {
   vx_device *Device = nullptr;
-  std::uint32_t Number = 0;
-  std::uint64_t Size = 0;
+  uint32_t Number = 0;
+  uint64_t Size = 0;
   void *Pointer = nullptr;
   vx_device_info Info{};
   const char *Text = nullptr;

@@ -19,9 +19,9 @@ Error cannot(const std::string &Path, const char *Do, int Cause) {
                             std::strerror(Cause))};
 }
 
-std::uint64_t memoryOfMachine() {
-  return static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+uint64_t memoryOfMachine() {
+  return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+         static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 /// Reads up to \p Size bytes; the number of them, or nothing with errno set.
@@ -38,7 +38,7 @@ std::optional<std::size_t> readSome(int From, std::byte *To, std::size_t Size) {
 } // namespace
 
 Expected<std::vector<std::byte>> readFile(const std::string &Path,
-                                          std::uint64_t Most) {
+                                          uint64_t Most) {
   const Descriptor File(::open(Path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat Info{};
   if (File.number() < 0 || ::fstat(File.number(), &Info) != 0)
@@ -47,7 +47,7 @@ Expected<std::vector<std::byte>> readFile(const std::string &Path,
   const bool SaysSize = S_ISREG(Info.st_mode) && Info.st_size > 0;
   if (SaysSize) {
     Most = std::min(Most, memoryOfMachine());
-    if (static_cast<std::uint64_t>(Info.st_size) > Most)
+    if (static_cast<uint64_t>(Info.st_size) > Most)
       return Error{Path, fmt::format("a file of {} bytes, expected at most {}",
                                      Info.st_size, Most)};
   } else {

@@ -10,9 +10,9 @@
 namespace vorion {
 namespace {
 
-constexpr std::uint64_t NoBound = std::numeric_limits<std::uint64_t>::max();
+constexpr uint64_t NoBound = std::numeric_limits<uint64_t>::max();
 
-std::string bounds(std::uint64_t Least, std::uint64_t Most) {
+std::string bounds(uint64_t Least, uint64_t Most) {
   if (Most != NoBound)
     return fmt::format("{} to {}", Least, Most);
   return fmt::format("{} or more", Least);
@@ -32,15 +32,14 @@ JsonShape JsonShape::boolean() { return JsonShape(Type::Boolean); }
 JsonShape JsonShape::text() { return JsonShape(Type::Text); }
 JsonShape JsonShape::number() { return JsonShape(Type::Number); }
 
-JsonShape JsonShape::whole(std::uint64_t Least, std::uint64_t Most) {
+JsonShape JsonShape::whole(uint64_t Least, uint64_t Most) {
   JsonShape S(Type::Whole);
   S.Least = Least;
   S.Most = Most;
   return S;
 }
 
-JsonShape JsonShape::list(JsonShape Of, std::uint64_t Least,
-                          std::uint64_t Most) {
+JsonShape JsonShape::list(JsonShape Of, uint64_t Least, uint64_t Most) {
   JsonShape S(Type::List);
   S.Least = Least;
   S.Most = Most;
@@ -101,8 +100,8 @@ template <typename Kind> bool JsonShape::isMet(const Kind &J) const {
   case Type::Number:
     return J.is_number();
   case Type::Whole:
-    return J.is_number_unsigned() && J.template get<std::uint64_t>() >= Least &&
-           J.template get<std::uint64_t>() <= Most;
+    return J.is_number_unsigned() && J.template get<uint64_t>() >= Least &&
+           J.template get<uint64_t>() <= Most;
   case Type::List:
     return J.is_array() && J.size() >= Least && J.size() <= Most;
   case Type::Object:

@@ -15,7 +15,7 @@ struct Character {
 
 Character characterAt(std::string_view Text, std::size_t At) {
   const auto Byte = [&](std::size_t I) {
-    return At + I < Text.size() ? static_cast<std::uint8_t>(Text[At + I]) : 0U;
+    return At + I < Text.size() ? static_cast<uint8_t>(Text[At + I]) : 0U;
   };
   const unsigned First = Byte(0);
   if (First < 0x80)
@@ -55,8 +55,7 @@ std::string escaped(std::string_view Text) {
       Shown += Text.substr(At, Bytes);
     else
       for (std::size_t I = 0; I < Bytes; ++I)
-        Shown +=
-            fmt::format("\\x{:02x}", static_cast<std::uint8_t>(Text[At + I]));
+        Shown += fmt::format("\\x{:02x}", static_cast<uint8_t>(Text[At + I]));
     At += Bytes;
   }
   return Shown;

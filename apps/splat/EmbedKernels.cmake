@@ -1,7 +1,7 @@
 # Writes OUTPUT, the C++ source of kernelSource() and kernelFiles(), from the kernel FILES.
 # usage: cmake -DOUTPUT=... "-DFILES=a.cl;b.cl" -P EmbedKernels.cmake
 set(Text "// Generated from apps/splat/kernels/ by EmbedKernels.cmake; do not edit.\n")
-string(APPEND Text "#include \"Kernels.h\"\n\nnamespace vorion::splat {\n\n")
+string(APPEND Text "#include \"device/Kernels.h\"\n\nnamespace vorion::splat {\n\n")
 string(APPEND Text "std::span<const std::string_view> kernelFiles() {\n  static constexpr std::string_view Files[] = {")
 foreach(File IN LISTS FILES)
   get_filename_component(Name "${File}" NAME)

@@ -24,7 +24,7 @@ constexpr unsigned Down = (FrameHeight + TileSize - 1) / TileSize;
 class FrameMemory : public RasterMemory {
 public:
   explicit FrameMemory(std::size_t Bytes) : Storage(Bytes / sizeof(Line)) {}
-  std::byte *range(std::uint32_t Addr, std::uint64_t Bytes) override {
+  std::byte *range(uint32_t Addr, uint64_t Bytes) override {
     return Addr + Bytes <= Storage.size() * sizeof(Line)
                ? reinterpret_cast<std::byte *>(Storage.data()) + Addr
                : nullptr;
@@ -64,14 +64,14 @@ std::vector<Gaussian> makeScene(double Sigma, double Fragments) {
 void frame(benchmark::State &State) {
   const std::vector<Gaussian> Scene =
       makeScene(static_cast<double>(State.range(0)) / 10, 20e6);
-  constexpr std::uint32_t Pixels = 0;
-  constexpr std::uint32_t Records = FrameWidth * FrameHeight * sizeof(Pixel);
+  constexpr uint32_t Pixels = 0;
+  constexpr uint32_t Records = FrameWidth * FrameHeight * sizeof(Pixel);
   const auto Lists =
-      Records + static_cast<std::uint32_t>(Scene.size() * sizeof(Gaussian));
+      Records + static_cast<uint32_t>(Scene.size() * sizeof(Gaussian));
 
-  std::vector<std::vector<std::uint32_t>> TileLists(Across * Down);
+  std::vector<std::vector<uint32_t>> TileLists(Across * Down);
   std::size_t Pairs = 0;
-  for (std::uint32_t I = 0; I != Scene.size(); ++I) {
+  for (uint32_t I = 0; I != Scene.size(); ++I) {
     const auto Range = [&](unsigned Axis, unsigned Tiles) {
       const float Low = Scene[I].Mean[Axis] - Scene[I].Extent[Axis];
       const float High = Scene[I].Mean[Axis] + Scene[I].Extent[Axis];
@@ -95,25 +95,25 @@ void frame(benchmark::State &State) {
 
   RasterAgent Agent;
   Rasterizer Unit(Memory, {&Agent});
-  const auto Set = [&](Csr C, std::uint32_t Value) {
+  const auto Set = [&](Csr C, uint32_t Value) {
     Agent.write(C, std::span(&Value, 1), 1);
   };
-  Set(Csr::Options, OptionsExp.put(static_cast<std::uint32_t>(State.range(1))));
-  Set(Csr::Cutoff, std::bit_cast<std::uint32_t>(1e-4F));
+  Set(Csr::Options, OptionsExp.put(static_cast<uint32_t>(State.range(1))));
+  Set(Csr::Cutoff, std::bit_cast<uint32_t>(1e-4F));
   Set(Csr::Gaussians, Records);
   Set(Csr::OutputPitch, FrameWidth * sizeof(Pixel));
 
-  std::uint64_t Fragments = 0;
+  uint64_t Fragments = 0;
   for (auto _ : State) {
     const Counters Before = Agent.counters();
-    std::uint32_t List = Lists;
+    uint32_t List = Lists;
     for (unsigned T = 0; T != Across * Down; ++T) {
       const unsigned X = T % Across * TileSize;
       const unsigned Y = T / Across * TileSize;
       const std::size_t Bytes = 4 * TileLists[T].size();
       std::memcpy(Memory.range(List, Bytes), TileLists[T].data(), Bytes);
       Set(Csr::List, List);
-      Set(Csr::Count, static_cast<std::uint32_t>(TileLists[T].size()));
+      Set(Csr::Count, static_cast<uint32_t>(TileLists[T].size()));
       Set(Csr::TileOrigin, TileOriginX.put(X) | TileOriginY.put(Y));
       Set(Csr::TileShape,
           TileShapeWidth.put(std::min(TileSize, FrameWidth - X)) |
@@ -121,7 +121,7 @@ void frame(benchmark::State &State) {
       Set(Csr::Output, Pixels + (Y * FrameWidth + X) * sizeof(Pixel));
       Unit.makeRoom(Agent);
       Set(Csr::Start, 1);
-      List += static_cast<std::uint32_t>(Bytes);
+      List += static_cast<uint32_t>(Bytes);
     }
     Unit.finish(Agent);
     if (Agent.read(Csr::Wait, 0) != VR_OK)
@@ -133,8 +133,7 @@ void frame(benchmark::State &State) {
     State.counters["fetched"] =
         static_cast<double>(Agent.counters().Gaussians - Before.Gaussians);
   }
-  State.SetItemsProcessed(static_cast<std::int64_t>(Fragments) *
-                          State.iterations());
+  State.SetItemsProcessed(static_cast<int64_t>(Fragments) * State.iterations());
 }
 BENCHMARK(frame)
     ->ArgNames({"sigma10", "exp"})
@@ -152,8 +151,7 @@ void exponentials(benchmark::State &State, const Datapath *Level,
     Level->Exp[Unit](Out.data(), Out.size());
     benchmark::DoNotOptimize(Out.data());
   }
-  State.SetItemsProcessed(static_cast<std::int64_t>(In.size()) *
-                          State.iterations());
+  State.SetItemsProcessed(static_cast<int64_t>(In.size()) * State.iterations());
 }
 
 const bool Registered = [] {

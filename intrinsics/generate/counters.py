@@ -64,7 +64,7 @@ def isasim(records):
     yield from cpp("vorion::isasim", "<cstdint>")
     yield "/// A counter of the structure T."
     yield "template <typename T> struct CounterInfo {"
-    yield "  const char *Name;\n  const char *Doc;\n  std::uint64_t T::*Member;\n};\n"
+    yield "  const char *Name;\n  const char *Doc;\n  uint64_t T::*Member;\n};\n"
     kinds = (("CoreCounter", "Of one core, or sums over cores.", (plus,)),
              ("RasterCounter", "Work of completed commands, of one agent or all (the vr_n_* CSRs). A failed\n"
               "/// command counts as one, with the work it did before it failed.", (plus, minus)))
@@ -112,7 +112,7 @@ def opencl(records):
 def event(records):
     yield from cpp("vorion", "<CL/cl_vorion.h>", "<vorion/counters.h>")
     yield "/// Null for a name that is no counter's."
-    yield "inline std::uint64_t vx_counters::*counterNamed(cl_uint Name) {"
+    yield "inline uint64_t vx_counters::*counterNamed(cl_uint Name) {"
     yield "  switch (Name) {"
     yield from (f"  case {token(f)}:\n    return &vx_counters::{f.Name};" for _, f in shown_fields(records))
     yield "  default:\n    return nullptr;\n  }\n}\n\n} // namespace vorion"
@@ -124,7 +124,7 @@ def splat(records):
     yield from Cpp().structure("KernelCounters", "What a Vorion device counted for one kernel; zeros are counts too.",
                                fields, initial="0", functions=["", *plus("KernelCounters", fields)])
     yield "struct CounterInfo {\n  const char *Name;\n  cl_uint Token; ///< of clGetEventInfoVORION"
-    yield "  std::uint64_t KernelCounters::*Member;\n};"
+    yield "  uint64_t KernelCounters::*Member;\n};"
     yield "inline constexpr CounterInfo KernelCounterTable[] = {"
     yield from (f'    {{"{f.Name}", {token(f)}, &KernelCounters::{camel(f.Name)}}},' for f in fields)
     yield "};\n\n} // namespace vorion::splat"

@@ -18,12 +18,12 @@ HEAD = note("csrs.py") + """
 namespace vorion::isasim {
 
 /// Where one copy of a CSR lives.
-enum class Scope : std::uint8_t { Lane, Warp, Core, Agent, Socket, Cluster, Device };
+enum class Scope : uint8_t { Lane, Warp, Core, Agent, Socket, Cluster, Device };
 /// What a write by several active lanes means.
-enum class WriteRule : std::uint8_t { None, Lane, Scalar, Push };
+enum class WriteRule : uint8_t { None, Lane, Scalar, Push };
 
 struct CsrInfo {
-  std::uint16_t Number;
+  uint16_t Number;
   Scope In;
   WriteRule Rule;
   bool Uniform; ///< all lanes read the same value, so one read serves them all
@@ -46,7 +46,7 @@ constexpr const CsrInfo *findCsrInfo(unsigned Number) {
 
 def table(records):
     csrs = sorted(records.of("Csr"), key=lambda c: c.Number)
-    yield "enum Csr : std::uint16_t {"
+    yield "enum Csr : uint16_t {"
     for c in csrs:
         yield f"  {c.id if c.id.startswith('CSR_') else 'CSR_' + c.id} = {c.Number:#05x},"
     yield "};\n"

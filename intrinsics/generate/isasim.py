@@ -20,16 +20,16 @@ HEAD = note("isasim.py") + """
 
 namespace vorion::isasim {
 
-enum class Format : std::uint8_t { R, R4, I, S, B, U, J, IShift, ICsr, ICsrImm, Plain };
+enum class Format : uint8_t { R, R4, I, S, B, U, J, IShift, ICsr, ICsrImm, Plain };
 
 /// Which register file an operand names; None where there is no such operand.
-enum class File : std::uint8_t { None, X, F };
+enum class File : uint8_t { None, X, F };
 
 /// An instruction: Word & Mask == Match. Syntax is the assembly's operands.
 struct InsnInfo {
   const char *Mnemonic;
   const char *Syntax;
-  std::uint32_t Match, Mask;
+  uint32_t Match, Mask;
   Format Fmt;
   File Rd, Rs1, Rs2, Rs3;
   bool HasRm; ///< a rounding mode stands where funct3 is
@@ -54,7 +54,7 @@ def instructions(records):
     yield "#define VORION_FOR_EACH_OP(X) \\"
     yield " \\\n".join(f"  X({i.id})" for i in insns)
     yield ""
-    yield "enum class Op : std::uint16_t {"
+    yield "enum class Op : uint16_t {"
     for i in insns:
         yield f"  {i.id},"
     yield "};"

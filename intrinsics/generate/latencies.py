@@ -52,15 +52,15 @@ def clock(records):
     yield "#include \"core/IsaTables.h\"\n"
     yield "namespace vorion::isasim {\n"
     yield "/// Instructions that cost the same."
-    yield "enum class OpClass : std::uint8_t {"
+    yield "enum class OpClass : uint8_t {"
     for c in classes:
         yield f"  {c.Name.capitalize()}, ///< {c.Source}"
     yield "  Count\n};\n"
     yield "/// Whom an instruction is given to."
     units = list(dict.fromkeys(c.Unit for c in classes))
-    yield f"enum class Unit : std::uint8_t {{ {', '.join(u.capitalize() for u in units)}, Count }};\n"
+    yield f"enum class Unit : uint8_t {{ {', '.join(u.capitalize() for u in units)}, Count }};\n"
     yield "/// Cycles until the result can be used, and until the unit takes the next."
-    yield "struct LatencyInfo {\n  const char *Name;\n  Unit On;\n  std::uint8_t Cycles, Interval;\n};"
+    yield "struct LatencyInfo {\n  const char *Name;\n  Unit On;\n  uint8_t Cycles, Interval;\n};"
     yield "/// Indexed by OpClass."
     yield "inline constexpr LatencyInfo LatencyTable[] = {"
     for c in classes:

@@ -45,13 +45,13 @@ class C:
 class Cpp:
     """Members are named as LLVM does. A type that records do not know is a structure's name."""
 
-    _TYPES = {"u32": "std::uint32_t", "f32": "float", "u64": "std::uint64_t"}
+    _TYPES = {"u32": "uint32_t", "f32": "float", "u64": "uint64_t"}
 
     def constants(self, records):
         yield "// The names of the ABI, as in every other language."
         yield "// NOLINTBEGIN(readability-identifier-naming)"
         for r in records:
-            yield f"inline constexpr std::uint32_t {r.Name} = {word(r.Value)}; ///< {r.Doc}"
+            yield f"inline constexpr uint32_t {r.Name} = {word(r.Value)}; ///< {r.Doc}"
         yield "// NOLINTEND(readability-identifier-naming)\n"
 
     def structure(self, name, doc, fields, *, base="", initial="", functions=()):

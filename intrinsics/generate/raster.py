@@ -25,9 +25,9 @@ using isasim::WriteRule;
 /// Some bits of a CSR.
 struct BitField {
   unsigned Low, Width;
-  constexpr std::uint32_t mask() const { return (1U << Width) - 1; }
-  constexpr std::uint32_t get(std::uint32_t Word) const { return Word >> Low & mask(); }
-  constexpr std::uint32_t put(std::uint32_t Value) const { return (Value & mask()) << Low; }
+  constexpr uint32_t mask() const { return (1U << Width) - 1; }
+  constexpr uint32_t get(uint32_t Word) const { return Word >> Low & mask(); }
+  constexpr uint32_t put(uint32_t Value) const { return (Value & mask()) << Low; }
 };
 """
 
@@ -46,7 +46,7 @@ def csr_name(csr):
 
 
 def enum_csrs(csrs):
-    yield "enum class Csr : std::uint16_t {"
+    yield "enum class Csr : uint16_t {"
     for c in csrs:
         yield f"  {csr_name(c)} = {c.Number:#05x}, ///< {c.Doc}"
     yield "};\n"
@@ -63,7 +63,7 @@ def bank(records):
            if field_name(c) not in handed]
     yield from Cpp().structure("BankWords", "The configuration bank, as written.", own, base="TileWords", initial="0")
     yield "/// The word of the bank that \\p C is, or null."
-    yield "constexpr std::uint32_t BankWords::*bankWord(Csr C) {"
+    yield "constexpr uint32_t BankWords::*bankWord(Csr C) {"
     yield "  switch (C) {"
     yield from (f"  case Csr::{csr_name(c)}:\n    return &BankWords::{csr_name(c)};" for c in words)
     yield "  default:\n    return nullptr;\n  }\n}\n"
@@ -72,7 +72,7 @@ def bank(records):
 def counters(records):
     csrs = {c.Name: c for c in records.of("Csr")}
     yield "/// The CSRs of a counter's two words."
-    yield "struct CounterWords {\n  Csr Low, High;\n  std::uint64_t Counters::*Value;\n};"
+    yield "struct CounterWords {\n  Csr Low, High;\n  uint64_t Counters::*Value;\n};"
     yield "inline constexpr CounterWords CounterTable[] = {"
     for c in records.of("RasterCounter"):
         yield f"    {{Csr::{csr_name(c)}, Csr::{csr_name(csrs[c.Name + 'h'])}, &Counters::{camel(c.Counter)}}},"

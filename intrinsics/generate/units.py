@@ -47,7 +47,7 @@ def raster(records):
              ("Reciprocal", "Report", "double", "MaxRelativeError", "over alpha in [1/255, 0.99], rounding included"))
     for kind, name, kind_of_bound, bound, doc in about:
         all_units = by_number(records, kind)
-        yield f"struct {kind}Unit {{\n  std::uint32_t Option; ///< its number\n  std::string_view Name;"
+        yield f"struct {kind}Unit {{\n  uint32_t Option; ///< its number\n  std::string_view Name;"
         yield f"  {kind_of_bound} {bound}; ///< {doc}\n}};"
         yield f"inline constexpr std::size_t {kind}UnitCount = {len(all_units)};"
         yield "/// By number; any other is VR_BAD_MODE."
@@ -55,7 +55,7 @@ def raster(records):
         for u in all_units:
             yield f'    {{{u.Name}, "{getattr(u, name)}", {getattr(u, bound)}}},'
         yield "};\n"
-    yield "enum class Reciprocal : std::uint8_t {"
+    yield "enum class Reciprocal : uint8_t {"
     yield from (f"  {enumerator(u)} = {u.Value}, ///< {u.Doc}" for u in by_number(records, "Reciprocal"))
     yield "};\n\n} // namespace vorion::raster"
 
@@ -94,7 +94,7 @@ def splat(records):
                              "The rasterizer's unit for 1 / (1 - alpha), by vr_backward.reciprocal.")):
         all_units = units(records, kind)
         yield f"/// {doc}"
-        yield f"enum class {name} : std::uint8_t {{"
+        yield f"enum class {name} : uint8_t {{"
         yield from (f"  {enumerator(u)} = {u.Value}, ///< {u.Doc}" for u in all_units)
         yield "};"
         yield "/// In the order in which command lines show them."

@@ -5,18 +5,7 @@
 
 namespace vorion::isasim {
 
-enum class Amo : std::uint8_t {
-  Add,
-  Swap,
-  Xor,
-  And,
-  Or,
-  Min,
-  Max,
-  Minu,
-  Maxu,
-  Cas
-};
+enum class Amo : uint8_t { Add, Swap, Xor, And, Or, Min, Max, Minu, Maxu, Cas };
 
 // False if the warp stops (WarpState::Why says why): the instruction has not
 // been executed.

@@ -7,16 +7,16 @@ namespace vorion::isasim {
 
 /// The fields of a CSR instruction.
 struct CsrAccess {
-  enum Combine : std::uint8_t { Swap = 1, SetBits = 2, ClearBits = 3 };
-  std::uint16_t Number;
-  std::uint8_t Source; ///< x register or immediate
+  enum Combine : uint8_t { Swap = 1, SetBits = 2, ClearBits = 3 };
+  uint16_t Number;
+  uint8_t Source; ///< x register or immediate
   bool IsImmediate, Reads, Writes;
   Combine Kind;
 
   /// What lane \p Lane brings.
-  std::uint32_t operand(WarpState *S, unsigned Lane) const;
+  uint32_t operand(WarpState *S, unsigned Lane) const;
   /// What is written.
-  std::uint32_t combine(std::uint32_t Old, std::uint32_t Operand) const;
+  uint32_t combine(uint32_t Old, uint32_t Operand) const;
 };
 CsrAccess csrAccess(const Insn *I);
 

@@ -16,22 +16,22 @@
 namespace vorion::isasim::VORION_LEVEL {
 
 using U = LaneWords;
-using I32 = std::int32_t __attribute__((vector_size(4 * MaxLanes)));
+using I32 = int32_t __attribute__((vector_size(4 * MaxLanes)));
 using F32 = float __attribute__((vector_size(4 * MaxLanes)));
-using U64 = std::uint64_t __attribute__((vector_size(8 * MaxLanes)));
+using U64 = uint64_t __attribute__((vector_size(8 * MaxLanes)));
 using LaneBools = bool __attribute__((ext_vector_type(MaxLanes)));
 template <typename T>
 using Lanes __attribute__((vector_size(sizeof(T) * MaxLanes))) = T;
 
-inline constexpr std::uint32_t AllBits = (1U << MaxLanes) - 1;
+inline constexpr uint32_t AllBits = (1U << MaxLanes) - 1;
 
 /// A bit for each lane whose comparison result is true.
-VORION_INLINE std::uint32_t laneBits(I32 Condition) {
-  return __builtin_bit_cast(std::uint16_t,
+VORION_INLINE uint32_t laneBits(I32 Condition) {
+  return __builtin_bit_cast(uint16_t,
                             __builtin_convertvector(Condition, LaneBools));
 }
 
-VORION_INLINE U splat(std::uint32_t Value) { return U{} + Value; }
+VORION_INLINE U splat(uint32_t Value) { return U{} + Value; }
 VORION_INLINE U iota() {
   return U{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 }
@@ -149,20 +149,18 @@ VORION_INLINE U remU(U A, U B) {
 VORION_INLINE U divS(U A, U B) {
   U R;
   for (unsigned L = 0; L != MaxLanes; ++L) {
-    const auto X = static_cast<std::int32_t>(A[L]);
-    const auto Y = static_cast<std::int32_t>(B[L]);
-    R[L] = Y == 0    ? ~0U
-           : Y == -1 ? 0U - A[L]
-                     : static_cast<std::uint32_t>(X / Y);
+    const auto X = static_cast<int32_t>(A[L]);
+    const auto Y = static_cast<int32_t>(B[L]);
+    R[L] = Y == 0 ? ~0U : Y == -1 ? 0U - A[L] : static_cast<uint32_t>(X / Y);
   }
   return R;
 }
 VORION_INLINE U remS(U A, U B) {
   U R;
   for (unsigned L = 0; L != MaxLanes; ++L) {
-    const auto X = static_cast<std::int32_t>(A[L]);
-    const auto Y = static_cast<std::int32_t>(B[L]);
-    R[L] = Y == 0 ? A[L] : Y == -1 ? 0U : static_cast<std::uint32_t>(X % Y);
+    const auto X = static_cast<int32_t>(A[L]);
+    const auto Y = static_cast<int32_t>(B[L]);
+    R[L] = Y == 0 ? A[L] : Y == -1 ? 0U : static_cast<uint32_t>(X % Y);
   }
   return R;
 }
@@ -241,7 +239,7 @@ inline constexpr bool HasFloatToInt = true;
     __m128 X;                                                                  \
     std::memcpy(&X, reinterpret_cast<const float *>(&A) + 4 * Q, 16);          \
     const auto Y = CALL;                                                       \
-    std::memcpy(reinterpret_cast<std::uint32_t *>(&R) + 4 * Q, &Y, 16);        \
+    std::memcpy(reinterpret_cast<uint32_t *>(&R) + 4 * Q, &Y, 16);             \
   }                                                                            \
   return
 VORION_INLINE U convertHost(F32 A) { VORION_QUARTERS(_mm_cvtps_epi32(X)) R; }

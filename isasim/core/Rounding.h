@@ -6,7 +6,7 @@
 
 namespace vorion::isasim {
 
-enum class FpOp : std::uint8_t {
+enum class FpOp : uint8_t {
   Add,
   Sub,
   Mul,
@@ -26,6 +26,6 @@ enum class FpOp : std::uint8_t {
 bool softFp(WarpState *S, const Insn *I, FpOp O);
 
 /// Sets frm (0 to 7) and puts the host's unit into it.
-void setFrm(WarpState *S, std::uint32_t Frm);
+void setFrm(WarpState *S, uint32_t Frm);
 
 } // namespace vorion::isasim

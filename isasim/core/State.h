@@ -14,7 +14,7 @@ inline constexpr unsigned MaxLanes = 16;
 
 /// One 32-bit word for each lane: a register. Lanes that a machine does not
 /// have are never active.
-using LaneWords = std::uint32_t __attribute__((vector_size(4 * MaxLanes)));
+using LaneWords = uint32_t __attribute__((vector_size(4 * MaxLanes)));
 
 /// Places in WarpState::R.
 inline constexpr unsigned XBase = 0;
@@ -36,13 +36,13 @@ struct Insn {
   Handler Run[2]; ///< indexed by WarpState::Full
   /// Byte offsets of operands in WarpState. Rs3 is the destination's old value
   /// where an instruction reads it (amocas.w).
-  std::uint16_t Rd, Rs1, Rs2, Rs3;
-  std::int32_t Imm; ///< branches and jal: bytes to the target
-  std::uint32_t Word;
+  uint16_t Rd, Rs1, Rs2, Rs3;
+  int32_t Imm; ///< branches and jal: bytes to the target
+  uint32_t Word;
 };
 
 /// Why a warp does not go on at present.
-enum class Stop : std::uint32_t {
+enum class Stop : uint32_t {
   Ready,   ///< it can
   Ended,   ///< thread mask 0
   Trapped, ///< WarpState::Fault*
@@ -55,19 +55,19 @@ enum class Stop : std::uint32_t {
 };
 
 /// Insn::Imm of a branch or jal whose target is not code.
-inline constexpr std::int32_t BadTarget = INT32_MIN;
+inline constexpr int32_t BadTarget = INT32_MIN;
 
 /// A range of guest memory and where it lies on the host.
 struct Region {
-  std::uint32_t Lo = 0;
-  std::uint32_t Bytes = 0; ///< at least MaxLanes * 4
+  uint32_t Lo = 0;
+  uint32_t Bytes = 0; ///< at least MaxLanes * 4
   std::byte *Host = nullptr;
 
   /// Whether [Addr, Addr + Size) lies inside, Size <= MaxLanes * 4.
-  bool holds(std::uint32_t Addr, std::uint32_t Size) const {
+  bool holds(uint32_t Addr, uint32_t Size) const {
     return Addr - Lo <= Bytes - Size;
   }
-  std::byte *at(std::uint32_t Addr) const { return Host + (Addr - Lo); }
+  std::byte *at(uint32_t Addr) const { return Host + (Addr - Lo); }
 };
 
 /// Harts whose stacks are interleaved on the host.
@@ -98,16 +98,16 @@ struct MemoryView {
 
 /// One divergent vx_split that has not been joined.
 struct Divergence {
-  std::uint32_t Mask;  ///< before the split
-  std::uint32_t Other; ///< lanes of the side that waits, 0 once it has run
-  const Insn *Pc;      ///< where that side starts
+  uint32_t Mask;  ///< before the split
+  uint32_t Other; ///< lanes of the side that waits, 0 once it has run
+  const Insn *Pc; ///< where that side starts
 };
 
 /// A warp's part of its core's counters.
 struct WarpCounters : CoreCounters {
   /// Atomics that changed memory, and reads of what changes by itself: with
   /// Stores, what tells a warp that waits in vain (machine/HangDetector.h).
-  std::uint64_t Changes = 0;
+  uint64_t Changes = 0;
 };
 
 class Core;
@@ -115,65 +115,65 @@ class Watch;
 struct CoreTrace;
 
 struct alignas(64) WarpState {
-  LaneWords R[NumRegisters];   ///< x0..x31, f0..f31, the sink; at offset 0
-  LaneWords MaskWords;         ///< all ones in active lanes
-  std::uint32_t Mask = 0;      ///< active lanes
-  std::uint32_t Full = 0;      ///< 1 if all MaxLanes lanes are active
-  std::uint32_t LaneCount = 0; ///< active lanes
-  std::uint32_t LastLane = 0;  ///< the highest active one
+  LaneWords R[NumRegisters]; ///< x0..x31, f0..f31, the sink; at offset 0
+  LaneWords MaskWords;       ///< all ones in active lanes
+  uint32_t Mask = 0;         ///< active lanes
+  uint32_t Full = 0;         ///< 1 if all MaxLanes lanes are active
+  uint32_t LaneCount = 0;    ///< active lanes
+  uint32_t LastLane = 0;     ///< the highest active one
   /// Whether an instruction with this rounding mode field rounds as the host
   /// does at present, which is as frm says (HostFp.h).
-  std::uint8_t RmIsHost[8] = {};
+  uint8_t RmIsHost[8] = {};
 
   const Insn *Code = nullptr; ///< the instruction at CodeLo
-  std::uint32_t CodeLo = 0;
-  std::uint32_t CodeCount = 0; ///< instructions
+  uint32_t CodeLo = 0;
+  uint32_t CodeCount = 0; ///< instructions
   const MemoryView *Mem = nullptr;
 
   WarpCounters Count;
   /// Stop where the program may go back (branch, jump, vx_join) when
   /// Count.WarpInstructions has reached it.
-  std::uint64_t RetireLimit = 0;
-  std::uint64_t TurnEnd = 0;  ///< the RetireLimit of the whole round
+  uint64_t RetireLimit = 0;
+  uint64_t TurnEnd = 0;       ///< the RetireLimit of the whole round
   const Insn *Next = nullptr; ///< where to go on
   Stop Why = Stop::Ended;
 
   Divergence *Stack = nullptr;
-  std::uint32_t StackDepth = 0;
-  std::uint32_t StackLimit = 0;
+  uint32_t StackDepth = 0;
+  uint32_t StackLimit = 0;
 
-  std::uint32_t Frm = 0;
-  std::uint32_t Fflags = 0; ///< those of the host unit are added when it stops
-  std::uint32_t AllLanes = 0;
+  uint32_t Frm = 0;
+  uint32_t Fflags = 0; ///< those of the host unit are added when it stops
+  uint32_t AllLanes = 0;
   /// The mask before any split or predicate: that of the last vx_tmc.
-  std::uint32_t WholeMask = 0;
-  std::uint32_t WarpId = 0;
+  uint32_t WholeMask = 0;
+  uint32_t WarpId = 0;
   /// The number of lane 0's stack, from the top; NoOwnStack where stacks are
   /// the program's affair.
-  static constexpr std::uint32_t NoOwnStack = ~0U;
-  std::uint32_t FirstStack = NoOwnStack;
+  static constexpr uint32_t NoOwnStack = ~0U;
+  uint32_t FirstStack = NoOwnStack;
   bool AtBarrier = false;
-  std::uint32_t BarrierId = 0;
-  std::uint32_t BarrierCount = 0;
+  uint32_t BarrierId = 0;
+  uint32_t BarrierCount = 0;
 
-  std::uint32_t FaultCause = 0; ///< a TrapCause
-  std::uint32_t FaultLane = 0;
-  std::uint32_t FaultAddress = 0;
+  uint32_t FaultCause = 0; ///< a TrapCause
+  uint32_t FaultLane = 0;
+  uint32_t FaultAddress = 0;
 
   Core *Owner = nullptr;
   Watch *Watcher = nullptr; ///< of the observed level
   bool Moved = false; ///< by an observer, which sets it: it goes on elsewhere
   CoreTrace *Trace = nullptr; ///< for the clock, or nullptr
 
-  std::uint32_t pcOf(const Insn *I) const {
-    return CodeLo + static_cast<std::uint32_t>(I - Code) * 4;
+  uint32_t pcOf(const Insn *I) const {
+    return CodeLo + static_cast<uint32_t>(I - Code) * 4;
   }
   template <typename T> T &reg(unsigned Offset) {
     return *reinterpret_cast<T *>(reinterpret_cast<std::byte *>(this) + Offset);
   }
-  std::uint32_t *lanes(unsigned Offset) {
-    return reinterpret_cast<std::uint32_t *>(
-        reinterpret_cast<std::byte *>(this) + Offset);
+  uint32_t *lanes(unsigned Offset) {
+    return reinterpret_cast<uint32_t *>(reinterpret_cast<std::byte *>(this) +
+                                        Offset);
   }
 };
 

@@ -28,9 +28,9 @@ private:
   /// Calls Use(row of pixels in memory, its place in the tile, column).
   template <typename Function> void forLivePixels(Function Use);
   void loadPixels();
-  std::uint32_t blend();
+  uint32_t blend();
   void storePixels();
-  void keepVisits(std::uint32_t Examined);
+  void keepVisits(uint32_t Examined);
 
   RasterMemory &Memory;
   TileBuffer &Tile;
@@ -59,7 +59,7 @@ Execution::Execution(const HandOver &Next, RasterMemory &Global,
 
 /// \p Examined Gaussians have been seen by every pixel that is open, or was
 /// until the last of them.
-void Execution::keepVisits(std::uint32_t Examined) {
+void Execution::keepVisits(uint32_t Examined) {
   for (TailWork::OpenPixel &P : Work.Pixels)
     if (P.Visits == 0 && (Examined == J.Count ||
                           std::signbit(Tile.T[P.Y * TileBuffer::Stride + P.X])))
@@ -80,7 +80,7 @@ void Execution::loadPixels() {
   // All closed but those that the record names.
   for (float &T : Tile.T)
     T = -T;
-  for (std::uint32_t &Live : Tile.RowLive)
+  for (uint32_t &Live : Tile.RowLive)
     Live = 0;
   Tile.Live = 0;
   forLivePixels([&](const std::byte *From, unsigned Row, unsigned Column) {
@@ -94,18 +94,18 @@ void Execution::loadPixels() {
     ++Tile.RowLive[Row];
     ++Tile.Live;
     if (Keeps)
-      Work.Pixels.push_back({static_cast<std::uint8_t>(Column),
-                             static_cast<std::uint8_t>(Row), 0});
+      Work.Pixels.push_back(
+          {static_cast<uint8_t>(Column), static_cast<uint8_t>(Row), 0});
   });
 }
 
-std::uint32_t Execution::blend() {
+uint32_t Execution::blend() {
   const GaussianList List(J, Memory);
   Fetched Entry;
-  for (std::uint32_t I = 0; I != J.Count && Tile.Live != 0; ++I) {
-    const std::uint32_t OpenBefore = Tile.Live;
+  for (uint32_t I = 0; I != J.Count && Tile.Live != 0; ++I) {
+    const uint32_t OpenBefore = Tile.Live;
     Work.Counts.TailVisits += OpenBefore;
-    if (const std::uint32_t Status = List.fetch(I, Entry))
+    if (const uint32_t Status = List.fetch(I, Entry))
       return Status;
     Work.Counts.TailBlends +=
         blendFunction(J, Lanes)(Entry.Record, J.Blend, Tile).Blends;

@@ -14,7 +14,7 @@ using namespace raster;
 
 class PixelUnitTest : public RasterTest {
 protected:
-  static constexpr std::uint32_t Record = Records + 0x700000;
+  static constexpr uint32_t Record = Records + 0x700000;
 
   PixelUnit Tails{Memory};
 
@@ -23,14 +23,14 @@ protected:
     Unit.finish(Agent);
     Tails.accept(Unit.takeHandOvers());
   }
-  std::uint32_t startAll() {
+  uint32_t startAll() {
     set(Csr::Start, 1U);
     rasterize();
     while (Tails.step()) {
     }
     return Agent.read(Csr::Wait, 0);
   }
-  void handOverAt(std::uint32_t Count, std::uint32_t Share = 0) {
+  void handOverAt(uint32_t Count, uint32_t Share = 0) {
     set(Csr::TailCount, Count);
     set(Csr::TailShare, Share);
     set(Csr::TailRecord, Record);
@@ -64,7 +64,7 @@ TEST_F(PixelUnitTest, picturesKeepTheirBits) {
       {.Cutoff = 0},
       {.Cutoff = 0.2F, .Options = OptionsStopAtEqual.put(1)},
       {.Options = OptionsExp.put(1) | OptionsSkipSaturated.put(1)}};
-  const std::pair<std::uint32_t, std::uint32_t> Reasons[] = {
+  const std::pair<uint32_t, uint32_t> Reasons[] = {
       {1, 0}, {37, 0},   {100, 0},   {399, 0},   {400, 0},   {~0U, 0},
       {0, 1}, {0, 6553}, {0, 32768}, {0, 60000}, {0, 65536}, {50, 45000}};
   unsigned HandedOver = 0;
@@ -105,8 +105,8 @@ TEST_F(PixelUnitTest, recordAndCountersOfAKnownList) {
   const Gaussian Scene[] = {band(8, 0.99F),  band(8, 0.99F), band(12, 0.99F),
                             band(12, 0.99F), band(20, 0.5F), band(20, 0.5F)};
   configure(Scene, {.Cutoff = 0.005F, .X = 0, .Width = 20, .Height = 10});
-  Memory.put<std::uint32_t>(
-      List, std::vector<std::uint32_t>{0, 1, VR_INTERSECT | 2, 3, 4, 5});
+  Memory.put<uint32_t>(List,
+                       std::vector<uint32_t>{0, 1, VR_INTERSECT | 2, 3, 4, 5});
   set(Csr::Ztile, ZtileCount.put(3) | ZtileIndex.put(1));
   handOverAt(0, 65536 * 2 / 5); // 8 of 20 columns
   set(Csr::Start, 1U);
@@ -152,9 +152,9 @@ TEST_F(PixelUnitTest, visitsAreThoseOfALoopOverPixels) {
   }
   const unsigned First = 15;
   configure(Scene, {.Cutoff = 0.01F, .Height = 1});
-  handOverAt(static_cast<std::uint32_t>(Scene.size()) - First);
+  handOverAt(static_cast<uint32_t>(Scene.size()) - First);
   ASSERT_EQ(startAll(), VR_OK);
-  std::uint64_t Visits = 0;
+  uint64_t Visits = 0;
   for (unsigned X = 0; X != 64; ++X) {
     float T = 1;
     bool Open = true;
@@ -210,7 +210,7 @@ TEST_F(PixelUnitTest, statusCodesOfAHandOver) {
   EXPECT_EQ(startAll(), VR_UNMAPPED);
   set(Csr::TailRecord, TestMemory::Base + (8U << 20) - 544);
   EXPECT_EQ(startAll(), VR_UNMAPPED);
-  for (const std::uint32_t Mode : {ModePushed.put(1), ModeDrain.put(1)}) {
+  for (const uint32_t Mode : {ModePushed.put(1), ModeDrain.put(1)}) {
     handOverAt(5);
     set(Csr::Mode, Mode);
     EXPECT_EQ(startAll(), VR_BAD_TAIL);
@@ -237,7 +237,7 @@ TEST_F(PixelUnitTest, badEntryOfTheTail) {
 // The record lies in memory, where a program can spoil it.
 TEST_F(PixelUnitTest, spoiltRecordsAreStatusCodes) {
   const std::vector<Gaussian> Scene = randomScene(20);
-  const std::pair<std::uint32_t TileWords::*, std::uint32_t> Spoilt[] = {
+  const std::pair<uint32_t TileWords::*, uint32_t> Spoilt[] = {
       {&TileWords::TileShape, 0x00400041},
       {&TileWords::Options, OptionsExp.mask()},
       {&TileWords::List, 0xffff0000},

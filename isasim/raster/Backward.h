@@ -27,11 +27,11 @@ struct BackwardBuffer {
   /// What lies behind it, weighted by the gradient: colour . dL/dpixel.
   alignas(64) float Behind[Pixels];
   /// Entries of the list that the pixel takes part in, from the first.
-  alignas(64) std::uint32_t Last[Pixels];
+  alignas(64) uint32_t Last[Pixels];
   /// Pixel centres; NaN outside the tile, which no box contains.
   alignas(64) float CentreX[Stride];
   alignas(64) float CentreY[Stride];
-  std::uint32_t RowLast[Stride]; ///< the largest of a row
+  uint32_t RowLast[Stride]; ///< the largest of a row
 
   /// An empty tile of \p Width x \p Height pixels at picture coordinates \p X,
   /// \p Y: all planes 0.
@@ -46,7 +46,7 @@ struct BackwardOptions {
   bool InRows = false;
   bool SkipSaturated = false;
   float MinAlpha = 1.0F / 255.0F; ///< the smallest that is blended
-  std::uint32_t Entry = 0;
+  uint32_t Entry = 0;
 };
 
 /// One compilation of the datapath.

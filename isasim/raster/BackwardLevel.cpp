@@ -57,7 +57,7 @@ public:
 private:
   static constexpr unsigned Levels = 7; ///< of 64 rows
   Columns16 Level[Levels];
-  std::uint32_t Full = 0;
+  uint32_t Full = 0;
 };
 
 /// The 16 columns' tree: halves onto halves.
@@ -126,7 +126,7 @@ BoxWork back(const Gaussian &G, const BackwardOptions &Options,
     Column[I] = columnsFrom((FirstBlock + I) * LaneCount, G, Tile.CentreX);
 
   const float Bound = powerBound(G.Opacity, Options.MinAlpha, Exp::Margin);
-  const auto Entry = static_cast<std::int32_t>(Options.Entry);
+  const auto Entry = static_cast<int32_t>(Options.Entry);
   unsigned Blends = 0, LiveInBox = 0;
   RowTree Tree;
   Columns16 Sum = zeroColumns();

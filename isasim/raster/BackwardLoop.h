@@ -18,7 +18,7 @@ struct Scene {
   unsigned X, Y, Width, Height;
   /// By row and column of the tile.
   std::vector<Pixel> Rendered, Upstream;
-  std::vector<std::uint32_t> Last;
+  std::vector<uint32_t> Last;
 
   std::size_t at(unsigned Column, unsigned Row) const {
     return std::size_t{Row} * Width + Column;
@@ -142,7 +142,7 @@ inline std::vector<GradientSums> onLevel(const BackwardDatapath &Level,
       Tile->RowLast[Row] = std::max(Tile->RowLast[Row], S.Last[I]);
     }
   std::vector<GradientSums> Out(S.Gaussians.size());
-  for (O.Entry = static_cast<std::uint32_t>(Out.size()); O.Entry-- != 0;)
+  for (O.Entry = static_cast<uint32_t>(Out.size()); O.Entry-- != 0;)
     Level.Back[0](S.Gaussians[O.Entry], O, *Tile, Out[O.Entry]);
   return Out;
 }

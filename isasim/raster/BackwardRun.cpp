@@ -24,7 +24,7 @@ void BackwardRun::load() {
     const std::byte *Last = lastRow(J, Memory, Y);
     for (unsigned X = 0; X != J.Width; ++X) {
       Pixel Was, Gradient; // the gradient by T stands in T's place
-      std::uint32_t Entries = 0;
+      uint32_t Entries = 0;
       std::memcpy(&Was, Rendered + X * sizeof(Pixel), sizeof(Pixel));
       std::memcpy(&Gradient, Upstream + X * sizeof(Pixel), sizeof(Pixel));
       std::memcpy(&Entries, Last + X * sizeof(Entries), sizeof(Entries));
@@ -41,9 +41,9 @@ void BackwardRun::load() {
   }
 }
 
-std::uint32_t BackwardRun::through(std::uint32_t Entry, GradientSums &Sums) {
+uint32_t BackwardRun::through(uint32_t Entry, GradientSums &Sums) {
   Fetched Input;
-  const std::uint32_t Found = List.fetch(Entry, Input);
+  const uint32_t Found = List.fetch(Entry, Input);
   Work.Counts.Gaussians += Found != VR_UNMAPPED;
   if (Found)
     return Found;
@@ -57,7 +57,7 @@ std::uint32_t BackwardRun::through(std::uint32_t Entry, GradientSums &Sums) {
   if (Keeps)
     Work.Gaussians.push_back(
         {Input.Address, Done.X, Done.Y, Done.Width, Done.Height,
-         static_cast<std::uint16_t>(Done.Fragments), Input.Intersects});
+         static_cast<uint16_t>(Done.Fragments), Input.Intersects});
   return VR_OK;
 }
 
@@ -66,7 +66,7 @@ std::optional<GradientBatch> BackwardRun::next() {
     return std::nullopt;
   GradientBatch Batch;
   Batch.Number = (Left - 1) / VR_GRAD_LANES;
-  const std::uint32_t First = Batch.Number * VR_GRAD_LANES;
+  const uint32_t First = Batch.Number * VR_GRAD_LANES;
   Batch.Count = Left - First;
   for (; Left != First; --Left) {
     Work.Status = through(Left - 1, Batch.Gaussians[Left - 1 - First]);

@@ -28,7 +28,7 @@ public:
 
 private:
   void load();
-  std::uint32_t through(std::uint32_t Entry, GradientSums &Sums);
+  uint32_t through(uint32_t Entry, GradientSums &Sums);
 
   CommandWork Work;
   const Job &J = Work.What;
@@ -37,7 +37,7 @@ private:
   const BackwardDatapath &Unit;
   BackwardOptions Options;
   GaussianList List;
-  std::uint32_t Left = 0; ///< entries in front of what has been handed over
+  uint32_t Left = 0; ///< entries in front of what has been handed over
   bool Keeps;
 };
 

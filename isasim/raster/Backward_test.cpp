@@ -12,8 +12,8 @@ namespace {
 /// RasterTest with the planes of training: last contributors and gradients.
 class BackwardTest : public RasterTest {
 protected:
-  static constexpr std::uint32_t Lasts = Records + 0x680000;
-  static constexpr std::uint32_t Upstream = Records + 0x700000;
+  static constexpr uint32_t Lasts = Records + 0x680000;
+  static constexpr uint32_t Upstream = Records + 0x700000;
 
   void configureTraining() {
     set(Csr::Last, Lasts);
@@ -34,7 +34,7 @@ protected:
   }
 
   /// Starts the backward command of what forward() rendered.
-  void startBackward(std::uint32_t Options = 0) {
+  void startBackward(uint32_t Options = 0) {
     set(Csr::Mode, ModeBackward.put(1));
     set(Csr::Backward, Options);
     set(Csr::Start, 1U);
@@ -43,9 +43,9 @@ protected:
   }
 
   /// Takes the batch that is there, going on with what waits for room.
-  std::uint32_t takeBatch() {
+  uint32_t takeBatch() {
     EXPECT_TRUE(Agent.canTakeBatch());
-    const std::uint32_t Next = Agent.read(Csr::GradNext, 0);
+    const uint32_t Next = Agent.read(Csr::GradNext, 0);
     while (Unit.step()) {
     }
     return Next;
@@ -63,13 +63,13 @@ protected:
   /// Drains a whole command: by entry of the list.
   std::vector<GradientSums> drain(std::size_t Entries) {
     std::vector<GradientSums> All(Entries);
-    for (std::uint32_t Next; (Next = takeBatch()) != 0;)
+    for (uint32_t Next; (Next = takeBatch()) != 0;)
       for (unsigned L = 0; L != GradNextCount.get(Next); ++L)
         All.at(VR_GRAD_LANES * GradNextBatch.get(Next) + L) = readLane(L);
     return All;
   }
 
-  std::uint32_t status() { return Agent.read(Csr::Wait, 0); }
+  uint32_t status() { return Agent.read(Csr::Wait, 0); }
 };
 
 constexpr TileCommand Tall{.Width = 32, .Height = 64};
@@ -93,7 +93,7 @@ TEST_F(BackwardTest, RenderKeepsTheLastContributorOfEachPixel) {
   Scene.push_back(roundGaussian(8.5F, 8.5F, 2, 0.003F));
   forward(Scene, Tall);
   const auto At = [&](unsigned X, unsigned Y) {
-    return Memory.get<std::uint32_t>(Lasts + Y * Pitch / 4 + 4 * X, 1)[0];
+    return Memory.get<uint32_t>(Lasts + Y * Pitch / 4 + 4 * X, 1)[0];
   };
   EXPECT_EQ(At(8, 8), 1U);
   EXPECT_EQ(At(8, 14), 2U); // blended by both
@@ -106,7 +106,7 @@ TEST_F(BackwardTest, TheGaussianThatSaturatesAPixelIsNotItsLast) {
   const std::vector<Gaussian> Scene(4, roundGaussian(8.5F, 8.5F, 9, 1));
   forward(Scene, {.Cutoff = 1e-3F, .Width = 16, .Height = 16});
   // 0.01 is left after the first, 1e-4 would be after the second.
-  EXPECT_EQ(Memory.get<std::uint32_t>(Lasts + 8 * Pitch / 4 + 32, 1)[0], 1U);
+  EXPECT_EQ(Memory.get<uint32_t>(Lasts + 8 * Pitch / 4 + 32, 1)[0], 1U);
 }
 
 TEST_F(BackwardTest, OneGaussianHasItsClosedForm) {
@@ -142,7 +142,7 @@ TEST_F(BackwardTest, HandsOver16GaussiansAtATimeByTheirPlaceInTheList) {
     startBackward();
     unsigned Left = Count;
     while (Left != 0) {
-      const std::uint32_t Next = takeBatch();
+      const uint32_t Next = takeBatch();
       const unsigned Batch = (Left - 1) / VR_GRAD_LANES;
       EXPECT_EQ(GradNextBatch.get(Next), Batch);
       EXPECT_EQ(GradNextCount.get(Next), Left - Batch * VR_GRAD_LANES);
@@ -232,9 +232,9 @@ TEST_F(BackwardTest, ARecordThatIsNotANumberEndsTheCommand) {
 TEST_F(BackwardTest, BadConfigurationsHaveTheirCodes) {
   struct Case {
     Csr Where;
-    std::uint32_t Value, Status;
+    uint32_t Value, Status;
   };
-  const std::uint32_t Backward = ModeBackward.put(1);
+  const uint32_t Backward = ModeBackward.put(1);
   const Case Cases[] = {
       {Csr::Mode, Backward | ModePushed.put(1), VR_BAD_MODE},
       {Csr::Mode, Backward | ModeDrain.put(1), VR_BAD_MODE},
@@ -292,7 +292,7 @@ TEST_F(BackwardTest, ClampStopsOnlyWhatGoesThroughAlpha) {
 
 // Random scenes.
 
-Scene randomScene(std::uint32_t Seed) {
+Scene randomScene(uint32_t Seed) {
   std::mt19937 Engine(Seed);
   const auto Uniform = [&](double Low, double High) {
     return static_cast<float>(Low + (High - Low) * Engine() / 0x1p32);
@@ -340,7 +340,7 @@ INSTANTIATE_TEST_SUITE_P(Host, EveryBackwardLevel,
                          });
 
 TEST_P(EveryBackwardLevel, HasTheBitsOfTheScalarLoop) {
-  for (std::uint32_t Seed = 0; Seed != 42; ++Seed) {
+  for (uint32_t Seed = 0; Seed != 42; ++Seed) {
     const Scene S = randomScene(Seed);
     BackwardOptions O;
     O.Unit = static_cast<Reciprocal>(Seed % ReciprocalUnitCount);
@@ -405,7 +405,7 @@ double errorAgainstDoubles(const Scene &S,
 
 TEST(Backward, TheExactUnitIsNearDoublesAndTheOthersAreWhereTheyShouldBe) {
   double Worst[ReciprocalUnitCount] = {};
-  for (std::uint32_t Seed = 100; Seed != 110; ++Seed) {
+  for (uint32_t Seed = 100; Seed != 110; ++Seed) {
     const Scene S = randomScene(Seed);
     for (unsigned U = 0; U != ReciprocalUnitCount; ++U) {
       BackwardOptions O;

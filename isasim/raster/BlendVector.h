@@ -14,7 +14,7 @@ struct BlendStep {
 };
 
 /// The arithmetic of number \p Number; one that has no body does not compile.
-template <std::uint32_t Number> struct BlendBody;
+template <uint32_t Number> struct BlendBody;
 
 template <> struct BlendBody<VR_BLEND_FP32> {
   VORION_INLINE static Float16 operand(Float16 X) { return X; }
@@ -53,7 +53,7 @@ struct Fp16 {
     Float16 Rounded =
         Size < SmallestNormal ? (Size + ToSubnormal) - ToSubnormal : Normal;
     Rounded = Rounded < Largest ? Rounded : Float16(Largest);
-    const auto SignBit = Int16(static_cast<std::int32_t>(0x80000000U));
+    const auto SignBit = Int16(static_cast<int32_t>(0x80000000U));
     return __builtin_bit_cast(Float16,
                               __builtin_bit_cast(Int16, Rounded) |
                                   (__builtin_bit_cast(Int16, X) & SignBit));

@@ -23,7 +23,7 @@ class RasterAgent;
 /// A hand-over: whose command goes on, and the address of its vx_tail.
 struct HandOver {
   RasterAgent *Agent;
-  std::uint32_t Record;
+  uint32_t Record;
 };
 
 /// A pixel as it leaves the rasterizer; the background is not applied.
@@ -37,7 +37,7 @@ static_assert(sizeof(Pixel) == 16, "docs/abi.md: four floats a pixel");
 
 /// What a Gaussian is handed over with: the words of vr_grad_tag to _syy.
 struct GradientSums {
-  std::uint32_t Tag = 0;
+  uint32_t Tag = 0;
   /// dL/dr, dL/dg, dL/db; s, s dx, s dy, s dx dx, s dx dy, s dy dy.
   std::array<float, 9> Sums{};
 
@@ -47,8 +47,8 @@ struct GradientSums {
 /// Gaussians that a backward command hands over together: entries
 /// VR_GRAD_LANES Number on of its list.
 struct GradientBatch {
-  std::uint32_t Number = 0;
-  std::uint32_t Count = 0; ///< 1 to VR_GRAD_LANES; 0: the command has ended
+  uint32_t Number = 0;
+  uint32_t Count = 0; ///< 1 to VR_GRAD_LANES; 0: the command has ended
   std::array<GradientSums, VR_GRAD_LANES> Gaussians{};
 };
 

@@ -46,12 +46,12 @@ std::byte *upstreamRow(const Job &J, RasterMemory &Memory, unsigned Row);
 /// One entry of a list, and the record that it names.
 struct Fetched {
   Gaussian Record;
-  std::uint32_t Address; ///< of the record
+  uint32_t Address; ///< of the record
   bool Intersects;
 };
 
 /// VR_NAN if a float of \p G is a NaN, else VR_OK.
-std::uint32_t checkGaussian(const Gaussian &G);
+uint32_t checkGaussian(const Gaussian &G);
 
 /// The list of a command that was not refused.
 class GaussianList {
@@ -60,15 +60,15 @@ public:
 
   /// Reads entry \p I, below vr_count, with its record: VR_OK, VR_UNMAPPED or
   /// VR_NAN.
-  std::uint32_t fetch(std::uint32_t I, Fetched &Out) const;
+  uint32_t fetch(uint32_t I, Fetched &Out) const;
 
 private:
-  std::uint32_t entry(std::uint32_t I) const;
-  std::uint64_t address(std::uint32_t Entry) const;
-  const std::byte *record(std::uint32_t Entry) const;
+  uint32_t entry(uint32_t I) const;
+  uint64_t address(uint32_t Entry) const;
+  const std::byte *record(uint32_t Entry) const;
 
-  std::uint32_t Gaussians; ///< address of the records
-  std::uint32_t Count;
+  uint32_t Gaussians; ///< address of the records
+  uint32_t Count;
   RasterMemory &Memory;
   const std::byte *Entries;
 };

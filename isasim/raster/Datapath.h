@@ -24,13 +24,13 @@ struct TileBuffer {
   alignas(64) float T[Pixels];
   /// Entries of the list up to and with the last one blended, where the command
   /// keeps them.
-  alignas(64) std::uint32_t Last[Pixels];
+  alignas(64) uint32_t Last[Pixels];
   /// Pixel centres; NaN outside the tile, which no box contains.
   alignas(64) float CentreX[Stride];
   alignas(64) float CentreY[Stride];
   /// Pixels of each row that are not saturated, and their sum.
-  std::uint32_t RowLive[Stride];
-  std::uint32_t Live;
+  uint32_t RowLive[Stride];
+  uint32_t Live;
 
   /// Colour 0 and transmittance 1 for a tile of \p Width x \p Height pixels
   /// (1 to VR_MAX_TILE each) at picture coordinates \p X, \p Y.
@@ -47,7 +47,7 @@ struct BlendOptions {
   /// Whether TileBuffer::Last gets Entry + 1, for the entry of the list that is
   /// blended next.
   bool KeepLast = false;
-  std::uint32_t Entry = 0;
+  uint32_t Entry = 0;
 };
 
 /// One compilation of the datapath.

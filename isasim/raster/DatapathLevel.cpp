@@ -28,7 +28,7 @@ BoxWork blend(const Gaussian &G, const BlendOptions &Options,
   const Float16 OfRed = Arithmetic::operand(G.Color[0]);
   const Float16 OfGreen = Arithmetic::operand(G.Color[1]);
   const Float16 OfBlue = Arithmetic::operand(G.Color[2]);
-  const auto SignBit = Int16(static_cast<std::int32_t>(0x80000000U));
+  const auto SignBit = Int16(static_cast<int32_t>(0x80000000U));
   unsigned Blends = 0;
   unsigned LiveInBox = 0;
   for (unsigned Row = Box.FirstY; Row <= Box.LastY; ++Row) {
@@ -63,13 +63,12 @@ BoxWork blend(const Gaussian &G, const BlendOptions &Options,
             __builtin_bit_cast(Float16, __builtin_bit_cast(Int16, KeptT) |
                                             (Stops & SignBit)));
       if (Options.KeepLast) {
-        std::uint32_t *Last = Tile.Last + At;
-        store(Last, Blended
-                        ? Int16(static_cast<std::int32_t>(Options.Entry + 1))
-                        : load(Last));
+        uint32_t *Last = Tile.Last + At;
+        store(Last, Blended ? Int16(static_cast<int32_t>(Options.Entry + 1))
+                            : load(Last));
       }
       Blends += countBits(bits(Blended));
-      if (const std::uint32_t Stopped = bits(Stops)) {
+      if (const uint32_t Stopped = bits(Stops)) {
         Tile.RowLive[Row] -= countBits(Stopped);
         Tile.Live -= countBits(Stopped);
       }

@@ -19,13 +19,12 @@ constexpr unsigned Blocks = VR_MAX_TILE / LaneCount;
 
 /// Bit i is set if centre i lies in the box, found by the definition itself, so
 /// that no coordinate is ever converted to an integer. Always one run of bits.
-VORION_INLINE std::uint64_t inBox(const float *Centres, float Mean,
-                                  float Extent) {
-  std::uint64_t Result = 0;
+VORION_INLINE uint64_t inBox(const float *Centres, float Mean, float Extent) {
+  uint64_t Result = 0;
   for (unsigned B = 0; B != Blocks; ++B) {
     const Float16 Distance =
         __builtin_elementwise_abs(load(Centres + B * LaneCount) - Mean);
-    Result |= std::uint64_t{bits(Distance <= Extent)} << (B * LaneCount);
+    Result |= uint64_t{bits(Distance <= Extent)} << (B * LaneCount);
   }
   return Result;
 }
@@ -41,8 +40,8 @@ struct CutBox {
 
 VORION_INLINE CutBox cutBox(const Gaussian &G, const float *CentreX,
                             const float *CentreY) {
-  const std::uint64_t InX = inBox(CentreX, G.Mean[0], G.Extent[0]);
-  const std::uint64_t InY = inBox(CentreY, G.Mean[1], G.Extent[1]);
+  const uint64_t InX = inBox(CentreX, G.Mean[0], G.Extent[0]);
+  const uint64_t InY = inBox(CentreY, G.Mean[1], G.Extent[1]);
   if (InX == 0 || InY == 0)
     return {true, 0, 0, 0, 0};
   return {false, static_cast<unsigned>(__builtin_ctzll(InX)),
@@ -112,19 +111,19 @@ VORION_INLINE BoxWork workOf(const CutBox &Box, unsigned Fragments,
   return {Fragments,
           Blends,
           false,
-          static_cast<std::uint8_t>(Box.FirstX),
-          static_cast<std::uint8_t>(Box.FirstY),
-          static_cast<std::uint8_t>(Box.width()),
-          static_cast<std::uint8_t>(Box.height())};
+          static_cast<uint8_t>(Box.FirstX),
+          static_cast<uint8_t>(Box.FirstY),
+          static_cast<uint8_t>(Box.width()),
+          static_cast<uint8_t>(Box.height())};
 }
 
 /// The bodies of a kind's units, by number.
 template <typename... Units> struct List {};
-template <template <std::uint32_t> class Body, std::uint32_t... Numbers>
-List<Body<Numbers>...> listOf(std::integer_sequence<std::uint32_t, Numbers...>);
-template <template <std::uint32_t> class Body, std::uint32_t Count>
+template <template <uint32_t> class Body, uint32_t... Numbers>
+List<Body<Numbers>...> listOf(std::integer_sequence<uint32_t, Numbers...>);
+template <template <uint32_t> class Body, uint32_t Count>
 using Bodies =
-    decltype(listOf<Body>(std::make_integer_sequence<std::uint32_t, Count>()));
+    decltype(listOf<Body>(std::make_integer_sequence<uint32_t, Count>()));
 using Exps = Bodies<ExpBody, ExpUnitCount>;
 
 [[maybe_unused]] bool hostHasLevel() {

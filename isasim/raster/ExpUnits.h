@@ -16,8 +16,8 @@ inline constexpr int SmallestExponent = 126;
 /// |p| is held at this, beyond which every result is 0.
 inline constexpr float Largest = 90.0F;
 
-constexpr std::int32_t nearest(double Positive) {
-  const auto Down = static_cast<std::int32_t>(Positive);
+constexpr int32_t nearest(double Positive) {
+  const auto Down = static_cast<int32_t>(Positive);
   return Positive - Down < 0.5 ? Down : Down + 1;
 }
 } // namespace base2_exp
@@ -35,7 +35,7 @@ template <int EntryBits> struct Table {
   static constexpr int StartBits = FractionBits + 1;
   /// Entry i: its start 2^(-i/Entries) * 2^FractionBits, rounded, above
   /// DropBits bits of the drop from there to the next entry's start.
-  std::int32_t Words[Entries];
+  int32_t Words[Entries];
 };
 
 /// Square roots of 1/2 by Newton's method give 2^(-1/Entries) at compile time.
@@ -85,8 +85,8 @@ inline constexpr int FractionBits = 16;
 inline constexpr int Pieces = 4;
 inline constexpr int RestBits = FractionBits - 2;
 /// In 1/64: where a piece starts, and how much it falls to the next.
-inline constexpr std::int32_t Start[Pieces] = {64, 54, 45, 38};
-inline constexpr std::int32_t Drop[Pieces] = {10, 9, 7, 6};
+inline constexpr int32_t Start[Pieces] = {64, 54, 45, 38};
+inline constexpr int32_t Drop[Pieces] = {10, 9, 7, 6};
 inline constexpr int UnitBits = 6;
 } // namespace linear_exp
 
@@ -95,8 +95,8 @@ inline constexpr int UnitBits = 6;
 namespace schraudolph_exp {
 inline constexpr float Slope = 0x1.715476p23F; ///< log2(e) 2^23
 /// The bits of 1, less what makes the largest error above and below equal.
-inline constexpr std::int32_t Offset = (127 << 23) - 366393;
-inline constexpr std::int32_t SmallestNormal = 1 << 23;
+inline constexpr int32_t Offset = (127 << 23) - 366393;
+inline constexpr int32_t SmallestNormal = 1 << 23;
 } // namespace schraudolph_exp
 
 } // namespace vorion::raster

@@ -19,7 +19,7 @@
 namespace vorion::raster {
 namespace {
 
-constexpr std::uint32_t CorrectlyRounded = VR_EXP_EXACT;
+constexpr uint32_t CorrectlyRounded = VR_EXP_EXACT;
 
 /// exp(X) rounded once to fp32, subnormal results included.
 float mpfrExp(float X) {
@@ -38,13 +38,11 @@ float mpfrExp(float X) {
   return Result;
 }
 
-float negative(std::uint32_t Magnitude) {
+float negative(uint32_t Magnitude) {
   return std::bit_cast<float>(Magnitude | 0x80000000U);
 }
 
-std::uint32_t magnitude(float X) {
-  return std::bit_cast<std::uint32_t>(X) & 0x7fffffffU;
-}
+uint32_t magnitude(float X) { return std::bit_cast<uint32_t>(X) & 0x7fffffffU; }
 
 /// Whether a double that is exp(x) to within 2^-51 could round to either of two
 /// floats.
@@ -56,15 +54,15 @@ bool nearMidpoint(double E) {
 /// Inputs magnitude First, First + Step, ... up to \p Last, as \p Check(inputs,
 /// results) in pieces.
 template <typename F>
-void sweep(const Datapath &Level, std::uint32_t Unit, float First, float Last,
-           std::uint32_t Step, F Check) {
+void sweep(const Datapath &Level, uint32_t Unit, float First, float Last,
+           uint32_t Step, F Check) {
   constexpr std::size_t Piece = 1 << 14;
   std::vector<float> In(Piece);
   std::vector<float> Out(Piece);
-  for (std::uint64_t M = magnitude(First); M <= magnitude(Last);) {
+  for (uint64_t M = magnitude(First); M <= magnitude(Last);) {
     for (float &X : In) {
-      X = negative(static_cast<std::uint32_t>(
-          std::min<std::uint64_t>(M, magnitude(Last))));
+      X = negative(
+          static_cast<uint32_t>(std::min<uint64_t>(M, magnitude(Last))));
       M += Step;
     }
     Out = In;
@@ -85,13 +83,13 @@ INSTANTIATE_TEST_SUITE_P(Host, EveryLevel,
 // double, so MPFR is asked only where that does not settle the float.
 TEST(ExpUnits, correctlyRoundedForEveryInput) {
   const Datapath &Level = *datapaths().back();
-  std::uint64_t Inputs = 0;
-  std::uint64_t AskedMpfr = 0;
-  std::uint64_t Wrong = 0;
+  uint64_t Inputs = 0;
+  uint64_t AskedMpfr = 0;
+  uint64_t Wrong = 0;
 #if __has_feature(address_sanitizer)
-  const std::uint32_t Step = 61; // a sanitizer build takes a sample
+  const uint32_t Step = 61; // a sanitizer build takes a sample
 #else
-  const std::uint32_t Step = 1;
+  const uint32_t Step = 1;
 #endif
   sweep(Level, CorrectlyRounded, 0x1p-26F, 104.0F, Step,
         [&](const std::vector<float> &In, const std::vector<float> &Out) {
@@ -113,7 +111,7 @@ TEST(ExpUnits, correctlyRoundedForEveryInput) {
 }
 
 TEST_P(EveryLevel, correctlyRoundedAgainstMpfr) {
-  std::uint64_t Wrong = 0;
+  uint64_t Wrong = 0;
   sweep(*GetParam(), CorrectlyRounded, 0x1p-30F, 90.0F, 30011,
         [&](const std::vector<float> &In, const std::vector<float> &Out) {
           for (std::size_t I = 0; I != In.size(); ++I)
@@ -133,7 +131,7 @@ TEST_P(EveryLevel, endsOfTheRange) {
   for (unsigned I = 0; I != 16; ++I)
     EXPECT_EQ(Out[I], mpfrExp(V[I])) << V[I];
 
-  for (std::uint32_t Unit = 1; Unit != ExpUnitCount; ++Unit) {
+  for (uint32_t Unit = 1; Unit != ExpUnitCount; ++Unit) {
     std::copy(std::begin(V), std::end(V), Out);
     GetParam()->Exp[Unit](Out, 16);
     for (const unsigned I : {0, 1, 12}) {
@@ -151,7 +149,7 @@ TEST_P(EveryLevel, unitsKeepTheirBoundsAndFall) {
   for (const ExpUnit &Unit : ExpUnits) {
     double Largest = 0;
     float Previous = 2.0F;
-    std::uint64_t Rises = 0;
+    uint64_t Rises = 0;
     sweep(*GetParam(), Unit.Option, 0x1p-30F, 86.6F, 1009,
           [&](const std::vector<float> &In, const std::vector<float> &Out) {
             for (std::size_t I = 0; I != In.size(); ++I) {
@@ -176,7 +174,7 @@ TEST_P(EveryLevel, unitsKeepTheirBoundsAndFall) {
 
 TEST_P(EveryLevel, sameBitsAsBaseline) {
   const Datapath &Baseline = *datapaths().front();
-  for (std::uint32_t Unit = 0; Unit != ExpUnitCount; ++Unit)
+  for (uint32_t Unit = 0; Unit != ExpUnitCount; ++Unit)
     sweep(*GetParam(), Unit, 0x1p-40F, 120.0F, 4001,
           [&](const std::vector<float> &In, const std::vector<float> &Out) {
             std::vector<float> Other = In;
@@ -187,10 +185,10 @@ TEST_P(EveryLevel, sameBitsAsBaseline) {
 
 // Every number of the unit's grid and between, each unit one number at a time.
 TEST_P(EveryLevel, bitsOfTheScalarUnits) {
-  for (std::uint32_t Unit = 1; Unit != ExpUnitCount; ++Unit)
+  for (uint32_t Unit = 1; Unit != ExpUnitCount; ++Unit)
     sweep(*GetParam(), Unit, 0x1p-40F, 120.0F, 1511,
           [&](const std::vector<float> &In, const std::vector<float> &Out) {
-            std::uint64_t Wrong = 0;
+            uint64_t Wrong = 0;
             for (std::size_t I = 0; I != In.size(); ++I)
               Wrong += Out[I] != scalar::exp(Unit, In[I]);
             ASSERT_EQ(Wrong, 0U) << Unit;
@@ -201,20 +199,20 @@ TEST_P(EveryLevel, operandsAreRoundedToNearest) {
   // All exponents, and of significands those around every bf16 and fp16 number
   // and midpoint.
   std::vector<float> In;
-  for (std::uint32_t Exponent = 0; Exponent != 255; ++Exponent)
-    for (std::uint32_t High = 0; High != 1 << 11; ++High)
-      for (const std::uint32_t Low : {0U, 1U, 0x800U, 0xfffU})
-        for (const std::uint32_t Sign : {0U, 1U})
+  for (uint32_t Exponent = 0; Exponent != 255; ++Exponent)
+    for (uint32_t High = 0; High != 1 << 11; ++High)
+      for (const uint32_t Low : {0U, 1U, 0x800U, 0xfffU})
+        for (const uint32_t Sign : {0U, 1U})
           In.push_back(std::bit_cast<float>(Sign << 31 | Exponent << 23 |
                                             High << 12 | Low));
   In.resize(In.size() / 16 * 16);
-  for (std::uint32_t Unit = 0; Unit != BlendUnitCount; ++Unit) {
+  for (uint32_t Unit = 0; Unit != BlendUnitCount; ++Unit) {
     std::vector<float> Out = In;
     GetParam()->Operand[Unit](Out.data(), Out.size());
-    std::uint64_t Wrong = 0;
+    uint64_t Wrong = 0;
     for (std::size_t I = 0; I != In.size(); ++I)
-      Wrong += std::bit_cast<std::uint32_t>(Out[I]) !=
-               std::bit_cast<std::uint32_t>(scalar::operand(Unit, In[I]));
+      Wrong += std::bit_cast<uint32_t>(Out[I]) !=
+               std::bit_cast<uint32_t>(scalar::operand(Unit, In[I]));
     EXPECT_EQ(Wrong, 0U) << BlendUnits[Unit].Name;
   }
   constexpr float Inf = std::numeric_limits<float>::infinity();

@@ -43,7 +43,7 @@ VORION_INLINE Double8 expDouble(Double8 X) {
 }
 
 /// The unit of number \p Number; one that has no body does not compile.
-template <std::uint32_t Number> struct ExpBody;
+template <uint32_t Number> struct ExpBody;
 
 template <> struct ExpBody<VR_EXP_EXACT> {
   /// Below log(threshold) less this, a result is surely under the threshold.
@@ -134,7 +134,7 @@ template <> struct ExpBody<VR_EXP_LINEAR> {
     const Int16 Y = __builtin_convertvector(clampPower(Power) * -Slope, Int16);
     const Int16 Piece = Y >> RestBits & (Pieces - 1);
     const Int16 Rest = Y & ((1 << RestBits) - 1);
-    const auto Of = [&](const std::int32_t(&Numbers)[Pieces]) {
+    const auto Of = [&](const int32_t(&Numbers)[Pieces]) {
       Int16 Value = Numbers[0];
 #pragma clang loop unroll(full)
       for (int I = 1; I != Pieces; ++I)

@@ -27,7 +27,7 @@ Scene stackOf(std::size_t Layers, float Alpha) {
   const std::size_t Pixels = std::size_t{S.Width} * S.Height;
   S.Rendered.assign(Pixels, {0, 0, 0, T});
   S.Upstream.assign(Pixels, {1, 0, 0, 0});
-  S.Last.assign(Pixels, static_cast<std::uint32_t>(Layers));
+  S.Last.assign(Pixels, static_cast<uint32_t>(Layers));
   return S;
 }
 

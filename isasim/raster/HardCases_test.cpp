@@ -25,7 +25,7 @@ struct Loop {
 
 /// docs/abi.md, "Rasterizer", one pixel at a time.
 Pixel blended(const std::vector<Gaussian> &Records,
-              const std::vector<std::uint32_t> &List, unsigned X, unsigned Y,
+              const std::vector<uint32_t> &List, unsigned X, unsigned Y,
               float Cutoff, const Loop &L = {}) {
   const float Px = static_cast<float>(X) + 0.5F;
   const float Py = static_cast<float>(Y) + 0.5F;
@@ -56,8 +56,7 @@ Pixel blended(const std::vector<Gaussian> &Records,
     if (Next < Cutoff && !L.NeverStops)
       break;
     if (L.RoundsT)
-      Next = std::bit_cast<float>(std::bit_cast<std::uint32_t>(Next) &
-                                  0xffff0000U);
+      Next = std::bit_cast<float>(std::bit_cast<uint32_t>(Next) & 0xffff0000U);
     P.R += G.Color[0] * (Alpha * P.T);
     P.G += G.Color[1] * (Alpha * P.T);
     P.B += G.Color[2] * (Alpha * P.T);
@@ -76,26 +75,26 @@ class HardCases : public RasterTest {
 protected:
   /// The pixels of one command in memory of its own: records, list, pixels.
   std::vector<Pixel> blend(const std::vector<Gaussian> &Scene,
-                           const std::vector<std::uint32_t> &Entries,
+                           const std::vector<uint32_t> &Entries,
                            const TileCommand &T) {
-    constexpr std::uint32_t AllEntries = TestMemory::Base + 0x10000;
-    const auto AllPixels = static_cast<std::uint32_t>(
-        AllEntries + (4 * Entries.size() + 63) / 64 * 64);
+    constexpr uint32_t AllEntries = TestMemory::Base + 0x10000;
+    const auto AllPixels =
+        static_cast<uint32_t>(AllEntries + (4 * Entries.size() + 63) / 64 * 64);
     TestMemory Wide(AllPixels - TestMemory::Base + 16 * TileBuffer::Pixels);
     RasterAgent Asking;
     Rasterizer Serving(Wide, {&Asking});
     Wide.put<Gaussian>(Records, Scene);
-    Wide.put<std::uint32_t>(AllEntries, Entries);
-    const std::pair<Csr, std::uint32_t> Bank[] = {
-        {Csr::Cutoff, std::bit_cast<std::uint32_t>(T.Cutoff)},
+    Wide.put<uint32_t>(AllEntries, Entries);
+    const std::pair<Csr, uint32_t> Bank[] = {
+        {Csr::Cutoff, std::bit_cast<uint32_t>(T.Cutoff)},
         {Csr::Gaussians, Records},
         {Csr::List, AllEntries},
-        {Csr::Count, static_cast<std::uint32_t>(Entries.size())},
+        {Csr::Count, static_cast<uint32_t>(Entries.size())},
         {Csr::TileOrigin, TileOriginX.put(T.X) | TileOriginY.put(T.Y)},
         {Csr::TileShape,
          TileShapeWidth.put(T.Width) | TileShapeHeight.put(T.Height)},
         {Csr::Output, AllPixels},
-        {Csr::OutputPitch, T.Width * std::uint32_t{sizeof(Pixel)}},
+        {Csr::OutputPitch, T.Width * uint32_t{sizeof(Pixel)}},
         {Csr::Start, 1}};
     for (const auto &[C, Value] : Bank)
       Asking.write(C, std::span(&Value, 1), 1);
@@ -106,8 +105,8 @@ protected:
 
   /// Expects the scalar loop's bits, and that none of \p Broken has them all.
   void expectLoop(const std::vector<Gaussian> &Scene,
-                  const std::vector<std::uint32_t> &Entries,
-                  const TileCommand &T, const std::vector<Loop> &Broken) {
+                  const std::vector<uint32_t> &Entries, const TileCommand &T,
+                  const std::vector<Loop> &Broken) {
     const std::vector<Pixel> Is = blend(Scene, Entries, T);
     std::vector<bool> Differs(Broken.size());
     for (unsigned I = 0; I != Is.size(); ++I) {
@@ -126,9 +125,9 @@ protected:
 TEST_F(HardCases, listsOfEveryLength) {
   const std::vector<Gaussian> Scene{flat(2, 2, 9, 0.004F, 1),
                                     flat(2, 2, 9, 0.005F, 0)};
-  for (const std::uint32_t Length : {1U, 16U, 17U, 1000U}) {
-    std::vector<std::uint32_t> Entries(Length);
-    for (std::uint32_t I = 0; I != Length; ++I)
+  for (const uint32_t Length : {1U, 16U, 17U, 1000U}) {
+    std::vector<uint32_t> Entries(Length);
+    for (uint32_t I = 0; I != Length; ++I)
       Entries[I] = I % 2;
     expectLoop(Scene, Entries, {.Cutoff = 0, .Width = 4, .Height = 4},
                {Loop{.RoundsT = true}, Loop{.Most = Length - 1}});
@@ -140,7 +139,7 @@ TEST_F(HardCases, listsOfEveryLength) {
 
 TEST_F(HardCases, aMillionLayersEndAtTheirColor) {
   const std::vector<Gaussian> Scene{flat(2, 2, 9, 0.004F, 0.75F)};
-  const std::vector<std::uint32_t> Entries(1U << 20);
+  const std::vector<uint32_t> Entries(1U << 20);
   const std::vector<Pixel> Is =
       blend(Scene, Entries, {.Cutoff = 0, .Width = 2, .Height = 2});
   for (const Pixel &P : Is) {
@@ -159,8 +158,8 @@ TEST_F(HardCases, unsortedAndDuplicateEntries) {
     Scene.push_back(flat(static_cast<float>(Random() % 24),
                          static_cast<float>(Random() % 24), 6, 0.3F,
                          static_cast<float>(Random() % 100) / 100));
-  std::vector<std::uint32_t> Entries(200);
-  for (std::uint32_t &E : Entries)
+  std::vector<uint32_t> Entries(200);
+  for (uint32_t &E : Entries)
     E = Random() % 30;
   expectLoop(
       Scene, Entries, {.Width = 24, .Height = 24},
@@ -172,7 +171,7 @@ TEST_F(HardCases, boxEdgesOnCentresAndTileBorders) {
   // which is 1/256 px.
   for (const unsigned Origin : {0U, 64U, 16384U, 65472U}) {
     std::vector<Gaussian> Scene;
-    std::vector<std::uint32_t> Entries;
+    std::vector<uint32_t> Entries;
     const auto Far = static_cast<float>(Origin);
     for (const float Edge : {0.0F, 0.5F, 1.0F, 31.5F, 63.0F, 63.5F, 64.0F})
       for (const int Ulp : {-1, 0, 1}) {
@@ -183,7 +182,7 @@ TEST_F(HardCases, boxEdgesOnCentresAndTileBorders) {
         Scene.push_back(flat(At - 8, Far + 20, 8, 0.2F, 0.3F));
         Scene.push_back(flat(At + 8, Far + 20, 8, 0.3F, 0.9F));
       }
-    for (std::uint32_t I = 0; I != Scene.size(); ++I)
+    for (uint32_t I = 0; I != Scene.size(); ++I)
       Entries.push_back(I);
     expectLoop(Scene, Entries, {.X = Origin, .Y = Origin},
                {Loop{.OpenBox = true}});
@@ -198,8 +197,8 @@ TEST_F(HardCases, radiiBeyondAnInt) {
       Scene.push_back(flat(Mean, -Mean, Extent, 0.1F, 0.5F));
       Scene.back().Conic[0] = Scene.back().Conic[2] = 1e-20F;
     }
-  std::vector<std::uint32_t> Entries(Scene.size());
-  for (std::uint32_t I = 0; I != Entries.size(); ++I)
+  std::vector<uint32_t> Entries(Scene.size());
+  for (uint32_t I = 0; I != Entries.size(); ++I)
     Entries[I] = I;
   expectLoop(Scene, Entries, {.X = 65472, .Width = 17, .Height = 5},
              {Loop{.Most = Entries.size() - 1}});
@@ -207,10 +206,10 @@ TEST_F(HardCases, radiiBeyondAnInt) {
 
 TEST_F(HardCases, opaqueStacks) {
   for (const float Opacity : {0.99F, 1.0F})
-    for (const std::uint32_t Depth : {2U, 3U, 16U, 64U}) {
+    for (const uint32_t Depth : {2U, 3U, 16U, 64U}) {
       std::vector<Gaussian> Scene;
-      std::vector<std::uint32_t> Entries;
-      for (std::uint32_t I = 0; I != Depth; ++I) {
+      std::vector<uint32_t> Entries;
+      for (uint32_t I = 0; I != Depth; ++I) {
         Scene.push_back(flat(4, 4, 9, Opacity, static_cast<float>(I % 5) / 5));
         Entries.push_back(I);
       }
@@ -229,8 +228,8 @@ TEST_F(HardCases, opaqueStacks) {
 
 TEST_F(HardCases, alphaAtItsThresholds) {
   std::vector<Gaussian> Scene;
-  std::vector<std::uint32_t> Entries;
-  std::uint32_t I = 0;
+  std::vector<uint32_t> Entries;
+  uint32_t I = 0;
   for (const float Alpha : {1.0F / 255.0F, 0.5F, 0.99F})
     for (const float Toward : {0.0F, Alpha, 2.0F}) {
       Scene.push_back(flat(static_cast<float>(I) + 0.5F, 0.5F, 0.25F,

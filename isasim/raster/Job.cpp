@@ -41,10 +41,10 @@ static Job decode(const Command &C) {
   J.TakesPushed = ModePushed.get(C.Mode) != 0;
   J.Drains = ModeDrain.get(C.Mode) != 0;
   J.KeepsLast = ModeKeepLast.get(C.Mode) != 0;
-  J.X = static_cast<std::uint16_t>(TileOriginX.get(C.TileOrigin));
-  J.Y = static_cast<std::uint16_t>(TileOriginY.get(C.TileOrigin));
-  J.Width = static_cast<std::uint16_t>(TileShapeWidth.get(C.TileShape));
-  J.Height = static_cast<std::uint16_t>(TileShapeHeight.get(C.TileShape));
+  J.X = static_cast<uint16_t>(TileOriginX.get(C.TileOrigin));
+  J.Y = static_cast<uint16_t>(TileOriginY.get(C.TileOrigin));
+  J.Width = static_cast<uint16_t>(TileShapeWidth.get(C.TileShape));
+  J.Height = static_cast<uint16_t>(TileShapeHeight.get(C.TileShape));
   J.Gaussians = C.Gaussians;
   J.List = C.List;
   J.Count = C.Count;
@@ -55,8 +55,8 @@ static Job decode(const Command &C) {
   J.TailCount = C.TailCount;
   J.TailShare = C.TailShare;
   J.TailRecord = C.TailRecord;
-  J.Units = {static_cast<std::uint8_t>(OptionsExp.get(C.Options)),
-             static_cast<std::uint8_t>(OptionsBlend.get(C.Options))};
+  J.Units = {static_cast<uint8_t>(OptionsExp.get(C.Options)),
+             static_cast<uint8_t>(OptionsBlend.get(C.Options))};
   J.Blend = blendOptions(C);
   J.Backward = backwardOptions(C, J.Blend);
   return J;
@@ -65,9 +65,8 @@ static Job decode(const Command &C) {
 /// Training takes whole lists in memory: positions in them are what a pixel's
 /// last contributor is.
 static bool isKnownTraining(const Command &C, const Job &J) {
-  const std::uint32_t Known =
-      BackwardReciprocal.put(BackwardReciprocal.mask()) |
-      BackwardClampStops.put(1) | BackwardInRows.put(1);
+  const uint32_t Known = BackwardReciprocal.put(BackwardReciprocal.mask()) |
+                         BackwardClampStops.put(1) | BackwardInRows.put(1);
   if (!J.IsBackward)
     return !J.KeepsLast ||
            (C.Mode == ModeKeepLast.put(1) && ZtileCount.get(C.Ztile) <= 1);
@@ -77,13 +76,13 @@ static bool isKnownTraining(const Command &C, const Job &J) {
 }
 
 static bool isKnown(const Command &C, const Job &J) {
-  const std::uint32_t KnownMode = ModeBackward.put(1) | ModePushed.put(1) |
-                                  ModeDrain.put(1) | ModeKeepLast.put(1);
-  const std::uint32_t KnownOptions =
+  const uint32_t KnownMode = ModeBackward.put(1) | ModePushed.put(1) |
+                             ModeDrain.put(1) | ModeKeepLast.put(1);
+  const uint32_t KnownOptions =
       OptionsExp.put(OptionsExp.mask()) | OptionsStopAtEqual.put(1) |
       OptionsSkipSaturated.put(1) | OptionsBlend.put(OptionsBlend.mask()) |
       OptionsAlphaCutoff.put(OptionsAlphaCutoff.mask());
-  const std::uint32_t Parts = ZtileCount.get(C.Ztile);
+  const uint32_t Parts = ZtileCount.get(C.Ztile);
   return (C.Mode & ~KnownMode) == 0 && (C.Options & ~KnownOptions) == 0 &&
          J.Units.Exp < ExpUnitCount && J.Units.Blend < BlendUnitCount &&
          ZtileIndex.get(C.Ztile) < (Parts == 0 ? 1 : Parts) &&
@@ -117,8 +116,7 @@ static bool isMapped(const Job &J, RasterMemory &Memory) {
 }
 
 /// The order of these checks is the order of docs/rasterizer.md#status-codes.
-static std::uint32_t refusal(const Command &C, const Job &J,
-                             RasterMemory &Memory) {
+static uint32_t refusal(const Command &C, const Job &J, RasterMemory &Memory) {
   if (!isKnown(C, J))
     return VR_BAD_MODE;
   if (!isShape(J))

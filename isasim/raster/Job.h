@@ -12,31 +12,31 @@ namespace vorion::raster {
 
 /// The units of a lane that vr_options chooses.
 struct LaneUnits {
-  std::uint8_t Exp = 0;   ///< vr_options.exp
-  std::uint8_t Blend = 0; ///< vr_options.blend
+  uint8_t Exp = 0;   ///< vr_options.exp
+  uint8_t Blend = 0; ///< vr_options.blend
 };
 
 /// What a command asks for. A refused one has its fields too: it takes time,
 /// and observers show it.
 struct Job {
-  std::uint32_t Refusal = VR_OK; ///< the status code if nothing may be done
+  uint32_t Refusal = VR_OK; ///< the status code if nothing may be done
   bool IsBackward = false;
   bool TakesPushed = false; ///< descriptors instead of a list
   bool Drains = false;      ///< to the agent, not to memory
   bool KeepsLast = false;
 
   /// The tile, in pixels of the picture.
-  std::uint16_t X = 0, Y = 0, Width = 0, Height = 0;
+  uint16_t X = 0, Y = 0, Width = 0, Height = 0;
 
-  std::uint32_t Gaussians = 0; ///< address of the records
-  std::uint32_t List = 0;      ///< address of the first entry
-  std::uint32_t Count = 0;     ///< entries
-  std::uint32_t Output = 0, OutputPitch = 0;
-  std::uint32_t Last = 0;     ///< address of the last contributors
-  std::uint32_t Upstream = 0; ///< address of the pixels' gradients
+  uint32_t Gaussians = 0; ///< address of the records
+  uint32_t List = 0;      ///< address of the first entry
+  uint32_t Count = 0;     ///< entries
+  uint32_t Output = 0, OutputPitch = 0;
+  uint32_t Last = 0;     ///< address of the last contributors
+  uint32_t Upstream = 0; ///< address of the pixels' gradients
 
-  std::uint32_t TailCount = 0, TailShare = 0; ///< see mayHandOver()
-  std::uint32_t TailRecord = 0;               ///< address of the vx_tail
+  uint32_t TailCount = 0, TailShare = 0; ///< see mayHandOver()
+  uint32_t TailRecord = 0;               ///< address of the vx_tail
 
   LaneUnits Units;
   BlendOptions Blend{};

@@ -29,7 +29,7 @@ static bool isGradientWord(Csr C) {
   return C >= Csr::GradTag && C <= Csr::GradSyy;
 }
 
-static unsigned lastLane(std::uint32_t Mask) {
+static unsigned lastLane(uint32_t Mask) {
   return 31U - static_cast<unsigned>(std::countl_zero(Mask));
 }
 
@@ -43,23 +43,23 @@ RasterAgent::RasterAgent(const AgentConfig &Sizes)
   assert(Config.Lanes >= 1 && Config.Lanes <= 32 && Config.QueueDepth >= 1);
 }
 
-std::uint32_t RasterAgent::readCounter(Csr C) const {
+uint32_t RasterAgent::readCounter(Csr C) const {
   for (const CounterWords &W : CounterTable) {
     if (C == W.Low)
-      return static_cast<std::uint32_t>(Totals.*W.Value);
+      return static_cast<uint32_t>(Totals.*W.Value);
     if (C == W.High)
-      return static_cast<std::uint32_t>(Totals.*W.Value >> 32);
+      return static_cast<uint32_t>(Totals.*W.Value >> 32);
   }
   assert(false && "not a counter");
   return 0;
 }
 
-std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
+uint32_t RasterAgent::read(Csr C, unsigned Lane) {
   assert(Lane < Config.Lanes);
   if (const auto Word = bankWord(C))
     return Bank.*Word;
   if (isGaussianWord(C)) {
-    std::uint32_t Word = 0;
+    uint32_t Word = 0;
     std::memcpy(&Word,
                 reinterpret_cast<const char *>(&Staging[Lane]) +
                     4 * gaussianWord(C),
@@ -68,11 +68,11 @@ std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
   }
   if (isGradientWord(C))
     return gradientWord(C, Lane);
-  const auto OfPixel = [&](float Pixel::*Part) -> std::uint32_t {
+  const auto OfPixel = [&](float Pixel::*Part) -> uint32_t {
     // Outside the tile, and before there is one, a pixel reads as 0.
-    const std::uint32_t Index = PixelIndex[Lane];
+    const uint32_t Index = PixelIndex[Lane];
     return Index < Drained.size()
-               ? std::bit_cast<std::uint32_t>(Drained[Index].*Part)
+               ? std::bit_cast<uint32_t>(Drained[Index].*Part)
                : 0;
   };
   switch (C) {
@@ -81,7 +81,7 @@ std::uint32_t RasterAgent::read(Csr C, unsigned Lane) {
            StatusCode.put(FirstFailure);
   case Csr::Wait: {
     assert(!isBusy() && "a read of vr_wait stalls while commands are queued");
-    const std::uint32_t Code = FirstFailure;
+    const uint32_t Code = FirstFailure;
     FirstFailure = VR_OK;
     return Code;
   }
@@ -111,7 +111,7 @@ bool RasterAgent::canTakeBatch() const {
                       [](const Command &C) { return C.isBackward(); });
 }
 
-std::uint32_t RasterAgent::takeBatch() {
+uint32_t RasterAgent::takeBatch() {
   Shown = {};
   if (!Batches.empty()) {
     Shown = Batches.front();
@@ -121,13 +121,13 @@ std::uint32_t RasterAgent::takeBatch() {
   return GradNextCount.put(Shown.Count) | GradNextBatch.put(Shown.Number);
 }
 
-std::uint32_t RasterAgent::gradientWord(Csr C, unsigned Lane) const {
+uint32_t RasterAgent::gradientWord(Csr C, unsigned Lane) const {
   if (Lane >= Shown.Count)
     return 0;
   const GradientSums &G = Shown.Gaussians[Lane];
   const unsigned Word =
       static_cast<unsigned>(C) - static_cast<unsigned>(Csr::GradTag);
-  return Word == 0 ? G.Tag : std::bit_cast<std::uint32_t>(G.Sums[Word - 1]);
+  return Word == 0 ? G.Tag : std::bit_cast<uint32_t>(G.Sums[Word - 1]);
 }
 
 void RasterAgent::offer(const GradientBatch &Batch) {
@@ -136,20 +136,20 @@ void RasterAgent::offer(const GradientBatch &Batch) {
   Batches.push_back(Batch);
 }
 
-void RasterAgent::readLanes(Csr C, std::uint32_t Mask,
-                            std::span<std::uint32_t> LaneValues) {
+void RasterAgent::readLanes(Csr C, uint32_t Mask,
+                            std::span<uint32_t> LaneValues) {
   if (Mask == 0)
     return;
   const CsrInfo *Info = findCsr(static_cast<unsigned>(C));
-  const std::uint32_t ForAll = Info->Uniform ? read(C, lastLane(Mask)) : 0;
-  for (std::uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {
+  const uint32_t ForAll = Info->Uniform ? read(C, lastLane(Mask)) : 0;
+  for (uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {
     const auto Lane = static_cast<unsigned>(std::countr_zero(Rest));
     LaneValues[Lane] = Info->Uniform ? ForAll : read(C, Lane);
   }
 }
 
-void RasterAgent::write(Csr C, std::span<const std::uint32_t> LaneValues,
-                        std::uint32_t Mask) {
+void RasterAgent::write(Csr C, std::span<const uint32_t> LaneValues,
+                        uint32_t Mask) {
   assert(Mask != 0 && lastLane(Mask) < Config.Lanes);
   const CsrInfo *Info = findCsr(static_cast<unsigned>(C));
   switch (Info->Rule) {
@@ -164,7 +164,7 @@ void RasterAgent::write(Csr C, std::span<const std::uint32_t> LaneValues,
     Bank.*bankWord(C) = LaneValues[lastLane(Mask)];
     return;
   case WriteRule::Lane:
-    for (std::uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {
+    for (uint32_t Rest = Mask; Rest != 0; Rest &= Rest - 1) {
       const auto Lane = static_cast<unsigned>(std::countr_zero(Rest));
       if (isGaussianWord(C))
         std::memcpy(reinterpret_cast<char *>(&Staging[Lane]) +
@@ -177,7 +177,7 @@ void RasterAgent::write(Csr C, std::span<const std::uint32_t> LaneValues,
   }
 }
 
-void RasterAgent::push(std::uint32_t Mask) {
+void RasterAgent::push(uint32_t Mask) {
   for (; Mask != 0; Mask &= Mask - 1) {
     if (PushBuffer.size() == VR_MAX_PUSHED) {
       PushedTooMany = true;
@@ -198,13 +198,13 @@ void RasterAgent::start() {
   }
 }
 
-void RasterAgent::finish(std::uint32_t Status, const Counters &Work) {
+void RasterAgent::finish(uint32_t Status, const Counters &Work) {
   Totals += Work;
   if (FirstFailure == VR_OK)
     FirstFailure = Status;
 }
 
-void RasterAgent::complete(std::uint32_t Status, const Counters &Work) {
+void RasterAgent::complete(uint32_t Status, const Counters &Work) {
   assert(hasCommand());
   Queue.pop_front();
   finish(Status, Work);
@@ -215,7 +215,7 @@ void RasterAgent::handOver(const Counters &Work) {
   ++Tails;
 }
 
-void RasterAgent::completeTail(std::uint32_t Status, const Counters &Work) {
+void RasterAgent::completeTail(uint32_t Status, const Counters &Work) {
   assert(Tails != 0);
   --Tails;
   finish(Status, Work);

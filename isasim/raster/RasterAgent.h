@@ -48,18 +48,16 @@ public:
   /// What lane \p Lane reads from \p C. Reading vr_wait needs !isBusy() and
   /// clears the status, reading vr_grad_next needs canTakeBatch() and goes on
   /// to the next batch: a uniform CSR (CsrInfo) is read once for all lanes.
-  std::uint32_t read(Csr C, unsigned Lane);
+  uint32_t read(Csr C, unsigned Lane);
 
   /// Reads \p C for the lanes of \p Mask into \p LaneValues (indexed by lane);
   /// a uniform CSR once, whatever the number of lanes.
-  void readLanes(Csr C, std::uint32_t Mask,
-                 std::span<std::uint32_t> LaneValues);
+  void readLanes(Csr C, uint32_t Mask, std::span<uint32_t> LaneValues);
 
   /// Writes \p C by the lanes of \p Mask (at least one), \p LaneValues indexed
   /// by lane, according to the CSR's write rule. Writing vr_start needs
   /// canStart(). Read-only CSRs must have trapped before.
-  void write(Csr C, std::span<const std::uint32_t> LaneValues,
-             std::uint32_t Mask);
+  void write(Csr C, std::span<const uint32_t> LaneValues, uint32_t Mask);
 
   const Counters &counters() const { return Totals; }
   unsigned core() const { return Config.Core; }
@@ -75,14 +73,14 @@ public:
 
   /// Removes the oldest command, counts \p Work, and keeps \p Status if it is
   /// the first that is not VR_OK.
-  void complete(std::uint32_t Status, const Counters &Work);
+  void complete(uint32_t Status, const Counters &Work);
 
   /// Removes the oldest command and counts \p Work; it goes on in the pixel
   /// unit, and the agent is busy until that calls completeTail().
   void handOver(const Counters &Work);
 
   /// The pixel unit's part of a command has ended.
-  void completeTail(std::uint32_t Status, const Counters &Work);
+  void completeTail(uint32_t Status, const Counters &Work);
 
   /// Whether there is room for a batch of gradients; a rasterizer that has one
   /// halts until there is.
@@ -96,26 +94,26 @@ public:
   /// @}
 
 private:
-  std::uint32_t readCounter(Csr C) const;
-  std::uint32_t takeBatch();
-  std::uint32_t gradientWord(Csr C, unsigned Lane) const;
-  void push(std::uint32_t Mask);
+  uint32_t readCounter(Csr C) const;
+  uint32_t takeBatch();
+  uint32_t gradientWord(Csr C, unsigned Lane) const;
+  void push(uint32_t Mask);
   void start();
-  void finish(std::uint32_t Status, const Counters &Work);
+  void finish(uint32_t Status, const Counters &Work);
 
   AgentConfig Config;
   Command Bank;
   std::vector<Gaussian> Staging; ///< one descriptor a lane
   std::vector<Gaussian> PushBuffer;
   bool PushedTooMany = false;
-  std::vector<std::uint32_t> PixelIndex;
+  std::vector<uint32_t> PixelIndex;
   std::deque<Command> Queue;
   std::vector<Pixel> Drained;
   std::deque<GradientBatch> Batches; ///< and ends of commands
   unsigned WaitingBatches = 0;       ///< of these, batches
   GradientBatch Shown;               ///< by vr_grad_*
   unsigned Tails = 0;                ///< commands that the pixel unit has
-  std::uint32_t FirstFailure = VR_OK;
+  uint32_t FirstFailure = VR_OK;
   Counters Totals;
 };
 

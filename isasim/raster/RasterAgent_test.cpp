@@ -8,8 +8,8 @@ namespace {
 
 using AgentTest = RasterTest;
 
-std::array<std::uint32_t, 16> lanes(std::uint32_t First) {
-  std::array<std::uint32_t, 16> V;
+std::array<uint32_t, 16> lanes(uint32_t First) {
+  std::array<uint32_t, 16> V;
   std::iota(V.begin(), V.end(), First);
   return V;
 }
@@ -39,7 +39,7 @@ TEST(RasterAgentCsrs, everyCsrIsImplemented) {
 
 TEST(RasterAgentCsrs, scalarIsTheLastActiveLane) {
   RasterAgent Agent;
-  for (const std::uint32_t Mask : {0x1U, 0x8000U, 0x0ff0U, 0x5U}) {
+  for (const uint32_t Mask : {0x1U, 0x8000U, 0x0ff0U, 0x5U}) {
     Agent.write(Csr::Count, lanes(100), Mask);
     EXPECT_EQ(Agent.read(Csr::Count, 0), 100 + std::bit_width(Mask) - 1);
   }
@@ -49,17 +49,17 @@ TEST(RasterAgentCsrs, perLaneLeavesInactiveLanes) {
   RasterAgent Agent;
   Agent.write(Csr::GTag, lanes(100), 0xffff);
   Agent.write(Csr::GTag, lanes(200), 0x0a);
-  std::array<std::uint32_t, 16> Read{};
+  std::array<uint32_t, 16> Read{};
   Agent.readLanes(Csr::GTag, 0x1f, Read);
   EXPECT_EQ(std::vector(Read.begin(), Read.begin() + 6),
-            (std::vector<std::uint32_t>{100, 201, 102, 203, 104, 0}));
+            (std::vector<uint32_t>{100, 201, 102, 203, 104, 0}));
 }
 
 TEST_F(AgentTest, fullQueueRefusesUntilOneIsTaken) {
   configure({});
   RasterAgent Small({.Lanes = 1, .QueueDepth = 2});
   Rasterizer Serving(Memory, {&Small});
-  const std::uint32_t One = 1;
+  const uint32_t One = 1;
   for (int I = 0; I != 2; ++I) {
     ASSERT_TRUE(Small.canStart());
     Small.write(Csr::Start, std::span(&One, 1), 1);
@@ -98,9 +98,9 @@ TEST_F(AgentTest, firstFailureSticksUntilWait) {
   Unit.finish(Agent);
   EXPECT_EQ(Agent.read(Csr::Status, 0), StatusCode.put(VR_BAD_SHAPE));
   // All lanes see it: a uniform CSR is read once.
-  std::array<std::uint32_t, 16> Seen{};
+  std::array<uint32_t, 16> Seen{};
   Agent.readLanes(Csr::Wait, 0xffff, Seen);
-  for (const std::uint32_t Code : Seen)
+  for (const uint32_t Code : Seen)
     EXPECT_EQ(Code, VR_BAD_SHAPE);
   EXPECT_EQ(Agent.read(Csr::Wait, 0), VR_OK);
   EXPECT_EQ(Agent.read(Csr::Status, 0), 0U);
@@ -115,7 +115,7 @@ TEST_F(AgentTest, countersHaveHighWords) {
                      Csr::NFragments, Csr::NBlends,    Csr::NIntersecting};
   const Csr High[] = {Csr::NCommandsh,  Csr::NGaussiansh, Csr::NClippedh,
                       Csr::NFragmentsh, Csr::NBlendsh,    Csr::NIntersectingh};
-  for (std::uint32_t I = 0; I != std::size(Low); ++I) {
+  for (uint32_t I = 0; I != std::size(Low); ++I) {
     EXPECT_EQ(Agent.read(Low[I], 0), 2 * I + 2);
     EXPECT_EQ(Agent.read(High[I], 0), 2 * I + 1);
   }
@@ -123,16 +123,16 @@ TEST_F(AgentTest, countersHaveHighWords) {
 
 /// Stages \p Scene in lanes 0... and pushes it with the lanes of \p Mask.
 void stageAndPush(RasterAgent &Agent, std::span<const Gaussian> Scene,
-                  std::uint32_t Mask) {
+                  uint32_t Mask) {
   for (unsigned Word = 0; Word != sizeof(Gaussian) / 4; ++Word) {
-    std::array<std::uint32_t, 16> Values{};
+    std::array<uint32_t, 16> Values{};
     for (std::size_t L = 0; L != Scene.size(); ++L)
       std::memcpy(&Values[L],
                   reinterpret_cast<const char *>(&Scene[L]) + 4 * Word, 4);
     Agent.write(static_cast<Csr>(static_cast<unsigned>(Csr::GMeanX) + Word),
                 Values, 0xffff);
   }
-  Agent.write(Csr::Push, std::array<std::uint32_t, 16>{}, Mask);
+  Agent.write(Csr::Push, std::array<uint32_t, 16>{}, Mask);
 }
 
 TEST_F(AgentTest, pushedEqualsList) {
@@ -198,7 +198,7 @@ TEST_F(AgentTest, drainedPixelsEqualMemory) {
   configure(std::span(&G, 1), Draining);
   set(Csr::Output, 1U); // not used
   ASSERT_EQ(start(), VR_OK);
-  for (std::uint32_t First = 0; First != 160; First += 16) {
+  for (uint32_t First = 0; First != 160; First += 16) {
     Agent.write(Csr::PixelIndex, lanes(First), 0xffff);
     for (unsigned L = 0; L != 16; ++L) {
       const Pixel Read{std::bit_cast<float>(Agent.read(Csr::PixelR, L)),

@@ -15,7 +15,7 @@ public:
   /// Host address of the \p Bytes bytes (at least 1) from \p Addr, contiguous
   /// and aligned as \p Addr up to 16 bytes, or nullptr if any of them is not
   /// global memory. Stays valid for the command that asked.
-  virtual std::byte *range(std::uint32_t Addr, std::uint64_t Bytes) = 0;
+  virtual std::byte *range(uint32_t Addr, uint64_t Bytes) = 0;
 
   /// Whether nobody will look at what is being computed: lists are given up.
   virtual bool isOver() { return false; }

@@ -16,25 +16,24 @@ namespace vorion::raster {
 /// Global memory from Base on.
 class TestMemory : public RasterMemory {
 public:
-  static constexpr std::uint32_t Base = 0x10000;
+  static constexpr uint32_t Base = 0x10000;
 
   explicit TestMemory(std::size_t Bytes) : Storage(Bytes / sizeof(Line)) {}
 
-  std::byte *range(std::uint32_t Addr, std::uint64_t Bytes) override {
-    const std::uint64_t Size = Storage.size() * sizeof(Line);
+  std::byte *range(uint32_t Addr, uint64_t Bytes) override {
+    const uint64_t Size = Storage.size() * sizeof(Line);
     if (Addr < Base || Addr - Base + Bytes > Size)
       return nullptr;
     return reinterpret_cast<std::byte *>(Storage.data()) + (Addr - Base);
   }
 
-  template <typename T>
-  void put(std::uint32_t Addr, std::span<const T> Values) {
+  template <typename T> void put(uint32_t Addr, std::span<const T> Values) {
     if (!Values.empty())
       std::memcpy(range(Addr, Values.size_bytes()), Values.data(),
                   Values.size_bytes());
   }
 
-  template <typename T> std::vector<T> get(std::uint32_t Addr, std::size_t N) {
+  template <typename T> std::vector<T> get(uint32_t Addr, std::size_t N) {
     std::vector<T> Values(N);
     std::memcpy(Values.data(), range(Addr, N * sizeof(T)), N * sizeof(T));
     return Values;
@@ -50,8 +49,8 @@ private:
 /// A tile command as a test writes it down.
 struct TileCommand {
   float Cutoff = 1e-4F;
-  std::uint32_t Mode = 0;
-  std::uint32_t Options = 0;
+  uint32_t Mode = 0;
+  uint32_t Options = 0;
   unsigned X = 0, Y = 0, Width = 64, Height = 64;
 };
 
@@ -59,34 +58,32 @@ struct TileCommand {
 /// list from List on, pixels from Pixels on with a pitch of a whole tile.
 class RasterTest : public testing::Test {
 protected:
-  static constexpr std::uint32_t Records = TestMemory::Base;
-  static constexpr std::uint32_t List = Records + 0x400000;
-  static constexpr std::uint32_t Pixels = Records + 0x600000;
-  static constexpr std::uint32_t Pitch = VR_MAX_TILE * sizeof(Pixel);
+  static constexpr uint32_t Records = TestMemory::Base;
+  static constexpr uint32_t List = Records + 0x400000;
+  static constexpr uint32_t Pixels = Records + 0x600000;
+  static constexpr uint32_t Pitch = VR_MAX_TILE * sizeof(Pixel);
 
   TestMemory Memory{8 << 20};
   RasterAgent Agent;
   Rasterizer Unit{Memory, {&Agent}};
 
   /// Writes \p C by lane 0.
-  void set(Csr C, std::uint32_t Value) {
-    Agent.write(C, std::span(&Value, 1), 1);
-  }
-  void set(Csr C, float Value) { set(C, std::bit_cast<std::uint32_t>(Value)); }
+  void set(Csr C, uint32_t Value) { Agent.write(C, std::span(&Value, 1), 1); }
+  void set(Csr C, float Value) { set(C, std::bit_cast<uint32_t>(Value)); }
 
   /// Puts \p Scene in memory and sets the bank, without starting.
   void configure(std::span<const Gaussian> Scene, const TileCommand &T = {}) {
     Memory.put(Records, Scene);
-    std::vector<std::uint32_t> Order(Scene.size());
-    for (std::uint32_t I = 0; I != Order.size(); ++I)
+    std::vector<uint32_t> Order(Scene.size());
+    for (uint32_t I = 0; I != Order.size(); ++I)
       Order[I] = I;
-    Memory.put(List, std::span<const std::uint32_t>(Order));
+    Memory.put(List, std::span<const uint32_t>(Order));
     set(Csr::Mode, T.Mode);
     set(Csr::Options, T.Options);
     set(Csr::Cutoff, T.Cutoff);
     set(Csr::Gaussians, Records);
     set(Csr::List, List);
-    set(Csr::Count, static_cast<std::uint32_t>(Scene.size()));
+    set(Csr::Count, static_cast<uint32_t>(Scene.size()));
     set(Csr::TileOrigin, TileOriginX.put(T.X) | TileOriginY.put(T.Y));
     set(Csr::TileShape,
         TileShapeWidth.put(T.Width) | TileShapeHeight.put(T.Height));
@@ -96,7 +93,7 @@ protected:
   }
 
   /// Starts the bank and waits: the status code.
-  std::uint32_t start() {
+  uint32_t start() {
     set(Csr::Start, 1U);
     Unit.finish(Agent);
     return Agent.read(Csr::Wait, 0);

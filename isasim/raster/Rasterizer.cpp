@@ -25,13 +25,13 @@ public:
   CommandWork run();
 
 private:
-  std::uint32_t blend();
-  std::uint32_t blendPushed();
-  std::uint32_t blendList();
+  uint32_t blend();
+  uint32_t blendPushed();
+  uint32_t blendList();
   /// \p G has been checked. \p Address: of the record, 0 if it was pushed.
-  void blendOne(const Gaussian &G, std::uint32_t Address, bool Intersects,
+  void blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
                 const BlendOptions &Options);
-  bool isTail(std::uint32_t Remaining) const;
+  bool isTail(uint32_t Remaining) const;
   void copyRow(unsigned Row, std::byte *To) const;
   void writePixels() const;
   void writeTail() const;
@@ -44,11 +44,11 @@ private:
   TileBuffer &Tile;
   const Datapath &Lanes;
   bool Keeps;
-  std::uint32_t Done = 0; ///< entries of the list
+  uint32_t Done = 0; ///< entries of the list
 };
 
-void Execution::blendOne(const Gaussian &G, std::uint32_t Address,
-                         bool Intersects, const BlendOptions &Options) {
+void Execution::blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
+                         const BlendOptions &Options) {
   const BoxWork Result = blendFunction(J, Lanes)(G, Options, Tile);
   Work.Counts.Intersecting += Intersects;
   Work.Counts.Clipped += Result.Clipped;
@@ -57,15 +57,15 @@ void Execution::blendOne(const Gaussian &G, std::uint32_t Address,
   if (Keeps)
     Work.Gaussians.push_back(
         {Address, Result.X, Result.Y, Result.Width, Result.Height,
-         static_cast<std::uint16_t>(Result.Fragments), Intersects});
+         static_cast<uint16_t>(Result.Fragments), Intersects});
 }
 
-std::uint32_t Execution::blendPushed() {
+uint32_t Execution::blendPushed() {
   for (const Gaussian &G : C.Pushed) {
     if (Tile.Live == 0)
       break;
     ++Work.Counts.Gaussians;
-    if (const std::uint32_t Status = checkGaussian(G))
+    if (const uint32_t Status = checkGaussian(G))
       return Status;
     blendOne(G, 0, (G.Tag & VR_INTERSECT) != 0, J.Blend);
   }
@@ -73,15 +73,15 @@ std::uint32_t Execution::blendPushed() {
 }
 
 /// Whether a reason to hand over holds with \p Remaining entries left.
-bool Execution::isTail(std::uint32_t Remaining) const {
-  const std::uint64_t Pixels = std::uint64_t{J.Width} * J.Height;
-  const std::uint64_t Saturated = Pixels - Tile.Live;
+bool Execution::isTail(uint32_t Remaining) const {
+  const uint64_t Pixels = uint64_t{J.Width} * J.Height;
+  const uint64_t Saturated = Pixels - Tile.Live;
   return Remaining <= J.TailCount ||
          (J.TailShare != 0 &&
           Saturated * VR_TAIL_WHOLE >= J.TailShare * Pixels);
 }
 
-std::uint32_t Execution::blendList() {
+uint32_t Execution::blendList() {
   BlendOptions Options = J.Blend;
   const GaussianList List(J, Memory);
   Fetched Entry;
@@ -90,7 +90,7 @@ std::uint32_t Execution::blendList() {
       Work.HandedOver = true;
       break;
     }
-    const std::uint32_t Status = List.fetch(Done, Entry);
+    const uint32_t Status = List.fetch(Done, Entry);
     Work.Counts.Gaussians += Status != VR_UNMAPPED;
     if (Status)
       return Status;
@@ -100,7 +100,7 @@ std::uint32_t Execution::blendList() {
   return VR_OK;
 }
 
-std::uint32_t Execution::blend() {
+uint32_t Execution::blend() {
   if (J.Refusal)
     return J.Refusal;
   Tile.reset(J.X, J.Y, J.Width, J.Height);

@@ -59,7 +59,7 @@ private:
   struct Halted {
     std::size_t Turn; ///< the agent's
     std::deque<GradientBatch> Batches;
-    std::uint32_t Status;
+    uint32_t Status;
     Counters Work;
   };
   void startBackward(std::size_t Turn);

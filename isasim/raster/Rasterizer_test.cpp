@@ -28,7 +28,7 @@ TEST_F(RasterizerTest, oneGaussianIsItsFormula) {
                    {0.9F, 0.4F, 0.1F}, {1000, 1000},           7};
   const TileCommand Tile{.X = 100, .Y = 50, .Width = 60, .Height = 50};
   const std::vector<Pixel> Out = render(only(G), Tile);
-  std::uint64_t Blends = 0;
+  uint64_t Blends = 0;
   for (unsigned Y = 0; Y != Tile.Height; ++Y)
     for (unsigned X = 0; X != Tile.Width; ++X) {
       const double Dx = 100.5 + X - double{G.Mean[0]};
@@ -115,8 +115,8 @@ TEST_F(RasterizerTest, boxClipping) {
     for (const float ExtentX : Extents) {
       const float MeanY = 20.25F;
       const float ExtentY = 7.3F;
-      std::uint64_t Columns = 0;
-      std::uint64_t Rows = 0;
+      uint64_t Columns = 0;
+      uint64_t Rows = 0;
       for (unsigned X = 0; X != Tile.Width; ++X)
         Columns +=
             std::fabs(static_cast<float>(Tile.X + X) + 0.5F - MeanX) <= ExtentX;
@@ -161,10 +161,10 @@ TEST_F(RasterizerTest, boxesOfEveryWidthTouchTheirPixelsOnly) {
 TEST_F(RasterizerTest, stopRulesAtTheExactCutoff) {
   // T goes 1, 1/2, 1/4; the cut-off is what the second would leave.
   const Gaussian Scene[] = {flat(8, 8, 9, 9, 0.5F), flat(8, 8, 9, 9, 0.5F)};
-  const std::uint32_t AtEqual = OptionsStopAtEqual.put(1);
+  const uint32_t AtEqual = OptionsStopAtEqual.put(1);
   const float Above = std::nextafter(0.25F, 1.0F);
   const float Below = std::nextafter(0.25F, 0.0F);
-  const auto T = [&](float Cutoff, std::uint32_t Options) {
+  const auto T = [&](float Cutoff, uint32_t Options) {
     return render(Scene, {.Cutoff = Cutoff, .Options = Options})[0].T;
   };
   EXPECT_EQ(T(0.25F, 0), 0.25F);
@@ -249,11 +249,11 @@ TEST_F(RasterizerTest, countZeroIsAnEmptyTile) {
 TEST_F(RasterizerTest, statusCodesOfTheBank) {
   struct Case {
     Csr Register;
-    std::uint32_t Value;
-    std::uint32_t Status;
+    uint32_t Value;
+    uint32_t Status;
   };
-  const auto F = [](float X) { return std::bit_cast<std::uint32_t>(X); };
-  const std::uint32_t End = TestMemory::Base + (8 << 20);
+  const auto F = [](float X) { return std::bit_cast<uint32_t>(X); };
+  const uint32_t End = TestMemory::Base + (8 << 20);
   const Case Cases[] = {
       {Csr::Mode, 16, VR_BAD_MODE},
       {Csr::Options, OptionsExp.put(ExpUnitCount), VR_BAD_MODE},
@@ -325,10 +325,10 @@ TEST_F(RasterizerTest, firstCheckDecides) {
 }
 
 TEST_F(RasterizerTest, listEntryOutOfRangeIsUnmapped) {
-  for (const std::uint32_t Number : {0xffffffffU, 0x05555556U, 200000U}) {
+  for (const uint32_t Number : {0xffffffffU, 0x05555556U, 200000U}) {
     const Gaussian Scene[] = {flat(8, 8, 4, 4, 0.5F), flat(8, 8, 4, 4, 0.5F)};
     configure(Scene);
-    Memory.put<std::uint32_t>(List + 4, std::span(&Number, 1));
+    Memory.put<uint32_t>(List + 4, std::span(&Number, 1));
     EXPECT_EQ(start(), VR_UNMAPPED) << Number;
   }
 }
@@ -338,31 +338,30 @@ TEST_F(RasterizerTest, intersectTagIsCountedAndNoNumber) {
                             flat(8, 8, 100, 100, 0.25F, 4)};
   const std::vector<Pixel> Plain = render(Scene);
   EXPECT_EQ(Agent.counters().Intersecting, 0U);
-  for (const std::uint32_t Tagged : {1U, 2U, 3U}) {
+  for (const uint32_t Tagged : {1U, 2U, 3U}) {
     const Counters Before = Agent.counters();
     configure(Scene);
-    const std::uint32_t Entries[] = {Tagged & 1 ? VR_INTERSECT : 0U,
-                                     Tagged & 2 ? VR_INTERSECT | 1U : 1U};
-    Memory.put<std::uint32_t>(List, Entries);
+    const uint32_t Entries[] = {Tagged & 1 ? VR_INTERSECT : 0U,
+                                Tagged & 2 ? VR_INTERSECT | 1U : 1U};
+    Memory.put<uint32_t>(List, Entries);
     ASSERT_EQ(start(), VR_OK);
     EXPECT_EQ(pixels(), Plain);
     EXPECT_EQ(Agent.counters().Intersecting - Before.Intersecting,
-              std::uint64_t(std::popcount(Tagged)));
+              uint64_t(std::popcount(Tagged)));
     EXPECT_EQ(Agent.counters().Blends, Before.Blends + 2 * 64 * 64);
   }
   // The number's limits are those of an entry without the bit: the last record
   // of memory, and the next.
-  const std::uint32_t Last = TestMemory::Base + (8 << 20) - sizeof(Gaussian);
+  const uint32_t Last = TestMemory::Base + (8 << 20) - sizeof(Gaussian);
   configure(Scene);
   Memory.put<Gaussian>(Last - 48 * 7, Scene);
   set(Csr::Gaussians, Last - 48 * 7);
-  for (const std::uint32_t Number : {0U, 1U}) {
-    Memory.put<std::uint32_t>(
-        List, std::vector<std::uint32_t>{VR_INTERSECT | Number, Number});
+  for (const uint32_t Number : {0U, 1U}) {
+    Memory.put<uint32_t>(List,
+                         std::vector<uint32_t>{VR_INTERSECT | Number, Number});
     EXPECT_EQ(start(), VR_OK);
   }
-  Memory.put<std::uint32_t>(List,
-                            std::vector<std::uint32_t>{VR_INTERSECT | 8U, 0U});
+  Memory.put<uint32_t>(List, std::vector<uint32_t>{VR_INTERSECT | 8U, 0U});
   EXPECT_EQ(start(), VR_UNMAPPED);
 }
 
@@ -409,16 +408,16 @@ TEST_F(RasterizerTest, agentsAreServedInTurn) {
   for (int I = 0; I != 4; ++I)
     Scene.push_back(flat(0.5F, 0.5F, 0, 0, 0.5F, static_cast<float>(2 * I)));
   Memory.put<Gaussian>(Records, Scene);
-  const auto Queue = [&](std::uint32_t Number) {
-    Memory.put<std::uint32_t>(List + 4 * Number, std::span(&Number, 1));
-    const std::pair<Csr, std::uint32_t> Bank[] = {
+  const auto Queue = [&](uint32_t Number) {
+    Memory.put<uint32_t>(List + 4 * Number, std::span(&Number, 1));
+    const std::pair<Csr, uint32_t> Bank[] = {
         {Csr::Gaussians, Records}, {Csr::List, List + 4 * Number},
         {Csr::Count, 1},           {Csr::TileShape, 0x10001},
         {Csr::Output, Pixels},     {Csr::Start, 0}};
     for (const auto &[C, Value] : Bank)
       Agents[Number].write(C, std::span(&Value, 1), 1);
   };
-  for (const std::uint32_t Number : {2U, 0U, 2U, 3U, 0U, 2U})
+  for (const uint32_t Number : {2U, 0U, 2U, 3U, 0U, 2U})
     Queue(Number);
   std::vector<float> Served;
   while (Serving.step())
@@ -426,7 +425,7 @@ TEST_F(RasterizerTest, agentsAreServedInTurn) {
   EXPECT_EQ(Served, (std::vector<float>{0, 2, 3, 0, 2, 2}));
 
   // The turn goes on after the last one served.
-  for (const std::uint32_t Number : {0U, 1U, 2U, 3U})
+  for (const uint32_t Number : {0U, 1U, 2U, 3U})
     Queue(Number);
   Serving.finish(Agents[0]);
   EXPECT_FALSE(Agents[3].isBusy());
@@ -443,7 +442,7 @@ TEST_F(RasterizerTest, floatEnvironmentOfTheCallerDoesNotMatter) {
   configure(Scene);
   std::fesetround(FE_UPWARD);
   std::feclearexcept(FE_ALL_EXCEPT);
-  const std::uint32_t Status = start();
+  const uint32_t Status = start();
   const int Raised = std::fetestexcept(FE_ALL_EXCEPT);
   const int Rounding = std::fegetround();
   std::fesetround(FE_TONEAREST);

@@ -31,7 +31,7 @@ std::vector<float> alphas(float From, float To, int Step) {
   std::vector<float> All;
   for (float A = From; A < To;) {
     All.push_back(A);
-    std::int32_t Bits = 0;
+    int32_t Bits = 0;
     std::memcpy(&Bits, &A, 4);
     Bits += Step;
     std::memcpy(&A, &Bits, 4);

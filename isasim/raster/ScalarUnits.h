@@ -18,7 +18,7 @@ inline float held(float Power) {
 }
 
 /// Mantissa 2^-(Whole + Scale), 0 below 2^-126.
-inline float scaled(float Mantissa, std::int32_t Whole, int Scale) {
+inline float scaled(float Mantissa, int32_t Whole, int Scale) {
   return Whole < base2_exp::SmallestExponent
              ? std::ldexp(Mantissa, -(Whole + Scale))
              : 0.0F;
@@ -27,13 +27,12 @@ inline float scaled(float Mantissa, std::int32_t Whole, int Scale) {
 template <int EntryBits> float tableExp(float Power) {
   using namespace table_exp;
   constexpr int FractionBits = Table<EntryBits>::FractionBits;
-  const auto Y = static_cast<std::int32_t>(
+  const auto Y = static_cast<int32_t>(
       held(Power) * -std::ldexp(base2_exp::Log2E, FractionBits));
-  const std::int32_t Fraction = Y % (1 << FractionBits);
-  const std::int32_t Word =
-      TableOf<EntryBits>.Words[Fraction / (1 << RestBits)];
-  const std::int32_t Drop = Word % (1 << DropBits);
-  const std::int32_t Mantissa =
+  const int32_t Fraction = Y % (1 << FractionBits);
+  const int32_t Word = TableOf<EntryBits>.Words[Fraction / (1 << RestBits)];
+  const int32_t Drop = Word % (1 << DropBits);
+  const int32_t Mantissa =
       Word / (1 << DropBits) -
       Drop * (Fraction % (1 << RestBits)) / (1 << RestBits);
   return scaled(static_cast<float>(Mantissa), Y / (1 << FractionBits),
@@ -47,18 +46,18 @@ template <unsigned Degree> float polynomialExp(float Power) {
   float Sum = 0;
   for (unsigned I = Degree; I != 0; --I)
     Sum = Sum * G + ExpPolynomial<Degree>::C[I - 1];
-  return scaled(Sum * G + 1.0F, static_cast<std::int32_t>(Whole), 0);
+  return scaled(Sum * G + 1.0F, static_cast<int32_t>(Whole), 0);
 }
 
 inline float linearExp(float Power) {
   using namespace linear_exp;
-  const auto Y = static_cast<std::int32_t>(
+  const auto Y = static_cast<int32_t>(
       held(Power) * -std::ldexp(base2_exp::Log2E, FractionBits));
-  const std::int32_t Fraction = Y % (1 << FractionBits);
-  const std::int32_t Piece = Fraction / (1 << RestBits);
-  const std::int32_t Rest = Fraction % (1 << RestBits);
+  const int32_t Fraction = Y % (1 << FractionBits);
+  const int32_t Piece = Fraction / (1 << RestBits);
+  const int32_t Rest = Fraction % (1 << RestBits);
   // A whole piece falls by Drop/64 of 2^FractionBits.
-  const std::int32_t Mantissa =
+  const int32_t Mantissa =
       Start[Piece] * (1 << FractionBits) / 64 - Drop[Piece] * Rest / 16;
   return scaled(static_cast<float>(Mantissa), Y / (1 << FractionBits),
                 FractionBits);
@@ -66,13 +65,12 @@ inline float linearExp(float Power) {
 
 inline float schraudolphExp(float Power) {
   using namespace schraudolph_exp;
-  const std::int32_t Bits =
-      static_cast<std::int32_t>(held(Power) * Slope) + Offset;
+  const int32_t Bits = static_cast<int32_t>(held(Power) * Slope) + Offset;
   return Bits < SmallestNormal ? 0.0F : std::bit_cast<float>(Bits);
 }
 
 /// The unit of number \p Number; one that has no body does not compile.
-template <std::uint32_t Number> float expBody(float Power) = delete;
+template <uint32_t Number> float expBody(float Power) = delete;
 
 /// Through a double: right but for ties that no test meets.
 template <> inline float expBody<VR_EXP_EXACT>(float Power) {
@@ -103,22 +101,22 @@ template <> inline float expBody<VR_EXP_SCHRAUDOLPH>(float Power) {
   return schraudolphExp(Power);
 }
 
-template <std::uint32_t... Numbers>
-float exp(std::uint32_t Option, float Power,
-          std::integer_sequence<std::uint32_t, Numbers...> /*All*/) {
+template <uint32_t... Numbers>
+float exp(uint32_t Option, float Power,
+          std::integer_sequence<uint32_t, Numbers...> /*All*/) {
   static constexpr float (*Bodies[])(float) = {expBody<Numbers>...};
   return Bodies[Option](Power);
 }
 
 /// What unit \p Option makes of \p Power <= 0.
-inline float exp(std::uint32_t Option, float Power) {
+inline float exp(uint32_t Option, float Power) {
   return exp(Option, Power,
-             std::make_integer_sequence<std::uint32_t, ExpUnitCount>());
+             std::make_integer_sequence<uint32_t, ExpUnitCount>());
 }
 
 /// \p X as an operand of blend arithmetic \p Option: rounded in doubles to the
 /// format's step at its exponent.
-inline float operand(std::uint32_t Option, float X) {
+inline float operand(uint32_t Option, float X) {
   if (Option == VR_BLEND_FP32 || X == 0 || !std::isfinite(X))
     return Option == VR_BLEND_FP16 && std::isinf(X) ? std::copysign(65504.0F, X)
                                                     : X;

@@ -18,7 +18,7 @@ struct Scene {
 };
 
 /// Gaussians of all sizes around a tile of any shape; some saturate it.
-Scene randomScene(std::uint32_t Seed) {
+Scene randomScene(uint32_t Seed) {
   std::mt19937 Engine(Seed);
   const auto Uniform = [&](double Low, double High) {
     return static_cast<float>(Low + (High - Low) * Engine() / 0x1p32);
@@ -57,8 +57,8 @@ Scene randomScene(std::uint32_t Seed) {
 
 /// What vr_options may choose in a lane.
 struct Lane {
-  std::uint32_t Exp = VR_EXP_EXACT;
-  std::uint32_t Blend = VR_BLEND_FP32;
+  uint32_t Exp = VR_EXP_EXACT;
+  uint32_t Blend = VR_BLEND_FP32;
   float MinAlpha = 1.0F / 255.0F;
 };
 
@@ -78,7 +78,7 @@ Result onePixelAtATime(const Scene &S, const Lane &L = {}) {
     if (Live == 0)
       break;
     ++Out.Work.Gaussians;
-    std::uint64_t Fragments = 0;
+    uint64_t Fragments = 0;
     for (unsigned I = 0; I != Out.Pixels.size(); ++I) {
       const unsigned Row = I / S.Width;
       const float Px = static_cast<float>(S.X + I % S.Width) + 0.5F;
@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(Host, EveryLevel,
 
 TEST_P(EveryLevel, bitsOfTheScalarLoop) {
   Counters All;
-  for (std::uint32_t Seed = 0; Seed != 60; ++Seed) {
+  for (uint32_t Seed = 0; Seed != 60; ++Seed) {
     const Scene S = randomScene(Seed);
     const Result Right = onePixelAtATime(S);
     const Result Is = onLevel(*GetParam(), S);
@@ -173,9 +173,9 @@ TEST_P(EveryLevel, bitsOfTheScalarLoop) {
 }
 
 TEST_P(EveryLevel, everyLaneHasTheBitsOfTheScalarLoop) {
-  std::uint32_t Seed = 0;
-  for (std::uint32_t Exp = 0; Exp != ExpUnitCount; ++Exp)
-    for (std::uint32_t Blend = 0; Blend != BlendUnitCount; ++Blend)
+  uint32_t Seed = 0;
+  for (uint32_t Exp = 0; Exp != ExpUnitCount; ++Exp)
+    for (uint32_t Blend = 0; Blend != BlendUnitCount; ++Blend)
       for (const float Times : {1.0F, 8.0F}) {
         const Scene S = randomScene(Seed++ % 7 * 13);
         const Lane L{Exp, Blend, Times / 255.0F};
@@ -236,7 +236,7 @@ std::vector<DoublePixel> inDoubles(const Scene &S) {
 
 class ScenesTest : public RasterTest {
 protected:
-  std::vector<Pixel> renderScene(const Scene &S, std::uint32_t Options = 0) {
+  std::vector<Pixel> renderScene(const Scene &S, uint32_t Options = 0) {
     return render(S.Gaussians,
                   {.Cutoff = S.Cutoff,
                    .Options = Options | OptionsStopAtEqual.put(S.StopAtEqual),
@@ -250,7 +250,7 @@ protected:
 TEST_F(ScenesTest, closeToDoublesOutsideDoubtfulPixels) {
   std::size_t Doubtful = 0;
   std::size_t All = 0;
-  for (std::uint32_t Seed = 100; Seed != 140; ++Seed) {
+  for (uint32_t Seed = 100; Seed != 140; ++Seed) {
     const Scene S = randomScene(Seed);
     const std::vector<Pixel> Is = renderScene(S);
     const std::vector<DoublePixel> Right = inDoubles(S);
@@ -274,13 +274,13 @@ TEST_F(ScenesTest, closeToDoublesOutsideDoubtfulPixels) {
 TEST_F(ScenesTest, blendsAreThoseOfDoubles) {
   // One pixel a tile, so that the counter is the pixel's.
   std::size_t Compared = 0;
-  for (std::uint32_t Seed = 200; Seed != 400; ++Seed) {
+  for (uint32_t Seed = 200; Seed != 400; ++Seed) {
     Scene S = randomScene(Seed);
     S.X += S.Width / 2;
     S.Y += S.Height / 2;
     S.Width = S.Height = 1;
     const DoublePixel Right = inDoubles(S)[0];
-    const std::uint64_t Before = Agent.counters().Blends;
+    const uint64_t Before = Agent.counters().Blends;
     renderScene(S);
     if (Right.Doubtful)
       continue;
@@ -295,11 +295,11 @@ TEST_F(ScenesTest, blendsAreThoseOfDoubles) {
 // coarser lane may stop a Gaussian earlier, which any amount can hang on.
 TEST_F(ScenesTest, coarserLanesStayWithinTheirBounds) {
   struct Bound {
-    std::uint32_t Options;
+    uint32_t Options;
     double Least, Most;
   };
-  const auto Exp = [](std::uint32_t Unit) { return OptionsExp.put(Unit); };
-  const auto Blend = [](std::uint32_t Unit) { return OptionsBlend.put(Unit); };
+  const auto Exp = [](uint32_t Unit) { return OptionsExp.put(Unit); };
+  const auto Blend = [](uint32_t Unit) { return OptionsBlend.put(Unit); };
   for (const Bound &B : {Bound{Exp(VR_EXP_TABLE), 1e-5, 1e-3},
                          {Exp(VR_EXP_POLY2), 1e-4, 6e-3},
                          {Exp(VR_EXP_POLY3), 1e-6, 3e-4},
@@ -313,7 +313,7 @@ TEST_F(ScenesTest, coarserLanesStayWithinTheirBounds) {
                          {OptionsAlphaCutoff.put(1), 1e-4, 3e-2},
                          {OptionsAlphaCutoff.put(3), 1e-3, 0.2}}) {
     double Largest = 0;
-    for (std::uint32_t Seed = 100; Seed != 110; ++Seed) {
+    for (uint32_t Seed = 100; Seed != 110; ++Seed) {
       Scene S = randomScene(Seed);
       S.Cutoff = 0;
       const std::vector<Pixel> Exact = renderScene(S);

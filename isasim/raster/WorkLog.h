@@ -11,19 +11,19 @@ namespace vorion::raster {
 
 /// A Gaussian that was fetched.
 struct GaussianWork {
-  std::uint32_t Address; ///< of its record, 0 for a pushed one
+  uint32_t Address; ///< of its record, 0 for a pushed one
   /// Its box cut to the tile, in pixels of the tile; Width 0 if it misses.
-  std::uint8_t X, Y, Width, Height;
-  std::uint16_t Slots; ///< pixels given to lanes
-  bool SpansTiles;     ///< the tag's intersect bit
+  uint8_t X, Y, Width, Height;
+  uint16_t Slots;  ///< pixels given to lanes
+  bool SpansTiles; ///< the tag's intersect bit
 };
 
 /// A command that a rasterizer has executed.
 struct CommandWork {
   unsigned Core = 0; ///< who started it
   Job What;
-  std::uint32_t Status = VR_OK; ///< any other: nothing is written
-  bool HandedOver = false;      ///< the pixel unit goes on
+  uint32_t Status = VR_OK; ///< any other: nothing is written
+  bool HandedOver = false; ///< the pixel unit goes on
   Counters Counts;
   /// In the order of the fetches, up to one that cannot be blended.
   std::vector<GaussianWork> Gaussians;
@@ -36,16 +36,16 @@ struct CommandWork {
 struct TailWork {
   /// A pixel that was not saturated.
   struct OpenPixel {
-    std::uint8_t X, Y;    ///< in the tile
-    std::uint32_t Visits; ///< Gaussians that it examined
+    uint8_t X, Y;    ///< in the tile
+    uint32_t Visits; ///< Gaussians that it examined
   };
-  unsigned Core = 0;        ///< who started the command
-  std::uint32_t Record = 0; ///< address of the vx_tail
-  Job What;                 ///< as that says
-  std::uint32_t Status = VR_OK;
+  unsigned Core = 0;   ///< who started the command
+  uint32_t Record = 0; ///< address of the vx_tail
+  Job What;            ///< as that says
+  uint32_t Status = VR_OK;
   Counters Counts;
-  std::vector<std::uint32_t> Records; ///< of Gaussians, in the list's order
-  std::vector<OpenPixel> Pixels;      ///< in rows
+  std::vector<uint32_t> Records; ///< of Gaussians, in the list's order
+  std::vector<OpenPixel> Pixels; ///< in rows
 };
 
 /// Receives what has been executed, on the thread that executed it: one at a

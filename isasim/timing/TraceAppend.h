@@ -11,7 +11,7 @@ namespace vorion::isasim {
 void traceRun(WarpState *S, const Insn *Start, const Insn *End);
 /// Appends where the active lanes' accesses of \p Bytes each go; \p Addresses
 /// by lane. \p IsStore and \p IsAtomic say what the instruction is.
-void traceAccess(WarpState *S, const std::uint32_t *Addresses, unsigned Bytes,
+void traceAccess(WarpState *S, const uint32_t *Addresses, unsigned Bytes,
                  bool IsStore, bool IsAtomic);
 
 } // namespace vorion::isasim

@@ -8,31 +8,31 @@ namespace vorion::isasim {
 
 /// Instructions that ran one after the other under one mask.
 struct RunRecord {
-  std::uint32_t First; ///< number of the first, from the program's beginning
+  uint32_t First; ///< number of the first, from the program's beginning
   /// How many; 0: the instruction First alone, which had parked. It has an
   /// event record instead of an access record.
-  std::uint16_t Count;
-  std::uint16_t Mask;
+  uint16_t Count;
+  uint16_t Mask;
 };
 
 /// Where an access went.
-enum class Space : std::uint8_t { Memory, Local };
+enum class Space : uint8_t { Memory, Local };
 
 /// The first word of an access record. Behind it come the addresses of
 /// \c Lines cache lines.
 struct AccessWord {
-  std::uint32_t Lines : 5; ///< distinct ones, 0 for local memory
-  std::uint32_t Where : 1; ///< a Space
-  std::uint32_t Whole : 1; ///< a store that covers all bytes of its lines
+  uint32_t Lines : 5; ///< distinct ones, 0 for local memory
+  uint32_t Where : 1; ///< a Space
+  uint32_t Whole : 1; ///< a store that covers all bytes of its lines
   /// Memory: lanes of an atomic at the same word. Local: the most distinct
   /// words that any bank has to give.
-  std::uint32_t Conflicts : 5;
-  std::uint32_t Unused : 20;
+  uint32_t Conflicts : 5;
+  uint32_t Unused : 20;
 };
 static_assert(sizeof(AccessWord) == 4);
 
 /// The first word of an event record, by kind.
-enum class Event : std::uint32_t {
+enum class Event : uint32_t {
   Atomic,      ///< an access record follows
   Barrier,     ///< two words follow: barrier, how many arrive
   RasterStart, ///< the agent's next command
@@ -44,8 +44,8 @@ enum class Event : std::uint32_t {
 /// A core's trace being written. Owned by TraceBuffer (TraceWriter.h).
 struct CoreTrace {
   RunRecord *RunAt = nullptr, *RunEnd = nullptr;
-  std::uint32_t *WordAt = nullptr, *WordEnd = nullptr;
-  std::uint32_t LocalBanks = 16;
+  uint32_t *WordAt = nullptr, *WordEnd = nullptr;
+  uint32_t LocalBanks = 16;
   bool InterleavedStacks = true;
 };
 

@@ -16,12 +16,11 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 /// SHT_RISCV_ATTRIBUTES, which older elf.h files lack.
-constexpr std::uint32_t AttributesSectionType = 0x70000003;
+constexpr uint32_t AttributesSectionType = 0x70000003;
 /// Tags of the attribute section's file subsection.
-constexpr std::uint64_t TagFile = 1, TagArch = 5;
+constexpr uint64_t TagFile = 1, TagArch = 5;
 
-template <typename T>
-std::optional<T> readAt(Bytes File, std::uint64_t Offset) {
+template <typename T> std::optional<T> readAt(Bytes File, uint64_t Offset) {
   if (Offset > File.size() || File.size() - Offset < sizeof(T))
     return std::nullopt;
   T Value;
@@ -29,8 +28,7 @@ std::optional<T> readAt(Bytes File, std::uint64_t Offset) {
   return Value;
 }
 
-std::optional<Bytes> slice(Bytes File, std::uint64_t Offset,
-                           std::uint64_t Size) {
+std::optional<Bytes> slice(Bytes File, uint64_t Offset, uint64_t Size) {
   if (Offset > File.size() || File.size() - Offset < Size)
     return std::nullopt;
   return File.subspan(Offset, Size);
@@ -42,10 +40,10 @@ public:
   explicit Cursor(Bytes Rest) : Rest(Rest) {}
   bool atEnd() const { return Rest.empty(); }
 
-  std::optional<std::uint64_t> takeUleb() {
-    std::uint64_t Value = 0;
+  std::optional<uint64_t> takeUleb() {
+    uint64_t Value = 0;
     for (unsigned Shift = 0; !Rest.empty() && Shift < 63; Shift += 7) {
-      const auto Byte = std::to_integer<std::uint64_t>(Rest.front());
+      const auto Byte = std::to_integer<uint64_t>(Rest.front());
       Rest = Rest.subspan(1);
       Value |= (Byte & 0x7f) << Shift;
       if (!(Byte & 0x80))
@@ -64,15 +62,15 @@ public:
     return Text;
   }
 
-  std::optional<std::uint32_t> takeWord() {
-    const auto Word = readAt<std::uint32_t>(Rest, 0);
+  std::optional<uint32_t> takeWord() {
+    const auto Word = readAt<uint32_t>(Rest, 0);
     if (Word)
       Rest = Rest.subspan(sizeof(*Word));
     return Word;
   }
 
   /// Takes \p Size bytes as a cursor of their own.
-  std::optional<Cursor> takeBlock(std::uint64_t Size) {
+  std::optional<Cursor> takeBlock(uint64_t Size) {
     const auto Block = slice(Rest, 0, Size);
     if (Block)
       Rest = Rest.subspan(Size);
@@ -156,14 +154,14 @@ constexpr std::size_t HeaderSize = 60, NameSize = 16, SizeField = 48,
 
 Expected<Success> checkArchive(Bytes File, const std::string &Archive) {
   Bytes LongNames;
-  for (std::uint64_t At = ArchiveMagic.size(); At < File.size();) {
+  for (uint64_t At = ArchiveMagic.size(); At < File.size();) {
     const auto Header = slice(File, At, HeaderSize);
     if (!Header)
       return Error{Archive, "truncated archive, expected whole members"};
     const char *Text = reinterpret_cast<const char *>(Header->data());
     std::string Name(Text, NameSize);
     const std::string Digits(Text + SizeField, SizeWidth);
-    const std::uint64_t Size = std::strtoull(Digits.c_str(), nullptr, 10);
+    const uint64_t Size = std::strtoull(Digits.c_str(), nullptr, 10);
     const auto Member = slice(File, At + HeaderSize, Size);
     if (!Member)
       return Error{Archive, "truncated archive, expected whole members"};
@@ -210,7 +208,7 @@ Expected<std::string> link::readArchAttribute(Bytes File,
                        "little-endian RISC-V"};
   for (unsigned I = 0; I < Header->e_shnum; ++I) {
     const auto Section = readAt<Elf32_Shdr>(
-        File, Header->e_shoff + std::uint64_t{I} * sizeof(Elf32_Shdr));
+        File, Header->e_shoff + uint64_t{I} * sizeof(Elf32_Shdr));
     if (!Section)
       return Error{Name, "truncated section table, expected a whole object"};
     if (Section->sh_type != AttributesSectionType)

@@ -20,7 +20,7 @@ void append(Buffer &To, const void *From, std::size_t Size) {
 void append(Buffer &To, std::string_view Text) {
   append(To, Text.data(), Text.size());
 }
-void appendWord(Buffer &To, std::uint32_t Word) { append(To, &Word, 4); }
+void appendWord(Buffer &To, uint32_t Word) { append(To, &Word, 4); }
 
 /// An attribute section that names \p Arch after an attribute of either kind.
 Buffer attributes(const std::string &Arch) {
@@ -30,17 +30,17 @@ Buffer attributes(const std::string &Arch) {
   File.push_back(std::byte{0});
   Buffer Vendor;
   append(Vendor, std::string("riscv\0\x01", 7));
-  appendWord(Vendor, static_cast<std::uint32_t>(File.size() + 5));
+  appendWord(Vendor, static_cast<uint32_t>(File.size() + 5));
   append(Vendor, File.data(), File.size());
   Buffer Section;
   append(Section, "A");
-  appendWord(Section, static_cast<std::uint32_t>(Vendor.size() + 4));
+  appendWord(Section, static_cast<uint32_t>(Vendor.size() + 4));
   append(Section, Vendor.data(), Vendor.size());
   return Section;
 }
 
 /// The smallest ELF file with \p Section as its attribute section.
-Buffer object(const Buffer &Section, std::uint16_t Machine = EM_RISCV) {
+Buffer object(const Buffer &Section, uint16_t Machine = EM_RISCV) {
   Elf32_Ehdr Header{};
   std::memcpy(Header.e_ident, ELFMAG, SELFMAG);
   Header.e_ident[EI_CLASS] = ELFCLASS32;
@@ -51,7 +51,7 @@ Buffer object(const Buffer &Section, std::uint16_t Machine = EM_RISCV) {
   Elf32_Shdr Entry{};
   Entry.sh_type = 0x70000003;
   Entry.sh_offset = sizeof(Header) + sizeof(Entry);
-  Entry.sh_size = static_cast<std::uint32_t>(Section.size());
+  Entry.sh_size = static_cast<uint32_t>(Section.size());
   Buffer File;
   append(File, &Header, sizeof(Header));
   append(File, &Entry, sizeof(Entry));
@@ -139,7 +139,7 @@ TEST(ObjectCheck, AnArchiveIsAsGoodAsItsMembers) {
 // Whatever is cut off or changed, the answer is a message or a name, and no
 // read leaves the file (the sanitizer builds watch that).
 RC_GTEST_PROP(ObjectCheck, AnyDamageIsSurvived,
-              (std::uint16_t Cut, std::uint16_t At, std::uint8_t Value)) {
+              (uint16_t Cut, uint16_t At, uint8_t Value)) {
   for (Buffer File :
        {object(attributes(Good)),
         archive({{"//", Buffer(30)}, {"/3", object(attributes(Good))}})}) {

@@ -142,7 +142,7 @@ TEST(Format, SubnormalsInHexadecimalRoundTrip) {
     EXPECT_EQ(std::strtod(ours("%a", Value).c_str(), nullptr), Value);
 }
 
-RC_GTEST_PROP(Format, AnyDoubleLikeTheHost, (std::uint64_t Bits)) {
+RC_GTEST_PROP(Format, AnyDoubleLikeTheHost, (uint64_t Bits)) {
   // Spread the generator's small numbers over all exponents.
   const double Value = std::bit_cast<double>(Bits * 0x9e3779b97f4a7c15U);
   RC_PRE(Value == Value);

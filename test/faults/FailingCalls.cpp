@@ -36,10 +36,10 @@ constexpr std::array<const char *, Kinds> Names = {
 constexpr std::array<int, Kinds> Causes = {EMFILE, ENOSPC, EIO,   EXDEV,
                                            EIO,    ENOMEM, ENOMEM};
 
-std::array<std::atomic<std::uint64_t>, Kinds> Counts;
+std::array<std::atomic<uint64_t>, Kinds> Counts;
 bool IsOn = false;
 Kind Wanted = Kinds;
-std::uint64_t WantedNumber = 0;
+uint64_t WantedNumber = 0;
 int Log = -1;
 /// What this library does itself is not counted.
 thread_local bool IsInside = false;
@@ -105,14 +105,14 @@ void sayPlace() {
 /// Whether the callers of an allocation were seen before; a table that is never
 /// full in a program of ours, and only says "seen" too often if it is.
 bool isNewPlace() {
-  static std::array<std::atomic<std::uint64_t>, 1 << 16> Seen;
+  static std::array<std::atomic<uint64_t>, 1 << 16> Seen;
   const Callers C = callers();
-  std::uint64_t Hash = 14695981039346656037U;
+  uint64_t Hash = 14695981039346656037U;
   for (std::size_t I = 0; I < C.Count; ++I)
-    Hash = (Hash ^ reinterpret_cast<std::uintptr_t>(C.At[I])) * 1099511628211U;
+    Hash = (Hash ^ reinterpret_cast<uintptr_t>(C.At[I])) * 1099511628211U;
   Hash |= 1;
   for (std::size_t I = 0, At = Hash % Seen.size(); I < Seen.size(); ++I) {
-    std::uint64_t Free = 0;
+    uint64_t Free = 0;
     if (Seen[At].compare_exchange_strong(Free, Hash))
       return true;
     if (Free == Hash)
@@ -126,7 +126,7 @@ bool isNewPlace() {
 bool fails(Kind K) {
   if (!IsOn || IsInside)
     return false;
-  const std::uint64_t Number = ++Counts[K];
+  const uint64_t Number = ++Counts[K];
   if (K != Wanted || (WantedNumber != 0 && Number != WantedNumber))
     return false;
   const Inside Here;

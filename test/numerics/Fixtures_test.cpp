@@ -2,7 +2,7 @@
 // them. Each test prints its figure.
 
 #include "Convert.h"
-#include "Metrics.h"
+#include "io/Metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +139,7 @@ TEST_P(GsplatFixture, RadiiAndPairs) {
   // The fixtures' radii leave opacity out: 3.33 sigma, whole numbers of pixels,
   // none where the box misses the picture.
   const auto Radii = F.doubles("f64_radii");
-  std::uint64_t Pairs = 0;
+  uint64_t Pairs = 0;
   std::size_t Different = 0;
   for (std::size_t I = 0; I < Splats.size(); ++I) {
     const auto &S = Splats[I];
@@ -163,7 +163,7 @@ TEST_P(GsplatFixture, RadiiAndPairs) {
       const double Count = std::ceil(Pixels / 16.);
       const double First = std::clamp(std::floor((Mean - R) / 16), 0., Count);
       const double End = std::clamp(std::ceil((Mean + R) / 16), 0., Count);
-      return static_cast<std::uint64_t>(End - First);
+      return static_cast<uint64_t>(End - First);
     };
     Pairs += Tiles(B.Mean.x, Rx, F.Camera.Width) *
              Tiles(B.Mean.y, Ry, F.Camera.Height);
@@ -186,7 +186,7 @@ TEST_P(InriaFixture, OrderLastContributorAndTransmittance) {
   const auto T = F.doubles("f64_T_final"), Radii = F.doubles("f64_radii");
   // They leave out what misses the picture.
   std::vector<double> Ours;
-  for (const std::uint32_t I : reference::depthOrder(Splats))
+  for (const uint32_t I : reference::depthOrder(Splats))
     if (Radii[2 * I] > 0)
       Ours.push_back(I);
   ASSERT_EQ(Ours, Order);
@@ -221,9 +221,9 @@ TEST_P(InriaFixture, PairsOfSquares) {
         std::clamp(std::floor(std::ceil(Mean - R) / 16), 0., Count);
     const double End =
         std::clamp(std::floor(std::floor(Mean + R) / 16) + 1, 0., Count);
-    return static_cast<std::uint64_t>(std::max(0., End - First));
+    return static_cast<uint64_t>(std::max(0., End - First));
   };
-  std::uint64_t Pairs = 0;
+  uint64_t Pairs = 0;
   for (const auto &S : Splats)
     if (S.Visible)
       Pairs += Tiles(S.Mean.x - 0.5, S.Radius.x, F.Camera.Width) *

@@ -2,7 +2,7 @@
 // lies between, and the sums that the rasterizer hands over.
 
 #include "Gradients.h"
-#include "Metrics.h"
+#include "io/Metrics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -22,7 +22,7 @@ protected:
     std::string Log;
     Program = Device.build(Source, Log);
     ASSERT_EQ(Log, "");
-    Data = Device.upload(std::vector<std::int32_t>(1024, 7));
+    Data = Device.upload(std::vector<int32_t>(1024, 7));
     Fine = cl::Kernel(Program, "fine");
     EXPECT_EQ(Fine.setArg(0, Data), CL_SUCCESS);
   }
@@ -90,7 +90,7 @@ TEST_F(Arguments, NullHandlesAreNamed) {
 
 TEST_F(Arguments, RegionsThatOverflowAreOutside) {
   constexpr std::size_t Most = SIZE_MAX;
-  std::array<std::uint8_t, 4096> Host{};
+  std::array<uint8_t, 4096> Host{};
   const std::array<std::size_t, 3> Zero{0, 0, 0};
   const auto Read = [&](std::array<std::size_t, 3> Origin,
                         std::array<std::size_t, 3> Region, std::size_t Row) {
@@ -116,23 +116,23 @@ TEST_F(Arguments, PartsOfABufferAreCopiedAsRectangles) {
       Data.createSubBuffer(0, CL_BUFFER_CREATE_TYPE_REGION, &First, &Status);
   cl::Buffer To =
       Data.createSubBuffer(0, CL_BUFFER_CREATE_TYPE_REGION, &Second, &Status);
-  const std::vector<std::int32_t> Values = {1, 2, 3, 4};
+  const std::vector<int32_t> Values = {1, 2, 3, 4};
   EXPECT_EQ(
       Device.queue().enqueueWriteBuffer(From, CL_TRUE, 0, 16, Values.data()),
       CL_SUCCESS);
   EXPECT_EQ(Device.queue().enqueueCopyBufferRect(From, To, {0, 0, 0}, {4, 0, 0},
                                                  {8, 1, 1}, 0, 0, 0, 0),
             CL_SUCCESS);
-  std::vector<std::int32_t> Got(4);
+  std::vector<int32_t> Got(4);
   EXPECT_EQ(
       Device.queue().enqueueReadBuffer(Data, CL_TRUE, 1024, 16, Got.data()),
       CL_SUCCESS);
-  EXPECT_EQ(Got, (std::vector<std::int32_t>{7, 1, 2, 7}));
+  EXPECT_EQ(Got, (std::vector<int32_t>{7, 1, 2, 7}));
 }
 
 /// The pointer was one into a copy that went with the buffer's first use.
 TEST_F(Arguments, AMappingOutlivesTheCopyToTheDevice) {
-  std::vector<std::int32_t> Values(1024, 5);
+  std::vector<int32_t> Values(1024, 5);
   const cl::Buffer Copied(Device.context(), cl_mem_flags{CL_MEM_COPY_HOST_PTR},
                           std::size_t{4096}, Values.data());
   cl::UserEvent Gate(Device.context());
@@ -141,7 +141,7 @@ TEST_F(Arguments, AMappingOutlivesTheCopyToTheDevice) {
   const std::vector<cl::Event> After = {Gate};
   cl::Event Mapped;
   cl_int Status = CL_SUCCESS;
-  auto *Pointer = static_cast<std::int32_t *>(
+  auto *Pointer = static_cast<int32_t *>(
       Queue.enqueueMapBuffer(Copied, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 64,
                              256, &After, &Mapped, &Status));
   ASSERT_EQ(Status, CL_SUCCESS);
@@ -151,8 +151,8 @@ TEST_F(Arguments, AMappingOutlivesTheCopyToTheDevice) {
   Pointer[0] = 9;
   EXPECT_EQ(Queue.enqueueUnmapMemObject(Copied, Pointer), CL_SUCCESS);
   EXPECT_EQ(Queue.finish(), CL_SUCCESS);
-  EXPECT_EQ(Device.download<std::int32_t>(Copied, 18)[16], 9);
-  EXPECT_EQ(Device.download<std::int32_t>(Copied, 18)[17], 5);
+  EXPECT_EQ(Device.download<int32_t>(Copied, 18)[16], 9);
+  EXPECT_EQ(Device.download<int32_t>(Copied, 18)[17], 5);
 }
 
 TEST_F(Arguments, OptionsWithoutAValueAreRefused) {

@@ -11,7 +11,7 @@ using vorion::test::TestDevice;
 namespace {
 
 constexpr std::size_t Count = 1000;
-using Values = std::vector<std::int32_t>;
+using Values = std::vector<int32_t>;
 
 Values ascending() {
   Values V(Count);
@@ -41,20 +41,20 @@ TEST_P(Placement, MappedWritesReachTheDevice) {
   const cl::Kernel K = increment(Device, Buffer);
   Device.run(K, Count, 50);
   cl_int Status = 0;
-  auto *Mapped = static_cast<std::int32_t *>(Device.queue().enqueueMapBuffer(
+  auto *Mapped = static_cast<int32_t *>(Device.queue().enqueueMapBuffer(
       Buffer, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, Count * 4, nullptr,
       nullptr, &Status));
   ASSERT_EQ(Status, CL_SUCCESS);
   for (std::size_t I = 0; I < Count; ++I) {
-    ASSERT_EQ(Mapped[I], static_cast<std::int32_t>(I) + 1);
+    ASSERT_EQ(Mapped[I], static_cast<int32_t>(I) + 1);
     Mapped[I] += 5;
   }
   Device.queue().enqueueUnmapMemObject(Buffer, Mapped);
   Device.run(K, Count, 50);
   Values Want = ascending();
-  for (std::int32_t &V : Want)
+  for (int32_t &V : Want)
     V += 7;
-  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+  EXPECT_EQ(Device.download<int32_t>(Buffer, Count), Want);
 }
 
 INSTANTIATE_TEST_SUITE_P(Flags, Placement,
@@ -76,13 +76,13 @@ TEST(Buffers, PartsFillsAndCopiesTouchTheirBytesOnly) {
   Device.run(increment(Device, Part), 256, 64);
   for (std::size_t I = 128; I < 384; ++I)
     ++Want[I];
-  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+  EXPECT_EQ(Device.download<int32_t>(Buffer, Count), Want);
 
-  ASSERT_EQ(Device.queue().enqueueFillBuffer(Buffer, std::int32_t{7}, 40, 400),
+  ASSERT_EQ(Device.queue().enqueueFillBuffer(Buffer, int32_t{7}, 40, 400),
             CL_SUCCESS);
   for (std::size_t I = 10; I < 110; ++I)
     Want[I] = 7;
-  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+  EXPECT_EQ(Device.download<int32_t>(Buffer, Count), Want);
 
   const cl::Buffer Other = Device.upload(Values(Count, -1));
   ASSERT_EQ(Device.queue().enqueueCopyBuffer(Buffer, Other, 400, 800, 2000),
@@ -90,7 +90,7 @@ TEST(Buffers, PartsFillsAndCopiesTouchTheirBytesOnly) {
   Values WantOther(Count, -1);
   for (std::size_t I = 0; I < 500; ++I)
     WantOther[200 + I] = Want[100 + I];
-  EXPECT_EQ(Device.download<std::int32_t>(Other, Count), WantOther);
+  EXPECT_EQ(Device.download<int32_t>(Other, Count), WantOther);
 }
 
 TEST(Buffers, CommandsWaitForTheirEvents) {
@@ -107,13 +107,13 @@ TEST(Buffers, CommandsWaitForTheirEvents) {
                                         cl::NDRange(50), &After, &Done),
             CL_SUCCESS);
   Second.flush();
-  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), ascending());
+  EXPECT_EQ(Device.download<int32_t>(Buffer, Count), ascending());
   Go.setStatus(CL_COMPLETE);
   EXPECT_EQ(Done.wait(), CL_SUCCESS);
   Values Want = ascending();
-  for (std::int32_t &V : Want)
+  for (int32_t &V : Want)
     ++V;
-  EXPECT_EQ(Device.download<std::int32_t>(Buffer, Count), Want);
+  EXPECT_EQ(Device.download<int32_t>(Buffer, Count), Want);
 }
 
 TEST(Buffers, MoreThanTheDeviceHasIsRefused) {

@@ -44,11 +44,11 @@ kernel void integers(global const long *a, global const long *b,
 
   // Any number of significant bits: division has paths for small operands.
   std::mt19937_64 Random(1);
-  std::vector<std::int64_t> A(Count), B(Count);
+  std::vector<int64_t> A(Count), B(Count);
   for (std::size_t I = 0; I < Count; ++I) {
-    A[I] = static_cast<std::int64_t>(Random()) >> Random() % 64;
+    A[I] = static_cast<int64_t>(Random()) >> Random() % 64;
     do
-      B[I] = static_cast<std::int64_t>(Random()) >> Random() % 64;
+      B[I] = static_cast<int64_t>(Random()) >> Random() % 64;
     while (B[I] == 0 || B[I] == -1); // no host division is defined there
   }
   cl::Kernel Kernel(Program, "integers");
@@ -59,33 +59,29 @@ kernel void integers(global const long *a, global const long *b,
   Kernel.setArg(1, InB);
   Kernel.setArg(2, Out);
   Device.run(Kernel, Count, Group);
-  const auto Results = Device.download<std::int64_t>(Out, 12 * Count);
+  const auto Results = Device.download<int64_t>(Out, 12 * Count);
 
   for (std::size_t I = 0; I < Count; ++I) {
-    const std::int64_t X = A[I], Y = B[I];
-    const auto UX = static_cast<std::uint64_t>(X),
-               UY = static_cast<std::uint64_t>(Y);
+    const int64_t X = A[I], Y = B[I];
+    const auto UX = static_cast<uint64_t>(X), UY = static_cast<uint64_t>(Y);
     const unsigned Shift = Y & 63;
     const auto Chosen = X > Y ? static_cast<float>(X) : static_cast<float>(UY);
-    const std::array<std::uint64_t, 12> Expected = {
-        static_cast<std::uint64_t>(X / Y),
-        static_cast<std::uint64_t>(X % Y),
+    const std::array<uint64_t, 12> Expected = {
+        static_cast<uint64_t>(X / Y),
+        static_cast<uint64_t>(X % Y),
         UX / UY,
         UX % UY,
         UX * UY,
         UX << Shift,
-        static_cast<std::uint64_t>(X >> Shift),
+        static_cast<uint64_t>(X >> Shift),
         UX >> Shift,
-        static_cast<std::uint64_t>(static_cast<unsigned __int128>(UX) * UY >>
-                                   64),
-        static_cast<std::uint64_t>(std::countl_zero(UX) * 100 +
-                                   std::popcount(UY)),
-        static_cast<std::uint64_t>(
-            std::int64_t{std::bit_cast<std::int32_t>(Chosen)}),
-        static_cast<std::uint64_t>(
-            static_cast<std::int64_t>(static_cast<float>(X) * 0.5F))};
+        static_cast<uint64_t>(static_cast<unsigned __int128>(UX) * UY >> 64),
+        static_cast<uint64_t>(std::countl_zero(UX) * 100 + std::popcount(UY)),
+        static_cast<uint64_t>(int64_t{std::bit_cast<int32_t>(Chosen)}),
+        static_cast<uint64_t>(
+            static_cast<int64_t>(static_cast<float>(X) * 0.5F))};
     for (std::size_t K = 0; K < Expected.size(); ++K)
-      EXPECT_EQ(static_cast<std::uint64_t>(Results[12 * I + K]), Expected[K])
+      EXPECT_EQ(static_cast<uint64_t>(Results[12 * I + K]), Expected[K])
           << "operation " << K << " of " << X << " and " << Y;
   }
 }
@@ -103,9 +99,9 @@ kernel void halves(global const half *in, global float *wide, global half *out) 
 })",
                                            Log);
   ASSERT_EQ(Log, "");
-  std::vector<std::uint16_t> In(1 << 16);
+  std::vector<uint16_t> In(1 << 16);
   for (std::size_t I = 0; I < In.size(); ++I)
-    In[I] = static_cast<std::uint16_t>(I);
+    In[I] = static_cast<uint16_t>(I);
   cl::Kernel Kernel(Program, "halves");
   const cl::Buffer Wide(Device.context(), CL_MEM_READ_WRITE, 4 * In.size());
   const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 2 * In.size());
@@ -115,7 +111,7 @@ kernel void halves(global const half *in, global float *wide, global half *out) 
   Kernel.setArg(2, Out);
   Device.run(Kernel, In.size(), 64);
   const auto Floats = Device.download<float>(Wide, In.size());
-  const auto Halves = Device.download<std::uint16_t>(Out, In.size());
+  const auto Halves = Device.download<uint16_t>(Out, In.size());
   for (std::size_t I = 0; I < In.size(); ++I) {
     const unsigned Exponent = I >> 10 & 31, Fraction = I & 1023;
     if (Exponent == 31 && Fraction) {

@@ -31,7 +31,7 @@ protected:
     std::string Log;
     Program = Device.build(Source, Log);
     ASSERT_EQ(Log, "");
-    Data = Device.upload(std::vector<std::int32_t>(16));
+    Data = Device.upload(std::vector<int32_t>(16));
     testing::internal::CaptureStderr(); // the traps' reports
   }
   void TearDown() override {
@@ -63,7 +63,7 @@ protected:
   const TestDevice Device;
   cl::Program Program;
   cl::Buffer Data;
-  std::vector<std::int32_t> Words = std::vector<std::int32_t>(16);
+  std::vector<int32_t> Words = std::vector<int32_t>(16);
 };
 
 TEST_F(Events, ABlockingReadAfterATrapFails) {
@@ -72,7 +72,7 @@ TEST_F(Events, ABlockingReadAfterATrapFails) {
   // Told of it, the host may go on with the queue.
   start(Device.queue(), "fine");
   EXPECT_EQ(read(Device.queue()), CL_SUCCESS);
-  EXPECT_EQ(Words, std::vector<std::int32_t>(16, 42));
+  EXPECT_EQ(Words, std::vector<int32_t>(16, 42));
 }
 
 /// clFinish has no code for it, so whether the trap was over when the read was

@@ -15,7 +15,7 @@ using vorion::test::TestDevice;
 
 namespace {
 
-using U = std::uint32_t;
+using U = uint32_t;
 using Values = std::vector<U>;
 
 struct Shape {

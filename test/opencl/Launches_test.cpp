@@ -12,7 +12,7 @@ using vorion::test::TestDevice;
 
 namespace {
 
-using U = std::uint32_t;
+using U = uint32_t;
 
 TEST(Launches, ArgumentsOfAllKindsArrive) {
   const TestDevice Device;
@@ -42,13 +42,13 @@ kernel void take(char c, global int *out, mixed m, local int *a, float3 v,
   struct alignas(16) {
     char C = 3;
     float F = 4.5F;
-    std::int64_t L = std::int64_t{77} << 32;
-    alignas(16) std::int32_t V[4] = {1, 2, 3, 4};
+    int64_t L = int64_t{77} << 32;
+    alignas(16) int32_t V[4] = {1, 2, 3, 4};
   } Mixed;
   static_assert(sizeof(Mixed) == 32);
   const cl_float3 Vector = {{1, 2, 3, 0}};
-  const cl::Buffer Out = Device.upload(std::vector<std::int32_t>(8 * 16));
-  const cl::Buffer Table = Device.upload(std::vector<std::int32_t>{5, 6});
+  const cl::Buffer Out = Device.upload(std::vector<int32_t>(8 * 16));
+  const cl::Buffer Table = Device.upload(std::vector<int32_t>{5, 6});
   cl::Kernel K(Program, "take");
   K.setArg(0, cl_char{-7});
   K.setArg(1, Out);
@@ -60,9 +60,9 @@ kernel void take(char c, global int *out, mixed m, local int *a, float3 v,
   K.setArg(7, Table);
   K.setArg(8, sizeof(cl_mem), nullptr);
   Device.run(K, 16, 16);
-  const auto Got = Device.download<std::int32_t>(Out, 8 * 16);
+  const auto Got = Device.download<int32_t>(Out, 8 * 16);
   for (int I = 0; I < 16; ++I) {
-    const std::vector<std::int32_t> Want = {
+    const std::vector<int32_t> Want = {
         -7, 7, 77, 4 + I, 321, 9, 6 + 10 * (I % 4 + 1), 1};
     EXPECT_EQ(std::vector(Got.begin() + 8 * I, Got.begin() + 8 * I + 8), Want)
         << "work-item " << I;
@@ -84,13 +84,13 @@ kernel void change(numbers n, global int *out) {
 })",
                                            Log);
   ASSERT_EQ(Log, "");
-  const std::int32_t Numbers[4] = {1, 2, 3, 4};
-  const cl::Buffer Out = Device.upload(std::vector<std::int32_t>(100));
+  const int32_t Numbers[4] = {1, 2, 3, 4};
+  const cl::Buffer Out = Device.upload(std::vector<int32_t>(100));
   cl::Kernel K(Program, "change");
   K.setArg(0, sizeof(Numbers), Numbers);
   K.setArg(1, Out);
   Device.run(K, 100, 50);
-  const auto Got = Device.download<std::int32_t>(Out, 100);
+  const auto Got = Device.download<int32_t>(Out, 100);
   for (int I = 0; I < 100; ++I)
     EXPECT_EQ(Got[I], 10 + I);
 }
@@ -113,12 +113,12 @@ kernel void both(global int *out, local int *given) {
 })",
                                            Log);
   ASSERT_EQ(Log, "");
-  const cl::Buffer Out = Device.upload(std::vector<std::int32_t>(400));
+  const cl::Buffer Out = Device.upload(std::vector<int32_t>(400));
   cl::Kernel K(Program, "both");
   K.setArg(0, Out);
   K.setArg(1, cl::Local(160));
   Device.run(K, 400, 40);
-  const auto Got = Device.download<std::int32_t>(Out, 400);
+  const auto Got = Device.download<int32_t>(Out, 400);
   for (int I = 0; I < 400; ++I)
     EXPECT_EQ(Got[I], (39 - I % 40) * 1001 + 107);
 }
@@ -151,15 +151,15 @@ kernel void count(global int *g, local int *t) {
 })",
                                            Log);
   ASSERT_EQ(Log, "");
-  std::vector<std::int32_t> Start(11, 0);
+  std::vector<int32_t> Start(11, 0);
   Start[5] = -1;
   const cl::Buffer Counters = Device.upload(Start);
   cl::Kernel K(Program, "count");
   K.setArg(0, Counters);
   K.setArg(1, cl::Local(4));
   Device.run(K, 1000, 100);
-  const auto Got = Device.download<std::int32_t>(Counters, 11);
-  std::int32_t Xor = 0;
+  const auto Got = Device.download<int32_t>(Counters, 11);
+  int32_t Xor = 0;
   for (int I = 0; I < 1000; ++I)
     Xor ^= I;
   EXPECT_EQ(Got[0], 1000);
@@ -234,7 +234,7 @@ kernel void fault(global int *out) { out[0] = *(global int *)8; }
 kernel void fine(global int *out) { out[get_global_id(0)] = 42; })",
                                            Log);
   ASSERT_EQ(Log, "");
-  const cl::Buffer Out = Device.upload(std::vector<std::int32_t>(8));
+  const cl::Buffer Out = Device.upload(std::vector<int32_t>(8));
   cl::Kernel Fault(Program, "fault"), Fine(Program, "fine");
   Fault.setArg(0, Out);
   Fine.setArg(0, Out);
@@ -252,8 +252,7 @@ kernel void fine(global int *out) { out[get_global_id(0)] = 42; })",
   EXPECT_NE(Report.find(".cl:2 in fault"), std::string::npos) << Report;
 
   Device.run(Fine, 8, 8);
-  EXPECT_EQ(Device.download<std::int32_t>(Out, 8),
-            std::vector<std::int32_t>(8, 42));
+  EXPECT_EQ(Device.download<int32_t>(Out, 8), std::vector<int32_t>(8, 42));
 }
 
 TEST(Launches, TooMuchLocalMemoryFailsTheEvent) {
@@ -264,7 +263,7 @@ TEST(Launches, TooMuchLocalMemoryFailsTheEvent) {
       "kernel void use(local int *t, global int *o) { t[0] = 1; o[0] = t[0]; }",
       Log);
   ASSERT_EQ(Log, "");
-  const cl::Buffer Out = Device.upload(std::vector<std::int32_t>(1));
+  const cl::Buffer Out = Device.upload(std::vector<int32_t>(1));
   cl::Kernel K(Program, "use");
   K.setArg(0, cl::Local(1 << 20));
   K.setArg(1, Out);
@@ -340,7 +339,7 @@ TEST(Counters, TellWhatOneKernelDid) {
   const cl::Program Program = Device.build(
       "kernel void one(global int *o) { o[get_global_id(0)] = 1; }", Log);
   ASSERT_EQ(Log, "");
-  const cl::Buffer Out = Device.upload(std::vector<std::int32_t>(160));
+  const cl::Buffer Out = Device.upload(std::vector<int32_t>(160));
   cl::Kernel K(Program, "one");
   K.setArg(0, Out);
   const auto Count = [&](std::size_t Items, cl_uint Name) {
@@ -369,7 +368,7 @@ TEST(Counters, TellWhatOneKernelDid) {
   EXPECT_EQ(Count(160, CL_EVENT_RASTER_BLENDS_VORION), 0U);
 
   cl::Event Copy;
-  std::int32_t Value = 0;
+  int32_t Value = 0;
   Device.queue().enqueueReadBuffer(Out, CL_TRUE, 0, 4, &Value, nullptr, &Copy);
   cl_ulong Unused = 0;
   EXPECT_EQ(

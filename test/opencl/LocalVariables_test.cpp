@@ -12,15 +12,15 @@ using vorion::test::TestDevice;
 
 namespace {
 
-using Values = std::vector<std::uint32_t>;
+using Values = std::vector<uint32_t>;
 
-constexpr std::uint32_t Groups = 3;
+constexpr uint32_t Groups = 3;
 
 /// A kernel's declarations and statements; `l` is the work-item, `n` the size
 /// of the group, `B` a barrier. Every work-item leaves Expected in `r`.
 struct Form {
   const char *Name, *Locals, *Body;
-  std::uint32_t Expected;
+  uint32_t Expected;
 };
 
 // clang-format off: a form a line
@@ -73,12 +73,12 @@ static uint told(local uint *p, uint who, uint v) {
          F.Locals + "\n  " + F.Body + "\n  out[get_global_id(0)] = r;\n}\n";
 }
 
-class LocalVariables : public testing::TestWithParam<std::uint32_t> {};
+class LocalVariables : public testing::TestWithParam<uint32_t> {};
 
 TEST_P(LocalVariables, BelongToTheGroup) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  const std::uint32_t Items = Groups * GetParam();
+  const uint32_t Items = Groups * GetParam();
   for (const Form &F : Forms) {
     SCOPED_TRACE(F.Name);
     std::string Log;
@@ -88,8 +88,7 @@ TEST_P(LocalVariables, BelongToTheGroup) {
     const cl::Buffer Out = Device.upload(Values(Items, ~0U));
     Kernel.setArg(0, Out);
     Device.run(Kernel, Items, GetParam());
-    EXPECT_EQ(Device.download<std::uint32_t>(Out, Items),
-              Values(Items, F.Expected));
+    EXPECT_EQ(Device.download<uint32_t>(Out, Items), Values(Items, F.Expected));
   }
 }
 

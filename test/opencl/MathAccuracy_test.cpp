@@ -190,8 +190,7 @@ std::vector<float> draw(Range Wanted, std::size_t Count, unsigned Seed) {
     const double Sign = Random() % 2 ? 1 : -1;
     switch (Wanted) {
     case Range::Any:
-      Values.push_back(
-          std::bit_cast<float>(static_cast<std::uint32_t>(Random())));
+      Values.push_back(std::bit_cast<float>(static_cast<uint32_t>(Random())));
       break;
     case Range::Moderate:
       Values.push_back(

@@ -113,13 +113,13 @@ template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P) {
   const auto H = static_cast<std::size_t>(P.Height);
   const auto W = static_cast<std::size_t>(P.Width);
   std::vector<Real> Alpha;
-  std::vector<std::uint8_t> Threshold, Order;
+  std::vector<uint8_t> Threshold, Order;
   Alpha.reserve(P.Transmittance.size());
   for (const Real T : P.Transmittance)
     Alpha.push_back(1 - T);
   Threshold.reserve(P.Doubts.size());
   Order.reserve(P.Doubts.size());
-  for (const std::uint8_t D : P.Doubts) {
+  for (const uint8_t D : P.Doubts) {
     Threshold.push_back((D & reference::DoubtThreshold) != 0);
     Order.push_back((D & reference::DoubtOrder) != 0);
   }
@@ -134,13 +134,13 @@ template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P) {
 template <typename Real>
 splat::Npz toNpz(const reference::TileLists &T,
                  const std::vector<reference::Splat<Real>> &Splats) {
-  std::vector<std::int32_t> Tiles, Depths, Indices;
+  std::vector<int32_t> Tiles, Depths, Indices;
   for (std::size_t Tile = 0; Tile < T.Lists.size(); ++Tile)
-    for (const std::uint32_t I : T.Lists[Tile]) {
-      Tiles.push_back(static_cast<std::int32_t>(Tile));
+    for (const uint32_t I : T.Lists[Tile]) {
+      Tiles.push_back(static_cast<int32_t>(Tile));
       Depths.push_back(
-          static_cast<std::int32_t>(reference::depthBits(Splats[I].Depth)));
-      Indices.push_back(static_cast<std::int32_t>(I));
+          static_cast<int32_t>(reference::depthBits(Splats[I].Depth)));
+      Indices.push_back(static_cast<int32_t>(I));
     }
   const std::vector<std::size_t> Shape{Tiles.size()};
   using splat::NpyArray;

@@ -2,13 +2,13 @@
 /// apps/splat/analyze/ToReference.h has the rest.
 #pragma once
 
-#include "Activation.h"
-#include "Cameras.h"
 #include "Fixture.h"
-#include "Npz.h"
-#include "Scene.h"
-#include "ToReference.h"
+#include "analyze/ToReference.h"
+#include "io/Cameras.h"
+#include "io/Npz.h"
 #include "reference/Render.h"
+#include "scene/Activation.h"
+#include "scene/Scene.h"
 
 #include <string>
 #include <utility>

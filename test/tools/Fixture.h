@@ -2,7 +2,7 @@
 /// names and metadata select rules.
 #pragma once
 
-#include "Npz.h"
+#include "io/Npz.h"
 #include "reference/Types.h"
 #include "vorion/support/Expected.h"
 

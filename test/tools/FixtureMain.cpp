@@ -2,9 +2,9 @@
 
 #include "Convert.h"
 #include "Gradients.h"
-#include "Metrics.h"
 #include "Tool.h"
-#include "formats/Ply.h"
+#include "io/Metrics.h"
+#include "scene/formats/Ply.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -43,7 +43,7 @@ Expected<Success> run(const std::string &Input, const std::string &Folder) {
   const auto Exact = reference::render(F->Gaussians, F->Camera, O);
   const auto Stored = reference::render(splat::toReference<double>(S),
                                         splat::toReference<double>(C), O);
-  std::vector<std::uint8_t> Doubtful(Exact.Doubts);
+  std::vector<uint8_t> Doubtful(Exact.Doubts);
   const auto Loss = splat::compare(renderOf(Exact), renderOf(Stored), 3);
   const auto Outside =
       splat::compare(renderOf(Exact), renderOf(Stored), 3, Doubtful);

@@ -1,6 +1,6 @@
 #include "Gradients.h"
 
-#include "Metrics.h"
+#include "io/Metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,7 +106,7 @@ reference::Upstream upstreamOf(const Fixture &F) {
 }
 
 GradientFiles gradientsOf(const Fixture &F,
-                          const std::vector<std::uint8_t> &Doubts) {
+                          const std::vector<uint8_t> &Doubts) {
   reference::Upstream U = upstreamOf(F);
   for (std::size_t I = 0; I < Doubts.size(); ++I)
     if (Doubts[I]) {

@@ -23,8 +23,7 @@ struct GradientFiles {
 };
 
 /// Both without the pixels that are doubtful in \p Doubts.
-GradientFiles gradientsOf(const Fixture &F,
-                          const std::vector<std::uint8_t> &Doubts);
+GradientFiles gradientsOf(const Fixture &F, const std::vector<uint8_t> &Doubts);
 
 /// sqrt of the sum of squares, NaNs left out.
 double norm(const std::vector<double> &V);

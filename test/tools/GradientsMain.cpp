@@ -1,8 +1,8 @@
 // splat-check-gradients: judges what `splat gradients` wrote for a fixture.
 
 #include "Gradients.h"
-#include "Metrics.h"
 #include "Tool.h"
+#include "io/Metrics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 

@@ -1,8 +1,8 @@
 // splat-reference: renders one view of a scene with the reference.
 
 #include "Convert.h"
-#include "SceneFile.h"
 #include "Tool.h"
+#include "scene/SceneFile.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 

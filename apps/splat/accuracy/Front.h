@@ -1,7 +1,7 @@
 /// Which settings are worth having.
 #pragma once
 
-#include "Setting.h"
+#include "accuracy/Setting.h"
 
 #include <array>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "Front.h"
+#include "accuracy/Front.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 /// unit and order of sums is held against.
 #pragma once
 
-#include "../scene/Scene.h"
-#include "../train/TrainingSet.h"
+#include "scene/Scene.h"
+#include "train/TrainingSet.h"
 #include "vorion/support/Expected.h"
 
 #include <array>

@@ -1,9 +1,9 @@
-#include "Origin.h"
+#include "accuracy/Origin.h"
 
-#include "../device/Configuration.h"
-#include "../device/Programs.h"
-#include "../io/Hash.h"
-#include "Points.h"
+#include "accuracy/Points.h"
+#include "device/Configuration.h"
+#include "device/Programs.h"
+#include "io/Hash.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 

@@ -2,8 +2,8 @@
 /// kept is used only where everything that made it is the same.
 #pragma once
 
-#include "../capture/Capture.h"
-#include "../device/DeviceOptions.h"
+#include "capture/Capture.h"
+#include "device/DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <functional>

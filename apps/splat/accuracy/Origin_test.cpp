@@ -1,4 +1,4 @@
-#include "Origin.h"
+#include "accuracy/Origin.h"
 
 #include "io/TestFiles.h"
 

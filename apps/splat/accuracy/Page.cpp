@@ -1,4 +1,4 @@
-#include "Page.h"
+#include "accuracy/Page.h"
 
 #include "vorion/support/Json.h"
 

@@ -1,7 +1,7 @@
 /// The HTML pages of sweeps: each one file that needs no other and no network.
 #pragma once
 
-#include "Sweep.h"
+#include "accuracy/Sweep.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -1,6 +1,6 @@
-#include "Points.h"
+#include "accuracy/Points.h"
 
-#include "../io/Inside.h"
+#include "io/Inside.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 

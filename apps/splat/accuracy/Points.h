@@ -2,7 +2,7 @@
 /// stopped.
 #pragma once
 
-#include "Origin.h"
+#include "accuracy/Origin.h"
 #include "vorion/support/Expected.h"
 
 #include <functional>

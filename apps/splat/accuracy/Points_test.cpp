@@ -1,4 +1,4 @@
-#include "Points.h"
+#include "accuracy/Points.h"
 
 #include "io/TestFiles.h"
 

@@ -1,4 +1,4 @@
-#include "Process.h"
+#include "accuracy/Process.h"
 
 #include "vorion/support/File.h"
 

@@ -1,7 +1,7 @@
 /// `splat` as a child: each render is a process of its own, as a user's is.
 #pragma once
 
-#include "../device/DeviceOptions.h"
+#include "device/DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <string>

@@ -1,8 +1,8 @@
-#include "Reference.h"
+#include "accuracy/Reference.h"
 
-#include "../analyze/ToReference.h"
-#include "../io/Inside.h"
-#include "../io/Npz.h"
+#include "analyze/ToReference.h"
+#include "io/Inside.h"
+#include "io/Npz.h"
 #include "reference/Render.h"
 
 #include <fmt/format.h>

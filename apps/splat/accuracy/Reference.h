@@ -2,9 +2,9 @@
 /// support, kept as files.
 #pragma once
 
-#include "Sweep.h"
+#include "accuracy/Sweep.h"
 
-#include "../io/Image.h"
+#include "io/Image.h"
 
 namespace vorion::splat {
 

@@ -1,4 +1,4 @@
-#include "Setting.h"
+#include "accuracy/Setting.h"
 
 #include <algorithm>
 #include <fmt/format.h>

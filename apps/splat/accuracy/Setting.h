@@ -1,7 +1,7 @@
 /// What `splat accuracy` may choose, and what was chosen.
 #pragma once
 
-#include "../picture/Options.h"
+#include "picture/Options.h"
 #include "vorion/support/Expected.h"
 
 #include <cstddef>

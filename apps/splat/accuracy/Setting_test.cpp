@@ -1,6 +1,6 @@
-#include "Setting.h"
+#include "accuracy/Setting.h"
 
-#include "../picture/Options.h"
+#include "picture/Options.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "Sweep.h"
+#include "accuracy/Sweep.h"
 
-#include "../io/Inside.h"
-#include "../io/Metrics.h"
-#include "Points.h"
-#include "Process.h"
-#include "Reference.h"
-#include "Thumbnail.h"
+#include "accuracy/Points.h"
+#include "accuracy/Process.h"
+#include "accuracy/Reference.h"
+#include "accuracy/Thumbnail.h"
+#include "io/Inside.h"
+#include "io/Metrics.h"
 #include "vorion/support/JsonShape.h"
 
 #include <algorithm>

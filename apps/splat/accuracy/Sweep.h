@@ -1,12 +1,12 @@
 /// Measuring settings: each on each view, kept as a file.
 #pragma once
 
-#include "Front.h"
-#include "Points.h"
+#include "accuracy/Front.h"
+#include "accuracy/Points.h"
 
-#include "../device/DeviceOptions.h"
-#include "../io/Cameras.h"
-#include "../scene/SceneFile.h"
+#include "device/DeviceOptions.h"
+#include "io/Cameras.h"
+#include "scene/SceneFile.h"
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>

@@ -1,7 +1,7 @@
 /// Small pictures for a page.
 #pragma once
 
-#include "../io/Image.h"
+#include "io/Image.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "Thumbnail.h"
+#include "accuracy/Thumbnail.h"
 
 #include <gtest/gtest.h>
 

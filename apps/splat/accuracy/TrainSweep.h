@@ -1,10 +1,10 @@
 /// Measuring training: each reciprocal unit and order of sums, over seeds.
 #pragma once
 
-#include "Points.h"
-#include "Setting.h"
+#include "accuracy/Points.h"
+#include "accuracy/Setting.h"
 
-#include "../device/DeviceOptions.h"
+#include "device/DeviceOptions.h"
 
 #include <array>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "Analysis.h"
+#include "analyze/Analysis.h"
 
 #include <algorithm>
 #include <bit>
@@ -20,29 +20,29 @@ Invocations invocationsOf(const Splats &S, reference::Support Reach, int Width,
     for (const auto &Splat : S)
       if (Splat.Visible) {
         const auto R = reference::tilesOf(Splat, Reach, Grid);
-        Sum[K] += static_cast<std::uint64_t>(std::max(R.X1 - R.X0, 0)) *
-                  static_cast<std::uint64_t>(std::max(R.Y1 - R.Y0, 0));
+        Sum[K] += static_cast<uint64_t>(std::max(R.X1 - R.X0, 0)) *
+                  static_cast<uint64_t>(std::max(R.Y1 - R.Y0, 0));
       }
   }
   return Sum;
 }
 
 /// Every Gaussian's place from front to back.
-std::vector<std::uint32_t> ranksOf(const Splats &S) {
-  std::vector<std::uint32_t> Ranks(S.size());
-  std::uint32_t Next = 0;
-  for (const std::uint32_t I : reference::depthOrder(S))
+std::vector<uint32_t> ranksOf(const Splats &S) {
+  std::vector<uint32_t> Ranks(S.size());
+  uint32_t Next = 0;
+  for (const uint32_t I : reference::depthOrder(S))
     Ranks[I] = Next++;
   return Ranks;
 }
 
 ListStatistics statisticsOf(const TileLists &T, const Picture<float> &P,
-                            const std::vector<std::uint32_t> &Ranks) {
+                            const std::vector<uint32_t> &Ranks) {
   ListStatistics S;
   S.Tiles = T.Lists.size();
   for (const auto &List : T.Lists) {
     S.Empty += List.empty();
-    S.Longest = std::max<std::uint64_t>(S.Longest, List.size());
+    S.Longest = std::max<uint64_t>(S.Longest, List.size());
     const auto Bin = static_cast<std::size_t>(std::bit_width(List.size()));
     if (S.Histogram.size() <= Bin)
       S.Histogram.resize(Bin + 1);
@@ -50,7 +50,7 @@ ListStatistics statisticsOf(const TileLists &T, const Picture<float> &P,
   }
   S.Mean = static_cast<double>(T.pairs()) / static_cast<double>(S.Tiles);
 
-  std::array<std::uint64_t, 101> FullAt{};
+  std::array<uint64_t, 101> FullAt{};
   for (int Y = 0; Y < P.Height; ++Y)
     for (int X = 0; X < P.Width; ++X) {
       const auto At =
@@ -60,17 +60,17 @@ ListStatistics statisticsOf(const TileLists &T, const Picture<float> &P,
         continue;
       const auto &List =
           T.Lists[T.Grid.index(X / T.Grid.Size, Y / T.Grid.Size)];
-      const std::uint32_t Rank = Ranks[static_cast<std::size_t>(P.Stop[At])];
+      const uint32_t Rank = Ranks[static_cast<std::size_t>(P.Stop[At])];
       const auto Stop = std::lower_bound(
           List.begin(), List.end(), Rank,
-          [&](std::uint32_t I, std::uint32_t R) { return Ranks[I] < R; });
+          [&](uint32_t I, uint32_t R) { return Ranks[I] < R; });
       // A Gaussian that rounding alone kept out of the list ends the pixel at
       // the entry behind it.
       const auto Done = std::min(
           static_cast<std::size_t>(Stop - List.begin()) + 1, List.size());
       ++FullAt[(100 * Done + List.size() - 1) / List.size()];
     }
-  std::uint64_t Full = 0;
+  uint64_t Full = 0;
   for (std::size_t Percent = 0; Percent < FullAt.size(); ++Percent) {
     Full += FullAt[Percent];
     S.Occluded[Percent] =
@@ -101,7 +101,7 @@ Analysis analyze(const reference::Gaussians<float> &G,
     if (!Chosen)
       continue;
     const TileGrid Grid(AnalyzedTiles[0], C.Width, C.Height);
-    A.Visible = static_cast<std::uint64_t>(
+    A.Visible = static_cast<uint64_t>(
         std::count_if(S.begin(), S.end(), [&](const auto &Splat) {
           if (!Splat.Visible)
             return false;

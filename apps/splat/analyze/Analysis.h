@@ -21,25 +21,25 @@ inline constexpr std::array<reference::Support, 4> AnalyzedSupports = {
 /// (Gaussian, tile) pairs for each of \c AnalyzedTiles: how often a Gaussian is
 /// fetched and set up. Official16 has tiles of 16 pixels by definition, and so
 /// the pairs of larger ones are those that hold such a tile.
-using Invocations = std::array<std::uint64_t, AnalyzedTiles.size()>;
+using Invocations = std::array<uint64_t, AnalyzedTiles.size()>;
 
 /// The lists of one tile size.
 struct ListStatistics {
-  std::uint64_t Tiles = 0, Empty = 0, Longest = 0;
+  uint64_t Tiles = 0, Empty = 0, Longest = 0;
   double Mean = 0; ///< entries a tile, empty ones included
   /// Tiles by length: [0] has none, [k] has 2^(k-1) to 2^k - 1 entries.
-  std::vector<std::uint64_t> Histogram;
+  std::vector<uint64_t> Histogram;
   /// [p]: the share of all pixels that are full, so that nothing more is
   /// blended, once p % of the entries of their own tile's list are done.
   std::array<double, 101> Occluded{};
 };
 
 struct Analysis {
-  std::uint64_t Visible = 0; ///< Gaussians that reach a tile of 16 pixels
+  uint64_t Visible = 0; ///< Gaussians that reach a tile of 16 pixels
   std::array<Invocations, AnalyzedSupports.size()> BySupport{};
   /// Under the chosen support, for each of \c AnalyzedTiles.
   std::array<ListStatistics, AnalyzedTiles.size()> Lists;
-  std::uint64_t Pixels = 0, Covered = 0, Saturated = 0, Blends = 0;
+  uint64_t Pixels = 0, Covered = 0, Saturated = 0, Blends = 0;
   double MeanTransmittance = 0;
 };
 

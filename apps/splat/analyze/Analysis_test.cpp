@@ -1,4 +1,4 @@
-#include "Analysis.h"
+#include "analyze/Analysis.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(Analysis, PairsOfOneGaussianAreTheTilesOfItsBox) {
   EXPECT_EQ(A.Lists[0].Tiles, 256U);
   EXPECT_EQ(A.Lists[0].Empty, 240U);
   EXPECT_EQ(A.Lists[0].Longest, 1U);
-  EXPECT_EQ(A.Lists[0].Histogram, (std::vector<std::uint64_t>{240, 16}));
+  EXPECT_EQ(A.Lists[0].Histogram, (std::vector<uint64_t>{240, 16}));
   EXPECT_EQ(A.Lists[2].Mean, 4.0 / 16);
   EXPECT_EQ(A.Saturated, 0U);
   EXPECT_EQ(A.Lists[0].Occluded[100], 0);

@@ -1,4 +1,4 @@
-#include "Chart.h"
+#include "analyze/Chart.h"
 
 #include <algorithm>
 #include <array>

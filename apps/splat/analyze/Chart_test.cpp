@@ -1,5 +1,5 @@
-#include "Chart.h"
-#include "Plots.h"
+#include "analyze/Chart.h"
+#include "analyze/Plots.h"
 
 #include <gtest/gtest.h>
 

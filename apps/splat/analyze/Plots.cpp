@@ -1,4 +1,4 @@
-#include "Plots.h"
+#include "analyze/Plots.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ std::map<std::string, Chart> chartsOf(const Analysis &A,
     Pairs.Places.push_back(std::to_string(Size));
   for (std::size_t K = 0; K < AnalyzedSupports.size(); ++K) {
     ChartSeries S{std::string(name(AnalyzedSupports[K])), {}};
-    for (const std::uint64_t Count : A.BySupport[K])
+    for (const uint64_t Count : A.BySupport[K])
       S.Values.push_back(static_cast<double>(Count) / 1e3);
     Pairs.Series.push_back(std::move(S));
   }
@@ -44,7 +44,7 @@ std::map<std::string, Chart> chartsOf(const Analysis &A,
     Bins = std::max(Bins, L.Histogram.size());
   for (std::size_t K = 0; K < Bins; ++K)
     Lengths.Places.push_back(
-        std::to_string(K == 0 ? 0 : std::uint64_t(1) << (K - 1)));
+        std::to_string(K == 0 ? 0 : uint64_t(1) << (K - 1)));
   for (const std::size_t K : {std::size_t(0), std::size_t(2)}) {
     const std::string Name = fmt::format("{0}x{0} pixels", AnalyzedTiles[K]);
     const ListStatistics &L = A.Lists[K];

@@ -1,8 +1,8 @@
 /// The charts of an analysis.
 #pragma once
 
-#include "Analysis.h"
-#include "Chart.h"
+#include "analyze/Analysis.h"
+#include "analyze/Chart.h"
 
 #include <map>
 #include <string>

@@ -1,6 +1,6 @@
-#include "ToReference.h"
+#include "analyze/ToReference.h"
 
-#include "../scene/Activation.h"
+#include "scene/Activation.h"
 
 #include <vector>
 

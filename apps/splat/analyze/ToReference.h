@@ -1,9 +1,9 @@
 /// From what the readers give to what the reference renders.
 #pragma once
 
-#include "../io/Cameras.h"
-#include "../scene/Scene.h"
+#include "io/Cameras.h"
 #include "reference/Types.h"
+#include "scene/Scene.h"
 
 namespace vorion::splat {
 

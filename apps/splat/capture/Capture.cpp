@@ -1,9 +1,9 @@
-#include "Capture.h"
+#include "capture/Capture.h"
 
-#include "Colmap.h"
-#include "Inside.h"
-#include "Photo.h"
-#include "Transforms.h"
+#include "capture/Colmap.h"
+#include "capture/Photo.h"
+#include "capture/Transforms.h"
+#include "io/Inside.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// Photographs with poses, to train from.
 #pragma once
 
-#include "Cameras.h"
+#include "io/Cameras.h"
 #include "vorion/support/Expected.h"
 
 #include <array>
@@ -32,8 +32,8 @@ struct CaptureView {
 
 /// Points that came with the poses.
 struct CapturePoints {
-  std::vector<float> Positions;      ///< 3 each, world units
-  std::vector<std::uint8_t> Colours; ///< 3 each: r, g, b
+  std::vector<float> Positions; ///< 3 each, world units
+  std::vector<uint8_t> Colours; ///< 3 each: r, g, b
 
   std::size_t size() const { return Colours.size() / 3; }
 };

@@ -1,8 +1,8 @@
 /// What the tests of captures share.
 #pragma once
 
-#include "CaptureWriters.h"
-#include "TestFiles.h"
+#include "capture/testing/CaptureWriters.h"
+#include "io/TestFiles.h"
 
 #include <algorithm>
 #include <cmath>

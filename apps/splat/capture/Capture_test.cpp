@@ -1,6 +1,6 @@
-#include "Capture.h"
+#include "capture/Capture.h"
 
-#include "CaptureTest.h"
+#include "capture/CaptureTest.h"
 
 using namespace vorion;
 using namespace vorion::splat;

@@ -1,8 +1,8 @@
 /// COLMAP's sparse models, text and binary.
 #pragma once
 
-#include "Bytes.h"
-#include "Capture.h"
+#include "capture/Capture.h"
+#include "io/Bytes.h"
 
 namespace vorion::splat {
 

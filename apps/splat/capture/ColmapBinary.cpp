@@ -1,4 +1,4 @@
-#include "ColmapRecords.h"
+#include "capture/ColmapRecords.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ public:
     return std::string(Text.substr(0, End));
   }
   /// Skips \p Count records of \p Each bytes.
-  void skip(std::uint64_t Count, std::size_t Each) {
+  void skip(uint64_t Count, std::size_t Each) {
     if (Count > Rest.size() / Each) {
       Short = true;
       return;
@@ -47,8 +47,8 @@ public:
   }
 
   /// That the file went on to the end of the record, of \p Count of a kind.
-  std::optional<Error> shortOf(std::string_view Kind, std::uint64_t Index,
-                               std::uint64_t Count) const {
+  std::optional<Error> shortOf(std::string_view Kind, uint64_t Index,
+                               uint64_t Count) const {
     if (!Short)
       return std::nullopt;
     return Error{Where, fmt::format("the file ends within {} {}, expected {} "
@@ -74,12 +74,12 @@ template <typename Function>
 std::optional<Error> eachRecord(const ColmapFile &F, std::string_view Kind,
                                 Function One) {
   ByteReader R(F);
-  const auto Count = R.take<std::uint64_t>();
+  const auto Count = R.take<uint64_t>();
   if (auto Short = R.shortOf("the number of", 0, Count))
     return Error{F.Where, fmt::format("{} bytes, expected the number of {}s "
                                       "first",
                                       F.Content.size(), Kind)};
-  for (std::uint64_t I = 0; I < Count; ++I)
+  for (uint64_t I = 0; I < Count; ++I)
     if (auto Bad = One(R, I, Count))
       return Bad;
   return R.leftOver();
@@ -97,12 +97,11 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
   ColmapBuilder Builder;
   auto Failed = eachRecord(
       Files.Cameras, "camera",
-      [&](ByteReader &R, std::uint64_t I,
-          std::uint64_t Count) -> std::optional<Error> {
-        const auto Id = R.take<std::int32_t>();
-        const auto Model = R.take<std::int32_t>();
-        const auto Width = R.take<std::uint64_t>();
-        const auto Height = R.take<std::uint64_t>();
+      [&](ByteReader &R, uint64_t I, uint64_t Count) -> std::optional<Error> {
+        const auto Id = R.take<int32_t>();
+        const auto Model = R.take<int32_t>();
+        const auto Width = R.take<uint64_t>();
+        const auto Height = R.take<uint64_t>();
         if (auto Short = R.shortOf("camera", I, Count))
           return Short;
         const auto Models = colmapCameraModels();
@@ -126,37 +125,36 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
             static_cast<double>(Height), Parameters));
       });
   if (!Failed)
-    Failed = eachRecord(Files.Images, "image",
-                        [&](ByteReader &R, std::uint64_t I,
-                            std::uint64_t Count) -> std::optional<Error> {
-                          ColmapImage Image;
-                          R.take<std::int32_t>(); // its own number
-                          Image.Quaternion = R.takeArray<double, 4>();
-                          Image.Translation = R.takeArray<double, 3>();
-                          Image.Camera = R.take<std::int32_t>();
-                          Image.Name = R.takeName();
-                          // Where it sees points: x, y and the point's number.
-                          R.skip(R.take<std::uint64_t>(), 24);
-                          if (auto Short = R.shortOf("image", I, Count))
-                            return Short;
-                          return errorOf(
-                              Builder.addImage(Files.Images.Where, Image));
-                        });
+    Failed = eachRecord(
+        Files.Images, "image",
+        [&](ByteReader &R, uint64_t I, uint64_t Count) -> std::optional<Error> {
+          ColmapImage Image;
+          R.take<int32_t>(); // its own number
+          Image.Quaternion = R.takeArray<double, 4>();
+          Image.Translation = R.takeArray<double, 3>();
+          Image.Camera = R.take<int32_t>();
+          Image.Name = R.takeName();
+          // Where it sees points: x, y and the point's number.
+          R.skip(R.take<uint64_t>(), 24);
+          if (auto Short = R.shortOf("image", I, Count))
+            return Short;
+          return errorOf(Builder.addImage(Files.Images.Where, Image));
+        });
   if (!Failed)
-    Failed = eachRecord(Files.Points, "point",
-                        [&](ByteReader &R, std::uint64_t I,
-                            std::uint64_t Count) -> std::optional<Error> {
-                          R.take<std::uint64_t>(); // its own number
-                          const auto Position = R.takeArray<double, 3>();
-                          const auto Colour = R.takeArray<std::uint8_t, 3>();
-                          R.take<double>(); // reprojection error
-                          // The images that see it, and which of their points.
-                          R.skip(R.take<std::uint64_t>(), 8);
-                          if (auto Short = R.shortOf("point", I, Count))
-                            return Short;
-                          return errorOf(Builder.addPoint(Files.Points.Where,
-                                                          Position, Colour));
-                        });
+    Failed = eachRecord(
+        Files.Points, "point",
+        [&](ByteReader &R, uint64_t I, uint64_t Count) -> std::optional<Error> {
+          R.take<uint64_t>(); // its own number
+          const auto Position = R.takeArray<double, 3>();
+          const auto Colour = R.takeArray<uint8_t, 3>();
+          R.take<double>(); // reprojection error
+          // The images that see it, and which of their points.
+          R.skip(R.take<uint64_t>(), 8);
+          if (auto Short = R.shortOf("point", I, Count))
+            return Short;
+          return errorOf(
+              Builder.addPoint(Files.Points.Where, Position, Colour));
+        });
   if (Failed)
     return *Failed;
   return Builder.finish(Files);

@@ -1,4 +1,4 @@
-#include "ColmapRecords.h"
+#include "capture/ColmapRecords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ bool allFinite(std::span<const double> Values) {
 std::span<const ColmapCameraModel> colmapCameraModels() { return Models; }
 
 Expected<Success> ColmapBuilder::checkModel(const std::string &Where,
-                                            std::int64_t Id,
+                                            int64_t Id,
                                             const ColmapCameraModel &Kind) {
   if (!Kind.Pinhole)
     return Error{Where,
@@ -43,8 +43,7 @@ Expected<Success> ColmapBuilder::checkModel(const std::string &Where,
   return Success{};
 }
 
-Expected<Success> ColmapBuilder::addCamera(const std::string &Where,
-                                           std::int64_t Id,
+Expected<Success> ColmapBuilder::addCamera(const std::string &Where, int64_t Id,
                                            const ColmapCameraModel &Kind,
                                            double Width, double Height,
                                            std::span<const double> Parameters) {
@@ -115,7 +114,7 @@ Expected<Success> ColmapBuilder::addImage(const std::string &Where,
 Expected<Success>
 ColmapBuilder::addPoint(const std::string &Where,
                         const std::array<double, 3> &Position,
-                        const std::array<std::uint8_t, 3> &Colour) {
+                        const std::array<uint8_t, 3> &Colour) {
   CapturePoints &P = Model.Points;
   for (const double V : Position) {
     const auto Rounded = static_cast<float>(V);

@@ -1,7 +1,7 @@
 /// What both encodings of a COLMAP model share: from records to views.
 #pragma once
 
-#include "Colmap.h"
+#include "capture/Colmap.h"
 
 #include <map>
 #include <span>
@@ -21,7 +21,7 @@ std::span<const ColmapCameraModel> colmapCameraModels();
 struct ColmapImage {
   std::array<double, 4> Quaternion{};
   std::array<double, 3> Translation{};
-  std::int64_t Camera = 0;
+  int64_t Camera = 0;
   std::string Name;
 };
 
@@ -30,21 +30,21 @@ struct ColmapImage {
 class ColmapBuilder {
 public:
   /// That \p Model is undistorted: asked before its parameters are read.
-  static Expected<Success> checkModel(const std::string &Where, std::int64_t Id,
+  static Expected<Success> checkModel(const std::string &Where, int64_t Id,
                                       const ColmapCameraModel &Model);
-  Expected<Success> addCamera(const std::string &Where, std::int64_t Id,
+  Expected<Success> addCamera(const std::string &Where, int64_t Id,
                               const ColmapCameraModel &Model, double Width,
                               double Height,
                               std::span<const double> Parameters);
   Expected<Success> addImage(const std::string &Where, const ColmapImage &I);
   Expected<Success> addPoint(const std::string &Where,
                              const std::array<double, 3> &Position,
-                             const std::array<std::uint8_t, 3> &Colour);
+                             const std::array<uint8_t, 3> &Colour);
   /// The model, which must have an image and a point.
   Expected<ColmapModel> finish(const ColmapFiles &Files);
 
 private:
-  std::map<std::int64_t, Camera> Cameras;
+  std::map<int64_t, Camera> Cameras;
   ColmapModel Model;
 };
 

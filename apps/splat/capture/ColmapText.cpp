@@ -1,4 +1,4 @@
-#include "ColmapRecords.h"
+#include "capture/ColmapRecords.h"
 
 #include <algorithm>
 #include <charconv>
@@ -90,7 +90,7 @@ Expected<Success> readCameraLines(const ColmapFile &F, ColmapBuilder &B) {
   LineReader R(F);
   while (const auto Line = R.nextRecord()) {
     Words W(*Line);
-    const auto Id = W.number<std::int64_t>();
+    const auto Id = W.number<int64_t>();
     const std::string_view Name = W.next();
     const auto Models = colmapCameraModels();
     const auto Model =
@@ -125,10 +125,10 @@ Expected<Success> readImageLines(const ColmapFile &F, ColmapBuilder &B) {
   while (const auto Line = R.nextRecord()) {
     Words W(*Line);
     ColmapImage I;
-    W.number<std::int64_t>(); // its own number
+    W.number<int64_t>(); // its own number
     I.Quaternion = W.numbers<4>();
     I.Translation = W.numbers<3>();
-    I.Camera = W.number<std::int64_t>();
+    I.Camera = W.number<int64_t>();
     I.Name = W.rest();
     if (!W.good() || I.Name.empty())
       return badLine(R, "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
@@ -143,11 +143,11 @@ Expected<Success> readPointLines(const ColmapFile &F, ColmapBuilder &B) {
   LineReader R(F);
   while (const auto Line = R.nextRecord()) {
     Words W(*Line);
-    W.number<std::uint64_t>(); // its own number
+    W.number<uint64_t>(); // its own number
     const auto Position = W.numbers<3>();
-    std::array<std::uint8_t, 3> Colour{};
-    for (std::uint8_t &C : Colour)
-      C = W.number<std::uint8_t>();
+    std::array<uint8_t, 3> Colour{};
+    for (uint8_t &C : Colour)
+      C = W.number<uint8_t>();
     if (!W.good())
       return badLine(R, "POINT3D_ID X Y Z R G B ERROR TRACK");
     if (auto Added = B.addPoint(R.where(), Position, Colour); !Added)

@@ -1,6 +1,6 @@
-#include "Colmap.h"
+#include "capture/Colmap.h"
 
-#include "CaptureTest.h"
+#include "capture/CaptureTest.h"
 
 #include <functional>
 #include <limits>
@@ -138,26 +138,26 @@ TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
   const struct {
     std::function<void(Parts &)> Change;
     const char *Message;
-  } Cases[] = {{[](Parts &P) { patch<std::int32_t>(P.Cameras, 12, 4); },
+  } Cases[] = {{[](Parts &P) { patch<int32_t>(P.Cameras, 12, 4); },
                 "cameras: camera 7 has the distorted model OPENCV"},
-               {[](Parts &P) { patch<std::int32_t>(P.Cameras, 12, 99); },
+               {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 99); },
                 "cameras: camera 7 has model number 99"},
-               {[](Parts &P) { patch<std::uint64_t>(P.Cameras, 16, ~0ULL); },
+               {[](Parts &P) { patch<uint64_t>(P.Cameras, 16, ~0ULL); },
                 "expected sides of 1 to 16384"},
                {[](Parts &P) { patch<double>(P.Cameras, 32, -1); },
                 "camera 7 has parameters that are no camera"},
-               {[](Parts &P) { patch<std::uint64_t>(P.Cameras, 0, 2); },
+               {[](Parts &P) { patch<uint64_t>(P.Cameras, 0, 2); },
                 "cameras: the file ends within camera 1, expected 2 of them"},
-               {[](Parts &P) { patch<std::uint64_t>(P.Points, 0, ~0ULL); },
+               {[](Parts &P) { patch<uint64_t>(P.Points, 0, ~0ULL); },
                 "points: the file ends within point 12"},
                {[](Parts &P) { P.Points += '\0'; },
                 "points: 1 bytes after the last record"},
                {[](Parts &P) { P.Images = "1234"; },
                 "images: 4 bytes, expected the number of images first"},
-               {[](Parts &P) { patch<std::int32_t>(P.Images, 68, 3); },
+               {[](Parts &P) { patch<int32_t>(P.Images, 68, 3); },
                 "image a0.png has camera 3, expected one of the 1 cameras"},
                // The number of points that it sees.
-               {[](Parts &P) { patch<std::uint64_t>(P.Images, 79, ~0ULL); },
+               {[](Parts &P) { patch<uint64_t>(P.Images, 79, ~0ULL); },
                 "images: the file ends within image 0"}};
   for (const auto &[Change, Message] : Cases) {
     Parts P = Whole;

@@ -1,4 +1,4 @@
-#include "Photo.h"
+#include "capture/Photo.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,8 +152,8 @@ Photo averaged(std::size_t FromWidth, std::size_t FromHeight, int Width,
           Area += Share;
         }
       for (const double S : Sum)
-        Out.Rgb.push_back(static_cast<std::uint8_t>(
-            std::clamp(std::lround(S / Area), 0L, 255L)));
+        Out.Rgb.push_back(
+            static_cast<uint8_t>(std::clamp(std::lround(S / Area), 0L, 255L)));
     }
   return Out;
 }
@@ -183,7 +183,7 @@ Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
     break;
   }
   case PhotoKind::WebP:
-    if (!WebPGetInfo(reinterpret_cast<const std::uint8_t *>(File.data()),
+    if (!WebPGetInfo(reinterpret_cast<const uint8_t *>(File.data()),
                      File.size(), &S.Width, &S.Height))
       return damaged(Where, "WebP", "its header");
     break;

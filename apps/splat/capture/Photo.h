@@ -1,9 +1,9 @@
 /// Photographs: decoding, and making them as small as training wants them.
 #pragma once
 
-#include "Bytes.h"
-#include "Cameras.h"
-#include "WebP.h"
+#include "io/Bytes.h"
+#include "io/Cameras.h"
+#include "io/WebP.h"
 #include "vorion/support/Expected.h"
 
 #include <array>
@@ -28,7 +28,7 @@ Expected<Plane> decodePhoto(const std::string &Where, Bytes File);
 /// What is trained on and measured against: 8-bit r, g, b.
 struct Photo {
   int Width = 0, Height = 0;
-  std::vector<std::uint8_t> Rgb; ///< 3 a pixel, rows from the top
+  std::vector<uint8_t> Rgb; ///< 3 a pixel, rows from the top
 
   std::size_t pixels() const { return Rgb.size() / 3; }
 };

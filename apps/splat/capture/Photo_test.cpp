@@ -1,6 +1,6 @@
-#include "Photo.h"
+#include "capture/Photo.h"
 
-#include "CaptureTest.h"
+#include "capture/CaptureTest.h"
 
 #include <random>
 
@@ -29,10 +29,10 @@ TEST(Photo, LosslessFormatsGiveTheirBytes) {
     EXPECT_EQ(P->Width, 5U);
     EXPECT_EQ(P->Height, 3U);
     for (std::size_t I = 0; I < 15; ++I) {
-      EXPECT_EQ(P->at(I, 3), static_cast<std::uint8_t>(Rgba[4 * I + 3]));
+      EXPECT_EQ(P->at(I, 3), static_cast<uint8_t>(Rgba[4 * I + 3]));
       // WebP leaves the colour of fully transparent pixels open.
       if (P->at(I, 3) != 0) {
-        EXPECT_EQ(P->at(I, 1), static_cast<std::uint8_t>(Rgba[4 * I + 1]));
+        EXPECT_EQ(P->at(I, 1), static_cast<uint8_t>(Rgba[4 * I + 1]));
       }
     }
   }
@@ -89,7 +89,7 @@ TEST(Photo, ShrinkingAveragesAreas) {
     for (int K = 0; K < 4; ++K)
       P.Rgba.push_back(std::byte(K == 3 ? 255 : V + K));
   const Photo Half = shrink(P, 2, 1, {});
-  EXPECT_EQ(Half.Rgb, (std::vector<std::uint8_t>{25, 26, 27, 45, 46, 47}));
+  EXPECT_EQ(Half.Rgb, (std::vector<uint8_t>{25, 26, 27, 45, 46, 47}));
   // Three of four columns each: 0 10/3, 20/3 40/3, 50/3 30 in parts.
   const Photo Thirds = shrink(P, 3, 2, {});
   EXPECT_NEAR(Thirds.Rgb[0], 2.5, 0.5);  // (0 + 10/3) 3/4
@@ -105,7 +105,7 @@ TEST(Photo, AlphaIsCompositedOnTheBackground) {
   P.Rgba = {std::byte(200), std::byte(100), std::byte(0), std::byte(51)};
   // A fifth of it and four of the background.
   EXPECT_EQ(shrink(P, 1, 1, {1, 0, 0.5F}).Rgb,
-            (std::vector<std::uint8_t>{244, 20, 102}));
+            (std::vector<uint8_t>{244, 20, 102}));
 }
 
 TEST(Photo, ResizedCamerasSeeTheSame) {

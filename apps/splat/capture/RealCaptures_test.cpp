@@ -1,6 +1,6 @@
 // Captures that others made: what is known of them.
-#include "Capture.h"
-#include "Photo.h"
+#include "capture/Capture.h"
+#include "capture/Photo.h"
 #include "vorion/support/File.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
-#include "Transforms.h"
+#include "capture/Transforms.h"
 
-#include "PlyHeader.h"
+#include "io/PlyHeader.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -214,7 +214,7 @@ Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
                                         "expected finite coordinates",
                                         I)};
     for (const std::size_t At : *Colour)
-      P.Colours.push_back(load<std::uint8_t>(Row, At));
+      P.Colours.push_back(load<uint8_t>(Row, At));
   }
   return P;
 }

@@ -2,8 +2,8 @@
 /// them.
 #pragma once
 
-#include "Bytes.h"
-#include "Capture.h"
+#include "capture/Capture.h"
+#include "io/Bytes.h"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
-#include "Transforms.h"
+#include "capture/Transforms.h"
 
-#include "CaptureTest.h"
+#include "capture/CaptureTest.h"
 
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -115,7 +115,7 @@ TEST(PointCloud, IsReadFromAPly) {
   ASSERT_TRUE(P) << P.error().What;
   EXPECT_EQ(P->size(), 2U);
   EXPECT_EQ(P->Positions, (std::vector<float>{1, 2, 3, 1, 2, 3}));
-  EXPECT_EQ(P->Colours, (std::vector<std::uint8_t>{1, 2, 255, 1, 2, 255}));
+  EXPECT_EQ(P->Colours, (std::vector<uint8_t>{1, 2, 255, 1, 2, 255}));
   const std::string NoRed = replaced(Ply, "uchar red", "uchar rot");
   EXPECT_FALSE(parsePointCloud("file", std::as_bytes(std::span(NoRed))));
 }

@@ -1,7 +1,7 @@
 /// `splat accuracy --train`.
 #pragma once
 
-#include "../accuracy/TrainSweep.h"
+#include "accuracy/TrainSweep.h"
 
 #include <CLI/CLI.hpp>
 #include <functional>

@@ -1,13 +1,13 @@
-#include "../analyze/Analysis.h"
-#include "../analyze/Plots.h"
-#include "../analyze/ToReference.h"
-#include "../io/Cameras.h"
-#include "../io/Hash.h"
-#include "../picture/Options.h"
-#include "Choices.h"
-#include "Commands.h"
-#include "OutputFile.h"
-#include "SceneArguments.h"
+#include "analyze/Analysis.h"
+#include "analyze/Plots.h"
+#include "analyze/ToReference.h"
+#include "commands/Choices.h"
+#include "commands/Commands.h"
+#include "commands/OutputFile.h"
+#include "commands/SceneArguments.h"
+#include "io/Cameras.h"
+#include "io/Hash.h"
+#include "picture/Options.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -110,7 +110,7 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
   Text += fmt::format("{:>16}\n", "16 to 64");
   for (std::size_t K = 0; K < AnalyzedSupports.size(); ++K) {
     Text += fmt::format("invocations {:<10}", name(AnalyzedSupports[K]));
-    for (const std::uint64_t Count : R.BySupport[K])
+    for (const uint64_t Count : R.BySupport[K])
       Text += fmt::format("{:>12}", Count);
     Text +=
         fmt::format("{:>14.1f} %\n", -100 * reduction(R.BySupport[K], 0, 2));

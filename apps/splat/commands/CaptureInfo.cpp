@@ -1,6 +1,6 @@
-#include "CaptureInfo.h"
+#include "commands/CaptureInfo.h"
 
-#include "../capture/Capture.h"
+#include "capture/Capture.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"

@@ -2,7 +2,7 @@
 /// it once they are parsed.
 #pragma once
 
-#include "../device/DeviceOptions.h"
+#include "device/DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>

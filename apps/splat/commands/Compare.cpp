@@ -1,6 +1,6 @@
-#include "Compare.h"
+#include "commands/Compare.h"
 
-#include "Commands.h"
+#include "commands/Commands.h"
 
 #include <memory>
 

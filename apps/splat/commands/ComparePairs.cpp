@@ -1,6 +1,6 @@
-#include "Compare.h"
+#include "commands/Compare.h"
 
-#include "../io/Npz.h"
+#include "io/Npz.h"
 #include "vorion/support/Diagnostics.h"
 
 #include <algorithm>

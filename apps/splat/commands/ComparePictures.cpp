@@ -1,10 +1,10 @@
-#include "Compare.h"
-#include "OutputFile.h"
+#include "commands/Compare.h"
+#include "commands/OutputFile.h"
 
-#include "../io/Hash.h"
-#include "../io/Image.h"
-#include "../io/Metrics.h"
-#include "../io/Npz.h"
+#include "io/Hash.h"
+#include "io/Image.h"
+#include "io/Metrics.h"
+#include "io/Npz.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -24,12 +24,12 @@ namespace {
 constexpr const char *Metric = "PSNR, peak 1, linear unclamped floats";
 
 /// The union of the arrays of \p File whose names begin with "mask".
-Expected<std::vector<std::uint8_t>> readMask(const std::string &File,
-                                             const ExactImage &Picture) {
+Expected<std::vector<uint8_t>> readMask(const std::string &File,
+                                        const ExactImage &Picture) {
   const auto Arrays = readNpz(File);
   if (!Arrays)
     return Arrays.error();
-  std::vector<std::uint8_t> Mask(Picture.pixels(), 0);
+  std::vector<uint8_t> Mask(Picture.pixels(), 0);
   bool Found = false;
   for (const auto &[Name, Array] : *Arrays) {
     if (!Name.starts_with("mask"))
@@ -41,7 +41,7 @@ Expected<std::vector<std::uint8_t>> readMask(const std::string &File,
                                Values.size(), Picture.Height, Picture.Width)};
     Found = true;
     for (std::size_t I = 0; I < Mask.size(); ++I)
-      Mask[I] |= static_cast<std::uint8_t>(Values[I] != 0);
+      Mask[I] |= static_cast<uint8_t>(Values[I] != 0);
   }
   if (!Found)
     return Error{File, "no array whose name begins with mask, expected one at "
@@ -111,7 +111,7 @@ Expected<Success> comparePictures(const CompareArguments &A) {
     return Error{A.B, fmt::format("{}x{} pixels, expected {}x{} as in {}",
                                   Second->Width, Second->Height, First->Width,
                                   First->Height, A.A)};
-  std::vector<std::uint8_t> Mask;
+  std::vector<uint8_t> Mask;
   if (!A.Mask.empty()) {
     auto Read = readMask(A.Mask, *First);
     if (!Read)

@@ -1,8 +1,8 @@
-#include "../demo/DemoScene.h"
+#include "demo/DemoScene.h"
 
-#include "../scene/formats/Ply.h"
-#include "Commands.h"
-#include "OutputFile.h"
+#include "commands/Commands.h"
+#include "commands/OutputFile.h"
+#include "scene/formats/Ply.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"

@@ -1,4 +1,4 @@
-#include "DeviceArguments.h"
+#include "commands/DeviceArguments.h"
 #include "vorion/support/Diagnostics.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 /// What every subcommand that works on a device takes.
 #pragma once
 
-#include "../device/Launcher.h"
-#include "../picture/Options.h"
+#include "device/Launcher.h"
+#include "picture/Options.h"
 
 #include <CLI/CLI.hpp>
 #include <string>

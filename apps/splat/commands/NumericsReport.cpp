@@ -1,4 +1,4 @@
-#include "NumericsReport.h"
+#include "commands/NumericsReport.h"
 
 #include "vorion/support/File.h"
 

@@ -2,7 +2,7 @@
 /// (docs/debugging.md, "Numerics").
 #pragma once
 
-#include "../device/DeviceOptions.h"
+#include "device/DeviceOptions.h"
 #include "vorion/support/TemporaryFolder.h"
 
 #include <string>

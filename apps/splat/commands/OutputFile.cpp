@@ -1,6 +1,6 @@
-#include "OutputFile.h"
+#include "commands/OutputFile.h"
 
-#include "../scene/SceneFile.h"
+#include "scene/SceneFile.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
 

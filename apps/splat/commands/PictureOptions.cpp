@@ -1,6 +1,6 @@
-#include "PictureOptions.h"
+#include "commands/PictureOptions.h"
 
-#include "Choices.h"
+#include "commands/Choices.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 /// one meaning in every subcommand that draws.
 #pragma once
 
-#include "../picture/Options.h"
-#include "../render/Backward.h"
-#include "../scene/Drawing.h"
+#include "picture/Options.h"
+#include "render/Backward.h"
+#include "scene/Drawing.h"
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>

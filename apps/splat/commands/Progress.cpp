@@ -1,4 +1,4 @@
-#include "Progress.h"
+#include "commands/Progress.h"
 
 #include <cstdio>
 #include <fmt/format.h>

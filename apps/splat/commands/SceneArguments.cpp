@@ -1,6 +1,6 @@
-#include "SceneArguments.h"
+#include "commands/SceneArguments.h"
 
-#include "../scene/Axes.h"
+#include "scene/Axes.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
 

@@ -1,7 +1,7 @@
 /// What every subcommand that reads a scene takes.
 #pragma once
 
-#include "../scene/SceneFile.h"
+#include "scene/SceneFile.h"
 
 #include <CLI/CLI.hpp>
 #include <string>

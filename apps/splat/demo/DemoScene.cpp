@@ -1,8 +1,8 @@
-#include "DemoScene.h"
+#include "demo/DemoScene.h"
 
-#include "ShFit.h"
-#include "Surfaces.h"
-#include "World.h"
+#include "demo/ShFit.h"
+#include "demo/Surfaces.h"
+#include "demo/World.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// The project's own scene: a still life with view-dependent colour.
 #pragma once
 
-#include "../io/Cameras.h"
-#include "../scene/Scene.h"
+#include "io/Cameras.h"
+#include "scene/Scene.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
-#include "DemoScene.h"
+#include "demo/DemoScene.h"
 
-#include "ShFit.h"
+#include "demo/ShFit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ShFit.h"
+#include "demo/ShFit.h"
 
 #include <algorithm>
 #include <cmath>

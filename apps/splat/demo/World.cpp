@@ -1,4 +1,4 @@
-#include "World.h"
+#include "demo/World.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,8 +170,7 @@ vec3 World::floorAlbedo(float X, float Z) {
   constexpr float Side = 0.52F;
   const float U = (X + Z) * std::numbers::sqrt2_v<float> / (2 * Side);
   const float V = (X - Z) * std::numbers::sqrt2_v<float> / (2 * Side);
-  const auto Cell =
-      static_cast<std::int64_t>(std::floor(U) + std::floor(V)) & 1;
+  const auto Cell = static_cast<int64_t>(std::floor(U) + std::floor(V)) & 1;
   const vec3 Albedo =
       Cell != 0 ? vec3(0.60F, 0.51F, 0.40F) : vec3(0.10F, 0.19F, 0.22F);
   return Albedo *

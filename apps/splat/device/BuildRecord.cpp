@@ -1,4 +1,4 @@
-#include "BuildRecord.h"
+#include "device/BuildRecord.h"
 
 #include "vorion/support/File.h"
 

@@ -1,6 +1,6 @@
-#include "Configuration.h"
+#include "device/Configuration.h"
 
-#include "Hash.h"
+#include "io/Hash.h"
 #include "vorion/support/File.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 /// The machine that a Vorion device is, as reports have it.
 #pragma once
 
-#include "DeviceOptions.h"
+#include "device/DeviceOptions.h"
 #include "vorion/support/Expected.h"
 
 #include <nlohmann/json_fwd.hpp>

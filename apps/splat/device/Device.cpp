@@ -1,4 +1,4 @@
-#include "Device.h"
+#include "device/Device.h"
 
 #include <array>
 #include <fmt/format.h>

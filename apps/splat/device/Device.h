@@ -1,9 +1,9 @@
 /// The OpenCL device that renders.
 #pragma once
 
-#include "DeviceOptions.h"
-#include "OpenCl.h"
-#include "TimeReport.h"
+#include "device/DeviceOptions.h"
+#include "device/OpenCl.h"
+#include "device/TimeReport.h"
 #include "splat/KernelCounters.h" // generated from intrinsics/Counters.td
 
 #include <CL/cl_vorion.h>
@@ -47,8 +47,8 @@ public:
   /// Work-items that a core steps together, in order where they meet in local
   /// memory (docs/abi.md); 1 on a device that says nothing of its order.
   unsigned lanes() const { return Lanes; }
-  std::uint64_t globalBytes() const { return GlobalBytes; }
-  std::uint64_t largestAllocation() const { return LargestAllocation; }
+  uint64_t globalBytes() const { return GlobalBytes; }
+  uint64_t largestAllocation() const { return LargestAllocation; }
 
   /// The counters of an ended kernel; nothing where the device has none.
   std::optional<KernelCounters> counters(const cl::Event &Event) const;
@@ -67,7 +67,7 @@ private:
   cl::CommandQueue Queue, ProfiledQueue;
   std::string Name;
   unsigned ComputeUnits = 1, Lanes = 1;
-  std::uint64_t GlobalBytes = 0, LargestAllocation = 0;
+  uint64_t GlobalBytes = 0, LargestAllocation = 0;
   clGetEventInfoVORION_fn EventInfo = nullptr;
 };
 

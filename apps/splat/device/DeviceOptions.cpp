@@ -1,4 +1,4 @@
-#include "DeviceOptions.h"
+#include "device/DeviceOptions.h"
 
 #include <cstdlib>
 

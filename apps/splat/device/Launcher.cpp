@@ -1,7 +1,7 @@
-#include "Launcher.h"
+#include "device/Launcher.h"
 
-#include "../io/Hash.h"
-#include "Kernels.h"
+#include "device/Kernels.h"
+#include "io/Hash.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
@@ -50,7 +50,7 @@ std::optional<Error> fileError(const std::string &Name,
   return std::nullopt;
 }
 
-double mebibytes(std::uint64_t Bytes) {
+double mebibytes(uint64_t Bytes) {
   return static_cast<double>(Bytes) / (1024.0 * 1024.0);
 }
 
@@ -223,8 +223,8 @@ namespace {
 
 /// Told by OpenCL when a buffer is gone.
 struct Release {
-  std::shared_ptr<std::atomic<std::uint64_t>> InUse;
-  std::uint64_t Bytes;
+  std::shared_ptr<std::atomic<uint64_t>> InUse;
+  uint64_t Bytes;
 };
 void CL_CALLBACK releaseBuffer(cl_mem /*Buffer*/, void *Data) {
   const std::unique_ptr<Release> R(static_cast<Release *>(Data));
@@ -233,11 +233,11 @@ void CL_CALLBACK releaseBuffer(cl_mem /*Buffer*/, void *Data) {
 
 } // namespace
 
-cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
+cl::Buffer Launcher::allocate(std::string_view What, uint64_t Bytes) {
   if (Failure)
     return {};
   // OpenCL has no empty buffers.
-  const std::uint64_t Size = std::max<std::uint64_t>(Bytes, 4);
+  const uint64_t Size = std::max<uint64_t>(Bytes, 4);
   if (Size > Dev.largestAllocation() || *InUse + Size > Dev.globalBytes()) {
     Failure = Error{
         "",
@@ -264,13 +264,13 @@ cl::Buffer Launcher::allocate(std::string_view What, std::uint64_t Bytes) {
   return B;
 }
 
-void Launcher::countCopy(std::uint64_t Bytes) {
+void Launcher::countCopy(uint64_t Bytes) {
   ++Stages.back().Copies;
   Stages.back().CopiedBytes += Bytes;
 }
 
 void Launcher::write(std::string_view What, const cl::Buffer &To,
-                     const void *From, std::uint64_t Bytes) {
+                     const void *From, uint64_t Bytes) {
   if (Failure || Bytes == 0)
     return;
   countCopy(Bytes);
@@ -282,7 +282,7 @@ void Launcher::write(std::string_view What, const cl::Buffer &To,
 }
 
 void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
-                    std::uint64_t Bytes, std::uint64_t Offset) {
+                    uint64_t Bytes, uint64_t Offset) {
   if (Failure || Bytes == 0)
     return;
   countCopy(Bytes);

@@ -1,9 +1,9 @@
 /// Builds programs and runs kernels one after the other, keeping account.
 #pragma once
 
-#include "BuildRecord.h"
-#include "Device.h"
-#include "Stage.h"
+#include "device/BuildRecord.h"
+#include "device/Device.h"
+#include "device/Stage.h"
 
 #include <atomic>
 #include <chrono>
@@ -48,7 +48,7 @@ struct StageReport {
   double Seconds = 0; ///< host wall time, copies and compilation included
   std::vector<KernelReport> Kernels;
   unsigned Copies = 0; ///< between host and device
-  std::uint64_t CopiedBytes = 0;
+  uint64_t CopiedBytes = 0;
 };
 
 /// Runs kernels to their end, one at a time. The first error sticks: what is
@@ -115,15 +115,15 @@ public:
   }
 
   /// \p What names the buffer in errors ("Gaussians").
-  cl::Buffer allocate(std::string_view What, std::uint64_t Bytes);
+  cl::Buffer allocate(std::string_view What, uint64_t Bytes);
   void write(std::string_view What, const cl::Buffer &To, const void *From,
-             std::uint64_t Bytes);
+             uint64_t Bytes);
   /// From byte \p Offset of \p From on.
   void read(std::string_view What, void *To, const cl::Buffer &From,
-            std::uint64_t Bytes, std::uint64_t Offset = 0);
+            uint64_t Bytes, uint64_t Offset = 0);
 
   /// Most bytes of buffers made with \c allocate that were there at once.
-  std::uint64_t mostBytes() const { return MostBytes; }
+  uint64_t mostBytes() const { return MostBytes; }
   const Device &device() const { return Dev; }
 
 private:
@@ -133,7 +133,7 @@ private:
   /// platform tells beside it.
   Error launchError(const std::string &Name, cl_int Status) const;
   void account(KernelReport Report);
-  void countCopy(std::uint64_t Bytes);
+  void countCopy(uint64_t Bytes);
   void endStage();
   Expected<std::string> sourceOf(const ProgramSpec &Spec) const;
   /// Of the program made of \p Source with \p Options, for the build record.
@@ -152,10 +152,10 @@ private:
   bool Profiled = false;
   std::vector<StageReport> Stages;
   std::chrono::steady_clock::time_point StageStart;
-  std::uint64_t MostBytes = 0;
+  uint64_t MostBytes = 0;
   /// Shared with the buffers, which may outlive this.
-  std::shared_ptr<std::atomic<std::uint64_t>> InUse =
-      std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::shared_ptr<std::atomic<uint64_t>> InUse =
+      std::make_shared<std::atomic<uint64_t>>(0);
 };
 
 } // namespace vorion::splat

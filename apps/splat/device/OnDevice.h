@@ -1,7 +1,7 @@
 /// What tests of kernels share: a device, or a counted reason to skip.
 #pragma once
 
-#include "Launcher.h"
+#include "device/Launcher.h"
 
 #include <gtest/gtest.h>
 #include <optional>
@@ -25,7 +25,7 @@ protected:
     L.write("values", B, Values.data(), sizeof(T) * Values.size());
     return B;
   }
-  template <typename T = std::uint32_t>
+  template <typename T = uint32_t>
   std::vector<T> download(Launcher &L, const cl::Buffer &B, std::size_t Count) {
     std::vector<T> Values(Count);
     L.read("values", Values.data(), B, sizeof(T) * Count);

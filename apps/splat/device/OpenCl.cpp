@@ -1,4 +1,4 @@
-#include "OpenCl.h"
+#include "device/OpenCl.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
-#include "Programs.h"
+#include "device/Programs.h"
 
-#include "Hash.h"
+#include "io/Hash.h"
 
 #include <cstdlib>
 #include <filesystem>

@@ -9,14 +9,14 @@ namespace vorion::splat {
 
 enum class Stage {
 #define STAGE(ID, NAME, OF_THE_FRAME) ID,
-#include "Stages.def"
+#include "device/Stages.def"
 };
 
 /// As reports have it: "sort by depth".
 constexpr std::string_view name(Stage S) {
   constexpr std::array Names{
 #define STAGE(ID, NAME, OF_THE_FRAME) std::string_view(NAME),
-#include "Stages.def"
+#include "device/Stages.def"
   };
   return Names[static_cast<std::size_t>(S)];
 }
@@ -25,7 +25,7 @@ constexpr std::string_view name(Stage S) {
 constexpr bool isOfTheFrame(Stage S) {
   constexpr std::array OfTheFrame{
 #define STAGE(ID, NAME, OF_THE_FRAME) OF_THE_FRAME,
-#include "Stages.def"
+#include "device/Stages.def"
   };
   return OfTheFrame[static_cast<std::size_t>(S)];
 }

@@ -1,4 +1,4 @@
-#include "TimeReport.h"
+#include "device/TimeReport.h"
 
 #include "vorion/support/Json.h"
 
@@ -62,12 +62,12 @@ template <typename Visitor> void visit(TimeReport &R, const Visitor &Visit) {
 
 class Reader {
 public:
-  void read(const Json &From, std::uint64_t &To) {
+  void read(const Json &From, uint64_t &To) {
     if (expect(From.is_number_unsigned(), "a count"))
-      To = From.get<std::uint64_t>();
+      To = From.get<uint64_t>();
   }
   void read(const Json &From, unsigned &To) {
-    std::uint64_t Wide = 0;
+    uint64_t Wide = 0;
     read(From, Wide);
     if (expect(Wide <= std::numeric_limits<unsigned>::max(), "32 bits"))
       To = static_cast<unsigned>(Wide);

@@ -60,16 +60,16 @@ enum class RasterCount {
   LaneSlots
 };
 template <>
-inline constexpr std::array
-    CountNames<RasterCount> = std::to_array<std::string_view>(
+inline constexpr std::array CountNames<RasterCount> =
+    std::to_array<std::string_view>(
         {"blend", "clip", "fetch", "hazard", "begin", "flush", "drain", "idle",
          "commands", "gaussians", "clipped", "lane_slots"});
 
 enum class PixelCount { Evaluate, Fetch, Load, Store, Idle, Tails, Visits };
 template <>
 inline constexpr std::array CountNames<PixelCount> =
-    std::to_array<std::string_view>({"evaluate", "fetch", "load", "store",
-                                     "idle", "tails", "visits"});
+    std::to_array<std::string_view>(
+        {"evaluate", "fetch", "load", "store", "idle", "tails", "visits"});
 
 enum class CacheCount {
   Reads,
@@ -106,9 +106,9 @@ inline constexpr std::array CountNames<DramCount> =
 
 /// The counts of one unit.
 template <typename Count> struct UnitCounts {
-  std::array<std::uint64_t, CountNames<Count>.size()> Values{};
+  std::array<uint64_t, CountNames<Count>.size()> Values{};
 
-  std::uint64_t operator[](Count C) const {
+  uint64_t operator[](Count C) const {
     return Values[static_cast<std::size_t>(C)];
   }
   UnitCounts &operator+=(const UnitCounts &Other) {
@@ -135,12 +135,12 @@ struct LaneAreas {
 /// Events of a unit, for other people's energy models.
 struct Activity {
   std::string Unit, Event;
-  std::uint64_t Count = 0;
+  uint64_t Count = 0;
 };
 
 /// Of one kernel, or of several one after the other.
 struct TimeReport {
-  std::uint64_t Cycles = 0;
+  uint64_t Cycles = 0;
   unsigned ClockMhz = 1;
   HostTiming Host;
   LaneAreas Areas;
@@ -151,8 +151,8 @@ struct TimeReport {
   UnitCounts<CacheCount> Llc;
   UnitCounts<DramCount> Dram;
   std::vector<Activity> Activities;
-  std::uint64_t CommandsLeft = 0; ///< that go on in the next run
-  std::uint64_t OutOfOrder = 0;
+  uint64_t CommandsLeft = 0; ///< that go on in the next run
+  uint64_t OutOfOrder = 0;
 
   /// What comes after this on the same machine: counts and cycles are added,
   /// of what is left the later one counts.

@@ -1,4 +1,4 @@
-#include "TimeReport.h"
+#include "device/TimeReport.h"
 
 #include "vorion/support/Json.h"
 

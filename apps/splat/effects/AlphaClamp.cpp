@@ -1,8 +1,8 @@
 // Alpha is at most 0.99. The cores' kernel only: the rasterizer's lanes clamp
 // in hardware.
 
-#include "../scene/Activation.h"
-#include "Registry.h"
+#include "effects/Registry.h"
+#include "scene/Activation.h"
 
 #include <fmt/format.h>
 

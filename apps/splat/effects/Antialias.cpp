@@ -1,7 +1,7 @@
 // Compensation of the opacity for the dilation (Mip-Splatting, gsplat's and
 // INRIA's antialiased rules).
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 namespace vorion::splat {
 

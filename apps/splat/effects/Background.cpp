@@ -1,7 +1,7 @@
 // The colour that shows through what the Gaussians leave open. Without one the
 // blended pixels are the picture.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // How deep the picture is: for each pixel the sum of its weights times depths.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 namespace vorion::splat {
 

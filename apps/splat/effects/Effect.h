@@ -2,10 +2,10 @@
 /// that it is needed, and what it adds.
 #pragma once
 
-#include "../device/DeviceOptions.h"
-#include "../picture/Options.h"
-#include "../scene/Scene.h"
-#include "ViewFacts.h"
+#include "device/DeviceOptions.h"
+#include "effects/ViewFacts.h"
+#include "picture/Options.h"
+#include "scene/Scene.h"
 
 #include <cstdint>
 #include <string>

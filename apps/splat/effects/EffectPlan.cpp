@@ -1,6 +1,6 @@
-#include "EffectPlan.h"
+#include "effects/EffectPlan.h"
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,8 +15,8 @@ using Mode = EffectRequest::Mode;
 
 /// The bit of \p E in the kernels' variable `effects`: its place among those
 /// with code.
-std::uint32_t bitOf(const Effect &E) {
-  std::uint32_t Bit = 1;
+uint32_t bitOf(const Effect &E) {
+  uint32_t Bit = 1;
   for (const Effect *Other : effects::all()) {
     if (Other == &E)
       break;
@@ -165,8 +165,8 @@ std::vector<std::string> EffectPlan::defines() const {
   return Defines;
 }
 
-std::uint32_t EffectPlan::flags() const {
-  std::uint32_t Flags = 0;
+uint32_t EffectPlan::flags() const {
+  uint32_t Flags = 0;
   for (const EffectDecision &D : Decisions)
     if (D.Done && !D.E->Macro.empty())
       Flags |= bitOf(*D.E);

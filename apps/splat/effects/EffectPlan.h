@@ -1,7 +1,7 @@
 /// Which effects a picture gets, and in which form.
 #pragma once
 
-#include "Effect.h"
+#include "effects/Effect.h"
 
 #include <string>
 #include <vector>
@@ -65,7 +65,7 @@ public:
   /// variable `effects`, which kernels get with flags().
   std::vector<std::string> defines() const;
   /// The bits of the effects that are done.
-  std::uint32_t flags() const;
+  uint32_t flags() const;
 
   /// Effects that are needed but left out, as a list can ask: the picture
   /// differs.

@@ -1,10 +1,10 @@
 // That each effect is found where it is needed, and only there; that kernels
 // and registry know the same macros.
 
-#include "../device/Kernels.h"
-#include "../picture/View.h"
-#include "EffectPlan.h"
-#include "Registry.h"
+#include "device/Kernels.h"
+#include "effects/EffectPlan.h"
+#include "effects/Registry.h"
+#include "picture/View.h"
 
 #include <algorithm>
 #include <cctype>

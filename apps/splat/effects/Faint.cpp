@@ -1,8 +1,8 @@
 // Gaussians too transparent to reach the alpha cut-off anywhere have no
 // support.
 
-#include "../scene/Activation.h"
-#include "Registry.h"
+#include "effects/Registry.h"
+#include "scene/Activation.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // The projection's Jacobian is taken no further out than the rules' limits.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // A list entry says whether its Gaussian spans several tiles, which the
 // rasterizer's memory keeps (docs/rasterizer.md); nobody else asks.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 namespace vorion::splat {
 

@@ -1,6 +1,6 @@
 // Gaussians behind the rules' least depth are not drawn.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <fmt/format.h>
 

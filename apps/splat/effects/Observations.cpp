@@ -1,7 +1,7 @@
 // What watches a picture being made, and changes nothing of it. The platform
 // reads the variables when it opens its devices (docs/debugging.md).
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <initializer_list>
 

@@ -1,6 +1,6 @@
 // Tails of lists go on in the pixel unit (docs/rasterizer.md): same bits.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 namespace vorion::splat {
 

@@ -1,4 +1,4 @@
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include "splat/LaneUnits.h"
 

@@ -1,7 +1,7 @@
 /// All effects, in the order in which they are decided and explained.
 #pragma once
 
-#include "Effect.h"
+#include "effects/Effect.h"
 
 #include <span>
 

@@ -1,6 +1,6 @@
 // The bands of spherical harmonics above the constant one.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <fmt/format.h>
 

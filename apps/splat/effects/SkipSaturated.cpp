@@ -1,6 +1,6 @@
 // Saturated pixels get no lane slot in the rasterizer: same bits.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 namespace vorion::splat {
 

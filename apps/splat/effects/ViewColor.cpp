@@ -1,6 +1,6 @@
 // Colour that depends on the direction from which a Gaussian is seen.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "ViewFacts.h"
+#include "effects/ViewFacts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 /// Figures about a scene as one camera sees it, by which effects are decided.
 #pragma once
 
-#include "../picture/Layout.h"
-#include "../scene/Scene.h"
+#include "picture/Layout.h"
+#include "scene/Scene.h"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Lists cut into depth parts that are blended apart and merged.
 
-#include "Registry.h"
+#include "effects/Registry.h"
 
 #include <fmt/format.h>
 

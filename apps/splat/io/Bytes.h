@@ -32,9 +32,7 @@ template <typename T> T load(Bytes B, std::size_t At) {
   return Value;
 }
 
-inline unsigned byteAt(Bytes B, std::size_t At) {
-  return load<std::uint8_t>(B, At);
-}
+inline unsigned byteAt(Bytes B, std::size_t At) { return load<uint8_t>(B, At); }
 
 /// The most that \p Encoded bytes of an archive or picture may unpack to:
 /// Deflate cannot exceed 1032:1, and nothing sensible that the other codecs

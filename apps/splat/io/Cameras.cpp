@@ -1,6 +1,6 @@
-#include "Cameras.h"
+#include "io/Cameras.h"
 
-#include "Unsupported.h"
+#include "io/Unsupported.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 

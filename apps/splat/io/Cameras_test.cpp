@@ -1,5 +1,5 @@
-#include "Cameras.h"
-#include "TestFiles.h"
+#include "io/Cameras.h"
+#include "io/TestFiles.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -154,7 +154,7 @@ TEST(Cameras, WrongValuesAreNamed) {
   };
   Expect("width", 0);
   Expect("width", 1.5);
-  Expect("height", std::uint64_t(1) << 63);
+  Expect("height", uint64_t(1) << 63);
   Expect("width", -3);
   Expect("id", "x");
   Expect("img_name", 4);

@@ -1,4 +1,4 @@
-#include "Gzip.h"
+#include "io/Gzip.h"
 
 #include <algorithm>
 #include <fmt/format.h>

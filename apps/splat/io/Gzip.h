@@ -1,7 +1,7 @@
 /// Gzip streams in memory.
 #pragma once
 
-#include "Bytes.h"
+#include "io/Bytes.h"
 #include "vorion/support/Expected.h"
 
 #include <memory>

@@ -1,4 +1,4 @@
-#include "Hash.h"
+#include "io/Hash.h"
 
 #include "vorion/support/File.h"
 
@@ -11,7 +11,7 @@
 namespace vorion::splat {
 
 std::string fnv1a64(std::string_view Bytes) {
-  std::uint64_t Hash = 0xcbf29ce484222325;
+  uint64_t Hash = 0xcbf29ce484222325;
   for (const char C : Bytes)
     Hash = (Hash ^ static_cast<unsigned char>(C)) * 0x100000001b3;
   return fmt::format("{:016x}", Hash);

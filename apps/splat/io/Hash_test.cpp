@@ -1,5 +1,5 @@
-#include "Hash.h"
-#include "TestFiles.h"
+#include "io/Hash.h"
+#include "io/TestFiles.h"
 
 #include <gtest/gtest.h>
 

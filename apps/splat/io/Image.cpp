@@ -1,6 +1,6 @@
-#include "Image.h"
+#include "io/Image.h"
 
-#include "Npz.h"
+#include "io/Npz.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>

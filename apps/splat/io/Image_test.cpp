@@ -1,6 +1,6 @@
-#include "Image.h"
-#include "Npz.h"
-#include "TestFiles.h"
+#include "io/Image.h"
+#include "io/Npz.h"
+#include "io/TestFiles.h"
 
 #include <cmath>
 #include <cstring>

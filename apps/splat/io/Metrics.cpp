@@ -1,6 +1,6 @@
-#include "Metrics.h"
+#include "io/Metrics.h"
 
-#include "Image.h"
+#include "io/Image.h"
 
 #include <algorithm>
 #include <array>
@@ -74,8 +74,7 @@ Plane channel(const std::vector<double> &Pixels, std::size_t Channels,
 } // namespace
 
 Difference compare(const std::vector<double> &A, const std::vector<double> &B,
-                   std::size_t Channels,
-                   const std::vector<std::uint8_t> &Skip) {
+                   std::size_t Channels, const std::vector<uint8_t> &Skip) {
   assert(A.size() == B.size() && "pictures of different sizes");
   assert((Skip.empty() || Skip.size() * Channels == A.size()) &&
          "mask of another size");
@@ -131,8 +130,8 @@ double ssim(const std::vector<double> &A, const std::vector<double> &B,
   return A.empty() ? 1 : Sum / static_cast<double>(A.size());
 }
 
-double psnrOfBytes(const std::vector<std::uint8_t> &A,
-                   const std::vector<std::uint8_t> &B) {
+double psnrOfBytes(const std::vector<uint8_t> &A,
+                   const std::vector<uint8_t> &B) {
   assert(A.size() == B.size() && "pictures of different sizes");
   double Squares = 0;
   for (std::size_t I = 0; I < A.size(); ++I) {
@@ -146,7 +145,7 @@ double psnrOfBytes(const std::vector<std::uint8_t> &A,
 
 double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B) {
   const auto Rounded = [](const std::vector<float> &Values) {
-    std::vector<std::uint8_t> Bytes(Values.size());
+    std::vector<uint8_t> Bytes(Values.size());
     std::ranges::transform(Values, Bytes.begin(), toByte);
     return Bytes;
   };

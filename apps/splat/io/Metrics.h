@@ -40,14 +40,13 @@ double ssim(const std::vector<double> &A, const std::vector<double> &B,
 /// no finite number, on either side or both, makes PSNR minus infinity, MaxAbs
 /// infinity and the pixel off.
 Difference compare(const std::vector<double> &A, const std::vector<double> &B,
-                   std::size_t Channels,
-                   const std::vector<std::uint8_t> &Skip = {});
+                   std::size_t Channels, const std::vector<uint8_t> &Skip = {});
 
 /// PSNR with peak 255 of the clamped, rounded 8-bit values.
 double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B);
 /// Of 8-bit values as they are.
-double psnrOfBytes(const std::vector<std::uint8_t> &A,
-                   const std::vector<std::uint8_t> &B);
+double psnrOfBytes(const std::vector<uint8_t> &A,
+                   const std::vector<uint8_t> &B);
 
 /// How far gradients \p A are off from \p B: the difference's L2 norm relative
 /// to that of \p B, or to \p Least if that is more. What is NaN in \p B is left

@@ -1,4 +1,4 @@
-#include "Metrics.h"
+#include "io/Metrics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

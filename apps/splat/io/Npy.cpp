@@ -1,6 +1,6 @@
 // The .npy half of Npz.h: one array with its header.
-#include "NpyFormat.h"
-#include "Npz.h"
+#include "io/NpyFormat.h"
+#include "io/Npz.h"
 
 #include <bit>
 #include <charconv>
@@ -54,13 +54,13 @@ template <typename To> std::vector<To> convertArray(const NpyArray &A) {
   if (A.Type == "f8")
     return convert<double, To>(A.Bytes);
   if (A.Type == "i4")
-    return convert<std::int32_t, To>(A.Bytes);
+    return convert<int32_t, To>(A.Bytes);
   if (A.Type == "i8")
-    return convert<std::int64_t, To>(A.Bytes);
+    return convert<int64_t, To>(A.Bytes);
   if (A.Type == "u4")
-    return convert<std::uint32_t, To>(A.Bytes);
+    return convert<uint32_t, To>(A.Bytes);
   if (A.Type == "u1" || A.Type == "b1")
-    return convert<std::uint8_t, To>(A.Bytes);
+    return convert<uint8_t, To>(A.Bytes);
   return {};
 }
 
@@ -157,7 +157,7 @@ std::string NpyArray::toText() const {
   std::string Text;
   if (!Type.starts_with('U'))
     return Text;
-  for (const auto CodePoint : convert<std::uint32_t, std::uint32_t>(Bytes)) {
+  for (const auto CodePoint : convert<uint32_t, uint32_t>(Bytes)) {
     if (CodePoint == 0)
       break;
     Text += CodePoint < 0x80 ? static_cast<char>(CodePoint) : '?';
@@ -174,11 +174,11 @@ NpyArray NpyArray::of(std::vector<std::size_t> Shape,
   return arrayOf("f8", std::move(Shape), Values);
 }
 NpyArray NpyArray::of(std::vector<std::size_t> Shape,
-                      const std::vector<std::int32_t> &Values) {
+                      const std::vector<int32_t> &Values) {
   return arrayOf("i4", std::move(Shape), Values);
 }
 NpyArray NpyArray::ofBools(std::vector<std::size_t> Shape,
-                           const std::vector<std::uint8_t> &Values) {
+                           const std::vector<uint8_t> &Values) {
   return arrayOf("b1", std::move(Shape), Values);
 }
 
@@ -253,7 +253,7 @@ std::string formatNpy(const NpyArray &A) {
   const std::size_t Fixed = Magic.size() + 4;
   Header.append(Align - (Fixed + Header.size() + 1) % Align, ' ');
   Header += '\n';
-  const auto Length = static_cast<std::uint16_t>(Header.size());
+  const auto Length = static_cast<uint16_t>(Header.size());
   std::string Out(Magic);
   Out += '\1';
   Out += '\0';

@@ -1,7 +1,7 @@
 /// Internal to the library: the bytes of one .npy file.
 #pragma once
 
-#include "Npz.h"
+#include "io/Npz.h"
 
 #include <string>
 

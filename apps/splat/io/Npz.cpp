@@ -1,7 +1,7 @@
 // Archives of arrays; Npy.cpp has the arrays.
-#include "Npz.h"
-#include "NpyFormat.h"
-#include "Zip.h"
+#include "io/Npz.h"
+#include "io/NpyFormat.h"
+#include "io/Zip.h"
 
 #include "vorion/support/File.h"
 
@@ -19,7 +19,7 @@ Expected<Npz> readNpz(const std::string &Path) {
   if (!Z)
     return Z.error();
   Npz Arrays;
-  for (std::uint64_t I = 0; I < Z->entries(); ++I) {
+  for (uint64_t I = 0; I < Z->entries(); ++I) {
     std::string Key = Z->name(I);
     const std::string Where = fmt::format("{}: {}", Path, Key);
     if (!Key.ends_with(".npy"))

@@ -33,10 +33,10 @@ struct NpyArray {
   static NpyArray of(std::vector<std::size_t> Shape,
                      const std::vector<double> &Values);
   static NpyArray of(std::vector<std::size_t> Shape,
-                     const std::vector<std::int32_t> &Values);
+                     const std::vector<int32_t> &Values);
   /// Of type "b1".
   static NpyArray ofBools(std::vector<std::size_t> Shape,
-                          const std::vector<std::uint8_t> &Values);
+                          const std::vector<uint8_t> &Values);
 };
 
 using Npz = std::map<std::string, NpyArray>;

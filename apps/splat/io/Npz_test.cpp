@@ -1,6 +1,6 @@
-#include "Image.h"
-#include "Npz.h"
-#include "TestFiles.h"
+#include "io/Image.h"
+#include "io/Npz.h"
+#include "io/TestFiles.h"
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ TEST(Npz, RoundTripsEveryTypeAndShape) {
   Arrays["f4"] =
       NpyArray::of({2, 1, 2}, std::vector<float>{1, -2, 0.5F, 1e30F});
   Arrays["f8"] = NpyArray::of({3}, std::vector<double>{1e-300, 2, 3});
-  Arrays["i4"] = NpyArray::of({}, std::vector<std::int32_t>{-7});
+  Arrays["i4"] = NpyArray::of({}, std::vector<int32_t>{-7});
   Arrays["b1"] = NpyArray::ofBools({2, 2}, {1, 0, 0, 1});
   Arrays["none"] = NpyArray::of({0, 3}, std::vector<float>{});
   ASSERT_TRUE(writeNpz(Folder.path("a.npz"), Arrays));
@@ -158,11 +158,11 @@ TEST(Npz, EntriesThatShareTheirBytesDoNotMultiplyThem) {
   const std::size_t Directory = File.rfind("PK\1\2"),
                     End = File.rfind("PK\5\6");
   const std::string Entry = File.substr(Directory, End - Directory);
-  constexpr std::uint16_t Count = 500;
+  constexpr uint16_t Count = 500;
   std::string Many = File.substr(0, End), Tail = File.substr(End);
   for (int I = 1; I < Count; ++I)
     Many += Entry;
-  const auto Size = static_cast<std::uint32_t>(Count * Entry.size());
+  const auto Size = static_cast<uint32_t>(Count * Entry.size());
   std::memcpy(Tail.data() + 8, &Count, sizeof(Count));
   std::memcpy(Tail.data() + 10, &Count, sizeof(Count));
   std::memcpy(Tail.data() + 12, &Size, sizeof(Size));

@@ -1,4 +1,4 @@
-#include "PlyHeader.h"
+#include "io/PlyHeader.h"
 
 #include <algorithm>
 #include <charconv>

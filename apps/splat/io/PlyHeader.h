@@ -1,7 +1,7 @@
 /// The header of a PLY file: its elements and where their properties lie.
 #pragma once
 
-#include "Bytes.h"
+#include "io/Bytes.h"
 #include "vorion/support/Expected.h"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "Unsupported.h"
+#include "io/Unsupported.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "WebP.h"
+#include "io/WebP.h"
 
 #include <fmt/format.h>
 #include <webp/decode.h>
@@ -7,7 +7,7 @@ namespace vorion::splat {
 
 Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
                            std::size_t Limit) {
-  const auto *Data = reinterpret_cast<const std::uint8_t *>(File.data());
+  const auto *Data = reinterpret_cast<const uint8_t *>(File.data());
   WebPBitstreamFeatures Features;
   if (WebPGetFeatures(Data, File.size(), &Features) != VP8_STATUS_OK)
     return Error{Where, "not a WebP picture, expected a lossless one"};
@@ -23,7 +23,7 @@ Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
                                     P.Width, P.Height, File.size(), Limit)};
   P.Rgba.resize(Size);
   if (!WebPDecodeRGBAInto(Data, File.size(),
-                          reinterpret_cast<std::uint8_t *>(P.Rgba.data()), Size,
+                          reinterpret_cast<uint8_t *>(P.Rgba.data()), Size,
                           static_cast<int>(4 * P.Width)))
     return Error{Where, "damaged WebP picture, expected a whole one"};
   return P;

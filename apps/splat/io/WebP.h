@@ -1,7 +1,7 @@
 /// WebP pictures as planes of data.
 #pragma once
 
-#include "Bytes.h"
+#include "io/Bytes.h"
 #include "vorion/support/Expected.h"
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "Zip.h"
+#include "io/Zip.h"
 
 #include <fmt/format.h>
 #include <utility>
@@ -25,7 +25,7 @@ std::string describe(zip_error_t &E) {
 } // namespace
 
 bool isZip(Bytes File) {
-  return File.size() >= 4 && load<std::uint32_t>(File, 0) == 0x04034b50;
+  return File.size() >= 4 && load<uint32_t>(File, 0) == 0x04034b50;
 }
 
 void ZipArchive::Discard::operator()(zip *Z) const { zip_discard(Z); }
@@ -49,16 +49,16 @@ Expected<ZipArchive> ZipArchive::open(const std::string &Where,
   return ZipArchive(Where, File.size(), Z);
 }
 
-std::uint64_t ZipArchive::entries() const {
-  return static_cast<std::uint64_t>(zip_get_num_entries(Handle.get(), 0));
+uint64_t ZipArchive::entries() const {
+  return static_cast<uint64_t>(zip_get_num_entries(Handle.get(), 0));
 }
 
-std::string ZipArchive::name(std::uint64_t Entry) const {
+std::string ZipArchive::name(uint64_t Entry) const {
   const char *Name = zip_get_name(Handle.get(), Entry, ZIP_FL_ENC_RAW);
   return Name ? printable(Name) : "";
 }
 
-Expected<std::vector<std::byte>> ZipArchive::read(std::uint64_t Entry) {
+Expected<std::vector<std::byte>> ZipArchive::read(uint64_t Entry) {
   const std::string Place = fmt::format("{}: {}", Where, name(Entry));
   const std::unique_ptr<zip_file_t, CloseEntry> F(
       zip_fopen_index(Handle.get(), Entry, 0));
@@ -90,7 +90,7 @@ Expected<std::vector<std::byte>> ZipArchive::read(const std::string &Name) {
   if (Entry < 0)
     return Error{fmt::format("{}: {}", Where, Name),
                  "no such entry, expected it in the archive"};
-  return read(static_cast<std::uint64_t>(Entry));
+  return read(static_cast<uint64_t>(Entry));
 }
 
 Expected<std::string>

@@ -1,7 +1,7 @@
 /// Zip archives in memory.
 #pragma once
 
-#include "Bytes.h"
+#include "io/Bytes.h"
 #include "vorion/support/Expected.h"
 
 #include <cstdint>
@@ -23,14 +23,14 @@ public:
   static Expected<ZipArchive> open(const std::string &Where,
                                    const std::string &What, Bytes File);
 
-  std::uint64_t entries() const;
+  uint64_t entries() const;
   /// The name of an entry; empty if it has none.
-  std::string name(std::uint64_t Entry) const;
+  std::string name(uint64_t Entry) const;
   /// The content of an entry, checksum included. What the directory claims of
   /// its size is not believed before the bytes are there, and of all entries
   /// that are read no more than \c unpackLimit of the archive's size: several
   /// may stand for the same bytes.
-  Expected<std::vector<std::byte>> read(std::uint64_t Entry);
+  Expected<std::vector<std::byte>> read(uint64_t Entry);
   /// The content of the entry called \p Name.
   Expected<std::vector<std::byte>> read(const std::string &Name);
 

@@ -5,8 +5,8 @@
 
 namespace vorion::splat {
 
-using uint = std::uint32_t;
-#include "../kernels/layout.h"
+using uint = uint32_t;
+#include "kernels/layout.h"
 
 static_assert(sizeof(splat_gaussian) == 48, "docs/abi.md: vx_gaussian");
 static_assert(sizeof(splat_blend_options) == 48,

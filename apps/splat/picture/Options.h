@@ -1,7 +1,7 @@
 /// What a render is asked to do, as the command line names it.
 #pragma once
 
-#include "TailRule.h"
+#include "picture/TailRule.h"
 #include "splat/LaneUnits.h" // generated from intrinsics/Units.td
 
 #include <array>

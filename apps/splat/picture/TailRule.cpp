@@ -1,4 +1,4 @@
-#include "TailRule.h"
+#include "picture/TailRule.h"
 
 #include <charconv>
 #include <cmath>
@@ -16,7 +16,7 @@ template <typename T> bool readAll(std::string_view Text, T &Value) {
 }
 
 bool readCount(std::string_view Value, TailRule &R) {
-  constexpr std::uint32_t Most = 1U << 24;
+  constexpr uint32_t Most = 1U << 24;
   return readAll(Value, R.Count) && R.Count >= 1 && R.Count <= Most;
 }
 
@@ -26,7 +26,7 @@ bool readShare(std::string_view Value, TailRule &R) {
 }
 
 bool readLast(std::string_view Value, TailRule &R) {
-  constexpr std::uint32_t Most = 255; // times a list's length fits a word
+  constexpr uint32_t Most = 255; // times a list's length fits a word
   const std::size_t Slash = Value.find('/');
   return Slash != std::string_view::npos &&
          readAll(Value.substr(0, Slash), R.LastOver) &&
@@ -49,11 +49,11 @@ bool readReason(std::string_view Reason, TailRule &R) {
 
 } // namespace
 
-std::uint32_t TailRule::shareBits() const {
+uint32_t TailRule::shareBits() const {
   if (OccludedShare <= 0)
     return 0;
   // Not below: a share of the pixels that is reached must hand over.
-  return static_cast<std::uint32_t>(
+  return static_cast<uint32_t>(
       std::ceil(static_cast<double>(OccludedShare) * 65536.0));
 }
 

@@ -10,14 +10,14 @@ namespace vorion::splat {
 
 /// Reasons to hand over; the first that holds decides. None by default.
 struct TailRule {
-  std::uint32_t Count = 0;    ///< at most so many entries are left
-  float OccludedShare = 0;    ///< this share of the pixels is full, (0, 1]
-  std::uint32_t LastOver = 0; ///< LastOver / LastUnder of the list is left
-  std::uint32_t LastUnder = 1;
+  uint32_t Count = 0;      ///< at most so many entries are left
+  float OccludedShare = 0; ///< this share of the pixels is full, (0, 1]
+  uint32_t LastOver = 0;   ///< LastOver / LastUnder of the list is left
+  uint32_t LastUnder = 1;
 
   bool any() const { return Count != 0 || OccludedShare > 0 || LastOver != 0; }
   /// The share in the units of vr_tail_share (docs/isa.md).
-  std::uint32_t shareBits() const;
+  uint32_t shareBits() const;
   bool operator==(const TailRule &) const = default;
 };
 

@@ -1,4 +1,4 @@
-#include "TailRule.h"
+#include "picture/TailRule.h"
 
 #include <gtest/gtest.h>
 

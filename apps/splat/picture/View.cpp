@@ -1,4 +1,4 @@
-#include "View.h"
+#include "picture/View.h"
 
 namespace vorion::splat {
 

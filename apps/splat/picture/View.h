@@ -1,9 +1,9 @@
 /// A camera in the form that the kernels read.
 #pragma once
 
-#include "../io/Cameras.h"
-#include "Layout.h"
-#include "Options.h"
+#include "io/Cameras.h"
+#include "picture/Layout.h"
+#include "picture/Options.h"
 
 namespace vorion::splat {
 

@@ -1,4 +1,4 @@
-#include "Backward.h"
+#include "render/Backward.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
 void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
                                    const cl::Buffer &ByAlpha) {
   const auto &Background = Options.Background;
-  Upstream = L.allocate("pixels' gradients", 16 * std::uint64_t{F.pixels()});
+  Upstream = L.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
   L.run(UpstreamProgram, "upstream", itemsFor(F.pixels()), GroupSize, ByRender,
         ByAlpha, Upstream, F.pixels(), Background[0], Background[1],
         Background[2]);
@@ -61,7 +61,7 @@ void BackwardPipeline::run(Pipeline &Forward) {
 
 void BackwardPipeline::blend(Pipeline &Forward) {
   const Frame &F = Forward.frame();
-  PairSums = L.allocate("pairs' sums", 4 * SUM_WORDS * std::uint64_t{F.Pairs});
+  PairSums = L.allocate("pairs' sums", 4 * SUM_WORDS * uint64_t{F.Pairs});
   if (Options.Blending == Path::Simt) {
     L.run(BlendBackwardProgram, "blend_backward",
           cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
@@ -70,8 +70,8 @@ void BackwardPipeline::blend(Pipeline &Forward) {
     return;
   }
   // vr_backward of docs/isa.md: reciprocal unit, alpha's clamp, gather.
-  const auto Backward = static_cast<std::uint32_t>(
-      static_cast<std::uint32_t>(Choice.Unit) |
+  const auto Backward = static_cast<uint32_t>(
+      static_cast<uint32_t>(Choice.Unit) |
       (Options.Convention == Rules::Gsplat ? 1U << 3 : 0U) |
       (Choice.Order == GatherOrder::Rows ? 1U << 4 : 0U));
   const std::size_t Cores = L.device().computeUnits();
@@ -83,19 +83,17 @@ void BackwardPipeline::blend(Pipeline &Forward) {
 }
 
 void BackwardPipeline::reduce(const Frame &F) {
-  const std::uint32_t Count = F.Gaussians.Count;
-  Sums = L.allocate("Gaussians' sums", 4 * SUM_WORDS * std::uint64_t{Count});
+  const uint32_t Count = F.Gaussians.Count;
+  Sums = L.allocate("Gaussians' sums", 4 * SUM_WORDS * uint64_t{Count});
   L.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize, PairSums,
         F.Order, F.Places, Sums, F.Visible, Count);
 }
 
 void BackwardPipeline::project(const Frame &F) {
-  const std::uint32_t Count = F.Gaussians.Count;
-  Gradients =
-      L.allocate("gradients", 4 * GRADIENT_PLANES * std::uint64_t{Count});
-  ShGradients =
-      L.allocate("colours' gradients",
-                 4 * 3 * shCoefficients(ShDegree) * std::uint64_t{Count});
+  const uint32_t Count = F.Gaussians.Count;
+  Gradients = L.allocate("gradients", 4 * GRADIENT_PLANES * uint64_t{Count});
+  ShGradients = L.allocate("colours' gradients",
+                           4 * 3 * shCoefficients(ShDegree) * uint64_t{Count});
   L.run(ProjectBackwardProgram, "project_backward", itemsFor(Count), GroupSize,
         F.Camera, F.Gaussians.Geometry, F.Gaussians.Sh, F.Records,
         F.Depths.Keys, Sums, Gradients, ShGradients, Count);

@@ -2,7 +2,7 @@
 /// on the device.
 #pragma once
 
-#include "Pipeline.h"
+#include "render/Pipeline.h"
 
 #include <string_view>
 

@@ -1,10 +1,10 @@
 // What runs on the OpenCL device, piece by piece. Skipped where there is none.
 
-#include "../device/Kernels.h"
-#include "../device/OnDevice.h"
-#include "../scene/Activation.h"
-#include "Plan.h"
-#include "Sorter.h"
+#include "device/Kernels.h"
+#include "device/OnDevice.h"
+#include "render/Plan.h"
+#include "render/Sorter.h"
+#include "scene/Activation.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -21,19 +21,19 @@ namespace {
 
 /// Counts around the work-items' shares: fewer than one, exact, one over.
 class SortOnDevice : public OnDevice,
-                     public testing::WithParamInterface<std::uint32_t> {};
+                     public testing::WithParamInterface<uint32_t> {};
 
 TEST_P(SortOnDevice, ScanSumsWhatComesBefore) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
   L.build({ScanProgram, {"scan.cl"}, {}});
   Sorter S(L);
-  const std::uint32_t Count = GetParam();
-  std::vector<std::uint32_t> In(Count);
+  const uint32_t Count = GetParam();
+  std::vector<uint32_t> In(Count);
   std::ranges::generate(In, [&] { return Random() % 1000; });
-  const cl::Buffer Out = L.allocate("sums", 4 * (std::uint64_t{Count} + 1));
+  const cl::Buffer Out = L.allocate("sums", 4 * (uint64_t{Count} + 1));
   S.scan(upload(L, In), Out, Count);
-  std::vector<std::uint32_t> Want{0};
+  std::vector<uint32_t> Want{0};
   std::partial_sum(In.begin(), In.end(), std::back_inserter(Want));
   EXPECT_EQ(download(L, Out, Count + 1), Want);
 }
@@ -44,22 +44,22 @@ TEST_P(SortOnDevice, SortIsStableOnItsBits) {
   L.build({ScanProgram, {"scan.cl"}, {}});
   L.build({SortProgram, {"sort.cl"}, {}});
   Sorter S(L);
-  const std::uint32_t Count = GetParam();
+  const uint32_t Count = GetParam();
   for (const unsigned Bits : {1U, 8U, 11U, 32U}) {
-    std::vector<std::uint32_t> Keys(Count);
-    const std::uint32_t Mask = Bits == 32 ? ~0U : (1U << Bits) - 1;
+    std::vector<uint32_t> Keys(Count);
+    const uint32_t Mask = Bits == 32 ? ~0U : (1U << Bits) - 1;
     // Many equal keys, so that stability shows.
     std::ranges::generate(Keys,
                           [&] { return Random() % 97 * 88080001U & Mask; });
-    std::vector<std::uint32_t> Order(Count);
+    std::vector<uint32_t> Order(Count);
     std::iota(Order.begin(), Order.end(), 0U);
-    const std::vector<std::uint32_t> Empty(Count);
+    const std::vector<uint32_t> Empty(Count);
     const Sorter::Pairs In{upload(L, Keys), upload(L, Order)};
     const Sorter::Pairs A{upload(L, Empty), upload(L, Empty)};
     const Sorter::Pairs B{upload(L, Empty), upload(L, Empty)};
     const Sorter::Pairs Out = S.sort(In, A, B, Count, {0, Bits});
     std::ranges::sort(Order, {},
-                      [&](std::uint32_t I) { return std::pair(Keys[I], I); });
+                      [&](uint32_t I) { return std::pair(Keys[I], I); });
     EXPECT_EQ(download(L, Out.Values, Count), Order) << Bits << " bits";
   }
 }
@@ -73,16 +73,16 @@ TEST_P(SortOnDevice, SortKeptLeavesOutAndNumbers) {
   L.build({SortProgram, {"sort.cl"}, {}});
   Sorter S(L);
   Sorter::KeptKeys What{GetParam(), 0, 0, 0, 0};
-  constexpr std::uint32_t Base = 0x3e4ccccd;
-  for (const std::uint32_t Range : {1U, 1000U, 1U << 27U, (1U << 31U) - Base})
+  constexpr uint32_t Base = 0x3e4ccccd;
+  for (const uint32_t Range : {1U, 1000U, 1U << 27U, (1U << 31U) - Base})
     for (const unsigned FirstBit : {0U, 16U}) {
-      std::vector<std::uint32_t> Keys(What.Count);
-      std::vector<std::uint32_t> Want;
+      std::vector<uint32_t> Keys(What.Count);
+      std::vector<uint32_t> Want;
       What.Least = ~0U;
       What.Most = 0;
       What.FirstBit = FirstBit;
-      for (std::uint32_t I = 0; I < What.Count; ++I) {
-        const std::uint32_t Word = Random();
+      for (uint32_t I = 0; I < What.Count; ++I) {
+        const uint32_t Word = Random();
         Keys[I] = Word % 3 == 0 ? Word | 1U << 31U : Base + Random() % Range;
         if (Keys[I] >> 31U)
           continue;
@@ -90,12 +90,12 @@ TEST_P(SortOnDevice, SortKeptLeavesOutAndNumbers) {
         What.Least = std::min(What.Least, Keys[I]);
         What.Most = std::max(What.Most, Keys[I]);
       }
-      What.Kept = static_cast<std::uint32_t>(Want.size());
-      const std::vector<std::uint32_t> Empty(std::max(What.Kept, 1U));
+      What.Kept = static_cast<uint32_t>(Want.size());
+      const std::vector<uint32_t> Empty(std::max(What.Kept, 1U));
       const Sorter::Pairs A{upload(L, Empty), upload(L, Empty)};
       const Sorter::Pairs B{upload(L, Empty), upload(L, Empty)};
       const cl::Buffer Out = S.sortKept(upload(L, Keys), What, A, B);
-      std::ranges::sort(Want, {}, [&](std::uint32_t I) {
+      std::ranges::sort(Want, {}, [&](uint32_t I) {
         return std::pair(Keys[I] >> FirstBit, I);
       });
       EXPECT_EQ(download(L, Out, What.Kept), Want) << Range;
@@ -111,7 +111,7 @@ TEST_F(OnDevice, ScanSaturates) {
   L.build({ScanProgram, {"scan.cl"}, {}});
   Sorter S(L);
   const cl::Buffer Out = L.allocate("sums", 4 * 1001);
-  S.scan(upload(L, std::vector<std::uint32_t>(1000, 1U << 28)), Out, 1000);
+  S.scan(upload(L, std::vector<uint32_t>(1000, 1U << 28)), Out, 1000);
   EXPECT_EQ(download(L, Out, 1001).back(), ~0U);
 }
 
@@ -164,12 +164,12 @@ __kernel void test(__global const float4 *in, __global float4 *out) {
   out[i] = activate_scales_and_opacity(&constants, in[i]);
   out[i + 1] = activate_quaternion(in[i + 1]);
 })");
-  constexpr std::uint32_t Count = 20000;
+  constexpr uint32_t Count = 20000;
   Scene S;
   std::vector<float> In;
   std::uniform_real_distribution<float> LogScale(-20, 8), Logit(-12, 12);
   std::normal_distribution<float> Part(0, 2);
-  for (std::uint32_t I = 0; I < Count; ++I) {
+  for (uint32_t I = 0; I < Count; ++I) {
     for (int K = 0; K < 3; ++K)
       In.push_back(S.LogScales.emplace_back(LogScale(Random)));
     In.push_back(S.OpacityLogits.emplace_back(Logit(Random)));
@@ -217,15 +217,15 @@ __kernel void test(__global const float *in, __global float *out) {
 
 // Of depth parts as blending leaves them, against the sum in doubles.
 TEST_F(OnDevice, MergeIsTheSumOfItsParts) {
-  constexpr std::uint32_t Count = 5000;
+  constexpr uint32_t Count = 5000;
   std::uniform_real_distribution<float> Unit(0, 1);
-  for (const std::uint32_t Parts : {2U, 3U, 16U}) {
+  for (const uint32_t Parts : {2U, 3U, 16U}) {
     std::vector<float> In(std::size_t{4} * Parts * Count);
     std::vector<double> Want(std::size_t{4} * Count);
-    for (std::uint32_t I = 0; I < Count; ++I)
+    for (uint32_t I = 0; I < Count; ++I)
       Want[4 * I + 3] = 1;
-    for (std::uint32_t K = 0; K < Parts; ++K)
-      for (std::uint32_t I = 0; I < Count; ++I) {
+    for (uint32_t K = 0; K < Parts; ++K)
+      for (uint32_t I = 0; I < Count; ++I) {
         float *Part = &In[4 * (std::size_t{K} * Count + I)];
         double *Sum = &Want[4 * std::size_t{I}];
         Part[3] = I % 7 == K ? 1e-4F * Unit(Random) : Unit(Random);
@@ -254,14 +254,14 @@ TEST_F(OnDevice, MergeIsTheSumOfItsParts) {
 }
 
 TEST_F(OnDevice, TilesAreOrderedByListLength) {
-  std::vector<std::uint32_t> Ranges;
-  std::vector<std::uint32_t> Want(300);
-  for (std::uint32_t T = 0, At = 0; T < Want.size(); ++T) {
+  std::vector<uint32_t> Ranges;
+  std::vector<uint32_t> Want(300);
+  for (uint32_t T = 0, At = 0; T < Want.size(); ++T) {
     Ranges.push_back(At);
     Ranges.push_back(At += Random() % 50);
   }
   std::iota(Want.begin(), Want.end(), 0U);
-  std::ranges::sort(Want, {}, [&](std::uint32_t T) {
+  std::ranges::sort(Want, {}, [&](uint32_t T) {
     return std::pair(~(Ranges[2 * T + 1] - Ranges[2 * T]), T);
   });
   Launcher L(*Dev, "", {});
@@ -269,7 +269,7 @@ TEST_F(OnDevice, TilesAreOrderedByListLength) {
   L.build({TilesProgram,
            {"layout.h", "rectangle.cl", "tiles.cl"},
            {"USE_INTERSECT_TAGS=1"}});
-  const auto Count = static_cast<std::uint32_t>(Want.size());
+  const auto Count = static_cast<uint32_t>(Want.size());
   const cl::Buffer Order = L.allocate("order", 4 * Want.size());
   L.run(TilesProgram, "order_tiles", (Count + 15) / 16 * 16, 16,
         upload(L, Ranges), Order, Count);

@@ -1,8 +1,8 @@
-#include "EffectCosts.h"
+#include "render/EffectCosts.h"
 
-#include "../effects/Registry.h"
-#include "FrameTime.h"
-#include "OwnProcess.h"
+#include "effects/Registry.h"
+#include "render/FrameTime.h"
+#include "render/OwnProcess.h"
 
 #include <fmt/format.h>
 #include <sstream>
@@ -12,7 +12,7 @@ namespace vorion::splat {
 namespace {
 
 struct Figures {
-  std::uint64_t Instructions = 0, Cycles = 0;
+  uint64_t Instructions = 0, Cycles = 0;
 };
 
 Figures figuresOf(const RenderResult &R) {
@@ -67,8 +67,8 @@ bool samePrograms(const RenderPlan &A, const RenderPlan &B) {
   return A.Programs == B.Programs && A.Effects.flags() == B.Effects.flags();
 }
 
-std::int64_t difference(std::uint64_t A, std::uint64_t B) {
-  return static_cast<std::int64_t>(A) - static_cast<std::int64_t>(B);
+int64_t difference(uint64_t A, uint64_t B) {
+  return static_cast<int64_t>(A) - static_cast<int64_t>(B);
 }
 
 EffectCost costOf(const Effect &E, bool Done, const Figures &Asked,

@@ -1,8 +1,8 @@
 /// What each effect costs a frame, by rendering it with and without.
 #pragma once
 
-#include "../effects/EffectPlan.h"
-#include "Renderer.h"
+#include "effects/EffectPlan.h"
+#include "render/Renderer.h"
 
 #include <cstdint>
 #include <functional>
@@ -16,15 +16,15 @@ namespace vorion::splat {
 struct EffectCost {
   const Effect *E = nullptr;
   bool Done = false; ///< in the picture that was asked for
-  std::int64_t Instructions = 0;
-  std::int64_t Cycles = 0; ///< 0 without the clock
-  std::string Failure;     ///< why there is no figure, or empty
+  int64_t Instructions = 0;
+  int64_t Cycles = 0;  ///< 0 without the clock
+  std::string Failure; ///< why there is no figure, or empty
 };
 
 struct EffectCosts {
   /// Of the frame as asked for.
-  std::uint64_t Instructions = 0;
-  std::uint64_t Cycles = 0;
+  uint64_t Instructions = 0;
+  uint64_t Cycles = 0;
   /// Effects whose code can be told from the rest, in the registry's order.
   std::vector<EffectCost> Effects;
 };

@@ -1,4 +1,4 @@
-#include "Explain.h"
+#include "render/Explain.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

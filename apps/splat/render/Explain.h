@@ -1,7 +1,7 @@
 /// What a plan's effects are and why, for people and for programs.
 #pragma once
 
-#include "Plan.h"
+#include "render/Plan.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -1,4 +1,4 @@
-#include "Fallback.h"
+#include "render/Fallback.h"
 
 #include <algorithm>
 #include <utility>

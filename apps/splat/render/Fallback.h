@@ -1,8 +1,8 @@
 /// When compiling for a scene costs its first frame more than it saves.
 #pragma once
 
-#include "../device/Launcher.h"
-#include "Plan.h"
+#include "device/Launcher.h"
+#include "render/Plan.h"
 
 #include <cstddef>
 

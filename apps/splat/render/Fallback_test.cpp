@@ -1,6 +1,6 @@
-#include "Fallback.h"
+#include "render/Fallback.h"
 
-#include "../device/BuildRecord.h"
+#include "device/BuildRecord.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include "FrameTime.h"
+#include "render/FrameTime.h"
 
-#include "../io/Mean.h"
+#include "io/Mean.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ FrameMilliseconds frameMilliseconds(const std::vector<StageReport> &Stages,
 /// The share of some reasons in all \p Cycles of the units \p Units, in
 /// percent.
 template <typename Count>
-double share(std::uint64_t Cycles, const std::vector<UnitCounts<Count>> &Units,
+double share(uint64_t Cycles, const std::vector<UnitCounts<Count>> &Units,
              std::initializer_list<Count> Reasons) {
   double Sum = 0;
   for (const UnitCounts<Count> &U : Units)
@@ -120,9 +120,9 @@ std::string head(const TimeReport &Whole) {
 /// Cycles, of \p Cycles, in which the busiest of the units \p Units was not
 /// idle.
 template <typename Count>
-std::uint64_t busyCycles(std::uint64_t Cycles,
-                         const std::vector<UnitCounts<Count>> &Units) {
-  std::uint64_t Most = 0;
+uint64_t busyCycles(uint64_t Cycles,
+                    const std::vector<UnitCounts<Count>> &Units) {
+  uint64_t Most = 0;
   for (const UnitCounts<Count> &U : Units)
     Most = std::max(Most, Cycles - U[Count::Idle]);
   return Most;
@@ -188,7 +188,7 @@ frameMilliseconds(const std::vector<StageReport> &Stages) {
   return frameMilliseconds(Stages, *Sum);
 }
 
-std::uint64_t frameCycles(const std::vector<StageReport> &Stages) {
+uint64_t frameCycles(const std::vector<StageReport> &Stages) {
   const auto Sum = frameTime(Stages);
   return Sum ? Sum->Cycles : 0;
 }

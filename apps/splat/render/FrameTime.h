@@ -1,7 +1,7 @@
 /// How long a frame takes on the machine, stage by stage.
 #pragma once
 
-#include "Renderer.h"
+#include "render/Renderer.h"
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -21,7 +21,7 @@ struct FrameMilliseconds {
 std::optional<FrameMilliseconds>
 frameMilliseconds(const std::vector<StageReport> &Stages);
 /// The frame's cycles on the machine; 0 without the clock.
-std::uint64_t frameCycles(const std::vector<StageReport> &Stages);
+uint64_t frameCycles(const std::vector<StageReport> &Stages);
 
 /// JSON of the frame: cycles a stage and a unit, frames a second. Null without
 /// the clock.

@@ -1,4 +1,4 @@
-#include "Gradients.h"
+#include "render/Gradients.h"
 
 namespace vorion::splat {
 
@@ -18,7 +18,7 @@ std::vector<float> interleaved(const std::vector<float> &Planes,
 /// The sums of Gaussians that no tile sees, which nothing writes, become 0.
 void clearUnseen(Launcher &L, const Frame &F, std::vector<float> &Sums) {
   const std::size_t N = F.Gaussians.Count;
-  std::vector<std::uint32_t> Keys(N);
+  std::vector<uint32_t> Keys(N);
   L.read("depths", Keys.data(), F.Depths.Keys, 4 * N);
   for (std::size_t I = 0; I < N; ++I)
     if (Keys[I] >= CULLED)

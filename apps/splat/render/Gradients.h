@@ -1,11 +1,11 @@
 /// One forward and one backward pass of a view, with everything that comes out.
 #pragma once
 
-#include "../io/Cameras.h"
-#include "../io/Image.h"
-#include "../scene/Scene.h"
-#include "Backward.h"
-#include "Renderer.h"
+#include "io/Cameras.h"
+#include "io/Image.h"
+#include "render/Backward.h"
+#include "render/Renderer.h"
+#include "scene/Scene.h"
 
 #include <vector>
 

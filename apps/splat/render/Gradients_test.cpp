@@ -1,7 +1,7 @@
 // Gradients of views that see some Gaussians, or none.
-#include "Gradients.h"
+#include "render/Gradients.h"
 
-#include "../device/OnDevice.h"
+#include "device/OnDevice.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "OwnProcess.h"
+#include "render/OwnProcess.h"
 
 #include <cstdlib>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
-#include "Pictures.h"
+#include "render/Pictures.h"
 
-#include "../io/Inside.h"
-#include "../io/Npz.h"
-#include "../picture/View.h"
-#include "FrameTime.h"
-#include "Report.h"
+#include "io/Inside.h"
+#include "io/Npz.h"
+#include "picture/View.h"
+#include "render/FrameTime.h"
+#include "render/Report.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -21,9 +21,8 @@ namespace {
 
 Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
   // The bits are those of unsigned words; NumPy's view("u4") shows them so.
-  const auto Words = [](const std::vector<std::uint32_t> &V) {
-    return NpyArray::of({V.size()},
-                        std::vector<std::int32_t>(V.begin(), V.end()));
+  const auto Words = [](const std::vector<uint32_t> &V) {
+    return NpyArray::of({V.size()}, std::vector<int32_t>(V.begin(), V.end()));
   };
   return writeNpz(File, {{"tile", Words(P.Tiles)},
                          {"depth_bits", Words(P.DepthBits)},

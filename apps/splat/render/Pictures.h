@@ -1,8 +1,8 @@
 /// Pictures of a scene with their files and reports.
 #pragma once
 
-#include "../scene/SceneFile.h"
-#include "Renderer.h"
+#include "render/Renderer.h"
+#include "scene/SceneFile.h"
 
 #include <functional>
 #include <string>

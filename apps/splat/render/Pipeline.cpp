@@ -1,8 +1,8 @@
-#include "Pipeline.h"
+#include "render/Pipeline.h"
 
-#include "../effects/Registry.h"
-#include "../picture/View.h"
-#include "Planes.h"
+#include "effects/Registry.h"
+#include "picture/View.h"
+#include "render/Planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,9 +10,6 @@
 #include <utility>
 
 namespace vorion::splat {
-
-using std::uint32_t;
-using std::uint64_t;
 
 static_assert(CullReasons.size() == CULL_REASONS);
 

@@ -1,11 +1,11 @@
 /// The stages of a picture on the device, from Gaussians to blended pixels.
 #pragma once
 
-#include "../io/Cameras.h"
-#include "../picture/Layout.h"
-#include "../scene/Scene.h"
-#include "Plan.h"
-#include "Sorter.h"
+#include "io/Cameras.h"
+#include "picture/Layout.h"
+#include "render/Plan.h"
+#include "render/Sorter.h"
+#include "scene/Scene.h"
 
 #include <array>
 #include <cstdint>
@@ -15,10 +15,10 @@
 namespace vorion::splat {
 
 /// Work-items of a group where a kernel has no say.
-inline constexpr std::uint32_t GroupSize = 64;
+inline constexpr uint32_t GroupSize = 64;
 
 /// Whole groups with a work-item for each of \p Count things.
-cl::NDRange itemsFor(std::uint32_t Count);
+cl::NDRange itemsFor(uint32_t Count);
 
 /// Why Gaussians were culled, by the enumerators of kernels/layout.h.
 inline constexpr std::array<std::string_view, 5> CullReasons{
@@ -32,7 +32,7 @@ inline constexpr std::size_t Lanes = 16;
 struct GaussianBuffers {
   cl::Buffer Geometry; ///< planes of layout.h's GEOMETRY_PLANES
   cl::Buffer Sh; ///< plane 3 k + c: coefficient k, of those there, of channel c
-  std::uint32_t Count = 0;
+  uint32_t Count = 0;
 };
 
 /// Copies \p S to the device in planes, harmonics up to \p ShDegree.
@@ -64,12 +64,12 @@ struct Frame {
   cl::Buffer Statuses;  ///< of the cores that started them
   cl::Buffer Pixels;    ///< colour in front of the background, transmittance
   cl::Buffer Last; ///< in training: entries of its list that a pixel has taken
-  std::uint32_t Visible = 0, Pairs = 0;
-  std::uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
-  std::array<std::uint64_t, CullReasons.size()> Culled{};
+  uint32_t Visible = 0, Pairs = 0;
+  uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
+  std::array<uint64_t, CullReasons.size()> Culled{};
 
-  std::uint32_t tiles() const { return View.tiles[0] * View.tiles[1]; }
-  std::uint32_t pixels() const { return View.size[0] * View.size[1]; }
+  uint32_t tiles() const { return View.tiles[0] * View.tiles[1]; }
+  uint32_t pixels() const { return View.size[0] * View.size[1]; }
 };
 
 /// Draws pictures of one size and kind. Needs the programs of \c planRender
@@ -117,7 +117,7 @@ private:
   void blend();
   void allocatePixels();
   void shade();
-  cl::Buffer words(std::string_view What, std::uint64_t N) {
+  cl::Buffer words(std::string_view What, uint64_t N) {
     return L.allocate(What, 4 * N);
   }
 

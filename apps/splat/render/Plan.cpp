@@ -1,7 +1,7 @@
-#include "Plan.h"
+#include "render/Plan.h"
 
-#include "../device/Kernels.h"
-#include "../effects/Registry.h"
+#include "device/Kernels.h"
+#include "effects/Registry.h"
 
 #include <algorithm>
 #include <cctype>

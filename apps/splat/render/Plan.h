@@ -1,9 +1,9 @@
 /// Which programs a picture needs, and what is compiled into them.
 #pragma once
 
-#include "../device/Launcher.h"
-#include "../effects/EffectPlan.h"
-#include "../picture/Options.h"
+#include "device/Launcher.h"
+#include "effects/EffectPlan.h"
+#include "picture/Options.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
-#include "../effects/Registry.h"
-#include "../picture/View.h"
-#include "Backward.h"
-#include "Plan.h"
+#include "effects/Registry.h"
+#include "picture/View.h"
+#include "render/Backward.h"
+#include "render/Plan.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

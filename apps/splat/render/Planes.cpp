@@ -1,6 +1,6 @@
-#include "Planes.h"
+#include "render/Planes.h"
 
-#include "../picture/Layout.h"
+#include "picture/Layout.h"
 
 namespace vorion::splat {
 

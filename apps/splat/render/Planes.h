@@ -3,7 +3,7 @@
 /// side by side (kernels/layout.h).
 #pragma once
 
-#include "../scene/Scene.h"
+#include "scene/Scene.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
-#include "Renderer.h"
+#include "render/Renderer.h"
 
-#include "../effects/Registry.h"
-#include "Pipeline.h"
+#include "effects/Registry.h"
+#include "render/Pipeline.h"
 
 #include <fmt/format.h>
 #include <limits>
@@ -9,9 +9,6 @@
 namespace vorion::splat {
 
 namespace {
-
-using std::uint32_t;
-using std::uint64_t;
 
 SortedPairs readPairs(Launcher &L, const Frame &F) {
   SortedPairs P;
@@ -74,7 +71,7 @@ namespace {
 /// What can be said to be wrong before the device is asked; builds the
 /// programs.
 Expected<Success> begin(Launcher &L, const RenderPlan &Plan, const Scene &S) {
-  if (S.size() > std::numeric_limits<std::int32_t>::max())
+  if (S.size() > std::numeric_limits<int32_t>::max())
     return Error{"", "more than 2^31 - 1 Gaussians, whose numbers have 31 bits",
                  ExitCode::LimitReached};
   L.beginStage(Stage::Build);

@@ -1,10 +1,10 @@
 /// From a scene and a camera to a picture, on the device.
 #pragma once
 
-#include "../io/Cameras.h"
-#include "../io/Image.h"
-#include "../scene/Scene.h"
-#include "Pipeline.h"
+#include "io/Cameras.h"
+#include "io/Image.h"
+#include "render/Pipeline.h"
+#include "scene/Scene.h"
 
 #include <array>
 #include <optional>
@@ -13,18 +13,18 @@ namespace vorion::splat {
 
 /// The sorted (tile, depth, Gaussian) triples, for comparing with a reference.
 struct SortedPairs {
-  std::vector<std::uint32_t> Tiles, DepthBits, Gaussians;
+  std::vector<uint32_t> Tiles, DepthBits, Gaussians;
 };
 
 struct RenderResult {
   Image Picture;
-  std::uint64_t Visible = 0; ///< Gaussians that some tile sees
-  std::uint64_t Pairs = 0;   ///< (tile, Gaussian) pairs
+  uint64_t Visible = 0; ///< Gaussians that some tile sees
+  uint64_t Pairs = 0;   ///< (tile, Gaussian) pairs
   /// Gaussians that no tile sees, by \c CullReasons.
-  std::array<std::uint64_t, CullReasons.size()> Culled{};
+  std::array<uint64_t, CullReasons.size()> Culled{};
   /// Most bytes of buffers that were on the device at once until the picture
   /// was read; of a sequence, since its first picture.
-  std::uint64_t DeviceBytes = 0;
+  uint64_t DeviceBytes = 0;
   std::vector<StageReport> Stages;
   std::optional<SortedPairs> Sorted;
   std::optional<DepthMap> Depths; ///< where the effect \c Depth is on

@@ -1,9 +1,9 @@
-#include "Report.h"
+#include "render/Report.h"
 
-#include "../device/Configuration.h"
-#include "../io/Hash.h"
-#include "Explain.h"
-#include "FrameTime.h"
+#include "device/Configuration.h"
+#include "io/Hash.h"
+#include "render/Explain.h"
+#include "render/FrameTime.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
 

@@ -1,9 +1,9 @@
 /// What a render did, for people and for programs.
 #pragma once
 
-#include "../scene/SceneFile.h"
-#include "Backward.h"
-#include "Renderer.h"
+#include "render/Backward.h"
+#include "render/Renderer.h"
+#include "scene/SceneFile.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

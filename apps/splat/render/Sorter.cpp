@@ -1,6 +1,6 @@
-#include "Sorter.h"
+#include "render/Sorter.h"
 
-#include "Plan.h"
+#include "render/Plan.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,12 +12,12 @@ namespace {
 /// BINS of kernels/sort.cl.
 constexpr unsigned MostDigitBits = 10;
 /// Words of a cache line, which neighbouring stretches do not share.
-constexpr std::uint32_t LineWords = 16;
+constexpr uint32_t LineWords = 16;
 /// Below this, a group's own cost outweighs its share.
-constexpr std::uint32_t LeastChunk = 256;
-constexpr std::uint32_t LeastScanChunk = 64;
+constexpr uint32_t LeastChunk = 256;
+constexpr uint32_t LeastScanChunk = 64;
 
-std::uint32_t divideUp(std::uint32_t A, std::uint32_t B) {
+uint32_t divideUp(uint32_t A, uint32_t B) {
   return A / B + (A % B != 0 ? 1 : 0);
 }
 
@@ -28,25 +28,23 @@ struct Passes {
         DigitBits(std::max(1U, divideUp(Bits, Number))),
         Digits(1U << DigitBits) {}
   unsigned Number, DigitBits;
-  std::uint32_t Digits;
+  uint32_t Digits;
 };
 } // namespace
 
 Sorter::Sorter(Launcher &Launch)
     : L(Launch), Groups(std::max(1U, Launch.device().computeUnits())) {
-  constexpr std::uint64_t Digits = 1U << MostDigitBits;
+  constexpr uint64_t Digits = 1U << MostDigitBits;
   Histogram = L.allocate("sort's histograms", 4 * Digits * Groups);
   Totals = L.allocate("sort's totals", 4 * Digits);
-  Sums = L.allocate("prefix sums", 4 * std::uint64_t{scanItems()});
+  Sums = L.allocate("prefix sums", 4 * uint64_t{scanItems()});
 }
 
-std::uint32_t Sorter::scanItems() const { return 2 * LineWords * Groups; }
+uint32_t Sorter::scanItems() const { return 2 * LineWords * Groups; }
 
-void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out,
-                  std::uint32_t Count) {
-  const std::uint32_t Chunk =
-      std::max(LeastScanChunk, divideUp(Count, scanItems()));
-  const std::uint32_t Items =
+void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out, uint32_t Count) {
+  const uint32_t Chunk = std::max(LeastScanChunk, divideUp(Count, scanItems()));
+  const uint32_t Items =
       divideUp(divideUp(Count, Chunk), LineWords) * LineWords;
   L.run(ScanProgram, "scan_sums", Items, LineWords, In, Sums, Count, Chunk);
   L.run(ScanProgram, "scan_partials", 1, 1, Sums, Items);
@@ -54,15 +52,15 @@ void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out,
         Chunk);
 }
 
-Sorter::Share Sorter::share(std::uint32_t Count) const {
-  const std::uint32_t Lines =
+Sorter::Share Sorter::share(uint32_t Count) const {
+  const uint32_t Lines =
       divideUp(std::max(LeastChunk, divideUp(Count, Groups)), LineWords);
   return {std::max(1U, divideUp(Count, Lines * LineWords)), L.device().lanes(),
           Lines * LineWords};
 }
 
 Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
-                           std::uint32_t Count, KeyBits Bits) {
+                           uint32_t Count, KeyBits Bits) {
   if (Count == 0 || Bits.First == Bits.End)
     return Input;
   const Passes P(Bits.End - Bits.First);
@@ -79,7 +77,7 @@ cl::Buffer Sorter::sortKept(const cl::Buffer &Keys, const KeptKeys &What,
                             const Pairs &A, const Pairs &B) {
   if (What.Kept == 0)
     return A.Values;
-  const std::uint32_t Base = What.Least >> What.FirstBit;
+  const uint32_t Base = What.Least >> What.FirstBit;
   const Passes P(static_cast<unsigned>(
       std::bit_width((What.Most >> What.FirstBit) - Base)));
   const Share S = share(What.Count);
@@ -99,8 +97,8 @@ cl::Buffer Sorter::sortKept(const cl::Buffer &Keys, const KeptKeys &What,
   return From.Values;
 }
 
-void Sorter::pass(const Pairs &From, const Pairs &To, std::uint32_t Count,
-                  unsigned Shift, std::uint32_t Digits) {
+void Sorter::pass(const Pairs &From, const Pairs &To, uint32_t Count,
+                  unsigned Shift, uint32_t Digits) {
   const Share S = share(Count);
   L.run(SortProgram, "sort_count", S.items(), S.Lanes, From.Keys, Histogram,
         Count, S.Chunk, Shift, Digits);

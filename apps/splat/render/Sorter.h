@@ -1,7 +1,7 @@
 /// Prefix sums and stable radix sorts on the device.
 #pragma once
 
-#include "../device/Launcher.h"
+#include "device/Launcher.h"
 
 namespace vorion::splat {
 
@@ -16,7 +16,7 @@ public:
   /// How \p Count things are shared out: groups of \c Lanes work-items have
   /// stretches of \c Chunk.
   struct Share {
-    std::uint32_t Groups, Lanes, Chunk;
+    uint32_t Groups, Lanes, Chunk;
     std::size_t items() const { return std::size_t{Groups} * Lanes; }
   };
 
@@ -24,7 +24,7 @@ public:
 
   /// Out[i] = In[0] + ... + In[i-1] for i in [0, Count], saturating; \p Out
   /// has Count + 1 words and is not \p In.
-  void scan(const cl::Buffer &In, const cl::Buffer &Out, std::uint32_t Count);
+  void scan(const cl::Buffer &In, const cl::Buffer &Out, uint32_t Count);
 
   /// Bits of a key, from First to below End.
   struct KeyBits {
@@ -34,15 +34,15 @@ public:
   /// Sorts \p Count pairs by some bits of their keys, stably. The result
   /// lies in one of \p A and \p B; \p Input is only read, and may be one of
   /// them if it may be overwritten.
-  Pairs sort(const Pairs &Input, const Pairs &A, const Pairs &B,
-             std::uint32_t Count, KeyBits Bits);
+  Pairs sort(const Pairs &Input, const Pairs &A, const Pairs &B, uint32_t Count,
+             KeyBits Bits);
 
   /// Keys of which some are left out: those with the highest bit.
   struct KeptKeys {
-    std::uint32_t Count;
-    std::uint32_t Kept;        ///< of them
-    std::uint32_t Least, Most; ///< of those
-    unsigned FirstBit;         ///< lower ones decide nothing
+    uint32_t Count;
+    uint32_t Kept;        ///< of them
+    uint32_t Least, Most; ///< of those
+    unsigned FirstBit;    ///< lower ones decide nothing
   };
   /// The numbers of the kept ones by their keys, stably, as the values of \p A
   /// or \p B, which hold so many pairs.
@@ -50,15 +50,15 @@ public:
                       const Pairs &A, const Pairs &B);
 
   /// A group a core, a lane a work-item; stretches of whole lines.
-  Share share(std::uint32_t Count) const;
+  Share share(uint32_t Count) const;
 
 private:
-  std::uint32_t scanItems() const;
-  void pass(const Pairs &From, const Pairs &To, std::uint32_t Count,
-            unsigned Shift, std::uint32_t Digits);
+  uint32_t scanItems() const;
+  void pass(const Pairs &From, const Pairs &To, uint32_t Count, unsigned Shift,
+            uint32_t Digits);
 
   Launcher &L;
-  std::uint32_t Groups;
+  uint32_t Groups;
   cl::Buffer Histogram, Totals, Sums;
 };
 

@@ -1,4 +1,4 @@
-#include "Activation.h"
+#include "scene/Activation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 /// From stored parameters to the ones that are rendered.
 #pragma once
 
-#include "Scene.h"
+#include "scene/Scene.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
-#include "Activation.h"
-#include "SceneWriters.h"
+#include "scene/Activation.h"
+#include "scene/testing/SceneWriters.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "Axes.h"
+#include "scene/Axes.h"
 
 #include <cstdint>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@ namespace {
 
 /// For each coefficient in INRIA's order the axes in which its polynomial is
 /// odd: bit 0 for x, 1 for y, 2 for z.
-constexpr std::uint8_t OddAxes[16] = {
+constexpr uint8_t OddAxes[16] = {
     0, 2, 4, 1,       // 1; y, z, x
     3, 6, 0, 5, 0,    // xy, yz, 3zz - 1, xz, xx - yy
     2, 7, 2, 4, 1, 4, // y(3xx - yy), xyz, y(5zz - 1), z(..), x(..), z(..)
@@ -49,10 +49,10 @@ Expected<AxesChange> parseAxesChange(const std::string &Option,
 
 void changeAxes(Scene &S, const AxesChange &Change) {
   Axes Flip{};
-  std::uint8_t Flipped = 0;
+  uint8_t Flipped = 0;
   for (std::size_t A = 0; A < 3; ++A) {
     Flip[A] = Change.From[A] * Change.To[A];
-    Flipped |= static_cast<std::uint8_t>((Flip[A] < 0 ? 1U : 0U) << A);
+    Flipped |= static_cast<uint8_t>((Flip[A] < 0 ? 1U : 0U) << A);
   }
   if (Flipped == 0)
     return;

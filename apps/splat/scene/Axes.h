@@ -2,7 +2,7 @@
 /// asks for it.
 #pragma once
 
-#include "Scene.h"
+#include "scene/Scene.h"
 #include "vorion/support/Expected.h"
 
 #include <array>

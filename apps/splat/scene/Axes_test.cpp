@@ -1,5 +1,5 @@
-#include "Axes.h"
-#include "SceneWriters.h"
+#include "scene/Axes.h"
+#include "scene/testing/SceneWriters.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Whatever happened to a file, its reader says so in one line, or gives a
 // scene that is whole.
-#include "Damage.h"
-#include "Invariants.h"
+#include "scene/testing/Damage.h"
+#include "scene/testing/Invariants.h"
 
 #include <gtest/gtest.h>
 

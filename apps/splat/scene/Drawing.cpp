@@ -1,6 +1,6 @@
-#include "Drawing.h"
+#include "scene/Drawing.h"
 
-#include "Bytes.h"
+#include "io/Bytes.h"
 
 #include <charconv>
 #include <cmath>

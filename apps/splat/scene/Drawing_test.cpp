@@ -1,9 +1,9 @@
 // What files say of how a scene is to be drawn, and what becomes of it.
-#include "Drawing.h"
-#include "SceneFile.h"
-#include "SceneWriters.h"
-#include "TestFiles.h"
-#include "formats/Ply.h"
+#include "io/TestFiles.h"
+#include "scene/Drawing.h"
+#include "scene/SceneFile.h"
+#include "scene/formats/Ply.h"
+#include "scene/testing/SceneWriters.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // Scenes that others trained and packed: the same scene in two formats.
-#include "Compare.h"
-#include "Invariants.h"
-#include "SceneFile.h"
+#include "scene/SceneFile.h"
+#include "scene/testing/Compare.h"
+#include "scene/testing/Invariants.h"
 
 #include <filesystem>
 #include <numeric>

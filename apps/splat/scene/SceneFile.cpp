@@ -1,7 +1,7 @@
-#include "SceneFile.h"
+#include "scene/SceneFile.h"
 
-#include "formats/Formats.h"
-#include "formats/SogFolder.h"
+#include "scene/formats/Formats.h"
+#include "scene/formats/SogFolder.h"
 #include "vorion/support/File.h"
 
 #include <filesystem>
@@ -38,7 +38,7 @@ Expected<SceneFile> parse(const std::string &Where, Bytes File,
   if (is##ID(File))                                                            \
     return parse##ID(Where, File, Options);
 #define SCENE_FOLDER(ID, NAME, AXES, ENDING, TITLE)
-#include "formats/Formats.def"
+#include "scene/formats/Formats.def"
 #undef SCENE_FORMAT
 #undef SCENE_FOLDER
   return parseSplat(Where, File, Options);
@@ -51,7 +51,7 @@ std::span<const SceneFormatRecord> sceneFormats() {
 #define SCENE_FORMAT(ID, NAME, AXES, ENDING, TITLE)                            \
   {SceneFormat::ID, NAME, AXES, ENDING, TITLE},
 #define SCENE_FOLDER SCENE_FORMAT
-#include "formats/Formats.def"
+#include "scene/formats/Formats.def"
 #undef SCENE_FORMAT
 #undef SCENE_FOLDER
   };

@@ -1,9 +1,9 @@
 /// Scenes of any format: told apart by their content, never by their name.
 #pragma once
 
-#include "Bytes.h"
-#include "Drawing.h"
-#include "Scene.h"
+#include "io/Bytes.h"
+#include "scene/Drawing.h"
+#include "scene/Scene.h"
 #include "vorion/support/Expected.h"
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace vorion::splat {
 enum class SceneFormat {
 #define SCENE_FORMAT(ID, NAME, AXES, ENDING, TITLE) ID,
 #define SCENE_FOLDER SCENE_FORMAT
-#include "formats/Formats.def"
+#include "scene/formats/Formats.def"
 #undef SCENE_FORMAT
 #undef SCENE_FOLDER
 };

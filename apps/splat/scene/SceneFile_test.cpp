@@ -1,7 +1,7 @@
-#include "Damage.h"
-#include "SceneFile.h"
-#include "TestFiles.h"
-#include "formats/Ply.h"
+#include "io/TestFiles.h"
+#include "scene/SceneFile.h"
+#include "scene/formats/Ply.h"
+#include "scene/testing/Damage.h"
 
 #include <algorithm>
 #include <cstring>

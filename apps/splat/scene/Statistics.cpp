@@ -1,7 +1,7 @@
-#include "Statistics.h"
+#include "scene/Statistics.h"
 
-#include "Activation.h"
-#include "Mean.h"
+#include "io/Mean.h"
+#include "scene/Activation.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 /// What `splat info` says about the Gaussians of a scene.
 #pragma once
 
-#include "Scene.h"
+#include "scene/Scene.h"
 
 #include <array>
 

@@ -1,5 +1,5 @@
-#include "Activation.h"
-#include "Statistics.h"
+#include "scene/Activation.h"
+#include "scene/Statistics.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

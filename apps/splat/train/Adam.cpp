@@ -1,7 +1,7 @@
-#include "Adam.h"
+#include "train/Adam.h"
 
-#include "../picture/Layout.h"
-#include "../render/Pipeline.h"
+#include "picture/Layout.h"
+#include "render/Pipeline.h"
 
 #include <cmath>
 #include <vector>

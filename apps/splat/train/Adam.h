@@ -1,8 +1,8 @@
 /// The optimiser's step on the device.
 #pragma once
 
-#include "DeviceScene.h"
-#include "Settings.h"
+#include "train/DeviceScene.h"
+#include "train/Settings.h"
 
 namespace vorion::splat {
 

@@ -1,11 +1,11 @@
 // The device's steps against the reference's, gradients at both ends of fp32
 // among them.
-#include "Adam.h"
+#include "train/Adam.h"
 
-#include "../device/OnDevice.h"
-#include "../picture/Layout.h"
-#include "../render/Planes.h"
+#include "device/OnDevice.h"
+#include "picture/Layout.h"
 #include "reference/Adam.h"
+#include "render/Planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 class AdamOnDevice : public OnDevice {
 protected:
-  static constexpr std::uint32_t Count = 70;
+  static constexpr uint32_t Count = 70;
   static constexpr int Degree = 1;
 
   static std::vector<float> noise(std::size_t Size, unsigned Seed) {

@@ -1,6 +1,6 @@
-#include "Baselines.h"
+#include "train/Baselines.h"
 
-#include "Metrics.h"
+#include "io/Metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 namespace vorion::splat {
 namespace {
 
-std::uint8_t rounded(double Value) {
-  return static_cast<std::uint8_t>(std::clamp(std::lround(Value), 0L, 255L));
+uint8_t rounded(double Value) {
+  return static_cast<uint8_t>(std::clamp(std::lround(Value), 0L, 255L));
 }
 
 std::array<double, 3> meanColour(const std::vector<TrainView> &Views) {

@@ -1,7 +1,7 @@
 /// What pictures without a scene score: what a trained scene has to beat.
 #pragma once
 
-#include "TrainingSet.h"
+#include "train/TrainingSet.h"
 
 #include <optional>
 

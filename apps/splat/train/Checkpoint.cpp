@@ -1,8 +1,8 @@
-#include "Checkpoint.h"
+#include "train/Checkpoint.h"
 
-#include "../io/Bytes.h"
-#include "../io/Hash.h"
-#include "../picture/Layout.h"
+#include "io/Bytes.h"
+#include "io/Hash.h"
+#include "picture/Layout.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
@@ -91,7 +91,7 @@ Expected<Header> readHeader(std::string_view Text, const std::string &Path) {
   if (!Read)
     return Read.error();
   // Sums of these sizes do not overflow.
-  constexpr std::uint64_t Most = std::numeric_limits<std::uint32_t>::max();
+  constexpr uint64_t Most = std::numeric_limits<uint32_t>::max();
   const JsonShape Shape =
       JsonShape::object({{"run", JsonShape::text()},
                          {"iteration", JsonShape::whole(0, Most)},

@@ -1,8 +1,8 @@
 /// The state of a training run in a file.
 #pragma once
 
-#include "../io/Bytes.h"
-#include "Density.h"
+#include "io/Bytes.h"
+#include "train/Density.h"
 #include "vorion/support/Expected.h"
 
 #include <string>
@@ -20,7 +20,7 @@ struct Checkpoint {
   int ShDegree = 0;
   std::vector<float> Geometry, Sh;
   std::vector<float> FirstGeometry, FirstSh, SecondGeometry, SecondSh;
-  std::vector<std::uint32_t> Identities; ///< of Gaussians, DeviceScene.h
+  std::vector<uint32_t> Identities; ///< of Gaussians, DeviceScene.h
   DensityNotes Notes;
   std::vector<float> Losses; ///< of every iteration
 

@@ -1,8 +1,8 @@
-#include "Checkpoint.h"
+#include "train/Checkpoint.h"
 
-#include "../io/Hash.h"
-#include "../io/TestFiles.h"
-#include "../picture/Layout.h"
+#include "io/Hash.h"
+#include "io/TestFiles.h"
+#include "picture/Layout.h"
 
 #include <algorithm>
 #include <csignal>

@@ -1,10 +1,10 @@
-#include "ClockSamples.h"
+#include "train/ClockSamples.h"
 
-#include "Philox.h"
+#include "train/Philox.h"
 
-#include "../io/Mean.h"
-#include "../render/FrameTime.h"
-#include "../render/Report.h"
+#include "io/Mean.h"
+#include "render/FrameTime.h"
+#include "render/Report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ double deviationOf(const std::vector<double> &Values) {
 
 } // namespace
 
-bool isTimed(std::uint64_t Seed, unsigned Every, unsigned Iteration) {
+bool isTimed(uint64_t Seed, unsigned Every, unsigned Iteration) {
   const unsigned Block = (Iteration - 1) / Every;
   const philox_words W =
       philox(static_cast<uint>(Seed), static_cast<uint>(Seed >> 32), Block,

@@ -1,7 +1,7 @@
 /// Which iterations of a run the machine's clock times, and how long they took.
 #pragma once
 
-#include "../device/Launcher.h"
+#include "device/Launcher.h"
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -13,13 +13,13 @@ namespace vorion::splat {
 /// Whether iteration \p Iteration, from 1, is the one of its \p Every that is
 /// timed. Drawn by counting random numbers from \p Seed: what is done every
 /// hundredth iteration is timed as often as it comes.
-bool isTimed(std::uint64_t Seed, unsigned Every, unsigned Iteration);
+bool isTimed(uint64_t Seed, unsigned Every, unsigned Iteration);
 
 struct TimedIteration {
-  unsigned Number = 0;                    ///< from 1
-  std::uint32_t Gaussians = 0;            ///< after it
-  std::vector<std::uint32_t> ListLengths; ///< pairs of the last view's tiles
-  std::vector<StageReport> Stages;        ///< of the iteration, with time
+  unsigned Number = 0;               ///< from 1
+  uint32_t Gaussians = 0;            ///< after it
+  std::vector<uint32_t> ListLengths; ///< pairs of the last view's tiles
+  std::vector<StageReport> Stages;   ///< of the iteration, with time
 };
 
 /// The timed iterations of a run.

@@ -1,4 +1,4 @@
-#include "ClockSamples.h"
+#include "train/ClockSamples.h"
 
 #include <gtest/gtest.h>
 #include <set>

@@ -1,9 +1,9 @@
-#include "Density.h"
+#include "train/Density.h"
 
-#include "../picture/Layout.h"
-#include "../render/Pipeline.h"
-#include "../render/Plan.h"
-#include "../scene/Activation.h"
+#include "picture/Layout.h"
+#include "render/Pipeline.h"
+#include "render/Plan.h"
+#include "scene/Activation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +27,14 @@ ProgramSpec batchProgram() { return {BatchProgram, {"batch.cl"}, {}}; }
 
 namespace {
 
-DensityNotes nothing(std::uint32_t Count) {
-  return {std::vector<float>(Count), std::vector<std::uint32_t>(Count),
+DensityNotes nothing(uint32_t Count) {
+  return {std::vector<float>(Count), std::vector<uint32_t>(Count),
           std::vector<float>(Count)};
 }
 
 } // namespace
 
-void DensityControl::restart(std::uint32_t Count) { restore(nothing(Count)); }
+void DensityControl::restart(uint32_t Count) { restore(nothing(Count)); }
 
 DensityControl::Notebook DensityControl::upload(const DensityNotes &N) {
   const auto Upload = [&](const auto &Values) {
@@ -45,10 +45,9 @@ DensityControl::Notebook DensityControl::upload(const DensityNotes &N) {
   return {Upload(N.GradientSums), Upload(N.Views), Upload(N.Radii)};
 }
 
-DensityNotes DensityControl::download(const Notebook &From,
-                                      std::uint32_t Count) {
+DensityNotes DensityControl::download(const Notebook &From, uint32_t Count) {
   DensityNotes N = nothing(Count);
-  const std::uint64_t Bytes = 4 * std::uint64_t{Count};
+  const uint64_t Bytes = 4 * uint64_t{Count};
   L.read("density control's notes", N.GradientSums.data(), From.GradientSums,
          Bytes);
   L.read("density control's notes", N.Views.data(), From.Views, Bytes);
@@ -57,25 +56,25 @@ DensityNotes DensityControl::download(const Notebook &From,
 }
 
 void DensityControl::note(const Notebook &In, const SeenView &V,
-                          std::uint32_t Count) {
+                          uint32_t Count) {
   L.run(DensityProgram, "density_note", itemsFor(Count), GroupSize, V.Records,
         V.Depths, V.Gradients, V.MeanPlane, In.GradientSums, In.Views, In.Radii,
         Count, 0.5F * static_cast<float>(V.Width),
         0.5F * static_cast<float>(V.Height));
 }
 
-void DensityControl::note(const SeenView &V, std::uint32_t Count) {
+void DensityControl::note(const SeenView &V, uint32_t Count) {
   note(Noted, V, Count);
 }
 
-DensityNotes DensityControl::noteAlone(const SeenView &V, std::uint32_t Count) {
+DensityNotes DensityControl::noteAlone(const SeenView &V, uint32_t Count) {
   const Notebook Alone = upload(nothing(Count));
   note(Alone, V, Count);
   return download(Alone, Count);
 }
 
 void DensityControl::merge(const DensityNotes &OfAView) {
-  const auto Count = static_cast<std::uint32_t>(OfAView.Views.size());
+  const auto Count = static_cast<uint32_t>(OfAView.Views.size());
   const Notebook Added = upload(OfAView);
   L.run(BatchProgram, "batch_note", itemsFor(Count), GroupSize,
         Noted.GradientSums, Noted.Views, Noted.Radii, Added.GradientSums,
@@ -83,15 +82,14 @@ void DensityControl::merge(const DensityNotes &OfAView) {
 }
 
 /// The sum of \p Values; their prefix sums are left in Places.
-std::uint32_t DensityControl::total(const cl::Buffer &Values,
-                                    std::uint32_t Count) {
+uint32_t DensityControl::total(const cl::Buffer &Values, uint32_t Count) {
   Sort.scan(Values, Places, Count);
-  std::uint32_t Sum = 0;
-  L.read("places of Gaussians", &Sum, Places, 4, 4 * std::uint64_t{Count});
+  uint32_t Sum = 0;
+  L.read("places of Gaussians", &Sum, Places, 4, 4 * uint64_t{Count});
   return Sum;
 }
 
-std::uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
+uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
   const bool DropsLarge = dropsLargeAt(Settings, Iteration);
   splat_density Rule{};
   Rule.gradient = static_cast<float>(Settings.DensifyGradient);
@@ -110,13 +108,13 @@ std::uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
   return total(Counts, S.Count);
 }
 
-void DensityControl::limit(std::uint32_t Count, std::uint32_t Total) {
+void DensityControl::limit(uint32_t Count, uint32_t Total) {
   const cl::Buffer Grows = words("growing Gaussians", Count);
   L.run(DensityProgram, "density_grows", itemsFor(Count), GroupSize, Counts,
         Grows, Count);
   // Each that grows becomes one more.
-  const std::uint32_t Kept = Total - total(Grows, Count);
-  const std::uint32_t More =
+  const uint32_t Kept = Total - total(Grows, Count);
+  const uint32_t More =
       Settings.MostGaussians > Kept ? Settings.MostGaussians - Kept : 0;
   const Sorter::Pairs A{words("sorted gradients", Count),
                         words("sorted Gaussians", Count)};
@@ -130,10 +128,10 @@ void DensityControl::limit(std::uint32_t Count, std::uint32_t Total) {
 DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   Fates = words("fates of Gaussians", S.Count);
   Counts = words("numbers of Gaussians", S.Count);
-  Places = words("places of Gaussians", std::uint64_t{S.Count} + 1);
+  Places = words("places of Gaussians", uint64_t{S.Count} + 1);
   Keys = words("gradients to sort", S.Count);
   Order = words("Gaussians to sort", S.Count);
-  std::uint32_t After = decide(S, Iteration);
+  uint32_t After = decide(S, Iteration);
   if (!L.failure() && After > Settings.MostGaussians) {
     limit(S.Count, After);
     After = total(Counts, S.Count);
@@ -148,8 +146,8 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   DeviceScene New;
   New.Count = After;
   New.ShDegree = S.ShDegree;
-  const auto Move = [&](const cl::Buffer &From, cl::Buffer &To,
-                        std::uint32_t Planes, bool Moments) {
+  const auto Move = [&](const cl::Buffer &From, cl::Buffer &To, uint32_t Planes,
+                        bool Moments) {
     L.run(DensityProgram, "density_copy",
           cl::NDRange(itemsFor(S.Count)[0], Planes), cl::NDRange(GroupSize, 1),
           From, To, Fates, Places, S.Count, After, Moments ? 1U : 0U);
@@ -167,8 +165,8 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
     if (Moments) // what the parameters were is needed below
       From = {};
   }
-  const auto SeedLow = static_cast<std::uint32_t>(Seed);
-  const auto SeedHigh = static_cast<std::uint32_t>(Seed >> 32);
+  const auto SeedLow = static_cast<uint32_t>(Seed);
+  const auto SeedHigh = static_cast<uint32_t>(Seed >> 32);
   L.run(DensityProgram, "density_split", itemsFor(S.Count), GroupSize,
         S.Parameters.Geometry, New.Parameters.Geometry, S.Identities, Fates,
         Places, S.Count, After, SeedLow, SeedHigh, Iteration,

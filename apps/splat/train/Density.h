@@ -1,9 +1,9 @@
 /// Density control on the device: clones, splits, drops, resets of opacity.
 #pragma once
 
-#include "../render/Sorter.h"
-#include "DeviceScene.h"
-#include "Settings.h"
+#include "render/Sorter.h"
+#include "train/DeviceScene.h"
+#include "train/Settings.h"
 
 #include <vector>
 
@@ -18,38 +18,38 @@ std::vector<ProgramSpec> densityPrograms();
 
 /// What one view gives density control to note.
 struct SeenView {
-  cl::Buffer Records;          ///< splat_gaussian of each Gaussian
-  cl::Buffer Depths;           ///< their keys: CULLED or above where not seen
-  cl::Buffer Gradients;        ///< planes of floats, among them those by
-  std::uint32_t MeanPlane = 0; ///< the projected mean, px: this and the next
+  cl::Buffer Records;     ///< splat_gaussian of each Gaussian
+  cl::Buffer Depths;      ///< their keys: CULLED or above where not seen
+  cl::Buffer Gradients;   ///< planes of floats, among them those by
+  uint32_t MeanPlane = 0; ///< the projected mean, px: this and the next
   int Width = 0, Height = 0;
 };
 
 /// What was noted since the last change; part of a checkpoint.
 struct DensityNotes {
   std::vector<float> GradientSums;
-  std::vector<std::uint32_t> Views;
+  std::vector<uint32_t> Views;
   std::vector<float> Radii;
 };
 
 /// What a change did.
 struct DensityChange {
-  std::uint32_t Before = 0, After = 0;
+  uint32_t Before = 0, After = 0;
 };
 
 class DensityControl {
 public:
   DensityControl(Launcher &Launch, const TrainSettings &Rules,
-                 std::uint64_t RandomSeed, double CameraExtent)
+                 uint64_t RandomSeed, double CameraExtent)
       : L(Launch), Settings(Rules), Seed(RandomSeed), Extent(CameraExtent),
         Sort(Launch) {}
 
   /// Forgets everything; \p Count Gaussians from now on.
-  void restart(std::uint32_t Count);
-  void note(const SeenView &V, std::uint32_t Count);
+  void restart(uint32_t Count);
+  void note(const SeenView &V, uint32_t Count);
   /// What \c note would add to nothing, for another process, whose \c merge has
   /// the effect of \c note to the bit.
-  DensityNotes noteAlone(const SeenView &V, std::uint32_t Count);
+  DensityNotes noteAlone(const SeenView &V, uint32_t Count);
   void merge(const DensityNotes &OfAView);
   /// Clones, splits and drops by what was noted, and begins to note anew.
   /// Moments of what is kept are kept; new Gaussians begin with 0. The random
@@ -58,7 +58,7 @@ public:
   /// Opacities down to at most Settings.ResetOpacity, their moments to 0.
   void resetOpacity(DeviceScene &S);
 
-  DensityNotes save(std::uint32_t Count) { return download(Noted, Count); }
+  DensityNotes save(uint32_t Count) { return download(Noted, Count); }
   void restore(const DensityNotes &Notes) { Noted = upload(Notes); }
 
 private:
@@ -67,18 +67,18 @@ private:
     cl::Buffer GradientSums, Views, Radii;
   };
   Notebook upload(const DensityNotes &N);
-  DensityNotes download(const Notebook &From, std::uint32_t Count);
-  void note(const Notebook &In, const SeenView &V, std::uint32_t Count);
-  std::uint32_t decide(const DeviceScene &S, unsigned Iteration);
-  std::uint32_t total(const cl::Buffer &Counts, std::uint32_t Count);
-  void limit(std::uint32_t Count, std::uint32_t Total);
-  cl::Buffer words(std::string_view What, std::uint64_t N) {
+  DensityNotes download(const Notebook &From, uint32_t Count);
+  void note(const Notebook &In, const SeenView &V, uint32_t Count);
+  uint32_t decide(const DeviceScene &S, unsigned Iteration);
+  uint32_t total(const cl::Buffer &Counts, uint32_t Count);
+  void limit(uint32_t Count, uint32_t Total);
+  cl::Buffer words(std::string_view What, uint64_t N) {
     return L.allocate(What, 4 * N);
   }
 
   Launcher &L;
   const TrainSettings &Settings;
-  std::uint64_t Seed;
+  uint64_t Seed;
   double Extent;
   Sorter Sort;
   Notebook Noted;

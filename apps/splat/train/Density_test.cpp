@@ -1,12 +1,12 @@
 // The device's density control against the reference's rule.
-#include "Density.h"
+#include "train/Density.h"
 
-#include "../device/OnDevice.h"
-#include "../picture/Layout.h"
-#include "../render/Plan.h"
-#include "../render/Planes.h"
-#include "../scene/Activation.h"
+#include "device/OnDevice.h"
+#include "picture/Layout.h"
 #include "reference/Density.h"
+#include "render/Plan.h"
+#include "render/Planes.h"
+#include "scene/Activation.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ protected:
   static constexpr double Extent = 3;
 
   /// Opacities and scales on both sides of every threshold.
-  Scene sample(std::uint32_t Count) {
+  Scene sample(uint32_t Count) {
     Scene S = Scene::sized(Count, 1);
     std::uniform_real_distribution<float> LogScale(-6, 0), Logit(-7, 2);
     std::normal_distribution<float> Normal;
@@ -37,10 +37,10 @@ protected:
     return S;
   }
 
-  DensityNotes sampleNotes(std::uint32_t Count) {
+  DensityNotes sampleNotes(uint32_t Count) {
     std::uniform_real_distribution<float> Gradient(0, 2e-3F), Radius(0, 40);
     DensityNotes N;
-    for (std::uint32_t I = 0; I < Count; ++I) {
+    for (uint32_t I = 0; I < Count; ++I) {
       N.Views.push_back(Random() % 6);
       N.GradientSums.push_back(N.Views[I] == 0 ? 0 : Gradient(Random));
       N.Radii.push_back(Radius(Random));
@@ -77,7 +77,7 @@ protected:
 };
 
 TEST_F(DensityOnDevice, LeavesWhatTheReferencesRuleLeaves) {
-  constexpr std::uint32_t Count = 1500;
+  constexpr uint32_t Count = 1500;
   for (const auto &[Iteration, Most] : {std::pair(600U, 1U << 20),
                                         {600U, 1700U},
                                         {600U, 900U},
@@ -102,7 +102,7 @@ TEST_F(DensityOnDevice, LeavesWhatTheReferencesRuleLeaves) {
                                        std::size_t{GEOMETRY_PLANES} * S.Count);
 
     const std::vector<Fate> Want = fates(Before, Notes, T, Iteration);
-    const std::vector<std::uint32_t> Identities = S.downloadIdentities(L);
+    const std::vector<uint32_t> Identities = S.downloadIdentities(L);
     std::size_t At = 0, Splits = 0, Clones = 0;
     const std::size_t Left = std::accumulate(
         Want.begin(), Want.end(), std::size_t{0},
@@ -144,7 +144,7 @@ TEST_F(DensityOnDevice, LeavesWhatTheReferencesRuleLeaves) {
 
 /// Halves of many Gaussians alike: samples of it, and the same each time.
 TEST_F(DensityOnDevice, HalvesAreSamplesOfWhatTheyReplace) {
-  constexpr std::uint32_t Count = 4000;
+  constexpr uint32_t Count = 4000;
   Scene Before = Scene::sized(Count, 0);
   const double Scales[] = {0.5, 2, 0.1};
   for (std::size_t I = 0; I < Count; ++I) {
@@ -158,9 +158,9 @@ TEST_F(DensityOnDevice, HalvesAreSamplesOfWhatTheyReplace) {
       Before.Quats[4 * I + K] = 2;
   }
   const DensityNotes Notes{std::vector<float>(Count, 1),
-                           std::vector<std::uint32_t>(Count, 1),
+                           std::vector<uint32_t>(Count, 1),
                            std::vector<float>(Count, 0)};
-  const auto Split = [&](std::uint64_t Seed, unsigned Iteration) {
+  const auto Split = [&](uint64_t Seed, unsigned Iteration) {
     Launcher L(*Dev, "", {});
     build(L);
     const TrainSettings T;
@@ -197,7 +197,7 @@ TEST_F(DensityOnDevice, HalvesAreSamplesOfWhatTheyReplace) {
 /// Where a threshold is met by rounding alone, runs that are otherwise equal
 /// decide differently about one Gaussian: the others then still split the same.
 TEST_F(DensityOnDevice, OneFateMovesNoOtherGaussiansHalves) {
-  constexpr std::uint32_t Count = 300, Odd = 7;
+  constexpr uint32_t Count = 300, Odd = 7;
   const Scene Start = sample(Count);
   // Every Gaussian's mean by its identity, after two changes in which all that
   // are opaque enough grow; the odd one is transparent or not.
@@ -211,14 +211,14 @@ TEST_F(DensityOnDevice, OneFateMovesNoOtherGaussiansHalves) {
     DeviceScene S = DeviceScene::upload(L, Before);
     for (const unsigned Iteration : {600U, 700U}) {
       D.restore({std::vector<float>(S.Count, 1),
-                 std::vector<std::uint32_t>(S.Count, 1),
+                 std::vector<uint32_t>(S.Count, 1),
                  std::vector<float>(S.Count, 0)});
       D.densify(S, Iteration);
     }
     const Scene After = S.download(L);
-    const std::vector<std::uint32_t> Identities = S.downloadIdentities(L);
+    const std::vector<uint32_t> Identities = S.downloadIdentities(L);
     EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
-    std::map<std::uint32_t, std::array<float, 3>> Means;
+    std::map<uint32_t, std::array<float, 3>> Means;
     for (std::size_t I = 0; I < After.size(); ++I)
       Means[Identities[I]] = {After.Means[3 * I], After.Means[3 * I + 1],
                               After.Means[3 * I + 2]};
@@ -240,11 +240,11 @@ TEST_F(DensityOnDevice, NotesAddUpOverTheViewsThatSawIt) {
   build(L);
   const TrainSettings T;
   DensityControl D(L, T, 1, Extent);
-  constexpr std::uint32_t Count = 20;
+  constexpr uint32_t Count = 20;
   std::vector<splat_gaussian> Records(Count);
-  std::vector<std::uint32_t> Depths(Count, 5);
+  std::vector<uint32_t> Depths(Count, 5);
   std::vector<float> Gradients(3 * Count, 7); // the plane before is another's
-  for (std::uint32_t I = 0; I < Count; ++I) {
+  for (uint32_t I = 0; I < Count; ++I) {
     // Standard deviations 2 and 4 px along the axes: radius 12.
     Records[I].conic[0] = 0.25F;
     Records[I].conic[2] = 0.0625F;

@@ -1,6 +1,6 @@
-#include "DeviceRenderer.h"
+#include "train/DeviceRenderer.h"
 
-#include "../render/Renderer.h"
+#include "render/Renderer.h"
 
 namespace vorion::splat {
 
@@ -49,12 +49,12 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
   return Picture;
 }
 
-std::vector<std::uint32_t> DeviceRenderer::listLengths() {
+std::vector<uint32_t> DeviceRenderer::listLengths() {
   const Frame &F = Drawing.frame();
-  std::vector<std::array<std::uint32_t, 2>> Ranges(F.tiles());
+  std::vector<std::array<uint32_t, 2>> Ranges(F.tiles());
   L.beginStage(Stage::ReadBack);
   L.read("lists' places", Ranges.data(), F.Ranges, 8 * Ranges.size());
-  std::vector<std::uint32_t> Lengths;
+  std::vector<uint32_t> Lengths;
   Lengths.reserve(Ranges.size());
   for (const auto &[Begin, End] : Ranges)
     Lengths.push_back(End - Begin);

@@ -1,8 +1,8 @@
 /// Forward and back on the device: by rasterizer and cores, or the cores alone.
 #pragma once
 
-#include "../render/Backward.h"
-#include "GradientRenderer.h"
+#include "render/Backward.h"
+#include "train/GradientRenderer.h"
 
 #include <array>
 #include <optional>
@@ -33,7 +33,7 @@ public:
                     const cl::Buffer &ByAlpha) override;
 
   /// Pairs of every tile of the last picture; copied from the device.
-  std::vector<std::uint32_t> listLengths();
+  std::vector<uint32_t> listLengths();
 
 private:
   void build(int ShDegree);

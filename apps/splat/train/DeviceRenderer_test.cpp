@@ -1,11 +1,11 @@
 // Gradients of both paths against the reference's in fp64.
-#include "DeviceRenderer.h"
+#include "train/DeviceRenderer.h"
 
-#include "../analyze/ToReference.h"
-#include "../device/OnDevice.h"
-#include "../render/Planes.h"
+#include "analyze/ToReference.h"
+#include "device/OnDevice.h"
 #include "reference/Backward.h"
 #include "reference/Render.h"
+#include "render/Planes.h"
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ class GradientsOnDevice
       public testing::WithParamInterface<std::tuple<Rules, Path>> {
 protected:
   struct Case {
-    std::uint32_t Count;
+    uint32_t Count;
     int ShDegree;
     double Spread; ///< of the means, world units
     double Wide;   ///< largest log scale
@@ -92,7 +92,7 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     std::vector<float> ByRender, ByAlpha;
     reference::Upstream U;
     std::normal_distribution<float> Normal;
-    for (const std::uint8_t Doubt : Want.Doubts) {
+    for (const uint8_t Doubt : Want.Doubts) {
       const float On = Doubt == 0 ? 1 : 0;
       for (int I = 0; I < 3; ++I)
         ByRender.push_back(On * Normal(Random));

@@ -1,22 +1,22 @@
-#include "DeviceScene.h"
+#include "train/DeviceScene.h"
 
-#include "../picture/Layout.h"
-#include "../render/Planes.h"
+#include "picture/Layout.h"
+#include "render/Planes.h"
 
 #include <numeric>
 
 namespace vorion::splat {
 
-PlanePair DeviceScene::allocate(Launcher &L, std::uint32_t Gaussians) const {
+PlanePair DeviceScene::allocate(Launcher &L, uint32_t Gaussians) const {
   return {L.allocate("Gaussians' geometry",
-                     std::uint64_t{4} * GEOMETRY_PLANES * Gaussians),
+                     uint64_t{4} * GEOMETRY_PLANES * Gaussians),
           L.allocate("Gaussians' colours",
-                     std::uint64_t{4} * colourPlanes() * Gaussians)};
+                     uint64_t{4} * colourPlanes() * Gaussians)};
 }
 
 DeviceScene DeviceScene::upload(Launcher &L, const Scene &S) {
   DeviceScene D;
-  D.Count = static_cast<std::uint32_t>(S.size());
+  D.Count = static_cast<uint32_t>(S.size());
   D.ShDegree = S.ShDegree;
   const auto Write = [&](PlanePair &To, const std::vector<float> &Geometry,
                          const std::vector<float> &Sh) {
@@ -32,20 +32,20 @@ DeviceScene DeviceScene::upload(Launcher &L, const Scene &S) {
   Sh.assign(Sh.size(), 0);
   Write(D.First, Geometry, Sh);
   Write(D.Second, Geometry, Sh);
-  std::vector<std::uint32_t> Numbers(D.Count);
+  std::vector<uint32_t> Numbers(D.Count);
   std::iota(Numbers.begin(), Numbers.end(), 0U);
   D.uploadIdentities(L, Numbers);
   return D;
 }
 
 void DeviceScene::uploadIdentities(Launcher &L,
-                                   const std::vector<std::uint32_t> &From) {
+                                   const std::vector<uint32_t> &From) {
   Identities = L.allocate("Gaussians' identities", 4 * From.size());
   L.write("Gaussians' identities", Identities, From.data(), 4 * From.size());
 }
 
-std::vector<std::uint32_t> DeviceScene::downloadIdentities(Launcher &L) const {
-  std::vector<std::uint32_t> To(Count);
+std::vector<uint32_t> DeviceScene::downloadIdentities(Launcher &L) const {
+  std::vector<uint32_t> To(Count);
   L.read("Gaussians' identities", To.data(), Identities, 4 * To.size());
   return To;
 }

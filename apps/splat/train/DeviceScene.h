@@ -1,8 +1,8 @@
 /// What training keeps on the device.
 #pragma once
 
-#include "../device/Launcher.h"
-#include "../scene/Scene.h"
+#include "device/Launcher.h"
+#include "scene/Scene.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,7 +18,7 @@ struct PlanePair {
 
 /// A scene in training. All pairs have the same number of Gaussians and bands.
 struct DeviceScene {
-  std::uint32_t Count = 0;
+  uint32_t Count = 0;
   int ShDegree = 0;
   PlanePair Parameters;
   PlanePair First, Second; ///< Adam's moments
@@ -26,17 +26,17 @@ struct DeviceScene {
   /// (density.cl).
   cl::Buffer Identities;
 
-  std::uint32_t colourPlanes() const {
-    return static_cast<std::uint32_t>(3 * shCoefficients(ShDegree));
+  uint32_t colourPlanes() const {
+    return static_cast<uint32_t>(3 * shCoefficients(ShDegree));
   }
   /// A pair for \p Gaussians of them.
-  PlanePair allocate(Launcher &L, std::uint32_t Gaussians) const;
+  PlanePair allocate(Launcher &L, uint32_t Gaussians) const;
 
   /// \p S with moments of 0; identities count from 0.
   static DeviceScene upload(Launcher &L, const Scene &S);
   Scene download(Launcher &L) const;
-  void uploadIdentities(Launcher &L, const std::vector<std::uint32_t> &From);
-  std::vector<std::uint32_t> downloadIdentities(Launcher &L) const;
+  void uploadIdentities(Launcher &L, const std::vector<uint32_t> &From);
+  std::vector<uint32_t> downloadIdentities(Launcher &L) const;
 };
 
 } // namespace vorion::splat

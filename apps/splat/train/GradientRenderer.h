@@ -1,10 +1,10 @@
 /// Renders a scene in training and goes back to its parameters' gradients.
 #pragma once
 
-#include "Density.h"
-#include "DeviceScene.h"
+#include "train/Density.h"
+#include "train/DeviceScene.h"
 
-#include "../io/Cameras.h"
+#include "io/Cameras.h"
 
 namespace vorion::splat {
 

@@ -1,5 +1,5 @@
 // Processes under OpenMPI (VORION_MPI), or the only one.
-#include "Ranks.h"
+#include "train/Ranks.h"
 
 #ifdef VORION_MPI
 #include <mpi.h>

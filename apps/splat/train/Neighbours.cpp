@@ -1,4 +1,4 @@
-#include "Neighbours.h"
+#include "train/Neighbours.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ public:
 
   /// Squared distances to the nearest ones, rising, into \p Best, which has
   /// room for those wanted and starts with infinities.
-  void nearest(std::uint32_t To, std::vector<double> &Best) const {
+  void nearest(uint32_t To, std::vector<double> &Best) const {
     search(To, 0, Order.size(), Best);
   }
 
@@ -30,7 +30,7 @@ private:
   /// Ranges that are gone through one by one.
   static constexpr std::size_t Leaf = 8;
 
-  double at(std::uint32_t Point, std::size_t Axis) const {
+  double at(uint32_t Point, std::size_t Axis) const {
     return P[3 * std::size_t{Point} + Axis];
   }
 
@@ -55,16 +55,15 @@ private:
       return Order.begin() + static_cast<std::ptrdiff_t>(I);
     };
     std::nth_element(It(Begin), It(Middle), It(End),
-                     [&](std::uint32_t A, std::uint32_t B) {
+                     [&](uint32_t A, uint32_t B) {
                        return at(A, Longest) < at(B, Longest);
                      });
-    Axes[Middle] = static_cast<std::uint8_t>(Longest);
+    Axes[Middle] = static_cast<uint8_t>(Longest);
     split(Begin, Middle);
     split(Middle + 1, End);
   }
 
-  void look(std::uint32_t From, std::uint32_t Other,
-            std::vector<double> &Best) const {
+  void look(uint32_t From, uint32_t Other, std::vector<double> &Best) const {
     if (From == Other)
       return;
     double Squares = 0;
@@ -79,7 +78,7 @@ private:
       std::swap(Best[I], Best[I - 1]);
   }
 
-  void search(std::uint32_t To, std::size_t Begin, std::size_t End,
+  void search(uint32_t To, std::size_t Begin, std::size_t End,
               std::vector<double> &Best) const {
     if (End - Begin <= Leaf) {
       for (std::size_t I = Begin; I < End; ++I)
@@ -97,8 +96,8 @@ private:
   }
 
   const std::vector<float> &P;
-  std::vector<std::uint32_t> Order;
-  std::vector<std::uint8_t> Axes;
+  std::vector<uint32_t> Order;
+  std::vector<uint8_t> Axes;
 };
 
 } // namespace
@@ -112,7 +111,7 @@ std::vector<double> meanNeighbourDistances(const std::vector<float> &Positions,
     return Means;
   const Tree T(Positions);
   std::vector<double> Best;
-  for (std::uint32_t I = 0; I < N; ++I) {
+  for (uint32_t I = 0; I < N; ++I) {
     Best.assign(Wanted, std::numeric_limits<double>::infinity());
     T.nearest(I, Best);
     for (const double Squares : Best)

@@ -5,8 +5,8 @@
 
 namespace vorion::splat {
 
-using uint = std::uint32_t;
-using ulong = std::uint64_t;
-#include "../kernels/philox.h"
+using uint = uint32_t;
+using ulong = uint64_t;
+#include "kernels/philox.h"
 
 } // namespace vorion::splat

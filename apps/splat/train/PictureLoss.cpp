@@ -1,4 +1,4 @@
-#include "PictureLoss.h"
+#include "train/PictureLoss.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,10 @@ namespace {
 
 // A group of kernels/loss.cl has a channel of a tile; with its windows' reach a
 // tile has two warps of rows.
-constexpr std::uint32_t Lanes = 16, TileRows = 21, Channels = 3;
-constexpr std::uint64_t SlopePlanes = std::uint64_t{3} * Channels;
+constexpr uint32_t Lanes = 16, TileRows = 21, Channels = 3;
+constexpr uint64_t SlopePlanes = uint64_t{3} * Channels;
 
-constexpr std::uint32_t divideUp(std::uint32_t A, std::uint32_t B) {
-  return (A + B - 1) / B;
-}
+constexpr uint32_t divideUp(uint32_t A, uint32_t B) { return (A + B - 1) / B; }
 
 } // namespace
 
@@ -23,7 +21,7 @@ ProgramSpec lossProgram() {
       {fmt::format("LANES={}", Lanes), fmt::format("TILE_ROWS={}", TileRows)}};
 }
 
-void PictureLoss::reserve(std::uint64_t Pixels, std::uint64_t Tiles) {
+void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
   if (Pixels > Room) {
     Room = Pixels;
     Packed = L.allocate("photograph", 4 * Pixels);
@@ -42,13 +40,13 @@ void PictureLoss::reserve(std::uint64_t Pixels, std::uint64_t Tiles) {
 
 LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
                                  const Photo &Target) {
-  const auto Width = static_cast<std::uint32_t>(Target.Width);
-  const auto Height = static_cast<std::uint32_t>(Target.Height);
-  const auto Pixels = static_cast<std::uint32_t>(Target.pixels());
-  const std::uint32_t Across = divideUp(Width, Lanes);
-  const std::uint32_t Down = divideUp(Height, TileRows);
+  const auto Width = static_cast<uint32_t>(Target.Width);
+  const auto Height = static_cast<uint32_t>(Target.Height);
+  const auto Pixels = static_cast<uint32_t>(Target.pixels());
+  const uint32_t Across = divideUp(Width, Lanes);
+  const uint32_t Down = divideUp(Height, TileRows);
   // The gradient is written for all rows of the tiles.
-  reserve(std::uint64_t{Width} * Down * TileRows, std::uint64_t{Across} * Down);
+  reserve(uint64_t{Width} * Down * TileRows, uint64_t{Across} * Down);
   HostPacked.resize(Pixels);
   for (std::size_t I = 0; I < Pixels; ++I)
     HostPacked[I] = Target.Rgb[3 * I] | Target.Rgb[3 * I + 1] << 8 |

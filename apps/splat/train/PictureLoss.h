@@ -1,8 +1,8 @@
 /// The loss of a picture on the device, and its gradient.
 #pragma once
 
-#include "../capture/Photo.h"
-#include "../device/Launcher.h"
+#include "capture/Photo.h"
+#include "device/Launcher.h"
 
 #include <vector>
 
@@ -33,13 +33,13 @@ public:
   const cl::Buffer &alphaGradient() const { return NoAlpha; }
 
 private:
-  void reserve(std::uint64_t Pixels, std::uint64_t Tiles);
+  void reserve(uint64_t Pixels, uint64_t Tiles);
 
   Launcher &L;
   double DSsim;
-  std::uint64_t Room = 0, TileRoom = 0;
+  uint64_t Room = 0, TileRoom = 0;
   cl::Buffer Packed, Slopes, Totals, Gradient, NoAlpha;
-  std::vector<std::uint32_t> HostPacked;
+  std::vector<uint32_t> HostPacked;
   std::vector<float> HostTotals;
 };
 

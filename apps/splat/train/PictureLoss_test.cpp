@@ -1,7 +1,7 @@
 // The device's loss against the reference's.
-#include "PictureLoss.h"
+#include "train/PictureLoss.h"
 
-#include "../device/OnDevice.h"
+#include "device/OnDevice.h"
 #include "reference/Loss.h"
 
 #include <algorithm>
@@ -87,8 +87,8 @@ TEST_F(LossOnDevice, IsTheReferencesOnPicturesOfAnySize) {
 TEST_F(LossOnDevice, ConstantPicturesHaveTheReferencesGradient) {
   for (const int Level : {0, 1, 128, 255}) {
     Photo Target{24, 20,
-                 std::vector<std::uint8_t>(std::size_t{3} * 24 * 20,
-                                           static_cast<std::uint8_t>(Level))};
+                 std::vector<uint8_t>(std::size_t{3} * 24 * 20,
+                                      static_cast<uint8_t>(Level))};
     for (const float Offset : {0.0F, 1.0F / 255, -0.5F}) {
       const std::vector<float> Picture(std::size_t{4} * 24 * 20,
                                        static_cast<float>(Level) / 255.0F +

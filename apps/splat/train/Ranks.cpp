@@ -1,4 +1,4 @@
-#include "Ranks.h"
+#include "train/Ranks.h"
 
 #include <fmt/format.h>
 #include <string>
@@ -17,7 +17,7 @@ bool Ranks::any(bool Mine) {
 
 Expected<Success> Ranks::agree(const Expected<Success> &Mine) {
   const auto ShareText = [this](unsigned From, std::string &Text) {
-    std::uint64_t Size = Text.size();
+    uint64_t Size = Text.size();
     share(From, &Size, sizeof(Size));
     Text.resize(Size);
     share(From, Text.data(), Size);

@@ -1,6 +1,6 @@
-#include "RunRecord.h"
+#include "train/RunRecord.h"
 
-#include "Hash.h"
+#include "io/Hash.h"
 #include "vorion/support/Json.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 /// What a training run was asked to do, as checkpoints and reports have it.
 #pragma once
 
-#include "../capture/Capture.h"
-#include "../render/Backward.h"
-#include "DeviceRenderer.h"
-#include "Trainer.h"
+#include "capture/Capture.h"
+#include "render/Backward.h"
+#include "train/DeviceRenderer.h"
+#include "train/Trainer.h"
 
 #include <array>
 #include <nlohmann/json_fwd.hpp>

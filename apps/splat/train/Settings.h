@@ -43,7 +43,7 @@ struct TrainSettings {
   double ResetOpacity = 0.01;    ///< down to this
   /// On a white background opacities are reset at this iteration, too.
   unsigned WhiteReset = 500;
-  std::uint32_t MostGaussians = 4000000;
+  uint32_t MostGaussians = 4000000;
   /// @}
 };
 

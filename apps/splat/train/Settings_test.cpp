@@ -1,4 +1,4 @@
-#include "Settings.h"
+#include "train/Settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "Start.h"
+#include "train/Start.h"
 
-#include "../scene/Activation.h"
-#include "Neighbours.h"
-#include "Philox.h"
+#include "scene/Activation.h"
+#include "train/Neighbours.h"
+#include "train/Philox.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr double LeastScale = 3e-4;
 constexpr double StartOpacity = 0.1;
 
-void placeRandomly(Scene &S, std::uint64_t Seed) {
+void placeRandomly(Scene &S, uint64_t Seed) {
   for (std::size_t I = 0; I < S.size(); ++I) {
     const philox_words W =
         philox(static_cast<uint>(Seed), static_cast<uint>(Seed >> 32),

@@ -1,15 +1,15 @@
 /// The Gaussians that training starts from.
 #pragma once
 
-#include "../capture/Capture.h"
-#include "../scene/Scene.h"
+#include "capture/Capture.h"
+#include "scene/Scene.h"
 
 #include <cstdint>
 
 namespace vorion::splat {
 
 struct StartOptions {
-  std::uint64_t Seed = 0;
+  uint64_t Seed = 0;
   int ShDegree = 3;
   /// Of random points, and at most so many of the capture's (evenly spread
   /// over their list).

@@ -1,7 +1,7 @@
-#include "Start.h"
+#include "train/Start.h"
 
-#include "../scene/Activation.h"
-#include "Neighbours.h"
+#include "scene/Activation.h"
+#include "train/Neighbours.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "TrainReport.h"
+#include "train/TrainReport.h"
 
 #include <nlohmann/json.hpp>
 

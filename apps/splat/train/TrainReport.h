@@ -1,7 +1,7 @@
 /// What a training run did, for programs.
 #pragma once
 
-#include "Training.h"
+#include "train/Training.h"
 
 #include <nlohmann/json_fwd.hpp>
 

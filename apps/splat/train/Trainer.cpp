@@ -1,11 +1,11 @@
-#include "Trainer.h"
+#include "train/Trainer.h"
 
-#include "Adam.h"
-#include "Bytes.h"
-#include "Image.h"
-#include "Metrics.h"
+#include "io/Bytes.h"
+#include "io/Image.h"
+#include "io/Metrics.h"
+#include "train/Adam.h"
 
-#include "../picture/Layout.h"
+#include "picture/Layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ void Trainer::start(const Scene &From) {
 void Trainer::restore(const Checkpoint &C) {
   L.beginStage(Stage::Upload);
   S = DeviceScene();
-  S.Count = static_cast<std::uint32_t>(C.gaussians());
+  S.Count = static_cast<uint32_t>(C.gaussians());
   S.ShDegree = C.ShDegree;
   const auto Upload = [&](PlanePair &To, const std::vector<float> &Geometry,
                           const std::vector<float> &Sh) {
@@ -132,7 +132,7 @@ StepReport Trainer::step() {
   while (!Batch.complete()) {
     std::optional<ViewBatch::Given> Mine;
     if (Batch.next() < Run.Batch)
-      Mine = take(Pictures.Training[Order.at(std::uint64_t{Done} * Run.Batch +
+      Mine = take(Pictures.Training[Order.at(uint64_t{Done} * Run.Batch +
                                              Batch.next() + 1)],
                   Degree);
     Batch.add(Mine ? &*Mine : nullptr);

@@ -1,15 +1,15 @@
 /// The loop: density control, views, their loss, the way back, a step.
 #pragma once
 
-#include "Checkpoint.h"
-#include "Density.h"
-#include "GradientRenderer.h"
-#include "PictureLoss.h"
-#include "Ranks.h"
-#include "Settings.h"
-#include "TrainingSet.h"
-#include "ViewBatch.h"
-#include "ViewOrder.h"
+#include "train/Checkpoint.h"
+#include "train/Density.h"
+#include "train/GradientRenderer.h"
+#include "train/PictureLoss.h"
+#include "train/Ranks.h"
+#include "train/Settings.h"
+#include "train/TrainingSet.h"
+#include "train/ViewBatch.h"
+#include "train/ViewOrder.h"
 
 #include <optional>
 
@@ -18,7 +18,7 @@ namespace vorion::splat {
 /// What makes one run another.
 struct TrainRun {
   TrainSettings Settings;
-  std::uint64_t Seed = 0;
+  uint64_t Seed = 0;
   /// Hash of the checkpoint of another run that it begins with, or empty.
   std::string From;
   std::string Points;           ///< else hash of those that it begins with
@@ -31,7 +31,7 @@ struct TrainRun {
 struct StepReport {
   unsigned Iteration = 0; ///< from 1
   LossValues Loss;
-  std::uint32_t Gaussians = 0;          ///< after it
+  uint32_t Gaussians = 0;               ///< after it
   std::optional<DensityChange> Density; ///< if it changed before the views
 };
 
@@ -54,7 +54,7 @@ public:
 
   StepReport step();
   unsigned iteration() const { return Done; }
-  std::uint32_t gaussians() const { return S.Count; }
+  uint32_t gaussians() const { return S.Count; }
   const std::vector<float> &losses() const { return Losses; }
   Scene scene();
 

@@ -1,14 +1,14 @@
 // The loop, with the reference as its renderer: what it does with gradients,
 // not how they are made.
-#include "Trainer.h"
+#include "train/Trainer.h"
 
-#include "../analyze/ToReference.h"
-#include "../device/OnDevice.h"
-#include "../picture/Layout.h"
-#include "../render/Planes.h"
-#include "Image.h"
+#include "analyze/ToReference.h"
+#include "device/OnDevice.h"
+#include "io/Image.h"
+#include "picture/Layout.h"
 #include "reference/Backward.h"
 #include "reference/Render.h"
+#include "render/Planes.h"
 
 #include <algorithm>
 #include <barrier>
@@ -58,7 +58,7 @@ public:
 
     Scene Slopes = Scene::sized(Now.size(), Now.ShDegree);
     std::vector<float> Means2d(2 * Now.size());
-    std::vector<std::uint32_t> Depths;
+    std::vector<uint32_t> Depths;
     std::vector<splat_gaussian> Records(Now.size());
     for (std::size_t I = 0; I < Now.size(); ++I) {
       double Norm = 0;
@@ -158,7 +158,7 @@ protected:
   }
 
   /// A few blobs about the origin.
-  static Scene blobs(std::uint32_t Count, unsigned Seed) {
+  static Scene blobs(uint32_t Count, unsigned Seed) {
     std::mt19937 Numbers(Seed);
     std::uniform_real_distribution<float> Unit(-1, 1);
     Scene S = Scene::sized(Count, 1);
@@ -225,7 +225,7 @@ TEST_F(TrainerOnDevice, LearnsAndGoesOnFromACheckpointBitForBit) {
     const double Before = T.evaluate()[0];
     bool Grew = false;
     for (unsigned I = 1; I <= 24; ++I) {
-      const std::uint32_t Count = T.gaussians();
+      const uint32_t Count = T.gaussians();
       const StepReport Step = T.step();
       ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
       EXPECT_EQ(Step.Iteration, I);

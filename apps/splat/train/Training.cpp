@@ -1,9 +1,9 @@
-#include "Training.h"
+#include "train/Training.h"
 
-#include "Hash.h"
-#include "Mean.h"
-#include "RunRecord.h"
-#include "Start.h"
+#include "io/Hash.h"
+#include "io/Mean.h"
+#include "train/RunRecord.h"
+#include "train/Start.h"
 #include "vorion/support/Json.h"
 
 #include <chrono>

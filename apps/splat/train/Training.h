@@ -1,11 +1,11 @@
 /// A whole run of training: capture, processes, checkpoints, interrupts, loop.
 #pragma once
 
-#include "../capture/Capture.h"
-#include "Baselines.h"
-#include "ClockSamples.h"
-#include "DeviceRenderer.h"
-#include "Trainer.h"
+#include "capture/Capture.h"
+#include "train/Baselines.h"
+#include "train/ClockSamples.h"
+#include "train/DeviceRenderer.h"
+#include "train/Trainer.h"
 
 #include <array>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "TrainingSet.h"
+#include "train/TrainingSet.h"
 
 #include "vorion/support/File.h"
 

@@ -1,8 +1,8 @@
 /// The pictures of a capture as training uses them.
 #pragma once
 
-#include "../capture/Capture.h"
-#include "../capture/Photo.h"
+#include "capture/Capture.h"
+#include "capture/Photo.h"
 
 #include <array>
 #include <vector>

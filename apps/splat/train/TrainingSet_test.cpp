@@ -1,8 +1,8 @@
-#include "TrainingSet.h"
+#include "train/TrainingSet.h"
 
-#include "../capture/CaptureTest.h"
-#include "Baselines.h"
-#include "ViewOrder.h"
+#include "capture/CaptureTest.h"
+#include "train/Baselines.h"
+#include "train/ViewOrder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ TEST(ViewOrder, EveryRoundHasEveryView) {
   EXPECT_GT(Different, 10U);
 }
 
-TrainView viewOf(std::uint8_t Left, std::uint8_t Right) {
+TrainView viewOf(uint8_t Left, uint8_t Right) {
   TrainView V;
   V.Picture = {2, 1, {Left, Left, Left, Right, Right, Right}};
   return V;

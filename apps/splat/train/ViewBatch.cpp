@@ -1,7 +1,7 @@
-#include "ViewBatch.h"
+#include "train/ViewBatch.h"
 
-#include "../picture/Layout.h"
-#include "../render/Pipeline.h"
+#include "picture/Layout.h"
+#include "render/Pipeline.h"
 
 #include <algorithm>
 
@@ -44,7 +44,7 @@ void ViewBatch::addGradients(const PlanePair &Of) {
       Taken + 1 == Views ? 1.0F / static_cast<float>(Views) : 1.0F;
   const auto Add = [&](const cl::Buffer &To, const cl::Buffer &From,
                        std::size_t Size) {
-    const auto Count = static_cast<std::uint32_t>(Size);
+    const auto Count = static_cast<uint32_t>(Size);
     L.run(BatchProgram, "batch_add", itemsFor(Count), GroupSize, To, From,
           Count, First ? 1U : 0U, Scale);
   };

@@ -1,10 +1,10 @@
 /// What the views of one iteration give, added up over all processes.
 #pragma once
 
-#include "Density.h"
-#include "GradientRenderer.h"
-#include "PictureLoss.h"
-#include "Ranks.h"
+#include "train/Density.h"
+#include "train/GradientRenderer.h"
+#include "train/PictureLoss.h"
+#include "train/Ranks.h"
 
 namespace vorion::splat {
 
@@ -48,7 +48,7 @@ private:
   DensityControl &Density;
   unsigned Views;
 
-  std::uint32_t Gaussians = 0;
+  uint32_t Gaussians = 0;
   std::size_t GeometrySize = 0, ShSize = 0; ///< floats
   bool Notes = false;
   unsigned Taken = 0;

@@ -1,13 +1,13 @@
-#include "ViewOrder.h"
+#include "train/ViewOrder.h"
 
-#include "Philox.h"
+#include "train/Philox.h"
 
 #include <numeric>
 #include <utility>
 
 namespace vorion::splat {
 
-std::size_t ViewOrder::at(std::uint64_t Place) {
+std::size_t ViewOrder::at(uint64_t Place) {
   const std::size_t Wanted = (Place - 1) / Count;
   if (Wanted != Round) {
     Round = Wanted;

@@ -13,13 +13,13 @@ namespace shadow {
 namespace {
 
 using D = LaneDoubles;
-using I64 = std::int64_t __attribute__((vector_size(8 * MaxLanes)));
+using I64 = int64_t __attribute__((vector_size(8 * MaxLanes)));
 
 VORION_INLINE D pick(I64 Condition, D Then, D Else) {
   return (D)(((I64)Then & Condition) | ((I64)Else & ~Condition));
 }
 VORION_INLINE D magnitude(D V) {
-  return (D)((I64)V & std::numeric_limits<std::int64_t>::max());
+  return (D)((I64)V & std::numeric_limits<int64_t>::max());
 }
 VORION_INLINE D larger(D A, D B) {
   A = magnitude(A);
@@ -30,8 +30,8 @@ VORION_INLINE D squareRoot(D A) { return __builtin_elementwise_sqrt(A); }
 VORION_INLINE D fma(D A, D B, D C) {
   return __builtin_elementwise_fma(A, B, C);
 }
-VORION_INLINE std::uint32_t bitsOf(I64 Condition) {
-  return __builtin_bit_cast(std::uint16_t,
+VORION_INLINE uint32_t bitsOf(I64 Condition) {
+  return __builtin_bit_cast(uint16_t,
                             __builtin_convertvector(Condition, LaneBools));
 }
 

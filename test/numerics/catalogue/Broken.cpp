@@ -1,6 +1,6 @@
 #include "Broken.h"
 
-#include "../../../apps/splat/device/Kernels.h"
+#include "device/Kernels.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>

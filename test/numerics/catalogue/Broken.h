@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "../../../apps/splat/picture/Options.h"
+#include "picture/Options.h"
 
 namespace vorion::test {
 

@@ -1,6 +1,6 @@
 #include "Build.h"
 
-#include "Activation.h"
+#include "scene/Activation.h"
 
 #include <cmath>
 

@@ -32,11 +32,11 @@ std::array<float, 3> seenAt(const splat::Camera &C, double X, double Y,
 /// Numbers that are the same with every library.
 class Numbers {
 public:
-  explicit Numbers(std::uint32_t Seed) : Engine(Seed) {}
+  explicit Numbers(uint32_t Seed) : Engine(Seed) {}
   double uniform(double Low, double High) {
     return Low + (High - Low) * double(Engine()) / 0x1p32;
   }
-  std::uint32_t below(std::uint32_t End) { return Engine() % End; }
+  uint32_t below(uint32_t End) { return Engine() % End; }
   std::array<float, 4> turn();
   std::array<double, 3> color();
 

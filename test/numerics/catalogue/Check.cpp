@@ -53,7 +53,7 @@ private:
   Rows &Kept;
   std::string Scratch;
   bool Loud;
-  std::uint32_t Turn = 0;
+  uint32_t Turn = 0;
   /// The last one, with what it is for.
   std::string JudgedFor;
   std::optional<Judge> Last;
@@ -88,11 +88,11 @@ Expected<Success> Checker::keep(const nlohmann::json &Row) {
     Found = fmt::format(" (error {:.2g}, bound {:.2g})",
                         Row["error"].get<double>(), Row["bound"].get<double>());
   else if (Row.contains("digits"))
-    Found = fmt::format(" (fp64 has {:.1f} digits, {} of {} pixels decide too "
-                        "closely)",
-                        Row["digits"].get<double>(),
-                        Row["close"].get<std::uint64_t>(),
-                        Row["pixels"].get<std::uint64_t>());
+    Found =
+        fmt::format(" (fp64 has {:.1f} digits, {} of {} pixels decide too "
+                    "closely)",
+                    Row["digits"].get<double>(), Row["close"].get<uint64_t>(),
+                    Row["pixels"].get<uint64_t>());
   else
     Found = fmt::format(" ({})", Row["noticed"].get<std::string>());
   if (!Good || Loud)
@@ -235,7 +235,7 @@ Expected<Success> Checker::all(const HardCase &C) {
     std::vector<Setting> Settings;
     if (Plan.Alone)
       Settings = eachAlone(P);
-    for (std::uint32_t I = 0; I < Plan.Random; ++I)
+    for (uint32_t I = 0; I < Plan.Random; ++I)
       Settings.push_back(combination(P, Plan.Seed + I));
     for (const Setting &S : Settings)
       if (!S.empty() && inShare())

@@ -13,18 +13,18 @@ struct CheckPlan {
   std::vector<std::string> Cases; ///< by name; all if empty
   bool Long = false;              ///< the long ones too
   bool Alone = false;             ///< each knob alone
-  std::uint32_t Random = 0;       ///< combinations of knobs
-  std::uint32_t Seed = 1;
+  uint32_t Random = 0;            ///< combinations of knobs
+  uint32_t Seed = 1;
   bool Broken = false; ///< that broken kernels are noticed
   /// Evaluations a case at which fp64 is held against the oracle.
-  std::uint64_t Oracle = 0;
-  std::uint32_t OneIn = 1; ///< of settings and broken kernels
-  std::string RowFile;     ///< rows are kept there
+  uint64_t Oracle = 0;
+  uint32_t OneIn = 1;  ///< of settings and broken kernels
+  std::string RowFile; ///< rows are kept there
   std::string Scratch; ///< folder for broken kernels; a temporary one if empty
 };
 
 struct CheckCounts {
-  std::uint32_t Checked = 0, Kept = 0, Failed = 0;
+  uint32_t Checked = 0, Kept = 0, Failed = 0;
 };
 
 /// Prints a line for every check that fails, and all of them with \p Loud.

@@ -4,7 +4,7 @@
 #include "Judge.h"
 #include "Knobs.h"
 #include "Rows.h"
-#include "ToReference.h"
+#include "analyze/ToReference.h"
 #include "reference/Projection.h"
 
 #include <algorithm>
@@ -66,7 +66,7 @@ public:
   explicit Fuzzer(Machine &M) : Device(M) {}
 
   /// Empty, or what does not hold.
-  std::string failureOf(const HardCase &C, std::uint32_t Seed);
+  std::string failureOf(const HardCase &C, uint32_t Seed);
 
 private:
   std::string againstReferences(HardCase C, Path P, const Setting &S);
@@ -79,14 +79,14 @@ private:
 };
 
 /// Those that the reference draws in fp64 but not in fp32.
-std::vector<std::uint32_t> beyondSingle(const HardCase &C,
-                                        const reference::Options &O) {
+std::vector<uint32_t> beyondSingle(const HardCase &C,
+                                   const reference::Options &O) {
   const auto Exact = reference::project(splat::toReference<double>(C.Scene),
                                         splat::toReference<double>(C.View), O);
   const auto Single = reference::project(splat::toReference<float>(C.Scene),
                                          splat::toReference<float>(C.View), O);
-  std::vector<std::uint32_t> Beyond;
-  for (std::uint32_t I = 0; I < Exact.size(); ++I)
+  std::vector<uint32_t> Beyond;
+  for (uint32_t I = 0; I < Exact.size(); ++I)
     if (Exact[I].Visible && !Single[I].Visible)
       Beyond.push_back(I);
   return Beyond;
@@ -153,7 +153,7 @@ std::string Fuzzer::monotone(const HardCase &C) {
   return "";
 }
 
-std::string Fuzzer::failureOf(const HardCase &C, std::uint32_t Seed) {
+std::string Fuzzer::failureOf(const HardCase &C, uint32_t Seed) {
   for (const Path P : {Path::Raster, Path::Simt}) {
     const Setting S = combination(P, Seed);
     for (const std::string &Failure :
@@ -181,7 +181,7 @@ std::string Fuzzer::failureOf(const HardCase &C, std::uint32_t Seed) {
 }
 
 /// Ten scenes; empty, or the shrunk counterexample.
-std::string failureOfGroup(Machine &M, std::uint32_t Seed) {
+std::string failureOfGroup(Machine &M, uint32_t Seed) {
   Fuzzer F(M);
   rc::detail::TestParams Params;
   Params.seed = Seed;
@@ -197,7 +197,7 @@ std::string failureOfGroup(Machine &M, std::uint32_t Seed) {
         C.Cap = 1;
         for (const Blob &B : Blobs)
           add(C.Scene, B);
-        const auto Knobs = *rc::gen::inRange<std::uint32_t>(0, 1U << 20);
+        const auto Knobs = *rc::gen::inRange<uint32_t>(0, 1U << 20);
         if (const std::string Failure = F.failureOf(C, Knobs); !Failure.empty())
           RC_FAIL(Failure);
       },
@@ -219,13 +219,13 @@ Expected<Success> fuzz(const FuzzPlan &P) {
   if (!Known)
     return Known.error();
   const auto Start = std::chrono::steady_clock::now();
-  std::uint32_t Done = 0;
-  for (std::uint32_t I = 0; P.Groups == 0 || I < P.Groups; ++I) {
+  uint32_t Done = 0;
+  for (uint32_t I = 0; P.Groups == 0 || I < P.Groups; ++I) {
     const std::chrono::duration<double> Spent =
         std::chrono::steady_clock::now() - Start;
     if (P.Minutes > 0 && Spent.count() > 60 * P.Minutes)
       break;
-    const std::uint32_t Seed = P.Seed + I;
+    const uint32_t Seed = P.Seed + I;
     const std::string Key = fmt::format("fuzz {}", Seed);
     if (Known->find(Key))
       continue;

@@ -9,10 +9,10 @@ namespace vorion::test {
 
 /// How long and from where.
 struct FuzzPlan {
-  std::uint32_t Seed = 1;   ///< of the first group of scenes
-  std::uint32_t Groups = 0; ///< at most so many; 0 for no limit
-  double Minutes = 0;       ///< at most so long; 0 for no limit
-  std::string RowFile;      ///< groups that are known to be good are left out
+  uint32_t Seed = 1;   ///< of the first group of scenes
+  uint32_t Groups = 0; ///< at most so many; 0 for no limit
+  double Minutes = 0;  ///< at most so long; 0 for no limit
+  std::string RowFile; ///< groups that are known to be good are left out
 };
 
 /// A group is ten scenes of one seed. Each scene is rendered with random knobs

@@ -1,11 +1,11 @@
 #include "GradientJudge.h"
 
-#include "../../../apps/splat/render/Gradients.h"
 #include "Build.h"
 #include "Convert.h"
 #include "Gradients.h"
 #include "Judge.h"
-#include "Metrics.h"
+#include "io/Metrics.h"
+#include "render/Gradients.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +21,10 @@ struct Loss {
   reference::Upstream Reference;
 };
 
-Loss lossFor(const std::vector<std::uint8_t> &Doubts) {
+Loss lossFor(const std::vector<uint8_t> &Doubts) {
   Loss Out;
   Numbers R(77);
-  for (const std::uint8_t Doubt : Doubts) {
+  for (const uint8_t Doubt : Doubts) {
     float V[4];
     for (float &X : V)
       X = Doubt == 0 ? static_cast<float>(R.uniform(-1, 1)) : 0;
@@ -79,8 +79,8 @@ Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
   O.Training = true;
   // Those that are drawn, and where they are in the whole scene.
   splat::Scene Drawn = splat::Scene::sized(0, S.Scene.ShDegree);
-  std::vector<std::uint32_t> Places;
-  for (std::uint32_t I = 0; I < S.Scene.size(); ++I)
+  std::vector<uint32_t> Places;
+  for (uint32_t I = 0; I < S.Scene.size(); ++I)
     if (std::ranges::find(S.Culled, I) == S.Culled.end()) {
       append(Drawn, S.Scene, I, 1);
       Places.push_back(I);
@@ -113,7 +113,7 @@ Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
         fmt::format("{} Gaussians seen, expected {}", R->Visible, Drawn.size());
   for (const Kind &K :
        kindsOf(R->Gradients, Want, Lengths, S.Scene.coefficients())) {
-    for (const std::uint32_t I : S.Culled)
+    for (const uint32_t I : S.Culled)
       for (std::size_t N = 0; N < K.Each; ++N)
         if (!(K.Got[I * K.Each + N] == 0))
           F.Broken = fmt::format("culled Gaussian {} has {} gradient {:.3g}, "

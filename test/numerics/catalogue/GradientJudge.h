@@ -13,7 +13,7 @@ struct GradientScene {
   splat::RenderOptions Options;
   /// Gaussians that are culled: all their gradients must be 0 exactly. The
   /// reference does without them.
-  std::vector<std::uint32_t> Culled{};
+  std::vector<uint32_t> Culled{};
 };
 
 /// Largest relative difference in the L2 norm of any kind of gradient

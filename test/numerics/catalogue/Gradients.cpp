@@ -49,7 +49,7 @@ TrainingCase culled() {
   for (const Blob &B : Unseen) {
     addBlob(G.Scene, R, static_cast<float>(R.uniform(-0.8, 0.8)),
             static_cast<float>(R.uniform(-0.6, 0.6)));
-    G.Culled.push_back(static_cast<std::uint32_t>(G.Scene.size()));
+    G.Culled.push_back(static_cast<uint32_t>(G.Scene.size()));
     add(G.Scene, B);
   }
   return caseOf("gradients-of-culled",

@@ -2,8 +2,8 @@
 /// what must come out of it (docs/numerics.md, "Catalogue of hard cases").
 #pragma once
 
-#include "../../../apps/splat/picture/Options.h"
-#include "../../../apps/splat/render/Renderer.h"
+#include "picture/Options.h"
+#include "render/Renderer.h"
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace vorion::test {
 
 /// Gaussians culled for each reason, by \c splat::CullReasons.
-using Culled = std::array<std::uint64_t, splat::CullReasons.size()>;
+using Culled = std::array<uint64_t, splat::CullReasons.size()>;
 
 /// One hard scene with its view and contract.
 struct HardCase {
@@ -25,7 +25,7 @@ struct HardCase {
   splat::RenderOptions Options;
   /// Gaussians that fp32 culls and fp64 would not, being beyond fp32's range or
   /// on a threshold: left out of the fp64 picture too where fp32 does.
-  std::vector<std::uint32_t> BeyondSingle{};
+  std::vector<uint32_t> BeyondSingle{};
   Culled MustCull{};
   /// Largest error of a pixel that is not doubtful, whatever the error of the
   /// fp32 reference is; under the case's own options.

@@ -19,10 +19,9 @@ constexpr double LeastError = 0x1p-22;
 /// Share of the doubtful pixels that may decide as neither reference does.
 constexpr double ThirdWayShare = 0.05;
 
-splat::Scene without(const splat::Scene &S,
-                     const std::vector<std::uint32_t> &Out) {
+splat::Scene without(const splat::Scene &S, const std::vector<uint32_t> &Out) {
   splat::Scene Rest = splat::Scene::sized(0, S.ShDegree);
-  for (std::uint32_t I = 0; I < S.size(); ++I)
+  for (uint32_t I = 0; I < S.size(); ++I)
     if (std::ranges::find(Out, I) == Out.end())
       append(Rest, S, I, 1);
   return Rest;
@@ -62,10 +61,9 @@ Judge::Judge(const HardCase &C, const splat::RenderOptions &O, Shown What)
   auto SingleSplats = reference::project(splat::toReference<float>(C.Scene),
                                          splat::toReference<float>(C.View), R);
   // Under other rules fp32 may draw them.
-  std::vector<std::uint32_t> LeftOut;
-  std::ranges::copy_if(
-      C.BeyondSingle, std::back_inserter(LeftOut),
-      [&](std::uint32_t I) { return !SingleSplats[I].Visible; });
+  std::vector<uint32_t> LeftOut;
+  std::ranges::copy_if(C.BeyondSingle, std::back_inserter(LeftOut),
+                       [&](uint32_t I) { return !SingleSplats[I].Visible; });
   auto Splats = reference::project(
       splat::toReference<double>(without(C.Scene, LeftOut)), View, R);
   if (What == Shown::Depths) {
@@ -87,7 +85,7 @@ Verdict Judge::judge(const splat::RenderResult &R, double Allowance,
                      bool OwnOptions) const {
   Verdict V;
   std::size_t Doubtful = 0;
-  for (const std::uint8_t D : Doubts)
+  for (const uint8_t D : Doubts)
     Doubtful += D != 0;
   V.Doubtful = double(Doubtful) / double(Doubts.size());
   for (std::size_t I = 0; I < Exact.size(); ++I)
@@ -118,8 +116,8 @@ Verdict Judge::judge(const splat::RenderResult &R, double Allowance,
     ThirdWay += Least > V.Bound;
   }
 
-  std::uint64_t Sum = R.Visible;
-  for (const std::uint64_t N : R.Culled)
+  uint64_t Sum = R.Visible;
+  for (const uint64_t N : R.Culled)
     Sum += N;
   if (!(V.Error <= V.Bound))
     V.Broken =

@@ -41,7 +41,7 @@ private:
   double Cutoff, LeastAlpha;
   double Peak = 1; ///< largest colour
   std::vector<double> Exact, Single;
-  std::vector<std::uint8_t> Doubts;
+  std::vector<uint8_t> Doubts;
 };
 
 } // namespace vorion::test

@@ -96,9 +96,7 @@ std::vector<Knob> pictureKnobs() {
       {"--background 0.1,0.7,0.4",
        "background",
        {},
-       [](RenderOptions &O) {
-         O.Background = {0.1F, 0.7F, 0.4F};
-       },
+       [](RenderOptions &O) { O.Background = {0.1F, 0.7F, 0.4F}; },
        none},
       {"--cutoff 0",
        "cutoff",
@@ -243,7 +241,7 @@ std::vector<Setting> eachAlone(Path P) {
   return All;
 }
 
-Setting combination(Path P, std::uint32_t Seed) {
+Setting combination(Path P, uint32_t Seed) {
   std::mt19937 Engine(Seed);
   Setting S;
   std::size_t Begin = 0;

@@ -2,7 +2,7 @@
 /// `splat render`'s command line.
 #pragma once
 
-#include "../../../apps/splat/picture/Options.h"
+#include "picture/Options.h"
 
 #include <cstdint>
 #include <functional>
@@ -48,6 +48,6 @@ double allowanceOf(const Setting &S, const splat::RenderOptions &O,
 std::vector<Setting> eachAlone(splat::Path Path);
 
 /// A random combination of knobs of \p Path: each dimension with even odds.
-Setting combination(splat::Path Path, std::uint32_t Seed);
+Setting combination(splat::Path Path, uint32_t Seed);
 
 } // namespace vorion::test

@@ -28,7 +28,7 @@ HardCase picture(int Width, int Height) {
              frontView(Width, Height, 40),
              {}};
   C.Options.Background = {0.25F, 0.5F, 0.125F};
-  Numbers R(static_cast<std::uint32_t>(Width));
+  Numbers R(static_cast<uint32_t>(Width));
   add(C.Scene, {.Scale = {0.3, 0.3, 0.3}});
   for (int I = 0; I < (Width == 1 ? 0 : 20); ++I)
     add(C.Scene,

@@ -1,7 +1,7 @@
 #include "Machine.h"
 
-#include "../../../apps/splat/effects/ViewFacts.h"
-#include "../../../apps/splat/picture/View.h"
+#include "effects/ViewFacts.h"
+#include "picture/View.h"
 
 #include <cstdio>
 

@@ -1,8 +1,8 @@
 /// Renders cases on the OpenCL device, building each program once.
 #pragma once
 
-#include "../../../apps/splat/device/Launcher.h"
 #include "HardCase.h"
+#include "device/Launcher.h"
 
 namespace vorion::test {
 

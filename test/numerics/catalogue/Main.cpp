@@ -5,7 +5,7 @@
 #include "Table.h"
 #include "Tool.h"
 #include "TrainingCase.h"
-#include "formats/Ply.h"
+#include "scene/formats/Ply.h"
 
 #include <algorithm>
 #include <filesystem>

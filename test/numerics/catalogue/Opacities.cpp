@@ -20,7 +20,7 @@ HardCase stack(int Depth, double Opacity) {
       {},
       frontView(20, 18, 50),
       {}};
-  Numbers R(static_cast<std::uint32_t>(Depth));
+  Numbers R(static_cast<uint32_t>(Depth));
   for (int I = 0; I < Depth; ++I)
     add(C.Scene, {.Mean = {0, 0, static_cast<float>(2 + 0.05 * I)},
                   .Scale = {40, 40, 40},

@@ -39,7 +39,7 @@ struct Ellipse {
   Big ReachX, ReachY; ///< half sides of its box; not read under exact
   Big Opacity;
   float Depth = 0; ///< as the keys have it
-  std::uint32_t Index = 0;
+  uint32_t Index = 0;
 };
 
 Matrix rotationOf(const float *Q) {
@@ -93,7 +93,7 @@ public:
   }
 
   /// Appends Gaussian \p I; false if it is culled.
-  bool add(std::uint32_t I);
+  bool add(uint32_t I);
   void sort() {
     std::ranges::sort(Ellipses, [](const Ellipse &A, const Ellipse &B) {
       return std::pair(A.Depth, A.Index) < std::pair(B.Depth, B.Index);
@@ -107,13 +107,13 @@ public:
   Pixel pixel(int X, int Y) const;
 
 private:
-  Vector fromCamera(std::uint32_t I) const {
+  Vector fromCamera(uint32_t I) const {
     Vector D;
     for (std::size_t K = 0; K < 3; ++K)
       D[K] = Big(double(S.Means[3 * I + K])) - Big(View.Position[K]);
     return D;
   }
-  Vector color(std::uint32_t I, const Vector &Along) const;
+  Vector color(uint32_t I, const Vector &Along) const;
   void reach(Ellipse &E, const Big &Sxx, const Big &Sxy, const Big &Syy) const;
 
   const splat::Scene &S;
@@ -122,7 +122,7 @@ private:
   std::vector<Ellipse> Ellipses;
 };
 
-Vector Oracle::color(std::uint32_t I, const Vector &Along) const {
+Vector Oracle::color(uint32_t I, const Vector &Along) const {
   const Big Length = sqrt(dot(Along, Along));
   const bool HasDirection = Big(0) < Length;
   Vector D;
@@ -157,7 +157,7 @@ void Oracle::reach(Ellipse &E, const Big &Sxx, const Big &Sxy,
   }
 }
 
-bool Oracle::add(std::uint32_t I) {
+bool Oracle::add(uint32_t I) {
   const Vector D = fromCamera(I);
   // Columns of the camera's rotation are its axes.
   Vector P;
@@ -265,7 +265,7 @@ double OracleVerdict::digits() const {
 
 OracleVerdict compareWithOracle(const HardCase &C,
                                 const splat::RenderOptions &O,
-                                std::uint64_t Evaluations) {
+                                uint64_t Evaluations) {
   const reference::Options R = referenceOptions(O);
   const auto Splats = reference::project(splat::toReference<double>(C.Scene),
                                          splat::toReference<double>(C.View), R);
@@ -274,7 +274,7 @@ OracleVerdict compareWithOracle(const HardCase &C,
   OracleVerdict V;
   Oracle Exact(C, O);
   double Peak = 1;
-  for (std::uint32_t I = 0; I < C.Scene.size(); ++I) {
+  for (uint32_t I = 0; I < C.Scene.size(); ++I) {
     if (Exact.add(I) != Splats[I].Visible)
       V.Broken = fmt::format("Gaussian {} is {} in fp64 alone", I,
                              Splats[I].Visible ? "drawn" : "culled");
@@ -284,15 +284,14 @@ OracleVerdict compareWithOracle(const HardCase &C,
   }
   Exact.sort();
 
-  const auto Width = static_cast<std::uint64_t>(C.View.Width);
-  const std::uint64_t Pixels = Width * static_cast<unsigned>(C.View.Height);
-  const std::uint64_t Wanted =
-      std::max<std::uint64_t>(16, Evaluations / C.Scene.size());
-  std::uint64_t Step = std::max<std::uint64_t>(1, Pixels / Wanted);
+  const auto Width = static_cast<uint64_t>(C.View.Width);
+  const uint64_t Pixels = Width * static_cast<unsigned>(C.View.Height);
+  const uint64_t Wanted = std::max<uint64_t>(16, Evaluations / C.Scene.size());
+  uint64_t Step = std::max<uint64_t>(1, Pixels / Wanted);
   // So that samples are spread over columns too.
   while (Step > 1 && std::gcd(Step, Width) != 1)
     ++Step;
-  for (std::uint64_t At = 0; At < Pixels; At += Step) {
+  for (uint64_t At = 0; At < Pixels; At += Step) {
     const auto P =
         Exact.pixel(static_cast<int>(At % Width), static_cast<int>(At / Width));
     ++V.Pixels;

@@ -15,7 +15,7 @@ struct OracleVerdict {
   double Error = 0; ///< largest, in parts of the largest colour
   /// Pixels compared; and of these left out since a decision there is closer
   /// than doubles can tell.
-  std::uint64_t Pixels = 0, Close = 0;
+  uint64_t Pixels = 0, Close = 0;
   std::string Broken; ///< a Gaussian culled by one alone; empty: none
   /// Decimal digits that are right; at most 16.
   double digits() const;
@@ -27,6 +27,6 @@ struct OracleVerdict {
 /// square3.
 OracleVerdict compareWithOracle(const HardCase &C,
                                 const splat::RenderOptions &O,
-                                std::uint64_t Evaluations);
+                                uint64_t Evaluations);
 
 } // namespace vorion::test

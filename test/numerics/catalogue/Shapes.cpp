@@ -9,8 +9,7 @@ namespace {
 constexpr double Pi = 3.14159265358979323846;
 
 /// \p Count of one scale in every direction.
-splat::Scene scattered(std::uint32_t Seed, int Count,
-                       std::array<double, 3> Scale) {
+splat::Scene scattered(uint32_t Seed, int Count, std::array<double, 3> Scale) {
   Numbers R(Seed);
   splat::Scene S;
   for (int I = 0; I < Count; ++I) {
@@ -131,7 +130,7 @@ HardCase scalesUp() {
              {},
              frontView(64, 48, 50),
              {}};
-  std::uint32_t I = 0;
+  uint32_t I = 0;
   for (const double Scale : {1e2, 1e4, 1e6, 1e8, 1e9, 1e12, 1e19, 1e30, 1e38}) {
     if (Scale > 5e8)
       C.BeyondSingle.push_back(I);
@@ -162,7 +161,7 @@ HardCase logarithms() {
     for (std::size_t K = 1; K <= 3; ++K)
       *(C.Scene.LogScales.end() - static_cast<std::ptrdiff_t>(K)) = Value;
     if (Value > 20)
-      C.BeyondSingle.push_back(static_cast<std::uint32_t>(2 * I + 1));
+      C.BeyondSingle.push_back(static_cast<uint32_t>(2 * I + 1));
     ++I;
   }
   C.MustCull[2] = 5;

@@ -2,11 +2,11 @@
 // nothing.
 #include "TrainingCase.h"
 
-#include "../../../apps/splat/kernels/layout.h"
-#include "../../../apps/splat/train/Adam.h"
-#include "../../../apps/splat/train/PictureLoss.h"
+#include "kernels/layout.h"
 #include "reference/Adam.h"
 #include "reference/Loss.h"
+#include "train/Adam.h"
+#include "train/PictureLoss.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +67,7 @@ Expected<Finding> constant(splat::Launcher &L, float Value, int Level,
   L.build(splat::lossProgram());
   const splat::Photo Target{
       Width, Height,
-      std::vector<std::uint8_t>(3 * Pixels, static_cast<std::uint8_t>(Level))};
+      std::vector<uint8_t>(3 * Pixels, static_cast<uint8_t>(Level))};
   const std::vector<float> Picture(4 * Pixels, Value);
   const cl::Buffer Uploaded = L.allocate("picture", 4 * Picture.size());
   L.write("picture", Uploaded, Picture.data(), 4 * Picture.size());

@@ -3,8 +3,8 @@
 /// (docs/numerics.md, "Catalogue of hard cases").
 #pragma once
 
-#include "../../../apps/splat/device/Launcher.h"
-#include "../../../apps/splat/picture/Options.h"
+#include "device/Launcher.h"
+#include "picture/Options.h"
 
 #include <functional>
 #include <string>

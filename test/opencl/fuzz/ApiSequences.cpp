@@ -59,7 +59,7 @@ constexpr const char *Options[] = {nullptr,
 /// One sequence.
 class Sequence {
 public:
-  explicit Sequence(std::uint64_t Seed) : Random(Seed) {}
+  explicit Sequence(uint64_t Seed) : Random(Seed) {}
 
   /// What went wrong, or nothing.
   std::string run(unsigned Calls) {
@@ -839,5 +839,5 @@ private:
 
 int main(int Argc, char **Argv) {
   return runWatched(Argc, Argv, "opencl_api_sequences",
-                    [](std::uint64_t Seed) { return Sequence(Seed).run(120); });
+                    [](uint64_t Seed) { return Sequence(Seed).run(120); });
 }

@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct Settings {
-  std::uint64_t First = 1, Count = 1;
+  uint64_t First = 1, Count = 1;
   double Seconds = 1e9, Limit = 60;
   std::string Resume;
   bool Here = false;
@@ -55,8 +55,8 @@ double since(Clock::time_point Start) {
 }
 
 /// What is wrong with one case, or nothing.
-std::string watch(std::uint64_t Seed, double Limit,
-                  const std::function<std::string(std::uint64_t)> &Case) {
+std::string watch(uint64_t Seed, double Limit,
+                  const std::function<std::string(uint64_t)> &Case) {
   int Pipe[2];
   if (pipe(Pipe) != 0)
     return "no pipe";
@@ -102,7 +102,7 @@ std::string watch(std::uint64_t Seed, double Limit,
 } // namespace
 
 int runWatched(int Argc, char **Argv, const char *Name,
-               const std::function<std::string(std::uint64_t)> &Case) {
+               const std::function<std::string(uint64_t)> &Case) {
   Settings S;
   if (!parse(Argc, Argv, S)) {
     std::cerr << Name
@@ -116,7 +116,7 @@ int runWatched(int Argc, char **Argv, const char *Name,
               << "\n";
     return Wrong.empty() ? 0 : 1;
   }
-  std::uint64_t Seed = S.First, Finds = 0, Done = 0;
+  uint64_t Seed = S.First, Finds = 0, Done = 0;
   if (!S.Resume.empty())
     if (std::ifstream Last(S.Resume); Last >> Seed)
       ++Seed;

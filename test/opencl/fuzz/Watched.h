@@ -15,6 +15,6 @@ namespace vorion::test {
 /// what is wrong, or nothing. Prints a line for each find and the counts;
 /// exit code 0 if there is no find, else 1; 2 usage.
 int runWatched(int Argc, char **Argv, const char *Name,
-               const std::function<std::string(std::uint64_t Seed)> &Case);
+               const std::function<std::string(uint64_t Seed)> &Case);
 
 } // namespace vorion::test

@@ -1,6 +1,6 @@
 /// A libFuzzer program; VORION_FUZZ_TARGET is one of Targets.h.
 
-#include "fuzz/Targets.h"
+#include "accuracy/fuzz/Targets.h"
 
 #include <cstdint>
 #include <span>

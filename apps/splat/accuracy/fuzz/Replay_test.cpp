@@ -1,6 +1,6 @@
 // The fuzzers' targets on their seeds and on damaged ones: what a fuzzing run
 // starts with, in every test run.
-#include "fuzz/Targets.h"
+#include "accuracy/fuzz/Targets.h"
 
 #include <gtest/gtest.h>
 #include <random>

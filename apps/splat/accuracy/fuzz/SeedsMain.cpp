@@ -1,8 +1,8 @@
 /// Writes the fuzzers' first inputs: splat-kept-seeds FOLDER makes
 /// FOLDER/checkpoint, FOLDER/sweep and FOLDER/trainsweep.
 
-#include "../../io/testing/WriteSample.h"
-#include "fuzz/Targets.h"
+#include "accuracy/fuzz/Targets.h"
+#include "io/testing/WriteSample.h"
 #include "vorion/support/Diagnostics.h"
 
 using namespace vorion;

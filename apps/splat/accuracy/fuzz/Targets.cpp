@@ -1,9 +1,9 @@
-#include "fuzz/Targets.h"
+#include "accuracy/fuzz/Targets.h"
 
-#include "Page.h"
-#include "Reference.h"
-#include "Sweep.h"
-#include "TrainSweep.h"
+#include "accuracy/Page.h"
+#include "accuracy/Reference.h"
+#include "accuracy/Sweep.h"
+#include "accuracy/TrainSweep.h"
 
 #include "io/Hash.h"
 #include "train/Checkpoint.h"

@@ -1,9 +1,9 @@
-#include "fuzz/Targets.h"
+#include "capture/fuzz/Targets.h"
 
-#include "CaptureWriters.h"
-#include "Colmap.h"
-#include "Photo.h"
-#include "Transforms.h"
+#include "capture/Colmap.h"
+#include "capture/Photo.h"
+#include "capture/Transforms.h"
+#include "capture/testing/CaptureWriters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +69,7 @@ void readColmap(Bytes Input) {
     if (Input.size() < 2)
       return;
     const std::size_t Length =
-        std::min<std::size_t>(load<std::uint16_t>(Input, 0), Input.size() - 2);
+        std::min<std::size_t>(load<uint16_t>(Input, 0), Input.size() - 2);
     Part = Input.subspan(2, Length);
     Input = Input.subspan(2 + Length);
   }

@@ -2,7 +2,7 @@
 /// something whole or an error of one line; otherwise the program aborts.
 #pragma once
 
-#include "Bytes.h"
+#include "io/Bytes.h"
 
 #include <string>
 #include <utility>

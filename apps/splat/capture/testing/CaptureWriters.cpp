@@ -1,4 +1,4 @@
-#include "CaptureWriters.h"
+#include "capture/testing/CaptureWriters.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -15,17 +15,17 @@ template <typename T> void put(std::string &Out, T Value) {
   Out.append(reinterpret_cast<const char *>(&Value), sizeof(Value));
 }
 
-void putBig(std::string &Out, std::uint32_t Value) {
+void putBig(std::string &Out, uint32_t Value) {
   for (const int Shift : {24, 16, 8, 0})
     Out += static_cast<char>(Value >> Shift & 0xFF);
 }
 
 void putChunk(std::string &Out, const std::string &Kind,
               const std::string &Content) {
-  putBig(Out, static_cast<std::uint32_t>(Content.size()));
+  putBig(Out, static_cast<uint32_t>(Content.size()));
   const std::string Checked = Kind + Content;
   Out += Checked;
-  putBig(Out, static_cast<std::uint32_t>(
+  putBig(Out, static_cast<uint32_t>(
                   crc32(0, reinterpret_cast<const Bytef *>(Checked.data()),
                         static_cast<uInt>(Checked.size()))));
 }
@@ -62,8 +62,8 @@ Json matrixOf(const SampleCapture::View &V) {
 
 std::string pngOf(int Width, int Height, const std::string &Rgba) {
   std::string Header, Rows;
-  putBig(Header, static_cast<std::uint32_t>(Width));
-  putBig(Header, static_cast<std::uint32_t>(Height));
+  putBig(Header, static_cast<uint32_t>(Width));
+  putBig(Header, static_cast<uint32_t>(Height));
   Header += {'\x08', '\x06', '\0', '\0', '\0'};
   const auto Row = static_cast<std::size_t>(Width) * 4;
   for (int Y = 0; Y < Height; ++Y) {
@@ -107,44 +107,44 @@ SampleCapture sampleCapture(std::size_t Views) {
                        {0, 0, 3}});
   }
   for (int I = 0; I < 12; ++I)
-    C.Points.push_back({{0.25 * I, 0.125 * (I % 5), -0.5 * (I % 3)},
-                        {static_cast<std::uint8_t>(I),
-                         static_cast<std::uint8_t>(20 * I), 255}});
+    C.Points.push_back(
+        {{0.25 * I, 0.125 * (I % 5), -0.5 * (I % 3)},
+         {static_cast<uint8_t>(I), static_cast<uint8_t>(20 * I), 255}});
   return C;
 }
 
 Folder colmapBinaryOf(const SampleCapture &C) {
   std::string Cameras, Images, Points;
-  put<std::uint64_t>(Cameras, 1);
-  put<std::int32_t>(Cameras, 7);
-  put<std::int32_t>(Cameras, 1);
-  put<std::uint64_t>(Cameras, static_cast<std::uint64_t>(C.Width));
-  put<std::uint64_t>(Cameras, static_cast<std::uint64_t>(C.Height));
+  put<uint64_t>(Cameras, 1);
+  put<int32_t>(Cameras, 7);
+  put<int32_t>(Cameras, 1);
+  put<uint64_t>(Cameras, static_cast<uint64_t>(C.Width));
+  put<uint64_t>(Cameras, static_cast<uint64_t>(C.Height));
   for (const double V : {C.Fx, C.Fy, C.Cx, C.Cy})
     put(Cameras, V);
-  put<std::uint64_t>(Images, C.Views.size());
+  put<uint64_t>(Images, C.Views.size());
   for (const auto &V : C.Views) {
-    put<std::int32_t>(Images, 1);
+    put<int32_t>(Images, 1);
     for (const double Q : V.Quaternion)
       put(Images, Q);
     for (const double T : V.Translation)
       put(Images, T);
-    put<std::int32_t>(Images, 7);
+    put<int32_t>(Images, 7);
     Images += V.Name + '\0';
-    put<std::uint64_t>(Images, 2);
+    put<uint64_t>(Images, 2);
     for (int I = 0; I < 6; ++I)
-      put<std::uint64_t>(Images, 99);
+      put<uint64_t>(Images, 99);
   }
-  put<std::uint64_t>(Points, C.Points.size());
+  put<uint64_t>(Points, C.Points.size());
   for (const auto &P : C.Points) {
-    put<std::uint64_t>(Points, 5);
+    put<uint64_t>(Points, 5);
     for (const double X : P.Position)
       put(Points, X);
-    for (const std::uint8_t B : P.Colour)
+    for (const uint8_t B : P.Colour)
       put(Points, B);
     put(Points, 0.5);
-    put<std::uint64_t>(Points, 1);
-    put<std::uint64_t>(Points, 3);
+    put<uint64_t>(Points, 1);
+    put<uint64_t>(Points, 3);
   }
   Folder F{{"sparse/0/cameras.bin", Cameras},
            {"sparse/0/images.bin", Images},
@@ -201,7 +201,7 @@ std::string pointCloudOf(const SampleCapture &C) {
   for (const auto &P : C.Points) {
     for (const double X : P.Position)
       put(Ply, static_cast<float>(X));
-    for (const std::uint8_t B : P.Colour)
+    for (const uint8_t B : P.Colour)
       put(Ply, B);
   }
   return Ply;

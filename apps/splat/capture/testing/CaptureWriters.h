@@ -2,7 +2,7 @@
 /// readers.
 #pragma once
 
-#include "SceneWriters.h"
+#include "scene/testing/SceneWriters.h"
 
 #include <array>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct SampleCapture {
   };
   struct Point {
     std::array<double, 3> Position{};
-    std::array<std::uint8_t, 3> Colour{};
+    std::array<uint8_t, 3> Colour{};
   };
   int Width = 8, Height = 6;
   double Fx = 10, Fy = 11, Cx = 4.25, Cy = 3;

@@ -1,14 +1,14 @@
 // splat-reader-work: has every reader read something of one size and of ten
 // times the size, each in a readOnce() of its own number.
 // test/render/Inputs/linear.py counts the instructions of these.
-#include "../../scene/testing/SceneWriters.h"
-#include "CaptureWriters.h"
-#include "Colmap.h"
-#include "Npz.h"
-#include "Transforms.h"
-#include "formats/Formats.h"
-#include "formats/Ply.h"
-#include "formats/SogFolder.h"
+#include "capture/Colmap.h"
+#include "capture/Transforms.h"
+#include "capture/testing/CaptureWriters.h"
+#include "io/Npz.h"
+#include "scene/formats/Formats.h"
+#include "scene/formats/Ply.h"
+#include "scene/formats/SogFolder.h"
+#include "scene/testing/SceneWriters.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/TemporaryFolder.h"
 
@@ -182,7 +182,7 @@ Reading npyAxes(std::size_t Size) {
     Header += "1,";
   Header += fmt::format("{}), }}\n", Size);
   std::string File("\x93NUMPY\2\0", 8);
-  const auto Length = static_cast<std::uint32_t>(Header.size());
+  const auto Length = static_cast<uint32_t>(Header.size());
   File.append(reinterpret_cast<const char *>(&Length), sizeof(Length));
   File += Header + std::string(Size, '\1');
   const Bytes B = bytesOf(File);

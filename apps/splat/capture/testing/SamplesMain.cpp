@@ -1,8 +1,8 @@
 // splat-capture-samples: writes a small capture of every format, and the same
 // as seeds of the fuzzers.
-#include "../../io/testing/WriteSample.h"
-#include "CaptureWriters.h"
-#include "fuzz/Targets.h"
+#include "capture/fuzz/Targets.h"
+#include "capture/testing/CaptureWriters.h"
+#include "io/testing/WriteSample.h"
 #include "vorion/support/Diagnostics.h"
 
 #include <filesystem>

@@ -7,10 +7,10 @@
 // rotations have 10 bits for each of the three components that are not the
 // largest, opacity 8, harmonics 8 for -4 to 4. Older files have no bounds of
 // the colour, which then goes from 0 to 1.
-#include "Dequantize.h"
-#include "Formats.h"
-#include "Ply.h"
-#include "PlyHeader.h"
+#include "io/PlyHeader.h"
+#include "scene/formats/Dequantize.h"
+#include "scene/formats/Formats.h"
+#include "scene/formats/Ply.h"
 
 #include <array>
 #include <fmt/format.h>
@@ -52,13 +52,13 @@ Expected<Bounds> boundsOf(const std::string &Where, const PlyElement &Chunk,
 }
 
 /// Three numbers from 0 to 1 of 11, 10 and 11 bits, from the top.
-std::array<double, 3> unpack111011(std::uint32_t Word) {
+std::array<double, 3> unpack111011(uint32_t Word) {
   return {unorm(Word >> 21, 11), unorm(Word >> 11, 10), unorm(Word, 11)};
 }
 
 /// Two bits for the component that is missing, then the others in order,
 /// 10 bits each for -1/sqrt(2) to 1/sqrt(2).
-std::array<double, 4> unpackQuat(std::uint32_t Word) {
+std::array<double, 4> unpackQuat(uint32_t Word) {
   std::array<double, 3> Others{};
   for (int I = 0; I < 3; ++I)
     Others[static_cast<std::size_t>(I)] =
@@ -167,10 +167,10 @@ Expected<SceneFile> parseCompressedPly(const std::string &Where, Bytes File,
         File.subspan(Vertex->Start + I * Vertex->Stride, Vertex->Stride);
     const Bytes Box = File.subspan(Chunk->Start + I / ChunkSize * Chunk->Stride,
                                    Chunk->Stride);
-    const auto Position = unpack111011(load<std::uint32_t>(Row, (*Words)[0]));
-    const auto Quat = unpackQuat(load<std::uint32_t>(Row, (*Words)[1]));
-    const auto Scale = unpack111011(load<std::uint32_t>(Row, (*Words)[2]));
-    const auto Color = load<std::uint32_t>(Row, (*Words)[3]);
+    const auto Position = unpack111011(load<uint32_t>(Row, (*Words)[0]));
+    const auto Quat = unpackQuat(load<uint32_t>(Row, (*Words)[1]));
+    const auto Scale = unpack111011(load<uint32_t>(Row, (*Words)[2]));
+    const auto Color = load<uint32_t>(Row, (*Words)[3]);
     for (std::size_t A = 0; A < 3; ++A) {
       S.Means[3 * I + A] =
           static_cast<float>(Positions->at(Box, A, Position[A]));

@@ -1,6 +1,6 @@
-#include "Compare.h"
-#include "SceneFile.h"
-#include "SceneWriters.h"
+#include "scene/SceneFile.h"
+#include "scene/testing/Compare.h"
+#include "scene/testing/SceneWriters.h"
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -46,11 +46,11 @@ TEST(CompressedPly, WordsAreSplitFromTheTop) {
   // Bounds 0 to 2047, 0 to 1023, 0 to 2047, so that steps are whole numbers.
   const float Bounds[12] = {0, 0, 0, 2047, 1023, 2047,
                             0, 0, 0, 2047, 1023, 2047};
-  const std::uint32_t Words[4] = {1U << 21 | 2U << 11 | 3U, // position
-                                  2U << 30 | 1023U << 20 | 511U << 10 |
-                                      0, // rotation: y is missing
-                                  2047U << 21 | 1023U << 11 | 2046U, // scale
-                                  0xFF0080FFU}; // colour and opacity
+  const uint32_t Words[4] = {1U << 21 | 2U << 11 | 3U, // position
+                             2U << 30 | 1023U << 20 | 511U << 10 |
+                                 0, // rotation: y is missing
+                             2047U << 21 | 1023U << 11 | 2046U, // scale
+                             0xFF0080FFU}; // colour and opacity
   std::memcpy(File.data() + Body, Bounds, sizeof(Bounds));
   std::memcpy(File.data() + Body + sizeof(Bounds), Words, sizeof(Words));
   const Scene Read = parsed(File);

@@ -2,8 +2,8 @@
 /// double and rounded once.
 #pragma once
 
-#include "Activation.h"
-#include "Scene.h"
+#include "scene/Activation.h"
+#include "scene/Scene.h"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 namespace vorion::splat {
 
 /// The low \p Bits of \p Value as a number from 0 to 1.
-inline double unorm(std::uint32_t Value, int Bits) {
-  const std::uint32_t Largest = (std::uint32_t(1) << Bits) - 1;
+inline double unorm(uint32_t Value, int Bits) {
+  const uint32_t Largest = (uint32_t(1) << Bits) - 1;
   return static_cast<double>(Value & Largest) / Largest;
 }
 

@@ -9,7 +9,7 @@
 /// What a format keeps and what is refused is in its source file.
 #pragma once
 
-#include "SceneFile.h"
+#include "scene/SceneFile.h"
 
 namespace vorion::splat {
 
@@ -18,7 +18,7 @@ namespace vorion::splat {
   Expected<SceneFile> parse##ID(const std::string &Where, Bytes File,          \
                                 const ReadOptions &Options);
 #define SCENE_FOLDER(ID, NAME, AXES, ENDING, TITLE)
-#include "Formats.def"
+#include "scene/formats/Formats.def"
 #undef SCENE_FORMAT
 #undef SCENE_FOLDER
 

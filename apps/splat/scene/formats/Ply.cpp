@@ -6,11 +6,11 @@
 // scalar properties (nx, ny, nz) are skipped. Refused, each with its reason:
 // other encodings, missing, repeated or list properties, a file shorter or
 // longer than the header says, values that are not finite, no vertex at all.
-#include "Ply.h"
+#include "scene/formats/Ply.h"
 
-#include "Formats.h"
-#include "PlyHeader.h"
-#include "Unsupported.h"
+#include "io/PlyHeader.h"
+#include "io/Unsupported.h"
+#include "scene/formats/Formats.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>

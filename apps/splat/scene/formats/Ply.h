@@ -1,8 +1,8 @@
 /// Writing INRIA's PLY.
 #pragma once
 
-#include "Drawing.h"
-#include "Scene.h"
+#include "scene/Drawing.h"
+#include "scene/Scene.h"
 #include "vorion/support/Expected.h"
 
 #include <string>

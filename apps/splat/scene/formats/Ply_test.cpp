@@ -1,7 +1,7 @@
-#include "Ply.h"
-#include "SceneFile.h"
-#include "SceneWriters.h"
-#include "TestFiles.h"
+#include "io/TestFiles.h"
+#include "scene/SceneFile.h"
+#include "scene/formats/Ply.h"
+#include "scene/testing/SceneWriters.h"
 
 #include <cstring>
 

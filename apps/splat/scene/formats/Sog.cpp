@@ -1,9 +1,9 @@
-#include "Sog.h"
+#include "scene/formats/Sog.h"
 
-#include "Dequantize.h"
-#include "Formats.h"
-#include "WebP.h"
-#include "Zip.h"
+#include "io/WebP.h"
+#include "io/Zip.h"
+#include "scene/formats/Dequantize.h"
+#include "scene/formats/Formats.h"
 #include "vorion/support/Json.h"
 
 #include <array>
@@ -45,7 +45,7 @@ public:
     const auto Claimed = Root.find("count");
     if (Claimed == Root.end() || !Claimed->is_number_unsigned())
       return metaError("count is no whole number, expected 1 or more");
-    Count = Claimed->get<std::uint64_t>();
+    Count = Claimed->get<uint64_t>();
     auto DrawnAs = drawing();
     if (!DrawnAs)
       return DrawnAs.error();
@@ -250,8 +250,8 @@ private:
   Palette palette() {
     Palette P;
     const Json &Bands = value("shN", "bands"), &Entries = value("shN", "count");
-    if (!Bands.is_number_unsigned() || Bands.get<std::uint64_t>() < 1 ||
-        Bands.get<std::uint64_t>() > static_cast<unsigned>(MaxShDegree)) {
+    if (!Bands.is_number_unsigned() || Bands.get<uint64_t>() < 1 ||
+        Bands.get<uint64_t>() > static_cast<unsigned>(MaxShDegree)) {
       fail(metaError("shN.bands: expected 1, 2 or 3"));
       return P;
     }
@@ -260,7 +260,7 @@ private:
       fail(metaError("shN.count is no whole number, expected 1 or more"));
       return P;
     }
-    P.Entries = Entries.get<std::uint64_t>();
+    P.Entries = Entries.get<uint64_t>();
     P.Book = numbers("shN", "codebook", CodebookSize);
     const std::size_t Later = shCoefficients(P.Degree) - 1;
     const std::size_t Width = PaletteRow * Later;

@@ -2,7 +2,7 @@
 /// https://developer.playcanvas.com/user-manual/gaussian-splatting/formats/sog
 #pragma once
 
-#include "SceneFile.h"
+#include "scene/SceneFile.h"
 
 #include <functional>
 #include <vector>

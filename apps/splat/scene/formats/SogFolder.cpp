@@ -1,6 +1,6 @@
-#include "SogFolder.h"
+#include "scene/formats/SogFolder.h"
 
-#include "Inside.h"
+#include "io/Inside.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
@@ -150,7 +150,7 @@ Expected<SceneFile> readChunks(const std::string &Path,
 
 /// Gaussians \p Offset to \p Offset + \p Count of a chunk.
 struct Run {
-  std::uint64_t Offset = 0, Count = 0;
+  uint64_t Offset = 0, Count = 0;
 };
 
 /// The runs of one level of detail, by chunk, from the tree of an index. The
@@ -182,12 +182,11 @@ public:
   std::map<std::size_t, std::vector<Run>> Runs;
 
 private:
-  static std::optional<std::uint64_t> number(const Json &Leaf,
-                                             const char *Key) {
+  static std::optional<uint64_t> number(const Json &Leaf, const char *Key) {
     const auto V = Leaf.find(Key);
     if (V == Leaf.end() || !V->is_number_unsigned())
       return std::nullopt;
-    return V->get<std::uint64_t>();
+    return V->get<uint64_t>();
   }
 
   std::optional<std::string> leaf(const Json &Lods) {
@@ -218,8 +217,8 @@ Expected<Success> addRuns(Joiner &J, const std::string &Where,
                           const SceneFile &Part, std::vector<Run> Runs) {
   std::sort(Runs.begin(), Runs.end(),
             [](const Run &A, const Run &B) { return A.Offset < B.Offset; });
-  const std::uint64_t Size = Part.Gaussians.size();
-  std::uint64_t End = 0;
+  const uint64_t Size = Part.Gaussians.size();
+  uint64_t End = 0;
   for (const Run &R : Runs) {
     if (R.Offset < End || R.Offset > Size || R.Count > Size - R.Offset)
       return Error{Where, fmt::format("Gaussians {} to {} + {} of {} are "
@@ -248,8 +247,7 @@ Expected<Success> checkIndex(const std::string &Where, const Json &Index,
   if (*Levels <= Options.LevelOfDetail)
     return Error{Where,
                  fmt::format("no level of detail {}, expected less than {}",
-                             Options.LevelOfDetail,
-                             Levels->get<std::uint64_t>()),
+                             Options.LevelOfDetail, Levels->get<uint64_t>()),
                  ExitCode::Usage};
   const auto Files = Index.find("filenames");
   if (Files == Index.end() || !Files->is_array() ||

@@ -2,7 +2,7 @@
 /// https://developer.playcanvas.com/user-manual/gaussian-splatting/formats/streamed-sog
 #pragma once
 
-#include "Sog.h"
+#include "scene/formats/Sog.h"
 
 namespace vorion::splat {
 

@@ -1,7 +1,7 @@
-#include "Compare.h"
-#include "Damage.h"
-#include "SogFolder.h"
-#include "TestFiles.h"
+#include "io/TestFiles.h"
+#include "scene/formats/SogFolder.h"
+#include "scene/testing/Compare.h"
+#include "scene/testing/Damage.h"
 
 #include <functional>
 #include <nlohmann/json.hpp>

@@ -7,8 +7,8 @@
 // know it, so positions and scales beyond 1e9 and negative scales, which no
 // scene has but text and other files soon do, are errors. A scale of zero
 // becomes the smallest normal float, whose logarithm is finite.
-#include "Dequantize.h"
-#include "Formats.h"
+#include "scene/formats/Dequantize.h"
+#include "scene/formats/Formats.h"
 
 #include <cmath>
 #include <fmt/format.h>

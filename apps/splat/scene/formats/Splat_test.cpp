@@ -1,6 +1,6 @@
-#include "Compare.h"
-#include "SceneFile.h"
-#include "SceneWriters.h"
+#include "scene/SceneFile.h"
+#include "scene/testing/Compare.h"
+#include "scene/testing/SceneWriters.h"
 
 using namespace vorion;
 using namespace vorion::splat;

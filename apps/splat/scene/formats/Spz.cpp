@@ -6,9 +6,9 @@
 // log scales in sixteenths, rotations (version 2: 8 bits for each of x, y, z;
 // version 3: the three smallest components, 10 bits each), harmonics of 8
 // bits. Refused: versions 1 and 4, degree 4, extensions.
-#include "Dequantize.h"
-#include "Formats.h"
-#include "Gzip.h"
+#include "io/Gzip.h"
+#include "scene/formats/Dequantize.h"
+#include "scene/formats/Formats.h"
 
 #include <array>
 #include <cmath>
@@ -19,7 +19,7 @@
 namespace vorion::splat {
 namespace {
 
-constexpr std::uint32_t Magic = 0x5053474e; // "NGSP"
+constexpr uint32_t Magic = 0x5053474e; // "NGSP"
 constexpr std::size_t HeaderSize = 16;
 constexpr unsigned AntialiasedFlag = 1;
 /// Steps of a colour byte for each unit of the constant coefficient: wider
@@ -48,16 +48,16 @@ struct Header {
 
 /// Of the first bytes of \p File, whatever follows them.
 Expected<Header> readHeader(const std::string &Where, Bytes File) {
-  if (File.size() < HeaderSize || load<std::uint32_t>(File, 0) != Magic)
+  if (File.size() < HeaderSize || load<uint32_t>(File, 0) != Magic)
     return Error{Where, "not an SPZ file, expected `NGSP` and a header of 16 "
                         "bytes"};
-  const auto Version = load<std::uint32_t>(File, 4);
+  const auto Version = load<uint32_t>(File, 4);
   if (Version != 2 && Version != 3)
     return Error{Where,
                  fmt::format("SPZ version {}, expected 2 or 3", Version)};
   Header H;
   H.Version = static_cast<int>(Version);
-  H.Count = load<std::uint32_t>(File, 8);
+  H.Count = load<uint32_t>(File, 8);
   H.ShDegree = static_cast<int>(byteAt(File, 12));
   H.FractionalBits = static_cast<int>(byteAt(File, 13));
   const unsigned Flags = byteAt(File, 14);
@@ -84,10 +84,10 @@ Error wrongSize(const std::string &Where, const Header &H, std::size_t Body) {
 }
 
 /// A little-endian signed number of 24 bits.
-std::int32_t signed24(Bytes B, std::size_t At) {
-  const std::uint32_t Word =
+int32_t signed24(Bytes B, std::size_t At) {
+  const uint32_t Word =
       byteAt(B, At) | byteAt(B, At + 1) << 8 | byteAt(B, At + 2) << 16;
-  return static_cast<std::int32_t>(Word ^ 0x800000) - 0x800000;
+  return static_cast<int32_t>(Word ^ 0x800000) - 0x800000;
 }
 
 /// x, y, z from a byte each; w is the positive root. Gives w, x, y, z.
@@ -100,10 +100,10 @@ std::array<double, 4> unpackQuat2(Bytes B, std::size_t At) {
 /// Two bits for which of x, y, z, w is missing, then the others in that order:
 /// a sign and nine bits of magnitude up to 1/sqrt(2). Gives w, x, y, z.
 std::array<double, 4> unpackQuat3(Bytes B, std::size_t At) {
-  const auto Word = load<std::uint32_t>(B, At);
+  const auto Word = load<uint32_t>(B, At);
   std::array<double, 3> Others{};
   for (int I = 0; I < 3; ++I) {
-    const std::uint32_t Field = Word >> (20 - 10 * I);
+    const uint32_t Field = Word >> (20 - 10 * I);
     const double Magnitude = unorm(Field, 9) / std::numbers::sqrt2;
     Others[static_cast<std::size_t>(I)] =
         (Field & 0x200) != 0 ? -Magnitude : Magnitude;

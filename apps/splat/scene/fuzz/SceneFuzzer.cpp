@@ -1,13 +1,12 @@
 // Whatever the bytes are, a reader gives a whole scene or one message.
-#include "formats/Formats.h"
+#include "scene/formats/Formats.h"
 
 #include <cstdint>
 #include <cstdlib>
 
 using namespace vorion::splat;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *Data,
-                                      std::size_t Size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *Data, std::size_t Size) {
   const auto Read = FUZZ_PARSE(
       "input", {reinterpret_cast<const std::byte *>(Data), Size}, {});
   if (!Read) {

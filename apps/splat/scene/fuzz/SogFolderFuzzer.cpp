@@ -1,6 +1,6 @@
 // Data sets and indices of streamed scenes in memory: the bytes are a file
 // after another, each after its name's and its own length.
-#include "formats/SogFolder.h"
+#include "scene/formats/SogFolder.h"
 
 #include <cstdint>
 #include <cstdlib>
@@ -9,8 +9,7 @@
 using namespace vorion;
 using namespace vorion::splat;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *Data,
-                                      std::size_t Size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *Data, std::size_t Size) {
   Bytes Rest(reinterpret_cast<const std::byte *>(Data), Size);
   std::map<std::string, Bytes> Files;
   while (Rest.size() >= 4) {

@@ -2,8 +2,8 @@
 /// from the format.
 #pragma once
 
-#include "Activation.h"
-#include "Scene.h"
+#include "scene/Activation.h"
+#include "scene/Scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "Damage.h"
+#include "scene/testing/Damage.h"
 
-#include "formats/Ply.h"
+#include "scene/formats/Ply.h"
 
 #include <cassert>
 #include <cstdint>
@@ -126,24 +126,23 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
                        const char *Message) {
     Out.push_back({Name, gzipOf(Content), Message});
   };
-  Add("magic.spz", patched(Body, 0, std::uint8_t('X')), "not an SPZ file");
-  Add("version1.spz", patched(Body, 4, std::uint32_t(1)), "SPZ version 1");
-  Add("version4.spz", patched(Body, 4, std::uint32_t(4)),
+  Add("magic.spz", patched(Body, 0, uint8_t('X')), "not an SPZ file");
+  Add("version1.spz", patched(Body, 4, uint32_t(1)), "SPZ version 1");
+  Add("version4.spz", patched(Body, 4, uint32_t(4)),
       "SPZ version 4, expected 2 or 3");
-  Add("huge-count.spz", patched(Body, 8, std::uint32_t(-1)),
+  Add("huge-count.spz", patched(Body, 8, uint32_t(-1)),
       "expected 4294967295 Gaussians");
-  Add("degree.spz", patched(Body, 12, std::uint8_t(4)), "SH degree 4");
-  Add("fraction.spz", patched(Body, 13, std::uint8_t(25)),
-      "25 fractional bits");
-  Add("extensions.spz", patched(Body, 14, std::uint8_t(2)), "flags 0x02");
-  Add("reserved.spz", patched(Body, 15, std::uint8_t(1)), "reserved byte 0x01");
+  Add("degree.spz", patched(Body, 12, uint8_t(4)), "SH degree 4");
+  Add("fraction.spz", patched(Body, 13, uint8_t(25)), "25 fractional bits");
+  Add("extensions.spz", patched(Body, 14, uint8_t(2)), "flags 0x02");
+  Add("reserved.spz", patched(Body, 15, uint8_t(1)), "reserved byte 0x01");
   Add("short-body.spz", cut(Body, 1), "expected 5 Gaussians of 29 bytes");
   Add("no-header.spz", Body.substr(0, 15), "not an SPZ file");
-  Add("empty-scene.spz", patched(Body.substr(0, 16), 8, std::uint32_t(0)),
+  Add("empty-scene.spz", patched(Body.substr(0, 16), 8, uint32_t(0)),
       "no Gaussian");
   Out.push_back({"short.spz", cut(Spz, 9), "damaged gzip stream"});
-  Out.push_back({"checksum.spz", patched(Spz, -8, std::uint32_t(0)),
-                 "damaged gzip stream"});
+  Out.push_back(
+      {"checksum.spz", patched(Spz, -8, uint32_t(0)), "damaged gzip stream"});
   Out.push_back({"long.spz", Spz + "x", "1 bytes after the gzip stream"});
 }
 
@@ -170,7 +169,7 @@ std::vector<DamagedFolder> sogDamage() {
   Meta("count-text", "count is no whole number",
        [](Json &M) { M["count"] = "5"; });
   Meta("count-huge", "expected one for each of 18446744073709551615",
-       [](Json &M) { M["count"] = std::uint64_t(-1); });
+       [](Json &M) { M["count"] = uint64_t(-1); });
   Meta("count-zero", "no Gaussian", [](Json &M) { M["count"] = 0; });
   Meta("no-means", "means.files: expected the name",
        [](Json &M) { M.erase("means"); });
@@ -184,9 +183,8 @@ std::vector<DamagedFolder> sogDamage() {
     for (Json &V : M["scales"]["codebook"])
       V = 1e200;
   });
-  Meta("means-huge", "holds a NaN or an infinity", [](Json &M) {
-    M["means"]["maxs"] = {1e9, 1e9, 1e9};
-  });
+  Meta("means-huge", "holds a NaN or an infinity",
+       [](Json &M) { M["means"]["maxs"] = {1e9, 1e9, 1e9}; });
   Meta("bands", "shN.bands: expected 1, 2 or 3",
        [](Json &M) { M["shN"]["bands"] = 4; });
   Meta("other-bands", "palette entries of degree 2",
@@ -315,7 +313,7 @@ std::vector<DamagedFolder> damagedFolders() {
   Index("tree-overlap", "expected runs apart",
         [](Json &J) { J["tree"]["children"][0]["lods"]["0"]["offset"] = 0; });
   Index("tree-long", "expected runs apart", [](Json &J) {
-    J["tree"]["children"][0]["lods"]["0"]["count"] = std::uint64_t(-1);
+    J["tree"]["children"][0]["lods"]["0"]["count"] = uint64_t(-1);
   });
   F = Streamed;
   F.erase("lod-meta.json");

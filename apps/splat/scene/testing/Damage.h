@@ -2,7 +2,7 @@
 /// command-line tests and as the fuzzers' seeds.
 #pragma once
 
-#include "SceneWriters.h"
+#include "scene/testing/SceneWriters.h"
 
 #include <string>
 #include <vector>

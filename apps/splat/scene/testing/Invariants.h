@@ -1,7 +1,7 @@
 /// What every scene that a reader gives fulfils.
 #pragma once
 
-#include "SceneFile.h"
+#include "scene/SceneFile.h"
 
 namespace vorion::splat::testing {
 

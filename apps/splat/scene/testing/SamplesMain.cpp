@@ -1,6 +1,6 @@
 // splat-scene-samples: writes small scenes of every format and damaged copies.
-#include "../../io/testing/WriteSample.h"
-#include "Damage.h"
+#include "io/testing/WriteSample.h"
+#include "scene/testing/Damage.h"
 #include "vorion/support/Diagnostics.h"
 
 #include <filesystem>

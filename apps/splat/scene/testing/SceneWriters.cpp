@@ -1,6 +1,6 @@
-#include "SceneWriters.h"
+#include "scene/testing/SceneWriters.h"
 
-#include "Zip.h"
+#include "io/Zip.h"
 
 #include <algorithm>
 #include <array>
@@ -25,17 +25,16 @@ template <typename T> void put(std::string &Out, T Value) {
 }
 
 void putByte(std::string &Out, double Value) {
-  Out += static_cast<char>(
-      static_cast<std::uint8_t>(std::clamp(Value, 0.0, 255.0)));
+  Out += static_cast<char>(static_cast<uint8_t>(std::clamp(Value, 0.0, 255.0)));
 }
 
 double sigmoid(double X) { return 1 / (1 + std::exp(-X)); }
 
 /// Rounded steps of \p Bits bits for \p Value from \p Low to \p High.
-std::uint32_t steps(double Value, double Low, double High, int Bits) {
+uint32_t steps(double Value, double Low, double High, int Bits) {
   const double Largest = std::ldexp(1.0, Bits) - 1;
   const double T = High - Low < 1e-5 ? 0 : (Value - Low) / (High - Low);
-  return static_cast<std::uint32_t>(
+  return static_cast<uint32_t>(
       std::clamp(std::floor(T * Largest + 0.5), 0.0, Largest));
 }
 
@@ -183,7 +182,7 @@ std::string compressedPlyOf(const Scene &S, bool ColorBounds) {
                      Bounds[Kind][A].High, Bits);
       };
       const Quat Q(S, I, Wxyz);
-      auto Rotation = static_cast<std::uint32_t>(Q.Largest);
+      auto Rotation = static_cast<uint32_t>(Q.Largest);
       Q.others([&](double V) {
         Rotation =
             Rotation << 10 | steps(V, -std::sqrt(0.5), std::sqrt(0.5), 10);
@@ -225,15 +224,15 @@ std::string splatOf(const Scene &S) {
 
 std::string spzBodyOf(const Scene &S, int Version) {
   std::string Out;
-  put(Out, std::uint32_t(0x5053474e));
-  put(Out, static_cast<std::uint32_t>(Version));
-  put(Out, static_cast<std::uint32_t>(S.size()));
+  put(Out, uint32_t(0x5053474e));
+  put(Out, static_cast<uint32_t>(Version));
+  put(Out, static_cast<uint32_t>(S.size()));
   constexpr int FractionalBits = 12;
   for (const int Byte : {S.ShDegree, FractionalBits, 0, 0})
     putByte(Out, Byte);
   for (const float V : S.Means) {
     const auto Fixed =
-        static_cast<std::int32_t>(std::lround(std::ldexp(V, FractionalBits)));
+        static_cast<int32_t>(std::lround(std::ldexp(V, FractionalBits)));
     for (const int Shift : {0, 8, 16})
       Out += static_cast<char>(Fixed >> Shift & 0xFF);
   }
@@ -253,10 +252,10 @@ std::string spzBodyOf(const Scene &S, int Version) {
       continue;
     }
     const Quat Q(S, I, Xyzw);
-    auto Word = static_cast<std::uint32_t>(Q.Largest);
+    auto Word = static_cast<uint32_t>(Q.Largest);
     Q.others([&](double V) {
       Word = Word << 10 | (V < 0 ? 0x200U : 0U) |
-             static_cast<std::uint32_t>(
+             static_cast<uint32_t>(
                  std::floor(511 * std::abs(V) / std::sqrt(0.5) + 0.5));
     });
     put(Out, Word);
@@ -308,9 +307,9 @@ std::string webpOf(int Width, int Height, const std::string &Rgba) {
   Picture.writer = WebPMemoryWrite;
   Picture.custom_ptr = &Writer;
   Ok = Ok &&
-       WebPPictureImportRGBA(
-           &Picture, reinterpret_cast<const std::uint8_t *>(Rgba.data()),
-           4 * Width) != 0 &&
+       WebPPictureImportRGBA(&Picture,
+                             reinterpret_cast<const uint8_t *>(Rgba.data()),
+                             4 * Width) != 0 &&
        WebPEncode(&Config, &Picture) != 0;
   assert(Ok);
   std::string Out(reinterpret_cast<const char *>(Writer.mem), Writer.size);

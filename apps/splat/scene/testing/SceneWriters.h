@@ -2,7 +2,7 @@
 /// that the format documents, written apart from the readers.
 #pragma once
 
-#include "Scene.h"
+#include "scene/Scene.h"
 
 #include <map>
 #include <string>

@@ -13,14 +13,14 @@
 namespace vorion {
 
 /// What is read at most of a device or a pipe, which does not say its size.
-inline constexpr std::uint64_t StreamLimit = std::uint64_t{1} << 30;
+inline constexpr uint64_t StreamLimit = uint64_t{1} << 30;
 
 /// Reads all of \p Path, of \p Most bytes at most. A regular file says how many
 /// it has, and one that the machine's memory cannot hold is an error before
 /// memory is taken. Of devices and pipes, StreamLimit bytes are read at most.
 /// Directories and unreadable files are errors.
 Expected<std::vector<std::byte>> readFile(const std::string &Path,
-                                          std::uint64_t Most = UINT64_MAX);
+                                          uint64_t Most = UINT64_MAX);
 
 /// The path that means standard output to whatever writes a file.
 inline constexpr std::string_view StandardOutput = "-";

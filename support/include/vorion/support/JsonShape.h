@@ -23,13 +23,11 @@ public:
   /// A number, whole or not.
   static JsonShape number();
   /// A whole number from \p Least to \p Most.
-  static JsonShape
-  whole(std::uint64_t Least = 0,
-        std::uint64_t Most = std::numeric_limits<std::uint64_t>::max());
+  static JsonShape whole(uint64_t Least = 0,
+                         uint64_t Most = std::numeric_limits<uint64_t>::max());
   /// \p Least to \p Most values of the shape \p Of.
-  static JsonShape
-  list(JsonShape Of, std::uint64_t Least = 0,
-       std::uint64_t Most = std::numeric_limits<std::uint64_t>::max());
+  static JsonShape list(JsonShape Of, uint64_t Least = 0,
+                        uint64_t Most = std::numeric_limits<uint64_t>::max());
   /// An object with \p Fields and, unless closed(), others.
   static JsonShape object(std::vector<JsonField> Fields);
 
@@ -58,8 +56,8 @@ private:
   Type What;
   bool MayBeNull = false;
   bool IsClosed = false;
-  std::uint64_t Least = 0;
-  std::uint64_t Most = std::numeric_limits<std::uint64_t>::max();
+  uint64_t Least = 0;
+  uint64_t Most = std::numeric_limits<uint64_t>::max();
   std::vector<JsonField> Fields;
   /// Of a list's values: one, in a vector since the type holds itself.
   std::vector<JsonShape> Of;
