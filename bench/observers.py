@@ -43,15 +43,16 @@ OBSERVERS = [
     ("--trace sync,raster,trap", ["--trace", "sync,raster,trap:trace.txt"]),
     ("--trace mem", ["--trace", "mem:trace.txt"]),
     ("--trace insn", ["--trace", "insn:trace.txt"]),
-    ("--check align", ["--check", "align"]),
-    ("--check barrier", ["--check", "barrier"]),
-    ("--check bounds", ["--check", "bounds"]),
-    ("--check uninit", ["--check", "uninit"]),
-    ("--check race", ["--check", "race"]),
-    ("--check all", ["--check", "all"]),
     ("--numerics", ["--numerics=text=numerics.txt"]),
     ("--time", ["--time"]),
 ]
+
+
+def checks(simulator):
+    """The observers that --check offers, by its help."""
+    text = subprocess.run([simulator, "--help"], check=True, capture_output=True, text=True).stdout
+    names = re.search(r"^ *--check .*: (.*)$", text, re.M).group(1).split(", ")
+    return [(f"--check {name}", ["--check", name]) for name in names]
 
 
 def instructions(folder, command):
@@ -84,7 +85,8 @@ def main():
     for name, folder_of in builds:
         subprocess.run(["strip", "-o", name, os.path.join(folder_of, "vorion-sim")], cwd=folder, check=True)
     run = ["--global", "64,64", "--local", "16,16", "--arg", "buf:16384", "--arg", "buf:16384", "--arg", "out:16384@c.bin"]
-    wanted = [o for o in OBSERVERS if not options.only or o[0] == "none" or o[0] in options.only.split(",")]
+    observers = OBSERVERS + checks(os.path.join(folder, "vorion-sim"))
+    wanted = [o for o in observers if not options.only or o[0] == "none" or o[0] in options.only.split(",")]
     if options.without:
         wanted.insert(1, ("not built in", []))
     rows = []

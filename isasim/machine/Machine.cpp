@@ -448,8 +448,13 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   I->Running = true;
   const RasterCounters Before = I->Raster.counters();
   I->resetCores(LaunchBlock);
+  VxLaunch Launch{};
+  const bool HasLaunch = LaunchBlock != 0;
+  if (HasLaunch)
+    read(LaunchBlock, std::as_writable_bytes(std::span(&Launch, 1)));
   I->Watcher.tell([&](Observer &O) {
-    O.runBegins({*this, I->Program, LaunchBlock, I->Cores});
+    O.runBegins({I->Shape, I->Program, LaunchBlock,
+                 HasLaunch ? &Launch : nullptr, I->Cores, this});
   });
   do {
     I->runCores();

@@ -13,13 +13,6 @@ namespace vorion::isasim {
 
 namespace {
 
-constexpr SessionOption Options[] = {
-#define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
-  {&SessionOptions::MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP},
-#include "vorion/isasim/SessionOptions.def"
-#undef VORION_SESSION_OPTION
-};
-
 /// By the number of their option.
 constexpr const ToolKind *Kinds[] = {
 #define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
@@ -28,14 +21,30 @@ constexpr const ToolKind *Kinds[] = {
 #undef VORION_SESSION_OPTION
 };
 
+/// The help of an option of \p Kind: what it does, and what it can name.
+std::string help(const char *Does, const ToolKind &Kind) {
+  return Kind.Names.empty()
+             ? Does
+             : fmt::format("{}: all, {}", Does, fmt::join(Kind.Names, ", "));
+}
+
 } // namespace
 
-std::span<const SessionOption> sessionOptions() { return Options; }
+std::span<const SessionOption> sessionOptions() {
+  static const SessionOption Options[] = {
+#define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
+  {&SessionOptions::MEMBER,  OPTION, VARIABLE, VALUE, ALONE,                   \
+   help(HELP, tools::MEMBER)},
+#include "vorion/isasim/SessionOptions.def"
+#undef VORION_SESSION_OPTION
+  };
+  return Options;
+}
 
 std::vector<NamedFile> SessionOptions::outputs() const {
   std::vector<NamedFile> All;
-  for (size_t N = 0; N != std::size(Options); ++N) {
-    const std::string &Text = this->*Options[N].Text;
+  for (size_t N = 0; N != std::size(Kinds); ++N) {
+    const std::string &Text = this->*sessionOptions()[N].Text;
     if (Text.empty() || !Kinds[N]->Outputs)
       continue;
     const std::vector<NamedFile> Files = Kinds[N]->Outputs(Text);
@@ -58,8 +67,8 @@ Session::Session() : I(std::make_unique<Impl>()) {}
 Session::~Session() = default;
 
 Expected<Success> Session::Impl::open(const SessionOptions &O) {
-  for (size_t N = 0; N != std::size(Options); ++N) {
-    const std::string &Text = O.*Options[N].Text;
+  for (size_t N = 0; N != std::size(Kinds); ++N) {
+    const std::string &Text = O.*sessionOptions()[N].Text;
     if (Text.empty())
       continue;
     auto Made = Kinds[N]->Make(Text, To);

@@ -69,7 +69,7 @@ void Timeline::add(Row &R, const std::string &Name, uint64_t From,
 void Timeline::runBegins(const RunStart &R) {
   Program = R.Program;
   RunBegan = Now;
-  const Config &Shape = R.Device.config();
+  const Config &Shape = R.Shape;
   CoresPerUnit = Shape.CoresPerSocket;
   if (Runs++ == 0) {
     for (const auto &[Id, Name] : {std::pair{Process::Runs, "runs"},

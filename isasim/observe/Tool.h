@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,8 @@ struct ToolKind {
   /// The files that it will write, but for standard output; null for none. A
   /// text that does not parse has none.
   std::vector<NamedFile> (*Outputs)(const std::string &Text) = nullptr;
+  /// What its option chooses from, for --help; empty if it names nothing.
+  std::span<const std::string_view> Names = {};
 };
 
 /// The kinds by their members of SessionOptions, each defined with its tool.

@@ -4,6 +4,7 @@
 #include "core/Isa.h"
 #include "machine/Report.h"
 #include "observe/GrowingFile.h"
+#include "observe/NameList.h"
 #include "observe/Tool.h"
 #include "raster/WorkLog.h"
 #include "vorion/isasim/Machine.h"
@@ -20,7 +21,7 @@ namespace {
 constexpr int FormatVersion = 1;
 
 constexpr std::string_view Names[] = {
-#define VORION_TRACE(NAME, DOC) #NAME,
+#define VORION_TRACE(NAME) #NAME,
 #include "observe/TraceCategories.def"
 #undef VORION_TRACE
 };
@@ -104,25 +105,11 @@ Expected<TraceRequest> TraceRequest::parse(std::string_view Text) {
   const size_t Colon = Text.find(':');
   if (Colon != std::string_view::npos)
     R.File = Text.substr(Colon + 1);
-  std::string_view Rest = Text.substr(0, Colon);
-  while (true) {
-    const size_t Comma = Rest.find(',');
-    const std::string_view Name = Rest.substr(0, Comma);
-    const auto *Found = std::find(std::begin(Names), std::end(Names), Name);
-    if (Name == "all")
-      R.Categories |= (1U << std::size(Names)) - 1;
-    else if (Found != std::end(Names))
-      R.Categories |= 1U << (Found - std::begin(Names));
-    else
-      return Error{"",
-                   fmt::format("trace category '{}', expected all or some of "
-                               "{}, with :FILE behind",
-                               Name, fmt::join(Names, ",")),
-                   ExitCode::Usage};
-    if (Comma == std::string_view::npos)
-      break;
-    Rest.remove_prefix(Comma + 1);
-  }
+  const Expected<uint32_t> Listed = parseNameList(
+      "trace category", Text.substr(0, Colon), Names, ", with :FILE behind");
+  if (!Listed)
+    return Listed.error();
+  R.Categories = *Listed;
   return R;
 }
 
@@ -132,7 +119,7 @@ Trace::Trace(std::FILE *OutIn, uint32_t CategoriesIn)
 }
 
 enum class Trace::Category : unsigned {
-#define VORION_TRACE(NAME, DOC) NAME,
+#define VORION_TRACE(NAME) NAME,
 #include "observe/TraceCategories.def"
 #undef VORION_TRACE
 };
@@ -150,8 +137,8 @@ void Trace::runBegins(const RunStart &R) {
     ByPc.clear();
   Program = R.Program;
   SyncPoints = 0;
-  CoresPerSocket = R.Device.config().CoresPerSocket;
-  CoresPerCluster = R.Device.config().coresPerCluster();
+  CoresPerSocket = R.Shape.CoresPerSocket;
+  CoresPerCluster = R.Shape.coresPerCluster();
   append(Out, "run {} {} launch 0x{:08x}\n", ++Runs, Program->name(),
          R.LaunchBlock);
 }
@@ -255,6 +242,6 @@ std::vector<NamedFile> outputs(const std::string &Text) {
 
 } // namespace
 
-const ToolKind tools::Trace{.Make = make, .Outputs = outputs};
+const ToolKind tools::Trace{.Make = make, .Outputs = outputs, .Names = Names};
 
 } // namespace vorion::isasim

@@ -8,7 +8,8 @@ FOLDER is made anew. A fenced text of the page is put where the line before it s
     In `FILE`, before `LINE`:
     In `FILE`, after `LINE`:
 
-A file that is not there is made. LINE is the beginning of a line, without what it is indented by. Texts of language
+A file that is not there is made. LINE is the beginning of a line, without what it is indented by; one that has a `
+stands between two of them and a space. Texts of language
 sh are commands, and are run; "sh minutes" is run with --all alone.
 Exit codes: 0 all as the page says, 1 not, 2 usage.
 """
@@ -21,7 +22,7 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-STEP = re.compile(r"(?:^ *(At the end of|In) `([^`]+)`(?:, (before|after) `([^`]+)`)?:\n\n)?"
+STEP = re.compile(r"(?:^ *(?:At the end of|In) `([^`]+)`(?:, (before|after) (?:`([^`]+)`|`` ([^\n]+) ``))?:\n\n)?"
                   r"^( *)```([a-z+]+)( minutes)?\n(.*?)^ *```$", re.M | re.S)
 
 
@@ -77,10 +78,10 @@ def main():
     copy_repository(folder, options.sources)
     with open(os.path.join(folder, options.page), encoding="utf-8") as page:
         text = page.read()
-    for _, file, side, line, indent, language, minutes, body in STEP.findall(text):
+    for file, side, plain, quoted, indent, language, minutes, body in STEP.findall(text):
         body = re.sub(f"^{indent}", "", body, flags=re.M)
         if file:
-            put(folder, file, side, line, body)
+            put(folder, file, side, plain or quoted, body)
         elif language != "sh":
             fail(f"{options.page}: the text '{body.splitlines()[0]}' has no place")
         elif options.all or not minutes:

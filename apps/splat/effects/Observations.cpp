@@ -69,7 +69,7 @@ const Effect Numerics{
 
 const Effect Checkers{.Name = "checkers",
                       .Kind = EffectKind::Observation,
-                      .What = "bounds, uninit, race, align, barrier",
+                      .What = "errors of the kernels, reported as they happen",
                       .Detect = detectCheckers};
 
 const Effect Traces{.Name = "traces",

@@ -1,7 +1,6 @@
 #include "observe/check/Barriers.h"
 
 #include "core/Isa.h"
-#include "vorion/isasim/Machine.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -9,7 +8,7 @@
 namespace vorion::isasim {
 
 void BarrierCheck::runBegins(const RunStart &R) {
-  const Config &Shape = R.Device.config();
+  const Config &Shape = R.Shape;
   WarpsPerCore = Shape.WarpsPerCore;
   Warps.assign(size_t{Shape.cores()} * WarpsPerCore, Warp());
 }
@@ -22,8 +21,7 @@ void BarrierCheck::fetch(const Step &S) {
   if (S.Insn.O != Op::VX_BAR || S.LaneMask == W.Alive)
     return;
   const uint32_t Missing = W.Alive & ~S.LaneMask;
-  Out.add("barrier",
-          Culprit::of(S, static_cast<unsigned>(std::countr_zero(S.LaneMask))),
+  Out.add(Culprit::of(S, static_cast<unsigned>(std::countr_zero(S.LaneMask))),
           fmt::format("barrier reached by lanes 0x{:04x}, not by lanes "
                       "0x{:04x} of the same warp",
                       S.LaneMask, Missing));
@@ -31,14 +29,14 @@ void BarrierCheck::fetch(const Step &S) {
 
 void BarrierCheck::trap(const Trap &T) {
   if (T.Cause == TrapCause::DivergentBranch)
-    Out.add("barrier", {T.Core, T.Warp, T.Lane, T.Pc, T.Instruction},
+    Out.add({T.Core, T.Warp, T.Lane, T.Pc, T.Instruction},
             fmt::format("lane {} decides otherwise than lane {} about a branch "
                         "that must be the same for all work-items: a barrier "
                         "depends on it, or vx_uniform() promised it",
                         T.Lane, std::countr_zero(T.LaneMask)));
 }
 
-std::unique_ptr<Check> makeBarrierCheck(Findings &Out, const Places &) {
+std::unique_ptr<Check> makeBarrierCheck(Reporter Out, const Places &) {
   return std::make_unique<BarrierCheck>(Out);
 }
 

@@ -13,7 +13,7 @@ namespace vorion::isasim {
 /// is not, the branch traps, which this explains.
 class BarrierCheck : public Check {
 public:
-  explicit BarrierCheck(Findings &OutIn) : Out(OutIn) {}
+  explicit BarrierCheck(Reporter Out) : Out(Out) {}
   void runBegins(const RunStart &R) override;
   void fetch(const Step &S) override;
   void trap(const Trap &T) override;
@@ -23,7 +23,7 @@ private:
     uint32_t Alive = 1;
     bool Changed = false; ///< by a vx_tmc just before
   };
-  Findings &Out;
+  Reporter Out;
   unsigned WarpsPerCore = 1;
   std::vector<Warp> Warps;
 };

@@ -2,23 +2,14 @@
 
 #include "core/Isa.h"
 #include "raster/WorkLog.h"
-#include "vorion/isasim/Machine.h"
 
 #include <bit>
 #include <fmt/format.h>
 
 namespace vorion::isasim {
 
-std::string describeAccess(const Step &S, unsigned Lane, const Places &Where) {
-  constexpr const char *Names[] = {"load", "store", "atomic"};
-  const uint32_t Address = S.Access->Addresses[Lane];
-  return fmt::format("{} of {} byte{} at 0x{:08x}, {}", Names[S.Access->What],
-                     S.Access->Bytes, S.Access->Bytes == 1 ? "" : "s", Address,
-                     Where.describe(Address, S, Lane));
-}
-
 void BoundsCheck::runBegins(const RunStart &R) {
-  Starts.assign(R.Device.config().cores(), Culprit());
+  Starts.assign(R.Shape.cores(), Culprit());
 }
 
 void BoundsCheck::fetch(const Step &S) {
@@ -30,7 +21,7 @@ void BoundsCheck::fetch(const Step &S) {
   for (uint32_t Left = S.LaneMask; Left; Left &= Left - 1) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
     if (!Where.isOwn(S.Access->Addresses[L], S.Access->Bytes, S, L))
-      Out.add("bounds", Culprit::of(S, L), describeAccess(S, L, Where));
+      Out.add(Culprit::of(S, L), Where.describeAccess(S, L));
   }
 }
 
@@ -38,7 +29,7 @@ void BoundsCheck::checkRange(const raster::CommandWork &W, const char *What,
                              uint32_t Address, uint64_t Bytes) {
   if (Where.Held.empty() || Bytes == 0 || Where.Held.find(Address, Bytes))
     return;
-  Out.add("bounds", Starts[W.Core],
+  Out.add(Starts[W.Core],
           fmt::format("{} of a tile command, {} bytes at 0x{:08x}, {}", What,
                       Bytes, Address, Where.Held.describe(Address)));
 }
@@ -62,23 +53,8 @@ void BoundsCheck::rasterCommand(const raster::CommandWork &W) {
   }
 }
 
-void AlignCheck::fetch(const Step &S) {
-  if (!S.Access)
-    return;
-  for (uint32_t Left = S.LaneMask; Left; Left &= Left - 1) {
-    const auto L = static_cast<unsigned>(std::countr_zero(Left));
-    if (S.Access->Addresses[L] % S.Access->Bytes != 0)
-      Out.add("align", Culprit::of(S, L),
-              "misaligned " + describeAccess(S, L, Where));
-  }
-}
-
-std::unique_ptr<Check> makeBoundsCheck(Findings &Out, const Places &Where) {
+std::unique_ptr<Check> makeBoundsCheck(Reporter Out, const Places &Where) {
   return std::make_unique<BoundsCheck>(Out, Where);
-}
-
-std::unique_ptr<Check> makeAlignCheck(Findings &Out, const Places &Where) {
-  return std::make_unique<AlignCheck>(Out, Where);
 }
 
 } // namespace vorion::isasim

@@ -1,5 +1,4 @@
-/// Checkers of single accesses: outside what the work-item may touch, and
-/// misaligned.
+/// Checker of accesses outside what the work-item may touch.
 #pragma once
 
 #include "observe/check/Check.h"
@@ -10,8 +9,7 @@ namespace vorion::isasim {
 
 class BoundsCheck : public Check {
 public:
-  BoundsCheck(Findings &OutIn, const Places &WhereIn)
-      : Out(OutIn), Where(WhereIn) {}
+  BoundsCheck(Reporter Out, const Places &Where) : Out(Out), Where(Where) {}
   /// What runs over the end of a buffer does not reach the next one.
   uint64_t guardBytes() const override { return 4096; }
   void runBegins(const RunStart &R) override;
@@ -22,23 +20,9 @@ private:
   void checkRange(const raster::CommandWork &W, const char *What,
                   uint32_t Address, uint64_t Bytes);
 
-  Findings &Out;
+  Reporter Out;
   const Places &Where;
   std::vector<Culprit> Starts; ///< who started a command last, by core
 };
-
-class AlignCheck : public Check {
-public:
-  AlignCheck(Findings &OutIn, const Places &WhereIn)
-      : Out(OutIn), Where(WhereIn) {}
-  void fetch(const Step &S) override;
-
-private:
-  Findings &Out;
-  const Places &Where;
-};
-
-/// "store of 4 bytes at 0x..., 0 bytes past the end of ..."
-std::string describeAccess(const Step &S, unsigned Lane, const Places &Where);
 
 } // namespace vorion::isasim

@@ -1,5 +1,5 @@
 /// One checker of `--check`. A new one is its own files and one line of
-/// Checks.def.
+/// Checks.def (docs/adding-a-checker.md).
 #pragma once
 
 #include "observe/check/Findings.h"
@@ -15,10 +15,10 @@ public:
   virtual uint64_t guardBytes() const { return 0; }
 };
 
-/// What makes each checker, which tells \p Out what it finds. Both arguments
-/// must outlive it.
-#define VORION_CHECK(NAME, MAKE, DOC)                                          \
-  std::unique_ptr<Check> MAKE(Findings &Out, const Places &Where);
+/// What makes each checker, which says to \p Out what it finds. \p Where must
+/// outlive it.
+#define VORION_CHECK(NAME, MAKE)                                               \
+  std::unique_ptr<Check> MAKE(Reporter Out, const Places &Where);
 #include "observe/check/Checks.def"
 #undef VORION_CHECK
 

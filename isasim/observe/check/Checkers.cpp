@@ -1,61 +1,39 @@
 #include "observe/check/Checkers.h"
 
+#include "observe/NameList.h"
 #include "observe/Tool.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace vorion::isasim {
 
 namespace {
 
 constexpr std::string_view Names[] = {
-#define VORION_CHECK(NAME, MAKE, DOC) #NAME,
+#define VORION_CHECK(NAME, MAKE) #NAME,
 #include "observe/check/Checks.def"
 #undef VORION_CHECK
 };
 
 /// By the number of their name.
-constexpr std::unique_ptr<Check> (*Makers[])(Findings &, const Places &) = {
-#define VORION_CHECK(NAME, MAKE, DOC) MAKE,
+constexpr std::unique_ptr<Check> (*Makers[])(Reporter, const Places &) = {
+#define VORION_CHECK(NAME, MAKE) MAKE,
 #include "observe/check/Checks.def"
 #undef VORION_CHECK
 };
-
-/// A bit for each name in \p Text.
-Expected<uint32_t> parse(std::string_view Text) {
-  uint32_t Wanted = 0;
-  while (true) {
-    const size_t Comma = Text.find(',');
-    const std::string_view Name = Text.substr(0, Comma);
-    const auto *Found = std::find(std::begin(Names), std::end(Names), Name);
-    if (Name == "all")
-      Wanted = (1U << std::size(Names)) - 1;
-    else if (Found != std::end(Names))
-      Wanted |= 1U << (Found - std::begin(Names));
-    else
-      return Error{"",
-                   fmt::format("check '{}', expected all or some of {}", Name,
-                               fmt::join(Names, ",")),
-                   ExitCode::Usage};
-    if (Comma == std::string_view::npos)
-      return Wanted;
-    Text.remove_prefix(Comma + 1);
-  }
-}
 
 } // namespace
 
 Expected<std::unique_ptr<Checkers>>
 Checkers::create(std::string_view Text,
                  std::function<void(std::string_view)> Say) {
-  const Expected<uint32_t> Wanted = parse(Text);
+  const Expected<uint32_t> Wanted = parseNameList("check", Text, Names);
   if (!Wanted)
     return Wanted.error();
   std::unique_ptr<Checkers> C(new Checkers(std::move(Say)));
   for (size_t N = 0; N != std::size(Makers); ++N)
     if (*Wanted >> N & 1)
-      C->Each.push_back(Makers[N](C->Found, C->Where));
+      C->Each.push_back(Makers[N](Reporter(C->Found, Names[N]), C->Where));
   return C;
 }
 
@@ -104,6 +82,6 @@ Expected<std::unique_ptr<Tool>> make(const std::string &Text,
 
 } // namespace
 
-const ToolKind tools::Check{.Make = make};
+const ToolKind tools::Check{.Make = make, .Names = Names};
 
 } // namespace vorion::isasim

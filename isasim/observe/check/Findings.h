@@ -56,4 +56,21 @@ private:
   uint64_t Total = 0, Told = 0;
 };
 
+/// What one checker says its findings to, under the checker's name.
+class Reporter {
+public:
+  /// \p All must outlive it, and so must what \p Check names.
+  Reporter(Findings &All, std::string_view Check) : All(All), Check(Check) {}
+
+  /// See Findings::add().
+  void add(const Culprit &C, const std::string &What, uint32_t Other = 0) {
+    All.add(Check, C, What, Other);
+  }
+  std::string place(uint32_t Pc) const { return All.place(Pc); }
+
+private:
+  Findings &All;
+  std::string_view Check;
+};
+
 } // namespace vorion::isasim

@@ -1,19 +1,15 @@
 #include "observe/check/Places.h"
 
-#include "vorion/isasim/Machine.h"
-
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace vorion::isasim {
 
 void Places::begin(const RunStart &R) {
-  Shape = R.Device.config();
+  Shape = R.Shape;
   Code = R.Program;
-  Launch = {};
-  HasLaunch = R.LaunchBlock != 0;
-  if (HasLaunch)
-    R.Device.read(R.LaunchBlock, std::as_writable_bytes(std::span(&Launch, 1)));
+  HasLaunch = R.Launch != nullptr;
+  Launch = HasLaunch ? *R.Launch : VxLaunch{};
 }
 
 Places::Kind Places::kindOf(uint32_t Address) const {
@@ -85,6 +81,14 @@ std::string Places::describe(uint32_t Address, const Step &S,
   }
   return Address < VX_GLOBAL_BASE ? "near address 0: a null pointer?"
                                   : "where no memory is";
+}
+
+std::string Places::describeAccess(const Step &S, unsigned Lane) const {
+  constexpr const char *Kinds[] = {"load", "store", "atomic"};
+  const uint32_t Address = S.Access->Addresses[Lane];
+  return fmt::format("{} of {} byte{} at 0x{:08x}, {}", Kinds[S.Access->What],
+                     S.Access->Bytes, S.Access->Bytes == 1 ? "" : "s", Address,
+                     describe(Address, S, Lane));
 }
 
 } // namespace vorion::isasim

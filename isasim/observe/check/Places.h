@@ -28,6 +28,9 @@ public:
              unsigned Lane) const;
   /// In words.
   std::string describe(uint32_t Address, const Step &S, unsigned Lane) const;
+  /// "store of 4 bytes at 0x..., 0 bytes past the end of ...", of a step that
+  /// accesses memory.
+  std::string describeAccess(const Step &S, unsigned Lane) const;
 
   const Config &shape() const { return Shape; }
   /// Of the run, all 0 if it has none.

@@ -2,7 +2,6 @@
 
 #include "core/Isa.h"
 #include "core/State.h"
-#include "vorion/isasim/Machine.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,7 +17,7 @@ constexpr uint32_t DeviceBarrier = 1U << 31; ///< in vx_bar's rs1 (Simt.td)
 } // namespace
 
 void RaceCheck::runBegins(const RunStart &R) {
-  const unsigned Count = R.Device.config().cores();
+  const unsigned Count = R.Shape.cores();
   Pages.clear();
   Released.clear();
   Cores.assign(Count, CoreState());
@@ -90,7 +89,7 @@ void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
     return;
   const unsigned Lanes = Where.shape().LanesPerWarp;
   constexpr const char *Names[] = {"load", "store", "atomic"};
-  Out.add("race", Culprit::of(C, Lane),
+  Out.add(Culprit::of(C, Lane),
           fmt::format("{} at 0x{:08x}, {}, is not ordered with the {} by core "
                       "{}, warp {}, lane {}{} at {}",
                       Names[C.Access->What], Address,
@@ -199,7 +198,7 @@ void RaceCheck::commit(const Commit &C) {
     ++Cores[C.Core].Now;
 }
 
-std::unique_ptr<Check> makeRaceCheck(Findings &Out, const Places &Where) {
+std::unique_ptr<Check> makeRaceCheck(Reporter Out, const Places &Where) {
   return std::make_unique<RaceCheck>(Out, Where);
 }
 

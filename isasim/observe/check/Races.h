@@ -21,8 +21,7 @@ namespace vorion::isasim {
 /// reads are kept, so that a race with an older access may be missed.
 class RaceCheck : public Check {
 public:
-  RaceCheck(Findings &OutIn, const Places &WhereIn)
-      : Out(OutIn), Where(WhereIn) {}
+  RaceCheck(Reporter Out, const Places &Where) : Out(Out), Where(Where) {}
   void runBegins(const RunStart &R) override;
   void fetch(const Step &S) override;
   void commit(const Commit &C) override;
@@ -65,7 +64,7 @@ private:
   void deviceBarrier(unsigned Core);
   uint32_t withoutRepeats(const Commit &C) const;
 
-  Findings &Out;
+  Reporter Out;
   const Places &Where;
   std::vector<CoreState> Cores;
   uint32_t Groups = 1;

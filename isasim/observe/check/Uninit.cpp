@@ -3,7 +3,6 @@
 #include "core/Isa.h"
 #include "core/State.h"
 #include "raster/WorkLog.h"
-#include "vorion/isasim/Machine.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -39,7 +38,7 @@ template <typename Function> uint32_t lanesWhere(uint32_t Mask, Function F) {
 } // namespace
 
 void UninitCheck::runBegins(const RunStart &R) {
-  const Config &Shape = R.Device.config();
+  const Config &Shape = R.Shape;
   WarpsPerCore = Shape.WarpsPerCore;
   Warps.assign(size_t{Shape.cores()} * WarpsPerCore, Warp());
   for (Warp &W : Warps)
@@ -111,8 +110,7 @@ void UninitCheck::use(const Step &S, Warp &W, unsigned Register, uint32_t Lanes,
   const uint32_t Bad = S.LaneMask & Lanes & ~W.Good[Register];
   if (!Bad)
     return;
-  Out.add("uninit",
-          Culprit::of(S, static_cast<unsigned>(std::countr_zero(Bad))),
+  Out.add(Culprit::of(S, static_cast<unsigned>(std::countr_zero(Bad))),
           fmt::format("{} from memory that nothing was written to (lanes "
                       "0x{:04x})",
                       What, Bad));
@@ -228,7 +226,7 @@ void UninitCheck::checkStore(const Step &S, Warp &W) {
     const uint32_t Context = Launch.ContextStride * Where.shape().cores();
     if (Where.hasLaunch() && Address - Launch.Context < Context)
       continue;
-    Out.add("uninit", Culprit::of(S, L),
+    Out.add(Culprit::of(S, L),
             fmt::format("store of a value from memory that nothing was "
                         "written to, at 0x{:08x}, {}",
                         Address, Where.describe(Address, S, L)));
@@ -270,7 +268,7 @@ void UninitCheck::rasterCommand(const raster::CommandWork &W) {
                true);
 }
 
-std::unique_ptr<Check> makeUninitCheck(Findings &Out, const Places &Where) {
+std::unique_ptr<Check> makeUninitCheck(Reporter Out, const Places &Where) {
   return std::make_unique<UninitCheck>(Out, Where);
 }
 

@@ -16,8 +16,7 @@ namespace vorion::isasim {
 /// except where an and, or or conditional zero with a constant hides it.
 class UninitCheck : public Check {
 public:
-  UninitCheck(Findings &OutIn, const Places &WhereIn)
-      : Out(OutIn), Where(WhereIn) {}
+  UninitCheck(Reporter Out, const Places &Where) : Out(Out), Where(Where) {}
 
   void allocated(uint32_t Address, uint64_t Bytes,
                  const std::string &) override {
@@ -51,7 +50,7 @@ private:
   ShadowBits *shadowOf(uint32_t Address, unsigned Core);
   void moveStack(const Commit &C, Warp &W);
 
-  Findings &Out;
+  Reporter Out;
   const Places &Where;
   ShadowBits Global, Stacks;
   std::vector<ShadowBits> Locals; ///< by core

@@ -78,7 +78,7 @@ public:
 
   void runBegins(const RunStart &R) override {
     Lanes.begin(R);
-    Peer.stopWaitingWhen([&M = R.Device] { return M.mustStop(); });
+    Peer.stopWaitingWhen([M = R.Device] { return M->mustStop(); });
     if (!WasConnected) {
       WasConnected = Peer.accept();
       StopNext = WasConnected;

@@ -47,8 +47,8 @@ constexpr unsigned FrmShift = 5; ///< in fcsr
 } // namespace
 
 void Target::begin(const RunStart &R) {
-  const Config &Shape = R.Device.config();
-  Device = &R.Device;
+  const Config &Shape = R.Shape;
+  Device = R.Device;
   Program = &R.Program;
   Cores = R.Cores;
   WarpsPerCore = Shape.WarpsPerCore;

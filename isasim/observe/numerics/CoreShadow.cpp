@@ -26,9 +26,7 @@ struct CoreShadow::Outcome {
   LaneFloats InError;  ///< the largest of the operands
 };
 
-void CoreShadow::runBegins(const RunStart &R) {
-  begin(R.Device.config(), R.Program);
-}
+void CoreShadow::runBegins(const RunStart &R) { begin(R.Shape, R.Program); }
 
 void CoreShadow::begin(const Config &Shape,
                        const std::shared_ptr<const Image> &Program) {

@@ -299,7 +299,7 @@ RasterShadow::~RasterShadow() = default;
 
 void RasterShadow::runBegins(const RunStart &R) {
   HandedOver.clear(); // of a run that did not end well
-  Machines = std::make_unique<MachineMemory>(R.Device);
+  Machines = std::make_unique<MachineMemory>(*R.Device);
   Global = Machines.get();
 }
 

@@ -24,15 +24,18 @@ namespace vorion::isasim {
 class Core;
 class Machine;
 struct Decoded;
+struct VxLaunch;
 struct WarpState;
 
 /// What is about to run.
 struct RunStart {
-  Machine &Device;
+  const Config &Shape;
   const std::shared_ptr<const Image> &Program;
-  uint32_t LaunchBlock;
+  uint32_t LaunchBlock;   ///< its address; 0 for none
+  const VxLaunch *Launch; ///< what it holds; nullptr for none
   /// All cores, reset. Stay where they are as long as the machine.
   std::span<const std::unique_ptr<Core>> Cores;
+  Machine *Device; ///< nullptr where a test runs a core alone
 };
 
 /// The memory that one instruction accesses.

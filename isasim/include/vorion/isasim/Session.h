@@ -33,7 +33,7 @@ struct SessionOption {
   const char *Variable; ///< of the environment
   const char *Value;    ///< what --help calls the text
   const char *Alone;    ///< the text where none is given; null: one has to be
-  const char *Help;
+  std::string Help;
 };
 std::span<const SessionOption> sessionOptions();
 
