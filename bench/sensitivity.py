@@ -17,7 +17,7 @@ import tempfile
 
 import kept
 
-SWITCHES = ("interleaved_stacks", "intersect_hint")
+SWITCHES = ("fpu", "loads_queue", "interleaved_stacks", "intersect_hint")
 
 
 def parameters(timing):
@@ -25,7 +25,9 @@ def parameters(timing):
     for group, members in timing.items():
         if isinstance(members, dict):
             for name, value in members.items():
-                yield group, name, value
+                # A name of a set of numbers: these follow.
+                if not isinstance(value, str):
+                    yield group, name, value
 
 
 def variants(name, value):
@@ -86,17 +88,9 @@ def main():
     parser.add_argument("--only", default="", help="only parameters whose group.name begins so")
     args = parser.parse_args()
 
-    default = json.loads(subprocess.run(["vorion-sim", "--print-default-config"], check=True, capture_output=True,
-                                        text=True).stdout)
-    if args.config:
-        with open(args.config) as file:
-            given = json.load(file)
-        for group, members in given.pop("timing", {}).items():
-            if isinstance(members, dict):
-                default["timing"][group].update(members)
-            else:
-                default["timing"][group] = members
-        default.update(given)
+    given = ["--config", args.config] if args.config else []
+    default = json.loads(subprocess.run(["vorion-sim", *given, "--print-default-config"], check=True,
+                                        capture_output=True, text=True).stdout)
 
     made_from = kept.origin({"scene": os.path.abspath(args.scene), "cameras": os.path.abspath(args.cameras)},
                             ["--view", args.view, json.dumps(default)])

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 namespace vorion::isasim {
@@ -27,6 +28,9 @@ struct Key {
   uint64_t Low, High, Multiple;
   std::function<uint64_t(const Config &)> Get;
   std::function<void(Config &, uint64_t)> Set;
+  /// Of a key whose values are names: those of 0, 1, ... Such a key may set
+  /// others, so an object's are read first.
+  std::vector<std::string> Names = {};
 };
 
 #define VORION_KEY(PATH, LOW, HIGH, MULTIPLE, MEMBER)                          \
@@ -64,6 +68,16 @@ std::vector<Key> makeKeys() {
       VORION_KEY("timing.enabled", 0, 1, 1, Timing.Enabled),
       VORION_KEY("timing.clock_mhz", 1, 100000, 1, Timing.ClockMhz),
   };
+  std::vector<std::string> Presets;
+  for (size_t N = 0; N != size_t(CorePreset::Count); ++N)
+    Presets.emplace_back(name(static_cast<CorePreset>(N)));
+  All.push_back({"timing.core.preset", 0, Presets.size() - 1, 1,
+                 [](const Config &C) { return uint64_t(C.Timing.Preset); },
+                 [](Config &C, uint64_t V) {
+                   C.Timing.Preset = static_cast<CorePreset>(V);
+                   C.Timing.Core = numbersOf(C.Timing.Preset);
+                 },
+                 Presets});
   for (const TimingParam &P : timingParams())
     All.push_back({fmt::format("timing.{}.{}", P.Group, P.Name), P.Low, P.High,
                    1,
@@ -95,6 +109,19 @@ std::string checkRange(const Key &K, uint64_t Value) {
   return {};
 }
 
+/// The value of the name \p Name, or nothing.
+std::optional<uint64_t> valueOf(const Key &K, std::string_view Name) {
+  const auto Found = std::ranges::find(K.Names, Name);
+  if (Found == K.Names.end())
+    return std::nullopt;
+  return static_cast<uint64_t>(Found - K.Names.begin());
+}
+
+std::string wrongName(const Key &K, std::string_view Name) {
+  return fmt::format("{} is '{}', expected one of {}", K.Path, Name,
+                     fmt::join(K.Names, ", "));
+}
+
 /// What an object may hold; \p Prefix is its path and a dot, or empty.
 std::vector<std::string> namesIn(const std::string &Prefix) {
   std::vector<std::string> Names;
@@ -113,6 +140,34 @@ const Key *findKey(const std::string &Path) {
   return Found == keys().end() ? nullptr : &*Found;
 }
 
+std::string readObject(const Json &Object, const std::string &Prefix,
+                       Config &C);
+
+/// Reads one member of an object; returns what is wrong.
+std::string readMember(const Json &Value, const std::string &Path, Config &C) {
+  const Key *K = findKey(Path);
+  if (!K)
+    return readObject(Value, Path + ".", C);
+  if (!K->Names.empty()) {
+    if (!Value.is_string())
+      return fmt::format("{}: expected one of {}", Path,
+                         fmt::join(K->Names, ", "));
+    const auto Name = Value.get<std::string>();
+    const std::optional<uint64_t> Number = valueOf(*K, Name);
+    if (!Number)
+      return wrongName(*K, Name);
+    K->Set(C, *Number);
+    return {};
+  }
+  if (!Value.is_number_unsigned())
+    return fmt::format("{}: expected a whole number", Path);
+  const auto Number = Value.get<uint64_t>();
+  if (std::string Wrong = checkRange(*K, Number); !Wrong.empty())
+    return Wrong;
+  K->Set(C, Number);
+  return {};
+}
+
 /// Reads the members of one JSON object; returns what is wrong.
 std::string readObject(const Json &Object, const std::string &Prefix,
                        Config &C) {
@@ -120,25 +175,19 @@ std::string readObject(const Json &Object, const std::string &Prefix,
     return Prefix.empty() ? "expected a JSON object"
                           : fmt::format("{}: expected a JSON object",
                                         Prefix.substr(0, Prefix.size() - 1));
-  for (const auto &[Name, Value] : Object.items()) {
-    const std::string Path = Prefix + Name;
-    const std::vector<std::string> Known = namesIn(Prefix);
-    if (std::ranges::find(Known, Name) == Known.end())
-      return fmt::format("unknown key '{}', expected one of {}", Path,
-                         fmt::join(Known, ", "));
-    const Key *K = findKey(Path);
-    if (!K) {
-      if (std::string Wrong = readObject(Value, Path + ".", C); !Wrong.empty())
+  const std::vector<std::string> Known = namesIn(Prefix);
+  for (const bool Named : {true, false})
+    for (const auto &[Name, Value] : Object.items()) {
+      const std::string Path = Prefix + Name;
+      if (std::ranges::find(Known, Name) == Known.end())
+        return fmt::format("unknown key '{}', expected one of {}", Path,
+                           fmt::join(Known, ", "));
+      const Key *K = findKey(Path);
+      if ((K && !K->Names.empty()) != Named)
+        continue;
+      if (std::string Wrong = readMember(Value, Path, C); !Wrong.empty())
         return Wrong;
-      continue;
     }
-    if (!Value.is_number_unsigned())
-      return fmt::format("{}: expected a whole number", Path);
-    const auto Number = Value.get<uint64_t>();
-    if (std::string Wrong = checkRange(*K, Number); !Wrong.empty())
-      return Wrong;
-    K->Set(C, Number);
-  }
   return {};
 }
 
@@ -195,6 +244,12 @@ std::string configSchema() {
          Rest.remove_prefix(Dot + 1))
       Properties = &Describe((*Properties)[std::string(Rest.substr(0, Dot))]);
     Json &Value = (*Properties)[std::string(Rest)];
+    if (!K.Names.empty()) {
+      Value = {{"type", "string"},
+               {"enum", K.Names},
+               {"default", K.Names[K.Get(Default)]}};
+      continue;
+    }
     Value = {{"type", "integer"},
              {"minimum", K.Low},
              {"maximum", K.High},
@@ -228,6 +283,13 @@ Expected<Success> setValue(Config &C, std::string_view Assignment) {
                             fmt::join(namesIn(Inside), ", ")));
   }
   const std::string_view Text = Assignment.substr(Equals + 1);
+  if (!K->Names.empty()) {
+    const std::optional<uint64_t> Named = valueOf(*K, Text);
+    if (!Named)
+      return Fail(wrongName(*K, Text));
+    K->Set(C, *Named);
+    return Success{};
+  }
   uint64_t Value = 0;
   const auto Read =
       std::from_chars(Text.data(), Text.data() + Text.size(), Value);
@@ -258,7 +320,11 @@ std::string toJson(const Config &C) {
     for (size_t Dot; (Dot = Left.find('.')) != std::string_view::npos;
          Left.remove_prefix(Dot + 1))
       In = &(*In)[std::string(Left.substr(0, Dot))];
-    (*In)[std::string(Left)] = K.Get(C);
+    Json &Value = (*In)[std::string(Left)];
+    if (K.Names.empty())
+      Value = K.Get(C);
+    else
+      Value = K.Names[K.Get(C)];
   }
   return jsonText(Object, 2) + "\n";
 }

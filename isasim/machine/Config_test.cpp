@@ -42,6 +42,25 @@ TEST(Config, MissingKeysKeepTheirDefault) {
   EXPECT_EQ(C->CoresPerSocket, 4U);
 }
 
+TEST(Config, APresetIsASetOfNumbersThatSingleKeysChange) {
+  Config C;
+  ASSERT_TRUE(setValues(C, "timing.core.fetch_interval=9,"
+                           "timing.core.preset=vortex-2025,"
+                           "timing.core.branch_cycles=7"));
+  EXPECT_EQ(C.Timing.Preset, CorePreset::Vortex2025);
+  EXPECT_EQ(C.Timing.Core.FetchInterval, 6U) << "the last one wins";
+  EXPECT_EQ(C.Timing.Core.BranchCycles, 7U);
+  // In an object the preset comes first, wherever it stands.
+  const Expected<Config> Read = parseConfig(
+      R"({"timing": {"core": {"branch_cycles": 7, "preset": "vortex-2025"}}})",
+      "");
+  ASSERT_TRUE(Read) << Read.error().What;
+  EXPECT_EQ(toJson(*Read), toJson(C));
+  const Expected<Config> Back = parseConfig(toJson(C), "");
+  ASSERT_TRUE(Back) << Back.error().What;
+  EXPECT_EQ(toJson(*Back), toJson(C));
+}
+
 TEST(Config, ErrorsNameTheKey) {
   EXPECT_EQ(wrongIn(R"({"cores": 4})"),
             "file.json: unknown key 'cores', expected one of clusters, "
@@ -67,6 +86,12 @@ TEST(Config, ErrorsNameTheKey) {
             "file.json: raster: expected a JSON object");
   EXPECT_EQ(wrongIn(R"({"timing": {"core": {"fast": 1}}})").substr(0, 58),
             "file.json: unknown key 'timing.core.fast', expected one of");
+  EXPECT_EQ(wrongIn(R"({"timing": {"core": {"preset": "vortex"}}})"),
+            "file.json: timing.core.preset is 'vortex', expected one of "
+            "forwarding, vortex-5stage, vortex-2025");
+  EXPECT_EQ(wrongIn(R"({"timing": {"core": {"preset": 1}}})"),
+            "file.json: timing.core.preset: expected one of forwarding, "
+            "vortex-5stage, vortex-2025");
   EXPECT_EQ(wrongIn(R"({"timing": {"l2": {"ways": 0}}})"),
             "file.json: timing.l2.ways is 0, expected 1 to 64");
   EXPECT_EQ(wrongIn(R"({"timing": {"enabled": 1}, "warps_per_core": 2})"),

@@ -43,7 +43,7 @@ void Clock::expect(raster::TailWork &&Work) {
 }
 
 void Clock::begin(const CodeTable &Code) {
-  Ops = describeProgram(Code, P.Core);
+  Ops = describeProgram(Code, P.Core, Shape.LanesPerWarp);
   Begun = Now;
   OutOfOrder = 0;
   Memory.clearCounters();

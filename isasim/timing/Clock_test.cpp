@@ -1,109 +1,13 @@
 /// The clock on programs whose time is known.
-#include "raster/RasterTables.h"
-#include "testing/ElfBuilder.h"
-#include "testing/Encode.h"
-#include "vorion/isasim/Machine.h"
+#include "testing/TimedPrograms.h"
 
 #include <cstring>
-#include <numeric>
 
 using namespace vorion;
 using namespace vorion::isasim;
 using namespace vorion::isasim::testing;
 
 namespace {
-
-using Words = std::vector<uint32_t>;
-
-uint32_t addi(unsigned Rd, unsigned Rs1, int32_t Imm) {
-  return encode(Op::RV_ADDI, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
-}
-uint32_t lui(unsigned Rd, uint32_t Address) {
-  return encode(Op::RV_LUI,
-                {.Rd = Rd, .Imm = static_cast<int32_t>(Address >> 12)});
-}
-uint32_t csrr(unsigned Rd, unsigned Csr) {
-  return encode(Op::RV_CSRRS, {.Rd = Rd, .Rs1 = 0, .Csr = Csr});
-}
-uint32_t csrw(raster::Csr C, unsigned Rs1) {
-  return encode(Op::RV_CSRRW,
-                {.Rd = 0, .Rs1 = Rs1, .Csr = static_cast<unsigned>(C)});
-}
-uint32_t lw(unsigned Rd, int32_t Imm, unsigned Rs1) {
-  return encode(Op::RV_LW, {.Rd = Rd, .Rs1 = Rs1, .Imm = Imm});
-}
-uint32_t sw(unsigned Rs2, int32_t Imm, unsigned Rs1) {
-  return encode(Op::RV_SW, {.Rs1 = Rs1, .Rs2 = Rs2, .Imm = Imm});
-}
-
-Words operator+(Words A, const Words &B) {
-  A.insert(A.end(), B.begin(), B.end());
-  return A;
-}
-Words repeat(unsigned Count, const Words &Body) {
-  Words All;
-  for (unsigned N = 0; N != Count; ++N)
-    All = All + Body;
-  return All;
-}
-
-/// All 16 lanes on; x6: lane number; x7: a word for each lane; x8: the same in
-/// local memory.
-Words program(const Words &Body) {
-  return Words{lui(5, 0x10000),
-               addi(5, 5, -1),
-               encode(Op::VX_TMC, {.Rs1 = 5}),
-               csrr(6, CSR_THREAD_ID),
-               lui(7, 0x100000),
-               encode(Op::RV_SH2ADD, {.Rd = 7, .Rs1 = 6, .Rs2 = 7}),
-               lui(8, VX_LOCAL_BASE),
-               encode(Op::RV_SH2ADD, {.Rd = 8, .Rs1 = 6, .Rs2 = 8})} +
-         Body + Words{encode(Op::VX_TMC, {.Rs1 = 0})};
-}
-
-Config timed(unsigned Cores = 1) {
-  Config C;
-  C.SocketsPerCluster = 1;
-  C.CoresPerSocket = Cores;
-  C.GlobalBytes = 1 << 22;
-  C.HostThreads = 1;
-  C.Timing.Enabled = true;
-  return C;
-}
-
-class ClockTest : public ::testing::Test {
-protected:
-  TimeReport run(const Words &Body) {
-    auto M = Machine::create(C);
-    EXPECT_TRUE(M) << M.error().What;
-    (*M)->load(codeImage(program(Body)));
-    const RunResult R = (*M)->run();
-    EXPECT_EQ(R.End, Outcome::Done) << R.Report;
-    for (const CoreTime &T : R.Time->Cores)
-      EXPECT_EQ(std::reduce(T.Cycles.begin(), T.Cycles.end()), R.Time->Cycles)
-          << "every cycle has one reason";
-    for (const RasterTime &T : R.Time->Rasters)
-      EXPECT_EQ(std::reduce(T.Cycles.begin(), T.Cycles.end()), R.Time->Cycles);
-    return *R.Time;
-  }
-  /// Cycles that \p Count repetitions of \p Body take, behind \p Before.
-  uint64_t cost(unsigned Count, const Words &Body, const Words &Before = {}) {
-    return run(Before + repeat(Count, Body)).Cycles - run(Before).Cycles;
-  }
-  static uint64_t of(const TimeReport &R, CoreCycle What, unsigned Core = 0) {
-    return R.Cores[Core].Cycles[size_t(What)];
-  }
-  static uint64_t activity(const TimeReport &R, std::string_view Unit,
-                           std::string_view What) {
-    for (const Activity &A : R.Activities)
-      if (A.Unit == Unit && A.Event == What)
-        return A.Count;
-    ADD_FAILURE() << What;
-    return 0;
-  }
-
-  Config C = timed();
-};
 
 TEST_F(ClockTest, DependentAndPipelinedOperations) {
   const CoreTiming &P = C.Timing.Core;

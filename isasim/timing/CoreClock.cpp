@@ -5,6 +5,13 @@
 
 namespace vorion::isasim {
 
+CoreClock::CoreClock(const CoreTiming &Params, unsigned ClusterIn,
+                     TraceBuffer &TraceIn)
+    : P(Params), IsIdeal(P.FetchInterval == 1 && P.BranchCycles == 1 &&
+                         P.SplitCycles == 1 && P.JoinCycles == 1 &&
+                         P.CsrCycles == 1 && P.UnitQueue == 0 && P.Fpu == 0),
+      Cluster(ClusterIn), Trace(TraceIn) {}
+
 void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   Ops = &Program;
   Now = State::Starved;
@@ -18,11 +25,18 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   Ready.fill(0);
   ReadyWhy.fill(CoreCycle::Operand);
   UnitFree.fill(0);
+  for (UnitQueue &Q : Queues)
+    Q = {std::vector<uint64_t>(P.UnitQueue), 0};
+  Places[size_t(Port::Fpu)].assign(P.FpInFlight, 0);
+  Places[size_t(Port::Alu)].assign(1, 0); // the divider
   InFlight.clear();
+  LastDone = 0;
   Spent = {};
   Classes = {};
   LinesRequested = LocalConflicts = 0;
   spend(CoreCycle::Start, P.StartCycles);
+  Fetched = Next;
+  FetchWhy = CoreCycle::Fetch;
 }
 
 /// The front end has lost time if the pc or the mask is not what it went on
@@ -45,7 +59,6 @@ void CoreClock::waitForOperands(const OpInfo &O) {
     if (Ready[S] > Ready[Latest])
       Latest = S;
   waitUntil(Ready[Latest], ReadyWhy[Latest]);
-  waitUntil(UnitFree[size_t(O.On)], CoreCycle::Unit);
 }
 
 void CoreClock::waitForLsu() {
@@ -55,6 +68,44 @@ void CoreClock::waitForLsu() {
   const auto First = std::min_element(InFlight.begin(), InFlight.end());
   waitUntil(*First, CoreCycle::LsuQueue);
   InFlight.erase(First);
+}
+
+/// Waits until \p O can leave for its unit, or for the queue in front of it,
+/// and returns when the unit begins.
+uint64_t CoreClock::beginOnUnit(const OpInfo &O) {
+  const auto On = size_t(O.On);
+  uint64_t Begun = std::max(Next, UnitFree[On]);
+  uint64_t *Place = nullptr;
+  if (O.Hold) {
+    Place = &*std::min_element(Places[On].begin(), Places[On].end());
+    Begun = std::max(Begun, *Place);
+    *Place = Begun + O.Hold;
+  }
+  UnitFree[On] = Begun + O.Interval;
+  if (P.UnitQueue == 0 || O.On == Port::Lsu) {
+    waitUntil(Begun, CoreCycle::Unit);
+    return Begun;
+  }
+  UnitQueue &Q = Queues[On];
+  waitUntil(Q.Begins[Q.Next], CoreCycle::Unit);
+  Q.Begins[Q.Next] = Begun;
+  Q.Next = (Q.Next + 1) % P.UnitQueue;
+  return Begun;
+}
+
+/// Behind \p O, which has issued and which its unit begins at \p Begun.
+void CoreClock::fetchNext(const OpInfo &O, uint64_t Begun) {
+  if (O.Redirect) {
+    Fetched = Begun + O.Redirect;
+    FetchWhy = O.Class == OpClass::Branch ? CoreCycle::Branch
+               : O.Class == OpClass::Csr  ? CoreCycle::Fetch
+                                          : CoreCycle::Divergence;
+    return;
+  }
+  // Fetching stops while its buffer is full.
+  const uint64_t Ahead = uint64_t{P.FetchInterval} * (P.FetchAhead - 1);
+  Fetched = std::max(Fetched + P.FetchInterval + Ahead, Next - 1) - Ahead;
+  FetchWhy = CoreCycle::Fetch;
 }
 
 void CoreClock::setReady(unsigned Register, uint64_t Then, CoreCycle Why) {
@@ -73,28 +124,45 @@ void CoreClock::issue(const OpInfo &O) {
   spend(CoreCycle::Issue, 1);
 }
 
-void CoreClock::localAccess(const OpInfo &O, AccessWord A) {
-  // A bank gives a word a cycle.
-  UnitFree[size_t(Unit::Lsu)] = Next + A.Conflicts;
-  LocalConflicts += A.Conflicts - 1;
-  setReady(O.Rd, Next + A.Conflicts - 1 + P.LocalLatency, CoreCycle::Local);
+/// Issues a request's instruction, which its unit begins at once.
+void CoreClock::finish(const OpInfo &O) {
+  const uint64_t Begun = Next;
   issue(O);
+  if (!IsIdeal)
+    fetchNext(O, Begun);
+}
+
+void CoreClock::localAccess(const OpInfo &O, AccessWord A) {
+  const uint64_t Done =
+      Next + P.LocalLatency + (A.Conflicts - 1) * P.LocalConflictCycles;
+  if (P.LoadsQueue && O.Class != OpClass::Store)
+    InFlight.push_back(Done);
+  // A bank gives a word a cycle.
+  UnitFree[size_t(Port::Lsu)] =
+      Next + std::max<uint64_t>(A.Conflicts, O.Interval);
+  LocalConflicts += A.Conflicts - 1;
+  setReady(O.Rd, Done + O.Latency, CoreCycle::Local);
+  finish(O);
 }
 
 /// Does one instruction, or stops in front of its request; false then.
-bool CoreClock::advanceOne(const OpInfo &O) {
+template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
+  if constexpr (!Ideal)
+    waitUntil(Fetched, FetchWhy);
   waitForOperands(O);
   switch (O.Class) {
   case OpClass::Load:
   case OpClass::Store:
   case OpClass::Atomic: {
+    waitForUnit(O);
     const auto A = std::bit_cast<AccessWord>(Trace.word());
+    if (!P.LoadsQueue ? A.Lines != 0 : O.Class != OpClass::Store)
+      waitForLsu();
     if (A.Lines == 0) {
       Trace.popWords(1);
       localAccess(O, A);
       return true;
     }
-    waitForLsu();
     At = Next;
     Waiting = &O;
     Now = State::Access;
@@ -106,23 +174,36 @@ bool CoreClock::advanceOne(const OpInfo &O) {
   default:
     break;
   }
-  const uint64_t Issued = Next;
-  UnitFree[size_t(O.On)] = Issued + O.Interval;
-  setReady(O.Rd, Issued + O.Latency, CoreCycle::Operand);
+  uint64_t Begun = Next;
+  if constexpr (Ideal) {
+    waitForUnit(O);
+    Begun = Next;
+    UnitFree[size_t(O.On)] = Begun + O.Interval;
+  } else {
+    Begun = beginOnUnit(O);
+  }
+  setReady(O.Rd, Begun + O.Latency, CoreCycle::Operand);
   issue(O);
+  if constexpr (!Ideal)
+    fetchNext(O, Begun);
   return true;
 }
 
 /// An instruction that had parked; false if it is a request.
-bool CoreClock::advanceParked(const RunRecord &R) {
-  const OpInfo &O = (*Ops)[R.First];
+bool CoreClock::advanceParked(const OpInfo &O) {
   const auto Kind = static_cast<Event>(Trace.word());
+  if (Kind == Event::Atomic) {
+    Trace.popWords(1);
+    return IsIdeal ? advanceOne<true>(O) : advanceOne<false>(O);
+  }
+  if (!IsIdeal)
+    waitUntil(Fetched, FetchWhy);
   waitForOperands(O);
+  waitForUnit(O);
   Waiting = &O;
   switch (Kind) {
   case Event::Atomic:
-    Trace.popWords(1);
-    return advanceOne(O);
+    break; // above
   case Event::Barrier:
     Words[0] = Trace.word(1);
     Words[1] = Trace.word(2);
@@ -147,32 +228,42 @@ bool CoreClock::advanceParked(const RunRecord &R) {
     Trace.popWords(1);
     UnitFree[size_t(O.On)] = Next + O.Interval;
     setReady(O.Rd, Next + O.Latency, CoreCycle::Operand);
-    issue(O);
+    finish(O);
     return true;
   }
   At = Next;
   return false;
 }
 
-void CoreClock::advance() {
-  Now = State::Starved;
+template <bool Ideal> void CoreClock::advanceThrough() {
   while (!Trace.empty()) {
     const RunRecord R = Trace.front();
     if (!InRun)
       startRun(R);
+    const OpInfo *const First = Ops->data() + R.First;
     const unsigned Count = std::max<unsigned>(R.Count, 1);
-    while (Position != Count) {
+    unsigned Here = Position;
+    while (Here != Count) {
       // Moved on before the instruction: a request is finished elsewhere.
-      const unsigned Here = Position++;
-      if (!(R.Count == 0 ? advanceParked(R)
-                         : advanceOne((*Ops)[R.First + Here])))
+      const OpInfo &O = First[Here++];
+      if (!(R.Count == 0 ? advanceParked(O) : advanceOne<Ideal>(O))) {
+        Position = Here;
         return;
+      }
     }
     Expected = R.First + Count;
     Position = 0;
     InRun = false;
     Trace.pop();
   }
+}
+
+void CoreClock::advance() {
+  Now = State::Starved;
+  if (IsIdeal)
+    advanceThrough<true>();
+  else
+    advanceThrough<false>();
 }
 
 void CoreClock::access(MemorySystem &Memory) {
@@ -186,30 +277,33 @@ void CoreClock::access(MemorySystem &Memory) {
     R.Op = A.Whole ? CacheOp::WriteWhole : CacheOp::Write;
   }
   uint64_t Done = 0;
-  for (unsigned N = 0; N != A.Lines; ++N, ++R.Now) {
+  uint32_t Room = P.LinesAtOnce;
+  for (unsigned N = 0; N != A.Lines; ++N, --Room) {
+    if (Room == 0) {
+      R.Now += P.LineCycles;
+      Room = P.LinesAtOnce;
+    }
     R.Address = Trace.word(1 + N);
     Done = std::max(Done, Memory.access(Cluster, R));
   }
+  const uint64_t Leaving = R.Now + P.LineCycles - (At + P.AguCycles);
   LinesRequested += A.Lines;
   Trace.popWords(1 + A.Lines);
-  UnitFree[size_t(Unit::Lsu)] = At + A.Lines;
-  InFlight.push_back(Done);
-  setReady(O.Rd, Done, CoreCycle::Memory);
-  issue(O);
+  UnitFree[size_t(Port::Lsu)] = At + std::max<uint64_t>(Leaving, O.Interval);
+  LastDone = std::max(LastDone, Done);
+  if (!P.LoadsQueue || O.Class != OpClass::Store)
+    InFlight.push_back(Done);
+  setReady(O.Rd, Done + O.Latency, CoreCycle::Memory);
+  finish(O);
 }
 
 void CoreClock::resume(uint64_t Then, CoreCycle Why) {
   Blocked = false;
   waitUntil(Then, Why);
   setReady(Waiting->Rd, Next + Waiting->Latency, CoreCycle::Operand);
-  issue(*Waiting);
+  finish(*Waiting);
 }
 
-uint64_t CoreClock::quietAt() const {
-  uint64_t Last = Next;
-  for (const uint64_t Done : InFlight)
-    Last = std::max(Last, Done);
-  return Last;
-}
+uint64_t CoreClock::quietAt() const { return std::max(Next, LastDone); }
 
 } // namespace vorion::isasim

@@ -1,4 +1,5 @@
-/// How long a core takes: a 5-stage in-order pipeline with one warp.
+/// How long a core takes: an in-order pipeline with one warp, whose numbers are
+/// timing.core of the configuration.
 #pragma once
 
 #include "timing/MemorySystem.h"
@@ -16,8 +17,7 @@ namespace vorion::isasim {
 /// order of time (Clock.h).
 class CoreClock {
 public:
-  CoreClock(const CoreTiming &Params, unsigned Cluster, TraceBuffer &Trace)
-      : P(Params), Cluster(Cluster), Trace(Trace) {}
+  CoreClock(const CoreTiming &Params, unsigned Cluster, TraceBuffer &Trace);
 
   /// A run of the program \p Ops begins at \p Now.
   void begin(const std::vector<OpInfo> &Ops, uint64_t Now);
@@ -82,14 +82,25 @@ private:
   }
   void startRun(const RunRecord &R);
   void waitForOperands(const OpInfo &O);
+  void waitForUnit(const OpInfo &O) {
+    waitUntil(UnitFree[size_t(O.On)], CoreCycle::Unit);
+  }
   void waitForLsu();
+  uint64_t beginOnUnit(const OpInfo &O);
+  void fetchNext(const OpInfo &O, uint64_t Begun);
   void issue(const OpInfo &O);
-  bool advanceOne(const OpInfo &O);
-  bool advanceParked(const RunRecord &R);
+  void finish(const OpInfo &O);
+  template <bool Ideal> void advanceThrough();
+  template <bool Ideal> bool advanceOne(const OpInfo &O);
+  bool advanceParked(const OpInfo &O);
   void localAccess(const OpInfo &O, AccessWord A);
   void setReady(unsigned Register, uint64_t Then, CoreCycle Why);
 
   const CoreTiming P;
+  /// Whether the front end always has the next instruction, but behind a branch
+  /// or a change of lanes, and nobody waits in front of a unit. Then none of
+  /// that is looked at.
+  const bool IsIdeal;
   unsigned Cluster;
   TraceBuffer &Trace;
   const std::vector<OpInfo> *Ops = nullptr;
@@ -110,8 +121,21 @@ private:
 
   std::array<uint64_t, NumRegisters> Ready{};
   std::array<CoreCycle, NumRegisters> ReadyWhy{};
-  std::array<uint64_t, size_t(Unit::Count)> UnitFree{};
+  uint64_t Fetched = 0; ///< when the next instruction can issue at the earliest
+  CoreCycle FetchWhy = CoreCycle::Fetch;
+
+  std::array<uint64_t, size_t(Port::Count)> UnitFree{};
+  /// Of a unit whose instructions wait in front of it: when the last ones
+  /// begin, in a ring.
+  struct UnitQueue {
+    std::vector<uint64_t> Begins;
+    size_t Next = 0;
+  };
+  std::array<UnitQueue, size_t(Port::Count)> Queues;
+  /// When the places of a unit that operations keep (OpInfo::Hold) are free.
+  std::array<std::vector<uint64_t>, size_t(Port::Count)> Places;
   std::vector<uint64_t> InFlight; ///< when accesses will be done
+  uint64_t LastDone = 0;          ///< when the last of all accesses is
 
   CoreTime Spent;
   std::array<ClassCount, size_t(OpClass::Count)> Classes{};

@@ -18,14 +18,27 @@ static constexpr std::pair<std::string_view, std::string_view> Groups[] = {
 std::string timingMarkdown() {
   std::string Text;
   for (const auto &[Group, What] : Groups) {
-    Text += fmt::format("\n`timing.{}`: {}\n\n"
-                        "| parameter | default | unit | source |\n"
-                        "|---|--:|---|---|\n",
-                        Group, What);
-    for (const TimingParam &P : timingParams())
-      if (P.Group == Group)
-        Text += fmt::format("| `{}` | {} | {} | {} |\n", P.Name, P.Default,
-                            P.Unit, P.Source);
+    // A column for each set of numbers that has a name.
+    const unsigned Sets = Group == "core" ? unsigned(CorePreset::Count) : 1;
+    Text += fmt::format("\n`timing.{}`: {}\n\n| parameter |", Group, What);
+    for (unsigned N = 0; N != Sets; ++N)
+      Text += fmt::format(
+          " {} |", Sets == 1 ? "default" : name(static_cast<CorePreset>(N)));
+    Text += " unit | source |\n|---|";
+    for (unsigned N = 0; N != Sets; ++N)
+      Text += "--:|";
+    Text += "---|---|\n";
+    for (const TimingParam &P : timingParams()) {
+      if (P.Group != Group)
+        continue;
+      Text += fmt::format("| `{}` |", P.Name);
+      for (unsigned N = 0; N != Sets; ++N) {
+        TimingConfig C;
+        C.Core = numbersOf(static_cast<CorePreset>(N));
+        Text += fmt::format(" {} |", P.Of(C));
+      }
+      Text += fmt::format(" {} | {} |\n", P.Unit, P.Source);
+    }
   }
   constexpr std::string_view Head =
       "| unit | latency | interval | fp32 multipliers | fp32 adders | product "

@@ -13,18 +13,31 @@ namespace vorion::isasim {
 
 std::string_view name(OpClass C);
 
+/// A unit as the clock knows it. Each takes its instructions in order.
+enum class Port : uint8_t { Alu, Sfu, Lsu, Fpu, Count };
+
 /// One instruction. Registers are numbered as in WarpState::R.
 struct OpInfo {
   OpClass Class = OpClass::Alu;
-  Unit On = Unit::Alu;
+  Port On = Port::Alu;
   uint8_t Rd = 0;     ///< SinkRegister for none
   uint8_t Sources[3]; ///< 0 (x0) for none
-  uint8_t Latency = 1, Interval = 1;
+  /// Cycles from its beginning until what uses its result can issue. Of loads,
+  /// from the memory's answer.
+  uint16_t Latency = 1;
+  /// Cycles until its unit takes the next.
+  uint16_t Interval = 1;
+  /// Cycles that it keeps one of the unit's places, 0 for none: an operation in
+  /// flight in the FPU, or the divider among the ALUs.
+  uint16_t Hold = 0;
+  /// Cycles until the warp's next instruction can issue if it is fetched only
+  /// then, else 0.
+  uint8_t Redirect = 0;
 };
 
 OpClass classOf(uint32_t Word);
-/// By number of the instruction in the program.
+/// By number of the instruction in the program, for warps of \p Lanes.
 std::vector<OpInfo> describeProgram(const CodeTable &Code,
-                                    const CoreTiming &Params);
+                                    const CoreTiming &Params, unsigned Lanes);
 
 } // namespace vorion::isasim

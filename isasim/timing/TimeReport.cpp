@@ -27,9 +27,9 @@ std::span<const TimingParam> timingParams() {
 
 std::string_view name(CoreCycle C) {
   constexpr std::string_view Names[] = {
-      "issue",       "start",       "operand", "memory",     "local",
-      "unit",        "lsu_queue",   "branch",  "divergence", "fence",
-      "raster_full", "raster_wait", "barrier", "ended"};
+      "issue", "start",       "fetch",       "operand", "memory",
+      "local", "unit",        "lsu_queue",   "branch",  "divergence",
+      "fence", "raster_full", "raster_wait", "barrier", "ended"};
   static_assert(std::size(Names) == size_t(CoreCycle::Count));
   return Names[size_t(C)];
 }

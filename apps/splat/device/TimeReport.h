@@ -25,6 +25,7 @@ inline constexpr std::array<std::string_view, 0> CountNames{};
 enum class CoreCount {
   Issue,
   Start,
+  Fetch,
   Operand,
   Memory,
   Local,
@@ -40,10 +41,10 @@ enum class CoreCount {
 };
 template <>
 inline constexpr std::array CountNames<CoreCount> =
-    std::to_array<std::string_view>({"issue", "start", "operand", "memory",
-                                     "local", "unit", "lsu_queue", "branch",
-                                     "divergence", "fence", "raster_full",
-                                     "raster_wait", "barrier", "ended"});
+    std::to_array<std::string_view>(
+        {"issue", "start", "fetch", "operand", "memory", "local", "unit",
+         "lsu_queue", "branch", "divergence", "fence", "raster_full",
+         "raster_wait", "barrier", "ended"});
 
 enum class RasterCount {
   Blend,

@@ -12,6 +12,9 @@ def judge(value, schema, path):
             judge(member, schema["properties"][key], f"{path}.{key}")
         assert schema["additionalProperties"] is False
         return
+    if schema["type"] == "string":
+        assert value in schema["enum"] and schema["default"] in schema["enum"], f"{path}: {value}"
+        return
     assert schema["type"] == "integer" and isinstance(value, int), path
     assert schema["minimum"] <= value <= schema["maximum"], f"{path}: {value} is out of range"
     assert value % schema.get("multipleOf", 1) == 0, f"{path}: {value} is no multiple"

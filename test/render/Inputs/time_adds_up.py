@@ -5,7 +5,7 @@ import sys
 
 report = json.load(open(sys.argv[1]))["time"]
 REASONS = {
-    "cores": "issue start operand memory local unit lsu_queue branch divergence "
+    "cores": "issue start fetch operand memory local unit lsu_queue branch divergence "
              "fence raster_full raster_wait barrier ended".split(),
     "rasterizers": "blend clip fetch hazard begin flush drain idle".split(),
 }

@@ -64,10 +64,12 @@ std::string toJson(const Config &C);
 std::string configSchema();
 
 /// Sets values by "KEY=VALUE,...", where a key in an object is written
-/// "raster.queue_depth", and checks the whole.
+/// "raster.queue_depth", from left to right, and checks the whole. A name that
+/// stands for a set of numbers ("timing.core.preset") sets all of them.
 Expected<Success> setValues(Config &C, std::string_view List);
 
-/// Reads what toJson writes. Missing keys keep their default; an unknown key,
+/// Reads what toJson writes. Missing keys keep their default, or what a name
+/// that stands for a set of numbers says; an unknown key,
 /// a wrong type or a value out of range is an error naming the key. \p Where
 /// is the file name for messages.
 Expected<Config> parseConfig(std::string_view Json, const std::string &Where);

@@ -25,11 +25,18 @@ struct TimingGroups {
 #undef PARAM
 };
 
+/// Names of sets of numbers for a core (CorePresets.def).
+enum class CorePreset : uint8_t { Forwarding, Vortex5Stage, Vortex2025, Count };
+std::string_view name(CorePreset P);
+CoreTiming numbersOf(CorePreset P);
+
 /// Object "timing" of a configuration. Changes how long things take and
 /// nothing else.
 struct TimingConfig {
   bool Enabled = false;    ///< whether there is a clock at all
   uint32_t ClockMhz = 530; ///< of everything but DRAM and the host's link
+  /// Where the numbers of Core began; single ones may differ by now.
+  CorePreset Preset = CorePreset::Forwarding;
 #define GROUP(NAME, MEMBER, WHAT) MEMBER##Timing MEMBER;
 #define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)
 #include "vorion/isasim/TimingParams.def"
@@ -55,13 +62,14 @@ std::string timingMarkdown();
 enum class CoreCycle : uint8_t {
   Issue,
   Start,      ///< for reset at the launch
+  Fetch,      ///< for the warp's next instruction
   Operand,    ///< for a result of an ALU or SFU
   Memory,     ///< for a value from global memory
   Local,      ///< for a value from local memory
   Unit,       ///< for a unit that was busy
   LsuQueue,   ///< for a place among the accesses in flight
-  Branch,     ///< for the front end after a taken branch
-  Divergence, ///< for the front end after a change of the active lanes
+  Branch,     ///< for the front end after a branch
+  Divergence, ///< for the front end after what changes the active lanes
   Fence,      ///< for its accesses to be done
   RasterFull, ///< for a place in the rasterizer's queue
   RasterWait, ///< for the rasterizer to finish
