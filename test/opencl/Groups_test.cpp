@@ -153,6 +153,21 @@ kernel void conditional_in_loop(global uint *out, local uint *t, uint k) {
   out[get_group_id(0) * n + l] = r;
 }
 
+// Twenty conditions in a row: a million ways from the start to the end.
+#define STEP(bit) \
+  if (ways & 1u << (bit)) { \
+    t[l] = r; \
+    barrier(CLK_LOCAL_MEM_FENCE); \
+    r += t[(l + (bit) + 1) % n] * 3; \
+    barrier(CLK_LOCAL_MEM_FENCE); \
+  }
+#define FIVE_STEPS(bit) STEP(bit) STEP(bit + 1) STEP(bit + 2) STEP(bit + 3) STEP(bit + 4)
+kernel void many_conditionals(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, r = l, ways = (get_group_id(0) + k) * 2654435761u;
+  FIVE_STEPS(0) FIVE_STEPS(5) FIVE_STEPS(10) FIVE_STEPS(15)
+  out[get_group_id(0) * n + l] = r;
+}
+
 // Before the first of a conditional's barriers work-items part, and meet again;
 // behind it, too.
 kernel void parting_in_conditional(global uint *out, local uint *t, uint k) {
@@ -329,6 +344,21 @@ Values conditionalInLoop(U N, U) {
   return R;
 }
 
+Values manyConditionals(U N, U Group) {
+  Values T(N), R(N);
+  for (U L = 0; L < N; ++L)
+    R[L] = L;
+  const U Ways = (Group + Rounds) * 2654435761U;
+  for (U Bit = 0; Bit < 20; ++Bit) {
+    if (!(Ways >> Bit & 1))
+      continue;
+    T = R;
+    for (U L = 0; L < N; ++L)
+      R[L] += T[(L + Bit + 1) % N] * 3;
+  }
+  return R;
+}
+
 Values partingInConditional(U N, U Group) {
   Values T(N), R(N);
   for (U L = 0; L < N; ++L)
@@ -394,6 +424,7 @@ const Kernel Kernels[] = {{"straight", straight},
                           {"nested_loops", nestedLoops},
                           {"endless_if_reached", endlessIfReached},
                           {"conditional_in_loop", conditionalInLoop},
+                          {"many_conditionals", manyConditionals},
                           {"parting_in_conditional", partingInConditional},
                           {"loop_then_barrier", loopThenBarrier},
                           {"private_array", privateArray},
