@@ -33,7 +33,7 @@ int run(std::vector<std::string> Arguments) {
   splat::DeviceOptions Device;
   App.add_option_function<std::string>(
          "--set",
-         [&](const std::string &Set) { Device.give("VORION_SET", Set); },
+         [&](const std::string &Set) { Device.set("VORION_SET", Set); },
          "change the Vorion device's configuration (as VORION_SET)")
       ->type_name("KEY=VALUE,...");
   // After a command, too.

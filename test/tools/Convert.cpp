@@ -127,8 +127,8 @@ template <typename Real> splat::Npz toNpz(const reference::Picture<Real> &P) {
   return {{"render", NpyArray::of({H, W, 3}, converted<Real>(renderOf(P)))},
           {"alpha", NpyArray::of({H, W}, Alpha)},
           {"last", NpyArray::of({H, W}, P.Last)},
-          {"mask_threshold", NpyArray::ofBools({H, W}, Threshold)},
-          {"mask_order", NpyArray::ofBools({H, W}, Order)}};
+          {"mask_threshold", NpyArray::fromBools({H, W}, Threshold)},
+          {"mask_order", NpyArray::fromBools({H, W}, Order)}};
 }
 
 template <typename Real>

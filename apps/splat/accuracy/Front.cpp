@@ -10,7 +10,8 @@ namespace vorion::splat {
 
 namespace {
 
-std::vector<Judged> judgedByDb(const std::vector<Candidate> &All, TimeAxis A) {
+std::vector<Judged> judgedByPsnr(const std::vector<Candidate> &All,
+                                 TimeAxis A) {
   std::vector<Judged> Of;
   Of.reserve(All.size());
   for (const Candidate &C : All)
@@ -58,7 +59,7 @@ std::vector<std::size_t> paretoFront(const std::vector<Judged> &All) {
 
 std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,
                                      TimeAxis A) {
-  return paretoFront(judgedByDb(All, A));
+  return paretoFront(judgedByPsnr(All, A));
 }
 
 std::optional<std::size_t> recommend(const std::vector<Judged> &All,
@@ -81,7 +82,7 @@ std::optional<std::size_t> recommend(const std::vector<Judged> &All,
 
 std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
                                      TimeAxis A, double FloorDb) {
-  return recommend(judgedByDb(All, A), FloorDb);
+  return recommend(judgedByPsnr(All, A), FloorDb);
 }
 
 std::vector<FloorStep> recommendations(const std::vector<Judged> &All) {
@@ -118,7 +119,7 @@ std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
   struct KeptValue {
     double Saving;
     std::string Name, Text; // of equal savings these decide
-    KnobId Of;
+    KnobId Id;
     std::size_t Value;
   };
   std::vector<KeptValue> Kept;
@@ -149,7 +150,7 @@ std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
     for (const Knob &K : Knobs) {
       const std::vector<Setting> Before = Settings;
       for (const KeptValue &V : Kept)
-        if (V.Of == K.Id)
+        if (V.Id == K.Id)
           for (const Setting &S : Before)
             Settings.push_back(S.with(K, V.Value));
     }

@@ -38,8 +38,8 @@ std::vector<double> flat(const std::vector<Vector> &Rows) {
 }
 
 /// Of quaternions as they are stored, of any length.
-std::vector<double> ofStored(const std::vector<glm::dvec4> &Gradients,
-                             const Scene &S) {
+std::vector<double> storedQuats(const std::vector<glm::dvec4> &Gradients,
+                                const Scene &S) {
   std::vector<double> Values;
   Values.reserve(4 * Gradients.size());
   for (std::size_t I = 0; I < Gradients.size(); ++I) {
@@ -122,7 +122,7 @@ writeGradientReference(const GradientFiles &Files, const Scene &S,
   return writeNpz(
       Files.Gradients,
       {{"f64_g_means", rows(S.size(), flat(Back.Means))},
-       {"f64_g_quats", rows(S.size(), ofStored(Back.Quats, S))},
+       {"f64_g_quats", rows(S.size(), storedQuats(Back.Quats, S))},
        {"f64_g_scales", rows(S.size(), flat(Back.Scales))},
        {"f64_g_opacities", rows(S.size(), Back.Opacities)},
        {"f64_g_colors", rows(S.size(), flat(Back.Sh))},

@@ -36,8 +36,8 @@ TEST(Origin, TheMachineIsWhatItsFileSays) {
   const TestFolder F;
   const auto MachineOf = [&](const char *Config, const char *Set) {
     DeviceOptions Machine;
-    Machine.give("VORION_CONFIG", Config);
-    Machine.give("VORION_SET", Set);
+    Machine.set("VORION_CONFIG", Config);
+    Machine.set("VORION_SET", Set);
     const auto All = commonOrigin(Machine);
     EXPECT_TRUE(All);
     return All ? All->at("machine") : "";

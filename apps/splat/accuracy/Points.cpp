@@ -36,9 +36,9 @@ Expected<Success> makeFolders(const std::string &Folder) {
 
 KeptPoints::KeptPoints(std::string Where,
                        std::function<bool(const Json &)> IsOne,
-                       std::function<void(std::string_view)> Say)
+                       std::function<void(std::string_view)> Log)
     : Folder(std::move(Where)), IsMeasurement(std::move(IsOne)),
-      Said(std::move(Say)) {}
+      Log(std::move(Log)) {}
 
 std::string KeptPoints::fileOf(const std::string &Name) const {
   return fmt::format("{}/points/{}.json", Folder, asFileName(Name));
@@ -63,7 +63,7 @@ const Json *KeptPoints::find(const std::string &Name, const Origin &From) {
   if (IsNew && std::filesystem::exists(fileOf(Name), Ignored)) {
     auto Read = readJson(fileOf(Name));
     if (const std::string Why = problem(Name, Read, From); !Why.empty())
-      Said(fmt::format("{}: {}: not used", fileOf(Name), Why));
+      Log(fmt::format("{}: {}: not used", fileOf(Name), Why));
     else
       At->second = std::move(*Read);
   }
@@ -85,9 +85,10 @@ Expected<Success> KeptPoints::keep(const std::string &Name, const Origin &From,
   return Success{};
 }
 
-Expected<Success>
-measureAll(KeptPoints &Kept, const std::vector<Measuring> &Wanted,
-           unsigned Jobs, const std::function<void(std::string_view)> &Said) {
+Expected<Success> measureAll(KeptPoints &Kept,
+                             const std::vector<Measuring> &Wanted,
+                             unsigned Jobs,
+                             const std::function<void(std::string_view)> &Log) {
   std::atomic<std::size_t> Next = 0;
   std::mutex Lock;
   std::size_t Count = 0;
@@ -105,8 +106,8 @@ measureAll(KeptPoints &Kept, const std::vector<Measuring> &Wanted,
         Next = Wanted.size();
         return;
       }
-      Said(fmt::format("[{}/{}] {}: {}", ++Count, Wanted.size(), Wanted[I].Name,
-                       Wanted[I].Say(*Measured)));
+      Log(fmt::format("[{}/{}] {}: {}", ++Count, Wanted.size(), Wanted[I].Name,
+                      Wanted[I].Describe(*Measured)));
     }
   };
   std::vector<std::thread> Others;

@@ -27,11 +27,11 @@ public:
   using Json = nlohmann::ordered_json;
 
   /// Those of \p Folder. \p IsMeasurement says of any object whose "point" is
-  /// the point's name whether the rest is a measurement of it; \p Said gets a
+  /// the point's name whether the rest is a measurement of it; \p Log gets a
   /// line for each file that is not used.
   KeptPoints(std::string Folder,
              std::function<bool(const Json &)> IsMeasurement,
-             std::function<void(std::string_view)> Said);
+             std::function<void(std::string_view)> Log);
 
   /// The measurement called \p Name if it was made from \p From. Each file is
   /// read once.
@@ -48,24 +48,24 @@ private:
 
   std::string Folder;
   std::function<bool(const Json &)> IsMeasurement;
-  std::function<void(std::string_view)> Said;
+  std::function<void(std::string_view)> Log;
   /// By name; null where no file serves.
   std::map<std::string, Json> Known;
 };
 
-/// A measurement to be made, by \c Measure, of which a line is said.
+/// A measurement to be made, by \c Measure, which a line describes.
 struct Measuring {
   std::string Name;
   Origin From;
   std::function<Expected<nlohmann::ordered_json>()> Measure;
-  std::function<std::string(const nlohmann::ordered_json &)> Say;
+  std::function<std::string(const nlohmann::ordered_json &)> Describe;
 };
 
-/// Measures all of \p Wanted, \p Jobs at a time, and keeps them; \p Said gets a
+/// Measures all of \p Wanted, \p Jobs at a time, and keeps them; \p Log gets a
 /// line for each one that is done. Ends with the first that fails.
 Expected<Success> measureAll(KeptPoints &Kept,
                              const std::vector<Measuring> &Wanted,
                              unsigned Jobs,
-                             const std::function<void(std::string_view)> &Said);
+                             const std::function<void(std::string_view)> &Log);
 
 } // namespace vorion::splat

@@ -16,16 +16,16 @@ protected:
   KeptPointsTest() { EXPECT_TRUE(makeFolders(F.path("o"))); }
 
   KeptPoints open() {
-    Said.clear();
+    Log.clear();
     return {F.path("o"),
             [](const Json &J) {
               return J.contains("cycles") && J["cycles"].is_number();
             },
-            [this](std::string_view Line) { Said += Line; }};
+            [this](std::string_view Line) { Log += Line; }};
   }
 
   TestFolder F;
-  std::string Said;
+  std::string Log;
 };
 
 const Origin From{{"programs", "p"}, {"scene", "A"}};
@@ -36,18 +36,18 @@ TEST_F(KeptPointsTest, AreUsedForTheSameAlone) {
   EXPECT_EQ(First.find("a@front", From), nullptr);
   ASSERT_TRUE(First.keep("a@front", From, Json{{"cycles", 7}}));
   EXPECT_EQ((*First.find("a@front", From))["cycles"], 7);
-  EXPECT_EQ(Said, "");
+  EXPECT_EQ(Log, "");
 
   KeptPoints Second = open();
   ASSERT_NE(Second.find("a@front", From), nullptr);
   EXPECT_EQ((*Second.find("a@front", From))["made_from"]["scene"], "A");
-  EXPECT_EQ(Said, "");
+  EXPECT_EQ(Log, "");
 
   KeptPoints Third = open();
   EXPECT_EQ(Third.find("a@front", Other), nullptr);
   EXPECT_EQ(Third.find("a@front", Other), nullptr);
-  EXPECT_EQ(Said, fmt::format("{}: stale, differs in scene: not used",
-                              F.path("o/points/a@front.json")));
+  EXPECT_EQ(Log, fmt::format("{}: stale, differs in scene: not used",
+                             F.path("o/points/a@front.json")));
 }
 
 /// Each is one line and no measurement.
@@ -75,8 +75,8 @@ TEST_F(KeptPointsTest, WhatIsNoMeasurementIsNotUsed) {
     F.write("o/points/a.json", Text);
     KeptPoints Again = open();
     EXPECT_EQ(Again.find("a", From), nullptr) << Text.substr(0, 80);
-    EXPECT_NE(Said.find(Why), std::string::npos) << Said;
-    EXPECT_EQ(Said.find('\n'), std::string::npos);
+    EXPECT_NE(Log.find(Why), std::string::npos) << Log;
+    EXPECT_EQ(Log.find('\n'), std::string::npos);
   }
 }
 

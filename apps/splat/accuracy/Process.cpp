@@ -40,9 +40,9 @@ static std::vector<std::string> environmentWith(const DeviceOptions &Machine) {
   std::vector<std::string> All;
   for (char **Each = environ; *Each; ++Each)
     if (const std::string Text = *Each;
-        !Machine.given().contains(Text.substr(0, Text.find('='))))
+        !Machine.commandLine().contains(Text.substr(0, Text.find('='))))
       All.push_back(Text);
-  for (const auto &[Name, Text] : Machine.given())
+  for (const auto &[Name, Text] : Machine.commandLine())
     All.push_back(Name + "=" + Text);
   return All;
 }

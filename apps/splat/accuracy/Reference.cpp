@@ -48,7 +48,7 @@ Expected<Success> writeReference(const std::string &Path,
 
 Expected<Success>
 makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
-               const std::function<void(std::string_view)> &Said) {
+               const std::function<void(std::string_view)> &Log) {
   std::optional<reference::Gaussians<double>> Scene;
   Drawing DrawnAs;
   for (const Point &Of : Points) {
@@ -64,8 +64,8 @@ makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
         Scene = toReference<double>(File->Gaussians);
         DrawnAs = File->DrawnAs;
       }
-      Said(fmt::format("reference of {}, support {}", Of.View->Name,
-                       name(Reach)));
+      Log(fmt::format("reference of {}, support {}", Of.View->Name,
+                      name(Reach)));
       return writeReference(Path, *Scene, *Of.View, Reach, DrawnAs);
     };
     if (auto Made = makeOnce({Path}, From, Make); !Made)

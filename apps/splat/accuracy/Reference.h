@@ -11,7 +11,7 @@ namespace vorion::splat {
 /// Renders those of \p Points that are not there, made from the same.
 Expected<Success>
 makeReferences(const SweepPlan &P, const std::vector<Point> &Points,
-               const std::function<void(std::string_view)> &Said);
+               const std::function<void(std::string_view)> &Log);
 
 /// The picture for \p Of, which makeReferences has made.
 Expected<ExactImage> referenceOf(const SweepPlan &P, const Point &Of);

@@ -112,8 +112,8 @@ Setting Setting::with(const Knob &K, std::size_t Value) const {
 std::string Setting::name() const {
   std::string Text;
   for (const Choice &C : Choices)
-    Text += fmt::format("{}{}={}", Text.empty() ? "" : ",", knob(C.Of).Name,
-                        value(C.Of));
+    Text += fmt::format("{}{}={}", Text.empty() ? "" : ",", knob(C.Id).Name,
+                        value(C.Id));
   return Text.empty() ? "default" : Text;
 }
 
@@ -136,11 +136,11 @@ Expected<Setting> Setting::parse(const std::string &Name) {
     Parts.push_back(*Found);
   }
   // One order, so that a setting has one name.
-  std::ranges::sort(Parts, {}, &Choice::Of);
+  std::ranges::sort(Parts, {}, &Choice::Id);
   Setting S;
   for (std::size_t I = 0; I < Parts.size(); ++I) {
-    const Knob &K = knob(Parts[I].Of);
-    if (I > 0 && Parts[I - 1].Of == Parts[I].Of)
+    const Knob &K = knob(Parts[I].Id);
+    if (I > 0 && Parts[I - 1].Id == Parts[I].Id)
       return Wrong(fmt::format("{} is there twice", K.Name));
     S = S.with(K, Parts[I].Value);
   }
@@ -148,7 +148,7 @@ Expected<Setting> Setting::parse(const std::string &Name) {
 }
 
 std::size_t Setting::place(KnobId Id) const {
-  const auto Found = std::ranges::find(Choices, Id, &Choice::Of);
+  const auto Found = std::ranges::find(Choices, Id, &Choice::Id);
   return Found == Choices.end() ? 0 : Found->Value;
 }
 
@@ -169,7 +169,7 @@ static void append(std::vector<std::string> &To, const std::string &Option,
 std::vector<std::string> Setting::arguments() const {
   std::vector<std::string> Out{"--path", "raster"};
   for (const Choice &C : Choices)
-    append(Out, knob(C.Of).Name, value(C.Of));
+    append(Out, knob(C.Id).Name, value(C.Id));
   return Out;
 }
 
@@ -178,15 +178,15 @@ std::optional<std::vector<std::string>> Setting::coresArguments() const {
   if (!isOnCores(exponential()))
     return std::nullopt;
   for (const Choice &C : Choices) {
-    const std::string &Option = knob(C.Of).CoresName;
+    const std::string &Option = knob(C.Id).CoresName;
     if (Option.empty())
       return std::nullopt;
-    append(Out, Option, value(C.Of));
+    append(Out, Option, value(C.Id));
   }
   return Out;
 }
 
-std::vector<Setting> oneAtATime(const std::vector<Knob> &Knobs) {
+std::vector<Setting> singleChanges(const std::vector<Knob> &Knobs) {
   std::vector<Setting> All{Setting()};
   for (const Knob &K : Knobs)
     for (std::size_t V = 1; V < K.Values.size(); ++V)

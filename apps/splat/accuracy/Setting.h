@@ -51,7 +51,7 @@ Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names);
 
 /// A knob at another value than its default.
 struct Choice {
-  KnobId Of;
+  KnobId Id;
   std::size_t Value; ///< place among the knob's values
 
   bool operator==(const Choice &) const = default;
@@ -93,6 +93,6 @@ private:
 };
 
 /// The default, then each other value of each knob alone.
-std::vector<Setting> oneAtATime(const std::vector<Knob> &Knobs);
+std::vector<Setting> singleChanges(const std::vector<Knob> &Knobs);
 
 } // namespace vorion::splat

@@ -49,7 +49,7 @@ TEST(Setting, OneAtATimeHasEachValueOnce) {
   const auto Knobs = knobsNamed({"tile", "blend"});
   ASSERT_TRUE(Knobs);
   std::vector<std::string> Names;
-  for (const Setting &S : oneAtATime(*Knobs))
+  for (const Setting &S : singleChanges(*Knobs))
     Names.push_back(S.name());
   EXPECT_EQ(Names,
             (std::vector<std::string>{"default", "blend=bf16", "blend=fp16",

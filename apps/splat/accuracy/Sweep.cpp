@@ -29,9 +29,10 @@ struct Run {
 
 class PointMeasurement {
 public:
-  PointMeasurement(const SweepPlan &Plan, const Point &Which)
-      : P(Plan), Of(Which),
-        Base(fmt::format("{}/work/{}", P.Folder, asFileName(Of.name()))) {}
+  PointMeasurement(const SweepPlan &Plan, const Point &Target)
+      : Plan(Plan), Target(Target),
+        Base(fmt::format("{}/work/{}", Plan.Folder,
+                         asFileName(Target.name()))) {}
 
   Expected<Json> measure();
 
@@ -39,19 +40,21 @@ private:
   Expected<Run> run(const std::vector<std::string> &Arguments);
   Expected<Json> errors(const ExactImage &Picture, const ExactImage &Right);
 
-  const SweepPlan &P;
-  const Point &Of;
+  const SweepPlan &Plan;
+  const Point &Target;
   const std::string Base;
 };
 
 Expected<Run> PointMeasurement::run(const std::vector<std::string> &Arguments) {
   const std::string PictureFile = Base + ".npz", ReportFile = Base + ".json";
   std::vector<std::string> Words{
-      "render",      P.ScenePath, "--cameras", P.CameraFile, "--view",
-      Of.View->Name, "-o",        PictureFile, "--json",     ReportFile};
-  Words.insert(Words.end(), P.CommonArguments.begin(), P.CommonArguments.end());
+      "render", Plan.ScenePath,    "--cameras", Plan.CameraFile,
+      "--view", Target.View->Name, "-o",        PictureFile,
+      "--json", ReportFile};
+  Words.insert(Words.end(), Plan.CommonArguments.begin(),
+               Plan.CommonArguments.end());
   Words.insert(Words.end(), Arguments.begin(), Arguments.end());
-  if (auto Done = runSplat(Words, P.Machine, Base + ".log"); !Done)
+  if (auto Done = runSplat(Words, Plan.Machine, Base + ".log"); !Done)
     return Done.error();
   auto Report = readJson(ReportFile);
   if (!Report)
@@ -72,7 +75,7 @@ Expected<Json> PointMeasurement::errors(const ExactImage &Picture,
   const Difference D = compare(Right.Render, Picture.Render, 3);
   if (D.NotFinite != 0)
     return Error{
-        Of.name(),
+        Target.name(),
         fmt::format("{} pixels have values that are no finite numbers, "
                     "expected a picture: leave out this choice with "
                     "--knobs",
@@ -88,13 +91,13 @@ Expected<Json> PointMeasurement::errors(const ExactImage &Picture,
 }
 
 double laneArea(const Json &Areas, const Setting &S) {
-  const auto Of = [&Areas](const char *Units, auto Unit) {
+  const auto AreaOf = [&Areas](const char *Units, auto Unit) {
     return Areas[Units]
         .at(static_cast<std::size_t>(Unit))
         .template get<double>();
   };
-  return Areas["other"].get<double>() + Of("exp", S.exponential()) +
-         Of("blend", S.arithmetic());
+  return Areas["other"].get<double>() + AreaOf("exp", S.exponential()) +
+         AreaOf("blend", S.arithmetic());
 }
 
 /// Cycles in which the busiest rasterizer gives pixels to lanes.
@@ -106,10 +109,10 @@ double laneCycles(const Json &Time) {
 }
 
 Expected<Json> PointMeasurement::measure() {
-  const auto Right = referenceOf(P, Of);
+  const auto Right = referenceOf(Plan, Target);
   if (!Right)
     return Right.error();
-  std::vector<std::string> Timed = Of.Chosen.arguments();
+  std::vector<std::string> Timed = Target.Chosen.arguments();
   Timed.emplace_back("--time");
   const auto Clocked = run(Timed);
   if (!Clocked)
@@ -120,14 +123,14 @@ Expected<Json> PointMeasurement::measure() {
 
   const Json &Time = Clocked->Report["time"]["sum"];
   const double Cycles = Time["cycles"].get<double>();
-  const double Area = laneArea(Time["lane_areas"], Of.Chosen);
+  const double Area = laneArea(Time["lane_areas"], Target.Chosen);
   const double Relative = Area / laneArea(Time["lane_areas"], Setting());
   const double LaneCycles = laneCycles(Time);
   Json Times{{"cycles", Cycles},
              {"equal_area_cycles", Cycles + LaneCycles * (Relative - 1)},
              {"cores_cycles", nullptr}};
   Json Kernels;
-  if (auto Cores = Of.Chosen.coresArguments(); Cores && P.Cores) {
+  if (auto Cores = Target.Chosen.coresArguments(); Cores && Plan.Cores) {
     Cores->emplace_back("--time");
     const auto OnCores = run(*Cores);
     if (!OnCores)
@@ -138,8 +141,8 @@ Expected<Json> PointMeasurement::measure() {
       return Their.error();
     Kernels = std::move(*Their);
   }
-  auto Small = thumbnail(Clocked->Picture, P.ThumbWidth);
-  auto Apart = differenceThumbnail(Clocked->Picture, *Right, P.ThumbWidth);
+  auto Small = thumbnail(Clocked->Picture, Plan.ThumbWidth);
+  auto Apart = differenceThumbnail(Clocked->Picture, *Right, Plan.ThumbWidth);
   if (!Small || !Apart)
     return Small ? Apart.error() : Small.error();
   // Seconds of the host, of one run, are no figure.
@@ -148,11 +151,11 @@ Expected<Json> PointMeasurement::measure() {
     Made.erase(Key);
   Made["total"].erase("seconds");
   return Json{
-      {"setting", Of.Chosen.name()},    {"view", Of.View->Name},
-      {"errors", std::move(*Errors)},   {"cores_errors", std::move(Kernels)},
-      {"times", std::move(Times)},      {"lane_cycles", LaneCycles},
-      {"lane_area_um2", Area},          {"lane_area_relative", Relative},
-      {"made_by", std::move(Made)},     {"picture", std::move(*Small)},
+      {"setting", Target.Chosen.name()}, {"view", Target.View->Name},
+      {"errors", std::move(*Errors)},    {"cores_errors", std::move(Kernels)},
+      {"times", std::move(Times)},       {"lane_cycles", LaneCycles},
+      {"lane_area_um2", Area},           {"lane_area_relative", Relative},
+      {"made_by", std::move(Made)},      {"picture", std::move(*Small)},
       {"difference", std::move(*Apart)}};
 }
 
@@ -196,7 +199,7 @@ Errors errorsOf(const Json &J) {
   return E;
 }
 
-Errors worseOf(const Errors &A, const Errors &B) {
+Errors maxOf(const Errors &A, const Errors &B) {
   Errors Worse{};
   for (std::size_t K = 0; K < ErrorKinds; ++K)
     Worse[K] = moreIsBetter(static_cast<ErrorKind>(K)) ? std::min(A[K], B[K])
@@ -207,14 +210,14 @@ Errors worseOf(const Errors &A, const Errors &B) {
 /// Adds the measurement \p M of a view to \p C; \p IsFirst: of the first.
 void addView(Candidate &C, const Json &M, bool IsFirst) {
   const Errors Own = errorsOf(M["errors"]);
-  C.Worst = IsFirst ? Own : worseOf(C.Worst, Own);
+  C.Worst = IsFirst ? Own : maxOf(C.Worst, Own);
   const Json &Cores = M["cores_errors"];
   if (Cores.is_null())
     C.CoresWorst.reset();
   else if (IsFirst)
     C.CoresWorst = errorsOf(Cores);
   else if (C.CoresWorst)
-    C.CoresWorst = worseOf(*C.CoresWorst, errorsOf(Cores));
+    C.CoresWorst = maxOf(*C.CoresWorst, errorsOf(Cores));
   for (std::size_t A = 0; A < TimeAxes; ++A) {
     const Json &Value = M["times"][std::string(TimeAxisNames[A])];
     if (Value.is_null())
@@ -263,8 +266,8 @@ Origin originOf(const SweepPlan &P, const Point &Of) {
 }
 
 KeptPoints keptPoints(const SweepPlan &P,
-                      std::function<void(std::string_view)> Said) {
-  return {P.Folder, isMeasurement, std::move(Said)};
+                      std::function<void(std::string_view)> Log) {
+  return {P.Folder, isMeasurement, std::move(Log)};
 }
 
 std::vector<Point> missing(const SweepPlan &P, KeptPoints &Kept,
@@ -287,8 +290,8 @@ Expected<Json> readPoint(const SweepPlan &P, KeptPoints &Kept,
 
 Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
                           const std::vector<Point> &Points,
-                          const std::function<void(std::string_view)> &Said) {
-  if (auto Made = makeReferences(P, Points, Said); !Made)
+                          const std::function<void(std::string_view)> &Log) {
+  if (auto Made = makeReferences(P, Points, Log); !Made)
     return Made;
   std::vector<Measuring> Wanted;
   Wanted.reserve(Points.size());
@@ -300,7 +303,7 @@ Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
                                            valueOf(M["errors"]["psnr_db"]),
                                            M["times"]["cycles"].get<double>());
                       }});
-  return measureAll(Kept, Wanted, P.Jobs, Said);
+  return measureAll(Kept, Wanted, P.Jobs, Log);
 }
 
 Expected<std::vector<Candidate>>

@@ -47,20 +47,20 @@ Expected<Point> pointNamed(const SweepPlan &P, const std::string &Name);
 /// What the measurement of a point is made from.
 Origin originOf(const SweepPlan &P, const Point &Of);
 
-/// The measurements that \p P's folder has; \p Said is told of each file that
+/// The measurements that \p P's folder has; \p Log is told of each file that
 /// is not used.
 KeptPoints keptPoints(const SweepPlan &P,
-                      std::function<void(std::string_view)> Said);
+                      std::function<void(std::string_view)> Log);
 
 /// Those of \p Of that are to be measured.
 std::vector<Point> missing(const SweepPlan &P, KeptPoints &Kept,
                            const std::vector<Point> &Of);
 
-/// Measures \p Points and keeps them; \p Said gets a line for each one that is
+/// Measures \p Points and keeps them; \p Log gets a line for each one that is
 /// done.
 Expected<Success> measure(const SweepPlan &P, KeptPoints &Kept,
                           const std::vector<Point> &Points,
-                          const std::function<void(std::string_view)> &Said);
+                          const std::function<void(std::string_view)> &Log);
 
 /// The measurement of a point that is there; an Error of one that is not.
 Expected<nlohmann::ordered_json> readPoint(const SweepPlan &P, KeptPoints &Kept,

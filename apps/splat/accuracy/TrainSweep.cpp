@@ -58,9 +58,9 @@ std::vector<std::string> trainArguments(const TrainSweepPlan &P,
 
 /// The scene at which gradients are compared: the default's run with seed 0.
 Expected<Success> makeState(const TrainSweepPlan &P,
-                            const std::function<void(std::string_view)> &Said) {
+                            const std::function<void(std::string_view)> &Log) {
   return makeOnce({stateFile(P)}, P.From, [&]() -> Expected<Success> {
-    Said("the scene for gradients: the default's run with seed 0");
+    Log("the scene for gradients: the default's run with seed 0");
     std::vector<std::string> Words = trainArguments(P, stateFile(P));
     // A run that was broken off goes on, unless it was made from other things.
     const std::string Checkpoint =
@@ -78,8 +78,8 @@ Expected<Success> makeState(const TrainSweepPlan &P,
 /// That scene and its reference.
 Expected<Success>
 makeReference(const TrainSweepPlan &P,
-              const std::function<void(std::string_view)> &Said) {
-  if (auto Made = makeState(P, Said); !Made)
+              const std::function<void(std::string_view)> &Log) {
+  if (auto Made = makeState(P, Log); !Made)
     return Made;
   const GradientFiles Files(references(P));
   const auto Make = [&]() -> Expected<Success> {
@@ -92,7 +92,7 @@ makeReference(const TrainSweepPlan &P,
     const auto Pictures = loadTrainingSet(*C, P.Downscale, P.Background);
     if (!Pictures)
       return Pictures.error();
-    Said("gradients in fp64");
+    Log("gradients in fp64");
     return writeGradientReference(Files, State->Gaussians,
                                   Pictures->Training.front(), P.Background);
   };
@@ -239,7 +239,7 @@ std::string TrainPoint::at() const {
 }
 
 std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P) {
-  const std::vector<Setting> Settings = oneAtATime(trainKnobs());
+  const std::vector<Setting> Settings = singleChanges(trainKnobs());
   std::vector<TrainPoint> All;
   All.reserve(Settings.size() * (std::size_t{P.Seeds} + 1));
   for (const Setting &S : Settings)
@@ -268,8 +268,8 @@ Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C) {
 }
 
 KeptPoints keptPoints(const TrainSweepPlan &P,
-                      std::function<void(std::string_view)> Said) {
-  return {P.Folder, isMeasurement, std::move(Said)};
+                      std::function<void(std::string_view)> Log) {
+  return {P.Folder, isMeasurement, std::move(Log)};
 }
 
 std::vector<TrainPoint> missing(const TrainSweepPlan &P, KeptPoints &Kept,
@@ -283,7 +283,7 @@ std::vector<TrainPoint> missing(const TrainSweepPlan &P, KeptPoints &Kept,
 
 Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
                           const std::vector<TrainPoint> &Points,
-                          const std::function<void(std::string_view)> &Said) {
+                          const std::function<void(std::string_view)> &Log) {
   std::vector<Measuring> Wanted;
   bool Gradients = false;
   for (const TrainPoint &Of : Points) {
@@ -299,9 +299,9 @@ Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
                       lineOf});
   }
   if (Gradients)
-    if (auto Made = makeReference(P, Said); !Made)
+    if (auto Made = makeReference(P, Log); !Made)
       return Made;
-  return measureAll(Kept, Wanted, P.Jobs, Said);
+  return measureAll(Kept, Wanted, P.Jobs, Log);
 }
 
 namespace {
@@ -355,7 +355,7 @@ Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
     Points.push_back(*One);
   }
   Json Settings = Json::array();
-  for (const Setting &S : oneAtATime(trainKnobs())) {
+  for (const Setting &S : singleChanges(trainKnobs())) {
     Json Row{{"setting", S.name()}};
     std::vector<double> Cycles, Db, Seconds;
     for (std::size_t I = 0; I != All.size(); ++I) {

@@ -49,20 +49,20 @@ std::vector<TrainPoint> trainPoints(const TrainSweepPlan &P);
 /// What all points of \p P, whose capture is \p C, are made from.
 Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C);
 
-/// The measurements that \p P's folder has; \p Said is told of each file that
+/// The measurements that \p P's folder has; \p Log is told of each file that
 /// is not used.
 KeptPoints keptPoints(const TrainSweepPlan &P,
-                      std::function<void(std::string_view)> Said);
+                      std::function<void(std::string_view)> Log);
 
 /// Those of \p Of that are to be measured.
 std::vector<TrainPoint> missing(const TrainSweepPlan &P, KeptPoints &Kept,
                                 const std::vector<TrainPoint> &Of);
 
-/// Measures \p Points and keeps them; \p Said gets a line for each one that is
+/// Measures \p Points and keeps them; \p Log gets a line for each one that is
 /// done.
 Expected<Success> measure(const TrainSweepPlan &P, KeptPoints &Kept,
                           const std::vector<TrainPoint> &Points,
-                          const std::function<void(std::string_view)> &Said);
+                          const std::function<void(std::string_view)> &Log);
 
 /// All points, which are measured, and what they say together: of each setting
 /// gradient error, area, cycles, PSNR, and machine-seconds until a PSNR that

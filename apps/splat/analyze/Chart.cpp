@@ -59,10 +59,10 @@ std::string line(double X0, double Y0, double X1, double Y1,
 /// Where values lie on the page.
 class Page {
 public:
-  explicit Page(const Chart &C) : C(C) {
+  explicit Page(const Chart &Content) : Content(Content) {
     double Largest = 0;
-    for (const ChartSeries &S : C.Series) {
-      assert(S.Values.size() == C.Places.size());
+    for (const ChartSeries &S : Content.Series) {
+      assert(S.Values.size() == Content.Places.size());
       for (const double V : S.Values)
         Largest = std::max(Largest, V);
     }
@@ -71,7 +71,7 @@ public:
   }
 
   double place() const {
-    return (Right - Left) / static_cast<double>(C.Places.size());
+    return (Right - Left) / static_cast<double>(Content.Places.size());
   }
   /// The middle of place \p I.
   double x(std::size_t I) const {
@@ -88,22 +88,23 @@ public:
       Out += line(Left, y(Value), Right, y(Value), K ? "#d0d0d0" : "#000000");
       Out += text(Left - 6, y(Value) + 4, "end", fmt::format("{:.6g}", Value));
     }
-    for (std::size_t I = 0; I < C.Places.size(); I += C.LabelEvery)
-      Out += text(x(I), Bottom + 18, "middle", C.Places[I]);
-    Out += text((Left + Right) / 2, Bottom + 40, "middle", C.XLabel);
-    Out += text(Width / 2, 22, "middle", C.Title, " font-size=\"15\"");
+    for (std::size_t I = 0; I < Content.Places.size(); I += Content.LabelEvery)
+      Out += text(x(I), Bottom + 18, "middle", Content.Places[I]);
+    Out += text((Left + Right) / 2, Bottom + 40, "middle", Content.XLabel);
+    Out += text(Width / 2, 22, "middle", Content.Title, " font-size=\"15\"");
     Out += fmt::format("<text transform=\"translate(18 {:.1f}) rotate(-90)\" "
                        "text-anchor=\"middle\">{}</text>\n",
-                       (Top + Bottom) / 2, escaped(C.YLabel));
+                       (Top + Bottom) / 2, escaped(Content.YLabel));
     return Out;
   }
 
   std::string series(std::size_t K) const {
-    const ChartSeries &S = C.Series[K];
+    const ChartSeries &S = Content.Series[K];
     const char *Color = Colors[K % Colors.size()];
     std::string Out;
-    if (C.Bars) {
-      const double Share = 0.8 * place() / static_cast<double>(C.Series.size());
+    if (Content.Bars) {
+      const double Share =
+          0.8 * place() / static_cast<double>(Content.Series.size());
       for (std::size_t I = 0; I < S.Values.size(); ++I)
         Out +=
             fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
@@ -121,25 +122,26 @@ public:
   }
 
   std::string legend() const {
-    if (C.Series.size() < 2)
+    if (Content.Series.size() < 2)
       return "";
     std::string Out;
-    const double Each = (Right - Left) / static_cast<double>(C.Series.size());
-    for (std::size_t K = 0; K < C.Series.size(); ++K) {
+    const double Each =
+        (Right - Left) / static_cast<double>(Content.Series.size());
+    for (std::size_t K = 0; K < Content.Series.size(); ++K) {
       const double X = Left + static_cast<double>(K) * Each;
       Out += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{2:.1f}\" "
                          "y2=\"{1:.1f}\" stroke=\"{3}\" stroke-width=\"{4}\" "
                          "stroke-dasharray=\"{5}\"/>\n",
                          X, Height - 12, X + 26, Colors[K % Colors.size()],
-                         C.Bars ? 10 : 2,
-                         C.Bars ? "none" : Dashes[K % Dashes.size()]);
-      Out += text(X + 32, Height - 8, "start", C.Series[K].Name);
+                         Content.Bars ? 10 : 2,
+                         Content.Bars ? "none" : Dashes[K % Dashes.size()]);
+      Out += text(X + 32, Height - 8, "start", Content.Series[K].Name);
     }
     return Out;
   }
 
 private:
-  const Chart &C;
+  const Chart &Content;
   double Step = 1;
   int YSteps = 1;
 };

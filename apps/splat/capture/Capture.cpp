@@ -18,39 +18,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isThere(const fs::path &P) {
+bool fileExists(const fs::path &P) {
   std::error_code Ignored;
   return fs::exists(P, Ignored);
 }
 
 /// What is at a path, and where its files are.
-struct Found {
+struct Location {
   CaptureFormat Format = CaptureFormat::ColmapBinary;
   fs::path Model;    ///< folder of COLMAP's files, or the file of transforms
   fs::path Pictures; ///< folder that pictures' names start from
 };
 
-std::optional<Found> find(const fs::path &Path) {
-  if (Path.extension() == ".json" && isThere(Path))
-    return Found{CaptureFormat::Transforms, Path, Path.parent_path()};
+std::optional<Location> find(const fs::path &Path) {
+  if (Path.extension() == ".json" && fileExists(Path))
+    return Location{CaptureFormat::Transforms, Path, Path.parent_path()};
   for (const char *Sub : {"sparse/0", "sparse", "."})
     for (const auto &[Ending, Format] :
          {std::pair(".bin", CaptureFormat::ColmapBinary),
           std::pair(".txt", CaptureFormat::ColmapText)})
-      if (isThere(Path / Sub / (std::string("cameras") + Ending)))
-        return Found{Format, Path / Sub, Path / "images"};
-  if (isThere(Path / "transforms_train.json"))
-    return Found{CaptureFormat::NerfSynthetic, Path / "transforms_train.json",
-                 Path};
-  if (isThere(Path / "transforms.json"))
-    return Found{CaptureFormat::Transforms, Path / "transforms.json", Path};
+      if (fileExists(Path / Sub / (std::string("cameras") + Ending)))
+        return Location{Format, Path / Sub, Path / "images"};
+  if (fileExists(Path / "transforms_train.json"))
+    return Location{CaptureFormat::NerfSynthetic,
+                    Path / "transforms_train.json", Path};
+  if (fileExists(Path / "transforms.json"))
+    return Location{CaptureFormat::Transforms, Path / "transforms.json", Path};
   return std::nullopt;
 }
 
 /// The picture called \p Name, whose ending may be missing.
 fs::path pictureOf(const fs::path &Folder, const std::string &Name) {
   for (const char *Ending : {"", ".png", ".jpg", ".jpeg", ".webp"})
-    if (fs::path P = Folder / (Name + Ending); isThere(P))
+    if (fs::path P = Folder / (Name + Ending); fileExists(P))
       return P;
   return Folder / Name;
 }
@@ -65,7 +65,7 @@ Expected<Success> checkInside(const std::string &File, const std::string &Name,
                                  printable(Name))};
 }
 
-Expected<Success> readColmap(const Found &F, const CaptureOptions &Options,
+Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
                              Capture &C) {
   const bool Text = F.Format == CaptureFormat::ColmapText;
   const char *Ending = Text ? ".txt" : ".bin";
@@ -118,7 +118,7 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
   }
   if (HeldOut) {
     C.WithoutPicture = std::erase_if(
-        T->Views, [](const CaptureView &V) { return !isThere(V.Picture); });
+        T->Views, [](const CaptureView &V) { return !fileExists(V.Picture); });
     if (T->Views.empty())
       return Error{File.string(), "no frame has a picture, expected at least "
                                   "one"};
@@ -158,7 +158,7 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
 }
 
 /// Whether the user means \p Name by \p Wanted.
-bool isMeant(const std::string &Name, const std::string &Wanted) {
+bool matchesName(const std::string &Name, const std::string &Wanted) {
   const fs::path Path(Name);
   return Name == Wanted || Path.filename() == Wanted || Path.stem() == Wanted ||
          // Synthetic captures name pictures without their ending.
@@ -169,7 +169,7 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
                           const std::vector<std::string> &Names) {
   for (const std::string &Name : Names)
     if (std::erase_if(C.Views, [&](const CaptureView &V) {
-          return isMeant(V.Pose.Name, Name);
+          return matchesName(V.Pose.Name, Name);
         }) == 0)
       return Error{Path,
                    fmt::format("no picture {} to exclude, expected one of the "
@@ -265,7 +265,7 @@ Expected<Capture> readCapture(const std::string &Path,
   C.Format = F->Format;
   const fs::path Test = fs::path(Path) / "transforms_test.json";
   const bool OwnTest =
-      F->Format == CaptureFormat::NerfSynthetic && isThere(Test);
+      F->Format == CaptureFormat::NerfSynthetic && fileExists(Test);
   Expected<Success> Read = Success{};
   if (F->Format == CaptureFormat::ColmapText ||
       F->Format == CaptureFormat::ColmapBinary)

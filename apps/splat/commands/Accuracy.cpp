@@ -134,11 +134,11 @@ void say(std::string_view Line) {
 
 /// The settings so far: single knobs, and once they are all measured the
 /// product of the fronts.
-Expected<std::vector<Setting>> settingsSoFar(const SweepPlan &P,
-                                             KeptPoints &Kept, const Split &V,
-                                             double FloorDb,
-                                             std::size_t Products) {
-  std::vector<Setting> All = oneAtATime(P.Knobs);
+Expected<std::vector<Setting>> currentSettings(const SweepPlan &P,
+                                               KeptPoints &Kept, const Split &V,
+                                               double FloorDb,
+                                               std::size_t Products) {
+  std::vector<Setting> All = singleChanges(P.Knobs);
   if (!missing(P, Kept, pointsOf(P, All)).empty() || Products == 0)
     return All;
   const auto Measured = candidates(P, Kept, All, V.Choose);
@@ -262,7 +262,7 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
     }
     return measure(*P, Kept, missing(*P, Kept, Wanted), say);
   }
-  auto All = settingsSoFar(*P, Kept, *V, *Floor, A.Products);
+  auto All = currentSettings(*P, Kept, *V, *Floor, A.Products);
   if (!All)
     return All.error();
   if (A.List) {
@@ -276,7 +276,7 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
             measure(*P, Kept, missing(*P, Kept, pointsOf(*P, *All)), say);
         !Done)
       return Done;
-    All = settingsSoFar(*P, Kept, *V, *Floor, A.Products);
+    All = currentSettings(*P, Kept, *V, *Floor, A.Products);
     if (!All)
       return All.error();
   }

@@ -86,12 +86,12 @@ static Expected<Origin> check(const TrainSweepPlan &P) {
 Expected<Success>
 measureTraining(TrainSweepPlan P, bool List,
                 const std::vector<std::string> &Only,
-                const std::function<void(std::string_view)> &Said) {
+                const std::function<void(std::string_view)> &Log) {
   auto From = check(P);
   if (!From)
     return From.error();
   P.From = std::move(*From);
-  KeptPoints Kept = keptPoints(P, Said);
+  KeptPoints Kept = keptPoints(P, Log);
   if (List) {
     for (const TrainPoint &Of : missing(P, Kept, trainPoints(P)))
       printOut("{}\n", escaped(Of.name()));
@@ -110,9 +110,9 @@ measureTraining(TrainSweepPlan P, bool List,
                                "--list prints",
                                fmt::join(Only, " --only ")),
                    ExitCode::Usage};
-    return measure(P, Kept, missing(P, Kept, Chosen), Said);
+    return measure(P, Kept, missing(P, Kept, Chosen), Log);
   }
-  if (auto Done = measure(P, Kept, missing(P, Kept, trainPoints(P)), Said);
+  if (auto Done = measure(P, Kept, missing(P, Kept, trainPoints(P)), Log);
       !Done)
     return Done;
   const auto Results = trainResults(P, Kept);

@@ -25,6 +25,6 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
 Expected<Success>
 measureTraining(TrainSweepPlan P, bool List,
                 const std::vector<std::string> &Only,
-                const std::function<void(std::string_view)> &Said);
+                const std::function<void(std::string_view)> &Log);
 
 } // namespace vorion::splat

@@ -8,8 +8,8 @@ namespace vorion::splat {
 
 Runner addCompare(CLI::App &App) {
   auto A = std::make_shared<CompareArguments>();
-  App.add_option("a", A->A, "What to expect: .npz or .pfm")->required();
-  App.add_option("b", A->B, "What there is: .npz or .pfm")->required();
+  App.add_option("a", A->Reference, "What to expect: .npz or .pfm")->required();
+  App.add_option("b", A->Picture, "What there is: .npz or .pfm")->required();
   CLI::Option *Pairs = App.add_flag(
       "--pairs", A->Pairs,
       "Compare tile, depth_bits and index instead; they must be equal");

@@ -10,8 +10,8 @@
 namespace vorion::splat {
 
 struct CompareArguments {
-  std::string A, B;       ///< what to expect, and what there is
-  std::string Mask, Json; ///< files; empty for none
+  std::string Reference, Picture; ///< what to expect, and what there is
+  std::string Mask, Json;         ///< files; empty for none
   bool Pairs = false;
   std::optional<double> MinDb;       ///< outside the mask
   std::optional<double> MinDbAll;    ///< over all pixels

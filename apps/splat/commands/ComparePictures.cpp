@@ -96,21 +96,23 @@ Expected<Success> require(const std::string &File, const char *What,
 Expected<Success> comparePictures(const CompareArguments &A) {
   if (auto Checked = checkJsonName(A.Json); !Checked)
     return Checked;
-  if (auto Claimed = claimOutputs(
-          {{"--json", A.Json}},
-          {{"a picture", A.A}, {"a picture", A.B}, {"--mask", A.Mask}});
+  if (auto Claimed =
+          claimOutputs({{"--json", A.Json}}, {{"a picture", A.Reference},
+                                              {"a picture", A.Picture},
+                                              {"--mask", A.Mask}});
       !Claimed)
     return Claimed;
-  const auto First = readImage(A.A);
+  const auto First = readImage(A.Reference);
   if (!First)
     return First.error();
-  const auto Second = readImage(A.B);
+  const auto Second = readImage(A.Picture);
   if (!Second)
     return Second.error();
   if (First->Width != Second->Width || First->Height != Second->Height)
-    return Error{A.B, fmt::format("{}x{} pixels, expected {}x{} as in {}",
-                                  Second->Width, Second->Height, First->Width,
-                                  First->Height, A.A)};
+    return Error{A.Picture,
+                 fmt::format("{}x{} pixels, expected {}x{} as in {}",
+                             Second->Width, Second->Height, First->Width,
+                             First->Height, A.Reference)};
   std::vector<uint8_t> Mask;
   if (!A.Mask.empty()) {
     auto Read = readMask(A.Mask, *First);
@@ -135,8 +137,9 @@ Expected<Success> comparePictures(const CompareArguments &A) {
   if (!A.Json.empty()) {
     nlohmann::ordered_json Report{
         {"program", {{"name", "splat"}, {"version", VORION_VERSION}}}};
-    for (const auto &[Name, File] : {std::pair("a", &A.A), std::pair("b", &A.B),
-                                     std::pair("mask", &A.Mask)}) {
+    for (const auto &[Name, File] :
+         {std::pair("a", &A.Reference), std::pair("b", &A.Picture),
+          std::pair("mask", &A.Mask)}) {
       auto Input = input(*File);
       if (!Input)
         return Input.error();
@@ -156,7 +159,8 @@ Expected<Success> comparePictures(const CompareArguments &A) {
       return Written;
   }
 
-  if (auto Enough = require(A.B, "over all pixels", All, A.MinDbAll); !Enough)
+  if (auto Enough = require(A.Picture, "over all pixels", All, A.MinDbAll);
+      !Enough)
     return Enough;
   if (A.MaxDoubtful && 100 * Share > *A.MaxDoubtful)
     return Error{A.Mask,
@@ -164,7 +168,7 @@ Expected<Success> comparePictures(const CompareArguments &A) {
                              "at most {} %",
                              100 * Share, *A.MaxDoubtful),
                  ExitCode::GuestFailed};
-  return require(A.B,
+  return require(A.Picture,
                  Mask.empty() ? "over all pixels" : "outside doubtful pixels",
                  Outside, A.MinDb);
 }

@@ -131,7 +131,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   if (!U)
     return U.error();
   if (A.Time)
-    Machine.give("VORION_TIME", "on");
+    Machine.set("VORION_TIME", "on");
   auto D = openDevice(A.Device, A.Options.Blending, Machine);
   if (!D)
     return D.error();

@@ -46,7 +46,7 @@ std::string jsonReport(const InfoArguments &A, const SceneFile &F,
       {"sh_degree", F.Gaussians.ShDegree},
       {"dropped_nonfinite", F.Dropped},
       {"antialiased", F.DrawnAs.Antialiased},
-      {"antialiased_by", F.DrawnAs.Said},
+      {"antialiased_by", F.DrawnAs.Source},
       {"dilation", F.DrawnAs.Dilation ? Json(*F.DrawnAs.Dilation) : Json()},
       {"documented_axes", recordOf(F.Format).Axes},
       {"axes_changed", A.Scene.Axes},
@@ -70,10 +70,10 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
   Text += fmt::format("\n{} Gaussians, SH degree {}{}\n", F.Gaussians.size(),
                       F.Gaussians.ShDegree,
                       F.DrawnAs.Antialiased ? ", trained antialiased" : "");
-  if (!F.DrawnAs.Said.empty() || F.DrawnAs.Dilation)
+  if (!F.DrawnAs.Source.empty() || F.DrawnAs.Dilation)
     Text += fmt::format(
         "drawn        {} ({}){}\n",
-        F.DrawnAs.Antialiased ? "antialiased" : "classic", F.DrawnAs.Said,
+        F.DrawnAs.Antialiased ? "antialiased" : "classic", F.DrawnAs.Source,
         F.DrawnAs.Dilation ? fmt::format(", dilation {}", *F.DrawnAs.Dilation)
                            : "");
   Text += fmt::format("axes         {} by the format's documentation; {}\n",

@@ -12,8 +12,8 @@ Expected<NumericsReport> NumericsReport::begin(const std::string &Settings,
   if (!Folder)
     return Folder.error();
   NumericsReport R(std::move(*Folder));
-  Options.give("VORION_NUMERICS",
-               (Settings == "on" ? "" : Settings + ",") + "text=" + R.file());
+  Options.set("VORION_NUMERICS",
+              (Settings == "on" ? "" : Settings + ",") + "text=" + R.file());
   return R;
 }
 

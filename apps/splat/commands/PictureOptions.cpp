@@ -21,7 +21,7 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
 
 void drawAs(RenderOptions &O, const Drawing &D) {
   O.Antialiased = D.Antialiased;
-  O.AntialiasedBy = D.Said;
+  O.AntialiasedBy = D.Source;
   O.Dilation = static_cast<float>(D.Dilation.value_or(O.Dilation));
 }
 

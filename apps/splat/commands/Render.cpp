@@ -95,14 +95,14 @@ Expected<Success> check(const RenderArguments &A) {
                       {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
 }
 
-RenderPlan planAsAsked(const RenderArguments &A, const EffectInputs &In) {
+RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
   RenderPlan Plan = planRender(EffectPlan(A.Request, In), A.Options);
   for (const Effect *E : Plan.Effects.missing())
     printDiagnostic("splat", "warning", "",
                     fmt::format("--effects {} leaves out {}, which the scene "
                                 "calls for ({}): the picture differs",
                                 A.Effects, E->Name,
-                                Plan.Effects.of(*E).Found.Figure));
+                                Plan.Effects.of(*E).Detected.Figure));
   if (!A.Explain.empty())
     printOut("{}", explain(Plan));
   return Plan;
@@ -115,7 +115,7 @@ void fallBack(const RenderArguments &A, const Launcher &L,
   const bool FiguresWanted = !A.Json.empty() || !A.Explain.empty() ||
                              !A.Numerics.empty() || A.Time ||
                              A.ClockMhz.has_value();
-  if (A.Request.How != EffectRequest::Mode::Auto || FiguresWanted)
+  if (A.Request.Selection != EffectRequest::Mode::Auto || FiguresWanted)
     return;
   RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
   if (Cheaper.Programs == Plan.Programs)
@@ -136,12 +136,12 @@ Expected<Success> renderOne(const PictureJob &J, const Camera &C) {
   const auto R = drawPicture(J, C);
   endProgress();
   if (!R) {
-    showBuildLog(J.L);
+    showBuildLog(J.Launch);
     return R.error();
   }
   if (auto Written = writePicture(J, C, *R); !Written)
     return Written;
-  printOut("{}", textReport(C, J.Options, J.L.device(), *R));
+  printOut("{}", textReport(C, J.Options, J.Launch.device(), *R));
   return Success{};
 }
 
@@ -167,11 +167,11 @@ Expected<Success> claimPictures(const RenderArguments &A,
 
 Expected<Success> renderAll(const PictureJob &J,
                             const std::vector<Camera> &Cameras, bool Overlap) {
-  const auto R = renderSequence(J.L, J.Plan, J.Input.Gaussians, Cameras,
+  const auto R = renderSequence(J.Launch, J.Plan, J.Input.Gaussians, Cameras,
                                 J.Options, Overlap);
   endProgress();
   if (!R) {
-    showBuildLog(J.L);
+    showBuildLog(J.Launch);
     return R.error();
   }
   if (auto Written = writePictures(
@@ -198,8 +198,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;
   if (A.Time || A.ClockMhz)
-    Machine.give("VORION_TIME",
-                 A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
+    Machine.set("VORION_TIME", A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
     auto Begun = NumericsReport::begin(A.Numerics, Machine);
@@ -210,7 +209,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   const ViewFacts Facts = factsOfAll(*S, *Cameras, A.Options);
   const EffectInputs Inputs{
       *S, A.Options, Facts, !A.Pairs.empty(), !A.Depth.empty(), Machine};
-  RenderPlan Plan = planAsAsked(A, Inputs);
+  RenderPlan Plan = requestedPlan(A, Inputs);
 
   const auto Open = [&] {
     return openDevice(A.Device, A.Options.Blending, Machine);

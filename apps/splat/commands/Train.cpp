@@ -109,8 +109,8 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
     printOut("views        {} an iteration, on {} devices\n", R.Run.Batch,
              Out.Processes);
   printOut("rules        {}, support exact, path {}{}, opacity rate {}\n",
-           name(R.Convention), name(R.By.Who), toString(R.Backward, R.By.Who),
-           R.Run.Settings.OpacityRate);
+           name(R.Convention), name(R.Blending.Kind),
+           toString(R.Backward, R.Blending.Kind), R.Run.Settings.OpacityRate);
   if (Out.Iterations > Out.First)
     printOut("wall time    {:.1f} s, {:.3f} it/s\n", Out.Seconds,
              (Out.Iterations - Out.First) / Out.Seconds);
@@ -138,7 +138,8 @@ Expected<Success> check(const TrainArguments &A) {
         checkEnding("--curve", A.Curve, {".svg"}), checkJsonName(A.Json)})
     if (!Checked)
       return Checked;
-  if (auto Checked = checkBackwardOptions(R.Backward, R.By.Who); !Checked)
+  if (auto Checked = checkBackwardOptions(R.Backward, R.Blending.Kind);
+      !Checked)
     return Checked;
   if (A.GivenTimeEvery && !A.isClocked())
     return Error{"", "--time-every: expected --time or --breakdown with it",
@@ -159,8 +160,8 @@ Expected<Success> check(const TrainArguments &A) {
 
 Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
   if (A.isClocked())
-    Machine.give("VORION_TIME", "profiled");
-  auto D = openDevice(A.Device, A.Request.By.Who, Machine);
+    Machine.set("VORION_TIME", "profiled");
+  auto D = openDevice(A.Device, A.Request.Blending.Kind, Machine);
   if (D && A.isClocked() && !D->isVorion())
     return Error{"",
                  fmt::format("{} has no clock for --time and --breakdown, "
@@ -228,9 +229,9 @@ Runner addTrain(CLI::App &App) {
                       "Colour r,g,b behind the scene and under transparent "
                       "pixels (default 0,0,0)");
   addRulesOption(App, R.Convention);
-  addPathOption(App, R.By.Who,
+  addPathOption(App, R.Blending.Kind,
                 "Who blends and goes back: the rasterizer or the cores");
-  addSimtOptions(App, R.By.SimtTile, R.By.SimtGroup, SimtTilesBack);
+  addSimtOptions(App, R.Blending.SimtTile, R.Blending.SimtGroup, SimtTilesBack);
   addBackwardOptions(App, R.Backward);
   App.add_option("--checkpoint", R.Checkpoint,
                  "Where the run is kept (default: the output's name and "

@@ -24,8 +24,8 @@ constexpr float Pi = std::numbers::pi_v<float>;
 constexpr float FloorRadius = 6.5F;
 constexpr float BackdropRadius = 11;
 
-/// One thing of the still life and its share of the Gaussians.
-struct Thing {
+/// One object of the still life and its share of the Gaussians.
+struct Object {
   std::function<std::vector<SurfacePoint>(int)> Points;
   Material Surface;
   float Share;
@@ -68,20 +68,20 @@ Tube ring() {
 }
 
 struct StillLife {
-  std::vector<Thing> Things;
+  std::vector<Object> Objects;
   std::vector<Ball> Occluders;
 
   void addBall(const vec3 &Where, float Radius, const Material &M,
                float Share) {
     const vec3 Center(Where.x, Where.y + Radius, Where.z);
-    Things.push_back(
+    Objects.push_back(
         {[=](int Count) { return spherePoints(Center, Radius, Count); }, M,
          Share});
     Occluders.push_back({Center, Radius, M.Albedo});
   }
 
   void addTube(const Tube &T, const Material &M, float Share) {
-    Things.push_back(
+    Objects.push_back(
         {[=](int Count) { return tubePoints(T, Count); }, M, Share});
     // Balls close enough together to leave no gap in a shadow.
     constexpr std::size_t Every = 4;
@@ -110,7 +110,7 @@ StillLife stillLife() {
 /// Appends Gaussians to a scene.
 class Builder {
 public:
-  Builder() { S.ShDegree = 3; }
+  Builder() { Built.ShDegree = 3; }
 
   /// A disk of standard deviation \p Sigma across \p P's normal.
   void add(const SurfacePoint &P, float Sigma, float Opacity,
@@ -121,19 +121,20 @@ public:
     const glm::quat Q =
         glm::quat_cast(glm::mat3(T, glm::cross(P.Normal, T), P.Normal));
     const float Thin = 0.12F * Sigma;
-    S.Means.insert(S.Means.end(), {P.Position.x, P.Position.y, P.Position.z});
-    S.LogScales.insert(S.LogScales.end(),
-                       {std::log(Sigma), std::log(Sigma), std::log(Thin)});
-    S.Quats.insert(S.Quats.end(), {Q.w, Q.x, Q.y, Q.z});
-    S.OpacityLogits.push_back(std::log(Opacity / (1 - Opacity)));
+    Built.Means.insert(Built.Means.end(),
+                       {P.Position.x, P.Position.y, P.Position.z});
+    Built.LogScales.insert(Built.LogScales.end(),
+                           {std::log(Sigma), std::log(Sigma), std::log(Thin)});
+    Built.Quats.insert(Built.Quats.end(), {Q.w, Q.x, Q.y, Q.z});
+    Built.OpacityLogits.push_back(std::log(Opacity / (1 - Opacity)));
     for (const vec3 &C : Color)
-      S.Sh.insert(S.Sh.end(), {C.x, C.y, C.z});
+      Built.Sh.insert(Built.Sh.end(), {C.x, C.y, C.z});
   }
 
-  Scene take() { return std::move(S); }
+  Scene take() { return std::move(Built); }
 
 private:
-  Scene S;
+  Scene Built;
 };
 
 float smoothStep(float Low, float High, float V) {
@@ -200,7 +201,7 @@ Scene makeScene(int Gaussians) {
   Builder B;
   addBackdrop(B, CountOf(0.04F));
   addFloor(B, W, CountOf(0.4F));
-  for (const Thing &T : Life.Things)
+  for (const Object &T : Life.Objects)
     for (const SurfacePoint &P : T.Points(CountOf(T.Share))) {
       const World::Shading S = W.prepare(P.Position, P.Normal, T.Surface);
       B.add(P, 0.58F * P.Spacing, 0.97F,

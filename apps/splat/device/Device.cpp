@@ -25,7 +25,7 @@ Expected<Success> openPlatform(const cl::Platform &P,
   if (!Open)
     return Success{};
   std::vector<cl_option_vorion> List;
-  for (const auto &[Name, Text] : Options.given())
+  for (const auto &[Name, Text] : Options.commandLine())
     List.push_back({Name.c_str(), Text.c_str()});
   std::array<char, 4096> Problem{};
   const cl_int Status = Open(P(), static_cast<cl_uint>(List.size()),
@@ -100,11 +100,11 @@ struct Device::Messages {
   }
 };
 
-Device::Device() : Told(std::make_shared<Messages>()) {}
+Device::Device() : Received(std::make_shared<Messages>()) {}
 
 std::string Device::takeMessage() const {
-  const std::lock_guard Held(Told->Lock);
-  return std::exchange(Told->Last, {});
+  const std::lock_guard Held(Received->Lock);
+  return std::exchange(Received->Last, {});
 }
 
 Expected<Device> Device::open(const std::string &Wanted,
@@ -124,8 +124,8 @@ Expected<Device> Device::open(const std::string &Wanted,
   D.LargestAllocation = D.Handle.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
 
   cl_int Status = CL_SUCCESS;
-  D.Context =
-      cl::Context(D.Handle, nullptr, Messages::receive, D.Told.get(), &Status);
+  D.Context = cl::Context(D.Handle, nullptr, Messages::receive,
+                          D.Received.get(), &Status);
   if (Status != CL_SUCCESS)
     return clError("creating a context on " + D.Name, Status);
   for (const auto &[Queue, Properties] :

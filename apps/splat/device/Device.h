@@ -61,7 +61,7 @@ private:
   Device();
 
   DeviceOptions Options;
-  std::shared_ptr<Messages> Told; ///< before the context, which tells it
+  std::shared_ptr<Messages> Received; ///< before the context, which tells it
   cl::Device Handle;
   cl::Context Context;
   cl::CommandQueue Queue, ProfiledQueue;

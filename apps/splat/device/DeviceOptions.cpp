@@ -5,7 +5,7 @@
 namespace vorion::splat {
 
 std::string DeviceOptions::text(const std::string &Variable) const {
-  if (const auto Found = Given.find(Variable); Found != Given.end())
+  if (const auto Found = CommandLine.find(Variable); Found != CommandLine.end())
     return Found->second;
   const char *Value = std::getenv(Variable.c_str());
   return Value ? Value : "";

@@ -11,16 +11,18 @@ namespace vorion::splat {
 /// environment.
 class DeviceOptions {
 public:
-  void give(std::string Variable, std::string Text) {
-    Given[std::move(Variable)] = std::move(Text);
+  void set(std::string Variable, std::string Text) {
+    CommandLine[std::move(Variable)] = std::move(Text);
   }
   /// Of the command line.
-  const std::map<std::string, std::string> &given() const { return Given; }
+  const std::map<std::string, std::string> &commandLine() const {
+    return CommandLine;
+  }
   /// Of the command line, else of the environment; empty for none.
   std::string text(const std::string &Variable) const;
 
 private:
-  std::map<std::string, std::string> Given;
+  std::map<std::string, std::string> CommandLine;
 };
 
 } // namespace vorion::splat

@@ -22,7 +22,7 @@ constexpr std::string_view name(Stage S) {
 }
 
 /// Whether the time of a frame, or of an iteration, has it.
-constexpr bool isOfTheFrame(Stage S) {
+constexpr bool isFrameStage(Stage S) {
   constexpr std::array OfTheFrame{
 #define STAGE(ID, NAME, OF_THE_FRAME) OF_THE_FRAME,
 #include "device/Stages.def"

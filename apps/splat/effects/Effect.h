@@ -31,7 +31,7 @@ struct Finding {
 
 /// What detection looks at.
 struct EffectInputs {
-  const Scene &S;
+  const Scene &Gaussians;
   const RenderOptions &Options;
   const ViewFacts &Facts;
   bool KeepPairs = false;     ///< --dump-pairs

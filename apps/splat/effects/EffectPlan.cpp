@@ -45,18 +45,19 @@ bool byData(const Effect &E) {
 
 bool wanted(const EffectRequest &R, const Effect &E, const Finding &Found) {
   const bool Listed = std::ranges::find(R.List, &E) != R.List.end();
-  const bool Wanted = R.How == Mode::List && byData(E) ? Listed : Found.Needed;
+  const bool Wanted =
+      R.Selection == Mode::List && byData(E) ? Listed : Found.Needed;
   return Wanted != (R.Toggled == &E);
 }
 
 EffectCode codeOf(const EffectRequest &R, const Effect &E, bool Wanted) {
   if (E.Macro.empty())
     return EffectCode::Absent;
-  if (R.How == Mode::Flags)
+  if (R.Selection == Mode::Flags)
     return EffectCode::Flagged;
   if (Wanted)
     return EffectCode::Compiled;
-  if (R.How != Mode::All || R.Toggled == &E)
+  if (R.Selection != Mode::All || R.Toggled == &E)
     return EffectCode::Absent;
   return E.Neutral ? EffectCode::Compiled : EffectCode::Flagged;
 }
@@ -93,10 +94,10 @@ Expected<EffectRequest> parseEffectRequest(const std::string &Text) {
   EffectRequest R;
   for (const Mode M : {Mode::Auto, Mode::All, Mode::Flags})
     if (Text == name(M)) {
-      R.How = M;
+      R.Selection = M;
       return R;
     }
-  R.How = Mode::List;
+  R.Selection = Mode::List;
   std::string_view Rest = Text;
   for (;;) {
     const std::size_t Comma = Rest.find(',');
@@ -128,13 +129,14 @@ EffectPlan::EffectPlan(const EffectRequest &R, const EffectInputs &In) {
   std::vector<const Effect *> Enclosing;
   for (const Effect *E : effects::all()) {
     EffectDecision D;
-    D.E = E;
-    D.Found = E->Detect(In);
-    const bool Wanted =
-        D.Found.Applies && (wanted(R, *E, D.Found) ||
-                            std::ranges::find(Enclosing, E) != Enclosing.end());
-    D.Code = D.Found.Applies || R.How == Mode::Flags ? codeOf(R, *E, Wanted)
-                                                     : EffectCode::Absent;
+    D.Subject = E;
+    D.Detected = E->Detect(In);
+    const bool Wanted = D.Detected.Applies &&
+                        (wanted(R, *E, D.Detected) ||
+                         std::ranges::find(Enclosing, E) != Enclosing.end());
+    D.Code = D.Detected.Applies || R.Selection == Mode::Flags
+                 ? codeOf(R, *E, Wanted)
+                 : EffectCode::Absent;
     D.Done = D.Code == EffectCode::Compiled || Wanted;
     if (D.Done && E->Within)
       Enclosing.push_back(E->Within);
@@ -146,7 +148,7 @@ EffectPlan EffectPlan::forAnyScene(int ShDegree, const RenderOptions &O) {
   RenderOptions Limited = O;
   Limited.ShLimit = ShDegree;
   EffectRequest R;
-  R.How = Mode::List;
+  R.Selection = Mode::List;
   std::ranges::copy_if(effects::all(), std::back_inserter(R.List),
                        [](const Effect *E) { return byData(*E); });
   const Scene None = Scene::sized(0, MaxShDegree);
@@ -154,30 +156,30 @@ EffectPlan EffectPlan::forAnyScene(int ShDegree, const RenderOptions &O) {
 }
 
 const EffectDecision &EffectPlan::of(const Effect &E) const {
-  return *std::ranges::find(Decisions, &E, &EffectDecision::E);
+  return *std::ranges::find(Decisions, &E, &EffectDecision::Subject);
 }
 
 std::vector<std::string> EffectPlan::defines() const {
   std::vector<std::string> Defines;
   for (const EffectDecision &D : Decisions)
-    if (!D.E->Macro.empty())
-      Defines.push_back(define(*D.E, D.Code));
+    if (!D.Subject->Macro.empty())
+      Defines.push_back(define(*D.Subject, D.Code));
   return Defines;
 }
 
 uint32_t EffectPlan::flags() const {
   uint32_t Flags = 0;
   for (const EffectDecision &D : Decisions)
-    if (D.Done && !D.E->Macro.empty())
-      Flags |= bitOf(*D.E);
+    if (D.Done && !D.Subject->Macro.empty())
+      Flags |= bitOf(*D.Subject);
   return Flags;
 }
 
 std::vector<const Effect *> EffectPlan::missing() const {
   std::vector<const Effect *> Missing;
   for (const EffectDecision &D : Decisions)
-    if (D.Found.Needed && !D.Done)
-      Missing.push_back(D.E);
+    if (D.Detected.Needed && !D.Done)
+      Missing.push_back(D.Subject);
   return Missing;
 }
 

@@ -18,8 +18,8 @@ enum class EffectCode {
 std::string_view name(EffectCode C);
 
 struct EffectDecision {
-  const Effect *E = nullptr;
-  Finding Found;
+  const Effect *Subject = nullptr;
+  Finding Detected;
   EffectCode Code = EffectCode::Absent;
   /// Whether it is done: compiled in, or flagged with its bit set. For an
   /// effect without code: whether it is on.
@@ -34,9 +34,10 @@ struct EffectRequest {
     Flags, ///< everything compiled in behind run-time flags
     List   ///< of those decided by data: these and no others
   };
-  Mode How = Mode::Auto;
+  Mode Selection = Mode::Auto;
   std::vector<const Effect *> List; ///< for Mode::List
-  /// Compiled in if false, left out if true, whatever How says; for measuring.
+  /// Compiled in if false, left out if true, whatever Selection says; for
+  /// measuring.
   const Effect *Toggled = nullptr;
 };
 

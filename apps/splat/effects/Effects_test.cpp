@@ -35,7 +35,7 @@ protected:
     return {*R,
             {S, O, factsOf(S, makeView(C, O), nearLimit(O.Convention)), false}};
   }
-  bool needed(const Effect &E) const { return plan().of(E).Found.Needed; }
+  bool needed(const Effect &E) const { return plan().of(E).Detected.Needed; }
 
   Scene S = Scene::sized(3, 3);
   RenderOptions O;
@@ -45,10 +45,11 @@ protected:
 TEST_F(Effects, ABareSceneNeedsNone) {
   const EffectPlan Plan = plan();
   for (const EffectDecision &D : Plan.decisions())
-    if (D.E->Kind == EffectKind::Scene) {
-      EXPECT_FALSE(D.Found.Needed) << D.E->Name << ": " << D.Found.Figure;
-      EXPECT_EQ(D.Code, EffectCode::Absent) << D.E->Name;
-      EXPECT_FALSE(D.Done) << D.E->Name;
+    if (D.Subject->Kind == EffectKind::Scene) {
+      EXPECT_FALSE(D.Detected.Needed)
+          << D.Subject->Name << ": " << D.Detected.Figure;
+      EXPECT_EQ(D.Code, EffectCode::Absent) << D.Subject->Name;
+      EXPECT_FALSE(D.Done) << D.Subject->Name;
     }
 }
 
@@ -82,7 +83,7 @@ TEST_F(Effects, OneCoefficientInAMillionGaussiansIsFound) {
   S.Sh[S.Sh.size() - 5] = 1e-45F;
   EXPECT_TRUE(needed(effects::Sh3));
   EXPECT_FALSE(needed(effects::Sh2));
-  EXPECT_EQ(plan().of(effects::Sh3).Found.Figure,
+  EXPECT_EQ(plan().of(effects::Sh3).Detected.Figure,
             "Gaussian 999999 has a coefficient that is not 0");
 }
 
@@ -144,9 +145,9 @@ TEST_F(Effects, OfTwoViewsEitherCallsForAnEffect) {
   const ViewFacts Before = Facts();
   C.Position[2] = 10;
   const ViewFacts Beyond = Facts();
-  EXPECT_FALSE(NeedsNearPlane(ofBoth(Before, Before)));
-  EXPECT_TRUE(NeedsNearPlane(ofBoth(Before, Beyond)));
-  EXPECT_TRUE(NeedsNearPlane(ofBoth(Beyond, Before)));
+  EXPECT_FALSE(NeedsNearPlane(combined(Before, Before)));
+  EXPECT_TRUE(NeedsNearPlane(combined(Before, Beyond)));
+  EXPECT_TRUE(NeedsNearPlane(combined(Beyond, Before)));
 }
 
 TEST_F(Effects, OpacitiesDecideFaintAndClamp) {

@@ -11,7 +11,7 @@ namespace {
 Finding detect(const EffectInputs &In) {
   return {In.Facts.BeyondField != 0,
           fmt::format("{} of {} means at or beyond the limits of x/z and y/z",
-                      In.Facts.BeyondField, In.S.size())};
+                      In.Facts.BeyondField, In.Gaussians.size())};
 }
 
 } // namespace

@@ -22,10 +22,11 @@ template <int Band> Finding detect(const EffectInputs &In) {
   if (!(In.Facts.Reach <= LargestReach))
     return {true, fmt::format("coordinates up to {:g}, limit {:g}",
                               In.Facts.Reach, LargestReach)};
-  if (Band > In.S.ShDegree)
-    return {false, fmt::format("the scene has degree {}", In.S.ShDegree)};
+  if (Band > In.Gaussians.ShDegree)
+    return {false,
+            fmt::format("the scene has degree {}", In.Gaussians.ShDegree)};
   return {false, fmt::format("all {} coefficients are 0",
-                             In.S.size() * 3 * (2 * Band + 1))};
+                             In.Gaussians.size() * 3 * (2 * Band + 1))};
 }
 
 } // namespace

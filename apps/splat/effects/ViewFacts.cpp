@@ -122,7 +122,7 @@ ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit) {
   return F;
 }
 
-ViewFacts ofBoth(const ViewFacts &A, const ViewFacts &B) {
+ViewFacts combined(const ViewFacts &A, const ViewFacts &B) {
   const double NearestA = A.NearestDepth - A.DepthSlack;
   const double NearestB = B.NearestDepth - B.DepthSlack;
   // A NaN decides, as it does alone.

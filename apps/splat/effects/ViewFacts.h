@@ -34,6 +34,6 @@ struct ViewFacts {
 ViewFacts factsOf(const Scene &S, const splat_view &View, double NearLimit);
 
 /// Of two views of one scene: by these is needed what either needs.
-ViewFacts ofBoth(const ViewFacts &A, const ViewFacts &B);
+ViewFacts combined(const ViewFacts &A, const ViewFacts &B);
 
 } // namespace vorion::splat

@@ -126,9 +126,9 @@ private:
   }
 
   /// Whether \p J says nothing: zero, false, empty, or made of such.
-  static bool isNothing(const Json &J) {
+  static bool isEmpty(const Json &J) {
     if (J.is_array() || J.is_object())
-      return std::all_of(J.begin(), J.end(), isNothing);
+      return std::all_of(J.begin(), J.end(), isEmpty);
     return J.is_null() || (J.is_number() && J.get<double>() == 0) ||
            (J.is_boolean() && !J.get<bool>()) ||
            (J.is_string() && J.get_ref<const std::string &>().empty());
@@ -137,7 +137,7 @@ private:
   void refuseUnsupported() {
     for (const auto &[Key, Value] : Record.items()) {
       if (const auto Meaning = unsupportedCameraKey(Key);
-          Meaning && !isNothing(Value))
+          Meaning && !isEmpty(Value))
         fail(fmt::format("key {} calls for {}, which is not supported, "
                          "expected a pinhole camera",
                          Key, *Meaning));

@@ -177,8 +177,8 @@ NpyArray NpyArray::of(std::vector<std::size_t> Shape,
                       const std::vector<int32_t> &Values) {
   return arrayOf("i4", std::move(Shape), Values);
 }
-NpyArray NpyArray::ofBools(std::vector<std::size_t> Shape,
-                           const std::vector<uint8_t> &Values) {
+NpyArray NpyArray::fromBools(std::vector<std::size_t> Shape,
+                             const std::vector<uint8_t> &Values) {
   return arrayOf("b1", std::move(Shape), Values);
 }
 

@@ -35,8 +35,8 @@ struct NpyArray {
   static NpyArray of(std::vector<std::size_t> Shape,
                      const std::vector<int32_t> &Values);
   /// Of type "b1".
-  static NpyArray ofBools(std::vector<std::size_t> Shape,
-                          const std::vector<uint8_t> &Values);
+  static NpyArray fromBools(std::vector<std::size_t> Shape,
+                            const std::vector<uint8_t> &Values);
 };
 
 using Npz = std::map<std::string, NpyArray>;

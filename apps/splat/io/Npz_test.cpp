@@ -36,7 +36,7 @@ TEST(Npz, RoundTripsEveryTypeAndShape) {
       NpyArray::of({2, 1, 2}, std::vector<float>{1, -2, 0.5F, 1e30F});
   Arrays["f8"] = NpyArray::of({3}, std::vector<double>{1e-300, 2, 3});
   Arrays["i4"] = NpyArray::of({}, std::vector<int32_t>{-7});
-  Arrays["b1"] = NpyArray::ofBools({2, 2}, {1, 0, 0, 1});
+  Arrays["b1"] = NpyArray::fromBools({2, 2}, {1, 0, 0, 1});
   Arrays["none"] = NpyArray::of({0, 3}, std::vector<float>{});
   ASSERT_TRUE(writeNpz(Folder.path("a.npz"), Arrays));
   const auto Read = readNpz(Folder.path("a.npz"));

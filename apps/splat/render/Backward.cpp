@@ -43,30 +43,31 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
 void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
                                    const cl::Buffer &ByAlpha) {
   const auto &Background = Options.Background;
-  Upstream = L.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
-  L.run(UpstreamProgram, "upstream", itemsFor(F.pixels()), GroupSize, ByRender,
-        ByAlpha, Upstream, F.pixels(), Background[0], Background[1],
-        Background[2]);
+  Upstream = Launch.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
+  Launch.run(UpstreamProgram, "upstream", itemsFor(F.pixels()), GroupSize,
+             ByRender, ByAlpha, Upstream, F.pixels(), Background[0],
+             Background[1], Background[2]);
 }
 
 void BackwardPipeline::run(Pipeline &Forward) {
   const Frame &F = Forward.frame();
-  L.beginStage(Stage::BlendBackward);
+  Launch.beginStage(Stage::BlendBackward);
   blend(Forward);
-  L.beginStage(Stage::Reduce);
+  Launch.beginStage(Stage::Reduce);
   reduce(F);
-  L.beginStage(Stage::ProjectBackward);
+  Launch.beginStage(Stage::ProjectBackward);
   project(F);
 }
 
 void BackwardPipeline::blend(Pipeline &Forward) {
   const Frame &F = Forward.frame();
-  PairSums = L.allocate("pairs' sums", 4 * SUM_WORDS * uint64_t{F.Pairs});
+  PairSums = Launch.allocate("pairs' sums", 4 * SUM_WORDS * uint64_t{F.Pairs});
   if (Options.Blending == Path::Simt) {
-    L.run(BlendBackwardProgram, "blend_backward",
-          cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
-          cl::NDRange(Lanes, 1), F.Records, F.List, F.Ranges, F.Pixels, F.Last,
-          Upstream, F.ByTile.Values, PairSums, F.View.size[0], F.View.size[1]);
+    Launch.run(BlendBackwardProgram, "blend_backward",
+               cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
+               cl::NDRange(Lanes, 1), F.Records, F.List, F.Ranges, F.Pixels,
+               F.Last, Upstream, F.ByTile.Values, PairSums, F.View.size[0],
+               F.View.size[1]);
     return;
   }
   // vr_backward of docs/isa.md: reciprocal unit, alpha's clamp, gather.
@@ -74,29 +75,31 @@ void BackwardPipeline::blend(Pipeline &Forward) {
       static_cast<uint32_t>(Choice.Unit) |
       (Options.Convention == Rules::Gsplat ? 1U << 3 : 0U) |
       (Choice.Order == GatherOrder::Rows ? 1U << 4 : 0U));
-  const std::size_t Cores = L.device().computeUnits();
-  const cl::Buffer Statuses = L.allocate("cores' statuses", 4 * Cores);
-  L.run(BlendBackwardProgram, "rasterize_backward", Cores * Lanes, Lanes,
-        F.Records, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last, Upstream,
-        F.ByTile.Values, PairSums, Statuses, Forward.blendOptions(), Backward);
+  const std::size_t Cores = Launch.device().computeUnits();
+  const cl::Buffer Statuses = Launch.allocate("cores' statuses", 4 * Cores);
+  Launch.run(BlendBackwardProgram, "rasterize_backward", Cores * Lanes, Lanes,
+             F.Records, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last,
+             Upstream, F.ByTile.Values, PairSums, Statuses,
+             Forward.blendOptions(), Backward);
   Forward.checkStatuses(Statuses);
 }
 
 void BackwardPipeline::reduce(const Frame &F) {
   const uint32_t Count = F.Gaussians.Count;
-  Sums = L.allocate("Gaussians' sums", 4 * SUM_WORDS * uint64_t{Count});
-  L.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize, PairSums,
-        F.Order, F.Places, Sums, F.Visible, Count);
+  Sums = Launch.allocate("Gaussians' sums", 4 * SUM_WORDS * uint64_t{Count});
+  Launch.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize,
+             PairSums, F.Order, F.Places, Sums, F.Visible, Count);
 }
 
 void BackwardPipeline::project(const Frame &F) {
   const uint32_t Count = F.Gaussians.Count;
-  Gradients = L.allocate("gradients", 4 * GRADIENT_PLANES * uint64_t{Count});
-  ShGradients = L.allocate("colours' gradients",
-                           4 * 3 * shCoefficients(ShDegree) * uint64_t{Count});
-  L.run(ProjectBackwardProgram, "project_backward", itemsFor(Count), GroupSize,
-        F.Camera, F.Gaussians.Geometry, F.Gaussians.Sh, F.Records,
-        F.Depths.Keys, Sums, Gradients, ShGradients, Count);
+  Gradients =
+      Launch.allocate("gradients", 4 * GRADIENT_PLANES * uint64_t{Count});
+  ShGradients = Launch.allocate(
+      "colours' gradients", 4 * 3 * shCoefficients(ShDegree) * uint64_t{Count});
+  Launch.run(ProjectBackwardProgram, "project_backward", itemsFor(Count),
+             GroupSize, F.Camera, F.Gaussians.Geometry, F.Gaussians.Sh,
+             F.Records, F.Depths.Keys, Sums, Gradients, ShGradients, Count);
 }
 
 } // namespace vorion::splat

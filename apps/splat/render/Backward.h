@@ -36,7 +36,7 @@ public:
   /// Keeps references to all but \p B. \p ShDegree: of the Gaussians' buffers.
   BackwardPipeline(Launcher &Launch, const RenderOptions &O,
                    const BackwardOptions &B, int ShDegree)
-      : L(Launch), Options(O), Choice(B), ShDegree(ShDegree) {}
+      : Launch(Launch), Options(O), Choice(B), ShDegree(ShDegree) {}
 
   /// What the loss says of each pixel: dL/d(red, green, blue) of the picture
   /// with its background, and dL/d(alpha), 3 floats and 1.
@@ -59,7 +59,7 @@ private:
   void reduce(const Frame &F);
   void project(const Frame &F);
 
-  Launcher &L;
+  Launcher &Launch;
   const RenderOptions &Options;
   BackwardOptions Choice;
   int ShDegree;

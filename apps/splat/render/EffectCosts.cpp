@@ -29,10 +29,10 @@ class Measurer {
 public:
   Measurer(const DeviceOpener &Opener, const std::string &Folder,
            const EffectInputs &Inputs, const Camera &View)
-      : Open(Opener), KernelFolder(Folder), In(Inputs), C(View) {}
+      : Open(Opener), KernelFolder(Folder), Inputs(Inputs), View(View) {}
 
   RenderPlan plan(const EffectRequest &R) const {
-    return planRender(EffectPlan(R, In), In.Options);
+    return planRender(EffectPlan(R, Inputs), Inputs.Options);
   }
 
   /// Of the frame by \p P, the first of a process: caches that a frame before
@@ -43,7 +43,8 @@ public:
       if (!D)
         return D.error();
       Launcher L(*D, KernelFolder, {});
-      const auto R = render(L, P, In.S, C, In.Options, In.KeepPairs);
+      const auto R = render(L, P, Inputs.Gaussians, View, Inputs.Options,
+                            Inputs.KeepPairs);
       if (!R)
         return R.error();
       const Figures F = figuresOf(*R);
@@ -59,8 +60,8 @@ public:
 private:
   const DeviceOpener &Open;
   const std::string &KernelFolder;
-  const EffectInputs &In;
-  const Camera &C;
+  const EffectInputs &Inputs;
+  const Camera &View;
 };
 
 bool samePrograms(const RenderPlan &A, const RenderPlan &B) {
@@ -133,7 +134,8 @@ std::string toString(const EffectCosts &Costs) {
                   Costs.Instructions,
                   Costs.Cycles ? fmt::format(", {} cycles", Costs.Cycles) : "");
   for (const EffectCost &C : Costs.Effects) {
-    Text += fmt::format("  {:<15}{:<4}", C.E->Name, C.Done ? "on" : "off");
+    Text +=
+        fmt::format("  {:<15}{:<4}", C.Subject->Name, C.Done ? "on" : "off");
     if (!C.Failure.empty()) {
       Text += fmt::format("not to be told: {}\n", C.Failure);
       continue;

@@ -14,7 +14,7 @@ namespace vorion::splat {
 
 /// The frame with an effect less the frame without it.
 struct EffectCost {
-  const Effect *E = nullptr;
+  const Effect *Subject = nullptr;
   bool Done = false; ///< in the picture that was asked for
   int64_t Instructions = 0;
   int64_t Cycles = 0;  ///< 0 without the clock

@@ -28,7 +28,7 @@ std::string_view state(const EffectDecision &D) {
     return D.Code == EffectCode::Flagged ? "off, flagged" : "off";
   if (D.Code == EffectCode::Flagged)
     return "on, flagged";
-  return D.Found.Needed ? "on" : "on, unneeded";
+  return D.Detected.Needed ? "on" : "on, unneeded";
 }
 
 } // namespace
@@ -41,11 +41,11 @@ std::string explain(const RenderPlan &Plan) {
                     P.Defines.empty() ? "" : "; ", fmt::join(P.Defines, " "));
   const EffectKind *Last = nullptr;
   for (const EffectDecision &D : Plan.Effects.decisions()) {
-    if (!Last || *Last != D.E->Kind)
-      Text += fmt::format("{}\n", heading(D.E->Kind));
-    Last = &D.E->Kind;
-    Text += fmt::format("  {:<15}{:<13} {} ({})\n", D.E->Name, state(D),
-                        D.Found.Figure, D.E->What);
+    if (!Last || *Last != D.Subject->Kind)
+      Text += fmt::format("{}\n", heading(D.Subject->Kind));
+    Last = &D.Subject->Kind;
+    Text += fmt::format("  {:<15}{:<13} {} ({})\n", D.Subject->Name, state(D),
+                        D.Detected.Figure, D.Subject->What);
   }
   return Text;
 }
@@ -53,12 +53,12 @@ std::string explain(const RenderPlan &Plan) {
 Json effectsJson(const EffectPlan &Plan) {
   Json All = Json::array();
   for (const EffectDecision &D : Plan.decisions())
-    All.push_back({{"name", D.E->Name},
-                   {"kind", name(D.E->Kind)},
-                   {"needed", D.Found.Needed},
+    All.push_back({{"name", D.Subject->Name},
+                   {"kind", name(D.Subject->Kind)},
+                   {"needed", D.Detected.Needed},
                    {"on", D.Done},
                    {"code", name(D.Code)},
-                   {"figure", D.Found.Figure}});
+                   {"figure", D.Detected.Figure}});
   return All;
 }
 

@@ -15,7 +15,8 @@ constexpr double FlagSecondsPerGaussian = 52.0 / 16 / 1.5e8;
 
 } // namespace
 
-bool fallsBack(std::size_t Gaussians, std::size_t Unbuilt, bool FlagsBuilt) {
+bool paysToFallBack(std::size_t Gaussians, std::size_t Unbuilt,
+                    bool FlagsBuilt) {
   return FlagsBuilt && Unbuilt != 0 &&
          static_cast<double>(Gaussians) * FlagSecondsPerGaussian <
              static_cast<double>(Unbuilt) * BuildSeconds;
@@ -28,9 +29,10 @@ RenderPlan cheaperFirstFrame(const Launcher &L, const RenderPlan &Specialised,
         P.Programs, [&](const ProgramSpec &S) { return !L.wasBuilt(S); }));
   };
   EffectRequest Flags;
-  Flags.How = EffectRequest::Mode::Flags;
+  Flags.Selection = EffectRequest::Mode::Flags;
   RenderPlan Flagged = planRender(EffectPlan(Flags, In), In.Options);
-  return fallsBack(In.S.size(), Unbuilt(Specialised), Unbuilt(Flagged) == 0)
+  return paysToFallBack(In.Gaussians.size(), Unbuilt(Specialised),
+                        Unbuilt(Flagged) == 0)
              ? Flagged
              : Specialised;
 }

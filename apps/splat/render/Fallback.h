@@ -13,7 +13,8 @@ namespace vorion::splat {
 /// Unbuilt of the specialised ones are not, and to compile them takes longer
 /// than flags cost this one frame. Where neither is compiled, the specialised
 /// ones are less code.
-bool fallsBack(std::size_t Gaussians, std::size_t Unbuilt, bool FlagsBuilt);
+bool paysToFallBack(std::size_t Gaussians, std::size_t Unbuilt,
+                    bool FlagsBuilt);
 
 /// \p Specialised, or the plan with run-time flags if \p L's device should
 /// rather draw by it. Both give the same bits, not the same instructions: for

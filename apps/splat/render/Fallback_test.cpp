@@ -10,14 +10,14 @@ namespace vorion::splat {
 namespace {
 
 TEST(Fallback, OnlyToFlagsThatAreBuiltAndCostLessThanBuilding) {
-  EXPECT_TRUE(fallsBack(600, 1, true));
-  EXPECT_TRUE(fallsBack(1000000, 1, true));
+  EXPECT_TRUE(paysToFallBack(600, 1, true));
+  EXPECT_TRUE(paysToFallBack(1000000, 1, true));
   // Nothing to build, or as much either way.
-  EXPECT_FALSE(fallsBack(600, 0, true));
-  EXPECT_FALSE(fallsBack(600, 1, false));
+  EXPECT_FALSE(paysToFallBack(600, 0, true));
+  EXPECT_FALSE(paysToFallBack(600, 1, false));
   // So many Gaussians that one frame's tests of flags take longer.
-  EXPECT_FALSE(fallsBack(20000000, 1, true));
-  EXPECT_TRUE(fallsBack(20000000, 4, true));
+  EXPECT_FALSE(paysToFallBack(20000000, 1, true));
+  EXPECT_TRUE(paysToFallBack(20000000, 4, true));
 }
 
 TEST(BuildRecord, KnowsWhatWasAddedToItsFolder) {

@@ -32,7 +32,7 @@ std::optional<TimeReport> stageTime(const StageReport &S) {
 std::optional<TimeReport> frameTime(const std::vector<StageReport> &Stages) {
   std::optional<TimeReport> Sum;
   for (const StageReport &S : Stages)
-    if (isOfTheFrame(S.Kind))
+    if (isFrameStage(S.Kind))
       add(Sum, stageTime(S));
   return Sum;
 }
@@ -56,7 +56,7 @@ FrameMilliseconds frameMilliseconds(const std::vector<StageReport> &Stages,
   FrameMilliseconds F;
   F.Kernels = milliseconds(Sum);
   for (const StageReport &S : Stages)
-    if (isOfTheFrame(S.Kind)) {
+    if (isFrameStage(S.Kind)) {
       F.Launches += launchMilliseconds(S, Sum.Host);
       F.Copies += copyMilliseconds(S, Sum.Host);
     }
@@ -152,7 +152,7 @@ SequenceTimes::SequenceTimes(const SequenceResult &R)
   for (std::size_t N = 0; N < R.Stages.size(); ++N) {
     const StageReport &S = R.Stages[N];
     const auto Time = stageTime(S);
-    if (!isOfTheFrame(S.Kind) || !Time)
+    if (!isFrameStage(S.Kind) || !Time)
       continue;
     double &Begin = Begins[R.FrameOf[N]];
     if (Begin < 0)
@@ -201,7 +201,7 @@ Json frameJson(const std::vector<StageReport> &Stages) {
   Json All = Json::array();
   for (const StageReport &S : Stages) {
     Json One{{"name", name(S.Kind)},
-             {"of_the_frame", isOfTheFrame(S.Kind)},
+             {"of_the_frame", isFrameStage(S.Kind)},
              {"launches", launches(S)},
              {"launch_ms", launchMilliseconds(S, Sum->Host)},
              {"copies", S.Copies},

@@ -32,7 +32,7 @@ Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
 Expected<Json> report(const PictureJob &J, const std::string &Output,
                       const Camera &C, const RenderResult &R) {
   return jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input,
-                     C, J.Options, J.Plan, J.L.device(), R});
+                     C, J.Options, J.Plan, J.Launch.device(), R});
 }
 
 } // namespace
@@ -42,13 +42,14 @@ ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
   std::optional<ViewFacts> All;
   for (const Camera &C : Cameras) {
     const ViewFacts Own = factsOf(S, makeView(C, O), nearLimit(O.Convention));
-    All = All ? ofBoth(*All, Own) : Own;
+    All = All ? combined(*All, Own) : Own;
   }
   return *All;
 }
 
 Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C) {
-  return render(J.L, J.Plan, J.Input.Gaussians, C, J.Options, !J.Pairs.empty());
+  return render(J.Launch, J.Plan, J.Input.Gaussians, C, J.Options,
+                !J.Pairs.empty());
 }
 
 Expected<Success> writePicture(const PictureJob &J, const Camera &C,

@@ -17,7 +17,7 @@ struct PictureJob {
   const SceneFile &Input;
   const RenderOptions &Options;
   const RenderPlan &Plan;
-  Launcher &L;
+  Launcher &Launch;
   /// \name Files, of which all but the first may be empty: not wanted
   /// @{
   std::string Output, Json, Pairs, Depth;

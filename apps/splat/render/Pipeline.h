@@ -36,9 +36,9 @@ struct GaussianBuffers {
 };
 
 /// Copies \p S to the device in planes, harmonics up to \p ShDegree.
-GaussianBuffers uploadGaussians(Launcher &L, const Scene &S, int ShDegree);
+GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S, int ShDegree);
 /// In blocks, the bands that \p Plan evaluates, zeros where \p S has none.
-GaussianBuffers uploadGaussians(Launcher &L, const Scene &S,
+GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
                                 const EffectPlan &Plan);
 
 /// The buffers of one picture, in the order in which they are filled.
@@ -78,7 +78,7 @@ class Pipeline {
 public:
   /// Keeps references to \p Launch and \p O. \p Effects: of the programs.
   Pipeline(Launcher &Launch, const RenderOptions &O, EffectPlan Effects)
-      : L(Launch), Options(O), Plan(std::move(Effects)), Sort(Launch) {}
+      : Launch(Launch), Options(O), Plan(std::move(Effects)), Sort(Launch) {}
 
   /// Projects, sorts and blends \p Gaussians as \p C sees them; each step is a
   /// stage of the launcher's. Buffers of the frame before are released.
@@ -101,7 +101,7 @@ public:
   /// depths. Needs the effect \c Depth; the frame's own pixels stay.
   cl::Buffer drawDepths();
 
-  const Frame &frame() const { return F; }
+  const Frame &frame() const { return Current; }
 
   /// What the rasterizers are told of a picture.
   splat_blend_options blendOptions() const;
@@ -118,14 +118,14 @@ private:
   void allocatePixels();
   void shade();
   cl::Buffer words(std::string_view What, uint64_t N) {
-    return L.allocate(What, 4 * N);
+    return Launch.allocate(What, 4 * N);
   }
 
-  Launcher &L;
+  Launcher &Launch;
   const RenderOptions &Options;
   EffectPlan Plan;
   Sorter Sort;
-  Frame F;
+  Frame Current;
 };
 
 } // namespace vorion::splat

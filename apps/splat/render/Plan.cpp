@@ -52,17 +52,17 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
   return Defines;
 }
 
-bool isOfAWord(char C) {
+bool isWordCharacter(char C) {
   return std::isalnum(static_cast<unsigned char>(C)) != 0 || C == '_';
 }
 
 /// Whether \p Text says \p Word, and not as a part of a longer one.
-bool says(std::string_view Text, std::string_view Word) {
+bool containsWord(std::string_view Text, std::string_view Word) {
   for (std::size_t At = Text.find(Word); At != std::string_view::npos;
        At = Text.find(Word, At + 1)) {
     const std::size_t End = At + Word.size();
-    if ((At == 0 || !isOfAWord(Text[At - 1])) &&
-        (End == Text.size() || !isOfAWord(Text[End])))
+    if ((At == 0 || !isWordCharacter(Text[At - 1])) &&
+        (End == Text.size() || !isWordCharacter(Text[End])))
       return true;
   }
   return false;
@@ -72,7 +72,7 @@ bool says(std::string_view Text, std::string_view Word) {
 bool uses(const ProgramSpec &P, const std::string &Define) {
   const std::string Macro = Define.substr(0, Define.find_first_of("=("));
   return std::ranges::any_of(P.Files, [&](const std::string &File) {
-    return says(kernelSource(File), Macro);
+    return containsWord(kernelSource(File), Macro);
   });
 }
 

@@ -10,16 +10,17 @@ namespace vorion::splat {
 
 namespace {
 
-SortedPairs readPairs(Launcher &L, const Frame &F) {
+SortedPairs readPairs(Launcher &Launch, const Frame &F) {
   SortedPairs P;
   P.Tiles.resize(F.Pairs);
   P.Gaussians.resize(F.Pairs);
   std::vector<uint32_t> Bits(F.Gaussians.Count);
-  L.read("tiles of pairs", P.Tiles.data(), F.ByTile.Keys,
-         4 * uint64_t{F.Pairs});
-  L.read("Gaussians of pairs", P.Gaussians.data(), F.List,
-         4 * uint64_t{F.Pairs});
-  L.read("depths", Bits.data(), F.Depths.Keys, 4 * uint64_t{F.Gaussians.Count});
+  Launch.read("tiles of pairs", P.Tiles.data(), F.ByTile.Keys,
+              4 * uint64_t{F.Pairs});
+  Launch.read("Gaussians of pairs", P.Gaussians.data(), F.List,
+              4 * uint64_t{F.Pairs});
+  Launch.read("depths", Bits.data(), F.Depths.Keys,
+              4 * uint64_t{F.Gaussians.Count});
   P.DepthBits.reserve(F.Pairs);
   for (uint32_t &G : P.Gaussians) {
     G &= ~SPANS_TILES;
@@ -29,8 +30,9 @@ SortedPairs readPairs(Launcher &L, const Frame &F) {
 }
 
 /// Of the pixels that \c Pipeline::drawDepths left.
-DepthMap readDepths(Launcher &L, const Frame &F, const cl::Buffer &Pixels) {
-  const Image Drawn = readPicture(L, F, Pixels, /*Resolved=*/false);
+DepthMap readDepths(Launcher &Launch, const Frame &F,
+                    const cl::Buffer &Pixels) {
+  const Image Drawn = readPicture(Launch, F, Pixels, /*Resolved=*/false);
   DepthMap D{Drawn.Width, Drawn.Height, {}, Drawn.Alpha};
   D.Depth.reserve(Drawn.pixels());
   for (std::size_t P = 0; P < Drawn.pixels(); ++P)
@@ -40,22 +42,22 @@ DepthMap readDepths(Launcher &L, const Frame &F, const cl::Buffer &Pixels) {
 
 } // namespace
 
-cl::Buffer resolve(Launcher &L, const Frame &F,
+cl::Buffer resolve(Launcher &Launch, const Frame &F,
                    const std::array<float, 3> &Background) {
-  cl::Buffer Picture = L.allocate("picture", 16 * uint64_t{F.pixels()});
-  L.run(ResolveProgram, "resolve", L.device().computeUnits() * Lanes, Lanes,
-        F.Pixels, Picture, 4 * F.pixels(), Background[0], Background[1],
-        Background[2], F.View.effects);
+  cl::Buffer Picture = Launch.allocate("picture", 16 * uint64_t{F.pixels()});
+  Launch.run(ResolveProgram, "resolve", Launch.device().computeUnits() * Lanes,
+             Lanes, F.Pixels, Picture, 4 * F.pixels(), Background[0],
+             Background[1], Background[2], F.View.effects);
   return Picture;
 }
 
-Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture,
+Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
                   bool Resolved) {
   Image I;
   I.Width = static_cast<int>(F.View.size[0]);
   I.Height = static_cast<int>(F.View.size[1]);
   std::vector<float> Rgba(4 * std::size_t{F.pixels()});
-  L.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
+  Launch.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
   I.Render.resize(3 * std::size_t{F.pixels()});
   I.Alpha.resize(F.pixels());
   for (std::size_t P = 0; P < F.pixels(); ++P) {
@@ -70,33 +72,34 @@ namespace {
 
 /// What can be said to be wrong before the device is asked; builds the
 /// programs.
-Expected<Success> begin(Launcher &L, const RenderPlan &Plan, const Scene &S) {
+Expected<Success> begin(Launcher &Launch, const RenderPlan &Plan,
+                        const Scene &S) {
   if (S.size() > std::numeric_limits<int32_t>::max())
     return Error{"", "more than 2^31 - 1 Gaussians, whose numbers have 31 bits",
                  ExitCode::LimitReached};
-  L.beginStage(Stage::Build);
+  Launch.beginStage(Stage::Build);
   for (const ProgramSpec &Program : Plan.Programs)
-    L.build(Program);
-  L.beginStage(Stage::Upload);
+    Launch.build(Program);
+  Launch.beginStage(Stage::Upload);
   return Success{};
 }
 
 /// From blended pixels to the host.
-RenderResult finish(Launcher &L, const RenderPlan &Plan, const Frame &F,
+RenderResult finish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
                     const RenderOptions &Options) {
   // Without a background the pixels are the picture, but for 1 - T.
   const bool Resolved = Plan.Effects.done(effects::Background);
   cl::Buffer Picture = F.Pixels;
   if (Resolved) {
-    L.beginStage(Stage::Resolve);
-    Picture = resolve(L, F, Options.Background);
+    Launch.beginStage(Stage::Resolve);
+    Picture = resolve(Launch, F, Options.Background);
   }
-  L.beginStage(Stage::ReadBack);
+  Launch.beginStage(Stage::ReadBack);
   RenderResult R;
   R.Visible = F.Visible;
   R.Pairs = F.Pairs;
   R.Culled = F.Culled;
-  R.Picture = readPicture(L, F, Picture, Resolved);
+  R.Picture = readPicture(Launch, F, Picture, Resolved);
   return R;
 }
 
@@ -105,14 +108,14 @@ class Sequence {
 public:
   Sequence(Launcher &Launch, const RenderPlan &P, const GaussianBuffers &Input,
            const std::vector<Camera> &Views, const RenderOptions &O)
-      : L(Launch), Plan(P), Gaussians(Input), Cameras(Views), Options(O),
-        FirstStage(L.stages()) {
-    R.Frames.resize(Views.size());
+      : Launch(Launch), Plan(P), Gaussians(Input), Cameras(Views), Options(O),
+        FirstStage(Launch.stages()) {
+    Result.Frames.resize(Views.size());
   }
 
   /// One after the other.
   void apart() {
-    Pipeline P(L, Options, Plan.Effects);
+    Pipeline P(Launch, Options, Plan.Effects);
     for (std::size_t Frame = 0; Frame < Cameras.size(); ++Frame) {
       P.draw(Gaussians, Cameras[Frame]);
       take(Frame, P);
@@ -122,17 +125,18 @@ public:
   /// While a picture is blended the next one is prepared. The rasterizers get
   /// that as soon as they are done, before the first one is resolved.
   void overlapped() {
-    Pipeline Both[2] = {{L, Options, Plan.Effects}, {L, Options, Plan.Effects}};
+    Pipeline Both[2] = {{Launch, Options, Plan.Effects},
+                        {Launch, Options, Plan.Effects}};
     for (std::size_t Frame = 0; Frame < Cameras.size(); ++Frame) {
       Pipeline &P = Both[Frame % 2];
       P.prepare(Gaussians, Cameras[Frame]);
-      if (L.failure())
+      if (Launch.failure())
         return;
       P.prepareRasterizers();
       own(Frame);
       if (Frame != 0)
         wait(Frame - 1, Both[(Frame - 1) % 2]);
-      L.beginStage(Stage::StartBlending);
+      Launch.beginStage(Stage::StartBlending);
       P.startBlending();
       own(Frame);
       if (Frame != 0)
@@ -145,87 +149,87 @@ public:
 
   /// Needs that nothing failed.
   SequenceResult result() {
-    const std::vector<StageReport> All = L.takeStages();
-    for (std::size_t N = 0; N < R.FrameOf.size(); ++N) {
-      R.Stages.push_back(All[FirstStage + N]);
-      R.Frames[R.FrameOf[N]].Stages.push_back(All[FirstStage + N]);
+    const std::vector<StageReport> All = Launch.takeStages();
+    for (std::size_t N = 0; N < Result.FrameOf.size(); ++N) {
+      Result.Stages.push_back(All[FirstStage + N]);
+      Result.Frames[Result.FrameOf[N]].Stages.push_back(All[FirstStage + N]);
     }
-    return std::move(R);
+    return std::move(Result);
   }
 
 private:
   /// What has been begun since the last call is \p Frame's.
   void own(std::size_t Frame) {
-    R.FrameOf.resize(L.stages() - FirstStage, Frame);
+    Result.FrameOf.resize(Launch.stages() - FirstStage, Frame);
   }
   void wait(std::size_t Frame, Pipeline &P) {
-    L.beginStage(Stage::WaitForBlending);
+    Launch.beginStage(Stage::WaitForBlending);
     P.waitForBlending();
     own(Frame);
   }
   void end(std::size_t Frame, Pipeline &P) {
-    L.beginStage(Stage::EndBlending);
+    Launch.beginStage(Stage::EndBlending);
     P.endBlending();
     take(Frame, P);
   }
   void take(std::size_t Frame, const Pipeline &P) {
-    if (L.failure())
+    if (Launch.failure())
       return;
-    R.Frames[Frame] = finish(L, Plan, P.frame(), Options);
-    R.Frames[Frame].DeviceBytes = L.mostBytes();
+    Result.Frames[Frame] = finish(Launch, Plan, P.frame(), Options);
+    Result.Frames[Frame].DeviceBytes = Launch.mostBytes();
     own(Frame);
   }
 
-  Launcher &L;
+  Launcher &Launch;
   const RenderPlan &Plan;
   const GaussianBuffers &Gaussians;
   const std::vector<Camera> &Cameras;
   const RenderOptions &Options;
   std::size_t FirstStage;
-  SequenceResult R;
+  SequenceResult Result;
 };
 
 } // namespace
 
-Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
+Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
                               const Scene &S, const Camera &C,
                               const RenderOptions &Options, bool KeepPairs) {
-  if (auto Begun = begin(L, Plan, S); !Begun)
+  if (auto Begun = begin(Launch, Plan, S); !Begun)
     return Begun.error();
-  const GaussianBuffers Gaussians = uploadGaussians(L, S, Plan.Effects);
-  Pipeline P(L, Options, Plan.Effects);
+  const GaussianBuffers Gaussians = uploadGaussians(Launch, S, Plan.Effects);
+  Pipeline P(Launch, Options, Plan.Effects);
   P.draw(Gaussians, C);
-  if (L.failure())
-    return *L.failure();
-  RenderResult R = finish(L, Plan, P.frame(), Options);
+  if (Launch.failure())
+    return *Launch.failure();
+  RenderResult R = finish(Launch, Plan, P.frame(), Options);
   if (KeepPairs)
-    R.Sorted = readPairs(L, P.frame());
+    R.Sorted = readPairs(Launch, P.frame());
   if (Plan.Effects.done(effects::Depth)) {
-    L.beginStage(Stage::Depth);
-    R.Depths = readDepths(L, P.frame(), P.drawDepths());
+    Launch.beginStage(Stage::Depth);
+    R.Depths = readDepths(Launch, P.frame(), P.drawDepths());
   }
-  if (L.failure())
-    return *L.failure();
-  R.DeviceBytes = L.mostBytes();
-  R.Stages = L.takeStages();
+  if (Launch.failure())
+    return *Launch.failure();
+  R.DeviceBytes = Launch.mostBytes();
+  R.Stages = Launch.takeStages();
   return R;
 }
 
-Expected<SequenceResult> renderSequence(Launcher &L, const RenderPlan &Plan,
-                                        const Scene &S,
+Expected<SequenceResult> renderSequence(Launcher &Launch,
+                                        const RenderPlan &Plan, const Scene &S,
                                         const std::vector<Camera> &Cameras,
                                         const RenderOptions &Options,
                                         bool Overlap) {
-  if (auto Begun = begin(L, Plan, S); !Begun)
+  if (auto Begun = begin(Launch, Plan, S); !Begun)
     return Begun.error();
-  const GaussianBuffers Gaussians = uploadGaussians(L, S, Plan.Effects);
-  Sequence Views(L, Plan, Gaussians, Cameras, Options);
+  const GaussianBuffers Gaussians = uploadGaussians(Launch, S, Plan.Effects);
+  Sequence Views(Launch, Plan, Gaussians, Cameras, Options);
   if (Overlap)
     Views.overlapped();
   else
     Views.apart();
-  if (L.failure())
-    return *L.failure();
+  if (Launch.failure())
+    return *Launch.failure();
   return Views.result();
 }
 

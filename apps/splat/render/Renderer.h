@@ -31,16 +31,17 @@ struct RenderResult {
 };
 
 /// The picture of \p F in front of \p Background, and its copy for the host.
-cl::Buffer resolve(Launcher &L, const Frame &F,
+cl::Buffer resolve(Launcher &Launch, const Frame &F,
                    const std::array<float, 3> &Background);
 /// \p Resolved: the fourth channel is alpha already, not the transmittance.
-Image readPicture(Launcher &L, const Frame &F, const cl::Buffer &Picture,
+Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
                   bool Resolved = true);
 
-/// Uploads \p S and runs every stage with \p L, whose programs are built from
+/// Uploads \p S and runs every stage with \p Launch, whose programs are built
+/// from
 /// \p Plan. Only the picture, two counts and, on the raster path, a status a
 /// tile come back; with \p KeepPairs the sorted pairs too.
-Expected<RenderResult> render(Launcher &L, const RenderPlan &Plan,
+Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
                               const Scene &S, const Camera &C,
                               const RenderOptions &Options, bool KeepPairs);
 
@@ -55,8 +56,8 @@ struct SequenceResult {
 /// rasterizers' path, the rasterizers blend a picture while the cores prepare
 /// the next one (docs/rasterizer.md, "What runs at the same time"); pictures
 /// are the same.
-Expected<SequenceResult> renderSequence(Launcher &L, const RenderPlan &Plan,
-                                        const Scene &S,
+Expected<SequenceResult> renderSequence(Launcher &Launch,
+                                        const RenderPlan &Plan, const Scene &S,
                                         const std::vector<Camera> &Cameras,
                                         const RenderOptions &Options,
                                         bool Overlap);

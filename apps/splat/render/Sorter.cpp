@@ -33,11 +33,11 @@ struct Passes {
 } // namespace
 
 Sorter::Sorter(Launcher &Launch)
-    : L(Launch), Groups(std::max(1U, Launch.device().computeUnits())) {
+    : Launch(Launch), Groups(std::max(1U, Launch.device().computeUnits())) {
   constexpr uint64_t Digits = 1U << MostDigitBits;
-  Histogram = L.allocate("sort's histograms", 4 * Digits * Groups);
-  Totals = L.allocate("sort's totals", 4 * Digits);
-  Sums = L.allocate("prefix sums", 4 * uint64_t{scanItems()});
+  Histogram = Launch.allocate("sort's histograms", 4 * Digits * Groups);
+  Totals = Launch.allocate("sort's totals", 4 * Digits);
+  Sums = Launch.allocate("prefix sums", 4 * uint64_t{scanItems()});
 }
 
 uint32_t Sorter::scanItems() const { return 2 * LineWords * Groups; }
@@ -46,17 +46,18 @@ void Sorter::scan(const cl::Buffer &In, const cl::Buffer &Out, uint32_t Count) {
   const uint32_t Chunk = std::max(LeastScanChunk, divideUp(Count, scanItems()));
   const uint32_t Items =
       divideUp(divideUp(Count, Chunk), LineWords) * LineWords;
-  L.run(ScanProgram, "scan_sums", Items, LineWords, In, Sums, Count, Chunk);
-  L.run(ScanProgram, "scan_partials", 1, 1, Sums, Items);
-  L.run(ScanProgram, "scan_apply", Items, LineWords, In, Sums, Out, Count,
-        Chunk);
+  Launch.run(ScanProgram, "scan_sums", Items, LineWords, In, Sums, Count,
+             Chunk);
+  Launch.run(ScanProgram, "scan_partials", 1, 1, Sums, Items);
+  Launch.run(ScanProgram, "scan_apply", Items, LineWords, In, Sums, Out, Count,
+             Chunk);
 }
 
 Sorter::Share Sorter::share(uint32_t Count) const {
   const uint32_t Lines =
       divideUp(std::max(LeastChunk, divideUp(Count, Groups)), LineWords);
-  return {std::max(1U, divideUp(Count, Lines * LineWords)), L.device().lanes(),
-          Lines * LineWords};
+  return {std::max(1U, divideUp(Count, Lines * LineWords)),
+          Launch.device().lanes(), Lines * LineWords};
 }
 
 Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
@@ -81,13 +82,14 @@ cl::Buffer Sorter::sortKept(const cl::Buffer &Keys, const KeptKeys &What,
   const Passes P(static_cast<unsigned>(
       std::bit_width((What.Most >> What.FirstBit) - Base)));
   const Share S = share(What.Count);
-  L.run(SortProgram, "sort_count_kept", S.items(), S.Lanes, Keys, Histogram,
-        What.Count, S.Chunk, What.FirstBit, P.Digits, Base);
-  L.run(SortProgram, "sort_offsets", P.Digits, std::min(P.Digits, LineWords),
-        Histogram, Totals, S.Groups, P.Digits);
-  L.run(SortProgram, "sort_scatter_kept", S.items(), S.Lanes, Keys, Histogram,
-        Totals, A.Keys, A.Values, What.Count, S.Chunk, What.FirstBit, P.Digits,
-        Base);
+  Launch.run(SortProgram, "sort_count_kept", S.items(), S.Lanes, Keys,
+             Histogram, What.Count, S.Chunk, What.FirstBit, P.Digits, Base);
+  Launch.run(SortProgram, "sort_offsets", P.Digits,
+             std::min(P.Digits, LineWords), Histogram, Totals, S.Groups,
+             P.Digits);
+  Launch.run(SortProgram, "sort_scatter_kept", S.items(), S.Lanes, Keys,
+             Histogram, Totals, A.Keys, A.Values, What.Count, S.Chunk,
+             What.FirstBit, P.Digits, Base);
   Pairs From = A;
   for (unsigned Pass = 1; Pass < P.Number; ++Pass) {
     const Pairs &To = From.Keys() == A.Keys() ? B : A;
@@ -100,12 +102,13 @@ cl::Buffer Sorter::sortKept(const cl::Buffer &Keys, const KeptKeys &What,
 void Sorter::pass(const Pairs &From, const Pairs &To, uint32_t Count,
                   unsigned Shift, uint32_t Digits) {
   const Share S = share(Count);
-  L.run(SortProgram, "sort_count", S.items(), S.Lanes, From.Keys, Histogram,
-        Count, S.Chunk, Shift, Digits);
-  L.run(SortProgram, "sort_offsets", Digits, std::min(Digits, LineWords),
-        Histogram, Totals, S.Groups, Digits);
-  L.run(SortProgram, "sort_scatter", S.items(), S.Lanes, From.Keys, From.Values,
-        Histogram, Totals, To.Keys, To.Values, Count, S.Chunk, Shift, Digits);
+  Launch.run(SortProgram, "sort_count", S.items(), S.Lanes, From.Keys,
+             Histogram, Count, S.Chunk, Shift, Digits);
+  Launch.run(SortProgram, "sort_offsets", Digits, std::min(Digits, LineWords),
+             Histogram, Totals, S.Groups, Digits);
+  Launch.run(SortProgram, "sort_scatter", S.items(), S.Lanes, From.Keys,
+             From.Values, Histogram, Totals, To.Keys, To.Values, Count, S.Chunk,
+             Shift, Digits);
 }
 
 } // namespace vorion::splat

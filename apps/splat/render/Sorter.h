@@ -20,7 +20,7 @@ public:
     std::size_t items() const { return std::size_t{Groups} * Lanes; }
   };
 
-  explicit Sorter(Launcher &L);
+  explicit Sorter(Launcher &Launch);
 
   /// Out[i] = In[0] + ... + In[i-1] for i in [0, Count], saturating; \p Out
   /// has Count + 1 words and is not \p In.
@@ -57,7 +57,7 @@ private:
   void pass(const Pairs &From, const Pairs &To, uint32_t Count, unsigned Shift,
             uint32_t Digits);
 
-  Launcher &L;
+  Launcher &Launch;
   uint32_t Groups;
   cl::Buffer Histogram, Totals, Sums;
 };

@@ -38,40 +38,40 @@ std::optional<std::string_view> after(std::string_view Key,
   return trimmed(Text.substr(Key.size()));
 }
 
-Error unknown(const std::string &Where, std::string_view Said,
+Error unknown(const std::string &Where, std::string_view Source,
               std::string_view Expected) {
   return {Where, fmt::format("{} calls for a way of drawing that is not known, "
                              "expected {}",
-                             printable(Said), Expected)};
+                             printable(Source), Expected)};
 }
 
 /// Takes one comment of those that say something into \p D.
 std::optional<Error> take(const std::string &Where, std::string_view Comment,
                           Drawing &D) {
   const std::string Lower = lowered(Comment);
-  const auto Said = [Comment] {
+  const auto Source = [Comment] {
     return "comment " + printable(trimmed(Comment));
   };
   if (const auto Mode = after(ModeKey, Lower)) {
     if (*Mode == "2dgs")
-      return flatGaussians(Where, Said());
+      return flatGaussians(Where, Source());
     if (*Mode != "default" && *Mode != "mip")
-      return unknown(Where, Said(), "SplatRenderMode: default or mip");
+      return unknown(Where, Source(), "SplatRenderMode: default or mip");
     D.Antialiased = *Mode == "mip";
-    D.Said = Said();
+    D.Source = Source();
   } else if (const auto Flag = after(FlagKey, Lower)) {
     // Another word makes it a sentence about something.
     if (*Flag != "0" && *Flag != "1")
       return std::nullopt;
     D.Antialiased = *Flag == "1";
-    D.Said = Said();
+    D.Source = Source();
   } else if (const auto Value = after(DilationKey, Lower)) {
     double Dilation = 0;
     const auto [End, Status] =
         std::from_chars(Value->begin(), Value->end(), Dilation);
     if (Status != std::errc() || End != Value->end() ||
         !(Dilation >= 0 && std::isfinite(Dilation)))
-      return unknown(Where, Said(), "a variance of 0 px^2 or more");
+      return unknown(Where, Source(), "a variance of 0 px^2 or more");
     D.Dilation = Dilation;
   }
   return std::nullopt;
@@ -95,30 +95,30 @@ Expected<Drawing> drawingOfComments(const std::string &Where,
 
 Expected<Drawing> drawingOfModel(const std::string &Where,
                                  std::string_view Model) {
-  const std::string Said = fmt::format("model {}", printable(Model));
+  const std::string Source = fmt::format("model {}", printable(Model));
   if (Model == "2dgs")
-    return flatGaussians(Where, Said);
+    return flatGaussians(Where, Source);
   if (Model != "default" && Model != "antialiased")
-    return unknown(Where, Said, "model default or antialiased");
-  return Drawing{Model == "antialiased", std::nullopt, Said};
+    return unknown(Where, Source, "model default or antialiased");
+  return Drawing{Model == "antialiased", std::nullopt, Source};
 }
 
-Error flatGaussians(const std::string &Where, std::string_view Said) {
+Error flatGaussians(const std::string &Where, std::string_view Source) {
   return {Where, fmt::format("{} calls for 2D Gaussians (2DGS), which are not "
                              "supported, expected Gaussians of three axes",
-                             Said)};
+                             Source)};
 }
 
-Drawing overruled(Drawing D, const DrawingRequest &R) {
+Drawing withRequest(Drawing D, const DrawingRequest &R) {
   if (R.Antialiased) {
     const bool Against = *R.Antialiased != D.Antialiased;
-    std::string Said = *R.Antialiased ? "--antialiased" : "--no-antialiased";
-    if (Against && !D.Said.empty())
-      Said += ", against " + D.Said;
+    std::string Source = *R.Antialiased ? "--antialiased" : "--no-antialiased";
+    if (Against && !D.Source.empty())
+      Source += ", against " + D.Source;
     if (Against) // what the file dilates by belongs to its way
       D.Dilation.reset();
     D.Antialiased = *R.Antialiased;
-    D.Said = std::move(Said);
+    D.Source = std::move(Source);
   }
   if (R.Dilation)
     D.Dilation = R.Dilation;

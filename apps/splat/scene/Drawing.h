@@ -18,10 +18,10 @@ struct Drawing {
   std::optional<double> Dilation;
   /// What says so, for people, as "comment SplatRenderMode: mip"; empty where
   /// the file says nothing, which means the classic way.
-  std::string Said;
+  std::string Source;
 
   /// Whether both give the same picture.
-  bool isAs(const Drawing &Other) const {
+  bool drawsAs(const Drawing &Other) const {
     return Antialiased == Other.Antialiased && Dilation == Other.Dilation;
   }
 };
@@ -31,7 +31,7 @@ struct DrawingRequest {
   std::optional<bool> Antialiased;
   std::optional<double> Dilation;
 };
-Drawing overruled(Drawing D, const DrawingRequest &R);
+Drawing withRequest(Drawing D, const DrawingRequest &R);
 
 /// What the comments of a PLY say, each without its keyword; of several the
 /// last counts. Read are, in any case of letters:

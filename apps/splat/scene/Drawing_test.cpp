@@ -23,7 +23,7 @@ TEST(Drawing, CommentsOfEachProgramAreKnown) {
   const struct {
     std::vector<std::string> Comments;
     bool Antialiased;
-    const char *Said;
+    const char *Source;
   } Cases[] = {
       {{}, false, ""},
       {{" Exported from Brush", " SH degree: 3"}, false, ""},
@@ -45,8 +45,8 @@ TEST(Drawing, CommentsOfEachProgramAreKnown) {
   for (const auto &Case : Cases) {
     const auto D = of(Case.Comments);
     ASSERT_TRUE(D) << D.error().What;
-    EXPECT_EQ(D->Antialiased, Case.Antialiased) << Case.Said;
-    EXPECT_EQ(D->Said, Case.Said);
+    EXPECT_EQ(D->Antialiased, Case.Antialiased) << Case.Source;
+    EXPECT_EQ(D->Source, Case.Source);
     EXPECT_FALSE(D->Dilation);
   }
 }
@@ -85,17 +85,17 @@ TEST(Drawing, BrushsFilesAreDilatedAsBrushDoes) {
 
 TEST(Drawing, TheUserDecidesAgainstTheFile) {
   const Drawing Mip{true, 0.1, "comment SplatRenderMode: mip"};
-  const Drawing Classic = overruled(Mip, {false, {}});
+  const Drawing Classic = withRequest(Mip, {false, {}});
   EXPECT_FALSE(Classic.Antialiased);
   EXPECT_FALSE(Classic.Dilation);
-  EXPECT_EQ(Classic.Said,
+  EXPECT_EQ(Classic.Source,
             "--no-antialiased, against comment SplatRenderMode: mip");
-  const Drawing Same = overruled(Mip, {true, 0.2});
+  const Drawing Same = withRequest(Mip, {true, 0.2});
   EXPECT_TRUE(Same.Antialiased);
   EXPECT_EQ(Same.Dilation, 0.2);
-  EXPECT_EQ(Same.Said, "--antialiased");
-  EXPECT_EQ(overruled({}, {true, {}}).Said, "--antialiased");
-  EXPECT_EQ(overruled(Mip, {}).Said, Mip.Said);
+  EXPECT_EQ(Same.Source, "--antialiased");
+  EXPECT_EQ(withRequest({}, {true, {}}).Source, "--antialiased");
+  EXPECT_EQ(withRequest(Mip, {}).Source, Mip.Source);
 }
 
 TEST(Drawing, APlySaysWhatItsSceneWas) {
@@ -106,7 +106,7 @@ TEST(Drawing, APlySaysWhatItsSceneWas) {
     ASSERT_TRUE(writePly(Root.path("s.ply"), S, D));
     const auto Read = readScene(Root.path("s.ply"));
     ASSERT_TRUE(Read) << Read.error().What;
-    EXPECT_TRUE(Read->DrawnAs.isAs(D));
+    EXPECT_TRUE(Read->DrawnAs.drawsAs(D));
     EXPECT_EQ(Read->Gaussians.Sh, S.Sh);
   }
 }
@@ -135,7 +135,7 @@ TEST(Drawing, EveryFormatThatCanSayItIsHeard) {
   const auto Named = Sog({{"model", "antialiased"}});
   ASSERT_TRUE(Named) << Named.error().What;
   EXPECT_TRUE(Named->DrawnAs.Antialiased);
-  EXPECT_EQ(Named->DrawnAs.Said, "model antialiased");
+  EXPECT_EQ(Named->DrawnAs.Source, "model antialiased");
   const auto Default = Sog({{"model", "default"}, {"antialias", nullptr}});
   ASSERT_TRUE(Default);
   EXPECT_FALSE(Default->DrawnAs.Antialiased);

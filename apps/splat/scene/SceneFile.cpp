@@ -28,7 +28,7 @@ Expected<SceneFile> checked(const std::string &Where, Expected<SceneFile> Read,
   } else if (auto Finite = checkFinite(Where, Read->Gaussians); !Finite) {
     return Finite.error();
   }
-  Read->DrawnAs = overruled(std::move(Read->DrawnAs), Options.Drawn);
+  Read->DrawnAs = withRequest(std::move(Read->DrawnAs), Options.Drawn);
   return Read;
 }
 

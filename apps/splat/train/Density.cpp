@@ -39,7 +39,8 @@ void DensityControl::restart(uint32_t Count) { restore(nothing(Count)); }
 DensityControl::Notebook DensityControl::upload(const DensityNotes &N) {
   const auto Upload = [&](const auto &Values) {
     cl::Buffer To = words("density control's notes", Values.size());
-    L.write("density control's notes", To, Values.data(), 4 * Values.size());
+    Launch.write("density control's notes", To, Values.data(),
+                 4 * Values.size());
     return To;
   };
   return {Upload(N.GradientSums), Upload(N.Views), Upload(N.Radii)};
@@ -48,19 +49,19 @@ DensityControl::Notebook DensityControl::upload(const DensityNotes &N) {
 DensityNotes DensityControl::download(const Notebook &From, uint32_t Count) {
   DensityNotes N = nothing(Count);
   const uint64_t Bytes = 4 * uint64_t{Count};
-  L.read("density control's notes", N.GradientSums.data(), From.GradientSums,
-         Bytes);
-  L.read("density control's notes", N.Views.data(), From.Views, Bytes);
-  L.read("density control's notes", N.Radii.data(), From.Radii, Bytes);
+  Launch.read("density control's notes", N.GradientSums.data(),
+              From.GradientSums, Bytes);
+  Launch.read("density control's notes", N.Views.data(), From.Views, Bytes);
+  Launch.read("density control's notes", N.Radii.data(), From.Radii, Bytes);
   return N;
 }
 
 void DensityControl::note(const Notebook &In, const SeenView &V,
                           uint32_t Count) {
-  L.run(DensityProgram, "density_note", itemsFor(Count), GroupSize, V.Records,
-        V.Depths, V.Gradients, V.MeanPlane, In.GradientSums, In.Views, In.Radii,
-        Count, 0.5F * static_cast<float>(V.Width),
-        0.5F * static_cast<float>(V.Height));
+  Launch.run(DensityProgram, "density_note", itemsFor(Count), GroupSize,
+             V.Records, V.Depths, V.Gradients, V.MeanPlane, In.GradientSums,
+             In.Views, In.Radii, Count, 0.5F * static_cast<float>(V.Width),
+             0.5F * static_cast<float>(V.Height));
 }
 
 void DensityControl::note(const SeenView &V, uint32_t Count) {
@@ -76,16 +77,16 @@ DensityNotes DensityControl::noteAlone(const SeenView &V, uint32_t Count) {
 void DensityControl::merge(const DensityNotes &OfAView) {
   const auto Count = static_cast<uint32_t>(OfAView.Views.size());
   const Notebook Added = upload(OfAView);
-  L.run(BatchProgram, "batch_note", itemsFor(Count), GroupSize,
-        Noted.GradientSums, Noted.Views, Noted.Radii, Added.GradientSums,
-        Added.Views, Added.Radii, Count);
+  Launch.run(BatchProgram, "batch_note", itemsFor(Count), GroupSize,
+             Noted.GradientSums, Noted.Views, Noted.Radii, Added.GradientSums,
+             Added.Views, Added.Radii, Count);
 }
 
 /// The sum of \p Values; their prefix sums are left in Places.
 uint32_t DensityControl::total(const cl::Buffer &Values, uint32_t Count) {
   Sort.scan(Values, Places, Count);
   uint32_t Sum = 0;
-  L.read("places of Gaussians", &Sum, Places, 4, 4 * uint64_t{Count});
+  Launch.read("places of Gaussians", &Sum, Places, 4, 4 * uint64_t{Count});
   return Sum;
 }
 
@@ -102,16 +103,16 @@ uint32_t DensityControl::decide(const DeviceScene &S, unsigned Iteration) {
                  : Never;
   Rule.most_radius =
       DropsLarge ? static_cast<float>(Settings.MostRadius) : Never;
-  L.run(DensityProgram, "density_decide", itemsFor(S.Count), GroupSize,
-        S.Parameters.Geometry, Noted.GradientSums, Noted.Views, Noted.Radii,
-        Fates, Counts, Keys, Order, S.Count, Rule);
+  Launch.run(DensityProgram, "density_decide", itemsFor(S.Count), GroupSize,
+             S.Parameters.Geometry, Noted.GradientSums, Noted.Views,
+             Noted.Radii, Fates, Counts, Keys, Order, S.Count, Rule);
   return total(Counts, S.Count);
 }
 
 void DensityControl::limit(uint32_t Count, uint32_t Total) {
   const cl::Buffer Grows = words("growing Gaussians", Count);
-  L.run(DensityProgram, "density_grows", itemsFor(Count), GroupSize, Counts,
-        Grows, Count);
+  Launch.run(DensityProgram, "density_grows", itemsFor(Count), GroupSize,
+             Counts, Grows, Count);
   // Each that grows becomes one more.
   const uint32_t Kept = Total - total(Grows, Count);
   const uint32_t More =
@@ -121,8 +122,8 @@ void DensityControl::limit(uint32_t Count, uint32_t Total) {
   const Sorter::Pairs B{words("sorted gradients", Count),
                         words("sorted Gaussians", Count)};
   const Sorter::Pairs Sorted = Sort.sort({Keys, Order}, A, B, Count, {0, 32});
-  L.run(DensityProgram, "density_limit", itemsFor(Count), GroupSize,
-        Sorted.Values, Fates, Counts, Count, More);
+  Launch.run(DensityProgram, "density_limit", itemsFor(Count), GroupSize,
+             Sorted.Values, Fates, Counts, Count, More);
 }
 
 DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
@@ -132,14 +133,15 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   Keys = words("gradients to sort", S.Count);
   Order = words("Gaussians to sort", S.Count);
   uint32_t After = decide(S, Iteration);
-  if (!L.failure() && After > Settings.MostGaussians) {
+  if (!Launch.failure() && After > Settings.MostGaussians) {
     limit(S.Count, After);
     After = total(Counts, S.Count);
   }
-  if (!L.failure() && After == 0)
-    L.fail({"", "density control dropped every Gaussian, expected some to stay",
-            ExitCode::LimitReached});
-  if (L.failure())
+  if (!Launch.failure() && After == 0)
+    Launch.fail(
+        {"", "density control dropped every Gaussian, expected some to stay",
+         ExitCode::LimitReached});
+  if (Launch.failure())
     return {};
 
   const DensityChange Change{S.Count, After};
@@ -148,9 +150,10 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   New.ShDegree = S.ShDegree;
   const auto Move = [&](const cl::Buffer &From, cl::Buffer &To, uint32_t Planes,
                         bool Moments) {
-    L.run(DensityProgram, "density_copy",
-          cl::NDRange(itemsFor(S.Count)[0], Planes), cl::NDRange(GroupSize, 1),
-          From, To, Fates, Places, S.Count, After, Moments ? 1U : 0U);
+    Launch.run(DensityProgram, "density_copy",
+               cl::NDRange(itemsFor(S.Count)[0], Planes),
+               cl::NDRange(GroupSize, 1), From, To, Fates, Places, S.Count,
+               After, Moments ? 1U : 0U);
   };
   const struct {
     PlanePair &From, &To;
@@ -159,7 +162,7 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
                {S.First, New.First, true},
                {S.Second, New.Second, true}};
   for (const auto &[From, To, Moments] : Pairs) {
-    To = New.allocate(L, After);
+    To = New.allocate(Launch, After);
     Move(From.Geometry, To.Geometry, GEOMETRY_PLANES, Moments);
     Move(From.Sh, To.Sh, S.colourPlanes(), Moments);
     if (Moments) // what the parameters were is needed below
@@ -167,14 +170,14 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   }
   const auto SeedLow = static_cast<uint32_t>(Seed);
   const auto SeedHigh = static_cast<uint32_t>(Seed >> 32);
-  L.run(DensityProgram, "density_split", itemsFor(S.Count), GroupSize,
-        S.Parameters.Geometry, New.Parameters.Geometry, S.Identities, Fates,
-        Places, S.Count, After, SeedLow, SeedHigh, Iteration,
-        static_cast<float>(std::log(Settings.SplitShrink)));
+  Launch.run(DensityProgram, "density_split", itemsFor(S.Count), GroupSize,
+             S.Parameters.Geometry, New.Parameters.Geometry, S.Identities,
+             Fates, Places, S.Count, After, SeedLow, SeedHigh, Iteration,
+             static_cast<float>(std::log(Settings.SplitShrink)));
   New.Identities = words("Gaussians' identities", After);
-  L.run(DensityProgram, "density_identify", itemsFor(S.Count), GroupSize,
-        S.Identities, New.Identities, Fates, Places, S.Count, SeedLow, SeedHigh,
-        Iteration);
+  Launch.run(DensityProgram, "density_identify", itemsFor(S.Count), GroupSize,
+             S.Identities, New.Identities, Fates, Places, S.Count, SeedLow,
+             SeedHigh, Iteration);
   S = New;
   Fates = Counts = Places = Keys = Order = {};
   restart(After);
@@ -182,9 +185,9 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
 }
 
 void DensityControl::resetOpacity(DeviceScene &S) {
-  L.run(DensityProgram, "reset_opacity", itemsFor(S.Count), GroupSize,
-        S.Parameters.Geometry, S.First.Geometry, S.Second.Geometry, S.Count,
-        opacityLogit(Settings.ResetOpacity));
+  Launch.run(DensityProgram, "reset_opacity", itemsFor(S.Count), GroupSize,
+             S.Parameters.Geometry, S.First.Geometry, S.Second.Geometry,
+             S.Count, opacityLogit(Settings.ResetOpacity));
 }
 
 } // namespace vorion::splat

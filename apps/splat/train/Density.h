@@ -41,7 +41,7 @@ class DensityControl {
 public:
   DensityControl(Launcher &Launch, const TrainSettings &Rules,
                  uint64_t RandomSeed, double CameraExtent)
-      : L(Launch), Settings(Rules), Seed(RandomSeed), Extent(CameraExtent),
+      : Launch(Launch), Settings(Rules), Seed(RandomSeed), Extent(CameraExtent),
         Sort(Launch) {}
 
   /// Forgets everything; \p Count Gaussians from now on.
@@ -73,10 +73,10 @@ private:
   uint32_t total(const cl::Buffer &Counts, uint32_t Count);
   void limit(uint32_t Count, uint32_t Total);
   cl::Buffer words(std::string_view What, uint64_t N) {
-    return L.allocate(What, 4 * N);
+    return Launch.allocate(What, 4 * N);
   }
 
-  Launcher &L;
+  Launcher &Launch;
   const TrainSettings &Settings;
   uint64_t Seed;
   double Extent;

@@ -10,7 +10,7 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
                               const std::array<float, 3> &Background) {
   RenderOptions O;
   O.Convention = Convention;
-  O.Blending = By.Who;
+  O.Blending = By.Kind;
   O.SimtTile = By.SimtTile;
   O.SimtGroup = By.SimtGroup;
   O.Background = Background;
@@ -23,19 +23,19 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
 DeviceRenderer::DeviceRenderer(Launcher &Launch, Rules Convention,
                                const Blender &By, const BackwardOptions &How,
                                const std::array<float, 3> &Background)
-    : L(Launch), Choice(How),
+    : Launch(Launch), Choice(How),
       Options(trainingOptions(Convention, By, Background)),
       Drawing(Launch, Options, EffectPlan::forAnyScene(MaxShDegree, Options)) {
   Choice.Parameters = GradientsOf::Stored;
 }
 
 void DeviceRenderer::build(int ShDegree) {
-  L.beginStage(Stage::Build);
+  Launch.beginStage(Stage::Build);
   for (const ProgramSpec &P : planRender(ShDegree, Options).Programs)
-    L.build(P);
+    Launch.build(P);
   for (const ProgramSpec &P : planBackward(ShDegree, Options, Choice))
-    L.build(P);
-  Back.emplace(L, Options, Choice, ShDegree);
+    Launch.build(P);
+  Back.emplace(Launch, Options, Choice, ShDegree);
   BuiltDegree = ShDegree;
 }
 
@@ -44,16 +44,16 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
   if (BuiltDegree != ShDegree)
     build(ShDegree);
   Drawing.draw({S.Parameters.Geometry, S.Parameters.Sh, S.Count}, C);
-  L.beginStage(Stage::Resolve);
-  Picture = resolve(L, Drawing.frame(), Options.Background);
+  Launch.beginStage(Stage::Resolve);
+  Picture = resolve(Launch, Drawing.frame(), Options.Background);
   return Picture;
 }
 
 std::vector<uint32_t> DeviceRenderer::listLengths() {
   const Frame &F = Drawing.frame();
   std::vector<std::array<uint32_t, 2>> Ranges(F.tiles());
-  L.beginStage(Stage::ReadBack);
-  L.read("lists' places", Ranges.data(), F.Ranges, 8 * Ranges.size());
+  Launch.beginStage(Stage::ReadBack);
+  Launch.read("lists' places", Ranges.data(), F.Ranges, 8 * Ranges.size());
   std::vector<uint32_t> Lengths;
   Lengths.reserve(Ranges.size());
   for (const auto &[Begin, End] : Ranges)
@@ -64,7 +64,7 @@ std::vector<uint32_t> DeviceRenderer::listLengths() {
 GradientRenderer::Backward DeviceRenderer::backward(const cl::Buffer &ByRender,
                                                     const cl::Buffer &ByAlpha) {
   const Frame &F = Drawing.frame();
-  L.beginStage(Stage::Upstream);
+  Launch.beginStage(Stage::Upstream);
   Back->setUpstream(F, ByRender, ByAlpha);
   Back->run(Drawing);
   return {{Back->gradients(), Back->shGradients()},

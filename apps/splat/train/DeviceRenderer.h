@@ -9,13 +9,13 @@
 
 namespace vorion::splat {
 
-/// Who blends and goes back.
+/// What blends and goes back.
 struct Blender {
-  Blender(Path P) : Who(P) {}
+  Blender(Path P) : Kind(P) {}
   Blender(Path P, unsigned SimtTile, unsigned SimtGroup)
-      : Who(P), SimtTile(SimtTile), SimtGroup(SimtGroup) {}
+      : Kind(P), SimtTile(SimtTile), SimtGroup(SimtGroup) {}
 
-  Path Who;
+  Path Kind;
   /// Of the cores alone (RenderOptions); going back has groups of 16.
   unsigned SimtTile = 16, SimtGroup = 256;
 };
@@ -38,7 +38,7 @@ public:
 private:
   void build(int ShDegree);
 
-  Launcher &L;
+  Launcher &Launch;
   BackwardOptions Choice;
   RenderOptions Options;
   Pipeline Drawing;

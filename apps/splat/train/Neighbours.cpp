@@ -15,7 +15,7 @@ namespace {
 class Tree {
 public:
   explicit Tree(const std::vector<float> &Points)
-      : P(Points), Order(Points.size() / 3), Axes(Order.size()) {
+      : Points(Points), Order(Points.size() / 3), Axes(Order.size()) {
     std::iota(Order.begin(), Order.end(), 0U);
     split(0, Order.size());
   }
@@ -31,7 +31,7 @@ private:
   static constexpr std::size_t Leaf = 8;
 
   double at(uint32_t Point, std::size_t Axis) const {
-    return P[3 * std::size_t{Point} + Axis];
+    return Points[3 * std::size_t{Point} + Axis];
   }
 
   void split(std::size_t Begin, std::size_t End) {
@@ -95,7 +95,7 @@ private:
       search(To, Right ? Begin : Middle + 1, Right ? Middle : End, Best);
   }
 
-  const std::vector<float> &P;
+  const std::vector<float> &Points;
   std::vector<uint32_t> Order;
   std::vector<uint8_t> Axes;
 };

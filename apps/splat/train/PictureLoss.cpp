@@ -24,17 +24,17 @@ ProgramSpec lossProgram() {
 void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
   if (Pixels > Room) {
     Room = Pixels;
-    Packed = L.allocate("photograph", 4 * Pixels);
-    Gradient = L.allocate("picture's gradient", 12 * Pixels);
-    NoAlpha = L.allocate("alpha's gradient", 4 * Pixels);
+    Packed = Launch.allocate("photograph", 4 * Pixels);
+    Gradient = Launch.allocate("picture's gradient", 12 * Pixels);
+    NoAlpha = Launch.allocate("alpha's gradient", 4 * Pixels);
     const std::vector<float> Zeros(Pixels, 0);
-    L.write("alpha's gradient", NoAlpha, Zeros.data(), 4 * Zeros.size());
+    Launch.write("alpha's gradient", NoAlpha, Zeros.data(), 4 * Zeros.size());
   }
   if (Tiles > TileRoom) {
     TileRoom = Tiles;
-    Slopes =
-        L.allocate("loss's slopes", 4 * SlopePlanes * Tiles * Lanes * TileRows);
-    Totals = L.allocate("loss's sums", 8 * Channels * Tiles);
+    Slopes = Launch.allocate("loss's slopes",
+                             4 * SlopePlanes * Tiles * Lanes * TileRows);
+    Totals = Launch.allocate("loss's sums", 8 * Channels * Tiles);
   }
 }
 
@@ -51,19 +51,20 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
   for (std::size_t I = 0; I < Pixels; ++I)
     HostPacked[I] = Target.Rgb[3 * I] | Target.Rgb[3 * I + 1] << 8 |
                     Target.Rgb[3 * I + 2] << 16;
-  L.write("photograph", Packed, HostPacked.data(), 4 * HostPacked.size());
+  Launch.write("photograph", Packed, HostPacked.data(), 4 * HostPacked.size());
 
   const double Samples = 3.0 * Pixels;
   const cl::NDRange Items(std::size_t{Across} * Lanes, Down, Channels);
   const cl::NDRange Group(Lanes, 1, 1);
-  L.run(LossProgram, "loss_slopes", Items, Group, Picture, Packed, Slopes,
-        Totals, Width, Height);
-  L.run(LossProgram, "loss_gradient", Items, Group, Picture, Packed, Slopes,
-        Gradient, Width, Height, static_cast<float>((1 - DSsim) / Samples),
-        static_cast<float>(DSsim / Samples));
+  Launch.run(LossProgram, "loss_slopes", Items, Group, Picture, Packed, Slopes,
+             Totals, Width, Height);
+  Launch.run(LossProgram, "loss_gradient", Items, Group, Picture, Packed,
+             Slopes, Gradient, Width, Height,
+             static_cast<float>((1 - DSsim) / Samples),
+             static_cast<float>(DSsim / Samples));
 
   HostTotals.assign(std::size_t{2} * Channels * Across * Down, 0);
-  L.read("loss", HostTotals.data(), Totals, 4 * HostTotals.size());
+  Launch.read("loss", HostTotals.data(), Totals, 4 * HostTotals.size());
   LossValues V;
   for (std::size_t I = 0; I < HostTotals.size(); I += 2) {
     V.Absolute += HostTotals[I];

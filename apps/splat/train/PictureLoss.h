@@ -23,7 +23,7 @@ struct LossValues {
 class PictureLoss {
 public:
   PictureLoss(Launcher &Launch, double DSsimShare)
-      : L(Launch), DSsim(DSsimShare) {}
+      : Launch(Launch), DSsim(DSsimShare) {}
 
   /// \p Picture has four floats a pixel, of which the first three are compared
   /// with \p Target; dL/dpicture goes to \c gradient(), three floats a pixel.
@@ -35,7 +35,7 @@ public:
 private:
   void reserve(uint64_t Pixels, uint64_t Tiles);
 
-  Launcher &L;
+  Launcher &Launch;
   double DSsim;
   uint64_t Room = 0, TileRoom = 0;
   cl::Buffer Packed, Slopes, Totals, Gradient, NoAlpha;

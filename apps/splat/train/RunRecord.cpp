@@ -61,7 +61,7 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
       {"batch", Run.Batch},
       {"sh_degree", ShDegree},
       {"rules", name(Convention)},
-      {"path", name(By.Who)},
+      {"path", name(By.Kind)},
       {"reciprocal", name(Backward.Unit)},
       {"sums", name(Backward.Order)},
       {"max_gaussians", S.MostGaussians},
@@ -78,7 +78,7 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
       {"prune", {S.LeastOpacity, S.MostExtent, S.MostRadius}},
       {"reset", {S.ResetInterval, S.ResetOpacity, S.WhiteReset}}};
   // What the order of the cores' sums depends on.
-  if (By.Who == Path::Simt && By.SimtTile != Blender(By.Who).SimtTile)
+  if (By.Kind == Path::Simt && By.SimtTile != Blender(By.Kind).SimtTile)
     J["simt_tile"] = By.SimtTile;
   if (Run.From.empty())
     J["points"] = Run.Points;

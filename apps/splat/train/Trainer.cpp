@@ -24,66 +24,66 @@ std::vector<ProgramSpec> Trainer::programs() {
 Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
                  const TrainingSet &Photos, const TrainRun &What,
                  Ranks &Processes)
-    : L(Launch), Renderer(Render), Pictures(Photos), Run(What),
+    : Launch(Launch), Renderer(Render), Pictures(Photos), Run(What),
       Order(Photos.Training.size(), What.Seed),
-      Loss(Launch, What.Settings.DSsim), Together(Processes),
+      Loss(Launch, What.Settings.DSsim), Processes(Processes),
       Density(Launch, What.Settings, What.Seed, What.Extent),
       Batch(Launch, Processes, Density, What.Batch) {}
 
 void Trainer::start(const Scene &From) {
-  L.beginStage(Stage::Upload);
-  S = DeviceScene::upload(L, From);
-  Density.restart(S.Count);
+  Launch.beginStage(Stage::Upload);
+  State = DeviceScene::upload(Launch, From);
+  Density.restart(State.Count);
   Done = 0;
   Losses.clear();
 }
 
 void Trainer::restore(const Checkpoint &C) {
-  L.beginStage(Stage::Upload);
-  S = DeviceScene();
-  S.Count = static_cast<uint32_t>(C.gaussians());
-  S.ShDegree = C.ShDegree;
+  Launch.beginStage(Stage::Upload);
+  State = DeviceScene();
+  State.Count = static_cast<uint32_t>(C.gaussians());
+  State.ShDegree = C.ShDegree;
   const auto Upload = [&](PlanePair &To, const std::vector<float> &Geometry,
                           const std::vector<float> &Sh) {
-    To = S.allocate(L, S.Count);
-    L.write("Gaussians' geometry", To.Geometry, Geometry.data(),
-            4 * Geometry.size());
-    L.write("Gaussians' colours", To.Sh, Sh.data(), 4 * Sh.size());
+    To = State.allocate(Launch, State.Count);
+    Launch.write("Gaussians' geometry", To.Geometry, Geometry.data(),
+                 4 * Geometry.size());
+    Launch.write("Gaussians' colours", To.Sh, Sh.data(), 4 * Sh.size());
   };
-  Upload(S.Parameters, C.Geometry, C.Sh);
-  Upload(S.First, C.FirstGeometry, C.FirstSh);
-  Upload(S.Second, C.SecondGeometry, C.SecondSh);
-  S.uploadIdentities(L, C.Identities);
+  Upload(State.Parameters, C.Geometry, C.Sh);
+  Upload(State.First, C.FirstGeometry, C.FirstSh);
+  Upload(State.Second, C.SecondGeometry, C.SecondSh);
+  State.uploadIdentities(Launch, C.Identities);
   Density.restore(C.Notes);
   Done = C.Iteration;
   Losses = C.Losses;
 }
 
 Checkpoint Trainer::save() {
-  L.beginStage(Stage::ReadBack);
+  Launch.beginStage(Stage::ReadBack);
   Checkpoint C;
   C.Iteration = Done;
-  C.ShDegree = S.ShDegree;
+  C.ShDegree = State.ShDegree;
   const auto Download = [&](const PlanePair &From, std::vector<float> &Geometry,
                             std::vector<float> &Sh) {
-    Geometry.resize(std::size_t{GEOMETRY_PLANES} * S.Count);
-    Sh.resize(std::size_t{S.colourPlanes()} * S.Count);
-    L.read("Gaussians' geometry", Geometry.data(), From.Geometry,
-           4 * Geometry.size());
-    L.read("Gaussians' colours", Sh.data(), From.Sh, 4 * Sh.size());
+    Geometry.resize(std::size_t{GEOMETRY_PLANES} * State.Count);
+    Sh.resize(std::size_t{State.colourPlanes()} * State.Count);
+    Launch.read("Gaussians' geometry", Geometry.data(), From.Geometry,
+                4 * Geometry.size());
+    Launch.read("Gaussians' colours", Sh.data(), From.Sh, 4 * Sh.size());
   };
-  Download(S.Parameters, C.Geometry, C.Sh);
-  Download(S.First, C.FirstGeometry, C.FirstSh);
-  Download(S.Second, C.SecondGeometry, C.SecondSh);
-  C.Identities = S.downloadIdentities(L);
-  C.Notes = Density.save(S.Count);
+  Download(State.Parameters, C.Geometry, C.Sh);
+  Download(State.First, C.FirstGeometry, C.FirstSh);
+  Download(State.Second, C.SecondGeometry, C.SecondSh);
+  C.Identities = State.downloadIdentities(Launch);
+  C.Notes = Density.save(State.Count);
   C.Losses = Losses;
   return C;
 }
 
-ViewBatch::Given Trainer::take(const TrainView &V, int ShDegree) {
-  const cl::Buffer Picture = Renderer.forward(S, V.Pose, ShDegree);
-  L.beginStage(Stage::Loss);
+ViewBatch::ViewResult Trainer::take(const TrainView &V, int ShDegree) {
+  const cl::Buffer Picture = Renderer.forward(State, V.Pose, ShDegree);
+  Launch.beginStage(Stage::Loss);
   const LossValues Values = Loss.evaluate(Picture, V.Picture);
   return {Values, Renderer.backward(Loss.gradient(), Loss.alphaGradient())};
 }
@@ -93,12 +93,12 @@ ViewBatch::Given Trainer::take(const TrainView &V, int ShDegree) {
 /// ends with it. (INRIA's trainer saves before the change, too, but makes it
 /// before the step, which the new Gaussians and their neighbours then miss.)
 std::optional<DensityChange> Trainer::changeDensity() {
-  L.beginStage(Stage::DensityControl);
+  Launch.beginStage(Stage::DensityControl);
   std::optional<DensityChange> Change;
   if (densifiesAt(Run.Settings, Done))
-    Change = Density.densify(S, Done);
+    Change = Density.densify(State, Done);
   if (resetsAt(Run.Settings, Done, Run.WhiteBackground))
-    Density.resetOpacity(S);
+    Density.resetOpacity(State);
   return Change;
 }
 
@@ -108,12 +108,12 @@ bool Trainer::isChangeDue() const {
 }
 
 /// Whether no process has failed; if one has, all have its error.
-bool Trainer::goesOn() {
+bool Trainer::allSucceeded() {
   const Expected<Success> Mine =
-      L.failure() ? Expected<Success>(*L.failure()) : Success{};
-  const auto All = Together.agree(Mine);
+      Launch.failure() ? Expected<Success>(*Launch.failure()) : Success{};
+  const auto All = Processes.agree(Mine);
   if (!All)
-    L.fail(All.error());
+    Launch.fail(All.error());
   return static_cast<bool>(All);
 }
 
@@ -124,13 +124,13 @@ StepReport Trainer::step() {
   // A process that failed here would have other sizes than the others.
   if (isChangeDue()) {
     R.Density = changeDensity();
-    if (!goesOn())
+    if (!allSucceeded())
       return R;
   }
-  const int Degree = shDegreeAt(Settings, R.Iteration, S.ShDegree);
-  Batch.begin(S, Degree, notesAt(Settings, R.Iteration));
+  const int Degree = shDegreeAt(Settings, R.Iteration, State.ShDegree);
+  Batch.begin(State, Degree, notesAt(Settings, R.Iteration));
   while (!Batch.complete()) {
-    std::optional<ViewBatch::Given> Mine;
+    std::optional<ViewBatch::ViewResult> Mine;
     if (Batch.next() < Run.Batch)
       Mine = take(Pictures.Training[Order.at(uint64_t{Done} * Run.Batch +
                                              Batch.next() + 1)],
@@ -139,42 +139,45 @@ StepReport Trainer::step() {
   }
   R.Loss = Batch.loss();
   if (!std::isfinite(R.Loss.Value))
-    L.fail({"",
-            fmt::format("the loss of iteration {} is {}, expected a number: "
-                        "the scene has become none",
-                        R.Iteration, R.Loss.Value),
-            ExitCode::GuestFailed});
-  L.beginStage(Stage::Adam);
-  stepAdam(L, Settings, S, Batch.gradients(), R.Iteration, Run.Extent, Degree);
-  if (!goesOn())
+    Launch.fail(
+        {"",
+         fmt::format("the loss of iteration {} is {}, expected a number: "
+                     "the scene has become none",
+                     R.Iteration, R.Loss.Value),
+         ExitCode::GuestFailed});
+  Launch.beginStage(Stage::Adam);
+  stepAdam(Launch, Settings, State, Batch.gradients(), R.Iteration, Run.Extent,
+           Degree);
+  if (!allSucceeded())
     return R;
   Done = R.Iteration;
   Losses.push_back(static_cast<float>(R.Loss.Value));
-  R.Gaussians = S.Count;
+  R.Gaussians = State.Count;
   return R;
 }
 
 Scene Trainer::scene() {
-  L.beginStage(Stage::ReadBack);
-  return S.download(L);
+  Launch.beginStage(Stage::ReadBack);
+  return State.download(Launch);
 }
 
 Photo Trainer::render(const Camera &C) {
-  const int Degree = shDegreeAt(Run.Settings, Done, S.ShDegree);
-  const cl::Buffer Picture = Renderer.forward(S, C, Degree);
-  L.beginStage(Stage::ReadBack);
+  const int Degree = shDegreeAt(Run.Settings, Done, State.ShDegree);
+  const cl::Buffer Picture = Renderer.forward(State, C, Degree);
+  Launch.beginStage(Stage::ReadBack);
   Photo P{C.Width, C.Height, {}};
   const std::size_t Pixels =
       static_cast<std::size_t>(C.Width) * static_cast<std::size_t>(C.Height);
   std::vector<float> Rgba(4 * Pixels);
-  L.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
+  Launch.read("picture", Rgba.data(), Picture, 4 * Rgba.size());
   // As a byte a NaN would be black.
   if (std::ranges::any_of(Rgba, [](float V) { return std::isnan(V); }))
-    L.fail({"",
-            fmt::format("view {} of the trained scene has values that are no "
-                        "numbers, expected a picture",
-                        printable(C.Name)),
-            ExitCode::GuestFailed});
+    Launch.fail(
+        {"",
+         fmt::format("view {} of the trained scene has values that are no "
+                     "numbers, expected a picture",
+                     printable(C.Name)),
+         ExitCode::GuestFailed});
   P.Rgb.reserve(3 * Pixels);
   for (std::size_t I = 0; I < Pixels; ++I)
     for (std::size_t K = 0; K < 3; ++K)

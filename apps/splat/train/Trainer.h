@@ -43,9 +43,9 @@ public:
   /// The programs that training runs beside the renderer's.
   static std::vector<ProgramSpec> programs();
 
-  /// \p Pictures, \p Run, \p Renderer and \p Together must outlive this.
-  Trainer(Launcher &L, GradientRenderer &Renderer, const TrainingSet &Pictures,
-          const TrainRun &Run, Ranks &Together);
+  /// \p Pictures, \p Run, \p Renderer and \p Processes must outlive this.
+  Trainer(Launcher &Launch, GradientRenderer &Renderer,
+          const TrainingSet &Pictures, const TrainRun &Run, Ranks &Processes);
 
   void start(const Scene &S);
   void restore(const Checkpoint &C);
@@ -54,7 +54,7 @@ public:
 
   StepReport step();
   unsigned iteration() const { return Done; }
-  uint32_t gaussians() const { return S.Count; }
+  uint32_t gaussians() const { return State.Count; }
   const std::vector<float> &losses() const { return Losses; }
   Scene scene();
 
@@ -66,19 +66,19 @@ public:
 private:
   bool isChangeDue() const;
   std::optional<DensityChange> changeDensity();
-  bool goesOn();
-  ViewBatch::Given take(const TrainView &V, int ShDegree);
+  bool allSucceeded();
+  ViewBatch::ViewResult take(const TrainView &V, int ShDegree);
 
-  Launcher &L;
+  Launcher &Launch;
   GradientRenderer &Renderer;
   const TrainingSet &Pictures;
   const TrainRun &Run;
   ViewOrder Order;
   PictureLoss Loss;
-  Ranks &Together;
+  Ranks &Processes;
   DensityControl Density;
   ViewBatch Batch;
-  DeviceScene S;
+  DeviceScene State;
   unsigned Done = 0;
   std::vector<float> Losses;
 };

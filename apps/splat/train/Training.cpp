@@ -25,77 +25,82 @@ void onInterrupt(int /*Signal*/) { Interrupted = 1; }
 
 /// What the whole run is about, once everything is read.
 struct Work {
-  const TrainRequest &R;
+  const TrainRequest &Request;
   const TrainHost &Host;
-  const Capture &C;
+  const Capture &Photos;
   const TrainingSet &Pictures;
-  Ranks &Together;
+  Ranks &Processes;
   Json Record;
   TrainOutcome &Out;
 };
 
-Expected<Success> writeState(const Work &W, Launcher &L, Trainer &T) {
+Expected<Success> writeState(const Work &W, Launcher &Launch, Trainer &T) {
   Checkpoint C = T.save();
-  if (L.failure())
-    return *L.failure();
+  if (Launch.failure())
+    return *Launch.failure();
   C.Run = jsonText(W.Record);
-  return writeCheckpoint(W.R.Checkpoint, C);
+  return writeCheckpoint(W.Request.Checkpoint, C);
 }
 
 /// Of all processes, which have the same state, the first writes it.
-Expected<Success> keep(const Work &W, Launcher &L, Trainer &T) {
-  return W.Together.agree(W.Together.first() ? writeState(W, L, T) : Success{});
+Expected<Success> keep(const Work &W, Launcher &Launch, Trainer &T) {
+  return W.Processes.agree(W.Processes.first() ? writeState(W, Launch, T)
+                                               : Success{});
 }
 
 double secondsSince(Clock::time_point Start) {
   return std::chrono::duration<double>(Clock::now() - Start).count();
 }
 
-Expected<Success> loop(const Work &W, Launcher &L, DeviceRenderer &Renderer,
-                       Trainer &T) {
+Expected<Success> loop(const Work &W, Launcher &Launch,
+                       DeviceRenderer &Renderer, Trainer &T) {
   const Clock::time_point Start = Clock::now();
   const unsigned First = W.Out.First = T.iteration();
-  const unsigned Last = W.R.Run.Settings.Iterations;
+  const unsigned Last = W.Request.Run.Settings.Iterations;
   ClockSamples &Samples = W.Out.Timed;
-  while (T.iteration() < Last && !W.Together.any(Interrupted != 0)) {
-    const bool Timed = W.R.TimeEvery &&
-                       isTimed(W.R.Run.Seed, *W.R.TimeEvery, T.iteration() + 1);
-    L.setProfiled(Timed);
+  while (T.iteration() < Last && !W.Processes.any(Interrupted != 0)) {
+    const bool Timed =
+        W.Request.TimeEvery &&
+        isTimed(W.Request.Run.Seed, *W.Request.TimeEvery, T.iteration() + 1);
+    Launch.setProfiled(Timed);
     const StepReport Step = T.step();
-    std::vector<StageReport> Stages = L.takeStages();
-    if (L.failure()) {
-      W.Host.ShowBuildLog(L);
-      return *L.failure();
+    std::vector<StageReport> Stages = Launch.takeStages();
+    if (Launch.failure()) {
+      W.Host.ShowBuildLog(Launch);
+      return *Launch.failure();
     }
     // All processes then end with it at the next step.
     if (Timed && !Samples.add({Step.Iteration, Step.Gaussians,
                                Renderer.listLengths(), std::move(Stages)}))
-      L.fail({"",
-              "the device gave no time of a kernel, expected a runtime that "
-              "knows VORION_TIME=profiled",
-              ExitCode::Internal});
-    if (W.Together.first())
+      Launch.fail(
+          {"",
+           "the device gave no time of a kernel, expected a runtime that "
+           "knows VORION_TIME=profiled",
+           ExitCode::Internal});
+    if (W.Processes.first())
       W.Host.Progress(
           {Step, First, Last, secondsSince(Start),
            Samples.empty() ? std::nullopt : std::optional(Samples.rate())});
-    if (W.Together.first() && W.R.ScoreEvery != 0 &&
-        Step.Iteration % W.R.ScoreEvery == 0 && !W.Pictures.HeldOut.empty()) {
-      L.setProfiled(false);
+    if (W.Processes.first() && W.Request.ScoreEvery != 0 &&
+        Step.Iteration % W.Request.ScoreEvery == 0 &&
+        !W.Pictures.HeldOut.empty()) {
+      Launch.setProfiled(false);
       W.Out.Scores.emplace_back(Step.Iteration, meanOf(T.evaluate()));
-      L.takeStages();
+      Launch.takeStages();
     }
-    if (Step.Iteration % W.R.CheckpointEvery == 0 && Step.Iteration != Last)
-      if (auto Kept = keep(W, L, T); !Kept)
+    if (Step.Iteration % W.Request.CheckpointEvery == 0 &&
+        Step.Iteration != Last)
+      if (auto Kept = keep(W, Launch, T); !Kept)
         return Kept;
   }
-  L.setProfiled(false);
-  if (W.Together.first())
+  Launch.setProfiled(false);
+  if (W.Processes.first())
     W.Host.EndProgress();
   W.Out.Seconds = secondsSince(Start);
-  if (auto Kept = keep(W, L, T); !Kept)
+  if (auto Kept = keep(W, Launch, T); !Kept)
     return Kept;
   if (T.iteration() < Last)
-    return Error{W.R.Checkpoint,
+    return Error{W.Request.Checkpoint,
                  fmt::format("interrupted after iteration {} of {}, which is "
                              "kept; --resume goes on",
                              T.iteration(), Last),
@@ -108,17 +113,18 @@ Expected<Success> checkSameStart(const Work &W, unsigned Iteration) {
   const std::string Mine =
       fmt::format("{} {:010}", fnv1a64(jsonText(W.Record)), Iteration);
   std::string First = Mine;
-  W.Together.share(0, First.data(), First.size());
+  W.Processes.share(0, First.data(), First.size());
   if (First == Mine)
-    return W.Together.agree(Success{});
-  return W.Together.agree(Error{
-      W.R.Capture, "another capture or checkpoint, expected those of the first "
-                   "process"});
+    return W.Processes.agree(Success{});
+  return W.Processes.agree(
+      Error{W.Request.Capture,
+            "another capture or checkpoint, expected those of the first "
+            "process"});
 }
 
 /// Gives \p T the run's own checkpoint.
 Expected<Success> resume(const Work &W, Trainer &T) {
-  const TrainRequest &R = W.R;
+  const TrainRequest &R = W.Request;
   const auto Kept = readCheckpoint(R.Checkpoint);
   if (!Kept)
     return Kept.error();
@@ -131,7 +137,7 @@ Expected<Success> resume(const Work &W, Trainer &T) {
                              Kept->Iteration, R.Run.Settings.Iterations),
                  ExitCode::Usage};
   T.restore(*Kept);
-  if (W.Together.first())
+  if (W.Processes.first())
     W.Host.Note(fmt::format("going on after iteration {} of {}", T.iteration(),
                             R.Checkpoint));
   return Success{};
@@ -140,12 +146,12 @@ Expected<Success> resume(const Work &W, Trainer &T) {
 /// Gives \p T what it begins with: its own checkpoint, another run's, or the
 /// capture's points.
 Expected<Success> start(const Work &W, Trainer &T) {
-  const TrainRequest &R = W.R;
+  const TrainRequest &R = W.Request;
   const TrainSettings &S = R.Run.Settings;
   if (R.Resume && std::filesystem::exists(R.Checkpoint))
     return resume(W, T);
   if (R.From.empty()) {
-    T.start(startingScene(W.C, {R.Run.Seed, R.ShDegree, S.MostGaussians}));
+    T.start(startingScene(W.Photos, {R.Run.Seed, R.ShDegree, S.MostGaussians}));
     return Success{};
   }
   const auto Other = readCheckpoint(R.From);
@@ -185,13 +191,13 @@ Expected<Success> complete(TrainRequest &R, const Capture &C) {
 }
 
 /// What is measured at the end, in the first process.
-Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
+Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
                          Trainer &T) {
   TrainOutcome &Out = W.Out;
   Out.Result = T.scene();
   const std::vector<double> Db = T.evaluate();
-  if (L.failure())
-    return *L.failure();
+  if (Launch.failure())
+    return *Launch.failure();
   for (std::size_t I = 0; I < Db.size(); ++I)
     Out.HeldOut.emplace_back(W.Pictures.HeldOut[I].Pose.Name, Db[I]);
   Out.Record = W.Record;
@@ -201,8 +207,8 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
   Out.Width = First.Width;
   Out.Height = First.Height;
   Out.TrainingViews = W.Pictures.Training.size();
-  Out.HeldOutBy = W.C.HeldOutBy;
-  Out.Processes = W.Together.size();
+  Out.HeldOutBy = W.Photos.HeldOutBy;
+  Out.Processes = W.Processes.size();
   Out.Iterations = T.iteration();
   Out.Losses = T.losses();
   Out.Without = baselinesOf(W.Pictures);
@@ -211,7 +217,7 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &L,
 
 /// \p Ready becomes true once every process has come as far as to train.
 Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
-                            Ranks &Together, bool &Ready, TrainOutcome &Out) {
+                            Ranks &Processes, bool &Ready, TrainOutcome &Out) {
   if (auto Checked = Host.Check(); !Checked)
     return Checked;
   const auto C = readCapture(R.Capture, R.Read);
@@ -228,35 +234,36 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
                Host,
                *C,
                *Pictures,
-               Together,
+               Processes,
                runRecord(R.Run, *Pictures, Source, R.ShDegree, R.Convention,
-                         R.By, R.Backward),
+                         R.Blending, R.Backward),
                Out};
   const auto D = Host.OpenDevice();
   if (!D)
     return D.error();
-  Launcher L(*D, "", {});
-  L.beginStage(Stage::Build);
+  Launcher Launch(*D, "", {});
+  Launch.beginStage(Stage::Build);
   for (const ProgramSpec &P : Trainer::programs())
-    L.build(P);
-  DeviceRenderer Renderer(L, R.Convention, R.By, R.Backward, R.Background);
-  Trainer T(L, Renderer, *Pictures, R.Run, Together);
+    Launch.build(P);
+  DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
+                          R.Background);
+  Trainer T(Launch, Renderer, *Pictures, R.Run, Processes);
   if (auto Started = start(W, T); !Started)
     return Started;
-  if (L.failure()) {
-    Host.ShowBuildLog(L);
-    return *L.failure();
+  if (Launch.failure()) {
+    Host.ShowBuildLog(Launch);
+    return *Launch.failure();
   }
   Ready = true;
-  if (auto All = Together.agree(Success{}); !All)
+  if (auto All = Processes.agree(Success{}); !All)
     return All;
   if (auto Same = checkSameStart(W, T.iteration()); !Same)
     return Same;
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
-  if (auto Done = loop(W, L, Renderer, T); !Done)
+  if (auto Done = loop(W, Launch, Renderer, T); !Done)
     return Done;
-  return Together.first() ? finish(W, *D, L, T) : Success{};
+  return Processes.first() ? finish(W, *D, Launch, T) : Success{};
 }
 
 } // namespace
@@ -271,16 +278,16 @@ double TrainOutcome::meanDb() const {
 
 Expected<std::optional<TrainOutcome>> train(TrainRequest R,
                                             const TrainHost &Host) {
-  const auto Together = openRanks();
-  if (!Together)
-    return Together.error();
+  const auto Processes = openRanks();
+  if (!Processes)
+    return Processes.error();
   bool Ready = false;
   TrainOutcome Out;
-  const auto Done = trainHere(R, Host, **Together, Ready, Out);
-  const auto All = Ready ? Done : (*Together)->agree(Done);
+  const auto Done = trainHere(R, Host, **Processes, Ready, Out);
+  const auto All = Ready ? Done : (*Processes)->agree(Done);
   // mpirun ends everything at the first exit code that is not 0: that must be
   // the process's that says why.
-  if (!(*Together)->first())
+  if (!(*Processes)->first())
     return std::optional<TrainOutcome>();
   if (!All)
     return All.error();

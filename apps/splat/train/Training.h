@@ -26,7 +26,7 @@ struct TrainRequest {
   std::array<float, 3> Background{0, 0, 0};
   int ShDegree = MaxShDegree;
   Rules Convention = Rules::Inria;
-  Blender By = Path::Raster;
+  Blender Blending = Path::Raster;
   BackwardOptions Backward;
   TrainRun Run; ///< extent and hashes are found out
   std::string Checkpoint;

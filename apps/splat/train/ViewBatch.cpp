@@ -22,77 +22,79 @@ void ViewBatch::begin(const DeviceScene &Of, int ShDegree, bool Noting) {
   GeometrySize = std::size_t{GEOMETRY_PLANES} * Of.Count;
   ShSize = std::size_t{3} * shCoefficients(ShDegree) * Of.Count;
   Notes = Noting;
-  Taken = 0;
+  Added = 0;
   Losses = {};
   Sum = {};
 }
 
-void ViewBatch::add(const Given *Mine) {
-  const unsigned Count = std::min(Together.size(), Views - Taken);
-  if (Together.size() == 1)
+void ViewBatch::add(const ViewResult *Mine) {
+  const unsigned Count = std::min(Processes.size(), Views - Added);
+  if (Processes.size() == 1)
     addOwn(*Mine);
   else
     addShared(Mine, Count);
 }
 
 void ViewBatch::addGradients(const PlanePair &Of) {
-  const bool First = Taken == 0;
+  const bool First = Added == 0;
   if (First)
-    Sum = {L.allocate("gradients' sums", 4 * GeometrySize),
-           L.allocate("gradients' sums", 4 * ShSize)};
+    Sum = {Launch.allocate("gradients' sums", 4 * GeometrySize),
+           Launch.allocate("gradients' sums", 4 * ShSize)};
   const float Scale =
-      Taken + 1 == Views ? 1.0F / static_cast<float>(Views) : 1.0F;
+      Added + 1 == Views ? 1.0F / static_cast<float>(Views) : 1.0F;
   const auto Add = [&](const cl::Buffer &To, const cl::Buffer &From,
                        std::size_t Size) {
     const auto Count = static_cast<uint32_t>(Size);
-    L.run(BatchProgram, "batch_add", itemsFor(Count), GroupSize, To, From,
-          Count, First ? 1U : 0U, Scale);
+    Launch.run(BatchProgram, "batch_add", itemsFor(Count), GroupSize, To, From,
+               Count, First ? 1U : 0U, Scale);
   };
   Add(Sum.Geometry, Of.Geometry, GeometrySize);
   Add(Sum.Sh, Of.Sh, ShSize);
 }
 
-void ViewBatch::addOwn(const Given &Mine) {
+void ViewBatch::addOwn(const ViewResult &Mine) {
   if (Views == 1) {
     Sum = Mine.Back.Gradients; // nothing to add up
   } else {
-    L.beginStage(Stage::ViewsSum);
+    Launch.beginStage(Stage::ViewsSum);
     addGradients(Mine.Back.Gradients);
   }
   if (Notes) {
-    L.beginStage(Stage::DensityControl);
+    Launch.beginStage(Stage::DensityControl);
     Density.note(Mine.Back.Seen, Gaussians);
   }
   addTo(Losses, Mine.Loss);
-  ++Taken;
+  ++Added;
 }
 
-void ViewBatch::addShared(const Given *Mine, unsigned Count) {
-  L.beginStage(Stage::ViewsSum);
+void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
+  Launch.beginStage(Stage::ViewsSum);
   // Sized alike in all processes whether or not the device failed in one.
   std::vector<float> Geometry(GeometrySize), Sh(ShSize);
   DensityNotes Of;
   LossValues Loss;
-  const PlanePair Uploaded{L.allocate("gradients of a view", 4 * GeometrySize),
-                           L.allocate("gradients of a view", 4 * ShSize)};
-  for (unsigned From = 0; From < Count; ++From, ++Taken) {
-    if (Mine && From == Together.rank()) {
-      L.read("gradients", Geometry.data(), Mine->Back.Gradients.Geometry,
-             4 * GeometrySize);
-      L.read("gradients", Sh.data(), Mine->Back.Gradients.Sh, 4 * ShSize);
+  const PlanePair Uploaded{
+      Launch.allocate("gradients of a view", 4 * GeometrySize),
+      Launch.allocate("gradients of a view", 4 * ShSize)};
+  for (unsigned From = 0; From < Count; ++From, ++Added) {
+    if (Mine && From == Processes.rank()) {
+      Launch.read("gradients", Geometry.data(), Mine->Back.Gradients.Geometry,
+                  4 * GeometrySize);
+      Launch.read("gradients", Sh.data(), Mine->Back.Gradients.Sh, 4 * ShSize);
       if (Notes)
         Of = Density.noteAlone(Mine->Back.Seen, Gaussians);
       Loss = Mine->Loss;
     }
     const auto Share = [&](auto &Values, std::size_t Size) {
       Values.resize(Size);
-      Together.share(From, Values.data(), 4 * Size);
+      Processes.share(From, Values.data(), 4 * Size);
     };
-    Together.share(From, &Loss, sizeof(Loss));
+    Processes.share(From, &Loss, sizeof(Loss));
     Share(Geometry, GeometrySize);
     Share(Sh, ShSize);
-    L.write("gradients", Uploaded.Geometry, Geometry.data(), 4 * GeometrySize);
-    L.write("gradients", Uploaded.Sh, Sh.data(), 4 * ShSize);
+    Launch.write("gradients", Uploaded.Geometry, Geometry.data(),
+                 4 * GeometrySize);
+    Launch.write("gradients", Uploaded.Sh, Sh.data(), 4 * ShSize);
     addGradients(Uploaded);
     addTo(Losses, Loss);
     if (Notes) {

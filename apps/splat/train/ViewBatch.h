@@ -16,21 +16,21 @@ public:
   /// \p Views of an iteration.
   ViewBatch(Launcher &Launch, Ranks &Processes, DensityControl &Control,
             unsigned Views)
-      : L(Launch), Together(Processes), Density(Control), Views(Views) {}
+      : Launch(Launch), Processes(Processes), Density(Control), Views(Views) {}
 
   /// Forgets the last iteration. Gradients of \p Of, whose bands up to
   /// \p ShDegree are in use; \p Notes: density control notes the views.
   void begin(const DeviceScene &Of, int ShDegree, bool Notes);
-  bool complete() const { return Taken == Views; }
+  bool complete() const { return Added == Views; }
   /// The view that this process renders next; \c Views or more: none.
-  unsigned next() const { return Taken + Together.rank(); }
+  unsigned next() const { return Added + Processes.rank(); }
 
-  struct Given {
+  struct ViewResult {
     LossValues Loss;
     GradientRenderer::Backward Back;
   };
   /// Adds a view of each process; \p Mine is null where \c next() is none.
-  void add(const Given *Mine);
+  void add(const ViewResult *Mine);
 
   /// \name Means over the views, once complete
   /// @{
@@ -39,19 +39,19 @@ public:
   /// @}
 
 private:
-  void addOwn(const Given &Mine);
-  void addShared(const Given *Mine, unsigned Count);
+  void addOwn(const ViewResult &Mine);
+  void addShared(const ViewResult *Mine, unsigned Count);
   void addGradients(const PlanePair &Of);
 
-  Launcher &L;
-  Ranks &Together;
+  Launcher &Launch;
+  Ranks &Processes;
   DensityControl &Density;
   unsigned Views;
 
   uint32_t Gaussians = 0;
   std::size_t GeometrySize = 0, ShSize = 0; ///< floats
   bool Notes = false;
-  unsigned Taken = 0;
+  unsigned Added = 0;
   LossValues Losses;
   PlanePair Sum;
 };

@@ -19,8 +19,9 @@ class Checker {
 public:
   /// \p Scratch: folder for the broken kernels' sources.
   Checker(const CheckPlan &P, Machine &M, Rows &R, std::string Scratch,
-          bool Loud)
-      : Plan(P), Device(M), Kept(R), Scratch(std::move(Scratch)), Loud(Loud) {}
+          bool Verbose)
+      : Plan(P), Device(M), Kept(R), Scratch(std::move(Scratch)),
+        Verbose(Verbose) {}
 
   /// The case as it stands, then its settings and its broken kernels.
   Expected<Success> all(const HardCase &C);
@@ -35,11 +36,11 @@ private:
   /// As it stands, or with broken kernels.
   Expected<Success> training(const TrainingCase &C, Path P,
                              const BrokenKernel *B);
-  /// The row of a check with \p B, of which \p Noticed says what it was, or why
-  /// it did not run.
+  /// The row of a check with \p B, of which \p Detected says what it was, or
+  /// why it did not run.
   nlohmann::json rowOf(const std::string &Key, const std::string &Case, Path P,
                        const BrokenKernel &B,
-                       const Expected<std::string> &Noticed);
+                       const Expected<std::string> &Detected);
   Expected<Success> oracle(const HardCase &C, const Setting &S);
   Expected<Success> keep(const nlohmann::json &Row);
   Expected<Success> keepNew(const nlohmann::json &Row);
@@ -52,10 +53,10 @@ private:
   Machine &Device;
   Rows &Kept;
   std::string Scratch;
-  bool Loud;
+  bool Verbose;
   uint32_t Turn = 0;
   /// The last one, with what it is for.
-  std::string JudgedFor;
+  std::string JudgedKey;
   std::optional<Judge> Last;
 };
 
@@ -66,9 +67,9 @@ const Judge &Checker::judgeOf(const HardCase &C,
                   name(O.Convention), O.Antialiased, O.Dilation, O.Cutoff,
                   O.AlphaCutoff, O.DepthBits, O.ShLimit, O.Background[0],
                   O.Background[1], O.Background[2]);
-  if (!Last || Key != JudgedFor)
+  if (!Last || Key != JudgedKey)
     Last.emplace(C, O);
-  JudgedFor = Key;
+  JudgedKey = Key;
   return *Last;
 }
 
@@ -95,7 +96,7 @@ Expected<Success> Checker::keep(const nlohmann::json &Row) {
                     Row["pixels"].get<uint64_t>());
   else
     Found = fmt::format(" ({})", Row["noticed"].get<std::string>());
-  if (!Good || Loud)
+  if (!Good || Verbose)
     fmt::print("{}: {}{}\n", Row["key"].get<std::string>(),
                Good ? "kept" : "BROKEN: " + Row["broken"].get<std::string>(),
                Found);
@@ -167,20 +168,20 @@ Expected<Success> Checker::depth(const HardCase &C, Path P) {
 
 nlohmann::json Checker::rowOf(const std::string &Key, const std::string &Case,
                               Path P, const BrokenKernel &B,
-                              const Expected<std::string> &Noticed) {
+                              const Expected<std::string> &Detected) {
   // A fault of the machine is noticed too; that it does not compile is not.
   std::string What;
-  if (Noticed)
-    What = *Noticed;
-  else if (Noticed.error().Code != ExitCode::InputFile)
-    What = Noticed.error().What;
+  if (Detected)
+    What = *Detected;
+  else if (Detected.error().Code != ExitCode::InputFile)
+    What = Detected.error().What;
   return {{"key", Key},
           {"case", Case},
           {"path", name(P)},
           {"kernel", B.Name},
           {"noticed", What},
           {"broken", !What.empty() ? ""
-                     : Noticed     ? "not noticed"
+                     : Detected    ? "not noticed"
                                    : "the broken kernel does not compile"}};
 }
 
@@ -241,7 +242,7 @@ Expected<Success> Checker::all(const HardCase &C) {
       if (!S.empty() && inShare())
         if (auto Done = setting(C, P, S); !Done)
           return Done;
-    for (const std::string &Name : C.NoticedIn) {
+    for (const std::string &Name : C.FoundIn) {
       const BrokenKernel &B = brokenKernel(Name);
       if (Plan.Broken && (!B.Only || *B.Only == P) && inShare())
         if (auto Done = broken(C, P, B); !Done)
@@ -284,7 +285,7 @@ Expected<Success> Checker::all(const TrainingCase &C) {
       continue;
     if (auto Done = training(C, P, nullptr); !Done)
       return Done;
-    for (const std::string &Name : C.NoticedIn) {
+    for (const std::string &Name : C.FoundIn) {
       const BrokenKernel &B = brokenKernel(Name);
       if (Plan.Broken && (!B.Only || *B.Only == P) && inShare())
         if (auto Done = training(C, P, &B); !Done)
@@ -296,7 +297,7 @@ Expected<Success> Checker::all(const TrainingCase &C) {
 
 } // namespace
 
-Expected<CheckCounts> check(const CheckPlan &P, bool Loud) {
+Expected<CheckCounts> check(const CheckPlan &P, bool Verbose) {
   auto M = Machine::open();
   if (!M)
     return M.error();
@@ -321,7 +322,7 @@ Expected<CheckCounts> check(const CheckPlan &P, bool Loud) {
       return Made.error();
     Temporary.emplace(std::move(*Made));
   }
-  Checker C(P, *M, *R, Temporary ? Temporary->path() : P.Scratch, Loud);
+  Checker C(P, *M, *R, Temporary ? Temporary->path() : P.Scratch, Verbose);
   for (const HardCase &Case : Pictures)
     if (P.Cases.empty() ? P.Long || !Case.Long : Named(Case.Name))
       if (auto Done = C.all(Case); !Done)

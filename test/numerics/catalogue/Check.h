@@ -27,7 +27,7 @@ struct CheckCounts {
   uint32_t Checked = 0, Kept = 0, Failed = 0;
 };
 
-/// Prints a line for every check that fails, and all of them with \p Loud.
-Expected<CheckCounts> check(const CheckPlan &P, bool Loud);
+/// Prints a line for every check that fails, and all of them with \p Verbose.
+Expected<CheckCounts> check(const CheckPlan &P, bool Verbose);
 
 } // namespace vorion::test

@@ -13,7 +13,7 @@ namespace {
 constexpr double Allowed = 1e-5;
 
 TrainingCase caseOf(std::string Name, std::string Why, GradientScene S,
-                    std::vector<std::string> NoticedIn) {
+                    std::vector<std::string> FoundIn) {
   return {
       std::move(Name), std::move(Why),
       S.Culled.empty()
@@ -23,7 +23,7 @@ TrainingCase caseOf(std::string Name, std::string Why, GradientScene S,
           splat::Launcher &L, splat::Path P) {
         return judgeGradients(L, P, *Shared, Allowed);
       },
-      std::move(NoticedIn)};
+      std::move(FoundIn)};
 }
 
 /// Something to be seen beside what a case is about.
@@ -73,15 +73,15 @@ TrainingCase handOver(unsigned Length) {
                     .Opacity = 0.15,
                     .Color = R.color()});
     }
-  std::vector<std::string> NoticedIn;
+  std::vector<std::string> FoundIn;
   if (Length >= 16)
-    NoticedIn.emplace_back("sixteenth-lost");
+    FoundIn.emplace_back("sixteenth-lost");
   if (Length > 16)
-    NoticedIn.emplace_back("seventeenth-lost");
+    FoundIn.emplace_back("seventeenth-lost");
   return caseOf(fmt::format("hand-over-{}", Length),
                 "16 Gaussians are handed over together: one less, just full, "
                 "one more, two full",
-                std::move(G), std::move(NoticedIn));
+                std::move(G), std::move(FoundIn));
 }
 
 TrainingCase deepStack() {

@@ -26,7 +26,7 @@ struct HardCase {
   /// Gaussians that fp32 culls and fp64 would not, being beyond fp32's range or
   /// on a threshold: left out of the fp64 picture too where fp32 does.
   std::vector<uint32_t> BeyondSingle{};
-  Culled MustCull{};
+  Culled ExpectedCulls{};
   /// Largest error of a pixel that is not doubtful, whatever the error of the
   /// fp32 reference is; under the case's own options.
   double Cap = 1e-5;
@@ -34,7 +34,7 @@ struct HardCase {
   double MostDoubtful = 0.02;
   /// Names of \c brokenKernels that this case must notice, on each path that
   /// they are in.
-  std::vector<std::string> NoticedIn{};
+  std::vector<std::string> FoundIn{};
   /// Decimal digits of the largest colour that fp64 has of it, with and
   /// without dilation: at least.
   double ExactDigits = 10;

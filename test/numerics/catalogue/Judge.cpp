@@ -137,11 +137,11 @@ Verdict Judge::judge(const splat::RenderResult &R, double Allowance,
   else if (Sum != Case.Scene.size())
     V.Broken = fmt::format("{} Gaussians seen or culled, expected {}", Sum,
                            Case.Scene.size());
-  else if (OwnOptions && R.Culled != Case.MustCull)
+  else if (OwnOptions && R.Culled != Case.ExpectedCulls)
     for (std::size_t K = 0; K < R.Culled.size(); ++K)
-      if (R.Culled[K] != Case.MustCull[K])
+      if (R.Culled[K] != Case.ExpectedCulls[K])
         V.Broken = fmt::format("{} culled as {}, expected {}", R.Culled[K],
-                               splat::CullReasons[K], Case.MustCull[K]);
+                               splat::CullReasons[K], Case.ExpectedCulls[K]);
   return V;
 }
 

@@ -17,7 +17,7 @@ double none(const RenderOptions &, std::size_t) { return 0; }
 /// A part that does not know that a pixel is full adds at most what was let
 /// through before the stop: T, of which the next Gaussian would have left less
 /// than the cut-off, and at least a hundredth.
-double behindTheStop(const RenderOptions &O, std::size_t) {
+double behindStop(const RenderOptions &O, std::size_t) {
   return std::min(1.0, 100 * double(O.Cutoff));
 }
 
@@ -28,7 +28,7 @@ double expUnit(const RenderOptions &O, std::size_t Gaussians) {
   constexpr double Relative[] = {0x1p-24, 2.85e-4, 2.7e-3, 1.1e-4, 7.2e-6,
                                  8.3e-5,  2.65e-5, 5.7e-3, 3.1e-2};
   return Relative[static_cast<std::size_t>(O.Exponential)] +
-         2. * O.AlphaCutoff / 255 + behindTheStop(O, Gaussians);
+         2. * O.AlphaCutoff / 255 + behindStop(O, Gaussians);
 }
 
 /// Operands of the blend's multiplications rounded to a unit roundoff u
@@ -167,9 +167,9 @@ std::vector<Knob> pathKnobs() {
       {"--tile 16", "tile", Path::Raster, takeTile<16>, none},
       {"--tile 32", "tile", Path::Raster, takeTile<32>, none},
       {"--ztiles 2", "ztiles", Path::Raster,
-       [](RenderOptions &O) { O.ZTiles = 2; }, behindTheStop},
+       [](RenderOptions &O) { O.ZTiles = 2; }, behindStop},
       {"--ztiles 16", "ztiles", Path::Raster,
-       [](RenderOptions &O) { O.ZTiles = 16; }, behindTheStop},
+       [](RenderOptions &O) { O.ZTiles = 16; }, behindStop},
       {"--pixel-unit count:8", "pixel-unit", Path::Raster,
        [](RenderOptions &O) { O.PixelUnit.Count = 8; }, none},
       {"--pixel-unit occluded:0.5", "pixel-unit", Path::Raster,

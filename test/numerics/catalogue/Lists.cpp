@@ -15,8 +15,8 @@ HardCase empty() {
       {}};
   C.Options.Background = {0.25F, 0.5F, 0.125F};
   add(C.Scene, {.Mean = {0, 0, -1}});
-  C.MustCull[0] = 1;
-  C.NoticedIn = {"background-twice"};
+  C.ExpectedCulls[0] = 1;
+  C.FoundIn = {"background-twice"};
   return C;
 }
 
@@ -38,9 +38,9 @@ HardCase picture(int Width, int Height) {
          .Scale = {0.2, 0.1, 0.1},
          .Quat = R.turn(),
          .Color = R.color()});
-  C.NoticedIn = {"background-twice"};
+  C.FoundIn = {"background-twice"};
   if (Width > 64)
-    C.NoticedIn.emplace_back("last-column-lost");
+    C.FoundIn.emplace_back("last-column-lost");
   return C;
 }
 
@@ -64,7 +64,7 @@ HardCase listLengths() {
     }
     ++Tile;
   }
-  C.NoticedIn = {"list-cut-at-8", "last-entry-lost"};
+  C.FoundIn = {"list-cut-at-8", "last-entry-lost"};
   return C;
 }
 

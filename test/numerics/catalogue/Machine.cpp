@@ -16,7 +16,7 @@ splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O,
   const splat::ViewFacts Facts = splat::factsOf(
       C.Scene, splat::makeView(C.View, O), splat::nearLimit(O.Convention));
   splat::EffectRequest Flags;
-  Flags.How = splat::EffectRequest::Mode::Flags;
+  Flags.Selection = splat::EffectRequest::Mode::Flags;
   return splat::planRender(
       splat::EffectPlan(Flags, {C.Scene, O, Facts, false, Depth}), O);
 }

@@ -17,7 +17,7 @@ namespace {
 struct Arguments {
   CheckPlan Plan;
   FuzzPlan Fuzz;
-  bool List = false, Loud = false, Table = false;
+  bool List = false, Verbose = false, Table = false;
   std::string Write;
 };
 
@@ -61,7 +61,7 @@ Expected<Success> run(const Arguments &A) {
     P.RowFile = A.Plan.RowFile;
     return fuzz(P);
   }
-  const auto Counts = check(A.Plan, A.Loud);
+  const auto Counts = check(A.Plan, A.Verbose);
   if (!Counts)
     return Counts.error();
   fmt::print("{} checks: {} kept, {} broken\n", Counts->Checked, Counts->Kept,
@@ -115,7 +115,7 @@ int main(int Count, char **Values) {
   App.add_flag("--table", A.Table,
                "Print what --rows has as the table of docs/numerics.md "
                "instead");
-  App.add_flag("-v,--verbose", A.Loud, "A line for every check");
+  App.add_flag("-v,--verbose", A.Verbose, "A line for every check");
   return vorion::test::runTool(App, Count, Values,
                                [&A] { return vorion::test::run(A); });
 }

@@ -27,11 +27,11 @@ HardCase stack(int Depth, double Opacity) {
                   .Opacity = Opacity,
                   .Color = R.color()});
   C.MostDoubtful = 1;
-  C.NoticedIn = {"opacity-of-9-bits"};
+  C.FoundIn = {"opacity-of-9-bits"};
   if (Opacity == 1)
-    C.NoticedIn = {"alpha-reaches-1",
-                   // fp64 does not stop at the second layer either.
-                   Depth == 2 ? "negative-tiles-wrap" : "never-stops"};
+    C.FoundIn = {"alpha-reaches-1",
+                 // fp64 does not stop at the second layer either.
+                 Depth == 2 ? "negative-tiles-wrap" : "never-stops"};
   return C;
 }
 
@@ -49,7 +49,7 @@ HardCase halfStack() {
                   .Opacity = 0.5,
                   .Color = R.color()});
   C.MostDoubtful = 0.1;
-  C.NoticedIn = {"list-cut-at-8"};
+  C.FoundIn = {"list-cut-at-8"};
   return C;
 }
 
@@ -68,7 +68,7 @@ HardCase faint() {
                   .Color = R.color()});
   C.Cap = 3e-5;
   C.MostDoubtful = 0.05;
-  C.NoticedIn = {"opacity-of-9-bits", "transmittance-of-bf16"};
+  C.FoundIn = {"opacity-of-9-bits", "transmittance-of-bf16"};
   return C;
 }
 
@@ -94,8 +94,9 @@ HardCase thresholds() {
       ++I;
     }
   }
-  C.MustCull[2] = 3; // 1/255 less two ulps, one, and 1/255 as a logit gives it
-  C.NoticedIn = {"alpha-cut-at-200th", "opacity-of-9-bits"};
+  C.ExpectedCulls[2] =
+      3; // 1/255 less two ulps, one, and 1/255 as a logit gives it
+  C.FoundIn = {"alpha-cut-at-200th", "opacity-of-9-bits"};
   return C;
 }
 
@@ -118,7 +119,7 @@ HardCase depths(const std::string &Name, const std::string &Why,
 HardCase equalDepths() {
   HardCase C = depths("equal-depths", "48 at one depth: the file's order holds",
                       frontView(64, 48, 50), [](int) { return 3.0; });
-  C.NoticedIn = {"ties-reversed"};
+  C.FoundIn = {"ties-reversed"};
   return C;
 }
 
@@ -130,7 +131,7 @@ HardCase ulpDepths() {
                       "and swaps what the exact depths order",
                       V, [](int I) { return 3 + 0x1p-22 * ((I * 29) % 48); });
   C.Cap = 1e-3; // x and y of means at 50 have 22 bits behind the camera
-  C.NoticedIn = {"depth-by-plain-sum"};
+  C.FoundIn = {"depth-by-plain-sum"};
   return C;
 }
 
@@ -158,7 +159,7 @@ HardCase colors() {
     for (int K = 0; K < 45; ++K)
       C.Scene.Sh.push_back(static_cast<float>(R.uniform(-0.6, 0.6)));
   }
-  C.NoticedIn = {"negative-colors"};
+  C.FoundIn = {"negative-colors"};
   return C;
 }
 

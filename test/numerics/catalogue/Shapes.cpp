@@ -35,7 +35,7 @@ HardCase needles() {
   C.Cap = 2e-3; // a relative 1e-5 of a power of up to 5.5, many times over
   // Without dilation the terms of the power are 1e8 times their sum.
   C.ExactDigits = 8;
-  C.NoticedIn = {"determinant-by-difference"};
+  C.FoundIn = {"determinant-by-difference"};
   return C;
 }
 
@@ -56,7 +56,7 @@ HardCase pancakes() {
                   .Color = {0.15 * I, 0.5, 1 - 0.15 * I}});
   }
   C.Cap = 2e-4;
-  C.NoticedIn = {"determinant-by-difference"};
+  C.FoundIn = {"determinant-by-difference"};
   return C;
 }
 
@@ -78,7 +78,7 @@ HardCase negativeDeterminant() {
     add(C.Scene, B);
   }
   C.Cap = 1e-3;
-  C.NoticedIn = {"determinant-by-difference"};
+  C.FoundIn = {"determinant-by-difference"};
   return C;
 }
 
@@ -90,7 +90,7 @@ HardCase noDilation() {
              {}};
   C.Options.Dilation = 0;
   C.Cap = 2e-3;
-  C.NoticedIn = {"dilation-fixed"};
+  C.FoundIn = {"dilation-fixed"};
   return C;
 }
 
@@ -104,8 +104,8 @@ HardCase edgeOn() {
   C.Options.Dilation = 0;
   add(C.Scene, {.Scale = {0, 0.3, 0.3}});
   add(C.Scene, {.Mean = {0.2F, 0.1F, 2.5F}});
-  C.MustCull[1] = 1;
-  C.NoticedIn = {"determinant-unchecked"};
+  C.ExpectedCulls[1] = 1;
+  C.FoundIn = {"determinant-unchecked"};
   return C;
 }
 
@@ -120,7 +120,7 @@ HardCase subpixel() {
   for (const double Scale : {0.0, 1e-30, 1e-19, 1e-15, 1e-10, 1e-6, 1e-4, 1e-3})
     add(C.Scene, {.Mean = {static_cast<float>(0.25 * I++ - 0.9), 0.31F, 2},
                   .Scale = {Scale, Scale, Scale}});
-  C.NoticedIn = {"dilation-lost"};
+  C.FoundIn = {"dilation-lost"};
   return C;
 }
 
@@ -140,8 +140,8 @@ HardCase scalesUp() {
                   .Color = {0.1 * I, 0.5, 1 - 0.1 * I}});
     ++I;
   }
-  C.MustCull[4] = 5;
-  C.NoticedIn = {"non-finite-unchecked"};
+  C.ExpectedCulls[4] = 5;
+  C.FoundIn = {"non-finite-unchecked"};
   return C;
 }
 
@@ -164,9 +164,9 @@ HardCase logarithms() {
       C.BeyondSingle.push_back(static_cast<uint32_t>(2 * I + 1));
     ++I;
   }
-  C.MustCull[2] = 5;
-  C.MustCull[4] = 5;
-  C.NoticedIn = {"exponent-wraps"};
+  C.ExpectedCulls[2] = 5;
+  C.ExpectedCulls[4] = 5;
+  C.FoundIn = {"exponent-wraps"};
   return C;
 }
 
@@ -178,7 +178,7 @@ HardCase quaternions(const std::string &Name, const std::string &Why,
   for (float &Q : C.Scene.Quats)
     Q *= Factor;
   C.Cap = 1e-4;
-  C.NoticedIn = {Broken};
+  C.FoundIn = {Broken};
   return C;
 }
 

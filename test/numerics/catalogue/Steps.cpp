@@ -113,7 +113,7 @@ void take(Finding &Worst, const Finding &F) {
 }
 
 TrainingCase constants(const char *Name, const char *Why, float Offset,
-                       std::vector<std::string> NoticedIn) {
+                       std::vector<std::string> FoundIn) {
   constexpr double Bound = 1e-3;
   return {Name,
           Why,
@@ -129,7 +129,7 @@ TrainingCase constants(const char *Name, const char *Why, float Offset,
             }
             return Worst;
           },
-          std::move(NoticedIn),
+          std::move(FoundIn),
           /*Blends=*/false};
 }
 
@@ -138,14 +138,14 @@ TrainingCase constants(const char *Name, const char *Why, float Offset,
 void addSteps(std::vector<TrainingCase> &Cases) {
   const auto Step = [&](const char *Name, const char *Why, double Bound,
                         const std::vector<float> &Gradients,
-                        std::vector<std::string> NoticedIn) {
+                        std::vector<std::string> FoundIn) {
     Cases.push_back(
         {Name, Why,
          fmt::format("{:.0e} of rate g / (\\|g\\| + epsilon)", Bound),
          [=](splat::Launcher &L, splat::Path) {
            return firstStep(L, Gradients, Bound);
          },
-         std::move(NoticedIn),
+         std::move(FoundIn),
          /*Blends=*/false});
   };
   Step("adam-first-step",

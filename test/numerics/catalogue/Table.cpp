@@ -15,7 +15,7 @@ struct Found {
   double Raster = 0, Simt = 0, Single = 0, Bound = 0;
   /// Of fp64, with the case's dilation and without.
   std::string Digits[2] = {"-", "-"};
-  unsigned Checks = 0, Kept = 0, Broken = 0, Noticed = 0;
+  unsigned Checks = 0, Kept = 0, Broken = 0, Detected = 0;
 };
 
 Found foundOf(const Rows &R, const std::string &Name) {
@@ -31,7 +31,7 @@ Found foundOf(const Rows &R, const std::string &Name) {
     }
     if (Row.contains("kernel")) {
       ++F.Broken;
-      F.Noticed += Good;
+      F.Detected += Good;
       continue;
     }
     ++F.Checks;
@@ -54,9 +54,9 @@ std::string contractOf(const HardCase &C, const Found &F) {
   std::string Text = fmt::format("{:.1e}", F.Bound);
   if (C.MostDoubtful == 1)
     Text += ", as fp32 or fp64 stops";
-  for (std::size_t K = 0; K < C.MustCull.size(); ++K)
-    if (C.MustCull[K] != 0)
-      Text += fmt::format(", {} {}", C.MustCull[K], splat::CullReasons[K]);
+  for (std::size_t K = 0; K < C.ExpectedCulls.size(); ++K)
+    if (C.ExpectedCulls[K] != 0)
+      Text += fmt::format(", {} {}", C.ExpectedCulls[K], splat::CullReasons[K]);
   return Text;
 }
 
@@ -75,7 +75,7 @@ std::string tableOf(const Rows &R) {
                         "| {} of {} | {} of {} |\n",
                         C.Name, C.Why, contractOf(C, F), F.Raster, F.Simt,
                         F.Single, F.Digits[0], F.Digits[1], F.Kept, F.Checks,
-                        F.Noticed, F.Broken);
+                        F.Detected, F.Broken);
   }
   Text += "\n| case of training | why | contract | raster | simt | broken "
           "kernels noticed |\n|---|---|---|---|---|---|\n";
@@ -86,7 +86,7 @@ std::string tableOf(const Rows &R) {
     Text += fmt::format("| {} | {} | {} | {:.1e} | {} | {} of {} |\n", C.Name,
                         C.Why, C.Contract, F.Raster,
                         C.Blends ? fmt::format("{:.1e}", F.Simt) : "the same",
-                        F.Noticed, F.Broken);
+                        F.Detected, F.Broken);
   }
   Text += "\n| case | contract | test |\n|---|---|---|\n";
   for (const CaseElsewhere &C : casesElsewhere())

@@ -26,7 +26,7 @@ struct TrainingCase {
   std::function<Expected<Finding>(splat::Launcher &, splat::Path)> Run;
   /// Names of \c brokenKernels that this case must notice, on each path that
   /// they are in.
-  std::vector<std::string> NoticedIn{};
+  std::vector<std::string> FoundIn{};
   /// Whether blending takes part; what both paths share runs once.
   bool Blends = true;
 };

@@ -30,9 +30,9 @@ HardCase nearPlane() {
                 .Opacity = 0.5});
   add(C.Scene, {.Mean = {0.05F, 0.02F, 0.25F}, .Scale = {0.03, 0.03, 0.03}});
   C.BeyondSingle = {1}; // 0.2 in fp32 is above 0.2
-  C.MustCull[0] = 7;
+  C.ExpectedCulls[0] = 7;
   C.Cap = 1e-4;
-  C.NoticedIn = {"near-plane-at-0"};
+  C.FoundIn = {"near-plane-at-0"};
   return C;
 }
 
@@ -49,8 +49,8 @@ HardCase behind() {
                            static_cast<float>(R.uniform(-5, -0.1))},
                   .Scale = {3, 3, 3}});
   add(C.Scene, {});
-  C.MustCull[0] = 12;
-  C.NoticedIn = {"behind-mirrored"};
+  C.ExpectedCulls[0] = 12;
+  C.FoundIn = {"behind-mirrored"};
   return C;
 }
 
@@ -72,7 +72,7 @@ HardCase beyondView() {
                   .Color = R.color()});
   }
   C.Cap = 1e-4;
-  C.NoticedIn = {"jacobian-unclamped"};
+  C.FoundIn = {"jacobian-unclamped"};
   return C;
 }
 
@@ -91,7 +91,7 @@ HardCase farFromOrigin() {
                   .Quat = R.turn(),
                   .Opacity = 0.6,
                   .Color = R.color()});
-  C.NoticedIn = {"centre-of-one-float"};
+  C.FoundIn = {"centre-of-one-float"};
   return C;
 }
 
@@ -113,9 +113,9 @@ HardCase beyond16k() {
       add(C.Scene, {.Mean = {static_cast<float>(X), 0, 2}}); // does not reach
       ++I;
     }
-  C.MustCull[3] = 6;
+  C.ExpectedCulls[3] = 6;
   C.Cap = 1e-3;
-  C.NoticedIn = {"negative-tiles-wrap"};
+  C.FoundIn = {"negative-tiles-wrap"};
   return C;
 }
 
@@ -134,8 +134,8 @@ HardCase outside() {
         std::pair(0.0F, Bottom), std::pair(Right, Bottom)})
     add(C.Scene, {.Mean = {X, Y, 2}, .Scale = {0.03, 0.03, 0.03}});
   add(C.Scene, {});
-  C.MustCull[3] = 5;
-  C.NoticedIn = {"boxes-beyond-the-picture"};
+  C.ExpectedCulls[3] = 5;
+  C.FoundIn = {"boxes-beyond-the-picture"};
   return C;
 }
 
@@ -152,7 +152,7 @@ HardCase radiusBeyondInt() {
                   .Scale = {Scale, Scale, Scale},
                   .Opacity = 0.5,
                   .Color = {0.3 * I, 0.5, 1 - 0.3 * I}});
-  C.NoticedIn = {"radius-of-16-bits"};
+  C.FoundIn = {"radius-of-16-bits"};
   return C;
 }
 
@@ -176,7 +176,7 @@ HardCase boxEdges() {
            .Opacity = 0.7,
            .Color = R.color()});
   C.MostDoubtful = 0.5;
-  C.NoticedIn = {"box-without-its-border"};
+  C.FoundIn = {"box-without-its-border"};
   return C;
 }
 
@@ -190,7 +190,7 @@ HardCase wide() {
   add(C.Scene, {.Mean = {0.013F, -0.007F, 2},
                 .Scale = {0.9, 0.5, 0.5},
                 .Opacity = 0.97});
-  C.NoticedIn = {"opacity-of-9-bits"};
+  C.FoundIn = {"opacity-of-9-bits"};
   C.MayExceedMemory = true; // 16 depth parts
   C.Long = true;
   return C;

@@ -100,7 +100,7 @@ SweepPlan smallSweep(const std::string &Folder) {
 
 std::vector<std::string> filesOf(const SweepPlan &P) {
   std::vector<std::string> Files;
-  for (const Point &Of : pointsOf(P, oneAtATime(P.Knobs)))
+  for (const Point &Of : pointsOf(P, singleChanges(P.Knobs)))
     Files.push_back(fmt::format("points/{}.json", Of.name()));
   Files.emplace_back("references/front-exact.npz.origin");
   // The last, since any byte may be in it.
@@ -195,7 +195,7 @@ std::size_t readSweep(Bytes Input) {
   static const Folder At;
   const SweepPlan P = smallSweep(At.path());
   At.fill(Input, filesOf(P));
-  const std::vector<Setting> Settings = oneAtATime(P.Knobs);
+  const std::vector<Setting> Settings = singleChanges(P.Knobs);
   const std::vector<Point> Points = pointsOf(P, Settings);
   KeptPoints Kept = keptPoints(P, requireOneLine);
   const std::size_t Missing = missing(P, Kept, Points).size();
@@ -256,7 +256,7 @@ Seeds checkpointSeeds() {
 Seeds sweepSeeds() {
   const Folder At;
   const SweepPlan P = smallSweep(At.path());
-  const std::vector<Point> Points = pointsOf(P, oneAtATime(P.Knobs));
+  const std::vector<Point> Points = pointsOf(P, singleChanges(P.Knobs));
   KeptPoints Kept = keptPoints(P, requireOneLine);
   require(static_cast<bool>(makeReferences(P, Points, requireOneLine)));
   for (const Point &Of : Points)

@@ -40,7 +40,7 @@ std::vector<std::string> numbered(const char *Name, int Count) {
 
 /// Viewers write these for others; a scene's own colours and shapes are in
 /// what is read.
-bool isHarmless(std::string_view Name) {
+bool isIgnored(std::string_view Name) {
   constexpr std::array<std::string_view, 7> Names{
       "nx", "ny", "nz", "red", "green", "blue", "alpha"};
   return std::ranges::find(Names, Name) != Names.end();
@@ -84,7 +84,7 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
       return Error{Where, fmt::format("property {} of element {} calls for {}, "
                                       "which is not supported",
                                       P.Name, Vertex.Name, *Meaning)};
-    if (!Known.contains(P.Name) && !isHarmless(P.Name))
+    if (!Known.contains(P.Name) && !isIgnored(P.Name))
       L.Skipped.push_back(P.Name);
   }
   return L;

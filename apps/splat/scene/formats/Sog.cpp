@@ -160,10 +160,10 @@ private:
       return metaError("model is no name, expected default or antialiased");
     auto Named =
         drawingOfModel(Where + ": meta.json", Model->get<std::string>());
-    if (Named && !D.Said.empty() && !Named->isAs(D))
+    if (Named && !D.Source.empty() && !Named->drawsAs(D))
       return metaError(fmt::format("{} and {} contradict each other, expected "
                                    "one of them",
-                                   Named->Said, D.Said));
+                                   Named->Source, D.Source));
     return Named;
   }
 
@@ -226,9 +226,10 @@ private:
     }
     FileSizes += Content->size();
     constexpr std::size_t Padding = 4, Small = std::size_t(4) << 20;
-    const std::size_t Said = 4 * Padding * std::min(Pixels, MostPixels) + Small;
+    const std::size_t Declared =
+        4 * Padding * std::min(Pixels, MostPixels) + Small;
     auto P = decodeWebP(file(Group, Index), *Content,
-                        std::min(unpackLimit(FileSizes) - Unpacked, Said));
+                        std::min(unpackLimit(FileSizes) - Unpacked, Declared));
     if (!P) {
       fail(P.error());
       return {};

@@ -36,7 +36,7 @@ FileSource filesOf(const fs::path &Folder) {
 
 /// The same, but no file twice: of a scene that says the same thing again and
 /// again, memory would follow what it says and not its size.
-FileSource eachOnce(const std::string &Where, const FileSource &Read) {
+FileSource withoutRepeats(const std::string &Where, const FileSource &Read) {
   return
       [&Where, &Read, Names = std::set<std::string>()](
           const std::string &Name) mutable -> Expected<std::vector<std::byte>> {
@@ -77,11 +77,11 @@ public:
       Result.Gaussians.ShDegree = Part.Gaussians.ShDegree;
       Result.DrawnAs = Part.DrawnAs;
     }
-    if (!Options.Drawn.Antialiased && !Part.DrawnAs.isAs(Result.DrawnAs))
-      return Error{Where,
-                   fmt::format("{}, expected {} as in the first chunk, or "
-                               "--antialiased or --no-antialiased to decide",
-                               said(Part.DrawnAs), said(Result.DrawnAs))};
+    if (!Options.Drawn.Antialiased && !Part.DrawnAs.drawsAs(Result.DrawnAs))
+      return Error{
+          Where, fmt::format("{}, expected {} as in the first chunk, or "
+                             "--antialiased or --no-antialiased to decide",
+                             sourceOf(Part.DrawnAs), sourceOf(Result.DrawnAs))};
     if (Result.Gaussians.ShDegree != Part.Gaussians.ShDegree)
       return Error{Where, fmt::format("SH degree {}, expected {} as in the "
                                       "first chunk",
@@ -100,8 +100,8 @@ public:
   SceneFile Result{{}, SceneFormat::StreamedSog, 0, {}, 0, {}, 0};
 
 private:
-  static std::string said(const Drawing &D) {
-    return D.Said.empty() ? "no model" : D.Said;
+  static std::string sourceOf(const Drawing &D) {
+    return D.Source.empty() ? "no model" : D.Source;
   }
 
   const ReadOptions &Options;
@@ -136,7 +136,7 @@ Expected<SceneFile> readChunks(const std::string &Path,
                                    "one, or {} that tells them apart",
                                    Levels.size(), IndexName)};
   Joiner J(Options);
-  const FileSource Files = filesOf(Path), Read = eachOnce(Path, Files);
+  const FileSource Files = filesOf(Path), Read = withoutRepeats(Path, Files);
   for (const std::string &Name : Names) {
     const auto Part =
         readDataSet(Path, fmt::format("{}/{}", Name, MetaName), Read, Options);
@@ -276,7 +276,7 @@ Expected<SceneFile> parseStreamedSog(const std::string &Where, Bytes Content,
   if (auto Problem = Tree.walk())
     return Error{IndexWhere, *Problem};
 
-  const FileSource Read = eachOnce(IndexWhere, Files);
+  const FileSource Read = withoutRepeats(IndexWhere, Files);
   Joiner J(Options);
   for (auto &[File, Runs] : Tree.Runs) {
     const auto Name = Index["filenames"][File].get<std::string>();

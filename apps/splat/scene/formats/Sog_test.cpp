@@ -53,7 +53,7 @@ TEST(Sog, TakesTheFilesThatItsDescriptionNames) {
   Files["meta.json"] = Meta.dump();
   const SceneFile Read = parsed(zipOf(Files));
   EXPECT_TRUE(Read.DrawnAs.Antialiased);
-  EXPECT_EQ(Read.DrawnAs.Said, "antialias true");
+  EXPECT_EQ(Read.DrawnAs.Source, "antialias true");
   EXPECT_LE(differencesOf(Read.Gaussians, S).Quat, 0.01);
 }
 
