@@ -88,9 +88,9 @@ dvec4 quaternionGradient(const dvec4 &Q, const dmat3 &G) {
 /// The way back from one Gaussian's sums.
 class ProjectionBackward {
 public:
-  ProjectionBackward(const Gaussians<double> &G, const Camera<double> &C,
-                     const Options &O, Gradients &Out)
-      : G(G), C(C), O(O), Out(Out) {}
+  ProjectionBackward(const Gaussians<double> &Input, const Camera<double> &View,
+                     const Options &Settings, Gradients &Out)
+      : Input(Input), View(View), Settings(Settings), Out(Out) {}
 
   void one(std::size_t I, const Splat<double> &S) {
     const SplatSums &Sum = Out.Sums[I];
@@ -104,17 +104,17 @@ public:
     Out.Opacities[I] = ByOpacity * S.Compensation;
 
     Symmetric V = covarianceGradient(K, Out.Conics[I]);
-    if (O.Antialiased) {
+    if (Settings.Antialiased) {
       const double Det =
           S.Covariance[0] * S.Covariance[2] - S.Covariance[1] * S.Covariance[1];
       const double Ratio = S.Compensation * S.Compensation;
-      const bool Floored = O.Rule == Rules::Inria && !(Ratio > 2.5e-5);
+      const bool Floored = Settings.Rule == Rules::Inria && !(Ratio > 2.5e-5);
       if (!Floored && Ratio > 0)
-        V += ByOpacity * G.Opacities[I] / (2 * S.Compensation) *
-             ratioGradient(S.Covariance, O.Dilation, Ratio, Det);
+        V += ByOpacity * Input.Opacities[I] / (2 * S.Compensation) *
+             ratioGradient(S.Covariance, Settings.Dilation, Ratio, Det);
     }
     Out.Means[I] = shape(I, V);
-    if (G.Colors.empty())
+    if (Input.Colors.empty())
       color(I);
   }
 
@@ -122,38 +122,38 @@ private:
   /// From dL/d(covariance) to scales, rotation and, through the mean's place in
   /// the camera, the mean, which is returned.
   dvec3 shape(std::size_t I, const Symmetric &V) {
-    const dvec3 P = multiply(C.Rotation, G.Means[I]) + C.Translation;
-    const dmat3 Q = rotation(G.Quats[I]);
+    const dvec3 P = multiply(View.Rotation, Input.Means[I]) + View.Translation;
+    const dmat3 Q = rotation(Input.Quats[I]);
     dmat3 A;
     for (int N = 0; N < 3; ++N)
-      A[N] = multiply(C.Rotation, Q[N]) * G.Scales[I][N];
-    const Jacobian<double> J = jacobian(P, C, O.Rule);
+      A[N] = multiply(View.Rotation, Q[N]) * Input.Scales[I][N];
+    const Jacobian<double> J = jacobian(P, View, Settings.Rule);
     const Footprint<double> F = footprint(A, J);
     const dvec3 Gx = 2. * (V[0] * F.X + V[1] * F.Y);
     const dvec3 Gy = 2. * (V[1] * F.X + V[2] * F.Y);
 
-    const dmat3 Back = glm::transpose(C.Rotation);
+    const dmat3 Back = glm::transpose(View.Rotation);
     dmat3 ByRotation;
     double ByXX = 0, ByXZ = 0, ByYY = 0, ByYZ = 0;
     for (int N = 0; N < 3; ++N) {
       const dvec3 ByA(J.XX * Gx[N], J.YY * Gy[N], J.XZ * Gx[N] + J.YZ * Gy[N]);
       const dvec3 InWorld = Back * ByA;
       Out.Scales[I][N] = glm::dot(Q[N], InWorld);
-      ByRotation[N] = InWorld * G.Scales[I][N];
+      ByRotation[N] = InWorld * Input.Scales[I][N];
       ByXX += Gx[N] * A[N][0];
       ByXZ += Gx[N] * A[N][2];
       ByYY += Gy[N] * A[N][1];
       ByYZ += Gy[N] * A[N][2];
     }
-    Out.Quats[I] = quaternionGradient(G.Quats[I], ByRotation);
+    Out.Quats[I] = quaternionGradient(Input.Quats[I], ByRotation);
 
     const double Z = P.z, ZZ = Z * Z;
     const dvec2 &M = Out.Means2d[I];
-    dvec3 ByP(C.Focal.x / Z * M.x, C.Focal.y / Z * M.y,
-              -(C.Focal.x * P.x * M.x + C.Focal.y * P.y * M.y) / ZZ);
-    ByP.z -= (C.Focal.x * ByXX + C.Focal.y * ByYY) / ZZ;
-    ByP.x += held(J.HeldX, C.Focal.x, J.Tx, Z, ByXZ, ByP.z);
-    ByP.y += held(J.HeldY, C.Focal.y, J.Ty, Z, ByYZ, ByP.z);
+    dvec3 ByP(View.Focal.x / Z * M.x, View.Focal.y / Z * M.y,
+              -(View.Focal.x * P.x * M.x + View.Focal.y * P.y * M.y) / ZZ);
+    ByP.z -= (View.Focal.x * ByXX + View.Focal.y * ByYY) / ZZ;
+    ByP.x += held(J.HeldX, View.Focal.x, J.Tx, Z, ByXZ, ByP.z);
+    ByP.y += held(J.HeldY, View.Focal.y, J.Ty, Z, ByYZ, ByP.z);
     return Back * ByP;
   }
 
@@ -163,22 +163,22 @@ private:
               double &ByZ) const {
     const double ZZ = Z * Z;
     // t = limit z, so that the entry is -f limit / z; or t is a constant.
-    const double Factor = Held && O.Rule == Rules::Gsplat ? 1 : 2;
+    const double Factor = Held && Settings.Rule == Rules::Gsplat ? 1 : 2;
     ByZ += Factor * Focal * T / (ZZ * Z) * ByEntry;
     return Held ? 0 : -Focal / ZZ * ByEntry;
   }
 
   void color(std::size_t I) {
-    const auto Bands = static_cast<std::size_t>(G.ShDegree) + 1;
+    const auto Bands = static_cast<std::size_t>(Input.ShDegree) + 1;
     const std::size_t Coefficients = Bands * Bands;
     Out.Means[I] += shBackward(
-        &G.Sh[I * Coefficients], std::min(G.ShDegree, O.ShLimit),
-        G.Means[I] - C.Centre, Out.Colors[I], &Out.Sh[I * Coefficients]);
+        &Input.Sh[I * Coefficients], std::min(Input.ShDegree, Settings.ShLimit),
+        Input.Means[I] - View.Centre, Out.Colors[I], &Out.Sh[I * Coefficients]);
   }
 
-  const Gaussians<double> &G;
-  const Camera<double> &C;
-  const Options &O;
+  const Gaussians<double> &Input;
+  const Camera<double> &View;
+  const Options &Settings;
   Gradients &Out;
 };
 

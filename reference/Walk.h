@@ -133,13 +133,15 @@ template <typename Real> struct PixelEnd {
 template <typename Real> class TileWalk {
 public:
   TileWalk(const std::vector<Splat<Real>> &Splats, int Width, int Height,
-           const Options &O)
-      : Splats(Splats), O(O), Width(Width), Height(Height),
-        Grid(O.TileSize, Width, Height), Cutoff(static_cast<Real>(O.Cutoff)),
-        Least(leastAlpha<Real>(O.AlphaCutoff)), Lists(Grid.count()) {
+           const Options &Settings)
+      : Splats(Splats), Settings(Settings), Width(Width), Height(Height),
+        Grid(Settings.TileSize, Width, Height),
+        Cutoff(static_cast<Real>(Settings.Cutoff)),
+        Least(leastAlpha<Real>(Settings.AlphaCutoff)), Lists(Grid.count()) {
     // As tileLists, but with everything whose place in a list is doubtful.
-    for (const uint32_t I : depthOrder(Splats, O.DepthBits)) {
-      const Rect R = outerTiles(borderOf(Splats[I], O, Width, Height), Grid);
+    for (const uint32_t I : depthOrder(Splats, Settings.DepthBits)) {
+      const Rect R =
+          outerTiles(borderOf(Splats[I], Settings, Width, Height), Grid);
       for (int Y = R.Y0; Y < R.Y1; ++Y)
         for (int X = R.X0; X < R.X1; ++X)
           Lists[Grid.index(X, Y)].push_back(I);
@@ -178,7 +180,7 @@ public:
       const Real Dx = C.Mean.x - Px, Dy = C.Mean.y - Py;
       const bool Inside = inSupport(C, Dx, Dy, X, Y);
       const bool EdgeInDoubt =
-          O.Reach != Support::Exact && C.Edge.doubtful(Px, Py);
+          Settings.Reach != Support::Exact && C.Edge.doubtful(Px, Py);
       if (!Inside && !EdgeInDoubt)
         continue;
       const Real Power =
@@ -190,7 +192,7 @@ public:
       const Real Wanted =
           C.Opacity * static_cast<Real>(std::exp(double(Power)));
       const Real Alpha = std::min(mostAlpha<Real>(), Wanted);
-      if (near(Alpha, leastAlpha<double>(O.AlphaCutoff)) ||
+      if (near(Alpha, leastAlpha<double>(Settings.AlphaCutoff)) ||
           (EdgeInDoubt && Alpha >= Least))
         P.Doubts |= DoubtThreshold;
       if (!Inside || Alpha < Least)
@@ -198,7 +200,7 @@ public:
       if (Order.doubtful(C.NearestKey, C.FarthestKey, C.Index))
         P.Doubts |= DoubtOrder;
       const Real Next = P.T * (1 - Alpha);
-      if (near(Next, O.Cutoff))
+      if (near(Next, Settings.Cutoff))
         P.Doubts |= DoubtThreshold;
       if (saturates(Next)) {
         P.Stop = C.Index;
@@ -221,30 +223,31 @@ private:
     C.Conic = S.Conic;
     C.Color = S.Color;
     C.Opacity = S.Opacity;
-    C.NearestKey = orderKey(double(S.Depth) - S.DepthSlack, O.DepthBits);
-    C.FarthestKey = orderKey(double(S.Depth) + S.DepthSlack, O.DepthBits);
+    C.NearestKey = orderKey(double(S.Depth) - S.DepthSlack, Settings.DepthBits);
+    C.FarthestKey =
+        orderKey(double(S.Depth) + S.DepthSlack, Settings.DepthBits);
     C.Official = officialPixels(S.Mean, S.Extent.x, Width, Height);
-    C.Edge = borderOf(S, O, Width, Height);
+    C.Edge = borderOf(S, Settings, Width, Height);
     C.Index = static_cast<int32_t>(I);
-    C.Listed = tilesOf(S, O.Reach, Grid).contains(Column, Row);
+    C.Listed = tilesOf(S, Settings.Reach, Grid).contains(Column, Row);
     return C;
   }
 
   bool inSupport(const Candidate<Real> &C, Real Dx, Real Dy, int X,
                  int Y) const {
-    if (O.Reach == Support::Exact)
+    if (Settings.Reach == Support::Exact)
       return true;
-    if (O.Reach == Support::Official16)
+    if (Settings.Reach == Support::Official16)
       return C.Official.contains(X, Y);
     return std::abs(Dx) <= C.Extent.x && std::abs(Dy) <= C.Extent.y;
   }
 
   bool saturates(Real T) const {
-    return O.Rule == Rules::Inria ? T < Cutoff : T <= Cutoff;
+    return Settings.Rule == Rules::Inria ? T < Cutoff : T <= Cutoff;
   }
 
   const std::vector<Splat<Real>> &Splats;
-  const Options &O;
+  const Options &Settings;
   int Width, Height;
   TileGrid Grid;
   Real Cutoff, Least;

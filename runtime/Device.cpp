@@ -234,7 +234,7 @@ Failure Device::hostPointer(uint32_t Address, uint64_t Size, void **To) {
   return {};
 }
 
-Failure Device::tellHost(Told What, uint32_t Address, uint64_t Size) {
+Failure Device::tellHost(Notice What, uint32_t Address, uint64_t Size) {
   std::byte *Bytes = nullptr;
   if (Failure Failed = globalRange(Address, Size, &Bytes))
     return Failed;
@@ -359,7 +359,7 @@ void Device::launch(Lock &Held, LoadedImage &Image, uint32_t LaunchBlock) {
     Ended.notify_all();
   });
   Running = true;
-  EverStarted = true;
+  HasStarted = true;
   Held.unlock();
 }
 
@@ -408,7 +408,7 @@ Failure Device::startMain(LoadedImage &Image) {
 
 Failure Device::wait(vx_result &Result) {
   Lock Held(Mutex);
-  if (!EverStarted)
+  if (!HasStarted)
     return {VX_ERROR_BUSY, "nothing was started"};
   waitForRun(Held);
   if (!BugText.empty())

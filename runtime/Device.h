@@ -60,7 +60,7 @@ public:
 
 private:
   using Lock = std::unique_lock<std::mutex>;
-  using Told = void (isasim::Session::*)(uint32_t, uint64_t);
+  using Notice = void (isasim::Session::*)(uint32_t, uint64_t);
 
   void waitForRun(Lock &Held);
   /// Observers hear of what the host does between runs only.
@@ -74,7 +74,7 @@ private:
   template <typename Function>
   Failure forRasterCsrs(uint32_t Address, uint64_t Size, Function Use);
   Failure globalRange(uint32_t Address, uint64_t Size, std::byte **Bytes);
-  Failure tellHost(Told What, uint32_t Address, uint64_t Size);
+  Failure tellHost(Notice What, uint32_t Address, uint64_t Size);
   void freeRunMemory();
   void nameBuffers(const isasim::Kernel &Kernel, const void *Args);
   Failure prepare(const isasim::Launch &Planned,
@@ -94,7 +94,7 @@ private:
   LoadedImage *Current = nullptr; ///< the image in the machine
   isasim::LaunchParts InUse;      ///< addresses of the run's parts
   bool Running = false;
-  bool EverStarted = false;
+  bool HasStarted = false;
   std::thread Runner; ///< joined before the next run and at the end
 
   // The last run's result.

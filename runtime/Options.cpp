@@ -12,10 +12,10 @@ using namespace vorion::runtime;
 
 namespace {
 
-constexpr std::pair<std::string DeviceOptions::*, const char *> OfTheMachine[] =
-    {{&DeviceOptions::Config, "VORION_CONFIG"},
-     {&DeviceOptions::Set, "VORION_SET"},
-     {&DeviceOptions::Time, "VORION_TIME"}};
+constexpr std::pair<std::string DeviceOptions::*, const char *>
+    MachineOptions[] = {{&DeviceOptions::Config, "VORION_CONFIG"},
+                        {&DeviceOptions::Set, "VORION_SET"},
+                        {&DeviceOptions::Time, "VORION_TIME"}};
 
 void readVariable(const char *Name, std::string &Text) {
   if (const char *Value = std::getenv(Name))
@@ -26,7 +26,7 @@ void readVariable(const char *Name, std::string &Text) {
 
 DeviceOptions DeviceOptions::fromEnvironment() {
   DeviceOptions O;
-  for (const auto &[Member, Name] : OfTheMachine)
+  for (const auto &[Member, Name] : MachineOptions)
     readVariable(Name, O.*Member);
   for (const isasim::SessionOption &S : isasim::sessionOptions())
     readVariable(S.Variable, O.Watch.*S.Text);
@@ -34,7 +34,7 @@ DeviceOptions DeviceOptions::fromEnvironment() {
 }
 
 std::string *DeviceOptions::find(std::string_view Name) {
-  for (const auto &[Member, Known] : OfTheMachine)
+  for (const auto &[Member, Known] : MachineOptions)
     if (Name == Known)
       return &(this->*Member);
   for (const isasim::SessionOption &S : isasim::sessionOptions())

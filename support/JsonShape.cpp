@@ -43,7 +43,7 @@ JsonShape JsonShape::list(JsonShape Of, uint64_t Least, uint64_t Most) {
   JsonShape S(Type::List);
   S.Least = Least;
   S.Most = Most;
-  S.Of.push_back(std::move(Of));
+  S.Elements.push_back(std::move(Of));
   return S;
 }
 
@@ -89,7 +89,7 @@ std::string JsonShape::name() const {
   return {};
 }
 
-template <typename Kind> bool JsonShape::isMet(const Kind &J) const {
+template <typename Kind> bool JsonShape::hasType(const Kind &J) const {
   switch (What) {
   case Type::Anything:
     return true;
@@ -114,14 +114,15 @@ template <typename Kind>
 std::string JsonShape::problem(const Kind &J, const std::string &Path) const {
   if (MayBeNull && J.is_null())
     return {};
-  if (!isMet(J))
+  if (!hasType(J))
     return fmt::format("{}{}, expected {}",
                        Path.empty() ? "a document "
                                     : fmt::format("key {} is ", Path),
                        described(J), name());
   if (What == Type::List)
     for (std::size_t I = 0; I < J.size(); ++I)
-      if (auto Wrong = Of[0].problem(J[I], fmt::format("{}[{}]", Path, I));
+      if (auto Wrong =
+              Elements[0].problem(J[I], fmt::format("{}[{}]", Path, I));
           !Wrong.empty())
         return Wrong;
   const auto Inside = [&Path](const std::string &Key) {
@@ -133,8 +134,8 @@ std::string JsonShape::problem(const Kind &J, const std::string &Path) const {
       continue;
     if (It == J.end())
       return fmt::format("key {} is missing, expected {}", Inside(F.Name),
-                         F.Of.name());
-    if (auto Wrong = F.Of.problem(*It, Inside(F.Name)); !Wrong.empty())
+                         F.Shape.name());
+    if (auto Wrong = F.Shape.problem(*It, Inside(F.Name)); !Wrong.empty())
       return Wrong;
   }
   if (!IsClosed)

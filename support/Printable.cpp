@@ -35,7 +35,7 @@ Character characterAt(std::string_view Text, std::size_t At) {
   return {Code, Bytes};
 }
 
-bool isObeyed(char32_t C) {
+bool isControl(char32_t C) {
   return C < 0x20 || (C >= 0x7f && C < 0xa0) // C0, DEL, C1
          || C == 0x200e || C == 0x200f       // marks of direction
          || (C >= 0x2028 && C <= 0x202e)     // lines, embeddings
@@ -51,7 +51,7 @@ std::string escaped(std::string_view Text) {
   for (std::size_t At = 0; At < Text.size();) {
     const Character C = characterAt(Text, At);
     const std::size_t Bytes = C.Bytes == 0 ? 1 : C.Bytes;
-    if (C.Bytes != 0 && !isObeyed(C.Code))
+    if (C.Bytes != 0 && !isControl(C.Code))
       Shown += Text.substr(At, Bytes);
     else
       for (std::size_t I = 0; I < Bytes; ++I)

@@ -52,12 +52,12 @@ fs::path folderOf(const fs::path &Path) {
 
 /// A new file in the folder of the one that it will become. It goes with this
 /// unless it was renamed.
-class Aside {
+class TemporaryFile {
 public:
   /// With \p Mode, less the process's umask.
   /// \p Path is what the user calls \p Target.
-  static Expected<Aside> make(const std::string &Path,
-                              const std::string &Target, mode_t Mode) {
+  static Expected<TemporaryFile> make(const std::string &Path,
+                                      const std::string &Target, mode_t Mode) {
     // A short name of its own: the target's may already be as long as names
     // get, and two threads may write at a time.
     static std::atomic<unsigned> Count = 0;
@@ -68,15 +68,15 @@ public:
       const int Number =
           ::open(Name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, Mode);
       if (Number >= 0)
-        return Aside(std::move(Name), Number);
+        return TemporaryFile(std::move(Name), Number);
       if (errno != EEXIST)
         return cannotWrite(Path, errno);
     }
   }
-  Aside(Aside &&From) noexcept
+  TemporaryFile(TemporaryFile &&From) noexcept
       : Name(std::exchange(From.Name, {})), File(std::move(From.File)) {}
-  Aside &operator=(Aside &&) = delete;
-  ~Aside() {
+  TemporaryFile &operator=(TemporaryFile &&) = delete;
+  ~TemporaryFile() {
     if (!Name.empty())
       ::unlink(Name.c_str());
   }
@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  Aside(std::string NameIn, int Number)
+  TemporaryFile(std::string NameIn, int Number)
       : Name(std::move(NameIn)), File(Number) {}
   std::string Name;
   Descriptor File;
@@ -120,7 +120,7 @@ Expected<Success> replace(const std::string &Path, const std::string &Target,
   if (Old && ::access(Target.c_str(), W_OK) != 0)
     return cannotWrite(Path, errno, "a file that can be written");
   // What only its owner could read is never open to others.
-  auto New = Aside::make(Path, Target, Old ? 0600 : 0666);
+  auto New = TemporaryFile::make(Path, Target, Old ? 0600 : 0666);
   if (!New)
     return New.error();
   Descriptor &File = New->file();
@@ -193,7 +193,7 @@ Expected<Success> checkWritable(const std::string &Path) {
   if (!isReplaced(Target, Info))
     return Success{};
   // A trial, since permissions alone do not tell for root or in /proc.
-  const auto Trial = Aside::make(Path, Target, 0600);
+  const auto Trial = TemporaryFile::make(Path, Target, 0600);
   return Trial ? Expected<Success>(Success{}) : Trial.error();
 }
 

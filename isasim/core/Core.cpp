@@ -31,7 +31,7 @@ void Core::reset(const CodeTable &CodeIn, uint32_t Entry,
   for (unsigned W = 0; W != Warps.size(); ++W) {
     WarpState &S = Warps[W];
     S = WarpState();
-    std::fill(std::begin(S.R), std::end(S.R), LaneWords{});
+    std::fill(std::begin(S.Registers), std::end(S.Registers), LaneWords{});
     S.Code = Code->begin();
     S.CodeLo = Code->low();
     S.CodeCount = Code->count();

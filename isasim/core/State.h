@@ -16,7 +16,7 @@ inline constexpr unsigned MaxLanes = 16;
 /// have are never active.
 using LaneWords = uint32_t __attribute__((vector_size(4 * MaxLanes)));
 
-/// Places in WarpState::R.
+/// Places in WarpState::Registers.
 inline constexpr unsigned XBase = 0;
 inline constexpr unsigned FBase = 32;
 inline constexpr unsigned SinkRegister = 64; ///< takes what is written to x0
@@ -115,12 +115,13 @@ class Watch;
 struct CoreTrace;
 
 struct alignas(64) WarpState {
-  LaneWords R[NumRegisters]; ///< x0..x31, f0..f31, the sink; at offset 0
-  LaneWords MaskWords;       ///< all ones in active lanes
-  uint32_t Mask = 0;         ///< active lanes
-  uint32_t Full = 0;         ///< 1 if all MaxLanes lanes are active
-  uint32_t LaneCount = 0;    ///< active lanes
-  uint32_t LastLane = 0;     ///< the highest active one
+  LaneWords
+      Registers[NumRegisters]; ///< x0..x31, f0..f31, the sink; at offset 0
+  LaneWords MaskWords;         ///< all ones in active lanes
+  uint32_t Mask = 0;           ///< active lanes
+  uint32_t Full = 0;           ///< 1 if all MaxLanes lanes are active
+  uint32_t LaneCount = 0;      ///< active lanes
+  uint32_t LastLane = 0;       ///< the highest active one
   /// Whether an instruction with this rounding mode field rounds as the host
   /// does at present, which is as frm says (HostFp.h).
   uint8_t RmIsHost[8] = {};

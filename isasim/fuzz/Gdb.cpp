@@ -108,7 +108,7 @@ Outcomes run(Observer *Watcher) {
 
 struct Session {
   std::string Packets;
-  bool OnlyLooks = true; ///< no packet can change anything
+  bool ReadsOnly = true; ///< no packet can change anything
 };
 
 /// "$LINE#sum" for each line, and lines that begin with '!' as they are.
@@ -120,14 +120,14 @@ Session sessionOf(std::string_view Text) {
     Text.remove_prefix(std::min(Text.size(), Line.size() + 1));
     if (Line.starts_with('!')) {
       S.Packets += Line.substr(1);
-      S.OnlyLooks &= Line.find_first_of(Changing) == std::string_view::npos;
+      S.ReadsOnly &= Line.find_first_of(Changing) == std::string_view::npos;
       continue;
     }
     unsigned Sum = 0;
     for (const char C : Line)
       Sum += static_cast<unsigned char>(C);
     S.Packets += fmt::format("${}#{:02x}", Line, Sum & 0xFF);
-    S.OnlyLooks &=
+    S.ReadsOnly &=
         Line.substr(0, 1).find_first_of(Changing) == std::string_view::npos;
   }
   return S;
@@ -180,7 +180,7 @@ void debug(std::span<const std::byte> Bytes) {
   }
   Debugger.join();
   close(Ends[1]);
-  if (!Said.OnlyLooks)
+  if (!Said.ReadsOnly)
     return;
   static const Outcomes Plain = run(nullptr);
   if (Plain.Result.End != Debugged.Result.End ||

@@ -31,7 +31,7 @@ HangDetector::snapshot(const std::vector<std::unique_ptr<Core>> &Cores) const {
         continue;
       // The sink is written and never read.
       for (unsigned R = 0; R != SinkRegister; ++R)
-        append(State, S.R[R]);
+        append(State, S.Registers[R]);
       append(State, S.Mask);
       append(State, S.pcOf(S.Next));
       append(State, S.Frm);

@@ -103,11 +103,11 @@ struct Machine::Impl final : raster::WorkLog {
   bool stopRequested() const {
     return StopRequested.load(std::memory_order_relaxed);
   }
-  bool watchdogBites() const {
+  bool watchdogExpired() const {
     return WatchdogSeconds > 0 && secondsSoFar() > WatchdogSeconds;
   }
   bool mustStop() const {
-    return Running && (stopRequested() || watchdogBites());
+    return Running && (stopRequested() || watchdogExpired());
   }
   uint64_t retired() const;
   const ExecTable &exec() const;
@@ -358,7 +358,7 @@ bool Machine::Impl::decideEnd(RunResult &R) {
     Limit = "instruction limit reached";
   else if (stopRequested())
     Limit = "stopped from outside";
-  else if (watchdogBites())
+  else if (watchdogExpired())
     Limit =
         fmt::format("watchdog: the run took longer than {} s", WatchdogSeconds);
   if (!Limit.empty()) {
@@ -394,96 +394,96 @@ Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
   if (!Mem)
     return Mem.error();
   std::unique_ptr<Machine> M(new Machine());
-  M->I = std::make_unique<Impl>(C, std::move(*Mem));
+  M->PImpl = std::make_unique<Impl>(C, std::move(*Mem));
   return M;
 }
 
-const Config &Machine::config() const { return I->Shape; }
+const Config &Machine::config() const { return PImpl->Shape; }
 
 void Machine::load(std::shared_ptr<const Image> Program) {
-  I->Code.reset();
-  I->Program = std::move(Program);
-  I->Storage->load(*I->Program);
+  PImpl->Code.reset();
+  PImpl->Program = std::move(Program);
+  PImpl->Storage->load(*PImpl->Program);
 }
 
 const std::shared_ptr<const Image> &Machine::image() const {
-  return I->Program;
+  return PImpl->Program;
 }
 
 std::byte *Machine::hostPointer(uint32_t Address, uint64_t Bytes) {
-  return I->Storage->global(Address, Bytes);
+  return PImpl->Storage->global(Address, Bytes);
 }
 
 bool Machine::read(uint32_t Address, std::span<std::byte> To) const {
-  return I->access(Address, To.size(),
-                   [&](std::byte *At, size_t Offset, size_t Bytes) {
-                     std::memcpy(To.data() + Offset, At, Bytes);
-                   });
+  return PImpl->access(Address, To.size(),
+                       [&](std::byte *At, size_t Offset, size_t Bytes) {
+                         std::memcpy(To.data() + Offset, At, Bytes);
+                       });
 }
 
 bool Machine::write(uint32_t Address, std::span<const std::byte> From) {
-  return I->access(Address, From.size(),
-                   [&](std::byte *At, size_t Offset, size_t Bytes) {
-                     std::memcpy(At, From.data() + Offset, Bytes);
-                   });
+  return PImpl->access(Address, From.size(),
+                       [&](std::byte *At, size_t Offset, size_t Bytes) {
+                         std::memcpy(At, From.data() + Offset, Bytes);
+                       });
 }
 
 bool Machine::fill(uint32_t Address, uint64_t Bytes, std::byte Value) {
-  return I->access(Address, Bytes, [&](std::byte *At, size_t, size_t Part) {
+  return PImpl->access(Address, Bytes, [&](std::byte *At, size_t, size_t Part) {
     std::memset(At, static_cast<int>(Value), Part);
   });
 }
 
 RunResult Machine::run(uint32_t LaunchBlock) {
   RunResult R;
-  if (!I->Program) {
+  if (!PImpl->Program) {
     R.End = Outcome::Trap;
     R.Fault.Cause = TrapCause::FetchFault;
     R.Report = "no program is loaded\n";
     return R;
   }
-  I->Begin = std::chrono::steady_clock::now();
+  PImpl->Begin = std::chrono::steady_clock::now();
   const std::clock_t CpuBegin = std::clock();
-  I->StopRequested = false;
-  I->Running = true;
-  const RasterCounters Before = I->Raster.counters();
-  I->resetCores(LaunchBlock);
+  PImpl->StopRequested = false;
+  PImpl->Running = true;
+  const RasterCounters Before = PImpl->Raster.counters();
+  PImpl->resetCores(LaunchBlock);
   VxLaunch Launch{};
   const bool HasLaunch = LaunchBlock != 0;
   if (HasLaunch)
     read(LaunchBlock, std::as_writable_bytes(std::span(&Launch, 1)));
-  I->Watcher.tell([&](Observer &O) {
-    O.runBegins({I->Shape, I->Program, LaunchBlock,
-                 HasLaunch ? &Launch : nullptr, I->Cores, this});
+  PImpl->Watcher.tell([&](Observer &O) {
+    O.runBegins({PImpl->Shape, PImpl->Program, LaunchBlock,
+                 HasLaunch ? &Launch : nullptr, PImpl->Cores, this});
   });
   do {
-    I->runCores();
+    PImpl->runCores();
     ++R.SyncPoints;
     // A trap of the round comes before what others would do at its end.
-    if (I->findTrap(R))
+    if (PImpl->findTrap(R))
       break;
-    I->atSyncPoint();
-    I->takeTime();
-  } while (!I->decideEnd(R));
-  I->Running = false;
-  I->flushConsole(true);
-  I->count(R);
-  if (I->isClocked())
-    R.Time = I->Time->end();
+    PImpl->atSyncPoint();
+    PImpl->takeTime();
+  } while (!PImpl->decideEnd(R));
+  PImpl->Running = false;
+  PImpl->flushConsole(true);
+  PImpl->count(R);
+  if (PImpl->isClocked())
+    R.Time = PImpl->Time->end();
   if (R.End == Outcome::Done && R.ExitCode != 0)
     R.End = Outcome::GuestFailed;
-  R.Raster = I->Raster.counters() - Before;
+  R.Raster = PImpl->Raster.counters() - Before;
   if (R.End != Outcome::Done && R.End != Outcome::GuestFailed)
-    I->resetRasterizers();
-  R.HostSeconds = I->secondsSoFar();
+    PImpl->resetRasterizers();
+  R.HostSeconds = PImpl->secondsSoFar();
   R.HostCpuSeconds =
       static_cast<double>(std::clock() - CpuBegin) / CLOCKS_PER_SEC;
-  I->Watcher.tell([&](Observer &O) { O.runEnds(R); });
+  PImpl->Watcher.tell([&](Observer &O) { O.runEnds(R); });
   return R;
 }
 
 void Machine::setConsole(std::function<void(std::string_view)> Sink) {
-  I->Console = std::move(Sink);
+  PImpl->Console = std::move(Sink);
 }
 
 bool Machine::canBeObserved() { return VORION_OBSERVERS; }
@@ -491,32 +491,32 @@ bool Machine::canBeObserved() { return VORION_OBSERVERS; }
 void Machine::setObservers(std::vector<Observer *> Observers) {
   assert((Observers.empty() || canBeObserved()) &&
          "this build has no observers");
-  I->Watcher.Observers = std::move(Observers);
-  I->chooseLog();
+  PImpl->Watcher.Observers = std::move(Observers);
+  PImpl->chooseLog();
 }
 
-void Machine::setWatchdog(double Seconds) { I->WatchdogSeconds = Seconds; }
+void Machine::setWatchdog(double Seconds) { PImpl->WatchdogSeconds = Seconds; }
 
 void Machine::requestStop() {
-  I->StopRequested.store(true, std::memory_order_relaxed);
+  PImpl->StopRequested.store(true, std::memory_order_relaxed);
 }
 
-bool Machine::mustStop() const { return I->mustStop(); }
+bool Machine::mustStop() const { return PImpl->mustStop(); }
 
 void Machine::setClocked(bool Clocked) {
-  if (!I->Time || I->Clocked == Clocked)
+  if (!PImpl->Time || PImpl->Clocked == Clocked)
     return;
-  I->Clocked = Clocked;
-  I->Time->reset();
-  I->chooseLog();
+  PImpl->Clocked = Clocked;
+  PImpl->Time->reset();
+  PImpl->chooseLog();
 }
 
 std::optional<uint32_t> Machine::readRasterCsr(unsigned Core, unsigned Csr) {
-  return I->Raster.hostRead(Core, Csr);
+  return PImpl->Raster.hostRead(Core, Csr);
 }
 
 bool Machine::writeRasterCsr(unsigned Core, unsigned Csr, uint32_t Value) {
-  return I->Raster.hostWrite(Core, Csr, Value);
+  return PImpl->Raster.hostWrite(Core, Csr, Value);
 }
 
 } // namespace vorion::isasim

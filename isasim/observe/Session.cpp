@@ -63,7 +63,7 @@ struct Session::Impl {
   std::string RunName;
 };
 
-Session::Session() : I(std::make_unique<Impl>()) {}
+Session::Session() : PImpl(std::make_unique<Impl>()) {}
 Session::~Session() = default;
 
 Expected<Success> Session::Impl::open(const SessionOptions &O) {
@@ -92,25 +92,25 @@ Expected<std::unique_ptr<Session>>
 Session::create(const SessionOptions &O, std::string Tool,
                 std::function<void(std::string_view)> Print) {
   std::unique_ptr<Session> S(new Session());
-  S->I->To = {.Print = std::move(Print),
-              .Say = [Tool = std::move(Tool)](std::string_view Text) {
-                printNote(fmt::format("{}: {}\n", Tool, Text));
-                std::fflush(stderr);
-              }};
-  if (Expected<Success> Ok = S->I->open(O); !Ok)
+  S->PImpl->To = {.Print = std::move(Print),
+                  .Report = [Tool = std::move(Tool)](std::string_view Text) {
+                    printNote(fmt::format("{}: {}\n", Tool, Text));
+                    std::fflush(stderr);
+                  }};
+  if (Expected<Success> Ok = S->PImpl->open(O); !Ok)
     return Ok.error();
   return S;
 }
 
 void Session::attach(Machine &M) {
-  M.setObservers(I->Observers);
-  for (const auto &T : I->Tools)
+  M.setObservers(PImpl->Observers);
+  for (const auto &T : PImpl->Tools)
     T->attach(M);
 }
 
 Expected<Success> Session::runEnded(const RunResult &R) {
-  for (const auto &T : I->Tools)
-    if (Expected<Success> Ok = T->runEnded(I->RunName, R); !Ok)
+  for (const auto &T : PImpl->Tools)
+    if (Expected<Success> Ok = T->runEnded(PImpl->RunName, R); !Ok)
       return Ok;
   return Success{};
 }
@@ -120,48 +120,48 @@ void Session::Impl::tell(auto What) {
     What(*O);
 }
 
-bool Session::observes() const { return !I->Observers.empty(); }
+bool Session::observes() const { return !PImpl->Observers.empty(); }
 
 void Session::allocated(uint32_t Address, uint64_t Bytes,
                         const std::string &Name) {
-  I->tell([&](Observer &O) { O.allocated(Address, Bytes, Name); });
+  PImpl->tell([&](Observer &O) { O.allocated(Address, Bytes, Name); });
 }
 
 void Session::released(uint32_t Address) {
-  I->tell([&](Observer &O) { O.released(Address); });
+  PImpl->tell([&](Observer &O) { O.released(Address); });
 }
 
 void Session::hostWrote(uint32_t Address, uint64_t Bytes) {
-  I->tell([&](Observer &O) { O.hostWrote(Address, Bytes); });
+  PImpl->tell([&](Observer &O) { O.hostWrote(Address, Bytes); });
 }
 
 void Session::hostRead(uint32_t Address, uint64_t Bytes) {
-  I->tell([&](Observer &O) { O.hostRead(Address, Bytes); });
+  PImpl->tell([&](Observer &O) { O.hostRead(Address, Bytes); });
 }
 
 void Session::bufferNamed(uint32_t Address, const std::string &Name) {
-  I->tell([&](Observer &O) { O.bufferNamed(Address, Name); });
+  PImpl->tell([&](Observer &O) { O.bufferNamed(Address, Name); });
 }
 
 void Session::localUsed(uint64_t Bytes) {
-  I->tell([&](Observer &O) { O.localUsed(Bytes); });
+  PImpl->tell([&](Observer &O) { O.localUsed(Bytes); });
 }
 
 void Session::runNamed(const std::string &Name) {
-  I->RunName = Name;
-  I->tell([&](Observer &O) { O.runNamed(Name); });
+  PImpl->RunName = Name;
+  PImpl->tell([&](Observer &O) { O.runNamed(Name); });
 }
 
 uint64_t Session::guardBytes() const {
   uint64_t Most = 0;
-  for (const auto &T : I->Tools)
+  for (const auto &T : PImpl->Tools)
     Most = std::max(Most, T->guardBytes());
   return Most;
 }
 
 uint64_t Session::findings() const {
   uint64_t Sum = 0;
-  for (const auto &T : I->Tools)
+  for (const auto &T : PImpl->Tools)
     Sum += T->findings();
   return Sum;
 }

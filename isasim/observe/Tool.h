@@ -21,7 +21,7 @@ struct ToolOutput {
   /// What is meant for stdout. Null: stdout is the application's.
   std::function<void(std::string_view)> Print;
   /// A message for people, without the last newline.
-  std::function<void(std::string_view)> Say;
+  std::function<void(std::string_view)> Report;
 };
 
 class Tool {

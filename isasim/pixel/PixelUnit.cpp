@@ -35,15 +35,15 @@ private:
   RasterMemory &Memory;
   TileBuffer &Tile;
   const Datapath &Lanes;
-  bool Keeps;
+  bool KeepsDetails;
   Tail Record;
   TailWork Work;
-  const Job &J = Work.What;
+  const Job &Task = Work.What;
 };
 
 Execution::Execution(const HandOver &Next, RasterMemory &Global,
                      TileBuffer &Buffer, const Datapath &Unit, bool KeepDetails)
-    : Memory(Global), Tile(Buffer), Lanes(Unit), Keeps(KeepDetails) {
+    : Memory(Global), Tile(Buffer), Lanes(Unit), KeepsDetails(KeepDetails) {
   std::memcpy(&Record, Memory.range(Next.Record, sizeof(Record)),
               sizeof(Record));
   Work.Core = Next.Agent->core();
@@ -53,7 +53,7 @@ Execution::Execution(const HandOver &Next, RasterMemory &Global,
   Command Rest;
   static_cast<TileWords &>(Rest) = Record.Rest;
   Work.What = checkCommand(Rest, Memory);
-  Work.Status = J.Refusal;
+  Work.Status = Task.Refusal;
   Work.Counts.Tails = 1;
 }
 
@@ -61,22 +61,22 @@ Execution::Execution(const HandOver &Next, RasterMemory &Global,
 /// until the last of them.
 void Execution::keepVisits(uint32_t Examined) {
   for (TailWork::OpenPixel &P : Work.Pixels)
-    if (P.Visits == 0 && (Examined == J.Count ||
+    if (P.Visits == 0 && (Examined == Task.Count ||
                           std::signbit(Tile.T[P.Y * TileBuffer::Stride + P.X])))
       P.Visits = Examined;
 }
 
 template <typename Function> void Execution::forLivePixels(Function Use) {
-  for (unsigned Row = 0; Row != J.Height; ++Row) {
-    std::byte *Pixels = outputRow(J, Memory, Row);
-    for (unsigned Column = 0; Column != J.Width; ++Column)
+  for (unsigned Row = 0; Row != Task.Height; ++Row) {
+    std::byte *Pixels = outputRow(Task, Memory, Row);
+    for (unsigned Column = 0; Column != Task.Width; ++Column)
       if (isLive(Row, Column))
         Use(Pixels + Column * sizeof(Pixel), Row, Column);
   }
 }
 
 void Execution::loadPixels() {
-  Tile.reset(J.X, J.Y, J.Width, J.Height);
+  Tile.reset(Task.X, Task.Y, Task.Width, Task.Height);
   // All closed but those that the record names.
   for (float &T : Tile.T)
     T = -T;
@@ -93,25 +93,25 @@ void Execution::loadPixels() {
     Tile.T[At] = std::fabs(P.T);
     ++Tile.RowLive[Row];
     ++Tile.Live;
-    if (Keeps)
+    if (KeepsDetails)
       Work.Pixels.push_back(
           {static_cast<uint8_t>(Column), static_cast<uint8_t>(Row), 0});
   });
 }
 
 uint32_t Execution::blend() {
-  const GaussianList List(J, Memory);
+  const GaussianList List(Task, Memory);
   Fetched Entry;
-  for (uint32_t I = 0; I != J.Count && Tile.Live != 0; ++I) {
+  for (uint32_t I = 0; I != Task.Count && Tile.Live != 0; ++I) {
     const uint32_t OpenBefore = Tile.Live;
     Work.Counts.TailVisits += OpenBefore;
     if (const uint32_t Status = List.fetch(I, Entry))
       return Status;
     Work.Counts.TailBlends +=
-        blendFunction(J, Lanes)(Entry.Record, J.Blend, Tile).Blends;
-    if (Keeps) {
+        blendFunction(Task, Lanes)(Entry.Record, Task.Blend, Tile).Blends;
+    if (KeepsDetails) {
       Work.Records.push_back(Entry.Address);
-      if (Tile.Live != OpenBefore || I + 1 == J.Count)
+      if (Tile.Live != OpenBefore || I + 1 == Task.Count)
         keepVisits(I + 1);
     }
   }
@@ -127,7 +127,7 @@ void Execution::storePixels() {
 }
 
 TailWork Execution::run() {
-  if (!J.Refusal) {
+  if (!Task.Refusal) {
     loadPixels();
     Work.Counts.TailPixels = Tile.Live;
     Work.Status = blend();

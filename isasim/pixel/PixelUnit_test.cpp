@@ -56,7 +56,7 @@ Gaussian band(float Width, float Opacity) {
   return {{Width / 2, 32}, {0, 0, 0}, Opacity, {1, 2, 3}, {Width / 2, 64}, 0};
 }
 
-TEST_F(PixelUnitTest, picturesKeepTheirBits) {
+TEST_F(PixelUnitTest, PicturesKeepTheirBits) {
   const std::vector<Gaussian> Scene = randomScene(400);
   const TileCommand Tiles[] = {
       {},
@@ -86,7 +86,7 @@ TEST_F(PixelUnitTest, picturesKeepTheirBits) {
   EXPECT_GT(HandedOver, 30U);
 }
 
-TEST_F(PixelUnitTest, blendsAreShared) {
+TEST_F(PixelUnitTest, BlendsAreShared) {
   const std::vector<Gaussian> Scene = randomScene(300);
   render(Scene, {.Cutoff = 0});
   const Counters Alone = Agent.counters();
@@ -101,7 +101,7 @@ TEST_F(PixelUnitTest, blendsAreShared) {
 }
 
 // 20 x 10 pixels. 0.99 blends, the second of the same pixel saturates it.
-TEST_F(PixelUnitTest, recordAndCountersOfAKnownList) {
+TEST_F(PixelUnitTest, RecordAndCountersOfAKnownList) {
   const Gaussian Scene[] = {band(8, 0.99F),  band(8, 0.99F), band(12, 0.99F),
                             band(12, 0.99F), band(20, 0.5F), band(20, 0.5F)};
   configure(Scene, {.Cutoff = 0.005F, .X = 0, .Width = 20, .Height = 10});
@@ -142,7 +142,7 @@ TEST_F(PixelUnitTest, recordAndCountersOfAKnownList) {
   EXPECT_EQ(Sum.TailBlends, 40U * 1 + 80U * 2);
 }
 
-TEST_F(PixelUnitTest, visitsAreThoseOfALoopOverPixels) {
+TEST_F(PixelUnitTest, VisitsAreThoseOfALoopOverPixels) {
   std::mt19937 Random{5};
   std::vector<Gaussian> Scene;
   for (int I = 0; I != 60; ++I) {
@@ -171,7 +171,7 @@ TEST_F(PixelUnitTest, visitsAreThoseOfALoopOverPixels) {
   EXPECT_EQ(Agent.counters().TailVisits, Visits);
 }
 
-TEST_F(PixelUnitTest, saturatedTilesAndEmptyListsAreNotHandedOver) {
+TEST_F(PixelUnitTest, SaturatedTilesAndEmptyListsAreNotHandedOver) {
   const std::vector<Gaussian> Opaque(4, band(64, 0.99F));
   configure(Opaque, {.Cutoff = 0.005F});
   handOverAt(2);
@@ -183,7 +183,7 @@ TEST_F(PixelUnitTest, saturatedTilesAndEmptyListsAreNotHandedOver) {
   EXPECT_EQ(Agent.counters().Commands, 2U);
 }
 
-TEST_F(PixelUnitTest, agentIsBusyUntilTheTailIsDone) {
+TEST_F(PixelUnitTest, AgentIsBusyUntilTheTailIsDone) {
   const std::vector<Gaussian> Scene = randomScene(40);
   configure(Scene);
   handOverAt(10);
@@ -198,7 +198,7 @@ TEST_F(PixelUnitTest, agentIsBusyUntilTheTailIsDone) {
   EXPECT_EQ(Agent.read(Csr::Status, 0), 0U);
 }
 
-TEST_F(PixelUnitTest, statusCodesOfAHandOver) {
+TEST_F(PixelUnitTest, StatusCodesOfAHandOver) {
   const std::vector<Gaussian> Scene = randomScene(20);
   configure(Scene);
   handOverAt(0, 65537);
@@ -222,7 +222,7 @@ TEST_F(PixelUnitTest, statusCodesOfAHandOver) {
   EXPECT_EQ(startAll(), VR_OK);
 }
 
-TEST_F(PixelUnitTest, badEntryOfTheTail) {
+TEST_F(PixelUnitTest, BadEntryOfTheTail) {
   std::vector<Gaussian> Scene = randomScene(20);
   Scene[15].Opacity = std::numeric_limits<float>::quiet_NaN();
   const std::vector<Pixel> Front =
@@ -235,7 +235,7 @@ TEST_F(PixelUnitTest, badEntryOfTheTail) {
 }
 
 // The record lies in memory, where a program can spoil it.
-TEST_F(PixelUnitTest, spoiltRecordsAreStatusCodes) {
+TEST_F(PixelUnitTest, SpoiltRecordsAreStatusCodes) {
   const std::vector<Gaussian> Scene = randomScene(20);
   const std::pair<uint32_t TileWords::*, uint32_t> Spoilt[] = {
       {&TileWords::TileShape, 0x00400041},

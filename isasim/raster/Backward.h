@@ -52,7 +52,7 @@ struct BackwardOptions {
 /// One compilation of the datapath.
 struct BackwardDatapath {
   const char *Name;
-  bool (*HostHasIt)();
+  bool (*HostSupports)();
   /// By vr_options.exp: takes one Gaussian (no NaN) through a tile and writes
   /// its sums.
   BoxWork (*Back[ExpUnitCount])(const Gaussian &, const BackwardOptions &,

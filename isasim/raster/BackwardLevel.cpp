@@ -167,9 +167,9 @@ void evaluateReciprocals(Reciprocal Unit, float *Values, std::size_t Count) {
 }
 
 template <typename... Es>
-constexpr BackwardDatapath makeDatapath(const char *Name, bool (*HostHasIt)(),
-                                        List<Es...>) {
-  return {Name, HostHasIt, {back<Es>...}, evaluateReciprocals};
+constexpr BackwardDatapath makeDatapath(const char *Name,
+                                        bool (*HostSupports)(), List<Es...>) {
+  return {Name, HostSupports, {back<Es>...}, evaluateReciprocals};
 }
 
 } // namespace

@@ -9,7 +9,8 @@ BackwardRun::BackwardRun(const RasterAgent &Agent, RasterMemory &Global,
                          BackwardBuffer &Buffer, const BackwardDatapath &Lanes,
                          bool KeepDetails)
     : Work(beginCommand(Agent, Global)), Memory(Global), Tile(Buffer),
-      Unit(Lanes), Options(J.Backward), List(J, Memory), Keeps(KeepDetails) {
+      Unit(Lanes), Options(Task.Backward), List(Task, Memory),
+      KeepsDetails(KeepDetails) {
   if (!Work.hasFailed())
     load();
 }
@@ -17,12 +18,12 @@ BackwardRun::BackwardRun(const RasterAgent &Agent, RasterMemory &Global,
 /// Fills the pixel buffer. The list is gone through from the last entry that
 /// any pixel blended.
 void BackwardRun::load() {
-  Tile.reset(J.X, J.Y, J.Width, J.Height);
-  for (unsigned Y = 0; Y != J.Height; ++Y) {
-    const std::byte *Rendered = outputRow(J, Memory, Y);
-    const std::byte *Upstream = upstreamRow(J, Memory, Y);
-    const std::byte *Last = lastRow(J, Memory, Y);
-    for (unsigned X = 0; X != J.Width; ++X) {
+  Tile.reset(Task.X, Task.Y, Task.Width, Task.Height);
+  for (unsigned Y = 0; Y != Task.Height; ++Y) {
+    const std::byte *Rendered = outputRow(Task, Memory, Y);
+    const std::byte *Upstream = upstreamRow(Task, Memory, Y);
+    const std::byte *Last = lastRow(Task, Memory, Y);
+    for (unsigned X = 0; X != Task.Width; ++X) {
       Pixel Was, Gradient; // the gradient by T stands in T's place
       uint32_t Entries = 0;
       std::memcpy(&Was, Rendered + X * sizeof(Pixel), sizeof(Pixel));
@@ -34,7 +35,7 @@ void BackwardRun::load() {
       Tile.B[At] = Gradient.B;
       Tile.T[At] = Was.T;
       Tile.Behind[At] = Gradient.T;
-      Tile.Last[At] = std::min(Entries, J.Count);
+      Tile.Last[At] = std::min(Entries, Task.Count);
       Tile.RowLast[Y] = std::max(Tile.RowLast[Y], Tile.Last[At]);
     }
     Left = std::max(Left, Tile.RowLast[Y]);
@@ -49,12 +50,12 @@ uint32_t BackwardRun::through(uint32_t Entry, GradientSums &Sums) {
     return Found;
   Options.Entry = Entry;
   const BoxWork Done =
-      Unit.Back[J.Units.Exp](Input.Record, Options, Tile, Sums);
+      Unit.Back[Task.Units.Exp](Input.Record, Options, Tile, Sums);
   Work.Counts.Intersecting += Input.Intersects;
   Work.Counts.Clipped += Done.Clipped;
   Work.Counts.Fragments += Done.Fragments;
   Work.Counts.Blends += Done.Blends;
-  if (Keeps)
+  if (KeepsDetails)
     Work.Gaussians.push_back(
         {Input.Address, Done.X, Done.Y, Done.Width, Done.Height,
          static_cast<uint16_t>(Done.Fragments), Input.Intersects});

@@ -31,14 +31,14 @@ private:
   uint32_t through(uint32_t Entry, GradientSums &Sums);
 
   CommandWork Work;
-  const Job &J = Work.What;
+  const Job &Task = Work.What;
   RasterMemory &Memory;
   BackwardBuffer &Tile;
   const BackwardDatapath &Unit;
   BackwardOptions Options;
   GaussianList List;
   uint32_t Left = 0; ///< entries in front of what has been handed over
-  bool Keeps;
+  bool KeepsDetails;
 };
 
 } // namespace vorion::raster

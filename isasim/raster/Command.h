@@ -13,7 +13,7 @@ namespace vorion::raster {
 /// reads and judges it (Job.h).
 struct Command : BankWords {
   std::vector<Gaussian> Pushed; ///< descriptors of mode "pushed", in order
-  bool PushedTooMany = false;   ///< some did not fit the push buffer
+  bool PushOverflowed = false;  ///< some did not fit the push buffer
 
   bool isBackward() const { return ModeBackward.get(Mode) != 0; }
 };

@@ -53,7 +53,7 @@ struct BlendOptions {
 /// One compilation of the datapath.
 struct Datapath {
   const char *Name;
-  bool (*HostHasIt)();
+  bool (*HostSupports)();
   /// By vr_options.exp and .blend: blends one Gaussian (no NaN) into a tile.
   using BlendFunction = BoxWork (*)(const Gaussian &, const BlendOptions &,
                                     TileBuffer &);

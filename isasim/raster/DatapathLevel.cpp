@@ -98,9 +98,9 @@ constexpr void setBlends(Datapath::BlendFunction *To, List<As...>) {
 }
 
 template <typename... Es, typename... As>
-constexpr Datapath makeDatapath(const char *Name, bool (*HostHasIt)(),
+constexpr Datapath makeDatapath(const char *Name, bool (*HostSupports)(),
                                 List<Es...>, List<As...> All) {
-  Datapath D{Name, HostHasIt, {}, {evaluate<Es>...}, {roundOperands<As>...}};
+  Datapath D{Name, HostSupports, {}, {evaluate<Es>...}, {roundOperands<As>...}};
   std::size_t Unit = 0;
   (setBlends<Es>(D.Blend[Unit++], All), ...);
   return D;

@@ -67,15 +67,15 @@ inline constexpr Table<EntryBits> TableOf = makeTable<EntryBits>();
 /// iteration), rounded to fp32.
 template <unsigned Degree> struct ExpPolynomial;
 template <> struct ExpPolynomial<2> {
-  static constexpr float C[] = {-0x1.56fae8p-1F, 0x1.5beba0p-3F};
+  static constexpr float Coefficients[] = {-0x1.56fae8p-1F, 0x1.5beba0p-3F};
 };
 template <> struct ExpPolynomial<3> {
-  static constexpr float C[] = {-0x1.62020ap-1F, 0x1.d82da4p-3F,
-                                -0x1.4095eap-5F};
+  static constexpr float Coefficients[] = {-0x1.62020ap-1F, 0x1.d82da4p-3F,
+                                           -0x1.4095eap-5F};
 };
 template <> struct ExpPolynomial<4> {
-  static constexpr float C[] = {-0x1.62d838p-1F, 0x1.ea4d86p-3F,
-                                -0x1.b338d2p-5F, 0x1.bc31dap-8F};
+  static constexpr float Coefficients[] = {-0x1.62d838p-1F, 0x1.ea4d86p-3F,
+                                           -0x1.b338d2p-5F, 0x1.bc31dap-8F};
 };
 
 /// Numbers of the piecewise linear unit: four pieces an octave. Slopes are of

@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Host, EveryLevel,
 // Not a sample: all 277 million fp32 numbers from -104 to -2^-26. Below, the
 // result is 0; above, 1 (the next tests). glibc's exp is good to 1 ulp of
 // double, so MPFR is asked only where that does not settle the float.
-TEST(ExpUnits, correctlyRoundedForEveryInput) {
+TEST(ExpUnits, CorrectlyRoundedForEveryInput) {
   const Datapath &Level = *datapaths().back();
   uint64_t Inputs = 0;
   uint64_t AskedMpfr = 0;
@@ -110,7 +110,7 @@ TEST(ExpUnits, correctlyRoundedForEveryInput) {
   RecordProperty("asked_mpfr", std::to_string(AskedMpfr));
 }
 
-TEST_P(EveryLevel, correctlyRoundedAgainstMpfr) {
+TEST_P(EveryLevel, CorrectlyRoundedAgainstMpfr) {
   uint64_t Wrong = 0;
   sweep(*GetParam(), CorrectlyRounded, 0x1p-30F, 90.0F, 30011,
         [&](const std::vector<float> &In, const std::vector<float> &Out) {
@@ -120,7 +120,7 @@ TEST_P(EveryLevel, correctlyRoundedAgainstMpfr) {
   EXPECT_EQ(Wrong, 0U);
 }
 
-TEST_P(EveryLevel, endsOfTheRange) {
+TEST_P(EveryLevel, EndsOfTheRange) {
   constexpr float Inf = std::numeric_limits<float>::infinity();
   float V[16] = {0.0F,   -0.0F,     -0x1p-149F, -0x1p-30F,  -103.97F, -103.98F,
                  -104.F, -1e30F,    -Inf,       -87.4F,     -90.0F,   -1.0F,
@@ -145,7 +145,7 @@ TEST_P(EveryLevel, endsOfTheRange) {
   }
 }
 
-TEST_P(EveryLevel, unitsKeepTheirBoundsAndFall) {
+TEST_P(EveryLevel, UnitsKeepTheirBoundsAndFall) {
   for (const ExpUnit &Unit : ExpUnits) {
     double Largest = 0;
     float Previous = 2.0F;
@@ -172,7 +172,7 @@ TEST_P(EveryLevel, unitsKeepTheirBoundsAndFall) {
   }
 }
 
-TEST_P(EveryLevel, sameBitsAsBaseline) {
+TEST_P(EveryLevel, SameBitsAsBaseline) {
   const Datapath &Baseline = *datapaths().front();
   for (uint32_t Unit = 0; Unit != ExpUnitCount; ++Unit)
     sweep(*GetParam(), Unit, 0x1p-40F, 120.0F, 4001,
@@ -184,7 +184,7 @@ TEST_P(EveryLevel, sameBitsAsBaseline) {
 }
 
 // Every number of the unit's grid and between, each unit one number at a time.
-TEST_P(EveryLevel, bitsOfTheScalarUnits) {
+TEST_P(EveryLevel, BitsOfTheScalarUnits) {
   for (uint32_t Unit = 1; Unit != ExpUnitCount; ++Unit)
     sweep(*GetParam(), Unit, 0x1p-40F, 120.0F, 1511,
           [&](const std::vector<float> &In, const std::vector<float> &Out) {
@@ -195,7 +195,7 @@ TEST_P(EveryLevel, bitsOfTheScalarUnits) {
           });
 }
 
-TEST_P(EveryLevel, operandsAreRoundedToNearest) {
+TEST_P(EveryLevel, OperandsAreRoundedToNearest) {
   // All exponents, and of significands those around every bf16 and fp16 number
   // and midpoint.
   std::vector<float> In;
@@ -231,7 +231,7 @@ TEST_P(EveryLevel, operandsAreRoundedToNearest) {
   EXPECT_EQ(W[3], Inf);
 }
 
-TEST(ExpUnits, optionsAreTheirPlaces) {
+TEST(ExpUnits, OptionsAreTheirPlaces) {
   for (std::size_t I = 0; I != std::size(BlendUnits); ++I)
     EXPECT_EQ(BlendUnits[I].Option, I);
   for (std::size_t I = 0; I != std::size(ExpUnits); ++I)

@@ -112,7 +112,7 @@ template <unsigned Degree> struct PolynomialExp {
     const Float16 Y = clampPower(Power) * -base2_exp::Log2E;
     const Int16 Whole = __builtin_convertvector(Y, Int16);
     const Float16 G = Y - __builtin_convertvector(Whole, Float16);
-    constexpr auto &C = ExpPolynomial<Degree>::C;
+    constexpr auto &C = ExpPolynomial<Degree>::Coefficients;
     Float16 Sum = C[Degree - 1];
 #pragma clang loop unroll(full)
     for (unsigned I = Degree - 1; I != 0; --I)

@@ -43,7 +43,7 @@ class HardBackward : public testing::TestWithParam<unsigned> {};
 /// T in front of all layers is 1; a unit that errs upwards passes it, and the
 /// front one's gradient with it. Held at 1 it would be another gradient than
 /// that of the layers behind.
-TEST_P(HardBackward, transmittanceMayRiseAbove1) {
+TEST_P(HardBackward, TransmittanceMayRiseAbove1) {
   const ReciprocalUnit &Unit = ReciprocalUnits[GetParam()];
   BackwardOptions O;
   O.Unit = static_cast<Reciprocal>(GetParam());

@@ -122,7 +122,7 @@ protected:
   }
 };
 
-TEST_F(HardCases, listsOfEveryLength) {
+TEST_F(HardCases, ListsOfEveryLength) {
   const std::vector<Gaussian> Scene{flat(2, 2, 9, 0.004F, 1),
                                     flat(2, 2, 9, 0.005F, 0)};
   for (const uint32_t Length : {1U, 16U, 17U, 1000U}) {
@@ -137,7 +137,7 @@ TEST_F(HardCases, listsOfEveryLength) {
     EXPECT_EQ(P, (Pixel{0, 0, 0, 1}));
 }
 
-TEST_F(HardCases, aMillionLayersEndAtTheirColor) {
+TEST_F(HardCases, AMillionLayersEndAtTheirColor) {
   const std::vector<Gaussian> Scene{flat(2, 2, 9, 0.004F, 0.75F)};
   const std::vector<uint32_t> Entries(1U << 20);
   const std::vector<Pixel> Is =
@@ -151,7 +151,7 @@ TEST_F(HardCases, aMillionLayersEndAtTheirColor) {
   }
 }
 
-TEST_F(HardCases, unsortedAndDuplicateEntries) {
+TEST_F(HardCases, UnsortedAndDuplicateEntries) {
   std::mt19937 Random(3);
   std::vector<Gaussian> Scene;
   for (int I = 0; I != 30; ++I)
@@ -166,7 +166,7 @@ TEST_F(HardCases, unsortedAndDuplicateEntries) {
       {Loop{.EachOnce = true}, Loop{.Most = 20}, Loop{.NeverStops = true}});
 }
 
-TEST_F(HardCases, boxEdgesOnCentresAndTileBorders) {
+TEST_F(HardCases, BoxEdgesOnCentresAndTileBorders) {
   // The last tile of the largest picture: centres up to 65535.5, an ulp of
   // which is 1/256 px.
   for (const unsigned Origin : {0U, 64U, 16384U, 65472U}) {
@@ -189,7 +189,7 @@ TEST_F(HardCases, boxEdgesOnCentresAndTileBorders) {
   }
 }
 
-TEST_F(HardCases, radiiBeyondAnInt) {
+TEST_F(HardCases, RadiiBeyondAnInt) {
   constexpr float Inf = std::numeric_limits<float>::infinity();
   std::vector<Gaussian> Scene;
   for (const float Extent : {2.2e9F, 1e19F, 3e38F, Inf})
@@ -204,7 +204,7 @@ TEST_F(HardCases, radiiBeyondAnInt) {
              {Loop{.Most = Entries.size() - 1}});
 }
 
-TEST_F(HardCases, opaqueStacks) {
+TEST_F(HardCases, OpaqueStacks) {
   for (const float Opacity : {0.99F, 1.0F})
     for (const uint32_t Depth : {2U, 3U, 16U, 64U}) {
       std::vector<Gaussian> Scene;
@@ -226,7 +226,7 @@ TEST_F(HardCases, opaqueStacks) {
     }
 }
 
-TEST_F(HardCases, alphaAtItsThresholds) {
+TEST_F(HardCases, AlphaAtItsThresholds) {
   std::vector<Gaussian> Scene;
   std::vector<uint32_t> Entries;
   uint32_t I = 0;

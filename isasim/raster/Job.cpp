@@ -124,7 +124,7 @@ static uint32_t refusal(const Command &C, const Job &J, RasterMemory &Memory) {
   const auto Cutoff = std::bit_cast<float>(C.Cutoff);
   if (!(Cutoff >= 0.0F && Cutoff < 1.0F))
     return VR_BAD_CUTOFF;
-  if (J.TakesPushed ? C.PushedTooMany : J.Count > VR_MAX_COUNT)
+  if (J.TakesPushed ? C.PushOverflowed : J.Count > VR_MAX_COUNT)
     return VR_BAD_COUNT;
   if (J.TailShare > VR_TAIL_WHOLE ||
       (J.mayHandOver() &&

@@ -16,7 +16,7 @@ std::vector<const Level *>
 usableLevels(std::initializer_list<const Level *> Levels) {
   std::vector<const Level *> Result;
   for (const Level *L : Levels)
-    if (L->HostHasIt())
+    if (L->HostSupports())
       Result.push_back(L);
   return Result;
 }

@@ -180,7 +180,7 @@ void RasterAgent::write(Csr C, std::span<const uint32_t> LaneValues,
 void RasterAgent::push(uint32_t Mask) {
   for (; Mask != 0; Mask &= Mask - 1) {
     if (PushBuffer.size() == VR_MAX_PUSHED) {
-      PushedTooMany = true;
+      PushOverflowed = true;
       return;
     }
     PushBuffer.push_back(
@@ -194,7 +194,7 @@ void RasterAgent::start() {
   // Without the mode, what was pushed waits for a command that takes it.
   if (ModePushed.get(Bank.Mode)) {
     Queue.back().Pushed = std::exchange(PushBuffer, {});
-    Queue.back().PushedTooMany = std::exchange(PushedTooMany, false);
+    Queue.back().PushOverflowed = std::exchange(PushOverflowed, false);
   }
 }
 

@@ -105,7 +105,7 @@ private:
   Command Bank;
   std::vector<Gaussian> Staging; ///< one descriptor a lane
   std::vector<Gaussian> PushBuffer;
-  bool PushedTooMany = false;
+  bool PushOverflowed = false;
   std::vector<uint32_t> PixelIndex;
   std::deque<Command> Queue;
   std::vector<Pixel> Drained;

@@ -14,7 +14,7 @@ std::array<uint32_t, 16> lanes(uint32_t First) {
   return V;
 }
 
-TEST(RasterAgentCsrs, onlyTheAgentsOwnAreFound) {
+TEST(RasterAgentCsrs, OnlyTheAgentsOwnAreFound) {
   for (const CsrInfo &Info : isasim::CsrTable)
     EXPECT_EQ(findCsr(Info.Number), Info.Raster ? &Info : nullptr) << Info.Name;
   EXPECT_EQ(findCsr(0x7dd), nullptr);
@@ -22,7 +22,7 @@ TEST(RasterAgentCsrs, onlyTheAgentsOwnAreFound) {
 }
 
 // Every CSR is reached: a read, and a write where there is a rule.
-TEST(RasterAgentCsrs, everyCsrIsImplemented) {
+TEST(RasterAgentCsrs, EveryCsrIsImplemented) {
   for (const CsrInfo &Info : isasim::CsrTable) {
     if (!Info.Raster)
       continue;
@@ -37,7 +37,7 @@ TEST(RasterAgentCsrs, everyCsrIsImplemented) {
   }
 }
 
-TEST(RasterAgentCsrs, scalarIsTheLastActiveLane) {
+TEST(RasterAgentCsrs, ScalarIsTheLastActiveLane) {
   RasterAgent Agent;
   for (const uint32_t Mask : {0x1U, 0x8000U, 0x0ff0U, 0x5U}) {
     Agent.write(Csr::Count, lanes(100), Mask);
@@ -45,7 +45,7 @@ TEST(RasterAgentCsrs, scalarIsTheLastActiveLane) {
   }
 }
 
-TEST(RasterAgentCsrs, perLaneLeavesInactiveLanes) {
+TEST(RasterAgentCsrs, PerLaneLeavesInactiveLanes) {
   RasterAgent Agent;
   Agent.write(Csr::GTag, lanes(100), 0xffff);
   Agent.write(Csr::GTag, lanes(200), 0x0a);
@@ -55,7 +55,7 @@ TEST(RasterAgentCsrs, perLaneLeavesInactiveLanes) {
             (std::vector<uint32_t>{100, 201, 102, 203, 104, 0}));
 }
 
-TEST_F(AgentTest, fullQueueRefusesUntilOneIsTaken) {
+TEST_F(AgentTest, FullQueueRefusesUntilOneIsTaken) {
   configure({});
   RasterAgent Small({.Lanes = 1, .QueueDepth = 2});
   Rasterizer Serving(Memory, {&Small});
@@ -74,7 +74,7 @@ TEST_F(AgentTest, fullQueueRefusesUntilOneIsTaken) {
   EXPECT_FALSE(Small.isBusy());
 }
 
-TEST_F(AgentTest, bankIsCopiedAtStart) {
+TEST_F(AgentTest, BankIsCopiedAtStart) {
   const Gaussian G = roundGaussian(32, 32, 4, 0.5F);
   configure(std::span(&G, 1));
   set(Csr::Start, 0U);
@@ -85,7 +85,7 @@ TEST_F(AgentTest, bankIsCopiedAtStart) {
   EXPECT_EQ(Agent.counters().Gaussians, 1U);
 }
 
-TEST_F(AgentTest, firstFailureSticksUntilWait) {
+TEST_F(AgentTest, FirstFailureSticksUntilWait) {
   configure({});
   set(Csr::TileShape, 0U);
   set(Csr::Start, 0U);
@@ -107,7 +107,7 @@ TEST_F(AgentTest, firstFailureSticksUntilWait) {
   EXPECT_EQ(Agent.counters().Commands, 3U);
 }
 
-TEST_F(AgentTest, countersHaveHighWords) {
+TEST_F(AgentTest, CountersHaveHighWords) {
   set(Csr::Start, 0U);
   Agent.complete(VR_OK, {1ULL << 32 | 2, 3ULL << 32 | 4, 5ULL << 32 | 6,
                          7ULL << 32 | 8, 9ULL << 32 | 10, 11ULL << 32 | 12});
@@ -135,7 +135,7 @@ void stageAndPush(RasterAgent &Agent, std::span<const Gaussian> Scene,
   Agent.write(Csr::Push, std::array<uint32_t, 16>{}, Mask);
 }
 
-TEST_F(AgentTest, pushedEqualsList) {
+TEST_F(AgentTest, PushedEqualsList) {
   std::vector<Gaussian> Scene;
   for (unsigned I = 0; I != 16; ++I)
     Scene.push_back(roundGaussian(4.0F * static_cast<float>(I), 30, 5, 0.6F,
@@ -162,7 +162,7 @@ TEST_F(AgentTest, pushedEqualsList) {
   EXPECT_EQ(Agent.counters().Gaussians, 2 * ListWork.Gaussians);
 }
 
-TEST_F(AgentTest, pushesWaitForACommandThatTakesThem) {
+TEST_F(AgentTest, PushesWaitForACommandThatTakesThem) {
   const Gaussian G = roundGaussian(32, 32, 4, 0.5F);
   const std::vector<Pixel> Right = render(std::span(&G, 1));
   stageAndPush(Agent, std::span(&G, 1), 1);
@@ -174,7 +174,7 @@ TEST_F(AgentTest, pushesWaitForACommandThatTakesThem) {
   EXPECT_EQ(pixels(), Right);
 }
 
-TEST_F(AgentTest, overfullPushBufferIsBadCount) {
+TEST_F(AgentTest, OverfullPushBufferIsBadCount) {
   const Gaussian G = roundGaussian(32, 32, 4, 0.5F);
   configure({}, {.Mode = ModePushed.put(1)});
   for (unsigned I = 0; I != VR_MAX_PUSHED / 16; ++I)
@@ -188,7 +188,7 @@ TEST_F(AgentTest, overfullPushBufferIsBadCount) {
   EXPECT_EQ(start(), VR_OK);
 }
 
-TEST_F(AgentTest, drainedPixelsEqualMemory) {
+TEST_F(AgentTest, DrainedPixelsEqualMemory) {
   const Gaussian G = roundGaussian(110, 205, 6, 0.7F);
   const TileCommand Tile{.X = 100, .Y = 200, .Width = 17, .Height = 9};
   const std::vector<Pixel> Right = render(std::span(&G, 1), Tile);

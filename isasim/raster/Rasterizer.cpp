@@ -18,8 +18,9 @@ public:
   /// \p KeepDetails: the Gaussians too, for the log.
   Execution(RasterAgent &Served, RasterMemory &Global, TileBuffer &Buffer,
             const Datapath &Unit, bool KeepDetails)
-      : Agent(Served), C(Served.front()), Work(beginCommand(Served, Global)),
-        Memory(Global), Tile(Buffer), Lanes(Unit), Keeps(KeepDetails) {}
+      : Agent(Served), Current(Served.front()),
+        Work(beginCommand(Served, Global)), Memory(Global), Tile(Buffer),
+        Lanes(Unit), KeepsDetails(KeepDetails) {}
 
   /// To be called once.
   CommandWork run();
@@ -37,56 +38,56 @@ private:
   void writeTail() const;
 
   RasterAgent &Agent;
-  const Command &C;
+  const Command &Current;
   CommandWork Work;
-  const Job &J = Work.What;
+  const Job &Task = Work.What;
   RasterMemory &Memory;
   TileBuffer &Tile;
   const Datapath &Lanes;
-  bool Keeps;
+  bool KeepsDetails;
   uint32_t Done = 0; ///< entries of the list
 };
 
 void Execution::blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
                          const BlendOptions &Options) {
-  const BoxWork Result = blendFunction(J, Lanes)(G, Options, Tile);
+  const BoxWork Result = blendFunction(Task, Lanes)(G, Options, Tile);
   Work.Counts.Intersecting += Intersects;
   Work.Counts.Clipped += Result.Clipped;
   Work.Counts.Fragments += Result.Fragments;
   Work.Counts.Blends += Result.Blends;
-  if (Keeps)
+  if (KeepsDetails)
     Work.Gaussians.push_back(
         {Address, Result.X, Result.Y, Result.Width, Result.Height,
          static_cast<uint16_t>(Result.Fragments), Intersects});
 }
 
 uint32_t Execution::blendPushed() {
-  for (const Gaussian &G : C.Pushed) {
+  for (const Gaussian &G : Current.Pushed) {
     if (Tile.Live == 0)
       break;
     ++Work.Counts.Gaussians;
     if (const uint32_t Status = checkGaussian(G))
       return Status;
-    blendOne(G, 0, (G.Tag & VR_INTERSECT) != 0, J.Blend);
+    blendOne(G, 0, (G.Tag & VR_INTERSECT) != 0, Task.Blend);
   }
   return VR_OK;
 }
 
 /// Whether a reason to hand over holds with \p Remaining entries left.
 bool Execution::isTail(uint32_t Remaining) const {
-  const uint64_t Pixels = uint64_t{J.Width} * J.Height;
+  const uint64_t Pixels = uint64_t{Task.Width} * Task.Height;
   const uint64_t Saturated = Pixels - Tile.Live;
-  return Remaining <= J.TailCount ||
-         (J.TailShare != 0 &&
-          Saturated * VR_TAIL_WHOLE >= J.TailShare * Pixels);
+  return Remaining <= Task.TailCount ||
+         (Task.TailShare != 0 &&
+          Saturated * VR_TAIL_WHOLE >= Task.TailShare * Pixels);
 }
 
 uint32_t Execution::blendList() {
-  BlendOptions Options = J.Blend;
-  const GaussianList List(J, Memory);
+  BlendOptions Options = Task.Blend;
+  const GaussianList List(Task, Memory);
   Fetched Entry;
-  for (; Done != J.Count && Tile.Live != 0; ++Done) {
-    if (J.mayHandOver() && isTail(J.Count - Done)) {
+  for (; Done != Task.Count && Tile.Live != 0; ++Done) {
+    if (Task.mayHandOver() && isTail(Task.Count - Done)) {
       Work.HandedOver = true;
       break;
     }
@@ -101,14 +102,14 @@ uint32_t Execution::blendList() {
 }
 
 uint32_t Execution::blend() {
-  if (J.Refusal)
-    return J.Refusal;
-  Tile.reset(J.X, J.Y, J.Width, J.Height);
-  return J.TakesPushed ? blendPushed() : blendList();
+  if (Task.Refusal)
+    return Task.Refusal;
+  Tile.reset(Task.X, Task.Y, Task.Width, Task.Height);
+  return Task.TakesPushed ? blendPushed() : blendList();
 }
 
 void Execution::copyRow(unsigned Row, std::byte *To) const {
-  for (unsigned Column = 0; Column != J.Width; ++Column) {
+  for (unsigned Column = 0; Column != Task.Width; ++Column) {
     const unsigned At = Row * TileBuffer::Stride + Column;
     // T's sign says "saturated", no more.
     const Pixel P{Tile.R[At], Tile.G[At], Tile.B[At], std::fabs(Tile.T[At])};
@@ -118,36 +119,37 @@ void Execution::copyRow(unsigned Row, std::byte *To) const {
 
 void Execution::writePixels() const {
   std::vector<Pixel> &Drained = Agent.drainedTile();
-  if (J.Drains)
-    Drained.resize(std::size_t{J.Width} * J.Height);
-  for (unsigned Row = 0; J.KeepsLast && Row != J.Height; ++Row)
-    std::memcpy(lastRow(J, Memory, Row), Tile.Last + Row * TileBuffer::Stride,
-                J.Width * sizeof(*Tile.Last));
-  for (unsigned Row = 0; Row != J.Height; ++Row)
-    copyRow(Row, J.Drains
-                     ? reinterpret_cast<std::byte *>(&Drained[Row * J.Width])
-                     : outputRow(J, Memory, Row));
+  if (Task.Drains)
+    Drained.resize(std::size_t{Task.Width} * Task.Height);
+  for (unsigned Row = 0; Task.KeepsLast && Row != Task.Height; ++Row)
+    std::memcpy(lastRow(Task, Memory, Row),
+                Tile.Last + Row * TileBuffer::Stride,
+                Task.Width * sizeof(*Tile.Last));
+  for (unsigned Row = 0; Row != Task.Height; ++Row)
+    copyRow(Row, Task.Drains
+                     ? reinterpret_cast<std::byte *>(&Drained[Row * Task.Width])
+                     : outputRow(Task, Memory, Row));
 }
 
 /// Fills the command's vx_tail.
 void Execution::writeTail() const {
   Tail Record{};
-  Record.Rest = C;
+  Record.Rest = Current;
   Record.Rest.List += 4 * Done;
   Record.Rest.Count -= Done;
   Record.Core = Work.Core;
   Record.LiveCount = Tile.Live;
-  for (unsigned Row = 0; Row != J.Height; ++Row)
-    for (unsigned Column = 0; Column != J.Width; ++Column)
+  for (unsigned Row = 0; Row != Task.Height; ++Row)
+    for (unsigned Column = 0; Column != Task.Width; ++Column)
       if (!std::signbit(Tile.T[Row * TileBuffer::Stride + Column]))
         Record.Live[2 * Row + Column / 32] |= 1U << Column % 32;
-  std::memcpy(Memory.range(J.TailRecord, sizeof(Record)), &Record,
+  std::memcpy(Memory.range(Task.TailRecord, sizeof(Record)), &Record,
               sizeof(Record));
 }
 
 CommandWork Execution::run() {
-  if (Keeps)
-    Work.Pushed = C.Pushed;
+  if (KeepsDetails)
+    Work.Pushed = Current.Pushed;
   Work.Status = blend();
   if (!Work.hasFailed())
     writePixels();

@@ -23,7 +23,7 @@ Gaussian flat(float X, float Y, float ExtentX, float ExtentY, float Opacity,
   return {{X, Y}, {0, 0, 0}, Opacity, {Red, 2, 3}, {ExtentX, ExtentY}, 0};
 }
 
-TEST_F(RasterizerTest, oneGaussianIsItsFormula) {
+TEST_F(RasterizerTest, OneGaussianIsItsFormula) {
   const Gaussian G{{130.3F, 77.8F},    {0.02F, 0.008F, 0.03F}, 0.8F,
                    {0.9F, 0.4F, 0.1F}, {1000, 1000},           7};
   const TileCommand Tile{.X = 100, .Y = 50, .Width = 60, .Height = 50};
@@ -49,21 +49,21 @@ TEST_F(RasterizerTest, oneGaussianIsItsFormula) {
   EXPECT_EQ(Agent.counters(), (Counters{1, 1, 0, 3000, Blends}));
 }
 
-TEST_F(RasterizerTest, twoFlatGaussiansBlendFrontToBack) {
+TEST_F(RasterizerTest, TwoFlatGaussiansBlendFrontToBack) {
   const Gaussian Scene[] = {flat(8, 8, 100, 100, 0.5F, 1),
                             flat(8, 8, 100, 100, 0.25F, 4)};
   for (const Pixel &P : render(Scene, {.Width = 16, .Height = 16}))
     EXPECT_EQ(P, (Pixel{0.5F + 4 * 0.125F, 1.25F, 1.875F, 0.375F}));
 }
 
-TEST_F(RasterizerTest, alphaIsClampedAt099) {
+TEST_F(RasterizerTest, AlphaIsClampedAt099) {
   const Gaussian G = flat(8, 8, 100, 100, 5.0F);
   const Pixel P = render(only(G))[0];
   EXPECT_EQ(P.R, 0.99F);
   EXPECT_EQ(P.T, 1.0F - 0.99F);
 }
 
-TEST_F(RasterizerTest, alphaBelow1Of255IsSkipped) {
+TEST_F(RasterizerTest, AlphaBelow1Of255IsSkipped) {
   const float Limit = 1.0F / 255.0F;
   for (const float Opacity : {Limit, std::nextafter(Limit, 0.0F)}) {
     const Gaussian G = flat(8, 8, 100, 100, Opacity);
@@ -73,7 +73,7 @@ TEST_F(RasterizerTest, alphaBelow1Of255IsSkipped) {
   EXPECT_EQ(Agent.counters().Blends, 4096U);
 }
 
-TEST_F(RasterizerTest, opacityThatNeverCounts) {
+TEST_F(RasterizerTest, OpacityThatNeverCounts) {
   for (const float Opacity : {0.0F, -0.0F, -1.0F, -Inf, 1e-30F}) {
     const Gaussian G = roundGaussian(32, 32, 4, Opacity);
     for (const Pixel &P : render(only(G)))
@@ -82,7 +82,7 @@ TEST_F(RasterizerTest, opacityThatNeverCounts) {
   EXPECT_EQ(Agent.counters().Blends, 0U);
 }
 
-TEST_F(RasterizerTest, powerAboveZeroOrNanIsSkipped) {
+TEST_F(RasterizerTest, PowerAboveZeroOrNanIsSkipped) {
   Gaussian G = roundGaussian(32.5F, 32.5F, 4, 0.5F);
   G.Conic[0] = G.Conic[2] = -1; // power > 0 but at the centre
   const std::vector<Pixel> Out = render(only(G));
@@ -96,7 +96,7 @@ TEST_F(RasterizerTest, powerAboveZeroOrNanIsSkipped) {
   EXPECT_EQ(Agent.counters().Blends, 1U);
 }
 
-TEST_F(RasterizerTest, infiniteOpacity) {
+TEST_F(RasterizerTest, InfiniteOpacity) {
   Gaussian G = flat(32, 32, 100, 100, Inf);
   EXPECT_EQ(render(only(G))[0].T, 1.0F - 0.99F);
   G.Conic[0] = 1e30F; // exp is 0, inf * 0 is NaN: skipped
@@ -105,7 +105,7 @@ TEST_F(RasterizerTest, infiniteOpacity) {
 
 /// Fragments of a box are the pixels whose centres satisfy the rule of
 /// docs/abi.md, judged one by one.
-TEST_F(RasterizerTest, boxClipping) {
+TEST_F(RasterizerTest, BoxClipping) {
   const float Means[] = {-1e30F, -70.0F, -3.2F, 0.0F,  0.5F, 31.7F, 63.5F,
                          64.0F,  65.25F, 150,   1e30F, -Inf, Inf};
   const float Extents[] = {-1.0F, 0.0F,  0.25F, 0.5F,  0.7F, 3.0F,
@@ -143,7 +143,7 @@ TEST_F(RasterizerTest, boxClipping) {
 }
 
 // Rows and columns have like centres, so that reading one for the other shows.
-TEST_F(RasterizerTest, boxesOfEveryWidthTouchTheirPixelsOnly) {
+TEST_F(RasterizerTest, BoxesOfEveryWidthTouchTheirPixelsOnly) {
   for (unsigned Width = 1; Width <= 64; ++Width)
     for (unsigned First = 0; First + Width <= 64; First += 5) {
       const float Half = 0.5F * static_cast<float>(Width);
@@ -158,7 +158,7 @@ TEST_F(RasterizerTest, boxesOfEveryWidthTouchTheirPixelsOnly) {
     }
 }
 
-TEST_F(RasterizerTest, stopRulesAtTheExactCutoff) {
+TEST_F(RasterizerTest, StopRulesAtTheExactCutoff) {
   // T goes 1, 1/2, 1/4; the cut-off is what the second would leave.
   const Gaussian Scene[] = {flat(8, 8, 9, 9, 0.5F), flat(8, 8, 9, 9, 0.5F)};
   const uint32_t AtEqual = OptionsStopAtEqual.put(1);
@@ -175,7 +175,7 @@ TEST_F(RasterizerTest, stopRulesAtTheExactCutoff) {
   EXPECT_EQ(T(Below, AtEqual), 0.25F);
 }
 
-TEST_F(RasterizerTest, cutoffZeroNeverStops) {
+TEST_F(RasterizerTest, CutoffZeroNeverStops) {
   const std::vector<Gaussian> Scene(40, flat(8, 8, 9, 9, 0.99F));
   const Pixel P = render(Scene, {.Cutoff = 0, .Width = 16, .Height = 16})[0];
   EXPECT_EQ(P.T, 0.0F);
@@ -184,7 +184,7 @@ TEST_F(RasterizerTest, cutoffZeroNeverStops) {
   EXPECT_EQ(Agent.counters().Blends, 80U * 256);
 }
 
-TEST_F(RasterizerTest, saturatedPixelTakesNoFainterGaussian) {
+TEST_F(RasterizerTest, SaturatedPixelTakesNoFainterGaussian) {
   // The second would leave T under the cut-off: it is not blended and closes
   // the pixel to the third, though that alone would fit.
   const Gaussian Scene[] = {flat(8, 8, 9, 9, 0.5F), flat(8, 8, 9, 9, 0.9F),
@@ -194,7 +194,7 @@ TEST_F(RasterizerTest, saturatedPixelTakesNoFainterGaussian) {
   EXPECT_EQ(P.T, 0.5F);
 }
 
-TEST_F(RasterizerTest, tileEndsWhenAllPixelsAreSaturated) {
+TEST_F(RasterizerTest, TileEndsWhenAllPixelsAreSaturated) {
   // 0.99 blends, the second saturates all; the third is never fetched.
   std::vector<Gaussian> Scene(5, flat(8, 8, 100, 100, 0.99F));
   Scene[4].Mean[0] = NotANumber;
@@ -207,7 +207,7 @@ TEST_F(RasterizerTest, tileEndsWhenAllPixelsAreSaturated) {
   EXPECT_EQ(Agent.counters().Gaussians, 2U + 5U);
 }
 
-TEST_F(RasterizerTest, skipSaturatedChangesFragmentsOnly) {
+TEST_F(RasterizerTest, SkipSaturatedChangesFragmentsOnly) {
   std::vector<Gaussian> Scene;
   for (int I = 0; I != 60; ++I)
     Scene.push_back(roundGaussian(static_cast<float>(I % 7) * 9,
@@ -233,7 +233,7 @@ TEST_F(RasterizerTest, skipSaturatedChangesFragmentsOnly) {
   EXPECT_EQ(Agent.counters().Clipped, Before.Clipped);
 }
 
-TEST_F(RasterizerTest, countZeroIsAnEmptyTile) {
+TEST_F(RasterizerTest, CountZeroIsAnEmptyTile) {
   Memory.put<float>(Pixels, std::vector<float>(64 * 64 * 4, 7.0F));
   configure({}, {.Width = 5, .Height = 3});
   set(Csr::List, 0U); // nothing is read there
@@ -246,7 +246,7 @@ TEST_F(RasterizerTest, countZeroIsAnEmptyTile) {
   EXPECT_EQ(Agent.counters(), (Counters{1, 0, 0, 0, 0}));
 }
 
-TEST_F(RasterizerTest, statusCodesOfTheBank) {
+TEST_F(RasterizerTest, StatusCodesOfTheBank) {
   struct Case {
     Csr Register;
     uint32_t Value;
@@ -303,7 +303,7 @@ TEST_F(RasterizerTest, statusCodesOfTheBank) {
   EXPECT_EQ(Agent.counters().Commands, std::size(Cases));
 }
 
-TEST_F(RasterizerTest, firstCheckDecides) {
+TEST_F(RasterizerTest, FirstCheckDecides) {
   // Everything is wrong; repaired in the documented order.
   configure({});
   set(Csr::Mode, 16U);
@@ -324,7 +324,7 @@ TEST_F(RasterizerTest, firstCheckDecides) {
   EXPECT_EQ(start(), VR_UNMAPPED);
 }
 
-TEST_F(RasterizerTest, listEntryOutOfRangeIsUnmapped) {
+TEST_F(RasterizerTest, ListEntryOutOfRangeIsUnmapped) {
   for (const uint32_t Number : {0xffffffffU, 0x05555556U, 200000U}) {
     const Gaussian Scene[] = {flat(8, 8, 4, 4, 0.5F), flat(8, 8, 4, 4, 0.5F)};
     configure(Scene);
@@ -333,7 +333,7 @@ TEST_F(RasterizerTest, listEntryOutOfRangeIsUnmapped) {
   }
 }
 
-TEST_F(RasterizerTest, intersectTagIsCountedAndNoNumber) {
+TEST_F(RasterizerTest, IntersectTagIsCountedAndNoNumber) {
   const Gaussian Scene[] = {flat(8, 8, 100, 100, 0.5F, 1),
                             flat(8, 8, 100, 100, 0.25F, 4)};
   const std::vector<Pixel> Plain = render(Scene);
@@ -366,7 +366,7 @@ TEST_F(RasterizerTest, intersectTagIsCountedAndNoNumber) {
 }
 
 // In a pushed descriptor the tag is the record's.
-TEST_F(RasterizerTest, intersectTagOfAPushedDescriptor) {
+TEST_F(RasterizerTest, IntersectTagOfAPushedDescriptor) {
   configure({}, {.Mode = ModePushed.put(1)});
   set(Csr::GTag, VR_INTERSECT | 5U);
   set(Csr::Push, 1U);
@@ -377,7 +377,7 @@ TEST_F(RasterizerTest, intersectTagOfAPushedDescriptor) {
   EXPECT_EQ(Agent.counters().Intersecting, 1U);
 }
 
-TEST_F(RasterizerTest, nanAnywhereInADescriptor) {
+TEST_F(RasterizerTest, NanAnywhereInADescriptor) {
   for (unsigned Word = 0; Word != 12; ++Word) {
     Memory.put<float>(Pixels, std::vector<float>(64 * 64 * 4, 7.0F));
     Gaussian Scene[] = {flat(8, 8, 4, 4, 0.5F), flat(8, 8, 4, 4, 0.5F)};
@@ -392,14 +392,14 @@ TEST_F(RasterizerTest, nanAnywhereInADescriptor) {
   }
 }
 
-TEST_F(RasterizerTest, infinityIsNotANan) {
+TEST_F(RasterizerTest, InfinityIsNotANan) {
   const Gaussian G{{Inf, 3}, {1, 0, 1}, 0.5F, {1, 1, 1}, {Inf, Inf}, 0};
   render(only(G));
   EXPECT_EQ(Agent.counters().Fragments, 4096U);
   EXPECT_EQ(Agent.counters().Blends, 0U);
 }
 
-TEST_F(RasterizerTest, agentsAreServedInTurn) {
+TEST_F(RasterizerTest, AgentsAreServedInTurn) {
   // Each agent's commands write its number to the same pixel; what is left
   // after each step tells whose turn it was.
   std::vector<RasterAgent> Agents(4);
@@ -433,7 +433,7 @@ TEST_F(RasterizerTest, agentsAreServedInTurn) {
   EXPECT_TRUE(Agents[1].isBusy());
 }
 
-TEST_F(RasterizerTest, floatEnvironmentOfTheCallerDoesNotMatter) {
+TEST_F(RasterizerTest, FloatEnvironmentOfTheCallerDoesNotMatter) {
   std::vector<Gaussian> Scene;
   for (int I = 0; I != 20; ++I)
     Scene.push_back(

@@ -45,7 +45,7 @@ template <unsigned Degree> float polynomialExp(float Power) {
   const float G = Y - Whole;
   float Sum = 0;
   for (unsigned I = Degree; I != 0; --I)
-    Sum = Sum * G + ExpPolynomial<Degree>::C[I - 1];
+    Sum = Sum * G + ExpPolynomial<Degree>::Coefficients[I - 1];
   return scaled(Sum * G + 1.0F, static_cast<int32_t>(Whole), 0);
 }
 

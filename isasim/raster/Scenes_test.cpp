@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Host, EveryLevel,
                                            datapaths().end()),
                          [](const auto &Info) { return Info.param->Name; });
 
-TEST_P(EveryLevel, bitsOfTheScalarLoop) {
+TEST_P(EveryLevel, BitsOfTheScalarLoop) {
   Counters All;
   for (uint32_t Seed = 0; Seed != 60; ++Seed) {
     const Scene S = randomScene(Seed);
@@ -172,7 +172,7 @@ TEST_P(EveryLevel, bitsOfTheScalarLoop) {
   EXPECT_GT(All.Blends, 100000U);
 }
 
-TEST_P(EveryLevel, everyLaneHasTheBitsOfTheScalarLoop) {
+TEST_P(EveryLevel, EveryLaneHasTheBitsOfTheScalarLoop) {
   uint32_t Seed = 0;
   for (uint32_t Exp = 0; Exp != ExpUnitCount; ++Exp)
     for (uint32_t Blend = 0; Blend != BlendUnitCount; ++Blend)
@@ -247,7 +247,7 @@ protected:
   }
 };
 
-TEST_F(ScenesTest, closeToDoublesOutsideDoubtfulPixels) {
+TEST_F(ScenesTest, CloseToDoublesOutsideDoubtfulPixels) {
   std::size_t Doubtful = 0;
   std::size_t All = 0;
   for (uint32_t Seed = 100; Seed != 140; ++Seed) {
@@ -271,7 +271,7 @@ TEST_F(ScenesTest, closeToDoublesOutsideDoubtfulPixels) {
   EXPECT_LT(Doubtful, All / 20);
 }
 
-TEST_F(ScenesTest, blendsAreThoseOfDoubles) {
+TEST_F(ScenesTest, BlendsAreThoseOfDoubles) {
   // One pixel a tile, so that the counter is the pixel's.
   std::size_t Compared = 0;
   for (uint32_t Seed = 200; Seed != 400; ++Seed) {
@@ -293,7 +293,7 @@ TEST_F(ScenesTest, blendsAreThoseOfDoubles) {
 // Largest difference from the default lane outside doubtful pixels, over ten
 // scenes of up to 400 layers. Without a cut-off: at one of a few percent a
 // coarser lane may stop a Gaussian earlier, which any amount can hang on.
-TEST_F(ScenesTest, coarserLanesStayWithinTheirBounds) {
+TEST_F(ScenesTest, CoarserLanesStayWithinTheirBounds) {
   struct Bound {
     uint32_t Options;
     double Least, Most;
@@ -330,7 +330,7 @@ TEST_F(ScenesTest, coarserLanesStayWithinTheirBounds) {
   }
 }
 
-TEST_F(ScenesTest, anotherRasterizerGivesTheSameBits) {
+TEST_F(ScenesTest, AnotherRasterizerGivesTheSameBits) {
   const Scene S = randomScene(7);
   const std::vector<Pixel> First = renderScene(S);
   const Counters Work = Agent.counters();

@@ -43,11 +43,11 @@ Expected<LaunchShape> shapeOf(const Kernel &K, const KernelRequest &R) {
 Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
                                          const std::string &What) {
   const uint64_t Address = NextFree;
-  const uint64_t End = VX_GLOBAL_BASE + M->config().GlobalBytes;
+  const uint64_t End = VX_GLOBAL_BASE + Device->config().GlobalBytes;
   if (Address > End || Bytes > End - Address)
     return usage(fmt::format("{} bytes more do not fit the {} bytes of global "
                              "memory",
-                             Bytes, M->config().GlobalBytes));
+                             Bytes, Device->config().GlobalBytes));
   Watch->allocated(static_cast<uint32_t>(Address), Bytes, What);
   NextFree =
       alignLaunch(Address + std::max<uint64_t>(Bytes, 1) + Watch->guardBytes());
@@ -69,7 +69,7 @@ Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
       reserve(Bytes, fmt::format("buffer '{}'", ArgName));
   if (!Address)
     return Address;
-  M->write(*Address, Contents);
+  Device->write(*Address, Contents);
   // Without a file it is zeros by definition.
   Watch->hostWrote(*Address, Bytes);
   if (!In.WriteTo.empty())
@@ -83,7 +83,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     return usage(fmt::format("{} arguments, expected {} for kernel '{}'",
                              R.Args.size(), K.Args.size(), K.Name));
   Args.resize(K.ArgsBytes);
-  LocalPlaces Locals(K, M->config());
+  LocalPlaces Locals(K, Device->config());
   for (size_t N = 0; N != K.Args.size(); ++N) {
     const KernelArg &Arg = K.Args[N];
     const Expected<KernelInput> In = parseInput(R.Args[N]);
@@ -133,7 +133,7 @@ Expected<Success> KernelLaunch::write(const Launch &L) {
       return Address.error();
     Parts.*Part = *Address;
   }
-  L.write(*M, *Watch, Parts, Args);
+  L.write(*Device, *Watch, Parts, Args);
   return Success{};
 }
 
@@ -173,12 +173,12 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
 }
 
 Expected<Success> KernelLaunch::finish() const {
-  const Printed P = printedBy(*M, Parts);
+  const Printed P = printedBy(*Device, Parts);
   std::fwrite(P.Text.data(), 1, P.Text.size(), stdout);
   if (P.Dropped)
     printOut("[{} bytes of printf dropped]\n", P.Dropped);
   for (const Output &O : Outputs) {
-    const std::byte *From = M->hostPointer(O.Address, O.Bytes);
+    const std::byte *From = Device->hostPointer(O.Address, O.Bytes);
     Watch->hostRead(O.Address, O.Bytes);
     if (Expected<Success> Ok = writeFileAtomically(O.File, From, O.Bytes); !Ok)
       return Ok;

@@ -26,7 +26,8 @@ public:
   Expected<Success> finish() const;
 
 private:
-  KernelLaunch(Machine &MIn, Session &WatchIn) : M(&MIn), Watch(&WatchIn) {}
+  KernelLaunch(Machine &Device, Session &WatchIn)
+      : Device(&Device), Watch(&WatchIn) {}
 
   Expected<uint32_t> reserve(uint64_t Bytes, const std::string &What);
   Expected<uint32_t> placeBuffer(const KernelInput &In,
@@ -41,7 +42,7 @@ private:
     uint64_t Bytes;
   };
 
-  Machine *M;
+  Machine *Device;
   Session *Watch;
   std::string Name;
   uint64_t NextFree = 0;       ///< in global memory; nothing is ever freed

@@ -45,11 +45,11 @@ int Log = -1;
 thread_local bool IsInside = false;
 
 struct Inside {
-  bool Was = IsInside;
+  bool WasInside = IsInside;
   Inside() { IsInside = true; }
   Inside(const Inside &) = delete;
   Inside &operator=(const Inside &) = delete;
-  ~Inside() { IsInside = Was; }
+  ~Inside() { IsInside = WasInside; }
 };
 
 void say(const char *Text, std::size_t Size) {
@@ -79,10 +79,10 @@ Callers callers() {
 }
 
 /// "splat+0x1234 libpocl.so+0x99 ...", without this library's own.
-void sayPlace() {
+void printPlace() {
   const Callers C = callers();
   Dl_info Own{};
-  dladdr(reinterpret_cast<void *>(&sayPlace), &Own);
+  dladdr(reinterpret_cast<void *>(&printPlace), &Own);
   std::array<char, 2048> Text{};
   std::size_t Size =
       static_cast<std::size_t>(snprintf(Text.data(), Text.size(), "failed"));
@@ -138,7 +138,7 @@ bool fails(Kind K) {
                                     static_cast<unsigned long long>(Number))));
     return false;
   }
-  sayPlace();
+  printPlace();
   errno = Causes[K];
   return true;
 }

@@ -69,7 +69,7 @@ protected:
 TEST_F(Events, ABlockingReadAfterATrapFails) {
   start(Device.queue(), "fault");
   EXPECT_EQ(read(Device.queue()), DependencyFailed);
-  // Told of it, the host may go on with the queue.
+  // Notification of it, the host may go on with the queue.
   start(Device.queue(), "fine");
   EXPECT_EQ(read(Device.queue()), CL_SUCCESS);
   EXPECT_EQ(Words, std::vector<int32_t>(16, 42));
@@ -124,7 +124,8 @@ TEST_F(Events, WhatFollowsInAnInOrderQueueFails) {
   EXPECT_EQ(statusOf(Third), DependencyFailed);
 }
 
-/// Told of the first failure alone, the host does not know of the second.
+/// Notification of the first failure alone, the host does not know of the
+/// second.
 TEST_F(Events, AFailureThatWasNotToldStays) {
   const cl::Event Trap = start(Device.queue(), "fault");
   const cl::Event Second = start(Device.queue(), "fine");
@@ -204,12 +205,12 @@ TEST_F(Events, WaitingIsForAllEventsEvenIfOneFailed) {
   Setter.join();
 }
 
-struct Told {
+struct Notification {
   std::atomic<int> Calls{0};
   std::atomic<cl_int> Status{1000};
 };
 void CL_CALLBACK tell(cl_event /*Event*/, cl_int Status, void *Data) {
-  auto *T = static_cast<Told *>(Data);
+  auto *T = static_cast<Notification *>(Data);
   T->Status = Status;
   ++T->Calls;
 }
@@ -219,7 +220,7 @@ TEST_F(Events, CallbacksAreToldTheFailureOnce) {
   const cl::CommandQueue Queue = outOfOrder();
   cl::Event Trap = start(Queue, "fault", {Gate});
   cl::Event After = start(Queue, "fine", {Trap});
-  Told Running, Complete, Dependent, Late;
+  Notification Running, Complete, Dependent, Late;
   EXPECT_EQ(Trap.setCallback(CL_RUNNING, tell, &Running), CL_SUCCESS);
   EXPECT_EQ(Trap.setCallback(CL_COMPLETE, tell, &Complete), CL_SUCCESS);
   EXPECT_EQ(After.setCallback(CL_RUNNING, tell, &Dependent), CL_SUCCESS);

@@ -63,14 +63,14 @@ TEST_F(Platform, OptionsOpenAnotherMachineAndWrongOnesSayWhy) {
 }
 
 /// What a context's function is told.
-struct Told {
+struct Notification {
   std::mutex Lock;
   std::string Text;
   cl_int Status = CL_SUCCESS;
 
   static void CL_CALLBACK receive(const char *Text, const void *Status,
                                   std::size_t Bytes, void *Data) {
-    auto &T = *static_cast<Told *>(Data);
+    auto &T = *static_cast<Notification *>(Data);
     const std::lock_guard Held(T.Lock);
     T.Text = Text;
     if (Bytes == sizeof(T.Status))
@@ -79,9 +79,9 @@ struct Told {
 };
 
 TEST_F(Platform, AContextsFunctionIsToldOfATrapAndNothingIsPrinted) {
-  Told T;
+  Notification T;
   const cl::Device Device = device();
-  const cl::Context Context(Device, nullptr, Told::receive, &T);
+  const cl::Context Context(Device, nullptr, Notification::receive, &T);
   const cl::CommandQueue Queue(Context, Device);
   cl::Program Program(Context,
                       "kernel void fault(int x) { *(global int *)8 = x; }");

@@ -25,18 +25,18 @@ public:
         continue;
       Chosen = Devices.front();
       Usable = true;
-      TheContext = cl::Context(Chosen);
-      TheQueue = cl::CommandQueue(TheContext, Chosen);
+      ContextHandle = cl::Context(Chosen);
+      QueueHandle = cl::CommandQueue(ContextHandle, Chosen);
       return;
     }
   }
   bool usable() const { return Usable; }
-  const cl::Context &context() const { return TheContext; }
-  const cl::CommandQueue &queue() const { return TheQueue; }
+  const cl::Context &context() const { return ContextHandle; }
+  const cl::CommandQueue &queue() const { return QueueHandle; }
 
   /// The program, or an empty text in \p Log and a built one.
   cl::Program build(const std::string &Source, std::string &Log) const {
-    cl::Program Program(TheContext, Source);
+    cl::Program Program(ContextHandle, Source);
     Log.clear();
     if (Program.build() != CL_SUCCESS)
       Log =
@@ -45,32 +45,32 @@ public:
   }
 
   template <typename T> cl::Buffer upload(const std::vector<T> &Values) const {
-    return cl::Buffer(TheContext, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
+    return cl::Buffer(ContextHandle, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
                       Values.size() * sizeof(T),
                       const_cast<T *>(Values.data()));
   }
   template <typename T>
   std::vector<T> download(const cl::Buffer &Buffer, std::size_t Count) const {
     std::vector<T> Values(Count);
-    EXPECT_EQ(TheQueue.enqueueReadBuffer(Buffer, CL_TRUE, 0, Count * sizeof(T),
-                                         Values.data()),
+    EXPECT_EQ(QueueHandle.enqueueReadBuffer(Buffer, CL_TRUE, 0,
+                                            Count * sizeof(T), Values.data()),
               CL_SUCCESS);
     return Values;
   }
   void run(const cl::Kernel &Kernel, std::size_t Global,
            std::size_t Local) const {
-    EXPECT_EQ(TheQueue.enqueueNDRangeKernel(Kernel, cl::NullRange,
-                                            cl::NDRange(Global),
-                                            cl::NDRange(Local)),
+    EXPECT_EQ(QueueHandle.enqueueNDRangeKernel(Kernel, cl::NullRange,
+                                               cl::NDRange(Global),
+                                               cl::NDRange(Local)),
               CL_SUCCESS);
-    EXPECT_EQ(TheQueue.finish(), CL_SUCCESS);
+    EXPECT_EQ(QueueHandle.finish(), CL_SUCCESS);
   }
 
 private:
   bool Usable = false;
   cl::Device Chosen;
-  cl::Context TheContext;
-  cl::CommandQueue TheQueue;
+  cl::Context ContextHandle;
+  cl::CommandQueue QueueHandle;
 };
 
 } // namespace vorion::test

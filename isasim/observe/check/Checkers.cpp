@@ -26,37 +26,37 @@ constexpr std::unique_ptr<Check> (*Makers[])(Reporter, const Places &) = {
 
 Expected<std::unique_ptr<Checkers>>
 Checkers::create(std::string_view Text,
-                 std::function<void(std::string_view)> Say) {
+                 std::function<void(std::string_view)> Report) {
   const Expected<uint32_t> Wanted = parseNameList("check", Text, Names);
   if (!Wanted)
     return Wanted.error();
-  std::unique_ptr<Checkers> C(new Checkers(std::move(Say)));
+  std::unique_ptr<Checkers> C(new Checkers(std::move(Report)));
   for (size_t N = 0; N != std::size(Makers); ++N)
     if (*Wanted >> N & 1)
-      C->Each.push_back(Makers[N](Reporter(C->Found, Names[N]), C->Where));
+      C->Checks.push_back(Makers[N](Reporter(C->Reports, Names[N]), C->Where));
   return C;
 }
 
 std::vector<Observer *> Checkers::observers() {
   std::vector<Observer *> All = {this};
-  for (const auto &O : Each)
+  for (const auto &O : Checks)
     All.push_back(O.get());
   return All;
 }
 
 uint64_t Checkers::guardBytes() const {
   uint64_t Most = 0;
-  for (const auto &C : Each)
+  for (const auto &C : Checks)
     Most = std::max(Most, C->guardBytes());
   return Most;
 }
 
 void Checkers::runBegins(const RunStart &R) {
   Where.begin(R);
-  Found.useProgram(R.Program);
+  Reports.useProgram(R.Program);
 }
 
-void Checkers::runEnds(const RunResult &) { Found.sayRepeats(); }
+void Checkers::runEnds(const RunResult &) { Reports.reportRepeats(); }
 
 namespace {
 
@@ -74,7 +74,7 @@ private:
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,
                                      const ToolOutput &To) {
-  auto Checks = Checkers::create(Text, To.Say);
+  auto Checks = Checkers::create(Text, To.Report);
   if (!Checks)
     return Checks.error();
   return std::unique_ptr<Tool>(std::make_unique<CheckTool>(std::move(*Checks)));

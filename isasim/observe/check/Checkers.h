@@ -13,17 +13,17 @@ namespace vorion::isasim {
 /// An observer itself: told before its checkers, it sets up what they share.
 class Checkers : public Observer {
 public:
-  /// \p Names: some of Checks.def apart by commas, or "all". \p Say receives
+  /// \p Names: some of Checks.def apart by commas, or "all". \p Report receives
   /// reports.
   static Expected<std::unique_ptr<Checkers>>
-  create(std::string_view Names, std::function<void(std::string_view)> Say);
+  create(std::string_view Names, std::function<void(std::string_view)> Report);
 
   /// This and all checkers, in the order in which they are to be told.
   std::vector<Observer *> observers();
 
   /// Bytes to leave free behind each buffer.
   uint64_t guardBytes() const;
-  uint64_t findings() const { return Found.count(); }
+  uint64_t findings() const { return Reports.count(); }
 
   void allocated(uint32_t Address, uint64_t Bytes,
                  const std::string &Name) override {
@@ -38,12 +38,12 @@ public:
   void runEnds(const RunResult &R) override;
 
 private:
-  explicit Checkers(std::function<void(std::string_view)> Say)
-      : Found(std::move(Say)) {}
+  explicit Checkers(std::function<void(std::string_view)> Report)
+      : Reports(std::move(Report)) {}
 
-  Findings Found;
+  Findings Reports;
   Places Where;
-  std::vector<std::unique_ptr<Check>> Each;
+  std::vector<std::unique_ptr<Check>> Checks;
 };
 
 } // namespace vorion::isasim

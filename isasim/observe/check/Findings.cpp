@@ -25,23 +25,25 @@ void Findings::add(std::string_view Check, const Culprit &C,
                    const std::string &What, uint32_t Other) {
   ++Total;
   const Key K{std::string(Check), Program.get(), C.Pc, Other};
-  if (Seen[K]++ != 0 || Seen.size() > MostPlaces)
+  if (Counts[K]++ != 0 || Counts.size() > MostPlaces)
     return;
-  ++Told;
+  ++Reported;
   std::string Text = disassemble(C.Word, C.Pc);
   std::replace(Text.begin(), Text.end(), '\t', ' ');
-  Say(fmt::format("check: {}: {}: {}\n  core {}, warp {}, lane {}, pc 0x{:08x} "
+  Report(
+      fmt::format("check: {}: {}: {}\n  core {}, warp {}, lane {}, pc 0x{:08x} "
                   "<{}>: {}",
                   Check, place(C.Pc), What, C.Core, C.Warp, C.Lane, C.Pc,
                   Program->symbolize(C.Pc), Text));
 }
 
-void Findings::sayRepeats() {
-  if (Total != Told)
-    Say(fmt::format("check: {} findings at {} places; each place is reported "
+void Findings::reportRepeats() {
+  if (Total != Reported)
+    Report(
+        fmt::format("check: {} findings at {} places; each place is reported "
                     "once, {} at most",
-                    Total, Seen.size(), MostPlaces));
-  Told = Total;
+                    Total, Counts.size(), MostPlaces));
+  Reported = Total;
 }
 
 } // namespace vorion::isasim

@@ -24,9 +24,9 @@ struct Culprit {
 
 class Findings {
 public:
-  /// \p SayIn receives each report: lines without the last newline.
-  explicit Findings(std::function<void(std::string_view)> SayIn)
-      : Say(std::move(SayIn)) {}
+  /// \p Report receives each report: lines without the last newline.
+  explicit Findings(std::function<void(std::string_view)> Report)
+      : Report(std::move(Report)) {}
 
   void useProgram(std::shared_ptr<const Image> Program);
 
@@ -39,7 +39,7 @@ public:
   std::string place(uint32_t Pc) const { return Source->describe(Pc); }
 
   /// Says how often what was reported happened, if more than once.
-  void sayRepeats();
+  void reportRepeats();
   uint64_t count() const { return Total; }
 
 private:
@@ -49,11 +49,11 @@ private:
     uint32_t Pc, Other;
     auto operator<=>(const Key &) const = default;
   };
-  std::function<void(std::string_view)> Say;
+  std::function<void(std::string_view)> Report;
   std::shared_ptr<const Image> Program;
   std::unique_ptr<SourceLines> Source;
-  std::map<Key, uint64_t> Seen;
-  uint64_t Total = 0, Told = 0;
+  std::map<Key, uint64_t> Counts;
+  uint64_t Total = 0, Reported = 0;
 };
 
 /// What one checker says its findings to, under the checker's name.

@@ -11,21 +11,21 @@ namespace vorion::isasim::gdb {
 
 Call::Call(Target &LanesIn, ThreadId T, uint32_t EntryIn, uint32_t ReturnToIn,
            std::vector<RegisterWrite> WrittenIn)
-    : Lanes(LanesIn), Lane(T), S(*Lanes.warpOf(T)), Saved(S), Entry(EntryIn),
-      ReturnTo(ReturnToIn), Written(std::move(WrittenIn)) {
+    : Lanes(LanesIn), Lane(T), Warp(*Lanes.warpOf(T)), Saved(Warp),
+      Entry(EntryIn), ReturnTo(ReturnToIn), Written(std::move(WrittenIn)) {
   Lanes.showPc(0, 0);
   PcBefore = Lanes.readRegister(T, PcNumber).value_or(0);
-  setMask(&S, 1U << Lanes.laneOf(T));
-  S.WholeMask = 0; // a barrier is not for one lane: it traps
-  S.Trace = nullptr;
-  S.Next = S.Owner->find(Entry);
+  setMask(&Warp, 1U << Lanes.laneOf(T));
+  Warp.WholeMask = 0; // a barrier is not for one lane: it traps
+  Warp.Trace = nullptr;
+  Warp.Next = Warp.Owner->find(Entry);
   Lanes.showPc(Lane, Entry);
 }
 
 void Call::goBack() {
-  raise(&S, static_cast<uint32_t>(TrapCause::FetchFault), Lanes.laneOf(Lane),
+  raise(&Warp, static_cast<uint32_t>(TrapCause::FetchFault), Lanes.laneOf(Lane),
         ReturnTo);
-  S.Moved = Running;
+  Warp.Moved = Running;
   IsBack = true;
   Lanes.showPc(Lane, ReturnTo);
 }
@@ -35,32 +35,32 @@ Call::Pause Call::run(const std::function<bool()> &MustStop) {
   Lanes.showPc(0, 0);
   Running = true;
   if (!IsBack)
-    S.Why = Stop::Ready;
-  while (!Over && S.Why == Stop::Ready && !MustStop())
-    S.Owner->runApart(S, execTable(true), LongestStretch);
+    Warp.Why = Stop::Ready;
+  while (!Over && Warp.Why == Stop::Ready && !MustStop())
+    Warp.Owner->runApart(Warp, execTable(true), LongestStretch);
   Running = false;
   if (Over) {
-    S.Fflags = Saved.Fflags; // the host's unit still had the call's
+    Warp.Fflags = Saved.Fflags; // the host's unit still had the call's
     return Pause::Ended;
   }
-  if (S.Why != Stop::Trapped)
+  if (Warp.Why != Stop::Trapped)
     return Pause::Stuck;
   const bool NoCode = cause() == TrapCause::FetchFault;
-  if (NoCode && S.FaultAddress == ReturnTo) {
+  if (NoCode && Warp.FaultAddress == ReturnTo) {
     Lanes.showPc(Lane, ReturnTo);
     return Pause::Returned;
   }
-  if (NoCode && S.Next == S.Owner->find(Entry))
+  if (NoCode && Warp.Next == Warp.Owner->find(Entry))
     Lanes.showPc(Lane, Entry);
   return Pause::Trapped;
 }
 
 void Call::end(bool UndoWrites) {
   if (!UndoWrites)
-    std::memcpy(Saved.R, S.R, sizeof(S.R));
-  S = Saved;
+    std::memcpy(Saved.Registers, Warp.Registers, sizeof(Warp.Registers));
+  Warp = Saved;
   // Handlers that are running it must not go on where the call was.
-  S.Moved = Running;
+  Warp.Moved = Running;
   Over = true;
   Lanes.showPc(0, 0);
   if (UndoWrites)

@@ -45,7 +45,7 @@ public:
   Pause run(const std::function<bool()> &MustStop);
   bool isRunning() const { return Running; }
   /// Of what has trapped.
-  TrapCause cause() const { return static_cast<TrapCause>(S.FaultCause); }
+  TrapCause cause() const { return static_cast<TrapCause>(Warp.FaultCause); }
 
   /// The warp is as it was before the call, but for the registers that the
   /// debugger has written since. With \p UndoWrites those that it wrote for the
@@ -55,7 +55,7 @@ public:
 private:
   Target &Lanes;
   const ThreadId Lane;
-  WarpState &S;
+  WarpState &Warp;
   WarpState Saved;
   uint32_t Entry, ReturnTo;
   uint32_t PcBefore = 0; ///< as the lane showed it

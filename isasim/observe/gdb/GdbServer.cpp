@@ -204,7 +204,7 @@ private:
     Calls.pop_back();
     ReturnTo.reset();
     Lanes.takeWrites();
-    PutsBack = true;
+    RestoresRegisters = true;
   }
 
   void resume(ThreadId Step) {
@@ -255,7 +255,7 @@ private:
   std::optional<std::pair<ThreadId, uint32_t>> ReturnTo;
   std::optional<uint32_t> CallEntry; ///< what it has put into the pc then
   /// A call has ended, and registers after the pc are still being put back.
-  bool PutsBack = false;
+  bool RestoresRegisters = false;
   bool WasConnected = false, StopNext = false;
   bool Waiting = false; ///< gdb waits for the machine to stop
   const WarpState *Stepping = nullptr;
@@ -299,7 +299,7 @@ void GdbServer::answerRegister(std::string_view Packet) {
   if (Number == RaNumber)
     ReturnTo = {Current, Value};
   reply(Lanes.writeRegister(Current, Number, Value));
-  if (PutsBack)
+  if (RestoresRegisters)
     Lanes.takeWrites();
 }
 
@@ -445,7 +445,7 @@ void GdbServer::answerContinue(std::string_view Packet) {
 }
 
 bool GdbServer::answer(std::string_view Packet) {
-  PutsBack &= Packet.starts_with('P');
+  RestoresRegisters &= Packet.starts_with('P');
   switch (Packet.empty() ? '\0' : Packet[0]) {
   case '?':
     Peer.send(stopReply());
@@ -553,7 +553,7 @@ Expected<std::unique_ptr<Tool>> make(const std::string &Text,
   if (Read.ec != std::errc() || Read.ptr != End || Port > 65535)
     return Error{"", fmt::format("gdb port '{}', expected 0 to 65535", Text),
                  ExitCode::Usage};
-  auto Server = startGdbServer(Port, To.Say);
+  auto Server = startGdbServer(Port, To.Report);
   if (!Server)
     return Server.error();
   return std::unique_ptr<Tool>(std::make_unique<GdbTool>(std::move(*Server)));

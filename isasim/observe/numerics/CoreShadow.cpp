@@ -40,17 +40,17 @@ void CoreShadow::take(const Step &S, Warp &W, unsigned N, int Register) {
   Operand &To = W.In[N];
   if (Register < 0) { // x0
     To.Words = LaneWords{};
-    To.Followed = To.Differs = 0;
+    To.Followed = To.DifferingLanes = 0;
     return;
   }
   const auto R = static_cast<unsigned>(Register);
-  To.Words = S.State.R[R];
+  To.Words = S.State.Registers[R];
   To.Followed = W.Followed[R];
   if (To.Followed)
     To.Shadow = W.Shadow[R];
-  To.Differs = R < FBase ? W.Differs[R] : 0;
-  if (To.Differs)
-    To.Otherwise = W.Otherwise[R];
+  To.DifferingLanes = R < FBase ? W.DifferingLanes[R] : 0;
+  if (To.DifferingLanes)
+    To.ShadowValues = W.ShadowValues[R];
 }
 
 void CoreShadow::setShadow(Warp &W, int Register, uint32_t Lanes,
@@ -71,7 +71,7 @@ void CoreShadow::drop(Warp &W, int Register, uint32_t Lanes) {
   const auto R = static_cast<unsigned>(Register);
   W.Followed[R] &= ~Lanes;
   if (R < FBase)
-    W.Differs[R] &= ~Lanes;
+    W.DifferingLanes[R] &= ~Lanes;
 }
 
 void CoreShadow::fetch(const Step &S) {
@@ -92,7 +92,7 @@ void CoreShadow::fetch(const Step &S) {
     for (const int R : {A, B})
       if (R >= 0)
         Known |= W.Followed[static_cast<unsigned>(R)] |
-                 W.Differs[static_cast<unsigned>(R)];
+                 W.DifferingLanes[static_cast<unsigned>(R)];
     W.Waits = (Known & S.LaneMask) != 0;
     if (!W.Waits)
       return;
@@ -179,8 +179,8 @@ void CoreShadow::commitFloat(const Commit &C, Warp &W) {
     if (FromInt) {
       const bool Signed = C.Insn.O == Op::RV_FCVT_S_W;
       for (unsigned L = 0; L != MaxLanes; ++L) {
-        const bool Other = (From.Differs >> L & 1) != 0;
-        const uint32_t Word = Other ? From.Otherwise[L] : From.Words[L];
+        const bool Other = (From.DifferingLanes >> L & 1) != 0;
+        const uint32_t Word = Other ? From.ShadowValues[L] : From.Words[L];
         Out.In[N][L] = Signed ? static_cast<double>(static_cast<int32_t>(Word))
                               : static_cast<double>(Word);
         Out.InError[L] = Other ? 1 : 0;

@@ -44,15 +44,15 @@ private:
     LaneWords Words;
     uint32_t Followed = 0; ///< lanes with a shadow; others say nothing below
     Values Shadow;
-    uint32_t Differs =
+    uint32_t DifferingLanes =
         0; ///< lanes whose integer the shadow would have otherwise
-    LaneWords Otherwise;
+    LaneWords ShadowValues;
   };
   struct Warp {
     std::array<uint32_t, 64> Followed{}; ///< lanes; x0 to x31, f0 to f31
     std::array<Values, 64> Shadow{};
-    std::array<uint32_t, 32> Differs{}; ///< likewise of x0 to x31
-    std::array<LaneWords, 32> Otherwise{};
+    std::array<uint32_t, 32> DifferingLanes{}; ///< likewise of x0 to x31
+    std::array<LaneWords, 32> ShadowValues{};
     std::array<Operand, 3> In{};
     bool Waits = false; ///< the operands are those of the present instruction
     uint32_t SplitEnd = 0; ///< where a split's own branch follows it
@@ -90,9 +90,9 @@ private:
   void commitStore(const Commit &C, Warp &W);
   void commitAtomic(const Commit &C, Warp &W);
   void decide(const Step &S, Warp &W);
-  /// The present instruction's integer result is \p Otherwise in the shadow.
-  void setOtherwise(const Commit &C, Warp &W, const LaneWords &Otherwise,
-                    bool IsDecision);
+  /// The present instruction's integer result is \p ShadowValues in the shadow.
+  void setShadowValues(const Commit &C, Warp &W, const LaneWords &ShadowValues,
+                       bool IsDecision);
   /// If lane \p L of \p From is off, that has come to where it shows.
   void reach(const Operand &From, unsigned L);
   bool loadLane(const Commit &C, unsigned L, uint32_t Address, Values &To);

@@ -68,12 +68,14 @@ void CoreShadow::reach(const Operand &From, unsigned L) {
     Sites.reach(Origin::fromWord(From.Shadow.From[L]));
 }
 
-void CoreShadow::setOtherwise(const Commit &C, Warp &W,
-                              const LaneWords &Otherwise, bool IsDecision) {
+void CoreShadow::setShadowValues(const Commit &C, Warp &W,
+                                 const LaneWords &ShadowValues,
+                                 bool IsDecision) {
   const int Rd = shadowPlace(File::X, C.Insn.Rd);
   uint32_t Lanes = 0;
   forLanes(C.LaneMask, [&](unsigned L) {
-    Lanes |= static_cast<uint32_t>(Rd >= 0 && Otherwise[L] != C.Result[L]) << L;
+    Lanes |= static_cast<uint32_t>(Rd >= 0 && ShadowValues[L] != C.Result[L])
+             << L;
   });
   if (Lanes == 0)
     return;
@@ -86,13 +88,13 @@ void CoreShadow::setOtherwise(const Commit &C, Warp &W,
     });
   }
   const auto R = static_cast<unsigned>(Rd);
-  mergeLanes(W.Otherwise[R], Otherwise, wordsOf(Lanes));
-  W.Differs[R] |= Lanes;
+  mergeLanes(W.ShadowValues[R], ShadowValues, wordsOf(Lanes));
+  W.DifferingLanes[R] |= Lanes;
 }
 
 void CoreShadow::decide(const Step &S, Warp &W) {
   const Operand &A = W.In[0], &B = W.In[1];
-  if (((A.Differs | B.Differs) & S.LaneMask) == 0)
+  if (((A.DifferingLanes | B.DifferingLanes) & S.LaneMask) == 0)
     return;
   // The branch behind a split decides the same once more, for the warp.
   const bool IsBranch = S.Insn.info().Fmt == Format::B;
@@ -101,8 +103,8 @@ void CoreShadow::decide(const Step &S, Warp &W) {
   if (!IsBranch)
     W.SplitEnd = S.Pc + 4;
   LaneWords OtherA = A.Words, OtherB = B.Words;
-  mergeLanes(OtherA, A.Otherwise, wordsOf(A.Differs));
-  mergeLanes(OtherB, B.Otherwise, wordsOf(B.Differs));
+  mergeLanes(OtherA, A.ShadowValues, wordsOf(A.DifferingLanes));
+  mergeLanes(OtherB, B.ShadowValues, wordsOf(B.DifferingLanes));
   const uint32_t Flipped = (decidedLanes(S.Insn.O, A.Words, B.Words) ^
                             decidedLanes(S.Insn.O, OtherA, OtherB)) &
                            S.LaneMask;
@@ -179,7 +181,7 @@ void CoreShadow::commitCompare(const Commit &C, Warp &W) {
   toDouble(B.Words, Y);
   mergeLanes(X, A.Shadow.Value, wordsOf(A.Followed));
   mergeLanes(Y, B.Shadow.Value, wordsOf(B.Followed));
-  setOtherwise(C, W, wordsOf(compareInDouble(C.Insn.O, X, Y)) & 1U, true);
+  setShadowValues(C, W, wordsOf(compareInDouble(C.Insn.O, X, Y)) & 1U, true);
 }
 
 void CoreShadow::commitToInt(const Commit &C, Warp &W) {
@@ -188,28 +190,29 @@ void CoreShadow::commitToInt(const Commit &C, Warp &W) {
   if (C.Result.empty() || (A.Followed & C.LaneMask) == 0)
     return;
   const OwnRounding Own;
-  LaneWords Otherwise{};
+  LaneWords ShadowValues{};
   const unsigned Rm = C.Insn.Rm == DynamicRm ? C.State.Frm : C.Insn.Rm;
   forLanes(C.LaneMask, [&](unsigned L) {
-    Otherwise[L] =
+    ShadowValues[L] =
         (A.Followed >> L & 1) != 0
             ? doubleToInt(A.Shadow.Value[L], C.Insn.O == Op::RV_FCVT_W_S, Rm)
             : C.Result[L];
   });
-  setOtherwise(C, W, Otherwise, true);
+  setShadowValues(C, W, ShadowValues, true);
 }
 
 /// Needs that an operand is followed or differs in an active lane.
 void CoreShadow::commitInteger(const Commit &C, Warp &W) {
   const Operand &A = W.In[0], &B = W.In[1];
   const int Rd = shadowPlace(File::X, C.Insn.Rd);
-  if (((A.Differs | B.Differs) & C.LaneMask) != 0) {
-    LaneWords OtherA = A.Words, OtherB = B.Words, Otherwise;
-    mergeLanes(OtherA, A.Otherwise, wordsOf(A.Differs));
-    mergeLanes(OtherB, B.Otherwise, wordsOf(B.Differs));
-    integerResult(C.Insn.O, OtherA, OtherB, Otherwise);
-    setOtherwise(C, W, Otherwise,
-                 C.Insn.O == Op::RV_CZERO_EQZ || C.Insn.O == Op::RV_CZERO_NEZ);
+  if (((A.DifferingLanes | B.DifferingLanes) & C.LaneMask) != 0) {
+    LaneWords OtherA = A.Words, OtherB = B.Words, ShadowValues;
+    mergeLanes(OtherA, A.ShadowValues, wordsOf(A.DifferingLanes));
+    mergeLanes(OtherB, B.ShadowValues, wordsOf(B.DifferingLanes));
+    integerResult(C.Insn.O, OtherA, OtherB, ShadowValues);
+    setShadowValues(C, W, ShadowValues,
+                    C.Insn.O == Op::RV_CZERO_EQZ ||
+                        C.Insn.O == Op::RV_CZERO_NEZ);
   }
   if (!movesBits(C.Insn.O))
     return;

@@ -33,9 +33,9 @@ std::string sampleText(const NumericSample &S) {
                              numberText(Shadow));
   };
   std::string Text;
-  if (S.OfInteger)
+  if (S.IsInteger)
     Text = fmt::format("{}", static_cast<int32_t>(S.Words[0]));
-  for (unsigned N = 0; N != S.Operands && !S.OfInteger; ++N)
+  for (unsigned N = 0; N != S.Operands && !S.IsInteger; ++N)
     Text += (N ? ", " : "") + Value(S.Words[N], S.Shadows[N]);
   return fmt::format("{} -> {}", Text, Value(S.Result, S.Shadow));
 }
@@ -161,7 +161,7 @@ std::string numericText(const NumericFindings &F) {
   double QuietMax = 0;
   for (const NumericSites::Line &L : Lines) {
     if (!L.Counts.matters()) {
-      if (L.Counts.isNoteworthy()) {
+      if (L.Counts.isReportable()) {
         ++Unused;
         continue;
       }

@@ -90,23 +90,24 @@ namespace {
 
 class NumericsTool : public Tool {
 public:
-  NumericsTool(NumericOptions OIn, const ToolOutput &To)
-      : O(std::move(OIn)), Shadow(O), Print(To.Print) {}
+  NumericsTool(NumericOptions Options, const ToolOutput &To)
+      : Options(std::move(Options)), Shadow(this->Options), Print(To.Print) {}
   std::vector<Observer *> observers() override { return {&Shadow}; }
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
-    if (O.Text == StandardOutput)
+    if (Options.Text == StandardOutput)
       Print(Shadow.text());
-    else if (!O.Text.empty())
-      if (Expected<Success> Ok = writeFileAtomically(O.Text, Shadow.text());
+    else if (!Options.Text.empty())
+      if (Expected<Success> Ok =
+              writeFileAtomically(Options.Text, Shadow.text());
           !Ok)
         return Ok;
-    if (!O.Json.empty())
-      return writeFileAtomically(O.Json, Shadow.json());
+    if (!Options.Json.empty())
+      return writeFileAtomically(Options.Json, Shadow.json());
     return Success{};
   }
 
 private:
-  NumericOptions O;
+  NumericOptions Options;
   Numerics Shadow;
   std::function<void(std::string_view)> Print;
 };

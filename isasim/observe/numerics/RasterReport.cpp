@@ -68,16 +68,17 @@ std::string rasterText(const RasterFindings &F, unsigned Top) {
         "stage with the largest error of its own: {}, {:.1e} on average, at "
         "worst {:.1e}: {:.9g} for {:.9g} at pixel ({}, {}), Gaussian {}\n",
         StageNames[Worst - F.Stages.data()].Name,
-        mean(Worst->OwnSum, Worst->Results), Worst->OwnMax, Worst->Is,
-        Worst->Should, Worst->X, Worst->Y, Worst->Gaussian);
+        mean(Worst->OwnSum, Worst->Results), Worst->OwnMax, Worst->Actual,
+        Worst->Reference, Worst->X, Worst->Y, Worst->Gaussian);
   Text += fmt::format("{} pixels off by {:.1e} on average\n", F.Pixels,
                       mean(F.OffSum, F.Pixels));
   for (size_t N = 0; N != std::min<size_t>(Top, F.WorstPixels.size()); ++N) {
     const PixelFinding &P = F.WorstPixels[N];
     Text += fmt::format("  pixel ({}, {}) by {:.1e}: {:.6g} {:.6g} {:.6g} T "
                         "{:.6g} for {:.6g} {:.6g} {:.6g} T {:.6g}\n",
-                        P.X, P.Y, P.Off, P.Is.R, P.Is.G, P.Is.B, P.Is.T,
-                        P.Should[0], P.Should[1], P.Should[2], P.Should[3]);
+                        P.X, P.Y, P.Off, P.Actual.R, P.Actual.G, P.Actual.B,
+                        P.Actual.T, P.Reference[0], P.Reference[1],
+                        P.Reference[2], P.Reference[3]);
   }
   Text += "Gaussians by what they are off by in the picture\n";
   for (const auto &[Number, C] : worst(F, Top))
@@ -110,8 +111,8 @@ Json rasterJson(const RasterFindings &F) {
                        {{"gaussian", S.Gaussian},
                         {"x", S.X},
                         {"y", S.Y},
-                        {"is", S.Is},
-                        {"should", S.Should}}}});
+                        {"is", S.Actual},
+                        {"should", S.Reference}}}});
   }
   for (const auto &[Number, C] : worst(F, RasterFindings::WorstKept))
     Gaussians.push_back({{"gaussian", Number},
@@ -123,8 +124,8 @@ Json rasterJson(const RasterFindings &F) {
     Pixels.push_back({{"x", P.X},
                       {"y", P.Y},
                       {"off", P.Off},
-                      {"is", {P.Is.R, P.Is.G, P.Is.B, P.Is.T}},
-                      {"should", P.Should}});
+                      {"is", {P.Actual.R, P.Actual.G, P.Actual.B, P.Actual.T}},
+                      {"should", P.Reference}});
   return {{"commands", F.Commands},
           {"tails", F.Tails},
           {"pixels", F.Pixels},

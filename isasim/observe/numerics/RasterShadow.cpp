@@ -135,8 +135,8 @@ void RasterShadow::Replay::count(RasterStage Which, float Is, double Own,
   To.Gaussian = Number;
   To.X = J.X + X;
   To.Y = J.Y + Y;
-  To.Is = Is;
-  To.Should = Own;
+  To.Actual = Is;
+  To.Reference = Own;
 }
 
 /// Finds the box, and the pixels that the shadow's box has more or less.
@@ -315,9 +315,9 @@ void RasterShadow::finish(const Job &J, const Tile &T) {
           {T.Real.R[At], T.Real.G[At], T.Real.B[At], std::fabs(T.Real.T[At])},
           {T.Color[0][At], T.Color[1][At], T.Color[2][At], T.T[At]},
           0};
-      const float Is[] = {F.Is.R, F.Is.G, F.Is.B};
+      const float Is[] = {F.Actual.R, F.Actual.G, F.Actual.B};
       for (unsigned N = 0; N != 3; ++N)
-        F.Off = std::max(F.Off, std::fabs(Is[N] - F.Should[N]));
+        F.Off = std::max(F.Off, std::fabs(Is[N] - F.Reference[N]));
       ++Found.Pixels;
       Found.OffSum += F.Off;
       std::vector<PixelFinding> &Worst = Found.WorstPixels;
@@ -334,12 +334,12 @@ void RasterShadow::finish(const Job &J, const Tile &T) {
         continue;
       std::array<uint32_t, 4> Words;
       std::memcpy(Words.data(), Row + X * sizeof(Pixel), sizeof(Words));
-      Found.NotReplayed += Words != std::bit_cast<decltype(Words)>(F.Is);
+      Found.NotReplayed += Words != std::bit_cast<decltype(Words)>(F.Actual);
       const uint32_t Address =
           J.Output + Y * J.OutputPitch + X * uint32_t{sizeof(Pixel)};
       for (unsigned N = 0; N != 4; ++N)
         Memory.set(0, Address + 4 * N,
-                   {F.Should[N], Words[N], Origin::site(Site).word()});
+                   {F.Reference[N], Words[N], Origin::site(Site).word()});
     }
   }
 }

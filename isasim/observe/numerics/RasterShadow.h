@@ -25,8 +25,8 @@ struct StageCounts {
   // Where OwnMax was.
   uint32_t Gaussian = 0;
   unsigned X = 0, Y = 0;
-  float Is = 0;
-  double Should = 0;
+  float Actual = 0;
+  double Reference = 0;
 };
 
 enum class RasterStage : uint8_t {
@@ -45,9 +45,9 @@ struct GaussianCounts {
 
 struct PixelFinding {
   unsigned X = 0, Y = 0;
-  raster::Pixel Is;
-  double Should[4] = {}; ///< r, g, b, T
-  double Off = 0;        ///< the largest difference of r, g, b
+  raster::Pixel Actual;
+  double Reference[4] = {}; ///< r, g, b, T
+  double Off = 0;           ///< the largest difference of r, g, b
 };
 
 struct RasterFindings {

@@ -95,7 +95,7 @@ BoxWork brokenTransmittance(const Gaussian &G, const BlendOptions &Options,
 
 } // namespace
 
-TEST_F(RasterShadowTest, repeatsTheUnitBitForBitAndFindsOnlyRounding) {
+TEST_F(RasterShadowTest, RepeatsTheUnitBitForBitAndFindsOnlyRounding) {
   const RasterFindings F = render(scene(640, 320), {.X = 640, .Y = 320});
   EXPECT_EQ(F.Commands, 1U);
   EXPECT_EQ(F.Pixels, 4096U);
@@ -112,7 +112,7 @@ TEST_F(RasterShadowTest, repeatsTheUnitBitForBitAndFindsOnlyRounding) {
   EXPECT_GE(F.WorstPixels.at(0).Off, F.WorstPixels.at(1).Off);
 }
 
-TEST_F(RasterShadowTest, writtenPixelsHaveShadows) {
+TEST_F(RasterShadowTest, WrittenPixelsHaveShadows) {
   const RasterFindings F = render(scene());
   const Pixel P = pixels()[64 * 20 + 30];
   const auto *Red = Shadows.find(0, Pixels + 20 * Pitch + 30 * 16,
@@ -124,7 +124,7 @@ TEST_F(RasterShadowTest, writtenPixelsHaveShadows) {
             "the rasterizer");
 }
 
-TEST_F(RasterShadowTest, aCoarseExponentialShowsInItsStageAlone) {
+TEST_F(RasterShadowTest, ACoarseExponentialShowsInItsStageAlone) {
   for (const ExpUnit &Unit : ExpUnits) {
     SCOPED_TRACE(Unit.Name);
     const RasterFindings F =
@@ -144,7 +144,7 @@ TEST_F(RasterShadowTest, aCoarseExponentialShowsInItsStageAlone) {
   }
 }
 
-TEST_F(RasterShadowTest, sixteenBitsShowInTheBlendStages) {
+TEST_F(RasterShadowTest, SixteenBitsShowInTheBlendStages) {
   const RasterFindings F =
       render(scene(), {.Options = OptionsBlend.put(VR_BLEND_BF16)});
   EXPECT_EQ(F.NotReplayed, 0U);
@@ -154,14 +154,14 @@ TEST_F(RasterShadowTest, sixteenBitsShowInTheBlendStages) {
   EXPECT_GT(at(F, RasterStage::Colour).OwnMax, 1e-3);
 }
 
-TEST_F(RasterShadowTest, aHigherCutoffIsTheShadowsToo) {
+TEST_F(RasterShadowTest, AHigherCutoffIsTheShadowsToo) {
   const RasterFindings F =
       render(scene(), {.Options = OptionsAlphaCutoff.put(3)});
   EXPECT_EQ(F.NotReplayed, 0U);
   EXPECT_EQ(decisions(F), 0U);
 }
 
-TEST_F(RasterShadowTest, aBrokenExponentialIsPinned) {
+TEST_F(RasterShadowTest, ABrokenExponentialIsPinned) {
   Datapath Broken = *datapaths().back();
   Broken.Exp[VR_EXP_EXACT] = brokenExp;
   const RasterFindings F = render(scene(), {}, Broken);
@@ -169,7 +169,7 @@ TEST_F(RasterShadowTest, aBrokenExponentialIsPinned) {
   EXPECT_LT(at(F, RasterStage::Power).OwnMax, 1e-5);
 }
 
-TEST_F(RasterShadowTest, aBrokenTransmittanceIsPinnedAndNoReplay) {
+TEST_F(RasterShadowTest, ABrokenTransmittanceIsPinnedAndNoReplay) {
   Datapath Broken = *datapaths().back();
   Broken.Blend[VR_EXP_EXACT][VR_BLEND_FP32] = brokenTransmittance;
   const RasterFindings F = render(scene(), {}, Broken);
@@ -181,7 +181,7 @@ TEST_F(RasterShadowTest, aBrokenTransmittanceIsPinnedAndNoReplay) {
   EXPECT_GT(F.NotReplayed, 100U) << "the unit was another one";
 }
 
-TEST_F(RasterShadowTest, errorsOfRecordsComeFromTheirGaussian) {
+TEST_F(RasterShadowTest, ErrorsOfRecordsComeFromTheirGaussian) {
   std::vector<Gaussian> Scene = scene();
   configure(Scene);
   // Record 7 should be 1 % more opaque, and its box half as wide.
@@ -208,7 +208,7 @@ TEST_F(RasterShadowTest, errorsOfRecordsComeFromTheirGaussian) {
       EXPECT_LT(Counts.AlphaMax, 1e-5) << Number;
 }
 
-TEST_F(RasterShadowTest, aStopThatDiffersIsCounted) {
+TEST_F(RasterShadowTest, AStopThatDiffersIsCounted) {
   // Two that leave just the cut-off in fp32, and less in the shadow.
   std::vector<Gaussian> Scene(2, roundGaussian(32, 32, 50, 0.5F));
   for (Gaussian &G : Scene)
@@ -223,7 +223,7 @@ TEST_F(RasterShadowTest, aStopThatDiffersIsCounted) {
   EXPECT_EQ(at(S.findings(), RasterStage::Transmittance).Differ, 4U);
 }
 
-TEST_F(RasterShadowTest, followsPushedAndRefusedCommands) {
+TEST_F(RasterShadowTest, FollowsPushedAndRefusedCommands) {
   const std::vector<Gaussian> Scene = scene();
   configure({}, {.Mode = ModePushed.put(1)});
   for (const Gaussian &G : std::span(Scene).first(5)) {
@@ -245,7 +245,7 @@ TEST_F(RasterShadowTest, followsPushedAndRefusedCommands) {
   EXPECT_EQ(render(scene(), {.Cutoff = 2}).Commands, 0U);
 }
 
-TEST_F(RasterShadowTest, leavesTheWayBackAlone) {
+TEST_F(RasterShadowTest, LeavesTheWayBackAlone) {
   const std::vector<Gaussian> Scene = scene();
   configure(std::span(Scene).first(10), {.Height = 32});
   set(Csr::Mode, ModeBackward.put(1));
@@ -260,7 +260,7 @@ TEST_F(RasterShadowTest, leavesTheWayBackAlone) {
   EXPECT_EQ(Agent.read(Csr::Wait, 0), VR_OK);
 }
 
-TEST_F(RasterShadowTest, goesOnWhereThePixelUnitDoes) {
+TEST_F(RasterShadowTest, GoesOnWhereThePixelUnitDoes) {
   configure(scene());
   constexpr uint32_t Record = List + 0x100000;
   set(Csr::TailCount, 25U);

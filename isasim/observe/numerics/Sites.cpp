@@ -97,7 +97,7 @@ std::vector<NumericSites::Line> NumericSites::lines() const {
   for (const Program &P : Programs)
     for (uint32_t N = P.First; N != P.First + P.Count; ++N) {
       const Site &S = All[N];
-      if (!P.Code || (S.Counts.Results == 0 && !S.Counts.isNoteworthy()))
+      if (!P.Code || (S.Counts.Results == 0 && !S.Counts.isReportable()))
         continue;
       const uint32_t Pc = pcOf(N);
       const std::optional<SourcePlace> Place = P.Source->find(Pc);
@@ -127,7 +127,7 @@ std::vector<NumericSites::Line> NumericSites::lines() const {
     return std::make_tuple(L.Counts.Reached + L.Counts.NotFinite != 0, Worst,
                            L.Counts.Born + L.Counts.NotFinite,
                            L.Counts.Branches + L.Counts.Decisions,
-                           L.Counts.isNoteworthy());
+                           L.Counts.isReportable());
   };
   std::sort(Sorted.begin(), Sorted.end(), [&](const Line &A, const Line &B) {
     const auto WeightA = Weight(A), WeightB = Weight(B);

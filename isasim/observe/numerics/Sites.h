@@ -42,7 +42,7 @@ private:
 struct NumericSample {
   unsigned Core = 0, Warp = 0, Lane = 0;
   unsigned Operands = 0;
-  bool OfInteger = false;          ///< the operand is an integer
+  bool IsInteger = false;          ///< the operand is an integer
   std::array<uint32_t, 3> Words{}; ///< bits of the operands
   std::array<double, 3> Shadows{}; ///< of the operands
   std::array<Origin, 3> From{};
@@ -65,7 +65,7 @@ struct NumericCounts {
     ErrorMax = Error > ErrorMax ? Error : ErrorMax;
   }
   /// Whether there is more to say than how many results and how exact.
-  bool isNoteworthy() const { return Born || Residues || matters(); }
+  bool isReportable() const { return Born || Residues || matters(); }
   /// Whether it shows in what the program does.
   bool matters() const {
     return Reached || Subnormal || Flushed || NotFinite || Decisions ||

@@ -788,10 +788,10 @@ private:
       clReleaseCommandQueue(Q);
     for (const cl_context C : Contexts)
       clReleaseContext(C);
-    if (Wrong.empty() && !sumIsRight())
+    if (Wrong.empty() && !hasRightSum())
       Wrong = "afterwards a kernel does not run";
   }
-  bool sumIsRight() {
+  bool hasRightSum() {
     cl_int S = CL_SUCCESS;
     const cl_context C =
         clCreateContext(nullptr, 1, &Device, nullptr, nullptr, &S);

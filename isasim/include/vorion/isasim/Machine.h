@@ -97,7 +97,7 @@ public:
 private:
   Machine();
   struct Impl;
-  std::unique_ptr<Impl> I;
+  std::unique_ptr<Impl> PImpl;
 };
 
 } // namespace vorion::isasim

@@ -78,7 +78,7 @@ public:
 private:
   Session();
   struct Impl;
-  std::unique_ptr<Impl> I;
+  std::unique_ptr<Impl> PImpl;
 };
 
 } // namespace vorion::isasim

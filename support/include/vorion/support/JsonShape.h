@@ -51,7 +51,7 @@ private:
   /// What is wrong with \p J, the value at \p Path ("points[3].time").
   template <typename Kind>
   std::string problem(const Kind &J, const std::string &Path) const;
-  template <typename Kind> bool isMet(const Kind &J) const;
+  template <typename Kind> bool hasType(const Kind &J) const;
 
   Type What;
   bool MayBeNull = false;
@@ -60,13 +60,13 @@ private:
   uint64_t Most = std::numeric_limits<uint64_t>::max();
   std::vector<JsonField> Fields;
   /// Of a list's values: one, in a vector since the type holds itself.
-  std::vector<JsonShape> Of;
+  std::vector<JsonShape> Elements;
 };
 
 /// A key of an object.
 struct JsonField {
   std::string Name;
-  JsonShape Of;
+  JsonShape Shape;
   bool Required = true;
 };
 

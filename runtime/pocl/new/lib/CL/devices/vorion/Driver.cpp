@@ -229,9 +229,9 @@ void release(cl_device_id Device, cl_mem Buffer) {
 // PoCL's copying code uses the host's view of the memory: what it did is said
 // afterwards, of rectangles the whole buffer.
 
-using Told = vx_status (*)(vx_device *, uint32_t, uint64_t);
+using Notice = vx_status (*)(vx_device *, uint32_t, uint64_t);
 
-void tell(Told What, void *Data, const pocl_mem_identifier *Id, size_t Offset,
+void tell(Notice What, void *Data, const pocl_mem_identifier *Id, size_t Offset,
           size_t Size) {
   const auto Address =
       static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr));

@@ -62,7 +62,7 @@ std::string keepImage(const std::string &From, const std::string &To) {
 }
 
 /// Whether the cache has \p Path, unchanged since it was written.
-bool hasWhole(const std::string &Path) {
+bool isIntact(const std::string &Path) {
   char *Bytes = nullptr;
   uint64_t Size = 0;
   const auto Found = pocl_read_checked_file(Path.c_str(), &Bytes, &Size);
@@ -72,7 +72,7 @@ bool hasWhole(const std::string &Path) {
 
 /// Whether \p Output of a program says that files cannot be read or written,
 /// rather than what is wrong with their contents.
-bool tellsOfFiles(const std::string &Output) {
+bool namesFiles(const std::string &Output) {
   for (const int Reason :
        {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EIO, EMFILE, ENFILE})
     if (Output.find(std::strerror(Reason)) != std::string::npos)
@@ -153,13 +153,13 @@ KernelCache::Problem KernelCache::make(_cl_command_node *Command,
 
   if (pocl_file_problem())
     return problem(Command, Kernel, pocl_file_problem(), true);
-  return problem(Command, Kernel, Text, tellsOfFiles(Text));
+  return problem(Command, Kernel, Text, namesFiles(Text));
 }
 
 KernelCache::Problem KernelCache::compile(_cl_command_node *Command,
                                           cl_kernel Kernel, bool Specialize) {
   const std::string Path = imagePath(Command, Kernel, Specialize);
-  return hasWhole(Path) ? Problem() : make(Command, Kernel, Specialize, Path);
+  return isIntact(Path) ? Problem() : make(Command, Kernel, Specialize, Path);
 }
 
 const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P) {
