@@ -98,7 +98,7 @@ bool amoWhere(WarpState *S, const Insn *I, Amo Kind, Function Find) {
 } // namespace
 
 Amo amoKind(const Insn *I) {
-  switch (decode(I->Word)->O) {
+  switch (decode(I->Word)->Opcode) {
   case Op::RV_AMOADD_W:
     return Amo::Add;
   case Op::RV_AMOSWAP_W:

@@ -59,7 +59,7 @@ Insn CodeTable::decodeAt(uint32_t Pc, uint32_t Word,
   if (!D)
     return trapping(Exec.Illegal, Word);
   const InsnInfo &Info = D->info();
-  Insn I = trapping(Exec.Handlers[static_cast<unsigned>(D->O)], Word);
+  Insn I = trapping(Exec.Handlers[static_cast<unsigned>(D->Opcode)], Word);
   I.Rd = destination(Info.Rd, D->Rd);
   I.Rs1 = place(Info.Rs1, D->Rs1);
   I.Rs2 = place(Info.Rs2, D->Rs2);
@@ -68,7 +68,7 @@ Insn CodeTable::decodeAt(uint32_t Pc, uint32_t Word,
   I.Imm = D->Imm;
   if (Info.HasRm)
     I.Imm = D->Rm;
-  if (D->O == Op::RV_AUIPC)
+  if (D->Opcode == Op::RV_AUIPC)
     I.Imm = static_cast<int32_t>(Pc + static_cast<uint32_t>(D->Imm));
   if (Info.Fmt == Format::B || Info.Fmt == Format::J) {
     const uint32_t Target = Pc + static_cast<uint32_t>(D->Imm);

@@ -124,7 +124,7 @@ std::optional<Decoded> decode(uint32_t Word) {
     if ((Word & Info.Mask) != Info.Match)
       continue;
     Decoded D;
-    D.O = O;
+    D.Opcode = O;
     D.Rd = Info.Rd == File::None ? 0 : bits(Word, 7, 5);
     D.Rs1 = Info.Rs1 == File::None ? 0 : bits(Word, 15, 5);
     D.Rs2 = Info.Rs2 == File::None ? 0 : bits(Word, 20, 5);

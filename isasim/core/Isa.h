@@ -14,7 +14,7 @@ inline constexpr unsigned DynamicRm = 7;
 /// The fields of one instruction word. Registers that the instruction does not
 /// have are 0.
 struct Decoded {
-  Op O = Op::RV_LUI;
+  Op Opcode = Op::RV_LUI;
   uint8_t Rd = 0, Rs1 = 0, Rs2 = 0, Rs3 = 0;
   /// Sign-extended immediate; the shift amount; the zero-extended immediate of
   /// csrrwi and its like. lui and auipc: already shifted left by 12.
@@ -22,7 +22,9 @@ struct Decoded {
   uint8_t Rm = DynamicRm;
   uint16_t Csr = 0;
 
-  const InsnInfo &info() const { return InsnTable[static_cast<unsigned>(O)]; }
+  const InsnInfo &info() const {
+    return InsnTable[static_cast<unsigned>(Opcode)];
+  }
 };
 
 /// nullopt for a word that is no instruction of the machine, reserved static

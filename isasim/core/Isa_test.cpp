@@ -69,7 +69,7 @@ TEST(Isa, EncodeThenDecodeGivesTheFieldsBack) {
       }
       const auto D = decode(encode(O, F));
       ASSERT_TRUE(D) << Info.Mnemonic;
-      EXPECT_EQ(D->O, O) << Info.Mnemonic;
+      EXPECT_EQ(D->Opcode, O) << Info.Mnemonic;
       if (Info.Rd != File::None)
         EXPECT_EQ(D->Rd, F.Rd) << Info.Mnemonic;
       if (Info.Rs1 != File::None)

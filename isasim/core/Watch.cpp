@@ -11,7 +11,7 @@ namespace {
 
 /// The access that \p D makes, without its addresses; false for none.
 bool describeAccess(const Decoded &D, MemoryAccess &A) {
-  switch (D.O) {
+  switch (D.Opcode) {
 #define LOAD(OP, T)                                                            \
   case Op::OP:                                                                 \
     A.What = MemoryAccess::Load;                                               \

@@ -80,8 +80,9 @@ void Profile::commit(const Commit &C) {
   Cost &At = Current->ByWord[(C.Pc - Current->Low) / 4];
   ++At.Warp;
   At.Lanes += static_cast<unsigned>(std::popcount(C.LaneMask));
-  At.Splits += C.Insn.O == Op::VX_SPLIT || C.Insn.O == Op::VX_SPLIT_N ||
-               C.Insn.O == Op::VX_PRED || C.Insn.O == Op::VX_PRED_N;
+  At.Splits += C.Insn.Opcode == Op::VX_SPLIT ||
+               C.Insn.Opcode == Op::VX_SPLIT_N ||
+               C.Insn.Opcode == Op::VX_PRED || C.Insn.Opcode == Op::VX_PRED_N;
   At.Divergent += C.Diverged;
   if (C.Access) {
     ++At.Accesses;

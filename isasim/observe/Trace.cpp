@@ -144,7 +144,8 @@ void Trace::runBegins(const RunStart &R) {
 }
 
 void Trace::commit(const Commit &C) {
-  if (wants(Category::insn) || (wants(Category::simt) && isSimt(C.Insn.O))) {
+  if (wants(Category::insn) ||
+      (wants(Category::simt) && isSimt(C.Insn.Opcode))) {
     std::string Result = laneWords(C.Result, C.LaneMask);
     if (!Result.empty())
       Result = " ->" + Result;

@@ -13,7 +13,7 @@ std::string_view name(OpClass C) {
 OpClass classOf(uint32_t Word) {
   const std::optional<Decoded> D = decode(Word);
   // What cannot be decoded traps.
-  return D ? ClassOfOp[static_cast<size_t>(D->O)] : OpClass::Alu;
+  return D ? ClassOfOp[static_cast<size_t>(D->Opcode)] : OpClass::Alu;
 }
 
 static constexpr const LatencyInfo &costOf(OpClass C) {
@@ -186,7 +186,7 @@ std::vector<OpInfo> describeProgram(const CodeTable &Code,
     // Where the third is no source it is the destination, which an instruction
     // waits for anyway.
     O.Sources[2] = D && D->info().Fmt == Format::R4 ? Register(I.Rs3) : 0;
-    setCost(O, D ? D->O : Op::RV_ADDI, Params, Lanes);
+    setCost(O, D ? D->Opcode : Op::RV_ADDI, Params, Lanes);
   }
   return All;
 }

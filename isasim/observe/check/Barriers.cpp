@@ -17,8 +17,8 @@ void BarrierCheck::fetch(const Step &S) {
   Warp &W = Warps[size_t{S.Core} * WarpsPerCore + S.Warp];
   if (W.Changed)
     W.Alive = S.LaneMask;
-  W.Changed = S.Insn.O == Op::VX_TMC;
-  if (S.Insn.O != Op::VX_BAR || S.LaneMask == W.Alive)
+  W.Changed = S.Insn.Opcode == Op::VX_TMC;
+  if (S.Insn.Opcode != Op::VX_BAR || S.LaneMask == W.Alive)
     return;
   const uint32_t Missing = W.Alive & ~S.LaneMask;
   Out.add(Culprit::of(S, static_cast<unsigned>(std::countr_zero(S.LaneMask))),

@@ -30,7 +30,7 @@ void RaceCheck::runBegins(const RunStart &R) {
 
 void RaceCheck::fetch(const Step &S) {
   // All who take part have arrived before the first one goes on.
-  if (S.Insn.O == Op::VX_BAR)
+  if (S.Insn.Opcode == Op::VX_BAR)
     Cores[S.Core].Arrived = Cores[S.Core].Now;
   if (!Where.hasLaunch() || S.Pc != Where.launch().Entry)
     return;
@@ -176,7 +176,7 @@ uint32_t RaceCheck::withoutRepeats(const Commit &C) const {
 }
 
 void RaceCheck::commit(const Commit &C) {
-  if (C.Insn.O == Op::VX_BAR) {
+  if (C.Insn.Opcode == Op::VX_BAR) {
     const unsigned Last = static_cast<unsigned>(std::bit_width(C.LaneMask)) - 1;
     const uint32_t Id = C.State.lanes(C.Insn.Rs1 * sizeof(LaneWords))[Last];
     CoreState &Own = Cores[C.Core];

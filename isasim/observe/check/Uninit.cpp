@@ -81,7 +81,7 @@ uint32_t UninitCheck::maskedSource(const Step &S, const Warp &W) const {
     return lanesWhere(Good & S.LaneMask,
                       [&](unsigned L) { return V[L] == Value; });
   };
-  switch (S.Insn.O) {
+  switch (S.Insn.Opcode) {
   case Op::RV_AND:
   case Op::RV_MUL:
     return Where0(GoodA, A, 0) | Where0(GoodB, B, 0);
@@ -127,7 +127,7 @@ void UninitCheck::checkUses(const Step &S, Warp &W) {
     use(S, W, D.Rs2, AllLanes, "branch on a value");
     return;
   }
-  switch (D.O) {
+  switch (D.Opcode) {
   case Op::VX_SPLIT:
   case Op::VX_SPLIT_N:
     use(S, W, D.Rs1, AllLanes, "condition");
@@ -182,7 +182,7 @@ void UninitCheck::fetch(const Step &S) {
   if (Info.Rd == File::X && S.Insn.Rd == StackRegister)
     std::copy_n(words(S, StackRegister), W.StackPointer.size(),
                 W.StackPointer.begin());
-  switch (S.Insn.O) {
+  switch (S.Insn.Opcode) {
   case Op::VX_VOTE_ALL:
   case Op::VX_VOTE_ANY:
   case Op::VX_VOTE_UNI:

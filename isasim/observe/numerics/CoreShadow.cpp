@@ -78,7 +78,7 @@ void CoreShadow::fetch(const Step &S) {
   Warp &W = warpOf(S);
   const Decoded &D = S.Insn;
   const InsnInfo &Info = D.info();
-  const NumericKind Kind = numericKind(D.O);
+  const NumericKind Kind = numericKind(D.Opcode);
   const int A = shadowPlace(Info.Rs1, D.Rs1), B = shadowPlace(Info.Rs2, D.Rs2);
   W.Waits = true;
   switch (Kind) {
@@ -117,7 +117,7 @@ void CoreShadow::commit(const Commit &C) {
   Warp &W = warpOf(C);
   const Decoded &D = C.Insn;
   const int Rd = shadowPlace(D.info().Rd, D.Rd);
-  switch (numericKind(D.O)) {
+  switch (numericKind(D.Opcode)) {
   case NumericKind::Float:
   case NumericKind::FromInt:
     return commitFloat(C, W);
@@ -177,7 +177,7 @@ void CoreShadow::commitFloat(const Commit &C, Warp &W) {
     const Operand &From = W.In[N];
     toDouble(From.Words, Out.In[N]);
     if (FromInt) {
-      const bool Signed = C.Insn.O == Op::RV_FCVT_S_W;
+      const bool Signed = C.Insn.Opcode == Op::RV_FCVT_S_W;
       for (unsigned L = 0; L != MaxLanes; ++L) {
         const bool Other = (From.DifferingLanes >> L & 1) != 0;
         const uint32_t Word = Other ? From.ShadowValues[L] : From.Words[L];
@@ -197,7 +197,7 @@ void CoreShadow::commitFloat(const Commit &C, Warp &W) {
     Out.Result = Out.In[0];
     Out.Largest = LaneDoubles{};
   } else {
-    floatInDouble(C.Insn.O, {Out.In[0], Out.In[1], Out.In[2]}, Out.Result,
+    floatInDouble(C.Insn.Opcode, {Out.In[0], Out.In[1], Out.In[2]}, Out.Result,
                   Out.Largest);
   }
   judge(C, W, Out);
@@ -213,7 +213,7 @@ void CoreShadow::judge(const Commit &C, Warp &W, const Outcome &Out) {
   uint32_t Whole = 0;
   if (C.Insn.info().Rs3 != File::None)
     Whole = roundsToWhole(W.In[2].Words, Words) & ~W.In[2].Followed;
-  else if (C.Insn.O == Op::RV_FADD_S || C.Insn.O == Op::RV_FSUB_S)
+  else if (C.Insn.Opcode == Op::RV_FADD_S || C.Insn.Opcode == Op::RV_FSUB_S)
     Whole = (roundsToWhole(W.In[0].Words, Words) & ~W.In[0].Followed) |
             (roundsToWhole(W.In[1].Words, Words) & ~W.In[1].Followed);
 

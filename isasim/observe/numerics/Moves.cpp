@@ -105,8 +105,8 @@ void CoreShadow::decide(const Step &S, Warp &W) {
   LaneWords OtherA = A.Words, OtherB = B.Words;
   mergeLanes(OtherA, A.ShadowValues, wordsOf(A.DifferingLanes));
   mergeLanes(OtherB, B.ShadowValues, wordsOf(B.DifferingLanes));
-  const uint32_t Flipped = (decidedLanes(S.Insn.O, A.Words, B.Words) ^
-                            decidedLanes(S.Insn.O, OtherA, OtherB)) &
+  const uint32_t Flipped = (decidedLanes(S.Insn.Opcode, A.Words, B.Words) ^
+                            decidedLanes(S.Insn.Opcode, OtherA, OtherB)) &
                            S.LaneMask;
   Sites.at(Sites.number(S.Pc)).Counts.Branches +=
       static_cast<unsigned>(std::popcount(Flipped));
@@ -119,7 +119,7 @@ void CoreShadow::commitSign(const Commit &C, Warp &W) {
   const uint32_t Lanes = A.Followed & C.LaneMask;
   if (Lanes == 0)
     return;
-  if (C.Insn.O == Op::RV_FSGNJ_S && C.Insn.Rs1 == C.Insn.Rs2)
+  if (C.Insn.Opcode == Op::RV_FSGNJ_S && C.Insn.Rs1 == C.Insn.Rs2)
     return setShadow(W, Rd, Lanes, A.Shadow); // fmv.s
   Values V = A.Shadow;
   forLanes(Lanes, [&](unsigned L) {
@@ -128,9 +128,9 @@ void CoreShadow::commitSign(const Commit &C, Warp &W) {
                              ? B.Shadow.Value[L]
                              : std::bit_cast<float>(B.Words[L]);
     const bool Negative =
-        C.Insn.O == Op::RV_FSGNJX_S
+        C.Insn.Opcode == Op::RV_FSGNJX_S
             ? std::signbit(Own) != std::signbit(Other)
-            : std::signbit(Other) != (C.Insn.O == Op::RV_FSGNJN_S);
+            : std::signbit(Other) != (C.Insn.Opcode == Op::RV_FSGNJN_S);
     V.Value[L] = std::copysign(Own, Negative ? -1.0 : 1.0);
   });
   setShadow(W, Rd, Lanes, V);
@@ -154,7 +154,7 @@ void CoreShadow::commitMinMax(const Commit &C, Warp &W) {
     };
     const double X = Of(A), Y = Of(B);
     const double Best =
-        C.Insn.O == Op::RV_FMIN_S ? std::fmin(X, Y) : std::fmax(X, Y);
+        C.Insn.Opcode == Op::RV_FMIN_S ? std::fmin(X, Y) : std::fmax(X, Y);
     const Operand &Chosen = Best == X ? A : B;
     const double Error = relativeError(std::bit_cast<float>(C.Result[L]), Best);
     // What is exact has no shadow.
@@ -181,7 +181,8 @@ void CoreShadow::commitCompare(const Commit &C, Warp &W) {
   toDouble(B.Words, Y);
   mergeLanes(X, A.Shadow.Value, wordsOf(A.Followed));
   mergeLanes(Y, B.Shadow.Value, wordsOf(B.Followed));
-  setShadowValues(C, W, wordsOf(compareInDouble(C.Insn.O, X, Y)) & 1U, true);
+  setShadowValues(C, W, wordsOf(compareInDouble(C.Insn.Opcode, X, Y)) & 1U,
+                  true);
 }
 
 void CoreShadow::commitToInt(const Commit &C, Warp &W) {
@@ -193,10 +194,10 @@ void CoreShadow::commitToInt(const Commit &C, Warp &W) {
   LaneWords ShadowValues{};
   const unsigned Rm = C.Insn.Rm == DynamicRm ? C.State.Frm : C.Insn.Rm;
   forLanes(C.LaneMask, [&](unsigned L) {
-    ShadowValues[L] =
-        (A.Followed >> L & 1) != 0
-            ? doubleToInt(A.Shadow.Value[L], C.Insn.O == Op::RV_FCVT_W_S, Rm)
-            : C.Result[L];
+    ShadowValues[L] = (A.Followed >> L & 1) != 0
+                          ? doubleToInt(A.Shadow.Value[L],
+                                        C.Insn.Opcode == Op::RV_FCVT_W_S, Rm)
+                          : C.Result[L];
   });
   setShadowValues(C, W, ShadowValues, true);
 }
@@ -209,12 +210,12 @@ void CoreShadow::commitInteger(const Commit &C, Warp &W) {
     LaneWords OtherA = A.Words, OtherB = B.Words, ShadowValues;
     mergeLanes(OtherA, A.ShadowValues, wordsOf(A.DifferingLanes));
     mergeLanes(OtherB, B.ShadowValues, wordsOf(B.DifferingLanes));
-    integerResult(C.Insn.O, OtherA, OtherB, ShadowValues);
+    integerResult(C.Insn.Opcode, OtherA, OtherB, ShadowValues);
     setShadowValues(C, W, ShadowValues,
-                    C.Insn.O == Op::RV_CZERO_EQZ ||
-                        C.Insn.O == Op::RV_CZERO_NEZ);
+                    C.Insn.Opcode == Op::RV_CZERO_EQZ ||
+                        C.Insn.Opcode == Op::RV_CZERO_NEZ);
   }
-  if (!movesBits(C.Insn.O))
+  if (!movesBits(C.Insn.Opcode))
     return;
   Values V{};
   uint32_t Lanes = 0;
@@ -244,7 +245,7 @@ void CoreShadow::commitShuffle(const Commit &C, Warp &W) {
   Values V{};
   uint32_t Lanes = 0;
   forLanes(C.LaneMask, [&](unsigned L) {
-    unsigned From = shuffleSource(C.Insn.O, L, Control.Words[L]);
+    unsigned From = shuffleSource(C.Insn.Opcode, L, Control.Words[L]);
     // Outside of the segment a lane keeps its own.
     if (From >= MaxLanes || (C.LaneMask >> From & 1) == 0 ||
         A.Words[From] != C.Result[L])
@@ -315,7 +316,7 @@ void CoreShadow::commitAtomic(const Commit &C, Warp &W) {
   const OwnRounding Own;
   Values V{};
   uint32_t Lanes = 0;
-  const Op O = C.Insn.O;
+  const Op O = C.Insn.Opcode;
   // In lane order, as it executes.
   forLanes(C.LaneMask, [&](unsigned L) {
     const uint32_t Address = addressOf(C, L);

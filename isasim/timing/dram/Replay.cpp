@@ -10,9 +10,9 @@ namespace {
 
 class Checker {
 public:
-  Checker(const TimingTable &TIn, const std::vector<Issued> &AllIn)
-      : T(TIn), All(AllIn), OpenRow(T.banks()) {
-    for (const Constraint &C : T.Constraints)
+  Checker(const TimingTable &Table, const std::vector<Issued> &All)
+      : Table(Table), All(All), OpenRow(Table.banks()) {
+    for (const Constraint &C : Table.Constraints)
       Horizon = std::max<uint64_t>(Horizon, C.Ticks);
   }
 
@@ -24,7 +24,7 @@ public:
       return Bad;
     if (std::string Bad = buses(Index); !Bad.empty())
       return Bad;
-    for (const Constraint &C : T.Constraints)
+    for (const Constraint &C : Table.Constraints)
       if (C.To == I.What && count(C, Index) >= C.Window)
         return fmt::format("is within {} ticks of {} (same {})", C.Ticks,
                            name(C.From), name(C.Within));
@@ -33,14 +33,15 @@ public:
 
 private:
   uint32_t rank(const Issued &I) const {
-    return I.Where.Bank / T.banksPerRank();
+    return I.Where.Bank / Table.banksPerRank();
   }
   bool isIn(Scope S, const Issued &A, const Issued &B) const {
     switch (S) {
     case Scope::Bank:
       return A.Where.Bank == B.Where.Bank;
     case Scope::BankGroup:
-      return A.Where.Bank / T.BanksPerGroup == B.Where.Bank / T.BanksPerGroup;
+      return A.Where.Bank / Table.BanksPerGroup ==
+             B.Where.Bank / Table.BanksPerGroup;
     case Scope::Rank:
       return rank(A) == rank(B);
     case Scope::OtherRanks:
@@ -67,8 +68,8 @@ private:
 
   std::string state(const Issued &I) {
     std::optional<uint32_t> &Row = OpenRow[I.Where.Bank];
-    const auto First = OpenRow.begin() + rank(I) * T.banksPerRank();
-    const auto End = First + T.banksPerRank();
+    const auto First = OpenRow.begin() + rank(I) * Table.banksPerRank();
+    const auto End = First + Table.banksPerRank();
     switch (I.What) {
     case Command::Activate:
       if (Row)
@@ -105,21 +106,22 @@ private:
   std::string buses(size_t Index) {
     const Issued &I = All[Index];
     const bool IsColumn = I.What == Command::Read || I.What == Command::Write;
-    uint64_t &Taken = CommandBus[T.HasColumnBus && IsColumn];
-    if (I.At < Taken + T.CommandTicks[size_t(I.What)])
+    uint64_t &Taken = CommandBus[Table.HasColumnBus && IsColumn];
+    if (I.At < Taken + Table.CommandTicks[size_t(I.What)])
       return "overlaps a command on the bus";
     Taken = I.At;
     if (!IsColumn)
       return {};
     const uint64_t Begin =
-        I.At + (I.What == Command::Read ? T.ReadLatency : T.WriteLatency);
+        I.At +
+        (I.What == Command::Read ? Table.ReadLatency : Table.WriteLatency);
     if (Begin < DataBus)
       return "overlaps a burst on the data bus";
-    DataBus = Begin + T.BurstTicks;
+    DataBus = Begin + Table.BurstTicks;
     return {};
   }
 
-  const TimingTable &T;
+  const TimingTable &Table;
   const std::vector<Issued> &All;
   std::vector<std::optional<uint32_t>> OpenRow;
   uint64_t Horizon = 0;

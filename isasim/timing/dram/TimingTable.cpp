@@ -85,7 +85,8 @@ JsonShape tableShape() {
 /// Reads one table. The members return false once Problem is set.
 class Reader {
 public:
-  Reader(const Json &JIn, TimingTable &TIn) : J(JIn), T(TIn) {}
+  Reader(const Json &Document, TimingTable &Table)
+      : Document(Document), Table(Table) {}
   std::string Problem;
 
   bool read() {
@@ -102,9 +103,9 @@ private:
   }
 
   bool readValues() {
-    if (!J["values"].is_object())
+    if (!Document["values"].is_object())
       return fail("key values is no object, expected one of [ticks, source]");
-    for (const auto &[Name, Value] : J["values"].items()) {
+    for (const auto &[Name, Value] : Document["values"].items()) {
       if (!Value.is_array() || Value.size() != 2 ||
           !Value[0].is_number_unsigned() || Value[0] > MostTicks ||
           !Value[1].is_string())
@@ -159,49 +160,53 @@ private:
   }
 
   bool sum(const char *Key, uint32_t &Result) {
-    return sum(J[Key].get<std::string>(), Key, Result);
+    return sum(Document[Key].get<std::string>(), Key, Result);
   }
 
   bool readDevice() {
-    T.Standard = J["standard"];
-    T.TickPs = J["tick_ps"];
+    Table.Standard = Document["standard"];
+    Table.TickPs = Document["tick_ps"];
     struct Size {
       const char *Key;
-      uint32_t &Of;
+      uint32_t &Value;
     };
     for (const Size &S :
-         {Size{"ranks", T.Ranks}, Size{"bank_groups", T.BankGroups},
-          Size{"banks_per_group", T.BanksPerGroup}, Size{"rows", T.Rows},
-          Size{"row_bytes", T.RowBytes}, Size{"burst_bytes", T.BurstBytes}}) {
-      S.Of = J[S.Key];
-      if (!std::has_single_bit(S.Of))
-        return fail(
-            fmt::format("key {} is {}, expected a power of two", S.Key, S.Of));
+         {Size{"ranks", Table.Ranks}, Size{"bank_groups", Table.BankGroups},
+          Size{"banks_per_group", Table.BanksPerGroup},
+          Size{"rows", Table.Rows}, Size{"row_bytes", Table.RowBytes},
+          Size{"burst_bytes", Table.BurstBytes}}) {
+      S.Value = Document[S.Key];
+      if (!std::has_single_bit(S.Value))
+        return fail(fmt::format("key {} is {}, expected a power of two", S.Key,
+                                S.Value));
     }
-    if (uint64_t{T.Ranks} * T.BankGroups * T.BanksPerGroup > MostBanks)
-      return fail(fmt::format(
-          "key banks_per_group makes {} banks of a "
-          "channel, expected at most {}",
-          uint64_t{T.Ranks} * T.BankGroups * T.BanksPerGroup, MostBanks));
-    if (T.BurstBytes > T.RowBytes)
+    if (uint64_t{Table.Ranks} * Table.BankGroups * Table.BanksPerGroup >
+        MostBanks)
+      return fail(fmt::format("key banks_per_group makes {} banks of a "
+                              "channel, expected at most {}",
+                              uint64_t{Table.Ranks} * Table.BankGroups *
+                                  Table.BanksPerGroup,
+                              MostBanks));
+    if (Table.BurstBytes > Table.RowBytes)
       return fail(fmt::format("key burst_bytes is {}, expected at most a row's "
                               "{}",
-                              T.BurstBytes, T.RowBytes));
-    T.HasColumnBus = J.value("column_bus", false);
-    return sum("read_latency", T.ReadLatency) &&
-           sum("write_latency", T.WriteLatency) && sum("burst", T.BurstTicks) &&
-           sum("refresh_interval", T.RefreshInterval) &&
-           (!J.contains("bank_refresh_interval") ||
-            sum("bank_refresh_interval", T.BankRefreshInterval));
+                              Table.BurstBytes, Table.RowBytes));
+    Table.HasColumnBus = Document.value("column_bus", false);
+    return sum("read_latency", Table.ReadLatency) &&
+           sum("write_latency", Table.WriteLatency) &&
+           sum("burst", Table.BurstTicks) &&
+           sum("refresh_interval", Table.RefreshInterval) &&
+           (!Document.contains("bank_refresh_interval") ||
+            sum("bank_refresh_interval", Table.BankRefreshInterval));
   }
 
   bool readCommandTicks() {
-    T.CommandTicks.fill(1);
-    if (!J.contains("command_ticks"))
+    Table.CommandTicks.fill(1);
+    if (!Document.contains("command_ticks"))
       return true;
-    if (!J["command_ticks"].is_object())
+    if (!Document["command_ticks"].is_object())
       return fail("key command_ticks is no object, expected ticks by command");
-    for (const auto &[Name, Value] : J["command_ticks"].items()) {
+    for (const auto &[Name, Value] : Document["command_ticks"].items()) {
       const std::string Key = "command_ticks." + Name;
       const auto Which = parseName<Command>(Name, CommandNames, Key);
       if (!Which)
@@ -209,14 +214,14 @@ private:
       if (!Value.is_number_unsigned() || Value < 1U || Value > 64U)
         return fail(fmt::format("key {} is {}, expected 1 to 64", Key,
                                 jsonText(Value)));
-      T.CommandTicks[size_t(*Which)] = Value;
+      Table.CommandTicks[size_t(*Which)] = Value;
     }
     return true;
   }
 
   bool readConstraints() {
     size_t Index = 0;
-    for (const Json &Row : J["constraints"]) {
+    for (const Json &Row : Document["constraints"]) {
       const std::string Key = fmt::format("constraints[{}]", Index++);
       const auto From = parseName<Command>(Row["from"].get<std::string>(),
                                            CommandNames, Key + ".from");
@@ -245,14 +250,14 @@ private:
         return fail(fmt::format("key {}.window is of {} to {}, expected ACT to "
                                 "ACT of a rank",
                                 Key, name(New.From), name(New.To)));
-      for (const Constraint &Old : T.Constraints)
+      for (const Constraint &Old : Table.Constraints)
         if (Old.From == New.From && Old.To == New.To &&
             Old.Within == New.Within && Old.Window == New.Window)
           return fail(fmt::format("key {} is there twice: {} to {} of the same "
                                   "{}",
                                   Key, name(New.From), name(New.To),
                                   name(New.Within)));
-      T.Constraints.push_back(New);
+      Table.Constraints.push_back(New);
     }
     return true;
   }
@@ -286,19 +291,19 @@ private:
         {C::RefreshBank, C::Activate},  {C::RefreshBank, C::RefreshBank},
         {C::RefreshBank, C::Refresh},   {C::Refresh, C::RefreshBank}};
     const auto IsMet = [this](const Need &N) {
-      return T.sameBank(N.From, N.To) != 0 ||
+      return Table.sameBank(N.From, N.To) != 0 ||
              fail(fmt::format("key constraints has no {} to {}", name(N.From),
                               name(N.To)));
     };
     const auto Has = [this](Command From, Command To, Scope Within,
                             bool IsWindow) {
-      return std::ranges::any_of(T.Constraints, [&](const Constraint &K) {
+      return std::ranges::any_of(Table.Constraints, [&](const Constraint &K) {
         return K.From == From && K.To == To && K.Within == Within &&
                (K.Window != 1) == IsWindow;
       });
     };
     if (!std::ranges::all_of(Always, IsMet) ||
-        (T.BankRefreshInterval && !std::ranges::all_of(ByBank, IsMet)))
+        (Table.BankRefreshInterval && !std::ranges::all_of(ByBank, IsMet)))
       return false;
     if (!Has(C::Activate, C::Activate, Scope::Bank, false))
       return fail("key constraints has no ACT to ACT of a bank (tRC)");
@@ -306,13 +311,13 @@ private:
       return fail("key constraints has no ACT to ACT of a rank (tRRD)");
     if (!Has(C::Activate, C::Activate, Scope::Rank, true))
       return fail("key constraints has no ACT to ACT with a window (tFAW)");
-    if (T.Ranks > 1 && !Has(C::Read, C::Read, Scope::OtherRanks, false))
+    if (Table.Ranks > 1 && !Has(C::Read, C::Read, Scope::OtherRanks, false))
       return fail("key constraints has no RD to RD of other_ranks");
     return true;
   }
 
   bool atLeast(Command From, Command To, uint32_t Least, const char *Why) {
-    const uint32_t Is = T.sameBank(From, To);
+    const uint32_t Is = Table.sameBank(From, To);
     return Is >= Least ||
            fail(fmt::format("key constraints says {} to {} is {} ticks, "
                             "expected at least {}: {}",
@@ -324,55 +329,56 @@ private:
     // Any two banks share the data bus.
     const auto OfAnyBanks = [this](Command Column) {
       uint32_t Ticks = 0;
-      for (const Constraint &K : T.Constraints)
+      for (const Constraint &K : Table.Constraints)
         if (K.From == Column && K.To == Column &&
             (K.Within == Scope::Channel || K.Within == Scope::Rank))
           Ticks = std::max(Ticks, K.Ticks);
       return Ticks;
     };
     for (const Command Column : {C::Read, C::Write})
-      if (OfAnyBanks(Column) < T.BurstTicks)
+      if (OfAnyBanks(Column) < Table.BurstTicks)
         return fail(fmt::format("key constraints says {0} to {0} of any banks "
                                 "is {1} ticks, expected at least {2}: the data "
                                 "bus is taken",
                                 name(Column), OfAnyBanks(Column),
-                                T.BurstTicks));
-    const uint32_t ReadEnd = T.ReadLatency + T.BurstTicks;
-    const uint32_t WriteEnd = T.WriteLatency + T.BurstTicks;
+                                Table.BurstTicks));
+    const uint32_t ReadEnd = Table.ReadLatency + Table.BurstTicks;
+    const uint32_t WriteEnd = Table.WriteLatency + Table.BurstTicks;
     const auto Rest = [](uint32_t End, uint32_t Latency) {
       return End > Latency ? End - Latency : 1;
     };
-    if (!atLeast(C::Read, C::Write, Rest(ReadEnd, T.WriteLatency),
+    if (!atLeast(C::Read, C::Write, Rest(ReadEnd, Table.WriteLatency),
                  "the data bus is taken") ||
-        !atLeast(C::Write, C::Read, Rest(WriteEnd, T.ReadLatency),
+        !atLeast(C::Write, C::Read, Rest(WriteEnd, Table.ReadLatency),
                  "the data bus is taken") ||
         !atLeast(C::Write, C::Precharge, WriteEnd,
                  "the data are not written") ||
-        !atLeast(C::Activate, C::Precharge, T.sameBank(C::Activate, C::Read),
-                 "the row is not open"))
+        !atLeast(C::Activate, C::Precharge,
+                 Table.sameBank(C::Activate, C::Read), "the row is not open"))
       return false;
     // A shorter one is implied, so that whoever wrote it meant another.
     if (!atLeast(C::Activate, C::Activate,
-                 T.sameBank(C::Activate, C::Precharge) +
-                     T.sameBank(C::Precharge, C::Activate),
+                 Table.sameBank(C::Activate, C::Precharge) +
+                     Table.sameBank(C::Precharge, C::Activate),
                  "ACT to PRE and PRE to ACT"))
       return false;
-    if (T.RefreshInterval <= T.sameBank(C::Refresh, C::Activate))
+    if (Table.RefreshInterval <= Table.sameBank(C::Refresh, C::Activate))
       return fail(fmt::format("key refresh_interval is {} ticks, expected more "
                               "than the {} of a refresh",
-                              T.RefreshInterval,
-                              T.sameBank(C::Refresh, C::Activate)));
-    if (T.BankRefreshInterval &&
-        T.BankRefreshInterval <= T.sameBank(C::RefreshBank, C::RefreshBank))
+                              Table.RefreshInterval,
+                              Table.sameBank(C::Refresh, C::Activate)));
+    if (Table.BankRefreshInterval &&
+        Table.BankRefreshInterval <=
+            Table.sameBank(C::RefreshBank, C::RefreshBank))
       return fail(fmt::format("key bank_refresh_interval is {} ticks, expected "
                               "more than the {} of a refresh",
-                              T.BankRefreshInterval,
-                              T.sameBank(C::RefreshBank, C::RefreshBank)));
+                              Table.BankRefreshInterval,
+                              Table.sameBank(C::RefreshBank, C::RefreshBank)));
     return true;
   }
 
-  const Json &J;
-  TimingTable &T;
+  const Json &Document;
+  TimingTable &Table;
   std::map<std::string, uint32_t, std::less<>> Values;
 };
 
