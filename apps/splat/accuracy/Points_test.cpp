@@ -13,18 +13,18 @@ using Json = nlohmann::ordered_json;
 
 class KeptPointsTest : public ::testing::Test {
 protected:
-  KeptPointsTest() { EXPECT_TRUE(makeFolders(F.path("o"))); }
+  KeptPointsTest() { EXPECT_TRUE(makeFolders(Folder.path("o"))); }
 
   KeptPoints open() {
     Log.clear();
-    return {F.path("o"),
+    return {Folder.path("o"),
             [](const Json &J) {
               return J.contains("cycles") && J["cycles"].is_number();
             },
             [this](std::string_view Line) { Log += Line; }};
   }
 
-  TestFolder F;
+  TestFolder Folder;
   std::string Log;
 };
 
@@ -47,14 +47,14 @@ TEST_F(KeptPointsTest, AreUsedForTheSameAlone) {
   EXPECT_EQ(Third.find("a@front", Other), nullptr);
   EXPECT_EQ(Third.find("a@front", Other), nullptr);
   EXPECT_EQ(Log, fmt::format("{}: stale, differs in scene: not used",
-                             F.path("o/points/a@front.json")));
+                             Folder.path("o/points/a@front.json")));
 }
 
 /// Each is one line and no measurement.
 TEST_F(KeptPointsTest, WhatIsNoMeasurementIsNotUsed) {
   KeptPoints Kept = open();
   ASSERT_TRUE(Kept.keep("a", From, Json{{"cycles", 7}}));
-  const std::string Whole = F.read("o/points/a.json");
+  const std::string Whole = Folder.read("o/points/a.json");
   const auto Cut = [&](std::string_view What, std::string_view By) {
     std::string Text = Whole;
     return Text.replace(Text.find(What), What.size(), By);
@@ -72,7 +72,7 @@ TEST_F(KeptPointsTest, WhatIsNoMeasurementIsNotUsed) {
       {Cut("7", "null"), "damaged"},
       {Cut("\"p\"", "{}"), "stale, differs in programs"}};
   for (const auto &[Text, Why] : Files) {
-    F.write("o/points/a.json", Text);
+    Folder.write("o/points/a.json", Text);
     KeptPoints Again = open();
     EXPECT_EQ(Again.find("a", From), nullptr) << Text.substr(0, 80);
     EXPECT_NE(Log.find(Why), std::string::npos) << Log;
@@ -85,7 +85,7 @@ TEST_F(KeptPointsTest, NoMeasurementIsNotKept) {
   const auto Done = Kept.keep("a", From, Json{{"cycles", nullptr}});
   ASSERT_FALSE(Done);
   EXPECT_EQ(Done.error().Where, "a");
-  EXPECT_FALSE(std::filesystem::exists(F.path("o/points/a.json")));
+  EXPECT_FALSE(std::filesystem::exists(Folder.path("o/points/a.json")));
 }
 
 } // namespace

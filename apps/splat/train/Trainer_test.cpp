@@ -23,12 +23,12 @@ namespace {
 /// Renders and differentiates in fp64 on the host.
 class ReferenceRenderer : public GradientRenderer {
 public:
-  ReferenceRenderer(Launcher &Launch) : L(Launch) {}
+  ReferenceRenderer(Launcher &Launch) : Launch(Launch) {}
 
   cl::Buffer forward(const DeviceScene &D, const Camera &C,
                      int ShDegree) override {
     Pose = C;
-    Now = D.download(L);
+    Now = D.download(Launch);
     // Bands above the degree left out.
     const std::vector<float> Sh = shPlanes(Now, ShDegree);
     Now = sceneOfPlanes(geometryPlanes(Now), Sh, ShDegree);
@@ -48,7 +48,7 @@ public:
     const std::size_t Pixels =
         static_cast<std::size_t>(Pose.Width * Pose.Height);
     std::vector<float> Given(3 * Pixels);
-    L.read("upstream", Given.data(), ByRender, 4 * Given.size());
+    Launch.read("upstream", Given.data(), ByRender, 4 * Given.size());
     reference::Upstream U;
     for (std::size_t I = 0; I < Pixels; ++I)
       U.Render.emplace_back(Given[3 * I], Given[3 * I + 1], Given[3 * I + 2]);
@@ -93,12 +93,12 @@ public:
 
 private:
   template <typename T> cl::Buffer upload(const std::vector<T> &Values) {
-    const cl::Buffer B = L.allocate("values", sizeof(T) * Values.size());
-    L.write("values", B, Values.data(), sizeof(T) * Values.size());
+    const cl::Buffer B = Launch.allocate("values", sizeof(T) * Values.size());
+    Launch.write("values", B, Values.data(), sizeof(T) * Values.size());
     return B;
   }
 
-  Launcher &L;
+  Launcher &Launch;
   reference::Options Options;
   Scene Now;
   Camera Pose;
@@ -191,10 +191,10 @@ protected:
     return Set;
   }
 
-  void build(Launcher &L) {
-    L.beginStage(Stage::Blend);
+  void build(Launcher &Launch) {
+    Launch.beginStage(Stage::Blend);
     for (const ProgramSpec &P : Trainer::programs())
-      L.build(P);
+      Launch.build(P);
   }
 };
 
@@ -216,18 +216,19 @@ TEST_F(TrainerOnDevice, LearnsAndGoesOnFromACheckpointBitForBit) {
   std::vector<Checkpoint> Unbroken;
   std::vector<double> Losses;
   {
-    Launcher L(*Dev, "", {});
-    build(L);
-    ReferenceRenderer R(L);
+    Launcher Launch(*Dev, "", {});
+    build(Launch);
+    ReferenceRenderer R(Launch);
     OneRank Alone;
-    Trainer T(L, R, Set, Run, Alone);
+    Trainer T(Launch, R, Set, Run, Alone);
     T.start(blobs(30, 2));
     const double Before = T.evaluate()[0];
     bool Grew = false;
     for (unsigned I = 1; I <= 24; ++I) {
       const uint32_t Count = T.gaussians();
       const StepReport Step = T.step();
-      ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+      ASSERT_FALSE(Launch.failure())
+          << Launch.failure()->What << Launch.buildLog();
       EXPECT_EQ(Step.Iteration, I);
       // What is due after a sixth one waits for the next: no run ends with it.
       EXPECT_EQ(Step.Density.has_value(), I > 6 && I % 6 == 1);
@@ -251,11 +252,11 @@ TEST_F(TrainerOnDevice, LearnsAndGoesOnFromACheckpointBitForBit) {
   EXPECT_LT(Mean(11), 0.9 * Mean(0)); // before the reset of opacities
   // From each checkpoint, in a program of its own so to say.
   for (std::size_t From = 0; From + 1 < Unbroken.size(); ++From) {
-    Launcher L(*Dev, "", {});
-    build(L);
-    ReferenceRenderer R(L);
+    Launcher Launch(*Dev, "", {});
+    build(Launch);
+    ReferenceRenderer R(Launch);
     OneRank Alone;
-    Trainer T(L, R, Set, Run, Alone);
+    Trainer T(Launch, R, Set, Run, Alone);
     T.restore(Unbroken[From]);
     while (T.iteration() < 24)
       T.step();
@@ -283,16 +284,17 @@ TEST_F(TrainerOnDevice, AnyNumberOfProcessesHasTheSameBits) {
     std::vector<std::thread> Threads;
     for (unsigned Own = 0; Own < Processes; ++Own)
       Threads.emplace_back([&, Own] {
-        Launcher L(*Dev, "", {});
-        build(L);
-        ReferenceRenderer R(L);
+        Launcher Launch(*Dev, "", {});
+        build(Launch);
+        ReferenceRenderer R(Launch);
         ThreadRanks Together(Room, Own);
-        Trainer T(L, R, Set, Run, Together);
+        Trainer T(Launch, R, Set, Run, Together);
         T.start(Start);
         for (int I = 0; I < 5; ++I)
           T.step();
         Kept[Own] = T.save();
-        EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+        EXPECT_FALSE(Launch.failure())
+            << Launch.failure()->What << Launch.buildLog();
       });
     for (std::thread &T : Threads)
       T.join();
@@ -317,15 +319,16 @@ TEST_F(TrainerOnDevice, ABatchIsTheMeanOfItsViews) {
     Run.Settings.PositionRate = Run.Settings.ColourRate =
         Run.Settings.OpacityRate = Run.Settings.ScaleRate =
             Run.Settings.RotationRate = 1e-12; // the scene stays as it is
-    Launcher L(*Dev, "", {});
-    build(L);
-    ReferenceRenderer R(L);
+    Launcher Launch(*Dev, "", {});
+    build(Launch);
+    ReferenceRenderer R(Launch);
     OneRank Alone;
-    Trainer T(L, R, Set, Run, Alone);
+    Trainer T(Launch, R, Set, Run, Alone);
     T.start(Start);
     for (unsigned I = 0; I < Steps; ++I)
       T.step();
-    EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+    EXPECT_FALSE(Launch.failure())
+        << Launch.failure()->What << Launch.buildLog();
     return std::pair(T.losses(), T.save());
   };
   const auto [Each, AfterBoth] = FirstLosses(1, 2);

@@ -40,8 +40,8 @@ struct RasterShadow::Tile {
   double Color[3][TileBuffer::Pixels];
   double T[TileBuffer::Pixels];
 
-  void reset(const Job &J) {
-    Real.reset(J.X, J.Y, J.Width, J.Height);
+  void reset(const Job &Task) {
+    Real.reset(Task.X, Task.Y, Task.Width, Task.Height);
     for (auto &Plane : Color)
       std::fill(std::begin(Plane), std::end(Plane), 0.0);
     std::fill(std::begin(T), std::end(T), 1.0);
@@ -52,7 +52,7 @@ struct RasterShadow::Tile {
 class RasterShadow::Replay {
 public:
   Replay(RasterShadow &Of, const Job &What, Tile &To)
-      : Out(Of.Found), Memory(Of.Memory), Lanes(Of.Lanes), J(What), T(To) {}
+      : Out(Of.Found), Memory(Of.Memory), Lanes(Of.Lanes), Task(What), T(To) {}
 
   /// \p Address of the record, 0 for a pushed one.
   void blend(const Gaussian &G, uint32_t Number, uint32_t Address);
@@ -86,7 +86,7 @@ private:
   RasterFindings &Out;
   const ShadowMemory &Memory;
   const Datapath &Lanes;
-  const Job &J;
+  const Job &Task;
   Tile &T;
 
   uint32_t Number = 0;
@@ -133,8 +133,8 @@ void RasterShadow::Replay::count(RasterStage Which, float Is, double Own,
     return;
   To.OwnMax = OwnError;
   To.Gaussian = Number;
-  To.X = J.X + X;
-  To.Y = J.Y + Y;
+  To.X = Task.X + X;
+  To.Y = Task.Y + Y;
   To.Actual = Is;
   To.Reference = Own;
 }
@@ -164,7 +164,7 @@ void RasterShadow::Replay::compareBoxes(const Gaussian &G,
 void RasterShadow::Replay::collect(const Gaussian &G, const ShadowGaussian &S,
                                    unsigned AtRow) {
   // By more than any unit's error.
-  const double Bound = std::log(J.Blend.MinAlpha / G.Opacity) - 0.25;
+  const double Bound = std::log(Task.Blend.MinAlpha / G.Opacity) - 0.25;
   const float Dy = G.Mean[1] - T.Real.CentreY[AtRow];
   const double Dy2 = S.Mean[1] - T.Real.CentreY[AtRow];
   for (unsigned Column = 0; Column != Side; ++Column) {
@@ -202,10 +202,10 @@ void RasterShadow::Replay::judge(const Gaussian &G, const ShadowGaussian &S,
   const unsigned At = F.At;
   const float Wanted = G.Opacity * Exp;
   const double Exp2 = std::exp(F.Power2), Wanted2 = S.Opacity * Exp2;
-  const bool Counts = Wanted >= J.Blend.MinAlpha;
-  if (Counts != (Wanted2 >= J.Blend.MinAlpha))
+  const bool Counts = Wanted >= Task.Blend.MinAlpha;
+  if (Counts != (Wanted2 >= Task.Blend.MinAlpha))
     differ(RasterStage::Alpha);
-  if (!Counts && !(Wanted2 >= J.Blend.MinAlpha))
+  if (!Counts && !(Wanted2 >= Task.Blend.MinAlpha))
     return;
   count(RasterStage::Power, F.Power, F.OwnPower, F.Power2);
   count(RasterStage::Exp, Exp, std::exp(double{F.Power}), Exp2);
@@ -221,7 +221,7 @@ void RasterShadow::Replay::judge(const Gaussian &G, const ShadowGaussian &S,
 
   const double NextT2 = T.T[At] * (1 - Alpha2);
   const bool Stops = std::signbit(T.Real.T[At]);
-  if (Stops != (NextT2 < J.Blend.StopBelow))
+  if (Stops != (NextT2 < Task.Blend.StopBelow))
     differ(RasterStage::Transmittance);
   if (Stops)
     return;
@@ -268,8 +268,8 @@ void RasterShadow::Replay::blend(const Gaussian &G, uint32_t GaussianNumber,
   Exps.assign((Fragments.size() + Lanes16 - 1) / Lanes16 * Lanes16, 0.0F);
   for (size_t N = 0; N != Fragments.size(); ++N)
     Exps[N] = Fragments[N].Power;
-  Lanes.Exp[J.Units.Exp](Exps.data(), Exps.size());
-  blendFunction(J, Lanes)(G, J.Blend, T.Real);
+  Lanes.Exp[Task.Units.Exp](Exps.data(), Exps.size());
+  blendFunction(Task, Lanes)(G, Task.Blend, T.Real);
   for (size_t N = 0; N != Fragments.size(); ++N) {
     X = Fragments[N].Column;
     Y = Fragments[N].At / Side;
@@ -278,13 +278,13 @@ void RasterShadow::Replay::blend(const Gaussian &G, uint32_t GaussianNumber,
 }
 
 bool RasterShadow::Replay::blendList(RasterMemory &Storage, uint64_t Entries) {
-  const GaussianList List(J, Storage);
+  const GaussianList List(Task, Storage);
   Fetched Entry;
   for (uint32_t N = 0; N != Entries && T.Real.Live != 0; ++N) {
     if (List.fetch(N, Entry) != VR_OK)
       return false;
     blend(Entry.Record,
-          (Entry.Address - J.Gaussians) / uint32_t{sizeof(Gaussian)},
+          (Entry.Address - Task.Gaussians) / uint32_t{sizeof(Gaussian)},
           Entry.Address);
   }
   return true;
@@ -304,14 +304,14 @@ void RasterShadow::runBegins(const RunStart &R) {
 }
 
 /// The pixels as the units wrote them get their shadows.
-void RasterShadow::finish(const Job &J, const Tile &T) {
-  for (unsigned Y = 0; Y != J.Height; ++Y) {
-    const std::byte *Row = J.Drains ? nullptr : outputRow(J, *Global, Y);
-    for (unsigned X = 0; X != J.Width; ++X) {
+void RasterShadow::finish(const Job &Task, const Tile &T) {
+  for (unsigned Y = 0; Y != Task.Height; ++Y) {
+    const std::byte *Row = Task.Drains ? nullptr : outputRow(Task, *Global, Y);
+    for (unsigned X = 0; X != Task.Width; ++X) {
       const unsigned At = Y * Side + X;
       PixelFinding F{
-          J.X + X,
-          J.Y + Y,
+          Task.X + X,
+          Task.Y + Y,
           {T.Real.R[At], T.Real.G[At], T.Real.B[At], std::fabs(T.Real.T[At])},
           {T.Color[0][At], T.Color[1][At], T.Color[2][At], T.T[At]},
           0};
@@ -336,7 +336,7 @@ void RasterShadow::finish(const Job &J, const Tile &T) {
       std::memcpy(Words.data(), Row + X * sizeof(Pixel), sizeof(Words));
       Found.NotReplayed += Words != std::bit_cast<decltype(Words)>(F.Actual);
       const uint32_t Address =
-          J.Output + Y * J.OutputPitch + X * uint32_t{sizeof(Pixel)};
+          Task.Output + Y * Task.OutputPitch + X * uint32_t{sizeof(Pixel)};
       for (unsigned N = 0; N != 4; ++N)
         Memory.set(0, Address + 4 * N,
                    {F.Reference[N], Words[N], Origin::site(Site).word()});
@@ -345,16 +345,16 @@ void RasterShadow::finish(const Job &J, const Tile &T) {
 }
 
 void RasterShadow::rasterCommand(const raster::CommandWork &W) {
-  const Job &J = W.What;
+  const Job &Task = W.What;
   // Gradients go to the core, which follows them no further.
-  if (J.Refusal || J.IsBackward)
+  if (Task.Refusal || Task.IsBackward)
     return;
   auto T = std::make_unique<Tile>();
-  T->reset(J);
-  Replay R(*this, J, *T);
+  T->reset(Task);
+  Replay R(*this, Task, *T);
   // The unit says how far it went; what it refused has no result.
   const uint64_t Fetched = W.Counts.Gaussians;
-  if (J.TakesPushed) {
+  if (Task.TakesPushed) {
     for (uint64_t N = 0; N != Fetched; ++N) {
       const Gaussian &G = W.Pushed[N];
       if (checkGaussian(G) != VR_OK)
@@ -364,15 +364,15 @@ void RasterShadow::rasterCommand(const raster::CommandWork &W) {
   } else {
     if (!R.blendList(*Global, Fetched))
       return;
-    if (Fetched != J.Count && T->Real.Live != 0) {
-      if (!J.mayHandOver())
+    if (Fetched != Task.Count && T->Real.Live != 0) {
+      if (!Task.mayHandOver())
         return; // the next record is not there
-      HandedOver[{W.Core, J.Output}] = std::move(T);
+      HandedOver[{W.Core, Task.Output}] = std::move(T);
       return;
     }
   }
   ++Found.Commands;
-  finish(J, *T);
+  finish(Task, *T);
 }
 
 void RasterShadow::tail(const raster::TailWork &W) {
