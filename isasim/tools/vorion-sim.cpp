@@ -266,8 +266,7 @@ void declareLaunch(CLI::App &App, Options &O) {
                  "buf:SIZE buf@FILE out:SIZE@FILE inout:FILE[@FILE] local:SIZE")
       ->type_name("ARG")
       ->group("Running a kernel")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   App.add_option("--args", O.ArgsFile,
                  "these as JSON: {\"kernel\", \"global\", \"local\", "
                  "\"args\": [\"i32:5\", ...]}")
@@ -303,8 +302,7 @@ void declare(CLI::App &App, Options &O) {
   App.add_option("--set", O.Set,
                  "change the configuration (raster.queue_depth=8)")
       ->type_name("KEY=VALUE,...")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   App.add_flag("--print-config-schema", O.PrintSchema,
                "print the JSON schema of configurations and exit");
   App.add_option("--config", O.ConfigFile, "machine configuration, JSON")

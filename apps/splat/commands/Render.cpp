@@ -298,8 +298,7 @@ Runner addRender(CLI::App &App) {
                  "several pictures, whose files then have the view's name in "
                  "front of their ending")
       ->required()
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   App.add_flag("--overlap", A->Overlap,
                "Of several pictures, prepare one while another is blended");
   App.add_option("-o,--output", A->Output,
