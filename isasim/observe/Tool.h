@@ -56,6 +56,7 @@ struct ToolKind {
   /// text that does not parse has none.
   std::vector<NamedFile> (*Outputs)(const std::string &Text) = nullptr;
   /// What its option chooses from, for --help; empty if it names nothing.
+  // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
   std::span<const std::string_view> Names = {};
 };
 
