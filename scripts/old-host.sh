@@ -6,11 +6,16 @@ source "$(dirname "$0")/lib.sh"
 command -v qemu-x86_64 >/dev/null || fail "no qemu-x86_64, expected the package qemu-user"
 Programs=("$@")
 if [ $# -eq 0 ]; then
+  # A test file is a program of its own, or part of its folder's.
   while read -r Source; do
-    Name=$(basename "$Source" .cpp)
-    case "$Source" in isasim/raster/* | isasim/pixel/*) ;; *) Name=isasim_$Name ;; esac
-    Programs+=("$Name")
+    Name=$(basename "$Source" .cpp) Found=
+    for Program in "isasim_$Name" "$Name" "$(basename "$(dirname "$Source")")_test"; do
+      [ -n "$Found" ] || [ ! -x "$Build/bin/$Program" ] || Found=$Program
+    done
+    [ -n "$Found" ] || fail "no test program of $Source in $Build/bin"
+    Programs+=("$Found")
   done < <(cd "$Root" && find isasim -name '*_test.cpp' | sort)
+  mapfile -t Programs < <(printf '%s\n' "${Programs[@]}" | sort -u)
 fi
 
 mkdir -p "$Logs"
