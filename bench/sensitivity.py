@@ -4,7 +4,8 @@
 usage: sensitivity.py SCENE --cameras FILE --view NAME -o OUT.json [--config FILE] [--share PERCENT] [--only PREFIX]
 
 Parameters are those of the configuration's "timing" object (vorion-sim --print-default-config), as isasim/include/
-vorion/isasim/TimingParams.def lists them; a switch is turned over instead. OUT.json keeps every result, so that a run
+vorion/isasim/TimingParams.def lists them; a switch is turned over instead, and what must
+be a power of two is halved and doubled. OUT.json keeps every result, so that a run
 that was broken off goes on where it stopped, unless it was made from other things. The table is printed as Markdown, largest effect first.
 """
 
@@ -18,6 +19,7 @@ import tempfile
 import kept
 
 SWITCHES = ("fpu", "loads_queue", "interleaved_stacks", "intersect_hint")
+POWERS_OF_TWO = ("channels", "channel_bytes")
 
 
 def parameters(timing):
@@ -25,7 +27,6 @@ def parameters(timing):
     for group, members in timing.items():
         if isinstance(members, dict):
             for name, value in members.items():
-                # A name of a set of numbers: these follow.
                 if not isinstance(value, str):
                     yield group, name, value
 
@@ -34,6 +35,8 @@ def variants(name, value):
     """What to try: value by label."""
     if name in SWITCHES:
         return {"other": 1 - value}
+    if name in POWERS_OF_TWO:
+        return {"half": value // 2, "twice": 2 * value}
     step = max(1, round(0.2 * value))
     return {"-20 %": max(0, value - step), "+20 %": value + step}
 
@@ -70,8 +73,8 @@ def table(results, share):
         if effect < share:
             small += 1
             continue
-        less = changes.get("-20 %", changes.get("other"))
-        more = changes.get("+20 %", changes.get("other"))
+        less = changes.get("-20 %", changes.get("half", changes.get("other")))
+        more = changes.get("+20 %", changes.get("twice", changes.get("other")))
         default = by_label["default"]
         print(f"| `{key}` | {default} | " + " | ".join("" if c is None else f"{c:+.2f} %" for c in (less, more)) + " |")
     print(f"\n{small} more parameters change the frame by less than {share} %.")

@@ -1,6 +1,7 @@
 #include "vorion/isasim/Config.h"
 
 #include "core/IsaTables.h"
+#include "timing/DramChannels.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -31,6 +32,8 @@ struct Key {
   /// Of a key whose values are names: those of 0, 1, ... Such a key may set
   /// others, so an object's are read first.
   std::vector<std::string> Names = {};
+  /// Of a key whose value is a text; validate() says what it may be.
+  std::string &(*WordOf)(TimingConfig &) = nullptr;
 };
 
 #define VORION_KEY(PATH, LOW, HIGH, MULTIPLE, MEMBER)                          \
@@ -79,7 +82,9 @@ std::vector<Key> makeKeys() {
                  },
                  Presets});
   for (const TimingParam &P : timingParams())
-    All.push_back({fmt::format("timing.{}.{}", P.Group, P.Name), P.Low, P.High,
+    All.push_back({fmt::format("timing.{}.{}", P.Group, P.Name),
+                   P.Low,
+                   P.High,
                    1,
                    [&P](const Config &C) {
                      TimingConfig T = C.Timing;
@@ -87,7 +92,9 @@ std::vector<Key> makeKeys() {
                    },
                    [&P](Config &C, uint64_t V) {
                      P.Of(C.Timing) = static_cast<uint32_t>(V);
-                   }});
+                   },
+                   {},
+                   P.WordOf});
   return All;
 }
 
@@ -97,6 +104,17 @@ std::vector<Key> makeKeys() {
 const std::vector<Key> &keys() {
   static const std::vector<Key> All = makeKeys();
   return All;
+}
+
+/// As the JSON form has it.
+Json valueOf(const Key &K, const Config &C) {
+  if (K.WordOf) {
+    TimingConfig T = C.Timing;
+    return K.WordOf(T);
+  }
+  if (K.Names.empty())
+    return K.Get(C);
+  return K.Names[K.Get(C)];
 }
 
 std::string checkRange(const Key &K, uint64_t Value) {
@@ -159,6 +177,12 @@ std::string readMember(const Json &Value, const std::string &Path, Config &C) {
     K->Set(C, *Number);
     return {};
   }
+  if (K->WordOf) {
+    if (!Value.is_string())
+      return fmt::format("{}: expected a text", Path);
+    K->WordOf(C.Timing) = Value.get<std::string>();
+    return {};
+  }
   if (!Value.is_number_unsigned())
     return fmt::format("{}: expected a whole number", Path);
   const auto Number = Value.get<uint64_t>();
@@ -194,9 +218,14 @@ std::string readObject(const Json &Object, const std::string &Prefix,
 } // namespace
 
 Expected<Success> validate(const Config &C) {
-  for (const Key &K : keys())
+  for (const Key &K : keys()) {
+    if (K.WordOf)
+      continue;
     if (std::string Wrong = checkRange(K, K.Get(C)); !Wrong.empty())
       return Error{"configuration", std::move(Wrong), ExitCode::Usage};
+  }
+  if (const auto Dram = setUpDram(C.Timing.Dram); !Dram)
+    return Dram.error();
   // No overflow: each factor is at most MaxCores.
   const uint64_t Cores =
       uint64_t{C.Clusters} * C.SocketsPerCluster * C.CoresPerSocket;
@@ -244,10 +273,10 @@ std::string configSchema() {
          Rest.remove_prefix(Dot + 1))
       Properties = &Describe((*Properties)[std::string(Rest.substr(0, Dot))]);
     Json &Value = (*Properties)[std::string(Rest)];
-    if (!K.Names.empty()) {
-      Value = {{"type", "string"},
-               {"enum", K.Names},
-               {"default", K.Names[K.Get(Default)]}};
+    if (K.WordOf || !K.Names.empty()) {
+      Value = {{"type", "string"}, {"default", valueOf(K, Default)}};
+      if (!K.Names.empty())
+        Value["enum"] = K.Names;
       continue;
     }
     Value = {{"type", "integer"},
@@ -283,6 +312,10 @@ Expected<Success> setValue(Config &C, std::string_view Assignment) {
                             fmt::join(namesIn(Inside), ", ")));
   }
   const std::string_view Text = Assignment.substr(Equals + 1);
+  if (K->WordOf) {
+    K->WordOf(C.Timing) = Text;
+    return Success{};
+  }
   if (!K->Names.empty()) {
     const std::optional<uint64_t> Named = valueOf(*K, Text);
     if (!Named)
@@ -320,11 +353,7 @@ std::string toJson(const Config &C) {
     for (size_t Dot; (Dot = Left.find('.')) != std::string_view::npos;
          Left.remove_prefix(Dot + 1))
       In = &(*In)[std::string(Left.substr(0, Dot))];
-    Json &Value = (*In)[std::string(Left)];
-    if (K.Names.empty())
-      Value = K.Get(C);
-    else
-      Value = K.Names[K.Get(C)];
+    (*In)[std::string(Left)] = valueOf(K, C);
   }
   return jsonText(Object, 2) + "\n";
 }

@@ -26,13 +26,15 @@ TEST(Config, JsonRoundTrip) {
   C.MaxInstructions = 12345678901;
   C.Raster.QueueDepth = 9;
   C.Timing.Enabled = true;
-  C.Timing.Dram.TrcdPs = 12345;
+  C.Timing.Dram.ControllerPs = 12345;
+  C.Timing.Dram.Standard = "ddr3-1600";
   const Expected<Config> Back = parseConfig(toJson(C), "");
   ASSERT_TRUE(Back) << Back.error().What;
   EXPECT_EQ(toJson(*Back), toJson(C));
   EXPECT_EQ(Back->MaxInstructions, 12345678901U);
   EXPECT_TRUE(Back->Timing.Enabled);
-  EXPECT_EQ(Back->Timing.Dram.TrcdPs, 12345U);
+  EXPECT_EQ(Back->Timing.Dram.ControllerPs, 12345U);
+  EXPECT_EQ(Back->Timing.Dram.Standard, "ddr3-1600");
 }
 
 TEST(Config, MissingKeysKeepTheirDefault) {
@@ -94,6 +96,11 @@ TEST(Config, ErrorsNameTheKey) {
             "vortex-5stage, vortex-2025");
   EXPECT_EQ(wrongIn(R"({"timing": {"l2": {"ways": 0}}})"),
             "file.json: timing.l2.ways is 0, expected 1 to 64");
+  EXPECT_EQ(wrongIn(R"({"timing": {"dram": {"standard": 3200}}})"),
+            "file.json: timing.dram.standard: expected a text");
+  EXPECT_EQ(wrongIn(R"({"timing": {"dram": {"address_map": "zigzag"}}})"),
+            "file.json: timing.dram.address_map: \"zigzag\" is no address map, "
+            "expected one of digit_sum, row_bank_column, xor");
   EXPECT_EQ(wrongIn(R"({"timing": {"enabled": 1}, "warps_per_core": 2})"),
             "file.json: the clock models cores of one warp, and "
             "warps_per_core is 2, expected 1");

@@ -7,101 +7,154 @@ namespace vorion::isasim {
 Cache::Cache(const CacheShape &ShapeIn, MemoryBelow &BelowIn)
     : Shape(ShapeIn),
       Sets(std::max(1U, Shape.Bytes / TimingLineBytes / Shape.Ways)),
-      Below(BelowIn), Lines(size_t{Sets} * Shape.Ways), Banks(Shape.Banks) {
-  for (Bank &B : Banks)
-    B.MshrFreeAt.assign(Shape.Mshrs, 0);
-}
+      Below(BelowIn), Tags(size_t{Sets} * Shape.Ways), Lines(Tags.size()),
+      Banks(Shape.Banks), MshrFreeAt(size_t{Shape.Banks} * Shape.Mshrs),
+      Mshrs(MshrFreeAt.size()) {}
 
-Cache::Line *Cache::find(uint32_t Number, Line *Set) {
-  for (uint32_t W = 0; W != Shape.Ways; ++W)
-    if (Set[W].Tag == Number + 1)
-      return &Set[W];
-  return nullptr;
+// The loops over ways have no branch that depends on what they find: nobody
+// could foretell it.
+size_t Cache::find(uint32_t Number, size_t Set) const {
+  size_t Found = None;
+  for (size_t W = Set; W != Set + Shape.Ways; ++W)
+    Found = Tags[W] == Number + 1 ? W : Found;
+  return Found;
 }
 
 /// The least recently used line; with the hint, the least recently used one
 /// without it, and the one that is spared loses its hint, so that lines which
 /// no tile came for do not stay for ever.
-Cache::Line &Cache::victim(Line *Set) {
-  Line *Oldest = Set;
-  Line *OldestPlain = nullptr;
-  for (uint32_t W = 0; W != Shape.Ways; ++W) {
-    Line &L = Set[W];
-    if (L.Tag == 0)
-      return L;
-    if (L.Used < Oldest->Used)
-      Oldest = &L;
-    if (!L.Keep && (!OldestPlain || L.Used < OldestPlain->Used))
-      OldestPlain = &L;
+size_t Cache::victim(size_t Set) {
+  size_t Oldest = Set, OldestPlain = None;
+  uint64_t Used = Open, UsedPlain = Open;
+  for (size_t W = Set; W != Set + Shape.Ways; ++W) {
+    const Line &L = Lines[W];
+    const uint64_t Plain = L.Keep ? Open : L.Used;
+    Oldest = L.Used < Used ? W : Oldest;
+    Used = std::min(Used, L.Used);
+    OldestPlain = Plain < UsedPlain ? W : OldestPlain;
+    UsedPlain = std::min(UsedPlain, Plain);
   }
-  if (!Shape.Hint || !Oldest->Keep || !OldestPlain)
-    return *Oldest;
-  Oldest->Keep = false;
+  if (!Shape.Hint || !Lines[Oldest].Keep || OldestPlain == None)
+    return Oldest;
+  Lines[Oldest].Keep = false;
   ++Counted.Kept;
-  return *OldestPlain;
+  return OldestPlain;
 }
 
-uint64_t Cache::takeMshr(Bank &B, uint64_t Now) {
-  std::pop_heap(B.MshrFreeAt.begin(), B.MshrFreeAt.end(), std::greater<>());
-  const uint64_t At = std::max(Now, B.MshrFreeAt.back());
-  Counted.MshrCycles += At - Now;
-  return At;
+uint32_t Cache::firstMshr(uint32_t Bank) const {
+  const auto First = MshrFreeAt.begin() + size_t{Bank} * Shape.Mshrs;
+  return static_cast<uint32_t>(std::min_element(First, First + Shape.Mshrs) -
+                               MshrFreeAt.begin());
 }
 
-uint64_t Cache::access(const CacheRequest &R) {
+std::optional<uint64_t> Cache::access(const CacheRequest &R) {
+  Bank &B = Banks[R.Address / TimingLineBytes % Shape.Banks];
+  std::optional<uint64_t> Answer;
+  if (!B.Waiting.empty() || !serve(R, Answer))
+    B.Waiting.push_back(R);
+  return Answer;
+}
+
+/// Returns whether the request's bank could take it; \p Answer is as of
+/// access().
+bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
   const uint32_t Number = R.Address / TimingLineBytes;
-  Bank &B = Banks[Number % Shape.Banks];
+  const uint32_t OfBank = Number % Shape.Banks;
+  const size_t Set = size_t{Number % Sets} * Shape.Ways;
+  const size_t Found = find(Number, Set);
+  const bool Fetches = Found == None && R.Op != CacheOp::WriteWhole;
+  const uint32_t Miss = Fetches ? firstMshr(OfBank) : 0;
+  if (Fetches && MshrFreeAt[Miss] == Open)
+    return false;
+
+  Bank &B = Banks[OfBank];
   const uint64_t At = std::max(R.Now, B.FreeAt);
   Counted.BankCycles += At - R.Now;
   B.FreeAt = At + 1 + R.Extra;
   const bool IsRead = R.Op == CacheOp::Read;
-  ++(IsRead                    ? Counted.Reads
-     : R.Op == CacheOp::Atomic ? Counted.Atomics
-                               : Counted.Writes);
-  Line *Set = &Lines[size_t{Number % Sets} * Shape.Ways];
-  Line *L = find(Number, Set);
-  // A write is taken when the bank has it; who wrote does not wait.
-  const uint64_t Taken = At + Shape.HitCycles / 2;
-  if (L) {
-    L->Used = ++Uses;
-    L->Dirty |= !IsRead;
-    L->Keep |= R.Keep;
-    ++(L->ReadyAt > At ? Counted.Merged : Counted.Hits);
-    if (R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole)
-      return Taken;
-    return std::max(At, L->ReadyAt) + Shape.HitCycles + R.Extra;
+  const bool IsWrite = R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole;
+  ++(IsRead ? Counted.Reads : IsWrite ? Counted.Writes : Counted.Atomics);
+  if (Found != None) {
+    Line &L = Lines[Found];
+    L.Used = ++Uses;
+    L.Dirty |= !IsRead;
+    L.Keep |= R.Keep;
+    ++(L.ReadyAt > At ? Counted.Merged : Counted.Hits);
+    const uint32_t Plus = Shape.HitCycles + R.Extra + R.Back;
+    if (IsWrite)
+      // A write is taken when the bank has it; who wrote does not wait.
+      Answer = At + Shape.HitCycles / 2 + R.Back;
+    else if (L.ReadyAt != Open)
+      Answer = std::max(At, L.ReadyAt) + Plus;
+    else
+      Mshrs[L.Miss].Waiting.push_back({R.From, At, Plus});
+    return true;
   }
 
-  Line &V = victim(Set);
-  if (V.Tag && V.Dirty) {
+  const size_t Way = victim(Set);
+  Line &V = Lines[Way];
+  if (V.Dirty) {
     ++Counted.Writebacks;
-    Below.writeBack(At, (V.Tag - 1) * TimingLineBytes);
+    Below.writeBack(At, (Tags[Way] - 1) * TimingLineBytes);
   }
-  V = {Number + 1, !IsRead, R.Keep, ++Uses, At};
-  if (R.Op == CacheOp::WriteWhole)
-    return Taken;
-  const uint64_t Begin = takeMshr(B, At);
-  // The tags have been looked up before the request goes down.
-  V.ReadyAt = Below.fetch(Begin + Shape.HitCycles / 2, R.Address, R.Keep);
-  B.MshrFreeAt.back() = V.ReadyAt;
-  std::push_heap(B.MshrFreeAt.begin(), B.MshrFreeAt.end(), std::greater<>());
-  // A miss that waits for an MSHR holds up its bank.
-  B.FreeAt = std::max(B.FreeAt, Begin + 1 + R.Extra);
-  if (R.Op == CacheOp::Write)
-    return Begin + Shape.HitCycles / 2;
-  return V.ReadyAt + Shape.HitCycles - Shape.HitCycles / 2 + R.Extra;
+  Tags[Way] = Number + 1;
+  V = {!IsRead, R.Keep, static_cast<uint16_t>(Miss), ++Uses, At};
+  const uint64_t Begin = Fetches ? std::max(At, MshrFreeAt[Miss]) : At;
+  if (Fetches) {
+    Counted.MshrCycles += Begin - At;
+    // A miss that waits for an MSHR holds up its bank.
+    B.FreeAt = Begin + 1 + R.Extra;
+    Mshr &M = Mshrs[Miss];
+    M.Line = Way;
+    // The tags have been looked up before the request goes down.
+    V.ReadyAt =
+        Below.fetch(Begin + Shape.HitCycles / 2, R.Address, R.Keep, Miss)
+            .value_or(Open);
+    MshrFreeAt[Miss] = V.ReadyAt;
+  }
+  const uint32_t Plus =
+      Shape.HitCycles - Shape.HitCycles / 2 + R.Extra + R.Back;
+  if (IsWrite)
+    Answer = Begin + Shape.HitCycles / 2 + R.Back;
+  else if (V.ReadyAt != Open)
+    Answer = V.ReadyAt + Plus;
+  else
+    Mshrs[Miss].Waiting.push_back({R.From, 0, Plus});
+  return true;
+}
+
+void Cache::fill(uint32_t Miss, uint64_t Then, std::vector<Answer> &Answers) {
+  Mshr &M = Mshrs[Miss];
+  MshrFreeAt[Miss] = Then;
+  // It may have been replaced already.
+  if (Line &L = Lines[M.Line]; L.ReadyAt == Open && L.Miss == Miss)
+    L.ReadyAt = Then;
+  for (const Merged &W : M.Waiting)
+    Answers.push_back({W.From, std::max(W.NotBefore, Then) + W.Plus});
+  M.Waiting.clear();
+
+  std::deque<CacheRequest> &Waiting = Banks[Miss / Shape.Mshrs].Waiting;
+  while (!Waiting.empty()) {
+    const CacheRequest R = Waiting.front();
+    std::optional<uint64_t> Known;
+    if (!serve(R, Known))
+      return;
+    Waiting.pop_front();
+    if (Known && R.From.Unit != Ticket::Nobody)
+      Answers.push_back({R.From, *Known});
+  }
 }
 
 uint64_t Cache::flush(uint64_t Now) {
   std::vector<uint64_t> Sent(Shape.Banks, Now);
-  for (Line &L : Lines) {
-    if (L.Tag && L.Dirty) {
+  for (size_t N = 0; N != Lines.size(); ++N)
+    if (Lines[N].Dirty) {
       ++Counted.Writebacks;
-      Below.writeBack(Sent[(L.Tag - 1) % Shape.Banks]++,
-                      (L.Tag - 1) * TimingLineBytes);
+      Below.writeBack(Sent[(Tags[N] - 1) % Shape.Banks]++,
+                      (Tags[N] - 1) * TimingLineBytes);
     }
-    L = {};
-  }
+  std::ranges::fill(Lines, Line());
+  std::ranges::fill(Tags, 0);
   return *std::max_element(Sent.begin(), Sent.end());
 }
 

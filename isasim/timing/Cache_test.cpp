@@ -15,15 +15,25 @@ constexpr uint32_t Line = TimingLineBytes;
 class Slow final : public MemoryBelow {
 public:
   static constexpr uint64_t Latency = 1000;
-  uint64_t fetch(uint64_t Now, uint32_t, bool) override {
+  std::optional<uint64_t> fetch(uint64_t Now, uint32_t, bool,
+                                uint32_t Miss) override {
     ++Fetches;
-    return Now + Latency;
+    if (!IsOpen)
+      return Now + Latency;
+    Open.push_back({Miss, Now + Latency});
+    return std::nullopt;
   }
   void writeBack(uint64_t, uint32_t Address) override {
     Written.push_back(Address);
   }
   unsigned Fetches = 0;
   std::vector<uint32_t> Written;
+  bool IsOpen = false; ///< whether it says later when a line is there
+  struct Promise {
+    uint32_t Miss;
+    uint64_t At;
+  };
+  std::vector<Promise> Open;
 };
 
 constexpr CacheShape Small{.Bytes = 4096,
@@ -45,7 +55,7 @@ TEST(Cache, AMissGoesDownAndAHitDoesNot) {
 TEST(Cache, ASecondMissOfALineWaitsForTheFirst) {
   Slow Below;
   Cache C(Small, Below);
-  const uint64_t First = C.access({.Now = 0, .Address = 0});
+  const uint64_t First = *C.access({.Now = 0, .Address = 0});
   EXPECT_EQ(C.access({.Now = 50, .Address = 4}), First + 10 - 5);
   EXPECT_EQ(C.time().Merged, 1U);
   EXPECT_EQ(Below.Fetches, 1U);
@@ -69,7 +79,7 @@ TEST(Cache, MissesWaitForAnMshr) {
   // Three misses of one bank, which has two MSHRs.
   C.access({.Now = 0, .Address = 0});
   C.access({.Now = 1, .Address = 2 * Line});
-  const uint64_t Third = C.access({.Now = 2, .Address = 4 * Line});
+  const uint64_t Third = *C.access({.Now = 2, .Address = 4 * Line});
   // The first one's data are back at 5 + Latency.
   EXPECT_EQ(Third, 5 + Slow::Latency + 10 + Slow::Latency);
   EXPECT_EQ(C.time().MshrCycles, 5 + Slow::Latency - 2);
@@ -104,6 +114,55 @@ TEST(Cache, TheHintSparesALineOnce) {
   EXPECT_EQ(C.time().Kept, 0U);
   C.access({.Now = 300000, .Address = 0});
   EXPECT_EQ(C.time().Hits, 0U);
+}
+
+// An answer that comes later is the one that would have come at once.
+TEST(Cache, WhatIsDecidedLaterIsTheSame) {
+  std::vector<CacheRequest> Asked;
+  uint64_t Now = 0;
+  for (uint32_t N = 0; N != 3000; ++N)
+    Asked.push_back({.Now = Now += N % 5,
+                     .Address = N / 2 * 7919 % 333 * Line,
+                     .Op = N % 4 == 0   ? CacheOp::Write
+                           : N % 7 == 0 ? CacheOp::WriteWhole
+                           : N % 9 == 0 ? CacheOp::Atomic
+                                        : CacheOp::Read,
+                     .Extra = N % 9 == 0 ? 3U : 0U,
+                     .From = {1, N}});
+  CacheShape Shape = Small;
+  Shape.Banks = 1; // so that there is one order of all
+  Slow Below;
+  Cache C(Shape, Below);
+  std::vector<uint64_t> Expected, Then(Asked.size());
+  for (const CacheRequest &R : Asked)
+    Expected.push_back(*C.access(R));
+
+  Slow Later;
+  Later.IsOpen = true;
+  Cache D(Shape, Later);
+  unsigned Waited = 0;
+  std::vector<Answer> Answers;
+  for (const CacheRequest &R : Asked)
+    if (const auto At = D.access(R))
+      Then[R.From.Tag] = *At;
+    else
+      ++Waited;
+  for (size_t N = 0; N != Later.Open.size(); ++N) {
+    const Slow::Promise P = Later.Open[N];
+    D.fill(P.Miss, P.At, Answers);
+  }
+  EXPECT_EQ(Answers.size(), Waited);
+  for (const Answer &A : Answers) {
+    EXPECT_EQ(A.To.Unit, 1U);
+    EXPECT_EQ(Then[A.To.Tag], 0U) << "answered twice";
+    Then[A.To.Tag] = A.At;
+  }
+  EXPECT_EQ(Then, Expected);
+  EXPECT_GT(D.time().Merged, 0U);
+  EXPECT_GT(D.time().MshrCycles, 0U);
+  EXPECT_EQ(D.time().MshrCycles, C.time().MshrCycles);
+  EXPECT_EQ(D.time().BankCycles, C.time().BankCycles);
+  EXPECT_EQ(Later.Written, Below.Written);
 }
 
 /// Sets of at most so many lines, the most recently used in front.
@@ -168,9 +227,9 @@ RC_GTEST_PROP(Cache, NothingIsAnsweredBeforeItCanBe,
     const uint32_t Address = Step / 2 % 500 * Line;
     const bool IsWrite = Step % 2;
     const uint64_t Then =
-        C.access({.Now = Now,
-                  .Address = Address,
-                  .Op = IsWrite ? CacheOp::Write : CacheOp::Read});
+        *C.access({.Now = Now,
+                   .Address = Address,
+                   .Op = IsWrite ? CacheOp::Write : CacheOp::Read});
     RC_ASSERT(Then >= Now + (IsWrite ? Small.HitCycles / 2 : Small.HitCycles));
   }
   const CacheTime &T = C.time();

@@ -19,13 +19,15 @@ Clock::Clock(const Config &C)
     Traces.push_back(std::make_unique<TraceBuffer>());
     Traces.back()->LocalBanks = P.Core.LocalBanks;
     Traces.back()->InterleavedStacks = P.Core.InterleavedStacks != 0;
-    Cores.emplace_back(P.Core, C.clusterOf(N), *Traces.back());
+    Cores.emplace_back(P.Core, MemoryPort{C.clusterOf(N), N}, *Traces.back());
   }
   for (unsigned N = 0; N != C.sockets(); ++N)
-    Rasters.emplace_back(P, N / C.SocketsPerCluster, C.CoresPerSocket,
-                         C.Raster.QueueDepth);
+    Rasters.emplace_back(P,
+                         MemoryPort{N / C.SocketsPerCluster, placeOfRaster(N)},
+                         C.CoresPerSocket, C.Raster.QueueDepth);
   for (unsigned N = 0; N != C.Clusters; ++N)
-    Pixels.emplace_back(P, N, C.coresPerCluster());
+    Pixels.emplace_back(P, MemoryPort{N, placeOfPixels(N)},
+                        C.coresPerCluster());
 }
 
 Clock::~Clock() = default;
@@ -99,7 +101,6 @@ TimeReport Clock::end() {
   R.ClockMhz = P.ClockMhz;
   R.OutOfOrder = OutOfOrder;
   R.Host = P.Host;
-  R.DramBurstBytes = P.Dram.BurstBytes;
   for (CoreClock &C : Cores) {
     C.end(End);
     R.Cores.push_back(C.time());
@@ -136,7 +137,7 @@ uint64_t Clock::coresQuietAt() const {
 /// Whether no core will do anything more in this run.
 bool Clock::coresAreDone() const {
   for (size_t N = 0; N != Cores.size(); ++N)
-    if (!Ended[N] || Turns[N].At != Turn::Never || Cores[N].isBlocked())
+    if (!Ended[N] || Cores[N].state() != CoreClock::State::Starved)
       return false;
   return true;
 }
@@ -184,7 +185,7 @@ void Clock::collectActivities(TimeReport &R) const {
   Add("llc", "line writes", R.Llc.Writes + R.Llc.Atomics);
   Add("dram", "read bursts", R.Dram.Reads);
   Add("dram", "write bursts", R.Dram.Writes);
-  Add("dram", "activations", R.Dram.RowMisses + R.Dram.RowConflicts);
+  Add("dram", "activations", R.Dram.Activations);
   Add("dram", "refreshes", R.Dram.Refreshes);
 }
 
@@ -225,7 +226,8 @@ void Clock::grant(unsigned Core, uint64_t Then) {
   const unsigned Agent = Core % Shape.CoresPerSocket;
   switch (C.state()) {
   case CoreClock::State::Access:
-    C.access(Memory);
+    if (!C.access(Memory))
+      return;
     break;
   case CoreClock::State::Barrier:
     arrive(Core, Then);
@@ -249,6 +251,7 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     update(placeOfRaster(Shape.socketOf(Core)));
     C.resume(Then, CoreCycle::RasterWait);
     break;
+  case CoreClock::State::Answer:
   case CoreClock::State::Starved:
     break;
   }
@@ -260,7 +263,8 @@ void Clock::grant(unsigned Core, uint64_t Then) {
 /// core might still make an earlier one.
 bool Clock::step() {
   auto First = std::min_element(Turns.begin(), Turns.end());
-  if (!First->IsKnown) {
+  const Turn OfMemory(Memory.nextEvent());
+  if (!First->IsKnown && *First < OfMemory) {
     if (!isOverfull())
       return false;
     ++OutOfOrder;
@@ -269,7 +273,10 @@ bool Clock::step() {
       return Known(A) < Known(B);
     });
   }
-  if (!First->IsKnown || First->At == Turn::Never)
+  // Whoever goes on in a cycle knows all that memory has decided by then.
+  if (!(*First < OfMemory))
+    return stepMemory(*First);
+  if (!First->IsKnown)
     return false;
   const auto Who = static_cast<unsigned>(First - Turns.begin());
   const uint64_t Then = First->At;
@@ -285,6 +292,28 @@ bool Clock::step() {
   else
     stepPixels(Who - placeOfPixels(0), Then);
   update(Who);
+  return true;
+}
+
+/// Memory goes on, not beyond \p Next, which is when somebody else does.
+bool Clock::stepMemory(Turn Next) {
+  uint64_t Until = Next.IsKnown ? Next.At : Next.At - 1;
+  if (coresAreDone())
+    Until = std::min(Until, std::max(Horizon, coresQuietAt()));
+  if (Memory.nextEvent() == Turn::Never || Memory.nextEvent() > Until)
+    return false;
+  Answers.clear();
+  Memory.advance(Until, Answers);
+  for (const Answer &A : Answers) {
+    const uint32_t Who = A.To.Unit;
+    if (Who >= placeOfPixels(0))
+      Pixels[Who - placeOfPixels(0)].answer(A.To.Tag, A.At);
+    else if (Who >= placeOfRaster(0))
+      Rasters[Who - placeOfRaster(0)].answer(A.To.Tag, A.At);
+    else
+      Cores[Who].answer(A.To.Tag, A.At);
+    update(Who);
+  }
   return true;
 }
 

@@ -44,13 +44,14 @@ public:
 private:
   void takeAll();
   bool step();
+  bool stepMemory(Turn Next);
   void update(unsigned Who);
   void grant(unsigned Core, uint64_t Then);
   void arrive(unsigned Core, uint64_t Then);
   void stepRaster(unsigned Socket, uint64_t Then);
   void stepPixels(unsigned Cluster, uint64_t Then);
   void wake(unsigned Core, uint64_t Then);
-  /// Places in Turns.
+  /// Places in Turns, by which memory knows the units, too.
   unsigned placeOfRaster(unsigned Socket) const {
     return static_cast<unsigned>(Cores.size()) + Socket;
   }
@@ -72,6 +73,7 @@ private:
   std::vector<OpInfo> Ops;
   std::vector<bool> Ended;
   std::vector<Turn> Turns; ///< of cores, rasterizers, pixel units
+  std::vector<Answer> Answers;
   struct Arrived {
     std::vector<unsigned> Cores;
   };

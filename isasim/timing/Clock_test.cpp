@@ -1,5 +1,6 @@
 /// The clock on programs whose time is known.
 #include "testing/TimedPrograms.h"
+#include "timing/DramChannels.h"
 
 #include <cstring>
 
@@ -138,12 +139,15 @@ TEST_F(ClockTest, DramTimeDoesNotScaleWithTheClock) {
   };
   const TimingConfig &P = C.Timing;
   const double Cycles = P.Core.AguCycles + P.L2.HitCycles + P.Llc.HitCycles - 1;
-  const double Dram = (P.Dram.ControllerPs + P.Dram.TrcdPs + P.Dram.TclPs +
-                       2.0 * P.Dram.BurstPs) /
-                      1000;
+  const dram::TimingTable T = setUpDram(P.Dram)->Table;
+  const uint32_t Ticks =
+      T.CommandTicks[size_t(dram::Command::Activate)] +
+      T.sameBank(dram::Command::Activate, dram::Command::Read) + T.ReadLatency +
+      2 * T.BurstTicks;
+  const double Dram = (P.Dram.ControllerPs + 1.0 * Ticks * T.TickPs) / 1000;
   for (const uint32_t Mhz : {100U, 530U, 5000U})
     EXPECT_NEAR(Nanoseconds(Mhz), 1e3 * Cycles / Mhz + Dram,
-                P.Dram.BurstPs / 1e3 + 2e3 / Mhz)
+                T.TickPs / 1e3 + 2e3 / Mhz)
         << Mhz;
 }
 

@@ -5,12 +5,13 @@
 
 namespace vorion::isasim {
 
-CoreClock::CoreClock(const CoreTiming &Params, unsigned ClusterIn,
+CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
                      TraceBuffer &TraceIn)
     : P(Params), IsIdeal(P.FetchInterval == 1 && P.BranchCycles == 1 &&
                          P.SplitCycles == 1 && P.JoinCycles == 1 &&
                          P.CsrCycles == 1 && P.UnitQueue == 0 && P.Fpu == 0),
-      Cluster(ClusterIn), Trace(TraceIn) {}
+      Trace(TraceIn), InFlight(ToMemory, P.LsuQueue + 1), Accesses(P.LsuQueue) {
+}
 
 void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   Ops = &Program;
@@ -29,7 +30,8 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
     Q = {std::vector<uint64_t>(P.UnitQueue), 0};
   Places[size_t(Port::Fpu)].assign(P.FpInFlight, 0);
   Places[size_t(Port::Alu)].assign(1, 0); // the divider
-  InFlight.clear();
+  for (unsigned N = 0; N <= P.LsuQueue; ++N)
+    InFlight.begin(N);
   LastDone = 0;
   Spent = {};
   Classes = {};
@@ -53,21 +55,27 @@ void CoreClock::startRun(const RunRecord &R) {
   Lanes = static_cast<unsigned>(std::popcount(R.Mask));
 }
 
-void CoreClock::waitForOperands(const OpInfo &O) {
+bool CoreClock::waitForOperands(const OpInfo &O) {
   unsigned Latest = O.Rd;
   for (const uint8_t S : O.Sources)
     if (Ready[S] > Ready[Latest])
       Latest = S;
+  if (Ready[Latest] == Turn::Never) {
+    Now = State::Answer;
+    return false;
+  }
   waitUntil(Ready[Latest], ReadyWhy[Latest]);
+  return true;
 }
 
-void CoreClock::waitForLsu() {
-  std::erase_if(InFlight, [this](uint64_t Done) { return Done <= Next; });
-  if (InFlight.size() < P.LsuQueue)
-    return;
-  const auto First = std::min_element(InFlight.begin(), InFlight.end());
-  waitUntil(*First, CoreCycle::LsuQueue);
-  InFlight.erase(First);
+bool CoreClock::waitUntilQuiet() {
+  const uint64_t Quiet = quietAt();
+  if (Quiet == Turn::Never) {
+    Now = State::Answer;
+    return false;
+  }
+  waitUntil(Quiet, CoreCycle::Fence);
+  return true;
 }
 
 /// Waits until \p O can leave for its unit, or for the queue in front of it,
@@ -132,33 +140,32 @@ void CoreClock::finish(const OpInfo &O) {
     fetchNext(O, Begun);
 }
 
-void CoreClock::localAccess(const OpInfo &O, AccessWord A) {
+/// Returns when it is done.
+uint64_t CoreClock::localAccess(const OpInfo &O, AccessWord A) {
   const uint64_t Done =
       Next + P.LocalLatency + (A.Conflicts - 1) * P.LocalConflictCycles;
-  if (P.LoadsQueue && O.Class != OpClass::Store)
-    InFlight.push_back(Done);
   // A bank gives a word a cycle.
   UnitFree[size_t(Port::Lsu)] =
       Next + std::max<uint64_t>(A.Conflicts, O.Interval);
   LocalConflicts += A.Conflicts - 1;
   setReady(O.Rd, Done + O.Latency, CoreCycle::Local);
   finish(O);
+  return Done;
 }
 
 /// Does one instruction, or stops in front of its request; false then.
 template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
   if constexpr (!Ideal)
     waitUntil(Fetched, FetchWhy);
-  waitForOperands(O);
+  if (!waitForOperands(O))
+    return false;
   switch (O.Class) {
   case OpClass::Load:
   case OpClass::Store:
   case OpClass::Atomic: {
     waitForUnit(O);
     const auto A = std::bit_cast<AccessWord>(Trace.word());
-    if (!P.LoadsQueue ? A.Lines != 0 : O.Class != OpClass::Store)
-      waitForLsu();
-    if (A.Lines == 0) {
+    if (A.Lines == 0 && !needsPlace(O, A)) {
       Trace.popWords(1);
       localAccess(O, A);
       return true;
@@ -169,7 +176,8 @@ template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
     return false;
   }
   case OpClass::Fence:
-    waitUntil(quietAt(), CoreCycle::Fence);
+    if (!waitUntilQuiet())
+      return false;
     break;
   default:
     break;
@@ -192,13 +200,14 @@ template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
 /// An instruction that had parked; false if it is a request.
 bool CoreClock::advanceParked(const OpInfo &O) {
   const auto Kind = static_cast<Event>(Trace.word());
+  if (!IsIdeal)
+    waitUntil(Fetched, FetchWhy);
+  if (!waitForOperands(O))
+    return false;
   if (Kind == Event::Atomic) {
     Trace.popWords(1);
     return IsIdeal ? advanceOne<true>(O) : advanceOne<false>(O);
   }
-  if (!IsIdeal)
-    waitUntil(Fetched, FetchWhy);
-  waitForOperands(O);
   waitForUnit(O);
   Waiting = &O;
   switch (Kind) {
@@ -212,7 +221,8 @@ bool CoreClock::advanceParked(const OpInfo &O) {
     break;
   case Event::RasterStart:
     // It releases the core's earlier stores (docs/rasterizer.md).
-    waitUntil(quietAt(), CoreCycle::Fence);
+    if (!waitUntilQuiet())
+      return false;
     Trace.popWords(1);
     Now = State::RasterStart;
     break;
@@ -247,7 +257,8 @@ template <bool Ideal> void CoreClock::advanceThrough() {
       // Moved on before the instruction: a request is finished elsewhere.
       const OpInfo &O = First[Here++];
       if (!(R.Count == 0 ? advanceParked(O) : advanceOne<Ideal>(O))) {
-        Position = Here;
+        // What needs an answer is tried again.
+        Position = Now == State::Answer ? Here - 1 : Here;
         return;
       }
     }
@@ -266,9 +277,29 @@ void CoreClock::advance() {
     advanceThrough<false>();
 }
 
-void CoreClock::access(MemorySystem &Memory) {
+bool CoreClock::access(MemorySystem &Memory) {
   const OpInfo &O = *Waiting;
   const auto A = std::bit_cast<AccessWord>(Trace.word());
+  unsigned Place = P.LsuQueue;
+  if (needsPlace(O, A)) {
+    Place = 0;
+    for (unsigned N = 1; N != P.LsuQueue; ++N)
+      if (InFlight.readyAt(N) < InFlight.readyAt(Place))
+        Place = N;
+    if (const uint64_t Free = InFlight.readyAt(Place); Free > At) {
+      At = Free;
+      return false;
+    }
+    waitUntil(At, CoreCycle::LsuQueue);
+    InFlight.begin(Place);
+    Accesses[Place] = &O;
+  }
+  if (A.Lines == 0) {
+    Trace.popWords(1);
+    InFlight.begin(Place, localAccess(O, A));
+    return true;
+  }
+
   CacheRequest R{.Now = At + P.AguCycles, .Address = 0};
   if (O.Class == OpClass::Atomic) {
     R.Op = CacheOp::Atomic;
@@ -276,7 +307,6 @@ void CoreClock::access(MemorySystem &Memory) {
   } else if (O.Class == OpClass::Store) {
     R.Op = A.Whole ? CacheOp::WriteWhole : CacheOp::Write;
   }
-  uint64_t Done = 0;
   uint32_t Room = P.LinesAtOnce;
   for (unsigned N = 0; N != A.Lines; ++N, --Room) {
     if (Room == 0) {
@@ -284,17 +314,38 @@ void CoreClock::access(MemorySystem &Memory) {
       Room = P.LinesAtOnce;
     }
     R.Address = Trace.word(1 + N);
-    Done = std::max(Done, Memory.access(Cluster, R));
+    InFlight.ask(Memory, Place, R);
   }
   const uint64_t Leaving = R.Now + P.LineCycles - (At + P.AguCycles);
   LinesRequested += A.Lines;
   Trace.popWords(1 + A.Lines);
   UnitFree[size_t(Port::Lsu)] = At + std::max<uint64_t>(Leaving, O.Interval);
-  LastDone = std::max(LastDone, Done);
-  if (!P.LoadsQueue || O.Class != OpClass::Store)
-    InFlight.push_back(Done);
-  setReady(O.Rd, Done + O.Latency, CoreCycle::Memory);
+  setLoaded(O, InFlight.readyAt(Place));
   finish(O);
+  return true;
+}
+
+/// An access of \p O is done at \p Done, if that is known.
+void CoreClock::setLoaded(const OpInfo &O, uint64_t Done) {
+  if (Done == Turn::Never)
+    return setReady(O.Rd, Done, CoreCycle::Memory);
+  LastDone = std::max(LastDone, Done);
+  setReady(O.Rd, Done + O.Latency, CoreCycle::Memory);
+}
+
+void CoreClock::answer(uint32_t Tag, uint64_t Then) {
+  const std::optional<unsigned> Place = InFlight.answer(Tag, Then);
+  if (!Place)
+    return;
+  const uint64_t Done = InFlight.readyAt(*Place);
+  LastDone = std::max(LastDone, Done);
+  if (*Place != P.LsuQueue) {
+    setLoaded(*Accesses[*Place], Done);
+    // The access in front may have waited for a place.
+    At = std::min(At, std::max(Next, Done));
+  }
+  if (Now == State::Answer)
+    advance();
 }
 
 void CoreClock::resume(uint64_t Then, CoreCycle Why) {
@@ -304,6 +355,11 @@ void CoreClock::resume(uint64_t Then, CoreCycle Why) {
   finish(*Waiting);
 }
 
-uint64_t CoreClock::quietAt() const { return std::max(Next, LastDone); }
+uint64_t CoreClock::quietAt() const {
+  for (unsigned N = 0; N <= P.LsuQueue; ++N)
+    if (InFlight.readyAt(N) == Turn::Never)
+      return Turn::Never;
+  return std::max(Next, LastDone);
+}
 
 } // namespace vorion::isasim

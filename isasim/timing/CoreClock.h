@@ -2,7 +2,7 @@
 /// timing.core of the configuration.
 #pragma once
 
-#include "timing/MemorySystem.h"
+#include "timing/LineWaits.h"
 #include "timing/OpClass.h"
 #include "timing/TraceWriter.h"
 #include "timing/Turn.h"
@@ -17,14 +17,15 @@ namespace vorion::isasim {
 /// order of time (Clock.h).
 class CoreClock {
 public:
-  CoreClock(const CoreTiming &Params, unsigned Cluster, TraceBuffer &Trace);
+  CoreClock(const CoreTiming &Params, MemoryPort ToMemory, TraceBuffer &Trace);
 
   /// A run of the program \p Ops begins at \p Now.
   void begin(const std::vector<OpInfo> &Ops, uint64_t Now);
 
   enum class State : uint8_t {
     Starved, ///< the trace is used up
-    Access,  ///< wants memory
+    Access,  ///< wants memory, or a place among the accesses in flight
+    Answer,  ///< needs what memory has not answered
     Barrier, ///< arrives at a barrier
     RasterStart,
     RasterWait,
@@ -38,15 +39,18 @@ public:
   bool isBlocked() const { return Blocked; }
   /// When it makes its request; never while that has to wait.
   Turn turn() const {
-    if (Blocked)
+    if (Blocked || Now == State::Answer)
       return Turn();
     return Now == State::Starved ? Turn(Next, false) : Turn(At);
   }
   /// How much trace is waiting.
   size_t backlog() const { return Trace.size(); }
 
-  /// Makes the access of State::Access.
-  void access(MemorySystem &Memory);
+  /// Makes the access of State::Access, if there is a place for it. Otherwise
+  /// its turn is now when one will be free. Returns whether it did.
+  bool access(MemorySystem &Memory);
+  /// An answer of memory. Goes on, if it was what the core needed.
+  void answer(uint32_t Tag, uint64_t Then);
   uint32_t barrier() const { return Words[0]; }
   uint32_t barrierCount() const { return Words[1]; }
   /// The request of any other state has been granted at \p Then, which is not
@@ -55,7 +59,7 @@ public:
   /// It has not.
   void block() { Blocked = true; }
 
-  /// When its last access is done.
+  /// When its last access is done; Turn::Never if that is not known yet.
   uint64_t quietAt() const;
   /// The run ended at \p End: what is left was waiting for others.
   void end(uint64_t End) { spend(CoreCycle::Ended, End - Next); }
@@ -81,11 +85,15 @@ private:
       spend(Why, Then - Next);
   }
   void startRun(const RunRecord &R);
-  void waitForOperands(const OpInfo &O);
+  bool waitForOperands(const OpInfo &O);
+  bool waitUntilQuiet();
   void waitForUnit(const OpInfo &O) {
     waitUntil(UnitFree[size_t(O.On)], CoreCycle::Unit);
   }
-  void waitForLsu();
+  /// Whether an access needs a place among those in flight.
+  bool needsPlace(const OpInfo &O, AccessWord A) const {
+    return P.LoadsQueue ? O.Class != OpClass::Store : A.Lines != 0;
+  }
   uint64_t beginOnUnit(const OpInfo &O);
   void fetchNext(const OpInfo &O, uint64_t Begun);
   void issue(const OpInfo &O);
@@ -93,7 +101,8 @@ private:
   template <bool Ideal> void advanceThrough();
   template <bool Ideal> bool advanceOne(const OpInfo &O);
   bool advanceParked(const OpInfo &O);
-  void localAccess(const OpInfo &O, AccessWord A);
+  uint64_t localAccess(const OpInfo &O, AccessWord A);
+  void setLoaded(const OpInfo &O, uint64_t Done);
   void setReady(unsigned Register, uint64_t Then, CoreCycle Why);
 
   const CoreTiming P;
@@ -101,7 +110,6 @@ private:
   /// or a change of lanes, and nobody waits in front of a unit. Then none of
   /// that is looked at.
   const bool IsIdeal;
-  unsigned Cluster;
   TraceBuffer &Trace;
   const std::vector<OpInfo> *Ops = nullptr;
 
@@ -119,6 +127,7 @@ private:
   unsigned Lanes = 1;
   OpClass LastClass = OpClass::Alu;
 
+  /// Turn::Never while it is not known.
   std::array<uint64_t, NumRegisters> Ready{};
   std::array<CoreCycle, NumRegisters> ReadyWhy{};
   uint64_t Fetched = 0; ///< when the next instruction can issue at the earliest
@@ -134,8 +143,11 @@ private:
   std::array<UnitQueue, size_t(Port::Count)> Queues;
   /// When the places of a unit that operations keep (OpInfo::Hold) are free.
   std::array<std::vector<uint64_t>, size_t(Port::Count)> Places;
-  std::vector<uint64_t> InFlight; ///< when accesses will be done
-  uint64_t LastDone = 0;          ///< when the last of all accesses is
+  /// A set of lines for each place, and behind these one for all accesses that
+  /// need none.
+  LineWaits InFlight;
+  std::vector<const OpInfo *> Accesses; ///< by place
+  uint64_t LastDone = 0; ///< of the accesses to memory whose end is known
 
   CoreTime Spent;
   std::array<ClassCount, size_t(OpClass::Count)> Classes{};

@@ -10,9 +10,11 @@ namespace vorion::isasim {
 static constexpr std::pair<std::string_view, std::string_view> Groups[] = {
 #define GROUP(NAME, MEMBER, WHAT) {#NAME, WHAT},
 #define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)
+#define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)
 #include "vorion/isasim/TimingParams.def"
 #undef GROUP
 #undef PARAM
+#undef WORD
 };
 
 std::string timingMarkdown() {
@@ -35,7 +37,8 @@ std::string timingMarkdown() {
       for (unsigned N = 0; N != Sets; ++N) {
         TimingConfig C;
         C.Core = numbersOf(static_cast<CorePreset>(N));
-        Text += fmt::format(" {} |", P.Of(C));
+        Text += P.WordOf ? fmt::format(" {} |", P.WordOf(C))
+                         : fmt::format(" {} |", P.Of(C));
       }
       Text += fmt::format(" {} | {} |\n", P.Unit, P.Source);
     }

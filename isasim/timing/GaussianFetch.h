@@ -3,7 +3,7 @@
 #pragma once
 
 #include "raster/RasterTables.h"
-#include "timing/MemorySystem.h"
+#include "timing/LineWaits.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,8 +20,11 @@ constexpr uint32_t lineOf(uint32_t Address) {
 /// it. Gaussians are numbered in the order of their fetches.
 class GaussianFetch {
 public:
-  GaussianFetch(unsigned ClusterIn, unsigned Entries)
-      : Cluster(ClusterIn), FreeAt(Entries) {}
+  /// Sets of lines beside the Gaussians'.
+  enum LineSet : unsigned { EvenList, OddList, Others, EvenOthers, OddOthers };
+
+  GaussianFetch(MemoryPort Port, unsigned Entries)
+      : Waits(Port, FirstEntry + Entries), FreeAt(Entries) {}
 
   /// A command begins at \p Now: the buffer is empty.
   void begin(uint64_t Now) {
@@ -35,11 +38,10 @@ public:
   /// The next cycle in which something can be asked for.
   uint64_t now() const { return Next; }
   void waitUntil(uint64_t Then) { Next = std::max(Next, Then); }
-  /// Does not ask for anything in this cycle.
-  void skip() { ++Next; }
 
   unsigned entries() const { return static_cast<unsigned>(FreeAt.size()); }
-  /// When Gaussian \p Number can be asked for.
+  /// When Gaussian \p Number can be asked for; Turn::Never while its entry is
+  /// held by one of which nobody knows when it is done.
   uint64_t startOf(size_t Number) const {
     return std::max(Next, FreeAt[Number % FreeAt.size()]);
   }
@@ -48,56 +50,89 @@ public:
     FreeAt[Number % FreeAt.size()] = Then;
   }
 
-  /// Asks for a line; returns when it has come or been taken.
-  uint64_t line(MemorySystem &Memory, uint32_t Address,
-                CacheOp Op = CacheOp::Read, bool Keep = false) {
-    return Memory.access(
-        Cluster, {.Now = Next++, .Address = Address, .Op = Op, .Keep = Keep});
+  /// \name Sets of lines
+  /// @{
+  void beginSet(unsigned Set) { Waits.begin(Set, Next); }
+  void line(MemorySystem &Memory, unsigned Set, uint32_t Address,
+            CacheOp Op = CacheOp::Read, bool Keep = false) {
+    Waits.ask(Memory, Set,
+              {.Now = Next++, .Address = Address, .Op = Op, .Keep = Keep});
   }
-  /// Likewise the lines of a range, which is not empty; returns when all have
-  /// come.
-  uint64_t read(MemorySystem &Memory, uint32_t Address, uint32_t Bytes,
-                bool Keep = false) {
-    uint64_t Ready = 0;
+  /// Reads the lines of a range, which is not empty.
+  void read(MemorySystem &Memory, unsigned Set, uint32_t Address,
+            uint32_t Bytes, bool Keep = false) {
     const uint32_t Last = lineOf(Address + Bytes - 1);
     for (uint32_t Line = lineOf(Address);; Line += TimingLineBytes) {
-      Ready = std::max(Ready, line(Memory, Line, CacheOp::Read, Keep));
+      line(Memory, Set, Line, CacheOp::Read, Keep);
       if (Line == Last)
-        return Ready;
+        return;
     }
   }
+  /// When all lines of the set have come or been taken; Turn::Never if that is
+  /// not known yet.
+  uint64_t readyAt(unsigned Set) const { return Waits.readyAt(Set); }
+  /// An answer of memory. Returns whether a set is known by it.
+  bool answer(uint32_t Tag, uint64_t Then) {
+    return Waits.answer(Tag, Then).has_value();
+  }
+  /// @}
 
-  /// Whether the list's entry at \p Address is there now; if not, now() becomes
-  /// the time at which it is. When the first entry of a line is used, the line
+  /// When the list's entry at \p Address is there, not before now(). Asks for
+  /// its line, if need be; when the first entry of a line is used, the line
   /// \p Ahead bytes on is asked for, if that is not 0.
-  bool hasEntry(MemorySystem &Memory, uint32_t Address, int Ahead = 0) {
-    if (const uint32_t Line = lineOf(Address); Line != ListLine) {
-      const bool IsThere = Ahead && ListLine != NoLine;
-      ListReady = IsThere ? AheadReady : line(Memory, Line);
+  uint64_t entryAt(MemorySystem &Memory, uint32_t Address, int Ahead = 0) {
+    const uint32_t Line = lineOf(Address);
+    if (Line != ListLine) {
+      if (!Ahead || ListLine == NoLine)
+        askList(Memory, Line);
       if (Ahead)
-        AheadReady = line(Memory, Line + static_cast<uint32_t>(Ahead));
+        askList(Memory, Line + static_cast<uint32_t>(Ahead));
       ListLine = Line;
     }
-    if (ListReady <= Next)
-      return true;
-    Next = ListReady;
-    return false;
+    return std::max(Next, Waits.readyAt(listSet(Line)));
   }
-  /// The record at \p Address; \p Keep: see CacheRequest.
-  uint64_t readRecord(MemorySystem &Memory, uint32_t Address,
-                      bool Keep = false) {
-    return read(Memory, Address, sizeof(raster::Gaussian), Keep);
+  /// Asks for the record at \p Address; \p Keep: see CacheRequest. The
+  /// Gaussian holds its entry until hold() says otherwise.
+  void readRecord(MemorySystem &Memory, size_t Number, uint32_t Address,
+                  bool Keep = false) {
+    beginGaussian(Number);
+    read(Memory, setOf(Number), Address, sizeof(raster::Gaussian), Keep);
+  }
+  /// Likewise for a Gaussian without a record in memory, which takes a cycle.
+  void skipRecord(size_t Number) {
+    beginGaussian(Number);
+    ++Next;
+  }
+  /// When the Gaussian's record is there; Turn::Never if that is not known yet.
+  uint64_t recordAt(size_t Number) const {
+    return Waits.readyAt(setOf(Number));
   }
 
 private:
   /// Where no line begins.
   static constexpr uint32_t NoLine = 1;
+  static constexpr unsigned FirstEntry = OddOthers + 1;
 
-  unsigned Cluster;
+  /// Neighbouring lines have different sets.
+  static unsigned listSet(uint32_t Line) {
+    return Line / TimingLineBytes % 2 ? OddList : EvenList;
+  }
+  void askList(MemorySystem &Memory, uint32_t Line) {
+    beginSet(listSet(Line));
+    line(Memory, listSet(Line), Line);
+  }
+  unsigned setOf(size_t Number) const {
+    return FirstEntry + static_cast<unsigned>(Number % FreeAt.size());
+  }
+  void beginGaussian(size_t Number) {
+    hold(Number, Turn::Never);
+    beginSet(setOf(Number));
+  }
+
+  LineWaits Waits;
   uint64_t Next = 0;
   std::vector<uint64_t> FreeAt; ///< entries of the buffer
-  uint32_t ListLine = NoLine;   ///< of the list, that was asked for last
-  uint64_t ListReady = 0, AheadReady = 0;
+  uint32_t ListLine = NoLine;   ///< of the list, that was used last
 };
 
 } // namespace vorion::isasim

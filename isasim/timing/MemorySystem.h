@@ -1,14 +1,15 @@
 /// Everything below cores and rasterizers: L2 slices, last-level cache, DRAM.
 #pragma once
 
-#include "timing/Cache.h"
-#include "timing/Dram.h"
+#include "timing/DramChannels.h"
 
-#include <memory>
+#include <deque>
 #include <vector>
 
 namespace vorion::isasim {
 
+/// A request is answered at once where its answer is known, as of a hit. The
+/// others are answered by advance(), whose owner calls it in the order of time.
 class MemorySystem {
 public:
   MemorySystem(const TimingConfig &Params, unsigned Clusters);
@@ -18,7 +19,14 @@ public:
   /// A request of somebody in \p Cluster; see Cache::access. Atomics are done
   /// where all who may meet at the word come together: in the L2 slice of a
   /// device with one cluster, else in the last-level cache.
-  uint64_t access(unsigned Cluster, const CacheRequest &R);
+  std::optional<uint64_t> access(unsigned Cluster, const CacheRequest &R);
+
+  /// The next cycle in which something may be decided; Turn::Never if nothing
+  /// is under way.
+  uint64_t nextEvent() const { return Ram.nextEvent(); }
+  /// Goes on until lines have come or to the end of cycle \p Until. Appends
+  /// the answers that are known by then.
+  void advance(uint64_t Until, std::vector<Answer> &Answers);
 
   /// The end of a run at \p Now: slices of several clusters do not watch each
   /// other, so they hand on what they hold. Returns when that is done.
@@ -28,34 +36,16 @@ public:
   void report(TimeReport &R) const;
 
 private:
-  /// Where cycles become picoseconds and come back.
-  class DramDoor final : public MemoryBelow {
-  public:
-    DramDoor(const TimingConfig &Params)
-        : Ram(Params.Dram), ClockMhz(Params.ClockMhz) {}
-    uint64_t fetch(uint64_t Now, uint32_t Address, bool) override {
-      return cycles(Ram.access(picoseconds(Now), Address, false));
-    }
-    void writeBack(uint64_t Now, uint32_t Address) override {
-      Ram.access(picoseconds(Now), Address, true);
-    }
-    Dram Ram;
-
-  private:
-    static constexpr uint64_t PsTimesMhz = 1000000;
-    uint64_t picoseconds(uint64_t Cycles) const {
-      return Cycles * PsTimesMhz / ClockMhz;
-    }
-    uint64_t cycles(uint64_t Ps) const {
-      return (Ps * ClockMhz + PsTimesMhz - 1) / PsTimesMhz;
-    }
-    uint64_t ClockMhz;
-  };
+  /// From a slice to the last-level cache.
   class LlcDoor final : public MemoryBelow {
   public:
-    explicit LlcDoor(Cache &LlcIn) : Llc(LlcIn) {}
-    uint64_t fetch(uint64_t Now, uint32_t Address, bool Keep) override {
-      return Llc.access({.Now = Now, .Address = Address, .Keep = Keep});
+    LlcDoor(Cache &LlcIn, uint32_t SliceIn) : Llc(LlcIn), Slice(SliceIn) {}
+    std::optional<uint64_t> fetch(uint64_t Now, uint32_t Address, bool Keep,
+                                  uint32_t Miss) override {
+      return Llc.access({.Now = Now,
+                         .Address = Address,
+                         .Keep = Keep,
+                         .From = {IsSlice | Slice, Miss}});
     }
     void writeBack(uint64_t Now, uint32_t Address) override {
       Llc.access({.Now = Now, .Address = Address, .Op = CacheOp::WriteWhole});
@@ -63,13 +53,23 @@ private:
 
   private:
     Cache &Llc;
+    uint32_t Slice;
   };
+  struct Slice {
+    Slice(const CacheShape &Shape, Cache &Llc, uint32_t Number)
+        : Door(Llc, Number), L2(Shape, Door) {}
+    LlcDoor Door;
+    Cache L2;
+  };
+  /// A bit of tickets whose unit is a slice.
+  static constexpr uint32_t IsSlice = 1U << 30;
 
-  DramDoor Ram;
+  DramChannels Ram;
   Cache Llc;
-  LlcDoor ToLlc;
-  std::vector<std::unique_ptr<Cache>> Slices; ///< by cluster
+  std::deque<Slice> Slices; ///< by cluster
   uint32_t L2HitCycles;
+  std::vector<DramChannels::Fill> Fills;
+  std::vector<Answer> FromLlc;
 };
 
 } // namespace vorion::isasim

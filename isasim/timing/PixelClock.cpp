@@ -11,10 +11,9 @@ namespace {
 constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
 } // namespace
 
-PixelClock::PixelClock(const TimingConfig &Params, unsigned ClusterIn,
+PixelClock::PixelClock(const TimingConfig &Params, MemoryPort Port,
                        unsigned Cores)
-    : P(Params.Pixel), Cluster(ClusterIn), Expected(Cores),
-      Fetch(Cluster, P.BufferEntries) {}
+    : P(Params.Pixel), Expected(Cores), Fetch(Port, P.BufferEntries) {}
 
 void PixelClock::begin(uint64_t Start) {
   if (Now == Stage::Idle)
@@ -46,26 +45,57 @@ std::optional<unsigned> PixelClock::step(MemorySystem &Memory) {
   case Stage::Take:
     take(Memory);
     break;
+  case Stage::Record:
+    recorded(Memory);
+    break;
   case Stage::Group:
     startGroup(Memory);
     break;
   case Stage::Fetch:
     fetch(Memory);
     break;
+  case Stage::Store:
+    storeGroup(Memory);
+    break;
   case Stage::Done:
     Now = Queue.empty() ? Stage::Idle : Stage::Take;
     At = Queue.empty() ? Turn::Never : DoneAt;
     return Serving;
+  case Stage::Empty:
   case Stage::Idle:
     break;
   }
   return std::nullopt;
 }
 
-/// The lines of a group's pixels; returns when the last has come or been taken.
-uint64_t PixelClock::pixelLines(MemorySystem &Memory, size_t Which,
-                                bool IsWrite) {
-  uint64_t Ready = Fetch.now();
+void PixelClock::answer(uint32_t Tag, uint64_t Then) {
+  if (!Fetch.answer(Tag, Then))
+    return;
+  switch (Now) {
+  case Stage::Record:
+    At = Fetch.readyAt(GaussianFetch::Others);
+    break;
+  case Stage::Group:
+    nextGroup();
+    break;
+  case Stage::Fetch:
+    fetched();
+    break;
+  case Stage::Empty:
+    stored();
+    break;
+  case Stage::Idle:
+  case Stage::Take:
+  case Stage::Store:
+  case Stage::Done:
+    break;
+  }
+}
+
+/// Asks for the lines of a group's pixels.
+void PixelClock::pixelLines(MemorySystem &Memory, unsigned Set, size_t Which,
+                            CacheOp Op) {
+  Fetch.beginSet(Set);
   uint32_t Last = 0;
   const size_t End =
       std::min(Work.Pixels.size(), (Which + 1) * size_t{P.Lanes});
@@ -77,11 +107,8 @@ uint64_t PixelClock::pixelLines(MemorySystem &Memory, size_t Which,
     if (Line == Last)
       continue;
     Last = Line;
-    Ready =
-        std::max(Ready, Fetch.line(Memory, Line,
-                                   IsWrite ? CacheOp::Write : CacheOp::Read));
+    Fetch.line(Memory, Set, Line, Op);
   }
-  return Ready;
 }
 
 void PixelClock::take(MemorySystem &Memory) {
@@ -101,20 +128,34 @@ void PixelClock::take(MemorySystem &Memory) {
     Now = Stage::Done;
     return;
   }
-  Fetch.waitUntil(Fetch.read(Memory, Work.Record, sizeof(raster::Tail)));
-  PixelsReady = pixelLines(Memory, 0, false);
-  spend(PixelCycle::Load, std::max(PixelsReady, DoneAt) - DoneAt);
-  Now = groups() == 0 ? Stage::Done : Stage::Group;
-  At = DoneAt;
+  Fetch.beginSet(GaussianFetch::Others);
+  Fetch.read(Memory, GaussianFetch::Others, Work.Record, sizeof(raster::Tail));
+  Now = Stage::Record;
+  At = Fetch.readyAt(GaussianFetch::Others);
+}
+
+void PixelClock::recorded(MemorySystem &Memory) {
+  Fetch.waitUntil(At);
+  spend(PixelCycle::Load, At - DoneAt);
+  if (groups() == 0) {
+    Now = Stage::Done;
+    return;
+  }
+  pixelLines(Memory, pixelSet(0), 0, CacheOp::Read);
+  nextGroup();
+}
+
+void PixelClock::nextGroup() {
+  Now = Stage::Group;
+  At = std::max(DoneAt, Fetch.readyAt(pixelSet(Group)));
 }
 
 /// The next group's pixels are read while this one's are worked on.
 void PixelClock::startGroup(MemorySystem &Memory) {
-  if (PixelsReady > DoneAt)
-    spend(PixelCycle::Load, PixelsReady - DoneAt);
+  spend(PixelCycle::Load, At - DoneAt);
   Fetch.waitUntil(At);
   if (Group + 1 != groups())
-    PixelsReady = pixelLines(Memory, Group + 1, false);
+    pixelLines(Memory, pixelSet(Group + 1), Group + 1, CacheOp::Read);
   Fetch.beginList();
   Visits = 0;
   const size_t End =
@@ -124,53 +165,92 @@ void PixelClock::startGroup(MemorySystem &Memory) {
     Spent.Visits += Work.Pixels[N].Visits;
   }
   Visits = std::min(Visits, static_cast<uint32_t>(Work.Records.size()));
-  Number = 0;
+  Number = Evaluated = 0;
   // All Gaussians are still in the buffer, if they fit.
   if (Group != 0 && Work.Records.size() <= Fetch.entries()) {
     spend(PixelCycle::Evaluate, Visits);
-    return finishGroup(Memory);
+    Number = Evaluated = Visits;
   }
-  if (Visits == 0)
-    return finishGroup(Memory);
   Now = Stage::Fetch;
-  At = Fetch.startOf(0);
+  fetched();
 }
 
 void PixelClock::fetch(MemorySystem &Memory) {
   Fetch.waitUntil(At);
-  if (!Fetch.hasEntry(Memory, Work.What.List + 4 * Number)) {
-    At = Fetch.now();
+  const uint64_t EntryAt = Fetch.entryAt(Memory, Work.What.List + 4 * Number);
+  if (EntryAt > Fetch.now()) {
+    At = EntryAt;
     return;
   }
-  const uint64_t Ready = Fetch.readRecord(Memory, Work.Records[Number]);
-  if (Ready > DoneAt)
-    spend(PixelCycle::Fetch, Ready - DoneAt);
-  spend(PixelCycle::Evaluate, 1);
-  Fetch.hold(Number, DoneAt);
-  if (++Number == Visits)
-    return finishGroup(Memory);
-  At = Fetch.startOf(Number);
+  Fetch.readRecord(Memory, Number, Work.Records[Number]);
+  ++Number;
+  fetched();
 }
 
-void PixelClock::finishGroup(MemorySystem &Memory) {
-  Fetch.waitUntil(DoneAt + laneDepth(Work.What.Units));
-  const uint64_t Taken = pixelLines(Memory, Group, true);
-  if (++Group == groups()) {
-    // The lanes empty, and the last pixels are written.
-    spend(PixelCycle::Store, std::max(Taken, DoneAt) - DoneAt);
-    Now = Stage::Done;
-  } else {
-    Now = Stage::Group;
+/// Evaluates what is known to come, in order, and says when there is more to
+/// do.
+void PixelClock::fetched() {
+  for (; Evaluated != Number; ++Evaluated) {
+    const uint64_t Ready = Fetch.recordAt(Evaluated);
+    if (Ready == Turn::Never)
+      break;
+    if (Ready > DoneAt)
+      spend(PixelCycle::Fetch, Ready - DoneAt);
+    spend(PixelCycle::Evaluate, 1);
+    Fetch.hold(Evaluated, DoneAt);
   }
+  if (Number != Visits) {
+    At = Fetch.startOf(Number);
+    return;
+  }
+  At = Turn::Never;
+  if (Evaluated != Number)
+    return;
+  Now = Stage::Store;
   At = DoneAt;
 }
 
-void PixelClock::end(uint64_t End) {
-  const PixelCycle Rest = Now == Stage::Group   ? PixelCycle::Load
-                          : Now == Stage::Fetch ? PixelCycle::Fetch
-                          : Now == Stage::Done  ? PixelCycle::Store
-                                                : PixelCycle::Idle;
-  Spent.Cycles = Ledger.end(End, Rest);
+/// Pixels are written when the lanes are empty.
+void PixelClock::storeGroup(MemorySystem &Memory) {
+  Fetch.waitUntil(DoneAt + laneDepth(Work.What.Units));
+  pixelLines(Memory, GaussianFetch::Others, Group, CacheOp::Write);
+  if (++Group != groups())
+    return nextGroup();
+  Now = Stage::Empty;
+  stored();
 }
+
+/// Done if the last pixels have been taken.
+void PixelClock::stored() {
+  At = Turn::Never;
+  const uint64_t Taken = Fetch.readyAt(GaussianFetch::Others);
+  if (Taken == Turn::Never)
+    return;
+  if (Taken > DoneAt)
+    spend(PixelCycle::Store, Taken - DoneAt);
+  Now = Stage::Done;
+  At = DoneAt;
+}
+
+/// What cycles go to that nobody has spent yet.
+PixelCycle PixelClock::rest() const {
+  switch (Now) {
+  case Stage::Record:
+  case Stage::Group:
+    return PixelCycle::Load;
+  case Stage::Fetch:
+    return PixelCycle::Fetch;
+  case Stage::Store:
+  case Stage::Empty:
+  case Stage::Done:
+    return PixelCycle::Store;
+  case Stage::Idle:
+  case Stage::Take:
+    break;
+  }
+  return PixelCycle::Idle;
+}
+
+void PixelClock::end(uint64_t End) { Spent.Cycles = Ledger.end(End, rest()); }
 
 } // namespace vorion::isasim

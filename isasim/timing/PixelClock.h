@@ -20,7 +20,7 @@ namespace vorion::isasim {
 /// again for every group.
 class PixelClock {
 public:
-  PixelClock(const TimingConfig &Params, unsigned Cluster, unsigned Cores);
+  PixelClock(const TimingConfig &Params, MemoryPort Port, unsigned Cores);
 
   /// The work of a hand-over of core \p Core of the cluster, before accept().
   void expect(unsigned Core, raster::TailWork &&Executed) {
@@ -36,27 +36,45 @@ public:
   Turn turn() const { return Turn(At); }
   /// Does it; returns the core of a hand-over that is done with it.
   std::optional<unsigned> step(MemorySystem &Memory);
+  /// An answer of memory.
+  void answer(uint32_t Tag, uint64_t Then);
 
   uint64_t freeAt() const { return DoneAt; }
   void end(uint64_t End);
   const PixelTime &time() const { return Spent; }
 
 private:
-  enum class Stage : uint8_t { Idle, Take, Group, Fetch, Done };
+  enum class Stage : uint8_t {
+    Idle,
+    Take,
+    Record, ///< the hand-over's record has come
+    Group,  ///< the next group's pixels have come
+    Fetch,
+    Store, ///< the group's pixels are written
+    Empty, ///< waits for the last of them to be taken
+    Done
+  };
 
   void spend(PixelCycle What, uint64_t Cycles) {
     DoneAt += Cycles;
     Ledger.spend(What, DoneAt);
   }
   void take(MemorySystem &Memory);
+  void recorded(MemorySystem &Memory);
+  void nextGroup();
   void startGroup(MemorySystem &Memory);
   void fetch(MemorySystem &Memory);
-  void finishGroup(MemorySystem &Memory);
-  uint64_t pixelLines(MemorySystem &Memory, size_t Group, bool IsWrite);
+  void fetched();
+  void storeGroup(MemorySystem &Memory);
+  void stored();
+  PixelCycle rest() const;
+  void pixelLines(MemorySystem &Memory, unsigned Set, size_t Group, CacheOp Op);
+  static unsigned pixelSet(size_t Group) {
+    return Group % 2 ? GaussianFetch::OddOthers : GaussianFetch::EvenOthers;
+  }
   size_t groups() const { return (Work.Pixels.size() + P.Lanes - 1) / P.Lanes; }
 
   const PixelTiming P;
-  unsigned Cluster;
   std::vector<std::deque<raster::TailWork>> Expected; ///< by core
   std::deque<unsigned> Queue;                         ///< cores
 
@@ -66,8 +84,9 @@ private:
   unsigned Serving = 0;
   raster::TailWork Work;
   size_t Group = 0;
-  uint32_t Visits = 0, Number = 0; ///< of the group
-  uint64_t PixelsReady = 0;
+  uint32_t Visits = 0;    ///< Gaussians that the group examines
+  uint32_t Number = 0;    ///< of them, asked for
+  uint32_t Evaluated = 0; ///< of these, given to lanes
   GaussianFetch Fetch;
   CycleLedger<PixelCycle> Ledger;
   PixelTime Spent;

@@ -26,14 +26,24 @@ protected:
     return W;
   }
   PixelTime timeOf(const TailWork &W) {
-    PixelClock U(P, 0, 1);
+    PixelClock U(P, MemoryPort(), 1);
     U.begin(Now);
     TailWork Copy = W;
     U.expect(0, std::move(Copy));
     U.accept(0, Now);
     unsigned Served = 0;
-    while (U.turn().At != Turn::Never)
+    for (;;) {
+      if (Memory.nextEvent() < U.turn().At) {
+        std::vector<Answer> Answers;
+        Memory.advance(U.turn().At, Answers);
+        for (const Answer &A : Answers)
+          U.answer(A.To.Tag, A.At);
+        continue;
+      }
+      if (U.turn().At == Turn::Never)
+        break;
       Served += U.step(Memory).has_value();
+    }
     EXPECT_EQ(Served, 1U);
     const uint64_t End = U.freeAt();
     U.end(End);

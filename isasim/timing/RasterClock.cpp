@@ -47,11 +47,11 @@ unsigned DispatchTable::count(unsigned Width, unsigned Height) const {
   return Cycles;
 }
 
-RasterClock::RasterClock(const TimingConfig &Params, unsigned ClusterIn,
+RasterClock::RasterClock(const TimingConfig &Params, MemoryPort PortIn,
                          unsigned NumAgents, unsigned QueueDepthIn)
-    : P(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Cluster(ClusterIn),
+    : P(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Port(PortIn),
       QueueDepth(QueueDepthIn), Table(P), PairTable(inPairs(P)),
-      Agents(NumAgents), Fetch(Cluster, P.BufferEntries) {}
+      Agents(NumAgents), Fetch(Port, P.BufferEntries) {}
 
 void RasterClock::begin(uint64_t Start) {
   MoreWork = true;
@@ -120,6 +120,7 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
     take();
     if (Work.What.IsBackward && !Work.hasFailed())
       load(Memory);
+    fetched();
     break;
   case Stage::Fetch:
     fetch(Memory);
@@ -136,6 +137,15 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
     break;
   }
   return std::nullopt;
+}
+
+void RasterClock::answer(uint32_t Tag, uint64_t Then) {
+  if (!Fetch.answer(Tag, Then))
+    return;
+  if (Now == Stage::Fetch)
+    fetched();
+  else if (Now == Stage::Drain && At == Turn::Never)
+    drained();
 }
 
 /// Round-robin over the agents that have a command by now.
@@ -167,29 +177,24 @@ void RasterClock::take() {
   const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
   spend(RasterCycle::Begin, P.StartCycles + (Pixels + P.Banks - 1) / P.Banks);
   Fetch.begin(Begun);
-  Number = 0;
-  if (Work.Gaussians.empty())
-    return flush();
+  Fetch.beginSet(GaussianFetch::Others);
+  Number = Dispatches = 0;
   Now = Stage::Fetch;
-  At = Begun;
 }
 
 /// A backward tile begins with its pixels' transmittances, gradients and last
 /// contributors, a line a cycle.
 void RasterClock::load(MemorySystem &Memory) {
-  uint64_t Ready = DispatchAt;
   const auto Read = [&](uint32_t First, unsigned Row, uint32_t Bytes) {
     const uint32_t Pitch = Work.What.OutputPitch / PixelBytes * Bytes;
-    Ready = std::max(Ready, Fetch.read(Memory, First + Row * Pitch,
-                                       Work.What.Width * Bytes));
+    Fetch.read(Memory, GaussianFetch::Others, First + Row * Pitch,
+               Work.What.Width * Bytes);
   };
   for (unsigned Row = 0; Row != Work.What.Height; ++Row) {
     Read(Work.What.Output, Row, PixelBytes);
     Read(Work.What.Upstream, Row, PixelBytes);
     Read(Work.What.Last, Row, sizeof(uint32_t));
   }
-  spend(RasterCycle::Begin, Ready - DispatchAt);
-  At = std::max(At, Now == Stage::Fetch ? Fetch.now() : DispatchAt);
 }
 
 /// The place in its list of a Gaussian in the order of the fetches.
@@ -198,41 +203,63 @@ uint32_t RasterClock::entryOf(size_t Gaussian) const {
       Work.What.IsBackward ? Work.Gaussians.size() - 1 - Gaussian : Gaussian);
 }
 
-/// Whether the list's entry for the next Gaussian is there.
-bool RasterClock::hasEntry(MemorySystem &Memory) {
-  constexpr int LineBytes = TimingLineBytes;
-  return Fetch.hasEntry(Memory, Work.What.List + 4 * entryOf(Number),
-                        Work.What.IsBackward ? -LineBytes : LineBytes);
-}
-
 void RasterClock::fetch(MemorySystem &Memory) {
+  constexpr int LineBytes = TimingLineBytes;
   const GaussianWork &G = Work.Gaussians[Number];
   Fetch.waitUntil(At);
-  uint64_t Ready = Fetch.now();
   if (!G.Address) {
-    Fetch.skip();
-  } else if (hasEntry(Memory)) {
-    Ready = Fetch.readRecord(Memory, G.Address, G.SpansTiles);
+    Fetch.skipRecord(Number);
   } else {
-    At = Fetch.now();
+    const uint64_t EntryAt =
+        Fetch.entryAt(Memory, Work.What.List + 4 * entryOf(Number),
+                      Work.What.IsBackward ? -LineBytes : LineBytes);
+    if (EntryAt > Fetch.now()) {
+      At = EntryAt;
+      return;
+    }
+    Fetch.readRecord(Memory, Number, G.Address, G.SpansTiles);
+  }
+  ++Number;
+  fetched();
+}
+
+bool RasterClock::endsBatch(size_t Gaussian) const {
+  return Work.What.IsBackward && entryOf(Gaussian) % raster::VR_GRAD_LANES == 0;
+}
+
+/// Dispatches what is known to come, in order, and says when there is more to
+/// do. Nothing is dispatched before all is there that the tile begins with.
+void RasterClock::fetched() {
+  const uint64_t Loaded = Fetch.readyAt(GaussianFetch::Others);
+  const bool IsLoaded = Loaded != Turn::Never;
+  if (IsLoaded && Loaded > DispatchAt)
+    spend(RasterCycle::Begin, Loaded - DispatchAt);
+  for (; IsLoaded && Dispatches != Number; ++Dispatches) {
+    const uint64_t Ready = Fetch.recordAt(Dispatches);
+    if (Ready == Turn::Never)
+      break;
+    dispatch(Work.Gaussians[Dispatches], Ready);
+    Fetch.hold(Dispatches, DispatchAt);
+  }
+  const bool IsLast = Number == Work.Gaussians.size();
+  const bool IsBatch = Number != 0 && endsBatch(Number - 1);
+  if (!IsLast && !IsBatch) {
+    // The next one needs the entry of whoever had it before.
+    At = Fetch.startOf(Number);
     return;
   }
-  dispatch(G, Ready);
-  Fetch.hold(Number++, DispatchAt);
-  if (Work.What.IsBackward &&
-      entryOf(Number - 1) % raster::VR_GRAD_LANES == 0) {
-    // The gather empties before its sums go.
-    spend(RasterCycle::Flush,
-          backwardDepth(Work.What.Units,
-                        static_cast<unsigned>(Work.What.Backward.Unit)));
-    Now = Stage::HandOver;
-    At = Agents[Serving].Waiting < BatchDepth ? DispatchAt : Turn::Never;
+  At = Turn::Never;
+  if (!IsLoaded || Dispatches != Number)
     return;
-  }
-  if (Number == Work.Gaussians.size())
+  if (!IsBatch)
     return flush();
-  // The next one needs the entry of whoever had it before.
-  At = Fetch.startOf(Number);
+  // The gather empties before its sums go.
+  spend(RasterCycle::Flush,
+        backwardDepth(Work.What.Units,
+                      static_cast<unsigned>(Work.What.Backward.Unit)));
+  Now = Stage::HandOver;
+  if (Agents[Serving].Waiting < BatchDepth)
+    At = DispatchAt;
 }
 
 void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
@@ -311,22 +338,31 @@ void RasterClock::drain(MemorySystem &Memory) {
   const uint32_t Line = lineOf(Address);
   const uint32_t Bytes =
       std::min(Line + TimingLineBytes - Address, RowBytes - DrainByte);
-  const uint64_t Taken = Memory.access(
-      Cluster,
-      {.Now = At,
-       .Address = Line,
-       .Op = Bytes == TimingLineBytes ? CacheOp::WriteWhole : CacheOp::Write});
-  // The slice takes one a cycle, or holds the rasterizer up.
-  const uint64_t Next =
-      std::max(At + 1, Taken > L2HalfHit ? Taken - L2HalfHit : 0);
-  spend(RasterCycle::Drain, Next - DispatchAt);
-  At = Next;
+  Fetch.waitUntil(At);
+  Fetch.beginSet(GaussianFetch::Others);
+  Fetch.line(Memory, GaussianFetch::Others, Line,
+             Bytes == TimingLineBytes ? CacheOp::WriteWhole : CacheOp::Write);
   DrainByte += Bytes;
   if (DrainByte == RowBytes) {
     DrainByte = 0;
-    if (++DrainRow == Work.What.Height)
-      Now = Stage::Done;
+    ++DrainRow;
   }
+  drained();
+}
+
+/// Goes on if the slice has taken the last line: it takes one a cycle, or holds
+/// the rasterizer up.
+void RasterClock::drained() {
+  At = Turn::Never;
+  const uint64_t Taken = Fetch.readyAt(GaussianFetch::Others);
+  if (Taken == Turn::Never)
+    return;
+  const uint64_t Next =
+      std::max(DispatchAt + 1, Taken > L2HalfHit ? Taken - L2HalfHit : 0);
+  spend(RasterCycle::Drain, Next - DispatchAt);
+  At = Next;
+  if (DrainRow == Work.What.Height)
+    Now = Stage::Done;
 }
 
 /// Rows of last contributors, a line a cycle.
@@ -335,7 +371,7 @@ void RasterClock::storeLast(MemorySystem &Memory) {
     const uint32_t First = Work.What.Last + Row * (Work.What.OutputPitch / 4);
     const uint32_t End = First + Work.What.Width * 4;
     for (uint32_t Line = lineOf(First); Line < End; Line += TimingLineBytes) {
-      Memory.access(Cluster,
+      Memory.access(Port.Cluster,
                     {.Now = DispatchAt, .Address = Line, .Op = CacheOp::Write});
       spend(RasterCycle::Drain, 1);
     }
@@ -351,7 +387,7 @@ RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
     constexpr unsigned Lines =
         (sizeof(raster::Tail) + TimingLineBytes - 1) / TimingLineBytes;
     for (unsigned N = 0; N != Lines; ++N)
-      Memory.access(Cluster,
+      Memory.access(Port.Cluster,
                     {.Now = DispatchAt + N,
                      .Address = Work.What.TailRecord + N * TimingLineBytes,
                      .Op = CacheOp::Write});
@@ -368,10 +404,11 @@ RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
 
 void RasterClock::end(uint64_t End) {
   // Between two commands nothing is spent but by the one that comes.
-  const RasterCycle Rest = Now == Stage::Fetch ? RasterCycle::Fetch
-                           : Now == Stage::Drain || Now == Stage::HandOver
-                               ? RasterCycle::Drain
-                               : RasterCycle::Idle;
+  const bool IsLoaded = Fetch.readyAt(GaussianFetch::Others) != Turn::Never;
+  const RasterCycle Rest =
+      Now == Stage::Fetch ? IsLoaded ? RasterCycle::Fetch : RasterCycle::Begin
+      : Now == Stage::Drain || Now == Stage::HandOver ? RasterCycle::Drain
+                                                      : RasterCycle::Idle;
   Spent.Cycles = Ledger.end(End, Rest);
 }
 

@@ -33,7 +33,7 @@ private:
 /// One rasterizer. Its owner calls step() in the order of time.
 class RasterClock {
 public:
-  RasterClock(const TimingConfig &Params, unsigned Cluster, unsigned Agents,
+  RasterClock(const TimingConfig &Params, MemoryPort Port, unsigned Agents,
               unsigned QueueDepth);
 
   /// Batches of gradients that an agent holds (raster::AgentConfig).
@@ -84,6 +84,8 @@ public:
   /// Does it, if it is known; returns the agent of a command that is
   /// done with it, or has a batch of gradients.
   std::optional<Finished> step(MemorySystem &Memory);
+  /// An answer of memory.
+  void answer(uint32_t Tag, uint64_t Then);
   /// The pixel unit is done with a command of the agent.
   void tailDone(unsigned Agent) { --Agents[Agent].Tails; }
 
@@ -120,19 +122,22 @@ private:
   void take();
   void load(MemorySystem &Memory);
   uint32_t entryOf(size_t Gaussian) const;
-  bool hasEntry(MemorySystem &Memory);
   void handOver();
   void fetch(MemorySystem &Memory);
+  void fetched();
+  bool endsBatch(size_t Gaussian) const;
   void dispatch(const raster::GaussianWork &G, uint64_t Ready);
   uint64_t safeAt(const raster::GaussianWork &G, unsigned Cycles) const;
   void flush();
   void drain(MemorySystem &Memory);
+  void drained();
   void storeLast(MemorySystem &Memory);
   Finished finish(MemorySystem &Memory);
 
   const RasterTiming P;
   const uint32_t L2HalfHit;
-  unsigned Cluster, QueueDepth;
+  const MemoryPort Port;
+  unsigned QueueDepth;
   DispatchTable Table;
   DispatchTable PairTable; ///< of pairs of lanes, for the backward mode
   std::vector<Agent> Agents;
@@ -145,13 +150,15 @@ private:
   /// before are accounted for.
   uint64_t DispatchAt = 0;
   raster::CommandWork Work;
-  size_t Number = 0; ///< of the Gaussian that is fetched next
+  size_t Number = 0;     ///< of the Gaussian that is fetched next
+  size_t Dispatches = 0; ///< Gaussians that have been dispatched or dropped
   GaussianFetch Fetch;
   static constexpr size_t Recent = 8;
   std::array<Dispatched, Recent> InLanes{};
   size_t NextInLanes = 0;
   unsigned DrainRow = 0;
-  uint32_t DrainByte = 0; ///< of the row
+  uint32_t DrainByte =
+      0; ///< of the row, behind what has been asked to be written
 
   CycleLedger<RasterCycle> Ledger;
   RasterTime Spent;

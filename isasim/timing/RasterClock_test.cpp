@@ -32,14 +32,29 @@ CommandWork pushed(std::vector<GaussianWork> Gaussians) {
 
 class RasterClockTest : public testing::Test {
 protected:
+  /// Does the rasterizer's next step; nothing if there is none.
+  bool step(RasterClock &R, std::vector<unsigned> *Served = nullptr) {
+    while (Memory.nextEvent() <= R.turn().At &&
+           Memory.nextEvent() != Turn::Never) {
+      std::vector<Answer> Answers;
+      Memory.advance(R.turn().At, Answers);
+      for (const Answer &A : Answers)
+        R.answer(A.To.Tag, A.At);
+    }
+    if (R.turn().At == Turn::Never)
+      return false;
+    if (const auto Done = R.step(Memory); Done && Served)
+      Served->push_back(Done->Agent);
+    return true;
+  }
   /// Runs what was queued and returns when it was done.
-  uint64_t finish(RasterClock &R) {
-    while (R.turn().At != Turn::Never)
-      R.step(Memory);
+  uint64_t finish(RasterClock &R, std::vector<unsigned> *Served = nullptr) {
+    while (step(R, Served)) {
+    }
     return R.freeAt();
   }
   RasterTime timeOf(CommandWork &&W) {
-    RasterClock R(P, 0, 1, 4);
+    RasterClock R(P, MemoryPort(), 1, 4);
     R.begin(Now);
     R.expect(0, std::move(W));
     R.start(0, Now);
@@ -154,7 +169,7 @@ TEST_F(RasterClockTest, DrainWritesALineACycle) {
 }
 
 TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
-  RasterClock R(P, 0, 4, 2);
+  RasterClock R(P, MemoryPort(), 4, 2);
   R.begin(0);
   const auto Start = [&](unsigned Agent, uint64_t Now) {
     R.expect(Agent, pushed({box(0, 0, 64, 64)}));
@@ -164,18 +179,16 @@ TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
   Start(2, 0);
   EXPECT_TRUE(R.isFull(2));
   EXPECT_FALSE(R.isFull(0));
-  R.step(Memory); // takes agent 2's first
+  step(R); // takes agent 2's first
   Start(0, 10);
   Start(3, 11);
   std::vector<unsigned> Served;
-  while (R.turn().At != Turn::Never)
-    if (const auto Agent = R.step(Memory))
-      Served.push_back(Agent->Agent);
+  finish(R, &Served);
   EXPECT_EQ(Served, (std::vector<unsigned>{2, 3, 0, 2}));
 }
 
 TEST_F(RasterClockTest, ACommandWaitsUntilItsWorkIsKnown) {
-  RasterClock R(P, 0, 2, 4);
+  RasterClock R(P, MemoryPort(), 2, 4);
   R.begin(0);
   R.start(0, 0); // not executed yet
   R.expect(1, pushed({box(0, 0, 64, 64)}));
@@ -185,14 +198,12 @@ TEST_F(RasterClockTest, ACommandWaitsUntilItsWorkIsKnown) {
   R.expect(0, pushed({box(0, 0, 64, 64)}));
   EXPECT_TRUE(R.turn().IsKnown);
   std::vector<unsigned> Served;
-  while (R.turn().At != Turn::Never)
-    if (const auto Agent = R.step(Memory))
-      Served.push_back(Agent->Agent);
+  finish(R, &Served);
   EXPECT_EQ(Served, (std::vector<unsigned>{0, 1}));
 }
 
 TEST_F(RasterClockTest, ACommandWithoutWorkWaitsForTheNextRun) {
-  RasterClock R(P, 0, 2, 4);
+  RasterClock R(P, MemoryPort(), 2, 4);
   R.begin(0);
   R.start(0, 0);
   R.expect(1, pushed({box(0, 0, 64, 64)}));
@@ -246,15 +257,11 @@ TEST_F(RasterClockTest, EveryBatchEmptiesTheGather) {
 }
 
 TEST_F(RasterClockTest, HaltsWhileTwoBatchesWait) {
-  RasterClock R(P, 0, 1, 4);
+  RasterClock R(P, MemoryPort(), 1, 4);
   R.begin(0);
   R.expect(0, backward(std::vector(16 * 4, box(0, 0, 8, 8))));
   R.start(0, 0);
-  const auto Halt = [&] {
-    while (R.turn().At != Turn::Never)
-      R.step(Memory);
-    return R.freeAt();
-  };
+  const auto Halt = [&] { return finish(R); };
   const uint64_t First = Halt(); // with the third batch
   EXPECT_TRUE(R.isBusy(0));
   EXPECT_TRUE(R.canTake(0));
@@ -274,7 +281,7 @@ TEST_F(RasterClockTest, HaltsWhileTwoBatchesWait) {
 }
 
 TEST_F(RasterClockTest, TheEndOfACommandMakesNoRoomForABatch) {
-  RasterClock R(P, 0, 1, 4);
+  RasterClock R(P, MemoryPort(), 1, 4);
   R.begin(0);
   for (const unsigned Batches : {1U, 2U}) {
     R.expect(0, backward(std::vector(16 * Batches, box(0, 0, 8, 8))));
@@ -296,7 +303,7 @@ TEST_F(RasterClockTest, TheEndOfACommandMakesNoRoomForABatch) {
 }
 
 TEST_F(RasterClockTest, ARunThatEndsInAHaltDrains) {
-  RasterClock R(P, 0, 1, 4);
+  RasterClock R(P, MemoryPort(), 1, 4);
   R.begin(0);
   R.expect(0, backward(std::vector(16 * 3, box(0, 0, 8, 8))));
   R.start(0, 0);

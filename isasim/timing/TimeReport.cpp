@@ -13,14 +13,25 @@ std::span<const TimingParam> timingParams() {
   static const TimingParam All[] = {
 #define GROUP(NAME, MEMBER, WHAT)
 #define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)       \
-  {#GROUP,  #NAME,                                                             \
-   #UNIT,   SOURCE,                                                            \
-   DEFAULT, LOW,                                                               \
-   HIGH,    [](TimingConfig &C) -> uint32_t & {                  \
-     return C.OF.MEMBER; }},
+  {#GROUP,   #NAME,                                                            \
+   #UNIT,    SOURCE,                                                           \
+   #DEFAULT, LOW,                                                              \
+   HIGH,     [](TimingConfig &C) -> uint32_t & { return C.OF.MEMBER; },                            \
+   nullptr},
+#define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)                   \
+  {#GROUP,                                                                     \
+   #NAME,                                                                      \
+   #UNIT,                                                                      \
+   SOURCE,                                                                     \
+   DEFAULT,                                                                    \
+   0,                                                                          \
+   0,                                                                          \
+   nullptr,                                                                    \
+   [](TimingConfig &C) -> std::string & { return C.OF.MEMBER; }},
 #include "vorion/isasim/TimingParams.def"
 #undef GROUP
 #undef PARAM
+#undef WORD
   };
   return All;
 }
@@ -70,13 +81,11 @@ Json json(const CacheTime &T) {
 }
 
 Json json(const DramTime &T) {
-  return {{"read_bursts", T.Reads},
-          {"write_bursts", T.Writes},
-          {"row_hits", T.RowHits},
-          {"row_misses", T.RowMisses},
-          {"row_conflicts", T.RowConflicts},
-          {"refreshes", T.Refreshes},
-          {"bus_ps", T.BusPs}};
+  return {{"read_bursts", T.Reads},          {"write_bursts", T.Writes},
+          {"row_hits", T.RowHits},           {"row_misses", T.RowMisses},
+          {"row_conflicts", T.RowConflicts}, {"forwarded", T.Forwarded},
+          {"activations", T.Activations},    {"drains", T.Drains},
+          {"refreshes", T.Refreshes},        {"bus_ps", T.BusPs}};
 }
 
 /// The sum over units, by reason.

@@ -95,13 +95,17 @@ enum class DramCount {
   RowHits,
   RowMisses,
   RowConflicts,
+  Forwarded,
+  Activations,
+  Drains,
   Refreshes,
   BusPs
 };
 template <>
 inline constexpr std::array CountNames<DramCount> =
     std::to_array<std::string_view>({"read_bursts", "write_bursts", "row_hits",
-                                     "row_misses", "row_conflicts", "refreshes",
+                                     "row_misses", "row_conflicts", "forwarded",
+                                     "activations", "drains", "refreshes",
                                      "bus_ps"});
 /// @}
 

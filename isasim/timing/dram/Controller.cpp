@@ -52,22 +52,19 @@ Controller::Controller(const TimingTable &Table,
     : T(Table), O(Options), BurstsOfLine(burstsOfLine(T, O)),
       Above(O.DrainAbove * O.WriteQueue / 100),
       // An empty queue ends a drain, however small it is.
-      Below(std::max(1U, O.DrainBelow * O.WriteQueue / 100)), Banks(T.banks()),
-      Groups(size_t{T.Ranks} * T.BankGroups), Ranks(T.Ranks) {
-  for (const Constraint &C : T.Constraints) {
-    if (C.Window == 1) {
-      Steps[size_t(C.From)][size_t(C.Within)].push_back({C.To, C.Ticks});
-      continue;
-    }
-    Window = C.Window;
-    WindowTicks = C.Ticks;
-  }
+      Below(std::max(1U, O.DrainBelow * O.WriteQueue / 100)),
+      OfOthers(groups() * Commands), Banks(T.banks()),
+      Common((groups() + T.Ranks) * Commands), Ranks(T.Ranks) {
   for (size_t C = 0; C != Commands; ++C)
     LaterTicks[C] = T.CommandTicks[C] - 1;
+  for (const Constraint &C : T.Constraints)
+    if (isIssued(C.To))
+      addSteps(C);
   BusOf[size_t(Command::Read)] = BusOf[size_t(Command::Write)] = T.HasColumnBus;
   for (uint32_t B = 0; B != Banks.size(); ++B) {
     Banks[B].Group = B / T.BanksPerGroup;
     Banks[B].Rank = B / T.banksPerRank();
+    Banks[B].Common = static_cast<uint32_t>(Banks[B].Group * Commands);
   }
   if (O.Refresh == ControllerOptions::RefreshBy::Rank)
     RefreshInterval = T.RefreshInterval;
@@ -79,10 +76,51 @@ Controller::Controller(const TimingTable &Table,
     if (RefreshInterval != Never)
       Ranks[R].NextRefresh = RefreshInterval + R * RefreshInterval / T.Ranks;
   }
+  for (const Rank &R : Ranks)
+    NextRefresh = std::min(NextRefresh, R.NextRefresh);
   Queues[0].Capacity = O.ReadQueue;
   Queues[1].Capacity = O.WriteQueue;
   for (Queue &Q : Queues)
     Q.Of.resize(Banks.size());
+}
+
+/// Whether it is ever sent.
+bool Controller::isIssued(Command C) const {
+  const bool ByBank = O.Refresh == ControllerOptions::RefreshBy::Bank;
+  return C == Command::RefreshBank ? ByBank : !ByBank || !isOfRank(C);
+}
+
+/// A constraint is between the last ticks of two commands.
+void Controller::addSteps(const Constraint &C) {
+  const uint32_t Later = LaterTicks[size_t(C.To)];
+  const uint32_t Ticks = C.Ticks - std::min(C.Ticks, Later);
+  if (C.Window != 1) {
+    Window = C.Window;
+    WindowTicks = Ticks;
+    return;
+  }
+  const auto To = static_cast<uint32_t>(C.To);
+  if (C.Within == Scope::Bank) {
+    OfBank[size_t(C.From)].push_back({To, Ticks});
+    return;
+  }
+  for (uint32_t From = 0; From != groups(); ++From) {
+    std::vector<Step> &Steps = OfOthers[size_t(C.From) * groups() + From];
+    const uint32_t FromRank = From / T.BankGroups;
+    const auto IsMeant = [&](uint32_t Rank) {
+      return C.Within == Scope::Channel ||
+             (C.Within == Scope::OtherRanks) == (Rank != FromRank);
+    };
+    if (isOfRank(C.To)) {
+      for (uint32_t R = 0; R != T.Ranks; ++R)
+        if (IsMeant(R))
+          Steps.push_back({placeOfRank(R, C.To), Ticks});
+      continue;
+    }
+    for (uint32_t G = 0; G != groups(); ++G)
+      if (C.Within == Scope::BankGroup ? G == From : IsMeant(G / T.BankGroups))
+        Steps.push_back({static_cast<uint32_t>(G * Commands) + To, Ticks});
+  }
 }
 
 void Controller::submit(const Request &R) {
@@ -114,19 +152,12 @@ uint64_t Controller::nextTakenIn() const {
   return At;
 }
 
-uint64_t Controller::nextRefresh() const {
-  uint64_t At = Never;
-  for (const Rank &R : Ranks)
-    At = std::min(At, R.NextRefresh);
-  return At;
-}
-
 uint64_t Controller::nextEvent() const {
   if (Unanswered == 0)
     return Never;
   if (!IsDecided)
     return Now;
-  return std::min({Next.Begin, nextTakenIn(), nextRefresh()});
+  return std::min({Next.Begin, nextTakenIn(), NextRefresh});
 }
 
 void Controller::advance(uint64_t Until, std::vector<Reply> &Replies) {
@@ -140,7 +171,7 @@ void Controller::advance(uint64_t Until, std::vector<Reply> &Replies) {
       decide();
       IsDecided = true;
     }
-    const uint64_t Change = std::min(nextTakenIn(), nextRefresh());
+    const uint64_t Change = std::min(nextTakenIn(), NextRefresh);
     if (std::min(Change, Next.Begin) > Until)
       return;
     if (Change <= Next.Begin) {
@@ -153,11 +184,11 @@ void Controller::advance(uint64_t Until, std::vector<Reply> &Replies) {
   }
 }
 
-/// Takes in what has come by now. Returns whether that may change what is
-/// decided.
+/// Takes in what has come by now. Returns whether all must be weighed again;
+/// what is decided has been weighed against the requests that came.
 bool Controller::settle(std::vector<Reply> &Replies) {
   const bool WasDraining = IsDraining;
-  bool Changes = takeIn(Replies);
+  bool Changes = nextTakenIn() <= Now && takeIn(Replies);
   Changes |= noteRefreshes();
   chooseQueue();
   return Changes || IsDraining != WasDraining;
@@ -198,13 +229,13 @@ bool Controller::isBeingWritten(const Request &R) const {
   });
 }
 
-/// Returns whether it is the first of its kind at its bank: others stand behind
-/// what was weighed already.
+/// Returns whether all must be weighed again because of it. Behind others of
+/// its kind at its bank it changes nothing.
 bool Controller::enter(const Request &R, std::vector<Reply> &Replies) {
   if (!R.IsWrite && isBeingWritten(R)) {
     ++Counted.Forwarded;
     --Unanswered;
-    Replies.push_back({R.Id, Now, false});
+    Replies.push_back({R.Id, Now, Now, false});
     return false;
   }
   if (Free.empty()) {
@@ -216,33 +247,44 @@ bool Controller::enter(const Request &R, std::vector<Reply> &Replies) {
   Queue &Q = Queues[R.IsWrite];
   BankQueue &L = Q.Of[R.Where.Bank];
   const auto Bursts = static_cast<uint16_t>(BurstsOfLine);
-  Entries[Which] = {NextOrder++, R.Id,      R.Line, R.Where.Bank,
-                    R.Where.Row, None,      L.Last, Bursts,
-                    Bursts,      R.IsWrite, false};
+  const uint64_t Order = NextOrder++;
+  Entries[Which] = {Order,  R.Id,   R.Line, R.Where.Bank, R.Where.Row, None,
+                    L.Last, Bursts, Bursts, R.IsWrite,    false};
   (L.First == None ? L.First : Entries[L.Last].Next) = Which;
   L.Last = Which;
-  Q.Banks |= uint64_t{1} << R.Where.Bank;
   Q.Bursts += BurstsOfLine;
   if (!R.IsWrite)
     ReadsOut += BurstsOfLine;
   const Bank &B = Banks[R.Where.Bank];
   const bool IsHit = B.IsOpen && B.Row == R.Where.Row;
-  uint32_t &First = IsHit ? L.Hit : L.Miss;
-  if (First != None)
+  if ((IsHit ? L.Hit : L.Miss) != None)
     return false;
-  First = Which;
-  (IsHit ? L.HitOrder : L.MissOrder) = Entries[Which].Order;
-  return true;
+  if (IsHit)
+    setHit(Q, R.Where.Bank, Which);
+  else
+    setMiss(Q, R.Where.Bank, Which);
+  if (!IsDecided || O.CloseRowAfter != Never || (IsHit && B.Uses > O.RowHitCap))
+    return true;
+  if (R.IsWrite != IsDraining || (Blocked >> R.Where.Bank & 1))
+    return false;
+  const Command What = nextOf(Entries[Which]);
+  BusReady[size_t(What)] = std::max(BusReady[size_t(What)], Now);
+  consider(ready(What, B), Order, OfQueue, What, R.Where.Bank, Which, None);
+  return false;
 }
 
 bool Controller::noteRefreshes() {
-  bool Changes = false;
-  for (Rank &R : Ranks)
+  if (NextRefresh > Now)
+    return false;
+  NextRefresh = Never;
+  for (Rank &R : Ranks) {
     for (; R.NextRefresh <= Now; R.NextRefresh += RefreshInterval) {
       ++R.RefreshesDue;
-      Changes = true;
+      ++RefreshesDue;
     }
-  return Changes;
+    NextRefresh = std::min(NextRefresh, R.NextRefresh);
+  }
+  return true;
 }
 
 /// Reads go first until many writes wait or no read does.
@@ -253,6 +295,7 @@ void Controller::chooseQueue() {
     if (Owed == 0 && (Reads == 0 || Writes > Above)) {
       IsDraining = true;
       Drained = 0;
+      Counted.Drains += Writes != 0;
     }
   } else if (Drained >= O.MostDrained && ReadsOut != 0) {
     // Whoever keeps the write queue filled must not stop all reads.
@@ -267,17 +310,24 @@ void Controller::chooseQueue() {
 // What is decided
 //===----------------------------------------------------------------------===//
 
-uint64_t Controller::ready(Command C, const Bank &B) const {
-  return std::max(B.Next[size_t(C)], Groups[B.Group][size_t(C)]);
+inline uint64_t Controller::ready(Command C, const Bank &B) const {
+  return std::max(B.Next[size_t(C)], Common[B.Common + size_t(C)]);
+}
+
+inline Command Controller::nextOf(const Entry &E) const {
+  const Bank &B = Banks[E.Bank];
+  if (!B.IsOpen)
+    return Command::Activate;
+  if (B.Row != E.Row)
+    return Command::Precharge;
+  return E.IsWrite ? Command::Write : Command::Read;
 }
 
 /// Keeps the best: what can be begun first, of those who goes first.
 inline void Controller::consider(uint64_t Ready, uint64_t Order, uint8_t Class,
                                  Command What, uint32_t Bank, uint32_t Entry,
                                  uint32_t PlacePromoted) {
-  const uint64_t More = LaterTicks[size_t(What)];
-  const uint64_t Begin =
-      std::max(Ready - std::min(Ready, More), Earliest[size_t(What)]);
+  const uint64_t Begin = std::max(Ready, BusReady[size_t(What)]);
   if (Begin > Next.Begin)
     return;
   if (Begin == Next.Begin &&
@@ -287,47 +337,47 @@ inline void Controller::consider(uint64_t Ready, uint64_t Order, uint8_t Class,
 }
 
 void Controller::decide() {
-  Next = {};
-  for (size_t C = 0; C != Commands; ++C)
-    Earliest[C] = std::max(Now, BusFree[BusOf[C]]);
-  considerPromoted();
-  const uint64_t Blocked = considerRefreshes();
-  considerQueue(Queues[IsDraining], IsDraining ? Command::Write : Command::Read,
-                Blocked);
+  Next.Begin = Next.Order = Never;
+  const uint64_t Row = std::max(Now, BusFree[0]);
+  BusReady.fill(Row);
+  BusReady[size_t(Command::Read)] = BusReady[size_t(Command::Write)] =
+      T.HasColumnBus ? std::max(Now, BusFree[1]) : Row;
+  if (!Promoted.empty())
+    considerPromoted();
+  Blocked = 0;
+  if (RefreshesDue != 0)
+    considerRefreshes();
+  considerQueue();
   if (O.CloseRowAfter != Never)
-    considerClosing(Blocked);
+    considerClosing();
 }
 
 void Controller::considerPromoted() {
   uint64_t Oldest = Never;
-  uint32_t Capped = None;
+  uint32_t AtCap = None;
   for (uint32_t P = 0; P != Promoted.size(); ++P) {
     const Entry &E = Entries[Promoted[P]];
     const Bank &B = Banks[E.Bank];
-    const bool IsHit = B.IsOpen && B.Row == E.Row;
-    const Command What = IsHit      ? E.IsWrite ? Command::Write : Command::Read
-                         : B.IsOpen ? Command::Precharge
-                                    : Command::Activate;
-    const bool IsCapped = IsHit && B.Uses > O.RowHitCap;
+    const Command What = nextOf(E);
+    const bool IsCapped = isColumn(What) && B.Uses > O.RowHitCap;
     if (E.Order < Oldest) {
       Oldest = E.Order;
-      Capped = IsCapped ? P : None;
+      AtCap = IsCapped ? P : None;
     }
     if (!IsCapped)
       consider(ready(What, B), E.Order, OfPromoted, What, E.Bank, Promoted[P],
                P);
   }
-  if (Capped == None)
+  if (AtCap == None)
     return;
-  const Entry &E = Entries[Promoted[Capped]];
-  const Command What = E.IsWrite ? Command::Write : Command::Read;
+  const Entry &E = Entries[Promoted[AtCap]];
+  const Command What = nextOf(E);
   consider(ready(What, Banks[E.Bank]), Last, OfPromoted, What, E.Bank,
-           Promoted[Capped], Capped);
+           Promoted[AtCap], AtCap);
 }
 
-/// Returns the banks that take up no further requests.
-uint64_t Controller::considerRefreshes() {
-  uint64_t Blocked = 0;
+/// The banks concerned take up no further requests.
+void Controller::considerRefreshes() {
   for (uint32_t R = 0; R != Ranks.size(); ++R) {
     if (Ranks[R].RefreshesDue == 0)
       continue;
@@ -342,50 +392,70 @@ uint64_t Controller::considerRefreshes() {
     }
     const uint64_t All = (~uint64_t{0} >> (64 - T.banksPerRank())) << First;
     const Command What = Open & All ? Command::PrechargeAll : Command::Refresh;
-    consider(Ranks[R].Next[size_t(What)], R, OfRefresh, What, First, None,
+    consider(Common[placeOfRank(R, What)], R, OfRefresh, What, First, None,
              None);
     Blocked |= All;
   }
-  return Blocked;
 }
 
-void Controller::considerQueue(const Queue &Q, Command Column,
-                               uint64_t Blocked) {
-  bool AnyCapped = false;
-  for (uint64_t Left = Q.Banks & ~Blocked; Left; Left &= Left - 1) {
-    const auto Which = static_cast<uint32_t>(std::countr_zero(Left));
-    const Bank &B = Banks[Which];
-    const BankQueue &L = Q.Of[Which];
-    if (L.Hit != None) {
-      if (B.Uses > O.RowHitCap)
-        AnyCapped = true;
-      else
-        consider(ready(Column, B), L.HitOrder, OfQueue, Column, Which, L.Hit,
-                 None);
-    }
-    if (L.Miss != None) {
-      const Command What = B.IsOpen ? Command::Precharge : Command::Activate;
-      consider(ready(What, B), L.MissOrder, OfQueue, What, Which, L.Miss, None);
-    }
+void Controller::considerQueue() {
+  const Queue &Q = Queues[IsDraining];
+  const Command Column = activeColumn();
+  // A controller spends its time here, so that a candidate is one number: when
+  // it can begin, and below that its order.
+  constexpr unsigned OrderBits = 38;
+  uint64_t Best = Never;
+  uint32_t Which = None;
+  const auto Weigh = [&](uint32_t Of, uint64_t Ready, Command What,
+                         uint64_t Order) {
+    const uint64_t Begin =
+        std::max({Ready, Common[Banks[Of].Common + size_t(What)],
+                  BusReady[size_t(What)]});
+    const uint64_t Key = (Begin - Now) << OrderBits | Order;
+    Which = Key < Best ? Of : Which;
+    Best = std::min(Best, Key);
+  };
+  for (uint64_t Left = Q.Hits & ~Blocked & ~Capped; Left; Left &= Left - 1) {
+    const auto Of = static_cast<uint32_t>(std::countr_zero(Left));
+    Weigh(Of, Banks[Of].Next[size_t(Column)], Column, Q.Of[Of].HitOrder);
   }
-  if (AnyCapped)
-    considerCapped(Q, Column, Blocked);
+  const uint64_t BestHit = Best;
+  for (uint64_t Left = Q.Misses & Open & ~Blocked; Left; Left &= Left - 1) {
+    const auto Of = static_cast<uint32_t>(std::countr_zero(Left));
+    Weigh(Of, Banks[Of].Next[size_t(Command::Precharge)], Command::Precharge,
+          Q.Of[Of].MissOrder);
+  }
+  for (uint64_t Left = Q.Misses & ~Open & ~Blocked; Left; Left &= Left - 1) {
+    const auto Of = static_cast<uint32_t>(std::countr_zero(Left));
+    Weigh(Of, Banks[Of].Next[size_t(Command::Activate)], Command::Activate,
+          Q.Of[Of].MissOrder);
+  }
+  if (Which != None) {
+    const bool IsHit = Best == BestHit;
+    const uint32_t Entry = IsHit ? Q.Of[Which].Hit : Q.Of[Which].Miss;
+    const uint64_t Begin = Now + (Best >> OrderBits);
+    consider(Begin, Entries[Entry].Order, OfQueue, nextOf(Entries[Entry]),
+             Which, Entry, None);
+  }
+  if (Q.Hits & Capped & ~Blocked)
+    considerCapped(Q);
 }
 
 /// A row beyond its cap is used only for the oldest request of its bank group.
-void Controller::considerCapped(const Queue &Q, Command Column,
-                                uint64_t Blocked) {
-  for (uint32_t G = 0; G != Groups.size(); ++G) {
+void Controller::considerCapped(const Queue &Q) {
+  const Command Column = activeColumn();
+  for (uint32_t G = 0; G != groups(); ++G) {
     const uint64_t OfGroup = (~uint64_t{0} >> (64 - T.BanksPerGroup))
                              << (G * T.BanksPerGroup);
     uint64_t Oldest = Never;
     uint32_t Hit = None;
-    for (uint64_t Left = Q.Banks & ~Blocked & OfGroup; Left; Left &= Left - 1) {
+    for (uint64_t Left = (Q.Hits | Q.Misses) & ~Blocked & OfGroup; Left;
+         Left &= Left - 1) {
       const auto Which = static_cast<uint32_t>(std::countr_zero(Left));
       const BankQueue &L = Q.Of[Which];
       if (L.Hit != None && L.HitOrder < Oldest) {
         Oldest = L.HitOrder;
-        Hit = Banks[Which].Uses > O.RowHitCap ? Which : None;
+        Hit = Capped >> Which & 1 ? Which : None;
       }
       if (L.Miss != None && L.MissOrder < Oldest) {
         Oldest = L.MissOrder;
@@ -398,17 +468,21 @@ void Controller::considerCapped(const Queue &Q, Command Column,
   }
 }
 
-void Controller::considerClosing(uint64_t Blocked) {
+void Controller::considerClosing() {
+  uint64_t Wanted = Blocked;
   for (const uint32_t E : Promoted)
-    Blocked |= uint64_t{1} << Entries[E].Bank;
-  for (uint64_t Left = Open & ~Blocked; Left; Left &= Left - 1) {
+    Wanted |= uint64_t{1} << Entries[E].Bank;
+  for (uint64_t Left = Open & ~Wanted; Left; Left &= Left - 1) {
     const auto Which = static_cast<uint32_t>(std::countr_zero(Left));
     if (Queues[0].Of[Which].Hit != None || Queues[1].Of[Which].Hit != None)
       continue;
     const Bank &B = Banks[Which];
-    consider(
-        std::max(ready(Command::Precharge, B), B.LastUse + O.CloseRowAfter),
-        Which, OfClosing, Command::Precharge, Which, None, None);
+    const uint64_t Unused =
+        O.CloseRowAfter -
+        std::min<uint64_t>(O.CloseRowAfter,
+                           LaterTicks[size_t(Command::Precharge)]);
+    consider(std::max(ready(Command::Precharge, B), B.LastUse + Unused), Which,
+             OfClosing, Command::Precharge, Which, None, None);
   }
 }
 
@@ -417,41 +491,22 @@ void Controller::considerClosing(uint64_t Blocked) {
 //===----------------------------------------------------------------------===//
 
 /// Writes down what \p C, issued at \p At to \p B or its rank, forbids.
-void Controller::restrict(Command C, const Bank &B, Ticks &OfBank,
-                          uint64_t At) {
-  const auto &ByScope = Steps[size_t(C)];
-  const auto Raise = [At](Ticks &Of, const Step &S) {
-    Of[size_t(S.To)] = std::max(Of[size_t(S.To)], At + S.Ticks);
-  };
-  const auto RaiseRank = [&](uint32_t R, const Step &S) {
-    if (isOfRank(S.To))
-      return Raise(Ranks[R].Next, S);
-    for (uint32_t G = 0; G != T.BankGroups; ++G)
-      Raise(Groups[R * T.BankGroups + G], S);
-  };
-  for (const Step &S : ByScope[size_t(Scope::Bank)])
-    Raise(OfBank, S);
-  for (const Step &S : ByScope[size_t(Scope::BankGroup)])
-    Raise(Groups[B.Group], S);
-  for (const Step &S : ByScope[size_t(Scope::Rank)])
-    RaiseRank(B.Rank, S);
-  for (const Step &S : ByScope[size_t(Scope::Channel)])
-    for (uint32_t R = 0; R != T.Ranks; ++R)
-      RaiseRank(R, S);
-  for (const Step &S : ByScope[size_t(Scope::OtherRanks)])
-    for (uint32_t R = 0; R != T.Ranks; ++R)
-      if (R != B.Rank)
-        RaiseRank(R, S);
+void Controller::restrict(Command C, Bank &B, uint64_t At) {
+  for (const Step &S : OfBank[size_t(C)])
+    B.Next[S.To] = std::max(B.Next[S.To], At + S.Ticks);
+  for (const Step &S : OfOthers[size_t(C) * groups() + B.Group])
+    Common[S.To] = std::max(Common[S.To], At + S.Ticks);
   if (C != Command::Activate)
     return;
   Rank &R = Ranks[B.Rank];
   R.Activations[R.OldestActivation] = At;
-  R.OldestActivation = (R.OldestActivation + 1) % Window;
+  if (++R.OldestActivation == Window)
+    R.OldestActivation = 0;
   if (const uint64_t Oldest = R.Activations[R.OldestActivation];
       Oldest != Never)
     for (uint32_t G = 0; G != T.BankGroups; ++G) {
-      uint64_t &Allowed =
-          Groups[B.Rank * T.BankGroups + G][size_t(Command::Activate)];
+      uint64_t &Allowed = Common[(B.Rank * T.BankGroups + G) * Commands +
+                                 size_t(Command::Activate)];
       Allowed = std::max(Allowed, Oldest + WindowTicks);
     }
 }
@@ -460,7 +515,7 @@ void Controller::issue(std::vector<Reply> &Replies) {
   const Choice C = Next;
   const uint64_t At = C.Begin + LaterTicks[size_t(C.What)];
   Bank &B = Banks[C.Bank];
-  restrict(C.What, B, B.Next, At);
+  restrict(C.What, B, At);
   BusFree[BusOf[size_t(C.What)]] = At + 1;
   // With two buses another command may begin at the same tick.
   Now = T.HasColumnBus ? C.Begin : At + 1;
@@ -499,6 +554,7 @@ void Controller::issue(std::vector<Reply> &Replies) {
     [[fallthrough]];
   case Command::Refresh:
     --Ranks[B.Rank].RefreshesDue;
+    --RefreshesDue;
     ++Counted.Refreshes;
     break;
   case Command::Count:
@@ -521,7 +577,8 @@ void Controller::access(uint64_t At, std::vector<Reply> &Replies) {
     Promoted.erase(Promoted.begin() + Next.PlacePromoted);
   Entry &E = Entries[Which];
   Bank &B = Banks[E.Bank];
-  ++B.Uses;
+  if (++B.Uses > O.RowHitCap)
+    Capped |= uint64_t{1} << E.Bank;
   B.LastUse = At;
   ++(E.IsWrite ? Counted.Writes : Counted.Reads);
   Counted.BusTicks += T.BurstTicks;
@@ -534,7 +591,7 @@ void Controller::access(uint64_t At, std::vector<Reply> &Replies) {
   if (--E.Left != 0)
     return;
   const uint32_t Latency = E.IsWrite ? T.WriteLatency : T.ReadLatency;
-  Replies.push_back({E.Id, At + Latency + T.BurstTicks, E.IsWrite});
+  Replies.push_back({E.Id, Next.Begin, At + Latency + T.BurstTicks, E.IsWrite});
   --Unanswered;
   Free.push_back(Which);
 }
@@ -546,6 +603,7 @@ void Controller::open(uint32_t Which, uint32_t Row, uint64_t At) {
   B.Uses = 0;
   B.LastUse = At;
   Open |= uint64_t{1} << Which;
+  Capped &= ~(uint64_t{1} << Which);
   ++Counted.Activations;
   for (Queue &Q : Queues)
     findFirsts(Q, Which);
@@ -558,19 +616,41 @@ void Controller::close(uint32_t Which) {
     findFirsts(Q, Which);
 }
 
+inline void Controller::setHit(Queue &Q, uint32_t Which, uint32_t Entry) {
+  const uint64_t Bit = uint64_t{1} << Which;
+  Q.Of[Which].Hit = Entry;
+  Q.Hits &= ~Bit;
+  if (Entry == None)
+    return;
+  Q.Hits |= Bit;
+  Q.Of[Which].HitOrder = Entries[Entry].Order;
+}
+
+inline void Controller::setMiss(Queue &Q, uint32_t Which, uint32_t Entry) {
+  const uint64_t Bit = uint64_t{1} << Which;
+  Q.Of[Which].Miss = Entry;
+  Q.Misses &= ~Bit;
+  if (Entry == None)
+    return;
+  Q.Misses |= Bit;
+  Q.Of[Which].MissOrder = Entries[Entry].Order;
+}
+
 void Controller::findFirsts(Queue &Q, uint32_t Which) {
-  BankQueue &L = Q.Of[Which];
+  const BankQueue &L = Q.Of[Which];
+  if (L.First == None)
+    return;
   const Bank &B = Banks[Which];
-  L.Hit = L.Miss = None;
+  uint32_t Hit = None, Miss = None;
   for (uint32_t E = L.First;
-       E != None && (L.Miss == None || (B.IsOpen && L.Hit == None));
+       E != None && (Miss == None || (B.IsOpen && Hit == None));
        E = Entries[E].Next) {
     const bool IsHit = B.IsOpen && Entries[E].Row == B.Row;
-    if (uint32_t &First = IsHit ? L.Hit : L.Miss; First == None) {
+    if (uint32_t &First = IsHit ? Hit : Miss; First == None)
       First = E;
-      (IsHit ? L.HitOrder : L.MissOrder) = Entries[E].Order;
-    }
   }
+  setHit(Q, Which, Hit);
+  setMiss(Q, Which, Miss);
 }
 
 /// One burst of an entry is taken up: the oldest hit of its bank, or one whose
@@ -584,15 +664,14 @@ void Controller::leaveQueue(uint32_t Which) {
   BankQueue &L = Q.Of[E.Bank];
   (E.Previous == None ? L.First : Entries[E.Previous].Next) = E.Next;
   (E.Next == None ? L.Last : Entries[E.Next].Previous) = E.Previous;
-  if (L.First == None)
-    Q.Banks &= ~(uint64_t{1} << E.Bank);
+  if (L.Miss == Which)
+    setMiss(Q, E.Bank, None);
   if (L.Hit != Which)
     return;
-  L.Hit = E.Next;
-  while (L.Hit != None && Entries[L.Hit].Row != E.Row)
-    L.Hit = Entries[L.Hit].Next;
-  if (L.Hit != None)
-    L.HitOrder = Entries[L.Hit].Order;
+  uint32_t Hit = E.Next;
+  while (Hit != None && Entries[Hit].Row != E.Row)
+    Hit = Entries[Hit].Next;
+  setHit(Q, E.Bank, Hit);
 }
 
 } // namespace vorion::isasim::dram

@@ -32,6 +32,7 @@ struct Request {
 
 struct Reply {
   uint64_t Id = 0;
+  uint64_t Decided = 0; ///< tick in which it was
   /// Tick after a read's last byte has arrived, or a write's has been written.
   uint64_t Done = 0;
   bool IsWrite = false;
@@ -70,6 +71,7 @@ struct ControllerCounts {
   uint64_t RowHits = 0, RowMisses = 0, RowConflicts = 0;
   uint64_t Forwarded = 0; ///< reads answered by a waiting write
   uint64_t Activations = 0, Refreshes = 0;
+  uint64_t Drains = 0;   ///< times that writes were begun to be drained
   uint64_t BusTicks = 0; ///< for which the data bus was taken
 };
 
@@ -105,6 +107,7 @@ public:
   void advance(uint64_t Until, std::vector<Reply> &Replies);
 
   const ControllerCounts &counts() const { return Counted; }
+  void clearCounts() { Counted = {}; }
   /// From now on commands are appended to \p Log; null for none.
   void record(std::vector<Issued> *Log) { Recorded = Log; }
 
@@ -128,23 +131,24 @@ private:
     uint64_t HitOrder = 0, MissOrder = 0;
   };
   struct Queue {
-    uint64_t Banks = 0;  ///< bit set of those with requests
-    uint32_t Bursts = 0; ///< not taken up
+    uint64_t Hits = 0, Misses = 0; ///< bit sets of the banks with such
+    uint32_t Bursts = 0;           ///< not taken up
     uint32_t Capacity = 0;
     std::vector<BankQueue> Of;
     std::deque<Request> Waiting; ///< not yet taken in, by time and id
   };
+  /// The first tick at which each command can begin.
   using Ticks = std::array<uint64_t, Commands>;
   struct Bank {
-    Ticks Next{}; ///< earliest of each command, as this bank's past allows
+    Ticks Next{}; ///< as this bank's past allows
     uint64_t LastUse = 0;
     uint32_t Row = 0;
     uint32_t Uses = 0; ///< since the row was opened
     uint32_t Group = 0, Rank = 0;
+    uint32_t Common = 0; ///< where its group's ticks lie
     bool IsOpen = false;
   };
   struct Rank {
-    Ticks Next{}; ///< of commands to all banks
     std::vector<uint64_t> Activations;
     uint32_t OldestActivation = 0;
     uint32_t RefreshesDue = 0, BankToRefresh = 0;
@@ -160,11 +164,14 @@ private:
     uint32_t Entry = None;         ///< on whose behalf, if any
     uint32_t PlacePromoted = None; ///< where, if it is promoted
   };
+  /// A command, and how long after the last tick of another it can begin.
   struct Step {
-    Command To;
+    uint32_t To; ///< of the bank: the command; else a place in Common
     uint32_t Ticks;
   };
-
+  static bool isColumn(Command C) {
+    return C == Command::Read || C == Command::Write;
+  }
   static bool isOfRank(Command C) {
     return C == Command::PrechargeAll || C == Command::Refresh;
   }
@@ -172,7 +179,12 @@ private:
     return Q.Bursts + BurstsOfLine <= Q.Capacity;
   }
   uint64_t nextTakenIn() const;
-  uint64_t nextRefresh() const;
+  bool isIssued(Command C) const;
+  uint32_t groups() const { return T.Ranks * T.BankGroups; }
+  uint32_t placeOfRank(uint32_t R, Command C) const {
+    return static_cast<uint32_t>((groups() + R) * Commands + size_t(C));
+  }
+  void addSteps(const Constraint &C);
   bool settle(std::vector<Reply> &Replies);
   bool takeIn(std::vector<Reply> &Replies);
   bool enter(const Request &R, std::vector<Reply> &Replies);
@@ -180,18 +192,24 @@ private:
   bool noteRefreshes();
   void chooseQueue();
 
+  Command activeColumn() const {
+    return IsDraining ? Command::Write : Command::Read;
+  }
   void decide();
   void considerPromoted();
-  uint64_t considerRefreshes();
-  void considerQueue(const Queue &Q, Command Column, uint64_t Blocked);
-  void considerCapped(const Queue &Q, Command Column, uint64_t Blocked);
-  void considerClosing(uint64_t Blocked);
+  void considerRefreshes();
+  void considerQueue();
+  void setHit(Queue &Q, uint32_t Bank, uint32_t Entry);
+  void setMiss(Queue &Q, uint32_t Bank, uint32_t Entry);
+  void considerCapped(const Queue &Q);
+  void considerClosing();
   void consider(uint64_t Ready, uint64_t Order, uint8_t Class, Command What,
                 uint32_t Bank, uint32_t Entry, uint32_t PlacePromoted);
   uint64_t ready(Command C, const Bank &B) const;
+  Command nextOf(const Entry &E) const;
 
   void issue(std::vector<Reply> &Replies);
-  void restrict(Command C, const Bank &B, Ticks &OfBank, uint64_t At);
+  void restrict(Command C, Bank &B, uint64_t At);
   void promote(uint32_t Which);
   void access(uint64_t At, std::vector<Reply> &Replies);
   void open(uint32_t Which, uint32_t Row, uint64_t At);
@@ -204,21 +222,30 @@ private:
   const uint32_t BurstsOfLine;
   uint32_t Above, Below; ///< drain marks, in bursts
   uint64_t RefreshInterval = Never;
-  std::array<std::array<std::vector<Step>, size_t(Scope::Count)>, Commands>
-      Steps; ///< what each command forbids, by scope
+  /// What a command forbids its bank.
+  std::array<std::vector<Step>, Commands> OfBank;
+  /// What one to a bank group forbids groups and ranks, by command and group.
+  std::vector<std::vector<Step>> OfOthers;
   uint32_t Window = 0, WindowTicks = 0;
 
   uint64_t Told = 0;                 ///< how far advance() came
   uint64_t Now = 0;                  ///< no command is begun before
   std::array<uint64_t, 2> BusFree{}; ///< of the command buses: the first tick
-  /// By command: its bus, its ticks but the last, the earliest first one.
+  /// By command: its bus, its ticks but the last, the first tick that bus and
+  /// Now allow.
   std::array<uint8_t, Commands> BusOf{};
   std::array<uint32_t, Commands> LaterTicks{};
-  std::array<uint64_t, Commands> Earliest{};
+  Ticks BusReady{};
   std::vector<Bank> Banks;
-  std::vector<Ticks> Groups; ///< what group, rank and channel allow
+  /// The first tick at which group, rank and channel allow each command, by
+  /// group; then those to whole ranks, by rank.
+  std::vector<uint64_t> Common;
   std::vector<Rank> Ranks;
-  uint64_t Open = 0;           ///< bit set of banks
+  uint64_t Open = 0;    ///< bit set of banks
+  uint64_t Blocked = 0; ///< those that wait for a refresh
+  uint64_t Capped = 0;  ///< those whose row has lost its precedence
+  uint64_t NextRefresh = Never;
+  uint32_t RefreshesDue = 0;
   std::array<Queue, 2> Queues; ///< reads, writes
   bool IsDraining = false;
   uint32_t ReadsOut = 0; ///< bursts taken in and not issued

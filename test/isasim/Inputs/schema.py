@@ -13,7 +13,9 @@ def judge(value, schema, path):
         assert schema["additionalProperties"] is False
         return
     if schema["type"] == "string":
-        assert value in schema["enum"] and schema["default"] in schema["enum"], f"{path}: {value}"
+        assert isinstance(value, str) and isinstance(schema["default"], str), path
+        if "enum" in schema:
+            assert value in schema["enum"] and schema["default"] in schema["enum"], f"{path}: {value}"
         return
     assert schema["type"] == "integer" and isinstance(value, int), path
     assert schema["minimum"] <= value <= schema["maximum"], f"{path}: {value} is out of range"

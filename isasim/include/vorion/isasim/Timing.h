@@ -20,9 +20,12 @@ struct TimingGroups {
   struct MEMBER##Timing {
 #define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)       \
   uint32_t MEMBER = DEFAULT;
+#define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)                   \
+  std::string MEMBER = DEFAULT;
 #include "vorion/isasim/TimingParams.def"
 #undef GROUP
 #undef PARAM
+#undef WORD
 };
 
 /// Names of sets of numbers for a core (CorePresets.def).
@@ -39,9 +42,11 @@ struct TimingConfig {
   CorePreset Preset = CorePreset::Forwarding;
 #define GROUP(NAME, MEMBER, WHAT) MEMBER##Timing MEMBER;
 #define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)
+#define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)
 #include "vorion/isasim/TimingParams.def"
 #undef GROUP
 #undef PARAM
+#undef WORD
 };
 
 /// Bytes of a cache line and of a request to memory.
@@ -50,8 +55,11 @@ inline constexpr uint32_t TimingLineBytes = 64;
 /// A parameter of TimingParams.def, for whatever is made from the list.
 struct TimingParam {
   std::string_view Group, Name, Unit, Source;
-  uint32_t Default, Low, High;
+  std::string_view Default;
+  uint32_t Low, High;
+  /// A number, or else a word.
   uint32_t &(*Of)(TimingConfig &);
+  std::string &(*WordOf)(TimingConfig &);
 };
 std::span<const TimingParam> timingParams();
 /// The parameters and the rasterizer's units as Markdown tables
@@ -126,7 +134,12 @@ struct CacheTime {
 };
 struct DramTime {
   uint64_t Reads = 0, Writes = 0; ///< bursts
+  /// Bursts whose row was open, whose bank was closed, whose bank had another
+  /// row open, when they were first taken up.
   uint64_t RowHits = 0, RowMisses = 0, RowConflicts = 0;
+  uint64_t Forwarded = 0; ///< lines read from writes that waited
+  uint64_t Activations = 0;
+  uint64_t Drains = 0; ///< times that writes were begun to be drained
   uint64_t Refreshes = 0;
   uint64_t BusPs = 0; ///< that data buses were in use, summed over channels
 };

@@ -1,0 +1,160 @@
+#include "timing/DramChannels.h"
+
+#include "timing/Turn.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vorion::isasim {
+
+namespace {
+
+/// By the number of a ControllerOptions::RefreshBy.
+constexpr std::array<std::string_view, 3> RefreshNames = {"rank", "bank",
+                                                          "none"};
+
+/// An answer's id: which request it is, and below that the cache's miss.
+constexpr unsigned MissBits = 16;
+
+} // namespace
+
+Expected<DramSetup> setUpDram(const DramTiming &P) {
+  const auto Fail = [](std::string_view Key, std::string_view Text) {
+    return Error{"configuration", fmt::format("timing.dram.{}: {}", Key, Text),
+                 ExitCode::Usage};
+  };
+  const bool IsFile = P.Standard.ends_with(".json");
+  auto Table = IsFile ? dram::readTimingTable(P.Standard)
+                      : dram::standardTable(P.Standard);
+  if (!Table)
+    return Fail("standard", IsFile ? fmt::format("{}: {}", Table.error().Where,
+                                                 Table.error().What)
+                                   : Table.error().What);
+  for (const auto &[Key, Value] :
+       {std::pair{"channels", P.Channels}, {"channel_bytes", P.ChannelBytes}})
+    if (!std::has_single_bit(Value))
+      return Fail(Key, fmt::format("{}, expected a power of two", Value));
+  auto Map = dram::addressMap(P.AddressMap, *Table, P.Channels, P.ChannelBytes);
+  if (!Map)
+    return Fail("address_map", Map.error().What);
+  const auto Refresh = std::ranges::find(RefreshNames, P.Refresh);
+  if (Refresh == RefreshNames.end())
+    return Fail("refresh", fmt::format("\"{}\", expected one of {}", P.Refresh,
+                                       fmt::join(RefreshNames, ", ")));
+  const dram::ControllerOptions Options{
+      .LineBytes = TimingLineBytes,
+      .ReadQueue = P.ReadQueue,
+      .WriteQueue = P.WriteQueue,
+      .DrainAbove = P.DrainAbove,
+      .DrainBelow = P.DrainBelow,
+      .MostDrained = P.MostDrained,
+      .RowHitCap = P.RowHitCap,
+      .Refresh = static_cast<dram::ControllerOptions::RefreshBy>(
+          Refresh - RefreshNames.begin())};
+  if (const auto Good = check(*Table, Options); !Good)
+    return Error{"configuration",
+                 fmt::format("timing.dram: {}", Good.error().What),
+                 ExitCode::Usage};
+  return DramSetup{std::move(*Table), std::move(*Map), Options};
+}
+
+DramChannels::DramChannels(const TimingConfig &Params)
+    : Setup(*setUpDram(Params.Dram)), Decode(Setup.Map, Setup.Table),
+      Tick(uint64_t{Params.ClockMhz} * Setup.Table.TickPs),
+      FrontTicks(Params.Dram.ControllerPs / 2 / Setup.Table.TickPs),
+      BackTicks(Params.Dram.ControllerPs / Setup.Table.TickPs - FrontTicks),
+      NextEvent(Turn::Never) {
+  for (uint32_t N = 0; N != Params.Dram.Channels; ++N)
+    Channels.push_back(
+        {dram::Controller(Setup.Table, Setup.Options), dram::Never});
+}
+
+uint64_t DramChannels::cycleOf(uint64_t Ticks) const {
+  return (Ticks * Tick + PsTimesMhz - 1) / PsTimesMhz;
+}
+
+uint64_t DramChannels::tickOf(uint64_t Cycle) const {
+  return Cycle * PsTimesMhz / Tick;
+}
+
+std::optional<uint64_t> DramChannels::fetch(uint64_t Now, uint32_t Address,
+                                            bool /*Keep*/, uint32_t Miss) {
+  submit(Now, Address, Miss, false);
+  return std::nullopt;
+}
+
+void DramChannels::writeBack(uint64_t Now, uint32_t Address) {
+  submit(Now, Address, 0, true);
+}
+
+void DramChannels::submit(uint64_t Now, uint32_t Address, uint64_t Miss,
+                          bool IsWrite) {
+  const dram::Location Where = Decode(Address);
+  Channel &C = Channels[Where.Channel];
+  // A core whose place in the order was guessed may be late.
+  C.Control.submit({.At = std::max(tickOf(Now) + FrontTicks, Told),
+                    .Id = Submitted++ << MissBits | Miss,
+                    .Line = Address / TimingLineBytes,
+                    .Where = Where.Where,
+                    .IsWrite = IsWrite});
+  C.NextEvent = C.Control.nextEvent();
+  NextEvent = std::min(NextEvent, cycleOf(C.NextEvent));
+}
+
+void DramChannels::advance(uint64_t Until, std::vector<Fill> &Fills) {
+  const uint64_t Limit = Until == Turn::Never ? dram::Never : tickOf(Until);
+  Replies.clear();
+  uint64_t First = dram::Never;
+  for (;;) {
+    First = dram::Never;
+    for (const Channel &C : Channels)
+      First = std::min(First, C.NextEvent);
+    if (!Replies.empty() || First == dram::Never || First > Limit)
+      break;
+    // What is decided now is known above so many ticks later, so that nothing
+    // that follows from it is sent down before.
+    Told = std::max(Told, std::min(Limit, First + BackTicks));
+    for (Channel &C : Channels)
+      if (C.NextEvent <= Told) {
+        C.Control.advance(Told, Replies);
+        C.NextEvent = C.Control.nextEvent();
+      }
+    std::erase_if(Replies, [](const dram::Reply &R) { return R.IsWrite; });
+  }
+  NextEvent = First == dram::Never ? Turn::Never : cycleOf(First);
+  std::ranges::sort(Replies, {}, [](const dram::Reply &R) {
+    return std::pair(R.Decided, R.Id);
+  });
+  for (const dram::Reply &R : Replies)
+    Fills.push_back({static_cast<uint32_t>(R.Id % (uint64_t{1} << MissBits)),
+                     cycleOf(R.Done + BackTicks)});
+}
+
+DramTime DramChannels::time() const {
+  DramTime Sum;
+  for (const Channel &C : Channels) {
+    const dram::ControllerCounts &Counts = C.Control.counts();
+    Sum.Reads += Counts.Reads;
+    Sum.Writes += Counts.Writes;
+    Sum.RowHits += Counts.RowHits;
+    Sum.RowMisses += Counts.RowMisses;
+    Sum.RowConflicts += Counts.RowConflicts;
+    Sum.Forwarded += Counts.Forwarded;
+    Sum.Activations += Counts.Activations;
+    Sum.Drains += Counts.Drains;
+    Sum.Refreshes += Counts.Refreshes;
+    Sum.BusPs += Counts.BusTicks * Setup.Table.TickPs;
+  }
+  return Sum;
+}
+
+void DramChannels::clearCounters() {
+  for (Channel &C : Channels)
+    C.Control.clearCounts();
+}
+
+} // namespace vorion::isasim

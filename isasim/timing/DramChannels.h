@@ -1,0 +1,76 @@
+/// The DRAM below the last-level cache: channels with a controller each. Here
+/// cycles of the chip become ticks of the device's clock and come back.
+#pragma once
+
+#include "timing/Cache.h"
+#include "timing/dram/AddressMap.h"
+
+#include <deque>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// What timing.dram of a configuration means.
+struct DramSetup {
+  dram::TimingTable Table;
+  dram::AddressMap Map;
+  dram::ControllerOptions Options;
+};
+/// An error names the key that is wrong.
+Expected<DramSetup> setUpDram(const DramTiming &Params);
+
+class DramChannels final : public MemoryBelow {
+public:
+  /// A line that has been fetched.
+  struct Fill {
+    uint32_t Miss; ///< as the cache knows it
+    uint64_t At;   ///< cycle at which it is there
+  };
+
+  /// \p Params.Dram must be what setUpDram() takes.
+  explicit DramChannels(const TimingConfig &Params);
+  DramChannels(const DramChannels &) = delete;
+  DramChannels &operator=(const DramChannels &) = delete;
+
+  std::optional<uint64_t> fetch(uint64_t Now, uint32_t Address, bool Keep,
+                                uint32_t Miss) override;
+  void writeBack(uint64_t Now, uint32_t Address) override;
+
+  /// The next cycle in which something may be decided; Turn::Never if nothing
+  /// is under way.
+  uint64_t nextEvent() const { return NextEvent; }
+  /// Goes on until lines come or to the end of cycle \p Until. Appends what
+  /// has been decided, in the order of decisions.
+  void advance(uint64_t Until, std::vector<Fill> &Fills);
+
+  uint32_t burstBytes() const { return Setup.Table.BurstBytes; }
+  /// Sums over the channels.
+  DramTime time() const;
+  void clearCounters();
+
+private:
+  struct Channel {
+    dram::Controller Control;
+    uint64_t NextEvent = dram::Never; ///< a tick
+  };
+  void submit(uint64_t Now, uint32_t Address, uint64_t Miss, bool IsWrite);
+  /// The first cycle that does not begin before \p Tick, and the last tick
+  /// that does not begin after \p Cycle.
+  uint64_t cycleOf(uint64_t Tick) const;
+  uint64_t tickOf(uint64_t Cycle) const;
+
+  const DramSetup Setup;
+  const dram::AddressDecoder Decode;
+  /// A cycle has so many picoseconds times MHz.
+  static constexpr uint64_t PsTimesMhz = 1000000;
+  const uint64_t Tick; ///< likewise of a tick
+  /// Of the controller, in front of its queues and behind the device.
+  const uint64_t FrontTicks, BackTicks;
+  std::deque<Channel> Channels;
+  uint64_t NextEvent;
+  uint64_t Told = 0;      ///< tick that all channels have come to
+  uint64_t Submitted = 0; ///< orders requests of one tick
+  std::vector<dram::Reply> Replies;
+};
+
+} // namespace vorion::isasim
