@@ -5,6 +5,7 @@
 #include "core/Observing.h"
 #include "core/Rounding.h"
 #include "core/Warps.h"
+#include "timing/TraceWriter.h"
 #include "vorion/isasim/TrapCause.h"
 
 #include <algorithm>
@@ -97,6 +98,14 @@ bool Core::hasEnded() const {
                      [](const WarpState &S) { return S.Why == Stop::Ended; });
 }
 
+uint32_t Core::endedWarps() const {
+  uint32_t Ended = 0;
+  for (size_t W = 0; W != Warps.size(); ++W)
+    if (Warps[W].Why == Stop::Ended)
+      Ended |= 1U << W;
+  return Ended;
+}
+
 uint64_t Core::retired() const {
   uint64_t Sum = 0;
   for (const WarpState &S : Warps)
@@ -116,6 +125,7 @@ void Core::complete(WarpState &S) {
 
 bool Core::spawn(WarpState &S, uint32_t Count, uint32_t Entry) {
   const auto Limit = std::min<size_t>(Count, Warps.size());
+  uint32_t Started = 0;
   for (size_t W = 1; W < Limit; ++W) {
     WarpState &Other = Warps[W];
     if (Other.Why != Stop::Ended)
@@ -133,7 +143,12 @@ bool Core::spawn(WarpState &S, uint32_t Count, uint32_t Entry) {
     Other.Why = Stop::Ready;
     Other.StackDepth = 0;
     setMask(&Other, 1);
+    Started |= 1U << W;
+    if (Other.Trace)
+      traceParked(&Other, First, Event::Spawn);
   }
+  if (S.Trace)
+    traceWords(&S, {&Started, 1});
   return true;
 }
 
@@ -150,8 +165,12 @@ bool Core::arrive(WarpState &S, uint32_t BarrierId, uint32_t Count) {
           BarrierId);
     return false;
   }
-  if (Count <= 1)
+  const uint32_t Words[] = {Number, Count};
+  if (Count <= 1) {
+    if (S.Trace)
+      traceWords(&S, Words);
     return true;
+  }
   S.BarrierId = Number;
   S.BarrierCount = Count;
   if (BarrierId & GlobalBit) {
@@ -165,17 +184,19 @@ bool Core::arrive(WarpState &S, uint32_t BarrierId, uint32_t Count) {
   }
   Arrived[Number] = 0;
   for (WarpState &Other : Warps)
-    if (Other.Why == Stop::LocalBarrier && Other.BarrierId == Number)
+    if (Other.Why == Stop::LocalBarrier && Other.BarrierId == Number) {
+      if (Other.Trace)
+        traceParked(&Other, Other.Next, Event::LocalBarrier, Words);
       complete(Other);
+    }
+  if (S.Trace)
+    traceWords(&S, Words);
   return true;
 }
 
 uint32_t Core::activeWarps() const {
-  uint32_t Mask = 0;
-  for (size_t W = 0; W != Warps.size(); ++W)
-    if (Warps[W].Why != Stop::Ended)
-      Mask |= 1U << W;
-  return Mask;
+  return ~endedWarps() &
+         static_cast<uint32_t>((uint64_t{1} << Warps.size()) - 1);
 }
 
 void Core::exitWith(uint32_t Value) {

@@ -23,8 +23,8 @@ public:
   /// Warp 0 runs lane 0 at \p Entry, the others have ended; registers are 0.
   void reset(const CodeTable &Code, uint32_t Entry, uint32_t LaunchBlock,
              const MemoryView &View, Watch *Watcher);
-  /// Warp 0 writes the clock's trace there until the next reset().
-  void setTrace(CoreTrace *Trace) { Warps[0].Trace = Trace; }
+  /// Warp \p Warp writes the clock's trace there until the next reset().
+  void setTrace(unsigned Warp, CoreTrace *Trace) { Warps[Warp].Trace = Trace; }
 
   /// Runs every warp until it stops or has used \p Quantum instructions.
   /// \p MustStop is asked now and then; true ends the round where it is.
@@ -43,6 +43,8 @@ public:
   bool isReady() const;
   /// Whether all warps have ended.
   bool hasEnded() const;
+  /// The warps that have, as bits.
+  uint32_t endedWarps() const;
   /// Warp instructions retired by all warps.
   uint64_t retired() const;
 

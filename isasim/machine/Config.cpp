@@ -247,12 +247,6 @@ Expected<Success> validate(const Config &C) {
                  fmt::format("the stacks take {} bytes, expected at most {}",
                              Stacks, Room),
                  ExitCode::Usage};
-  if (C.Timing.Enabled && C.WarpsPerCore != 1)
-    return Error{"configuration",
-                 fmt::format("the clock models cores of one warp, and "
-                             "warps_per_core is {}, expected 1",
-                             C.WarpsPerCore),
-                 ExitCode::Usage};
   return Success{};
 }
 

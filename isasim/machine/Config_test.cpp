@@ -101,9 +101,6 @@ TEST(Config, ErrorsNameTheKey) {
   EXPECT_EQ(wrongIn(R"({"timing": {"dram": {"address_map": "zigzag"}}})"),
             "file.json: timing.dram.address_map: \"zigzag\" is no address map, "
             "expected one of digit_sum, row_bank_column, xor");
-  EXPECT_EQ(wrongIn(R"({"timing": {"enabled": 1}, "warps_per_core": 2})"),
-            "file.json: the clock models cores of one warp, and "
-            "warps_per_core is 2, expected 1");
   EXPECT_NE(wrongIn("{").find("not JSON"), std::string::npos);
 }
 

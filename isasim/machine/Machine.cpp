@@ -173,7 +173,8 @@ void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   if (isClocked()) {
     Time->begin(*Code);
     for (const auto &C : Cores)
-      C->setTrace(Time->trace(C->id()));
+      for (unsigned W = 0; W != Shape.WarpsPerCore; ++W)
+        C->setTrace(W, Time->trace(C->id(), W));
   }
   GlobalArrived.assign(Shape.Barriers, 0);
   Hang = HangDetector();
@@ -224,8 +225,7 @@ void Machine::Impl::takeTime() {
   if (!isClocked())
     return;
   for (const auto &C : Cores)
-    if (C->hasEnded())
-      Time->coreEnded(C->id());
+    Time->setEnded(C->id(), C->endedWarps());
   Time->atSyncPoint();
 }
 

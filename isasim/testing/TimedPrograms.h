@@ -58,6 +58,13 @@ inline Words program(const Words &Body) {
          Body + Words{encode(Op::VX_TMC, {.Rs1 = 0})};
 }
 
+/// The same on every warp of a core.
+inline Words onAllWarps(const Words &Body) {
+  return Words{csrr(9, CSR_NUM_WARPS), encode(Op::RV_AUIPC, {.Rd = 10}),
+               addi(10, 10, 12), encode(Op::VX_WSPAWN, {.Rs1 = 9, .Rs2 = 10})} +
+         program(Body);
+}
+
 inline Config timed(unsigned Cores = 1) {
   Config C;
   C.SocketsPerCluster = 1;
@@ -70,10 +77,11 @@ inline Config timed(unsigned Cores = 1) {
 
 class ClockTest : public ::testing::Test {
 protected:
-  TimeReport run(const Words &Body) {
+  TimeReport run(const Words &Body) { return runWhole(program(Body)); }
+  TimeReport runWhole(const Words &Program) {
     auto M = Machine::create(C);
     EXPECT_TRUE(M) << M.error().What;
-    (*M)->load(codeImage(program(Body)));
+    (*M)->load(codeImage(Program));
     const RunResult R = (*M)->run();
     EXPECT_EQ(R.End, Outcome::Done) << R.Report;
     for (const CoreTime &T : R.Time->Cores)

@@ -1,6 +1,7 @@
 #include "timing/Clock.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace vorion::isasim {
@@ -16,10 +17,15 @@ constexpr size_t WorthTaking = 1 << 12;
 Clock::Clock(const Config &C)
     : Shape(C), P(C.Timing), Memory(P, C.Clusters), Barriers(C.Barriers) {
   for (unsigned N = 0; N != C.cores(); ++N) {
-    Traces.push_back(std::make_unique<TraceBuffer>());
-    Traces.back()->LocalBanks = P.Core.LocalBanks;
-    Traces.back()->InterleavedStacks = P.Core.InterleavedStacks != 0;
-    Cores.emplace_back(P.Core, MemoryPort{C.clusterOf(N), N}, *Traces.back());
+    std::vector<TraceBuffer *> OfCore;
+    for (unsigned W = 0; W != C.WarpsPerCore; ++W) {
+      Traces.push_back(std::make_unique<TraceBuffer>());
+      Traces.back()->LocalBanks = P.Core.LocalBanks;
+      Traces.back()->InterleavedStacks = P.Core.InterleavedStacks != 0;
+      OfCore.push_back(Traces.back().get());
+    }
+    Cores.emplace_back(P.Core, MemoryPort{C.clusterOf(N), N}, OfCore,
+                       C.Barriers);
   }
   for (unsigned N = 0; N != C.sockets(); ++N)
     Rasters.emplace_back(P,
@@ -64,6 +70,11 @@ void Clock::begin(const CodeTable &Code) {
   Turns.assign(Cores.size() + Rasters.size() + Pixels.size(), Turn());
 }
 
+void Clock::setEnded(unsigned Core, uint32_t Warps) {
+  Cores[Core].setEnded(Warps);
+  Ended[Core] = std::popcount(Warps) == static_cast<int>(Shape.WarpsPerCore);
+}
+
 bool Clock::isOverfull() const {
   return std::any_of(Cores.begin(), Cores.end(), [](const CoreClock &C) {
     return C.backlog() > LongestBacklog;
@@ -89,7 +100,8 @@ void Clock::atSyncPoint() {
 }
 
 TimeReport Clock::end() {
-  std::fill(Ended.begin(), Ended.end(), true);
+  for (unsigned N = 0; N != Cores.size(); ++N)
+    setEnded(N, static_cast<uint32_t>((uint64_t{1} << Shape.WarpsPerCore) - 1));
   for (RasterClock &R : Rasters)
     R.lastWork();
   takeAll();
@@ -137,7 +149,7 @@ uint64_t Clock::coresQuietAt() const {
 /// Whether no core will do anything more in this run.
 bool Clock::coresAreDone() const {
   for (size_t N = 0; N != Cores.size(); ++N)
-    if (!Ended[N] || Cores[N].state() != CoreClock::State::Starved)
+    if (!Ended[N] || !Cores[N].isIdle())
       return false;
   return true;
 }
@@ -156,12 +168,15 @@ void Clock::collectActivities(TimeReport &R) const {
     Add("core warp instructions", name(static_cast<OpClass>(K)), Warp);
     Add("core lane instructions", name(static_cast<OpClass>(K)), Lane);
   }
-  uint64_t Lines = 0, Conflicts = 0;
+  uint64_t Lines = 0, Conflicts = 0, L1Hits = 0;
   for (const CoreClock &C : Cores) {
     Lines += C.linesRequested();
     Conflicts += C.localConflicts();
+    L1Hits += C.l1Hits();
   }
   Add("lsu", "lines requested", Lines);
+  if (P.Core.DcacheKib)
+    Add("data cache", "hits", L1Hits);
   Add("local memory", "conflict cycles", Conflicts);
   RasterTime Raster;
   for (const RasterTime &T : R.Rasters) {
@@ -204,19 +219,21 @@ void Clock::update(unsigned Who) {
 
 /// The last of those that a barrier counts lets all go on.
 void Clock::arrive(unsigned Core, uint64_t Then) {
-  Arrived &B = Barriers[Cores[Core].barrier()];
-  if (B.Cores.size() + 1 < Cores[Core].barrierCount()) {
-    B.Cores.push_back(Core);
-    Cores[Core].block();
+  CoreClock &C = Cores[Core];
+  Arrived &B = Barriers[C.barrier()];
+  if (B.Warps.size() + 1 < C.barrierCount()) {
+    B.Warps.emplace_back(Core, C.warp());
+    C.block();
     return;
   }
-  Cores[Core].resume(Then, CoreCycle::Barrier);
-  for (const unsigned Other : B.Cores) {
+  C.resume(Then, CoreCycle::Barrier);
+  for (const auto &[Other, Warp] : B.Warps) {
+    Cores[Other].select(Warp);
     Cores[Other].resume(Then, CoreCycle::Barrier);
     Cores[Other].advance();
     update(Other);
   }
-  B.Cores.clear();
+  B.Warps.clear();
 }
 
 /// Does the request of \p Core at \p Then, or blocks the core.
@@ -233,30 +250,39 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     arrive(Core, Then);
     break;
   case CoreClock::State::RasterStart:
-    if (R.isFull(Agent))
-      return C.block();
+    if (R.isFull(Agent)) {
+      C.block();
+      break;
+    }
     R.start(Agent, Then);
     update(placeOfRaster(Shape.socketOf(Core)));
     C.resume(Then, CoreCycle::RasterFull);
     break;
   case CoreClock::State::RasterWait:
-    if (R.isBusy(Agent))
-      return C.block();
+    if (R.isBusy(Agent)) {
+      C.block();
+      break;
+    }
     C.resume(Then, CoreCycle::RasterWait);
     break;
   case CoreClock::State::RasterTake:
-    if (!R.canTake(Agent))
-      return C.block();
+    if (!R.canTake(Agent)) {
+      C.block();
+      break;
+    }
     R.takeBatch(Agent, Then);
     update(placeOfRaster(Shape.socketOf(Core)));
     C.resume(Then, CoreCycle::RasterWait);
     break;
   case CoreClock::State::Answer:
+  case CoreClock::State::Step:
+    C.step(Then);
+    return;
+  case CoreClock::State::LocalBarrier: // its core's affair
   case CoreClock::State::Starved:
     break;
   }
-  if (!C.isBlocked())
-    C.advance();
+  C.advance();
 }
 
 /// Does the next request in the order of time; false if there is none, or if a
@@ -319,10 +345,9 @@ bool Clock::stepMemory(Turn Next) {
 
 /// A core that its rasterizer's queue or work had blocked tries again.
 void Clock::wake(unsigned Core, uint64_t Then) {
-  if (!Cores[Core].isBlocked() ||
-      Cores[Core].state() == CoreClock::State::Barrier)
-    return;
-  grant(Core, Then);
+  for (unsigned W = 0; W != Cores[Core].warps(); ++W)
+    if (Cores[Core].selectWaiting(W))
+      grant(Core, Then);
   update(Core);
 }
 

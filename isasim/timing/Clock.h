@@ -23,8 +23,10 @@ public:
   Clock &operator=(const Clock &) = delete;
   ~Clock();
 
-  /// Where core \p Core writes its trace.
-  CoreTrace *trace(unsigned Core) { return Traces[Core].get(); }
+  /// Where warp \p Warp of core \p Core writes its trace.
+  CoreTrace *trace(unsigned Core, unsigned Warp) {
+    return Traces[size_t{Core} * Shape.WarpsPerCore + Warp].get();
+  }
   /// A rasterizer or a pixel unit has executed \p Work. Those of different
   /// sockets and clusters may call at the same time.
   void expect(raster::CommandWork &&Work);
@@ -32,8 +34,8 @@ public:
 
   /// A run of \p Code begins.
   void begin(const CodeTable &Code);
-  /// Core \p Core will write no more in this run.
-  void coreEnded(unsigned Core) { Ended[Core] = true; }
+  /// The warps of core \p Core, as bits, that have ended. All cores are parked.
+  void setEnded(unsigned Core, uint32_t Warps);
   /// All cores are parked. Takes what it can from the traces.
   void atSyncPoint();
   /// The run is over; all is taken.
@@ -66,16 +68,16 @@ private:
   const Config &Shape;
   const TimingConfig &P;
   MemorySystem Memory;
-  std::vector<std::unique_ptr<TraceBuffer>> Traces;
+  std::vector<std::unique_ptr<TraceBuffer>> Traces; ///< by core and warp
   std::vector<CoreClock> Cores;
   std::vector<RasterClock> Rasters;
   std::vector<PixelClock> Pixels; ///< by cluster
   std::vector<OpInfo> Ops;
-  std::vector<bool> Ended;
+  std::vector<bool> Ended; ///< by core: all its warps have
   std::vector<Turn> Turns; ///< of cores, rasterizers, pixel units
   std::vector<Answer> Answers;
   struct Arrived {
-    std::vector<unsigned> Cores;
+    std::vector<std::pair<unsigned, unsigned>> Warps; ///< core and warp
   };
   std::vector<Arrived> Barriers;
   uint64_t Now = 0; ///< where the last run ended

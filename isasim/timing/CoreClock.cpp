@@ -6,25 +6,22 @@
 namespace vorion::isasim {
 
 CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
-                     TraceBuffer &TraceIn)
-    : P(Params), IsIdeal(P.FetchInterval == 1 && P.BranchCycles == 1 &&
-                         P.SplitCycles == 1 && P.JoinCycles == 1 &&
-                         P.CsrCycles == 1 && P.UnitQueue == 0 && P.Fpu == 0),
-      Trace(TraceIn), InFlight(ToMemory, P.LsuQueue + 1), Accesses(P.LsuQueue) {
+                     const std::vector<TraceBuffer *> &Traces,
+                     unsigned Barriers)
+    : P(Params), IsAlone(Traces.size() == 1),
+      IsIdeal(P.FetchInterval == 1 && P.BranchCycles == 1 &&
+              P.SplitCycles == 1 && P.JoinCycles == 1 && P.CsrCycles == 1 &&
+              P.UnitQueue == 0 && P.Fpu == 0 && IsAlone),
+      Others(Traces.size()), LocalBarriers(Barriers),
+      InFlight(ToMemory, P.LsuQueue + 1), Accesses(P.LsuQueue),
+      L1(P.DcacheKib, P.DcacheWays) {
+  for (unsigned W = 0; W != Others.size(); ++W)
+    of(W).Trace = Traces[W];
 }
 
 void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   Ops = &Program;
-  Now = State::Starved;
-  Blocked = false;
-  Next = At = Start;
-  Position = 0;
-  InRun = false;
-  Expected = ~0U;
-  LastMask = 1;
-  LastClass = OpClass::Alu;
-  Ready.fill(0);
-  ReadyWhy.fill(CoreCycle::Operand);
+  Next = Start;
   UnitFree.fill(0);
   for (UnitQueue &Q : Queues)
     Q = {std::vector<uint64_t>(P.UnitQueue), 0};
@@ -33,26 +30,50 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   for (unsigned N = 0; N <= P.LsuQueue; ++N)
     InFlight.begin(N);
   LastDone = 0;
+  L1.clear();
   Spent = {};
   Classes = {};
-  LinesRequested = LocalConflicts = 0;
+  LinesRequested = LocalConflicts = L1Hits = 0;
   spend(CoreCycle::Start, P.StartCycles);
-  Fetched = Next;
-  FetchWhy = CoreCycle::Fetch;
+  select(0);
+  for (unsigned W = 0; W != Others.size(); ++W) {
+    WarpTime New;
+    New.Trace = of(W).Trace;
+    New.At = Start;
+    New.ReadyWhy.fill(CoreCycle::Operand);
+    New.Fetched = Next;
+    of(W) = std::move(New);
+  }
+  for (auto &Arrived : LocalBarriers)
+    Arrived.clear();
+  LastIssued = 0;
+  Presented = State::Starved;
+  InTurn = Turn(Next, false);
 }
 
 /// The front end has lost time if the pc or the mask is not what it went on
 /// with.
-void CoreClock::startRun(const RunRecord &R) {
-  InRun = true;
-  const bool Jumped = R.First != Expected && Expected != ~0U;
-  const bool Masked = R.Mask != LastMask;
-  if (Masked || (Jumped && LastClass == OpClass::Mask))
-    spend(CoreCycle::Divergence, P.MaskPenalty);
-  else if (Jumped)
-    spend(CoreCycle::Branch, P.BranchPenalty);
-  LastMask = R.Mask;
-  Lanes = static_cast<unsigned>(std::popcount(R.Mask));
+void CoreClock::startRun(WarpTime &W, const RunRecord &R) {
+  W.InRun = true;
+  const bool Jumped = R.First != W.Expected && W.Expected != ~0U;
+  const bool Masked = R.Mask != W.LastMask;
+  W.LastMask = R.Mask;
+  W.Lanes = static_cast<unsigned>(std::popcount(R.Mask));
+  CoreCycle Why = CoreCycle::Branch;
+  uint64_t Lost = 0;
+  if (Masked || (Jumped && W.LastClass == OpClass::Mask)) {
+    Why = CoreCycle::Divergence;
+    Lost = P.MaskPenalty;
+  } else if (Jumped) {
+    Lost = P.BranchPenalty;
+  }
+  if (IsAlone) {
+    spend(Why, Lost);
+  } else if (Lost) {
+    // Other warps go on.
+    W.Fetched = std::max(W.Fetched, Next) + Lost;
+    W.FetchWhy = Why;
+  }
 }
 
 bool CoreClock::waitForOperands(const OpInfo &O) {
@@ -78,26 +99,44 @@ bool CoreClock::waitUntilQuiet() {
   return true;
 }
 
+/// The place in flight that is free first.
+unsigned CoreClock::firstPlace() const {
+  unsigned Place = 0;
+  for (unsigned N = 1; N != P.LsuQueue; ++N)
+    if (InFlight.readyAt(N) < InFlight.readyAt(Place))
+      Place = N;
+  return Place;
+}
+
+/// When \p O can leave for its unit, or for the queue in front of it.
+uint64_t CoreClock::unitFreeAt(const OpInfo &O) const {
+  const auto On = size_t(O.On);
+  if (P.UnitQueue && O.On != Port::Lsu)
+    return Queues[On].Begins[Queues[On].Next];
+  uint64_t Free = UnitFree[On];
+  if (O.Hold)
+    Free =
+        std::max(Free, *std::min_element(Places[On].begin(), Places[On].end()));
+  return Free;
+}
+
 /// Waits until \p O can leave for its unit, or for the queue in front of it,
 /// and returns when the unit begins.
 uint64_t CoreClock::beginOnUnit(const OpInfo &O) {
+  waitUntil(unitFreeAt(O), CoreCycle::Unit);
   const auto On = size_t(O.On);
   uint64_t Begun = std::max(Next, UnitFree[On]);
-  uint64_t *Place = nullptr;
   if (O.Hold) {
-    Place = &*std::min_element(Places[On].begin(), Places[On].end());
-    Begun = std::max(Begun, *Place);
-    *Place = Begun + O.Hold;
+    uint64_t &Place = *std::min_element(Places[On].begin(), Places[On].end());
+    Begun = std::max(Begun, Place);
+    Place = Begun + O.Hold;
   }
   UnitFree[On] = Begun + O.Interval;
-  if (P.UnitQueue == 0 || O.On == Port::Lsu) {
-    waitUntil(Begun, CoreCycle::Unit);
-    return Begun;
+  if (P.UnitQueue && O.On != Port::Lsu) {
+    UnitQueue &Q = Queues[On];
+    Q.Begins[Q.Next] = Begun;
+    Q.Next = (Q.Next + 1) % P.UnitQueue;
   }
-  UnitQueue &Q = Queues[On];
-  waitUntil(Q.Begins[Q.Next], CoreCycle::Unit);
-  Q.Begins[Q.Next] = Begun;
-  Q.Next = (Q.Next + 1) % P.UnitQueue;
   return Begun;
 }
 
@@ -116,11 +155,12 @@ void CoreClock::fetchNext(const OpInfo &O, uint64_t Begun) {
   FetchWhy = CoreCycle::Fetch;
 }
 
-void CoreClock::setReady(unsigned Register, uint64_t Then, CoreCycle Why) {
+void CoreClock::setReady(WarpTime &W, unsigned Register, uint64_t Then,
+                         CoreCycle Why) {
   if (Register == SinkRegister)
     return;
-  Ready[Register] = Then;
-  ReadyWhy[Register] = Why;
+  W.Ready[Register] = Then;
+  W.ReadyWhy[Register] = Why;
 }
 
 /// Counts \p O as issued at Next.
@@ -164,9 +204,9 @@ template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
   case OpClass::Store:
   case OpClass::Atomic: {
     waitForUnit(O);
-    const auto A = std::bit_cast<AccessWord>(Trace.word());
+    const auto A = std::bit_cast<AccessWord>(Trace->word());
     if (A.Lines == 0 && !needsPlace(O, A)) {
-      Trace.popWords(1);
+      Trace->popWords(1);
       localAccess(O, A);
       return true;
     }
@@ -179,6 +219,22 @@ template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
     if (!waitUntilQuiet())
       return false;
     break;
+  case OpClass::Mask:
+    if (O.Spawns) {
+      spawn(O);
+      return true;
+    }
+    break;
+  case OpClass::Barrier: {
+    const uint32_t Barrier = Trace->word(), Count = Trace->word(1);
+    Trace->popWords(2);
+    if (Count > 1) {
+      waitForUnit(O);
+      arrive(O, Barrier, Count);
+      return true;
+    }
+    break;
+  }
   default:
     break;
   }
@@ -199,43 +255,57 @@ template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
 
 /// An instruction that had parked; false if it is a request.
 bool CoreClock::advanceParked(const OpInfo &O) {
-  const auto Kind = static_cast<Event>(Trace.word());
+  const auto Kind = static_cast<Event>(Trace->word());
+  if (Kind == Event::Spawn) {
+    Trace->popWords(1);
+    Fetched = std::max(Fetched, Spawns.front());
+    FetchWhy = CoreCycle::Ended;
+    Spawns.erase(Spawns.begin());
+    return true;
+  }
   if (!IsIdeal)
     waitUntil(Fetched, FetchWhy);
   if (!waitForOperands(O))
     return false;
   if (Kind == Event::Atomic) {
-    Trace.popWords(1);
+    Trace->popWords(1);
     return IsIdeal ? advanceOne<true>(O) : advanceOne<false>(O);
   }
   waitForUnit(O);
   Waiting = &O;
   switch (Kind) {
   case Event::Atomic:
+  case Event::Spawn:
     break; // above
+  case Event::LocalBarrier: {
+    const uint32_t Barrier = Trace->word(1), Count = Trace->word(2);
+    Trace->popWords(3);
+    arrive(O, Barrier, Count);
+    return true;
+  }
   case Event::Barrier:
-    Words[0] = Trace.word(1);
-    Words[1] = Trace.word(2);
-    Trace.popWords(3);
+    Words[0] = Trace->word(1);
+    Words[1] = Trace->word(2);
+    Trace->popWords(3);
     Now = State::Barrier;
     break;
   case Event::RasterStart:
     // It releases the core's earlier stores (docs/rasterizer.md).
     if (!waitUntilQuiet())
       return false;
-    Trace.popWords(1);
+    Trace->popWords(1);
     Now = State::RasterStart;
     break;
   case Event::RasterWait:
-    Trace.popWords(1);
+    Trace->popWords(1);
     Now = State::RasterWait;
     break;
   case Event::RasterTake:
-    Trace.popWords(1);
+    Trace->popWords(1);
     Now = State::RasterTake;
     break;
   case Event::RasterOther:
-    Trace.popWords(1);
+    Trace->popWords(1);
     UnitFree[size_t(O.On)] = Next + O.Interval;
     setReady(O.Rd, Next + O.Latency, CoreCycle::Operand);
     finish(O);
@@ -246,10 +316,10 @@ bool CoreClock::advanceParked(const OpInfo &O) {
 }
 
 template <bool Ideal> void CoreClock::advanceThrough() {
-  while (!Trace.empty()) {
-    const RunRecord R = Trace.front();
+  while (!Trace->empty()) {
+    const RunRecord R = Trace->front();
     if (!InRun)
-      startRun(R);
+      startRun(*this, R);
     const OpInfo *const First = Ops->data() + R.First;
     const unsigned Count = std::max<unsigned>(R.Count, 1);
     unsigned Here = Position;
@@ -265,11 +335,25 @@ template <bool Ideal> void CoreClock::advanceThrough() {
     Expected = R.First + Count;
     Position = 0;
     InRun = false;
-    Trace.pop();
+    Trace->pop();
   }
 }
 
+/// The instruction at the current warp's position.
+void CoreClock::advanceFront() {
+  const RunRecord R = Trace->front();
+  const OpInfo &O = (*Ops)[R.First + Position++];
+  if (R.Count == 0)
+    advanceParked(O);
+  else
+    advanceOne<false>(O);
+}
+
 void CoreClock::advance() {
+  if (!IsAlone)
+    return advanceInTurn(0);
+  if (Blocked)
+    return;
   Now = State::Starved;
   if (IsIdeal)
     advanceThrough<true>();
@@ -277,25 +361,35 @@ void CoreClock::advance() {
     advanceThrough<false>();
 }
 
+/// Whether the data cache has a line for a load at \p Place whose address is
+/// known at \p Now.
+bool CoreClock::isInL1(uint32_t Address, uint64_t Now, unsigned Place) {
+  if (const uint64_t *ReadyAt = L1.find(Address)) {
+    ++L1Hits;
+    InFlight.add(Place, std::max(Now + P.DcacheCycles, *ReadyAt));
+    return true;
+  }
+  Accesses[Place].Misses.push_back(Address);
+  return false;
+}
+
 bool CoreClock::access(MemorySystem &Memory) {
   const OpInfo &O = *Waiting;
-  const auto A = std::bit_cast<AccessWord>(Trace.word());
+  const auto A = std::bit_cast<AccessWord>(Trace->word());
   unsigned Place = P.LsuQueue;
   if (needsPlace(O, A)) {
-    Place = 0;
-    for (unsigned N = 1; N != P.LsuQueue; ++N)
-      if (InFlight.readyAt(N) < InFlight.readyAt(Place))
-        Place = N;
+    Place = firstPlace();
     if (const uint64_t Free = InFlight.readyAt(Place); Free > At) {
       At = Free;
       return false;
     }
     waitUntil(At, CoreCycle::LsuQueue);
     InFlight.begin(Place);
-    Accesses[Place] = &O;
+    Accesses[Place] = {&O, Current, {}};
   }
+  Now = State::Starved;
   if (A.Lines == 0) {
-    Trace.popWords(1);
+    Trace->popWords(1);
     InFlight.begin(Place, localAccess(O, A));
     return true;
   }
@@ -307,30 +401,45 @@ bool CoreClock::access(MemorySystem &Memory) {
   } else if (O.Class == OpClass::Store) {
     R.Op = A.Whole ? CacheOp::WriteWhole : CacheOp::Write;
   }
+  const bool UsesL1 = L1.exists() && O.Class == OpClass::Load;
   uint32_t Room = P.LinesAtOnce;
   for (unsigned N = 0; N != A.Lines; ++N, --Room) {
     if (Room == 0) {
       R.Now += P.LineCycles;
       Room = P.LinesAtOnce;
     }
-    R.Address = Trace.word(1 + N);
-    InFlight.ask(Memory, Place, R);
+    R.Address = Trace->word(1 + N);
+    if (UsesL1 && isInL1(R.Address, R.Now, Place))
+      continue;
+    CacheRequest Below = R;
+    // The tags have been looked up before the request goes on.
+    Below.Now += UsesL1 ? P.DcacheCycles : 0;
+    InFlight.ask(Memory, Place, Below);
   }
   const uint64_t Leaving = R.Now + P.LineCycles - (At + P.AguCycles);
   LinesRequested += A.Lines;
-  Trace.popWords(1 + A.Lines);
+  Trace->popWords(1 + A.Lines);
   UnitFree[size_t(Port::Lsu)] = At + std::max<uint64_t>(Leaving, O.Interval);
-  setLoaded(O, InFlight.readyAt(Place));
+  const uint64_t Done = InFlight.readyAt(Place);
+  if (UsesL1 && Done != Turn::Never)
+    fillL1(Place, Done);
+  setLoaded(*this, O, Done);
   finish(O);
   return true;
 }
 
-/// An access of \p O is done at \p Done, if that is known.
-void CoreClock::setLoaded(const OpInfo &O, uint64_t Done) {
+/// An access \p O of \p W is done at \p Done, if that is known.
+void CoreClock::setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done) {
   if (Done == Turn::Never)
-    return setReady(O.Rd, Done, CoreCycle::Memory);
+    return setReady(W, O.Rd, Done, CoreCycle::Memory);
   LastDone = std::max(LastDone, Done);
-  setReady(O.Rd, Done + O.Latency, CoreCycle::Memory);
+  setReady(W, O.Rd, Done + O.Latency, CoreCycle::Memory);
+}
+
+/// The lines that the load at \p Place asked memory for come at \p Then.
+void CoreClock::fillL1(unsigned Place, uint64_t Then) {
+  for (const uint32_t Line : Accesses[Place].Misses)
+    L1.fill(Line, Then);
 }
 
 void CoreClock::answer(uint32_t Tag, uint64_t Then) {
@@ -340,19 +449,41 @@ void CoreClock::answer(uint32_t Tag, uint64_t Then) {
   const uint64_t Done = InFlight.readyAt(*Place);
   LastDone = std::max(LastDone, Done);
   if (*Place != P.LsuQueue) {
-    setLoaded(*Accesses[*Place], Done);
+    const Access &A = Accesses[*Place];
+    fillL1(*Place, Done);
+    setLoaded(of(A.Warp), *A.Op, Done);
     // The access in front may have waited for a place.
     At = std::min(At, std::max(Next, Done));
   }
-  if (Now == State::Answer)
+  if (Now == State::Answer || !IsAlone)
     advance();
 }
 
 void CoreClock::resume(uint64_t Then, CoreCycle Why) {
   Blocked = false;
+  Now = State::Starved;
   waitUntil(Then, Why);
   setReady(Waiting->Rd, Next + Waiting->Latency, CoreCycle::Operand);
   finish(*Waiting);
+}
+
+bool CoreClock::isIdle() const {
+  for (unsigned W = 0; W != Others.size(); ++W)
+    if (of(W).Now != State::Starved || !of(W).Trace->empty())
+      return false;
+  return true;
+}
+
+size_t CoreClock::backlog() const {
+  size_t Sum = 0;
+  for (unsigned W = 0; W != Others.size(); ++W)
+    Sum += of(W).Trace->size();
+  return Sum;
+}
+
+void CoreClock::setEnded(uint32_t Warps) {
+  for (unsigned W = 0; W != Others.size(); ++W)
+    of(W).Ended = Warps >> W & 1;
 }
 
 uint64_t CoreClock::quietAt() const {

@@ -1,7 +1,8 @@
-/// How long a core takes: an in-order pipeline with one warp, whose numbers are
-/// timing.core of the configuration.
+/// How long a core takes: an in-order pipeline whose numbers are timing.core of
+/// the configuration.
 #pragma once
 
+#include "timing/DataCache.h"
 #include "timing/LineWaits.h"
 #include "timing/OpClass.h"
 #include "timing/TraceWriter.h"
@@ -12,39 +13,86 @@
 
 namespace vorion::isasim {
 
-/// Reads a core's trace. Everything between two requests that others can notice
-/// is done by advance(); the request itself is done by its owner's turn in the
-/// order of time (Clock.h).
-class CoreClock {
+/// What a core knows of one of its warps.
+struct WarpTime {
+  enum class State : uint8_t {
+    Starved, ///< the trace is used up, or the next instruction was not seen
+    Access,  ///< wants memory, or a place among the accesses in flight
+    Answer,  ///< needs what memory has not answered
+    Barrier, ///< arrives at a barrier of the device
+    LocalBarrier, ///< has arrived at one of its core
+    RasterStart,
+    RasterWait,
+    RasterTake,
+    Step, ///< of a core: an instruction that what others do may come before
+  };
+
+  TraceBuffer *Trace = nullptr;
+  State Now = State::Starved;
+  bool Blocked = false;
+  bool Ended = false;           ///< it writes no more, unless it is spawned
+  std::vector<uint64_t> Spawns; ///< when others have started it anew
+  uint64_t At = 0;              ///< the request's time
+  uint32_t Words[2] = {};
+  const OpInfo *Waiting = nullptr; ///< instruction of the request
+
+  unsigned Position = 0;   ///< in the front run
+  bool InRun = false;      ///< the front run has been started
+  uint32_t Expected = ~0U; ///< instruction behind the last run
+  uint16_t LastMask = 1;
+  unsigned Lanes = 1;
+  OpClass LastClass = OpClass::Alu;
+
+  /// Turn::Never while it is not known.
+  std::array<uint64_t, NumRegisters> Ready{};
+  std::array<CoreCycle, NumRegisters> ReadyWhy{};
+  uint64_t Fetched = 0; ///< when the next instruction can issue at the earliest
+  CoreCycle FetchWhy = CoreCycle::Fetch;
+};
+
+/// Reads a core's traces. Everything between two requests that others can
+/// notice is done by advance(); the request itself is done by its owner's turn
+/// in the order of time (Clock.h). It holds the state of the warp whose turn it
+/// is, so that a core of one warp does not pay for others.
+class CoreClock : private WarpTime {
 public:
-  CoreClock(const CoreTiming &Params, MemoryPort ToMemory, TraceBuffer &Trace);
+  using WarpTime::State;
+
+  /// \p Traces by warp.
+  CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
+            const std::vector<TraceBuffer *> &Traces, unsigned Barriers);
 
   /// A run of the program \p Ops begins at \p Now.
   void begin(const std::vector<OpInfo> &Ops, uint64_t Now);
 
-  enum class State : uint8_t {
-    Starved, ///< the trace is used up
-    Access,  ///< wants memory, or a place among the accesses in flight
-    Answer,  ///< needs what memory has not answered
-    Barrier, ///< arrives at a barrier
-    RasterStart,
-    RasterWait,
-    RasterTake,
-  };
   /// Goes on to the next request, or to the trace's end.
   void advance();
 
-  State state() const { return Now; }
-  /// Whether its request had to wait: until resume().
-  bool isBlocked() const { return Blocked; }
+  State state() const { return IsAlone ? Now : Presented; }
+  /// Whether no warp has anything left that is known.
+  bool isIdle() const;
   /// When it makes its request; never while that has to wait.
   Turn turn() const {
+    if (!IsAlone)
+      return InTurn;
     if (Blocked || Now == State::Answer)
       return Turn();
     return Now == State::Starved ? Turn(Next, false) : Turn(At);
   }
   /// How much trace is waiting.
-  size_t backlog() const { return Trace.size(); }
+  size_t backlog() const;
+
+  unsigned warps() const { return static_cast<unsigned>(Others.size()); }
+  /// The warp whose turn it is.
+  unsigned warp() const { return Current; }
+  /// From now on it is \p Warp's turn.
+  void select(unsigned Warp);
+  /// Whether \p Warp waits for the rasterizer; then it is its turn.
+  bool selectWaiting(unsigned Warp);
+  /// The warps, as bits, that write no more unless they are spawned.
+  void setEnded(uint32_t Warps);
+  /// Does the instruction of State::Step, and others of the core until \p Then.
+  void step(uint64_t Then) { advanceInTurn(Then); }
 
   /// Makes the access of State::Access, if there is a place for it. Otherwise
   /// its turn is now when one will be free. Returns whether it did.
@@ -74,6 +122,7 @@ public:
   }
   uint64_t linesRequested() const { return LinesRequested; }
   uint64_t localConflicts() const { return LocalConflicts; }
+  uint64_t l1Hits() const { return L1Hits; }
 
 private:
   void spend(CoreCycle What, uint64_t Cycles) {
@@ -84,7 +133,11 @@ private:
     if (Then > Next)
       spend(Why, Then - Next);
   }
-  void startRun(const RunRecord &R);
+  const WarpTime &of(unsigned Warp) const {
+    return Warp == Current ? *this : Others[Warp];
+  }
+  WarpTime &of(unsigned Warp) { return Warp == Current ? *this : Others[Warp]; }
+  void startRun(WarpTime &W, const RunRecord &R);
   bool waitForOperands(const OpInfo &O);
   bool waitUntilQuiet();
   void waitForUnit(const OpInfo &O) {
@@ -94,6 +147,8 @@ private:
   bool needsPlace(const OpInfo &O, AccessWord A) const {
     return P.LoadsQueue ? O.Class != OpClass::Store : A.Lines != 0;
   }
+  unsigned firstPlace() const;
+  uint64_t unitFreeAt(const OpInfo &O) const;
   uint64_t beginOnUnit(const OpInfo &O);
   void fetchNext(const OpInfo &O, uint64_t Begun);
   void issue(const OpInfo &O);
@@ -102,37 +157,40 @@ private:
   template <bool Ideal> bool advanceOne(const OpInfo &O);
   bool advanceParked(const OpInfo &O);
   uint64_t localAccess(const OpInfo &O, AccessWord A);
-  void setLoaded(const OpInfo &O, uint64_t Done);
-  void setReady(unsigned Register, uint64_t Then, CoreCycle Why);
+  bool isInL1(uint32_t Address, uint64_t Now, unsigned Place);
+  void fillL1(unsigned Place, uint64_t Then);
+  void setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done);
+  static void setReady(WarpTime &W, unsigned Register, uint64_t Then,
+                       CoreCycle Why);
+  void setReady(unsigned Register, uint64_t Then, CoreCycle Why) {
+    setReady(*this, Register, Then, Why);
+  }
+
+  // Several warps.
+  void advanceInTurn(uint64_t Until);
+  uint64_t earliest(WarpTime &W);
+  uint64_t earliestIssue(const WarpTime &W, const RunRecord &R) const;
+  bool atSpawn(const WarpTime &W) const;
+  void advanceFront();
+  void spawn(const OpInfo &O);
+  void arrive(const OpInfo &O, uint32_t Barrier, uint32_t Count);
 
   const CoreTiming P;
+  const bool IsAlone; ///< there is one warp
   /// Whether the front end always has the next instruction, but behind a branch
-  /// or a change of lanes, and nobody waits in front of a unit. Then none of
-  /// that is looked at.
+  /// or a change of lanes, nobody waits in front of a unit, and there is one
+  /// warp. Then none of that is looked at.
   const bool IsIdeal;
-  TraceBuffer &Trace;
   const std::vector<OpInfo> *Ops = nullptr;
 
-  State Now = State::Starved;
-  bool Blocked = false;
+  std::vector<WarpTime> Others; ///< by warp; not used for the current one
+  unsigned Current = 0;
+  unsigned LastIssued = 0; ///< a warp: the others come first
+  State Presented = State::Starved;
+  Turn InTurn;
+  std::vector<std::vector<unsigned>> LocalBarriers; ///< who has arrived
+
   uint64_t Next = 0; ///< the earliest next issue; all before is accounted for
-  uint64_t At = 0;
-  uint32_t Words[2] = {};
-  const OpInfo *Waiting = nullptr; ///< instruction of the request
-
-  unsigned Position = 0; ///< in the front run
-  bool InRun = false;    ///< the front run has been started
-  uint32_t Expected = 0; ///< instruction behind the last run
-  uint16_t LastMask = 1;
-  unsigned Lanes = 1;
-  OpClass LastClass = OpClass::Alu;
-
-  /// Turn::Never while it is not known.
-  std::array<uint64_t, NumRegisters> Ready{};
-  std::array<CoreCycle, NumRegisters> ReadyWhy{};
-  uint64_t Fetched = 0; ///< when the next instruction can issue at the earliest
-  CoreCycle FetchWhy = CoreCycle::Fetch;
-
   std::array<uint64_t, size_t(Port::Count)> UnitFree{};
   /// Of a unit whose instructions wait in front of it: when the last ones
   /// begin, in a ring.
@@ -146,12 +204,18 @@ private:
   /// A set of lines for each place, and behind these one for all accesses that
   /// need none.
   LineWaits InFlight;
-  std::vector<const OpInfo *> Accesses; ///< by place
+  struct Access {
+    const OpInfo *Op = nullptr;
+    unsigned Warp = 0;
+    std::vector<uint32_t> Misses; ///< lines that the data cache gets
+  };
+  std::vector<Access> Accesses; ///< by place
   uint64_t LastDone = 0; ///< of the accesses to memory whose end is known
+  DataCache L1;
 
   CoreTime Spent;
   std::array<ClassCount, size_t(OpClass::Count)> Classes{};
-  uint64_t LinesRequested = 0, LocalConflicts = 0;
+  uint64_t LinesRequested = 0, LocalConflicts = 0, L1Hits = 0;
 };
 
 } // namespace vorion::isasim

@@ -42,6 +42,10 @@ public:
     else
       ++S.Open;
   }
+  /// A line of set \p N is there at \p Then, and nobody has to be asked.
+  void add(unsigned N, uint64_t Then) {
+    Sets[N].Ready = std::max(Sets[N].Ready, Then);
+  }
   /// When set \p N is ready; Turn::Never if that is not known yet.
   uint64_t readyAt(unsigned N) const {
     return Sets[N].Open ? Turn::Never : Sets[N].Ready;

@@ -186,6 +186,7 @@ std::vector<OpInfo> describeProgram(const CodeTable &Code,
     // Where the third is no source it is the destination, which an instruction
     // waits for anyway.
     O.Sources[2] = D && D->info().Fmt == Format::R4 ? Register(I.Rs3) : 0;
+    O.Spawns = D && D->Opcode == Op::VX_WSPAWN;
     setCost(O, D ? D->Opcode : Op::RV_ADDI, Params, Lanes);
   }
   return All;

@@ -33,6 +33,7 @@ struct OpInfo {
   /// Cycles until the warp's next instruction can issue if it is fetched only
   /// then, else 0.
   uint8_t Redirect = 0;
+  bool Spawns = false; ///< vx_wspawn
 };
 
 OpClass classOf(uint32_t Word);

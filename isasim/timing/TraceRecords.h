@@ -6,7 +6,9 @@
 
 namespace vorion::isasim {
 
-/// Instructions that ran one after the other under one mask.
+/// Instructions that ran one after the other under one mask. A vx_bar among
+/// them has two words, barrier and how many arrive, a vx_wspawn one, the warps
+/// that it started as bits.
 struct RunRecord {
   uint32_t First; ///< number of the first, from the program's beginning
   /// How many; 0: the instruction First alone, which had parked. It has an
@@ -33,12 +35,14 @@ static_assert(sizeof(AccessWord) == 4);
 
 /// The first word of an event record, by kind.
 enum class Event : uint32_t {
-  Atomic,      ///< an access record follows
-  Barrier,     ///< two words follow: barrier, how many arrive
-  RasterStart, ///< the agent's next command
-  RasterWait,  ///< until the agent's commands are done
-  RasterOther, ///< any other access to a raster CSR
-  RasterTake,  ///< until the agent has a batch of gradients, or has ended one
+  Atomic,       ///< an access record follows
+  Barrier,      ///< of the device; two words: barrier, how many arrive
+  LocalBarrier, ///< of the core; the same
+  Spawn,        ///< a warp starts at First, by another one's vx_wspawn
+  RasterStart,  ///< the agent's next command
+  RasterWait,   ///< until the agent's commands are done
+  RasterOther,  ///< any other access to a raster CSR
+  RasterTake,   ///< until the agent has a batch of gradients, or has ended one
 };
 
 /// A core's trace being written. Owned by TraceBuffer (TraceWriter.h).

@@ -168,17 +168,23 @@ void traceAccess(WarpState *S, const uint32_t *Addresses, unsigned Bytes,
   T.WordAt += 1 + Count;
 }
 
+void traceWords(WarpState *S, std::span<const uint32_t> Words) {
+  CoreTrace &T = *S->Trace;
+  if (static_cast<size_t>(T.WordEnd - T.WordAt) < LongestRecord)
+    bufferOf(S).grow();
+  T.WordAt = std::copy(Words.begin(), Words.end(), T.WordAt);
+}
+
 void traceParked(WarpState *S, const Insn *I, Event E,
                  std::span<const uint32_t> Words) {
   CoreTrace &T = *S->Trace;
-  if (T.RunEnd - T.RunAt < 1 ||
-      static_cast<size_t>(T.WordEnd - T.WordAt) < LongestRecord)
+  if (T.RunEnd - T.RunAt < 1)
     bufferOf(S).grow();
   *T.RunAt++ = {static_cast<uint32_t>(I - S->Code), 0,
                 static_cast<uint16_t>(S->Mask)};
-  *T.WordAt++ = static_cast<uint32_t>(E);
-  for (const uint32_t W : Words)
-    *T.WordAt++ = W;
+  const uint32_t Kind = static_cast<uint32_t>(E);
+  traceWords(S, {&Kind, 1});
+  traceWords(S, Words);
 }
 
 } // namespace vorion::isasim

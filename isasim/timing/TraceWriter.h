@@ -47,6 +47,8 @@ private:
   size_t RunsRead = 0, WordsRead = 0;
 };
 
+/// Appends words of an instruction that did not park.
+void traceWords(WarpState *S, std::span<const uint32_t> Words);
 /// Appends that the parked instruction \p I, with no access, completed.
 void traceParked(WarpState *S, const Insn *I, Event E,
                  std::span<const uint32_t> Words = {});

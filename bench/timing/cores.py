@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""The clock's cores beside references, loop by loop, as Markdown tables.
+
+usage: cores.py REFERENCES
+
+REFERENCES is a folder with vortex_core_cpi.json and vortex_more.json: small loops as assembly, and the cycles of an
+iteration on Vortex's RTL. A loop is run twice, and the difference divided by that of the iterations, so that
+beginning and end cancel. A reference's loops that it does not call comparable are shown without an error. The exit code is
+1 if a comparable loop is off by more than 5 %.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+LIMIT = 0.05
+# What our machine is set to for each reference, and how many warps run the loop. The RTLs have data caches.
+MACHINES = (
+    ("rtl_2025_09", "vortex-2025", 1),
+    ("rtl_2025_09_2_warps", "vortex-2025", 2),
+    ("rtl_2025_09_4_warps", "vortex-2025", 4),
+    ("rtl_2023_05_v1", "vortex-5stage", 1),
+)
+# Not comparable where the file has no word on it: DRAM decides, or the reference has no atomics.
+NOT_COMPARABLE = ("ld_stream", "amo_same", "amo_diff")
+
+# Starts all warps of the core in the loop, which the file calls main.
+ALL_WARPS = """
+  .globl main
+main:
+  mv s10, ra
+  csrr t0, vx_num_warps
+  la t1, 1f
+  vx_wspawn t0, t1
+1:
+  li t0, -1
+  vx_tmc t0
+  call loop
+  csrr t0, vx_warp_id
+  beqz t0, 2f
+  vx_tmc zero
+2:
+  mv ra, s10
+  li a0, 0
+  ret
+"""
+
+
+def references(folder):
+    """(kernels by name, {machine: {kernel: (cycles of an iteration, comparable)}})."""
+    with open(os.path.join(folder, "vortex_core_cpi.json")) as file:
+        kernels = {k["name"]: k for k in json.load(file)["kernels"]}
+    machines = {}
+    for name, kernel in kernels.items():
+        for machine, cycles in kernel["cycles_per_iteration"].items():
+            machines.setdefault(machine, {})[name] = (cycles, name not in NOT_COMPARABLE)
+    with open(os.path.join(folder, "vortex_more.json")) as file:
+        for machine in json.load(file):
+            machines[machine["name"]] = {r["kernel"]: (r["cycles_per_iteration"], r["comparable"])
+                                         for r in machine["results"]}
+    return kernels, machines
+
+
+def assemble(folder, kernel, iterations):
+    """The program that runs a loop so often, on as many warps as a core has."""
+    stem = os.path.join(folder, f"{kernel['name']}.{iterations}")
+    if not os.path.exists(stem + ".elf"):
+        loop = kernel["assembly"].replace("ITERS", str(iterations))
+        loop = loop.replace(".globl main", "").replace("main:", "loop:")
+        with open(stem + ".s", "w") as file:
+            file.write(ALL_WARPS + loop)
+        subprocess.run(["vorion-clang", "-o", stem + ".elf", stem + ".s"], check=True)
+    return stem + ".elf"
+
+
+def cycles_of(program, preset, warps):
+    settings = (f"sockets_per_cluster=1,cores_per_socket=1,warps_per_core={warps},timing.core.preset={preset},"
+                "timing.core.dcache_kib=16")
+    report = program + ".json"
+    subprocess.run(["vorion-sim", program, "--threads", "1", "--set", settings, "--time", "--stats", report],
+                   check=True, stdout=subprocess.DEVNULL)
+    with open(report) as file:
+        return json.load(file)["runs"][0]["time"]["cycles"]
+
+
+def per_iteration(folder, kernel, preset, warps):
+    few, many = kernel["iterations"]
+    took = [cycles_of(assemble(folder, kernel, n), preset, warps) for n in (few, many)]
+    return (took[1] - took[0]) / (many - few)
+
+
+def table(folder, kernels, name, reference, preset, warps):
+    """Prints one machine's rows; returns what is too far off."""
+    print(f"\n`{preset}` beside `{name}`, {warps} warp{'s' if warps > 1 else ''}, cycles of an iteration:\n")
+    print("| loop | ours | reference | error |\n|---|--:|--:|--:|")
+    wrong = []
+    for loop, (theirs, comparable) in reference.items():
+        if theirs is None or loop not in kernels:
+            continue
+        ours = per_iteration(folder, kernels[loop], preset, warps)
+        error = ours / theirs - 1
+        print(f"| `{loop}` | {ours:.1f} | {theirs:.1f} | {f'{100 * error:+.1f} %' if comparable else 'not comparable'} |")
+        if comparable and abs(error) > LIMIT:
+            wrong.append(f"{name}: {loop}: {ours:.1f} cycles, expected {theirs:.1f} within {100 * LIMIT:.0f} %")
+    return wrong
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("references")
+    args = parser.parse_args()
+    kernels, machines = references(args.references)
+    wrong = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, preset, warps in MACHINES:
+            if name in machines:
+                wrong += table(folder, kernels, name, machines[name], preset, warps)
+    for line in wrong:
+        print(f"cores.py: error: {line}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,179 @@
+/// The clock of cores with several warps.
+#include "testing/TimedPrograms.h"
+
+using namespace vorion;
+using namespace vorion::isasim;
+using namespace vorion::isasim::testing;
+
+namespace {
+
+class CoreWarpsTest : public ClockTest {
+protected:
+  /// Cycles that \p Count repetitions of \p Body take on each of \p Warps.
+  uint64_t costOnAll(unsigned Warps, unsigned Count, const Words &Body) {
+    C.WarpsPerCore = Warps;
+    return runWhole(onAllWarps(repeat(Count, Body))).Cycles -
+           runWhole(onAllWarps({})).Cycles;
+  }
+  void preset(CorePreset P) { C.Timing.Core = numbersOf(P); }
+  static Words four(Op O) {
+    Words All;
+    for (unsigned Rd = 20; Rd != 24; ++Rd)
+      All.push_back(encode(O, {.Rd = Rd, .Rs1 = 6, .Rs2 = 7}));
+    return All;
+  }
+
+  static constexpr unsigned N = 50;
+};
+
+TEST_F(CoreWarpsTest, AWarpsPaceStaysUntilAUnitIsFull) {
+  preset(CorePreset::Vortex2025);
+  for (const unsigned Warps : {1U, 2U, 4U}) {
+    EXPECT_NEAR(double(costOnAll(Warps, N, four(Op::RV_ADD))), 4.0 * N * 6, 10)
+        << Warps;
+    // Two in flight, 6 cycles each.
+    const double Fp = std::max(6.0, 3.0 * Warps);
+    EXPECT_NEAR(double(costOnAll(Warps, N, four(Op::RV_FADD_S))), 4.0 * N * Fp,
+                0.03 * 4 * N * Fp)
+        << Warps;
+    EXPECT_NEAR(double(costOnAll(Warps, N, four(Op::RV_DIV))),
+                4.0 * N * 34 * Warps, 0.03 * 4 * N * 34 * Warps)
+        << Warps;
+    // Two loads in flight, 11 cycles each in local memory.
+    const double Load = std::max(6.0, 5.5 * Warps);
+    const Words Loads = {lw(20, 0, 8), lw(21, 0, 8), lw(22, 0, 8),
+                         lw(23, 0, 8)};
+    EXPECT_NEAR(double(costOnAll(Warps, N, Loads)), 4.0 * N * Load,
+                0.03 * 4 * N * Load)
+        << Warps;
+  }
+}
+
+TEST_F(CoreWarpsTest, OneInstructionACycleIsIssued) {
+  // Dependent additions fill the core with as many warps as their latency.
+  const Words Chain = {encode(Op::RV_FADD_S, {.Rd = 1, .Rs1 = 1, .Rs2 = 2})};
+  for (const unsigned Warps : {1U, 2U, 4U, 8U})
+    EXPECT_NEAR(double(costOnAll(Warps, N, Chain)), N * std::max(4U, Warps), 8)
+        << Warps;
+}
+
+/// Warp n spins 100 n times, then all four meet at a barrier.
+Words meeting() {
+  return {csrr(10, CSR_WARP_ID),
+          addi(11, 0, 100),
+          encode(Op::RV_MUL, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
+          addi(10, 10, 1),
+          addi(10, 10, -1), // loop
+          encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4}),
+          addi(12, 0, 3),
+          addi(13, 0, 4),
+          encode(Op::VX_BAR, {.Rs1 = 12, .Rs2 = 13})};
+}
+
+TEST_F(CoreWarpsTest, ABarrierWaitsForTheLastWarp) {
+  C.WarpsPerCore = 4;
+  preset(CorePreset::Vortex2025);
+  // The last spins 301 times, an addition and a branch each.
+  const Words Adds = repeat(5, four(Op::RV_ADD));
+  const uint64_t Meeting = runWhole(onAllWarps(meeting())).Cycles;
+  EXPECT_NEAR(double(Meeting), 301.0 * (9 + 15), 200);
+  // What comes behind it, comes behind it on all warps at once.
+  EXPECT_NEAR(double(runWhole(onAllWarps(meeting() + Adds)).Cycles - Meeting),
+              20.0 * 6, 10);
+}
+
+TEST_F(CoreWarpsTest, AWarpCanBeStartedAgain) {
+  C.WarpsPerCore = 2;
+  C.Quantum = 8; // so that it has ended by then
+  preset(CorePreset::Vortex5Stage);
+  // Warp 0 starts the other twice, which counts in memory and ends.
+  const auto Program = [](unsigned Times) {
+    const Words Wait = {addi(21, 0, 20), addi(21, 21, -1),
+                        encode(Op::RV_BNE, {.Rs1 = 21, .Rs2 = 0, .Imm = -4})};
+    Words Start;
+    for (unsigned T = 0; T != Times; ++T)
+      Start =
+          Start + Words{encode(Op::VX_WSPAWN, {.Rs1 = 9, .Rs2 = 10})} + Wait;
+    // Over the other one's code.
+    const Words Head = {csrr(9, CSR_NUM_WARPS),
+                        encode(Op::RV_AUIPC, {.Rd = 10}), addi(10, 10, 12),
+                        encode(Op::RV_JAL, {.Rd = 0, .Imm = 6 * 4})};
+    const Words Other = {lui(7, 0x100000), lw(11, 0, 7), addi(11, 11, 1),
+                         sw(11, 0, 7)};
+    return Head + Other + Words{encode(Op::VX_TMC, {.Rs1 = 0})} + Start +
+           Words{encode(Op::VX_TMC, {.Rs1 = 0})};
+  };
+  const uint64_t None = runWhole(Program(0)).Cycles;
+  for (const unsigned Times : {1U, 2U, 3U}) {
+    const TimeReport R = runWhole(Program(Times));
+    EXPECT_EQ(activity(R, "core warp instructions", "store"), Times);
+    // A split's time for each start, and the loop.
+    EXPECT_NEAR(double(R.Cycles - None), Times * (8 + 5 + 20 * 13.0), 10)
+        << Times;
+  }
+}
+
+TEST_F(CoreWarpsTest, ReportsAreTheSameForAnyThreadsAndQuantum) {
+  C = timed(4);
+  C.SocketsPerCluster = 2;
+  C.WarpsPerCore = 4;
+  const Words Body =
+      meeting() +
+      Words{csrr(12, CSR_MHARTID),
+            encode(Op::RV_SH2ADD, {.Rd = 7, .Rs1 = 12, .Rs2 = 7}),
+            addi(13, 0, 30),
+            lw(10, 0, 7), // loop
+            encode(Op::RV_MUL, {.Rd = 11, .Rs1 = 10, .Rs2 = 12}),
+            sw(11, 1024, 7),
+            sw(11, 0, 8),
+            lw(14, 0, 8),
+            addi(13, 13, -1),
+            encode(Op::RV_BNE, {.Rs1 = 13, .Rs2 = 0, .Imm = -6 * 4})};
+  for (const CorePreset P : {CorePreset::Forwarding, CorePreset::Vortex5Stage,
+                             CorePreset::Vortex2025}) {
+    preset(P);
+    std::string First;
+    for (const unsigned Threads : {1U, 2U, 8U})
+      for (const uint32_t Quantum : {7U, 100U, 1U << 16}) {
+        C.HostThreads = Threads;
+        C.Quantum = Quantum;
+        const std::string Report = toJson(runWhole(onAllWarps(Body)));
+        if (First.empty())
+          First = Report;
+        EXPECT_EQ(Report, First) << Threads << ' ' << Quantum;
+      }
+  }
+}
+
+// Warps that wait for other cores, or for the rasterizer, while theirs goes on.
+TEST_F(CoreWarpsTest, WarpsWaitOutsideTheirCore) {
+  C = timed(2);
+  C.WarpsPerCore = 2;
+  // All four warps of the device meet; then each waits for the rasterizer.
+  const Words Body = {csrr(10, CSR_CORE_ID),
+                      csrr(14, CSR_WARP_ID),
+                      encode(Op::RV_SH1ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 14}),
+                      addi(11, 0, 100),
+                      encode(Op::RV_MUL, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
+                      addi(10, 10, 1),
+                      addi(10, 10, -1), // loop
+                      encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4}),
+                      lui(12, 0x80000000),
+                      addi(13, 0, 4),
+                      encode(Op::VX_BAR, {.Rs1 = 12, .Rs2 = 13}),
+                      csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
+  std::string First;
+  for (const unsigned Threads : {1U, 4U}) {
+    C.HostThreads = Threads;
+    const TimeReport R = runWhole(onAllWarps(Body));
+    if (First.empty())
+      First = toJson(R);
+    EXPECT_EQ(toJson(R), First);
+    // The last one spins 301 times beside another warp of its core.
+    EXPECT_NEAR(double(R.Cycles), 301.0 * (2 + C.Timing.Core.BranchPenalty),
+                400);
+    EXPECT_EQ(R.OutOfOrder, 0U);
+  }
+}
+
+} // namespace

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# The clock beside references from other machines, as tables (docs/validation.md).
+# usage: scripts/validate.sh [REFERENCES]   (a folder; default: ../shared/data/timing)
+source "$(dirname "$0")/lib.sh"
+References=${1:-$Root/../shared/data/timing}
+if [ ! -d "$References" ]; then
+  echo "validate.sh: skipped: no folder $References with references"
+  exit 0
+fi
+source "$Root/scripts/env.sh"
+Status=0
+"$Root/bench/timing/cores.py" "$References" || Status=$?
+if command -v dram_patterns >/dev/null; then
+  printf '\nOne LPDDR4-3200 channel beside Ramulator:\n\n'
+  "$Root/bench/timing/dram.py" "$References/dram_lpddr4_3200.json" || Status=$?
+else
+  printf '\nDRAM skipped: dram_patterns is not built (bench/timing/README.md)\n'
+fi
+exit $Status
