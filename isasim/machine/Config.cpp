@@ -31,6 +31,8 @@ struct Key {
   std::function<void(Config &, uint64_t)> Set;
   /// Of a key whose values are names: those of 0, 1, ... Such a key may set
   /// others, so an object's are read first.
+  // Without it the compiler warns of keys that leave it out.
+  // NOLINTNEXTLINE(readability-redundant-member-init)
   std::vector<std::string> Names = {};
   /// Of a key whose value is a text; validate() says what it may be.
   std::string &(*WordOf)(TimingConfig &) = nullptr;
