@@ -124,7 +124,9 @@ std::string line(std::string_view Who, const CacheTime &T) {
 } // namespace
 
 std::string toJson(const TimeReport &R) {
-  Json J{{"cycles", R.Cycles}, {"clock_mhz", R.ClockMhz}};
+  Json J{{"cycles", R.Cycles},
+         {"clock_mhz", R.ClockMhz},
+         {"clock_version", ClockVersion}};
   J["host"] = {{"launch_ns", R.Host.LaunchNs},
                {"copy_ns", R.Host.CopyNs},
                {"copy_mbps", R.Host.CopyMbps},
@@ -167,9 +169,10 @@ std::string toJson(const TimeReport &R) {
 }
 
 std::string toText(const TimeReport &R) {
-  std::string Text = fmt::format(
-      "cycles       {} ({:.3f} ms at {} MHz)\n", R.Cycles,
-      static_cast<double>(R.Cycles) / (1e3 * R.ClockMhz), R.ClockMhz);
+  std::string Text =
+      fmt::format("cycles       {} ({:.3f} ms at {} MHz, clock version {})\n",
+                  R.Cycles, static_cast<double>(R.Cycles) / (1e3 * R.ClockMhz),
+                  R.ClockMhz, ClockVersion);
   if (R.Cycles == 0)
     return Text;
   Text += shares<CoreCycle>("cores", R.Cores, R.Cycles);

@@ -46,6 +46,7 @@ template <typename Visitor> void visit(Activity &A, const Visitor &Visit) {
 template <typename Visitor> void visit(TimeReport &R, const Visitor &Visit) {
   Visit("cycles", R.Cycles);
   Visit("clock_mhz", R.ClockMhz);
+  Visit("clock_version", R.ClockVersion);
   Visit("host", R.Host);
   Visit("lane_areas", R.Areas);
   Visit("cores", R.Cores);

@@ -147,6 +147,7 @@ struct Activity {
 struct TimeReport {
   uint64_t Cycles = 0;
   unsigned ClockMhz = 1;
+  unsigned ClockVersion = 0; ///< times of different versions do not compare
   HostTiming Host;
   LaneAreas Areas;
   std::vector<UnitCounts<CoreCount>> Cores;

@@ -112,7 +112,8 @@ std::string head(const TimeReport &Whole) {
   return fmt::format(
       "\n{:<18}{:>12}{:>7}{:>9} |{:>31} in % |{:>15}|\n{:<18}{:>12}{:>7}{:>9} "
       "|{:>7}{:>8}{:>9}{:>8}{:>7} |{:>7}{:>7} |{:>9}\n",
-      fmt::format("at {} MHz", Whole.ClockMhz), "", "", "", "cycles of cores",
+      fmt::format("at {} MHz", Whole.ClockMhz),
+      fmt::format("clock {}", Whole.ClockVersion), "", "", "cycles of cores",
       "rasterizers ", "stage", "cycles", "%", "ms", "issue", "memory",
       "operand", "raster", "other", "blend", "fetch", "DRAM MB");
 }

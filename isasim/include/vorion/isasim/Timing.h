@@ -12,6 +12,11 @@
 
 namespace vorion::isasim {
 
+/// Of the clock as a whole. Every change of what a run takes raises it;
+/// docs/model.md says what changed and why, and test/timing holds the cycles of
+/// small runs to it.
+inline constexpr unsigned ClockVersion = 2;
+
 // A structure for each group of TimingParams.def, with its defaults.
 struct TimingGroups {
 #define GROUP(NAME, MEMBER, WHAT)                                              \
