@@ -43,7 +43,7 @@ static std::vector<std::string> environmentWith(const DeviceOptions &Machine) {
         !Machine.commandLine().contains(Text.substr(0, Text.find('='))))
       All.push_back(Text);
   for (const auto &[Name, Text] : Machine.commandLine())
-    All.push_back(Name + "=" + Text);
+    All.push_back(fmt::format("{}={}", Name, Text));
   return All;
 }
 
