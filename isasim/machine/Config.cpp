@@ -226,8 +226,10 @@ Expected<Success> validate(const Config &C) {
     if (std::string Wrong = checkRange(K, K.Get(C)); !Wrong.empty())
       return Error{"configuration", std::move(Wrong), ExitCode::Usage};
   }
-  if (const auto Dram = setUpDram(C.Timing.Dram); !Dram)
-    return Dram.error();
+  // A test holds the default good, so that not every run reads its standard.
+  if (C.Timing.Dram != DramTiming())
+    if (const auto Dram = setUpDram(C.Timing.Dram); !Dram)
+      return Dram.error();
   // No overflow: each factor is at most MaxCores.
   const uint64_t Cores =
       uint64_t{C.Clusters} * C.SocketsPerCluster * C.CoresPerSocket;

@@ -65,6 +65,20 @@ inline Words onAllWarps(const Words &Body) {
          program(Body);
 }
 
+/// Every core (or warp of it) adds 100 times the number in x10 and once more,
+/// in a loop of two instructions, then meets \p Count others at a barrier of
+/// the device.
+inline Words countThenMeet(int32_t Count) {
+  return {addi(11, 0, 100),
+          encode(Op::RV_MUL, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
+          addi(10, 10, 1),
+          addi(10, 10, -1), // loop
+          encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4}),
+          lui(12, 0x80000000),
+          addi(13, 0, Count),
+          encode(Op::VX_BAR, {.Rs1 = 12, .Rs2 = 13})};
+}
+
 inline Config timed(unsigned Cores = 1) {
   Config C;
   C.SocketsPerCluster = 1;
@@ -79,7 +93,7 @@ class ClockTest : public ::testing::Test {
 protected:
   TimeReport run(const Words &Body) { return runWhole(program(Body)); }
   TimeReport runWhole(const Words &Program) {
-    auto M = Machine::create(C);
+    auto M = Machine::create(Settings);
     EXPECT_TRUE(M) << M.error().What;
     (*M)->load(codeImage(Program));
     const RunResult R = (*M)->run();
@@ -107,7 +121,7 @@ protected:
     return 0;
   }
 
-  Config C = timed();
+  Config Settings = timed();
 };
 
 } // namespace vorion::isasim::testing

@@ -11,8 +11,8 @@ Cache::Cache(const CacheShape &ShapeIn, MemoryBelow &BelowIn)
       Banks(Shape.Banks), MshrFreeAt(size_t{Shape.Banks} * Shape.Mshrs),
       Mshrs(MshrFreeAt.size()) {}
 
-// The loops over ways have no branch that depends on what they find: nobody
-// could foretell it.
+// The loops over ways have no branch that depends on what they find, because
+// the host's branch predictor would mispredict it.
 size_t Cache::find(uint32_t Number, size_t Set) const {
   size_t Found = None;
   for (size_t W = Set; W != Set + Shape.Ways; ++W)

@@ -15,24 +15,25 @@ constexpr size_t WorthTaking = 1 << 12;
 } // namespace
 
 Clock::Clock(const Config &C)
-    : Shape(C), P(C.Timing), Memory(P, C.Clusters), Barriers(C.Barriers) {
+    : Shape(C), Timing(C.Timing), Memory(Timing, C.Clusters),
+      Barriers(C.Barriers) {
   for (unsigned N = 0; N != C.cores(); ++N) {
     std::vector<TraceBuffer *> OfCore;
     for (unsigned W = 0; W != C.WarpsPerCore; ++W) {
       Traces.push_back(std::make_unique<TraceBuffer>());
-      Traces.back()->LocalBanks = P.Core.LocalBanks;
-      Traces.back()->InterleavedStacks = P.Core.InterleavedStacks != 0;
+      Traces.back()->LocalBanks = Timing.Core.LocalBanks;
+      Traces.back()->InterleavedStacks = Timing.Core.InterleavedStacks != 0;
       OfCore.push_back(Traces.back().get());
     }
-    Cores.emplace_back(P.Core, MemoryPort{C.clusterOf(N), N}, OfCore,
+    Cores.emplace_back(Timing.Core, MemoryPort{C.clusterOf(N), N}, OfCore,
                        C.Barriers);
   }
   for (unsigned N = 0; N != C.sockets(); ++N)
-    Rasters.emplace_back(P,
+    Rasters.emplace_back(Timing,
                          MemoryPort{N / C.SocketsPerCluster, placeOfRaster(N)},
                          C.CoresPerSocket, C.Raster.QueueDepth);
   for (unsigned N = 0; N != C.Clusters; ++N)
-    Pixels.emplace_back(P, MemoryPort{N, placeOfPixels(N)},
+    Pixels.emplace_back(Timing, MemoryPort{N, placeOfPixels(N)},
                         C.coresPerCluster());
 }
 
@@ -51,7 +52,7 @@ void Clock::expect(raster::TailWork &&Work) {
 }
 
 void Clock::begin(const CodeTable &Code) {
-  Ops = describeProgram(Code, P.Core, Shape.LanesPerWarp);
+  Ops = describeProgram(Code, Timing.Core, Shape.LanesPerWarp);
   Begun = Now;
   OutOfOrder = 0;
   Memory.clearCounters();
@@ -110,9 +111,9 @@ TimeReport Clock::end() {
   takeAll();
   TimeReport R;
   R.Cycles = End - Begun;
-  R.ClockMhz = P.ClockMhz;
+  R.ClockMhz = Timing.ClockMhz;
   R.OutOfOrder = OutOfOrder;
-  R.Host = P.Host;
+  R.Host = Timing.Host;
   for (CoreClock &C : Cores) {
     C.end(End);
     R.Cores.push_back(C.time());
@@ -175,7 +176,7 @@ void Clock::collectActivities(TimeReport &R) const {
     L1Hits += C.l1Hits();
   }
   Add("lsu", "lines requested", Lines);
-  if (P.Core.DcacheKib)
+  if (Timing.Core.DcacheKib)
     Add("data cache", "hits", L1Hits);
   Add("local memory", "conflict cycles", Conflicts);
   RasterTime Raster;

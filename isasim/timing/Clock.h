@@ -66,7 +66,7 @@ private:
   void collectActivities(TimeReport &R) const;
 
   const Config &Shape;
-  const TimingConfig &P;
+  const TimingConfig &Timing;
   MemorySystem Memory;
   std::vector<std::unique_ptr<TraceBuffer>> Traces; ///< by core and warp
   std::vector<CoreClock> Cores;

@@ -11,7 +11,7 @@ using namespace vorion::isasim::testing;
 namespace {
 
 TEST_F(ClockTest, DependentAndPipelinedOperations) {
-  const CoreTiming &P = C.Timing.Core;
+  const CoreTiming &P = Settings.Timing.Core;
   constexpr unsigned N = 100;
   EXPECT_EQ(cost(N, {addi(10, 10, 1)}), N * P.AluLatency);
   const Words Dependent = {
@@ -33,7 +33,7 @@ TEST_F(ClockTest, DependentAndPipelinedOperations) {
 }
 
 TEST_F(ClockTest, TakenBranchesCostThePenalty) {
-  const unsigned Penalty = C.Timing.Core.BranchPenalty;
+  const unsigned Penalty = Settings.Timing.Core.BranchPenalty;
   const Words Loop = {addi(10, 0, 50), addi(10, 10, -1),
                       encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4})};
   // 50 times two instructions, 49 times back; the branch waits for nothing.
@@ -52,12 +52,12 @@ TEST_F(ClockTest, DivergencePaysForTheFrontEnd) {
   const TimeReport R = run(Split);
   // Into the split, to the other side, and together again.
   EXPECT_EQ(of(R, CoreCycle::Divergence) - of(run({}), CoreCycle::Divergence),
-            3U * C.Timing.Core.MaskPenalty);
+            3U * Settings.Timing.Core.MaskPenalty);
   EXPECT_EQ(activity(R, "core lane instructions", "branch"), 8U * 2 + 8);
 }
 
 TEST_F(ClockTest, LoadsThatHitInL2) {
-  const TimingConfig &P = C.Timing;
+  const TimingConfig &P = Settings.Timing;
   constexpr unsigned N = 50;
   const Words Warm = {lw(10, 0, 7), addi(10, 10, 0)};
   // Each address needs the value before: zero, added to the address.
@@ -68,7 +68,7 @@ TEST_F(ClockTest, LoadsThatHitInL2) {
   // Without dependence the queue is the limit: so many in a latency.
   const Words Stream = {lw(10, 0, 7), lw(11, 0, 7), lw(12, 0, 7), lw(13, 0, 7),
                         lw(14, 0, 7), lw(15, 0, 7), lw(16, 0, 7), lw(17, 0, 7)};
-  C.Timing.Core.LsuQueue = 2;
+  Settings.Timing.Core.LsuQueue = 2;
   const double Expected = 8.0 * N * (1 + 10) / 2;
   EXPECT_NEAR(static_cast<double>(cost(N, Stream, Warm)), Expected,
               0.1 * Expected);
@@ -120,24 +120,24 @@ TEST_F(ClockTest, StacksAreInterleaved) {
                       encode(Op::RV_SUB, {.Rd = 12, .Rs1 = 12, .Rs2 = 10}),
                       sw(6, -16, 12)};
   EXPECT_EQ(activity(run(Body), "lsu", "lines requested"), 1U);
-  C.Timing.Core.InterleavedStacks = 0;
+  Settings.Timing.Core.InterleavedStacks = 0;
   EXPECT_EQ(activity(run(Body), "lsu", "lines requested"), 16U);
 }
 
 TEST_F(ClockTest, AFenceWaitsForWhatIsInFlight) {
   const Words Body = {lw(10, 0, 7), encode(Op::RV_FENCE, {})};
-  EXPECT_GT(of(run(Body), CoreCycle::Fence), C.Timing.L2.HitCycles);
+  EXPECT_GT(of(run(Body), CoreCycle::Fence), Settings.Timing.L2.HitCycles);
 }
 
 TEST_F(ClockTest, DramTimeDoesNotScaleWithTheClock) {
   // A miss in an otherwise empty program.
   const Words Body = {lw(10, 0, 7), addi(10, 10, 0)};
   const auto Nanoseconds = [&](uint32_t Mhz) {
-    C.Timing.ClockMhz = Mhz;
+    Settings.Timing.ClockMhz = Mhz;
     const TimeReport R = run(Body);
     return 1e3 * static_cast<double>(of(R, CoreCycle::Memory)) / Mhz;
   };
-  const TimingConfig &P = C.Timing;
+  const TimingConfig &P = Settings.Timing;
   const double Cycles = P.Core.AguCycles + P.L2.HitCycles + P.Llc.HitCycles - 1;
   const dram::TimingTable T = setUpDram(P.Dram)->Table;
   const uint32_t Ticks =
@@ -163,22 +163,14 @@ TEST_F(ClockTest, AtomicsOfOneWordTakeTurns) {
 }
 
 TEST_F(ClockTest, CoresWaitAtABarrier) {
-  C = timed(4);
+  Settings = timed(4);
   // Core n does 100 n additions, then all meet.
-  const Words Body = {csrr(10, CSR_CORE_ID),
-                      addi(11, 0, 100),
-                      encode(Op::RV_MUL, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
-                      addi(10, 10, 1),
-                      addi(10, 10, -1), // loop
-                      encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4}),
-                      lui(12, 0x80000000),
-                      addi(13, 0, 4),
-                      encode(Op::VX_BAR, {.Rs1 = 12, .Rs2 = 13})};
+  const Words Body = Words{csrr(10, CSR_CORE_ID)} + countThenMeet(4);
   const TimeReport R = run(Body);
   EXPECT_EQ(of(R, CoreCycle::Barrier, 3), 0U);
   for (unsigned Core = 0; Core != 3; ++Core)
     EXPECT_EQ(of(R, CoreCycle::Barrier, Core),
-              (3 - Core) * 100U * (2 + C.Timing.Core.BranchPenalty));
+              (3 - Core) * 100U * (2 + Settings.Timing.Core.BranchPenalty));
 }
 
 /// A tile of 64 x 64 without Gaussians.
@@ -193,8 +185,8 @@ Words emptyTile() {
 }
 
 TEST_F(ClockTest, AFullQueueStallsTheStart) {
-  C.Raster.QueueDepth = 2;
-  const unsigned Tile = C.Timing.Raster.StartCycles + 4096 / 16 + 1024;
+  Settings.Raster.QueueDepth = 2;
+  const unsigned Tile = Settings.Timing.Raster.StartCycles + 4096 / 16 + 1024;
   const Words Start = {csrw(raster::Csr::Start, 0)};
   const TimeReport Two = run(emptyTile() + repeat(2, Start));
   EXPECT_EQ(of(Two, CoreCycle::RasterFull), 0U);
@@ -210,11 +202,11 @@ TEST_F(ClockTest, AFullQueueStallsTheStart) {
 // n cycles of the rasterizer that a run starts and a later one of m cycles
 // waits for take the longer of the two, counted from the start.
 TEST_F(ClockTest, TilesOutliveTheirRun) {
-  const unsigned Tile = C.Timing.Raster.StartCycles + 4096 / 16 + 1024;
+  const unsigned Tile = Settings.Timing.Raster.StartCycles + 4096 / 16 + 1024;
   const Words Start = emptyTile() + Words{csrw(raster::Csr::Start, 0)};
   const Words Wait = {csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
   for (const unsigned Adds : {10U, 500U, 3000U}) {
-    auto M = Machine::create(C);
+    auto M = Machine::create(Settings);
     ASSERT_TRUE(M);
     const auto Run = [&](const Words &Body) {
       (*M)->load(codeImage(program(Body)));
@@ -245,9 +237,9 @@ TEST_F(ClockTest, TilesOutliveTheirRun) {
 
 // What a run left keeps its places in the queue.
 TEST_F(ClockTest, AQueueStaysFullFromRunToRun) {
-  C.Raster.QueueDepth = 2;
-  const unsigned Tile = C.Timing.Raster.StartCycles + 4096 / 16 + 1024;
-  auto M = Machine::create(C);
+  Settings.Raster.QueueDepth = 2;
+  const unsigned Tile = Settings.Timing.Raster.StartCycles + 4096 / 16 + 1024;
+  auto M = Machine::create(Settings);
   ASSERT_TRUE(M);
   const Words Start = {csrw(raster::Csr::Start, 0)};
   (*M)->load(codeImage(program(emptyTile() + repeat(2, Start))));
@@ -297,11 +289,11 @@ Words gradients() {
 // The machine's rasterizer, halted by the first core's batches, has not
 // executed the others' commands when the clock wants to serve them.
 TEST_F(ClockTest, CommandsBehindAHaltedOneAreWaitedFor) {
-  C = timed(4);
-  C.Quantum = 1024;
+  Settings = timed(4);
+  Settings.Quantum = 1024;
   std::vector<std::string> Reports;
   for (const unsigned Threads : {1U, 2U, 8U}) {
-    C.HostThreads = Threads;
+    Settings.HostThreads = Threads;
     const TimeReport R = run(gradients());
     Reports.push_back(toJson(R));
     EXPECT_EQ(Reports.back(), Reports.front()) << Threads;
@@ -310,7 +302,8 @@ TEST_F(ClockTest, CommandsBehindAHaltedOneAreWaitedFor) {
     EXPECT_EQ(R.Rasters[0].Commands, 8U);
     EXPECT_EQ(R.Rasters[0].Gaussians, 8U * 48);
     // The first core's spinning, and a little.
-    const uint64_t Spin = (0x3fU << 8) * (2 + C.Timing.Core.BranchPenalty);
+    const uint64_t Spin =
+        (0x3fU << 8) * (2 + Settings.Timing.Core.BranchPenalty);
     EXPECT_GT(R.Cycles, Spin);
     EXPECT_LT(R.Cycles, Spin + Spin / 2);
     EXPECT_GT(R.Rasters[0].Cycles[size_t(RasterCycle::Drain)], Spin / 2);
@@ -341,19 +334,19 @@ Words everything() {
 }
 
 TEST(Clock, ChangesNothing) {
-  Config C = timed(4);
-  C.SocketsPerCluster = 2;
+  Config Settings = timed(4);
+  Settings.SocketsPerCluster = 2;
   std::vector<std::byte> Memory[2];
   CoreCounters Total[2];
   for (const bool Enabled : {false, true}) {
-    C.Timing.Enabled = Enabled;
-    auto M = Machine::create(C);
+    Settings.Timing.Enabled = Enabled;
+    auto M = Machine::create(Settings);
     ASSERT_TRUE(M);
     (*M)->load(codeImage(program(everything())));
     const RunResult R = (*M)->run();
     EXPECT_EQ(R.End, Outcome::Done) << R.Report;
     EXPECT_EQ(R.Time.has_value(), Enabled);
-    Memory[Enabled].resize(C.GlobalBytes);
+    Memory[Enabled].resize(Settings.GlobalBytes);
     ASSERT_TRUE((*M)->read(VX_GLOBAL_BASE, Memory[Enabled]));
     Total[Enabled] = R.Total;
   }
@@ -380,13 +373,13 @@ TEST(Clock, TakesNoNoticeOfRunsWithoutIt) {
 }
 
 TEST(Clock, IsTheSameForAnyNumberOfHostThreads) {
-  Config C = timed(4);
-  C.SocketsPerCluster = 2;
-  C.Clusters = 2;
+  Config Settings = timed(4);
+  Settings.SocketsPerCluster = 2;
+  Settings.Clusters = 2;
   std::vector<std::string> Reports;
   for (const unsigned Threads : {1U, 2U, 3U, 8U}) {
-    C.HostThreads = Threads;
-    auto M = Machine::create(C);
+    Settings.HostThreads = Threads;
+    auto M = Machine::create(Settings);
     ASSERT_TRUE(M);
     (*M)->load(codeImage(program(everything())));
     // The second run begins with warm caches.
@@ -405,7 +398,7 @@ TEST(Clock, IsTheSameForAnyNumberOfHostThreads) {
 TEST(Clock, QuantumDoesNotMatter) {
   // Where cores share nothing but memory, taking the trace in other pieces
   // must give the same time.
-  Config C = timed(4);
+  Config Settings = timed(4);
   const Words Body = {addi(13, 0, 400),
                       lw(10, 0, 7),
                       addi(7, 7, 64),
@@ -415,8 +408,8 @@ TEST(Clock, QuantumDoesNotMatter) {
                       encode(Op::RV_BNE, {.Rs1 = 13, .Rs2 = 0, .Imm = -20})};
   std::vector<std::string> Reports;
   for (const uint32_t Quantum : {7U, 100U, 1U << 16}) {
-    C.Quantum = Quantum;
-    auto M = Machine::create(C);
+    Settings.Quantum = Quantum;
+    auto M = Machine::create(Settings);
     ASSERT_TRUE(M);
     (*M)->load(codeImage(program(Body)));
     Reports.push_back(toJson(*(*M)->run().Time));

@@ -8,13 +8,14 @@ namespace vorion::isasim {
 CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
                      const std::vector<TraceBuffer *> &Traces,
                      unsigned Barriers)
-    : P(Params), IsAlone(Traces.size() == 1),
-      IsIdeal(P.FetchInterval == 1 && P.BranchCycles == 1 &&
-              P.SplitCycles == 1 && P.JoinCycles == 1 && P.CsrCycles == 1 &&
-              P.UnitQueue == 0 && P.Fpu == 0 && IsAlone),
+    : Timing(Params), IsAlone(Traces.size() == 1),
+      IsIdeal(Timing.FetchInterval == 1 && Timing.BranchCycles == 1 &&
+              Timing.SplitCycles == 1 && Timing.JoinCycles == 1 &&
+              Timing.CsrCycles == 1 && Timing.UnitQueue == 0 &&
+              Timing.Fpu == 0 && IsAlone),
       Others(Traces.size()), LocalBarriers(Barriers),
-      InFlight(ToMemory, P.LsuQueue + 1), Accesses(P.LsuQueue),
-      L1(P.DcacheKib, P.DcacheWays) {
+      InFlight(ToMemory, Timing.LsuQueue + 1), Accesses(Timing.LsuQueue),
+      L1(Timing.DcacheKib, Timing.DcacheWays) {
   for (unsigned W = 0; W != Others.size(); ++W)
     of(W).Trace = Traces[W];
 }
@@ -24,17 +25,17 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   Next = Start;
   UnitFree.fill(0);
   for (UnitQueue &Q : Queues)
-    Q = {std::vector<uint64_t>(P.UnitQueue), 0};
-  Places[size_t(Port::Fpu)].assign(P.FpInFlight, 0);
+    Q = {std::vector<uint64_t>(Timing.UnitQueue), 0};
+  Places[size_t(Port::Fpu)].assign(Timing.FpInFlight, 0);
   Places[size_t(Port::Alu)].assign(1, 0); // the divider
-  for (unsigned N = 0; N <= P.LsuQueue; ++N)
+  for (unsigned N = 0; N <= Timing.LsuQueue; ++N)
     InFlight.begin(N);
   LastDone = 0;
   L1.clear();
   Spent = {};
   Classes = {};
   LinesRequested = LocalConflicts = L1Hits = 0;
-  spend(CoreCycle::Start, P.StartCycles);
+  spend(CoreCycle::Start, Timing.StartCycles);
   select(0);
   for (unsigned W = 0; W != Others.size(); ++W) {
     WarpTime New;
@@ -63,9 +64,9 @@ void CoreClock::startRun(WarpTime &W, const RunRecord &R) {
   uint64_t Lost = 0;
   if (Masked || (Jumped && W.LastClass == OpClass::Mask)) {
     Why = CoreCycle::Divergence;
-    Lost = P.MaskPenalty;
+    Lost = Timing.MaskPenalty;
   } else if (Jumped) {
-    Lost = P.BranchPenalty;
+    Lost = Timing.BranchPenalty;
   }
   if (IsAlone) {
     spend(Why, Lost);
@@ -102,7 +103,7 @@ bool CoreClock::waitUntilQuiet() {
 /// The place in flight that is free first.
 unsigned CoreClock::firstPlace() const {
   unsigned Place = 0;
-  for (unsigned N = 1; N != P.LsuQueue; ++N)
+  for (unsigned N = 1; N != Timing.LsuQueue; ++N)
     if (InFlight.readyAt(N) < InFlight.readyAt(Place))
       Place = N;
   return Place;
@@ -111,7 +112,7 @@ unsigned CoreClock::firstPlace() const {
 /// When \p O can leave for its unit, or for the queue in front of it.
 uint64_t CoreClock::unitFreeAt(const OpInfo &O) const {
   const auto On = size_t(O.On);
-  if (P.UnitQueue && O.On != Port::Lsu)
+  if (Timing.UnitQueue && O.On != Port::Lsu)
     return Queues[On].Begins[Queues[On].Next];
   uint64_t Free = UnitFree[On];
   if (O.Hold)
@@ -132,10 +133,10 @@ uint64_t CoreClock::beginOnUnit(const OpInfo &O) {
     Place = Begun + O.Hold;
   }
   UnitFree[On] = Begun + O.Interval;
-  if (P.UnitQueue && O.On != Port::Lsu) {
+  if (Timing.UnitQueue && O.On != Port::Lsu) {
     UnitQueue &Q = Queues[On];
     Q.Begins[Q.Next] = Begun;
-    Q.Next = (Q.Next + 1) % P.UnitQueue;
+    Q.Next = (Q.Next + 1) % Timing.UnitQueue;
   }
   return Begun;
 }
@@ -150,8 +151,9 @@ void CoreClock::fetchNext(const OpInfo &O, uint64_t Begun) {
     return;
   }
   // Fetching stops while its buffer is full.
-  const uint64_t Ahead = uint64_t{P.FetchInterval} * (P.FetchAhead - 1);
-  Fetched = std::max(Fetched + P.FetchInterval + Ahead, Next - 1) - Ahead;
+  const uint64_t Ahead =
+      uint64_t{Timing.FetchInterval} * (Timing.FetchAhead - 1);
+  Fetched = std::max(Fetched + Timing.FetchInterval + Ahead, Next - 1) - Ahead;
   FetchWhy = CoreCycle::Fetch;
 }
 
@@ -182,8 +184,8 @@ void CoreClock::finish(const OpInfo &O) {
 
 /// Returns when it is done.
 uint64_t CoreClock::localAccess(const OpInfo &O, AccessWord A) {
-  const uint64_t Done =
-      Next + P.LocalLatency + (A.Conflicts - 1) * P.LocalConflictCycles;
+  const uint64_t Done = Next + Timing.LocalLatency +
+                        (A.Conflicts - 1) * Timing.LocalConflictCycles;
   // A bank gives a word a cycle.
   UnitFree[size_t(Port::Lsu)] =
       Next + std::max<uint64_t>(A.Conflicts, O.Interval);
@@ -366,7 +368,7 @@ void CoreClock::advance() {
 bool CoreClock::isInL1(uint32_t Address, uint64_t Now, unsigned Place) {
   if (const uint64_t *ReadyAt = L1.find(Address)) {
     ++L1Hits;
-    InFlight.add(Place, std::max(Now + P.DcacheCycles, *ReadyAt));
+    InFlight.add(Place, std::max(Now + Timing.DcacheCycles, *ReadyAt));
     return true;
   }
   Accesses[Place].Misses.push_back(Address);
@@ -376,7 +378,7 @@ bool CoreClock::isInL1(uint32_t Address, uint64_t Now, unsigned Place) {
 bool CoreClock::access(MemorySystem &Memory) {
   const OpInfo &O = *Waiting;
   const auto A = std::bit_cast<AccessWord>(Trace->word());
-  unsigned Place = P.LsuQueue;
+  unsigned Place = Timing.LsuQueue;
   if (needsPlace(O, A)) {
     Place = firstPlace();
     if (const uint64_t Free = InFlight.readyAt(Place); Free > At) {
@@ -394,7 +396,7 @@ bool CoreClock::access(MemorySystem &Memory) {
     return true;
   }
 
-  CacheRequest R{.Now = At + P.AguCycles, .Address = 0};
+  CacheRequest R{.Now = At + Timing.AguCycles, .Address = 0};
   if (O.Class == OpClass::Atomic) {
     R.Op = CacheOp::Atomic;
     R.Extra = A.Conflicts - 1;
@@ -402,21 +404,21 @@ bool CoreClock::access(MemorySystem &Memory) {
     R.Op = A.Whole ? CacheOp::WriteWhole : CacheOp::Write;
   }
   const bool UsesL1 = L1.exists() && O.Class == OpClass::Load;
-  uint32_t Room = P.LinesAtOnce;
+  uint32_t Room = Timing.LinesAtOnce;
   for (unsigned N = 0; N != A.Lines; ++N, --Room) {
     if (Room == 0) {
-      R.Now += P.LineCycles;
-      Room = P.LinesAtOnce;
+      R.Now += Timing.LineCycles;
+      Room = Timing.LinesAtOnce;
     }
     R.Address = Trace->word(1 + N);
     if (UsesL1 && isInL1(R.Address, R.Now, Place))
       continue;
     CacheRequest Below = R;
     // The tags have been looked up before the request goes on.
-    Below.Now += UsesL1 ? P.DcacheCycles : 0;
+    Below.Now += UsesL1 ? Timing.DcacheCycles : 0;
     InFlight.ask(Memory, Place, Below);
   }
-  const uint64_t Leaving = R.Now + P.LineCycles - (At + P.AguCycles);
+  const uint64_t Leaving = R.Now + Timing.LineCycles - (At + Timing.AguCycles);
   LinesRequested += A.Lines;
   Trace->popWords(1 + A.Lines);
   UnitFree[size_t(Port::Lsu)] = At + std::max<uint64_t>(Leaving, O.Interval);
@@ -448,7 +450,7 @@ void CoreClock::answer(uint32_t Tag, uint64_t Then) {
     return;
   const uint64_t Done = InFlight.readyAt(*Place);
   LastDone = std::max(LastDone, Done);
-  if (*Place != P.LsuQueue) {
+  if (*Place != Timing.LsuQueue) {
     const Access &A = Accesses[*Place];
     fillL1(*Place, Done);
     setLoaded(of(A.Warp), *A.Op, Done);
@@ -487,7 +489,7 @@ void CoreClock::setEnded(uint32_t Warps) {
 }
 
 uint64_t CoreClock::quietAt() const {
-  for (unsigned N = 0; N <= P.LsuQueue; ++N)
+  for (unsigned N = 0; N <= Timing.LsuQueue; ++N)
     if (InFlight.readyAt(N) == Turn::Never)
       return Turn::Never;
   return std::max(Next, LastDone);

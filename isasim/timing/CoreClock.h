@@ -145,7 +145,7 @@ private:
   }
   /// Whether an access needs a place among those in flight.
   bool needsPlace(const OpInfo &O, AccessWord A) const {
-    return P.LoadsQueue ? O.Class != OpClass::Store : A.Lines != 0;
+    return Timing.LoadsQueue ? O.Class != OpClass::Store : A.Lines != 0;
   }
   unsigned firstPlace() const;
   uint64_t unitFreeAt(const OpInfo &O) const;
@@ -175,7 +175,7 @@ private:
   void spawn(const OpInfo &O);
   void arrive(const OpInfo &O, uint32_t Barrier, uint32_t Count);
 
-  const CoreTiming P;
+  const CoreTiming Timing;
   const bool IsAlone; ///< there is one warp
   /// Whether the front end always has the next instruction, but behind a branch
   /// or a change of lanes, nobody waits in front of a unit, and there is one

@@ -25,8 +25,8 @@ class CorePresetTest : public ClockTest,
                        public ::testing::WithParamInterface<Expected> {
 protected:
   CorePresetTest() {
-    C.Timing.Preset = GetParam().Preset;
-    C.Timing.Core = numbersOf(GetParam().Preset);
+    Settings.Timing.Preset = GetParam().Preset;
+    Settings.Timing.Core = numbersOf(GetParam().Preset);
   }
   /// Of a chain, whose last result is waited for by nobody.
   uint64_t chain(unsigned Count, unsigned Each) const {
@@ -78,7 +78,7 @@ TEST_P(CorePresetTest, NothingIsFetchedBehindABranch) {
   const Words Loop = {addi(10, 0, 50), addi(10, 10, -1),
                       encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4})};
   const unsigned Taken =
-      49 * C.Timing.Core.BranchPenalty; // where branches are guessed
+      49 * Settings.Timing.Core.BranchPenalty; // where branches are guessed
   EXPECT_EQ(cost(1, Loop), E.Add + 50U * (E.Add + E.Branch) + Taken);
 }
 
@@ -91,7 +91,7 @@ TEST_P(CorePresetTest, SplitsAndJoinsStopTheFetch) {
   // Into the split, to the other side, and together again.
   const Words Half = {encode(Op::VX_SPLIT, {.Rd = 11, .Rs1 = 10}),
                       encode(Op::VX_JOIN, {.Rs1 = 11})};
-  const unsigned Masks = 3 * C.Timing.Core.MaskPenalty;
+  const unsigned Masks = 3 * Settings.Timing.Core.MaskPenalty;
   EXPECT_EQ(cost(N, Half, Before),
             uint64_t{N} * (E.Split + 2 * E.Join + Masks));
 }
@@ -107,7 +107,7 @@ TEST_P(CorePresetTest, LinesOfAnAccessLeaveAtTheirPace) {
                         encode(Op::RV_ADD, {.Rd = 7, .Rs1 = 7, .Rs2 = 10}),
                         lw(11, 0, 7), encode(Op::RV_FENCE, {})};
   // All caches hold them, and as many as we like are in flight.
-  C.Timing.Core.LsuQueue = 256;
+  Settings.Timing.Core.LsuQueue = 256;
   Words Loads;
   for (unsigned Rd = 12; Rd != 20; ++Rd)
     Loads.push_back(lw(Rd, 0, 7));
@@ -169,7 +169,7 @@ TEST_F(CoreNumbersTest, AUnitOfFewLanesBeginsSeveralTimes) {
   const Words Adds = {encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 6, .Rs2 = 7}),
                       encode(Op::RV_ADD, {.Rd = 11, .Rs1 = 6, .Rs2 = 7})};
   for (const unsigned Lanes : {16U, 8U, 5U, 4U, 1U}) {
-    C.Timing.Core.AluLanes = Lanes;
+    Settings.Timing.Core.AluLanes = Lanes;
     const unsigned Passes = (16 + Lanes - 1) / Lanes;
     EXPECT_EQ(cost(50, Adds), 100U * Passes) << Lanes;
   }
@@ -179,19 +179,19 @@ TEST_F(CoreNumbersTest, SourcesInOneBankAreReadInTurn) {
   const Words SameBank = {encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 14})};
   const Words OtherBank = {
       encode(Op::RV_ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 15})};
-  C.Timing.Core.RegisterBanks = 4;
+  Settings.Timing.Core.RegisterBanks = 4;
   EXPECT_EQ(cost(50, OtherBank), 50U);
   EXPECT_EQ(cost(50, SameBank), 2U * 50 - 1);
 }
 
 TEST_F(CoreNumbersTest, FetchingGoesOnWhileAnInstructionWaits) {
-  C.Timing.Core.FetchInterval = 4;
+  Settings.Timing.Core.FetchInterval = 4;
   // Behind the wait for a division so many instructions are there at once.
   const Words Wait = {encode(Op::RV_DIVU, {.Rd = 10, .Rs1 = 6, .Rs2 = 7}),
                       addi(10, 10, 0)};
   const Words Adds = repeat(8, {addi(11, 6, 0)});
   for (const unsigned Ahead : {1U, 2U, 3U}) {
-    C.Timing.Core.FetchAhead = Ahead;
+    Settings.Timing.Core.FetchAhead = Ahead;
     EXPECT_EQ(run(Wait + Adds).Cycles - run(Wait).Cycles, (8U - Ahead) * 4 + 3)
         << Ahead;
   }

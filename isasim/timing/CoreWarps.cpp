@@ -102,7 +102,8 @@ void CoreClock::advanceInTurn(uint64_t Until) {
       const bool IsStarved = !IsRequest && W.Trace->empty();
       // It waits for memory, or for a vx_wspawn.
       SomeWait |= Then == Turn::Never && !IsStarved;
-      // What is not known yet may have to be first, and a request is ready.
+      // At equal times a warp whose next instruction is unknown goes first,
+      // because that instruction may be the earliest; then one with a request.
       if (Then < FirstAt || (Then == FirstAt && Then != Turn::Never &&
                              (IsStarved || (IsRequest && !FirstIsStarved)))) {
         First = N;

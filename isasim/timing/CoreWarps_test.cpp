@@ -11,11 +11,11 @@ class CoreWarpsTest : public ClockTest {
 protected:
   /// Cycles that \p Count repetitions of \p Body take on each of \p Warps.
   uint64_t costOnAll(unsigned Warps, unsigned Count, const Words &Body) {
-    C.WarpsPerCore = Warps;
+    Settings.WarpsPerCore = Warps;
     return runWhole(onAllWarps(repeat(Count, Body))).Cycles -
            runWhole(onAllWarps({})).Cycles;
   }
-  void preset(CorePreset P) { C.Timing.Core = numbersOf(P); }
+  void preset(CorePreset P) { Settings.Timing.Core = numbersOf(P); }
   static Words four(Op O) {
     Words All;
     for (unsigned Rd = 20; Rd != 24; ++Rd)
@@ -71,7 +71,7 @@ Words meeting() {
 }
 
 TEST_F(CoreWarpsTest, ABarrierWaitsForTheLastWarp) {
-  C.WarpsPerCore = 4;
+  Settings.WarpsPerCore = 4;
   preset(CorePreset::Vortex2025);
   // The last spins 301 times, an addition and a branch each.
   const Words Adds = repeat(5, four(Op::RV_ADD));
@@ -83,8 +83,8 @@ TEST_F(CoreWarpsTest, ABarrierWaitsForTheLastWarp) {
 }
 
 TEST_F(CoreWarpsTest, AWarpCanBeStartedAgain) {
-  C.WarpsPerCore = 2;
-  C.Quantum = 8; // so that it has ended by then
+  Settings.WarpsPerCore = 2;
+  Settings.Quantum = 8; // so that it has ended by then
   preset(CorePreset::Vortex5Stage);
   // Warp 0 starts the other twice, which counts in memory and ends.
   const auto Program = [](unsigned Times) {
@@ -114,9 +114,9 @@ TEST_F(CoreWarpsTest, AWarpCanBeStartedAgain) {
 }
 
 TEST_F(CoreWarpsTest, ReportsAreTheSameForAnyThreadsAndQuantum) {
-  C = timed(4);
-  C.SocketsPerCluster = 2;
-  C.WarpsPerCore = 4;
+  Settings = timed(4);
+  Settings.SocketsPerCluster = 2;
+  Settings.WarpsPerCore = 4;
   const Words Body =
       meeting() +
       Words{csrr(12, CSR_MHARTID),
@@ -135,8 +135,8 @@ TEST_F(CoreWarpsTest, ReportsAreTheSameForAnyThreadsAndQuantum) {
     std::string First;
     for (const unsigned Threads : {1U, 2U, 8U})
       for (const uint32_t Quantum : {7U, 100U, 1U << 16}) {
-        C.HostThreads = Threads;
-        C.Quantum = Quantum;
+        Settings.HostThreads = Threads;
+        Settings.Quantum = Quantum;
         const std::string Report = toJson(runWhole(onAllWarps(Body)));
         if (First.empty())
           First = Report;
@@ -147,31 +147,24 @@ TEST_F(CoreWarpsTest, ReportsAreTheSameForAnyThreadsAndQuantum) {
 
 // Warps that wait for other cores, or for the rasterizer, while theirs goes on.
 TEST_F(CoreWarpsTest, WarpsWaitOutsideTheirCore) {
-  C = timed(2);
-  C.WarpsPerCore = 2;
+  Settings = timed(2);
+  Settings.WarpsPerCore = 2;
   // All four warps of the device meet; then each waits for the rasterizer.
-  const Words Body = {csrr(10, CSR_CORE_ID),
-                      csrr(14, CSR_WARP_ID),
-                      encode(Op::RV_SH1ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 14}),
-                      addi(11, 0, 100),
-                      encode(Op::RV_MUL, {.Rd = 10, .Rs1 = 10, .Rs2 = 11}),
-                      addi(10, 10, 1),
-                      addi(10, 10, -1), // loop
-                      encode(Op::RV_BNE, {.Rs1 = 10, .Rs2 = 0, .Imm = -4}),
-                      lui(12, 0x80000000),
-                      addi(13, 0, 4),
-                      encode(Op::VX_BAR, {.Rs1 = 12, .Rs2 = 13}),
-                      csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
+  const Words Body =
+      Words{csrr(10, CSR_CORE_ID), csrr(14, CSR_WARP_ID),
+            encode(Op::RV_SH1ADD, {.Rd = 10, .Rs1 = 10, .Rs2 = 14})} +
+      countThenMeet(4) +
+      Words{csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
   std::string First;
   for (const unsigned Threads : {1U, 4U}) {
-    C.HostThreads = Threads;
+    Settings.HostThreads = Threads;
     const TimeReport R = runWhole(onAllWarps(Body));
     if (First.empty())
       First = toJson(R);
     EXPECT_EQ(toJson(R), First);
     // The last one spins 301 times beside another warp of its core.
-    EXPECT_NEAR(double(R.Cycles), 301.0 * (2 + C.Timing.Core.BranchPenalty),
-                400);
+    EXPECT_NEAR(double(R.Cycles),
+                301.0 * (2 + Settings.Timing.Core.BranchPenalty), 400);
     EXPECT_EQ(R.OutOfOrder, 0U);
   }
 }

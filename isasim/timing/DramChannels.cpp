@@ -96,7 +96,7 @@ void DramChannels::submit(uint64_t Now, uint32_t Address, uint64_t Miss,
   const dram::Location Where = Decode(Address);
   Channel &C = Channels[Where.Channel];
   // A core whose place in the order was guessed may be late.
-  C.Control.submit({.At = std::max(tickOf(Now) + FrontTicks, Told),
+  C.Control.submit({.At = std::max(tickOf(Now) + FrontTicks, AdvancedTo),
                     .Id = Submitted++ << MissBits | Miss,
                     .Line = Address / TimingLineBytes,
                     .Where = Where.Where,
@@ -117,10 +117,10 @@ void DramChannels::advance(uint64_t Until, std::vector<Fill> &Fills) {
       break;
     // What is decided now is known above so many ticks later, so that nothing
     // that follows from it is sent down before.
-    Told = std::max(Told, std::min(Limit, First + BackTicks));
+    AdvancedTo = std::max(AdvancedTo, std::min(Limit, First + BackTicks));
     for (Channel &C : Channels)
-      if (C.NextEvent <= Told) {
-        C.Control.advance(Told, Replies);
+      if (C.NextEvent <= AdvancedTo) {
+        C.Control.advance(AdvancedTo, Replies);
         C.NextEvent = C.Control.nextEvent();
       }
     std::erase_if(Replies, [](const dram::Reply &R) { return R.IsWrite; });

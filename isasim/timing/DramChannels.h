@@ -68,8 +68,8 @@ private:
   const uint64_t FrontTicks, BackTicks;
   std::deque<Channel> Channels;
   uint64_t NextEvent;
-  uint64_t Told = 0;      ///< tick that all channels have come to
-  uint64_t Submitted = 0; ///< orders requests of one tick
+  uint64_t AdvancedTo = 0; ///< tick that all channels have come to
+  uint64_t Submitted = 0;  ///< orders requests of one tick
   std::vector<dram::Reply> Replies;
 };
 

@@ -13,7 +13,8 @@ constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
 
 PixelClock::PixelClock(const TimingConfig &Params, MemoryPort Port,
                        unsigned Cores)
-    : P(Params.Pixel), Expected(Cores), Fetch(Port, P.BufferEntries) {}
+    : Timing(Params.Pixel), Expected(Cores), Fetch(Port, Timing.BufferEntries) {
+}
 
 void PixelClock::begin(uint64_t Start) {
   if (Now == Stage::Idle)
@@ -92,15 +93,19 @@ void PixelClock::answer(uint32_t Tag, uint64_t Then) {
   }
 }
 
+std::span<const raster::TailWork::OpenPixel>
+PixelClock::pixelsOf(size_t Which) const {
+  const std::span All(Work.Pixels);
+  const size_t First = Which * Timing.Lanes;
+  return All.subspan(First, std::min<size_t>(Timing.Lanes, All.size() - First));
+}
+
 /// Asks for the lines of a group's pixels.
 void PixelClock::pixelLines(MemorySystem &Memory, unsigned Set, size_t Which,
                             CacheOp Op) {
   Fetch.beginSet(Set);
   uint32_t Last = 0;
-  const size_t End =
-      std::min(Work.Pixels.size(), (Which + 1) * size_t{P.Lanes});
-  for (size_t N = Which * P.Lanes; N < End; ++N) {
-    const auto &Pixel = Work.Pixels[N];
+  for (const auto &Pixel : pixelsOf(Which)) {
     const uint32_t Line =
         lineOf(Work.What.Output + Pixel.Y * Work.What.OutputPitch +
                Pixel.X * PixelBytes);
@@ -158,11 +163,9 @@ void PixelClock::startGroup(MemorySystem &Memory) {
     pixelLines(Memory, pixelSet(Group + 1), Group + 1, CacheOp::Read);
   Fetch.beginList();
   Visits = 0;
-  const size_t End =
-      std::min(Work.Pixels.size(), (Group + 1) * size_t{P.Lanes});
-  for (size_t N = Group * P.Lanes; N < End; ++N) {
-    Visits = std::max(Visits, Work.Pixels[N].Visits);
-    Spent.Visits += Work.Pixels[N].Visits;
+  for (const auto &Pixel : pixelsOf(Group)) {
+    Visits = std::max(Visits, Pixel.Visits);
+    Spent.Visits += Pixel.Visits;
   }
   Visits = std::min(Visits, static_cast<uint32_t>(Work.Records.size()));
   Number = Evaluated = 0;

@@ -10,6 +10,7 @@
 
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace vorion::isasim {
@@ -72,9 +73,12 @@ private:
   static unsigned pixelSet(size_t Group) {
     return Group % 2 ? GaussianFetch::OddOthers : GaussianFetch::EvenOthers;
   }
-  size_t groups() const { return (Work.Pixels.size() + P.Lanes - 1) / P.Lanes; }
+  std::span<const raster::TailWork::OpenPixel> pixelsOf(size_t Group) const;
+  size_t groups() const {
+    return (Work.Pixels.size() + Timing.Lanes - 1) / Timing.Lanes;
+  }
 
-  const PixelTiming P;
+  const PixelTiming Timing;
   std::vector<std::deque<raster::TailWork>> Expected; ///< by core
   std::deque<unsigned> Queue;                         ///< cores
 

@@ -20,7 +20,7 @@ RasterTiming inPairs(RasterTiming P) {
 } // namespace
 
 DispatchTable::DispatchTable(const RasterTiming &Params)
-    : P(Params), Known(size_t{TableSide} * TableSide) {}
+    : Timing(Params), Known(size_t{TableSide} * TableSide) {}
 
 unsigned DispatchTable::cycles(unsigned Width, unsigned Height) {
   uint16_t &Cycles = Known[Width * TableSide + Height];
@@ -35,8 +35,9 @@ unsigned DispatchTable::count(unsigned Width, unsigned Height) const {
   uint64_t Banks = 0;
   for (unsigned Y = 0; Y != Height; ++Y)
     for (unsigned X = 0; X != Width; ++X) {
-      const uint64_t Bank = uint64_t{1} << ((X + P.Stagger * Y) % P.Banks);
-      if (Used == P.Lanes || (Banks & Bank)) {
+      const uint64_t Bank = uint64_t{1}
+                            << ((X + Timing.Stagger * Y) % Timing.Banks);
+      if (Used == Timing.Lanes || (Banks & Bank)) {
         ++Cycles;
         Used = 0;
         Banks = 0;
@@ -49,9 +50,9 @@ unsigned DispatchTable::count(unsigned Width, unsigned Height) const {
 
 RasterClock::RasterClock(const TimingConfig &Params, MemoryPort PortIn,
                          unsigned NumAgents, unsigned QueueDepthIn)
-    : P(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Port(PortIn),
-      QueueDepth(QueueDepthIn), Table(P), PairTable(inPairs(P)),
-      Agents(NumAgents), Fetch(Port, P.BufferEntries) {}
+    : Timing(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Port(PortIn),
+      QueueDepth(QueueDepthIn), Table(Timing), PairTable(inPairs(Timing)),
+      Agents(NumAgents), Fetch(Port, Timing.BufferEntries) {}
 
 void RasterClock::begin(uint64_t Start) {
   MoreWork = true;
@@ -172,10 +173,11 @@ void RasterClock::take() {
     Work.Gaussians.clear();
 
   spend(RasterCycle::Idle, At - DispatchAt);
-  const uint64_t Begun = At + P.StartCycles;
+  const uint64_t Begun = At + Timing.StartCycles;
   // The whole tile is cleared, a row of banks at a time.
   const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
-  spend(RasterCycle::Begin, P.StartCycles + (Pixels + P.Banks - 1) / P.Banks);
+  spend(RasterCycle::Begin,
+        Timing.StartCycles + (Pixels + Timing.Banks - 1) / Timing.Banks);
   Fetch.begin(Begun);
   Fetch.beginSet(GaussianFetch::Others);
   Number = Dispatches = 0;
@@ -268,10 +270,10 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
     spend(RasterCycle::Fetch, Ready - DispatchAt);
   if (G.Width == 0) {
     ++Spent.Clipped;
-    spend(RasterCycle::Clip, P.ClipCycles);
+    spend(RasterCycle::Clip, Timing.ClipCycles);
     return;
   }
-  const unsigned Lanes = Work.What.IsBackward ? P.Lanes / 2 : P.Lanes;
+  const unsigned Lanes = Work.What.IsBackward ? Timing.Lanes / 2 : Timing.Lanes;
   unsigned Cycles =
       (Work.What.IsBackward ? PairTable : Table).cycles(G.Width, G.Height);
   // Where saturated pixels get no slot (an option), only the others are packed.
@@ -283,7 +285,7 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
   InLanes[NextInLanes] = {G, DispatchAt, Cycles};
   NextInLanes = (NextInLanes + 1) % Recent;
   Spent.LaneSlots += G.Slots;
-  spend(RasterCycle::Blend, std::max<uint64_t>(Cycles, P.ClipCycles));
+  spend(RasterCycle::Blend, std::max<uint64_t>(Cycles, Timing.ClipCycles));
 }
 
 /// The earliest start at which every pixel that is still being updated has its
@@ -297,7 +299,7 @@ uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
                                 (unsigned{B.Width} * B.Height));
   };
   for (const Dispatched &D : InLanes) {
-    if (D.Cycles == 0 || D.Start + D.Cycles + P.UpdateCycles <= DispatchAt)
+    if (D.Cycles == 0 || D.Start + D.Cycles + Timing.UpdateCycles <= DispatchAt)
       continue;
     const GaussianWork &B = D.What;
     const unsigned X0 = std::max(B.X, G.X), Y0 = std::max(B.Y, G.Y);
@@ -308,7 +310,7 @@ uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
     for (const unsigned X : {X0, X1 - 1})
       for (const unsigned Y : {Y0, Y1 - 1}) {
         const int64_t Start = static_cast<int64_t>(D.Start) +
-                              When(B, D.Cycles, X, Y) + P.UpdateCycles -
+                              When(B, D.Cycles, X, Y) + Timing.UpdateCycles -
                               When(G, Cycles, X, Y);
         Safe =
             std::max(Safe, static_cast<uint64_t>(std::max<int64_t>(Start, 0)));

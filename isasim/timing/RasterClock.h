@@ -26,7 +26,7 @@ public:
 
 private:
   unsigned count(unsigned Width, unsigned Height) const;
-  const RasterTiming P;
+  const RasterTiming Timing;
   std::vector<uint16_t> Known; ///< 0: not yet
 };
 
@@ -134,7 +134,7 @@ private:
   void storeLast(MemorySystem &Memory);
   Finished finish(MemorySystem &Memory);
 
-  const RasterTiming P;
+  const RasterTiming Timing;
   const uint32_t L2HalfHit;
   const MemoryPort Port;
   unsigned QueueDepth;

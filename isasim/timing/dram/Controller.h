@@ -86,9 +86,9 @@ Expected<Success> check(const TimingTable &Table,
 /// while writes are drained, writes. docs/dram.md has the rules one by one.
 class Controller {
 public:
-  /// \p Options must have passed check(); \p Table must outlive this.
-  explicit Controller(const TimingTable &Table,
-                      const ControllerOptions &Options = {});
+  /// \p Chosen must have passed check(); \p DeviceTable must outlive this.
+  explicit Controller(const TimingTable &DeviceTable,
+                      const ControllerOptions &Chosen = {});
 
   /// Takes a request. Its time is not before the last tick that advance() has
   /// come to. Requests of one time may be submitted in any order. One whose
@@ -123,18 +123,22 @@ private:
     uint16_t Left;           ///< bursts that have not been issued
     bool IsWrite, IsSeen;
   };
-  /// One kind's requests to a bank, oldest first.
+  /// Requests to the open row of a bank, or to none or another.
+  enum Kind : uint8_t { Hit, Miss, Kinds };
+  struct Oldest {
+    uint32_t Entry = None;
+    uint64_t Order = 0;
+  };
+  /// A bank's reads or writes, oldest first.
   struct BankQueue {
     uint32_t First = None, Last = None;
-    uint32_t Hit = None;  ///< the oldest to the open row
-    uint32_t Miss = None; ///< the oldest to none or another
-    uint64_t HitOrder = 0, MissOrder = 0;
+    std::array<Oldest, Kinds> OldestOf; ///< by Kind
   };
   struct Queue {
-    uint64_t Hits = 0, Misses = 0; ///< bit sets of the banks with such
-    uint32_t Bursts = 0;           ///< not taken up
+    std::array<uint64_t, Kinds> BanksWith{}; ///< bit sets, by Kind
+    uint32_t Bursts = 0;                     ///< not taken up
     uint32_t Capacity = 0;
-    std::vector<BankQueue> Of;
+    std::vector<BankQueue> Banks;
     std::deque<Request> Waiting; ///< not yet taken in, by time and id
   };
   /// The first tick at which each command can begin.
@@ -154,11 +158,13 @@ private:
     uint32_t RefreshesDue = 0, BankToRefresh = 0;
     uint64_t NextRefresh = Never;
   };
+  /// Who goes first of those that could begin at one tick.
+  enum class Precedence : uint8_t { Promoted, Refresh, Queue, Capped, Closing };
   /// What is decided next.
   struct Choice {
     uint64_t Begin = Never; ///< first tick of the command
     uint64_t Order = Never;
-    uint8_t Class = 0;
+    Precedence Class = Precedence::Promoted;
     Command What = Command::Count;
     uint32_t Bank = 0;             ///< of a rank's command: its first
     uint32_t Entry = None;         ///< on whose behalf, if any
@@ -180,7 +186,7 @@ private:
   }
   uint64_t nextTakenIn() const;
   bool isIssued(Command C) const;
-  uint32_t groups() const { return T.Ranks * T.BankGroups; }
+  uint32_t groups() const { return Table.Ranks * Table.BankGroups; }
   uint32_t placeOfRank(uint32_t R, Command C) const {
     return static_cast<uint32_t>((groups() + R) * Commands + size_t(C));
   }
@@ -199,11 +205,10 @@ private:
   void considerPromoted();
   void considerRefreshes();
   void considerQueue();
-  void setHit(Queue &Q, uint32_t Bank, uint32_t Entry);
-  void setMiss(Queue &Q, uint32_t Bank, uint32_t Entry);
+  void setOldest(Queue &Q, uint32_t Bank, Kind Which, uint32_t Entry);
   void considerCapped(const Queue &Q);
   void considerClosing();
-  void consider(uint64_t Ready, uint64_t Order, uint8_t Class, Command What,
+  void consider(uint64_t Ready, uint64_t Order, Precedence Class, Command What,
                 uint32_t Bank, uint32_t Entry, uint32_t PlacePromoted);
   uint64_t ready(Command C, const Bank &B) const;
   Command nextOf(const Entry &E) const;
@@ -217,18 +222,18 @@ private:
   void findFirsts(Queue &Q, uint32_t Which);
   void leaveQueue(uint32_t Which);
 
-  const TimingTable &T;
-  const ControllerOptions O;
+  const TimingTable &Table;
+  const ControllerOptions Options;
   const uint32_t BurstsOfLine;
   uint32_t Above, Below; ///< drain marks, in bursts
   uint64_t RefreshInterval = Never;
   /// What a command forbids its bank.
-  std::array<std::vector<Step>, Commands> OfBank;
+  std::array<std::vector<Step>, Commands> StepsInBank;
   /// What one to a bank group forbids groups and ranks, by command and group.
-  std::vector<std::vector<Step>> OfOthers;
+  std::vector<std::vector<Step>> StepsElsewhere;
   uint32_t Window = 0, WindowTicks = 0;
 
-  uint64_t Told = 0;                 ///< how far advance() came
+  uint64_t AdvancedTo = 0;           ///< how far advance() came
   uint64_t Now = 0;                  ///< no command is begun before
   std::array<uint64_t, 2> BusFree{}; ///< of the command buses: the first tick
   /// By command: its bus, its ticks but the last, the first tick that bus and

@@ -22,7 +22,8 @@ struct TimingGroups {
 #define GROUP(NAME, MEMBER, WHAT)                                              \
   }                                                                            \
   ;                                                                            \
-  struct MEMBER##Timing {
+  struct MEMBER##Timing {                                                      \
+    bool operator==(const MEMBER##Timing &) const = default;
 #define PARAM(GROUP, OF, NAME, MEMBER, DEFAULT, LOW, HIGH, UNIT, SOURCE)       \
   uint32_t MEMBER = DEFAULT;
 #define WORD(GROUP, OF, NAME, MEMBER, DEFAULT, UNIT, SOURCE)                   \
