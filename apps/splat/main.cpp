@@ -57,7 +57,7 @@ int run(std::vector<std::string> Arguments) {
   Add("demo-scene", "Writes the project's own scene and its cameras",
       splat::addDemoScene);
   Add("train", "Makes a scene from photographs with poses", splat::addTrain);
-  Add("compare", "Compares two pictures, or two lists of pairs",
+  Add("compare", "Compares two pictures, two lists of pairs or two times",
       splat::addCompare);
 
   if (const auto Ended = parseCommandLine(App, std::move(Arguments)))

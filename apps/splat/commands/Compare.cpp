@@ -8,19 +8,34 @@ namespace vorion::splat {
 
 Runner addCompare(CLI::App &App) {
   auto A = std::make_shared<CompareArguments>();
-  App.add_option("a", A->Reference, "What to expect: .npz or .pfm")->required();
-  App.add_option("b", A->Picture, "What there is: .npz or .pfm")->required();
+  App.add_option("a", A->Reference, "What to expect: .npz, .pfm or .json")
+      ->required();
+  App.add_option("b", A->Picture, "What there is: .npz, .pfm or .json")
+      ->required();
   CLI::Option *Pairs = App.add_flag(
       "--pairs", A->Pairs,
       "Compare tile, depth_bits and index instead; they must be equal");
+  CLI::Option *Times = App.add_flag(
+      "--times", A->Times,
+      "Compare times instead: what `splat render --time --json` or `vorion-sim "
+      "--time --stats` wrote");
+  Times->excludes(Pairs);
+  App.add_option("--at-most", A->AtMost,
+                 "Exit with 1 if b takes longer than a by more than this, per "
+                 "cent")
+      ->needs(Times)
+      ->check(CLI::NonNegativeNumber);
+  App.add_flag("--across", A->Across,
+               "Times of different machines, or of different work, too")
+      ->needs(Times);
+  App.add_option("--json", A->Json, "Write the figures")->excludes(Pairs);
   const auto AddOfPictures = [&](const char *Flag, auto &Value,
                                  const char *Help) {
     // Pairs that differ anywhere fail, whatever the bounds on pictures.
-    App.add_option(Flag, Value, Help)->excludes(Pairs);
+    App.add_option(Flag, Value, Help)->excludes(Pairs)->excludes(Times);
   };
   AddOfPictures("--mask", A->Mask,
                 "Doubtful pixels: .npz whose arrays mask* are not 0 there");
-  AddOfPictures("--json", A->Json, "Write the figures");
   AddOfPictures("--min-db", A->MinDb,
                 "Exit with 1 if it is less outside doubtful pixels");
   AddOfPictures("--min-db-all", A->MinDbAll,
@@ -28,6 +43,8 @@ Runner addCompare(CLI::App &App) {
   AddOfPictures("--max-doubtful", A->MaxDoubtful,
                 "Exit with 1 if more pixels are doubtful, per cent");
   return [A](const DeviceOptions &) {
+    if (A->Times)
+      return compareTimes(*A);
     return A->Pairs ? comparePairs(*A) : comparePictures(*A);
   };
 }

@@ -1,4 +1,4 @@
-/// What `splat compare` does: both kinds of comparison, over files alone, so
+/// What `splat compare` does: every kind of comparison, over files alone, so
 /// that no OpenCL device is needed.
 #pragma once
 
@@ -16,6 +16,9 @@ struct CompareArguments {
   std::optional<double> MinDb;       ///< outside the mask
   std::optional<double> MinDbAll;    ///< over all pixels
   std::optional<double> MaxDoubtful; ///< masked share, per cent
+  bool Times = false;
+  bool Across = false;          ///< of other machines or other work, too
+  std::optional<double> AtMost; ///< longer, per cent
 };
 
 /// Prints and, on request, writes the differences of two pictures. Figures
@@ -26,5 +29,10 @@ Expected<Success> comparePictures(const CompareArguments &A);
 /// Whether two files of `--dump-pairs` hold the same pairs in the same order;
 /// if not, an Error (GuestFailed) with the first place that differs.
 Expected<Success> comparePairs(const CompareArguments &A);
+
+/// Prints and, on request, writes what changed from one time report to the
+/// other. Reports that do not compare are an Error; a time beyond the bound is
+/// one, too (GuestFailed), given after the writing.
+Expected<Success> compareTimes(const CompareArguments &A);
 
 } // namespace vorion::splat

@@ -1,0 +1,263 @@
+#include "device/TimeFile.h"
+
+#include "vorion/support/Json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char *Wanted =
+    "what `splat render --time --json` or `vorion-sim --time --stats` writes";
+
+/// Adds up figures of one name. Their number is small.
+class Figures {
+public:
+  void add(const std::string &Group, const std::string &Name, double Value) {
+    const auto Known = std::ranges::find_if(All, [&](const TimeFigure &F) {
+      return F.Group == Group && F.Name == Name;
+    });
+    if (Known != All.end())
+      Known->Value += Value;
+    else
+      All.push_back({Group, Name, Value});
+  }
+  /// The numbers of an object, or of a list of objects.
+  void addMembers(const std::string &Group, const Json &Of) {
+    for (const auto &[Key, Value] : Of.items())
+      if (Value.is_object())
+        addMembers(Group, Value);
+      else if (Value.is_number())
+        add(Group, Key, Value.get<double>());
+  }
+  std::vector<TimeFigure> take() { return std::move(All); }
+
+private:
+  std::vector<TimeFigure> All;
+};
+
+/// What describes the machine in a time report and is no count.
+constexpr std::string_view Descriptions[] = {
+    "cycles", "clock_mhz", "clock_version", "host", "lane_areas"};
+
+/// A time report, but for its cycles.
+void addUnits(Figures &To, const Json &Report) {
+  for (const auto &[Key, Value] : Report.items()) {
+    if (std::ranges::find(Descriptions, Key) != std::end(Descriptions))
+      continue;
+    if (Key == "activities") {
+      for (const Json &A : Value)
+        To.add(A.at("unit"), A.at("event"), A.at("count"));
+    } else if (Value.is_structured()) {
+      To.addMembers(Key, Value);
+    } else if (Value.is_number()) {
+      To.add("other", Key, Value.get<double>());
+    }
+  }
+}
+
+/// Of a report: what else than the configuration says which machine it is.
+void describe(TimeFile &To, const Json &Report) {
+  To.ClockVersion = Report.value("clock_version", 1U);
+  for (const char *Key : {"clock_mhz", "host", "lane_areas"})
+    if (Report.contains(Key))
+      To.Machine[Key] = Report.at(Key);
+}
+
+/// The members of \p From that \p Keys name.
+nlohmann::json chosen(const Json &From,
+                      std::initializer_list<const char *> Keys) {
+  nlohmann::json To;
+  for (const char *Key : Keys)
+    if (From.contains(Key))
+      To[Key] = From.at(Key);
+  return To;
+}
+
+/// What a picture is made of.
+nlohmann::json workOf(const Json &Picture) {
+  nlohmann::json Work =
+      chosen(Picture, {"view", "resolution", "rules", "support", "path",
+                       "options", "programs"});
+  // By contents: a file may lie elsewhere.
+  for (const char *Key : {"scene", "cameras"})
+    Work[Key] = Picture.at(Key).at("fnv1a64");
+  return Work;
+}
+
+/// `splat render --json`, of one picture or several.
+TimeFile ofFrames(const Json &Whole) {
+  TimeFile F;
+  const bool IsSequence = Whole.contains("pictures");
+  const Json &First = IsSequence ? Whole.at("pictures").at(0) : Whole;
+  F.Machine = chosen(First.at("device"), {"name", "compute_units"});
+  // By what is in it: a file may lie elsewhere.
+  F.Machine["configuration"] = First.at("device").at("configuration");
+  if (F.Machine["configuration"].is_object())
+    F.Machine["configuration"].erase("file");
+  if (IsSequence) {
+    F.Work["overlap"] = Whole.at("overlap");
+    for (const Json &Picture : Whole.at("pictures"))
+      F.Work["pictures"].push_back(workOf(Picture));
+  } else {
+    F.Work = workOf(Whole);
+  }
+  const Json &Time = Whole.at("time");
+  const Json &Sum = Time.at("sum");
+  describe(F, Sum);
+  F.Milliseconds = Time.at(IsSequence ? "total_ms" : "frame_ms");
+  Figures All;
+  All.add("", "cycles", Sum.at("cycles"));
+  for (const Json &Stage : Time.at("stages"))
+    if (Stage.contains("time"))
+      All.add("stages, cycles", Stage.at("name"),
+              Stage.at("time").at("cycles"));
+  for (const Json &Stage : Time.at("stages"))
+    for (const Json &K : Stage.value("kernels", Json::array()))
+      All.add("kernels, cycles", K.at("name"), K.at("cycles"));
+  addUnits(All, Sum);
+  F.Figures = All.take();
+  return F;
+}
+
+/// `vorion-sim --stats`, and VORION_STATS.
+TimeFile ofRuns(const Json &Whole) {
+  TimeFile F;
+  F.Machine = Whole.at("config");
+  F.Machine.erase("host_threads"); // changes no time
+  Figures All;
+  for (const Json &Run : Whole.at("runs")) {
+    F.Work["runs"].push_back(Run.at("name").get<std::string>());
+    const Json &Time = Run.at("time");
+    describe(F, Time);
+    const double Cycles = Time.at("cycles");
+    F.Milliseconds += Cycles / (1e3 * Time.at("clock_mhz").get<double>());
+    All.add("", "cycles", Cycles);
+  }
+  for (const Json &Run : Whole.at("runs"))
+    All.add("runs, cycles", Run.at("name"), Run.at("time").at("cycles"));
+  for (const Json &Run : Whole.at("runs"))
+    addUnits(All, Run.at("time"));
+  F.Figures = All.take();
+  return F;
+}
+
+std::string joined(const std::string &Path) {
+  std::string Text = Path.empty() ? Path : Path.substr(1);
+  std::ranges::replace(Text, '/', '.');
+  return Text;
+}
+
+/// That \p A and \p B are the same; \p What they are.
+Expected<Success> checkSame(const TimeFile &FileOfA, const nlohmann::json &A,
+                            const TimeFile &FileOfB, const nlohmann::json &B,
+                            std::string_view What) {
+  if (A == B)
+    return Success{};
+  const nlohmann::json First = nlohmann::json::diff(A, B).at(0);
+  const std::string Path = First.at("path");
+  const nlohmann::json::json_pointer Place(Path);
+  const auto Text = [&](const nlohmann::json &Of) {
+    return Of.contains(Place) ? jsonText(Of.at(Place)) : "nothing";
+  };
+  return Error{FileOfB.Path,
+               fmt::format("another {}: {} is {}, expected {} as in {} "
+                           "(--across compares them nevertheless)",
+                           What, joined(Path), Text(B), Text(A), FileOfA.Path)};
+}
+
+std::string number(const std::optional<double> &Value) {
+  if (!Value)
+    return "-";
+  return fmt::format("{:.{}f}", *Value, std::trunc(*Value) == *Value ? 0 : 3);
+}
+
+} // namespace
+
+Expected<TimeFile> readTimeFile(const std::string &Path) {
+  const auto Whole = readJson<Json>(Path, Wanted);
+  if (!Whole)
+    return Whole.error();
+  // The file may be anything: a member that is missing or of another kind is
+  // an exception of the library, and no figure of it is used then.
+  try {
+    if (Whole->contains("time") || Whole->contains("runs")) {
+      TimeFile F = Whole->contains("time") ? ofFrames(*Whole) : ofRuns(*Whole);
+      F.Path = Path;
+      if (!F.Figures.empty())
+        return F;
+    }
+  } catch (const nlohmann::json::exception &) {
+    return Error{Path, fmt::format("no time report, expected {}", Wanted)};
+  }
+  return Error{Path, fmt::format("no time in it, expected {}", Wanted)};
+}
+
+Expected<Success> checkComparable(const TimeFile &A, const TimeFile &B,
+                                  bool Across) {
+  if (A.ClockVersion != B.ClockVersion)
+    return Error{B.Path,
+                 fmt::format("version {} of the clock, expected version "
+                             "{} as in {}: their times do not compare",
+                             B.ClockVersion, A.ClockVersion, A.Path)};
+  if (Across)
+    return Success{};
+  if (auto Same = checkSame(A, A.Machine, B, B.Machine, "machine"); !Same)
+    return Same;
+  return checkSame(A, A.Work, B, B.Work, "work");
+}
+
+std::optional<double> TimeChange::percent() const {
+  if (!A || !B || *A == 0)
+    return std::nullopt;
+  return 100 * (*B / *A - 1);
+}
+
+std::vector<TimeChange> changesOf(const TimeFile &A, const TimeFile &B) {
+  std::vector<TimeChange> All{{"", "ms", A.Milliseconds, B.Milliseconds}};
+  for (const TimeFigure &F : A.Figures)
+    All.push_back({F.Group, F.Name, F.Value, std::nullopt});
+  for (const TimeFigure &F : B.Figures) {
+    const auto Known = std::ranges::find_if(All, [&](const TimeChange &C) {
+      return C.Group == F.Group && C.Name == F.Name;
+    });
+    if (Known != All.end()) {
+      Known->B = F.Value;
+      continue;
+    }
+    // Behind the others of its group.
+    const auto Last =
+        std::find_if(All.rbegin(), All.rend(),
+                     [&](const TimeChange &C) { return C.Group == F.Group; });
+    All.insert(Last == All.rend() ? All.end() : Last.base(),
+               {F.Group, F.Name, std::nullopt, F.Value});
+  }
+  return All;
+}
+
+std::string toText(const std::vector<TimeChange> &Changes) {
+  std::string Text =
+      fmt::format("{:<28}{:>16}{:>16}{:>12}\n", "", "a", "b", "change");
+  std::string Group;
+  for (const TimeChange &C : Changes) {
+    if (!C.Group.empty() && C.A == C.B)
+      continue;
+    if (C.Group != Group)
+      Text += C.Group + "\n";
+    Group = C.Group;
+    const auto Percent = C.percent();
+    Text += fmt::format("{:<28}{:>16}{:>16}{:>12}\n",
+                        (Group.empty() ? "" : "  ") + C.Name, number(C.A),
+                        number(C.B),
+                        Percent ? fmt::format("{:+.2f} %", *Percent) : "-");
+  }
+  return Text;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,168 @@
+#include "device/TimeFile.h"
+
+#include "io/TestFiles.h"
+#include "vorion/support/Json.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+
+using namespace vorion;
+using namespace vorion::splat;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json timeReport(unsigned Cycles, unsigned Memory) {
+  return {{"cycles", Cycles},
+          {"clock_mhz", 500},
+          {"clock_version", 2},
+          {"host", Json{{"launch_ns", 2000}}},
+          {"cores", {{{"issue", 10}, {"memory", Memory}}, Json{{"issue", 5}}}},
+          {"dram", Json{{"read_bursts", 7}}},
+          {"activities",
+           Json::array({Json{
+               {"unit", "lsu"}, {"event", "lines requested"}, {"count", 3}}})}};
+}
+
+/// As `vorion-sim --stats` writes it, of two runs.
+Json stats(unsigned Memory = 20) {
+  return {{"config", {{"clusters", 1}, {"host_threads", 4}}},
+          {"runs",
+           {{{"name", "add"}, {"time", timeReport(1000, Memory)}},
+            {{"name", "scan"}, {"time", timeReport(500, 0)}}}}};
+}
+
+/// As `splat render --json` writes it.
+Json frame() {
+  const Json Hash = {{"file", "somewhere"}, {"fnv1a64", "0123"}};
+  return {{"scene", Hash},
+          {"cameras", Hash},
+          {"view", "front"},
+          {"device", {{"name", "Vorion"}, {"configuration", "default"}}},
+          {"time",
+           {{"frame_ms", 2.5},
+            {"sum", timeReport(1000, 20)},
+            {"stages",
+             {{{"name", "project"},
+               {"time", timeReport(1000, 20)},
+               {"kernels",
+                Json::array({Json{{"name", "project"}, {"cycles", 1000}}})}},
+              Json{{"name", "upload"}}}}}}};
+}
+
+TimeFile read(const Json &J) {
+  const TestFolder Folder;
+  auto F = readTimeFile(Folder.write("t.json", jsonText(J)));
+  EXPECT_TRUE(F) << F.error().What;
+  return F ? *F : TimeFile();
+}
+
+double figure(const TimeFile &F, std::string_view Group,
+              std::string_view Name) {
+  const auto Found = std::ranges::find_if(F.Figures, [&](const TimeFigure &X) {
+    return X.Group == Group && X.Name == Name;
+  });
+  return Found == F.Figures.end() ? -1 : Found->Value;
+}
+
+std::string problem(const Json &A, const Json &B, bool Across = false) {
+  const auto Fit = checkComparable(read(A), read(B), Across);
+  return Fit ? "" : Fit.error().What.substr(0, Fit.error().What.find(" in /"));
+}
+
+TEST(TimeFile, RunsAndUnitsAddUp) {
+  const TimeFile F = read(stats());
+  EXPECT_EQ(F.ClockVersion, 2U);
+  EXPECT_DOUBLE_EQ(F.Milliseconds, 1500 / 500e3);
+  EXPECT_EQ(figure(F, "", "cycles"), 1500);
+  EXPECT_EQ(figure(F, "runs, cycles", "scan"), 500);
+  EXPECT_EQ(figure(F, "cores", "issue"), 30);
+  EXPECT_EQ(figure(F, "dram", "read_bursts"), 14);
+  EXPECT_EQ(figure(F, "lsu", "lines requested"), 6);
+  EXPECT_EQ(figure(F, "host", "launch_ns"), -1);
+}
+
+TEST(TimeFile, AFrameHasStagesAndKernels) {
+  const TimeFile F = read(frame());
+  EXPECT_EQ(F.Milliseconds, 2.5);
+  EXPECT_EQ(figure(F, "", "cycles"), 1000);
+  EXPECT_EQ(figure(F, "stages, cycles", "project"), 1000);
+  EXPECT_EQ(figure(F, "kernels, cycles", "project"), 1000);
+  EXPECT_EQ(figure(F, "stages, cycles", "upload"), -1);
+}
+
+TEST(TimeFile, WhatDiffersIsNamed) {
+  Json Threads = stats();
+  Threads["config"]["host_threads"] = 1;
+  EXPECT_EQ(problem(stats(), Threads), "");
+  Json Moved = frame();
+  Moved["scene"]["file"] = "elsewhere";
+  EXPECT_EQ(problem(frame(), Moved), "");
+
+  Json Clusters = stats();
+  Clusters["config"]["clusters"] = 4;
+  EXPECT_EQ(problem(stats(), Clusters),
+            "another machine: clusters is 4, expected 1 as");
+  EXPECT_EQ(problem(stats(), Clusters, true), "");
+  Json Mhz = frame();
+  Mhz["time"]["sum"]["clock_mhz"] = 100;
+  EXPECT_EQ(problem(frame(), Mhz),
+            "another machine: clock_mhz is 100, expected 500 as");
+  Json View = frame();
+  View["view"] = "close";
+  EXPECT_EQ(problem(frame(), View),
+            "another work: view is \"close\", expected \"front\" as");
+  Json Shorter = stats();
+  Shorter["runs"].erase(1);
+  EXPECT_EQ(problem(stats(), Shorter),
+            "another work: runs.1 is nothing, expected \"scan\" as");
+  Json Version = frame();
+  Version["time"]["sum"]["clock_version"] = 3;
+  for (const bool Across : {false, true})
+    EXPECT_EQ(problem(frame(), Version, Across),
+              "version 3 of the clock, expected version 2 as");
+}
+
+TEST(TimeFile, ChangesKeepTheOrderAndWhatIsMissing) {
+  Json Other = stats(40);
+  for (Json &Run : Other["runs"]) {
+    Run["time"]["cores"][0]["fetch"] = 1;
+    Run["time"].erase("dram");
+  }
+  const auto Changes = changesOf(read(stats()), read(Other));
+  EXPECT_EQ(Changes[0].Name, "ms");
+  EXPECT_EQ(Changes[1].Name, "cycles");
+  const auto Find = [&](std::string_view Name) {
+    return std::ranges::find(Changes, Name, &TimeChange::Name);
+  };
+  EXPECT_EQ(*Find("memory")->percent(), 100);
+  EXPECT_FALSE(Find("read_bursts")->B);
+  EXPECT_FALSE(Find("fetch")->A);
+  EXPECT_EQ(Find("fetch") - Find("memory"), 1);
+
+  const std::string Text = toText(Changes);
+  EXPECT_NE(Text.find("+100.00 %"), std::string::npos);
+  EXPECT_EQ(Text.find("issue"), std::string::npos) << Text;
+  // Nothing but the time and the cycles of files that are equal.
+  const std::string Same = toText(changesOf(read(stats()), read(stats())));
+  EXPECT_EQ(std::ranges::count(Same, '\n'), 3) << Same;
+}
+
+TEST(TimeFile, WhateverElseAFileHoldsIsRefused) {
+  const TestFolder Folder;
+  Json Untimed = stats(), Odd = frame(), None = stats();
+  Untimed["runs"][0].erase("time");
+  Odd["time"]["sum"]["activities"] = {1};
+  None["runs"] = Json::array();
+  for (const Json &J :
+       {Untimed, Odd, None, Json::object(), Json::array(), Json(1)}) {
+    const auto F = readTimeFile(Folder.write("t.json", jsonText(J)));
+    ASSERT_FALSE(F) << J;
+    EXPECT_NE(F.error().What.find("expected what `splat render"),
+              std::string::npos)
+        << F.error().What;
+  }
+}
+
+} // namespace
