@@ -194,6 +194,10 @@ void Clock::collectActivities(TimeReport &R) const {
     L2.Writes += T.Writes + T.Atomics;
     L2.Writebacks += T.Writebacks;
   }
+  if (L2Link::exists(Timing)) {
+    Add("link", "bytes to the L2", R.LinkBytes.ToL2);
+    Add("link", "bytes from the L2", R.LinkBytes.FromL2);
+  }
   Add("l2", "line reads", L2.Reads);
   Add("l2", "line writes", L2.Writes);
   Add("l2", "write-backs", L2.Writebacks);

@@ -62,13 +62,13 @@ Expected<DramSetup> setUpDram(const DramTiming &P) {
   return DramSetup{std::move(*Table), std::move(*Map), Options};
 }
 
-DramChannels::DramChannels(const TimingConfig &Params)
-    : Setup(*setUpDram(Params.Dram)), Decode(Setup.Map, Setup.Table),
-      Tick(uint64_t{Params.ClockMhz} * Setup.Table.TickPs),
-      FrontTicks(Params.Dram.ControllerPs / 2 / Setup.Table.TickPs),
-      BackTicks(Params.Dram.ControllerPs / Setup.Table.TickPs - FrontTicks),
+DramChannels::DramChannels(const DramTiming &Params, uint32_t Mhz)
+    : Setup(*setUpDram(Params)), Decode(Setup.Map, Setup.Table),
+      Tick(uint64_t{Mhz} * Setup.Table.TickPs),
+      FrontTicks(Params.ControllerPs / 2 / Setup.Table.TickPs),
+      BackTicks(Params.ControllerPs / Setup.Table.TickPs - FrontTicks),
       NextEvent(Turn::Never) {
-  for (uint32_t N = 0; N != Params.Dram.Channels; ++N)
+  for (uint32_t N = 0; N != Params.Channels; ++N)
     Channels.push_back(
         {dram::Controller(Setup.Table, Setup.Options), dram::Never});
 }

@@ -1,5 +1,5 @@
 /// The DRAM below the last-level cache: channels with a controller each. Here
-/// cycles of the chip become ticks of the device's clock and come back.
+/// cycles of that cache become ticks of the device's clock and come back.
 #pragma once
 
 #include "timing/Cache.h"
@@ -27,8 +27,9 @@ public:
     uint64_t At;   ///< cycle at which it is there
   };
 
-  /// \p Params.Dram must be what setUpDram() takes.
-  explicit DramChannels(const TimingConfig &Params);
+  /// \p Params must be what setUpDram() takes; \p Mhz is the clock of the cache
+  /// above.
+  DramChannels(const DramTiming &Params, uint32_t Mhz);
   DramChannels(const DramChannels &) = delete;
   DramChannels &operator=(const DramChannels &) = delete;
 

@@ -41,7 +41,7 @@ TEST(DramChannels, ALoneReadTakesTheTablesTime) {
     TimingConfig P;
     P.ClockMhz = Mhz;
     const dram::TimingTable T = setUpDram(P.Dram)->Table;
-    DramChannels D(P);
+    DramChannels D(P.Dram, P.ClockMhz);
     const uint64_t Begin = 50;
     D.fetch(Begin, 0x1000, false, 77);
     const Fills All = finish(D);
@@ -64,9 +64,9 @@ TEST(DramChannels, ALoneReadTakesTheTablesTime) {
 TEST(DramChannels, ChannelsWorkBesideEachOther) {
   TimingConfig P;
   P.Dram.Channels = 1;
-  DramChannels One(P);
+  DramChannels One(P.Dram, P.ClockMhz);
   P.Dram.Channels = 4;
-  DramChannels Four(P);
+  DramChannels Four(P.Dram, P.ClockMhz);
   for (uint32_t N = 0; N != 4096; ++N) {
     One.fetch(0, N * TimingLineBytes, false, N);
     Four.fetch(0, N * TimingLineBytes, false, N);
@@ -78,12 +78,12 @@ TEST(DramChannels, ChannelsWorkBesideEachOther) {
 // Who else has a turn, and when, must not matter.
 TEST(DramChannels, StepsDoNotMatter) {
   TimingConfig P;
-  DramChannels Whole(P);
+  DramChannels Whole(P.Dram, P.ClockMhz);
   ask(Whole, 1000);
   const Fills Expected = finish(Whole);
   EXPECT_EQ(Expected.size(), 666U);
   for (const uint64_t Step : {1U, 3U, 10U, 100U}) {
-    DramChannels D(P);
+    DramChannels D(P.Dram, P.ClockMhz);
     ask(D, 1000);
     Fills All;
     for (uint64_t Until = 0; D.nextEvent() != Turn::Never; Until += Step)
@@ -103,7 +103,7 @@ TEST(DramChannels, StepsDoNotMatter) {
 // does then is not late.
 TEST(DramChannels, NothingIsDecidedLate) {
   TimingConfig P;
-  DramChannels D(P);
+  DramChannels D(P.Dram, P.ClockMhz);
   ask(D, 1000);
   while (D.nextEvent() != Turn::Never) {
     const uint64_t Now = D.nextEvent();
@@ -120,7 +120,7 @@ TEST(DramChannels, EveryStandardAndMapWorks) {
       TimingConfig P;
       P.Dram.Standard = Standard;
       P.Dram.AddressMap = Map;
-      DramChannels D(P);
+      DramChannels D(P.Dram, P.ClockMhz);
       ask(D, 300);
       EXPECT_EQ(finish(D).size(), 200U) << Standard << ' ' << Map;
       const DramTime T = D.time();

@@ -10,14 +10,37 @@ template <typename Params> static CacheShape shape(const Params &P) {
 }
 
 MemorySystem::MemorySystem(const TimingConfig &Params, unsigned Clusters)
-    : Ram(Params), Llc(shape(Params.Llc), Ram),
+    : HasLink(L2Link::exists(Params)), Link(Params),
+      Ram(Params.Dram, L2Link::l2Mhz(Params)), Llc(shape(Params.Llc), Ram),
       L2HitCycles(Params.L2.HitCycles) {
   for (unsigned C = 0; C != Clusters; ++C)
     Slices.emplace_back(shape(Params.L2), Llc, C);
 }
 
+uint32_t MemorySystem::writeCycles(const TimingConfig &Params) {
+  return L2Link::exists(Params) ? 0 : Params.L2.HitCycles / 2;
+}
+
 std::optional<uint64_t> MemorySystem::access(unsigned Cluster,
                                              const CacheRequest &R) {
+  if (!HasLink)
+    return accessL2(Cluster, R);
+  const L2Link::Sent Sent = Link.send(R.Now, R.Op);
+  CacheRequest There = R;
+  There.Now = Sent.There;
+  if (R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole) {
+    // The link has it: nobody waits for the L2.
+    There.From = {};
+    accessL2(Cluster, There);
+    return Sent.Gone;
+  }
+  if (const auto At = accessL2(Cluster, There))
+    Link.give({R.From, *At});
+  return std::nullopt;
+}
+
+std::optional<uint64_t> MemorySystem::accessL2(unsigned Cluster,
+                                               const CacheRequest &R) {
   if (R.Op != CacheOp::Atomic || Slices.size() == 1)
     return Slices[Cluster].L2.access(R);
   // Past the slice, whose crossbar it still crosses both ways.
@@ -28,6 +51,26 @@ std::optional<uint64_t> MemorySystem::access(unsigned Cluster,
 }
 
 void MemorySystem::advance(uint64_t Until, std::vector<Answer> &Answers) {
+  if (!HasLink)
+    return advanceL2(Until, Answers);
+  const uint64_t Limit = Link.lastInL2(Until);
+  for (;;) {
+    const uint64_t Next = Link.nextAnswer();
+    if (Next <= Limit && Next <= Ram.nextEvent()) {
+      // Nothing that comes later is ready before it.
+      Answers.push_back(Link.takeAnswer());
+      return;
+    }
+    if (Ram.nextEvent() > Limit)
+      return;
+    FromL2.clear();
+    advanceL2(std::min(Limit, Next), FromL2);
+    for (const Answer &A : FromL2)
+      Link.give(A);
+  }
+}
+
+void MemorySystem::advanceL2(uint64_t Until, std::vector<Answer> &Answers) {
   Fills.clear();
   Ram.advance(Until, Fills);
   for (const DramChannels::Fill &F : Fills) {
@@ -44,13 +87,15 @@ void MemorySystem::advance(uint64_t Until, std::vector<Answer> &Answers) {
 uint64_t MemorySystem::endRun(uint64_t Now) {
   if (Slices.size() == 1)
     return Now;
-  uint64_t End = Now;
+  const uint64_t Begin = HasLink ? Link.firstInL2(Now) : Now;
+  uint64_t End = Begin;
   for (Slice &S : Slices)
-    End = std::max(End, S.L2.flush(Now));
-  return End;
+    End = std::max(End, S.L2.flush(Begin));
+  return HasLink ? Link.toChip(End) : End;
 }
 
 void MemorySystem::clearCounters() {
+  Link.clearCounters();
   Ram.clearCounters();
   Llc.clearCounters();
   for (Slice &S : Slices)
@@ -61,6 +106,7 @@ void MemorySystem::report(TimeReport &R) const {
   for (const Slice &S : Slices)
     R.L2.push_back(S.L2.time());
   R.Llc = Llc.time();
+  R.LinkBytes = {Link.bytesToL2(), Link.bytesFromL2()};
   R.Dram = Ram.time();
   R.DramBurstBytes = Ram.burstBytes();
 }

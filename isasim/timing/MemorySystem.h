@@ -1,7 +1,9 @@
-/// Everything below cores and rasterizers: L2 slices, last-level cache, DRAM.
+/// Everything below cores and rasterizers: the link to the L2, its slices,
+/// last-level cache, DRAM.
 #pragma once
 
 #include "timing/DramChannels.h"
+#include "timing/L2Link.h"
 
 #include <deque>
 #include <vector>
@@ -20,10 +22,15 @@ public:
   /// where all who may meet at the word come together: in the L2 slice of a
   /// device with one cluster, else in the last-level cache.
   std::optional<uint64_t> access(unsigned Cluster, const CacheRequest &R);
+  /// Cycles from a write until it has been taken, if nothing is in its way.
+  static uint32_t writeCycles(const TimingConfig &Params);
 
   /// The next cycle in which something may be decided; Turn::Never if nothing
   /// is under way.
-  uint64_t nextEvent() const { return Ram.nextEvent(); }
+  uint64_t nextEvent() const {
+    return HasLink ? Link.toChip(std::min(Ram.nextEvent(), Link.nextAnswer()))
+                   : Ram.nextEvent();
+  }
   /// Goes on until lines have come or to the end of cycle \p Until. Appends
   /// the answers that are known by then.
   void advance(uint64_t Until, std::vector<Answer> &Answers);
@@ -64,12 +71,18 @@ private:
   /// A bit of tickets whose unit is a slice.
   static constexpr uint32_t IsSlice = 1U << 30;
 
+  // In cycles of the L2.
+  std::optional<uint64_t> accessL2(unsigned Cluster, const CacheRequest &R);
+  void advanceL2(uint64_t Until, std::vector<Answer> &Answers);
+
+  const bool HasLink;
+  L2Link Link;
   DramChannels Ram;
   Cache Llc;
   std::deque<Slice> Slices; ///< by cluster
   uint32_t L2HitCycles;
   std::vector<DramChannels::Fill> Fills;
-  std::vector<Answer> FromLlc;
+  std::vector<Answer> FromLlc, FromL2;
 };
 
 } // namespace vorion::isasim

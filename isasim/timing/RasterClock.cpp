@@ -50,9 +50,10 @@ unsigned DispatchTable::count(unsigned Width, unsigned Height) const {
 
 RasterClock::RasterClock(const TimingConfig &Params, MemoryPort PortIn,
                          unsigned NumAgents, unsigned QueueDepthIn)
-    : Timing(Params.Raster), L2HalfHit(Params.L2.HitCycles / 2), Port(PortIn),
-      QueueDepth(QueueDepthIn), Table(Timing), PairTable(inPairs(Timing)),
-      Agents(NumAgents), Fetch(Port, Timing.BufferEntries) {}
+    : Timing(Params.Raster), WriteCycles(MemorySystem::writeCycles(Params)),
+      Port(PortIn), QueueDepth(QueueDepthIn), Table(Timing),
+      PairTable(inPairs(Timing)), Agents(NumAgents),
+      Fetch(Port, Timing.BufferEntries) {}
 
 void RasterClock::begin(uint64_t Start) {
   MoreWork = true;
@@ -360,7 +361,7 @@ void RasterClock::drained() {
   if (Taken == Turn::Never)
     return;
   const uint64_t Next =
-      std::max(DispatchAt + 1, Taken > L2HalfHit ? Taken - L2HalfHit : 0);
+      std::max(DispatchAt + 1, Taken > WriteCycles ? Taken - WriteCycles : 0);
   spend(RasterCycle::Drain, Next - DispatchAt);
   At = Next;
   if (DrainRow == Work.What.Height)

@@ -135,7 +135,7 @@ private:
   Finished finish(MemorySystem &Memory);
 
   const RasterTiming Timing;
-  const uint32_t L2HalfHit;
+  const uint32_t WriteCycles; ///< MemorySystem::writeCycles()
   const MemoryPort Port;
   unsigned QueueDepth;
   DispatchTable Table;

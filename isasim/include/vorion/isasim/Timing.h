@@ -150,6 +150,11 @@ struct DramTime {
   uint64_t BusPs = 0; ///< that data buses were in use, summed over channels
 };
 
+/// Bytes that went over the link to the L2.
+struct LinkTime {
+  uint64_t ToL2 = 0, FromL2 = 0;
+};
+
 /// Events for other people's energy models; what an event is worth in joules
 /// is not said here.
 struct Activity {
@@ -166,6 +171,7 @@ struct TimeReport {
   std::vector<PixelTime> PixelUnits;
   std::vector<CacheTime> L2;
   CacheTime Llc;
+  LinkTime LinkBytes; ///< counted if there is a link
   DramTime Dram;
   std::vector<Activity> Activities;
   HostTiming Host; ///< what launches and copies cost beside the run
