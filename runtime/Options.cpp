@@ -63,9 +63,9 @@ Failure DeviceOptions::readConfig(isasim::Config &C) const {
 }
 
 Failure DeviceOptions::readTime(isasim::Config &C) const {
+  C.Timing.Enabled |= !Time.empty() || Watch.needClock();
   if (Time.empty())
     return {};
-  C.Timing.Enabled = true;
   if (onlyProfiled() || Time == "on")
     return {};
   const char *End = Time.data() + Time.size();

@@ -23,7 +23,8 @@ struct DeviceOptions {
   /// The text of the variable \p Name; null for one that is not ours.
   std::string *find(std::string_view Name);
 
-  /// The machine that Config, Set and Time ask for.
+  /// The machine that Config, Set and Time ask for, with a clock where Watch
+  /// needs one.
   Failure machine(isasim::Config &C) const;
   /// Whether the clock goes on in profiled runs only.
   bool onlyProfiled() const { return Time == "profiled"; }

@@ -495,6 +495,11 @@ void Machine::setObservers(std::vector<Observer *> Observers) {
   PImpl->chooseLog();
 }
 
+void Machine::setTimeObservers(std::vector<TimeObserver *> Observers) {
+  if (PImpl->Time)
+    PImpl->Time->setObservers(std::move(Observers));
+}
+
 void Machine::setWatchdog(double Seconds) { PImpl->WatchdogSeconds = Seconds; }
 
 void Machine::requestStop() {

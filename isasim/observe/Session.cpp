@@ -53,6 +53,13 @@ std::vector<NamedFile> SessionOptions::outputs() const {
   return All;
 }
 
+bool SessionOptions::needClock() const {
+  for (size_t N = 0; N != std::size(Kinds); ++N)
+    if (Kinds[N]->NeedsClock && !(this->*sessionOptions()[N].Text).empty())
+      return true;
+  return false;
+}
+
 struct Session::Impl {
   Expected<Success> open(const SessionOptions &O);
   void tell(auto What);
@@ -104,8 +111,12 @@ Session::create(const SessionOptions &O, std::string Tool,
 
 void Session::attach(Machine &M) {
   M.setObservers(PImpl->Observers);
-  for (const auto &T : PImpl->Tools)
+  std::vector<TimeObserver *> OfClock;
+  for (const auto &T : PImpl->Tools) {
     T->attach(M);
+    std::ranges::copy(T->timeObservers(), std::back_inserter(OfClock));
+  }
+  M.setTimeObservers(std::move(OfClock));
 }
 
 Expected<Success> Session::runEnded(const RunResult &R) {

@@ -16,6 +16,8 @@
 
 namespace vorion::isasim {
 
+class TimeObserver;
+
 /// Where tools send what is not for a file of theirs.
 struct ToolOutput {
   /// What is meant for stdout. Null: stdout is the application's.
@@ -31,6 +33,9 @@ public:
   /// What watches the runs, in the order in which it is told. None: the tool
   /// needs no observed run.
   virtual std::vector<Observer *> observers() { return {}; }
+  /// What watches the clock, in the order in which it is told. Asked for after
+  /// attach().
+  virtual std::vector<TimeObserver *> timeObservers() { return {}; }
   /// Whether its observers change runs. They are told before all others: what
   /// they do is over before others hear of the instruction that the warp
   /// stands at.
@@ -58,6 +63,8 @@ struct ToolKind {
   /// What its option chooses from, for --help; empty if it names nothing.
   // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
   std::span<const std::string_view> Names = {};
+  /// Whether there is nothing to see of a machine without a clock.
+  bool NeedsClock = false;
 };
 
 /// The kinds by their members of SessionOptions, each defined with its tool.

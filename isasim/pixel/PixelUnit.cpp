@@ -132,8 +132,10 @@ TailWork Execution::run() {
     Work.Counts.TailPixels = Tile.Live;
     Work.Status = blend();
   }
-  if (Work.Status == VR_OK)
+  if (Work.Status == VR_OK) {
+    Work.Saturated = static_cast<uint32_t>(Work.Counts.TailPixels) - Tile.Live;
     storePixels();
+  }
   return std::move(Work);
 }
 

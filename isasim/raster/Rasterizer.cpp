@@ -151,8 +151,10 @@ CommandWork Execution::run() {
   if (KeepsDetails)
     Work.Pushed = Current.Pushed;
   Work.Status = blend();
-  if (!Work.hasFailed())
+  if (!Work.hasFailed()) {
+    Work.Saturated = uint32_t{Task.Width} * Task.Height - Tile.Live;
     writePixels();
+  }
   if (Work.HandedOver)
     writeTail();
   return std::move(Work);

@@ -24,6 +24,7 @@ struct CommandWork {
   Job What;
   uint32_t Status = VR_OK; ///< any other: nothing is written
   bool HandedOver = false; ///< the pixel unit goes on
+  uint32_t Saturated = 0;  ///< pixels of the tile that took no more
   Counters Counts;
   /// In the order of the fetches, up to one that cannot be blended.
   std::vector<GaussianWork> Gaussians;
@@ -43,6 +44,7 @@ struct TailWork {
   uint32_t Record = 0; ///< address of the vx_tail
   Job What;            ///< as that says
   uint32_t Status = VR_OK;
+  uint32_t Saturated = 0; ///< of the pixels taken over, those that took no more
   Counters Counts;
   std::vector<uint32_t> Records; ///< of Gaussians, in the list's order
   std::vector<OpenPixel> Pixels; ///< in rows

@@ -51,6 +51,17 @@ void Clock::expect(raster::TailWork &&Work) {
                                        std::move(Work));
 }
 
+void Clock::setObservers(std::vector<TimeObserver *> Observers) {
+  Watch.reset();
+  if (!Observers.empty())
+    Watch.emplace(std::move(Observers));
+  const TimeWatch *const Told = Watch ? &*Watch : nullptr;
+  for (RasterClock &R : Rasters)
+    R.watch(Told);
+  for (PixelClock &U : Pixels)
+    U.watch(Told);
+}
+
 void Clock::begin(const CodeTable &Code) {
   Ops = describeProgram(Code, Timing.Core, Shape.LanesPerWarp);
   Begun = Now;

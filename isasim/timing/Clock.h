@@ -5,9 +5,11 @@
 #include "timing/CoreClock.h"
 #include "timing/PixelClock.h"
 #include "timing/RasterClock.h"
+#include "timing/TimeObserver.h"
 #include "vorion/isasim/Config.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace vorion::isasim {
@@ -31,6 +33,9 @@ public:
   /// sockets and clusters may call at the same time.
   void expect(raster::CommandWork &&Work);
   void expect(raster::TailWork &&Work);
+
+  /// \p Observers are told from now on, in this order.
+  void setObservers(std::vector<TimeObserver *> Observers);
 
   /// A run of \p Code begins.
   void begin(const CodeTable &Code);
@@ -86,6 +91,7 @@ private:
   /// done, nor beyond the cores.
   uint64_t Horizon = 0;
   uint64_t OutOfOrder = 0;
+  std::optional<TimeWatch> Watch;
 };
 
 } // namespace vorion::isasim

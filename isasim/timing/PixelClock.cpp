@@ -59,6 +59,9 @@ std::optional<unsigned> PixelClock::step(MemorySystem &Memory) {
     storeGroup(Memory);
     break;
   case Stage::Done:
+    if (Watch)
+      Watch->tell(
+          [this](TimeObserver &O) { O.tileRest(Work, {TakenAt, DoneAt}); });
     Now = Queue.empty() ? Stage::Idle : Stage::Take;
     At = Queue.empty() ? Turn::Never : DoneAt;
     return Serving;
@@ -127,6 +130,7 @@ void PixelClock::take(MemorySystem &Memory) {
   }
   ++Spent.Tails;
   spend(PixelCycle::Idle, At - DoneAt);
+  TakenAt = At;
   Fetch.begin(At);
   Group = 0;
   if (!Work.Record) {

@@ -6,6 +6,7 @@
 #include "timing/CycleLedger.h"
 #include "timing/GaussianFetch.h"
 #include "timing/MemorySystem.h"
+#include "timing/TimeObserver.h"
 #include "timing/Turn.h"
 
 #include <deque>
@@ -27,6 +28,9 @@ public:
   void expect(unsigned Core, raster::TailWork &&Executed) {
     Expected[Core].push_back(std::move(Executed));
   }
+  /// \p Observers are told from now on; null for nobody.
+  void watch(const TimeWatch *Observers) { Watch = Observers; }
+
   /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);
   /// Everything that it was given is dropped.
@@ -87,6 +91,7 @@ private:
   uint64_t DoneAt = 0; ///< all cycles before are accounted for
   unsigned Serving = 0;
   raster::TailWork Work;
+  uint64_t TakenAt = 0; ///< of Work
   size_t Group = 0;
   uint32_t Visits = 0;    ///< Gaussians that the group examines
   uint32_t Number = 0;    ///< of them, asked for
@@ -94,6 +99,7 @@ private:
   GaussianFetch Fetch;
   CycleLedger<PixelCycle> Ledger;
   PixelTime Spent;
+  const TimeWatch *Watch = nullptr;
 };
 
 } // namespace vorion::isasim

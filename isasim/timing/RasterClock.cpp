@@ -174,6 +174,7 @@ void RasterClock::take() {
     Work.Gaussians.clear();
 
   spend(RasterCycle::Idle, At - DispatchAt);
+  TakenAt = At;
   const uint64_t Begun = At + Timing.StartCycles;
   // The whole tile is cleared, a row of banks at a time.
   const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
@@ -396,6 +397,9 @@ RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
                      .Op = CacheOp::Write});
     spend(RasterCycle::Drain, Lines);
   }
+  if (Watch)
+    Watch->tell(
+        [this](TimeObserver &O) { O.tile(Work, {TakenAt, DispatchAt}); });
   --Agents[Serving].Queued;
   Agents[Serving].Tails += Work.HandedOver;
   const bool More = std::any_of(Agents.begin(), Agents.end(),

@@ -7,6 +7,7 @@
 #include "timing/CycleLedger.h"
 #include "timing/GaussianFetch.h"
 #include "timing/MemorySystem.h"
+#include "timing/TimeObserver.h"
 #include "timing/Turn.h"
 
 #include <array>
@@ -45,6 +46,9 @@ public:
   void expect(unsigned Agent, raster::CommandWork &&Executed) {
     Agents[Agent].Expected.push_back(std::move(Executed));
   }
+
+  /// \p Observers are told from now on; null for nobody.
+  void watch(const TimeWatch *Observers) { Watch = Observers; }
 
   /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);
@@ -150,6 +154,7 @@ private:
   /// before are accounted for.
   uint64_t DispatchAt = 0;
   raster::CommandWork Work;
+  uint64_t TakenAt = 0;  ///< of Work
   size_t Number = 0;     ///< of the Gaussian that is fetched next
   size_t Dispatches = 0; ///< Gaussians that have been dispatched or dropped
   GaussianFetch Fetch;
@@ -162,6 +167,7 @@ private:
 
   CycleLedger<RasterCycle> Ledger;
   RasterTime Spent;
+  const TimeWatch *Watch = nullptr;
 };
 
 } // namespace vorion::isasim

@@ -6,6 +6,8 @@
 
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace vorion::isasim {
 
@@ -17,6 +19,13 @@ public:
   std::string make_option_opts(const CLI::Option *Opt) const override {
     const std::string Type = Opt->get_type_name();
     return Type.empty() || Type.starts_with('[') ? Type : " " + Type;
+  }
+  /// One empty line between groups, not two.
+  std::string make_group(std::string Group, bool IsPositional,
+                         std::vector<const CLI::Option *> Opts) const override {
+    return CLI::Formatter::make_group(std::move(Group), IsPositional,
+                                      std::move(Opts))
+        .substr(1);
   }
   /// Without the value that stands for none, {-}.
   std::string make_option_name(const CLI::Option *Opt,

@@ -53,7 +53,7 @@ Expected<Config> makeConfig(const Options &O) {
       return Parsed;
     C = *Parsed;
   }
-  C.Timing.Enabled |= O.Time;
+  C.Timing.Enabled |= O.Time || O.Watch.needClock();
   if (O.ClockMhz)
     C.Timing.ClockMhz = *O.ClockMhz;
   if (O.OneHart)

@@ -7,6 +7,9 @@
 # RUN: grep -v host_ %t.1.json > %t.1.txt
 # RUN: grep -v host_ %t.4.json > %t.4.txt
 # RUN: diff %t.1.txt %t.4.txt
+# What watches the clock changes nothing, and needs no --time.
+# RUN: vorion-sim %t.elf --threads 4 --tiles %t.tiles --stats %t.on.json
+# RUN: %python %S/Inputs/tiles.py %t.tiles %t.1.json %t.on.json
 # CHECK: raster commands 8{{$}}
 # CHECK: raster gaussians 8{{$}}
 # CHECK: raster fragments 512{{$}}

@@ -1,6 +1,7 @@
 #include "commands/Choices.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
+#include "commands/HeatMapFiles.h"
 #include "commands/NumericsReport.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
@@ -20,9 +21,11 @@
 
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -39,6 +42,7 @@ struct RenderArguments {
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
   std::string Numerics; ///< settings, empty for no
+  std::string HeatMap;  ///< what names of files begin with, empty for no
   RenderOptions Options;
 };
 
@@ -81,6 +85,16 @@ Expected<Success> check(const RenderArguments &A) {
     return Usage("--dump-pairs writes one picture's, expected one --view");
   if (!isOne(A) && !A.Depth.empty())
     return Usage("--depth writes one picture's, expected one --view");
+  if (!A.HeatMap.empty()) {
+    if (auto Checked = checkPrefix("--heat-map", A.HeatMap); !Checked)
+      return Checked;
+    if (O.Blending == Path::Simt)
+      return Usage("--heat-map shows the rasterizers' work, expected --path "
+                   "raster with it");
+    if (!isOne(A) || !A.Depth.empty() || A.Explain == "measure")
+      return Usage("--heat-map shows one blend of one view, expected one "
+                   "--view, and neither --depth nor --explain=measure");
+  }
   if (!isOne(A) && A.Explain == "measure")
     return Usage("--explain=measure renders one picture, expected one --view");
   if (O.Reach == Support::Official16 && O.SimtTile != 16)
@@ -88,10 +102,12 @@ Expected<Success> check(const RenderArguments &A) {
                              "of 16x16 pixels, expected 16",
                              O.SimtTile));
   // A render may take minutes: find out now whether it can be kept.
-  return claimOutputs({{"-o", isOne(A) ? A.Output : ""},
-                       {"--json", A.Json},
-                       {"--dump-pairs", A.Pairs},
-                       {"--depth", A.Depth}},
+  std::vector<NamedFile> Outputs = HeatMapFiles::outputs(A.HeatMap);
+  Outputs.insert(Outputs.end(), {{"-o", isOne(A) ? A.Output : ""},
+                                 {"--json", A.Json},
+                                 {"--dump-pairs", A.Pairs},
+                                 {"--depth", A.Depth}});
+  return claimOutputs(Outputs,
                       {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
 }
 
@@ -113,8 +129,8 @@ void fallBack(const RenderArguments &A, const Launcher &L,
               const EffectInputs &In, RenderPlan &Plan) {
   // The counts of a frame must not depend on what was compiled before.
   const bool FiguresWanted = !A.Json.empty() || !A.Explain.empty() ||
-                             !A.Numerics.empty() || A.Time ||
-                             A.ClockMhz.has_value();
+                             !A.Numerics.empty() || !A.HeatMap.empty() ||
+                             A.Time || A.ClockMhz.has_value();
   if (A.Request.Selection != EffectRequest::Mode::Auto || FiguresWanted)
     return;
   RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
@@ -132,7 +148,9 @@ Expected<std::vector<Camera>> findCameras(const RenderArguments &A) {
              : readCameras(A.Cameras, A.Views);
 }
 
-Expected<Success> renderOne(const PictureJob &J, const Camera &C) {
+/// \p Map may be nullptr.
+Expected<Success> renderOne(const PictureJob &J, const Camera &C,
+                            const HeatMapFiles *Map) {
   const auto R = drawPicture(J, C);
   endProgress();
   if (!R) {
@@ -142,7 +160,10 @@ Expected<Success> renderOne(const PictureJob &J, const Camera &C) {
   if (auto Written = writePicture(J, C, *R); !Written)
     return Written;
   printOut("{}", textReport(C, J.Options, J.Launch.device(), *R));
-  return Success{};
+  if (!Map)
+    return Success{};
+  auto Report = reportOf(J, J.Output, C, *R);
+  return Report ? Map->write(C, std::move(*Report)) : Report.error();
 }
 
 /// That no picture would take the place of another or of another file.
@@ -206,6 +227,13 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
       return Begun.error();
     Numerics.emplace(std::move(*Begun));
   }
+  std::optional<HeatMapFiles> Map;
+  if (!A.HeatMap.empty()) {
+    auto Begun = HeatMapFiles::begin(A.HeatMap, Machine);
+    if (!Begun)
+      return Begun.error();
+    Map.emplace(std::move(*Begun));
+  }
   const ViewFacts Facts = factsOfAll(*S, *Cameras, A.Options);
   const EffectInputs Inputs{
       *S, A.Options, Facts, !A.Pairs.empty(), !A.Depth.empty(), Machine};
@@ -231,8 +259,9 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   const PictureJob J{A.Scene.Path, A.Scene.Axes, A.Cameras, *File,
                      A.Options,    Plan,         L,         A.Output,
                      A.Json,       A.Pairs,      A.Depth};
-  auto Rendered = isOne(A) ? renderOne(J, Cameras->front())
-                           : renderAll(J, *Cameras, A.Overlap);
+  auto Rendered = isOne(A)
+                      ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr)
+                      : renderAll(J, *Cameras, A.Overlap);
   if (!Rendered)
     return Rendered;
   L.recordBuilds();
@@ -329,6 +358,11 @@ Runner addRender(CLI::App &App) {
                "Say where fp32 parts from double, by source line and stage of "
                "the rasterizer (docs/debugging.md)")
       ->option_text("[=SETTING,...]");
+  App.add_option("--heat-map", A->HeatMap,
+                 "Show where the rasterizers' work is, tile by tile: "
+                 "PREFIX.list.png, .blends, .cycles and .saturation, and "
+                 "PREFIX.json (docs/debugging.md)")
+      ->option_text("PREFIX");
   App.add_option(
          "--depth", A->Depth,
          "Write each pixel's sum of weights times depths, and its alpha "

@@ -29,12 +29,6 @@ Expected<Success> writePairs(const std::string &File, const SortedPairs &P) {
                          {"index", Words(P.Gaussians)}});
 }
 
-Expected<Json> report(const PictureJob &J, const std::string &Output,
-                      const Camera &C, const RenderResult &R) {
-  return jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input,
-                     C, J.Options, J.Plan, J.Launch.device(), R});
-}
-
 } // namespace
 
 ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
@@ -45,6 +39,12 @@ ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
     All = All ? combined(*All, Own) : Own;
   }
   return *All;
+}
+
+Expected<Json> reportOf(const PictureJob &J, const std::string &Output,
+                        const Camera &C, const RenderResult &R) {
+  return jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input,
+                     C, J.Options, J.Plan, J.Launch.device(), R});
 }
 
 Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C) {
@@ -64,7 +64,7 @@ Expected<Success> writePicture(const PictureJob &J, const Camera &C,
       return Written;
   if (J.Json.empty())
     return Success{};
-  const auto Report = report(J, J.Output, C, R);
+  const auto Report = reportOf(J, J.Output, C, R);
   if (!Report)
     return Report.error();
   return writeFileAtomically(J.Json, jsonText(*Report, 2) + "\n");
@@ -89,7 +89,7 @@ writePictures(const PictureJob &J, const std::vector<Camera> &Cameras,
     Written(Output);
     if (J.Json.empty())
       continue;
-    auto Report = report(J, Output, Cameras[N], R.Frames[N]);
+    auto Report = reportOf(J, Output, Cameras[N], R.Frames[N]);
     if (!Report)
       return Report.error();
     Reports.push_back(std::move(*Report));

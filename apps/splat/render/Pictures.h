@@ -5,6 +5,7 @@
 #include "scene/SceneFile.h"
 
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C);
 /// Writes what \p J asks for of the picture of \p C.
 Expected<Success> writePicture(const PictureJob &J, const Camera &C,
                                const RenderResult &R);
+
+/// What was done for the picture \p Output of \p C, as --json has it.
+Expected<nlohmann::ordered_json> reportOf(const PictureJob &J,
+                                          const std::string &Output,
+                                          const Camera &C,
+                                          const RenderResult &R);
 
 /// The picture's file of one of several views: for out.png and view front
 /// out.front.png, for a/front out.a_front.png.

@@ -21,6 +21,7 @@
 namespace vorion::isasim {
 
 class Observer;
+class TimeObserver;
 
 class Machine {
 public:
@@ -68,6 +69,10 @@ public:
   /// The observers, told in this order, see every event of the following runs,
   /// which then use one host thread. They change no result.
   void setObservers(std::vector<Observer *> Observers);
+
+  /// The observers of the clock (timing/TimeObserver.h, for those of this
+  /// library) watch it in the following runs. Without a clock nothing happens.
+  void setTimeObservers(std::vector<TimeObserver *> Observers);
 
   /// Whether the clock, where there is one, goes on in the following runs; it
   /// does from the beginning. Runs without it take no time, have no

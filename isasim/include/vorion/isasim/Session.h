@@ -24,6 +24,8 @@ struct SessionOptions {
 
   /// The files that will be written, but for standard output.
   std::vector<NamedFile> outputs() const;
+  /// Whether the machine has to have its clock on for what is asked for.
+  bool needClock() const;
 };
 
 /// A line of SessionOptions.def.

@@ -1,0 +1,64 @@
+#include "commands/HeatMapFiles.h"
+
+#include "picture/HeatMap.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace vorion::splat {
+
+namespace {
+
+std::string pictureOf(const std::string &Prefix, Heat H) {
+  return fmt::format("{}.{}.png", Prefix, name(H));
+}
+
+std::string reportOf(const std::string &Prefix) { return Prefix + ".json"; }
+
+} // namespace
+
+std::vector<NamedFile> HeatMapFiles::outputs(const std::string &Prefix) {
+  if (Prefix.empty())
+    return {};
+  std::vector<NamedFile> All{{"--heat-map", reportOf(Prefix)}};
+  for (const Heat H : Heats)
+    All.push_back({"--heat-map", pictureOf(Prefix, H)});
+  return All;
+}
+
+Expected<HeatMapFiles> HeatMapFiles::begin(std::string Prefix,
+                                           DeviceOptions &Options) {
+  auto Folder = TemporaryFolder::make("splat-heat-map");
+  if (!Folder)
+    return Folder.error();
+  HeatMapFiles F(std::move(Prefix), std::move(*Folder));
+  Options.set("VORION_TILES", F.file());
+  return F;
+}
+
+Expected<Success> HeatMapFiles::write(const Camera &View,
+                                      nlohmann::ordered_json Report) const {
+  const auto Tiles = readTileWork(file());
+  if (!Tiles || Tiles->empty())
+    return Error{"",
+                 "the device reports nothing about tiles, expected a Vorion "
+                 "device with --heat-map",
+                 ExitCode::Usage};
+  for (const Heat H : Heats) {
+    if (auto Written = writePng(pictureOf(Prefix, H),
+                                drawHeat(*Tiles, H, View.Width, View.Height));
+        !Written)
+      return Written;
+    printOut("heat map of {}: {}, up to {:.0f}{}\n", name(H),
+             pictureOf(Prefix, H), scaleOf(*Tiles, H),
+             H == Heat::Saturation ? " %" : "");
+  }
+  Report["heat_map"] = heatJson(*Tiles);
+  return writeFileAtomically(reportOf(Prefix), jsonText(Report, 2) + "\n");
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,40 @@
+/// `splat render --heat-map`: pictures of where the rasterizers' work is.
+#pragma once
+
+#include "device/DeviceOptions.h"
+#include "io/Cameras.h"
+#include "vorion/support/Outputs.h"
+#include "vorion/support/TemporaryFolder.h"
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Of devices that are opened while it lives.
+class HeatMapFiles {
+public:
+  /// What begins with \p Prefix: PREFIX.list.png and so on, PREFIX.json.
+  static std::vector<NamedFile> outputs(const std::string &Prefix);
+
+  /// Asks for it in \p Options, which turns the machine's clock on. Errors: no
+  /// temporary folder.
+  static Expected<HeatMapFiles> begin(std::string Prefix,
+                                      DeviceOptions &Options);
+
+  /// Writes what the device drew of \p View; \p Report says what made it. An
+  /// error where the device told of no tiles.
+  Expected<Success> write(const Camera &View,
+                          nlohmann::ordered_json Report) const;
+
+private:
+  HeatMapFiles(std::string PrefixIn, TemporaryFolder FolderIn)
+      : Prefix(std::move(PrefixIn)), Folder(std::move(FolderIn)) {}
+  std::string file() const { return Folder.path() + "/tiles.jsonl"; }
+
+  std::string Prefix;
+  TemporaryFolder Folder;
+};
+
+} // namespace vorion::splat

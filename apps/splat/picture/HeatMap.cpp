@@ -1,0 +1,194 @@
+#include "picture/HeatMap.h"
+
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+using Colour = std::array<float, 3>;
+
+/// From dark to bright, so that the order shows without colours too.
+constexpr Colour Ramp[] = {{0.02F, 0.02F, 0.10F},
+                           {0.28F, 0.07F, 0.43F},
+                           {0.72F, 0.21F, 0.33F},
+                           {0.97F, 0.55F, 0.16F},
+                           {0.99F, 0.98F, 0.72F}};
+constexpr Colour Nothing = {0.25F, 0.25F, 0.25F}; ///< where no tile was drawn
+
+/// \p Share is between 0 and 1.
+Colour colourOf(double Share) {
+  constexpr std::size_t Steps = std::size(Ramp) - 1;
+  const double At = std::clamp(Share, 0.0, 1.0) * Steps;
+  const std::size_t Step = std::min(static_cast<std::size_t>(At), Steps - 1);
+  const auto Rest = static_cast<float>(At - static_cast<double>(Step));
+  Colour C{};
+  for (std::size_t I = 0; I != C.size(); ++I)
+    C[I] = std::lerp(Ramp[Step][I], Ramp[Step + 1][I], Rest);
+  return C;
+}
+
+/// Characters of 3 x 5 pixels, a row an octal digit from the top.
+constexpr std::pair<char, unsigned> Glyphs[] = {
+    {'0', 075557}, {'1', 026227}, {'2', 071747}, {'3', 071717},
+    {'4', 055711}, {'5', 074717}, {'6', 074757}, {'7', 071111},
+    {'8', 075757}, {'9', 075717}, {'%', 051245}};
+constexpr int GlyphWidth = 3, GlyphHeight = 5, GlyphScale = 2;
+constexpr int GlyphPitch = (GlyphWidth + 1) * GlyphScale;
+
+void fill(Image &I, int X, int Y, int Width, int Height, const Colour &C) {
+  for (int Row = std::max(Y, 0); Row < std::min(Y + Height, I.Height); ++Row)
+    for (int Column = std::max(X, 0); Column < std::min(X + Width, I.Width);
+         ++Column)
+      std::ranges::copy(C, I.Render.begin() + 3 * (Row * I.Width + Column));
+}
+
+void write(Image &I, int X, int Y, std::string_view Text) {
+  for (const char Each : Text) {
+    const auto *Glyph =
+        std::ranges::find(Glyphs, Each, &std::pair<char, unsigned>::first);
+    for (int Bit = 0; Bit != GlyphWidth * GlyphHeight; ++Bit)
+      if (Glyph->second >> (GlyphWidth * GlyphHeight - 1 - Bit) & 1)
+        fill(I, X + Bit % GlyphWidth * GlyphScale,
+             Y + Bit / GlyphWidth * GlyphScale, GlyphScale, GlyphScale,
+             {1, 1, 1});
+    X += GlyphPitch;
+  }
+}
+
+/// 0, the colours, the scale's end.
+void drawLegend(Image &I, int Top, const std::string &End) {
+  constexpr int Margin = 7;
+  const int First = Margin + GlyphPitch + Margin;
+  const int Last =
+      I.Width - 2 * Margin - GlyphPitch * static_cast<int>(End.size());
+  for (int X = First; X < Last; ++X)
+    fill(I, X, Top + Margin - 2, 1, LegendHeight - 2 * Margin + 4,
+         colourOf(double(X - First) / std::max(Last - 1 - First, 1)));
+  write(I, Margin, Top + Margin, "0");
+  write(I, Last + Margin, Top + Margin, End);
+}
+
+/// Adds a line of the device's file.
+void addLine(std::map<std::pair<int, int>, TileWork> &To, const Json &Line) {
+  const int X = Line.at("x"), Y = Line.at("y");
+  TileWork &T = To[{Y, X}];
+  T.X = X;
+  T.Y = Y;
+  T.Width = Line.at("width");
+  T.Height = Line.at("height");
+  T.Blends += Line.at("blends").get<uint64_t>();
+  T.Saturated += Line.at("saturated").get<uint64_t>();
+  const uint64_t Cycles =
+      Line.at("end").get<uint64_t>() - Line.at("begin").get<uint64_t>();
+  if (Line.at("unit") != "rasterizer") {
+    T.PixelUnitCycles += Cycles;
+    return;
+  }
+  T.Cycles += Cycles;
+  T.List += Line.at("list").get<uint64_t>();
+  T.Pixels += static_cast<uint64_t>(T.Width) * static_cast<uint64_t>(T.Height);
+}
+
+} // namespace
+
+Expected<std::vector<TileWork>> readTileWork(const std::string &File) {
+  const auto Bytes = readFile(File);
+  if (!Bytes)
+    return Bytes.error();
+  std::string_view Text(reinterpret_cast<const char *>(Bytes->data()),
+                        Bytes->size());
+  std::map<std::pair<int, int>, TileWork> ByPlace;
+  while (!Text.empty()) {
+    const std::size_t End = std::min(Text.find('\n'), Text.size());
+    const auto Line = parseJson<Json>(Text.substr(0, End), File, "a tile");
+    if (!Line)
+      return Line.error();
+    try {
+      addLine(ByPlace, *Line);
+    } catch (const Json::exception &) {
+      return Error{File, "no tile, expected lines of VORION_TILES"};
+    }
+    Text.remove_prefix(std::min(End + 1, Text.size()));
+  }
+  std::vector<TileWork> All;
+  for (const auto &[Place, T] : ByPlace)
+    All.push_back(T);
+  return All;
+}
+
+std::string_view name(Heat H) {
+  constexpr std::array<std::string_view, Heats.size()> Names{
+      "list", "blends", "cycles", "saturation"};
+  return Names[static_cast<std::size_t>(H)];
+}
+
+double valueOf(const TileWork &T, Heat H) {
+  switch (H) {
+  case Heat::List:
+    return static_cast<double>(T.List);
+  case Heat::Blends:
+    return static_cast<double>(T.Blends);
+  case Heat::Cycles:
+    return static_cast<double>(T.Cycles);
+  case Heat::Saturation:
+    return T.Pixels ? 100.0 * static_cast<double>(T.Saturated) /
+                          static_cast<double>(T.Pixels)
+                    : 0.0;
+  }
+  return 0;
+}
+
+double scaleOf(const std::vector<TileWork> &Tiles, Heat H) {
+  if (H == Heat::Saturation)
+    return 100;
+  double Most = 0;
+  for (const TileWork &T : Tiles)
+    Most = std::max(Most, valueOf(T, H));
+  return Most;
+}
+
+Image drawHeat(const std::vector<TileWork> &Tiles, Heat H, int Width,
+               int Height) {
+  Image I;
+  I.Width = Width;
+  I.Height = Height + LegendHeight;
+  I.Render.resize(3 * I.pixels());
+  fill(I, 0, 0, Width, Height, Nothing);
+  const double Scale = scaleOf(Tiles, H);
+  for (const TileWork &T : Tiles)
+    fill(I, T.X, T.Y, T.Width, std::min(T.Height, Height - T.Y),
+         colourOf(Scale > 0 ? valueOf(T, H) / Scale : 0));
+  drawLegend(I, Height,
+             fmt::format("{:.0f}{}", Scale, H == Heat::Saturation ? "%" : ""));
+  return I;
+}
+
+Json heatJson(const std::vector<TileWork> &Tiles) {
+  Json Scales, All = Json::array();
+  for (const Heat H : Heats)
+    Scales[std::string(name(H))] = scaleOf(Tiles, H);
+  for (const TileWork &T : Tiles)
+    All.push_back({{"x", T.X},
+                   {"y", T.Y},
+                   {"width", T.Width},
+                   {"height", T.Height},
+                   {"list", T.List},
+                   {"blends", T.Blends},
+                   {"cycles", T.Cycles},
+                   {"pixel_unit_cycles", T.PixelUnitCycles},
+                   {"saturation", valueOf(T, Heat::Saturation)}});
+  return {{"scales", Scales}, {"tiles", All}};
+}
+
+} // namespace vorion::splat
