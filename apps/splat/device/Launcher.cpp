@@ -138,6 +138,10 @@ void Launcher::build(const ProgramSpec &Spec) {
   if (Status == CL_SUCCESS)
     Status = Program.build(Dev.handle(), Options.c_str());
   if (Status != CL_SUCCESS) {
+    if (Status == CL_OUT_OF_HOST_MEMORY) {
+      Failure = clError("compiling kernel program " + Spec.Name, Status);
+      return;
+    }
     BuildLog = Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Dev.handle());
     if (auto File = fileError(Spec.Name, BuildLog)) {
       Failure = std::move(File);

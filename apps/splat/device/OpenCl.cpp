@@ -35,11 +35,13 @@ Error clError(std::string_view What, cl_int Status) {
                         Status == CL_OUT_OF_RESOURCES ||
                         Status == CL_OUT_OF_HOST_MEMORY ||
                         Status == CL_INVALID_BUFFER_SIZE;
-  return Error{
-      "",
-      fmt::format("{} failed: {}{}", What, statusName(Status),
-                  NoMemory ? ", the device has too little memory" : ""),
-      NoMemory ? ExitCode::LimitReached : ExitCode::Internal};
+  return Error{"",
+               fmt::format("{} failed: {}{}", What, statusName(Status),
+                           !NoMemory ? ""
+                           : Status == CL_OUT_OF_HOST_MEMORY
+                               ? ", the host has too little memory"
+                               : ", the device has too little memory"),
+               NoMemory ? ExitCode::LimitReached : ExitCode::Internal};
 }
 
 } // namespace vorion::splat

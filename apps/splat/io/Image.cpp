@@ -25,11 +25,17 @@ void appendPng(png_structp Png, png_bytep Data, std::size_t Size) {
 }
 void flushPng(png_structp /*Png*/) {}
 
+/// libpng's own would print lines; the caller has one of its own.
+[[noreturn]] void giveUpPng(png_structp Png, png_const_charp /*Why*/) {
+  png_longjmp(Png, 1);
+}
+void ignorePng(png_structp /*Png*/, png_const_charp /*Warning*/) {}
+
 /// Encodes 8-bit RGB rows; false if libpng gave up. No object with a
 /// destructor lives in this frame, since libpng reports errors by longjmp.
 bool encodeRows(std::string &Out, unsigned char *Rows, int Width, int Height) {
-  png_structp Png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_structp Png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr,
+                                            giveUpPng, ignorePng);
   png_infop Info = Png ? png_create_info_struct(Png) : nullptr;
   if (!Info || setjmp(png_jmpbuf(Png))) { // NOLINT(bugprone-*,cert-err52-cpp)
     png_destroy_write_struct(&Png, &Info);

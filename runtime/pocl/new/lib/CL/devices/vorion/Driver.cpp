@@ -147,6 +147,7 @@ void keepSourceLines() {
 
 cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
   keepSourceLines();
+  endInOneLineWithoutMemory();
   cl_int Status = CL_SUCCESS;
   Machine Opened = openMachine(Parameters, Status);
   if (!Opened)
