@@ -1,7 +1,5 @@
 #include "Options.h"
 
-#include "vorion/support/File.h"
-
 #include <charconv>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -46,16 +44,10 @@ std::string *DeviceOptions::find(std::string_view Name) {
 Failure DeviceOptions::readConfig(isasim::Config &C) const {
   if (Config.empty())
     return {};
-  std::string Json = Config, Where = "configuration";
-  const std::size_t First = Config.find_first_not_of(" \t\r\n");
-  if (First == std::string::npos || Config[First] != '{') {
-    const auto Bytes = readFile(Config);
-    if (!Bytes)
-      return failure(VX_ERROR_FILE, Bytes.error());
-    Json.assign(reinterpret_cast<const char *>(Bytes->data()), Bytes->size());
-    Where = Config;
-  }
-  auto Parsed = isasim::parseConfig(Json, Where);
+  const auto Found = isasim::findMachine(Config);
+  if (!Found)
+    return failure(VX_ERROR_FILE, Found.error());
+  auto Parsed = isasim::parseConfig(Found->Json, Found->Where);
   if (!Parsed)
     return failure(VX_ERROR_CONFIG, Parsed.error());
   C = *Parsed;

@@ -13,7 +13,7 @@ namespace vorion::runtime {
 /// Texts as the environment's variables have them; empty for what nobody asked
 /// for.
 struct DeviceOptions {
-  std::string Config; ///< JSON, or the name of a file with it
+  std::string Config; ///< JSON, the name of a machine, or a file
   std::string Set;    ///< "KEY=VALUE,...", changes what Config says
   std::string Time;   ///< "on", the clock in MHz, or "profiled"
   isasim::SessionOptions Watch;

@@ -27,6 +27,7 @@ struct Key {
   /// Names of the objects that hold it and its own, joined by dots.
   std::string Path;
   uint64_t Low, High, Multiple;
+  /// None of a key that is read, and not written: what it sets has keys.
   std::function<uint64_t(const Config &)> Get;
   std::function<void(Config &, uint64_t)> Set;
   /// Of a key whose values are names: those of 0, 1, ... Such a key may set
@@ -54,8 +55,17 @@ constexpr uint64_t MaxCores =
     (VX_GLOBAL_BASE - VX_IO_RASTER) / VX_IO_RASTER_STRIDE;
 constexpr uint64_t MaxGlobal = VX_IMAGE_BASE - VX_GLOBAL_BASE;
 
+void setMachine(Config &C, uint64_t Number);
+
 std::vector<Key> makeKeys() {
   std::vector<Key> All = {
+      {"machine",
+       0,
+       machineNames().size() - 1,
+       1,
+       nullptr,
+       setMachine,
+       {machineNames().begin(), machineNames().end()}},
       VORION_KEY("clusters", 1, MaxCores, 1, Clusters),
       VORION_KEY("sockets_per_cluster", 1, MaxCores, 1, SocketsPerCluster),
       VORION_KEY("cores_per_socket", 1, MaxCores, 1, CoresPerSocket),
@@ -106,6 +116,23 @@ std::vector<Key> makeKeys() {
 const std::vector<Key> &keys() {
   static const std::vector<Key> All = makeKeys();
   return All;
+}
+
+/// Keys of a run: they do not make another machine.
+constexpr std::string_view RunKeys[] = {"max_instructions", "quantum",
+                                        "host_threads", "timing.enabled"};
+
+bool isOfRun(const Key &K) {
+  return std::ranges::find(RunKeys, K.Path) != std::end(RunKeys);
+}
+
+/// The machine of that place in machineNames(), with the run's values of \p C.
+void setMachine(Config &C, uint64_t Number) {
+  Config Named = namedMachine(Number);
+  for (const Key &K : keys())
+    if (isOfRun(K))
+      K.Set(Named, K.Get(C));
+  C = Named;
 }
 
 /// As the JSON form has it.
@@ -221,7 +248,7 @@ std::string readObject(const Json &Object, const std::string &Prefix,
 
 Expected<Success> validate(const Config &C) {
   for (const Key &K : keys()) {
-    if (K.WordOf)
+    if (K.WordOf || !K.Get)
       continue;
     if (std::string Wrong = checkRange(K, K.Get(C)); !Wrong.empty())
       return Error{"configuration", std::move(Wrong), ExitCode::Usage};
@@ -272,7 +299,9 @@ std::string configSchema() {
       Properties = &Describe((*Properties)[std::string(Rest.substr(0, Dot))]);
     Json &Value = (*Properties)[std::string(Rest)];
     if (K.WordOf || !K.Names.empty()) {
-      Value = {{"type", "string"}, {"default", valueOf(K, Default)}};
+      Value = {{"type", "string"},
+               {"default",
+                K.Get ? valueOf(K, Default) : Json(nameOf(Default).Name)}};
       if (!K.Names.empty())
         Value["enum"] = K.Names;
       continue;
@@ -346,6 +375,8 @@ Expected<Success> setValues(Config &C, std::string_view List) {
 std::string toJson(const Config &C) {
   Json Object;
   for (const Key &K : keys()) {
+    if (!K.Get)
+      continue;
     Json *In = &Object;
     std::string_view Left = K.Path;
     for (size_t Dot; (Dot = Left.find('.')) != std::string_view::npos;
@@ -354,6 +385,27 @@ std::string toJson(const Config &C) {
     (*In)[std::string(Left)] = valueOf(K, C);
   }
   return jsonText(Object, 2) + "\n";
+}
+
+std::vector<std::string> changesOf(const Config &From, const Config &To) {
+  std::vector<std::string> Changes;
+  Config Now = From;
+  // A name that stands for a set of numbers first: it is one change.
+  for (const bool Named : {true, false})
+    for (const Key &K : keys()) {
+      if (!K.Get || !K.Names.empty() != Named || isOfRun(K) ||
+          K.Path == "timing.clock_mhz")
+        continue;
+      const Json Value = valueOf(K, To);
+      if (Value == valueOf(K, Now))
+        continue;
+      Changes.push_back(fmt::format("{}={}", K.Path,
+                                    Value.is_string() ? Value.get<std::string>()
+                                                      : Value.dump()));
+      if (Named)
+        K.Set(Now, K.Get(To));
+    }
+  return Changes;
 }
 
 Expected<Config> parseConfig(std::string_view Text, const std::string &Where) {

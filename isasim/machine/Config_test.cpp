@@ -10,7 +10,7 @@ static std::string wrongIn(std::string_view Json) {
   return C ? "" : C.error().Where + ": " + C.error().What;
 }
 
-TEST(Config, DefaultIsThePaperPrototype) {
+TEST(Config, DefaultHasThePrototypesUnits) {
   const Config C;
   EXPECT_EQ(C.cores(), 8U);
   EXPECT_EQ(C.sockets(), 2U);
@@ -64,12 +64,13 @@ TEST(Config, APresetIsASetOfNumbersThatSingleKeysChange) {
 }
 
 TEST(Config, ErrorsNameTheKey) {
-  EXPECT_EQ(wrongIn(R"({"cores": 4})"),
-            "file.json: unknown key 'cores', expected one of clusters, "
-            "sockets_per_cluster, cores_per_socket, warps_per_core, "
-            "lanes_per_warp, barriers, divergence_depth, global_bytes, "
-            "local_bytes, stack_bytes, quantum, max_instructions, "
-            "host_threads, raster, timing");
+  EXPECT_EQ(
+      wrongIn(R"({"cores": 4})"),
+      "file.json: unknown key 'cores', expected one of machine, clusters, "
+      "sockets_per_cluster, cores_per_socket, warps_per_core, "
+      "lanes_per_warp, barriers, divergence_depth, global_bytes, "
+      "local_bytes, stack_bytes, quantum, max_instructions, "
+      "host_threads, raster, timing");
   EXPECT_EQ(
       wrongIn(R"({"raster": {"deep": 4}})"),
       "file.json: unknown key 'raster.deep', expected one of queue_depth");

@@ -15,7 +15,7 @@ constexpr size_t WorthTaking = 1 << 12;
 } // namespace
 
 Clock::Clock(const Config &C)
-    : Shape(C), Timing(C.Timing), Memory(Timing, C.Clusters),
+    : Shape(C), Timing(C.Timing), Name(nameOf(C)), Memory(Timing, C.Clusters),
       Barriers(C.Barriers) {
   for (unsigned N = 0; N != C.cores(); ++N) {
     std::vector<TraceBuffer *> OfCore;
@@ -123,6 +123,8 @@ TimeReport Clock::end() {
   TimeReport R;
   R.Cycles = End - Begun;
   R.ClockMhz = Timing.ClockMhz;
+  R.Machine = Name.Name;
+  R.MachineChanges = Name.Changes;
   R.OutOfOrder = OutOfOrder;
   R.Host = Timing.Host;
   for (CoreClock &C : Cores) {

@@ -72,6 +72,7 @@ private:
 
   const Config &Shape;
   const TimingConfig &Timing;
+  const MachineName Name;
   MemorySystem Memory;
   std::vector<std::unique_ptr<TraceBuffer>> Traces; ///< by core and warp
   std::vector<CoreClock> Cores;

@@ -126,7 +126,9 @@ std::string line(std::string_view Who, const CacheTime &T) {
 std::string toJson(const TimeReport &R) {
   Json J{{"cycles", R.Cycles},
          {"clock_mhz", R.ClockMhz},
-         {"clock_version", ClockVersion}};
+         {"clock_version", ClockVersion},
+         {"machine", R.Machine},
+         {"machine_changes", R.MachineChanges}};
   J["host"] = {{"launch_ns", R.Host.LaunchNs},
                {"copy_ns", R.Host.CopyNs},
                {"copy_mbps", R.Host.CopyMbps},
@@ -173,6 +175,7 @@ std::string toText(const TimeReport &R) {
       fmt::format("cycles       {} ({:.3f} ms at {} MHz, clock version {})\n",
                   R.Cycles, static_cast<double>(R.Cycles) / (1e3 * R.ClockMhz),
                   R.ClockMhz, ClockVersion);
+  Text += fmt::format("machine      {}\n", R.Machine);
   if (R.Cycles == 0)
     return Text;
   Text += shares<CoreCycle>("cores", R.Cores, R.Cycles);

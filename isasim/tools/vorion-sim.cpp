@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view Tool = "vorion-sim";
 
 struct Options {
-  std::string Program, ConfigFile, ArgsFile;
+  std::string Program, ConfigText, ArgsFile;
   SessionOptions Watch;
   std::string Kernel, Global, Local, SignatureFile;
   unsigned SignatureGranularity = 4;
@@ -44,24 +44,24 @@ Expected<std::string> readText(const std::string &Path) {
 
 Expected<Config> makeConfig(const Options &O) {
   Config C;
-  if (!O.ConfigFile.empty()) {
-    const Expected<std::string> Text = readText(O.ConfigFile);
-    if (!Text)
-      return Text.error();
-    const Expected<Config> Parsed = parseConfig(*Text, O.ConfigFile);
+  if (!O.ConfigText.empty()) {
+    const Expected<MachineSource> Found = findMachine(O.ConfigText);
+    if (!Found)
+      return Found.error();
+    const Expected<Config> Parsed = parseConfig(Found->Json, Found->Where);
     if (!Parsed)
       return Parsed;
     C = *Parsed;
   }
-  C.Timing.Enabled |= O.Time || O.Watch.needClock();
-  if (O.ClockMhz)
-    C.Timing.ClockMhz = *O.ClockMhz;
   if (O.OneHart)
     C.Clusters = C.SocketsPerCluster = C.CoresPerSocket = C.WarpsPerCore =
         C.LanesPerWarp = 1;
   for (const std::string &Values : O.Set)
     if (const Expected<Success> Ok = setValues(C, Values); !Ok)
       return Ok.error();
+  C.Timing.Enabled |= O.Time || O.Watch.needClock();
+  if (O.ClockMhz)
+    C.Timing.ClockMhz = *O.ClockMhz;
   if (O.MaxInstructions)
     C.MaxInstructions = *O.MaxInstructions;
   if (O.Threads)
@@ -103,7 +103,7 @@ Expected<Success> claimFiles(const Options &O, const KernelRequest &Request) {
   std::vector<NamedFile> Outputs = O.Watch.outputs();
   Outputs.push_back({"--signature", O.SignatureFile});
   std::vector<NamedFile> Inputs{{"the program", O.Program},
-                                {"--config", O.ConfigFile},
+                                {"--config", O.ConfigText},
                                 {"--args", O.ArgsFile}};
   for (const std::string &Text : Request.Args)
     if (const Expected<KernelInput> In = parseInput(Text)) {
@@ -305,8 +305,9 @@ void declare(CLI::App &App, Options &O) {
       ->allow_extra_args(false);
   App.add_flag("--print-config-schema", O.PrintSchema,
                "print the JSON schema of configurations and exit");
-  App.add_option("--config", O.ConfigFile, "machine configuration, JSON")
-      ->type_name("FILE");
+  App.add_option("--config", O.ConfigText,
+                 "the machine: its name, or a configuration, JSON")
+      ->type_name("NAME|FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
                "print one to start from and exit");
   App.add_flag("--print-timing-parameters", O.PrintTiming,

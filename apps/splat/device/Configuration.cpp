@@ -11,7 +11,10 @@ using Json = nlohmann::ordered_json;
 
 static Expected<Json> namedConfiguration(const std::string &Value) {
   if (Value.empty())
-    return Json("default prototype");
+    return Json("default");
+  // As the platform tells names from files.
+  if (Value.find_first_of("./{") == std::string::npos)
+    return Json(Value);
   const std::size_t First = Value.find_first_not_of(" \t\r\n");
   if (First != std::string::npos && Value[First] == '{')
     return Json{{"fnv1a64", fnv1a64(Value)}, {"text", Value}};

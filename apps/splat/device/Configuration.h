@@ -8,7 +8,8 @@
 
 namespace vorion::splat {
 
-/// What VORION_CONFIG of \p O names, a file or the text itself, with the values
+/// What VORION_CONFIG of \p O says, a machine's name, a file or the text
+/// itself, with the values
 /// that VORION_SET changes (runtime/include/vorion/runtime.h).
 Expected<nlohmann::ordered_json> machineConfiguration(const DeviceOptions &O);
 

@@ -44,7 +44,8 @@ private:
 
 /// What describes the machine in a time report and is no count.
 constexpr std::string_view Descriptions[] = {
-    "cycles", "clock_mhz", "clock_version", "host", "lane_areas"};
+    "cycles",          "clock_mhz", "clock_version", "machine",
+    "machine_changes", "host",      "lane_areas"};
 
 /// A time report, but for its cycles.
 void addUnits(Figures &To, const Json &Report) {

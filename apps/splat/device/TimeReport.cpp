@@ -47,6 +47,8 @@ template <typename Visitor> void visit(TimeReport &R, const Visitor &Visit) {
   Visit("cycles", R.Cycles);
   Visit("clock_mhz", R.ClockMhz);
   Visit("clock_version", R.ClockVersion);
+  Visit("machine", R.Machine);
+  Visit("machine_changes", R.MachineChanges);
   Visit("host", R.Host);
   Visit("lane_areas", R.Areas);
   Visit("cores", R.Cores);

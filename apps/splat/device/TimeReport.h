@@ -148,6 +148,8 @@ struct TimeReport {
   uint64_t Cycles = 0;
   unsigned ClockMhz = 1;
   unsigned ClockVersion = 0; ///< times of different versions do not compare
+  std::string Machine;       ///< its name; with changes, if it has any
+  std::vector<std::string> MachineChanges; ///< KEY=VALUE
   HostTiming Host;
   LaneAreas Areas;
   std::vector<UnitCounts<CoreCount>> Cores;

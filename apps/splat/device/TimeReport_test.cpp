@@ -18,6 +18,8 @@ TimeReport sample() {
   R.Cycles = 1000;
   R.ClockMhz = 530;
   R.ClockVersion = 2;
+  R.Machine = "prototype with changes";
+  R.MachineChanges = {"timing.l2.ways=4"};
   R.Host = {1, 2, 3, 64};
   R.Areas = {{10.5, 20}, {30}, {40.25}, 5};
   R.Cores.resize(2);
@@ -55,6 +57,7 @@ TEST(TimeReport, CountsAddUpAndTheMachineStays) {
   EXPECT_EQ(Sum->Cycles, 2000U);
   EXPECT_EQ(Sum->ClockMhz, 530U);
   EXPECT_EQ(Sum->ClockVersion, 2U);
+  EXPECT_EQ(Sum->Machine, "prototype with changes");
   EXPECT_EQ(Sum->Host.DramBurstBytes, 64U);
   EXPECT_EQ(Sum->Areas.Exponential[0], 10.5);
   EXPECT_EQ(Sum->Cores[1][CoreCount::Ended], 28U);

@@ -109,13 +109,14 @@ std::string row(std::string_view Name, const TimeReport &T,
 }
 
 std::string head(const TimeReport &Whole) {
-  return fmt::format(
-      "\n{:<18}{:>12}{:>7}{:>9} |{:>31} in % |{:>15}|\n{:<18}{:>12}{:>7}{:>9} "
-      "|{:>7}{:>8}{:>9}{:>8}{:>7} |{:>7}{:>7} |{:>9}\n",
-      fmt::format("at {} MHz", Whole.ClockMhz),
-      fmt::format("clock {}", Whole.ClockVersion), "", "", "cycles of cores",
-      "rasterizers ", "stage", "cycles", "%", "ms", "issue", "memory",
-      "operand", "raster", "other", "blend", "fetch", "DRAM MB");
+  return fmt::format("\nmachine: {}\n{:<18}{:>12}{:>7}{:>9} |{:>31} in % "
+                     "|{:>15}|\n{:<18}{:>12}{:>7}{:>9} "
+                     "|{:>7}{:>8}{:>9}{:>8}{:>7} |{:>7}{:>7} |{:>9}\n",
+                     Whole.Machine, fmt::format("at {} MHz", Whole.ClockMhz),
+                     fmt::format("clock {}", Whole.ClockVersion), "", "",
+                     "cycles of cores", "rasterizers ", "stage", "cycles", "%",
+                     "ms", "issue", "memory", "operand", "raster", "other",
+                     "blend", "fetch", "DRAM MB");
 }
 
 /// Cycles, of \p Cycles, in which the busiest of the units \p Units was not

@@ -1,4 +1,4 @@
-/// The texts of standards/, made part of the program by EmbedStandards.cmake.
+/// The texts of standards/, made part of the program by EmbedJson.cmake.
 #pragma once
 
 #include <string_view>

@@ -54,9 +54,9 @@ const char *vx_last_error(void);
 
 /* What a machine is opened with: the name of one of the environment's variables
  * that follow, and its text.
- *   VORION_CONFIG  the machine: JSON text (begins with '{') or the name of a
- *                  JSON file; keys that are absent, or "", keep the values of
- *                  the paper's prototype
+ *   VORION_CONFIG  the machine: JSON text (begins with '{'), the name of a
+ *                  machine (without dots and slashes) or of a JSON file; keys
+ *                  that are absent, or "", keep the default machine's values
  *   VORION_SET     "KEY=VALUE,...", changes what came of it
  *   VORION_TIME    the clock: "on", or the machine's clock in MHz, or
  *                  "profiled": on, but only in runs after

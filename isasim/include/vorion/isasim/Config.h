@@ -5,8 +5,10 @@
 #include "vorion/support/Expected.h"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vorion::isasim {
 
@@ -16,9 +18,9 @@ struct RasterConfig {
   unsigned QueueDepth = 4;
 };
 
-/// Everything that fixes a machine. The defaults are the paper's prototype:
-/// 2 sockets of 4 cores, 16 lanes, one warp a core. \c HostThreads changes how
-/// fast a run is and nothing else.
+/// Everything that fixes a machine. The defaults are the machine
+/// `prototype-on-chip`: 2 sockets of 4 cores, 16 lanes, one warp a core.
+/// \c HostThreads changes how fast a run is and nothing else.
 struct Config {
   unsigned Clusters = 1;
   unsigned SocketsPerCluster = 2;
@@ -73,5 +75,35 @@ Expected<Success> setValues(Config &C, std::string_view List);
 /// a wrong type or a value out of range is an error naming the key. \p Where
 /// is the file name for messages.
 Expected<Config> parseConfig(std::string_view Json, const std::string &Where);
+
+/// \name Machines that have a name (isasim/configs/)
+/// The key "machine" sets all but what belongs to a run: the limit of
+/// instructions, the quantum, host threads, and whether there is a clock.
+/// @{
+std::span<const std::string_view> machineNames();
+/// The one of that place in machineNames().
+const Config &namedMachine(size_t Number);
+
+/// The values, as setValues() takes them, that make another machine of
+/// \p From, as \p To is. The clock does not make another machine.
+std::vector<std::string> changesOf(const Config &From, const Config &To);
+
+struct MachineName {
+  /// The name of the machine with the fewest changes, the first of these; with
+  /// " with changes" if there are any.
+  std::string Name;
+  std::vector<std::string> Changes;
+};
+MachineName nameOf(const Config &C);
+
+/// What parseConfig() takes.
+struct MachineSource {
+  std::string Json, Where;
+};
+/// The machine that a text says: JSON, if it begins with a brace; the name of
+/// a machine, if it has no dot and no slash; else a file. The error is of a
+/// file that cannot be read.
+Expected<MachineSource> findMachine(const std::string &Text);
+/// @}
 
 } // namespace vorion::isasim

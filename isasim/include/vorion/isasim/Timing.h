@@ -166,6 +166,8 @@ struct Activity {
 struct TimeReport {
   uint64_t Cycles = 0; ///< from the launch until the last core was done
   uint32_t ClockMhz = 0;
+  std::string Machine;                     ///< its name (Config.h, nameOf())
+  std::vector<std::string> MachineChanges; ///< from the machine of that name
   std::vector<CoreTime> Cores;
   std::vector<RasterTime> Rasters;
   std::vector<PixelTime> PixelUnits;
