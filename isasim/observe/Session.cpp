@@ -62,6 +62,7 @@ bool SessionOptions::needClock() const {
 
 struct Session::Impl {
   Expected<Success> open(const SessionOptions &O);
+  void findObservers();
   void tell(auto What);
 
   ToolOutput To;
@@ -83,10 +84,7 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
       return Made.error();
     Tools.push_back(std::move(*Made));
   }
-  for (const bool ChangesRuns : {true, false})
-    for (const auto &T : Tools)
-      if (T->changesRuns() == ChangesRuns)
-        std::ranges::copy(T->observers(), std::back_inserter(Observers));
+  findObservers();
   if (!Observers.empty() && !Machine::canBeObserved())
     return Error{"",
                  "a build without observers, expected one with "
@@ -109,13 +107,23 @@ Session::create(const SessionOptions &O, std::string Tool,
   return S;
 }
 
+void Session::Impl::findObservers() {
+  Observers.clear();
+  for (const bool ChangesRuns : {true, false})
+    for (const auto &T : Tools)
+      if (T->changesRuns() == ChangesRuns)
+        std::ranges::copy(T->observers(), std::back_inserter(Observers));
+}
+
 void Session::attach(Machine &M) {
+  for (const auto &T : PImpl->Tools)
+    T->attach(M);
+  // A tool may watch machines with a clock in another way.
+  PImpl->findObservers();
   M.setObservers(PImpl->Observers);
   std::vector<TimeObserver *> OfClock;
-  for (const auto &T : PImpl->Tools) {
-    T->attach(M);
+  for (const auto &T : PImpl->Tools)
     std::ranges::copy(T->timeObservers(), std::back_inserter(OfClock));
-  }
   M.setTimeObservers(std::move(OfClock));
 }
 

@@ -2,6 +2,7 @@
 
 #include "observe/GrowingFile.h"
 #include "observe/Tool.h"
+#include "raster/WorkLog.h"
 #include "timing/TimeObserver.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/Json.h"

@@ -2,15 +2,15 @@
 
 #include "core/Core.h"
 #include "machine/Report.h"
+#include "observe/CycleTimeline.h"
 #include "observe/GrowingFile.h"
 #include "observe/Tool.h"
 #include "raster/WorkLog.h"
 #include "vorion/isasim/Machine.h"
-#include "vorion/support/Json.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 namespace vorion::isasim {
 
@@ -22,35 +22,11 @@ enum Process : unsigned { Runs = 1, Cores = 2, Rasterizers = 3 };
 /// Lane slots a clock (VORION.md, section 1: the rasterizer's 16 lanes).
 constexpr uint64_t RasterLanes = 16;
 
-std::string jsonName(const std::string &Text) {
-  return jsonText(nlohmann::json(Text));
-}
-
 } // namespace
-
-void Timeline::event(const std::string &Json) {
-  if (End == 0)
-    append(Out, "{{\"otherData\": {{\"format\": \"vorion-timeline 1\", "
-                "\"unit\": \"1 us = 1 warp instruction of a core, or 1 "
-                "clock of a rasterizer's lanes\"}},\n\"traceEvents\": [\n");
-  else
-    append(Out, ",\n");
-  append(Out, "{}", Json);
-  End = 1;
-}
-
-void Timeline::nameRow(const Row &R, const std::string &Name) {
-  event(fmt::format("{{\"ph\": \"M\", \"name\": \"thread_name\", \"pid\": {}, "
-                    "\"tid\": {}, \"args\": {{\"name\": {}}}}}",
-                    R.Process, R.Thread, jsonName(Name)));
-}
 
 void Timeline::flush(Row &R) {
   if (R.Last.To > R.Last.From)
-    event(fmt::format("{{\"ph\": \"X\", \"name\": {}, \"pid\": {}, \"tid\": "
-                      "{}, \"ts\": {}, \"dur\": {}}}",
-                      jsonName(R.Last.Name), R.Process, R.Thread, R.Last.From,
-                      R.Last.To - R.Last.From));
+    Out.slice(R.Process, R.Thread, R.Last.Name, R.Last.From, R.Last.To);
   R.Last = {};
 }
 
@@ -75,18 +51,16 @@ void Timeline::runBegins(const RunStart &R) {
     for (const auto &[Id, Name] : {std::pair{Process::Runs, "runs"},
                                    {Cores, "cores"},
                                    {Rasterizers, "rasterizers"}})
-      event(fmt::format("{{\"ph\": \"M\", \"name\": \"process_name\", \"pid\": "
-                        "{}, \"args\": {{\"name\": \"{}\"}}}}",
-                        static_cast<unsigned>(Id), Name));
+      Out.nameProcess(Id, Name);
     for (unsigned N = 0; N != Shape.cores() * Shape.WarpsPerCore; ++N) {
       Warps.push_back({Cores, N, {}, 0});
-      nameRow(Warps.back(),
-              fmt::format("core {} warp {}", N / Shape.WarpsPerCore,
-                          N % Shape.WarpsPerCore));
+      Out.nameThread(Cores, N,
+                     fmt::format("core {} warp {}", N / Shape.WarpsPerCore,
+                                 N % Shape.WarpsPerCore));
     }
     for (unsigned N = 0; N != Shape.sockets(); ++N) {
       Units.push_back({Rasterizers, N, {}, 0});
-      nameRow(Units.back(), fmt::format("rasterizer {}", N));
+      Out.nameThread(Rasterizers, N, fmt::format("rasterizer {}", N));
     }
   }
   for (Row &W : Warps)
@@ -124,13 +98,11 @@ void Timeline::rasterCommand(const raster::CommandWork &W) {
   R.Retired =
       From + std::max<uint64_t>(1, (W.Counts.Fragments + RasterLanes - 1) /
                                        RasterLanes);
-  event(fmt::format("{{\"ph\": \"X\", \"name\": \"tile\", \"pid\": {}, "
-                    "\"tid\": {}, \"ts\": {}, \"dur\": {}, \"args\": "
-                    "{{\"core\": {}, \"gaussians\": {}, \"clipped\": {}, "
-                    "\"fragments\": {}, \"blends\": {}}}}}",
-                    R.Process, R.Thread, From, R.Retired - From, W.Core,
-                    W.Counts.Gaussians, W.Counts.Clipped, W.Counts.Fragments,
-                    W.Counts.Blends));
+  Out.slice(R.Process, R.Thread, "tile", From, R.Retired,
+            fmt::format("{{\"core\": {}, \"gaussians\": {}, \"clipped\": {}, "
+                        "\"fragments\": {}, \"blends\": {}}}",
+                        W.Core, W.Counts.Gaussians, W.Counts.Clipped,
+                        W.Counts.Fragments, W.Counts.Blends));
 }
 
 void Timeline::runEnds(const RunResult &Result) {
@@ -139,35 +111,43 @@ void Timeline::runEnds(const RunResult &Result) {
   // The next run begins when everything of this one has ended.
   for (const Row &U : Units)
     Now = std::max(Now, U.Retired);
-  event(fmt::format("{{\"ph\": \"X\", \"name\": {}, \"pid\": {}, \"tid\": 0, "
-                    "\"ts\": {}, \"dur\": {}, \"args\": {{\"outcome\": \"{}\", "
-                    "\"warp_instructions\": {}}}}}",
-                    jsonName(RunName.empty() ? Program->name() : RunName),
-                    static_cast<unsigned>(Process::Runs), RunBegan,
-                    Now - RunBegan, describe(Result.End),
-                    Result.Total.WarpInstructions));
-  // Complete now; the next run writes over the end.
-  std::fflush(Out);
-  End = std::ftell(Out);
-  append(Out, "\n]}}\n");
-  std::fflush(Out);
-  std::fseek(Out, End, SEEK_SET);
+  Out.slice(Process::Runs, 0, RunName.empty() ? Program->name() : RunName,
+            RunBegan, Now,
+            fmt::format("{{\"outcome\": \"{}\", \"warp_instructions\": {}}}",
+                        describe(Result.End), Result.Total.WarpInstructions));
+  Out.complete();
 }
 
 namespace {
 
+/// In cycles where the machine has a clock, else in instructions.
 class TimelineTool : public Tool {
 public:
   explicit TimelineTool(GrowingFile FileIn)
       : File(std::move(FileIn)), Times(File.stream()) {}
-  std::vector<Observer *> observers() override { return {&Times}; }
-  Expected<Success> runEnded(const std::string &, const RunResult &) override {
+  std::vector<Observer *> observers() override {
+    return InCycles ? std::vector<Observer *>{}
+                    : std::vector<Observer *>{&Times};
+  }
+  std::vector<TimeObserver *> timeObservers() override {
+    return InCycles ? std::vector<TimeObserver *>{&*InCycles}
+                    : std::vector<TimeObserver *>{};
+  }
+  void attach(Machine &M) override {
+    if (M.config().Timing.Enabled)
+      InCycles.emplace(File.stream(), M.config());
+  }
+  Expected<Success> runEnded(const std::string &Name,
+                             const RunResult &) override {
+    if (InCycles)
+      InCycles->runEnded(Name);
     return File.complete();
   }
 
 private:
   GrowingFile File;
   Timeline Times;
+  std::optional<CycleTimeline> InCycles;
 };
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,

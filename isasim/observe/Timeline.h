@@ -2,6 +2,7 @@
 /// Perfetto (docs/debugging.md, "Timeline").
 #pragma once
 
+#include "observe/TraceEvents.h"
 #include "vorion/isasim/Observer.h"
 
 #include <cstdio>
@@ -18,9 +19,10 @@ namespace vorion::isasim {
 /// span before.
 class Timeline : public Observer {
 public:
-  /// Writes JSON to \p OutIn, which can be repositioned and must outlive the
-  /// timeline. The file is complete after every run.
-  explicit Timeline(std::FILE *OutIn) : Out(OutIn) {}
+  /// \p File as for TraceEvents. It is complete after every run.
+  explicit Timeline(std::FILE *File)
+      : Out(File, "1 warp instruction of a core, or 1 clock of a rasterizer's "
+                  "lanes") {}
 
   void runNamed(const std::string &Name) override { RunName = Name; }
   void runBegins(const RunStart &R) override;
@@ -40,13 +42,10 @@ private:
     uint64_t Retired = 0;
   };
 
-  void event(const std::string &Json);
-  void nameRow(const Row &R, const std::string &Name);
   void add(Row &R, const std::string &Name, uint64_t From, uint64_t To);
   void flush(Row &R);
 
-  std::FILE *Out;
-  long End = 0; ///< where the next event goes; 0: nothing written
+  TraceEvents Out;
   std::string RunName;
   std::shared_ptr<const Image> Program;
   std::vector<Row> Warps, Units;

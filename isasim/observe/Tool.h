@@ -31,7 +31,7 @@ public:
   virtual ~Tool() = default;
 
   /// What watches the runs, in the order in which it is told. None: the tool
-  /// needs no observed run.
+  /// needs no observed run. Asked for again after attach().
   virtual std::vector<Observer *> observers() { return {}; }
   /// What watches the clock, in the order in which it is told. Asked for after
   /// attach().

@@ -1,5 +1,7 @@
 #include "timing/Cache.h"
 
+#include "timing/MemoryWatch.h"
+
 #include <algorithm>
 
 namespace vorion::isasim {
@@ -50,9 +52,24 @@ uint32_t Cache::firstMshr(uint32_t Bank) const {
 std::optional<uint64_t> Cache::access(const CacheRequest &R) {
   Bank &B = Banks[R.Address / TimingLineBytes % Shape.Banks];
   std::optional<uint64_t> Answer;
-  if (!B.Waiting.empty() || !serve(R, Answer))
+  if (!B.Waiting.empty() || !take(R, Answer))
     B.Waiting.push_back(R);
   return Answer;
+}
+
+/// Does serve() and tells of it.
+bool Cache::take(const CacheRequest &R, std::optional<uint64_t> &Answer) {
+  const uint32_t OfBank = R.Address / TimingLineBytes % Shape.Banks;
+  const Bank &B = Banks[OfBank];
+  const uint64_t Begin = std::max(R.Now, B.FreeAt);
+  if (!serve(R, Answer))
+    return false;
+  if (Watch) {
+    BankPlace Where = Place;
+    Where.Bank = OfBank;
+    Watch->bankBusy(Where, {Begin, B.FreeAt});
+  }
+  return true;
 }
 
 /// Returns whether the request's bank could take it; \p Answer is as of
@@ -137,7 +154,7 @@ void Cache::fill(uint32_t Miss, uint64_t Then, std::vector<Answer> &Answers) {
   while (!Waiting.empty()) {
     const CacheRequest R = Waiting.front();
     std::optional<uint64_t> Known;
-    if (!serve(R, Known))
+    if (!take(R, Known))
       return;
     Waiting.pop_front();
     if (Known && R.From.Unit != Ticket::Nobody)

@@ -2,6 +2,7 @@
 /// that may spare lines of Gaussians which other tiles will want.
 #pragma once
 
+#include "timing/TimeObserver.h"
 #include "vorion/isasim/Timing.h"
 
 #include <cstdint>
@@ -11,6 +12,8 @@
 #include <vector>
 
 namespace vorion::isasim {
+
+class MemoryWatch;
 
 /// What a request does with its line.
 enum class CacheOp : uint8_t {
@@ -75,6 +78,13 @@ public:
   /// when the last has been sent.
   uint64_t flush(uint64_t Now);
 
+  /// \p Observers are told from now on what the banks of \p Own do; null for
+  /// nobody.
+  void watch(const MemoryWatch *Observers, BankPlace Own) {
+    Watch = Observers;
+    Place = Own;
+  }
+
   const CacheTime &time() const { return Counted; }
   void clearCounters() { Counted = {}; }
 
@@ -108,6 +118,7 @@ private:
     std::deque<CacheRequest> Waiting;
   };
 
+  bool take(const CacheRequest &R, std::optional<uint64_t> &Answer);
   bool serve(const CacheRequest &R, std::optional<uint64_t> &Answer);
   /// \name Places in Lines, of ways of the set that begins at \p Set
   /// @{
@@ -127,6 +138,8 @@ private:
   std::vector<Mshr> Mshrs;
   uint64_t Uses = 0;
   CacheTime Counted;
+  const MemoryWatch *Watch = nullptr;
+  BankPlace Place;
 };
 
 } // namespace vorion::isasim

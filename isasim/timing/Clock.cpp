@@ -56,15 +56,20 @@ void Clock::setObservers(std::vector<TimeObserver *> Observers) {
   if (!Observers.empty())
     Watch.emplace(std::move(Observers));
   const TimeWatch *const Told = Watch ? &*Watch : nullptr;
-  for (RasterClock &R : Rasters)
-    R.watch(Told);
-  for (PixelClock &U : Pixels)
-    U.watch(Told);
+  for (unsigned N = 0; N != Cores.size(); ++N)
+    Cores[N].watch(Told, N);
+  for (unsigned N = 0; N != Rasters.size(); ++N)
+    Rasters[N].watch(Told, N);
+  for (unsigned N = 0; N != Pixels.size(); ++N)
+    Pixels[N].watch(Told, N);
+  Memory.watch(Told);
 }
 
 void Clock::begin(const CodeTable &Code) {
   Ops = describeProgram(Code, Timing.Core, Shape.LanesPerWarp);
   Begun = Now;
+  if (Watch)
+    Watch->tell([this](TimeObserver &O) { O.timeBegins(Begun); });
   OutOfOrder = 0;
   Memory.clearCounters();
   for (Arrived &B : Barriers)
@@ -140,6 +145,8 @@ TimeReport Clock::end() {
     U.end(End);
     R.PixelUnits.push_back(U.time());
   }
+  if (Watch)
+    Watch->tell([End](TimeObserver &O) { O.timeEnds(End); });
   Memory.report(R);
   collectActivities(R);
   Now = End;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace vorion::isasim {
 
@@ -32,10 +33,13 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
     InFlight.begin(N);
   LastDone = 0;
   L1.clear();
-  Spent = {};
+  Spent = Told = {};
+  ToldUntil = Start;
   Classes = {};
   LinesRequested = LocalConflicts = L1Hits = 0;
   spend(CoreCycle::Start, Timing.StartCycles);
+  if (Watch)
+    tell(nullptr);
   select(0);
   for (unsigned W = 0; W != Others.size(); ++W) {
     WarpTime New;
@@ -50,6 +54,32 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   LastIssued = 0;
   Presented = State::Starved;
   InTurn = Turn(Next, false);
+}
+
+/// Observers get to know what has been spent since they were told last: for
+/// \p O, or for no instruction if that is null. Its issue comes last.
+void CoreClock::tell(const OpInfo *O) {
+  CoreSpent S;
+  S.Core = Number;
+  if (O)
+    S.Instruction = static_cast<uint32_t>(O - Ops->data());
+  for (size_t K = 1; K <= Spent.Cycles.size(); ++K) {
+    const size_t N = K % Spent.Cycles.size();
+    const uint64_t Cycles =
+        Spent.Cycles[N] - std::exchange(Told.Cycles[N], Spent.Cycles[N]);
+    if (Cycles == 0)
+      continue;
+    S.What = static_cast<CoreCycle>(N);
+    S.When = {ToldUntil, ToldUntil + Cycles};
+    ToldUntil += Cycles;
+    Watch->tell([&](TimeObserver &Each) { Each.coreSpent(S); });
+  }
+}
+
+void CoreClock::end(uint64_t End) {
+  spend(CoreCycle::Ended, End - Next);
+  if (Watch)
+    tell(nullptr);
 }
 
 /// The front end has lost time if the pc or the mask is not what it went on
@@ -180,6 +210,8 @@ void CoreClock::finish(const OpInfo &O) {
   issue(O);
   if (!IsIdeal)
     fetchNext(O, Begun);
+  if (Watch)
+    tell(&O);
 }
 
 /// Returns when it is done.
@@ -317,7 +349,7 @@ bool CoreClock::advanceParked(const OpInfo &O) {
   return false;
 }
 
-template <bool Ideal> void CoreClock::advanceThrough() {
+template <bool Ideal, bool Watched> void CoreClock::advanceThrough() {
   while (!Trace->empty()) {
     const RunRecord R = Trace->front();
     if (!InRun)
@@ -333,6 +365,8 @@ template <bool Ideal> void CoreClock::advanceThrough() {
         Position = Now == State::Answer ? Here - 1 : Here;
         return;
       }
+      if constexpr (Watched)
+        tell(&O);
     }
     Expected = R.First + Count;
     Position = 0;
@@ -349,6 +383,8 @@ void CoreClock::advanceFront() {
     advanceParked(O);
   else
     advanceOne<false>(O);
+  if (Watch)
+    tell(&O);
 }
 
 void CoreClock::advance() {
@@ -357,10 +393,10 @@ void CoreClock::advance() {
   if (Blocked)
     return;
   Now = State::Starved;
-  if (IsIdeal)
-    advanceThrough<true>();
+  if (Watch)
+    IsIdeal ? advanceThrough<true, true>() : advanceThrough<false, true>();
   else
-    advanceThrough<false>();
+    IsIdeal ? advanceThrough<true, false>() : advanceThrough<false, false>();
 }
 
 /// Whether the data cache has a line for a load at \p Place whose address is

@@ -5,6 +5,7 @@
 #include "timing/DataCache.h"
 #include "timing/LineWaits.h"
 #include "timing/OpClass.h"
+#include "timing/TimeObserver.h"
 #include "timing/TraceWriter.h"
 #include "timing/Turn.h"
 
@@ -62,6 +63,12 @@ public:
   CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
             const std::vector<TraceBuffer *> &Traces, unsigned Barriers);
 
+  /// \p Observers are told from now on, as of number \p Own; null for nobody.
+  void watch(const TimeWatch *Observers, unsigned Own) {
+    Watch = Observers;
+    Number = Own;
+  }
+
   /// A run of the program \p Ops begins at \p Now.
   void begin(const std::vector<OpInfo> &Ops, uint64_t Now);
 
@@ -110,7 +117,7 @@ public:
   /// When its last access is done; Turn::Never if that is not known yet.
   uint64_t quietAt() const;
   /// The run ended at \p End: what is left was waiting for others.
-  void end(uint64_t End) { spend(CoreCycle::Ended, End - Next); }
+  void end(uint64_t End);
 
   const CoreTime &time() const { return Spent; }
   /// Warp and lane instructions by class.
@@ -153,7 +160,7 @@ private:
   void fetchNext(const OpInfo &O, uint64_t Begun);
   void issue(const OpInfo &O);
   void finish(const OpInfo &O);
-  template <bool Ideal> void advanceThrough();
+  template <bool Ideal, bool Watched> void advanceThrough();
   template <bool Ideal> bool advanceOne(const OpInfo &O);
   bool advanceParked(const OpInfo &O);
   uint64_t localAccess(const OpInfo &O, AccessWord A);
@@ -165,6 +172,8 @@ private:
   void setReady(unsigned Register, uint64_t Then, CoreCycle Why) {
     setReady(*this, Register, Then, Why);
   }
+
+  void tell(const OpInfo *O);
 
   // Several warps.
   void advanceInTurn(uint64_t Until);
@@ -214,6 +223,10 @@ private:
   DataCache L1;
 
   CoreTime Spent;
+  const TimeWatch *Watch = nullptr;
+  unsigned Number = 0; ///< as observers know it
+  CoreTime Told;       ///< of Spent, what they know
+  uint64_t ToldUntil = 0;
   std::array<ClassCount, size_t(OpClass::Count)> Classes{};
   uint64_t LinesRequested = 0, LocalConflicts = 0, L1Hits = 0;
 };

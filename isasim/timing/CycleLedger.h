@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <utility>
 
 namespace vorion::isasim {
 
@@ -14,7 +16,12 @@ namespace vorion::isasim {
 /// \p Reason is an enumeration that ends in Count.
 template <typename Reason> class CycleLedger {
 public:
+  /// Is told what has been counted, from and until when, in the order of time.
+  using Listener = std::function<void(Reason, uint64_t, uint64_t)>;
   using Sums = std::array<uint64_t, size_t(Reason::Count)>;
+
+  /// \p To may be null.
+  void listen(Listener To) { Told = std::move(To); }
 
   /// All before \p Now has been reported or was spent on nothing.
   void begin(uint64_t Now) { Position = std::max(Position, Now); }
@@ -57,12 +64,15 @@ private:
     if (Until <= Position)
       return;
     Counted[size_t(What)] += Until - Position;
+    if (Told)
+      Told(What, Position, Until);
     Position = Until;
   }
 
   std::deque<Spent> Ahead;
   uint64_t Position = 0; ///< all before is in Counted
   Sums Counted{};
+  Listener Told;
 };
 
 } // namespace vorion::isasim

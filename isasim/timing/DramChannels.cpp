@@ -1,5 +1,6 @@
 #include "timing/DramChannels.h"
 
+#include "timing/MemoryWatch.h"
 #include "timing/Turn.h"
 
 #include <algorithm>
@@ -70,7 +71,28 @@ DramChannels::DramChannels(const DramTiming &Params, uint32_t Mhz)
       NextEvent(Turn::Never) {
   for (uint32_t N = 0; N != Params.Channels; ++N)
     Channels.push_back(
-        {dram::Controller(Setup.Table, Setup.Options), dram::Never});
+        {dram::Controller(Setup.Table, Setup.Options), dram::Never, {}});
+}
+
+void DramChannels::watch(const MemoryWatch *Observers) {
+  Watch = Observers;
+  for (Channel &C : Channels)
+    C.Control.record(Watch ? &C.Log : nullptr);
+}
+
+void DramChannels::tellCommands(unsigned Number) {
+  std::vector<dram::Issued> &Log = Channels[Number].Log;
+  for (const dram::Issued &I : Log) {
+    CycleSpan Data;
+    if (I.What == dram::Command::Read || I.What == dram::Command::Write) {
+      const uint64_t First =
+          I.At + (I.What == dram::Command::Read ? Setup.Table.ReadLatency
+                                                : Setup.Table.WriteLatency);
+      Data = {cycleOf(First), cycleOf(First + Setup.Table.BurstTicks)};
+    }
+    Watch->dramCommand(Number, I, Data);
+  }
+  Log.clear();
 }
 
 uint64_t DramChannels::cycleOf(uint64_t Ticks) const {
@@ -95,6 +117,8 @@ void DramChannels::submit(uint64_t Now, uint32_t Address, uint64_t Miss,
                           bool IsWrite) {
   const dram::Location Where = Decode(Address);
   Channel &C = Channels[Where.Channel];
+  if (Watch)
+    Watch->dramRequest(Where.Channel, Address, IsWrite);
   // A core whose place in the order was guessed may be late.
   C.Control.submit({.At = std::max(tickOf(Now) + FrontTicks, AdvancedTo),
                     .Id = Submitted++ << MissBits | Miss,
@@ -125,6 +149,9 @@ void DramChannels::advance(uint64_t Until, std::vector<Fill> &Fills) {
       }
     std::erase_if(Replies, [](const dram::Reply &R) { return R.IsWrite; });
   }
+  if (Watch)
+    for (unsigned N = 0; N != Channels.size(); ++N)
+      tellCommands(N);
   NextEvent = First == dram::Never ? Turn::Never : cycleOf(First);
   std::ranges::sort(Replies, {}, [](const dram::Reply &R) {
     return std::pair(R.Decided, R.Id);

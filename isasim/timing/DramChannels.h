@@ -45,6 +45,8 @@ public:
   void advance(uint64_t Until, std::vector<Fill> &Fills);
 
   uint32_t burstBytes() const { return Setup.Table.BurstBytes; }
+  /// \p Observers are told from now on; null for nobody.
+  void watch(const MemoryWatch *Observers);
   /// Sums over the channels.
   DramTime time() const;
   void clearCounters();
@@ -53,7 +55,9 @@ private:
   struct Channel {
     dram::Controller Control;
     uint64_t NextEvent = dram::Never; ///< a tick
+    std::vector<dram::Issued> Log;    ///< that nobody has been told of
   };
+  void tellCommands(unsigned Channel);
   void submit(uint64_t Now, uint32_t Address, uint64_t Miss, bool IsWrite);
   /// The first cycle that does not begin before \p Tick, and the last tick
   /// that does not begin after \p Cycle.
@@ -72,6 +76,7 @@ private:
   uint64_t AdvancedTo = 0; ///< tick that all channels have come to
   uint64_t Submitted = 0;  ///< orders requests of one tick
   std::vector<dram::Reply> Replies;
+  const MemoryWatch *Watch = nullptr;
 };
 
 } // namespace vorion::isasim

@@ -94,6 +94,17 @@ uint64_t MemorySystem::endRun(uint64_t Now) {
   return HasLink ? Link.toChip(End) : End;
 }
 
+void MemorySystem::watch(const TimeWatch *Observers) {
+  Watch.reset();
+  if (Observers)
+    Watch.emplace(*Observers, HasLink ? &Link : nullptr);
+  const MemoryWatch *const Told = Watch ? &*Watch : nullptr;
+  Ram.watch(Told);
+  Llc.watch(Told, {.IsLlc = true});
+  for (unsigned N = 0; N != Slices.size(); ++N)
+    Slices[N].L2.watch(Told, {.Slice = N});
+}
+
 void MemorySystem::clearCounters() {
   Link.clearCounters();
   Ram.clearCounters();

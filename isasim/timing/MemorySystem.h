@@ -4,8 +4,10 @@
 
 #include "timing/DramChannels.h"
 #include "timing/L2Link.h"
+#include "timing/MemoryWatch.h"
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 namespace vorion::isasim {
@@ -38,6 +40,9 @@ public:
   /// The end of a run at \p Now: slices of several clusters do not watch each
   /// other, so they hand on what they hold. Returns when that is done.
   uint64_t endRun(uint64_t Now);
+
+  /// \p Observers are told from now on; null for nobody.
+  void watch(const TimeWatch *Observers);
 
   void clearCounters();
   void report(TimeReport &R) const;
@@ -83,6 +88,7 @@ private:
   uint32_t L2HitCycles;
   std::vector<DramChannels::Fill> Fills;
   std::vector<Answer> FromLlc, FromL2;
+  std::optional<MemoryWatch> Watch;
 };
 
 } // namespace vorion::isasim

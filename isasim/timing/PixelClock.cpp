@@ -16,6 +16,16 @@ PixelClock::PixelClock(const TimingConfig &Params, MemoryPort Port,
     : Timing(Params.Pixel), Expected(Cores), Fetch(Port, Timing.BufferEntries) {
 }
 
+void PixelClock::watch(const TimeWatch *Observers, unsigned Own) {
+  Watch = Observers;
+  Ledger.listen(nullptr);
+  if (Watch)
+    Ledger.listen([this, Own](PixelCycle What, uint64_t From, uint64_t Until) {
+      Watch->tell(
+          [&](TimeObserver &O) { O.pixelSpent(Own, What, {From, Until}); });
+    });
+}
+
 void PixelClock::begin(uint64_t Start) {
   if (Now == Stage::Idle)
     DoneAt = std::max(DoneAt, Start);

@@ -55,6 +55,16 @@ RasterClock::RasterClock(const TimingConfig &Params, MemoryPort PortIn,
       PairTable(inPairs(Timing)), Agents(NumAgents),
       Fetch(Port, Timing.BufferEntries) {}
 
+void RasterClock::watch(const TimeWatch *Observers, unsigned Own) {
+  Watch = Observers;
+  Ledger.listen(nullptr);
+  if (Watch)
+    Ledger.listen([this, Own](RasterCycle What, uint64_t From, uint64_t Until) {
+      Watch->tell(
+          [&](TimeObserver &O) { O.rasterSpent(Own, What, {From, Until}); });
+    });
+}
+
 void RasterClock::begin(uint64_t Start) {
   MoreWork = true;
   if (Now == Stage::Idle || Now == Stage::Take)

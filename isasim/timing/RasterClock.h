@@ -47,8 +47,8 @@ public:
     Agents[Agent].Expected.push_back(std::move(Executed));
   }
 
-  /// \p Observers are told from now on; null for nobody.
-  void watch(const TimeWatch *Observers) { Watch = Observers; }
+  /// \p Observers are told from now on, as of number \p Own; null for nobody.
+  void watch(const TimeWatch *Observers, unsigned Own);
 
   /// A run begins; what was given to it before goes on.
   void begin(uint64_t Now);

@@ -3,30 +3,75 @@
 /// clock knows no observer by name.
 #pragma once
 
-#include "raster/WorkLog.h"
+#include "timing/dram/Controller.h"
+#include "vorion/isasim/Timing.h"
 
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
+
+namespace vorion::raster {
+struct CommandWork;
+struct TailWork;
+} // namespace vorion::raster
 
 namespace vorion::isasim {
 
-/// A stretch of time, in cycles since the machine was made. The clock stands
-/// still between runs.
+/// A stretch of time, in cycles of the chip since the machine was made. The
+/// clock stands still between runs.
 struct CycleSpan {
   uint64_t From = 0, Until = 0;
 };
 
+/// A bank of a cache.
+struct BankPlace {
+  bool IsLlc = false; ///< of the last-level cache, else of an L2 slice
+  unsigned Slice = 0; ///< by cluster
+  unsigned Bank = 0;
+};
+
+/// What a core spent cycles on.
+struct CoreSpent {
+  /// No instruction: the core starts, or has ended.
+  static constexpr uint32_t NoInstruction =
+      std::numeric_limits<uint32_t>::max();
+  unsigned Core = 0;
+  CoreCycle What = CoreCycle::Issue;
+  CycleSpan When;
+  /// That issues, or that waits to: its number in the program's code.
+  uint32_t Instruction = NoInstruction;
+};
+
 /// Calls come one at a time, on the thread of Machine::run. Those about one
 /// unit come in the order of its time; units are as far as the clock has taken
-/// them.
+/// them. What a unit spends adds up to all cycles of its run.
 class TimeObserver {
 public:
   virtual ~TimeObserver() = default;
 
+  /// A run, from the launch until the last core was done.
+  virtual void timeBegins(uint64_t /*Now*/) {}
+  virtual void timeEnds(uint64_t /*Now*/) {}
+
+  virtual void coreSpent(const CoreSpent &) {}
+  virtual void rasterSpent(unsigned /*Socket*/, RasterCycle, CycleSpan) {}
+  virtual void pixelSpent(unsigned /*Cluster*/, PixelCycle, CycleSpan) {}
+
   /// A rasterizer was busy with a command, or a pixel unit with the rest of
-  /// one. May come in a later run than the command's start.
+  /// one (raster/WorkLog.h). May come in a later run than the command's start.
   virtual void tile(const raster::CommandWork &, CycleSpan) {}
   virtual void tileRest(const raster::TailWork &, CycleSpan) {}
+
+  /// A bank worked on a request, or waited for an MSHR and took no other.
+  virtual void bankBusy(BankPlace, CycleSpan) {}
+  /// A line went to a DRAM channel's controller.
+  virtual void dramRequest(unsigned /*Channel*/, uint32_t /*Address*/,
+                           bool /*IsWrite*/) {}
+  /// A controller has issued a command. \p Data is when its data took the bus,
+  /// if it had any.
+  virtual void dramCommand(unsigned /*Channel*/, const dram::Issued &,
+                           CycleSpan /*Data*/) {}
 };
 
 /// The observers of a clock. Its units have a pointer to this, which is null

@@ -1,0 +1,76 @@
+/// What every unit of the machine did in which cycles of the clock
+/// (docs/debugging.md, "Timeline").
+#pragma once
+
+#include "observe/TraceEvents.h"
+#include "timing/TimeObserver.h"
+#include "vorion/isasim/Config.h"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace vorion::isasim {
+
+/// A run is divided into windows of equal length, as many cycles as it takes
+/// to have at most MaxWindows of them. A core, rasterizer or pixel unit has a
+/// slice for neighbouring windows in which the same reason took most cycles,
+/// with the cycles of all reasons. A bank or channel has a figure that changes
+/// from window to window.
+class CycleTimeline final : public TimeObserver {
+public:
+  static constexpr size_t MaxWindows = 1024;
+  static constexpr uint64_t ShortestWindow = 16; ///< cycles
+  /// From so many events on, a run is no more than its slice.
+  static constexpr uint64_t MaxEvents = 1'000'000;
+
+  /// \p Out as for TraceEvents, which is empty so far.
+  CycleTimeline(std::FILE *Out, const Config &Shape);
+
+  void timeBegins(uint64_t Now) override;
+  void coreSpent(const CoreSpent &S) override;
+  void rasterSpent(unsigned Socket, RasterCycle What, CycleSpan When) override;
+  void pixelSpent(unsigned Cluster, PixelCycle What, CycleSpan When) override;
+  void bankBusy(BankPlace Where, CycleSpan When) override;
+  void dramCommand(unsigned Channel, const dram::Issued &What,
+                   CycleSpan Data) override;
+  void timeEnds(uint64_t Now) override { End = Now; }
+
+  /// Writes the run, which is called \p Name, if the clock took it; the file is
+  /// complete.
+  void runEnded(const std::string &Name);
+
+private:
+  /// A row of the picture.
+  struct Row {
+    unsigned Process, Thread;
+    std::string Name;
+    size_t Reasons;
+    std::function<std::string_view(size_t)> NameOf;
+    std::vector<uint32_t> Cycles; ///< by window and reason
+    uint64_t Shown = 0;           ///< of a bank or channel: the last figure
+  };
+  template <typename Reason>
+  void addUnits(std::vector<Row> &To, unsigned Process, const char *Of,
+                unsigned Count);
+  void addBanks(std::vector<Row> &To, unsigned Process, const std::string &Of,
+                unsigned Count);
+  void add(Row &R, size_t Reason, CycleSpan When);
+  void widen();
+  void writeUnit(const Row &R);
+  void writeShare(Row &R);
+  uint64_t beginOf(size_t Window) const {
+    return std::min(Origin + Window * WindowCycles, End);
+  }
+  bool isFull() const { return Out.events() >= MaxEvents; }
+
+  TraceEvents Out;
+  std::vector<Row> Cores, Rasters, Pixels;
+  std::vector<Row> L2, Llc, Channels;
+  const unsigned L2Banks;
+  uint64_t Origin = 0, End = 0; ///< of the run
+  uint64_t WindowCycles = ShortestWindow;
+};
+
+} // namespace vorion::isasim

@@ -1,0 +1,147 @@
+#include "observe/CycleTimeline.h"
+
+#include "vorion/support/Json.h"
+
+#include <array>
+#include <cstdio>
+#include <gtest/gtest.h>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+using namespace vorion;
+using namespace vorion::isasim;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A timeline of a machine with two cores in memory.
+class CycleTimelineTest : public testing::Test {
+protected:
+  CycleTimelineTest() {
+    Shape.CoresPerSocket = 2;
+    Shape.SocketsPerCluster = 1;
+    Times.emplace(File.get(), Shape);
+  }
+
+  void spend(unsigned Core, CoreCycle What, uint64_t From, uint64_t Until) {
+    Times->coreSpent({Core, What, {From, Until}});
+  }
+
+  /// All events that are no names.
+  std::vector<Json> events() {
+    std::vector<Json> Found;
+    std::string Text(static_cast<size_t>(std::ftell(File.get())) + 4, ' ');
+    std::rewind(File.get());
+    Text.resize(std::fread(Text.data(), 1, Text.size(), File.get()));
+    const auto Whole = parseJson<Json>(Text, "the timeline", "JSON");
+    EXPECT_TRUE(Whole) << Text;
+    if (Whole)
+      for (const Json &Event : (*Whole)["traceEvents"])
+        if (Event["ph"] != "M")
+          Found.push_back(Event);
+    return Found;
+  }
+  /// Slices of core \p Core.
+  std::vector<Json> slicesOf(unsigned Core) {
+    std::vector<Json> Found;
+    for (const Json &E : events())
+      if (E["pid"] == 2 && E["tid"] == Core)
+        Found.push_back(E);
+    return Found;
+  }
+
+  struct Closer {
+    void operator()(std::FILE *F) const { std::fclose(F); }
+  };
+  Config Shape;
+  std::unique_ptr<std::FILE, Closer> File{std::tmpfile()};
+  std::optional<CycleTimeline> Times;
+};
+
+} // namespace
+
+TEST_F(CycleTimelineTest, NeighboursOfOneReasonAreOneSlice) {
+  Times->timeBegins(1000);
+  spend(0, CoreCycle::Issue, 1000, 1040);
+  spend(0, CoreCycle::Memory, 1040, 1041);
+  spend(0, CoreCycle::Issue, 1041, 1064);
+  spend(0, CoreCycle::Memory, 1064, 1100);
+  Times->timeEnds(1100);
+  Times->runEnded("add");
+  const auto Slices = slicesOf(0);
+  ASSERT_EQ(Slices.size(), 2U);
+  EXPECT_EQ(Slices[0]["name"], "issue");
+  EXPECT_EQ(Slices[0]["ts"], 1000);
+  EXPECT_EQ(Slices[0]["dur"], 64);
+  EXPECT_EQ(Slices[0]["args"], (Json{{"issue", 63}, {"memory", 1}}));
+  EXPECT_EQ(Slices[1]["name"], "memory");
+  EXPECT_EQ(Slices[1]["dur"], 36);
+  EXPECT_EQ(events()[0]["name"], "add");
+  EXPECT_EQ(events()[0]["dur"], 100);
+}
+
+TEST_F(CycleTimelineTest, ALongRunHasAsManyWindowsAndAllCycles) {
+  constexpr uint64_t Cycles = 1'000'003;
+  Times->timeBegins(0);
+  // The most that there can be: every window differs from its neighbour.
+  std::map<std::string, uint64_t> Spent;
+  for (uint64_t At = 0; At < Cycles; At += 977) {
+    const auto What = At % 2 ? CoreCycle::Branch : CoreCycle::Operand;
+    const uint64_t Until = std::min(Cycles, At + 977);
+    Spent[std::string(name(What))] += Until - At;
+    spend(1, What, At, Until);
+  }
+  Times->timeEnds(Cycles);
+  Times->runEnded("long");
+  const auto Slices = slicesOf(1);
+  EXPECT_LE(Slices.size(), CycleTimeline::MaxWindows);
+  EXPECT_GE(Slices.size(), CycleTimeline::MaxWindows / 4);
+  uint64_t Behind = 0;
+  for (const Json &S : Slices) {
+    EXPECT_EQ(S["ts"], Behind);
+    uint64_t Sum = 0;
+    for (const auto &[Reason, Count] : S["args"].items()) {
+      Spent[Reason] -= Count.get<uint64_t>();
+      Sum += Count.get<uint64_t>();
+    }
+    EXPECT_EQ(S["dur"], Sum);
+    Behind += Sum;
+  }
+  EXPECT_EQ(Behind, Cycles);
+  for (const auto &[Reason, Left] : Spent)
+    EXPECT_EQ(Left, 0U) << Reason;
+}
+
+TEST_F(CycleTimelineTest, ABankHasAFigureThatIsToldWhenItChanges) {
+  Times->timeBegins(0);
+  Times->bankBusy({.Bank = 1}, {0, 8});
+  Times->bankBusy({.Bank = 1}, {16, 24});
+  Times->bankBusy({.Bank = 1}, {60, 70}); // beyond the run
+  Times->timeEnds(64);
+  Times->runEnded("");
+  std::vector<std::pair<uint64_t, uint64_t>> Told;
+  for (const Json &E : events())
+    if (E["ph"] == "C") {
+      EXPECT_EQ(E["name"], "slice 0 bank 1, % busy");
+      Told.emplace_back(E["ts"], E["args"]["value"]);
+    }
+  EXPECT_EQ(Told, (std::vector<std::pair<uint64_t, uint64_t>>{
+                      {0, 50}, {32, 0}, {48, 25}}));
+}
+
+TEST_F(CycleTimelineTest, RunsFollowEachOther) {
+  for (const uint64_t Begin : {0, 32}) {
+    Times->timeBegins(Begin);
+    spend(0, CoreCycle::Issue, Begin, Begin + 32);
+    Times->timeEnds(Begin + 32);
+    Times->runEnded("same");
+    // One that the clock did not take.
+    Times->runEnded("untimed");
+  }
+  const auto Slices = slicesOf(0);
+  ASSERT_EQ(Slices.size(), 2U);
+  EXPECT_EQ(Slices[1]["ts"], 32);
+  EXPECT_EQ(events().size(), 4U);
+}

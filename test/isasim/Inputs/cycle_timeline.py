@@ -1,0 +1,38 @@
+"""usage: cycle_timeline.py TIMELINE STATS: checks a timeline in cycles against the time of the same runs, and prints its
+groups of rows. What the slices say of a unit adds up to its cycles, reason by reason."""
+import collections
+import json
+import sys
+
+timeline, stats = (json.load(open(f)) for f in sys.argv[1:])
+assert timeline["otherData"]["format"] == "vorion-timeline 1"
+assert timeline["otherData"]["unit"].startswith("1 us = 1 cycle"), timeline["otherData"]
+groups, ends, figures = {}, {}, set()
+spent = collections.defaultdict(collections.Counter)
+for event in timeline["traceEvents"]:
+    pid = event["pid"]
+    if event["ph"] == "M":
+        if event["name"] == "process_name":
+            groups[pid] = event["args"]["name"]
+    elif event["ph"] == "C":
+        assert 0 <= event["args"]["value"] <= 100, event
+        figures.add((groups[pid], event["name"]))
+    else:
+        row = groups[pid], event["tid"]
+        assert ends.get(row, 0) <= event["ts"], f"slices overlap: {event}"
+        ends[row] = event["ts"] + event["dur"]
+        if groups[pid] != "runs":
+            assert sum(event["args"].values()) == event["dur"], event
+            assert event["args"][event["name"]] > 0, event
+            spent[row].update(event["args"])
+timed = [run["time"] for run in stats["runs"]]
+assert ends["runs", 0] == sum(time["cycles"] for time in timed)
+for group, key in (("cores", "cores"), ("rasterizers", "rasterizers"), ("pixel units", "pixel_units")):
+    units = len(timed[0][key])
+    for unit in range(units):
+        for reason, cycles in spent[group, unit].items():
+            assert cycles == sum(time[key][unit][reason] for time in timed), (group, unit, reason)
+        assert spent[group, unit].total() == ends["runs", 0], (group, unit)
+    print(f"{group}: {units} rows")
+for group in ("L2", "last-level cache", "DRAM"):
+    print(f"{group}: {sum(g == group for g, name in figures)} figures")
