@@ -401,7 +401,7 @@ std::vector<std::string> changesOf(const Config &From, const Config &To) {
         continue;
       Changes.push_back(fmt::format("{}={}", K.Path,
                                     Value.is_string() ? Value.get<std::string>()
-                                                      : Value.dump()));
+                                                      : jsonText(Value)));
       if (Named)
         K.Set(Now, K.Get(To));
     }

@@ -1,14 +1,16 @@
 #include "observe/Profile.h"
 
 #include "core/Isa.h"
+#include "observe/CycleProfile.h"
 #include "observe/Tool.h"
+#include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <fmt/format.h>
-#include <sstream>
+#include <optional>
 
 namespace vorion::isasim {
 
@@ -16,18 +18,6 @@ namespace {
 
 constexpr std::string_view Heading =
     "       warp      %  lanes    splits  diverg.  accesses  lines/a.\n";
-
-std::vector<std::string> linesOf(const std::string &Path) {
-  std::vector<std::string> Lines;
-  const Expected<std::vector<std::byte>> Bytes = readFile(Path);
-  if (!Bytes)
-    return Lines;
-  std::istringstream Text(std::string(
-      reinterpret_cast<const char *>(Bytes->data()), Bytes->size()));
-  for (std::string Line; std::getline(Text, Line);)
-    Lines.push_back(Line);
-  return Lines;
-}
 
 /// Pieces of memory of this many bytes that the active lanes touch.
 unsigned piecesTouched(const MemoryAccess &A, uint32_t Mask) {
@@ -55,29 +45,8 @@ Profile::Cost &Profile::Cost::operator+=(const Cost &Other) {
   return *this;
 }
 
-void Profile::runBegins(const RunStart &R) {
-  const auto Found =
-      std::find_if(Programs.begin(), Programs.end(),
-                   [&](const Program &P) { return P.Code == R.Program; });
-  if (Found != Programs.end()) {
-    Current = &*Found;
-    return;
-  }
-  Program P{
-      R.Program, std::make_unique<SourceLines>(R.Program), UINT32_MAX, {}};
-  uint32_t High = 0;
-  for (const Image::Segment &S : R.Program->segments())
-    if (S.Executable) {
-      P.Low = std::min(P.Low, S.Address);
-      High = std::max(High, S.Address + S.MemBytes);
-    }
-  P.ByWord.resize((High - P.Low) / 4);
-  Programs.push_back(std::move(P));
-  Current = &Programs.back();
-}
-
 void Profile::commit(const Commit &C) {
-  Cost &At = Current->ByWord[(C.Pc - Current->Low) / 4];
+  Cost &At = Places.at(C.Pc);
   ++At.Warp;
   At.Lanes += static_cast<unsigned>(std::popcount(C.LaneMask));
   At.Splits += C.Insn.Opcode == Op::VX_SPLIT ||
@@ -109,25 +78,7 @@ std::string Profile::row(const Cost &C, uint64_t Total) {
 }
 
 std::string Profile::report() const {
-  Cost All;
-  std::map<std::string, std::map<unsigned, Cost>> Files;
-  std::map<std::string, Cost> Others; // by function
-  for (const Program &P : Programs)
-    for (size_t N = 0; N != P.ByWord.size(); ++N) {
-      const Cost &C = P.ByWord[N];
-      if (C.Warp == 0)
-        continue;
-      All += C;
-      const auto Pc = static_cast<uint32_t>(P.Low + 4 * N);
-      if (const std::optional<SourcePlace> Place = P.Source->find(Pc)) {
-        Files[Place->File][Place->Line] += C;
-        continue;
-      }
-      std::string Name = P.Code->symbolize(Pc);
-      Name.resize(std::min(Name.size(), Name.find('+')));
-      Others[Name.empty() ? P.Code->name() : Name] += C;
-    }
-
+  const Cost All = Places.total();
   std::string Text = "# vorion-profile 1\n"
                      "# warp: warp instructions; lanes: active on average; "
                      "splits: vx_split, vx_pred;\n"
@@ -135,40 +86,31 @@ std::string Profile::report() const {
                      "loads, stores, atomics;\n"
                      "# lines/a.: 64-byte pieces each touched\n\n";
   Text += fmt::format("{}{}total\n", Heading, row(All, All.Warp));
-  for (const auto &[File, Lines] : Files) {
-    Cost Sum;
-    for (const auto &[Line, C] : Lines)
-      Sum += C;
-    Text += fmt::format("\n{}{}{}\n", Heading, row(Sum, All.Warp), File);
-    const std::vector<std::string> Source = linesOf(File);
-    // A file that is not there: the lines that cost something, by number.
-    if (Source.empty())
-      for (const auto &[Line, C] : Lines)
-        Text += fmt::format("{}{:>5}\n", row(C, All.Warp), Line);
-    for (unsigned Line = 1; Line <= Source.size(); ++Line) {
-      const auto Found = Lines.find(Line);
-      Text += fmt::format(
-          "{}{:>5}  {}\n",
-          row(Found == Lines.end() ? Cost() : Found->second, All.Warp), Line,
-          Source[Line - 1]);
-    }
-  }
-  if (!Others.empty())
-    Text += fmt::format("\n{}code without line numbers\n", Heading);
-  for (const auto &[Name, C] : Others)
-    Text += fmt::format("{}{}\n", row(C, All.Warp), Name);
-  return Text;
+  return Text + Places.listing(std::string(Heading),
+                               [&](const Cost &C) { return row(C, All.Warp); });
 }
 
 namespace {
 
+/// Of cycles where the machine has a clock, else of instructions.
 class ProfileTool : public Tool {
 public:
   ProfileTool(std::string FileIn, const ToolOutput &To)
       : File(std::move(FileIn)), Print(To.Print) {}
-  std::vector<Observer *> observers() override { return {&Costs}; }
+  std::vector<Observer *> observers() override {
+    return InCycles ? std::vector<Observer *>{}
+                    : std::vector<Observer *>{&Costs};
+  }
+  std::vector<TimeObserver *> timeObservers() override {
+    return InCycles ? std::vector<TimeObserver *>{&*InCycles}
+                    : std::vector<TimeObserver *>{};
+  }
+  void attach(Machine &M) override {
+    if (M.config().Timing.Enabled)
+      InCycles.emplace(M);
+  }
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
-    const std::string Report = Costs.report();
+    const std::string Report = InCycles ? InCycles->report() : Costs.report();
     if (File != StandardOutput)
       return writeFileAtomically(File, Report);
     Print(Report);
@@ -179,6 +121,7 @@ private:
   std::string File;
   std::function<void(std::string_view)> Print;
   Profile Costs;
+  std::optional<CycleProfile> InCycles;
 };
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,

@@ -1,18 +1,16 @@
 /// Where the instructions go: an annotated source listing.
 #pragma once
 
-#include "mem/SourceLines.h"
+#include "observe/SourceCosts.h"
 #include "vorion/isasim/Observer.h"
 
-#include <map>
 #include <string>
-#include <vector>
 
 namespace vorion::isasim {
 
 class Profile : public Observer {
 public:
-  void runBegins(const RunStart &R) override;
+  void runBegins(const RunStart &R) override { Places.select(R.Program); }
   void commit(const Commit &C) override;
 
   /// The listing of all runs so far: for every source file, each line with what
@@ -28,19 +26,12 @@ private:
     uint64_t Divergent = 0; ///< of these, those that divided the lanes
     uint64_t Accesses = 0;  ///< loads, stores, atomics
     uint64_t Lines = 0;     ///< 64-byte pieces of memory that they touched
+    bool isNone() const { return Warp == 0; }
     Cost &operator+=(const Cost &Other);
   };
-  struct Program {
-    std::shared_ptr<const Image> Code;
-    std::unique_ptr<SourceLines> Source;
-    uint32_t Low = 0;
-    std::vector<Cost> ByWord;
-  };
-
   static std::string row(const Cost &C, uint64_t Total);
 
-  std::vector<Program> Programs;
-  Program *Current = nullptr;
+  SourceCosts<Cost> Places;
 };
 
 } // namespace vorion::isasim

@@ -3,6 +3,7 @@
 #include "core/Core.h"
 #include "core/Isa.h"
 #include "machine/Report.h"
+#include "observe/CodeText.h"
 #include "observe/GrowingFile.h"
 #include "observe/NameList.h"
 #include "observe/Tool.h"
@@ -82,12 +83,6 @@ std::string_view nameOf(MemoryAccess::Kind Kind) {
   return "?";
 }
 
-std::string text(uint32_t Word, uint32_t Pc) {
-  std::string Text = disassemble(Word, Pc);
-  std::replace(Text.begin(), Text.end(), '\t', ' ');
-  return Text;
-}
-
 /// The tile and the list of a command, as in its CSRs.
 std::string tileAndList(const raster::Job &J) {
   using namespace raster;
@@ -128,7 +123,7 @@ const Trace::Texts &Trace::textsOf(const Step &S) {
   Texts &Known = ByPc[S.Pc];
   if (Known.Place.empty())
     Known = {fmt::format("0x{:08x} <{}>", S.Pc, Program->symbolize(S.Pc)),
-             text(S.Word, S.Pc)};
+             instructionText(S.Word, S.Pc)};
   return Known;
 }
 

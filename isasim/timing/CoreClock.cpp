@@ -35,6 +35,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   L1.clear();
   Spent = Told = {};
   ToldUntil = Start;
+  Serial = 0;
   Classes = {};
   LinesRequested = LocalConflicts = L1Hits = 0;
   spend(CoreCycle::Start, Timing.StartCycles);
@@ -59,6 +60,8 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
 /// Observers get to know what has been spent since they were told last: for
 /// \p O, or for no instruction if that is null. Its issue comes last.
 void CoreClock::tell(const OpInfo *O) {
+  const bool Issues = Spent.Cycles[size_t(CoreCycle::Issue)] !=
+                      Told.Cycles[size_t(CoreCycle::Issue)];
   CoreSpent S;
   S.Core = Number;
   if (O)
@@ -74,6 +77,20 @@ void CoreClock::tell(const OpInfo *O) {
     ToldUntil += Cycles;
     Watch->tell([&](TimeObserver &Each) { Each.coreSpent(S); });
   }
+  if (Issues)
+    tellIssued(*O);
+}
+
+void CoreClock::tellIssued(const OpInfo &O) {
+  CoreIssued I{.Core = Number,
+               .Warp = Current,
+               .Instruction = static_cast<uint32_t>(&O - Ops->data()),
+               .Serial = Serial++,
+               .At = ToldUntil - 1,
+               .ResultAt = ToldUntil};
+  if (O.Rd != SinkRegister)
+    I.ResultAt = Ready[O.Rd] == Turn::Never ? CoreIssued::Unknown : Ready[O.Rd];
+  Watch->tell([&](TimeObserver &Each) { Each.coreIssued(I); });
 }
 
 void CoreClock::end(uint64_t End) {
@@ -423,7 +440,7 @@ bool CoreClock::access(MemorySystem &Memory) {
     }
     waitUntil(At, CoreCycle::LsuQueue);
     InFlight.begin(Place);
-    Accesses[Place] = {&O, Current, {}};
+    Accesses[Place] = {&O, Current, Serial};
   }
   Now = State::Starved;
   if (A.Lines == 0) {
@@ -490,6 +507,10 @@ void CoreClock::answer(uint32_t Tag, uint64_t Then) {
     const Access &A = Accesses[*Place];
     fillL1(*Place, Done);
     setLoaded(of(A.Warp), *A.Op, Done);
+    if (Watch)
+      Watch->tell([&](TimeObserver &Each) {
+        Each.loadDone(Number, A.Serial, Done + A.Op->Latency);
+      });
     // The access in front may have waited for a place.
     At = std::min(At, std::max(Next, Done));
   }

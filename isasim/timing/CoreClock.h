@@ -174,6 +174,7 @@ private:
   }
 
   void tell(const OpInfo *O);
+  void tellIssued(const OpInfo &O);
 
   // Several warps.
   void advanceInTurn(uint64_t Until);
@@ -216,7 +217,8 @@ private:
   struct Access {
     const OpInfo *Op = nullptr;
     unsigned Warp = 0;
-    std::vector<uint32_t> Misses; ///< lines that the data cache gets
+    uint64_t Serial = 0;               ///< as observers know it
+    std::vector<uint32_t> Misses = {}; ///< lines that the data cache gets
   };
   std::vector<Access> Accesses; ///< by place
   uint64_t LastDone = 0; ///< of the accesses to memory whose end is known
@@ -227,6 +229,7 @@ private:
   unsigned Number = 0; ///< as observers know it
   CoreTime Told;       ///< of Spent, what they know
   uint64_t ToldUntil = 0;
+  uint64_t Serial = 0; ///< of the next instruction, if there are observers
   std::array<ClassCount, size_t(OpClass::Count)> Classes{};
   uint64_t LinesRequested = 0, LocalConflicts = 0, L1Hits = 0;
 };

@@ -43,6 +43,17 @@ struct CoreSpent {
   uint32_t Instruction = NoInstruction;
 };
 
+/// An instruction that a core has issued.
+struct CoreIssued {
+  /// Of what memory has not answered yet; loadDone() tells it.
+  static constexpr uint64_t Unknown = std::numeric_limits<uint64_t>::max();
+  unsigned Core = 0, Warp = 0;
+  uint32_t Instruction = 0; ///< as of CoreSpent
+  uint64_t Serial = 0;      ///< counts what the core issues in a run
+  uint64_t At = 0;
+  uint64_t ResultAt = 0; ///< what needs its result can issue
+};
+
 /// Calls come one at a time, on the thread of Machine::run. Those about one
 /// unit come in the order of its time; units are as far as the clock has taken
 /// them. What a unit spends adds up to all cycles of its run.
@@ -55,6 +66,11 @@ public:
   virtual void timeEnds(uint64_t /*Now*/) {}
 
   virtual void coreSpent(const CoreSpent &) {}
+  /// Behind what was spent on it.
+  virtual void coreIssued(const CoreIssued &) {}
+  /// The access that was issued as number \p Serial has its result.
+  virtual void loadDone(unsigned /*Core*/, uint64_t /*Serial*/,
+                        uint64_t /*ResultAt*/) {}
   virtual void rasterSpent(unsigned /*Socket*/, RasterCycle, CycleSpan) {}
   virtual void pixelSpent(unsigned /*Cluster*/, PixelCycle, CycleSpan) {}
 

@@ -39,7 +39,8 @@ Finding detectCheckers(const EffectInputs &In) {
 
 Finding detectTraces(const EffectInputs &In) {
   return asked(In, {"VORION_TRACE", "VORION_TIMELINE", "VORION_TILES",
-                    "VORION_DRAM_TRACE", "VORION_PROFILE", "VORION_STATS"});
+                    "VORION_DRAM_TRACE", "VORION_PIPELINE", "VORION_PROFILE",
+                    "VORION_STATS"});
 }
 
 Finding detectDebugger(const EffectInputs &In) {

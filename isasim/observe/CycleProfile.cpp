@@ -1,0 +1,96 @@
+#include "observe/CycleProfile.h"
+
+#include "observe/CodeText.h"
+#include "vorion/isasim/Machine.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace vorion::isasim {
+
+namespace {
+/// Instructions are listed that took at least this share of all cycles.
+constexpr double LeastShare = 0.002;
+} // namespace
+
+uint64_t CycleProfile::Cost::sum() const {
+  return std::accumulate(Cycles.begin(), Cycles.end(), uint64_t{0});
+}
+
+CycleProfile::Cost &CycleProfile::Cost::operator+=(const Cost &Other) {
+  for (size_t N = 0; N != Cycles.size(); ++N)
+    Cycles[N] += Other.Cycles[N];
+  return *this;
+}
+
+void CycleProfile::timeBegins(uint64_t) { Places.select(Device.image()); }
+
+void CycleProfile::coreSpent(const CoreSpent &S) {
+  Cost &To = S.Instruction == CoreSpent::NoInstruction
+                 ? Nowhere
+                 : Places.of(S.Instruction);
+  To.Cycles[size_t(S.What)] += S.When.Until - S.When.From;
+}
+
+struct CycleProfile::Columns {
+  Columns(const Cost &AllIn, uint64_t TotalIn) : Total(TotalIn) {
+    for (size_t N = 0; N != AllIn.Cycles.size(); ++N)
+      if (AllIn.Cycles[N])
+        Reasons.push_back(static_cast<CoreCycle>(N));
+  }
+  static size_t width(CoreCycle Reason) {
+    return std::max<size_t>(name(Reason).size(), 5) + 2;
+  }
+  std::string heading() const {
+    std::string Text = fmt::format("{:>12}{:>7}", "cycles", "%");
+    for (const CoreCycle R : Reasons)
+      Text += fmt::format("{:>{}}", name(R), width(R));
+    return Text + "\n";
+  }
+  std::string share(uint64_t Cycles) const {
+    return Cycles ? fmt::format("{:.2f}", 100 * static_cast<double>(Cycles) /
+                                              static_cast<double>(Total))
+                  : "-";
+  }
+  std::string row(const Cost &C) const {
+    const uint64_t Sum = C.sum();
+    if (Sum == 0)
+      return std::string(heading().size() + 1, ' ');
+    std::string Text = fmt::format("{:>12}{:>7}", Sum, share(Sum));
+    for (const CoreCycle R : Reasons)
+      Text += fmt::format("{:>{}}", share(C.Cycles[size_t(R)]), width(R));
+    return Text + "  ";
+  }
+
+  const uint64_t Total;
+  std::vector<CoreCycle> Reasons;
+};
+
+std::string CycleProfile::report() const {
+  Cost All = Places.total();
+  All += Nowhere;
+  const uint64_t Total = All.sum();
+  const Columns Shown(All, Total);
+  std::string Text = "# vorion-profile 1\n"
+                     "# cycles: of all cores together; then per cent of all "
+                     "cycles, and the same by reason\n"
+                     "# a cycle in which a core waits is the instruction's "
+                     "that waits\n\n";
+  Text += fmt::format("{}{}total\n", Shown.heading(), Shown.row(All));
+  Text += fmt::format("{}no instruction: start and end\n", Shown.row(Nowhere));
+  Text += Places.listing(Shown.heading(),
+                         [&](const Cost &C) { return Shown.row(C); });
+  Text += fmt::format("\n{}instructions of {} % of all cycles and more\n",
+                      Shown.heading(), 100 * LeastShare);
+  Places.forEach([&](const SourceCosts<Cost>::Program &P, uint32_t Pc,
+                     const Cost &C) {
+    if (static_cast<double>(C.sum()) < LeastShare * static_cast<double>(Total))
+      return;
+    Text += fmt::format("{}{:08x}  {:<32}{}\n", Shown.row(C), Pc,
+                        instructionText(*P.Code, Pc), P.Source->describe(Pc));
+  });
+  return Text;
+}
+
+} // namespace vorion::isasim
