@@ -4,8 +4,8 @@
 usage: sensitivity.py SCENE --cameras FILE --view NAME -o OUT.json [--config FILE] [--share PERCENT] [--only PREFIX]
 
 Parameters are those of the configuration's "timing" object (vorion-sim --print-default-config), as isasim/include/
-vorion/isasim/TimingParams.def lists them; a switch is turned over instead, and what must
-be a power of two is halved and doubled. OUT.json keeps every result, so that a run
+vorion/isasim/TimingParams.def lists them; a switch is turned over instead, what must
+be a power of two is halved and doubled, and what there is none of is left out. OUT.json keeps every result, so that a run
 that was broken off goes on where it stopped, unless it was made from other things. The table is printed as Markdown, largest effect first.
 """
 
@@ -20,6 +20,8 @@ import kept
 
 SWITCHES = ("fpu", "loads_queue", "interleaved_stacks", "intersect_hint")
 POWERS_OF_TWO = ("channels", "channel_bytes")
+# Of these 0 is no number but none, or no bound, and 1 is far from it.
+NONE_IF_ZERO = ("dcache_kib", "fp_in_flight", "from_l2_mbps", "icache_kib", "l2_mhz", "register_banks", "to_l2_mbps", "unit_queue")
 
 
 def parameters(timing):
@@ -37,6 +39,8 @@ def variants(name, value):
         return {"other": 1 - value}
     if name in POWERS_OF_TWO:
         return {"half": value // 2, "twice": 2 * value}
+    if value == 0 and name in NONE_IF_ZERO:
+        return {}
     step = max(1, round(0.2 * value))
     return {"-20 %": max(0, value - step), "+20 %": value + step}
 

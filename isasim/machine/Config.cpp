@@ -12,6 +12,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 namespace vorion::isasim {
@@ -253,6 +254,16 @@ Expected<Success> validate(const Config &C) {
     if (std::string Wrong = checkRange(K, K.Get(C)); !Wrong.empty())
       return Error{"configuration", std::move(Wrong), ExitCode::Usage};
   }
+  // A set cannot have more ways than the cache has lines.
+  for (const auto &[Path, Kib, Ways] :
+       {std::tuple{"timing.l2.ways", C.Timing.L2.Kib, C.Timing.L2.Ways},
+        {"timing.llc.ways", C.Timing.Llc.Kib, C.Timing.Llc.Ways}})
+    if (const uint32_t Lines = Kib * 1024 / TimingLineBytes; Ways > Lines)
+      return Error{"configuration",
+                   fmt::format("{} is {}, expected at most the {} lines of {} "
+                               "KiB",
+                               Path, Ways, Lines, Kib),
+                   ExitCode::Usage};
   // A test holds the default good, so that not every run reads its standard.
   if (C.Timing.Dram != DramTiming())
     if (const auto Dram = setUpDram(C.Timing.Dram); !Dram)

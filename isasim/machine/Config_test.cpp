@@ -102,6 +102,9 @@ TEST(Config, ErrorsNameTheKey) {
   EXPECT_EQ(wrongIn(R"({"timing": {"dram": {"address_map": "zigzag"}}})"),
             "file.json: timing.dram.address_map: \"zigzag\" is no address map, "
             "expected one of digit_sum, row_bank_column, xor");
+  EXPECT_EQ(wrongIn(R"({"timing": {"l2": {"kib": 1, "ways": 17}}})"),
+            "file.json: timing.l2.ways is 17, expected at most the 16 lines of "
+            "1 KiB");
   EXPECT_NE(wrongIn("{").find("not JSON"), std::string::npos);
 }
 

@@ -35,6 +35,9 @@ Clock::Clock(const Config &C)
   for (unsigned N = 0; N != C.Clusters; ++N)
     Pixels.emplace_back(Timing, MemoryPort{N, placeOfPixels(N)},
                         C.coresPerCluster());
+  for (unsigned N = 0; N != C.sockets(); ++N)
+    Codes.emplace_back(Timing.Core,
+                       MemoryPort{N / C.SocketsPerCluster, placeOfCode(N)});
 }
 
 Clock::~Clock() = default;
@@ -71,13 +74,16 @@ void Clock::begin(const CodeTable &Code) {
   if (Watch)
     Watch->tell([this](TimeObserver &O) { O.timeBegins(Begun); });
   OutOfOrder = 0;
-  Memory.clearCounters();
+  Memory.begin();
   for (Arrived &B : Barriers)
     B = {};
   for (const auto &T : Traces)
     T->clear();
+  const uint32_t FirstWord = Code.low() % TimingLineBytes / 4;
+  for (InstructionCache &C : Codes)
+    C.begin(Code.low(), (FirstWord + Code.count()) * 4 / TimingLineBytes + 1);
   for (CoreClock &C : Cores)
-    C.begin(Ops, Begun);
+    C.begin(Ops, FirstWord, Begun);
   for (RasterClock &R : Rasters)
     R.begin(Begun);
   for (PixelClock &U : Pixels)
@@ -189,15 +195,25 @@ void Clock::collectActivities(TimeReport &R) const {
     Add("core warp instructions", name(static_cast<OpClass>(K)), Warp);
     Add("core lane instructions", name(static_cast<OpClass>(K)), Lane);
   }
-  uint64_t Lines = 0, Conflicts = 0, L1Hits = 0;
+  uint64_t Lines = 0, Conflicts = 0, L1Hits = 0, Stale = 0;
   for (const CoreClock &C : Cores) {
     Lines += C.linesRequested();
     Conflicts += C.localConflicts();
     L1Hits += C.l1Hits();
+    Stale += C.staleLoads();
+  }
+  if (Timing.Core.IcacheKib) {
+    uint64_t Misses = 0;
+    for (const InstructionCache &C : Codes)
+      Misses += C.misses();
+    Add("instruction cache", "misses", Misses);
   }
   Add("lsu", "lines requested", Lines);
-  if (Timing.Core.DcacheKib)
+  if (Timing.Core.DcacheKib) {
     Add("data cache", "hits", L1Hits);
+    Add("data cache", "stale loads", Stale);
+  }
+  R.StaleLoads = Stale;
   Add("local memory", "conflict cycles", Conflicts);
   RasterTime Raster;
   for (const RasterTime &T : R.Rasters) {
@@ -261,6 +277,18 @@ void Clock::arrive(unsigned Core, uint64_t Then) {
   B.Warps.clear();
 }
 
+/// Asks for the line of code that \p Core needs.
+void Clock::fetchCode(unsigned Core, uint64_t Then) {
+  CoreClock &C = Cores[Core];
+  InstructionCache &Code = Codes[Shape.socketOf(Core)];
+  const uint32_t Line = C.wantedLine();
+  const auto Known = Code.fetch(Memory, Line, Then, {Core, C.warp()});
+  if (Known)
+    C.fetched(C.warp(), Line, *Known, Code.keeps(Line));
+  else
+    C.block();
+}
+
 /// Does the request of \p Core at \p Then, or blocks the core.
 void Clock::grant(unsigned Core, uint64_t Then) {
   CoreClock &C = Cores[Core];
@@ -298,6 +326,9 @@ void Clock::grant(unsigned Core, uint64_t Then) {
     R.takeBatch(Agent, Then);
     update(placeOfRaster(Shape.socketOf(Core)));
     C.resume(Then, CoreCycle::RasterWait);
+    break;
+  case CoreClock::State::Fetch:
+    fetchCode(Core, Then);
     break;
   case CoreClock::State::Answer:
   case CoreClock::State::Step:
@@ -357,6 +388,10 @@ bool Clock::stepMemory(Turn Next) {
   Memory.advance(Until, Answers);
   for (const Answer &A : Answers) {
     const uint32_t Who = A.To.Unit;
+    if (Who >= placeOfCode(0)) {
+      arriveCode(Who - placeOfCode(0), A);
+      continue;
+    }
     if (Who >= placeOfPixels(0))
       Pixels[Who - placeOfPixels(0)].answer(A.To.Tag, A.At);
     else if (Who >= placeOfRaster(0))
@@ -366,6 +401,17 @@ bool Clock::stepMemory(Turn Next) {
     update(Who);
   }
   return true;
+}
+
+/// A line of code comes for those of \p Socket that wait for it.
+void Clock::arriveCode(unsigned Socket, const Answer &A) {
+  InstructionCache &Code = Codes[Socket];
+  const InstructionCache::Arrived Line = Code.answer(A.To.Tag, A.At);
+  for (const auto &[Core, Warp] : Line.Who) {
+    Cores[Core].fetched(Warp, Line.Line, A.At, Code.keeps(Line.Line));
+    Cores[Core].advance();
+    update(Core);
+  }
 }
 
 /// A core that its rasterizer's queue or work had blocked tries again.

@@ -3,6 +3,7 @@
 
 #include "raster/WorkLog.h"
 #include "timing/CoreClock.h"
+#include "timing/InstructionCache.h"
 #include "timing/PixelClock.h"
 #include "timing/RasterClock.h"
 #include "timing/TimeObserver.h"
@@ -55,6 +56,8 @@ private:
   void update(unsigned Who);
   void grant(unsigned Core, uint64_t Then);
   void arrive(unsigned Core, uint64_t Then);
+  void fetchCode(unsigned Core, uint64_t Then);
+  void arriveCode(unsigned Socket, const Answer &A);
   void stepRaster(unsigned Socket, uint64_t Then);
   void stepPixels(unsigned Cluster, uint64_t Then);
   void wake(unsigned Core, uint64_t Then);
@@ -64,6 +67,10 @@ private:
   }
   unsigned placeOfPixels(unsigned Cluster) const {
     return static_cast<unsigned>(Cores.size() + Rasters.size()) + Cluster;
+  }
+  /// By which memory knows instruction caches, which have no turns.
+  unsigned placeOfCode(unsigned Socket) const {
+    return placeOfPixels(static_cast<unsigned>(Pixels.size())) + Socket;
   }
   bool isOverfull() const;
   bool coresAreDone() const;
@@ -76,6 +83,7 @@ private:
   MemorySystem Memory;
   std::vector<std::unique_ptr<TraceBuffer>> Traces; ///< by core and warp
   std::vector<CoreClock> Cores;
+  std::vector<InstructionCache> Codes; ///< by socket
   std::vector<RasterClock> Rasters;
   std::vector<PixelClock> Pixels; ///< by cluster
   std::vector<OpInfo> Ops;

@@ -9,11 +9,11 @@ namespace vorion::isasim {
 CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
                      const std::vector<TraceBuffer *> &Traces,
                      unsigned Barriers)
-    : Timing(Params), IsAlone(Traces.size() == 1),
+    : Timing(Params), Unit(ToMemory.Unit), IsAlone(Traces.size() == 1),
       IsIdeal(Timing.FetchInterval == 1 && Timing.BranchCycles == 1 &&
               Timing.SplitCycles == 1 && Timing.JoinCycles == 1 &&
               Timing.CsrCycles == 1 && Timing.UnitQueue == 0 &&
-              Timing.Fpu == 0 && IsAlone),
+              Timing.Fpu == 0 && Timing.IcacheKib == 0 && IsAlone),
       Others(Traces.size()), LocalBarriers(Barriers),
       InFlight(ToMemory, Timing.LsuQueue + 1), Accesses(Timing.LsuQueue),
       L1(Timing.DcacheKib, Timing.DcacheWays) {
@@ -21,8 +21,20 @@ CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
     of(W).Trace = Traces[W];
 }
 
-void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
+/// The line of an instruction, numbered from the program's first, whose first
+/// instruction is the \p FirstWord th of its line.
+static uint32_t lineOfCode(size_t Instruction, uint32_t FirstWord) {
+  constexpr uint32_t WordsOfLine = TimingLineBytes / 4;
+  return static_cast<uint32_t>(Instruction + FirstWord) / WordsOfLine;
+}
+
+void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
+                      uint64_t Start) {
   Ops = &Program;
+  FirstWord = WordOfLine;
+  if (Timing.IcacheKib)
+    CodeReady.assign(lineOfCode(Program.size() - 1, FirstWord) + 1,
+                     Turn::Never);
   Next = Start;
   UnitFree.fill(0);
   for (UnitQueue &Q : Queues)
@@ -37,7 +49,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint64_t Start) {
   ToldUntil = Start;
   Serial = 0;
   Classes = {};
-  LinesRequested = LocalConflicts = L1Hits = 0;
+  LinesRequested = LocalConflicts = L1Hits = StaleLoads = 0;
   spend(CoreCycle::Start, Timing.StartCycles);
   if (Watch)
     tell(nullptr);
@@ -97,6 +109,38 @@ void CoreClock::end(uint64_t End) {
   spend(CoreCycle::Ended, End - Next);
   if (Watch)
     tell(nullptr);
+}
+
+/// Whether the line of \p Instruction is there for \p W, as far as the core
+/// knows. If not, the warp asks for it next.
+bool CoreClock::isInCode(WarpTime &W, uint32_t Instruction) const {
+  const uint32_t Line = lineOfCode(Instruction, FirstWord);
+  if (CodeReady.empty() || Line == W.CodeLine)
+    return true;
+  if (CodeReady[Line] == Turn::Never) {
+    W.Now = State::Fetch;
+    W.At = std::max(Next, W.Fetched);
+    W.Words[0] = Line;
+    return false;
+  }
+  W.CodeLine = Line;
+  if (CodeReady[Line] > W.Fetched) {
+    W.Fetched = CodeReady[Line];
+    W.FetchWhy = CoreCycle::Fetch;
+  }
+  return true;
+}
+
+void CoreClock::fetched(unsigned Warp, uint32_t Line, uint64_t Then,
+                        bool ForGood) {
+  select(Warp);
+  Blocked = false;
+  Now = State::Starved;
+  CodeLine = Line;
+  Fetched = std::max(Fetched, Then);
+  FetchWhy = CoreCycle::Fetch;
+  if (ForGood)
+    CodeReady[Line] = Then;
 }
 
 /// The front end has lost time if the pc or the mask is not what it went on
@@ -375,6 +419,11 @@ template <bool Ideal, bool Watched> void CoreClock::advanceThrough() {
     const unsigned Count = std::max<unsigned>(R.Count, 1);
     unsigned Here = Position;
     while (Here != Count) {
+      if constexpr (!Ideal)
+        if (!isInCode(*this, R.First + Here)) {
+          Position = Here;
+          return;
+        }
       // Moved on before the instruction: a request is finished elsewhere.
       const OpInfo &O = First[Here++];
       if (!(R.Count == 0 ? advanceParked(O) : advanceOne<Ideal>(O))) {
@@ -416,16 +465,18 @@ void CoreClock::advance() {
     IsIdeal ? advanceThrough<true, false>() : advanceThrough<false, false>();
 }
 
-/// Whether the data cache has a line for a load at \p Place whose address is
-/// known at \p Now.
-bool CoreClock::isInL1(uint32_t Address, uint64_t Now, unsigned Place) {
-  if (const uint64_t *ReadyAt = L1.find(Address)) {
+/// The data cache's line for a load at \p Place whose address is known at
+/// \p Now; nullptr if it has none.
+const DataCache::Line *CoreClock::findInL1(uint32_t Address, uint64_t Now,
+                                           unsigned Place) {
+  const DataCache::Line *Line = L1.find(Address);
+  if (Line) {
     ++L1Hits;
-    InFlight.add(Place, std::max(Now + Timing.DcacheCycles, *ReadyAt));
-    return true;
+    InFlight.add(Place, std::max(Now + Timing.DcacheCycles, Line->ReadyAt));
+  } else {
+    Accesses[Place].Misses.push_back(Address);
   }
-  Accesses[Place].Misses.push_back(Address);
-  return false;
+  return Line;
 }
 
 bool CoreClock::access(MemorySystem &Memory) {
@@ -440,7 +491,7 @@ bool CoreClock::access(MemorySystem &Memory) {
     }
     waitUntil(At, CoreCycle::LsuQueue);
     InFlight.begin(Place);
-    Accesses[Place] = {&O, Current, Serial};
+    Accesses[Place] = {&O, Current, Serial, {}, Memory.writers().count()};
   }
   Now = State::Starved;
   if (A.Lines == 0) {
@@ -457,6 +508,7 @@ bool CoreClock::access(MemorySystem &Memory) {
     R.Op = A.Whole ? CacheOp::WriteWhole : CacheOp::Write;
   }
   const bool UsesL1 = L1.exists() && O.Class == OpClass::Load;
+  bool IsStale = false;
   uint32_t Room = Timing.LinesAtOnce;
   for (unsigned N = 0; N != A.Lines; ++N, --Room) {
     if (Room == 0) {
@@ -464,8 +516,11 @@ bool CoreClock::access(MemorySystem &Memory) {
       Room = Timing.LinesAtOnce;
     }
     R.Address = Trace->word(1 + N);
-    if (UsesL1 && isInL1(R.Address, R.Now, Place))
-      continue;
+    if (UsesL1)
+      if (const auto *Line = findInL1(R.Address, R.Now, Place)) {
+        IsStale |= Memory.writers().isWritten(R.Address, Line->Writes, Unit);
+        continue;
+      }
     CacheRequest Below = R;
     // The tags have been looked up before the request goes on.
     Below.Now += UsesL1 ? Timing.DcacheCycles : 0;
@@ -473,6 +528,7 @@ bool CoreClock::access(MemorySystem &Memory) {
   }
   const uint64_t Leaving = R.Now + Timing.LineCycles - (At + Timing.AguCycles);
   LinesRequested += A.Lines;
+  StaleLoads += IsStale;
   Trace->popWords(1 + A.Lines);
   UnitFree[size_t(Port::Lsu)] = At + std::max<uint64_t>(Leaving, O.Interval);
   const uint64_t Done = InFlight.readyAt(Place);
@@ -494,7 +550,7 @@ void CoreClock::setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done) {
 /// The lines that the load at \p Place asked memory for come at \p Then.
 void CoreClock::fillL1(unsigned Place, uint64_t Then) {
   for (const uint32_t Line : Accesses[Place].Misses)
-    L1.fill(Line, Then);
+    L1.fill(Line, Then, Accesses[Place].Writes);
 }
 
 void CoreClock::answer(uint32_t Tag, uint64_t Then) {
@@ -512,7 +568,8 @@ void CoreClock::answer(uint32_t Tag, uint64_t Then) {
         Each.loadDone(Number, A.Serial, Done + A.Op->Latency);
       });
     // The access in front may have waited for a place.
-    At = std::min(At, std::max(Next, Done));
+    if (Now == State::Access)
+      At = std::min(At, std::max(Next, Done));
   }
   if (Now == State::Answer || !IsAlone)
     advance();

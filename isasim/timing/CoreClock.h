@@ -25,7 +25,8 @@ struct WarpTime {
     RasterStart,
     RasterWait,
     RasterTake,
-    Step, ///< of a core: an instruction that what others do may come before
+    Fetch, ///< wants a line of its code from the instruction cache
+    Step,  ///< of a core: an instruction that what others do may come before
   };
 
   TraceBuffer *Trace = nullptr;
@@ -49,6 +50,9 @@ struct WarpTime {
   std::array<CoreCycle, NumRegisters> ReadyWhy{};
   uint64_t Fetched = 0; ///< when the next instruction can issue at the earliest
   CoreCycle FetchWhy = CoreCycle::Fetch;
+  uint32_t CodeLine = NoLine; ///< of its last instruction
+
+  static constexpr uint32_t NoLine = ~0U;
 };
 
 /// Reads a core's traces. Everything between two requests that others can
@@ -69,8 +73,9 @@ public:
     Number = Own;
   }
 
-  /// A run of the program \p Ops begins at \p Now.
-  void begin(const std::vector<OpInfo> &Ops, uint64_t Now);
+  /// A run of the program \p Ops begins at \p Now. Its first word is the
+  /// \p FirstWord th of its line.
+  void begin(const std::vector<OpInfo> &Ops, uint32_t FirstWord, uint64_t Now);
 
   /// Goes on to the next request, or to the trace's end.
   void advance();
@@ -106,6 +111,10 @@ public:
   bool access(MemorySystem &Memory);
   /// An answer of memory. Goes on, if it was what the core needed.
   void answer(uint32_t Tag, uint64_t Then);
+  /// The line that State::Fetch wants, numbered from the program's first.
+  uint32_t wantedLine() const { return Words[0]; }
+  /// It comes at \p Then for \p Warp, and for good if \p ForGood says so.
+  void fetched(unsigned Warp, uint32_t Line, uint64_t Then, bool ForGood);
   uint32_t barrier() const { return Words[0]; }
   uint32_t barrierCount() const { return Words[1]; }
   /// The request of any other state has been granted at \p Then, which is not
@@ -130,6 +139,7 @@ public:
   uint64_t linesRequested() const { return LinesRequested; }
   uint64_t localConflicts() const { return LocalConflicts; }
   uint64_t l1Hits() const { return L1Hits; }
+  uint64_t staleLoads() const { return StaleLoads; }
 
 private:
   void spend(CoreCycle What, uint64_t Cycles) {
@@ -145,6 +155,7 @@ private:
   }
   WarpTime &of(unsigned Warp) { return Warp == Current ? *this : Others[Warp]; }
   void startRun(WarpTime &W, const RunRecord &R);
+  bool isInCode(WarpTime &W, uint32_t Instruction) const;
   bool waitForOperands(const OpInfo &O);
   bool waitUntilQuiet();
   void waitForUnit(const OpInfo &O) {
@@ -164,7 +175,8 @@ private:
   template <bool Ideal> bool advanceOne(const OpInfo &O);
   bool advanceParked(const OpInfo &O);
   uint64_t localAccess(const OpInfo &O, AccessWord A);
-  bool isInL1(uint32_t Address, uint64_t Now, unsigned Place);
+  const DataCache::Line *findInL1(uint32_t Address, uint64_t Now,
+                                  unsigned Place);
   void fillL1(unsigned Place, uint64_t Then);
   void setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done);
   static void setReady(WarpTime &W, unsigned Register, uint64_t Then,
@@ -186,12 +198,17 @@ private:
   void arrive(const OpInfo &O, uint32_t Barrier, uint32_t Count);
 
   const CoreTiming Timing;
-  const bool IsAlone; ///< there is one warp
+  const uint32_t Unit; ///< as memory knows it
+  const bool IsAlone;  ///< there is one warp
   /// Whether the front end always has the next instruction, but behind a branch
   /// or a change of lanes, nobody waits in front of a unit, and there is one
-  /// warp. Then none of that is looked at.
+  /// warp, and no instruction cache. Then none of that is looked at.
   const bool IsIdeal;
   const std::vector<OpInfo> *Ops = nullptr;
+  /// When lines of code were there that stay in the instruction cache;
+  /// Turn::Never of others. Empty without that cache.
+  std::vector<uint64_t> CodeReady;
+  uint32_t FirstWord = 0;
 
   std::vector<WarpTime> Others; ///< by warp; not used for the current one
   unsigned Current = 0;
@@ -219,6 +236,7 @@ private:
     unsigned Warp = 0;
     uint64_t Serial = 0;               ///< as observers know it
     std::vector<uint32_t> Misses = {}; ///< lines that the data cache gets
+    uint64_t Writes = 0; ///< to memory, that these lines have seen
   };
   std::vector<Access> Accesses; ///< by place
   uint64_t LastDone = 0; ///< of the accesses to memory whose end is known
@@ -232,6 +250,7 @@ private:
   uint64_t Serial = 0; ///< of the next instruction, if there are observers
   std::array<ClassCount, size_t(OpClass::Count)> Classes{};
   uint64_t LinesRequested = 0, LocalConflicts = 0, L1Hits = 0;
+  uint64_t StaleLoads = 0;
 };
 
 } // namespace vorion::isasim

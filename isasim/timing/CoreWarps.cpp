@@ -17,7 +17,8 @@ void CoreClock::select(unsigned Warp) {
 
 bool CoreClock::selectWaiting(unsigned Warp) {
   const WarpTime &W = of(Warp);
-  if (!W.Blocked || W.Now == State::Barrier || W.Now == State::LocalBarrier)
+  if (!W.Blocked || W.Now == State::Barrier || W.Now == State::LocalBarrier ||
+      W.Now == State::Fetch)
     return false;
   select(Warp);
   return true;
@@ -78,6 +79,8 @@ uint64_t CoreClock::earliest(WarpTime &W) {
   }
   if (!W.InRun)
     startRun(W, W.Trace->front());
+  if (!isInCode(W, W.Trace->front().First + W.Position))
+    return W.At;
   return earliestIssue(W, W.Trace->front());
 }
 

@@ -22,33 +22,36 @@ public:
   bool exists() const { return Sets != 0; }
   void clear() { std::fill(Lines.begin(), Lines.end(), Line()); }
 
-  /// When the line of \p Address was or will be there, or nullptr.
-  const uint64_t *find(uint32_t Address) {
+  struct Line {
+    uint32_t Tag = 0; ///< line number plus 1, 0 for none
+    uint64_t Used = 0;
+    uint64_t ReadyAt = 0; ///< when it was or will be there
+    /// Writes to memory that it has seen (LineWriters::count()).
+    uint64_t Writes = 0;
+  };
+  /// The line of \p Address, or nullptr.
+  const Line *find(uint32_t Address) {
     const uint32_t Number = Address / TimingLineBytes;
     Line *Set = setOf(Number);
     for (uint32_t W = 0; W != Ways; ++W)
       if (Set[W].Tag == Number + 1) {
         Set[W].Used = ++Uses;
-        return &Set[W].ReadyAt;
+        return &Set[W];
       }
     return nullptr;
   }
 
-  /// The line of \p Address comes at \p ReadyAt, in the place of the least
-  /// recently used one.
-  void fill(uint32_t Address, uint64_t ReadyAt) {
+  /// The line of \p Address comes at \p ReadyAt with the first \p Writes
+  /// writes in it, in the place of the least recently used one.
+  void fill(uint32_t Address, uint64_t ReadyAt, uint64_t Writes) {
     const uint32_t Number = Address / TimingLineBytes;
     Line *Set = setOf(Number);
     *std::min_element(Set, Set + Ways, [](const Line &A, const Line &B) {
       return A.Used < B.Used;
-    }) = {Number + 1, ++Uses, ReadyAt};
+    }) = {Number + 1, ++Uses, ReadyAt, Writes};
   }
 
 private:
-  struct Line {
-    uint32_t Tag = 0; ///< line number plus 1, 0 for none
-    uint64_t Used = 0, ReadyAt = 0;
-  };
   Line *setOf(uint32_t Number) { return &Lines[size_t{Number % Sets} * Ways]; }
 
   uint32_t Ways, Sets;

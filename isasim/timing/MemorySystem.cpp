@@ -10,9 +10,9 @@ template <typename Params> static CacheShape shape(const Params &P) {
 }
 
 MemorySystem::MemorySystem(const TimingConfig &Params, unsigned Clusters)
-    : HasLink(L2Link::exists(Params)), Link(Params),
-      Ram(Params.Dram, L2Link::l2Mhz(Params)), Llc(shape(Params.Llc), Ram),
-      L2HitCycles(Params.L2.HitCycles) {
+    : KeepsWriters(Params.Core.DcacheKib != 0), HasLink(L2Link::exists(Params)),
+      Link(Params), Ram(Params.Dram, L2Link::l2Mhz(Params)),
+      Llc(shape(Params.Llc), Ram), L2HitCycles(Params.L2.HitCycles) {
   for (unsigned C = 0; C != Clusters; ++C)
     Slices.emplace_back(shape(Params.L2), Llc, C);
 }
@@ -23,6 +23,9 @@ uint32_t MemorySystem::writeCycles(const TimingConfig &Params) {
 
 std::optional<uint64_t> MemorySystem::access(unsigned Cluster,
                                              const CacheRequest &R) {
+  if (KeepsWriters && R.Op != CacheOp::Read)
+    Writers.written(R.Address,
+                    R.Op == CacheOp::Atomic ? Ticket::Nobody : R.From.Unit);
   if (!HasLink)
     return accessL2(Cluster, R);
   const L2Link::Sent Sent = Link.send(R.Now, R.Op);
@@ -105,7 +108,8 @@ void MemorySystem::watch(const TimeWatch *Observers) {
     Slices[N].L2.watch(Told, {.Slice = N});
 }
 
-void MemorySystem::clearCounters() {
+void MemorySystem::begin() {
+  Writers.clear();
   Link.clearCounters();
   Ram.clearCounters();
   Llc.clearCounters();

@@ -4,6 +4,7 @@
 
 #include "timing/DramChannels.h"
 #include "timing/L2Link.h"
+#include "timing/LineWriters.h"
 #include "timing/MemoryWatch.h"
 
 #include <deque>
@@ -24,6 +25,8 @@ public:
   /// where all who may meet at the word come together: in the L2 slice of a
   /// device with one cluster, else in the last-level cache.
   std::optional<uint64_t> access(unsigned Cluster, const CacheRequest &R);
+  /// The writes of the run, kept if cores have data caches.
+  const LineWriters &writers() const { return Writers; }
   /// Cycles from a write until it has been taken, if nothing is in its way.
   static uint32_t writeCycles(const TimingConfig &Params);
 
@@ -44,7 +47,8 @@ public:
   /// \p Observers are told from now on; null for nobody.
   void watch(const TimeWatch *Observers);
 
-  void clearCounters();
+  /// A run begins.
+  void begin();
   void report(TimeReport &R) const;
 
 private:
@@ -80,6 +84,8 @@ private:
   std::optional<uint64_t> accessL2(unsigned Cluster, const CacheRequest &R);
   void advanceL2(uint64_t Until, std::vector<Answer> &Answers);
 
+  const bool KeepsWriters;
+  LineWriters Writers;
   const bool HasLink;
   L2Link Link;
   DramChannels Ram;

@@ -165,6 +165,7 @@ std::string toJson(const TimeReport &R) {
     Activities.push_back(
         {{"unit", A.Unit}, {"event", A.Event}, {"count", A.Count}});
   J["activities"] = std::move(Activities);
+  J["stale_loads"] = R.StaleLoads;
   J["commands_left"] = R.CommandsLeft;
   J["out_of_order"] = R.OutOfOrder;
   return jsonText(J);
@@ -190,6 +191,11 @@ std::string toText(const TimeReport &R) {
                       Rows ? 100.0 * static_cast<double>(R.Dram.RowHits) /
                                  static_cast<double>(Rows)
                            : 0.0);
+  if (R.StaleLoads)
+    Text += fmt::format(
+        "stale        {} loads hit lines of data caches that others had "
+        "written since\n",
+        R.StaleLoads);
   if (R.CommandsLeft)
     Text +=
         fmt::format("left         {} tile commands that nobody waited for\n",

@@ -58,6 +58,7 @@ template <typename Visitor> void visit(TimeReport &R, const Visitor &Visit) {
   Visit("llc", R.Llc);
   Visit("dram", R.Dram);
   Visit("activities", R.Activities);
+  Visit("stale_loads", R.StaleLoads);
   Visit("commands_left", R.CommandsLeft);
   Visit("out_of_order", R.OutOfOrder);
 }
@@ -161,6 +162,7 @@ TimeReport &TimeReport::operator+=(const TimeReport &Later) {
   for (std::size_t I = 0;
        I != std::min(Activities.size(), Later.Activities.size()); ++I)
     Activities[I].Count += Later.Activities[I].Count;
+  StaleLoads += Later.StaleLoads;
   CommandsLeft = Later.CommandsLeft;
   OutOfOrder += Later.OutOfOrder;
   return *this;

@@ -159,6 +159,7 @@ struct TimeReport {
   UnitCounts<CacheCount> Llc;
   UnitCounts<DramCount> Dram;
   std::vector<Activity> Activities;
+  uint64_t StaleLoads = 0;   ///< that missed a write, of data caches
   uint64_t CommandsLeft = 0; ///< that go on in the next run
   uint64_t OutOfOrder = 0;
 

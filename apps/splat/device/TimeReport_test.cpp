@@ -31,6 +31,7 @@ TimeReport sample() {
   R.Llc.Values[0] = 7;
   R.Dram.Values[0] = 8;
   R.Activities = {{"core", "fetch", 9}};
+  R.StaleLoads = 4;
   R.CommandsLeft = 3;
   R.OutOfOrder = 1;
   return R;
@@ -64,6 +65,7 @@ TEST(TimeReport, CountsAddUpAndTheMachineStays) {
   EXPECT_EQ(Sum->Llc[CacheCount::Reads], 14U);
   EXPECT_EQ(Sum->Dram[DramCount::ReadBursts], 16U);
   EXPECT_EQ(Sum->Activities[0].Count, 18U);
+  EXPECT_EQ(Sum->StaleLoads, 8U);
   EXPECT_EQ(Sum->CommandsLeft, 0U);
   EXPECT_EQ(Sum->OutOfOrder, 2U);
 }

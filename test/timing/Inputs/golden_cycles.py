@@ -116,6 +116,8 @@ def runs():
             yield f"{loop} {preset}", loop, [*ONE, f"timing.core.preset={preset}"]
     for loop in ("stream", "stream_of_stores", "random", "rows"):
         yield f"{loop} all-cores", loop, []
+        for machine in ("prototype", "prototype-forwarding"):
+            yield f"{loop} {machine}", loop, [f"machine={machine}"]
 
 
 def simulate(build, folder, loop, settings):
@@ -134,12 +136,12 @@ def simulate(build, folder, loop, settings):
     return time["cycles"], time["clock_version"]
 
 
-def frame(folder, kind, path):
-    """The cycles of a frame of a small scene."""
+def frame(folder, kind, path, machine=""):
+    """The cycles of a frame of a small scene, on the default machine if none is named."""
     scene, cameras, report = (os.path.join(folder, kind + end) for end in (".ply", ".cameras.json", f".{path}.json"))
     subprocess.run([sys.executable, SCENE, kind, scene, cameras], check=True)
     subprocess.run(["splat", "render", scene, "--cameras", cameras, "--view", "front", "--path", path, "--time", "--json", report, "-o",
-                    report + ".png"], check=True, stdout=subprocess.DEVNULL)
+                    report + ".png"], check=True, stdout=subprocess.DEVNULL, env=dict(os.environ, VORION_CONFIG=machine))
     with open(report, encoding="utf-8") as file:
         return json.load(file)["time"]["sum"]["cycles"]
 
@@ -157,6 +159,8 @@ def main():
     for kind in ("one", "random"):
         for path in ("raster", "simt"):
             cycles[f"frame {kind} {path}"] = frame(args.folder, kind, path)
+    for machine in ("prototype", "prototype-forwarding", "scaled", "scaled-forwarding"):
+        cycles[f"frame random raster {machine}"] = frame(args.folder, "random", "raster", machine)
     if args.update:
         with open(KEPT, "w", encoding="utf-8") as file:
             json.dump({"clock_version": version, "cycles": cycles}, file, indent=1)

@@ -178,6 +178,8 @@ struct TimeReport {
   std::vector<Activity> Activities;
   HostTiming Host; ///< what launches and copies cost beside the run
   uint32_t DramBurstBytes = 0;
+  /// Loads that hit lines of a data cache which others had written since.
+  uint64_t StaleLoads = 0;
   /// Tile commands that nobody has waited for: they go on in the next run.
   uint64_t CommandsLeft = 0;
   /// Times that a trace grew beyond its bound, so that order was guessed.
