@@ -45,6 +45,11 @@ OBSERVERS = [
     ("--trace insn", ["--trace", "insn:trace.txt"]),
     ("--numerics", ["--numerics=text=numerics.txt"]),
     ("--time", ["--time"]),
+    ("--time --timeline", ["--time", "--timeline", "cycles.json"]),
+    ("--time --profile", ["--time", "--profile=cycles.txt"]),
+    ("--tiles", ["--tiles", "tiles.txt"]),
+    ("--dram-trace", ["--dram-trace", "dram"]),
+    ("--pipeline", ["--pipeline", "file=pipeline.txt"]),
 ]
 
 

@@ -234,9 +234,9 @@ private:
   struct Access {
     const OpInfo *Op = nullptr;
     unsigned Warp = 0;
-    uint64_t Serial = 0;               ///< as observers know it
-    std::vector<uint32_t> Misses = {}; ///< lines that the data cache gets
-    uint64_t Writes = 0; ///< to memory, that these lines have seen
+    uint64_t Serial = 0;          ///< as observers know it
+    std::vector<uint32_t> Misses; ///< lines that the data cache gets
+    uint64_t Writes = 0;          ///< to memory, that these lines have seen
   };
   std::vector<Access> Accesses; ///< by place
   uint64_t LastDone = 0; ///< of the accesses to memory whose end is known

@@ -7,7 +7,7 @@ import sys
 timeline, stats = (json.load(open(f)) for f in sys.argv[1:])
 assert timeline["otherData"]["format"] == "vorion-timeline 1"
 assert timeline["otherData"]["unit"].startswith("1 us = 1 cycle"), timeline["otherData"]
-groups, ends, figures = {}, {}, set()
+groups, ends, figures = {}, {}, collections.defaultdict(list)
 spent = collections.defaultdict(collections.Counter)
 for event in timeline["traceEvents"]:
     pid = event["pid"]
@@ -16,7 +16,7 @@ for event in timeline["traceEvents"]:
             groups[pid] = event["args"]["name"]
     elif event["ph"] == "C":
         assert 0 <= event["args"]["value"] <= 100, event
-        figures.add((groups[pid], event["name"]))
+        figures[groups[pid], event["name"]].append((event["ts"], event["args"]["value"]))
     else:
         row = groups[pid], event["tid"]
         assert ends.get(row, 0) <= event["ts"], f"slices overlap: {event}"
@@ -36,3 +36,10 @@ for group, key in (("cores", "cores"), ("rasterizers", "rasterizers"), ("pixel u
     print(f"{group}: {units} rows")
 for group in ("L2", "last-level cache", "DRAM"):
     print(f"{group}: {sum(g == group for g, name in figures)} figures")
+# The figures are whole per cents, rounded down.
+end = ends["runs", 0]
+busy = sum(value / 100 * (behind - begin) for (group, name), told in figures.items() if group == "DRAM"
+           for (begin, value), (behind, _) in zip(told, told[1:] + [(end, 0)]))
+exact = sum(time["dram"]["bus_ps"] * time["clock_mhz"] / 1e6 for time in timed)
+channels = sum(group == "DRAM" for group, name in figures)
+assert exact - 0.011 * channels * end - 16 <= busy <= exact + 4 * channels, (busy, exact)
