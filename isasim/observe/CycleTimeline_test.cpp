@@ -33,7 +33,7 @@ protected:
   std::vector<Json> events() {
     std::vector<Json> Found;
     std::string Text(static_cast<size_t>(std::ftell(File.get())) + 4, ' ');
-    std::rewind(File.get());
+    EXPECT_EQ(std::fseek(File.get(), 0, SEEK_SET), 0);
     Text.resize(std::fread(Text.data(), 1, Text.size(), File.get()));
     const auto Whole = parseJson<Json>(Text, "the timeline", "JSON");
     EXPECT_TRUE(Whole) << Text;

@@ -1,6 +1,9 @@
 /// The cache against closed formulas and a naive model.
 #include "timing/Cache.h"
 
+#include "timing/MemoryWatch.h"
+
+#include <array>
 #include <gtest/gtest.h>
 #include <list>
 #include <rapidcheck/gtest.h>
@@ -48,6 +51,7 @@ TEST(Cache, AMissGoesDownAndAHitDoesNot) {
   Cache C(Small, Below);
   EXPECT_EQ(C.access({.Now = 100, .Address = 0}), 100 + 10 + Slow::Latency);
   EXPECT_EQ(C.access({.Now = 5000, .Address = 60}), 5010U);
+  EXPECT_EQ(C.time().Reads, 2U);
   EXPECT_EQ(C.time().Hits, 1U);
   EXPECT_EQ(Below.Fetches, 1U);
 }
@@ -94,6 +98,31 @@ TEST(Cache, AStoreOfAWholeLineFetchesNothing) {
   EXPECT_EQ(Below.Fetches, 1U);
   EXPECT_EQ(C.flush(10000), 10001U);
   EXPECT_EQ(Below.Written, (std::vector<uint32_t>{0, Line}));
+  EXPECT_EQ(C.time().Writes, 2U);
+  EXPECT_EQ(C.time().Writebacks, 2U);
+}
+
+TEST(Cache, ABankIsBusyWhileItWorksOrWaitsForAnMshr) {
+  struct Busy final : TimeObserver {
+    void bankBusy(BankPlace Where, CycleSpan When) override {
+      EXPECT_EQ(Where.Slice, 3U);
+      Cycles[Where.Bank] += When.Until - When.From;
+    }
+    std::array<uint64_t, 2> Cycles{};
+  } Seen;
+  const TimeWatch Told({&Seen});
+  const MemoryWatch Watch(Told, nullptr);
+  Slow Below;
+  Cache C(Small, Below);
+  C.watch(&Watch, {.Slice = 3});
+  C.access({.Now = 0, .Address = Line});
+  C.access({.Now = 7, .Address = Line, .Op = CacheOp::Atomic, .Extra = 4});
+  EXPECT_EQ(Seen.Cycles, (std::array<uint64_t, 2>{0, 1 + 5}));
+  EXPECT_EQ(C.time().Atomics, 1U);
+  // The third miss gets the first one's MSHR at 5 + Latency.
+  for (const uint32_t N : {0, 2, 4})
+    C.access({.Now = 20, .Address = N * Line});
+  EXPECT_EQ(Seen.Cycles[0], 1 + 1 + (25 + Slow::Latency - 22 + 1));
 }
 
 TEST(Cache, TheHintSparesALineOnce) {

@@ -89,7 +89,7 @@ void CoreClock::tell(const OpInfo *O) {
     ToldUntil += Cycles;
     Watch->tell([&](TimeObserver &Each) { Each.coreSpent(S); });
   }
-  if (Issues)
+  if (O && Issues)
     tellIssued(*O);
 }
 

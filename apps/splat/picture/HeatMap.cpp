@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <utility>
 
 namespace vorion::splat {
@@ -121,10 +122,8 @@ Expected<std::vector<TileWork>> readTileWork(const std::string &File) {
     }
     Text.remove_prefix(std::min(End + 1, Text.size()));
   }
-  std::vector<TileWork> All;
-  for (const auto &[Place, T] : ByPlace)
-    All.push_back(T);
-  return All;
+  const auto Tiles = std::views::values(ByPlace);
+  return std::vector<TileWork>(Tiles.begin(), Tiles.end());
 }
 
 std::string_view name(Heat H) {

@@ -275,6 +275,8 @@ TEST(Controller, WritesThatKeepComingDoNotStopReads) {
       2 * T.sameBank(Command::Activate, Command::Activate) +
       T.sameBank(Command::Write, Command::Precharge) + lineFromRead(T);
   EXPECT_LT(R.Done.at(4000), Longest);
+  // The reads' turn does not end it.
+  EXPECT_EQ(R.Counts.Drains, 1U);
 }
 
 TEST(Controller, AReadTakesWhatAWaitingWriteHolds) {
