@@ -87,6 +87,12 @@ TEST(NamedMachines, TheNearestNameCounts) {
   EXPECT_EQ(toJson(*Read), toJson(C));
 }
 
+TEST(NamedMachines, APresetOfTheCoreLeavesTheSocketsCache) {
+  Config C;
+  ASSERT_TRUE(setValues(C, "machine=scaled,timing.core.preset=forwarding"));
+  EXPECT_EQ(nameOf(C).Name, "scaled-forwarding");
+}
+
 TEST(NamedMachines, AnUnknownNameIsOneLineWithTheKnownOnes) {
   const auto Found = findMachine("protype");
   ASSERT_TRUE(Found);

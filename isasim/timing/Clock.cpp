@@ -26,7 +26,7 @@ Clock::Clock(const Config &C)
       OfCore.push_back(Traces.back().get());
     }
     Cores.emplace_back(Timing.Core, MemoryPort{C.clusterOf(N), N}, OfCore,
-                       C.Barriers);
+                       C.Barriers, Timing.Socket.IcacheKib != 0);
   }
   for (unsigned N = 0; N != C.sockets(); ++N)
     Rasters.emplace_back(Timing,
@@ -36,7 +36,7 @@ Clock::Clock(const Config &C)
     Pixels.emplace_back(Timing, MemoryPort{N, placeOfPixels(N)},
                         C.coresPerCluster());
   for (unsigned N = 0; N != C.sockets(); ++N)
-    Codes.emplace_back(Timing.Core,
+    Codes.emplace_back(Timing.Socket,
                        MemoryPort{N / C.SocketsPerCluster, placeOfCode(N)});
 }
 
@@ -202,7 +202,7 @@ void Clock::collectActivities(TimeReport &R) const {
     L1Hits += C.l1Hits();
     Stale += C.staleLoads();
   }
-  if (Timing.Core.IcacheKib) {
+  if (Timing.Socket.IcacheKib) {
     uint64_t Misses = 0;
     for (const InstructionCache &C : Codes)
       Misses += C.misses();

@@ -8,12 +8,13 @@ namespace vorion::isasim {
 
 CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
                      const std::vector<TraceBuffer *> &Traces,
-                     unsigned Barriers)
+                     unsigned Barriers, bool AsksForCodeIn)
     : Timing(Params), Unit(ToMemory.Unit), IsAlone(Traces.size() == 1),
+      AsksForCode(AsksForCodeIn),
       IsIdeal(Timing.FetchInterval == 1 && Timing.BranchCycles == 1 &&
               Timing.SplitCycles == 1 && Timing.JoinCycles == 1 &&
               Timing.CsrCycles == 1 && Timing.UnitQueue == 0 &&
-              Timing.Fpu == 0 && Timing.IcacheKib == 0 && IsAlone),
+              Timing.Fpu == 0 && !AsksForCode && IsAlone),
       Others(Traces.size()), LocalBarriers(Barriers),
       InFlight(ToMemory, Timing.LsuQueue + 1), Accesses(Timing.LsuQueue),
       L1(Timing.DcacheKib, Timing.DcacheWays) {
@@ -32,7 +33,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
                       uint64_t Start) {
   Ops = &Program;
   FirstWord = WordOfLine;
-  if (Timing.IcacheKib)
+  if (AsksForCode)
     CodeReady.assign(lineOfCode(Program.size() - 1, FirstWord) + 1,
                      Turn::Never);
   Next = Start;
@@ -115,7 +116,7 @@ void CoreClock::end(uint64_t End) {
 /// knows. If not, the warp asks for it next.
 bool CoreClock::isInCode(WarpTime &W, uint32_t Instruction) const {
   const uint32_t Line = lineOfCode(Instruction, FirstWord);
-  if (CodeReady.empty() || Line == W.CodeLine)
+  if (!AsksForCode || Line == W.CodeLine)
     return true;
   if (CodeReady[Line] == Turn::Never) {
     W.Now = State::Fetch;

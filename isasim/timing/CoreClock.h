@@ -63,9 +63,11 @@ class CoreClock : private WarpTime {
 public:
   using WarpTime::State;
 
-  /// \p Traces by warp.
+  /// \p Traces by warp. \p AsksForCode: its code comes from an instruction
+  /// cache, where not every fetch hits.
   CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
-            const std::vector<TraceBuffer *> &Traces, unsigned Barriers);
+            const std::vector<TraceBuffer *> &Traces, unsigned Barriers,
+            bool AsksForCode);
 
   /// \p Observers are told from now on, as of number \p Own; null for nobody.
   void watch(const TimeWatch *Observers, unsigned Own) {
@@ -200,6 +202,7 @@ private:
   const CoreTiming Timing;
   const uint32_t Unit; ///< as memory knows it
   const bool IsAlone;  ///< there is one warp
+  const bool AsksForCode;
   /// Whether the front end always has the next instruction, but behind a branch
   /// or a change of lanes, nobody waits in front of a unit, and there is one
   /// warp, and no instruction cache. Then none of that is looked at.

@@ -5,7 +5,7 @@
 
 namespace vorion::isasim {
 
-InstructionCache::InstructionCache(const CoreTiming &Params,
+InstructionCache::InstructionCache(const SocketTiming &Params,
                                    MemoryPort ToMemory)
     : Port(ToMemory), WaysOfSet(Params.IcacheWays),
       Sets(Params.IcacheKib * 1024 / TimingLineBytes / WaysOfSet),

@@ -16,7 +16,7 @@ namespace vorion::isasim {
 class InstructionCache {
 public:
   /// None if Params.IcacheKib is 0.
-  InstructionCache(const CoreTiming &Params, MemoryPort ToMemory);
+  InstructionCache(const SocketTiming &Params, MemoryPort ToMemory);
 
   bool exists() const { return Sets != 0; }
   /// A run begins of a program of \p CodeLines lines from \p CodeLow on.

@@ -29,9 +29,9 @@ protected:
   }
   /// The run with an instruction cache of so many KiB.
   TimeReport with(uint32_t Kib, const Words &Body) {
-    Settings.Timing.Core.IcacheKib = Kib;
+    Settings.Timing.Socket.IcacheKib = Kib;
     TimeReport R = run(Body);
-    Settings.Timing.Core.IcacheKib = 0;
+    Settings.Timing.Socket.IcacheKib = 0;
     return R;
   }
 };
@@ -54,7 +54,7 @@ TEST_F(CodeTest, EveryLineMissesOnceAndEveryMissIsWaitedFor) {
 }
 
 TEST_F(CodeTest, ALoopThatDoesNotFitMissesInEveryRound) {
-  Settings.Timing.Core.IcacheWays = 1;
+  Settings.Timing.Socket.IcacheWays = 1;
   // 1 KiB has 16 lines. Of a loop of 17, 2 share a place.
   constexpr int32_t Rounds = 10;
   const uint64_t Fits =
@@ -64,7 +64,7 @@ TEST_F(CodeTest, ALoopThatDoesNotFitMissesInEveryRound) {
   EXPECT_GE(misses(R), 16U + 4 * (Rounds - 1));
   EXPECT_LE(misses(R), 20U + 6 * (Rounds - 1));
   // With the least recently used of all ways replaced, all of them miss.
-  Settings.Timing.Core.IcacheWays = 16;
+  Settings.Timing.Socket.IcacheWays = 16;
   EXPECT_GE(misses(with(1, loop(Rounds, additions(18 * WordsOfLine - 16)))),
             17U * Rounds);
 }
@@ -87,7 +87,7 @@ TEST_F(CodeTest, TheReportDependsOnTheProgramAlone) {
   Settings.SocketsPerCluster = 2;
   Settings.WarpsPerCore = 2;
   Settings.Timing.Core = numbersOf(CorePreset::Vortex5Stage);
-  Settings.Timing.Core.IcacheKib = 1;
+  Settings.Timing.Socket.IcacheKib = 1;
   Settings.Timing.Core.DcacheKib = 1;
   Settings.Timing.Link.ToL2Ns = 20;
   const std::string Expected = toJson(runWhole(onAllWarps(Body)));
