@@ -81,7 +81,7 @@ TEST_F(PixelClockTest, WhatFitsTheBufferIsFetchedOnce) {
   timeOf(tail(64, 100)); // warms L2
   const auto Reads = [&](unsigned Entries) {
     P.Pixel.BufferEntries = Entries;
-    Memory.clearCounters();
+    Memory.begin();
     timeOf(tail(64, 100));
     TimeReport R;
     Memory.report(R);
