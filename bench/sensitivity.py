@@ -12,11 +12,11 @@ that was broken off goes on where it stopped, unless it was made from other thin
 import argparse
 import json
 import os
-import subprocess
 import sys
 import tempfile
 
 import kept
+import timed_frame
 
 SWITCHES = ("fpu", "loads_queue", "interleaved_stacks", "intersect_hint")
 POWERS_OF_TWO = ("channels", "channel_bytes")
@@ -46,17 +46,10 @@ def variants(name, value):
 
 
 def frame(args, config, folder):
-    """The frame's time report with a configuration, or the error's text."""
-    report = os.path.join(folder, "report.json")
-    environment = dict(os.environ, VORION_CONFIG=json.dumps(config))
-    done = subprocess.run(
-        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "--time",
-         "-o", os.path.join(folder, "picture.pfm"), "--json", report],
-        env=environment, capture_output=True, text=True)
-    if done.returncode != 0:
-        return {"error": done.stderr.strip().splitlines()[-1]}
-    with open(report) as file:
-        time = json.load(file)["time"]
+    """The frame's cycles with a configuration, or the error's text."""
+    time = timed_frame.render(args, config, folder)
+    if "error" in time:
+        return time
     return {"cycles": time["sum"]["cycles"],
             "stages": {s["name"]: s["time"]["cycles"] for s in time["stages"] if "time" in s}}
 
@@ -86,19 +79,14 @@ def table(results, share):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scene")
-    parser.add_argument("--cameras", required=True)
-    parser.add_argument("--view", required=True)
+    timed_frame.add_view(parser)
     parser.add_argument("-o", "--output", required=True)
-    parser.add_argument("--config", help="machine configuration, JSON; default: the prototype")
+    parser.add_argument("--config", help="a machine's name or file; default: the default machine")
     parser.add_argument("--share", type=float, default=0.1, help="leave out what changes less, in percent")
     parser.add_argument("--only", default="", help="only parameters whose group.name begins so")
     args = parser.parse_args()
 
-    given = ["--config", args.config] if args.config else []
-    default = json.loads(subprocess.run(["vorion-sim", *given, "--print-default-config"], check=True,
-                                        capture_output=True, text=True).stdout)
-
+    default = timed_frame.machine(args.config)
     made_from = kept.origin({"scene": os.path.abspath(args.scene), "cameras": os.path.abspath(args.cameras)},
                             ["--view", args.view, json.dumps(default)])
     results = {"made_from": made_from, "parameters": {}}
@@ -126,13 +114,13 @@ def main():
             # Launches and copies are added outside of the run's cycles.
             if group == "host" or not key.startswith(args.only):
                 continue
-            kept = results["parameters"].setdefault(key, {"default": value})
+            tries = results["parameters"].setdefault(key, {"default": value})
             for label, tried in variants(name, value).items():
-                if label in kept or tried == value:
+                if label in tries or tried == value:
                     continue
                 config = json.loads(json.dumps(default))
                 config["timing"][group][name] = tried
-                kept[label] = frame(args, config, folder)
+                tries[label] = frame(args, config, folder)
                 keep()
     table(results, args.share)
 

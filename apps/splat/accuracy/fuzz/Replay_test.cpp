@@ -48,6 +48,12 @@ TEST(KeptReplay, Checkpoints) {
   replay(fuzz::checkpointSeeds(), fuzz::readCheckpoint, 2, 2000);
 }
 
+// A message may name a letter that is not of ASCII, as the fuzzer found.
+TEST(KeptReplay, LettersBeyondAscii) {
+  const std::string Text = "vorion-checkpoint 4 1dff\xdd\x98\n";
+  EXPECT_EQ(fuzz::readCheckpoint(std::as_bytes(std::span(Text))), 0U);
+}
+
 TEST(KeptReplay, Sweeps) {
   replay(fuzz::sweepSeeds(), fuzz::readSweep, 2, 150);
 }

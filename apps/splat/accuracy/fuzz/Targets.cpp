@@ -9,6 +9,7 @@
 #include "train/Checkpoint.h"
 #include "train/RunRecord.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Printable.h"
 #include "vorion/support/TemporaryFolder.h"
 
 #include <algorithm>
@@ -28,10 +29,10 @@ void require(bool Holds) {
     std::abort();
 }
 
+/// With nothing that a terminal would act on.
 void requireOneLine(std::string_view Text) {
   require(!Text.empty());
-  require(
-      std::ranges::all_of(Text, [](char C) { return C >= ' ' && C <= '~'; }));
+  require(escaped(Text) == Text);
 }
 
 /// A folder for as long as the program runs; its files change with each input.

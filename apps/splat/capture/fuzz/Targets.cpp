@@ -4,6 +4,7 @@
 #include "capture/Photo.h"
 #include "capture/Transforms.h"
 #include "capture/testing/CaptureWriters.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +20,11 @@ void require(bool Holds) {
     std::abort();
 }
 
+/// With nothing that a terminal would act on.
 void requireOneLine(const Error &E) {
   require(!E.What.empty());
   for (const std::string &Text : {E.Where, E.What})
-    require(
-        std::ranges::all_of(Text, [](char C) { return C >= ' ' && C <= '~'; }));
+    require(escaped(Text) == Text);
 }
 
 void requireWhole(const CapturePoints &P) {

@@ -1,0 +1,32 @@
+"""A view drawn with the clock on a machine of one's own: what the programs that vary the clock's parameters share."""
+
+import json
+import os
+import subprocess
+
+
+def add_view(parser):
+    parser.add_argument("scene")
+    parser.add_argument("--cameras", required=True)
+    parser.add_argument("--view", required=True)
+
+
+def machine(config):
+    """All values of a machine, by its name or its file; the default one if that is None."""
+    given = ["--config", config] if config else []
+    return json.loads(subprocess.run(["vorion-sim", *given, "--print-default-config"], check=True,
+                                     capture_output=True, text=True).stdout)
+
+
+def render(args, config, folder, *options):
+    """The frame's time on that machine, as `splat render --json` has it, or {"error": text}."""
+    report = os.path.join(folder, "report.json")
+    environment = dict(os.environ, VORION_CONFIG=json.dumps(config))
+    done = subprocess.run(
+        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "--time",
+         "-o", os.path.join(folder, "picture.pfm"), "--json", report, *options],
+        env=environment, capture_output=True, text=True)
+    if done.returncode != 0:
+        return {"error": done.stderr.strip().splitlines()[-1]}
+    with open(report, encoding="utf-8") as file:
+        return json.load(file)["time"]
