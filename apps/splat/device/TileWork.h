@@ -1,0 +1,27 @@
+/// What the device tells of the tiles that its rasterizers draw.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Of a tile, summed over its commands (depth parts have one each).
+struct TileWork {
+  int X = 0, Y = 0, Width = 0, Height = 0; ///< in pixels of the picture
+  uint64_t List = 0;                       ///< entries
+  uint64_t Blends = 0; ///< into a pixel, those of the pixel unit included
+  uint64_t Cycles = 0; ///< of the rasterizer
+  uint64_t PixelUnitCycles = 0;
+  uint64_t Pixels = 0;    ///< of all commands
+  uint64_t Saturated = 0; ///< of these
+};
+
+/// Adds up what the device wrote (VORION_TILES, docs/debugging.md), in rows.
+/// Errors: a line that is none of those.
+Expected<std::vector<TileWork>> readTileWork(const std::string &File);
+
+} // namespace vorion::splat
