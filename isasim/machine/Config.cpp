@@ -183,6 +183,14 @@ std::vector<std::string> namesIn(const std::string &Prefix) {
   return Names;
 }
 
+/// Whether \p Path is a key, or an object that holds some.
+bool isKnown(const std::string &Path) {
+  return std::ranges::any_of(keys(), [&](const Key &K) {
+    return K.Path.starts_with(Path) &&
+           (K.Path.size() == Path.size() || K.Path[Path.size()] == '.');
+  });
+}
+
 const Key *findKey(const std::string &Path) {
   const auto Found = std::ranges::find(keys(), Path, &Key::Path);
   return Found == keys().end() ? nullptr : &*Found;
@@ -229,13 +237,12 @@ std::string readObject(const Json &Object, const std::string &Prefix,
     return Prefix.empty() ? "expected a JSON object"
                           : fmt::format("{}: expected a JSON object",
                                         Prefix.substr(0, Prefix.size() - 1));
-  const std::vector<std::string> Known = namesIn(Prefix);
   for (const bool Named : {true, false})
     for (const auto &[Name, Value] : Object.items()) {
       const std::string Path = Prefix + Name;
-      if (std::ranges::find(Known, Name) == Known.end())
+      if (Name.find('.') != std::string::npos || !isKnown(Path))
         return fmt::format("unknown key '{}', expected one of {}", Path,
-                           fmt::join(Known, ", "));
+                           fmt::join(namesIn(Prefix), ", "));
       const Key *K = findKey(Path);
       if ((K && !K->Names.empty()) != Named)
         continue;

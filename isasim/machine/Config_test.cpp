@@ -74,6 +74,12 @@ TEST(Config, ErrorsNameTheKey) {
   EXPECT_EQ(
       wrongIn(R"({"raster": {"deep": 4}})"),
       "file.json: unknown key 'raster.deep', expected one of queue_depth");
+  EXPECT_EQ(wrongIn(R"({"raster": {"": 4}})"),
+            "file.json: unknown key 'raster.', expected one of queue_depth");
+  // A path of two names is no name.
+  EXPECT_TRUE(wrongIn(R"({"raster.queue_depth": 4})")
+                  .starts_with("file.json: unknown key 'raster.queue_depth', "
+                               "expected one of machine, clusters"));
   EXPECT_EQ(wrongIn(R"({"lanes_per_warp": "many"})"),
             "file.json: lanes_per_warp: expected a whole number");
   EXPECT_EQ(wrongIn(R"({"lanes_per_warp": -1})"),
