@@ -46,9 +46,16 @@ def ours():
                 yield group, cells[1].strip("`")
 
 
+def limits():
+    """By group, the schema's description of each value."""
+    text = subprocess.run(["vorion-sim", "--print-config-schema"], check=True, capture_output=True, text=True).stdout
+    groups = json.loads(text)["properties"]["timing"]["properties"]
+    return {group: description.get("properties", {}) for group, description in groups.items()}
+
+
 def dimensions(timing):
     """By (group, name): the choices, or the two ends of an interval."""
-    found = {}
+    found, schema = {}, limits()
     for group, name in ours():
         value = timing[group][name]
         if group == "link":
@@ -56,7 +63,8 @@ def dimensions(timing):
         if name in WORDS or name in POWERS_OF_TWO:
             found[group, name] = (WORDS | POWERS_OF_TWO)[name]
         elif value:  # 0 is none, or no bound
-            found[group, name] = (max(1, value / 2), value * 2)
+            allowed = schema[group][name]
+            found[group, name] = (max(1, allowed["minimum"], value / 2), min(allowed["maximum"], value * 2))
     found["host", "launch_ns"] = LAUNCH
     if timing["link"]["l2_mhz"]:
         found |= {("link", name): ends for name, ends in LINK.items()}
