@@ -11,6 +11,7 @@ counted. Prints a table. Exit codes: 0 done, 1 AFTER takes more than PERCENT mor
 """
 
 import argparse
+import glob
 import json
 import os
 import re
@@ -32,21 +33,25 @@ def call(command, folder, environment=None):
 
 
 class Build:
-    """A build, and its programs without line tables, which make valgrind slow."""
+    """A build, and what it loads without line tables, some of which valgrind cannot read."""
 
     def __init__(self, folder, out, name):
         self.folder, self.out = os.path.abspath(folder), out
-        self.bin = os.path.join(out, name)
-        os.makedirs(self.bin, exist_ok=True)
-        self.environment = os.environ | {
-            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.folder, "pocl", "lib", "libpocl.so"),
-            "POCL_CACHE_DIR": os.path.join(out, f"cache-{name}")}
+        self.bin = os.path.join(out, name, "bin")
+        os.makedirs(self.bin)
+        # libpocl.so finds its files beside its own folder.
+        os.symlink(os.path.join(self.folder, "pocl", "share"), os.path.join(out, name, "share"))
         for program in ("splat", "vorion-sim"):
-            path = os.path.join(self.folder, "bin", program)
-            if not os.path.exists(path):
+            if not os.path.exists(os.path.join(self.folder, "bin", program)):
                 sys.exit(f"host_instructions.py: error: {folder}: has no bin/{program}, expected a build folder or an "
                          "installed Vorion")
-            call(["llvm-strip-19", "-g", path, "-o", os.path.join(self.bin, program)], out)
+        libraries = [path for part in ("lib", "pocl/lib")
+                     for path in glob.glob(os.path.join(self.folder, part, "lib*.so*"))]
+        for path in [os.path.join(self.folder, "bin", program) for program in ("splat", "vorion-sim")] + libraries:
+            call(["llvm-strip-19", "-g", path, "-o", os.path.join(self.bin, os.path.basename(path))], out)
+        self.environment = os.environ | {
+            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.bin, "libpocl.so"),
+            "LD_LIBRARY_PATH": self.bin, "POCL_CACHE_DIR": os.path.join(out, f"cache-{name}")}
 
     def tool(self, *command):
         return call([os.path.join(self.folder, "bin", command[0]), *command[1:]], self.out, self.environment)
