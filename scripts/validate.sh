@@ -3,12 +3,13 @@
 # usage: scripts/validate.sh [REFERENCES]   (a folder; default: ../shared/data/timing)
 source "$(dirname "$0")/lib.sh"
 References=${1:-$Root/../shared/data/timing}
-if [ ! -d "$References" ]; then
-  echo "validate.sh: skipped: no folder $References with references"
-  exit 0
-fi
 source "$Root/scripts/env.sh"
 Status=0
+"$Root/bench/timing/kernels.py" || Status=$?
+if [ ! -d "$References" ]; then
+  printf '\nvalidate.sh: loops and DRAM skipped: no folder %s with references\n' "$References"
+  exit $Status
+fi
 "$Root/bench/timing/cores.py" "$References" || Status=$?
 if command -v dram_patterns >/dev/null; then
   printf '\nOne LPDDR4-3200 channel beside Ramulator:\n\n'

@@ -11,14 +11,17 @@ template <typename Params> static CacheShape shape(const Params &P) {
 
 MemorySystem::MemorySystem(const TimingConfig &Params, unsigned Clusters)
     : KeepsWriters(Params.Core.DcacheKib != 0), HasLink(L2Link::exists(Params)),
-      Link(Params), Ram(Params.Dram, L2Link::l2Mhz(Params)),
-      Llc(shape(Params.Llc), Ram), L2HitCycles(Params.L2.HitCycles) {
+      Link(Params), Fixed(Params.L2.FixedCycles),
+      Ram(Params.Dram, L2Link::l2Mhz(Params)), Llc(shape(Params.Llc), Ram),
+      L2HitCycles(Params.L2.HitCycles) {
   for (unsigned C = 0; C != Clusters; ++C)
     Slices.emplace_back(shape(Params.L2), Llc, C);
 }
 
 uint32_t MemorySystem::writeCycles(const TimingConfig &Params) {
-  return L2Link::exists(Params) ? 0 : Params.L2.HitCycles / 2;
+  return L2Link::exists(Params) || Params.L2.FixedCycles
+             ? 0
+             : Params.L2.HitCycles / 2;
 }
 
 std::optional<uint64_t> MemorySystem::access(unsigned Cluster,
@@ -44,6 +47,8 @@ std::optional<uint64_t> MemorySystem::access(unsigned Cluster,
 
 std::optional<uint64_t> MemorySystem::accessL2(unsigned Cluster,
                                                const CacheRequest &R) {
+  if (Fixed.exists())
+    return Fixed.access(R);
   if (R.Op != CacheOp::Atomic || Slices.size() == 1)
     return Slices[Cluster].L2.access(R);
   // Past the slice, whose crossbar it still crosses both ways.

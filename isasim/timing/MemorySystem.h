@@ -3,6 +3,7 @@
 #pragma once
 
 #include "timing/DramChannels.h"
+#include "timing/FixedMemory.h"
 #include "timing/L2Link.h"
 #include "timing/LineWriters.h"
 #include "timing/MemoryWatch.h"
@@ -80,7 +81,7 @@ private:
   /// A bit of tickets whose unit is a slice.
   static constexpr uint32_t IsSlice = 1U << 30;
 
-  // In cycles of the L2.
+  // In cycles of the L2, or of what stands in its place.
   std::optional<uint64_t> accessL2(unsigned Cluster, const CacheRequest &R);
   void advanceL2(uint64_t Until, std::vector<Answer> &Answers);
 
@@ -88,6 +89,7 @@ private:
   LineWriters Writers;
   const bool HasLink;
   L2Link Link;
+  FixedMemory Fixed;
   DramChannels Ram;
   Cache Llc;
   std::deque<Slice> Slices; ///< by cluster

@@ -121,6 +121,18 @@ TEST_F(MemoryTest, AShortWideLinkIsAsNone) {
         << Tag;
 }
 
+TEST_F(MemoryTest, AFixedMemoryTakesALineACycleAndKeepsNone) {
+  Params.L2.FixedCycles = 50;
+  std::vector<CacheRequest> Requests;
+  for (uint32_t N = 0; N != 10; ++N)
+    Requests.push_back({.Now = 100,
+                        .Address = N / 2 * Line,
+                        .Op = N % 3 == 1 ? CacheOp::Write : CacheOp::Read});
+  const Times Then = ask(Requests);
+  for (uint32_t N = 0; N != 10; ++N)
+    EXPECT_EQ(Then.at(N), 100 + N + (N % 3 == 1 ? 0 : 50)) << N;
+}
+
 // Who else has a turn, and when, must not matter.
 TEST_F(MemoryTest, StepsDoNotMatter) {
   Params.Link = {.L2Mhz = 200,

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""The clock's cores beside Vortex's RTL on whole kernels, as Markdown tables.
+
+usage: kernels.py [--write FOLDER] [KERNEL...]
+
+The kernels are those of kernels/, with the cycles that each took on the RTL in kernels/references.json. Both ran the
+same image of memory, from the first instruction to the end, with caches that are empty at first and memory that
+answers every request after the same time. A reference holds for one image: where the compiler makes another one now,
+the kernel is an error. So is a result that is not the RTL's. FOLDER gets each kernel as KERNEL.elf.
+
+exit codes: 0 all kernels within 15 % and their geometric mean within 5 %, 1 not so, 2 usage
+"""
+
+import argparse
+import hashlib
+import json
+import math
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "kernels")
+OF_ONE, OF_ALL = 0.15, 0.05
+# What both machines have: the extensions that Vortex knows, too.
+MARCH = "-march=rv32imf_zicsr_xvortex"
+
+
+def compiler_folder():
+    return os.path.dirname(os.path.dirname(subprocess.run(
+        ["which", "vorion-clang"], check=True, capture_output=True, text=True).stdout.strip()))
+
+
+def build(folder, kernels):
+    """{kernel: its program}, in \\p folder."""
+    def compiled(source):
+        path = os.path.join(folder, source + ".o")
+        options = ["-O2", "-fno-math-errno"] if source.endswith(".c") else []
+        subprocess.run(["vorion-clang", MARCH, *options, "-c", os.path.join(HERE, source), "-o", path], check=True)
+        return path
+    start, inputs = compiled("start.s"), compiled("inputs.s")
+    script = os.path.join(compiler_folder(), "lib", "vorion", "vorion.ld")
+    programs = {}
+    for kernel in kernels:
+        programs[kernel] = os.path.join(folder, kernel + ".elf")
+        subprocess.run(["ld.lld-19", "-T", script, start, compiled(kernel + ".c"), inputs, "-o", programs[kernel]],
+                       check=True)
+    return programs
+
+
+def hash_of(data):
+    return hashlib.sha256(data).hexdigest()[:16]
+
+
+def image_of(program):
+    """What an ELF file puts into memory, from its first address on."""
+    with open(program, "rb") as file:
+        elf = file.read()
+    at, size, count = struct.unpack_from("<I", elf, 28)[0], *struct.unpack_from("<HH", elf, 42)
+    segments = [struct.unpack_from("<8I", elf, at + n * size) for n in range(count)]
+    loaded = sorted((address, elf[offset:offset + length])
+                    for kind, offset, address, _, length, _, _, _ in segments if kind == 1 and length)
+    image = b""
+    for address, data in loaded:
+        image = image.ljust(address - loaded[0][0], b"\0") + data
+    return image
+
+
+def ours(program, machine):
+    """(cycles, hash of the result) of a program on our machine."""
+    settings = (f"sockets_per_cluster=1,cores_per_socket=1,warps_per_core={machine['warps']},"
+                f"timing.core.preset={machine['preset']},timing.core.dcache_kib=16,timing.socket.icache_kib=16,"
+                f"timing.core.interleaved_stacks=0,timing.l2.fixed_cycles={machine['fixed_cycles']}")
+    report, result = program + ".json", program + ".result"
+    subprocess.run(["vorion-sim", program, "--threads", "1", "--set", settings, "--time", "--stats", report,
+                    "--signature", result], check=True, stdout=subprocess.DEVNULL)
+    with open(result) as file:
+        words = b"".join(struct.pack("<I", int(line, 16)) for line in file)
+    with open(report) as file:
+        return json.load(file)["runs"][0]["time"]["cycles"], hash_of(words)
+
+
+def table(machine, programs):
+    """Prints a machine's rows; returns what is wrong."""
+    name, wrong, ratios = machine["name"], [], []
+    print(f"\n`{machine['preset']}` beside `{name}`, {machine['warps']} warp{'s' if machine['warps'] > 1 else ''}, "
+          "cycles of a whole kernel:\n")
+    print("| kernel | ours | RTL | error |\n|---|--:|--:|--:|")
+    for kernel, reference in machine["kernels"].items():
+        if kernel not in programs:
+            continue
+        image = hash_of(image_of(programs[kernel]))
+        if image != reference["image"]:
+            wrong.append(f"{name}: {kernel}: image {image}, expected {reference['image']}, which the RTL ran")
+            continue
+        cycles, result = ours(programs[kernel], machine)
+        if result != reference["result"]:
+            wrong.append(f"{name}: {kernel}: result {result}, expected {reference['result']}")
+        ratio = cycles / reference["cycles"]
+        ratios.append(ratio)
+        print(f"| `{kernel}` | {cycles} | {reference['cycles']} | {100 * (ratio - 1):+.1f} % |")
+        if abs(ratio - 1) > OF_ONE:
+            wrong.append(f"{name}: {kernel}: {cycles} cycles, expected {reference['cycles']} within {100 * OF_ONE:.0f} %")
+    if ratios:
+        mean = math.exp(sum(map(math.log, ratios)) / len(ratios))
+        print(f"| geometric mean | | | {100 * (mean - 1):+.1f} % |")
+        if abs(mean - 1) > OF_ALL:
+            wrong.append(f"{name}: geometric mean {mean:.3f}, expected 1 within {100 * OF_ALL:.0f} %")
+    return wrong
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", metavar="FOLDER")
+    parser.add_argument("kernels", nargs="*", metavar="KERNEL")
+    args = parser.parse_args()
+    there = sorted(name.removesuffix(".c") for name in os.listdir(HERE) if name.endswith(".c"))
+    unknown = [kernel for kernel in args.kernels if kernel not in there]
+    if unknown:
+        parser.error(f"{unknown[0]}: no such kernel, expected some of {', '.join(there)}")
+    with open(os.path.join(HERE, "references.json")) as file:
+        machines = json.load(file)
+    wrong = []
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = args.write or temporary
+        os.makedirs(folder, exist_ok=True)
+        programs = build(folder, args.kernels or there)
+        for machine in machines:
+            wrong += table(machine, programs)
+    for line in wrong:
+        print(f"kernels.py: error: {line}", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
