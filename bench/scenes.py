@@ -37,6 +37,25 @@ def shared(name):
     return Scene(name, os.path.join(SHARED, os.path.basename(path)), cameras, views_of(cameras))
 
 
+def at_width(scene, width, folder):
+    """The same with pictures of another width, of the same shape to the nearest multiple of 32 pixels; its cameras are
+    written into the folder."""
+    with open(os.path.join(ROOT, scene.cameras), encoding="utf-8") as f:
+        cameras = json.load(f)
+    for camera in cameras:
+        scale = width / camera["width"]
+        height = round(camera["height"] * scale / 32) * 32
+        focal = {key: camera[key] * scale for key in ("fx", "fy")}
+        centre = {key: camera[key] * scale for key in ("cx", "cy") if key in camera}
+        camera.update(width=width, height=height, **focal, **centre)
+    os.makedirs(folder, exist_ok=True)
+    file = os.path.join(folder, f"{scene.name}-{width}.json")
+    with open(file, "w", encoding="utf-8") as f:
+        json.dump(cameras, f)
+    name = f"{scene.name}-{cameras[0]['width']}x{cameras[0]['height']}"
+    return Scene(name, scene.path, os.path.relpath(file, ROOT), scene.views)
+
+
 def size(scene):
     """Bytes of a scene's file, or of all files of its folder."""
     path = os.path.join(ROOT, scene.path)

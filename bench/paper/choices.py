@@ -1,10 +1,12 @@
 """Which tile and group make the kernels that blend without the rasterizer fastest."""
 
+import machines
 import runs as r
 from runs import Run
 from writing import mega, paragraph, table
 
 TITLE = "The kernels' choice of tile and group"
+MACHINE = machines.PROTOTYPES[0]
 TILES = (8, 16, 32, 64)
 GROUPS = (16, 64, 256)
 CHOICES = tuple((tile, group) for tile in TILES for group in GROUPS)
@@ -16,22 +18,23 @@ def simt(scene, view, machine, choice, clock=0):
 
 
 def sweep(store, scene, view):
-    """Cycles of each of the twelve choices on the prototype. One is not clocked if its blending, at an instruction a cycle and
-    core, would take longer than the fastest blending so far, and with the shortest rest of a frame so far longer than the
-    fastest frame."""
-    counted = dict(zip(CHOICES, store.all([simt(scene, view, "prototype", c, None) for c in CHOICES], "count")))
+    """Cycles of each of the twelve choices on MACHINE. One is not clocked if its blending, at as many instructions as a core
+    can fetch, would take longer than the fastest blending so far, and with the shortest rest of a frame so far longer than
+    the fastest frame."""
+    counted = dict(zip(CHOICES, store.all([simt(scene, view, MACHINE, c, None) for c in CHOICES], "count")))
     rows = {c: {"tile": c[0], "group": c[1], "pairs": result["counts"]["pairs"],
                 "blend_instructions": r.stage_instructions(result, "blend"),
                 "picture_sha256": result["picture_sha256"]} for c, result in counted.items()}
     cores = next(iter(counted.values()))["device"]["compute_units"]
+    least = {c: rows[c]["blend_instructions"] / cores * machines.fetch_interval(MACHINE) for c in CHOICES}
     waiting = sorted(CHOICES, key=lambda c: rows[c]["blend_instructions"])
     while waiting:
         clocked = [row for row in rows.values() if "blend_cycles" in row]
         blend, frame = (min((row[part] for row in clocked), default=float("inf")) for part in ("blend_cycles", "frame_cycles"))
         rest = min((row["frame_cycles"] - row["blend_cycles"] for row in clocked), default=0)
-        waiting = [c for c in waiting if rows[c]["blend_instructions"] / cores < max(blend, frame - rest)]
+        waiting = [c for c in waiting if least[c] < max(blend, frame - rest)]
         batch, waiting = waiting[:store.jobs], waiting[store.jobs:]
-        for c, result in zip(batch, store.all([simt(scene, view, "prototype", c) for c in batch], "sweep")):
+        for c, result in zip(batch, store.all([simt(scene, view, MACHINE, c) for c in batch], "sweep")):
             rows[c].update(blend_cycles=r.stage_cycles(result, "blend"), frame_cycles=r.frame_cycles(result))
     return {"scene": scene.name, "view": view, "cores": cores, "rows": list(rows.values())}
 
@@ -50,8 +53,8 @@ def measure(store, all_scenes, every_view):
 
 
 def text(data):
-    out = [paragraph("""Mcycles of blending / of the frame on the prototype; a dash: its instructions alone, one a cycle and
-        core, take longer than the fastest blending, and with the shortest rest of a frame longer than the fastest frame, so it
+    out = [paragraph(f"""Mcycles of blending / of the frame on `{MACHINE}`; a dash: its instructions alone, as fast as
+        a core can fetch them, take longer than the fastest blending, and with the shortest rest of a frame longer than the fastest frame, so it
         was not clocked."""), ""]
     return out + table(("scene", "view", *(f"{tile}/{group}" for tile, group in CHOICES)),
                        [(s["scene"], s["view"],

@@ -1,5 +1,6 @@
 """How a frame's time splits into a part that scales with the clock and one that does not."""
 
+import machines
 import runs as r
 from runs import Run
 from writing import chart, paragraph, table
@@ -21,20 +22,20 @@ def fit(clocks, milliseconds):
     return a, b, max(abs(a * u + b - t) for u, t in zip(x, milliseconds))
 
 
-def run_at(scene, view, clock):
+def run_at(scene, view, machine, clock):
     """The prototype's own clock is the last one, for which other sections have the run."""
-    return Run(scene, view, "prototype", ("--path", "raster"), 0 if clock == CLOCKS[-1] else clock)
+    return Run(scene, view, machine, ("--path", "raster"), 0 if clock == CLOCKS[-1] else clock)
 
 
 def measure(store, all_scenes, _every_view):
-    places = [(scene, view) for scene in all_scenes for view in scene.views]
-    store.prepare([run_at(s, v, c) for s, v in places for c in CLOCKS], TITLE)
+    places = [(scene, view, m) for m in machines.PROTOTYPES for scene in all_scenes for view in scene.views]
+    store.prepare([run_at(s, v, m, c) for s, v, m in places for c in CLOCKS], TITLE)
 
-    def row(scene, view):
-        results = store.all([run_at(scene, view, c) for c in CLOCKS], TITLE)
+    def row(scene, view, machine):
+        results = store.all([run_at(scene, view, machine, c) for c in CLOCKS], TITLE)
         times = [r.frame_ms(result) for result in results]
         a, b, off = fit(CLOCKS, times)
-        return {"scene": scene.name, "view": view, "clocks_mhz": CLOCKS, "frame_ms": times,
+        return {"scene": scene.name, "view": view, "machine": machine, "clocks_mhz": CLOCKS, "frame_ms": times,
                 "fps": [result["time"]["fps"] for result in results], "mcycles": a, "ms": b, "largest_ms_off": off,
                 "command": results[-1]["command"], "slow_command": results[0]["command"]}
 
@@ -43,16 +44,21 @@ def measure(store, all_scenes, _every_view):
 
 def text(data):
     fixed = f"{100 * PAPER_MS / (PAPER_MS + PAPER_MCYCLES * 1e3 / CLOCKS[-1]):.0f} %"
-    out = [paragraph(f"""t = a/f + b by least squares over {', '.join(map(str, CLOCKS))} MHz, raster path on the prototype;
+    out = [paragraph(f"""t = a/f + b by least squares over {', '.join(map(str, CLOCKS))} MHz, raster path, serial;
         *off*: the largest difference of a time from the line. *fixed*: b's part of the frame at {CLOCKS[-1]} MHz. The paper's
         end points give {PAPER_MCYCLES} Mcycles and {PAPER_MS} ms."""), ""]
     first, last = CLOCKS[0], CLOCKS[-1]
-    out += table(("scene", "view", f"frames/s at {first}", f"at {last}", "ratio", "a, Mcycles", "b, ms", "off, ms", "fixed"),
-                 [(row["scene"], row["view"], f"{row['fps'][0]:.1f}", f"{row['fps'][-1]:.1f}",
-                   f"{row['fps'][-1] / row['fps'][0]:.2f}x", f"{row['mcycles']:.2f}", f"{row['ms']:.2f}",
-                   f"{row['largest_ms_off']:.2f}", f"{100 * row['ms'] / row['frame_ms'][-1]:.0f} %")
-                  for row in data["rows"]]
-                 + [("paper", "", "6.4", "19", f"{19 / 6.4:.2f}x", f"{PAPER_MCYCLES}", f"{PAPER_MS}", "", fixed)])
+    for machine in machines.PROTOTYPES:
+        rows = [row for row in data["rows"] if row["machine"] == machine]
+        if not rows:
+            continue
+        out += [f"## `{machine}`", ""]
+        out += table(("scene", "view", f"frames/s at {first}", f"at {last}", "ratio", "a, Mcycles", "b, ms", "off, ms", "fixed"),
+                     [(row["scene"], row["view"], f"{row['fps'][0]:.1f}", f"{row['fps'][-1]:.1f}",
+                       f"{row['fps'][-1] / row['fps'][0]:.2f}x", f"{row['mcycles']:.2f}", f"{row['ms']:.2f}",
+                       f"{row['largest_ms_off']:.2f}", f"{100 * row['ms'] / row['frame_ms'][-1]:.0f} %")
+                      for row in rows]
+                     + [("paper", "", "6.4", "19", f"{19 / 6.4:.2f}x", f"{PAPER_MCYCLES}", f"{PAPER_MS}", "", fixed)])
     return out
 
 
@@ -60,7 +66,8 @@ def charts(data):
     paper = [1e3 / (PAPER_MCYCLES * 1e3 / clock + PAPER_MS) for clock in CLOCKS]
     first = {}
     for row in data["rows"]:
-        first.setdefault(row["scene"], row)
+        if row["machine"] == machines.PROTOTYPES[0]:
+            first.setdefault(row["scene"], row)
     return {"clocks": chart("Frames a second by clock, prototype", "MHz", "frames/s", list(map(str, CLOCKS)),
                             {**{f"{name} {row['view']}": row["fps"] for name, row in first.items()},
                              "the paper's line": paper})}

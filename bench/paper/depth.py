@@ -3,6 +3,7 @@
 import math
 
 import frames
+import machines
 import runs as r
 from runs import Run
 from writing import chart, mega, paragraph, table
@@ -10,7 +11,8 @@ from writing import chart, mega, paragraph, table
 TITLE = "Z-tiling"
 PARTS = (1, 2, 4, 8, 16)
 STOPS = (("stop", ()), ("no stop", ("--cutoff", "0")))
-MACHINES = ("prototype", "scaled")
+PROTOTYPE = machines.PROTOTYPES[0]
+MACHINES = (PROTOTYPE, machines.SCALED[PROTOTYPE])
 
 
 def run(scene, parts, options, machine):
@@ -45,7 +47,7 @@ def rows_of(store, scene):
 
 def measure(store, all_scenes, _every_view):
     store.prepare([run for scene in all_scenes for run in wanted(scene)], TITLE)
-    return {"rows": [row for rows in store.rows([(store, scene) for scene in all_scenes], rows_of) for row in rows]}
+    return {"machines": MACHINES, "rows": [row for rows in store.rows([(store, scene) for scene in all_scenes], rows_of) for row in rows]}
 
 
 def difference(store, run, whole):
@@ -68,8 +70,8 @@ def text(data):
 def charts(data):
     series = {}
     for row in data["rows"]:
-        if "scaled" in row["cycles"]:
-            cycles = row["cycles"]["scaled"]
+        if MACHINES[1] in row["cycles"]:
+            cycles = row["cycles"][MACHINES[1]]
             series.setdefault(row["scene"], []).append(cycles["blend"] + cycles["merge"])
     return {"z-tiles": chart("Blending and merging with K z-tiles, relative to K = 1, scaled", "K", "throughput",
                              list(map(str, PARTS)), {k: [v[0] / c for c in v] for k, v in series.items()})}

@@ -1,10 +1,11 @@
 """The same bits with and without the clock, for any number of host threads, on every machine."""
 
+import machines
 from runs import Run
 from writing import paragraph, table
 
 TITLE = "The same picture"
-MACHINES = ("prototype", "scaled", "one-core", "twelve-cores")
+MACHINES = (*machines.NAMED, "one-core", "twelve-cores")
 WORK = (("plain", ()), ("z-tiles 4", ("--ztiles", "4")), ("pixel unit last:1/4", ("--pixel-unit", "last:1/4")),
         ("both", ("--ztiles", "4", "--pixel-unit", "last:1/4")), ("kernels alone", ("--path", "simt")))
 # Clock (None: off) and host threads.

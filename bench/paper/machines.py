@@ -1,56 +1,71 @@
-"""The machines that are measured, by name; all parameters come from isasim/configs and are changed by name only."""
+"""The machines that are measured: those of isasim/configs by name, and what differs from one of them."""
 
+import functools
 import json
 import os
+import subprocess
 
 import scenes
 
+# A prototype for each of the two cores that the text allows, and the scaled machine of the same core.
+PROTOTYPES = ("prototype", "prototype-forwarding")
+SCALED = {"prototype": "scaled", "prototype-forwarding": "scaled-forwarding"}
+NAMED = (*PROTOTYPES, *SCALED.values())
+
 FOLDER = os.path.join("isasim", "configs")
-# Clusters and sockets a cluster, by rasterizers; scaled.json's clusters of four sockets where they are enough.
+# Clusters and sockets a cluster, by rasterizers; the scaled machine's clusters of four sockets where they are enough.
 SHAPES = {1: (1, 1), 2: (1, 2), 4: (1, 4), 8: (2, 4), 16: (4, 4), 32: (8, 4), 64: (16, 4), 128: (32, 4)}
 # The simulator has room for 240 cores, so beyond this many rasterizers get fewer than four each.
 MOST_CORES = 128
-
-
-def _of_rasterizers(text):
-    """<count>-rasterizers: scaled.json with that many, each with its four cores while there is room; memory as it is."""
-    count = int(text)
-    config = config_of("scaled")
-    config["clusters"], config["sockets_per_cluster"] = SHAPES[count]
-    config["cores_per_socket"] = min(config["cores_per_socket"], MOST_CORES // count)
-    return config
-
-
-def _with_channels(text):
-    """scaled-<count>-channels: scaled.json with that many DRAM channels."""
-    config = config_of("scaled")
-    config["timing"]["dram"]["channels"] = int(text)
-    return config
-
-
-def config_of(name):
-    with open(os.path.join(scenes.ROOT, FOLDER, name + ".json"), encoding="utf-8") as f:
-        return json.load(f)
-
-
 SMALL = {
     "one-core": {"clusters": 1, "sockets_per_cluster": 1, "cores_per_socket": 1},
     "twelve-cores": {"clusters": 2, "sockets_per_cluster": 2, "cores_per_socket": 3},
 }
 
 
+def parameters(name):
+    """All that the configuration of a machine of isasim/configs says."""
+    with open(os.path.join(scenes.ROOT, FOLDER, name + ".json"), encoding="utf-8") as f:
+        return json.load(f)
+
+
+def _of_rasterizers(count):
+    """`scaled` with so many rasterizers, each with its four cores while there is room; memory as it is."""
+    clusters, sockets = SHAPES[count]
+    cores = min(parameters("scaled")["cores_per_socket"], MOST_CORES // count)
+    return {"machine": "scaled", "clusters": clusters, "sockets_per_cluster": sockets, "cores_per_socket": cores}
+
+
 def config(name):
-    """The configuration, as VORION_CONFIG takes it."""
+    """The configuration, as VORION_CONFIG takes it: of a named machine, of <count>-rasterizers, of
+    scaled-<count>-channels, or of one of SMALL."""
     if name.endswith("-rasterizers"):
-        return _of_rasterizers(name.removesuffix("-rasterizers"))
+        return _of_rasterizers(int(name.removesuffix("-rasterizers")))
     if name.endswith("-channels"):
-        return _with_channels(name.removesuffix("-channels").removeprefix("scaled-"))
-    return dict(SMALL[name]) if name in SMALL else config_of(name)
+        count = int(name.removesuffix("-channels").removeprefix("scaled-"))
+        return {"machine": "scaled", "timing": {"dram": {"channels": count}}}
+    return dict(SMALL[name]) if name in SMALL else {"machine": name}
+
+
+def channels(name):
+    """How many channels its DRAM has, or None for one of SMALL, which no section asks."""
+    differs = config(name)
+    if "machine" not in differs:
+        return None
+    return {**parameters(differs["machine"])["timing"]["dram"], **differs.get("timing", {}).get("dram", {})}["channels"]
+
+
+@functools.cache
+def fetch_interval(name):
+    """Cycles between two instructions of a warp on a machine of isasim/configs, from the simulator's table of presets: with
+    one warp a core cannot issue more often."""
+    lines = subprocess.run(["vorion-sim", "--print-timing-parameters"], check=True, capture_output=True,
+                           text=True).stdout.splitlines()
+    heads, values = ([cell.strip(" `") for cell in next(line for line in lines if line.startswith(start)).split("|")]
+                     for start in ("| parameter", "| `fetch_interval`"))
+    return int(values[heads.index(parameters(name)["timing"]["core"]["preset"])])
 
 
 def shown(name):
     """How to name it on a command line."""
-    if os.path.exists(os.path.join(scenes.ROOT, FOLDER, name + ".json")):
-        return os.path.join(FOLDER, name + ".json")
-    return "'" + json.dumps(config(name), separators=(",", ":")) + "'"
-
+    return name if name in NAMED else "'" + json.dumps(config(name), separators=(",", ":")) + "'"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what the paper says about rendering and training, and writes docs/paper-results.md.
+"""Measures what the paper says about rendering and training, and writes docs/paper-results.md and docs/paper/.
 
 usage: scripts/paper.sh [OPTIONS]
 
@@ -23,6 +23,7 @@ import depth  # noqa: E402
 import document  # noqa: E402
 import identical  # noqa: E402
 import invocations  # noqa: E402
+import rates  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
 import scenes  # noqa: E402
@@ -31,10 +32,12 @@ import tails  # noqa: E402
 import tiles  # noqa: E402
 import training  # noqa: E402
 
-SECTIONS = {"choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
+SECTIONS = {"rates": rates, "choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
             "scaling": scaling, "tiles": tiles, "identical": identical, "training": training}
-# The scenes of the table, chosen before anything was measured.
-SCENES = ("garden_outdoor", "showroom_indoor", "truck", "tower_sh3", "guitar")
+# The scenes of the tables, chosen before anything was measured, and those that are drawn larger, too.
+SCENES = ("guitar", "truck", "garden_outdoor", "showroom_indoor", "tower_sh3")
+LARGE, LARGE_WIDTH = ("guitar", "truck"), 1920
+WITH_LARGE = (rates, speedup)
 
 
 def parse_arguments():
@@ -42,10 +45,12 @@ def parse_arguments():
     parser.add_argument("--out", default=os.path.join(scenes.ROOT, "build", "paper"), metavar="FOLDER",
                         help="results (default build/paper)")
     parser.add_argument("--document", default=os.path.join(scenes.ROOT, "docs", "paper-results.md"), metavar="FILE",
-                        help="what to write (default docs/paper-results.md), charts beside it in images/")
+                        help="what to write (default docs/paper-results.md); beside it a page a section in paper/, charts in images/")
     parser.add_argument("--scenes", nargs="+", metavar="NAME",
                         help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; section tiles: all)")
     parser.add_argument("--scene", nargs=2, metavar=("FILE", "CAMERAS"), help="any other scene instead")
+    parser.add_argument("--large", nargs="*", default=LARGE, metavar="NAME",
+                        help=f"those that sections rates and speedup draw {LARGE_WIDTH} pixels wide, too (default: {' '.join(LARGE)})")
     parser.add_argument("--captures", nargs="+", metavar="NAME",
                         help="captures of ../shared/data, or folders, that section training measures (default: "
                         f"{' '.join(training.DEFAULT_CAPTURES)})")
@@ -81,9 +86,15 @@ def chosen(args):
     return [scenes.shared(n) for n in args.scenes or SCENES], [scenes.shared(n) for n in args.scenes or known]
 
 
+def larger(args, frames):
+    """The same scenes in the larger size, as far as --large names them."""
+    folder = os.path.join(args.out, "cameras")
+    return [scenes.at_width(scene, LARGE_WIDTH, folder) for scene in frames if scene.name in args.large]
+
+
 def captures_of(args):
     """The captures of section training; where none are named, those that are there."""
-    named = [training.Capture.named(name) for name in args.captures or training.DEFAULT_CAPTURES]
+    named = [training.Capture.named(name, args.out) for name in args.captures or training.DEFAULT_CAPTURES]
     gone = [capture for capture in named if not capture.is_there()]
     if args.captures and gone:
         print(f"paper.sh: error: no capture {gone[0].path}, expected one of ../shared/data or a folder", file=sys.stderr)
@@ -95,26 +106,27 @@ def main():
     args = parse_arguments()
     frames, counts = chosen(args) if set(args.sections) - {"training"} else ([], [])
     captures = captures_of(args) if "training" in args.sections else []
+    large = larger(args, frames)
     store = runs.Runs(args.out, args.jobs, args.keep, args.only_kept)
     for name in args.sections:
         module = SECTIONS[name]
-        store.builds, store.left_out = set(), []
+        store.begin_section()
         try:
             if module is tiles:
                 data = module.measure(store, counts, args.every_view, tuple(args.widths))
             elif module is training:
                 data = module.measure(store, captures, args.every_view, args.iterations)
             else:
-                data = module.measure(store, frames, args.every_view)
+                data = module.measure(store, frames + large * (module in WITH_LARGE), args.every_view)
         except runs.Missing as missing:
             print(f"section {name} left out: {missing}", file=sys.stderr)
             continue
-        if args.only_kept and not any(data.values()):
+        if args.only_kept and not (data.get("rows") or data.get("sweeps")):
             continue
-        data["builds"] = sorted(store.builds)
-        data["left_out"] = store.left_out
+        data.update(builds=sorted(store.builds), clocks=sorted(store.clocks), left_out=store.left_out,
+                    seconds=store.seconds)
         store.write(name, data)
-    document.write(args.document, {name: (module, store.read(name)) for name, module in SECTIONS.items()}, store.build)
+    document.write(args.document, {name: (module, store.read(name)) for name, module in SECTIONS.items()})
     same = store.read("identical")
     if same and not identical.same(same):
         print("paper.sh: error: pictures or times differ, expected the same for every way to run them", file=sys.stderr)

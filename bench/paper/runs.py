@@ -3,6 +3,7 @@
 import array
 import collections
 import concurrent.futures
+import glob
 import hashlib
 import json
 import os
@@ -80,6 +81,22 @@ class Run:
         return report
 
 
+def _content(output):
+    """A hash of what was written: the file, or one of each view with the view's name in front of its ending."""
+    digest = hashlib.sha256()
+    base, ending = os.path.splitext(output)
+    for file in [output] if os.path.exists(output) else sorted(glob.glob(glob.escape(base) + ".*" + ending)):
+        with open(file, "rb") as f:
+            digest.update(f.read())
+    return digest.hexdigest()
+
+
+def clock_versions(result):
+    """Versions of the clock that a result's times are of; none without a clock."""
+    timed = [*result.get("timed", ()), *([result] if "time" in result else [])]
+    return {sample["time"]["sum"]["clock_version"] for sample in timed}
+
+
 def file_name(parts):
     return re.sub(r"[^A-Za-z0-9_.-]+", "_", "-".join(part.lstrip("-") for part in parts))
 
@@ -99,7 +116,7 @@ class Runs:
     def __init__(self, folder, jobs, keep, only_kept):
         self.folder, self.jobs, self.keep, self.only_kept = folder, jobs, keep, only_kept
         self.build = kept.programs()
-        self.builds, self.left_out = set(), []
+        self.begin_section()
         self.lock = threading.Lock()
         os.makedirs(os.path.join(folder, "runs"), exist_ok=True)
 
@@ -142,9 +159,8 @@ class Runs:
             with open(report, encoding="utf-8") as f:
                 result = run.trimmed(json.load(f))
             result.pop("picture", None)
-            with open(output, "rb") as f:
-                result["picture_sha256"] = hashlib.sha256(f.read()).hexdigest()
-            result["channels"] = config.get("timing", {}).get("dram", {}).get("channels")
+            result["picture_sha256"] = _content(output)
+            result["channels"] = machines.channels(run.machine)
             result.update(build=self.build, made_from=self.origin(run), seconds=time.monotonic() - start, command=run.command())
             if ".pfm" in run.beside():
                 os.replace(output, self.file(run, ".pfm"))
@@ -179,9 +195,15 @@ class Runs:
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
-        self.builds.update(result["build"] for result in results.values())
+        for run, result in results.items():
+            self.builds.add(result["build"])
+            self.clocks |= clock_versions(result)
+            self.seconds[run.name()] = result["seconds"]
         return [results[run] for run in wanted]
 
+    def begin_section(self):
+        """Forgets what the section before asked for."""
+        self.builds, self.clocks, self.left_out, self.seconds = set(), set(), [], {}
 
     def prepare(self, wanted, title):
         """Makes all runs that a section will ask for, several at a time."""
@@ -277,3 +299,11 @@ def frame_cycles(result):
 def frame_ms(result):
     """The frame with its launches and small copies."""
     return result["time"]["frame_ms"]
+
+
+def overlapped_ms(result):
+    """What a frame of the raster path would take if others ran beside it: the longer of the cores' stages and of the
+    rasterizers' one, with launches and copies. Nothing is charged for sharing memory, so it is a bound."""
+    blend, whole = stage_cycles(result, "blend"), frame_cycles(result)
+    kernels = result["time"]["kernel_ms"]
+    return frame_ms(result) - kernels + kernels * max(blend, whole - blend) / whole

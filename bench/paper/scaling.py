@@ -7,6 +7,7 @@ from runs import Run
 from writing import chart, mega, paragraph, table
 
 TITLE = "Scaling"
+SCALED = machines.SCALED[machines.PROTOTYPES[0]]
 SIMULATED = (1, 2, 4, 8, 16, 32, 64, 128)
 MODELLED = (*SIMULATED, 256, 512, 1024)
 # How many rasterizers are simulated, by number of z-tiles: with 16 the ends and the middle.
@@ -72,7 +73,7 @@ def memory_cycles(whole, parts):
 
 
 def machine_of(count):
-    return "scaled" if count == RASTERIZERS_A_MEMORY else f"{count}-rasterizers"
+    return SCALED if count == RASTERIZERS_A_MEMORY else f"{count}-rasterizers"
 
 
 def run(scene, parts, machine):
@@ -80,7 +81,7 @@ def run(scene, parts, machine):
 
 
 def more_memory(scene):
-    return [run(scene, 1, machine) for machine in ("scaled", f"scaled-{CHANNELS}-channels")]
+    return [run(scene, 1, machine) for machine in (SCALED, f"{SCALED}-{CHANNELS}-channels")]
 
 
 def rows_of(store, scene):
@@ -96,7 +97,7 @@ def rows_of(store, scene):
                          "cores": result["device"]["compute_units"], "command": result["command"]}
                      for n, result in results.items()}
         modelled = model(lengths, parts, results[1]["time"]["sum"]["rasterizers"], memory_cycles(whole, parts) / reached(widest))
-        rows.append({"scene": scene.name, "view": view, "parts": parts, "tiles": len(lengths),
+        rows.append({"scene": scene.name, "view": view, "machine": SCALED, "parts": parts, "tiles": len(lengths),
                      "bandwidth_reached": reached(widest), "simulated": simulated, "modelled": modelled})
     return rows
 
@@ -104,7 +105,7 @@ def rows_of(store, scene):
 def memory_row(store, scene):
     one, two = store.all(more_memory(scene), TITLE)
     microseconds = r.frame_cycles(one) / one["time"]["sum"]["clock_mhz"]
-    return {"scene": scene.name, "view": scene.views[0],
+    return {"scene": scene.name, "view": scene.views[0], "machine": SCALED,
             "blend_gain": r.stage_cycles(one, "blend") / r.stage_cycles(two, "blend"),
             "frame_gain": r.frame_ms(one) / r.frame_ms(two),
             "bus_share": one["time"]["sum"]["dram"]["bus_ps"] / one["channels"] / (microseconds * 1e6),
@@ -132,7 +133,7 @@ def gains(row, counts):
 
 
 def text(data):
-    out = [paragraph(f"""Blending's speed-up over one rasterizer at 500 MHz, all with the scaled machine's memory (51.2 GB/s) and
+    out = [paragraph(f"""Blending's speed-up over one rasterizer at 500 MHz, all as `{SCALED}` with its memory (51.2 GB/s) and
         clusters of four sockets; four cores a rasterizer, fewer where there would be more than {machines.MOST_CORES}. *model*: a
         tile's cost is what clearing and writing one takes plus its list's length times the mean cost of an entry (both from the
         single rasterizer's run); jobs, longest list first, are dealt forth and back as the machine's kernel does (nearly LPT),
@@ -141,7 +142,7 @@ def text(data):
         rasterizers beyond {RASTERIZERS_A_MEMORY}. Merging z-tiles is a kernel of its own and not in these rows."""), ""]
     for parts in sorted({row["parts"] for row in data["rows"]}):
         rows = [row for row in data["rows"] if row["parts"] == parts]
-        out += [f"### K = {parts}: {rows[0]['tiles']} tiles, {rows[0]['tiles'] * parts} jobs", ""]
+        out += [f"## K = {parts}: {rows[0]['tiles']} tiles, {rows[0]['tiles'] * parts} jobs", ""]
         lines = []
         for row in rows:
             first, model_first = at(row, 1)["blend_cycles"], row["modelled"][0]["cycles"]
@@ -156,11 +157,11 @@ def text(data):
         low_share, high_share = (100 * f(row["bandwidth_reached"] for row in rows) for f in (min, max))
         out += [f"Bandwidth reached: {low_share:.0f} to {high_share:.0f} % of 51.2 GB/s. Model over simulation: {100 * low:+.1f} % ({where_low[0]}, {where_low[1]} rasterizers) to "
                 f"{100 * high:+.1f} % ({where_high[0]}, {where_high[1]}).", ""]
-    out += ["### Whole frames, K = 1", "", "Frames a second.", ""]
+    out += ["## Whole frames, K = 1", "", "Frames a second.", ""]
     out += table(("scene", "view", *map(str, SIMULATED)),
                  [(row["scene"], row["view"], *(f"{at(row, n)['fps']:.1f}" for n in SIMULATED))
                   for row in data["rows"] if row["parts"] == 1])
-    out += ["### Twice the memory channels", "",
+    out += ["## Twice the memory channels", "",
             f"The scaled machine with {CHANNELS} channels (102.4 GB/s) against its own 8, and how long the 8 channels' buses "
             "are in use in a frame.", ""]
     out += table(("scene", "view", "blending", "whole frame", "buses in use"),

@@ -1,10 +1,12 @@
 """The pixel unit: throughput by the point at which lists are handed over."""
 
+import machines
 import runs as r
 from runs import Run
 from writing import chart, mega, paragraph, table
 
 TITLE = "Pixel unit"
+MACHINE = machines.PROTOTYPES[0]
 RULES = ("last:1/2", "last:1/4", "last:1/8", "last:1/16", "count:256", "occluded:0.5", "occluded:0.9",
          "occluded:0.99")
 QUARTER = "last:1/4"
@@ -36,8 +38,8 @@ def measure(store, all_scenes, _every_view):
     places = [(scene, view) for scene in chosen for view in scene.views]
 
     def runs_of(scene, view):
-        return [Run(scene, view, "prototype", ("--path", "raster")),
-                *(Run(scene, view, "prototype", ("--path", "raster", "--pixel-unit", rule)) for rule in RULES)]
+        return [Run(scene, view, MACHINE, ("--path", "raster")),
+                *(Run(scene, view, MACHINE, ("--path", "raster", "--pixel-unit", rule)) for rule in RULES)]
 
     store.prepare([run for s, v in places for run in runs_of(s, v)], TITLE)
 
@@ -58,13 +60,13 @@ def measure(store, all_scenes, _every_view):
                            "command": result["command"]})
         quarter = next(p for p in points if p["rule"] == QUARTER)
         share = (points[0]["on_lists"] - quarter["on_lists"]) / points[0]["rasterizers_busy"]
-        return {"scene": scene.name, "view": view, "points": points, "last_quarter_share": share, "bound": 1 / (1 - share)}
+        return {"scene": scene.name, "view": view, "machine": MACHINE, "points": points, "last_quarter_share": share, "bound": 1 / (1 - share)}
 
     return {"rows": store.rows(places, row)}
 
 
 def text(data):
-    out = [paragraph("""Throughput of blending on the prototype (one pixel unit for two rasterizers), relative to no hand-over.
+    out = [paragraph(f"""Throughput of blending on `{MACHINE}` (one pixel unit for two rasterizers), relative to no hand-over.
         *last quarter*: the part of the rasterizers' busy cycles that the last quarter of each list takes, which is what a
         hand-over there takes off them; *bound*: 1/(1 - that), if the pixel unit and the hand-over cost nothing. The paper's
         82.4 % more needs a last quarter of 45.2 %."""), ""]

@@ -11,10 +11,11 @@ import scenes
 from writing import chart, mega, paragraph, table
 
 TITLE = "Training"
+# Options, and by what pictures are divided: the state is trained at the first, and iterations are timed at all.
 CAPTURES = {
-    "chair_synthetic": ("--downscale", "4", "--background", "1,1,1"),
-    "carving_colmap": ("--downscale", "4"),
-    "desk_colmap": ("--downscale", "4", "--exclude", "input_0001"),
+    "chair_synthetic": (("--background", "1,1,1"), (4, 2, 1)),
+    "carving_colmap": ((), (4,)),
+    "desk_colmap": (("--exclude", "input_0001"), (4,)),
 }
 DEFAULT_CAPTURES = ("chair_synthetic", "carving_colmap")
 SHARED = os.path.join("..", "shared", "data", "captures")
@@ -44,18 +45,38 @@ RASTERIZED = ("blend", "blend backward")
 @dataclass(frozen=True)
 class Capture:
     name: str
-    path: str
+    source: str   # where it is
+    path: str     # what is trained from
     options: tuple
+    scales: tuple
 
     @classmethod
-    def named(cls, name):
-        """One of CAPTURES, or any folder."""
-        if name in CAPTURES:
-            return cls(name, os.path.join(SHARED, name), CAPTURES[name])
-        return cls(os.path.basename(os.path.normpath(name)), os.path.abspath(name), ())
+    def named(cls, name, folder):
+        """One of CAPTURES, or any folder; what has to be written for it goes into `folder`."""
+        if name not in CAPTURES:
+            path = os.path.abspath(name)
+            return cls(os.path.basename(os.path.normpath(name)), path, path, (), (1,))
+        source, (options, scales) = os.path.join(SHARED, name), CAPTURES[name]
+        if not os.path.exists(os.path.join(scenes.ROOT, source, "transforms_test.json")):
+            return cls(name, source, source, options, scales)
+        path = os.path.relpath(_with_one_held_out(source, os.path.join(folder, "captures", name)), scenes.ROOT)
+        return cls(name, source, path, (*options, "--allow-outside"), scales)
 
     def is_there(self):
-        return os.path.isdir(os.path.join(scenes.ROOT, self.path))
+        return os.path.isdir(os.path.join(scenes.ROOT, self.source))
+
+
+def _with_one_held_out(source, folder):
+    """Links to a NeRF-synthetic capture with one picture to hold out: scoring all of them at the end of a run takes
+    longer than the iterations that are timed, and is in no time."""
+    source = os.path.join(scenes.ROOT, source)
+    first = min(os.listdir(os.path.join(source, "test")))
+    os.makedirs(os.path.join(folder, "test"), exist_ok=True)
+    for part in ("transforms_train.json", "transforms_test.json", "train", os.path.join("test", first)):
+        link = os.path.join(folder, part)
+        if not os.path.lexists(link):
+            os.symlink(os.path.realpath(os.path.join(source, part)), link)
+    return folder
 
 
 @dataclass(frozen=True)
@@ -74,17 +95,21 @@ class State:
         return os.path.relpath(os.path.join(self.folder, "runs", self.name() + ".checkpoint"), scenes.ROOT)
 
     def inputs(self):
-        return {"capture": self.capture.path}
+        return {"capture": self.capture.source}
 
     def beside(self):
         return [".checkpoint"]
 
     def arguments(self, output, report):
-        return ["splat", "train", self.capture.path, *self.capture.options, "--iterations", str(self.iterations),
+        return ["splat", "train", self.capture.path, *self.capture.options, "--downscale", str(self.capture.scales[0]), "--iterations", str(self.iterations),
                 "--checkpoint", self.checkpoint(), "--checkpoint-every", "50", "--resume", "-o", output, "--json", report]
 
+    @property
+    def machine(self):
+        return machines.PROTOTYPES[0]
+
     def config(self):
-        return machines.config("prototype")
+        return machines.config(self.machine)
 
     def command(self):
         return " ".join(self.arguments(self.output, "out.json"))
@@ -98,6 +123,7 @@ class State:
 class Timed:
     """The TIMED iterations after a state, on a machine with its clock on."""
     state: State
+    scale: int  # by which pictures are divided
     machine: str
     options: tuple
     clock: int = 0  # MHz; 0: the machine's own
@@ -105,17 +131,17 @@ class Timed:
     any_build = False
 
     def name(self):
-        return r.file_name([self.state.name(), self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
+        return r.file_name([self.state.name(), f"by{self.scale}", self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
 
     def inputs(self):
-        return {"capture": self.state.capture.path, "state": self.state.checkpoint()}
+        return {"capture": self.state.capture.source, "state": self.state.checkpoint()}
 
     def beside(self):
         return []
 
     def arguments(self, output, report):
         state = self.state
-        return ["splat", "train", state.capture.path, *state.capture.options, "--from", state.checkpoint(),
+        return ["splat", "train", state.capture.path, *state.capture.options, "--downscale", str(self.scale), "--from", state.checkpoint(),
                 "--iterations", str(state.iterations + TIMED), "--time", "--time-every", "1", *self.options,
                 "-o", output, "--json", report]
 
@@ -137,12 +163,12 @@ class Timed:
         return report
 
 
-def raster(state, machine, clock=0):
-    return Timed(state, machine, ("--path", "raster"), clock)
+def raster(state, scale, machine, clock=0):
+    return Timed(state, scale, machine, ("--path", "raster"), clock)
 
 
-def simt(state, machine, choice):
-    return Timed(state, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])))
+def simt(state, scale, machine, choice):
+    return Timed(state, scale, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])))
 
 
 def mean(result, of):
@@ -241,28 +267,56 @@ def density_text(rows):
             f"{'in those of ' + ', '.join(changed) if changed else 'not in these'}.")
 
 
-def row_of(store, capture, iterations):
+def _on(store, state, scale, prototype, choices):
+    """The rows of a prototype, and the results of its raster runs on it and on the scaled machine of its core."""
+    with_it, scaled, slow, *without = store.all(
+        [raster(state, scale, prototype), raster(state, scale, machines.SCALED[prototype]),
+         raster(state, scale, prototype, CLOCKS[0]), *(simt(state, scale, prototype, c) for c in choices)], TITLE)
+    large = summary(scaled)
+    return {**compared(with_it, dict(zip(choices, without))), "slow_its": 1e3 / mean(slow, r.frame_ms),
+            "slow_command": slow["command"],
+            "scaled": {"machine": machines.SCALED[prototype], "its": 1e3 / large["ms"], "ms": large["ms"],
+                       "clock_mhz": scaled["timed"][0]["time"]["sum"]["clock_mhz"], "command": large["command"]}}, with_it, scaled
+
+
+def row_of(store, capture, scale, iterations):
+    """All choices of the kernels are tried at the first scale, and those that are fastest there at the others."""
     state = State(capture, iterations, store.folder)
     trained, = store.all([state], TITLE)
-    prototype = store.all([raster(state, "prototype"), *(simt(state, "prototype", c) for c in CHOICES)], TITLE)
-    row = {"scene": capture.name, "view": f"after {iterations}", "prototype":
-           compared(prototype[0], dict(zip(CHOICES, prototype[1:])))}
-    best = sorted({(k["tile"], k["group"]) for k in (row["prototype"]["kernels_back"], row["prototype"]["kernels_whole"])})
-    scaled = store.all([raster(state, "scaled"), *(simt(state, "scaled", c) for c in best)], TITLE)
-    row["scaled"] = compared(scaled[0], dict(zip(best, scaled[1:])))
-    single, slow = store.all([raster(state, "1-rasterizers"), raster(state, "prototype", CLOCKS[0])], TITLE)
-    row["largest"] = largest(single, scaled[0])
-    row["slow_its"], row["slow_command"] = 1e3 / mean(slow, r.frame_ms), slow["command"]
-    row["resolution"] = slow["resolution"]
-    row["density"] = density(trained, prototype[0])
+    first, *others = machines.PROTOTYPES
+    choices = CHOICES
+    if scale != capture.scales[0]:
+        at_first, _, _ = _on(store, state, capture.scales[0], first, CHOICES)
+        choices = _best(at_first)
+    found, with_it, scaled = _on(store, state, scale, first, choices)
+    row = {"scene": capture.name, "view": f"{'x'.join(map(str, with_it['resolution']))} after {iterations}",
+           "machines": {first: found}}
+    for machine in others:
+        try:
+            row["machines"][machine] = _on(store, state, scale, machine, _best(found))[0]
+        except r.Missing as missing:
+            store.left_out.append(str(missing))
+    single, = store.all([raster(state, scale, "1-rasterizers")], TITLE)
+    row.update(largest=largest(single, scaled), large_of=machines.SCALED[first], density=density(trained, with_it))
     return row
+
+
+def _best(compared_row):
+    """The choices of the fastest way back and of the fastest iteration."""
+    return sorted({(k["tile"], k["group"]) for k in (compared_row["kernels_back"], compared_row["kernels_whole"])})
+
+
+def by_prototype(data):
+    """A row for each of the prototypes and captures."""
+    return [{**found, "scene": row["scene"], "view": row["view"], "machine": machine}
+            for row in data["rows"] for machine, found in row["machines"].items()]
 
 
 def measure(store, captures, _every_view, iterations):
     if not captures:
         raise r.Missing("no ../shared/data/captures, expected captures there, or --captures FOLDER")
-    return {"rows": store.rows([(store, capture, str(iterations)) for capture in captures],
-                               lambda s, capture, count: row_of(s, capture, int(count)))}
+    places = [(store, capture, str(scale), str(iterations)) for capture in captures for scale in capture.scales]
+    return {"rows": store.rows(places, lambda s, capture, scale, count: row_of(s, capture, int(scale), int(count)))}
 
 
 def seconds(row, iterations, host):
@@ -279,40 +333,49 @@ def choices_text(row):
 
 def text(data):
     rows = data["rows"]
-    out = [paragraph(f"""The {TIMED} iterations after so many of a training run (settings of [training.md](training.md)), each of
-        another view, means of them; those before went without the clock. {density_text(rows)} Pictures: """ + ", ".join(f"{row['scene']} {row['resolution'][0]}x{row['resolution'][1]}" for row in rows)
-        + f""". Tiles of the rasterizer are 32x64. The kernels' choice of tile and group is the fastest of
-        {', '.join(f'{t}/{g}' for t, g in CHOICES)}, on the scaled machine of those that are fastest on the
-        prototype. *back*: from the pixels' gradients to nine sums a Gaussian, which is blending backward and the sum over tiles. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:
+    out = [paragraph(f"""The {TIMED} iterations after so many of a training run (settings of [training.md](../training.md)), each of
+        another view, means of them; those before went without the clock, at the first of the capture's sizes, so that the larger
+        pictures have the Gaussians of the smallest. {density_text(rows)} Tiles of the rasterizer are 32x64. The kernels' choice of
+        tile and group is the fastest of {', '.join(f'{t}/{g}' for t, g in CHOICES)} at the first size on `{machines.PROTOTYPES[0]}`.
+        *back*: from the pixels' gradients to nine sums a Gaussian, which is blending backward and the sum over tiles, in a fixed
+        order and without atomics. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:
         1/(1 - share); *rest*: the kernels-only iteration over ours without the stages of the rasterizer."""), ""]
-    for machine in ("prototype", "scaled"):
-        out += [f"### Training on `{machine}`, {rows[0][machine]['clock_mhz']} MHz", ""]
-        out += table(("capture", "state", "Gaussians", "iteration, Mcycles", "it/s", "back, Mcycles", "kernels: iteration",
-                      "kernels: back", "tile/group", "share", "bound", "rest", "back", "iteration"),
-                     [(row["scene"], row["view"], m["gaussians"], mega(m["ours"]["cycles"]), f"{m['its']:.2f}",
-                       mega(m["ours"]["backward"]), mega(m["kernels_whole"]["cycles"]), mega(m["kernels_back"]["backward"]),
-                       choices_text(m), f"{100 * m['share']:.1f} %", f"{m['bound']:.2f}x", f"{m['bound_rest']:.2f}x",
-                       f"{m['back_speedup']:.1f}x", f"{m['speedup']:.2f}x") for row in rows for m in (row[machine],)])
-    out += ["### By stage, prototype", "", "Percent of an iteration's cycles.", ""]
-    out += table(("capture", "path", *PARTS),
-                 [(row["scene"], path, *(f"{100 * of['parts'][part] / of['cycles']:.1f}" for part in PARTS)) for row in rows
-                  for path, of in (("rasterizer", row["prototype"]["ours"]), ("kernels", row["prototype"]["kernels_whole"]))])
-    out += ["### Bytes and atomics", "",
+    for machine in machines.PROTOTYPES:
+        of = [row for row in by_prototype(data) if row["machine"] == machine]
+        if not of:
+            continue
+        out += [f"## Training on `{machine}`, {of[0]['clock_mhz']} MHz, and on `{machines.SCALED[machine]}`", ""]
+        out += table(("capture", "pictures", "Gaussians", "iteration, Mcycles", "it/s", f"it/s at {CLOCKS[0]} MHz", "scaled, it/s",
+                      "back, Mcycles", "kernels: iteration", "kernels: back", "tile/group", "share", "bound", "rest", "back",
+                      "iteration"),
+                     [(m["scene"], m["view"], m["gaussians"], mega(m["ours"]["cycles"]), f"{m['its']:.2f}",
+                       f"{m['slow_its']:.2f}", f"{m['scaled']['its']:.2f}", mega(m["ours"]["backward"]),
+                       mega(m["kernels_whole"]["cycles"]), mega(m["kernels_back"]["backward"]), choices_text(m),
+                       f"{100 * m['share']:.1f} %", f"{m['bound']:.2f}x", f"{m['bound_rest']:.2f}x",
+                       f"{m['back_speedup']:.1f}x", f"{m['speedup']:.2f}x") for m in of])
+    out += ["## By stage", "", "Percent of an iteration's cycles.", ""]
+    out += table(("capture", "pictures", "machine", "path", *PARTS),
+                 [(m["scene"], m["view"], f"`{m['machine']}`", path,
+                   *(f"{100 * of['parts'][part] / of['cycles']:.1f}" for part in PARTS)) for m in by_prototype(data)
+                  for path, of in (("rasterizer", m["ours"]), ("kernels", m["kernels_whole"]))])
+    out += ["## Bytes and atomics", "",
             paragraph(f"""DRAM traffic of an iteration and of its way back. *atomics avoided*: {ATOMICS} a pixel and Gaussian, as
             INRIA's way back adds to memory; *stores*: {ATOMICS} a Gaussian and tile, which the hand-over leaves of them."""), ""]
-    out += table(("capture", "MB", "kernels: MB", "back, MB", "kernels: back, MB", "atomics avoided, M", "stores, M", "ratio"),
-                 [(row["scene"], f"{m['ours']['dram_mb']:.2f}", f"{m['kernels_whole']['dram_mb']:.2f}",
+    out += table(("capture", "pictures", "MB", "kernels: MB", "back, MB", "kernels: back, MB", "atomics avoided, M", "stores, M",
+                  "ratio"),
+                 [(m["scene"], m["view"], f"{m['ours']['dram_mb']:.2f}", f"{m['kernels_whole']['dram_mb']:.2f}",
                    f"{m['ours']['backward_mb']:.2f}", f"{m['kernels_back']['backward_mb']:.2f}",
                    mega(ATOMICS * m["blends_back"]), mega(ATOMICS * m["pairs"]), f"{m['blends_back'] / m['pairs']:.1f}x")
-                  for row in rows for m in (row["prototype"],)])
-    out += [f"### {RASTERIZERS} rasterizers", "",
-            paragraph(f"""An iteration of the scaled machine, and of one with {RASTERIZERS} rasterizers by the model of section
-            *Scaling* for both stages of the rasterizers, with memory that grows with them and is used to the full; all other work
-            is spread evenly over as many times the cores; launches and copies take what they take. Seconds of a whole training:
-            so many of these iterations, with and without launches and copies."""), ""]
-    out += table(("capture", "tiles", "scaled, ms", "rasterizers, ms", "kernels, ms", "launches and copies, ms",
+                  for m in by_prototype(data) if m["machine"] == machines.PROTOTYPES[0]])
+    out += [f"## {RASTERIZERS} rasterizers", "",
+            paragraph(f"""An iteration of `{rows[0]['large_of']}`, and of one with {RASTERIZERS} rasterizers by the model of
+            [scaling](scaling.md) for both stages of the rasterizers, with memory that grows with them and is used to the full; all
+            other work is spread evenly over as many times the cores; launches and copies take what they take. Seconds of a whole
+            training: so many of these iterations, with and without launches and copies."""), ""]
+    out += table(("capture", "pictures", "tiles", "scaled, ms", "rasterizers, ms", "kernels, ms", "launches and copies, ms",
                   *(f"{n}: s" for n in FULL), *(f"{n} without: s" for n in FULL)),
-                 [(row["scene"], row["largest"]["tiles"], f"{row['scaled']['ours']['ms']:.2f}",
+                 [(row["scene"], row["view"], row["largest"]["tiles"],
+                   f"{row['machines'][machines.PROTOTYPES[0]]['scaled']['ms']:.2f}",
                    f"{row['largest']['rasterizers_ms']:.3f}", f"{row['largest']['kernels_ms']:.3f}",
                    f"{row['largest']['host_ms']:.3f}", *(f"{seconds(row, n, True):.1f}" for n in FULL),
                    *(f"{seconds(row, n, False):.1f}" for n in FULL)) for row in rows])
@@ -320,8 +383,9 @@ def text(data):
 
 
 def charts(data):
-    rows = [(f"{row['scene'].split('_')[0]} {path}", of) for row in data["rows"]
-            for path, of in (("rasterizer", row["prototype"]["ours"]), ("kernels", row["prototype"]["kernels_whole"]))]
+    first = machines.PROTOTYPES[0]
+    rows = [(f"{row['scene'].split('_')[0]} {row['view'].split()[0]} {path}", of) for row in data["rows"]
+            for path, of in (("rasterizer", row["machines"][first]["ours"]), ("kernels", row["machines"][first]["kernels_whole"]))]
     return {"training": chart("An iteration by stage, prototype", "stage", "percent of the cycles", list(PARTS),
                               {name: [100 * of["parts"][part] / of["cycles"] for part in PARTS] for name, of in rows},
                               bars=True)}

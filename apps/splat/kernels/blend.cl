@@ -23,6 +23,21 @@
 #define SATURATED(t) ((t) < cutoff)
 #endif
 
+// What spares a pixel the exponential. The official algorithm has neither: every
+// pixel of a tile takes it for every Gaussian of the list that has a density
+// there. Both leave the same pixels.
+#ifdef SUPPORT_OFFICIAL16
+#define IN_BOX(g, dx, dy) true
+#define WORTH_TAKING(power) true
+#define DENSITY(power) falloff(fmax(power, MIN_POWER))
+#else
+#define IN_BOX(g, dx, dy)                                                      \
+  ((fabs(dx) <= (g)->extent[0]) & (fabs(dy) <= (g)->extent[1]))
+// Below MIN_POWER alpha is under the cut-off whatever the opacity.
+#define WORTH_TAKING(power) ((power) >= MIN_POWER)
+#define DENSITY(power) falloff(power)
+#endif
+
 typedef struct {
   float red, green, blue, transmittance;
   bool done; // takes no more
@@ -40,14 +55,13 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
     __local const splat_gaussian *g = &batch[j];
     const float dx = g->mean[0] - px;
     const float dy = g->mean[1] - py;
-    if (!p.done & (fabs(dx) <= g->extent[0]) & (fabs(dy) <= g->extent[1])) {
+    if (!p.done & IN_BOX(g, dx, dy)) {
       const float power = -0.5f * (g->conic[0] * dx * dx +
                                    g->conic[2] * dy * dy) -
                           g->conic[1] * dx * dy;
-      // Below MIN_POWER alpha is under the cut-off whatever the opacity, so the
-      // exponential is not worth taking. False for NaN.
-      if ((power <= 0.0f) & (power >= MIN_POWER)) {
-        const float unclamped = g->opacity * falloff(power);
+      // False for NaN.
+      if ((power <= 0.0f) & WORTH_TAKING(power)) {
+        const float unclamped = g->opacity * DENSITY(power);
         const float alpha =
             USE_ALPHA_CLAMP ? fmin(0.99f, unclamped) : unclamped;
         const float next = p.transmittance * (1.0f - alpha);

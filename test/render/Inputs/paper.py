@@ -24,40 +24,57 @@ def stage(result, name):
     return next(s["time"]["cycles"] for s in result["time"]["stages"] if s["name"] == name)
 
 
+MACHINES = {"prototype": "scaled", "prototype-forwarding": "scaled-forwarding"}
+
+
 def check(folder, document):
-    table = open(document).read()
+    text = open(document).read()
+    page = open(os.path.join(os.path.dirname(document), "paper", "speedup.md")).read()
     rows = json.load(open(os.path.join(folder, "speedup.json")))["rows"]
-    assert [row["machine"] for row in rows] == ["prototype", "scaled"]
+    assert [row["machine"] for row in rows] == list(MACHINES)
     for row in rows:
         raster = load(folder, f"scene-front-{row['machine']}-path-raster")
-        simt = {part: load(folder, f"scene-front-{row['machine']}-path-simt-simt-tile-{row['kernels_' + part]['tile']}"
-                                   f"-simt-group-{row['kernels_' + part]['group']}") for part in ("blend", "frame")}
-        near(row["blend_speedup"], stage(simt["blend"], "blend") / stage(raster, "blend"))
-        near(row["frame_speedup"], simt["frame"]["time"]["frame_ms"] / raster["time"]["frame_ms"])
-        share = stage(simt["frame"], "blend") / simt["frame"]["time"]["sum"]["cycles"]
-        near(row["bound"], 1 / (1 - share))
-        near(row["fps"], 1e3 / raster["time"]["frame_ms"])
-        line = next(x for x in table.splitlines() if x.startswith("| scene | front") and f"{row['bound']:.2f}x" in x)
-        assert f"| {row['blend_speedup']:.1f}x | {row['frame_speedup']:.2f}x |" in line, line
+        official = "path-simt-support-official16-simt-tile-16-simt-group-256"
+        fastest = f"path-simt-simt-tile-{row['tile']}-simt-group-{row['group']}"
+        blend, cycles, ms = stage(raster, "blend"), raster["time"]["sum"]["cycles"], raster["time"]["frame_ms"]
+        longest = ms - raster["time"]["kernel_ms"] * min(blend, cycles - blend) / cycles
+        for baseline, options in (("fastest", fastest), ("official", official)):
+            kernels = load(folder, f"scene-front-{row['machine']}-{options}")
+            near(row[baseline]["blending"], stage(kernels, "blend") / blend)
+            near(row[baseline]["serial"], kernels["time"]["frame_ms"] / ms)
+            near(row[baseline]["overlapped"], kernels["time"]["frame_ms"] / longest)
+            near(row[baseline]["bound"], 1 / (1 - stage(kernels, "blend") / kernels["time"]["sum"]["cycles"]))
+            assert f"| {row[baseline]['serial']:.2f}x | {row[baseline]['overlapped']:.2f}x |" in page
+            assert kernels["time"]["sum"]["machine"] == row["machine"]
+        # It draws what the reach calls for, by more work.
+        assert row["official"]["frame_cycles"] > row["fastest"]["frame_cycles"]
+        assert f"| `{row['machine']}` | official | serial |" in text
     swept = json.load(open(os.path.join(folder, "choices.json")))["sweeps"][0]["rows"]
     assert len(swept) == 12 and len({row["picture_sha256"] for row in swept}) == 1
-    fastest = min(row["blend_cycles"] for row in swept if "blend_cycles" in row)
-    near(rows[0]["kernels_blend"]["blend_cycles"], fastest)
-    # Kernels alone are what every speed-up is over, so they must not get slower: 8.98 when this was written.
-    assert rows[0]["kernels_blend"]["instructions_a_blend"] < 9.1, rows[0]["kernels_blend"]
+    fastest = min(row["frame_cycles"] for row in swept if "frame_cycles" in row)
+    near(rows[0]["fastest"]["frame_cycles"], fastest)
+    rates = json.load(open(os.path.join(folder, "rates.json")))
+    for row in rates["rows"]:
+        assert row["scaled"] == MACHINES[row["machine"]]
+        large = load(folder, f"scene-front-{row['scaled']}-path-raster")
+        near(row["serial"]["scaled_fps"], 1e3 / large["time"]["frame_ms"])
+        near(row["serial"]["gain"], row["serial"]["scaled_fps"] / row["serial"]["fps"])
+        assert row["overlapped"]["fps"] >= row["serial"]["fps"]
+    assert len(rates["turns"]) == 2 and all(turn["measured_ms"] > 0 for turn in rates["turns"])
     for row in json.load(open(os.path.join(folder, "clocks.json")))["rows"]:
         for clock, ms in zip(row["clocks_mhz"], row["frame_ms"]):
             assert abs(row["mcycles"] * 1e3 / clock + row["ms"] - ms) <= row["largest_ms_off"] * (1 + 1e-9)
 
 
 def check_training(folder, document):
-    table = open(document).read()
+    page = open(os.path.join(os.path.dirname(document), "paper", "training.md")).read()
     row, = json.load(open(os.path.join(folder, "training.json")))["rows"]
-    state = f"colmap-binary-train-{row['view'].split()[-1]}"
-    for machine in ("prototype", "scaled"):
+    state = f"colmap-binary-train-{row['view'].split()[-1]}-by1"
+    assert list(row["machines"]) == list(MACHINES)
+    for machine, of in row["machines"].items():
         ours = load(folder, f"{state}-{machine}-path-raster")["timed"]
         assert len(ours) == 3
-        whole = row[machine]["kernels_whole"]
+        whole = of["kernels_whole"]
         theirs = load(folder, f"{state}-{machine}-path-simt-simt-tile-{whole['tile']}-simt-group-{whole['group']}")["timed"]
 
         def ms(samples):
@@ -66,23 +83,25 @@ def check_training(folder, document):
         def cycles(samples, *names):
             return sum(stage(s, name) for s in samples for name in names) / 3
 
-        near(row[machine]["speedup"], ms(theirs) / ms(ours))
-        near(row[machine]["its"], 1e3 / ms(ours))
+        near(of["speedup"], ms(theirs) / ms(ours))
+        near(of["its"], 1e3 / ms(ours))
+        near(of["slow_its"], 1e3 / ms(load(folder, f"{state}-{machine}-path-raster-100MHz")["timed"]))
+        near(of["scaled"]["its"], 1e3 / ms(load(folder, f"{state}-{MACHINES[machine]}-path-raster")["timed"]))
         blending = cycles(theirs, "blend", "blend backward", "reduce")
         share = blending / (sum(s["time"]["sum"]["cycles"] for s in theirs) / 3)
-        near(row[machine]["bound"], 1 / (1 - share))
-        near(row[machine]["ours"]["backward"], cycles(ours, "blend backward", "reduce"))
-        fewest = min(tried["backward"] for tried in row[machine]["tried"])
-        near(row[machine]["back_speedup"], fewest / row[machine]["ours"]["backward"])
-        assert f"| {row[machine]['back_speedup']:.1f}x | {row[machine]['speedup']:.2f}x |" in table
-        near(row[machine]["pairs"], sum(sum(s["list_lengths"]) for s in ours) / 3)
+        near(of["bound"], 1 / (1 - share))
+        near(of["ours"]["backward"], cycles(ours, "blend backward", "reduce"))
+        fewest = min(tried["backward"] for tried in of["tried"])
+        near(of["back_speedup"], fewest / of["ours"]["backward"])
+        assert f"| {of['back_speedup']:.1f}x | {of['speedup']:.2f}x |" in page
+        near(of["pairs"], sum(sum(s["list_lengths"]) for s in ours) / 3)
         # Every list entry that is seen changes a pixel, and none changes more than a tile's.
-        assert 0 < row[machine]["blends_back"] <= row[machine]["pairs"] * 32 * 64
+        assert 0 < of["blends_back"] <= of["pairs"] * 32 * 64
     timed = load(folder, f"{state}-prototype-path-raster")
     assert row["density"] == {"interval": timed["run"]["densify"][0], "changed": False}, row["density"]
-    assert f"changes after every {timed['run']['densify'][0]} iterations, not in these." in table
+    assert f"changes after every {timed['run']['densify'][0]} iterations, not in these." in page
     large = row["largest"]
-    assert 0 < large["rasterizers_ms"] + large["kernels_ms"] < row["scaled"]["ours"]["ms"], large
+    assert 0 < large["rasterizers_ms"] + large["kernels_ms"] < row["machines"]["prototype"]["scaled"]["ms"], large
 
 
 {"shrink": shrink, "check": check, "check-training": check_training}[sys.argv[1]](*sys.argv[2:])

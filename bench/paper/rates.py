@@ -1,0 +1,84 @@
+"""Frames a second by machine: one after the other, and overlapped as in a pipeline."""
+
+import machines
+import runs as r
+from runs import Run
+from writing import chart, mega, paragraph, table
+
+TITLE = "Frames a second"
+SLOW = 100  # MHz, the paper's slowest clock
+
+
+def raster(scene, view, machine, clock=0):
+    return Run(scene, view, machine, ("--path", "raster"), clock)
+
+
+def in_turn(scene, machine):
+    """All views of a scene by one command that prepares one while another is blended."""
+    return Run(scene, "all", machine, ("--path", "raster", "--overlap"))
+
+
+def _row(store, scene, view, prototype):
+    scaled = machines.SCALED[prototype]
+    whole, slow, large = store.all([raster(scene, view, prototype), raster(scene, view, prototype, SLOW),
+                                    raster(scene, view, scaled)], TITLE)
+    rates = {}
+    for pipeline, milliseconds in (("serial", r.frame_ms), ("overlapped", r.overlapped_ms)):
+        rates[pipeline] = {"fps": 1e3 / milliseconds(whole), "slow_fps": 1e3 / milliseconds(slow),
+                           "scaled_fps": 1e3 / milliseconds(large), "gain": milliseconds(whole) / milliseconds(large)}
+    return {"scene": scene.name, "view": view, "machine": prototype, "scaled": scaled,
+            "clock_mhz": whole["time"]["sum"]["clock_mhz"], "frame_cycles": r.frame_cycles(whole),
+            "blend_cycles": r.stage_cycles(whole, "blend"), **rates, "command": whole["command"],
+            "slow_command": slow["command"], "scaled_command": large["command"]}
+
+
+def _turn(store, scene, machine):
+    together, *alone = store.all([in_turn(scene, machine), *(raster(scene, v, machine) for v in scene.views)], TITLE)
+    blend = sum(r.stage_cycles(result, "blend") for result in alone)
+    whole = sum(map(r.frame_cycles, alone))
+    serial = sum(map(r.frame_ms, alone))
+    kernels = sum(result["time"]["kernel_ms"] for result in alone)
+    return {"scene": scene.name, "view": "all", "machine": machine, "pictures": len(alone), "serial_ms": serial,
+            "measured_ms": together["time"]["total_ms"],
+            "bound_ms": serial - kernels + kernels * max(blend, whole - blend) / whole, "command": together["command"]}
+
+
+def measure(store, all_scenes, _every_view):
+    places = [(store, scene, view, m) for m in machines.PROTOTYPES for scene in all_scenes for view in scene.views]
+    store.prepare([run for _, s, v, m in places
+                   for run in (raster(s, v, m), raster(s, v, m, SLOW), raster(s, v, machines.SCALED[m]))], TITLE)
+    return {"rows": store.rows(places, _row),
+            "turns": store.rows([(store, scene, m) for m in machines.PROTOTYPES for scene in all_scenes], _turn)}
+
+
+def text(data):
+    out = [paragraph(f"""The raster path. *serial*: one frame after the other. *overlapped*: a frame in the time of the longest stage of
+        a pipeline, the cores' kernels or the rasterizers' blending, plus launches and copies. Nothing is charged for memory that
+        the stages share, so overlapped rates are bounds of what a pipeline could reach. The last three columns are of the scaled
+        machine with the same core, and how many times the prototype's rate that is."""), ""]
+    for machine in machines.PROTOTYPES:
+        rows = [row for row in data["rows"] if row["machine"] == machine]
+        if not rows:
+            continue
+        out += [f"## `{machine}` and `{machines.SCALED[machine]}`", ""]
+        clock = rows[0]["clock_mhz"]
+        out += table(("scene", "view", "pipeline", "Mcycles", "of it blending", f"frames/s at {clock} MHz", f"at {SLOW} MHz",
+                      "scaled, frames/s", "times"),
+                     [(row["scene"], row["view"], pipeline, mega(row["frame_cycles"]), mega(row["blend_cycles"]),
+                       f"{row[pipeline]['fps']:.1f}", f"{row[pipeline]['slow_fps']:.1f}",
+                       f"{row[pipeline]['scaled_fps']:.1f}", f"{row[pipeline]['gain']:.2f}x")
+                      for row in rows for pipeline in ("serial", "overlapped")])
+    if data["turns"]:
+        out += ["## Overlapped in fact", "", paragraph("""All views of a scene by one command, `--view all --overlap`, in which
+            one view is prepared while another is blended: with the queue of four commands that `timing.raster` has."""), ""]
+        out += table(("scene", "machine", "pictures", "serial, ms", "overlapped, ms", "bound, ms"),
+                     [(turn["scene"], f"`{turn['machine']}`", turn["pictures"], f"{turn['serial_ms']:.1f}",
+                       f"{turn['measured_ms']:.1f}", f"{turn['bound_ms']:.1f}") for turn in data["turns"]])
+    return out
+
+
+def charts(data):
+    rows = [row for row in data["rows"] if row["machine"] == machines.PROTOTYPES[0]]
+    return {"rates": chart("Frames a second, prototype", "scene and view", "frames/s",
+                           [f"{row['scene']} {row['view']}" for row in rows],
+                           {p: [row[p]["fps"] for row in rows] for p in ("serial", "overlapped")}, bars=True)} if rows else {}
