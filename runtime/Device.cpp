@@ -4,8 +4,10 @@
 #include "vorion_abi.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
+#include <set>
 
 using namespace vorion;
 using namespace vorion::runtime;
@@ -34,6 +36,38 @@ isasim::LaunchShape shapeOf(const vx_launch_params &P) {
   return S;
 }
 
+/// A program may end without closing its devices, as one of OpenCL does. What
+/// watches them has its last word then.
+class OpenDevices {
+public:
+  void add(Device *D) {
+    const std::lock_guard Held(Mutex);
+    Open.insert(D);
+  }
+  void remove(Device *D) {
+    const std::lock_guard Held(Mutex);
+    Open.erase(D);
+  }
+  void lastWords() {
+    const std::lock_guard Held(Mutex);
+    for (Device *D : Open)
+      D->lastWord();
+  }
+
+private:
+  std::mutex Mutex;
+  std::set<Device *> Open;
+};
+
+/// Is never destroyed: a program's static objects may close devices late.
+OpenDevices &openDevices() {
+  static OpenDevices *const All = [] {
+    std::atexit([] { openDevices().lastWords(); });
+    return new OpenDevices();
+  }();
+  return *All;
+}
+
 } // namespace
 
 Device::Device(std::unique_ptr<isasim::Machine> TheMachine,
@@ -41,9 +75,10 @@ Device::Device(std::unique_ptr<isasim::Machine> TheMachine,
     : Machine(std::move(TheMachine)), Watch(std::move(TheWatch)),
       ConfigText(isasim::toJson(Machine->config())), OnlyProfiled(OnlyProfiled),
       Memory(VX_GLOBAL_BASE, Machine->config().GlobalBytes) {
-  Machine->setClocked(!OnlyProfiled);
+  clockRuns(!OnlyProfiled);
   Machine->setConsole([this](std::string_view Text) { keepConsole(Text); });
   Watch->attach(*Machine);
+  openDevices().add(this);
 }
 
 void Device::keepConsole(std::string_view Text) {
@@ -58,6 +93,22 @@ Device::~Device() {
   waitForRun(Held);
   if (Runner.joinable())
     Runner.join();
+  Held.unlock();
+  openDevices().remove(this);
+  lastWord();
+}
+
+void Device::lastWord() {
+  const Lock Held(Mutex);
+  // A run that the program has not waited for is not over.
+  if (Running)
+    return;
+  if (const Expected<Success> Came = Watch->finished(); !Came)
+    reportError("vorion", Came.error());
+}
+
+void Device::clockRuns(bool On) {
+  Machine->setClocking(On ? isasim::Clocking::On : isasim::Clocking::Off);
 }
 
 void Device::waitForRun(Lock &Held) {
@@ -285,7 +336,7 @@ void Device::setProfiled(bool Profiled) {
   Lock Held(Mutex);
   waitForRun(Held);
   if (OnlyProfiled)
-    Machine->setClocked(Profiled);
+    clockRuns(Profiled);
 }
 
 void Device::forget(const LoadedImage *Image) {
@@ -332,10 +383,12 @@ void Device::freeRunMemory() {
   InUse = {};
 }
 
-void Device::launch(Lock &Held, LoadedImage &Image, uint32_t LaunchBlock) {
+void Device::launch(Lock &Held, LoadedImage &Image, const std::string &Name,
+                    uint32_t LaunchBlock) {
   if (Runner.joinable())
     Runner.join(); // it has ended: Running is false
   makeCurrent(Image);
+  Watch->runBegins(Name, LaunchBlock);
   ConsoleText.clear();
   ConsoleDropped = 0;
   BugText.clear();
@@ -391,9 +444,8 @@ Failure Device::start(LoadedImage &Image, uint32_t Kernel,
     freeRunMemory();
     return Failed;
   }
-  Watch->runNamed(K.Name);
   nameBuffers(K, Args);
-  launch(Held, Image, static_cast<uint32_t>(InUse.Block));
+  launch(Held, Image, K.Name, static_cast<uint32_t>(InUse.Block));
   return {};
 }
 
@@ -401,8 +453,7 @@ Failure Device::startMain(LoadedImage &Image) {
   Lock Held(Mutex);
   if (Running)
     return {VX_ERROR_BUSY, "a run is in progress"};
-  Watch->runNamed("main");
-  launch(Held, Image, 0);
+  launch(Held, Image, "main", 0);
   return {};
 }
 

@@ -58,6 +58,9 @@ public:
 
   const isasim::Config &config() const { return Machine->config(); }
 
+  /// Says what of the session never came, unless a run is in progress.
+  void lastWord();
+
 private:
   using Lock = std::unique_lock<std::mutex>;
   using Notice = void (isasim::Session::*)(uint32_t, uint64_t);
@@ -65,6 +68,7 @@ private:
   void waitForRun(Lock &Held);
   /// Observers hear of what the host does between runs only.
   void waitIfObserved(Lock &Held);
+  void clockRuns(bool On);
   void keepConsole(std::string_view Text);
   Failure allocateLocked(uint64_t Size, const char *What, uint32_t &Address);
   /// Whether \p Address lies in the I/O window (docs/abi.md, "Memory map").
@@ -80,7 +84,8 @@ private:
   Failure prepare(const isasim::Launch &Planned,
                   std::span<const std::byte> Args);
   void makeCurrent(LoadedImage &Image);
-  void launch(Lock &Held, LoadedImage &Image, uint32_t LaunchBlock);
+  void launch(Lock &Held, LoadedImage &Image, const std::string &Name,
+              uint32_t LaunchBlock);
   void finish(isasim::RunResult Run);
 
   std::unique_ptr<isasim::Machine> Machine;

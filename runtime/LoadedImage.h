@@ -5,6 +5,7 @@
 #include "vorion/isasim/Machine.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace vorion::runtime {
@@ -27,9 +28,8 @@ public:
 
 private:
   std::shared_ptr<const isasim::Image> Program;
-  /// Contents of the writable segments, in their order; empty before the first
-  /// saveFrom().
-  std::vector<std::vector<std::byte>> Data;
+  /// What saveFrom() kept last.
+  std::optional<std::vector<std::byte>> Data;
 };
 
 } // namespace vorion::runtime

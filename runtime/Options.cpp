@@ -55,6 +55,9 @@ Failure DeviceOptions::readConfig(isasim::Config &C) const {
 }
 
 Failure DeviceOptions::readTime(isasim::Config &C) const {
+  if (onlyProfiled() && !Watch.Region.empty())
+    return {VX_ERROR_CONFIG, "VORION_REGION with VORION_TIME 'profiled', "
+                             "expected one of them to choose what is timed"};
   C.Timing.Enabled |= !Time.empty() || Watch.needClock();
   if (Time.empty())
     return {};

@@ -34,7 +34,7 @@ config.substitutions += [
 
 programs = ["vorion-clang", "vorion-cl-link", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
             "isasim-decode-words",
-            "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "splat-reader-work", "sample-vecadd"]
+            "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "splat-reader-work", "sample-radixsort", "sample-vecadd"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
 # What makes calls of programs fail (test/faults).

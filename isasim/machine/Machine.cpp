@@ -114,7 +114,8 @@ struct Machine::Impl final : raster::WorkLog {
   void chooseLog();
   void resetRasterizers();
   void takeTime();
-  bool isClocked() const { return Time && Clocked; }
+  bool isClocked() const { return Time && Mode != Clocking::Off; }
+  void tellTimeObservers();
 
   const Config Shape;
   std::unique_ptr<Memory> Storage;
@@ -132,7 +133,8 @@ struct Machine::Impl final : raster::WorkLog {
   std::atomic<bool> StopRequested = false;
   bool Running = false;        ///< between the run's beginning and its end
   std::unique_ptr<Clock> Time; ///< if Shape.Timing.Enabled
-  bool Clocked = true;         ///< whether it goes on in the following runs
+  Clocking Mode = Clocking::On;
+  std::vector<TimeObserver *> TimeObservers;
   std::function<void(std::string_view)> Console = [](std::string_view Text) {
     std::fwrite(Text.data(), 1, Text.size(), stdout);
     std::fflush(stdout);
@@ -219,6 +221,12 @@ void Machine::Impl::resetRasterizers() {
   Raster.reset();
   if (Time)
     Time->reset();
+}
+
+void Machine::Impl::tellTimeObservers() {
+  if (Time)
+    Time->setObservers(Mode == Clocking::On ? TimeObservers
+                                            : std::vector<TimeObserver *>());
 }
 
 void Machine::Impl::takeTime() {
@@ -468,8 +476,11 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   PImpl->Running = false;
   PImpl->flushConsole(true);
   PImpl->count(R);
-  if (PImpl->isClocked())
-    R.Time = PImpl->Time->end();
+  if (PImpl->isClocked()) {
+    TimeReport Took = PImpl->Time->end();
+    if (PImpl->Mode == Clocking::On)
+      R.Time = std::move(Took);
+  }
   if (R.End == Outcome::Done && R.ExitCode != 0)
     R.End = Outcome::GuestFailed;
   R.Raster = PImpl->Raster.counters() - Before;
@@ -496,8 +507,8 @@ void Machine::setObservers(std::vector<Observer *> Observers) {
 }
 
 void Machine::setTimeObservers(std::vector<TimeObserver *> Observers) {
-  if (PImpl->Time)
-    PImpl->Time->setObservers(std::move(Observers));
+  PImpl->TimeObservers = std::move(Observers);
+  PImpl->tellTimeObservers();
 }
 
 void Machine::setWatchdog(double Seconds) { PImpl->WatchdogSeconds = Seconds; }
@@ -508,10 +519,14 @@ void Machine::requestStop() {
 
 bool Machine::mustStop() const { return PImpl->mustStop(); }
 
-void Machine::setClocked(bool Clocked) {
-  if (!PImpl->Time || PImpl->Clocked == Clocked)
+void Machine::setClocking(Clocking Of) {
+  if (!PImpl->Time || PImpl->Mode == Of)
     return;
-  PImpl->Clocked = Clocked;
+  const bool Before = PImpl->isClocked();
+  PImpl->Mode = Of;
+  PImpl->tellTimeObservers();
+  if (PImpl->isClocked() == Before)
+    return;
   PImpl->Time->reset();
   PImpl->chooseLog();
 }
@@ -522,6 +537,49 @@ std::optional<uint32_t> Machine::readRasterCsr(unsigned Core, unsigned Csr) {
 
 bool Machine::writeRasterCsr(unsigned Core, unsigned Csr, uint32_t Value) {
   return PImpl->Raster.hostWrite(Core, Csr, Value);
+}
+
+std::vector<std::span<std::byte>> Machine::memory() const {
+  return PImpl->Storage->kept();
+}
+
+std::vector<std::byte> Machine::imageData() const {
+  std::vector<std::byte> Data;
+  for (const Image::Segment &S : PImpl->Program->segments()) {
+    if (!S.Writable)
+      continue;
+    const size_t At = Data.size();
+    Data.resize(At + S.MemBytes);
+    [[maybe_unused]] const bool Read =
+        read(S.Address, std::span(Data).subspan(At));
+    assert(Read && "a segment of the loaded image is readable by the host");
+  }
+  return Data;
+}
+
+bool Machine::setImageData(std::span<const std::byte> Data) {
+  uint64_t Bytes = 0;
+  for (const Image::Segment &S : PImpl->Program->segments())
+    Bytes += S.Writable ? S.MemBytes : 0;
+  if (Bytes != Data.size())
+    return false;
+  for (const Image::Segment &S : PImpl->Program->segments()) {
+    if (!S.Writable)
+      continue;
+    [[maybe_unused]] const bool Wrote =
+        write(S.Address, Data.first(S.MemBytes));
+    assert(Wrote && "a segment of the loaded image is writable by the host");
+    Data = Data.subspan(S.MemBytes);
+  }
+  return true;
+}
+
+std::optional<std::vector<std::byte>> Machine::rasterState() const {
+  return PImpl->Raster.state();
+}
+
+bool Machine::setRasterState(std::span<const std::byte> State) {
+  return PImpl->Raster.setState(State);
 }
 
 } // namespace vorion::isasim

@@ -1,11 +1,29 @@
 #include "machine/RasterUnits.h"
 
 #include "core/Isa.h"
+#include "machine/ByteStream.h"
 
 #include <algorithm>
 #include <array>
 
 namespace vorion::isasim {
+
+namespace {
+
+/// Writes or reads an agent's state.
+template <typename Stream, typename State> void exchange(Stream &S, State &A) {
+  S.value(A.Bank);
+  S.list(A.Staging);
+  S.list(A.PushBuffer);
+  S.flag(A.PushOverflowed);
+  S.list(A.PixelIndex);
+  S.list(A.Drained);
+  S.value(A.Shown);
+  S.value(A.FirstFailure);
+  S.value(A.Totals);
+}
+
+} // namespace
 
 RasterUnits::RasterUnits(const Config &C, Memory &Storage,
                          std::function<bool()> IsOver)
@@ -29,6 +47,38 @@ void RasterUnits::reset() {
   for (unsigned Cluster = 0; Cluster != Shape.Clusters; ++Cluster)
     PixelUnits.push_back(std::make_unique<pixel::PixelUnit>(View));
   setLog(Log);
+}
+
+std::optional<std::vector<std::byte>> RasterUnits::state() const {
+  ByteWriter W;
+  for (const auto &A : Agents) {
+    const raster::AgentState *State = A->state();
+    if (!State)
+      return std::nullopt;
+    exchange(W, *State);
+  }
+  for (const auto &U : Units)
+    W.value(uint64_t{U->turn()});
+  return W.bytes();
+}
+
+bool RasterUnits::setState(std::span<const std::byte> State) {
+  reset();
+  ByteReader R(State);
+  bool Fits = true;
+  for (const auto &A : Agents) {
+    raster::AgentState Read;
+    exchange(R, Read);
+    Fits = Fits && A->setState(std::move(Read));
+  }
+  for (const auto &U : Units) {
+    uint64_t Turn = 0;
+    R.value(Turn);
+    Fits = Fits && U->setTurn(Turn);
+  }
+  if (!Fits || !R.atEnd())
+    reset();
+  return Fits && R.atEnd();
 }
 
 void RasterUnits::setLog(raster::WorkLog *Receiver) {

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace vorion::isasim {
@@ -48,6 +49,13 @@ public:
 
   std::optional<uint32_t> hostRead(unsigned Core, unsigned Number);
   bool hostWrite(unsigned Core, unsigned Number, uint32_t Value);
+
+  /// What is kept from one run to the next, as bytes; none while a command is
+  /// under way.
+  std::optional<std::vector<std::byte>> state() const;
+  /// Goes on with what units of the same shape had; false, and reset, if
+  /// \p State is none of those.
+  bool setState(std::span<const std::byte> State);
 
   /// Agents and rasterizers as they were at the beginning.
   void reset();

@@ -66,14 +66,14 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   for (unsigned Core = 0; Core != C.cores(); ++Core)
     Wanted.emplace_back(VX_LOCAL_BASE, C.LocalBytes);
 
+  // Stacks come in whole groups on the host.
+  const uint64_t Group = StackGroup * uint64_t{C.StackBytes};
+  const uint64_t StackBytesOnHost = (StackBytes + Group - 1) / Group * Group;
   std::vector<Mapping> Maps;
   std::vector<Region> Regions;
   for (const auto &[Lo, Bytes] : Wanted) {
-    // Stacks come in whole groups on the host.
     const bool IsStack = Lo == VX_STACK_TOP - StackBytes;
-    const uint64_t Group = StackGroup * uint64_t{C.StackBytes};
-    Expected<Mapping> M =
-        Mapping::make(IsStack ? (Bytes + Group - 1) / Group * Group : Bytes);
+    Expected<Mapping> M = Mapping::make(IsStack ? StackBytesOnHost : Bytes);
     if (!M)
       return M.error();
     Regions.push_back({Lo, static_cast<uint32_t>(Bytes), M->data()});
@@ -82,6 +82,7 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   std::unique_ptr<Memory> Result(new Memory(std::move(Maps)));
   Result->Global = Regions[0];
   Result->Stack = Regions[1];
+  Result->StackBytesOnHost = StackBytesOnHost;
   Result->ImageRange = Regions[2];
   Result->StackShift = static_cast<unsigned>(std::countr_zero(C.StackBytes));
   Result->Locals.assign(Regions.begin() + 3, Regions.end());
@@ -124,6 +125,10 @@ void Memory::load(const Image &Program) {
 void Memory::clearLocal() {
   for (const Region &L : Locals)
     std::memset(L.Host, 0, L.Bytes);
+}
+
+std::vector<std::span<std::byte>> Memory::kept() const {
+  return {{Global.Host, Global.Bytes}, {Stack.Host, StackBytesOnHost}};
 }
 
 std::byte *Memory::global(uint32_t Address, uint64_t Bytes) const {

@@ -42,6 +42,8 @@ public:
   void load(const Image &Program);
   /// Local memory of all cores becomes zero.
   void clearLocal();
+  /// What else stays from one run to the next: global memory and the stacks.
+  std::vector<std::span<std::byte>> kept() const;
 
   /// [Address, Address + Bytes) in global memory, or nullptr.
   std::byte *global(uint32_t Address, uint64_t Bytes) const;
@@ -57,7 +59,8 @@ private:
   std::vector<Mapping> Mappings;
   Region Global, Stack, ImageRange;
   unsigned StackShift = 0;
-  std::vector<Region> Locals; ///< by core
+  uint64_t StackBytesOnHost = 0; ///< whole groups
+  std::vector<Region> Locals;    ///< by core
   std::vector<Region> Writable;
 };
 

@@ -166,9 +166,18 @@ void Session::localUsed(uint64_t Bytes) {
   PImpl->tell([&](Observer &O) { O.localUsed(Bytes); });
 }
 
-void Session::runNamed(const std::string &Name) {
+void Session::runBegins(const std::string &Name, uint32_t LaunchBlock) {
   PImpl->RunName = Name;
   PImpl->tell([&](Observer &O) { O.runNamed(Name); });
+  for (const auto &T : PImpl->Tools)
+    T->runBegins(Name, LaunchBlock);
+}
+
+Expected<Success> Session::finished() const {
+  for (const auto &T : PImpl->Tools)
+    if (Expected<Success> Ok = T->finished(); !Ok)
+      return Ok;
+  return Success{};
 }
 
 uint64_t Session::guardBytes() const {

@@ -42,6 +42,9 @@ public:
   virtual bool changesRuns() const { return false; }
   /// The machine of the runs that follow.
   virtual void attach(Machine &) {}
+  /// Before a run of the machine's image that is called \p Name, or nothing.
+  virtual void runBegins(const std::string & /*Name*/,
+                         uint32_t /*LaunchBlock*/) {}
   /// After a run that is called \p Name, or nothing: every file is complete.
   virtual Expected<Success> runEnded(const std::string & /*Name*/,
                                      const RunResult &) {
@@ -49,6 +52,8 @@ public:
   }
   /// Bytes that are to stay free behind each buffer.
   virtual uint64_t guardBytes() const { return 0; }
+  /// After the last run: an error if what was asked for never came.
+  virtual Expected<Success> finished() const { return Success{}; }
   /// Errors of programs that it has found so far.
   virtual uint64_t findings() const { return 0; }
 };

@@ -38,9 +38,25 @@ const CsrInfo *findCsr(unsigned Number) {
   return Found && Found->Raster ? Found : nullptr;
 }
 
-RasterAgent::RasterAgent(const AgentConfig &Sizes)
-    : Config(Sizes), Staging(Sizes.Lanes), PixelIndex(Sizes.Lanes) {
+RasterAgent::RasterAgent(const AgentConfig &Sizes) : Config(Sizes) {
   assert(Config.Lanes >= 1 && Config.Lanes <= 32 && Config.QueueDepth >= 1);
+  Staging.resize(Config.Lanes);
+  PixelIndex.resize(Config.Lanes);
+}
+
+const AgentState *RasterAgent::state() const {
+  return isBusy() || !Batches.empty() ? nullptr : this;
+}
+
+bool RasterAgent::setState(AgentState State) {
+  assert(state());
+  if (State.Staging.size() != Config.Lanes ||
+      State.PixelIndex.size() != Config.Lanes ||
+      State.PushBuffer.size() > VR_MAX_PUSHED ||
+      State.Shown.Count > VR_GRAD_LANES)
+    return false;
+  static_cast<AgentState &>(*this) = std::move(State);
+  return true;
 }
 
 uint32_t RasterAgent::readCounter(Csr C) const {
@@ -190,7 +206,7 @@ void RasterAgent::push(uint32_t Mask) {
 
 void RasterAgent::start() {
   assert(canStart() && "a write of vr_start stalls while the queue is full");
-  Queue.push_back(Bank);
+  Queue.push_back({Bank, {}, false});
   // Without the mode, what was pushed waits for a command that takes it.
   if (ModePushed.get(Bank.Mode)) {
     Queue.back().Pushed = std::exchange(PushBuffer, {});

@@ -23,15 +23,34 @@ struct AgentConfig {
   unsigned BatchDepth = 2; ///< batches of gradients that wait for the core
 };
 
+/// What an agent that has no command under way keeps from one run to the next.
+struct AgentState {
+  BankWords Bank;
+  std::vector<Gaussian> Staging; ///< one descriptor a lane
+  std::vector<Gaussian> PushBuffer;
+  bool PushOverflowed = false;
+  std::vector<uint32_t> PixelIndex; ///< one a lane
+  std::vector<Pixel> Drained;
+  GradientBatch Shown; ///< by vr_grad_*
+  uint32_t FirstFailure = VR_OK;
+  Counters Totals;
+};
+
 /// One core's bank of configuration CSRs, push buffer, command queue, sticky
 /// status, drained tile and counters.
 ///
 /// Threads: belongs to its core, except that a Rasterizer takes and completes
 /// commands, and a PixelUnit the rest of some; the machine never lets both run
 /// at once (docs/decisions.md, 10).
-class RasterAgent {
+class RasterAgent : AgentState {
 public:
   explicit RasterAgent(const AgentConfig &Config = {});
+
+  /// nullptr while commands, or batches that nobody has taken, are under way.
+  const AgentState *state() const;
+  /// Goes on with \p State, which an agent of as many lanes had; false if it is
+  /// none of those. Needs state().
+  bool setState(AgentState State);
 
   /// Whether a write of vr_start would be accepted now. The core that writes it
   /// while this is false stalls until the rasterizer has taken a command.
@@ -102,19 +121,10 @@ private:
   void finish(uint32_t Status, const Counters &Work);
 
   AgentConfig Config;
-  Command Bank;
-  std::vector<Gaussian> Staging; ///< one descriptor a lane
-  std::vector<Gaussian> PushBuffer;
-  bool PushOverflowed = false;
-  std::vector<uint32_t> PixelIndex;
   std::deque<Command> Queue;
-  std::vector<Pixel> Drained;
   std::deque<GradientBatch> Batches; ///< and ends of commands
   unsigned WaitingBatches = 0;       ///< of these, batches
-  GradientBatch Shown;               ///< by vr_grad_*
   unsigned Tails = 0;                ///< commands that the pixel unit has
-  uint32_t FirstFailure = VR_OK;
-  Counters Totals;
 };
 
 } // namespace vorion::raster

@@ -218,5 +218,25 @@ TEST_F(AgentTest, DrainedPixelsEqualMemory) {
   EXPECT_EQ(std::bit_cast<float>(Agent.read(Csr::PixelT, 5)), Right[85].T);
 }
 
+TEST(RasterAgentState, IsAnothersToGoOnWith) {
+  RasterAgent First, Second;
+  First.write(Csr::Output, lanes(100), 0xffff);
+  First.write(Csr::GMeanX, lanes(7), 0xffff);
+  First.write(Csr::PixelIndex, lanes(30), 0xffff);
+  First.write(Csr::Start, lanes(0), 1);
+  EXPECT_EQ(First.state(), nullptr) << "a command is under way";
+  First.complete(VR_BAD_CUTOFF, {5});
+  ASSERT_NE(First.state(), nullptr);
+  ASSERT_TRUE(Second.setState(*First.state()));
+  for (const Csr C : {Csr::Output, Csr::GMeanX, Csr::PixelIndex, Csr::Status})
+    EXPECT_EQ(Second.read(C, 3), First.read(C, 3));
+  EXPECT_EQ(Second.read(Csr::Wait, 0), uint32_t{VR_BAD_CUTOFF});
+  RasterAgent Narrow({.Lanes = 8});
+  EXPECT_FALSE(Narrow.setState(*First.state()));
+  // A batch that nobody has taken is under way, too.
+  First.offer({0, 1, {}});
+  EXPECT_EQ(First.state(), nullptr);
+}
+
 } // namespace
 } // namespace vorion::raster

@@ -40,6 +40,15 @@ public:
   /// \p Receiver is told of every command; nullptr for nobody.
   void setLog(WorkLog *Receiver) { Log = Receiver; }
 
+  /// The agent, by its place, whose turn it is: all that is kept while there is
+  /// no command.
+  std::size_t turn() const { return Next; }
+  /// False if there is no such agent.
+  bool setTurn(std::size_t Turn) {
+    Next = Turn < Agents.size() ? Turn : Next;
+    return Next == Turn;
+  }
+
   /// Commands since the last call that the pixel unit has to go on with, in
   /// order.
   std::vector<HandOver> takeHandOvers();

@@ -362,10 +362,10 @@ TEST(Clock, TakesNoNoticeOfRunsWithoutIt) {
     (*M)->load(codeImage(program(everything())));
     std::string Text = toJson(*(*M)->run().Time);
     if (Between) {
-      (*M)->setClocked(false);
+      (*M)->setClocking(Clocking::Off);
       EXPECT_FALSE((*M)->run().Time);
       EXPECT_FALSE((*M)->run().Time);
-      (*M)->setClocked(true);
+      (*M)->setClocking(Clocking::On);
     }
     return Text + toJson(*(*M)->run().Time);
   };

@@ -3,6 +3,7 @@
 #include "tools/Arguments.h"
 #include "tools/HelpFormatter.h"
 #include "tools/Launch.h"
+#include "tools/RegionRun.h"
 #include "tools/Signature.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
@@ -13,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 
 using namespace vorion;
 using namespace vorion::isasim;
@@ -42,10 +44,31 @@ Expected<std::string> readText(const std::string &Path) {
                      Bytes->size());
 }
 
-Expected<Config> makeConfig(const Options &O) {
-  Config C;
-  if (!O.ConfigText.empty()) {
-    const Expected<MachineSource> Found = findMachine(O.ConfigText);
+/// \p Given, or the environment's \p Variable, which counts without it.
+std::string orVariable(const std::string &Given, const char *Variable) {
+  const char *Text = std::getenv(Variable);
+  return Given.empty() && Text ? Text : Given;
+}
+
+Expected<Success> changeValues(Config &C, const Options &O) {
+  for (const std::string &Values : O.Set)
+    if (const Expected<Success> Ok = setValues(C, Values); !Ok)
+      return Ok;
+  if (!O.Set.empty())
+    return Success{};
+  const Expected<Success> Ok = setValues(C, orVariable("", "VORION_SET"));
+  if (!Ok)
+    return Error{"", "VORION_SET: " + Ok.error().What, Ok.error().Code};
+  return Ok;
+}
+
+/// The machine that the options, and below them the environment, say; \p
+/// Default where they name none.
+Expected<Config> makeConfig(const Options &O, const Config &Default) {
+  Config C = Default;
+  const std::string Text = orVariable(O.ConfigText, "VORION_CONFIG");
+  if (!Text.empty()) {
+    const Expected<MachineSource> Found = findMachine(Text);
     if (!Found)
       return Found.error();
     const Expected<Config> Parsed = parseConfig(Found->Json, Found->Where);
@@ -56,9 +79,8 @@ Expected<Config> makeConfig(const Options &O) {
   if (O.OneHart)
     C.Clusters = C.SocketsPerCluster = C.CoresPerSocket = C.WarpsPerCore =
         C.LanesPerWarp = 1;
-  for (const std::string &Values : O.Set)
-    if (const Expected<Success> Ok = setValues(C, Values); !Ok)
-      return Ok.error();
+  if (const Expected<Success> Ok = changeValues(C, O); !Ok)
+    return Ok.error();
   C.Timing.Enabled |= O.Time || O.Watch.needClock();
   if (O.ClockMhz)
     C.Timing.ClockMhz = *O.ClockMhz;
@@ -154,9 +176,8 @@ int exitCode(const RunResult &R) {
   return static_cast<int>(ExitCode::LimitReached);
 }
 
-/// Reports and gives the exit code; \p Launch may be nullptr.
-int finish(const RunResult &R, const Options &O, const Machine &M,
-           const KernelLaunch *Launch, Session &Watch) {
+/// Reports how the run of \p O ended and gives the exit code.
+int reportOutcome(const RunResult &R, const Options &O) {
   std::fflush(stdout);
   std::string Report = R.Report;
   while (Report.ends_with('\n'))
@@ -171,7 +192,23 @@ int finish(const RunResult &R, const Options &O, const Machine &M,
   else if (R.End != Outcome::Done)
     printDiagnostic(Tool, "error", O.Program,
                     fmt::format("{}: {}", describe(R.End), Report));
-  int Code = exitCode(R);
+  return exitCode(R);
+}
+
+/// \p Code, unless it is 0 and what watched the runs has something to say.
+int lastWord(int Code, const Session &Watch) {
+  if (Code != 0)
+    return Code;
+  if (const Expected<Success> Came = Watch.finished(); !Came)
+    return reportError(Tool, Came.error());
+  return static_cast<int>(Watch.findings() ? ExitCode::GuestFailed
+                                           : ExitCode::Ok);
+}
+
+/// Reports and gives the exit code; \p Launch may be nullptr.
+int finish(const RunResult &R, const Options &O, const Machine &M,
+           const KernelLaunch *Launch, Session &Watch) {
+  int Code = reportOutcome(R, O);
   // A program that did not end leaves no results.
   if (Launch && Code == 0)
     if (const Expected<Success> Ok = Launch->finish(); !Ok)
@@ -186,13 +223,61 @@ int finish(const RunResult &R, const Options &O, const Machine &M,
       Code = reportError(Tool, Ok.error());
   if (const Expected<Success> Ok = Watch.runEnded(R); !Ok)
     return reportError(Tool, Ok.error());
-  if (Watch.findings() && Code == 0)
-    return static_cast<int>(ExitCode::GuestFailed);
-  return Code;
+  return lastWord(Code, Watch);
+}
+
+Expected<std::unique_ptr<Session>> makeSession(const Options &O) {
+  return Session::create(O.Watch, std::string(Tool),
+                         [](std::string_view Text) { printOut("{}", Text); });
+}
+
+/// The option, if there is one, that a saved region has no use for.
+const char *notForRegions(const Options &O, const KernelRequest &Request) {
+  if (Request.WorkDim != 0)
+    return O.ArgsFile.empty() ? "--global" : "--args";
+  if (O.OneHart)
+    return "--one-hart";
+  if (!O.SignatureFile.empty())
+    return "--signature";
+  if (O.ListKernels)
+    return "--list-kernels";
+  // A region does not say where buffers lie.
+  return O.Watch.Check.empty() ? nullptr : "--check";
+}
+
+int runSaved(const Options &O, const KernelRequest &Request,
+             std::span<const std::byte> File) {
+  if (const char *Given = notForRegions(O, Request))
+    return reportError(
+        Tool,
+        Error{O.Program,
+              fmt::format("a saved region, expected it without {}", Given),
+              ExitCode::Usage});
+  const Expected<SavedRegion> Region = parseRegion(File, O.Program);
+  if (!Region)
+    return reportError(Tool, Region.error());
+  Expected<Config> C = makeConfig(O, Region->Machine);
+  if (!C)
+    return reportError(Tool, C.error());
+  C->Timing.Enabled = true;
+  if (const auto Fits = checkMachine(*Region, *C, O.Program); !Fits)
+    return reportError(Tool, Fits.error());
+  const auto Watch = makeSession(O);
+  if (!Watch)
+    return reportError(Tool, Watch.error());
+  const Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
+  if (!M)
+    return reportError(Tool, M.error());
+  (*Watch)->attach(**M);
+  const auto Last =
+      runRegion(*Region, **M, **Watch, O.Watch.Region.empty(), O.Program);
+  if (!Last)
+    return reportError(Tool, Last.error());
+  return lastWord(reportOutcome(*Last, O), **Watch);
 }
 
 int run(const Options &O) {
-  const Expected<Config> C = makeConfig(O);
+  const Expected<Config> C = makeConfig(O, Config());
   if (!C)
     return reportError(Tool, C.error());
   const Expected<KernelRequest> Request = makeRequest(O);
@@ -203,6 +288,8 @@ int run(const Options &O) {
   const Expected<std::vector<std::byte>> Elf = readFile(O.Program);
   if (!Elf)
     return reportError(Tool, Elf.error());
+  if (isRegion(*Elf))
+    return runSaved(O, *Request, *Elf);
   const auto Program = Image::parse(*Elf, O.Program);
   if (!Program)
     return reportError(Tool, Program.error());
@@ -216,9 +303,7 @@ int run(const Options &O) {
   // What an image of kernels has for a main does nothing.
   if (Request->WorkDim == 0 && !(*Program)->kernels().empty())
     return reportError(Tool, missingGlobal());
-  const Expected<std::unique_ptr<Session>> Watch =
-      Session::create(O.Watch, std::string(Tool),
-                      [](std::string_view Text) { printOut("{}", Text); });
+  const auto Watch = makeSession(O);
   if (!Watch)
     return reportError(Tool, Watch.error());
   Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
@@ -226,13 +311,15 @@ int run(const Options &O) {
     return reportError(Tool, M.error());
   (*M)->load(*Program);
   (*Watch)->attach(**M);
-  if (Request->WorkDim == 0)
+  if (Request->WorkDim == 0) {
+    (*Watch)->runBegins("", 0);
     return finish((*M)->run(), O, **M, nullptr, **Watch);
+  }
   const Expected<KernelLaunch> Launch =
       KernelLaunch::prepare(**M, *Request, **Watch);
   if (!Launch)
     return reportError(Tool, Launch.error());
-  (*Watch)->runNamed(Launch->kernel());
+  (*Watch)->runBegins(Launch->kernel(), Launch->launchBlock());
   return finish((*M)->run(Launch->launchBlock()), O, **M, &*Launch, **Watch);
 }
 
@@ -297,16 +384,19 @@ void declareTestPrograms(CLI::App &App, Options &O) {
 void declare(CLI::App &App, Options &O) {
   App.formatter(std::make_shared<HelpFormatter>());
   App.set_help_flag("-h,--help", "print this and exit");
-  App.add_option("program", O.Program, "RISC-V executable, or Vortex's .vxbin")
+  App.add_option("program", O.Program,
+                 "RISC-V executable, Vortex's .vxbin, or a saved region")
       ->type_name("");
   App.add_option("--set", O.Set,
-                 "change the configuration (raster.queue_depth=8)")
+                 "change the configuration (raster.queue_depth=8; else "
+                 "VORION_SET)")
       ->type_name("KEY=VALUE,...")
       ->allow_extra_args(false);
   App.add_flag("--print-config-schema", O.PrintSchema,
                "print the JSON schema of configurations and exit");
   App.add_option("--config", O.ConfigText,
-                 "the machine: its name, or a configuration, JSON")
+                 "the machine: its name, or a configuration, JSON (else "
+                 "VORION_CONFIG)")
       ->type_name("NAME|FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
                "print one to start from and exit");
@@ -358,7 +448,7 @@ int mainOf(int Argc, char **Argv) {
     return 0;
   }
   if (O.PrintDefaultConfig) {
-    const Expected<Config> C = makeConfig(O);
+    const Expected<Config> C = makeConfig(O, Config());
     if (!C)
       return reportError(Tool, C.error());
     printOut("{}", toJson(*C));

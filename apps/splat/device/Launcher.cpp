@@ -220,7 +220,10 @@ void Launcher::account(KernelReport Report) {
   Known->Seconds += Report.Seconds;
   if (Known->Counters && Report.Counters)
     *Known->Counters += *Report.Counters;
-  add(Known->Time, Report.Time);
+  if (Known->Time && Report.Time)
+    *Known->Time += *Report.Time;
+  else
+    Known->Time.reset();
 }
 
 namespace {

@@ -39,7 +39,7 @@ struct KernelReport {
   unsigned Launches = 0;
   double Seconds = 0; ///< host wall time from launch to end
   std::optional<KernelCounters> Counters;
-  std::optional<TimeReport> Time; ///< sum over the launches
+  std::optional<TimeReport> Time; ///< sum over the launches, if all have one
 };
 
 /// Consecutive work of one stage.

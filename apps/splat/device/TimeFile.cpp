@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <string_view>
 
 namespace vorion::splat {
@@ -127,13 +128,16 @@ TimeFile ofFrames(const Json &Whole) {
   return F;
 }
 
-/// `vorion-sim --stats`, and VORION_STATS.
+/// `vorion-sim --stats`, and VORION_STATS: of the runs that were timed.
 TimeFile ofRuns(const Json &Whole) {
   TimeFile F;
   F.Machine = Whole.at("config");
   F.Machine.erase("host_threads"); // changes no time
+  std::vector<Json> Runs;
+  std::ranges::copy_if(Whole.at("runs"), std::back_inserter(Runs),
+                       [](const Json &Run) { return Run.contains("time"); });
   Figures All;
-  for (const Json &Run : Whole.at("runs")) {
+  for (const Json &Run : Runs) {
     F.Work["runs"].push_back(Run.at("name").get<std::string>());
     const Json &Time = Run.at("time");
     describe(F, Time);
@@ -141,9 +145,9 @@ TimeFile ofRuns(const Json &Whole) {
     F.Milliseconds += Cycles / (1e3 * Time.at("clock_mhz").get<double>());
     All.add("", "cycles", Cycles);
   }
-  for (const Json &Run : Whole.at("runs"))
+  for (const Json &Run : Runs)
     All.add("runs, cycles", Run.at("name"), Run.at("time").at("cycles"));
-  for (const Json &Run : Whole.at("runs"))
+  for (const Json &Run : Runs)
     addUnits(All, Run.at("time"));
   F.Figures = All.take();
   return F;

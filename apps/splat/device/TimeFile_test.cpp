@@ -149,10 +149,19 @@ TEST(TimeFile, ChangesKeepTheOrderAndWhatIsMissing) {
   EXPECT_EQ(std::ranges::count(Same, '\n'), 3) << Same;
 }
 
+TEST(TimeFile, RunsWithoutTimeAreLeftOut) {
+  Json Part = stats(), Rest = stats();
+  Part["runs"][0].erase("time");
+  Rest["runs"].erase(0);
+  EXPECT_EQ(read(Part).Work, read(Rest).Work);
+  EXPECT_EQ(read(Part).Milliseconds, read(Rest).Milliseconds);
+}
+
 TEST(TimeFile, WhateverElseAFileHoldsIsRefused) {
   const TestFolder Folder;
   Json Untimed = stats(), Odd = frame(), None = stats();
-  Untimed["runs"][0].erase("time");
+  for (Json &Run : Untimed["runs"])
+    Run.erase("time");
   Odd["time"]["sum"]["activities"] = {1};
   None["runs"] = Json::array();
   for (const Json &J :

@@ -20,20 +20,28 @@ unsigned launches(const StageReport &S) {
       [](unsigned Sum, const KernelReport &K) { return Sum + K.Launches; });
 }
 
-/// The sum over the kernels of a stage; nothing without the clock.
+/// The sum over the kernels of a stage; nothing unless all were timed.
 std::optional<TimeReport> stageTime(const StageReport &S) {
   std::optional<TimeReport> Sum;
-  for (const KernelReport &K : S.Kernels)
+  for (const KernelReport &K : S.Kernels) {
+    if (!K.Time)
+      return std::nullopt;
     add(Sum, K.Time);
+  }
   return Sum;
 }
 
-/// The frame's kernels in one report, or nothing.
+/// The frame's kernels in one report; nothing unless all were timed.
 std::optional<TimeReport> frameTime(const std::vector<StageReport> &Stages) {
   std::optional<TimeReport> Sum;
-  for (const StageReport &S : Stages)
-    if (isFrameStage(S.Kind))
-      add(Sum, stageTime(S));
+  for (const StageReport &S : Stages) {
+    if (!isFrameStage(S.Kind) || S.Kernels.empty())
+      continue;
+    const auto Time = stageTime(S);
+    if (!Time)
+      return std::nullopt;
+    add(Sum, Time);
+  }
   return Sum;
 }
 

@@ -1,4 +1,5 @@
-/// How long a frame takes on the machine, stage by stage.
+/// How long a frame takes on the machine, stage by stage. A clock that was on
+/// for some of its kernels alone is none.
 #pragma once
 
 #include "render/Renderer.h"

@@ -23,6 +23,13 @@ namespace vorion::isasim {
 class Observer;
 class TimeObserver;
 
+/// What the clock does in a run.
+enum class Clocking {
+  Off,    ///< the run takes no time, and leaves the clock's caches as they were
+  WarmUp, ///< it goes on, but nobody is told: no RunResult::Time, no observer
+  On,
+};
+
 class Machine {
 public:
   /// A machine of the given shape; errors: validate(), or the host has no
@@ -75,10 +82,9 @@ public:
   void setTimeObservers(std::vector<TimeObserver *> Observers);
 
   /// Whether the clock, where there is one, goes on in the following runs; it
-  /// does from the beginning. Runs without it take no time, have no
-  /// RunResult::Time, and leave its caches as they were; rasterizers' commands
-  /// that are under way when this changes are done with for the clock.
-  void setClocked(bool Clocked);
+  /// is On from the beginning. When it is turned off or on, rasterizers'
+  /// commands that are under way are done with for it.
+  void setClocking(Clocking Of);
 
   /// Ends a run that takes longer, with Outcome::LimitReached; 0 for no limit.
   /// Looked at every few thousand instructions of a core, every few thousand
@@ -98,6 +104,23 @@ public:
   /// executed when the call returns.
   std::optional<uint32_t> readRasterCsr(unsigned Core, unsigned Csr);
   bool writeRasterCsr(unsigned Core, unsigned Csr, uint32_t Value);
+
+  /// \name What a run leaves to the next
+  /// All that function knows. A machine of the same shape that is given it goes
+  /// on as this one does; the clock has state of its own. Not during a run.
+  /// @{
+
+  /// Global memory, and the stacks as they lie on the host.
+  std::vector<std::span<std::byte>> memory() const;
+  /// The writable segments of the loaded image, one behind the other.
+  std::vector<std::byte> imageData() const;
+  /// False if these have another size.
+  bool setImageData(std::span<const std::byte> Data);
+  /// Of rasterizers and Raster Agents; none while a command is under way.
+  std::optional<std::vector<std::byte>> rasterState() const;
+  /// False if it is no state of such a machine.
+  bool setRasterState(std::span<const std::byte> State);
+  /// @}
 
 private:
   Machine();

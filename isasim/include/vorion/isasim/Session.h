@@ -59,6 +59,9 @@ public:
   /// After a run: every file is complete.
   Expected<Success> runEnded(const RunResult &R);
 
+  /// After the last run: an error if what was asked for never came.
+  Expected<Success> finished() const;
+
   /// Whether anything observes the machine. The driver has to tell what the
   /// host does, with what follows (Observer.h); where nothing observes, that
   /// does nothing.
@@ -69,8 +72,10 @@ public:
   void hostRead(uint32_t Address, uint64_t Bytes);
   void bufferNamed(uint32_t Address, const std::string &Name);
   void localUsed(uint64_t Bytes);
-  /// What the next run is called. To be told in any case: reports name it, too.
-  void runNamed(const std::string &Name);
+
+  /// Before every run: what it is called, and the address of its launch block
+  /// or 0. Its image is loaded, its arguments are in memory.
+  void runBegins(const std::string &Name, uint32_t LaunchBlock);
 
   /// Bytes to leave free behind each buffer.
   uint64_t guardBytes() const;
