@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # The clock beside references from other machines, as tables (docs/validation.md).
-# usage: scripts/validate.sh [REFERENCES]   (a folder; default: ../shared/data/timing)
+# usage: scripts/validate.sh [REFERENCES [KERNEL...]]   (a folder, default: ../shared/data/timing; default: all kernels)
 source "$(dirname "$0")/lib.sh"
 References=${1:-$Root/../shared/data/timing}
 source "$Root/scripts/env.sh"
 Status=0
-"$Root/bench/timing/kernels.py" || Status=$?
+"$Root/bench/timing/kernels.py" "${@:2}" || Status=$?
 if [ ! -d "$References" ]; then
   printf '\nvalidate.sh: loops and DRAM skipped: no folder %s with references\n' "$References"
   exit $Status

@@ -19,6 +19,7 @@ class TilesTool : public Tool, public TimeObserver {
 public:
   explicit TilesTool(GrowingFile FileIn) : File(std::move(FileIn)) {}
 
+  void attach(Machine &M) override { OnMachine = nameOf(M.config()).Name; }
   std::vector<TimeObserver *> timeObservers() override { return {this}; }
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
     ++Run;
@@ -46,7 +47,8 @@ public:
 private:
   /// What the work of either unit has.
   Json begin(const char *Unit, const auto &W, CycleSpan When) const {
-    return {{"unit", Unit},
+    return {{"machine", OnMachine},
+            {"unit", Unit},
             {"run", Run},
             {"core", W.Core},
             {"x", W.What.X},
@@ -64,6 +66,7 @@ private:
   }
 
   GrowingFile File;
+  std::string OnMachine; ///< its name
   uint64_t Run = 0;
 };
 

@@ -1,7 +1,6 @@
 #include "Sample.h"
 
 #include <cstdio>
-#include <cstdlib>
 
 namespace sample {
 
@@ -19,12 +18,10 @@ Device::Device(const std::string &Source) {
   try {
     Platforms[0].getDevices(CL_DEVICE_TYPE_ALL, &Devices);
   } catch (const cl::Error &E) {
-    const char *Config = std::getenv("VORION_CONFIG");
+    // A platform of Vorion has said why, as of a wrong VORION_SET.
     throw cl::Error(E.err(),
-                    Config && *Config
-                        ? "no OpenCL device, expected a valid VORION_CONFIG"
-                        : "no OpenCL device, expected one of a Vorion platform "
-                          "(source scripts/env.sh)");
+                    "no OpenCL device, expected one that a platform opens (it "
+                    "may say above why not; source scripts/env.sh for ours)");
   }
   Chosen = Devices[0];
   Context = cl::Context(Chosen);

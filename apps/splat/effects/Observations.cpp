@@ -23,7 +23,7 @@ Finding asked(const EffectInputs &In,
 }
 
 Finding detectClock(const EffectInputs &In) {
-  Finding F = asked(In, {"VORION_TIME"});
+  Finding F = asked(In, {"VORION_TIME", "VORION_REGION"});
   if (!F.Needed)
     F.Figure = "not asked (--time, --clock)";
   return F;
