@@ -59,7 +59,7 @@ Expected<Success> changeValues(Config &C, const Options &O) {
   const Expected<Success> Ok = setValues(C, orVariable("", "VORION_SET"));
   if (!Ok)
     return Error{"", "VORION_SET: " + Ok.error().What, Ok.error().Code};
-  return Ok;
+  return Success{};
 }
 
 /// The machine that the options, and below them the environment, say; \p
