@@ -117,7 +117,7 @@ def write(file, sections):
     measured = {name: data for name, (_, data) in sections.items() if data}
     versions = sorted({v for data in measured.values() for v in data.get("clocks", ())})
     out = [HEAD, "**Measured with version " + ", ".join(map(str, versions)) + " of the clock**"
-           f" ([model.md](model.md#versions-of-the-clock)). The runs took {_hours(measured)} of wall time, one after the other.", "",
+           f" ([model.md](model.md#versions-of-the-clock)). Each run counted in full, even beside others, they took {_hours(measured)} of wall time.", "",
            "## Claims", "", *_claims(found)]
     out += [f"- {what}: {said}." for what, said in claims.ELSEWHERE] + [""]
     out += [f"## {joint.TITLE}", ""]
@@ -129,8 +129,8 @@ def write(file, sections):
     out += [f"- {_anchored(name, module.TITLE)}" for name, module, _ in found] + [""]
     out += ["## Not measured", ""]
     out += [f"- {module.TITLE}: `scripts/paper.sh --sections {name}`." for name, (module, data) in sections.items() if not data]
-    out += [f"- {module.TITLE}: {', '.join(data['left_out'])}." for module, data in sections.values()
-            if data and data.get("left_out")]
+    out += [f"- {module.TITLE}: {len(data['left_out'])} points, which [its page](paper/{name}.md) names."
+            for name, (module, data) in sections.items() if data and data.get("left_out")]
     _write(file, _lines(out))
 
 

@@ -62,7 +62,7 @@ def parse_arguments():
                         help="picture widths of the counts")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time (default 1)")
     parser.add_argument("--every-view", action="store_true",
-                        help="try all twelve choices of the kernels on all views, not on one of each scene")
+                        help="try all twelve choices of the kernels on all views, not on two of each scene")
     parser.add_argument("--keep", action="store_true", help="take runs of other builds, too")
     parser.add_argument("--only-kept", action="store_true",
                         help="run nothing: write what there is, and leave out the rest")

@@ -210,6 +210,17 @@ class Runs:
         if not self.only_kept:
             self.all(wanted, title)
 
+    def those_there(self, wanted, title):
+        """The results of some runs, by what `wanted` has them under; without those that all() would raise Missing for, which
+        are named as left out."""
+        results = {}
+        for key, run in wanted.items():
+            try:
+                results[key], = self.all([run], title)
+            except Missing as missing:
+                self.left_out.append(str(missing))
+        return results
+
     def rows(self, places, make):
         """make(*place) for every place whose runs are there: all of them, unless only kept ones are taken."""
         rows = []

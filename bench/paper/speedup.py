@@ -56,15 +56,13 @@ def measure(store, all_scenes, _every_view):
                    for run in (raster(s, v, m), *(simt(s, v, m, c) for c in best), official(s, v, m))], TITLE)
 
     def row(scene, view, machine):
-        with_it, *without = store.all([raster(scene, view, machine), *(simt(scene, view, machine, c) for c in best)], TITLE)
-        # The longest of the runs, which --only-kept may lack.
-        try:
-            step_by_step, = store.all([official(scene, view, machine)], TITLE)
-        except r.Missing as missing:
-            step_by_step = None
-            store.left_out.append(str(missing))
+        with_it, = store.all([raster(scene, view, machine)], TITLE)
+        without = store.those_there({c: simt(scene, view, machine, c) for c in best}, TITLE)
+        if not without:
+            raise r.Missing(f"{scene.name}-{view}-{machine}-path-simt")
+        step_by_step = store.those_there({"official": official(scene, view, machine)}, TITLE)
         return {"scene": scene.name, "view": view, "machine": machine,
-                **compared(with_it, dict(zip(best, without)), step_by_step)}
+                **compared(with_it, without, step_by_step.get("official"))}
 
     return {"rows": store.rows(places, row), "choices": best}
 

@@ -37,6 +37,8 @@ def measure(store, all_scenes, _every_view, widths=invocations.WIDTHS):
                     row.update(occluded=curve, occluded_from=reached(curve))
             if "occluded" in row:
                 rows.append(row)
+            else:
+                store.left_out.append(f"{scene.name} {view}")
     return {"rows": rows, "widths": list(widths)}
 
 

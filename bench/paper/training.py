@@ -19,7 +19,7 @@ CAPTURES = {
 }
 DEFAULT_CAPTURES = ("chair_synthetic", "carving_colmap")
 SHARED = os.path.join("..", "shared", "data", "captures")
-TIMED = 3  # iterations after the state, each of another view
+TIMED = 3  # iterations after the state, each of another view; at a capture's larger sizes one, which takes as long
 # The kernels' choices of tile and group. The way back has groups of 16 whatever the way forward has, and keeps a tile in local
 # memory, for which larger ones are too large.
 CHOICES = ((8, 16), (8, 64), (16, 64), (16, 256))
@@ -121,7 +121,7 @@ class State:
 
 @dataclass(frozen=True)
 class Timed:
-    """The TIMED iterations after a state, on a machine with its clock on."""
+    """The iterations after a state, on a machine with its clock on: TIMED at the state's own size."""
     state: State
     scale: int  # by which pictures are divided
     machine: str
@@ -129,6 +129,9 @@ class Timed:
     clock: int = 0  # MHz; 0: the machine's own
     output = "out.ply"
     any_build = False
+
+    def iterations(self):
+        return TIMED if self.scale == self.state.capture.scales[0] else 1
 
     def name(self):
         return r.file_name([self.state.name(), f"by{self.scale}", self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
@@ -142,7 +145,7 @@ class Timed:
     def arguments(self, output, report):
         state = self.state
         return ["splat", "train", state.capture.path, *state.capture.options, "--downscale", str(self.scale), "--from", state.checkpoint(),
-                "--iterations", str(state.iterations + TIMED), "--time", "--time-every", "1", *self.options,
+                "--iterations", str(state.iterations + self.iterations()), "--time", "--time-every", "1", *self.options,
                 "-o", output, "--json", report]
 
     def config(self):
@@ -210,20 +213,23 @@ def summary(result):
 
 
 def compared(with_it, without):
-    """A row of the table; without: results of the kernels by choice."""
+    """A row of the table; without: results of the kernels by choice, and where there are none the row says nothing of them."""
     ours = summary(with_it)
+    row = {"ours": ours, "clock_mhz": with_it["timed"][0]["time"]["sum"]["clock_mhz"],
+           "gaussians": with_it["timed"][0]["gaussians"], "its": 1e3 / ours["ms"],
+           "pairs": mean(with_it, lambda sample: sum(sample["list_lengths"])), "blends_back": blends_back(with_it),
+           "command": with_it["command"], "kernels": bool(without)}
+    if not without:
+        return row
     tried = [{"tile": choice[0], "group": choice[1], **summary(result)} for choice, result in without.items()]
     back = min(tried, key=lambda row: row["backward"])
     whole = min(tried, key=lambda row: row["ms"])
     share = (whole["parts"]["blend"] + whole["backward"]) / whole["cycles"]
     rest = ours["ms"] * (1 - sum(ours["parts"][part] for part in RASTERIZED) / ours["cycles"])
-    return {"ours": ours, "tried": tried, "kernels_back": back, "kernels_whole": whole, "clock_mhz":
-            with_it["timed"][0]["time"]["sum"]["clock_mhz"], "gaussians": with_it["timed"][0]["gaussians"],
-            "its": 1e3 / ours["ms"], "back_speedup": back["backward"] / ours["backward"],
-            "speedup": whole["ms"] / ours["ms"], "share": share, "bound": 1 / (1 - share), "bound_rest": whole["ms"] / rest,
-            "accumulation_share": back["backward"] / back["cycles"],
-            "pairs": mean(with_it, lambda sample: sum(sample["list_lengths"])), "blends_back": blends_back(with_it),
-            "command": with_it["command"]}
+    return {**row, "tried": tried, "kernels_back": back, "kernels_whole": whole,
+            "back_speedup": back["backward"] / ours["backward"], "speedup": whole["ms"] / ours["ms"], "share": share,
+            "bound": 1 / (1 - share), "bound_rest": whole["ms"] / rest,
+            "accumulation_share": back["backward"] / back["cycles"]}
 
 
 def largest(single, scaled):
@@ -269,31 +275,32 @@ def density_text(rows):
 
 def _on(store, state, scale, prototype, choices):
     """The rows of a prototype, and the results of its raster runs on it and on the scaled machine of its core."""
-    with_it, scaled, slow, *without = store.all(
+    with_it, scaled, slow = store.all(
         [raster(state, scale, prototype), raster(state, scale, machines.SCALED[prototype]),
-         raster(state, scale, prototype, CLOCKS[0]), *(simt(state, scale, prototype, c) for c in choices)], TITLE)
+         raster(state, scale, prototype, CLOCKS[0])], TITLE)
+    without = store.those_there({c: simt(state, scale, prototype, c) for c in choices}, TITLE)
     large = summary(scaled)
-    return {**compared(with_it, dict(zip(choices, without))), "slow_its": 1e3 / mean(slow, r.frame_ms),
+    return {**compared(with_it, without), "slow_its": 1e3 / mean(slow, r.frame_ms),
             "slow_command": slow["command"],
             "scaled": {"machine": machines.SCALED[prototype], "its": 1e3 / large["ms"], "ms": large["ms"],
                        "clock_mhz": scaled["timed"][0]["time"]["sum"]["clock_mhz"], "command": large["command"]}}, with_it, scaled
 
 
 def row_of(store, capture, scale, iterations):
-    """All choices of the kernels are tried at the first scale, and those that are fastest there at the others."""
+    """All choices of the kernels are tried at the first scale on the first machine, and those that are fastest there on the
+    other and at the other scales."""
     state = State(capture, iterations, store.folder)
     trained, = store.all([state], TITLE)
     first, *others = machines.PROTOTYPES
-    choices = CHOICES
+    at_first, with_it, scaled = _on(store, state, capture.scales[0], first, CHOICES)
+    best, found = _best(at_first), at_first
     if scale != capture.scales[0]:
-        at_first, _, _ = _on(store, state, capture.scales[0], first, CHOICES)
-        choices = _best(at_first)
-    found, with_it, scaled = _on(store, state, scale, first, choices)
+        found, with_it, scaled = _on(store, state, scale, first, best)
     row = {"scene": capture.name, "view": f"{'x'.join(map(str, with_it['resolution']))} after {iterations}",
            "machines": {first: found}}
     for machine in others:
         try:
-            row["machines"][machine] = _on(store, state, scale, machine, _best(found))[0]
+            row["machines"][machine] = _on(store, state, scale, machine, best)[0]
         except r.Missing as missing:
             store.left_out.append(str(missing))
     single, = store.all([raster(state, scale, "1-rasterizers")], TITLE)
@@ -302,7 +309,9 @@ def row_of(store, capture, scale, iterations):
 
 
 def _best(compared_row):
-    """The choices of the fastest way back and of the fastest iteration."""
+    """The choices of the fastest way back and of the fastest iteration; all, if none was measured."""
+    if not compared_row["kernels"]:
+        return CHOICES
     return sorted({(k["tile"], k["group"]) for k in (compared_row["kernels_back"], compared_row["kernels_whole"])})
 
 
@@ -315,8 +324,8 @@ def by_prototype(data):
 def measure(store, captures, _every_view, iterations):
     if not captures:
         raise r.Missing("no ../shared/data/captures, expected captures there, or --captures FOLDER")
-    places = [(store, capture, str(scale), str(iterations)) for capture in captures for scale in capture.scales]
-    return {"rows": store.rows(places, lambda s, capture, scale, count: row_of(s, capture, int(scale), int(count)))}
+    places = [(store, capture, f"size/{scale}") for capture in captures for scale in capture.scales]
+    return {"rows": store.rows(places, lambda s, capture, size: row_of(s, capture, int(size.split("/")[1]), iterations))}
 
 
 def seconds(row, iterations, host):
@@ -331,11 +340,21 @@ def choices_text(row):
     return shown if back == whole else f"{shown}, whole {whole[0]}/{whole[1]}"
 
 
+def _kernels_cells(m):
+    return (mega(m["kernels_whole"]["cycles"]), mega(m["kernels_back"]["backward"]), choices_text(m), f"{100 * m['share']:.1f} %",
+            f"{m['bound']:.2f}x", f"{m['bound_rest']:.2f}x", f"{m['back_speedup']:.1f}x", f"{m['speedup']:.2f}x")
+
+
+def _paths(m):
+    """What was measured of a row, by path."""
+    return [("rasterizer", m["ours"]), *([("kernels", m["kernels_whole"])] if m["kernels"] else [])]
+
+
 def text(data):
     rows = data["rows"]
     out = [paragraph(f"""The {TIMED} iterations after so many of a training run (settings of [training.md](../training.md)), each of
-        another view, means of them; those before went without the clock, at the first of the capture's sizes, so that the larger
-        pictures have the Gaussians of the smallest. {density_text(rows)} Tiles of the rasterizer are 32x64. The kernels' choice of
+        another view, means of them. Those before went without the clock, at the smallest of the capture's sizes. The larger
+        pictures have the same Gaussians, and one iteration is timed. {density_text(rows)} Tiles of the rasterizer are 32x64. The kernels' choice of
         tile and group is the fastest of {', '.join(f'{t}/{g}' for t, g in CHOICES)} at the first size on `{machines.PROTOTYPES[0]}`.
         *back*: from the pixels' gradients to nine sums a Gaussian, which is blending backward and the sum over tiles, in a fixed
         order and without atomics. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:
@@ -350,14 +369,12 @@ def text(data):
                       "iteration"),
                      [(m["scene"], m["view"], m["gaussians"], mega(m["ours"]["cycles"]), f"{m['its']:.2f}",
                        f"{m['slow_its']:.2f}", f"{m['scaled']['its']:.2f}", mega(m["ours"]["backward"]),
-                       mega(m["kernels_whole"]["cycles"]), mega(m["kernels_back"]["backward"]), choices_text(m),
-                       f"{100 * m['share']:.1f} %", f"{m['bound']:.2f}x", f"{m['bound_rest']:.2f}x",
-                       f"{m['back_speedup']:.1f}x", f"{m['speedup']:.2f}x") for m in of])
+                       *(_kernels_cells(m) if m["kernels"] else [""] * 8)) for m in of])
     out += ["## By stage", "", "Percent of an iteration's cycles.", ""]
     out += table(("capture", "pictures", "machine", "path", *PARTS),
                  [(m["scene"], m["view"], f"`{m['machine']}`", path,
                    *(f"{100 * of['parts'][part] / of['cycles']:.1f}" for part in PARTS)) for m in by_prototype(data)
-                  for path, of in (("rasterizer", m["ours"]), ("kernels", m["kernels_whole"]))])
+                  for path, of in _paths(m)])
     out += ["## Bytes and atomics", "",
             paragraph(f"""DRAM traffic of an iteration and of its way back. *atomics avoided*: {ATOMICS} a pixel and Gaussian, as
             INRIA's way back adds to memory; *stores*: {ATOMICS} a Gaussian and tile, which the hand-over leaves of them."""), ""]
@@ -366,7 +383,7 @@ def text(data):
                  [(m["scene"], m["view"], f"{m['ours']['dram_mb']:.2f}", f"{m['kernels_whole']['dram_mb']:.2f}",
                    f"{m['ours']['backward_mb']:.2f}", f"{m['kernels_back']['backward_mb']:.2f}",
                    mega(ATOMICS * m["blends_back"]), mega(ATOMICS * m["pairs"]), f"{m['blends_back'] / m['pairs']:.1f}x")
-                  for m in by_prototype(data) if m["machine"] == machines.PROTOTYPES[0]])
+                  for m in by_prototype(data) if m["machine"] == machines.PROTOTYPES[0] and m["kernels"]])
     out += [f"## {RASTERIZERS} rasterizers", "",
             paragraph(f"""An iteration of `{rows[0]['large_of']}`, and of one with {RASTERIZERS} rasterizers by the model of
             [scaling](scaling.md) for both stages of the rasterizers, with memory that grows with them and is used to the full; all
@@ -385,7 +402,7 @@ def text(data):
 def charts(data):
     first = machines.PROTOTYPES[0]
     rows = [(f"{row['scene'].split('_')[0]} {row['view'].split()[0]} {path}", of) for row in data["rows"]
-            for path, of in (("rasterizer", row["machines"][first]["ours"]), ("kernels", row["machines"][first]["kernels_whole"]))]
+            for path, of in _paths(row["machines"][first])]
     return {"training": chart("An iteration by stage, prototype", "stage", "percent of the cycles", list(PARTS),
                               {name: [100 * of["parts"][part] / of["cycles"] for part in PARTS] for name, of in rows},
                               bars=True)}
