@@ -24,7 +24,8 @@ INRIA's rules and support `exact`. What is not measured is named at the end and 
 **A frame** is from projecting to the finished picture with its launches and small copies, without
 uploading a scene or reading the picture back. The paper's three stages are a pipeline, so rates are
 given twice: *serial*, one frame after the other, and *overlapped*, a frame in the time of the
-longest stage, which is a bound since nothing is charged for the memory that stages share.
+longest stage. The latter is a bound: nothing is charged for the memory that stages share, and with
+queues of four commands `--overlap` reaches little of it ([rates](paper/rates.md)).
 
 **Baselines** are kernels on the same machine without its rasterizers: *our fastest*, and *the
 official algorithm, step by step*: 16x16 tiles, a work-item a pixel, the exponential for every pixel
@@ -128,7 +129,8 @@ def write(file, sections):
     out += ["## Pages", ""]
     out += [f"- {_anchored(name, module.TITLE)}" for name, module, _ in found] + [""]
     out += ["## Not measured", ""]
-    out += [f"- {module.TITLE}: `scripts/paper.sh --sections {name}`." for name, (module, data) in sections.items() if not data]
+    out += [f"- {module.TITLE}{': ' + claims.OPEN[name] if name in claims.OPEN else ''}. `scripts/paper.sh --sections {name}`."
+            for name, (module, data) in sections.items() if not data]
     out += [f"- {module.TITLE}: {len(data['left_out'])} points, which [its page](paper/{name}.md) names."
             for name, (module, data) in sections.items() if data and data.get("left_out")]
     _write(file, _lines(out))

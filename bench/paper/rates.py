@@ -55,7 +55,8 @@ def text(data):
     out = [paragraph(f"""The raster path. *serial*: one frame after the other. *overlapped*: a frame in the time of the longest stage of
         a pipeline, the cores' kernels or the rasterizers' blending, plus launches and copies. Nothing is charged for memory that
         the stages share, so overlapped rates are bounds of what a pipeline could reach. The last three columns are of the scaled
-        machine with the same core, and how many times the prototype's rate that is."""), ""]
+        machine with the same core, and how many times the prototype's rate that is. Its cores and clock are {8 * 500 / 530:.2f}
+        times the prototype's; its memory is another one, on the chip and four times as wide, and gives the rest."""), ""]
     for machine in machines.PROTOTYPES:
         rows = [row for row in data["rows"] if row["machine"] == machine]
         if not rows:

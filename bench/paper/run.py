@@ -35,7 +35,7 @@ import training  # noqa: E402
 SECTIONS = {"rates": rates, "choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
             "scaling": scaling, "tiles": tiles, "identical": identical, "training": training}
 # The scenes of the tables, chosen before anything was measured, and those that are drawn larger, too.
-SCENES = ("guitar", "truck", "garden_outdoor", "showroom_indoor", "tower_sh3")
+SCENES = ("guitar", "truck", "garden_outdoor")
 LARGE, LARGE_WIDTH = ("guitar", "truck"), 1920
 WITH_LARGE = (rates, speedup)
 
@@ -47,7 +47,8 @@ def parse_arguments():
     parser.add_argument("--document", default=os.path.join(scenes.ROOT, "docs", "paper-results.md"), metavar="FILE",
                         help="what to write (default docs/paper-results.md); beside it a page a section in paper/, charts in images/")
     parser.add_argument("--scenes", nargs="+", metavar="NAME",
-                        help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; section tiles: all)")
+                        help=f"scenes of ../shared/data (default: {' '.join(SCENES)}; section tails: "
+                        f"{' '.join(tails.SCENES)}; section tiles: all)")
     parser.add_argument("--scene", nargs=2, metavar=("FILE", "CAMERAS"), help="any other scene instead")
     parser.add_argument("--large", nargs="*", default=LARGE, metavar="NAME",
                         help=f"those that sections rates and speedup draw {LARGE_WIDTH} pixels wide, too (default: {' '.join(LARGE)})")
@@ -114,6 +115,8 @@ def main():
         try:
             if module is tiles:
                 data = module.measure(store, counts, args.every_view, tuple(args.widths))
+            elif module is tails and not (args.scenes or args.scene):
+                data = module.measure(store, [scenes.shared(name) for name in tails.SCENES], args.every_view)
             elif module is training:
                 data = module.measure(store, captures, args.every_view, args.iterations)
             else:
@@ -123,7 +126,7 @@ def main():
             continue
         if args.only_kept and not (data.get("rows") or data.get("sweeps")):
             continue
-        data.update(builds=sorted(store.builds), clocks=sorted(store.clocks), left_out=store.left_out,
+        data.update(builds=sorted(store.builds), clocks=sorted(store.clocks), left_out=list(dict.fromkeys(store.left_out)),
                     seconds=store.seconds)
         store.write(name, data)
     document.write(args.document, {name: (module, store.read(name)) for name, module in SECTIONS.items()})

@@ -91,12 +91,16 @@ def rows_of(store, scene):
     whole, widest = store.all([run(scene, 1, machine_of(n)) for n in (RASTERIZERS_A_MEMORY, SIMULATED[-1])], TITLE)
     rows = []
     for parts, counts in PARTS.items():
-        results = dict(zip(counts, store.all([run(scene, parts, machine_of(n)) for n in counts], TITLE)))
+        try:
+            results = dict(zip(counts, store.all([run(scene, parts, machine_of(n)) for n in counts], TITLE)))
+        except r.Missing as missing:
+            store.left_out.append(str(missing))
+            continue
         simulated = {n: {"blend_cycles": r.kernel_cycles(result, "rasterize"),
                          "merge_cycles": r.kernel_cycles(result, "merge"), "fps": result["time"]["fps"],
                          "cores": result["device"]["compute_units"], "command": result["command"]}
                      for n, result in results.items()}
-        modelled = model(lengths, parts, results[1]["time"]["sum"]["rasterizers"], memory_cycles(whole, parts) / reached(widest))
+        modelled = model(lengths, parts, results[1]["time"]["sum"]["rasterizers"], memory_cycles(whole, parts))
         rows.append({"scene": scene.name, "view": view, "machine": SCALED, "parts": parts, "tiles": len(lengths),
                      "bandwidth_reached": reached(widest), "simulated": simulated, "modelled": modelled})
     return rows
@@ -137,9 +141,8 @@ def text(data):
         clusters of four sockets; four cores a rasterizer, fewer where there would be more than {machines.MOST_CORES}. *model*: a
         tile's cost is what clearing and writing one takes plus its list's length times the mean cost of an entry (both from the
         single rasterizer's run); jobs, longest list first, are dealt forth and back as the machine's kernel does (nearly LPT),
-        and blending is not shorter than its bytes over the bandwidth that the machine reaches in the run with
-        {SIMULATED[-1]} rasterizers (most lines are in a row of DRAM of their own); in the last line bandwidth grows with the
-        rasterizers beyond {RASTERIZERS_A_MEMORY}. Merging z-tiles is a kernel of its own and not in these rows."""), ""]
+        and blending is not shorter than its bytes over the whole bandwidth, which no run reaches; in the last line bandwidth
+        grows with the rasterizers beyond {RASTERIZERS_A_MEMORY}. Merging z-tiles is a kernel of its own and not in these rows."""), ""]
     for parts in sorted({row["parts"] for row in data["rows"]}):
         rows = [row for row in data["rows"] if row["parts"] == parts]
         out += [f"## K = {parts}: {rows[0]['tiles']} tiles, {rows[0]['tiles'] * parts} jobs", ""]
@@ -155,7 +158,7 @@ def text(data):
                for row in rows for m in row["modelled"] if at(row, m["rasterizers"])]
         (low, *where_low), (high, *where_high) = min(off), max(off)
         low_share, high_share = (100 * f(row["bandwidth_reached"] for row in rows) for f in (min, max))
-        out += [f"Bandwidth reached: {low_share:.0f} to {high_share:.0f} % of 51.2 GB/s. Model over simulation: {100 * low:+.1f} % ({where_low[0]}, {where_low[1]} rasterizers) to "
+        out += [f"With {SIMULATED[-1]} rasterizers {low_share:.0f} to {high_share:.0f} % of the 51.2 GB/s are used. Model over simulation: {100 * low:+.1f} % ({where_low[0]}, {where_low[1]} rasterizers) to "
                 f"{100 * high:+.1f} % ({where_high[0]}, {where_high[1]}).", ""]
     out += ["## Whole frames, K = 1", "", "Frames a second.", ""]
     out += table(("scene", "view", *map(str, SIMULATED)),

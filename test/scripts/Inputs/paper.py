@@ -83,6 +83,9 @@ def check_joint():
     assert [row["met"] for row in rows] == [["fps", "gain"], ["fps", "slow_fps", "times", "gain"]], rows
     assert not joint.rows_of({"rows": [{**rate, "view": "w"}]}, {"rows": [{**at, "fastest": kernels, "official": None}]})
     near(joint.FRAME_MCYCLES * 30.2, joint.KERNELS_MCYCLES[0])
+    near(joint.off({"fps": 19, "slow_fps": 12.8, "times": 35, "gain": 8}), 2)
+    near(joint.off({"fps": 19, "slow_fps": 6.4, "times": 76.8, "gain": 4}), 2)
+    near(joint.off({"fps": 19, "slow_fps": 6.4, "times": 10, "gain": 8}), 3.02)
 
 
 def check_overlap():
