@@ -102,6 +102,26 @@ kernel void branch_after_barrier(global uint *out, local uint *t, uint k) {
   out[get_group_id(0) * n + l] = r;
 }
 
+// LLVM makes one store of the two at the ends of the conditionals. Some work-items
+// of a group pass it on the way to the next barrier, others go around it.
+kernel void merged_tails(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, z = get_group_id(0), a[4] = {1, l, n, 4};
+  if (z & 2) {
+    t[l] = l * 3;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    z ^= t[(l + 1) % n];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (l & 1)
+      a[z & 3] = l + 9;
+  } else {
+    if (k & 1)
+      a[n & 3] = z;
+  }
+  t[l] = a[1];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  out[get_group_id(0) * n + l] = z + a[l & 3] * 5 + t[(l + 1) % n];
+}
+
 // A loop with barriers in another, ahead of them one without.
 kernel void nested_loops(global uint *out, local uint *t, uint k) {
   uint l = ITEM, n = ITEMS, v = l * 3, w = l;
@@ -284,6 +304,26 @@ Values branchAfterBarrier(U N, U) {
   return R;
 }
 
+Values mergedTails(U N, U Group) {
+  static_assert(Rounds & 1);
+  Values Z(N, Group), Own(N), T(N), Out(N);
+  for (U L = 0; L < N; ++L) {
+    U A[4] = {1, L, N, 4};
+    if (Group & 2) {
+      Z[L] ^= (L + 1) % N * 3;
+      if (L & 1)
+        A[Z[L] & 3] = L + 9;
+    } else {
+      A[N & 3] = Group;
+    }
+    T[L] = A[1];
+    Own[L] = A[L & 3];
+  }
+  for (U L = 0; L < N; ++L)
+    Out[L] = Z[L] + Own[L] * 5 + T[(L + 1) % N];
+  return Out;
+}
+
 Values nestedLoops(U N, U) {
   Values V(N), W(N), T(N);
   for (U L = 0; L < N; ++L) {
@@ -421,6 +461,7 @@ const Kernel Kernels[] = {{"straight", straight},
                           {"loop", loop},
                           {"conditional", conditional},
                           {"branch_after_barrier", branchAfterBarrier},
+                          {"merged_tails", mergedTails},
                           {"nested_loops", nestedLoops},
                           {"endless_if_reached", endlessIfReached},
                           {"conditional_in_loop", conditionalInLoop},

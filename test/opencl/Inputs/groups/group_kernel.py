@@ -152,7 +152,7 @@ class Kernel:
                     f"  {self.pick([to, 'v'])} = counter; barrier(CLK_LOCAL_MEM_FENCE);")
         # Other items' results of their own loops, through static local memory.
         return (f"kept[l % 16][0] = 0; barrier(CLK_LOCAL_MEM_FENCE); if (l < 16) kept[l][0] = {self.value(1)}; "
-                f"barrier(CLK_LOCAL_MEM_FENCE); {to} += kept[({self.value(2)}) % 16u][0] + kept[l % 16][0];\n  barrier(CLK_LOCAL_MEM_FENCE);")
+                f"barrier(CLK_LOCAL_MEM_FENCE); {to} += kept[({self.value(2)}) % (n < 16 ? n : 16u)][0] + kept[l % 16][0];\n  barrier(CLK_LOCAL_MEM_FENCE);")
 
     def together(self, depth, loop=False):
         """A statement that all work-items of a group come to."""

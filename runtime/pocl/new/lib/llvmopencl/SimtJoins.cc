@@ -2,15 +2,19 @@
 
 #include "Barrier.h"
 #include "LLVMUtils.h"
+#include "SimtBlocks.h"
 #include "SimtWorkitems.h"
 #include "VariableUniformityAnalysis.h"
 #include "Workgroup.h"
 #include "WorkitemHandlerChooser.h"
 
 #include <llvm/ADT/PostOrderIterator.h>
-#include <llvm/ADT/SmallPtrSet.h>
+#include <llvm/ADT/SetVector.h>
+#include <llvm/Analysis/PostDominators.h>
 #include <llvm/IR/CFG.h>
 #include <llvm/Transforms/Utils/BasicBlockUtils.h>
+#include <llvm/Transforms/Utils/Cloning.h>
+#include <llvm/Transforms/Utils/Local.h>
 
 using namespace llvm;
 
@@ -18,11 +22,9 @@ namespace pocl {
 
 namespace {
 
-using Blocks = SmallPtrSet<BasicBlock *, 16>;
-
 /// The ways into a block that belong to one region.
 struct Way {
-  Blocks Region; ///< of which \c Last are the last blocks
+  BlockSet Region; ///< of which \c Last are the last blocks
   SmallVector<BasicBlock *, 4> Last;
 };
 
@@ -30,12 +32,12 @@ struct Way {
 /// end.
 bool endsRegion(BasicBlock &Block, const SimtBranches &Branches) {
   return Barrier::endsWithBarrier(&Block) &&
-         !Branches.mayDivide(Block.getTerminator());
+         !Branches.isOfRegion(Block.getTerminator());
 }
 
 /// All blocks from which \p Last is reached without a barrier, itself included.
-Blocks regionBefore(BasicBlock *Last, const SimtBranches &Branches) {
-  Blocks Region{Last};
+BlockSet regionBefore(BasicBlock *Last, const SimtBranches &Branches) {
+  BlockSet Region{Last};
   SmallVector<BasicBlock *, 16> Pending{Last};
   while (!Pending.empty()) {
     BasicBlock *Block = Pending.pop_back_val();
@@ -50,7 +52,9 @@ Blocks regionBefore(BasicBlock *Last, const SimtBranches &Branches) {
 /// Those that do not end with a barrier yet.
 std::vector<Way> waysInto(BasicBlock &Block, const SimtBranches &Branches) {
   std::vector<Way> Ways;
-  for (BasicBlock *Last : Blocks(pred_begin(&Block), pred_end(&Block))) {
+  const SetVector<BasicBlock *> Predecessors(pred_begin(&Block),
+                                             pred_end(&Block));
+  for (BasicBlock *Last : Predecessors) {
     if (endsRegion(*Last, Branches))
       continue;
     Way Joined{regionBefore(Last, Branches), {Last}};
@@ -70,6 +74,84 @@ std::vector<Way> waysInto(BasicBlock &Block, const SimtBranches &Branches) {
   return Ways;
 }
 
+/// The branches of a way's region at which work-items may part, so that some
+/// come to \p Block and others go around it. One after which they come to
+/// different barriers is none: there the whole group agrees.
+SmallVector<BasicBlock *, 4> partings(const Way &W, BasicBlock &Block,
+                                      const PostDominatorTree &PostDominators) {
+  const BlockSet Behind = nextBarriers(&Block);
+  const auto GoesAround = [&](BasicBlock *Next) {
+    if (Next == &Block || W.Region.count(Next))
+      return false;
+    const BlockSet Around = nextBarriers(Next, &Block);
+    return any_of(Around, [&](BasicBlock *B) { return Behind.count(B) != 0; });
+  };
+  SmallVector<BasicBlock *, 4> Found;
+  for (BasicBlock *Branch : W.Region)
+    if (!PostDominators.dominates(&Block, Branch) &&
+        any_of(successors(Branch), GoesAround))
+      Found.push_back(Branch);
+  return Found;
+}
+
+/// The blocks from \p Block on, up to \p End, which is null for none, and up to
+/// barriers.
+SmallVector<BasicBlock *, 8> blocksUpTo(BasicBlock *Block, BasicBlock *End) {
+  SmallVector<BasicBlock *, 8> Tail{Block};
+  BlockSet Seen{Block, End};
+  for (size_t N = 0; N != Tail.size(); ++N)
+    for (BasicBlock *Next : successors(Tail[N]))
+      if (!Barrier::hasBarrier(Next) && Seen.insert(Next).second)
+        Tail.push_back(Next);
+  return Tail;
+}
+
+/// Gives a way a copy of \p Tail, whose first block it enters.
+void copyTail(const Way &W, ArrayRef<BasicBlock *> Tail) {
+  ValueToValueMapTy Copies;
+  SmallVector<BasicBlock *, 8> Copied;
+  for (BasicBlock *Block : Tail) {
+    Copied.push_back(
+        CloneBasicBlock(Block, Copies, ".way", Block->getParent()));
+    Copies[Block] = Copied.back();
+  }
+  remapInstructionsInBlocks(Copied, Copies);
+  for (BasicBlock *Last : W.Last)
+    Last->getTerminator()->replaceSuccessorWith(Tail.front(), Copied.front());
+}
+
+/// What is computed in a block of \p Tail and used in others goes through
+/// variables, since it will be computed in several places.
+void keepInVariables(ArrayRef<BasicBlock *> Tail) {
+  SmallVector<Instruction *, 8> Leaving;
+  for (BasicBlock *Block : Tail)
+    for (Instruction &I : *Block)
+      if (I.isUsedOutsideOfBlock(Block))
+        Leaving.push_back(&I);
+  for (Instruction *I : Leaving)
+    DemoteRegToStack(*I);
+}
+
+/// If work-items of a way may go around \p Block, its end is no place for a
+/// barrier. Then each way gets a copy of what lies between there and where they
+/// meet again; \p SomeEnded: ways with a barrier keep the original. LLVM makes
+/// such blocks when it merges equal code at the ends of two conditionals.
+bool copiedForWays(BasicBlock &Block, ArrayRef<Way> Ways, bool SomeEnded) {
+  const PostDominatorTree PostDominators(*Block.getParent());
+  BasicBlock *End = &Block;
+  for (const Way &W : Ways)
+    for (BasicBlock *Branch : partings(W, Block, PostDominators))
+      if (End)
+        End = PostDominators.findNearestCommonDominator(End, Branch);
+  if (End == &Block)
+    return false;
+  const SmallVector<BasicBlock *, 8> Tail = blocksUpTo(&Block, End);
+  keepInVariables(Tail);
+  for (const Way &W : SomeEnded ? Ways : Ways.drop_front())
+    copyTail(W, Tail);
+  return true;
+}
+
 bool separateWays(BasicBlock &Block, const SimtBranches &Branches) {
   if (!Block.hasNPredecessorsOrMore(2))
     return false;
@@ -79,6 +161,8 @@ bool separateWays(BasicBlock &Block, const SimtBranches &Branches) {
   });
   if (Ways.size() + SomeEnded < 2)
     return false;
+  if (copiedForWays(Block, Ways, SomeEnded))
+    return true;
   for (const Way &W : Ways)
     Barrier::Create(
         SplitBlockPredecessors(&Block, W.Last, ".join")->getTerminator());

@@ -15,7 +15,8 @@ namespace pocl {
 /// doubles the kernel at every conditional barrier. On a device with lanes each
 /// way gets a barrier at its end instead, and a region begins where they meet.
 /// All work-items of a group pass it, since all or none took the way with the
-/// barrier.
+/// barrier. A block that only some of a way's work-items pass, on the way to
+/// such a place, is copied for each way.
 class SimtJoins : public llvm::PassInfoMixin<SimtJoins> {
 public:
   static void registerWithPB(llvm::PassBuilder &PB);

@@ -2,7 +2,6 @@
 
 #include "SimtSlots.h"
 
-#include "Barrier.h"
 #include "SimtWorkitems.h"
 
 #include <llvm/ADT/PostOrderIterator.h>
@@ -112,14 +111,12 @@ void writeEarly(AllocaInst &Slot, const DominatorTree &Dominators,
   }
 }
 
-/// Without these, a block that dominates another in the same innermost loop and
-/// that the other post-dominates runs as often as that one.
+} // namespace
+
 bool hasIrreducibleLoops(const Function &F, const LoopInfo &Loops) {
   const ReversePostOrderTraversal<const Function *> Blocks(&F);
   return containsIrreducibleCFG<const BasicBlock *>(Blocks, Loops);
 }
-
-} // namespace
 
 void shortenSlots(Function &F, LoopInfo &Loops, const ShareRegion &Share,
                   const std::function<bool(AllocaInst *)> &IsKept) {
@@ -149,31 +146,6 @@ bool readsApartFromWrites(AllocaInst *Slot, const ShareRegion &Share) {
                           cast<Instruction>(Writer)->getParent());
            });
   });
-}
-
-std::vector<BasicBlock *>
-blocksOfWholeGroup(Function &F, LoopInfo &Loops,
-                   PostDominatorTree &PostDominators) {
-  std::vector<BasicBlock *> Found;
-  if (!simtLanes(*F.getParent()) || hasIrreducibleLoops(F, Loops))
-    return Found;
-  const DominatorTree Dominators(F);
-  std::vector<BasicBlock *> WithBarrier;
-  for (BasicBlock &Block : F)
-    if (Barrier::hasBarrier(&Block))
-      WithBarrier.push_back(&Block);
-  for (BasicBlock &Block : F) {
-    const auto RunsAsOftenAs = [&](BasicBlock *Other) {
-      return Loops.getLoopFor(&Block) == Loops.getLoopFor(Other) &&
-             ((Dominators.dominates(&Block, Other) &&
-               PostDominators.dominates(Other, &Block)) ||
-              (Dominators.dominates(Other, &Block) &&
-               PostDominators.dominates(&Block, Other)));
-    };
-    if (any_of(WithBarrier, RunsAsOftenAs))
-      Found.push_back(&Block);
-  }
-  return Found;
 }
 
 } // namespace pocl

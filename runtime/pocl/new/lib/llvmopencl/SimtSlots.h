@@ -18,7 +18,6 @@ class AllocaInst;
 class BasicBlock;
 class Function;
 class LoopInfo;
-class PostDominatorTree;
 } // namespace llvm
 
 namespace pocl {
@@ -37,10 +36,9 @@ void shortenSlots(llvm::Function &F, llvm::LoopInfo &Loops,
 /// for the whole group, passes over the group can then share it.
 bool readsApartFromWrites(llvm::AllocaInst *Slot, const ShareRegion &Share);
 
-/// Blocks that run as often as one with a barrier: with the whole group.
-std::vector<llvm::BasicBlock *>
-blocksOfWholeGroup(llvm::Function &F, llvm::LoopInfo &Loops,
-                   llvm::PostDominatorTree &PostDominators);
+/// Without irreducible loops, a block that dominates another in the same
+/// innermost loop and that the other post-dominates runs as often as that one.
+bool hasIrreducibleLoops(const llvm::Function &F, const llvm::LoopInfo &Loops);
 
 } // namespace pocl
 

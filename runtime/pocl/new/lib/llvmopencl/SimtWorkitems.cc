@@ -5,6 +5,7 @@
 #include "Barrier.h"
 #include "LLVMUtils.h"
 #include "SharedVariables.h"
+#include "SimtBlocks.h"
 #include "VariableUniformityAnalysis.h"
 #include "VariableUniformityAnalysisResult.hh"
 #include "Workgroup.h"
@@ -177,6 +178,16 @@ void anchorBarrierLoops(ArrayRef<Loop *> Loops) {
   }
 }
 
+/// Whether two ways from a block may come to the same barrier next.
+static bool waysMeet(BasicBlock &Block) {
+  BlockSet Before;
+  for (BasicBlock *Successor : BlockSet(succ_begin(&Block), succ_end(&Block)))
+    for (BasicBlock *Barrier : nextBarriers(Successor))
+      if (!Before.insert(Barrier).second)
+        return true;
+  return false;
+}
+
 SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
                            PostDominatorTree &PostDominators) {
   if (!simtLanes(*F.getParent()))
@@ -197,8 +208,8 @@ SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
       Leaves |= L->isLoopExiting(&Block);
     if (Leaves)
       Leaving.insert(Terminator);
-    else if (!Uniformity.isUniform(&F, Condition))
-      Dividing.insert(Terminator);
+    else if (!Uniformity.isUniform(&F, Condition) || waysMeet(Block))
+      OfRegion.insert(Terminator);
   }
 }
 

@@ -75,10 +75,11 @@ public:
   SimtBranches(llvm::Function &F, llvm::LoopInfo &Loops,
                llvm::PostDominatorTree &PostDominators);
 
-  /// Whether work-items may part at this end of a barrier's block, so that it
-  /// belongs into the region after the barrier.
-  bool mayDivide(const llvm::Instruction *Terminator) const {
-    return Dividing.count(Terminator);
+  /// Whether this end of a barrier's block belongs into the region after the
+  /// barrier: work-items may part there, or their ways may meet again before
+  /// the next barrier.
+  bool isOfRegion(const llvm::Instruction *Terminator) const {
+    return OfRegion.count(Terminator);
   }
   /// Whether a loop is left here, or gone round again. If it has a barrier, all
   /// or none do.
@@ -87,7 +88,7 @@ public:
   }
 
 private:
-  std::set<const llvm::Instruction *> Dividing, Leaving;
+  std::set<const llvm::Instruction *> OfRegion, Leaving;
 };
 
 /// What kernels ask of a launch block.

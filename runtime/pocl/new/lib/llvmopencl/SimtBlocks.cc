@@ -1,0 +1,100 @@
+//===- SimtBlocks.cc - blocks that a whole group runs together ------------===//
+
+#include "SimtBlocks.h"
+
+#include "Barrier.h"
+#include "SimtSlots.h"
+
+#include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/PostDominators.h>
+#include <llvm/IR/CFG.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/IR/Instructions.h>
+
+using namespace llvm;
+
+namespace pocl {
+
+BlockSet nextBarriers(BasicBlock *From, const BasicBlock *Without) {
+  BlockSet Found, Seen{From};
+  SmallVector<BasicBlock *, 16> Pending{From};
+  while (!Pending.empty()) {
+    BasicBlock *Block = Pending.pop_back_val();
+    if (Barrier::hasBarrier(Block) || succ_empty(Block))
+      Found.insert(Block);
+    else
+      for (BasicBlock *Next : successors(Block))
+        if (Next != Without && Seen.insert(Next).second)
+          Pending.push_back(Next);
+  }
+  return Found;
+}
+
+/// Blocks that run as often as one with a barrier: with the whole group.
+static std::vector<BasicBlock *>
+blocksOfWholeGroup(Function &F, LoopInfo &Loops,
+                   PostDominatorTree &PostDominators) {
+  std::vector<BasicBlock *> Found;
+  if (hasIrreducibleLoops(F, Loops))
+    return Found;
+  const DominatorTree Dominators(F);
+  std::vector<BasicBlock *> WithBarrier;
+  for (BasicBlock &Block : F)
+    if (Barrier::hasBarrier(&Block))
+      WithBarrier.push_back(&Block);
+  for (BasicBlock &Block : F) {
+    const auto RunsAsOftenAs = [&](BasicBlock *Other) {
+      return Loops.getLoopFor(&Block) == Loops.getLoopFor(Other) &&
+             ((Dominators.dominates(&Block, Other) &&
+               PostDominators.dominates(Other, &Block)) ||
+              (Dominators.dominates(Other, &Block) &&
+               PostDominators.dominates(&Block, Other)));
+    };
+    if (any_of(WithBarrier, RunsAsOftenAs))
+      Found.push_back(&Block);
+  }
+  return Found;
+}
+
+/// What decides where \p Block goes on; null if nothing does.
+static Value *conditionOf(BasicBlock &Block) {
+  if (auto *Branch = dyn_cast<BranchInst>(Block.getTerminator()))
+    return Branch->isConditional() ? Branch->getCondition() : nullptr;
+  if (auto *Switch = dyn_cast<SwitchInst>(Block.getTerminator()))
+    return Switch->getCondition();
+  return nullptr;
+}
+
+SimtBlocks::SimtBlocks(Function &F, LoopInfo &Loops,
+                       PostDominatorTree &PostDominators) {
+  for (BasicBlock *Block : blocksOfWholeGroup(F, Loops, PostDominators))
+    OfWholeGroup.insert(Block);
+  // Ferrante, Ottenstein and Warren, "The program dependence graph and its use
+  // in optimization" (1987): what post-dominates a successor of a branch, but
+  // not the branch. A loop depends on its exits, its header included.
+  for (BasicBlock &Block : F) {
+    Value *Condition = conditionOf(Block);
+    const auto *Branch = PostDominators.getNode(&Block);
+    if (!Condition || !Branch)
+      continue;
+    Dependence Found{&Block, Condition, {}};
+    for (BasicBlock *Successor : successors(&Block))
+      for (const auto *Node = PostDominators.getNode(Successor);
+           Node && Node != Branch->getIDom(); Node = Node->getIDom())
+        if (Node->getBlock())
+          Found.Blocks.insert(Node->getBlock());
+    Dependences.push_back(std::move(Found));
+  }
+}
+
+bool SimtBlocks::findMore(function_ref<bool(Value *)> Agree) {
+  const size_t Before = OfSome.size();
+  for (const Dependence &D : Dependences)
+    if (OfSome.count(D.Branch) || !Agree(D.Condition))
+      for (BasicBlock *Block : D.Blocks)
+        if (!OfWholeGroup.count(Block))
+          OfSome.insert(Block);
+  return OfSome.size() != Before;
+}
+
+} // namespace pocl
