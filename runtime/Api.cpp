@@ -78,7 +78,7 @@ Failure openDevice(std::span<const vx_option> Given, vx_device **Device) {
   DeviceOptions Options;
   if (Failure Failed = findOptions(Given, Options))
     return Failed;
-  isasim::Config Config;
+  isasim::Config Config = isasim::defaultMachine();
   if (Failure Failed = Options.machine(Config))
     return Failed;
   auto Machine = isasim::Machine::create(Config);

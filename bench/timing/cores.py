@@ -77,7 +77,7 @@ def assemble(folder, kernel, iterations):
 
 
 def cycles_of(program, preset, warps):
-    settings = (f"sockets_per_cluster=1,cores_per_socket=1,warps_per_core={warps},timing.core.preset={preset},"
+    settings = (f"machine=prototype-on-chip,sockets_per_cluster=1,cores_per_socket=1,warps_per_core={warps},timing.core.preset={preset},"
                 "timing.core.dcache_kib=16")
     report = program + ".json"
     subprocess.run(["vorion-sim", program, "--threads", "1", "--set", settings, "--time", "--stats", report],

@@ -272,7 +272,7 @@ Expected<Success> validate(const Config &C) {
                                Path, Ways, Lines, Kib),
                    ExitCode::Usage};
   // A test holds the default good, so that not every run reads its standard.
-  if (C.Timing.Dram != DramTiming())
+  if (C.Timing.Dram != defaultMachine().Timing.Dram)
     if (const auto Dram = setUpDram(C.Timing.Dram); !Dram)
       return Dram.error();
   // No overflow: each factor is at most MaxCores.
@@ -308,7 +308,7 @@ std::string configSchema() {
     return Object["properties"];
   };
   Describe(Schema);
-  const Config Default;
+  const Config &Default = defaultMachine();
   for (const Key &K : keys()) {
     Json *Properties = &Describe(Schema);
     std::string_view Rest = K.Path;
@@ -426,14 +426,21 @@ std::vector<std::string> changesOf(const Config &From, const Config &To) {
   return Changes;
 }
 
-Expected<Config> parseConfig(std::string_view Text, const std::string &Where) {
+Expected<Success> changeConfig(Config &C, std::string_view Text,
+                               const std::string &Where) {
   const auto Object = parseJson<Json>(
       Text, Where, "a configuration as --print-default-config writes it");
   if (!Object)
     return Object.error();
-  Config C;
   if (std::string Wrong = readObject(*Object, "", C); !Wrong.empty())
     return Error{Where, std::move(Wrong)};
+  return Success{};
+}
+
+Expected<Config> parseConfig(std::string_view Text, const std::string &Where) {
+  Config C = defaultMachine();
+  if (Expected<Success> Ok = changeConfig(C, Text, Where); !Ok)
+    return Ok.error();
   if (Expected<Success> Ok = validate(C); !Ok)
     return Error{Where, Ok.error().What};
   return C;

@@ -1,4 +1,4 @@
-#include "vorion/isasim/Config.h"
+#include "machine/MachineTexts.h"
 
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -38,6 +38,14 @@ TEST_P(EveryMachine, IsChosenByTheKeyAndByTheName) {
   EXPECT_EQ(toJson(ByKey), toJson(namedMachine(GetParam())));
 }
 
+TEST_P(EveryMachine, ItsFileSaysAllThatMachinesDifferIn) {
+  for (size_t Other = 0; Other != machineNames().size(); ++Other) {
+    Config C = namedMachine(Other);
+    ASSERT_TRUE(changeConfig(C, machineText(name()), name()));
+    EXPECT_EQ(toJson(C), toJson(namedMachine(GetParam())));
+  }
+}
+
 TEST_P(EveryMachine, ItsChangesMakeTheOther) {
   Config C = namedMachine(GetParam());
   ASSERT_TRUE(setValues(C, "timing.core.preset=vortex-2025,timing.l2.ways=5,"
@@ -56,7 +64,14 @@ TEST_P(EveryMachine, ItsChangesMakeTheOther) {
 }
 
 TEST(NamedMachines, TheFirstIsTheDefault) {
-  EXPECT_EQ(toJson(Config()), toJson(namedMachine(0)));
+  EXPECT_EQ(toJson(defaultMachine()), toJson(namedMachine(0)));
+  EXPECT_EQ(nameOf(defaultMachine()).Name, "prototype");
+  const auto Nothing = parseConfig("{}", "");
+  ASSERT_TRUE(Nothing);
+  EXPECT_EQ(toJson(*Nothing), toJson(defaultMachine()));
+}
+
+TEST(NamedMachines, ThePlainOneIsOnTheChip) {
   EXPECT_EQ(nameOf(Config()).Name, "prototype-on-chip");
 }
 
@@ -100,8 +115,9 @@ TEST(NamedMachines, AnUnknownNameIsOneLineWithTheKnownOnes) {
   ASSERT_FALSE(C);
   EXPECT_EQ(C.error().Where, "configuration");
   EXPECT_EQ(C.error().What,
-            "machine is 'protype', expected one of prototype-on-chip, "
-            "prototype, prototype-forwarding, scaled, scaled-forwarding");
+            "machine is 'protype', expected one of prototype, "
+            "prototype-forwarding, prototype-on-chip, scaled, "
+            "scaled-forwarding");
   EXPECT_FALSE(findMachine("./nonexistent"));
 }
 

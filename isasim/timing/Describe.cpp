@@ -25,7 +25,7 @@ std::string timingMarkdown() {
     Text += fmt::format("\n`timing.{}`: {}\n\n| parameter |", Group, What);
     for (unsigned N = 0; N != Sets; ++N)
       Text += fmt::format(
-          " {} |", Sets == 1 ? "default" : name(static_cast<CorePreset>(N)));
+          " {} |", Sets == 1 ? "`prototype-on-chip`" : name(static_cast<CorePreset>(N)));
     Text += " unit | source |\n|---|";
     for (unsigned N = 0; N != Sets; ++N)
       Text += "--:|";

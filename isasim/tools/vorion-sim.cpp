@@ -277,7 +277,7 @@ int runSaved(const Options &O, const KernelRequest &Request,
 }
 
 int run(const Options &O) {
-  const Expected<Config> C = makeConfig(O, Config());
+  const Expected<Config> C = makeConfig(O, defaultMachine());
   if (!C)
     return reportError(Tool, C.error());
   const Expected<KernelRequest> Request = makeRequest(O);
@@ -448,7 +448,7 @@ int mainOf(int Argc, char **Argv) {
     return 0;
   }
   if (O.PrintDefaultConfig) {
-    const Expected<Config> C = makeConfig(O, Config());
+    const Expected<Config> C = makeConfig(O, defaultMachine());
     if (!C)
       return reportError(Tool, C.error());
     printOut("{}", toJson(*C));

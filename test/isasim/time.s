@@ -6,9 +6,9 @@
 # RUN: sed -n '/begin of what is made/,/end of what is made/{//!p}' %S/../../docs/model.md > %t.kept
 # RUN: cmp %t.made %t.kept
 # RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
-# RUN: vorion-sim %t.elf --time --clock 100 --stats %t.json | FileCheck %s
+# RUN: vorion-sim %t.elf --time --config prototype-on-chip --clock 100 --stats %t.json | FileCheck %s
 # RUN: %python -c 'import json,sys; t = json.load(open(sys.argv[1]))["runs"][0]["time"]; assert t["cycles"] == 1049, t["cycles"]; assert t["clock_mhz"] == 100' %t.json
-# RUN: vorion-sim %t.elf --time --config prototype --set timing.l2.ways=4 | FileCheck %s --check-prefix=CHANGED
+# RUN: vorion-sim %t.elf --time --set timing.l2.ways=4 | FileCheck %s --check-prefix=CHANGED
 # RUN: not vorion-sim %t.elf --time --clock 0 2>&1 | FileCheck %s --check-prefix=WRONG
 # CHECK: cycles 1049 (0.010 ms at 100 MHz, clock version {{[0-9]+}})
 # CHECK-NEXT: machine prototype-on-chip{{$}}

@@ -104,7 +104,8 @@ LOOPS = {
 }
 CORES = ["add_independent", "add_dependent", "mul_dependent", "fma_dependent", "fma_independent", "mixed_units", "branch_taken",
          "split_join", "nested_splits", "local_conflict", "load_independent"]
-ONE = ["sockets_per_cluster=1", "cores_per_socket=1"]
+PLAIN = "machine=prototype-on-chip"
+ONE = [PLAIN, "sockets_per_cluster=1", "cores_per_socket=1"]
 
 
 def runs():
@@ -115,7 +116,7 @@ def runs():
         for loop in CORES:
             yield f"{loop} {preset}", loop, [*ONE, f"timing.core.preset={preset}"]
     for loop in ("stream", "stream_of_stores", "random", "rows"):
-        yield f"{loop} all-cores", loop, []
+        yield f"{loop} all-cores", loop, [PLAIN]
         for machine in ("prototype", "prototype-forwarding"):
             yield f"{loop} {machine}", loop, [f"machine={machine}"]
 
@@ -128,16 +129,15 @@ def simulate(build, folder, loop, settings):
         with open(path + ".s", "w", encoding="utf-8") as file:
             file.write(START.replace("COUNT", str(rounds)) + body + END)
         subprocess.run(["sh", ASSEMBLE, build, path + ".s", path + ".elf"], check=True)
-    options = ["--set", ",".join(settings)] if settings else []
     subprocess.run([os.path.join(build, "bin", "vorion-sim"), path + ".elf", "--threads", "1", "--time", "--stats", path + ".json",
-                    *options], check=True, stdout=subprocess.DEVNULL)
+                    "--set", ",".join(settings)], check=True, stdout=subprocess.DEVNULL)
     with open(path + ".json", encoding="utf-8") as file:
         time = json.load(file)["runs"][0]["time"]
     return time["cycles"], time["clock_version"]
 
 
-def frame(folder, kind, path, machine=""):
-    """The cycles of a frame of a small scene, on the default machine if none is named."""
+def frame(folder, kind, path, machine="prototype-on-chip"):
+    """The cycles of a frame of a small scene."""
     scene, cameras, report = (os.path.join(folder, kind + end) for end in (".ply", ".cameras.json", f".{path}.json"))
     subprocess.run([sys.executable, SCENE, kind, scene, cameras], check=True)
     subprocess.run(["splat", "render", scene, "--cameras", cameras, "--view", "front", "--path", path, "--time", "--json", report, "-o",

@@ -18,8 +18,9 @@ struct RasterConfig {
   unsigned QueueDepth = 4;
 };
 
-/// Everything that fixes a machine. The defaults are the machine
-/// `prototype-on-chip`: 2 sockets of 4 cores, 16 lanes, one warp a core.
+/// Everything that fixes a machine. The values here are those of the plain
+/// machine `prototype-on-chip`, of which the others are made: 2 sockets of 4
+/// cores, 16 lanes, one warp a core. Users begin with defaultMachine().
 /// \c HostThreads changes how fast a run is and nothing else.
 struct Config {
   unsigned Clusters = 1;
@@ -70,8 +71,8 @@ std::string configSchema();
 /// stands for a set of numbers ("timing.core.preset") sets all of them.
 Expected<Success> setValues(Config &C, std::string_view List);
 
-/// Reads what toJson writes. Missing keys keep their default, or what a name
-/// that stands for a set of numbers says; an unknown key,
+/// Reads what toJson writes. Missing keys are those of defaultMachine(), or
+/// what a name that stands for a set of numbers says; an unknown key,
 /// a wrong type or a value out of range is an error naming the key. \p Where
 /// is the file name for messages.
 Expected<Config> parseConfig(std::string_view Json, const std::string &Where);
@@ -81,6 +82,8 @@ Expected<Config> parseConfig(std::string_view Json, const std::string &Where);
 /// instructions, the quantum, host threads, and whether there is a clock.
 /// @{
 std::span<const std::string_view> machineNames();
+/// The first of machineNames(), which is meant where nobody names a machine.
+const Config &defaultMachine();
 /// The one of that place in machineNames().
 const Config &namedMachine(size_t Number);
 
