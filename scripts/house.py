@@ -31,7 +31,7 @@ EXCEPTIONS = {
 # Where #include "..." is looked for, besides the includer's own folder.
 INCLUDE_ROOTS = ("", "isasim", "isasim/include", "support/include", "runtime/include", "runtime", "llvm-backend/new",
                  "libdevice/include", "apps/splat", "reference", "runtime/pocl/new/include", "runtime/pocl/new/lib/CL/devices/vorion",
-                 "runtime/pocl/new/lib/llvmopencl")
+                 "runtime/pocl/new/lib/llvmopencl", "apps/samples/common")
 
 
 def sources():
