@@ -88,7 +88,8 @@ def check_all(chosen, seeds, check):
             for line in result["bad"]:
                 print(f"seed {result['seed']}: {line}", flush=True)
             if not chosen.quiet and number % 10 == 0:
-                print(f"{number + len(seeds) - len(running)} of {len(seeds)} seeds, {time.monotonic() - start:.0f} s", file=sys.stderr)
+                print(f"{number + len(seeds) - len(running)} of {len(seeds)} seeds, {bad} bad, {time.monotonic() - start:.0f} s",
+                      file=sys.stderr)
     return counts, bad, f"{spent:.0f} s of processor time"
 
 
