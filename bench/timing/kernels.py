@@ -69,7 +69,7 @@ def image_of(program):
 
 def ours(program, machine):
     """(cycles, hash of the result) of a program on our machine."""
-    settings = (f"sockets_per_cluster=1,cores_per_socket=1,warps_per_core={machine['warps']},"
+    settings = (f"machine=prototype-on-chip,sockets_per_cluster=1,cores_per_socket=1,warps_per_core={machine['warps']},"
                 f"timing.core.preset={machine['preset']},timing.core.dcache_kib=16,timing.socket.icache_kib=16,"
                 f"timing.core.interleaved_stacks=0,timing.l2.fixed_cycles={machine['fixed_cycles']}")
     report, result = program + ".json", program + ".result"

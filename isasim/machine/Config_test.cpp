@@ -45,7 +45,7 @@ TEST(Config, MissingKeysKeepTheirDefault) {
 }
 
 TEST(Config, APresetIsASetOfNumbersThatSingleKeysChange) {
-  Config C;
+  Config C = defaultMachine();
   ASSERT_TRUE(setValues(C, "timing.core.fetch_interval=9,"
                            "timing.core.preset=vortex-2025,"
                            "timing.core.branch_cycles=7"));

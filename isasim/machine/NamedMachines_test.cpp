@@ -114,10 +114,9 @@ TEST(NamedMachines, AnUnknownNameIsOneLineWithTheKnownOnes) {
   const auto C = parseConfig(Found->Json, Found->Where);
   ASSERT_FALSE(C);
   EXPECT_EQ(C.error().Where, "configuration");
-  EXPECT_EQ(C.error().What,
-            "machine is 'protype', expected one of prototype, "
-            "prototype-forwarding, prototype-on-chip, scaled, "
-            "scaled-forwarding");
+  EXPECT_EQ(C.error().What, "machine is 'protype', expected one of prototype, "
+                            "prototype-forwarding, prototype-on-chip, scaled, "
+                            "scaled-forwarding");
   EXPECT_FALSE(findMachine("./nonexistent"));
 }
 

@@ -24,8 +24,9 @@ std::string timingMarkdown() {
     const unsigned Sets = Group == "core" ? unsigned(CorePreset::Count) : 1;
     Text += fmt::format("\n`timing.{}`: {}\n\n| parameter |", Group, What);
     for (unsigned N = 0; N != Sets; ++N)
-      Text += fmt::format(
-          " {} |", Sets == 1 ? "`prototype-on-chip`" : name(static_cast<CorePreset>(N)));
+      Text +=
+          fmt::format(" {} |", Sets == 1 ? "`prototype-on-chip`"
+                                         : name(static_cast<CorePreset>(N)));
     Text += " unit | source |\n|---|";
     for (unsigned N = 0; N != Sets; ++N)
       Text += "--:|";
