@@ -122,6 +122,18 @@ kernel void merged_tails(global uint *out, local uint *t, uint k) {
   out[get_group_id(0) * n + l] = z + a[l & 3] * 5 + t[(l + 1) % n];
 }
 
+// A private variable is written through a pointer that lies in memory.
+kernel void captured_private(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, x = k, y = n, *places[2] = {&x, &y};
+  *places[l * 7 / 3 & 1] = l + 5;
+  uint v = x, w = y;
+  t[l] = l;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  uint o = t[(l + 1) % n];
+  barrier(CLK_LOCAL_MEM_FENCE);
+  out[get_group_id(0) * n + l] = o + v * 3 + w * 5;
+}
+
 // A loop with barriers in another, ahead of them one without.
 kernel void nested_loops(global uint *out, local uint *t, uint k) {
   uint l = ITEM, n = ITEMS, v = l * 3, w = l;
@@ -324,6 +336,16 @@ Values mergedTails(U N, U Group) {
   return Out;
 }
 
+Values capturedPrivate(U N, U) {
+  Values Out(N);
+  for (U L = 0; L < N; ++L) {
+    U Places[2] = {Rounds, N};
+    Places[L * 7 / 3 & 1] = L + 5;
+    Out[L] = (L + 1) % N + Places[0] * 3 + Places[1] * 5;
+  }
+  return Out;
+}
+
 Values nestedLoops(U N, U) {
   Values V(N), W(N), T(N);
   for (U L = 0; L < N; ++L) {
@@ -462,6 +484,7 @@ const Kernel Kernels[] = {{"straight", straight},
                           {"conditional", conditional},
                           {"branch_after_barrier", branchAfterBarrier},
                           {"merged_tails", mergedTails},
+                          {"captured_private", capturedPrivate},
                           {"nested_loops", nestedLoops},
                           {"endless_if_reached", endlessIfReached},
                           {"conditional_in_loop", conditionalInLoop},
