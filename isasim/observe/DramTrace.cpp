@@ -1,10 +1,10 @@
 /// `--dram-trace`: what DRAM was asked for and what its controllers did, for
 /// other people's models (docs/debugging.md).
 
-#include "observe/GrowingFile.h"
 #include "observe/Tool.h"
 #include "timing/TimeObserver.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/support/GrowingFile.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,10 +1,10 @@
 /// `--tiles`: what each command of the rasterizers was, and how long it took.
 
-#include "observe/GrowingFile.h"
 #include "observe/Tool.h"
 #include "raster/WorkLog.h"
 #include "timing/TimeObserver.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/support/GrowingFile.h"
 #include "vorion/support/Json.h"
 
 #include <nlohmann/json.hpp>

@@ -3,10 +3,10 @@
 #include "core/Core.h"
 #include "machine/Report.h"
 #include "observe/CycleTimeline.h"
-#include "observe/GrowingFile.h"
 #include "observe/Tool.h"
 #include "raster/WorkLog.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/support/GrowingFile.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -4,11 +4,11 @@
 #include "core/Isa.h"
 #include "machine/Report.h"
 #include "observe/CodeText.h"
-#include "observe/GrowingFile.h"
 #include "observe/NameList.h"
 #include "observe/Tool.h"
 #include "raster/WorkLog.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/support/GrowingFile.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "observe/TraceEvents.h"
 
-#include "observe/GrowingFile.h"
+#include "vorion/support/GrowingFile.h"
 #include "vorion/support/Json.h"
 
 #include <fmt/format.h>

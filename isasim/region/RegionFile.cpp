@@ -3,9 +3,6 @@
 #include "machine/ByteStream.h"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -183,16 +180,14 @@ Expected<RegionWriter> RegionWriter::create(const std::string &Path,
                  "a region cannot be saved where a rasterizer still has a "
                  "command of an earlier launch, expected another beginning",
                  ExitCode::Usage};
-  std::FILE *F = std::fopen(Path.c_str(), "wb");
-  if (!F)
-    return Error{Path, std::string("cannot write: ") + std::strerror(errno) +
-                           ", expected a folder that can be written"};
+  Expected<GrowingFile> File = GrowingFile::open(Path);
+  if (!File)
+    return File.error();
   Expected<MemoryChanges> Memory = MemoryChanges::of(M);
-  if (!Memory) {
-    std::fclose(F);
+  if (!Memory)
     return Memory.error();
-  }
-  RegionWriter W(Path, F, std::move(*Memory));
+  RegionWriter W(std::move(*File), std::move(*Memory));
+  std::FILE *F = W.File.stream();
   static_cast<void>(std::fwrite(Magic.data(), 1, Magic.size(), F));
   static_cast<void>(std::fwrite(&W.Bytes, sizeof(W.Bytes), 1, F));
   ByteWriter Record;
@@ -204,21 +199,22 @@ Expected<RegionWriter> RegionWriter::create(const std::string &Path,
 
 void RegionWriter::append(uint64_t Kind, std::span<const std::byte> Record) {
   const RecordHead Head{Kind, Record.size(), sumOf(Record)};
-  static_cast<void>(std::fwrite(&Head, sizeof(Head), 1, Stream.get()));
-  static_cast<void>(std::fwrite(Record.data(), 1, Record.size(), Stream.get()));
+  static_cast<void>(std::fwrite(&Head, sizeof(Head), 1, File.stream()));
+  static_cast<void>(
+      std::fwrite(Record.data(), 1, Record.size(), File.stream()));
   Bytes += sizeof(Head) + Record.size();
 }
 
 Expected<Success> RegionWriter::complete() {
-  std::FILE *F = Stream.get();
-  const bool Written =
+  constexpr std::string_view What = "the region's memory";
+  std::FILE *F = File.stream();
+  const bool HasSize =
       std::fseek(F, static_cast<long>(Magic.size()), SEEK_SET) == 0 &&
       std::fwrite(&Bytes, sizeof(Bytes), 1, F) == 1 &&
-      std::fseek(F, 0, SEEK_END) == 0 && std::fflush(F) == 0 && !std::ferror(F);
-  if (Written)
-    return Success{};
-  return Error{Path, "cannot write all of it, expected room for the region's "
-                     "memory"};
+      std::fseek(F, 0, SEEK_END) == 0;
+  if (!HasSize)
+    return File.incomplete(What);
+  return File.complete(What);
 }
 
 void RegionWriter::begin(const Machine &M, const std::string &Name,
@@ -227,8 +223,8 @@ void RegionWriter::begin(const Machine &M, const std::string &Name,
   if (Known == Images.end()) {
     ByteWriter Record;
     Record.text(M.image()->name());
-    const auto File = M.image()->file();
-    Record.list(std::vector(File.begin(), File.end()));
+    const auto Elf = M.image()->file();
+    Record.list(std::vector(Elf.begin(), Elf.end()));
     append(OfImage, Record.bytes());
     Images.push_back(M.image());
     Known = std::prev(Images.end());

@@ -6,8 +6,8 @@
 #include "vorion/isasim/Config.h"
 #include "vorion/isasim/Image.h"
 #include "vorion/support/Expected.h"
+#include "vorion/support/GrowingFile.h"
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,16 +65,12 @@ public:
   Expected<Success> end();
 
 private:
-  struct Closer {
-    void operator()(std::FILE *F) const { std::fclose(F); }
-  };
-  RegionWriter(std::string PathIn, std::FILE *F, MemoryChanges MemoryIn)
-      : Path(std::move(PathIn)), Stream(F), Memory(std::move(MemoryIn)) {}
+  RegionWriter(GrowingFile FileIn, MemoryChanges MemoryIn)
+      : File(std::move(FileIn)), Memory(std::move(MemoryIn)) {}
   void append(uint64_t Kind, std::span<const std::byte> Record);
   Expected<Success> complete();
 
-  std::string Path;
-  std::unique_ptr<std::FILE, Closer> Stream;
+  GrowingFile File;
   uint64_t Bytes = 0; ///< behind the file's head
   MemoryChanges Memory;
   std::vector<std::shared_ptr<const Image>> Images; ///< in the file

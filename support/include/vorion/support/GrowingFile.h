@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
-namespace vorion::isasim {
+namespace vorion {
 
 /// Is not written aside: a reader may follow it, and what was written before a
 /// crash is what it is read for.
@@ -18,8 +19,9 @@ public:
   static Expected<GrowingFile> open(const std::string &Path);
 
   std::FILE *stream() const { return Stream.get(); }
-  /// An error if it lacks some of what was written to it.
-  Expected<Success> complete() const;
+  /// An error if it lacks some of what was written to it, which \p What names.
+  Expected<Success> complete(std::string_view What = "what is observed") const;
+  Error incomplete(std::string_view What) const;
 
 private:
   struct Closer {
@@ -41,4 +43,4 @@ void append(std::FILE *To, fmt::format_string<Values...> Format,
   static_cast<void>(std::fwrite(Text.data(), 1, Text.size(), To));
 }
 
-} // namespace vorion::isasim
+} // namespace vorion

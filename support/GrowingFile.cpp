@@ -1,9 +1,9 @@
-#include "observe/GrowingFile.h"
+#include "vorion/support/GrowingFile.h"
 
 #include <cerrno>
 #include <cstring>
 
-namespace vorion::isasim {
+namespace vorion {
 
 Expected<GrowingFile> GrowingFile::open(const std::string &Path) {
   std::FILE *F = std::fopen(Path.c_str(), "wb");
@@ -13,11 +13,15 @@ Expected<GrowingFile> GrowingFile::open(const std::string &Path) {
   return GrowingFile(Path, F);
 }
 
-Expected<Success> GrowingFile::complete() const {
+Expected<Success> GrowingFile::complete(std::string_view What) const {
   if (std::fflush(Stream.get()) == 0 && !std::ferror(Stream.get()))
     return Success{};
-  return Error{Path, "cannot write all of it, expected room for what is "
-                     "observed"};
+  return incomplete(What);
 }
 
-} // namespace vorion::isasim
+Error GrowingFile::incomplete(std::string_view What) const {
+  return {Path,
+          fmt::format("cannot write all of it, expected room for {}", What)};
+}
+
+} // namespace vorion
