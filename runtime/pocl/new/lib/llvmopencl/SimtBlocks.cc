@@ -3,8 +3,9 @@
 #include "SimtBlocks.h"
 
 #include "Barrier.h"
-#include "SimtSlots.h"
 
+#include <llvm/ADT/PostOrderIterator.h>
+#include <llvm/Analysis/CFG.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/Analysis/PostDominators.h>
 #include <llvm/IR/CFG.h>
@@ -28,6 +29,11 @@ BlockSet nextBarriers(BasicBlock *From, const BasicBlock *Without) {
           Pending.push_back(Next);
   }
   return Found;
+}
+
+bool hasIrreducibleLoops(const Function &F, const LoopInfo &Loops) {
+  const ReversePostOrderTraversal<const Function *> Blocks(&F);
+  return containsIrreducibleCFG<const BasicBlock *>(Blocks, Loops);
 }
 
 /// Blocks that run as often as one with a barrier: with the whole group.

@@ -25,6 +25,10 @@ using BlockSet = llvm::SmallPtrSet<llvm::BasicBlock *, 16>;
 BlockSet nextBarriers(llvm::BasicBlock *From,
                       const llvm::BasicBlock *Without = nullptr);
 
+/// Without irreducible loops, a block that dominates another in the same
+/// innermost loop and that the other post-dominates runs as often as that one.
+bool hasIrreducibleLoops(const llvm::Function &F, const llvm::LoopInfo &Loops);
+
 /// Which blocks of a kernel single work-items may pass, or pass more often than
 /// others: those that depend on a branch at which work-items part. Whether a
 /// branch is such a one depends on variables, and what these keep on the blocks

@@ -2,10 +2,8 @@
 
 #include "SimtSlots.h"
 
-#include "SimtWorkitems.h"
+#include "SimtBlocks.h"
 
-#include <llvm/ADT/PostOrderIterator.h>
-#include <llvm/Analysis/CFG.h>
 #include <llvm/Analysis/LoopInfo.h>
 #include <llvm/Analysis/PostDominators.h>
 #include <llvm/IR/CFG.h>
@@ -13,6 +11,7 @@
 #include <llvm/IR/Instructions.h>
 
 #include <set>
+#include <vector>
 
 using namespace llvm;
 
@@ -112,11 +111,6 @@ void writeEarly(AllocaInst &Slot, const DominatorTree &Dominators,
 }
 
 } // namespace
-
-bool hasIrreducibleLoops(const Function &F, const LoopInfo &Loops) {
-  const ReversePostOrderTraversal<const Function *> Blocks(&F);
-  return containsIrreducibleCFG<const BasicBlock *>(Blocks, Loops);
-}
 
 void shortenSlots(Function &F, LoopInfo &Loops, const ShareRegion &Share,
                   const std::function<bool(AllocaInst *)> &IsKept) {

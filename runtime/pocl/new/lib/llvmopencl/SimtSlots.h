@@ -11,7 +11,6 @@
 #define POCL_SIMT_SLOTS_H
 
 #include <functional>
-#include <vector>
 
 namespace llvm {
 class AllocaInst;
@@ -35,10 +34,6 @@ void shortenSlots(llvm::Function &F, llvm::LoopInfo &Loops,
 /// Whether no region both reads and writes \p Slot: if its values are the same
 /// for the whole group, passes over the group can then share it.
 bool readsApartFromWrites(llvm::AllocaInst *Slot, const ShareRegion &Share);
-
-/// Without irreducible loops, a block that dominates another in the same
-/// innermost loop and that the other post-dominates runs as often as that one.
-bool hasIrreducibleLoops(const llvm::Function &F, const llvm::LoopInfo &Loops);
 
 } // namespace pocl
 
