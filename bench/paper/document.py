@@ -4,6 +4,7 @@ import os
 
 import claims
 import joint
+import writing
 from verdicts import DEPENDS, HOLDS, IF, NOT, NOT_COMPARABLE
 
 HEAD = f"""# The paper's results, measured here
@@ -83,8 +84,8 @@ def _page(name, module, data, rows, images):
     if data.get("left_out"):
         out += [f"*Not measured: {', '.join(data['left_out'])}.*", ""]
     if rows:
-        out += ["Commands are for the root of the repository, after `. scripts/env.sh`; each is of the view that has the most, or",
-                "of the one that decides.", "", *_details(rows)]
+        out += ["Commands are for the root of the repository, after `. scripts/env.sh`; each is of the view that has the most, "
+                "or of the one that decides.", "", *_details(rows)]
     out += module.text(data)
     for title, svg in module.charts(data).items():
         os.makedirs(images, exist_ok=True)
@@ -100,7 +101,7 @@ def _write(file, text):
 
 
 def _lines(lines):
-    return "\n".join(lines).rstrip("\n") + "\n"
+    return "\n".join(writing.wrapped("\n".join(lines).split("\n"))).rstrip("\n") + "\n"
 
 
 def write(file, sections):

@@ -1,8 +1,10 @@
 """Markdown tables and charts."""
 
 import math
+import textwrap
 from html import escape
 
+WIDEST = 100  # columns of a line of prose
 WIDTH, HEIGHT = 760, 440
 LEFT, RIGHT, TOP, BOTTOM = 70, 745, 76, 350
 # Okabe and Ito's colours, which the colour-blind can tell apart; as apps/splat/analyze/Chart.cpp draws.
@@ -21,6 +23,20 @@ def table(heads, rows):
 def paragraph(text):
     """One line of Markdown from a text that is broken into lines."""
     return " ".join(text.split())
+
+
+def wrapped(lines):
+    """The lines, with prose of more than WIDEST columns broken; tables, commands and headings stay."""
+    out, code = [], False
+    for line in lines:
+        code ^= line.startswith("```")
+        begin = line[:len(line) - len(line.lstrip(" -"))]
+        if code or len(line) <= WIDEST or line.strip().startswith(("|", "#", "!", "`")):
+            out.append(line)
+        else:
+            out += textwrap.wrap(line[len(begin):], WIDEST, initial_indent=begin, subsequent_indent=" " * len(begin),
+                                 break_long_words=False, break_on_hyphens=False)
+    return out
 
 
 def mega(cycles):

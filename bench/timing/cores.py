@@ -76,11 +76,12 @@ def assemble(folder, kernel, iterations):
     return stem + ".elf"
 
 
-def cycles_of(program, preset, warps):
-    settings = (f"machine=prototype-on-chip,sockets_per_cluster=1,cores_per_socket=1,warps_per_core={warps},timing.core.preset={preset},"
-                "timing.core.dcache_kib=16")
+def cycles_of(program, preset, warps, changes=(), options=()):
+    """On one core of a preset with a data cache, as the RTLs have, and what else is changed."""
+    settings = ("machine=prototype-on-chip", "sockets_per_cluster=1", "cores_per_socket=1", f"warps_per_core={warps}",
+                f"timing.core.preset={preset}", "timing.core.dcache_kib=16", *changes)
     report = program + ".json"
-    subprocess.run(["vorion-sim", program, "--threads", "1", "--set", settings, "--time", "--stats", report],
+    subprocess.run(["vorion-sim", program, "--threads", "1", "--set", ",".join(settings), "--time", "--stats", report, *options],
                    check=True, stdout=subprocess.DEVNULL)
     with open(report) as file:
         return json.load(file)["runs"][0]["time"]["cycles"]

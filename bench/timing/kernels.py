@@ -21,6 +21,8 @@ import subprocess
 import sys
 import tempfile
 
+import cores
+
 HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "kernels")
 OF_ONE, OF_ALL = 0.15, 0.05
 # What both machines have: the extensions that Vortex knows, too.
@@ -69,16 +71,12 @@ def image_of(program):
 
 def ours(program, machine):
     """(cycles, hash of the result) of a program on our machine."""
-    settings = (f"machine=prototype-on-chip,sockets_per_cluster=1,cores_per_socket=1,warps_per_core={machine['warps']},"
-                f"timing.core.preset={machine['preset']},timing.core.dcache_kib=16,timing.socket.icache_kib=16,"
-                f"timing.core.interleaved_stacks=0,timing.l2.fixed_cycles={machine['fixed_cycles']}")
-    report, result = program + ".json", program + ".result"
-    subprocess.run(["vorion-sim", program, "--threads", "1", "--set", settings, "--time", "--stats", report,
-                    "--signature", result], check=True, stdout=subprocess.DEVNULL)
+    changes = ("timing.socket.icache_kib=16", "timing.core.interleaved_stacks=0",
+               f"timing.l2.fixed_cycles={machine['fixed_cycles']}")
+    result = program + ".result"
+    cycles = cores.cycles_of(program, machine["preset"], machine["warps"], changes, ("--signature", result))
     with open(result) as file:
-        words = b"".join(struct.pack("<I", int(line, 16)) for line in file)
-    with open(report) as file:
-        return json.load(file)["runs"][0]["time"]["cycles"], hash_of(words)
+        return cycles, hash_of(b"".join(struct.pack("<I", int(line, 16)) for line in file))
 
 
 def table(machine, programs):
