@@ -41,12 +41,13 @@ static uint stuck(uint word) {
 
 
 class Kernel:
-    """One kernel; `required` is a group size it is compiled for, or None."""
+    """One kernel; `required` is a group size it is compiled for, or None; `jumps`: with agreed jumps in parting conditionals."""
 
-    def __init__(self, rand, name, required):
+    def __init__(self, rand, name, required, jumps):
         self.random = rand
         self.name = name
         self.required = required
+        self.jumps = jumps
         self.names = 0
         self.weight = 1
         self.counters = []
@@ -154,8 +155,30 @@ class Kernel:
         return (f"kept[l % 16][0] = 0; barrier(CLK_LOCAL_MEM_FENCE); if (l < 16) kept[l][0] = {self.value(1)}; "
                 f"barrier(CLK_LOCAL_MEM_FENCE); {to} += kept[({self.value(2)}) % (n < 16 ? n : 16u)][0] + kept[l % 16][0];\n  barrier(CLK_LOCAL_MEM_FENCE);")
 
+    def parted_jump(self, loop):
+        """A conditional at which work-items part, with a jump that all of a group take or none, on each side or, for none, on one."""
+        jump = self.pick(["break;", "continue;", "goto done;"]) if loop else "goto done;"
+
+        def side(condition):
+            return f"{{ {self.own_block(1, False)} if ({condition}) {jump} {self.own_block(1, False) if self.chance(0.6) else ''} }}"
+        if self.chance(0.3):
+            return f"if ({self.condition()}) {side('k > 1000u')}"
+        all_or_none, agreed = self.fresh("all"), self.agreed()
+        sides = [side(all_or_none), side(all_or_none)]
+        if self.chance(0.3):
+            sides[self.random.randint(0, 1)] = f"if ({self.condition()}) {side(all_or_none)} else {side(all_or_none)}"
+        return f"{{ uint {all_or_none} = {agreed};\n  if ({self.condition()}) {sides[0]}\n  else {sides[1]} }}"
+
+    def retry(self):
+        """A loop with barriers that begins with one that work-items go round apart; LLVM gives both one head."""
+        i, bound = self.fresh("i"), self.pick(["3u", "(k & 3u)", "2u"])
+        return (f"{{ uint {i} = 0; do {{ do {{ x = x * 1664525u + 1013904223u; w++; }} while (x >> 29 != 5u);\n"
+                f"  {self.meeting()} }} while (++{i} < {bound}); }}")
+
     def together(self, depth, loop=False):
         """A statement that all work-items of a group come to."""
+        if self.jumps and self.chance(0.15):
+            return self.retry() if self.chance(0.2) else self.parted_jump(loop)
         kind = self.random.random()
         if kind < 0.34:
             return self.own()
@@ -210,12 +233,12 @@ class Kernel:
 class Program:
     """Kernels for any group size, and the same with the sizes that they are compiled for."""
 
-    def __init__(self, seed, kernels):
+    def __init__(self, seed, kernels, jumps):
         self.random = random.Random(seed)
         self.argument = self.random.randint(0, 40)
         self.input = [self.random.getrandbits(32) >> self.random.choice([0, 0, 28]) for _ in range(IN_WORDS)]
         required = [None] * (kernels - 2) + [7, 16]
-        self.kernels = [Kernel(self.random, f"k{number}", size) for number, size in enumerate(required)]
+        self.kernels = [Kernel(self.random, f"k{number}", size, jumps) for number, size in enumerate(required)]
         self.text = PROLOGUE + "".join(kernel.source() for kernel in self.kernels)
 
     def runs(self):

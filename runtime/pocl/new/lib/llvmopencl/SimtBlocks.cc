@@ -62,8 +62,7 @@ blocksOfWholeGroup(Function &F, LoopInfo &Loops,
   return Found;
 }
 
-/// What decides where \p Block goes on; null if nothing does.
-static Value *conditionOf(BasicBlock &Block) {
+Value *decidingValue(BasicBlock &Block) {
   if (auto *Branch = dyn_cast<BranchInst>(Block.getTerminator()))
     return Branch->isConditional() ? Branch->getCondition() : nullptr;
   if (auto *Switch = dyn_cast<SwitchInst>(Block.getTerminator()))
@@ -79,7 +78,7 @@ SimtBlocks::SimtBlocks(Function &F, LoopInfo &Loops,
   // in optimization" (1987): what post-dominates a successor of a branch, but
   // not the branch. A loop depends on its exits, its header included.
   for (BasicBlock &Block : F) {
-    Value *Condition = conditionOf(Block);
+    Value *Condition = decidingValue(Block);
     const auto *Branch = PostDominators.getNode(&Block);
     if (!Condition || !Branch)
       continue;

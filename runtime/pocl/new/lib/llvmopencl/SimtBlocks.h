@@ -25,6 +25,9 @@ using BlockSet = llvm::SmallPtrSet<llvm::BasicBlock *, 16>;
 BlockSet nextBarriers(llvm::BasicBlock *From,
                       const llvm::BasicBlock *Without = nullptr);
 
+/// What decides where \p Block goes on; null if nothing does.
+llvm::Value *decidingValue(llvm::BasicBlock &Block);
+
 /// Without irreducible loops, a block that dominates another in the same
 /// innermost loop and that the other post-dominates runs as often as that one.
 bool hasIrreducibleLoops(const llvm::Function &F, const llvm::LoopInfo &Loops);

@@ -196,11 +196,7 @@ SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
   Uniformity.runOnFunction(F, Loops, PostDominators);
   for (BasicBlock &Block : F) {
     const Instruction *Terminator = Block.getTerminator();
-    Value *Condition = nullptr;
-    if (const auto *Branch = dyn_cast<BranchInst>(Terminator))
-      Condition = Branch->isConditional() ? Branch->getCondition() : nullptr;
-    else if (const auto *Switch = dyn_cast<SwitchInst>(Terminator))
-      Condition = Switch->getCondition();
+    Value *Condition = decidingValue(Block);
     if (!Condition)
       continue;
     bool Leaves = false;

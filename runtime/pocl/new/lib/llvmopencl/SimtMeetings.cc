@@ -1,0 +1,258 @@
+#include "SimtMeetings.h"
+
+#include "Barrier.h"
+#include "LLVMUtils.h"
+#include "SimtBlocks.h"
+#include "SimtWorkitems.h"
+#include "VariableUniformityAnalysisResult.hh"
+#include "Workgroup.h"
+#include "WorkitemHandlerChooser.h"
+
+#include <llvm/ADT/MapVector.h>
+#include <llvm/ADT/PostOrderIterator.h>
+#include <llvm/ADT/SetVector.h>
+#include <llvm/Analysis/LoopInfo.h>
+#include <llvm/Analysis/PostDominators.h>
+#include <llvm/IR/CFG.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/Transforms/Utils/Local.h>
+
+using namespace llvm;
+
+namespace pocl {
+
+namespace {
+
+using BlockList = SmallSetVector<BasicBlock *, 16>;
+/// Where edges lead, and the blocks from which they come.
+using Ways = MapVector<BasicBlock *, BlockList>;
+
+/// What is computed in the blocks and used elsewhere, and what is chosen where
+/// the ways end, goes through memory: values no longer reach these places on
+/// one way. Optimisations undo it where they can.
+void keepInMemory(ArrayRef<BasicBlock *> Blocks, ArrayRef<BasicBlock *> Ends) {
+  for (BasicBlock *End : Ends)
+    while (auto *Phi = dyn_cast<PHINode>(&End->front()))
+      DemotePHIToStack(Phi);
+  SmallVector<Instruction *, 16> Leaving;
+  for (BasicBlock *Block : Blocks)
+    for (Instruction &I : *Block)
+      if (!isa<AllocaInst>(I) && I.isUsedOutsideOfBlock(Block))
+        Leaving.push_back(&I);
+  for (Instruction *I : Leaving)
+    DemoteRegToStack(*I);
+}
+
+//===----------------------------------------------------------------------===//
+// One place to meet behind a conditional
+//===----------------------------------------------------------------------===//
+
+/// Where the lanes that part at the branch meet; null if nowhere. Of a group
+/// with loops over its work-items the return is no such place: it ends a region
+/// as a barrier does, and the group must agree which of them ends it.
+BasicBlock *meetingPlace(BasicBlock &Branch, const PostDominatorTree &After) {
+  const auto *Node = After.getNode(&Branch);
+  BasicBlock *Place =
+      Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
+  const bool HasLoops = !fitsOneWarp(*Branch.getModule());
+  return Place && HasLoops && succ_empty(Place) ? nullptr : Place;
+}
+
+/// Whether lanes that part at the branch may come to one end of a region before
+/// they meet, although there is another to which they might come.
+bool mayMeetTooLate(BasicBlock &Branch, const BasicBlock *Meeting) {
+  BlockSet Reached;
+  bool Again = false;
+  for (BasicBlock *Next : BlockSet(succ_begin(&Branch), succ_end(&Branch)))
+    if (Next != Meeting)
+      for (BasicBlock *End : nextBarriers(Next, Meeting))
+        Again |= !Reached.insert(End).second;
+  return Again && (Meeting || Reached.size() > 1);
+}
+
+/// The blocks that only lanes pass that were at the branch, from there up to
+/// barriers, returns and the meeting place. The branch's own is the first.
+BlockList blocksBehind(BasicBlock &Branch, const BasicBlock *Meeting,
+                       const DominatorTree &Dominators) {
+  BlockList Found;
+  Found.insert(&Branch);
+  for (size_t N = 0; N != Found.size(); ++N)
+    for (BasicBlock *Next : successors(Found[N]))
+      if (Next != Meeting && !succ_empty(Next) && !Barrier::hasBarrier(Next) &&
+          Dominators.dominates(&Branch, Next))
+        Found.insert(Next);
+  return Found;
+}
+
+Ways waysOutOf(const BlockList &Blocks) {
+  Ways Found;
+  for (BasicBlock *Block : Blocks)
+    for (BasicBlock *Next : successors(Block))
+      // The branch's own block may be a barrier's, to which they come again.
+      if (!Blocks.contains(Next) || Barrier::hasBarrier(Next))
+        Found[Next].insert(Block);
+  return Found;
+}
+
+/// Whether the group agrees which of the ways it takes. It does if they lead to
+/// barriers, which all or none reach, and one to where all meet otherwise; \p L
+/// is the branch's innermost loop. One with a barrier is left by all or none,
+/// so one way more may lead to its next round.
+bool agreesOn(const Ways &Out, const BasicBlock *Meeting, const Loop *L) {
+  if (L && none_of(L->blocks(), Barrier::hasBarrier))
+    L = nullptr;
+  unsigned ToMeeting = 0, ToNextRound = 0;
+  for (const auto &Way : Out) {
+    BasicBlock *End = Way.first;
+    if (Barrier::hasBarrier(End))
+      continue;
+    if (End == Meeting || succ_empty(End))
+      ++ToMeeting;
+    else if (L && L->contains(End) && !(Meeting && L->contains(Meeting)))
+      ++ToNextRound;
+    else
+      return false;
+  }
+  return ToMeeting <= 1 && ToNextRound <= 1;
+}
+
+/// Leads all ways through one block. What it decides by is not seen through, or
+/// the optimiser would lead them past it again.
+BasicBlock *leadThroughOneBlock(const Ways &Out) {
+  Function &F = *Out.front().first->getParent();
+  auto *Meeting = BasicBlock::Create(F.getContext(), "meeting", &F);
+  IRBuilder<> Builder(Meeting);
+  PHINode *Way = Builder.CreatePHI(Builder.getInt32Ty(), Out.size(), "way");
+  SwitchInst *Decision = Builder.CreateSwitch(createUniform(Builder, Way),
+                                              Out.front().first, Out.size());
+  for (const auto &[End, Sources] : Out) {
+    auto *Edge = BasicBlock::Create(F.getContext(), "way", &F, Meeting);
+    BranchInst::Create(Meeting, Edge);
+    ConstantInt *Number = Builder.getInt32(Way->getNumIncomingValues());
+    Way->addIncoming(Number, Edge);
+    if (End != Decision->getDefaultDest())
+      Decision->addCase(Number, End);
+    for (BasicBlock *Source : Sources)
+      Source->getTerminator()->replaceSuccessorWith(End, Edge);
+  }
+  return Meeting;
+}
+
+/// Mends the first branch whose lanes would meet too late; outer ones are
+/// before inner ones. False if there is none that is not in \p Known, which
+/// grows: behind a branch from which a loop without end is reached there is no
+/// place where all lanes meet.
+bool meetBeforeBarrier(Function &F, BlockSet &Known) {
+  const DominatorTree Dominators(F);
+  PostDominatorTree After(F);
+  LoopInfo Loops(Dominators);
+  VariableUniformityAnalysisResult Uniformity;
+  Uniformity.runOnFunction(F, Loops, After);
+  const ReversePostOrderTraversal<Function *> Order(&F);
+  for (BasicBlock *Branch : Order) {
+    Value *Condition = decidingValue(*Branch);
+    if (!Condition || Uniformity.isUniform(&F, Condition))
+      continue;
+    BasicBlock *Meeting = meetingPlace(*Branch, After);
+    if (!mayMeetTooLate(*Branch, Meeting) || !Known.insert(Branch).second)
+      continue;
+    const BlockList Behind = blocksBehind(*Branch, Meeting, Dominators);
+    const Ways Out = waysOutOf(Behind);
+    if (!agreesOn(Out, Meeting, Loops.getLoopFor(Branch)))
+      continue;
+    SmallVector<BasicBlock *, 4> Ends;
+    for (const auto &Way : Out)
+      Ends.push_back(Way.first);
+    // What the branch's own block computes still reaches every place.
+    keepInMemory(Behind.getArrayRef().drop_front(), Ends);
+    Known.insert(leadThroughOneBlock(Out));
+    return true;
+  }
+  return false;
+}
+
+//===----------------------------------------------------------------------===//
+// A head for each loop
+//===----------------------------------------------------------------------===//
+
+/// Whether a block of the loop is reached from its head without a barrier.
+bool isReachedWithoutBarrier(BasicBlock *Block, const Loop &L) {
+  BlockSet Seen{L.getHeader()};
+  SmallVector<BasicBlock *, 16> Pending{L.getHeader()};
+  while (!Pending.empty()) {
+    BasicBlock *Reached = Pending.pop_back_val();
+    if (Barrier::hasBarrier(Reached))
+      continue;
+    if (Reached == Block)
+      return true;
+    for (BasicBlock *Next : successors(Reached))
+      if (L.contains(Next) && Seen.insert(Next).second)
+        Pending.push_back(Next);
+  }
+  return false;
+}
+
+/// The block with nothing in it through which all ways of a loop go back, if
+/// it has several; else null.
+BasicBlock *commonLatch(const Loop &L) {
+  BasicBlock *Latch = L.getLoopLatch();
+  const bool IsCommon = Latch && Latch->getSingleSuccessor() &&
+                        !Latch->getSinglePredecessor() &&
+                        Latch->getFirstNonPHIOrDbg() == Latch->getTerminator();
+  return IsCommon ? Latch : nullptr;
+}
+
+/// If one way back of a loop passes a barrier and another does not, there are
+/// two loops with one head: gives the outer one its own, with a barrier.
+bool separateHeads(const Loop &L) {
+  BasicBlock *Head = L.getHeader(), *Latch = commonLatch(L);
+  BlockList Inner;
+  bool HasOuter = false;
+  for (BasicBlock *Before : predecessors(Latch ? Latch : Head)) {
+    if (!L.contains(Before))
+      continue;
+    if (isReachedWithoutBarrier(Before, L))
+      Inner.insert(Before);
+    else
+      HasOuter = true;
+  }
+  if (Inner.empty() || !HasOuter ||
+      (Latch && !TryToSimplifyUncondBranchFromEmptyBlock(Latch)))
+    return false;
+  keepInMemory({}, Head);
+  auto *OuterHead = BasicBlock::Create(Head->getContext(), "outer_head",
+                                       Head->getParent(), Head);
+  Barrier::Create(BranchInst::Create(Head, OuterHead));
+  for (BasicBlock *Before : BlockList(pred_begin(Head), pred_end(Head)))
+    if (Before != OuterHead && !Inner.contains(Before))
+      Before->getTerminator()->replaceSuccessorWith(Head, OuterHead);
+  return true;
+}
+
+bool separateHeads(Function &F) {
+  const LoopInfo Loops{DominatorTree(F)};
+  return any_of(Loops.getLoopsInPreorder(),
+                [](const Loop *L) { return separateHeads(*L); });
+}
+
+} // namespace
+
+PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &AM) {
+  if (!simtLanes(*F.getParent()) || !isKernelToProcess(F) ||
+      !hasWorkgroupBarriers(F))
+    return PreservedAnalyses::all();
+  bool Changed = false;
+  while (separateHeads(F))
+    Changed = true;
+  for (BlockSet Known; meetBeforeBarrier(F, Known);)
+    Changed = true;
+  if (!Changed)
+    return PreservedAnalyses::all();
+  PreservedAnalyses Kept = PreservedAnalyses::none();
+  Kept.preserve<WorkitemHandlerChooser>();
+  return Kept;
+}
+
+REGISTER_NEW_FPASS("simt-meetings", pocl::SimtMeetings, "");
+
+} // namespace pocl
