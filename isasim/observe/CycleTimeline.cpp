@@ -39,6 +39,7 @@ CycleTimeline::CycleTimeline(std::FILE *File, const Config &C)
                                  {OfLlc, "last-level cache"},
                                  {OfDram, "DRAM"}})
     Out.nameProcess(Id, Name);
+  Out.nameThread(OfRuns, 0, "runs");
   for (const std::vector<Row> *Rows : {&Cores, &Rasters, &Pixels})
     for (const Row &R : *Rows)
       Out.nameThread(R.Process, R.Thread, R.Name);

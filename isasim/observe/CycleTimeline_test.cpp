@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdio>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 using namespace vorion;
 using namespace vorion::isasim;
@@ -29,25 +31,31 @@ protected:
     Times->coreSpent({Core, What, {From, Until}});
   }
 
-  /// All events that are no names.
-  std::vector<Json> events() {
-    std::vector<Json> Found;
+  std::vector<Json> wholeFile() {
     std::string Text(static_cast<size_t>(std::ftell(File.get())) + 4, ' ');
     EXPECT_EQ(std::fseek(File.get(), 0, SEEK_SET), 0);
     Text.resize(std::fread(Text.data(), 1, Text.size(), File.get()));
     const auto Whole = parseJson<Json>(Text, "the timeline", "JSON");
     EXPECT_TRUE(Whole) << Text;
-    if (Whole)
-      for (const Json &Event : (*Whole)["traceEvents"])
-        if (Event["ph"] != "M")
-          Found.push_back(Event);
+    return Whole ? (*Whole)["traceEvents"].get<std::vector<Json>>()
+                 : std::vector<Json>();
+  }
+  /// All events that are no names.
+  std::vector<Json> events() {
+    std::vector<Json> Found = wholeFile();
+    std::erase_if(Found, [](const Json &E) { return E["ph"] == "M"; });
     return Found;
   }
   /// Slices of core \p Core.
   std::vector<Json> slicesOf(unsigned Core) {
+    const std::string Name = fmt::format("core {}", Core);
     std::vector<Json> Found;
-    for (const Json &E : events())
-      if (E["pid"] == 2 && E["tid"] == Core)
+    Json Row;
+    for (const Json &E : wholeFile())
+      if (E["ph"] == "M" && E["args"]["name"] == Name)
+        Row = E;
+      else if (E["ph"] == "X" && E["pid"] == Row["pid"] &&
+               E["tid"] == Row["tid"])
         Found.push_back(E);
     return Found;
   }
@@ -144,4 +152,27 @@ TEST_F(CycleTimelineTest, RunsFollowEachOther) {
   ASSERT_EQ(Slices.size(), 2U);
   EXPECT_EQ(Slices[1]["ts"], 32);
   EXPECT_EQ(events().size(), 4U);
+}
+
+// Its importer gives a thread 0 the number of its process, and shows the thread
+// with that number as the main one.
+TEST_F(CycleTimelineTest, PerfettoKeepsRowsApart) {
+  Times->timeBegins(0);
+  Times->timeEnds(32);
+  Times->runEnded("run");
+  std::set<std::pair<int, int>> Rows;
+  size_t Names = 0;
+  for (const Json &E : wholeFile())
+    if (E.contains("tid")) {
+      EXPECT_NE(E["tid"], 0);
+      EXPECT_NE(E["tid"], E["pid"]);
+      if (E["ph"] == "M") {
+        ++Names;
+        Rows.emplace(E["pid"], E["tid"]);
+      } else {
+        EXPECT_TRUE(Rows.contains({E["pid"], E["tid"]})) << "has no name";
+      }
+    }
+  EXPECT_EQ(Rows.size(), Names);
+  EXPECT_GT(Names, Shape.cores());
 }

@@ -52,6 +52,7 @@ void Timeline::runBegins(const RunStart &R) {
                                    {Cores, "cores"},
                                    {Rasterizers, "rasterizers"}})
       Out.nameProcess(Id, Name);
+    Out.nameThread(Process::Runs, 0, "runs");
     for (unsigned N = 0; N != Shape.cores() * Shape.WarpsPerCore; ++N) {
       Warps.push_back({Cores, N, {}, 0});
       Out.nameThread(Cores, N,

@@ -1,5 +1,5 @@
-/// What every warp and rasterizer did and when, for chrome://tracing or
-/// Perfetto (docs/debugging.md, "Timeline").
+/// What every warp and rasterizer did and when, for Perfetto
+/// (docs/debugging.md, "Timeline").
 #pragma once
 
 #include "observe/TraceEvents.h"

@@ -37,7 +37,7 @@ void TraceEvents::nameThread(unsigned Process, unsigned Thread,
                              std::string_view Name) {
   event(fmt::format("{{\"ph\": \"M\", \"name\": \"thread_name\", \"pid\": {}, "
                     "\"tid\": {}, \"args\": {{\"name\": {}}}}}",
-                    Process, Thread, jsonName(Name)));
+                    Process, threadId(Thread), jsonName(Name)));
 }
 
 void TraceEvents::slice(unsigned Process, unsigned Thread,
@@ -45,7 +45,7 @@ void TraceEvents::slice(unsigned Process, unsigned Thread,
                         std::string_view Args) {
   event(fmt::format("{{\"ph\": \"X\", \"name\": {}, \"pid\": {}, \"tid\": {}, "
                     "\"ts\": {}, \"dur\": {}{}{}}}",
-                    jsonName(Name), Process, Thread, From, To - From,
+                    jsonName(Name), Process, threadId(Thread), From, To - From,
                     Args.empty() ? "" : ", \"args\": ", Args));
 }
 

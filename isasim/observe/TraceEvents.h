@@ -1,4 +1,4 @@
-/// A file of trace events, which chrome://tracing and ui.perfetto.dev open.
+/// A file of trace events, which ui.perfetto.dev opens.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 namespace vorion::isasim {
 
 /// What is written is the JSON form of the Trace Event Format. Rows of the
-/// picture are threads, groups of rows are processes.
+/// picture are threads, which count from 0 in each group; groups of rows are
+/// processes, which count from 1.
 class TraceEvents {
 public:
   /// Writes to \p OutIn, which can be repositioned and must outlive this. A
@@ -31,6 +32,11 @@ public:
   uint64_t events() const { return Events; }
 
 private:
+  /// What a row is called in the file. Perfetto gives a thread 0 the number of
+  /// its process, and takes the thread that has this number for the main one:
+  /// no row may have either number.
+  static unsigned threadId(unsigned Thread) { return 1000 + Thread; }
+
   void event(const std::string &Json);
 
   std::FILE *Out;

@@ -7,18 +7,20 @@ import sys
 timeline, stats = (json.load(open(f)) for f in sys.argv[1:])
 assert timeline["otherData"]["format"] == "vorion-timeline 1"
 assert timeline["otherData"]["unit"].startswith("1 us = 1 cycle"), timeline["otherData"]
-groups, ends, figures = {}, {}, collections.defaultdict(list)
+groups, names, ends, figures = {}, {}, {}, collections.defaultdict(list)
 spent = collections.defaultdict(collections.Counter)
 for event in timeline["traceEvents"]:
     pid = event["pid"]
     if event["ph"] == "M":
         if event["name"] == "process_name":
             groups[pid] = event["args"]["name"]
+        else:
+            names[pid, event["tid"]] = event["args"]["name"]
     elif event["ph"] == "C":
         assert 0 <= event["args"]["value"] <= 100, event
         figures[groups[pid], event["name"]].append((event["ts"], event["args"]["value"]))
     else:
-        row = groups[pid], event["tid"]
+        row = groups[pid], names[pid, event["tid"]]
         assert ends.get(row, 0) <= event["ts"], f"slices overlap: {event}"
         ends[row] = event["ts"] + event["dur"]
         if groups[pid] != "runs":
@@ -26,18 +28,20 @@ for event in timeline["traceEvents"]:
             assert event["args"][event["name"]] > 0, event
             spent[row].update(event["args"])
 timed = [run["time"] for run in stats["runs"]]
-assert ends["runs", 0] == sum(time["cycles"] for time in timed)
+assert ends["runs", "runs"] == sum(time["cycles"] for time in timed)
 for group, key in (("cores", "cores"), ("rasterizers", "rasterizers"), ("pixel units", "pixel_units")):
+    one = group.removesuffix("s")
     units = len(timed[0][key])
     for unit in range(units):
-        for reason, cycles in spent[group, unit].items():
+        row = group, f"{one} {unit}"
+        for reason, cycles in spent[row].items():
             assert cycles == sum(time[key][unit][reason] for time in timed), (group, unit, reason)
-        assert spent[group, unit].total() == ends["runs", 0], (group, unit)
+        assert spent[row].total() == ends["runs", "runs"], row
     print(f"{group}: {units} rows")
 for group in ("L2", "last-level cache", "DRAM"):
     print(f"{group}: {sum(g == group for g, name in figures)} figures")
 # The figures are whole per cents, rounded down.
-end = ends["runs", 0]
+end = ends["runs", "runs"]
 busy = sum(value / 100 * (behind - begin) for (group, name), told in figures.items() if group == "DRAM"
            for (begin, value), (behind, _) in zip(told, told[1:] + [(end, 0)]))
 exact = sum(time["dram"]["bus_ps"] * time["clock_mhz"] / 1e6 for time in timed)

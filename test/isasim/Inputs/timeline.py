@@ -16,7 +16,6 @@ for event in document["traceEvents"]:
     row = slices.setdefault((event["pid"], event["tid"]), [])
     assert not row or row[-1][1] <= event["ts"], f"slices overlap: {event}"
     row.append((event["name"], event["ts"] + event["dur"]))
-names[1, 0] = "runs"
 for process, name in sorted(processes.items(), key=lambda p: p[1]):
     print(f"{name}: {sum(pid == process for pid, tid in names)} rows")
 for key in sorted(slices):
