@@ -114,7 +114,7 @@ std::string ImageParser::readHeader() {
 }
 
 std::string ImageParser::readSegments() {
-  uint64_t Total = 0;
+  uint64_t Total = 0, FromFile = 0;
   for (unsigned N = 0; N != Header.e_phnum; ++N) {
     const auto P =
         get<Elf32_Phdr>(uint64_t{Header.e_phoff} + N * sizeof(Elf32_Phdr));
@@ -136,6 +136,11 @@ std::string ImageParser::readSegments() {
                          "within 0x{:08x} and 0x{:08x}",
                          N, P->p_vaddr, P->p_memsz, VX_IMAGE_BASE,
                          VX_IMAGE_BASE + VX_IMAGE_SIZE);
+    FromFile += P->p_filesz;
+    if (FromFile > File.size())
+      return fmt::format("the segments up to number {} have {} bytes of a file "
+                         "of {}, expected each byte in one segment",
+                         N, FromFile, File.size());
     Total += P->p_memsz;
     if (Total > VX_IMAGE_SIZE)
       return fmt::format("the segments up to number {} overlap: 0x{:x} bytes, "

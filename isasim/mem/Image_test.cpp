@@ -257,6 +257,30 @@ TEST(Image, NamesThatShareOneStringAreRefused) {
   EXPECT_NE(wrongIn(O), "");
 }
 
+/// Segments that all are the same bytes of the file: 16 MiB of 100 KiB.
+TEST(Image, SegmentsThatShareBytesOfTheFileAreRefused) {
+  constexpr uint32_t Segments = 160, Bytes = 100 << 10;
+  ElfOptions O = good();
+  O.Segments.assign(Segments, {Table, PF_R, {}, Bytes});
+  O.Segments.push_back({VX_IMAGE_BASE, PF_R | PF_X, {0x13}, 0});
+  std::vector<std::byte> File = buildElf(O);
+  File.resize(File.size() + Bytes);
+  for (uint32_t N = 0; N != Segments; ++N) {
+    Elf32_Phdr P;
+    std::byte *At = File.data() + sizeof(Elf32_Ehdr) + N * sizeof(P);
+    std::memcpy(&P, At, sizeof(P));
+    P.p_vaddr += N * Bytes;
+    P.p_offset = 0;
+    P.p_filesz = Bytes;
+    std::memcpy(At, &P, sizeof(P));
+  }
+  const auto I = Image::parse(File, "test");
+  ASSERT_FALSE(I);
+  EXPECT_NE(I.error().What.find("expected each byte in one segment"),
+            std::string::npos)
+      << I.error().What;
+}
+
 TEST(Image, AbsoluteSymbolsCount) {
   ElfOptions O = good();
   O.AbsoluteSymbols = {{"begin_signature", VX_IMAGE_BASE + 0x2000},
