@@ -108,7 +108,11 @@ private:
     const auto Found = OfKernel.find(Kernel);
     return Found == OfKernel.end() ? 0 : Found->second;
   }
+  bool isInside() const {
+    return Now == Phase::Warming || Now == Phase::Counted;
+  }
   void choosePhase();
+  void begin();
   std::string lastMarks() const;
 
   const RegionOptions Options;
@@ -119,7 +123,6 @@ private:
   uint64_t Counted = 0;
   Phase Now = Phase::Before;
   std::optional<RegionWriter> File;
-  bool IsSaving = false;
   std::optional<Error> Problem; ///< of the launch's beginning
 };
 
@@ -141,25 +144,38 @@ void RegionTool::choosePhase() {
   Counted += Now == Phase::Counted;
 }
 
+/// At the region's first launch. Neither the clock nor a file knows what a
+/// rasterizer has left to do.
+void RegionTool::begin() {
+  if (!Device->rasterState()) {
+    Problem = Error{"",
+                    "a region cannot begin where a rasterizer still has a "
+                    "command of an earlier launch, expected another beginning",
+                    ExitCode::Usage};
+    Now = Phase::Behind;
+    return;
+  }
+  if (Options.Save.empty())
+    return;
+  Expected<RegionWriter> Made = RegionWriter::create(Options.Save, *Device);
+  if (Made)
+    File = std::move(*Made);
+  else
+    Problem = Made.error();
+}
+
 void RegionTool::runBegins(const std::string &NameIn, uint32_t LaunchBlock) {
   Name = NameIn;
   ++Launches;
   ++OfKernel[Name];
+  const bool WasBefore = Now == Phase::Before;
   choosePhase();
-  const bool IsInside = Now == Phase::Warming || Now == Phase::Counted;
+  if (WasBefore && isInside())
+    begin();
   Device->setClocking(Now == Phase::Counted   ? Clocking::On
                       : Now == Phase::Warming ? Clocking::WarmUp
                                               : Clocking::Off);
-  const bool IsFirst = IsInside && !IsSaving;
-  IsSaving = IsInside && !Options.Save.empty();
-  if (IsSaving && IsFirst) {
-    Expected<RegionWriter> Made = RegionWriter::create(Options.Save, *Device);
-    if (Made)
-      File = std::move(*Made);
-    else
-      Problem = Made.error();
-  }
-  if (IsSaving && File)
+  if (isInside() && File)
     File->begin(*Device, Name, LaunchBlock, Now == Phase::Counted);
 }
 
@@ -167,7 +183,7 @@ Expected<Success> RegionTool::runEnded(const std::string &,
                                        const RunResult &R) {
   if (Problem)
     return *std::exchange(Problem, std::nullopt);
-  if (!IsSaving || !File)
+  if (!isInside() || !File)
     return Success{};
   // A launch that failed is no part of a region: it would fail again.
   if (R.End == Outcome::Done)
@@ -194,7 +210,7 @@ Expected<Success> RegionTool::finished() const {
                              Missing == &Options.From ? "from" : "to",
                              Missing->Text, lastMarks()),
                  ExitCode::Usage};
-  if (Options.Count && Counted < *Options.Count)
+  if (Now == Phase::Counted && Options.Count && Counted < *Options.Count)
     return Error{"",
                  fmt::format("region: count={} never came, launches since "
                              "from={}: {}",

@@ -1,8 +1,10 @@
 #include "region/RegionFile.h"
 
 #include "machine/ByteStream.h"
+#include "region/RegionFormat.h"
 
 #include <algorithm>
+#include <cassert>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -10,23 +12,8 @@ namespace vorion::isasim {
 
 namespace {
 
-/// Behind it follow the number of bytes of all records, and these.
-constexpr std::string_view Magic = "vorion-region 1\n";
+constexpr std::string_view Magic = RegionMagic;
 constexpr size_t VersionAt = Magic.size() - 2;
-
-enum RecordKind : uint64_t { OfMachine, OfImage, OfLaunch };
-
-struct RecordHead {
-  uint64_t Kind = 0;
-  uint64_t Bytes = 0; ///< that follow
-  uint64_t Sum = 0;   ///< their Digest
-};
-
-uint64_t sumOf(std::span<const std::byte> Bytes) {
-  Digest D;
-  D.add(Bytes);
-  return D.value();
-}
 
 /// Writes or reads a launch.
 template <typename Stream, typename SavedLaunch>
@@ -110,7 +97,8 @@ Expected<Success> RegionParser::image(ByteReader R) {
     return damaged();
   const auto Program = Image::parse(File, Name);
   if (!Program)
-    return Program.error();
+    return Error{Where,
+                 fmt::format("image '{}': {}", Name, Program.error().What)};
   Region.Images.push_back(*Program);
   return Success{};
 }
@@ -175,11 +163,7 @@ Expected<Success> checkMachine(const SavedRegion &R, const Config &C,
 Expected<RegionWriter> RegionWriter::create(const std::string &Path,
                                             const Machine &M) {
   const auto State = M.rasterState();
-  if (!State)
-    return Error{"",
-                 "a region cannot be saved where a rasterizer still has a "
-                 "command of an earlier launch, expected another beginning",
-                 ExitCode::Usage};
+  assert(State && "no command is under way");
   Expected<GrowingFile> File = GrowingFile::open(Path);
   if (!File)
     return File.error();

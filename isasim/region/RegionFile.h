@@ -53,8 +53,8 @@ Expected<Success> checkMachine(const SavedRegion &R, const Config &C,
 /// complete after each launch.
 class RegionWriter {
 public:
-  /// Of what \p M does from now on. Errors: a file that cannot be written, no
-  /// room on the host, and a rasterizer at work.
+  /// Of what \p M, which has a rasterState(), does from now on. Errors: a file
+  /// that cannot be written, and no room on the host.
   static Expected<RegionWriter> create(const std::string &Path,
                                        const Machine &M);
 

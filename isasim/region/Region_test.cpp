@@ -1,5 +1,6 @@
 // A region that was saved runs again as it did, and what is no such file is
 // told.
+#include "testing/SealedRegion.h"
 #include "testing/TimedPrograms.h"
 #include "tools/RegionRun.h"
 #include "vorion/support/File.h"
@@ -82,6 +83,8 @@ private:
   unsigned Launches = 0;
 };
 
+void quiet(std::string_view) {}
+
 std::vector<std::byte> globalOf(const Machine &M) {
   const auto Bytes = M.memory().front();
   return {Bytes.begin(), Bytes.end()};
@@ -120,7 +123,7 @@ TEST(Region, RunsAgainAsItDid) {
     const auto M = Machine::create(Region->Machine);
     ASSERT_TRUE(M);
     (*Watch)->attach(**M);
-    const auto Last = runRegion(*Region, **M, **Watch, true, Path);
+    const auto Last = runRegion(*Region, **M, **Watch, true, Path, quiet);
     ASSERT_TRUE(Last) << Last.error().What;
     EXPECT_EQ(toJson(*Last->Time), Saved.Times.back()) << Choice;
     EXPECT_EQ(globalOf(**M), Left) << Choice;
@@ -189,6 +192,45 @@ TEST(Region, DamageIsTold) {
   }
 }
 
+/// A record begins with the size of a text, which is believed as far as there
+/// are bytes; nothing is taken for it before.
+TEST(Region, SizesBeyondTheFileAreTold) {
+  const std::vector<std::byte> Good = savedFile();
+  RecordHead Head;
+  size_t At = RegionMagic.size() + sizeof(uint64_t);
+  unsigned Number = 0; // of the record
+  for (; At != Good.size(); At += Head.Bytes) {
+    std::memcpy(&Head, Good.data() + At, sizeof(Head));
+    At += sizeof(Head);
+    ++Number;
+    for (const uint64_t Size :
+         {Head.Bytes, uint64_t{1} << 40, UINT64_MAX - 7, UINT64_MAX}) {
+      std::vector<std::byte> Bad = Good;
+      std::memcpy(Bad.data() + At, &Size, sizeof(Size));
+      const auto R = parseRegion(sealedRegion(std::move(Bad)), "r");
+      ASSERT_FALSE(R) << Number;
+      EXPECT_EQ(R.error().What,
+                fmt::format("record {} is damaged, expected a region as it was "
+                            "saved",
+                            Number));
+    }
+  }
+  EXPECT_EQ(Number, 7U); // a machine, two images, four launches
+}
+
+TEST(Region, AnImageThatIsNoneIsToldOfTheFile) {
+  std::vector<std::byte> Bad = savedFile();
+  const std::string_view Elf = ELFMAG;
+  const auto At = std::ranges::search(Bad, std::as_bytes(std::span(Elf)));
+  ASSERT_FALSE(At.empty());
+  At.front() = std::byte(0);
+  const auto R = parseRegion(sealedRegion(std::move(Bad)), "r");
+  ASSERT_FALSE(R);
+  EXPECT_EQ(R.error().Where, "r");
+  EXPECT_EQ(R.error().What, "image 'sums': not an ELF file, expected a RISC-V "
+                            "executable");
+}
+
 TEST(Region, AnotherMachineIsRefused) {
   const auto R = parseRegion(savedFile(), "r");
   ASSERT_TRUE(R);
@@ -211,7 +253,7 @@ TEST(Region, OtherResultsAreTold) {
   const auto Watch = Session::create({}, "test");
   const auto M = Machine::create(R->Machine);
   ASSERT_TRUE(M);
-  const auto Last = runRegion(*R, **M, **Watch, true, "r");
+  const auto Last = runRegion(*R, **M, **Watch, true, "r", quiet);
   ASSERT_FALSE(Last);
   EXPECT_NE(Last.error().What.find("launch 2, second: it left other memory"),
             std::string::npos)

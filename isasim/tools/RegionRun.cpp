@@ -1,7 +1,5 @@
 #include "tools/RegionRun.h"
 
-#include "vorion/support/Diagnostics.h"
-
 #include <fmt/format.h>
 
 namespace vorion::isasim {
@@ -60,8 +58,10 @@ bool prepare(const SavedRegion &R, const SavedLaunch &L, Machine &M,
 
 } // namespace
 
-Expected<RunResult> runRegion(const SavedRegion &R, Machine &M, Session &Watch,
-                              bool ChoosesClock, const std::string &Where) {
+Expected<RunResult>
+runRegion(const SavedRegion &R, Machine &M, Session &Watch, bool ChoosesClock,
+          const std::string &Where,
+          const std::function<void(std::string_view)> &Print) {
   const auto Bad = [&](const SavedLaunch &L, const char *What) {
     return Error{Where, fmt::format("launch {}, {}: {}",
                                     &L - R.Launches.data() + 1, L.Name, What)};
@@ -90,7 +90,7 @@ Expected<RunResult> runRegion(const SavedRegion &R, Machine &M, Session &Watch,
       return Bad(L, "it left other memory than when it was saved, expected a "
                     "program and a simulator that do the same again");
   }
-  printOut("{}", Times.text());
+  Print(Times.text());
   return Result;
 }
 

@@ -269,8 +269,8 @@ int runSaved(const Options &O, const KernelRequest &Request,
   if (!M)
     return reportError(Tool, M.error());
   (*Watch)->attach(**M);
-  const auto Last =
-      runRegion(*Region, **M, **Watch, O.Watch.Region.empty(), O.Program);
+  const auto Last = runRegion(*Region, **M, **Watch, O.Watch.Region.empty(),
+                              O.Program, printText);
   if (!Last)
     return reportError(Tool, Last.error());
   return lastWord(reportOutcome(*Last, O), **Watch);

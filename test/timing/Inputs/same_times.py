@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Compares the time reports of regions, as region.test leaves them.
 
-usage: same_times.py FOLDER [NAME]
+usage: same_times.py FOLDER [NAME [whole]]
 
-Without NAME: cold and warm, and the launches that warm has in whole.
+Without NAME: cold and warm, and the launches that warm has in whole. NAME alone: it, reached and from the file. With
+`whole`: it ends with that run, too.
 """
 
 import json
@@ -26,7 +27,10 @@ def from_file(folder, name):
 def main():
     folder = sys.argv[1]
     if len(sys.argv) > 2:
-        print(f"{len(from_file(folder, sys.argv[2]))} launches: the same from the file")
+        named = from_file(folder, sys.argv[2])
+        ends_whole = len(sys.argv) > 3
+        assert not ends_whole or named == times(folder, sys.argv[3])[-len(named):]
+        print(f"{len(named)} launches: the same from the file{', and in the whole run' if ends_whole else ''}")
         return
     cold, warm = from_file(folder, "cold"), from_file(folder, "warm")
     print(f"{len(cold)} launches: the same from the file")
