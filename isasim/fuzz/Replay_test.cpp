@@ -3,7 +3,9 @@
 
 #include "fuzz/Targets.h"
 
+#include <cstring>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <random>
 
 using namespace vorion::isasim;
@@ -15,6 +17,22 @@ std::vector<std::byte> damaged(std::vector<std::byte> Bytes,
                                std::mt19937 &Random) {
   for (auto Left = Random() % 4 + 1; Left && !Bytes.empty(); --Left)
     Bytes[Random() % Bytes.size()] = static_cast<std::byte>(Random());
+  return Bytes;
+}
+
+/// With what may be a size, at an end of its range.
+std::vector<std::byte> withSize(std::vector<std::byte> Bytes,
+                                std::mt19937 &Random) {
+  constexpr uint64_t Sizes[] = {
+      0, 1, UINT32_MAX, uint64_t{1} << 40, UINT64_MAX / 8, UINT64_MAX};
+  const uint64_t Size = Sizes[Random() % std::size(Sizes)];
+  const size_t Length = Random() % 2 ? sizeof(uint64_t) : sizeof(uint32_t);
+  std::memcpy(Bytes.data() + Random() % (Bytes.size() - Length), &Size, Length);
+  return Bytes;
+}
+
+std::vector<std::byte> cut(std::vector<std::byte> Bytes, std::mt19937 &Random) {
+  Bytes.resize(Random() % Bytes.size());
   return Bytes;
 }
 
@@ -43,6 +61,19 @@ TEST(Replay, Debuggers) {
     for (int N = 0; N != 100; ++N)
       fuzz::debug(N ? damaged(Seed, Random) : Seed);
   fuzz::debug({});
+}
+
+TEST(Replay, Regions) {
+  std::mt19937 Random(7);
+  for (const auto &Seed : fuzz::regionSeeds()) {
+    fuzz::restore(Seed);
+    for (int N = 0; N != 1000; ++N) {
+      fuzz::restore(damaged(Seed, Random));
+      fuzz::restore(withSize(Seed, Random));
+      fuzz::restore(cut(Seed, Random));
+    }
+  }
+  fuzz::restore({});
 }
 
 TEST(Replay, Rasterizers) {

@@ -27,6 +27,11 @@ void debug(std::span<const std::byte> Bytes);
 /// clock, an observer, the checkers or the numeric sanitizer.
 void rasterize(std::span<const std::byte> Bytes);
 
+/// The bytes as a saved region, as they are and with its sizes and sums made
+/// right; one of a small machine is run. Aborts if an error says nothing, or is
+/// not the file's.
+void restore(std::span<const std::byte> Bytes);
+
 /// Inputs to begin with: programs whole and damaged.
 std::vector<std::vector<std::byte>> imageSeeds();
 /// Programs of random instructions, mostly valid ones.
@@ -35,5 +40,7 @@ std::vector<std::vector<std::byte>> programSeeds(unsigned Count, unsigned Seed);
 std::vector<std::vector<std::byte>> debuggerSeeds();
 /// Commands of every mode, most of them valid.
 std::vector<std::vector<std::byte>> rasterSeeds(unsigned Count, unsigned Seed);
+/// Regions of machines of several shapes.
+std::vector<std::vector<std::byte>> regionSeeds();
 
 } // namespace vorion::isasim::fuzz

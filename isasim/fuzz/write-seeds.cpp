@@ -1,5 +1,5 @@
 /// Writes the fuzzers' first inputs: isasim-fuzz-seeds FOLDER makes
-/// FOLDER/image, FOLDER/execute, FOLDER/gdb and FOLDER/raster.
+/// FOLDER/image, FOLDER/execute and so on, a folder for each fuzzer.
 
 #include "fuzz/Targets.h"
 #include "vorion/support/Diagnostics.h"
@@ -20,7 +20,8 @@ int main(int Argc, char **Argv) {
       {"image", isasim::fuzz::imageSeeds()},
       {"execute", isasim::fuzz::programSeeds(Programs, 1)},
       {"gdb", isasim::fuzz::debuggerSeeds()},
-      {"raster", isasim::fuzz::rasterSeeds(Programs, 1)}};
+      {"raster", isasim::fuzz::rasterSeeds(Programs, 1)},
+      {"region", isasim::fuzz::regionSeeds()}};
   for (const auto &[Kind, Seeds] : Kinds) {
     const std::string Folder = fmt::format("{}/{}", Argv[1], Kind);
     std::error_code Failed;
