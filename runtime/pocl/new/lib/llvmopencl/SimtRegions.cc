@@ -2,6 +2,7 @@
 
 #include "SimtRegions.h"
 
+#include "SimtBlocks.h"
 #include "SimtSlots.h"
 
 #include <llvm/ADT/STLExtras.h>
@@ -14,8 +15,6 @@
 
 // Needs the pass manager's header before it.
 #include "VariableUniformityAnalysisResult.hh"
-
-#include <vector>
 
 using namespace llvm;
 
@@ -87,6 +86,24 @@ std::set<Instruction *> SimtRegions::decisions(Function &F) const {
           if (!Region->HasBlock(Successor))
             Decisions.insert(Block->getTerminator());
   return Decisions;
+}
+
+std::vector<SimtRegions::Doubt>
+SimtRegions::doubtful(Function &F, const std::set<Instruction *> &Decisions,
+                      VariableUniformityAnalysisResult &Uniformity) const {
+  std::vector<Doubt> Found;
+  for (BasicBlock &Block : F) {
+    Instruction *Decision = Block.getTerminator();
+    auto *Condition = dyn_cast_or_null<Instruction>(decidingValue(Block));
+    if (!Condition || !Decisions.count(Decision) ||
+        Uniformity.isUniform(&F, Condition))
+      continue;
+    if (regionOf(&Block))
+      Found.push_back({Decision, Condition, nullptr});
+    else if (ParallelRegion *Region = regionOf(Condition->getParent()))
+      Found.push_back({Decision, Condition, Region->exitBB()});
+  }
+  return Found;
 }
 
 } // namespace pocl

@@ -12,6 +12,7 @@
 #include "ParallelRegion.h"
 
 #include <set>
+#include <vector>
 
 namespace llvm {
 class AllocaInst;
@@ -43,6 +44,17 @@ public:
   /// regions, and in a region those that lead into another one that begins with
   /// the same block.
   std::set<llvm::Instruction *> decisions(llvm::Function &F) const;
+
+  /// A decision and what it decides by; if it lies between regions also the
+  /// last block of the region that computes that, else null.
+  struct Doubt {
+    llvm::Instruction *Decision, *Condition;
+    llvm::BasicBlock *Exit;
+  };
+  /// Those on which the group is not known to agree, in the order of the code.
+  std::vector<Doubt>
+  doubtful(llvm::Function &F, const std::set<llvm::Instruction *> &Decisions,
+           VariableUniformityAnalysisResult &Uniformity) const;
 
 private:
   ParallelRegion *regionOf(llvm::BasicBlock *Block) const;

@@ -14,9 +14,11 @@
 #include <vorion_abi.h>
 
 #include <llvm/IR/CFG.h>
+#include <llvm/IR/Dominators.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/MDBuilder.h>
 #include <llvm/Passes/PassBuilder.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
 
 #include <cstddef>
 #include <map>
@@ -360,6 +362,45 @@ void SimtLoops::makeUniform(Instruction *Terminator) {
     if (Switch->getCondition()->getType()->getIntegerBitWidth() <= 32)
       Switch->setCondition(Same(Switch->getCondition()));
   }
+}
+
+void SimtLoops::trapElsewhere(BasicBlock &Block) {
+  for (BasicBlock *Next : successors(&Block))
+    if (isa<UnreachableInst>(Next->front()))
+      IRBuilder<>(&Next->front()).CreateIntrinsic(Intrinsic::trap, {}, {});
+}
+
+void SimtLoops::checkAgreement(Instruction *Terminator, Instruction *Condition,
+                               BasicBlock *Exit) {
+  if (!DominatorTree(F).dominates(Condition, Exit->getTerminator()))
+    return;
+  IRBuilder<> Builder(&*F.getEntryBlock().getFirstInsertionPt());
+  Type *T = Condition->getType();
+  AllocaInst *FirstWay = Builder.CreateAlloca(T, nullptr, ".simt_way");
+  AllocaInst *Differ =
+      Builder.CreateAlloca(Builder.getInt1Ty(), nullptr, ".simt_differ");
+
+  Builder.SetInsertPoint(Exit->getTerminator());
+  Value *IsFirst = Builder.CreateICmpULT(linearId(Builder), number(Lanes));
+  Value *Way =
+      Builder.CreateSelect(IsFirst, Condition, Builder.CreateLoad(T, FirstWay));
+  Builder.CreateStore(Way, FirstWay);
+  Value *Before =
+      Builder.CreateSelect(IsFirst, Builder.getFalse(),
+                           Builder.CreateLoad(Builder.getInt1Ty(), Differ));
+  Builder.CreateStore(
+      Builder.CreateOr(Before, Builder.CreateICmpNE(Condition, Way)), Differ);
+
+  BasicBlock *Block = Terminator->getParent();
+  BasicBlock *Decision = SplitBlock(Block, Terminator);
+  auto *Other = BasicBlock::Create(F.getContext(), "other_way", &F, Decision);
+  Builder.SetInsertPoint(Other);
+  Builder.CreateIntrinsic(Intrinsic::trap, {}, {});
+  Builder.CreateUnreachable();
+  Builder.SetInsertPoint(Block->getTerminator());
+  Builder.CreateCondBr(Builder.CreateLoad(Builder.getInt1Ty(), Differ), Other,
+                       Decision);
+  Block->getTerminator()->eraseFromParent();
 }
 
 AllocaInst *SimtLoops::createContextArray(Type *Element, Align Alignment,

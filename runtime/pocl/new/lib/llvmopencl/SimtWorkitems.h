@@ -146,6 +146,17 @@ public:
   /// The branch decides between regions: every work-item takes the same way.
   void makeUniform(llvm::Instruction *Terminator);
 
+  /// In the loop over later passes of a region, \p Block decided between this
+  /// region and others: ways to these, which PoCL has cut off, trap.
+  void trapElsewhere(llvm::BasicBlock &Block);
+
+  /// A branch between regions takes the way of one pass. This makes all passes
+  /// note, at the \p Exit of the region that computes the \p Condition, whether
+  /// theirs is the first one's, and the branch trap if one is not. Call before
+  /// createLoop().
+  void checkAgreement(llvm::Instruction *Terminator,
+                      llvm::Instruction *Condition, llvm::BasicBlock *Exit);
+
   /// Ends the work; call after anything above.
   void finish();
 

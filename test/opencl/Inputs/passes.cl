@@ -1,0 +1,46 @@
+// Groups of 64 work-items run in four passes. Work-items of different passes go
+// different ways between barriers here, which no way of running passes does.
+
+// The second loop's last round ends by the break or by the count: legal.
+kernel void leave_apart(global uint *out, local uint *t, uint k) {
+  uint l = get_local_id(0), r = l;
+  for (uint i = 0; i < 3; i++) {
+    if (k & 1) {
+      t[l] = r;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      r += t[(l + 1) % get_local_size(0)];
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (i == 2) {
+      if (l < 16)
+        break;
+      r += 7;
+    }
+  }
+  out[get_global_id(0)] = r;
+}
+
+// A loop whose barrier nobody reaches: legal.
+kernel void rounds_apart(global uint *out, local uint *t, uint k) {
+  uint l = get_local_id(0), r = l, i = 0;
+  do {
+    if (k == 99) {
+      t[l] = r;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      r += t[(l + 1) % get_local_size(0)];
+    }
+    r += i + 3;
+  } while (++i < l / 16 + 1);
+  out[get_global_id(0)] = r;
+}
+
+// Only the first pass comes to the barrier: wrong.
+kernel void some(global uint *out, local uint *t, uint k) {
+  uint l = get_local_id(0), r = l;
+  out[get_global_id(0)] = k;
+  if (l < 16) {
+    t[l] = r;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    out[get_global_id(0)] = r + t[15 - l];
+  }
+}
