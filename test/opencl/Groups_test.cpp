@@ -149,6 +149,21 @@ kernel void nested_loops(global uint *out, local uint *t, uint k) {
   out[get_group_id(0) * n + l] = v;
 }
 
+// A loop that the group may pass by lies in another: what its rounds share is
+// computed in front of it, behind the condition.
+kernel void guarded_loop(global uint *out, local uint *t, uint k) {
+  uint l = ITEM, n = ITEMS, x = l * 7 + k;
+  for (uint i = 0; i < 2; i++)
+    if (k & 1) {
+      for (uint j = k & 3; j > 0; j--) {
+        t[l] = 1000000 % (x | 1);
+        barrier(CLK_LOCAL_MEM_FENCE);
+      }
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+  out[get_group_id(0) * n + l] = t[l];
+}
+
 // The innermost loop would not end for a value that i never has; what follows is
 // reached all the same, by all lanes together.
 kernel void endless_if_reached(global uint *out, local uint *t, uint k) {
@@ -364,6 +379,13 @@ Values nestedLoops(U N, U) {
   return V;
 }
 
+Values guardedLoop(U N, U) {
+  Values V(N);
+  for (U L = 0; L < N; ++L)
+    V[L] = 1000000 % ((L * 7 + Rounds) | 1);
+  return V;
+}
+
 Values endlessIfReached(U N, U) {
   Values V(N), W(N), Seen(N, 0), T(N), Out(N);
   for (U L = 0; L < N; ++L) {
@@ -486,6 +508,7 @@ const Kernel Kernels[] = {{"straight", straight},
                           {"merged_tails", mergedTails},
                           {"captured_private", capturedPrivate},
                           {"nested_loops", nestedLoops},
+                          {"guarded_loop", guardedLoop},
                           {"endless_if_reached", endlessIfReached},
                           {"conditional_in_loop", conditionalInLoop},
                           {"many_conditionals", manyConditionals},

@@ -204,10 +204,9 @@ SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
     bool Leaves = false;
     for (Loop *L = Loops.getLoopFor(&Block); L; L = L->getParentLoop())
       Leaves |= L->isLoopExiting(&Block);
-    if (Leaves)
-      Leaving.insert(Terminator);
-    else if (!Uniformity.isUniform(&F, Condition) || waysMeet(Block))
-      OfRegion.insert(Terminator);
+    const bool Decides =
+        Leaves || (Uniformity.isUniform(&F, Condition) && !waysMeet(Block));
+    (Decides ? Deciding : OfRegion).insert(Terminator);
   }
 }
 

@@ -81,14 +81,15 @@ public:
   bool isOfRegion(const llvm::Instruction *Terminator) const {
     return OfRegion.count(Terminator);
   }
-  /// Whether a loop is left here, or gone round again. If it has a barrier, all
-  /// or none do.
-  bool leavesLoop(const llvm::Instruction *Terminator) const {
-    return Leaving.count(Terminator);
+  /// Whether this branch decides for the whole group: a loop with a barrier is
+  /// left here or gone round again, or the ways come to different barriers. At
+  /// the end of a barrier's block it stays with its barrier.
+  bool decides(const llvm::Instruction *Terminator) const {
+    return Deciding.count(Terminator);
   }
 
 private:
-  std::set<const llvm::Instruction *> OfRegion, Leaving;
+  std::set<const llvm::Instruction *> OfRegion, Deciding;
 };
 
 /// What kernels ask of a launch block.
