@@ -47,27 +47,22 @@ void keepInMemory(ArrayRef<BasicBlock *> Blocks, ArrayRef<BasicBlock *> Ends) {
 // One place to meet behind a conditional
 //===----------------------------------------------------------------------===//
 
-/// Where the lanes that part at the branch meet; null if nowhere. Of a group
-/// with loops over its work-items the return is no such place: it ends a region
-/// as a barrier does, and the group must agree which of them ends it.
+/// Where the lanes that part at the branch meet; null if nowhere.
 BasicBlock *meetingPlace(BasicBlock &Branch, const PostDominatorTree &After) {
   const auto *Node = After.getNode(&Branch);
-  BasicBlock *Place =
-      Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
-  const bool HasLoops = !fitsOneWarp(*Branch.getModule());
-  return Place && HasLoops && succ_empty(Place) ? nullptr : Place;
+  return Node && Node->getIDom() ? Node->getIDom()->getBlock() : nullptr;
 }
 
-/// Whether lanes that part at the branch may come to one end of a region before
-/// they meet, although there is another to which they might come.
+/// Whether lanes that part at the branch may come to a barrier before they
+/// meet.
 bool mayMeetTooLate(BasicBlock &Branch, const BasicBlock *Meeting) {
   BlockSet Reached;
-  bool Again = false;
   for (BasicBlock *Next : BlockSet(succ_begin(&Branch), succ_end(&Branch)))
     if (Next != Meeting)
       for (BasicBlock *End : nextBarriers(Next, Meeting))
-        Again |= !Reached.insert(End).second;
-  return Again && (Meeting || Reached.size() > 1);
+        if (Barrier::hasBarrier(End) && !Reached.insert(End).second)
+          return true;
+  return false;
 }
 
 /// The blocks that only lanes pass that were at the branch, from there up to
@@ -95,25 +90,17 @@ Ways waysOutOf(const BlockList &Blocks) {
 }
 
 /// Whether the group agrees which of the ways it takes. It does if they lead to
-/// barriers, which all or none reach, and one to where all meet otherwise; \p L
-/// is the branch's innermost loop. One with a barrier is left by all or none,
-/// so one way more may lead to its next round.
-bool agreesOn(const Ways &Out, const BasicBlock *Meeting, const Loop *L) {
-  if (L && none_of(L->blocks(), Barrier::hasBarrier))
-    L = nullptr;
-  unsigned ToMeeting = 0, ToNextRound = 0;
+/// barriers, which all or none reach, and one to where all meet otherwise.
+bool agreesOn(const Ways &Out, const BasicBlock *Meeting) {
+  unsigned Others = 0;
   for (const auto &Way : Out) {
     BasicBlock *End = Way.first;
     if (Barrier::hasBarrier(End))
       continue;
-    if (End == Meeting || succ_empty(End))
-      ++ToMeeting;
-    else if (L && L->contains(End) && !(Meeting && L->contains(Meeting)))
-      ++ToNextRound;
-    else
+    if (++Others > 1 || (End != Meeting && !succ_empty(End)))
       return false;
   }
-  return ToMeeting <= 1 && ToNextRound <= 1;
+  return true;
 }
 
 /// Leads all ways through one block. What it decides by is not seen through, or
@@ -158,7 +145,7 @@ bool meetBeforeBarrier(Function &F, BlockSet &Known) {
       continue;
     const BlockList Behind = blocksBehind(*Branch, Meeting, Dominators);
     const Ways Out = waysOutOf(Behind);
-    if (!agreesOn(Out, Meeting, Loops.getLoopFor(Branch)))
+    if (!agreesOn(Out, Meeting))
       continue;
     SmallVector<BasicBlock *, 4> Ends;
     for (const auto &Way : Out)
