@@ -11,6 +11,7 @@
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
 #include <llvm/IR/Instructions.h>
+#include <llvm/Transforms/Utils/Local.h>
 
 using namespace llvm;
 
@@ -29,6 +30,26 @@ BlockSet nextBarriers(BasicBlock *From, const BasicBlock *Without) {
           Pending.push_back(Next);
   }
   return Found;
+}
+
+BlockSet reachedTwice(BasicBlock &Block, const BasicBlock *Without) {
+  BlockSet Once, Twice;
+  for (BasicBlock *Next : BlockSet(succ_begin(&Block), succ_end(&Block)))
+    if (Next != Without)
+      for (BasicBlock *End : nextBarriers(Next, Without))
+        if (!Once.insert(End).second)
+          Twice.insert(End);
+  return Twice;
+}
+
+void keepInVariables(ArrayRef<BasicBlock *> Blocks) {
+  SmallVector<Instruction *, 8> Leaving;
+  for (BasicBlock *Block : Blocks)
+    for (Instruction &I : *Block)
+      if (I.isUsedOutsideOfBlock(Block))
+        Leaving.push_back(&I);
+  for (Instruction *I : Leaving)
+    DemoteRegToStack(*I);
 }
 
 bool hasIrreducibleLoops(const Function &F, const LoopInfo &Loops) {

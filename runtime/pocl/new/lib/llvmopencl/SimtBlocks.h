@@ -3,6 +3,7 @@
 #ifndef POCL_SIMT_BLOCKS_H
 #define POCL_SIMT_BLOCKS_H
 
+#include <llvm/ADT/ArrayRef.h>
 #include <llvm/ADT/STLFunctionalExtras.h>
 #include <llvm/ADT/SmallPtrSet.h>
 
@@ -24,6 +25,15 @@ using BlockSet = llvm::SmallPtrSet<llvm::BasicBlock *, 16>;
 /// not pass \p Without, which may be null. A return counts as one.
 BlockSet nextBarriers(llvm::BasicBlock *From,
                       const llvm::BasicBlock *Without = nullptr);
+
+/// Those that two ways from \p Block may come to next. What lies behind
+/// \p Without, where the ways meet, does not count.
+BlockSet reachedTwice(llvm::BasicBlock &Block,
+                      const llvm::BasicBlock *Without = nullptr);
+
+/// Keeps what is computed in one of the blocks and used in others in a variable
+/// on the stack, because it will no longer be computed there alone.
+void keepInVariables(llvm::ArrayRef<llvm::BasicBlock *> Blocks);
 
 /// What decides where \p Block goes on; null if nothing does.
 llvm::Value *decidingValue(llvm::BasicBlock &Block);

@@ -14,7 +14,6 @@
 #include <llvm/IR/CFG.h>
 #include <llvm/Transforms/Utils/BasicBlockUtils.h>
 #include <llvm/Transforms/Utils/Cloning.h>
-#include <llvm/Transforms/Utils/Local.h>
 
 using namespace llvm;
 
@@ -118,18 +117,6 @@ void copyTail(const Way &W, ArrayRef<BasicBlock *> Tail) {
   remapInstructionsInBlocks(Copied, Copies);
   for (BasicBlock *Last : W.Last)
     Last->getTerminator()->replaceSuccessorWith(Tail.front(), Copied.front());
-}
-
-/// What is computed in a block of \p Tail and used in others goes through
-/// variables, since it will be computed in several places.
-void keepInVariables(ArrayRef<BasicBlock *> Tail) {
-  SmallVector<Instruction *, 8> Leaving;
-  for (BasicBlock *Block : Tail)
-    for (Instruction &I : *Block)
-      if (I.isUsedOutsideOfBlock(Block))
-        Leaving.push_back(&I);
-  for (Instruction *I : Leaving)
-    DemoteRegToStack(*I);
 }
 
 /// If work-items of a way may go around \p Block, its end is no place for a

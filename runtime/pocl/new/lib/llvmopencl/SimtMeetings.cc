@@ -27,20 +27,11 @@ using BlockList = SmallSetVector<BasicBlock *, 16>;
 /// Where edges lead, and the blocks from which they come.
 using Ways = MapVector<BasicBlock *, BlockList>;
 
-/// What is computed in the blocks and used elsewhere, and what is chosen where
-/// the ways end, goes through memory: values no longer reach these places on
-/// one way. Optimisations undo it where they can.
-void keepInMemory(ArrayRef<BasicBlock *> Blocks, ArrayRef<BasicBlock *> Ends) {
+/// Values are no longer chosen by the way to these blocks.
+void keepChoicesInVariables(ArrayRef<BasicBlock *> Ends) {
   for (BasicBlock *End : Ends)
     while (auto *Phi = dyn_cast<PHINode>(&End->front()))
       DemotePHIToStack(Phi);
-  SmallVector<Instruction *, 16> Leaving;
-  for (BasicBlock *Block : Blocks)
-    for (Instruction &I : *Block)
-      if (!isa<AllocaInst>(I) && I.isUsedOutsideOfBlock(Block))
-        Leaving.push_back(&I);
-  for (Instruction *I : Leaving)
-    DemoteRegToStack(*I);
 }
 
 //===----------------------------------------------------------------------===//
@@ -56,13 +47,7 @@ BasicBlock *meetingPlace(BasicBlock &Branch, const PostDominatorTree &After) {
 /// Whether lanes that part at the branch may come to a barrier before they
 /// meet.
 bool mayMeetTooLate(BasicBlock &Branch, const BasicBlock *Meeting) {
-  BlockSet Reached;
-  for (BasicBlock *Next : BlockSet(succ_begin(&Branch), succ_end(&Branch)))
-    if (Next != Meeting)
-      for (BasicBlock *End : nextBarriers(Next, Meeting))
-        if (Barrier::hasBarrier(End) && !Reached.insert(End).second)
-          return true;
-  return false;
+  return any_of(reachedTwice(Branch, Meeting), Barrier::hasBarrier);
 }
 
 /// The blocks that only lanes pass that were at the branch, from there up to
@@ -126,9 +111,10 @@ BasicBlock *leadThroughOneBlock(const Ways &Out) {
 }
 
 /// Mends the first branch whose lanes would meet too late; outer ones are
-/// before inner ones. False if there is none that is not in \p Known, which
-/// grows: behind a branch from which a loop without end is reached there is no
-/// place where all lanes meet.
+/// before inner ones. False if there is none. No branch is looked at again:
+/// \p Known has those that were, because a mended one can still look bad. (If a
+/// loop without end lies behind it, there is no place where all its lanes
+/// meet.)
 bool meetBeforeBarrier(Function &F, BlockSet &Known) {
   const DominatorTree Dominators(F);
   PostDominatorTree After(F);
@@ -150,8 +136,9 @@ bool meetBeforeBarrier(Function &F, BlockSet &Known) {
     SmallVector<BasicBlock *, 4> Ends;
     for (const auto &Way : Out)
       Ends.push_back(Way.first);
+    keepChoicesInVariables(Ends);
     // What the branch's own block computes still reaches every place.
-    keepInMemory(Behind.getArrayRef().drop_front(), Ends);
+    keepInVariables(Behind.getArrayRef().drop_front());
     Known.insert(leadThroughOneBlock(Out));
     return true;
   }
@@ -206,7 +193,7 @@ bool separateHeads(const Loop &L) {
   if (Inner.empty() || !HasOuter ||
       (Latch && !TryToSimplifyUncondBranchFromEmptyBlock(Latch)))
     return false;
-  keepInMemory({}, Head);
+  keepChoicesInVariables(Head);
   auto *OuterHead = BasicBlock::Create(Head->getContext(), "outer_head",
                                        Head->getParent(), Head);
   Barrier::Create(BranchInst::Create(Head, OuterHead));
@@ -224,9 +211,8 @@ bool separateHeads(Function &F) {
 
 } // namespace
 
-PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &AM) {
-  if (!simtLanes(*F.getParent()) || !isKernelToProcess(F) ||
-      !hasWorkgroupBarriers(F))
+PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
+  if (!isKernelToProcess(F) || !hasWorkgroupBarriers(F))
     return PreservedAnalyses::all();
   bool Changed = false;
   while (separateHeads(F))

@@ -180,16 +180,6 @@ void anchorBarrierLoops(ArrayRef<Loop *> Loops) {
   }
 }
 
-/// Whether two ways from a block may come to the same barrier next.
-static bool waysMeet(BasicBlock &Block) {
-  BlockSet Before;
-  for (BasicBlock *Successor : BlockSet(succ_begin(&Block), succ_end(&Block)))
-    for (BasicBlock *Barrier : nextBarriers(Successor))
-      if (!Before.insert(Barrier).second)
-        return true;
-  return false;
-}
-
 SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
                            PostDominatorTree &PostDominators) {
   if (!simtLanes(*F.getParent()))
@@ -204,8 +194,8 @@ SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,
     bool Leaves = false;
     for (Loop *L = Loops.getLoopFor(&Block); L; L = L->getParentLoop())
       Leaves |= L->isLoopExiting(&Block);
-    const bool Decides =
-        Leaves || (Uniformity.isUniform(&F, Condition) && !waysMeet(Block));
+    const bool Decides = Leaves || (Uniformity.isUniform(&F, Condition) &&
+                                    reachedTwice(Block).empty());
     (Decides ? Deciding : OfRegion).insert(Terminator);
   }
 }

@@ -153,7 +153,8 @@ public:
 
   /// A branch between regions takes the way of one pass. This makes all passes
   /// note, at the \p Exit of the region that computes the \p Condition, whether
-  /// theirs is the first one's, and the branch trap if one is not. Call before
+  /// theirs is the first one's, and the branch trap if one is not. A condition
+  /// that does not reach the exit on every way is not checked. Call before
   /// createLoop().
   void checkAgreement(llvm::Instruction *Terminator,
                       llvm::Instruction *Condition, llvm::BasicBlock *Exit);
