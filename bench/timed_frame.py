@@ -18,13 +18,18 @@ def machine(config):
                                      capture_output=True, text=True).stdout)
 
 
+def picture(folder):
+    """The picture of the last frame that was rendered into the folder."""
+    return os.path.join(folder, "picture.pfm")
+
+
 def render(args, config, folder, *options):
     """The frame's time on that machine, as `splat render --json` has it, or {"error": text}."""
     report = os.path.join(folder, "report.json")
     environment = dict(os.environ, VORION_CONFIG=json.dumps(config))
     done = subprocess.run(
         ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "--time",
-         "-o", os.path.join(folder, "picture.pfm"), "--json", report, *options],
+         "-o", picture(folder), "--json", report, *options],
         env=environment, capture_output=True, text=True)
     if done.returncode != 0:
         return {"error": done.stderr.strip().splitlines()[-1]}

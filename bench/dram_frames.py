@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Cycles of a frame with each DRAM standard and each address map, as Markdown tables.
+
+usage: bench/dram_frames.py SCENE --cameras FILE --view NAME [--config MACHINE]
+
+A standard has as many channels as come nearest to the bandwidth of the machine's own. The maps are tried with the machine's
+standard. The pictures must be the same to the bit. Exit codes: 0, 1 a frame failed or pictures differ.
+"""
+
+import argparse
+import glob
+import hashlib
+import json
+import os
+import sys
+import tempfile
+
+import timed_frame
+
+TABLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "isasim", "timing", "dram", "standards")
+FOR_VALIDATION = "ramulator-lpddr4"
+MAPS = ("digit_sum", "row_bank_column", "xor")
+CHANNEL_BYTES = (64, 256, 1024, 4096)
+
+
+def bandwidths():
+    """Bytes a channel moves in a picosecond, by standard."""
+    found = {}
+    for path in sorted(glob.glob(os.path.join(TABLES, "*.json"))):
+        with open(path, encoding="utf-8") as file:
+            table = json.load(file)
+        found[table["standard"]] = table["burst_bytes"] / (table["values"]["nBL"][0] * table["tick_ps"])
+    return found
+
+
+def frame(args, machine, folder, changes):
+    """(time of the launches, hash of the picture) on the machine with what is changed in its DRAM."""
+    config = json.loads(json.dumps(machine))
+    config["timing"]["dram"].update(changes)
+    time = timed_frame.render(args, config, folder)
+    if "error" in time:
+        sys.exit("dram_frames.py: error: " + time["error"])
+    with open(timed_frame.picture(folder), "rb") as file:
+        return time["sum"], hashlib.sha256(file.read()).hexdigest()
+
+
+def print_table(columns, rows, render, default):
+    """A row for each of (what its first columns say, what is changed); whether all pictures are the default's."""
+    print("| " + " | ".join([*columns, "Mcycles", "against the machine's", "accesses that find their row"]) + " |")
+    print("|---" * len(columns) + "|--:|--:|--:|", flush=True)
+    same = True
+    for cells, changes in rows:
+        time, picture = render(changes)
+        dram = time["dram"]
+        accesses = sum(dram[kind] for kind in ("row_hits", "row_misses", "row_conflicts"))
+        print("| " + " | ".join([*cells, f"{time['cycles'] / 1e6:.3f}", f"{time['cycles'] / default[0]['cycles'] - 1:+.1%}",
+                                 f"{dram['row_hits'] / accesses:.0%}"]) + " |", flush=True)
+        same &= picture == default[1]
+    return same
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    timed_frame.add_view(parser)
+    parser.add_argument("--config", default="scaled", help="a machine's name or file (default: scaled)")
+    args = parser.parse_args()
+    machine = timed_frame.machine(args.config)
+    own, each = machine["timing"]["dram"], bandwidths()
+    peak = each[own["standard"]] * own["channels"]
+    standards = [((name, str(channels)), {"standard": name, "channels": channels})
+                 for name in sorted(each, key=lambda name: name != own["standard"]) if name != FOR_VALIDATION for channels in [max(1, round(peak / each[name]))]]
+    maps = [((name, str(size)), {"address_map": name, "channel_bytes": size}) for size in CHANNEL_BYTES for name in MAPS]
+    with tempfile.TemporaryDirectory() as folder:
+        def render(changes):
+            return frame(args, machine, folder, changes)
+        default = render({})
+        same = print_table(("standard", "channels"), standards, render, default)
+        print()
+        same &= print_table(("map", "bytes a channel"), maps, render, default)
+    if not same:
+        print("dram_frames.py: error: pictures differ, expected the same bits with every memory", file=sys.stderr)
+    return 0 if same else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
