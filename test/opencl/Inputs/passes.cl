@@ -1,7 +1,7 @@
-// Groups of 64 work-items run in four passes. Work-items of different passes go
-// different ways between barriers here, which no way of running passes does.
+// A group of 64 work-items runs in four passes. In these kernels the work-items
+// of one pass go another way between two barriers than those of the others.
 
-// The second loop's last round ends by the break or by the count: legal.
+// All leave the loop in its last round, some by the break: legal.
 kernel void leave_apart(global uint *out, local uint *t, uint k) {
   uint l = get_local_id(0), r = l;
   for (uint i = 0; i < 3; i++) {
@@ -20,7 +20,7 @@ kernel void leave_apart(global uint *out, local uint *t, uint k) {
   out[get_global_id(0)] = r;
 }
 
-// A loop whose barrier nobody reaches: legal.
+// Nobody reaches the barrier, and some go round more often: legal.
 kernel void rounds_apart(global uint *out, local uint *t, uint k) {
   uint l = get_local_id(0), r = l, i = 0;
   do {
@@ -34,7 +34,7 @@ kernel void rounds_apart(global uint *out, local uint *t, uint k) {
   out[get_global_id(0)] = r;
 }
 
-// Only the first pass comes to the barrier: wrong.
+// Only the first pass comes to the barrier: not legal.
 kernel void some(global uint *out, local uint *t, uint k) {
   uint l = get_local_id(0), r = l;
   out[get_global_id(0)] = k;
