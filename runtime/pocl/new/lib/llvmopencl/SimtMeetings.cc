@@ -50,16 +50,35 @@ bool mayMeetTooLate(BasicBlock &Branch, const BasicBlock *Meeting) {
   return any_of(reachedTwice(Branch, Meeting), Barrier::hasBarrier);
 }
 
-/// The blocks that only lanes pass that were at the branch, from there up to
-/// barriers, returns and the meeting place. The branch's own is the first.
+/// The blocks that are reached from a barrier on a way around the branch.
+BlockSet reachedFromBarriers(BasicBlock &Branch) {
+  BlockSet Seen;
+  SmallVector<BasicBlock *, 16> Pending;
+  const auto Follow = [&](BasicBlock &Block) {
+    for (BasicBlock *Next : successors(&Block))
+      if (Next != &Branch && Seen.insert(Next).second)
+        Pending.push_back(Next);
+  };
+  for (BasicBlock &Block : *Branch.getParent())
+    if (&Block != &Branch && Barrier::hasBarrier(&Block))
+      Follow(Block);
+  while (!Pending.empty())
+    Follow(*Pending.pop_back_val());
+  return Seen;
+}
+
+/// The blocks that only lanes pass that were at the branch, with no barrier
+/// since, up to barriers, returns and the meeting place. The branch's own is
+/// the first.
 BlockList blocksBehind(BasicBlock &Branch, const BasicBlock *Meeting,
                        const DominatorTree &Dominators) {
+  const BlockSet Others = reachedFromBarriers(Branch);
   BlockList Found;
   Found.insert(&Branch);
   for (size_t N = 0; N != Found.size(); ++N)
     for (BasicBlock *Next : successors(Found[N]))
       if (Next != Meeting && !succ_empty(Next) && !Barrier::hasBarrier(Next) &&
-          Dominators.dominates(&Branch, Next))
+          !Others.contains(Next) && Dominators.dominates(&Branch, Next))
         Found.insert(Next);
   return Found;
 }
@@ -75,15 +94,21 @@ Ways waysOutOf(const BlockList &Blocks) {
 }
 
 /// Whether the group agrees which of the ways it takes. It does if they lead to
-/// barriers, which all or none reach, and one to where all meet otherwise.
+/// different barriers, which all or none reach, and one to where all meet
+/// otherwise.
 bool agreesOn(const Ways &Out, const BasicBlock *Meeting) {
   unsigned Others = 0;
+  BlockSet Barriers;
   for (const auto &Way : Out) {
     BasicBlock *End = Way.first;
-    if (Barrier::hasBarrier(End))
+    if (End == Meeting || succ_empty(End)) {
+      if (++Others > 1)
+        return false;
       continue;
-    if (++Others > 1 || (End != Meeting && !succ_empty(End)))
-      return false;
+    }
+    for (BasicBlock *Next : nextBarriers(End))
+      if (!Barrier::hasBarrier(Next) || !Barriers.insert(Next).second)
+        return false;
   }
   return true;
 }

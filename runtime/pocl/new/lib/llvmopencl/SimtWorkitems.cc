@@ -15,6 +15,7 @@
 
 #include <llvm/IR/CFG.h>
 #include <llvm/IR/Dominators.h>
+#include <llvm/IR/InlineAsm.h>
 #include <llvm/IR/IntrinsicInst.h>
 #include <llvm/IR/MDBuilder.h>
 #include <llvm/Passes/PassBuilder.h>
@@ -353,10 +354,33 @@ void SimtLoops::makeUniform(Instruction *Terminator) {
   }
 }
 
+/// What comes to the end of \p Block traps. It seems to go on to \p Next, because
+/// lanes that part must meet again for the compiler.
+static void trapBefore(BasicBlock &Block, BasicBlock *Next, const DebugLoc &At) {
+  IRBuilder<> Builder(&Block);
+  Builder.SetCurrentDebugLocation(At);
+  Builder.CreateCall(
+      InlineAsm::get(FunctionType::get(Builder.getVoidTy(), false), "unimp", "",
+                     /*hasSideEffects=*/true));
+  Builder.CreateBr(Next);
+}
+
 void SimtLoops::trapElsewhere(BasicBlock &Block) {
-  for (BasicBlock *Next : successors(&Block))
-    if (isa<UnreachableInst>(Next->front()))
-      IRBuilder<>(&Next->front()).CreateIntrinsic(Intrinsic::trap, {}, {});
+  const auto IsCutOff = [](BasicBlock *Next) {
+    return isa<UnreachableInst>(Next->front());
+  };
+  const auto Ways = successors(&Block);
+  const auto Own = find_if_not(Ways, IsCutOff);
+  if (Own == Ways.end())
+    return;
+  for (BasicBlock *Next : Ways) {
+    if (!IsCutOff(Next))
+      continue;
+    Next->front().eraseFromParent();
+    trapBefore(*Next, *Own, Block.getTerminator()->getDebugLoc());
+    for (PHINode &Phi : (*Own)->phis())
+      Phi.addIncoming(Phi.getIncomingValueForBlock(&Block), Next);
+  }
 }
 
 void SimtLoops::checkAgreement(Instruction *Terminator, Instruction *Condition,
@@ -383,9 +407,7 @@ void SimtLoops::checkAgreement(Instruction *Terminator, Instruction *Condition,
   BasicBlock *Block = Terminator->getParent();
   BasicBlock *Decision = SplitBlock(Block, Terminator);
   auto *Other = BasicBlock::Create(F.getContext(), "other_way", &F, Decision);
-  Builder.SetInsertPoint(Other);
-  Builder.CreateIntrinsic(Intrinsic::trap, {}, {});
-  Builder.CreateUnreachable();
+  trapBefore(*Other, Decision, Terminator->getDebugLoc());
   Builder.SetInsertPoint(Block->getTerminator());
   Builder.CreateCondBr(Builder.CreateLoad(Builder.getInt1Ty(), Differ), Other,
                        Decision);
