@@ -139,6 +139,7 @@ vx_device_info Device::info() {
   Info.free_bytes = Memory.freeBytes();
   Info.largest_free_bytes = Memory.largestFree();
   Info.max_group_items = isasim::MaxGroupItems;
+  Info.clock_mhz = C.Timing.ClockMhz;
   return Info;
 }
 
@@ -491,6 +492,9 @@ Failure Device::wait(vx_result &Result) {
   Result.console_bytes = ConsoleText.size();
   Result.console_dropped = ConsoleDropped;
   Result.host_seconds = Last.HostSeconds;
+  Result.device_seconds = Last.Time ? static_cast<double>(Last.Time->Cycles) /
+                                          1e6 / Last.Time->ClockMhz
+                                    : 0;
   Result.time_report = TimeText.c_str();
   Result.counters = toDriver(Last.Total, Last.Raster);
   return {};

@@ -255,26 +255,6 @@ kernel void fine(global int *out) { out[get_global_id(0)] = 42; })",
   EXPECT_EQ(Device.download<int32_t>(Out, 8), std::vector<int32_t>(8, 42));
 }
 
-TEST(Launches, TooMuchLocalMemoryFailsTheEvent) {
-  const TestDevice Device;
-  VORION_REQUIRE_DEVICE(Device);
-  std::string Log;
-  const cl::Program Program = Device.build(
-      "kernel void use(local int *t, global int *o) { t[0] = 1; o[0] = t[0]; }",
-      Log);
-  ASSERT_EQ(Log, "");
-  const cl::Buffer Out = Device.upload(std::vector<int32_t>(1));
-  cl::Kernel K(Program, "use");
-  K.setArg(0, cl::Local(1 << 20));
-  K.setArg(1, Out);
-  cl::Event Failed;
-  testing::internal::CaptureStderr();
-  const cl_int Enqueued = Device.queue().enqueueNDRangeKernel(
-      K, cl::NullRange, cl::NDRange(1), cl::NDRange(1), nullptr, &Failed);
-  EXPECT_TRUE(Enqueued != CL_SUCCESS || Failed.wait() != CL_SUCCESS);
-  testing::internal::GetCapturedStderr();
-}
-
 TEST(Launches, CompileErrorsReachTheBuildLog) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);

@@ -54,12 +54,57 @@ TEST_F(Platform, OptionsOpenAnotherMachineAndWrongOnesSayWhy) {
   EXPECT_EQ(open({{"VORION_SET", nullptr}}), CL_INVALID_VALUE);
   EXPECT_EQ(Open(Chosen(), 1, nullptr, 0, nullptr), CL_INVALID_VALUE);
 
-  ASSERT_EQ(open({{"VORION_SET", "clusters=2"}}), CL_SUCCESS) << Said();
+  ASSERT_EQ(open({{"VORION_SET", "clusters=2"}, {"VORION_TIME", "profiled"}}),
+            CL_SUCCESS)
+      << Said();
   EXPECT_EQ(device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 16u);
   // Again the same, but nothing else while they are open.
-  EXPECT_EQ(open({{"VORION_SET", "clusters=2"}}), CL_SUCCESS);
+  EXPECT_EQ(open({{"VORION_SET", "clusters=2"}, {"VORION_TIME", "profiled"}}),
+            CL_SUCCESS);
   EXPECT_EQ(open({}), CL_INVALID_OPERATION);
   EXPECT_NE(Said().find("other options"), std::string::npos) << Said();
+}
+
+// The devices are as the test before has opened them, with the clock.
+TEST_F(Platform, AProfiledKernelTakesTheMachinesTime) {
+  const cl::Device Device = device();
+  const cl::Context Context(Device);
+  const cl::CommandQueue Queue(Context, Device, CL_QUEUE_PROFILING_ENABLE);
+  cl::Program Program(Context, R"(
+kernel void turns(global uint *p, uint n) {
+  uint x = p[get_global_id(0)];
+  for (uint i = 0; i < n; i++)
+    x = x * 1664525u + i;
+  p[get_global_id(0)] = x;
+})");
+  ASSERT_EQ(Program.build(), CL_SUCCESS);
+  cl::Kernel Kernel(Program, "turns");
+  const cl::Buffer Out(Context, CL_MEM_READ_WRITE, 64);
+  Kernel.setArg(0, Out);
+  const auto Nanoseconds = [&](cl_uint Turns) {
+    cl::Event Done;
+    Kernel.setArg(1, Turns);
+    EXPECT_EQ(Queue.enqueueNDRangeKernel(Kernel, cl::NullRange, cl::NDRange(16),
+                                         cl::NDRange(16), nullptr, &Done),
+              CL_SUCCESS);
+    EXPECT_EQ(Done.wait(), CL_SUCCESS);
+    const auto At = [&](cl_profiling_info What) {
+      cl_ulong Time = 0;
+      EXPECT_EQ(
+          clGetEventProfilingInfo(Done(), What, sizeof(Time), &Time, nullptr),
+          CL_SUCCESS);
+      return Time;
+    };
+    const cl_ulong Start = At(CL_PROFILING_COMMAND_START);
+    EXPECT_LE(At(CL_PROFILING_COMMAND_QUEUED), At(CL_PROFILING_COMMAND_SUBMIT));
+    EXPECT_LE(At(CL_PROFILING_COMMAND_SUBMIT), Start);
+    return At(CL_PROFILING_COMMAND_END) - Start;
+  };
+  // No turn is faster than the three cycles of its multiplication, 5 ns.
+  const cl_ulong Few = Nanoseconds(1000), Many = Nanoseconds(3000);
+  EXPECT_GT(Few, 1000U * 5);
+  EXPECT_GT(Many, 2 * Few);
+  EXPECT_LT(Many, 4 * Few);
 }
 
 /// What a context's function is told.

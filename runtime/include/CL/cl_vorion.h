@@ -1,6 +1,6 @@
-/* cl_vorion: what a Vorion device offers beyond OpenCL.
+/* cl_vorion_simulation: what a Vorion device offers beyond OpenCL.
  *
- * Present if "cl_vorion" is in CL_DEVICE_EXTENSIONS. The functions are found
+ * Present if its name is in CL_DEVICE_EXTENSIONS. The functions are found
  * with clGetExtensionFunctionAddressForPlatform, which gives NULL on a platform
  * without them; a program may include this header anywhere. */
 #ifndef CL_VORION_H
@@ -13,8 +13,11 @@
 extern "C" {
 #endif
 
+#define cl_vorion_simulation 1
+#define CL_VORION_EXTENSION_NAME "cl_vorion_simulation"
+/* What it was called before; devices still name it, in this version alone. */
 #define cl_vorion 1
-#define CL_VORION_EXTENSION_NAME "cl_vorion"
+#define CL_VORION_OLD_EXTENSION_NAME "cl_vorion"
 
 /* What clGetEventInfoVORION tells about the event of a kernel that has ended:
  * each name of cl_vorion_counters.h is a cl_ulong, the sum over the cores and

@@ -96,6 +96,7 @@ typedef struct vx_device_info {
   uint64_t free_bytes;               /* not allocated now */
   uint64_t largest_free_bytes;       /* largest allocation possible now */
   uint32_t max_group_items;          /* largest work-group the ABI supports */
+  uint32_t clock_mhz;                /* of the cores */
 } vx_device_info;
 
 vx_status vx_device_get_info(vx_device *device, vx_device_info *info);
@@ -227,6 +228,7 @@ typedef struct vx_result {
   size_t console_bytes;
   uint64_t console_dropped; /* bytes beyond the first MiB, which is kept */
   double host_seconds;
+  double device_seconds; /* the same on the machine; 0 without the clock */
   vx_counters counters; /* sums over cores and rasterizers */
   /* How long the run took on the machine, as JSON (docs/model.md); "" without
    * the clock. */

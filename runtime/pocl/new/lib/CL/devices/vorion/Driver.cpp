@@ -16,6 +16,7 @@ extern "C" {
 #include "pocl_file_util.h"
 #include "pocl_local_size.h"
 #include "pocl_mem_management.h"
+#include "pocl_timing.h"
 #include "pocl_util.h"
 }
 
@@ -32,10 +33,15 @@ namespace {
 constexpr const char *Extensions =
     "cl_khr_byte_addressable_store cl_khr_global_int32_base_atomics "
     "cl_khr_global_int32_extended_atomics cl_khr_local_int32_base_atomics "
-    "cl_khr_local_int32_extended_atomics " CL_VORION_EXTENSION_NAME;
+    "cl_khr_local_int32_extended_atomics " CL_VORION_EXTENSION_NAME
+    " " CL_VORION_OLD_EXTENSION_NAME;
 
 /// What the runtime gives a launch.
 constexpr size_t PrintBufferBytes = 1u << 20;
+
+/// The share of global memory that programs cannot allocate: launches need
+/// some, most of all kernels that keep arrays across barriers.
+constexpr uint64_t LaunchShare = 32;
 
 /// "VO" of Vorion; there is no PCI vendor number.
 constexpr cl_uint VendorId = 0x564F;
@@ -62,6 +68,10 @@ unsigned probe(pocl_device_ops *Ops) {
   return Count < 0 ? 1 : Count;
 }
 
+uint64_t keptForLaunches(const vx_device_info &Info) {
+  return Info.global_bytes / LaunchShare;
+}
+
 void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   pocl_init_default_device_infos(Device, Extensions);
   SETUP_DEVICE_CL_VERSION(Device, 1, 2);
@@ -70,6 +80,10 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->vendor_id = VendorId;
   Device->short_name = "vorion";
   Device->execution_capabilities = CL_EXEC_KERNEL;
+  Device->on_host_queue_props =
+      CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE | CL_QUEUE_PROFILING_ENABLE;
+  Device->has_own_timer = 1; // see updateEvent()
+  Device->max_clock_frequency = Info.clock_mhz;
   Device->max_compute_units = Info.cores;
   Device->max_work_group_size = Info.max_group_items;
   for (size_t &Size : Device->max_work_item_sizes)
@@ -80,9 +94,9 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->has_64bit_long = 1;
   Device->endian_little = CL_TRUE;
   Device->host_unified_memory = CL_FALSE;
-  Device->global_mem_size = Info.global_bytes;
-  Device->max_mem_alloc_size = Info.largest_free_bytes;
-  Device->max_constant_buffer_size = Info.global_bytes;
+  Device->global_mem_size = Info.global_bytes - keptForLaunches(Info);
+  Device->max_mem_alloc_size = Info.largest_free_bytes - keptForLaunches(Info);
+  Device->max_constant_buffer_size = Device->max_mem_alloc_size;
   Device->local_mem_type = CL_LOCAL;
   Device->local_mem_size = Info.local_bytes;
   Device->mem_base_addr_align = VX_MEM_ALIGNMENT;
@@ -103,6 +117,13 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->preferred_vector_width_half = Device->native_vector_width_half = 0;
   Device->native_vector_width_in_bits = 0;
   Device->image_support = CL_FALSE;
+  Device->image2d_max_width = Device->image2d_max_height = 0;
+  Device->image3d_max_width = Device->image3d_max_height = 0;
+  Device->image3d_max_depth = 0;
+  Device->image_max_buffer_size = Device->image_max_array_size = 0;
+  Device->max_samplers = 0;
+  Device->max_read_image_args = Device->max_write_image_args = 0;
+  Device->max_read_write_image_args = 0;
   Device->num_builtin_kernels = 0;
   POCL_MEM_FREE(Device->builtin_kernel_list);
   Device->printf_buffer_size = PrintBufferBytes;
@@ -198,6 +219,10 @@ cl_int allocate(cl_device_id Device, cl_mem Buffer, void *) {
   VorionDevice &Own = deviceOf(Device);
   // The host's copy of such a buffer cannot be the device's.
   if ((Buffer->flags & CL_MEM_ALLOC_HOST_PTR) && !Buffer->mem_host_ptr)
+    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
+  vx_device_info Now{};
+  if (vx_device_get_info(Own.Opened.get(), &Now) != VX_OK ||
+      Now.free_bytes < Buffer->size + keptForLaunches(Now))
     return CL_MEM_OBJECT_ALLOCATION_FAILURE;
   uint32_t Address = 0;
   void *Host = nullptr;
@@ -428,9 +453,29 @@ int freeQueue(cl_device_id, cl_command_queue Queue) {
   return CL_SUCCESS;
 }
 
+/// Tells an event's times. With the clock on, a kernel takes as long as on the
+/// machine.
 void updateEvent(cl_device_id, cl_event Event) {
   if (!Event->data && Event->status == CL_QUEUED)
     Event->data = new EventData;
+  const cl_ulong Now = pocl_gettimemono_ns();
+  switch (Event->status) {
+  case CL_QUEUED:
+    Event->time_queue = Now;
+    break;
+  case CL_SUBMITTED:
+    Event->time_submit = Now;
+    break;
+  case CL_RUNNING:
+    Event->time_start = Now;
+    break;
+  default: {
+    const EventData *Data = eventData(Event);
+    const double Took = Data ? Data->DeviceSeconds : 0;
+    Event->time_end =
+        Took > 0 ? Event->time_start + static_cast<cl_ulong>(Took * 1e9) : Now;
+  }
+  }
 }
 
 void waitEvent(cl_device_id, cl_event Event) {

@@ -15,6 +15,7 @@ struct EventData {
   pthread_cond_t Finished = PTHREAD_COND_INITIALIZER; ///< with the event's lock
   std::optional<vx_counters> Counters; ///< of a kernel that ran to its end
   std::string TimeReport;              ///< likewise
+  double DeviceSeconds = 0;            ///< likewise; 0 without the clock
 };
 
 /// Null before the event is queued.

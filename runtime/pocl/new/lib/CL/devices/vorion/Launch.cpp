@@ -3,6 +3,10 @@
 #include "Event.h"
 #include "Messages.h"
 
+extern "C" {
+#include "pocl_util.h"
+}
+
 #include <vorion_abi.h>
 
 #include <cstdio>
@@ -57,6 +61,8 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
   const LoadedKernel *Kernel = Kernels.get(Command, Problem);
   if (!Kernel)
     return Fail.with(Problem.status(), Problem.Text);
+  // What the event says of its time is without the compilation.
+  pocl_update_event_running(Command->sync.event.event);
 
   const pocl_kernel_metadata_t &Meta = *Run.kernel->meta;
   std::vector<unsigned char> Packed(Kernel->Info.args_bytes);
@@ -123,6 +129,7 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
   if (EventData *Data = eventData(Command->sync.event.event)) {
     Data->Counters = Result.counters;
     Data->TimeReport = Result.time_report;
+    Data->DeviceSeconds = Result.device_seconds;
   }
   return CL_SUCCESS;
 }

@@ -56,7 +56,6 @@ void Worker::execute(_cl_command_node *Command) {
     pocl_exec_command(Command);
     return;
   }
-  pocl_update_event_running(Event);
   const cl_int Status = runKernel(Device, Kernels, Command);
   pocl_update_event_finished(Status, __func__, __LINE__, Event, "kernel");
 }

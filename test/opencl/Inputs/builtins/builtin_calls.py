@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Kernels that call every built-in function which clang declares for OpenCL C 1.2.
+
+usage: builtin_calls.py HEADER.i PATTERN OUT.cl
+
+HEADER.i is clang's opencl-c.h after the preprocessor. PATTERN is a regular expression: every overload of the functions
+whose names it matches is called, by kernels that share them out. Images and samplers are left out. Prints how many
+there are.
+"""
+
+import collections
+import re
+import sys
+
+ATTRIBUTE = re.compile(r"__attribute__\s*\(\((?:[^()]|\([^()]*\))*\)\)\s*")
+DECLARATION = re.compile(r"^([\w ]+?)\s*\b(\w+)\((.*)\);$")
+POINTER = re.compile(r"^(.*?)(\w+)(?:\s+(?:const|volatile))?\s*\*")
+SKIPPED = re.compile(r"^(typedef|enum|#)|image|sampler|printf")
+# A kernel is compiled by a process of its own, so few kernels are fast; a very large one is slow.
+CALLS_OF_KERNEL = 100
+# The space of a pointer, and memory of that space that a kernel has.
+SPACES = {"global": "(global {0} *)memory", "local": "(local {0} *)shared", "constant": "(constant {0} *)table"}
+
+
+def declarations(path):
+    """Overloads by name: (type of the result, types of the parameters)."""
+    found = collections.defaultdict(list)
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            line = ATTRIBUTE.sub("", line).strip().replace("__", "")
+            match = None if SKIPPED.search(line) else DECLARATION.match(line)
+            if match:
+                result, name, parameters = match.groups()
+                found[name].append((result, [] if parameters in ("", "void") else parameters.split(",")))
+    return found
+
+
+def argument(number, parameter):
+    """(what is written before the call, the argument)"""
+    pointer = POINTER.match(parameter.strip())
+    if pointer:
+        space, element = pointer.groups()
+        for name, text in SPACES.items():
+            if name in space:
+                return "", text.format(element)
+        # half is no type of a variable.
+        stored = "ushort" if element == "half" else element
+        copy = f"{stored} v{number}[16]; for (int i = 0; i < 16; ++i) v{number}[i] = *(global {stored} *)memory; "
+        return copy, f"({element} *)v{number}"
+    kind = next(word for word in parameter.split() if word != "const")
+    if kind == "event_t":
+        return "", "0"
+    return "", f"*(global {kind} *)(memory + {128 * number})"
+
+
+def call(name, result, parameters):
+    before, arguments = zip(*(argument(i, p) for i, p in enumerate(parameters))) if parameters else ((), ())
+    text = f"{name}({', '.join(arguments)})"
+    if result == "event_t":
+        text = f"event_t event = {text}; wait_group_events(1, &event)"
+    elif result != "void":
+        text = f"*(global {result} *)(memory + 1024) = {text}"
+    # What a function writes through a pointer is used.
+    after = "".join(f" memory[2000] ^= ((char *)v{i})[3];" for i, b in enumerate(before) if b)
+    return f"  {{ {''.join(before)}{text};{after} }}\n"
+
+
+def main():
+    header, pattern, path = sys.argv[1:]
+    chosen = {name: all_of for name, all_of in declarations(header).items() if re.search(pattern, name)}
+    calls = [call(name, *overload) for name, overloads in chosen.items() for overload in overloads]
+    with open(path, "w", encoding="utf-8") as out:
+        for first in range(0, len(calls), CALLS_OF_KERNEL):
+            out.write(f"kernel void calls{first}(global char *memory, local char *shared, constant char *table) {{\n")
+            out.writelines(calls[first:first + CALLS_OF_KERNEL])
+            out.write("}\n")
+    print(f"{len(chosen)} functions, {sum(map(len, chosen.values()))} overloads")
+
+
+if __name__ == "__main__":
+    main()

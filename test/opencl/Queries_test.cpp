@@ -1,0 +1,164 @@
+/// What a device, a kernel, a queue and an event say of themselves.
+
+#include "TestDevice.h"
+
+using vorion::test::TestDevice;
+
+namespace {
+
+class Queries : public testing::Test {
+protected:
+  void SetUp() override { VORION_REQUIRE_DEVICE(Device); }
+
+  cl::Kernel kernel(const char *Source, const char *Name) const {
+    std::string Log;
+    const cl::Program Program = Device.build(Source, Log);
+    EXPECT_EQ(Log, "");
+    return {Program, Name};
+  }
+  cl::Device device() const {
+    return Device.queue().getInfo<CL_QUEUE_DEVICE>();
+  }
+  cl_int enqueue(const cl::Kernel &Kernel, std::size_t Items) const {
+    return Device.queue().enqueueNDRangeKernel(Kernel, cl::NullRange,
+                                               cl::NDRange(Items));
+  }
+
+  const TestDevice Device;
+};
+
+constexpr const char *Locals = R"(
+kernel void locals(global uint *out, local uint *t, local float *u) {
+  local uint kept[100];
+  uint l = get_local_id(0);
+  kept[l % 100] = l;
+  barrier(CLK_LOCAL_MEM_FENCE);
+  out[l] = kept[(l + 1) % 100] + t[0] + (uint)u[0];
+})";
+
+TEST_F(Queries, LocalMemoryOfAKernelIsItsVariablesAndItsArguments) {
+  cl::Kernel Kernel = kernel(Locals, "locals");
+  const auto Bytes = [&] {
+    return Kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(device());
+  };
+  EXPECT_EQ(Bytes(), 400U);
+  Kernel.setArg(1, cl::Local(1000));
+  EXPECT_EQ(Bytes(), 1400U);
+  Kernel.setArg(2, cl::Local(24));
+  Kernel.setArg(1, cl::Local(4));
+  EXPECT_EQ(Bytes(), 428U);
+}
+
+TEST_F(Queries, MoreLocalMemoryThanThereIsIsRefusedAtOnce) {
+  cl::Kernel Kernel = kernel(Locals, "locals");
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 64);
+  const auto Most = device().getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
+  Kernel.setArg(0, Out);
+  Kernel.setArg(1, cl::Local(Most - 404));
+  Kernel.setArg(2, cl::Local(4));
+  EXPECT_EQ(enqueue(Kernel, 16), CL_SUCCESS);
+  EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
+  Kernel.setArg(2, cl::Local(8));
+  EXPECT_EQ(enqueue(Kernel, 16), CL_OUT_OF_RESOURCES);
+}
+
+TEST_F(Queries, WithoutImagesTheirLimitsAreZero) {
+  const cl::Device D = device();
+  ASSERT_EQ(D.getInfo<CL_DEVICE_IMAGE_SUPPORT>(), CL_FALSE);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE2D_MAX_WIDTH>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE2D_MAX_HEIGHT>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE3D_MAX_WIDTH>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE3D_MAX_HEIGHT>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE_MAX_BUFFER_SIZE>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE_MAX_ARRAY_SIZE>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_MAX_READ_IMAGE_ARGS>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_MAX_WRITE_IMAGE_ARGS>(), 0U);
+  EXPECT_EQ(D.getInfo<CL_DEVICE_MAX_SAMPLERS>(), 0U);
+}
+
+TEST_F(Queries, TheDeviceNamesItsClockAndItsExtension) {
+  EXPECT_GT(device().getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>(), 0U);
+  const std::string Names = device().getInfo<CL_DEVICE_EXTENSIONS>() + " ";
+  EXPECT_NE(Names.find(" cl_vorion_simulation "), std::string::npos);
+}
+
+TEST_F(Queries, AllMemoryThatIsReportedCanBeUsedByAKernel) {
+  // Two buffers take all of it; a launch still has room, and a third has none.
+  const auto Most = device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  const auto Largest = device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  ASSERT_GE(Largest, Most / 4);
+  cl_int Status = CL_SUCCESS;
+  const cl::Buffer One(Device.context(), CL_MEM_READ_WRITE, Most / 2);
+  const cl::Buffer Other(Device.context(), CL_MEM_READ_WRITE, Most / 2 - 4096);
+  cl::Kernel Kernel = kernel(R"(
+kernel void ends(global uint *a, ulong n, global uint *b) {
+  uint kept[64];
+  for (uint i = 0; i < 64; i++)
+    kept[i] = i * get_local_id(0);
+  barrier(CLK_GLOBAL_MEM_FENCE);
+  a[n] = b[n] = kept[get_local_id(0) % 64];
+})",
+                             "ends");
+  Kernel.setArg(0, One);
+  Kernel.setArg(1, cl_ulong{Most / 8 - 2048});
+  Kernel.setArg(2, Other);
+  EXPECT_EQ(enqueue(Kernel, 1024), CL_SUCCESS);
+  EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
+  cl_uint Value = 0;
+  EXPECT_EQ(Device.queue().enqueueReadBuffer(Other, CL_TRUE, Most / 2 - 8192, 4,
+                                             &Value),
+            CL_SUCCESS);
+
+  const cl::Buffer Third(Device.context(), CL_MEM_READ_WRITE, 1 << 20, nullptr,
+                         &Status);
+  cl::Kernel Touch =
+      kernel("kernel void touch(global uint *p) { p[0] = 1; }", "touch");
+  Touch.setArg(0, Third);
+  EXPECT_TRUE(Status != CL_SUCCESS || enqueue(Touch, 1) != CL_SUCCESS);
+}
+
+TEST_F(Queries, TheSourcesGroupSizeIsTakenWhereNoneIsGiven) {
+  cl::Kernel Kernel = kernel(R"(
+kernel __attribute__((reqd_work_group_size(4, 3, 1)))
+void size(global uint *out) {
+  if (get_global_id(0) == 0 && get_global_id(1) == 0)
+    out[0] = get_local_size(0) * 100 + get_local_size(1);
+})",
+                             "size");
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 4);
+  Kernel.setArg(0, Out);
+  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(Kernel, cl::NullRange,
+                                                cl::NDRange(8, 6)),
+            CL_SUCCESS);
+  EXPECT_EQ(Device.download<cl_uint>(Out, 1)[0], 403U);
+  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(Kernel, cl::NullRange,
+                                                cl::NDRange(8, 4)),
+            CL_INVALID_WORK_GROUP_SIZE);
+}
+
+TEST_F(Queries, AnOutOfOrderQueueDoesNotWaitForWhatCannotRun) {
+  const cl::CommandQueue Queue(Device.context(), device(),
+                               CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
+  ASSERT_TRUE(Queue.getInfo<CL_QUEUE_PROPERTIES>() &
+              CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
+  cl::UserEvent Gate(Device.context());
+  const cl::Buffer Buffer(Device.context(), CL_MEM_READ_WRITE, 8);
+  const std::vector<cl::Event> Waits{Gate};
+  cl::Event First, Second, Barrier, Last;
+  Queue.enqueueFillBuffer(Buffer, cl_uint{1}, 0, 4, &Waits, &First);
+  Queue.enqueueFillBuffer(Buffer, cl_uint{2}, 4, 4, nullptr, &Second);
+  EXPECT_EQ(Second.wait(), CL_SUCCESS);
+  EXPECT_GT(First.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(), CL_COMPLETE);
+
+  // A barrier holds back what follows, in this queue, too.
+  Queue.enqueueBarrierWithWaitList(nullptr, &Barrier);
+  Queue.enqueueFillBuffer(Buffer, cl_uint{3}, 0, 4, nullptr, &Last);
+  Queue.flush();
+  EXPECT_GT(Last.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>(), CL_COMPLETE);
+  Gate.setStatus(CL_COMPLETE);
+  EXPECT_EQ(Queue.finish(), CL_SUCCESS);
+  EXPECT_EQ(Device.download<cl_uint>(Buffer, 2), (std::vector<cl_uint>{3, 2}));
+}
+
+} // namespace
