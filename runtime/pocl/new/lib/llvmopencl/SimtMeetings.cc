@@ -101,7 +101,7 @@ bool agreesOn(const Ways &Out, const BasicBlock *Meeting) {
   BlockSet Barriers;
   for (const auto &Way : Out) {
     BasicBlock *End = Way.first;
-    if (End == Meeting || succ_empty(End)) {
+    if (!Barrier::hasBarrier(End) && (End == Meeting || succ_empty(End))) {
       if (++Others > 1)
         return false;
       continue;
