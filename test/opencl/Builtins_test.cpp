@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 using vorion::test::TestDevice;
@@ -126,6 +127,61 @@ kernel void halves(global const half *in, global float *wide, global half *out) 
             : std::ldexp(1024 + Fraction, static_cast<int>(Exponent) - 25);
     EXPECT_EQ(Floats[I], I >> 15 ? -Magnitude : Magnitude) << I;
     EXPECT_EQ(Halves[I], In[I]) << I;
+  }
+}
+
+TEST(Builtins, EdgesOfPowAndFractAreAsInC) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+kernel void edges(global const float *x, global const float *y,
+                  global float *out) {
+  size_t i = get_global_id(0);
+  float whole;
+  out[3 * i] = pow(x[i], y[i]);
+  out[3 * i + 1] = fract(x[i], &whole);
+  out[3 * i + 2] = whole;
+})",
+                                           Log);
+  ASSERT_EQ(Log, "");
+  const float Infinity = std::numeric_limits<float>::infinity();
+  std::vector<float> Edges = {
+      0,         1,    2,          3,         0.5F,
+      1.5F,      1e10, 0x1p23F,    0x1p24F,   Infinity,
+      0x1p-149F, NAN,  8388607.5F, 0x1p-126F, 0x1.fffffep127F};
+  for (std::size_t I = 0, Of = Edges.size(); I < Of; ++I)
+    Edges.push_back(-Edges[I]);
+  std::vector<float> X, Y;
+  for (const float A : Edges)
+    for (const float B : Edges) {
+      X.push_back(A);
+      Y.push_back(B);
+    }
+  cl::Kernel Kernel(Program, "edges");
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 12 * X.size());
+  const cl::Buffer InX = Device.upload(X), InY = Device.upload(Y);
+  Kernel.setArg(0, InX);
+  Kernel.setArg(1, InY);
+  Kernel.setArg(2, Out);
+  Device.run(Kernel, X.size(), Edges.size());
+  const auto Results = Device.download<float>(Out, 3 * X.size());
+  const auto Bits = [](float Value) {
+    return std::isnan(Value) ? 0x7fc00000U : std::bit_cast<uint32_t>(Value);
+  };
+  for (std::size_t I = 0; I < X.size(); ++I) {
+    // Finite powers may be rounded otherwise.
+    const auto Power = static_cast<float>(std::pow(double{X[I]}, double{Y[I]}));
+    if (Power == 0 || !std::isfinite(Power))
+      EXPECT_EQ(Bits(Results[3 * I]), Bits(Power))
+          << X[I] << " to the power of " << Y[I];
+    const float Whole = std::floor(X[I]);
+    const float Part = std::isinf(X[I])
+                           ? std::copysign(0.0F, X[I])
+                           : std::fmin(X[I] - Whole, 0x1.fffffep-1F);
+    EXPECT_EQ(Bits(Results[3 * I + 2]), Bits(Whole)) << X[I];
+    EXPECT_EQ(Bits(Results[3 * I + 1]), Bits(std::isnan(X[I]) ? NAN : Part))
+        << X[I];
   }
 }
 

@@ -131,9 +131,11 @@ const Function Functions[] = {
     {"logb", "logb(x)", EXACT(std::logb(X)), 0, Range::Moderate},
     {"erf", "erf(x)", EXACT(std::erf(X)), 16},
     {"erfc", "erfc(x)", EXACT(std::erfc(X)), 16, Range::Moderate},
-    // Below about -33 results are subnormal, and SLEEF loses digits near the
-    // poles there (43 units; the same on any machine).
-    {"tgamma", "tgamma(fmod(x, 30.0f))", EXACT(std::tgamma(std::fmod(X, 30.0))),
+    {"tgamma", "tgamma(x)", EXACT(std::tgamma(X)), 16, Range::Moderate},
+    // Where results are subnormal.
+    {"tgammaBelow", "tgamma(-30.0f - fmod(fabs(x), 16.0f))",
+     EXACT(std::tgamma(-30.0F -
+                       std::fmod(std::fabs(static_cast<float>(X)), 16.0F))),
      16, Range::Moderate},
     {"nativeSqrt", "native_sqrt(fabs(x))", EXACT(std::sqrt(std::fabs(X))), 8192,
      Range::Moderate},

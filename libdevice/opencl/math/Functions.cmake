@@ -9,10 +9,10 @@ set(FROM_LIBCLC
 set(FROM_SLEEF
     acos asin atan atan2 cbrt erf erfc exp exp10 exp2 expm1 fdim frexp hypot
     ilogb ldexp lgamma log log10 log1p modf native_cos native_sin native_tan
-    nextafter tgamma)
+    nextafter)
 # What these need besides.
 set(LIBCLC_HELPERS ep_log ocml_helpers pocl_fma pow_helpers sincos_helpers)
 set(SLEEF_HELPERS expfrexp frfrexp lgamma_r)
 
 # Of this folder.
-set(OWN_MATH ldexp_scalar)
+set(OWN_MATH fract ldexp_scalar tgamma)

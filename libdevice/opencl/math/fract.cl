@@ -1,0 +1,11 @@
+// fract(x, whole). PoCL's, for devices without doubles, gives 0x1.fffffep-1
+// for an infinity, which made pow(-0, inf) an odd power.
+#include "templates.h"
+
+DEFINE_EXPR_V_VPV (fract, ({
+                     *b = floor (a);
+                     vtype part = fmin (a - floor (a), (vtype)0x1.fffffep-1f);
+                     part = select (part, copysign ((vtype)0, a),
+                                    (itype)isinf (a));
+                     select (part, a, (itype)isnan (a));
+                   }))
