@@ -56,6 +56,10 @@ public:
       if (!F.isDeclaration())
         F.setLinkage(GlobalValue::InternalLinkage);
     }
+    // An image has a copy of a table for each kernel that uses it.
+    for (GlobalVariable &G : M.globals())
+      if (G.isConstant() && G.hasInitializer())
+        G.setLinkage(GlobalValue::InternalLinkage);
 
     // Seen from the entry, arguments and group numbers are the same for all
     // lanes; as parameters of another function they might not be.
