@@ -15,9 +15,11 @@ extern "C" {
 
 #define cl_vorion_simulation 1
 #define CL_VORION_EXTENSION_NAME "cl_vorion_simulation"
-/* What it was called before; devices still name it, in this version alone. */
+/* What it was called before, kept in this version alone. A program that looks
+ * for the old name in CL_DEVICE_EXTENSIONS finds the beginning of the new one:
+ * the standard wants a part behind the vendor's, so the old one is not listed.
+ */
 #define cl_vorion 1
-#define CL_VORION_OLD_EXTENSION_NAME "cl_vorion"
 
 /* What clGetEventInfoVORION tells about the event of a kernel that has ended:
  * each name of cl_vorion_counters.h is a cl_ulong, the sum over the cores and

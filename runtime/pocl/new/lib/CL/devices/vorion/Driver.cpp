@@ -33,8 +33,7 @@ namespace {
 constexpr const char *Extensions =
     "cl_khr_byte_addressable_store cl_khr_global_int32_base_atomics "
     "cl_khr_global_int32_extended_atomics cl_khr_local_int32_base_atomics "
-    "cl_khr_local_int32_extended_atomics " CL_VORION_EXTENSION_NAME
-    " " CL_VORION_OLD_EXTENSION_NAME;
+    "cl_khr_local_int32_extended_atomics " CL_VORION_EXTENSION_NAME;
 
 /// What the runtime gives a launch.
 constexpr size_t PrintBufferBytes = 1u << 20;
