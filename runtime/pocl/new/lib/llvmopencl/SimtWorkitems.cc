@@ -354,9 +354,10 @@ void SimtLoops::makeUniform(Instruction *Terminator) {
   }
 }
 
-/// What comes to the end of \p Block traps. It seems to go on to \p Next, because
-/// lanes that part must meet again for the compiler.
-static void trapBefore(BasicBlock &Block, BasicBlock *Next, const DebugLoc &At) {
+/// What comes to the end of \p Block traps. It seems to go on to \p Next,
+/// because lanes that part must meet again for the compiler.
+static void trapBefore(BasicBlock &Block, BasicBlock *Next,
+                       const DebugLoc &At) {
   IRBuilder<> Builder(&Block);
   Builder.SetCurrentDebugLocation(At);
   Builder.CreateCall(
