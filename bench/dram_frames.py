@@ -68,7 +68,9 @@ def main():
     own, each = machine["timing"]["dram"], bandwidths()
     peak = each[own["standard"]] * own["channels"]
     standards = [((name, str(channels)), {"standard": name, "channels": channels})
-                 for name in sorted(each, key=lambda name: name != own["standard"]) if name != FOR_VALIDATION for channels in [max(1, round(peak / each[name]))]]
+                 for name in sorted(each, key=lambda name: name != own["standard"])  # the machine's own first
+                 if name != FOR_VALIDATION
+                 for channels in [max(1, round(peak / each[name]))]]
     maps = [((name, str(size)), {"address_map": name, "channel_bytes": size}) for size in CHANNEL_BYTES for name in MAPS]
     with tempfile.TemporaryDirectory() as folder:
         def render(changes):

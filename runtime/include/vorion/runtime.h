@@ -228,7 +228,7 @@ typedef struct vx_result {
   size_t console_bytes;
   uint64_t console_dropped; /* bytes beyond the first MiB, which is kept */
   double host_seconds;
-  double device_seconds; /* the same on the machine; 0 without the clock */
+  double device_seconds; /* of the run on the machine; 0 without the clock */
   vx_counters counters;  /* sums over cores and rasterizers */
   /* How long the run took on the machine, as JSON (docs/model.md); "" without
    * the clock. */

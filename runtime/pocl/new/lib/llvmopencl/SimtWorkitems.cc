@@ -354,8 +354,8 @@ void SimtLoops::makeUniform(Instruction *Terminator) {
   }
 }
 
-/// What comes to the end of \p Block traps. It seems to go on to \p Next,
-/// because lanes that part must meet again for the compiler.
+/// Ends \p Block with a trap. No lane goes on, but there is a branch to \p
+/// Next, because the compiler needs a place where lanes that part meet again.
 static void trapBefore(BasicBlock &Block, BasicBlock *Next,
                        const DebugLoc &At) {
   IRBuilder<> Builder(&Block);
