@@ -15,8 +15,7 @@ int snprintf(char *text, size_t size, const char *format, ...)
 int puts(const char *text);
 int putchar(int c);
 
-/* As in OpenCL C 6.15.14, for a device without fp64: floating arguments are
-   floats, not promoted. 0, or -1 for what printf gives -1 for. */
+/* As in OpenCL C 6.15.14. 0, or -1 for what printf gives -1 for. */
 int vx_vprintf_opencl(const char *format, va_list arguments);
 
 #endif

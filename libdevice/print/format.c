@@ -206,7 +206,7 @@ static int put_vector(struct vx_text *text, const struct vx_spec *spec,
   const int is_float = spec->letter == 'f' || spec->letter == 'e' ||
                        spec->letter == 'g' || spec->letter == 'a';
   const int size = spec->length ? spec->length : 4;
-  if (is_float && size != 4)
+  if (is_float && size < 4)
     return -1;
   uint64_t small = 0;
   /* A vector of three has the size of one of four. */
@@ -219,7 +219,8 @@ static int put_vector(struct vx_text *text, const struct vx_spec *spec,
     if (i)
       vx_put(text, ',');
     if (is_float)
-      vx_format_double(text, spec, widen_float((uint32_t)value));
+      vx_format_double(text, spec,
+                       size == 4 ? widen_float((uint32_t)value) : value);
     else
       put_integer(text, spec, value, size);
   }
@@ -235,15 +236,10 @@ static void put_scalar_integer(struct vx_text *text, const struct vx_spec *spec,
 }
 
 static void put_scalar_float(struct vx_text *text, const struct vx_spec *spec,
-                             enum vx_dialect dialect,
                              struct arguments *arguments) {
+  const double value = va_arg(arguments->list, double);
   uint64_t bits;
-  if (dialect == VX_DIALECT_OPENCL) {
-    bits = widen_float(va_arg(arguments->list, uint32_t));
-  } else {
-    const double value = va_arg(arguments->list, double);
-    __builtin_memcpy(&bits, &value, sizeof(bits));
-  }
+  __builtin_memcpy(&bits, &value, sizeof(bits));
   vx_format_double(text, spec, bits);
 }
 
@@ -258,7 +254,6 @@ static void put_string(struct vx_text *text, const struct vx_spec *spec,
 }
 
 static int put_conversion(struct vx_text *text, const struct vx_spec *spec,
-                          enum vx_dialect dialect,
                           struct arguments *arguments) {
   struct vx_spec plain = *spec;
   switch (spec->letter) {
@@ -277,7 +272,7 @@ static int put_conversion(struct vx_text *text, const struct vx_spec *spec,
   case 'a':
     if (spec->vector)
       return put_vector(text, spec, arguments);
-    put_scalar_float(text, spec, dialect, arguments);
+    put_scalar_float(text, spec, arguments);
     return 0;
   default:
     break;
@@ -320,7 +315,7 @@ int vx_format(struct vx_text *text, enum vx_dialect dialect, const char *format,
     ++format;
     struct vx_spec spec;
     result = parse_spec(&spec, &format, dialect, &arguments)
-                 ? put_conversion(text, &spec, dialect, &arguments)
+                 ? put_conversion(text, &spec, &arguments)
                  : -1;
   }
   va_end(arguments.list);

@@ -20,8 +20,8 @@ void vx_put_console(char c);
 enum vx_dialect {
   /* C17 7.21.6.1: floating arguments are doubles, `l` means long. */
   VX_DIALECT_C,
-  /* OpenCL C 6.15.14 without fp64: floating arguments are floats and not
-     promoted, `l` means 64 bits, `%v4hlf` prints a vector. */
+  /* OpenCL C 6.15.14: `l` means 64 bits, `%v4hlf` prints a vector of floats,
+     `%v4lf` one of doubles. */
   VX_DIALECT_OPENCL
 };
 

@@ -53,6 +53,16 @@ void item(uint32_t i) {
     hash = mix(hash, (uint64_t)((x < z) + 2 * (x == z) + 4 * (y >= z)));
     const _Float16 half = (_Float16)(float)(z / 1e5);
     hash = mix(hash, float_bits((float)half));
+    // Through memory: what a conversion returns, and what another takes, is a
+    // half wherever it lies.
+    uint16_t bits;
+    __builtin_memcpy(&bits, &half, sizeof(bits));
+    hash = mix(hash, bits);
+    const uint16_t other = bits ^ (a & 0xFF);
+    _Float16 changed;
+    __builtin_memcpy(&changed, &other, sizeof(other));
+    hash = mix(hash, float_bits((float)changed));
+    hash = mix(hash, float_bits((float)(_Float16)(changed + half)));
   }
   printf("%u: %016llx\n", (unsigned)i, (unsigned long long)hash);
 }
