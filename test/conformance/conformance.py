@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Runs the test programs of OpenCL's conformance suite that are built in a folder, and prints one table.
+"""Runs the test programs of OpenCL's conformance suite that are built in a folder, or those that Debian packages
+have, and prints one table.
 
 usage: scripts/conformance.sh FOLDER [--only PATTERN] [--limit SECONDS] [--results FILE] [--json FILE]
+       scripts/conformance.sh --packages [FOLDER] [the same options]
 
 FOLDER is where the suite was built, or any folder above its programs, which are named test_*. Every subtest runs as a
-process of its own, in the suite's wimpy mode. A result is kept in the results file with the hash of what made it: the
-test program and the platform. So a run that was ended goes on where it was, and a new build is measured anew.
+process of its own, in the suite's wimpy mode. With --packages it is where piglit is installed, if not where its
+package says. A result is kept in the results file with the hash of what made it: the test and the platform. So a run
+that was ended goes on where it was, and a new build is measured anew.
 
 exit codes: 0 every subtest passed or was skipped by the suite, 1 some did not, 2 usage, 3 a file or folder
 """
@@ -22,32 +25,23 @@ import subprocess
 import sys
 import time
 
-# In the order of the table. "time": it ran into the limit.
-OUTCOMES = ("passed", "skipped", "failed", "crashed", "time")
-
-
-class Problem(Exception):
-    pass
+import cts
+import piglit
+from suite import OUTCOMES, Problem
 
 
 def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder")
+    parser.add_argument("folder", nargs="?")
+    parser.add_argument("--packages", action="store_true", help="what packages have: piglit's tests of OpenCL")
     parser.add_argument("--only", default="", metavar="PATTERN", help="a regular expression on PROGRAM/SUBTEST")
     parser.add_argument("--limit", type=float, default=600, metavar="SECONDS", help="for one subtest (default: 600)")
-    parser.add_argument("--results", default=None, metavar="FILE", help="default: conformance.jsonl in FOLDER")
+    parser.add_argument("--results", default=None, metavar="FILE", help="default: conformance.jsonl in FOLDER, piglit.jsonl here")
     parser.add_argument("--json", metavar="FILE", help="all results as JSON")
-    return parser.parse_args()
-
-
-def programs(folder):
-    if not os.path.isdir(folder):
-        raise Problem(f"{folder}: no such folder, expected one with programs of the suite")
-    found = [os.path.join(base, name) for base, _, names in os.walk(folder) for name in names
-             if name.startswith("test_") and os.access(os.path.join(base, name), os.X_OK)]
-    if not found:
-        raise Problem(f"{folder}: no programs named test_*, expected the suite's")
-    return sorted(found)
+    args = parser.parse_args()
+    if not args.folder and not args.packages:
+        parser.error("no FOLDER, expected one with the suite's programs, or --packages")
+    return args
 
 
 def digest(paths):
@@ -69,32 +63,15 @@ def platform_files():
                   if os.path.isfile(path))
 
 
-def subtests(program):
-    done = subprocess.run([program, "--list"], capture_output=True, text=True, errors="replace", timeout=60)
-    return [line.strip() for line in done.stdout.splitlines() if re.fullmatch(r"\t\w+", line)]
-
-
-def outcome(text, code, name):
-    """(outcome, reason) by what the suite prints of a subtest."""
-    def first(pattern):
-        match = re.search(pattern, text, re.M)
-        return match.group(0).strip() if match else ""
-    if code < 0:
-        return "crashed", signal.Signals(-code).name
-    if re.search(rf"^{name} (skipped|test not supported)", text, re.M):
-        return "skipped", first(rf"^{name} skipped.*$") or first(r"^.*(not support|[Ss]kipp|requires).*$")
-    if code == 0 and re.search(rf"^{name} passed", text, re.M):
-        return "passed", ""
-    return "failed", first(r"^\s*ERROR.*$") or f"exit code {code}"
-
-
-def run(program, name, limit):
+def run(test, limit):
     begun = time.monotonic()
-    process = subprocess.Popen([program, "-w", name], cwd=os.path.dirname(program), stdout=subprocess.PIPE,
+    process = subprocess.Popen(test.command, cwd=os.path.dirname(test.command[0]), stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, start_new_session=True)
     try:
         text, _ = process.communicate(timeout=limit)
-        found, reason = outcome(text.decode(errors="replace"), process.returncode, name)
+        found, reason = test.judge(text.decode(errors="replace"), process.returncode)
+        if process.returncode < 0:
+            found, reason = "crashed", signal.Signals(-process.returncode).name
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
@@ -119,27 +96,28 @@ def kept_results(path):
 
 def measure(args):
     """All chosen results, in the order of programs and subtests."""
-    found = programs(args.folder)
+    suite = piglit if args.packages else cts
+    tests = [test for test in suite.tests(args.folder) if re.search(args.only, f"{test.program}/{test.name}")]
+    if not tests:
+        raise Problem(f"--only {args.only}: no subtest matches, expected a part of PROGRAM/SUBTEST")
     platform = digest(platform_files())
-    path = args.results or os.path.join(args.folder, "conformance.jsonl")
+    path = args.results or ("piglit.jsonl" if args.packages else os.path.join(args.folder, "conformance.jsonl"))
     kept = kept_results(path)
     results = []
+    hashes = {}
     with open(path, "a", encoding="utf-8") as file:
-        for program in found:
-            short = os.path.basename(program).removeprefix("test_")
-            made_by = platform + "-" + digest([program])
-            for name in subtests(program):
-                if not re.search(args.only, f"{short}/{name}"):
-                    continue
-                result = kept.get((short, name))
-                if not result or result["made_by"] != made_by:
-                    result = {"program": short, "test": name, "made_by": made_by, **run(program, name, args.limit)}
-                    file.write(json.dumps(result) + "\n")
-                    file.flush()
-                    print(f"{short}/{name}: {result['outcome']}, {result['seconds']:g} s", file=sys.stderr, flush=True)
-                results.append(result)
-    if not results:
-        raise Problem(f"--only {args.only}: no subtest matches, expected a part of PROGRAM/SUBTEST")
+        for test in tests:
+            if test.files not in hashes:
+                hashes[test.files] = platform + "-" + digest(test.files)
+            made_by = hashes[test.files]
+            result = kept.get((test.program, test.name))
+            if not result or result["made_by"] != made_by:
+                result = {"program": test.program, "test": test.name, "made_by": made_by, **run(test, args.limit)}
+                file.write(json.dumps(result) + "\n")
+                file.flush()
+                print(f"{test.program}/{test.name}: {result['outcome']}, {result['seconds']:g} s", file=sys.stderr,
+                      flush=True)
+            results.append(result)
     return results
 
 

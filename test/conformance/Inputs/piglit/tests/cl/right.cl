@@ -1,0 +1,1 @@
+PIGLIT: {"result": "pass" }
