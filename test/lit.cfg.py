@@ -47,6 +47,7 @@ features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES", os.path.j
 features["gdb-multiarch"] = shutil.which("gdb-multiarch") or "gdb-multiarch"
 features["qemu-riscv32"] = shutil.which("qemu-riscv32") or "qemu-riscv32"
 features["qemu-x86_64"] = shutil.which("qemu-x86_64") or "qemu-x86_64"
+features["spirv-as"] = shutil.which("spirv-as") or "spirv-as"
 features["csmith"] = shutil.which("csmith") or "csmith"
 features["chromium"] = shutil.which("chromium") or "chromium"
 features["mpirun"] = shutil.which("mpirun") or "mpirun"

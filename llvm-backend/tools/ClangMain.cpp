@@ -13,8 +13,8 @@
 
 int clang_main(int Argc, char **Argv, const llvm::ToolContext &Context);
 
-/// Only .cl files, and a program wanted of them: PoCL's passes are needed,
-/// which run the work-items of a group.
+/// Only .cl and .spv files, and a program wanted of them: PoCL's passes are
+/// needed, which run the work-items of a group.
 static bool wantsKernelImage(llvm::ArrayRef<char *> Arguments) {
   bool AnyKernel = false;
   for (size_t I = 0; I < Arguments.size(); ++I) {
@@ -26,7 +26,7 @@ static bool wantsKernelImage(llvm::ArrayRef<char *> Arguments) {
                A == "-cc1" || A.starts_with("-M") || A.starts_with("@")) {
       return false;
     } else if (!A.starts_with("-")) {
-      if (!A.ends_with(".cl"))
+      if (!A.ends_with(".cl") && !A.ends_with(".spv"))
         return false;
       AnyKernel = true;
     }

@@ -1,20 +1,23 @@
-// OpenCL C has no double here: its type is an error that names the line, and a
-// constant without f is single, with a warning, so that printf's values are.
+// OpenCL C has doubles, which are software: a constant without f is one, and its
+// arithmetic is calls of libdevice.
 // REQUIRES: vorion-clang
-// RUN: not vorion-clang -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=CLANG
-// RUN: vorion-clang -fsyntax-only -DFLOAT %s 2>&1 | FileCheck %s --check-prefix=FLOAT
-// RUN: vorion-clang -O2 -S -emit-llvm -w -DFLOAT %s -o - | FileCheck %s --check-prefix=IR --implicit-check-not="fmul double"
-// IR: fmul float {{.*}}, 5.000000e-01
-
-#ifdef FLOAT
-typedef float number;
-#else
-// CLANG: double.cl:[[@LINE+1]]:9: error: use of type 'double' requires cl_khr_fp64
-typedef double number;
+// RUN: vorion-clang -O2 -S %s -o - | FileCheck %s
+#ifndef cl_khr_fp64
+#error cl_khr_fp64
 #endif
 
+// CHECK-LABEL: halve:
+// CHECK: __extendsfdf2
+// CHECK: __muldf3
+// CHECK: __truncdfsf2
 kernel void halve(global float *p) {
-  number x = p[0];
-  // FLOAT: double.cl:[[@LINE+1]]:14: warning: double precision constant requires cl_khr_fp64, casting to single precision
-  p[0] = x * 0.5;
+  const double x = p[0];
+  p[0] = x * 0.3;
+}
+
+// CHECK-LABEL: fuse:
+// CHECK: {{(call|tail).*[^_]}}fma
+// CHECK: {{(call|tail).*[^_]}}sqrt
+kernel void fuse(global double *p) {
+  p[0] = __builtin_sqrt(__builtin_fma(p[0], p[1], p[2]));
 }

@@ -4,6 +4,12 @@
 
 using vorion::test::TestDevice;
 
+// Of OpenCL 2.0, which the header declares to programs for it only.
+extern "C" cl_command_queue clCreateCommandQueueWithProperties(cl_context,
+                                                               cl_device_id,
+                                                               const cl_ulong *,
+                                                               cl_int *);
+
 namespace {
 
 class Queries : public testing::Test {
@@ -62,19 +68,18 @@ TEST_F(Queries, MoreLocalMemoryThanThereIsIsRefusedAtOnce) {
   EXPECT_EQ(enqueue(Kernel, 16), CL_OUT_OF_RESOURCES);
 }
 
-TEST_F(Queries, WithoutImagesTheirLimitsAreZero) {
+/// What the standard asks of a full profile.
+TEST_F(Queries, ImagesAreAsLargeAsTheStandardAsks) {
   const cl::Device D = device();
-  ASSERT_EQ(D.getInfo<CL_DEVICE_IMAGE_SUPPORT>(), CL_FALSE);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE2D_MAX_WIDTH>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE2D_MAX_HEIGHT>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE3D_MAX_WIDTH>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE3D_MAX_HEIGHT>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE_MAX_BUFFER_SIZE>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_IMAGE_MAX_ARRAY_SIZE>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_MAX_READ_IMAGE_ARGS>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_MAX_WRITE_IMAGE_ARGS>(), 0U);
-  EXPECT_EQ(D.getInfo<CL_DEVICE_MAX_SAMPLERS>(), 0U);
+  EXPECT_TRUE(D.getInfo<CL_DEVICE_IMAGE_SUPPORT>());
+  EXPECT_GE(D.getInfo<CL_DEVICE_IMAGE2D_MAX_WIDTH>(), 16384U);
+  EXPECT_GE(D.getInfo<CL_DEVICE_IMAGE2D_MAX_HEIGHT>(), 16384U);
+  EXPECT_GE(D.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>(), 2048U);
+  EXPECT_GE(D.getInfo<CL_DEVICE_IMAGE_MAX_BUFFER_SIZE>(), 65536U);
+  EXPECT_GE(D.getInfo<CL_DEVICE_IMAGE_MAX_ARRAY_SIZE>(), 2048U);
+  EXPECT_GE(D.getInfo<CL_DEVICE_MAX_READ_IMAGE_ARGS>(), 128U);
+  EXPECT_GE(D.getInfo<CL_DEVICE_MAX_WRITE_IMAGE_ARGS>(), 64U);
+  EXPECT_GE(D.getInfo<CL_DEVICE_MAX_SAMPLERS>(), 16U);
 }
 
 TEST_F(Queries, TheDeviceNamesItsClockAndItsExtension) {
@@ -159,6 +164,29 @@ TEST_F(Queries, AnOutOfOrderQueueDoesNotWaitForWhatCannotRun) {
   Gate.setStatus(CL_COMPLETE);
   EXPECT_EQ(Queue.finish(), CL_SUCCESS);
   EXPECT_EQ(Device.download<cl_uint>(Buffer, 2), (std::vector<cl_uint>{3, 2}));
+}
+
+TEST_F(Queries, AttributesOfAKernelAreThoseInsideTheParentheses) {
+  const cl::Kernel Kernel = kernel(
+      "__attribute__((reqd_work_group_size(8, 2, 1)))\n"
+      "__attribute__((vec_type_hint(float4)))\n"
+      "kernel void sized(global int *out) { out[get_global_id(0)] = 1; }",
+      "sized");
+  EXPECT_EQ(Kernel.getInfo<CL_KERNEL_ATTRIBUTES>(),
+            "reqd_work_group_size(8,2,1) vec_type_hint(float4)");
+}
+
+TEST_F(Queries, AQueueOnTheDeviceIsRefused) {
+  constexpr cl_ulong OnDevice = 1 << 2; // CL_QUEUE_ON_DEVICE of OpenCL 2.0
+  for (const cl_ulong Asked :
+       {CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE | OnDevice, cl_ulong{1} << 20}) {
+    const cl_ulong Properties[] = {CL_QUEUE_PROPERTIES, Asked, 0};
+    cl_int Error = CL_SUCCESS;
+    EXPECT_EQ(clCreateCommandQueueWithProperties(Device.context()(), device()(),
+                                                 Properties, &Error),
+              nullptr);
+    EXPECT_NE(Error, CL_SUCCESS);
+  }
 }
 
 } // namespace

@@ -35,10 +35,11 @@ public:
   const cl::CommandQueue &queue() const { return QueueHandle; }
 
   /// The program, or an empty text in \p Log and a built one.
-  cl::Program build(const std::string &Source, std::string &Log) const {
+  cl::Program build(const std::string &Source, std::string &Log,
+                    const char *Options = "") const {
     cl::Program Program(ContextHandle, Source);
     Log.clear();
-    if (Program.build() != CL_SUCCESS)
+    if (Program.build(Options) != CL_SUCCESS)
       Log =
           "build failed\n" + Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(Chosen);
     return Program;

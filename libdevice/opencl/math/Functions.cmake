@@ -15,4 +15,4 @@ set(LIBCLC_HELPERS ep_log ocml_helpers pocl_fma pow_helpers sincos_helpers)
 set(SLEEF_HELPERS expfrexp frfrexp lgamma_r)
 
 # Of this folder.
-set(OWN_MATH fract ldexp_scalar tgamma)
+set(OWN_MATH fma fract ldexp_scalar rsqrt nan tgamma)

@@ -4,7 +4,9 @@
 
 DEFINE_EXPR_V_VPV (fract, ({
                      *b = floor (a);
-                     vtype part = fmin (a - floor (a), (vtype)0x1.fffffep-1f);
+                     stype below_one = TYPED_CONST (
+                         stype, 0x1.ffcp-1, 0x1.fffffep-1f, 0x1.fffffffffffffp-1);
+                     vtype part = fmin (a - floor (a), (vtype)below_one);
                      part = select (part, copysign ((vtype)0, a),
                                     (itype)isinf (a));
                      select (part, a, (itype)isnan (a));

@@ -1,6 +1,6 @@
 /* tgamma(x). SLEEF's is good to 1 ulp but where results are subnormal: below
-   -30 it lost up to 125 ulp, because a factor before the last is subnormal
-   there, too. */
+   -30 the float's lost up to 125 ulp, because a factor before the last is
+   subnormal there, too. */
 
 float Sleef_tgammaf_u10(float x);
 
@@ -15,22 +15,22 @@ float _CL_OVERLOADABLE tgamma(float x) {
   return Sleef_tgammaf_u10(x + 8.0f) / product;
 }
 
-float2 _CL_OVERLOADABLE tgamma(float2 x) {
-  return (float2)(tgamma(x.lo), tgamma(x.hi));
-}
+__IF_FP64(
+double Sleef_tgamma_u10(double x);
 
-float3 _CL_OVERLOADABLE tgamma(float3 x) {
-  return (float3)(tgamma(x.lo), tgamma(x.z));
-}
+double _CL_OVERLOADABLE tgamma(double x) { return Sleef_tgamma_u10(x); }
+)
 
-float4 _CL_OVERLOADABLE tgamma(float4 x) {
-  return (float4)(tgamma(x.lo), tgamma(x.hi));
-}
+#define TGAMMA_OF_VECTOR(vector, low, high)                                    \
+  vector _CL_OVERLOADABLE tgamma(vector x) {                                   \
+    return (vector)(tgamma(x.low), tgamma(x.high));                            \
+  }
+#define TGAMMA_OF_VECTORS(type)                                                \
+  TGAMMA_OF_VECTOR(type##2, lo, hi)                                            \
+  TGAMMA_OF_VECTOR(type##3, lo, z)                                             \
+  TGAMMA_OF_VECTOR(type##4, lo, hi)                                            \
+  TGAMMA_OF_VECTOR(type##8, lo, hi)                                            \
+  TGAMMA_OF_VECTOR(type##16, lo, hi)
 
-float8 _CL_OVERLOADABLE tgamma(float8 x) {
-  return (float8)(tgamma(x.lo), tgamma(x.hi));
-}
-
-float16 _CL_OVERLOADABLE tgamma(float16 x) {
-  return (float16)(tgamma(x.lo), tgamma(x.hi));
-}
+TGAMMA_OF_VECTORS(float)
+__IF_FP64(TGAMMA_OF_VECTORS(double))

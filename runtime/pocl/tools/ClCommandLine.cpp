@@ -67,6 +67,7 @@ const std::set<std::string> OpenClOptions = {
     "-cl-std=CL1.0",
     "-cl-std=CL1.1",
     "-cl-std=CL1.2",
+    "-cl-std=CL3.0",
     "-cl-strict-aliasing",
     "-cl-unsafe-math-optimizations"};
 
@@ -85,6 +86,10 @@ Error unknownOption(const std::string &Option) {
 
 } // namespace
 
+bool isSpirv(const std::filesystem::path &Input) {
+  return Input.extension() == ".spv";
+}
+
 Expected<std::string> includeOption(const std::string &Folder) {
   if (Folder.find('"') != std::string::npos)
     return Error{Folder, "has a double quote in its name, expected a folder "
@@ -98,8 +103,9 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
   for (size_t I = 0; I < Arguments.size(); ++I) {
     const std::string &Argument = Arguments[I];
     if (!Argument.starts_with("-")) {
-      if (std::filesystem::path(Argument).extension() != ".cl")
-        return usageError(Argument + ": expected a .cl file");
+      if (std::filesystem::path(Argument).extension() != ".cl" &&
+          !isSpirv(Argument))
+        return usageError(Argument + ": expected a .cl or .spv file");
       Line.Inputs.emplace_back(Argument);
       continue;
     }
@@ -142,7 +148,7 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
     }
   }
   if (Line.Inputs.empty())
-    return usageError("no input, expected a .cl file");
+    return usageError("no input, expected a .cl or .spv file");
   if (Line.Output.empty())
     Line.Output = Line.Inputs[0].filename().replace_extension(".elf");
   return Line;

@@ -1,4 +1,4 @@
-/// What vorion-clang is told when it makes an image of OpenCL C.
+/// What vorion-clang is told when it makes an image of kernels.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -13,7 +13,7 @@ struct ClCommandLine {
   std::vector<std::filesystem::path> Inputs;
   /// Options for clBuildProgram, each followed by a blank.
   std::string BuildOptions;
-  /// Lines of OpenCL C that stand before every input: macros and warnings,
+  /// Lines that stand before every input in OpenCL C: macros and warnings,
   /// which PoCL's options take without quotes or not at all.
   std::string Prelude;
   std::filesystem::path Output;
@@ -23,6 +23,9 @@ struct ClCommandLine {
 /// error that names it.
 Expected<ClCommandLine>
 parseClCommandLine(const std::vector<std::string> &Arguments);
+
+/// Whether an input is a module of SPIR-V rather than OpenCL C.
+bool isSpirv(const std::filesystem::path &Input);
 
 /// \p Folder as a -I option of clBuildProgram, with a blank after it; a name
 /// with a double quote cannot be written.

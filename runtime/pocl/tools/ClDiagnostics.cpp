@@ -1,4 +1,5 @@
 #include "ClDiagnostics.h"
+#include "ClCommandLine.h"
 
 #include <CL/cl_vorion.h>
 
@@ -13,6 +14,7 @@ namespace vorion {
 namespace {
 
 constexpr const char *Wanted = ", expected OpenCL C that compiles";
+constexpr const char *WantedModule = ", expected a module that can be built";
 /// What the platform says of a kernel that it cannot compile, and of what
 /// cannot.
 constexpr std::string_view KernelRefused = "vorion: error: ";
@@ -66,11 +68,15 @@ Error compilerError(const std::string &Input, const std::string &Log,
   if (const auto Option = after(Output, "Invalid build option: "))
     return {"", *Option + ": unknown option, expected one of OpenCL C 1.2's",
             ExitCode::Usage};
+  // A module that is not even a program is refused as kernels are.
+  if (const auto Refused = after(Output, KernelRefused))
+    return {Input, *Refused};
   const std::vector<std::string> Said = linesOf(Output);
   const auto First = std::ranges::find_if(
       Said, [](const std::string &Line) { return !Line.empty(); });
   return {Input, "does not compile" +
-                     (First == Said.end() ? "" : " (" + *First + ")") + Wanted};
+                     (First == Said.end() ? "" : " (" + *First + ")") +
+                     (isSpirv(Input) ? WantedModule : Wanted)};
 }
 
 std::string machineLog(const std::string &Output) {

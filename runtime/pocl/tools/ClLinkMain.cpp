@@ -1,5 +1,6 @@
-/// OpenCL C files to one image with all their kernels: what vorion-clang runs
-/// when it is given nothing but .cl files and is asked for a program.
+/// Files of OpenCL C and of SPIR-V to one image with all their kernels: what
+/// vorion-clang runs when it is given nothing but .cl and .spv files and is
+/// asked for a program.
 ///
 /// PoCL's offline compiler builds each file for any group size (or the one that
 /// reqd_work_group_size gives) and leaves an object a kernel in its cache, here
@@ -38,10 +39,11 @@ namespace {
 constexpr std::string_view Tool = "vorion-clang";
 
 constexpr std::string_view Usage =
-    "usage: vorion-clang [options] kernel.cl... [-o program.elf]\n"
+    "usage: vorion-clang [options] (kernel.cl | kernel.spv)... [-o "
+    "program.elf]\n"
     "\n"
-    "Compiles OpenCL C 1.2 for the Vorion device: one image with all kernels, "
-    "for\n"
+    "Compiles OpenCL C and SPIR-V for the Vorion device: one image with all "
+    "kernels, for\n"
     "any work-group size (docs/abi.md). With -c, -S, -E or -emit-llvm it is "
     "clang.\n"
     "\n"
@@ -182,11 +184,12 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
   setenv("POCL_CACHE_DIR", Cache.c_str(), 1);
   // The compiler sees text without a name, so a copy names its origin, for
   // messages and debuggers; headers beside the file are found by its folder.
-  const fs::path Copy = Folder / "input.cl";
+  const fs::path Copy = Folder / "input";
   std::ofstream Writer(Copy, std::ios::binary);
-  Writer << "#line 1 \"<command line>\"\n"
-         << Line.Prelude << "#line 1 " << quoted(Input.string()) << "\n"
-         << textOf(Input);
+  if (!isSpirv(Input))
+    Writer << "#line 1 \"<command line>\"\n"
+           << Line.Prelude << "#line 1 " << quoted(Input.string()) << "\n";
+  Writer << textOf(Input);
   Writer.close();
   if (!Writer)
     return Error{Copy.string(),
@@ -196,9 +199,13 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
       includeOption(fs::absolute(Input, Problem).parent_path().string());
   if (!Beside)
     return Beside.error();
-  const Ran Compiler = run({(Root / "pocl/bin/poclcc").string(), "-b",
-                            Line.BuildOptions + *Beside, "-o",
-                            (Folder / "binary").string(), Copy.string()});
+  std::vector<std::string> Arguments = {(Root / "pocl/bin/poclcc").string(),
+                                        "-b", Line.BuildOptions + *Beside, "-o",
+                                        (Folder / "binary").string()};
+  if (isSpirv(Input))
+    Arguments.emplace_back("-s");
+  Arguments.push_back(Copy.string());
+  const Ran Compiler = run(Arguments);
   Expected<Built> Found = findBuilt(Cache);
   if (!Found)
     return Found;

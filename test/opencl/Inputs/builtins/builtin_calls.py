@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Kernels that call every built-in function which clang declares for OpenCL C 1.2.
+"""Kernels that call every built-in function which clang declares for a version of OpenCL C.
 
 usage: builtin_calls.py HEADER.i PATTERN OUT.cl
 
 HEADER.i is clang's opencl-c.h after the preprocessor. PATTERN is a regular expression: every overload of the functions
-whose names it matches is called, by kernels that share them out. Images and samplers are left out. Prints how many
-there are.
+whose names it matches is called, by kernels that share them out. Prints how many there are.
 """
 
 import collections
@@ -15,7 +14,8 @@ import sys
 ATTRIBUTE = re.compile(r"__attribute__\s*\(\((?:[^()]|\([^()]*\))*\)\)\s*")
 DECLARATION = re.compile(r"^([\w ]+?)\s*\b(\w+)\((.*)\);$")
 POINTER = re.compile(r"^(.*?)(\w+)(?:\s+(?:const|volatile))?\s*\*")
-SKIPPED = re.compile(r"^(typedef|enum|#)|image|sampler|printf")
+SKIPPED = re.compile(r"^(typedef|enum|#)|printf")
+IMAGE = re.compile(r"^(read_only|write_only|read_write) (image\w+)$")
 # A kernel is compiled by a process of its own, so few kernels are fast; a very large one is slow.
 CALLS_OF_KERNEL = 100
 # The space of a pointer, and memory of that space that a kernel has.
@@ -43,11 +43,17 @@ def argument(number, parameter):
         for name, text in SPACES.items():
             if name in space:
                 return "", text.format(element)
-        # half is no type of a variable.
+        if element == "void" or element.startswith("atomic"):
+            return "", f"({element} *)shared"
+        # half is no type of a variable without the extension.
         stored = "ushort" if element == "half" else element
         copy = f"{stored} v{number}[16]; for (int i = 0; i < 16; ++i) v{number}[i] = *(global {stored} *)memory; "
         return copy, f"({element} *)v{number}"
+    if IMAGE.match(parameter.strip()):
+        return "", "_".join(parameter.split())
     kind = next(word for word in parameter.split() if word != "const")
+    if kind == "sampler_t":
+        return "", "sampler"
     if kind == "event_t":
         return "", "0"
     return "", f"*(global {kind} *)(memory + {128 * number})"
@@ -65,14 +71,24 @@ def call(name, result, parameters):
     return f"  {{ {''.join(before)}{text};{after} }}\n"
 
 
+def images(overloads):
+    """The parameters that a kernel needs for the images and the sampler of its calls."""
+    types = {p.strip() for _, _, parameters in overloads for p in parameters}
+    samplers = ", sampler_t sampler" if "sampler_t" in types else ""
+    return samplers + "".join(f", {t} {'_'.join(t.split())}" for t in sorted(types) if IMAGE.match(t))
+
+
 def main():
     header, pattern, path = sys.argv[1:]
     chosen = {name: all_of for name, all_of in declarations(header).items() if re.search(pattern, name)}
-    calls = [call(name, *overload) for name, overloads in chosen.items() for overload in overloads]
+    calls = [(name, *overload) for name, overloads in chosen.items() for overload in overloads]
     with open(path, "w", encoding="utf-8") as out:
+        out.write("#pragma OPENCL EXTENSION cl_khr_fp16 : enable\n")
         for first in range(0, len(calls), CALLS_OF_KERNEL):
-            out.write(f"kernel void calls{first}(global char *memory, local char *shared, constant char *table) {{\n")
-            out.writelines(calls[first:first + CALLS_OF_KERNEL])
+            share = calls[first:first + CALLS_OF_KERNEL]
+            out.write(f"kernel void calls{first}(global char *memory, local char *shared, constant char *table"
+                      f"{images(share)}) {{\n")
+            out.writelines(call(*each) for each in share)
             out.write("}\n")
     print(f"{len(chosen)} functions, {sum(map(len, chosen.values()))} overloads")
 

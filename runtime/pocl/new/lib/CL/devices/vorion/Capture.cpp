@@ -31,6 +31,15 @@ std::string contentsOf(const pocl_argument &Argument, cl_device_id Device) {
   return {Bytes + Argument.offset, Buffer->size - Argument.offset};
 }
 
+/// Images and samplers are objects of the host, which vorion-sim cannot make.
+bool takesImages(const pocl_kernel_metadata_t &Meta) {
+  return std::any_of(Meta.arg_info, Meta.arg_info + Meta.num_args,
+                     [](const pocl_argument_info &Info) {
+                       return Info.type == POCL_ARG_TYPE_IMAGE ||
+                              Info.type == POCL_ARG_TYPE_SAMPLER;
+                     });
+}
+
 std::string hex(const void *Value, size_t Size) {
   std::string Text = "bytes:";
   std::array<char, 3> Byte{};
@@ -75,6 +84,13 @@ void captureLaunch(const LoadedKernel &Kernel,
     return;
   static std::atomic<unsigned> Launches{0};
   const _cl_command_run &Run = Command.command.run;
+  if (takesImages(*Run.kernel->meta)) {
+    fprintf(stderr,
+            "vorion: warning: kernel %s has images or samplers, its launches "
+            "are not kept\n",
+            Run.kernel->name);
+    return;
+  }
   std::error_code Problem;
   // Whole names, so that it does not matter where the launch is repeated.
   const std::string Base =

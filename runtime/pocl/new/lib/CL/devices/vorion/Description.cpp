@@ -1,4 +1,5 @@
 #include "Description.h"
+#include "Images.h"
 
 extern "C" {
 #include "common.h"
@@ -10,22 +11,58 @@ extern "C" {
 
 #include <CL/cl_vorion.h>
 
+#include "vorion_features.h"
+
 namespace vorion {
 
 namespace {
 
 constexpr const char *Extensions =
-    "cl_khr_byte_addressable_store cl_khr_global_int32_base_atomics "
-    "cl_khr_global_int32_extended_atomics cl_khr_local_int32_base_atomics "
-    "cl_khr_local_int32_extended_atomics " CL_VORION_EXTENSION_NAME;
+    VORION_OPENCL_EXTENSIONS " " CL_VORION_EXTENSION_NAME;
 
 /// What the runtime gives a launch.
 constexpr size_t PrintBufferBytes = 1u << 20;
 
 constexpr uint64_t LaunchShare = 32;
 
+/// What the translator of runtime/pocl/CMakeLists.txt reads whole.
+constexpr const char *SpirvVersions =
+    "SPIR-V_1.3 SPIR-V_1.2 SPIR-V_1.1 SPIR-V_1.0";
+
+/// The standard wants a version of its suite; nobody certified the device.
+constexpr const char *NoConformance = "v0000-01-01-00";
+
 /// "VO" of Vorion; there is no PCI vendor number.
 constexpr cl_uint VendorId = 0x564F;
+
+void describeVersion(cl_device_id Device) {
+  SETUP_DEVICE_CL_VERSION(Device, 3, 0);
+  // A program that names no version of OpenCL C is of the newest 1.x.
+  Device->opencl_c_version_as_opt = "CL1.2";
+  Device->opencl_c_version_as_cl = CL_MAKE_VERSION(1, 2, 0);
+  Device->features = VORION_OPENCL_FEATURES;
+  pocl_setup_opencl_c_with_version(Device, CL_TRUE);
+  pocl_setup_features_with_version(Device);
+  pocl_setup_extensions_with_version(Device);
+  Device->version_of_latest_passed_cts = NoConformance;
+  Device->supported_spir_v_versions = SpirvVersions;
+  pocl_setup_ils_with_version(Device);
+}
+
+/// Atomics execute one after the other, in the same order for all cores.
+void describeConcurrency(cl_device_id Device, const vx_device_info &Info) {
+  Device->atomic_memory_capabilities =
+      CL_DEVICE_ATOMIC_ORDER_RELAXED | CL_DEVICE_ATOMIC_ORDER_ACQ_REL |
+      CL_DEVICE_ATOMIC_ORDER_SEQ_CST | CL_DEVICE_ATOMIC_SCOPE_WORK_GROUP |
+      CL_DEVICE_ATOMIC_SCOPE_DEVICE | CL_DEVICE_ATOMIC_SCOPE_ALL_DEVICES;
+  Device->atomic_fence_capabilities =
+      Device->atomic_memory_capabilities | CL_DEVICE_ATOMIC_SCOPE_WORK_ITEM;
+  Device->generic_as_support = CL_TRUE;
+  Device->wg_collective_func_support = CL_TRUE;
+  // The subgroups of a group take turns on one warp.
+  Device->sub_group_independent_forward_progress = CL_FALSE;
+  Device->max_num_sub_groups = Info.max_group_items / Info.lanes;
+}
 
 } // namespace
 
@@ -35,7 +72,7 @@ uint64_t keptForLaunches(const vx_device_info &Info) {
 
 void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   pocl_init_default_device_infos(Device, Extensions);
-  SETUP_DEVICE_CL_VERSION(Device, 1, 2);
+  describeVersion(Device);
   Device->type = CL_DEVICE_TYPE_GPU;
   Device->vendor = "Vorion";
   Device->vendor_id = VendorId;
@@ -50,6 +87,7 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   for (size_t &Size : Device->max_work_item_sizes)
     Size = Info.max_group_items;
   Device->preferred_wg_size_multiple = Info.lanes;
+  describeConcurrency(Device, Info);
 
   Device->address_bits = 32;
   Device->has_64bit_long = 1;
@@ -65,8 +103,13 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->single_fp_config = CL_FP_DENORM | CL_FP_INF_NAN |
                              CL_FP_ROUND_TO_NEAREST | CL_FP_FMA |
                              CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;
-  Device->double_fp_config = 0;
-  Device->half_fp_config = 0;
+  // Double precision is software, which always rounds to nearest. The standard
+  // asks for the other modes of rounding all the same: it means conversions.
+  Device->double_fp_config = CL_FP_DENORM | CL_FP_INF_NAN |
+                             CL_FP_ROUND_TO_NEAREST | CL_FP_ROUND_TO_ZERO |
+                             CL_FP_ROUND_TO_INF | CL_FP_FMA | CL_FP_SOFT_FLOAT;
+  Device->half_fp_config =
+      CL_FP_DENORM | CL_FP_INF_NAN | CL_FP_ROUND_TO_NEAREST;
   // A lane is a scalar.
   Device->preferred_vector_width_char = Device->native_vector_width_char = 1;
   Device->preferred_vector_width_short = Device->native_vector_width_short = 1;
@@ -74,17 +117,12 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->preferred_vector_width_long = Device->native_vector_width_long = 1;
   Device->preferred_vector_width_float = Device->native_vector_width_float = 1;
   Device->preferred_vector_width_double = Device->native_vector_width_double =
-      0;
-  Device->preferred_vector_width_half = Device->native_vector_width_half = 0;
+      1;
+  Device->preferred_vector_width_half = Device->native_vector_width_half = 1;
   Device->native_vector_width_in_bits = 0;
-  Device->image_support = CL_FALSE;
-  Device->image2d_max_width = Device->image2d_max_height = 0;
-  Device->image3d_max_width = Device->image3d_max_height = 0;
-  Device->image3d_max_depth = 0;
-  Device->image_max_buffer_size = Device->image_max_array_size = 0;
-  Device->max_samplers = 0;
-  Device->max_read_image_args = Device->max_write_image_args = 0;
-  Device->max_read_write_image_args = 0;
+  describeImages(Device);
+  // PoCL's other limits of images are what the standard asks of OpenCL 3.0.
+  Device->image2d_max_width = Device->image2d_max_height = 16384;
   Device->num_builtin_kernels = 0;
   POCL_MEM_FREE(Device->builtin_kernel_list);
   Device->printf_buffer_size = PrintBufferBytes;

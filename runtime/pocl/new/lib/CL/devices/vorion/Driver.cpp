@@ -1,13 +1,10 @@
-/// PoCL's device operations for a Vorion machine. Buffers live in the machine's
-/// global memory, which the host sees as memory of its own: PoCL's common
-/// copying code works on it, on the worker thread, never during a run.
+/// PoCL's device operations for a Vorion machine, except those on memory.
 
 #include "Description.h"
+#include "Device.h"
 #include "Event.h"
-#include "KernelCache.h"
+#include "MemoryOperations.h"
 #include "Messages.h"
-#include "Opening.h"
-#include "Worker.h"
 
 extern "C" {
 #include "common.h"
@@ -28,23 +25,6 @@ extern "C" {
 using namespace vorion;
 
 namespace {
-
-/// One device of the platform.
-struct VorionDevice {
-  explicit VorionDevice(Machine Opened)
-      : Opened(std::move(Opened)), Kernels(this->Opened.get()),
-        Thread(this->Opened.get(), Kernels) {}
-  Machine Opened;
-  vx_device_info Info{};
-  std::string Name, BuildHash;
-  cl_bool Available = CL_TRUE;
-  KernelCache Kernels;
-  Worker Thread;
-};
-
-VorionDevice &deviceOf(cl_device_id Device) {
-  return *static_cast<VorionDevice *>(Device->data);
-}
 
 unsigned probe(pocl_device_ops *Ops) {
   const int Count = pocl_device_get_env_count(Ops->device_name);
@@ -113,169 +93,6 @@ char *initBuild(void *Data) {
       "\"-I" +
       static_cast<VorionDevice *>(Data)->Kernels.tools().includeFolder() + "\"";
   return strdup(Options.c_str());
-}
-
-cl_int allocate(cl_device_id Device, cl_mem Buffer, void *) {
-  VorionDevice &Own = deviceOf(Device);
-  // The host's copy of such a buffer cannot be the device's.
-  if ((Buffer->flags & CL_MEM_ALLOC_HOST_PTR) && !Buffer->mem_host_ptr)
-    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
-  vx_device_info Now{};
-  if (vx_device_get_info(Own.Opened.get(), &Now) != VX_OK ||
-      Now.free_bytes < Buffer->size + keptForLaunches(Now))
-    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
-  uint32_t Address = 0;
-  void *Host = nullptr;
-  if (vx_mem_alloc(Own.Opened.get(), Buffer->size, &Address) != VX_OK)
-    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
-  if (vx_mem_host_pointer(Own.Opened.get(), Address, Buffer->size, &Host) !=
-      VX_OK) {
-    vx_mem_free(Own.Opened.get(), Address);
-    return CL_MEM_OBJECT_ALLOCATION_FAILURE;
-  }
-  pocl_mem_identifier &Id = Buffer->device_ptrs[Device->global_mem_id];
-  Id.mem_ptr = Host;
-  Id.device_addr = reinterpret_cast<void *>(static_cast<uintptr_t>(Address));
-  Id.version = 0;
-  if (Buffer->has_device_address)
-    Id.is_pinned = 1;
-  return CL_SUCCESS;
-}
-
-void release(cl_device_id Device, cl_mem Buffer) {
-  pocl_mem_identifier &Id = Buffer->device_ptrs[Device->global_mem_id];
-  vx_mem_free(
-      deviceOf(Device).Opened.get(),
-      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id.device_addr)));
-  Id.mem_ptr = nullptr;
-  Id.device_addr = nullptr;
-  Id.version = 0;
-}
-
-// PoCL's copying code uses the host's view of the memory: what it did is said
-// afterwards, of rectangles the whole buffer.
-
-using Notice = vx_status (*)(vx_device *, uint32_t, uint64_t);
-
-void tell(Notice What, void *Data, const pocl_mem_identifier *Id, size_t Offset,
-          size_t Size) {
-  const auto Address =
-      static_cast<uint32_t>(reinterpret_cast<uintptr_t>(Id->device_addr));
-  What(static_cast<VorionDevice *>(Data)->Opened.get(),
-       static_cast<uint32_t>(Address + Offset), Size);
-}
-
-void tellWritten(void *Data, const pocl_mem_identifier *Id, size_t Offset,
-                 size_t Size) {
-  tell(vx_mem_written, Data, Id, Offset, Size);
-}
-
-void tellRead(void *Data, const pocl_mem_identifier *Id, size_t Offset,
-              size_t Size) {
-  tell(vx_mem_read, Data, Id, Offset, Size);
-}
-
-void read(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
-          size_t Offset, size_t Size) {
-  pocl_driver_read(Data, To, From, Buffer, Offset, Size);
-  tellRead(Data, From, Offset, Size);
-}
-
-void readRect(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
-              const size_t *BufferOrigin, const size_t *HostOrigin,
-              const size_t *Region, size_t BufferRowPitch,
-              size_t BufferSlicePitch, size_t HostRowPitch,
-              size_t HostSlicePitch) {
-  pocl_driver_read_rect(Data, To, From, Buffer, BufferOrigin, HostOrigin,
-                        Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
-                        HostSlicePitch);
-  tellRead(Data, From, 0, Buffer->size);
-}
-
-void write(void *Data, const void *From, pocl_mem_identifier *To, cl_mem Buffer,
-           size_t Offset, size_t Size) {
-  pocl_driver_write(Data, From, To, Buffer, Offset, Size);
-  tellWritten(Data, To, Offset, Size);
-}
-
-void writeRect(void *Data, const void *From, pocl_mem_identifier *To,
-               cl_mem Buffer, const size_t *BufferOrigin,
-               const size_t *HostOrigin, const size_t *Region,
-               size_t BufferRowPitch, size_t BufferSlicePitch,
-               size_t HostRowPitch, size_t HostSlicePitch) {
-  pocl_driver_write_rect(Data, From, To, Buffer, BufferOrigin, HostOrigin,
-                         Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
-                         HostSlicePitch);
-  tellWritten(Data, To, 0, Buffer->size);
-}
-
-void copy(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
-          pocl_mem_identifier *From, cl_mem FromBuffer, size_t ToOffset,
-          size_t FromOffset, size_t Size) {
-  pocl_driver_copy(Data, To, ToBuffer, From, FromBuffer, ToOffset, FromOffset,
-                   Size);
-  tellRead(Data, From, FromOffset, Size);
-  tellWritten(Data, To, ToOffset, Size);
-}
-
-void copyWithSize(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
-                  pocl_mem_identifier *From, cl_mem FromBuffer,
-                  pocl_mem_identifier *SizeId, cl_mem SizeBuffer,
-                  size_t ToOffset, size_t FromOffset, size_t Size) {
-  pocl_driver_copy_with_size(Data, To, ToBuffer, From, FromBuffer, SizeId,
-                             SizeBuffer, ToOffset, FromOffset, Size);
-  tellRead(Data, From, FromOffset, Size);
-  tellWritten(Data, To, ToOffset, Size);
-}
-
-void copyRect(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
-              pocl_mem_identifier *From, cl_mem FromBuffer,
-              const size_t *ToOrigin, const size_t *FromOrigin,
-              const size_t *Region, size_t ToRowPitch, size_t ToSlicePitch,
-              size_t FromRowPitch, size_t FromSlicePitch) {
-  pocl_driver_copy_rect(Data, To, ToBuffer, From, FromBuffer, ToOrigin,
-                        FromOrigin, Region, ToRowPitch, ToSlicePitch,
-                        FromRowPitch, FromSlicePitch);
-  tellRead(Data, From, 0, FromBuffer->size);
-  tellWritten(Data, To, 0, ToBuffer->size);
-}
-
-void fill(void *Data, pocl_mem_identifier *To, cl_mem Buffer, size_t Size,
-          size_t Offset, const void *Pattern, size_t PatternSize) {
-  pocl_driver_memfill(Data, To, Buffer, Size, Offset, Pattern, PatternSize);
-  tellWritten(Data, To, Offset, Size);
-}
-
-/// The machine's memory is the host's, too. Only what the program wants to have
-/// in memory of its own is copied there.
-cl_int mappingPointer(void *, pocl_mem_identifier *Id, cl_mem Buffer,
-                      mem_mapping_t *Map) {
-  void *Base =
-      Buffer->flags & CL_MEM_USE_HOST_PTR ? Buffer->mem_host_ptr : Id->mem_ptr;
-  Map->host_ptr = static_cast<char *>(Base) + Map->offset;
-  return CL_SUCCESS;
-}
-
-cl_int freeMappingPointer(void *, pocl_mem_identifier *, cl_mem,
-                          mem_mapping_t *Map) {
-  Map->host_ptr = nullptr;
-  return CL_SUCCESS;
-}
-
-cl_int map(void *Data, pocl_mem_identifier *From, cl_mem Buffer,
-           mem_mapping_t *Map) {
-  const cl_int Status = pocl_driver_map_mem(Data, From, Buffer, Map);
-  if (Map->map_flags & CL_MAP_READ)
-    tellRead(Data, From, Map->offset, Map->size);
-  return Status;
-}
-
-cl_int unmap(void *Data, pocl_mem_identifier *To, cl_mem Buffer,
-             mem_mapping_t *Map) {
-  const cl_int Status = pocl_driver_unmap_mem(Data, To, Buffer, Map);
-  if (!(Map->map_flags & CL_MAP_READ) || (Map->map_flags & CL_MAP_WRITE))
-    tellWritten(Data, To, Map->offset, Map->size);
-  return Status;
 }
 
 void compileKernel(_cl_command_node *Command, cl_kernel Kernel,
@@ -405,20 +222,7 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
   Ops->build_hash = buildHash;
   Ops->init_build = initBuild;
 
-  Ops->alloc_mem_obj = allocate;
-  Ops->free = release;
-  Ops->read = read;
-  Ops->read_rect = readRect;
-  Ops->write = write;
-  Ops->write_rect = writeRect;
-  Ops->copy = copy;
-  Ops->copy_with_size = copyWithSize;
-  Ops->copy_rect = copyRect;
-  Ops->memfill = fill;
-  Ops->map_mem = map;
-  Ops->unmap_mem = unmap;
-  Ops->get_mapping_ptr = mappingPointer;
-  Ops->free_mapping_ptr = freeMappingPointer;
+  setMemoryOperations(Ops);
 
   Ops->build_source = pocl_driver_build_source;
   Ops->link_program = pocl_driver_link_program;
@@ -439,6 +243,7 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
   Ops->free_queue = freeQueue;
   Ops->notify_cmdq_finished = notifyQueueFinished;
   Ops->update_event = updateEvent;
+  Ops->get_synchronized_timestamps = pocl_driver_get_synchronized_timestamps;
   Ops->wait_event = waitEvent;
   Ops->notify_event_finished = notifyEventFinished;
   Ops->free_event_data = freeEventData;

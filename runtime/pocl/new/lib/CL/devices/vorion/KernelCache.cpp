@@ -23,7 +23,8 @@ namespace vorion {
 
 namespace {
 
-KernelDescription describe(cl_kernel Kernel, const size_t *LocalSize) {
+KernelDescription describe(cl_kernel Kernel, const size_t *LocalSize,
+                           size_t MaxItems) {
   KernelDescription D;
   D.Name = Kernel->name;
   const pocl_kernel_metadata_t &Meta = *Kernel->meta;
@@ -38,6 +39,8 @@ KernelDescription describe(cl_kernel Kernel, const size_t *LocalSize) {
   }
   for (int I = 0; I < 3; ++I)
     D.LocalSize[I] = LocalSize[I];
+  const size_t Items = LocalSize[0] * LocalSize[1] * LocalSize[2];
+  D.MaxItems = Items ? Items : MaxItems;
   return D;
 }
 
@@ -131,7 +134,8 @@ KernelCache::Problem KernelCache::make(_cl_command_node *Command,
     Text = writeKernelModule(
         Module,
         describe(Kernel,
-                 Specialize ? Command->command.run.pc.local_size : AnySize),
+                 Specialize ? Command->command.run.pc.local_size : AnySize,
+                 Command->device->max_work_group_size),
         Own + ".bc");
     pocl_destroy_llvm_module(Module, Kernel->context);
     if (Text.empty())

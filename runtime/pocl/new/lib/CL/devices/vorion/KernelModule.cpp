@@ -98,10 +98,10 @@ private:
     Entry.setSubprogram(Lines);
   }
 
-  /// OpenCL 1.2 has no writable variables of program scope: all there are
+  /// The device offers no writable variables of program scope: all there are
   /// belong to a group, which has the core's local memory to itself.
   uint64_t placeLocals() {
-    uint64_t Used = 0;
+    uint64_t Used = placeScratch();
     for (GlobalVariable &G : M.globals()) {
       if (G.isConstant() || !G.hasInitializer() || !G.hasLocalLinkage() ||
           G.use_empty())
@@ -114,6 +114,17 @@ private:
       Used += Layout.getTypeAllocSize(G.getValueType());
     }
     return Used;
+  }
+
+  /// The memory of functions that a group calls together, 8 bytes for each
+  /// subgroup (libdevice/opencl/workgroup.cl). Its size.
+  uint64_t placeScratch() {
+    GlobalVariable *Scratch = M.getGlobalVariable("vorion_scratch");
+    if (!Scratch || Scratch->use_empty())
+      return 0;
+    Scratch->replaceAllUsesWith(ConstantExpr::getIntToPtr(
+        ConstantInt::get(I32, VX_LOCAL_BASE), Scratch->getType()));
+    return uint64_t{8} * divideCeil(Kernel.MaxItems, pocl::simtLanes(M));
   }
 
   Constant *number(uint64_t N) { return ConstantInt::get(I32, N); }

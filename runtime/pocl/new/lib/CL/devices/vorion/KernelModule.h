@@ -18,6 +18,7 @@ struct KernelDescription {
   std::string Name;
   std::vector<KernelArgument> Arguments;
   uint32_t LocalSize[3]; ///< compiled for, 0 for any
+  uint32_t MaxItems;     ///< of a group that it can be launched with
 };
 
 /// Finishes \p Module (an llvm::Module that PoCL's work-group passes made of

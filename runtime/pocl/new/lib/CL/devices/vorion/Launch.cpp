@@ -1,6 +1,7 @@
 #include "Launch.h"
 #include "Capture.h"
 #include "Event.h"
+#include "Images.h"
 #include "Messages.h"
 
 extern "C" {
@@ -9,6 +10,7 @@ extern "C" {
 
 #include <vorion_abi.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -56,6 +58,12 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
   _cl_command_run &Run = Command->command.run;
   const pocl_context &Grid = Run.pc;
   const Failing Fail{*Command};
+  // A range without items is done as it is.
+  if (std::find(Grid.num_groups, Grid.num_groups + 3, 0U) !=
+      Grid.num_groups + 3) {
+    pocl_update_event_running(Command->sync.event.event);
+    return CL_SUCCESS;
+  }
 
   KernelCache::Problem Problem;
   const LoadedKernel *Kernel = Kernels.get(Command, Problem);
@@ -67,17 +75,27 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
   const pocl_kernel_metadata_t &Meta = *Run.kernel->meta;
   std::vector<unsigned char> Packed(Kernel->Info.args_bytes);
   std::vector<uint64_t> LocalSizes;
+  ImageDescriptions Images(Device);
   for (unsigned I = 0; I < Meta.num_args; ++I) {
     vx_arg_info Info;
     if (vx_image_get_arg(Kernel->Image.get(), Kernel->Number, I, &Info) !=
         VX_OK)
       return Fail.kernel(CL_INVALID_KERNEL_ARGS, vx_last_error());
-    const pocl_argument &Argument = Run.arguments[I];
+    pocl_argument &Argument = Run.arguments[I];
+    const pocl_argument_type Type = Meta.arg_info[I].type;
     if (Info.kind == VX_ARG_LOCAL) {
       LocalSizes.push_back(Argument.size);
     } else if (Info.kind == VX_ARG_GLOBAL) {
       const uint32_t Address = deviceAddress(Argument, Command->device);
       memcpy(&Packed[Info.offset], &Address, sizeof(Address));
+    } else if (Type == POCL_ARG_TYPE_IMAGE) {
+      const auto Address = Images.add(Argument, Command->device);
+      if (!Address)
+        return Fail.kernel(CL_MEM_OBJECT_ALLOCATION_FAILURE, vx_last_error());
+      memcpy(&Packed[Info.offset], &*Address, sizeof(*Address));
+    } else if (Type == POCL_ARG_TYPE_SAMPLER) {
+      const uint32_t Value = samplerValue(Argument);
+      memcpy(&Packed[Info.offset], &Value, sizeof(Value));
     } else if (Argument.value) {
       // A vector of three elements is set with the size of four.
       memcpy(&Packed[Info.offset], Argument.value,

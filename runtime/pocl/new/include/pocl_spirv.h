@@ -1,0 +1,24 @@
+/* What of a module of SPIR-V is seen before it is translated: whether it is one
+ * for OpenCL, and whether a device offers what it needs. */
+#ifndef POCL_SPIRV_H
+#define POCL_SPIRV_H
+
+#include <stddef.h>
+
+#include "pocl_cl.h"
+
+/* Room for the texts below. */
+#define POCL_SPIRV_TEXT 256
+
+/* Whether the bytes are a module for OpenCL, whole down to each instruction's
+ * length. If not, text says what is wrong. */
+int pocl_spirv_is_kernel_module(const void *il, size_t length,
+                                char text[POCL_SPIRV_TEXT]);
+
+/* Whether the device offers what such a module says that it needs: version,
+ * size of addresses, capabilities. If not, text names the first that it does
+ * not. */
+int pocl_spirv_is_offered(cl_device_id device, const void *il, size_t length,
+                          char text[POCL_SPIRV_TEXT]);
+
+#endif

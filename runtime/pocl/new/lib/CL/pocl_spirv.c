@@ -1,0 +1,172 @@
+#include "pocl_spirv.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The numbers are those of the SPIR-V specification. */
+
+#define MAGIC 0x07230203U
+#define HEADER_WORDS 5
+
+/* 1.4: the translator writes this version, though it does not read all of it.
+ * It says itself what it does not know. */
+#define NEWEST_VERSION 0x10400U
+
+enum { OP_MEMORY_MODEL = 14, OP_CAPABILITY = 17 };
+enum { CAPABILITY_SHADER = 1, CAPABILITY_KERNEL = 6 };
+enum { ADDRESSING_PHYSICAL32 = 1, ADDRESSING_PHYSICAL64 = 2 };
+
+/* What a device must have for a capability. */
+typedef enum {
+  FEATURE_DOUBLE,
+  FEATURE_HALF,
+  FEATURE_LONG_ATOMICS,
+  FEATURE_IMAGES,
+  FEATURE_SUBGROUPS,
+  FEATURE_NONE /* no device has it */
+} feature;
+
+/* Capabilities without a row are every device's, or the translator's to
+ * refuse. GenericPointer has none: OpenCL 1.2 needs it for events of copies,
+ * and where all memories have one address space nothing is wrong with it. */
+static const struct {
+  uint32_t number;
+  const char *name;
+  feature needs;
+} capabilities[] = {
+    {9, "Float16", FEATURE_HALF},
+    {10, "Float64", FEATURE_DOUBLE},
+    {12, "Int64Atomics", FEATURE_LONG_ATOMICS},
+    {13, "ImageBasic", FEATURE_IMAGES},
+    {14, "ImageReadWrite", FEATURE_IMAGES},
+    {15, "ImageMipmap", FEATURE_NONE},
+    {17, "Pipes", FEATURE_NONE},
+    {18, "Groups", FEATURE_SUBGROUPS},
+    {19, "DeviceEnqueue", FEATURE_NONE},
+    {20, "LiteralSampler", FEATURE_IMAGES},
+    {43, "Sampled1D", FEATURE_IMAGES},
+    {44, "Image1D", FEATURE_IMAGES},
+    {46, "SampledBuffer", FEATURE_IMAGES},
+    {47, "ImageBuffer", FEATURE_IMAGES},
+    {58, "SubgroupDispatch", FEATURE_NONE},
+    {59, "NamedBarrier", FEATURE_NONE},
+    {60, "PipeStorage", FEATURE_NONE},
+    {61, "GroupNonUniform", FEATURE_SUBGROUPS},
+};
+
+static int offers(cl_device_id device, feature needed) {
+  switch (needed) {
+  case FEATURE_DOUBLE:
+    return device->double_fp_config != 0;
+  case FEATURE_HALF:
+    return device->half_fp_config != 0;
+  case FEATURE_LONG_ATOMICS:
+    return strstr(device->extensions, "cl_khr_int64_base_atomics") != NULL;
+  case FEATURE_IMAGES:
+    return device->image_support != CL_FALSE;
+  case FEATURE_SUBGROUPS:
+    return device->max_num_sub_groups != 0;
+  case FEATURE_NONE:
+    break;
+  }
+  return 0;
+}
+
+static uint32_t word_at(const void *il, size_t index) {
+  uint32_t word;
+  memcpy(&word, (const char *)il + index * sizeof(word), sizeof(word));
+  return word;
+}
+
+/* The first instruction of this kind at or after the word *at, which moves
+ * there, or 0. */
+static int find(const void *il, size_t length, uint32_t kind, size_t *at) {
+  const size_t words = length / sizeof(uint32_t);
+  for (; *at < words; *at += word_at(il, *at) >> 16)
+    if ((word_at(il, *at) & 0xffff) == kind)
+      return 1;
+  return 0;
+}
+
+static int has_capability(const void *il, size_t length, uint32_t number) {
+  size_t at = HEADER_WORDS;
+  for (; find(il, length, OP_CAPABILITY, &at); at += word_at(il, at) >> 16)
+    if (word_at(il, at + 1) == number)
+      return 1;
+  return 0;
+}
+
+int pocl_spirv_is_kernel_module(const void *il, size_t length,
+                                char text[POCL_SPIRV_TEXT]) {
+  const size_t words = length / sizeof(uint32_t);
+  if (words < HEADER_WORDS || word_at(il, 0) != MAGIC) {
+    snprintf(text, POCL_SPIRV_TEXT,
+             "%zu bytes are no module of SPIR-V, expected its header", length);
+    return 0;
+  }
+  if (length % sizeof(uint32_t) != 0) {
+    snprintf(text, POCL_SPIRV_TEXT,
+             "the module of SPIR-V has %zu bytes, expected whole words of 4",
+             length);
+    return 0;
+  }
+  for (size_t at = HEADER_WORDS; at < words;) {
+    const uint32_t size = word_at(il, at) >> 16;
+    const uint32_t kind = word_at(il, at) & 0xffff;
+    const uint32_t least = kind == OP_MEMORY_MODEL ? 3
+                           : kind == OP_CAPABILITY ? 2
+                                                   : 1;
+    if (size < least || size > words - at) {
+      snprintf(text, POCL_SPIRV_TEXT,
+               "the module of SPIR-V is damaged: the instruction at byte %zu "
+               "has %u words, %zu are left",
+               at * sizeof(uint32_t), size, words - at);
+      return 0;
+    }
+    at += size;
+  }
+  if (has_capability(il, length, CAPABILITY_KERNEL))
+    return 1;
+  snprintf(text, POCL_SPIRV_TEXT,
+           has_capability(il, length, CAPABILITY_SHADER)
+               ? "the module of SPIR-V is for Vulkan (capability Shader), "
+                 "expected one for OpenCL (capability Kernel)"
+               : "the module of SPIR-V has no capability Kernel, expected one "
+                 "for OpenCL");
+  return 0;
+}
+
+int pocl_spirv_is_offered(cl_device_id device, const void *il, size_t length,
+                          char text[POCL_SPIRV_TEXT]) {
+  if (word_at(il, 1) > NEWEST_VERSION) {
+    snprintf(text, POCL_SPIRV_TEXT,
+             "the module is of SPIR-V %u.%u, expected 1.4 at most",
+             word_at(il, 1) >> 16 & 0xff, word_at(il, 1) >> 8 & 0xff);
+    return 0;
+  }
+  size_t at = HEADER_WORDS;
+  const uint32_t addressing = find(il, length, OP_MEMORY_MODEL, &at)
+                                  ? word_at(il, at + 1)
+                                  : ADDRESSING_PHYSICAL32;
+  if (addressing != (device->address_bits == 32 ? ADDRESSING_PHYSICAL32
+                                                : ADDRESSING_PHYSICAL64)) {
+    snprintf(text, POCL_SPIRV_TEXT,
+             "the module's addresses are %s, the device's have %u bits",
+             addressing == ADDRESSING_PHYSICAL64   ? "Physical64"
+             : addressing == ADDRESSING_PHYSICAL32 ? "Physical32"
+                                                   : "not physical",
+             device->address_bits);
+    return 0;
+  }
+  for (size_t i = 0; i < sizeof(capabilities) / sizeof(capabilities[0]); ++i)
+    if (has_capability(il, length, capabilities[i].number) &&
+        !offers(device, capabilities[i].needs)) {
+      snprintf(text, POCL_SPIRV_TEXT,
+               "the module needs the capability %s, which the device does not "
+               "offer",
+               capabilities[i].name);
+      return 0;
+    }
+  return 1;
+}

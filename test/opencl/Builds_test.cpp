@@ -1,0 +1,261 @@
+/// What building, compiling and linking programs says when something is wrong:
+/// the standard's codes, the log, and the functions that wait for the end.
+
+#include "TestDevice.h"
+
+#include <string>
+#include <vector>
+
+using vorion::test::TestDevice;
+
+namespace {
+
+constexpr const char *Good = "kernel void f(global int *o) { o[0] = 1; }";
+constexpr const char *Wrong = "kernel void f(global int *o) {\n"
+                              "  o[0] = nowhere;\n"
+                              "  o[1] = 1 +;\n"
+                              "}\n";
+
+/// Counts how often it was told, and of which program.
+struct Listener {
+  static void CL_CALLBACK hear(cl_program Program, void *Data) {
+    auto *To = static_cast<Listener *>(Data);
+    ++To->Calls;
+    To->Last = Program;
+  }
+  int Calls = 0;
+  cl_program Last = nullptr;
+};
+
+class Builds : public testing::Test {
+protected:
+  void SetUp() override { VORION_REQUIRE_DEVICE(Device); }
+
+  cl_device_id device() const {
+    return Device.queue().getInfo<CL_QUEUE_DEVICE>()();
+  }
+  cl::Program program(const char *Source) const {
+    return {Device.context(), std::string(Source)};
+  }
+  std::string log(const cl::Program &Program) const {
+    return Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(cl::Device(device()));
+  }
+  cl_build_status status(const cl::Program &Program) const {
+    return Program.getBuildInfo<CL_PROGRAM_BUILD_STATUS>(cl::Device(device()));
+  }
+  cl_int build(const cl::Program &Program, const char *Options = "") const {
+    return clBuildProgram(Program(), 0, nullptr, Options, nullptr, nullptr);
+  }
+  cl_int compile(const cl::Program &Program, const char *Options = "") const {
+    return clCompileProgram(Program(), 0, nullptr, Options, 0, nullptr, nullptr,
+                            nullptr, nullptr);
+  }
+  /// The program of a link, perhaps none.
+  cl::Program link(const std::vector<cl_program> &Inputs, const char *Options,
+                   cl_int &Status) const {
+    return cl::Program(clLinkProgram(Device.context()(), 0, nullptr, Options,
+                                     static_cast<cl_uint>(Inputs.size()),
+                                     Inputs.data(), nullptr, nullptr, &Status));
+  }
+
+  const TestDevice Device;
+};
+
+TEST_F(Builds, WrongArgumentsHaveTheirCodes) {
+  const cl::Program P = program(Good);
+  const cl_device_id D = device();
+  int Data = 0;
+  const auto Build = [](cl_program Program, cl_uint Count,
+                        const cl_device_id *Devices, void *User) {
+    return clBuildProgram(Program, Count, Devices, "", nullptr, User);
+  };
+  EXPECT_EQ(Build(nullptr, 0, nullptr, nullptr), CL_INVALID_PROGRAM);
+  EXPECT_EQ(Build(P(), 1, nullptr, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Build(P(), 0, &D, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Build(P(), 0, nullptr, &Data), CL_INVALID_VALUE);
+
+  const cl_program Header = P();
+  const char *Name = "p.h";
+  const auto Compile = [&](cl_uint Count, const cl_program *Headers,
+                           const char **Names, void *User) {
+    return clCompileProgram(P(), 0, nullptr, "", Count, Headers, Names, nullptr,
+                            User);
+  };
+  EXPECT_EQ(Compile(1, nullptr, &Name, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Compile(1, &Header, nullptr, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Compile(0, &Header, nullptr, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Compile(0, nullptr, &Name, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Compile(0, nullptr, nullptr, &Data), CL_INVALID_VALUE);
+
+  ASSERT_EQ(compile(P), CL_SUCCESS);
+  const cl_program Input = P();
+  const auto Link = [&](cl_context Context, cl_uint Devices,
+                        const cl_device_id *List, cl_uint Count,
+                        const cl_program *Inputs, void *User) {
+    cl_int Status = CL_SUCCESS;
+    EXPECT_EQ(clLinkProgram(Context, Devices, List, "", Count, Inputs, nullptr,
+                            User, &Status),
+              nullptr);
+    return Status;
+  };
+  const cl_context C = Device.context()();
+  EXPECT_EQ(Link(nullptr, 0, nullptr, 1, &Input, nullptr), CL_INVALID_CONTEXT);
+  EXPECT_EQ(Link(C, 1, nullptr, 1, &Input, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Link(C, 0, &D, 1, &Input, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Link(C, 0, nullptr, 0, &Input, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Link(C, 0, nullptr, 1, nullptr, nullptr), CL_INVALID_VALUE);
+  EXPECT_EQ(Link(C, 0, nullptr, 1, &Input, &Data), CL_INVALID_VALUE);
+  const cl_program Nothing = nullptr;
+  EXPECT_EQ(Link(C, 0, nullptr, 1, &Nothing, nullptr), CL_INVALID_PROGRAM);
+  const cl::Program Source = program(Good);
+  const cl_program Uncompiled = Source();
+  EXPECT_EQ(Link(C, 0, nullptr, 1, &Uncompiled, nullptr), CL_INVALID_OPERATION);
+}
+
+TEST_F(Builds, APartThatIsInUseOrHasNoSourceIsNotBuiltAgain) {
+  const cl::Program P = program(Good);
+  ASSERT_EQ(build(P), CL_SUCCESS);
+  {
+    const cl::Kernel Kernel(P, "f");
+    EXPECT_EQ(build(P), CL_INVALID_OPERATION);
+    EXPECT_EQ(compile(P), CL_INVALID_OPERATION);
+  }
+  EXPECT_EQ(build(P), CL_SUCCESS);
+  const cl::Program Binary(Device.context(), {cl::Device(device())},
+                           P.getInfo<CL_PROGRAM_BINARIES>());
+  EXPECT_EQ(compile(Binary), CL_INVALID_OPERATION);
+  EXPECT_EQ(build(Binary), CL_SUCCESS);
+}
+
+TEST_F(Builds, UnknownOptionsAreNamed) {
+  const cl::Program P = program(Good);
+  for (const char *Option :
+       {"-cl-fast", "-cl-std=CL9.9", "-wall", "-foo", "-create-library",
+        "-enable-link-options", "stray"}) {
+    EXPECT_EQ(build(P, Option), CL_INVALID_BUILD_OPTIONS) << Option;
+    EXPECT_NE(log(P).find(Option), std::string::npos) << log(P);
+    EXPECT_EQ(compile(P, Option), CL_INVALID_COMPILER_OPTIONS) << Option;
+    EXPECT_NE(log(P).find(Option), std::string::npos) << log(P);
+  }
+  EXPECT_EQ(build(P, "-D"), CL_INVALID_BUILD_OPTIONS);
+  ASSERT_EQ(compile(P), CL_SUCCESS);
+  for (const char *Option : {"-cl-fast", "-DX", "-I.", "-w", "-g", "-foo",
+                             "-cl-mad-enable", "-enable-link-options"}) {
+    cl_int Status = CL_SUCCESS;
+    EXPECT_EQ(link({P()}, Option, Status)(), nullptr) << Option;
+    EXPECT_EQ(Status, CL_INVALID_LINKER_OPTIONS) << Option;
+  }
+  for (const char *Option : {"-cl-fast-relaxed-math", "-create-library",
+                             "-create-library -enable-link-options "
+                             "-cl-fast-relaxed-math"}) {
+    cl_int Status = CL_INVALID_VALUE;
+    EXPECT_NE(link({P()}, Option, Status)(), nullptr) << Option;
+    EXPECT_EQ(Status, CL_SUCCESS) << Option;
+  }
+  cl_int Status = CL_SUCCESS;
+  EXPECT_EQ(link({P()}, "-create-library -cl-fast-relaxed-math", Status)(),
+            nullptr);
+  EXPECT_EQ(Status, CL_INVALID_LINKER_OPTIONS);
+}
+
+TEST_F(Builds, TheLogHasEveryErrorWithItsLineAndPlace) {
+  const cl::Program P = program(Wrong);
+  const auto Check = [&] {
+    const std::string Log = log(P);
+    EXPECT_EQ(status(P), CL_BUILD_ERROR);
+    EXPECT_NE(Log.find(":2:10: error: use of undeclared identifier 'nowhere'\n"
+                       "    2 |   o[0] = nowhere;\n"
+                       "      |          ^\n"),
+              std::string::npos)
+        << Log;
+    EXPECT_NE(Log.find(":3:13: error: expected expression"), std::string::npos)
+        << Log;
+  };
+  EXPECT_EQ(build(P), CL_BUILD_PROGRAM_FAILURE);
+  Check();
+  EXPECT_EQ(compile(P), CL_COMPILE_PROGRAM_FAILURE);
+  Check();
+}
+
+TEST_F(Builds, AFailedLinkHasAProgramWithALog) {
+  const cl::Program Caller = program(
+      "int other(int); kernel void f(global int *o) { *o = other(1); }");
+  const cl::Program Twice = program(Good);
+  const cl::Program Again = program(Good);
+  for (const cl::Program &P : {Caller, Twice, Again})
+    ASSERT_EQ(compile(P), CL_SUCCESS);
+  const auto Check = [&](const std::vector<cl_program> &Inputs,
+                         const char *Named) {
+    cl_int Status = CL_SUCCESS;
+    const cl::Program Linked = link(Inputs, "", Status);
+    EXPECT_EQ(Status, CL_LINK_PROGRAM_FAILURE);
+    ASSERT_NE(Linked(), nullptr);
+    EXPECT_EQ(status(Linked), CL_BUILD_ERROR);
+    EXPECT_NE(log(Linked).find(Named), std::string::npos) << log(Linked);
+    cl_int Made = CL_SUCCESS;
+    EXPECT_EQ(clCreateKernel(Linked(), "f", &Made), nullptr);
+    EXPECT_EQ(Made, CL_INVALID_PROGRAM_EXECUTABLE);
+  };
+  Check({Caller()}, "other");
+  Check({Twice(), Again()}, "'f'");
+}
+
+TEST_F(Builds, WhoWaitsIsToldOnceOfWhatBegan) {
+  Listener Heard;
+  const auto Expect = [&](int Calls, cl_program Program) {
+    EXPECT_EQ(Heard.Calls, Calls);
+    EXPECT_EQ(Heard.Last, Program);
+    Heard = {};
+  };
+  const auto Build = [&](cl_program Program) {
+    return clBuildProgram(Program, 0, nullptr, "", Listener::hear, &Heard);
+  };
+  const cl::Program Right = program(Good);
+  const cl::Program Bad = program(Wrong);
+  EXPECT_EQ(Build(Right()), CL_SUCCESS);
+  Expect(1, Right());
+  EXPECT_EQ(Build(Bad()), CL_BUILD_PROGRAM_FAILURE);
+  Expect(1, Bad());
+  EXPECT_EQ(Build(nullptr), CL_INVALID_PROGRAM);
+  Expect(0, nullptr);
+  EXPECT_EQ(clCompileProgram(Right(), 0, nullptr, "", 0, nullptr, nullptr,
+                             Listener::hear, &Heard),
+            CL_SUCCESS);
+  Expect(1, Right());
+  const cl_program Input = Right();
+  cl_int Status = CL_INVALID_VALUE;
+  const cl::Program Linked(clLinkProgram(Device.context()(), 0, nullptr, "", 1,
+                                         &Input, Listener::hear, &Heard,
+                                         &Status));
+  EXPECT_EQ(Status, CL_SUCCESS);
+  Expect(1, Linked());
+  EXPECT_EQ(clLinkProgram(Device.context()(), 0, nullptr, "", 0, nullptr,
+                          Listener::hear, &Heard, &Status),
+            nullptr);
+  EXPECT_EQ(Status, CL_INVALID_VALUE);
+  Expect(0, nullptr);
+}
+
+TEST_F(Builds, TheOptionsThatWereGivenAreReturned) {
+  const cl::Program P = program(Good);
+  constexpr const char *Options = "-DA=1 -cl-denorms-are-zero -cl-mad-enable";
+  ASSERT_EQ(build(P, Options), CL_SUCCESS);
+  EXPECT_EQ(P.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(cl::Device(device())),
+            Options);
+}
+
+TEST_F(Builds, NoContextWithoutADeviceOfTheType) {
+  const std::vector<cl_context_properties> Properties = {
+      CL_CONTEXT_PLATFORM,
+      reinterpret_cast<cl_context_properties>(
+          cl::Device(device()).getInfo<CL_DEVICE_PLATFORM>()),
+      0};
+  cl_int Status = CL_SUCCESS;
+  EXPECT_EQ(clCreateContextFromType(Properties.data(),
+                                    CL_DEVICE_TYPE_ACCELERATOR, nullptr,
+                                    nullptr, &Status),
+            nullptr);
+  EXPECT_EQ(Status, CL_DEVICE_NOT_FOUND);
+}
+
+} // namespace
