@@ -37,7 +37,8 @@ def VxLaunch : Descriptor<"vx_launch", [
     DescField<"context_stride", "u32", 1, "bytes of it for each core">,
     DescField<"print_buffer", "u32", 1, "text of printf">,
     DescField<"print_capacity", "u32", 1, "bytes">,
-    DescField<"print_used", "u32", 1, "bytes asked for so far; above the capacity means text was dropped">
+    DescField<"print_used", "u32", 1, "bytes asked for so far; above the capacity means text was dropped">,
+    DescField<"variables", "u32", 1, "variables of program scope, 0 for none">
   ], "What a kernel launch hands to every core (mscratch points to it).">;
 
 def VxKernel : Descriptor<"vx_kernel", [
@@ -51,6 +52,16 @@ def VxKernel : Descriptor<"vx_kernel", [
     DescField<"local_size", "u32", 3, "the group size it was compiled for, 0 for any">,
     DescField<"lanes", "u32", 1, "the lanes of a warp it was compiled for, 0 for any">
   ], "One kernel of a program, in section vorion_kernels.">;
+
+def VxVariables : Descriptor<"vx_variables", [
+    DescField<"entry", "u32", 1, "work-group function of the kernel">,
+    DescField<"bytes", "u32", 1, "size of all variables">,
+    DescField<"alignment", "u32", 1, "of their address, a power of two">,
+    DescField<"contents", "u32", 1, "address of the initial bytes; zeros follow these">,
+    DescField<"contents_bytes", "u32", 1, "how many of them there are">,
+    DescField<"pointers", "u32", 1, "address of num_pointers offsets of words">,
+    DescField<"num_pointers", "u32", 1, "words to which the variables' address is added">
+  ], "The variables of program scope of a kernel that uses them, in section vorion_variables.">;
 
 def VxKernelArg : Descriptor<"vx_kernel_arg", [
     DescField<"name", "u32", 1, "address of the NUL-terminated name">,

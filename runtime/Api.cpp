@@ -349,6 +349,7 @@ vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
     for (unsigned I = 0; I < 3; ++I)
       info->local_size[I] = Found->LocalSize[I];
     info->lanes = Found->Lanes;
+    info->variables_bytes = Found->Variables.Bytes;
     return {};
   });
 }
@@ -388,6 +389,22 @@ vx_status vx_image_place_locals(vx_image *image, uint32_t kernel,
     if (!Failed)
       image->Owner->Impl.localUsed(Used);
     return Failed;
+  });
+}
+
+vx_status vx_variables_alloc(vx_image *image, uint32_t kernel,
+                             uint32_t *address) {
+  return guarded([&]() -> Failure {
+    const isasim::Kernel *Found = nullptr;
+    if (Failure Failed = findKernel(image, kernel, &Found))
+      return Failed;
+    if (!address)
+      return isNull("address");
+    if (Found->Variables.Bytes == 0)
+      return {VX_ERROR_NOT_FOUND,
+              fmt::format("kernel {} uses no variables of program scope",
+                          Found->Name)};
+    return image->Owner->Impl.allocateVariables(image->Impl, *Found, *address);
   });
 }
 

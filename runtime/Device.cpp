@@ -165,6 +165,20 @@ Failure Device::allocate(uint64_t Size, uint32_t &Address) {
   return allocateLocked(Size, "buffer", Address);
 }
 
+Failure Device::allocateVariables(const LoadedImage &Image,
+                                  const isasim::Kernel &K, uint32_t &Address) {
+  Lock Held(Mutex);
+  waitForRun(Held);
+  uint32_t Start = 0;
+  if (Failure Failed = allocateLocked(isasim::bytesFor(K.Variables),
+                                      "the variables of program scope", Start))
+    return Failed;
+  isasim::writeVariables(*Machine, *Watch, Image.program(), K,
+                         isasim::placeOf(K.Variables, Start));
+  Address = Start;
+  return {};
+}
+
 Failure Device::release(uint32_t Address) {
   Lock Held(Mutex);
   waitIfObserved(Held);
@@ -356,7 +370,7 @@ void Device::makeCurrent(LoadedImage &Image) {
   Current = &Image;
 }
 
-Failure Device::prepare(const isasim::Launch &Planned,
+Failure Device::prepare(const isasim::Launch &Planned, uint32_t Variables,
                         std::span<const std::byte> Args) {
   for (const auto &[Part, What] : LaunchPartNames) {
     uint32_t Address = 0;
@@ -365,6 +379,7 @@ Failure Device::prepare(const isasim::Launch &Planned,
         return Failed;
     InUse.*Part = Address;
   }
+  InUse.Variables = Variables;
   Planned.write(*Machine, *Watch, InUse, Args);
   return {};
 }
@@ -437,11 +452,19 @@ Failure Device::start(LoadedImage &Image, uint32_t Kernel,
                     ArgsBytes, K.ArgsBytes, K.Name));
   if (ArgsBytes && !Args)
     return badArgument("args is NULL, expected the packed arguments");
+  const uint32_t Variables = isasim::placeOf(K.Variables, Params.variables);
+  if (K.Variables.Bytes != 0 &&
+      !Machine->hostPointer(Variables, K.Variables.Bytes))
+    return badArgument(
+        fmt::format("variables is {:#x}, expected memory for the "
+                    "variables of program scope of kernel {}",
+                    Params.variables, K.Name));
   Lock Held(Mutex);
   if (Running)
     return {VX_ERROR_BUSY, "a run is in progress"};
-  if (Failure Failed = prepare(
-          *Planned, {static_cast<const std::byte *>(Args), ArgsBytes})) {
+  if (Failure Failed =
+          prepare(*Planned, Variables,
+                  {static_cast<const std::byte *>(Args), ArgsBytes})) {
     freeRunMemory();
     return Failed;
   }

@@ -30,6 +30,9 @@ public:
   const std::string &configText() const { return ConfigText; }
 
   Failure allocate(uint64_t Size, uint32_t &Address);
+  /// Memory with the initial values of what \p K of \p Image uses.
+  Failure allocateVariables(const LoadedImage &Image, const isasim::Kernel &K,
+                            uint32_t &Address);
   Failure release(uint32_t Address);
   Failure copyIn(uint32_t To, const void *From, uint64_t Size);
   Failure copyOut(void *To, uint32_t From, uint64_t Size);
@@ -81,7 +84,7 @@ private:
   Failure tellHost(Notice What, uint32_t Address, uint64_t Size);
   void freeRunMemory();
   void nameBuffers(const isasim::Kernel &Kernel, const void *Args);
-  Failure prepare(const isasim::Launch &Planned,
+  Failure prepare(const isasim::Launch &Planned, uint32_t Variables,
                   std::span<const std::byte> Args);
   void makeCurrent(LoadedImage &Image);
   void launch(Lock &Held, LoadedImage &Image, const std::string &Name,

@@ -86,7 +86,8 @@ Expected<Launch> Launch::plan(const Kernel &K, const LaunchShape &S,
   L.Bytes = {.Block = sizeof(VxLaunch),
              .Args = K.ArgsBytes,
              .Context = Stride * C.cores(),
-             .Print = PrintBytes};
+             .Print = PrintBytes,
+             .Variables = bytesFor(K.Variables)};
   return L;
 }
 
@@ -103,12 +104,41 @@ void Launch::write(Machine &M, Session &Watch, const LaunchParts &Addresses,
   Block.ContextStride = ContextStride;
   Block.PrintBuffer = address(Addresses.Print);
   Block.PrintCapacity = PrintBytes;
+  Block.Variables = address(Addresses.Variables);
   M.write(address(Addresses.Block), bytesOf(Block));
   Watch.hostWrote(address(Addresses.Block), sizeof(Block));
   if (Args.empty())
     return;
   M.write(address(Addresses.Args), Args);
   Watch.hostWrote(address(Addresses.Args), Args.size());
+}
+
+uint64_t bytesFor(const ProgramVariables &V) {
+  const uint64_t Room =
+      V.Alignment > LaunchAlignment ? V.Alignment - LaunchAlignment : 0;
+  return V.Bytes + Room;
+}
+
+uint32_t placeOf(const ProgramVariables &V, uint32_t Address) {
+  return (Address + V.Alignment - 1) / V.Alignment * V.Alignment;
+}
+
+void writeVariables(Machine &M, Session &Watch, const Image &Program,
+                    const Kernel &K, uint32_t Place) {
+  const ProgramVariables &V = K.Variables;
+  std::byte *const Bytes = M.hostPointer(Place, V.Bytes);
+  std::memset(Bytes, 0, V.Bytes);
+  std::ranges::copy(Program.bytesAt(V.Contents, V.ContentsBytes), Bytes);
+  const auto Pointers =
+      Program.bytesAt(V.Pointers, V.NumPointers * uint32_t{sizeof(uint32_t)});
+  for (size_t At = 0; At != Pointers.size(); At += sizeof(uint32_t)) {
+    uint32_t Offset = 0, Value = 0;
+    std::memcpy(&Offset, &Pointers[At], sizeof(Offset));
+    std::memcpy(&Value, Bytes + Offset, sizeof(Value));
+    Value += Place;
+    std::memcpy(Bytes + Offset, &Value, sizeof(Value));
+  }
+  Watch.hostWrote(Place, V.Bytes);
 }
 
 Printed printedBy(Machine &M, const LaunchParts &Addresses) {

@@ -1,9 +1,11 @@
 #include "vorion/isasim/Launch.h"
 
 #include "core/IsaTables.h"
+#include "testing/ElfBuilder.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
 
+#include <array>
 #include <cstring>
 #include <gtest/gtest.h>
 
@@ -109,6 +111,30 @@ TEST(Launch, LocalArgumentsLieBehindTheKernelsOwnMemory) {
   EXPECT_EQ(Places.used(), 264u);
   EXPECT_FALSE(Places.place(C.LocalBytes));
   EXPECT_EQ(Places.used(), 264u);
+}
+
+TEST(Launch, VariablesBeginAsTheImageSays) {
+  const auto M = Machine::create(smallMachine());
+  const auto Watch = Session::create({}, "test");
+  ASSERT_TRUE(M && Watch);
+  // Two words, the second an address, and the table that says so.
+  const auto Program = isasim::testing::codeImage({77, 8, 4});
+  Kernel K = someKernel();
+  K.Variables = {.Bytes = 12,
+                 .Alignment = 256,
+                 .Contents = VX_IMAGE_BASE,
+                 .ContentsBytes = 8,
+                 .Pointers = VX_IMAGE_BASE + 8,
+                 .NumPointers = 1};
+  EXPECT_EQ(bytesFor(K.Variables), 12u + 128u);
+  const uint32_t Place = placeOf(K.Variables, VX_GLOBAL_BASE + 128);
+  EXPECT_EQ(Place, VX_GLOBAL_BASE + 256u);
+  std::byte *const Bytes = (*M)->hostPointer(Place, 16);
+  std::memset(Bytes, 0xFF, 16);
+  writeVariables(**M, **Watch, *Program, K, Place);
+  std::array<uint32_t, 4> Words{};
+  std::memcpy(Words.data(), Bytes, sizeof(Words));
+  EXPECT_EQ(Words, (std::array<uint32_t, 4>{77, Place + 8, 0, 0xFFFFFFFF}));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "core/IsaTables.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <fmt/format.h>
 #include <tuple>
@@ -19,7 +20,8 @@ constexpr uint32_t FlagFloatAbi = 0x6;
 constexpr uint32_t FloatAbiSoft = 0x0, FloatAbiSingle = 0x2;
 constexpr uint32_t FlagRve = 0x8;
 
-constexpr char KernelSection[] = "vorion_kernels";
+constexpr const char *KernelSection = "vorion_kernels";
+constexpr const char *VariableSection = "vorion_variables";
 constexpr uint32_t MaxArgs = 4096; ///< more than OpenCL's 256 KiB could hold
 constexpr uint32_t MaxArgsBytes = 256 << 10;
 
@@ -209,16 +211,28 @@ std::string ImageParser::readSections() {
       if (std::string Wrong = readSymbols(*S); !Wrong.empty())
         return Wrong;
     }
-    if (S->sh_name < SectionNames.size() &&
-        SectionNames.size() - S->sh_name >= sizeof(KernelSection) &&
-        std::memcmp(SectionNames.data() + S->sh_name, KernelSection,
-                    sizeof(KernelSection)) == 0 &&
-        (S->sh_flags & SHF_ALLOC)) {
-      KernelsLo = S->sh_addr;
-      KernelsHi = S->sh_addr + S->sh_size;
+    for (const auto &[Name, Table] :
+         {std::pair(KernelSection, &KernelTable),
+          std::pair(VariableSection, &VariableTable)}) {
+      const size_t Length = std::strlen(Name) + 1;
+      if (S->sh_name < SectionNames.size() &&
+          SectionNames.size() - S->sh_name >= Length &&
+          std::memcmp(SectionNames.data() + S->sh_name, Name, Length) == 0 &&
+          (S->sh_flags & SHF_ALLOC))
+        *Table = {S->sh_addr, S->sh_addr + S->sh_size};
     }
   }
-  return readKernels();
+  findBySymbols(KernelSection, KernelTable);
+  findBySymbols(VariableSection, VariableTable);
+  std::string Wrong = readKernels();
+  return Wrong.empty() ? readVariables() : Wrong;
+}
+
+void ImageParser::findBySymbols(const std::string &Name, Range &Table) const {
+  const auto Lo = Result->findSymbol("__start_" + Name);
+  const auto Hi = Result->findSymbol("__stop_" + Name);
+  if (Table.bytes() == 0 && Lo && Hi)
+    Table = {*Lo, *Hi};
 }
 
 std::string ImageParser::readSymbols(const Elf32_Shdr &Table) {
@@ -259,18 +273,11 @@ std::string ImageParser::readSymbols(const Elf32_Shdr &Table) {
 }
 
 std::string ImageParser::readKernels() {
-  if (KernelsLo == KernelsHi) {
-    const auto Lo = Result->findSymbol("__start_vorion_kernels");
-    const auto Hi = Result->findSymbol("__stop_vorion_kernels");
-    if (!Lo || !Hi)
-      return {};
-    KernelsLo = *Lo;
-    KernelsHi = *Hi;
-  }
-  if (KernelsHi < KernelsLo || (KernelsHi - KernelsLo) % sizeof(VxKernel) != 0)
+  const auto [Lo, Hi] = KernelTable;
+  if (Hi < Lo || KernelTable.bytes() % sizeof(VxKernel) != 0)
     return fmt::format("kernel table of {} bytes, expected a multiple of {}",
-                       KernelsHi - KernelsLo, sizeof(VxKernel));
-  for (uint32_t At = KernelsLo; At != KernelsHi; At += sizeof(VxKernel))
+                       KernelTable.bytes(), sizeof(VxKernel));
+  for (uint32_t At = Lo; At != Hi; At += sizeof(VxKernel))
     if (std::string Wrong = readKernel(At); !Wrong.empty())
       return Wrong;
   return {};
@@ -327,6 +334,53 @@ std::string ImageParser::readKernel(uint32_t Address) {
     K.Args.push_back({std::move(*ArgName), Arg->Kind, Arg->Offset, Arg->Size});
   }
   Result->Kernels.push_back(std::move(K));
+  return {};
+}
+
+std::string ImageParser::readVariables() {
+  const auto [Lo, Hi] = VariableTable;
+  if (Hi < Lo || VariableTable.bytes() % sizeof(VxVariables) != 0)
+    return fmt::format("table of variables of {} bytes, expected a multiple of "
+                       "{}",
+                       VariableTable.bytes(), sizeof(VxVariables));
+  for (uint32_t At = Lo; At != Hi; At += sizeof(VxVariables))
+    if (std::string Wrong = readVariables(At); !Wrong.empty())
+      return Wrong;
+  return {};
+}
+
+std::string ImageParser::readVariables(uint32_t Address) {
+  const std::string Where =
+      fmt::format("table of variables at 0x{:08x}: ", Address);
+  const auto Record = load<VxVariables>(Address);
+  if (!Record)
+    return Where + "not in initialised memory";
+  const auto Owner =
+      std::ranges::find(Result->Kernels, Record->Entry, &Kernel::Entry);
+  if (Owner == Result->Kernels.end())
+    return Where + fmt::format("no kernel begins at 0x{:08x}", Record->Entry);
+  const auto IsInImage = [&](uint32_t Bytes, uint32_t At) {
+    return Result->bytesAt(At, Bytes).size() == Bytes;
+  };
+  const uint64_t TableBytes = uint64_t{Record->NumPointers} * sizeof(uint32_t);
+  if (Record->ContentsBytes > Record->Bytes || TableBytes > UINT32_MAX ||
+      !std::has_single_bit(Record->Alignment) ||
+      !IsInImage(Record->ContentsBytes, Record->Contents) ||
+      !IsInImage(static_cast<uint32_t>(TableBytes), Record->Pointers))
+    return Where + "malformed";
+  // Kernels share no table of pointers.
+  PointerBytes += TableBytes;
+  if (PointerBytes > File.size())
+    return Where + "more pointers so far than the file has room for";
+  for (uint32_t N = 0; N != Record->NumPointers; ++N) {
+    const auto Offset =
+        load<uint32_t>(Record->Pointers + N * uint32_t{sizeof(uint32_t)});
+    if (uint64_t{*Offset} + sizeof(uint32_t) > Record->ContentsBytes)
+      return Where + fmt::format("pointer {} lies outside of the variables", N);
+  }
+  Owner->Variables = {Record->Bytes,    Record->Alignment,
+                      Record->Contents, Record->ContentsBytes,
+                      Record->Pointers, Record->NumPointers};
   return {};
 }
 

@@ -19,14 +19,23 @@ public:
   Expected<std::shared_ptr<const Image>> parse();
 
 private:
+  struct Range {
+    uint32_t Lo = 0, Hi = 0;
+    uint32_t bytes() const { return Hi - Lo; }
+  };
+
   // Each step returns what is wrong, or an empty string.
   std::string readHeader();
   std::string readSegments();
   std::string checkSegments();
   std::string readSections();
   std::string readSymbols(const Elf32_Shdr &Table);
+  /// What \p Name bounds if no section of that name did.
+  void findBySymbols(const std::string &Name, Range &Table) const;
   std::string readKernels();
   std::string readKernel(uint32_t Address);
+  std::string readVariables();
+  std::string readVariables(uint32_t Address);
 
   /// The part of the file, or nothing if it is not all there.
   std::optional<std::span<const std::byte>> part(uint64_t Offset,
@@ -42,9 +51,10 @@ private:
   std::span<const std::byte> File;
   std::shared_ptr<Image> Result;
   Elf32_Ehdr Header{};
-  uint32_t KernelsLo = 0, KernelsHi = 0;
-  size_t NameBytes = 0; ///< of names read so far
-  size_t NumArgs = 0;   ///< of kernels read so far
+  Range KernelTable, VariableTable;
+  size_t NameBytes = 0;      ///< of names read so far
+  size_t NumArgs = 0;        ///< of kernels read so far
+  uint64_t PointerBytes = 0; ///< of tables of variables read so far
 };
 
 } // namespace vorion::isasim

@@ -198,6 +198,54 @@ TEST(Image, RefusesBadKernelTables) {
   EXPECT_EQ(wrongIn(O), "kernel table of 40 bytes, expected a multiple of 44");
 }
 
+/// With variables of program scope: 12 bytes, of which the first two words are
+/// known and the second is an address.
+ElfOptions withVariables() {
+  ElfOptions O = withKernel();
+  const uint32_t Contents = Table + 0x1000 + sizeof(VxVariables);
+  O.Segments.push_back({Table + 0x1000,
+                        PF_R,
+                        {VX_IMAGE_BASE + 4, 12, 256, Contents, 8, Contents + 8,
+                         1, // vx_variables
+                         77, 8, 4},
+                        0});
+  O.Symbols.push_back({"__start_vorion_variables", Table + 0x1000});
+  O.Symbols.push_back({"__stop_vorion_variables", Contents});
+  return O;
+}
+
+TEST(Image, ReadsTheTableOfVariables) {
+  const auto I = Image::parse(buildElf(withVariables()), "x.elf");
+  ASSERT_TRUE(I) << I.error().What;
+  const ProgramVariables &V = (*I)->findKernel("add")->Variables;
+  EXPECT_EQ(V.Bytes, 12U);
+  EXPECT_EQ(V.Alignment, 256U);
+  EXPECT_EQ(V.ContentsBytes, 8U);
+  EXPECT_EQ(V.NumPointers, 1U);
+}
+
+TEST(Image, RefusesBadTablesOfVariables) {
+  const auto With = [](size_t Word, uint32_t Value) {
+    ElfOptions O = withVariables();
+    O.Segments[2].Words[Word] = Value;
+    return wrongIn(O);
+  };
+  const std::string Where = "table of variables at 0x80002000: ";
+  EXPECT_EQ(With(0, VX_IMAGE_BASE), Where + "no kernel begins at 0x80000000");
+  EXPECT_EQ(With(1, 4), Where + "malformed");          // bytes
+  EXPECT_EQ(With(2, 0), Where + "malformed");          // alignment
+  EXPECT_EQ(With(2, 24), Where + "malformed");         // alignment
+  EXPECT_EQ(With(3, 0x80FFFFFF), Where + "malformed"); // contents
+  EXPECT_EQ(With(4, 0x10000), Where + "malformed");    // bytes of them
+  EXPECT_EQ(With(5, 0x80FFFFFF), Where + "malformed"); // pointers
+  EXPECT_EQ(With(6, 0x40000001), Where + "malformed"); // number of them
+  EXPECT_EQ(With(9, 5), Where + "pointer 0 lies outside of the variables");
+  ElfOptions O = withVariables();
+  O.Symbols.back().second -= 4;
+  EXPECT_EQ(wrongIn(O),
+            "table of variables of 24 bytes, expected a multiple of 28");
+}
+
 TEST(Image, GroupSizesAreAllZeroOrNone) {
   ElfOptions O = withKernel();
   O.Segments[1].Words[8] = 0; // 16,0,1

@@ -121,7 +121,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
   return Success{};
 }
 
-Expected<Success> KernelLaunch::write(const Launch &L) {
+Expected<Success> KernelLaunch::write(const Launch &L, const Kernel &K) {
   const LaunchParts &Bytes = L.bytes();
   for (const auto &[Part, What] :
        {std::pair(&LaunchParts::Args, "the arguments"),
@@ -132,6 +132,15 @@ Expected<Success> KernelLaunch::write(const Launch &L) {
     if (!Address)
       return Address.error();
     Parts.*Part = *Address;
+  }
+  if (K.Variables.Bytes != 0) {
+    const Expected<uint32_t> Address =
+        reserve(Bytes.Variables, "the variables of program scope");
+    if (!Address)
+      return Address.error();
+    Parts.Variables = placeOf(K.Variables, *Address);
+    writeVariables(*Device, *Watch, *Device->image(), K,
+                   static_cast<uint32_t>(Parts.Variables));
   }
   L.write(*Device, *Watch, Parts, Args);
   return Success{};
@@ -167,7 +176,7 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
   L.NextFree = VX_GLOBAL_BASE;
   if (Expected<Success> Ok = L.packArguments(*K, R); !Ok)
     return Ok.error();
-  if (Expected<Success> Ok = L.write(*Planned); !Ok)
+  if (Expected<Success> Ok = L.write(*Planned, *K); !Ok)
     return Ok.error();
   return L;
 }

@@ -33,8 +33,8 @@ private:
   Expected<uint32_t> placeBuffer(const KernelInput &In,
                                  const std::string &ArgName);
   Expected<Success> packArguments(const Kernel &K, const KernelRequest &R);
-  /// Allocates what \p L needs and writes it there.
-  Expected<Success> write(const Launch &L);
+  /// Allocates what \p L, a launch of \p K, needs and writes it there.
+  Expected<Success> write(const Launch &L, const Kernel &K);
 
   struct Output {
     std::string File;

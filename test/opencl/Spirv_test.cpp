@@ -230,6 +230,20 @@ TEST_F(Spirv, SpecializationConstantsAreSetBeforeTheBuild) {
             CL_INVALID_PROGRAM);
 }
 
+TEST_F(Spirv, VariablesOfProgramScopeStayBetweenKernels) {
+  const cl::Program Program = build(module("variables"));
+  const auto Run = [&](const char *Name) {
+    const cl::Buffer Out = Device.upload(std::vector<cl_int>(2));
+    cl::Kernel Kernel(Program, Name);
+    Kernel.setArg(0, Out);
+    Device.run(Kernel, 1, 1);
+    return Device.download<cl_int>(Out, 2);
+  };
+  EXPECT_EQ(Run("add"), (std::vector<cl_int>{40, 4}));
+  EXPECT_EQ(Run("add"), (std::vector<cl_int>{41, 6}));
+  EXPECT_EQ(Run("look"), (std::vector<cl_int>{42, 2}));
+}
+
 class SpirvLinks : public Spirv {
 protected:
   /// The module imports.spv and \p Source, linked.

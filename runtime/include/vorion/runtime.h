@@ -161,11 +161,12 @@ vx_status vx_image_find_kernel(vx_image *image, const char *name,
 typedef struct vx_kernel_info {
   const char *name; /* valid until the image is freed */
   uint32_t num_args;
-  uint32_t args_bytes;    /* size of the packed arguments */
-  uint32_t context_bytes; /* a work-item keeps across barriers */
-  uint32_t local_bytes;   /* static local memory */
-  uint32_t local_size[3]; /* group size it was compiled for, 0 for any */
-  uint32_t lanes;         /* of the warps it was compiled for, 0 for any */
+  uint32_t args_bytes;      /* size of the packed arguments */
+  uint32_t context_bytes;   /* a work-item keeps across barriers */
+  uint32_t local_bytes;     /* static local memory */
+  uint32_t local_size[3];   /* group size it was compiled for, 0 for any */
+  uint32_t lanes;           /* of the warps it was compiled for, 0 for any */
+  uint32_t variables_bytes; /* of program scope, 0 if it uses none */
 } vx_kernel_info;
 
 vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
@@ -189,6 +190,13 @@ vx_status vx_image_place_locals(vx_image *image, uint32_t kernel,
                                 const uint64_t *sizes, uint32_t num_sizes,
                                 void *packed_args, uint32_t *total);
 
+/* Memory for the variables of program scope that the kernel uses, with their
+ * initial values; vx_mem_free frees it. All kernels of a program that is linked
+ * to several images can be launched with the same memory. VX_ERROR_NOT_FOUND if
+ * the kernel uses none. */
+vx_status vx_variables_alloc(vx_image *image, uint32_t kernel,
+                             uint32_t *address);
+
 /* --- Runs ---------------------------------------------------------------- */
 
 typedef struct vx_launch_params {
@@ -196,6 +204,7 @@ typedef struct vx_launch_params {
   uint32_t num_groups[3]; /* 1 where not used; 0 runs nothing */
   uint32_t local_size[3]; /* 1 where not used */
   uint32_t global_offset[3];
+  uint32_t variables; /* of vx_variables_alloc; 0 for a kernel without */
 } vx_launch_params;
 
 /* Starts a kernel; args: args_bytes of it, copied before the call returns. */

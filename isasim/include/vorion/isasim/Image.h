@@ -25,6 +25,15 @@ struct KernelArg {
   uint32_t Size = 0;
 };
 
+/// The variables of program scope that a kernel uses (vx_variables,
+/// docs/abi.md).
+struct ProgramVariables {
+  uint32_t Bytes = 0; ///< 0 for none
+  uint32_t Alignment = 1;
+  uint32_t Contents = 0, ContentsBytes = 0;
+  uint32_t Pointers = 0, NumPointers = 0;
+};
+
 /// A kernel of the image (vx_kernel, docs/abi.md).
 struct Kernel {
   std::string Name;
@@ -35,6 +44,7 @@ struct Kernel {
   uint32_t LocalBytes = 0;             ///< static local memory
   std::array<uint32_t, 3> LocalSize{}; ///< 0 for any
   uint32_t Lanes = 0; ///< of the warps it was compiled for, 0 for any
+  ProgramVariables Variables;
 
   /// What a group of \p Items work-items keeps across barriers, in bytes: whole
   /// passes over the lanes.

@@ -47,6 +47,8 @@ struct LaunchShape {
 /// launch does without.
 struct LaunchParts {
   uint64_t Block = 0, Args = 0, Context = 0, Print = 0;
+  /// Variables of program scope, which outlive the launch.
+  uint64_t Variables = 0;
 };
 
 class Launch {
@@ -71,6 +73,16 @@ private:
   LaunchParts Bytes;
   uint32_t ContextStride = 0;
 };
+
+/// The bytes to allocate for \p V, with room to align them.
+uint64_t bytesFor(const ProgramVariables &V);
+/// Where \p V lies in what was allocated at \p Address, aligned as any launch's
+/// parts.
+uint32_t placeOf(const ProgramVariables &V, uint32_t Address);
+/// Gives the variables that \p K of \p Program uses their initial values, where
+/// placeOf() says, and tells \p Watch.
+void writeVariables(Machine &M, Session &Watch, const Image &Program,
+                    const Kernel &K, uint32_t Place);
 
 /// What a launch left of its printf.
 struct Printed {

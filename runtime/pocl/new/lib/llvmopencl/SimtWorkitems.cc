@@ -4,6 +4,7 @@
 
 #include "Barrier.h"
 #include "LLVMUtils.h"
+#include "ProgramVariables.h"
 #include "SharedVariables.h"
 #include "SimtBlocks.h"
 #include "VariableUniformityAnalysis.h"
@@ -125,6 +126,7 @@ void addFirstSimtPasses(PassBuilder &PB) {
 }
 
 void prepareSimtModule(Module &M) {
+  dropUnusedVariables(M);
   vorion::shareVariables(M);
   for (Function &F : M) {
     if (!isKernelToProcess(F))
@@ -205,8 +207,12 @@ Value *createLaunchLoad(IRBuilder<> &Builder, Value *Launch, LaunchField Field,
                         int Index) {
   constexpr size_t Offsets[] = {
       offsetof(vx_launch, num_groups), offsetof(vx_launch, global_offset),
-      offsetof(vx_launch, local_size), offsetof(vx_launch, work_dim)};
-  return loadLaunch(Builder, Builder.getInt32Ty(), Launch,
+      offsetof(vx_launch, local_size), offsetof(vx_launch, work_dim),
+      offsetof(vx_launch, variables)};
+  Type *T = Field == LaunchField::Variables
+                ? static_cast<Type *>(Builder.getPtrTy())
+                : Builder.getInt32Ty();
+  return loadLaunch(Builder, T, Launch,
                     Offsets[static_cast<int>(Field)] + 4 * std::max(Index, 0));
 }
 

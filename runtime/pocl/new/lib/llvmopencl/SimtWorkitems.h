@@ -93,7 +93,13 @@ private:
 };
 
 /// What kernels ask of a launch block.
-enum class LaunchField { NumGroups, GlobalOffset, LocalSize, WorkDim };
+enum class LaunchField {
+  NumGroups,
+  GlobalOffset,
+  LocalSize,
+  WorkDim,
+  Variables
+};
 
 /// \p Index: within a field of three, else -1.
 llvm::Value *createLaunchLoad(llvm::IRBuilder<> &Builder, llvm::Value *Launch,

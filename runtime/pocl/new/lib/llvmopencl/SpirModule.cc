@@ -43,12 +43,12 @@ void keepConstants(Module &M) {
       G.setConstant(true);
 }
 
-/// A variable that kernels could write and that stays between them, or none.
-const GlobalVariable *findProgramVariable(const Module &M) {
-  for (const GlobalVariable &G : M.globals())
-    if (G.getAddressSpace() != SPIR_ADDRESS_SPACE_LOCAL && !G.isConstant())
-      return &G;
-  return nullptr;
+/// A variable of program scope without a value of its own begins as zero.
+void startVariables(Module &M) {
+  for (GlobalVariable &G : M.globals())
+    if (G.getAddressSpace() == SPIR_ADDRESS_SPACE_GLOBAL &&
+        !G.hasInitializer() && !G.hasExternalLinkage())
+      G.setInitializer(Constant::getNullValue(G.getValueType()));
 }
 
 void takeTarget(Module &M, const SpirTarget &Target) {
@@ -99,11 +99,7 @@ std::string adoptSpirModule(std::unique_ptr<Module> &M,
     return "the module is for addresses of 64 bits (" + From.str() +
            "), expected addresses of 32 bits (spir)\n";
   keepConstants(*M);
-  if (const GlobalVariable *G = findProgramVariable(*M);
-      G && !Target.ProgramVariables)
-    return "the variable " + G->getName().str() +
-           " has program scope and is not constant, which the device does not "
-           "offer\n";
+  startVariables(*M);
   nameLocalVariables(*M);
   M = flattenAddressSpaces(*M);
   takeTarget(*M, Target);

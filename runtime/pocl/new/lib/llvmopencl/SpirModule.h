@@ -18,8 +18,6 @@ struct SpirTarget {
   /// module's.
   const llvm::Module &Library;
   std::string Cpu, Features;
-  /// Whether a program may have writable variables in global memory.
-  bool ProgramVariables;
 };
 
 /// Makes of \p M what our front end makes of OpenCL C: one address space, our

@@ -84,11 +84,14 @@ void captureLaunch(const LoadedKernel &Kernel,
     return;
   static std::atomic<unsigned> Launches{0};
   const _cl_command_run &Run = Command.command.run;
-  if (takesImages(*Run.kernel->meta)) {
+  const char *Missing =
+      takesImages(*Run.kernel->meta)     ? "has images or samplers"
+      : Kernel.Info.variables_bytes != 0 ? "uses variables of program scope"
+                                         : nullptr;
+  if (Missing) {
     fprintf(stderr,
-            "vorion: warning: kernel %s has images or samplers, its launches "
-            "are not kept\n",
-            Run.kernel->name);
+            "vorion: warning: kernel %s %s, its launches are not kept\n",
+            Run.kernel->name, Missing);
     return;
   }
   std::error_code Problem;

@@ -25,6 +25,10 @@ constexpr size_t PrintBufferBytes = 1u << 20;
 
 constexpr uint64_t LaunchShare = 32;
 
+/// A variable of program scope may begin with as many bytes that are not 0, and
+/// each image has them.
+constexpr size_t MaxVariableBytes = 1u << 20;
+
 /// What the translator of runtime/pocl/CMakeLists.txt reads whole.
 constexpr const char *SpirvVersions =
     "SPIR-V_1.3 SPIR-V_1.2 SPIR-V_1.1 SPIR-V_1.0";
@@ -96,6 +100,8 @@ void describeDevice(cl_device_id Device, const vx_device_info &Info) {
   Device->global_mem_size = Info.global_bytes - keptForLaunches(Info);
   Device->max_mem_alloc_size = Info.largest_free_bytes - keptForLaunches(Info);
   Device->max_constant_buffer_size = Device->max_mem_alloc_size;
+  Device->global_var_max_size = MaxVariableBytes;
+  Device->global_var_pref_size = Device->max_mem_alloc_size;
   Device->local_mem_type = CL_LOCAL;
   Device->local_mem_size = Info.local_bytes;
   Device->mem_base_addr_align = VX_MEM_ALIGNMENT;
@@ -141,6 +147,7 @@ void describeCompilation(cl_device_id Device, const vx_device_info &Info) {
   Device->kernellib_fallback_name = nullptr;
   Device->kernellib_subdir = "vorion";
   Device->simt_lanes = Info.lanes;
+  Device->run_program_scope_variables_pass = CL_TRUE;
   Device->arg_buffer_launcher = CL_TRUE;
   Device->grid_launcher = CL_FALSE;
   Device->autolocals_to_args = POCL_AUTOLOCALS_TO_ARGS_NEVER;

@@ -120,6 +120,21 @@ int freeProgram(cl_device_id Device, cl_program Program, unsigned Index) {
   return pocl_driver_free_program(Device, Program, Index);
 }
 
+// What was loaded of a program's last build is of no use to the next, whose
+// variables begin anew.
+
+int buildSource(cl_program Program, cl_uint Index, cl_uint NumHeaders,
+                const cl_program *Headers, const char **Names, int Link) {
+  deviceOf(Program->devices[Index]).Kernels.forget(Program);
+  return pocl_driver_build_source(Program, Index, NumHeaders, Headers, Names,
+                                  Link);
+}
+
+int buildBinary(cl_program Program, cl_uint Index, int Link, int Spir) {
+  deviceOf(Program->devices[Index]).Kernels.forget(Program);
+  return pocl_driver_build_binary(Program, Index, Link, Spir);
+}
+
 // --- Commands and events. The lock of an event or queue is held by the caller
 // --- where PoCL's documentation of the operation says so.
 
@@ -224,9 +239,9 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
 
   setMemoryOperations(Ops);
 
-  Ops->build_source = pocl_driver_build_source;
+  Ops->build_source = buildSource;
   Ops->link_program = pocl_driver_link_program;
-  Ops->build_binary = pocl_driver_build_binary;
+  Ops->build_binary = buildBinary;
   Ops->build_poclbinary = pocl_driver_build_poclbinary;
   Ops->setup_metadata = pocl_driver_setup_metadata;
   Ops->supports_binary = pocl_driver_supports_binary;

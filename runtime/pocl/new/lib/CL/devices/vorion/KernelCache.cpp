@@ -170,7 +170,7 @@ const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P) {
   cl_kernel Kernel = Command->command.run.kernel;
   std::lock_guard Guard(CompileLock);
   const std::string Path = imagePath(Command, Kernel, true);
-  auto &Kernels = Loaded[Kernel->program];
+  auto &Kernels = Loaded[Kernel->program].Kernels;
   if (auto Found = Kernels.find(Path); Found != Kernels.end())
     return &Found->second;
 
@@ -191,9 +191,23 @@ const LoadedKernel *KernelCache::get(_cl_command_node *Command, Problem &P) {
   return &Kernels.emplace(Path, std::move(New)).first->second;
 }
 
+std::optional<uint32_t> KernelCache::variables(cl_program Program,
+                                               const LoadedKernel &Kernel) {
+  std::lock_guard Guard(CompileLock);
+  uint32_t &Address = Loaded[Program].Variables;
+  if (!Address &&
+      vx_variables_alloc(Kernel.Image.get(), Kernel.Number, &Address) != VX_OK)
+    return std::nullopt;
+  return Address;
+}
+
 void KernelCache::forget(cl_program Program) {
   std::lock_guard Guard(CompileLock);
-  Loaded.erase(Program);
+  const auto Found = Loaded.find(Program);
+  if (Found == Loaded.end())
+    return;
+  vx_mem_free(Device, Found->second.Variables);
+  Loaded.erase(Found);
 }
 
 } // namespace vorion

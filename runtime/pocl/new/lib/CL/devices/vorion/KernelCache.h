@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
@@ -52,7 +53,13 @@ public:
   /// until the next call of forget().
   const LoadedKernel *get(_cl_command_node *Command, Problem &P);
 
-  /// Unloads the kernels of a program that is being freed.
+  /// The variables of program scope of \p Program, which \p Kernel uses. None
+  /// if there is no memory for them. Valid until the next call of forget().
+  std::optional<uint32_t> variables(cl_program Program,
+                                    const LoadedKernel &Kernel);
+
+  /// Unloads the kernels of a program that is being freed or built again, and
+  /// frees its variables.
   void forget(cl_program Program);
 
 private:
@@ -64,11 +71,15 @@ private:
   Problem make(_cl_command_node *Command, cl_kernel Kernel, bool Specialize,
                const std::string &ImagePath);
 
+  struct LoadedProgram {
+    std::unordered_map<std::string, LoadedKernel> Kernels; ///< by path
+    uint32_t Variables = 0; ///< the memory's address; 0: not needed yet
+  };
+
   vx_device *Device;
   Tools ToolSet;
   std::mutex CompileLock; ///< also guards Loaded
-  std::unordered_map<cl_program, std::unordered_map<std::string, LoadedKernel>>
-      Loaded;
+  std::unordered_map<cl_program, LoadedProgram> Loaded;
 };
 
 } // namespace vorion

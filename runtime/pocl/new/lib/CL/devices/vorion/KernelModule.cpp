@@ -1,5 +1,6 @@
 #include "KernelModule.h"
 
+#include "ProgramVariables.h"
 #include "SharedVariables.h"
 #include "SimtWorkitems.h"
 #include "pocl_llvm_api.h"
@@ -77,6 +78,7 @@ public:
       return "it uses " + std::to_string(LocalBytes) +
              " bytes of static local memory, more than there are addresses for";
     addRecord(*Entry, *Body, LocalBytes);
+    addVariables(*Entry);
     if (GlobalVariable *Context = M.getGlobalVariable(pocl::SimtContextGlobal))
       if (Context->use_empty())
         Context->eraseFromParent();
@@ -98,8 +100,8 @@ private:
     Entry.setSubprogram(Lines);
   }
 
-  /// The device offers no writable variables of program scope: all there are
-  /// belong to a group, which has the core's local memory to itself.
+  /// Variables of program scope are elsewhere by now. What is left belongs to a
+  /// group, which has the core's local memory to itself.
   uint64_t placeLocals() {
     uint64_t Used = placeScratch();
     for (GlobalVariable &G : M.globals()) {
@@ -172,12 +174,30 @@ private:
          number(End), number(ContextBytes), number(LocalBytes),
          number(Kernel.LocalSize[0]), number(Kernel.LocalSize[1]),
          number(Kernel.LocalSize[2]), number(pocl::simtLanes(M))});
-    auto *G = new GlobalVariable(M, Record->getType(), true,
-                                 GlobalValue::InternalLinkage, Record,
-                                 "vorion_kernel." + Kernel.Name);
-    G->setSection("vorion_kernels");
+    addRow(Record, "vorion_kernel", "vorion_kernels");
+  }
+
+  /// A row of a table of the image.
+  void addRow(Constant *Row, const std::string &Name, const char *Section) {
+    auto *G = new GlobalVariable(M, Row->getType(), true,
+                                 GlobalValue::InternalLinkage, Row,
+                                 Name + "." + Kernel.Name);
+    G->setSection(Section);
     G->setAlignment(Align(4));
     appendToUsed(M, {G});
+  }
+
+  /// Says which variables of program scope the kernel uses.
+  void addVariables(Function &Entry) {
+    GlobalVariable *Known = M.getGlobalVariable(pocl::VariablesRecord, true);
+    if (!Known)
+      return;
+    std::vector<Constant *> Fields = {&Entry};
+    for (const Use &Field : Known->getInitializer()->operands())
+      Fields.push_back(cast<Constant>(Field));
+    addRow(ConstantStruct::getAnon(Fields), "vorion_variables",
+           "vorion_variables");
+    Known->eraseFromParent();
   }
 
   Module &M;

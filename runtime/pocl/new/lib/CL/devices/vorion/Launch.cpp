@@ -115,6 +115,12 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
     Params.local_size[I] = Grid.local_size[I];
     Params.global_offset[I] = Grid.global_offset[I];
   }
+  if (Kernel->Info.variables_bytes) {
+    const auto Address = Kernels.variables(Run.kernel->program, *Kernel);
+    if (!Address)
+      return Fail.kernel(CL_MEM_OBJECT_ALLOCATION_FAILURE, vx_last_error());
+    Params.variables = *Address;
+  }
   captureLaunch(*Kernel, *Command);
   const cl_command_queue Queue = Command->sync.event.event->queue;
   vx_device_set_profiled(Device,
