@@ -81,5 +81,6 @@ def : Constant<"VX_IO_RASTER_STRIDE", 0x100, "Bytes of the I/O window a core.">;
 def : Constant<"VX_GLOBAL_BASE", 0x10000, "First byte of global memory.">;
 def : Constant<"VX_IMAGE_BASE", 0x80000000, "First byte of the program image.">;
 def : Constant<"VX_IMAGE_SIZE", 0x1000000, "Largest program image.">;
+def : Constant<"VX_HIGH_BASE", 0x81000000, "First byte behind the image: global memory that does not fit in front of it.">;
 def : Constant<"VX_STACK_TOP", 0xFFFF0000, "End of the stacks.">;
 def : Constant<"VX_LOCAL_BASE", 0xFFFF0000, "First byte of local memory.">;

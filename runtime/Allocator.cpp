@@ -5,31 +5,43 @@
 
 using namespace vorion::runtime;
 
-Allocator::Allocator(uint64_t Base, uint64_t Size) {
+void Allocator::add(uint64_t Base, uint64_t Size) {
   const uint64_t First = (Base + Alignment - 1) / Alignment * Alignment;
   const uint64_t End = (Base + Size) / Alignment * Alignment;
   if (End > First) {
-    Free = End - First;
-    FreeRanges[First] = Free;
+    Free += End - First;
+    FreeRanges[First] = End - First;
   }
 }
 
-std::optional<uint64_t> Allocator::allocate(uint64_t Size) {
+uint64_t Allocator::take(Ranges::iterator Range, uint64_t Want, End From) {
+  const auto [First, Length] = *Range;
+  const uint64_t Rest = Length - Want;
+  FreeRanges.erase(Range);
+  const uint64_t Address = From == End::Low ? First : First + Rest;
+  if (Rest)
+    FreeRanges[From == End::Low ? First + Want : First] = Rest;
+  Blocks[Address] = Want;
+  Free -= Want;
+  return Address;
+}
+
+std::optional<uint64_t> Allocator::allocate(uint64_t Size, End From) {
   // Checked before rounding up, which could wrap.
   if (Size > Free)
     return std::nullopt;
   const uint64_t Want =
       std::max(Alignment, (Size + Alignment - 1) / Alignment * Alignment);
-  for (auto Range = FreeRanges.begin(); Range != FreeRanges.end(); ++Range) {
-    const auto [Address, Length] = *Range;
-    if (Length < Want)
-      continue;
-    FreeRanges.erase(Range);
-    if (Length > Want)
-      FreeRanges[Address + Want] = Length - Want;
-    Blocks[Address] = Want;
-    Free -= Want;
-    return Address;
+  const auto Holds = [Want](const auto &Range) { return Range.second >= Want; };
+  if (From == End::Low) {
+    const auto Found = std::ranges::find_if(FreeRanges, Holds);
+    if (Found != FreeRanges.end())
+      return take(Found, Want, From);
+  } else {
+    const auto Found =
+        std::find_if(FreeRanges.rbegin(), FreeRanges.rend(), Holds);
+    if (Found != FreeRanges.rend())
+      return take(std::prev(Found.base()), Want, From);
   }
   return std::nullopt;
 }

@@ -7,19 +7,27 @@
 
 namespace vorion::runtime {
 
-/// First fit over address-ordered free ranges; neighbours coalesce when freed.
+/// First or last fit over address-ordered free ranges; neighbours coalesce when
+/// freed.
 /// Every block is aligned to and sized in multiples of \c Alignment. Not
 /// thread-safe.
 class Allocator {
 public:
   static constexpr uint64_t Alignment = 128;
 
-  /// Manages [\p Base, \p Base + \p Size); both ends are rounded inwards.
-  Allocator(uint64_t Base, uint64_t Size);
+  /// Where to look first.
+  enum class End { Low, High };
+
+  Allocator() = default;
+  Allocator(uint64_t Base, uint64_t Size) { add(Base, Size); }
+
+  /// Manages [\p Base, \p Base + \p Size), too; both ends are rounded inwards.
+  /// It must not touch what is managed already.
+  void add(uint64_t Base, uint64_t Size);
 
   /// The block's address, or nothing if no free range holds \p Size bytes. A
   /// size of 0 is one unit of alignment, so that addresses stay distinct.
-  std::optional<uint64_t> allocate(uint64_t Size);
+  std::optional<uint64_t> allocate(uint64_t Size, End From = End::Low);
 
   /// False if no block begins at \p Address (never allocated or freed twice).
   bool release(uint64_t Address);
@@ -28,8 +36,12 @@ public:
   uint64_t largestFree() const;
 
 private:
+  using Ranges = std::map<uint64_t, uint64_t>;
+  /// Takes the range's first or last \p Want bytes.
+  uint64_t take(Ranges::iterator Range, uint64_t Want, End From);
+
   /// Address to size.
-  std::map<uint64_t, uint64_t> FreeRanges, Blocks;
+  Ranges FreeRanges, Blocks;
   uint64_t Free = 0;
 };
 

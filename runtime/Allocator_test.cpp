@@ -27,6 +27,32 @@ TEST(Allocator, SizeZeroGivesDistinctAddresses) {
   EXPECT_NE(A.allocate(0), A.allocate(0));
 }
 
+TEST(Allocator, TheEndsDoNotMeet) {
+  Allocator A(0, 4096);
+  EXPECT_EQ(A.allocate(100, Allocator::End::High), 3968u);
+  EXPECT_EQ(A.allocate(100), 0u);
+  EXPECT_EQ(A.allocate(1000, Allocator::End::High), 2944u);
+  EXPECT_TRUE(A.release(3968));
+  EXPECT_EQ(A.allocate(128, Allocator::End::High), 3968u);
+  // Where only the other end's place has room, it is taken.
+  EXPECT_EQ(A.allocate(2816, Allocator::End::High), 128u);
+  EXPECT_EQ(A.freeBytes(), 0u);
+}
+
+TEST(Allocator, TwoRangesAreNotOne) {
+  Allocator A(0, 1024);
+  A.add(4096, 2048);
+  EXPECT_EQ(A.freeBytes(), 3072u);
+  EXPECT_EQ(A.largestFree(), 2048u);
+  EXPECT_FALSE(A.allocate(3072));
+  EXPECT_EQ(A.allocate(2048), 4096u);
+  EXPECT_EQ(A.allocate(1024), 0u);
+  EXPECT_FALSE(A.allocate(1));
+  EXPECT_TRUE(A.release(4096));
+  EXPECT_TRUE(A.release(0));
+  EXPECT_EQ(A.largestFree(), 2048u);
+}
+
 TEST(Allocator, HugeSizesAreRefused) {
   Allocator A(0x10000, 1 << 20);
   EXPECT_FALSE(A.allocate(UINT64_MAX));
@@ -60,7 +86,8 @@ RC_GTEST_PROP(Allocator, KeepsItsBooks, (const std::vector<uint16_t> &Steps)) {
       Held.erase(Block);
     } else {
       const uint64_t Largest = A.largestFree();
-      const auto Address = A.allocate(Step);
+      const auto Address = A.allocate(Step, Step % 5 ? Allocator::End::Low
+                                                     : Allocator::End::High);
       RC_ASSERT(Address.has_value() ==
                 (Largest >= std::max<uint64_t>(Step, 1)));
       if (!Address)

@@ -336,6 +336,43 @@ TEST_F(Runtime, MemoryExhaustionIsAnError) {
   EXPECT_EQ(run("exit_seven", {}).exit_code, 7u);
 }
 
+TEST_F(Runtime, ThreeGibibytesCanBeHad) {
+  vx_device *Large = nullptr;
+  ASSERT_EQ(vx_device_open(R"({"global_bytes": 3221225472})", &Large), VX_OK)
+      << vx_last_error();
+  vx_image *Kernels = nullptr;
+  ASSERT_EQ(vx_image_load_file(Large, Elf, &Kernels), VX_OK);
+  vx_device_info I{};
+  ASSERT_EQ(vx_device_get_info(Large, &I), VX_OK);
+  EXPECT_EQ(I.global_bytes, 3ULL << 30);
+  EXPECT_EQ(I.free_bytes, 3ULL << 30);
+  uint32_t First = 0, Second = 0;
+  ASSERT_EQ(vx_mem_alloc(Large, I.largest_free_bytes, &First), VX_OK);
+  ASSERT_EQ(vx_mem_alloc(Large, 1000 << 20, &Second), VX_OK);
+  EXPECT_EQ(Second, VX_HIGH_BASE);
+  // A kernel's launch block and arguments lie behind the image, too.
+  const uint32_t Args[] = {Second + (999 << 20), 100};
+  uint32_t Store = 0;
+  ASSERT_EQ(vx_image_find_kernel(Kernels, "store", &Store), VX_OK);
+  ASSERT_EQ(vx_start(Large, Kernels, Store, &OneItem, Args, sizeof(Args)),
+            VX_OK)
+      << vx_last_error();
+  vx_result Result{};
+  ASSERT_EQ(vx_wait(Large, &Result), VX_OK);
+  EXPECT_EQ(Result.outcome, VX_OUTCOME_DONE) << Result.report;
+  uint32_t Word = 0;
+  ASSERT_EQ(vx_copy_from_device(Large, &Word, Args[0], 4), VX_OK);
+  EXPECT_EQ(Word, 100U);
+  // No range has the image in its middle.
+  EXPECT_EQ(vx_copy_from_device(Large, &Word, VX_IMAGE_BASE - 2, 4),
+            VX_ERROR_ARGUMENT);
+  EXPECT_STREQ(vx_last_error(),
+               "[0x7ffffffe, +0x4) is not all global memory, expected a range "
+               "in [0x10000, +0x7fff0000) or [0x81000000, +0x40010000)");
+  EXPECT_EQ(vx_image_free(Kernels), VX_OK);
+  EXPECT_EQ(vx_device_close(Large), VX_OK);
+}
+
 TEST_F(Runtime, CopiesFillsAndRangesAreChecked) {
   const uint32_t A = allocate(64), B = allocate(64);
   const uint32_t Pattern = 0x12345678;

@@ -1,5 +1,6 @@
 #include "Device.h"
 #include "vorion/RunCounters.h" // generated from intrinsics/Counters.td
+#include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion_abi.h"
 
@@ -73,8 +74,11 @@ OpenDevices &openDevices() {
 Device::Device(std::unique_ptr<isasim::Machine> TheMachine,
                std::unique_ptr<isasim::Session> TheWatch, bool OnlyProfiled)
     : Machine(std::move(TheMachine)), Watch(std::move(TheWatch)),
-      ConfigText(isasim::toJson(Machine->config())), OnlyProfiled(OnlyProfiled),
-      Memory(VX_GLOBAL_BASE, Machine->config().GlobalBytes) {
+      ConfigText(isasim::toJson(Machine->config())),
+      OnlyProfiled(OnlyProfiled) {
+  for (const isasim::AddressRange &Part :
+       isasim::globalRanges(Machine->config()))
+    Memory.add(Part.Base, Part.Bytes);
   clockRuns(!OnlyProfiled);
   Machine->setConsole([this](std::string_view Text) { keepConsole(Text); });
   Watch->attach(*Machine);
@@ -144,16 +148,16 @@ vx_device_info Device::info() {
 }
 
 Failure Device::allocateLocked(uint64_t Size, const char *What,
-                               uint32_t &Address) {
+                               Allocator::End From, uint32_t &Address) {
   // What is asked for and cannot be had fails below.
-  const auto Found = Memory.allocate(Size + Watch->guardBytes());
+  const auto Found = Memory.allocate(Size + Watch->guardBytes(), From);
   if (!Found)
     return {VX_ERROR_MEMORY,
             fmt::format("no room for {} of {} bytes: {} of {} bytes of device "
                         "memory are free, {} in one piece",
                         What, Size, Memory.freeBytes(),
                         Machine->config().GlobalBytes, Memory.largestFree())};
-  // Global memory ends below 2 GiB.
+  // Global memory has addresses of 32 bits.
   Address = static_cast<uint32_t>(*Found);
   Watch->allocated(Address, Size, What);
   return {};
@@ -162,7 +166,7 @@ Failure Device::allocateLocked(uint64_t Size, const char *What,
 Failure Device::allocate(uint64_t Size, uint32_t &Address) {
   Lock Held(Mutex);
   waitIfObserved(Held);
-  return allocateLocked(Size, "buffer", Address);
+  return allocateLocked(Size, "buffer", Allocator::End::Low, Address);
 }
 
 Failure Device::allocateVariables(const LoadedImage &Image,
@@ -192,12 +196,16 @@ Failure Device::release(uint32_t Address) {
 Failure Device::globalRange(uint32_t Address, uint64_t Size,
                             std::byte **Bytes) {
   *Bytes = Machine->hostPointer(Address, Size);
-  if (!*Bytes)
-    return badArgument(fmt::format(
-        "[{:#x}, +{:#x}) is not all global memory, expected a range in "
-        "[{:#x}, +{:#x})",
-        Address, Size, VX_GLOBAL_BASE, Machine->config().GlobalBytes));
-  return {};
+  if (*Bytes)
+    return {};
+  std::string Ranges;
+  for (const auto &[Base, Length] : isasim::globalRanges(Machine->config()))
+    if (Length)
+      Ranges += fmt::format("{}[{:#x}, +{:#x})", Ranges.empty() ? "" : " or ",
+                            Base, Length);
+  return badArgument(fmt::format("[{:#x}, +{:#x}) is not all global memory, "
+                                 "expected a range in {}",
+                                 Address, Size, Ranges));
 }
 
 bool Device::isRasterWindow(uint32_t Address) {
@@ -374,8 +382,12 @@ Failure Device::prepare(const isasim::Launch &Planned, uint32_t Variables,
                         std::span<const std::byte> Args) {
   for (const auto &[Part, What] : LaunchPartNames) {
     uint32_t Address = 0;
+    // Away from the program's buffers: these are allocated while launches
+    // begin and end, and their addresses, on which time depends, must not
+    // depend on which came first.
     if (const uint64_t Bytes = Planned.bytes().*Part)
-      if (Failure Failed = allocateLocked(Bytes, What, Address))
+      if (Failure Failed =
+              allocateLocked(Bytes, What, Allocator::End::High, Address))
         return Failed;
     InUse.*Part = Address;
   }

@@ -73,7 +73,8 @@ private:
   void waitIfObserved(Lock &Held);
   void clockRuns(bool On);
   void keepConsole(std::string_view Text);
-  Failure allocateLocked(uint64_t Size, const char *What, uint32_t &Address);
+  Failure allocateLocked(uint64_t Size, const char *What, Allocator::End From,
+                         uint32_t &Address);
   /// Whether \p Address lies in the I/O window (docs/abi.md, "Memory map").
   static bool isRasterWindow(uint32_t Address);
   /// Calls Use(core, csr, offset) for each word of a range of the window, until

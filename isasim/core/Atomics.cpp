@@ -133,16 +133,18 @@ bool amoOrPark(WarpState *S, const Insn *I, Amo Kind) {
                     [S](uint32_t Addr) { return S->Mem->Local.at(Addr); });
   // Additions commute, so their order among the cores does not show; other
   // kinds would, mixed on one word.
-  if (Kind == Amo::Add && I->Rd == SinkOffset &&
-      allLanesIn(S, I, S->Mem->Global))
+  for (const Region *Global : {&S->Mem->Global, &S->Mem->High}) {
+    if (Kind != Amo::Add || I->Rd != SinkOffset || !allLanesIn(S, I, *Global))
+      continue;
     return forLanes(S, [&](unsigned L) {
       auto *Word =
-          reinterpret_cast<uint32_t *>(S->Mem->Global.at(S->lanes(I->Rs1)[L]));
+          reinterpret_cast<uint32_t *>(Global->at(S->lanes(I->Rs1)[L]));
       const uint32_t Addend = S->lanes(I->Rs2)[L];
       S->Count.Changes += Addend != 0;
       __atomic_fetch_add(Word, Addend, __ATOMIC_ACQ_REL);
       return true;
     });
+  }
   S->Why = Stop::Atomic;
   ++S->Count.Parks;
   return false;

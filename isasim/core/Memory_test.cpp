@@ -170,6 +170,72 @@ TEST(Memory, LanesMayReachDifferentRegions) {
   }
 }
 
+namespace {
+
+constexpr uint64_t LowBytes = VX_IMAGE_BASE - VX_GLOBAL_BASE;
+
+/// With a megabyte of global memory behind the image.
+Config largeShape() {
+  Config C = WarpRunner::smallShape();
+  C.GlobalBytes = LowBytes + (1 << 20);
+  return C;
+}
+
+} // namespace
+
+TEST(Memory, WhatDoesNotFitInFrontOfTheImageLiesBehindIt) {
+  constexpr uint32_t End = VX_HIGH_BASE + (1 << 20);
+  std::mt19937 Random(5);
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_SW, {.Rs1 = 10, .Rs2 = 11}),
+                  encode(Op::RV_LW, {.Rd = 12, .Rs1 = 10})},
+                 largeShape());
+    // Neighbours, each at a place of its own, and lanes in both parts.
+    Lanes16 Both;
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      Both[L] = L % 2 ? VX_IMAGE_BASE - 64 + L * 4 : VX_HIGH_BASE + L * 4;
+    std::vector<Lanes16> Ways = {Both};
+    for (const uint32_t Base : {VX_HIGH_BASE, End - 16 * 64})
+      for (const unsigned Way : {0, 2, 3})
+        Ways.push_back(shapes(Base, 4, Random)[Way].Addresses);
+    for (const Lanes16 &Addresses : Ways) {
+      Lanes16 Values;
+      for (uint32_t &V : Values)
+        V = static_cast<uint32_t>(Random());
+      runOn(R, 0xFFFF, Addresses, Values);
+      ASSERT_TRUE(R.ranToEnd());
+      EXPECT_EQ(R.getX(12), Values);
+      for (unsigned L = 0; L != MaxLanes; ++L)
+        EXPECT_EQ(std::memcmp(R.global(Addresses[L]), &Values[L], 4), 0);
+    }
+    // Neither the image's end nor memory's is passed.
+    Lanes16 Last;
+    for (const uint32_t Bad : {VX_HIGH_BASE - 32, End - 32}) {
+      for (uint32_t L = 0; L != MaxLanes; ++L)
+        Last[L] = Bad + L * 4;
+      runOn(R, 0xFFFF, Last, {});
+      EXPECT_EQ(R.ranToEnd(), Bad != End - 32);
+    }
+    EXPECT_EQ(R.cause(), TrapCause::StoreFault);
+    EXPECT_EQ(R.warp().FaultAddress, End);
+  }
+  WarpRunner Small(execTable(false), {encode(Op::RV_ADDI, {})});
+  EXPECT_EQ(Small.global(VX_HIGH_BASE), nullptr);
+}
+
+TEST(Memory, AdditionsBehindTheImageDoNotPark) {
+  WarpRunner R(execTable(false),
+               {encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 10, .Rs2 = 11})},
+               largeShape());
+  Lanes16 Addresses, Ones;
+  Addresses.fill(VX_HIGH_BASE + 4);
+  Ones.fill(1);
+  runOn(R, 0xFFFF, Addresses, Ones);
+  EXPECT_TRUE(R.ranToEnd());
+  EXPECT_EQ(*reinterpret_cast<uint32_t *>(R.global(VX_HIGH_BASE + 4)), 16U);
+}
+
 TEST(Memory, FaultsNameTheLowestLane) {
   for (const ExecTable *Table : allTables()) {
     WarpRunner Load(*Table, {encode(Op::RV_LW, {.Rd = 12, .Rs1 = 10})});

@@ -13,7 +13,7 @@ inline bool inside(const Region &R, uint32_t Addr, uint32_t Bytes) {
 
 /// Memory that every instruction may write, except the image.
 inline std::byte *dataAt(const MemoryView &M, uint32_t Addr, uint32_t Bytes) {
-  for (const Region *R : {&M.Global, &M.Local})
+  for (const Region *R : {&M.Global, &M.Local, &M.High})
     if (inside(*R, Addr, Bytes))
       return R->at(Addr);
   // Aligned accesses stay within a word, and words are contiguous.

@@ -76,6 +76,8 @@ inline constexpr unsigned StackGroup = 16;
 /// What a core can reach.
 struct MemoryView {
   Region Global, Local, Stack, Image;
+  /// Global memory behind the image; Global again if there is none.
+  Region High;
   /// Logarithm of the bytes of one stack.
   unsigned StackShift = 0;
   /// Writable parts of the image, by address.

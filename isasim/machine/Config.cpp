@@ -2,6 +2,7 @@
 
 #include "core/IsaTables.h"
 #include "timing/DramChannels.h"
+#include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -54,7 +55,10 @@ struct Key {
 // product of the three is checked in validate().
 constexpr uint64_t MaxCores =
     (VX_GLOBAL_BASE - VX_IO_RASTER) / VX_IO_RASTER_STRIDE;
-constexpr uint64_t MaxGlobal = VX_IMAGE_BASE - VX_GLOBAL_BASE;
+/// In front of the image, and behind it. Stacks take some of the latter;
+/// validate() knows how much.
+constexpr uint64_t MaxHigh = VX_STACK_TOP - VX_HIGH_BASE;
+constexpr uint64_t MaxGlobal = VX_IMAGE_BASE - VX_GLOBAL_BASE + MaxHigh;
 
 void setMachine(Config &C, uint64_t Number);
 
@@ -290,12 +294,16 @@ Expected<Success> validate(const Config &C) {
         "configuration",
         fmt::format("stack_bytes is {}, expected a power of two", C.StackBytes),
         ExitCode::Usage};
-  const uint64_t Room = VX_STACK_TOP - (VX_IMAGE_BASE + VX_IMAGE_SIZE);
-  if (Stacks > Room)
-    return Error{"configuration",
-                 fmt::format("the stacks take {} bytes, expected at most {}",
-                             Stacks, Room),
-                 ExitCode::Usage};
+  const uint64_t High = globalRanges(C)[1].Bytes;
+  if (Stacks > MaxHigh - High)
+    return Error{
+        "configuration",
+        fmt::format(
+            "the stacks take {} bytes, expected at most {}{}", Stacks,
+            MaxHigh - High,
+            High ? fmt::format(" with {} bytes of global memory", C.GlobalBytes)
+                 : ""),
+        ExitCode::Usage};
   return Success{};
 }
 

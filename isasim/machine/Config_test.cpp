@@ -1,5 +1,8 @@
 #include "vorion/isasim/Config.h"
 
+#include "core/IsaTables.h"
+#include "vorion/isasim/MemoryMap.h"
+
 #include <gtest/gtest.h>
 
 using namespace vorion;
@@ -117,6 +120,25 @@ TEST(Config, ErrorsNameTheKey) {
 TEST(Config, TheMemoryMapMustHaveRoom) {
   EXPECT_EQ(wrongIn(R"({"clusters": 100, "sockets_per_cluster": 100})"),
             "file.json: 40000 cores, expected at most 240");
-  EXPECT_NE(wrongIn(R"({"stack_bytes": 16777216})").find("the stacks take"),
-            std::string::npos);
+  EXPECT_EQ(wrongIn(R"({"stack_bytes": 16777216})"),
+            "file.json: the stacks take 2147483648 bytes, expected at most "
+            "2130640896");
+  // Global memory behind the image and the stacks share what is there.
+  EXPECT_EQ(wrongIn(R"({"global_bytes": 4278059008})"),
+            "file.json: the stacks take 8388608 bytes, expected at most 0 with "
+            "4278059008 bytes of global memory");
+  EXPECT_TRUE(parseConfig(R"({"global_bytes": 4269670400})", ""));
+  EXPECT_FALSE(parseConfig(R"({"global_bytes": 4269674496})", ""));
+}
+
+TEST(Config, GlobalMemoryIsInFrontOfTheImageAndBehindIt) {
+  Config C;
+  C.GlobalBytes = 1 << 30;
+  EXPECT_EQ(globalRanges(C)[0].Bytes, 1U << 30);
+  EXPECT_EQ(globalRanges(C)[1].Bytes, 0U);
+  C.GlobalBytes = 3ULL << 30;
+  const auto [Low, High] = globalRanges(C);
+  EXPECT_EQ(Low.Base + Low.Bytes, VX_IMAGE_BASE);
+  EXPECT_EQ(High.Base, VX_IMAGE_BASE + VX_IMAGE_SIZE);
+  EXPECT_EQ(Low.Bytes + High.Bytes, 3ULL << 30);
 }

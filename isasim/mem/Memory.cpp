@@ -1,6 +1,7 @@
 #include "mem/Memory.h"
 
 #include "core/IsaTables.h"
+#include "vorion/isasim/MemoryMap.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,6 +19,14 @@ namespace {
 /// A vector access that begins inside a region may read (never write) this far
 /// beyond its end.
 constexpr uint64_t Slack = 4096;
+
+/// [Address, Address + Bytes), or nullptr if it is not all in the region.
+std::byte *rangeAt(const Region &R, uint32_t Address, uint64_t Bytes) {
+  const uint64_t Offset = uint64_t{Address} - R.Lo;
+  return Address >= R.Lo && Offset <= R.Bytes && Bytes <= R.Bytes - Offset
+             ? R.Host + Offset
+             : nullptr;
+}
 
 } // namespace
 
@@ -59,12 +68,14 @@ Memory::Memory(std::vector<Mapping> Maps) : Mappings(std::move(Maps)) {}
 Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   const auto StackBytes = static_cast<uint32_t>(
       uint64_t{C.cores()} * C.WarpsPerCore * C.LanesPerWarp * C.StackBytes);
-  std::vector<std::pair<uint32_t, uint64_t>> Wanted = {
-      {VX_GLOBAL_BASE, C.GlobalBytes},
-      {VX_STACK_TOP - StackBytes, StackBytes},
-      {VX_IMAGE_BASE, VX_IMAGE_SIZE}};
+  const auto [Low, High] = globalRanges(C);
+  std::vector<AddressRange> Wanted = {Low,
+                                      {VX_STACK_TOP - StackBytes, StackBytes},
+                                      {VX_IMAGE_BASE, VX_IMAGE_SIZE}};
   for (unsigned Core = 0; Core != C.cores(); ++Core)
-    Wanted.emplace_back(VX_LOCAL_BASE, C.LocalBytes);
+    Wanted.push_back({VX_LOCAL_BASE, C.LocalBytes});
+  if (High.Bytes)
+    Wanted.push_back(High);
 
   // Stacks come in whole groups on the host.
   const uint64_t Group = StackGroup * uint64_t{C.StackBytes};
@@ -85,13 +96,15 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
   Result->StackBytesOnHost = StackBytesOnHost;
   Result->ImageRange = Regions[2];
   Result->StackShift = static_cast<unsigned>(std::countr_zero(C.StackBytes));
-  Result->Locals.assign(Regions.begin() + 3, Regions.end());
+  Result->Locals.assign(Regions.begin() + 3, Regions.begin() + 3 + C.cores());
+  Result->High = High.Bytes ? Regions.back() : Result->Global;
   return Result;
 }
 
 MemoryView Memory::view(unsigned Core) const {
   MemoryView V;
   V.Global = Global;
+  V.High = High;
   V.Local = Locals[Core];
   V.Stack = Stack;
   V.Image = ImageRange;
@@ -128,24 +141,21 @@ void Memory::clearLocal() {
 }
 
 std::vector<std::span<std::byte>> Memory::kept() const {
-  return {{Global.Host, Global.Bytes}, {Stack.Host, StackBytesOnHost}};
+  std::vector<std::span<std::byte>> All = {{Global.Host, Global.Bytes},
+                                           {Stack.Host, StackBytesOnHost}};
+  if (High.Host != Global.Host)
+    All.emplace_back(High.Host, High.Bytes);
+  return All;
 }
 
 std::byte *Memory::global(uint32_t Address, uint64_t Bytes) const {
-  const uint64_t Offset = uint64_t{Address} - Global.Lo;
-  if (Address < Global.Lo || Offset > Global.Bytes ||
-      Bytes > Global.Bytes - Offset)
-    return nullptr;
-  return Global.Host + Offset;
+  std::byte *const At = rangeAt(Global, Address, Bytes);
+  return At ? At : rangeAt(High, Address, Bytes);
 }
 
 std::byte *Memory::shared(uint32_t Address, uint64_t Bytes) const {
-  for (const Region *R : {&Global, &ImageRange}) {
-    const uint64_t Offset = uint64_t{Address} - R->Lo;
-    if (Address >= R->Lo && Offset <= R->Bytes && Bytes <= R->Bytes - Offset)
-      return R->Host + Offset;
-  }
-  return nullptr;
+  std::byte *const At = global(Address, Bytes);
+  return At ? At : rangeAt(ImageRange, Address, Bytes);
 }
 
 std::byte *Memory::stackByte(uint32_t Address) const {

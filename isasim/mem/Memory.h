@@ -57,7 +57,7 @@ private:
   explicit Memory(std::vector<Mapping> Maps);
 
   std::vector<Mapping> Mappings;
-  Region Global, Stack, ImageRange;
+  Region Global, High, Stack, ImageRange; ///< as in MemoryView
   unsigned StackShift = 0;
   uint64_t StackBytesOnHost = 0; ///< whole groups
   std::vector<Region> Locals;    ///< by core

@@ -17,8 +17,9 @@ using Lanes16 = std::array<uint32_t, MaxLanes>;
 
 class WarpRunner {
 public:
-  WarpRunner(const ExecTable &Table, const std::vector<uint32_t> &Words)
-      : Exec(Table), Storage(std::move(*Memory::create(Shape))),
+  WarpRunner(const ExecTable &Table, const std::vector<uint32_t> &Words,
+             const Config &ShapeIn = smallShape())
+      : Exec(Table), Shape(ShapeIn), Storage(std::move(*Memory::create(Shape))),
         Program(codeImage(Words)), Code(*Program, Exec), Only(Shape, 0) {
     Storage->load(*Program);
     Watcher.prepare(Code, Shape.WarpsPerCore, 1);
@@ -61,7 +62,7 @@ public:
   std::byte *global(uint32_t Address) { return Storage->global(Address, 1); }
 
   const ExecTable &Exec;
-  Config Shape = smallShape();
+  Config Shape;
   Watch Watcher; ///< of nobody, so that the observed level can run
   std::unique_ptr<Memory> Storage;
   std::shared_ptr<const Image> Program;

@@ -1,6 +1,7 @@
 #include "tools/Launch.h"
 
 #include "core/IsaTables.h"
+#include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 
@@ -42,16 +43,19 @@ Expected<LaunchShape> shapeOf(const Kernel &K, const KernelRequest &R) {
 
 Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
                                          const std::string &What) {
-  const uint64_t Address = NextFree;
-  const uint64_t End = VX_GLOBAL_BASE + Device->config().GlobalBytes;
-  if (Address > End || Bytes > End - Address)
-    return usage(fmt::format("{} bytes more do not fit the {} bytes of global "
-                             "memory",
-                             Bytes, Device->config().GlobalBytes));
-  Watch->allocated(static_cast<uint32_t>(Address), Bytes, What);
-  NextFree =
-      alignLaunch(Address + std::max<uint64_t>(Bytes, 1) + Watch->guardBytes());
-  return static_cast<uint32_t>(Address);
+  for (const AddressRange &Part : globalRanges(Device->config())) {
+    const uint64_t Address = std::max<uint64_t>(NextFree, Part.Base);
+    const uint64_t End = Part.Base + Part.Bytes;
+    if (Address > End || Bytes > End - Address)
+      continue;
+    Watch->allocated(static_cast<uint32_t>(Address), Bytes, What);
+    NextFree = alignLaunch(Address + std::max<uint64_t>(Bytes, 1) +
+                           Watch->guardBytes());
+    return static_cast<uint32_t>(Address);
+  }
+  return usage(fmt::format("{} bytes more do not fit the {} bytes of global "
+                           "memory",
+                           Bytes, Device->config().GlobalBytes));
 }
 
 Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
@@ -173,7 +177,6 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
     return usage(Planned.error().What);
   KernelLaunch L(M, Watch);
   L.Name = K->Name;
-  L.NextFree = VX_GLOBAL_BASE;
   if (Expected<Success> Ok = L.packArguments(*K, R); !Ok)
     return Ok.error();
   if (Expected<Success> Ok = L.write(*Planned, *K); !Ok)

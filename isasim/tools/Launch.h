@@ -45,7 +45,8 @@ private:
   Machine *Device;
   Session *Watch;
   std::string Name;
-  uint64_t NextFree = 0;       ///< in global memory; nothing is ever freed
+  uint64_t NextFree = 0;       ///< in global memory or before it; nothing is
+                               ///< ever freed
   std::vector<std::byte> Args; ///< packed
   LaunchParts Parts;           ///< addresses
   std::vector<Output> Outputs;

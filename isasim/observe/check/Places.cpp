@@ -1,5 +1,7 @@
 #include "observe/check/Places.h"
 
+#include "vorion/isasim/MemoryMap.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -19,12 +21,12 @@ Places::Kind Places::kindOf(uint32_t Address) const {
                           Shape.LanesPerWarp * Shape.StackBytes;
   if (Address >= VX_STACK_TOP - Stacks)
     return Stack;
-  if (Address >= VX_IMAGE_BASE)
-    return Address - VX_IMAGE_BASE < VX_IMAGE_SIZE ? Program : Nothing;
-  return Address >= VX_GLOBAL_BASE &&
-                 Address - VX_GLOBAL_BASE < Shape.GlobalBytes
-             ? Global
-             : Nothing;
+  if (Address - VX_IMAGE_BASE < VX_IMAGE_SIZE)
+    return Program;
+  for (const AddressRange &Part : globalRanges(Shape))
+    if (Address - Part.Base < Part.Bytes)
+      return Global;
+  return Nothing;
 }
 
 bool Places::isOwn(uint32_t Address, unsigned Bytes, const Step &S,

@@ -31,6 +31,7 @@ void CoreShadow::runBegins(const RunStart &R) { begin(R.Shape, R.Program); }
 void CoreShadow::begin(const Config &Shape,
                        const std::shared_ptr<const Image> &Program) {
   WarpsPerCore = Shape.WarpsPerCore;
+  HighGlobal = globalRanges(Shape)[1];
   Warps.assign(size_t{Shape.cores()} * WarpsPerCore, Warp());
   Memory.begin(Shape.cores());
   Sites.useProgram(Program);

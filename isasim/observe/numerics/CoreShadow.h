@@ -4,6 +4,7 @@
 
 #include "observe/numerics/ShadowMath.h"
 #include "observe/numerics/ShadowMemory.h"
+#include "vorion/isasim/MemoryMap.h"
 
 namespace vorion::isasim {
 
@@ -103,6 +104,7 @@ private:
   const NumericLimits &Limits;
   std::vector<Warp> Warps;
   unsigned WarpsPerCore = 1;
+  AddressRange HighGlobal; ///< of globalRanges()
 };
 
 } // namespace vorion::isasim

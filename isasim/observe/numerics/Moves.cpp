@@ -303,8 +303,9 @@ void CoreShadow::commitStore(const Commit &C, Warp &W) {
     From.Followed = 0;
   forLanes(C.LaneMask, [&](unsigned L) {
     storeLane(C, L, From);
-    // What lies above is the program's own: its image, stacks, local memory.
-    if (addressOf(C, L) < VX_IMAGE_BASE)
+    // The image, stacks and local memory are the program's own.
+    const uint32_t Address = addressOf(C, L);
+    if (Address < VX_IMAGE_BASE || Address - HighGlobal.Base < HighGlobal.Bytes)
       reach(From, L);
   });
 }

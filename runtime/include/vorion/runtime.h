@@ -92,7 +92,7 @@ typedef struct vx_device_info {
   uint32_t stack_bytes;              /* a lane */
   uint32_t local_base, local_bytes;  /* local memory of a core */
   uint32_t global_base;              /* first byte that can be allocated */
-  uint64_t global_bytes;             /* all of it */
+  uint64_t global_bytes;             /* all of it: above 2 GiB in two parts */
   uint64_t free_bytes;               /* not allocated now */
   uint64_t largest_free_bytes;       /* largest allocation possible now */
   uint32_t max_group_items;          /* largest work-group the ABI supports */

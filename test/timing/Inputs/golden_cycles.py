@@ -7,7 +7,8 @@ A run is a loop of a few instructions on one core, on several cores or on a mach
 frame of a small scene. Programs are made in FOLDER. The kept file, cycles.json, names the version of the clock
 that it belongs to. Cycles that differ are an error: raise ClockVersion (isasim/include/vorion/isasim/Timing.h), say in
 docs/model.md under "Versions of the clock" what changed and why, and run with --update. The frames' kernels are compiled.
-If only frames differ, because the compiler makes other code of them, the version stays: run with --update alone.
+If only frames differ, because the compiler makes other code of them or memory lies elsewhere, the version stays: run with
+--update alone.
 
 exit codes: 0 all as kept (or written), 1 a run differs or failed, 2 usage
 """

@@ -41,8 +41,10 @@ def buffer(words):
 
 PIXELS = 32 * 32
 taken = buffer([0, 0])
-program.leave(queue, (16,), (16,), buffer([0] * 16), buffer([0] * 48), buffer([0] * 4 * PIXELS),
-              buffer([48] * PIXELS), buffer([0] * 4 * PIXELS))
+# They are held: the rasterizer reads them after `leave` has ended, and where the next launch's own memory lies, and so
+# its time, would depend on when they were freed.
+drawing = [buffer([0] * count) for count in (16, 48, 4 * PIXELS)] + [buffer([48] * PIXELS), buffer([0] * 4 * PIXELS)]
+program.leave(queue, (16,), (16,), *drawing)
 program.take(queue, (16,), (16,), taken)
 words = np.zeros(2, dtype=np.uint32)
 cl.enqueue_copy(queue, words, taken)
