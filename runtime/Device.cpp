@@ -174,8 +174,10 @@ Failure Device::allocateVariables(const LoadedImage &Image,
   Lock Held(Mutex);
   waitForRun(Held);
   uint32_t Start = 0;
+  // A driver does this when a launch begins: see prepare().
   if (Failure Failed = allocateLocked(isasim::bytesFor(K.Variables),
-                                      "the variables of program scope", Start))
+                                      "the variables of program scope",
+                                      Allocator::End::High, Start))
     return Failed;
   isasim::writeVariables(*Machine, *Watch, Image.program(), K,
                          isasim::placeOf(K.Variables, Start));
