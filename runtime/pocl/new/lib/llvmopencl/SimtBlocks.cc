@@ -83,6 +83,22 @@ blocksOfWholeGroup(Function &F, LoopInfo &Loops,
   return Found;
 }
 
+bool isReachedWithoutBarrier(BasicBlock *Block, const Loop &L) {
+  BlockSet Seen{L.getHeader()};
+  SmallVector<BasicBlock *, 16> Pending{L.getHeader()};
+  while (!Pending.empty()) {
+    BasicBlock *Reached = Pending.pop_back_val();
+    if (Barrier::hasBarrier(Reached))
+      continue;
+    if (Reached == Block)
+      return true;
+    for (BasicBlock *Next : successors(Reached))
+      if (L.contains(Next) && Seen.insert(Next).second)
+        Pending.push_back(Next);
+  }
+  return false;
+}
+
 Value *decidingValue(BasicBlock &Block) {
   if (auto *Branch = dyn_cast<BranchInst>(Block.getTerminator()))
     return Branch->isConditional() ? Branch->getCondition() : nullptr;

@@ -12,6 +12,7 @@
 namespace llvm {
 class BasicBlock;
 class Function;
+class Loop;
 class LoopInfo;
 class PostDominatorTree;
 class Value;
@@ -34,6 +35,9 @@ BlockSet reachedTwice(llvm::BasicBlock &Block,
 /// Keeps what is computed in one of the blocks and used in others in a variable
 /// on the stack, because it will no longer be computed there alone.
 void keepInVariables(llvm::ArrayRef<llvm::BasicBlock *> Blocks);
+
+/// Whether a block of the loop is reached from its head without a barrier.
+bool isReachedWithoutBarrier(llvm::BasicBlock *Block, const llvm::Loop &L);
 
 /// What decides where \p Block goes on; null if nothing does.
 llvm::Value *decidingValue(llvm::BasicBlock &Block);

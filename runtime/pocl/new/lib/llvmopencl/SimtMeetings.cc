@@ -174,23 +174,6 @@ bool meetBeforeBarrier(Function &F, BlockSet &Known) {
 // A head for each loop
 //===----------------------------------------------------------------------===//
 
-/// Whether a block of the loop is reached from its head without a barrier.
-bool isReachedWithoutBarrier(BasicBlock *Block, const Loop &L) {
-  BlockSet Seen{L.getHeader()};
-  SmallVector<BasicBlock *, 16> Pending{L.getHeader()};
-  while (!Pending.empty()) {
-    BasicBlock *Reached = Pending.pop_back_val();
-    if (Barrier::hasBarrier(Reached))
-      continue;
-    if (Reached == Block)
-      return true;
-    for (BasicBlock *Next : successors(Reached))
-      if (L.contains(Next) && Seen.insert(Next).second)
-        Pending.push_back(Next);
-  }
-  return false;
-}
-
 /// The block with nothing in it through which all ways of a loop go back, if
 /// it has several; else null.
 BasicBlock *commonLatch(const Loop &L) {

@@ -171,16 +171,58 @@ bool lowerSimtBarriers(Function &F) {
   return !Barriers.empty();
 }
 
-void anchorBarrierLoops(ArrayRef<Loop *> Loops) {
+/// Keeps the optimiser from leading ways past this place or copying it, as a
+/// barrier does, but makes no code.
+static void createAnchor(Instruction *Before) {
+  IRBuilder<> Builder(Before);
+  CallInst *Anchor = Builder.CreateCall(
+      InlineAsm::get(FunctionType::get(Builder.getVoidTy(), false), "", "",
+                     /*hasSideEffects=*/true));
+  Anchor->addFnAttr(Attribute::Convergent);
+  Anchor->addFnAttr(Attribute::NoDuplicate);
+  Anchor->addFnAttr(Attribute::NoMerge);
+}
+
+/// Whether work-items may go on in the loop without others of their group.
+static bool mayGoOnApart(const Loop &L,
+                         VariableUniformityAnalysisResult &Uniformity) {
+  SmallVector<BasicBlock *, 8> Latches, Exits;
+  L.getLoopLatches(Latches);
+  L.getExitingBlocks(Exits);
+  Function *F = L.getHeader()->getParent();
+  return any_of(Latches,
+                [&](BasicBlock *Latch) {
+                  return isReachedWithoutBarrier(Latch, L);
+                }) &&
+         any_of(Exits, [&](BasicBlock *Exit) {
+           Value *Condition = decidingValue(*Exit);
+           return Condition && !Uniformity.isUniform(F, Condition);
+         });
+}
+
+static void anchorBarrierLoops(ArrayRef<Loop *> Loops,
+                               VariableUniformityAnalysisResult &Uniformity) {
   for (Loop *L : Loops) {
     const bool HasBarrier = any_of(L->blocks(), [](BasicBlock *Block) {
       return any_of(*Block, [](Instruction &I) { return isa<Barrier>(&I); });
     });
     if (!HasBarrier)
       continue;
-    Barrier::Create(L->getHeader()->getFirstNonPHI());
-    anchorBarrierLoops(L->getSubLoops());
+    const bool Apart = mayGoOnApart(*L, Uniformity);
+    Instruction *Head = L->getHeader()->getFirstNonPHI();
+    if (Apart)
+      createAnchor(Head);
+    else
+      Barrier::Create(Head);
+    anchorBarrierLoops(L->getSubLoops(), Uniformity);
   }
+}
+
+void anchorBarrierLoops(Function &F, LoopInfo &Loops,
+                        PostDominatorTree &PostDominators) {
+  VariableUniformityAnalysisResult Uniformity;
+  Uniformity.runOnFunction(F, Loops, PostDominators);
+  anchorBarrierLoops(Loops.getTopLevelLoops(), Uniformity);
 }
 
 SimtBranches::SimtBranches(Function &F, LoopInfo &Loops,

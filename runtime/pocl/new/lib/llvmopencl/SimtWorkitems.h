@@ -64,8 +64,11 @@ bool lowerSimtBarriers(llvm::Function &F);
 
 /// Puts a barrier at the head of each loop that has one anywhere. Otherwise an
 /// inner loop at its head may come to share its header, and lanes that have
-/// left the inner loop would pass the barrier while others are in it.
-void anchorBarrierLoops(llvm::ArrayRef<llvm::Loop *> Loops);
+/// left the inner loop would pass the barrier while others are in it. Where a
+/// round may pass no barrier and single work-items may leave, the head gets
+/// only what keeps it apart: work-items may go on without the others there.
+void anchorBarrierLoops(llvm::Function &F, llvm::LoopInfo &Loops,
+                        llvm::PostDominatorTree &PostDominators);
 
 /// Tells branches of single work-items from those of the whole group. Knows
 /// them by their terminators, which stay when blocks are split; empty on

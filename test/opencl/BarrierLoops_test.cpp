@@ -1,0 +1,95 @@
+/// Loops with barriers whose work-items go round a different number of times:
+/// legal as long as all of a group, or none, come to each barrier.
+#include "TestDevice.h"
+
+#include <algorithm>
+
+using vorion::test::TestDevice;
+
+namespace {
+
+constexpr cl_uint Groups = 2;
+
+const char *const Source = R"(
+  // No work-item comes to the barrier.
+  kernel void nobody(global uint *out, local uint *shared) {
+    const uint id = get_local_id(0);
+    shared[id] = id;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint i = 0; i < 2 + id; i++) {
+      shared[id] += i;
+      if (id >= get_local_size(0))
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    out[get_global_id(0)] = shared[id];
+  }
+  // All come to it in the first two rounds, nobody in those that only some go.
+  kernel void first_rounds(global uint *out, local uint *shared) {
+    const uint id = get_local_id(0), size = get_local_size(0);
+    uint sum = 0;
+    shared[id] = id;
+    for (uint i = 0; i < 2 + id; i++) {
+      for (uint j = 0; j < id; j++)
+        sum += shared[id];
+      if (i < 2) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        const uint next = shared[(id + 1) % size];
+        barrier(CLK_LOCAL_MEM_FENCE);
+        shared[id] = next;
+      }
+    }
+    out[get_global_id(0)] = sum;
+  }
+)";
+
+std::vector<cl_uint> run(const TestDevice &Device, const char *Name,
+                         cl_uint Size) {
+  std::string Log;
+  const cl::Program Program = Device.build(Source, Log);
+  EXPECT_EQ(Log, "");
+  cl::Kernel Kernel(Program, Name);
+  const cl::Buffer Out =
+      Device.upload(std::vector<cl_uint>(std::size_t{Groups} * Size));
+  Kernel.setArg(0, Out);
+  Kernel.setArg(1, cl::Local(Size * sizeof(cl_uint)));
+  cl::Event Done;
+  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
+                Kernel, cl::NullRange, cl::NDRange(Groups * Size),
+                cl::NDRange(Size), nullptr, &Done),
+            CL_SUCCESS);
+  EXPECT_EQ(Done.wait(), CL_SUCCESS) << Name << ", groups of " << Size;
+  return Device.download<cl_uint>(Out, std::size_t{Groups} * Size);
+}
+
+/// Groups of one warp. In larger ones work-items that leave the others trap.
+const cl_uint Sizes[] = {1, 2, 4, 7, 16};
+
+TEST(BarrierLoops, WorkItemsGoOnWhereNobodyReachesTheBarrier) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  for (const cl_uint Size : Sizes) {
+    const std::vector<cl_uint> Got = run(Device, "nobody", Size);
+    for (cl_uint I = 0; I != Got.size(); ++I) {
+      const cl_uint Id = I % Size;
+      EXPECT_EQ(Got[I], Id + (Id + 1) * (Id + 2) / 2)
+          << "item " << Id << " of " << Size;
+    }
+  }
+}
+
+TEST(BarrierLoops, WorkItemsGoOnAfterTheLastRoundWithABarrier) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  for (const cl_uint Size : Sizes) {
+    const std::vector<cl_uint> Got = run(Device, "first_rounds", Size);
+    for (cl_uint I = 0; I != Got.size(); ++I) {
+      const cl_uint Id = I % Size;
+      cl_uint Sum = 0;
+      for (cl_uint Round = 0; Round < 2 + Id; ++Round)
+        Sum += Id * ((Id + std::min(Round, 2U)) % Size);
+      EXPECT_EQ(Got[I], Sum) << "item " << Id << " of " << Size;
+    }
+  }
+}
+
+} // namespace
