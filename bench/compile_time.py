@@ -58,7 +58,7 @@ def measure(source, folder):
     cache = os.path.join(folder, "cache")
     shutil.rmtree(cache, ignore_errors=True)
     os.makedirs(cache)
-    environment = {"POCL_CACHE_DIR": cache, "POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES": "1",
+    environment = {"POCL_CACHE_DIR": cache, "POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES": "1", "VORION_COMPILE_ALL": "1",
                    "OCL_ICD_VENDORS": os.path.join(BUILD, "etc", "OpenCL", "vendors"), "VORION_ROOT": BUILD}
     image = os.path.join(folder, "image.elf")
     whole = user_time("vorion-clang", source, "-o", image)

@@ -3,6 +3,7 @@
 
 #include "TestDevice.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -125,6 +126,43 @@ TEST_F(Builds, APartThatIsInUseOrHasNoSourceIsNotBuiltAgain) {
                            P.getInfo<CL_PROGRAM_BINARIES>());
   EXPECT_EQ(compile(Binary), CL_INVALID_OPERATION);
   EXPECT_EQ(build(Binary), CL_SUCCESS);
+}
+
+/// A program's binary, as the platform gives it.
+std::vector<unsigned char> binaryOf(const cl::Program &P) {
+  return P.getInfo<CL_PROGRAM_BINARIES>().front();
+}
+
+/// Programs that keep binaries ask for them right after each build. Compiling
+/// every kernel for that took minutes where there are a hundred.
+TEST_F(Builds, ABinaryHasNoKernelThatWasNotStarted) {
+  const cl::Program P =
+      program("kernel void unstarted(global int *o) { o[0] = 1; }");
+  ASSERT_EQ(build(P), CL_SUCCESS);
+  const std::vector<unsigned char> Binary = binaryOf(P);
+  ASSERT_FALSE(Binary.empty());
+  const std::string Elf = "\x7f"
+                          "ELF";
+  EXPECT_EQ(std::search(Binary.begin(), Binary.end(), Elf.begin(), Elf.end()),
+            Binary.end());
+}
+
+TEST_F(Builds, ABinaryRunsInGroupsOfAnySize) {
+  constexpr cl_uint Items = 40;
+  const cl::Program P =
+      program("kernel void two(global uint *o) { o[get_global_id(0)] = 2; }");
+  ASSERT_EQ(build(P), CL_SUCCESS);
+  const cl::Program Again(Device.context(), {cl::Device(device())},
+                          {binaryOf(P)});
+  ASSERT_EQ(build(Again), CL_SUCCESS);
+  cl::Kernel Kernel(Again, "two");
+  for (const cl_uint Size : {1U, 8U, 20U}) {
+    const cl::Buffer Out = Device.upload(std::vector<cl_uint>(Items));
+    Kernel.setArg(0, Out);
+    Device.run(Kernel, Items, Size);
+    EXPECT_EQ(Device.download<cl_uint>(Out, Items),
+              std::vector<cl_uint>(Items, 2));
+  }
 }
 
 TEST_F(Builds, UnknownOptionsAreNamed) {
