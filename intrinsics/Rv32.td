@@ -1,6 +1,6 @@
 // The base instructions: RV32IMAF, Zicsr, Zifencei, Zicond, Zba, Zbb, Zbs and
-// amocas.w of Zacas (RISC-V unprivileged specification, 20240411 and the
-// Zacas chapter). lr.w and sc.w are left out on purpose: docs/decisions.md, 4.
+// Zacas (RISC-V unprivileged specification, 20240411 and the Zacas chapter).
+// lr.w and sc.w are left out on purpose: docs/decisions.md, 4.
 
 // Formats whose immediate field is read differently from those of the base.
 def IShift : Format<"rd, rs1, shamt">;
@@ -40,6 +40,12 @@ class BType<string mnemonic, int funct3>
 class AmoType<string mnemonic, int funct5, string extension>
     : Rv32<mnemonic, R, !or(0x202F, !shl(funct5, 27)), 0xF800707F,
            "rd, rs2, (rs1)", extension>;
+// With a pair of registers for rd and rs2; the odd ones are reserved.
+class AmoPairType<string mnemonic, int funct5, string extension>
+    : Rv32<mnemonic, R, !or(0x302F, !shl(funct5, 27)), 0xF81070FF,
+           "rd, rs2, (rs1)", extension> {
+  let Pairs = 1;
+}
 class CsrType<string mnemonic, int funct3>
     : Rv32<mnemonic, !if(!gt(funct3, 4), ICsrImm, ICsr), !or(0x73, !shl(funct3, 12)),
            0x707F, !if(!gt(funct3, 4), "rd, csr, uimm", "rd, csr, rs1"), "zicsr">;
@@ -144,6 +150,7 @@ def RV_AMOMAX_W : AmoType<"amomax.w", 0x14, "zaamo">;
 def RV_AMOMINU_W : AmoType<"amominu.w", 0x18, "zaamo">;
 def RV_AMOMAXU_W : AmoType<"amomaxu.w", 0x1C, "zaamo">;
 def RV_AMOCAS_W : AmoType<"amocas.w", 0x05, "zacas">;
+def RV_AMOCAS_D : AmoPairType<"amocas.d", 0x05, "zacas">;
 }
 
 // Zicond

@@ -33,6 +33,7 @@ struct InsnInfo {
   Format Fmt;
   File Rd, Rs1, Rs2, Rs3;
   bool HasRm; ///< a rounding mode stands where funct3 is
+  bool Pairs; ///< rd and rs2 are each the even one of two neighbours
 };
 """
 
@@ -65,7 +66,7 @@ def instructions(records):
         operands = syntax(i)
         files = ", ".join(f"File::{file_of(operands, r)}" for r in ("rd", "rs1", "rs2", "rs3"))
         yield (f'    {{"{i.Mnemonic}", "{operands}", {word(i.Match)}, {word(i.Mask)}, '
-               f"Format::{i.Fmt.id}, {files}, {flag(operands.endswith('rm'))}}},")
+               f"Format::{i.Fmt.id}, {files}, {flag(operands.endswith('rm'))}, {flag(i.Pairs)}}},")
     yield "};\n"
 
 

@@ -13,7 +13,7 @@ from printing import note
 from records import Records, write
 
 # Instructions that LLVM calls otherwise than after their mnemonic.
-LLVM_NAMES = {"zext.h": "ZEXT_H_RV32", "rev8": "REV8_RV32"}
+LLVM_NAMES = {"zext.h": "ZEXT_H_RV32", "rev8": "REV8_RV32", "amocas.d": "AMOCAS_D_RV32"}
 
 
 def llvm_name(record):

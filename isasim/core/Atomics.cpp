@@ -36,18 +36,34 @@ applyAmo(Amo Kind, uint32_t Old, uint32_t Operand, uint32_t Compare) {
     return std::max(Old, Operand);
   case Amo::Cas:
     return Old == Compare ? Operand : Old;
+  case Amo::CasPair: // casPairs()
+    break;
   }
   return Old;
 }
 
-bool allLanesIn(WarpState *S, const Insn *I, const Region &R) {
+bool allLanesIn(WarpState *S, const Insn *I, Amo Kind, const Region &R) {
+  const uint32_t Bytes = bytesOf(Kind);
   const uint32_t *Addresses = S->lanes(I->Rs1);
   return forLanes(S, [&](unsigned L) {
-    return Addresses[L] % 4 == 0 && inside(R, Addresses[L], 4);
+    return Addresses[L] % Bytes == 0 && inside(R, Addresses[L], Bytes);
   });
 }
 
 constexpr unsigned SinkOffset = SinkRegister * sizeof(LaneWords);
+
+/// The register offset behind \p Offset, for the high word of a pair. x0 and
+/// the sink stand for 64 bits.
+unsigned highWord(unsigned Offset) {
+  return Offset == 0 || Offset == SinkOffset ? Offset
+                                             : Offset + sizeof(LaneWords);
+}
+
+bool faultAt(WarpState *S, unsigned L, uint32_t Address, uint32_t Bytes) {
+  return fault(
+      S, Address % Bytes ? TrapCause::MisalignedStore : TrapCause::StoreFault,
+      L, Address);
+}
 
 /// The atomic in lane order, at the places that Find gives for an address.
 template <Amo Kind, typename Function>
@@ -59,10 +75,7 @@ bool amoLanes(WarpState *S, const Insn *I, Function Find) {
   const bool Ok = forLanes(S, [&](unsigned L) {
     std::byte *At = Addresses[L] % 4 == 0 ? Find(Addresses[L]) : nullptr;
     if (!At)
-      return fault(S,
-                   Addresses[L] % 4 ? TrapCause::MisalignedStore
-                                    : TrapCause::StoreFault,
-                   L, Addresses[L]);
+      return faultAt(S, L, Addresses[L], 4);
     std::memcpy(&Olds[L], At, 4);
     const uint32_t New = applyAmo(Kind, Olds[L], Operands[L], Compares[L]);
     S->Count.Changes += New != Olds[L];
@@ -71,6 +84,36 @@ bool amoLanes(WarpState *S, const Insn *I, Function Find) {
   });
   if (Ok)
     writeLanes(S, I->Rd, Olds);
+  return Ok;
+}
+
+/// Compare-and-swap of 64 bits, likewise. On a stack the two words of a lane
+/// are not neighbours.
+template <typename Function>
+bool casPairs(WarpState *S, const Insn *I, Function Find) {
+  uint32_t Olds[2][MaxLanes] = {};
+  const uint32_t *Addresses = S->lanes(I->Rs1);
+  const uint32_t *News[] = {S->lanes(I->Rs2), S->lanes(highWord(I->Rs2))};
+  const uint32_t *Compares[] = {S->lanes(I->Rs3), S->lanes(highWord(I->Rs3))};
+  const bool Ok = forLanes(S, [&](unsigned L) {
+    const uint32_t Address = Addresses[L];
+    std::byte *Low = Address % 8 == 0 ? Find(Address) : nullptr;
+    std::byte *High = Low ? Find(Address + 4) : nullptr;
+    if (!High)
+      return faultAt(S, L, Address, 8);
+    std::memcpy(&Olds[0][L], Low, 4);
+    std::memcpy(&Olds[1][L], High, 4);
+    if (Olds[0][L] != Compares[0][L] || Olds[1][L] != Compares[1][L])
+      return true;
+    S->Count.Changes += Olds[0][L] != News[0][L] || Olds[1][L] != News[1][L];
+    std::memcpy(Low, &News[0][L], 4);
+    std::memcpy(High, &News[1][L], 4);
+    return true;
+  });
+  if (Ok) {
+    writeLanes(S, I->Rd, Olds[0]);
+    writeLanes(S, highWord(I->Rd), Olds[1]);
+  }
   return Ok;
 }
 
@@ -91,6 +134,8 @@ bool amoWhere(WarpState *S, const Insn *I, Amo Kind, Function Find) {
     VORION_AMO(Maxu)
     VORION_AMO(Cas)
 #undef VORION_AMO
+  case Amo::CasPair:
+    return casPairs(S, I, Find);
   }
   return false;
 }
@@ -117,6 +162,8 @@ Amo amoKind(const Insn *I) {
     return Amo::Minu;
   case Op::RV_AMOMAXU_W:
     return Amo::Maxu;
+  case Op::RV_AMOCAS_D:
+    return Amo::CasPair;
   default:
     return Amo::Cas;
   }
@@ -128,13 +175,14 @@ bool amoNow(WarpState *S, const Insn *I, Amo Kind) {
 }
 
 bool amoOrPark(WarpState *S, const Insn *I, Amo Kind) {
-  if (allLanesIn(S, I, S->Mem->Local))
+  if (allLanesIn(S, I, Kind, S->Mem->Local))
     return amoWhere(S, I, Kind,
                     [S](uint32_t Addr) { return S->Mem->Local.at(Addr); });
   // Additions commute, so their order among the cores does not show; other
   // kinds would, mixed on one word.
   for (const Region *Global : {&S->Mem->Global, &S->Mem->High}) {
-    if (Kind != Amo::Add || I->Rd != SinkOffset || !allLanesIn(S, I, *Global))
+    if (Kind != Amo::Add || I->Rd != SinkOffset ||
+        !allLanesIn(S, I, Kind, *Global))
       continue;
     return forLanes(S, [&](unsigned L) {
       auto *Word =

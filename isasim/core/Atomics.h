@@ -5,7 +5,23 @@
 
 namespace vorion::isasim {
 
-enum class Amo : uint8_t { Add, Swap, Xor, And, Or, Min, Max, Minu, Maxu, Cas };
+enum class Amo : uint8_t {
+  Add,
+  Swap,
+  Xor,
+  And,
+  Or,
+  Min,
+  Max,
+  Minu,
+  Maxu,
+  Cas,
+  CasPair ///< of 64 bits, in pairs of registers
+};
+
+/// The bytes of a lane that an atomic accesses. Vector levels ask at compile
+/// time only: they would share this function.
+constexpr unsigned bytesOf(Amo Kind) { return Kind == Amo::CasPair ? 8 : 4; }
 
 // False if the warp stops (WarpState::Why says why): the instruction has not
 // been executed.

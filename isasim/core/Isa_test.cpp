@@ -67,6 +67,10 @@ TEST(Isa, EncodeThenDecodeGivesTheFieldsBack) {
       default:
         F.Imm = static_cast<int32_t>(Random()) >> 20;
       }
+      if (Info.Pairs) {
+        F.Rd &= ~1U;
+        F.Rs2 &= ~1U;
+      }
       const auto D = decode(encode(O, F));
       ASSERT_TRUE(D) << Info.Mnemonic;
       EXPECT_EQ(D->Opcode, O) << Info.Mnemonic;
@@ -96,6 +100,15 @@ TEST(Isa, ReservedRoundingModesDoNotDecode) {
   for (const unsigned Rm : {5U, 6U})
     EXPECT_FALSE(decode(encode(Op::RV_FADD_S, {.Rd = 1, .Rm = Rm})));
   EXPECT_TRUE(decode(encode(Op::RV_FADD_S, {.Rd = 1, .Rm = 4})));
+}
+
+TEST(Isa, PairsOfOddRegistersDoNotDecode) {
+  const uint32_t Word =
+      encode(Op::RV_AMOCAS_D, {.Rd = 10, .Rs1 = 11, .Rs2 = 12});
+  EXPECT_EQ(disassemble(Word, 0), "amocas.d\ta0, a2, (a1)");
+  EXPECT_FALSE(decode(Word | 1U << 7));
+  EXPECT_FALSE(decode(Word | 1U << 20));
+  EXPECT_TRUE(decode(Word | 1U << 15)); // the address is one register
 }
 
 TEST(Isa, LoadReservedDoesNotDecode) {

@@ -389,6 +389,75 @@ TEST(Memory, CompareAndSwapWithX0ComparesWithZero) {
   }
 }
 
+TEST(Memory, CompareAndSwapOfPairsComparesBothWords) {
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_AMOCAS_D, {.Rd = 12, .Rs1 = 10, .Rs2 = 14})});
+    Lanes16 Addresses, Low{}, High{}, NewHigh;
+    Addresses.fill(VX_LOCAL_BASE + 8);
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      NewHigh[L] = L + 1;
+    High = {0, 1, 7, 2, 3}; // lane 2 is wrong in the high word,
+    Low[3] = 5;             // lane 3 in the low one
+    R.setX(10, Addresses);
+    R.setX(12, Low);
+    R.setX(13, High);
+    R.setX(14, Lanes16{});
+    R.setX(15, NewHigh);
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    uint32_t Got[4] = {};
+    std::memcpy(Got, R.warp().Mem->Local.at(VX_LOCAL_BASE), sizeof(Got));
+    EXPECT_EQ(std::to_array(Got), (std::array{0U, 0U, 0U, 2U}));
+    EXPECT_EQ(R.getX(12), Lanes16{});
+    EXPECT_EQ(R.getX(13),
+              (Lanes16{0, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2}));
+  }
+}
+
+TEST(Memory, AtomicsOfPairsReachEachLanesStack) {
+  // The two words of a lane are not neighbours on the host.
+  for (const ExecTable *Table : allTables()) {
+    WarpRunner R(*Table,
+                 {encode(Op::RV_AMOCAS_D, {.Rd = 0, .Rs1 = 10, .Rs2 = 14}),
+                  encode(Op::RV_LW, {.Rd = 6, .Rs1 = 10}),
+                  encode(Op::RV_LW, {.Rd = 7, .Rs1 = 10, .Imm = 4})});
+    Lanes16 Places, Low, High;
+    for (uint32_t L = 0; L != MaxLanes; ++L) {
+      Places[L] = VX_STACK_TOP - L * R.Shape.StackBytes - 16;
+      Low[L] = L + 1;
+      High[L] = 100 + L;
+    }
+    R.setX(10, Places);
+    R.setX(14, Low);
+    R.setX(15, High);
+    R.run();
+    ASSERT_EQ(R.warp().Why, Stop::Atomic);
+    ASSERT_TRUE(amoNow(&R.warp(), R.warp().Next, amoKind(R.warp().Next)));
+    Core::complete(R.warp());
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    EXPECT_EQ(R.getX(6), Low);
+    EXPECT_EQ(R.getX(7), High);
+  }
+}
+
+TEST(Memory, AtomicsOfPairsWantEightBytes) {
+  for (const ExecTable *Table : allTables())
+    for (const uint32_t Address : {VX_LOCAL_BASE + 4, Buffer + 12}) {
+      WarpRunner R(*Table,
+                   {encode(Op::RV_AMOCAS_D, {.Rd = 0, .Rs1 = 10, .Rs2 = 14})});
+      Lanes16 Addresses;
+      Addresses.fill(Address);
+      R.setX(10, Addresses);
+      R.run();
+      ASSERT_EQ(R.warp().Why, Stop::Atomic);
+      EXPECT_FALSE(amoNow(&R.warp(), R.warp().Next, amoKind(R.warp().Next)));
+      EXPECT_EQ(R.cause(), TrapCause::MisalignedStore);
+      EXPECT_EQ(R.warp().FaultAddress, Address);
+    }
+}
+
 TEST(Memory, AtomicsOnGlobalMemoryPark) {
   const ExecTable &Table = execTable(false);
   Lanes16 Addresses, Ones;

@@ -175,6 +175,14 @@ void barrier(Model &M, Operands O) {
     M.Why = Id >> 31 ? Stop::GlobalBarrier : Stop::LocalBarrier;
 }
 
+/// The number of the word at an address, Words if there is none.
+unsigned wordAt(uint32_t Address) {
+  unsigned N = 0;
+  while (N != Words && wordAddress(N) != Address)
+    ++N;
+  return N;
+}
+
 /// Read, modify and write, one lane after the other.
 Step amo(
     std::function<uint32_t(uint32_t Old, uint32_t Operand, uint32_t Rd)> New) {
@@ -186,9 +194,7 @@ Step amo(
       const uint32_t Address = M.X[O.Rs1][L];
       if (Address % 4 != 0)
         return M.trap(TrapCause::MisalignedStore, L);
-      unsigned N = 0;
-      while (N != Words && wordAddress(N) != Address)
-        ++N;
+      const unsigned N = wordAt(Address);
       if (N == Words)
         return M.trap(TrapCause::StoreFault, L);
       Olds[L] = M.Memory[N];
@@ -196,6 +202,33 @@ Step amo(
     }
     eachLane(M, O.Rd, [&](unsigned L) { return Olds[L]; });
   };
+}
+
+/// amocas.d: registers of two words, of which x0 is none.
+void swapPair(Model &M, Operands O) {
+  std::array<std::array<uint32_t, MaxLanes>, 2> Olds{};
+  const auto Word = [&](unsigned Register, unsigned Half, unsigned L) {
+    return Register == 0 ? 0 : M.X[Register + Half][L];
+  };
+  for (unsigned L = 0; L != MaxLanes; ++L) {
+    if (!M.active(L))
+      continue;
+    const uint32_t Address = M.X[O.Rs1][L];
+    if (Address % 8 != 0)
+      return M.trap(TrapCause::MisalignedStore, L);
+    const unsigned N = wordAt(Address);
+    if (N == Words)
+      return M.trap(TrapCause::StoreFault, L);
+    bool Same = true;
+    for (unsigned Half = 0; Half != 2; ++Half) {
+      Olds[Half][L] = M.Memory[N + Half];
+      Same &= Olds[Half][L] == Word(O.Rd, Half, L);
+    }
+    for (unsigned Half = 0; Same && Half != 2; ++Half)
+      M.Memory[N + Half] = Word(O.Rs2, Half, L);
+  }
+  for (unsigned Half = 0; O.Rd != 0 && Half != 2; ++Half)
+    eachLane(M, O.Rd + Half, [&](unsigned L) { return Olds[Half][L]; });
 }
 
 int32_t s(uint32_t V) { return static_cast<int32_t>(V); }
@@ -273,6 +306,7 @@ const std::map<Op, Step> &models() {
        amo([](auto Old, auto V, auto) { return V > Old ? V : Old; })},
       {Op::RV_AMOCAS_W,
        amo([](auto Old, auto V, auto Rd) { return Old == Rd ? V : Old; })},
+      {Op::RV_AMOCAS_D, swapPair},
   };
   return Table;
 }
@@ -305,9 +339,37 @@ public:
   uint32_t mask(unsigned N) {
     return N < MaxLanes ? 1U << N : N == MaxLanes ? 0xFFFF : any() % 0xFFFF + 1;
   }
-  unsigned registerNumber() { return Random() % 6 * (Random() % 6); }
+  /// rd and rs2 of an instruction with pairs are even.
+  Operands operands() {
+    Operands Where{registerNumber(), registerNumber(), registerNumber()};
+    if (isPair()) {
+      Where.Rd &= ~1U;
+      Where.Rs2 &= ~1U;
+    }
+    return Where;
+  }
+  /// In half of the lanes, what compare-and-swap compares with becomes what is
+  /// there.
+  void expect(Model &M, Operands Where) {
+    if ((O != Op::RV_AMOCAS_W && !isPair()) || Where.Rd == 0 ||
+        Where.Rs1 / 2 == Where.Rd / 2)
+      return;
+    for (unsigned L = 0; L != MaxLanes; ++L)
+      if (const unsigned N = wordAt(M.X[Where.Rs1][L]);
+          N != Words && Random() % 2) {
+        M.X[Where.Rd][L] = M.Memory[N];
+        if (isPair() && N % 2 == 0)
+          M.X[Where.Rd + 1][L] = M.Memory[N + 1];
+      }
+  }
 
 private:
+  unsigned registerNumber() { return Random() % 6 * (Random() % 6); }
+  bool isPair() const { return O == Op::RV_AMOCAS_D; }
+  /// One of the first \p Count words that the atomic can access.
+  uint32_t anyWord(unsigned Count) {
+    return wordAddress(isPair() ? Random() % Count & ~1U : Random() % Count);
+  }
   uint32_t any() { return static_cast<uint32_t>(Random()); }
   void fillRegister(uint32_t *Register) {
     const uint32_t Same = value();
@@ -316,14 +378,12 @@ private:
     const bool Faulty = Random() % 8 == 0;
     for (unsigned L = 0; L != MaxLanes; ++L)
       if (isAmo(O) && Random() % 2)
-        Register[L] =
-            Faulty && Random() % 8 == 0 ? any() : wordAddress(Random() % Words);
+        Register[L] = Faulty && Random() % 8 == 0 ? any() : anyWord(Words);
       else
         Register[L] = Alike ? Same : value();
     if (isAmo(O) && !Faulty && Random() % 2)
       for (unsigned L = 0; L != MaxLanes; ++L)
-        Register[L] =
-            wordAddress(Random() % (Random() % 2 ? Words : Words / 2));
+        Register[L] = anyWord(Random() % 2 ? Words : Words / 2);
   }
   /// Where no memory is, so that it can stand for an address.
   uint32_t nowhere() {
@@ -430,6 +490,7 @@ void check(const ExecTable &Table, Op O, Operands Where, Values &Source) {
   for (unsigned N = 0; N != Masks; ++N) {
     Model M;
     Source.fill(M);
+    Source.expect(M, Where);
     M.Mask = Source.mask(N);
     M.Whole = N % 3 ? M.Mask : M.Mask | Source.mask(MaxLanes + 1);
     load(R, M);
@@ -456,10 +517,7 @@ TEST(SimtModel, EveryInstructionOnEveryMask) {
     for (const auto &[O, Step] : models()) {
       Values Source(O);
       for (int Try = 0; Try != 24; ++Try) {
-        check(*Table, O,
-              {Source.registerNumber(), Source.registerNumber(),
-               Source.registerNumber()},
-              Source);
+        check(*Table, O, Source.operands(), Source);
         if (::testing::Test::HasFatalFailure())
           return;
       }

@@ -35,7 +35,7 @@ using Handler = void (*)(WarpState *S, const Insn *I, const Insn *Start);
 struct Insn {
   Handler Run[2]; ///< indexed by WarpState::Full
   /// Byte offsets of operands in WarpState. Rs3 is the destination's old value
-  /// where an instruction reads it (amocas.w).
+  /// where an instruction reads it (amocas).
   uint16_t Rd, Rs1, Rs2, Rs3;
   int32_t Imm; ///< branches and jal: bytes to the target
   uint32_t Word;

@@ -1,5 +1,6 @@
 #include "core/Watch.h"
 
+#include "core/Atomics.h"
 #include "core/Core.h"
 #include "core/Observing.h"
 
@@ -25,7 +26,7 @@ bool describeAccess(const Decoded &D, MemoryAccess &A) {
 #define AMO(OP, KIND)                                                          \
   case Op::OP:                                                                 \
     A.What = MemoryAccess::Atomic;                                             \
-    A.Bytes = 4;                                                               \
+    A.Bytes = bytesOf(Amo::KIND);                                              \
     return true;
 #include "core/insns/memory.def"
 #undef LOAD
@@ -84,12 +85,16 @@ void Watch::commit(WarpState *S, const Insn *I) {
   const Pending &P = pendingOf(S);
   const Decoded &D = Insns[static_cast<size_t>(I - S->Code)];
   const bool HasResult = I->Rd != SinkOffset;
-  const Commit What{{S->Owner->id(), S->WarpId, S->pcOf(I), I->Word, P.LaneMask,
-                     P.Retired, D, P.HasAccess ? &P.Access : nullptr, *S},
-                    HasResult
-                        ? std::span<const uint32_t>(S->lanes(I->Rd), MaxLanes)
-                        : std::span<const uint32_t>(),
-                    S->Count.DivergentSplits != P.DivergentSplits};
+  const auto Result = [&](bool Has, unsigned Offset) {
+    return Has ? std::span<const uint32_t>(S->lanes(Offset), MaxLanes)
+               : std::span<const uint32_t>();
+  };
+  const Commit What{
+      {S->Owner->id(), S->WarpId, S->pcOf(I), I->Word, P.LaneMask, P.Retired, D,
+       P.HasAccess ? &P.Access : nullptr, *S},
+      Result(HasResult, I->Rd),
+      Result(HasResult && D.info().Pairs, I->Rd + sizeof(LaneWords)),
+      S->Count.DivergentSplits != P.DivergentSplits};
   tell([&](Observer &O) { O.commit(What); });
 }
 

@@ -38,7 +38,7 @@ constexpr size_t LongestLine = 64 << 10;
 
 void traceAtomic(WarpState &S) {
   traceParked(&S, S.Next, Event::Atomic);
-  traceAccess(&S, S.lanes(S.Next->Rs1), 4, false, true);
+  traceAccess(&S, S.lanes(S.Next->Rs1), bytesOf(amoKind(S.Next)), false, true);
 }
 
 void traceBarrier(WarpState &S) {

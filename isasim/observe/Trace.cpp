@@ -141,9 +141,10 @@ void Trace::runBegins(const RunStart &R) {
 void Trace::commit(const Commit &C) {
   if (wants(Category::insn) ||
       (wants(Category::simt) && isSimt(C.Insn.Opcode))) {
-    std::string Result = laneWords(C.Result, C.LaneMask);
-    if (!Result.empty())
-      Result = " ->" + Result;
+    std::string Result;
+    for (const std::span<const uint32_t> Register : {C.Result, C.HighResult})
+      if (!Register.empty())
+        Result += " ->" + laneWords(Register, C.LaneMask);
     const Texts &T = textsOf(C);
     append(Out, "{} {}.{} {} {:04x} {}{}\n",
            wants(Category::insn) ? "insn" : "simt", C.Core, C.Warp, T.Place,

@@ -162,6 +162,26 @@ TEST_F(ClockTest, AtomicsOfOneWordTakeTurns) {
       << "15 more turns, and the lui";
 }
 
+TEST_F(ClockTest, BothWordsOfAPairAreWaitedFor) {
+  // x6 is 0 to 15; local memory is zero, so lane 0 alone swaps.
+  const auto Use = [&](unsigned Register) {
+    return cost(1, {addi(12, 0, 0), addi(13, 0, 0), lui(8, VX_LOCAL_BASE),
+                    encode(Op::RV_AMOCAS_D, {.Rd = 12, .Rs1 = 8, .Rs2 = 0}),
+                    addi(14, Register, 0)});
+  };
+  EXPECT_GT(Use(12), Use(15));
+  EXPECT_EQ(Use(13), Use(12));
+  // Likewise both words that are written.
+  const auto Give = [&](unsigned Register) {
+    return cost(1, {addi(12, 0, 0), addi(13, 0, 0), lui(8, VX_LOCAL_BASE),
+                    encode(Op::RV_DIV, {.Rd = Register, .Rs1 = 6, .Rs2 = 6}),
+                    encode(Op::RV_AMOCAS_D, {.Rd = 12, .Rs1 = 8, .Rs2 = 10})});
+  };
+  EXPECT_GT(Give(10), Give(15));
+  EXPECT_EQ(Give(11), Give(10));
+  EXPECT_EQ(Give(13), Give(12));
+}
+
 TEST_F(ClockTest, CoresWaitAtABarrier) {
   Settings = timed(4);
   // Core n does 100 n additions, then all meet.

@@ -170,7 +170,7 @@ void CoreClock::startRun(WarpTime &W, const RunRecord &R) {
 }
 
 bool CoreClock::waitForOperands(const OpInfo &O) {
-  unsigned Latest = O.Rd;
+  unsigned Latest = Ready[O.HighRd] > Ready[O.Rd] ? O.HighRd : O.Rd;
   for (const uint8_t S : O.Sources)
     if (Ready[S] > Ready[Latest])
       Latest = S;
@@ -285,6 +285,7 @@ uint64_t CoreClock::localAccess(const OpInfo &O, AccessWord A) {
       Next + std::max<uint64_t>(A.Conflicts, O.Interval);
   LocalConflicts += A.Conflicts - 1;
   setReady(O.Rd, Done + O.Latency, CoreCycle::Local);
+  setReady(O.HighRd, Done + O.Latency, CoreCycle::Local);
   finish(O);
   return Done;
 }
@@ -542,10 +543,11 @@ bool CoreClock::access(MemorySystem &Memory) {
 
 /// An access \p O of \p W is done at \p Done, if that is known.
 void CoreClock::setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done) {
-  if (Done == Turn::Never)
-    return setReady(W, O.Rd, Done, CoreCycle::Memory);
-  LastDone = std::max(LastDone, Done);
-  setReady(W, O.Rd, Done + O.Latency, CoreCycle::Memory);
+  const bool IsKnown = Done != Turn::Never;
+  if (IsKnown)
+    LastDone = std::max(LastDone, Done);
+  for (const unsigned Register : {O.Rd, O.HighRd})
+    setReady(W, Register, IsKnown ? Done + O.Latency : Done, CoreCycle::Memory);
 }
 
 /// The lines that the load at \p Place asked memory for come at \p Then.

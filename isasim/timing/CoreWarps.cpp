@@ -35,7 +35,7 @@ bool CoreClock::atSpawn(const WarpTime &W) const {
 uint64_t CoreClock::earliestIssue(const WarpTime &W, const RunRecord &R) const {
   const OpInfo &O = (*Ops)[R.First + W.Position];
   uint64_t Then = std::max(Next, W.Fetched);
-  Then = std::max(Then, W.Ready[O.Rd]);
+  Then = std::max({Then, W.Ready[O.Rd], W.Ready[O.HighRd]});
   for (const uint8_t S : O.Sources)
     Then = std::max(Then, W.Ready[S]);
   switch (O.Class) {

@@ -186,6 +186,12 @@ std::vector<OpInfo> describeProgram(const CodeTable &Code,
     // Where the third is no source it is the destination, which an instruction
     // waits for anyway.
     O.Sources[2] = D && D->info().Fmt == Format::R4 ? Register(I.Rs3) : 0;
+    if (D && D->info().Pairs) {
+      if (D->Rd != 0)
+        O.HighRd = O.Rd + 1;
+      if (D->Rs2 != 0)
+        O.Sources[2] = O.Sources[1] + 1;
+    }
     O.Spawns = D && D->Opcode == Op::VX_WSPAWN;
     setCost(O, D ? D->Opcode : Op::RV_ADDI, Params, Lanes);
   }

@@ -20,7 +20,9 @@ enum class Port : uint8_t { Alu, Sfu, Lsu, Fpu, Count };
 struct OpInfo {
   OpClass Class = OpClass::Alu;
   Port On = Port::Alu;
-  uint8_t Rd = 0;     ///< SinkRegister for none
+  uint8_t Rd = 0; ///< SinkRegister for none
+  /// The one behind it where an atomic has a pair, which it reads, too.
+  uint8_t HighRd = SinkRegister;
   uint8_t Sources[3]; ///< 0 (x0) for none
   /// Cycles from its beginning until what uses its result can issue. Of loads,
   /// from the memory's answer.

@@ -18,6 +18,10 @@
 # The atomic waits until all cores have stopped.
 # CHECK: insn 0.0 {{.*}} 0005 amoadd.w a4, a1, (a3) -> 00000000
 # CHECK-NEXT: mem 0.0 {{.*}} 0005 atomic 4 00010000
+# A pair of registers has both its words.
+# CHECK-NEXT: insn 0.0 {{.*}} 0005 addi a7, zero, 3 -> 00000003
+# CHECK-NEXT: insn 0.0 {{.*}} 0005 amocas.d a6, zero, (a3) -> 00000002 -> 00000000
+# CHECK-NEXT: mem 0.0 {{.*}} 0005 atomic 8 00010000
 # CHECK-NEXT: insn 0.0 {{.*}} 0005 vx_tmc zero
 # CHECK: end done exit 0 instructions {{[0-9]+}}
 
@@ -42,5 +46,7 @@ _start:
   sw a2, 0x40(zero)
   li a3, 0x10000
   amoadd.w a4, a1, (a3)
+  li a7, 3
+  amocas.d a6, zero, (a3)
 1:
   vx_tmc zero

@@ -103,10 +103,8 @@ void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
           Earlier.Pc);
 }
 
-void RaceCheck::access(const Commit &C, unsigned Lane) {
-  const uint32_t Address = C.Access->Addresses[Lane];
-  if (!isShared(Address))
-    return;
+/// The part of a lane's access that lies in the word of \p Address.
+void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
   const bool IsAtomic = C.Access->What == MemoryAccess::Atomic;
   const CoreState &Own = Cores[C.Core];
   Access Now;
@@ -192,7 +190,9 @@ void RaceCheck::commit(const Commit &C) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
     if (IsAtomic && Where.kindOf(C.Access->Addresses[L]) != Places::Local)
       synchronise(C.Access->Addresses[L], C.Core);
-    access(C, L);
+    if (isShared(C.Access->Addresses[L]))
+      for (uint32_t N = 0; N < C.Access->Bytes; N += 4)
+        accessWord(C, L, C.Access->Addresses[L] + N);
   }
   if (IsAtomic)
     ++Cores[C.Core].Now;

@@ -59,7 +59,7 @@ private:
   bool isOrdered(const Access &Earlier, const Access &Now, bool IsLocal) const;
   void check(const Commit &C, unsigned Lane, const Access &Earlier,
              const Access &Now, bool EarlierWrites);
-  void access(const Commit &C, unsigned Lane);
+  void accessWord(const Commit &C, unsigned Lane, uint32_t Address);
   void synchronise(uint32_t Address, unsigned Core);
   void deviceBarrier(unsigned Core);
   uint32_t withoutRepeats(const Commit &C) const;

@@ -159,8 +159,11 @@ void UninitCheck::checkUses(const Step &S, Warp &W) {
   if (!S.Access)
     return;
   use(S, W, D.Rs1, AllLanes, "access to an address");
-  if (S.Access->What == MemoryAccess::Atomic)
-    use(S, W, D.Rs2, AllLanes, "atomic with a value");
+  if (S.Access->What != MemoryAccess::Atomic)
+    return;
+  use(S, W, D.Rs2, AllLanes, "atomic with a value");
+  if (Info.Pairs && D.Rs2 != 0)
+    use(S, W, D.Rs2 + 1, AllLanes, "atomic with a value");
 }
 
 uint32_t UninitCheck::load(const Step &S) {
@@ -253,8 +256,10 @@ void UninitCheck::commit(const Commit &C) {
   const int Rd = place(Info.Rd, C.Insn.Rd);
   if (Rd <= 0)
     return;
-  uint32_t &Good = W.Good[static_cast<size_t>(Rd)];
-  Good = (Good & ~C.LaneMask) | (W.Result & C.LaneMask);
+  const size_t Registers = Info.Pairs ? 2 : 1;
+  for (uint32_t &Good :
+       std::span(W.Good).subspan(static_cast<size_t>(Rd), Registers))
+    Good = (Good & ~C.LaneMask) | (W.Result & C.LaneMask);
   if (Rd == StackRegister && !C.Result.empty())
     moveStack(C, W);
 }

@@ -314,6 +314,13 @@ void CoreShadow::commitAtomic(const Commit &C, Warp &W) {
   const Operand &Value = W.In[1], &Compare = W.In[2];
   const int Rd = shadowPlace(File::X, C.Insn.Rd);
   drop(W, Rd, C.LaneMask);
+  if (C.Insn.info().Pairs) { // 64 bits are no fp32 value
+    if (Rd >= 0)
+      drop(W, Rd + 1, C.LaneMask);
+    return forLanes(C.LaneMask, [&](unsigned L) {
+      Memory.drop(C.Core, addressOf(C, L), C.Access->Bytes);
+    });
+  }
   const OwnRounding Own;
   Values V{};
   uint32_t Lanes = 0;

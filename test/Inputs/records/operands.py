@@ -20,6 +20,7 @@ NOT_AN_OPERAND = "invalid operand for instruction"
 NOT_A_CSR = "operand must be a valid system register name or an integer in the range [0, 4095]"
 RANGE5 = "immediate must be an integer in the range [0, 31]"
 X_REGISTERS = {"rd": ("a0", 10 << 7), "rs1": ("t2", 7 << 15), "rs2": ("s3", 19 << 20)}
+PAIRS = {"rd": ("a0", 10 << 7), "rs2": ("s4", 20 << 20)}
 F_REGISTERS = {"frd": ("fa0", 10 << 7), "frs1": ("ft7", 7 << 15), "frs2": ("fs3", 19 << 20), "frs3": ("ft10", 30 << 27)}
 
 
@@ -39,8 +40,11 @@ IMMEDIATE = 0x5A5
 RANGE12 = r"{{.*}}in the range [-2048, 2047]"
 
 
-def operand(name, form, ours):
-    """ours: an instruction of ours, of which more is known to be wrong (LLVM has aliases with immediates)."""
+def operand(name, form, ours, pairs):
+    """ours: an instruction of ours, of which more is known to be wrong (LLVM has aliases with immediates).
+    pairs: rd and rs2 are the even ones of two registers."""
+    if pairs and name in PAIRS:
+        return Operand(*PAIRS[name], (("fa1", NOT_AN_OPERAND), ("a1", "register must be even")))
     if name in X_REGISTERS:
         text, bits = X_REGISTERS[name]
         # An alias with an immediate there names the immediate's range.
@@ -88,7 +92,7 @@ class Line:
             syntax = ", ".join(x for x in (record.Outs, record.Ins) if x)
         self.mnemonic = record.Mnemonic
         self.pieces = re.findall(r"[a-z0-9]+|[^a-z0-9]+", syntax)
-        self.operands = {p: operand(p, record.Fmt.id, self.ours) for p in self.pieces if p[0].isalpha()}
+        self.operands = {p: operand(p, record.Fmt.id, self.ours, record.Pairs) for p in self.pieces if p[0].isalpha()}
         self.word = record.Match & 0xFFFFFFFF
         for o in self.operands.values():
             self.word |= o.bits

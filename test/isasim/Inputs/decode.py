@@ -45,7 +45,7 @@ for line in listing.splitlines():
         theirs[int(match[1], 16)] = re.sub(r"\s*<[^>]*>$", "", match[2].removesuffix(", dyn")).strip() or "<unknown>"
 
 # What the machine leaves out, and privileged instructions.
-left_out = re.compile(r"(lr\.w|sc\.w|amocas\.d|mret|sret|wfi|sfence|hfence|hinval|sinval|fence|unimp|dret|mnret|ebreak|"
+left_out = re.compile(r"(lr\.w|sc\.w|mret|sret|wfi|sfence|hfence|hinval|sinval|fence|unimp|dret|mnret|ebreak|"
                       r"ecall|hlv|hsv)")
 
 

@@ -41,7 +41,7 @@ struct RunStart {
 /// The memory that one instruction accesses.
 struct MemoryAccess {
   enum Kind : uint8_t { Load, Store, Atomic } What = Load;
-  unsigned Bytes = 0; ///< a lane: 1, 2 or 4
+  unsigned Bytes = 0; ///< a lane: 1, 2, 4 or 8
   /// By lane; those of lanes that are not active say nothing.
   std::array<uint32_t, 16> Addresses{};
 };
@@ -66,6 +66,8 @@ struct Step {
 struct Commit : Step {
   /// The destination register by lane, empty if there is none.
   std::span<const uint32_t> Result;
+  /// Likewise the register behind it, where the two are a pair.
+  std::span<const uint32_t> HighResult;
   /// A vx_split or vx_pred whose lanes went different ways.
   bool Diverged;
 };
