@@ -176,6 +176,6 @@ bool vorion::expandWithoutBranch(MachineInstr &MI,
 bool vorion::expandsToCompareExchange(const AtomicRMWInst &Operation,
                                       const RISCVSubtarget &Subtarget) {
   return Subtarget.hasVendorXVortex() &&
-         (Operation.getType()->getPrimitiveSizeInBits() < 32 ||
+         (Operation.getType()->getPrimitiveSizeInBits() != 32 ||
           Operation.getOperation() == AtomicRMWInst::Nand);
 }

@@ -15,6 +15,7 @@ namespace llvm {
 class AtomicRMWInst;
 class Function;
 class FunctionPass;
+class Instruction;
 class MachineInstr;
 class Pass;
 class PassBuilder;
@@ -24,6 +25,7 @@ class SDNode;
 class SDValue;
 class SelectionDAG;
 class Value;
+template <typename T> class SmallVectorImpl;
 
 namespace vorion {
 
@@ -53,6 +55,18 @@ bool expandWithoutBranch(MachineInstr &MI, const RISCVSubtarget &Subtarget);
 /// amo*.w cannot do, so that selection never makes LR/SC.
 bool expandsToCompareExchange(const AtomicRMWInst &Operation,
                               const RISCVSubtarget &Subtarget);
+
+/// Whether there are atomics of 64 bits (WideAtomics.cpp): a compare-and-swap
+/// of a pair of registers, and loops around it.
+bool hasWideAtomics(const RISCVSubtarget &Subtarget);
+
+/// Whether \p Access, a load or store, is of that size.
+bool isWideAtomic(const Instruction &Access, const RISCVSubtarget &Subtarget);
+
+/// Replaces a compare-and-swap of 64 bits with its instruction. False if
+/// \p Node is something else.
+bool replaceWideCompareExchange(SDNode *Node, SmallVectorImpl<SDValue> &Results,
+                                SelectionDAG &DAG);
 
 /// A module compiled for our machine is so in all its functions: bitcode from
 /// another front end (PoCL's) carries feature lists that do not know it. Puts
