@@ -77,6 +77,13 @@
   CHANGE(Q, _fetch_min, T, T)                                                  \
   CHANGE(Q, _fetch_max, T, T)
 
+/* Of intptr_t and uintptr_t, with an operand of the other sign. */
+#define MIXED(Q, OPERAND, T)                                                   \
+  CHANGE(Q, _fetch_or, OPERAND, T)                                             \
+  CHANGE(Q, _fetch_xor, OPERAND, T)                                            \
+  CHANGE(Q, _fetch_and, OPERAND, T)                                            \
+  CHANGE(Q, _fetch_min, OPERAND, T)
+
 /* E: the address space of what is expected. STRENGTH: _strong or _weak. */
 #define COMPARE(Q, E, STRENGTH, T)                                             \
   bool _CL_OVERLOADABLE atomic_compare_exchange##STRENGTH##_explicit(          \
@@ -149,5 +156,7 @@
   /* uintptr_t and ptrdiff_t */                                                \
   CHANGE(Q, _fetch_add, int, uint)                                             \
   CHANGE(Q, _fetch_sub, int, uint)                                             \
+  MIXED(Q, int, uint)                                                          \
+  MIXED(Q, uint, int)                                                          \
   FLAG(Q)
 FOR_SPACES(ALL_OF)
