@@ -2,7 +2,7 @@
 # and for what the device says of itself.
 
 set(VORION_OPENCL_EXTENSIONS
-    cl_khr_3d_image_writes cl_khr_depth_images cl_khr_byte_addressable_store
+    cl_khr_3d_image_writes cl_khr_srgb_image_writes cl_khr_depth_images cl_khr_byte_addressable_store
     cl_khr_global_int32_base_atomics cl_khr_global_int32_extended_atomics
     cl_khr_local_int32_base_atomics cl_khr_local_int32_extended_atomics
     cl_khr_int64_base_atomics cl_khr_int64_extended_atomics

@@ -53,6 +53,14 @@ static uchar *address(image_p image, int4 at) {
     bits.w = ((const TYPE *)from)[3];                                          \
   }
 
+static int is_blue_first(image_p image) {
+  return image->_order == CLK_BGRA || image->_order == CLK_sBGRA;
+}
+
+static int is_srgb(image_p image) {
+  return image->_order == CLK_sRGBA || image->_order == CLK_sBGRA;
+}
+
 /* Of a texel that is not in the image, 0: with opaque(), its colour is the
  * border's. */
 static uint4 texel(image_p image, int4 at, int4 size) {
@@ -71,7 +79,7 @@ static uint4 texel(image_p image, int4 at, int4 size) {
   default:
     LOAD_CHANNELS(uint)
   }
-  return image->_order == CLK_BGRA ? bits.zyxw : bits;
+  return is_blue_first(image) ? bits.zyxw : bits;
 }
 
 /* Formats without alpha are read with an alpha of 1. */
@@ -82,12 +90,32 @@ static int4 extend_sign(uint4 bits, int bytes) {
   return as_int4(bits << unused) >> unused;
 }
 
+/* The linear values of a channel of sRGB in half steps, n / 510: each second is
+   that of a channel's bits, and those between are where rounding changes. */
+constant float srgb_steps[511] = {
+#include "srgb_steps.h"
+};
+
+static float4 from_srgb(uint4 bits) {
+  return (float4)(srgb_steps[2 * bits.x], srgb_steps[2 * bits.y],
+                  srgb_steps[2 * bits.z], (float)bits.w / 255.0f);
+}
+
+/* The channel's bits that are nearest: as many as borders between two lie
+   below. */
+static uint to_srgb(float value) {
+  uint bits = 0;
+  for (uint part = 128; part; part /= 2)
+    bits += value >= srgb_steps[2 * (bits + part) - 1] ? part : 0;
+  return bits;
+}
+
 static float4 texel_f(image_p image, int4 at, int4 size) {
   const uint4 bits = texel(image, at, size);
   float4 color;
   switch (image->_data_type) {
   case CLK_UNORM_INT8:
-    color = convert_float4(bits) / 255.0f;
+    color = is_srgb(image) ? from_srgb(bits) : convert_float4(bits) / 255.0f;
     break;
   case CLK_UNORM_INT16:
     color = convert_float4(bits) / 65535.0f;
@@ -274,10 +302,14 @@ LOOK_UP(uint4, ui)
 
 /* --- Writing. What lies outside is not written. */
 
-static uint4 bits_f(float4 color, int type) {
-  switch (type) {
-  case CLK_UNORM_INT8:
-    return convert_uint4(convert_uchar4_sat_rte(color * 255.0f));
+static uint4 bits_f(float4 color, image_p image) {
+  switch (image->_data_type) {
+  case CLK_UNORM_INT8: {
+    const uint4 bits = convert_uint4(convert_uchar4_sat_rte(color * 255.0f));
+    return is_srgb(image) ? (uint4)(to_srgb(color.x), to_srgb(color.y),
+                                    to_srgb(color.z), bits.w)
+                          : bits;
+  }
   case CLK_UNORM_INT16:
     return convert_uint4(convert_ushort4_sat_rte(color * 65535.0f));
   case CLK_SNORM_INT8:
@@ -294,12 +326,12 @@ static uint4 bits_f(float4 color, int type) {
   }
 }
 
-static uint4 bits_h(half4 color, int type) {
-  return bits_f(convert_float4(color), type);
+static uint4 bits_h(half4 color, image_p image) {
+  return bits_f(convert_float4(color), image);
 }
 
-static uint4 bits_i(int4 color, int type) {
-  switch (type) {
+static uint4 bits_i(int4 color, image_p image) {
+  switch (image->_data_type) {
   case CLK_SIGNED_INT8:
     return as_uint4(clamp(color, CHAR_MIN, CHAR_MAX));
   case CLK_SIGNED_INT16:
@@ -309,8 +341,8 @@ static uint4 bits_i(int4 color, int type) {
   }
 }
 
-static uint4 bits_ui(uint4 color, int type) {
-  switch (type) {
+static uint4 bits_ui(uint4 color, image_p image) {
+  switch (image->_data_type) {
   case CLK_UNSIGNED_INT8:
     return min(color, (uint)UCHAR_MAX);
   case CLK_UNSIGNED_INT16:
@@ -334,7 +366,7 @@ static void write_texel(image_p image, int4 at, uint4 bits, SHAPE) {
     return;
   uchar *to = address(image, at);
   const int channels = image->_num_channels;
-  if (image->_order == CLK_BGRA)
+  if (is_blue_first(image))
     bits = bits.zyxw;
   switch (image->_elem_size) {
   case 1:
@@ -377,8 +409,7 @@ static float4 _CL_OVERLOADABLE widen(float4 at) { return at; }
   void _CL_OVERLOADABLE write_image##SUFFIX(TYPE image, INTS coord,            \
                                             COLOR color) {                     \
     write_texel(IMAGE(image), widen(coord),                                    \
-                bits_##SUFFIX(color, IMAGE(image)->_data_type), DIMS,          \
-                LAYERED);                                                      \
+                bits_##SUFFIX(color, IMAGE(image)), DIMS, LAYERED);            \
   }
 #define FOR_EACH_COLOR(MACRO, ...)                                             \
   MACRO(__VA_ARGS__, float4, f)                                                \
@@ -423,8 +454,7 @@ FUNCTIONS_WITH_SAMPLERS(image3d_t, int4, float4, 3, 0)
 #define WRITE_DEPTH(TYPE, INTS, LAYERED)                                       \
   void _CL_OVERLOADABLE write_imagef(TYPE image, INTS coord, float depth) {    \
     write_texel(IMAGE(image), widen(coord),                                    \
-                bits_f((float4)(depth), IMAGE(image)->_data_type), 2,          \
-                LAYERED);                                                      \
+                bits_f((float4)(depth), IMAGE(image)), 2, LAYERED);            \
   }
 /* PoCL has these of all other types. */
 #define QUERY(TYPE, RESULT, NAME, VALUE)                                       \

@@ -334,6 +334,20 @@ TEST_F(ImageCommands, AFillColourIsRoundedAndSaturated) {
             (std::array<uint8_t, 4>{255, 1, 255, 0}));
 }
 
+TEST_F(ImageCommands, AFillColourOfSrgbIsLinear) {
+  constexpr cl_channel_order BlueFirst = 0x10C2; // CL_sBGRA of OpenCL 2.0
+  const cl::Image2D Image(Device.context(), CL_MEM_READ_WRITE,
+                          cl::ImageFormat(BlueFirst, CL_UNORM_INT8), 1, 1);
+  const cl_float4 Color = {{1, 0.2F, 0.001F, 0.5F}};
+  EXPECT_EQ(queue().enqueueFillImage(Image, Color, {0, 0, 0}, {1, 1, 1}),
+            CL_SUCCESS);
+  std::array<uint8_t, 4> Texel{};
+  EXPECT_EQ(queue().enqueueReadImage(Image, CL_TRUE, {0, 0, 0}, {1, 1, 1}, 0, 0,
+                                     Texel.data()),
+            CL_SUCCESS);
+  EXPECT_EQ(Texel, (std::array<uint8_t, 4>{3, 124, 255, 128}));
+}
+
 TEST_F(ImageCommands, ASamplerCanBeReleasedWhenItsKernelIsEnqueued) {
   std::string Log;
   const cl::Program Program = Device.build(R"(

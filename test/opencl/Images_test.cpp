@@ -85,6 +85,20 @@ uint32_t channelBits(const std::vector<uint8_t> &Texels, std::size_t Channel,
   return Bits;
 }
 
+/// Of OpenCL 2.0, whose names are hidden here.
+constexpr cl_channel_order SRgba = 0x10C1, SBgra = 0x10C2;
+
+bool isSrgb(cl_channel_order Order) { return Order == SRgba || Order == SBgra; }
+
+/// The standard's formulas, from a channel's value to the linear one and back.
+double fromSrgb(double S) {
+  return S <= 0.04045 ? S / 12.92 : std::pow((S + 0.055) / 1.055, 2.4);
+}
+double toSrgb(double Linear) {
+  return Linear < 0.0031308 ? 12.92 * Linear
+                            : 1.055 * std::pow(Linear, 1 / 2.4) - 0.055;
+}
+
 /// A texel as read_image gives it.
 std::array<double, 4> decodedTexel(const std::vector<uint8_t> &Texels,
                                    std::size_t Index, cl_image_format Format) {
@@ -94,7 +108,11 @@ std::array<double, 4> decodedTexel(const std::vector<uint8_t> &Texels,
   for (unsigned C = 0; C < Channels; ++C)
     Color[C] = decoded(channelBits(Texels, Index * Channels + C, Bytes),
                        Format.image_channel_data_type);
-  if (Format.image_channel_order == CL_BGRA)
+  if (isSrgb(Format.image_channel_order))
+    for (unsigned C = 0; C < 3; ++C)
+      Color[C] = fromSrgb(Color[C]);
+  if (Format.image_channel_order == CL_BGRA ||
+      Format.image_channel_order == SBgra)
     std::swap(Color[0], Color[2]);
   return Color;
 }
@@ -168,6 +186,12 @@ protected:
       return Format.image_channel_order == CL_DEPTH;
     });
     ASSERT_GE(Formats.size(), 11U);
+    for (const cl_channel_order Order : {SRgba, SBgra})
+      EXPECT_EQ(std::count_if(Formats.begin(), Formats.end(),
+                              [&](const cl::ImageFormat &Format) {
+                                return Format.image_channel_order == Order;
+                              }),
+                1);
   }
   TestDevice Device;
   cl::Program Program;
@@ -274,8 +298,13 @@ TEST_F(ImageFormats, EveryFormatIsWrittenAsTheStandardSays) {
     for (std::size_t I = 0; I < Texels; ++I) {
       const std::array<double, 4> Color = decodedTexel(Bytes, I, Format);
       for (unsigned C = 0; C < channelsOf(Format.image_channel_order); ++C) {
-        const double Wanted = saturated(valueOf(Colors[4 * I + C], Kind), Type);
-        ASSERT_NEAR(Color[C], Wanted, toleranceOf(Type, Wanted))
+        double Is = Color[C],
+               Wanted = saturated(valueOf(Colors[4 * I + C], Kind), Type);
+        if (isSrgb(Format.image_channel_order) && C < 3) {
+          Is = toSrgb(Is);
+          Wanted = toSrgb(Wanted);
+        }
+        ASSERT_NEAR(Is, Wanted, toleranceOf(Type, Wanted))
             << nameOf(Format) << ", channel " << C << " of texel " << I;
       }
     }

@@ -19,20 +19,24 @@ constexpr std::array Types = {
     CL_SIGNED_INT8,    CL_SIGNED_INT16,   CL_SIGNED_INT32, CL_UNSIGNED_INT8,
     CL_UNSIGNED_INT16, CL_UNSIGNED_INT32, CL_HALF_FLOAT,   CL_FLOAT};
 constexpr std::array Orders = {CL_R, CL_RG, CL_RGBA};
+/// Of CL_UNORM_INT8 alone.
+constexpr std::array OrdersOfBytes = {CL_BGRA, CL_sRGBA, CL_sBGRA};
 /// Behind all others, because only 2D images and their arrays have depths.
 constexpr std::array<cl_image_format, 2> Depths = {
     {{CL_DEPTH, CL_UNORM_INT16}, {CL_DEPTH, CL_FLOAT}}};
 
 /// The standard demands a third of these.
 constexpr auto Formats = [] {
-  std::array<cl_image_format, Orders.size() * Types.size() + 1 + Depths.size()>
+  std::array<cl_image_format, Orders.size() * Types.size() +
+                                  OrdersOfBytes.size() + Depths.size()>
       All{};
   size_t Count = 0;
   for (const int Order : Orders)
     for (const int Type : Types)
       All[Count++] = {static_cast<cl_channel_order>(Order),
                       static_cast<cl_channel_type>(Type)};
-  All[Count++] = {CL_BGRA, CL_UNORM_INT8};
+  for (const int Order : OrdersOfBytes)
+    All[Count++] = {static_cast<cl_channel_order>(Order), CL_UNORM_INT8};
   for (const cl_image_format &Depth : Depths)
     All[Count++] = Depth;
   return All;
