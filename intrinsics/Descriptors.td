@@ -38,7 +38,11 @@ def VxLaunch : Descriptor<"vx_launch", [
     DescField<"print_buffer", "u32", 1, "text of printf">,
     DescField<"print_capacity", "u32", 1, "bytes">,
     DescField<"print_used", "u32", 1, "bytes asked for so far; above the capacity means text was dropped">,
-    DescField<"variables", "u32", 1, "variables of program scope, 0 for none">
+    DescField<"variables", "u32", 1, "variables of program scope, 0 for none">,
+    DescField<"enqueued_size", "u32", 3, "of the whole range: work-items of all groups but the last">,
+    DescField<"groups_before", "u32", 3, "groups of the whole range before the launch's first">,
+    DescField<"all_groups", "u32", 3, "groups of the whole range">,
+    DescField<"global_size", "u32", 3, "work-items of the whole range">
   ], "What a kernel launch hands to every core (mscratch points to it).">;
 
 def VxKernel : Descriptor<"vx_kernel", [

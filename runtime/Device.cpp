@@ -34,6 +34,13 @@ isasim::LaunchShape shapeOf(const vx_launch_params &P) {
   std::ranges::copy(P.num_groups, S.NumGroups.begin());
   std::ranges::copy(P.local_size, S.LocalSize.begin());
   std::ranges::copy(P.global_offset, S.GlobalOffset.begin());
+  if (P.part_of) {
+    isasim::WholeRange &R = S.PartOf.emplace();
+    std::ranges::copy(P.part_of->enqueued_size, R.EnqueuedSize.begin());
+    std::ranges::copy(P.part_of->groups_before, R.GroupsBefore.begin());
+    std::ranges::copy(P.part_of->all_groups, R.AllGroups.begin());
+    std::ranges::copy(P.part_of->global_size, R.GlobalSize.begin());
+  }
   return S;
 }
 

@@ -63,6 +63,16 @@ template <typename T> std::span<std::byte> bytesOf(T &Value) {
   return std::as_writable_bytes(std::span(&Value, 1));
 }
 
+/// What \p S is a part of, perhaps all.
+WholeRange rangeOf(const LaunchShape &S) {
+  if (S.PartOf)
+    return *S.PartOf;
+  WholeRange R{.EnqueuedSize = S.LocalSize, .AllGroups = S.NumGroups};
+  for (unsigned I = 0; I != 3; ++I)
+    R.GlobalSize[I] = S.LocalSize[I] * S.NumGroups[I];
+  return R;
+}
+
 uint32_t address(uint64_t Part) { return static_cast<uint32_t>(Part); }
 
 } // namespace
@@ -105,6 +115,11 @@ void Launch::write(Machine &M, Session &Watch, const LaunchParts &Addresses,
   Block.PrintBuffer = address(Addresses.Print);
   Block.PrintCapacity = PrintBytes;
   Block.Variables = address(Addresses.Variables);
+  const WholeRange Range = rangeOf(Shape);
+  std::ranges::copy(Range.EnqueuedSize, Block.EnqueuedSize);
+  std::ranges::copy(Range.GroupsBefore, Block.GroupsBefore);
+  std::ranges::copy(Range.AllGroups, Block.AllGroups);
+  std::ranges::copy(Range.GlobalSize, Block.GlobalSize);
   M.write(address(Addresses.Block), bytesOf(Block));
   Watch.hostWrote(address(Addresses.Block), sizeof(Block));
   if (Args.empty())

@@ -113,6 +113,39 @@ TEST(Launch, LocalArgumentsLieBehindTheKernelsOwnMemory) {
   EXPECT_EQ(Places.used(), 264u);
 }
 
+TEST(Launch, TheBlockTellsOfTheWholeRange) {
+  const auto M = Machine::create(smallMachine());
+  const auto Watch = Session::create({}, "test");
+  ASSERT_TRUE(M && Watch);
+  const auto BlockOf = [&](const LaunchShape &S) {
+    const auto L = Launch::plan(someKernel(), S, (*M)->config());
+    EXPECT_TRUE(L);
+    L->write(**M, **Watch, {.Block = VX_GLOBAL_BASE}, {});
+    VxLaunch Block{};
+    std::memcpy(&Block, (*M)->hostPointer(VX_GLOBAL_BASE, sizeof(Block)),
+                sizeof(Block));
+    return Block;
+  };
+  const VxLaunch All =
+      BlockOf({.NumGroups = {3, 1, 1}, .LocalSize = {16, 1, 1}});
+  EXPECT_EQ(All.EnqueuedSize[0], 16u);
+  EXPECT_EQ(All.GroupsBefore[0], 0u);
+  EXPECT_EQ(All.AllGroups[0], 3u);
+  EXPECT_EQ(All.GlobalSize[0], 48u);
+  const VxLaunch Part =
+      BlockOf({.NumGroups = {1, 1, 1},
+               .LocalSize = {5, 1, 1},
+               .PartOf = WholeRange{.EnqueuedSize = {16, 1, 1},
+                                    .GroupsBefore = {2, 0, 0},
+                                    .AllGroups = {3, 1, 1},
+                                    .GlobalSize = {37, 1, 1}}});
+  EXPECT_EQ(Part.LocalSize[0], 5u);
+  EXPECT_EQ(Part.EnqueuedSize[0], 16u);
+  EXPECT_EQ(Part.GroupsBefore[0], 2u);
+  EXPECT_EQ(Part.AllGroups[0], 3u);
+  EXPECT_EQ(Part.GlobalSize[0], 37u);
+}
+
 TEST(Launch, VariablesBeginAsTheImageSays) {
   const auto M = Machine::create(smallMachine());
   const auto Watch = Session::create({}, "test");

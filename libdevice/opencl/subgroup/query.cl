@@ -11,8 +11,14 @@ uint _CL_OVERLOADABLE get_sub_group_id(void) {
   return get_local_linear_id() / vx_num_threads();
 }
 
+/* Of all groups but the last. */
+static uint enqueued_items(void) {
+  return get_enqueued_local_size(0) * get_enqueued_local_size(1) *
+         get_enqueued_local_size(2);
+}
+
 uint _CL_OVERLOADABLE get_max_sub_group_size(void) {
-  return min(vx_num_threads(), group_items());
+  return min(vx_num_threads(), enqueued_items());
 }
 
 uint _CL_OVERLOADABLE get_sub_group_size(void) {
@@ -25,9 +31,9 @@ uint _CL_OVERLOADABLE get_num_sub_groups(void) {
   return (group_items() + lanes - 1) / lanes;
 }
 
-/* Groups of one launch have one size. */
 uint _CL_OVERLOADABLE get_enqueued_num_sub_groups(void) {
-  return get_num_sub_groups();
+  const uint lanes = vx_num_threads();
+  return (enqueued_items() + lanes - 1) / lanes;
 }
 
 /* The lanes of a warp step together, and a core's accesses are in order. */

@@ -199,12 +199,21 @@ vx_status vx_variables_alloc(vx_image *image, uint32_t kernel,
 
 /* --- Runs ---------------------------------------------------------------- */
 
+/* The range that a launch is a part of. */
+typedef struct vx_whole_range {
+  uint32_t enqueued_size[3]; /* work-items of all groups but the last */
+  uint32_t groups_before[3]; /* the launch's first */
+  uint32_t all_groups[3];
+  uint32_t global_size[3]; /* work-items */
+} vx_whole_range;
+
 typedef struct vx_launch_params {
   uint32_t work_dim;      /* 1 to 3 */
   uint32_t num_groups[3]; /* 1 where not used; 0 runs nothing */
   uint32_t local_size[3]; /* 1 where not used */
   uint32_t global_offset[3];
   uint32_t variables; /* of vx_variables_alloc; 0 for a kernel without */
+  const vx_whole_range *part_of; /* NULL: the launch is the whole range */
 } vx_launch_params;
 
 /* Starts a kernel; args: args_bytes of it, copied before the call returns. */

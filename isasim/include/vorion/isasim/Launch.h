@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -35,12 +36,21 @@ constexpr uint64_t alignLaunch(uint64_t Bytes) {
   return (Bytes + LaunchAlignment - 1) / LaunchAlignment * LaunchAlignment;
 }
 
+/// The range that a launch is a part of, in each dimension.
+struct WholeRange {
+  std::array<uint32_t, 3> EnqueuedSize{1, 1, 1}; ///< of all groups but the last
+  std::array<uint32_t, 3> GroupsBefore{};        ///< the launch's first
+  std::array<uint32_t, 3> AllGroups{1, 1, 1};
+  std::array<uint32_t, 3> GlobalSize{1, 1, 1};
+};
+
 /// Groups and work-items of a launch; 1 in dimensions that are not used.
 struct LaunchShape {
   uint32_t WorkDim = 1;                       ///< 1 to 3
   std::array<uint32_t, 3> NumGroups{1, 1, 1}; ///< 0 runs nothing
   std::array<uint32_t, 3> LocalSize{1, 1, 1};
   std::array<uint32_t, 3> GlobalOffset{};
+  std::optional<WholeRange> PartOf{}; ///< nothing: it is the whole range
 };
 
 /// Something for each part of a launch: its bytes, or its address. 0 where the

@@ -19,7 +19,7 @@ int main(int argc, char **argv) {
       vx_image_find_kernel(image, "square", &kernel) ||
       vx_mem_alloc(device, sizeof values, &out))
     return failed("image");
-  const vx_launch_params params = {1, {2, 1, 1}, {32, 1, 1}, {0, 0, 0}, 0};
+  const vx_launch_params params = {1, {2, 1, 1}, {32, 1, 1}, {0, 0, 0}, 0, 0};
   vx_result result;
   if (vx_start(device, image, kernel, &params, &out, sizeof out) ||
       vx_wait(device, &result) || result.outcome != VX_OUTCOME_DONE ||

@@ -87,6 +87,7 @@ void captureLaunch(const LoadedKernel &Kernel,
   const char *Missing =
       takesImages(*Run.kernel->meta)     ? "has images or samplers"
       : Kernel.Info.variables_bytes != 0 ? "uses variables of program scope"
+      : Run.is_range_part                ? "has groups of several sizes"
                                          : nullptr;
   if (Missing) {
     fprintf(stderr,

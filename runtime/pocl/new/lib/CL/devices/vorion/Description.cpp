@@ -63,6 +63,7 @@ void describeConcurrency(cl_device_id Device, const vx_device_info &Info) {
       Device->atomic_memory_capabilities | CL_DEVICE_ATOMIC_SCOPE_WORK_ITEM;
   Device->generic_as_support = CL_TRUE;
   Device->wg_collective_func_support = CL_TRUE;
+  Device->non_uniform_work_group_support = CL_TRUE;
   // The subgroups of a group take turns on one warp.
   Device->sub_group_independent_forward_progress = CL_FALSE;
   Device->max_num_sub_groups = Info.max_group_items / Info.lanes;

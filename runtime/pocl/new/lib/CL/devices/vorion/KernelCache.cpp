@@ -92,7 +92,10 @@ std::string KernelCache::imagePath(_cl_command_node *Command, cl_kernel Kernel,
   char Path[POCL_MAX_PATHNAME_LENGTH];
   pocl_cache_final_binary_path(Path, Kernel->program, Command->program_device_i,
                                Kernel, Command, Specialize);
-  return fs::path(Path).replace_extension(".elf").string();
+  return fs::path(Path)
+      .replace_extension(Command->command.run.is_range_part ? ".part.elf"
+                                                            : ".elf")
+      .string();
 }
 
 KernelCache::Problem KernelCache::problem(_cl_command_node *Command,

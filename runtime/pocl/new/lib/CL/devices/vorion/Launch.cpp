@@ -3,6 +3,7 @@
 #include "Event.h"
 #include "Images.h"
 #include "Messages.h"
+#include "RangeParts.h"
 
 extern "C" {
 #include "pocl_util.h"
@@ -11,6 +12,8 @@ extern "C" {
 #include <vorion_abi.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstdio>
 #include <cstring>
 
@@ -51,27 +54,31 @@ uint32_t deviceAddress(const pocl_argument &Argument, cl_device_id Device) {
                                Argument.offset);
 }
 
-} // namespace
+/// What the launches of a command took together.
+struct Total {
+  vx_counters Counters{};
+  std::string TimeReport; ///< of the last
+  double DeviceSeconds = 0;
 
-cl_int runKernel(vx_device *Device, KernelCache &Kernels,
-                 _cl_command_node *Command) {
+  void add(const vx_result &Result) {
+    using Words = std::array<uint64_t, sizeof(vx_counters) / sizeof(uint64_t)>;
+    auto Sum = std::bit_cast<Words>(Counters);
+    const auto More = std::bit_cast<Words>(Result.counters);
+    for (size_t I = 0; I < Sum.size(); ++I)
+      Sum[I] += More[I];
+    Counters = std::bit_cast<vx_counters>(Sum);
+    TimeReport = Result.time_report;
+    DeviceSeconds += Result.device_seconds;
+  }
+};
+
+/// One launch, of the whole range if \p Whole is null.
+cl_int runPart(vx_device *Device, KernelCache &Kernels,
+               _cl_command_node *Command, const LoadedKernel *Kernel,
+               const vx_whole_range *Whole, Total &Took) {
   _cl_command_run &Run = Command->command.run;
   const pocl_context &Grid = Run.pc;
   const Failing Fail{*Command};
-  // A range without items is done as it is.
-  if (std::find(Grid.num_groups, Grid.num_groups + 3, 0U) !=
-      Grid.num_groups + 3) {
-    pocl_update_event_running(Command->sync.event.event);
-    return CL_SUCCESS;
-  }
-
-  KernelCache::Problem Problem;
-  const LoadedKernel *Kernel = Kernels.get(Command, Problem);
-  if (!Kernel)
-    return Fail.with(Problem.status(), Problem.Text);
-  // What the event says of its time is without the compilation.
-  pocl_update_event_running(Command->sync.event.event);
-
   const pocl_kernel_metadata_t &Meta = *Run.kernel->meta;
   std::vector<unsigned char> Packed(Kernel->Info.args_bytes);
   std::vector<uint64_t> LocalSizes;
@@ -115,6 +122,7 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
     Params.local_size[I] = Grid.local_size[I];
     Params.global_offset[I] = Grid.global_offset[I];
   }
+  Params.part_of = Whole;
   if (Kernel->Info.variables_bytes) {
     const auto Address = Kernels.variables(Run.kernel->program, *Kernel);
     if (!Address)
@@ -150,10 +158,45 @@ cl_int runKernel(vx_device *Device, KernelCache &Kernels,
                                                 ? Exit.c_str()
                                                 : Result.report);
   }
+  Took.add(Result);
+  return CL_SUCCESS;
+}
+
+} // namespace
+
+cl_int runKernel(vx_device *Device, KernelCache &Kernels,
+                 _cl_command_node *Command) {
+  _cl_command_run &Run = Command->command.run;
+  // A range without items is done as it is.
+  if (std::find(Run.pc.num_groups, Run.pc.num_groups + 3, 0U) !=
+      Run.pc.num_groups + 3) {
+    pocl_update_event_running(Command->sync.event.event);
+    return CL_SUCCESS;
+  }
+
+  const std::vector<RangePart> Parts = partsOf(Run);
+  std::vector<const LoadedKernel *> Loaded;
+  for (const RangePart &Part : Parts) {
+    const PartGuard Guard(Run, Part);
+    KernelCache::Problem Problem;
+    Loaded.push_back(Kernels.get(Command, Problem));
+    if (!Loaded.back())
+      return Failing{*Command}.with(Problem.status(), Problem.Text);
+  }
+  // What the event says of its time is without the compilation.
+  pocl_update_event_running(Command->sync.event.event);
+  Total Took;
+  for (size_t I = 0; I < Parts.size(); ++I) {
+    const PartGuard Guard(Run, Parts[I]);
+    if (const cl_int Status =
+            runPart(Device, Kernels, Command, Loaded[I], Guard.whole(), Took);
+        Status != CL_SUCCESS)
+      return Status;
+  }
   if (EventData *Data = eventData(Command->sync.event.event)) {
-    Data->Counters = Result.counters;
-    Data->TimeReport = Result.time_report;
-    Data->DeviceSeconds = Result.device_seconds;
+    Data->Counters = Took.Counters;
+    Data->TimeReport = Took.TimeReport;
+    Data->DeviceSeconds = Took.DeviceSeconds;
   }
   return CL_SUCCESS;
 }
