@@ -23,7 +23,9 @@ namespace {
 /// LLVM's name of an instruction, from its mnemonic.
 std::string llvmName(std::string Mnemonic) {
   static const std::map<std::string, std::string> Others = {
-      {"zext.h", "ZEXT_H_RV32"}, {"rev8", "REV8_RV32"}};
+      {"zext.h", "ZEXT_H_RV32"},
+      {"rev8", "REV8_RV32"},
+      {"amocas.d", "AMOCAS_D_RV32"}};
   if (const auto Found = Others.find(Mnemonic); Found != Others.end())
     return Found->second;
   for (char &C : Mnemonic)

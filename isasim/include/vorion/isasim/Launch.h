@@ -50,7 +50,8 @@ struct LaunchShape {
   std::array<uint32_t, 3> NumGroups{1, 1, 1}; ///< 0 runs nothing
   std::array<uint32_t, 3> LocalSize{1, 1, 1};
   std::array<uint32_t, 3> GlobalOffset{};
-  std::optional<WholeRange> PartOf{}; ///< nothing: it is the whole range
+  /// Nothing: it is the whole range.
+  std::optional<WholeRange> PartOf = std::nullopt;
 };
 
 /// Something for each part of a launch: its bytes, or its address. 0 where the
