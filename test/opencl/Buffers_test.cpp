@@ -125,4 +125,72 @@ TEST(Buffers, MoreThanTheDeviceHasIsRefused) {
   EXPECT_EQ(Status, CL_INVALID_BUFFER_SIZE);
 }
 
+TEST(Buffers, CommandsWithoutMemorySaySo) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  const cl::CommandQueue &Queue = Device.queue();
+  const auto Most =
+      Queue.getInfo<CL_QUEUE_DEVICE>().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  const cl_int Word = 1;
+  std::vector<cl::Buffer> Halves;
+  for (int I = 0; I < 2; ++I) {
+    Halves.emplace_back(Device.context(), CL_MEM_READ_WRITE, Most / 2 - 4096);
+    ASSERT_EQ(Queue.enqueueWriteBuffer(Halves.back(), CL_TRUE, 0, 4, &Word),
+              CL_SUCCESS);
+  }
+  const cl::Buffer Third(Device.context(), CL_MEM_READ_WRITE, 1 << 20);
+  constexpr cl_int NoMemory = CL_MEM_OBJECT_ALLOCATION_FAILURE;
+  cl_int Status = CL_SUCCESS;
+  EXPECT_EQ(Queue.enqueueWriteBuffer(Third, CL_TRUE, 0, 4, &Word), NoMemory);
+  EXPECT_EQ(Queue.enqueueFillBuffer(Third, Word, 0, 4), NoMemory);
+  EXPECT_EQ(Queue.enqueueCopyBuffer(Halves[0], Third, 0, 0, 4), NoMemory);
+  Queue.enqueueMapBuffer(Third, CL_TRUE, CL_MAP_READ, 0, 4, nullptr, nullptr,
+                         &Status);
+  EXPECT_EQ(Status, NoMemory);
+  EXPECT_EQ(Queue.enqueueNDRangeKernel(increment(Device, Third), cl::NullRange,
+                                       cl::NDRange(1)),
+            NoMemory);
+  Halves.clear();
+  EXPECT_EQ(Queue.enqueueWriteBuffer(Third, CL_TRUE, 0, 4, &Word), CL_SUCCESS);
+}
+
+TEST(Buffers, AMappingKeepsNoBuffer) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  const cl::ImageFormat Format(CL_RGBA, CL_FLOAT);
+  const auto Note = [](cl_mem, void *Gone) {
+    *static_cast<bool *>(Gone) = true;
+  };
+  bool BufferGone = false, ImageGone = false;
+  {
+    const cl::Buffer Buffer = Device.upload(ascending());
+    const cl::Image2D Image(Device.context(), CL_MEM_READ_WRITE, Format, 8, 8);
+    ASSERT_EQ(clSetMemObjectDestructorCallback(Buffer(), Note, &BufferGone),
+              CL_SUCCESS);
+    ASSERT_EQ(clSetMemObjectDestructorCallback(Image(), Note, &ImageGone),
+              CL_SUCCESS);
+    cl_int Status = CL_SUCCESS;
+    for (const std::size_t Offset : {0, 400}) {
+      Device.queue().enqueueMapBuffer(Buffer, CL_TRUE, CL_MAP_READ, Offset, 400,
+                                      nullptr, nullptr, &Status);
+      ASSERT_EQ(Status, CL_SUCCESS);
+    }
+    std::size_t Pitch = 0;
+    void *Mapped = Device.queue().enqueueMapImage(
+        Image, CL_TRUE, CL_MAP_WRITE, {0, 0, 0}, {8, 8, 1}, &Pitch, nullptr,
+        nullptr, nullptr, &Status);
+    ASSERT_EQ(Status, CL_SUCCESS);
+    EXPECT_EQ(Buffer.getInfo<CL_MEM_MAP_COUNT>(), 2U);
+    EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
+    EXPECT_EQ(Buffer.getInfo<CL_MEM_REFERENCE_COUNT>(), 1U);
+    // A mapping that is ended does not end the image.
+    ASSERT_EQ(Device.queue().enqueueUnmapMemObject(Image, Mapped), CL_SUCCESS);
+    EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
+    EXPECT_FALSE(ImageGone);
+    EXPECT_EQ(Image.getInfo<CL_MEM_REFERENCE_COUNT>(), 1U);
+  }
+  EXPECT_TRUE(BufferGone);
+  EXPECT_TRUE(ImageGone);
+}
+
 } // namespace

@@ -89,6 +89,35 @@ TEST_F(NonUniform, WorkItemsKnowTheirPlaceInTheWholeRange) {
   }
 }
 
+TEST_F(NonUniform, DimensionsThatNoRangeHasAreOfSizeOne) {
+  cl::Kernel Kernel = kernel(R"(
+uint places(uint d) {
+  return get_global_size(d) + 10 * get_local_size(d) +
+         100 * get_enqueued_local_size(d) + 1000 * get_num_groups(d) +
+         10000 * (get_global_id(d) + get_local_id(d) + get_group_id(d) +
+                  get_global_offset(d));
+}
+kernel void ask(global uint *out, uint d) {
+  out[get_global_id(0)] = places(d) + 100000 * places(3);
+})",
+                             "ask");
+  for (const std::size_t Global : {8, 10})
+    for (const cl_uint Dimension : {3U, 4U, ~0U}) {
+      const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE,
+                           (Global + 1) * sizeof(uint32_t));
+      Kernel.setArg(0, Out);
+      Kernel.setArg(1, Dimension);
+      ASSERT_EQ(Device.queue().enqueueNDRangeKernel(Kernel, cl::NDRange(1),
+                                                    cl::NDRange(Global),
+                                                    cl::NDRange(4)),
+                CL_SUCCESS);
+      std::vector<uint32_t> Values = Device.download<uint32_t>(Out, Global + 1);
+      Values.erase(Values.begin());
+      EXPECT_EQ(Values, std::vector<uint32_t>(Global, 111101111))
+          << Global << " in dimension " << Dimension;
+    }
+}
+
 TEST_F(NonUniform, SmallerGroupsMeetAndReduceByThemselves) {
   cl::Kernel Kernel = kernel(R"(
 kernel void meet(global uint *out, local uint *given) {

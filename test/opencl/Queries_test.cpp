@@ -120,7 +120,8 @@ kernel void ends(global uint *a, ulong n, global uint *b) {
   cl::Kernel Touch =
       kernel("kernel void touch(global uint *p) { p[0] = 1; }", "touch");
   Touch.setArg(0, Third);
-  EXPECT_TRUE(Status != CL_SUCCESS || enqueue(Touch, 1) != CL_SUCCESS);
+  EXPECT_EQ(Status, CL_SUCCESS);
+  EXPECT_EQ(enqueue(Touch, 1), CL_MEM_OBJECT_ALLOCATION_FAILURE);
 }
 
 TEST_F(Queries, TheSourcesGroupSizeIsTakenWhereNoneIsGiven) {

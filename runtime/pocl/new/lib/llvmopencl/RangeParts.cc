@@ -23,8 +23,9 @@ constexpr const char *Prefix = "_vorion_launch_";
 /// A number in one dimension.
 using Question = function_ref<Value *(IRBuilder<> &, unsigned Dimension)>;
 
-/// Makes \p Name, a function of a dimension, answer \p Ask.
-void answer(Module &M, StringRef Name, Question Ask) {
+/// Makes \p Name, a function of a dimension, answer \p Ask, and \p Beyond in
+/// dimensions that no range has.
+void answer(Module &M, StringRef Name, unsigned Beyond, Question Ask) {
   Function *F = M.getFunction(Name);
   if (!F || F->isDeclaration())
     return;
@@ -32,7 +33,7 @@ void answer(Module &M, StringRef Name, Question Ask) {
   F->deleteBody();
   F->setLinkage(Linkage);
   IRBuilder<> Builder(BasicBlock::Create(M.getContext(), "", F));
-  Value *Result = ConstantInt::get(F->getReturnType(), 0);
+  Value *Result = ConstantInt::get(F->getReturnType(), Beyond);
   for (unsigned Dimension = 0; Dimension < 3; ++Dimension)
     Result = Builder.CreateSelect(
         Builder.CreateICmpEQ(F->getArg(0), Builder.getInt32(Dimension)),
@@ -90,23 +91,24 @@ void answerLinearId(Module &M) {
 } // namespace
 
 void askForWholeRange(Module &M) {
-  const auto AnswerField = [&M](StringRef Name, size_t Offset) {
-    answer(M, Name, [Offset](IRBuilder<> &Builder, unsigned Dimension) {
+  const auto AnswerSize = [&M](StringRef Name, size_t Offset) {
+    answer(M, Name, 1, [Offset](IRBuilder<> &Builder, unsigned Dimension) {
       return loadWord(Builder, Offset, Dimension);
     });
   };
-  AnswerField("_Z14get_num_groupsj", offsetof(vx_launch, all_groups));
-  AnswerField("_Z15get_global_sizej", offsetof(vx_launch, global_size));
-  AnswerField("_Z23get_enqueued_local_sizej",
-              offsetof(vx_launch, enqueued_size));
-  answer(M, "_Z12get_group_idj", [](IRBuilder<> &Builder, unsigned Dimension) {
-    return Builder.CreateAdd(
-        loadPseudo(Builder, "_group_id_", Dimension),
-        loadWord(Builder, offsetof(vx_launch, groups_before), Dimension));
-  });
+  AnswerSize("_Z14get_num_groupsj", offsetof(vx_launch, all_groups));
+  AnswerSize("_Z15get_global_sizej", offsetof(vx_launch, global_size));
+  AnswerSize("_Z23get_enqueued_local_sizej",
+             offsetof(vx_launch, enqueued_size));
+  answer(
+      M, "_Z12get_group_idj", 0, [](IRBuilder<> &Builder, unsigned Dimension) {
+        return Builder.CreateAdd(
+            loadPseudo(Builder, "_group_id_", Dimension),
+            loadWord(Builder, offsetof(vx_launch, groups_before), Dimension));
+      });
   // The launch's own offset is that of its first work-item, less the range's
   // first group.
-  answer(M, "_Z17get_global_offsetj",
+  answer(M, "_Z17get_global_offsetj", 0,
          [](IRBuilder<> &Builder, unsigned Dimension) {
            return Builder.CreateSub(
                loadPseudo(Builder, "_global_offset_", Dimension),
