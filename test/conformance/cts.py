@@ -37,6 +37,7 @@ def outcome(name, text, code):
         return match.group(0).strip() if match else ""
     if re.search(rf"^{name} (skipped|test not supported)", text, re.M):
         return "skipped", first(rf"^{name} skipped.*$") or first(r"^.*(not support|[Ss]kipp|requires).*$")
-    if code == 0 and re.search(rf"^{name} passed", text, re.M):
+    # Some programs leave a line open before that.
+    if code == 0 and re.search(rf"(^|\W){name} passed$", text, re.M):
         return "passed", ""
     return "failed", first(r"^\s*ERROR.*$") or f"exit code {code}"
