@@ -84,6 +84,20 @@ TEST_F(ImageCommands, WhatIsNoImageIsRefused) {
   }
 }
 
+TEST_F(ImageCommands, TheRowOfABufferMayHaveAPitch) {
+  const cl::Buffer Row(Device.context(), CL_MEM_READ_WRITE, 20);
+  cl_image_desc D = describe(CL_MEM_OBJECT_IMAGE1D_BUFFER, 4, 0, 0, 0);
+  D.buffer = Row();
+  for (const std::size_t Right : {0, 16, 20}) {
+    D.image_row_pitch = Right;
+    EXPECT_EQ(statusOf(Bytes, D), CL_SUCCESS) << Right;
+  }
+  for (const std::size_t Wrong : {12, 18}) {
+    D.image_row_pitch = Wrong;
+    EXPECT_EQ(statusOf(Bytes, D), CL_INVALID_IMAGE_DESCRIPTOR) << Wrong;
+  }
+}
+
 TEST_F(ImageCommands, AnImageBeyondTheLimitsIsRefused) {
   const cl::Device D = queue().getInfo<CL_QUEUE_DEVICE>();
   const std::size_t Wide = D.getInfo<CL_DEVICE_IMAGE2D_MAX_WIDTH>();
