@@ -98,6 +98,28 @@ TEST_F(ImageCommands, TheRowOfABufferMayHaveAPitch) {
   }
 }
 
+TEST_F(ImageCommands, AnImageOfABufferEndsAsOthersDo) {
+  const auto Users = [&] {
+    return Device.context().getInfo<CL_CONTEXT_REFERENCE_COUNT>();
+  };
+  const cl::Buffer Row(Device.context(), CL_MEM_READ_WRITE, 16);
+  const cl_uint Before = Users();
+  bool Gone = false;
+  {
+    cl::Image1DBuffer Image(Device.context(), CL_MEM_READ_WRITE,
+                            cl::ImageFormat(CL_RGBA, CL_UNSIGNED_INT8), 4, Row);
+    ASSERT_EQ(
+        Image.setDestructorCallback(
+            [](cl_mem, void *Ended) { *static_cast<bool *>(Ended) = true; },
+            &Gone),
+        CL_SUCCESS);
+    EXPECT_EQ(Row.getInfo<CL_MEM_REFERENCE_COUNT>(), 2U);
+  }
+  EXPECT_TRUE(Gone);
+  EXPECT_EQ(Row.getInfo<CL_MEM_REFERENCE_COUNT>(), 1U);
+  EXPECT_EQ(Users(), Before);
+}
+
 TEST_F(ImageCommands, AnImageBeyondTheLimitsIsRefused) {
   const cl::Device D = queue().getInfo<CL_QUEUE_DEVICE>();
   const std::size_t Wide = D.getInfo<CL_DEVICE_IMAGE2D_MAX_WIDTH>();
