@@ -165,6 +165,55 @@ TEST_F(Builds, ABinaryRunsInGroupsOfAnySize) {
   }
 }
 
+// Names of parameters, and of a function, in clang's opencl-c.h.
+TEST_F(Builds, AMacroOfTheProgramDoesNotReachTheHeaders) {
+  const std::string Source = "kernel void f(global uint *o) {\n"
+                             "  o[0] = offset + data + p;\n"
+                             "  o[1] = popcount(1u << 20);\n"
+                             "}\n";
+  const cl::Program P = program(Source.c_str());
+  ASSERT_EQ(build(P, "-Doffset=1 -D data=20 -D\"p=300\" -Dpopcount=clz"),
+            CL_SUCCESS)
+      << log(P);
+  cl::Kernel Kernel(P, "f");
+  const cl::Buffer Out = Device.upload(std::vector<cl_uint>(2));
+  Kernel.setArg(0, Out);
+  Device.run(Kernel, 1, 1);
+  EXPECT_EQ(Device.download<cl_uint>(Out, 2), (std::vector<cl_uint>{321, 11}));
+}
+
+// The state of the headers is kept with what they saw of the options.
+TEST_F(Builds, OptionsThatTheHeadersSeeAreSeen) {
+  const std::string Source = "kernel void f(global int *o) {\n"
+                             "#ifdef cl_khr_fp64\n"
+                             "  o[0] = 1;\n"
+                             "#endif\n"
+                             "#ifdef __FAST_RELAXED_MATH__\n"
+                             "  o[0] |= 2;\n"
+                             "#endif\n"
+                             "#ifdef __opencl_c_images\n"
+                             "  o[0] |= 4;\n"
+                             "#endif\n"
+                             "}\n";
+  const std::pair<const char *, int> Cases[] = {
+      {"", 1},
+      {"-cl-fast-relaxed-math", 3},
+      {"-cl-std=CL3.0", 5},
+      {"-Dcl_khr_fp64=1", 1},
+      {"-cl-std=CL3.0 -w -g -cl-fast-relaxed-math -cl-opt-disable", 7}};
+  for (const auto &[Options, Expected] : Cases)
+    for (const bool Again : {false, true}) {
+      const cl::Program P = program(Source.c_str());
+      ASSERT_EQ(build(P, Options), CL_SUCCESS) << Options << log(P);
+      cl::Kernel Kernel(P, "f");
+      const cl::Buffer Out = Device.upload(std::vector<cl_int>(1));
+      Kernel.setArg(0, Out);
+      Device.run(Kernel, 1, 1);
+      EXPECT_EQ(Device.download<cl_int>(Out, 1)[0], Expected)
+          << Options << Again;
+    }
+}
+
 TEST_F(Builds, UnknownOptionsAreNamed) {
   const cl::Program P = program(Good);
   for (const char *Option :

@@ -181,7 +181,7 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
   std::error_code Problem;
   const fs::path Cache = Folder / "cache";
   fs::create_directories(Cache, Problem);
-  setenv("POCL_CACHE_DIR", Cache.c_str(), 1);
+  setenv("VORION_KERNEL_FOLDER", Cache.c_str(), 1);
   // The compiler sees text without a name, so a copy names its origin, for
   // messages and debuggers; headers beside the file are found by its folder.
   const fs::path Copy = Folder / "input";

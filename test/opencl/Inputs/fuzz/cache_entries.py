@@ -97,7 +97,7 @@ def main():
         if not wrong and len(set(warnings)) != len(warnings):
             wrong = f"said it twice: {output}"
         # What the program reads must have been noticed.
-        read = [name for name, how in done if name.endswith((".elf", "program.bc")) and how != "gone"]
+        read = [name for name, how in done if name.endswith((".elf", ".pch", "program.bc")) and how != "gone"]
         # An image that belongs to a damaged program is read all the same.
         if not wrong and len(warnings) != len(read):
             wrong = f"{len(warnings)} warnings for {len(read)} damaged entries: {output}"
