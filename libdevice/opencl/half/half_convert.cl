@@ -68,7 +68,7 @@ __IF_FP64(TO_HALF_ROUNDED(double))
     return convert_##TYPE##N##MODE(cast_float(x));                             \
   }
 #define FROM_HALF_ROUNDED(TYPE)                                                \
-  FROM_HALF(, TYPE, _sat)                                                      \
+  FOR_SIZES(FROM_HALF, TYPE, _sat)                                             \
   FOR_SIZES(FROM_HALF, TYPE, _rte)                                             \
   FOR_SIZES(FROM_HALF, TYPE, _rtz)                                             \
   FOR_SIZES(FROM_HALF, TYPE, _rtp)                                             \

@@ -96,6 +96,15 @@ INTEGER(ulong, 0, ULONG_MAX)
 #define FLOAT(TYPE) ARITHMETIC(TYPE, -INFINITY, INFINITY, fmin, fmax)
 FOR_FLOATS(FLOAT)
 
-ANY_LANES(_logical_and, int, 1, a &&b)
-ANY_LANES(_logical_or, int, 0, a || b)
-ANY_LANES(_logical_xor, int, 0, !a != !b)
+/* A lane's own value becomes 0 or 1, too. */
+#define LOGICAL(OP, NONE, JOINED)                                              \
+  GATHER(OP##_of_truths, int, JOINED)                                          \
+  static int gather##OP(int b, uint before) {                                  \
+    return gather##OP##_of_truths(b != 0, before);                             \
+  }                                                                            \
+  OVER_LANES(sub_group_non_uniform, OP, int, NONE, lanes_of(active_lanes()))   \
+  OVER_CLUSTER(OP, int)
+
+LOGICAL(_logical_and, 1, a &&b)
+LOGICAL(_logical_or, 0, a || b)
+LOGICAL(_logical_xor, 0, a != b)
