@@ -573,6 +573,7 @@ kernel void describe(read_only image3d_t a, write_only image2d_array_t b, global
   out[0] = d.x; out[1] = d.y; out[2] = d.z; out[3] = d.w;
   out[4] = get_image_width(b); out[5] = get_image_height(b); out[6] = get_image_array_size(b);
   out[7] = get_image_channel_order(b); out[8] = get_image_channel_data_type(b);
+  out[9] = get_image_depth(a);
 }
 )",
                                            Log);
@@ -582,14 +583,52 @@ kernel void describe(read_only image3d_t a, write_only image2d_array_t b, global
   const cl::Image2DArray B(Device.context(), CL_MEM_WRITE_ONLY,
                            cl::ImageFormat(CL_RG, CL_UNORM_INT16), 4, 9, 2, 0,
                            0);
-  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 36);
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 40);
   cl::Kernel Kernel(Program, "describe");
   Kernel.setArg(0, A);
   Kernel.setArg(1, B);
   Kernel.setArg(2, Out);
   Device.run(Kernel, 1, 1);
-  EXPECT_EQ(Device.download<int>(Out, 9),
-            (std::vector<int>{7, 5, 3, 0, 9, 2, 4, CL_RG, CL_UNORM_INT16}));
+  EXPECT_EQ(Device.download<int>(Out, 10),
+            (std::vector<int>{7, 5, 3, 0, 9, 2, 4, CL_RG, CL_UNORM_INT16, 3}));
+}
+
+TEST(ImageTypes, HalvesAreReadAndWritten) {
+  const TestDevice Device;
+  VORION_REQUIRE_DEVICE(Device);
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+#pragma OPENCL EXTENSION cl_khr_fp16 : enable
+constant sampler_t s = CLK_NORMALIZED_COORDS_FALSE | CLK_ADDRESS_CLAMP | CLK_FILTER_LINEAR;
+kernel void halves(read_only image2d_t in, write_only image2d_t out) {
+  write_imageh(out, (int2)(0, 0), read_imageh(in, (int2)(1, 0)));
+  write_imageh(out, (int2)(1, 0), read_imageh(in, s, (float2)(1.0f, 0.5f)));
+  write_imageh(out, (int2)(2, 0), read_imageh(in, s, (int2)(0, 0)) * (half4)(2));
+}
+)",
+                                           Log);
+  ASSERT_EQ(Log, "");
+  // A half has no 1/3: what is read is rounded to one.
+  std::vector<float> Pixels = {1.0F / 3, 2, -3, 4, 0.5F, 0.25F, 1, 65504};
+  const cl::ImageFormat Format(CL_RGBA, CL_FLOAT);
+  const cl::Image2D In(Device.context(),
+                       CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, Format, 2, 1, 0,
+                       Pixels.data());
+  const cl::Image2D Out(Device.context(), CL_MEM_WRITE_ONLY, Format, 3, 1);
+  cl::Kernel Kernel(Program, "halves");
+  Kernel.setArg(0, In);
+  Kernel.setArg(1, Out);
+  Device.run(Kernel, 1, 1);
+  std::vector<float> Found(12);
+  ASSERT_EQ(Device.queue().enqueueReadImage(Out, CL_TRUE, {0, 0, 0}, {3, 1, 1},
+                                            0, 0, Found.data()),
+            CL_SUCCESS);
+  const auto Half = [](float X) {
+    return static_cast<float>(static_cast<_Float16>(X));
+  };
+  EXPECT_EQ(Found, (std::vector<float>{0.5F, 0.25F, 1, 65504,
+                                       Half((1.0F / 3 + 0.5F) / 2), 1.125F, -1,
+                                       32752, 2 * Half(1.0F / 3), 4, -6, 8}));
 }
 
 TEST(ImageTypes, DepthsAreOneNumber) {

@@ -7,32 +7,17 @@ HEADER.i is clang's opencl-c.h after the preprocessor. PATTERN is a regular expr
 whose names it matches is called, by kernels that share them out. Prints how many there are.
 """
 
-import collections
 import re
 import sys
 
-ATTRIBUTE = re.compile(r"__attribute__\s*\(\((?:[^()]|\([^()]*\))*\)\)\s*")
-DECLARATION = re.compile(r"^([\w ]+?)\s*\b(\w+)\((.*)\);$")
+from declarations import declarations
+
 POINTER = re.compile(r"^(.*?)(\w+)(?:\s+(?:const|volatile))?\s*\*")
-SKIPPED = re.compile(r"^(typedef|enum|#)|printf")
 IMAGE = re.compile(r"^(read_only|write_only|read_write) (image\w+)$")
 # A kernel is compiled by a process of its own, so few kernels are fast; a very large one is slow.
 CALLS_OF_KERNEL = 100
 # The space of a pointer, and memory of that space that a kernel has.
 SPACES = {"global": "(global {0} *)memory", "local": "(local {0} *)shared", "constant": "(constant {0} *)table"}
-
-
-def declarations(path):
-    """Overloads by name: (type of the result, types of the parameters)."""
-    found = collections.defaultdict(list)
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            line = ATTRIBUTE.sub("", line).strip().replace("__", "")
-            match = None if SKIPPED.search(line) else DECLARATION.match(line)
-            if match:
-                result, name, parameters = match.groups()
-                found[name].append((result, [] if parameters in ("", "void") else parameters.split(",")))
-    return found
 
 
 def argument(number, parameter):

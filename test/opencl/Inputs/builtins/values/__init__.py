@@ -1,0 +1,1 @@
+"""What the built-in functions of OpenCL C have to give, and what runs them."""
