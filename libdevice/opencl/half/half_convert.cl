@@ -62,9 +62,11 @@ TO_HALF_ROUNDED(half)
 TO_HALF_ROUNDED(float)
 __IF_FP64(TO_HALF_ROUNDED(double))
 
-/* A half is a float. */
+/* A half is a float. Inlined, as PoCL's are: an element that no TYPE can hold is
+   poison, and would spoil its neighbours where a vector is returned as a word. */
 #define FROM_HALF(N, TYPE, MODE)                                               \
-  TYPE##N _CL_OVERLOADABLE convert_##TYPE##N##MODE(half##N x) {                \
+  _CL_ALWAYSINLINE TYPE##N _CL_OVERLOADABLE convert_##TYPE##N##MODE(           \
+      half##N x) {                                                             \
     return convert_##TYPE##N##MODE(cast_float(x));                             \
   }
 #define FROM_HALF_ROUNDED(TYPE)                                                \

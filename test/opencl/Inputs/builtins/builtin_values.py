@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs every overload of the built-in functions of OpenCL C, and compares its results with the standard's.
 
-usage: builtin_values.py BUILD_FOLDER [--share] [--only PATTERN] [--jobs N]
+usage: builtin_values.py BUILD_FOLDER [--share] [--only PATTERN] [--jobs N] [--options TEXT]
 
 The overloads are those that clang's header declares for OpenCL C 3.0 and 1.2. Of each, hundreds of values are computed:
 special ones, and random ones of fixed seeds. The references are in values/, by family. Exit codes: 0 all agree, 1 some do
@@ -86,9 +86,9 @@ _devices = {}
 
 def run(task):
     """(overload, lines) of each of some; None instead of lines where there is no reference."""
-    version, overloads_of = task
+    version, build_options, overloads_of = task
     if version not in _devices:
-        _devices[version] = Device([f"-cl-std={version}"])
+        _devices[version] = Device([f"-cl-std={version}", *build_options])
     units = [(o, made(o)) for o in overloads_of]
     results = [(str(o), None) for o, unit in units if not unit]
     alike = collections.defaultdict(list)
@@ -129,6 +129,7 @@ def main():
     parser.add_argument("--share", action="store_true", help="one scalar and one vector of each function")
     parser.add_argument("--only", default="", help="functions whose names match")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--options", default="", help="more options of the kernels' builds")
     options = parser.parse_args()
 
     build = os.path.abspath(options.build)
@@ -143,7 +144,7 @@ def main():
     groups, missing = collections.defaultdict(list), []
     for version, overload in found:
         groups[version, width_of(overload), family_of(overload)].append(overload)
-    tasks = [(key[0], units[n:n + UNITS_OF_KERNEL]) for key, units in groups.items()
+    tasks = [(key[0], options.options.split(), units[n:n + UNITS_OF_KERNEL]) for key, units in groups.items()
              for n in range(0, len(units), UNITS_OF_KERNEL)]
     wrong = collections.Counter()
     count = elsewhere = 0
