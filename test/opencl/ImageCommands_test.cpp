@@ -120,6 +120,52 @@ TEST_F(ImageCommands, AnImageOfABufferEndsAsOthersDo) {
   EXPECT_EQ(Users(), Before);
 }
 
+TEST_F(ImageCommands, AnImageCanBeMadeOfAPartOfABuffer) {
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+kernel void twice(read_only image1d_buffer_t in, write_only image1d_buffer_t out) {
+  int x = get_global_id(0);
+  write_imageui(out, x, 2 * read_imageui(in, x));
+})",
+                                           Log);
+  ASSERT_EQ(Log, "");
+  std::vector<uint32_t> Values(128);
+  std::iota(Values.begin(), Values.end(), 0U);
+  cl::Buffer All = Device.upload(Values);
+  const auto Part = [&](std::size_t First) {
+    cl_buffer_region Region{First * 4, 64};
+    return All.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION,
+                               &Region);
+  };
+  const cl::ImageFormat Format(CL_R, CL_UNSIGNED_INT32);
+  const cl::Image1DBuffer In(Device.context(), CL_MEM_READ_WRITE, Format, 16,
+                             Part(32));
+  const cl::Image1DBuffer Out(Device.context(), CL_MEM_READ_WRITE, Format, 16,
+                              Part(96));
+  // Only the images still hold the parts.
+  cl::Kernel Kernel(Program, "twice");
+  Kernel.setArg(0, In);
+  Kernel.setArg(1, Out);
+  Device.run(Kernel, 16, 16);
+  for (std::size_t I = 0; I < 16; ++I)
+    Values[96 + I] = 2 * Values[32 + I];
+  EXPECT_EQ(Device.download<uint32_t>(All, 128), Values);
+
+  std::size_t Pitch = 0;
+  cl_int Status = CL_SUCCESS;
+  auto *Mapped = static_cast<uint32_t *>(queue().enqueueMapImage(
+      Out, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, {2, 0, 0}, {4, 1, 1}, &Pitch,
+      nullptr, nullptr, nullptr, &Status));
+  ASSERT_EQ(Status, CL_SUCCESS);
+  EXPECT_EQ(Mapped[0], Values[98]);
+  Mapped[3] = Values[101] = 7;
+  EXPECT_EQ(queue().enqueueUnmapMemObject(Out, Mapped), CL_SUCCESS);
+  EXPECT_EQ(queue().enqueueCopyImage(Out, In, {5, 0, 0}, {1, 0, 0}, {1, 1, 1}),
+            CL_SUCCESS);
+  Values[33] = 7;
+  EXPECT_EQ(Device.download<uint32_t>(All, 128), Values);
+}
+
 TEST_F(ImageCommands, AnImageBeyondTheLimitsIsRefused) {
   const cl::Device D = queue().getInfo<CL_QUEUE_DEVICE>();
   const std::size_t Wide = D.getInfo<CL_DEVICE_IMAGE2D_MAX_WIDTH>();

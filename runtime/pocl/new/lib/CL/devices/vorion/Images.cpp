@@ -95,9 +95,11 @@ std::optional<uint32_t> ImageDescriptions::add(pocl_argument &Argument,
   dev_image_t Description{};
   pocl_fill_dev_image_t(&Description, &Argument, OpenCl);
   Description._row_pitch = static_cast<cl_int>(rowPitch(*Image));
+  const size_t Begin = Image->buffer ? Image->buffer->origin : 0;
   IMAGE1D_TO_BUFFER(Image);
-  const auto Texels = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(
-      Image->device_ptrs[OpenCl->global_mem_id].device_addr));
+  const auto Texels = static_cast<uint32_t>(
+      Begin + reinterpret_cast<uintptr_t>(
+                  Image->device_ptrs[OpenCl->global_mem_id].device_addr));
 
   std::array<std::byte, DescriptionBytes> Bytes{};
   memcpy(Bytes.data(), &Texels, sizeof(Texels));
