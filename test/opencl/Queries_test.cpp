@@ -2,6 +2,10 @@
 
 #include "TestDevice.h"
 
+#include <iterator>
+#include <set>
+#include <sstream>
+
 using vorion::test::TestDevice;
 
 // Of OpenCL 2.0, which the header declares to programs for it only.
@@ -86,6 +90,29 @@ TEST_F(Queries, TheDeviceNamesItsClockAndItsExtension) {
   EXPECT_GT(device().getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>(), 0U);
   const std::string Names = device().getInfo<CL_DEVICE_EXTENSIONS>() + " ";
   EXPECT_NE(Names.find(" cl_vorion_simulation "), std::string::npos);
+}
+
+TEST_F(Queries, EveryExtensionHasAVersion) {
+  // CL_DEVICE_EXTENSIONS_WITH_VERSION and cl_name_version of OpenCL 3.0.
+  struct NameVersion {
+    cl_uint Version;
+    char Name[64];
+  };
+  std::size_t Bytes = 0;
+  ASSERT_EQ(clGetDeviceInfo(device()(), 0x1060, 0, nullptr, &Bytes),
+            CL_SUCCESS);
+  std::vector<NameVersion> Versions(Bytes / sizeof(NameVersion));
+  ASSERT_EQ(
+      clGetDeviceInfo(device()(), 0x1060, Bytes, Versions.data(), nullptr),
+      CL_SUCCESS);
+  std::set<std::string> Names;
+  for (const NameVersion &V : Versions) {
+    Names.insert(V.Name);
+    EXPECT_NE(V.Version, 0U) << V.Name;
+  }
+  std::istringstream List(device().getInfo<CL_DEVICE_EXTENSIONS>());
+  EXPECT_EQ(Names, std::set<std::string>(
+                       std::istream_iterator<std::string>(List), {}));
 }
 
 TEST_F(Queries, AllMemoryThatIsReportedCanBeUsedByAKernel) {
