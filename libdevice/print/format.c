@@ -171,22 +171,30 @@ static void put_integer(struct vx_text *text, const struct vx_spec *spec,
   }
 }
 
-/* The double with the value of a float, by bits: no soft double needed. */
-static uint64_t widen_float(uint32_t bits) {
-  const uint64_t sign = (uint64_t)(bits >> 31) << 63;
-  uint32_t fraction = bits & 0x7fffff;
-  int exponent = (int)(bits >> 23 & 0xff);
-  if (exponent == 0xff)
-    return sign | (uint64_t)0x7ff << 52 | (uint64_t)fraction << 29;
+/* The double with the value of a narrower number, by bits: no soft double
+   needed. */
+static uint64_t widen(uint64_t bits, int exponent_bits, int fraction_bits) {
+  const int special = (1 << exponent_bits) - 1, bias = special >> 1;
+  const uint64_t one = (uint64_t)1 << fraction_bits;
+  const uint64_t sign = bits >> (exponent_bits + fraction_bits) << 63;
+  uint64_t fraction = bits & (one - 1);
+  int exponent = (int)(bits >> fraction_bits) & special;
+  if (exponent == special)
+    return sign | (uint64_t)0x7ff << 52 | fraction << (52 - fraction_bits);
   if (exponent == 0) {
     if (fraction == 0)
       return sign;
-    for (exponent = 1; !(fraction & 0x800000); --exponent)
+    for (exponent = 1; !(fraction & one); --exponent)
       fraction <<= 1;
-    fraction &= 0x7fffff;
+    fraction &= one - 1;
   }
-  return sign | (uint64_t)(exponent - 127 + 1023) << 52 |
-         (uint64_t)fraction << 29;
+  return sign | (uint64_t)(exponent - bias + 1023) << 52 |
+         fraction << (52 - fraction_bits);
+}
+
+/* The double with the value of a half, a float or a double. */
+static uint64_t double_of(uint64_t bits, int size) {
+  return size == 2 ? widen(bits, 5, 10) : size == 4 ? widen(bits, 8, 23) : bits;
 }
 
 /* A vector argument as the ABI passes it (RISC-V calling convention, "Integer
@@ -206,7 +214,7 @@ static int put_vector(struct vx_text *text, const struct vx_spec *spec,
   const int is_float = spec->letter == 'f' || spec->letter == 'e' ||
                        spec->letter == 'g' || spec->letter == 'a';
   const int size = spec->length ? spec->length : 4;
-  if (is_float && size < 4)
+  if (is_float && size < 2)
     return -1;
   uint64_t small = 0;
   /* A vector of three has the size of one of four. */
@@ -219,8 +227,7 @@ static int put_vector(struct vx_text *text, const struct vx_spec *spec,
     if (i)
       vx_put(text, ',');
     if (is_float)
-      vx_format_double(text, spec,
-                       size == 4 ? widen_float((uint32_t)value) : value);
+      vx_format_double(text, spec, double_of(value, size));
     else
       put_integer(text, spec, value, size);
   }

@@ -182,4 +182,30 @@ TEST_F(Halves, ConversionsRoundAsTheyAreNamed) {
   }
 }
 
+TEST_F(Halves, PrintfTakesVectorsOfThem) {
+  std::string Log;
+  const cl::Program Program = Device.build(R"(
+#pragma OPENCL EXTENSION cl_khr_fp16 : enable
+kernel void print(half x, half tiny) {
+  half16 all = x;
+  all.s1 = -INFINITY;
+  all.sf = tiny;
+  printf("%.2v2hf %v3hg %v4hg %v8ha %v16hg %.1hf\n", all.s01, all.s01f,
+         all.lo.lo, all.hi, all, x);
+})",
+                                           Log);
+  ASSERT_EQ(Log, "");
+  cl::Kernel Kernel(Program, "print");
+  Kernel.setArg(0, halfOf(0x3E00)); // 1.5
+  Kernel.setArg(1, halfOf(1));
+  testing::internal::CaptureStdout();
+  Device.run(Kernel, 1, 1);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(),
+            "1.50,-inf 1.5,-inf,5.96046e-08 1.5,-inf,1.5,1.5 "
+            "0x1.8p+0,0x1.8p+0,0x1.8p+0,0x1.8p+0,0x1.8p+0,0x1.8p+0,0x1.8p+0,"
+            "0x1p-24 "
+            "1.5,-inf,1.5,1.5,1.5,1.5,1.5,1.5,1.5,1.5,1.5,1.5,1.5,1.5,1.5,"
+            "5.96046e-08 1.5\n");
+}
+
 } // namespace
