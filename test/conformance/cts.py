@@ -35,7 +35,7 @@ def outcome(name, text, code):
     def first(pattern):
         match = re.search(pattern, text, re.M)
         return match.group(0).strip() if match else ""
-    if re.search(rf"^{name} (skipped|test not supported)", text, re.M):
+    if re.search(rf"^({name} (skipped|test not supported)|Test skipped while initialization)", text, re.M):
         return "skipped", first(rf"^{name} skipped.*$") or first(r"^.*(not support|[Ss]kipp|requires).*$")
     # Some programs leave a line open before that.
     if code == 0 and re.search(rf"(^|\W){name} passed$", text, re.M):
