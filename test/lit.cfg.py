@@ -39,6 +39,8 @@ features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
 # What makes calls of programs fail (test/faults).
 features["failing-calls"] = os.path.join(build, "lib", "libvorion-failing-calls.so")
+# What keeps clang-tidy out of the system's headers (test/lint).
+features["own-declarations"] = os.path.join(build, "lib", "libvorion-own-declarations.so")
 # The OpenCL platform of the build and no other, as scripts/env.sh has it.
 features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join(build, "etc", "OpenCL", "vendors")
 features["data"] = os.path.join(root, "..", "shared", "data")
