@@ -6,6 +6,7 @@
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #include <CL/opencl.hpp>
 
+#include <array>
 #include <gtest/gtest.h>
 #include <string>
 #include <vector>
@@ -55,6 +56,17 @@ public:
     std::vector<T> Values(Count);
     EXPECT_EQ(QueueHandle.enqueueReadBuffer(Buffer, CL_TRUE, 0,
                                             Count * sizeof(T), Values.data()),
+              CL_SUCCESS);
+    return Values;
+  }
+  /// All of an image of that size, which has \p Count values of T.
+  template <typename T>
+  std::vector<T> download(const cl::Image &Image,
+                          std::array<cl::size_type, 3> Size,
+                          std::size_t Count) const {
+    std::vector<T> Values(Count);
+    EXPECT_EQ(QueueHandle.enqueueReadImage(Image, CL_TRUE, {0, 0, 0}, Size, 0,
+                                           0, Values.data()),
               CL_SUCCESS);
     return Values;
   }
