@@ -10,9 +10,8 @@ whose names it matches is called, by kernels that share them out. Prints how man
 import re
 import sys
 
-from declarations import declarations
+from declarations import POINTER, declarations
 
-POINTER = re.compile(r"^(.*?)(\w+)(?:\s+(?:const|volatile))?\s*\*")
 IMAGE = re.compile(r"^(read_only|write_only|read_write) (image\w+)$")
 # A kernel is compiled by a process of its own, so few kernels are fast; a very large one is slow.
 CALLS_OF_KERNEL = 100

@@ -36,7 +36,7 @@ FAMILIES = (integers, relations, conversions, memory, floats, geometric, mathema
             images)
 # Declarations that another test has: the pattern of them, the word that stands in the test, a file of test/opencl.
 ELSEWHERE = (
-    (r".*image1d_array_t", "image1d_array_t", "Images_test.cpp"),
+    (r".*image1d_array_t", "image1d_array_t", "ImageTypes_test.cpp"),
     (r".* get_fence\(", "get_fence", "OpenClC3_test.cpp"),
     (r".* wait_group_events\(", "wait_group_events", "Inputs/builtins/values/copies.py"),
 )
@@ -108,8 +108,8 @@ def width_of(overload):
     return max((Vector(n).width for n, _ in overload.kinds() if Vector.known(n)), default=1)
 
 
-def family_of(overload):
-    """Conversions have columns of their own."""
+def is_conversion(overload):
+    """Conversions are compiled apart: their inputs are their own."""
     return overload.name.startswith("convert_")
 
 
@@ -143,7 +143,7 @@ def main():
         found = share_of(found)
     groups, missing = collections.defaultdict(list), []
     for version, overload in found:
-        groups[version, width_of(overload), family_of(overload)].append(overload)
+        groups[version, width_of(overload), is_conversion(overload)].append(overload)
     tasks = [(key[0], options.options.split(), units[n:n + UNITS_OF_KERNEL]) for key, units in groups.items()
              for n in range(0, len(units), UNITS_OF_KERNEL)]
     wrong = collections.Counter()

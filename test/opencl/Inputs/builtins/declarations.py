@@ -5,6 +5,8 @@ import re
 
 ATTRIBUTE = re.compile(r"__attribute__\s*\(\((?:[^()]|\([^()]*\))*\)\)\s*")
 DECLARATION = re.compile(r"^([\w ]+?)\s*\b(\w+)\((.*)\);$")
+# What stands before the type that a parameter points to, and the type.
+POINTER = re.compile(r"^(.*?)(\w+)(?:\s+(?:const|volatile))?\s*\*")
 SKIPPED = re.compile(r"^(typedef|enum|#)|printf")
 
 

@@ -150,30 +150,26 @@ readOrParse(const std::string &Key, std::shared_ptr<CompilerInvocation> Parse,
     if (State && HasPlace)
       pocl_write_checked_file(Path, State->data(), State->size());
   }
-  // A program can do without what is kept.
+  // That a state cannot be kept is no problem of the program.
   if (!HadProblem)
     pocl_forget_file_problem();
   return State;
 }
 
-/// The states of this process.
-class Kept {
-public:
-  template <typename Maker>
-  std::shared_ptr<const std::string> get(const std::string &Key, Maker Make) {
-    const std::lock_guard<std::mutex> Guard(Lock);
-    if (const auto Found = States.find(Key); Found != States.end())
-      return Found->second;
-    // Each takes 3 MiB, and few programs use more than two sets of options.
-    if (States.size() == 8)
-      States.clear();
-    return States[Key] = Make();
-  }
-
-private:
-  std::mutex Lock;
-  std::map<std::string, std::shared_ptr<const std::string>> States;
-};
+/// The state that this process has of the headers.
+std::shared_ptr<const std::string>
+stateOf(const std::string &Key, std::shared_ptr<CompilerInvocation> Parse,
+        const std::vector<std::string> &Headers) {
+  static std::mutex Lock;
+  static std::map<std::string, std::shared_ptr<const std::string>> States;
+  const std::lock_guard<std::mutex> Guard(Lock);
+  if (const auto Found = States.find(Key); Found != States.end())
+    return Found->second;
+  // Each takes 3 MiB, and few programs use more than two sets of options.
+  if (States.size() == 8)
+    States.clear();
+  return States[Key] = readOrParse(Key, std::move(Parse), Headers);
+}
 
 } // namespace
 
@@ -184,9 +180,7 @@ PrecompiledHeaders::PrecompiledHeaders(const CompilerInvocation &Program,
   std::shared_ptr<CompilerInvocation> Parse =
       withoutTheProgram(Program, UserOptions);
   Key = keyOf(*Parse, this->Headers);
-  static Kept States;
-  State = States.get(
-      Key, [&] { return readOrParse(Key, std::move(Parse), this->Headers); });
+  State = stateOf(Key, std::move(Parse), this->Headers);
 }
 
 void PrecompiledHeaders::addTo(CompilerInstance &Instance) const {

@@ -14,6 +14,8 @@ import re
 
 import numpy as np
 
+from declarations import POINTER
+
 from .columns import stored
 from .formats import Vector
 
@@ -23,8 +25,6 @@ SHARED = 3 * 128
 
 class Overload:
     """One declaration of a function."""
-
-    POINTER = re.compile(r"^(.*?)(\w+)(?:\s+(?:const|volatile))?\s*\*")
 
     def __init__(self, name, result, parameters):
         self.name, self.result = name, result
@@ -36,7 +36,7 @@ class Overload:
     def kind(self, number):
         """What the parameter is: (type, space), where the space of a value is None and that of a generic pointer ''."""
         text = self.parameters[number]
-        pointer = self.POINTER.match(text)
+        pointer = POINTER.match(text)
         if pointer:
             words = pointer[1].split()
             space = next((s for s in ("global", "local", "constant", "private") if s in words), "")
