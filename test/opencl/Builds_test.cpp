@@ -182,7 +182,8 @@ TEST_F(Builds, AMacroOfTheProgramDoesNotReachTheHeaders) {
   EXPECT_EQ(Device.download<cl_uint>(Out, 2), (std::vector<cl_uint>{321, 11}));
 }
 
-// The state of the headers is kept with what they saw of the options.
+// What is kept of the headers is kept for each set of options that changes
+// them.
 TEST_F(Builds, OptionsThatTheHeadersSeeAreSeen) {
   const std::string Source = "kernel void f(global int *o) {\n"
                              "#ifdef cl_khr_fp64\n"

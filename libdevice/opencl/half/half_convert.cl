@@ -62,8 +62,9 @@ TO_HALF_ROUNDED(half)
 TO_HALF_ROUNDED(float)
 __IF_FP64(TO_HALF_ROUNDED(double))
 
-/* A half is a float. Inlined, as PoCL's are: an element that no TYPE can hold is
-   poison, and would spoil its neighbours where a vector is returned as a word. */
+/* Each half is a float, too. The functions are inlined, as PoCL's are. If one
+   returned a vector of bytes or shorts in a register, an element that TYPE
+   cannot hold (poison, to LLVM) would spoil the elements beside it. */
 #define FROM_HALF(N, TYPE, MODE)                                               \
   _CL_ALWAYSINLINE TYPE##N _CL_OVERLOADABLE convert_##TYPE##N##MODE(           \
       half##N x) {                                                             \

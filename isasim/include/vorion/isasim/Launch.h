@@ -50,7 +50,7 @@ struct LaunchShape {
   std::array<uint32_t, 3> NumGroups{1, 1, 1}; ///< 0 runs nothing
   std::array<uint32_t, 3> LocalSize{1, 1, 1};
   std::array<uint32_t, 3> GlobalOffset{};
-  /// Nothing: it is the whole range.
+  /// Absent for a launch of a whole range.
   std::optional<WholeRange> PartOf = std::nullopt;
 };
 
