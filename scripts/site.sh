@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# The documents as a site in build/dev/site, which a browser opens without a server or a network.
+# usage: scripts/site.sh
+source "$(dirname "$0")/lib.sh"
+
+command -v mkdocs >/dev/null || fail "no mkdocs, expected the packages of scripts/packages.txt"
+mkdir -p "$Build"
+"$Root/docs/site/build.py" "$Build/site"
+printf 'open %s in a browser\n' "${Build#"$PWD"/}/site/index.html"
