@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <new>
 
 namespace vorion::isasim {
@@ -57,7 +58,9 @@ std::string pathOf(Dwarf_Die *Unit, const char *Name) {
   const char *Folder =
       dwarf_formstring(dwarf_attr(Unit, DW_AT_comp_dir, &Attribute));
   std::string Path = Name ? Name : "?";
-  return Folder && Path[0] != '/' ? fmt::format("{}/{}", Folder, Path) : Path;
+  if (!Folder || Path[0] == '/')
+    return Path;
+  return (std::filesystem::path(Folder) / Path).lexically_normal();
 }
 
 std::optional<Dwarf_Word> number(Dwarf_Die *Die, unsigned Attribute) {

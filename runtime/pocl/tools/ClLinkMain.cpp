@@ -196,7 +196,7 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
                  "cannot be written, expected room for a copy of " +
                      Input.string()};
   const Expected<std::string> Beside =
-      includeOption(fs::absolute(Input, Problem).parent_path().string());
+      includeOption((Input.parent_path() / ".").string());
   if (!Beside)
     return Beside.error();
   std::vector<std::string> Arguments = {(Root / "pocl/bin/poclcc").string(),

@@ -1,0 +1,1 @@
+uint factor(uint i) { return 3 * i; }
