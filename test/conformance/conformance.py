@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Runs the test programs of OpenCL's conformance suite that are built in a folder, or those that Debian packages
-have, and prints one table.
+"""Runs the test programs of OpenCL's conformance suite that are built in a folder, PoCL's own tests, or those that
+Debian packages have, and prints one table.
 
 usage: scripts/conformance.sh FOLDER [--only PATTERN] [--limit SECONDS] [--results FILE] [--json FILE]
+       scripts/conformance.sh --pocl [FOLDER] [the same options]
        scripts/conformance.sh --packages [FOLDER] [the same options]
 
 FOLDER is where the suite was built, or any folder above its programs, which are named test_*. Every subtest runs as a
-process of its own, in the suite's wimpy mode. With --packages it is where piglit is installed, if not where its
-package says. A result is kept in the results file with the hash of what made it: the test and the platform. So a run
+process of its own, in the suite's wimpy mode. With --pocl it is what CMake's target pocl_tests built, if not the build
+folder's pocl-tests. With --packages it is where piglit is installed, if not where its package says. A result is kept in the results file with the hash of what made it: the test and the platform. So a run
 that was ended goes on where it was, and a new build is measured anew.
 
 exit codes: 0 every subtest passed or was skipped by the suite, 1 some did not, 2 usage, 3 a file or folder
@@ -27,20 +28,23 @@ import time
 
 import cts
 import piglit
+import pocl
 from suite import OUTCOMES, Problem
 
 
 def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?")
-    parser.add_argument("--packages", action="store_true", help="what packages have: piglit's tests of OpenCL")
+    suites = parser.add_mutually_exclusive_group()
+    suites.add_argument("--pocl", action="store_true", help="PoCL's own tests")
+    suites.add_argument("--packages", action="store_true", help="what packages have: piglit's tests of OpenCL")
     parser.add_argument("--only", default="", metavar="PATTERN", help="a regular expression on PROGRAM/SUBTEST")
     parser.add_argument("--limit", type=float, default=600, metavar="SECONDS", help="for one subtest (default: 600)")
-    parser.add_argument("--results", default=None, metavar="FILE", help="default: conformance.jsonl in FOLDER, piglit.jsonl here")
+    parser.add_argument("--results", default=None, metavar="FILE", help="default: conformance.jsonl in FOLDER, piglit.jsonl or pocl.jsonl here")
     parser.add_argument("--json", metavar="FILE", help="all results as JSON")
     args = parser.parse_args()
-    if not args.folder and not args.packages:
-        parser.error("no FOLDER, expected one with the suite's programs, or --packages")
+    if not args.folder and not args.packages and not args.pocl:
+        parser.error("no FOLDER, expected one with the suite's programs, --pocl or --packages")
     return args
 
 
@@ -63,6 +67,18 @@ def platform_files():
                   if os.path.isfile(path))
 
 
+def end_session(leader):
+    """Ends all processes of a session. Its process group is not enough: CMake gives what it runs groups of their own."""
+    for stat in glob.glob("/proc/[0-9]*/stat"):
+        try:
+            with open(stat, encoding="utf-8", errors="replace") as file:
+                session = file.read().rpartition(")")[2].split()[3] # behind the name: state, parent, group, session
+            if int(session) == leader:
+                os.kill(int(stat.split("/")[2]), signal.SIGKILL)
+        except (FileNotFoundError, ProcessLookupError):
+            pass
+
+
 def run(test, limit):
     begun = time.monotonic()
     process = subprocess.Popen(test.command, cwd=os.path.dirname(test.command[0]), stdout=subprocess.PIPE,
@@ -73,7 +89,7 @@ def run(test, limit):
         if process.returncode < 0:
             found, reason = "crashed", signal.Signals(-process.returncode).name
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
+        end_session(process.pid)
         process.communicate()
         found, reason = "time", f"more than {limit:g} s"
     return {"outcome": found, "reason": reason[:200], "seconds": round(time.monotonic() - begun, 1)}
@@ -96,12 +112,13 @@ def kept_results(path):
 
 def measure(args):
     """All chosen results, in the order of programs and subtests."""
-    suite = piglit if args.packages else cts
+    suite = piglit if args.packages else pocl if args.pocl else cts
     tests = [test for test in suite.tests(args.folder) if re.search(args.only, f"{test.program}/{test.name}")]
     if not tests:
         raise Problem(f"--only {args.only}: no subtest matches, expected a part of PROGRAM/SUBTEST")
     platform = digest(platform_files())
-    path = args.results or ("piglit.jsonl" if args.packages else os.path.join(args.folder, "conformance.jsonl"))
+    kept_in = "piglit.jsonl" if args.packages else "pocl.jsonl" if args.pocl else os.path.join(args.folder, "conformance.jsonl")
+    path = args.results or kept_in
     kept = kept_results(path)
     results = []
     hashes = {}
