@@ -94,8 +94,8 @@ static uint project_one(__local const workspace *c,
   __local const float *w = view->rotation;
   const float z = camera_depth(view, px, py, pz);
   // So that it is known here. The compiler moves what only later code needs
-  // behind the loop, and this sum would have 20 terms alive across it: 8 % more
-  // cycles where no test of the depth holds it here.
+  // behind the loop, and this sum would have 20 terms alive across it, where no
+  // test of the depth holds it here (docs/effects.md has the cost).
   *unread = as_uint(z);
   if (USE_NEAR_PLANE && !(KEEP_DEPTH(z)))
     return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
