@@ -72,4 +72,15 @@ std::optional<int> parseCommandLine(CLI::App &App,
   return std::nullopt;
 }
 
+Expected<Success> parseOptions(CLI::App &App,
+                               std::vector<std::string> Arguments) {
+  std::ranges::reverse(Arguments);
+  try {
+    App.parse(std::move(Arguments));
+  } catch (const CLI::ParseError &E) {
+    return Error{"", problemOf(App, E.what()), ExitCode::Usage};
+  }
+  return Success{};
+}
+
 } // namespace vorion

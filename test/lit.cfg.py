@@ -23,12 +23,15 @@ config.test_exec_root = os.path.join(build, "test")
 config.environment["PATH"] = os.pathsep.join(
     [os.path.join(build, "bin"), "/usr/lib/llvm-19/bin", os.environ["PATH"]])
 config.environment["VORION_ROOT"] = build
+packages = config.environment["PYTHONPATH"] = os.path.join(build, "lib", "python3", "dist-packages")
 config.substitutions += [
     ("%root", root),
     ("%build", build),
     # What header tests include when nothing is installed yet.
     ("%include", os.path.join(build, "intrinsics", "generated", "include")),
     ("%python", f'"{sys.executable}"'),
+    # The one that has NumPy, and for which the package vorion is built.
+    ("%debian-python", "/usr/bin/python3"),
     ("%data", os.path.join(root, "..", "shared", "data")),
 ]
 
@@ -43,6 +46,8 @@ features["failing-calls"] = os.path.join(build, "lib", "libvorion-failing-calls.
 features["own-declarations"] = os.path.join(build, "lib", "libvorion-own-declarations.so")
 # The OpenCL platform of the build and no other, as scripts/env.sh has it.
 features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join(build, "etc", "OpenCL", "vendors")
+features["vorion-python"] = os.path.join(packages, "vorion", "__init__.py")
+features["torch"] = "/usr/lib/python3/dist-packages/torch"
 features["data"] = os.path.join(root, "..", "shared", "data")
 # LLVM's own tests, as scripts/fetch-source.sh leaves them.
 features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES", os.path.join(root, "build", "sources")), "llvm-tests")

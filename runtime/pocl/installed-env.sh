@@ -1,6 +1,7 @@
-# Source this (bash): puts the installed tools on the path and shows the device
-# to every OpenCL program of this shell.
+# Source this (bash): puts the installed tools and the Python package on the paths
+# and shows the device to every OpenCL program of this shell.
 VORION_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 export VORION_ROOT
 export PATH="$VORION_ROOT/bin:$PATH"
 export OCL_ICD_VENDORS="$VORION_ROOT/pocl/lib/libpocl.so"
+export PYTHONPATH="$VORION_ROOT/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"

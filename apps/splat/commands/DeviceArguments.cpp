@@ -16,15 +16,22 @@ void addKernelsOption(CLI::App &App, std::string &Folder) {
                  "Read the kernel sources from this folder");
 }
 
-Expected<Device> openDevice(const std::string &Name, Path Blending,
-                            const DeviceOptions &Options) {
-  auto D = Device::open(Name, Options);
-  if (D && Blending == Path::Raster && !D->isVorion())
+Expected<Success> checkBlends(const Device &D, Path Blending) {
+  if (Blending == Path::Raster && !D.isVorion())
     return Error{"",
                  fmt::format("{} has no rasterizer, expected a Vorion device "
                              "or --path simt",
-                             D->name()),
+                             D.name()),
                  ExitCode::Usage};
+  return Success{};
+}
+
+Expected<Device> openDevice(const std::string &Name, Path Blending,
+                            const DeviceOptions &Options) {
+  auto D = Device::open(Name, Options);
+  if (D)
+    if (auto Checked = checkBlends(*D, Blending); !Checked)
+      return Checked.error();
   return D;
 }
 

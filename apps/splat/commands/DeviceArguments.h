@@ -15,6 +15,9 @@ void addDeviceOption(CLI::App &App, std::string &Name);
 /// Declares --kernels; \p Folder must outlive the parsing.
 void addKernelsOption(CLI::App &App, std::string &Folder);
 
+/// Whether \p D can blend by \p Blending; an error is one of usage.
+Expected<Success> checkBlends(const Device &D, Path Blending);
+
 /// Opens the device that \p Name asks for; an error where it cannot blend by
 /// \p Blending.
 Expected<Device> openDevice(const std::string &Name, Path Blending,

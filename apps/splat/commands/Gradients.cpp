@@ -105,10 +105,7 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
 }
 
 Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
-  if (auto Checked = checkPictureOptions(A.Options); !Checked)
-    return Checked;
-  if (auto Checked = checkBackwardOptions(A.Backward, A.Options.Blending);
-      !Checked)
+  if (auto Checked = checkGradientOptions(A.Options, A.Backward); !Checked)
     return Checked;
   for (const auto &Checked :
        {checkEnding("-o", A.Output, {".npz"}), checkJsonName(A.Json)})
@@ -165,8 +162,6 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
 
 Runner addGradients(CLI::App &App) {
   auto A = std::make_shared<GradientArguments>();
-  RenderOptions &O = A->Options;
-  O.Training = true;
   addSceneOptions(App, A->Scene);
   App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
       ->required();
@@ -182,9 +177,7 @@ Runner addGradients(CLI::App &App) {
   App.add_option("--json", A->Json, "Write what was done, and how much of it");
   App.add_flag("--time", A->Time,
                "Say how long both passes take on the machine (docs/model.md)");
-  addPictureOptions(App, O);
-  addSimtOptions(App, O.SimtTile, O.SimtGroup, SimtTilesBack);
-  addBackwardOptions(App, A->Backward);
+  addGradientOptions(App, A->Options, A->Backward);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) { return run(*A, Machine); };

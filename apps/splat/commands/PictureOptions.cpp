@@ -1,11 +1,56 @@
 #include "commands/PictureOptions.h"
 
 #include "commands/Choices.h"
+#include "vorion/support/Diagnostics.h"
 
 #include <cmath>
 #include <fmt/format.h>
 
 namespace vorion::splat {
+
+namespace {
+
+Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
+
+/// What is given up for time or area, on either path.
+void addDatapathOptions(CLI::App &App, RenderOptions &O) {
+  addChoice(App, "--exp", O.Exponential, ExpUnits,
+            "Exponential unit; tables are the rasterizer's");
+  addSize(App, "--alpha-cutoff", O.AlphaCutoff, {1, 2, 4, 8},
+          "Smallest alpha that is blended, in 1/255");
+  App.add_option("--depth-bits", O.DepthBits,
+                 "Leading bits of the depths that decide the order "
+                 "(default 32)")
+      ->option_text("1..32")
+      ->check(CLI::Range(1U, 32U));
+  App.add_option("--sh-degree", O.ShLimit,
+                 "Leave out bands of spherical harmonics above this "
+                 "(default 3)")
+      ->option_text("0..3")
+      ->check(CLI::Range(0, 3));
+}
+
+void addRasterOptions(CLI::App &App, DrawArguments &A) {
+  RenderOptions &O = A.Options;
+  addChoice(App, "--blend", O.Arithmetic, BlendUnits,
+            "Multiplications of the rasterizer's blend stage; sums are fp32");
+  addSize(App, "--tile", O.RasterTile, {16, 32, 64},
+          "Side of a tile of the rasterizer's path");
+  App.add_option("--ztiles", O.ZTiles,
+                 "Parts of each tile's list that are blended apart and merged "
+                 "(default 1)")
+      ->option_text(fmt::format("1..{}", MaxZTiles))
+      ->check(CLI::Range(1U, MaxZTiles));
+  App.add_option("--pixel-unit", A.PixelUnit,
+                 "When a list goes on in the pixel unit: so many entries are "
+                 "left, a share of the pixels is full, or the last part of the "
+                 "list is reached (default off)")
+      ->option_text("off|count:N|occluded:P|last:A/B[,...]");
+  App.add_flag("--skip-saturated", O.SkipSaturated,
+               "The rasterizer gives no lane slot to saturated pixels");
+}
+
+} // namespace
 
 void addPictureOptions(CLI::App &App, RenderOptions &O) {
   addRulesOption(App, O.Convention);
@@ -26,18 +71,67 @@ void drawAs(RenderOptions &O, const Drawing &D) {
 }
 
 Expected<Success> checkPictureOptions(const RenderOptions &O) {
-  const auto Usage = [](std::string What) {
-    return Error{"", std::move(What), ExitCode::Usage};
-  };
   for (const float B : O.Background)
     if (!std::isfinite(B))
-      return Usage(fmt::format("--background {}: expected finite numbers", B));
+      return usage(fmt::format("--background {}: expected finite numbers", B));
   if (!(O.Cutoff >= 0 && O.Cutoff < 1))
-    return Usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
+    return usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
   if (O.Blending == Path::Raster && O.Reach == Support::Official16)
-    return Usage("--support official16 has tiles of 16x16 pixels, expected "
+    return usage("--support official16 has tiles of 16x16 pixels, expected "
                  "--path simt with it");
   return Success{};
+}
+
+void addDrawOptions(CLI::App &App, DrawArguments &A) {
+  addPictureOptions(App, A.Options);
+  addDatapathOptions(App, A.Options);
+  addRasterOptions(App, A);
+  addSimtOptions(App, A.Options.SimtTile, A.Options.SimtGroup, {8, 16, 32, 64});
+  App.add_option("--effects", A.Effects,
+                 "Effects compiled into the kernels: what the scene calls for, "
+                 "all, all behind run-time flags, or those named (default "
+                 "auto; docs/effects.md)")
+      ->option_text("auto|all|flags|NAME,...");
+}
+
+Expected<Success> parseDrawTexts(DrawArguments &A) {
+  auto Tail = parseTailRule(A.PixelUnit);
+  if (!Tail)
+    return Tail.error();
+  A.Options.PixelUnit = *Tail;
+  auto Request = parseEffectRequest(A.Effects);
+  if (!Request)
+    return Request.error();
+  A.Request = std::move(*Request);
+  return Success{};
+}
+
+Expected<Success> checkDrawOptions(const RenderOptions &O) {
+  if (auto Checked = checkPictureOptions(O); !Checked)
+    return Checked;
+  if (O.Blending == Path::Simt && !isOnCores(O.Exponential))
+    return usage(fmt::format("--exp {} is the rasterizer's, expected --path "
+                             "raster with it",
+                             name(O.Exponential)));
+  if (O.Blending == Path::Simt &&
+      (O.ZTiles != 1 || O.PixelUnit.any() || O.SkipSaturated ||
+       O.Arithmetic != BlendUnit::Fp32 ||
+       O.RasterTile != RenderOptions().RasterTile))
+    return usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
+                 "are the rasterizer's, expected --path raster with them");
+  if (O.Reach == Support::Official16 && O.SimtTile != 16)
+    return usage(fmt::format("--simt-tile {}: --support official16 has tiles "
+                             "of 16x16 pixels, expected 16",
+                             O.SimtTile));
+  return Success{};
+}
+
+void warnOfMissing(const EffectPlan &P, const std::string &Asked) {
+  for (const Effect *E : P.missing())
+    printDiagnostic("splat", "warning", "",
+                    fmt::format("--effects {} leaves out {}, which the scene "
+                                "calls for ({}): the picture differs",
+                                Asked, E->Name, P.of(*E).Detected.Figure));
 }
 
 void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
@@ -76,11 +170,23 @@ Expected<Success> checkBackwardOptions(const BackwardOptions &B,
   const BackwardOptions Default;
   if (Blending == Path::Simt &&
       (B.Unit != Default.Unit || B.Order != Default.Order))
-    return Error{"",
-                 "--reciprocal and --sum are the rasterizer's, expected --path "
-                 "raster with them",
-                 ExitCode::Usage};
+    return usage("--reciprocal and --sum are the rasterizer's, expected --path "
+                 "raster with them");
   return Success{};
+}
+
+void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B) {
+  O.Training = true;
+  addPictureOptions(App, O);
+  addSimtOptions(App, O.SimtTile, O.SimtGroup, SimtTilesBack);
+  addBackwardOptions(App, B);
+}
+
+Expected<Success> checkGradientOptions(const RenderOptions &O,
+                                       const BackwardOptions &B) {
+  if (auto Checked = checkPictureOptions(O); !Checked)
+    return Checked;
+  return checkBackwardOptions(B, O.Blending);
 }
 
 std::string toString(const BackwardOptions &B, Path Blending) {

@@ -2,6 +2,7 @@
 /// one meaning in every subcommand that draws.
 #pragma once
 
+#include "effects/EffectPlan.h"
 #include "picture/Options.h"
 #include "render/Backward.h"
 #include "scene/Drawing.h"
@@ -24,6 +25,27 @@ void drawAs(RenderOptions &O, const Drawing &D);
 /// Whether the values of these go together; an error is one of usage.
 Expected<Success> checkPictureOptions(const RenderOptions &O);
 
+/// All that says how a view is drawn; the texts are for parseDrawTexts().
+struct DrawArguments {
+  RenderOptions Options;
+  std::string PixelUnit = "off", Effects = "auto";
+  EffectRequest Request;
+};
+
+/// Declares the picture's options, what is given up for time or area, the
+/// paths' own, and --effects.
+void addDrawOptions(CLI::App &App, DrawArguments &A);
+
+/// Reads \p A's texts; an error is one of usage.
+Expected<Success> parseDrawTexts(DrawArguments &A);
+
+/// Whether all values go together; an error is one of usage.
+Expected<Success> checkDrawOptions(const RenderOptions &O);
+
+/// Says on the terminal which effects \p P leaves out that the picture needs;
+/// \p Asked is the text of --effects.
+void warnOfMissing(const EffectPlan &P, const std::string &Asked);
+
 void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
                          const std::string &Help);
 
@@ -43,6 +65,13 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 
 /// Whether the values fit \p Blending; an error is one of usage.
 Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
+
+/// All that says how one view's gradients are taken; \p O is for training then.
+void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B);
+
+/// Whether all values go together; an error is one of usage.
+Expected<Success> checkGradientOptions(const RenderOptions &O,
+                                       const BackwardOptions &B);
 
 /// These as a report says them, after a comma; empty where the cores go back.
 std::string toString(const BackwardOptions &B, Path Blending);

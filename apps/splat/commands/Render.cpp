@@ -1,4 +1,3 @@
-#include "commands/Choices.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
 #include "commands/HeatMapFiles.h"
@@ -31,19 +30,16 @@ namespace vorion::splat {
 
 namespace {
 
-struct RenderArguments {
+struct RenderArguments : DrawArguments {
   SceneArguments Scene;
   std::string Cameras, Output;
   std::vector<std::string> Views;
   std::string Json, Pairs, Depth, Device, KernelFolder;
-  std::string PixelUnit = "off", Effects = "auto";
-  EffectRequest Request;
   std::string Explain; ///< empty, "plan" or "measure"
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
   std::string Numerics; ///< settings, empty for no
   std::string HeatMap;  ///< what names of files begin with, empty for no
-  RenderOptions Options;
 };
 
 /// Whether one picture is asked for; "all" may be one too.
@@ -63,18 +59,8 @@ Expected<Success> check(const RenderArguments &A) {
         checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json)})
     if (!Checked)
       return Checked;
-  if (auto Checked = checkPictureOptions(O); !Checked)
+  if (auto Checked = checkDrawOptions(O); !Checked)
     return Checked;
-  if (O.Blending == Path::Simt && !isOnCores(O.Exponential))
-    return Usage(fmt::format("--exp {} is the rasterizer's, expected --path "
-                             "raster with it",
-                             name(O.Exponential)));
-  if (O.Blending == Path::Simt &&
-      (O.ZTiles != 1 || O.PixelUnit.any() || O.SkipSaturated ||
-       O.Arithmetic != BlendUnit::Fp32 ||
-       O.RasterTile != RenderOptions().RasterTile))
-    return Usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
-                 "are the rasterizer's, expected --path raster with them");
   if (A.Overlap && O.Blending == Path::Simt)
     return Usage("--overlap is for cores beside rasterizers, expected --path "
                  "raster with it");
@@ -97,10 +83,6 @@ Expected<Success> check(const RenderArguments &A) {
   }
   if (!isOne(A) && A.Explain == "measure")
     return Usage("--explain=measure renders one picture, expected one --view");
-  if (O.Reach == Support::Official16 && O.SimtTile != 16)
-    return Usage(fmt::format("--simt-tile {}: --support official16 has tiles "
-                             "of 16x16 pixels, expected 16",
-                             O.SimtTile));
   // A render may take minutes: find out now whether it can be kept.
   std::vector<NamedFile> Outputs = HeatMapFiles::outputs(A.HeatMap);
   Outputs.insert(Outputs.end(), {{"-o", isOne(A) ? A.Output : ""},
@@ -113,12 +95,7 @@ Expected<Success> check(const RenderArguments &A) {
 
 RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
   RenderPlan Plan = planRender(EffectPlan(A.Request, In), A.Options);
-  for (const Effect *E : Plan.Effects.missing())
-    printDiagnostic("splat", "warning", "",
-                    fmt::format("--effects {} leaves out {}, which the scene "
-                                "calls for ({}): the picture differs",
-                                A.Effects, E->Name,
-                                Plan.Effects.of(*E).Detected.Figure));
+  warnOfMissing(Plan.Effects, A.Effects);
   if (!A.Explain.empty())
     printOut("{}", explain(Plan));
   return Plan;
@@ -275,50 +252,10 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   return Success{};
 }
 
-/// What is given up for time or area, on either path.
-void addDatapathOptions(CLI::App &App, RenderOptions &O) {
-  addChoice(App, "--exp", O.Exponential, ExpUnits,
-            "Exponential unit; tables are the rasterizer's");
-  addSize(App, "--alpha-cutoff", O.AlphaCutoff, {1, 2, 4, 8},
-          "Smallest alpha that is blended, in 1/255");
-  App.add_option("--depth-bits", O.DepthBits,
-                 "Leading bits of the depths that decide the order "
-                 "(default 32)")
-      ->option_text("1..32")
-      ->check(CLI::Range(1U, 32U));
-  App.add_option("--sh-degree", O.ShLimit,
-                 "Leave out bands of spherical harmonics above this "
-                 "(default 3)")
-      ->option_text("0..3")
-      ->check(CLI::Range(0, 3));
-}
-
-void addRasterOptions(CLI::App &App, RenderArguments &A) {
-  RenderOptions &O = A.Options;
-  addChoice(App, "--blend", O.Arithmetic, BlendUnits,
-            "Multiplications of the rasterizer's blend stage; sums are fp32");
-  addSize(App, "--tile", O.RasterTile, {16, 32, 64},
-          "Side of a tile of the rasterizer's path");
-  App.add_option("--ztiles", O.ZTiles,
-                 "Parts of each tile's list that are blended apart and merged "
-                 "(default 1)")
-      ->option_text(fmt::format("1..{}", MaxZTiles))
-      ->check(CLI::Range(1U, MaxZTiles));
-  App.add_option("--pixel-unit", A.PixelUnit,
-                 "When a list goes on in the pixel unit: so many entries are "
-                 "left, a share of the pixels is full, or the last part of the "
-                 "list is reached (default off)")
-      ->option_text("off|count:N|occluded:P|last:A/B[,...]");
-  App.add_flag("--skip-saturated", O.SkipSaturated,
-               "The rasterizer gives no lane slot to saturated pixels");
-  addSimtOptions(App, O.SimtTile, O.SimtGroup, {8, 16, 32, 64});
-}
-
 } // namespace
 
 Runner addRender(CLI::App &App) {
   auto A = std::make_shared<RenderArguments>();
-  RenderOptions &O = A->Options;
   addSceneOptions(App, A->Scene);
   App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
       ->required();
@@ -334,20 +271,13 @@ Runner addRender(CLI::App &App) {
                  "Picture: .png, or .pfm or .npz for linear floats")
       ->required();
   App.add_option("--json", A->Json, "Write what was done, and how much of it");
-  addPictureOptions(App, O);
-  addDatapathOptions(App, O);
-  addRasterOptions(App, *A);
+  addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
   App.add_flag("--explain{plan}", A->Explain,
                "Say of each effect whether it is on, and what decided; with "
                "=measure also what it costs, by rendering with and without")
       ->option_text("[=measure]")
       ->check(CLI::IsMember({"plan", "measure"}));
-  App.add_option("--effects", A->Effects,
-                 "Effects compiled into the kernels: what the scene calls for, "
-                 "all, all behind run-time flags, or those named (default "
-                 "auto; docs/effects.md)")
-      ->option_text("auto|all|flags|NAME,...");
   App.add_flag("--time", A->Time,
                "Say how long the frame takes on the machine (docs/model.md)");
   App.add_option("--clock", A->ClockMhz,
@@ -372,14 +302,8 @@ Runner addRender(CLI::App &App) {
                  "Write the sorted tile, depth_bits and index arrays (.npz)");
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {
-    auto Tail = parseTailRule(A->PixelUnit);
-    if (!Tail)
-      return Expected<Success>(Tail.error());
-    A->Options.PixelUnit = *Tail;
-    auto Request = parseEffectRequest(A->Effects);
-    if (!Request)
-      return Expected<Success>(Request.error());
-    A->Request = std::move(*Request);
+    if (auto Parsed = parseDrawTexts(*A); !Parsed)
+      return Parsed;
     return run(*A, Machine);
   };
 }

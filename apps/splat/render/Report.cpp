@@ -80,44 +80,28 @@ Json stagesJson(const std::vector<StageReport> &Stages) {
   return All;
 }
 
-Expected<Json> jsonReport(const RenderRecord &R) {
-  auto SceneHash = hashScene(R.ScenePath);
-  if (!SceneHash)
-    return SceneHash.error();
-  auto CameraHash = hashFile(R.CameraFile);
-  if (!CameraHash)
-    return CameraHash.error();
-  Json Device{{"name", R.Dev.name()},
-              {"version", R.Dev.version()},
-              {"compute_units", R.Dev.computeUnits()},
-              {"global_bytes", R.Dev.globalBytes()}};
-  if (R.Dev.isVorion()) {
-    auto Configuration = machineConfiguration(R.Dev.options());
+Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,
+                         const RenderPlan &Plan, const Device &Dev,
+                         const RenderResult &Result) {
+  Json Device{{"name", Dev.name()},
+              {"version", Dev.version()},
+              {"compute_units", Dev.computeUnits()},
+              {"global_bytes", Dev.globalBytes()}};
+  if (Dev.isVorion()) {
+    auto Configuration = machineConfiguration(Dev.options());
     if (!Configuration)
       return Configuration.error();
     Device["configuration"] = std::move(*Configuration);
   }
-  const RenderOptions &O = R.Options;
   Json Culled;
   for (std::size_t I = 0; I < CullReasons.size(); ++I)
-    Culled[std::string(CullReasons[I])] = R.Result.Culled[I];
-  const Totals T = totals(R.Result);
+    Culled[std::string(CullReasons[I])] = Result.Culled[I];
+  const Totals T = totals(Result);
   Json Total{{"seconds", T.Seconds}};
   if (T.Counters)
     Total["counters"] = json(*T.Counters);
-
-  Json Report{{"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-              {"scene",
-               {{"file", R.ScenePath},
-                {"fnv1a64", *SceneHash},
-                {"gaussians", R.Input.Gaussians.size()},
-                {"dropped_nonfinite", R.Input.Dropped},
-                {"sh_degree", R.Input.Gaussians.ShDegree},
-                {"format", name(R.Input.Format)},
-                {"axes_changed", R.AxesChange}}},
-              {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
-              {"view", R.View.Name},
-              {"resolution", {R.View.Width, R.View.Height}},
+  return Json{{"view", View.Name},
+              {"resolution", {View.Width, View.Height}},
               {"rules", name(O.Convention)},
               {"support", name(O.Reach)},
               {"path", name(O.Blending)},
@@ -139,24 +123,47 @@ Expected<Json> jsonReport(const RenderRecord &R) {
                 {"sh_limit", O.ShLimit},
                 {"exp", name(O.Exponential)},
                 {"blend", name(O.Arithmetic)}}},
-              {"effects", effectsJson(R.Plan.Effects)},
-              {"programs", json(R.Plan.Programs)},
+              {"effects", effectsJson(Plan.Effects)},
+              {"programs", json(Plan.Programs)},
               {"device", Device},
-              {"picture", R.Output},
               {"counts",
-               {{"visible", R.Result.Visible},
+               {{"visible", Result.Visible},
                 {"culled", Culled},
-                {"pairs", R.Result.Pairs},
-                {"device_bytes", R.Result.DeviceBytes}}},
-              {"stages", stagesJson(R.Result.Stages)},
+                {"pairs", Result.Pairs},
+                {"device_bytes", Result.DeviceBytes}}},
+              {"stages", stagesJson(Result.Stages)},
               {"total", Total}};
+}
+
+Expected<Json> jsonReport(const RenderRecord &R) {
+  auto SceneHash = hashScene(R.ScenePath);
+  if (!SceneHash)
+    return SceneHash.error();
+  auto CameraHash = hashFile(R.CameraFile);
+  if (!CameraHash)
+    return CameraHash.error();
+  auto Drawn = drawnJson(R.View, R.Options, R.Plan, R.Dev, R.Result);
+  if (!Drawn)
+    return Drawn;
+  Json Report{{"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
+              {"scene",
+               {{"file", R.ScenePath},
+                {"fnv1a64", *SceneHash},
+                {"gaussians", R.Input.Gaussians.size()},
+                {"dropped_nonfinite", R.Input.Dropped},
+                {"sh_degree", R.Input.Gaussians.ShDegree},
+                {"format", name(R.Input.Format)},
+                {"axes_changed", R.AxesChange}}},
+              {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
+              {"picture", R.Output}};
+  Report.update(*Drawn);
   if (R.Back) {
     auto Hash = hashFile(R.Back->Upstream);
     if (!Hash)
       return Hash.error();
     Report["backward"] = {{"upstream", R.Back->Upstream}, {"fnv1a64", *Hash}};
     // Units that the cores do not have.
-    if (O.Blending == Path::Raster) {
+    if (R.Options.Blending == Path::Raster) {
       Report["backward"]["reciprocal"] = name(R.Back->Options.Unit);
       Report["backward"]["sums"] = name(R.Back->Options.Order);
     }

@@ -34,6 +34,14 @@ struct RenderRecord {
 /// kernel. Fails if an input cannot be read again.
 Expected<nlohmann::ordered_json> jsonReport(const RenderRecord &R);
 
+/// The part of it that knows no files, and without the time: the view, options,
+/// programs, device with its configuration, counts, stages and their total.
+Expected<nlohmann::ordered_json> drawnJson(const Camera &View,
+                                           const RenderOptions &Options,
+                                           const RenderPlan &Plan,
+                                           const Device &Dev,
+                                           const RenderResult &Result);
+
 /// JSON array of stages: seconds, kernels with launches and counters.
 nlohmann::ordered_json stagesJson(const std::vector<StageReport> &Stages);
 

@@ -1,6 +1,8 @@
 /// The command lines of the tools that use CLI11.
 #pragma once
 
+#include "vorion/support/Expected.h"
+
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
@@ -13,5 +15,10 @@ namespace vorion {
 /// refuses: that is said in the house form, with what was probably meant.
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments);
+
+/// The same for options that come from elsewhere than a command line: prints
+/// nothing. \p App has no help.
+Expected<Success> parseOptions(CLI::App &App,
+                               std::vector<std::string> Arguments);
 
 } // namespace vorion

@@ -1,0 +1,78 @@
+#include "python/Bindings.h"
+
+#include "io/Cameras.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+namespace vorion::splat::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Row = std::array<double, 3>;
+
+/// \p Rotation and \p Position as in Camera; the error that is thrown names the
+/// argument of vorion.Camera.
+Camera made(std::string Name, int Width, int Height,
+            const std::array<double, 4> &Intrinsics,
+            const std::array<Row, 3> &Rotation, const Row &Position) {
+  const auto Refuse = [](std::string What) {
+    throw Failed({"", std::move(What), ExitCode::Usage});
+  };
+  for (const int Side : {Width, Height})
+    if (Side < 1 || Side > MaxImageSize)
+      Refuse(fmt::format("a picture of {}x{} pixels, expected sides of 1 to {}",
+                         Width, Height, MaxImageSize));
+  for (const double Number : Intrinsics)
+    if (!std::isfinite(Number))
+      Refuse("intrinsics: expected finite numbers");
+  const auto [Fx, Fy, Cx, Cy] = Intrinsics;
+  if (!(Fx > 0 && Fy > 0))
+    Refuse(fmt::format("focal lengths {} and {}, expected positive numbers of "
+                       "pixels",
+                       Fx, Fy));
+  for (const double Number : Position)
+    if (!std::isfinite(Number))
+      Refuse("world_to_camera: expected finite numbers");
+  if (!isRotation(Rotation))
+    Refuse("world_to_camera is no rotation with a translation, expected "
+           "orthonormal axes with determinant +1");
+  Camera C;
+  C.Name = std::move(Name);
+  C.Width = Width;
+  C.Height = Height;
+  C.Rotation = Rotation;
+  C.Position = Position;
+  C.Fx = Fx;
+  C.Fy = Fy;
+  C.Cx = Cx;
+  C.Cy = Cy;
+  return C;
+}
+
+} // namespace
+
+void addCamera(py::module_ &M) {
+  py::class_<Camera>(M, "Camera")
+      .def(py::init(&made))
+      .def_static("read",
+                  [](const std::string &Path, const std::string &View) {
+                    return valueOf(readCamera(Path, View));
+                  })
+      .def_static(
+          "read_all",
+          [](const std::string &Path) { return valueOf(readCameras(Path)); })
+      .def_readonly("name", &Camera::Name)
+      .def_readonly("width", &Camera::Width)
+      .def_readonly("height", &Camera::Height)
+      .def_readonly("rotation", &Camera::Rotation)
+      .def_readonly("position", &Camera::Position)
+      .def_property_readonly("intrinsics", [](const Camera &C) {
+        return std::array{C.Fx, C.Fy, C.Cx, C.Cy};
+      });
+}
+
+} // namespace vorion::splat::python

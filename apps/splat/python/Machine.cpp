@@ -1,0 +1,229 @@
+#include "python/Arrays.h"
+#include "python/Bindings.h"
+#include "python/Objects.h"
+
+#include "commands/DeviceArguments.h"
+#include "commands/PictureOptions.h"
+#include "render/FrameTime.h"
+#include "render/Gradients.h"
+#include "render/Pictures.h"
+#include "render/Report.h"
+
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <pybind11/stl.h>
+
+namespace vorion::splat::python {
+
+namespace py = pybind11;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Lets Python end a run between two stages, as with Ctrl-C. The GIL is
+/// released while it watches.
+class Interrupts {
+public:
+  /// Fails \p L if a signal's handler has raised something.
+  void look(Launcher &L) {
+    const py::gil_scoped_acquire Held;
+    if (PyErr_CheckSignals() == 0)
+      return;
+    Raised.emplace();
+    L.fail({"", "interrupted"});
+  }
+  /// Throws what was raised. The GIL is held.
+  void rethrow() const {
+    if (Raised)
+      throw *Raised;
+  }
+
+private:
+  std::optional<py::error_already_set> Raised;
+};
+
+/// A device with what was compiled for it.
+class Machine {
+public:
+  Machine(const std::string &Name, const DeviceOptions &Options)
+      : Dev(valueOf(Device::open(Name, Options))) {}
+
+  const Device &device() const { return Dev; }
+
+  /// What watches a run: the clock may be on in this one alone.
+  DeviceOptions watching(bool Timed) const {
+    DeviceOptions O = Dev.options();
+    if (O.text("VORION_TIME") == "profiled")
+      O.set("VORION_TIME", Timed ? "on" : "");
+    return O;
+  }
+
+  /// What \p Run gives with a launcher of this machine; throws its error. One
+  /// run at a time, without the GIL. \p Timed: the clock of the machine is on.
+  template <typename Function> auto run(bool Timed, const Function &Run) {
+    Interrupts Signals;
+    std::optional<Failed> Failure;
+    auto Result = [&] {
+      const py::gil_scoped_release Released;
+      const std::lock_guard Turn(Lock);
+      Launcher *Mine = nullptr;
+      Launcher L(
+          Dev, "", [&](std::string_view) { Signals.look(*Mine); }, &Programs);
+      Mine = &L;
+      L.setProfiled(Timed);
+      auto Got = Run(L);
+      if (Got)
+        L.recordBuilds();
+      else
+        Failure.emplace(Got.error(), L.buildLog());
+      return Got;
+    }();
+    Signals.rethrow();
+    if (Failure)
+      throw Failed(*Failure);
+    return std::move(*Result);
+  }
+
+private:
+  Device Dev;
+  ProgramCache Programs;
+  std::mutex Lock;
+};
+
+/// As vorion.Machine has them: the clock is on where a run asks for it, unless
+/// \p Options or the environment say when.
+std::unique_ptr<Machine>
+openMachine(const std::string &Name,
+            const std::map<std::string, std::string> &Given) {
+  DeviceOptions Options;
+  for (const auto &[Variable, Text] : Given)
+    Options.set(Variable, Text);
+  if (Options.text("VORION_TIME").empty() &&
+      Options.text("VORION_REGION").empty())
+    Options.set("VORION_TIME", "profiled");
+  const py::gil_scoped_release Released;
+  return std::make_unique<Machine>(Name, Options);
+}
+
+/// What made a picture, as --json has it, but of files.
+py::object reportOf(const Machine &M, const SceneFile &S, const Camera &C,
+                    const RenderOptions &O, const RenderPlan &Plan,
+                    const RenderResult &R) {
+  Json Report{{"program", {{"name", "vorion"}, {"version", VORION_VERSION}}},
+              {"scene",
+               {{"gaussians", S.Gaussians.size()},
+                {"sh_degree", S.Gaussians.ShDegree}}}};
+  Report.update(valueOf(drawnJson(C, O, Plan, M.device(), R)));
+  if (Json Time = frameJson(R.Stages); !Time.is_null())
+    Report["time"] = std::move(Time);
+  return toPython(Report);
+}
+
+Shape sizesOf(const Camera &C) {
+  return {static_cast<std::size_t>(C.Height),
+          static_cast<std::size_t>(C.Width)};
+}
+
+py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
+                 bool Depth, bool Timed) {
+  DrawArguments A;
+  parse(std::move(Given), [&](CLI::App &App) { addDrawOptions(App, A); });
+  valueOf(parseDrawTexts(A));
+  valueOf(checkDrawOptions(A.Options));
+  valueOf(checkBlends(M.device(), A.Options.Blending));
+  drawAs(A.Options, S.DrawnAs);
+  RenderPlan Plan;
+  RenderResult R = M.run(Timed, [&](Launcher &L) -> Expected<RenderResult> {
+    if (auto Finite = checkFinite("the scene", S.Gaussians); !Finite)
+      return Finite.error();
+    const ViewFacts Facts = factsOfAll(S.Gaussians, {C}, A.Options);
+    Plan = planRender(
+        EffectPlan(A.Request, {S.Gaussians, A.Options, Facts,
+                               /*KeepPairs=*/false, Depth, M.watching(Timed)}),
+        A.Options);
+    warnOfMissing(Plan.Effects, A.Effects);
+    return splat::render(L, Plan, S.Gaussians, C, A.Options,
+                         /*KeepPairs=*/false);
+  });
+  const Shape Sizes = sizesOf(C);
+  py::object Report = reportOf(M, S, C, A.Options, Plan, R);
+  return py::make_tuple(
+      arrayOf(std::move(R.Picture.Render), {Sizes[0], Sizes[1], 3}),
+      arrayOf(std::move(R.Picture.Alpha), Sizes),
+      R.Depths ? py::object(arrayOf(std::move(R.Depths->Depth), Sizes))
+               : py::none(),
+      std::move(Report));
+}
+
+/// \p Stored: by logarithms of scales and logits of opacities.
+py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
+                    const FloatArray &ByImage, const FloatArray &ByAlpha,
+                    Words Given, bool Stored, bool Timed) {
+  RenderOptions O;
+  BackwardOptions B;
+  parse(std::move(Given),
+        [&](CLI::App &App) { addGradientOptions(App, O, B); });
+  valueOf(checkGradientOptions(O, B));
+  valueOf(checkBlends(M.device(), O.Blending));
+  B.Parameters = Stored ? GradientsOf::Stored : GradientsOf::Activated;
+  drawAs(O, S.DrawnAs);
+  const Shape Sizes = sizesOf(C);
+  const Shape Colours{Sizes[0], Sizes[1], 3};
+  const PixelGradients U{valuesOf(ByImage, "v_image", Colours),
+                         valuesOf(ByAlpha, "v_alpha", Sizes)};
+  GradientResult R = M.run(Timed, [&](Launcher &L) -> Expected<GradientResult> {
+    if (auto Finite = checkFinite("the scene", S.Gaussians); !Finite)
+      return Finite.error();
+    return takeGradients(L, S.Gaussians, C, O, B, U);
+  });
+  const std::size_t N = S.Gaussians.size();
+  SceneGradients &G = R.Gradients;
+  py::dict By;
+  By["means"] = arrayOf(std::move(G.Means), {N, 3});
+  By["quats"] = arrayOf(std::move(G.Quats), {N, 4});
+  By[Stored ? "log_scales" : "scales"] = arrayOf(std::move(G.Scales), {N, 3});
+  By[Stored ? "opacity_logits" : "opacities"] =
+      arrayOf(std::move(G.Opacities), {N});
+  By["sh"] = arrayOf(std::move(G.Sh), {N, S.Gaussians.coefficients(), 3});
+  By["means2d"] = arrayOf(std::move(G.Means2d), {N, 2});
+  By["conics"] = arrayOf(std::move(G.Conics), {N, 3});
+  py::object Report =
+      reportOf(M, S, C, O, planRender(S.Gaussians.ShDegree, O), R);
+  return py::make_tuple(arrayOf(std::move(R.Picture.Render), Colours),
+                        arrayOf(std::move(R.Picture.Alpha), Sizes),
+                        std::move(By), std::move(Report));
+}
+
+/// Names of the options that \p Declare adds, without "--".
+Words optionNames(const std::function<void(CLI::App &)> &Declare) {
+  CLI::App App;
+  App.set_help_flag();
+  Declare(App);
+  Words Names;
+  for (const CLI::Option *O : App.get_options())
+    Names.insert(Names.end(), O->get_lnames().begin(), O->get_lnames().end());
+  return Names;
+}
+
+} // namespace
+
+void addMachine(py::module_ &M) {
+  py::class_<Machine>(M, "Machine")
+      .def(py::init(&openMachine))
+      .def_property_readonly(
+          "name", [](const Machine &Of) { return Of.device().name(); })
+      .def("render", render)
+      .def("gradients", gradients);
+  M.def("render_options", [] {
+    DrawArguments A;
+    return optionNames([&](CLI::App &App) { addDrawOptions(App, A); });
+  });
+  M.def("gradient_options", [] {
+    RenderOptions O;
+    BackwardOptions B;
+    return optionNames([&](CLI::App &App) { addGradientOptions(App, O, B); });
+  });
+}
+
+} // namespace vorion::splat::python

@@ -1,0 +1,145 @@
+"""The simulated machine, and what comes back from it."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _machine
+from ._machine import UsageError
+from ._words import words
+from .camera import Camera
+from .scene import Scene
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Drawn:
+    image: NDArray[np.float32]
+    """(H, W, 3): red, green, blue over the background, rows from the top, not clamped."""
+    alpha: NDArray[np.float32]
+    """(H, W): 1 less what is left of the transmittance."""
+    report: dict
+    """What was done, as `splat render --json` writes it, but for files: options, device, counts, stages and kernels
+    with their counters, and "time" where the clock was on."""
+
+    @property
+    def counters(self) -> dict | None:
+        """What the machine counted over all kernels; None on a device that counts nothing."""
+        return self.report["total"].get("counters")
+
+    @property
+    def cycles(self) -> int | None:
+        """What the kernels of the frame take on the machine; None where its clock was off."""
+        return self.report["time"]["sum"]["cycles"] if "time" in self.report else None
+
+    @property
+    def milliseconds(self) -> float | None:
+        """The same with launches and copies, at the machine's clock."""
+        return self.report["time"]["frame_ms"] if "time" in self.report else None
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Picture(_Drawn):
+    """What Machine.render() gives."""
+    depth: NDArray[np.float32] | None = None
+    """(H, W), where it was asked for: the sum of weights times depths (camera z) in world units; over alpha it is the
+    mean depth of what is seen."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Gradients(_Drawn):
+    """What Machine.gradients() gives: the picture, and the loss's gradients."""
+    by: dict[str, NDArray[np.float32]] = dataclasses.field(default_factory=dict)
+    """dL by the parameters, in their shapes: "means", "quats" as they are stored, "sh", and either "scales" and
+    "opacities" or "log_scales" and "opacity_logits". Also "means2d" (N, 2), by places on the picture, per pixel, and
+    "conics" (N, 3), by xx, xy (once) and yy of the inverse covariances there."""
+
+
+class Machine:
+    """The simulated machine with the programs that were compiled for it.
+
+    A process has one set of machine options: a second Machine with other ones is a UsageError or an InputError. Methods
+    release the GIL while the machine runs; two threads that call one Machine take turns.
+    """
+
+    def __init__(self, *, device: str = "", set: str | None = None, clock: int | None = None):
+        """Opens the device.
+
+        device: part of its name; empty for Vorion, else the first OpenCL device
+        set: changes to the machine's configuration, "KEY=VALUE,..." (docs/model.md)
+        clock: MHz; the clock is then always on. None for the machine's own, on where `time` asks for it.
+        VORION_CONFIG and the other variables of docs/debugging.md hold, too.
+        """
+        options = {}
+        if set is not None:
+            options["VORION_SET"] = set
+        if clock is not None:
+            options["VORION_TIME"] = str(clock)
+        self._native = _machine.Machine(device, options)
+
+    def __repr__(self) -> str:
+        return f"<vorion.Machine {self.name!r}>"
+
+    @property
+    def name(self) -> str:
+        """The OpenCL device's."""
+        return self._native.name
+
+    def render(self, scene: Scene, camera: Camera, *, depth: bool = False, time: bool = False,
+               rules: str | None = None, support: str | None = None, path: str | None = None,
+               background: tuple[float, float, float] | None = None, cutoff: float | None = None,
+               exp: str | None = None, alpha_cutoff: int | None = None, depth_bits: int | None = None,
+               sh_degree: int | None = None, blend: str | None = None, tile: int | None = None,
+               ztiles: int | None = None, pixel_unit: str | None = None, skip_saturated: bool | None = None,
+               simt_tile: int | None = None, simt_group: int | None = None, effects: str | None = None) -> Picture:
+        """Draws `scene` as `camera` sees it.
+
+        depth: blend depths, too
+        time: run the machine's clock, which takes the host longer and changes no bit
+
+        The rest are options of `splat render`, whose --help says more; None is its default.
+        rules: "inria" or "gsplat", the convention to follow
+        support: "exact", "box3", "square3" or "official16", the pixels that a Gaussian may reach
+        path: "raster" or "simt", who blends: the rasterizer or the cores
+        background: red, green, blue
+        cutoff: transmittance at which a pixel is full, [0, 1)
+        exp: unit of the exponential function
+        alpha_cutoff: smallest alpha that is blended, in 1/255: 1, 2, 4 or 8
+        depth_bits: leading bits of depths that decide the order, 1 to 32
+        sh_degree: leave out harmonics above it, 0 to 3
+        blend, tile, ztiles, pixel_unit, skip_saturated: of the rasterizer
+        simt_tile, simt_group: of the cores' path
+        effects: what is compiled into the kernels; "flags" compiles once for all scenes, which loops want
+        """
+        asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
+                       "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
+                       "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
+                       "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
+                       "effects": effects})
+        image, alpha, depths, report = self._native.render(scene._native, camera._native, asked, depth, time)
+        return Picture(image, alpha, report, depths)
+
+    def gradients(self, scene: Scene, camera: Camera, v_image: ArrayLike, v_alpha: ArrayLike | None = None, *,
+                  of: str = "activated", time: bool = False, rules: str | None = None, support: str | None = None,
+                  path: str | None = None, background: tuple[float, float, float] | None = None,
+                  cutoff: float | None = None, simt_tile: int | None = None, simt_group: int | None = None,
+                  reciprocal: str | None = None, sum: str | None = None) -> Gradients:
+        """Draws `scene` as `camera` sees it, and takes a loss's gradients back to its parameters.
+
+        v_image: (H, W, 3), dL/d(image), the background being in it
+        v_alpha: (H, W), dL/d(alpha); None for zeros
+        of: "activated" for dL by scales and opacities, "stored" for dL by log_scales and opacity_logits
+        reciprocal, sum: the rasterizer's unit for 1 / (1 - alpha), and how it adds up rows
+        The other options are those of render(). Harmonics have all the scene's degrees.
+        """
+        if of not in ("activated", "stored"):
+            raise UsageError(f"of={of!r}: expected 'activated' or 'stored'")
+        asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
+                       "simt_tile": simt_tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum})
+        if v_alpha is None:
+            v_alpha = np.zeros((camera.height, camera.width), dtype=np.float32)
+        image, alpha, by, report = self._native.gradients(scene._native, camera._native, v_image, v_alpha, asked,
+                                                          of == "stored", time)
+        return Gradients(image, alpha, report, by)

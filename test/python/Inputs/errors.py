@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Prints the exception of each wrong call. Runs in a folder with s.ply and c.json."""
+
+import inspect
+
+import numpy as np
+import vorion
+from vorion import _machine
+
+machine = vorion.Machine()
+scene, camera = vorion.Scene.read("s.ply"), vorion.Camera.read("c.json", "front")
+v_image = np.zeros((48, 64, 3))
+
+
+def attempt(call, *arguments, **options):
+    try:
+        call(*arguments, **options)
+    except vorion.Error as e:
+        code = f" {e.exit_code}" if hasattr(e, "exit_code") else ""
+        print(f"{type(e).__name__}{code}: {e}")
+        kinds = {"UsageError": ValueError, "LimitError": MemoryError}
+        assert isinstance(e, kinds.get(type(e).__name__, RuntimeError))
+    else:
+        raise AssertionError(f"{call} {options}")
+
+
+for options in ({"support": "boxx"}, {"ztiles": 99}, {"path": "simt", "ztiles": 2}, {"effects": "nothing"},
+                {"pixel_unit": "x"}, {"background": (1, 2)}):
+    attempt(machine.render, scene, camera, **options)
+attempt(machine.gradients, scene, camera, v_image, path="simt", simt_tile=64)
+attempt(machine.gradients, scene, camera, v_image, path="simt", sum="rows")
+attempt(machine.gradients, scene, camera, v_image[..., 0])
+attempt(machine.gradients, scene, camera, v_image, np.zeros((1, 1)))
+attempt(machine.gradients, scene, camera, v_image, of="nothing")
+attempt(vorion.Scene.read, "nowhere.ply")
+attempt(vorion.Camera.read, "c.json", "back")
+attempt(vorion.Scene.read, "s.ply", axes="rub")
+bad = vorion.Scene.read("s.ply")
+bad.means[0, 1] = np.nan
+attempt(machine.render, bad, camera)
+attempt(vorion.Machine, set="dram.channels=1")
+arrays = {"means": np.zeros((1, 3)), "quats": np.ones((1, 4)), "scales": np.ones((1, 3)), "opacities": np.ones(1),
+          "colors": np.ones((1, 3))}
+attempt(vorion.Scene.from_activated, **{**arrays, "means": np.zeros((2, 3))})
+attempt(vorion.Scene.from_activated, **{**arrays, "colors": np.ones((1, 2, 3))})
+attempt(vorion.Scene.from_activated, **{**arrays, "scales": np.zeros((1, 3))})
+attempt(vorion.Scene.from_activated, **{**arrays, "opacities": np.full(1, 1.5)})
+attempt(vorion.Camera, 0, 5, np.eye(3))
+attempt(vorion.Camera, 5, 5, np.diag([-1, 1, 1]))
+attempt(vorion.Camera, 5, 5, np.eye(3), np.diag([1, 1, -1, 1]))
+attempt(vorion.Camera, 5, 5, np.ones((3, 3)))
+attempt(machine.render, scene, vorion.Camera(16384, 16384, np.diag([16384, 16384, 1])))
+# An error leaves the machine as it was.
+print("again:", machine.render(scene, camera).report["counts"]["visible"])
+
+# The signatures have every option of the commands, and no other.
+for method, names, own in ((machine.render, _machine.render_options(), {"scene", "camera", "depth", "time"}),
+                           (machine.gradients, _machine.gradient_options(),
+                            {"scene", "camera", "v_image", "v_alpha", "of", "time"})):
+    named = {n.replace("-", "_") for n in names}
+    assert set(inspect.signature(method).parameters) == named | own, named ^ (set(inspect.signature(method).parameters) - own)
+    for name in named | own:
+        assert name in method.__doc__ or name in vorion.Machine.render.__doc__, name
