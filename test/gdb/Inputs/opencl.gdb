@@ -1,0 +1,5 @@
+break twice
+continue
+list 3,3
+delete
+continue
