@@ -1,0 +1,117 @@
+#!/usr/bin/env python3
+"""Does what a page says, as somebody who reads it in a shell that is new and stands in the repository.
+
+usage: tutorial.py [--all] [--put NAME=FILE]... PAGE FOLDER
+FOLDER is made anew. It shows the repository and its build, and has a build/ of its own for what the page writes.
+A fenced text of the page is
+
+    sh          commands, which run in order in one shell; "sh minutes" runs with --all alone
+    text        what the commands before it print. A line "..." stands for any lines, "..." in a line for any text
+    c, python   part of the file whose name stands in the lines before it
+
+--put gives a page a file that it expects and that takes long to make.
+Exit codes: 0 all as the page says, 1 not, 2 usage.
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+TEXT = re.compile(r"^( *)```(\w+)( minutes)?\n(.*?)^ *```$", re.M | re.S)
+
+
+def fail(text):
+    print(f"tutorial.py: error: {text}", file=sys.stderr)
+    sys.exit(1)
+
+
+def show_repository(folder, build, put):
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(os.path.join(folder, "build"))
+    for name in os.listdir(ROOT):
+        if name != "build" and not name.startswith("."):
+            os.symlink(os.path.join(ROOT, name), os.path.join(folder, name))
+    os.symlink(os.path.abspath(build), os.path.join(folder, "build", "dev"))
+    for name, file in put:
+        os.makedirs(os.path.dirname(os.path.join(folder, name)), exist_ok=True)
+        shutil.copy(file, os.path.join(folder, name))
+
+
+def line_pattern(line):
+    return ".*".join(map(re.escape, line.split("..."))) + "\n"
+
+
+def printed_pattern(text):
+    lines = (line.rstrip() for line in text.splitlines())
+    return "".join("(?:.*\n)*?" if line == "..." else line_pattern(line) for line in lines)
+
+
+class Step:
+    def __init__(self, commands, line):
+        self.commands, self.line, self.printed = commands, line, None
+
+
+def steps_of(page, text, every):
+    """The commands of a page with what they print; says which part of a file is not as the page shows it."""
+    steps, skipped = [], False
+    for found in TEXT.finditer(text):
+        indent, language, minutes, body = found.groups()
+        body = re.sub(f"^{indent}", "", body, flags=re.M)
+        line = text.count("\n", 0, found.start()) + 1
+        if language == "sh":
+            skipped = bool(minutes) and not every
+            if not skipped:
+                steps.append(Step(body, line))
+        elif language == "text" and not skipped:
+            if not steps or steps[-1].printed is not None:
+                fail(f"{page}:{line}: the output of no command")
+            steps[-1].printed = body
+        elif language != "text":
+            named = re.findall(r"`([^`\s]+)`", text[:found.start()].rstrip().rsplit("\n\n", 1)[-1])
+            files = [f for f in (os.path.join(ROOT, n) for n in named) if os.path.isfile(f)]
+            if not files:
+                fail(f"{page}:{line}: a text of {language}, but the lines before it name no file")
+            with open(files[-1], encoding="utf-8") as f:
+                if body not in f.read():
+                    fail(f"{page}:{line}: {os.path.relpath(files[-1], ROOT)} does not have this text")
+    return steps
+
+
+def run(page, steps, folder):
+    # As a new shell has it: no variable of ours is set.
+    kept = {name: os.environ[name] for name in ("HOME", "LANG", "TMPDIR", "POCL_CACHE_DIR") if name in os.environ}
+    script = "set -e\n" + "".join(f"printf '\\036'\n{step.commands}" for step in steps)
+    done = subprocess.run(["bash", "-c", script], cwd=folder, env=dict(kept, PATH="/usr/local/bin:/usr/bin:/bin:/sbin"),
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    outputs = done.stdout.decode("utf-8", "replace").split("\036")[1:]
+    if done.returncode:
+        fail(f"{page}:{steps[len(outputs) - 1].line}: a command ended with {done.returncode}:\n{outputs[-1][-4000:]}")
+    for step, output in zip(steps, outputs):
+        output = re.sub(r"[ \r]+$", "", output, flags=re.M)
+        if step.printed is not None and not re.fullmatch(printed_pattern(step.printed), output):
+            fail(f"{page}:{step.line}: these commands\n{step.commands}print\n{output}the page says\n{step.printed}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--build", default=os.path.join(ROOT, "build", "dev"))
+    parser.add_argument("--put", action="append", default=[], type=lambda v: v.split("=", 1))
+    parser.add_argument("page")
+    parser.add_argument("folder")
+    options = parser.parse_args()
+    with open(os.path.join(ROOT, options.page), encoding="utf-8") as f:
+        steps = steps_of(options.page, f.read(), options.all)
+    if not steps:
+        fail(f"{options.page} has no command")
+    show_repository(options.folder, options.build, options.put)
+    run(options.page, steps, options.folder)
+    print(f"{options.page}: {len(steps)} steps, {sum(s.printed is not None for s in steps)} outputs as the page says")
+
+
+if __name__ == "__main__":
+    main()
