@@ -47,6 +47,8 @@ int run(std::vector<std::string> Arguments) {
     Commands.emplace_back(Command, Declare(*Command));
   };
   Add("render", "Renders views of a scene", splat::addRender);
+  Add("view", "Shows a scene on a page of this computer, drawn frame by frame",
+      splat::addView);
   Add("gradients", "Takes a loss's gradients back from one view to a scene",
       splat::addGradients);
   Add("analyze", "Counts what a view of a scene asks of a machine",

@@ -22,5 +22,6 @@ Runner addDemoScene(CLI::App &App);
 Runner addAccuracy(CLI::App &App);
 Runner addTrain(CLI::App &App);
 Runner addCompare(CLI::App &App);
+Runner addView(CLI::App &App);
 
 } // namespace vorion::splat

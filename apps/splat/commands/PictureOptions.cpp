@@ -64,12 +64,6 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
                  "Transmittance at which a pixel is full (default 0.0001)");
 }
 
-void drawAs(RenderOptions &O, const Drawing &D) {
-  O.Antialiased = D.Antialiased;
-  O.AntialiasedBy = D.Source;
-  O.Dilation = static_cast<float>(D.Dilation.value_or(O.Dilation));
-}
-
 Expected<Success> checkPictureOptions(const RenderOptions &O) {
   for (const float B : O.Background)
     if (!std::isfinite(B))

@@ -5,7 +5,6 @@
 #include "effects/EffectPlan.h"
 #include "picture/Options.h"
 #include "render/Backward.h"
-#include "scene/Drawing.h"
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>
@@ -18,9 +17,6 @@ namespace vorion::splat {
 /// Rules, support, path, background and cut-off. \p O must outlive the
 /// parsing, here and below.
 void addPictureOptions(CLI::App &App, RenderOptions &O);
-
-/// Draws as the scene's file says, or the user against it.
-void drawAs(RenderOptions &O, const Drawing &D);
 
 /// Whether the values of these go together; an error is one of usage.
 Expected<Success> checkPictureOptions(const RenderOptions &O);

@@ -31,6 +31,8 @@ struct Camera {
   /// World to camera: row-major R with p_camera = R p_world + t.
   std::array<double, 9> worldToCameraRotation() const;
   std::array<double, 3> worldToCameraTranslation() const;
+
+  bool operator==(const Camera &) const = default;
 };
 
 /// Whether \p R is a rotation, to three digits: files with few decimals pass,

@@ -22,8 +22,9 @@ constexpr Colour Ramp[] = {{0.02F, 0.02F, 0.10F},
                            {0.99F, 0.98F, 0.72F}};
 constexpr Colour Nothing = {0.25F, 0.25F, 0.25F}; ///< where no tile was drawn
 
-/// \p Share is between 0 and 1.
-Colour colourOf(double Share) {
+} // namespace
+
+Colour heatColour(double Share) {
   constexpr std::size_t Steps = std::size(Ramp) - 1;
   const double At = std::clamp(Share, 0.0, 1.0) * Steps;
   const std::size_t Step = std::min(static_cast<std::size_t>(At), Steps - 1);
@@ -33,6 +34,8 @@ Colour colourOf(double Share) {
     C[I] = std::lerp(Ramp[Step][I], Ramp[Step + 1][I], Rest);
   return C;
 }
+
+namespace {
 
 /// Characters of 3 x 5 pixels, a row an octal digit from the top.
 constexpr std::pair<char, unsigned> Glyphs[] = {
@@ -70,7 +73,7 @@ void drawLegend(Image &I, int Top, const std::string &End) {
       I.Width - 2 * Margin - GlyphPitch * static_cast<int>(End.size());
   for (int X = First; X < Last; ++X)
     fill(I, X, Top + Margin - 2, 1, LegendHeight - 2 * Margin + 4,
-         colourOf(double(X - First) / std::max(Last - 1 - First, 1)));
+         heatColour(double(X - First) / std::max(Last - 1 - First, 1)));
   write(I, Margin, Top + Margin, "0");
   write(I, Last + Margin, Top + Margin, End);
 }
@@ -118,7 +121,7 @@ Image drawHeat(const std::vector<TileWork> &Tiles, Heat H, int Width,
   const double Scale = scaleOf(Tiles, H);
   for (const TileWork &T : Tiles)
     fill(I, T.X, T.Y, T.Width, std::min(T.Height, Height - T.Y),
-         colourOf(Scale > 0 ? valueOf(T, H) / Scale : 0));
+         heatColour(Scale > 0 ? valueOf(T, H) / Scale : 0));
   drawLegend(I, Height,
              fmt::format("{:.0f}{}", Scale, H == Heat::Saturation ? "%" : ""));
   return I;

@@ -23,6 +23,9 @@ double valueOf(const TileWork &T, Heat H);
 /// is 100, that of the others the largest of \p Tiles.
 double scaleOf(const std::vector<TileWork> &Tiles, Heat H);
 
+/// The colour of a value that is \p Share of the scale: from dark to bright.
+std::array<float, 3> heatColour(double Share);
+
 /// A picture of \p Width times \p Height pixels in which every tile has the
 /// colour of its value, and a legend of LegendHeight rows below: the colours
 /// from 0 to the scale's end, with both numbers.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "picture/TailRule.h"
+#include "scene/Drawing.h"
 #include "splat/LaneUnits.h" // generated from intrinsics/Units.td
 
 #include <array>
@@ -89,5 +90,8 @@ struct RenderOptions {
     return Blending == Path::Raster && Training ? 64 : tileSize();
   }
 };
+
+/// Draws as the scene's file says, or the user against it.
+void drawAs(RenderOptions &O, const Drawing &D);
 
 } // namespace vorion::splat

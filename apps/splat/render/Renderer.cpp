@@ -68,11 +68,7 @@ Image readPicture(Launcher &Launch, const Frame &F, const cl::Buffer &Picture,
   return I;
 }
 
-namespace {
-
-/// What can be said to be wrong before the device is asked; builds the
-/// programs.
-Expected<Success> begin(Launcher &Launch, const RenderPlan &Plan,
+Expected<Success> build(Launcher &Launch, const RenderPlan &Plan,
                         const Scene &S) {
   if (S.size() > std::numeric_limits<int32_t>::max())
     return Error{"", "more than 2^31 - 1 Gaussians, whose numbers have 31 bits",
@@ -80,9 +76,10 @@ Expected<Success> begin(Launcher &Launch, const RenderPlan &Plan,
   Launch.beginStage(Stage::Build);
   for (const ProgramSpec &Program : Plan.Programs)
     Launch.build(Program);
-  Launch.beginStage(Stage::Upload);
   return Success{};
 }
+
+namespace {
 
 /// From blended pixels to the host.
 RenderResult finish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
@@ -191,12 +188,9 @@ private:
 
 } // namespace
 
-Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
-                              const Scene &S, const Camera &C,
-                              const RenderOptions &Options, bool KeepPairs) {
-  if (auto Begun = begin(Launch, Plan, S); !Begun)
-    return Begun.error();
-  const GaussianBuffers Gaussians = uploadGaussians(Launch, S, Plan.Effects);
+Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
+                            const GaussianBuffers &Gaussians, const Camera &C,
+                            const RenderOptions &Options, bool KeepPairs) {
   Pipeline P(Launch, Options, Plan.Effects);
   P.draw(Gaussians, C);
   if (Launch.failure())
@@ -215,13 +209,24 @@ Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
   return R;
 }
 
+Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
+                              const Scene &S, const Camera &C,
+                              const RenderOptions &Options, bool KeepPairs) {
+  if (auto Built = build(Launch, Plan, S); !Built)
+    return Built.error();
+  Launch.beginStage(Stage::Upload);
+  return draw(Launch, Plan, uploadGaussians(Launch, S, Plan.Effects), C,
+              Options, KeepPairs);
+}
+
 Expected<SequenceResult> renderSequence(Launcher &Launch,
                                         const RenderPlan &Plan, const Scene &S,
                                         const std::vector<Camera> &Cameras,
                                         const RenderOptions &Options,
                                         bool Overlap) {
-  if (auto Begun = begin(Launch, Plan, S); !Begun)
-    return Begun.error();
+  if (auto Built = build(Launch, Plan, S); !Built)
+    return Built.error();
+  Launch.beginStage(Stage::Upload);
   const GaussianBuffers Gaussians = uploadGaussians(Launch, S, Plan.Effects);
   Sequence Views(Launch, Plan, Gaussians, Cameras, Options);
   if (Overlap)

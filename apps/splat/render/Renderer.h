@@ -45,6 +45,19 @@ Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
                               const Scene &S, const Camera &C,
                               const RenderOptions &Options, bool KeepPairs);
 
+/// \name The same in steps, for who keeps a scene on the device
+/// @{
+/// What can be said to be wrong with \p S before the device is asked; builds
+/// the programs of \p Plan, which are a stage.
+Expected<Success> build(Launcher &Launch, const RenderPlan &Plan,
+                        const Scene &S);
+/// Draws \p Gaussians, which \c uploadGaussians has made of the scene by the
+/// effects of \p Plan.
+Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
+                            const GaussianBuffers &Gaussians, const Camera &C,
+                            const RenderOptions &Options, bool KeepPairs);
+/// @}
+
 /// Several pictures of one scene.
 struct SequenceResult {
   std::vector<RenderResult> Frames;

@@ -1,0 +1,97 @@
+#include "commands/Commands.h"
+#include "commands/DeviceArguments.h"
+#include "commands/SceneArguments.h"
+#include "io/Cameras.h"
+#include "view/Server.h"
+#include "view/Session.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/Printable.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace vorion::splat {
+
+namespace {
+
+struct ViewArguments {
+  SceneArguments Scene;
+  std::string Cameras, Device, Kernels, Size = "480x272";
+  int Port = 0;
+};
+
+/// Reads WIDTHxHEIGHT.
+Expected<std::pair<int, int>> parseSize(const std::string &Text) {
+  int Width = 0, Height = 0, End = 0;
+  const int Read =
+      std::sscanf(Text.c_str(), "%4dx%4d%n", &Width, &Height, &End);
+  const auto Fits = [](int Side) { return Side >= 16 && Side <= MostViewed; };
+  if (Read != 2 || static_cast<std::size_t>(End) != Text.size() ||
+      !Fits(Width) || !Fits(Height))
+    return Error{"",
+                 fmt::format("--size {}: expected WIDTHxHEIGHT of 16 to {} "
+                             "pixels each",
+                             Text, MostViewed),
+                 ExitCode::Usage};
+  return std::pair(Width, Height);
+}
+
+Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
+  const auto Size = parseSize(A.Size);
+  if (!Size)
+    return Size.error();
+  Session::Setup S{A.Device, A.Kernels,   Machine,     A.Scene.Options,
+                   {},       Size->first, Size->second};
+  if (!A.Cameras.empty()) {
+    auto Cameras = readCameras(A.Cameras);
+    if (!Cameras)
+      return Cameras.error();
+    S.Cameras = std::move(*Cameras);
+  }
+  auto File = loadScene(A.Scene);
+  if (!File)
+    return File.error();
+  const std::filesystem::path Path(A.Scene.Path);
+  const auto Shown =
+      Session::open(std::move(S),
+                    printable((Path.has_filename() ? Path : Path.parent_path())
+                                  .filename()
+                                  .string()),
+                    std::move(*File));
+  if (!Shown)
+    return Shown.error();
+  const auto Listening = Server::listen(A.Port, **Shown);
+  if (!Listening)
+    return Listening.error();
+  printOut("splat view: {}\n", (*Listening)->address());
+  printNote("open it in a browser on this computer; Ctrl-C ends\n");
+  // Who waits for the address may read it from a pipe.
+  std::fflush(stdout);
+  (*Listening)->serve();
+  return Success{};
+}
+
+} // namespace
+
+Runner addView(CLI::App &App) {
+  auto A = std::make_shared<ViewArguments>();
+  addSceneOptions(App, A->Scene);
+  App.add_option("--cameras", A->Cameras,
+                 "Views to begin with: INRIA's cameras.json (default: one that "
+                 "sees the scene's middle)");
+  App.add_option("--port", A->Port,
+                 "Port of 127.0.0.1 (default 0: one that is free)")
+      ->check(CLI::Range(0, 65535));
+  App.add_option("--size", A->Size,
+                 "Size of a picture at rest (default " + A->Size + ")")
+      ->option_text("WIDTHxHEIGHT");
+  addDeviceOption(App, A->Device);
+  addKernelsOption(App, A->Kernels);
+  return [A](const DeviceOptions &Machine) { return run(*A, Machine); };
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,11 @@
+#include "picture/Options.h"
+
+namespace vorion::splat {
+
+void drawAs(RenderOptions &O, const Drawing &D) {
+  O.Antialiased = D.Antialiased;
+  O.AntialiasedBy = D.Source;
+  O.Dilation = static_cast<float>(D.Dilation.value_or(O.Dilation));
+}
+
+} // namespace vorion::splat

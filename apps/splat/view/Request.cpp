@@ -1,0 +1,177 @@
+#include "view/Request.h"
+
+#include "picture/TailRule.h"
+#include "vorion/support/Json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr std::array<std::string_view, Layers.size()> LayerNames{
+    "picture", "depth", "error", "list", "blends", "cycles", "saturation"};
+
+Error wrong(std::string_view Key, std::string_view Wanted) {
+  return {"",
+          fmt::format("the request's key {} is not there or wrong, expected {}",
+                      Key, Wanted),
+          ExitCode::Usage};
+}
+
+/// The finite number \p Key of \p Of.
+std::optional<double> numberOf(const Json &Of, const char *Key) {
+  const auto At = Of.find(Key);
+  if (At == Of.end() || !At->is_number())
+    return std::nullopt;
+  const double Value = *At;
+  return std::isfinite(Value) ? std::optional(Value) : std::nullopt;
+}
+
+std::optional<std::array<double, 3>> threeOf(const Json &List) {
+  std::array<double, 3> Three{};
+  if (!List.is_array() || List.size() != Three.size())
+    return std::nullopt;
+  for (std::size_t I = 0; I != Three.size(); ++I) {
+    if (!List[I].is_number() || !std::isfinite(List[I].get<double>()))
+      return std::nullopt;
+    Three[I] = List[I];
+  }
+  return Three;
+}
+
+Expected<int> sideOf(const Json &Of, const char *Key) {
+  const auto Side = numberOf(Of, Key);
+  if (!Side || *Side != std::floor(*Side) || *Side < 1 || *Side > MostViewed)
+    return wrong(Key, fmt::format("1 to {} pixels", MostViewed));
+  return static_cast<int>(*Side);
+}
+
+Expected<Camera> cameraOf(const Json &Of) {
+  if (!Of.is_object())
+    return wrong("camera", "an object");
+  Camera C;
+  for (const auto &[Key, Side] :
+       {std::pair("width", &C.Width), std::pair("height", &C.Height)}) {
+    const auto Read = sideOf(Of, Key);
+    if (!Read)
+      return Read.error();
+    *Side = *Read;
+  }
+  for (const auto &[Key, Focal] :
+       {std::pair("fx", &C.Fx), std::pair("fy", &C.Fy)}) {
+    *Focal = numberOf(Of, Key).value_or(0);
+    if (!(*Focal > 0))
+      return wrong(Key, "a focal length above 0");
+  }
+  C.Cx = numberOf(Of, "cx").value_or(C.Width / 2.0);
+  C.Cy = numberOf(Of, "cy").value_or(C.Height / 2.0);
+  const auto Position = threeOf(Of.value("position", Json()));
+  if (!Position)
+    return wrong("position", "three numbers");
+  C.Position = *Position;
+  const Json Rows = Of.value("rotation", Json());
+  if (!Rows.is_array() || Rows.size() != C.Rotation.size())
+    return wrong("rotation", "three rows");
+  for (std::size_t Row = 0; Row != C.Rotation.size(); ++Row) {
+    const auto Three = threeOf(Rows[Row]);
+    if (!Three)
+      return wrong("rotation", "rows of three numbers");
+    C.Rotation[Row] = *Three;
+  }
+  if (!isRotation(C.Rotation))
+    return wrong("rotation", "a rotation");
+  return C;
+}
+
+} // namespace
+
+std::string_view name(Layer L) {
+  return LayerNames[static_cast<std::size_t>(L)];
+}
+
+std::optional<Heat> heatOf(Layer L) {
+  const auto *const Found =
+      std::ranges::find(Heats, name(L), [](Heat H) { return name(H); });
+  return Found == Heats.end() ? std::nullopt : std::optional(*Found);
+}
+
+Expected<ViewRequest> parseViewRequest(std::string_view Text) {
+  // A request is small; its limits keep what is no page's from taking memory.
+  const JsonLimits Limits{
+      .Depth = 8, .Bytes = 1 << 16, .Values = 256, .Keys = 32};
+  const auto Read = parseJson<Json>(Text, "", "a request of the page", Limits);
+  if (!Read)
+    return Error{"", Read.error().What, ExitCode::Usage};
+  if (!Read->is_object())
+    return wrong("camera", "an object with it");
+  ViewRequest R;
+  const auto View = cameraOf(Read->value("camera", Json()));
+  if (!View)
+    return View.error();
+  R.View = *View;
+  const Json Named = Read->value("setting", Json("default"));
+  if (!Named.is_string())
+    return wrong("setting", "a name");
+  const auto Chosen = Setting::parse(Named.get<std::string>());
+  if (!Chosen)
+    return Error{"", Chosen.error().What, ExitCode::Usage};
+  R.Chosen = *Chosen;
+  const Json Shown = Read->value("layer", Json("picture"));
+  const auto Found = std::ranges::find_if(
+      Layers, [&](Layer L) { return Shown == std::string(name(L)); });
+  if (Found == Layers.end())
+    return wrong("layer",
+                 fmt::format("one of {}", fmt::join(LayerNames, ", ")));
+  R.Shown = *Found;
+  // Depths are a second blend, which is no part of a frame's time.
+  R.Clock = R.Shown != Layer::Depth &&
+            (Read->value("clock", Json()) == true || heatOf(R.Shown));
+  R.Compare = Read->value("compare", Json()) == true || R.Shown == Layer::Error;
+  for (const auto &[Key, At, Side] : {std::tuple("x", &R.X, R.View.Width),
+                                      std::tuple("y", &R.Y, R.View.Height)}) {
+    const double Value = numberOf(*Read, Key).value_or(0);
+    if (!(Value >= 0 && Value < Side))
+      return wrong(Key, "a pixel of the picture");
+    *At = static_cast<int>(Value);
+  }
+  return R;
+}
+
+Error superseded() {
+  return {"", "a newer request took the place of this one",
+          ExitCode::LimitReached};
+}
+
+bool isSuperseded(const Error &E) { return E.What == superseded().What; }
+
+RenderOptions optionsOf(const Setting &S, const Drawing &D) {
+  const auto Number = [&](KnobId Id) {
+    return static_cast<unsigned>(std::stoul(S.value(Id)));
+  };
+  RenderOptions O;
+  drawAs(O, D);
+  O.Exponential = S.exponential();
+  O.Arithmetic = S.arithmetic();
+  O.AlphaCutoff = Number(KnobId::AlphaCutoff);
+  O.Cutoff = std::stof(S.value(KnobId::Cutoff));
+  O.RasterTile = Number(KnobId::Tile);
+  for (const Support Each : {Support::Exact, Support::Box3, Support::Square3})
+    if (name(Each) == S.value(KnobId::Support))
+      O.Reach = Each;
+  O.ShLimit = static_cast<int>(Number(KnobId::ShDegree));
+  O.DepthBits = Number(KnobId::DepthBits);
+  O.ZTiles = Number(KnobId::ZTiles);
+  // The knob's values are rules.
+  O.PixelUnit = *parseTailRule(S.value(KnobId::PixelUnit));
+  O.SkipSaturated = S.value(KnobId::SkipSaturated) == "on";
+  return O;
+}
+
+} // namespace vorion::splat

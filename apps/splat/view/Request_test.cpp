@@ -1,0 +1,94 @@
+#include "view/Request.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using namespace vorion::splat;
+
+namespace {
+
+nlohmann::json good() {
+  return {{"camera",
+           {{"width", 64},
+            {"height", 48},
+            {"fx", 50},
+            {"fy", 51},
+            {"position", {1, 2, 3}},
+            {"rotation", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}},
+          {"setting", "exp=table,tile=32"},
+          {"layer", "cycles"},
+          {"x", 63},
+          {"y", 0}};
+}
+
+TEST(ViewRequest, SaysWhatThePageAsksFor) {
+  const auto R = parseViewRequest(good().dump());
+  ASSERT_TRUE(R) << R.error().What;
+  EXPECT_EQ(R->View.Width, 64);
+  EXPECT_EQ(R->View.Cx, 32);
+  EXPECT_EQ(R->View.Fy, 51);
+  EXPECT_EQ(R->View.Position[2], 3);
+  EXPECT_EQ(R->Shown, Layer::Cycles);
+  EXPECT_TRUE(R->Clock) << "cycles are the clock's";
+  EXPECT_FALSE(R->Compare);
+  EXPECT_EQ(R->X, 63);
+  const RenderOptions O = optionsOf(R->Chosen, {});
+  EXPECT_EQ(O.Exponential, ExpUnit::Table);
+  EXPECT_EQ(O.RasterTile, 32U);
+}
+
+TEST(ViewRequest, WhatIsWrongIsNamed) {
+  const std::pair<const char *, nlohmann::json> Wrong[] = {
+      {"/camera", nullptr},
+      {"/camera/width", 0},
+      {"/camera/width", MostViewed + 1},
+      {"/camera/height", 1.5},
+      {"/camera/height", "48"},
+      {"/camera/fx", -1},
+      {"/camera/fy", nullptr},
+      {"/camera/position", {1, 2}},
+      {"/camera/position", {1, 2, "3"}},
+      {"/camera/rotation", {{1, 0, 0}, {0, 1, 0}}},
+      {"/camera/rotation", {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}},
+      {"/setting", "speed=high"},
+      {"/setting", 3},
+      {"/layer", "colour"},
+      {"/layer", 1},
+      {"/x", 64},
+      {"/y", -1}};
+  for (const auto &[Where, Value] : Wrong) {
+    nlohmann::json Asked = good();
+    Asked[nlohmann::json::json_pointer(Where)] = Value;
+    const auto R = parseViewRequest(Asked.dump());
+    ASSERT_FALSE(R) << Asked;
+    const std::string Key =
+        std::string(Where).substr(std::string(Where).rfind('/') + 1);
+    EXPECT_NE(R.error().What.find(Key), std::string::npos) << R.error().What;
+  }
+  for (const char *Text : {"", "[]", "3", "{", "{}", "null"})
+    EXPECT_FALSE(parseViewRequest(Text)) << Text;
+}
+
+TEST(ViewRequest, EveryKnobReachesTheOptions) {
+  // A knob that is forgotten here would show the default's picture.
+  for (const Knob &K : allKnobs()) {
+    const auto Changed = Setting::parse(K.Name + "=" + K.Values[1]);
+    ASSERT_TRUE(Changed);
+    const RenderOptions A = optionsOf({}, {}), B = optionsOf(*Changed, {});
+    EXPECT_TRUE(
+        A.Exponential != B.Exponential || A.Arithmetic != B.Arithmetic ||
+        A.AlphaCutoff != B.AlphaCutoff || A.Cutoff != B.Cutoff ||
+        A.RasterTile != B.RasterTile || A.Reach != B.Reach ||
+        A.ShLimit != B.ShLimit || A.DepthBits != B.DepthBits ||
+        A.ZTiles != B.ZTiles || A.PixelUnit.any() != B.PixelUnit.any() ||
+        A.SkipSaturated != B.SkipSaturated)
+        << K.Name;
+  }
+}
+
+TEST(ViewRequest, DrawsAsTheSceneSays) {
+  EXPECT_TRUE(optionsOf({}, {true, 0.1, ""}).Antialiased);
+  EXPECT_EQ(optionsOf({}, {true, 0.1, ""}).Dilation, 0.1F);
+}
+
+} // namespace

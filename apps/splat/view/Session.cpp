@@ -1,0 +1,334 @@
+#include "view/Session.h"
+
+#include "effects/Registry.h"
+#include "io/Metrics.h"
+#include "picture/View.h"
+#include "render/Explain.h"
+#include "render/FrameTime.h"
+#include "scene/Statistics.h"
+#include "view/Paint.h"
+#include "vorion/support/Json.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <span>
+#include <utility>
+
+namespace vorion::splat {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Pictures that are kept: two settings of one view with and without what takes
+/// longer.
+constexpr std::size_t MostKept = 4;
+
+Json cameraJson(const Camera &C) {
+  return {{"name", C.Name},
+          {"width", C.Width},
+          {"height", C.Height},
+          {"position", C.Position},
+          {"rotation", C.Rotation},
+          {"fx", C.Fx},
+          {"fy", C.Fy},
+          {"cx", C.Cx},
+          {"cy", C.Cy}};
+}
+
+/// Which bands of spherical harmonics are on the device.
+std::array<bool, MaxShDegree> bandsOf(const EffectPlan &Plan) {
+  return {Plan.done(effects::Sh1), Plan.done(effects::Sh2),
+          Plan.done(effects::Sh3)};
+}
+
+std::size_t sizeOf(const std::string &File) {
+  std::error_code Failed;
+  const auto Size = std::filesystem::file_size(File, Failed);
+  return Failed ? 0 : static_cast<std::size_t>(Size);
+}
+
+Json effectsOf(const EffectPlan &Plan) {
+  Json All = effectsJson(Plan);
+  for (Json &One : All)
+    One["what"] = effects::find(One.at("name").get<std::string>())->What;
+  return All;
+}
+
+/// What the device did for a picture.
+Json factsOf(const DrawnView &D) {
+  Json Stages = Json::array();
+  double Seconds = 0;
+  for (const StageReport &S : D.Result.Stages) {
+    Json Stage{{"name", name(S.Kind)}, {"seconds", S.Seconds}};
+    if (D.Clocked && isFrameStage(S.Kind))
+      Stage["cycles"] = frameCycles({S});
+    Seconds += S.Seconds;
+    Stages.push_back(std::move(Stage));
+  }
+  Json Facts{{"width", D.Result.Picture.Width},
+             {"height", D.Result.Picture.Height},
+             {"visible", D.Result.Visible},
+             {"pairs", D.Result.Pairs},
+             {"device_bytes", D.Result.DeviceBytes},
+             {"seconds", Seconds},
+             {"stages", std::move(Stages)},
+             {"effects", D.Effects}};
+  if (const auto Time = frameMilliseconds(D.Result.Stages); D.Clocked && Time) {
+    Facts["cycles"] = frameCycles(D.Result.Stages);
+    Facts["machine_ms"] = Time->all();
+  }
+  return Facts;
+}
+
+bool isSameView(const ViewRequest &A, const ViewRequest &B) {
+  return A.View == B.View && A.Chosen == B.Chosen;
+}
+
+} // namespace
+
+Expected<std::unique_ptr<Session>> Session::open(Setup S, std::string Name,
+                                                 SceneFile First) {
+  auto Folder = TemporaryFolder::make("splat-view");
+  if (!Folder)
+    return Folder.error();
+  // Frames on the way are not clocked, those at rest may be.
+  S.Machine.set("VORION_TIME", "profiled");
+  S.Machine.set("VORION_TILES", Folder->path() + "/tiles");
+  auto Dev = Device::open(S.Device, S.Machine);
+  if (!Dev)
+    return Dev.error();
+  if (!Dev->isVorion())
+    return Error{"",
+                 fmt::format("{} has no rasterizer, expected a Vorion device",
+                             Dev->name()),
+                 ExitCode::Usage};
+  std::unique_ptr<Session> Made(
+      new Session(std::move(S), std::move(*Dev), std::move(*Folder)));
+  Made->show(std::move(Name), std::move(First));
+  return Made;
+}
+
+std::shared_ptr<const ShownScene> Session::scene() const {
+  const std::lock_guard Held(SceneLock);
+  return Shown;
+}
+
+void Session::show(std::string Name, SceneFile File) {
+  const std::lock_guard Held(SceneLock);
+  Shown = std::make_shared<const ShownScene>(ShownScene{
+      std::move(Name), std::move(File), Shown ? Shown->Number + 1 : 1});
+}
+
+Expected<Success> Session::replace(std::string Name,
+                                   const std::string &Content) {
+  const auto *First = reinterpret_cast<const std::byte *>(Content.data());
+  auto File = parseScene(Name, {First, Content.size()}, Settings.Reading);
+  if (!File)
+    return File.error();
+  show(std::move(Name), std::move(*File));
+  return Success{};
+}
+
+std::string Session::describe() const {
+  const auto S = scene();
+  const Scene &Gaussians = S->File.Gaussians;
+  Json Knobs = Json::array(), Cameras = Json::array(), Names = Json::array();
+  for (const Knob &K : allKnobs())
+    Knobs.push_back({{"name", K.Name}, {"values", K.Values}});
+  // A scene that was dropped has no cameras that we know of.
+  if (S->Number == 1)
+    for (const Camera &C : Settings.Cameras)
+      Cameras.push_back(cameraJson(C));
+  for (const Layer L : Layers)
+    Names.push_back(name(L));
+  Json Box = Json::array();
+  if (Gaussians.size() != 0) {
+    const SceneStatistics Of = statisticsOf(Gaussians);
+    Box = {Of.InnerLow, Of.InnerHigh};
+  }
+  // From one end of the scale to the other, as CSS has colours.
+  Json Ramp = Json::array();
+  for (int Step = 0; Step <= 8; ++Step) {
+    const auto Colour = heatColour(Step / 8.0);
+    Ramp.push_back(fmt::format("rgb({}, {}, {})", toByte(Colour[0]),
+                               toByte(Colour[1]), toByte(Colour[2])));
+  }
+  return jsonText(Json{{"name", S->Name},
+                       {"number", S->Number},
+                       {"format", splat::name(S->File.Format)},
+                       {"gaussians", Gaussians.size()},
+                       {"sh_degree", Gaussians.ShDegree},
+                       {"box", Box},
+                       {"device", Dev.name()},
+                       {"width", Settings.Width},
+                       {"height", Settings.Height},
+                       {"cameras", Cameras},
+                       {"layers", Names},
+                       {"ramp", Ramp},
+                       {"knobs", Knobs}});
+}
+
+Expected<GaussianBuffers> Session::uploaded(Launcher &L, const RenderPlan &Plan,
+                                            const ShownScene &S) {
+  const auto Bands = bandsOf(Plan.Effects);
+  if (Uploaded == S.Number && UploadedBands == Bands)
+    return OnDevice;
+  // The old ones make room first.
+  OnDevice = {};
+  Uploaded = 0;
+  L.beginStage(Stage::Upload);
+  OnDevice = uploadGaussians(L, S.File.Gaussians, Plan.Effects);
+  if (L.failure())
+    return *L.failure();
+  Uploaded = S.Number;
+  UploadedBands = Bands;
+  return OnDevice;
+}
+
+Expected<DrawnView> Session::drawNew(const ViewRequest &R,
+                                     const ShownScene &S) {
+  const RenderOptions O = optionsOf(R.Chosen, S.File.DrawnAs);
+  const ViewFacts Own = splat::factsOf(S.File.Gaussians, makeView(R.View, O),
+                                       nearLimit(O.Convention));
+  Facts = Facts && FactsOf == S.Number ? combined(*Facts, Own) : Own;
+  FactsOf = S.Number;
+  const auto Decide = [&](const ViewFacts &By) {
+    return EffectPlan(EffectRequest(),
+                      EffectInputs{S.File.Gaussians, O, By, false,
+                                   R.Shown == Layer::Depth, Settings.Machine});
+  };
+  // On the way, what one view has needed stays on: it changes no bit where it
+  // is not needed, and programs need not be made anew with each step. A time is
+  // that of `splat render --time`, whatever was drawn before.
+  const EffectPlan Needed = Decide(Own);
+  const RenderPlan Plan = planRender(R.Clock ? Needed : Decide(*Facts), O);
+
+  Launcher *Running = nullptr;
+  Launcher L(
+      Dev, Settings.Kernels,
+      [&](std::string_view) {
+        if (R.Clock && Waiting != 0)
+          Running->fail(superseded());
+      },
+      &Programs);
+  Running = &L;
+  L.setProfiled(R.Clock);
+  const std::size_t TilesBefore = R.Clock ? sizeOf(tileFile()) : 0;
+  if (auto Built = build(L, Plan, S.File.Gaussians); !Built)
+    return Built.error();
+  const auto Buffers = uploaded(L, Plan, S);
+  if (!Buffers)
+    return Buffers.error();
+  auto Result = draw(L, Plan, *Buffers, R.View, O, false);
+  if (!Result)
+    return Result.error();
+  L.recordBuilds();
+  DrawnView D{S.Number, R, std::move(*Result), {}, effectsOf(Needed), R.Clock};
+  if (R.Clock) {
+    auto Tiles = readTileWork(tileFile(), TilesBefore);
+    if (!Tiles)
+      return Tiles.error();
+    D.Tiles = std::move(*Tiles);
+  }
+  return D;
+}
+
+std::shared_ptr<const DrawnView> Session::findDrawn(const ViewRequest &R,
+                                                    uint64_t Scene) const {
+  const auto Found = std::ranges::find_if(Kept, [&](const auto &D) {
+    return D->Scene == Scene && isSameView(D->Request, R) &&
+           (D->Clocked || !R.Clock) &&
+           (D->Result.Depths || R.Shown != Layer::Depth);
+  });
+  return Found == Kept.end() ? nullptr : *Found;
+}
+
+Expected<std::shared_ptr<const DrawnView>>
+Session::drawn(const ViewRequest &R,
+               const std::shared_ptr<const ShownScene> &S) {
+  ++Waiting;
+  const std::lock_guard Held(DeviceLock);
+  --Waiting;
+  if (auto Old = findDrawn(R, S->Number))
+    return Old;
+  auto New = drawNew(R, *S);
+  if (!New)
+    return New.error();
+  Kept.push_front(std::make_shared<const DrawnView>(std::move(*New)));
+  if (Kept.size() > MostKept)
+    Kept.pop_back();
+  return Kept.front();
+}
+
+Expected<ViewAnswer> Session::frame(const ViewRequest &R) {
+  const auto S = scene();
+  const auto D = drawn(R, S);
+  if (!D)
+    return D.error();
+  const RenderResult &Result = (*D)->Result;
+  ViewAnswer A{factsOf(**D), ""};
+  std::shared_ptr<const std::vector<double>> Judged;
+  if (R.Compare) {
+    const auto Made = Reference.picture(S, R.View);
+    if (!Made)
+      return Made.error();
+    Judged = *Made;
+    const std::vector<double> Ours(Result.Picture.Render.begin(),
+                                   Result.Picture.Render.end());
+    const Difference Off = compare(Ours, *Judged, 3);
+    A.Facts["error"] = {{"psnr_db", Off.PsnrDb},
+                        {"max_abs", Off.MaxAbs},
+                        {"off_share", Off.OffShare}};
+  }
+  Painted P = R.Shown == Layer::Depth   ? paintDepth(*Result.Depths)
+              : R.Shown == Layer::Error ? paintError(Result.Picture, *Judged)
+              : heatOf(R.Shown) ? paintHeat((*D)->Tiles, *heatOf(R.Shown),
+                                            R.View.Width, R.View.Height)
+                                : paintPicture(Result.Picture);
+  A.Facts["layer"] = name(R.Shown);
+  A.Facts["scale"] = {{"low", P.Low}, {"high", P.High}, {"unit", P.Unit}};
+  A.Rgba = std::move(P.Rgba);
+  return A;
+}
+
+std::string Session::pixel(const ViewRequest &R) {
+  const auto S = scene();
+  Json Gaussians = Json::array();
+  std::array<double, 3> Sum{};
+  for (const PixelGaussian &G : Reference.pixel(S, R)) {
+    for (std::size_t K = 0; K != Sum.size(); ++K)
+      Sum[K] += G.Weight * G.Color[K];
+    Gaussians.push_back({{"index", G.Index},
+                         {"weight", G.Weight},
+                         {"alpha", G.Alpha},
+                         {"depth", G.Depth},
+                         {"color", G.Color},
+                         {"tiles", G.Tiles},
+                         {"pixels", G.Pixels},
+                         {"error", G.Error}});
+  }
+  Json Pixel{{"x", R.X}, {"y", R.Y}, {"reference", Sum}};
+  std::shared_ptr<const DrawnView> D;
+  {
+    ++Waiting;
+    const std::lock_guard Held(DeviceLock);
+    --Waiting;
+    ViewRequest Plain = R;
+    Plain.Clock = false;
+    Plain.Shown = Layer::Picture;
+    D = findDrawn(Plain, S->Number);
+  }
+  if (D) {
+    const auto At = 3 * (static_cast<std::size_t>(R.Y) *
+                             static_cast<std::size_t>(R.View.Width) +
+                         static_cast<std::size_t>(R.X));
+    const auto Of = std::span(D->Result.Picture.Render).subspan(At, 3);
+    Pixel["machine"] = std::array{Of[0], Of[1], Of[2]};
+  }
+  Pixel["gaussians"] = std::move(Gaussians);
+  return jsonText(Pixel);
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,106 @@
+/// The device and the scene that `splat view` keeps between frames.
+#pragma once
+
+#include "device/TileWork.h"
+#include "render/Renderer.h"
+#include "view/Judge.h"
+#include "view/Request.h"
+#include "view/ShownScene.h"
+#include "vorion/support/TemporaryFolder.h"
+
+#include <array>
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// A picture that the device has drawn.
+struct DrawnView {
+  uint64_t Scene = 0;
+  ViewRequest Request; ///< that it was first drawn for
+  RenderResult Result;
+  std::vector<TileWork> Tiles;    ///< empty without the clock
+  nlohmann::ordered_json Effects; ///< what is on, and why
+  bool Clocked = false;
+};
+
+/// What the page gets.
+struct ViewAnswer {
+  nlohmann::ordered_json Facts;
+  std::string Rgba; ///< rows from the top
+};
+
+class Session {
+public:
+  struct Setup {
+    std::string Device, Kernels;
+    DeviceOptions Machine;
+    ReadOptions Reading; ///< of dropped scenes
+    std::vector<Camera> Cameras;
+    int Width = 480, Height = 272;
+  };
+
+  /// Opens the device and shows \p First.
+  static Expected<std::unique_ptr<Session>> open(Setup S, std::string Name,
+                                                 SceneFile First);
+
+  /// Device, scene, cameras and knobs, as JSON.
+  std::string describe() const;
+
+  /// Draws what \p R asks for. Of two calls the later one waits; a frame with
+  /// the clock gives up at its next stage where somebody waits, which is an
+  /// error.
+  Expected<ViewAnswer> frame(const ViewRequest &R);
+
+  /// What a pixel is made of, as JSON.
+  std::string pixel(const ViewRequest &R);
+
+  /// Shows the scene in \p Content, a file \p Name. If it is none, the error
+  /// says so and the old scene stays.
+  Expected<Success> replace(std::string Name, const std::string &Content);
+
+private:
+  Session(Setup S, Device D, TemporaryFolder F)
+      : Settings(std::move(S)), Dev(std::move(D)), Folder(std::move(F)) {}
+  void show(std::string Name, SceneFile File);
+  std::shared_ptr<const ShownScene> scene() const;
+  std::string tileFile() const { return Folder.path() + "/tiles"; }
+
+  Expected<std::shared_ptr<const DrawnView>>
+  drawn(const ViewRequest &R, const std::shared_ptr<const ShownScene> &S);
+  /// Needs the device's lock.
+  std::shared_ptr<const DrawnView> findDrawn(const ViewRequest &R,
+                                             uint64_t Scene) const;
+  Expected<DrawnView> drawNew(const ViewRequest &R, const ShownScene &S);
+  Expected<GaussianBuffers> uploaded(Launcher &L, const RenderPlan &Plan,
+                                     const ShownScene &S);
+
+  const Setup Settings;
+  Device Dev;
+  TemporaryFolder Folder; ///< of what the device tells of tiles
+  Judge Reference;
+
+  mutable std::mutex SceneLock;
+  std::shared_ptr<const ShownScene> Shown; ///< by this lock
+
+  std::atomic<unsigned> Waiting = 0;
+  std::mutex DeviceLock;
+  /// \name By this lock
+  /// @{
+  ProgramCache Programs;
+  uint64_t Uploaded = 0; ///< number of the scene in Gaussians
+  std::array<bool, MaxShDegree> UploadedBands{};
+  GaussianBuffers OnDevice;
+  std::optional<ViewFacts> Facts; ///< of all views of a scene so far
+  uint64_t FactsOf = 0;           ///< its number
+  std::deque<std::shared_ptr<const DrawnView>> Kept; ///< newest first
+  /// @}
+};
+
+} // namespace vorion::splat

@@ -1,0 +1,38 @@
+// Talks to the server. The token stands behind the # of the page's address, which browsers send to nobody.
+
+const token = location.hash.slice(1);
+
+async function ask(path, options = {}) {
+  let answer;
+  try {
+    answer = await fetch(path, { ...options, headers: { 'X-Splat-Token': token, ...options.headers } });
+  } catch (failure) {
+    if (failure.name === 'AbortError') throw failure;
+    throw new Error('splat view does not answer: it has ended, or the computer is busy');
+  }
+  if (answer.ok) return answer;
+  const said = await answer.json().catch(() => ({ error: `the server says ${answer.status}` }));
+  const failure = new Error(said.error);
+  failure.superseded = answer.status === 409;
+  throw failure;
+}
+
+const post = (path, body, signal) =>
+  ask(path, { method: 'POST', body: JSON.stringify(body), headers: { 'Content-Type': 'application/json' }, signal });
+
+export const readScene = async () => (await ask('scene')).json();
+
+export const openScene = async (name, bytes) =>
+  (await ask('scene?name=' + encodeURIComponent(name),
+    { method: 'POST', body: bytes, headers: { 'Content-Type': 'application/octet-stream' } })).json();
+
+export const readPixel = async request => (await post('pixel', request)).json();
+
+// Facts, and the pixels as ImageData.
+export async function readFrame(request, signal) {
+  const bytes = await (await post('frame', request, signal)).arrayBuffer();
+  const size = new DataView(bytes).getUint32(0, true);
+  const facts = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
+  const pixels = new Uint8ClampedArray(bytes, 4 + size);
+  return { facts, image: new ImageData(pixels, facts.width, facts.height) };
+}

@@ -1,0 +1,84 @@
+// Where one looks from. Axes are a camera's: x right, y down, z forward.
+
+const add = (a, b) => a.map((v, i) => v + b[i]);
+const scale = (a, f) => a.map(v => v * f);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = a => scale(a, 1 / Math.hypot(...a));
+// `a` turned about the unit vector `axis` (Rodrigues' formula).
+const turned = (a, axis, angle) => {
+  const c = Math.cos(angle), s = Math.sin(angle);
+  return add(add(scale(a, c), scale(cross(axis, a), s)), scale(axis, dot(axis, a) * (1 - c)));
+};
+
+export class Eye {
+  // `camera` of the scene; `box`: two corners of what is in it, or nothing.
+  constructor(camera, box, size, up) {
+    const column = k => camera.rotation.map(row => row[k]);
+    Object.assign(this, { position: [...camera.position], right: column(0), down: column(1), forward: column(2), up, size });
+    const fit = size.width / camera.width;
+    this.lens = {
+      fx: camera.fx * fit, fy: camera.fy * fit, cx: camera.cx * fit, cy: camera.cy * fit + (size.height - camera.height * fit) / 2
+    };
+    const middle = box.length ? scale(add(box[0], box[1]), 0.5) : [0, 0, 0];
+    this.radius = box.length ? Math.max(Math.hypot(...add(box[1], scale(box[0], -1))) / 2, 1e-6) : 1;
+    const ahead = dot(add(middle, scale(this.position, -1)), this.forward);
+    this.distance = ahead > 0 ? ahead : this.radius;
+  }
+
+  // A camera before the middle of `box`, at which all of it is in the picture.
+  static ahead(box, { width, height }) {
+    const middle = box.length ? scale(add(box[0], box[1]), 0.5) : [0, 0, 0];
+    const radius = box.length ? Math.hypot(...add(box[1], scale(box[0], -1))) / 2 : 1;
+    const focal = 0.87 * width;
+    return {
+      name: 'whole scene', width, height, position: add(middle, [0, 0, -radius * focal / (height / 2)]),
+      rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], fx: focal, fy: focal, cx: width / 2, cy: height / 2
+    };
+  }
+
+  // Radians to the right and down, about what is looked at or about the eye.
+  turn(right, down, aboutTarget) {
+    const target = add(this.position, scale(this.forward, this.distance));
+    // Straight up and down is where left and right change places.
+    const high = Math.asin(Math.max(-1, Math.min(1, dot(this.forward, this.up))));
+    const most = 1.53;
+    down = Math.max(Math.min(down, high + most), high - most);
+    for (const key of ['right', 'down', 'forward']) this[key] = turned(this[key], this.up, -right);
+    const axis = this.right;
+    for (const key of ['down', 'forward']) this[key] = turned(this[key], axis, -down);
+    this.forward = unit(this.forward);
+    this.right = unit(cross(this.down, this.forward));
+    this.down = cross(this.forward, this.right);
+    if (aboutTarget) this.position = add(target, scale(this.forward, -this.distance));
+  }
+
+  // In shares of the distance to what is looked at.
+  move(right, down, forward) {
+    const step = scale(add(add(scale(this.right, right), scale(this.down, down)), scale(this.forward, forward)), this.distance);
+    this.position = add(this.position, step);
+  }
+
+  // Nearer to what is looked at by factor `by` of the distance.
+  near(by) {
+    const target = add(this.position, scale(this.forward, this.distance));
+    this.distance = Math.max(this.distance * by, this.radius * 1e-4);
+    this.position = add(target, scale(this.forward, -this.distance));
+  }
+
+  // As requests have it; each side of the picture divided by about `coarse`.
+  camera(coarse = 1) {
+    const width = Math.max(16, Math.round(this.size.width / coarse)), height = Math.max(16, Math.round(this.size.height / coarse));
+    const x = width / this.size.width, y = height / this.size.height;
+    return {
+      width, height, fx: this.lens.fx * x, fy: this.lens.fy * y, cx: this.lens.cx * x, cy: this.lens.cy * y, position: this.position,
+      rotation: [0, 1, 2].map(i => [this.right[i], this.down[i], this.forward[i]])
+    };
+  }
+}
+
+// What most cameras have above them; cameras of trainers have y down.
+export function upOf(cameras) {
+  const sum = cameras.reduce((s, c) => add(s, c.rotation.map(row => -row[1])), [0, 0, 0]);
+  return Math.hypot(...sum) > 0.1 * cameras.length ? unit(sum) : [0, -1, 0];
+}

@@ -1,0 +1,64 @@
+// What is known of a picture, as tables.
+import { byId, element } from './element.js';
+
+const whole = n => Math.round(n).toLocaleString('en');
+const milli = seconds => `${(1000 * seconds).toFixed(1)} ms`;
+const short = n => n === 0 ? '0' : Math.abs(n) >= 0.001 && Math.abs(n) < 1e5 ? String(+n.toPrecision(4)) : n.toExponential(2);
+
+const FACTS = [
+  ['cycles of the machine', f => f.cycles === undefined ? '' : whole(f.cycles)],
+  ['time on the machine', f => f.machine_ms === undefined ? '' : `${f.machine_ms.toFixed(2)} ms`],
+  ['PSNR against fp64', f => !f.error ? '' : f.error.psnr_db === null ? 'equal' : `${f.error.psnr_db.toFixed(1)} dB`],
+  ['largest error', f => !f.error ? '' : short(f.error.max_abs)],
+  ['pixels off by 1/255', f => !f.error ? '' : `${(100 * f.error.off_share).toFixed(2)} %`],
+  ['Gaussians seen', f => whole(f.visible)],
+  ['pairs with tiles', f => whole(f.pairs)],
+  ['time of the simulation', f => milli(f.seconds)]
+];
+
+const head = () => element('tr', {}, element('th', {}, ''), element('th', { scope: 'col' }, 'left'), element('th', { scope: 'col' }, 'right'));
+
+// `all`: the facts of one picture, or of two.
+export function showFacts(all) {
+  const rows = FACTS.map(([name, of]) => [name, all.map(f => f ? of(f) : '')]).filter(([, texts]) => texts.some(t => t));
+  byId('facts').tBodies[0].replaceChildren(...(all.length > 1 ? [head()] : []),
+    ...rows.map(([name, texts]) => element('tr', {}, element('th', { scope: 'row' }, name), ...texts.map(t => element('td', {}, t)))));
+  const first = all.find(f => f);
+  if (!first) return;
+  byId('stages').tBodies[0].replaceChildren(...first.stages.map(s => element('tr', {}, element('th', { scope: 'row' }, s.name),
+    element('td', {}, milli(s.seconds)), element('td', {}, s.cycles === undefined ? '' : `${whole(s.cycles)} cycles`))));
+  byId('effects').replaceChildren(...first.effects.map(e => element('li', { class: e.on ? 'on' : 'off' },
+    element('b', {}, e.name), ` ${e.on ? 'on' : 'off'}: ${e.figure}`, element('small', {}, e.what))));
+}
+
+export function showLegend(scale, ramp) {
+  byId('legend').hidden = !scale?.unit;
+  if (!scale?.unit) return;
+  byId('low').textContent = short(scale.low);
+  byId('high').textContent = short(scale.high);
+  byId('unit').textContent = scale.unit;
+  byId('ramp').style.background = `linear-gradient(to right, ${ramp.join(', ')})`;
+}
+
+const MOST_ROWS = 40;
+const color = c => `rgb(${c.map(v => Math.round(255 * Math.max(0, Math.min(1, v)))).join(' ')})`;
+
+export function showPixel(pixel) {
+  const table = byId('gaussians');
+  const sum = pixel.gaussians.reduce((s, g) => s + g.weight, 0);
+  const triple = c => c.map(v => v.toFixed(4)).join(', ');
+  byId('pixel-about').textContent = `(${pixel.x}, ${pixel.y}): ${pixel.gaussians.length} Gaussians, together ${(100 * sum).toFixed(1)} % of it. ` +
+    `Reference in fp64: ${triple(pixel.reference)}.` + (pixel.machine ? ` Machine: ${triple(pixel.machine)}.` : '') +
+    (pixel.gaussians.length > MOST_ROWS ? ` The ${MOST_ROWS} of the most weight, front to back:` : ' Front to back:');
+  table.hidden = pixel.gaussians.length === 0;
+  const least = pixel.gaussians.map(g => g.weight).sort((a, b) => b - a)[MOST_ROWS - 1] ?? 0;
+  table.tHead.replaceChildren(element('tr', {}, ...['Gaussian', 'weight', 'alpha', 'depth', 'tiles', 'pixels', 'error in fp32']
+    .map(n => element('th', { scope: 'col' }, n))));
+  table.tBodies[0].replaceChildren(...pixel.gaussians.filter(g => g.weight >= least).slice(0, MOST_ROWS).map(g => {
+    const swatch = element('span', { class: 'swatch' });
+    swatch.style.background = color(g.color);
+    return element('tr', {}, element('th', { scope: 'row' }, swatch, ` ${g.index}`), ...[
+      `${(100 * g.weight).toFixed(2)} %`, g.alpha.toFixed(3), short(g.depth), whole(g.tiles), whole(g.pixels), g.error.toExponential(1)
+    ].map(t => element('td', {}, t)));
+  }));
+}

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Runs `splat view`, asks its server what it must refuse, and uses its page in headless Chromium.
+
+usage: view.py SCENE CAMERAS FOLDER
+"""
+
+import contextlib
+import http.client
+import json
+import os
+import signal
+import struct
+import subprocess
+import sys
+import urllib.parse
+
+from browser import Browser
+
+SCENE, CAMERAS, FOLDER = sys.argv[1:]
+SIZE = (96, 64)
+
+
+@contextlib.contextmanager
+def viewer(*options):
+    """Gives a running viewer's address; it must end well at Ctrl-C."""
+    process = subprocess.Popen(["splat", "view", SCENE, "--cameras", CAMERAS, "--size", f"{SIZE[0]}x{SIZE[1]}", *options],
+                               stdout=subprocess.PIPE, text=True)
+    try:
+        said = process.stdout.readline()
+        assert said.startswith("splat view: http://127.0.0.1:"), said
+        yield urllib.parse.urlsplit(said.split()[-1])
+        process.send_signal(signal.SIGINT)
+        assert process.wait(30) == 0, process.returncode
+    finally:
+        process.kill()
+        process.wait()
+
+
+def ask(at, method, path, body=None, token=True, **headers):
+    """Status and body of the answer."""
+    connection = http.client.HTTPConnection("127.0.0.1", at.port, timeout=60)
+    sent = {"Host": at.netloc, "Origin": f"http://{at.netloc}"} | ({"X-Splat-Token": at.fragment} if token else {}) | headers
+    connection.putrequest(method, path, skip_host=True)
+    for name, value in sent.items():
+        if value is not None:
+            connection.putheader(name, value)
+    if body is not None:
+        connection.putheader("Content-Length", str(len(body)))
+    connection.endheaders(body)
+    answer = connection.getresponse()
+    return answer.status, answer.read(), answer.headers
+
+
+def refused(answer, status):
+    assert answer[0] == status, answer
+    assert "\n" not in json.loads(answer[1])["error"]
+
+
+def camera():
+    with open(CAMERAS, encoding="utf-8") as f:
+        view = json.load(f)[0]
+    return {k: view[k] for k in ("width", "height", "position", "rotation", "fx", "fy")}
+
+
+def check_door(at):
+    frame = json.dumps({"camera": camera()}).encode()
+    for method, path, body in (("GET", "/scene", None), ("POST", "/frame", frame), ("POST", "/pixel", frame), ("POST", "/scene?name=x", b"x")):
+        refused(ask(at, method, path, body, token=False), 403)
+        refused(ask(at, method, path, body, **{"X-Splat-Token": at.fragment[:-1] + "g"}), 403)
+        refused(ask(at, method, path, body, Host="evil.example"), 403)
+        refused(ask(at, method, path, body, Host=f"evil.example:{at.port}"), 403)
+        refused(ask(at, method, path, body, Origin="http://evil.example"), 403)
+        refused(ask(at, method, path, body, Origin=f"http://127.0.0.1:{at.port + 1}"), 403)
+        if method == "POST":
+            refused(ask(at, method, path, body, Origin=None), 403)
+    refused(ask(at, "GET", "/", Host="evil.example"), 403)
+    refused(ask(at, "OPTIONS", "/frame", token=False), 403)
+    # The page itself holds no secret.
+    status, page, headers = ask(at, "GET", "/", token=False)
+    assert status == 200 and at.fragment.encode() not in page
+    assert "frame-ancestors 'none'" in headers["Content-Security-Policy"] and headers["Access-Control-Allow-Origin"] is None
+    refused(ask(at, "GET", "/none"), 404)
+    refused(ask(at, "POST", "/frame", b"{"), 400)
+    refused(ask(at, "POST", "/frame", b"[" * 100000), 400)
+    refused(ask(at, "POST", "/frame", json.dumps({"camera": camera() | {"width": 100000}}).encode()), 400)
+    refused(ask(at, "POST", "/scene?name=x.ply", b"no scene"), 400)
+    print("the server keeps its door")
+
+
+def check_frame(at):
+    """The server's picture is that of `splat render`, and its cycles are those of --time."""
+    picture, report = os.path.join(FOLDER, "p.png"), os.path.join(FOLDER, "p.json")
+    subprocess.run(["splat", "render", SCENE, "--cameras", CAMERAS, "--view", "front", "-o", picture, "--json", report, "--time"],
+                   check=True, stdout=subprocess.DEVNULL)
+    with open(report, encoding="utf-8") as f:
+        wanted = json.load(f)
+    asked = {"camera": camera(), "clock": True, "compare": True}
+    status, answer, _ = ask(at, "POST", "/frame", json.dumps(asked).encode())
+    assert status == 200, answer
+    size, = struct.unpack("<I", answer[:4])
+    facts, pixels = json.loads(answer[4:4 + size]), answer[4 + size:]
+    assert len(pixels) == 4 * facts["width"] * facts["height"]
+    assert facts["cycles"] == wanted["time"]["sum"]["cycles"], (facts["cycles"], wanted["time"])
+    assert facts["error"]["psnr_db"] > 80, facts["error"]
+    # What a pixel is made of gives its colour.
+    x, y = facts["width"] // 2, facts["height"] // 2
+    status, answer, _ = ask(at, "POST", "/pixel", json.dumps(asked | {"x": x, "y": y}).encode())
+    assert status == 200, answer
+    pixel = json.loads(answer)
+    assert pixel["gaussians"] and all(g["tiles"] > 0 and g["pixels"] > 0 for g in pixel["gaussians"])
+    for mine, theirs, byte in zip(pixel["machine"], pixel["reference"], pixels[4 * (y * facts["width"] + x):]):
+        assert abs(mine - theirs) < 1e-4 and abs(max(0, min(1, mine)) * 255 - byte) < 0.51, pixel
+
+
+def rest(browser):
+    browser.wait("document.documentElement.dataset.drawn === String(window.seen = document.documentElement.dataset.drawn) "
+                 "&& document.getElementById('status').textContent.startsWith('whole picture')")
+
+
+def pixels_of(browser, side="a"):
+    return browser.value(f"(c => Array.from(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).join())"
+                         f"(document.querySelector('#view-{side} canvas'))")
+
+
+def choose(browser, name, value):
+    browser.value(f"(e => {{ e.value = '{value}'; e.dispatchEvent(new Event('change')); }})(document.getElementById('{name}'))")
+
+
+def settled(browser, act):
+    """After `act` and everything that follows from it."""
+    before = browser.value("document.documentElement.dataset.drawn")
+    act()
+    browser.wait(f"document.documentElement.dataset.drawn !== '{before}' && document.getElementById('status').textContent.startsWith('whole picture')")
+
+
+def check_page(at):
+    browser = Browser(FOLDER)
+    try:
+        browser.shape(1200, 900)
+        browser.open(at.geturl())
+        browser.wait("document.documentElement.dataset.drawn !== undefined")
+        first = pixels_of(browser)
+        assert len(set(first.split(","))) > 16, "the picture shows nothing"
+        assert browser.value("document.querySelector('#view-a canvas').width") == SIZE[0]
+        assert "cycles of the machine" in browser.value("document.getElementById('facts').innerText")
+
+        # Keys, the mouse, the wheel: each shows something else, and R goes back.
+        centre = browser.value("(b => [b.left + b.width / 2, b.top + b.height / 2])(document.querySelector('#view-a canvas').getBoundingClientRect())")
+
+        def drag():
+            browser.mouse("mousePressed", *centre)
+            browser.mouse("mouseMoved", centre[0] + 40, centre[1] + 10, buttons=1)
+            browser.mouse("mouseReleased", centre[0] + 40, centre[1] + 10)
+
+        for act in (lambda: browser.key("ArrowLeft"), drag, lambda: browser.mouse("mouseWheel", *centre, button="none", deltaX=0, deltaY=120),
+                    lambda: browser.key("w")):
+            settled(browser, act)
+            assert pixels_of(browser) != first
+            assert browser.value("document.getElementById('camera').value") == ""
+            settled(browser, lambda: browser.key("r"))
+            assert pixels_of(browser) == first
+
+        # Every layer, and what its colours stand for.
+        for layer in browser.value("[...document.getElementById('layer').options].map(o => o.value)")[1:]:
+            settled(browser, lambda layer=layer: choose(browser, "layer", layer))
+            assert pixels_of(browser) != first, layer
+            assert browser.value("document.getElementById('legend').innerText").strip(), layer
+        settled(browser, lambda: choose(browser, "layer", "picture"))
+
+        # A click lists Gaussians.
+        browser.mouse("mousePressed", *centre)
+        browser.mouse("mouseReleased", *centre)
+        browser.wait("document.querySelectorAll('#gaussians tbody tr').length > 0")
+
+        # Two settings side by side: another unit has another picture, error and time.
+        settled(browser, lambda: browser.key("c"))
+        settled(browser, lambda: choose(browser, "knob-exp-b", "schraudolph"))
+        assert pixels_of(browser) == first != pixels_of(browser, "b")
+        captions = browser.value("[...document.querySelectorAll('figcaption')].map(c => c.innerText)")
+        assert "default" in captions[0] and "exp=schraudolph" in captions[1] and all("cycles" in c and "dB" in c for c in captions), captions
+        assert "SH" not in browser.value("document.getElementById('problem').innerText")
+
+        # What is no scene is said, and the old one stays; a scene opens.
+        drop = ("(bytes => {{ const t = new DataTransfer(); t.items.add(new File([bytes], '{}')); "
+                "document.dispatchEvent(new DragEvent('drop', {{ dataTransfer: t, bubbles: true }})); }})({})")
+        browser.value(drop.format("bad.ply", "'no scene'"))
+        assert "bad.ply" in browser.wait("document.getElementById('problem').innerText")
+        assert pixels_of(browser) == first
+        settled(browser, lambda: browser.key("c"))
+        with open(SCENE, "rb") as f:
+            content = list(f.read())
+        settled(browser, lambda: browser.value(drop.format("again.ply", f"Uint8Array.from({content})")))
+        assert browser.value("document.title") == "again.ply"
+        assert browser.value("document.getElementById('problem').hidden")
+
+        # On a phone nothing is wider than the screen; dark and light differ.
+        colours = []
+        for scheme in ("light", "dark"):
+            browser.shape(400, 800, scheme, mobile=True)
+            assert browser.value("document.documentElement.scrollWidth") <= 400
+            colours.append(browser.value("getComputedStyle(document.body).backgroundColor"))
+        assert colours[0] != colours[1]
+        browser.screenshot(os.path.join(FOLDER, "phone.png"))
+        assert not browser.complaints or all("400" in json.dumps(c) for c in browser.complaints), browser.complaints
+    finally:
+        browser.close()
+    print("the page works")
+
+
+with viewer() as at:
+    busy = subprocess.run(["splat", "view", SCENE, "--port", str(at.port)], stderr=subprocess.PIPE, text=True, check=False)
+    assert busy.returncode == 2 and f"--port {at.port}: is in use" in busy.stderr and busy.stderr.count("\n") == 1, busy
+    check_door(at)
+    check_frame(at)
+    check_page(at)
