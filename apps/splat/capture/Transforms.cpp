@@ -1,6 +1,6 @@
 #include "capture/Transforms.h"
 
-#include "io/PlyHeader.h"
+#include "io/PlyFile.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -191,13 +191,13 @@ void setFieldOfView(Camera &C, double Radians) {
 }
 
 Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
-  const auto H = readPlyHeader(Where, File);
-  if (!H)
-    return H.error();
-  const PlyElement *Vertex = H->find("vertex");
-  if (!Vertex)
-    return Error{Where, "no element vertex, expected the points"};
-  const auto Position = Vertex->offsets(Where, {"x", "y", "z"}, PlyType::Float);
+  const auto Read = readPly(Where, File);
+  if (!Read)
+    return Read.error();
+  const PlyElement *Vertex = Read->header().find("vertex");
+  if (!Vertex || Vertex->HasLists)
+    return Error{Where, "no element vertex of numbers, expected the points"};
+  const auto Position = Vertex->reals(Where, {"x", "y", "z"});
   if (!Position)
     return Position.error();
   const auto Colour =
@@ -206,10 +206,9 @@ Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {
     return Colour.error();
   CapturePoints P;
   for (std::size_t I = 0; I < Vertex->Count; ++I) {
-    const Bytes Row =
-        File.subspan(Vertex->Start + I * Vertex->Stride, Vertex->Stride);
-    for (const std::size_t At : *Position)
-      if (!std::isfinite(P.Positions.emplace_back(load<float>(Row, At))))
+    const Bytes Row = Read->row(*Vertex, I);
+    for (const PlyReal At : *Position)
+      if (!std::isfinite(P.Positions.emplace_back(loadReal(Row, At))))
         return Error{Where, fmt::format("point {} holds a NaN or an infinity, "
                                         "expected finite coordinates",
                                         I)};

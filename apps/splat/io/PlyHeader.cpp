@@ -15,14 +15,16 @@ struct ScalarType {
   PlyType Type;
 };
 
-constexpr ScalarType ScalarTypes[] = {{"char", "int8", 1, PlyType::Other},
-                                      {"uchar", "uint8", 1, PlyType::UChar},
-                                      {"short", "int16", 2, PlyType::Other},
-                                      {"ushort", "uint16", 2, PlyType::Other},
-                                      {"int", "int32", 4, PlyType::Other},
-                                      {"uint", "uint32", 4, PlyType::UInt},
-                                      {"float", "float32", 4, PlyType::Float},
-                                      {"double", "float64", 8, PlyType::Other}};
+/// In the order of PlyType.
+constexpr ScalarType ScalarTypes[] = {
+    {"char", "int8", 1, PlyType::Char},
+    {"uchar", "uint8", 1, PlyType::UChar},
+    {"short", "int16", 2, PlyType::Short},
+    {"ushort", "uint16", 2, PlyType::UShort},
+    {"int", "int32", 4, PlyType::Int},
+    {"uint", "uint32", 4, PlyType::UInt},
+    {"float", "float32", 4, PlyType::Float},
+    {"double", "float64", 8, PlyType::Double}};
 
 const ScalarType *scalarType(std::string_view Name) {
   const auto *It = std::find_if(std::begin(ScalarTypes), std::end(ScalarTypes),
@@ -30,6 +32,10 @@ const ScalarType *scalarType(std::string_view Name) {
                                   return T.Name == Name || T.OtherName == Name;
                                 });
   return It == std::end(ScalarTypes) ? nullptr : It;
+}
+
+bool isInteger(PlyType Type) {
+  return Type != PlyType::Float && Type != PlyType::Double;
 }
 
 /// The words of \p Line, separated by blanks.
@@ -75,11 +81,10 @@ public:
     if (!HasFormat)
       return error("header has no format line, expected `format "
                    "binary_little_endian 1.0`");
+    Result.Size = At;
+    Result.LineNumber = LineNumber;
     return std::move(Result);
   }
-
-  /// Bytes of what was read.
-  std::size_t size() const { return At; }
 
 private:
   Error error(std::string What) const {
@@ -114,11 +119,19 @@ private:
 
   std::optional<std::string>
   declareFormat(const std::vector<std::string_view> &W) {
-    if (W.size() != 3 || W[1] != "binary_little_endian" || W[2] != "1.0")
-      return fmt::format("format is `{}`, expected `binary_little_endian 1.0`",
-                         W.size() > 1 ? printable(W[1]) : "");
-    HasFormat = true;
-    return std::nullopt;
+    constexpr std::pair<std::string_view, PlyEncoding> Encodings[] = {
+        {"binary_little_endian", PlyEncoding::LittleEndian},
+        {"binary_big_endian", PlyEncoding::BigEndian},
+        {"ascii", PlyEncoding::Text}};
+    for (const auto &[Name, Encoding] : Encodings)
+      if (W.size() == 3 && W[1] == Name && W[2] == "1.0") {
+        Result.Encoding = Encoding;
+        HasFormat = true;
+        return std::nullopt;
+      }
+    return fmt::format("format is `{}`, expected binary_little_endian, "
+                       "binary_big_endian or ascii, and version 1.0",
+                       W.size() > 1 ? printable(W[1]) : "");
   }
 
   std::optional<std::string>
@@ -141,30 +154,64 @@ private:
     if (Result.Elements.empty())
       return "property before the first element, expected `element <name> "
              "<count>`";
-    const ScalarType *T = W.size() == 3 ? scalarType(W[1]) : nullptr;
-    if (!T)
-      return "expected `property <scalar type> <name>`";
-    if (!Result.Elements.back().add(W[2], T->Type, T->Size))
-      return fmt::format("property {} appears twice", printable(W[2]));
+    const bool IsList = W.size() == 5 && W[1] == "list";
+    const ScalarType *Count = IsList ? scalarType(W[2]) : nullptr;
+    const ScalarType *Type = IsList          ? scalarType(W[3])
+                             : W.size() == 3 ? scalarType(W[1])
+                                             : nullptr;
+    if (!Type || IsList != (Count && isInteger(Count->Type)))
+      return "expected `property <scalar type> <name>` or `property list "
+             "<integer type> <scalar type> <name>`";
+    PlyProperty Property{std::string(W.back()), Type->Type, std::nullopt};
+    if (IsList)
+      Property.CountType = Count->Type;
+    if (!Result.Elements.back().add(std::move(Property)))
+      return fmt::format("property {} appears twice", printable(W.back()));
     return std::nullopt;
   }
 
   const std::string &Where;
   std::string_view Text;
   std::size_t At = 0;
-  int LineNumber = 0;
+  std::size_t LineNumber = 0;
   bool HasFormat = false;
   PlyHeader Result;
 };
 
+/// The property of \p Element that \p Name names; it is a number of a type that
+/// \p Fits, which messages call \p TypeName.
+template <typename Predicate>
+Expected<const PlyProperty *>
+need(const std::string &Where, const PlyElement &Element,
+     const std::string &Name, std::string_view TypeName, Predicate Fits) {
+  const PlyProperty *P = Element.find(Name);
+  if (!P)
+    return Error{Where, fmt::format("property {} of element {} is missing, "
+                                    "expected a {}",
+                                    Name, Element.Name, TypeName)};
+  if (P->CountType || !Fits(P->Type))
+    return Error{Where, fmt::format("property {} of element {} has another "
+                                    "type, expected {}",
+                                    Name, Element.Name, TypeName)};
+  return P;
+}
+
 } // namespace
 
-bool PlyElement::add(std::string_view Property, PlyType Type,
-                     std::size_t Size) {
-  if (!Places.emplace(Property, Properties.size()).second)
+std::size_t sizeOf(PlyType Type) {
+  return ScalarTypes[static_cast<std::size_t>(Type)].Size;
+}
+
+bool PlyElement::add(PlyProperty Property) {
+  if (!Places.emplace(Property.Name, Properties.size()).second)
     return false;
-  Properties.push_back({std::string(Property), Stride, Type});
-  Stride += Size;
+  if (Property.CountType) {
+    HasLists = true;
+  } else {
+    Property.Offset = Stride;
+    Stride += sizeOf(Property.Type);
+  }
+  Properties.push_back(std::move(Property));
   return true;
 }
 
@@ -176,24 +223,31 @@ const PlyProperty *PlyElement::find(std::string_view Property) const {
 Expected<std::vector<std::size_t>>
 PlyElement::offsets(const std::string &Where,
                     const std::vector<std::string> &Names, PlyType Type) const {
-  const std::string_view TypeName = Type == PlyType::Float   ? "float"
-                                    : Type == PlyType::UInt  ? "uint"
-                                    : Type == PlyType::UChar ? "uchar"
-                                                             : "scalar";
+  const std::string_view TypeName =
+      ScalarTypes[static_cast<std::size_t>(Type)].Name;
   std::vector<std::size_t> Offsets;
   for (const std::string &Property : Names) {
-    const PlyProperty *P = find(Property);
+    const auto P = need(Where, *this, Property, TypeName,
+                        [&](PlyType Found) { return Found == Type; });
     if (!P)
-      return Error{Where, fmt::format("property {} of element {} is missing, "
-                                      "expected a {}",
-                                      Property, Name, TypeName)};
-    if (P->Type != Type)
-      return Error{Where, fmt::format("property {} of element {} has another "
-                                      "type, expected {}",
-                                      Property, Name, TypeName)};
-    Offsets.push_back(P->Offset);
+      return P.error();
+    Offsets.push_back((*P)->Offset);
   }
   return Offsets;
+}
+
+Expected<std::vector<PlyReal>>
+PlyElement::reals(const std::string &Where,
+                  const std::vector<std::string> &Names) const {
+  std::vector<PlyReal> Reals;
+  for (const std::string &Property : Names) {
+    const auto P = need(Where, *this, Property, "float or double",
+                        [](PlyType Found) { return !isInteger(Found); });
+    if (!P)
+      return P.error();
+    Reals.push_back({(*P)->Offset, (*P)->Type == PlyType::Double});
+  }
+  return Reals;
 }
 
 PlyElement *PlyHeader::add(std::string_view Element) {
@@ -210,27 +264,7 @@ const PlyElement *PlyHeader::find(std::string_view Element) const {
 }
 
 Expected<PlyHeader> readPlyHeader(const std::string &Where, Bytes File) {
-  HeaderReader Reader(Where, asText(File));
-  auto H = Reader.read();
-  if (!H)
-    return H.error();
-  std::size_t At = Reader.size();
-  for (PlyElement &E : H->Elements) {
-    E.Start = At;
-    const std::size_t Left = File.size() - At;
-    // Division, since an absurd count times the stride need not fit.
-    if (E.Stride == 0 || Left / E.Stride < E.Count)
-      return Error{Where,
-                   fmt::format("{} bytes left for element {}, expected "
-                               "{} rows of {} bytes",
-                               Left, printable(E.Name), E.Count, E.Stride)};
-    At += E.Count * E.Stride;
-  }
-  if (At != File.size())
-    return Error{Where, fmt::format("{} bytes after the last element, expected "
-                                    "the file's end",
-                                    File.size() - At)};
-  return std::move(*H);
+  return HeaderReader(Where, asText(File)).read();
 }
 
 } // namespace vorion::splat

@@ -6,42 +6,61 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace vorion::splat {
 
-/// What the readers tell apart; \c Other is any scalar that they only skip.
-enum class PlyType { Float, UInt, UChar, Other };
+enum class PlyType { Char, UChar, Short, UShort, Int, UInt, Float, Double };
 
-/// A scalar property: where it lies in each row of its element.
+/// Bytes of a number of type \p Type in a binary file.
+std::size_t sizeOf(PlyType Type);
+
+enum class PlyEncoding { LittleEndian, BigEndian, Text };
+
+/// A property: a number, or a list of numbers with their count before them.
 struct PlyProperty {
   std::string Name;
-  std::size_t Offset = 0;
-  PlyType Type = PlyType::Other;
+  PlyType Type;
+  std::optional<PlyType> CountType; ///< of a list
+  std::size_t Offset = 0;           ///< in each row, if the element has no list
+};
+
+/// Where a row has a real number, and of which of the two types it is.
+struct PlyReal {
+  std::size_t Offset;
+  bool IsDouble;
 };
 
 struct PlyElement {
   std::string Name;
   std::size_t Count = 0;
-  std::size_t Stride = 0; ///< bytes of a row
-  std::size_t Start = 0;  ///< of the first row, bytes from the file's start
+  std::size_t Stride = 0; ///< bytes of a row; rows with lists have none
+  std::size_t Start = 0;  ///< of the first row, in PlyFile's rows
+  bool HasLists = false;
   std::vector<PlyProperty> Properties;
 
-  /// Appends a property of \p Size bytes; false if there is one of its name.
-  bool add(std::string_view Property, PlyType Type, std::size_t Size);
+  /// Appends a property; false if there is one of its name.
+  bool add(PlyProperty Property);
   const PlyProperty *find(std::string_view Property) const;
   /// The offsets in a row of \p Names, which must all have type \p Type.
   Expected<std::vector<std::size_t>>
   offsets(const std::string &Where, const std::vector<std::string> &Names,
           PlyType Type) const;
+  /// The same for \p Names that must have type float or double.
+  Expected<std::vector<PlyReal>>
+  reals(const std::string &Where, const std::vector<std::string> &Names) const;
 
 private:
   std::map<std::string, std::size_t, std::less<>> Places; ///< in Properties
 };
 
 struct PlyHeader {
+  PlyEncoding Encoding = PlyEncoding::LittleEndian;
+  std::size_t Size = 0;       ///< bytes of the header
+  std::size_t LineNumber = 0; ///< of its last line, from 1
   std::vector<PlyElement> Elements;
   std::vector<std::string> Comments; ///< without their keyword
 
@@ -59,10 +78,9 @@ inline bool isPlyFile(Bytes File) {
   return Text.starts_with("ply\n") || Text.starts_with("ply\r");
 }
 
-/// Reads the header of a binary little-endian PLY of scalar properties; \p File
-/// holds exactly the rows that it declares, or the result is an error. Errors
-/// of the header name the line. A header may declare any number of things, so
-/// nothing here looks through all of them for each.
+/// Reads the header of a PLY; what follows it is not looked at. Errors name the
+/// line. A header may declare any number of things, so nothing here looks
+/// through all of them for each.
 Expected<PlyHeader> readPlyHeader(const std::string &Where, Bytes File);
 
 } // namespace vorion::splat

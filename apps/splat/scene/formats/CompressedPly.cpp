@@ -7,7 +7,7 @@
 // rotations have 10 bits for each of the three components that are not the
 // largest, opacity 8, harmonics 8 for -4 to 4. Older files have no bounds of
 // the colour, which then goes from 0 to 1.
-#include "io/PlyHeader.h"
+#include "io/PlyFile.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
 #include "scene/formats/Ply.h"
@@ -116,18 +116,19 @@ bool isCompressedPly(Bytes File) {
 
 Expected<SceneFile> parseCompressedPly(const std::string &Where, Bytes File,
                                        const ReadOptions & /*Options*/) {
-  const auto Read = readPlyHeader(Where, File);
+  const auto Read = readPly(Where, File);
   if (!Read)
     return Read.error();
-  const PlyHeader &Header = *Read;
+  const PlyHeader &Header = Read->header();
   auto DrawnAs = drawingOfComments(Where, Header.Comments);
   if (!DrawnAs)
     return DrawnAs.error();
   const PlyElement *Chunk = Header.find("chunk");
   const PlyElement *Vertex = Header.find("vertex");
-  if (!Chunk || !Vertex)
-    return Error{Where, "a compressed PLY without element vertex, expected "
-                        "chunk and vertex"};
+  if (!Chunk || !Vertex || Chunk->HasLists || Vertex->HasLists)
+    return Error{Where,
+                 "a compressed PLY without element vertex or with lists, "
+                 "expected chunk and vertex of numbers"};
   const std::size_t Chunks = (Vertex->Count + ChunkSize - 1) / ChunkSize;
   if (Chunk->Count != Chunks)
     return Error{Where, fmt::format("{} chunks for {} vertices, expected {}",
@@ -163,10 +164,8 @@ Expected<SceneFile> parseCompressedPly(const std::string &Where, Bytes File,
   const auto &Logits = byteOpacityLogits();
   const std::size_t ShEach = 3 * S.coefficients();
   for (std::size_t I = 0; I < Vertex->Count; ++I) {
-    const Bytes Row =
-        File.subspan(Vertex->Start + I * Vertex->Stride, Vertex->Stride);
-    const Bytes Box = File.subspan(Chunk->Start + I / ChunkSize * Chunk->Stride,
-                                   Chunk->Stride);
+    const Bytes Row = Read->row(*Vertex, I);
+    const Bytes Box = Read->row(*Chunk, I / ChunkSize);
     const auto Position = unpack111011(load<uint32_t>(Row, (*Words)[0]));
     const auto Quat = unpackQuat(load<uint32_t>(Row, (*Words)[1]));
     const auto Scale = unpack111011(load<uint32_t>(Row, (*Words)[2]));
@@ -182,9 +181,8 @@ Expected<SceneFile> parseCompressedPly(const std::string &Where, Bytes File,
       S.Quats[4 * I + K] = static_cast<float>(Quat[K]);
     S.OpacityLogits[I] = Logits[Color & 0xFF];
     for (std::size_t K = 0; K < Later->Rest.size(); ++K)
-      S.Sh[ShEach * I + 3 + K] = static_cast<float>(unpackSh(
-          byteAt(File, Later->Element->Start + I * Later->Element->Stride +
-                           Later->Rest[K])));
+      S.Sh[ShEach * I + 3 + K] = static_cast<float>(
+          unpackSh(byteAt(Read->row(*Later->Element, I), Later->Rest[K])));
   }
   return Result;
 }

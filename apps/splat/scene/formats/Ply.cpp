@@ -1,14 +1,14 @@
 // Trained scenes in INRIA's PLY layout.
 //
-// A binary little-endian PLY whose one element, vertex, has the
-// properties x, y, z, f_dc_0..2, f_rest_0.. (0, 9, 24 or 45 of them: degree 0
-// to 3), opacity, scale_0..2 and rot_0..3 as floats, in any order; other
-// scalar properties (nx, ny, nz) are skipped. Refused, each with its reason:
-// other encodings, missing, repeated or list properties, a file shorter or
-// longer than the header says, values that are not finite, no vertex at all.
+// A PLY, of text or binary, whose element vertex has the properties x, y, z,
+// f_dc_0..2, f_rest_0.. (0, 9, 24 or 45 of them: degree 0 to 3), opacity,
+// scale_0..2 and rot_0..3 as floats or doubles, in any order; other properties
+// (nx, ny, nz) and other elements are skipped. Refused, each with its reason:
+// missing or repeated properties, lists of a vertex, a file shorter or longer
+// than the header says, values that are not finite, no vertex at all.
 #include "scene/formats/Ply.h"
 
-#include "io/PlyHeader.h"
+#include "io/PlyFile.h"
 #include "io/Unsupported.h"
 #include "scene/formats/Formats.h"
 #include "vorion/support/File.h"
@@ -26,7 +26,7 @@ namespace {
 /// Offsets in a vertex of what a scene needs, in the scene's order.
 struct Layout {
   int ShDegree = 0;
-  std::vector<std::size_t> Means, LogScales, Quats, Opacity, Sh;
+  std::vector<PlyReal> Means, LogScales, Quats, Opacity, Sh;
   std::vector<std::string> Skipped; ///< names of other properties
 };
 
@@ -64,7 +64,7 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
   if (Vertex.find("scale_1") && !Vertex.find("scale_2"))
     return flatGaussians(Where, "element vertex with scale_1 and no scale_2");
   const struct {
-    std::vector<std::size_t> &To;
+    std::vector<PlyReal> &To;
     std::vector<std::string> Names;
   } Needed[] = {{L.Means, {"x", "y", "z"}},
                 {L.LogScales, numbered("scale", 3)},
@@ -73,10 +73,10 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
                 {L.Sh, std::move(ShNames)}};
   std::set<std::string> Known;
   for (const auto &[To, Names] : Needed) {
-    auto Offsets = Vertex.offsets(Where, Names, PlyType::Float);
-    if (!Offsets)
-      return Offsets.error();
-    To = std::move(*Offsets);
+    auto Found = Vertex.reals(Where, Names);
+    if (!Found)
+      return Found.error();
+    To = std::move(*Found);
     Known.insert(Names.begin(), Names.end());
   }
   for (const PlyProperty &P : Vertex.Properties) {
@@ -105,16 +105,18 @@ bool isPly(Bytes File) { return isPlyFile(File) && !isCompressedPly(File); }
 
 Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
                              const ReadOptions & /*Options*/) {
-  const auto H = readPlyHeader(Where, File);
-  if (!H)
-    return H.error();
-  auto DrawnAs = drawingOfComments(Where, H->Comments);
+  const auto Read = readPly(Where, File);
+  if (!Read)
+    return Read.error();
+  auto DrawnAs = drawingOfComments(Where, Read->header().Comments);
   if (!DrawnAs)
     return DrawnAs.error();
-  const PlyElement *Vertex = H->find("vertex");
-  if (!Vertex || H->Elements.size() != 1)
-    return Error{Where, "expected one element, `element vertex <count>`, or "
-                        "chunk and vertex of a compressed PLY"};
+  const PlyElement *Vertex = Read->header().find("vertex");
+  if (!Vertex)
+    return Error{Where, "no element vertex, expected `element vertex <count>`, "
+                        "or chunk and vertex of a compressed PLY"};
+  if (Vertex->HasLists)
+    return Error{Where, "element vertex has a list, expected numbers"};
   const auto L = layoutOf(Where, *Vertex);
   if (!L)
     return L.error();
@@ -123,21 +125,23 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
   Result.Format = SceneFormat::Ply;
   Result.DrawnAs = std::move(*DrawnAs);
   Result.Skipped = L->Skipped;
+  for (const PlyElement &E : Read->header().Elements)
+    if (&E != Vertex)
+      Result.Skipped.push_back("element " + E.Name);
   Scene &S = Result.Gaussians = Scene::sized(Vertex->Count, L->ShDegree);
   const struct {
     std::vector<float> &To;
-    const std::vector<std::size_t> &Offsets;
+    const std::vector<PlyReal> &From;
   } Copied[] = {{S.Means, L->Means},
                 {S.LogScales, L->LogScales},
                 {S.Quats, L->Quats},
                 {S.OpacityLogits, L->Opacity},
                 {S.Sh, L->Sh}};
   for (std::size_t I = 0; I < Vertex->Count; ++I) {
-    const Bytes Row =
-        File.subspan(Vertex->Start + I * Vertex->Stride, Vertex->Stride);
-    for (const auto &[To, Offsets] : Copied)
-      for (std::size_t K = 0; K < Offsets.size(); ++K)
-        To[I * Offsets.size() + K] = load<float>(Row, Offsets[K]);
+    const Bytes Row = Read->row(*Vertex, I);
+    for (const auto &[To, From] : Copied)
+      for (std::size_t K = 0; K < From.size(); ++K)
+        To[I * From.size() + K] = loadReal(Row, From[K]);
   }
   return Result;
 }

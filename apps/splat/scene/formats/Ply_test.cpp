@@ -4,6 +4,7 @@
 #include "scene/testing/SceneWriters.h"
 
 #include <cstring>
+#include <fmt/format.h>
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -90,6 +91,62 @@ TEST(Ply, AcceptsAnyPropertyOrderAndSkipsWhatItDoesNotNeed) {
   EXPECT_EQ(S->Quats, (std::vector<float>{11, 12, 2, 1}));
   EXPECT_EQ(S->OpacityLogits, (std::vector<float>{4}));
   EXPECT_EQ(S->Sh, (std::vector<float>{13, 14, 3}));
+}
+
+TEST(Ply, TextBigEndianAndDoublesAreTheSameScene) {
+  const TestFolder Folder;
+  const Scene Written = numberedScene(3, 1);
+  const std::string Binary = formatPly(Written);
+  const std::size_t Body = Binary.find("end_header\n") + 11;
+  const auto Named = [&](const std::string &Format, const std::string &Type) {
+    std::string Header = Binary.substr(0, Body);
+    Header.replace(Header.find("binary_little_endian"), 20, Format);
+    for (std::size_t At = 0;
+         (At = Header.find("property float", At)) != std::string::npos; ++At)
+      Header.replace(At, 14, "property " + Type);
+    return Header;
+  };
+  std::string Text = Named("ascii", "float");
+  std::string Big = Named("binary_big_endian", "float");
+  std::string Doubles = Named("binary_little_endian", "double");
+  for (std::size_t At = Body; At < Binary.size(); At += sizeof(float)) {
+    float Value;
+    std::memcpy(&Value, Binary.data() + At, sizeof(Value));
+    Text += fmt::format("{}{}", Value, At % 3 == 0 ? "\n" : " ");
+    Big += {Binary.rend() - static_cast<std::ptrdiff_t>(At + 4),
+            Binary.rend() - static_cast<std::ptrdiff_t>(At)};
+    const double Wide = Value;
+    Doubles.append(reinterpret_cast<const char *>(&Wide), sizeof(Wide));
+  }
+  for (const std::string *Each : {&Text, &Big, &Doubles}) {
+    const std::string &File = *Each;
+    const auto Read = readPly(Folder.write("s.ply", File));
+    ASSERT_TRUE(Read) << Read.error().What;
+    expectEqual(*Read, Written);
+    // The last number of a text may be cut and still be one.
+    const std::size_t Last = &File == &Text
+                                 ? File.find_last_of(" \n", File.size() - 2)
+                                 : File.size();
+    for (std::size_t Size = 0; Size < Last; ++Size)
+      EXPECT_FALSE(parseScene("s", std::as_bytes(std::span(File.data(), Size))))
+          << Size << " bytes";
+  }
+}
+
+TEST(Ply, OtherElementsAreNamedAndSkipped) {
+  const TestFolder Folder;
+  const Scene Written = numberedScene(2, 0);
+  std::string File = formatPly(Written);
+  File.insert(File.find("end_header"), "element extrinsic 2\n"
+                                       "property float extrinsic\n"
+                                       "element face 1\n"
+                                       "property list uchar int corners\n");
+  File += std::string(8, 'e') + std::string("\1abcd");
+  const auto Read = readScene(Folder.write("s.ply", File));
+  ASSERT_TRUE(Read) << Read.error().What;
+  expectEqual(Read->Gaussians, Written);
+  EXPECT_EQ(Read->Skipped,
+            (std::vector<std::string>{"element extrinsic", "element face"}));
 }
 
 TEST(Ply, PropertiesThatWouldChangeThePictureAreRefusedOthersNamed) {

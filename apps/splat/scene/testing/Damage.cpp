@@ -46,7 +46,7 @@ constexpr float Infinity = std::numeric_limits<float>::infinity();
 void addPlyDamage(std::vector<DamagedFile> &Out) {
   const std::string Ply = formatPly(sample(1));
   Out.push_back({"ascii.ply", replaced(Ply, "binary_little_endian", "ascii"),
-                 "format is `ascii`, expected `binary_little_endian 1.0`"});
+                 "in row 0 of element vertex, expected property x"});
   Out.push_back({"no-format.ply",
                  replaced(Ply, "format binary_little_endian 1.0\n", ""),
                  "no format line"});
@@ -61,7 +61,7 @@ void addPlyDamage(std::vector<DamagedFile> &Out) {
                  replaced(Ply, "property float nx", "property float f_rest_9"),
                  "10 f_rest properties"});
   Out.push_back({"list.ply", replaced(Ply, "float nx", "list uchar float nx"),
-                 "expected `property <scalar type> <name>`"});
+                 "the file ends in row 1 of element vertex, expected 5 rows"});
   Out.push_back({"no-end.ply", replaced(Ply, "end_header", "ent_header"),
                  "unknown header keyword `ent_header`"});
   Out.push_back({"short.ply", cut(Ply, 1), "bytes left for element vertex"});
