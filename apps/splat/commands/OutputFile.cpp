@@ -62,7 +62,7 @@ bool isStream(const std::string &File) {
 } // namespace
 
 Expected<Success> checkEnding(std::string_view Option, const std::string &File,
-                              std::initializer_list<std::string_view> Endings) {
+                              const std::vector<std::string_view> &Endings) {
   const auto Ends = [&File](std::string_view E) { return File.ends_with(E); };
   const std::string_view Kind = promised(File);
   if (File.empty() || isStream(File) ||
@@ -70,12 +70,12 @@ Expected<Success> checkEnding(std::string_view Option, const std::string &File,
        (Kind.empty() || std::ranges::find(Endings, Kind) != Endings.end())))
     return Success{};
   std::string Listed;
-  for (const std::string_view &E : Endings)
+  for (std::size_t I = 0; I < Endings.size(); ++I)
     Listed += fmt::format("{}{}",
-                          &E == Endings.begin()     ? ""
-                          : &E + 1 == Endings.end() ? " or "
+                          I == 0                    ? ""
+                          : I + 1 == Endings.size() ? " or "
                                                     : ", ",
-                          E);
+                          Endings[I]);
   return badName(Option, File,
                  fmt::format("unknown kind of file, expected {}", Listed));
 }

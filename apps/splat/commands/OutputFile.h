@@ -4,9 +4,9 @@
 
 #include "vorion/support/Expected.h"
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -14,7 +14,7 @@ namespace vorion::splat {
 /// Error of usage names them. No name at all is fine, and so are standard
 /// output and whatever is there and no regular file.
 Expected<Success> checkEnding(std::string_view Option, const std::string &File,
-                              std::initializer_list<std::string_view> Endings);
+                              const std::vector<std::string_view> &Endings);
 
 /// That the ending of \p File, the value of --json, does not promise another
 /// kind of file.

@@ -12,6 +12,24 @@ bool isGzip(Bytes File) {
   return File.size() >= 2 && byteAt(File, 0) == 0x1F && byteAt(File, 1) == 0x8B;
 }
 
+std::string gzipOf(const std::string &Content) {
+  z_stream Stream{};
+  [[maybe_unused]] int Status =
+      deflateInit2(&Stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS + 16,
+                   8, Z_DEFAULT_STRATEGY);
+  std::string Out(deflateBound(&Stream, Content.size()), '\0');
+  std::string In = Content; // zlib's interface is not const
+  Stream.next_in = reinterpret_cast<Bytef *>(In.data());
+  Stream.avail_in = static_cast<uInt>(In.size());
+  Stream.next_out = reinterpret_cast<Bytef *>(Out.data());
+  Stream.avail_out = static_cast<uInt>(Out.size());
+  Status = deflate(&Stream, Z_FINISH);
+  assert(Status == Z_STREAM_END);
+  Out.resize(Stream.total_out);
+  deflateEnd(&Stream);
+  return Out;
+}
+
 void GzipReader::End::operator()(z_stream_s *S) const {
   inflateEnd(S);
   delete S;

@@ -14,6 +14,10 @@ namespace vorion::splat {
 
 bool isGzip(Bytes File);
 
+/// \p Content, of less than 4 GiB, as one gzip stream. The same bits on every
+/// host with the same zlib.
+std::string gzipOf(const std::string &Content);
+
 /// Unpacks a file that is one gzip stream as far as it is asked for, so that
 /// what comes first can say how much there is to be.
 class GzipReader {

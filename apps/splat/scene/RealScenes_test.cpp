@@ -66,11 +66,11 @@ TEST(RealScene, BoxIsTheSameInPlyAndSpz) {
   EXPECT_EQ(Spz->Version, 2);
   const auto D = differencesOf(Spz->Gaussians, Ply->Gaussians);
   // 24 bits, sixteenths and hundred-and-twenty-eighths are exact in floats.
-  EXPECT_EQ(D.Mean, 0);
+  EXPECT_EQ(D.Position, 0);
   EXPECT_EQ(D.LogScale, 0);
-  EXPECT_EQ(D.Later, 0);
+  EXPECT_EQ(D.Harmonics, 0);
   EXPECT_LE(D.Color, 2e-7);
-  EXPECT_LE(D.Quat, 1e-7);
+  EXPECT_LE(D.Rotation, 1e-7);
   EXPECT_LE(D.Opacity, 2e-6); // the other program keeps 1e-6 from 0 and 1
 }
 

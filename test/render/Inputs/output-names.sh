@@ -11,10 +11,7 @@ attempt() {
   echo "ended with $?"
 }
 view="--cameras c.json --view front"
-attempt "convert to spz" convert $scene -o x.spz
-attempt "convert to splat" convert $scene -o x.splat
 attempt "convert to sog" convert $scene -o x.sog
-attempt "convert to compressed" convert $scene -o x.compressed.ply
 attempt "convert without ending" convert $scene -o x
 attempt "info as text" info $scene --json x.csv
 attempt "render to jpeg" render $scene $view -o x.jpg

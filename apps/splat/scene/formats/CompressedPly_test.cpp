@@ -22,26 +22,26 @@ TEST(CompressedPly, RoundTripsWithinHalfAStepAtEveryDegree) {
     const Scene S = randomScene(300, Degree, 7); // a whole chunk and a part
     const auto D = differencesOf(parsed(compressedPlyOf(S)), S);
     // Half of the coarser steps (10 bits) over at most the scene's extent.
-    EXPECT_LE(D.Mean, 100.0 / 1023 / 2 + 1e-5);
+    EXPECT_LE(D.Position, 100.0 / 1023 / 2 + 1e-5);
     EXPECT_LE(D.LogScale, 8.0 / 1023 / 2 + 1e-5);
     // Half a step of three components; the fourth takes at most their sum.
-    EXPECT_LE(D.Quat, 3 * std::sqrt(2) / 1023 / 2 + 1e-6);
+    EXPECT_LE(D.Rotation, 3 * std::sqrt(2) / 1023 / 2 + 1e-6);
     EXPECT_LE(D.Opacity, 0.5 / 255 + 1e-6);
     EXPECT_LE(D.Color, 1.8 / 255 / 2 + 1e-6); // bounds of 0.9 either way
-    EXPECT_LE(D.Later, 8.0 / 256 / 2 + 1e-6);
-    EXPECT_GT(D.Mean, 0); // the comparison sees something
+    EXPECT_LE(D.Harmonics, 8.0 / 256 / 2 + 1e-6);
+    EXPECT_GT(D.Position, 0); // the comparison sees something
   }
 }
 
 TEST(CompressedPly, OlderFilesHaveColoursFromZeroToOne) {
   Scene S = randomScene(10, 0, 8);
-  const auto D = differencesOf(parsed(compressedPlyOf(S, false)), S);
+  const auto D = differencesOf(parsed(compressedPlyOf(S, {}, false)), S);
   EXPECT_LE(D.Color, 1 / ShC0 / 255 / 2 + 1e-6);
 }
 
 TEST(CompressedPly, WordsAreSplitFromTheTop) {
   Scene S = randomScene(1, 0, 9);
-  std::string File = compressedPlyOf(S, false);
+  std::string File = compressedPlyOf(S, {}, false);
   const std::size_t Body = File.find("end_header\n") + 11;
   // Bounds 0 to 2047, 0 to 1023, 0 to 2047, so that steps are whole numbers.
   const float Bounds[12] = {0, 0, 0, 2047, 1023, 2047,

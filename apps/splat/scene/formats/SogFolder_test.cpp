@@ -34,7 +34,7 @@ SceneFile read(const std::string &Path, const ReadOptions &Options = {}) {
 /// Within what SOG keeps of the writers' scenes.
 void expectNear(const Scene &A, const Scene &B) {
   const auto D = differencesOf(A, B);
-  EXPECT_LE(D.Mean, 0.01);
+  EXPECT_LE(D.Position, 0.01);
   EXPECT_LE(D.LogScale, 0.02);
 }
 

@@ -35,10 +35,10 @@ TEST(Sog, RoundTripsWithinHalfAStepAtEveryDegree) {
     EXPECT_LE(D.LogScale, 8.0 / 255 / 2 + 1e-6);
     EXPECT_LE(D.Opacity, 0.5 / 255 + 1e-6);
     EXPECT_LE(D.Color, 1.8 / 255 / 2 + 1e-6);
-    EXPECT_LE(D.Later, 1.8 / 255 / 2 + 1e-6);
+    EXPECT_LE(D.Harmonics, 1.8 / 255 / 2 + 1e-6);
     // Half a step of three components; the fourth takes at most their sum.
-    EXPECT_LE(D.Quat, 3 * std::sqrt(2) / 255 / 2 + 1e-6);
-    EXPECT_GT(D.Mean, 0);
+    EXPECT_LE(D.Rotation, 3 * std::sqrt(2) / 255 / 2 + 1e-6);
+    EXPECT_GT(D.Position, 0);
   }
 }
 
@@ -54,14 +54,14 @@ TEST(Sog, TakesTheFilesThatItsDescriptionNames) {
   const SceneFile Read = parsed(zipOf(Files));
   EXPECT_TRUE(Read.DrawnAs.Antialiased);
   EXPECT_EQ(Read.DrawnAs.Source, "antialias true");
-  EXPECT_LE(differencesOf(Read.Gaussians, S).Quat, 0.01);
+  EXPECT_LE(differencesOf(Read.Gaussians, S).Rotation, 0.01);
 }
 
 TEST(Sog, ALargePaletteContinuesInTheNextRow) {
   // The writer gives each Gaussian an entry: 64 a row.
   const Scene S = randomScene(130, 3, 4);
   const auto D = differencesOf(parsed(zipOf(sogOf(S))).Gaussians, S);
-  EXPECT_LE(D.Later, 1.8 / 255 / 2 + 1e-6);
+  EXPECT_LE(D.Harmonics, 1.8 / 255 / 2 + 1e-6);
 }
 
 } // namespace

@@ -25,15 +25,15 @@ TEST(Spz, RoundTripsBothVersionsAtEveryDegree) {
       EXPECT_EQ(Read.Version, Version);
       EXPECT_FALSE(Read.DrawnAs.Antialiased);
       const auto D = differencesOf(Read.Gaussians, S);
-      EXPECT_LE(D.Mean, 0.5 / 4096 + 1e-6);
+      EXPECT_LE(D.Position, 0.5 / 4096 + 1e-6);
       EXPECT_LE(D.LogScale, 0.5 / 16 + 1e-6);
       EXPECT_LE(D.Opacity, 0.5 / 255 + 1e-6);
       EXPECT_LE(D.Color, 0.5 / 255 / 0.15 + 1e-6);
       // Half a bucket of 16, and half a step from rounding to the bucket.
-      EXPECT_LE(D.Later, 8.5 / 128 + 1e-6);
+      EXPECT_LE(D.Harmonics, 8.5 / 128 + 1e-6);
       EXPECT_GT(D.LogScale, 0);
       if (Version == 3) // half a step of three components
-        EXPECT_LE(D.Quat, 3 * std::sqrt(0.5) / 511 / 2 + 1e-6);
+        EXPECT_LE(D.Rotation, 3 * std::sqrt(0.5) / 511 / 2 + 1e-6);
       // Version 2 derives w, which may be small: the three that are stored.
       for (std::size_t I = 0; Version == 2 && I < S.size(); ++I)
         for (std::size_t K = 1; K < 4; ++K)

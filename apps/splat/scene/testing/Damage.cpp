@@ -253,7 +253,7 @@ Folder streamedSogOf(const Scene &Fine, const Scene &Coarse,
 std::vector<SampleFile> sampleFiles() {
   return {{"degree0.ply", formatPly(sample(0))},
           {"degree1.ply", formatPly(sample(1))},
-          {"degree0.compressed.ply", compressedPlyOf(sample(0), false)},
+          {"degree0.compressed.ply", compressedPlyOf(sample(0), {}, false)},
           {"degree1.compressed.ply", compressedPlyOf(sample(1))},
           {"degree0.splat", splatOf(sample(0))},
           {"degree0.v2.spz", gzipOf(spzBodyOf(sample(0), 2))},

@@ -1,8 +1,10 @@
-/// Writers of every format, for tests only: each quantises by the formulas
-/// that the format documents, written apart from the readers.
+/// Scenes for tests, and writers of what only tests write: they quantise by the
+/// formulas that the format documents, and are written apart from the readers.
 #pragma once
 
+#include "io/Gzip.h"
 #include "scene/Scene.h"
+#include "scene/formats/Writers.h"
 
 #include <map>
 #include <string>
@@ -20,11 +22,6 @@ Scene numberedScene(std::size_t Count, int ShDegree);
 /// Files by name: a folder, or what goes into a zip archive.
 using Folder = std::map<std::string, std::string>;
 
-std::string compressedPlyOf(const Scene &S, bool ColorBounds = true);
-std::string splatOf(const Scene &S);
-/// What an `.spz` holds before it is compressed.
-std::string spzBodyOf(const Scene &S, int Version);
-std::string gzipOf(const std::string &Content);
 /// The codebooks are 256 even steps over what the scene has; the palette has
 /// an entry for each Gaussian.
 Folder sogOf(const Scene &S);

@@ -1,0 +1,177 @@
+#include "scene/SceneWriter.h"
+
+#include "io/Gzip.h"
+#include "scene/Activation.h"
+#include "scene/SceneFile.h"
+#include "scene/formats/Ply.h"
+#include "scene/formats/Writers.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace vorion::splat {
+namespace {
+
+/// A format that can be written: the longest ending that fits decides.
+struct Writer {
+  std::string_view Ending;
+  bool OrdersByPlace;
+  Expected<std::string> (*Format)(const Scene &S, const Drawing &D);
+};
+
+Expected<std::string> spzOf(const Scene &S, const Drawing &D) {
+  if (!fitsSpz(S))
+    return Error{"", "the scene is larger than 16 million units, which .spz "
+                     "cannot hold, expected a smaller one or another format"};
+  return gzipOf(spzBodyOf(S, 3, D));
+}
+
+constexpr std::size_t InriasPly = 1;
+const Writer Writers[] = {
+    {".compressed.ply", true,
+     [](const Scene &S, const Drawing &D) -> Expected<std::string> {
+       return compressedPlyOf(S, D);
+     }},
+    {".ply", false, // InriasPly
+     [](const Scene &S, const Drawing &D) -> Expected<std::string> {
+       return formatPly(S, D);
+     }},
+    {".splat", false,
+     [](const Scene &S, const Drawing & /*D*/) -> Expected<std::string> {
+       return splatOf(S);
+     }},
+    {".spz", false, spzOf}};
+
+const Writer &writerOf(std::string Path) {
+  std::ranges::transform(Path, Path.begin(), [](unsigned char C) {
+    return static_cast<char>(std::tolower(C));
+  });
+  const auto *Found = std::ranges::find_if(
+      Writers, [&](const Writer &W) { return Path.ends_with(W.Ending); });
+  return Found == std::end(Writers) ? Writers[InriasPly] : *Found;
+}
+
+double largestDifference(const std::vector<float> &A,
+                         const std::vector<float> &B) {
+  double Most = 0;
+  for (std::size_t I = 0; I < A.size(); ++I)
+    Most = std::max(Most, std::abs(double(A[I]) - B[I]));
+  return Most;
+}
+
+/// Every second bit of the result is one of the ten of \p Step, and two of
+/// three are free.
+uint32_t spread(uint32_t Step) {
+  uint32_t Result = 0;
+  for (unsigned Bit = 0; Bit < 10; ++Bit)
+    Result |= (Step >> Bit & 1) << (3 * Bit);
+  return Result;
+}
+
+std::vector<uint32_t> placesOf(const Scene &S) {
+  std::vector<uint32_t> Places(S.size());
+  for (std::size_t A = 0; A < 3; ++A) {
+    float Low = S.Means[A], High = S.Means[A];
+    for (std::size_t I = 0; I < S.size(); ++I) {
+      Low = std::min(Low, S.Means[3 * I + A]);
+      High = std::max(High, S.Means[3 * I + A]);
+    }
+    const double Width = double(High) - Low;
+    for (std::size_t I = 0; I < S.size(); ++I) {
+      const double T =
+          Width > 0 ? (double(S.Means[3 * I + A]) - Low) / Width : 0;
+      Places[I] |= spread(static_cast<uint32_t>(T * 1023)) << A;
+    }
+  }
+  return Places;
+}
+
+} // namespace
+
+const std::vector<std::string_view> &writtenEndings() {
+  static const std::vector<std::string_view> Endings = [] {
+    std::vector<std::string_view> Result;
+    for (const Writer &W : Writers)
+      Result.push_back(W.Ending);
+    return Result;
+  }();
+  return Endings;
+}
+
+SceneDifference differenceOf(const Scene &A, const Scene &B) {
+  SceneDifference D;
+  D.Position = largestDifference(A.Means, B.Means);
+  D.LogScale = largestDifference(A.LogScales, B.LogScales);
+  auto X = activate<double>(A), Y = activate<double>(B);
+  for (std::size_t I = 0; I < A.size(); ++I) {
+    D.Opacity = std::max(D.Opacity, std::abs(X.Opacities[I] - Y.Opacities[I]));
+    for (auto *Quats : {&X.Quats, &Y.Quats}) { // zeros are no rotation
+      double *Q = &(*Quats)[4 * I];
+      if (std::all_of(Q, Q + 4, [](double V) { return V == 0; }))
+        Q[0] = 1;
+    }
+    double Dot = 0;
+    for (std::size_t K = 4 * I; K < 4 * I + 4; ++K)
+      Dot += X.Quats[K] * Y.Quats[K];
+    for (std::size_t K = 4 * I; K < 4 * I + 4; ++K)
+      D.Rotation =
+          std::max(D.Rotation,
+                   std::abs(X.Quats[K] - (Dot < 0 ? -Y.Quats[K] : Y.Quats[K])));
+  }
+  const std::size_t Each = 3 * A.coefficients();
+  for (std::size_t I = 0; I < A.Sh.size(); ++I) {
+    double &To = I % Each < 3 ? D.Color : D.Harmonics;
+    To = std::max(To, std::abs(double(A.Sh[I]) - B.Sh[I]));
+  }
+  return D;
+}
+
+Scene inOrderOfPlace(const Scene &S) {
+  const std::vector<uint32_t> Places = placesOf(S);
+  std::vector<uint32_t> Order(S.size());
+  std::iota(Order.begin(), Order.end(), 0U);
+  std::ranges::sort(Order, [&](uint32_t A, uint32_t B) {
+    return std::pair(Places[A], A) < std::pair(Places[B], B);
+  });
+  Scene Result;
+  Result.ShDegree = S.ShDegree;
+  for (const uint32_t I : Order)
+    append(Result, S, I, 1);
+  return Result;
+}
+
+Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
+                                  const Drawing &D) {
+  const Writer &W = writerOf(Path);
+  const Scene Given = W.OrdersByPlace ? inOrderOfPlace(S) : S;
+  const auto File = W.Format(Given, D);
+  if (!File)
+    return Error{Path, File.error().What, File.error().Code};
+  const auto Read = parseScene(Path, std::as_bytes(std::span(*File)));
+  if (!Read)
+    return Read.error();
+  WrittenScene Result;
+  Result.ShDegree = Read->Gaussians.ShDegree;
+  Result.KeepsDrawing = Read->DrawnAs.drawsAs(D);
+  Scene Kept = Read->Gaussians;
+  if (Kept.ShDegree < S.ShDegree) {
+    // What the file has no harmonics for, it has zeros for.
+    Scene Wide = Scene::sized(Kept.size(), S.ShDegree);
+    const std::size_t From = 3 * Kept.coefficients(),
+                      To = 3 * Wide.coefficients();
+    for (std::size_t I = 0; I < Kept.size(); ++I)
+      std::copy_n(&Kept.Sh[From * I], From, &Wide.Sh[To * I]);
+    Kept.Sh = std::move(Wide.Sh);
+    Kept.ShDegree = S.ShDegree;
+  }
+  Result.Lost = differenceOf(Given, Kept);
+  if (auto Written = writeFileAtomically(Path, *File); !Written)
+    return Written.error();
+  return Result;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,130 @@
+#include "scene/SceneWriter.h"
+
+#include "io/TestFiles.h"
+#include "scene/SceneFile.h"
+#include "scene/testing/SceneWriters.h"
+
+#include <set>
+
+using namespace vorion;
+using namespace vorion::splat;
+using namespace vorion::splat::testing;
+
+namespace {
+
+TEST(SceneWriter, InriasPlyKeepsEveryBit) {
+  const TestFolder Folder;
+  const auto W =
+      writeScene(Folder.path("s.ply"), randomScene(300, 2, 1), Drawing());
+  ASSERT_TRUE(W) << W.error().What;
+  const SceneDifference &L = W->Lost;
+  EXPECT_EQ(L.Position + L.LogScale + L.Rotation + L.Opacity + L.Color +
+                L.Harmonics,
+            0);
+  EXPECT_EQ(W->ShDegree, 2);
+}
+
+TEST(SceneWriter, EachFormatIsReadAsItselfWithinItsSteps) {
+  const TestFolder Folder;
+  const Scene S = randomScene(600, 3, 2);
+  const struct {
+    const char *Ending;
+    SceneFormat Format;
+    SceneDifference Most;
+  } Cases[] = {
+      // Bounds of 256 neighbours of 600 are up to the scene's 100 units wide.
+      {".compressed.ply",
+       SceneFormat::CompressedPly,
+       {100.0 / 1023 / 2 + 1e-5, 8.0 / 1023 / 2 + 1e-6, 0.0021,
+        0.5 / 255 + 1e-6, 1.8 / 255 / 2 + 1e-6, 8.0 / 256 / 2 + 1e-6}},
+      {".splat",
+       SceneFormat::Splat,
+       {0, 1e-6, 1.0 / 64, 0.5 / 255 + 1e-6, 0.5 / 255 / ShC0 + 1e-6, 0.9}},
+      {".spz",
+       SceneFormat::Spz,
+       {0.5 / 4096 + 1e-6, 0.5 / 16 + 1e-6, 0.0021, 0.5 / 255 + 1e-6,
+        0.5 / 255 / 0.15 + 1e-6, 8.5 / 128 + 1e-6}}};
+  for (const auto &Case : Cases) {
+    const std::string Path = Folder.path(std::string("s") + Case.Ending);
+    const auto W = writeScene(Path, S, Drawing());
+    ASSERT_TRUE(W) << W.error().What;
+    const auto Read = readScene(Path);
+    ASSERT_TRUE(Read) << Read.error().What;
+    EXPECT_EQ(Read->Format, Case.Format);
+    EXPECT_EQ(Read->Gaussians.size(), S.size());
+    EXPECT_EQ(W->ShDegree, Case.Format == SceneFormat::Splat ? 0 : 3);
+    EXPECT_LE(W->Lost.Position, Case.Most.Position) << Case.Ending;
+    EXPECT_LE(W->Lost.LogScale, Case.Most.LogScale) << Case.Ending;
+    EXPECT_LE(W->Lost.Rotation, Case.Most.Rotation) << Case.Ending;
+    EXPECT_LE(W->Lost.Opacity, Case.Most.Opacity) << Case.Ending;
+    EXPECT_LE(W->Lost.Color, Case.Most.Color) << Case.Ending;
+    EXPECT_LE(W->Lost.Harmonics, Case.Most.Harmonics) << Case.Ending;
+    EXPECT_GT(W->Lost.Opacity, 0) << Case.Ending; // the comparison sees it
+  }
+}
+
+TEST(SceneWriter, SaysWhetherTheFileTellsHowItIsDrawn) {
+  const TestFolder Folder;
+  const Scene S = randomScene(4, 0, 3);
+  Drawing Mip;
+  Mip.Antialiased = true;
+  Drawing Brush = Mip;
+  Brush.Dilation = 0.1;
+  const auto Keeps = [&](const char *Name, const Drawing &D) {
+    const auto W = writeScene(Folder.path(Name), S, D);
+    return W && W->KeepsDrawing;
+  };
+  EXPECT_TRUE(Keeps("a.compressed.ply", Brush));
+  EXPECT_TRUE(Keeps("a.ply", Brush));
+  EXPECT_TRUE(Keeps("a.spz", Mip));
+  EXPECT_FALSE(Keeps("a.spz", Brush));
+  EXPECT_TRUE(Keeps("a.splat", Drawing()));
+  EXPECT_FALSE(Keeps("a.splat", Mip));
+}
+
+TEST(SceneWriter, LargeScenesHaveCoarserSpzAndTheLargestNone) {
+  const TestFolder Folder;
+  Scene S = randomScene(4, 0, 4);
+  S.Means[0] = 100000.25F; // 7 bits behind the point are left
+  const auto W = writeScene(Folder.path("a.spz"), S, Drawing());
+  ASSERT_TRUE(W) << W.error().What;
+  EXPECT_LE(W->Lost.Position, 0.5 / 64 + 1e-6);
+  S.Means[0] = 1e8F;
+  const auto Refused = writeScene(Folder.path("b.spz"), S, Drawing());
+  ASSERT_FALSE(Refused);
+  EXPECT_TRUE(Refused.error().Where.ends_with("b.spz"));
+}
+
+TEST(SceneWriter, ExtremeValuesAreCutToWhatTheFormatHas) {
+  const TestFolder Folder;
+  Scene S = randomScene(3, 1, 5);
+  S.OpacityLogits = {-30, 30, 0};
+  S.LogScales = {-20, 20, 0, 0, 0, 0, 0, 0, 0};
+  S.Quats = {0, 0, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1e-12F};
+  S.Sh[0] = 100;
+  S.Sh[5] = -100;
+  for (const char *Name : {"a.compressed.ply", "a.splat", "a.spz"}) {
+    const auto W = writeScene(Folder.path(Name), S, Drawing());
+    ASSERT_TRUE(W) << Name << W.error().What;
+    EXPECT_LE(W->Lost.Opacity, 0.5 / 255 + 1e-6) << Name;
+    EXPECT_LE(W->Lost.Rotation, 1.0 / 64) << Name;
+    EXPECT_GT(W->Lost.Harmonics, 50) << Name;
+  }
+}
+
+TEST(SceneWriter, TheOrderOfPlaceIsOfTheSameGaussians) {
+  const Scene S = randomScene(500, 1, 6);
+  const Scene Ordered = inOrderOfPlace(S);
+  std::multiset<float> Before(S.Sh.begin(), S.Sh.end()),
+      After(Ordered.Sh.begin(), Ordered.Sh.end());
+  EXPECT_EQ(Before, After);
+  const auto Path = [](const Scene &Of) {
+    double Length = 0;
+    for (std::size_t I = 3; I < Of.Means.size(); ++I)
+      Length += std::abs(Of.Means[I] - Of.Means[I - 3]);
+    return Length;
+  };
+  EXPECT_LT(Path(Ordered), Path(S) / 3);
+}
+
+} // namespace

@@ -1,0 +1,30 @@
+/// Writers of the compressed formats. Each gives a file's bytes, quantised as
+/// the format documents it and rounded to the nearest step, in the order of the
+/// scene. docs/scenes.md says how fine the steps are. INRIA's PLY: Ply.h.
+#pragma once
+
+#include "scene/Drawing.h"
+#include "scene/Scene.h"
+
+#include <string>
+
+namespace vorion::splat {
+
+/// Bounds are those of each 256 Gaussians, so a scene should be ordered by
+/// place (inOrderOfPlace() of SceneWriter.h). Older programs wrote no
+/// \p ColorBounds, and have colours from 0 to 1 only.
+std::string compressedPlyOf(const Scene &S, const Drawing &D = {},
+                            bool ColorBounds = true);
+
+/// Drops harmonics, and colours are cut to 0 to 1.
+std::string splatOf(const Scene &S);
+
+/// Whether the steps of `.spz` reach every mean of \p S.
+bool fitsSpz(const Scene &S);
+
+/// What an `.spz` of \p Version 2 or 3 holds before it is compressed. Steps of
+/// positions are as fine as the scene's size allows, at most 1/4096. Log scales
+/// are cut to -10 to 5.94, harmonics to -1 to 1. fitsSpz(S).
+std::string spzBodyOf(const Scene &S, int Version, const Drawing &D = {});
+
+} // namespace vorion::splat
