@@ -1,0 +1,37 @@
+/// Observers of somebody else's, in a shared object that `vorion-sim --plugin`
+/// and VORION_PLUGINS load (docs/plugins.md).
+#pragma once
+
+#include "vorion/isasim/Observer.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace vorion::isasim {
+
+/// What Observer's functions are, and mean. A simulator takes plugins of its
+/// own number alone.
+inline constexpr uint32_t PluginVersion = 1;
+
+/// Differs where what these functions are given has other sizes.
+constexpr uint64_t pluginLayout() {
+  uint64_t Hash = 0;
+  for (const uint64_t Size :
+       {sizeof(Config), sizeof(Commit), sizeof(MemoryAccess), sizeof(Observer),
+        sizeof(RunResult), sizeof(RunStart), sizeof(Step), sizeof(Trap)})
+    Hash = Hash * 8191 + Size;
+  return Hash;
+}
+
+struct Plugin {
+  uint32_t Version = PluginVersion; ///< stays first in every version
+  uint64_t Layout = pluginLayout();
+  /// Makes what watches one machine. It is told of all its runs, and destroyed
+  /// with the machine.
+  std::unique_ptr<Observer> (*Make)();
+};
+
+} // namespace vorion::isasim
+
+/// What a plugin defines.
+extern "C" const vorion::isasim::Plugin vorion_plugin;
