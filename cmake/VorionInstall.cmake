@@ -2,7 +2,11 @@
 # pocl/. Nothing in it names a folder of the build, so the tree can be moved; it
 # needs the same Debian packages (the OpenCL platform uses LLVM's library, and
 # vorion-clang the installed clang's headers).
+#
+# Each file belongs to the component `vorion` (what runs), `dev` or `doc`, which
+# become the packages of VorionPackages.cmake.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME vorion)
 
 # vorion_public_headers(TARGET FOLDER): the headers under FOLDER are TARGET's
 # interface, and are installed.
@@ -13,7 +17,7 @@ function(vorion_public_headers Target Folder)
     set(Scope INTERFACE)
   endif()
   target_include_directories(${Target} ${Scope} "$<BUILD_INTERFACE:${Folder}>" "$<INSTALL_INTERFACE:include>")
-  install(DIRECTORY "${Folder}/" DESTINATION include)
+  install(DIRECTORY "${Folder}/" DESTINATION include COMPONENT dev)
 endfunction()
 
 # vorion_generated_headers(TARGET HEADER...): headers of ${VORION_GENERATED}/include
@@ -23,7 +27,7 @@ function(vorion_generated_headers Target)
   add_dependencies(${Target} vorion_generated)
   foreach(Header IN LISTS ARGN)
     get_filename_component(Folder "${Header}" DIRECTORY)
-    install(FILES "${VORION_GENERATED}/include/${Header}" DESTINATION "include/${Folder}")
+    install(FILES "${VORION_GENERATED}/include/${Header}" DESTINATION "include/${Folder}" COMPONENT dev)
   endforeach()
 endfunction()
 
@@ -34,9 +38,23 @@ function(vorion_install)
     string(REGEX REPLACE "^vorion[_-]" "" Name "${Target}")
     set_target_properties(${Target} PROPERTIES EXPORT_NAME "${Name}")
     install(TARGETS ${Target} EXPORT VorionTargets
-            RUNTIME DESTINATION bin LIBRARY DESTINATION lib ARCHIVE DESTINATION lib)
+            RUNTIME DESTINATION bin LIBRARY DESTINATION lib ARCHIVE DESTINATION lib COMPONENT dev)
     set_property(GLOBAL PROPERTY VORION_HAS_TARGETS ON)
   endforeach()
+endfunction()
+
+# Documents with the folders that they link to, and the samples' sources.
+function(vorion_install_documents)
+  set(Folder share/doc/vorion)
+  install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${Folder} COMPONENT doc)
+  install(DIRECTORY docs DESTINATION ${Folder} COMPONENT doc PATTERN site EXCLUDE)
+  file(GLOB Readmes RELATIVE "${CMAKE_SOURCE_DIR}" */README.md apps/*/README.md)
+  foreach(Readme IN LISTS Readmes)
+    get_filename_component(Place "${Readme}" DIRECTORY)
+    install(FILES "${Readme}" DESTINATION "${Folder}/${Place}" COMPONENT doc)
+  endforeach()
+  install(DIRECTORY apps/samples test/install/Inputs/downstream DESTINATION ${Folder}/examples COMPONENT doc
+          PATTERN README.md EXCLUDE)
 endfunction()
 
 # The package of what the components have named by now.
@@ -48,6 +66,12 @@ function(vorion_install_package)
   set(Folder lib/cmake/Vorion)
   set(Version "${CMAKE_BINARY_DIR}/VorionConfigVersion.cmake")
   write_basic_package_version_file("${Version}" COMPATIBILITY SameMinorVersion)
-  install(FILES "${CMAKE_SOURCE_DIR}/cmake/VorionConfig.cmake" "${Version}" DESTINATION ${Folder})
-  install(EXPORT VorionTargets NAMESPACE Vorion:: DESTINATION ${Folder})
+  install(FILES "${CMAKE_SOURCE_DIR}/cmake/VorionConfig.cmake" "${Version}" DESTINATION ${Folder}
+          COMPONENT dev)
+  install(EXPORT VorionTargets NAMESPACE Vorion:: DESTINATION ${Folder} COMPONENT dev)
+  foreach(Name runtime isasim)
+    configure_file("${CMAKE_SOURCE_DIR}/cmake/vorion-${Name}.pc.in" "${CMAKE_BINARY_DIR}/vorion-${Name}.pc" @ONLY)
+    install(FILES "${CMAKE_BINARY_DIR}/vorion-${Name}.pc" DESTINATION lib/pkgconfig COMPONENT dev)
+  endforeach()
+  vorion_install_documents()
 endfunction()

@@ -9,23 +9,8 @@ Machine=${1:-}
 [ -n "$Machine" ] || fail "no folder given, expected: fresh-root.sh NEW_FOLDER"
 [ "$(id -u)" -eq 0 ] || fail "not root, and chroot and mount need it"
 command -v debootstrap >/dev/null || fail "debootstrap is not installed"
-[ -e "$Machine" ] && fail "$Machine exists, expected the name of a new folder"
 
-# The mirror that this machine's own apt uses.
-Mirror=$(apt-get indextargets --format '$(RELEASE) $(REPO_URI)' 'Created-By: Packages' |
-  awk '$1 == "bookworm" { print $2; exit }')
-[ -n "$Mirror" ] || fail "apt knows no mirror of bookworm"
-
-unmount() { umount "$Machine/dev" "$Machine/proc" 2>/dev/null || true; }
-trap unmount EXIT
-
-step "making a Debian 12 root" debootstrap debootstrap --variant=minbase bookworm "$Machine" "$Mirror"
-cp /etc/resolv.conf "$Machine/etc/resolv.conf"
-for Extra in /etc/apt/apt.conf.d/*proxy*; do
-  [ -e "$Extra" ] && cp "$Extra" "$Machine/etc/apt/apt.conf.d/"
-done
-mount -t proc proc "$Machine/proc"
-mount --bind /dev "$Machine/dev"
+makeRoot "$Machine"
 git clone --quiet "$Root" "$Machine/vorion"
 
 timed() { # timed TITLE COMMAND...
