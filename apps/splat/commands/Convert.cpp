@@ -40,7 +40,7 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
   if (W.ShDegree < S.ShDegree)
     Lost.push_back(
         fmt::format("harmonics above degree {} are dropped", W.ShDegree));
-  printOut("{}\n", Lost.empty() ? "no bit is lost"
+  printOut("{}\n", Lost.empty() ? "nothing is lost"
                                 : fmt::format("lost at most: {}",
                                               fmt::join(Lost, ", ")));
 }

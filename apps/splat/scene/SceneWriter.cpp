@@ -8,7 +8,6 @@
 #include "vorion/support/File.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -46,10 +45,7 @@ const Writer Writers[] = {
      }},
     {".spz", false, spzOf}};
 
-const Writer &writerOf(std::string Path) {
-  std::ranges::transform(Path, Path.begin(), [](unsigned char C) {
-    return static_cast<char>(std::tolower(C));
-  });
+const Writer &writerOf(std::string_view Path) {
   const auto *Found = std::ranges::find_if(
       Writers, [&](const Writer &W) { return Path.ends_with(W.Ending); });
   return Found == std::end(Writers) ? Writers[InriasPly] : *Found;
