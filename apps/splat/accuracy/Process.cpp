@@ -3,12 +3,15 @@
 #include "vorion/support/File.h"
 
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace vorion::splat {
@@ -47,9 +50,26 @@ static std::vector<std::string> environmentWith(const DeviceOptions &Machine) {
   return All;
 }
 
+/// How \p Child ended.
+static int waitFor(pid_t Child, const std::function<bool()> &GiveUp) {
+  int Status = 0;
+  pid_t Ended = 0;
+  while ((Ended = waitpid(Child, &Status, GiveUp ? WNOHANG : 0)) <= 0) {
+    if (Ended < 0 && errno != EINTR)
+      break;
+    if (!GiveUp)
+      continue;
+    if (GiveUp())
+      kill(Child, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return Status;
+}
+
 Expected<Success> runSplat(const std::vector<std::string> &Arguments,
                            const DeviceOptions &Machine,
-                           const std::string &LogFile) {
+                           const std::string &LogFile,
+                           const std::function<bool()> &GiveUp) {
   std::vector<std::string> Words{"splat"};
   Words.insert(Words.end(), Arguments.begin(), Arguments.end());
   std::vector<std::string> Environment = environmentWith(Machine);
@@ -70,9 +90,7 @@ Expected<Success> runSplat(const std::vector<std::string> &Arguments,
                              "room for a process",
                              std::strerror(Problem)),
                  ExitCode::LimitReached};
-  int Status = 0;
-  while (waitpid(Child, &Status, 0) < 0 && errno == EINTR) {
-  }
+  const int Status = waitFor(Child, GiveUp);
   if (WIFEXITED(Status) && WEXITSTATUS(Status) == 0)
     return Success{};
   return Error{

@@ -44,8 +44,11 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   const auto Size = parseSize(A.Size);
   if (!Size)
     return Size.error();
-  Session::Setup S{A.Device, A.Kernels,   Machine,     A.Scene.Options,
-                   {},       Size->first, Size->second};
+  // The option --axes is about the first scene.
+  SceneArguments Dropped = A.Scene;
+  Dropped.Axes.clear();
+  Session::Setup S{A.Device,         A.Kernels, Machine,     Dropped.Options,
+                   wordsOf(Dropped), {},        Size->first, Size->second};
   if (!A.Cameras.empty()) {
     auto Cameras = readCameras(A.Cameras);
     if (!Cameras)
@@ -56,12 +59,11 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   if (!File)
     return File.error();
   const std::filesystem::path Path(A.Scene.Path);
-  const auto Shown =
-      Session::open(std::move(S),
-                    printable((Path.has_filename() ? Path : Path.parent_path())
-                                  .filename()
-                                  .string()),
-                    std::move(*File));
+  std::string Name = printable(
+      (Path.has_filename() ? Path : Path.parent_path()).filename().string());
+  ShownScene First{std::move(Name), A.Scene.Path, wordsOf(A.Scene),
+                   std::move(*File)};
+  const auto Shown = Session::open(std::move(S), std::move(First));
   if (!Shown)
     return Shown.error();
   const auto Listening = Server::listen(A.Port, **Shown);

@@ -39,14 +39,12 @@ void addLine(std::map<std::pair<int, int>, TileWork> &To, const Json &Line) {
 
 } // namespace
 
-Expected<std::vector<TileWork>> readTileWork(const std::string &File,
-                                             std::size_t From) {
+Expected<std::vector<TileWork>> readTileWork(const std::string &File) {
   const auto Bytes = readFile(File);
   if (!Bytes)
     return Bytes.error();
   std::string_view Text(reinterpret_cast<const char *>(Bytes->data()),
                         Bytes->size());
-  Text.remove_prefix(std::min(From, Text.size()));
   std::map<std::pair<int, int>, TileWork> ByPlace;
   while (!Text.empty()) {
     const std::size_t End = std::min(Text.find('\n'), Text.size());

@@ -3,7 +3,6 @@
 
 #include "vorion/support/Expected.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,9 +21,7 @@ struct TileWork {
 };
 
 /// Adds up what the device wrote (VORION_TILES, docs/debugging.md), in rows.
-/// Errors: a line that is none of those. \p From: the bytes of the file that
-/// are not read, which earlier pictures have written.
-Expected<std::vector<TileWork>> readTileWork(const std::string &File,
-                                             std::size_t From = 0);
+/// Errors: a line that is none of those.
+Expected<std::vector<TileWork>> readTileWork(const std::string &File);
 
 } // namespace vorion::splat

@@ -4,9 +4,9 @@
 #include "io/Metrics.h"
 #include "picture/View.h"
 #include "render/Explain.h"
-#include "render/FrameTime.h"
 #include "scene/Statistics.h"
 #include "view/Paint.h"
+#include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -43,12 +43,6 @@ std::array<bool, MaxShDegree> bandsOf(const EffectPlan &Plan) {
           Plan.done(effects::Sh3)};
 }
 
-std::size_t sizeOf(const std::string &File) {
-  std::error_code Failed;
-  const auto Size = std::filesystem::file_size(File, Failed);
-  return Failed ? 0 : static_cast<std::size_t>(Size);
-}
-
 Json effectsOf(const EffectPlan &Plan) {
   Json All = effectsJson(Plan);
   for (Json &One : All)
@@ -56,30 +50,51 @@ Json effectsOf(const EffectPlan &Plan) {
   return All;
 }
 
-/// What the device did for a picture.
+/// What the device did for a picture, on this computer.
 Json factsOf(const DrawnView &D) {
   Json Stages = Json::array();
   double Seconds = 0;
   for (const StageReport &S : D.Result.Stages) {
-    Json Stage{{"name", name(S.Kind)}, {"seconds", S.Seconds}};
-    if (D.Clocked && isFrameStage(S.Kind))
-      Stage["cycles"] = frameCycles({S});
+    Stages.push_back({{"name", name(S.Kind)}, {"seconds", S.Seconds}});
     Seconds += S.Seconds;
-    Stages.push_back(std::move(Stage));
   }
-  Json Facts{{"width", D.Result.Picture.Width},
-             {"height", D.Result.Picture.Height},
-             {"visible", D.Result.Visible},
-             {"pairs", D.Result.Pairs},
-             {"device_bytes", D.Result.DeviceBytes},
-             {"seconds", Seconds},
-             {"stages", std::move(Stages)},
-             {"effects", D.Effects}};
-  if (const auto Time = frameMilliseconds(D.Result.Stages); D.Clocked && Time) {
-    Facts["cycles"] = frameCycles(D.Result.Stages);
-    Facts["machine_ms"] = Time->all();
-  }
-  return Facts;
+  return {{"width", D.Result.Picture.Width},
+          {"height", D.Result.Picture.Height},
+          {"visible", D.Result.Visible},
+          {"pairs", D.Result.Pairs},
+          {"device_bytes", D.Result.DeviceBytes},
+          {"seconds", Seconds},
+          {"stages", std::move(Stages)},
+          {"effects", D.Effects}};
+}
+
+/// What \p T adds: the time on the machine.
+Json timeOf(const MachineTime &T) {
+  Json Stages = Json::object();
+  for (const auto &[Name, Cycles] : T.Stages)
+    Stages[Name] = Cycles;
+  return {{"cycles", T.Cycles},
+          {"machine_ms", T.Milliseconds},
+          {"stage_cycles", std::move(Stages)}};
+}
+
+/// The figures of \p Picture beside \p Reference.
+Json errorOf(const Image &Picture, const std::vector<double> &Reference) {
+  const std::vector<double> Ours(Picture.Render.begin(), Picture.Render.end());
+  const Difference Off = compare(Ours, Reference, 3);
+  return {{"psnr_db", Off.PsnrDb},
+          {"max_abs", Off.MaxAbs},
+          {"off_share", Off.OffShare}};
+}
+
+/// Of `splat render`, for the same device and kernels.
+std::vector<std::string> deviceWords(const Session::Setup &S) {
+  std::vector<std::string> Words;
+  if (!S.Device.empty())
+    Words.insert(Words.end(), {"--device", S.Device});
+  if (!S.Kernels.empty())
+    Words.insert(Words.end(), {"--kernels", S.Kernels});
+  return Words;
 }
 
 bool isSameView(const ViewRequest &A, const ViewRequest &B) {
@@ -88,14 +103,14 @@ bool isSameView(const ViewRequest &A, const ViewRequest &B) {
 
 } // namespace
 
-Expected<std::unique_ptr<Session>> Session::open(Setup S, std::string Name,
-                                                 SceneFile First) {
+Session::Session(Setup S, Device D, TemporaryFolder F)
+    : Settings(std::move(S)), Dev(std::move(D)),
+      Clock(std::move(F), deviceWords(Settings), Settings.Machine) {}
+
+Expected<std::unique_ptr<Session>> Session::open(Setup S, ShownScene First) {
   auto Folder = TemporaryFolder::make("splat-view");
   if (!Folder)
     return Folder.error();
-  // Frames on the way are not clocked, those at rest may be.
-  S.Machine.set("VORION_TIME", "profiled");
-  S.Machine.set("VORION_TILES", Folder->path() + "/tiles");
   auto Dev = Device::open(S.Device, S.Machine);
   if (!Dev)
     return Dev.error();
@@ -106,7 +121,7 @@ Expected<std::unique_ptr<Session>> Session::open(Setup S, std::string Name,
                  ExitCode::Usage};
   std::unique_ptr<Session> Made(
       new Session(std::move(S), std::move(*Dev), std::move(*Folder)));
-  Made->show(std::move(Name), std::move(First));
+  Made->show(std::move(First));
   return Made;
 }
 
@@ -115,19 +130,26 @@ std::shared_ptr<const ShownScene> Session::scene() const {
   return Shown;
 }
 
-void Session::show(std::string Name, SceneFile File) {
+void Session::show(ShownScene Next) {
   const std::lock_guard Held(SceneLock);
-  Shown = std::make_shared<const ShownScene>(ShownScene{
-      std::move(Name), std::move(File), Shown ? Shown->Number + 1 : 1});
+  Next.Number = Shown ? Shown->Number + 1 : 1;
+  Shown = std::make_shared<const ShownScene>(std::move(Next));
 }
 
 Expected<Success> Session::replace(std::string Name,
                                    const std::string &Content) {
+  const std::lock_guard Held(ReplaceLock);
   const auto *First = reinterpret_cast<const std::byte *>(Content.data());
   auto File = parseScene(Name, {First, Content.size()}, Settings.Reading);
   if (!File)
     return File.error();
-  show(std::move(Name), std::move(*File));
+  const std::string Path = Clock.sceneFile(scene()->Number + 1);
+  if (auto Written = writeFileAtomically(Path, Content); !Written)
+    return Written;
+  const std::string Before = Clock.sceneFile(scene()->Number);
+  show({std::move(Name), Path, Settings.ReadingWords, std::move(*File)});
+  std::error_code Ignored; // there is none of the first scene
+  std::filesystem::remove(Before, Ignored);
   return Success{};
 }
 
@@ -199,23 +221,12 @@ Expected<DrawnView> Session::drawNew(const ViewRequest &R,
                       EffectInputs{S.File.Gaussians, O, By, false,
                                    R.Shown == Layer::Depth, Settings.Machine});
   };
-  // On the way, what one view has needed stays on: it changes no bit where it
-  // is not needed, and programs need not be made anew with each step. A time is
-  // that of `splat render --time`, whatever was drawn before.
+  // What one view has needed stays on: it changes no bit where it is not
+  // needed, and programs need not be made anew with each step.
   const EffectPlan Needed = Decide(Own);
-  const RenderPlan Plan = planRender(R.Clock ? Needed : Decide(*Facts), O);
+  const RenderPlan Plan = planRender(Decide(*Facts), O);
 
-  Launcher *Running = nullptr;
-  Launcher L(
-      Dev, Settings.Kernels,
-      [&](std::string_view) {
-        if (R.Clock && Waiting != 0)
-          Running->fail(superseded());
-      },
-      &Programs);
-  Running = &L;
-  L.setProfiled(R.Clock);
-  const std::size_t TilesBefore = R.Clock ? sizeOf(tileFile()) : 0;
+  Launcher L(Dev, Settings.Kernels, {}, &Programs);
   if (auto Built = build(L, Plan, S.File.Gaussians); !Built)
     return Built.error();
   const auto Buffers = uploaded(L, Plan, S);
@@ -225,21 +236,13 @@ Expected<DrawnView> Session::drawNew(const ViewRequest &R,
   if (!Result)
     return Result.error();
   L.recordBuilds();
-  DrawnView D{S.Number, R, std::move(*Result), {}, effectsOf(Needed), R.Clock};
-  if (R.Clock) {
-    auto Tiles = readTileWork(tileFile(), TilesBefore);
-    if (!Tiles)
-      return Tiles.error();
-    D.Tiles = std::move(*Tiles);
-  }
-  return D;
+  return DrawnView{S.Number, R, std::move(*Result), effectsOf(Needed)};
 }
 
 std::shared_ptr<const DrawnView> Session::findDrawn(const ViewRequest &R,
                                                     uint64_t Scene) const {
   const auto Found = std::ranges::find_if(Kept, [&](const auto &D) {
     return D->Scene == Scene && isSameView(D->Request, R) &&
-           (D->Clocked || !R.Clock) &&
            (D->Result.Depths || R.Shown != Layer::Depth);
   });
   return Found == Kept.end() ? nullptr : *Found;
@@ -248,9 +251,7 @@ std::shared_ptr<const DrawnView> Session::findDrawn(const ViewRequest &R,
 Expected<std::shared_ptr<const DrawnView>>
 Session::drawn(const ViewRequest &R,
                const std::shared_ptr<const ShownScene> &S) {
-  ++Waiting;
   const std::lock_guard Held(DeviceLock);
-  --Waiting;
   if (auto Old = findDrawn(R, S->Number))
     return Old;
   auto New = drawNew(R, *S);
@@ -263,30 +264,35 @@ Session::drawn(const ViewRequest &R,
 }
 
 Expected<ViewAnswer> Session::frame(const ViewRequest &R) {
+  const uint64_t Own = ++Newest;
   const auto S = scene();
   const auto D = drawn(R, S);
   if (!D)
     return D.error();
   const RenderResult &Result = (*D)->Result;
   ViewAnswer A{factsOf(**D), ""};
-  std::shared_ptr<const std::vector<double>> Judged;
-  if (R.Compare) {
-    const auto Made = Reference.picture(S, R.View);
-    if (!Made)
-      return Made.error();
-    Judged = *Made;
-    const std::vector<double> Ours(Result.Picture.Render.begin(),
-                                   Result.Picture.Render.end());
-    const Difference Off = compare(Ours, *Judged, 3);
-    A.Facts["error"] = {{"psnr_db", Off.PsnrDb},
-                        {"max_abs", Off.MaxAbs},
-                        {"off_share", Off.OffShare}};
+  Painted P;
+  if (R.Clock) {
+    const auto Time =
+        Clock.measure(*S, R, [this, Own] { return Own != Newest; });
+    if (!Time)
+      return Time.error();
+    A.Facts.update(timeOf(**Time));
+    if (const auto Heat = heatOf(R.Shown))
+      P = paintHeat((*Time)->Tiles, *Heat, R.View.Width, R.View.Height);
   }
-  Painted P = R.Shown == Layer::Depth   ? paintDepth(*Result.Depths)
-              : R.Shown == Layer::Error ? paintError(Result.Picture, *Judged)
-              : heatOf(R.Shown) ? paintHeat((*D)->Tiles, *heatOf(R.Shown),
-                                            R.View.Width, R.View.Height)
-                                : paintPicture(Result.Picture);
+  if (R.Compare) {
+    const auto Judged = Reference.picture(S, R.View);
+    if (!Judged)
+      return Judged.error();
+    A.Facts["error"] = errorOf(Result.Picture, **Judged);
+    if (R.Shown == Layer::Error)
+      P = paintError(Result.Picture, **Judged);
+  }
+  if (R.Shown == Layer::Picture)
+    P = paintPicture(Result.Picture);
+  else if (R.Shown == Layer::Depth)
+    P = paintDepth(*Result.Depths);
   A.Facts["layer"] = name(R.Shown);
   A.Facts["scale"] = {{"low", P.Low}, {"high", P.High}, {"unit", P.Unit}};
   A.Rgba = std::move(P.Rgba);
@@ -312,11 +318,8 @@ std::string Session::pixel(const ViewRequest &R) {
   Json Pixel{{"x", R.X}, {"y", R.Y}, {"reference", Sum}};
   std::shared_ptr<const DrawnView> D;
   {
-    ++Waiting;
     const std::lock_guard Held(DeviceLock);
-    --Waiting;
     ViewRequest Plain = R;
-    Plain.Clock = false;
     Plain.Shown = Layer::Picture;
     D = findDrawn(Plain, S->Number);
   }

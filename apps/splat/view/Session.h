@@ -1,12 +1,11 @@
 /// The device and the scene that `splat view` keeps between frames.
 #pragma once
 
-#include "device/TileWork.h"
 #include "render/Renderer.h"
 #include "view/Judge.h"
 #include "view/Request.h"
 #include "view/ShownScene.h"
-#include "vorion/support/TemporaryFolder.h"
+#include "view/Stopwatch.h"
 
 #include <array>
 #include <atomic>
@@ -25,9 +24,7 @@ struct DrawnView {
   uint64_t Scene = 0;
   ViewRequest Request; ///< that it was first drawn for
   RenderResult Result;
-  std::vector<TileWork> Tiles;    ///< empty without the clock
-  nlohmann::ordered_json Effects; ///< what is on, and why
-  bool Clocked = false;
+  nlohmann::ordered_json Effects; ///< what the view needs, and why
 };
 
 /// What the page gets.
@@ -41,21 +38,20 @@ public:
   struct Setup {
     std::string Device, Kernels;
     DeviceOptions Machine;
-    ReadOptions Reading; ///< of dropped scenes
+    ReadOptions Reading;                   ///< of dropped scenes
+    std::vector<std::string> ReadingWords; ///< the same for `splat render`
     std::vector<Camera> Cameras;
     int Width = 480, Height = 272;
   };
 
   /// Opens the device and shows \p First.
-  static Expected<std::unique_ptr<Session>> open(Setup S, std::string Name,
-                                                 SceneFile First);
+  static Expected<std::unique_ptr<Session>> open(Setup S, ShownScene First);
 
   /// Device, scene, cameras and knobs, as JSON.
   std::string describe() const;
 
-  /// Draws what \p R asks for. Of two calls the later one waits; a frame with
-  /// the clock gives up at its next stage where somebody waits, which is an
-  /// error.
+  /// Draws what \p R asks for. What takes long, which is the clock and the
+  /// reference, gives way to a call that comes later, which is an error.
   Expected<ViewAnswer> frame(const ViewRequest &R);
 
   /// What a pixel is made of, as JSON.
@@ -66,11 +62,9 @@ public:
   Expected<Success> replace(std::string Name, const std::string &Content);
 
 private:
-  Session(Setup S, Device D, TemporaryFolder F)
-      : Settings(std::move(S)), Dev(std::move(D)), Folder(std::move(F)) {}
-  void show(std::string Name, SceneFile File);
+  Session(Setup S, Device D, TemporaryFolder F);
+  void show(ShownScene Next);
   std::shared_ptr<const ShownScene> scene() const;
-  std::string tileFile() const { return Folder.path() + "/tiles"; }
 
   Expected<std::shared_ptr<const DrawnView>>
   drawn(const ViewRequest &R, const std::shared_ptr<const ShownScene> &S);
@@ -83,13 +77,14 @@ private:
 
   const Setup Settings;
   Device Dev;
-  TemporaryFolder Folder; ///< of what the device tells of tiles
   Judge Reference;
+  Stopwatch Clock;
 
+  std::mutex ReplaceLock; ///< one scene is opened after the other
   mutable std::mutex SceneLock;
   std::shared_ptr<const ShownScene> Shown; ///< by this lock
 
-  std::atomic<unsigned> Waiting = 0;
+  std::atomic<uint64_t> Newest = 0; ///< of the calls of frame()
   std::mutex DeviceLock;
   /// \name By this lock
   /// @{

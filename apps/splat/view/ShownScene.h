@@ -5,11 +5,15 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
 struct ShownScene {
   std::string Name; ///< for people: of its file
+  /// Where `splat render` finds it, and the options with which it reads it.
+  std::string Path;
+  std::vector<std::string> Words;
   SceneFile File;
   uint64_t Number = 0; ///< from 1: of the scenes that were opened
 };

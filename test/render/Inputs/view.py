@@ -164,7 +164,7 @@ def check_page(at):
         for layer in browser.value("[...document.getElementById('layer').options].map(o => o.value)")[1:]:
             settled(browser, lambda layer=layer: choose(browser, "layer", layer))
             assert pixels_of(browser) != first, layer
-            assert browser.value("document.getElementById('legend').innerText").strip(), layer
+            assert browser.value("document.querySelector('#view-a .legend').innerText").strip(), layer
         settled(browser, lambda: choose(browser, "layer", "picture"))
 
         # A click lists Gaussians.

@@ -78,11 +78,7 @@ export function takePointer(canvas, hands) {
       if (spread() > 0) eye.near(wide / spread());
       eye.move(-dx * share / 2, -dy * share / 2, 0);
     } else if (event.shiftKey || event.buttons & 6) eye.move(-dx * share, -dy * share, 0);
-    else {
-      // Who orbits turns the scene with the hand; who flies turns the head.
-      const sign = hands.orbits() ? -1 : 1;
-      eye.turn(sign * dx * TURN, sign * dy * TURN, hands.orbits());
-    }
+    else eye.turn(dx * TURN, dy * TURN, hands.orbits());
     hands.moved();
   });
   const end = event => {

@@ -30,7 +30,7 @@ export function showKnobs(table, knobs, settings, two, changed) {
         });
         slider.addEventListener('change', () => take(knob.values[slider.value]));
         shown.classList.toggle('changed', chosen !== knob.values[0]);
-        return element('td', {}, slider, shown);
+        return element('td', {}, element('div', { class: 'slide' }, slider, shown));
       }
       const select = element('select', { 'aria-label': name, id: `knob-${knob.name}-${side}` },
         ...knob.values.map(v => element('option', { value: v }, v)));

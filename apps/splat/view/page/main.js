@@ -64,10 +64,10 @@ async function drawCoarse() {
   for (const side of sides()) {
     const { image } = await readFrame(request(side, {}, coarse));
     paint(side, image);
+    showLegend(figure(side), null);
   }
   const took = performance.now() - begun;
   frameTime = frameTime ? 0.8 * frameTime + 0.2 * took : took;
-  showLegend(null);
   status(`${(1000 / frameTime).toFixed(1)} frames a second${coarse > 1 ? `, 1/${coarse} of the size` : ''}`);
   if (took > SLOW) coarse = Math.min(COARSEST, 2 * coarse);
   else if (took < FAST) coarse = Math.max(1, coarse / 2);
@@ -97,7 +97,7 @@ async function drawWhole(of) {
       facts[side] = { ...facts[side], ...answer.facts };
       if (!says || step.layer === layer()) {
         paint(side, answer.image);
-        showLegend(answer.facts.scale, scene.ramp);
+        showLegend(figure(side), answer.facts.scale, scene.ramp);
       }
       show();
     }

@@ -26,18 +26,20 @@ export function showFacts(all) {
   const first = all.find(f => f);
   if (!first) return;
   byId('stages').tBodies[0].replaceChildren(...first.stages.map(s => element('tr', {}, element('th', { scope: 'row' }, s.name),
-    element('td', {}, milli(s.seconds)), element('td', {}, s.cycles === undefined ? '' : `${whole(s.cycles)} cycles`))));
+    element('td', {}, milli(s.seconds)), element('td', {}, first.stage_cycles?.[s.name] === undefined ? '' : `${whole(first.stage_cycles[s.name])} cycles`))));
   byId('effects').replaceChildren(...first.effects.map(e => element('li', { class: e.on ? 'on' : 'off' },
     element('b', {}, e.name), ` ${e.on ? 'on' : 'off'}: ${e.figure}`, element('small', {}, e.what))));
 }
 
-export function showLegend(scale, ramp) {
-  byId('legend').hidden = !scale?.unit;
-  if (!scale?.unit) return;
-  byId('low').textContent = short(scale.low);
-  byId('high').textContent = short(scale.high);
-  byId('unit').textContent = scale.unit;
-  byId('ramp').style.background = `linear-gradient(to right, ${ramp.join(', ')})`;
+// Below the picture `figure`, what its colours stand for; nothing where they are its own.
+export function showLegend(figure, scale, ramp) {
+  const legend = figure.querySelector('.legend'), [low, colors, high, unit] = legend.children;
+  legend.hidden = !scale?.unit;
+  if (legend.hidden) return;
+  low.textContent = short(scale.low);
+  high.textContent = short(scale.high);
+  unit.textContent = scale.unit;
+  colors.style.background = `linear-gradient(to right, ${ramp.join(', ')})`;
 }
 
 const MOST_ROWS = 40;
