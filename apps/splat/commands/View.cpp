@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <memory>
 #include <string>
 #include <utility>
@@ -41,6 +42,9 @@ Expected<std::pair<int, int>> parseSize(const std::string &Text) {
 }
 
 Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
+  // A picture's memory goes back to the system with it. Else every thread that
+  // has answered keeps some, which grows for hundreds of frames.
+  mallopt(M_MMAP_THRESHOLD, 1 << 17);
   const auto Size = parseSize(A.Size);
   if (!Size)
     return Size.error();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs `splat view`, asks its server what it must refuse, and uses its page in headless Chromium.
 
-usage: view.py SCENE CAMERAS FOLDER
+usage: view.py SCENE CAMERAS SOG FOLDER
 """
 
 import contextlib
@@ -13,10 +13,11 @@ import struct
 import subprocess
 import sys
 import urllib.parse
+import zipfile
 
 from browser import Browser
 
-SCENE, CAMERAS, FOLDER = sys.argv[1:]
+SCENE, CAMERAS, SOG, FOLDER = sys.argv[1:]
 SIZE = (96, 64)
 
 
@@ -192,6 +193,13 @@ def check_page(at):
         settled(browser, lambda: browser.value(drop.format("again.ply", f"Uint8Array.from({content})")))
         assert browser.value("document.title") == "again.ply"
         assert browser.value("document.getElementById('problem').hidden")
+
+        # The files of a SOG folder are sent as one zip.
+        with zipfile.ZipFile(SOG) as sog:
+            files = [[name, list(sog.read(name))] for name in sog.namelist()]
+        opened = browser.value(f"(async () => {{ const {{ zip }} = await import('./drop.js'), {{ openScene }} = await import('./api.js'); "
+                               f"return await openScene('folder', zip({files}.map(([n, b]) => [n, Uint8Array.from(b)]))); }})()")
+        assert opened["format"] == "sog" and opened["gaussians"] > 0, opened
 
         # On a phone nothing is wider than the screen; dark and light differ.
         colours = []
