@@ -5,11 +5,24 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <utility>
 
 namespace vorion {
 namespace {
 
 constexpr std::string_view SeeHelp = "expected: see --help";
+
+/// Names of the checks by which valueOf() knows them.
+constexpr const char *OneOfName = "one of", *FileName = "file",
+                     *FolderName = "folder";
+
+/// Takes everything; \p Name and \p Words are what it is for. CLI11 keeps
+/// nothing of a check but its name.
+CLI::Validator mark(const char *Name, const std::vector<std::string> &Words) {
+  return {[](std::string &) { return std::string(); }, "",
+          fmt::format("{} {}", Name, fmt::join(Words, "|"))};
+}
 
 /// The names of \p App's options and of those that it falls through to.
 std::vector<std::string> optionsOf(const CLI::App *App) {
@@ -53,10 +66,63 @@ std::string problemOf(const CLI::App &App, const std::string &Said) {
   if (Option != Left.end())
     return unknown("option", Option->substr(0, Option->find('=')),
                    optionsOf(Inner));
-  return fmt::format("{}, {}", Said, SeeHelp);
+  // A check of ours says itself what it expects.
+  return Said.find("expected") == std::string::npos
+             ? fmt::format("{}, {}", Said, SeeHelp)
+             : Said;
 }
 
 } // namespace
+
+CLI::Validator isOneOf(std::vector<std::string> Names) {
+  CLI::Validator Check = mark(OneOfName, Names);
+  Check.operation([Names = std::move(Names)](const std::string &Word) {
+    return std::ranges::find(Names, Word) != Names.end()
+               ? std::string()
+               : fmt::format("{} is not known, expected one of {}{}", Word,
+                             fmt::join(Names, ", "), didYouMean(Word, Names));
+  });
+  return Check;
+}
+
+CLI::Option *takesFile(CLI::Option *O, std::vector<std::string> Endings) {
+  return O->type_name("FILE")->check(mark(FileName, Endings));
+}
+
+CLI::Option *takesFolder(CLI::Option *O) {
+  return O->type_name("FOLDER")->check(mark(FolderName, {}));
+}
+
+OptionValue valueOf(CLI::Option &O) {
+  using Type = OptionValue::Type;
+  constexpr std::pair<const char *, Type> Kinds[] = {
+      {OneOfName, Type::OneOf},
+      {FileName, Type::File},
+      {FolderName, Type::Folder}};
+  // There is no way to ask how many checks an option has.
+  constexpr int MostChecks = 4;
+  for (int I = 0; I < MostChecks; ++I) {
+    std::string Name;
+    try {
+      Name = O.get_validator(I)->get_name();
+    } catch (const CLI::OptionNotFound &) {
+      break;
+    }
+    for (const auto &[Begin, What] : Kinds)
+      if (Name.starts_with(Begin)) {
+        OptionValue V{What, {}};
+        std::string_view Rest(Name);
+        Rest.remove_prefix(std::string_view(Begin).size() + 1);
+        for (std::size_t At = 0; !Rest.empty() && At != std::string_view::npos;
+             Rest.remove_prefix(At == std::string_view::npos ? 0 : At + 1)) {
+          At = Rest.find('|');
+          V.Words.emplace_back(Rest.substr(0, At));
+        }
+        return V;
+      }
+  }
+  return {};
+}
 
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments) {

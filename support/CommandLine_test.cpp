@@ -11,11 +11,12 @@ std::string said(std::vector<std::string> Arguments) {
   CLI::App App("A tool.", "tool");
   App.require_subcommand(1);
   App.fallthrough();
-  std::string Set, Cameras, Json;
+  std::string Set, Cameras, Json, Path;
   App.add_option("--set", Set);
   CLI::App *Render = App.add_subcommand("render", "");
   Render->add_option("--cameras", Cameras)->required();
-  Render->add_option("-j,--json", Json);
+  takesFile(Render->add_option("-j,--json", Json), {".json"});
+  Render->add_option("--path", Path)->check(isOneOf({"raster", "simt"}));
   App.add_subcommand("train", "");
   testing::internal::CaptureStderr();
   const auto Code = parseCommandLine(App, std::move(Arguments));
@@ -42,6 +43,36 @@ TEST(CommandLine, WhatIsNearlyRightIsNamed) {
   EXPECT_EQ(said({"train", "--sets", "a=b"}),
             "tool: error: unknown option --sets, did you mean --set? "
             "(see --help)\n");
+}
+
+TEST(CommandLine, ValuesThatAreNearlyRightAreNamed) {
+  EXPECT_EQ(said({"render", "--cameras", "c", "--path", "simt"}), "");
+  EXPECT_EQ(said({"render", "--cameras", "c", "--path", "rastr"}),
+            "tool: error: --path: rastr is not known, expected one of raster, "
+            "simt; did you mean raster?\n");
+  EXPECT_EQ(said({"render", "--cameras", "c", "--path", "cores"}),
+            "tool: error: --path: cores is not known, expected one of raster, "
+            "simt\n");
+}
+
+TEST(CommandLine, WhatAValueIsCanBeAsked) {
+  CLI::App App;
+  std::string Text;
+  const auto Of = [&App](const char *Option) {
+    return valueOf(*App.get_option(Option));
+  };
+  using Type = OptionValue::Type;
+  App.add_option("--any", Text)->check(CLI::Range(1, 2));
+  EXPECT_EQ(Of("--any").What, Type::Any);
+  App.add_option("--one", Text)->check(isOneOf({"a", "b c", "d"}));
+  EXPECT_EQ(Of("--one").What, Type::OneOf);
+  EXPECT_EQ(Of("--one").Words, (std::vector<std::string>{"a", "b c", "d"}));
+  takesFile(App.add_option("--file", Text), {".png", ".pfm"});
+  EXPECT_EQ(Of("--file").What, Type::File);
+  EXPECT_EQ(Of("--file").Words, (std::vector<std::string>{".png", ".pfm"}));
+  takesFolder(App.add_option("--folder", Text));
+  EXPECT_EQ(Of("--folder").What, Type::Folder);
+  EXPECT_TRUE(Of("--folder").Words.empty());
 }
 
 TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {

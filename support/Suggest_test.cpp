@@ -16,5 +16,7 @@ TEST(Suggest, FindsTheNearestWord) {
   EXPECT_EQ(closestTo("--nonsense", Known), "");
   EXPECT_EQ(closestTo("x", Known), "");
   EXPECT_EQ(closestTo("", Known), "");
+  EXPECT_EQ(didYouMean("rendr", Known), "; did you mean render?");
+  EXPECT_EQ(didYouMean("x", Known), "");
   EXPECT_EQ(closestTo(std::string(100'000, 'a'), Known), "");
 }

@@ -2,9 +2,11 @@
 
 #include "commands/Commands.h"
 #include "device/Programs.h"
+#include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Tool.h"
+#include "vorion/support/Version.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -16,10 +18,10 @@ namespace {
 
 using namespace vorion;
 
-/// "splat 0.1.0, programs 0123456789abcdef".
+/// The line of every tool, with ", programs 0123456789abcdef".
 std::string programsText() {
   const auto Programs = splat::hashPrograms();
-  return fmt::format("splat " VORION_VERSION ", programs {}",
+  return fmt::format("{}, programs {}", versionLine("splat"),
                      Programs ? *Programs : Programs.error().What);
 }
 
@@ -74,5 +76,9 @@ int run(std::vector<std::string> Arguments) {
 } // namespace
 
 int main(int Count, char **Values) {
-  return runTool("splat", [&] { return run({Values + 1, Values + Count}); });
+  return runTool("splat", [&] {
+    const std::vector<std::string> Arguments(Values + 1, Values + Count);
+    splat::setCommandLine(Arguments);
+    return run(Arguments);
+  });
 }

@@ -4,6 +4,7 @@
 #include "timing/DramChannels.h"
 #include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <bit>
@@ -170,8 +171,8 @@ std::optional<uint64_t> valueOf(const Key &K, std::string_view Name) {
 }
 
 std::string wrongName(const Key &K, std::string_view Name) {
-  return fmt::format("{} is '{}', expected one of {}", K.Path, Name,
-                     fmt::join(K.Names, ", "));
+  return fmt::format("{} is '{}', expected one of {}{}", K.Path, Name,
+                     fmt::join(K.Names, ", "), didYouMean(Name, K.Names));
 }
 
 /// What an object may hold; \p Prefix is its path and a dot, or empty.
@@ -245,8 +246,9 @@ std::string readObject(const Json &Object, const std::string &Prefix,
     for (const auto &[Name, Value] : Object.items()) {
       const std::string Path = Prefix + Name;
       if (Name.find('.') != std::string::npos || !isKnown(Path))
-        return fmt::format("unknown key '{}', expected one of {}", Path,
-                           fmt::join(namesIn(Prefix), ", "));
+        return fmt::format("unknown key '{}', expected one of {}{}", Path,
+                           fmt::join(namesIn(Prefix), ", "),
+                           didYouMean(Name, namesIn(Prefix)));
       const Key *K = findKey(Path);
       if ((K && !K->Names.empty()) != Named)
         continue;
@@ -360,9 +362,11 @@ Expected<Success> setValue(Config &C, std::string_view Assignment) {
                         : Prefix.find_last_of('.'));
     while (!Prefix.empty() && namesIn(Prefix + ".").empty());
     const std::string Inside = Prefix.empty() ? "" : Prefix + ".";
-    return Fail(fmt::format("unknown key '{}', expected {}one of {}", Path,
-                            Prefix.empty() ? "" : "in " + Prefix + " ",
-                            fmt::join(namesIn(Inside), ", ")));
+    return Fail(
+        fmt::format("unknown key '{}', expected {}one of {}{}", Path,
+                    Prefix.empty() ? "" : "in " + Prefix + " ",
+                    fmt::join(namesIn(Inside), ", "),
+                    didYouMean(Path.substr(Inside.size()), namesIn(Inside))));
   }
   const std::string_view Text = Assignment.substr(Equals + 1);
   if (K->WordOf) {

@@ -116,7 +116,7 @@ TEST(NamedMachines, AnUnknownNameIsOneLineWithTheKnownOnes) {
   EXPECT_EQ(C.error().Where, "configuration");
   EXPECT_EQ(C.error().What, "machine is 'protype', expected one of prototype, "
                             "prototype-forwarding, prototype-on-chip, scaled, "
-                            "scaled-forwarding");
+                            "scaled-forwarding; did you mean prototype?");
   EXPECT_FALSE(findMachine("./nonexistent"));
 }
 

@@ -1,5 +1,7 @@
 #include "observe/NameList.h"
 
+#include "vorion/support/Suggest.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -19,8 +21,9 @@ Expected<uint32_t> parseNameList(std::string_view Kind, std::string_view Text,
       Listed |= 1U << (Found - Names.begin());
     else
       return Error{"",
-                   fmt::format("{} '{}', expected all or some of {}{}", Kind,
-                               Name, fmt::join(Names, ","), Note),
+                   fmt::format("{} '{}', expected all or some of {}{}{}", Kind,
+                               Name, fmt::join(Names, ","), Note,
+                               didYouMean(Name, Names)),
                    ExitCode::Usage};
     if (Comma == std::string_view::npos)
       return Listed;

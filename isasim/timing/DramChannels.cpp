@@ -2,6 +2,7 @@
 
 #include "timing/MemoryWatch.h"
 #include "timing/Turn.h"
+#include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <array>
@@ -44,8 +45,9 @@ Expected<DramSetup> setUpDram(const DramTiming &P) {
     return Fail("address_map", Map.error().What);
   const auto Refresh = std::ranges::find(RefreshNames, P.Refresh);
   if (Refresh == RefreshNames.end())
-    return Fail("refresh", fmt::format("\"{}\", expected one of {}", P.Refresh,
-                                       fmt::join(RefreshNames, ", ")));
+    return Fail("refresh", fmt::format("\"{}\", expected one of {}{}",
+                                       P.Refresh, fmt::join(RefreshNames, ", "),
+                                       didYouMean(P.Refresh, RefreshNames)));
   const dram::ControllerOptions Options{
       .LineBytes = TimingLineBytes,
       .ReadQueue = P.ReadQueue,

@@ -4,9 +4,11 @@
 #include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Suggest.h"
 
 #include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vorion::isasim {
 
@@ -157,16 +159,17 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
   if (R.Kernel.empty() && Program.kernels().size() == 1)
     K = &Program.kernels().front();
   if (!K) {
-    std::string Names;
+    std::vector<std::string> Names;
     for (const Kernel &Each : Program.kernels())
-      Names += " " + Each.Name;
+      Names.push_back(Each.Name);
     return Error{Program.name(),
                  R.Kernel.empty()
-                     ? "more or less than one kernel, expected --kernel to "
-                       "name one of:" +
-                           Names
-                     : fmt::format("no kernel '{}', expected one of:{}",
-                                   R.Kernel, Names),
+                     ? fmt::format("more or less than one kernel, expected "
+                                   "--kernel to name one of: {}",
+                                   fmt::join(Names, " "))
+                     : fmt::format("no kernel '{}', expected one of: {}{}",
+                                   R.Kernel, fmt::join(Names, " "),
+                                   didYouMean(R.Kernel, Names)),
                  ExitCode::Usage};
   }
   const Expected<LaunchShape> Shape = shapeOf(*K, R);

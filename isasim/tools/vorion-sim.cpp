@@ -11,6 +11,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Tool.h"
+#include "vorion/support/Version.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -332,6 +333,8 @@ void declareWatch(CLI::App &App, const SessionOption &S, std::string &To) {
                 ->type_name(fmt::format("[={}]", S.Value));
   else
     Added = App.add_option(S.Option, To, S.Help)->type_name(S.Value);
+  if (std::string_view(S.Value) == "FILE")
+    takesFile(Added)->type_name(S.Alone ? "[=FILE]" : "FILE");
   Added->group("Watching a run (docs/debugging.md)");
 }
 
@@ -354,10 +357,9 @@ void declareLaunch(CLI::App &App, Options &O) {
       ->type_name("ARG")
       ->group("Running a kernel")
       ->allow_extra_args(false);
-  App.add_option("--args", O.ArgsFile,
-                 "these as JSON: {\"kernel\", \"global\", \"local\", "
-                 "\"args\": [\"i32:5\", ...]}")
-      ->type_name("FILE")
+  takesFile(App.add_option("--args", O.ArgsFile,
+                           "these as JSON: {\"kernel\", \"global\", \"local\", "
+                           "\"args\": [\"i32:5\", ...]}"))
       ->group("Running a kernel")
       ->excludes("--kernel")
       ->excludes("--global")
@@ -370,22 +372,26 @@ void declareLaunch(CLI::App &App, Options &O) {
 void declareTestPrograms(CLI::App &App, Options &O) {
   App.add_flag("--one-hart", O.OneHart, "one core of one warp of one lane")
       ->group("Test programs (docs/abi.md)");
-  App.add_option("--signature", O.SignatureFile,
-                 "write the words from begin_signature to end_signature")
-      ->type_name("FILE")
+  takesFile(App.add_option("--signature", O.SignatureFile,
+                           "write the words from begin_signature to "
+                           "end_signature"))
       ->group("Test programs (docs/abi.md)");
   App.add_option("--signature-granularity", O.SignatureGranularity,
                  "bytes a line of it (default: 4)")
       ->type_name("N")
       ->group("Test programs (docs/abi.md)")
-      ->check(quietly(CLI::IsMember({1U, 2U, 4U, 8U, 16U})));
+      ->check(isOneOf({"1", "2", "4", "8", "16"}));
 }
 
 void declare(CLI::App &App, Options &O) {
   App.formatter(std::make_shared<HelpFormatter>());
   App.set_help_flag("-h,--help", "print this and exit");
-  App.add_option("program", O.Program,
-                 "RISC-V executable, Vortex's .vxbin, or a saved region")
+  App.set_version_flag(
+      "--version", [] { return versionLine(Tool); },
+      "print the version and exit");
+  takesFile(App.add_option("program", O.Program,
+                           "RISC-V executable, Vortex's .vxbin, or a saved "
+                           "region"))
       ->type_name("");
   App.add_option("--set", O.Set,
                  "change the configuration (raster.queue_depth=8; else "
@@ -396,8 +402,8 @@ void declare(CLI::App &App, Options &O) {
                "print the JSON schema of configurations and exit");
   App.add_option("--config", O.ConfigText,
                  "the machine: its name, or a configuration, JSON (else "
-                 "VORION_CONFIG)")
-      ->type_name("NAME|FILE");
+                 "VORION_CONFIG)");
+  takesFile(App.get_option("--config"), {".json"})->type_name("NAME|FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
                "print one to start from and exit");
   App.add_flag("--print-timing-parameters", O.PrintTiming,

@@ -7,10 +7,12 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Tool.h"
+#include "vorion/support/Version.h"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view Tool = "vorion-link";
+constexpr const char *Linker = "ld.lld-19";
 
 constexpr std::string_view Usage =
     "usage: vorion-link [options] object... -o program.elf\n"
@@ -40,6 +43,7 @@ constexpr std::string_view Usage =
     "  -l NAME   link libNAME.a\n"
     "  -r        relocatable output\n"
     "  -Map FILE write a map of the program\n"
+    "  --version print the versions of this and of lld, and exit\n"
     "\n";
 
 /// Options of lld whose value is the next argument, so that it is no input.
@@ -157,7 +161,7 @@ Expected<Success> linkProgram(const CommandLine &Line) {
     if (!Good)
       return Good.error();
   }
-  std::vector<std::string> Arguments = {"ld.lld-19"};
+  std::vector<std::string> Arguments = {Linker};
   std::vector<std::string> Libraries;
   if (!Line.Relocatable) {
     const auto Folder = deviceFolder();
@@ -183,6 +187,12 @@ int run(int Argc, char **Argv) {
     if (std::strcmp(Argv[I], "--help") == 0) {
       printOut("{}{}\n", Usage, ExitCodeHelp);
       return 0;
+    } else if (std::strcmp(Argv[I], "--version") == 0) {
+      printOut("{}\n", versionLine(Tool));
+      std::fflush(stdout);
+      // Build systems look for lld's name to know what options there are.
+      const auto Shown = runLinker({Linker, "--version"});
+      return Shown ? 0 : reportError(Tool, Shown.error());
     }
   const auto Line = parse(Argc, Argv);
   if (!Line)

@@ -1,5 +1,7 @@
 #include "accuracy/Setting.h"
 
+#include "vorion/support/Suggest.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,21 +69,23 @@ static const Knob *findIn(const std::vector<Knob> &Knobs,
   return Found == Knobs.end() ? nullptr : &*Found;
 }
 
-static std::string knobNames() {
+static std::vector<std::string> knobNames() {
   std::vector<std::string> Names;
   Names.reserve(allKnobs().size());
   for (const Knob &K : allKnobs())
     Names.push_back(K.Name);
-  return fmt::format("{}", fmt::join(Names, ", "));
+  return Names;
 }
 
 Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names) {
   for (const std::string &Name : Names)
     if (!findIn(allKnobs(), Name))
-      return Error{"",
-                   fmt::format("--knobs {}: no such knob, expected some of {}",
-                               Name, knobNames()),
-                   ExitCode::Usage};
+      return Error{
+          "",
+          fmt::format("--knobs {}: no such knob, expected some of {}{}", Name,
+                      fmt::join(knobNames(), ", "),
+                      didYouMean(Name, knobNames())),
+          ExitCode::Usage};
   std::vector<Knob> Found;
   for (const Knob &K : allKnobs())
     if (Names.empty() ||
@@ -122,7 +126,7 @@ Expected<Setting> Setting::parse(const std::string &Name) {
     return Error{"",
                  fmt::format("setting '{}': {}, expected default or "
                              "KNOB=VALUE,... with knobs of {}",
-                             Name, What, knobNames()),
+                             Name, What, fmt::join(knobNames(), ", ")),
                  ExitCode::Usage};
   };
   if (Name == "default")

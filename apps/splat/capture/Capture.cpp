@@ -5,6 +5,7 @@
 #include "capture/Transforms.h"
 #include "io/Inside.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,12 +171,16 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
   for (const std::string &Name : Names)
     if (std::erase_if(C.Views, [&](const CaptureView &V) {
           return matchesName(V.Pose.Name, Name);
-        }) == 0)
+        }) == 0) {
+      std::vector<std::string> Known;
+      for (const CaptureView &V : C.Views)
+        Known.push_back(V.Pose.Name);
       return Error{Path,
                    fmt::format("no picture {} to exclude, expected one of the "
-                               "capture's",
-                               Name),
+                               "capture's{}",
+                               Name, didYouMean(Name, Known)),
                    ExitCode::Usage};
+    }
   if (C.Views.size() < 2)
     return Error{Path, fmt::format("{} views, expected at least one to train "
                                    "on and one to hold out",

@@ -6,10 +6,14 @@
 #include "commands/SceneArguments.h"
 #include "io/Hash.h"
 #include "io/Inside.h"
+#include "io/ReportHead.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
+#include "vorion/support/Suggest.h"
+#include "vorion/support/Version.h"
 
 #include <algorithm>
 #include <charconv>
@@ -101,6 +105,14 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   return P;
 }
 
+std::vector<std::string> namesOf(const std::vector<Camera> &Views) {
+  std::vector<std::string> Names;
+  Names.reserve(Views.size());
+  for (const Camera &View : Views)
+    Names.push_back(View.Name);
+  return Names;
+}
+
 /// Views that choose and views that check.
 struct Split {
   std::vector<const Camera *> Choose, Check;
@@ -113,8 +125,8 @@ Expected<Split> splitViews(const SweepPlan &P,
     if (std::none_of(P.Views.begin(), P.Views.end(),
                      [&](const Camera &C) { return C.Name == Name; }))
       return usage(fmt::format("--check {}: no such view, expected one of "
-                               "those that are measured",
-                               Name));
+                               "those that are measured{}",
+                               Name, didYouMean(Name, namesOf(P.Views))));
   for (const Camera &View : P.Views) {
     // Unless told, the last of several views checks.
     const bool Checks =
@@ -218,11 +230,10 @@ Expected<Success> writeResults(const SweepPlan &P, KeptPoints &Kept,
       One->erase(Picture);
     Points.push_back(std::move(*One));
   }
-  if (auto Written = writeFileAtomically(
-          P.Folder + "/accuracy.json",
-          jsonText(Json{{"made", Head.Made}, {"points", std::move(Points)}},
-                   1) +
-              "\n");
+  Json Report = reportHead("splat-accuracy");
+  Report.update({{"made", Head.Made}, {"points", std::move(Points)}});
+  if (auto Written = writeFileAtomically(P.Folder + "/accuracy.json",
+                                         jsonText(Report, 1) + "\n");
       !Written)
     return Written;
   const auto Page = pageOf(P, Kept, Head, All);
@@ -285,7 +296,7 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
                   "against the fp64 reference of the same support; splat {}",
                   P->ScenePath, names(pointersTo(P->Views)), names(V->Choose),
                   P->Views.front().Width, P->Views.front().Height,
-                  VORION_VERSION),
+                  projectVersion()),
       *Floor, V->Choose};
   if (auto Written = writeResults(*P, Kept, Head, *All); !Written)
     return Written;
@@ -300,10 +311,9 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
 
 Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
-  App.add_option(
-         "--out", A->Folder,
-         "Folder for measurements and page; what is there, made from the "
-         "same, is used")
+  takesFolder(App.add_option("--out", A->Folder,
+                             "Folder for measurements and page; what is there, "
+                             "made from the same, is used"))
       ->required();
   App.add_option("--jobs", A->Jobs, "Points measured at the same time")
       ->check(CLI::Range(1U, 256U))
@@ -319,7 +329,9 @@ Runner addAccuracy(CLI::App &App) {
   const std::size_t First = App.get_options().size();
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);
-  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json");
+  takesFile(
+      App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
+      {".json"});
   App.add_option("--views", A->Views, "Views to measure (default: all)")
       ->delimiter(',')
       ->option_text("VIEW,...");

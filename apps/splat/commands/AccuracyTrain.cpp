@@ -7,10 +7,13 @@
 #include "accuracy/Page.h"
 #include "accuracy/Points.h"
 #include "capture/Capture.h"
+#include "io/ReportHead.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
+#include "vorion/support/Suggest.h"
+#include "vorion/support/Version.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -101,14 +104,18 @@ measureTraining(TrainSweepPlan P, bool List,
     return Made;
   if (!Only.empty()) {
     std::vector<TrainPoint> Chosen;
-    for (const TrainPoint &Of : trainPoints(P))
+    std::vector<std::string> Known;
+    for (const TrainPoint &Of : trainPoints(P)) {
+      Known.push_back(Of.name());
       if (std::find(Only.begin(), Only.end(), Of.name()) != Only.end())
         Chosen.push_back(Of);
+    }
     if (Chosen.size() != Only.size())
       return Error{"",
                    fmt::format("--only {}: no such point, expected those that "
-                               "--list prints",
-                               fmt::join(Only, " --only ")),
+                               "--list prints{}",
+                               fmt::join(Only, " --only "),
+                               didYouMean(Only.front(), Known)),
                    ExitCode::Usage};
     return measure(P, Kept, missing(P, Kept, Chosen), Log);
   }
@@ -118,13 +125,15 @@ measureTraining(TrainSweepPlan P, bool List,
   const auto Results = trainResults(P, Kept);
   if (!Results)
     return Results.error();
+  nlohmann::ordered_json Report = reportHead("splat-accuracy-train");
+  Report.update(*Results);
   if (auto Written = writeFileAtomically(P.Folder + "/training.json",
-                                         jsonText(*Results, 1) + "\n");
+                                         jsonText(Report, 1) + "\n");
       !Written)
     return Written;
   const std::string Made = fmt::format(
       "{}, {} iterations, seeds 0 to {}, pictures {} times smaller; splat {}",
-      P.Capture, P.Iterations, P.Seeds - 1, P.Downscale, VORION_VERSION);
+      P.Capture, P.Iterations, P.Seeds - 1, P.Downscale, projectVersion());
   if (auto Written = writeFileAtomically(P.Folder + "/index.html",
                                          trainPageOf(*Results, Made));
       !Written)

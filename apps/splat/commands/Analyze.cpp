@@ -7,6 +7,7 @@
 #include "commands/SceneArguments.h"
 #include "io/Cameras.h"
 #include "io/Hash.h"
+#include "io/ReportHead.h"
 #include "picture/Options.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -66,33 +67,33 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
   for (std::size_t K = 0; K < AnalyzedTiles.size(); ++K)
     Lists[std::to_string(AnalyzedTiles[K])] = json(R.Lists[K]);
   const double Pixels = static_cast<double>(R.Pixels);
-  const Json Report{
-      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-      {"scene",
-       {{"file", A.Scene.Path},
-        {"fnv1a64", *SceneHash},
-        {"gaussians", F.Gaussians.size()},
-        {"dropped_nonfinite", F.Dropped},
-        {"sh_degree", F.Gaussians.ShDegree},
-        {"format", name(F.Format)},
-        {"axes_changed", A.Scene.Axes}}},
-      {"cameras", {{"file", A.Cameras}, {"fnv1a64", *CameraHash}}},
-      {"view", C.Name},
-      {"resolution", {C.Width, C.Height}},
-      {"rules", name(A.Convention)},
-      {"support", name(A.Reach)},
-      {"antialiased", A.Options.Antialiased},
-      {"antialiased_by", F.DrawnAs.Source},
-      {"dilation", A.Options.Dilation},
-      {"cutoff", A.Options.Cutoff},
-      {"visible", R.Visible},
-      {"invocations", json(R.BySupport[static_cast<std::size_t>(A.Reach)])},
-      {"invocations_by_support", BySupport},
-      {"lists", Lists},
-      {"blends_per_pixel", static_cast<double>(R.Blends) / Pixels},
-      {"covered_share", static_cast<double>(R.Covered) / Pixels},
-      {"saturated_share", static_cast<double>(R.Saturated) / Pixels},
-      {"mean_transmittance", R.MeanTransmittance}};
+  Json Report = reportHead("splat-analyze");
+  Report.update(
+      {{"scene",
+        {{"file", A.Scene.Path},
+         {"fnv1a64", *SceneHash},
+         {"gaussians", F.Gaussians.size()},
+         {"dropped_nonfinite", F.Dropped},
+         {"sh_degree", F.Gaussians.ShDegree},
+         {"format", name(F.Format)},
+         {"axes_changed", A.Scene.Axes}}},
+       {"cameras", {{"file", A.Cameras}, {"fnv1a64", *CameraHash}}},
+       {"view", C.Name},
+       {"resolution", {C.Width, C.Height}},
+       {"rules", name(A.Convention)},
+       {"support", name(A.Reach)},
+       {"antialiased", A.Options.Antialiased},
+       {"antialiased_by", F.DrawnAs.Source},
+       {"dilation", A.Options.Dilation},
+       {"cutoff", A.Options.Cutoff},
+       {"visible", R.Visible},
+       {"invocations", json(R.BySupport[static_cast<std::size_t>(A.Reach)])},
+       {"invocations_by_support", BySupport},
+       {"lists", Lists},
+       {"blends_per_pixel", static_cast<double>(R.Blends) / Pixels},
+       {"covered_share", static_cast<double>(R.Covered) / Pixels},
+       {"saturated_share", static_cast<double>(R.Saturated) / Pixels},
+       {"mean_transmittance", R.MeanTransmittance}});
   return jsonText(Report, 2) + "\n";
 }
 
@@ -193,13 +194,16 @@ Expected<Success> run(AnalyzeArguments A) {
 Runner addAnalyze(CLI::App &App) {
   auto A = std::make_shared<AnalyzeArguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
+  takesFile(
+      App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
+      {".json"})
       ->required();
   App.add_option("--view", A->View, "img_name or id of the view")->required();
   App.add_option("--width", A->Width,
                  "Width in pixels, height in proportion (default: the view's)")
       ->check(CLI::Range(1, MaxImageSize));
-  App.add_option("--json", A->JsonFile, "Write all counts");
+  takesFile(App.add_option("--json", A->JsonFile, "Write all counts"),
+            {".json"});
   App.add_option("--plots", A->Plots,
                  "Write PREFIX-invocations.svg, -occlusion.svg and -lists.svg")
       ->option_text("PREFIX");

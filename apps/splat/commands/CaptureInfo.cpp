@@ -1,6 +1,7 @@
 #include "commands/CaptureInfo.h"
 
 #include "capture/Capture.h"
+#include "io/ReportHead.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -94,17 +95,16 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
                      {"position", V.Pose.Position},
                      {"rotation", V.Pose.Rotation},
                      {"held_out", V.HeldOut}});
-  const Json Report{
-      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-      {"capture", Path},
-      {"format", name(C.Format)},
-      {"held_out_by", C.HeldOutBy},
-      {"without_picture", C.WithoutPicture},
-      {"points", C.Points.size()},
-      {"camera_centre", F.Ring.Centre},
-      {"camera_radius", F.Ring.Radius},
-      {"extent", F.Ring.extent()},
-      {"views", Views}};
+  Json Report = reportHead("splat-capture");
+  Report.update({{"capture", Path},
+                 {"format", name(C.Format)},
+                 {"held_out_by", C.HeldOutBy},
+                 {"without_picture", C.WithoutPicture},
+                 {"points", C.Points.size()},
+                 {"camera_centre", F.Ring.Centre},
+                 {"camera_radius", F.Ring.Radius},
+                 {"extent", F.Ring.extent()},
+                 {"views", Views}});
   return jsonText(Report, 2) + "\n";
 }
 

@@ -1,6 +1,8 @@
 /// Options that choose one of an enumeration by name.
 #pragma once
 
+#include "vorion/support/CommandLine.h"
+
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstddef>
@@ -32,7 +34,7 @@ void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
          },
          fmt::format("{} (default {})", Help, name(Value)))
       ->option_text(Listed)
-      ->check(CLI::IsMember(std::move(Names)));
+      ->check(isOneOf(std::move(Names)));
 }
 
 /// The same of all that there is.
@@ -45,10 +47,14 @@ void addChoice(CLI::App &App, const std::string &Flag, Enum &Value,
 /// An option whose value is a number out of \p Choices; \p Value must outlive
 /// the parsing.
 inline void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
-                    std::vector<unsigned> Choices, const std::string &Help) {
+                    const std::vector<unsigned> &Choices,
+                    const std::string &Help) {
+  std::vector<std::string> Names;
+  for (const unsigned Choice : Choices)
+    Names.push_back(std::to_string(Choice));
   App.add_option(Flag, Value, fmt::format("{} (default {})", Help, Value))
-      ->option_text(fmt::format("{}", fmt::join(Choices, "|")))
-      ->check(CLI::IsMember(std::move(Choices)));
+      ->option_text(fmt::format("{}", fmt::join(Names, "|")))
+      ->check(isOneOf(std::move(Names)));
 }
 
 /// For options that are numbers of iterations.

@@ -1,6 +1,7 @@
 #include "commands/Compare.h"
 
 #include "commands/Commands.h"
+#include "vorion/support/CommandLine.h"
 
 #include <memory>
 
@@ -8,9 +9,13 @@ namespace vorion::splat {
 
 Runner addCompare(CLI::App &App) {
   auto A = std::make_shared<CompareArguments>();
-  App.add_option("a", A->Reference, "What to expect: .npz, .pfm or .json")
+  takesFile(
+      App.add_option("a", A->Reference, "What to expect: .npz, .pfm or .json"),
+      {".npz", ".pfm", ".json"})
       ->required();
-  App.add_option("b", A->Picture, "What there is: .npz, .pfm or .json")
+  takesFile(
+      App.add_option("b", A->Picture, "What there is: .npz, .pfm or .json"),
+      {".npz", ".pfm", ".json"})
       ->required();
   CLI::Option *Pairs = App.add_flag(
       "--pairs", A->Pairs,
@@ -28,7 +33,8 @@ Runner addCompare(CLI::App &App) {
   App.add_flag("--across", A->Across,
                "Times of different machines, or of different work, too")
       ->needs(Times);
-  App.add_option("--json", A->Json, "Write the figures")->excludes(Pairs);
+  takesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"})
+      ->excludes(Pairs);
   const auto AddOfPictures = [&](const char *Flag, auto &Value,
                                  const char *Help) {
     // Pairs that differ anywhere fail, whatever the bounds on pictures.
@@ -36,6 +42,7 @@ Runner addCompare(CLI::App &App) {
   };
   AddOfPictures("--mask", A->Mask,
                 "Doubtful pixels: .npz whose arrays mask* are not 0 there");
+  takesFile(App.get_option("--mask"), {".npz"});
   AddOfPictures("--min-db", A->MinDb,
                 "Exit with 1 if it is less outside doubtful pixels");
   AddOfPictures("--min-db-all", A->MinDbAll,

@@ -5,6 +5,7 @@
 #include "io/Image.h"
 #include "io/Metrics.h"
 #include "io/Npz.h"
+#include "io/ReportHead.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -135,8 +136,7 @@ Expected<Success> comparePictures(const CompareArguments &A) {
     print(Mask.empty() ? "alpha, all pixels" : "alpha, outside the mask",
           compare(First->Alpha, Second->Alpha, 1, Mask));
   if (!A.Json.empty()) {
-    nlohmann::ordered_json Report{
-        {"program", {{"name", "splat"}, {"version", VORION_VERSION}}}};
+    nlohmann::ordered_json Report = reportHead("splat-compare");
     for (const auto &[Name, File] :
          {std::pair("a", &A.Reference), std::pair("b", &A.Picture),
           std::pair("mask", &A.Mask)}) {

@@ -2,6 +2,7 @@
 #include "commands/OutputFile.h"
 
 #include "device/TimeFile.h"
+#include "io/ReportHead.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -15,11 +16,10 @@ namespace {
 
 Expected<Success> writeJson(const CompareArguments &A,
                             const std::vector<TimeChange> &Changes) {
-  nlohmann::ordered_json Report{
-      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-      {"a", A.Reference},
-      {"b", A.Picture},
-      {"figures", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json Report = reportHead("splat-compare-times");
+  Report.update({{"a", A.Reference},
+                 {"b", A.Picture},
+                 {"figures", nlohmann::ordered_json::array()}});
   const auto OrNull = [](const std::optional<double> &Value) {
     return Value ? nlohmann::ordered_json(*Value) : nullptr;
   };

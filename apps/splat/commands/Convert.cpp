@@ -2,6 +2,7 @@
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "scene/SceneWriter.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
@@ -54,10 +55,12 @@ Runner addConvert(CLI::App &App) {
   };
   auto A = std::make_shared<Arguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("-o,--output", A->Output,
-                 fmt::format("Scene to write, in the format of its ending: "
-                             "{} (.ply is INRIA's PLY, which keeps every bit)",
-                             fmt::join(writtenEndings(), ", ")))
+  takesFile(App.add_option(
+                "-o,--output", A->Output,
+                fmt::format("Scene to write, in the format of its ending: "
+                            "{} (.ply is INRIA's PLY, which keeps every bit)",
+                            fmt::join(writtenEndings(), ", "))),
+            {writtenEndings().begin(), writtenEndings().end()})
       ->required();
   return [A](const DeviceOptions &) -> Expected<Success> {
     if (auto Checked = checkEnding("-o", A->Output, writtenEndings()); !Checked)

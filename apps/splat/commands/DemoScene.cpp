@@ -3,6 +3,7 @@
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
 #include "scene/formats/Ply.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
@@ -48,8 +49,12 @@ Expected<Success> run(const DemoArguments &A) {
 
 Runner addDemoScene(CLI::App &App) {
   auto A = std::make_shared<DemoArguments>();
-  App.add_option("-o,--output", A->Output, "Scene to write (.ply)")->required();
-  App.add_option("--cameras", A->Cameras, "Write its views too (cameras.json)");
+  takesFile(App.add_option("-o,--output", A->Output, "Scene to write (.ply)"),
+            {".ply"})
+      ->required();
+  takesFile(App.add_option("--cameras", A->Cameras,
+                           "Write its views too (cameras.json)"),
+            {".json"});
   App.add_option(
          "--gaussians", A->Gaussians,
          fmt::format("About how many (default {})", demo::DefaultGaussians))

@@ -1,4 +1,5 @@
 #include "commands/DeviceArguments.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 
 #include <fmt/format.h>
@@ -12,8 +13,8 @@ void addDeviceOption(CLI::App &App, std::string &Name) {
 }
 
 void addKernelsOption(CLI::App &App, std::string &Folder) {
-  App.add_option("--kernels", Folder,
-                 "Read the kernel sources from this folder");
+  takesFolder(App.add_option("--kernels", Folder,
+                             "Read the kernel sources from this folder"));
 }
 
 Expected<Success> checkBlends(const Device &D, Path Blending) {

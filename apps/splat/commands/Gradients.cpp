@@ -9,6 +9,7 @@
 #include "render/FrameTime.h"
 #include "render/Gradients.h"
 #include "render/Report.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -97,9 +98,9 @@ Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
                               const Camera &C, const Device &D,
                               const GradientResult &R) {
   const RenderPlan Plan = planRender(File.Gaussians.ShDegree, A.Options);
-  const auto Report = jsonReport({A.Scene.Path, A.Scene.Axes, A.Cameras,
-                                  A.Output, File, C, A.Options, Plan, D, R,
-                                  BackwardRecord{A.Backward, A.Upstream}});
+  const auto Report = jsonReport(
+      {A.Scene.Path, A.Scene.Axes, A.Cameras, A.Output, File, C, A.Options,
+       Plan, D, R, BackwardRecord{A.Backward, A.Upstream, R.Gradients}});
   return Report ? writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n")
                 : Expected<Success>(Report.error());
 }
@@ -163,18 +164,26 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
 Runner addGradients(CLI::App &App) {
   auto A = std::make_shared<GradientArguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
+  takesFile(
+      App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
+      {".json"})
       ->required();
   App.add_option("--view", A->View, "img_name or id of the view")->required();
-  App.add_option("--upstream", A->Upstream,
-                 "The loss's gradients (.npz): in_v_render by the picture with "
-                 "its background, in_v_alpha by alpha")
+  takesFile(App.add_option(
+                "--upstream", A->Upstream,
+                "The loss's gradients (.npz): in_v_render by the picture with "
+                "its background, in_v_alpha by alpha"),
+            {".npz"})
       ->required();
-  App.add_option("-o,--output", A->Output,
-                 "Gradients and hand-over sums (.npz), named as in the "
-                 "reference results")
+  takesFile(
+      App.add_option("-o,--output", A->Output,
+                     "Gradients and hand-over sums (.npz), named as in the "
+                     "reference results"),
+      {".npz"})
       ->required();
-  App.add_option("--json", A->Json, "Write what was done, and how much of it");
+  takesFile(App.add_option("--json", A->Json,
+                           "Write what was done, and how much of it"),
+            {".json"});
   App.add_flag("--time", A->Time,
                "Say how long both passes take on the machine (docs/model.md)");
   addGradientOptions(App, A->Options, A->Backward);

@@ -57,6 +57,7 @@ Expected<Success> HeatMapFiles::write(const Camera &View,
              pictureOf(Prefix, H), scaleOf(*Tiles, H),
              H == Heat::Saturation ? " %" : "");
   }
+  Report["schema"]["name"] = "splat-heat-map";
   Report["heat_map"] = heatJson(*Tiles);
   return writeFileAtomically(reportOf(Prefix), jsonText(Report, 2) + "\n");
 }

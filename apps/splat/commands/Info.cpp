@@ -4,7 +4,9 @@
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "io/Hash.h"
+#include "io/ReportHead.h"
 #include "scene/Statistics.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -36,26 +38,26 @@ Json json(const Spread &S) {
 
 std::string jsonReport(const InfoArguments &A, const SceneFile &F,
                        const SceneStatistics &S, const std::string &Hash) {
-  const Json Report{
-      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-      {"scene", {{"file", A.Scene.Path}, {"fnv1a64", Hash}}},
-      {"format", name(F.Format)},
-      {"format_version", F.Version},
-      {"data_sets", F.Files},
-      {"gaussians", F.Gaussians.size()},
-      {"sh_degree", F.Gaussians.ShDegree},
-      {"dropped_nonfinite", F.Dropped},
-      {"antialiased", F.DrawnAs.Antialiased},
-      {"antialiased_by", F.DrawnAs.Source},
-      {"dilation", F.DrawnAs.Dilation ? Json(*F.DrawnAs.Dilation) : Json()},
-      {"documented_axes", recordOf(F.Format).Axes},
-      {"axes_changed", A.Scene.Axes},
-      {"bounds", {{"min", S.Low}, {"max", S.High}}},
-      {"inner_bounds", {{"min", S.InnerLow}, {"max", S.InnerHigh}}},
-      {"opacity", json(S.Opacity)},
-      {"transparent_share", S.Transparent},
-      {"largest_scale", json(S.LargestScale)},
-      {"axis_ratio", json(S.AxisRatio)}};
+  Json Report = reportHead("splat-info");
+  Report.update(
+      {{"scene", {{"file", A.Scene.Path}, {"fnv1a64", Hash}}},
+       {"format", name(F.Format)},
+       {"format_version", F.Version},
+       {"data_sets", F.Files},
+       {"gaussians", F.Gaussians.size()},
+       {"sh_degree", F.Gaussians.ShDegree},
+       {"dropped_nonfinite", F.Dropped},
+       {"antialiased", F.DrawnAs.Antialiased},
+       {"antialiased_by", F.DrawnAs.Source},
+       {"dilation", F.DrawnAs.Dilation ? Json(*F.DrawnAs.Dilation) : Json()},
+       {"documented_axes", recordOf(F.Format).Axes},
+       {"axes_changed", A.Scene.Axes},
+       {"bounds", {{"min", S.Low}, {"max", S.High}}},
+       {"inner_bounds", {{"min", S.InnerLow}, {"max", S.InnerHigh}}},
+       {"opacity", json(S.Opacity)},
+       {"transparent_share", S.Transparent},
+       {"largest_scale", json(S.LargestScale)},
+       {"axis_ratio", json(S.AxisRatio)}});
   return jsonText(Report, 2) + "\n";
 }
 
@@ -134,7 +136,9 @@ Expected<Success> run(const InfoArguments &A) {
 Runner addInfo(CLI::App &App) {
   auto A = std::make_shared<InfoArguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("--json", A->JsonFile, "Write the same for programs");
+  takesFile(
+      App.add_option("--json", A->JsonFile, "Write the same for programs"),
+      {".json"});
   addOutsideOption(App, A->AllowOutside);
   return [A](const DeviceOptions &) { return run(*A); };
 }

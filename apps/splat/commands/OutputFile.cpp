@@ -3,6 +3,7 @@
 #include "scene/SceneFile.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
+#include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <array>
@@ -49,6 +50,11 @@ std::string_view promised(const std::string &File) {
   return Longest;
 }
 
+/// What a user takes for the ending.
+std::string endingOf(const std::string &File) {
+  return lowered(std::filesystem::path(File).extension().string());
+}
+
 /// Standard output, a device or a pipe, whose name promises nothing.
 bool isStream(const std::string &File) {
   std::error_code Ignored;
@@ -77,7 +83,10 @@ Expected<Success> checkEnding(std::string_view Option, const std::string &File,
                                                     : ", ",
                           Endings[I]);
   return badName(Option, File,
-                 fmt::format("unknown kind of file, expected {}", Listed));
+                 fmt::format("unknown kind of file, expected {}{}", Listed,
+                             std::ranges::any_of(Endings, Ends)
+                                 ? ""
+                                 : didYouMean(endingOf(File), Endings)));
 }
 
 Expected<Success> checkJsonName(const std::string &File) {

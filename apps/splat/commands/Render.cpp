@@ -14,6 +14,7 @@
 #include "render/FrameTime.h"
 #include "render/Pictures.h"
 #include "render/Report.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
@@ -257,7 +258,9 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
 Runner addRender(CLI::App &App) {
   auto A = std::make_shared<RenderArguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json")
+  takesFile(
+      App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
+      {".json"})
       ->required();
   App.add_option("--view", A->Views,
                  "img_name or id of the view; several times, or \"all\", for "
@@ -267,17 +270,20 @@ Runner addRender(CLI::App &App) {
       ->allow_extra_args(false);
   App.add_flag("--overlap", A->Overlap,
                "Of several pictures, prepare one while another is blended");
-  App.add_option("-o,--output", A->Output,
-                 "Picture: .png, or .pfm or .npz for linear floats")
+  takesFile(App.add_option("-o,--output", A->Output,
+                           "Picture: .png, or .pfm or .npz for linear floats"),
+            {".png", ".pfm", ".npz"})
       ->required();
-  App.add_option("--json", A->Json, "Write what was done, and how much of it");
+  takesFile(App.add_option("--json", A->Json,
+                           "Write what was done, and how much of it"),
+            {".json"});
   addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
   App.add_flag("--explain{plan}", A->Explain,
                "Say of each effect whether it is on, and what decided; with "
                "=measure also what it costs, by rendering with and without")
       ->option_text("[=measure]")
-      ->check(CLI::IsMember({"plan", "measure"}));
+      ->check(isOneOf({"plan", "measure"}));
   App.add_flag("--time", A->Time,
                "Say how long the frame takes on the machine (docs/model.md)");
   App.add_option("--clock", A->ClockMhz,
@@ -293,13 +299,15 @@ Runner addRender(CLI::App &App) {
                  "PREFIX.list.png, .blends, .cycles and .saturation, and "
                  "PREFIX.json (docs/debugging.md)")
       ->option_text("PREFIX");
-  App.add_option(
-         "--depth", A->Depth,
-         "Write each pixel's sum of weights times depths, and its alpha "
-         "(.npz; .pfm: the first alone), by a second blend")
-      ->option_text("FILE");
-  App.add_option("--dump-pairs", A->Pairs,
-                 "Write the sorted tile, depth_bits and index arrays (.npz)");
+  takesFile(App.add_option(
+                "--depth", A->Depth,
+                "Write each pixel's sum of weights times depths, and its alpha "
+                "(.npz; .pfm: the first alone), by a second blend"),
+            {".npz", ".pfm"});
+  takesFile(App.add_option(
+                "--dump-pairs", A->Pairs,
+                "Write the sorted tile, depth_bits and index arrays (.npz)"),
+            {".npz"});
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {
     if (auto Parsed = parseDrawTexts(*A); !Parsed)

@@ -1,6 +1,7 @@
 #include "commands/SceneArguments.h"
 
 #include "scene/Axes.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
 
@@ -18,8 +19,8 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
   Titles.reserve(sceneFormats().size());
   for (const SceneFormatRecord &F : sceneFormats())
     Titles.push_back(F.Title);
-  App.add_option("scene", A.Path,
-                 fmt::format("Scene: {}", fmt::join(Titles, ", ")))
+  takesFile(App.add_option("scene", A.Path,
+                           fmt::format("Scene: {}", fmt::join(Titles, ", "))))
       ->required();
   App.add_option("--axes", A.Axes,
                  "Mirror the scene between conventions, as rub:rdf (default: "

@@ -199,11 +199,13 @@ Runner addTrain(CLI::App &App) {
   auto A = std::make_shared<TrainArguments>();
   TrainRequest &R = A->Request;
   TrainSettings &S = R.Run.Settings;
-  App.add_option("capture", R.Capture,
-                 "Photographs with poses: COLMAP, NeRF-synthetic, "
-                 "transforms.json")
+  takesFile(App.add_option("capture", R.Capture,
+                           "Photographs with poses: COLMAP, NeRF-synthetic, "
+                           "transforms.json"))
       ->required();
-  App.add_option("-o,--output", A->Output, "Scene: INRIA's PLY")->required();
+  takesFile(App.add_option("-o,--output", A->Output, "Scene: INRIA's PLY"),
+            {".ply"})
+      ->required();
   App.add_option("--iterations", S.Iterations,
                  fmt::format("Iterations in all (default {})", S.Iterations))
       ->check(isIterations());
@@ -233,17 +235,19 @@ Runner addTrain(CLI::App &App) {
                 "Who blends and goes back: the rasterizer or the cores");
   addSimtOptions(App, R.Blending.SimtTile, R.Blending.SimtGroup, SimtTilesBack);
   addBackwardOptions(App, R.Backward);
-  App.add_option("--checkpoint", R.Checkpoint,
-                 "Where the run is kept (default: the output's name and "
-                 ".checkpoint)");
+  takesFile(
+      App.add_option("--checkpoint", R.Checkpoint,
+                     "Where the run is kept (default: the output's name and "
+                     ".checkpoint)"));
   App.add_option("--checkpoint-every", R.CheckpointEvery,
                  "Iterations from one to the next (default 1000)")
       ->check(isIterations());
   App.add_flag("--resume", R.Resume,
                "Go on from the checkpoint, if there is one");
-  App.add_option("--from", R.From,
-                 "Begin with the scene, the moments and the iteration of "
-                 "another run's checkpoint");
+  takesFile(
+      App.add_option("--from", R.From,
+                     "Begin with the scene, the moments and the iteration of "
+                     "another run's checkpoint"));
   App.add_flag("--time", A->Time,
                "Say how long iterations take on the machine (docs/model.md)");
   App.add_flag("--breakdown", A->Breakdown,
@@ -255,8 +259,11 @@ Runner addTrain(CLI::App &App) {
   App.add_option("--score-every", R.ScoreEvery,
                  "Score the held-out views after every so many iterations, "
                  "for --json (default: at the end alone)");
-  App.add_option("--json", A->Json, "Write what was done, and its losses");
-  App.add_option("--curve", A->Curve, "Draw the losses (.svg)");
+  takesFile(
+      App.add_option("--json", A->Json, "Write what was done, and its losses"),
+      {".json"});
+  takesFile(App.add_option("--curve", A->Curve, "Draw the losses (.svg)"),
+            {".svg"});
   addDeviceOption(App, A->Device);
   return [A](const DeviceOptions &Machine) {
     if (A->Request.Checkpoint.empty())

@@ -1,9 +1,11 @@
 #include "effects/EffectPlan.h"
 
 #include "effects/Registry.h"
+#include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iterator>
 #include <utility>
 
@@ -104,18 +106,19 @@ Expected<EffectRequest> parseEffectRequest(const std::string &Text) {
     const std::string_view Name = Rest.substr(0, Comma);
     const Effect *E = effects::find(Name);
     if (!E || !byData(*E)) {
-      std::string Known;
+      std::vector<std::string> Known{"auto", "all", "flags"};
       for (const Effect *Other : effects::all())
         if (byData(*Other))
-          Known += fmt::format(", {}", Other->Name);
+          Known.emplace_back(Other->Name);
       return Error{
           "",
           E ? fmt::format("--effects {}: {} is decided by its own option "
-                          "(--explain names it), expected auto, all, flags{}",
-                          Text, Name, Known)
+                          "(--explain names it), expected {}",
+                          Text, Name, fmt::join(Known, ", "))
             : fmt::format("--effects {}: no effect is called \"{}\", expected "
-                          "auto, all, flags{}",
-                          Text, Name, Known),
+                          "{}{}",
+                          Text, Name, fmt::join(Known, ", "),
+                          didYouMean(Name, Known)),
           ExitCode::Usage};
     }
     R.List.push_back(E);

@@ -3,6 +3,7 @@
 #include "io/Unsupported.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -235,8 +236,11 @@ static Expected<Camera> cameraNamed(const std::string &Path,
     Known += (I ? ", " : "") + Cameras[I].Name;
   if (Cameras.size() > MostNamed)
     Known += fmt::format(" and {} more", Cameras.size() - MostNamed);
-  return Error{Path,
-               fmt::format("no view {}, expected one of {}", View, Known)};
+  std::vector<std::string> Names;
+  for (const Camera &C : Cameras)
+    Names.push_back(C.Name);
+  return Error{Path, fmt::format("no view {}, expected one of {}{}", View,
+                                 Known, didYouMean(View, Names))};
 }
 
 Expected<std::vector<Camera>>

@@ -2,6 +2,7 @@
 
 #include "io/Inside.h"
 #include "io/Npz.h"
+#include "io/ReportHead.h"
 #include "picture/View.h"
 #include "render/FrameTime.h"
 #include "render/Report.h"
@@ -96,7 +97,8 @@ writePictures(const PictureJob &J, const std::vector<Camera> &Cameras,
   }
   if (J.Json.empty())
     return Success{};
-  Json All{{"overlap", Overlap}, {"pictures", std::move(Reports)}};
+  Json All = reportHead("splat-render-views");
+  All.update({{"overlap", Overlap}, {"pictures", std::move(Reports)}});
   if (Json Time = sequenceJson(R); !Time.is_null())
     All["time"] = std::move(Time);
   return writeFileAtomically(J.Json, jsonText(All, 2) + "\n");

@@ -2,8 +2,10 @@
 
 #include "device/Configuration.h"
 #include "io/Hash.h"
+#include "io/ReportHead.h"
 #include "render/Explain.h"
 #include "render/FrameTime.h"
+#include "render/Gradients.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
 
@@ -80,6 +82,24 @@ Json stagesJson(const std::vector<StageReport> &Stages) {
   return All;
 }
 
+/// Of the bits that were computed, whatever file they were written to.
+static std::string resultHash(const RenderRecord &R) {
+  std::string All;
+  const auto Add = [&All](const std::vector<float> &Values) {
+    All.append(reinterpret_cast<const char *>(Values.data()),
+               Values.size() * sizeof(float));
+  };
+  Add(R.Result.Picture.Render);
+  Add(R.Result.Picture.Alpha);
+  if (R.Back) {
+    const SceneGradients &G = R.Back->Gradients;
+    for (const auto *Values : {&G.Means2d, &G.Conics, &G.Means, &G.Quats,
+                               &G.Scales, &G.Opacities, &G.Sh, &G.Sums})
+      Add(*Values);
+  }
+  return fnv1a64(All);
+}
+
 Expected<Json> drawnJson(const Camera &View, const RenderOptions &O,
                          const RenderPlan &Plan, const Device &Dev,
                          const RenderResult &Result) {
@@ -145,17 +165,19 @@ Expected<Json> jsonReport(const RenderRecord &R) {
   auto Drawn = drawnJson(R.View, R.Options, R.Plan, R.Dev, R.Result);
   if (!Drawn)
     return Drawn;
-  Json Report{{"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-              {"scene",
-               {{"file", R.ScenePath},
-                {"fnv1a64", *SceneHash},
-                {"gaussians", R.Input.Gaussians.size()},
-                {"dropped_nonfinite", R.Input.Dropped},
-                {"sh_degree", R.Input.Gaussians.ShDegree},
-                {"format", name(R.Input.Format)},
-                {"axes_changed", R.AxesChange}}},
-              {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
-              {"picture", R.Output}};
+  Json Report = reportHead(R.Back ? "splat-gradients" : "splat-render");
+  Report.update(
+      {{"scene",
+        {{"file", R.ScenePath},
+         {"fnv1a64", *SceneHash},
+         {"gaussians", R.Input.Gaussians.size()},
+         {"dropped_nonfinite", R.Input.Dropped},
+         {"sh_degree", R.Input.Gaussians.ShDegree},
+         {"format", name(R.Input.Format)},
+         {"axes_changed", R.AxesChange}}},
+       {"cameras", {{"file", R.CameraFile}, {"fnv1a64", *CameraHash}}},
+       {"picture", R.Output},
+       {"result_fnv1a64", resultHash(R)}});
   Report.update(*Drawn);
   if (R.Back) {
     auto Hash = hashFile(R.Back->Upstream);

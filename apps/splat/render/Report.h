@@ -11,10 +11,13 @@
 
 namespace vorion::splat {
 
+struct SceneGradients;
+
 /// What gradients were taken back with: the loss's by the pixels in a file.
 struct BackwardRecord {
   const BackwardOptions &Options;
   const std::string &Upstream;
+  const SceneGradients &Gradients;
 };
 
 /// Everything that made a picture, and gradients where there are some.

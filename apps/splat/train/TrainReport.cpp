@@ -1,4 +1,5 @@
 #include "train/TrainReport.h"
+#include "io/ReportHead.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,29 +14,30 @@ Json trainReport(const TrainRequest &R, const TrainOutcome &Out) {
   for (const auto &[Iteration, Db] : Out.Scores)
     Scores.push_back({{"iteration", Iteration}, {"psnr8_db", Db}});
   const auto &B = Out.Without;
-  return {
-      {"program", {{"name", "splat"}, {"version", VORION_VERSION}}},
-      {"device", {{"name", Out.DeviceName}, {"version", Out.DeviceVersion}}},
-      {"capture", R.Capture},
-      {"resolution", {Out.Width, Out.Height}},
-      {"run", Out.Record},
-      {"picture_filter", PhotoFilter},
-      {"held_out_by", Out.HeldOutBy},
-      {"rules", name(R.Convention)},
-      {"support", name(Support::Exact)},
-      {"iterations", Out.Iterations},
-      {"gaussians", Out.Result.size()},
-      {"seconds", Out.Seconds},
-      {"iterations_timed", Out.Iterations - Out.First},
-      {"timed", Out.Timed.json()},
-      {"psnr8_db", Out.HeldOut.empty() ? Json() : Json(Out.meanDb())},
-      {"scores", Scores},
-      {"views", Views},
-      {"baselines_db", B ? Json{{"constant", B->Constant},
-                                {"mean_picture", B->Mean},
-                                {"best_training_view", B->BestView}}
-                         : Json()},
-      {"losses", Out.Losses}};
+  Json Report = reportHead("splat-train");
+  Report.update(
+      {{"device", {{"name", Out.DeviceName}, {"version", Out.DeviceVersion}}},
+       {"capture", R.Capture},
+       {"resolution", {Out.Width, Out.Height}},
+       {"run", Out.Record},
+       {"picture_filter", PhotoFilter},
+       {"held_out_by", Out.HeldOutBy},
+       {"rules", name(R.Convention)},
+       {"support", name(Support::Exact)},
+       {"iterations", Out.Iterations},
+       {"gaussians", Out.Result.size()},
+       {"seconds", Out.Seconds},
+       {"iterations_timed", Out.Iterations - Out.First},
+       {"timed", Out.Timed.json()},
+       {"psnr8_db", Out.HeldOut.empty() ? Json() : Json(Out.meanDb())},
+       {"scores", Scores},
+       {"views", Views},
+       {"baselines_db", B ? Json{{"constant", B->Constant},
+                                 {"mean_picture", B->Mean},
+                                 {"best_training_view", B->BestView}}
+                          : Json()},
+       {"losses", Out.Losses}});
+  return Report;
 }
 
 } // namespace vorion::splat

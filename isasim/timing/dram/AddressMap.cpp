@@ -1,5 +1,7 @@
 #include "timing/dram/AddressMap.h"
 
+#include "vorion/support/Suggest.h"
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -44,8 +46,9 @@ Expected<AddressMap> addressMap(std::string_view Name, const TimingTable &Table,
                                 uint32_t Channels, uint32_t Interleave) {
   if (std::ranges::find(Names, Name) == Names.end())
     return Error{"",
-                 fmt::format("\"{}\" is no address map, expected one of {}",
-                             Name, fmt::join(Names, ", ")),
+                 fmt::format("\"{}\" is no address map, expected one of {}{}",
+                             Name, fmt::join(Names, ", "),
+                             didYouMean(Name, Names)),
                  ExitCode::Usage};
   if (!std::has_single_bit(Channels) || Channels > 64)
     return Error{

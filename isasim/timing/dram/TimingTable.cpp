@@ -37,8 +37,9 @@ Expected<Kind> parseName(std::string_view Text,
                          const std::string &Key) {
   const auto Found = std::ranges::find(Names, Text);
   if (Found == Names.end())
-    return Error{"", fmt::format("key {} is \"{}\", expected one of {}", Key,
-                                 Text, fmt::join(Names, ", "))};
+    return Error{"", fmt::format("key {} is \"{}\", expected one of {}{}", Key,
+                                 Text, fmt::join(Names, ", "),
+                                 didYouMean(Text, Names))};
   return static_cast<Kind>(Found - Names.begin());
 }
 
@@ -427,13 +428,10 @@ Expected<TimingTable> standardTable(std::string_view Name) {
   if (Text.empty()) {
     const std::vector<std::string> Known(standards().begin(),
                                          standards().end());
-    const std::string_view Near = closestTo(Name, Known);
     return Error{"",
                  fmt::format("\"{}\" is no DRAM standard, expected one of {}{}",
                              Name, fmt::join(Known, ", "),
-                             Near.empty()
-                                 ? ""
-                                 : fmt::format("; did you mean {}?", Near)),
+                             didYouMean(Name, Known)),
                  ExitCode::Usage};
   }
   return parseTimingTable(Text, std::string(Name));

@@ -13,6 +13,7 @@
 #include "vorion/support/Outputs.h"
 #include "vorion/support/TemporaryFolder.h"
 #include "vorion/support/Tool.h"
+#include "vorion/support/Version.h"
 
 #include <algorithm>
 #include <array>
@@ -280,6 +281,10 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
 int run(int Argc, char **Argv) {
   if (Argc == 2 && !std::strcmp(Argv[1], "--help")) {
     printOut("{}{}\n", Usage, ExitCodeHelp);
+    return 0;
+  }
+  if (Argc == 2 && !std::strcmp(Argv[1], "--version")) {
+    printOut("{}\n", versionLine("vorion-cl-link"));
     return 0;
   }
   // A file that may not grow is an error of the write, here and in what runs

@@ -21,4 +21,21 @@ std::optional<int> parseCommandLine(CLI::App &App,
 Expected<Success> parseOptions(CLI::App &App,
                                std::vector<std::string> Arguments);
 
+/// A check that takes one of \p Names; of another value it says which was
+/// probably meant.
+CLI::Validator isOneOf(std::vector<std::string> Names);
+
+/// Says that the value of \p O names a file, with one of \p Endings if there
+/// are some, or a folder: for --help and for shells that complete names.
+CLI::Option *takesFile(CLI::Option *O, std::vector<std::string> Endings = {});
+CLI::Option *takesFolder(CLI::Option *O);
+
+/// What was said of an option's value by the above.
+struct OptionValue {
+  enum class Type { Any, OneOf, File, Folder };
+  Type What = Type::Any;
+  std::vector<std::string> Words; ///< names, or endings of files
+};
+OptionValue valueOf(CLI::Option &O);
+
 } // namespace vorion

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vorion {
 
@@ -12,5 +13,16 @@ namespace vorion {
 /// several, the first.
 std::string_view closestTo(std::string_view Word,
                            std::span<const std::string> Known);
+
+/// How a message that has named what was expected ends: "; did you mean
+/// front?", or empty if none of \p Known, any range of texts, is near.
+template <typename Range>
+std::string didYouMean(std::string_view Word, const Range &Known) {
+  std::vector<std::string> Names;
+  for (const auto &Name : Known)
+    Names.emplace_back(Name);
+  const std::string_view Meant = closestTo(Word, Names);
+  return Meant.empty() ? "" : "; did you mean " + std::string(Meant) + "?";
+}
 
 } // namespace vorion

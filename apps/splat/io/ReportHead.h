@@ -1,0 +1,24 @@
+/// How every report of splat begins: its schema (docs/schemas), and what made
+/// it, so that `splat replay` can make it again.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vorion::splat {
+
+/// The command line of this process without the program's name, said once by
+/// its main function.
+void setCommandLine(std::vector<std::string> Arguments);
+
+/// "schema" with \p Name and \p Version, and "program" with its versions, its
+/// command line, and the folder and variables that give it a meaning.
+/// docs/schemas/README.md says when a version changes.
+nlohmann::ordered_json reportHead(std::string_view Name, unsigned Version = 1);
+
+/// Whether the environment's variable \p Name can change a result.
+bool isRecordedVariable(std::string_view Name);
+
+} // namespace vorion::splat
