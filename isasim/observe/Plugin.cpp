@@ -45,6 +45,7 @@ public:
       : Made(std::move(MadeIn)) {}
   std::vector<Observer *> observers() override {
     std::vector<Observer *> All;
+    All.reserve(Made.size());
     for (const auto &O : Made)
       All.push_back(O.get());
     return All;

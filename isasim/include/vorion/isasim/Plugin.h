@@ -33,5 +33,6 @@ struct Plugin {
 
 } // namespace vorion::isasim
 
-/// What a plugin defines.
+/// What a plugin defines, under a name of C.
+// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" const vorion::isasim::Plugin vorion_plugin;
