@@ -40,8 +40,8 @@ bool isPage(const std::string &Path) {
                              [&](const PageFile &F) { return F.Path == Path; });
 }
 
-void answerJson(httplib::Response &To, std::string Text) {
-  To.set_content(std::move(Text), "application/json");
+void answerJson(httplib::Response &To, const std::string &Text) {
+  To.set_content(Text, "application/json");
 }
 
 void refuse(httplib::Response &To, int Status, const std::string &Why) {
@@ -122,7 +122,7 @@ void Server::Parts::setUp() {
                                 httplib::Response &To,
                                 std::exception_ptr Thrown) {
     try {
-      std::rethrow_exception(Thrown);
+      std::rethrow_exception(std::move(Thrown));
     } catch (const std::bad_alloc &) {
       refuse(To, 500, "memory ran out");
     } catch (const std::exception &E) {
@@ -200,6 +200,7 @@ std::string Server::address() const {
 void Server::serve() {
   std::atomic<bool> Ended = false;
   const Interrupt OnSignal([&] {
+    All->Shown.giveUp();
     // Until it has begun, the library does not hear it.
     while (!Ended) {
       All->Http.stop();

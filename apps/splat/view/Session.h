@@ -54,6 +54,9 @@ public:
   /// reference, gives way to a call that comes later, which is an error.
   Expected<ViewAnswer> frame(const ViewRequest &R);
 
+  /// Ends what takes long, as a later call would.
+  void giveUp() { ++Newest; }
+
   /// What a pixel is made of, as JSON.
   std::string pixel(const ViewRequest &R);
 
