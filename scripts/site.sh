@@ -5,5 +5,5 @@ source "$(dirname "$0")/lib.sh"
 
 command -v mkdocs >/dev/null || fail "no mkdocs, expected the packages of scripts/packages.txt"
 mkdir -p "$Build"
-"$Root/docs/site/build.py" "$Build/site"
+"$Root/docs/site/build.py" "$Build/site" "$Build/bin"
 printf 'open %s in a browser\n' "${Build#"$PWD"/}/site/index.html"

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Builds the documents as a site that needs no server and no network.
 
-usage: build.py SITE    (scripts/site.sh calls it)
-SITE is made anew; beside it SITE-pages holds what the site is made of.
+usage: build.py SITE [TOOLS]    (scripts/site.sh calls it)
+SITE is made anew; beside it SITE-pages holds what the site is made of. TOOLS is the folder of the tools, which give the
+pages of their options; without it these pages are missing.
 Exit codes: 0 done, 1 a page has an error, 2 usage.
 """
 
@@ -10,6 +11,8 @@ import os
 import shutil
 import subprocess
 import sys
+
+import reference
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -34,11 +37,12 @@ def stage(root, pages):
 
 
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3):
         print(__doc__, file=sys.stderr)
         return 2
     site = os.path.abspath(sys.argv[1])
     stage(ROOT, site + "-pages")
+    reference.write(ROOT, sys.argv[2] if len(sys.argv) == 3 else "", site + "-pages")
     told = dict(os.environ, VORION_SITE=site, VORION_SITE_PAGES=site + "-pages")
     config = os.path.join(ROOT, "docs", "site", "mkdocs.yml")
     done = subprocess.run(["mkdocs", "build", "--strict", "-f", config], env=told, stdout=subprocess.PIPE,

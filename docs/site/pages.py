@@ -60,7 +60,13 @@ def named(nav):
 
 
 def on_config(config):
-    """Adds to the navigation the pages that it lacks: the READMEs of folders, and what nobody gave a place."""
+    """Adds to the navigation the pages that it lacks: what reference.py made, the READMEs of folders, and what nobody
+    gave a place."""
+    made = sorted(os.path.relpath(p, config["docs_dir"]) for p in
+                  glob.glob(os.path.join(config["docs_dir"], "docs", "reference", "*.md")))
+    for part in config["nav"]:
+        if isinstance(part, dict):
+            part.get("Reference", []).extend(made)
     lacking = sorted({os.path.relpath(p, config["docs_dir"]) for p in
                       glob.glob(os.path.join(config["docs_dir"], "**", "*.md"), recursive=True)} - named(config["nav"]))
     readmes = [p for p in lacking if os.path.basename(p) == "README.md"]

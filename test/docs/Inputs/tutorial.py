@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Does what a page says, as somebody who reads it in a shell that is new and stands in the repository.
 
-usage: tutorial.py [--all] [--put NAME=FILE]... PAGE FOLDER
+usage: tutorial.py [--all] [--tables] [--without START]... [--put NAME=FILE]... PAGE FOLDER
 FOLDER is made anew. It shows the repository and its build, and has a build/ of its own for what the page writes.
 A fenced text of the page is
 
@@ -9,6 +9,9 @@ A fenced text of the page is
     text        what the commands before it print. A line "..." stands for any lines, "..." in a line for any text
     c, python   part of the file whose name stands in the lines before it
 
+With --tables the commands in tables run, too: the last cell of a row, if it is one text of code that begins with the name
+of a tool, and has no word in capitals, for which the reader puts something else. --without leaves
+out those that begin so, for example because they do not end by themselves.
 --put gives a page a file that it expects and that takes long to make.
 Exit codes: 0 all as the page says, 1 not, 2 usage.
 """
@@ -22,6 +25,8 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 TEXT = re.compile(r"^( *)```(\w+)( minutes)?\n(.*?)^ *```$", re.M | re.S)
+ROW = re.compile(r"^\|.*\| `((?:splat|vorion-\w+) [^`]*)` \|$", re.M)
+PLACEHOLDER = re.compile(r"(?<![$\w])[A-Z]{3,}\b")
 
 
 def fail(text):
@@ -55,10 +60,19 @@ class Step:
         self.commands, self.line, self.printed = commands, line, None
 
 
-def steps_of(page, text, every):
+def in_tables(text, without):
+    """The commands in the tables of a part of a page."""
+    return [Step(row[1] + "\n", None) for row in ROW.finditer(text)
+            if not PLACEHOLDER.search(row[1]) and not row[1].startswith(without)]
+
+
+def steps_of(page, text, every, tables, without):
     """The commands of a page with what they print; says which part of a file is not as the page shows it."""
-    steps, skipped = [], False
+    steps, skipped, end = [], False, 0
     for found in TEXT.finditer(text):
+        if tables:
+            steps += in_tables(text[end:found.start()], without)
+        end = found.end()
         indent, language, minutes, body = found.groups()
         body = re.sub(f"^{indent}", "", body, flags=re.M)
         line = text.count("\n", 0, found.start()) + 1
@@ -78,18 +92,21 @@ def steps_of(page, text, every):
             with open(files[-1], encoding="utf-8") as f:
                 if body not in f.read():
                     fail(f"{page}:{line}: {os.path.relpath(files[-1], ROOT)} does not have this text")
-    return steps
+    return steps + (in_tables(text[end:], without) if tables else [])
 
 
 def run(page, steps, folder):
     # As a new shell has it: no variable of ours is set.
-    kept = {name: os.environ[name] for name in ("HOME", "LANG", "TMPDIR", "POCL_CACHE_DIR") if name in os.environ}
+    kept = {name: os.environ[name] for name in ("LANG", "TMPDIR", "POCL_CACHE_DIR") if name in os.environ}
     script = "set -e\n" + "".join(f"printf '\\036'\n{step.commands}" for step in steps)
-    done = subprocess.run(["bash", "-c", script], cwd=folder, env=dict(kept, PATH="/usr/local/bin:/usr/bin:/bin:/sbin"),
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    told = dict(kept, HOME=os.path.expanduser("~"), PATH="/usr/local/bin:/usr/bin:/bin:/sbin")
+    done = subprocess.run(["bash", "-c", script], cwd=folder, env=told, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     outputs = done.stdout.decode("utf-8", "replace").split("\036")[1:]
     if done.returncode:
-        fail(f"{page}:{steps[len(outputs) - 1].line}: a command ended with {done.returncode}:\n{outputs[-1][-4000:]}")
+        failed = steps[len(outputs) - 1]
+        fail(f"{page}:{failed.line or 'table'}: a command ended with {done.returncode}:\n{failed.commands}"
+             f"{outputs[-1][-4000:]}")
     for step, output in zip(steps, outputs):
         output = re.sub(r"[ \r]+$", "", output, flags=re.M)
         if step.printed is not None and not re.fullmatch(printed_pattern(step.printed), output):
@@ -99,13 +116,15 @@ def run(page, steps, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--tables", action="store_true")
+    parser.add_argument("--without", action="append", default=[])
     parser.add_argument("--build", default=os.path.join(ROOT, "build", "dev"))
     parser.add_argument("--put", action="append", default=[], type=lambda v: v.split("=", 1))
     parser.add_argument("page")
     parser.add_argument("folder")
     options = parser.parse_args()
     with open(os.path.join(ROOT, options.page), encoding="utf-8") as f:
-        steps = steps_of(options.page, f.read(), options.all)
+        steps = steps_of(options.page, f.read(), options.all, options.tables, tuple(options.without))
     if not steps:
         fail(f"{options.page} has no command")
     show_repository(options.folder, options.build, options.put)
