@@ -1,6 +1,7 @@
 // splat: renders 3D Gaussian scenes on an OpenCL device.
 
 #include "commands/Commands.h"
+#include "commands/Replay.h"
 #include "device/Programs.h"
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
@@ -63,6 +64,8 @@ int run(std::vector<std::string> Arguments) {
   Add("train", "Makes a scene from photographs with poses", splat::addTrain);
   Add("compare", "Compares two pictures, two lists of pairs or two times",
       splat::addCompare);
+  Add("replay", "Runs again what made a report, and compares the bits",
+      splat::addReplay);
 
   if (const auto Ended = parseCommandLine(App, std::move(Arguments)))
     return *Ended;
