@@ -1,12 +1,16 @@
-// Niantic's `.spz`, versions 2 and 3.
+// Niantic's `.spz`, versions 2 to 4.
 // https://github.com/nianticlabs/spz
 //
-// A gzip stream (or what is in one) of a 16-byte header and one array
-// for each parameter: positions of 24-bit fixed point, opacities, colours,
-// log scales in sixteenths, rotations (version 2: 8 bits for each of x, y, z;
-// version 3: the three smallest components, 10 bits each), harmonics of 8
-// bits. Refused: versions 1 and 4, degree 4, extensions.
+// A 16-byte header and one array for each parameter: positions of 24-bit fixed
+// point, opacities, colours, log scales in sixteenths, rotations (version 2: 8
+// bits for each of x, y, z; from version 3 on: the three smallest components,
+// 10 bits each), harmonics of 8 bits. Versions 2 and 3 are one gzip stream (or
+// what is in one). Version 4 is 16 bytes more of header, which say where a
+// table of the arrays is, and a zstd frame for each of them; what lies between
+// header and table are extensions, which are skipped. Refused: version 1,
+// degree 4, extensions of versions 2 and 3.
 #include "io/Gzip.h"
+#include "io/Zstd.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
 
@@ -14,6 +18,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace vorion::splat {
@@ -21,7 +26,8 @@ namespace {
 
 constexpr uint32_t Magic = 0x5053474e; // "NGSP"
 constexpr std::size_t HeaderSize = 16;
-constexpr unsigned AntialiasedFlag = 1;
+constexpr std::size_t HeaderSize4 = 32; // of version 4
+constexpr unsigned AntialiasedFlag = 1, ExtensionsFlag = 2;
 /// Steps of a colour byte for each unit of the constant coefficient: wider
 /// than a colour from 0 to 1 needs, as the other coefficients may bring it
 /// back into range.
@@ -38,9 +44,14 @@ struct Header {
   std::size_t laterHarmonics() const {
     return 3 * (shCoefficients(ShDegree) - 1);
   }
+  /// Bytes of a Gaussian in each of the arrays.
+  std::array<std::size_t, 6> sizes() const {
+    return {9, 1, 3, 3, rotationSize(), laterHarmonics()};
+  }
   /// Bytes of a Gaussian.
   std::size_t each() const {
-    return 9 + 1 + 3 + 3 + rotationSize() + laterHarmonics();
+    const auto Sizes = sizes();
+    return std::accumulate(Sizes.begin(), Sizes.end(), std::size_t(0));
   }
   /// Of all Gaussians; a count of 32 bits times that fits.
   std::size_t bodySize() const { return Count * each(); }
@@ -52,9 +63,9 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
     return Error{Where, "not an SPZ file, expected `NGSP` and a header of 16 "
                         "bytes"};
   const auto Version = load<uint32_t>(File, 4);
-  if (Version != 2 && Version != 3)
+  if (Version < 2 || Version > 4)
     return Error{Where,
-                 fmt::format("SPZ version {}, expected 2 or 3", Version)};
+                 fmt::format("SPZ version {}, expected 2 to 4", Version)};
   Header H;
   H.Version = static_cast<int>(Version);
   H.Count = load<uint32_t>(File, 8);
@@ -69,11 +80,13 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
     return Error{Where, fmt::format("{} fractional bits of 24-bit positions, "
                                     "expected 0 to 24",
                                     H.FractionalBits)};
-  // Flag 2 announces extensions, whose place depends on the writer.
-  if ((Flags & ~AntialiasedFlag) != 0 || byteAt(File, 15) != 0)
+  // Where versions 2 and 3 have their extensions depends on the writer. Version
+  // 4 has the number of its arrays where they have a reserved byte.
+  const unsigned Known = AntialiasedFlag | (Version == 4 ? ExtensionsFlag : 0);
+  if ((Flags & ~Known) != 0 || (Version < 4 && byteAt(File, 15) != 0))
     return Error{Where, fmt::format("flags {:#04x} and reserved byte {:#04x}, "
-                                    "expected no more than flag 0x01",
-                                    Flags, byteAt(File, 15))};
+                                    "expected no more than flag {:#04x}",
+                                    Flags, byteAt(File, 15), Known)};
   return H;
 }
 
@@ -164,6 +177,8 @@ Expected<SceneFile> unpackAndDecode(const std::string &Where, Bytes File) {
   const auto H = readHeader(Where, *Start);
   if (!H)
     return H.error();
+  if (H->Version == 4)
+    return Error{Where, "SPZ version 4 in a gzip stream, expected 2 or 3"};
   const auto Body = Stream->read(H->bodySize());
   if (!Body)
     return Body.error();
@@ -172,6 +187,45 @@ Expected<SceneFile> unpackAndDecode(const std::string &Where, Bytes File) {
   if (auto Whole = Stream->finish(); !Whole)
     return Whole.error();
   return decode(*H, *Body);
+}
+
+/// Version 4: the arrays, unpacked, one behind the other.
+Expected<SceneFile> unpackArrays(const std::string &Where, const Header &H,
+                                 Bytes File) {
+  const std::size_t Arrays = H.ShDegree == 0 ? 5 : 6, Entry = 16;
+  if (File.size() < HeaderSize4 || byteAt(File, 15) != Arrays)
+    return Error{Where, fmt::format("a header of {} arrays, expected {} and "
+                                    "32 bytes of header",
+                                    byteAt(File, 15), Arrays)};
+  const std::size_t Table = load<uint32_t>(File, 16);
+  if (Table < HeaderSize4 || Table + Arrays * Entry > File.size())
+    return Error{Where, fmt::format("a table of {} arrays at byte {}, expected "
+                                    "it behind the header and in the file",
+                                    Arrays, Table)};
+  std::vector<std::byte> Body;
+  std::size_t At = Table + Arrays * Entry;
+  for (std::size_t I = 0; I < Arrays; ++I) {
+    const auto Packed = load<uint64_t>(File, Table + I * Entry),
+               Size = load<uint64_t>(File, Table + I * Entry + 8);
+    const std::size_t Needed = H.Count * H.sizes()[I];
+    if (Packed > File.size() - At || Size != Needed)
+      return Error{Where, fmt::format("array {} has {} bytes, packed {}, "
+                                      "expected {} and the file to hold them",
+                                      I, Size, Packed, Needed)};
+    const auto Array = unpackZstd(Where, File.subspan(At, Packed), Needed);
+    if (!Array)
+      return Array.error();
+    Body.insert(Body.end(), Array->begin(), Array->end());
+    At += Packed;
+  }
+  if (At != File.size())
+    return Error{Where, fmt::format("{} bytes after the last array, expected "
+                                    "the file's end",
+                                    File.size() - At)};
+  SceneFile Result = decode(H, Body);
+  if (Table > HeaderSize4)
+    Result.Skipped.push_back("extensions");
+  return Result;
 }
 
 } // namespace
@@ -187,6 +241,8 @@ Expected<SceneFile> parseSpz(const std::string &Where, Bytes File,
   const auto H = readHeader(Where, File);
   if (!H)
     return H.error();
+  if (H->Version == 4)
+    return unpackArrays(Where, *H, File);
   const Bytes Body = File.subspan(HeaderSize);
   if (Body.size() != H->bodySize())
     return wrongSize(Where, *H, Body.size());

@@ -1,3 +1,4 @@
+#include "io/Zstd.h"
 #include "scene/SceneFile.h"
 #include "scene/testing/Compare.h"
 #include "scene/testing/SceneWriters.h"
@@ -48,6 +49,49 @@ TEST(Spz, IsReadAsWellWithoutCompression) {
   const Scene S = randomScene(3, 1, 7);
   const std::string Body = spzBodyOf(S, 3);
   EXPECT_EQ(parsed(Body).Gaussians.Quats, parsed(gzipOf(Body)).Gaussians.Quats);
+}
+
+TEST(Spz, Version4HasTheSameArrays) {
+  for (int Degree = 0; Degree <= MaxShDegree; ++Degree) {
+    const Scene S = randomScene(300, Degree, 8);
+    const SceneFile Read = parsed(spz4Of(S));
+    EXPECT_EQ(Read.Version, 4);
+    EXPECT_TRUE(Read.Skipped.empty());
+    const auto D =
+        differencesOf(Read.Gaussians, parsed(spzBodyOf(S, 3)).Gaussians);
+    EXPECT_EQ(D.Position + D.LogScale + D.Rotation + D.Opacity + D.Color +
+                  D.Harmonics,
+              0);
+  }
+}
+
+TEST(Spz, ExtensionsOfVersion4AreNamedAndSkipped) {
+  const SceneFile Read = parsed(spz4Of(randomScene(3, 1, 7), "a record"));
+  EXPECT_EQ(Read.Skipped, std::vector<std::string>{"extensions"});
+  EXPECT_EQ(Read.Gaussians.size(), 3U);
+}
+
+TEST(Spz, EveryTruncationOfVersion4IsAnError) {
+  const std::string File = spz4Of(randomScene(3, 1, 7));
+  for (std::size_t Size = 0; Size < File.size(); ++Size)
+    EXPECT_FALSE(parseScene("s", std::as_bytes(std::span(File.data(), Size))))
+        << Size;
+}
+
+TEST(Spz, AFrameThatGoesOnBeyondItsArrayIsAnError) {
+  std::string File = spz4Of(randomScene(1, 0, 1));
+  // Nine bytes of positions are claimed; 16 MiB are packed.
+  const std::string Bomb = zstdOf(std::string(std::size_t(16) << 20, 'x'));
+  const std::size_t Frame = 32 + 5 * 16;
+  const auto Packed = load<uint64_t>(std::as_bytes(std::span(File)), 32);
+  File.replace(Frame, Packed, Bomb);
+  const uint64_t Size = Bomb.size();
+  File.replace(32, 8, reinterpret_cast<const char *>(&Size), 8);
+  const auto Read = parseScene("s", std::as_bytes(std::span(File)));
+  ASSERT_FALSE(Read);
+  EXPECT_NE(Read.error().What.find("goes on after 10 bytes, expected 9"),
+            std::string::npos)
+      << Read.error().What;
 }
 
 TEST(Spz, AStreamThatGoesOnBeyondTheHeadersCountIsAnError) {

@@ -129,7 +129,23 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
   Add("magic.spz", patched(Body, 0, uint8_t('X')), "not an SPZ file");
   Add("version1.spz", patched(Body, 4, uint32_t(1)), "SPZ version 1");
   Add("version4.spz", patched(Body, 4, uint32_t(4)),
-      "SPZ version 4, expected 2 or 3");
+      "SPZ version 4 in a gzip stream, expected 2 or 3");
+  Add("version5.spz", patched(Body, 4, uint32_t(5)),
+      "SPZ version 5, expected 2 to 4");
+  const std::string Four = spz4Of(sample(1));
+  Out.push_back({"arrays.v4.spz", patched(Four, 15, uint8_t(5)),
+                 "a header of 5 arrays, expected 6"});
+  Out.push_back({"table.v4.spz", patched(Four, 16, uint32_t(8)),
+                 "a table of 6 arrays at byte 8, expected it behind"});
+  Out.push_back({"packed.v4.spz", patched(Four, 32, uint64_t(1) << 60),
+                 "array 0 has 45 bytes, packed 1152921504606846976"});
+  Out.push_back({"size.v4.spz", patched(Four, 40, uint64_t(1) << 60),
+                 "array 0 has 1152921504606846976 bytes"});
+  Out.push_back({"frame.v4.spz", patched(Four, 32 + 6 * 16, uint32_t(7)),
+                 "damaged zstd frame"});
+  Out.push_back({"longer.v4.spz", Four + "x", "1 bytes after the last array"});
+  Out.push_back(
+      {"count.v4.spz", patched(Four, 8, uint32_t(-1)), "array 0 has 45 bytes"});
   Add("huge-count.spz", patched(Body, 8, uint32_t(-1)),
       "expected 4294967295 Gaussians");
   Add("degree.spz", patched(Body, 12, uint8_t(4)), "SH degree 4");
@@ -259,6 +275,7 @@ std::vector<SampleFile> sampleFiles() {
           {"degree0.v2.spz", gzipOf(spzBodyOf(sample(0), 2))},
           {"degree1.v3.spz", gzipOf(spzBodyOf(sample(1), 3))},
           {"unpacked.v3.spz", spzBodyOf(sample(1), 3)},
+          {"degree1.v4.spz", spz4Of(sample(1))},
           {"degree0.sog", zipOf(sogOf(sample(0)))},
           {"degree1.sog", zipOf(sogOf(sample(1)))}};
 }

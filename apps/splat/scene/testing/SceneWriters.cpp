@@ -1,6 +1,7 @@
 #include "scene/testing/SceneWriters.h"
 
 #include "io/Zip.h"
+#include "io/Zstd.h"
 #include "scene/formats/Quantize.h"
 
 #include <algorithm>
@@ -52,6 +53,31 @@ Scene randomScene(std::size_t Count, int ShDegree, unsigned Seed) {
   for (float &V : S.Sh)
     V = Next(-0.9, 0.9);
   return S;
+}
+
+std::string spz4Of(const Scene &S, const std::string &Extensions) {
+  const std::string Body = spzBodyOf(S, 3);
+  std::string Header = Body.substr(0, 16);
+  Header[4] = 4;
+  if (!Extensions.empty())
+    Header[14] = 2;
+  Header[15] = S.ShDegree == 0 ? 5 : 6;
+  put(Header, static_cast<uint32_t>(32 + Extensions.size()));
+  Header.resize(32);
+  std::string Table, Frames;
+  std::size_t At = 16;
+  for (const std::size_t Each :
+       {std::size_t(9), std::size_t(1), std::size_t(3), std::size_t(3),
+        std::size_t(4), 3 * (S.coefficients() - 1)}) {
+    if (Each == 0)
+      continue;
+    const std::string Frame = zstdOf(Body.substr(At, Each * S.size()));
+    put(Table, uint64_t(Frame.size()));
+    put(Table, uint64_t(Each * S.size()));
+    Frames += Frame;
+    At += Each * S.size();
+  }
+  return Header + Extensions + Table + Frames;
 }
 
 std::string webpOf(int Width, int Height, const std::string &Rgba) {

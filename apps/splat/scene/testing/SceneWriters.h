@@ -22,6 +22,8 @@ Scene numberedScene(std::size_t Count, int ShDegree);
 /// Files by name: a folder, or what goes into a zip archive.
 using Folder = std::map<std::string, std::string>;
 
+/// An `.spz` of version 4, with \p Extensions between header and table.
+std::string spz4Of(const Scene &S, const std::string &Extensions = "");
 /// The codebooks are 256 even steps over what the scene has; the palette has
 /// an entry for each Gaussian.
 Folder sogOf(const Scene &S);
