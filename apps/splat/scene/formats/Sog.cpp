@@ -37,15 +37,18 @@ public:
   Expected<SceneFile> read() {
     if (!Root.is_object())
       return metaError("not a JSON object, expected SOG's description");
+    // Files of version 1 do not say so.
     const auto Version = Root.find("version");
-    if (Version == Root.end())
-      return metaError("no version, expected 2 (version 1 is not read)");
-    if (*Version != 2)
-      return metaError("another version, expected 2");
-    const auto Claimed = Root.find("count");
-    if (Claimed == Root.end() || !Claimed->is_number_unsigned())
-      return metaError("count is no whole number, expected 1 or more");
-    Count = Claimed->get<uint64_t>();
+    IsFirst = Version == Root.end();
+    if (!IsFirst && *Version != 2)
+      return metaError("another version, expected 2, or none for version 1");
+    const Json &Claimed = countOf();
+    if (!Claimed.is_number_unsigned())
+      return metaError(IsFirst ? "no version, and means.shape[0] of version 1 "
+                                 "is no whole number, expected 1 or more"
+                               : "count is no whole number, expected 1 or "
+                                 "more");
+    Count = Claimed.get<uint64_t>();
     auto DrawnAs = drawing();
     if (!DrawnAs)
       return DrawnAs.error();
@@ -57,8 +60,8 @@ public:
                Maxs = numbers("means", "maxs", 3);
     const Plane Quats = plane("quats", 0), Scales = plane("scales", 0),
                 Colors = plane("sh0", 0);
-    const auto ScaleBook = numbers("scales", "codebook", CodebookSize),
-               ColorBook = numbers("sh0", "codebook", CodebookSize);
+    const std::vector<Book> ScaleBooks = books("scales", 3),
+                            ColorBooks = books("sh0", IsFirst ? 4 : 3);
     Palette Later;
     if (Root.contains("shN"))
       Later = palette();
@@ -67,7 +70,7 @@ public:
 
     SceneFile Result;
     Result.Format = SceneFormat::Sog;
-    Result.Version = 2;
+    Result.Version = IsFirst ? 1 : 2;
     Result.DrawnAs = std::move(*DrawnAs);
     Scene &S = Result.Gaussians = Scene::sized(Count, Later.Degree);
     const std::size_t ShEach = 3 * S.coefficients();
@@ -75,10 +78,14 @@ public:
       for (std::size_t A = 0; A < 3; ++A) {
         S.Means[3 * I + A] = position(lerp(
             Mins[A], Maxs[A], (Low.at(I, A) | High.at(I, A) << 8) / 65535.0));
-        S.LogScales[3 * I + A] = static_cast<float>(ScaleBook[Scales.at(I, A)]);
-        S.Sh[ShEach * I + A] = static_cast<float>(ColorBook[Colors.at(I, A)]);
+        S.LogScales[3 * I + A] =
+            static_cast<float>(ScaleBooks[A][Scales.at(I, A)]);
+        S.Sh[ShEach * I + A] =
+            static_cast<float>(ColorBooks[A][Colors.at(I, A)]);
       }
-      S.OpacityLogits[I] = byteOpacityLogits()[Colors.at(I, 3)];
+      S.OpacityLogits[I] =
+          IsFirst ? static_cast<float>(ColorBooks[3][Colors.at(I, 3)])
+                  : byteOpacityLogits()[Colors.at(I, 3)];
       if (!unpackQuat(Quats, I, &S.Quats[4 * I]))
         return Error{file("quats", 0),
                      fmt::format("rotation {} has the mark {}, expected 252 "
@@ -94,11 +101,14 @@ public:
   }
 
 private:
+  /// What the 256 bytes stand for.
+  using Book = std::vector<double>;
+
   /// Coefficients from degree 1 on, shared by Gaussians.
   struct Palette {
     int Degree = 0;
     std::size_t Entries = 0;
-    std::vector<double> Book;
+    Book Values;
     Plane Centroids, Labels;
 
     std::size_t label(std::size_t Gaussian) const {
@@ -115,7 +125,8 @@ private:
           Label / PaletteRow * Centroids.Width + Label % PaletteRow * Later;
       for (std::size_t K = 0; K < Later; ++K)
         for (std::size_t C = 0; C < 3; ++C)
-          To[3 * K + C] = static_cast<float>(Book[Centroids.at(First + K, C)]);
+          To[3 * K + C] =
+              static_cast<float>(Values[Centroids.at(First + K, C)]);
       return true;
     }
   };
@@ -200,6 +211,37 @@ private:
     return Result;
   }
 
+  /// The number of Gaussians as the description has it.
+  const Json &countOf() const {
+    static const Json None;
+    if (!IsFirst)
+      return Root.contains("count") ? Root["count"] : None;
+    const Json &Shape = value("means", "shape");
+    return Shape.is_array() && !Shape.empty() ? Shape[0] : None;
+  }
+
+  /// Of each of \p Channels. Version 2 has one for all, version 1 even steps
+  /// from a least to a greatest value.
+  std::vector<Book> books(const char *Group, std::size_t Channels) {
+    if (!IsFirst)
+      return std::vector<Book>(Channels,
+                               numbers(Group, "codebook", CodebookSize));
+    const auto Mins = numbers(Group, "mins", Channels),
+               Maxs = numbers(Group, "maxs", Channels);
+    std::vector<Book> Result;
+    for (std::size_t C = 0; C < Channels && !Problem; ++C)
+      Result.push_back(evenSteps(Mins[C], Maxs[C]));
+    return Result;
+  }
+
+  static Book evenSteps(double Low, double High) {
+    Book Result;
+    for (std::size_t I = 0; I < CodebookSize; ++I)
+      Result.push_back(
+          lerp(Low, High, static_cast<double>(I) / (CodebookSize - 1)));
+    return Result;
+  }
+
   /// The name of a file of \p Group for messages.
   std::string file(const char *Group, std::size_t Index) const {
     const Json &Files = value(Group, "files");
@@ -250,23 +292,56 @@ private:
 
   Palette palette() {
     Palette P;
+    if (IsFirst)
+      firstPalette(P);
+    else
+      secondPalette(P);
+    P.Labels = plane("shN", 1);
+    return P;
+  }
+
+  /// Version 1 says neither how many entries there are nor of which degree:
+  /// the picture's size does.
+  void firstPalette(Palette &P) {
+    const Json &Low = value("shN", "mins"), &High = value("shN", "maxs");
+    if (!Low.is_number() || !High.is_number()) {
+      fail(metaError("shN.mins and shN.maxs: expected a number each"));
+      return;
+    }
+    P.Values = evenSteps(Low.get<double>(), High.get<double>());
+    constexpr std::size_t MostEntries = std::size_t(1) << 16; // labels' 16 bits
+    P.Centroids =
+        picture("shN", 0, MostEntries * (shCoefficients(MaxShDegree) - 1));
+    if (Problem)
+      return;
+    P.Degree = P.Centroids.Width % PaletteRow == 0
+                   ? shDegreeOf(P.Centroids.Width / PaletteRow)
+                   : -1;
+    P.Entries = P.Centroids.Height * PaletteRow;
+    if (P.Degree < 1)
+      fail({file("shN", 0),
+            fmt::format("{} pixels wide, expected {} for each coefficient of "
+                        "degree 1, 2 or 3",
+                        P.Centroids.Width, PaletteRow)});
+  }
+
+  void secondPalette(Palette &P) {
     const Json &Bands = value("shN", "bands"), &Entries = value("shN", "count");
     if (!Bands.is_number_unsigned() || Bands.get<uint64_t>() < 1 ||
         Bands.get<uint64_t>() > static_cast<unsigned>(MaxShDegree)) {
       fail(metaError("shN.bands: expected 1, 2 or 3"));
-      return P;
+      return;
     }
     P.Degree = Bands.get<int>();
     if (!Entries.is_number_unsigned()) {
       fail(metaError("shN.count is no whole number, expected 1 or more"));
-      return P;
+      return;
     }
     P.Entries = Entries.get<uint64_t>();
-    P.Book = numbers("shN", "codebook", CodebookSize);
+    P.Values = numbers("shN", "codebook", CodebookSize);
     const std::size_t Later = shCoefficients(P.Degree) - 1;
     const std::size_t Width = PaletteRow * Later;
     P.Centroids = picture("shN", 0, std::min(P.Entries, MostPixels) * Later);
-    P.Labels = plane("shN", 1);
     if (!Problem && (P.Centroids.Width != Width ||
                      P.Entries > P.Centroids.Height * PaletteRow))
       fail({file("shN", 0),
@@ -276,13 +351,13 @@ private:
                         P.Degree, Width,
                         P.Entries / PaletteRow +
                             (P.Entries % PaletteRow != 0 ? 1 : 0))});
-    return P;
   }
 
   const std::string &Where;
   const FileSource &Read;
   bool NullIsNaN; ///< in a codebook; an error else
   Json Root;
+  bool IsFirst = false; ///< of version 1
   std::size_t Count = 0;
   std::size_t FileSizes = 0; ///< of all pictures so far
   std::size_t Unpacked = 0;  ///< what they unpacked to, bytes

@@ -1,4 +1,4 @@
-/// PlayCanvas's SOG, version 2: parameters as planes of WebP pictures.
+/// PlayCanvas's SOG, versions 1 and 2: parameters as planes of WebP pictures.
 /// https://developer.playcanvas.com/user-manual/gaussian-splatting/formats/sog
 #pragma once
 
@@ -17,8 +17,9 @@ using FileSource =
 /// positions of 16 bits between bounds of sign(x) ln(|x| + 1); log scales,
 /// colours and harmonics by codebooks of 256 numbers, harmonics in a palette
 /// of up to 65,536 entries; rotations of 8 bits for each of the three smallest
-/// components; opacity of 8 bits. \p Where names the data set. Refused:
-/// version 1, planes smaller than the count or out of proportion to their
+/// components; opacity of 8 bits. Version 1 has even steps between bounds where
+/// version 2 has codebooks, and logits of opacities. \p Where names the data
+/// set. Refused: planes smaller than the count or out of proportion to their
 /// files or to the count, indices outside codebook or palette, models other
 /// than default and antialiased.
 Expected<SceneFile> parseSogData(const std::string &Where, Bytes Meta,

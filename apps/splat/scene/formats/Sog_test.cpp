@@ -10,13 +10,13 @@ using namespace vorion::splat::testing;
 
 namespace {
 
-SceneFile parsed(const std::string &Content) {
+SceneFile parsed(const std::string &Content, int Version = 2) {
   auto Read = parseScene("s", std::as_bytes(std::span(Content)));
   EXPECT_TRUE(Read) << Read.error().Where << Read.error().What;
   if (!Read)
     return {};
   EXPECT_EQ(Read->Format, SceneFormat::Sog);
-  EXPECT_EQ(Read->Version, 2);
+  EXPECT_EQ(Read->Version, Version);
   return std::move(*Read);
 }
 
@@ -39,6 +39,20 @@ TEST(Sog, RoundTripsWithinHalfAStepAtEveryDegree) {
     // Half a step of three components; the fourth takes at most their sum.
     EXPECT_LE(D.Rotation, 3 * std::sqrt(2) / 255 / 2 + 1e-6);
     EXPECT_GT(D.Position, 0);
+  }
+}
+
+TEST(Sog, Version1HasEvenStepsAndNoVersion) {
+  for (int Degree = 0; Degree <= MaxShDegree; ++Degree) {
+    const Scene S = randomScene(100, Degree, 7);
+    const SceneFile First = parsed(zipOf(sogOf(S, 1)), 1),
+                    Second = parsed(zipOf(sogOf(S)));
+    const auto D = differencesOf(First.Gaussians, Second.Gaussians);
+    EXPECT_EQ(D.Position + D.Rotation, 0);
+    EXPECT_LE(D.LogScale + D.Color + D.Harmonics, 1e-5); // the books' roundings
+    // Logits from -5 to 5 in 255 steps; half of one is at most a quarter of
+    // it in opacity.
+    EXPECT_LE(differencesOf(First.Gaussians, S).Opacity, 10.0 / 255 / 8 + 1e-6);
   }
 }
 

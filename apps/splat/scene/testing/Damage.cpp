@@ -180,7 +180,12 @@ std::vector<DamagedFolder> sogDamage() {
     F[Changed] = Content;
     Out.push_back({Name, std::move(F), Message});
   };
-  Meta("no-version", "no version", [](Json &M) { M.erase("version"); });
+  Meta("no-version", "no version, and means.shape[0] of version 1",
+       [](Json &M) { M.erase("version"); });
+  Meta("first-book", "scales.mins: expected 3 finite numbers", [](Json &M) {
+    M.erase("version");
+    M["means"]["shape"] = {5, 3};
+  });
   Meta("version3", "another version", [](Json &M) { M["version"] = 3; });
   Meta("count-text", "count is no whole number",
        [](Json &M) { M["count"] = "5"; });

@@ -108,7 +108,7 @@ std::string webpOf(int Width, int Height, const std::string &Rgba) {
   return Out;
 }
 
-Folder sogOf(const Scene &S) {
+Folder sogOf(const Scene &S, int Version) {
   using Json = nlohmann::json;
   const auto Width = static_cast<std::size_t>(
       std::ceil(std::sqrt(static_cast<double>(S.size()))));
@@ -145,6 +145,8 @@ Folder sogOf(const Scene &S) {
   for (std::size_t I = 0; I < S.Sh.size(); ++I)
     (I % ShEach < 3 ? Constant : Other).push_back(S.Sh[I]);
   const Range Colors = rangeOf(Constant);
+  const Range Logits =
+      rangeOf({S.OpacityLogits.begin(), S.OpacityLogits.end()});
 
   std::string Low, High, Quats, ScalePlane, ColorPlane;
   for (std::size_t I = 0; I < S.size(); ++I) {
@@ -157,7 +159,8 @@ Folder sogOf(const Scene &S) {
     }
     for (std::string *P : {&Low, &High, &ScalePlane})
       putByte(*P, 255);
-    putByte(ColorPlane, std::round(255 * opacityOf(S, I)));
+    putByte(ColorPlane, Version == 1 ? stepOf(S.OpacityLogits[I], Logits, 8)
+                                     : std::round(255 * opacityOf(S, I)));
     const UnitQuat Q(S, I, Wxyz);
     for (const double V : Q.others())
       putByte(Quats, std::round((V * std::sqrt(2) + 1) * 127.5));
@@ -200,6 +203,26 @@ Folder sogOf(const Scene &S) {
                    {"bands", S.ShDegree},
                    {"codebook", Book(Rest)},
                    {"files", {"shN_centroids.webp", "shN_labels.webp"}}};
+  }
+  if (Version == 1) {
+    Meta.erase("version");
+    Meta.erase("count");
+    Meta["means"]["shape"] = {S.size(), 3};
+    const auto Bound = [&](const char *Group, std::vector<Range> Of) {
+      Meta[Group].erase("codebook");
+      for (const Range &R : Of) {
+        Meta[Group]["mins"].push_back(R.Low);
+        Meta[Group]["maxs"].push_back(R.High);
+      }
+    };
+    Bound("scales", {Scales, Scales, Scales});
+    Bound("sh0", {Colors, Colors, Colors, Logits});
+    if (Later > 0) {
+      const Range Rest = rangeOf(Other);
+      Meta["shN"] = {{"mins", Rest.Low},
+                     {"maxs", Rest.High},
+                     {"files", {"shN_centroids.webp", "shN_labels.webp"}}};
+    }
   }
   Files["meta.json"] = Meta.dump();
   return Files;

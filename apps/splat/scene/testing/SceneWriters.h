@@ -25,8 +25,8 @@ using Folder = std::map<std::string, std::string>;
 /// An `.spz` of version 4, with \p Extensions between header and table.
 std::string spz4Of(const Scene &S, const std::string &Extensions = "");
 /// The codebooks are 256 even steps over what the scene has; the palette has
-/// an entry for each Gaussian.
-Folder sogOf(const Scene &S);
+/// an entry for each Gaussian. \p Version is 1 or 2.
+Folder sogOf(const Scene &S, int Version = 2);
 std::string zipOf(const Folder &Files);
 
 /// A lossless WebP of \p Rgba, 4 bytes a pixel.
