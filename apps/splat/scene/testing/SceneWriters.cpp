@@ -208,7 +208,7 @@ Folder sogOf(const Scene &S, int Version) {
     Meta.erase("version");
     Meta.erase("count");
     Meta["means"]["shape"] = {S.size(), 3};
-    const auto Bound = [&](const char *Group, std::vector<Range> Of) {
+    const auto Bound = [&](const char *Group, const std::vector<Range> &Of) {
       Meta[Group].erase("codebook");
       for (const Range &R : Of) {
         Meta[Group]["mins"].push_back(R.Low);
