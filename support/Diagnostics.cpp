@@ -1,10 +1,10 @@
 #include "vorion/support/Diagnostics.h"
 
 #include "vorion/support/Printable.h"
+#include "vorion/support/Terminal.h"
 
 #include <cstdio>
 #include <string>
-#include <unistd.h>
 
 namespace vorion {
 namespace {
@@ -21,7 +21,7 @@ void write(std::FILE *To, const std::string &Text) {
 
 void printDiagnostic(std::string_view Tool, std::string_view Severity,
                      std::string_view Where, std::string_view What) {
-  const bool Colour = isatty(STDERR_FILENO) != 0;
+  const bool Colour = canColour();
   const char *On = !Colour                 ? ""
                    : Severity == "error"   ? "\033[1;31m"
                    : Severity == "warning" ? "\033[1;35m"

@@ -1,13 +1,14 @@
 #include "commands/Progress.h"
 
+#include "vorion/support/Terminal.h"
+
 #include <cstdio>
 #include <fmt/format.h>
-#include <unistd.h>
 
 namespace vorion::splat {
 
 std::function<void(std::string_view)> progress() {
-  if (isatty(STDERR_FILENO) == 0)
+  if (!canOverwrite())
     return {};
   return [](std::string_view Stage) {
     std::fputs(fmt::format("\r\033[Ksplat: {} ...", Stage).c_str(), stderr);
@@ -15,7 +16,7 @@ std::function<void(std::string_view)> progress() {
 }
 
 void endProgress() {
-  if (isatty(STDERR_FILENO) != 0)
+  if (canOverwrite())
     std::fputs("\r\033[K", stderr);
 }
 

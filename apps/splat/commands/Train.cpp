@@ -14,6 +14,7 @@
 #include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
+#include "vorion/support/Terminal.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -22,7 +23,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <unistd.h>
 
 namespace vorion::splat {
 
@@ -40,18 +40,22 @@ struct TrainArguments {
 
 /// One line that says how far the run is; on a terminal it is overwritten.
 void showProgress(const TrainProgress &P) {
-  const bool Terminal = isatty(STDERR_FILENO) != 0;
+  const bool Terminal = canOverwrite();
   constexpr unsigned Every = 50;
   const StepReport &R = P.Step;
   if (!Terminal && R.Iteration % Every != 0 && R.Iteration != 1)
     return;
   const std::string Line = fmt::format(
       "{}iteration {}/{}: loss {:.5f}, {} Gaussians, {:.2f} it/s of wall "
-      "time{}{}",
+      "time{}{}{}",
       Terminal ? "\r\033[K" : "", R.Iteration, P.Last, R.Loss.Value,
       R.Gaussians, (R.Iteration - P.First) / P.Seconds,
       P.MachineRate
           ? fmt::format(", {:.3f} of the machine's clock", *P.MachineRate)
+          : "",
+      P.Last > R.Iteration
+          ? fmt::format(", {:.0f} s left", P.Seconds * (P.Last - R.Iteration) /
+                                               (R.Iteration - P.First))
           : "",
       Terminal ? "" : "\n");
   // Not printNote(), which would escape what clears the line.
@@ -59,7 +63,7 @@ void showProgress(const TrainProgress &P) {
 }
 
 void endTrainProgress() {
-  if (isatty(STDERR_FILENO) != 0)
+  if (canOverwrite())
     printNote("\n");
 }
 
