@@ -1,6 +1,7 @@
 // splat: renders 3D Gaussian scenes on an OpenCL device.
 
 #include "commands/Commands.h"
+#include "commands/Doctor.h"
 #include "commands/Replay.h"
 #include "device/Programs.h"
 #include "io/ReportHead.h"
@@ -66,6 +67,8 @@ int run(std::vector<std::string> Arguments) {
       splat::addCompare);
   Add("replay", "Runs again what made a report, and compares the bits",
       splat::addReplay);
+  Add("doctor", "Looks for what keeps programs from working here",
+      splat::addDoctor);
 
   if (const auto Ended = parseCommandLine(App, std::move(Arguments)))
     return *Ended;

@@ -16,8 +16,9 @@ std::string variable(const char *Name) {
   return Value ? Value : "";
 }
 
-/// Where PoCL keeps compiled kernels (its documentation, "POCL_CACHE_DIR").
-std::string cacheFolder() {
+} // namespace
+
+std::string kernelCacheFolder() {
   if (variable("POCL_KERNEL_CACHE") == "0")
     return {};
   if (std::string Set = variable("POCL_CACHE_DIR"); !Set.empty())
@@ -28,9 +29,7 @@ std::string cacheFolder() {
   return Home.empty() ? "" : Home + "/.cache/pocl/kcache";
 }
 
-} // namespace
-
-BuildRecord::BuildRecord() : BuildRecord(cacheFolder()) {}
+BuildRecord::BuildRecord() : BuildRecord(kernelCacheFolder()) {}
 
 BuildRecord::BuildRecord(std::string CacheFolder)
     : Folder(std::move(CacheFolder)) {

@@ -5,6 +5,10 @@
 
 namespace vorion::splat {
 
+/// Where PoCL keeps compiled kernels (its documentation, "POCL_CACHE_DIR");
+/// empty if it keeps none.
+std::string kernelCacheFolder();
+
 /// A mark a program beside PoCL's cached kernels, so that what clears the cache
 /// clears the record. A mark that is wrong costs time and changes no result.
 class BuildRecord {

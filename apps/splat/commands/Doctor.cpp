@@ -1,0 +1,114 @@
+#include "commands/Doctor.h"
+
+#include "commands/OutputFile.h"
+#include "device/BuildRecord.h"
+#include "doctor/Host.h"
+#include "doctor/Platform.h"
+#include "doctor/Variables.h"
+#include "io/ReportHead.h"
+#include "vorion/support/CommandLine.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace vorion::splat {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Findings examineAll(const DeviceOptions &Options) {
+  std::vector<std::string> Environment;
+  for (char **Entry = environ; *Entry; ++Entry)
+    Environment.emplace_back(*Entry);
+  std::ranges::sort(Environment);
+  // The doctor's own kernel must not write over what somebody has measured, nor
+  // wait for a debugger.
+  for (const KnownVariable &K : knownVariables())
+    if (K.Watches)
+      unsetenv(K.Name);
+
+  Findings All;
+  const auto Add = [&All](Findings Found) {
+    std::ranges::move(Found, std::back_inserter(All));
+  };
+  const Vendors Loader = examineVendors(vendorsPlace());
+  const char *Root = std::getenv("VORION_ROOT");
+  Add({Loader.Found, examineTools(Root ? Root : "", Loader.Libraries),
+       examineCache(kernelCacheFolder())});
+  Add(examineDevice(Options));
+  Add(examineVariables(Environment));
+  Add({examineDisk("."), examineMemory(), examineVectors()});
+  return All;
+}
+
+std::string textReport(const Findings &All) {
+  std::string Text;
+  for (const Finding &F : All) {
+    Text += fmt::format("{:<6} {:<13} {}\n", name(F.State), F.Subject, F.Text);
+    if (!F.Mend.empty())
+      Text += fmt::format("{:<6} {:<13} mend: {}\n", "", "", F.Mend);
+  }
+  return Text;
+}
+
+std::string jsonReport(const Findings &All, bool Well) {
+  Json List = Json::array();
+  for (const Finding &F : All)
+    List.push_back({{"state", name(F.State)},
+                    {"subject", F.Subject},
+                    {"text", F.Text},
+                    {"mend", F.Mend}});
+  Json Report = reportHead("splat-doctor");
+  Report.update({{"well", Well}, {"findings", std::move(List)}});
+  return jsonText(Report, 2) + "\n";
+}
+
+Expected<Success> run(const std::string &JsonFile,
+                      const DeviceOptions &Options) {
+  if (auto Checked = checkJsonName(JsonFile); !Checked)
+    return Checked;
+  if (auto Claimed = claimOutputs({{"--json", JsonFile}}); !Claimed)
+    return Claimed;
+  const Findings All = examineAll(Options);
+  const auto Faults = std::ranges::count_if(
+      All, [](const Finding &F) { return F.State == FindingState::Fault; });
+  if (!JsonFile.empty())
+    if (auto Written =
+            writeFileAtomically(JsonFile, jsonReport(All, Faults == 0));
+        !Written)
+      return Written;
+  printOut("{}", textReport(All));
+  if (Faults != 0)
+    return Error{"",
+                 fmt::format("{} fault{}, expected none", Faults,
+                             Faults == 1 ? "" : "s"),
+                 ExitCode::GuestFailed};
+  printOut("all is well\n");
+  return Success{};
+}
+
+} // namespace
+
+Runner addDoctor(CLI::App &App) {
+  auto JsonFile = std::make_shared<std::string>();
+  takesFile(App.add_option("--json", *JsonFile, "Write the same for programs"),
+            {".json"});
+  return [JsonFile](const DeviceOptions &Options) {
+    return run(*JsonFile, Options);
+  };
+}
+
+} // namespace vorion::splat

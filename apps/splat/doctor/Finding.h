@@ -1,0 +1,28 @@
+/// What `splat doctor` says.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+enum class FindingState {
+  Well,
+  Note, ///< changes what programs do, or how fast; nothing has to be mended
+  Fault,
+};
+
+/// The state's name in tables and JSON.
+const char *name(FindingState State);
+
+/// One thing that was looked at.
+struct Finding {
+  FindingState State = FindingState::Well;
+  std::string Subject; ///< "device"
+  std::string Text;    ///< what is so: a sentence without its full stop
+  std::string Mend;    ///< what to do about it; of a fault never empty
+};
+
+using Findings = std::vector<Finding>;
+
+} // namespace vorion::splat

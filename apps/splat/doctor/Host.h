@@ -1,0 +1,27 @@
+/// What the host must have: room, memory, vectors.
+#pragma once
+
+#include "doctor/Finding.h"
+
+#include <cstdint>
+#include <string>
+
+namespace vorion::splat {
+
+/// \p Folder and the bytes that are free on its disk.
+Finding examineDisk(const std::string &Folder, uint64_t FreeBytes);
+/// The same for the disk that \p Folder is on now.
+Finding examineDisk(const std::string &Folder);
+
+/// The bytes of main memory that programs can still get.
+Finding examineMemory(uint64_t AvailableBytes);
+/// The same for this host now, as the text of /proc/meminfo has it.
+Finding examineMemory();
+
+/// The widest vectors of this processor that the simulator uses.
+Finding examineVectors();
+
+/// \p Folder, the cache of compiled kernels; empty if there is none.
+Finding examineCache(const std::string &Folder);
+
+} // namespace vorion::splat

@@ -1,0 +1,168 @@
+#include "doctor/Platform.h"
+
+#include "device/Device.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fstream>
+#include <system_error>
+#include <unistd.h>
+
+namespace vorion::splat {
+
+namespace fs = std::filesystem;
+
+static constexpr const char *SourceEnvironment =
+    "source scripts/env.sh, or share/vorion/env.sh of an installed tree";
+
+std::string vendorsPlace() {
+  const char *Set = std::getenv("OCL_ICD_VENDORS");
+  return Set && *Set ? Set : "/etc/OpenCL/vendors";
+}
+
+static std::vector<fs::path> icdFiles(const fs::path &Place) {
+  std::error_code Failed;
+  if (fs::is_regular_file(Place, Failed))
+    return {Place};
+  std::vector<fs::path> Files;
+  for (fs::directory_iterator It(Place, Failed), End; !Failed && It != End;
+       It.increment(Failed))
+    if (It->path().extension() == ".icd")
+      Files.push_back(It->path());
+  std::ranges::sort(Files);
+  return Files;
+}
+
+Vendors examineVendors(const std::string &Place) {
+  Vendors V{{FindingState::Well, "platform", "", ""}, {}};
+  const auto Fault = [&](std::string Text) {
+    V.Found = {FindingState::Fault, "platform", std::move(Text),
+               SourceEnvironment};
+    return V;
+  };
+  for (const fs::path &File : icdFiles(Place)) {
+    std::ifstream Text(File);
+    std::string Library;
+    if (!std::getline(Text, Library) || Library.empty())
+      return Fault(fmt::format("{} names no library", File.string()));
+    std::error_code Failed;
+    // A name without a folder is the dynamic linker's to find.
+    if (Library.find('/') != std::string::npos && !fs::exists(Library, Failed))
+      return Fault(fmt::format("{} names {}, which is not there", File.string(),
+                               Library));
+    V.Libraries.push_back(Library);
+  }
+  if (V.Libraries.empty())
+    return Fault(fmt::format(
+        "{} has no file *.icd, so programs find no OpenCL platform", Place));
+  V.Found.Text =
+      fmt::format("{} names {}", Place, fmt::join(V.Libraries, ", "));
+  return V;
+}
+
+Finding examineTools(const std::string &Root,
+                     const std::vector<std::string> &Libraries) {
+  std::vector<fs::path> Places;
+  if (!Root.empty())
+    Places.emplace_back(Root);
+  else
+    for (const std::string &Library : Libraries) {
+      // As the platform goes up from its own file (Tools.cpp of the device).
+      std::error_code Failed;
+      fs::path Folder = fs::canonical(Library, Failed).parent_path();
+      for (int Up = 0; Up < 4 && Folder.has_relative_path(); ++Up) {
+        Places.push_back(Folder);
+        Folder = Folder.parent_path();
+      }
+    }
+  for (const fs::path &Place : Places) {
+    const auto IsThere = [&](const char *Tool) {
+      return access((Place / "bin" / Tool).c_str(), X_OK) == 0;
+    };
+    if (IsThere("vorion-clang") && IsThere("vorion-link"))
+      return {FindingState::Well, "compiler",
+              fmt::format("{} has vorion-clang and vorion-link",
+                          (Place / "bin").string()),
+              ""};
+  }
+  return {FindingState::Fault, "compiler",
+          Root.empty()
+              ? "no folder above the platform's library has bin/vorion-clang "
+                "and bin/vorion-link"
+              : fmt::format("VORION_ROOT is {}, which has no bin/vorion-clang "
+                            "or no bin/vorion-link",
+                            Root),
+          SourceEnvironment};
+}
+
+namespace {
+
+constexpr const char *Source = "kernel void doctor(global uint *out) {"
+                               "  out[get_global_id(0)] = 3 * get_global_id(0);"
+                               "}";
+constexpr cl_uint Items = 64;
+
+/// Why the kernel does not run; empty if it does.
+std::string runKernel(const Device &D) {
+  cl::Program Program(D.context(), Source);
+  if (const cl_int Status = Program.build({D.handle()}); Status != CL_SUCCESS) {
+    const auto Log = Program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(D.handle());
+    return "does not compile: " +
+           (Log.empty() ? statusName(Status) : Log.substr(0, Log.find('\n')));
+  }
+  std::array<cl_uint, Items> Values{};
+  cl_int Status = CL_SUCCESS;
+  const cl::Buffer Out(D.context(), CL_MEM_READ_WRITE, sizeof(Values), nullptr,
+                       &Status);
+  cl::Kernel Kernel(Program, "doctor");
+  if (Status == CL_SUCCESS)
+    Status = Kernel.setArg(0, Out);
+  if (Status == CL_SUCCESS)
+    Status = D.queue().enqueueNDRangeKernel(
+        Kernel, cl::NullRange, cl::NDRange(Items), cl::NDRange(16));
+  if (Status == CL_SUCCESS)
+    Status = D.queue().enqueueReadBuffer(Out, CL_TRUE, 0, sizeof(Values),
+                                         Values.data());
+  if (Status != CL_SUCCESS) {
+    const std::string Message = D.takeMessage();
+    return "does not run: " + (Message.empty()
+                                   ? statusName(Status)
+                                   : Message.substr(0, Message.find('\n')));
+  }
+  for (cl_uint I = 0; I < Items; ++I)
+    if (Values[I] != 3 * I)
+      return fmt::format("computes 3 x {} as {}", I, Values[I]);
+  return {};
+}
+
+} // namespace
+
+Findings examineDevice(const DeviceOptions &Options) {
+  const auto D = Device::open("", Options);
+  if (!D)
+    return {{FindingState::Fault, "device", D.error().What, SourceEnvironment}};
+  if (!D->isVorion())
+    return {{FindingState::Fault, "device",
+             fmt::format("the OpenCL device is \"{}\", not Vorion", D->name()),
+             SourceEnvironment}};
+  Findings Found{
+      {FindingState::Well, "device",
+       fmt::format("\"{}\" with {} cores of {} lanes and {} MiB of memory",
+                   D->name(), D->computeUnits(), D->lanes(),
+                   D->globalBytes() >> 20),
+       ""}};
+  if (const std::string Problem = runKernel(*D); !Problem.empty())
+    Found.push_back({FindingState::Fault, "kernel", "a small kernel " + Problem,
+                     "mend the faults above; if there are none, build again"});
+  else
+    Found.push_back({FindingState::Well, "kernel",
+                     "a small kernel compiles, runs and gives the right values",
+                     ""});
+  return Found;
+}
+
+} // namespace vorion::splat
