@@ -38,6 +38,7 @@ std::span<const KnownVariable> knownVariables() { return Variables; }
 
 Findings examineVariables(std::span<const std::string> Environment) {
   std::vector<std::string> Names;
+  Names.reserve(Variables.size());
   for (const KnownVariable &K : Variables)
     Names.emplace_back(K.Name);
   Findings Found;
