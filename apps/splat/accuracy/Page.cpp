@@ -1,6 +1,6 @@
 #include "accuracy/Page.h"
 
-#include "vorion/support/Json.h"
+#include "page/Page.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,20 +8,6 @@
 namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
-
-/// No tag inside a script may end it.
-static std::string forScript(std::string Text) {
-  for (std::size_t At = 0; (At = Text.find("</", At)) != std::string::npos;)
-    Text.replace(At, 2, "<\\/");
-  return Text;
-}
-
-static std::string filled(std::string_view Template, const Json &Data) {
-  constexpr std::string_view Place = "@DATA@";
-  std::string Page(Template);
-  return Page.replace(Page.find(Place), Place.size(),
-                      forScript(jsonText(Data)));
-}
 
 /// JSON has no infinity: null stands for equal pictures' PSNR.
 static Json numberOrNull(double Value) {
@@ -121,7 +107,7 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
                   {"summaries", std::move(Summaries)},
                   {"chosen", std::move(*Chosen)},
                   {"points", std::move(Points)}};
-  return filled(pageTemplate(), Data);
+  return filledPage(pageTemplate(), Data);
 }
 
 std::string trainPageOf(const Json &Results, const std::string &Made) {
@@ -131,11 +117,11 @@ std::string trainPageOf(const Json &Results, const std::string &Made) {
       Curves.push_back({{"setting", Point["setting"]},
                         {"seed", Point["seed"]},
                         {"curve", Point["curve"]}});
-  return filled(trainPageTemplate(), {{"made", Made},
-                                      {"iterations", Results["iterations"]},
-                                      {"reached_db", Results["reached_db"]},
-                                      {"settings", Results["settings"]},
-                                      {"curves", std::move(Curves)}});
+  return filledPage(trainPageTemplate(), {{"made", Made},
+                                          {"iterations", Results["iterations"]},
+                                          {"reached_db", Results["reached_db"]},
+                                          {"settings", Results["settings"]},
+                                          {"curves", std::move(Curves)}});
 }
 
 } // namespace vorion::splat

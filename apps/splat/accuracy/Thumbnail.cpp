@@ -1,5 +1,7 @@
 #include "accuracy/Thumbnail.h"
 
+#include "page/Page.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,22 +9,6 @@
 namespace vorion::splat {
 
 namespace {
-
-std::string base64(const std::string &Bytes) {
-  constexpr std::string_view Digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string Text;
-  for (std::size_t I = 0; I < Bytes.size(); I += 3) {
-    const std::size_t Have = std::min<std::size_t>(3, Bytes.size() - I);
-    unsigned Word = 0;
-    for (std::size_t K = 0; K < 3; ++K)
-      Word = Word << 8 |
-             (K < Have ? static_cast<unsigned char>(Bytes[I + K]) : 0U);
-    for (std::size_t K = 0; K < 4; ++K)
-      Text += K <= Have ? Digits[Word >> (18 - 6 * K) & 63] : '=';
-  }
-  return Text;
-}
 
 /// Blocks of a picture's pixels, one a pixel of the thumbnail.
 struct Blocks {
@@ -55,7 +41,7 @@ Expected<std::string> dataUri(const Blocks &B, std::vector<float> Render) {
   const auto Png = encodePng(I);
   if (!Png)
     return Png.error();
-  return "data:image/png;base64," + base64(*Png);
+  return pngUri(*Png);
 }
 
 } // namespace

@@ -11,7 +11,7 @@ namespace vorion::splat {
 
 struct CompareArguments {
   std::string Reference, Picture; ///< what to expect, and what there is
-  std::string Mask, Json;         ///< files; empty for none
+  std::string Mask, Json, Html;   ///< files; empty for none
   bool Pairs = false;
   std::optional<double> MinDb;       ///< outside the mask
   std::optional<double> MinDbAll;    ///< over all pixels

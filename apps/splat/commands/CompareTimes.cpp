@@ -3,6 +3,7 @@
 
 #include "device/TimeFile.h"
 #include "io/ReportHead.h"
+#include "page/TimePage.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -14,32 +15,52 @@ namespace vorion::splat {
 
 namespace {
 
-Expected<Success> writeJson(const CompareArguments &A,
-                            const std::vector<TimeChange> &Changes) {
-  nlohmann::ordered_json Report = reportHead("splat-compare-times");
-  Report.update({{"a", A.Reference},
-                 {"b", A.Picture},
-                 {"figures", nlohmann::ordered_json::array()}});
+nlohmann::ordered_json figuresOf(const std::vector<TimeChange> &Changes) {
+  nlohmann::ordered_json All = nlohmann::ordered_json::array();
   const auto OrNull = [](const std::optional<double> &Value) {
     return Value ? nlohmann::ordered_json(*Value) : nullptr;
   };
   for (const TimeChange &C : Changes)
-    Report["figures"].push_back({{"group", C.Group},
-                                 {"name", C.Name},
-                                 {"a", OrNull(C.A)},
-                                 {"b", OrNull(C.B)},
-                                 {"percent", OrNull(C.percent())}});
+    All.push_back({{"group", C.Group},
+                   {"name", C.Name},
+                   {"a", OrNull(C.A)},
+                   {"b", OrNull(C.B)},
+                   {"percent", OrNull(C.percent())}});
+  return All;
+}
+
+Expected<Success> writeJson(const CompareArguments &A,
+                            const std::vector<TimeChange> &Changes) {
+  nlohmann::ordered_json Report = reportHead("splat-compare-times");
+  Report.update(
+      {{"a", A.Reference}, {"b", A.Picture}, {"figures", figuresOf(Changes)}});
   return writeFileAtomically(A.Json, jsonText(Report, 2) + "\n");
+}
+
+Expected<Success> writeHtml(const CompareArguments &A,
+                            const std::vector<TimeChange> &Changes) {
+  std::vector<TimeRun> Runs;
+  for (const std::string &File : {A.Reference, A.Picture}) {
+    auto Report = readJson<nlohmann::ordered_json>(File, "a time report");
+    if (!Report)
+      return Report.error();
+    Runs.push_back({File, std::move(*Report), ""});
+  }
+  const auto Page = timePageOf(Runs, figuresOf(Changes));
+  return Page ? writeFileAtomically(A.Html, *Page)
+              : Expected<Success>(Page.error());
 }
 
 } // namespace
 
 Expected<Success> compareTimes(const CompareArguments &A) {
-  if (auto Checked = checkJsonName(A.Json); !Checked)
-    return Checked;
-  if (auto Claimed =
-          claimOutputs({{"--json", A.Json}}, {{"a time report", A.Reference},
-                                              {"a time report", A.Picture}});
+  for (const auto &Checked :
+       {checkJsonName(A.Json), checkEnding("--html", A.Html, {".html"})})
+    if (!Checked)
+      return Checked;
+  if (auto Claimed = claimOutputs(
+          {{"--json", A.Json}, {"--html", A.Html}},
+          {{"a time report", A.Reference}, {"a time report", A.Picture}});
       !Claimed)
     return Claimed;
   const auto First = readTimeFile(A.Reference);
@@ -54,6 +75,9 @@ Expected<Success> compareTimes(const CompareArguments &A) {
   printOut("{}", toText(Changes));
   if (!A.Json.empty())
     if (auto Written = writeJson(A, Changes); !Written)
+      return Written;
+  if (!A.Html.empty())
+    if (auto Written = writeHtml(A, Changes); !Written)
       return Written;
   if (!A.AtMost ||
       Second->Milliseconds <= First->Milliseconds * (1 + *A.AtMost / 100))

@@ -40,14 +40,23 @@ Expected<HeatMapFiles> HeatMapFiles::begin(std::string Prefix,
   return F;
 }
 
-Expected<Success> HeatMapFiles::write(const Camera &View,
-                                      nlohmann::ordered_json Report) const {
-  const auto Tiles = readTileWork(file());
+Expected<std::vector<TileWork>> HeatMapFiles::tiles() const {
+  auto Tiles = readTileWork(file());
   if (!Tiles || Tiles->empty())
     return Error{"",
                  "the device reports nothing about tiles, expected a Vorion "
                  "device with --heat-map",
                  ExitCode::Usage};
+  return Tiles;
+}
+
+Expected<Success> HeatMapFiles::write(const Camera &View,
+                                      nlohmann::ordered_json Report) const {
+  if (Prefix.empty())
+    return Success{};
+  const auto Tiles = tiles();
+  if (!Tiles)
+    return Tiles.error();
   for (const Heat H : Heats) {
     if (auto Written = writePng(pictureOf(Prefix, H),
                                 drawHeat(*Tiles, H, View.Width, View.Height));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/DeviceOptions.h"
+#include "device/TileWork.h"
 #include "io/Cameras.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/TemporaryFolder.h"
@@ -19,12 +20,13 @@ public:
   static std::vector<NamedFile> outputs(const std::string &Prefix);
 
   /// Asks for it in \p Options, which turns the machine's clock on. Errors: no
-  /// temporary folder.
+  /// temporary folder. No files are written where \p Prefix is empty.
   static Expected<HeatMapFiles> begin(std::string Prefix,
                                       DeviceOptions &Options);
 
-  /// Writes what the device drew of \p View; \p Report says what made it. An
-  /// error where the device told of no tiles.
+  /// What the device drew. An error where it told of no tiles.
+  Expected<std::vector<TileWork>> tiles() const;
+  /// Writes what the device drew of \p View; \p Report says what made it.
   Expected<Success> write(const Camera &View,
                           nlohmann::ordered_json Report) const;
 

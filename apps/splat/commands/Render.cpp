@@ -8,6 +8,8 @@
 #include "commands/SceneArguments.h"
 
 #include "io/Cameras.h"
+#include "page/TimePage.h"
+#include "picture/HeatMap.h"
 #include "render/EffectCosts.h"
 #include "render/Explain.h"
 #include "render/Fallback.h"
@@ -16,6 +18,7 @@
 #include "render/Report.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
@@ -35,7 +38,7 @@ struct RenderArguments : DrawArguments {
   SceneArguments Scene;
   std::string Cameras, Output;
   std::vector<std::string> Views;
-  std::string Json, Pairs, Depth, Device, KernelFolder;
+  std::string Json, Html, Pairs, Depth, Device, KernelFolder;
   std::string Explain; ///< empty, "plan" or "measure"
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
@@ -57,7 +60,8 @@ Expected<Success> check(const RenderArguments &A) {
   for (const auto &Checked :
        {checkEnding("-o", A.Output, {".png", ".pfm", ".npz"}),
         checkEnding("--depth", A.Depth, {".pfm", ".npz"}),
-        checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json)})
+        checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json),
+        checkEnding("--html", A.Html, {".html"})})
     if (!Checked)
       return Checked;
   if (auto Checked = checkDrawOptions(O); !Checked)
@@ -72,6 +76,8 @@ Expected<Success> check(const RenderArguments &A) {
     return Usage("--dump-pairs writes one picture's, expected one --view");
   if (!isOne(A) && !A.Depth.empty())
     return Usage("--depth writes one picture's, expected one --view");
+  if (!isOne(A) && !A.Html.empty())
+    return Usage("--html shows one picture, expected one --view");
   if (!A.HeatMap.empty()) {
     if (auto Checked = checkPrefix("--heat-map", A.HeatMap); !Checked)
       return Checked;
@@ -88,6 +94,7 @@ Expected<Success> check(const RenderArguments &A) {
   std::vector<NamedFile> Outputs = HeatMapFiles::outputs(A.HeatMap);
   Outputs.insert(Outputs.end(), {{"-o", isOne(A) ? A.Output : ""},
                                  {"--json", A.Json},
+                                 {"--html", A.Html},
                                  {"--dump-pairs", A.Pairs},
                                  {"--depth", A.Depth}});
   return claimOutputs(Outputs,
@@ -106,9 +113,9 @@ RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
 void fallBack(const RenderArguments &A, const Launcher &L,
               const EffectInputs &In, RenderPlan &Plan) {
   // The counts of a frame must not depend on what was compiled before.
-  const bool FiguresWanted = !A.Json.empty() || !A.Explain.empty() ||
-                             !A.Numerics.empty() || !A.HeatMap.empty() ||
-                             A.Time || A.ClockMhz.has_value();
+  const bool FiguresWanted =
+      !A.Json.empty() || !A.Explain.empty() || !A.Numerics.empty() ||
+      !A.HeatMap.empty() || !A.Html.empty() || A.Time || A.ClockMhz.has_value();
   if (A.Request.Selection != EffectRequest::Mode::Auto || FiguresWanted)
     return;
   RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
@@ -126,9 +133,37 @@ Expected<std::vector<Camera>> findCameras(const RenderArguments &A) {
              : readCameras(A.Cameras, A.Views);
 }
 
+/// Whether the tiles of the picture are to be shown.
+bool wantsTiles(const RenderArguments &A) {
+  // Of a second blend, or of several pictures, the figures would be others.
+  return !A.HeatMap.empty() ||
+         (!A.Html.empty() && A.Options.Blending == Path::Raster &&
+          A.Depth.empty() && A.Explain != "measure");
+}
+
+/// The page of --html. \p Map may be nullptr.
+Expected<Success> writeHtml(const std::string &File, const PictureJob &J,
+                            const RenderResult &R,
+                            nlohmann::ordered_json Report,
+                            const HeatMapFiles *Map) {
+  if (Map) {
+    const auto Tiles = Map->tiles();
+    if (!Tiles)
+      return Tiles.error();
+    Report["heat_map"] = heatJson(*Tiles);
+  }
+  auto Png = encodePng(R.Picture);
+  if (!Png)
+    return Png.error();
+  const auto Page =
+      timePageOf({{J.ScenePath, std::move(Report), std::move(*Png)}});
+  return Page ? writeFileAtomically(File, *Page)
+              : Expected<Success>(Page.error());
+}
+
 /// \p Map may be nullptr.
 Expected<Success> renderOne(const PictureJob &J, const Camera &C,
-                            const HeatMapFiles *Map) {
+                            const HeatMapFiles *Map, const std::string &Html) {
   const auto R = drawPicture(J, C);
   endProgress();
   if (!R) {
@@ -138,10 +173,15 @@ Expected<Success> renderOne(const PictureJob &J, const Camera &C,
   if (auto Written = writePicture(J, C, *R); !Written)
     return Written;
   printOut("{}", textReport(C, J.Options, J.Launch.device(), *R));
-  if (!Map)
+  if (!Map && Html.empty())
     return Success{};
   auto Report = reportOf(J, J.Output, C, *R);
-  return Report ? Map->write(C, std::move(*Report)) : Report.error();
+  if (!Report)
+    return Report.error();
+  if (!Html.empty())
+    if (auto Written = writeHtml(Html, J, *R, *Report, Map); !Written)
+      return Written;
+  return Map ? Map->write(C, std::move(*Report)) : Expected<Success>(Success{});
 }
 
 /// That no picture would take the place of another or of another file.
@@ -196,7 +236,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   if (!isOne(A))
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;
-  if (A.Time || A.ClockMhz)
+  if (A.Time || A.ClockMhz || !A.Html.empty())
     Machine.set("VORION_TIME", A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
@@ -206,7 +246,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     Numerics.emplace(std::move(*Begun));
   }
   std::optional<HeatMapFiles> Map;
-  if (!A.HeatMap.empty()) {
+  if (wantsTiles(A)) {
     auto Begun = HeatMapFiles::begin(A.HeatMap, Machine);
     if (!Begun)
       return Begun.error();
@@ -237,9 +277,9 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   const PictureJob J{A.Scene.Path, A.Scene.Axes, A.Cameras, *File,
                      A.Options,    Plan,         L,         A.Output,
                      A.Json,       A.Pairs,      A.Depth};
-  auto Rendered = isOne(A)
-                      ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr)
-                      : renderAll(J, *Cameras, A.Overlap);
+  auto Rendered =
+      isOne(A) ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr, A.Html)
+               : renderAll(J, *Cameras, A.Overlap);
   if (!Rendered)
     return Rendered;
   L.recordBuilds();
@@ -277,6 +317,11 @@ Runner addRender(CLI::App &App) {
   takesFile(App.add_option("--json", A->Json,
                            "Write what was done, and how much of it"),
             {".json"});
+  takesFile(
+      App.add_option("--html", A->Html,
+                     "Write a page that shows where the time of the frame goes "
+                     "(turns --time on)"),
+      {".html"});
   addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
   App.add_flag("--explain{plan}", A->Explain,

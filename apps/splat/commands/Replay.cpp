@@ -80,9 +80,9 @@ void findChanged(const Json &J, std::vector<std::string> &Changed) {
 
 /// The options of all commands that name files to write. Those with --json
 /// among them can be run again.
-constexpr std::array<std::string_view, 9> Outputs{
-    "-o",      "--output", "--json",     "--depth",     "--dump-pairs",
-    "--plots", "--curve",  "--heat-map", "--checkpoint"};
+constexpr std::array<std::string_view, 10> Outputs{
+    "-o",      "--output", "--json",     "--depth",      "--dump-pairs",
+    "--plots", "--curve",  "--heat-map", "--checkpoint", "--html"};
 
 /// \p Words with every file that they write in \p Folder instead, and the
 /// report at \p Report.
