@@ -17,9 +17,9 @@ namespace {
 
 /// Endings that promise a kind of file to whoever sees them, besides those of
 /// scenes.
-constexpr std::array<std::string_view, 15> OtherKinds{
-    ".ksplat", ".png", ".jpg", ".jpeg", ".webp", ".exr",  ".pfm", ".npz",
-    ".npy",    ".svg", ".pdf", ".html", ".csv",  ".json", ".glb"};
+constexpr std::array<std::string_view, 14> OtherKinds{
+    ".png", ".jpg", ".jpeg", ".webp", ".exr", ".pfm",  ".npz",
+    ".npy", ".svg", ".pdf",  ".html", ".csv", ".json", ".glb"};
 
 Error badName(std::string_view Option, const std::string &File,
               std::string_view What) {

@@ -120,6 +120,27 @@ void addSplatDamage(std::vector<DamagedFile> &Out) {
 }
 
 void addSpzDamage(std::vector<DamagedFile> &Out) {
+  const std::string K = ksplatOf(sample(1), 1);
+  Out.push_back({"compression.ksplat", patched(K, 20, uint16_t(3)),
+                 "compression 3, expected 0, 1 or 2"});
+  Out.push_back({"sections.ksplat", patched(K, 4, uint32_t(-1)),
+                 "4294967295 sections, expected the file to hold"});
+  Out.push_back({"degree.ksplat", patched(K, 4096 + 40, uint16_t(4)),
+                 "section 0 has degree 4"});
+  Out.push_back({"room.ksplat", patched(K, 4096, uint32_t(9)),
+                 "section 0 has 9 Gaussians, expected no more than"});
+  Out.push_back({"record.ksplat", patched(K, 4096 + 20, uint16_t(16)),
+                 "section 0 has buckets of 16 bytes, expected 12"});
+  Out.push_back({"huge.ksplat", patched(K, 4096 + 4, uint32_t(-1)),
+                 "expected the file to hold it"});
+  Out.push_back({"buckets.ksplat", patched(K, 4096 + 32, uint32_t(7)),
+                 "section 0 has 7 full and 1 other buckets"});
+  Out.push_back({"bucket.ksplat", patched(K, 4096 + 2 * 1024, uint32_t(1)),
+                 "Gaussian 1 is in no bucket"});
+  Out.push_back({"longer.ksplat", K + "x", "expected 5 and"});
+  Out.push_back(
+      {"count.ksplat", patched(K, 16, uint32_t(6)), "expected 6 and"});
+
   const std::string Body = spzBodyOf(sample(1), 3);
   const std::string Spz = gzipOf(Body);
   const auto Add = [&](const char *Name, const std::string &Content,
@@ -277,6 +298,7 @@ std::vector<SampleFile> sampleFiles() {
           {"degree0.compressed.ply", compressedPlyOf(sample(0), {}, false)},
           {"degree1.compressed.ply", compressedPlyOf(sample(1))},
           {"degree0.splat", splatOf(sample(0))},
+          {"degree1.ksplat", ksplatOf(sample(1), 1)},
           {"degree0.v2.spz", gzipOf(spzBodyOf(sample(0), 2))},
           {"degree1.v3.spz", gzipOf(spzBodyOf(sample(1), 3))},
           {"unpacked.v3.spz", spzBodyOf(sample(1), 3)},

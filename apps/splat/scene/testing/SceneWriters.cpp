@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <utility>
 #include <webp/encode.h>
 
 namespace vorion::splat::testing {
@@ -78,6 +79,109 @@ std::string spz4Of(const Scene &S, const std::string &Extensions) {
     At += Each * S.size();
   }
   return Header + Extensions + Table + Frames;
+}
+
+namespace {
+
+template <typename T> void patch(std::string &In, std::size_t At, T Value) {
+  In.replace(At, sizeof(Value), reinterpret_cast<const char *>(&Value),
+             sizeof(Value));
+}
+
+/// The nearest half of a number that has a normal one.
+uint16_t halfOf(double Value) {
+  if (Value == 0)
+    return 0;
+  int Exponent;
+  const double Fraction = std::frexp(std::abs(Value), &Exponent);
+  const auto Steps = static_cast<unsigned>(std::lround(Fraction * 2048));
+  return static_cast<uint16_t>((Value < 0 ? 0x8000U : 0U) +
+                               (static_cast<unsigned>(Exponent + 14) << 10) +
+                               (Steps - 1024));
+}
+
+constexpr std::size_t KSplatBucket = 8;
+constexpr double LeastHarmonic = -1, GreatestHarmonic = 1;
+
+/// The header and the data of a section of the Gaussians from \p First on.
+std::pair<std::string, std::string> ksplatSection(const Scene &S,
+                                                  std::size_t First,
+                                                  std::size_t Count,
+                                                  int Compression) {
+  constexpr double Range = 32767, Block = 200;
+  const std::size_t Full = Count / KSplatBucket,
+                    Part = Count % KSplatBucket != 0 ? 1 : 0;
+  std::string Header(1024, '\0'), Data, Records;
+  patch(Header, 0, static_cast<uint32_t>(Count));
+  patch(Header, 4, static_cast<uint32_t>(Count + 1)); // room for one more
+  patch(Header, 40, static_cast<uint16_t>(S.ShDegree));
+  if (Compression > 0) {
+    patch(Header, 8, static_cast<uint32_t>(KSplatBucket));
+    patch(Header, 12, static_cast<uint32_t>(Full + Part));
+    patch(Header, 16, static_cast<float>(Block));
+    patch(Header, 20, uint16_t(12));
+    patch(Header, 24, static_cast<uint32_t>(Range));
+    patch(Header, 32, static_cast<uint32_t>(Full));
+    patch(Header, 36, static_cast<uint32_t>(Part));
+    if (Part > 0)
+      put(Data, static_cast<uint32_t>(Count % KSplatBucket));
+    for (std::size_t B = 0; B < Full + Part; ++B)
+      for (std::size_t A = 0; A < 3; ++A)
+        put(Data, S.Means[3 * (First + B * KSplatBucket) + A]);
+  }
+  const auto Number = [&](float Value) {
+    if (Compression == 0)
+      put(Records, Value);
+    else
+      put(Records, halfOf(Value));
+  };
+  const std::size_t ShEach = 3 * S.coefficients();
+  for (std::size_t I = First; I < First + Count; ++I) {
+    const std::size_t Centre =
+        First + (I - First) / KSplatBucket * KSplatBucket;
+    for (std::size_t A = 0; A < 3; ++A)
+      if (Compression == 0)
+        put(Records, S.Means[3 * I + A]);
+      else
+        put(Records,
+            static_cast<uint16_t>(std::lround(
+                (double(S.Means[3 * I + A]) - S.Means[3 * Centre + A]) /
+                    (Block / 2 / Range) +
+                Range)));
+    for (std::size_t A = 0; A < 3; ++A)
+      Number(std::exp(S.LogScales[3 * I + A]));
+    for (std::size_t K = 0; K < 4; ++K)
+      Number(S.Quats[4 * I + K]);
+    for (std::size_t C = 0; C < 3; ++C)
+      putByte(Records, std::round(255 * (0.5 + ShC0 * S.Sh[ShEach * I + C])));
+    putByte(Records, std::round(255 * opacityOf(S, I)));
+    for (int D = 1; D <= S.ShDegree; ++D)
+      for (std::size_t C = 0; C < 3; ++C)
+        for (std::size_t K = shCoefficients(D - 1); K < shCoefficients(D); ++K)
+          if (const float V = S.Sh[ShEach * I + 3 * K + C]; Compression == 2)
+            putByte(Records, stepOf(V, {LeastHarmonic, GreatestHarmonic}, 8));
+          else
+            Number(V);
+  }
+  Records.resize(Records.size() / Count * (Count + 1));
+  return {Header, Data + Records};
+}
+
+} // namespace
+
+std::string ksplatOf(const Scene &S, int Compression) {
+  std::string Header(4096, '\0');
+  Header[1] = 1;
+  patch(Header, 4, uint32_t(2));
+  patch(Header, 8, uint32_t(2));
+  patch(Header, 16, static_cast<uint32_t>(S.size()));
+  patch(Header, 20, static_cast<uint16_t>(Compression));
+  patch(Header, 36, static_cast<float>(LeastHarmonic));
+  patch(Header, 40, static_cast<float>(GreatestHarmonic));
+  const std::size_t Half = S.size() / 2;
+  const auto First = ksplatSection(S, 0, Half, Compression),
+             Second = ksplatSection(S, Half, S.size() - Half, Compression);
+  return Header + First.first + Second.first + First.second + Second.second;
 }
 
 std::string webpOf(int Width, int Height, const std::string &Rgba) {

@@ -22,6 +22,9 @@ Scene numberedScene(std::size_t Count, int ShDegree);
 /// Files by name: a folder, or what goes into a zip archive.
 using Folder = std::map<std::string, std::string>;
 
+/// A `.ksplat` of two sections in compression 0, 1 or 2, whose buckets of eight
+/// Gaussians are the scene's in order.
+std::string ksplatOf(const Scene &S, int Compression);
 /// An `.spz` of version 4, with \p Extensions between header and table.
 std::string spz4Of(const Scene &S, const std::string &Extensions = "");
 /// The codebooks are 256 even steps over what the scene has; the palette has
