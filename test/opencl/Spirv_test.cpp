@@ -192,11 +192,15 @@ TEST_F(Spirv, SpecializationConstantsAreSetBeforeTheBuild) {
     cl_ulong Result;
   };
   const Bytes Module = module("spec");
-  const std::array<Case, 4> Cases = {{{{}, {}, {}, 5},
-                                      {{}, {}, cl_uchar{1}, 15},
-                                      {4, {}, cl_uchar{1}, 20},
-                                      {1U << 31, 1ULL << 32 | 3, cl_uchar{1},
-                                       (1ULL << 31) * (1ULL << 32 | 3)}}};
+  // The translator's own option refuses numbers of 17 digits.
+  constexpr cl_ulong Long = 4609589727908835759;
+  const std::array<Case, 6> Cases = {
+      {{{}, {}, {}, 5},
+       {{}, {}, cl_uchar{1}, 15},
+       {4, {}, cl_uchar{1}, 20},
+       {1U << 31, 1ULL << 32 | 3, cl_uchar{1}, (1ULL << 31) * (1ULL << 32 | 3)},
+       {1, ~0ULL, cl_uchar{1}, ~0ULL},
+       {3, Long, cl_uchar{1}, 3 * Long}}};
   for (const Case &C : Cases) {
     cl_int Status = CL_SUCCESS;
     cl::Program Program = create(Module, Status);
@@ -228,6 +232,16 @@ TEST_F(Spirv, SpecializationConstantsAreSetBeforeTheBuild) {
   EXPECT_EQ(Set(7, 4, nullptr), CL_INVALID_VALUE);
   EXPECT_EQ(clSetProgramSpecializationConstant(nullptr, 7, 4, &Value),
             CL_INVALID_PROGRAM);
+}
+
+TEST_F(Spirv, FloatsArePrintedAsDoublesAre) {
+  const cl::Program Program = build(module("prints"));
+  cl::Kernel Kernel(Program, "prints");
+  Kernel.setArg(0, 2.5F);
+  testing::internal::CaptureStdout();
+  Device.run(Kernel, 1, 1);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(),
+            "2.5 0x1.4p+1 2.50,5.00 7\n");
 }
 
 TEST_F(Spirv, VariablesOfProgramScopeStayBetweenKernels) {

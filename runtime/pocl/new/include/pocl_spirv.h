@@ -1,9 +1,11 @@
-/* What of a module of SPIR-V is seen before it is translated: whether it is one
- * for OpenCL, and whether a device offers what it needs. */
+/* What of a module of SPIR-V is seen and set before it is translated: whether it
+ * is one for OpenCL, whether a device offers what it needs, its specialization
+ * constants. */
 #ifndef POCL_SPIRV_H
 #define POCL_SPIRV_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "pocl_cl.h"
 
@@ -20,5 +22,11 @@ int pocl_spirv_is_kernel_module(const void *il, size_t length,
  * not. */
 int pocl_spirv_is_offered(cl_device_id device, const void *il, size_t length,
                           char text[POCL_SPIRV_TEXT]);
+
+/* Gives the specialization constant with this SpecId its value, of as many bits
+ * as it has, in a module for OpenCL. The translator has an option for this, but
+ * refuses values of 64 bits that have 17 digits. */
+void pocl_spirv_specialize(void *il, size_t length, uint32_t id,
+                           uint64_t value);
 
 #endif

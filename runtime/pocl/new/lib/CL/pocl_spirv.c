@@ -13,7 +13,15 @@
  * It says itself what it does not know. */
 #define NEWEST_VERSION 0x10400U
 
-enum { OP_MEMORY_MODEL = 14, OP_CAPABILITY = 17 };
+enum {
+  OP_MEMORY_MODEL = 14,
+  OP_CAPABILITY = 17,
+  OP_SPEC_CONSTANT_TRUE = 48,
+  OP_SPEC_CONSTANT_FALSE = 49,
+  OP_SPEC_CONSTANT = 50,
+  OP_DECORATE = 71
+};
+enum { DECORATION_SPEC_ID = 1 };
 enum { CAPABILITY_SHADER = 1, CAPABILITY_KERNEL = 6 };
 enum { ADDRESSING_PHYSICAL32 = 1, ADDRESSING_PHYSICAL64 = 2 };
 
@@ -169,4 +177,42 @@ int pocl_spirv_is_offered(cl_device_id device, const void *il, size_t length,
       return 0;
     }
   return 1;
+}
+
+static void set_word(void *il, size_t index, uint32_t word) {
+  memcpy((char *)il + index * sizeof(word), &word, sizeof(word));
+}
+
+/* The constant whose result has this number gets the value. One of 64 bits has
+ * two words, the lower first; a truth value has none, but two instructions. */
+static void specialize_result(void *il, size_t length, uint32_t result,
+                              uint64_t value) {
+  for (size_t at = HEADER_WORDS; at < length / sizeof(uint32_t);
+       at += word_at(il, at) >> 16) {
+    const uint32_t size = word_at(il, at) >> 16;
+    const uint32_t kind = word_at(il, at) & 0xffff;
+    if (kind < OP_SPEC_CONSTANT_TRUE || kind > OP_SPEC_CONSTANT || size < 3 ||
+        word_at(il, at + 2) != result)
+      continue;
+    if (kind != OP_SPEC_CONSTANT)
+      set_word(il, at,
+               size << 16 |
+                   (value ? OP_SPEC_CONSTANT_TRUE : OP_SPEC_CONSTANT_FALSE));
+    for (uint32_t word = 3; kind == OP_SPEC_CONSTANT && word < size && word < 5;
+         ++word)
+      set_word(il, at + word, (uint32_t)(value >> 32 * (word - 3)));
+  }
+}
+
+void pocl_spirv_specialize(void *il, size_t length, uint32_t id,
+                           uint64_t value) {
+  size_t decoration = HEADER_WORDS;
+  for (; find(il, length, OP_DECORATE, &decoration);
+       decoration += word_at(il, decoration) >> 16) {
+    if (word_at(il, decoration) >> 16 < 4 ||
+        word_at(il, decoration + 2) != DECORATION_SPEC_ID ||
+        word_at(il, decoration + 3) != id)
+      continue;
+    specialize_result(il, length, word_at(il, decoration + 1), value);
+  }
 }

@@ -193,6 +193,9 @@ bool replaceCalls(Function &F, const Function &Own) {
 /// What a function with a variable number of arguments is given as: vectors as
 /// clang gives them, in an integer of one or two registers or by their place.
 Value *handOverVariable(IRBuilder<> &Builder, Value *V) {
+  // A program without doubles prints floats as they are; C promotes them.
+  if (V->getType()->isFloatTy() || V->getType()->isHalfTy())
+    return Builder.CreateFPExt(V, Builder.getDoubleTy());
   if (!isa<FixedVectorType>(V->getType()))
     return V;
   const uint64_t Bits = bitsOf(V->getType());
