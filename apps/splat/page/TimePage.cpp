@@ -1,6 +1,7 @@
 #include "page/TimePage.h"
 
 #include "page/Page.h"
+#include "vorion/support/Json.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +31,7 @@ std::string commandOf(const Json &Report) {
   if (!Arguments.empty())
     Text += ": " + textAt(Report, "program", "name");
   for (const Json &Word : Arguments)
-    Text += " " + (Word.is_string() ? Word.get<std::string>() : Word.dump());
+    Text += " " + (Word.is_string() ? Word.get<std::string>() : jsonText(Word));
   return Text;
 }
 
@@ -47,7 +48,8 @@ void addMade(Json &To, const TimeRun &R, std::string_view Letter) {
   To.push_back(fmt::format(
       "{}device {}, {}; configuration {}", Mark,
       textAt(R.Report, "device", "name"), textAt(R.Report, "device", "version"),
-      Device.contains("configuration") ? Device["configuration"].dump() : ""));
+      Device.contains("configuration") ? jsonText(Device["configuration"])
+                                       : ""));
 }
 
 } // namespace

@@ -35,8 +35,8 @@ unsigned probe(pocl_device_ops *Ops) {
 /// of their source; both are PoCL's options, which it looks up at each build.
 void keepSourceLines() {
   bool Wanted = false;
-  for (const char *Name :
-       {"VORION_PROFILE", "VORION_CHECK", "VORION_GDB", "VORION_NUMERICS"})
+  for (const char *Name : {"VORION_PROFILE", "VORION_CHECK", "VORION_GDB",
+                           "VORION_NUMERICS", "VORION_CAPTURE"})
     Wanted |= isOptionSet(Name);
   if (!Wanted)
     return;
