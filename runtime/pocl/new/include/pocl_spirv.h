@@ -1,6 +1,6 @@
-/* What of a module of SPIR-V is seen and set before it is translated: whether it
- * is one for OpenCL, whether a device offers what it needs, its specialization
- * constants. */
+/* What of a module of SPIR-V is seen and set before it is translated: whether
+ * it is one for OpenCL, whether a device offers what it needs, its
+ * specialization constants. */
 #ifndef POCL_SPIRV_H
 #define POCL_SPIRV_H
 
