@@ -85,7 +85,8 @@ CLI::Validator isOneOf(std::vector<std::string> Names) {
   return Check;
 }
 
-CLI::Option *takesFile(CLI::Option *O, std::vector<std::string> Endings) {
+CLI::Option *takesFile(CLI::Option *O,
+                       const std::vector<std::string> &Endings) {
   return O->type_name("FILE")->check(mark(FileName, Endings));
 }
 

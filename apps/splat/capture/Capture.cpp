@@ -173,6 +173,7 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
           return matchesName(V.Pose.Name, Name);
         }) == 0) {
       std::vector<std::string> Known;
+      Known.reserve(C.Views.size());
       for (const CaptureView &V : C.Views)
         Known.push_back(V.Pose.Name);
       return Error{Path,

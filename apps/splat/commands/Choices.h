@@ -50,6 +50,7 @@ inline void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
                     const std::vector<unsigned> &Choices,
                     const std::string &Help) {
   std::vector<std::string> Names;
+  Names.reserve(Choices.size());
   for (const unsigned Choice : Choices)
     Names.push_back(std::to_string(Choice));
   App.add_option(Flag, Value, fmt::format("{} (default {})", Help, Value))

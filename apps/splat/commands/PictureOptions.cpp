@@ -145,9 +145,8 @@ void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
 }
 
 void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
-                    std::vector<unsigned> Tiles) {
-  addSize(App, "--simt-tile", Tile, std::move(Tiles),
-          "Side of a tile of the cores' path");
+                    const std::vector<unsigned> &Tiles) {
+  addSize(App, "--simt-tile", Tile, Tiles, "Side of a tile of the cores' path");
   addSize(App, "--simt-group", Group, {16, 64, 256},
           "Work-items that draw a tile on the cores' path");
 }

@@ -51,7 +51,7 @@ void addPathOption(CLI::App &App, Path &Blending, const std::string &Help);
 
 /// Tile and group of the cores' path.
 void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
-                    std::vector<unsigned> Tiles);
+                    const std::vector<unsigned> &Tiles);
 /// What the tile may be where gradients are taken back: the cores keep one in
 /// local memory.
 inline const std::vector<unsigned> SimtTilesBack{8, 16};

@@ -237,6 +237,7 @@ static Expected<Camera> cameraNamed(const std::string &Path,
   if (Cameras.size() > MostNamed)
     Known += fmt::format(" and {} more", Cameras.size() - MostNamed);
   std::vector<std::string> Names;
+  Names.reserve(Cameras.size());
   for (const Camera &C : Cameras)
     Names.push_back(C.Name);
   return Error{Path, fmt::format("no view {}, expected one of {}{}", View,

@@ -27,7 +27,8 @@ CLI::Validator isOneOf(std::vector<std::string> Names);
 
 /// Says that the value of \p O names a file, with one of \p Endings if there
 /// are some, or a folder: for --help and for shells that complete names.
-CLI::Option *takesFile(CLI::Option *O, std::vector<std::string> Endings = {});
+CLI::Option *takesFile(CLI::Option *O,
+                       const std::vector<std::string> &Endings = {});
 CLI::Option *takesFolder(CLI::Option *O);
 
 /// What was said of an option's value by the above.

@@ -18,9 +18,7 @@ std::string_view closestTo(std::string_view Word,
 /// front?", or empty if none of \p Known, any range of texts, is near.
 template <typename Range>
 std::string didYouMean(std::string_view Word, const Range &Known) {
-  std::vector<std::string> Names;
-  for (const auto &Name : Known)
-    Names.emplace_back(Name);
+  const std::vector<std::string> Names(std::begin(Known), std::end(Known));
   const std::string_view Meant = closestTo(Word, Names);
   return Meant.empty() ? "" : "; did you mean " + std::string(Meant) + "?";
 }
