@@ -24,8 +24,8 @@ std::span<const std::string_view> addressMaps();
 /// \p Interleave bytes before the next has (64 to 4096); all powers of two.
 ///
 /// digit_sum: the rows of a channel go round the banks, and the bank is the sum
-///   of the row number's digits to the base of the banks, as timing/Dram has
-///   it.
+///   of the row number's digits to the base of the banks, as version 1 of the
+///   clock had it.
 /// row_bank_column: what its name says, the row on top.
 /// xor: neighbouring lines in different bank groups; channel, bank group and
 ///   bank are spread by the exclusive or with bits of the row.
