@@ -1,8 +1,6 @@
 // splat: renders 3D Gaussian scenes on an OpenCL device.
 
 #include "commands/Commands.h"
-#include "commands/Doctor.h"
-#include "commands/Replay.h"
 #include "device/Programs.h"
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
@@ -59,7 +57,8 @@ int run(std::vector<std::string> Arguments) {
       splat::addAnalyze);
   Add("accuracy", "Measures what accuracy costs in time", splat::addAccuracy);
   Add("info", "Prints what is in a scene or a capture", splat::addInfo);
-  Add("convert", "Writes a scene of any format as a PLY", splat::addConvert);
+  Add("convert", "Writes a scene in another format, and says what is lost",
+      splat::addConvert);
   Add("demo-scene", "Writes the project's own scene and its cameras",
       splat::addDemoScene);
   Add("train", "Makes a scene from photographs with poses", splat::addTrain);

@@ -117,8 +117,7 @@ def measure(args):
     if not tests:
         raise Problem(f"--only {args.only}: no subtest matches, expected a part of PROGRAM/SUBTEST")
     platform = digest(platform_files())
-    kept_in = "piglit.jsonl" if args.packages else "pocl.jsonl" if args.pocl else os.path.join(args.folder, "conformance.jsonl")
-    path = args.results or kept_in
+    path = args.results or (os.path.join(args.folder, "conformance.jsonl") if suite is cts else suite.__name__ + ".jsonl")
     kept = kept_results(path)
     results = []
     hashes = {}

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
+#include <ranges>
 #include <set>
 
 namespace vorion::splat {
@@ -172,10 +173,8 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
     if (std::erase_if(C.Views, [&](const CaptureView &V) {
           return matchesName(V.Pose.Name, Name);
         }) == 0) {
-      std::vector<std::string> Known;
-      Known.reserve(C.Views.size());
-      for (const CaptureView &V : C.Views)
-        Known.push_back(V.Pose.Name);
+      const auto Known = std::views::transform(
+          C.Views, [](const CaptureView &V) { return V.Pose.Name; });
       return Error{Path,
                    fmt::format("no picture {} to exclude, expected one of the "
                                "capture's{}",

@@ -22,6 +22,7 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <set>
 #include <string>
 #include <system_error>
@@ -105,14 +106,6 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   return P;
 }
 
-std::vector<std::string> namesOf(const std::vector<Camera> &Views) {
-  std::vector<std::string> Names;
-  Names.reserve(Views.size());
-  for (const Camera &View : Views)
-    Names.push_back(View.Name);
-  return Names;
-}
-
 /// Views that choose and views that check.
 struct Split {
   std::vector<const Camera *> Choose, Check;
@@ -124,9 +117,11 @@ Expected<Split> splitViews(const SweepPlan &P,
   for (const std::string &Name : Check)
     if (std::none_of(P.Views.begin(), P.Views.end(),
                      [&](const Camera &C) { return C.Name == Name; }))
-      return usage(fmt::format("--check {}: no such view, expected one of "
-                               "those that are measured{}",
-                               Name, didYouMean(Name, namesOf(P.Views))));
+      return usage(fmt::format(
+          "--check {}: no such view, expected one of "
+          "those that are measured{}",
+          Name,
+          didYouMean(Name, std::views::transform(P.Views, &Camera::Name))));
   for (const Camera &View : P.Views) {
     // Unless told, the last of several views checks.
     const bool Checks =

@@ -23,5 +23,10 @@ Runner addAccuracy(CLI::App &App);
 Runner addTrain(CLI::App &App);
 Runner addCompare(CLI::App &App);
 Runner addView(CLI::App &App);
+/// Runs again what made a report, and says whether it is the same.
+Runner addReplay(CLI::App &App);
+/// Looks at what programs need to run here; a fault is an Error (GuestFailed),
+/// given after all is said.
+Runner addDoctor(CLI::App &App);
 
 } // namespace vorion::splat

@@ -1,4 +1,4 @@
-#include "commands/Doctor.h"
+#include "commands/Commands.h"
 
 #include "commands/OutputFile.h"
 #include "device/BuildRecord.h"

@@ -1,8 +1,6 @@
-#include "commands/Replay.h"
-
-#include "commands/ReportDifference.h"
-
 #include "accuracy/Process.h"
+#include "commands/Commands.h"
+#include "commands/ReportDifference.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"

@@ -4,6 +4,7 @@
 #include "io/Cameras.h"
 #include "view/Server.h"
 #include "view/Session.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
 
@@ -86,9 +87,11 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
 Runner addView(CLI::App &App) {
   auto A = std::make_shared<ViewArguments>();
   addSceneOptions(App, A->Scene);
-  App.add_option("--cameras", A->Cameras,
-                 "Views to begin with: INRIA's cameras.json (default: one that "
-                 "sees the scene's middle)");
+  takesFile(
+      App.add_option("--cameras", A->Cameras,
+                     "Views to begin with: INRIA's cameras.json (default: one "
+                     "that sees the scene's middle)"),
+      {".json"});
   App.add_option("--port", A->Port,
                  "Port of 127.0.0.1 (default 0: one that is free)")
       ->check(CLI::Range(0, 65535));

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 
 namespace vorion::splat {
 namespace {
@@ -236,12 +237,10 @@ static Expected<Camera> cameraNamed(const std::string &Path,
     Known += (I ? ", " : "") + Cameras[I].Name;
   if (Cameras.size() > MostNamed)
     Known += fmt::format(" and {} more", Cameras.size() - MostNamed);
-  std::vector<std::string> Names;
-  Names.reserve(Cameras.size());
-  for (const Camera &C : Cameras)
-    Names.push_back(C.Name);
-  return Error{Path, fmt::format("no view {}, expected one of {}{}", View,
-                                 Known, didYouMean(View, Names))};
+  return Error{Path,
+               fmt::format("no view {}, expected one of {}{}", View, Known,
+                           didYouMean(View, std::views::transform(
+                                                Cameras, &Camera::Name)))};
 }
 
 Expected<std::vector<Camera>>

@@ -143,17 +143,18 @@ Scene inOrderOfPlace(const Scene &S) {
 Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
                                   const Drawing &D) {
   const Writer &W = writerOf(Path);
-  const Scene Given = W.OrdersByPlace ? inOrderOfPlace(S) : S;
+  const Scene Ordered = W.OrdersByPlace ? inOrderOfPlace(S) : Scene();
+  const Scene &Given = W.OrdersByPlace ? Ordered : S;
   const auto File = W.Format(Given, D);
   if (!File)
     return Error{Path, File.error().What, File.error().Code};
-  const auto Read = parseScene(Path, std::as_bytes(std::span(*File)));
+  auto Read = parseScene(Path, std::as_bytes(std::span(*File)));
   if (!Read)
     return Read.error();
   WrittenScene Result;
   Result.ShDegree = Read->Gaussians.ShDegree;
   Result.KeepsDrawing = Read->DrawnAs.drawsAs(D);
-  Scene Kept = Read->Gaussians;
+  Scene Kept = std::move(Read->Gaussians);
   if (Kept.ShDegree < S.ShDegree) {
     // What the file has no harmonics for, it has zeros for.
     Scene Wide = Scene::sized(Kept.size(), S.ShDegree);
