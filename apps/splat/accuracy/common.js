@@ -1,21 +1,4 @@
-// What the pages of `splat accuracy` share: the measurements beside the script, elements, plots, tables. Uses nothing of
-// any network.
-'use strict';
-
-const data = JSON.parse(document.getElementById('data').textContent);
-const byId = id => document.getElementById(id);
-
-function element(name, attributes = {}, ...children) {
-  const inSvg = ['circle', 'line', 'path', 'text', 'title'].includes(name);
-  const e = inSvg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  e.append(...children);
-  return e;
-}
-
-function rowOf(cells, name = 'td') {
-  return element('tr', {}, ...cells.map(c => element(name, {}, c)));
-}
+// What the pages of `splat accuracy` share besides page/elements.js: plots, and the page's start.
 
 // Round numbers from low to high.
 function ticks(low, high) {
@@ -50,44 +33,6 @@ function drawAxes(svg, x, y) {
   svg.append(element('text', { x: (left + right) / 2, y: bottom + 40, 'text-anchor': 'middle' }, x.label),
     element('text', { x: left, y: top - 6 }, y.label));
   return { px, py, y0, y1 };
-}
-
-// Fills `table`, a row an entry; columns: [label, what to sort by, text]. `sort`: { n, down }; `resort` gets another one.
-// `mark` is given each row and its entry.
-function drawColumns(table, columns, entries, sort, resort, mark) {
-  const header = rowOf(columns.map(c => c[0]), 'th');
-  [...header.children].forEach((cell, n) =>
-    cell.addEventListener('click', () => resort({ n, down: sort.n === n && !sort.down })));
-  table.tHead.replaceChildren(header);
-  const order = [...entries];
-  order.sort((a, b) => {
-    const [x, y] = [columns[sort.n][1](a), columns[sort.n][1](b)];
-    return (x < y ? -1 : x > y ? 1 : 0) * (sort.down ? -1 : 1);
-  });
-  table.tBodies[0].replaceChildren(...order.map(e => {
-    const row = rowOf(columns.map(c => c[2](e)));
-    mark(row, e);
-    return row;
-  }));
-}
-
-// A control: choices are [value, label]; `chosen` gets the value.
-function fill(select, choices, chosen) {
-  for (const [value, label] of choices) select.append(element('option', { value }, label));
-  select.addEventListener('change', () => chosen(select.value));
-}
-
-// For a page's test of itself: every choice of these controls, then the first again.
-function tryControls(ids) {
-  for (const id of ids)
-    for (const option of byId(id).options) {
-      byId(id).value = option.value;
-      byId(id).dispatchEvent(new Event('change'));
-    }
-  for (const id of ids) {
-    byId(id).selectedIndex = 0;
-    byId(id).dispatchEvent(new Event('change'));
-  }
 }
 
 // Opened with #test, a page tries itself and says in data-test what came out: what a test reads.

@@ -1,20 +1,4 @@
-// What all pages share: the data beside the script, elements, charts in the page's colours, tables. Uses nothing of any
-// network.
-'use strict';
-
-const data = JSON.parse(document.getElementById('data').textContent);
-const byId = id => document.getElementById(id);
-
-function element(name, attributes = {}, ...children) {
-  const e = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
-  e.append(...children);
-  return e;
-}
-
-function rowOf(cells, name = 'td') {
-  return element('tr', {}, ...cells.map(c => element(name, {}, c)));
-}
+// What pages with charts share besides elements.js: the page's colours, charts, its start and its test of itself.
 
 // A colour of look.css by its name, and the colour of the n-th of several things.
 const colour = name => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
@@ -57,48 +41,7 @@ function change(a, b, worse = true) {
   return element('span', { class: worse ? (percent > 0 ? 'worse' : 'better') : '' }, `${sign}${number(Math.abs(percent), 2)} %`);
 }
 
-// Fills `table`, a row an entry; columns: [label, what to sort by, text]. `sort`: { n, down }; `resort` gets another one.
-// `mark` is given each row and its entry.
-function drawColumns(table, columns, entries, sort, resort, mark) {
-  const header = rowOf(columns.map(c => c[0]), 'th');
-  [...header.children].forEach((cell, n) => {
-    cell.classList.add('sorts');
-    if (n === sort.n) cell.append(sort.down ? ' ▾' : ' ▴');
-    cell.addEventListener('click', () => resort({ n, down: sort.n === n && !sort.down }));
-  });
-  table.tHead.replaceChildren(header);
-  const order = [...entries];
-  order.sort((a, b) => {
-    const [x, y] = [columns[sort.n][1](a), columns[sort.n][1](b)];
-    return (x < y ? -1 : x > y ? 1 : 0) * (sort.down ? -1 : 1);
-  });
-  table.tBodies[0].replaceChildren(...order.map(e => {
-    const row = rowOf(columns.map(c => c[2](e)));
-    mark(row, e);
-    return row;
-  }));
-}
-
-// A control: choices are [value, label]; `chosen` gets the value.
-function fill(select, choices, chosen) {
-  for (const [value, label] of choices) select.append(element('option', { value }, label));
-  select.addEventListener('change', () => chosen(select.value));
-}
-
-// For a page's test of itself: every choice of these controls, then the one that was chosen before.
-function tryControls(ids) {
-  const choose = (id, value) => {
-    byId(id).value = value;
-    byId(id).dispatchEvent(new Event('change'));
-  };
-  for (const id of ids) {
-    const before = byId(id).value;
-    for (const option of byId(id).options) choose(id, option.value);
-    choose(id, before);
-  }
-}
-
-// For the same: that nothing ends beyond `width` pixels, which the page is given.
+// For a page's test of itself: that nothing ends beyond `width` pixels, which the page is given.
 function checkWidth(width) {
   for (const e of document.body.querySelectorAll('*')) {
     const { right } = e.getBoundingClientRect();

@@ -9,12 +9,7 @@ using namespace vorion::splat::testing;
 namespace {
 
 Scene parsed(const std::string &Content) {
-  auto Read = parseScene("s", std::as_bytes(std::span(Content)));
-  EXPECT_TRUE(Read) << Read.error().What;
-  if (!Read)
-    return {};
-  EXPECT_EQ(Read->Format, SceneFormat::CompressedPly);
-  return std::move(Read->Gaussians);
+  return parsedAs(SceneFormat::CompressedPly, Content).Gaussians;
 }
 
 TEST(CompressedPly, RoundTripsWithinHalfAStepAtEveryDegree) {

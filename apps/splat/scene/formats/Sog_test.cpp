@@ -11,13 +11,9 @@ using namespace vorion::splat::testing;
 namespace {
 
 SceneFile parsed(const std::string &Content, int Version = 2) {
-  auto Read = parseScene("s", std::as_bytes(std::span(Content)));
-  EXPECT_TRUE(Read) << Read.error().Where << Read.error().What;
-  if (!Read)
-    return {};
-  EXPECT_EQ(Read->Format, SceneFormat::Sog);
-  EXPECT_EQ(Read->Version, Version);
-  return std::move(*Read);
+  SceneFile Read = parsedAs(SceneFormat::Sog, Content);
+  EXPECT_EQ(Read.Version, Version);
+  return Read;
 }
 
 TEST(Sog, RoundTripsWithinHalfAStepAtEveryDegree) {

@@ -10,12 +10,7 @@ using namespace vorion::splat::testing;
 namespace {
 
 SceneFile parsed(const std::string &Content) {
-  auto Read = parseScene("s", std::as_bytes(std::span(Content)));
-  EXPECT_TRUE(Read) << Read.error().What;
-  if (!Read)
-    return {};
-  EXPECT_EQ(Read->Format, SceneFormat::Spz);
-  return std::move(*Read);
+  return parsedAs(SceneFormat::Spz, Content);
 }
 
 TEST(Spz, RoundTripsBothVersionsAtEveryDegree) {
