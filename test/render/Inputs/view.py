@@ -15,6 +15,7 @@ import sys
 import urllib.parse
 import zipfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
 from browser import Browser
 
 SCENE, CAMERAS, SOG, FOLDER = sys.argv[1:]

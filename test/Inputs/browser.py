@@ -8,14 +8,17 @@ import time
 
 
 class Browser:
-    def __init__(self, folder, width=1200, height=900):
+    """reaches: what Chromium may connect to, as its rules for names of hosts except from finding nothing."""
+
+    def __init__(self, folder, width=1200, height=900, reaches=("127.0.0.1", "localhost")):
         theirs_in, self.ours_out = os.pipe()
         self.ours_in, theirs_out = os.pipe()
         # Offline: everything that would call out is off, and names resolve to nothing. Chromium reads the protocol from
         # descriptor 3 and writes it to 4; both may be in use here.
         command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
                    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage",
-                   "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1, EXCLUDE localhost", f"--user-data-dir={folder}/user",
+                   "--host-resolver-rules=" + ", ".join(["MAP * ~NOTFOUND", *(f"EXCLUDE {name}" for name in reaches)]),
+                   f"--user-data-dir={folder}/user",
                    f"--window-size={width},{height}", "--remote-debugging-pipe", "about:blank"]
         self.process = subprocess.Popen(
             ["bash", "-c", f'exec 8<&{theirs_in} 9>&{theirs_out} && exec 3<&8 4>&9 8<&- 9>&- && exec "$@"', "chromium", *command],
@@ -45,10 +48,14 @@ class Browser:
             if said.get("id") == self.count:
                 assert "error" not in said, said
                 return said["result"]
-            if said.get("method") == "Runtime.exceptionThrown":
-                self.complaints.append(said["params"]["exceptionDetails"])
-            elif said.get("method") == "Log.entryAdded" and said["params"]["entry"]["level"] == "error":
-                self.complaints.append(said["params"]["entry"])
+            self.hear(said.get("method"), said.get("params"))
+
+    def hear(self, method, parameters):
+        """What the browser tells by itself."""
+        if method == "Runtime.exceptionThrown":
+            self.complaints.append(parameters["exceptionDetails"])
+        elif method == "Log.entryAdded" and parameters["entry"]["level"] == "error":
+            self.complaints.append(parameters["entry"])
 
     def open(self, address):
         self.send("Page.navigate", url=address)
@@ -84,5 +91,6 @@ class Browser:
             f.write(base64.b64decode(shot["data"]))
 
     def close(self):
-        self.process.terminate()
+        self.session = None
+        self.send("Browser.close")
         self.process.wait()
