@@ -100,7 +100,7 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
   Json ChosenOn = Json::array();
   for (const Camera *View : Head.ChosenOn)
     ChosenOn.push_back(View->Name);
-  const Json Data{{"made", Head.Made},
+  const Json Data{{"made", Json::array({Head.Made})},
                   {"floor_db", Head.FloorDb},
                   {"views", std::move(Views)},
                   {"chosen_on", std::move(ChosenOn)},
@@ -117,7 +117,7 @@ std::string trainPageOf(const Json &Results, const std::string &Made) {
       Curves.push_back({{"setting", Point["setting"]},
                         {"seed", Point["seed"]},
                         {"curve", Point["curve"]}});
-  return filledPage(trainPageTemplate(), {{"made", Made},
+  return filledPage(trainPageTemplate(), {{"made", Json::array({Made})},
                                           {"iterations", Results["iterations"]},
                                           {"reached_db", Results["reached_db"]},
                                           {"settings", Results["settings"]},

@@ -1,11 +1,12 @@
 // The page of `splat accuracy SCENE`: draws the measurements and lets people choose.
 
-// What a dot may be judged by. `logarithmic`: small errors over many orders of magnitude are shown by their logarithm.
+// What a setting may be judged by. `place`: where an error is drawn, higher for better; `tick`: what stands there.
+const power = t => `1e${-t}`;
 const METRICS = {
   psnr_db: { label: 'PSNR, dB', digits: 1 },
-  ssim: { label: 'SSIM', digits: 6, logarithmic: true },
-  largest: { label: 'largest error', digits: 5, logarithmic: true },
-  off_share: { label: 'pixels off by more than 1/255, %', digits: 4, scale: 100, logarithmic: true },
+  ssim: { label: 'SSIM', digits: 6, place: v => -Math.log10(Math.max(1e-12, 1 - v)), tick: t => `1 − ${power(t)}` },
+  largest: { label: 'largest error', digits: 5, place: v => -Math.log10(Math.max(1e-9, v)), tick: power },
+  off_share: { label: 'pixels off by more than 1/255, %', digits: 4, scale: 100, place: v => -Math.log10(Math.max(1e-9, 100 * v)), tick: power },
 };
 const AXES = {
   cycles: { label: 'machine cycles, 16 lanes', scale: 1e-6, unit: 'M' },
@@ -17,8 +18,14 @@ const EQUAL_DB = 200;
 // Times beyond so many times the default's are drawn at the edge.
 const MOST_OF_DEFAULT = 1.4;
 
+// The axis on which a front can be seen: with the most of the settings on it.
+function seenAxis() {
+  const fronts = data.summaries[0].fronts.psnr_db;
+  return Object.keys(AXES).reduce((best, axis) => (fronts[axis].length > fronts[best].length ? axis : best));
+}
+
 // `view`: 0 for all views together, else the number of one.
-const state = { view: 0, metric: 'psnr_db', axis: 'cycles', floor: data.floor_db, selected: null, sort: null };
+const state = { view: 0, metric: 'psnr_db', axis: seenAxis(), floor: data.floor_db, selected: null, sort: null };
 
 // The settings over a choice of views, from one of data.summaries: with the errors of the pictures that the axis times.
 function entriesOf(summary) {
@@ -41,47 +48,96 @@ function format(value, { digits, scale = 1 }) {
 function time(value, axis) {
   return value === null ? '—' : `${(value * AXES[axis].scale).toFixed(3)} ${AXES[axis].unit}`;
 }
-function change(value, base) {
+function changeOf(value, base) {
   if (value === null || base === null) return '';
-  const share = 100 * (value / base - 1);
-  return `${share >= 0 ? '+' : '−'}${Math.abs(share).toFixed(1)} %`;
+  const share = 100 * (value / base - 1), size = Math.abs(share).toFixed(1);
+  return size === '0.0' ? '0.0 %' : `${share > 0 ? '+' : '−'}${size} %`;
+}
+
+// A colour for each kind of setting; the first that holds decides.
+function kindOf(e, front, best) {
+  return e.setting === state.selected ? 'chosen' : e === best ? 'good' : e.setting === 'default' ? 'ink' : front.includes(e) ? 'mark' : 'soft';
+}
+
+// Rings of settings that would cover each other become larger, one after the other, so that each can be seen.
+function spread(chart, points) {
+  const { x, y } = chart.scales, placed = [];
+  for (const p of points) {
+    const [px, py] = [x.getPixelForValue(p.x), y.getPixelForValue(p.y)];
+    const there = placed.filter(q => Math.hypot(q.px - px, q.py - py) < 9).length;
+    p.radius = 5 + 3.5 * there;
+    placed.push({ px, py });
+  }
 }
 
 function drawPlot(entries, front, best) {
-  const { left, right } = PLOT;
-  const { metric, axis } = state;
-  const shown = entries.filter(e => e.times[axis] !== null);
-  const svg = byId('plot');
-  svg.replaceChildren();
-  if (!shown.length) return;
-  const metricScale = METRICS[metric].scale ?? 1;
-  const { logarithmic } = METRICS[metric];
-  const height = e => {
-    const value = e.errors[metric];
-    if (metric === 'ssim') return -Math.log10(Math.max(1e-12, 1 - value));
-    return logarithmic ? Math.log10(Math.max(1e-9, value * metricScale)) : Math.min(value, EQUAL_DB);
-  };
-  // What is much slower than the default would press all others together: it goes to the right edge.
-  const base = entries.find(e => e.setting === 'default')?.times[axis] ?? Infinity;
-  const times = shown.map(e => Math.min(e.times[axis], MOST_OF_DEFAULT * base) * AXES[axis].scale);
-  const tick = metric === 'ssim' ? t => `1−1e${(-t).toFixed(1)}` : logarithmic ? t => `1e${t.toFixed(1)}` : undefined;
-  const { px, py, y0, y1 } = drawAxes(svg, { values: times, label: `${AXES[axis].label}, ${AXES[axis].unit}` },
-    { values: shown.map(height), label: METRICS[metric].label, tick });
-  const place = e => [px(e.times[axis] * AXES[axis].scale), py(height(e))];
-  svg.append(element('path', { class: 'front', d: 'M' + front.map(e => place(e).join(' ')).join('L') }));
-  if (metric === 'psnr_db' && state.floor > y0 && state.floor < y1)
-    svg.append(element('line', { class: 'floor', x1: left, x2: right, y1: py(state.floor), y2: py(state.floor) }));
-  for (const e of shown) {
-    const [cx, cy] = place(e);
-    const names = ['dot', front.includes(e) && 'onfront', e === best && 'best', e.setting === 'default' && 'default',
-      e.setting === state.selected && 'selected', cx >= right && 'beyond'].filter(Boolean).join(' ');
-    const dot = element('circle', { class: names, cx, cy, r: 5, 'data-setting': e.setting, tabindex: 0 });
-    dot.addEventListener('mouseenter', event => showTip(e, event));
-    dot.addEventListener('mouseleave', () => { byId('tip').style.display = 'none'; });
-    dot.addEventListener('click', () => select(e.setting));
-    svg.append(dot);
+  const { metric, axis: time } = state;
+  const { place, tick, label } = METRICS[metric];
+  const shown = entries.filter(e => e.times[time] !== null);
+  if (!shown.length) {
+    charts.plot?.destroy();
+    return;
   }
+  // Equal pictures have no PSNR: they stand above the others.
+  const most = Math.max(...shown.map(e => e.errors.psnr_db).filter(v => v < EQUAL_DB), state.floor);
+  const equal = Math.ceil(most / 10) * 10 + 10;
+  const height = e => (place ? place(e.errors[metric]) : e.errors[metric] >= EQUAL_DB ? equal : e.errors[metric]);
+  // What is much slower than the default would press all others together: it goes to the right edge.
+  const base = entries.find(e => e.setting === 'default')?.times[time] ?? Infinity;
+  const edge = MOST_OF_DEFAULT * base;
+  const points = shown.map(e => ({ x: Math.min(e.times[time], edge) * AXES[time].scale, y: height(e), entry: e, beyond: e.times[time] > edge }));
+  const colourOf = p => colour(kindOf(p.entry, front, best));
+  const lines = [{ label: 'front', data: front.map(e => ({ x: e.times[time] * AXES[time].scale, y: height(e) })), showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour('mark'), borderWidth: 1.5 }];
+  const [low, high] = [Math.min(...points.map(p => p.x)), Math.max(...points.map(p => p.x))];
+  const room = 0.04 * (high - low || high);
+  if (metric === 'psnr_db')
+    lines.push({ label: 'floor', data: [{ x: low - room, y: state.floor }, { x: high + room, y: state.floor }], showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour('bad'), borderDash: [5, 4], borderWidth: 1.5 });
+  const rings = {
+    label: 'settings', data: points, pointBackgroundColor: 'transparent', pointBorderWidth: 2.5, pointHoverBorderWidth: 3.5, pointHoverBackgroundColor: 'transparent',
+    pointBorderColor: points.map(colourOf), pointHoverBorderColor: points.map(colourOf),
+  };
+  const ticks = { callback: value => (tick ? (Number.isInteger(value) ? tick(value) : '') : value === equal ? 'equal' : value > most + 5 ? '' : value) };
+  const chart = drawChart('plot', {
+    type: 'scatter',
+    data: { datasets: [rings, ...lines] },
+    plugins: [dashBeyond],
+    options: {
+      scales: {
+        x: axis(`${AXES[time].label}, ${AXES[time].unit}`, { min: low - room, max: high + room, ticks: { maxRotation: 0, callback: v => number(v, 2) } }),
+        y: axis(`${label}, better is higher`, { grace: '6%', ticks }),
+      },
+      layout: { padding: { right: 14, top: 8 } },
+      plugins: { legend: { display: false }, tooltip: { enabled: false } },
+      onHover: (event, found) => showTip(entriesAt(found), event.native),
+      onClick: (event, found) => { const [first] = entriesAt(found); if (first) select(first.setting); },
+    },
+  });
+  spread(chart, points);
+  rings.pointRadius = points.map(p => p.radius);
+  rings.pointHoverRadius = rings.pointRadius;
+  chart.update();
 }
+
+// The settings of what a chart found under the pointer.
+const entriesAt = found => found.filter(f => f.datasetIndex === 0).map(f => charts.plot.data.datasets[0].data[f.index].entry);
+
+// A second, dashed ring around what is slower than is shown.
+const dashBeyond = {
+  id: 'dashBeyond',
+  afterDatasetsDraw(chart) {
+    const { ctx, data: { datasets } } = chart;
+    ctx.save();
+    ctx.setLineDash([3, 3]);
+    ctx.strokeStyle = colour('soft');
+    chart.getDatasetMeta(0).data.forEach((point, n) => {
+      if (!datasets[0].data[n]?.beyond) return;
+      ctx.beginPath();
+      ctx.arc(point.x, point.y, (datasets[0].data[n].radius ?? 5) + 3, 0, 2 * Math.PI);
+      ctx.stroke();
+    });
+    ctx.restore();
+  },
+};
 
 const pointsOf = setting => data.points.filter(p => p.setting === setting && (state.view === 0 || p.view === data.views[state.view - 1]));
 
@@ -92,13 +148,14 @@ function pictures(point) {
   return box;
 }
 
-function showTip(entry, event) {
+function showTip(found, event) {
   const tip = byId('tip');
-  tip.replaceChildren(element('b', {}, entry.setting), element('div', {},
-    `${format(entry.errors.psnr_db, METRICS.psnr_db)} dB, ${time(entry.times[state.axis], state.axis)}`), pictures(pointsOf(entry.setting)[0]));
-  tip.style.display = 'block';
-  tip.style.left = Math.min(event.clientX + 15, window.innerWidth - 530) + 'px';
-  tip.style.top = Math.min(event.clientY + 15, window.innerHeight - 230) + 'px';
+  tip.style.display = found.length ? 'block' : 'none';
+  if (!found.length) return;
+  const lines = found.map(e => element('div', {}, element('b', {}, e.setting), `: ${format(e.errors.psnr_db, METRICS.psnr_db)} dB, ${time(e.times[state.axis], state.axis)}`));
+  tip.replaceChildren(...lines, pictures(pointsOf(found[0].setting)[0]));
+  tip.style.left = Math.max(5, Math.min(event.clientX + 15, window.innerWidth - 530)) + 'px';
+  tip.style.top = Math.max(5, Math.min(event.clientY + 15, window.innerHeight - 260)) + 'px';
 }
 
 function drawTable(entries, front, base) {
@@ -107,7 +164,7 @@ function drawTable(entries, front, base) {
     columns.push([metric.label, e => e.errors[key], e => format(e.errors[key], metric)]);
   for (const axis of Object.keys(AXES))
     columns.push([AXES[axis].label, e => e.times[axis] ?? Infinity,
-      e => `${time(e.times[axis], axis)} ${base ? change(e.times[axis], base.times[axis]) : ''}`]);
+      e => `${time(e.times[axis], axis)} ${base ? changeOf(e.times[axis], base.times[axis]) : ''}`]);
   columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
   drawColumns(byId('table'), columns, entries, state.sort ?? { n: 1, down: true }, sort => { state.sort = sort; draw(); }, (row, e) => {
     if (front.includes(e)) row.classList.add('onfront');
@@ -129,7 +186,7 @@ function drawRecommended() {
     const own = all.find(e => e.setting === chosen.setting), base = all.find(e => e.setting === 'default');
     if (!own || !base) continue;
     const row = rowOf([view, data.chosen_on.includes(view) ? 'choosing' : 'checking', format(own.errors.psnr_db, METRICS.psnr_db),
-      format(own.errors.ssim, METRICS.ssim), time(own.times[state.axis], state.axis), change(own.times[state.axis], base.times[state.axis])]);
+      format(own.errors.ssim, METRICS.ssim), time(own.times[state.axis], state.axis), changeOf(own.times[state.axis], base.times[state.axis])]);
     row.children[2].className = own.errors.psnr_db >= state.floor ? 'kept' : 'missed';
     table.append(row);
   }
@@ -141,8 +198,8 @@ function drawFree(free, base) {
   if (!base) return;
   const table = element('table', {}, rowOf(['setting', 'cycles', 'PSNR, dB', 'lane area', 'at equal area'], 'th'));
   for (const e of free)
-    table.append(rowOf([e.setting, 'free: ' + change(e.times.cycles, base.times.cycles), format(e.errors.psnr_db, METRICS.psnr_db),
-      `${(100 * e.area).toFixed(1)} %`, change(e.times.equal_area_cycles, base.times.equal_area_cycles)]));
+    table.append(rowOf([e.setting, 'free: ' + changeOf(e.times.cycles, base.times.cycles), format(e.errors.psnr_db, METRICS.psnr_db),
+      `${(100 * e.area).toFixed(1)} %`, changeOf(e.times.equal_area_cycles, base.times.equal_area_cycles)]));
   byId('free').replaceChildren(table);
 }
 
@@ -153,7 +210,7 @@ function drawDetails(entries, base) {
   for (const [key, metric] of Object.entries(METRICS)) list.append(`; ${metric.label} ${format(e.errors[key], metric)}`);
   for (const axis of Object.keys(AXES))
     if (e.times[axis] !== null)
-      list.append(`; ${AXES[axis].label} ${time(e.times[axis], axis)} ${base ? change(e.times[axis], base.times[axis]) : ''}`);
+      list.append(`; ${AXES[axis].label} ${time(e.times[axis], axis)} ${base ? changeOf(e.times[axis], base.times[axis]) : ''}`);
   byId('details').replaceChildren(list, ...pointsOf(e.setting).map(pictures));
 }
 
@@ -179,23 +236,27 @@ function start() {
   choose('view', [[0, 'all (worst error, sum of times)'], ...data.views.map((v, n) => [n + 1, v])], Number);
   choose('metric', Object.entries(METRICS).map(([k, m]) => [k, m.label]));
   choose('axis', Object.entries(AXES).map(([k, a]) => [k, a.label]));
+  byId('axis').value = state.axis;
   byId('floor').value = state.floor;
   byId('floor').addEventListener('input', () => { state.floor = +byId('floor').value; draw(); });
   draw();
 }
 
 function tryOut() {
-  const dots = [...document.querySelectorAll('.dot')];
-  if (dots.length < 2) throw new Error('fewer than two dots');
-  const dot = dots[dots.length - 1], setting = dot.dataset.setting;
-  dot.dispatchEvent(new MouseEvent('mouseenter', { clientX: 10, clientY: 10 }));
+  const { data: points } = charts.plot.data.datasets[0];
+  if (points.length < 2) throw new Error('fewer than two settings');
+  const index = points.length - 1, { setting } = points[index].entry, found = [{ datasetIndex: 0, index }];
+  charts.plot.options.onHover({ native: { clientX: 10, clientY: 10 } }, found);
   if (byId('tip').style.display !== 'block' || !byId('tip').querySelector('img')) throw new Error('no picture on hover');
-  dot.dispatchEvent(new MouseEvent('mouseleave'));
-  dot.dispatchEvent(new MouseEvent('click'));
+  charts.plot.options.onHover({}, []);
+  charts.plot.options.onClick({}, found);
   if (!byId('details').textContent.startsWith(setting)) throw new Error('a click selects nothing');
-  if (!document.querySelector('.dot.selected') || !document.querySelector('tr.selected')) throw new Error('no selection shown');
+  if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
+  const covered = charts.plot.getDatasetMeta(0).data.filter((p, n, all) =>
+    all.some((q, m) => m < n && Math.hypot(p.x - q.x, p.y - q.y) < 1 && p.options.radius === q.options.radius));
+  if (covered.length) throw new Error(`${covered.length} settings are hidden`);
   tryControls(['view', 'metric', 'axis']);
-  return `passed with ${dots.length} dots`;
+  return `${points.length} settings`;
 }
 
-openPage(start, tryOut);
+openPage(start, draw, tryOut);

@@ -26,26 +26,48 @@ function text(setting, axis) {
   return least === most ? one(mean) : `${one(mean)} (${one(least)} to ${one(most)})`;
 }
 
+// From the least to the greatest of the seeds, on both axes.
+const spreads = {
+  id: 'spreads',
+  beforeDatasetsDraw(chart) {
+    const { ctx, scales: { x, y } } = chart;
+    ctx.save();
+    ctx.strokeStyle = colour('soft');
+    for (const { at, db } of chart.data.datasets[0].data)
+      for (const [x0, y0, x1, y1] of [[at.mean, db.least, at.mean, db.most], [at.least, db.mean, at.most, db.mean]]) {
+        ctx.beginPath();
+        ctx.moveTo(x.getPixelForValue(x0), y.getPixelForValue(y0));
+        ctx.lineTo(x.getPixelForValue(x1), y.getPixelForValue(y1));
+        ctx.stroke();
+      }
+    ctx.restore();
+  },
+};
+
 function drawPlot() {
-  const { settings } = data, svg = byId('plot');
-  const at = settings.map(s => placed(s, state.axis)), db = settings.map(s => s.psnr8_db);
   const { label, logarithmic } = AXES[state.axis];
-  const { px, py } = drawAxes(svg,
-    { values: at.flatMap(p => [p.least, p.most]), label, tick: logarithmic && (t => `1e${t.toFixed(1)}`) || undefined },
-    { values: db.flatMap(p => [p.least, p.most]), label: `PSNR of held-out views after ${data.iterations} iterations, dB` });
-  const middle = n => [px(at[n].mean), py(db[n].mean)];
-  settings.forEach((_, n) => {
-    const [cx, cy] = middle(n);
-    svg.append(element('line', { class: 'spread', x1: cx, x2: cx, y1: py(db[n].least), y2: py(db[n].most) }),
-      element('line', { class: 'spread', x1: px(at[n].least), x2: px(at[n].most), y1: cy, y2: cy }));
+  const points = data.settings.map(s => {
+    const at = placed(s, state.axis), db = s.psnr8_db;
+    return { x: at.mean, y: db.mean, at, db, setting: s };
   });
-  settings.forEach((s, n) => {
-    const [cx, cy] = middle(n);
-    const names = ['dot', s.setting === 'default' && 'default', s.setting === state.selected && 'selected'];
-    const dot = element('circle', { class: names.filter(Boolean).join(' '), cx, cy, r: 5, 'data-setting': s.setting, tabindex: 0 },
-      element('title', {}, `${s.setting}: ${db[n].mean.toFixed(2)} dB, ${label} ${text(s, state.axis)}`));
-    dot.addEventListener('click', () => select(s.setting));
-    svg.append(dot);
+  const colours = points.map(({ setting: { setting } }) => colour(setting === state.selected ? 'chosen' : setting === 'default' ? 'ink' : 'mark'));
+  const ends = axis => points.flatMap(p => [p[axis].least, p[axis].most]);
+  drawChart('plot', {
+    type: 'scatter',
+    data: { datasets: [{ data: points, pointRadius: 6, pointHoverRadius: 8, pointBackgroundColor: colours.map(c => c + '90'), pointBorderColor: colours, pointBorderWidth: 2,
+      pointStyle: points.map(p => (p.setting.setting === 'default' ? 'rect' : 'circle')) }] },
+    plugins: [spreads],
+    options: {
+      scales: {
+        x: axis(label, { grace: '5%', suggestedMin: Math.min(...ends('at')), suggestedMax: Math.max(...ends('at')), ticks: logarithmic ? { callback: t => `1e${t.toFixed(1)}` } : {} }),
+        y: axis(`PSNR of held-out views after ${data.iterations} iterations, dB`, { grace: '5%', suggestedMin: Math.min(...ends('db')), suggestedMax: Math.max(...ends('db')) }),
+      },
+      plugins: {
+        legend: { display: false },
+        tooltip: { callbacks: { label: ({ raw }) => `${raw.setting.setting}: ${raw.db.mean.toFixed(2)} dB, ${label} ${text(raw.setting, state.axis)}` } },
+      },
+      onClick: (event, found) => { if (found.length) select(points[found[0].index].setting.setting); },
+    },
   });
 }
 
@@ -63,13 +85,15 @@ function drawTable() {
 
 function drawCurves() {
   const shown = data.curves.filter(c => ['default', state.selected].includes(c.setting));
-  byId('selected').textContent = `${state.selected}, a line a seed; grey: the default`;
-  const points = shown.flatMap(c => c.curve), svg = byId('curves');
-  const { px, py } = drawAxes(svg, { values: points.map(p => p.machine_seconds), label: 'machine-seconds' },
-    { values: points.map(p => p.psnr8_db), label: 'PSNR of held-out views, dB' });
-  for (const { setting, curve } of shown)
-    svg.append(element('path', { class: setting === state.selected ? 'curve' : 'curve default',
-      d: 'M' + curve.map(p => `${px(p.machine_seconds)} ${py(p.psnr8_db)}`).join('L') }));
+  byId('selected').textContent = `${state.selected}, a line a seed${state.selected === 'default' ? '' : '; grey: the default'}`;
+  drawChart('curves', {
+    type: 'scatter',
+    data: { datasets: shown.map(({ setting, seed, curve }) => ({
+      label: `${setting}, ${seed}`, data: curve.map(p => ({ x: p.machine_seconds, y: p.psnr8_db })), showLine: true, pointRadius: 2, borderWidth: 1.5,
+      borderColor: colour(setting === state.selected ? 'chosen' : 'soft'), backgroundColor: colour(setting === state.selected ? 'chosen' : 'soft'),
+    })) },
+    options: { scales: { x: axis('machine-seconds'), y: axis('PSNR of held-out views, dB') }, plugins: { legend: { position: 'bottom' } } },
+  });
 }
 
 function draw() {
@@ -89,17 +113,16 @@ function start() {
 }
 
 function tryOut() {
-  const dots = [...document.querySelectorAll('#plot .dot')];
-  if (dots.length !== data.settings.length) throw new Error('not a dot a setting');
-  const setting = dots[dots.length - 1].dataset.setting;
-  dots[dots.length - 1].dispatchEvent(new MouseEvent('click'));
-  if (!byId('selected').textContent.startsWith(setting)) throw new Error('a click selects nothing');
-  if (!document.querySelector('#plot .selected') || !document.querySelector('tr.selected')) throw new Error('no selection shown');
-  if (document.querySelectorAll('#curves .curve').length < 2) throw new Error('fewer than two curves');
+  const { length } = charts.plot.data.datasets[0].data;
+  if (length !== data.settings.length) throw new Error('not a point a setting');
+  charts.plot.options.onClick({}, [{ datasetIndex: 0, index: length - 1 }]);
+  if (!byId('selected').textContent.startsWith(data.settings[length - 1].setting)) throw new Error('a click selects nothing');
+  if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
+  if (charts.curves.data.datasets.length < 2) throw new Error('fewer than two curves');
   tryControls(['axis']);
   document.querySelectorAll('#table th').forEach(cell => cell.dispatchEvent(new MouseEvent('click')));
-  if (['plot', 'table', 'curves'].some(id => byId(id).outerHTML.includes('NaN'))) throw new Error('something is not a number');
-  return `passed with ${dots.length} dots`;
+  if (document.body.innerText.includes('NaN')) throw new Error('something is not a number');
+  return `${length} settings`;
 }
 
-openPage(start, tryOut);
+openPage(start, draw, tryOut);

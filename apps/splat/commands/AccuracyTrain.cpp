@@ -132,8 +132,11 @@ measureTraining(TrainSweepPlan P, bool List,
       !Written)
     return Written;
   const std::string Made = fmt::format(
-      "{}, {} iterations, seeds 0 to {}, pictures {} times smaller; splat {}",
-      P.Capture, P.Iterations, P.Seeds - 1, P.Downscale, projectVersion());
+      "{}, {} iterations, seeds 0 to {}, pictures {}; splat {}", P.Capture,
+      P.Iterations, P.Seeds - 1,
+      P.Downscale == 1 ? "as they are"
+                       : fmt::format("{} times smaller", P.Downscale),
+      projectVersion());
   if (auto Written = writeFileAtomically(P.Folder + "/index.html",
                                          trainPageOf(*Results, Made));
       !Written)

@@ -5,8 +5,7 @@ const data = JSON.parse(document.getElementById('data').textContent);
 const byId = id => document.getElementById(id);
 
 function element(name, attributes = {}, ...children) {
-  const inSvg = ['circle', 'line', 'path', 'text', 'title'].includes(name);
-  const e = inSvg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);
+  const e = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
   e.append(...children);
   return e;
