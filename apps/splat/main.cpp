@@ -62,6 +62,7 @@ int run(std::vector<std::string> Arguments) {
   Add("demo-scene", "Writes the project's own scene and its cameras",
       splat::addDemoScene);
   Add("train", "Makes a scene from photographs with poses", splat::addTrain);
+  Add("eval", "Judges a scene by the photographs of a capture", splat::addEval);
   Add("compare", "Compares two pictures, two lists of pairs or two times",
       splat::addCompare);
   Add("replay", "Runs again what made a report, and compares the bits",

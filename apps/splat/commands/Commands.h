@@ -21,6 +21,7 @@ Runner addConvert(CLI::App &App);
 Runner addDemoScene(CLI::App &App);
 Runner addAccuracy(CLI::App &App);
 Runner addTrain(CLI::App &App);
+Runner addEval(CLI::App &App);
 Runner addCompare(CLI::App &App);
 Runner addView(CLI::App &App);
 /// Runs again what made a report, and says whether it is the same.

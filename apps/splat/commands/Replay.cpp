@@ -78,9 +78,10 @@ void findChanged(const Json &J, std::vector<std::string> &Changed) {
 
 /// The options of all commands that name files to write. Those with --json
 /// among them can be run again.
-constexpr std::array<std::string_view, 10> Outputs{
-    "-o",      "--output", "--json",     "--depth",      "--dump-pairs",
-    "--plots", "--curve",  "--heat-map", "--checkpoint", "--html"};
+constexpr std::array<std::string_view, 11> Outputs{
+    "-o",           "--output", "--json",  "--depth",
+    "--dump-pairs", "--plots",  "--curve", "--heat-map",
+    "--checkpoint", "--html",   "--csv"};
 
 /// \p Words with every file that they write in \p Folder instead, and the
 /// report at \p Report.
@@ -216,7 +217,7 @@ Runner addReplay(CLI::App &App) {
   auto A = std::make_shared<ReplayArguments>();
   takesFile(App.add_option("result", A->Result,
                            "What --json wrote: render, gradients, analyze, "
-                           "info, train or compare"),
+                           "info, train, eval or compare"),
             {".json"})
       ->required();
   takesFolder(App.add_option("--folder", A->Folder,

@@ -15,14 +15,14 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 using Plane = std::vector<double>;
 
-constexpr int HalfWindow = SsimWindow / 2;
+constexpr std::size_t HalfWindow = SsimWindow / 2;
 
 /// SSIM's window along one axis; sums to 1.
 std::array<double, SsimWindow> windowWeights() {
   std::array<double, SsimWindow> W{};
   double Sum = 0;
   for (int I = 0; I < SsimWindow; ++I) {
-    const double D = I - HalfWindow;
+    const double D = I - static_cast<int>(HalfWindow);
     Sum += W[static_cast<std::size_t>(I)] =
         std::exp(-D * D / (2 * SsimSigma * SsimSigma));
   }
@@ -41,7 +41,7 @@ Plane blurAlong(const Plane &In, std::size_t Width, bool Rows) {
     for (std::ptrdiff_t X = 0; X < W; ++X) {
       double Sum = 0;
       for (std::ptrdiff_t K = 0; K < SsimWindow; ++K) {
-        const std::ptrdiff_t D = K - HalfWindow;
+        const std::ptrdiff_t D = K - static_cast<std::ptrdiff_t>(HalfWindow);
         const std::ptrdiff_t At = Rows ? X + D : Y + D;
         if (At >= 0 && At < (Rows ? W : H))
           Sum += Weights[static_cast<std::size_t>(K)] *
@@ -69,6 +69,64 @@ Plane channel(const std::vector<double> &Pixels, std::size_t Channels,
   for (std::size_t I = 0; I < Out.size(); ++I)
     Out[I] = Pixels[I * Channels + C];
   return Out;
+}
+
+/// What SSIM divides at a pixel: of its means, and of what varies around them.
+struct Similarity {
+  double Mean, OfMean, Structure, OfStructure;
+};
+
+/// Calls \p Take with each pixel's number and its Similarity.
+template <typename Function>
+void compareWindows(const Plane &X, const Plane &Y, std::size_t Width,
+                    Function Take) {
+  constexpr double C1 = 0.01 * 0.01, C2 = 0.03 * 0.03;
+  const Plane MeanX = blurred(X, Width), MeanY = blurred(Y, Width);
+  const Plane XX = blurred(product(X, X), Width);
+  const Plane YY = blurred(product(Y, Y), Width);
+  const Plane XY = blurred(product(X, Y), Width);
+  for (std::size_t I = 0; I < X.size(); ++I) {
+    const double Both = MeanX[I] * MeanY[I];
+    const double Squares = MeanX[I] * MeanX[I] + MeanY[I] * MeanY[I];
+    Take(I, Similarity{2 * Both + C1, Squares + C1, 2 * (XY[I] - Both) + C2,
+                       XX[I] + YY[I] - Squares + C2});
+  }
+}
+
+/// Half as large along each axis: the mean of 2x2 pixels.
+Plane halved(const Plane &In, std::size_t Width) {
+  const std::size_t Across = Width / 2, Down = In.size() / Width / 2;
+  Plane Out(Across * Down);
+  for (std::size_t Y = 0; Y < Down; ++Y)
+    for (std::size_t X = 0; X < Across; ++X) {
+      const std::size_t At = 2 * Y * Width + 2 * X;
+      Out[Y * Across + X] =
+          (In[At] + In[At + 1] + In[At + Width] + In[At + Width + 1]) / 4;
+    }
+  return Out;
+}
+
+/// Of one channel.
+double msSsimOf(Plane X, Plane Y, std::size_t Width) {
+  double Product = 1;
+  for (std::size_t Scale = 0; Scale < MsSsimWeights.size(); ++Scale) {
+    const bool IsLast = Scale + 1 == MsSsimWeights.size();
+    const std::size_t Height = X.size() / Width;
+    double Sum = 0, Windows = 0;
+    compareWindows(X, Y, Width, [&](std::size_t I, const Similarity &S) {
+      const std::size_t Column = I % Width, Row = I / Width;
+      if (Column < HalfWindow || Column + HalfWindow >= Width ||
+          Row < HalfWindow || Row + HalfWindow >= Height)
+        return;
+      Sum += S.Structure / S.OfStructure * (IsLast ? S.Mean / S.OfMean : 1);
+      ++Windows;
+    });
+    Product *= std::pow(std::max(Sum / Windows, 0.0), MsSsimWeights[Scale]);
+    X = halved(X, Width);
+    Y = halved(Y, Width);
+    Width /= 2;
+  }
+  return Product;
 }
 
 } // namespace
@@ -112,22 +170,26 @@ double ssim(const std::vector<double> &A, const std::vector<double> &B,
             std::size_t Width, std::size_t Channels) {
   assert(A.size() == B.size() && A.size() % (Width * Channels) == 0 &&
          "pictures of different sizes");
-  constexpr double C1 = 0.01 * 0.01, C2 = 0.03 * 0.03;
   double Sum = 0;
-  for (std::size_t C = 0; C < Channels; ++C) {
-    const Plane X = channel(A, Channels, C), Y = channel(B, Channels, C);
-    const Plane MeanX = blurred(X, Width), MeanY = blurred(Y, Width);
-    const Plane XX = blurred(product(X, X), Width);
-    const Plane YY = blurred(product(Y, Y), Width);
-    const Plane XY = blurred(product(X, Y), Width);
-    for (std::size_t I = 0; I < X.size(); ++I) {
-      const double Both = MeanX[I] * MeanY[I];
-      const double Squares = MeanX[I] * MeanX[I] + MeanY[I] * MeanY[I];
-      Sum += (2 * Both + C1) * (2 * (XY[I] - Both) + C2) /
-             ((Squares + C1) * (XX[I] + YY[I] - Squares + C2));
-    }
-  }
+  for (std::size_t C = 0; C < Channels; ++C)
+    compareWindows(channel(A, Channels, C), channel(B, Channels, C), Width,
+                   [&Sum](std::size_t, const Similarity &S) {
+                     Sum += S.Mean * S.Structure / (S.OfMean * S.OfStructure);
+                   });
   return A.empty() ? 1 : Sum / static_cast<double>(A.size());
+}
+
+std::optional<double> msSsim(const std::vector<double> &A,
+                             const std::vector<double> &B, std::size_t Width,
+                             std::size_t Channels) {
+  assert(A.size() == B.size() && A.size() % (Width * Channels) == 0 &&
+         "pictures of different sizes");
+  if (std::min(Width, A.size() / (Width * Channels)) < MsSsimLeastSide)
+    return {};
+  double Sum = 0;
+  for (std::size_t C = 0; C < Channels; ++C)
+    Sum += msSsimOf(channel(A, Channels, C), channel(B, Channels, C), Width);
+  return Sum / static_cast<double>(Channels);
 }
 
 double psnrOfBytes(const std::vector<uint8_t> &A,

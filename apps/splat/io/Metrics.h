@@ -7,8 +7,10 @@
 /// gives (\c psnr8Bit); a set's figure is the mean of its pictures' dB.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +36,22 @@ inline constexpr double SsimSigma = 1.5;
 /// border, the mean over all pixels and channels. 1 for equal pictures.
 double ssim(const std::vector<double> &A, const std::vector<double> &B,
             std::size_t Width, std::size_t Channels);
+
+/// Shares of the scales of MS-SSIM, the finest first, as published.
+inline constexpr std::array<double, 5> MsSsimWeights{0.0448, 0.2856, 0.3001,
+                                                     0.2363, 0.1333};
+/// The shortest side for which the coarsest scale still holds a window, px.
+inline constexpr std::size_t MsSsimLeastSide = std::size_t{SsimWindow}
+                                               << (MsSsimWeights.size() - 1);
+
+/// Multi-scale SSIM (Wang and others, 2003) with the window and constants of
+/// \c ssim: a scale halves the one before by the mean of 2x2 pixels, without a
+/// last odd row or column. Only windows inside the picture count. A mean below
+/// 0 counts as 0. The mean of the channels; nothing where a side is shorter
+/// than \c MsSsimLeastSide.
+std::optional<double> msSsim(const std::vector<double> &A,
+                             const std::vector<double> &B, std::size_t Width,
+                             std::size_t Channels);
 
 /// Compares \p A and \p B, both \p Channels values a pixel, over the pixels
 /// whose entry of \p Skip is 0 (all, where \p Skip is empty). A value that is

@@ -81,6 +81,15 @@ TEST(Metrics, SsimIsOneForEqualPicturesOnly) {
   EXPECT_LT(ssim(A, B, 40, 3), 0);
 }
 
+TEST(Metrics, MsSsimNeedsAWindowAtItsCoarsestScale) {
+  std::vector<double> A;
+  for (int I = 0; I < 180 * 176; ++I)
+    A.push_back(I * 37 % 101 / 100.0);
+  EXPECT_NEAR(*msSsim(A, A, 180, 1), 1, 1e-12);
+  A.resize(std::size_t{180} * 175);
+  EXPECT_FALSE(msSsim(A, A, 180, 1));
+}
+
 // Flat pictures have no variance inside: what is left is the means' term.
 TEST(Metrics, SsimOfFlatPicturesIsTheMeansTerm) {
   const std::size_t Side = 64;

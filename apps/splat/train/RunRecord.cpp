@@ -35,6 +35,8 @@ std::string hashOf(const TrainingSet &Set) {
 
 } // namespace
 
+std::string hashPictures(const TrainingSet &Set) { return hashOf(Set); }
+
 std::string hashPoints(const CapturePoints &Points) {
   std::string All;
   const auto Add = [&All](const auto &Values) {

@@ -19,6 +19,9 @@ struct PictureSource {
   std::array<float, 3> Background{};
 };
 
+/// Of all that the pictures and their poses say.
+std::string hashPictures(const TrainingSet &Set);
+
 /// Of the points that training starts from.
 std::string hashPoints(const CapturePoints &Points);
 

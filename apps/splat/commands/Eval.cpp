@@ -1,0 +1,170 @@
+#include "commands/CaptureInfo.h"
+#include "commands/Commands.h"
+#include "commands/DeviceArguments.h"
+#include "commands/OutputFile.h"
+#include "commands/PictureOptions.h"
+#include "commands/Progress.h"
+#include "commands/SceneArguments.h"
+
+#include "eval/ScoreText.h"
+#include "io/Hash.h"
+#include "io/ReportHead.h"
+#include "render/Pictures.h"
+#include "train/RunRecord.h"
+#include "vorion/support/CommandLine.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+namespace {
+
+struct EvalArguments : DrawArguments {
+  SceneArguments Scene;
+  std::string Capture;
+  CaptureOptions Read;
+  int Downscale = 1;
+  bool All = false;
+  std::string Json, Csv, Device, KernelFolder;
+};
+
+/// What can be said to be wrong before anything is read.
+Expected<Success> check(const EvalArguments &A) {
+  for (const auto &Checked :
+       {checkDrawOptions(A.Options), checkJsonName(A.Json),
+        checkEnding("--csv", A.Csv, {".csv"})})
+    if (!Checked)
+      return Checked;
+  for (const float V : A.Options.Background)
+    if (!(V >= 0 && V <= 1))
+      return Error{"",
+                   fmt::format("--background {}: expected values of 0 to 1, as "
+                               "photographs have",
+                               V),
+                   ExitCode::Usage};
+  return claimOutputs({{"--json", A.Json}, {"--csv", A.Csv}},
+                      {{"the scene", A.Scene.Path}});
+}
+
+Expected<nlohmann::ordered_json>
+reportOf(const EvalArguments &A, const SceneFile &File, const Capture &C,
+         const TrainingSet &Set, const Device &D,
+         const std::vector<ViewScore> &Scores) {
+  const auto SceneHash = hashScene(A.Scene.Path);
+  if (!SceneHash)
+    return SceneHash.error();
+  nlohmann::ordered_json Report = reportHead("splat-eval");
+  Report.update({{"scene",
+                  {{"file", A.Scene.Path},
+                   {"fnv1a64", *SceneHash},
+                   {"gaussians", File.Gaussians.size()}}},
+                 {"capture", A.Capture},
+                 {"capture_format", name(C.Format)},
+                 {"pictures", hashPictures(Set)},
+                 {"downscale", A.Downscale},
+                 {"picture_filter", PhotoFilter},
+                 {"held_out_by", C.HeldOutBy},
+                 {"rules", name(A.Options.Convention)},
+                 {"support", name(A.Options.Reach)},
+                 {"path", name(A.Options.Blending)},
+                 {"antialiased", A.Options.Antialiased},
+                 {"dilation", A.Options.Dilation},
+                 {"background", A.Options.Background},
+                 {"device", {{"name", D.name()}, {"version", D.version()}}}});
+  Report.update(scoreJson(Scores));
+  return Report;
+}
+
+Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
+  if (auto Checked = check(A); !Checked)
+    return Checked;
+  const auto File = loadScene(A.Scene);
+  if (!File)
+    return File.error();
+  drawAs(A.Options, File->DrawnAs);
+  const auto C = readCapture(A.Capture, A.Read);
+  if (!C)
+    return C.error();
+  const auto Set = loadTrainingSet(*C, A.Downscale, A.Options.Background);
+  if (!Set)
+    return Set.error();
+  const std::vector<JudgedView> Views = judgedViews(*Set, A.All);
+  if (Views.empty())
+    return Error{A.Capture,
+                 "no view is held out, expected one at least, or "
+                 "--all",
+                 ExitCode::Usage};
+  std::vector<Camera> Cameras;
+  Cameras.reserve(Views.size());
+  for (const JudgedView &V : Views)
+    Cameras.push_back(V.View->Pose);
+  const ViewFacts Facts = factsOfAll(File->Gaussians, Cameras, A.Options);
+  const EffectInputs Inputs{.Gaussians = File->Gaussians,
+                            .Options = A.Options,
+                            .Facts = Facts,
+                            .Machine = Machine};
+  const RenderPlan Plan = planRender(EffectPlan(A.Request, Inputs), A.Options);
+  warnOfMissing(Plan.Effects, A.Effects);
+
+  auto D = openDevice(A.Device, A.Options.Blending, Machine);
+  if (!D)
+    return D.error();
+  Launcher L(*D, A.KernelFolder, progress());
+  const auto Scores = evaluate(L, Plan, File->Gaussians, A.Options, Views);
+  endProgress();
+  if (!Scores) {
+    showBuildLog(L);
+    return Scores.error();
+  }
+  L.recordBuilds();
+  if (!A.Csv.empty())
+    if (auto Written = writeFileAtomically(A.Csv, scoreCsv(*Scores)); !Written)
+      return Written;
+  if (!A.Json.empty()) {
+    const auto Report = reportOf(A, *File, *C, *Set, *D, *Scores);
+    if (!Report)
+      return Report.error();
+    if (auto Written = writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n");
+        !Written)
+      return Written;
+  }
+  printOut("{}{}\n", scoreTable(*Scores), NoLpips);
+  return Success{};
+}
+
+} // namespace
+
+Runner addEval(CLI::App &App) {
+  auto A = std::make_shared<EvalArguments>();
+  addSceneOptions(App, A->Scene);
+  takesFile(App.add_option("capture", A->Capture,
+                           "Photographs with poses, as `splat train` takes "
+                           "them"))
+      ->required();
+  App.add_flag("--all", A->All,
+               "Judge the views that training uses, too (default: those held "
+               "out)");
+  App.add_option("--downscale", A->Downscale,
+                 "Pictures so many times smaller, as in training (default 1)")
+      ->check(CLI::Range(1, 64));
+  App.add_option("--exclude", A->Read.Exclude, "Leave out this picture")
+      ->allow_extra_args(false);
+  addOutsideOption(App, A->Read.AllowOutside);
+  takesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
+  takesFile(App.add_option("--csv", A->Csv, "Write a line a view"), {".csv"});
+  addDrawOptions(App, *A);
+  addDeviceOption(App, A->Device);
+  addKernelsOption(App, A->KernelFolder);
+  return [A](const DeviceOptions &Machine) {
+    if (auto Parsed = parseDrawTexts(*A); !Parsed)
+      return Parsed;
+    return run(*A, Machine);
+  };
+}
+
+} // namespace vorion::splat
