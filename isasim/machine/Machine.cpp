@@ -234,9 +234,13 @@ void Machine::Impl::takeTime() {
     return;
   for (const auto &C : Cores)
     Time->setEnded(C->id(), C->endedWarps());
-  Time->atSyncPoint();
+  Time->publish();
+  if (Time->isWatched() && Time->isWorthTaking())
+    Time->take();
 }
 
+/// The clock takes what the last round wrote while the cores write the next
+/// one.
 void Machine::Impl::runCores() {
   const uint64_t Before = retired();
   uint64_t Quantum = Shape.Quantum;
@@ -247,10 +251,15 @@ void Machine::Impl::runCores() {
     if (C->isReady())
       Ready.push_back(C.get());
   const ExecTable &Exec = exec();
-  const bool Alone = isObserved() || LastRound < ShortRound;
-  Pool.run(static_cast<unsigned>(Ready.size()), Alone, [&](unsigned N) {
-    Ready[N]->runRound(Exec, static_cast<uint32_t>(Quantum),
-                       [this] { return mustStop(); });
+  const unsigned Takes = isClocked() && Time->isWorthTaking() ? 1 : 0;
+  const bool Alone = isObserved() || (LastRound < ShortRound && !Takes);
+  // The clock first: it is the longest task.
+  Pool.run(static_cast<unsigned>(Ready.size()) + Takes, Alone, [&](unsigned N) {
+    if (N < Takes)
+      Time->take();
+    else
+      Ready[N - Takes]->runRound(Exec, static_cast<uint32_t>(Quantum),
+                                 [this] { return mustStop(); });
   });
   LastRound = retired() - Before;
 }

@@ -10,35 +10,38 @@ Cache::Cache(const CacheShape &ShapeIn, MemoryBelow &BelowIn)
     : Shape(ShapeIn),
       Sets(std::max(1U, Shape.Bytes / TimingLineBytes / Shape.Ways)),
       Below(BelowIn), Tags(size_t{Sets} * Shape.Ways), Lines(Tags.size()),
-      Banks(Shape.Banks), MshrFreeAt(size_t{Shape.Banks} * Shape.Mshrs),
-      Mshrs(MshrFreeAt.size()) {}
+      LastUse(Tags.size()), Banks(Shape.Banks),
+      MshrFreeAt(size_t{Shape.Banks} * Shape.Mshrs), Mshrs(MshrFreeAt.size()) {}
 
 // The loops over ways have no branch that depends on what they find, because
 // the host's branch predictor would mispredict it.
 size_t Cache::find(uint32_t Number, size_t Set) const {
-  size_t Found = None;
-  for (size_t W = Set; W != Set + Shape.Ways; ++W)
-    Found = Tags[W] == Number + 1 ? W : Found;
-  return Found;
+  // At most one way has the line, so that a sum over all finds it, which needs
+  // no way's answer before the next one's.
+  const uint32_t *Tag = Tags.data() + Set;
+  uint32_t Behind = 0;
+  for (uint32_t W = 0; W != Shape.Ways; ++W)
+    Behind += Tag[W] == Number + 1 ? W + 1 : 0;
+  return Behind ? Set + Behind - 1 : None;
 }
 
 /// The least recently used line; with the hint, the least recently used one
 /// without it, and the one that is spared loses its hint, so that lines which
 /// no tile came for do not stay for ever.
 size_t Cache::victim(size_t Set) {
-  size_t Oldest = Set, OldestPlain = None;
+  size_t Oldest = Set, OldestPlain = Set;
   uint64_t Used = Open, UsedPlain = Open;
   for (size_t W = Set; W != Set + Shape.Ways; ++W) {
-    const Line &L = Lines[W];
-    const uint64_t Plain = L.Keep ? Open : L.Used;
-    Oldest = L.Used < Used ? W : Oldest;
-    Used = std::min(Used, L.Used);
+    // Lines that are kept come behind all others.
+    const uint64_t Plain = LastUse[W] & ~Dirty, Order = LastUse[W] & OrderMask;
+    Oldest = Order < Used ? W : Oldest;
+    Used = std::min(Used, Order);
     OldestPlain = Plain < UsedPlain ? W : OldestPlain;
     UsedPlain = std::min(UsedPlain, Plain);
   }
-  if (!Shape.Hint || !Lines[Oldest].Keep || OldestPlain == None)
+  if (!Shape.Hint || !(LastUse[Oldest] & Kept) || UsedPlain & Kept)
     return Oldest;
-  Lines[Oldest].Keep = false;
+  LastUse[Oldest] &= ~Kept;
   ++Counted.Kept;
   return OldestPlain;
 }
@@ -78,6 +81,10 @@ bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
   const uint32_t Number = R.Address / TimingLineBytes;
   const uint32_t OfBank = Number % Shape.Banks;
   const size_t Set = size_t{Number % Sets} * Shape.Ways;
+  // The tags of a set, its uses and its lines lie in different places, of which
+  // the host's cache has seldom all.
+  __builtin_prefetch(LastUse.data() + Set, 1);
+  __builtin_prefetch(Lines.data() + Set, 1);
   const size_t Found = find(Number, Set);
   const bool Fetches = Found == None && R.Op != CacheOp::WriteWhole;
   const uint32_t Miss = Fetches ? firstMshr(OfBank) : 0;
@@ -91,11 +98,10 @@ bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
   const bool IsRead = R.Op == CacheOp::Read;
   const bool IsWrite = R.Op == CacheOp::Write || R.Op == CacheOp::WriteWhole;
   ++(IsRead ? Counted.Reads : IsWrite ? Counted.Writes : Counted.Atomics);
+  const uint64_t Marks = (IsRead ? 0 : Dirty) | (R.Keep ? Kept : 0);
   if (Found != None) {
     Line &L = Lines[Found];
-    L.Used = ++Uses;
-    L.Dirty |= !IsRead;
-    L.Keep |= R.Keep;
+    LastUse[Found] = ++Uses | (LastUse[Found] & ~OrderMask) | Marks;
     ++(L.ReadyAt > At ? Counted.Merged : Counted.Hits);
     const uint32_t Plus = Shape.HitCycles + R.Extra + R.Back;
     if (IsWrite)
@@ -110,12 +116,13 @@ bool Cache::serve(const CacheRequest &R, std::optional<uint64_t> &Answer) {
 
   const size_t Way = victim(Set);
   Line &V = Lines[Way];
-  if (V.Dirty) {
+  if (LastUse[Way] & Dirty) {
     ++Counted.Writebacks;
     Below.writeBack(At, (Tags[Way] - 1) * TimingLineBytes);
   }
   Tags[Way] = Number + 1;
-  V = {!IsRead, R.Keep, static_cast<uint16_t>(Miss), ++Uses, At};
+  V = {At, Miss};
+  LastUse[Way] = ++Uses | Marks;
   const uint64_t Begin = Fetches ? std::max(At, MshrFreeAt[Miss]) : At;
   if (Fetches) {
     Counted.MshrCycles += Begin - At;
@@ -165,12 +172,13 @@ void Cache::fill(uint32_t Miss, uint64_t Then, std::vector<Answer> &Answers) {
 uint64_t Cache::flush(uint64_t Now) {
   std::vector<uint64_t> Sent(Shape.Banks, Now);
   for (size_t N = 0; N != Lines.size(); ++N)
-    if (Lines[N].Dirty) {
+    if (LastUse[N] & Dirty) {
       ++Counted.Writebacks;
       Below.writeBack(Sent[(Tags[N] - 1) % Shape.Banks]++,
                       (Tags[N] - 1) * TimingLineBytes);
     }
   std::ranges::fill(Lines, Line());
+  std::ranges::fill(LastUse, 0);
   std::ranges::fill(Tags, 0);
   return *std::max_element(Sent.begin(), Sent.end());
 }

@@ -94,12 +94,15 @@ private:
   static constexpr size_t None = std::numeric_limits<size_t>::max();
 
   struct Line {
-    bool Dirty = false;
-    bool Keep = false;
-    uint16_t Miss = 0;    ///< its MSHR while ReadyAt is open
-    uint64_t Used = 0;    ///< order of uses, 0 for no line
     uint64_t ReadyAt = 0; ///< when its bytes have come
+    uint32_t Miss = 0;    ///< its MSHR while that is open
   };
+  /// \name Beside the order of a line's last use
+  /// @{
+  static constexpr uint64_t Kept = uint64_t{1} << 63; ///< it is spared once
+  static constexpr uint64_t Dirty = uint64_t{1} << 62;
+  static constexpr uint64_t OrderMask = Dirty - 1;
+  /// @}
   /// A request for a line that is on its way.
   struct Merged {
     Ticket From;
@@ -133,6 +136,10 @@ private:
   MemoryBelow &Below;
   std::vector<uint32_t> Tags; ///< line number plus 1, 0 for none
   std::vector<Line> Lines;
+  /// By line: the order of its last use, 0 for no line, and what it is. Apart
+  /// from the lines, since every miss looks at those of a whole set and at no
+  /// more.
+  std::vector<uint64_t> LastUse;
   std::vector<Bank> Banks;
   std::vector<uint64_t> MshrFreeAt; ///< by bank
   std::vector<Mshr> Mshrs;

@@ -11,7 +11,7 @@ namespace {
 /// whose trace is used up: 8 MiB, many quanta.
 constexpr size_t LongestBacklog = 1 << 20;
 /// Fewer than this in all traces are left until the next sync point.
-constexpr size_t WorthTaking = 1 << 12;
+constexpr size_t FewestTaken = 1 << 12;
 } // namespace
 
 Clock::Clock(const Config &C)
@@ -74,6 +74,7 @@ void Clock::begin(const CodeTable &Code) {
   if (Watch)
     Watch->tell([this](TimeObserver &O) { O.timeBegins(Begun); });
   OutOfOrder = 0;
+  WorthTaking = false;
   Memory.begin();
   for (Arrived &B : Barriers)
     B = {};
@@ -111,18 +112,24 @@ void Clock::takeAll() {
   }
 }
 
-void Clock::atSyncPoint() {
+void Clock::publish() {
   size_t Waiting = 0;
-  for (const auto &T : Traces)
+  for (const auto &T : Traces) {
+    T->publish();
     Waiting += T->size();
-  if (Waiting < WorthTaking)
-    return;
+  }
+  WorthTaking = Waiting >= FewestTaken;
+}
+
+void Clock::take() {
   takeAll();
-  for (const auto &T : Traces)
-    T->compact();
+  WorthTaking = false;
 }
 
 TimeReport Clock::end() {
+  if (isWorthTaking())
+    take();
+  publish();
   for (unsigned N = 0; N != Cores.size(); ++N)
     setEnded(N, static_cast<uint32_t>((uint64_t{1} << Shape.WarpsPerCore) - 1));
   for (RasterClock &R : Rasters)

@@ -15,10 +15,11 @@
 
 namespace vorion::isasim {
 
-/// Reads the traces of the cores and the logs of the rasterizers, on the thread
-/// of Machine::run, while all cores are parked. Caches, DRAM and time go on
-/// from run to run, and so do rasterizers and pixel units: a run ends with its
-/// cores, and what they have not waited for goes on in the next one.
+/// Reads the traces of the cores and the logs of the rasterizers. All calls
+/// come one at a time, while all cores are parked, but for take(). Caches, DRAM
+/// and time go on from run to run, and so do rasterizers and pixel units: a run
+/// ends with its cores, and what they have not waited for goes on in the next
+/// one.
 class Clock {
 public:
   explicit Clock(const Config &C);
@@ -42,8 +43,14 @@ public:
   void begin(const CodeTable &Code);
   /// The warps of core \p Core, as bits, that have ended. All cores are parked.
   void setEnded(unsigned Core, uint32_t Warps);
-  /// All cores are parked. Takes what it can from the traces.
-  void atSyncPoint();
+  /// What the cores have written is the clock's from now on.
+  void publish();
+  /// Whether enough has been published that take() is worth its while.
+  bool isWorthTaking() const { return WorthTaking; }
+  /// Takes what it can of what was published. May run while the cores write on.
+  void take();
+  /// Whether somebody watches, who is to be told on the thread of Machine::run.
+  bool isWatched() const { return Watch.has_value(); }
   /// The run is over; all is taken.
   TimeReport end();
   /// The rasterizers and pixel units were made anew: what they had is dropped.
@@ -100,6 +107,7 @@ private:
   /// done, nor beyond the cores.
   uint64_t Horizon = 0;
   uint64_t OutOfOrder = 0;
+  bool WorthTaking = false;
   std::optional<TimeWatch> Watch;
 };
 

@@ -104,6 +104,15 @@ TEST_F(ClockTest, LocalBanksConflict) {
                 4.0 * N * Conflicts, Conflicts + 4)
         << Shift;
   }
+  // 16 words of three banks: one bank has six of them.
+  Settings.Timing.Core.LocalBanks = 3;
+  EXPECT_EQ(
+      activity(run(Words{lui(8, VX_LOCAL_BASE),
+                         encode(Op::RV_SLLI, {.Rd = 10, .Rs1 = 6, .Imm = 2}),
+                         encode(Op::RV_ADD, {.Rd = 8, .Rs1 = 8, .Rs2 = 10}),
+                         lw(10, 0, 8)}),
+               "local memory", "conflict cycles"),
+      5U);
   // The same word for all is one access.
   const Words Same = {lw(10, 0, 8)};
   EXPECT_EQ(activity(run(Words{lui(8, VX_LOCAL_BASE)} + Same), "local memory",

@@ -40,8 +40,8 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
   UnitFree.fill(0);
   for (UnitQueue &Q : Queues)
     Q = {std::vector<uint64_t>(Timing.UnitQueue), 0};
-  Places[size_t(Port::Fpu)].assign(Timing.FpInFlight, 0);
-  Places[size_t(Port::Alu)].assign(1, 0); // the divider
+  Places[size_t(Port::Fpu)] = {std::vector<uint64_t>(Timing.FpInFlight), 0};
+  Places[size_t(Port::Alu)] = {std::vector<uint64_t>(1), 0}; // the divider
   for (unsigned N = 0; N <= Timing.LsuQueue; ++N)
     InFlight.begin(N);
   LastDone = 0;
@@ -170,15 +170,23 @@ void CoreClock::startRun(WarpTime &W, const RunRecord &R) {
 }
 
 bool CoreClock::waitForOperands(const OpInfo &O) {
-  unsigned Latest = Ready[O.HighRd] > Ready[O.Rd] ? O.HighRd : O.Rd;
-  for (const uint8_t S : O.Sources)
-    if (Ready[S] > Ready[Latest])
-      Latest = S;
-  if (Ready[Latest] == Turn::Never) {
+  // The time first: which register it is matters only if it is to come, and
+  // every step of that search would wait for the one before.
+  const uint64_t Then =
+      std::max({std::max(Ready[O.Rd], Ready[O.HighRd]), Ready[O.Sources[0]],
+                std::max(Ready[O.Sources[1]], Ready[O.Sources[2]])});
+  if (Then <= Next)
+    return true;
+  if (Then == Turn::Never) {
     Now = State::Answer;
     return false;
   }
-  waitUntil(Ready[Latest], ReadyWhy[Latest]);
+  // The first one counts.
+  unsigned Latest = O.Rd;
+  for (const uint8_t R :
+       {O.Sources[2], O.Sources[1], O.Sources[0], O.HighRd, O.Rd})
+    Latest = Ready[R] == Then ? R : Latest;
+  spend(ReadyWhy[Latest], Then - Next);
   return true;
 }
 
@@ -201,6 +209,16 @@ unsigned CoreClock::firstPlace() const {
   return Place;
 }
 
+/// The place for \p O, which begins at \p Begin or later: one that is free by
+/// then, whichever, or else the one that is free first.
+size_t CoreClock::placeOf(const OpInfo &O, uint64_t Begin) const {
+  const UnitPlaces &P = Places[size_t(O.On)];
+  if (P.FreeAt[P.Oldest] <= Begin)
+    return P.Oldest;
+  return static_cast<size_t>(
+      std::min_element(P.FreeAt.begin(), P.FreeAt.end()) - P.FreeAt.begin());
+}
+
 /// When \p O can leave for its unit, or for the queue in front of it.
 uint64_t CoreClock::unitFreeAt(const OpInfo &O) const {
   const auto On = size_t(O.On);
@@ -208,8 +226,7 @@ uint64_t CoreClock::unitFreeAt(const OpInfo &O) const {
     return Queues[On].Begins[Queues[On].Next];
   uint64_t Free = UnitFree[On];
   if (O.Hold)
-    Free =
-        std::max(Free, *std::min_element(Places[On].begin(), Places[On].end()));
+    Free = std::max(Free, Places[On].FreeAt[placeOf(O, std::max(Next, Free))]);
   return Free;
 }
 
@@ -220,15 +237,17 @@ uint64_t CoreClock::beginOnUnit(const OpInfo &O) {
   const auto On = size_t(O.On);
   uint64_t Begun = std::max(Next, UnitFree[On]);
   if (O.Hold) {
-    uint64_t &Place = *std::min_element(Places[On].begin(), Places[On].end());
-    Begun = std::max(Begun, Place);
-    Place = Begun + O.Hold;
+    UnitPlaces &P = Places[On];
+    const size_t Place = placeOf(O, Begun);
+    Begun = std::max(Begun, P.FreeAt[Place]);
+    P.FreeAt[Place] = Begun + O.Hold;
+    P.Oldest = Place + 1 == P.FreeAt.size() ? 0 : Place + 1;
   }
   UnitFree[On] = Begun + O.Interval;
   if (Timing.UnitQueue && O.On != Port::Lsu) {
     UnitQueue &Q = Queues[On];
     Q.Begins[Q.Next] = Begun;
-    Q.Next = (Q.Next + 1) % Timing.UnitQueue;
+    Q.Next = Q.Next + 1 == Timing.UnitQueue ? 0 : Q.Next + 1;
   }
   return Begun;
 }

@@ -168,6 +168,7 @@ private:
     return Timing.LoadsQueue ? O.Class != OpClass::Store : A.Lines != 0;
   }
   unsigned firstPlace() const;
+  size_t placeOf(const OpInfo &O, uint64_t Begin) const;
   uint64_t unitFreeAt(const OpInfo &O) const;
   uint64_t beginOnUnit(const OpInfo &O);
   void fetchNext(const OpInfo &O, uint64_t Begun);
@@ -230,7 +231,11 @@ private:
   };
   std::array<UnitQueue, size_t(Port::Count)> Queues;
   /// When the places of a unit that operations keep (OpInfo::Hold) are free.
-  std::array<std::vector<uint64_t>, size_t(Port::Count)> Places;
+  struct UnitPlaces {
+    std::vector<uint64_t> FreeAt;
+    size_t Oldest = 0; ///< that was taken the longest ago
+  };
+  std::array<UnitPlaces, size_t(Port::Count)> Places;
   /// A set of lines for each place, and behind these one for all accesses that
   /// need none.
   LineWaits InFlight;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace vorion::isasim {
 
@@ -14,6 +15,8 @@ namespace {
 constexpr size_t LongestRecord = 2 + MaxLanes;
 constexpr size_t FirstRuns = 4096, FirstWords = 4096;
 constexpr uint32_t LineMask = ~(TimingLineBytes - 1);
+/// See timing.core.local_banks.
+constexpr uint32_t MostLocalBanks = 64;
 
 TraceBuffer &bufferOf(WarpState *S) {
   return *static_cast<TraceBuffer *>(S->Trace);
@@ -29,27 +32,65 @@ void addDistinct(uint32_t *Lines, unsigned &Count, uint32_t Line) {
   Lines[Count++] = Line;
 }
 
+/// Whether a guest address lies where the stacks are interleaved.
+bool isInterleaved(const WarpState *S, uint32_t Address) {
+  return S->Trace->InterleavedStacks && S->Mem->Stack.holds(Address, 1);
+}
+
 /// Where the line of a guest address lies in memory.
 uint32_t lineOf(const WarpState *S, uint32_t Address) {
   const MemoryView &M = *S->Mem;
-  if (S->Trace->InterleavedStacks && M.Stack.holds(Address, 1))
+  if (isInterleaved(S, Address))
     Address = M.Stack.Lo + M.stackOffset(Address);
   return Address & LineMask;
 }
 
+/// The bits that are set in any active lane.
+uint32_t bitsOfAny(const WarpState *S, LaneWords Words) {
+  Words &= S->MaskWords;
+  uint32_t Any = 0;
+  for (unsigned L = 0; L != MaxLanes; ++L)
+    Any |= Words[L];
+  return Any;
+}
+
+/// Whether all active lanes share a line, which most accesses do; \p First is
+/// the address of one of them. It may say no where they do.
+bool isOneLine(const WarpState *S, const uint32_t *Addresses, uint32_t First) {
+  LaneWords Where;
+  std::memcpy(&Where, Addresses, sizeof(Where));
+  if (isInterleaved(S, First)) {
+    const MemoryView &M = *S->Mem;
+    const LaneWords Outside =
+        std::bit_cast<LaneWords>(Where - M.Stack.Lo >= M.Stack.Bytes);
+    if (bitsOfAny(S, Outside))
+      return false;
+    Where = M.stackOffset(Where);
+    First = M.stackOffset(First);
+  }
+  return !(bitsOfAny(S, Where ^ First) & LineMask);
+}
+
 /// The most distinct words that one bank has to give to the active lanes.
 unsigned bankConflicts(const WarpState *S, const uint32_t *Addresses) {
+  // Of each bank the words that it has to give so far, as a list of lanes from
+  // the last one; a lane's number stands for one more, 0 for none.
+  uint8_t Last[MostLocalBanks] = {}, Before[MaxLanes],
+          Given[MostLocalBanks] = {};
   const uint32_t Banks = S->Trace->LocalBanks;
-  uint32_t Words[MaxLanes];
-  unsigned Distinct = 0;
-  for (uint32_t Left = S->Mask; Left; Left &= Left - 1)
-    addDistinct(Words, Distinct, Addresses[std::countr_zero(Left)] / 4);
+  const bool IsPowerOfTwo = std::has_single_bit(Banks);
   unsigned Most = 1;
-  for (unsigned N = 0; N != Distinct; ++N) {
-    unsigned Same = 1;
-    for (unsigned K = 0; K != N; ++K)
-      Same += Words[K] % Banks == Words[N] % Banks;
-    Most = std::max(Most, Same);
+  for (uint32_t Left = S->Mask; Left; Left &= Left - 1) {
+    const auto Lane = static_cast<unsigned>(std::countr_zero(Left));
+    const uint32_t Word = Addresses[Lane] / 4;
+    const uint32_t Bank = IsPowerOfTwo ? Word & (Banks - 1) : Word % Banks;
+    unsigned Other = Last[Bank];
+    while (Other && Addresses[Other - 1] / 4 != Word)
+      Other = Before[Other - 1];
+    if (Other)
+      continue;
+    Before[Lane] = std::exchange(Last[Bank], static_cast<uint8_t>(Lane + 1));
+    Most = std::max<unsigned>(Most, ++Given[Bank]);
   }
   return Most;
 }
@@ -77,44 +118,59 @@ bool isAscending(const uint32_t *Addresses) {
 
 } // namespace
 
-TraceBuffer::TraceBuffer() { place(FirstRuns, FirstWords); }
+TraceBuffer::TraceBuffer() : WrittenRuns(FirstRuns), WrittenWords(FirstWords) {
+  Runs.All.resize(FirstRuns);
+  Words.All.resize(FirstWords);
+  place(0, 0);
+}
 
-void TraceBuffer::place(size_t NumRuns, size_t NumWords) {
-  const auto RunsWritten = static_cast<size_t>(RunAt ? RunAt - Runs.data() : 0);
-  const auto WordsWritten =
-      static_cast<size_t>(WordAt ? WordAt - Words.data() : 0);
-  Runs.resize(NumRuns);
-  Words.resize(NumWords);
-  RunAt = Runs.data() + RunsWritten;
-  RunEnd = Runs.data() + NumRuns;
-  WordAt = Words.data() + WordsWritten;
-  WordEnd = Words.data() + NumWords;
+/// Writing goes on behind what is in use.
+void TraceBuffer::place(size_t RunsInUse, size_t WordsInUse) {
+  RunAt = WrittenRuns.data() + RunsInUse;
+  RunEnd = WrittenRuns.data() + WrittenRuns.size();
+  WordAt = WrittenWords.data() + WordsInUse;
+  WordEnd = WrittenWords.data() + WrittenWords.size();
 }
 
 void TraceBuffer::grow() {
-  place(RunEnd - RunAt < 2 ? 2 * Runs.size() : Runs.size(),
-        static_cast<size_t>(WordEnd - WordAt) < LongestRecord ? 2 * Words.size()
-                                                              : Words.size());
+  const size_t RunsInUse = runsWritten(), WordsInUse = wordsWritten();
+  if (WrittenRuns.size() - RunsInUse < 2)
+    WrittenRuns.resize(2 * WrittenRuns.size());
+  if (WrittenWords.size() - WordsInUse < LongestRecord)
+    WrittenWords.resize(2 * WrittenWords.size());
+  place(RunsInUse, WordsInUse);
 }
 
 void TraceBuffer::clear() {
-  RunAt = Runs.data();
-  WordAt = Words.data();
-  RunsRead = WordsRead = 0;
+  place(0, 0);
+  Runs.Read = Runs.Count = 0;
+  Words.Read = Words.Count = 0;
 }
 
-void TraceBuffer::compact() {
-  const auto MoveDown = [](auto &All, auto *&At, size_t &Read) {
-    const auto Left = static_cast<size_t>(At - All.data()) - Read;
-    // Rarely enough to cost nothing for each record.
-    if (Read < Left || Read == 0)
-      return;
-    std::memmove(All.data(), All.data() + Read, Left * sizeof(All[0]));
-    At = All.data() + Left;
+template <typename Record>
+void TraceBuffer::Published<Record>::take(std::vector<Record> &Written,
+                                          size_t More) {
+  if (empty()) {
+    std::swap(All, Written);
     Read = 0;
-  };
-  MoveDown(Runs, RunAt, RunsRead);
-  MoveDown(Words, WordAt, WordsRead);
+    Count = More;
+    return;
+  }
+  // Rarely enough to cost nothing for each record.
+  if (Read >= size()) {
+    std::copy(All.data() + Read, All.data() + Count, All.data());
+    Count -= std::exchange(Read, 0);
+  }
+  if (All.size() < Count + More)
+    All.resize(std::max(2 * All.size(), Count + More));
+  std::copy_n(Written.data(), More, All.data() + Count);
+  Count += More;
+}
+
+void TraceBuffer::publish() {
+  Runs.take(WrittenRuns, runsWritten());
+  Words.take(WrittenWords, wordsWritten());
+  place(0, 0);
 }
 
 void traceRun(WarpState *S, const Insn *Start, const Insn *End) {
@@ -147,14 +203,18 @@ void traceAccess(WarpState *S, const uint32_t *Addresses, unsigned Bytes,
   }
   uint32_t *Lines = T.WordAt + 1;
   unsigned Count = 0;
-  // Neighbouring lanes mostly share a line.
-  uint32_t Last = ~0U;
-  for (uint32_t Left = S->Mask; Left; Left &= Left - 1) {
-    const uint32_t Line = lineOf(S, Addresses[std::countr_zero(Left)]);
-    if (Line == Last)
-      continue;
-    Last = Line;
-    addDistinct(Lines, Count, Line);
+  if (isOneLine(S, Addresses, First)) {
+    Lines[Count++] = lineOf(S, First);
+  } else {
+    // Neighbouring lanes mostly share a line.
+    uint32_t Last = ~lineOf(S, First);
+    for (uint32_t Left = S->Mask; Left; Left &= Left - 1) {
+      const uint32_t Line = lineOf(S, Addresses[std::countr_zero(Left)]);
+      if (Line == Last)
+        continue;
+      Last = Line;
+      addDistinct(Lines, Count, Line);
+    }
   }
   static_assert(MaxLanes * 4 == TimingLineBytes);
   const bool Whole =

@@ -10,8 +10,8 @@
 
 namespace vorion::isasim {
 
-/// A trace that is appended at one end and consumed at the other. One thread at
-/// a time: the core's while it runs, the clock's while all are parked.
+/// A trace that is appended at one end and consumed at the other. The core's
+/// thread may write while the clock's reads what was published before.
 class TraceBuffer : public CoreTrace {
 public:
   TraceBuffer();
@@ -22,29 +22,46 @@ public:
   void grow();
   /// Forgets everything.
   void clear();
+  /// What has been written can be read from now on. Neither end is in use.
+  void publish();
 
   /// \name Reading
   /// @{
-  bool empty() const { return Runs.data() + RunsRead == RunAt; }
-  size_t size() const {
-    return static_cast<size_t>(RunAt - Runs.data()) - RunsRead;
-  }
-  const RunRecord &front() const { return Runs[RunsRead]; }
-  /// The one behind front(), or nullptr if it has not been written yet.
-  void pop() { ++RunsRead; }
-  uint32_t word(size_t N = 0) const { return Words[WordsRead + N]; }
-  const uint32_t *words() const { return Words.data() + WordsRead; }
-  void popWords(size_t N) { WordsRead += N; }
-  /// Gives back the room of what has been read.
-  void compact();
+  bool empty() const { return Runs.empty(); }
+  size_t size() const { return Runs.size(); }
+  const RunRecord &front() const { return *Runs.front(); }
+  void pop() { ++Runs.Read; }
+  uint32_t word(size_t N = 0) const { return Words.front()[N]; }
+  const uint32_t *words() const { return Words.front(); }
+  void popWords(size_t N) { Words.Read += N; }
   /// @}
 
 private:
-  void place(size_t NumRuns, size_t NumWords);
+  /// Records from \c Read up to \c Count are there to be read.
+  template <typename Record> struct Published {
+    std::vector<Record> All;
+    size_t Read = 0, Count = 0;
 
-  std::vector<RunRecord> Runs;
-  std::vector<uint32_t> Words;
-  size_t RunsRead = 0, WordsRead = 0;
+    bool empty() const { return Read == Count; }
+    size_t size() const { return Count - Read; }
+    const Record *front() const { return All.data() + Read; }
+    /// Takes the first \p More of \p Written, whose room may be another then.
+    void take(std::vector<Record> &Written, size_t More);
+  };
+
+  size_t runsWritten() const {
+    return static_cast<size_t>(RunAt - WrittenRuns.data());
+  }
+  size_t wordsWritten() const {
+    return static_cast<size_t>(WordAt - WrittenWords.data());
+  }
+  void place(size_t RunsInUse, size_t WordsInUse);
+
+  std::vector<RunRecord> WrittenRuns;
+  std::vector<uint32_t> WrittenWords;
+  // In lines of their own: another thread reads than writes.
+  alignas(64) Published<RunRecord> Runs;
+  Published<uint32_t> Words;
 };
 
 /// Appends words of an instruction that did not park.
