@@ -89,7 +89,7 @@ makeReference(const TrainSweepPlan &P,
     const auto C = readCapture(P.Capture, {P.Exclude, P.AllowOutside});
     if (!C)
       return C.error();
-    const auto Pictures = loadTrainingSet(*C, P.Downscale, P.Background);
+    const auto Pictures = loadTrainingSet(*C, {P.Downscale, P.Background});
     if (!Pictures)
       return Pictures.error();
     Log("gradients in fp64");

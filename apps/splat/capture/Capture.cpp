@@ -67,6 +67,27 @@ Expected<Success> checkInside(const std::string &File, const std::string &Name,
                                  printable(Name))};
 }
 
+/// Of the picture \p Name, in the folder \p Masks; empty for none.
+std::string maskOf(const fs::path &Masks, const fs::path &Name) {
+  fs::path Png = Name;
+  for (const fs::path &File :
+       {fs::path(Name.string() + ".png"), Name, Png.replace_extension(".png")})
+    if (fileExists(Masks / File))
+      return (Masks / File).string();
+  return {};
+}
+
+/// Takes those without a picture out of \p Views, and counts them in \p C.
+Expected<Success> leaveOutMissing(std::vector<CaptureView> &Views, Capture &C) {
+  const std::string First = Views.front().Picture;
+  C.WithoutPicture += std::erase_if(
+      Views, [](const CaptureView &V) { return !fileExists(V.Picture); });
+  if (Views.empty())
+    return Error{First, "no such picture, nor any other of the capture's, "
+                        "expected photographs there"};
+  return Success{};
+}
+
 Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
                              Capture &C) {
   const bool Text = F.Format == CaptureFormat::ColmapText;
@@ -99,8 +120,10 @@ Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
         !Inside)
       return Inside;
     V.Picture = (F.Pictures / V.Pose.Name).string();
+    if (Options.Masks == MaskSource::Files)
+      V.Mask = maskOf(F.Pictures.parent_path() / "masks", V.Pose.Name);
   }
-  return Success{};
+  return leaveOutMissing(C.Views, C);
 }
 
 /// Adds the views of \p File; those without a size get their picture's.
@@ -117,14 +140,18 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
     if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
       return Inside;
     V.Picture = pictureOf(Folder, V.Pose.Name).string();
+    if (Options.Masks != MaskSource::Files) {
+      V.Mask.clear();
+    } else if (V.Mask.empty()) {
+      V.Mask = maskOf(Folder / "masks", fs::path(V.Picture).filename());
+    } else {
+      if (auto Inside = checkInside(File.string(), V.Mask, Options); !Inside)
+        return Inside;
+      V.Mask = (Folder / V.Mask).string();
+    }
   }
-  if (HeldOut) {
-    C.WithoutPicture = std::erase_if(
-        T->Views, [](const CaptureView &V) { return !fileExists(V.Picture); });
-    if (T->Views.empty())
-      return Error{File.string(), "no frame has a picture, expected at least "
-                                  "one"};
-  }
+  if (auto Left = leaveOutMissing(T->Views, C); !Left)
+    return Left;
   if (T->FieldOfView) {
     // All of a file are of one size; the first says which.
     const std::string &First = T->Views.front().Picture;
@@ -156,6 +183,15 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
   if (!Parsed)
     return Parsed.error();
   C.Points = std::move(*Parsed);
+  return Success{};
+}
+
+/// What the options ask of masks.
+Expected<Success> checkMasks(const std::string &Path, const Capture &C,
+                             const CaptureOptions &Options) {
+  if (Options.Masks == MaskSource::Files && C.masked() == 0)
+    return Error{Path, "no masks, expected masks/NAME.png for the picture "
+                       "NAME, or mask_path in the frames"};
   return Success{};
 }
 
@@ -230,6 +266,16 @@ std::size_t Capture::heldOut() const {
       std::ranges::count(Views, true, &CaptureView::HeldOut));
 }
 
+std::size_t Capture::masked() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      Views, [](const CaptureView &V) { return !V.Mask.empty(); }));
+}
+
+std::size_t Capture::distorted() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      Views, [](const CaptureView &V) { return !V.Optics.isPinhole(); }));
+}
+
 CameraRing cameraRing(const Capture &C) {
   CameraRing Ring;
   double Count = 0;
@@ -281,6 +327,8 @@ Expected<Capture> readCapture(const std::string &Path,
     Read = readTransforms(Test, /*HeldOut=*/true, Options, C);
   if (Read)
     Read = exclude(Path, C, Options.Exclude);
+  if (Read)
+    Read = checkMasks(Path, C, Options);
   if (!Read)
     return Read.error();
 

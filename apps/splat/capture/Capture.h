@@ -1,6 +1,7 @@
 /// Photographs with poses, to train from.
 #pragma once
 
+#include "capture/Lens.h"
 #include "io/Cameras.h"
 #include "vorion/support/Expected.h"
 
@@ -25,8 +26,12 @@ std::string_view name(CaptureFormat F);
 
 /// One photograph and from where it was taken.
 struct CaptureView {
-  Camera Pose;          ///< its name is the picture's, as the capture has it
+  Camera Pose; ///< its name is the picture's, as the capture has it
+  /// Of the camera that took the picture. The pose's focal lengths and
+  /// principal point are its, too; pictures are undistorted when they are used.
+  Lens Optics;
   std::string Picture;  ///< the file
+  std::string Mask;     ///< the file that says which pixels count, or empty
   bool HeldOut = false; ///< for evaluation only, never trained on
 };
 
@@ -44,9 +49,11 @@ struct Capture {
   CaptureFormat Format = CaptureFormat::ColmapBinary;
   std::vector<CaptureView> Views; ///< sorted by name, byte by byte
   CapturePoints Points;           ///< may be empty in a file of transforms
-  /// Held-out views of transforms_test.json that have no picture, and are left
-  /// out: test sets are often passed on in part.
+  /// Views that have no picture, and are left out: captures are often passed
+  /// on in part.
   std::size_t WithoutPicture = 0;
+  std::size_t masked() const;    ///< views with a mask
+  std::size_t distorted() const; ///< views whose lens is no pinhole
   /// What decided which views are held out, for people.
   std::string HeldOutBy;
 
@@ -66,12 +73,22 @@ CameraRing cameraRing(const Capture &C);
 /// Every so many-th view by name is held out, the first one included.
 inline constexpr std::size_t HoldOutEvery = 8;
 
+/// Which pixels count: all, those that are not transparent, or those that mask
+/// files say.
+enum class MaskSource { None, Alpha, Files };
+constexpr std::string_view name(MaskSource M) {
+  return M == MaskSource::None    ? "none"
+         : M == MaskSource::Alpha ? "alpha"
+                                  : "files";
+}
+
 /// What who reads a capture may choose.
 struct CaptureOptions {
   /// Views to leave out, by name (with or without folder and ending).
   std::vector<std::string> Exclude;
   /// Whether pictures and points may lie outside the capture's folder.
   bool AllowOutside = false;
+  MaskSource Masks = MaskSource::None;
 };
 
 /// Reads the capture at \p Path, a folder or a transforms.json:
@@ -80,8 +97,13 @@ struct CaptureOptions {
 /// - `transforms_train.json`, whose `transforms_test.json`, if there, has the
 ///   views to hold out;
 /// - `transforms.json`.
-/// Pictures are looked at, not decoded: each must be there, once, of the size
+/// Pictures are looked at, not decoded: each must be there once, of the size
 /// that its camera says, and inside the folder unless \p Options allow more.
+/// Views whose picture is missing are left out and counted.
+///
+/// With \c MaskSource::Files the mask of the picture NAME is what `mask_path`
+/// of its frame names, or else the first of masks/NAME.png, masks/NAME and
+/// masks/NAME with .png as its ending; a picture without one counts whole.
 Expected<Capture> readCapture(const std::string &Path,
                               const CaptureOptions &Options = {});
 

@@ -97,24 +97,93 @@ TEST_P(Captures, ExcludedPicturesAreLeftOutFirst) {
             std::string::npos);
 }
 
-/// The first picture missing, of another size, and no picture at all.
+TEST_P(Captures, ViewsWithoutAPictureAreLeftOutAndCounted) {
+  Folder Files = folderOf(GetParam(), sampleCapture());
+  const auto Erase = [&](const char *Ending) {
+    const auto Picture = std::ranges::find_if(
+        Files, [&](const auto &F) { return F.first.ends_with(Ending); });
+    ASSERT_NE(Picture, Files.end());
+    Files.erase(Picture);
+  };
+  Erase("a0.png");
+  Erase("a4.png");
+  {
+    const CaptureFolder F(Files);
+    const auto C = readCapture(F.path());
+    ASSERT_TRUE(C) << C.error().What;
+    EXPECT_EQ(C->WithoutPicture, 2U);
+    EXPECT_EQ(C->Views.size(), 8U);
+    // Every 8th of those that are left.
+    EXPECT_TRUE(GetParam() == CaptureFormat::NerfSynthetic ||
+                C->Views[0].HeldOut);
+  }
+  std::erase_if(Files, [](const auto &F) { return F.first.ends_with(".png"); });
+  const CaptureFolder F(Files);
+  const auto C = readCapture(F.path());
+  ASSERT_FALSE(C);
+  EXPECT_NE(C.error().What.find("no such picture, nor any other"),
+            std::string::npos)
+      << C.error().What;
+}
+
+TEST(Capture, MasksAreFoundByNameOrByPath) {
+  const std::string Png = pngOf(8, 6, std::string(192, '\x7f'));
+  const CaptureOptions Files{{}, false, MaskSource::Files};
+  Folder Colmap = colmapTextOf(sampleCapture());
+  {
+    const CaptureFolder F(Colmap);
+    const auto C = readCapture(F.path(), Files);
+    ASSERT_FALSE(C);
+    EXPECT_NE(C.error().What.find("no masks, expected masks/NAME.png"),
+              std::string::npos);
+  }
+  Colmap["masks/a1.png.png"] = Png; // as COLMAP names it
+  Colmap["masks/a2.png"] = Png;
+  {
+    const CaptureFolder F(Colmap);
+    const auto C = readCapture(F.path(), Files);
+    ASSERT_TRUE(C) << C.error().What;
+    EXPECT_EQ(C->masked(), 2U);
+    EXPECT_EQ(C->Views[1].Mask, F.path("masks/a1.png.png"));
+    EXPECT_EQ(C->Views[2].Mask, F.path("masks/a2.png"));
+    EXPECT_EQ(readCapture(F.path())->masked(), 0U);
+  }
+  Folder Transforms = transformsOf(sampleCapture());
+  Transforms["masks/a1.png"] = Png;
+  Transforms["other/m.png"] = Png;
+  std::string &Text = Transforms["transforms.json"];
+  const std::size_t At = Text.find("\"file_path\"");
+  ASSERT_NE(At, std::string::npos);
+  Text.insert(At, "\"mask_path\": \"other/m.png\", ");
+  {
+    const CaptureFolder F(Transforms);
+    const auto C = readCapture(F.path(), Files);
+    ASSERT_TRUE(C) << C.error().What;
+    EXPECT_EQ(C->masked(), 2U);
+    EXPECT_EQ(C->Views[0].Mask, F.path("other/m.png"));
+  }
+  Text = replaced(Text, "other/m.png", "../m.png");
+  const CaptureFolder F(Transforms);
+  const auto C = readCapture(F.path(), Files);
+  ASSERT_FALSE(C);
+  EXPECT_NE(C.error().What.find("expected one inside the folder"),
+            std::string::npos);
+}
+
+/// The first picture of another size, and no picture at all.
 TEST_P(Captures, PicturesAreLookedAt) {
   const struct {
     const char *Content, *Message;
-  } Cases[] = {{nullptr, "cannot open"},
-               {"text", "not a picture, expected a PNG, JPEG or WebP"},
+  } Cases[] = {{"text", "not a picture, expected a PNG, JPEG or WebP"},
                {"small", "3x2 pixels, expected 8x6 as its camera says"}};
   for (const auto &[Content, Message] : Cases) {
     Folder Files = folderOf(GetParam(), sampleCapture());
     auto Picture = std::ranges::find_if(
         Files, [](const auto &F) { return F.first.ends_with("a1.png"); });
     ASSERT_NE(Picture, Files.end());
-    if (!Content)
-      Files.erase(Picture);
-    else
-      Picture->second = std::string(Content) == "small"
-                            ? pngOf(3, 2, std::string(24, '\x7f'))
-                            : Content;
+    Picture->second = std::string(Content) == "small"
+                          ? pngOf(3, 2, std::string(24, '\x7f'))
+                          : Content;
     const CaptureFolder F(Files);
     const auto C = readCapture(F.path());
     ASSERT_FALSE(C) << Message;
@@ -261,7 +330,8 @@ TEST(Capture, TestPicturesMayBeMissingInPart) {
   const CaptureFolder F(Files);
   const auto C = readCapture(F.path());
   ASSERT_FALSE(C);
-  EXPECT_NE(C.error().What.find("no frame has a picture"), std::string::npos);
+  EXPECT_NE(C.error().What.find("no such picture, nor any other"),
+            std::string::npos);
 }
 
 TEST(Capture, OneViewIsTooFew) {

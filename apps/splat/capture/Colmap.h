@@ -22,10 +22,10 @@ struct ColmapModel {
   CapturePoints Points;
 };
 
-/// Reads cameras.bin, images.bin, points3D.bin. Refused: distorted camera
-/// models (by name), poses that are no rotation, images of unknown cameras,
-/// values that are not finite, files that are shorter or longer than they
-/// say, models without an image or a point.
+/// Reads cameras.bin, images.bin, points3D.bin. Refused: camera models that
+/// we have no lens for (by name), poses that are no rotation, images of unknown
+/// cameras, values that are not finite, files that are shorter or longer than
+/// they say, models without an image or a point.
 Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files);
 
 /// The same for cameras.txt, images.txt, points3D.txt; errors name the line.

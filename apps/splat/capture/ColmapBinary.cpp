@@ -109,9 +109,9 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
             std::ranges::find(Models, Model, &ColmapCameraModel::Id);
         if (Known == Models.end())
           return Error{Files.Cameras.Where,
-                       fmt::format("camera {} has model number {}, expected 0 "
-                                   "or 1 (SIMPLE_PINHOLE, PINHOLE)",
-                                   Id, Model)};
+                       fmt::format("camera {} has model number {}, expected "
+                                   "that of one of {}",
+                                   Id, Model, knownColmapModels())};
         if (auto Bad =
                 errorOf(Builder.checkModel(Files.Cameras.Where, Id, *Known)))
           return Bad;

@@ -3,24 +3,63 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vorion::splat {
 namespace {
 
+Lens pinhole(std::span<const double> /*P*/) { return {}; }
+
+/// \p First: where k1 is; tangential terms follow k2.
+Lens radialTangential(std::span<const double> P, std::size_t First,
+                      std::size_t Count) {
+  Lens L{Lens::Model::RadialTangential, {}, {}, {}};
+  for (std::size_t I = 0; I < Count; ++I)
+    L.Radial[I] = P[First + I];
+  return L;
+}
+
+Lens simpleRadial(std::span<const double> P) {
+  return radialTangential(P, 3, 1);
+}
+Lens radial(std::span<const double> P) { return radialTangential(P, 3, 2); }
+Lens openCv(std::span<const double> P) {
+  Lens L = radialTangential(P, 4, 2);
+  L.Tangential = {P[6], P[7]};
+  return L;
+}
+/// fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6
+Lens fullOpenCv(std::span<const double> P) {
+  Lens L = openCv(P);
+  L.Radial[2] = P[8];
+  L.Denominator = {P[9], P[10], P[11]};
+  return L;
+}
+
+Lens fisheye(std::span<const double> Terms) {
+  Lens L{Lens::Model::Fisheye, {}, {}, {}};
+  std::ranges::copy(Terms, L.Radial.begin());
+  return L;
+}
+Lens openCvFisheye(std::span<const double> P) {
+  return fisheye(P.subspan(4, 4));
+}
+Lens radialFisheye(std::span<const double> P) { return fisheye(P.subspan(3)); }
+
 /// Numbers, names and counts of COLMAP's src/colmap/sensor/models.h.
 constexpr ColmapCameraModel Models[] = {
-    {0, "SIMPLE_PINHOLE", 3, true},
-    {1, "PINHOLE", 4, true},
-    {2, "SIMPLE_RADIAL", 4, false},
-    {3, "RADIAL", 5, false},
-    {4, "OPENCV", 8, false},
-    {5, "OPENCV_FISHEYE", 8, false},
-    {6, "FULL_OPENCV", 12, false},
-    {7, "FOV", 5, false},
-    {8, "SIMPLE_RADIAL_FISHEYE", 4, false},
-    {9, "RADIAL_FISHEYE", 5, false},
-    {10, "THIN_PRISM_FISHEYE", 12, false},
-    {11, "RAD_TAN_THIN_PRISM_FISHEYE", 16, false},
+    {0, "SIMPLE_PINHOLE", 3, pinhole, true},
+    {1, "PINHOLE", 4, pinhole, false},
+    {2, "SIMPLE_RADIAL", 4, simpleRadial, true},
+    {3, "RADIAL", 5, radial, true},
+    {4, "OPENCV", 8, openCv, false},
+    {5, "OPENCV_FISHEYE", 8, openCvFisheye, false},
+    {6, "FULL_OPENCV", 12, fullOpenCv, false},
+    {7, "FOV", 5, nullptr, false},
+    {8, "SIMPLE_RADIAL_FISHEYE", 4, radialFisheye, true},
+    {9, "RADIAL_FISHEYE", 5, radialFisheye, true},
+    {10, "THIN_PRISM_FISHEYE", 12, nullptr, false},
+    {11, "RAD_TAN_THIN_PRISM_FISHEYE", 16, nullptr, false},
 };
 
 bool allFinite(std::span<const double> Values) {
@@ -31,15 +70,23 @@ bool allFinite(std::span<const double> Values) {
 
 std::span<const ColmapCameraModel> colmapCameraModels() { return Models; }
 
+std::string knownColmapModels() {
+  std::vector<std::string_view> Names;
+  for (const ColmapCameraModel &M : Models)
+    if (M.LensOf)
+      Names.push_back(M.Name);
+  return fmt::format("{}", fmt::join(Names, ", "));
+}
+
 Expected<Success> ColmapBuilder::checkModel(const std::string &Where,
                                             int64_t Id,
                                             const ColmapCameraModel &Kind) {
-  if (!Kind.Pinhole)
+  if (!Kind.LensOf)
     return Error{Where,
-                 fmt::format("camera {} has the distorted model {}, expected "
-                             "SIMPLE_PINHOLE or PINHOLE: undistort the capture "
-                             "first (colmap image_undistorter)",
-                             Id, Kind.Name)};
+                 fmt::format("camera {} has the model {}, expected one of {}: "
+                             "undistort the capture first (colmap "
+                             "image_undistorter)",
+                             Id, Kind.Name, knownColmapModels())};
   return Success{};
 }
 
@@ -55,8 +102,9 @@ Expected<Success> ColmapBuilder::addCamera(const std::string &Where, int64_t Id,
                  fmt::format("camera {} has pictures of {}x{} pixels, expected "
                              "sides of 1 to {}",
                              Id, Width, Height, MaxImageSize)};
-  const bool OneFocal = Kind.Parameters == 3;
-  Camera C;
+  const bool OneFocal = Kind.OneFocal;
+  CaptureView Taken;
+  Camera &C = Taken.Pose;
   C.Width = static_cast<int>(Width);
   C.Height = static_cast<int>(Height);
   C.Fx = Parameters[0];
@@ -69,7 +117,8 @@ Expected<Success> ColmapBuilder::addCamera(const std::string &Where, int64_t Id,
                              "expected a positive focal length and a finite "
                              "principal point",
                              Id)};
-  if (!Cameras.emplace(Id, C).second)
+  Taken.Optics = simplified(Kind.LensOf(Parameters));
+  if (!Cameras.emplace(Id, Taken).second)
     return Error{Where, fmt::format("camera {} is there twice, expected it "
                                     "once",
                                     Id)};
@@ -95,8 +144,7 @@ Expected<Success> ColmapBuilder::addImage(const std::string &Where,
                                     Shown)};
   const double W = Q[0] / Norm, X = Q[1] / Norm, Y = Q[2] / Norm,
                Z = Q[3] / Norm;
-  CaptureView V;
-  V.Pose = Known->second;
+  CaptureView V = Known->second;
   V.Pose.Id = static_cast<int>(Model.Views.size());
   V.Pose.Name = I.Name;
   // Camera to world: the transpose of the stored rotation.

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <span>
+#include <string>
 
 namespace vorion::splat {
 
@@ -13,9 +14,14 @@ struct ColmapCameraModel {
   int Id;
   std::string_view Name;
   std::size_t Parameters;
-  bool Pinhole; ///< undistorted
+  /// What makes a lens of the parameters; null where we have no such lens.
+  Lens (*LensOf)(std::span<const double> Parameters);
+  /// The first parameter is both focal lengths.
+  bool OneFocal;
 };
 std::span<const ColmapCameraModel> colmapCameraModels();
+/// Names of those that have a lens, for messages.
+std::string knownColmapModels();
 
 /// One image as stored: world to camera, quaternion w, x, y, z.
 struct ColmapImage {
@@ -29,7 +35,7 @@ struct ColmapImage {
 /// the line where it has lines.
 class ColmapBuilder {
 public:
-  /// That \p Model is undistorted: asked before its parameters are read.
+  /// That we have the lens of \p Model: asked before its parameters are read.
   static Expected<Success> checkModel(const std::string &Where, int64_t Id,
                                       const ColmapCameraModel &Model);
   Expected<Success> addCamera(const std::string &Where, int64_t Id,
@@ -44,7 +50,7 @@ public:
   Expected<ColmapModel> finish(const ColmapFiles &Files);
 
 private:
-  std::map<int64_t, Camera> Cameras;
+  std::map<int64_t, CaptureView> Cameras; ///< without pose and name
   ColmapModel Model;
 };
 

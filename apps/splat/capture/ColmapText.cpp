@@ -98,9 +98,9 @@ Expected<Success> readCameraLines(const ColmapFile &F, ColmapBuilder &B) {
     if (!W.good() || Name.empty())
       return badLine(R, "CAMERA_ID MODEL WIDTH HEIGHT PARAMETERS");
     if (Model == Models.end())
-      return Error{R.where(), fmt::format("camera {} has model {}, expected "
-                                          "SIMPLE_PINHOLE or PINHOLE",
-                                          Id, printable(Name))};
+      return Error{R.where(),
+                   fmt::format("camera {} has model {}, expected one of {}", Id,
+                               printable(Name), knownColmapModels())};
     if (auto Pinhole = ColmapBuilder::checkModel(R.where(), Id, *Model);
         !Pinhole)
       return Pinhole;

@@ -133,13 +133,81 @@ INSTANTIATE_TEST_SUITE_P(Encodings, Colmap, ::testing::Bool(),
                            return Info.param ? "Text" : "Binary";
                          });
 
+/// Parameters in COLMAP's order (src/colmap/sensor/models.h).
+TEST(ColmapText, LensesAreThoseOfTheirModels) {
+  using Model = Lens::Model;
+  const struct {
+    const char *Camera;
+    double Fx, Fy, Cx, Cy;
+    Lens Optics;
+  } Cases[] = {
+      {"SIMPLE_RADIAL 8 6 10 4 3 0.1",
+       10,
+       10,
+       4,
+       3,
+       {Model::RadialTangential, {0.1}, {}, {}}},
+      {"RADIAL 8 6 10 4 3 0.1 0.2",
+       10,
+       10,
+       4,
+       3,
+       {Model::RadialTangential, {0.1, 0.2}, {}, {}}},
+      {"OPENCV 8 6 10 11 4 3 0.1 0.2 0.3 0.4",
+       10,
+       11,
+       4,
+       3,
+       {Model::RadialTangential, {0.1, 0.2}, {}, {0.3, 0.4}}},
+      {"FULL_OPENCV 8 6 10 11 4 3 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8",
+       10,
+       11,
+       4,
+       3,
+       {Model::RadialTangential, {0.1, 0.2, 0.5}, {0.6, 0.7, 0.8}, {0.3, 0.4}}},
+      {"OPENCV_FISHEYE 8 6 10 11 4 3 0.1 0.2 0.3 0.4",
+       10,
+       11,
+       4,
+       3,
+       {Model::Fisheye, {0.1, 0.2, 0.3, 0.4}, {}, {}}},
+      {"SIMPLE_RADIAL_FISHEYE 8 6 10 4 3 0.1",
+       10,
+       10,
+       4,
+       3,
+       {Model::Fisheye, {0.1}, {}, {}}},
+      {"RADIAL_FISHEYE 8 6 10 4 3 0.1 0.2",
+       10,
+       10,
+       4,
+       3,
+       {Model::Fisheye, {0.1, 0.2}, {}, {}}},
+      // Nothing bends.
+      {"OPENCV 8 6 10 11 4 3 0 0 0 0", 10, 11, 4, 3, {}}};
+  for (const auto &Case : Cases) {
+    Parts P = partsOf(sampleCapture(2), true);
+    P.Cameras = std::string("7 ") + Case.Camera + "\n";
+    const auto M = parsed(P, true);
+    ASSERT_TRUE(M) << Case.Camera << M.error().What;
+    for (const CaptureView &V : M->Views) {
+      EXPECT_EQ(V.Optics, Case.Optics) << Case.Camera;
+      EXPECT_EQ(V.Pose.Fx, Case.Fx);
+      EXPECT_EQ(V.Pose.Fy, Case.Fy);
+      EXPECT_EQ(V.Pose.Cx, Case.Cx);
+      EXPECT_EQ(V.Pose.Cy, Case.Cy);
+    }
+  }
+}
+
 TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
   const Parts Whole = partsOf(sampleCapture(2), false);
   const struct {
     std::function<void(Parts &)> Change;
     const char *Message;
-  } Cases[] = {{[](Parts &P) { patch<int32_t>(P.Cameras, 12, 4); },
-                "cameras: camera 7 has the distorted model OPENCV"},
+  } Cases[] = {{[](Parts &P) { patch<int32_t>(P.Cameras, 12, 7); },
+                "cameras: camera 7 has the model FOV, expected one of "
+                "SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL"},
                {[](Parts &P) { patch<int32_t>(P.Cameras, 12, 99); },
                 "cameras: camera 7 has model number 99"},
                {[](Parts &P) { patch<uint64_t>(P.Cameras, 16, ~0ULL); },
@@ -176,7 +244,7 @@ TEST(ColmapText, EachKindOfDamageHasItsMessage) {
     const char *What, *With, *Message;
   } Cases[] = {
       {&Parts::Cameras, "PINHOLE", "FOV",
-       "cameras:2: camera 7 has the distorted model FOV"},
+       "cameras:2: camera 7 has the model FOV, expected one of SIMPLE_PINHOLE"},
       {&Parts::Cameras, "PINHOLE", "ORANGE",
        "cameras:2: camera 7 has model ORANGE"},
       {&Parts::Cameras, "PINHOLE", "SIMPLE_PINHOLE",

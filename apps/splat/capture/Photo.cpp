@@ -230,6 +230,19 @@ Photo shrink(const Photo &P, int Width, int Height) {
                   });
 }
 
+std::vector<uint8_t> shrinkAlpha(const Plane &P, int Width, int Height) {
+  // The same in all channels.
+  const Photo All =
+      averaged(P.Width, P.Height, Width, Height,
+               [&](std::size_t Pixel, std::size_t /*Channel*/) -> double {
+                 return P.at(Pixel, 3);
+               });
+  std::vector<uint8_t> Alpha(All.pixels());
+  for (std::size_t I = 0; I < Alpha.size(); ++I)
+    Alpha[I] = All.Rgb[3 * I];
+  return Alpha;
+}
+
 Camera resized(const Camera &C, int Width, int Height) {
   Camera R = C;
   const double X = static_cast<double>(Width) / C.Width;

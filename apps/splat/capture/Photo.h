@@ -43,6 +43,8 @@ inline constexpr const char *PhotoFilter =
 Photo shrink(const Plane &P, int Width, int Height,
              const std::array<float, 3> &Background);
 Photo shrink(const Photo &P, int Width, int Height);
+/// The alphas of such a picture, one a pixel.
+std::vector<uint8_t> shrinkAlpha(const Plane &P, int Width, int Height);
 
 /// \p C for a picture of another size of the same view.
 Camera resized(const Camera &C, int Width, int Height);

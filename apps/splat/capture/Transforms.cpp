@@ -4,8 +4,10 @@
 #include "vorion/support/Json.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
@@ -35,7 +37,7 @@ private:
     return nullptr;
   }
   std::optional<double> number(const Json &Frame, const char *Key);
-  void refuseDistortion(const Json &Frame);
+  Lens readLens(const Json &Frame);
   void readPose(const Json &Frame, Camera &C);
   void readIntrinsics(const Json &Frame, Camera &C);
 
@@ -58,21 +60,36 @@ std::optional<double> TransformsReader::number(const Json &Frame,
   return J->get<double>();
 }
 
-void TransformsReader::refuseDistortion(const Json &Frame) {
-  constexpr const char *Undistort = "expected an undistorted pinhole camera";
-  for (const char *Key : {"k1", "k2", "k3", "k4", "p1", "p2"})
-    if (const auto Value = number(Frame, Key); Value && *Value != 0)
-      fail(fmt::format("a distorted camera ({} is {}), {}", Key, *Value,
-                       Undistort));
+/// Terms as nerfstudio and instant-ngp write them: k1 to k4 are of r^2 to r^8,
+/// but OpenCV's full model has k4 to k6 in the denominator.
+Lens TransformsReader::readLens(const Json &Frame) {
   const Json *Model = find(Frame, "camera_model");
+  const Json *Flag = find(Frame, "is_fisheye");
   const bool Fisheye =
-      find(Frame, "is_fisheye") && *find(Frame, "is_fisheye") == Json(true);
-  const bool Known = !Model || *Model == "PINHOLE" ||
-                     *Model == "SIMPLE_PINHOLE" || *Model == "OPENCV";
-  if (Fisheye || !Known)
-    fail(fmt::format("the distorted camera model {}, {}",
-                     Known ? "is_fisheye" : printable(jsonText(*Model)),
-                     Undistort));
+      (Flag && *Flag == Json(true)) ||
+      (Model && (*Model == "OPENCV_FISHEYE" || *Model == "RADIAL_FISHEYE" ||
+                 *Model == "SIMPLE_RADIAL_FISHEYE"));
+  const bool Full = Model && *Model == "FULL_OPENCV";
+  constexpr std::array<const char *, 5> Others{
+      "PINHOLE", "SIMPLE_PINHOLE", "OPENCV", "RADIAL", "SIMPLE_RADIAL"};
+  if (Model && !Fisheye && !Full &&
+      std::ranges::none_of(Others,
+                           [&](const char *Name) { return *Model == Name; }))
+    fail(fmt::format("the camera model {}, expected {}, FULL_OPENCV, "
+                     "OPENCV_FISHEYE, RADIAL_FISHEYE or SIMPLE_RADIAL_FISHEYE",
+                     printable(jsonText(*Model)), fmt::join(Others, ", ")));
+  const auto Term = [&](const char *Key) {
+    return number(Frame, Key).value_or(0);
+  };
+  Lens L;
+  L.Kind = Fisheye ? Lens::Model::Fisheye : Lens::Model::RadialTangential;
+  L.Radial = {Term("k1"), Term("k2"), Term("k3"), Full ? 0 : Term("k4")};
+  if (Full)
+    L.Denominator = {Term("k4"), Term("k5"), Term("k6")};
+  L.Tangential = {Term("p1"), Term("p2")};
+  if (Fisheye && L.Tangential != std::array<double, 2>{})
+    fail("a fisheye with p1 or p2, expected k1 to k4 alone");
+  return simplified(L);
 }
 
 void TransformsReader::readPose(const Json &Frame, Camera &C) {
@@ -151,7 +168,13 @@ Expected<TransformsFile> TransformsReader::read() {
     if (V.Pose.Name.starts_with("./"))
       V.Pose.Name.erase(0, 2);
     View = "frame " + printable(V.Pose.Name);
-    refuseDistortion(Frame);
+    V.Optics = readLens(Frame);
+    if (const auto Mask = Frame.find("mask_path"); Mask != Frame.end()) {
+      if (Mask->is_string())
+        V.Mask = Mask->get<std::string>();
+      else
+        fail("key mask_path is wrong, expected a file's name");
+    }
     readPose(Frame, V.Pose);
     readIntrinsics(Frame, V.Pose);
     T.Views.push_back(std::move(V));

@@ -34,6 +34,50 @@ TEST(Transforms, FramesMayHaveTheirOwnCamera) {
   EXPECT_EQ(T->Views[0].Pose.Name, "pictures/a0.png");
 }
 
+TEST(Transforms, LensesAreOfTheFileOrAFrame) {
+  using Model = Lens::Model;
+  const auto LensesOf = [](const std::function<void(Json &)> &Change) {
+    Json J = sample();
+    Change(J);
+    const auto T = parsed(J.dump());
+    EXPECT_TRUE(T);
+    return T ? std::pair(T->Views[0].Optics, T->Views[1].Optics)
+             : std::pair(Lens(), Lens());
+  };
+  const Lens Brown{
+      Model::RadialTangential, {0.1, 0.2, 0.3, 0.4}, {}, {0.5, 0.6}};
+  const auto Terms = [](Json &J) {
+    J.update({{"k1", 0.1}, {"k2", 0.2}, {"k3", 0.3}, {"k4", 0.4}});
+  };
+  const auto [First, Second] = LensesOf([&](Json &J) {
+    Terms(J);
+    J["p1"] = 0.5;
+    J["p2"] = 0.6;
+    J["frames"][1]["k1"] = 0.7;
+  });
+  EXPECT_EQ(First, Brown);
+  EXPECT_EQ(Second.Radial[0], 0.7);
+  EXPECT_EQ(Second.Radial[1], 0.2);
+  const Lens Fisheye{Model::Fisheye, {0.1, 0.2, 0.3, 0.4}, {}, {}};
+  EXPECT_EQ(LensesOf([&](Json &J) {
+              Terms(J);
+              J["is_fisheye"] = true;
+            }).first,
+            Fisheye);
+  EXPECT_EQ(LensesOf([&](Json &J) {
+              Terms(J);
+              J["camera_model"] = "OPENCV_FISHEYE";
+            }).first,
+            Fisheye);
+  const Lens Full{Model::RadialTangential, {0.1, 0.2, 0.3}, {0.4}, {}};
+  EXPECT_EQ(LensesOf([&](Json &J) {
+              Terms(J);
+              J["camera_model"] = "FULL_OPENCV";
+            }).first,
+            Full);
+  EXPECT_TRUE(LensesOf([](Json &J) { J["k1"] = 0; }).first.isPinhole());
+}
+
 TEST(Transforms, EachKindOfDamageHasItsMessage) {
   const struct {
     std::function<void(Json &)> Change;
@@ -45,12 +89,18 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
       {[](Json &J) { J["frames"][1] = 3; }, "frame 1 has no file_path"},
       {[](Json &J) { J["frames"][1].erase("file_path"); },
        "frame 1 has no file_path"},
-      {[](Json &J) { J["k1"] = 0.01; },
-       "frame pictures/a0.png: a distorted camera (k1 is 0.01)"},
-      {[](Json &J) { J["camera_model"] = "OPENCV_FISHEYE"; },
-       "the distorted camera model \"OPENCV_FISHEYE\""},
-      {[](Json &J) { J["is_fisheye"] = true; },
-       "the distorted camera model is_fisheye"},
+      {[](Json &J) { J["k1"] = "much"; },
+       "frame pictures/a0.png: key k1 is wrong, expected a finite number"},
+      {[](Json &J) { J["camera_model"] = "EQUIRECTANGULAR"; },
+       "frame pictures/a0.png: the camera model \"EQUIRECTANGULAR\", expected "
+       "PINHOLE, SIMPLE_PINHOLE, OPENCV"},
+      {[](Json &J) {
+         J["is_fisheye"] = true;
+         J["p2"] = 0.1;
+       },
+       "a fisheye with p1 or p2"},
+      {[](Json &J) { J["frames"][1]["mask_path"] = 3; },
+       "frame pictures/a1.png: key mask_path is wrong"},
       {[](Json &J) { J["frames"][1]["transform_matrix"][2] = 0; },
        "frame pictures/a1.png: an unreadable pose"},
       {[](Json &J) { J["frames"][1]["transform_matrix"][0][0] = 2; },

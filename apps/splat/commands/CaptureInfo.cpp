@@ -1,6 +1,7 @@
 #include "commands/CaptureInfo.h"
 
 #include "capture/Capture.h"
+#include "commands/Choices.h"
 #include "io/ReportHead.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -63,12 +64,16 @@ std::string textOf(const std::string &Path, const Capture &C) {
       "{}: {} capture\n{} views, {} of them held out ({})\n", escaped(Path),
       name(C.Format), C.Views.size(), C.heldOut(), C.HeldOutBy);
   if (C.WithoutPicture > 0)
-    Text += fmt::format("left out     {} held-out views without a picture\n",
+    Text += fmt::format("left out     {} views without a picture\n",
                         C.WithoutPicture);
   Text += fmt::format("pictures     {} x {} pixels\n", Span(F.Width),
                       Span(F.Height));
   Text += fmt::format("focal length x {}, y {} pixels\n", Span(F.FocalX),
                       Span(F.FocalY));
+  if (C.distorted() > 0)
+    Text += fmt::format("lenses       of {} views bend: training undistorts "
+                        "their pictures\n",
+                        C.distorted());
   Text += fmt::format("cameras      within {:.6g} of ({:.6g}, {:.6g}, {:.6g}), "
                       "extent {:.6g}\n",
                       F.Ring.Radius, F.Ring.Centre[0], F.Ring.Centre[1],
@@ -100,6 +105,7 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
                  {"format", name(C.Format)},
                  {"held_out_by", C.HeldOutBy},
                  {"without_picture", C.WithoutPicture},
+                 {"distorted", C.distorted()},
                  {"points", C.Points.size()},
                  {"camera_centre", F.Ring.Centre},
                  {"camera_radius", F.Ring.Radius},
@@ -122,6 +128,13 @@ Expected<Success> describeCapture(const std::string &Path,
       return Written;
   printOut("{}", textOf(Path, *C));
   return Success{};
+}
+
+void addMasksOption(CLI::App &App, MaskSource &Masks) {
+  addChoice(App, "--masks", Masks,
+            {MaskSource::None, MaskSource::Alpha, MaskSource::Files},
+            "Pixels that do not count: none, transparent ones, or those that "
+            "are black in masks/NAME.png or the frame's mask_path");
 }
 
 void addOutsideOption(CLI::App &App, bool &Allow) {

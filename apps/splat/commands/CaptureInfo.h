@@ -1,6 +1,7 @@
 /// What `splat info` says about a capture.
 #pragma once
 
+#include "capture/Capture.h"
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>
@@ -17,5 +18,9 @@ Expected<Success> describeCapture(const std::string &Path,
 /// Declares --allow-outside, of every command that reads captures
 /// (CaptureOptions); \p Allow must outlive the parsing.
 void addOutsideOption(CLI::App &App, bool &Allow);
+
+/// Declares --masks, of those that compare with photographs; \p Masks must
+/// outlive the parsing.
+void addMasksOption(CLI::App &App, MaskSource &Masks);
 
 } // namespace vorion::splat

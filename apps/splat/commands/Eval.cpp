@@ -90,7 +90,8 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   const auto C = readCapture(A.Capture, A.Read);
   if (!C)
     return C.error();
-  const auto Set = loadTrainingSet(*C, A.Downscale, A.Options.Background);
+  const auto Set =
+      loadTrainingSet(*C, {A.Downscale, A.Options.Background, A.Read.Masks});
   if (!Set)
     return Set.error();
   const std::vector<JudgedView> Views = judgedViews(*Set, A.All);
@@ -155,6 +156,7 @@ Runner addEval(CLI::App &App) {
   App.add_option("--exclude", A->Read.Exclude, "Leave out this picture")
       ->allow_extra_args(false);
   addOutsideOption(App, A->Read.AllowOutside);
+  addMasksOption(App, A->Read.Masks);
   takesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
   takesFile(App.add_option("--csv", A->Csv, "Write a line a view"), {".csv"});
   addDrawOptions(App, *A);

@@ -6,6 +6,7 @@
 #include "commands/PictureOptions.h"
 
 #include "analyze/Chart.h"
+#include "capture/Undistort.h"
 #include "scene/formats/Ply.h"
 #include "train/TrainReport.h"
 #include "train/Training.h"
@@ -109,6 +110,15 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
            Out.Result.size(), Out.Iterations);
   printOut("pictures     {} to train on, {} held out ({}); {}\n",
            Out.TrainingViews, Out.HeldOut.size(), Out.HeldOutBy, PhotoFilter);
+  if (Out.WithoutPicture != 0)
+    printOut("left out     {} views without a picture\n", Out.WithoutPicture);
+  if (Out.Distorted != 0)
+    printOut("undistorted  {} pictures; {}\n", Out.Distorted, LensFilter);
+  if (R.Run.Masks != MaskSource::None)
+    printOut("masks        {}\n",
+             R.Run.Masks == MaskSource::Alpha
+                 ? "transparent pixels do not count"
+                 : fmt::format("of {} pictures", Out.Masked));
   if (R.Run.Batch != 1 || Out.Processes != 1)
     printOut("views        {} an iteration, on {} devices\n", R.Run.Batch,
              Out.Processes);
@@ -150,7 +160,7 @@ Expected<Success> check(const TrainArguments &A) {
                  ExitCode::Usage};
   if (R.ScoreEvery != 0 && A.Json.empty())
     return Error{"", "--score-every: expected --json with it", ExitCode::Usage};
-  for (const float V : R.Background)
+  for (const float V : R.Run.Background)
     if (!(V >= 0 && V <= 1))
       return Error{"",
                    fmt::format("--background {}: expected values of 0 to 1", V),
@@ -231,9 +241,13 @@ Runner addTrain(CLI::App &App) {
   App.add_option("--sh-degree", R.ShDegree,
                  "Bands of spherical harmonics (default 3)")
       ->check(CLI::Range(0, MaxShDegree));
-  addBackgroundOption(App, R.Background,
+  addBackgroundOption(App, R.Run.Background,
                       "Colour r,g,b behind the scene and under transparent "
                       "pixels (default 0,0,0)");
+  App.add_flag("--random-background", R.Run.RandomBackground,
+               "Another colour in each iteration; --background is that of "
+               "held-out views");
+  addMasksOption(App, R.Run.Masks);
   addRulesOption(App, R.Convention);
   addPathOption(App, R.Blending.Kind,
                 "Who blends and goes back: the rasterizer or the cores");
@@ -270,6 +284,7 @@ Runner addTrain(CLI::App &App) {
             {".svg"});
   addDeviceOption(App, A->Device);
   return [A](const DeviceOptions &Machine) {
+    A->Request.Read.Masks = A->Request.Run.Masks;
     if (A->Request.Checkpoint.empty())
       A->Request.Checkpoint = A->Output + ".checkpoint";
     return run(*A, Machine);

@@ -49,12 +49,17 @@ std::vector<JudgedView> judgedViews(const TrainingSet &Set, bool All) {
 
 ViewScore scoreOf(const JudgedView &V, Photo Drawn) {
   const Photo &Wanted = V.View->Picture;
+  const std::vector<uint8_t> &Counts = V.View->Counts;
+  // What does not count is black in both, for SSIM's windows too.
+  for (std::size_t I = 0; I < Counts.size(); ++I)
+    if (Counts[I] == 0)
+      std::fill_n(Drawn.Rgb.begin() + static_cast<std::ptrdiff_t>(3 * I), 3, 0);
   const std::vector<double> A = levels(Wanted), B = levels(Drawn);
   const auto Width = static_cast<std::size_t>(Wanted.Width);
   ViewScore Score{V.View->Pose.Name,
                   V.HeldOut,
                   {},
-                  psnrOfBytes(Drawn.Rgb, Wanted.Rgb),
+                  psnrOfBytes(Drawn.Rgb, Wanted.Rgb, Counts),
                   ssim(A, B, Width, 3),
                   msSsim(A, B, Width, 3)};
   Score.Drawn = std::move(Drawn);

@@ -205,6 +205,20 @@ double psnrOfBytes(const std::vector<uint8_t> &A,
              : Infinity;
 }
 
+double psnrOfBytes(const std::vector<uint8_t> &A, const std::vector<uint8_t> &B,
+                   const std::vector<uint8_t> &Counts) {
+  if (Counts.empty())
+    return psnrOfBytes(A, B);
+  std::vector<uint8_t> Left, Right;
+  for (std::size_t I = 0; I < Counts.size(); ++I)
+    if (Counts[I] != 0)
+      for (std::size_t K = 0; K < 3; ++K) {
+        Left.push_back(A[3 * I + K]);
+        Right.push_back(B[3 * I + K]);
+      }
+  return psnrOfBytes(Left, Right);
+}
+
 double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B) {
   const auto Rounded = [](const std::vector<float> &Values) {
     std::vector<uint8_t> Bytes(Values.size());

@@ -65,6 +65,10 @@ double psnr8Bit(const std::vector<float> &A, const std::vector<float> &B);
 /// Of 8-bit values as they are.
 double psnrOfBytes(const std::vector<uint8_t> &A,
                    const std::vector<uint8_t> &B);
+/// The same over the pixels, of three bytes, whose entry of \p Counts is not 0;
+/// all, where \p Counts is empty.
+double psnrOfBytes(const std::vector<uint8_t> &A, const std::vector<uint8_t> &B,
+                   const std::vector<uint8_t> &Counts);
 
 /// How far gradients \p A are off from \p B: the difference's L2 norm relative
 /// to that of \p B, or to \p Least if that is more. What is NaN in \p B is left

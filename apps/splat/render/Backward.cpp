@@ -41,8 +41,8 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
 }
 
 void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
-                                   const cl::Buffer &ByAlpha) {
-  const auto &Background = Options.Background;
+                                   const cl::Buffer &ByAlpha,
+                                   const std::array<float, 3> &Background) {
   Upstream = Launch.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
   Launch.run(UpstreamProgram, "upstream", itemsFor(F.pixels()), GroupSize,
              ByRender, ByAlpha, Upstream, F.pixels(), Background[0],

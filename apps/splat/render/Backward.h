@@ -39,9 +39,10 @@ public:
       : Launch(Launch), Options(O), Choice(B), ShDegree(ShDegree) {}
 
   /// What the loss says of each pixel: dL/d(red, green, blue) of the picture
-  /// with its background, and dL/d(alpha), 3 floats and 1.
+  /// over \p Background, and dL/d(alpha), 3 floats and 1.
   void setUpstream(const Frame &F, const cl::Buffer &ByRender,
-                   const cl::Buffer &ByAlpha);
+                   const cl::Buffer &ByAlpha,
+                   const std::array<float, 3> &Background);
   /// Back through blending and projection of the frame that \p Forward has
   /// drawn, in stages of the launcher's.
   void run(Pipeline &Forward);

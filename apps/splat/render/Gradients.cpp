@@ -79,7 +79,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   Forward.draw(Gaussians, C);
   BackwardPipeline Back(L, Options, Backward, ShDegree);
   L.beginStage(Stage::Upstream);
-  Back.setUpstream(Forward.frame(), ByRender, ByAlpha);
+  Back.setUpstream(Forward.frame(), ByRender, ByAlpha, Options.Background);
   Back.run(Forward);
 
   L.beginStage(Stage::Resolve);

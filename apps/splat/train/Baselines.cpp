@@ -16,9 +16,13 @@ std::array<double, 3> meanColour(const std::vector<TrainView> &Views) {
   std::array<double, 3> Sum{};
   double Pixels = 0;
   for (const TrainView &V : Views) {
+    // What does not count is 0.
     for (std::size_t I = 0; I < V.Picture.Rgb.size(); ++I)
       Sum[I % 3] += V.Picture.Rgb[I];
-    Pixels += static_cast<double>(V.Picture.pixels());
+    Pixels += static_cast<double>(
+        V.Counts.empty() ? V.Picture.pixels()
+                         : static_cast<std::size_t>(
+                               std::ranges::count(V.Counts, uint8_t{1})));
   }
   for (double &S : Sum)
     S /= Pixels;
@@ -43,14 +47,14 @@ std::optional<Baselines> baselinesOf(const TrainingSet &Set) {
       const Photo P = shrink(T.Picture, Target.Width, Target.Height);
       for (std::size_t I = 0; I < Sums.size(); ++I)
         Sums[I] += P.Rgb[I];
-      Best = std::max(Best, psnrOfBytes(P.Rgb, Target.Rgb));
+      Best = std::max(Best, psnrOfBytes(P.Rgb, Target.Rgb, V.Counts));
     }
     Photo Mean = Target;
     for (std::size_t I = 0; I < Sums.size(); ++I)
       Mean.Rgb[I] = rounded(Sums[I] / static_cast<double>(Set.Training.size()));
     const auto Views = static_cast<double>(Set.HeldOut.size());
-    B.Constant += psnrOfBytes(Constant.Rgb, Target.Rgb) / Views;
-    B.Mean += psnrOfBytes(Mean.Rgb, Target.Rgb) / Views;
+    B.Constant += psnrOfBytes(Constant.Rgb, Target.Rgb, V.Counts) / Views;
+    B.Mean += psnrOfBytes(Mean.Rgb, Target.Rgb, V.Counts) / Views;
     B.BestView += Best / Views;
   }
   return B;

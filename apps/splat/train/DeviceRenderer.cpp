@@ -22,9 +22,14 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
 
 DeviceRenderer::DeviceRenderer(Launcher &Launch, Rules Convention,
                                const Blender &By, const BackwardOptions &How,
-                               const std::array<float, 3> &Background)
+                               const std::array<float, 3> &Background,
+                               bool Several)
     : Launch(Launch), Choice(How),
-      Options(trainingOptions(Convention, By, Background)),
+      // Any but black makes kernels that know a background.
+      Options(trainingOptions(Convention, By,
+                              Several ? std::array<float, 3>{1, 1, 1}
+                                      : Background)),
+      Behind(Background),
       Drawing(Launch, Options, EffectPlan::forAnyScene(MaxShDegree, Options)) {
   Choice.Parameters = GradientsOf::Stored;
 }
@@ -45,7 +50,7 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
     build(ShDegree);
   Drawing.draw({S.Parameters.Geometry, S.Parameters.Sh, S.Count}, C);
   Launch.beginStage(Stage::Resolve);
-  Picture = resolve(Launch, Drawing.frame(), Options.Background);
+  Picture = resolve(Launch, Drawing.frame(), Behind);
   return Picture;
 }
 
@@ -65,7 +70,7 @@ GradientRenderer::Backward DeviceRenderer::backward(const cl::Buffer &ByRender,
                                                     const cl::Buffer &ByAlpha) {
   const Frame &F = Drawing.frame();
   Launch.beginStage(Stage::Upstream);
-  Back->setUpstream(F, ByRender, ByAlpha);
+  Back->setUpstream(F, ByRender, ByAlpha, Behind);
   Back->run(Drawing);
   return {{Back->gradients(), Back->shGradients()},
           {F.Records, F.Depths.Keys, Back->gradients(), GRADIENT_MEAN_2D,

@@ -23,10 +23,14 @@ struct Blender {
 class DeviceRenderer : public GradientRenderer {
 public:
   /// Renders over \p Background by the rules of \p Convention, support `exact`.
+  /// \p Several: setBackground() will follow.
   DeviceRenderer(Launcher &Launch, Rules Convention, const Blender &By,
                  const BackwardOptions &Backward,
-                 const std::array<float, 3> &Background);
+                 const std::array<float, 3> &Background, bool Several = false);
 
+  void setBackground(const std::array<float, 3> &Colour) override {
+    Behind = Colour;
+  }
   cl::Buffer forward(const DeviceScene &S, const Camera &C,
                      int ShDegree) override;
   Backward backward(const cl::Buffer &ByRender,
@@ -41,6 +45,7 @@ private:
   Launcher &Launch;
   BackwardOptions Choice;
   RenderOptions Options;
+  std::array<float, 3> Behind; ///< the picture
   Pipeline Drawing;
   int BuiltDegree = -1; ///< bands that the programs have
   std::optional<BackwardPipeline> Back;

@@ -6,11 +6,17 @@
 
 #include "io/Cameras.h"
 
+#include <array>
+
 namespace vorion::splat {
 
 class GradientRenderer {
 public:
   virtual ~GradientRenderer() = default;
+
+  /// The colour behind the pictures from now on. Only a renderer that was told
+  /// so at its start may have several.
+  virtual void setBackground(const std::array<float, 3> &Colour) = 0;
 
   /// The picture of \p S, four floats a pixel: colour over the background, and
   /// alpha. Bands of spherical harmonics above \p ShDegree are left out. The

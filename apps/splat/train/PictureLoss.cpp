@@ -1,5 +1,7 @@
 #include "train/PictureLoss.h"
 
+#include "render/Pipeline.h"
+
 #include <fmt/format.h>
 
 namespace vorion::splat {
@@ -7,7 +9,7 @@ namespace {
 
 // A group of kernels/loss.cl has a channel of a tile; with its windows' reach a
 // tile has two warps of rows.
-constexpr uint32_t Lanes = 16, TileRows = 21, Channels = 3;
+constexpr uint32_t TileRows = 21, Channels = 3;
 constexpr uint64_t SlopePlanes = uint64_t{3} * Channels;
 
 constexpr uint32_t divideUp(uint32_t A, uint32_t B) { return (A + B - 1) / B; }
@@ -20,6 +22,8 @@ ProgramSpec lossProgram() {
       {"loss.cl"},
       {fmt::format("LANES={}", Lanes), fmt::format("TILE_ROWS={}", TileRows)}};
 }
+
+ProgramSpec maskProgram() { return {MaskProgram, {"mask.cl"}, {}}; }
 
 void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
   if (Pixels > Room) {
@@ -38,8 +42,8 @@ void PictureLoss::reserve(uint64_t Pixels, uint64_t Tiles) {
   }
 }
 
-LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
-                                 const Photo &Target) {
+LossValues PictureLoss::evaluate(const cl::Buffer &Drawn, const Photo &Target,
+                                 const std::vector<uint8_t> &Counts) {
   const auto Width = static_cast<uint32_t>(Target.Width);
   const auto Height = static_cast<uint32_t>(Target.Height);
   const auto Pixels = static_cast<uint32_t>(Target.pixels());
@@ -51,9 +55,27 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
   for (std::size_t I = 0; I < Pixels; ++I)
     HostPacked[I] = Target.Rgb[3 * I] | Target.Rgb[3 * I + 1] << 8 |
                     Target.Rgb[3 * I + 2] << 16;
+  uint32_t Counted = Pixels;
+  for (std::size_t I = 0; I < Counts.size(); ++I)
+    if (Counts[I] != 0) {
+      HostPacked[I] |= uint32_t{1} << 24;
+    } else {
+      HostPacked[I] = 0;
+      --Counted;
+    }
   Launch.write("photograph", Packed, HostPacked.data(), 4 * HostPacked.size());
 
-  const double Samples = 3.0 * Pixels;
+  cl::Buffer Picture = Drawn;
+  if (!Counts.empty()) {
+    if (Pixels > MaskRoom) {
+      MaskRoom = Pixels;
+      Masked = Launch.allocate("masked picture", 16 * uint64_t{Pixels});
+    }
+    Picture = Masked;
+    Launch.run(MaskProgram, "mask_picture", itemsFor(Pixels), GroupSize, Drawn,
+               Packed, Masked, Pixels);
+  }
+  const double Samples = 3.0 * Counted;
   const cl::NDRange Items(std::size_t{Across} * Lanes, Down, Channels);
   const cl::NDRange Group(Lanes, 1, 1);
   Launch.run(LossProgram, "loss_slopes", Items, Group, Picture, Packed, Slopes,
@@ -62,6 +84,9 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
              Slopes, Gradient, Width, Height,
              static_cast<float>((1 - DSsim) / Samples),
              static_cast<float>(DSsim / Samples));
+  if (!Counts.empty())
+    Launch.run(MaskProgram, "mask_gradient", itemsFor(Pixels), GroupSize,
+               Packed, Gradient, Pixels);
 
   HostTotals.assign(std::size_t{2} * Channels * Across * Down, 0);
   Launch.read("loss", HostTotals.data(), Totals, 4 * HostTotals.size());
@@ -71,7 +96,8 @@ LossValues PictureLoss::evaluate(const cl::Buffer &Picture,
     V.Ssim += HostTotals[I + 1];
   }
   V.Absolute /= Samples;
-  V.Ssim /= Samples;
+  // Where nothing counts all around, SSIM is 1 by definition.
+  V.Ssim = (V.Ssim - (3.0 * Pixels - Samples)) / Samples;
   V.Value = (1 - DSsim) * V.Absolute + DSsim * (1 - V.Ssim);
   return V;
 }

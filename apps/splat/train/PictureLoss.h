@@ -10,6 +10,9 @@ namespace vorion::splat {
 
 inline constexpr const char *LossProgram = "loss";
 ProgramSpec lossProgram();
+/// For pictures of which some pixels do not count.
+inline constexpr const char *MaskProgram = "mask";
+ProgramSpec maskProgram();
 
 struct LossValues {
   double Absolute = 0; ///< mean over pixels and channels
@@ -27,7 +30,10 @@ public:
 
   /// \p Picture has four floats a pixel, of which the first three are compared
   /// with \p Target; dL/dpicture goes to \c gradient(), three floats a pixel.
-  LossValues evaluate(const cl::Buffer &Picture, const Photo &Target);
+  /// Where \p Counts, if it is not empty, has a 0 for a pixel, that pixel is
+  /// black in both; means are over the pixels that count.
+  LossValues evaluate(const cl::Buffer &Picture, const Photo &Target,
+                      const std::vector<uint8_t> &Counts = {});
   const cl::Buffer &gradient() const { return Gradient; }
   /// The loss does not know alpha: a 0 for each pixel.
   const cl::Buffer &alphaGradient() const { return NoAlpha; }
@@ -38,7 +44,8 @@ private:
   Launcher &Launch;
   double DSsim;
   uint64_t Room = 0, TileRoom = 0;
-  cl::Buffer Packed, Slopes, Totals, Gradient, NoAlpha;
+  cl::Buffer Packed, Slopes, Totals, Gradient, NoAlpha, Masked;
+  uint64_t MaskRoom = 0;
   std::vector<uint32_t> HostPacked;
   std::vector<float> HostTotals;
 };

@@ -100,6 +100,58 @@ TEST_F(LossOnDevice, ConstantPicturesHaveTheReferencesGradient) {
   }
 }
 
+/// The reference has what does not count black on both sides; its means are
+/// over all pixels.
+TEST_F(LossOnDevice, PixelsThatDoNotCountAreInNoMean) {
+  constexpr int Width = 40, Height = 30;
+  std::mt19937 Random(14);
+  std::uniform_real_distribution<float> Value(0, 1);
+  std::vector<float> Picture(std::size_t{4} * Width * Height);
+  std::ranges::generate(Picture, [&] { return Value(Random); });
+  Photo Target = noisyPhoto(Width, Height);
+  std::vector<uint8_t> Counts(Target.pixels());
+  double Counted = 0;
+  for (std::size_t I = 0; I < Counts.size(); ++I) {
+    // A block, and single ones.
+    Counts[I] = !(I % Width < 25 && I / Width > 10) && Random() % 8 != 0;
+    Counted += Counts[I];
+  }
+  Launcher L(*Dev, "", {});
+  L.beginStage(Stage::Blend);
+  L.build(lossProgram());
+  L.build(maskProgram());
+  PictureLoss Loss(L, 0.2);
+  const LossValues Got = Loss.evaluate(upload(L, Picture), Target, Counts);
+  const auto Gradient = download<float>(L, Loss.gradient(), 3 * Counts.size());
+  std::vector<glm::dvec3> X(Counts.size()), Y(Counts.size());
+  for (std::size_t I = 0; I < Counts.size(); ++I)
+    for (int K = 0; K < 3 && Counts[I] != 0; ++K) {
+      const auto Channel = static_cast<std::size_t>(K);
+      X[I][K] = Picture[4 * I + Channel];
+      Y[I][K] = static_cast<double>(Target.Rgb[3 * I + Channel] / 255.0F);
+    }
+  const auto Want = reference::lossOf(X, Y, Width, Height);
+  const double Share = static_cast<double>(Counts.size()) / Counted;
+  EXPECT_NEAR(Got.Value, Want.Value * Share, 1e-6);
+  for (std::size_t I = 0; I < Counts.size(); ++I)
+    for (int K = 0; K < 3; ++K) {
+      const auto At = 3 * I + static_cast<std::size_t>(K);
+      if (Counts[I] == 0)
+        ASSERT_EQ(Gradient[At], 0);
+      else
+        ASSERT_NEAR(Gradient[At] * 3 * Counted,
+                    Want.Gradient[I][K] * Share * 3 * Counted, 1e-4);
+    }
+  // What does not count is not even looked at, and all may count.
+  for (std::size_t I = 0; I < Counts.size(); ++I)
+    if (Counts[I] == 0)
+      Target.Rgb[3 * I] ^= 0xff;
+  EXPECT_EQ(Loss.evaluate(upload(L, Picture), Target, Counts).Value, Got.Value);
+  const std::vector<uint8_t> All(Counts.size(), 1);
+  EXPECT_NEAR(Loss.evaluate(upload(L, Picture), Target, All).Value,
+              Loss.evaluate(upload(L, Picture), Target).Value, 1e-9);
+}
+
 TEST_F(LossOnDevice, LaterPicturesMayBeSmallerOrLarger) {
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);

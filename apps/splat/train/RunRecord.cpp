@@ -28,6 +28,8 @@ std::string hashOf(const TrainingSet &Set) {
       for (const auto &Row : C.Rotation)
         Add(Row.data(), 3);
       Add(V.Picture.Rgb.data(), V.Picture.Rgb.size());
+      Add(V.Counts.data(), V.Counts.size());
+      Add(V.Alpha.data(), V.Alpha.size());
     }
   }
   return fnv1a64(All);
@@ -57,7 +59,7 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
       {"capture", Source.Format},
       {"pictures", hashOf(Pictures)},
       {"downscale", Source.Downscale},
-      {"background", Source.Background},
+      {"background", Run.Background},
       {"extent", Run.Extent},
       {"seed", Run.Seed},
       {"batch", Run.Batch},
@@ -79,6 +81,10 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
         S.SplitExtent, S.SplitShrink}},
       {"prune", {S.LeastOpacity, S.MostExtent, S.MostRadius}},
       {"reset", {S.ResetInterval, S.ResetOpacity, S.WhiteReset}}};
+  if (Run.RandomBackground)
+    J["random_background"] = true;
+  if (Run.Masks != MaskSource::None)
+    J["masks"] = name(Run.Masks);
   // What the order of the cores' sums depends on.
   if (By.Kind == Path::Simt && By.SimtTile != Blender(By.Kind).SimtTile)
     J["simt_tile"] = By.SimtTile;

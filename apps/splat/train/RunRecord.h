@@ -16,7 +16,6 @@ namespace vorion::splat {
 struct PictureSource {
   std::string Format; ///< of the capture
   int Downscale = 1;
-  std::array<float, 3> Background{};
 };
 
 /// Of all that the pictures and their poses say.

@@ -4,6 +4,7 @@
 #include "io/Image.h"
 #include "io/Metrics.h"
 #include "train/Adam.h"
+#include "train/Philox.h"
 
 #include "picture/Layout.h"
 
@@ -13,11 +14,14 @@
 
 namespace vorion::splat {
 
-std::vector<ProgramSpec> Trainer::programs() {
+std::vector<ProgramSpec> Trainer::programs(const TrainingSet &Pictures) {
   std::vector<ProgramSpec> Programs = densityPrograms();
   Programs.push_back(lossProgram());
   Programs.push_back(adamProgram());
   Programs.push_back(batchProgram());
+  if (std::ranges::any_of(Pictures.Training,
+                          [](const TrainView &V) { return !V.Counts.empty(); }))
+    Programs.push_back(maskProgram());
   return Programs;
 }
 
@@ -81,10 +85,28 @@ Checkpoint Trainer::save() {
   return C;
 }
 
-ViewBatch::ViewResult Trainer::take(const TrainView &V, int ShDegree) {
-  const cl::Buffer Picture = Renderer.forward(State, V.Pose, ShDegree);
+/// \p Place: of the view in the whole run, from 1.
+ViewBatch::ViewResult Trainer::take(const TrainView &V, uint64_t Place,
+                                    int ShDegree) {
+  if (Run.RandomBackground) {
+    const philox_words W =
+        philox(static_cast<uint>(Run.Seed), static_cast<uint>(Run.Seed >> 32),
+               static_cast<uint>(Place), static_cast<uint>(Place >> 32), 0,
+               STREAM_BACKGROUND);
+    const std::array<float, 3> Colour{
+        philox_unit(W.word[0]), philox_unit(W.word[1]), philox_unit(W.word[2])};
+    Renderer.setBackground(Colour);
+    const cl::Buffer Drawn = Renderer.forward(State, V.Pose, ShDegree);
+    return lossOf(Drawn, over(V, Run.Background, Colour), V.Counts);
+  }
+  return lossOf(Renderer.forward(State, V.Pose, ShDegree), V.Picture, V.Counts);
+}
+
+ViewBatch::ViewResult Trainer::lossOf(const cl::Buffer &Picture,
+                                      const Photo &Target,
+                                      const std::vector<uint8_t> &Counts) {
   Launch.beginStage(Stage::Loss);
-  const LossValues Values = Loss.evaluate(Picture, V.Picture);
+  const LossValues Values = Loss.evaluate(Picture, Target, Counts);
   return {Values, Renderer.backward(Loss.gradient(), Loss.alphaGradient())};
 }
 
@@ -97,14 +119,14 @@ std::optional<DensityChange> Trainer::changeDensity() {
   std::optional<DensityChange> Change;
   if (densifiesAt(Run.Settings, Done))
     Change = Density.densify(State, Done);
-  if (resetsAt(Run.Settings, Done, Run.WhiteBackground))
+  if (resetsAt(Run.Settings, Done, Run.isWhite()))
     Density.resetOpacity(State);
   return Change;
 }
 
 bool Trainer::isChangeDue() const {
   return Done != 0 && (densifiesAt(Run.Settings, Done) ||
-                       resetsAt(Run.Settings, Done, Run.WhiteBackground));
+                       resetsAt(Run.Settings, Done, Run.isWhite()));
 }
 
 /// Whether no process has failed; if one has, all have its error.
@@ -131,10 +153,10 @@ StepReport Trainer::step() {
   Batch.begin(State, Degree, notesAt(Settings, R.Iteration));
   while (!Batch.complete()) {
     std::optional<ViewBatch::ViewResult> Mine;
-    if (Batch.next() < Run.Batch)
-      Mine = take(Pictures.Training[Order.at(uint64_t{Done} * Run.Batch +
-                                             Batch.next() + 1)],
-                  Degree);
+    if (Batch.next() < Run.Batch) {
+      const uint64_t Place = uint64_t{Done} * Run.Batch + Batch.next() + 1;
+      Mine = take(Pictures.Training[Order.at(Place)], Place, Degree);
+    }
     Batch.add(Mine ? &*Mine : nullptr);
   }
   R.Loss = Batch.loss();
@@ -163,6 +185,8 @@ Scene Trainer::scene() {
 
 Photo Trainer::render(const Camera &C) {
   const int Degree = shDegreeAt(Run.Settings, Done, State.ShDegree);
+  if (Run.RandomBackground)
+    Renderer.setBackground(Run.Background);
   const cl::Buffer Picture = Renderer.forward(State, C, Degree);
   Launch.beginStage(Stage::ReadBack);
   Photo P{C.Width, C.Height, {}};
@@ -189,7 +213,7 @@ std::vector<double> Trainer::evaluate() {
   std::vector<double> Db;
   Db.reserve(Pictures.HeldOut.size());
   for (const TrainView &V : Pictures.HeldOut)
-    Db.push_back(psnrOfBytes(render(V.Pose).Rgb, V.Picture.Rgb));
+    Db.push_back(psnrOfBytes(render(V.Pose).Rgb, V.Picture.Rgb, V.Counts));
   return Db;
 }
 

@@ -21,10 +21,18 @@ struct TrainRun {
   uint64_t Seed = 0;
   /// Hash of the checkpoint of another run that it begins with, or empty.
   std::string From;
-  std::string Points;           ///< else hash of those that it begins with
-  double Extent = 1;            ///< of the cameras
-  unsigned Batch = 1;           ///< views an iteration
-  bool WhiteBackground = false; ///< which has a reset more
+  std::string Points;                ///< else hash of those that it begins with
+  double Extent = 1;                 ///< of the cameras
+  unsigned Batch = 1;                ///< views an iteration
+  std::array<float, 3> Background{}; ///< of held-out views at least
+  /// Each training picture has one of its own.
+  bool RandomBackground = false;
+  MaskSource Masks = MaskSource::None;
+
+  /// Which has a reset more.
+  bool isWhite() const {
+    return !RandomBackground && Background == std::array<float, 3>{1, 1, 1};
+  }
 };
 
 /// What an iteration did.
@@ -40,8 +48,8 @@ struct StepReport {
 /// launcher, those of step() in the launchers of all processes.
 class Trainer {
 public:
-  /// The programs that training runs beside the renderer's.
-  static std::vector<ProgramSpec> programs();
+  /// The programs that training on \p Pictures runs beside the renderer's.
+  static std::vector<ProgramSpec> programs(const TrainingSet &Pictures);
 
   /// \p Pictures, \p Run, \p Renderer and \p Processes must outlive this.
   Trainer(Launcher &Launch, GradientRenderer &Renderer,
@@ -67,7 +75,9 @@ private:
   bool isChangeDue() const;
   std::optional<DensityChange> changeDensity();
   bool allSucceeded();
-  ViewBatch::ViewResult take(const TrainView &V, int ShDegree);
+  ViewBatch::ViewResult take(const TrainView &V, uint64_t Place, int ShDegree);
+  ViewBatch::ViewResult lossOf(const cl::Buffer &Picture, const Photo &Target,
+                               const std::vector<uint8_t> &Counts);
 
   Launcher &Launch;
   GradientRenderer &Renderer;

@@ -25,6 +25,10 @@ class ReferenceRenderer : public GradientRenderer {
 public:
   ReferenceRenderer(Launcher &Launch) : Launch(Launch) {}
 
+  void setBackground(const std::array<float, 3> &C) override {
+    Options.Background = {C[0], C[1], C[2]};
+  }
+
   cl::Buffer forward(const DeviceScene &D, const Camera &C,
                      int ShDegree) override {
     Pose = C;
@@ -191,9 +195,9 @@ protected:
     return Set;
   }
 
-  void build(Launcher &Launch) {
+  static void build(Launcher &Launch, const TrainingSet &Pictures = {}) {
     Launch.beginStage(Stage::Blend);
-    for (const ProgramSpec &P : Trainer::programs())
+    for (const ProgramSpec &P : Trainer::programs(Pictures))
       Launch.build(P);
   }
 };
@@ -306,6 +310,46 @@ TEST_F(TrainerOnDevice, AnyNumberOfProcessesHasTheSameBits) {
   for (const unsigned Processes : {2U, 3U})
     for (const Checkpoint &C : Train(Processes))
       expectSame(C, Alone);
+}
+
+/// Colours come from counters: a run that goes on has those of one that was not
+/// interrupted, and held-out views keep the background that was asked for.
+TEST_F(TrainerOnDevice, ARandomBackgroundIsTheSameAgain) {
+  TrainRun Run;
+  Run.Extent = 3;
+  Run.RandomBackground = true;
+  TrainingSet Set = picturesOf(blobs(12, 1));
+  for (TrainView &V : Set.Training)
+    V.Alpha.assign(V.Picture.pixels(), 128);
+  Set.Training[1].Counts.assign(Set.Training[1].Picture.pixels(), 1);
+  Set.Training[1].Counts[7] = 0;
+  const Scene Start = blobs(20, 2);
+  Launcher Launch(*Dev, "", {});
+  build(Launch, Set);
+  ReferenceRenderer R(Launch);
+  OneRank Alone;
+  Trainer Whole(Launch, R, Set, Run, Alone);
+  Whole.start(Start);
+  const double Before = Whole.evaluate()[0];
+  std::optional<Checkpoint> Half;
+  for (int I = 1; I <= 6; ++I) {
+    Whole.step();
+    if (I == 3)
+      Half = Whole.save();
+  }
+  Trainer Again(Launch, R, Set, Run, Alone);
+  Again.restore(*Half);
+  for (int I = 4; I <= 6; ++I)
+    Again.step();
+  expectSame(Again.save(), Whole.save());
+  Run.RandomBackground = false;
+  R.setBackground({0, 0, 0});
+  Trainer Plain(Launch, R, Set, Run, Alone);
+  Plain.start(Start);
+  EXPECT_EQ(Plain.evaluate()[0], Before);
+  Plain.step();
+  EXPECT_NE(Plain.losses()[0], Whole.losses()[0]);
+  EXPECT_FALSE(Launch.failure()) << Launch.failure()->What;
 }
 
 /// An iteration of two views is the mean of their gradients and losses.

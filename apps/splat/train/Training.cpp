@@ -178,7 +178,6 @@ Expected<Success> complete(TrainRequest &R, const Capture &C) {
   if (!(R.Run.Extent > 0))
     return Error{R.Capture, "all training cameras are at one place, expected "
                             "them around the scene"};
-  R.Run.WhiteBackground = R.Background == std::array<float, 3>{1, 1, 1};
   if (R.From.empty()) {
     R.Run.Points = hashPoints(C.Points);
     return Success{};
@@ -208,6 +207,9 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
   Out.Height = First.Height;
   Out.TrainingViews = W.Pictures.Training.size();
   Out.HeldOutBy = W.Photos.HeldOutBy;
+  Out.WithoutPicture = W.Photos.WithoutPicture;
+  Out.Distorted = W.Photos.distorted();
+  Out.Masked = W.Photos.masked();
   Out.Processes = W.Processes.size();
   Out.Iterations = T.iteration();
   Out.Losses = T.losses();
@@ -225,11 +227,11 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
     return C.error();
   if (auto Completed = complete(R, *C); !Completed)
     return Completed;
-  const auto Pictures = loadTrainingSet(*C, R.Downscale, R.Background);
+  const auto Pictures = loadTrainingSet(
+      *C, {R.Downscale, R.Run.Background, R.Run.Masks, R.Run.RandomBackground});
   if (!Pictures)
     return Pictures.error();
-  const PictureSource Source{std::string(name(C->Format)), R.Downscale,
-                             R.Background};
+  const PictureSource Source{std::string(name(C->Format)), R.Downscale};
   const Work W{R,
                Host,
                *C,
@@ -243,10 +245,10 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
     return D.error();
   Launcher Launch(*D, "", {});
   Launch.beginStage(Stage::Build);
-  for (const ProgramSpec &P : Trainer::programs())
+  for (const ProgramSpec &P : Trainer::programs(*Pictures))
     Launch.build(P);
   DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
-                          R.Background);
+                          R.Run.Background, R.Run.RandomBackground);
   Trainer T(Launch, Renderer, *Pictures, R.Run, Processes);
   if (auto Started = start(W, T); !Started)
     return Started;

@@ -23,7 +23,6 @@ struct TrainRequest {
   std::string Capture;
   CaptureOptions Read;
   int Downscale = 1;
-  std::array<float, 3> Background{0, 0, 0};
   int ShDegree = MaxShDegree;
   Rules Convention = Rules::Inria;
   Blender Blending = Path::Raster;
@@ -74,6 +73,8 @@ struct TrainOutcome {
   int Width = 0, Height = 0; ///< px, of the first training view
   std::size_t TrainingViews = 0;
   std::string HeldOutBy; ///< what decided which views are held out
+  /// Views of the capture that had no picture; whose lens bends; with a mask.
+  std::size_t WithoutPicture = 0, Distorted = 0, Masked = 0;
   unsigned Processes = 1;
   unsigned First = 0, Iterations = 0; ///< done before, and in all
   double Seconds = 0;                 ///< wall time of the loop

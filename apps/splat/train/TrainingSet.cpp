@@ -1,10 +1,93 @@
 #include "train/TrainingSet.h"
 
+#include "capture/Undistort.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace vorion::splat {
+namespace {
+
+Expected<Plane> readPhoto(const std::string &Path) {
+  const auto File = readFile(Path);
+  return File ? decodePhoto(Path, *File) : File.error();
+}
+
+/// Which pixels of \p P, the picture of \p V, count: in a mask file those that
+/// are not black, by alpha those that are not transparent.
+Expected<std::vector<uint8_t>> countsOf(const CaptureView &V, const Plane &P,
+                                        MaskSource Source) {
+  std::vector<uint8_t> Counts;
+  if (Source == MaskSource::Alpha) {
+    for (std::size_t I = 0; I < P.pixels(); ++I)
+      Counts.push_back(P.at(I, 3) != 0 ? 1 : 0);
+  } else if (!V.Mask.empty()) {
+    const auto Mask = readPhoto(V.Mask);
+    if (!Mask)
+      return Mask.error();
+    if (Mask->Width != P.Width || Mask->Height != P.Height)
+      return Error{V.Mask,
+                   fmt::format("{}x{} pixels, expected {}x{} as its "
+                               "picture has",
+                               Mask->Width, Mask->Height, P.Width, P.Height)};
+    for (std::size_t I = 0; I < P.pixels(); ++I)
+      Counts.push_back(
+          (Mask->at(I, 0) | Mask->at(I, 1) | Mask->at(I, 2)) != 0 ? 1 : 0);
+  }
+  return Counts;
+}
+
+Expected<TrainView> load(const CaptureView &V, const LoadOptions &O) {
+  auto Full = readPhoto(V.Picture);
+  if (!Full)
+    return Full.error();
+  auto Counts = countsOf(V, *Full, O.Masks);
+  if (!Counts)
+    return Counts.error();
+  MaskedPlane Taken{std::move(*Full), std::move(*Counts)};
+  if (!V.Optics.isPinhole())
+    Taken = undistorted(Taken, V.Pose, V.Optics);
+  const Plane &P = Taken.Picture;
+  const int Width = shrunkSide(V.Pose.Width, O.Downscale);
+  const int Height = shrunkSide(V.Pose.Height, O.Downscale);
+  TrainView T{resized(V.Pose, Width, Height),
+              shrink(P, Width, Height, O.Background),
+              shrinkCounts(Taken.Counts, P.Width, P.Height, Width, Height)};
+  if (std::ranges::find(T.Counts, 0) == T.Counts.end())
+    T.Counts.clear();
+  else if (std::ranges::find(T.Counts, 1) == T.Counts.end())
+    return Error{V.Mask.empty() ? V.Picture : V.Mask,
+                 "no pixel counts, expected some"};
+  for (std::size_t I = 0; I < T.Counts.size(); ++I)
+    if (T.Counts[I] == 0)
+      std::fill_n(T.Picture.Rgb.begin() + static_cast<std::ptrdiff_t>(3 * I), 3,
+                  0);
+  if (O.KeepAlpha) {
+    T.Alpha = shrinkAlpha(P, Width, Height);
+    if (std::ranges::all_of(T.Alpha, [](uint8_t A) { return A == 255; }))
+      T.Alpha.clear();
+  }
+  return T;
+}
+
+} // namespace
+
+Photo over(const TrainView &V, const std::array<float, 3> &Was,
+           const std::array<float, 3> &Is) {
+  Photo P = V.Picture;
+  for (std::size_t I = 0; I < V.Alpha.size(); ++I)
+    if (V.Counts.empty() || V.Counts[I] != 0)
+      for (std::size_t K = 0; K < 3; ++K) {
+        const double Level =
+            P.Rgb[3 * I + K] +
+            (255.0 - V.Alpha[I]) * (double{Is[K]} - double{Was[K]});
+        P.Rgb[3 * I + K] =
+            static_cast<uint8_t>(std::clamp(std::lround(Level), 0L, 255L));
+      }
+  return P;
+}
 
 std::pair<int, int> TrainingSet::largest() const {
   std::pair<int, int> Size{0, 0};
@@ -15,21 +98,13 @@ std::pair<int, int> TrainingSet::largest() const {
   return Size;
 }
 
-Expected<TrainingSet> loadTrainingSet(const Capture &C, int Downscale,
-                                      const std::array<float, 3> &Background) {
+Expected<TrainingSet> loadTrainingSet(const Capture &C, const LoadOptions &O) {
   TrainingSet Set;
   for (const CaptureView &V : C.Views) {
-    const auto File = readFile(V.Picture);
-    if (!File)
-      return File.error();
-    const auto Full = decodePhoto(V.Picture, *File);
-    if (!Full)
-      return Full.error();
-    const int Width = shrunkSide(V.Pose.Width, Downscale);
-    const int Height = shrunkSide(V.Pose.Height, Downscale);
-    (V.HeldOut ? Set.HeldOut : Set.Training)
-        .push_back({resized(V.Pose, Width, Height),
-                    shrink(*Full, Width, Height, Background)});
+    auto Loaded = load(V, O);
+    if (!Loaded)
+      return Loaded.error();
+    (V.HeldOut ? Set.HeldOut : Set.Training).push_back(std::move(*Loaded));
   }
   return Set;
 }

@@ -12,7 +12,24 @@ namespace vorion::splat {
 /// A view at its training size.
 struct TrainView {
   Camera Pose;
-  Photo Picture;
+  Photo Picture; ///< 0 where a pixel does not count
+  /// 1 for each pixel that counts, else 0; empty where all do.
+  std::vector<uint8_t> Counts = {};
+  /// Of each pixel, for another background than the picture's; empty where it
+  /// was not asked for, or where all are opaque.
+  std::vector<uint8_t> Alpha = {};
+};
+
+/// \c Picture of \p V, which lies over \p Was, over \p Is, in 8 bits.
+Photo over(const TrainView &V, const std::array<float, 3> &Was,
+           const std::array<float, 3> &Is);
+
+/// How pictures are loaded.
+struct LoadOptions {
+  int Downscale = 1; ///< times smaller (capture/Photo.h says how)
+  std::array<float, 3> Background{};
+  MaskSource Masks = MaskSource::None; ///< as the capture was read
+  bool KeepAlpha = false;
 };
 
 struct TrainingSet {
@@ -22,9 +39,8 @@ struct TrainingSet {
   std::pair<int, int> largest() const;
 };
 
-/// Decodes the pictures of \p C over \p Background and makes them \p Downscale
-/// times smaller (capture/Photo.h says how).
-Expected<TrainingSet> loadTrainingSet(const Capture &C, int Downscale,
-                                      const std::array<float, 3> &Background);
+/// Decodes the pictures of \p C, undistorts them (capture/Undistort.h), and
+/// makes them smaller over the background.
+Expected<TrainingSet> loadTrainingSet(const Capture &C, const LoadOptions &O);
 
 } // namespace vorion::splat

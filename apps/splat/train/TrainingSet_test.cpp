@@ -18,7 +18,7 @@ TEST(TrainingSet, PicturesAndCamerasAreMadeSmallerTogether) {
   const CaptureFolder F(colmapBinaryOf(sampleCapture()));
   const auto C = readCapture(F.path());
   ASSERT_TRUE(C);
-  const auto Set = loadTrainingSet(*C, 2, {0, 0, 0});
+  const auto Set = loadTrainingSet(*C, {.Downscale = 2});
   ASSERT_TRUE(Set) << Set.error().What;
   ASSERT_EQ(Set->Training.size(), 8U);
   ASSERT_EQ(Set->HeldOut.size(), 2U);
@@ -33,6 +33,67 @@ TEST(TrainingSet, PicturesAndCamerasAreMadeSmallerTogether) {
   EXPECT_EQ(V.Picture.Rgb[1], 0x40);
   EXPECT_NEAR(V.Picture.Rgb[2], 4.5, 0.5);
   EXPECT_EQ(Set->largest(), std::pair(4, 3));
+}
+
+TEST(TrainingSet, MasksAndAlphaSayWhichPixelsCount) {
+  Folder Files = colmapBinaryOf(sampleCapture());
+  std::string Mask(192, '\xff'), Transparent;
+  for (int P = 0; P < 48; ++P)
+    Transparent += {'\x50', '\x60', '\x70', static_cast<char>(P < 4 ? 0 : 255)};
+  for (int K = 0; K < 3; ++K)
+    Mask[4 * 8 + K] = 0; // a black pixel: the first of the second row
+  Files["masks/a1.png"] = pngOf(8, 6, Mask);
+  Files["images/a2.png"] = pngOf(8, 6, Transparent);
+  const CaptureFolder F(Files);
+  const auto C = readCapture(F.path(), {{}, false, MaskSource::Files});
+  ASSERT_TRUE(C) << C.error().What;
+  const auto Set =
+      loadTrainingSet(*C, {.Masks = MaskSource::Files, .KeepAlpha = true});
+  ASSERT_TRUE(Set) << Set.error().What;
+  std::vector<uint8_t> Want(48, 1);
+  Want[8] = 0;
+  EXPECT_EQ(Set->Training[0].Counts, Want);
+  EXPECT_EQ(Set->Training[0].Picture.Rgb[3 * 8 + 1], 0); // was 0x40
+  EXPECT_TRUE(Set->Training[0].Alpha.empty());
+  const TrainView &V = Set->Training[1];
+  EXPECT_TRUE(V.Counts.empty());
+  ASSERT_EQ(V.Alpha.size(), 48U);
+  EXPECT_EQ(V.Picture.Rgb[0], 0);
+  const Photo On = over(V, {0, 0, 0}, {1, 0.5F, 0});
+  EXPECT_EQ(On.Rgb[0], 255);
+  EXPECT_EQ(On.Rgb[1], 128);
+  EXPECT_EQ(On.Rgb[2], 0);
+  EXPECT_EQ(On.Rgb[3 * 4], 0x50);
+
+  const auto ByAlpha = loadTrainingSet(*C, {.Masks = MaskSource::Alpha});
+  ASSERT_TRUE(ByAlpha);
+  EXPECT_TRUE(ByAlpha->Training[0].Counts.empty());
+  EXPECT_EQ(std::ranges::count(ByAlpha->Training[1].Counts, 0), 4);
+
+  Files["masks/a1.png"] = pngOf(2, 2, std::string(16, '\xff'));
+  const CaptureFolder G(Files);
+  const auto Small = loadTrainingSet(
+      *readCapture(G.path(), {{}, false, MaskSource::Files}), {});
+  ASSERT_FALSE(Small);
+  EXPECT_EQ(Small.error().What, "2x2 pixels, expected 8x6 as its picture has");
+}
+
+TEST(TrainingSet, APictureOfALensIsUndistorted) {
+  Folder Files = transformsOf(sampleCapture());
+  std::string &Text = Files["transforms.json"];
+  Text = replaced(Text, "\"k1\": 0", "\"k1\": 2");
+  const CaptureFolder F(Files);
+  const auto C = readCapture(F.path());
+  ASSERT_TRUE(C) << C.error().What;
+  EXPECT_EQ(C->distorted(), 10U);
+  const auto Set = loadTrainingSet(*C, {});
+  ASSERT_TRUE(Set);
+  const TrainView &V = Set->Training[0];
+  ASSERT_EQ(V.Counts.size(), 48U);
+  EXPECT_EQ(V.Counts[0], 0); // from outside
+  EXPECT_EQ(V.Counts[2 * 8 + 4], 1);
+  EXPECT_EQ(V.Picture.Rgb[1], 0);
+  EXPECT_EQ(V.Picture.Rgb[3 * (2 * 8 + 4) + 1], 0x40);
 }
 
 TEST(ViewOrder, EveryRoundHasEveryView) {
