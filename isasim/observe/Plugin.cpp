@@ -1,19 +1,25 @@
-/// Loads shared objects whose observers watch runs.
+/// Loads shared objects: observers that watch runs, and exponential units.
 #include "vorion/isasim/Plugin.h"
 
 #include "observe/Tool.h"
+#include "raster/PluggedExp.h"
 
+#include <algorithm>
 #include <dlfcn.h>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 namespace vorion::isasim {
 
 namespace {
 
-/// \p Path stays loaded: its code is needed until the process ends.
-Expected<std::unique_ptr<Observer>> load(const std::string &Path) {
+/// What the shared object defines. It stays loaded: its code is needed until
+/// the process ends.
+Expected<const Plugin *> load(const std::string &Path) {
   // With a folder, or the system's would be searched.
   void *Library =
       dlopen(std::filesystem::absolute(Path).c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -33,10 +39,34 @@ Expected<std::unique_ptr<Observer>> load(const std::string &Path) {
   if (Found->Layout != pluginLayout())
     return Error{Path, "was built with other headers, expected those of this "
                        "simulator"};
-  std::unique_ptr<Observer> Made = Found->Make();
-  if (!Made)
-    return Error{Path, "made no observer, expected one"};
-  return Made;
+  if (!Found->Make && !Found->Exp.Evaluate)
+    return Error{Path, "has neither an observer nor an exponential unit, "
+                       "expected one of them"};
+  return Found;
+}
+
+/// Every machine of the process loads the same plugins.
+Expected<Success> plug(const std::string &Path, const ExpUnitPlugin &Unit,
+                       const ToolOutput &To) {
+  const std::string_view Replaces = Unit.Replaces ? Unit.Replaces : "";
+  const auto *const Old =
+      std::ranges::find(raster::ExpUnits, Replaces, &raster::ExpUnit::Name);
+  if (Old == std::end(raster::ExpUnits)) {
+    std::vector<std::string_view> Names;
+    for (const raster::ExpUnit &U : raster::ExpUnits)
+      Names.push_back(U.Name);
+    return Error{Path, fmt::format("replaces the exponential unit '{}', "
+                                   "expected one of {}",
+                                   Replaces, fmt::join(Names, ", "))};
+  }
+  if (raster::PluggedExp && raster::PluggedExp != Unit.Evaluate)
+    return Error{Path, "has a second exponential unit, expected one in a "
+                       "process"};
+  if (!raster::PluggedExp)
+    To.Report(
+        fmt::format("{}: computes the exponential unit '{}'", Path, Replaces));
+  raster::plugExp(Old->Option, Unit.Evaluate);
+  return Success{};
 }
 
 class PluginTool : public Tool {
@@ -56,14 +86,21 @@ private:
 };
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,
-                                     const ToolOutput &) {
+                                     const ToolOutput &To) {
   std::vector<std::unique_ptr<Observer>> All;
   std::istringstream Paths(Text);
   for (std::string Path; std::getline(Paths, Path, ',');) {
-    Expected<std::unique_ptr<Observer>> Made = load(Path);
-    if (!Made)
-      return Made.error();
-    All.push_back(std::move(*Made));
+    const Expected<const Plugin *> Found = load(Path);
+    if (!Found)
+      return Found.error();
+    if ((*Found)->Exp.Evaluate)
+      if (auto Ok = plug(Path, (*Found)->Exp, To); !Ok)
+        return Ok.error();
+    if (!(*Found)->Make)
+      continue;
+    All.push_back((*Found)->Make());
+    if (!All.back())
+      return Error{Path, "made no observer, expected one"};
   }
   return std::unique_ptr<Tool>(std::make_unique<PluginTool>(std::move(All)));
 }

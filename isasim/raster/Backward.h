@@ -5,6 +5,7 @@
 
 #include "raster/BoxWork.h"
 #include "raster/Command.h"
+#include "raster/PluggedExp.h"
 #include "raster/UnitTables.h"
 
 #include <cstddef>
@@ -53,10 +54,10 @@ struct BackwardOptions {
 struct BackwardDatapath {
   const char *Name;
   bool (*HostSupports)();
-  /// By vr_options.exp: takes one Gaussian (no NaN) through a tile and writes
+  /// By expRow(): takes one Gaussian (no NaN) through a tile and writes
   /// its sums.
-  BoxWork (*Back[ExpUnitCount])(const Gaussian &, const BackwardOptions &,
-                                BackwardBuffer &, GradientSums &);
+  BoxWork (*Back[ExpRowCount])(const Gaussian &, const BackwardOptions &,
+                               BackwardBuffer &, GradientSums &);
   /// The reciprocal unit alone, in place, \p Count a multiple of 16.
   void (*Reciprocals)(Reciprocal Unit, float *Values, std::size_t Count);
 };

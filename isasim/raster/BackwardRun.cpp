@@ -50,7 +50,7 @@ uint32_t BackwardRun::through(uint32_t Entry, GradientSums &Sums) {
     return Found;
   Options.Entry = Entry;
   const BoxWork Done =
-      Unit.Back[Task.Units.Exp](Input.Record, Options, Tile, Sums);
+      Unit.Back[expRow(Task.Units.Exp)](Input.Record, Options, Tile, Sums);
   Work.Counts.Intersecting += Input.Intersects;
   Work.Counts.Clipped += Done.Clipped;
   Work.Counts.Fragments += Done.Fragments;

@@ -31,7 +31,7 @@ CommandWork beginCommand(const RasterAgent &Agent, RasterMemory &Memory);
 /// The datapath of \p Lanes that \p J, which was not refused, asks for.
 inline Datapath::BlendFunction blendFunction(const Job &J,
                                              const Datapath &Lanes) {
-  return Lanes.Blend[J.Units.Exp][J.Units.Blend];
+  return Lanes.Blend[expRow(J.Units.Exp)][J.Units.Blend];
 }
 
 /// Host address of row \p Row of the output of \p J, or nullptr if it is not

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "raster/BoxWork.h"
+#include "raster/PluggedExp.h"
 #include "raster/UnitTables.h"
 
 #include <cstddef>
@@ -54,12 +55,13 @@ struct BlendOptions {
 struct Datapath {
   const char *Name;
   bool (*HostSupports)();
-  /// By vr_options.exp and .blend: blends one Gaussian (no NaN) into a tile.
+  /// By expRow() and vr_options.blend: blends one Gaussian (no NaN) into a
+  /// tile.
   using BlendFunction = BoxWork (*)(const Gaussian &, const BlendOptions &,
                                     TileBuffer &);
-  BlendFunction Blend[ExpUnitCount][BlendUnitCount];
-  /// By vr_options.exp: the unit alone, in place, \p Count a multiple of 16.
-  void (*Exp[ExpUnitCount])(float *Values, std::size_t Count);
+  BlendFunction Blend[ExpRowCount][BlendUnitCount];
+  /// By expRow(): the unit alone, in place, \p Count a multiple of 16.
+  void (*Exp[ExpRowCount])(float *Values, std::size_t Count);
   /// By vr_options.blend: rounds what a multiplication takes, in place.
   void (*Operand[BlendUnitCount])(float *Values, std::size_t Count);
 };

@@ -124,7 +124,7 @@ List<Body<Numbers>...> listOf(std::integer_sequence<uint32_t, Numbers...>);
 template <template <uint32_t> class Body, uint32_t Count>
 using Bodies =
     decltype(listOf<Body>(std::make_integer_sequence<uint32_t, Count>()));
-using Exps = Bodies<ExpBody, ExpUnitCount>;
+using Exps = Bodies<ExpBody, ExpRowCount>;
 
 [[maybe_unused]] bool hostHasLevel() {
 #if defined(__AVX512F__)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "raster/ExpUnits.h"
+#include "raster/PluggedExp.h"
 #include "raster/RasterTables.h"
 #include "raster/Vector.h"
 
@@ -44,6 +45,20 @@ VORION_INLINE Double8 expDouble(Double8 X) {
 
 /// The unit of number \p Number; one that has no body does not compile.
 template <uint32_t Number> struct ExpBody;
+
+/// From outside, a lane after the other.
+template <> struct ExpBody<PluggedExpRow> {
+  /// A result may be e times too large.
+  static constexpr float Margin = 1.0F;
+  VORION_INLINE static Float16 evaluate(Float16 Power) {
+    // What is above 0 or NaN is nobody's pixel.
+    Power = Power < 0.0F ? Power : Float16(0.0F);
+    Float16 Result;
+    for (unsigned L = 0; L != LaneCount; ++L)
+      Result[L] = PluggedExp(Power[L]);
+    return Result;
+  }
+};
 
 template <> struct ExpBody<VR_EXP_EXACT> {
   /// Below log(threshold) less this, a result is surely under the threshold.

@@ -268,7 +268,7 @@ void RasterShadow::Replay::blend(const Gaussian &G, uint32_t GaussianNumber,
   Exps.assign((Fragments.size() + Lanes16 - 1) / Lanes16 * Lanes16, 0.0F);
   for (size_t N = 0; N != Fragments.size(); ++N)
     Exps[N] = Fragments[N].Power;
-  Lanes.Exp[Task.Units.Exp](Exps.data(), Exps.size());
+  Lanes.Exp[raster::expRow(Task.Units.Exp)](Exps.data(), Exps.size());
   blendFunction(Task, Lanes)(G, Task.Blend, T.Real);
   for (size_t N = 0; N != Fragments.size(); ++N) {
     X = Fragments[N].Column;
