@@ -13,7 +13,7 @@ Device::Device(const std::string &Source) {
   }
   if (Platforms.empty())
     throw cl::Error(CL_PLATFORM_NOT_FOUND_KHR,
-                    "no OpenCL platform, expected one (source scripts/env.sh)");
+                    "no OpenCL platform, expected one (see splat doctor)");
   std::vector<cl::Device> Devices;
   try {
     Platforms[0].getDevices(CL_DEVICE_TYPE_ALL, &Devices);
@@ -21,7 +21,7 @@ Device::Device(const std::string &Source) {
     // A platform of Vorion has said why, as of a wrong VORION_SET.
     throw cl::Error(E.err(),
                     "no OpenCL device, expected one that a platform opens (it "
-                    "may say above why not; source scripts/env.sh for ours)");
+                    "may say above why not, or see splat doctor)");
   }
   Chosen = Devices[0];
   Context = cl::Context(Chosen);

@@ -73,7 +73,7 @@ const Candidate *choose(const std::vector<Candidate> &All,
 Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
   if (All.empty())
     return Error{"", "no OpenCL device, expected one of a Vorion platform "
-                     "(source scripts/env.sh)"};
+                     "(splat doctor says what is missing)"};
   std::vector<std::string> Names;
   Names.reserve(All.size());
   for (const Candidate &C : All)

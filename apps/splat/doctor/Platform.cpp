@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
+#include <iterator>
+#include <string_view>
 #include <system_error>
 #include <unistd.h>
 
@@ -16,8 +18,20 @@ namespace vorion::splat {
 
 namespace fs = std::filesystem;
 
-static constexpr const char *SourceEnvironment =
-    "source scripts/env.sh, or share/vorion/env.sh of an installed tree";
+/// The command that makes the tools and the device known, of the tree that this
+/// program belongs to.
+static std::string sourceEnvironment() {
+  std::error_code Failed;
+  const fs::path Tree =
+      fs::read_symlink("/proc/self/exe", Failed).parent_path().parent_path();
+  // An installed tree, and build/dev of a repository.
+  for (const fs::path &Script :
+       {Tree / "share" / "vorion" / "env.sh",
+        Tree.parent_path().parent_path() / "scripts" / "env.sh"})
+    if (fs::exists(Script, Failed))
+      return fmt::format("type: . {}", Script.string());
+  return "type: . scripts/env.sh";
+}
 
 std::string vendorsPlace() {
   const char *Set = std::getenv("OCL_ICD_VENDORS");
@@ -26,7 +40,7 @@ std::string vendorsPlace() {
 
 static std::vector<fs::path> icdFiles(const fs::path &Place) {
   std::error_code Failed;
-  if (fs::is_regular_file(Place, Failed))
+  if (Place.extension() == ".icd" && fs::is_regular_file(Place, Failed))
     return {Place};
   std::vector<fs::path> Files;
   for (fs::directory_iterator It(Place, Failed), End; !Failed && It != End;
@@ -37,19 +51,36 @@ static std::vector<fs::path> icdFiles(const fs::path &Place) {
   return Files;
 }
 
+static bool isLibrary(const fs::path &File) {
+  constexpr std::string_view Mark = "\x7f"
+                                    "ELF";
+  std::string Begin(Mark.size(), 0);
+  std::ifstream(File).read(Begin.data(), std::ssize(Begin));
+  return Begin == Mark;
+}
+
 Vendors examineVendors(const std::string &Place) {
   Vendors V{{FindingState::Well, "platform", "", ""}, {}};
   const auto Fault = [&](std::string Text) {
     V.Found = {FindingState::Fault, "platform", std::move(Text),
-               SourceEnvironment};
+               sourceEnvironment()};
     return V;
   };
+  std::error_code Failed;
+  if (!fs::exists(Place, Failed))
+    return Fault(fmt::format("{} is not there, so programs find no OpenCL "
+                             "platform",
+                             Place));
+  if (fs::is_regular_file(Place, Failed) && isLibrary(Place)) {
+    V.Libraries.push_back(Place);
+    V.Found.Text = fmt::format("{} is a library", Place);
+    return V;
+  }
   for (const fs::path &File : icdFiles(Place)) {
     std::ifstream Text(File);
     std::string Library;
     if (!std::getline(Text, Library) || Library.empty())
       return Fault(fmt::format("{} names no library", File.string()));
-    std::error_code Failed;
     // A name without a folder is the dynamic linker's to find.
     if (Library.find('/') != std::string::npos && !fs::exists(Library, Failed))
       return Fault(fmt::format("{} names {}, which is not there", File.string(),
@@ -57,8 +88,11 @@ Vendors examineVendors(const std::string &Place) {
     V.Libraries.push_back(Library);
   }
   if (V.Libraries.empty())
-    return Fault(fmt::format(
-        "{} has no file *.icd, so programs find no OpenCL platform", Place));
+    return Fault(
+        Place + (fs::is_directory(Place, Failed)
+                     ? " has no file *.icd, so programs find no OpenCL platform"
+                     : " is neither a folder, nor a file *.icd, nor a "
+                       "library"));
   V.Found.Text =
       fmt::format("{} names {}", Place, fmt::join(V.Libraries, ", "));
   return V;
@@ -96,7 +130,7 @@ Finding examineTools(const std::string &Root,
               : fmt::format("VORION_ROOT is {}, which has no bin/vorion-clang "
                             "or no bin/vorion-link",
                             Root),
-          SourceEnvironment};
+          sourceEnvironment()};
 }
 
 namespace {
@@ -144,11 +178,12 @@ std::string runKernel(const Device &D) {
 Findings examineDevice(const DeviceOptions &Options) {
   const auto D = Device::open("", Options);
   if (!D)
-    return {{FindingState::Fault, "device", D.error().What, SourceEnvironment}};
+    return {
+        {FindingState::Fault, "device", D.error().What, sourceEnvironment()}};
   if (!D->isVorion())
     return {{FindingState::Fault, "device",
              fmt::format("the OpenCL device is \"{}\", not Vorion", D->name()),
-             SourceEnvironment}};
+             sourceEnvironment()}};
   Findings Found{
       {FindingState::Well, "device",
        fmt::format("\"{}\" with {} cores of {} lanes and {} MiB of memory",

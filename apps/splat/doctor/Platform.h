@@ -10,7 +10,7 @@
 namespace vorion::splat {
 
 /// The libraries of OpenCL platforms that the loader is told of in \p Vendors,
-/// a folder of files *.icd or one such file.
+/// a folder of files *.icd, one such file, or a library itself.
 struct Vendors {
   Finding Found;
   std::vector<std::string> Libraries;

@@ -116,7 +116,8 @@ Expected<std::unique_ptr<Session>> Session::open(Setup S, ShownScene First) {
     return Dev.error();
   if (!Dev->isVorion())
     return Error{"",
-                 fmt::format("{} has no rasterizer, expected a Vorion device",
+                 fmt::format("{} has no rasterizer, expected a Vorion device "
+                             "(splat doctor says what is missing)",
                              Dev->name()),
                  ExitCode::Usage};
   std::unique_ptr<Session> Made(
