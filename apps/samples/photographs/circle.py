@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """Photographs a scene from a circle, for want of a camera and a place.
 
-usage: circle.py SCENE.ply FOLDER [VIEWS]
 FOLDER gets a picture of each of VIEWS (24) views, rendered by splat, and transforms.json with the poses, as
 `splat train FOLDER` reads them.
 """
+import argparse
 import json
 import math
+import os
 import subprocess
 import sys
 
@@ -31,8 +32,13 @@ def axes(position):
 
 
 def main():
-    scene, folder = sys.argv[1:3]
-    views = int(sys.argv[3]) if len(sys.argv) > 3 else 24
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene", metavar="SCENE.ply")
+    parser.add_argument("folder", metavar="FOLDER")
+    parser.add_argument("views", metavar="VIEWS", type=int, nargs="?", default=24)
+    options = parser.parse_args()
+    scene, folder, views = options.scene, options.folder, options.views
+    os.makedirs(folder, exist_ok=True)
     cameras, frames = [], []
     for n in range(views):
         angle = 2 * math.pi * n / views
@@ -50,8 +56,10 @@ def main():
     with open(f"{folder}/transforms.json", "w", encoding="utf-8") as file:
         json.dump({"w": WIDTH, "h": HEIGHT, "fl_x": FOCAL, "fl_y": FOCAL, "cx": WIDTH / 2, "cy": HEIGHT / 2,
                    "frames": frames}, file)
-    subprocess.run(["splat", "render", scene, "--cameras", f"{folder}/cameras.json", "--view", "all", "-o",
-                    f"{folder}/picture.png"], check=True, stdout=subprocess.DEVNULL)
+    drawn = subprocess.run(["splat", "render", scene, "--cameras", f"{folder}/cameras.json", "--view", "all", "-o",
+                            f"{folder}/picture.png"], check=False, stdout=subprocess.DEVNULL)
+    if drawn.returncode:
+        sys.exit(drawn.returncode)  # splat has said why
     print(f"{views} pictures of {WIDTH}x{HEIGHT} pixels")
 
 

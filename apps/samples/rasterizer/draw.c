@@ -41,6 +41,14 @@ static void check(cl_int error, const char *what) {
   }
 }
 
+/* What the compiler said. */
+static void print_log(cl_program program, cl_device_id device) {
+  static char text[1 << 16];
+  clGetProgramBuildInfo(program, device, CL_PROGRAM_BUILD_LOG, sizeof text,
+                        text, NULL);
+  fputs(text, stderr);
+}
+
 static char *contents(const char *name) {
   static char text[1 << 16];
   FILE *file = fopen(name, "rb");
@@ -75,9 +83,9 @@ int main(int count, char **arguments) {
   cl_platform_id platform;
   cl_device_id device;
   cl_int error = clGetPlatformIDs(1, &platform, NULL);
-  check(error, "no platform");
+  check(error, "no platform (see splat doctor)");
   check(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device, NULL),
-        "no device");
+        "no device (see splat doctor)");
   cl_context context = clCreateContext(NULL, 1, &device, NULL, NULL, &error);
   check(error, "no context");
   cl_command_queue queue = clCreateCommandQueue(context, device, 0, &error);
@@ -85,10 +93,12 @@ int main(int count, char **arguments) {
   cl_program program =
       clCreateProgramWithSource(context, 1, &source, NULL, &error);
   check(error, "no program");
-  check(clBuildProgram(program, 1, &device, "", NULL, NULL),
-        "the kernel does not compile");
+  error = clBuildProgram(program, 1, &device, "", NULL, NULL);
+  if (error == CL_BUILD_PROGRAM_FAILURE)
+    print_log(program, device);
+  check(error, "the kernel does not compile");
   cl_kernel kernel = clCreateKernel(program, "draw", &error);
-  check(error, "no kernel");
+  check(error, "no kernel called draw");
 
   static cl_float pixels[WIDTH * HEIGHT][4];
   cl_uint statuses[TILES];
