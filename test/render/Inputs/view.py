@@ -7,6 +7,7 @@ usage: view.py SCENE CAMERAS SOG FOLDER
 import contextlib
 import http.client
 import json
+import math
 import os
 import signal
 import struct
@@ -135,6 +136,40 @@ def settled(browser, act):
     browser.wait(f"document.documentElement.dataset.drawn !== '{before}' && document.getElementById('status').textContent.startsWith('whole picture')")
 
 
+def check_motions(browser, drag, centre):
+    """Flying turns the eye where it is, orbiting takes it elsewhere; two fingers that part bring it nearer."""
+    browser.value("(send => { window.fetch = (path, options) => { if (path === 'frame') window.eye = JSON.parse(options.body).camera; "
+                  "return send(path, options); }; })(window.fetch)")
+
+    def eye():
+        return browser.value("window.eye")
+
+    settled(browser, lambda: browser.key("r"))
+    start = eye()
+    for moves in (True, False):
+        settled(browser, drag)
+        assert (eye()["position"] != start["position"]) == moves and eye()["rotation"] != start["rotation"], (moves, eye(), start)
+        settled(browser, lambda: browser.key("r"))
+        assert eye() == start
+        browser.key("f")
+        assert browser.value("document.querySelector('[name=motion]:checked').value") == ("fly" if moves else "orbit")
+
+    def pinch():
+        x, y = centre
+        browser.touch("touchStart", (x - 20, y), (x + 20, y))
+        for apart in (30, 40, 50, 60):
+            browser.touch("touchMove", (x - apart, y), (x + apart, y))
+        browser.touch("touchEnd")
+
+    settled(browser, pinch)
+    moved = [there - here for there, here in zip(eye()["position"], start["position"])]
+    ahead = [row[2] for row in start["rotation"]]
+    along = sum(m * a for m, a in zip(moved, ahead))
+    aside = math.sqrt(max(0, sum(m * m for m in moved) - along * along))
+    assert along > 0 and aside < 0.01 * along and eye()["rotation"] == start["rotation"], (moved, ahead)
+    settled(browser, lambda: browser.key("r"))
+
+
 def check_page(at):
     browser = Browser(FOLDER)
     try:
@@ -161,6 +196,8 @@ def check_page(at):
             assert browser.value("document.getElementById('camera').value") == ""
             settled(browser, lambda: browser.key("r"))
             assert pixels_of(browser) == first
+
+        check_motions(browser, drag, centre)
 
         # Every layer, and what its colours stand for.
         for layer in browser.value("[...document.getElementById('layer').options].map(o => o.value)")[1:]:
