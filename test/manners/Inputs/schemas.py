@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""schemas.py SCHEMAS FOLDER PYTHON-OF-TESTS ROOT: makes a report of each kind in a new folder, and checks each by its schema.
+
+Prints what is wrong, the schemas that no report was made of, and a count.
+"""
+
+import json
+import os
+import subprocess
+import sys
+
+import jsonschema
+import numpy
+
+schemas, folder, python, root = sys.argv[1:]
+os.makedirs(folder)
+os.chdir(folder)
+checked, wrong = set(), 0
+
+
+def run(*command):
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def check(report, source):
+    global wrong
+    name = report["schema"]["name"]
+    path = os.path.join(schemas, name + ".json")
+    with open(path, encoding="utf-8") as file:
+        schema = json.load(file)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    resolver = jsonschema.RefResolver("file://" + path, schema)
+    for error in jsonschema.Draft202012Validator(schema, resolver=resolver).iter_errors(report):
+        wrong += 1
+        print(f"{source}: {name}: {'/'.join(map(str, error.absolute_path))}: {error.message[:200]}")
+    checked.add(name)
+
+
+def check_file(name):
+    with open(name, encoding="utf-8") as file:
+        check(json.load(file), name)
+
+
+def splat(*words, report="report.json"):
+    run("splat", *words, *(["--json", report] if report == "report.json" else []))
+    check_file(report)
+
+
+inputs = os.path.join(root, "test", "render", "Inputs")
+run(python, os.path.join(inputs, "scene.py"), "one", "s.ply", "c.json")
+run("splat", "demo-scene", "--gaussians", "1000", "-o", "demo.ply", "--cameras", "demo.json")
+for part in ("seeds", "captures"):
+    os.makedirs(part)
+run("splat-capture-samples", ".")
+capture = os.path.join("captures", "colmap-binary")
+view = ("s.ply", "--cameras", "c.json", "--view", "front")
+
+splat("info", "demo.ply")
+splat("info", capture)
+splat("analyze", "demo.ply", "--cameras", "demo.json", "--view", "front", "--width", "32")
+splat("render", *view, "-o", "a.npz", "--explain")
+splat("render", *view, "-o", "b.npz", "--path", "simt")
+splat("compare", "a.npz", "b.npz")
+splat("render", *view, "-o", "a.npz", "--time", "--heat-map", "heat")
+check_file("heat.json")
+os.rename("report.json", "time.json")
+splat("compare", "time.json", "time.json", "--times")
+splat("render", "s.ply", "--cameras", "c.json", "--view", "all", "-o", "v.pfm", "--time")
+with open("c.json", encoding="utf-8") as file:
+    camera = json.load(file)[0]
+size = camera["height"], camera["width"]
+numpy.savez("upstream.npz", in_v_render=numpy.ones((*size, 3), "f"), in_v_alpha=numpy.zeros(size, "f"))
+splat("gradients", *view, "--upstream", "upstream.npz", "-o", "g.npz")
+splat("train", capture, "-o", "t.ply", "--iterations", "2", "--time", "--time-every", "1", "--score-every", "1")
+splat("eval", "t.ply", capture)
+splat("accuracy", *view[:3], "--out", "accuracy", "--knobs", "sh-degree", "--no-cores", report="accuracy/accuracy.json")
+splat("accuracy", "--train", capture, "--out", "training", "--iterations", "1", "--seeds", "1", "--score-every", "1",
+      "--time-every", "1", report="training/training.json")
+splat("doctor")
+for tool in ("splat", "vorion-sim"):
+    text = subprocess.run([tool, "--print-definition"], check=True, stdout=subprocess.PIPE, text=True).stdout
+    check(json.loads(text), tool)
+kinds = {name.removesuffix(".json") for name in os.listdir(schemas) if name.endswith(".json")} - {"common"}
+for name in sorted(kinds - checked):
+    wrong += 1
+    print(f"{name}: no report was made")
+with open(os.path.join(schemas, "README.md"), encoding="utf-8") as file:
+    text = file.read()
+for name in sorted(kinds):
+    if f"| `{name}` |" not in text:
+        wrong += 1
+        print(f"{name}: no row in the README")
+print(f"{len(checked)} kinds of reports, {wrong or 'nothing'} wrong")
