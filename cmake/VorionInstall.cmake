@@ -1,5 +1,5 @@
-# What `cmake --install` leaves: bin/, include/, lib/ with lib/cmake/Vorion, and
-# pocl/. Nothing in it names a folder of the build, so the tree can be moved; it
+# What `cmake --install` leaves: bin/, include/, lib/ with lib/cmake/Vorion, share/
+# and pocl/. Nothing in it names a folder of the build, so the tree can be moved; it
 # needs the same Debian packages (the OpenCL platform uses LLVM's library, and
 # vorion-clang the installed clang's headers).
 #
@@ -40,6 +40,10 @@ function(vorion_install)
     install(TARGETS ${Target} EXPORT VorionTargets
             RUNTIME DESTINATION bin LIBRARY DESTINATION lib ARCHIVE DESTINATION lib COMPONENT dev)
     set_property(GLOBAL PROPERTY VORION_HAS_TARGETS ON)
+    get_target_property(Kind ${Target} TYPE)
+    if(Kind STREQUAL "EXECUTABLE")
+      set_property(GLOBAL APPEND PROPERTY VORION_PROGRAMS ${Target})
+    endif()
   endforeach()
 endfunction()
 
@@ -53,6 +57,7 @@ function(vorion_install_documents)
     get_filename_component(Place "${Readme}" DIRECTORY)
     install(FILES "${Readme}" DESTINATION "${Folder}/${Place}" COMPONENT doc)
   endforeach()
+  install(DIRECTORY docs/schemas/ DESTINATION share/vorion/schemas COMPONENT vorion FILES_MATCHING PATTERN "*.json")
   install(DIRECTORY apps/samples test/install/Inputs/downstream DESTINATION ${Folder}/examples COMPONENT doc
           PATTERN README.md EXCLUDE)
 endfunction()

@@ -1,5 +1,6 @@
 #include "vorion/support/CommandLine.h"
 
+#include "vorion/support/Definition.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Suggest.h"
 
@@ -13,15 +14,29 @@ namespace {
 
 constexpr std::string_view SeeHelp = "expected: see --help";
 
-/// Names of the checks by which valueOf() knows them.
-constexpr const char *OneOfName = "one of", *FileName = "file",
-                     *FolderName = "folder";
+/// How the name of a check begins that is a mark, and what it says.
+struct Mark {
+  std::string_view Begin;
+  OptionValue::Type What;
+  bool IsWritten = false;
+};
+constexpr Mark OneOf{"one of", OptionValue::Type::OneOf},
+    SomeOf{"some of", OptionValue::Type::SomeOf},
+    View{"view", OptionValue::Type::View},
+    FileIn{"file", OptionValue::Type::File},
+    FolderIn{"folder", OptionValue::Type::Folder},
+    FileOut{"output file", OptionValue::Type::File, true},
+    FolderOut{"output folder", OptionValue::Type::Folder, true},
+    FilesOut{"output files", OptionValue::Type::Prefix, true};
+constexpr const Mark *Marks[] = {&OneOf,    &SomeOf,  &View,      &FileIn,
+                                 &FolderIn, &FileOut, &FolderOut, &FilesOut};
 
-/// Takes everything; \p Name and \p Words are what it is for. CLI11 keeps
+/// Takes everything; \p M and \p Words are what it is for. CLI11 keeps
 /// nothing of a check but its name.
-CLI::Validator mark(const char *Name, const std::vector<std::string> &Words) {
+CLI::Validator check(const Mark &M,
+                     const std::vector<std::string> &Words = {}) {
   return {[](std::string &) { return std::string(); }, "",
-          fmt::format("{} {}", Name, fmt::join(Words, "|"))};
+          fmt::format("{}|{}", M.Begin, fmt::join(Words, "|"))};
 }
 
 /// The names of \p App's options and of those that it falls through to.
@@ -75,7 +90,7 @@ std::string problemOf(const CLI::App &App, const std::string &Said) {
 } // namespace
 
 CLI::Validator isOneOf(std::vector<std::string> Names) {
-  CLI::Validator Check = mark(OneOfName, Names);
+  CLI::Validator Check = check(OneOf, Names);
   Check.operation([Names = std::move(Names)](const std::string &Word) {
     return std::ranges::find(Names, Word) != Names.end()
                ? std::string()
@@ -87,46 +102,98 @@ CLI::Validator isOneOf(std::vector<std::string> Names) {
 
 CLI::Option *takesFile(CLI::Option *O,
                        const std::vector<std::string> &Endings) {
-  return O->type_name("FILE")->check(mark(FileName, Endings));
+  return O->type_name("FILE")->check(check(FileIn, Endings));
 }
 
 CLI::Option *takesFolder(CLI::Option *O) {
-  return O->type_name("FOLDER")->check(mark(FolderName, {}));
+  return O->type_name("FOLDER")->check(check(FolderIn));
 }
 
-OptionValue valueOf(CLI::Option &O) {
-  using Type = OptionValue::Type;
-  constexpr std::pair<const char *, Type> Kinds[] = {
-      {OneOfName, Type::OneOf},
-      {FileName, Type::File},
-      {FolderName, Type::Folder}};
-  // There is no way to ask how many checks an option has.
+CLI::Option *writesFile(CLI::Option *O,
+                        const std::vector<std::string> &Endings) {
+  return O->type_name("FILE")->check(check(FileOut, Endings));
+}
+
+CLI::Option *writesFolder(CLI::Option *O) {
+  return O->type_name("FOLDER")->check(check(FolderOut));
+}
+
+CLI::Option *writesFiles(CLI::Option *O) {
+  return O->type_name("PREFIX")->check(check(FilesOut));
+}
+
+CLI::Option *takesSomeOf(CLI::Option *O,
+                         const std::vector<std::string> &Names) {
+  return O->check(check(SomeOf, Names));
+}
+
+CLI::Option *takesView(CLI::Option *O, const std::vector<std::string> &Others) {
+  return O->type_name("VIEW")->check(check(View, Others));
+}
+
+OptionValue valueOf(const CLI::Option &O) {
+  // There is no way to ask how many checks an option has, and none to ask a
+  // constant one.
   constexpr int MostChecks = 4;
+  auto &Asked = const_cast<CLI::Option &>(O);
   for (int I = 0; I < MostChecks; ++I) {
     std::string Name;
     try {
-      Name = O.get_validator(I)->get_name();
+      Name = Asked.get_validator(I)->get_name();
     } catch (const CLI::OptionNotFound &) {
       break;
     }
-    for (const auto &[Begin, What] : Kinds)
-      if (Name.starts_with(Begin)) {
-        OptionValue V{What, {}};
-        std::string_view Rest(Name);
-        Rest.remove_prefix(std::string_view(Begin).size() + 1);
-        for (std::size_t At = 0; !Rest.empty() && At != std::string_view::npos;
-             Rest.remove_prefix(At == std::string_view::npos ? 0 : At + 1)) {
-          At = Rest.find('|');
-          V.Words.emplace_back(Rest.substr(0, At));
-        }
-        return V;
-      }
+    std::vector<std::string> Parts = CLI::detail::split(Name, '|');
+    const auto *Found = std::ranges::find_if(Marks, [&Parts](const Mark *M) {
+      return !Parts.empty() && M->Begin == Parts.front();
+    });
+    if (Found == std::end(Marks))
+      continue;
+    OptionValue V{(*Found)->What, {}, (*Found)->IsWritten};
+    for (std::size_t At = 1; At < Parts.size(); ++At)
+      if (!Parts[At].empty())
+        V.Words.push_back(std::move(Parts[At]));
+    return V;
   }
   return {};
 }
 
+std::vector<std::string> writingOptions(const CLI::App &App) {
+  std::vector<std::string> Names;
+  for (const CLI::Option *O : App.get_options())
+    if (valueOf(*O).IsWritten) {
+      for (const std::string &Name : O->get_snames())
+        Names.push_back("-" + Name);
+      for (const std::string &Name : O->get_lnames())
+        Names.push_back("--" + Name);
+    }
+  return Names;
+}
+
+const CLI::App *calledCommand(const CLI::App &App,
+                              const std::vector<std::string> &Arguments) {
+  for (std::size_t I = 0; I < Arguments.size(); ++I) {
+    const std::string &Word = Arguments[I];
+    if (Word.starts_with('-')) {
+      const CLI::Option *O = App.get_option_no_throw(Word);
+      if (O && O->get_items_expected_min() > 0)
+        ++I; // its value
+    } else {
+      const auto Called = App.get_subcommands(
+          [&Word](const CLI::App *C) { return C->get_name() == Word; });
+      if (!Called.empty())
+        return Called.front();
+    }
+  }
+  return nullptr;
+}
+
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments) {
+  if (Arguments == std::vector<std::string>{"--print-definition"}) {
+    printOut("{}\n", definitionOf(App));
+    return static_cast<int>(ExitCode::Ok);
+  }
   std::ranges::reverse(Arguments); // CLI11 takes them from the end
   try {
     App.parse(std::move(Arguments));

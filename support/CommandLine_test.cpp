@@ -73,6 +73,55 @@ TEST(CommandLine, WhatAValueIsCanBeAsked) {
   takesFolder(App.add_option("--folder", Text));
   EXPECT_EQ(Of("--folder").What, Type::Folder);
   EXPECT_TRUE(Of("--folder").Words.empty());
+  takesSomeOf(App.add_option("--some", Text), {"a", "b"});
+  EXPECT_EQ(Of("--some").What, Type::SomeOf);
+  EXPECT_EQ(Of("--some").Words, (std::vector<std::string>{"a", "b"}));
+  takesView(App.add_option("--view", Text));
+  EXPECT_EQ(Of("--view").What, Type::View);
+}
+
+TEST(CommandLine, WhatIsWrittenIsToldFromWhatIsRead) {
+  CLI::App App;
+  std::string Text;
+  const auto Of = [&App](const char *Option) {
+    return valueOf(*App.get_option(Option));
+  };
+  using Type = OptionValue::Type;
+  takesFile(App.add_option("--in", Text), {".ply"});
+  EXPECT_FALSE(Of("--in").IsWritten);
+  writesFile(App.add_option("--out", Text), {".ply"});
+  EXPECT_EQ(Of("--out").What, Type::File);
+  EXPECT_EQ(Of("--out").Words, std::vector<std::string>{".ply"});
+  EXPECT_TRUE(Of("--out").IsWritten);
+  writesFolder(App.add_option("--folder", Text));
+  EXPECT_EQ(Of("--folder").What, Type::Folder);
+  EXPECT_TRUE(Of("--folder").IsWritten);
+  writesFiles(App.add_option("--plots", Text));
+  EXPECT_EQ(Of("--plots").What, Type::Prefix);
+  EXPECT_TRUE(Of("--plots").IsWritten);
+}
+
+TEST(CommandLine, OptionsThatWriteAreListedByAllTheirNames) {
+  CLI::App App;
+  std::string Text;
+  takesFile(App.add_option("--cameras", Text));
+  writesFile(App.add_option("-o,--output", Text));
+  App.add_option("--set", Text);
+  writesFiles(App.add_option("--plots", Text));
+  EXPECT_EQ(writingOptions(App),
+            (std::vector<std::string>{"-o", "--output", "--plots"}));
+}
+
+TEST(CommandLine, TheCalledCommandIsNoOptionsValue) {
+  CLI::App App;
+  std::string Text;
+  App.add_option("--set", Text);
+  const CLI::App *Render = App.add_subcommand("render", "");
+  const CLI::App *Train = App.add_subcommand("train", "");
+  EXPECT_EQ(calledCommand(App, {"render", "train"}), Render);
+  EXPECT_EQ(calledCommand(App, {"--set", "render", "train"}), Train);
+  EXPECT_EQ(calledCommand(App, {"--set=render", "train"}), Train);
+  EXPECT_EQ(calledCommand(App, {"--set", "train"}), nullptr);
 }
 
 TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {

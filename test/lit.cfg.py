@@ -48,6 +48,7 @@ features["own-declarations"] = os.path.join(build, "lib", "libvorion-own-declara
 features["vorion-device"] = config.environment["OCL_ICD_VENDORS"] = os.path.join(build, "etc", "OpenCL", "vendors")
 features["vorion-python"] = os.path.join(packages, "vorion", "__init__.py")
 features["torch"] = "/usr/lib/python3/dist-packages/torch"
+features["jsonschema"] = "/usr/lib/python3/dist-packages/jsonschema"
 features["data"] = os.path.join(root, "..", "shared", "data")
 # LLVM's own tests, as scripts/fetch-source.sh leaves them.
 features["llvm-tests"] = os.path.join(os.environ.get("VORION_SOURCES", os.path.join(root, "build", "sources")), "llvm-tests")
@@ -59,6 +60,8 @@ features["csmith"] = shutil.which("csmith") or "csmith"
 features["chromium"] = shutil.which("chromium") or "chromium"
 features["mkdocs"] = shutil.which("mkdocs") or "mkdocs"
 features["lintian"] = shutil.which("lintian") or "lintian"
+for formatter_or_shell in ("mandoc", "man", "zsh", "fish"):
+    features[formatter_or_shell] = shutil.which(formatter_or_shell) or formatter_or_shell
 features["mpirun"] = shutil.which("mpirun") or "mpirun"
 features["valgrind"] = shutil.which("valgrind") or "valgrind"
 features["parallel"] = shutil.which("parallel") or "parallel"

@@ -2,6 +2,7 @@
 
 #include "commands/Commands.h"
 #include "device/Programs.h"
+#include "io/Cameras.h"
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -23,6 +24,16 @@ std::string programsText() {
   const auto Programs = splat::hashPrograms();
   return fmt::format("{}, programs {}", versionLine("splat"),
                      Programs ? *Programs : Programs.error().What);
+}
+
+/// For completion in shells: the views of a file of cameras, one a line.
+int printViews(const std::string &File) {
+  const auto Cameras = splat::readCameras(File);
+  if (!Cameras)
+    return reportError("splat", Cameras.error());
+  for (const splat::Camera &C : *Cameras)
+    printOut("{}\n", C.Name);
+  return EXIT_SUCCESS;
 }
 
 int run(std::vector<std::string> Arguments) {
@@ -84,6 +95,8 @@ int run(std::vector<std::string> Arguments) {
 int main(int Count, char **Values) {
   return runTool("splat", [&] {
     const std::vector<std::string> Arguments(Values + 1, Values + Count);
+    if (Arguments.size() == 2 && Arguments.front() == "--print-views")
+      return printViews(Arguments.back());
     splat::setCommandLine(Arguments);
     return run(Arguments);
   });

@@ -1,9 +1,13 @@
 """Pages of the site that the tools themselves give: options, exit codes, the machine's values."""
 
+import html
 import json
 import os
 import re
 import subprocess
+import sys
+
+DEFINITIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "support", "definitions")
 
 TOOLS = ("splat", "vorion-sim", "vorion-clang", "vorion-link")
 
@@ -14,14 +18,42 @@ def said(tools, *command):
                           text=True).stdout
 
 
+def code(text):
+    """Text as it is, also in a table, whose columns a bar would end."""
+    return "<code>" + html.escape(text, quote=False).replace("|", "&#124;").replace("*", "&#42;") + "</code>" if text else ""
+
+
+def plain(text):
+    """A help text in a cell of a table."""
+    text = html.escape(" ".join(text.split()), quote=False)
+    return re.sub(r"[|*_`\[\]]", lambda m: f"&#{ord(m[0])};", text)
+
+
+def rows(options, remarks):
+    yield "\n| option | value | what it does |\n|---|---|---|\n"
+    for option in options:
+        names = option.get("spelled") or option.get("position") or ", ".join(option["names"])
+        value = "" if "spelled" in option else option.get("value", {}).get("name", "")
+        said = [plain(option["help"]), *map(plain, remarks(option))]
+        if said[1:] and said[0][-1:] not in ".:":
+            said[0] += "."
+        yield f"| {code(names)} | {code(value)} | {' '.join(said)} |\n"
+
+
 def options(tools):
-    yield "# Options\n\nThis page is what each tool says with `--help`.\n"
+    # Where there are tools, there is the folder that knows how to ask them.
+    sys.path.insert(0, DEFINITIONS)
+    import definition
+    import manual
+
+    yield "# Options\n\nThis page is made of the definitions of the tools' command lines, as are their pages of the manual.\n"
     for tool in (t for t in TOOLS if os.path.exists(os.path.join(tools, t))):
-        text = said(tools, tool, "--help")
-        yield f"\n## {tool}\n\n```text\n{text.strip()}\n```\n"
-        listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.M)
-        for command in re.findall(r"^  ([a-z-]+)", listed[1], re.M) if listed else ():
-            yield f"\n### {tool} {command}\n\n```text\n{said(tools, tool, command, '--help').strip()}\n```\n"
+        defined = definition.read(tools, tool)
+        yield f"\n## {tool}\n\n{plain(defined['description'].rstrip('.'))}.\n"
+        yield from rows(defined["options"], manual.remarks)
+        for command in defined.get("commands", []):
+            yield f"\n### {tool} {command['name']}\n\n{plain(command['description'])}.\n"
+            yield from rows(command["options"], manual.remarks)
 
 
 def exit_codes(root):

@@ -33,8 +33,13 @@ std::string help(const char *Does, const ToolKind &Kind) {
 std::span<const SessionOption> sessionOptions() {
   static const SessionOption Options[] = {
 #define VORION_SESSION_OPTION(MEMBER, OPTION, VARIABLE, VALUE, ALONE, HELP)    \
-  {&SessionOptions::MEMBER,  OPTION, VARIABLE, VALUE, ALONE,                   \
-   help(HELP, tools::MEMBER)},
+  {&SessionOptions::MEMBER,                                                    \
+   OPTION,                                                                     \
+   VARIABLE,                                                                   \
+   VALUE,                                                                      \
+   ALONE,                                                                      \
+   help(HELP, tools::MEMBER),                                                  \
+   tools::MEMBER.Names},
 #include "vorion/isasim/SessionOptions.def"
 #undef VORION_SESSION_OPTION
   };

@@ -334,7 +334,11 @@ void declareWatch(CLI::App &App, const SessionOption &S, std::string &To) {
   else
     Added = App.add_option(S.Option, To, S.Help)->type_name(S.Value);
   if (std::string_view(S.Value) == "FILE")
-    takesFile(Added)->type_name(S.Alone ? "[=FILE]" : "FILE");
+    writesFile(Added)->type_name(S.Alone ? "[=FILE]" : "FILE");
+  else if (std::string_view(S.Value) == "PREFIX")
+    writesFiles(Added);
+  if (!S.Names.empty())
+    takesSomeOf(Added, {S.Names.begin(), S.Names.end()});
   Added->group("Watching a run (docs/debugging.md)");
 }
 
@@ -372,9 +376,9 @@ void declareLaunch(CLI::App &App, Options &O) {
 void declareTestPrograms(CLI::App &App, Options &O) {
   App.add_flag("--one-hart", O.OneHart, "one core of one warp of one lane")
       ->group("Test programs (docs/abi.md)");
-  takesFile(App.add_option("--signature", O.SignatureFile,
-                           "write the words from begin_signature to "
-                           "end_signature"))
+  writesFile(App.add_option("--signature", O.SignatureFile,
+                            "write the words from begin_signature to "
+                            "end_signature"))
       ->group("Test programs (docs/abi.md)");
   App.add_option("--signature-granularity", O.SignatureGranularity,
                  "bytes a line of it (default: 4)")

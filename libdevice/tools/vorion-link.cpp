@@ -38,12 +38,12 @@ constexpr std::string_view Usage =
     "are added, unless -r (relocatable output) is given.\n"
     "\n"
     "Options are those of ld.lld; the common ones:\n"
-    "  -o FILE   output (default a.out)\n"
-    "  -L DIR    search DIR for -l\n"
-    "  -l NAME   link libNAME.a\n"
-    "  -r        relocatable output\n"
-    "  -Map FILE write a map of the program\n"
-    "  --version print the versions of this and of lld, and exit\n"
+    "  -o FILE    output (default a.out)\n"
+    "  -L DIR     search DIR for -l\n"
+    "  -l NAME    link libNAME.a\n"
+    "  -r         relocatable output\n"
+    "  -Map FILE  write a map of the program\n"
+    "  --version  print the versions of this and of lld, and exit\n"
     "\n";
 
 /// Options of lld whose value is the next argument, so that it is no input.

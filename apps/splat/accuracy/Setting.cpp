@@ -69,7 +69,7 @@ static const Knob *findIn(const std::vector<Knob> &Knobs,
   return Found == Knobs.end() ? nullptr : &*Found;
 }
 
-static std::vector<std::string> knobNames() {
+std::vector<std::string> knobNames() {
   std::vector<std::string> Names;
   Names.reserve(allKnobs().size());
   for (const Knob &K : allKnobs())

@@ -46,6 +46,9 @@ const std::vector<Knob> &trainKnobs();
 /// The one of either list.
 const Knob &knob(KnobId Id);
 
+/// Of allKnobs().
+std::vector<std::string> knobNames();
+
 /// Those of \p Names, in the order of allKnobs(); all for an empty list.
 Expected<std::vector<Knob>> knobsNamed(const std::vector<std::string> &Names);
 

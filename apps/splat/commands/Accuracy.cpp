@@ -306,9 +306,10 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
 
 Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
-  takesFolder(App.add_option("--out", A->Folder,
-                             "Folder for measurements and page; what is there, "
-                             "made from the same, is used"))
+  writesFolder(
+      App.add_option("--out", A->Folder,
+                     "Folder for measurements and page; what is there, "
+                     "made from the same, is used"))
       ->required();
   App.add_option("--jobs", A->Jobs, "Points measured at the same time")
       ->check(CLI::Range(1U, 256U))
@@ -327,15 +328,19 @@ Runner addAccuracy(CLI::App &App) {
   takesFile(
       App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
       {".json"});
-  App.add_option("--views", A->Views, "Views to measure (default: all)")
+  takesView(
+      App.add_option("--views", A->Views, "Views to measure (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
-  App.add_option("--check", A->Check,
-                 "Of these, views that check the recommended setting and do "
-                 "not choose it (default: the last of several)")
+  takesView(
+      App.add_option("--check", A->Check,
+                     "Of these, views that check the recommended setting and "
+                     "do not choose it (default: the last of several)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
-  App.add_option("--knobs", A->Knobs, "Options to try (default: all)")
+  takesSomeOf(
+      App.add_option("--knobs", A->Knobs, "Options to try (default: all)"),
+      knobNames())
       ->delimiter(',')
       ->option_text("KNOB,...");
   App.add_option("--at-least", A->AtLeast,

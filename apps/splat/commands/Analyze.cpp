@@ -198,15 +198,16 @@ Runner addAnalyze(CLI::App &App) {
       App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
       {".json"})
       ->required();
-  App.add_option("--view", A->View, "img_name or id of the view")->required();
+  takesView(App.add_option("--view", A->View, "img_name or id of the view"))
+      ->required();
   App.add_option("--width", A->Width,
                  "Width in pixels, height in proportion (default: the view's)")
       ->check(CLI::Range(1, MaxImageSize));
-  takesFile(App.add_option("--json", A->JsonFile, "Write all counts"),
-            {".json"});
-  App.add_option("--plots", A->Plots,
-                 "Write PREFIX-invocations.svg, -occlusion.svg and -lists.svg")
-      ->option_text("PREFIX");
+  writesFile(App.add_option("--json", A->JsonFile, "Write all counts"),
+             {".json"});
+  writesFiles(App.add_option(
+      "--plots", A->Plots,
+      "Write PREFIX-invocations.svg, -occlusion.svg and -lists.svg"));
   addChoice(App, "--rules", A->Convention, {Rules::Inria, Rules::Gsplat},
             "Convention to follow");
   addChoice(

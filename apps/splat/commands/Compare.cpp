@@ -33,12 +33,12 @@ Runner addCompare(CLI::App &App) {
   App.add_flag("--across", A->Across,
                "Times of different machines, or of different work, too")
       ->needs(Times);
-  takesFile(
+  writesFile(
       App.add_option("--html", A->Html,
                      "Write a page that shows both frames, of one view each"),
       {".html"})
       ->needs(Times);
-  takesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"})
+  writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"})
       ->excludes(Pairs);
   const auto AddOfPictures = [&](const char *Flag, auto &Value,
                                  const char *Help) {

@@ -55,12 +55,12 @@ Runner addConvert(CLI::App &App) {
   };
   auto A = std::make_shared<Arguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(App.add_option(
-                "-o,--output", A->Output,
-                fmt::format("Scene to write, in the format of its ending: "
-                            "{} (.ply is INRIA's PLY, which keeps every bit)",
-                            fmt::join(writtenEndings(), ", "))),
-            {writtenEndings().begin(), writtenEndings().end()})
+  writesFile(App.add_option(
+                 "-o,--output", A->Output,
+                 fmt::format("Scene to write, in the format of its ending: "
+                             "{} (.ply is INRIA's PLY, which keeps every bit)",
+                             fmt::join(writtenEndings(), ", "))),
+             {writtenEndings().begin(), writtenEndings().end()})
       ->required();
   return [A](const DeviceOptions &) -> Expected<Success> {
     if (auto Checked = checkEnding("-o", A->Output, writtenEndings()); !Checked)

@@ -49,12 +49,12 @@ Expected<Success> run(const DemoArguments &A) {
 
 Runner addDemoScene(CLI::App &App) {
   auto A = std::make_shared<DemoArguments>();
-  takesFile(App.add_option("-o,--output", A->Output, "Scene to write (.ply)"),
-            {".ply"})
+  writesFile(App.add_option("-o,--output", A->Output, "Scene to write (.ply)"),
+             {".ply"})
       ->required();
-  takesFile(App.add_option("--cameras", A->Cameras,
-                           "Write its views too (cameras.json)"),
-            {".json"});
+  writesFile(App.add_option("--cameras", A->Cameras,
+                            "Write its views too (cameras.json)"),
+             {".json"});
   App.add_option(
          "--gaussians", A->Gaussians,
          fmt::format("About how many (default {})", demo::DefaultGaussians))

@@ -104,8 +104,8 @@ Expected<Success> run(const std::string &JsonFile,
 
 Runner addDoctor(CLI::App &App) {
   auto JsonFile = std::make_shared<std::string>();
-  takesFile(App.add_option("--json", *JsonFile, "Write the same for programs"),
-            {".json"});
+  writesFile(App.add_option("--json", *JsonFile, "Write the same for programs"),
+             {".json"});
   return [JsonFile](const DeviceOptions &Options) {
     return run(*JsonFile, Options);
   };

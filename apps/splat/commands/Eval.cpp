@@ -157,8 +157,8 @@ Runner addEval(CLI::App &App) {
       ->allow_extra_args(false);
   addOutsideOption(App, A->Read.AllowOutside);
   addMasksOption(App, A->Read.Masks);
-  takesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
-  takesFile(App.add_option("--csv", A->Csv, "Write a line a view"), {".csv"});
+  writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
+  writesFile(App.add_option("--csv", A->Csv, "Write a line a view"), {".csv"});
   addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);

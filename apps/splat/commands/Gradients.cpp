@@ -168,22 +168,23 @@ Runner addGradients(CLI::App &App) {
       App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
       {".json"})
       ->required();
-  App.add_option("--view", A->View, "img_name or id of the view")->required();
+  takesView(App.add_option("--view", A->View, "img_name or id of the view"))
+      ->required();
   takesFile(App.add_option(
                 "--upstream", A->Upstream,
                 "The loss's gradients (.npz): in_v_render by the picture with "
                 "its background, in_v_alpha by alpha"),
             {".npz"})
       ->required();
-  takesFile(
+  writesFile(
       App.add_option("-o,--output", A->Output,
                      "Gradients and hand-over sums (.npz), named as in the "
                      "reference results"),
       {".npz"})
       ->required();
-  takesFile(App.add_option("--json", A->Json,
-                           "Write what was done, and how much of it"),
-            {".json"});
+  writesFile(App.add_option("--json", A->Json,
+                            "Write what was done, and how much of it"),
+             {".json"});
   App.add_flag("--time", A->Time,
                "Say how long both passes take on the machine (docs/model.md)");
   addGradientOptions(App, A->Options, A->Backward);

@@ -136,7 +136,7 @@ Expected<Success> run(const InfoArguments &A) {
 Runner addInfo(CLI::App &App) {
   auto A = std::make_shared<InfoArguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(
+  writesFile(
       App.add_option("--json", A->JsonFile, "Write the same for programs"),
       {".json"});
   addOutsideOption(App, A->AllowOutside);

@@ -81,10 +81,13 @@ void addDrawOptions(CLI::App &App, DrawArguments &A) {
   addDatapathOptions(App, A.Options);
   addRasterOptions(App, A);
   addSimtOptions(App, A.Options.SimtTile, A.Options.SimtGroup, {8, 16, 32, 64});
-  App.add_option("--effects", A.Effects,
-                 "Effects compiled into the kernels: what the scene calls for, "
-                 "all, all behind run-time flags, or those named (default "
-                 "auto; docs/effects.md)")
+  takesSomeOf(
+      App.add_option(
+          "--effects", A.Effects,
+          "Effects compiled into the kernels: what the scene calls for, "
+          "all, all behind run-time flags, or those named (default "
+          "auto; docs/effects.md)"),
+      effectChoices())
       ->option_text("auto|all|flags|NAME,...");
 }
 

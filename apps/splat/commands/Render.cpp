@@ -302,22 +302,24 @@ Runner addRender(CLI::App &App) {
       App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
       {".json"})
       ->required();
-  App.add_option("--view", A->Views,
-                 "img_name or id of the view; several times, or \"all\", for "
-                 "several pictures, whose files then have the view's name in "
-                 "front of their ending")
+  takesView(App.add_option(
+                "--view", A->Views,
+                "img_name or id of the view; several times, or \"all\", for "
+                "several pictures, whose files then have the view's name in "
+                "front of their ending"),
+            {"all"})
       ->required()
       ->allow_extra_args(false);
   App.add_flag("--overlap", A->Overlap,
                "Of several pictures, prepare one while another is blended");
-  takesFile(App.add_option("-o,--output", A->Output,
-                           "Picture: .png, or .pfm or .npz for linear floats"),
-            {".png", ".pfm", ".npz"})
+  writesFile(App.add_option("-o,--output", A->Output,
+                            "Picture: .png, or .pfm or .npz for linear floats"),
+             {".png", ".pfm", ".npz"})
       ->required();
-  takesFile(App.add_option("--json", A->Json,
-                           "Write what was done, and how much of it"),
-            {".json"});
-  takesFile(
+  writesFile(App.add_option("--json", A->Json,
+                            "Write what was done, and how much of it"),
+             {".json"});
+  writesFile(
       App.add_option("--html", A->Html,
                      "Write a page that shows where the time of the frame goes "
                      "(turns --time on)"),
@@ -339,20 +341,21 @@ Runner addRender(CLI::App &App) {
                "Say where fp32 parts from double, by source line and stage of "
                "the rasterizer (docs/debugging.md)")
       ->option_text("[=SETTING,...]");
-  App.add_option("--heat-map", A->HeatMap,
-                 "Show where the rasterizers' work is, tile by tile: "
-                 "PREFIX.list.png, .blends, .cycles and .saturation, and "
-                 "PREFIX.json (docs/debugging.md)")
-      ->option_text("PREFIX");
-  takesFile(App.add_option(
-                "--depth", A->Depth,
-                "Write each pixel's sum of weights times depths, and its alpha "
-                "(.npz; .pfm: the first alone), by a second blend"),
-            {".npz", ".pfm"});
-  takesFile(App.add_option(
-                "--dump-pairs", A->Pairs,
-                "Write the sorted tile, depth_bits and index arrays (.npz)"),
-            {".npz"});
+  writesFiles(
+      App.add_option("--heat-map", A->HeatMap,
+                     "Show where the rasterizers' work is, tile by tile: "
+                     "PREFIX.list.png, .blends, .cycles and .saturation, and "
+                     "PREFIX.json (docs/debugging.md)"));
+  writesFile(
+      App.add_option(
+          "--depth", A->Depth,
+          "Write each pixel's sum of weights times depths, and its alpha "
+          "(.npz; .pfm: the first alone), by a second blend"),
+      {".npz", ".pfm"});
+  writesFile(App.add_option(
+                 "--dump-pairs", A->Pairs,
+                 "Write the sorted tile, depth_bits and index arrays (.npz)"),
+             {".npz"});
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {
     if (auto Parsed = parseDrawTexts(*A); !Parsed)

@@ -12,7 +12,6 @@
 #include "vorion/support/Version.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -31,6 +30,7 @@ using Json = nlohmann::ordered_json;
 
 struct ReplayArguments {
   std::string Result, Folder;
+  const CLI::App *Splat = nullptr; ///< which knows what each option writes
 };
 
 Error wrong(const ReplayArguments &A, std::string What) {
@@ -76,16 +76,10 @@ void findChanged(const Json &J, std::vector<std::string> &Changed) {
       findChanged(Inner, Changed);
 }
 
-/// The options of all commands that name files to write. Those with --json
-/// among them can be run again.
-constexpr std::array<std::string_view, 11> Outputs{
-    "-o",           "--output", "--json",  "--depth",
-    "--dump-pairs", "--plots",  "--curve", "--heat-map",
-    "--checkpoint", "--html",   "--csv"};
-
 /// \p Words with every file that they write in \p Folder instead, and the
-/// report at \p Report.
+/// report at \p Report. \p Outputs are the options that name these files.
 std::vector<std::string> redirected(std::vector<std::string> Words,
+                                    const std::vector<std::string> &Outputs,
                                     const std::string &Folder,
                                     const std::string &Report) {
   const auto Elsewhere = [&](std::string_view Option, const std::string &File) {
@@ -97,7 +91,7 @@ std::vector<std::string> redirected(std::vector<std::string> Words,
                         : std::filesystem::path(File).filename().string());
   };
   for (std::size_t I = 0; I < Words.size(); ++I)
-    for (const std::string_view Option : Outputs)
+    for (const std::string &Option : Outputs)
       if (Words[I] == Option && I + 1 < Words.size()) {
         Words[I + 1] = Elsewhere(Option, Words[I + 1]);
         ++I;
@@ -161,6 +155,10 @@ Expected<Success> replay(const ReplayArguments &A,
     return wrong(A, "was made without --json, expected a report that can be "
                     "made again");
 
+  const CLI::App *Command = calledCommand(*A.Splat, Words);
+  if (!Command)
+    return wrong(A, "program.arguments call no subcommand, expected what splat "
+                    "recorded");
   const auto Temporary = TemporaryFolder::make("splat-replay");
   if (!Temporary)
     return Temporary.error();
@@ -189,7 +187,8 @@ Expected<Success> replay(const ReplayArguments &A,
   sayVersions(A, Program);
 
   const std::string Report = Temporary->path() + "/replayed.json";
-  if (auto Done = runSplat(redirected(Words, Temporary->path(), Report),
+  if (auto Done = runSplat(redirected(Words, writingOptions(*Command),
+                                      Temporary->path(), Report),
                            Machine, Temporary->path() + "/log");
       !Done)
     return Done;
@@ -215,6 +214,7 @@ Expected<Success> replay(const ReplayArguments &A,
 
 Runner addReplay(CLI::App &App) {
   auto A = std::make_shared<ReplayArguments>();
+  A->Splat = App.get_parent();
   takesFile(App.add_option("result", A->Result,
                            "What --json wrote: render, gradients, analyze, "
                            "info, train, eval or compare"),

@@ -217,8 +217,8 @@ Runner addTrain(CLI::App &App) {
                            "Photographs with poses: COLMAP, NeRF-synthetic, "
                            "transforms.json"))
       ->required();
-  takesFile(App.add_option("-o,--output", A->Output, "Scene: INRIA's PLY"),
-            {".ply"})
+  writesFile(App.add_option("-o,--output", A->Output, "Scene: INRIA's PLY"),
+             {".ply"})
       ->required();
   App.add_option("--iterations", S.Iterations,
                  fmt::format("Iterations in all (default {})", S.Iterations))
@@ -253,7 +253,7 @@ Runner addTrain(CLI::App &App) {
                 "Who blends and goes back: the rasterizer or the cores");
   addSimtOptions(App, R.Blending.SimtTile, R.Blending.SimtGroup, SimtTilesBack);
   addBackwardOptions(App, R.Backward);
-  takesFile(
+  writesFile(
       App.add_option("--checkpoint", R.Checkpoint,
                      "Where the run is kept (default: the output's name and "
                      ".checkpoint)"));
@@ -277,11 +277,11 @@ Runner addTrain(CLI::App &App) {
   App.add_option("--score-every", R.ScoreEvery,
                  "Score the held-out views after every so many iterations, "
                  "for --json (default: at the end alone)");
-  takesFile(
+  writesFile(
       App.add_option("--json", A->Json, "Write what was done, and its losses"),
       {".json"});
-  takesFile(App.add_option("--curve", A->Curve, "Draw the losses (.svg)"),
-            {".svg"});
+  writesFile(App.add_option("--curve", A->Curve, "Draw the losses (.svg)"),
+             {".svg"});
   addDeviceOption(App, A->Device);
   return [A](const DeviceOptions &Machine) {
     A->Request.Read.Masks = A->Request.Run.Masks;

@@ -92,6 +92,16 @@ std::string_view name(Mode M) {
   return {};
 }
 
+std::vector<std::string> effectChoices() {
+  std::vector<std::string> Known;
+  for (const Mode M : {Mode::Auto, Mode::All, Mode::Flags})
+    Known.emplace_back(name(M));
+  for (const Effect *E : effects::all())
+    if (byData(*E))
+      Known.emplace_back(E->Name);
+  return Known;
+}
+
 Expected<EffectRequest> parseEffectRequest(const std::string &Text) {
   EffectRequest R;
   for (const Mode M : {Mode::Auto, Mode::All, Mode::Flags})
@@ -106,10 +116,7 @@ Expected<EffectRequest> parseEffectRequest(const std::string &Text) {
     const std::string_view Name = Rest.substr(0, Comma);
     const Effect *E = effects::find(Name);
     if (!E || !byData(*E)) {
-      std::vector<std::string> Known{"auto", "all", "flags"};
-      for (const Effect *Other : effects::all())
-        if (byData(*Other))
-          Known.emplace_back(Other->Name);
+      const std::vector<std::string> Known = effectChoices();
       return Error{
           "",
           E ? fmt::format("--effects {}: {} is decided by its own option "

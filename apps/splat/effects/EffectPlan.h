@@ -43,6 +43,9 @@ struct EffectRequest {
 
 std::string_view name(EffectRequest::Mode M);
 
+/// What the text of a request may be or list.
+std::vector<std::string> effectChoices();
+
 /// Reads "auto", "all", "flags" or names of effects joined by commas; of an
 /// effect that an option decides, the error names the option.
 Expected<EffectRequest> parseEffectRequest(const std::string &Text);

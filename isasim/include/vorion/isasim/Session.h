@@ -36,6 +36,7 @@ struct SessionOption {
   const char *Value;    ///< what --help calls the text
   const char *Alone;    ///< the text where none is given; null: one has to be
   std::string Help;
+  std::span<const std::string_view> Names; ///< that the text may list, if any
 };
 std::span<const SessionOption> sessionOptions();
 

@@ -12,7 +12,8 @@ namespace vorion {
 
 /// Parses \p Arguments, without the program's name, by \p App, whose name is
 /// the tool's. The exit code if that was all, for help and for what the parser
-/// refuses: that is said in the house form, with what was probably meant.
+/// refuses: that is said in the house form, with what was probably meant. The
+/// one argument --print-definition, which no help lists, prints definitionOf().
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments);
 
@@ -26,17 +27,43 @@ Expected<Success> parseOptions(CLI::App &App,
 CLI::Validator isOneOf(std::vector<std::string> Names);
 
 /// Says that the value of \p O names a file, with one of \p Endings if there
-/// are some, or a folder: for --help and for shells that complete names.
+/// are some, or a folder: for --help, and for shells that complete names. Each
+/// is there and is read, or is written by the tool.
 CLI::Option *takesFile(CLI::Option *O,
                        const std::vector<std::string> &Endings = {});
 CLI::Option *takesFolder(CLI::Option *O);
+CLI::Option *writesFile(CLI::Option *O,
+                        const std::vector<std::string> &Endings = {});
+CLI::Option *writesFolder(CLI::Option *O);
+/// The same of a value with which the names of several files begin.
+CLI::Option *writesFiles(CLI::Option *O);
+
+/// Says that the value of \p O is one of \p Names or several with commas
+/// between them, or something else that the option's help explains.
+CLI::Option *takesSomeOf(CLI::Option *O, const std::vector<std::string> &Names);
+
+/// Says that the value of \p O is the name of a view in a file of cameras, or
+/// several with commas between them if the option has a delimiter; or one of
+/// \p Others.
+CLI::Option *takesView(CLI::Option *O,
+                       const std::vector<std::string> &Others = {});
 
 /// What was said of an option's value by the above.
 struct OptionValue {
-  enum class Type { Any, OneOf, File, Folder };
+  enum class Type { Any, OneOf, SomeOf, View, File, Folder, Prefix };
   Type What = Type::Any;
   std::vector<std::string> Words; ///< names, or endings of files
+  bool IsWritten = false;         ///< a file, a folder or files
 };
-OptionValue valueOf(CLI::Option &O);
+OptionValue valueOf(const CLI::Option &O);
+
+/// The options of \p App that write files, each by all its names as they are
+/// written on a command line.
+std::vector<std::string> writingOptions(const CLI::App &App);
+
+/// The subcommand of \p App that \p Arguments, without the program's name,
+/// call; null if they call none.
+const CLI::App *calledCommand(const CLI::App &App,
+                              const std::vector<std::string> &Arguments);
 
 } // namespace vorion
