@@ -4,6 +4,7 @@
 #include "commands/DeviceArguments.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
+#include "commands/TrainSettingOptions.h"
 
 #include "analyze/Chart.h"
 #include "capture/Undistort.h"
@@ -34,6 +35,7 @@ struct TrainArguments {
   std::string Output, Json, Curve, Device;
   bool Time = false, Breakdown = false;
   std::optional<unsigned> GivenTimeEvery;
+  SettingOptions Settings;
 
   bool isClocked() const { return Time || Breakdown; }
   unsigned timeEvery() const { return GivenTimeEvery.value_or(50); }
@@ -122,6 +124,8 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
   if (R.Run.Batch != 1 || Out.Processes != 1)
     printOut("views        {} an iteration, on {} devices\n", R.Run.Batch,
              Out.Processes);
+  if (R.Run.Settings.Method != DensityMethod::Classic)
+    printOut("density      {}\n", name(R.Run.Settings.Method));
   printOut("rules        {}, support exact, path {}{}, opacity rate {}\n",
            name(R.Convention), name(R.Blending.Kind),
            toString(R.Backward, R.Blending.Kind), R.Run.Settings.OpacityRate);
@@ -155,6 +159,11 @@ Expected<Success> check(const TrainArguments &A) {
   if (auto Checked = checkBackwardOptions(R.Backward, R.Blending.Kind);
       !Checked)
     return Checked;
+  if (R.Run.Settings.AbsoluteGradient && R.Blending.Kind != Path::Simt)
+    return Error{"",
+                 "--absgrad: the rasterizer's nine sums have no absolute "
+                 "values, expected --path simt with it",
+                 ExitCode::Usage};
   if (A.GivenTimeEvery && !A.isClocked())
     return Error{"", "--time-every: expected --time or --breakdown with it",
                  ExitCode::Usage};
@@ -283,7 +292,13 @@ Runner addTrain(CLI::App &App) {
   writesFile(App.add_option("--curve", A->Curve, "Draw the losses (.svg)"),
              {".svg"});
   addDeviceOption(App, A->Device);
-  return [A](const DeviceOptions &Machine) {
+  addSettingOptions(App, A->Settings);
+  return [A, &App](const DeviceOptions &Machine) -> Expected<Success> {
+    auto Settings = A->Settings.settings(App, A->Request.Run.Settings);
+    if (!Settings)
+      return Settings.error();
+    A->Request.Run.Settings = *Settings;
+    A->Request.Backward.AbsoluteSums = Settings->AbsoluteGradient;
     A->Request.Read.Masks = A->Request.Run.Masks;
     if (A->Request.Checkpoint.empty())
       A->Request.Checkpoint = A->Output + ".checkpoint";

@@ -13,6 +13,14 @@
 #define CLAMPED(wanted) false
 #endif
 
+// For density control, also the sums of the absolute gradients by the mean (Ye
+// et al. 2024, "AbsGS"): what pulls both ways does not cancel.
+#ifdef ABSOLUTE_SUMS
+#define ALL_SUMS (SUM_WORDS + ABSOLUTE_SUMS)
+#else
+#define ALL_SUMS SUM_WORDS
+#endif
+
 // One Gaussian in all pixels of this work-item: adds to `sum`.
 static void through(__global const splat_gaussian *g, uint entry, uint x0,
                     uint y0, __local const float4 *gradient,
@@ -51,6 +59,10 @@ static void through(__global const splat_gaussian *g, uint entry, uint x0,
         sum[SUM_SXX] += vx * -dx;
         sum[SUM_SXX + 1] += vx * -dy;
         sum[SUM_SXX + 2] += vy * -dy;
+#ifdef ABSOLUTE_SUMS
+        sum[SUM_WORDS] += fabs(a * vx + b * vy);
+        sum[SUM_WORDS + 1] += fabs(b * vx + c * vy);
+#endif
       }
     }
   }
@@ -65,7 +77,7 @@ blend_backward(__global const splat_gaussian *records,
   __local float4 gradient[PIXELS];
   __local float2 state[PIXELS];
   __local uint entries[PIXELS];
-  __local float parts[LANES][SUM_WORDS][LANES]; // [Gaussian][sum][work-item]
+  __local float parts[LANES][ALL_SUMS][LANES]; // [Gaussian][sum][work-item]
   __local uint most[LANES];
 
   const uint lane = get_local_id(0);
@@ -91,22 +103,22 @@ blend_backward(__global const splat_gaussian *records,
     left = max(left, most[k]);
 
   for (uint i = range.x + left + lane; i < range.y; i += LANES)
-    for (uint k = 0; k < SUM_WORDS; ++k)
-      sums[places[i] * SUM_WORDS + k] = 0.0f;
+    for (uint k = 0; k < ALL_SUMS; ++k)
+      sums[places[i] * ALL_SUMS + k] = 0.0f;
   while (left != 0) {
     const uint first = (left - 1) / LANES * LANES;
     for (uint entry = left; entry-- > first;) {
-      float sum[SUM_WORDS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
+      float sum[ALL_SUMS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f,
                               0.0f, 0.0f, 0.0f, 0.0f};
       through(records + (list[range.x + entry] & ~SPANS_TILES), entry, x0, y0,
               gradient, state, entries, sum);
-      for (uint k = 0; k < SUM_WORDS; ++k)
+      for (uint k = 0; k < ALL_SUMS; ++k)
         parts[entry - first][k][lane] = sum[k];
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (first + lane < left) {
-      __global float *to = sums + places[range.x + first + lane] * SUM_WORDS;
-      for (uint k = 0; k < SUM_WORDS; ++k) {
+      __global float *to = sums + places[range.x + first + lane] * ALL_SUMS;
+      for (uint k = 0; k < ALL_SUMS; ++k) {
         __local const float *p = parts[lane][k];
         // As a tree, halves onto halves.
         const float c0 = (p[0] + p[8]) + (p[4] + p[12]);

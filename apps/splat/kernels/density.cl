@@ -147,19 +147,7 @@ __kernel void density_split(__global const float *geometry,
   const uint i = get_global_id(0);
   if (i >= count || fates[i] != FATE_SPLIT)
     return;
-  const float4 u = activate_quaternion(
-      (float4)(geometry[PLANE_QUATERNION * count + i],
-               geometry[(PLANE_QUATERNION + 1) * count + i],
-               geometry[(PLANE_QUATERNION + 2) * count + i],
-               geometry[(PLANE_QUATERNION + 3) * count + i]));
-  const float w = u.x, x = u.y, y = u.z, z = u.w;
-  const float3 column[3] = {
-      (float3)(1.0f - 2.0f * (y * y + z * z), 2.0f * (x * y + w * z),
-               2.0f * (x * z - w * y)),
-      (float3)(2.0f * (x * y - w * z), 1.0f - 2.0f * (x * x + z * z),
-               2.0f * (y * z + w * x)),
-      (float3)(2.0f * (x * z + w * y), 2.0f * (y * z - w * x),
-               1.0f - 2.0f * (x * x + y * y))};
+  const axes_of_gaussian axes = gaussian_axes(geometry, count, i);
   const activation_constants constants = make_activation_constants();
   const float4 activated = activate_scales_and_opacity(
       &constants,
@@ -171,17 +159,13 @@ __kernel void density_split(__global const float *geometry,
     const philox_words r =
         philox(seed_low, seed_high, identities[i], child, iteration,
                STREAM_SPLIT);
-    // G. E. P. Box, M. E. Muller 1958: two normal numbers of two uniform ones.
-    const float near = sqrt(-2.0f * log(philox_unit(r.word[0])));
-    const float far = sqrt(-2.0f * log(philox_unit(r.word[2])));
-    const float turn = 2.0f * philox_unit(r.word[1]);
-    const float normal[3] = {near * cospi(turn), near * sinpi(turn),
-                             far * cospi(2.0f * philox_unit(r.word[3]))};
+    float normal[3];
+    normal_numbers(r, normal);
     float3 offset = (float3)(0.0f, 0.0f, 0.0f);
     const uint to = places[i] + child;
     for (uint k = 0; k < 3; ++k) {
       const float log_scale = geometry[(PLANE_LOG_SCALE + k) * count + i];
-      offset += column[k] * (scale[k] * normal[k]);
+      offset += axes.axis[k] * (scale[k] * normal[k]);
       new_geometry[(PLANE_LOG_SCALE + k) * new_count + to] = log_scale - shrink;
     }
     const float shift[3] = {offset.x, offset.y, offset.z};

@@ -30,12 +30,14 @@ static inline philox_words philox(uint key0, uint key1, uint counter0,
 
 /// What the numbers are for: the last word of the counter.
 enum {
-  STREAM_START = 1,     ///< random points; counter 0 is the point
-  STREAM_VIEWS = 2,     ///< the order of views; place and round
-  STREAM_SPLIT = 3,     ///< samples of a split; identity, child and iteration
-  STREAM_CLOCK = 4,     ///< iterations that are timed; block and its length
-  STREAM_CHILD = 5,     ///< identities; the parent's, child and iteration
-  STREAM_BACKGROUND = 6 ///< of a picture; its place in the run, two words
+  STREAM_START = 1,      ///< random points; counter 0 is the point
+  STREAM_VIEWS = 2,      ///< the order of views; place and round
+  STREAM_SPLIT = 3,      ///< samples of a split; identity, child and iteration
+  STREAM_CLOCK = 4,      ///< iterations that are timed; block and its length
+  STREAM_CHILD = 5,      ///< identities; the parent's, child and iteration
+  STREAM_BACKGROUND = 6, ///< of a picture; its place in the run, two words
+  STREAM_DRAW = 7,       ///< draws of Gaussians; number, what for, iteration
+  STREAM_NOISE = 8       ///< random steps; identity, 0 and iteration
 };
 
 /// The middle of one of 2^23 equal parts of (0, 1): never 0, never 1.

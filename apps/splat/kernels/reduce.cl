@@ -2,6 +2,12 @@
 // tiles. Each partial sum keeps what rounding takes from it (T. J. Dekker 1971):
 // hundreds of tiles lose no more than one. Without atomics, in a fixed order.
 
+#ifdef ABSOLUTE_SUMS
+#define ALL_SUMS (SUM_WORDS + ABSOLUTE_SUMS)
+#else
+#define ALL_SUMS SUM_WORDS
+#endif
+
 __kernel void reduce_sums(__global const float *pair_sums,
                           __global const uint *order,
                           __global const uint *offsets,
@@ -11,10 +17,10 @@ __kernel void reduce_sums(__global const float *pair_sums,
     return;
   const uint gaussian = order[i];
   const uint end = offsets[i + 1];
-  for (uint k = 0; k < SUM_WORDS; ++k) {
+  for (uint k = 0; k < ALL_SUMS; ++k) {
     float2 total = (float2)(0.0f, 0.0f);
     for (uint place = offsets[i]; place < end; ++place) {
-      const float2 next = two_sum(total.x, pair_sums[place * SUM_WORDS + k]);
+      const float2 next = two_sum(total.x, pair_sums[place * ALL_SUMS + k]);
       total = (float2)(next.x, total.y + next.y);
     }
     sums[k * count + gaussian] = total.x + total.y;

@@ -34,10 +34,12 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
   if (B.Parameters == GradientsOf::Stored)
     Project.Defines.emplace_back("STORED_PARAMETERS");
-  return {{UpstreamProgram, {"upstream.cl"}, {}},
-          Blend,
-          {ReduceProgram, {"layout.h", "activate.cl", "reduce.cl"}, {}},
-          Project};
+  ProgramSpec Reduce{
+      ReduceProgram, {"layout.h", "activate.cl", "reduce.cl"}, {}};
+  if (B.AbsoluteSums)
+    for (ProgramSpec *P : {&Blend, &Reduce})
+      P->Defines.emplace_back("ABSOLUTE_SUMS=2");
+  return {{UpstreamProgram, {"upstream.cl"}, {}}, Blend, Reduce, Project};
 }
 
 void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
@@ -61,7 +63,8 @@ void BackwardPipeline::run(Pipeline &Forward) {
 
 void BackwardPipeline::blend(Pipeline &Forward) {
   const Frame &F = Forward.frame();
-  PairSums = Launch.allocate("pairs' sums", 4 * SUM_WORDS * uint64_t{F.Pairs});
+  PairSums =
+      Launch.allocate("pairs' sums", 4 * Choice.sums() * uint64_t{F.Pairs});
   if (Options.Blending == Path::Simt) {
     Launch.run(BlendBackwardProgram, "blend_backward",
                cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
@@ -86,7 +89,8 @@ void BackwardPipeline::blend(Pipeline &Forward) {
 
 void BackwardPipeline::reduce(const Frame &F) {
   const uint32_t Count = F.Gaussians.Count;
-  Sums = Launch.allocate("Gaussians' sums", 4 * SUM_WORDS * uint64_t{Count});
+  Sums =
+      Launch.allocate("Gaussians' sums", 4 * Choice.sums() * uint64_t{Count});
   Launch.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize,
              PairSums, F.Order, F.Places, Sums, F.Visible, Count);
 }

@@ -2,6 +2,7 @@
 /// on the device.
 #pragma once
 
+#include "picture/Layout.h"
 #include "render/Pipeline.h"
 
 #include <string_view>
@@ -23,6 +24,12 @@ struct BackwardOptions {
   Reciprocal Unit = Reciprocal::Exact;
   GatherOrder Order = GatherOrder::Tree;
   GradientsOf Parameters = GradientsOf::Activated;
+  /// Also the sums of absolute gradients by the projected mean, x and y, px, as
+  /// planes of \c sums() from SUM_WORDS on. By the cores alone: the rasterizer
+  /// has no such sums.
+  bool AbsoluteSums = false;
+
+  uint32_t sums() const { return SUM_WORDS + (AbsoluteSums ? 2U : 0U); }
 };
 
 /// The programs that the way back needs beside those of \c planRender.
@@ -49,7 +56,7 @@ public:
 
   /// \name Results, planes of as many floats as there are Gaussians
   /// @{
-  const cl::Buffer &sums() const { return Sums; } ///< SUM_WORDS planes
+  const cl::Buffer &sums() const { return Sums; } ///< at least SUM_WORDS planes
   const cl::Buffer &gradients() const { return Gradients; } ///< GRADIENT_PLANES
   /// Plane 3 k + c: of coefficient k of channel c.
   const cl::Buffer &shGradients() const { return ShGradients; }

@@ -10,6 +10,18 @@ namespace vorion::splat {
 
 ProgramSpec adamProgram() { return {AdamProgram, {"adam.cl"}, {}}; }
 
+ProgramSpec regularizeProgram() {
+  return {RegularizeProgram, {"layout.h", "activate.cl", "regularize.cl"}, {}};
+}
+
+void regularize(Launcher &L, const TrainSettings &Settings,
+                const DeviceScene &S, const PlanePair &Gradients) {
+  L.run(RegularizeProgram, "regularize", itemsFor(S.Count), GroupSize,
+        S.Parameters.Geometry, Gradients.Geometry, S.Count,
+        static_cast<float>(Settings.OpacityWeight / S.Count),
+        static_cast<float>(Settings.ScaleWeight / (3.0 * S.Count)));
+}
+
 void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
               const PlanePair &Gradients, unsigned Iteration, double Extent,
               int ActiveDegree) {

@@ -8,6 +8,16 @@ namespace vorion::splat {
 
 inline constexpr const char *AdamProgram = "adam";
 ProgramSpec adamProgram();
+/// For weights of opacities and scales in the loss.
+inline constexpr const char *RegularizeProgram = "regularize";
+ProgramSpec regularizeProgram();
+
+constexpr bool isRegularized(const TrainSettings &S) {
+  return S.OpacityWeight > 0 || S.ScaleWeight > 0;
+}
+/// Adds to \p Gradients those of the weights of opacities and scales.
+void regularize(Launcher &L, const TrainSettings &Settings,
+                const DeviceScene &S, const PlanePair &Gradients);
 
 /// Steps all parameters of \p S by their \p Gradients, of the same layout:
 /// step \p Iteration (from 1) with the rates of \p Settings, positions times

@@ -109,5 +109,45 @@ TEST_F(AdamOnDevice, GradientsAtTheEndsOfTheRangeStepAsTheReference) {
   }
 }
 
+/// Central differences of the weighted means in double.
+TEST_F(AdamOnDevice, WeightsHaveTheGradientsOfTheirMeans) {
+  constexpr std::size_t Count = 70;
+  std::mt19937 Random(8);
+  std::normal_distribution<float> Normal;
+  Scene Of = Scene::sized(Count, 0);
+  for (std::vector<float> *V : {&Of.LogScales, &Of.OpacityLogits})
+    std::ranges::generate(*V, [&] { return Normal(Random); });
+  TrainSettings T;
+  EXPECT_FALSE(isRegularized(T));
+  T.OpacityWeight = 0.3;
+  T.ScaleWeight = 0.7;
+  EXPECT_TRUE(isRegularized(T));
+  Launcher L(*Dev, "", {});
+  L.beginStage(Stage::Blend);
+  L.build(regularizeProgram());
+  const DeviceScene S = DeviceScene::upload(L, Of);
+  const std::size_t Size = GEOMETRY_PLANES * Count;
+  const PlanePair Gradients{upload(L, std::vector<float>(Size, 0.5F)), {}};
+  regularize(L, T, S, Gradients);
+  const auto Got = download<float>(L, Gradients.Geometry, Size);
+  const auto Planes = geometryPlanes(Of);
+  const auto Loss = [&](std::size_t Changed, double By) {
+    double Opacity = 0, Scale = 0;
+    for (std::size_t I = 0; I < Size; ++I) {
+      const double V = Planes[I] + (I == Changed ? By : 0);
+      const std::size_t Plane = I / Count;
+      if (Plane == PLANE_LOGIT)
+        Opacity += 1 / (1 + std::exp(-V));
+      if (Plane >= PLANE_LOG_SCALE && Plane < PLANE_LOG_SCALE + 3)
+        Scale += std::exp(V);
+    }
+    return T.OpacityWeight * Opacity / Count +
+           T.ScaleWeight * Scale / (3 * Count);
+  };
+  for (std::size_t I = 0; I < Size; ++I)
+    EXPECT_NEAR(Got[I], 0.5 + (Loss(I, 1e-4) - Loss(I, -1e-4)) / 2e-4, 1e-7)
+        << I;
+}
+
 } // namespace
 } // namespace vorion::splat

@@ -29,6 +29,7 @@ struct Sizes {
   std::size_t Gaussians = 0;
   int ShDegree = 0;
   std::size_t Losses = 0;
+  std::size_t Exposures = 0; ///< floats
 
   std::size_t geometry() const { return GEOMETRY_PLANES * Gaussians; }
   std::size_t sh() const { return 3 * shCoefficients(ShDegree) * Gaussians; }
@@ -49,10 +50,11 @@ void forArrays(Kind &C, const Sizes &S, Function Visit) {
   Visit(C.Notes.Views, "counts of views", S.Gaussians);
   Visit(C.Notes.Radii, "radii", S.Gaussians);
   Visit(C.Losses, "losses", S.Losses);
+  Visit(C.Exposures, "exposures", S.Exposures);
 }
 
 Sizes sizesOf(const Checkpoint &C) {
-  return {C.gaussians(), C.ShDegree, C.Losses.size()};
+  return {C.gaussians(), C.ShDegree, C.Losses.size(), C.Exposures.size()};
 }
 
 /// The first value of a run that is no finite number: nothing can be trained
@@ -99,10 +101,18 @@ Expected<Header> readHeader(std::string_view Text, const std::string &Path) {
                          {"gaussians", JsonShape::whole(0, Most)}});
   if (auto Ok = Shape.check(*Read, Path); !Ok)
     return Ok.error();
+  std::size_t Exposures = 0;
+  if (Read->contains("exposures")) {
+    if (auto Ok = JsonShape::object({{"exposures", JsonShape::whole(0, Most)}})
+                      .check(*Read, Path);
+        !Ok)
+      return Ok.error();
+    Exposures = (*Read)["exposures"].get<std::size_t>();
+  }
   return Header{(*Read)["run"].get<std::string>(),
                 {(*Read)["gaussians"].get<std::size_t>(),
                  (*Read)["sh_degree"].get<int>(),
-                 (*Read)["iteration"].get<std::size_t>()}};
+                 (*Read)["iteration"].get<std::size_t>(), Exposures}};
 }
 
 Error damaged(const std::string &Path) {
@@ -116,10 +126,12 @@ Expected<Success> writeCheckpoint(const std::string &Path,
   if (auto Checked = checkFinite(Path, C); !Checked)
     return Error{Path, fmt::format("not written: {}", Checked.error().What),
                  ExitCode::GuestFailed};
-  const Json Header{{"run", C.Run},
-                    {"iteration", C.Iteration},
-                    {"sh_degree", C.ShDegree},
-                    {"gaussians", C.gaussians()}};
+  Json Header{{"run", C.Run},
+              {"iteration", C.Iteration},
+              {"sh_degree", C.ShDegree},
+              {"gaussians", C.gaussians()}};
+  if (!C.Exposures.empty())
+    Header["exposures"] = C.Exposures.size();
   std::string Body = jsonText(Header) + "\n";
   forArrays(C, sizesOf(C), [&](const auto &A, const char *, std::size_t) {
     Body.append(reinterpret_cast<const char *>(A.data()), 4 * A.size());

@@ -22,7 +22,8 @@ struct Checkpoint {
   std::vector<float> FirstGeometry, FirstSh, SecondGeometry, SecondSh;
   std::vector<uint32_t> Identities; ///< of Gaussians, DeviceScene.h
   DensityNotes Notes;
-  std::vector<float> Losses; ///< of every iteration
+  std::vector<float> Losses;    ///< of every iteration
+  std::vector<float> Exposures; ///< Exposure.h; of most runs none
 
   std::size_t gaussians() const { return Notes.Views.size(); }
 };

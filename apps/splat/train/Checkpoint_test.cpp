@@ -37,6 +37,7 @@ Checkpoint sample() {
   Fill(C.Notes.Views, Count);
   Fill(C.Notes.Radii, Count);
   Fill(C.Losses, 4);
+  Fill(C.Exposures, 36);
   return C;
 }
 
@@ -54,6 +55,13 @@ TEST(Checkpoint, HoldsWhatWasWritten) {
   EXPECT_EQ(B->Identities, A.Identities);
   EXPECT_EQ(B->Notes.Views, A.Notes.Views);
   EXPECT_EQ(B->Losses, A.Losses);
+  EXPECT_EQ(B->Exposures, A.Exposures);
+  // Most runs have none, and say nothing of them.
+  Checkpoint Without = A;
+  Without.Exposures.clear();
+  ASSERT_TRUE(writeCheckpoint(F.path("d"), Without));
+  EXPECT_TRUE(readCheckpoint(F.path("d"))->Exposures.empty());
+  EXPECT_EQ(F.read("d").find("exposures"), std::string::npos);
 }
 
 TEST(Checkpoint, DamageIsNoticed) {

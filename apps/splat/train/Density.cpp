@@ -17,7 +17,7 @@ constexpr float Never = std::numeric_limits<float>::infinity();
 
 std::vector<ProgramSpec> densityPrograms() {
   return {{DensityProgram,
-           {"layout.h", "activate.cl", "philox.h", "density.cl"},
+           {"layout.h", "activate.cl", "philox.h", "axes.cl", "density.cl"},
            {}},
           {ScanProgram, {"scan.cl"}, {}},
           {SortProgram, {"sort.cl"}, {}}};

@@ -72,9 +72,12 @@ GradientRenderer::Backward DeviceRenderer::backward(const cl::Buffer &ByRender,
   Launch.beginStage(Stage::Upstream);
   Back->setUpstream(F, ByRender, ByAlpha, Behind);
   Back->run(Drawing);
-  return {{Back->gradients(), Back->shGradients()},
-          {F.Records, F.Depths.Keys, Back->gradients(), GRADIENT_MEAN_2D,
-           static_cast<int>(F.View.size[0]), static_cast<int>(F.View.size[1])}};
+  return {
+      {Back->gradients(), Back->shGradients()},
+      {F.Records, F.Depths.Keys,
+       Choice.AbsoluteSums ? Back->sums() : Back->gradients(),
+       Choice.AbsoluteSums ? uint32_t{SUM_WORDS} : uint32_t{GRADIENT_MEAN_2D},
+       static_cast<int>(F.View.size[0]), static_cast<int>(F.View.size[1])}};
 }
 
 } // namespace vorion::splat

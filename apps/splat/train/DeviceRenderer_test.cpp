@@ -7,6 +7,7 @@
 #include "reference/Render.h"
 #include "render/Planes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vorion::splat {
@@ -158,6 +159,69 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
   }
 }
 
+class AbsoluteSumsOnDevice : public GradientsOnDevice {};
+
+/// Sums over the pixels of what each of them alone gives: the way back is
+/// linear in the pixels' gradients. The reference knows no absolute values.
+TEST_P(AbsoluteSumsOnDevice, AreThoseOfThePixels) {
+  const auto [Convention, Blending] = GetParam();
+  reference::Options O;
+  O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
+                                      : reference::Rules::Gsplat;
+  const Scene S = sceneOf({6, 0, 0.6, -1.5, false});
+  Camera C = camera();
+  C.Width = 20;
+  C.Height = 9;
+  C.Cx = 10;
+  C.Cy = 4;
+  const auto G = toReference<double>(S);
+  const auto Pose = toReference<double>(C);
+  const auto Pixels = static_cast<std::size_t>(C.Width * C.Height);
+  std::normal_distribution<float> Normal;
+  std::vector<float> ByRender(3 * Pixels);
+  std::ranges::generate(ByRender, [&] { return Normal(Random); });
+  const auto Doubts =
+      reference::blend(reference::project(G, Pose, O), C.Width, C.Height, O)
+          .Doubts;
+  std::vector<double> Want(2 * S.size(), 0);
+  double Cancelled = 0, Whole = 0;
+  for (std::size_t P = 0; P < Pixels; ++P) {
+    reference::Upstream U;
+    U.Render.assign(Pixels, glm::dvec3(0));
+    U.Alpha.assign(Pixels, 0);
+    for (std::size_t K = 0; K < 3; ++K) {
+      ByRender[3 * P + K] *= Doubts[P] == 0 ? 1.0F : 0.0F;
+      U.Render[P][static_cast<int>(K)] = ByRender[3 * P + K];
+    }
+    const auto B = reference::renderBackward(G, Pose, U, O);
+    for (std::size_t I = 0; I < S.size(); ++I) {
+      Want[I] += std::abs(B.Means2d[I].x);
+      Want[S.size() + I] += std::abs(B.Means2d[I].y);
+      Cancelled += B.Means2d[I].x;
+      Whole += std::abs(B.Means2d[I].x);
+    }
+  }
+  EXPECT_LT(std::abs(Cancelled), 0.5 * Whole);
+  BackwardOptions Options;
+  Options.AbsoluteSums = true;
+  Launcher L(*Dev, "", {});
+  L.beginStage(Stage::Blend);
+  DeviceRenderer R(L, Convention, Blending, Options, {});
+  const DeviceScene D = DeviceScene::upload(L, S);
+  R.forward(D, C, 0);
+  const auto [Gradients, Seen] =
+      R.backward(upload(L, ByRender), upload(L, std::vector<float>(Pixels, 0)));
+  EXPECT_EQ(Seen.MeanPlane, uint32_t{SUM_WORDS});
+  const auto Planes =
+      download<float>(L, Seen.Gradients, (Seen.MeanPlane + 2) * S.size());
+  ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+  EXPECT_LE(
+      relativeError({Planes.end() - static_cast<std::ptrdiff_t>(2 * S.size()),
+                     Planes.end()},
+                    Want),
+      1e-5);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Paths, GradientsOnDevice,
     testing::Combine(testing::Values(Rules::Inria, Rules::Gsplat),
@@ -166,6 +230,14 @@ INSTANTIATE_TEST_SUITE_P(
       return std::string(name(std::get<0>(Info.param))) + "_" +
              std::string(name(std::get<1>(Info.param)));
     });
+
+INSTANTIATE_TEST_SUITE_P(Rules, AbsoluteSumsOnDevice,
+                         testing::Combine(testing::Values(Rules::Inria,
+                                                          Rules::Gsplat),
+                                          testing::Values(Path::Simt)),
+                         [](const auto &Info) {
+                           return std::string(name(std::get<0>(Info.param)));
+                         });
 
 } // namespace
 } // namespace vorion::splat

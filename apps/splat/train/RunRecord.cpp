@@ -1,5 +1,7 @@
 #include "train/RunRecord.h"
 
+#include "train/SettingsTable.h"
+
 #include "io/Hash.h"
 #include "vorion/support/Json.h"
 
@@ -81,6 +83,8 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
         S.SplitExtent, S.SplitShrink}},
       {"prune", {S.LeastOpacity, S.MostExtent, S.MostRadius}},
       {"reset", {S.ResetInterval, S.ResetOpacity, S.WhiteReset}}};
+  if (Json Changed = changedSettings(S); !Changed.empty())
+    J["settings"] = std::move(Changed);
   if (Run.RandomBackground)
     J["random_background"] = true;
   if (Run.Masks != MaskSource::None)

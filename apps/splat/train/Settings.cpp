@@ -5,11 +5,24 @@
 
 namespace vorion::splat {
 
+namespace {
+
+double falling(double First, double Last, double Part) {
+  return std::exp(std::log(First) * (1 - Part) + std::log(Last) * Part);
+}
+
+double partOf(const TrainSettings &S, unsigned Iteration) {
+  return std::min(1.0, static_cast<double>(Iteration) / S.PositionSteps);
+}
+
+} // namespace
+
 double positionRate(const TrainSettings &S, unsigned Iteration) {
-  const double Part =
-      std::min(1.0, static_cast<double>(Iteration) / S.PositionSteps);
-  return std::exp(std::log(S.PositionRate) * (1 - Part) +
-                  std::log(S.LastPositionRate) * Part);
+  return falling(S.PositionRate, S.LastPositionRate, partOf(S, Iteration));
+}
+
+double exposureRate(const TrainSettings &S, unsigned Iteration) {
+  return falling(S.ExposureRate, S.LastExposureRate, partOf(S, Iteration));
 }
 
 int shDegreeAt(const TrainSettings &S, unsigned Iteration, int Most) {
@@ -18,11 +31,11 @@ int shDegreeAt(const TrainSettings &S, unsigned Iteration, int Most) {
 }
 
 bool notesAt(const TrainSettings &S, unsigned Iteration) {
-  return Iteration < S.DensifyUntil;
+  return S.Method == DensityMethod::Classic && Iteration < S.DensifyUntil;
 }
 
 bool densifiesAt(const TrainSettings &S, unsigned Iteration) {
-  return notesAt(S, Iteration) && Iteration > S.DensifyAfter &&
+  return Iteration < S.DensifyUntil && Iteration > S.DensifyAfter &&
          Iteration % S.DensifyInterval == 0;
 }
 

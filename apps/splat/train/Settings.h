@@ -1,10 +1,18 @@
 /// The settings of training, one table: those of Kerbl et al. 2023 as INRIA's
-/// trainer has them.
+/// trainer has them. SettingsTable.h has their names.
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace vorion::splat {
+
+/// How Gaussians are added and dropped: as Kerbl et al. 2023 clone, split and
+/// drop them, or as Kheradmand et al. 2024 move and draw them.
+enum class DensityMethod { Classic, Mcmc };
+constexpr std::string_view name(DensityMethod M) {
+  return M == DensityMethod::Classic ? "classic" : "mcmc";
+}
 
 struct TrainSettings {
   unsigned Iterations = 30000;
@@ -23,17 +31,32 @@ struct TrainSettings {
   double RotationRate = 1e-3;
   /// @}
 
+  /// Of the exposures of pictures; 0: there are none. Falls like the position's
+  /// rate.
+  double ExposureRate = 0, LastExposureRate = 1e-3;
+
   /// Share of 1 - SSIM in the loss; the rest is the mean absolute difference.
   double DSsim = 0.2;
+  /// Weights in the loss of the mean opacity and of the mean scale.
+  double OpacityWeight = 0, ScaleWeight = 0;
   /// A band of spherical harmonics more every so many iterations.
   unsigned ShInterval = 1000;
 
+  /// \name The first Gaussians
+  /// @{
+  double StartOpacity = 0.1;
+  double StartScale = 1; ///< times the mean distance of the neighbours
+  /// @}
+
   /// \name Density control
   /// @{
+  DensityMethod Method = DensityMethod::Classic;
   unsigned DensifyInterval = 100;
   unsigned DensifyAfter = 500;   ///< the first time is later than this
   unsigned DensifyUntil = 15000; ///< not at this iteration any more
   double DensifyGradient = 2e-4; ///< half pictures
+  /// Gradients are summed without their signs (Ye et al. 2024).
+  bool AbsoluteGradient = false;
   double SplitExtent = 0.01;     ///< larger ones split; times the extent
   double SplitShrink = 1.6;      ///< scales of a split's halves: over this
   double LeastOpacity = 0.005;   ///< dropped below
@@ -44,11 +67,19 @@ struct TrainSettings {
   /// On a white background opacities are reset at this iteration, too.
   unsigned WhiteReset = 500;
   uint32_t MostGaussians = 4000000;
+  /// Of MCMC alone: so many more at a change, over those that there are; random
+  /// steps, over the rate of positions.
+  double GrowShare = 0.05, NoiseRate = 5e5;
   /// @}
 };
 
 /// The rate of positions at \p Iteration (from 1), without the extent.
 double positionRate(const TrainSettings &S, unsigned Iteration);
+
+constexpr bool isExposureOn(const TrainSettings &S) {
+  return S.ExposureRate > 0;
+}
+double exposureRate(const TrainSettings &S, unsigned Iteration);
 
 /// Bands of spherical harmonics in use at \p Iteration, at most \p Most.
 int shDegreeAt(const TrainSettings &S, unsigned Iteration, int Most);

@@ -12,7 +12,6 @@ namespace {
 
 /// Points that coincide would have no size at all.
 constexpr double LeastScale = 3e-4;
-constexpr double StartOpacity = 0.1;
 
 void placeRandomly(Scene &S, uint64_t Seed) {
   for (std::size_t I = 0; I < S.size(); ++I) {
@@ -49,10 +48,10 @@ Scene startingScene(const Capture &C, const StartOptions &O) {
   else
     placeAtPoints(S, C.Points);
   const std::vector<double> Distances = meanNeighbourDistances(S.Means);
-  const float Logit = opacityLogit(StartOpacity);
+  const float Logit = opacityLogit(O.Opacity);
   for (std::size_t I = 0; I < Count; ++I) {
-    const auto Log =
-        static_cast<float>(std::log(std::max(Distances[I], LeastScale)));
+    const auto Log = static_cast<float>(
+        std::log(std::max(Distances[I], LeastScale) * O.Scale));
     for (std::size_t K = 0; K < 3; ++K)
       S.LogScales[3 * I + K] = Log;
     S.Quats[4 * I] = 1;

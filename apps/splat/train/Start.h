@@ -14,6 +14,8 @@ struct StartOptions {
   /// Of random points, and at most so many of the capture's (evenly spread
   /// over their list).
   std::size_t Most = 0;
+  double Opacity = 0.1;
+  double Scale = 1; ///< times the neighbours' distance
 };
 
 /// Random points where a capture has none (VORION: synthetic captures).
@@ -22,7 +24,7 @@ inline constexpr std::size_t RandomPoints = 100000;
 inline constexpr double RandomReach = 1.3;
 
 /// A round Gaussian at each point of \p C, or at random points where it has
-/// none: scale the mean distance to the three nearest others, opacity 0.1,
+/// none: scale by the mean distance to the three nearest others,
 /// colour that of the point (grey where random). The same on every host.
 Scene startingScene(const Capture &C, const StartOptions &O);
 

@@ -1,5 +1,6 @@
 #include "train/TrainReport.h"
 #include "io/ReportHead.h"
+#include "train/SettingsTable.h"
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,7 @@ Json trainReport(const TrainRequest &R, const TrainOutcome &Out) {
        {"capture", R.Capture},
        {"resolution", {Out.Width, Out.Height}},
        {"run", Out.Record},
+       {"settings", settingsJson(R.Run.Settings)},
        {"picture_filter", PhotoFilter},
        {"held_out_by", Out.HeldOutBy},
        {"without_picture", Out.WithoutPicture},

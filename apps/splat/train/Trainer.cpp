@@ -14,7 +14,8 @@
 
 namespace vorion::splat {
 
-std::vector<ProgramSpec> Trainer::programs(const TrainingSet &Pictures) {
+std::vector<ProgramSpec> Trainer::programs(const TrainSettings &Settings,
+                                           const TrainingSet &Pictures) {
   std::vector<ProgramSpec> Programs = densityPrograms();
   Programs.push_back(lossProgram());
   Programs.push_back(adamProgram());
@@ -22,6 +23,12 @@ std::vector<ProgramSpec> Trainer::programs(const TrainingSet &Pictures) {
   if (std::ranges::any_of(Pictures.Training,
                           [](const TrainView &V) { return !V.Counts.empty(); }))
     Programs.push_back(maskProgram());
+  if (Settings.Method == DensityMethod::Mcmc)
+    Programs.push_back(mcmcProgram());
+  if (isRegularized(Settings))
+    Programs.push_back(regularizeProgram());
+  if (isExposureOn(Settings))
+    Programs.push_back(exposureProgram());
   return Programs;
 }
 
@@ -30,14 +37,18 @@ Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
                  Ranks &Processes)
     : Launch(Launch), Renderer(Render), Pictures(Photos), Run(What),
       Order(Photos.Training.size(), What.Seed),
-      Loss(Launch, What.Settings.DSsim), Processes(Processes),
+      Loss(Launch, What.Settings.DSsim),
+      Exposed(Launch, What.Settings, Photos.Training.size()),
+      Processes(Processes),
       Density(Launch, What.Settings, What.Seed, What.Extent),
+      Mcmc(Launch, What.Settings, What.Seed),
       Batch(Launch, Processes, Density, What.Batch) {}
 
 void Trainer::start(const Scene &From) {
   Launch.beginStage(Stage::Upload);
   State = DeviceScene::upload(Launch, From);
   Density.restart(State.Count);
+  Exposed.restart();
   Done = 0;
   Losses.clear();
 }
@@ -59,6 +70,7 @@ void Trainer::restore(const Checkpoint &C) {
   Upload(State.Second, C.SecondGeometry, C.SecondSh);
   State.uploadIdentities(Launch, C.Identities);
   Density.restore(C.Notes);
+  Exposed.restore(C.Exposures);
   Done = C.Iteration;
   Losses = C.Losses;
 }
@@ -82,32 +94,50 @@ Checkpoint Trainer::save() {
   C.Identities = State.downloadIdentities(Launch);
   C.Notes = Density.save(State.Count);
   C.Losses = Losses;
+  C.Exposures = Exposed.save();
   return C;
 }
 
 /// \p Place: of the view in the whole run, from 1.
-ViewBatch::ViewResult Trainer::take(const TrainView &V, uint64_t Place,
-                                    int ShDegree) {
-  if (Run.RandomBackground) {
-    const philox_words W =
-        philox(static_cast<uint>(Run.Seed), static_cast<uint>(Run.Seed >> 32),
-               static_cast<uint>(Place), static_cast<uint>(Place >> 32), 0,
-               STREAM_BACKGROUND);
-    const std::array<float, 3> Colour{
-        philox_unit(W.word[0]), philox_unit(W.word[1]), philox_unit(W.word[2])};
-    Renderer.setBackground(Colour);
-    const cl::Buffer Drawn = Renderer.forward(State, V.Pose, ShDegree);
-    return lossOf(Drawn, over(V, Run.Background, Colour), V.Counts);
-  }
-  return lossOf(Renderer.forward(State, V.Pose, ShDegree), V.Picture, V.Counts);
+ViewBatch::ViewResult Trainer::take(uint64_t Place, int ShDegree) {
+  const std::size_t View = Order.at(Place);
+  const TrainView &V = Pictures.Training[View];
+  if (!Run.RandomBackground)
+    return lossOf(Renderer.forward(State, V.Pose, ShDegree), View, V.Picture);
+  const philox_words W =
+      philox(static_cast<uint>(Run.Seed), static_cast<uint>(Run.Seed >> 32),
+             static_cast<uint>(Place), static_cast<uint>(Place >> 32), 0,
+             STREAM_BACKGROUND);
+  const std::array<float, 3> Colour{
+      philox_unit(W.word[0]), philox_unit(W.word[1]), philox_unit(W.word[2])};
+  Renderer.setBackground(Colour);
+  const cl::Buffer Drawn = Renderer.forward(State, V.Pose, ShDegree);
+  return lossOf(Drawn, View, over(V, Run.Background, Colour));
 }
 
 ViewBatch::ViewResult Trainer::lossOf(const cl::Buffer &Picture,
-                                      const Photo &Target,
-                                      const std::vector<uint8_t> &Counts) {
+                                      std::size_t View, const Photo &Target) {
   Launch.beginStage(Stage::Loss);
-  const LossValues Values = Loss.evaluate(Picture, Target, Counts);
-  return {Values, Renderer.backward(Loss.gradient(), Loss.alphaGradient())};
+  const std::vector<uint8_t> &Counts = Pictures.Training[View].Counts;
+  const auto Pixels = static_cast<uint32_t>(Target.pixels());
+  ViewBatch::ViewResult R;
+  if (Exposed.areOn()) {
+    R.Loss =
+        Loss.evaluate(Exposed.apply(Picture, Pixels, View), Target, Counts);
+    R.ByExposure = Exposed.back(Picture, Loss.gradient(), Pixels, View);
+  } else {
+    R.Loss = Loss.evaluate(Picture, Target, Counts);
+  }
+  R.Back = Renderer.backward(Loss.gradient(), Loss.alphaGradient());
+  return R;
+}
+
+void Trainer::stepExposures() {
+  std::vector<Exposures::Slope> Slopes;
+  for (const ExposureMatrix &By : Batch.byExposures())
+    Slopes.push_back(
+        {Order.at(uint64_t{Done} * Run.Batch + Slopes.size() + 1), By});
+  Exposed.step(Slopes, Done + 1);
 }
 
 /// What is due after the last iteration, once there is a next one: a scene that
@@ -117,8 +147,13 @@ ViewBatch::ViewResult Trainer::lossOf(const cl::Buffer &Picture,
 std::optional<DensityChange> Trainer::changeDensity() {
   Launch.beginStage(Stage::DensityControl);
   std::optional<DensityChange> Change;
-  if (densifiesAt(Run.Settings, Done))
+  if (densifiesAt(Run.Settings, Done) &&
+      Run.Settings.Method == DensityMethod::Mcmc) {
+    Change = Mcmc.change(State, Done);
+    Density.restart(State.Count);
+  } else if (densifiesAt(Run.Settings, Done)) {
     Change = Density.densify(State, Done);
+  }
   if (resetsAt(Run.Settings, Done, Run.isWhite()))
     Density.resetOpacity(State);
   return Change;
@@ -153,10 +188,8 @@ StepReport Trainer::step() {
   Batch.begin(State, Degree, notesAt(Settings, R.Iteration));
   while (!Batch.complete()) {
     std::optional<ViewBatch::ViewResult> Mine;
-    if (Batch.next() < Run.Batch) {
-      const uint64_t Place = uint64_t{Done} * Run.Batch + Batch.next() + 1;
-      Mine = take(Pictures.Training[Order.at(Place)], Place, Degree);
-    }
+    if (Batch.next() < Run.Batch)
+      Mine = take(uint64_t{Done} * Run.Batch + Batch.next() + 1, Degree);
     Batch.add(Mine ? &*Mine : nullptr);
   }
   R.Loss = Batch.loss();
@@ -168,8 +201,16 @@ StepReport Trainer::step() {
                      R.Iteration, R.Loss.Value),
          ExitCode::GuestFailed});
   Launch.beginStage(Stage::Adam);
+  if (isRegularized(Settings))
+    regularize(Launch, Settings, State, Batch.gradients());
   stepAdam(Launch, Settings, State, Batch.gradients(), R.Iteration, Run.Extent,
            Degree);
+  if (Exposed.areOn())
+    stepExposures();
+  if (Settings.Method == DensityMethod::Mcmc)
+    Mcmc.addNoise(State, R.Iteration,
+                  positionRate(Settings, R.Iteration) * Run.Extent *
+                      Settings.NoiseRate);
   if (!allSucceeded())
     return R;
   Done = R.Iteration;

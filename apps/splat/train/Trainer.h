@@ -3,7 +3,9 @@
 
 #include "train/Checkpoint.h"
 #include "train/Density.h"
+#include "train/Exposure.h"
 #include "train/GradientRenderer.h"
+#include "train/Mcmc.h"
 #include "train/PictureLoss.h"
 #include "train/Ranks.h"
 #include "train/Settings.h"
@@ -49,7 +51,8 @@ struct StepReport {
 class Trainer {
 public:
   /// The programs that training on \p Pictures runs beside the renderer's.
-  static std::vector<ProgramSpec> programs(const TrainingSet &Pictures);
+  static std::vector<ProgramSpec> programs(const TrainSettings &Settings,
+                                           const TrainingSet &Pictures);
 
   /// \p Pictures, \p Run, \p Renderer and \p Processes must outlive this.
   Trainer(Launcher &Launch, GradientRenderer &Renderer,
@@ -75,9 +78,10 @@ private:
   bool isChangeDue() const;
   std::optional<DensityChange> changeDensity();
   bool allSucceeded();
-  ViewBatch::ViewResult take(const TrainView &V, uint64_t Place, int ShDegree);
-  ViewBatch::ViewResult lossOf(const cl::Buffer &Picture, const Photo &Target,
-                               const std::vector<uint8_t> &Counts);
+  ViewBatch::ViewResult take(uint64_t Place, int ShDegree);
+  ViewBatch::ViewResult lossOf(const cl::Buffer &Picture, std::size_t View,
+                               const Photo &Target);
+  void stepExposures();
 
   Launcher &Launch;
   GradientRenderer &Renderer;
@@ -85,8 +89,10 @@ private:
   const TrainRun &Run;
   ViewOrder Order;
   PictureLoss Loss;
+  Exposures Exposed;
   Ranks &Processes;
   DensityControl Density;
+  McmcControl Mcmc;
   ViewBatch Batch;
   DeviceScene State;
   unsigned Done = 0;

@@ -9,6 +9,7 @@
 #include "reference/Backward.h"
 #include "reference/Render.h"
 #include "render/Planes.h"
+#include "train/SettingsTable.h"
 
 #include <algorithm>
 #include <barrier>
@@ -149,6 +150,7 @@ void expectSame(const Checkpoint &A, const Checkpoint &B) {
   EXPECT_EQ(A.Notes.Views, B.Notes.Views);
   EXPECT_EQ(A.Notes.Radii, B.Notes.Radii);
   EXPECT_EQ(A.Losses, B.Losses);
+  EXPECT_EQ(A.Exposures, B.Exposures);
 }
 
 class TrainerOnDevice : public OnDevice {
@@ -195,9 +197,10 @@ protected:
     return Set;
   }
 
-  static void build(Launcher &Launch, const TrainingSet &Pictures = {}) {
+  static void build(Launcher &Launch, const TrainingSet &Pictures = {},
+                    const TrainSettings &Settings = {}) {
     Launch.beginStage(Stage::Blend);
-    for (const ProgramSpec &P : Trainer::programs(Pictures))
+    for (const ProgramSpec &P : Trainer::programs(Settings, Pictures))
       Launch.build(P);
   }
 };
@@ -310,6 +313,60 @@ TEST_F(TrainerOnDevice, AnyNumberOfProcessesHasTheSameBits) {
   for (const unsigned Processes : {2U, 3U})
     for (const Checkpoint &C : Train(Processes))
       expectSame(C, Alone);
+}
+
+/// Moves, draws and steps too: on two processes as on one, and after going on
+/// from a checkpoint.
+TEST_F(TrainerOnDevice, McmcHasTheSameBits) {
+  TrainRun Run;
+  Run.Settings = *readPreset("mcmc");
+  Run.Settings.DensifyAfter = 1;
+  Run.Settings.DensifyInterval = 3;
+  Run.Settings.LeastOpacity = 0.45;
+  Run.Settings.OpacityRate = 1;
+  Run.Settings.GrowShare = 0.2;
+  Run.Settings.ExposureRate = 0.01;
+  Run.Extent = 3;
+  Run.Batch = 2;
+  const TrainingSet Set = picturesOf(blobs(12, 1));
+  Scene Start = blobs(20, 2);
+  for (std::size_t I = 0; I < 10; ++I)
+    Start.OpacityLogits[I] = -0.2F;
+  const auto Train = [&](unsigned Processes, const Checkpoint *From) {
+    std::vector<Checkpoint> Kept(Processes), Half(Processes);
+    ThreadRanks::Room Room(Processes);
+    std::vector<std::thread> Threads;
+    for (unsigned Own = 0; Own < Processes; ++Own)
+      Threads.emplace_back([&, Own] {
+        Launcher Launch(*Dev, "", {});
+        build(Launch, Set, Run.Settings);
+        ReferenceRenderer R(Launch);
+        ThreadRanks Together(Room, Own);
+        Trainer T(Launch, R, Set, Run, Together);
+        if (From)
+          T.restore(*From);
+        else
+          T.start(Start);
+        while (T.iteration() < 8) {
+          T.step();
+          ASSERT_FALSE(Launch.failure())
+              << Launch.failure()->What << Launch.buildLog();
+          if (T.iteration() == 3)
+            Half[Own] = T.save();
+        }
+        Kept[Own] = T.save();
+      });
+    for (std::thread &T : Threads)
+      T.join();
+    return std::pair(Kept, Half);
+  };
+  const auto [Kept, Half] = Train(1, nullptr);
+  EXPECT_EQ(Kept[0].gaussians(), 28U);  // 20, 24, 28
+  EXPECT_NE(Kept[0].Identities[0], 0U); // it moved
+  EXPECT_EQ(Kept[0].Exposures.size(), 36 * Set.Training.size());
+  expectSame(Train(1, Half.data()).first[0], Kept[0]);
+  for (const Checkpoint &C : Train(2, nullptr).first)
+    expectSame(C, Kept[0]);
 }
 
 /// Colours come from counters: a run that goes on has those of one that was not

@@ -151,7 +151,8 @@ Expected<Success> start(const Work &W, Trainer &T) {
   if (R.Resume && std::filesystem::exists(R.Checkpoint))
     return resume(W, T);
   if (R.From.empty()) {
-    T.start(startingScene(W.Photos, {R.Run.Seed, R.ShDegree, S.MostGaussians}));
+    T.start(startingScene(W.Photos, {R.Run.Seed, R.ShDegree, S.MostGaussians,
+                                     S.StartOpacity, S.StartScale}));
     return Success{};
   }
   const auto Other = readCheckpoint(R.From);
@@ -245,7 +246,7 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
     return D.error();
   Launcher Launch(*D, "", {});
   Launch.beginStage(Stage::Build);
-  for (const ProgramSpec &P : Trainer::programs(*Pictures))
+  for (const ProgramSpec &P : Trainer::programs(R.Run.Settings, *Pictures))
     Launch.build(P);
   DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
                           R.Run.Background, R.Run.RandomBackground);

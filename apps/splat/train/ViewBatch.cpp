@@ -24,6 +24,7 @@ void ViewBatch::begin(const DeviceScene &Of, int ShDegree, bool Noting) {
   Notes = Noting;
   Added = 0;
   Losses = {};
+  Exposed.clear();
   Sum = {};
 }
 
@@ -64,6 +65,7 @@ void ViewBatch::addOwn(const ViewResult &Mine) {
     Density.note(Mine.Back.Seen, Gaussians);
   }
   addTo(Losses, Mine.Loss);
+  Exposed.push_back(Mine.ByExposure);
   ++Added;
 }
 
@@ -73,6 +75,7 @@ void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
   std::vector<float> Geometry(GeometrySize), Sh(ShSize);
   DensityNotes Of;
   LossValues Loss;
+  ExposureMatrix ByExposure{};
   const PlanePair Uploaded{
       Launch.allocate("gradients of a view", 4 * GeometrySize),
       Launch.allocate("gradients of a view", 4 * ShSize)};
@@ -84,12 +87,14 @@ void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
       if (Notes)
         Of = Density.noteAlone(Mine->Back.Seen, Gaussians);
       Loss = Mine->Loss;
+      ByExposure = Mine->ByExposure;
     }
     const auto Share = [&](auto &Values, std::size_t Size) {
       Values.resize(Size);
       Processes.share(From, Values.data(), 4 * Size);
     };
     Processes.share(From, &Loss, sizeof(Loss));
+    Processes.share(From, &ByExposure, sizeof(ByExposure));
     Share(Geometry, GeometrySize);
     Share(Sh, ShSize);
     Launch.write("gradients", Uploaded.Geometry, Geometry.data(),
@@ -97,6 +102,7 @@ void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
     Launch.write("gradients", Uploaded.Sh, Sh.data(), 4 * ShSize);
     addGradients(Uploaded);
     addTo(Losses, Loss);
+    Exposed.push_back(ByExposure);
     if (Notes) {
       Share(Of.GradientSums, Gaussians);
       Share(Of.Views, Gaussians);

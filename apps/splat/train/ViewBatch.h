@@ -2,6 +2,7 @@
 #pragma once
 
 #include "train/Density.h"
+#include "train/Exposure.h"
 #include "train/GradientRenderer.h"
 #include "train/PictureLoss.h"
 #include "train/Ranks.h"
@@ -28,6 +29,7 @@ public:
   struct ViewResult {
     LossValues Loss;
     GradientRenderer::Backward Back;
+    ExposureMatrix ByExposure = {};
   };
   /// Adds a view of each process; \p Mine is null where \c next() is none.
   void add(const ViewResult *Mine);
@@ -36,6 +38,8 @@ public:
   /// @{
   const PlanePair &gradients() const { return Sum; }
   LossValues loss() const;
+  /// Of each view by its exposure.
+  const std::vector<ExposureMatrix> &byExposures() const { return Exposed; }
   /// @}
 
 private:
@@ -53,6 +57,7 @@ private:
   bool Notes = false;
   unsigned Added = 0;
   LossValues Losses;
+  std::vector<ExposureMatrix> Exposed;
   PlanePair Sum;
 };
 
