@@ -90,7 +90,10 @@ std::string curveOf(const std::vector<float> &Losses, const std::string &What) {
 
 Expected<Success> writeOutputs(const TrainArguments &A,
                                const TrainOutcome &Out) {
-  if (auto Written = writePly(A.Output, Out.Result); !Written)
+  if (auto Written =
+          writePly(A.Output, Out.Result,
+                   {A.Request.Run.Antialiased, std::nullopt, "--antialiased"});
+      !Written)
     return Written;
   if (!A.Curve.empty())
     if (auto Written = writeFileAtomically(
@@ -257,6 +260,10 @@ Runner addTrain(CLI::App &App) {
                "Another colour in each iteration; --background is that of "
                "held-out views");
   addMasksOption(App, R.Run.Masks);
+  App.add_flag(
+      "--antialiased", R.Run.Antialiased,
+      "Lower opacities where the dilation widens a Gaussian; the scene "
+      "says that it is to be drawn so");
   addRulesOption(App, R.Convention);
   addPathOption(App, R.Blending.Kind,
                 "Who blends and goes back: the rasterizer or the cores");

@@ -7,13 +7,15 @@ namespace vorion::splat {
 namespace {
 
 RenderOptions trainingOptions(Rules Convention, const Blender &By,
-                              const std::array<float, 3> &Background) {
+                              const DeviceRenderer::Look &How) {
   RenderOptions O;
   O.Convention = Convention;
   O.Blending = By.Kind;
   O.SimtTile = By.SimtTile;
   O.SimtGroup = By.SimtGroup;
-  O.Background = Background;
+  O.Antialiased = How.Antialiased;
+  // Any but black makes kernels that know a background.
+  O.Background = How.Several ? std::array<float, 3>{1, 1, 1} : How.Background;
   O.Training = true;
   return O;
 }
@@ -21,15 +23,10 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
 } // namespace
 
 DeviceRenderer::DeviceRenderer(Launcher &Launch, Rules Convention,
-                               const Blender &By, const BackwardOptions &How,
-                               const std::array<float, 3> &Background,
-                               bool Several)
-    : Launch(Launch), Choice(How),
-      // Any but black makes kernels that know a background.
-      Options(trainingOptions(Convention, By,
-                              Several ? std::array<float, 3>{1, 1, 1}
-                                      : Background)),
-      Behind(Background),
+                               const Blender &By,
+                               const BackwardOptions &Backward, const Look &How)
+    : Launch(Launch), Choice(Backward),
+      Options(trainingOptions(Convention, By, How)), Behind(How.Background),
       Drawing(Launch, Options, EffectPlan::forAnyScene(MaxShDegree, Options)) {
   Choice.Parameters = GradientsOf::Stored;
 }

@@ -22,11 +22,15 @@ struct Blender {
 
 class DeviceRenderer : public GradientRenderer {
 public:
-  /// Renders over \p Background by the rules of \p Convention, support `exact`.
-  /// \p Several: setBackground() will follow.
+  /// How pictures are drawn beside the rules.
+  struct Look {
+    std::array<float, 3> Background{};
+    bool Several = false;     ///< setBackground() will follow
+    bool Antialiased = false; ///< scene/Drawing.h
+  };
+  /// Renders by the rules of \p Convention, support `exact`.
   DeviceRenderer(Launcher &Launch, Rules Convention, const Blender &By,
-                 const BackwardOptions &Backward,
-                 const std::array<float, 3> &Background, bool Several = false);
+                 const BackwardOptions &Backward, const Look &How);
 
   void setBackground(const std::array<float, 3> &Colour) override {
     Behind = Colour;

@@ -23,6 +23,7 @@ protected:
     double Spread; ///< of the means, world units
     double Wide;   ///< largest log scale
     bool Background;
+    bool Antialiased = false;
   };
 
   Scene sceneOf(const Case &K) {
@@ -70,7 +71,8 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
   const Case Cases[] = {{1, 0, 0.2, -1, false},
                         {60, 3, 1.5, -0.5, true},
                         {400, 2, 2, -2, true},
-                        {300, 1, 6, -1, false}}; // many outside, some culled
+                        {300, 1, 6, -1, false}, // many outside, some culled
+                        {60, 1, 1.5, -3, true, true}};
   for (const Case &K : Cases) {
     Launcher L(*Dev, "", {});
     const Scene S = sceneOf(K);
@@ -79,6 +81,7 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     reference::Options O;
     O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
                                         : reference::Rules::Gsplat;
+    O.Antialiased = K.Antialiased;
     std::array<float, 3> Background{};
     if (K.Background) {
       Background = {0.75F, 0.5F, 0.25F};
@@ -105,7 +108,8 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     const auto B = reference::renderBackward(G, Pose, U, O);
 
     L.beginStage(Stage::Blend);
-    DeviceRenderer R(L, Convention, Blending, {}, Background);
+    DeviceRenderer R(L, Convention, Blending, {},
+                     {.Background = Background, .Antialiased = K.Antialiased});
     DeviceScene D = DeviceScene::upload(L, S);
     const cl::Buffer Picture = R.forward(D, C, K.ShDegree);
     const auto [Gradients, Seen] =

@@ -87,6 +87,8 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
     J["settings"] = std::move(Changed);
   if (Run.RandomBackground)
     J["random_background"] = true;
+  if (Run.Antialiased)
+    J["antialiased"] = true;
   if (Run.Masks != MaskSource::None)
     J["masks"] = name(Run.Masks);
   // What the order of the cores' sums depends on.

@@ -30,6 +30,7 @@ struct TrainRun {
   /// Each training picture has one of its own.
   bool RandomBackground = false;
   MaskSource Masks = MaskSource::None;
+  bool Antialiased = false; ///< scene/Drawing.h
 
   /// Which has a reset more.
   bool isWhite() const {

@@ -248,8 +248,9 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   Launch.beginStage(Stage::Build);
   for (const ProgramSpec &P : Trainer::programs(R.Run.Settings, *Pictures))
     Launch.build(P);
-  DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
-                          R.Run.Background, R.Run.RandomBackground);
+  DeviceRenderer Renderer(
+      Launch, R.Convention, R.Blending, R.Backward,
+      {R.Run.Background, R.Run.RandomBackground, R.Run.Antialiased});
   Trainer T(Launch, Renderer, *Pictures, R.Run, Processes);
   if (auto Started = start(W, T); !Started)
     return Started;
