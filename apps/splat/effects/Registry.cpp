@@ -49,6 +49,7 @@ static std::vector<Parameter> makeParameters() {
       Parameter{"CLAMP_STOPS", "the way back, gsplat: none through 0.99"},
       Parameter{"LIMIT_FOLLOWS_DEPTH", "the way back, gsplat: of the limits"},
       Parameter{"STORED_PARAMETERS", "the way back ends before activation"},
+      Parameter{"ABSOLUTE_SUMS", "the way back: sums of absolute gradients"},
       Parameter{"GROUP", "work-items that draw a tile of the cores' path"},
       Parameter{"TILE_ROWS", "the loss: rows of a group's tile"},
       Parameter{"DILATION", "added to the covariance's diagonal, px^2"},
