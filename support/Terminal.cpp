@@ -1,6 +1,9 @@
 #include "vorion/support/Terminal.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <string_view>
 #include <unistd.h>
 
@@ -17,5 +20,23 @@ bool canOverwrite() {
 }
 
 bool canColour() { return canOverwrite() && variable("NO_COLOR").empty(); }
+
+std::string barText(std::size_t Done, std::size_t All) {
+  constexpr std::size_t Width = 20;
+  const std::size_t Full = All == 0 ? 0 : std::min(Done, All) * Width / All;
+  return fmt::format("[{:=<{}}{:<{}}]", "", Full, "", Width - Full);
+}
+
+std::string durationText(double Seconds) {
+  // What is not known, or longer than anybody waits.
+  if (!(Seconds >= 0 && Seconds < 1e9))
+    return "unknown time";
+  const auto Whole = static_cast<long>(std::ceil(Seconds));
+  if (Whole < 120)
+    return fmt::format("{} s", Whole);
+  const long Minutes = (Whole + 30) / 60;
+  return Minutes < 120 ? fmt::format("{} min", Minutes)
+                       : fmt::format("{} h {} min", Minutes / 60, Minutes % 60);
+}
 
 } // namespace vorion

@@ -1,6 +1,7 @@
 // splat: renders 3D Gaussian scenes on an OpenCL device.
 
 #include "commands/Commands.h"
+#include "commands/Progress.h"
 #include "device/Programs.h"
 #include "io/Cameras.h"
 #include "io/ReportHead.h"
@@ -49,6 +50,8 @@ int run(std::vector<std::string> Arguments) {
          [&](const std::string &Set) { Device.set("VORION_SET", Set); },
          "change the Vorion device's configuration (as VORION_SET)")
       ->type_name("KEY=VALUE,...");
+  App.add_flag_callback("--quiet", splat::hideProgress,
+                        "Say nothing of how far a run is");
   // After a command, too.
   App.fallthrough();
 

@@ -10,7 +10,9 @@ def is_plain(name):
 
 def options_in(tool, command):
     """The options that may follow a command: its own, and its tool's, unless these end it."""
-    return command["options"] + [o for o in tool["options"] if "value" in o and "position" not in o]
+    own = {name for option in command["options"] for name in option["names"]}
+    return command["options"] + [o for o in tool["options"] if "position" not in o and "--version" not in o["names"]
+                                 and not own.intersection(o["names"])]
 
 
 def brief(option, most=120):

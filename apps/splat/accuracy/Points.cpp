@@ -3,9 +3,11 @@
 #include "io/Inside.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Terminal.h"
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
 #include <mutex>
@@ -93,6 +95,18 @@ Expected<Success> measureAll(KeptPoints &Kept,
   std::mutex Lock;
   std::size_t Count = 0;
   std::optional<Error> Failure;
+  const auto Begin = std::chrono::steady_clock::now();
+  // At the rate so far; nothing after the last.
+  const auto Left = [&]() -> std::string {
+    if (Count == Wanted.size())
+      return "";
+    const std::chrono::duration<double> Spent =
+        std::chrono::steady_clock::now() - Begin;
+    return fmt::format(", {} left",
+                       durationText(Spent.count() *
+                                    static_cast<double>(Wanted.size() - Count) /
+                                    static_cast<double>(Count)));
+  };
   const auto Work = [&] {
     for (std::size_t I = Next++; I < Wanted.size(); I = Next++) {
       auto Measured = Wanted[I].Measure();
@@ -106,8 +120,9 @@ Expected<Success> measureAll(KeptPoints &Kept,
         Next = Wanted.size();
         return;
       }
-      Log(fmt::format("[{}/{}] {}: {}", ++Count, Wanted.size(), Wanted[I].Name,
-                      Wanted[I].Describe(*Measured)));
+      ++Count;
+      Log(fmt::format("[{}/{}] {}: {}{}", Count, Wanted.size(), Wanted[I].Name,
+                      Wanted[I].Describe(*Measured), Left()));
     }
   };
   std::vector<std::thread> Others;

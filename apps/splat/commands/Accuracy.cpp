@@ -3,6 +3,8 @@
 #include "accuracy/Sweep.h"
 #include "commands/AccuracyTrain.h"
 #include "commands/Commands.h"
+#include "commands/OutputFile.h"
+#include "commands/Progress.h"
 #include "commands/SceneArguments.h"
 #include "io/Hash.h"
 #include "io/Inside.h"
@@ -136,6 +138,8 @@ Expected<Split> splitViews(const SweepPlan &P,
 }
 
 void say(std::string_view Line) {
+  if (isProgressHidden())
+    return;
   printNote(fmt::format("splat: {}\n", escaped(Line)));
 }
 
@@ -308,9 +312,9 @@ Runner addAccuracy(CLI::App &App) {
   auto A = std::make_shared<AccuracyArguments>();
   writesFolder(
       App.add_option("--out", A->Folder,
-                     "Folder for measurements and page; what is there, "
-                     "made from the same, is used"))
-      ->required();
+                     "Folder for measurements and page; what is there, made "
+                     "from the same, is used (default: the scene's or the "
+                     "capture's name and -accuracy, in this folder)"));
   App.add_option("--jobs", A->Jobs, "Points measured at the same time")
       ->check(CLI::Range(1U, 256U))
       ->option_text("N");
@@ -356,7 +360,12 @@ Runner addAccuracy(CLI::App &App) {
       ->check(CLI::Range(8U, 4096U))
       ->option_text("N");
   addTrainOptions(App, A->Train, optionsFrom(App, First));
-  return [A](const DeviceOptions &Machine) { return run(*A, Machine); };
+  return [A](const DeviceOptions &Machine) {
+    nameOutput("--out", A->Folder,
+               A->Train.Capture.empty() ? A->Scene.Path : A->Train.Capture,
+               "-accuracy");
+    return run(*A, Machine);
+  };
 }
 
 } // namespace vorion::splat

@@ -17,7 +17,7 @@ namespace vorion::splat {
 namespace {
 
 struct DemoArguments {
-  std::string Output, Cameras;
+  std::string Output = "demo.ply", Cameras;
   int Gaussians = demo::DefaultGaussians;
 };
 
@@ -49,9 +49,9 @@ Expected<Success> run(const DemoArguments &A) {
 
 Runner addDemoScene(CLI::App &App) {
   auto A = std::make_shared<DemoArguments>();
-  writesFile(App.add_option("-o,--output", A->Output, "Scene to write (.ply)"),
-             {".ply"})
-      ->required();
+  writesFile(App.add_option("-o,--output", A->Output,
+                            "Scene to write (.ply; default demo.ply)"),
+             {".ply"});
   writesFile(App.add_option("--cameras", A->Cameras,
                             "Write its views too (cameras.json)"),
              {".json"});

@@ -115,7 +115,7 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   auto D = openDevice(A.Device, A.Options.Blending, Machine);
   if (!D)
     return D.error();
-  Launcher L(*D, A.KernelFolder, progress());
+  Launcher L(*D, A.KernelFolder, progressOf(Views.size()));
   const auto Scores = evaluate(L, Plan, File->Gaussians, A.Options, Views);
   endProgress();
   if (!Scores) {

@@ -179,9 +179,9 @@ Runner addGradients(CLI::App &App) {
   writesFile(
       App.add_option("-o,--output", A->Output,
                      "Gradients and hand-over sums (.npz), named as in the "
-                     "reference results"),
-      {".npz"})
-      ->required();
+                     "reference results (default: the scene's name and "
+                     "-gradients.npz, in this folder)"),
+      {".npz"});
   writesFile(App.add_option("--json", A->Json,
                             "Write what was done, and how much of it"),
              {".json"});
@@ -190,7 +190,10 @@ Runner addGradients(CLI::App &App) {
   addGradientOptions(App, A->Options, A->Backward);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);
-  return [A](const DeviceOptions &Machine) { return run(*A, Machine); };
+  return [A](const DeviceOptions &Machine) {
+    nameOutput("-o", A->Output, A->Scene.Path, "-gradients.npz");
+    return run(*A, Machine);
+  };
 }
 
 } // namespace vorion::splat

@@ -1,5 +1,6 @@
 #include "commands/OutputFile.h"
 
+#include "io/ReportHead.h"
 #include "scene/SceneFile.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Printable.h"
@@ -87,6 +88,20 @@ Expected<Success> checkEnding(std::string_view Option, const std::string &File,
                              std::ranges::any_of(Endings, Ends)
                                  ? ""
                                  : didYouMean(endingOf(File), Endings)));
+}
+
+void nameOutput(const char *Option, std::string &File, const std::string &Input,
+                std::string_view Ending) {
+  if (!File.empty())
+    return;
+  std::error_code Ignored;
+  std::filesystem::path Path =
+      std::filesystem::absolute(Input, Ignored).lexically_normal();
+  if (!Path.has_filename()) // of a folder, after a slash
+    Path = Path.parent_path();
+  const std::string Stem = Path.stem().string();
+  File = (Stem.empty() ? "out" : Stem) + std::string(Ending);
+  completeCommandLine(Option, File);
 }
 
 Expected<Success> checkJsonName(const std::string &File) {

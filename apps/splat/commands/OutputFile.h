@@ -16,6 +16,12 @@ namespace vorion::splat {
 Expected<Success> checkEnding(std::string_view Option, const std::string &File,
                               const std::vector<std::string_view> &Endings);
 
+/// Gives \p File, the value of \p Option, a name if the user gave none: that of
+/// \p Input, a file or a folder, in the current folder and with \p Ending.
+/// Reports say it as if the user had.
+void nameOutput(const char *Option, std::string &File, const std::string &Input,
+                std::string_view Ending);
+
 /// That the ending of \p File, the value of --json, does not promise another
 /// kind of file.
 Expected<Success> checkJsonName(const std::string &File);

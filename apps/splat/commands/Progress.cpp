@@ -1,22 +1,91 @@
 #include "commands/Progress.h"
 
+#include "device/Launcher.h"
 #include "vorion/support/Terminal.h"
 
+#include <chrono>
 #include <cstdio>
 #include <fmt/format.h>
+#include <memory>
 
 namespace vorion::splat {
+namespace {
+
+bool Hidden = false;
+
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::duration D) {
+  return std::chrono::duration<double>(D).count();
+}
+
+/// Views are drawn one after the other, each with one blend, or one is prepared
+/// while another is blended: a view is drawn once its blend is over.
+class ViewProgress {
+public:
+  explicit ViewProgress(std::size_t Views) : Views(Views) {}
+
+  void enter(std::string_view Doing) {
+    if (Blends) {
+      ++Drawn;
+      if (!canOverwrite())
+        sayLine();
+    }
+    Blends = Doing == name(Stage::Blend);
+    if (canOverwrite())
+      std::fputs(fmt::format("\r\033[Ksplat: {} view {} of {}: {} ...{}",
+                             barText(Drawn, Views), Drawn + 1, Views, Doing,
+                             left())
+                     .c_str(),
+                 stderr);
+  }
+
+private:
+  std::string left() const {
+    return Drawn == 0 ? ""
+                      : fmt::format(", {} left",
+                                    durationText(seconds(Clock::now() - Begin) *
+                                                 (Views - Drawn) / Drawn));
+  }
+  void sayLine() {
+    constexpr double Every = 10; // seconds
+    if (Drawn == Views || seconds(Clock::now() - LastLine) < Every)
+      return;
+    LastLine = Clock::now();
+    std::fputs(
+        fmt::format("splat: {} of {} views{}\n", Drawn, Views, left()).c_str(),
+        stderr);
+  }
+
+  std::size_t Views, Drawn = 0;
+  bool Blends = false;
+  Clock::time_point Begin = Clock::now(), LastLine = Begin;
+};
+
+} // namespace
+
+void hideProgress() { Hidden = true; }
+
+bool isProgressHidden() { return Hidden; }
 
 std::function<void(std::string_view)> progress() {
-  if (!canOverwrite())
+  if (Hidden || !canOverwrite())
     return {};
   return [](std::string_view Stage) {
     std::fputs(fmt::format("\r\033[Ksplat: {} ...", Stage).c_str(), stderr);
   };
 }
 
+std::function<void(std::string_view)> progressOf(std::size_t Views) {
+  if (Hidden || Views < 2)
+    return progress();
+  return [P = std::make_shared<ViewProgress>(Views)](std::string_view Stage) {
+    P->enter(Stage);
+  };
+}
+
 void endProgress() {
-  if (canOverwrite())
+  if (!Hidden && canOverwrite())
     std::fputs("\r\033[K", stderr);
 }
 

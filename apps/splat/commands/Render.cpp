@@ -272,7 +272,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   auto D = Open();
   if (!D)
     return D.error();
-  Launcher L(*D, A.KernelFolder, progress());
+  Launcher L(*D, A.KernelFolder, progressOf(Cameras->size()));
   fallBack(A, L, Inputs, Plan);
   const PictureJob J{A.Scene.Path, A.Scene.Axes, A.Cameras, *File,
                      A.Options,    Plan,         L,         A.Output,
@@ -313,9 +313,10 @@ Runner addRender(CLI::App &App) {
   App.add_flag("--overlap", A->Overlap,
                "Of several pictures, prepare one while another is blended");
   writesFile(App.add_option("-o,--output", A->Output,
-                            "Picture: .png, or .pfm or .npz for linear floats"),
-             {".png", ".pfm", ".npz"})
-      ->required();
+                            "Picture: .png, or .pfm or .npz for linear floats "
+                            "(default: the scene's name and .png, in this "
+                            "folder)"),
+             {".png", ".pfm", ".npz"});
   writesFile(App.add_option("--json", A->Json,
                             "Write what was done, and how much of it"),
              {".json"});
@@ -358,6 +359,7 @@ Runner addRender(CLI::App &App) {
              {".npz"});
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {
+    nameOutput("-o", A->Output, A->Scene.Path, ".png");
     if (auto Parsed = parseDrawTexts(*A); !Parsed)
       return Parsed;
     return run(*A, Machine);

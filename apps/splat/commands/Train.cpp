@@ -4,6 +4,7 @@
 #include "commands/DeviceArguments.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
+#include "commands/Progress.h"
 #include "commands/TrainSettingOptions.h"
 
 #include "analyze/Chart.h"
@@ -43,6 +44,8 @@ struct TrainArguments {
 
 /// One line that says how far the run is; on a terminal it is overwritten.
 void showProgress(const TrainProgress &P) {
+  if (isProgressHidden())
+    return;
   const bool Terminal = canOverwrite();
   constexpr unsigned Every = 50;
   const StepReport &R = P.Step;
@@ -57,8 +60,9 @@ void showProgress(const TrainProgress &P) {
           ? fmt::format(", {:.3f} of the machine's clock", *P.MachineRate)
           : "",
       P.Last > R.Iteration
-          ? fmt::format(", {:.0f} s left", P.Seconds * (P.Last - R.Iteration) /
-                                               (R.Iteration - P.First))
+          ? fmt::format(", {} left",
+                        durationText(P.Seconds * (P.Last - R.Iteration) /
+                                     (R.Iteration - P.First)))
           : "",
       Terminal ? "" : "\n");
   // Not printNote(), which would escape what clears the line.
@@ -66,7 +70,7 @@ void showProgress(const TrainProgress &P) {
 }
 
 void endTrainProgress() {
-  if (canOverwrite())
+  if (canOverwrite() && !isProgressHidden())
     printNote("\n");
 }
 
@@ -229,9 +233,10 @@ Runner addTrain(CLI::App &App) {
                            "Photographs with poses: COLMAP, NeRF-synthetic, "
                            "transforms.json"))
       ->required();
-  writesFile(App.add_option("-o,--output", A->Output, "Scene: INRIA's PLY"),
-             {".ply"})
-      ->required();
+  writesFile(App.add_option("-o,--output", A->Output,
+                            "Scene: INRIA's PLY (default: the capture's name "
+                            "and .ply, in this folder)"),
+             {".ply"});
   App.add_option("--iterations", S.Iterations,
                  fmt::format("Iterations in all (default {})", S.Iterations))
       ->check(isIterations());
@@ -307,6 +312,7 @@ Runner addTrain(CLI::App &App) {
     A->Request.Run.Settings = *Settings;
     A->Request.Backward.AbsoluteSums = Settings->AbsoluteGradient;
     A->Request.Read.Masks = A->Request.Run.Masks;
+    nameOutput("-o", A->Output, A->Request.Capture, ".ply");
     if (A->Request.Checkpoint.empty())
       A->Request.Checkpoint = A->Output + ".checkpoint";
     return run(*A, Machine);

@@ -22,6 +22,11 @@ void setCommandLine(std::vector<std::string> Arguments) {
   commandLine() = std::move(Arguments);
 }
 
+void completeCommandLine(std::string Option, std::string Value) {
+  commandLine().push_back(std::move(Option));
+  commandLine().push_back(std::move(Value));
+}
+
 bool isRecordedVariable(std::string_view Name) {
   // The machine and its clock; others watch, or say where programs are.
   constexpr std::array<std::string_view, 3> Recorded{

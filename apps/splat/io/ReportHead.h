@@ -12,6 +12,9 @@ namespace vorion::splat {
 /// The command line of this process without the program's name, said once by
 /// its main function.
 void setCommandLine(std::vector<std::string> Arguments);
+/// Adds an option that the user left out, with the value that it then has: a
+/// result is made again by what reports say.
+void completeCommandLine(std::string Option, std::string Value);
 
 /// "schema" with \p Name and \p Version, and "program" with its versions, its
 /// command line, and the folder and variables that give it a meaning.

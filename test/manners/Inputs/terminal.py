@@ -47,3 +47,11 @@ for name, variables, on_terminal in KINDS:
     text = said(["splat", "train", capture, "-o", os.path.join(folder, "o.ply"), "--iterations", "2"], variables, on_terminal)
     left = "time left" if re.search(rb", \d+ s left", text) else "no time left"
     print(f"training: {name} {kind(text)}, {left}")
+
+render = ["splat", "render", os.path.join(folder, "scene.ply"), "--cameras", os.path.join(folder, "cameras.json"), "--view",
+          "front", "--view", "close", "-o", os.path.join(folder, "view.pfm")]
+for name, variables, on_terminal in KINDS:
+    text = said(render, variables, on_terminal)
+    left = "time left" if re.search(rb"\] view 2 of 2: [^,]*, \d+ (s|min) left", text) else "no time left"
+    print(f"views: {name} {kind(text)}, {left}")
+print("quiet:", kind(said([*render, "--quiet"], {"TERM": "xterm"}, True)))

@@ -1,6 +1,9 @@
 /// What standard error can show.
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 namespace vorion {
 
 /// Whether it is a terminal that clears and overwrites a line: not if TERM is
@@ -9,5 +12,12 @@ bool canOverwrite();
 
 /// Whether it shows colours, and nobody asked for none (https://no-color.org).
 bool canColour();
+
+/// A bar of fixed width of which the share \p Done of \p All is full:
+/// "[====      ]".
+std::string barText(std::size_t Done, std::size_t All);
+
+/// A time that is left, as people say it: "40 s", "3 min", "2 h 5 min".
+std::string durationText(double Seconds);
 
 } // namespace vorion
