@@ -65,9 +65,30 @@ std::string unknown(std::string_view What, std::string_view Word,
                          : fmt::format("did you mean {}? (see --help)", Meant));
 }
 
+/// What must be given to \p App: "tool render scene --output FILE".
+std::string shortestCall(const CLI::App &App) {
+  std::string Call = App.get_name();
+  for (const CLI::App *Outer = App.get_parent(); Outer;
+       Outer = Outer->get_parent())
+    Call = Outer->get_name() + " " + Call;
+  for (const bool Positional : {true, false})
+    for (const CLI::Option *O : App.get_options())
+      if (O->get_required() && O->get_positional() == Positional)
+        Call += Positional
+                    ? " " + O->get_name()
+                    : fmt::format(" {} {}", O->get_name(), O->get_type_name());
+  return Call;
+}
+
 /// What is wrong, of \p App that refused its arguments with \p Said: a word
-/// that nobody knows is told rather than what is missing without it.
-std::string problemOf(const CLI::App &App, const std::string &Said) {
+/// that nobody knows is told rather than what is missing without it. \p First
+/// is the first argument.
+std::string problemOf(const CLI::App &App, const std::string &Said,
+                      const std::string &First) {
+  const std::vector<std::string> Outermost = subcommandsOf(App);
+  if (!Outermost.empty() && !First.empty() && !First.starts_with('-') &&
+      std::ranges::find(Outermost, First) == Outermost.end())
+    return unknown("subcommand", First, Outermost);
   const CLI::App *Inner = &App;
   while (!Inner->get_subcommands().empty())
     Inner = Inner->get_subcommands().front();
@@ -81,6 +102,12 @@ std::string problemOf(const CLI::App &App, const std::string &Said) {
   if (Option != Left.end())
     return unknown("option", Option->substr(0, Option->find('=')),
                    optionsOf(Inner));
+  if (Said == CLI::RequiredError::Subcommand(1).what())
+    return fmt::format("no subcommand, expected one of {} (see --help)",
+                       fmt::join(Commands, ", "));
+  if (Said.ends_with(" is required"))
+    return fmt::format("{}, expected: {} (see --help)", Said,
+                       shortestCall(*Inner));
   // A check of ours says itself what it expects.
   return Said.find("expected") == std::string::npos
              ? fmt::format("{}, {}", Said, SeeHelp)
@@ -194,6 +221,7 @@ std::optional<int> parseCommandLine(CLI::App &App,
     printOut("{}\n", definitionOf(App));
     return static_cast<int>(ExitCode::Ok);
   }
+  const std::string First = Arguments.empty() ? "" : Arguments.front();
   std::ranges::reverse(Arguments); // CLI11 takes them from the end
   try {
     App.parse(std::move(Arguments));
@@ -201,18 +229,19 @@ std::optional<int> parseCommandLine(CLI::App &App,
     return App.exit(E); // --help
   } catch (const CLI::ParseError &E) {
     return reportError(App.get_name(),
-                       {"", problemOf(App, E.what()), ExitCode::Usage});
+                       {"", problemOf(App, E.what(), First), ExitCode::Usage});
   }
   return std::nullopt;
 }
 
 Expected<Success> parseOptions(CLI::App &App,
                                std::vector<std::string> Arguments) {
+  const std::string First = Arguments.empty() ? "" : Arguments.front();
   std::ranges::reverse(Arguments);
   try {
     App.parse(std::move(Arguments));
   } catch (const CLI::ParseError &E) {
-    return Error{"", problemOf(App, E.what()), ExitCode::Usage};
+    return Error{"", problemOf(App, E.what(), First), ExitCode::Usage};
   }
   return Success{};
 }

@@ -14,7 +14,7 @@ std::string said(std::vector<std::string> Arguments) {
   std::string Set, Cameras, Json, Path;
   App.add_option("--set", Set);
   CLI::App *Render = App.add_subcommand("render", "");
-  Render->add_option("--cameras", Cameras)->required();
+  takesFile(Render->add_option("--cameras", Cameras))->required();
   takesFile(Render->add_option("-j,--json", Json), {".json"});
   Render->add_option("--path", Path)->check(isOneOf({"raster", "simt"}));
   App.add_subcommand("train", "");
@@ -130,9 +130,15 @@ TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {
   EXPECT_EQ(said({"render", "--nonsense", "c"}),
             "tool: error: unknown option --nonsense, expected: see --help\n");
   EXPECT_EQ(said({"render"}),
-            "tool: error: --cameras is required, expected: see --help\n");
-  EXPECT_EQ(said({}),
-            "tool: error: A subcommand is required, expected: see --help\n");
+            "tool: error: --cameras is required, expected: tool render "
+            "--cameras FILE (see --help)\n");
+  EXPECT_EQ(said({}), "tool: error: no subcommand, expected one of render, "
+                      "train (see --help)\n");
+  EXPECT_EQ(said({"help", "render"}),
+            "tool: error: unknown subcommand help, expected: see --help\n");
+  EXPECT_EQ(said({"--set", "a=b"}),
+            "tool: error: no subcommand, expected one of render, train (see "
+            "--help)\n");
   EXPECT_EQ(said({"render", "--\x1b[31m"}),
             "tool: error: unknown option --\\x1b[31m, expected: see --help\n");
 }

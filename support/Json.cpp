@@ -17,6 +17,9 @@ struct Bracket {
   std::size_t Commas = 0;
 };
 
+/// The parser takes it before the text.
+constexpr std::string_view ByteOrderMark = "\xef\xbb\xbf";
+
 /// What \p Text asks for beyond \p Limits, found before anything is made of it.
 /// Up to the first error of syntax this sees brackets and strings as the parser
 /// does.
@@ -24,6 +27,13 @@ std::string beyond(std::string_view Text, const JsonLimits &Limits) {
   if (Text.size() > Limits.Bytes)
     return fmt::format("{} bytes of JSON, expected at most {}", Text.size(),
                        Limits.Bytes);
+  // What begins otherwise, such as a picture, is no JSON, which the parser
+  // says.
+  const std::size_t Start = Text.find_first_not_of(
+      " \t\r\n", Text.starts_with(ByteOrderMark) ? ByteOrderMark.size() : 0);
+  if (Start == std::string_view::npos ||
+      (Text[Start] != '[' && Text[Start] != '{'))
+    return {};
   std::size_t Values = 1;
   std::vector<Bracket> Open;
   bool InText = false;

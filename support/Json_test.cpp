@@ -57,6 +57,10 @@ TEST(Json, DepthIsBounded) {
     Objects += "{\"a\":";
   EXPECT_EQ(errorOf(Objects), TooDeep);
   EXPECT_EQ(errorOf('"' + nested(1000) + '"'), "") << "a string is not nested";
+  EXPECT_EQ(errorOf("\xef\xbb\xbf " + nested(257)), TooDeep);
+  EXPECT_EQ(errorOf("1" + nested(1000)), "f:1: not JSON, expected a thing");
+  EXPECT_EQ(errorOf("ply\n" + nested(1000)), "f:1: not JSON, expected a thing")
+      << "the first thing that is wrong";
 }
 
 TEST(Json, SizesAreBounded) {

@@ -25,6 +25,8 @@ constexpr const char *WritableFolder = "a folder that can be written";
 
 Error cannotWrite(const std::string &Path, int Cause,
                   std::string_view Wanted = WritableFolder) {
+  if (Wanted == WritableFolder && (Cause == ENOSPC || Cause == EDQUOT))
+    Wanted = "free space there";
   return {Path, fmt::format("cannot write: {}, expected {}",
                             std::strerror(Cause), Wanted)};
 }

@@ -7,6 +7,7 @@
 import os
 import platform
 import shutil
+import subprocess
 import sys
 
 import lit.formats
@@ -70,6 +71,11 @@ if platform.machine() == "x86_64":
 else:
     lit_config.note(f"x86-host is missing: tests that require it are skipped (this is {platform.machine()})")
 config.substitutions.append(("%llvm-tests", features["llvm-tests"]))
+if shutil.which("unshare") and subprocess.run(
+        ["unshare", "-rm", "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True, check=False).returncode == 0:
+    config.available_features.add("own-mounts")
+else:
+    lit_config.note("own-mounts is missing: tests that require it are skipped (unshare -rm may not mount a tmpfs)")
 for feature, path in features.items():
     if os.path.exists(path):
         config.available_features.add(feature)

@@ -85,9 +85,15 @@ Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
 
 Expected<Success> KernelLaunch::packArguments(const Kernel &K,
                                               const KernelRequest &R) {
-  if (R.Args.size() != K.Args.size())
-    return usage(fmt::format("{} arguments, expected {} for kernel '{}'",
-                             R.Args.size(), K.Args.size(), K.Name));
+  constexpr const char *Kinds[] = {"a value", "a buffer", "local memory"};
+  if (R.Args.size() != K.Args.size()) {
+    std::string Wanted;
+    for (const KernelArg &Arg : K.Args)
+      Wanted += fmt::format("{}{} ({})", Wanted.empty() ? ": " : ", ", Arg.Name,
+                            Kinds[Arg.Kind]);
+    return usage(fmt::format("{} arguments, expected {} for kernel '{}'{}",
+                             R.Args.size(), K.Args.size(), K.Name, Wanted));
+  }
   Args.resize(K.ArgsBytes);
   LocalPlaces Locals(K, Device->config());
   for (size_t N = 0; N != K.Args.size(); ++N) {
@@ -95,7 +101,6 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     const Expected<KernelInput> In = parseInput(R.Args[N]);
     if (!In)
       return In.error();
-    constexpr const char *Kinds[] = {"a value", "a buffer", "local memory"};
     if (static_cast<uint32_t>(In->What) != Arg.Kind)
       return usage(fmt::format("argument {} of '{}' ({}) is '{}', expected {}",
                                N, K.Name, Arg.Name, R.Args[N],

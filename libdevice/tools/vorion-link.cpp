@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -146,6 +147,10 @@ Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
   int Status = 0;
   while (waitpid(Child, &Status, 0) < 0 && errno == EINTR) {
   }
+  // It writes through a map, which a full disk ends by this signal.
+  if (WIFSIGNALED(Status) && WTERMSIG(Status) == SIGBUS)
+    return Error{"", "ld.lld-19 could not write its output, expected free "
+                     "space there"};
   if (!WIFEXITED(Status) || WEXITSTATUS(Status) != 0)
     return Error{"", "the link failed, expected ld.lld-19 to accept what its "
                      "messages above name"};

@@ -109,6 +109,9 @@ Error kernelError(const std::string &Input, const std::string &Output) {
 
 Error linkerError(const std::string &Image, const std::string &Output) {
   const auto Cause = after(Output, "error: ");
+  // One of ours says itself what it expects.
+  if (Cause && Cause->find(", expected ") != std::string::npos)
+    return {Image, "cannot be linked: " + *Cause};
   return {Image, "cannot be linked" + (Cause ? " (" + *Cause + ")" : "") +
                      ", expected kernels that make one program"};
 }

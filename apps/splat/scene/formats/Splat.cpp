@@ -27,10 +27,11 @@ bool isSplat(Bytes /*File*/) { return false; }
 Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
                                const ReadOptions &Options) {
   if (File.size() % RecordSize != 0)
-    return Error{Where, fmt::format("{} bytes and none of the other formats' "
-                                    "marks, expected .splat records of {} "
-                                    "bytes",
-                                    File.size(), RecordSize)};
+    return Error{Where,
+                 fmt::format("not a scene: {} bytes without the mark of a "
+                             "format, expected a file as in docs/scenes.md, or "
+                             ".splat records of {} bytes",
+                             File.size(), RecordSize)};
   const std::size_t Count = File.size() / RecordSize;
   SceneFile Result;
   Result.Format = SceneFormat::Splat;

@@ -104,8 +104,8 @@ void addCompressedPlyDamage(std::vector<DamagedFile> &Out) {
 
 void addSplatDamage(std::vector<DamagedFile> &Out) {
   const std::string Splat = splatOf(sample(0));
-  Out.push_back({"short.splat", cut(Splat, 1),
-                 "159 bytes and none of the other formats' marks"});
+  Out.push_back(
+      {"short.splat", cut(Splat, 1), "159 bytes without the mark of a format"});
   Out.push_back(
       {"nan.splat", patched(Splat, 36, NaN), "record 1 has position nan"});
   Out.push_back({"infinite.splat", patched(Splat, 12, Infinity),
