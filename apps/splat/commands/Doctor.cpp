@@ -13,6 +13,7 @@
 #include "vorion/support/Outputs.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <iterator>
@@ -91,6 +92,8 @@ Expected<Success> run(const std::string &JsonFile,
         !Written)
       return Written;
   printOut("{}", textReport(All));
+  // In a log, too, the count stands below what is counted.
+  std::fflush(stdout);
   if (Faults != 0)
     return Error{"",
                  fmt::format("{} fault{}, expected none", Faults,
