@@ -37,3 +37,4 @@ step "unpacking LLVM's own RISC-V tests" source-llvm-tests "$Root/scripts/fetch-
 step "fetching and patching PoCL" source-pocl "$Root/scripts/fetch-source.sh" pocl
 step "configuring" configure cmake --preset dev -S "$Root"
 step "building (the first time several minutes)" build cmake --build "$Build" -j "$Jobs"
+printf '[%s] built; ". scripts/env.sh" puts the tools on the path, and docs/tutorials/README.md shows their use\n' "$(elapsed)"

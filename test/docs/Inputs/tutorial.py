@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Does what a page says, as somebody who reads it in a shell that is new and stands in the repository.
 
-usage: tutorial.py [--all] [--tables] [--without START]... [--put NAME=FILE]... PAGE FOLDER
+usage: tutorial.py [--all] [--tables] [--without START]... [--installed TREE | --put NAME=FILE...] PAGE FOLDER
 FOLDER is made anew. It shows the repository and its build, and has a build/ of its own for what the page writes.
 A fenced text of the page is
 
@@ -12,6 +12,7 @@ A fenced text of the page is
 With --tables the commands in tables run, too: the last cell of a row, if it is one text of code that begins with the name
 of a tool, and has no word in capitals, for which the reader puts something else. --without leaves
 out those that begin so, for example because they do not end by themselves.
+--installed TREE stands for somebody who has the installed tree alone, and types its env.sh instead of the repository's.
 --put gives a page a file that it expects and that takes long to make.
 Exit codes: 0 all as the page says, 1 not, 2 usage.
 """
@@ -119,6 +120,7 @@ def main():
     parser.add_argument("--tables", action="store_true")
     parser.add_argument("--without", action="append", default=[])
     parser.add_argument("--build", default=os.path.join(ROOT, "build", "dev"))
+    parser.add_argument("--installed")
     parser.add_argument("--put", action="append", default=[], type=lambda v: v.split("=", 1))
     parser.add_argument("page")
     parser.add_argument("folder")
@@ -127,7 +129,13 @@ def main():
         steps = steps_of(options.page, f.read(), options.all, options.tables, tuple(options.without))
     if not steps:
         fail(f"{options.page} has no command")
-    show_repository(options.folder, options.build, options.put)
+    if options.installed:
+        shutil.rmtree(options.folder, ignore_errors=True)
+        os.makedirs(options.folder)
+        for step in steps:
+            step.commands = step.commands.replace(". scripts/env.sh", f". {options.installed}/share/vorion/env.sh")
+    else:
+        show_repository(options.folder, options.build, options.put)
     run(options.page, steps, options.folder)
     print(f"{options.page}: {len(steps)} steps, {sum(s.printed is not None for s in steps)} outputs as the page says")
 
