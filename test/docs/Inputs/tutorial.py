@@ -12,7 +12,7 @@ A fenced text of the page is
 With --tables the commands in tables run, too: the last cell of a row, if it is one text of code that begins with the name
 of a tool, and has no word in capitals, for which the reader puts something else. --without leaves
 out those that begin so, for example because they do not end by themselves.
---installed TREE stands for somebody who has the installed tree alone, and types its env.sh instead of the repository's.
+--installed TREE stands for somebody who has the installed tree alone, and types its env.sh.
 --put gives a page a file that it expects and that takes long to make.
 Exit codes: 0 all as the page says, 1 not, 2 usage.
 """
