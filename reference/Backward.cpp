@@ -127,34 +127,50 @@ private:
     dmat3 A;
     for (int N = 0; N < 3; ++N)
       A[N] = multiply(View.Rotation, Q[N]) * Input.Scales[I][N];
+    if (View.Optics.Model != LensModel::Pinhole)
+      return throughLens(I, V, P, Q, A);
     const Jacobian<double> J = jacobian(P, View, Settings.Rule);
     const Footprint<double> F = footprint(A, J);
-    const dvec3 Gx = 2. * (V[0] * F.X + V[1] * F.Y);
-    const dvec3 Gy = 2. * (V[1] * F.X + V[2] * F.Y);
-
-    const dmat3 Back = glm::transpose(View.Rotation);
-    dmat3 ByRotation;
-    double ByXX = 0, ByXZ = 0, ByYY = 0, ByYZ = 0;
-    for (int N = 0; N < 3; ++N) {
-      const dvec3 ByA(J.XX * Gx[N], J.YY * Gy[N], J.XZ * Gx[N] + J.YZ * Gy[N]);
-      const dvec3 InWorld = Back * ByA;
-      Out.Scales[I][N] = glm::dot(Q[N], InWorld);
-      ByRotation[N] = InWorld * Input.Scales[I][N];
-      ByXX += Gx[N] * A[N][0];
-      ByXZ += Gx[N] * A[N][2];
-      ByYY += Gy[N] * A[N][1];
-      ByYZ += Gy[N] * A[N][2];
-    }
-    Out.Quats[I] = quaternionGradient(Input.Quats[I], ByRotation);
+    const LensRows<double> ByRows =
+        toAxes(I, V, F, {{J.XX, 0, J.XZ}, {0, J.YY, J.YZ}}, Q, A);
 
     const double Z = P.z, ZZ = Z * Z;
     const dvec2 &M = Out.Means2d[I];
     dvec3 ByP(View.Focal.x / Z * M.x, View.Focal.y / Z * M.y,
               -(View.Focal.x * P.x * M.x + View.Focal.y * P.y * M.y) / ZZ);
-    ByP.z -= (View.Focal.x * ByXX + View.Focal.y * ByYY) / ZZ;
-    ByP.x += held(J.HeldX, View.Focal.x, J.Tx, Z, ByXZ, ByP.z);
-    ByP.y += held(J.HeldY, View.Focal.y, J.Ty, Z, ByYZ, ByP.z);
-    return Back * ByP;
+    ByP.z -= (View.Focal.x * ByRows.X.x + View.Focal.y * ByRows.Y.y) / ZZ;
+    ByP.x += held(J.HeldX, View.Focal.x, J.Tx, Z, ByRows.X.z, ByP.z);
+    ByP.y += held(J.HeldY, View.Focal.y, J.Ty, Z, ByRows.Y.z, ByP.z);
+    return glm::transpose(View.Rotation) * ByP;
+  }
+
+  dvec3 throughLens(std::size_t I, const Symmetric &V, const dvec3 &P,
+                    const dmat3 &Q, const dmat3 &A) {
+    const LensRows<double> J = rowsThrough(View, P, Settings.Rule);
+    const LensRows<double> ByRows = toAxes(I, V, footprint(A, J), J, Q, A);
+    return glm::transpose(View.Rotation) *
+           backThrough(View, P, Settings.Rule, Out.Means2d[I], ByRows);
+  }
+
+  /// From dL/d(covariance) to scales and rotation; returns dL/d(rows of the
+  /// Jacobian).
+  LensRows<double> toAxes(std::size_t I, const Symmetric &V,
+                          const Footprint<double> &F, const LensRows<double> &J,
+                          const dmat3 &Q, const dmat3 &A) {
+    const dvec3 Gx = 2. * (V[0] * F.X + V[1] * F.Y);
+    const dvec3 Gy = 2. * (V[1] * F.X + V[2] * F.Y);
+    const dmat3 Back = glm::transpose(View.Rotation);
+    dmat3 ByRotation;
+    LensRows<double> ByRows{dvec3(0), dvec3(0)};
+    for (int N = 0; N < 3; ++N) {
+      const dvec3 InWorld = Back * (Gx[N] * J.X + Gy[N] * J.Y);
+      Out.Scales[I][N] = glm::dot(Q[N], InWorld);
+      ByRotation[N] = InWorld * Input.Scales[I][N];
+      ByRows.X += Gx[N] * A[N];
+      ByRows.Y += Gy[N] * A[N];
+    }
+    Out.Quats[I] = quaternionGradient(Input.Quats[I], ByRotation);
+    return ByRows;
   }
 
   /// The part of the Jacobian's entry -f t / z^2: adds to \p ByZ, returns that
@@ -232,6 +248,10 @@ Gradients renderBackward(const Gaussians<double> &G, const Camera<double> &C,
   Gradients Out;
   Out.Sums = blendBackward(Splats, C.Width, C.Height, U, O);
   const std::size_t N = G.size();
+  // What goes on behind a seam is the same Gaussian.
+  for (std::size_t I = N; I < Splats.size(); ++I)
+    Out.Sums[I % N] += Out.Sums[I];
+  Out.Sums.resize(N);
   Out.Means2d.resize(N, dvec2(0));
   for (auto *V : {&Out.Conics, &Out.Means, &Out.Scales, &Out.Colors})
     V->resize(N, dvec3(0));

@@ -1,4 +1,5 @@
 #include "Backward.h"
+#include "Lens.h"
 #include "Render.h"
 #include "TestScenes.h"
 
@@ -133,6 +134,40 @@ TEST(Backward, GsplatDifferentiatesTheLimitOfTheJacobian) {
   O.Rule = Rules::Gsplat;
   // Means beyond the limit, tails in the picture.
   expectDifferences(smallScene(6, 1.6), obliqueCamera(), O);
+}
+
+// Through each lens; of an equirectangular one across the seam too.
+TEST(Backward, IsTheDerivativeThroughLenses) {
+  struct {
+    LensModel Model;
+    std::array<double, 12> K;
+  } const Lenses[] = {
+      {LensModel::OpenCv,
+       {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02, -0.01, 0.03}},
+      {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
+      {LensModel::Orthographic, {}},
+      {LensModel::Equirectangular, {}}};
+  for (const auto &[Model, K] : Lenses)
+    for (const Rules Rule : {Rules::Inria, Rules::Gsplat})
+      for (const double Offset : {0., 0.7}) {
+        Options O;
+        O.Rule = Rule;
+        O.Antialiased = Offset == 0;
+        auto C = obliqueCamera();
+        if (Model == LensModel::Equirectangular) {
+          C.Focal = {Width / (2 * M_PI), Height / M_PI};
+          C.Principal = {0.5 * Width, 0.5 * Height};
+          if (Offset != 0) { // it looks back
+            C.Rotation[0] *= -1;
+            C.Rotation[1] *= 1;
+            C.Rotation[2] *= -1;
+            C.Translation = {};
+            C.Centre = {};
+          }
+        }
+        setLens(C, Model, K);
+        expectDifferences(smallScene(9, Offset), C, O);
+      }
 }
 
 TEST(Backward, OneGaussianHasItsClosedForm) {

@@ -2,7 +2,7 @@
 /// footprint, which the projection and its backward pass share.
 #pragma once
 
-#include "Types.h"
+#include "Lens.h"
 
 #include <algorithm>
 
@@ -97,6 +97,17 @@ Footprint<Real> footprint(const Mat3<Real> &A, const Jacobian<Real> &J) {
 template <typename Real>
 Real dotFromLeft(const Vec3<Real> &A, const Vec3<Real> &B) {
   return A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
+}
+
+/// The rows of a lens times A.
+template <typename Real>
+Footprint<Real> footprint(const Mat3<Real> &A, const LensRows<Real> &J) {
+  Footprint<Real> F;
+  for (int K = 0; K < 3; ++K) {
+    F.X[K] = dotFromLeft(J.X, A[K]);
+    F.Y[K] = dotFromLeft(J.Y, A[K]);
+  }
+  return F;
 }
 
 /// The determinant of the covariance before dilation.

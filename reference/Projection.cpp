@@ -4,7 +4,9 @@
 #include "SphericalHarmonics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 namespace vorion::reference {
@@ -26,6 +28,79 @@ ExactDepth exactDepth(const Camera<Real> &C, const Vec3<Real> &Mean) {
   }
   const double Offset = double(C.Translation.z) + double(C.DepthOffsetLow);
   return {D.Z + Offset, D.Magnitude + std::abs(Offset)};
+}
+
+/// The distance from the camera, likewise.
+template <typename Real>
+ExactDepth exactDistance(const Camera<Real> &C, const Vec3<Real> &Mean) {
+  double Squares = 0, Magnitude = 0;
+  for (int K = 0; K < 3; ++K) {
+    const double Centre = double(C.Centre[K]) + double(C.CentreLow[K]);
+    const double D = double(Mean[K]) - Centre;
+    Squares += D * D;
+    Magnitude += std::abs(double(Mean[K])) + std::abs(Centre);
+  }
+  return {std::sqrt(Squares), Magnitude};
+}
+
+/// A Gaussian on the picture before dilation.
+template <typename Real> struct Shape {
+  Vec2<Real> Mean;       ///< pixels
+  Vec3<Real> Covariance; ///< xx, xy, yy
+  Real Determinant = 0;  ///< of that, without cancellation
+};
+
+template <typename Real> Shape<Real> shapeOf(const Footprint<Real> &F) {
+  return {{},
+          {dotFromLeft(F.X, F.X), dotFromLeft(F.X, F.Y), dotFromLeft(F.Y, F.Y)},
+          sharpDeterminant(F)};
+}
+
+/// Whether depth \p Z is drawn; a NaN is not.
+template <typename Real> bool inFront(Real Z, const Options &O) {
+  if (O.Near > 0)
+    return O.Rule == Rules::Inria ? Z > Real(O.Near) : Z >= Real(O.Near);
+  return O.Rule == Rules::Inria ? Z > Real(0.2) : Z >= Real(0.01);
+}
+
+/// By seven points (3DGUT, with alpha 1, beta 2, kappa 0): the mean with a
+/// weight of 0 for the mean and 2 for the covariance, and sqrt(3) deviations
+/// along each axis either way with 1/6. Nothing if the camera does not see one
+/// of them.
+template <typename Real>
+std::optional<Shape<Real>> unscented(const Vec3<Real> &P, const Mat3<Real> &A,
+                                     const Camera<Real> &C, const Options &O) {
+  Vec2<Real> At;
+  if (!placeThrough(C.Optics, P, At))
+    return std::nullopt;
+  const bool Ahead = C.Optics.Model == LensModel::Pinhole ||
+                     C.Optics.Model == LensModel::OpenCv;
+  std::array<Vec2<Real>, 7> Off{};
+  Vec2<Real> Sum(0);
+  for (int N = 0; N < 6; ++N) {
+    const Vec3<Real> Step = std::sqrt(Real(3)) * A[N / 2];
+    const Vec3<Real> Point = N % 2 == 0 ? P + Step : P - Step;
+    Vec2<Real> There;
+    if ((Ahead && !inFront(Point.z, O)) ||
+        !placeThrough(C.Optics, Point, There))
+      return std::nullopt;
+    auto &D = Off[static_cast<std::size_t>(N)];
+    D = C.Focal * placeDifference(C.Optics, There, At);
+    Sum += D;
+  }
+  const Vec2<Real> Shift = Sum / Real(6);
+  for (std::size_t N = 0; N < 7; ++N)
+    Off[N] = (Off[N] - Shift) * std::sqrt(N < 6 ? Real(1) / 6 : Real(2));
+  Shape<Real> S{C.Focal * At + C.Principal + Shift, Vec3<Real>(0), 0};
+  for (std::size_t N = 0; N < 7; ++N) {
+    S.Covariance += Vec3<Real>(Off[N].x * Off[N].x, Off[N].x * Off[N].y,
+                               Off[N].y * Off[N].y);
+    for (std::size_t M = 0; M < N; ++M) {
+      const Real Minor = Off[M].x * Off[N].y - Off[M].y * Off[N].x;
+      S.Determinant += Minor * Minor;
+    }
+  }
+  return S;
 }
 
 /// sqrt(2 ln(255 o)): standard deviations to the ellipse where alpha is 1/255.
@@ -85,32 +160,43 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   // meant by R and t.
   if constexpr (std::is_same_v<Real, double>)
     P = multiply(C.Rotation, G.Means[I]) + C.Translation;
-  const ExactDepth Exact = exactDepth(C, G.Means[I]);
-  P.z = static_cast<Real>(Exact.Z);
-  // A NaN fails either test.
-  const bool InFront =
-      O.Rule == Rules::Inria ? P.z > Real(0.2) : P.z >= Real(0.01);
-  if (!InFront)
+  const Lens &L = C.Optics;
+  const bool Straight = L.Model == LensModel::Pinhole;
+  const ExactDepth Exact =
+      L.byDistance() ? exactDistance(C, G.Means[I]) : exactDepth(C, G.Means[I]);
+  S.Depth = static_cast<Real>(Exact.Z);
+  if (!L.byDistance())
+    P.z = S.Depth;
+  if (!inFront(S.Depth, O))
     return S;
-  S.Depth = P.z;
   S.DepthSlack = 0x1p-44 * Exact.Magnitude;
-  S.Mean = {C.Focal.x * P.x / P.z + C.Principal.x,
-            C.Focal.y * P.y / P.z + C.Principal.y};
-
   Mat3<Real> A = rotation(G.Quats[I]);
   for (int K = 0; K < 3; ++K)
     A[K] *= G.Scales[I][K];
-  const Footprint<Real> F =
-      footprint(multiply(C.Rotation, A), jacobian(P, C, O.Rule));
+  A = multiply(C.Rotation, A);
+  Vec2<Real> At;
+  if (!Straight && !placeThrough(L, P, At))
+    return S;
+  std::optional<Shape<Real>> Sharp;
+  if (O.Through == Spread::Unscented)
+    Sharp = unscented(P, A, C, O);
+  if (!Sharp) {
+    Sharp = shapeOf(Straight ? footprint(A, jacobian(P, C, O.Rule))
+                             : footprint(A, rowsThrough(C, P, O.Rule)));
+    Sharp->Mean = Straight ? Vec2<Real>(C.Focal.x * P.x / P.z + C.Principal.x,
+                                        C.Focal.y * P.y / P.z + C.Principal.y)
+                           : C.Focal * At + C.Principal;
+  }
+  S.Mean = Sharp->Mean;
   const Real H = static_cast<Real>(O.Dilation);
-  const Real Sxx = dotFromLeft(F.X, F.X), Syy = dotFromLeft(F.Y, F.Y);
-  const Real Det0 = sharpDeterminant(F);
+  const Real Sxx = Sharp->Covariance[0], Syy = Sharp->Covariance[2];
+  const Real Det0 = Sharp->Determinant;
   const Real Det = Det0 + H * (Sxx + Syy) + H * H;
   // Degenerate, or beyond what the precision can hold.
   if (!(Det > 0) || !std::isfinite(Det) || !std::isfinite(S.Mean.x) ||
       !std::isfinite(S.Mean.y))
     return S;
-  S.Covariance = {Sxx + H, dotFromLeft(F.X, F.Y), Syy + H};
+  S.Covariance = {Sxx + H, Sharp->Covariance[1], Syy + H};
   const Real Inverse = 1 / Det;
   S.Conic = {S.Covariance[2] * Inverse, -S.Covariance[1] * Inverse,
              S.Covariance[0] * Inverse};
@@ -144,6 +230,12 @@ std::vector<Splat<Real>> project(const Gaussians<Real> &G,
   Splats.reserve(G.size());
   for (std::size_t I = 0; I < G.size(); ++I)
     Splats.push_back(project(G, I, C, O));
+  if (C.Optics.Model == LensModel::Equirectangular)
+    for (const Real Turn : {Real(C.Width), -Real(C.Width)})
+      for (std::size_t I = 0; I < G.size(); ++I) {
+        Splats.push_back(Splats[I]);
+        Splats.back().Mean.x += Turn;
+      }
   return Splats;
 }
 

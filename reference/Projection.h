@@ -53,11 +53,16 @@ template <typename Real> struct Splat {
 ///
 /// The determinant is a sum of squares (Cauchy-Binet) since S_xx S_yy - S_xy^2
 /// loses all digits to cancellation in fp32 for long needles.
+///
+/// Of a camera with a lens the mean and J are those of Lens.h, and the bits are
+/// not promised. A fisheye's and an equirectangular depth is |m - c - c'|.
 template <typename Real>
 Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
                     const Camera<Real> &C, const Options &O);
 
-/// Projects all of \p G.
+/// Projects all of \p G. An equirectangular picture goes on behind its right
+/// side with its left one: each Gaussian stands there three times, N behind the
+/// other, as it is, one picture's width to the right, and one to the left.
 template <typename Real>
 std::vector<Splat<Real>> project(const Gaussians<Real> &G,
                                  const Camera<Real> &C, const Options &O);

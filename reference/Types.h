@@ -57,31 +57,68 @@ template <typename Real> struct Gaussians {
   std::size_t size() const { return Opacities.size(); }
 };
 
-/// A pinhole camera: x right, y down, z forward; sample points are the pixel
-/// centres (i + 0.5, j + 0.5).
+/// How a camera maps directions to the picture (docs/cameras.md).
+enum class LensModel {
+  Pinhole,
+  OpenCv,  ///< a pinhole with OpenCV's distortion
+  Fisheye, ///< OpenCV's, equidistant
+  Orthographic,
+  Equirectangular ///< the full sphere
+};
+
+/// A lens as \c setLens (Lens.h) makes it.
+struct Lens {
+  LensModel Model = LensModel::Pinhole;
+  /// OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6, s1 to s4; a fisheye's k1
+  /// to k4.
+  std::array<double, 12> K{};
+  /// Up to where the model is one to one: a radius before distortion, or an
+  /// angle from the axis. What lies beyond is not drawn.
+  double Limit = 0;
+  /// Of OpenCV's model: least and largest x/z and y/z in the picture, without
+  /// the tangential part.
+  glm::dvec2 SlopesX{0}, SlopesY{0};
+
+  /// Whether depth is the distance from the camera, not z.
+  bool byDistance() const {
+    return Model == LensModel::Fisheye || Model == LensModel::Equirectangular;
+  }
+};
+
+/// A camera: x right, y down, z forward; sample points are the pixel centres
+/// (i + 0.5, j + 0.5).
 template <typename Real> struct Camera {
   int Width = 0, Height = 0;
   glm::mat<3, 3, Real> Rotation; ///< world to camera
   glm::vec<3, Real> Translation; ///< p_camera = Rotation p_world + Translation
   glm::vec<3, Real> Centre;      ///< the camera in the world
-  glm::vec<2, Real> Focal;       ///< pixels
+  glm::vec<2, Real> Focal;       ///< pixels; a unit, or a radian
   glm::vec<2, Real> Principal;   ///< pixels
   /// What rounding to Real took from the last row of Rotation and Translation:
   /// depths are computed from the sums (see project).
   glm::vec<3, Real> DepthAxisLow{0};
   Real DepthOffsetLow = 0;
   glm::vec<3, Real> CentreLow{0}; ///< and from Centre
+  Lens Optics{};
+};
+
+/// How a Gaussian becomes an ellipse on the picture.
+enum class Spread {
+  Jacobian, ///< by the camera's Jacobian at the mean
+  Unscented ///< by seven points of it (3DGUT)
 };
 
 /// How to render.
 struct Options {
   Rules Rule = Rules::Inria;
   Support Reach = Support::Exact;
+  Spread Through = Spread::Jacobian;
   bool Antialiased = false;
   double Dilation = 0.3; ///< added to both variances, px^2
   double Cutoff = 1e-4;  ///< transmittance at which a pixel ends
   int AlphaCutoff = 1;   ///< smallest alpha that is blended, in 1/255
   int DepthBits = 32;    ///< leading bits of a depth's fp32 that order: 1 to 32
+  double Near = 0;       ///< least depth that is drawn; 0: the rules' own
   int ShLimit = 3;       ///< harmonics of higher bands are left out
   std::array<double, 3> Background{};
   int TileSize = 16;    ///< pixels; of the tile lists

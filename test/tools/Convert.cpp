@@ -48,7 +48,8 @@ reference::Camera<float> toSingle(const reference::Camera<double> &C) {
           glm::vec3(low(C.Rotation[0][2]), low(C.Rotation[1][2]),
                     low(C.Rotation[2][2])),
           low(C.Translation.z),
-          glm::vec3(low(C.Centre.x), low(C.Centre.y), low(C.Centre.z))};
+          glm::vec3(low(C.Centre.x), low(C.Centre.y), low(C.Centre.z)),
+          C.Optics};
 }
 
 splat::Scene sceneOf(const Fixture &F) {

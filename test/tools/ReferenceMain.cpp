@@ -16,6 +16,7 @@ namespace {
 struct Arguments {
   std::string Scene, Cameras, View, Output, Json, Pairs;
   std::string Rules = "inria", Support = "exact", Precision = "f64";
+  std::string Projection = "jacobian";
   std::vector<float> Background{0, 0, 0};
   splat::ReadOptions Read;
   reference::Options Options;
@@ -26,6 +27,8 @@ reference::Options optionsOf(const Arguments &A) {
   O.Rule =
       A.Rules == "inria" ? reference::Rules::Inria : reference::Rules::Gsplat;
   O.Reach = supportNamed(A.Support);
+  O.Through = A.Projection == "jacobian" ? reference::Spread::Jacobian
+                                         : reference::Spread::Unscented;
   std::copy_n(A.Background.begin(), 3, O.Background.begin());
   return O;
 }
@@ -115,6 +118,11 @@ int main(int Count, char **Values) {
   App.add_option("--pairs", A.Pairs,
                  "Sorted tile, depth_bits and index arrays (.npz)");
   App.add_option("--json", A.Json, "Counts, and what made them");
+  App.add_option("--projection", A.Projection, "As splat render has it")
+      ->check(CLI::IsMember({"jacobian", "unscented"}))
+      ->capture_default_str();
+  App.add_option("--near", A.Options.Near, "Least depth, 0 for the rules' own")
+      ->capture_default_str();
   App.add_option("--rules", A.Rules, "Convention to follow")
       ->check(CLI::IsMember({"inria", "gsplat"}))
       ->capture_default_str();

@@ -65,6 +65,10 @@ std::string hashView(const Camera &View) {
   append(All, View.Position);
   for (const auto &Row : View.Rotation)
     append(All, Row);
+  if (View.Optics.Model != LensModel::Pinhole) {
+    All += name(View.Optics.Model);
+    append(All, View.Optics.K);
+  }
   return fnv1a64(All);
 }
 

@@ -1,5 +1,6 @@
 #include "analyze/ToReference.h"
 
+#include "reference/Lens.h"
 #include "scene/Activation.h"
 
 #include <vector>
@@ -13,6 +14,22 @@ std::vector<glm::vec<3, Real>> rows3(const std::vector<From> &V) {
   for (std::size_t I = 0; I + 2 < V.size(); I += 3)
     Rows.emplace_back(V[I], V[I + 1], V[I + 2]);
   return Rows;
+}
+
+reference::LensModel toReference(LensModel M) {
+  switch (M) {
+  case LensModel::Pinhole:
+    return reference::LensModel::Pinhole;
+  case LensModel::OpenCv:
+    return reference::LensModel::OpenCv;
+  case LensModel::Fisheye:
+    return reference::LensModel::Fisheye;
+  case LensModel::Orthographic:
+    return reference::LensModel::Orthographic;
+  case LensModel::Equirectangular:
+    return reference::LensModel::Equirectangular;
+  }
+  return {};
 }
 
 } // namespace
@@ -54,6 +71,8 @@ template <typename Real> reference::Camera<Real> toReference(const Camera &C) {
         Rotation[std::size_t(6) + J] - static_cast<double>(R.Rotation[J][2]));
   R.DepthOffsetLow =
       static_cast<Real>(Translation[2] - static_cast<double>(R.Translation.z));
+  if (C.Optics.Model != LensModel::Pinhole)
+    reference::setLens(R, toReference(C.Optics.Model), C.Optics.K);
   return R;
 }
 

@@ -125,6 +125,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   const auto C = readCamera(A.Cameras, A.View);
   if (!C)
     return C.error();
+  A.Options.Optics = C->Optics.Model;
   const auto U = readUpstream(A.Upstream, *C);
   if (!U)
     return U.error();

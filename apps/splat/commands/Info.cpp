@@ -29,7 +29,7 @@ struct InfoArguments {
   bool AllowOutside = false; ///< of a capture
 };
 
-Json json(const Spread &S) {
+Json json(const Distribution &S) {
   return {{"min", S.Least},
           {"median", S.Median},
           {"mean", S.Mean},
@@ -92,7 +92,7 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
   };
   Box("bounds", S.Low, S.High);
   Box("98 % within", S.InnerLow, S.InnerHigh);
-  const auto Row = [&](const char *Name, const Spread &V) {
+  const auto Row = [&](const char *Name, const Distribution &V) {
     Text += fmt::format("{:<13}min {:.4g}, median {:.4g}, mean {:.4g}, max "
                         "{:.4g}\n",
                         Name, V.Least, V.Median, V.Mean, V.Largest);

@@ -23,6 +23,10 @@ void addDatapathOptions(CLI::App &App, RenderOptions &O) {
                  "(default 32)")
       ->option_text("1..32")
       ->check(CLI::Range(1U, 32U));
+  addChoice(App, "--projection", O.Through,
+            {Spread::Jacobian, Spread::Unscented},
+            "Gaussians go through the camera by its Jacobian at the mean or as "
+            "seven points (docs/cameras.md)");
   App.add_option("--sh-degree", O.ShLimit,
                  "Leave out bands of spherical harmonics above this "
                  "(default 3)")
@@ -60,6 +64,10 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
       "Pixels that a Gaussian may reach");
   addPathOption(App, O.Blending, "Who blends: the rasterizer or the cores");
   addBackgroundOption(App, O.Background, "Colour r,g,b (default 0,0,0)");
+  App.add_option("--near", O.Near,
+                 "Least depth that is drawn (default 0.2 by INRIA's rules, "
+                 "0.01 by gsplat's)")
+      ->option_text("Z");
   App.add_option("--cutoff", O.Cutoff,
                  "Transmittance at which a pixel is full (default 0.0001)");
 }
@@ -68,6 +76,8 @@ Expected<Success> checkPictureOptions(const RenderOptions &O) {
   for (const float B : O.Background)
     if (!std::isfinite(B))
       return usage(fmt::format("--background {}: expected finite numbers", B));
+  if (!(O.Near == 0 || (std::isnormal(O.Near) && O.Near > 0)))
+    return usage(fmt::format("--near {}: expected a depth above 0", O.Near));
   if (!(O.Cutoff >= 0 && O.Cutoff < 1))
     return usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
   if (O.Blending == Path::Raster && O.Reach == Support::Official16)

@@ -10,6 +10,7 @@
 #include "io/Cameras.h"
 #include "page/TimePage.h"
 #include "picture/HeatMap.h"
+#include "picture/View.h"
 #include "render/EffectCosts.h"
 #include "render/Explain.h"
 #include "render/Fallback.h"
@@ -233,6 +234,10 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   auto Cameras = findCameras(A);
   if (!Cameras)
     return Cameras.error();
+  const auto Model = commonModel(A.Cameras, *Cameras);
+  if (!Model)
+    return Model.error();
+  A.Options.Optics = *Model;
   if (!isOne(A))
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;

@@ -58,6 +58,12 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
     auto Cameras = readCameras(A.Cameras);
     if (!Cameras)
       return Cameras.error();
+    for (const Camera &C : *Cameras)
+      if (C.Optics.Model != LensModel::Pinhole)
+        return Error{A.Cameras,
+                     fmt::format("view {} has the camera model {}, expected "
+                                 "PINHOLE: splat view draws no lenses",
+                                 C.Name, name(C.Optics.Model))};
     S.Cameras = std::move(*Cameras);
   }
   auto File = loadScene(A.Scene);

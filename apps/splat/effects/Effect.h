@@ -56,6 +56,9 @@ struct Effect {
   /// Done where it is not needed, it changes no bit. What is not neutral is
   /// told by an option, and compiled in unneeded only behind its flag.
   bool Neutral = true;
+  /// The camera or an option decides, in every mode: its code is of this
+  /// picture's programs alone, and never behind a flag.
+  bool ByCamera = false;
 };
 
 } // namespace vorion::splat

@@ -15,6 +15,8 @@ namespace {
 
 using Mode = EffectRequest::Mode;
 
+bool hasFlag(const Effect &E) { return !E.Macro.empty() && !E.ByCamera; }
+
 /// The bit of \p E in the kernels' variable `effects`: its place among those
 /// with code.
 uint32_t bitOf(const Effect &E) {
@@ -22,7 +24,7 @@ uint32_t bitOf(const Effect &E) {
   for (const Effect *Other : effects::all()) {
     if (Other == &E)
       break;
-    if (!Other->Macro.empty())
+    if (hasFlag(*Other))
       Bit <<= 1;
   }
   return Bit;
@@ -47,6 +49,8 @@ bool byData(const Effect &E) {
 
 bool wanted(const EffectRequest &R, const Effect &E, const Finding &Found) {
   const bool Listed = std::ranges::find(R.List, &E) != R.List.end();
+  if (E.ByCamera)
+    return Found.Needed;
   const bool Wanted =
       R.Selection == Mode::List && byData(E) ? Listed : Found.Needed;
   return Wanted != (R.Toggled == &E);
@@ -55,6 +59,8 @@ bool wanted(const EffectRequest &R, const Effect &E, const Finding &Found) {
 EffectCode codeOf(const EffectRequest &R, const Effect &E, bool Wanted) {
   if (E.Macro.empty())
     return EffectCode::Absent;
+  if (E.ByCamera)
+    return Wanted ? EffectCode::Compiled : EffectCode::Absent;
   if (R.Selection == Mode::Flags)
     return EffectCode::Flagged;
   if (Wanted)
@@ -172,7 +178,7 @@ const EffectDecision &EffectPlan::of(const Effect &E) const {
 std::vector<std::string> EffectPlan::defines() const {
   std::vector<std::string> Defines;
   for (const EffectDecision &D : Decisions)
-    if (!D.Subject->Macro.empty())
+    if (hasFlag(*D.Subject) || (D.Subject->ByCamera && D.Done))
       Defines.push_back(define(*D.Subject, D.Code));
   return Defines;
 }
@@ -180,7 +186,7 @@ std::vector<std::string> EffectPlan::defines() const {
 uint32_t EffectPlan::flags() const {
   uint32_t Flags = 0;
   for (const EffectDecision &D : Decisions)
-    if (D.Done && !D.Subject->Macro.empty())
+    if (D.Done && hasFlag(*D.Subject))
       Flags |= bitOf(*D.Subject);
   return Flags;
 }

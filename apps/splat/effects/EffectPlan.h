@@ -65,7 +65,8 @@ public:
     return of(E).Code != EffectCode::Absent;
   }
 
-  /// "MACRO=value" of each effect with code; the value is 0, 1 or a test of the
+  /// "MACRO=value" of each effect with code, but of those by the camera only
+  /// where they are on; the value is 0, 1 or a test of the
   /// variable `effects`, which kernels get with flags().
   std::vector<std::string> defines() const;
   /// The bits of the effects that are done.

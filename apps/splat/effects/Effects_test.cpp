@@ -248,6 +248,35 @@ TEST_F(Effects, FlagsHaveABitEach) {
   EXPECT_EQ(Tests.size(), P.defines().size());
 }
 
+// In no mode behind a flag, and no pinhole's program says their macros.
+TEST_F(Effects, TheCameraDecidesItsLensInEveryMode) {
+  const std::vector<std::string> Flags = plan("flags").defines();
+  for (const std::string Mode : {"auto", "all", "flags", "sh1"}) {
+    O.Optics = LensModel::Fisheye;
+    const EffectPlan P = plan(Mode);
+    EXPECT_EQ(P.of(effects::FisheyeLens).Code, EffectCode::Compiled) << Mode;
+    EXPECT_EQ(P.of(effects::OpenCvLens).Code, EffectCode::Absent) << Mode;
+    std::vector<std::string> Defines = P.defines();
+    EXPECT_EQ(std::erase(Defines, "USE_FISHEYE=1"), 1U) << Mode;
+    if (Mode == "flags")
+      EXPECT_EQ(Defines, Flags);
+    O.Optics = LensModel::Pinhole;
+    for (const std::string &Define : plan(Mode).defines())
+      EXPECT_EQ(Define.find("FISHEYE"), std::string::npos) << Mode;
+  }
+  EXPECT_EQ(effects::lensOf(LensModel::Pinhole), nullptr);
+  EXPECT_EQ(effects::lensOf(LensModel::Equirectangular),
+            &effects::EquirectangularLens);
+}
+
+TEST_F(Effects, DepthIsADistanceWhereTheLensSeesBehind) {
+  S.Means[2] = -2; // behind the camera
+  EXPECT_TRUE(needed(effects::NearPlane));
+  O.Optics = LensModel::Fisheye;
+  const ViewFacts F = factsOf(S, makeView(C, O), O.nearLimit(), O.byDistance());
+  EXPECT_EQ(F.NearestDepth, 2);
+}
+
 /// \p Text without comments.
 std::string code(std::string_view Text) {
   std::string Code;
@@ -308,7 +337,7 @@ TEST(Registry, KernelsAndRegistryKnowTheSameMacros) {
     return Enumerators.contains(Word) ||
            All.find("#define " + Word) != std::string::npos ||
            Word.starts_with("VR_") || Word.starts_with("CLK_") ||
-           Word == "INFINITY";
+           Word.starts_with("M_") || Word == "INFINITY";
   };
   for (const auto &[Word, Count] : Used)
     if (!Known.contains(Word) && !Defined(Word))

@@ -9,7 +9,7 @@ namespace vorion::splat {
 namespace {
 
 Finding detect(const EffectInputs &In) {
-  const float Limit = nearLimit(In.Options.Convention);
+  const float Limit = In.Options.nearLimit();
   const ViewFacts &F = In.Facts;
   return {!(F.NearestDepth - F.DepthSlack > Limit),
           fmt::format("nearest mean at depth {:.6g}, limit {:g}",

@@ -23,18 +23,54 @@ std::string_view name(EffectKind K) {
 namespace effects {
 
 std::span<const Effect *const> all() {
-  static constexpr std::array List{
-      &Sh1,           &Sh2,         &Sh3,       &ViewColor,     &Antialias,
-      &NearPlane,     &FieldOfView, &Faint,     &AlphaClamp,    &Background,
-      &IntersectTags, &ZTiles,      &PixelUnit, &SkipSaturated, &Clock,
-      &Numerics,      &Checkers,    &Traces,    &Debugger,      &SortedPairs,
-      &Depth};
+  static constexpr std::array List{&Sh1,
+                                   &Sh2,
+                                   &Sh3,
+                                   &ViewColor,
+                                   &Antialias,
+                                   &NearPlane,
+                                   &FieldOfView,
+                                   &Faint,
+                                   &AlphaClamp,
+                                   &Background,
+                                   &OpenCvLens,
+                                   &FisheyeLens,
+                                   &OrthographicLens,
+                                   &EquirectangularLens,
+                                   &Unscented,
+                                   &IntersectTags,
+                                   &ZTiles,
+                                   &PixelUnit,
+                                   &SkipSaturated,
+                                   &Clock,
+                                   &Numerics,
+                                   &Checkers,
+                                   &Traces,
+                                   &Debugger,
+                                   &SortedPairs,
+                                   &Depth};
   return List;
 }
 
 const Effect *find(std::string_view Name) {
   const auto At = std::ranges::find(all(), Name, &Effect::Name);
   return At == all().end() ? nullptr : *At;
+}
+
+const Effect *lensOf(LensModel M) {
+  switch (M) {
+  case LensModel::Pinhole:
+    break;
+  case LensModel::OpenCv:
+    return &OpenCvLens;
+  case LensModel::Fisheye:
+    return &FisheyeLens;
+  case LensModel::Orthographic:
+    return &OrthographicLens;
+  case LensModel::Equirectangular:
+    return &EquirectangularLens;
+  }
+  return nullptr;
 }
 
 static std::vector<Parameter> makeParameters() {

@@ -17,6 +17,9 @@ extern const Effect FieldOfView;
 extern const Effect Faint;
 extern const Effect AlphaClamp;
 extern const Effect Background;
+extern const Effect OpenCvLens, FisheyeLens, OrthographicLens,
+    EquirectangularLens;
+extern const Effect Unscented;
 /// @}
 
 /// \name Machine effects
@@ -39,6 +42,9 @@ std::span<const Effect *const> all();
 
 /// The effect of that name, or null.
 const Effect *find(std::string_view Name);
+
+/// That of a camera of model \p M, or null for a pinhole.
+const Effect *lensOf(LensModel M);
 
 /// The macros that every program's kernels are built with beside the effects':
 /// sizes and rules of the pipeline, which no scene switches off.

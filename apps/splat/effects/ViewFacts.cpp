@@ -43,6 +43,15 @@ double rounding(double Limit, double Z) {
   return 4 * DepthRounding * (1 + std::abs(Limit)) * std::abs(Z);
 }
 
+double distanceOf(const splat_view &V, const float *P) {
+  double Squares = 0;
+  for (int K = 0; K < 3; ++K) {
+    const double D = double(P[K]) - V.position[K] - V.position_low[K];
+    Squares += D * D;
+  }
+  return std::sqrt(Squares);
+}
+
 double reachOf(const Scene &S, const splat_view &V) {
   double Reach = 0;
   for (const float M : S.Means)
@@ -85,7 +94,8 @@ std::size_t bandWitness(const Scene &S, int Band) {
 
 } // namespace
 
-ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit) {
+ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit,
+                  bool ByDistance) {
   ViewFacts F;
   F.Reach = reachOf(S, V);
   noteLogits(S, F);
@@ -101,7 +111,7 @@ ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit) {
   F.NearestDepth = Infinity;
   for (std::size_t I = 0; I < S.size(); ++I) {
     const float *P = &S.Means[3 * I];
-    const double Z = Depth(P);
+    const double Z = ByDistance ? distanceOf(V, P) : Depth(P);
     F.NearestDepth = std::min(F.NearestDepth, Z);
     bool Inside = true;
     for (int A = 0; A < 2; ++A) {

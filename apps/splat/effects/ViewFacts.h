@@ -29,9 +29,11 @@ struct ViewFacts {
                                                    NoWitness};
 };
 
-/// \p NearLimit is the least depth that is drawn. A NaN among the values gives
+/// \p NearLimit is the least depth that is drawn, by the distance from the
+/// camera if \p ByDistance. A NaN among the values gives
 /// figures by which everything is needed.
-ViewFacts factsOf(const Scene &S, const splat_view &View, double NearLimit);
+ViewFacts factsOf(const Scene &S, const splat_view &View, double NearLimit,
+                  bool ByDistance = false);
 
 /// Of two views of one scene: by these is needed what either needs.
 ViewFacts combined(const ViewFacts &A, const ViewFacts &B);

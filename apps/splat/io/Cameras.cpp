@@ -1,5 +1,6 @@
 #include "io/Cameras.h"
 
+#include "io/CameraLens.h"
 #include "io/Unsupported.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -48,11 +49,19 @@ public:
       else
         wrong("rotation", RotationWanted);
     }
-    C.Fx = focal("fx");
-    C.Fy = focal("fy");
-    C.Cx = Record.contains("cx") ? number("cx") : 0.5 * C.Width;
-    C.Cy = Record.contains("cy") ? number("cy") : 0.5 * C.Height;
     refuseUnsupported();
+    const auto Find = [&](const char *Key) -> const Json * {
+      const auto It = Record.find(Key);
+      return It == Record.end() ? nullptr : &*It;
+    };
+    if (auto Wrong = readLens(Find, C))
+      fail(std::move(*Wrong));
+    if (C.Optics.Model != LensModel::Equirectangular) {
+      C.Fx = focal("fx");
+      C.Fy = focal("fy");
+      C.Cx = Record.contains("cx") ? number("cx") : 0.5 * C.Width;
+      C.Cy = Record.contains("cy") ? number("cy") : 0.5 * C.Height;
+    }
     if (!Problem && !isRotation(C.Rotation))
       wrong("rotation", "orthonormal axes with determinant +1");
     if (Problem)
@@ -137,18 +146,12 @@ private:
   }
 
   void refuseUnsupported() {
-    for (const auto &[Key, Value] : Record.items()) {
+    for (const auto &[Key, Value] : Record.items())
       if (const auto Meaning = unsupportedCameraKey(Key);
           Meaning && !isEmpty(Value))
         fail(fmt::format("key {} calls for {}, which is not supported, "
-                         "expected a pinhole camera",
+                         "expected what docs/cameras.md lists",
                          Key, *Meaning));
-      if (isCameraModelKey(Key) && Value.is_string() &&
-          !isPinholeModel(Value.get<std::string>()))
-        fail(fmt::format("key {} calls for the camera model {}, which is not "
-                         "supported, expected a pinhole camera",
-                         Key, jsonText(Value)));
-    }
   }
 
   const std::string &Path;
@@ -268,17 +271,24 @@ Expected<Camera> readCamera(const std::string &Path, const std::string &View) {
 Expected<Success> writeCameras(const std::string &Path,
                                const std::vector<Camera> &Cameras) {
   Json Document = Json::array();
-  for (const Camera &C : Cameras)
-    Document.push_back({{"id", C.Id},
-                        {"img_name", C.Name},
-                        {"width", C.Width},
-                        {"height", C.Height},
-                        {"position", C.Position},
-                        {"rotation", C.Rotation},
-                        {"fx", C.Fx},
-                        {"fy", C.Fy},
-                        {"cx", C.Cx},
-                        {"cy", C.Cy}});
+  for (const Camera &C : Cameras) {
+    Json Record{{"id", C.Id},
+                {"img_name", C.Name},
+                {"width", C.Width},
+                {"height", C.Height},
+                {"position", C.Position},
+                {"rotation", C.Rotation},
+                {"fx", C.Fx},
+                {"fy", C.Fy},
+                {"cx", C.Cx},
+                {"cy", C.Cy}};
+    if (C.Optics.Model != LensModel::Pinhole)
+      Record["camera_model"] = name(C.Optics.Model);
+    const auto Keys = C.Optics.keys();
+    for (std::size_t K = 0; K < Keys.size(); ++K)
+      Record[std::string(Keys[K])] = C.Optics.K[K];
+    Document.push_back(std::move(Record));
+  }
   return writeFileAtomically(Path, jsonText(Document, 1) + "\n");
 }
 

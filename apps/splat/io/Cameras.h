@@ -1,6 +1,7 @@
 /// Views in INRIA's `cameras.json`.
 #pragma once
 
+#include "io/CameraModel.h"
 #include "vorion/support/Expected.h"
 
 #include <array>
@@ -12,7 +13,7 @@ namespace vorion::splat {
 /// Largest picture side that is accepted; more is a mistake in the file.
 inline constexpr int MaxImageSize = 16384;
 
-/// A pinhole camera: x right, y down, z forward. Pixel (i, j) covers
+/// A camera: x right, y down, z forward. Pixel (i, j) covers
 /// [i, i+1) x [j, j+1); its sample point is the centre.
 struct Camera {
   int Id = 0;
@@ -21,8 +22,11 @@ struct Camera {
   std::array<double, 3> Position{}; ///< camera centre, world units
   /// Camera-to-world rows; the columns are the camera's axes.
   std::array<std::array<double, 3>, 3> Rotation{};
-  double Fx = 0, Fy = 0; ///< focal lengths, pixels
+  /// Focal lengths, pixels: of a fisheye and an equirectangular camera a
+  /// radian, of an orthographic one a unit.
+  double Fx = 0, Fy = 0;
   double Cx = 0, Cy = 0; ///< principal point; the picture's centre if absent
+  CameraModel Optics;
 
   /// At the origin, looking along +z; pixels of \p Focal length, the principal
   /// point in the picture's middle.
@@ -40,7 +44,8 @@ struct Camera {
 bool isRotation(const std::array<std::array<double, 3>, 3> &R);
 
 /// Reads all records: id, img_name, width, height, position, rotation, fx, fy
-/// and optionally cx, cy. Keys that call for another camera than a pinhole's
+/// and optionally cx, cy and a lens (docs/cameras.md); of an equirectangular
+/// one fx to cy say nothing. Keys that call for what is not here
 /// (Unsupported.h) are errors, unless they are zero; others are ignored. Every
 /// error names file, record and key.
 Expected<std::vector<Camera>> readCameras(const std::string &Path);

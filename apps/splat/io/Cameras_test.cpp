@@ -110,36 +110,92 @@ TEST(Cameras, EveryMissingKeyIsNamedWithItsView) {
             "record 1: key img_name is missing, expected a string");
 }
 
-TEST(Cameras, WhatIsNoPinholeIsRefusedByName) {
+TEST(Cameras, WhatIsNotHereIsRefusedByName) {
   const TestFolder Folder;
-  const auto With = [&](const char *Key, const nlohmann::json &Value) {
+  const auto With = [&](const nlohmann::json &Keys) {
     auto R = record();
-    R[Key] = Value;
+    R.update(Keys);
     return errorOf(Folder, nlohmann::json::array({R}).dump());
   };
-  EXPECT_EQ(With("k1", -1e-9),
-            "view front: key k1 calls for lens distortion, which is not "
-            "supported, expected a pinhole camera");
-  EXPECT_NE(With("distortion", {0, 0, 1e-3}).find("lens distortion"),
-            std::string::npos);
-  EXPECT_NE(With("distortion_params", {{"k1", 0.1}}).find("lens distortion"),
-            std::string::npos);
-  EXPECT_NE(With("skew", 0.5).find("skewed pixels"), std::string::npos);
-  EXPECT_NE(With("is_fisheye", true).find("key is_fisheye calls for"),
-            std::string::npos);
-  EXPECT_NE(With("camera_model", "EQUIRECTANGULAR")
-                .find("key camera_model calls for the camera model "
-                      "\"EQUIRECTANGULAR\", which is not supported"),
-            std::string::npos);
-  for (const auto &[Key, Value] :
-       std::initializer_list<std::pair<const char *, nlohmann::json>>{
-           {"k1", 0},
-           {"distortion", {0, 0.0, -0.0, 0}},
-           {"is_fisheye", false},
-           {"camera_model", "SIMPLE_PINHOLE"},
-           {"model", "OPENCV"},
-           {"comment", "k1"}})
-    EXPECT_EQ(With(Key, Value), "") << Key;
+  const auto Expect = [&](const nlohmann::json &Keys, const char *Message) {
+    EXPECT_NE(With(Keys).find(Message), std::string::npos)
+        << Keys << ": " << With(Keys);
+  };
+  EXPECT_EQ(With({{"skew", 0.5}}),
+            "view front: key skew calls for skewed pixels, which is not "
+            "supported, expected what docs/cameras.md lists");
+  Expect({{"distortion", {0, 0, 1e-3}}}, "lens distortion");
+  Expect({{"distortion_params", {{"k1", 0.1}}}}, "lens distortion");
+  Expect({{"rolling_shutter_time", 0.1}}, "a rolling shutter");
+  Expect({{"camera_model", "FOV"}},
+         "key camera_model calls for the camera model \"FOV\", which is not "
+         "supported, expected PINHOLE, OPENCV");
+  Expect({{"camera_model", "THIN_PRISM_FISHEYE"}}, "THIN_PRISM_FISHEYE");
+  Expect({{"k4", 0.1}}, "means different things to different programs");
+  Expect({{"k1", "x"}}, "key k1 is wrong, expected numbers from -1e+06");
+  Expect({{"k1", 1e7}}, "key k1 is wrong");
+  Expect({{"camera_model", "OPENCV_FISHEYE"}, {"p1", 0.1}},
+         "key p1 calls for a distortion by p1, which a camera of model "
+         "OPENCV_FISHEYE does not have");
+  Expect({{"camera_model", "ORTHOGRAPHIC"}, {"k1", 0.1}}, "expected 0");
+  Expect({{"camera_model", "PINHOLE"}, {"is_fisheye", true}},
+         "expected one of both");
+  Expect({{"dist_coeffs", std::vector<double>(13)}}, "at most 12 numbers");
+  Expect({{"dist_coeffs", {1, nullptr}}}, "key dist_coeffs is wrong");
+  for (const nlohmann::json &Nothing : std::initializer_list<nlohmann::json>{
+           {{"k1", 0}},
+           {{"distortion", {0, 0.0, -0.0, 0}}},
+           {{"is_fisheye", false}},
+           {{"camera_model", "SIMPLE_PINHOLE"}},
+           {{"model", "OPENCV"}},
+           {{"dist_coeffs", nlohmann::json::array()}},
+           {{"comment", "k1"}}})
+    EXPECT_EQ(With(Nothing), "") << Nothing;
+}
+
+TEST(Cameras, LensesAreReadByAllTheirNames) {
+  const TestFolder Folder;
+  const auto With = [&](const nlohmann::json &Keys) {
+    auto R = record();
+    R.update(Keys);
+    const auto C = readCameras(
+        Folder.write("lens.json", nlohmann::json::array({R}).dump()));
+    EXPECT_TRUE(C) << Keys << ": " << C.error().What;
+    return C ? C->front() : Camera();
+  };
+  const auto Expect = [&](const nlohmann::json &Keys, LensModel M,
+                          const std::array<double, 12> &K) {
+    const Camera C = With(Keys);
+    EXPECT_EQ(C.Optics, (CameraModel{M, K})) << Keys;
+    const std::string Path = Folder.write("again.json", "");
+    EXPECT_TRUE(writeCameras(Path, {C}));
+    const auto Again = readCameras(Path);
+    ASSERT_TRUE(Again) << Again.error().What;
+    EXPECT_EQ(Again->front(), C);
+  };
+  Expect({{"k1", 0.1}, {"k2", 0.2}, {"p1", 0.3}, {"p2", 0.4}, {"k3", 0.5}},
+         LensModel::OpenCv, {0.1, 0.2, 0.3, 0.4, 0.5});
+  Expect({{"camera_model", "SIMPLE_RADIAL"}, {"k1", 0.1}}, LensModel::OpenCv,
+         {0.1});
+  Expect({{"camera_model", "FULL_OPENCV"}, {"k4", 0.1}, {"k6", 0.2}, {"s4", 1}},
+         LensModel::OpenCv, {0, 0, 0, 0, 0, 0.1, 0, 0.2, 0, 0, 0, 1});
+  Expect({{"dist_coeffs", {1, 2, 3, 4, 5, 6, 7, 8}}}, LensModel::OpenCv,
+         {1, 2, 3, 4, 5, 6, 7, 8});
+  Expect({{"camera_model", "pinhole"},
+          {"radial_coeffs", {1, 2, 3, 4, 5, 6}},
+          {"tangential_coeffs", {7, 8}},
+          {"thin_prism_coeffs", {9, 10, 11, 12}}},
+         LensModel::OpenCv, {1, 2, 7, 8, 3, 4, 5, 6, 9, 10, 11, 12});
+  Expect({{"camera_model", "OPENCV_FISHEYE"}, {"k1", 1}, {"k4", 4}},
+         LensModel::Fisheye, {1, 0, 0, 4});
+  Expect({{"camera_model", "fisheye"}, {"radial_coeffs", {1, 2, 3, 4}}},
+         LensModel::Fisheye, {1, 2, 3, 4});
+  Expect({{"is_fisheye", true}}, LensModel::Fisheye, {});
+  Expect({{"camera_model", "ORTHOPHOTO"}}, LensModel::Orthographic, {});
+  Expect({{"camera_type", "equirectangular"}}, LensModel::Equirectangular, {});
+  const Camera Sphere = With({{"camera_model", "EQUIRECTANGULAR"}});
+  EXPECT_EQ(Sphere.Fx, Sphere.Width / (2 * M_PI));
+  EXPECT_EQ(Sphere.Cy, 0.5 * Sphere.Height);
 }
 
 TEST(Cameras, WrongValuesAreNamed) {

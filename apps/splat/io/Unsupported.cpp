@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <span>
 
 namespace vorion::splat {
@@ -53,24 +52,11 @@ constexpr std::array Properties{
 };
 
 constexpr std::string_view Distortion = "lens distortion";
-constexpr std::string_view Projection = "a projection other than a pinhole's";
+constexpr std::string_view Projection = "a projection without camera_model";
 
 constexpr std::array CameraKeys{
-    Meaning{"k1", Distortion},
-    Meaning{"k2", Distortion},
-    Meaning{"k3", Distortion},
-    Meaning{"k4", Distortion},
-    Meaning{"k5", Distortion},
-    Meaning{"k6", Distortion},
-    Meaning{"p1", Distortion},
-    Meaning{"p2", Distortion},
-    Meaning{"dist_coeffs", Distortion},
     Meaning{"distortion*", Distortion},
-    Meaning{"radial_*", Distortion},
-    Meaning{"tangential_*", Distortion},
-    Meaning{"thin_prism*", Distortion},
     Meaning{"fisheye*", Projection},
-    Meaning{"is_fisheye", Projection},
     Meaning{"ortho*", Projection},
     Meaning{"skew", "skewed pixels"},
     Meaning{"rolling_shutter*", "a rolling shutter"},
@@ -84,20 +70,6 @@ std::optional<std::string_view> unsupportedProperty(std::string_view Name) {
 
 std::optional<std::string_view> unsupportedCameraKey(std::string_view Key) {
   return find(CameraKeys, Key);
-}
-
-bool isCameraModelKey(std::string_view Key) {
-  return Key == "camera_model" || Key == "model" || Key == "projection" ||
-         Key == "projection_type";
-}
-
-bool isPinholeModel(std::string Model) {
-  std::ranges::transform(Model, Model.begin(), [](unsigned char C) {
-    return static_cast<char>(std::tolower(C));
-  });
-  // OpenCV's model is a pinhole where its coefficients are zero.
-  return Model == "pinhole" || Model == "simple_pinhole" ||
-         Model == "perspective" || Model == "opencv";
 }
 
 } // namespace vorion::splat

@@ -16,10 +16,4 @@ std::optional<std::string_view> unsupportedProperty(std::string_view Name);
 /// false or empty; nothing if it is not known to mean anything.
 std::optional<std::string_view> unsupportedCameraKey(std::string_view Key);
 
-/// Whether \p Key names the camera's model ("camera_model").
-bool isCameraModelKey(std::string_view Key);
-/// Whether \p Model, in any case of letters, is a pinhole without distortion of
-/// its own.
-bool isPinholeModel(std::string Model);
-
 } // namespace vorion::splat

@@ -78,21 +78,16 @@ static jacobian project_jacobian(VIEW_SPACE const splat_view *view, float z,
   return j;
 }
 
-// Covariance on the picture of a Gaussian at depth z whose camera-space x/z and
-// y/z, already clamped, are `ratio`. The determinant of B B^T + h I is taken as
-// the sum of B's squared minors and h tr + h^2 (Cauchy-Binet): the difference
-// xx yy - xy^2 would lose a needle's whole short axis in fp32.
-static screen_covariance project_covariance(VIEW_SPACE const splat_view *view,
-                                            float z, float2 ratio, float3 scale,
-                                            float4 unit) {
-  world_axes q = rotate_axes(unit);
-  q.q0 *= scale.x;
-  q.q1 *= scale.y;
-  q.q2 *= scale.z;
-  const camera_axes a = to_camera(view, q);
-  const jacobian j = project_jacobian(view, z, ratio);
-  const float3 b = j.xx * a.x + j.xz * a.z;
-  const float3 c = j.yy * a.y + j.yz * a.z;
+// That of a camera that is no pinhole: rows by a point in the camera's axes.
+typedef struct {
+  float3 x, y;
+} lens_rows;
+
+// Covariance on the picture from the rows b and c of B, the Jacobian times the
+// Gaussian's axes. The determinant of B B^T + h I is taken as the sum of B's
+// squared minors and h tr + h^2 (Cauchy-Binet): the difference xx yy - xy^2
+// would lose a needle's whole short axis in fp32.
+static screen_covariance covariance_of_rows(float3 b, float3 c) {
   const float xx = dot_in_order(b, b);
   const float yy = dot_in_order(c, c);
   const float3 minors = (float3)(b.x * c.y - b.y * c.x, b.x * c.z - b.z * c.x,
@@ -105,4 +100,24 @@ static screen_covariance project_covariance(VIEW_SPACE const splat_view *view,
   s.det_sharp = dot_in_order(minors, minors);
   s.det = s.det_sharp + DILATION * (xx + yy) + DILATION * DILATION;
   return s;
+}
+
+// The camera's rows times the Gaussian's axes, each as long as its deviation.
+static camera_axes scaled_axes(VIEW_SPACE const splat_view *view, float3 scale,
+                               float4 unit) {
+  world_axes q = rotate_axes(unit);
+  q.q0 *= scale.x;
+  q.q1 *= scale.y;
+  q.q2 *= scale.z;
+  return to_camera(view, q);
+}
+
+// Covariance of a Gaussian at depth z whose camera-space x/z and y/z, already
+// clamped, are `ratio`.
+static screen_covariance project_covariance(VIEW_SPACE const splat_view *view,
+                                            float z, float2 ratio, float3 scale,
+                                            float4 unit) {
+  const camera_axes a = scaled_axes(view, scale, unit);
+  const jacobian j = project_jacobian(view, z, ratio);
+  return covariance_of_rows(j.xx * a.x + j.xz * a.z, j.yy * a.y + j.yz * a.z);
 }

@@ -35,6 +35,14 @@ typedef struct {
   uint effects;  ///< a bit an effect (effects/EffectPlan.h)
 } splat_view;
 
+/// What a camera that is no pinhole has beside that; it lies behind the view.
+typedef struct {
+  float k[12]; ///< OpenCV's order, or a fisheye's k1 to k4 (docs/cameras.md)
+  /// What is not below it is not seen: OpenCV's r^2, a fisheye's angle; or the
+  /// least cosine of a latitude at which the Jacobian is taken.
+  float limit;
+} splat_lens;
+
 /// How the rasterizers blend a picture.
 typedef struct {
   uint size[2];  ///< picture, px
@@ -117,8 +125,8 @@ typedef struct {
   uint least_key, greatest_key; ///< of the first; ~0 and 0 for none
 } splat_seen;
 
-/// Local memory that a group of project.cl is given.
-enum { PROJECT_LOCAL_BYTES = 2048 };
+/// Local memory that a group of project.cl is given, and with a lens.
+enum { PROJECT_LOCAL_BYTES = 2048, LENS_LOCAL_BYTES = 2304 };
 
 /// What blending gives back of a Gaussian (docs/abi.md, "Backward"): the words
 /// of vr_grad_r to vr_grad_syy.

@@ -28,6 +28,33 @@ static float camera_depth(__local const splat_view *view, float x, float y,
   return sum.x + sum.y;
 }
 
+// What the camera is, where it is no pinhole or where a Gaussian goes through it
+// as points: then a file lens_*.cl is part of the program.
+#define HAS_LENS                                                               \
+  (USE_OPENCV || USE_FISHEYE || USE_ORTHOGRAPHIC || USE_EQUIRECTANGULAR ||     \
+   USE_UNSCENTED)
+
+#ifdef LENS_BY_DISTANCE
+// Distance from the camera, rounded once as the depth along an axis is.
+static float camera_distance(__local const splat_view *view, float3 p) {
+  const float part[3] = {p.x, p.y, p.z};
+  float2 sum = (float2)(0.0f, 0.0f);
+#pragma unroll
+  for (int k = 0; k < 3; ++k) {
+    const float2 from = two_sum(part[k], -view->position[k]);
+    const float2 d = two_sum(from.x, from.y - view->position_low[k]);
+    const float square = d.x * d.x;
+    const float2 next = two_sum(sum.x, square);
+    sum = (float2)(next.x, sum.y + (next.y + (fma(d.x, d.x, -square) +
+                                              2.0f * d.x * d.y)));
+  }
+  const float root = sqrt(sum.x);
+  if (!(root > 0.0f) || !isfinite(root))
+    return root;
+  return root + (fma(-root, root, sum.x) + sum.y) / (2.0f * root);
+}
+#endif
+
 // Work-items of a group.
 #ifndef LANES
 #define LANES 16
@@ -74,15 +101,26 @@ typedef struct {
   // near plane is left out.
   uint found[2 + CULL_REASONS][LANES];
   uint pairs[LANES], least_key[LANES], greatest_key[LANES]; // of the first
+#if HAS_LENS
+  splat_lens lens;
+#endif
+#if USE_EQUIRECTANGULAR
+  float reach[LANES]; // extents before pixel_extent, along x
+#endif
 } workspace;
+#if HAS_LENS
+_Static_assert(sizeof(workspace) <= LENS_LOCAL_BYTES,
+               "kernels/layout.h has too few");
+#else
 _Static_assert(sizeof(workspace) <= PROJECT_LOCAL_BYTES,
                "kernels/layout.h has too few");
+#endif
 
 // The depth key, the record and the rectangle; if the Gaussian is culled, the
 // key alone has a meaning. In blocks, `geometry` and `sh` are where its words
 // of the first planes are. Each step begins with its own loads, so that little
 // is alive across the loop of the exponential.
-static uint project_one(__local const workspace *c,
+static uint project_one(__local workspace *c,
                         __global const float *geometry,
                         __global const float *sh, uint count, uint i, uint lane,
                         uint effects, __local uint *unread,
@@ -92,7 +130,11 @@ static uint project_one(__local const workspace *c,
   const float pz = GEOMETRY(PLANE_MEAN + 2);
   __local const splat_view *view = &c->view;
   __local const float *w = view->rotation;
+#ifdef LENS_BY_DISTANCE
+  const float z = camera_distance(view, (float3)(px, py, pz));
+#else
   const float z = camera_depth(view, px, py, pz);
+#endif
   // So that it is known here. The compiler moves what only later code needs
   // behind the loop, and this sum would have 20 terms alive across it, where no
   // test of the depth holds it here (docs/effects.md has the cost).
@@ -112,12 +154,33 @@ static uint project_one(__local const workspace *c,
   const float3 d = from_camera(view, (float3)(px, py, pz));
   const float x = w[0] * d.x + w[1] * d.y + w[2] * d.z;
   const float y = w[3] * d.x + w[4] * d.y + w[5] * d.z;
+#if HAS_LENS
+#ifdef LENS_BY_DISTANCE
+  const float3 p = (float3)(x, y, w[6] * d.x + w[7] * d.y + w[8] * d.z);
+#else
+  const float3 p = (float3)(x, y, z);
+#endif
+  float2 at;
+  if (!lens_at(&c->lens, p, &at))
+    return CULLED + (all_finite(x, y) ? CULL_OUTSIDE : CULL_NON_FINITE);
+  const camera_axes axes = scaled_axes(view, activated.xyz, unit);
+  screen_covariance s;
+  float2 shift = (float2)(0.0f, 0.0f);
+#if USE_UNSCENTED
+  if (!unscented_covariance(view, &c->lens, p, at, axes, &s, &shift))
+#endif
+  {
+    shift = (float2)(0.0f, 0.0f);
+    s = lens_covariance(lens_rows_at(view, &c->lens, p, LENS_HOLDS), axes);
+  }
+#else
   float2 ratio = (float2)(x / z, y / z);
   if (USE_FIELD_OF_VIEW)
     ratio = (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
                      clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
   const screen_covariance s =
       project_covariance(view, z, ratio, activated.xyz, unit);
+#endif
   if (s.det <= 0.0f)
     return CULLED + CULL_DEGENERATE;
   if (!isfinite(s.det))
@@ -126,8 +189,13 @@ static uint project_one(__local const workspace *c,
   float opacity = activated.w;
   if (USE_ANTIALIAS)
     opacity *= sqrt(fmax(ANTIALIAS_FLOOR, s.det_sharp / s.det));
+#if HAS_LENS
+  const float mean_x = view->focal[0] * at.x + view->center[0] + shift.x;
+  const float mean_y = view->focal[1] * at.y + view->center[1] + shift.y;
+#else
   const float mean_x = view->focal[0] * x / z + view->center[0];
   const float mean_y = view->focal[1] * y / z + view->center[1];
+#endif
   const float inverse = 1.0f / s.det;
   const float conic_xx = s.yy * inverse;
   const float conic_xy = -s.xy * inverse;
@@ -144,6 +212,9 @@ static uint project_one(__local const workspace *c,
   float2 extent;
   if (!support_extent(s, opacity, effects, &extent))
     return CULLED + CULL_FAINT;
+#if USE_EQUIRECTANGULAR
+  c->reach[lane] = extent.x;
+#endif
   uint x0, x1, y0, y1;
   tile_span(mean_x, extent.x, TILE_SIZE, view->size[0], view->tiles[0], &x0,
             &x1);
@@ -168,6 +239,28 @@ static uint project_one(__local const workspace *c,
   return as_uint(z);
 }
 
+#if USE_EQUIRECTANGULAR
+// The picture closes: what leaves it on one side comes back on the other. So a
+// Gaussian stands there once more on either side, a picture's width away, where
+// it reaches in. `x` is its own place.
+static uint project_again(__local const workspace *c, float x, uint key,
+                          uint number, uint lane, uint effects,
+                          __local splat_gaussian *g, uint2 *rectangle) {
+  uint x0, x1;
+  const uint y0 = (*rectangle).x >> 16, y1 = (*rectangle).y >> 16;
+  tile_span(x, c->reach[lane], TILE_SIZE, c->view.size[0], c->view.tiles[0],
+            &x0, &x1);
+  if (x0 >= x1)
+    return CULLED + CULL_OUTSIDE;
+  g->mean[0] = x;
+  g->tag = USE_INTERSECT_TAGS && (x1 - x0 > 1 || y1 - y0 > 1)
+               ? number | SPANS_TILES
+               : number;
+  *rectangle = make_rectangle(x0, y0, x1, y1);
+  return key;
+}
+#endif
+
 // A group is a warp and takes every so many LINE_WORDS Gaussians. Records go
 // through local memory, so that they are written as whole lines: the cache
 // fetches a line of which it gets a part.
@@ -180,6 +273,10 @@ project(__constant const splat_view *camera, __global const float *geometry,
   const uint lane = get_local_id(0);
   for (uint k = lane; k < sizeof(splat_view) / 4; k += LANES)
     ((__local uint *)&w->view)[k] = ((__constant const uint *)camera)[k];
+#if HAS_LENS
+  for (uint k = lane; k < sizeof(splat_lens) / 4; k += LANES)
+    ((__local uint *)&w->lens)[k] = ((__constant const uint *)(camera + 1))[k];
+#endif
   // What is written of a line may belong to nobody.
 #pragma unroll
   for (uint k = 0; k < RECORD_WORDS; ++k)
@@ -225,6 +322,10 @@ project(__constant const splat_view *camera, __global const float *geometry,
     __global const float *own_geometry = geometry;
     __global const float *own_sh = sh;
 #endif
+#if USE_EQUIRECTANGULAR
+    uint own_key = CULLED + CULL_OUTSIDE;
+    uint2 own_rectangle = (uint2)(0, 0);
+#endif
     if (i < count) {
       uint2 rectangle;
       const uint key =
@@ -242,6 +343,10 @@ project(__constant const splat_view *camera, __global const float *geometry,
         rectangle = (uint2)(0, 0);
       }
       w->rectangles[i] = rectangle;
+#if USE_EQUIRECTANGULAR
+      own_key = key;
+      own_rectangle = rectangle;
+#endif
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (w->latest == first) {
@@ -254,6 +359,38 @@ project(__constant const splat_view *camera, __global const float *geometry,
         w->records[first * RECORD_WORDS + k * LANES + lane] = words[k];
     }
     barrier(CLK_LOCAL_MEM_FENCE);
+#if USE_EQUIRECTANGULAR
+    // Numbers of copies begin at whole lines; those of nobody are culled.
+    const uint whole = (count + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS;
+    if (i >= count)
+      w->depths[i] = own_key;
+    const float own_x = w->stage.records[lane].mean[0];
+    for (uint copy = 1; copy < 3; ++copy) {
+      const uint from = copy * whole + first;
+      const float width = (float)w->view.size[0];
+      uint2 rectangle = own_rectangle;
+      uint key = own_key;
+      if (key < CULLED)
+        key = project_again(w, copy == 1 ? own_x + width : own_x - width, key,
+                            from + lane, lane, effects, &w->stage.records[lane],
+                            &rectangle);
+      w->depths[from + lane] = key;
+      if (key < CULLED) {
+        ++w->found[0][lane];
+        atomic_xchg(&w->latest, from);
+        w->pairs[lane] = add_sat(w->pairs[lane], rectangle_tiles(rectangle));
+      } else {
+        rectangle = (uint2)(0, 0);
+      }
+      w->rectangles[from + lane] = rectangle;
+      barrier(CLK_LOCAL_MEM_FENCE);
+      if (w->latest == from)
+        for (uint k = 0; k < RECORD_WORDS; ++k)
+          w->records[from * RECORD_WORDS + k * LANES + lane] =
+              w->stage.words[k * LANES + lane];
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+#endif
 #ifdef SCENE_IN_BLOCKS
     // Not before, so that nothing has waited for it.
     w->unread[lane] = as_uint(ahead);

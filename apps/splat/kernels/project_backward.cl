@@ -3,6 +3,11 @@
 // that what must vanish for round Gaussians does. Gaussians that no tile sees
 // get 0.
 
+// The way back knows no scene: it goes by what is held.
+#ifndef USE_FIELD_OF_VIEW
+#define USE_FIELD_OF_VIEW 1
+#endif
+
 // Whether z and a coordinate's part of the Jacobian follow when that coordinate
 // is held at its limit: gsplat differentiates t = limit z, INRIA holds t.
 #ifdef LIMIT_FOLLOWS_DEPTH
@@ -39,13 +44,34 @@ static float cross2(float2 a, float2 b) {
   return fma(a.x, b.y, -w) - fma(a.y, b.x, -w);
 }
 
+// What the camera is, where it is no pinhole.
+#define HAS_LENS                                                               \
+  (USE_OPENCV || USE_FISHEYE || USE_ORTHOGRAPHIC || USE_EQUIRECTANGULAR)
+
 #define GRADIENT(plane) gradients[(plane) * count + i]
+#if USE_EQUIRECTANGULAR
+// A Gaussian and its copies beyond the picture's sides (project.cl), of which
+// those that no tile sees have no sums.
+static float sum_of_copies(__global const float *sums,
+                           __global const uint *depths, uint word, uint count,
+                           uint i) {
+  const uint whole = (count + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS;
+  float sum = 0.0f;
+  for (uint copy = 0; copy < 3; ++copy)
+    if (depths[copy * whole + i] < CULLED)
+      sum += sums[(3 * word + copy) * whole + i];
+  return sum;
+}
+#define SUM(word) sum_of_copies(sums, depths, word, count, i)
+#else
 #define SUM(word) sums[(word) * count + i]
+#endif
 
 static void project_backward_one(__constant const splat_view *view,
                                  __global const float *geometry,
                                  __global const float *sh,
                                  const splat_gaussian record, float z,
+                                 __global const uint *depths,
                                  __global const float *sums,
                                  __global float *gradients,
                                  __global float *sh_gradients, uint count,
@@ -70,10 +96,19 @@ static void project_backward_one(__constant const splat_view *view,
   const float3 d = from_camera(view, mean);
   const float x = r[0] * d.x + r[1] * d.y + r[2] * d.z;
   const float y = r[3] * d.x + r[4] * d.y + r[5] * d.z;
+#if HAS_LENS
+  __constant const splat_lens *lens = (__constant const splat_lens *)(view + 1);
+#ifdef LENS_BY_DISTANCE
+  const float3 place = (float3)(x, y, r[6] * d.x + r[7] * d.y + r[8] * d.z);
+#else
+  const float3 place = (float3)(x, y, z);
+#endif
+#else
   const float2 ratio = (float2)(x / z, y / z);
   const float2 clamped =
       (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
                clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
+#endif
   const activation_constants constants = make_activation_constants();
   const float4 activated = activate_scales_and_opacity(
       &constants,
@@ -85,17 +120,28 @@ static void project_backward_one(__constant const splat_view *view,
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
   const float4 unit = activate_quaternion(stored);
   const camera_axes axes = to_camera(view, rotate_axes(unit));
+#if HAS_LENS
+  const lens_rows j = lens_rows_at(view, lens, place, LENS_HOLDS);
+  const float3 fx = j.x.x * axes.x + j.x.y * axes.y + j.x.z * axes.z;
+  const float3 fy = j.y.x * axes.x + j.y.y * axes.y + j.y.z * axes.z;
+#else
   const jacobian j = project_jacobian(view, z, clamped);
   const float3 fx = j.xx * axes.x + j.xz * axes.z;
   const float3 fy = j.yy * axes.y + j.yz * axes.z;
+#endif
   const float2 u[3] = {(float2)(fx.x, fy.x), (float2)(fx.y, fy.y),
                        (float2)(fx.z, fy.z)};
 
   // p_n = K u_n with the conic K as the adjugate over the determinant. The
   // covariance is h I + sum s_n^2 u_n u_n^T, so a needle's long axis drops out of
   // its own p, of which K in fp32 has lost all digits.
+#if HAS_LENS
+  const screen_covariance s =
+      covariance_of_rows(fx * activated.xyz, fy * activated.xyz);
+#else
   const screen_covariance s = project_covariance(
       view, z, clamped, (float3)(scale[0], scale[1], scale[2]), unit);
+#endif
   const float c01 = cross2(u[0], u[1]), c12 = cross2(u[1], u[2]);
   const float c20 = cross2(u[2], u[0]);
   const float2 turned[3] = {scale[0] * scale[0] * (float2)(-u[0].y, u[0].x),
@@ -162,6 +208,24 @@ static void project_backward_one(__constant const splat_view *view,
   GRADIENT(GRADIENT_QUATERNION + 2) = back * vector.y;
   GRADIENT(GRADIENT_QUATERNION + 3) = back * vector.z;
 
+#if HAS_LENS
+  // dL/d(rows): 2 V U diag(s^2) times the axes.
+  lens_rows by_rows = {(float3)(0.0f, 0.0f, 0.0f), (float3)(0.0f, 0.0f, 0.0f)};
+  const float3 along[3] = {(float3)(axes.x.x, axes.y.x, axes.z.x),
+                           (float3)(axes.x.y, axes.y.y, axes.z.y),
+                           (float3)(axes.x.z, axes.y.z, axes.z.z)};
+  for (uint n = 0; n < 3; ++n) {
+    const float weight = 2.0f * scale[n] * scale[n];
+    by_rows.x += weight * by_axis[n].x * along[n];
+    by_rows.y += weight * by_axis[n].y * along[n];
+  }
+  by_rows.x *= view->focal[0];
+  by_rows.y *= view->focal[1];
+  const lens_rows own = lens_rows_at(view, lens, place, false);
+  const float3 by_place =
+      own.x * by_mean2d.x + own.y * by_mean2d.y +
+      lens_curvature(view, lens, place, by_rows, LENS_HOLDS);
+#else
   // dL/d(Jacobian's entries): 2 V U diag(s^2) times the axes.
   float by_xx = 0.0f, by_xz = 0.0f, by_yy = 0.0f, by_yz = 0.0f;
   const float ax[3] = {axes.x.x, axes.x.y, axes.x.z};
@@ -184,6 +248,7 @@ static void project_backward_one(__constant const splat_view *view,
   by_place.z += (held_y ? HELD_FACTOR : 2.0f) * focal_y * clamped.y * by_yz / z;
   by_place.x -= held_x ? 0.0f : focal_x * by_xz / z;
   by_place.y -= held_y ? 0.0f : focal_y * by_yz / z;
+#endif
 
   const float3 g =
       (float3)(record.color[0] > 0.0f ? SUM(SUM_COLOR) : 0.0f,
@@ -211,7 +276,7 @@ __kernel void project_backward(__constant const splat_view *view,
     return;
   if (depths[i] < CULLED) {
     project_backward_one(view, geometry, sh, records[i], as_float(depths[i]),
-                         sums, gradients, sh_gradients, count, i);
+                         depths, sums, gradients, sh_gradients, count, i);
     return;
   }
   for (uint plane = 0; plane < GRADIENT_PLANES; ++plane)

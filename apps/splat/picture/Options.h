@@ -1,6 +1,7 @@
 /// What a render is asked to do, as the command line names it.
 #pragma once
 
+#include "io/CameraModel.h"
 #include "picture/TailRule.h"
 #include "scene/Drawing.h"
 #include "splat/LaneUnits.h" // generated from intrinsics/Units.td
@@ -18,6 +19,13 @@ enum class Support { Exact, Box3, Square3, Official16 };
 /// Who blends: the rasterizer, or the cores alone.
 enum class Path { Raster, Simt };
 
+/// How a Gaussian becomes an ellipse on the picture: by the camera's Jacobian
+/// at its mean, or by seven of its points (3DGUT's unscented transform).
+enum class Spread { Jacobian, Unscented };
+
+constexpr std::string_view name(Spread S) {
+  return S == Spread::Jacobian ? "jacobian" : "unscented";
+}
 constexpr std::string_view name(Rules R) {
   return R == Rules::Inria ? "inria" : "gsplat";
 }
@@ -47,6 +55,11 @@ struct RenderOptions {
   BlendUnit Arithmetic = BlendUnit::Fp32;
   /// The smallest alpha that is blended, in 1/255: 1, 2, 4 or 8.
   unsigned AlphaCutoff = 1;
+  /// What the cameras are; pinholes among OpenCV's count as such.
+  LensModel Optics = LensModel::Pinhole;
+  Spread Through = Spread::Jacobian;
+  /// Least depth that is drawn; 0: the rules' own.
+  float Near = 0;
   /// Leading bits of the depths that decide the order: 1 to 32.
   unsigned DepthBits = 32;
   /// Spherical harmonics of higher bands are left out.
@@ -81,6 +94,14 @@ struct RenderOptions {
   /// Draw so that gradients can be taken back: smaller tiles of the rasterizer
   /// (docs/rasterizer.md, "The backward mode"), last contributors kept.
   bool Training = false;
+
+  float nearLimit() const {
+    return Near > 0 ? Near : splat::nearLimit(Convention);
+  }
+  /// Whether depth is the distance from the camera, not z.
+  bool byDistance() const {
+    return Optics == LensModel::Fisheye || Optics == LensModel::Equirectangular;
+  }
 
   /// Width and height of a tile of the path, px.
   unsigned tileSize() const {

@@ -1,6 +1,44 @@
 #include "picture/View.h"
 
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
 namespace vorion::splat {
+
+namespace {
+
+constexpr float Infinity = std::numeric_limits<float>::infinity();
+
+/// The counterpart of the pinhole's limits for OpenCV's distortion: x/z and y/z
+/// that the picture's corners and the middles of its sides see by the radial
+/// part, and as far beyond as the rules say.
+void setDistortedLimits(splat_view &V, const Camera &C, Rules Convention) {
+  double Low[2] = {Infinity, Infinity}, High[2] = {-Infinity, -Infinity};
+  for (int I = 0; I < 9; ++I) {
+    if (I == 4)
+      continue;
+    const double At[2] = {(0.5 * C.Width * (I % 3) - C.Cx) / C.Fx,
+                          (0.5 * C.Height * (I / 3) - C.Cy) / C.Fy};
+    const double Length = std::hypot(At[0], At[1]);
+    const double Scale = Length > 0 ? C.Optics.undistorted(Length) / Length : 1;
+    for (int A = 0; A < 2; ++A) {
+      Low[A] = std::min(Low[A], Scale * At[A]);
+      High[A] = std::max(High[A], Scale * At[A]);
+    }
+  }
+  for (int A = 0; A < 2; ++A) {
+    const double Half = 0.5 * (High[A] - Low[A]);
+    const bool Inria = Convention == Rules::Inria;
+    V.ratio_low[A] =
+        static_cast<float>(Inria ? -1.3 * Half : Low[A] - 0.3 * Half);
+    V.ratio_high[A] =
+        static_cast<float>(Inria ? 1.3 * Half : High[A] + 0.3 * Half);
+  }
+}
+
+} // namespace
 
 splat_view makeView(const Camera &C, const RenderOptions &Options) {
   splat_view V{};
@@ -46,7 +84,53 @@ splat_view makeView(const Camera &C, const RenderOptions &Options) {
       V.ratio_high[A] = (Side - V.center[A]) / V.focal[A] + 0.3F * Tangent;
     }
   }
+  if (Options.Optics == LensModel::OpenCv)
+    setDistortedLimits(V, C, Options.Convention);
+  else if (Options.Optics != LensModel::Pinhole)
+    for (int A = 0; A < 2; ++A) {
+      V.ratio_low[A] = -Infinity;
+      V.ratio_high[A] = Infinity;
+    }
   return V;
+}
+
+splat_lens makeLens(const Camera &C) {
+  splat_lens L{};
+  std::ranges::transform(C.Optics.K, L.k,
+                         [](double K) { return static_cast<float>(K); });
+  const double Limit = C.Optics.limit();
+  switch (C.Optics.Model) {
+  case LensModel::Equirectangular:
+    L.limit = static_cast<float>(std::sin(M_PI / (2 * C.Height)));
+    break;
+  case LensModel::Fisheye:
+    L.limit = static_cast<float>(Limit);
+    break;
+  default:
+    L.limit = static_cast<float>(Limit * Limit);
+  }
+  return L;
+}
+
+bool isDrawnBy(LensModel Program, const Camera &C) {
+  return C.Optics.Model == Program ||
+         (Program == LensModel::OpenCv && C.Optics.Model == LensModel::Pinhole);
+}
+
+Expected<LensModel> commonModel(const std::string &Path,
+                                const std::vector<Camera> &Cameras) {
+  LensModel Common = LensModel::Pinhole;
+  for (const Camera &C : Cameras)
+    if (C.Optics.Model != LensModel::Pinhole)
+      Common = C.Optics.Model;
+  for (const Camera &C : Cameras)
+    if (!isDrawnBy(Common, C))
+      return Error{Path,
+                   fmt::format("cameras {} and {} in one run, expected one "
+                               "camera model (or PINHOLE beside FULL_OPENCV): "
+                               "choose views of one model",
+                               name(Common), name(C.Optics.Model))};
+  return Common;
 }
 
 } // namespace vorion::splat

@@ -11,4 +11,15 @@ namespace vorion::splat {
 /// and the tiles of its path.
 splat_view makeView(const Camera &C, const RenderOptions &Options);
 
+/// What lies behind the view in a program for a camera that is no pinhole.
+splat_lens makeLens(const Camera &C);
+
+/// The model by which one program draws all of \p Cameras, \p Path's: the one
+/// that they have, or OpenCV's for pinholes among such.
+Expected<LensModel> commonModel(const std::string &Path,
+                                const std::vector<Camera> &Cameras);
+
+/// Whether a program for cameras of model \p Program draws \p C.
+bool isDrawnBy(LensModel Program, const Camera &C);
+
 } // namespace vorion::splat

@@ -130,6 +130,7 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
   DrawArguments A;
   parse(std::move(Given), [&](CLI::App &App) { addDrawOptions(App, A); });
   valueOf(parseDrawTexts(A));
+  A.Options.Optics = C.Optics.Model;
   valueOf(checkDrawOptions(A.Options));
   valueOf(checkBlends(M.device(), A.Options.Blending));
   drawAs(A.Options, S.DrawnAs);
@@ -164,6 +165,7 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
   BackwardOptions B;
   parse(std::move(Given),
         [&](CLI::App &App) { addGradientOptions(App, O, B); });
+  O.Optics = C.Optics.Model;
   valueOf(checkGradientOptions(O, B));
   valueOf(checkBlends(M.device(), O.Blending));
   B.Parameters = Stored ? GradientsOf::Stored : GradientsOf::Activated;

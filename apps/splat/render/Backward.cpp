@@ -1,6 +1,10 @@
 #include "render/Backward.h"
 
+#include "effects/Registry.h"
+
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace vorion::splat {
 
@@ -28,8 +32,12 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   }
   ProgramSpec Project{ProjectBackwardProgram,
                       {"layout.h", "activate.cl", "covariance.cl", "planes.h",
-                       "sh_basis.h", "sh_backward.cl", "project_backward.cl"},
+                       "sh_basis.h", "sh_backward.cl"},
                       projectionDefines(ShDegree, O)};
+  std::ranges::copy(lensFiles(O), std::back_inserter(Project.Files));
+  Project.Files.emplace_back("project_backward.cl");
+  if (const Effect *Lens = effects::lensOf(O.Optics))
+    Project.Defines.push_back(fmt::format("{}=1", Lens->Macro));
   if (Gsplat)
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
   if (B.Parameters == GradientsOf::Stored)
@@ -88,7 +96,7 @@ void BackwardPipeline::blend(Pipeline &Forward) {
 }
 
 void BackwardPipeline::reduce(const Frame &F) {
-  const uint32_t Count = F.Gaussians.Count;
+  const uint32_t Count = F.drawn();
   Sums =
       Launch.allocate("Gaussians' sums", 4 * Choice.sums() * uint64_t{Count});
   Launch.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize,

@@ -90,7 +90,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   R.Gradients = readGradients(L, Back, Forward.frame(), ShDegree);
   if (L.failure())
     return *L.failure();
-  R.Visible = Forward.frame().Visible;
+  R.Visible = Forward.frame().seen();
   R.Pairs = Forward.frame().Pairs;
   R.Culled = Forward.frame().Culled;
   R.DeviceBytes = L.mostBytes();

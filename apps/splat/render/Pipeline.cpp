@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <fmt/format.h>
+#include <numeric>
 #include <utility>
 
 namespace vorion::splat {
@@ -16,6 +17,14 @@ static_assert(CullReasons.size() == CULL_REASONS);
 cl::NDRange itemsFor(uint32_t Count) {
   return {(static_cast<std::size_t>(Count) + GroupSize - 1) / GroupSize *
           GroupSize};
+}
+
+uint32_t Frame::seen() const {
+  if (Copies == 1)
+    return Visible;
+  const uint64_t Unseen =
+      std::accumulate(Culled.begin(), Culled.end(), uint64_t{0});
+  return Gaussians.Count - static_cast<uint32_t>(Unseen);
 }
 
 namespace {
@@ -70,8 +79,13 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   Current.View = makeView(C, Options);
   Current.View.effects = Plan.flags();
   Current.Gaussians = Gaussians;
+  if (!isDrawnBy(Options.Optics, C))
+    return Launch.fail(
+        {"", fmt::format("a camera of model {}, expected {}",
+                         name(C.Optics.Model), name(Options.Optics))});
+  Current.Copies = Options.Optics == LensModel::Equirectangular ? 3 : 1;
   Launch.beginStage(Stage::Project);
-  project();
+  project(C);
   // What was read back says how much memory the rest needs.
   if (Launch.failure())
     return;
@@ -85,10 +99,9 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   sortByTile();
 }
 
-void Pipeline::project() {
-  Current.Camera = Launch.allocate("camera", sizeof(Current.View));
-  Launch.write("camera", Current.Camera, &Current.View, sizeof(Current.View));
-  const uint32_t Count = Current.Gaussians.Count;
+void Pipeline::project(const Camera &C) {
+  writeCamera(C);
+  const uint32_t Count = Current.drawn();
   const uint64_t Blocks = (uint64_t{Count} + LINE_WORDS - 1) / LINE_WORDS;
   Current.Records = Launch.allocate(
       "projected Gaussians", sizeof(splat_gaussian) * LINE_WORDS * Blocks);
@@ -99,8 +112,10 @@ void Pipeline::project() {
       Launch.allocate("what is seen", sizeof(splat_seen) * Items);
   Launch.run(ProjectProgram, "project", Items, Lanes, Current.Camera,
              Current.Gaussians.Geometry, Current.Gaussians.Sh, Current.Records,
-             Current.Depths.Keys, Current.Rectangles, Seen, Count,
-             cl::Local(PROJECT_LOCAL_BYTES));
+             Current.Depths.Keys, Current.Rectangles, Seen,
+             Current.Gaussians.Count,
+             cl::Local(lensFiles(Options).empty() ? PROJECT_LOCAL_BYTES
+                                                  : LENS_LOCAL_BYTES));
   std::vector<splat_seen> Host(Items);
   Launch.read("what is seen", Host.data(), Seen, sizeof(splat_seen) * Items);
   uint64_t Pairs = 0;
@@ -117,6 +132,17 @@ void Pipeline::project() {
   Current.Pairs = static_cast<uint32_t>(std::min<uint64_t>(Pairs, ~0U));
 }
 
+void Pipeline::writeCamera(const Camera &C) {
+  struct {
+    splat_view View;
+    splat_lens Lens;
+  } const Both{Current.View, makeLens(C)};
+  const bool HasLens = !lensFiles(Options).empty();
+  const std::size_t Bytes = HasLens ? sizeof(Both) : sizeof(Both.View);
+  Current.Camera = Launch.allocate("camera", Bytes);
+  Launch.write("camera", Current.Camera, &Both, Bytes);
+}
+
 void Pipeline::sortByDepth() {
   const Sorter::Pairs A{words("sorted depths", Current.Visible),
                         words("sorted Gaussians", Current.Visible)};
@@ -124,7 +150,7 @@ void Pipeline::sortByDepth() {
                         words("sorted Gaussians", Current.Visible)};
   Current.Order =
       Sort.sortKept(Current.Depths.Keys,
-                    {Current.Gaussians.Count, Current.Visible, Current.LeastKey,
+                    {Current.drawn(), Current.Visible, Current.LeastKey,
                      Current.GreatestKey, 32 - Options.DepthBits},
                     A, B);
 }
@@ -195,9 +221,8 @@ void Pipeline::allocatePixels() {
 }
 
 cl::Buffer Pipeline::drawDepths() {
-  Launch.run(DepthProgram, "depths_for_colors",
-             itemsFor(Current.Gaussians.Count), GroupSize, Current.Depths.Keys,
-             Current.Records, Current.Gaussians.Count);
+  Launch.run(DepthProgram, "depths_for_colors", itemsFor(Current.drawn()),
+             GroupSize, Current.Depths.Keys, Current.Records, Current.drawn());
   const cl::Buffer Picture = Current.Pixels;
   blend();
   return std::exchange(Current.Pixels, Picture);

@@ -68,6 +68,18 @@ struct Frame {
   uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
   std::array<uint64_t, CullReasons.size()> Culled{};
 
+  /// Gaussians with their copies beyond the sides of a picture that closes;
+  /// those of each kind begin at a whole line (kernels/project.cl).
+  uint32_t Copies = 1;
+  uint32_t stride() const {
+    return Copies == 1
+               ? Gaussians.Count
+               : (Gaussians.Count + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS;
+  }
+  uint32_t drawn() const { return Copies * stride(); }
+  /// Gaussians that a tile sees, each once; Visible counts copies too.
+  uint32_t seen() const;
+
   uint32_t tiles() const { return View.tiles[0] * View.tiles[1]; }
   uint32_t pixels() const { return View.size[0] * View.size[1]; }
 };
@@ -109,7 +121,8 @@ public:
   void checkStatuses(const cl::Buffer &Statuses);
 
 private:
-  void project();
+  void project(const Camera &C);
+  void writeCamera(const Camera &C);
   void sortByDepth();
   void countPairs();
   void duplicate();

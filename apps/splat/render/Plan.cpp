@@ -37,8 +37,8 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
                   fmt::format("DILATION={:#}f", O.Dilation),
                   alphaCutoffDefine(O),
                   // Written so that a NaN depth is culled by both.
-                  fmt::format("KEEP_DEPTH(z)=((z){}{}f)",
-                              Inria ? ">" : ">=", nearLimit(O.Convention)),
+                  fmt::format("KEEP_DEPTH(z)=((z){}{:#}f)",
+                              Inria ? ">" : ">=", O.nearLimit()),
                   Inria ? "ANTIALIAS_FLOOR=2.5e-5f" : "ANTIALIAS_FLOOR=0.0f",
                   fmt::format("GROUP={}", O.SimtGroup), minPowerDefine(O)});
   if (const std::string Define(defineOf(O.Exponential)); !Define.empty())
@@ -107,6 +107,34 @@ std::vector<std::string> projectionDefines(int ShDegree,
   return Defines;
 }
 
+std::vector<std::string> lensFiles(const RenderOptions &O) {
+  const bool Unscented = O.Through == Spread::Unscented;
+  std::vector<std::string> Files;
+  switch (O.Optics) {
+  case LensModel::Pinhole:
+    if (!Unscented)
+      return {};
+    Files = {"lens_pinhole.cl"};
+    break;
+  case LensModel::OpenCv:
+    Files = {"lens_opencv.cl"};
+    break;
+  case LensModel::Fisheye:
+    Files = {"lens_fisheye.cl"};
+    break;
+  case LensModel::Orthographic:
+    Files = {"lens_orthographic.cl"};
+    break;
+  case LensModel::Equirectangular:
+    Files = {"lens_equirectangular.cl"};
+    break;
+  }
+  Files.emplace_back("lens.cl");
+  if (Unscented)
+    Files.emplace_back("unscented.cl");
+  return Files;
+}
+
 RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   const bool Raster = Options.Blending == Path::Raster;
   const std::string Falloff(kernelOf(Options.Exponential));
@@ -114,7 +142,7 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
       std::move(Effects),
       {{ProjectProgram,
         {"layout.h", "activate.cl", "covariance.cl", "support.cl", "planes.h",
-         "sh_basis.h", "sh.cl", "rectangle.cl", "project.cl"},
+         "sh_basis.h", "sh.cl", "rectangle.cl"},
         {"CONSTANTS=__local", "VIEW_SPACE=__local"}},
        {SortProgram, {"sort.cl"}, {}},
        {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},
@@ -122,6 +150,9 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
         Raster ? std::vector<std::string>{"layout.h", "deal.cl", "rasterize.cl"}
                : std::vector<std::string>{"layout.h", Falloff, "blend.cl"},
         {}}}};
+  auto &Project = Plan.Programs.front().Files;
+  std::ranges::copy(lensFiles(Options), std::back_inserter(Project));
+  Project.emplace_back("project.cl");
   if (Plan.Effects.compiled(effects::ZTiles))
     Plan.Programs.push_back({MergeProgram, {"merge.cl"}, {}});
   if (Plan.Effects.compiled(effects::Background))

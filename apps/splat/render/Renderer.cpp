@@ -14,17 +14,17 @@ SortedPairs readPairs(Launcher &Launch, const Frame &F) {
   SortedPairs P;
   P.Tiles.resize(F.Pairs);
   P.Gaussians.resize(F.Pairs);
-  std::vector<uint32_t> Bits(F.Gaussians.Count);
+  std::vector<uint32_t> Bits(F.drawn());
   Launch.read("tiles of pairs", P.Tiles.data(), F.ByTile.Keys,
               4 * uint64_t{F.Pairs});
   Launch.read("Gaussians of pairs", P.Gaussians.data(), F.List,
               4 * uint64_t{F.Pairs});
-  Launch.read("depths", Bits.data(), F.Depths.Keys,
-              4 * uint64_t{F.Gaussians.Count});
+  Launch.read("depths", Bits.data(), F.Depths.Keys, 4 * uint64_t{F.drawn()});
   P.DepthBits.reserve(F.Pairs);
   for (uint32_t &G : P.Gaussians) {
     G &= ~SPANS_TILES;
     P.DepthBits.push_back(Bits[G]);
+    G %= F.stride();
   }
   return P;
 }
@@ -93,7 +93,7 @@ RenderResult finish(Launcher &Launch, const RenderPlan &Plan, const Frame &F,
   }
   Launch.beginStage(Stage::ReadBack);
   RenderResult R;
-  R.Visible = F.Visible;
+  R.Visible = F.seen();
   R.Pairs = F.Pairs;
   R.Culled = F.Culled;
   R.Picture = readPicture(Launch, F, Picture, Resolved);

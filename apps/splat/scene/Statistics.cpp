@@ -22,8 +22,8 @@ double quantile(std::vector<double> &Values, double Share) {
   return *At;
 }
 
-Spread spreadOf(std::vector<double> Values) {
-  Spread S;
+Distribution spreadOf(std::vector<double> Values) {
+  Distribution S;
   S.Mean = meanOf(Values);
   S.Least = *std::min_element(Values.begin(), Values.end());
   S.Largest = *std::max_element(Values.begin(), Values.end());

@@ -8,7 +8,7 @@
 namespace vorion::splat {
 
 /// Least, median, mean and largest, in double.
-struct Spread {
+struct Distribution {
   double Least = 0, Median = 0, Mean = 0, Largest = 0;
 };
 
@@ -17,10 +17,10 @@ struct SceneStatistics {
   /// The same without the outermost hundredth on each side: most scenes have
   /// strays far away.
   std::array<double, 3> InnerLow{}, InnerHigh{};
-  Spread Opacity;         ///< activated, 0 to 1
-  double Transparent = 0; ///< share of opacities below 1/255: never blended
-  Spread LargestScale;    ///< activated, of each Gaussian's longest axis
-  Spread AxisRatio;       ///< longest to shortest axis
+  Distribution Opacity;      ///< activated, 0 to 1
+  double Transparent = 0;    ///< share of opacities below 1/255: never blended
+  Distribution LargestScale; ///< activated, of each Gaussian's longest axis
+  Distribution AxisRatio;    ///< longest to shortest axis
 };
 
 /// \p S has at least one Gaussian. The median of an even number is the lower

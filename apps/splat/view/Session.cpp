@@ -213,8 +213,8 @@ Expected<GaussianBuffers> Session::uploaded(Launcher &L, const RenderPlan &Plan,
 Expected<DrawnView> Session::drawNew(const ViewRequest &R,
                                      const ShownScene &S) {
   const RenderOptions O = optionsOf(R.Chosen, S.File.DrawnAs);
-  const ViewFacts Own = splat::factsOf(S.File.Gaussians, makeView(R.View, O),
-                                       nearLimit(O.Convention));
+  const ViewFacts Own =
+      splat::factsOf(S.File.Gaussians, makeView(R.View, O), O.nearLimit());
   Facts = Facts && FactsOf == S.Number ? combined(*Facts, Own) : Own;
   FactsOf = S.Number;
   const auto Decide = [&](const ViewFacts &By) {

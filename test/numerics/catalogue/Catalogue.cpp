@@ -9,6 +9,7 @@ std::vector<HardCase> catalogue() {
   addOpacities(Cases);
   addViews(Cases);
   addLists(Cases);
+  addLenses(Cases);
   return Cases;
 }
 

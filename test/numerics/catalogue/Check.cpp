@@ -221,7 +221,9 @@ Expected<Success> Checker::oracle(const HardCase &C, const Setting &S) {
 }
 
 Expected<Success> Checker::all(const HardCase &C) {
-  if (Plan.Oracle != 0) {
+  // Of lenses it has no formulas.
+  if (Plan.Oracle != 0 && C.Options.Optics == splat::LensModel::Pinhole &&
+      C.Options.Through == splat::Spread::Jacobian && C.Options.Near == 0) {
     // Without dilation a footprint is all that its determinant is.
     const auto Sharp = std::ranges::find(knobs(), "--dilation 0", &Knob::Flags);
     for (const Setting &S : {Setting{}, Setting{&*Sharp}})

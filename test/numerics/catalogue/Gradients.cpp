@@ -2,7 +2,9 @@
 // full, deep stacks.
 #include "Build.h"
 #include "GradientJudge.h"
+#include "Lenses.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 
@@ -101,6 +103,21 @@ TrainingCase deepStack() {
                 std::move(G), {"reciprocal-rounded"});
 }
 
+/// Each camera with coefficients of its own, in all directions.
+TrainingCase throughLens(splat::LensModel M, std::string Name,
+                         std::string Why) {
+  GradientScene G{{}, lensView(M, someCoefficients(M), 96, 64), {}};
+  const splat::Scene All = allAround(140, 81);
+  for (uint32_t I = 0; I < All.size(); ++I) {
+    const float *P = &All.Means[3 * I];
+    const bool Everywhere = M == splat::LensModel::Equirectangular;
+    if (Everywhere || (P[2] > 1 && std::hypot(P[0], P[1]) < 0.5 * P[2]))
+      append(G.Scene, All, I, 1);
+  }
+  G.Options.Optics = M;
+  return caseOf(std::move(Name), std::move(Why), std::move(G), {});
+}
+
 } // namespace
 
 void addGradients(std::vector<TrainingCase> &Cases) {
@@ -108,6 +125,19 @@ void addGradients(std::vector<TrainingCase> &Cases) {
   for (const unsigned Length : {15U, 16U, 17U, 32U, 33U})
     Cases.push_back(handOver(Length));
   Cases.push_back(deepStack());
+  using splat::LensModel;
+  Cases.push_back(throughLens(LensModel::OpenCv, "gradients-through-opencv",
+                              "back through all twelve coefficients and the "
+                              "Jacobian's own derivative"));
+  Cases.push_back(throughLens(LensModel::Fisheye, "gradients-through-fisheye",
+                              "back through the angle's polynomial, where "
+                              "differences of nearly equal terms cancel"));
+  Cases.push_back(throughLens(LensModel::Orthographic,
+                              "gradients-through-orthographic",
+                              "depth moves nothing on the picture"));
+  Cases.push_back(throughLens(
+      LensModel::Equirectangular, "gradients-through-equirectangular",
+      "a Gaussian on both sides of the seam has the sum of both gradients"));
 }
 
 } // namespace vorion::test

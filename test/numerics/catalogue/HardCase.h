@@ -61,6 +61,7 @@ void addShapes(std::vector<HardCase> &Cases);
 void addOpacities(std::vector<HardCase> &Cases);
 void addViews(std::vector<HardCase> &Cases);
 void addLists(std::vector<HardCase> &Cases);
+void addLenses(std::vector<HardCase> &Cases);
 /// @}
 
 } // namespace vorion::test

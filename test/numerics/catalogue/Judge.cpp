@@ -41,6 +41,10 @@ reference::Options referenceOptions(const splat::RenderOptions &O) {
   R.Rule = O.Convention == splat::Rules::Inria ? reference::Rules::Inria
                                                : reference::Rules::Gsplat;
   R.Reach = supportNamed(std::string(name(O.Reach)));
+  R.Through = O.Through == splat::Spread::Jacobian
+                  ? reference::Spread::Jacobian
+                  : reference::Spread::Unscented;
+  R.Near = double(O.Near);
   R.Antialiased = O.Antialiased;
   R.Dilation = double(O.Dilation);
   R.Cutoff = double(O.Cutoff);

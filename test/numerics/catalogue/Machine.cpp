@@ -14,7 +14,7 @@ namespace {
 splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O,
                           bool Depth) {
   const splat::ViewFacts Facts = splat::factsOf(
-      C.Scene, splat::makeView(C.View, O), splat::nearLimit(O.Convention));
+      C.Scene, splat::makeView(C.View, O), O.nearLimit(), O.byDistance());
   splat::EffectRequest Flags;
   Flags.Selection = splat::EffectRequest::Mode::Flags;
   return splat::planRender(

@@ -1,0 +1,20 @@
+// Parallel rays: x and y as they are, at any depth.
+#define LENS_HOLDS false
+
+static bool lens_at(VIEW_SPACE const splat_lens *lens, float3 p, float2 *at) {
+  *at = p.xy;
+  return true;
+}
+
+static lens_rows lens_jacobian(VIEW_SPACE const splat_view *view,
+                               VIEW_SPACE const splat_lens *lens, float3 p,
+                               bool hold) {
+  const lens_rows j = {(float3)(1.0f, 0.0f, 0.0f), (float3)(0.0f, 1.0f, 0.0f)};
+  return j;
+}
+
+static float3 lens_curvature(VIEW_SPACE const splat_view *view,
+                             VIEW_SPACE const splat_lens *lens, float3 p,
+                             lens_rows by, bool hold) {
+  return (float3)(0.0f, 0.0f, 0.0f);
+}

@@ -1,0 +1,265 @@
+// Cameras that are no pinholes: where their models end, fold and close.
+#include "Lenses.h"
+
+#include <cmath>
+#include <limits>
+
+namespace vorion::test {
+
+using splat::LensModel;
+
+splat::Camera lensView(LensModel M, std::array<double, 12> K, int Width,
+                       int Height) {
+  splat::Camera C = frontView(Width, Height, 50);
+  C.Optics = {M, K};
+  if (M == LensModel::Equirectangular) {
+    C.Fx = Width / (2 * M_PI);
+    C.Fy = Height / M_PI;
+  } else if (M == LensModel::Fisheye) {
+    C.Fx = C.Fy = 20;
+  } else if (M == LensModel::Orthographic) {
+    C.Fx = C.Fy = 12;
+  }
+  return C;
+}
+
+std::array<double, 12> someCoefficients(LensModel M) {
+  if (M == LensModel::OpenCv)
+    return {-0.25, 0.08, 0.004, -0.006, -0.01, 0.02,
+            0.03,  0.01, 0.003, -0.001, 0.002, 0.001};
+  if (M == LensModel::Fisheye)
+    return {0.06, -0.02, 0.005, -0.0006};
+  return {};
+}
+
+splat::Scene allAround(uint32_t Count, uint32_t Seed, double Scale) {
+  splat::Scene S;
+  Numbers R(Seed);
+  while (S.size() < Count) {
+    const std::array<double, 3> At{R.uniform(-4, 4), R.uniform(-4, 4),
+                                   R.uniform(-4, 4)};
+    const double Distance = std::hypot(At[0], At[1], At[2]);
+    if (Distance < 1 || Distance > 4)
+      continue;
+    add(S, {.Mean = {static_cast<float>(At[0]), static_cast<float>(At[1]),
+                     static_cast<float>(At[2])},
+            .Scale = {Scale * R.uniform(0.3, 1), Scale * R.uniform(0.3, 1),
+                      Scale * R.uniform(0.3, 1)},
+            .Quat = R.turn(),
+            .Opacity = R.uniform(0.2, 0.95),
+            .Color = R.color()});
+  }
+  return S;
+}
+
+namespace {
+
+HardCase caseOf(std::string Name, std::string Why, splat::Scene S,
+                splat::Camera View) {
+  HardCase C{
+      std::move(Name), std::move(Why), std::move(S), std::move(View), {}};
+  C.Options.Optics = C.View.Optics.Model;
+  C.Cap = 1e-4;
+  // Where depth is z, what is behind is not drawn.
+  if (!C.Options.byDistance())
+    for (std::size_t I = 2; I < C.Scene.Means.size(); I += 3)
+      C.ExpectedCulls[0] += C.Scene.Means[I] > 0.2F ? 0 : 1;
+  return C;
+}
+
+/// Appends one that is seen where the model has its \p Angle from the axis.
+void addAtAngle(splat::Scene &S, double Angle, double About, double Distance) {
+  const double Out = Distance * std::sin(Angle);
+  add(S, {.Mean = {static_cast<float>(Out * std::cos(About)),
+                   static_cast<float>(Out * std::sin(About)),
+                   static_cast<float>(Distance * std::cos(Angle))},
+          .Scale = {0.1, 0.05, 0.08}});
+}
+
+HardCase distorted() {
+  HardCase C =
+      caseOf("opencv-distortion",
+             "all twelve coefficients; Gaussians all around, half of "
+             "them behind the camera",
+             allAround(160, 71),
+             lensView(LensModel::OpenCv, someCoefficients(LensModel::OpenCv)));
+  C.ExpectedCulls[3] = 43;
+  return C;
+}
+
+/// k1 = -0.3: r (1 - 0.3 r^2) turns back at r = 1.054.
+HardCase opencvFold() {
+  HardCase C = caseOf("opencv-fold",
+                      "means beside the radius at which the polynomial turns "
+                      "back, from where it would show them mirrored inside",
+                      {}, lensView(LensModel::OpenCv, {-0.3}, 128, 96));
+  const double Fold = std::atan(C.View.Optics.limit());
+  for (const double Off : {-0.3, -0.1, -1e-3, 1e-3, 0.1, 0.3})
+    addAtAngle(C.Scene, Fold + Off, 4 * Off, 2);
+  C.ExpectedCulls[3] = 3;
+  return C;
+}
+
+HardCase fisheyeFold() {
+  HardCase C = caseOf("fisheye-fold",
+                      "means beside the angle at which a fisheye's polynomial "
+                      "turns back, which is behind the camera",
+                      {}, lensView(LensModel::Fisheye, {-0.1}, 128, 96));
+  const double Fold = C.View.Optics.limit();
+  for (const double Off : {-0.5, -0.2, -1e-3, 1e-3, 0.2, 0.9})
+    addAtAngle(C.Scene, Fold + Off, 5 * Off, 2);
+  C.ExpectedCulls[3] = 3;
+  return C;
+}
+
+HardCase fisheyeAxis() {
+  HardCase C = caseOf(
+      "fisheye-axis",
+      "on the axis and 1e-30 to 1e-3 beside it, where angle "
+      "over radius is 0 over 0, and straight behind",
+      {}, lensView(LensModel::Fisheye, someCoefficients(LensModel::Fisheye)));
+  Numbers R(72);
+  for (const double Off : {0., 1e-30, 1e-20, 1e-10, 1e-6, 1e-4, 1e-3})
+    add(C.Scene,
+        {.Mean = {static_cast<float>(Off), static_cast<float>(-0.5 * Off),
+                  static_cast<float>(R.uniform(1, 3))},
+         .Scale = {0.2, 0.05, 0.1},
+         .Quat = R.turn(),
+         .Opacity = 0.3,
+         .Color = R.color()});
+  add(C.Scene, {.Mean = {0, 0, -2}});
+  C.ExpectedCulls[3] = 1;
+  return C;
+}
+
+HardCase fisheyeAround() {
+  return caseOf("fisheye-all-around",
+                "Gaussians beside and behind a camera that sees them: z below "
+                "0, depth by distance",
+                allAround(160, 73), lensView(LensModel::Fisheye, {}, 140, 140));
+}
+
+HardCase orthographic() {
+  HardCase C = caseOf("orthographic",
+                      "parallel rays: what is far is as large as what is near",
+                      allAround(160, 74), lensView(LensModel::Orthographic));
+  C.ExpectedCulls[3] = 27;
+  return C;
+}
+
+HardCase seam() {
+  HardCase C = caseOf("equirectangular-seam",
+                      "Gaussians behind the camera that cross the seam, one of "
+                      "them twice as wide as the picture",
+                      {}, lensView(LensModel::Equirectangular, {}, 96, 48));
+  Numbers R(75);
+  for (const double Angle : {M_PI, -3.1, 3.0, -2.9, 3.14159, 2.2})
+    add(C.Scene, {.Mean = {static_cast<float>(2 * std::sin(Angle)),
+                           static_cast<float>(R.uniform(-0.8, 0.8)),
+                           static_cast<float>(2 * std::cos(Angle))},
+                  .Scale = {0.5, 0.2, 0.3},
+                  .Opacity = 0.5,
+                  .Color = R.color()});
+  add(C.Scene, {.Mean = {0.1F, 0.3F, -2.5F}, .Scale = {40, 0.1, 0.1}});
+  return C;
+}
+
+HardCase poles() {
+  HardCase C = caseOf("equirectangular-poles",
+                      "straight up and down and 1e-20 to 0.1 beside it, where "
+                      "a longitude is anything",
+                      {}, lensView(LensModel::Equirectangular, {}, 96, 48));
+  Numbers R(76);
+  for (const double Off : {0., 1e-20, 1e-6, 1e-3, 0.1})
+    for (const float Up : {-2.0F, 2.0F})
+      add(C.Scene, {.Mean = {static_cast<float>(-Off), Up,
+                             static_cast<float>(0.5 * Off)},
+                    .Scale = {0.05, 0.1, 0.08},
+                    .Quat = R.turn(),
+                    .Opacity = 0.4,
+                    .Color = R.color()});
+  return C;
+}
+
+HardCase sphere() {
+  return caseOf("equirectangular-all-around",
+                "Gaussians all around on a full sphere, turned",
+                allAround(200, 77),
+                turnedView(lensView(LensModel::Equirectangular, {}, 120, 60)));
+}
+
+HardCase hugeCoefficients() {
+  // Everything but what is within r = 1e-3 of the axis lies beyond the fold.
+  HardCase C = caseOf("huge-coefficients",
+                      "k1 of -1e6: the polynomial turns back at r = 5.8e-4, "
+                      "and its powers reach 1e24",
+                      allAround(40, 78),
+                      lensView(LensModel::OpenCv, {-1e6, 1e6, 0, 0, 1e6}));
+  add(C.Scene, {.Mean = {1e-4F, 2e-4F, 2}});
+  C.ExpectedCulls[3] = 17;
+  return C;
+}
+
+HardCase unscentedWide() {
+  HardCase C = caseOf("unscented-wide",
+                      "Gaussians as wide as they are far through a fisheye as "
+                      "seven points, some of which it does not see",
+                      allAround(60, 79, 1.2),
+                      lensView(LensModel::Fisheye,
+                               someCoefficients(LensModel::Fisheye), 128, 96));
+  C.Options.Through = splat::Spread::Unscented;
+  C.ExpectedCulls[3] = 8;
+  return C;
+}
+
+HardCase unscentedSeam() {
+  HardCase C = seam();
+  C.Name = "unscented-seam";
+  C.Why = "the points of one Gaussian on both sides of the seam";
+  C.Options.Through = splat::Spread::Unscented;
+  return C;
+}
+
+HardCase unscentedNeedle() {
+  HardCase C = caseOf(
+      "unscented-needles",
+      "needles as seven points through OpenCV's model: the "
+      "determinant is a sum of 21 squares",
+      {}, lensView(LensModel::OpenCv, someCoefficients(LensModel::OpenCv)));
+  Numbers R(80);
+  for (int I = 0; I < 12; ++I)
+    add(C.Scene, {.Mean = {static_cast<float>(R.uniform(-0.6, 0.6)),
+                           static_cast<float>(R.uniform(-0.4, 0.4)),
+                           static_cast<float>(R.uniform(2, 3))},
+                  .Scale = {0.6, 1e-4, 1e-4},
+                  .Quat = R.turn(),
+                  .Color = R.color()});
+  C.Options.Through = splat::Spread::Unscented;
+  C.Cap = 1e-3;
+  return C;
+}
+
+HardCase ownNearPlane() {
+  HardCase C = caseOf("own-near-plane",
+                      "a near plane of 2 by option: means on it and one ulp "
+                      "either side",
+                      {}, frontView(64, 48, 50));
+  C.Options.Near = 2;
+  for (const float Z : {0.5F, std::nextafter(2.0F, 0.0F), 2.0F,
+                        std::nextafter(2.0F, 3.0F), 3.0F})
+    add(C.Scene, {.Mean = {0.1F, 0, Z}, .Opacity = 0.4});
+  C.ExpectedCulls[0] = 3;
+  return C;
+}
+
+} // namespace
+
+void addLenses(std::vector<HardCase> &Cases) {
+  for (HardCase (*const Make)() :
+       {distorted, opencvFold, fisheyeFold, fisheyeAxis, fisheyeAround,
+        orthographic, seam, poles, sphere, hugeCoefficients, unscentedWide,
+        unscentedSeam, unscentedNeedle, ownNearPlane})
+    Cases.push_back(Make());
+}
+
+} // namespace vorion::test
