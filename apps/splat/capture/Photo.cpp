@@ -2,104 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csetjmp>
-#include <fmt/format.h>
-#include <memory>
-#include <png.h>
-#include <turbojpeg.h>
-#include <webp/decode.h>
 
 namespace vorion::splat {
 namespace {
-
-enum class PhotoKind { Png, Jpeg, WebP, None };
-
-PhotoKind kindOf(Bytes File) {
-  const std::string_view Text = asText(File);
-  if (Text.starts_with("\x89PNG\r\n\x1a\n"))
-    return PhotoKind::Png;
-  if (Text.starts_with("\xff\xd8\xff"))
-    return PhotoKind::Jpeg;
-  if (Text.starts_with("RIFF") && Text.substr(0, 12).ends_with("WEBP"))
-    return PhotoKind::WebP;
-  return PhotoKind::None;
-}
-
-Error noPhoto(const std::string &Where) {
-  return {Where, "not a picture, expected a PNG, JPEG or WebP"};
-}
-
-Error damaged(const std::string &Where, const char *Kind, const char *Why) {
-  return {Where, fmt::format("damaged {} ({}), expected a whole one", Kind,
-                             printable(Why))};
-}
-
-/// libpng's simplified reader, and its release.
-struct PngReader {
-  png_image Image{};
-
-  explicit PngReader(Bytes File) {
-    Image.version = PNG_IMAGE_VERSION;
-    png_image_begin_read_from_memory(&Image, File.data(), File.size());
-    // Values, not light: no conversion from 16-bit linear.
-    Image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-  }
-  ~PngReader() { png_image_free(&Image); }
-  PngReader(const PngReader &) = delete;
-  PngReader &operator=(const PngReader &) = delete;
-
-  /// A warning means that bytes were wrong (a checksum, say).
-  bool good() const { return PNG_IMAGE_FAILED(Image) == 0; }
-};
-
-using Jpeg = std::unique_ptr<void, int (*)(void *)>;
-Jpeg makeJpeg() { return {tjInitDecompress(), tjDestroy}; }
-
-struct JpegHeader {
-  int Width = 0, Height = 0, Subsampling = 0, Colours = 0;
-};
-
-bool readJpegHeader(const Jpeg &J, Bytes File, JpegHeader &H) {
-  return tjDecompressHeader3(
-             J.get(), reinterpret_cast<const unsigned char *>(File.data()),
-             File.size(), &H.Width, &H.Height, &H.Subsampling, &H.Colours) == 0;
-}
-
-Expected<Plane> sized(const std::string &Where, Bytes File, PhotoSize S) {
-  Plane P;
-  P.Width = static_cast<std::size_t>(S.Width);
-  P.Height = static_cast<std::size_t>(S.Height);
-  const std::size_t Size = 4 * P.pixels();
-  if (Size > unpackLimit(File.size()))
-    return Error{Where, fmt::format("{}x{} pixels in a file of {} bytes, "
-                                    "expected at most {} bytes unpacked",
-                                    S.Width, S.Height, File.size(),
-                                    unpackLimit(File.size()))};
-  P.Rgba.resize(Size);
-  return P;
-}
-
-Expected<Plane> decodePng(const std::string &Where, Bytes File, Plane P) {
-  PngReader Png(File);
-  Png.Image.format = PNG_FORMAT_RGBA;
-  if (!Png.good() ||
-      !png_image_finish_read(&Png.Image, nullptr, P.Rgba.data(), 0, nullptr) ||
-      !Png.good())
-    return damaged(Where, "PNG", Png.Image.message);
-  return P;
-}
-
-Expected<Plane> decodeJpeg(const std::string &Where, Bytes File, Plane P) {
-  const Jpeg J = makeJpeg();
-  if (tjDecompress2(
-          J.get(), reinterpret_cast<const unsigned char *>(File.data()),
-          File.size(), reinterpret_cast<unsigned char *>(P.Rgba.data()),
-          static_cast<int>(P.Width), 0, static_cast<int>(P.Height), TJPF_RGBA,
-          // Each scan goes over all pixels, and a file may have any number.
-          TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0)
-    return damaged(Where, "JPEG", tjGetErrorStr2(J.get()));
-  return P;
-}
 
 /// Which source pixels a result pixel covers along one axis: from \c First on,
 /// with these shares of their length.
@@ -159,58 +64,6 @@ Photo averaged(std::size_t FromWidth, std::size_t FromHeight, int Width,
 }
 
 } // namespace
-
-Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
-  PhotoSize S;
-  switch (kindOf(File)) {
-  case PhotoKind::Png: {
-    const PngReader Png(File);
-    if (!Png.good())
-      return damaged(Where, "PNG", Png.Image.message);
-    if (Png.Image.width <= MaxImageSize && Png.Image.height <= MaxImageSize)
-      S = {static_cast<int>(Png.Image.width),
-           static_cast<int>(Png.Image.height)};
-    break;
-  }
-  case PhotoKind::Jpeg: {
-    const Jpeg J = makeJpeg();
-    JpegHeader H;
-    if (!readJpegHeader(J, File, H))
-      return damaged(Where, "JPEG", tjGetErrorStr2(J.get()));
-    if (H.Colours == TJCS_CMYK || H.Colours == TJCS_YCCK)
-      return Error{Where, "a CMYK JPEG, expected one in colour or grey"};
-    S = {H.Width, H.Height};
-    break;
-  }
-  case PhotoKind::WebP:
-    if (!WebPGetInfo(reinterpret_cast<const uint8_t *>(File.data()),
-                     File.size(), &S.Width, &S.Height))
-      return damaged(Where, "WebP", "its header");
-    break;
-  case PhotoKind::None:
-    return noPhoto(Where);
-  }
-  if (S.Width < 1 || S.Height < 1 || S.Width > MaxImageSize ||
-      S.Height > MaxImageSize)
-    return Error{Where, fmt::format("a picture of unusual size, expected sides "
-                                    "of 1 to {} pixels",
-                                    MaxImageSize)};
-  return S;
-}
-
-Expected<Plane> decodePhoto(const std::string &Where, Bytes File) {
-  const auto Size = photoSize(Where, File);
-  if (!Size)
-    return Size.error();
-  if (kindOf(File) == PhotoKind::WebP)
-    return decodeWebP(Where, File, unpackLimit(File.size()));
-  auto P = sized(Where, File, *Size);
-  if (!P)
-    return P;
-  return kindOf(File) == PhotoKind::Png
-             ? decodePng(Where, File, std::move(*P))
-             : decodeJpeg(Where, File, std::move(*P));
-}
 
 Photo shrink(const Plane &P, int Width, int Height,
              const std::array<float, 3> &Background) {

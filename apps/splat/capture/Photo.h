@@ -1,29 +1,14 @@
-/// Photographs: decoding, and making them as small as training wants them.
+/// Photographs as small as training wants them.
 #pragma once
 
-#include "io/Bytes.h"
 #include "io/Cameras.h"
-#include "io/WebP.h"
-#include "vorion/support/Expected.h"
+#include "io/PhotoFile.h"
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace vorion::splat {
-
-struct PhotoSize {
-  int Width = 0, Height = 0;
-};
-
-/// The size that the header of a PNG, JPEG or WebP states.
-Expected<PhotoSize> photoSize(const std::string &Where, Bytes File);
-
-/// Decodes one to 8-bit r, g, b, a (opaque where the file has no alpha; 16-bit
-/// PNGs are rounded to 8). Told by the content. Damaged, cut or CMYK files are
-/// errors; values stay in the file's colour space, sRGB by custom.
-Expected<Plane> decodePhoto(const std::string &Where, Bytes File);
 
 /// What is trained on and measured against: 8-bit r, g, b.
 struct Photo {

@@ -1,21 +1,26 @@
 #include "commands/Compare.h"
 
 #include "commands/Commands.h"
+#include "io/Image.h"
 #include "vorion/support/CommandLine.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace vorion::splat {
 
 Runner addCompare(CLI::App &App) {
   auto A = std::make_shared<CompareArguments>();
-  takesFile(
-      App.add_option("a", A->Reference, "What to expect: .npz, .pfm or .json"),
-      {".npz", ".pfm", ".json"})
+  std::vector<std::string> Kinds(pictureEndings().begin(),
+                                 pictureEndings().end());
+  Kinds.emplace_back(".json");
+  takesFile(App.add_option("a", A->Reference,
+                           "What to expect: a picture of any kind that render "
+                           "writes, or .json"),
+            Kinds)
       ->required();
-  takesFile(
-      App.add_option("b", A->Picture, "What there is: .npz, .pfm or .json"),
-      {".npz", ".pfm", ".json"})
+  takesFile(App.add_option("b", A->Picture, "What there is"), Kinds)
       ->required();
   CLI::Option *Pairs = App.add_flag(
       "--pairs", A->Pairs,

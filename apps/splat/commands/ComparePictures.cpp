@@ -23,6 +23,19 @@ namespace vorion::splat {
 namespace {
 
 constexpr const char *Metric = "PSNR, peak 1, linear unclamped floats";
+constexpr const char *EightBitMetric =
+    "PSNR, peak 1, 8-bit values: floats are clamped and rounded to them";
+
+/// \p I as a picture of 8 bits has it. What is no finite number stays, to be
+/// counted.
+void roundToBytes(ExactImage &I) {
+  if (I.IsEightBit)
+    return;
+  for (std::vector<double> *Values : {&I.Render, &I.Alpha})
+    for (double &V : *Values)
+      if (std::isfinite(V))
+        V = toByte(static_cast<float>(V)) / 255.0;
+}
 
 /// The union of the arrays of \p File whose names begin with "mask".
 Expected<std::vector<uint8_t>> readMask(const std::string &File,
@@ -103,10 +116,10 @@ Expected<Success> comparePictures(const CompareArguments &A) {
                                               {"--mask", A.Mask}});
       !Claimed)
     return Claimed;
-  const auto First = readImage(A.Reference);
+  auto First = readImage(A.Reference);
   if (!First)
     return First.error();
-  const auto Second = readImage(A.Picture);
+  auto Second = readImage(A.Picture);
   if (!Second)
     return Second.error();
   if (First->Width != Second->Width || First->Height != Second->Height)
@@ -122,11 +135,17 @@ Expected<Success> comparePictures(const CompareArguments &A) {
     Mask = std::move(*Read);
   }
 
+  const bool InBytes = First->IsEightBit || Second->IsEightBit;
+  if (InBytes) {
+    roundToBytes(*First);
+    roundToBytes(*Second);
+  }
+  const char *Measure = InBytes ? EightBitMetric : Metric;
   const Difference All = compare(First->Render, Second->Render, 3);
   const Difference Outside = compare(First->Render, Second->Render, 3, Mask);
   const double Share =
       1 - double(Outside.Pixels) / static_cast<double>(First->pixels());
-  printOut("metric: {}\n", Metric);
+  printOut("metric: {}\n", Measure);
   print("render, all pixels", All);
   if (!Mask.empty()) {
     print("render, outside the mask", Outside);
@@ -145,7 +164,7 @@ Expected<Success> comparePictures(const CompareArguments &A) {
         return Input.error();
       Report[Name] = std::move(*Input);
     }
-    Report.update({{"metric", Metric},
+    Report.update({{"metric", Measure},
                    {"equal", All.MaxAbs == 0},
                    {"psnr_db", finite(All.PsnrDb)},
                    {"max_abs", finite(All.MaxAbs)},

@@ -6,6 +6,7 @@
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
 
+#include "eval/ScorePage.h"
 #include "eval/ScoreText.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
@@ -17,6 +18,7 @@
 #include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -30,14 +32,15 @@ struct EvalArguments : DrawArguments {
   CaptureOptions Read;
   int Downscale = 1;
   bool All = false;
-  std::string Json, Csv, Device, KernelFolder;
+  std::string Json, Csv, Html, Pictures, Device, KernelFolder;
 };
 
 /// What can be said to be wrong before anything is read.
 Expected<Success> check(const EvalArguments &A) {
   for (const auto &Checked :
        {checkDrawOptions(A.Options), checkJsonName(A.Json),
-        checkEnding("--csv", A.Csv, {".csv"})})
+        checkEnding("--csv", A.Csv, {".csv"}),
+        checkEnding("--html", A.Html, {".html"})})
     if (!Checked)
       return Checked;
   for (const float V : A.Options.Background)
@@ -47,8 +50,12 @@ Expected<Success> check(const EvalArguments &A) {
                                "photographs have",
                                V),
                    ExitCode::Usage};
-  return claimOutputs({{"--json", A.Json}, {"--csv", A.Csv}},
-                      {{"the scene", A.Scene.Path}});
+  if (!A.Pictures.empty())
+    if (auto Checked = checkPrefix("--pictures", A.Pictures); !Checked)
+      return Checked;
+  return claimOutputs(
+      {{"--json", A.Json}, {"--csv", A.Csv}, {"--html", A.Html}},
+      {{"the scene", A.Scene.Path}});
 }
 
 Expected<nlohmann::ordered_json>
@@ -78,6 +85,23 @@ reportOf(const EvalArguments &A, const SceneFile &File, const Capture &C,
                  {"device", {{"name", D.name()}, {"version", D.version()}}}});
   Report.update(scoreJson(Scores));
   return Report;
+}
+
+Expected<Success> writeHtml(const EvalArguments &A, const Device &D,
+                            const std::vector<JudgedView> &Views,
+                            const std::vector<ViewScore> &Scores) {
+  const auto Hash = hashScene(A.Scene.Path);
+  if (!Hash)
+    return Hash.error();
+  const auto Page =
+      scorePageOf({std::filesystem::path(A.Scene.Path).filename().string(),
+                   {madeBy(),
+                    fmt::format("scene {}, fnv1a64 {}; capture {}",
+                                A.Scene.Path, *Hash, A.Capture),
+                    fmt::format("device {}, {}", D.name(), D.version())}},
+                  Views, Scores);
+  return Page ? writeFileAtomically(A.Html, *Page)
+              : Expected<Success>(Page.error());
 }
 
 Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
@@ -126,6 +150,12 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   if (!A.Csv.empty())
     if (auto Written = writeFileAtomically(A.Csv, scoreCsv(*Scores)); !Written)
       return Written;
+  if (!A.Pictures.empty())
+    if (auto Written = writePairFiles(A.Pictures, Views, *Scores); !Written)
+      return Written;
+  if (!A.Html.empty())
+    if (auto Written = writeHtml(A, *D, Views, *Scores); !Written)
+      return Written;
   if (!A.Json.empty()) {
     const auto Report = reportOf(A, *File, *C, *Set, *D, *Scores);
     if (!Report)
@@ -159,6 +189,13 @@ Runner addEval(CLI::App &App) {
   addMasksOption(App, A->Read.Masks);
   writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
   writesFile(App.add_option("--csv", A->Csv, "Write a line a view"), {".csv"});
+  writesFiles(
+      App.add_option("--pictures", A->Pictures,
+                     "Write what each view shows beside its photograph: "
+                     "PREFIX.NAME.drawn.png and PREFIX.NAME.photo.png"));
+  writesFile(App.add_option("--html", A->Html,
+                            "Write a page of the same, with scores"),
+             {".html"});
   addDrawOptions(App, *A);
   addDeviceOption(App, A->Device);
   addKernelsOption(App, A->KernelFolder);

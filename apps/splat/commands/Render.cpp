@@ -43,6 +43,7 @@ struct RenderArguments : DrawArguments {
   std::string Explain; ///< empty, "plan" or "measure"
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
+  PictureFormat Format;
   std::string Numerics; ///< settings, empty for no
   std::string HeatMap;  ///< what names of files begin with, empty for no
 };
@@ -59,7 +60,7 @@ Expected<Success> check(const RenderArguments &A) {
   };
   const RenderOptions &O = A.Options;
   for (const auto &Checked :
-       {checkEnding("-o", A.Output, {".png", ".pfm", ".npz"}),
+       {checkEnding("-o", A.Output, pictureEndings()),
         checkEnding("--depth", A.Depth, {".pfm", ".npz"}),
         checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json),
         checkEnding("--html", A.Html, {".html"})})
@@ -281,7 +282,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   fallBack(A, L, Inputs, Plan);
   const PictureJob J{A.Scene.Path, A.Scene.Axes, A.Cameras, *File,
                      A.Options,    Plan,         L,         A.Output,
-                     A.Json,       A.Pairs,      A.Depth};
+                     A.Json,       A.Pairs,      A.Depth,   A.Format};
   auto Rendered =
       isOne(A) ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr, A.Html)
                : renderAll(J, *Cameras, A.Overlap);
@@ -318,10 +319,15 @@ Runner addRender(CLI::App &App) {
   App.add_flag("--overlap", A->Overlap,
                "Of several pictures, prepare one while another is blended");
   writesFile(App.add_option("-o,--output", A->Output,
-                            "Picture: .png, or .pfm or .npz for linear floats "
-                            "(default: the scene's name and .png, in this "
-                            "folder)"),
-             {".png", ".pfm", ".npz"});
+                            "Picture: .png, .jpg or .webp of 8 bits, or .exr, "
+                            ".pfm or .npz for floats (default: the scene's "
+                            "name and .png, in this folder)"),
+             {pictureEndings().begin(), pictureEndings().end()});
+  App.add_option("--quality", A->Format.Quality,
+                 "Of a .jpg (default 95) or .webp (default: every byte kept)")
+      ->check(CLI::Range(1, 100));
+  App.add_flag("--exr-half", A->Format.Half,
+               "An .exr has floats of 16 bits (default: of 32)");
   writesFile(App.add_option("--json", A->Json,
                             "Write what was done, and how much of it"),
              {".json"});

@@ -5,6 +5,7 @@
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
+#include "commands/TrainPictures.h"
 #include "commands/TrainSettingOptions.h"
 
 #include "analyze/Chart.h"
@@ -34,6 +35,7 @@ namespace {
 struct TrainArguments {
   TrainRequest Request;
   std::string Output, Json, Curve, Device;
+  TrainPictures Pictures;
   bool Time = false, Breakdown = false;
   std::optional<unsigned> GivenTimeEvery;
   SettingOptions Settings;
@@ -99,6 +101,8 @@ Expected<Success> writeOutputs(const TrainArguments &A,
                    {A.Request.Run.Antialiased, std::nullopt, "--antialiased"});
       !Written)
     return Written;
+  if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out); !Written)
+    return Written;
   if (!A.Curve.empty())
     if (auto Written = writeFileAtomically(
             A.Curve,
@@ -152,6 +156,7 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
              Out.meanDb(), B->Constant, B->Mean, B->BestView);
   else
     printOut("held out     no held-out views\n");
+  printOut("cameras      {}\n", escaped(camerasFor(A.Output)));
   if (A.Breakdown && !Out.Timed.empty())
     printOut("{}", Out.Timed.lastByStage());
 }
@@ -160,7 +165,8 @@ Expected<Success> check(const TrainArguments &A) {
   const TrainRequest &R = A.Request;
   for (const auto &Checked :
        {checkEnding("-o", A.Output, {".ply"}),
-        checkEnding("--curve", A.Curve, {".svg"}), checkJsonName(A.Json)})
+        checkEnding("--curve", A.Curve, {".svg"}), checkJsonName(A.Json),
+        checkTrainPictures(A.Pictures)})
     if (!Checked)
       return Checked;
   if (auto Checked = checkBackwardOptions(R.Backward, R.Blending.Kind);
@@ -184,6 +190,8 @@ Expected<Success> check(const TrainArguments &A) {
   return claimOutputs({{"-o", A.Output},
                        {"--json", A.Json},
                        {"--curve", A.Curve},
+                       {"the cameras", camerasFor(A.Output)},
+                       {"--html", A.Pictures.Html},
                        {"--checkpoint", R.Checkpoint}},
                       {{"--from", R.From}});
 }
@@ -303,6 +311,7 @@ Runner addTrain(CLI::App &App) {
       {".json"});
   writesFile(App.add_option("--curve", A->Curve, "Draw the losses (.svg)"),
              {".svg"});
+  addTrainPictures(App, A->Pictures);
   addDeviceOption(App, A->Device);
   addSettingOptions(App, A->Settings);
   return [A, &App](const DeviceOptions &Machine) -> Expected<Success> {
@@ -315,6 +324,7 @@ Runner addTrain(CLI::App &App) {
     nameOutput("-o", A->Output, A->Request.Capture, ".ply");
     if (A->Request.Checkpoint.empty())
       A->Request.Checkpoint = A->Output + ".checkpoint";
+    A->Request.KeepPictures = A->Pictures.any();
     return run(*A, Machine);
   };
 }

@@ -1,15 +1,19 @@
 #include "io/Image.h"
 
+#include "io/Exr.h"
 #include "io/Npz.h"
+#include "io/PhotoFile.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <png.h>
 
 static_assert(std::endian::native == std::endian::little,
@@ -70,9 +74,6 @@ template <typename T> bool parseWhole(std::string_view Word, T &Value) {
   return Status == std::errc() && End == Word.data() + Word.size();
 }
 
-/// Pixels that a picture of this size may have; guards multiplications below.
-constexpr int MaxSide = 1 << 15;
-
 Expected<ExactImage> readPfm(const std::string &Path) {
   const auto File = readFile(Path);
   if (!File)
@@ -84,7 +85,7 @@ Expected<ExactImage> readPfm(const std::string &Path) {
   if (nextWord(Text) != "PF" || !parseWhole(nextWord(Text), I.Width) ||
       !parseWhole(nextWord(Text), I.Height) ||
       !parseWhole(nextWord(Text), Scale) || I.Width < 1 || I.Height < 1 ||
-      I.Width > MaxSide || I.Height > MaxSide)
+      I.Width > MaxPictureSide || I.Height > MaxPictureSide)
     return Error{Path, "not a colour PFM, expected `PF`, width, height, scale"};
   if (!(Scale < 0))
     return Error{Path, "big-endian PFM, expected a negative scale"};
@@ -113,7 +114,8 @@ Expected<ExactImage> readImageNpz(const std::string &Path) {
   const NpyArray &R = Render->second;
   const bool Real = R.Type == "f4" || R.Type == "f8";
   if (!Real || R.Shape.size() != 3 || R.Shape[2] != 3 || R.Shape[0] < 1 ||
-      R.Shape[1] < 1 || R.Shape[0] > MaxSide || R.Shape[1] > MaxSide)
+      R.Shape[1] < 1 || R.Shape[0] > MaxPictureSide ||
+      R.Shape[1] > MaxPictureSide)
     return Error{Path, "array `render` is no picture, expected floats of "
                        "shape (height, width, 3)"};
   ExactImage I;
@@ -137,9 +139,15 @@ unsigned char toByte(float Value) {
       std::lround(std::min(Value, 1.0F) * 255.0F));
 }
 
-Expected<std::string> encodePng(const Image &I) {
+/// Three bytes a pixel.
+static std::vector<unsigned char> rowsOf(const Image &I) {
   std::vector<unsigned char> Rows(I.Render.size());
   std::transform(I.Render.begin(), I.Render.end(), Rows.begin(), toByte);
+  return Rows;
+}
+
+Expected<std::string> encodePng(const Image &I) {
+  std::vector<unsigned char> Rows = rowsOf(I);
   std::string Out;
   if (!encodeRows(Out, Rows.data(), I.Width, I.Height))
     return Error{"", "libpng cannot encode the picture, expected memory for it",
@@ -193,23 +201,90 @@ Expected<Success> writeImageNpz(const std::string &Path, const Image &I) {
   return writeNpz(Path, Arrays);
 }
 
-Expected<Success> writeImage(const std::string &Path, const Image &I) {
-  if (Path.ends_with(".png"))
+const std::vector<std::string_view> &pictureEndings() {
+  static const std::vector<std::string_view> Endings{
+      ".png", ".jpg", ".jpeg", ".webp", ".exr", ".pfm", ".npz"};
+  return Endings;
+}
+
+static Error unknownEnding(const std::string &Path) {
+  return {Path,
+          fmt::format("unknown ending, expected one of {}",
+                      fmt::join(pictureEndings(), ", ")),
+          ExitCode::Usage};
+}
+
+/// The picture's bytes, if they could be made.
+static Expected<Success> writeEncoded(const std::string &Path,
+                                      const Expected<std::string> &Bytes) {
+  return Bytes ? writeFileAtomically(Path, *Bytes)
+               : Expected<Success>(
+                     Error{Path, Bytes.error().What, Bytes.error().Code});
+}
+
+Expected<Success> writeImage(const std::string &Path, const Image &I,
+                             const PictureFormat &F) {
+  constexpr int JpegQuality = 95;
+  const auto Has = [&Path](std::string_view E) { return Path.ends_with(E); };
+  if (Has(".png"))
     return writePng(Path, I);
-  if (Path.ends_with(".pfm"))
+  if (Has(".pfm"))
     return writePfm(Path, I);
-  if (Path.ends_with(".npz"))
+  if (Has(".npz"))
     return writeImageNpz(Path, I);
-  return Error{Path, "unknown ending, expected .png, .pfm or .npz",
-               ExitCode::Usage};
+  if (Has(".exr"))
+    return writeEncoded(Path, encodeExr(I, F.Half));
+  if (Has(".jpg") || Has(".jpeg"))
+    return writeEncoded(Path, encodeJpeg(rowsOf(I).data(), I.Width, I.Height,
+                                         F.Quality.value_or(JpegQuality)));
+  if (Has(".webp"))
+    return writeEncoded(
+        Path, encodeWebP(rowsOf(I).data(), I.Width, I.Height, F.Quality));
+  return unknownEnding(Path);
+}
+
+/// Of 8 bits a channel, over black.
+static Expected<ExactImage> readPhotoFile(const std::string &Path) {
+  const auto File = readFile(Path);
+  if (!File)
+    return File.error();
+  const auto P = decodePhoto(Path, *File);
+  if (!P)
+    return P.error();
+  ExactImage I;
+  I.Width = static_cast<int>(P->Width);
+  I.Height = static_cast<int>(P->Height);
+  I.IsEightBit = true;
+  bool Opaque = true;
+  for (std::size_t Pixel = 0; Pixel < P->pixels(); ++Pixel) {
+    const unsigned Alpha = P->at(Pixel, 3);
+    Opaque = Opaque && Alpha == 255;
+    for (std::size_t K = 0; K < 3; ++K)
+      I.Render.push_back(std::round(P->at(Pixel, K) * (Alpha / 255.0)) / 255.0);
+    I.Alpha.push_back(Alpha / 255.0);
+  }
+  if (Opaque)
+    I.Alpha.clear();
+  return I;
 }
 
 Expected<ExactImage> readImage(const std::string &Path) {
-  if (Path.ends_with(".pfm"))
+  std::string Lower = Path;
+  std::ranges::transform(Lower, Lower.begin(), [](unsigned char C) {
+    return static_cast<char>(std::tolower(C));
+  });
+  const auto Has = [&Lower](std::string_view E) { return Lower.ends_with(E); };
+  if (Has(".pfm"))
     return readPfm(Path);
-  if (Path.ends_with(".npz"))
+  if (Has(".npz"))
     return readImageNpz(Path);
-  return Error{Path, "unknown ending, expected .pfm or .npz", ExitCode::Usage};
+  if (Has(".exr")) {
+    const auto File = readFile(Path);
+    return File ? decodeExr(Path, *File) : File.error();
+  }
+  if (std::ranges::any_of(pictureEndings(), Has))
+    return readPhotoFile(Path);
+  return unknownEnding(Path);
 }
 
 } // namespace vorion::splat

@@ -1,10 +1,12 @@
-/// Pictures in and out: linear floats, and PNG for people.
+/// Pictures in and out: floats, and 8 bits for people.
 #pragma once
 
 #include "vorion/support/Expected.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::splat {
@@ -17,6 +19,8 @@ template <typename Real> struct BasicImage {
   std::vector<Real> Render; ///< 3 a pixel: r, g, b over the background
   std::vector<Real> Alpha;  ///< 1 a pixel: 1 - final transmittance; may be
                             ///< empty where a format has no room for it
+  /// Whether the values are those of 8 bits: whole 255ths.
+  bool IsEightBit = false;
 
   std::size_t pixels() const {
     return static_cast<std::size_t>(Width) * static_cast<std::size_t>(Height);
@@ -55,11 +59,28 @@ Expected<Success> writeDepth(const std::string &Path, const DepthMap &D);
 /// NPZ with `render` (H, W, 3) and `alpha` (H, W), float32.
 Expected<Success> writeImageNpz(const std::string &Path, const Image &I);
 
-/// Writes by the ending of \p Path: .png, .pfm or .npz.
-Expected<Success> writeImage(const std::string &Path, const Image &I);
+/// The endings of files of pictures, for writing and reading.
+const std::vector<std::string_view> &pictureEndings();
 
-/// Reads a .pfm, or `render` and, where present, `alpha` of an .npz
-/// (float32 or float64; neither is rounded).
+/// What there is to choose of some formats.
+struct PictureFormat {
+  /// 1 to 100: of a JPEG, 95 if nothing, and of a WebP, which keeps every byte
+  /// if nothing.
+  std::optional<int> Quality;
+  bool Half = false; ///< an EXR has floats of 16 bits, not of 32
+};
+
+/// Writes by the ending of \p Path, one of pictureEndings().
+Expected<Success> writeImage(const std::string &Path, const Image &I,
+                             const PictureFormat &F = {});
+
+/// The longest side of a picture that is read, px.
+inline constexpr int MaxPictureSide = 1 << 15;
+
+/// Reads by the ending of \p Path, in whatever case: a .pfm or .exr; `render`
+/// and, where present, `alpha` of an .npz (float32 or float64; neither is
+/// rounded); of .png, .jpg and .webp 8-bit values over black, as 0 to 1, and
+/// alpha where it is not all opaque.
 Expected<ExactImage> readImage(const std::string &Path);
 
 } // namespace vorion::splat

@@ -1,10 +1,13 @@
+#include "io/Exr.h"
 #include "io/Image.h"
 #include "io/Npz.h"
 #include "io/TestFiles.h"
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <png.h>
+#include <span>
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -76,6 +79,67 @@ TEST(Image, PngHoldsClampedBytes) {
   ASSERT_TRUE(png_image_finish_read(&Png, nullptr, Bytes.data(), 0, nullptr));
   for (std::size_t K = 0; K < Bytes.size(); ++K)
     EXPECT_EQ(Bytes[K], toByte(sample().Render[K])) << K;
+}
+
+/// \p Values as a file of 8 bits has them.
+std::vector<double> inBytes(const std::vector<float> &Values) {
+  std::vector<double> Bytes;
+  for (const float V : Values)
+    Bytes.push_back(toByte(V) / 255.0);
+  return Bytes;
+}
+
+TEST(Image, FilesOf8BitsAreReadAsFractions) {
+  const TestFolder Folder;
+  for (const char *Name : {"i.png", "i.webp"}) {
+    ASSERT_TRUE(writeImage(Folder.path(Name), sample()));
+    const auto I = readImage(Folder.path(Name));
+    ASSERT_TRUE(I) << I.error().What;
+    EXPECT_TRUE(I->IsEightBit);
+    EXPECT_EQ(I->Width, 3);
+    EXPECT_EQ(I->Render, inBytes(sample().Render)) << Name;
+    EXPECT_TRUE(I->Alpha.empty());
+  }
+  ASSERT_TRUE(writeImage(Folder.path("i.JPG"), sample()).error().Code ==
+              ExitCode::Usage);
+  ASSERT_TRUE(writeImage(Folder.path("i.jpg"), sample(), {.Quality = 100}));
+  const auto Jpeg = readImage(Folder.path("i.jpg"));
+  ASSERT_TRUE(Jpeg) << Jpeg.error().What;
+  for (std::size_t K = 0; K < Jpeg->Render.size(); ++K)
+    EXPECT_NEAR(Jpeg->Render[K], inBytes(sample().Render)[K], 0.02) << K;
+}
+
+TEST(Image, ExrRoundTripsUnclamped) {
+  const TestFolder Folder;
+  Image In = sample();
+  In.Render[4] = 1e6F;
+  ASSERT_TRUE(writeImage(Folder.path("i.exr"), In));
+  const auto I = readImage(Folder.path("i.exr"));
+  ASSERT_TRUE(I) << I.error().What;
+  EXPECT_FALSE(I->IsEightBit);
+  EXPECT_EQ(I->Render, exact(In.Render));
+  EXPECT_EQ(I->Alpha, exact(In.Alpha));
+  In.Alpha.clear();
+  ASSERT_TRUE(
+      writeImage(Folder.path("h.exr"), In, {.Quality = {}, .Half = true}));
+  const auto H = readImage(Folder.path("h.exr"));
+  ASSERT_TRUE(H) << H.error().What;
+  EXPECT_TRUE(H->Alpha.empty());
+  EXPECT_EQ(H->Render[4], std::numeric_limits<double>::infinity());
+  for (std::size_t K = 5; K < H->Render.size(); ++K)
+    EXPECT_NEAR(H->Render[K], In.Render[K], 5e-4) << K;
+}
+
+TEST(Image, TruncatedExrIsAnError) {
+  const TestFolder Folder;
+  ASSERT_TRUE(writeImage(Folder.path("i.exr"), sample()));
+  const std::string File = Folder.read("i.exr");
+  for (std::size_t Size = 0; Size < File.size(); ++Size) {
+    const auto I =
+        decodeExr("t.exr", std::as_bytes(std::span(File).first(Size)));
+    ASSERT_FALSE(I) << Size;
+    EXPECT_EQ(I.error().What.find('\n'), std::string::npos);
+  }
 }
 
 TEST(Image, BytesAreRoundedAndNanIsBlack) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <unistd.h>
@@ -25,6 +26,13 @@ void setCommandLine(std::vector<std::string> Arguments) {
 void completeCommandLine(std::string Option, std::string Value) {
   commandLine().push_back(std::move(Option));
   commandLine().push_back(std::move(Value));
+}
+
+std::string madeBy() {
+  std::string Text = fmt::format("splat {}: splat", projectVersion());
+  for (const std::string &Word : commandLine())
+    Text += " " + Word;
+  return Text;
 }
 
 bool isRecordedVariable(std::string_view Name) {

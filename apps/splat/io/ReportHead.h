@@ -21,6 +21,9 @@ void completeCommandLine(std::string Option, std::string Value);
 /// docs/schemas/README.md says when a version changes.
 nlohmann::ordered_json reportHead(std::string_view Name, unsigned Version = 1);
 
+/// The command line and its program in a line, for the foot of a page.
+std::string madeBy();
+
 /// Whether the environment's variable \p Name can change a result.
 bool isRecordedVariable(std::string_view Name);
 

@@ -56,7 +56,7 @@ Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C) {
 
 Expected<Success> writePicture(const PictureJob &J, const Camera &C,
                                const RenderResult &R) {
-  if (auto Written = writeImage(J.Output, R.Picture); !Written)
+  if (auto Written = writeImage(J.Output, R.Picture, J.Format); !Written)
     return Written;
   if (!J.Pairs.empty())
     if (auto Written = writePairs(J.Pairs, *R.Sorted); !Written)
@@ -86,7 +86,7 @@ writePictures(const PictureJob &J, const std::vector<Camera> &Cameras,
   Json Reports = Json::array();
   for (std::size_t N = 0; N < Cameras.size(); ++N) {
     const std::string Output = pictureFile(J.Output, Cameras[N]);
-    if (auto Done = writeImage(Output, R.Frames[N].Picture); !Done)
+    if (auto Done = writeImage(Output, R.Frames[N].Picture, J.Format); !Done)
       return Done;
     Written(Output);
     if (J.Json.empty())

@@ -23,6 +23,7 @@ struct PictureJob {
   /// @{
   std::string Output, Json, Pairs, Depth;
   /// @}
+  PictureFormat Format = {};
 };
 
 /// The facts by which every effect is needed that some view needs.

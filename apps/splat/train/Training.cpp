@@ -200,6 +200,14 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
     return *Launch.failure();
   for (std::size_t I = 0; I < Db.size(); ++I)
     Out.HeldOut.emplace_back(W.Pictures.HeldOut[I].Pose.Name, Db[I]);
+  for (const auto *Views : {&W.Pictures.HeldOut, &W.Pictures.Training})
+    for (const TrainView &V : *Views)
+      Out.Cameras.push_back(V.Pose);
+  if (W.Request.KeepPictures)
+    for (const TrainView &V : W.Pictures.HeldOut)
+      Out.Shown.emplace_back(T.render(V.Pose), V);
+  if (Launch.failure())
+    return *Launch.failure();
   Out.Record = W.Record;
   Out.DeviceName = D.name();
   Out.DeviceVersion = D.version();

@@ -37,6 +37,7 @@ struct TrainRequest {
   /// Iterations from one score of the held-out views to the next; 0: none but
   /// the last.
   unsigned ScoreEvery = 0;
+  bool KeepPictures = false; ///< of the held-out views, for the outcome
 };
 
 /// How far a run is.
@@ -85,6 +86,9 @@ struct TrainOutcome {
   /// Names of the held-out views, and the PSNR of their 8-bit values.
   std::vector<std::pair<std::string, double>> HeldOut;
   std::optional<Baselines> Without; ///< where views are held out
+  std::vector<Camera> Cameras;      ///< of all views, at their size in training
+  /// What the held-out views show and should, where it was asked for.
+  std::vector<std::pair<Photo, TrainView>> Shown;
 
   /// Mean over the held-out views, of which there are some.
   double meanDb() const;

@@ -14,7 +14,7 @@ view="--cameras c.json --view front"
 attempt "convert to sog" convert $scene -o x.sog
 attempt "convert without ending" convert $scene -o x
 attempt "info as text" info $scene --json x.csv
-attempt "render to jpeg" render $scene $view -o x.jpg
+attempt "render to gif" render $scene $view -o x.gif
 attempt "depth as png" render $scene $view -o x.png --depth x.png
 attempt "pairs as text" render $scene $view -o x.png --dump-pairs x.csv
 attempt "report as picture" render $scene $view -o x.png --json x.PNG

@@ -47,6 +47,8 @@ TEST(CaptureReplay, Transforms) {
   replay(fuzz::transformsSeeds(), fuzz::readTransforms);
 }
 
+TEST(CaptureReplay, Exr) { replay(fuzz::exrSeeds(), fuzz::readExr); }
+
 TEST(CaptureReplay, Photos) { replay(fuzz::photoSeeds(), fuzz::readPhoto); }
 
 } // namespace

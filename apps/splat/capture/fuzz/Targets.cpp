@@ -4,6 +4,7 @@
 #include "capture/Photo.h"
 #include "capture/Transforms.h"
 #include "capture/testing/CaptureWriters.h"
+#include "io/Exr.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
@@ -104,6 +105,15 @@ void readPhoto(Bytes Input) {
     requireOneLine(Read.error());
 }
 
+void readExr(Bytes Input) {
+  const auto Read = decodeExr("input", Input);
+  if (Read)
+    require(Read->pixels() > 0 && Read->Render.size() == 3 * Read->pixels() &&
+            (Read->Alpha.empty() || Read->Alpha.size() == Read->pixels()));
+  else
+    requireOneLine(Read.error());
+}
+
 Seeds colmapSeeds() {
   const testing::SampleCapture C = testing::sampleCapture();
   return {{"text", bundled(testing::colmapTextOf(C), true)},
@@ -124,6 +134,16 @@ Seeds photoSeeds() {
   return {{"png", testing::pngOf(5, 3, Rgba)},
           {"jpeg", testing::jpegOf(5, 3, Rgba)},
           {"webp", testing::webpOf(5, 3, Rgba)}};
+}
+
+Seeds exrSeeds() {
+  Image I{5, 3, {}, {}};
+  for (int V = 0; V < 5 * 3 * 3; ++V)
+    I.Render.push_back(0.1F * static_cast<float>(V * 7 % 45));
+  Seeds All{{"float", *encodeExr(I, false)}};
+  I.Alpha.assign(5 * 3, 0.5F);
+  All.emplace_back("half", *encodeExr(I, true));
+  return All;
 }
 
 } // namespace vorion::splat::fuzz

@@ -17,11 +17,14 @@ void readColmap(Bytes Input);
 void readTransforms(Bytes Input);
 /// A PNG, JPEG or WebP.
 void readPhoto(Bytes Input);
+/// An OpenEXR picture.
+void readExr(Bytes Input);
 
 /// Small whole inputs, by name.
 using Seeds = std::vector<std::pair<std::string, std::string>>;
 Seeds colmapSeeds();
 Seeds transformsSeeds();
 Seeds photoSeeds();
+Seeds exrSeeds();
 
 } // namespace vorion::splat::fuzz

@@ -29,7 +29,8 @@ Expected<Success> run(const fs::path &Root) {
   const std::pair<const char *, fuzz::Seeds> Kinds[] = {
       {"colmap", fuzz::colmapSeeds()},
       {"transforms", fuzz::transformsSeeds()},
-      {"photo", fuzz::photoSeeds()}};
+      {"photo", fuzz::photoSeeds()},
+      {"exr", fuzz::exrSeeds()}};
   for (const auto &[Kind, Seeds] : Kinds)
     for (const auto &[Name, Content] : Seeds)
       if (auto Written = writeSample(Root / "seeds" / Kind / Name, Content);

@@ -1,0 +1,69 @@
+#include "commands/TrainPictures.h"
+#include "commands/OutputFile.h"
+
+#include "eval/ScorePage.h"
+#include "io/ReportHead.h"
+#include "vorion/support/CommandLine.h"
+#include "vorion/support/File.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+std::string camerasFor(const std::string &Output) {
+  return (std::filesystem::path(Output).parent_path() / "cameras.json")
+      .string();
+}
+
+void addTrainPictures(CLI::App &App, TrainPictures &P) {
+  writesFiles(
+      App.add_option("--pictures", P.Pictures,
+                     "Write what held-out views show beside their photographs: "
+                     "PREFIX.NAME.drawn.png and PREFIX.NAME.photo.png"));
+  writesFile(
+      App.add_option("--html", P.Html, "Write a page of the same, with scores"),
+      {".html"});
+}
+
+Expected<Success> checkTrainPictures(const TrainPictures &P) {
+  if (auto Checked = checkEnding("--html", P.Html, {".html"}); !Checked)
+    return Checked;
+  return P.Pictures.empty() ? Expected<Success>(Success{})
+                            : checkPrefix("--pictures", P.Pictures);
+}
+
+Expected<Success> writeTrainPictures(const TrainPictures &P,
+                                     const std::string &Output,
+                                     const TrainOutcome &Out) {
+  std::vector<Camera> Cameras = Out.Cameras;
+  std::ranges::sort(Cameras, {}, &Camera::Name);
+  for (std::size_t I = 0; I < Cameras.size(); ++I)
+    Cameras[I].Id = static_cast<int>(I);
+  if (auto Written = writeCameras(camerasFor(Output), Cameras); !Written)
+    return Written;
+  if (!P.any())
+    return Success{};
+  std::vector<JudgedView> Views;
+  std::vector<ViewScore> Scores;
+  for (const auto &[Drawn, View] : Out.Shown) {
+    Views.push_back({&View, true});
+    Scores.push_back(scoreOf(Views.back(), Drawn));
+  }
+  if (!P.Pictures.empty())
+    if (auto Written = writePairFiles(P.Pictures, Views, Scores); !Written)
+      return Written;
+  if (P.Html.empty())
+    return Success{};
+  const auto Page = scorePageOf(
+      {std::filesystem::path(Output).filename().string(),
+       {madeBy(),
+        fmt::format("scene {} after {} iterations; device {}, {}", Output,
+                    Out.Iterations, Out.DeviceName, Out.DeviceVersion)}},
+      Views, Scores);
+  return Page ? writeFileAtomically(P.Html, *Page)
+              : Expected<Success>(Page.error());
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,73 @@
+// The page of `splat eval --html` and `splat train --html`: each view's picture, photograph and their difference.
+
+const { views, scene } = data; // views: { name, held_out, resolution, psnr8_db, ssim, ms_ssim, drawn, photograph, difference }
+const state = { view: 0, sort: { n: 1, down: false } };
+
+const decibels = v => v.psnr8_db === null ? 'equal' : number(v.psnr8_db, 3);
+const share = value => value === null ? '–' : number(value, 5);
+
+function figures() {
+  for (const [of, mean] of [['held out', data.mean_held_out], ['in training', data.mean_in_training]]) {
+    if (!mean) continue;
+    for (const [text, name] of [[`${decibels(mean)} dB`, 'PSNR'], [share(mean.ssim), 'SSIM'], [share(mean.ms_ssim), 'MS-SSIM']])
+      byId('figures').append(element('div', {}, element('b', {}, text), element('span', {}, `${name}, mean of ${mean.views} ${of}`)));
+  }
+}
+
+function show() {
+  const v = views[state.view];
+  byId('view').value = state.view;
+  const parts = [['drawn', 'picture'], ['photograph', 'photograph'], ['difference', 'difference, four times as large']];
+  byId('pictures').replaceChildren(...parts.map(([key, text]) => element('figure', {},
+    element('img', { src: v[key], alt: `${text} of ${v.name}`, width: v.resolution[0], height: v.resolution[1] }),
+    element('figcaption', {}, text))));
+}
+
+function table() {
+  const columns = [
+    ['view', v => v.name, v => v.name], ['PSNR, dB', v => v.psnr8_db ?? Infinity, decibels],
+    ['SSIM', v => v.ssim, v => share(v.ssim)], ['MS-SSIM', v => v.ms_ssim ?? 0, v => share(v.ms_ssim)],
+    ['', v => v.held_out, v => v.held_out ? 'held out' : 'in training'],
+  ];
+  drawColumns(byId('scores'), columns, views, state.sort, sort => { state.sort = sort; redraw(); }, (row, v) => {
+    row.classList.toggle('selected', v === views[state.view]);
+    row.addEventListener('click', () => select(views.indexOf(v)));
+  });
+}
+
+function select(n) {
+  state.view = n;
+  redraw();
+}
+
+function redraw() {
+  byId('chart-box').style.height = `${Math.min(640, 90 + 18 * views.length)}px`;
+  drawChart('chart', {
+    type: 'bar',
+    data: {
+      labels: views.map(v => v.name),
+      datasets: [{ label: 'PSNR, dB', data: views.map(v => v.psnr8_db), backgroundColor: views.map((v, n) => n === state.view ? colour('chosen') : seriesColour(v.held_out ? 0 : 1)) }],
+    },
+    options: {
+      indexAxis: 'y', onClick: (_, hit) => { if (hit.length) select(hit[0].index); },
+      plugins: { legend: { display: false } },
+      scales: { x: axis('PSNR of 8-bit values, dB'), y: { ticks: { autoSkip: true } } },
+    },
+  });
+  show();
+  table();
+}
+
+openPage(() => {
+  byId('lede').textContent = `${scene}: what it shows from the places of ${views.length} photographs.`;
+  byId('lpips').textContent = data.lpips_note + '.';
+  figures();
+  fill(byId('view'), views.map((v, n) => [n, v.name]), n => select(Number(n)));
+  redraw();
+}, redraw, () => {
+  tryControls(['view']);
+  byId('scores').tHead.querySelectorAll('th')[2].click();
+  byId('scores').tBodies[0].rows[0].click();
+  if (document.querySelectorAll('#pictures img').length !== 3) throw new Error('three pictures are expected');
+  return `${views.length} views`;
+});

@@ -1,0 +1,206 @@
+#include "io/Exr.h"
+
+#include "vorion/support/Printable.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <fmt/format.h>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace vorion::splat {
+namespace {
+
+/// A file in memory; the library reports what it cannot read by exceptions.
+class BytesIn : public Imf::IStream {
+public:
+  explicit BytesIn(Bytes File) : IStream("picture"), File(File) {}
+
+  bool read(char Into[], int Count) override {
+    if (Count < 0 || At > File.size() ||
+        static_cast<std::size_t>(Count) > File.size() - At)
+      throw std::runtime_error("the file ends early");
+    std::memcpy(Into, File.data() + At, static_cast<std::size_t>(Count));
+    At += static_cast<std::size_t>(Count);
+    return At < File.size();
+  }
+  uint64_t tellg() override { return At; }
+  void seekg(uint64_t To) override { At = To; }
+
+private:
+  Bytes File;
+  uint64_t At = 0;
+};
+
+class BytesOut : public Imf::OStream {
+public:
+  BytesOut() : OStream("picture") {}
+
+  void write(const char From[], int Count) override {
+    const auto Size = static_cast<std::size_t>(Count);
+    Text.resize(std::max<std::size_t>(Text.size(), At + Size));
+    std::memcpy(Text.data() + At, From, Size);
+    At += Size;
+  }
+  uint64_t tellp() override { return At; }
+  void seekp(uint64_t To) override { At = To; }
+
+  std::string Text;
+
+private:
+  uint64_t At = 0;
+};
+
+/// What is wrong with \p H for a picture; nothing if it is one.
+std::optional<std::string> refusal(const Imf::Header &H, std::size_t FileSize) {
+  for (const Imath::Box2i &Window : {H.displayWindow(), H.dataWindow()}) {
+    const int64_t Width = int64_t{Window.max.x} - Window.min.x + 1;
+    const int64_t Height = int64_t{Window.max.y} - Window.min.y + 1;
+    if (Width < 1 || Height < 1 || Width > MaxPictureSide ||
+        Height > MaxPictureSide)
+      return fmt::format("{}x{} pixels, expected sides of 1 to {}", Width,
+                         Height, MaxPictureSide);
+    const auto Size = static_cast<std::size_t>(4 * sizeof(float)) *
+                      static_cast<std::size_t>(Width * Height);
+    if (Size > unpackLimit(FileSize))
+      return fmt::format("{}x{} pixels in a file of {} bytes, expected at most "
+                         "{} bytes unpacked",
+                         Width, Height, FileSize, unpackLimit(FileSize));
+  }
+  std::string Names;
+  for (auto C = H.channels().begin(); C != H.channels().end(); ++C)
+    Names += (Names.empty() ? "" : ", ") + printable(C.name());
+  const bool Grey = H.channels().findChannel("Y") &&
+                    !H.channels().findChannel("RY") &&
+                    !H.channels().findChannel("BY");
+  for (const char *Name : {"R", "G", "B"})
+    if (!H.channels().findChannel(Name) && !Grey)
+      return fmt::format("channels {}, expected R, G and B, or Y alone",
+                         Names.empty() ? "none" : Names);
+  for (const char *Name : {"R", "G", "B", "A", "Y"})
+    if (const Imf::Channel *C = H.channels().findChannel(Name);
+        C && (C->xSampling != 1 || C->ySampling != 1))
+      return fmt::format("channel {} has not a value for each pixel, expected "
+                         "one",
+                         Name);
+  return {};
+}
+
+/// A channel of the data window as floats.
+struct ChannelPlane {
+  const char *Name;
+  std::vector<float> Values;
+};
+
+Expected<ExactImage> decode(const std::string &Where, Bytes Bytes) {
+  BytesIn Stream(Bytes);
+  Imf::InputFile File(Stream);
+  const Imf::Header &H = File.header();
+  if (const auto Why = refusal(H, Bytes.size()))
+    return Error{Where, *Why};
+  const Imath::Box2i &Shown = H.displayWindow(), &Data = H.dataWindow();
+  const auto Across = static_cast<std::size_t>(Data.max.x - Data.min.x + 1);
+  const auto Down = static_cast<std::size_t>(Data.max.y - Data.min.y + 1);
+  const bool Coloured = H.channels().findChannel("R") != nullptr;
+  std::vector<ChannelPlane> Planes;
+  for (const char *Name : {"R", "G", "B", "A"}) {
+    const bool IsAlpha = std::string_view(Name) == "A";
+    if (!IsAlpha || H.channels().findChannel(Name))
+      Planes.push_back({IsAlpha || Coloured ? Name : "Y",
+                        std::vector<float>(Across * Down)});
+  }
+  Imf::FrameBuffer Buffer;
+  for (ChannelPlane &P : Planes)
+    if (!Buffer.findSlice(P.Name))
+      Buffer.insert(P.Name,
+                    Imf::Slice::Make(Imf::FLOAT, P.Values.data(), Data));
+  File.setFrameBuffer(Buffer);
+  File.readPixels(Data.min.y, Data.max.y);
+  if (!Coloured)
+    Planes[1].Values = Planes[2].Values = Planes[0].Values;
+
+  ExactImage I;
+  I.Width = Shown.max.x - Shown.min.x + 1;
+  I.Height = Shown.max.y - Shown.min.y + 1;
+  I.Render.resize(3 * I.pixels());
+  if (Planes.size() == 4)
+    I.Alpha.resize(I.pixels());
+  std::size_t Pixel = 0;
+  for (int Y = Shown.min.y; Y <= Shown.max.y; ++Y)
+    for (int X = Shown.min.x; X <= Shown.max.x; ++X, ++Pixel) {
+      if (X < Data.min.x || X > Data.max.x || Y < Data.min.y || Y > Data.max.y)
+        continue;
+      const std::size_t At = static_cast<std::size_t>(Y - Data.min.y) * Across +
+                             static_cast<std::size_t>(X - Data.min.x);
+      for (std::size_t K = 0; K < 3; ++K)
+        I.Render[3 * Pixel + K] = Planes[K].Values[At];
+      if (!I.Alpha.empty())
+        I.Alpha[Pixel] = Planes[3].Values[At];
+    }
+  return I;
+}
+
+std::string encode(const Image &I, bool Half) {
+  Imf::Header H(I.Width, I.Height);
+  H.compression() = Imf::ZIP_COMPRESSION;
+  Imf::addComments(H, "values as the scene has them, not converted");
+  const Imf::PixelType Type = Half ? Imf::HALF : Imf::FLOAT;
+  const std::size_t Channels = I.Alpha.empty() ? 3 : 4;
+  std::vector<std::vector<float>> Floats(Channels);
+  std::vector<std::vector<Imath::half>> Halves(Channels);
+  Imf::FrameBuffer Buffer;
+  const Imath::Box2i Window = H.dataWindow();
+  for (std::size_t K = 0; K < Channels; ++K) {
+    constexpr std::array Names{"R", "G", "B", "A"};
+    H.channels().insert(Names[K], Imf::Channel(Type));
+    for (std::size_t P = 0; P < I.pixels(); ++P)
+      Floats[K].push_back(K < 3 ? I.Render[3 * P + K] : I.Alpha[P]);
+    if (Half)
+      Halves[K].assign(Floats[K].begin(), Floats[K].end());
+    Buffer.insert(Names[K],
+                  Half ? Imf::Slice::Make(Type, Halves[K].data(), Window)
+                       : Imf::Slice::Make(Type, Floats[K].data(), Window));
+  }
+  BytesOut Stream;
+  {
+    Imf::OutputFile File(Stream, H);
+    File.setFrameBuffer(Buffer);
+    File.writePixels(I.Height);
+  }
+  return std::move(Stream.Text);
+}
+
+} // namespace
+
+Expected<ExactImage> decodeExr(const std::string &Where, Bytes File) {
+  try {
+    return decode(Where, File);
+  } catch (const std::exception &E) {
+    return Error{Where, fmt::format("no OpenEXR picture ({}), expected a whole "
+                                    "one that is not deep",
+                                    printable(E.what()))};
+  }
+}
+
+Expected<std::string> encodeExr(const Image &I, bool Half) {
+  try {
+    return encode(I, Half);
+  } catch (const std::exception &E) {
+    return Error{"",
+                 fmt::format("cannot encode the picture as EXR ({})",
+                             printable(E.what())),
+                 ExitCode::LimitReached};
+  }
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,199 @@
+#include "io/PhotoFile.h"
+
+#include "io/Cameras.h"
+#include "vorion/support/Printable.h"
+
+#include <fmt/format.h>
+#include <memory>
+#include <png.h>
+#include <turbojpeg.h>
+#include <webp/decode.h>
+#include <webp/encode.h>
+
+namespace vorion::splat {
+namespace {
+
+enum class PhotoKind { Png, Jpeg, WebP, None };
+
+PhotoKind kindOf(Bytes File) {
+  const std::string_view Text = asText(File);
+  if (Text.starts_with("\x89PNG\r\n\x1a\n"))
+    return PhotoKind::Png;
+  if (Text.starts_with("\xff\xd8\xff"))
+    return PhotoKind::Jpeg;
+  if (Text.starts_with("RIFF") && Text.substr(0, 12).ends_with("WEBP"))
+    return PhotoKind::WebP;
+  return PhotoKind::None;
+}
+
+Error noPhoto(const std::string &Where) {
+  return {Where, "not a picture, expected a PNG, JPEG or WebP"};
+}
+
+Error damaged(const std::string &Where, const char *Kind, const char *Why) {
+  return {Where, fmt::format("damaged {} ({}), expected a whole one", Kind,
+                             printable(Why))};
+}
+
+/// libpng's simplified reader, and its release.
+struct PngReader {
+  png_image Image{};
+
+  explicit PngReader(Bytes File) {
+    Image.version = PNG_IMAGE_VERSION;
+    png_image_begin_read_from_memory(&Image, File.data(), File.size());
+    // Values, not light: no conversion from 16-bit linear.
+    Image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+  }
+  ~PngReader() { png_image_free(&Image); }
+  PngReader(const PngReader &) = delete;
+  PngReader &operator=(const PngReader &) = delete;
+
+  /// A warning means that bytes were wrong (a checksum, say).
+  bool good() const { return PNG_IMAGE_FAILED(Image) == 0; }
+};
+
+using Jpeg = std::unique_ptr<void, int (*)(void *)>;
+Jpeg makeJpeg() { return {tjInitDecompress(), tjDestroy}; }
+
+struct JpegHeader {
+  int Width = 0, Height = 0, Subsampling = 0, Colours = 0;
+};
+
+bool readJpegHeader(const Jpeg &J, Bytes File, JpegHeader &H) {
+  return tjDecompressHeader3(
+             J.get(), reinterpret_cast<const unsigned char *>(File.data()),
+             File.size(), &H.Width, &H.Height, &H.Subsampling, &H.Colours) == 0;
+}
+
+Expected<Plane> sized(const std::string &Where, Bytes File, PhotoSize S) {
+  Plane P;
+  P.Width = static_cast<std::size_t>(S.Width);
+  P.Height = static_cast<std::size_t>(S.Height);
+  const std::size_t Size = 4 * P.pixels();
+  if (Size > unpackLimit(File.size()))
+    return Error{Where, fmt::format("{}x{} pixels in a file of {} bytes, "
+                                    "expected at most {} bytes unpacked",
+                                    S.Width, S.Height, File.size(),
+                                    unpackLimit(File.size()))};
+  P.Rgba.resize(Size);
+  return P;
+}
+
+Expected<Plane> decodePng(const std::string &Where, Bytes File, Plane P) {
+  PngReader Png(File);
+  Png.Image.format = PNG_FORMAT_RGBA;
+  if (!Png.good() ||
+      !png_image_finish_read(&Png.Image, nullptr, P.Rgba.data(), 0, nullptr) ||
+      !Png.good())
+    return damaged(Where, "PNG", Png.Image.message);
+  return P;
+}
+
+Expected<Plane> decodeJpeg(const std::string &Where, Bytes File, Plane P) {
+  const Jpeg J = makeJpeg();
+  if (tjDecompress2(
+          J.get(), reinterpret_cast<const unsigned char *>(File.data()),
+          File.size(), reinterpret_cast<unsigned char *>(P.Rgba.data()),
+          static_cast<int>(P.Width), 0, static_cast<int>(P.Height), TJPF_RGBA,
+          // Each scan goes over all pixels, and a file may have any number.
+          TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS) != 0)
+    return damaged(Where, "JPEG", tjGetErrorStr2(J.get()));
+  return P;
+}
+
+} // namespace
+
+Expected<PhotoSize> photoSize(const std::string &Where, Bytes File) {
+  PhotoSize S;
+  switch (kindOf(File)) {
+  case PhotoKind::Png: {
+    const PngReader Png(File);
+    if (!Png.good())
+      return damaged(Where, "PNG", Png.Image.message);
+    if (Png.Image.width <= MaxImageSize && Png.Image.height <= MaxImageSize)
+      S = {static_cast<int>(Png.Image.width),
+           static_cast<int>(Png.Image.height)};
+    break;
+  }
+  case PhotoKind::Jpeg: {
+    const Jpeg J = makeJpeg();
+    JpegHeader H;
+    if (!readJpegHeader(J, File, H))
+      return damaged(Where, "JPEG", tjGetErrorStr2(J.get()));
+    if (H.Colours == TJCS_CMYK || H.Colours == TJCS_YCCK)
+      return Error{Where, "a CMYK JPEG, expected one in colour or grey"};
+    S = {H.Width, H.Height};
+    break;
+  }
+  case PhotoKind::WebP:
+    if (!WebPGetInfo(reinterpret_cast<const uint8_t *>(File.data()),
+                     File.size(), &S.Width, &S.Height))
+      return damaged(Where, "WebP", "its header");
+    break;
+  case PhotoKind::None:
+    return noPhoto(Where);
+  }
+  if (S.Width < 1 || S.Height < 1 || S.Width > MaxImageSize ||
+      S.Height > MaxImageSize)
+    return Error{Where, fmt::format("a picture of unusual size, expected sides "
+                                    "of 1 to {} pixels",
+                                    MaxImageSize)};
+  return S;
+}
+
+Expected<Plane> decodePhoto(const std::string &Where, Bytes File) {
+  const auto Size = photoSize(Where, File);
+  if (!Size)
+    return Size.error();
+  if (kindOf(File) == PhotoKind::WebP)
+    return decodeWebP(Where, File, unpackLimit(File.size()));
+  auto P = sized(Where, File, *Size);
+  if (!P)
+    return P;
+  return kindOf(File) == PhotoKind::Png
+             ? decodePng(Where, File, std::move(*P))
+             : decodeJpeg(Where, File, std::move(*P));
+}
+
+static Error cannotEncode(const char *Kind) {
+  return {"",
+          fmt::format("cannot encode the picture as {}, expected memory for it",
+                      Kind),
+          ExitCode::LimitReached};
+}
+
+Expected<std::string> encodeJpeg(const unsigned char *Rgb, int Width,
+                                 int Height, int Quality) {
+  const Jpeg J{tjInitCompress(), tjDestroy};
+  unsigned char *Bytes = nullptr;
+  unsigned long Size = 0; // NOLINT(google-runtime-int): the library's
+  const bool Good =
+      J && tjCompress2(J.get(), Rgb, Width, 0, Height, TJPF_RGB, &Bytes, &Size,
+                       TJSAMP_444, Quality, TJFLAG_ACCURATEDCT) == 0;
+  const std::unique_ptr<unsigned char, void (*)(unsigned char *)> Owner(Bytes,
+                                                                        tjFree);
+  if (!Good)
+    return cannotEncode("JPEG");
+  return std::string(reinterpret_cast<const char *>(Bytes), Size);
+}
+
+Expected<std::string> encodeWebP(const unsigned char *Rgb, int Width,
+                                 int Height, std::optional<int> Quality) {
+  if (Width > WEBP_MAX_DIMENSION || Height > WEBP_MAX_DIMENSION)
+    return Error{"",
+                 fmt::format("{}x{} pixels, expected sides of at most {} for a "
+                             "WebP",
+                             Width, Height, WEBP_MAX_DIMENSION)};
+  uint8_t *Bytes = nullptr;
+  const std::size_t Size =
+      Quality ? WebPEncodeRGB(Rgb, Width, Height, 3 * Width,
+                              static_cast<float>(*Quality), &Bytes)
+              : WebPEncodeLosslessRGB(Rgb, Width, Height, 3 * Width, &Bytes);
+  const std::unique_ptr<void, void (*)(void *)> Owner(Bytes, WebPFree);
+  if (Size == 0)
+    return cannotEncode("WebP");
+  return std::string(reinterpret_cast<const char *>(Bytes), Size);
+}
+
+} // namespace vorion::splat
