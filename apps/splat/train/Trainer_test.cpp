@@ -192,7 +192,7 @@ protected:
       for (const glm::dvec3 &Colour : P.Render)
         for (int K = 0; K < 3; ++K)
           Picture.Rgb.push_back(toByte(static_cast<float>(Colour[K])));
-      (I == 2 ? Set.HeldOut : Set.Training).push_back({C, Picture});
+      (I == 2 ? Set.HeldOut : Set.Training).push_back({C, Picture, {}, {}});
     }
     return Set;
   }

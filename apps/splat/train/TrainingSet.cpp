@@ -54,7 +54,8 @@ Expected<TrainView> load(const CaptureView &V, const LoadOptions &O) {
   const int Height = shrunkSide(V.Pose.Height, O.Downscale);
   TrainView T{resized(V.Pose, Width, Height),
               shrink(P, Width, Height, O.Background),
-              shrinkCounts(Taken.Counts, P.Width, P.Height, Width, Height)};
+              shrinkCounts(Taken.Counts, P.Width, P.Height, Width, Height),
+              {}};
   if (std::ranges::find(T.Counts, 0) == T.Counts.end())
     T.Counts.clear();
   else if (std::ranges::find(T.Counts, 1) == T.Counts.end())

@@ -14,10 +14,10 @@ struct TrainView {
   Camera Pose;
   Photo Picture; ///< 0 where a pixel does not count
   /// 1 for each pixel that counts, else 0; empty where all do.
-  std::vector<uint8_t> Counts = {};
+  std::vector<uint8_t> Counts;
   /// Of each pixel, for another background than the picture's; empty where it
   /// was not asked for, or where all are opaque.
-  std::vector<uint8_t> Alpha = {};
+  std::vector<uint8_t> Alpha;
 };
 
 /// \c Picture of \p V, which lies over \p Was, over \p Is, in 8 bits.
