@@ -88,11 +88,17 @@ Expected<Success> leaveOutMissing(std::vector<CaptureView> &Views, Capture &C) {
   return Success{};
 }
 
-Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
-                             Capture &C) {
+/// A COLMAP model and the names of the files that it was read from.
+struct ReadModel {
+  ColmapModel Model;
+  std::string Cameras, Images;
+};
+
+Expected<ReadModel> readModel(const Location &F, bool PosesOnly) {
   const bool Text = F.Format == CaptureFormat::ColmapText;
   const char *Ending = Text ? ".txt" : ".bin";
   ColmapFiles Files;
+  Files.PosesOnly = PosesOnly;
   std::vector<std::byte> Contents[3];
   const struct {
     const char *Name;
@@ -100,7 +106,7 @@ Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
   } Parts[] = {{"cameras", Files.Cameras},
                {"images", Files.Images},
                {"points3D", Files.Points}};
-  for (std::size_t I = 0; I < 3; ++I) {
+  for (std::size_t I = 0; I < (PosesOnly ? 2U : 3U); ++I) {
     Parts[I].To.Where = (F.Model / (std::string(Parts[I].Name) + Ending))
                             .lexically_normal()
                             .string();
@@ -113,17 +119,69 @@ Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
   auto Model = Text ? parseColmapText(Files) : parseColmapBinary(Files);
   if (!Model)
     return Model.error();
-  C.Views = std::move(Model->Views);
-  C.Points = std::move(Model->Points);
+  return ReadModel{std::move(*Model), Files.Cameras.Where, Files.Images.Where};
+}
+
+Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
+                             Capture &C) {
+  auto Read = readModel(F, /*PosesOnly=*/false);
+  if (!Read)
+    return Read.error();
+  C.Views = std::move(Read->Model.Views);
+  C.Points = std::move(Read->Model.Points);
   for (CaptureView &V : C.Views) {
-    if (auto Inside = checkInside(Files.Images.Where, V.Pose.Name, Options);
-        !Inside)
+    if (auto Inside = checkInside(Read->Images, V.Pose.Name, Options); !Inside)
       return Inside;
     V.Picture = (F.Pictures / V.Pose.Name).string();
     if (Options.Masks == MaskSource::Files)
       V.Mask = maskOf(F.Pictures.parent_path() / "masks", V.Pose.Name);
   }
   return leaveOutMissing(C.Views, C);
+}
+
+/// Completes views of which only the field of view is known.
+Expected<Success> setSizes(TransformsFile &T) {
+  if (!T.FieldOfView)
+    return Success{};
+  // All of a file are of one size; the first says which.
+  const std::string &First = T.Views.front().Picture;
+  const auto Picture = readFile(First);
+  if (!Picture)
+    return Picture.error();
+  const auto Size = photoSize(First, *Picture);
+  if (!Size)
+    return Size.error();
+  for (CaptureView &V : T.Views) {
+    V.Pose.Width = Size->Width;
+    V.Pose.Height = Size->Height;
+    setFieldOfView(V.Pose, *T.FieldOfView);
+  }
+  return Success{};
+}
+
+/// Adds the cameras of \p File; of a test set those without a picture, too.
+Expected<Success> addPoses(const fs::path &File, CaptureCameras &To) {
+  const auto Content = readFile(File.string());
+  if (!Content)
+    return Content.error();
+  auto T = parseTransforms(File.string(), *Content);
+  if (!T)
+    return T.error();
+  const fs::path Folder = File.parent_path();
+  for (CaptureView &V : T->Views) {
+    // Nothing outside the folder is opened for a size.
+    if (!staysInside(V.Pose.Name) && T->FieldOfView)
+      return checkInside(File.string(), V.Pose.Name, {});
+    V.Picture = pictureOf(Folder, V.Pose.Name).string();
+  }
+  if (auto Sized = setSizes(*T); !Sized)
+    return Sized;
+  for (CaptureView &V : T->Views) {
+    V.Pose.Id = static_cast<int>(To.Cameras.size());
+    To.Cameras.push_back(std::move(V.Pose));
+  }
+  To.Files.push_back(File.string());
+  return Success{};
 }
 
 /// Adds the views of \p File; those without a size get their picture's.
@@ -152,21 +210,8 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
   }
   if (auto Left = leaveOutMissing(T->Views, C); !Left)
     return Left;
-  if (T->FieldOfView) {
-    // All of a file are of one size; the first says which.
-    const std::string &First = T->Views.front().Picture;
-    const auto Picture = readFile(First);
-    if (!Picture)
-      return Picture.error();
-    const auto Size = photoSize(First, *Picture);
-    if (!Size)
-      return Size.error();
-    for (CaptureView &V : T->Views) {
-      V.Pose.Width = Size->Width;
-      V.Pose.Height = Size->Height;
-      setFieldOfView(V.Pose, *T->FieldOfView);
-    }
-  }
+  if (auto Sized = setSizes(*T); !Sized)
+    return Sized;
   for (CaptureView &V : T->Views) {
     V.HeldOut = HeldOut;
     C.Views.push_back(std::move(V));
@@ -305,13 +350,46 @@ bool isCapture(const std::string &Path) {
           fs::path(Path).filename().string().starts_with("transforms"));
 }
 
+static Error noCapture(const std::string &Path) {
+  return {Path, "no capture, expected a folder with COLMAP's "
+                "sparse/0/cameras.bin or .txt, transforms_train.json or "
+                "transforms.json"};
+}
+
+Expected<CaptureCameras> readCaptureCameras(const std::string &Path) {
+  auto F = find(Path);
+  if (const fs::path P(Path);
+      !F && (P.extension() == ".bin" || P.extension() == ".txt"))
+    F = find(P.has_parent_path() ? P.parent_path() : fs::path("."));
+  if (!F)
+    return noCapture(Path);
+  CaptureCameras C;
+  C.Format = F->Format;
+  if (F->Format == CaptureFormat::ColmapText ||
+      F->Format == CaptureFormat::ColmapBinary) {
+    auto Read = readModel(*F, /*PosesOnly=*/true);
+    if (!Read)
+      return Read.error();
+    for (CaptureView &V : Read->Model.Views)
+      C.Cameras.push_back(std::move(V.Pose));
+    C.Files = {Read->Cameras, Read->Images};
+  } else {
+    const fs::path Test = fs::path(Path) / "transforms_test.json";
+    auto Added = addPoses(F->Model, C);
+    if (Added && F->Format == CaptureFormat::NerfSynthetic && fileExists(Test))
+      Added = addPoses(Test, C);
+    if (!Added)
+      return Added.error();
+  }
+  std::ranges::sort(C.Cameras, {}, &Camera::Name);
+  return C;
+}
+
 Expected<Capture> readCapture(const std::string &Path,
                               const CaptureOptions &Options) {
   const auto F = find(Path);
   if (!F)
-    return Error{Path, "no capture, expected a folder with COLMAP's "
-                       "sparse/0/cameras.bin or .txt, transforms_train.json or "
-                       "transforms.json"};
+    return noCapture(Path);
   Capture C;
   C.Format = F->Format;
   const fs::path Test = fs::path(Path) / "transforms_test.json";

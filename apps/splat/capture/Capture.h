@@ -107,6 +107,18 @@ struct CaptureOptions {
 Expected<Capture> readCapture(const std::string &Path,
                               const CaptureOptions &Options = {});
 
+/// The poses of a capture, for who needs no picture and no point.
+struct CaptureCameras {
+  CaptureFormat Format = CaptureFormat::ColmapBinary;
+  std::vector<Camera> Cameras;    ///< sorted by name, byte by byte
+  std::vector<std::string> Files; ///< what they were read from
+};
+
+/// Reads them from where readCapture would, from a folder that holds COLMAP's
+/// files alone, or from one of COLMAP's files. A picture is looked at only
+/// where a file of transforms says no size.
+Expected<CaptureCameras> readCaptureCameras(const std::string &Path);
+
 /// Whether \p Path is a folder or file that readCapture would take, as far as
 /// names tell.
 bool isCapture(const std::string &Path);

@@ -13,6 +13,8 @@ struct ColmapFile {
 };
 struct ColmapFiles {
   ColmapFile Cameras, Images, Points;
+  /// Where only poses are wanted, \c Points is not looked at.
+  bool PosesOnly = false;
 };
 
 /// A model: each view has its camera's intrinsics; pictures are not looked

@@ -140,7 +140,7 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
             return Short;
           return errorOf(Builder.addImage(Files.Images.Where, Image));
         });
-  if (!Failed)
+  if (!Failed && !Files.PosesOnly)
     Failed = eachRecord(
         Files.Points, "point",
         [&](ByteReader &R, uint64_t I, uint64_t Count) -> std::optional<Error> {

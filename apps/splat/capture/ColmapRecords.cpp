@@ -179,7 +179,7 @@ ColmapBuilder::addPoint(const std::string &Where,
 Expected<ColmapModel> ColmapBuilder::finish(const ColmapFiles &Files) {
   if (Model.Views.empty())
     return Error{Files.Images.Where, "no image, expected at least one"};
-  if (Model.Points.size() == 0)
+  if (!Files.PosesOnly && Model.Points.size() == 0)
     return Error{Files.Points.Where,
                  "no points, expected those that training starts from"};
   return std::move(Model);

@@ -164,8 +164,9 @@ Expected<ColmapModel> parseColmapText(const ColmapFiles &Files) {
     return Read.error();
   if (auto Read = readImageLines(Files.Images, Builder); !Read)
     return Read.error();
-  if (auto Read = readPointLines(Files.Points, Builder); !Read)
-    return Read.error();
+  if (!Files.PosesOnly)
+    if (auto Read = readPointLines(Files.Points, Builder); !Read)
+      return Read.error();
   return Builder.finish(Files);
 }
 

@@ -2,6 +2,7 @@
 #include "accuracy/Points.h"
 #include "accuracy/Sweep.h"
 #include "commands/AccuracyTrain.h"
+#include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
 #include "commands/Progress.h"
@@ -36,8 +37,9 @@ using Json = nlohmann::ordered_json;
 
 struct AccuracyArguments {
   SceneArguments Scene;
-  std::string Cameras, Folder, AtLeast = "50dB";
-  std::vector<std::string> Views, Check, Knobs, Only;
+  CameraArguments Cameras;
+  std::string Folder, AtLeast = "50dB";
+  std::vector<std::string> Check, Knobs, Only;
   unsigned Jobs = 1, Products = 64, ThumbWidth = 240;
   bool List = false, NoCores = false;
   TrainSweepPlan Train; ///< where a capture is given
@@ -71,22 +73,45 @@ Expected<Success> checkNames(const SweepPlan &P) {
   return Success{};
 }
 
+/// Whether the views are in no file yet.
+bool hasOwnCameras(const AccuracyArguments &A) {
+  const CameraArguments &C = A.Cameras;
+  return C.File.empty() || C.Orbit != 0 || C.Frames != 0 || !C.Size.empty();
+}
+
+/// Where they are kept then, for the processes that draw.
+std::string ownCameras(const AccuracyArguments &A) {
+  return A.Folder + "/cameras.json";
+}
+
+/// The views to measure: all of the file, unless some are named.
+Expected<std::vector<Camera>> viewsOf(const AccuracyArguments &A) {
+  CameraArguments C = A.Cameras;
+  if (C.Views.empty())
+    C.Views = {"all"};
+  // Only a motion and a view that is found look at the scene.
+  if (!C.File.empty() && C.Orbit == 0)
+    return chooseCameras(C, Scene());
+  const auto File = loadScene(A.Scene);
+  return File ? chooseCameras(C, File->Gaussians)
+              : Expected<std::vector<Camera>>(File.error());
+}
+
 Expected<SweepPlan> planOf(const AccuracyArguments &A,
                            const DeviceOptions &Machine) {
   SweepPlan P;
   P.Machine = Machine;
   P.ScenePath = A.Scene.Path;
-  P.CameraFile = A.Cameras;
   P.Folder = A.Folder;
   P.CommonArguments = wordsOf(A.Scene);
-  auto Cameras = A.Views.empty() ? readCameras(A.Cameras)
-                                 : readCameras(A.Cameras, A.Views);
+  auto Cameras = viewsOf(A);
   if (!Cameras)
     return Cameras.error();
   P.Views = std::move(*Cameras);
   auto Knobs = knobsNamed(A.Knobs);
   if (!Knobs)
     return Knobs.error();
+  P.CameraFile = hasOwnCameras(A) ? ownCameras(A) : A.Cameras.File;
   P.Knobs = std::move(*Knobs);
   P.Cores = !A.NoCores;
   P.Jobs = A.Jobs;
@@ -247,8 +272,8 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
     A.Train.Machine = Machine;
     return measureTraining(A.Train, A.List, A.Only, say);
   }
-  if (A.Scene.Path.empty() || A.Cameras.empty())
-    return usage("expected a scene and --cameras, or --train");
+  if (A.Scene.Path.empty())
+    return usage("expected a scene, or --train");
   const auto Floor = parseDecibels(A.AtLeast);
   if (!Floor)
     return Floor.error();
@@ -261,6 +286,9 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   if (!A.List)
     if (auto Made = makeFolders(A.Folder); !Made)
       return Made.error();
+  if (!A.List && hasOwnCameras(A))
+    if (auto Written = writeCameras(ownCameras(A), P->Views); !Written)
+      return Written;
   KeptPoints Kept = keptPoints(*P, say);
   if (!A.Only.empty()) {
     std::vector<Point> Wanted;
@@ -329,11 +357,9 @@ Runner addAccuracy(CLI::App &App) {
   const std::size_t First = App.get_options().size();
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);
-  takesFile(
-      App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
-      {".json"});
-  takesView(
-      App.add_option("--views", A->Views, "Views to measure (default: all)"))
+  addCameraOptions(App, A->Cameras, /*Several=*/true);
+  takesView(App.add_option("--views", A->Cameras.Views,
+                           "Views to measure (default: all)"))
       ->delimiter(',')
       ->option_text("VIEW,...");
   takesView(

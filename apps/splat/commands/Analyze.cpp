@@ -1,6 +1,8 @@
 #include "analyze/Analysis.h"
 #include "analyze/Plots.h"
 #include "analyze/ToReference.h"
+#include "cameras/CameraFile.h"
+#include "commands/CameraArguments.h"
 #include "commands/Choices.h"
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
@@ -30,7 +32,8 @@ using Json = nlohmann::ordered_json;
 
 struct AnalyzeArguments {
   SceneArguments Scene;
-  std::string Cameras, View, JsonFile, Plots;
+  CameraArguments Cameras;
+  std::string View, JsonFile, Plots;
   int Width = 0; ///< of the picture, px; 0: the view's
   Rules Convention = Rules::Inria;
   Support Reach = Support::Square3;
@@ -58,7 +61,9 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
   const auto SceneHash = hashScene(A.Scene.Path);
   if (!SceneHash)
     return SceneHash.error();
-  const auto CameraHash = hashFile(A.Cameras);
+  Expected<std::string> CameraHash = fnv1a64({}); // where none are read
+  if (!A.Cameras.File.empty())
+    CameraHash = hashCameraFile(A.Cameras.File);
   if (!CameraHash)
     return CameraHash.error();
   Json BySupport, Lists;
@@ -77,7 +82,7 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
          {"sh_degree", F.Gaussians.ShDegree},
          {"format", name(F.Format)},
          {"axes_changed", A.Scene.Axes}}},
-       {"cameras", {{"file", A.Cameras}, {"fnv1a64", *CameraHash}}},
+       {"cameras", {{"file", A.Cameras.File}, {"fnv1a64", *CameraHash}}},
        {"view", C.Name},
        {"resolution", {C.Width, C.Height}},
        {"rules", name(A.Convention)},
@@ -151,9 +156,9 @@ Expected<Success> run(AnalyzeArguments A) {
        {checkJsonName(A.JsonFile), checkPrefix("--plots", A.Plots)})
     if (!Checked)
       return Checked;
-  if (auto Claimed =
-          claimOutputs({{"--json", A.JsonFile}},
-                       {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
+  if (auto Claimed = claimOutputs(
+          {{"--json", A.JsonFile}},
+          {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras.File}});
       !Claimed)
     return Claimed;
   const auto File = loadScene(A.Scene);
@@ -161,18 +166,21 @@ Expected<Success> run(AnalyzeArguments A) {
     return File.error();
   A.Options.Antialiased = File->DrawnAs.Antialiased;
   A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
-  auto C = readCamera(A.Cameras, A.View);
-  if (!C)
-    return C.error();
+  if (!A.View.empty())
+    A.Cameras.Views = {A.View};
+  const auto Chosen = chooseCameras(A.Cameras, File->Gaussians);
+  if (!Chosen)
+    return Chosen.error();
+  Camera C = Chosen->front();
   if (A.Width != 0)
-    resize(*C, A.Width);
+    resize(C, A.Width);
   A.Options.Rule = A.Convention == Rules::Inria ? reference::Rules::Inria
                                                 : reference::Rules::Gsplat;
   A.Options.Reach = AnalyzedSupports[static_cast<std::size_t>(A.Reach)];
   const Analysis R = analyze(toReference<float>(File->Gaussians),
-                             toReference<float>(*C), A.Options);
+                             toReference<float>(C), A.Options);
   if (!A.JsonFile.empty()) {
-    const auto Report = jsonReport(A, *File, *C, R);
+    const auto Report = jsonReport(A, *File, C, R);
     if (!Report)
       return Report.error();
     if (auto Written = writeFileAtomically(A.JsonFile, *Report); !Written)
@@ -180,12 +188,12 @@ Expected<Success> run(AnalyzeArguments A) {
   }
   if (!A.Plots.empty())
     for (const auto &[Name, Plot] :
-         chartsOf(R, sceneName(A.Scene.Path) + ", " + C->Name))
+         chartsOf(R, sceneName(A.Scene.Path) + ", " + C.Name))
       if (auto Written = writeFileAtomically(
               fmt::format("{}-{}.svg", A.Plots, Name), svgOf(Plot));
           !Written)
         return Written;
-  printOut("{}", textReport(A, *C, R));
+  printOut("{}", textReport(A, C, R));
   return Success{};
 }
 
@@ -194,12 +202,9 @@ Expected<Success> run(AnalyzeArguments A) {
 Runner addAnalyze(CLI::App &App) {
   auto A = std::make_shared<AnalyzeArguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(
-      App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
-      {".json"})
-      ->required();
-  takesView(App.add_option("--view", A->View, "img_name or id of the view"))
-      ->required();
+  addCameraOptions(App, A->Cameras, /*Several=*/false);
+  takesView(App.add_option("--view", A->View,
+                           "Name or number of the view (default: the first)"));
   App.add_option("--width", A->Width,
                  "Width in pixels, height in proportion (default: the view's)")
       ->check(CLI::Range(1, MaxImageSize));

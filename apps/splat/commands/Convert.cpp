@@ -1,6 +1,8 @@
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
+#include "commands/SceneEdits.h"
+#include "scene/Edit.h"
 #include "scene/SceneWriter.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -46,15 +48,37 @@ void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
                                               fmt::join(Lost, ", ")));
 }
 
+/// Joins the scenes \p More with \p To, each read as the first was.
+Expected<Success> joinOthers(const SceneArguments &First,
+                             const std::vector<std::string> &More,
+                             SceneFile &To) {
+  for (const std::string &Path : More) {
+    SceneArguments Other = First;
+    Other.Path = Path;
+    auto Read = loadScene(Other);
+    if (!Read)
+      return Read.error();
+    if (!Read->DrawnAs.drawsAs(To.DrawnAs))
+      return Error{Path, "is drawn another way than the scenes before it "
+                         "(antialiased, dilation), expected --antialiased or "
+                         "--no-antialiased, and --dilation, for all"};
+    join(To.Gaussians, std::move(Read->Gaussians));
+  }
+  return Success{};
+}
+
 } // namespace
 
 Runner addConvert(CLI::App &App) {
   struct Arguments {
     SceneArguments Scene;
+    std::vector<std::string> More;
     std::string Output;
+    SceneEdits Edits;
   };
   auto A = std::make_shared<Arguments>();
   addSceneOptions(App, A->Scene);
+  takesFile(App.add_option("more", A->More, "Scenes that are joined with it"));
   writesFile(App.add_option(
                  "-o,--output", A->Output,
                  fmt::format("Scene to write, in the format of its ending: "
@@ -62,16 +86,25 @@ Runner addConvert(CLI::App &App) {
                              fmt::join(writtenEndings(), ", "))),
              {writtenEndings().begin(), writtenEndings().end()})
       ->required();
+  addEditOptions(App, A->Edits);
   return [A](const DeviceOptions &) -> Expected<Success> {
     if (auto Checked = checkEnding("-o", A->Output, writtenEndings()); !Checked)
       return Checked;
-    if (auto Claimed =
-            claimOutputs({{"-o", A->Output}}, {{"the scene", A->Scene.Path}});
-        !Claimed)
+    std::vector<NamedFile> Inputs{{"the scene", A->Scene.Path}};
+    for (const std::string &Path : A->More)
+      Inputs.push_back({"the scene " + printable(Path), Path});
+    if (auto Claimed = claimOutputs({{"-o", A->Output}}, Inputs); !Claimed)
       return Claimed;
-    const auto File = loadScene(A->Scene);
+    auto File = loadScene(A->Scene);
     if (!File)
       return File.error();
+    if (auto Joined = joinOthers(A->Scene, A->More, *File); !Joined)
+      return Joined;
+    const auto Said = editScene(File->Gaussians, A->Edits);
+    if (!Said)
+      return Said.error();
+    for (const std::string &Line : *Said)
+      printOut("{}\n", Line);
     const auto Written = writeScene(A->Output, File->Gaussians, File->DrawnAs);
     if (!Written)
       return Written.error();

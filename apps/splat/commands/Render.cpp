@@ -1,3 +1,4 @@
+#include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
 #include "commands/HeatMapFiles.h"
@@ -37,8 +38,8 @@ namespace {
 
 struct RenderArguments : DrawArguments {
   SceneArguments Scene;
-  std::string Cameras, Output;
-  std::vector<std::string> Views;
+  CameraArguments Cameras;
+  std::string Output, CamerasOut;
   std::string Json, Html, Pairs, Depth, Device, KernelFolder;
   std::string Explain; ///< empty, "plan" or "measure"
   bool Time = false, Overlap = false;
@@ -48,10 +49,7 @@ struct RenderArguments : DrawArguments {
   std::string HeatMap;  ///< what names of files begin with, empty for no
 };
 
-/// Whether one picture is asked for; "all" may be one too.
-bool isOne(const RenderArguments &A) {
-  return A.Views.size() == 1 && A.Views.front() != "all";
-}
+bool isOne(const RenderArguments &A) { return A.Cameras.isOne(); }
 
 /// What can be said to be wrong before anything is read.
 Expected<Success> check(const RenderArguments &A) {
@@ -63,7 +61,8 @@ Expected<Success> check(const RenderArguments &A) {
        {checkEnding("-o", A.Output, pictureEndings()),
         checkEnding("--depth", A.Depth, {".pfm", ".npz"}),
         checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json),
-        checkEnding("--html", A.Html, {".html"})})
+        checkEnding("--html", A.Html, {".html"}),
+        checkEnding("--write-cameras", A.CamerasOut, {".json"})})
     if (!Checked)
       return Checked;
   if (auto Checked = checkDrawOptions(O); !Checked)
@@ -98,9 +97,10 @@ Expected<Success> check(const RenderArguments &A) {
                                  {"--json", A.Json},
                                  {"--html", A.Html},
                                  {"--dump-pairs", A.Pairs},
-                                 {"--depth", A.Depth}});
-  return claimOutputs(Outputs,
-                      {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras}});
+                                 {"--depth", A.Depth},
+                                 {"--write-cameras", A.CamerasOut}});
+  return claimOutputs(
+      Outputs, {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras.File}});
 }
 
 RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
@@ -126,13 +126,6 @@ void fallBack(const RenderArguments &A, const Launcher &L,
   printOut("effects: by run-time flags, whose programs are compiled "
            "already\n");
   Plan = std::move(Cheaper);
-}
-
-/// The cameras that are asked for.
-Expected<std::vector<Camera>> findCameras(const RenderArguments &A) {
-  return A.Views.size() == 1 && A.Views.front() == "all"
-             ? readCameras(A.Cameras)
-             : readCameras(A.Cameras, A.Views);
 }
 
 /// Whether the tiles of the picture are to be shown.
@@ -194,7 +187,7 @@ Expected<Success> claimPictures(const RenderArguments &A,
   for (const Camera &C : Cameras)
     if (const auto [File, IsNew] = Files.insert(pictureFile(A.Output, C));
         !IsNew)
-      return Error{A.Cameras,
+      return Error{A.Cameras.File,
                    fmt::format("two of the views would be {}, expected views "
                                "of different names",
                                *File),
@@ -202,7 +195,8 @@ Expected<Success> claimPictures(const RenderArguments &A,
     else
       Pictures.push_back({"the picture of view " + printable(C.Name), *File});
   return claimOutputs(Pictures, {{"the scene", A.Scene.Path},
-                                 {"--cameras", A.Cameras},
+                                 {"--cameras", A.Cameras.File},
+                                 {"--write-cameras", A.CamerasOut},
                                  {"--json", A.Json}});
 }
 
@@ -232,16 +226,19 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return File.error();
   drawAs(A.Options, File->DrawnAs);
   const Scene *S = &File->Gaussians;
-  auto Cameras = findCameras(A);
+  const auto Cameras = chooseCameras(A.Cameras, *S);
   if (!Cameras)
     return Cameras.error();
-  const auto Model = commonModel(A.Cameras, *Cameras);
+  const auto Model = commonModel(A.Cameras.File, *Cameras);
   if (!Model)
     return Model.error();
   A.Options.Optics = *Model;
   if (!isOne(A))
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;
+  if (!A.CamerasOut.empty())
+    if (auto Written = writeCameras(A.CamerasOut, *Cameras); !Written)
+      return Written;
   if (A.Time || A.ClockMhz || !A.Html.empty())
     Machine.set("VORION_TIME", A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;
@@ -280,9 +277,9 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return D.error();
   Launcher L(*D, A.KernelFolder, progressOf(Cameras->size()));
   fallBack(A, L, Inputs, Plan);
-  const PictureJob J{A.Scene.Path, A.Scene.Axes, A.Cameras, *File,
-                     A.Options,    Plan,         L,         A.Output,
-                     A.Json,       A.Pairs,      A.Depth,   A.Format};
+  const PictureJob J{
+      A.Scene.Path, A.Scene.Axes, A.Cameras.File, *File,   A.Options, Plan, L,
+      A.Output,     A.Json,       A.Pairs,        A.Depth, A.Format};
   auto Rendered =
       isOne(A) ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr, A.Html)
                : renderAll(J, *Cameras, A.Overlap);
@@ -304,18 +301,17 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
 Runner addRender(CLI::App &App) {
   auto A = std::make_shared<RenderArguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(
-      App.add_option("--cameras", A->Cameras, "Views: INRIA's cameras.json"),
-      {".json"})
-      ->required();
+  addCameraOptions(App, A->Cameras, /*Several=*/true);
   takesView(App.add_option(
-                "--view", A->Views,
-                "img_name or id of the view; several times, or \"all\", for "
-                "several pictures, whose files then have the view's name in "
-                "front of their ending"),
+                "--view", A->Cameras.Views,
+                "Name or number of the view (default: the first); several "
+                "times, or \"all\", for several pictures, whose files then "
+                "have the view's name in front of their ending"),
             {"all"})
-      ->required()
       ->allow_extra_args(false);
+  writesFile(App.add_option("--write-cameras", A->CamerasOut,
+                            "Write the views that are drawn, as cameras.json"),
+             {".json"});
   App.add_flag("--overlap", A->Overlap,
                "Of several pictures, prepare one while another is blended");
   writesFile(App.add_option("-o,--output", A->Output,

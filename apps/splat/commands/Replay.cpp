@@ -1,4 +1,5 @@
 #include "accuracy/Process.h"
+#include "cameras/CameraFile.h"
 #include "commands/Commands.h"
 #include "commands/ReportDifference.h"
 #include "io/Hash.h"
@@ -66,9 +67,13 @@ void findChanged(const Json &J, std::vector<std::string> &Changed) {
         // Of a scene that is a folder, or stands for one, or of one file.
         const auto Scene = hashScene(File);
         const auto Alone = hashFile(File);
-        if (!Scene && !Alone)
+        const auto Cameras = hashCameraFile(File);
+        if (File.empty()) // made, not read
+          continue;
+        if (!Scene && !Alone && !Cameras)
           Changed.push_back(File + " (cannot be read)");
-        else if ((!Scene || *Scene != Was) && (!Alone || *Alone != Was))
+        else if ((!Scene || *Scene != Was) && (!Alone || *Alone != Was) &&
+                 (!Cameras || *Cameras != Was))
           Changed.push_back(File);
       }
   if (J.is_structured())

@@ -1,3 +1,4 @@
+#include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
 #include "commands/SceneArguments.h"
@@ -22,7 +23,8 @@ namespace {
 
 struct ViewArguments {
   SceneArguments Scene;
-  std::string Cameras, Device, Kernels, Size = "480x272";
+  CameraArguments Cameras;
+  std::string Device, Kernels, Size = "480x272";
   int Port = 0;
 };
 
@@ -54,21 +56,19 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   Dropped.Axes.clear();
   Session::Setup S{A.Device,         A.Kernels, Machine,     Dropped.Options,
                    wordsOf(Dropped), {},        Size->first, Size->second};
-  if (!A.Cameras.empty()) {
-    auto Cameras = readCameras(A.Cameras);
-    if (!Cameras)
-      return Cameras.error();
-    for (const Camera &C : *Cameras)
-      if (C.Optics.Model != LensModel::Pinhole)
-        return Error{A.Cameras,
-                     fmt::format("view {} has the camera model {}, expected "
-                                 "PINHOLE: splat view draws no lenses",
-                                 C.Name, name(C.Optics.Model))};
-    S.Cameras = std::move(*Cameras);
-  }
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
+  auto Cameras = allCameras(A.Cameras, File->Gaussians);
+  if (!Cameras)
+    return Cameras.error();
+  for (const Camera &C : *Cameras)
+    if (C.Optics.Model != LensModel::Pinhole)
+      return Error{A.Cameras.File,
+                   fmt::format("view {} has the camera model {}, expected "
+                               "PINHOLE: splat view draws no lenses",
+                               C.Name, name(C.Optics.Model))};
+  S.Cameras = std::move(*Cameras);
   const std::filesystem::path Path(A.Scene.Path);
   std::string Name = printable(
       (Path.has_filename() ? Path : Path.parent_path()).filename().string());
@@ -93,11 +93,7 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
 Runner addView(CLI::App &App) {
   auto A = std::make_shared<ViewArguments>();
   addSceneOptions(App, A->Scene);
-  takesFile(
-      App.add_option("--cameras", A->Cameras,
-                     "Views to begin with: INRIA's cameras.json (default: one "
-                     "that sees the scene's middle)"),
-      {".json"});
+  addCameraOptions(App, A->Cameras, /*Several=*/false);
   App.add_option("--port", A->Port,
                  "Port of 127.0.0.1 (default 0: one that is free)")
       ->check(CLI::Range(0, 65535));

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -233,6 +234,15 @@ static Expected<Camera> cameraNamed(const std::string &Path,
   for (const Camera &C : Cameras)
     if (std::to_string(C.Id) == View)
       return C;
+  // Captures name pictures in folders: "left/0001.jpg".
+  for (const bool WithEnding : {true, false}) {
+    const auto IsMeant = [&](const Camera &C) {
+      const std::filesystem::path P(C.Name);
+      return (WithEnding ? P.filename() : P.stem()) == View;
+    };
+    if (std::ranges::count_if(Cameras, IsMeant) == 1)
+      return *std::ranges::find_if(Cameras, IsMeant);
+  }
   // A long list helps nobody.
   constexpr std::size_t MostNamed = 12;
   std::string Known;
@@ -247,18 +257,24 @@ static Expected<Camera> cameraNamed(const std::string &Path,
 }
 
 Expected<std::vector<Camera>>
-readCameras(const std::string &Path, const std::vector<std::string> &Views) {
-  const auto Cameras = readCameras(Path);
-  if (!Cameras)
-    return Cameras.error();
+selectCameras(const std::string &Path, const std::vector<Camera> &Cameras,
+              const std::vector<std::string> &Views) {
   std::vector<Camera> Found;
   for (const std::string &View : Views) {
-    auto C = cameraNamed(Path, *Cameras, View);
+    auto C = cameraNamed(Path, Cameras, View);
     if (!C)
       return C.error();
     Found.push_back(std::move(*C));
   }
   return Found;
+}
+
+Expected<std::vector<Camera>>
+readCameras(const std::string &Path, const std::vector<std::string> &Views) {
+  const auto Cameras = readCameras(Path);
+  if (!Cameras)
+    return Cameras.error();
+  return selectCameras(Path, *Cameras, Views);
 }
 
 Expected<Camera> readCamera(const std::string &Path, const std::string &View) {

@@ -50,6 +50,14 @@ bool isRotation(const std::array<std::array<double, 3>, 3> &R);
 /// error names file, record and key.
 Expected<std::vector<Camera>> readCameras(const std::string &Path);
 
+/// Those of \p Cameras, which \p Path has, that are called \p Views: by name,
+/// else by id written as a number, else by a name without folder, or without
+/// folder and ending, that only one has. An unknown view's error lists what
+/// there is.
+Expected<std::vector<Camera>>
+selectCameras(const std::string &Path, const std::vector<Camera> &Cameras,
+              const std::vector<std::string> &Views);
+
 /// The camera of \p Path whose img_name is \p View, or else whose id is
 /// \p View written as a number; an unknown view's error lists what there is.
 Expected<Camera> readCamera(const std::string &Path, const std::string &View);

@@ -1,5 +1,6 @@
 #include "render/Report.h"
 
+#include "cameras/CameraFile.h"
 #include "device/Configuration.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
@@ -162,7 +163,9 @@ Expected<Json> jsonReport(const RenderRecord &R) {
   auto SceneHash = hashScene(R.ScenePath);
   if (!SceneHash)
     return SceneHash.error();
-  auto CameraHash = hashFile(R.CameraFile);
+  Expected<std::string> CameraHash = fnv1a64({}); // where none are read
+  if (!R.CameraFile.empty())
+    CameraHash = hashCameraFile(R.CameraFile);
   if (!CameraHash)
     return CameraHash.error();
   auto Drawn = drawnJson(R.View, R.Options, R.Plan, R.Dev, R.Result);

@@ -2,6 +2,7 @@
 
 #include "io/Gzip.h"
 #include "scene/Activation.h"
+#include "scene/Edit.h"
 #include "scene/SceneFile.h"
 #include "scene/formats/Ply.h"
 #include "scene/formats/Writers.h"
@@ -155,16 +156,8 @@ Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
   Result.ShDegree = Read->Gaussians.ShDegree;
   Result.KeepsDrawing = Read->DrawnAs.drawsAs(D);
   Scene Kept = std::move(Read->Gaussians);
-  if (Kept.ShDegree < S.ShDegree) {
-    // What the file has no harmonics for, it has zeros for.
-    Scene Wide = Scene::sized(Kept.size(), S.ShDegree);
-    const std::size_t From = 3 * Kept.coefficients(),
-                      To = 3 * Wide.coefficients();
-    for (std::size_t I = 0; I < Kept.size(); ++I)
-      std::copy_n(&Kept.Sh[From * I], From, &Wide.Sh[To * I]);
-    Kept.Sh = std::move(Wide.Sh);
-    Kept.ShDegree = S.ShDegree;
-  }
+  // What the file has no harmonics for, it has zeros for.
+  setShDegree(Kept, S.ShDegree);
   Result.Lost = differenceOf(Given, Kept);
   if (auto Written = writeFileAtomically(Path, *File); !Written)
     return Written.error();

@@ -33,7 +33,7 @@ render "folder as output" s.ply c.json front folder.png
 render "unknown ending" s.ply c.json front p.gif
 render "unknown support" s.ply c.json front p.png --support huge
 render "unknown option" s.ply c.json front p.png --nonsense
-attempt "no view" render s.ply --cameras c.json -o p.png
+attempt "view without cameras" render s.ply --view front -o p.png
 render "cutoff of 1" s.ply c.json front p.png --cutoff 1
 render "two background values" s.ply c.json front p.png --background 1,2
 render "background not a number" s.ply c.json front p.png --background 0,nan,0

@@ -1,0 +1,85 @@
+#include "cameras/CameraFile.h"
+
+#include "cameras/CameraPath.h"
+#include "capture/Capture.h"
+#include "io/Hash.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace vorion::splat {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *Wanted =
+    "INRIA's cameras.json, transforms.json, nerfstudio's camera path, or a "
+    "folder with COLMAP's cameras.bin or .txt";
+
+Expected<CameraFile> listOf(const std::string &Path) {
+  auto Cameras = readCameras(Path);
+  if (!Cameras)
+    return Cameras.error();
+  return CameraFile{std::move(*Cameras), {Path}};
+}
+
+Expected<CameraFile> captureOf(const std::string &Path) {
+  auto Capture = readCaptureCameras(Path);
+  if (!Capture)
+    return Capture.error();
+  return CameraFile{std::move(Capture->Cameras), std::move(Capture->Files)};
+}
+
+Expected<CameraFile> jsonOf(const std::string &Path) {
+  const auto Document = readJson<nlohmann::json>(Path, Wanted);
+  if (!Document)
+    return Document.error();
+  if (Document->is_array())
+    return listOf(Path);
+  if (isCameraPath(*Document)) {
+    auto Cameras = parseCameraPath(Path, *Document);
+    if (!Cameras)
+      return Cameras.error();
+    return CameraFile{std::move(*Cameras), {Path}};
+  }
+  if (Document->is_object() && Document->contains("frames"))
+    return captureOf(Path);
+  return Error{Path, fmt::format("no cameras, expected {}", Wanted)};
+}
+
+} // namespace
+
+Expected<CameraFile> readCameraFile(const std::string &Path) {
+  std::error_code Ignored;
+  if (fs::is_directory(Path, Ignored)) {
+    const fs::path List = fs::path(Path) / "cameras.json";
+    if (!isCapture(Path) && fs::exists(List, Ignored))
+      return listOf(List.string());
+    return captureOf(Path);
+  }
+  const fs::path Ending = fs::path(Path).extension();
+  if (Ending == ".bin" || Ending == ".txt")
+    return captureOf(Path);
+  return jsonOf(Path);
+}
+
+Expected<std::string> hashCameraFile(const std::string &Path) {
+  const auto Read = readCameraFile(Path);
+  if (!Read)
+    return Read.error();
+  if (Read->Files.size() == 1)
+    return hashFile(Read->Files.front());
+  std::string Hashes;
+  for (const std::string &File : Read->Files) {
+    const auto Hash = hashFile(File);
+    if (!Hash)
+      return Hash.error();
+    Hashes += fmt::format("{} {}\n", *Hash, fs::path(File).filename().string());
+  }
+  return fnv1a64(Hashes);
+}
+
+} // namespace vorion::splat

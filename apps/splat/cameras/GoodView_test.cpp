@@ -1,0 +1,87 @@
+#include "cameras/GoodView.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace vorion::splat;
+
+namespace {
+
+void add(Scene &S, const Vector &Mean, const Vector &LogScale,
+         float Opacity = 4) {
+  for (std::size_t A = 0; A < 3; ++A) {
+    S.Means.push_back(static_cast<float>(Mean[A]));
+    S.LogScales.push_back(static_cast<float>(LogScale[A]));
+    S.Sh.push_back(0);
+  }
+  S.Quats.insert(S.Quats.end(), {1, 0, 0, 0});
+  S.OpacityLogits.push_back(Opacity);
+}
+
+/// A floor of flat Gaussians about \p Centre in the plane across axis \p Up,
+/// and a heap on it; strays far away.
+Scene heapOnFloor(const Vector &Centre, std::size_t Up, double Sign) {
+  std::mt19937 Random(3);
+  const auto Unit = [&] { return double(Random() >> 8) / (1 << 24) * 2 - 1; };
+  Scene S;
+  for (int I = 0; I < 2000; ++I) {
+    Vector P = {Unit(), Unit(), Unit()};
+    P[Up] = -0.02 * Sign;
+    Vector Flat{-3, -3, -3};
+    Flat[Up] = -8;
+    add(S, Centre + P, Flat);
+    Vector Q = {0.3 * Unit(), 0.3 * Unit(), 0.3 * Unit()};
+    Q[Up] = Sign * 0.3 * std::abs(Q[Up]);
+    add(S, Centre + Q, {-5, -5, -5});
+  }
+  for (int I = 0; I < 100; ++I)
+    add(S, {300 * Unit(), 300 * Unit(), 300 * Unit()}, {1, 1, 1}, 0);
+  return S;
+}
+
+TEST(GoodView, StraysDoNotMoveTheFocus) {
+  const Vector Centre{7, -5, 2};
+  const SceneFocus F = focusOf(heapOnFloor(Centre, 1, -1));
+  EXPECT_LT(length(F.Centre - Centre), 0.2);
+  EXPECT_GT(F.Radius, 0.3);
+  EXPECT_LT(F.Radius, 2);
+}
+
+TEST(GoodView, UpIsAcrossTheFloor) {
+  // The usual sign of each axis: no scene says more.
+  EXPECT_LT(focusOf(heapOnFloor({}, 1, -1)).Up[1], -0.99);
+  EXPECT_GT(focusOf(heapOnFloor({}, 2, 1)).Up[2], 0.99);
+  // Unless the user says so.
+  EXPECT_EQ(focusOf(heapOnFloor({}, 1, -1), Vector{0, 0, -1}).Up,
+            (Vector{0, 0, -1}));
+}
+
+TEST(GoodView, ItLooksAtTheFocusFromAboveTheFloor) {
+  const Vector Centre{7, -5, 2};
+  const Scene S = heapOnFloor(Centre, 1, -1);
+  const Camera C = goodView(S, focusOf(S), 320, 180);
+  EXPECT_TRUE(isRotation(C.Rotation));
+  EXPECT_LT(C.Position[1], Centre[1]);
+  const Vector To = unit(Centre - C.Position);
+  EXPECT_GT(To[0] * C.Rotation[0][2] + To[1] * C.Rotation[1][2] +
+                To[2] * C.Rotation[2][2],
+            0.98);
+  EXPECT_EQ(C, goodView(S, focusOf(S), 320, 180));
+}
+
+TEST(GoodView, AnythingFiniteHasAView) {
+  Scene One;
+  add(One, {1e6, 0, 0}, {-90, -90, -90}, -30);
+  Scene Wide;
+  add(Wide, {1e30, -1e30, 0}, {80, 80, 80});
+  add(Wide, {-1e30, 1e30, 5}, {-80, 0, 80});
+  Wide.Quats = {0, 0, 0, 0, 1, 1, 1, 1};
+  for (const Scene *S : {&One, &Wide}) {
+    const Camera C = goodView(*S, focusOf(*S), 64, 64);
+    EXPECT_TRUE(isRotation(C.Rotation));
+    for (const double V : C.Position)
+      EXPECT_TRUE(std::isfinite(V));
+  }
+}
+
+} // namespace

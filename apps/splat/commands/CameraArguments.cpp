@@ -1,0 +1,147 @@
+#include "commands/CameraArguments.h"
+
+#include "cameras/CameraFile.h"
+#include "cameras/GoodView.h"
+#include "cameras/Motion.h"
+#include "vorion/support/CommandLine.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <optional>
+#include <utility>
+
+namespace vorion::splat {
+namespace {
+
+Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
+
+Expected<std::pair<int, int>> parseSize(const std::string &Text) {
+  int Width = 0, Height = 0, End = 0;
+  const int Read =
+      std::sscanf(Text.c_str(), "%5dx%5d%n", &Width, &Height, &End);
+  const auto Fits = [](int Side) { return Side >= 1 && Side <= MaxImageSize; };
+  if (Read != 2 || static_cast<std::size_t>(End) != Text.size() ||
+      !Fits(Width) || !Fits(Height))
+    return usage(fmt::format("--size {}: expected WIDTHxHEIGHT of 1 to {} "
+                             "pixels each",
+                             Text, MaxImageSize));
+  return std::pair(Width, Height);
+}
+
+std::optional<Vector> parseUp(const std::string &Text) {
+  if (Text.empty())
+    return std::nullopt;
+  Vector Up{};
+  Up[static_cast<std::size_t>(Text.back() - 'x')] = Text.size() == 2 ? -1 : 1;
+  return Up;
+}
+
+bool asksForAll(const CameraArguments &A) {
+  return A.Views.empty() || (A.Views.size() == 1 && A.Views.front() == "all");
+}
+
+/// What the cameras go around, and about which axis.
+std::pair<Vector, Vector> pivotOf(const CameraArguments &A,
+                                  const std::vector<Camera> &Cameras,
+                                  const Scene &S) {
+  std::optional<Vector> Up = parseUp(A.Up);
+  std::optional<Vector> Centre;
+  if (!A.File.empty()) {
+    if (!Up)
+      Up = upOf(Cameras);
+    Centre = lookedAt(Cameras);
+  }
+  if (!Up || !Centre) {
+    const SceneFocus F = focusOf(S, Up);
+    return {Centre.value_or(F.Centre), F.Up};
+  }
+  return {*Centre, *Up};
+}
+
+} // namespace
+
+void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
+  takesFile(App.add_option(
+                "--cameras", A.File,
+                "Views: INRIA's cameras.json, transforms.json, nerfstudio's "
+                "camera path, or a folder with COLMAP's cameras (default: a "
+                "view that shows much of the scene is found)"),
+            {".json", ".bin", ".txt"});
+  if (Several) {
+    App.add_option("--size", A.Size,
+                   fmt::format("Size of pictures, with the cameras' horizontal "
+                               "field of view (default: theirs, or {})",
+                               DefaultSize))
+        ->option_text("WIDTHxHEIGHT");
+    App.add_option("--orbit", A.Orbit,
+                   "N views around what the cameras look at, or around the "
+                   "scene's middle, from the first view on")
+        ->option_text("N")
+        ->check(CLI::Range(1, 9999));
+    App.add_option("--frames", A.Frames,
+                   "N views along a smooth path through the views")
+        ->option_text("N")
+        ->check(CLI::Range(2, 9999))
+        ->excludes("--orbit");
+  }
+  App.add_option("--up", A.Up,
+                 "What is up in the scene, for --orbit and for a view that is "
+                 "found (default: as the cameras have it, or by the scene's "
+                 "flat Gaussians)")
+      ->check(isOneOf({"x", "-x", "y", "-y", "z", "-z"}));
+}
+
+Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
+                                         const Scene &S) {
+  const auto Size = parseSize(A.Size.empty() ? DefaultSize : A.Size);
+  if (!Size)
+    return Size.error();
+  std::vector<Camera> Cameras;
+  if (A.File.empty()) {
+    if (!asksForAll(A))
+      return usage("--view names a camera, expected --cameras with it");
+    Cameras = {
+        goodView(S, focusOf(S, parseUp(A.Up)), Size->first, Size->second)};
+  } else {
+    auto Read = readCameraFile(A.File);
+    if (!Read)
+      return Read.error();
+    Cameras = std::move(Read->Cameras);
+    if (!A.Size.empty())
+      for (Camera &C : Cameras)
+        C = resized(std::move(C), Size->first, Size->second);
+  }
+  if (A.Orbit == 0 && A.Frames == 0)
+    return Cameras;
+  std::vector<Camera> Keys = Cameras;
+  if (!asksForAll(A)) {
+    auto Selected = selectCameras(A.File, Cameras, A.Views);
+    if (!Selected)
+      return Selected;
+    Keys = std::move(*Selected);
+  }
+  if (A.Orbit != 0) {
+    const auto [Centre, Up] = pivotOf(A, Cameras, S);
+    return orbit(Keys.front(), Centre, Up, A.Orbit);
+  }
+  if (Keys.size() < 2)
+    return usage("--frames goes through several views, expected --cameras "
+                 "with at least two");
+  return alongPath(Keys, A.Frames);
+}
+
+Expected<std::vector<Camera>> chooseCameras(const CameraArguments &A,
+                                            const Scene &S) {
+  auto All = allCameras(A, S);
+  if (!All || A.Orbit != 0 || A.Frames != 0)
+    return All;
+  if (A.Views.empty()) {
+    All->resize(1);
+    return All;
+  }
+  if (asksForAll(A))
+    return All;
+  return selectCameras(A.File, *All, A.Views);
+}
+
+} // namespace vorion::splat

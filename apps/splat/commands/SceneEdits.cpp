@@ -1,0 +1,147 @@
+#include "commands/SceneEdits.h"
+
+#include "scene/Activation.h"
+#include "scene/Edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace vorion::splat {
+namespace {
+
+Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
+
+Expected<Success> check(const SceneEdits &E) {
+  for (const auto &[Name, Values] : {std::pair("--translate", &E.Translate),
+                                     {"--rotate", &E.Rotate},
+                                     {"--crop-box", &E.Box},
+                                     {"--crop-sphere", &E.Sphere}})
+    if (!std::ranges::all_of(*Values,
+                             [](double V) { return std::isfinite(V); }))
+      return usage(fmt::format("{}: expected finite numbers", Name));
+  if (E.Scale && !(*E.Scale > 0 && std::isfinite(*E.Scale)))
+    return usage(
+        fmt::format("--scale {}: expected a number above 0", *E.Scale));
+  if (!E.Box.empty())
+    for (std::size_t A = 0; A < 3; ++A)
+      if (!(E.Box[A] < E.Box[A + 3]))
+        return usage(fmt::format("--crop-box: {} to {} is no length, expected "
+                                 "x0,y0,z0,x1,y1,z1 with each first one below "
+                                 "its second",
+                                 E.Box[A], E.Box[A + 3]));
+  if (!E.Sphere.empty() && !(E.Sphere[3] > 0))
+    return usage(fmt::format("--crop-sphere: a radius of {}, expected one "
+                             "above 0",
+                             E.Sphere[3]));
+  return Success{};
+}
+
+/// Leaves out what \p Keep does not hold for, and says so in \p Said.
+template <typename Rule>
+Expected<Success> leaveOut(Scene &S, const std::string &What,
+                           std::vector<std::string> &Said, Rule Keep) {
+  const std::size_t Count = S.size(), Gone = keepOnly(S, Keep);
+  Said.push_back(
+      fmt::format("left out {} of {} Gaussians {}", Gone, Count, What));
+  if (S.size() == 0)
+    return Error{"",
+                 fmt::format("all {} Gaussians are {}, expected one to keep",
+                             Count, What)};
+  return Success{};
+}
+
+Similarity moveOf(const SceneEdits &E) {
+  Similarity By;
+  By.Scale = E.Scale.value_or(1);
+  if (!E.Rotate.empty())
+    By.Rotation = rotationOf({E.Rotate[0], E.Rotate[1], E.Rotate[2]});
+  if (!E.Translate.empty())
+    By.Translation = {E.Translate[0], E.Translate[1], E.Translate[2]};
+  return By;
+}
+
+} // namespace
+
+void addEditOptions(CLI::App &App, SceneEdits &E) {
+  constexpr const char *Group = "Changes, in this order";
+  const auto Numbers = [&](const char *Name, std::vector<double> &To, int Count,
+                           const char *Text, const char *What) {
+    App.add_option(Name, To, What)
+        ->delimiter(',')
+        ->expected(Count)
+        ->option_text(Text)
+        ->group(Group);
+  };
+  App.add_option("--scale", E.Scale, "Multiply all lengths")
+      ->option_text("S")
+      ->group(Group);
+  Numbers("--rotate", E.Rotate, 3, "X,Y,Z",
+          "Turn by degrees about x, then about y, then about z, harmonics too");
+  Numbers("--translate", E.Translate, 3, "X,Y,Z", "Move");
+  App.add_option("--drop-faint", E.Faint,
+                 "Leave out Gaussians of an opacity below A")
+      ->option_text("A")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(Group);
+  Numbers("--crop-box,--filter-box", E.Box, 6, "X0,Y0,Z0,X1,Y1,Z1",
+          "Keep Gaussians whose centre is inside of two corners");
+  Numbers("--crop-sphere,--filter-sphere", E.Sphere, 4, "X,Y,Z,R",
+          "Keep Gaussians whose centre is within R of a point");
+  App.add_option("--degree,--filter-harmonics", E.Degree,
+                 "Keep spherical harmonics up to this degree")
+      ->option_text("N")
+      ->check(CLI::Range(0, MaxShDegree))
+      ->group(Group);
+}
+
+Expected<std::vector<std::string>> editScene(Scene &S, const SceneEdits &E) {
+  if (auto Checked = check(E); !Checked)
+    return Checked.error();
+  std::vector<std::string> Said;
+  transform(S, moveOf(E));
+  if (auto Finite = checkFinite("", S); !Finite)
+    return Error{"", "the moved scene is beyond the range of floats, expected "
+                     "a smaller --scale or --translate"};
+  if (E.Faint)
+    if (auto Done =
+            leaveOut(S, fmt::format("fainter than {}", *E.Faint), Said,
+                     [&, Activated = activate<double>(S)](std::size_t I) {
+                       return Activated.Opacities[I] >= *E.Faint;
+                     });
+        !Done)
+      return Done.error();
+  if (!E.Box.empty())
+    if (auto Done = leaveOut(S, "outside the box", Said,
+                             [&](std::size_t I) {
+                               bool Inside = true;
+                               for (std::size_t A = 0; A < 3; ++A)
+                                 Inside = Inside &&
+                                          S.Means[3 * I + A] >= E.Box[A] &&
+                                          S.Means[3 * I + A] <= E.Box[A + 3];
+                               return Inside;
+                             });
+        !Done)
+      return Done.error();
+  if (!E.Sphere.empty())
+    if (auto Done = leaveOut(S, "outside the sphere", Said,
+                             [&](std::size_t I) {
+                               double Squares = 0;
+                               for (std::size_t A = 0; A < 3; ++A) {
+                                 const double D =
+                                     S.Means[3 * I + A] - E.Sphere[A];
+                                 Squares += D * D;
+                               }
+                               return Squares <= E.Sphere[3] * E.Sphere[3];
+                             });
+        !Done)
+      return Done.error();
+  if (E.Degree && *E.Degree < S.ShDegree) {
+    Said.push_back(
+        fmt::format("left out harmonics above degree {}", *E.Degree));
+    setShDegree(S, *E.Degree);
+  }
+  return Said;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,220 @@
+#include "scene/Edit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace vorion::splat {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+using Mat3 = std::array<Vec3, 3>;
+
+/// The real spherical harmonics of bands 1 to 3, in INRIA's order and signs,
+/// for the unit vector \p D.
+std::array<double, 15> basis(const Vec3 &D) {
+  const auto [X, Y, Z] = D;
+  const double XX = X * X, YY = Y * Y, ZZ = Z * Z;
+  const double C1 = std::sqrt(3 / (4 * std::numbers::pi));
+  const double C2 = std::sqrt(15 / (4 * std::numbers::pi));
+  const double C20 = std::sqrt(5 / (16 * std::numbers::pi));
+  const double C33 = std::sqrt(35 / (32 * std::numbers::pi));
+  const double C32 = std::sqrt(105 / (4 * std::numbers::pi));
+  const double C31 = std::sqrt(21 / (32 * std::numbers::pi));
+  const double C30 = std::sqrt(7 / (16 * std::numbers::pi));
+  return {-C1 * Y,
+          C1 * Z,
+          -C1 * X,
+          C2 * X * Y,
+          -C2 * Y * Z,
+          C20 * (2 * ZZ - XX - YY),
+          -C2 * X * Z,
+          C2 / 2 * (XX - YY),
+          -C33 * Y * (3 * XX - YY),
+          C32 * X * Y * Z,
+          -C31 * Y * (4 * ZZ - XX - YY),
+          C30 * Z * (2 * ZZ - 3 * XX - 3 * YY),
+          -C31 * X * (4 * ZZ - XX - YY),
+          C32 / 2 * Z * (XX - YY),
+          -C33 * X * (XX - 3 * YY)};
+}
+
+/// [row][column]: what a turned function's coefficient gets of the function's.
+using Turn = std::array<std::array<double, 15>, 15>;
+
+/// By the harmonics' orthonormality: the integral over the sphere of each
+/// times each turned one, which 4 rings of Gauss and Legendre times 8
+/// directions give exactly for products of degree 6.
+Turn turnOf(const Mat3 &R) {
+  constexpr double Nodes[] = {0.33998104358485626, 0.86113631159405258};
+  constexpr double Weights[] = {0.65214515486254614, 0.34785484513745386};
+  Turn T{};
+  for (int Ring = 0; Ring < 4; ++Ring) {
+    const double Z = (Ring % 2 == 0 ? 1 : -1) * Nodes[Ring / 2];
+    const double Around = std::sqrt(1 - Z * Z);
+    const double Weight = Weights[Ring / 2] * 2 * std::numbers::pi / 8;
+    for (int I = 0; I < 8; ++I) {
+      const double Angle = 2 * std::numbers::pi * I / 8;
+      const Vec3 D = {Around * std::cos(Angle), Around * std::sin(Angle), Z};
+      Vec3 Back{}; // by the rotation's transpose
+      for (std::size_t A = 0; A < 3; ++A)
+        for (std::size_t B = 0; B < 3; ++B)
+          Back[A] += R[B][A] * D[B];
+      const auto Here = basis(D), There = basis(Back);
+      for (std::size_t M = 0; M < 15; ++M)
+        for (std::size_t N = 0; N < 15; ++N)
+          T[M][N] += Weight * Here[M] * There[N];
+    }
+  }
+  return T;
+}
+
+using Quaternion = std::array<double, 4>; ///< w, x, y, z
+
+Quaternion quaternionOf(const Mat3 &R) {
+  const double Squares[4] = {
+      1 + R[0][0] + R[1][1] + R[2][2], 1 + R[0][0] - R[1][1] - R[2][2],
+      1 - R[0][0] + R[1][1] - R[2][2], 1 - R[0][0] - R[1][1] + R[2][2]};
+  const double *Largest = std::max_element(Squares, Squares + 4);
+  const double S = 2 * std::sqrt(*Largest);
+  switch (Largest - Squares) {
+  case 0:
+    return {S / 4, (R[2][1] - R[1][2]) / S, (R[0][2] - R[2][0]) / S,
+            (R[1][0] - R[0][1]) / S};
+  case 1:
+    return {(R[2][1] - R[1][2]) / S, S / 4, (R[0][1] + R[1][0]) / S,
+            (R[0][2] + R[2][0]) / S};
+  case 2:
+    return {(R[0][2] - R[2][0]) / S, (R[0][1] + R[1][0]) / S, S / 4,
+            (R[1][2] + R[2][1]) / S};
+  default:
+    return {(R[1][0] - R[0][1]) / S, (R[0][2] + R[2][0]) / S,
+            (R[1][2] + R[2][1]) / S, S / 4};
+  }
+}
+
+Quaternion product(const Quaternion &A, const Quaternion &B) {
+  return {A[0] * B[0] - A[1] * B[1] - A[2] * B[2] - A[3] * B[3],
+          A[0] * B[1] + A[1] * B[0] + A[2] * B[3] - A[3] * B[2],
+          A[0] * B[2] - A[1] * B[3] + A[2] * B[0] + A[3] * B[1],
+          A[0] * B[3] + A[1] * B[2] - A[2] * B[1] + A[3] * B[0]};
+}
+
+void turnHarmonics(Scene &S, const Mat3 &Rotation) {
+  const Turn T = turnOf(Rotation);
+  const std::size_t Each = S.coefficients();
+  for (std::size_t I = 0; I < S.size(); ++I)
+    for (std::size_t Channel = 0; Channel < 3; ++Channel) {
+      float *First = &S.Sh[3 * Each * I + Channel];
+      std::array<double, 15> Old{};
+      for (std::size_t K = 1; K < Each; ++K)
+        Old[K - 1] = First[3 * K];
+      for (int Band = 1; Band <= S.ShDegree; ++Band)
+        for (std::size_t K = shCoefficients(Band - 1); K < shCoefficients(Band);
+             ++K) {
+          double Sum = 0;
+          for (std::size_t N = shCoefficients(Band - 1);
+               N < shCoefficients(Band); ++N)
+            Sum += T[K - 1][N - 1] * Old[N - 1];
+          First[3 * K] = static_cast<float>(Sum);
+        }
+    }
+}
+
+} // namespace
+
+Mat3 rotationOf(const Vec3 &Degrees) {
+  Vec3 C{}, S{};
+  for (std::size_t A = 0; A < 3; ++A) {
+    // Quarter turns are exact.
+    const double Quarters = Degrees[A] / 90;
+    if (Quarters == std::floor(Quarters)) {
+      constexpr double Cos[] = {1, 0, -1, 0};
+      const auto Turn =
+          static_cast<std::size_t>(std::fmod(std::fmod(Quarters, 4) + 4, 4));
+      C[A] = Cos[Turn];
+      S[A] = Cos[(Turn + 3) % 4];
+    } else {
+      C[A] = std::cos(Degrees[A] * std::numbers::pi / 180);
+      S[A] = std::sin(Degrees[A] * std::numbers::pi / 180);
+    }
+  }
+  const auto [X, Y, Z] = C;
+  const auto [Sx, Sy, Sz] = S;
+  return {{{Z * Y, Z * Sy * Sx - Sz * X, Z * Sy * X + Sz * Sx},
+           {Sz * Y, Sz * Sy * Sx + Z * X, Sz * Sy * X - Z * Sx},
+           {-Sy, Y * Sx, Y * X}}};
+}
+
+void transform(Scene &S, const Similarity &By) {
+  if (By == Similarity())
+    return;
+  const double LogScale = std::log(By.Scale);
+  for (std::size_t I = 0; I < S.size(); ++I) {
+    Vec3 Moved = By.Translation;
+    for (std::size_t A = 0; A < 3; ++A)
+      for (std::size_t B = 0; B < 3; ++B)
+        Moved[A] += By.Scale * By.Rotation[A][B] * S.Means[3 * I + B];
+    for (std::size_t A = 0; A < 3; ++A) {
+      S.Means[3 * I + A] = static_cast<float>(Moved[A]);
+      float &Size = S.LogScales[3 * I + A];
+      Size = static_cast<float>(Size + LogScale);
+    }
+  }
+  if (By.Rotation == Similarity().Rotation)
+    return;
+  const Quaternion Turn = quaternionOf(By.Rotation);
+  for (std::size_t I = 0; I < S.size(); ++I) {
+    float *Q = &S.Quats[4 * I];
+    Quaternion Old{Q[0], Q[1], Q[2], Q[3]};
+    if (Old == Quaternion{}) // is read as no rotation
+      Old[0] = 1;
+    const Quaternion New = product(Turn, Old);
+    std::ranges::transform(New, Q,
+                           [](double V) { return static_cast<float>(V); });
+  }
+  turnHarmonics(S, By.Rotation);
+}
+
+std::size_t keepOnly(Scene &S, const std::function<bool(std::size_t)> &Keep) {
+  const std::size_t Count = S.size();
+  std::vector<std::size_t> Kept;
+  for (std::size_t I = 0; I < Count; ++I)
+    if (Keep(I))
+      Kept.push_back(I);
+  for (const auto &[Values, Each] : {std::pair(&S.Means, std::size_t{3}),
+                                     {&S.LogScales, 3},
+                                     {&S.Quats, 4},
+                                     {&S.OpacityLogits, 1},
+                                     {&S.Sh, 3 * S.coefficients()}}) {
+    for (std::size_t To = 0; To < Kept.size(); ++To)
+      std::copy_n(
+          Values->begin() + static_cast<std::ptrdiff_t>(Kept[To] * Each), Each,
+          Values->begin() + static_cast<std::ptrdiff_t>(To * Each));
+    Values->resize(Kept.size() * Each);
+  }
+  return Count - Kept.size();
+}
+
+void setShDegree(Scene &S, int Degree) {
+  if (Degree == S.ShDegree)
+    return;
+  const std::size_t Old = 3 * S.coefficients(),
+                    New = 3 * shCoefficients(Degree);
+  std::vector<float> Sh(S.size() * New);
+  for (std::size_t I = 0; I < S.size(); ++I)
+    std::copy_n(&S.Sh[Old * I], std::min(Old, New), &Sh[New * I]);
+  S.Sh = std::move(Sh);
+  S.ShDegree = Degree;
+}
+
+void join(Scene &To, Scene From) {
+  const int Degree = std::max(To.ShDegree, From.ShDegree);
+  setShDegree(To, Degree);
+  setShDegree(From, Degree);
+  append(To, From, 0, From.size());
+}
+
+} // namespace vorion::splat
