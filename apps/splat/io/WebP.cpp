@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <webp/decode.h>
+#include <webp/encode.h>
 
 namespace vorion::splat {
 
@@ -27,6 +28,36 @@ Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
                           static_cast<int>(4 * P.Width)))
     return Error{Where, "damaged WebP picture, expected a whole one"};
   return P;
+}
+
+Expected<std::string> encodeWebP(const Plane &P) {
+  const Error Failed{"", fmt::format("cannot make a WebP of {}x{} pixels, "
+                                     "expected sides of at most {}",
+                                     P.Width, P.Height, WEBP_MAX_DIMENSION)};
+  WebPConfig Config;
+  WebPPicture Picture;
+  if (P.Width > WEBP_MAX_DIMENSION || P.Height > WEBP_MAX_DIMENSION ||
+      !WebPConfigInit(&Config) || !WebPPictureInit(&Picture) ||
+      !WebPConfigLosslessPreset(&Config, 6))
+    return Failed;
+  Config.exact = 1;
+  Picture.use_argb = 1;
+  Picture.width = static_cast<int>(P.Width);
+  Picture.height = static_cast<int>(P.Height);
+  WebPMemoryWriter Writer;
+  WebPMemoryWriterInit(&Writer);
+  Picture.writer = WebPMemoryWrite;
+  Picture.custom_ptr = &Writer;
+  const auto *Rgba = reinterpret_cast<const uint8_t *>(P.Rgba.data());
+  const bool Good = WebPPictureImportRGBA(&Picture, Rgba, 4 * Picture.width) &&
+                    WebPEncode(&Config, &Picture);
+  std::string Out(reinterpret_cast<const char *>(Writer.mem),
+                  Good ? Writer.size : 0);
+  WebPPictureFree(&Picture);
+  WebPMemoryWriterClear(&Writer);
+  if (!Good)
+    return Failed;
+  return Out;
 }
 
 } // namespace vorion::splat

@@ -25,4 +25,8 @@ struct Plane {
 Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
                            std::size_t Limit);
 
+/// A lossless WebP of \p P, whose sides have at most 14 bits. Colours stay,
+/// too, where alpha is 0. Equal planes make equal bytes.
+Expected<std::string> encodeWebP(const Plane &P);
+
 } // namespace vorion::splat

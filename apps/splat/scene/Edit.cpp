@@ -95,6 +95,37 @@ Quaternion quaternionOf(const Mat3 &R) {
   }
 }
 
+double dot(const Vec3 &A, const Vec3 &B) {
+  return A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
+}
+
+/// Turns \p Columns among themselves (Jacobi, from one side) until each is at
+/// right angles to the others; gives their lengths. The ellipsoid whose half
+/// axes they are stays the same. A right-handed three stays one.
+Vec3 makeOrthogonal(Mat3 &Columns) {
+  for (int Round = 0; Round < 12; ++Round)
+    for (const auto &[P, Q] : {std::pair(0, 1), {0, 2}, {1, 2}}) {
+      Vec3 &A = Columns[static_cast<std::size_t>(P)],
+           &B = Columns[static_cast<std::size_t>(Q)];
+      const double Off = dot(A, B);
+      if (Off == 0 || !std::isfinite(Off))
+        continue;
+      const double Zeta = (dot(B, B) - dot(A, A)) / (2 * Off);
+      const double T =
+          (Zeta < 0 ? -1 : 1) / (std::abs(Zeta) + std::sqrt(1 + Zeta * Zeta));
+      const double C = 1 / std::sqrt(1 + T * T), S = C * T;
+      for (std::size_t K = 0; K < 3; ++K) {
+        const double OldA = A[K];
+        A[K] = C * OldA - S * B[K];
+        B[K] = S * OldA + C * B[K];
+      }
+    }
+  Vec3 Lengths{};
+  for (std::size_t C = 0; C < 3; ++C)
+    Lengths[C] = std::sqrt(dot(Columns[C], Columns[C]));
+  return Lengths;
+}
+
 Quaternion product(const Quaternion &A, const Quaternion &B) {
   return {A[0] * B[0] - A[1] * B[1] - A[2] * B[2] - A[3] * B[3],
           A[0] * B[1] + A[1] * B[0] + A[2] * B[3] - A[3] * B[2],
@@ -176,6 +207,40 @@ void transform(Scene &S, const Similarity &By) {
                            [](double V) { return static_cast<float>(V); });
   }
   turnHarmonics(S, By.Rotation);
+}
+
+void stretch(Scene &S, const Vec3 &Factors) {
+  for (std::size_t I = 0; I < S.size(); ++I) {
+    float *Q = &S.Quats[4 * I];
+    double Norm = 0;
+    for (std::size_t K = 0; K < 4; ++K)
+      Norm += double(Q[K]) * Q[K];
+    const double N = Norm > 0 ? 2 / Norm : 0;
+    const double W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
+    // Columns are half axes: the rotation times the scales, then stretched.
+    Mat3 Columns = {
+        {{1 - N * (Y * Y + Z * Z), N * (X * Y + W * Z), N * (X * Z - W * Y)},
+         {N * (X * Y - W * Z), 1 - N * (X * X + Z * Z), N * (Y * Z + W * X)},
+         {N * (X * Z + W * Y), N * (Y * Z - W * X), 1 - N * (X * X + Y * Y)}}};
+    for (std::size_t C = 0; C < 3; ++C)
+      for (std::size_t A = 0; A < 3; ++A) {
+        if (C == 0)
+          S.Means[3 * I + A] =
+              static_cast<float>(S.Means[3 * I + A] * Factors[A]);
+        Columns[C][A] *= Factors[A] * std::exp(double(S.LogScales[3 * I + C]));
+      }
+    const Vec3 Lengths = makeOrthogonal(Columns);
+    // Axes that vanish, or are out of range, are left for the finiteness check.
+    Mat3 Rotation{};
+    for (std::size_t C = 0; C < 3; ++C) {
+      S.LogScales[3 * I + C] = static_cast<float>(std::log(Lengths[C]));
+      for (std::size_t A = 0; A < 3; ++A)
+        Rotation[A][C] = Columns[C][A] / Lengths[C];
+    }
+    const Quaternion New = quaternionOf(Rotation);
+    std::ranges::transform(New, Q,
+                           [](double V) { return static_cast<float>(V); });
+  }
 }
 
 std::size_t keepOnly(Scene &S, const std::function<bool(std::size_t)> &Keep) {

@@ -29,6 +29,10 @@ rotationOf(const std::array<double, 3> &Degrees);
 /// moved with it sees the same. Computed in double and rounded once.
 void transform(Scene &S, const Similarity &By);
 
+/// Multiplies lengths along each axis by \p Factors, which are above 0:
+/// Gaussians become those of the stretched covariance. Harmonics stay.
+void stretch(Scene &S, const std::array<double, 3> &Factors);
+
 /// Keeps the Gaussians, by number, for which \p Keep holds, in their order;
 /// gives how many went.
 std::size_t keepOnly(Scene &S, const std::function<bool(std::size_t)> &Keep);

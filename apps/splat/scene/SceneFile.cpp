@@ -1,6 +1,7 @@
 #include "scene/SceneFile.h"
 
 #include "scene/formats/Formats.h"
+#include "scene/formats/Gltf.h"
 #include "scene/formats/SogFolder.h"
 #include "vorion/support/File.h"
 
@@ -73,6 +74,8 @@ Expected<SceneFile> readScene(const std::string &Path,
     return File.error();
   const std::string_view Text = asText(*File);
   const std::size_t Start = Text.find_first_not_of(" \t\r\n");
+  if (isGltf(*File))
+    return checked(Path, readGltf(Path, *File, Options), Options);
   if (Start != std::string_view::npos && Text[Start] == '{')
     return checked(Path, readSogJson(Path, *File, Options), Options);
   return parseScene(Path, *File, Options);

@@ -44,7 +44,9 @@ const Writer Writers[] = {
      [](const Scene &S, const Drawing & /*D*/) -> Expected<std::string> {
        return splatOf(S);
      }},
-    {".spz", false, spzOf}};
+    {".spz", false, spzOf},
+    // Neighbours in space are neighbours in the pictures.
+    {".sog", true, sogArchiveOf}};
 
 const Writer &writerOf(std::string_view Path) {
   const auto *Found = std::ranges::find_if(

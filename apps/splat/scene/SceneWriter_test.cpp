@@ -43,7 +43,13 @@ TEST(SceneWriter, EachFormatIsReadAsItselfWithinItsSteps) {
       {".spz",
        SceneFormat::Spz,
        {0.5 / 4096 + 1e-6, 0.5 / 16 + 1e-6, 0.0021, 0.5 / 255 + 1e-6,
-        0.5 / 255 / 0.15 + 1e-6, 8.5 / 128 + 1e-6}}};
+        0.5 / 255 / 0.15 + 1e-6, 8.5 / 128 + 1e-6}},
+      // Even steps of a byte would be within half of a 255th: the codebooks'
+      // are nearer where values crowd and may be farther where they do not.
+      {".sog",
+       SceneFormat::Sog,
+       {51.0 * 8 / 65535 / 2 + 1e-4, 8.0 / 255, 3 * 0.5 / 127.5 / 1.41,
+        0.5 / 255 + 1e-6, 1.8 / 255, 1.8 / 255}}};
   for (const auto &Case : Cases) {
     const std::string Path = Folder.path(std::string("s") + Case.Ending);
     const auto W = writeScene(Path, S, Drawing());

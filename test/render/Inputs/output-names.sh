@@ -11,7 +11,7 @@ attempt() {
   echo "ended with $?"
 }
 view="--cameras c.json --view front"
-attempt "convert to sog" convert $scene -o x.sog
+attempt "convert to ksplat" convert $scene -o x.ksplat
 attempt "convert without ending" convert $scene -o x
 attempt "info as text" info $scene --json x.csv
 attempt "render to gif" render $scene $view -o x.gif

@@ -102,6 +102,10 @@ Reading sog(std::size_t Size) {
   return scene(zipOf(sogOf(randomScene(Size, 1, 1))));
 }
 
+Reading glb(std::size_t Size) {
+  return scene(glbOf(gltfOf(randomScene(Size, 1, 1))));
+}
+
 /// One chunk in so many runs.
 Reading streamedSog(std::size_t Size) {
   Folder Files;
@@ -229,6 +233,7 @@ std::vector<Reader> readers(const std::string &Folder) {
        [](std::size_t Size) {
          return scene(gzipOf(spzBodyOf(randomScene(Size, 3, 1), 3)));
        }},
+      {"glb", 300, glb},
       {"sog", 300, sog},
       {"streamed-sog", 300, streamedSog},
       {"cameras", 30,

@@ -6,6 +6,7 @@
 #include "scene/Drawing.h"
 #include "scene/Scene.h"
 
+#include <map>
 #include <string>
 
 namespace vorion::splat {
@@ -26,5 +27,14 @@ bool fitsSpz(const Scene &S);
 /// positions are as fine as the scene's size allows, at most 1/4096. Log scales
 /// are cut to -10 to 5.94, harmonics to -1 to 1. fitsSpz(S).
 std::string spzBodyOf(const Scene &S, int Version, const Drawing &D = {});
+
+/// The files of a SOG of version 2, by name: codebooks of 256 values, and
+/// harmonics in a palette of at most 65,536 entries (Codebook.h). Dilations are
+/// not said.
+Expected<std::map<std::string, std::string>> sogFilesOf(const Scene &S,
+                                                        const Drawing &D = {});
+
+/// The same in a zip archive: a `.sog`.
+Expected<std::string> sogArchiveOf(const Scene &S, const Drawing &D = {});
 
 } // namespace vorion::splat

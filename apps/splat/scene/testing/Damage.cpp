@@ -303,6 +303,7 @@ std::vector<SampleFile> sampleFiles() {
           {"degree1.v3.spz", gzipOf(spzBodyOf(sample(1), 3))},
           {"unpacked.v3.spz", spzBodyOf(sample(1), 3)},
           {"degree1.v4.spz", spz4Of(sample(1))},
+          {"degree1.glb", glbOf(gltfOf(sample(1)))},
           {"degree0.sog", zipOf(sogOf(sample(0)))},
           {"degree1.sog", zipOf(sogOf(sample(1)))}};
 }

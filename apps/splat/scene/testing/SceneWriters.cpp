@@ -2,6 +2,7 @@
 
 #include "io/Zip.h"
 #include "io/Zstd.h"
+#include "scene/Activation.h"
 #include "scene/formats/Quantize.h"
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <fmt/format.h>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <utility>
@@ -79,6 +82,108 @@ std::string spz4Of(const Scene &S, const std::string &Extensions) {
     At += Each * S.size();
   }
   return Header + Extensions + Table + Frames;
+}
+
+GltfParts gltfOf(const Scene &S, const std::string &Uri,
+                 const std::string &Node) {
+  using Json = nlohmann::json;
+  const Activated<double> A = activate<double>(S);
+  GltfParts P;
+  Json Views = Json::array(), Accessors = Json::array(),
+       Attributes = Json::object();
+  const auto Add =
+      [&](const std::string &Name, std::size_t Width,
+          const std::function<double(std::size_t, std::size_t)> &Value) {
+        Attributes[Name] = Accessors.size();
+        Accessors.push_back({{"bufferView", Views.size()},
+                             {"componentType", 5126},
+                             {"count", S.size()},
+                             {"type", Width == 1   ? "SCALAR"
+                                      : Width == 3 ? "VEC3"
+                                                   : "VEC4"}});
+        Views.push_back({{"buffer", 0},
+                         {"byteOffset", P.Buffer.size()},
+                         {"byteLength", 4 * Width * S.size()}});
+        for (std::size_t I = 0; I < S.size(); ++I)
+          for (std::size_t K = 0; K < Width; ++K)
+            put(P.Buffer, static_cast<float>(Value(I, K)));
+      };
+  const std::string Prefix = "KHR_gaussian_splatting:";
+  Add("POSITION", 3,
+      [&](std::size_t I, std::size_t K) { return S.Means[3 * I + K]; });
+  Add(Prefix + "ROTATION", 4, [&](std::size_t I, std::size_t K) {
+    return A.Quats[4 * I + (K + 1) % 4];
+  });
+  Add(Prefix + "SCALE", 3,
+      [&](std::size_t I, std::size_t K) { return A.Scales[3 * I + K]; });
+  Add(Prefix + "OPACITY", 1,
+      [&](std::size_t I, std::size_t /*K*/) { return A.Opacities[I]; });
+  std::size_t Term = 0;
+  for (int Band = 0; Band <= S.ShDegree; ++Band)
+    for (int M = 0; M < 2 * Band + 1; ++M, ++Term)
+      Add(fmt::format("{}SH_DEGREE_{}_COEF_{}", Prefix, Band, M), 3,
+          [&](std::size_t I, std::size_t K) {
+            return S.Sh[3 * (S.coefficients() * I + Term) + K];
+          });
+  Json Buffer{{"byteLength", P.Buffer.size()}};
+  if (!Uri.empty())
+    Buffer["uri"] = Uri;
+  Json Placed = Node.empty() ? Json::object() : Json::parse(Node);
+  Placed["mesh"] = 0;
+  P.Text = Json{{"asset", {{"version", "2.0"}}},
+                {"extensionsUsed", {"KHR_gaussian_splatting"}},
+                {"scene", 0},
+                {"scenes", {{{"nodes", {0}}}}},
+                {"nodes", {Placed}},
+                {"meshes",
+                 {{{"primitives",
+                    {{{"mode", 0},
+                      {"attributes", Attributes},
+                      {"extensions",
+                       {{"KHR_gaussian_splatting",
+                         {{"kernel", "ellipse"},
+                          {"colorSpace", "srgb_rec709_display"}}}}}}}}}}},
+                {"accessors", Accessors},
+                {"bufferViews", Views},
+                {"buffers", {Buffer}}}
+               .dump();
+  return P;
+}
+
+std::string glbOf(const GltfParts &P) {
+  std::string Text = P.Text, Buffer = P.Buffer;
+  Text.resize((Text.size() + 3) / 4 * 4, ' ');
+  Buffer.resize((Buffer.size() + 3) / 4 * 4, '\0');
+  std::string Out;
+  put(Out, uint32_t(0x46546C67));
+  put(Out, uint32_t(2));
+  put(Out, static_cast<uint32_t>(28 + Text.size() + Buffer.size()));
+  put(Out, static_cast<uint32_t>(Text.size()));
+  put(Out, uint32_t(0x4E4F534A));
+  Out += Text;
+  put(Out, static_cast<uint32_t>(Buffer.size()));
+  put(Out, uint32_t(0x004E4942));
+  return Out + Buffer;
+}
+
+GltfParts gltfOfSpz(const std::string &Spz) {
+  using Json = nlohmann::json;
+  const char *Name = "KHR_gaussian_splatting_compression_spz_2";
+  return {
+      Json{{"asset", {{"version", "2.0"}}},
+           {"extensionsRequired", {"KHR_gaussian_splatting", Name}},
+           {"nodes", {{{"mesh", 0}}}},
+           {"meshes",
+            {{{"primitives",
+               {{{"extensions",
+                  {{"KHR_gaussian_splatting",
+                    {{"kernel", "ellipse"},
+                     {"colorSpace", "srgb_rec709_display"},
+                     {"extensions", {{Name, {{"bufferView", 0}}}}}}}}}}}}}}},
+           {"bufferViews", {{{"buffer", 0}, {"byteLength", Spz.size()}}}},
+           {"buffers", {{{"byteLength", Spz.size()}}}}}
+          .dump(),
+      Spz};
 }
 
 namespace {

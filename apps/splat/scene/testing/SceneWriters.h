@@ -27,6 +27,18 @@ using Folder = std::map<std::string, std::string>;
 std::string ksplatOf(const Scene &S, int Compression);
 /// An `.spz` of version 4, with \p Extensions between header and table.
 std::string spz4Of(const Scene &S, const std::string &Extensions = "");
+/// A glTF file in parts: its text, where its one buffer has the name \p Uri or
+/// is a GLB's if that is empty, and the buffer. Attributes are floats, each in
+/// a view of its own; \p S is in a node with the members \p Node.
+struct GltfParts {
+  std::string Text, Buffer;
+};
+GltfParts gltfOf(const Scene &S, const std::string &Uri = "",
+                 const std::string &Node = "");
+/// A `.glb` of such parts.
+std::string glbOf(const GltfParts &P);
+/// The parts of a `.glb` whose one primitive holds the file \p Spz.
+GltfParts gltfOfSpz(const std::string &Spz);
 /// The codebooks are 256 even steps over what the scene has; the palette has
 /// an entry for each Gaussian. \p Version is 1 or 2.
 Folder sogOf(const Scene &S, int Version = 2);

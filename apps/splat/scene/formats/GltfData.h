@@ -1,0 +1,78 @@
+/// What a glTF file holds apart from its meaning: JSON, buffers, accessors,
+/// nodes.
+#pragma once
+
+#include "scene/formats/Gltf.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace vorion::splat {
+
+/// Columns of numbers that a glTF accessor gives, as doubles: normalised ones
+/// from -1 or 0 to 1.
+struct GltfAccessor {
+  Bytes View;             ///< of the first element on
+  std::size_t Count = 0;  ///< elements
+  std::size_t Width = 0;  ///< numbers of an element
+  std::size_t Stride = 0; ///< bytes from an element to the next
+  int Component = 0;      ///< glTF's number of the type
+  bool Normalised = false;
+
+  double at(std::size_t Element, std::size_t Number) const;
+};
+
+/// Column-major, as glTF has it: a point's image is M p.
+using GltfMatrix = std::array<double, 16>;
+GltfMatrix product(const GltfMatrix &A, const GltfMatrix &B);
+
+/// A node with a mesh, and where it stands.
+struct GltfInstance {
+  std::size_t Mesh = 0;
+  GltfMatrix Transform{};
+};
+
+/// A glTF file whose containers were looked at; what is in them is checked when
+/// it is asked for. Every Error is one line that names the file and the part.
+class GltfData {
+public:
+  /// \p File must live as long as the result.
+  static Expected<GltfData> open(const std::string &Where, Bytes File,
+                                 const GltfSource &Read);
+
+  const nlohmann::json &document() const { return Document; }
+  /// The object number \p Index of the list \p Key.
+  Expected<const nlohmann::json *> objectAt(const char *Key,
+                                            std::size_t Index) const;
+  Expected<Bytes> bufferView(std::size_t Index) const;
+  /// Bytes of all buffers: what \c accessor gives may be no more elements.
+  std::size_t bytes() const;
+  Expected<GltfAccessor> accessor(std::size_t Index) const;
+  /// Of the default scene, or of all nodes if there is no scene.
+  Expected<std::vector<GltfInstance>> instances() const;
+
+private:
+  Error wrong(std::string What) const { return {Where, std::move(What)}; }
+  Expected<Success> readBuffers(Bytes Binary, bool HasBinary,
+                                const GltfSource &Read);
+  Expected<Success> walk(std::size_t Node, const GltfMatrix &Parent,
+                         std::set<std::size_t> &Seen,
+                         std::vector<GltfInstance> &To) const;
+
+  std::string Where;
+  nlohmann::json Document;
+  std::vector<std::vector<std::byte>> Owned; ///< of buffers that are not in
+                                             ///< the file as they are
+  std::vector<Bytes> Buffers;
+};
+
+/// The whole number \p Key of \p Object, \p Otherwise if it is not there.
+/// Nothing if it is no whole number from 0 to 2^53.
+std::optional<std::size_t> gltfIndex(const nlohmann::json &Object,
+                                     const char *Key,
+                                     std::optional<std::size_t> Otherwise);
+
+} // namespace vorion::splat
