@@ -100,13 +100,11 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
   Json ChosenOn = Json::array();
   for (const Camera *View : Head.ChosenOn)
     ChosenOn.push_back(View->Name);
-  const Json Data{{"made", Json::array({Head.Made})},
-                  {"floor_db", Head.FloorDb},
-                  {"views", std::move(Views)},
-                  {"chosen_on", std::move(ChosenOn)},
-                  {"summaries", std::move(Summaries)},
-                  {"chosen", std::move(*Chosen)},
-                  {"points", std::move(Points)}};
+  const Json Data{
+      {"made", Json::array({Head.Made})},  {"floor_db", Head.FloorDb},
+      {"views", std::move(Views)},         {"chosen_on", std::move(ChosenOn)},
+      {"summaries", std::move(Summaries)}, {"chosen", std::move(*Chosen)},
+      {"points", std::move(Points)}};
   return filledPage(pageTemplate(), Data);
 }
 

@@ -104,7 +104,7 @@ struct ChannelPlane {
 
 Expected<ExactImage> decode(const std::string &Where, Bytes Bytes) {
   BytesIn Stream(Bytes);
-  Imf::InputFile File(Stream);
+  Imf::InputFile File(Stream, /*numThreads=*/0);
   const Imf::Header &H = File.header();
   if (const auto Why = refusal(H, Bytes.size()))
     return Error{Where, *Why};
