@@ -112,6 +112,7 @@ FlatSide flatSideNear(const std::vector<Sample> &Samples, const SceneFocus &F,
 double spreadAlong(const std::vector<Sample> &Samples, const SceneFocus &F,
                    const Vector &Direction) {
   std::vector<std::pair<double, double>> Values;
+  Values.reserve(Samples.size());
   for (const Sample &S : Samples)
     Values.emplace_back(std::abs(dot(S.Mean - F.Centre, Direction)),
                         S.Opacity + 1e-9);
@@ -195,7 +196,9 @@ double CoarsePicture::score(const std::vector<Sample> &Samples, const Camera &C,
     double Open = 0;
     for (int Y = Y0; Y <= Y1; ++Y)
       for (int X = X0; X <= X1; ++X) {
-        double &Left = Through[static_cast<std::size_t>(Y * Width + X)];
+        double &Left = Through[static_cast<std::size_t>(Y) *
+                                   static_cast<std::size_t>(Width) +
+                               static_cast<std::size_t>(X)];
         Open += Left;
         Left *= 1 - Cover;
       }

@@ -40,7 +40,7 @@ Expected<Success> check(const SceneEdits &E) {
 /// Leaves out what \p Keep does not hold for, and says so in \p Said.
 template <typename Rule>
 Expected<Success> leaveOut(Scene &S, const std::string &What,
-                           std::vector<std::string> &Said, Rule Keep) {
+                           std::vector<std::string> &Said, const Rule &Keep) {
   const std::size_t Count = S.size(), Gone = keepOnly(S, Keep);
   Said.push_back(
       fmt::format("left out {} of {} Gaussians {}", Gone, Count, What));

@@ -109,8 +109,10 @@ Expected<ExactImage> decode(const std::string &Where, Bytes Bytes) {
   if (const auto Why = refusal(H, Bytes.size()))
     return Error{Where, *Why};
   const Imath::Box2i &Shown = H.displayWindow(), &Data = H.dataWindow();
-  const auto Across = static_cast<std::size_t>(Data.max.x - Data.min.x + 1);
-  const auto Down = static_cast<std::size_t>(Data.max.y - Data.min.y + 1);
+  const auto Across =
+      static_cast<std::size_t>(int64_t{Data.max.x} - Data.min.x + 1);
+  const auto Down =
+      static_cast<std::size_t>(int64_t{Data.max.y} - Data.min.y + 1);
   const bool Coloured = H.channels().findChannel("R") != nullptr;
   std::vector<ChannelPlane> Planes;
   for (const char *Name : {"R", "G", "B", "A"}) {

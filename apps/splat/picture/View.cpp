@@ -19,8 +19,9 @@ void setDistortedLimits(splat_view &V, const Camera &C, Rules Convention) {
   for (int I = 0; I < 9; ++I) {
     if (I == 4)
       continue;
-    const double At[2] = {(0.5 * C.Width * (I % 3) - C.Cx) / C.Fx,
-                          (0.5 * C.Height * (I / 3) - C.Cy) / C.Fy};
+    const int Column = I % 3, Row = I / 3;
+    const double At[2] = {(0.5 * C.Width * Column - C.Cx) / C.Fx,
+                          (0.5 * C.Height * Row - C.Cy) / C.Fy};
     const double Length = std::hypot(At[0], At[1]);
     const double Scale = Length > 0 ? C.Optics.undistorted(Length) / Length : 1;
     for (int A = 0; A < 2; ++A) {
