@@ -13,7 +13,8 @@
 namespace vorion::splat {
 
 std::string camerasFor(const std::string &Output) {
-  return (std::filesystem::path(Output).parent_path() / "cameras.json")
+  return std::filesystem::path(Output)
+      .replace_extension(".cameras.json")
       .string();
 }
 

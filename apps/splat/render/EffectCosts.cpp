@@ -135,7 +135,7 @@ std::string toString(const EffectCosts &Costs) {
                   Costs.Cycles ? fmt::format(", {} cycles", Costs.Cycles) : "");
   for (const EffectCost &C : Costs.Effects) {
     Text +=
-        fmt::format("  {:<15}{:<4}", C.Subject->Name, C.Done ? "on" : "off");
+        fmt::format("  {:<17}{:<4}", C.Subject->Name, C.Done ? "on" : "off");
     if (!C.Failure.empty()) {
       Text += fmt::format("not to be told: {}\n", C.Failure);
       continue;

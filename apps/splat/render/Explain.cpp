@@ -44,7 +44,7 @@ std::string explain(const RenderPlan &Plan) {
     if (!Last || *Last != D.Subject->Kind)
       Text += fmt::format("{}\n", heading(D.Subject->Kind));
     Last = &D.Subject->Kind;
-    Text += fmt::format("  {:<15}{:<13} {} ({})\n", D.Subject->Name, state(D),
+    Text += fmt::format("  {:<17}{:<13} {} ({})\n", D.Subject->Name, state(D),
                         D.Detected.Figure, D.Subject->What);
   }
   return Text;

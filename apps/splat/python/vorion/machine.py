@@ -93,7 +93,8 @@ class Machine:
                exp: str | None = None, alpha_cutoff: int | None = None, depth_bits: int | None = None,
                sh_degree: int | None = None, blend: str | None = None, tile: int | None = None,
                ztiles: int | None = None, pixel_unit: str | None = None, skip_saturated: bool | None = None,
-               simt_tile: int | None = None, simt_group: int | None = None, effects: str | None = None) -> Picture:
+               simt_tile: int | None = None, simt_group: int | None = None, effects: str | None = None,
+               near: float | None = None, projection: str | None = None) -> Picture:
         """Draws `scene` as `camera` sees it.
 
         depth: blend depths, too
@@ -112,12 +113,14 @@ class Machine:
         blend, tile, ztiles, pixel_unit, skip_saturated: of the rasterizer
         simt_tile, simt_group: of the cores' path
         effects: what is compiled into the kernels; "flags" compiles once for all scenes, which loops want
+        near: least depth that is drawn; the rules have one
+        projection: "jacobian" or "unscented", how a covariance goes through the camera
         """
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
                        "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
                        "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
-                       "effects": effects})
+                       "effects": effects, "near": near, "projection": projection})
         image, alpha, depths, report = self._native.render(scene._native, camera._native, asked, depth, time)
         return Picture(image, alpha, report, depths)
 

@@ -165,7 +165,7 @@ Expected<Success> Primitive::readHarmonics(Scene &S) const {
     }
     if (Found == 0)
       continue;
-    if (Found != static_cast<std::size_t>(2 * Band + 1) || Degree != Band - 1)
+    if (Found != 2 * static_cast<std::size_t>(Band) + 1 || Degree != Band - 1)
       return wrong(fmt::format("harmonics of degree {} are not whole, expected "
                                "all coefficients of it and of those below",
                                Band));

@@ -65,6 +65,7 @@ private:
     Json Mins, Maxs;
     for (std::size_t A = 0; A < 3; ++A) {
       std::vector<double> Values;
+      Values.reserve(S.size());
       for (std::size_t I = 0; I < S.size(); ++I)
         Values.push_back(logOf(S.Means[3 * I + A]));
       Bounds[A] = rangeOf(Values);
