@@ -70,7 +70,7 @@ std::string shortestCall(const CLI::App &App) {
   std::string Call = App.get_name();
   for (const CLI::App *Outer = App.get_parent(); Outer;
        Outer = Outer->get_parent())
-    Call = Outer->get_name() + " " + Call;
+    Call.insert(0, Outer->get_name() + " ");
   for (const bool Positional : {true, false})
     for (const CLI::Option *O : App.get_options())
       if (O->get_required() && O->get_positional() == Positional)
