@@ -17,7 +17,8 @@ struct TrainPictures {
   bool any() const { return !Html.empty() || !Pictures.empty(); }
 };
 
-/// Where the cameras of the scene in \p Output go: a file beside it, of its name.
+/// Where the cameras of the scene in \p Output go: a file beside it, of its
+/// name.
 std::string camerasFor(const std::string &Output);
 
 /// Declares the options; \p P must outlive the parsing.
