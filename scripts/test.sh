@@ -33,8 +33,8 @@ if [ -z "$Quick" ]; then
 fi
 
 printf '[%s] done\n' "$(elapsed)"
-# What may be missing is the private data, and PyTorch; and the sanitizer build has no OpenCL device.
+# What may be missing is the private data, PyTorch, and the right to mount; and the sanitizer build has no OpenCL device.
 python3 "$Root/scripts/count-tests.py" \
-  --skips '(no|\w+: no) \.\./shared/data|\w+: Missing required feature\(s\): (data|torch)$|asan: no OpenCL device' \
+  --skips '(no|\w+: no) \.\./shared/data|\w+: Missing required feature\(s\): (data|torch|own-mounts)$|asan: no OpenCL device' \
   "$Results"/*.xml || Failed=1
 exit "$Failed"
