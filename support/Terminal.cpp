@@ -39,4 +39,12 @@ std::string durationText(double Seconds) {
                        : fmt::format("{} h {} min", Minutes / 60, Minutes % 60);
 }
 
+std::string timeLeftText(double Seconds, std::size_t Done, std::size_t All) {
+  if (Done == 0 || Done >= All)
+    return "";
+  const double Each = Seconds / static_cast<double>(Done);
+  return fmt::format(", {} left",
+                     durationText(Each * static_cast<double>(All - Done)));
+}
+
 } // namespace vorion

@@ -26,4 +26,10 @@ TEST(Terminal, TimesAreRoundedToWhatAPersonNeeds) {
   EXPECT_EQ(durationText(-1), "unknown time");
 }
 
+TEST(Terminal, SaysWhatIsLeftOfACount) {
+  EXPECT_EQ(timeLeftText(5, 0, 4), "");
+  EXPECT_EQ(timeLeftText(5, 1, 4), ", 15 s left");
+  EXPECT_EQ(timeLeftText(20, 4, 4), "");
+}
+
 } // namespace

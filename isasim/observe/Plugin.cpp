@@ -62,10 +62,11 @@ Expected<Success> plug(const std::string &Path, const ExpUnitPlugin &Unit,
   if (raster::PluggedExp && raster::PluggedExp != Unit.Evaluate)
     return Error{Path, "has a second exponential unit, expected one in a "
                        "process"};
-  if (!raster::PluggedExp)
+  if (!raster::PluggedExp) { // another machine may read it already
     To.Report(
         fmt::format("{}: computes the exponential unit '{}'", Path, Replaces));
-  raster::plugExp(Old->Option, Unit.Evaluate);
+    raster::plugExp(Old->Option, Unit.Evaluate);
+  }
   return Success{};
 }
 

@@ -181,7 +181,8 @@ bool CoreClock::waitForOperands(const OpInfo &O) {
     Now = State::Answer;
     return false;
   }
-  // The first one counts.
+  // Of several that come at that time, the reason is the destination's, then
+  // the first source's.
   unsigned Latest = O.Rd;
   for (const uint8_t R :
        {O.Sources[2], O.Sources[1], O.Sources[0], O.HighRd, O.Rd})

@@ -96,16 +96,10 @@ Expected<Success> measureAll(KeptPoints &Kept,
   std::size_t Count = 0;
   std::optional<Error> Failure;
   const auto Begin = std::chrono::steady_clock::now();
-  // At the rate so far; nothing after the last.
-  const auto Left = [&]() -> std::string {
-    if (Count == Wanted.size())
-      return "";
+  const auto Left = [&] {
     const std::chrono::duration<double> Spent =
         std::chrono::steady_clock::now() - Begin;
-    return fmt::format(", {} left",
-                       durationText(Spent.count() *
-                                    static_cast<double>(Wanted.size() - Count) /
-                                    static_cast<double>(Count)));
+    return timeLeftText(Spent.count(), Count, Wanted.size());
   };
   const auto Work = [&] {
     for (std::size_t I = Next++; I < Wanted.size(); I = Next++) {

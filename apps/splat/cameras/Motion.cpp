@@ -1,5 +1,7 @@
 #include "cameras/Motion.h"
 
+#include "scene/Quaternion.h"
+
 #include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
@@ -15,32 +17,6 @@ Vector axisOf(const Camera &C, std::size_t K) {
 std::string numbered(const char *What, int I, int Count) {
   return fmt::format("{}-{:0{}}", What, I,
                      fmt::formatted_size("{}", Count - 1));
-}
-
-using Quaternion = std::array<double, 4>; ///< w, x, y, z
-
-/// Of a rotation, by its largest component.
-Quaternion quaternionOf(const Camera &C) {
-  const auto &R = C.Rotation;
-  const double Squares[4] = {
-      1 + R[0][0] + R[1][1] + R[2][2], 1 + R[0][0] - R[1][1] - R[2][2],
-      1 - R[0][0] + R[1][1] - R[2][2], 1 - R[0][0] - R[1][1] + R[2][2]};
-  const double *Largest = std::max_element(Squares, Squares + 4);
-  const double S = 2 * std::sqrt(*Largest);
-  switch (Largest - Squares) {
-  case 0:
-    return {S / 4, (R[2][1] - R[1][2]) / S, (R[0][2] - R[2][0]) / S,
-            (R[1][0] - R[0][1]) / S};
-  case 1:
-    return {(R[2][1] - R[1][2]) / S, S / 4, (R[0][1] + R[1][0]) / S,
-            (R[0][2] + R[2][0]) / S};
-  case 2:
-    return {(R[0][2] - R[2][0]) / S, (R[0][1] + R[1][0]) / S, S / 4,
-            (R[1][2] + R[2][1]) / S};
-  default:
-    return {(R[1][0] - R[0][1]) / S, (R[0][2] + R[2][0]) / S,
-            (R[1][2] + R[2][1]) / S, S / 4};
-  }
 }
 
 void setRotation(Camera &C, const Quaternion &Q) {
@@ -138,7 +114,7 @@ std::vector<Camera> alongPath(const std::vector<Camera> &Keys, int Count) {
   std::vector<Quaternion> Turns;
   for (const Camera &Key : Keys) {
     Sized.push_back(resized(Key, Keys.front().Width, Keys.front().Height));
-    Quaternion Q = quaternionOf(Key);
+    Quaternion Q = quaternionOf(Key.Rotation);
     // Of a quaternion and its negative the one nearer to the last.
     if (!Turns.empty() && Q[0] * Turns.back()[0] + Q[1] * Turns.back()[1] +
                                   Q[2] * Turns.back()[2] +

@@ -159,12 +159,16 @@ Expected<Success> setSizes(TransformsFile &T) {
   return Success{};
 }
 
-/// Adds the cameras of \p File; of a test set those without a picture, too.
-Expected<Success> addPoses(const fs::path &File, CaptureCameras &To) {
+Expected<TransformsFile> transformsOf(const fs::path &File) {
   const auto Content = readFile(File.string());
   if (!Content)
     return Content.error();
-  auto T = parseTransforms(File.string(), *Content);
+  return parseTransforms(File.string(), *Content);
+}
+
+/// Adds the cameras of \p File; of a test set those without a picture, too.
+Expected<Success> addPoses(const fs::path &File, CaptureCameras &To) {
+  auto T = transformsOf(File);
   if (!T)
     return T.error();
   const fs::path Folder = File.parent_path();
@@ -187,10 +191,7 @@ Expected<Success> addPoses(const fs::path &File, CaptureCameras &To) {
 /// Adds the views of \p File; those without a size get their picture's.
 Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
                                  const CaptureOptions &Options, Capture &C) {
-  const auto Content = readFile(File.string());
-  if (!Content)
-    return Content.error();
-  auto T = parseTransforms(File.string(), *Content);
+  auto T = transformsOf(File);
   if (!T)
     return T.error();
   const fs::path Folder = File.parent_path();

@@ -42,10 +42,7 @@ public:
 
 private:
   std::string left() const {
-    return Drawn == 0 ? ""
-                      : fmt::format(", {} left",
-                                    durationText(seconds(Clock::now() - Begin) *
-                                                 (Views - Drawn) / Drawn));
+    return timeLeftText(seconds(Clock::now() - Begin), Drawn, Views);
   }
   void sayLine() {
     constexpr double Every = 10; // seconds

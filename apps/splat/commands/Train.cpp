@@ -61,11 +61,7 @@ void showProgress(const TrainProgress &P) {
       P.MachineRate
           ? fmt::format(", {:.3f} of the machine's clock", *P.MachineRate)
           : "",
-      P.Last > R.Iteration
-          ? fmt::format(", {} left",
-                        durationText(P.Seconds * (P.Last - R.Iteration) /
-                                     (R.Iteration - P.First)))
-          : "",
+      timeLeftText(P.Seconds, R.Iteration - P.First, P.Last - P.First),
       Terminal ? "" : "\n");
   // Not printNote(), which would escape what clears the line.
   std::fputs(Line.c_str(), stderr);

@@ -1,5 +1,7 @@
 #include "scene/Edit.h"
 
+#include "scene/Quaternion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -69,30 +71,6 @@ Turn turnOf(const Mat3 &R) {
     }
   }
   return T;
-}
-
-using Quaternion = std::array<double, 4>; ///< w, x, y, z
-
-Quaternion quaternionOf(const Mat3 &R) {
-  const double Squares[4] = {
-      1 + R[0][0] + R[1][1] + R[2][2], 1 + R[0][0] - R[1][1] - R[2][2],
-      1 - R[0][0] + R[1][1] - R[2][2], 1 - R[0][0] - R[1][1] + R[2][2]};
-  const double *Largest = std::max_element(Squares, Squares + 4);
-  const double S = 2 * std::sqrt(*Largest);
-  switch (Largest - Squares) {
-  case 0:
-    return {S / 4, (R[2][1] - R[1][2]) / S, (R[0][2] - R[2][0]) / S,
-            (R[1][0] - R[0][1]) / S};
-  case 1:
-    return {(R[2][1] - R[1][2]) / S, S / 4, (R[0][1] + R[1][0]) / S,
-            (R[0][2] + R[2][0]) / S};
-  case 2:
-    return {(R[0][2] - R[2][0]) / S, (R[0][1] + R[1][0]) / S, S / 4,
-            (R[1][2] + R[2][1]) / S};
-  default:
-    return {(R[1][0] - R[0][1]) / S, (R[0][2] + R[2][0]) / S,
-            (R[1][2] + R[2][1]) / S, S / 4};
-  }
 }
 
 double dot(const Vec3 &A, const Vec3 &B) {

@@ -20,4 +20,9 @@ std::string barText(std::size_t Done, std::size_t All);
 /// A time that is left, as people say it: "40 s", "3 min", "2 h 5 min".
 std::string durationText(double Seconds);
 
+/// What follows a count in a line of progress: ", 3 min left" at the rate of
+/// the \p Done of \p All that took \p Seconds; nothing before the first and
+/// after the last.
+std::string timeLeftText(double Seconds, std::size_t Done, std::size_t All);
+
 } // namespace vorion
