@@ -31,6 +31,11 @@ function(vorion_generated_headers Target)
   endforeach()
 endfunction()
 
+# vorion_installs_with(TARGET...): each makes files that are installed.
+function(vorion_installs_with)
+  set_property(GLOBAL APPEND PROPERTY VORION_INSTALLED ${ARGN})
+endfunction()
+
 # vorion_install(TARGET...): each is installed, and known to find_package(Vorion)
 # as Vorion::NAME, without our own prefix.
 function(vorion_install)
@@ -39,7 +44,7 @@ function(vorion_install)
     set_target_properties(${Target} PROPERTIES EXPORT_NAME "${Name}")
     install(TARGETS ${Target} EXPORT VorionTargets
             RUNTIME DESTINATION bin LIBRARY DESTINATION lib ARCHIVE DESTINATION lib COMPONENT dev)
-    set_property(GLOBAL PROPERTY VORION_HAS_TARGETS ON)
+    vorion_installs_with(${Target})
     get_target_property(Kind ${Target} TYPE)
     if(Kind STREQUAL "EXECUTABLE")
       set_property(GLOBAL APPEND PROPERTY VORION_PROGRAMS ${Target})
@@ -64,10 +69,12 @@ endfunction()
 
 # The package of what the components have named by now.
 function(vorion_install_package)
-  get_property(HasTargets GLOBAL PROPERTY VORION_HAS_TARGETS)
-  if(NOT HasTargets)
+  get_property(Targets GLOBAL PROPERTY VORION_INSTALLED)
+  if(NOT Targets)
     return()
   endif()
+  # What `cmake --install` needs, without tests and fuzzers.
+  add_custom_target(vorion_installed DEPENDS ${Targets})
   set(Folder lib/cmake/Vorion)
   set(Version "${CMAKE_BINARY_DIR}/VorionConfigVersion.cmake")
   write_basic_package_version_file("${Version}" COMPATIBILITY SameMinorVersion)

@@ -2,12 +2,15 @@
 # Makes a fresh Debian 12 machine ready: packages, sources, build. Every step
 # is skipped when its result is there, so a second run is quick, needs no
 # network, and goes on where a broken one stopped.
-# usage: scripts/setup.sh
+# usage: scripts/setup.sh [--tests]   (--tests: also the tests, and the packages that only they need)
 source "$(dirname "$0")/lib.sh"
+Tests=${1:-}
+case "$Tests" in "" | --tests) ;; *) fail "unknown option $Tests, expected --tests" ;; esac
 
 Jobs=${VORION_JOBS:-$(nproc)}
 
-packages() { sed 's/#.*//' "$Root/scripts/packages.txt" | awk 'NF'; }
+# Those after the line "# tests" with --tests only.
+packages() { awk -v Tests="$Tests" '/^# tests$/ && !Tests { exit } !/^#/ && NF' "$Root/scripts/packages.txt"; }
 
 missingPackages() {
   local Package
@@ -33,8 +36,10 @@ if [ -n "$(missingPackages)" ]; then
   step "installing packages" packages installPackages
 fi
 step "fetching and patching LLVM's RISC-V target" source-llvm "$Root/scripts/fetch-source.sh" llvm
-step "unpacking LLVM's own RISC-V tests" source-llvm-tests "$Root/scripts/fetch-source.sh" llvm-tests
+[ -z "$Tests" ] || step "unpacking LLVM's own RISC-V tests" source-llvm-tests "$Root/scripts/fetch-source.sh" llvm-tests
 step "fetching and patching PoCL" source-pocl "$Root/scripts/fetch-source.sh" pocl
 step "configuring" configure cmake --preset dev -S "$Root"
-step "building (the first time several minutes)" build cmake --build "$Build" -j "$Jobs"
+Target=vorion_installed
+[ -z "$Tests" ] || Target=all
+NINJA_STATUS='[%p] ' step "building (the first time several minutes)" build cmake --build "$Build" -j "$Jobs" --target "$Target"
 printf '[%s] built; ". scripts/env.sh" puts the tools on the path, and docs/tutorials/README.md shows their use\n' "$(elapsed)"

@@ -5,7 +5,7 @@ source "$(dirname "$0")/lib.sh"
 Quick=${1:-}
 case "$Quick" in "" | --quick) ;; *) fail "unknown option $Quick, expected --quick" ;; esac
 
-"$Root/scripts/setup.sh"
+"$Root/scripts/setup.sh" --tests
 source "$Root/scripts/env.sh"
 Results="$Root/build/results"
 rm -rf "$Results"
