@@ -140,13 +140,13 @@ TEST(Backward, GsplatDifferentiatesTheLimitOfTheJacobian) {
 TEST(Backward, IsTheDerivativeThroughLenses) {
   struct {
     LensModel Model;
-    std::array<double, 12> K;
-  } const Lenses[] = {
-      {LensModel::OpenCv,
-       {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02, -0.01, 0.03}},
-      {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
-      {LensModel::Orthographic, {}},
-      {LensModel::Equirectangular, {}}};
+    LensCoefficients K;
+  } const Lenses[] = {{LensModel::OpenCv,
+                       {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
+                        -0.01, 0.03, 0, 0.01}},
+                      {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
+                      {LensModel::Orthographic, {}},
+                      {LensModel::Equirectangular, {}}};
   for (const auto &[Model, K] : Lenses)
     for (const Rules Rule : {Rules::Inria, Rules::Gsplat})
       for (const double Offset : {0., 0.7}) {

@@ -15,9 +15,9 @@ template <typename T> using Point = std::array<T, 3>;
 template <typename T> using Place = std::array<T, 2>;
 
 template <typename T>
-Place<T> throughOpenCv(const std::array<double, 12> &K, const Point<T> &P) {
+Place<T> throughOpenCv(const LensCoefficients &K, const Point<T> &P) {
   const T A = P[0] / P[2], B = P[1] / P[2], Q = A * A + B * B;
-  const T Radial = (1 + Q * (K[0] + Q * (K[1] + K[4] * Q))) /
+  const T Radial = (1 + Q * (K[0] + Q * (K[1] + Q * (K[4] + K[12] * Q)))) /
                    (1 + Q * (K[5] + Q * (K[6] + K[7] * Q)));
   return {A * Radial + 2 * K[2] * (A * B) + K[3] * (Q + 2 * (A * A)) +
               Q * (K[8] + K[9] * Q),
@@ -27,13 +27,13 @@ Place<T> throughOpenCv(const std::array<double, 12> &K, const Point<T> &P) {
 
 /// The distorted angle over the angle.
 template <typename T>
-T angleFactor(const std::array<double, 12> &K, const T &Squared) {
+T angleFactor(const LensCoefficients &K, const T &Squared) {
   return 1 + Squared *
                  (K[0] + Squared * (K[1] + Squared * (K[2] + K[3] * Squared)));
 }
 
 template <typename T>
-Place<T> throughFisheye(const std::array<double, 12> &K, const Point<T> &P) {
+Place<T> throughFisheye(const LensCoefficients &K, const Point<T> &P) {
   using std::atan2;
   using std::sqrt;
   const T Squared = P[0] * P[0] + P[1] * P[1];
@@ -83,8 +83,8 @@ double firstFailure(double End, const std::function<bool(double)> &Good) {
 }
 
 /// The distorted radius of one before distortion, with its derivative.
-Dual<double> distorted(const std::array<double, 12> &K, double Radius) {
-  std::array<double, 12> Radial = K;
+Dual<double> distorted(const LensCoefficients &K, double Radius) {
+  LensCoefficients Radial = K;
   for (const int Other : {2, 3, 8, 9, 10, 11})
     Radial[static_cast<std::size_t>(Other)] = 0;
   return throughOpenCv<Dual<double>>(
@@ -92,7 +92,7 @@ Dual<double> distorted(const std::array<double, 12> &K, double Radius) {
 }
 
 /// Up to where the radial part grows without a pole.
-double openCvLimit(const std::array<double, 12> &K) {
+double openCvLimit(const LensCoefficients &K) {
   const auto Grows = [&](double Angle) {
     const double R = std::tan(Angle), Q = R * R;
     return distorted(K, R).D[0] > 0 &&
@@ -104,7 +104,7 @@ double openCvLimit(const std::array<double, 12> &K) {
                      : std::numeric_limits<double>::infinity();
 }
 
-double fisheyeLimit(const std::array<double, 12> &K) {
+double fisheyeLimit(const LensCoefficients &K) {
   return firstFailure(M_PI, [&](double Angle) {
     const auto X = Dual<double>::variable(Angle, 0);
     return (X * angleFactor(K, X * X)).D[0] > 0;
@@ -186,8 +186,7 @@ Place<Dual<T>> heldPlace(const Camera<Real> &C, const Point<T> &P, Rules Rule) {
 } // namespace
 
 template <typename Real>
-void setLens(Camera<Real> &C, LensModel Model,
-             const std::array<double, 12> &K) {
+void setLens(Camera<Real> &C, LensModel Model, const LensCoefficients &K) {
   C.Optics = {Model, K, std::numeric_limits<double>::infinity()};
   if (Model == LensModel::Fisheye)
     C.Optics.Limit = fisheyeLimit(K);
@@ -252,10 +251,8 @@ glm::dvec3 backThrough(const Camera<double> &C, const glm::dvec3 &P, Rules Rule,
   return By;
 }
 
-template void setLens(Camera<float> &, LensModel,
-                      const std::array<double, 12> &);
-template void setLens(Camera<double> &, LensModel,
-                      const std::array<double, 12> &);
+template void setLens(Camera<float> &, LensModel, const LensCoefficients &);
+template void setLens(Camera<double> &, LensModel, const LensCoefficients &);
 template bool placeThrough(const Lens &, const glm::vec3 &, glm::vec2 &);
 template bool placeThrough(const Lens &, const glm::dvec3 &, glm::dvec2 &);
 template LensRows<float> rowsThrough(const Camera<float> &, const glm::vec3 &,

@@ -13,7 +13,7 @@ namespace vorion::reference {
 /// and computes its limits. Size, focal lengths and principal point must be
 /// there.
 template <typename Real>
-void setLens(Camera<Real> &C, LensModel Model, const std::array<double, 12> &K);
+void setLens(Camera<Real> &C, LensModel Model, const LensCoefficients &K);
 
 /// The place of \p P in units of the focal lengths, from the principal point;
 /// false if the model does not say one: behind a camera that looks forward, or

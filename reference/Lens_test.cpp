@@ -13,7 +13,7 @@ using namespace vorion::reference;
 
 namespace {
 
-using Coefficients = std::array<double, 12>;
+using Coefficients = LensCoefficients;
 
 // k1, k2, p1, p2, k3, k4, k5, k6, s1 to s4.
 constexpr Coefficients Barrel{-0.28, 0.09,  0.002, -0.003, -0.012, 0.03,
@@ -94,6 +94,11 @@ TEST(Lens, LimitsAreWhereTheModelTurnsBack) {
               std::sqrt(1 / 0.9), 1e-9);
   EXPECT_EQ(camera(LensModel::OpenCv, {0.3}).Optics.Limit,
             std::numeric_limits<double>::infinity());
+  // 1 + 9 r8 r^8
+  EXPECT_NEAR(
+      camera(LensModel::OpenCv, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.01})
+          .Optics.Limit,
+      std::pow(1 / 0.09, 1. / 8), 1e-9);
   // A pole of the denominator before that: 1 + k4 r^2.
   EXPECT_NEAR(camera(LensModel::OpenCv, {0, 0, 0, 0, 0, -4.}).Optics.Limit, 0.5,
               1e-9);

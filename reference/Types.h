@@ -66,12 +66,14 @@ enum class LensModel {
   Equirectangular ///< the full sphere
 };
 
+/// OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6, s1 to s4, and then a
+/// coefficient of r^8 over the fraction; of a fisheye k1 to k4.
+using LensCoefficients = std::array<double, 13>;
+
 /// A lens as \c setLens (Lens.h) makes it.
 struct Lens {
   LensModel Model = LensModel::Pinhole;
-  /// OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6, s1 to s4; a fisheye's k1
-  /// to k4.
-  std::array<double, 12> K{};
+  LensCoefficients K{};
   /// Up to where the model is one to one: a radius before distortion, or an
   /// angle from the axis. What lies beyond is not drawn.
   double Limit = 0;

@@ -78,7 +78,9 @@ Expected<std::string> hashCapture(const Capture &C) {
     const auto Picture = hashFile(V.Picture);
     if (!Picture)
       return Picture;
-    All += fmt::format("{};{};{};{};", V.Pose.Name, hashView(V.Pose), *Picture,
+    Camera Taken = V.Pose;
+    Taken.Optics = V.Optics;
+    All += fmt::format("{};{};{};{};", V.Pose.Name, hashView(Taken), *Picture,
                        V.HeldOut);
   }
   append(All, C.Points.Positions);

@@ -32,6 +32,20 @@ TEST(Origin, AViewIsWhatItSeesNotItsName) {
   EXPECT_NE(hashView(A), hashView(B));
 }
 
+// What a lens bends is trained on as its undistorted picture.
+TEST(Origin, ACaptureIsWhatItsLensesAreToo) {
+  const TestFolder F;
+  Capture C;
+  CaptureView &View = C.Views.emplace_back();
+  View.Pose = Camera::ahead(64, 48, 50);
+  View.Picture = F.write("a.png", "a");
+  const auto Straight = hashCapture(C);
+  View.Optics = {LensModel::OpenCv, {0.1}};
+  const auto Bent = hashCapture(C);
+  ASSERT_TRUE(Straight && Bent);
+  EXPECT_NE(*Straight, *Bent);
+}
+
 TEST(Origin, TheMachineIsWhatItsFileSays) {
   const TestFolder F;
   const auto MachineOf = [&](const char *Config, const char *Set) {

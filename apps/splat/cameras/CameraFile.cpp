@@ -1,7 +1,6 @@
 #include "cameras/CameraFile.h"
 
 #include "cameras/CameraPath.h"
-#include "capture/Capture.h"
 #include "io/Hash.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -26,14 +25,14 @@ Expected<CameraFile> listOf(const std::string &Path) {
   return CameraFile{std::move(*Cameras), {Path}};
 }
 
-Expected<CameraFile> captureOf(const std::string &Path) {
-  auto Capture = readCaptureCameras(Path);
+Expected<CameraFile> captureOf(const std::string &Path, LensOf Of) {
+  auto Capture = readCaptureCameras(Path, Of);
   if (!Capture)
     return Capture.error();
   return CameraFile{std::move(Capture->Cameras), std::move(Capture->Files)};
 }
 
-Expected<CameraFile> jsonOf(const std::string &Path) {
+Expected<CameraFile> jsonOf(const std::string &Path, LensOf Of) {
   const auto Document = readJson<nlohmann::json>(Path, Wanted);
   if (!Document)
     return Document.error();
@@ -46,24 +45,24 @@ Expected<CameraFile> jsonOf(const std::string &Path) {
     return CameraFile{std::move(*Cameras), {Path}};
   }
   if (Document->is_object() && Document->contains("frames"))
-    return captureOf(Path);
+    return captureOf(Path, Of);
   return Error{Path, fmt::format("no cameras, expected {}", Wanted)};
 }
 
 } // namespace
 
-Expected<CameraFile> readCameraFile(const std::string &Path) {
+Expected<CameraFile> readCameraFile(const std::string &Path, LensOf Of) {
   std::error_code Ignored;
   if (fs::is_directory(Path, Ignored)) {
     const fs::path List = fs::path(Path) / "cameras.json";
     if (!isCapture(Path) && fs::exists(List, Ignored))
       return listOf(List.string());
-    return captureOf(Path);
+    return captureOf(Path, Of);
   }
   const fs::path Ending = fs::path(Path).extension();
   if (Ending == ".bin" || Ending == ".txt")
-    return captureOf(Path);
-  return jsonOf(Path);
+    return captureOf(Path, Of);
+  return jsonOf(Path, Of);
 }
 
 Expected<std::string> hashCameraFile(const std::string &Path) {

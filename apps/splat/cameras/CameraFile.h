@@ -1,6 +1,7 @@
 /// Cameras from any file or folder that has some.
 #pragma once
 
+#include "capture/Capture.h"
 #include "io/Cameras.h"
 #include "vorion/support/Expected.h"
 
@@ -20,7 +21,9 @@ struct CameraFile {
 ///   transforms, one with camera_path or keyframes nerfstudio's camera path;
 /// - a folder is a capture (Capture.h), of which no picture is needed, or has a
 ///   cameras.json, as INRIA's trainer leaves it.
-Expected<CameraFile> readCameraFile(const std::string &Path);
+/// \p Of says which lenses those of a capture have; other files' are their own.
+Expected<CameraFile> readCameraFile(const std::string &Path,
+                                    LensOf Of = LensOf::Undistorted);
 
 /// Of the files that \p Path's cameras are read from: of the file, or of the
 /// names and contents of several.

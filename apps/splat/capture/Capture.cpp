@@ -159,6 +159,24 @@ Expected<Success> setSizes(TransformsFile &T) {
   return Success{};
 }
 
+/// Adds the camera of \p V, which \p File has.
+Expected<Success> addCamera(const std::string &File, CaptureView V, LensOf Of,
+                            CaptureCameras &To) {
+  V.Pose.Id = static_cast<int>(To.Cameras.size());
+  if (Of == LensOf::Photograph) {
+    V.Pose.Optics = V.Optics;
+    if (!std::ranges::all_of(V.Optics.K, [](double K) {
+          return std::abs(K) <= MostLensCoefficient;
+        }))
+      return Error{File,
+                   fmt::format("view {} has a lens with coefficients "
+                               "beyond {:g}, expected smaller ones",
+                               printable(V.Pose.Name), MostLensCoefficient)};
+  }
+  To.Cameras.push_back(std::move(V.Pose));
+  return Success{};
+}
+
 Expected<TransformsFile> transformsOf(const fs::path &File) {
   const auto Content = readFile(File.string());
   if (!Content)
@@ -167,7 +185,8 @@ Expected<TransformsFile> transformsOf(const fs::path &File) {
 }
 
 /// Adds the cameras of \p File; of a test set those without a picture, too.
-Expected<Success> addPoses(const fs::path &File, CaptureCameras &To) {
+Expected<Success> addPoses(const fs::path &File, LensOf Of,
+                           CaptureCameras &To) {
   auto T = transformsOf(File);
   if (!T)
     return T.error();
@@ -180,10 +199,9 @@ Expected<Success> addPoses(const fs::path &File, CaptureCameras &To) {
   }
   if (auto Sized = setSizes(*T); !Sized)
     return Sized;
-  for (CaptureView &V : T->Views) {
-    V.Pose.Id = static_cast<int>(To.Cameras.size());
-    To.Cameras.push_back(std::move(V.Pose));
-  }
+  for (CaptureView &V : T->Views)
+    if (auto Added = addCamera(File.string(), std::move(V), Of, To); !Added)
+      return Added;
   To.Files.push_back(File.string());
   return Success{};
 }
@@ -357,7 +375,8 @@ static Error noCapture(const std::string &Path) {
                 "transforms.json"};
 }
 
-Expected<CaptureCameras> readCaptureCameras(const std::string &Path) {
+Expected<CaptureCameras> readCaptureCameras(const std::string &Path,
+                                            LensOf Of) {
   auto F = find(Path);
   if (const fs::path P(Path);
       !F && (P.extension() == ".bin" || P.extension() == ".txt"))
@@ -372,13 +391,14 @@ Expected<CaptureCameras> readCaptureCameras(const std::string &Path) {
     if (!Read)
       return Read.error();
     for (CaptureView &V : Read->Model.Views)
-      C.Cameras.push_back(std::move(V.Pose));
+      if (auto Added = addCamera(Read->Cameras, std::move(V), Of, C); !Added)
+        return Added.error();
     C.Files = {Read->Cameras, Read->Images};
   } else {
     const fs::path Test = fs::path(Path) / "transforms_test.json";
-    auto Added = addPoses(F->Model, C);
+    auto Added = addPoses(F->Model, Of, C);
     if (Added && F->Format == CaptureFormat::NerfSynthetic && fileExists(Test))
-      Added = addPoses(Test, C);
+      Added = addPoses(Test, Of, C);
     if (!Added)
       return Added.error();
   }

@@ -1,7 +1,6 @@
 /// Photographs with poses, to train from.
 #pragma once
 
-#include "capture/Lens.h"
 #include "io/Cameras.h"
 #include "vorion/support/Expected.h"
 
@@ -28,8 +27,9 @@ std::string_view name(CaptureFormat F);
 struct CaptureView {
   Camera Pose; ///< its name is the picture's, as the capture has it
   /// Of the camera that took the picture. The pose's focal lengths and
-  /// principal point are its, too; pictures are undistorted when they are used.
-  Lens Optics;
+  /// principal point are its, too, but the pose is a pinhole: pictures are
+  /// undistorted when they are used.
+  CameraModel Optics;
   std::string Picture;  ///< the file
   std::string Mask;     ///< the file that says which pixels count, or empty
   bool HeldOut = false; ///< for evaluation only, never trained on
@@ -114,10 +114,16 @@ struct CaptureCameras {
   std::vector<std::string> Files; ///< what they were read from
 };
 
+/// Which picture of a capture's camera is meant: the photograph as it is, or
+/// what training makes of it.
+enum class LensOf { Undistorted, Photograph };
+
 /// Reads them from where readCapture would, from a folder that holds COLMAP's
 /// files alone, or from one of COLMAP's files. A picture is looked at only
-/// where a file of transforms says no size.
-Expected<CaptureCameras> readCaptureCameras(const std::string &Path);
+/// where a file of transforms says no size. Their lenses are pinholes, or by
+/// \p Of those of the photographs.
+Expected<CaptureCameras> readCaptureCameras(const std::string &Path,
+                                            LensOf Of = LensOf::Undistorted);
 
 /// Whether \p Path is a folder or file that readCapture would take, as far as
 /// names tell.

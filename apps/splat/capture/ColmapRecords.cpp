@@ -8,56 +8,42 @@
 namespace vorion::splat {
 namespace {
 
-Lens pinhole(std::span<const double> /*P*/) { return {}; }
+CameraModel pinhole(std::span<const double> /*P*/) { return {}; }
 
-/// \p First: where k1 is; tangential terms follow k2.
-Lens radialTangential(std::span<const double> P, std::size_t First,
-                      std::size_t Count) {
-  Lens L{Lens::Model::RadialTangential, {}, {}, {}};
-  for (std::size_t I = 0; I < Count; ++I)
-    L.Radial[I] = P[First + I];
-  return L;
+/// \p P: k1, k2, p1, p2, k3 and so on, as many as there are.
+CameraModel openCvOf(std::span<const double> P) {
+  CameraModel M{LensModel::OpenCv, {}};
+  std::ranges::copy(P, M.K.begin());
+  return M;
 }
+CameraModel radial(std::span<const double> P) { return openCvOf(P.subspan(3)); }
+/// fx, fy, cx, cy come before.
+CameraModel openCv(std::span<const double> P) { return openCvOf(P.subspan(4)); }
 
-Lens simpleRadial(std::span<const double> P) {
-  return radialTangential(P, 3, 1);
+CameraModel fisheyeOf(std::span<const double> P) {
+  CameraModel M = openCvOf(P);
+  M.Model = LensModel::Fisheye;
+  return M;
 }
-Lens radial(std::span<const double> P) { return radialTangential(P, 3, 2); }
-Lens openCv(std::span<const double> P) {
-  Lens L = radialTangential(P, 4, 2);
-  L.Tangential = {P[6], P[7]};
-  return L;
+CameraModel simpleFisheye(std::span<const double> P) {
+  return fisheyeOf(P.subspan(3));
 }
-/// fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6
-Lens fullOpenCv(std::span<const double> P) {
-  Lens L = openCv(P);
-  L.Radial[2] = P[8];
-  L.Denominator = {P[9], P[10], P[11]};
-  return L;
+CameraModel fisheye(std::span<const double> P) {
+  return fisheyeOf(P.subspan(4));
 }
-
-Lens fisheye(std::span<const double> Terms) {
-  Lens L{Lens::Model::Fisheye, {}, {}, {}};
-  std::ranges::copy(Terms, L.Radial.begin());
-  return L;
-}
-Lens openCvFisheye(std::span<const double> P) {
-  return fisheye(P.subspan(4, 4));
-}
-Lens radialFisheye(std::span<const double> P) { return fisheye(P.subspan(3)); }
 
 /// Numbers, names and counts of COLMAP's src/colmap/sensor/models.h.
 constexpr ColmapCameraModel Models[] = {
     {0, "SIMPLE_PINHOLE", 3, pinhole, true},
     {1, "PINHOLE", 4, pinhole, false},
-    {2, "SIMPLE_RADIAL", 4, simpleRadial, true},
+    {2, "SIMPLE_RADIAL", 4, radial, true},
     {3, "RADIAL", 5, radial, true},
     {4, "OPENCV", 8, openCv, false},
-    {5, "OPENCV_FISHEYE", 8, openCvFisheye, false},
-    {6, "FULL_OPENCV", 12, fullOpenCv, false},
+    {5, "OPENCV_FISHEYE", 8, fisheye, false},
+    {6, "FULL_OPENCV", 12, openCv, false},
     {7, "FOV", 5, nullptr, false},
-    {8, "SIMPLE_RADIAL_FISHEYE", 4, radialFisheye, true},
-    {9, "RADIAL_FISHEYE", 5, radialFisheye, true},
+    {8, "SIMPLE_RADIAL_FISHEYE", 4, simpleFisheye, true},
+    {9, "RADIAL_FISHEYE", 5, simpleFisheye, true},
     {10, "THIN_PRISM_FISHEYE", 12, nullptr, false},
     {11, "RAD_TAN_THIN_PRISM_FISHEYE", 16, nullptr, false},
 };

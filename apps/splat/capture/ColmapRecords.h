@@ -15,7 +15,7 @@ struct ColmapCameraModel {
   std::string_view Name;
   std::size_t Parameters;
   /// What makes a lens of the parameters; null where we have no such lens.
-  Lens (*LensOf)(std::span<const double> Parameters);
+  CameraModel (*LensOf)(std::span<const double> Parameters);
   /// The first parameter is both focal lengths.
   bool OneFocal;
 };

@@ -37,7 +37,7 @@ private:
     return nullptr;
   }
   std::optional<double> number(const Json &Frame, const char *Key);
-  Lens readLens(const Json &Frame);
+  CameraModel readLens(const Json &Frame);
   void readPose(const Json &Frame, Camera &C);
   void readIntrinsics(const Json &Frame, Camera &C);
 
@@ -62,7 +62,7 @@ std::optional<double> TransformsReader::number(const Json &Frame,
 
 /// Terms as nerfstudio and instant-ngp write them: k1 to k4 are of r^2 to r^8,
 /// but OpenCV's full model has k4 to k6 in the denominator.
-Lens TransformsReader::readLens(const Json &Frame) {
+CameraModel TransformsReader::readLens(const Json &Frame) {
   const Json *Model = find(Frame, "camera_model");
   const Json *Flag = find(Frame, "is_fisheye");
   const bool Fisheye =
@@ -81,15 +81,22 @@ Lens TransformsReader::readLens(const Json &Frame) {
   const auto Term = [&](const char *Key) {
     return number(Frame, Key).value_or(0);
   };
-  Lens L;
-  L.Kind = Fisheye ? Lens::Model::Fisheye : Lens::Model::RadialTangential;
-  L.Radial = {Term("k1"), Term("k2"), Term("k3"), Full ? 0 : Term("k4")};
-  if (Full)
-    L.Denominator = {Term("k4"), Term("k5"), Term("k6")};
-  L.Tangential = {Term("p1"), Term("p2")};
-  if (Fisheye && L.Tangential != std::array<double, 2>{})
-    fail("a fisheye with p1 or p2, expected k1 to k4 alone");
-  return simplified(L);
+  const double K1 = Term("k1"), K2 = Term("k2"), K3 = Term("k3"),
+               K4 = Term("k4"), P1 = Term("p1"), P2 = Term("p2");
+  if (Fisheye) {
+    if (P1 != 0 || P2 != 0)
+      fail("a fisheye with p1 or p2, expected k1 to k4 alone");
+    return {LensModel::Fisheye, {K1, K2, K3, K4}};
+  }
+  CameraModel M{LensModel::OpenCv, {K1, K2, P1, P2, K3}};
+  if (Full) {
+    M.K[LensK4] = K4;
+    M.K[LensK5] = Term("k5");
+    M.K[LensK6] = Term("k6");
+  } else {
+    M.K[LensR8] = K4;
+  }
+  return simplified(M);
 }
 
 void TransformsReader::readPose(const Json &Frame, Camera &C) {

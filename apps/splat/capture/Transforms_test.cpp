@@ -35,17 +35,17 @@ TEST(Transforms, FramesMayHaveTheirOwnCamera) {
 }
 
 TEST(Transforms, LensesAreOfTheFileOrAFrame) {
-  using Model = Lens::Model;
   const auto LensesOf = [](const std::function<void(Json &)> &Change) {
     Json J = sample();
     Change(J);
     const auto T = parsed(J.dump());
     EXPECT_TRUE(T);
     return T ? std::pair(T->Views[0].Optics, T->Views[1].Optics)
-             : std::pair(Lens(), Lens());
+             : std::pair(CameraModel(), CameraModel());
   };
-  const Lens Brown{
-      Model::RadialTangential, {0.1, 0.2, 0.3, 0.4}, {}, {0.5, 0.6}};
+  // Its k4 is of r^8.
+  CameraModel Brown{LensModel::OpenCv, {0.1, 0.2, 0.5, 0.6, 0.3}};
+  Brown.K[LensR8] = 0.4;
   const auto Terms = [](Json &J) {
     J.update({{"k1", 0.1}, {"k2", 0.2}, {"k3", 0.3}, {"k4", 0.4}});
   };
@@ -56,9 +56,9 @@ TEST(Transforms, LensesAreOfTheFileOrAFrame) {
     J["frames"][1]["k1"] = 0.7;
   });
   EXPECT_EQ(First, Brown);
-  EXPECT_EQ(Second.Radial[0], 0.7);
-  EXPECT_EQ(Second.Radial[1], 0.2);
-  const Lens Fisheye{Model::Fisheye, {0.1, 0.2, 0.3, 0.4}, {}, {}};
+  EXPECT_EQ(Second.K[LensK1], 0.7);
+  EXPECT_EQ(Second.K[LensK2], 0.2);
+  const CameraModel Fisheye{LensModel::Fisheye, {0.1, 0.2, 0.3, 0.4}};
   EXPECT_EQ(LensesOf([&](Json &J) {
               Terms(J);
               J["is_fisheye"] = true;
@@ -69,7 +69,7 @@ TEST(Transforms, LensesAreOfTheFileOrAFrame) {
               J["camera_model"] = "OPENCV_FISHEYE";
             }).first,
             Fisheye);
-  const Lens Full{Model::RadialTangential, {0.1, 0.2, 0.3}, {0.4}, {}};
+  const CameraModel Full{LensModel::OpenCv, {0.1, 0.2, 0, 0, 0.3, 0.4}};
   EXPECT_EQ(LensesOf([&](Json &J) {
               Terms(J);
               J["camera_model"] = "FULL_OPENCV";

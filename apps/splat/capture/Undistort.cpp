@@ -1,6 +1,7 @@
 #include "capture/Undistort.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -61,22 +62,19 @@ void mix(const Plane &From, const Four &Of, std::byte *To) {
 } // namespace
 
 MaskedPlane undistorted(const MaskedPlane &From, const Camera &C,
-                        const Lens &L) {
+                        const CameraModel &L) {
   const Plane &Old = From.Picture;
   const std::size_t Width = Old.Width, Height = Old.Height;
   MaskedPlane New{{Width, Height, std::vector<std::byte>(Old.Rgba.size())},
                   std::vector<uint8_t>(Old.pixels(), 0)};
-  const double FarX = std::max(std::abs(C.Cx), std::abs(C.Width - C.Cx)) / C.Fx;
-  const double FarY =
-      std::max(std::abs(C.Cy), std::abs(C.Height - C.Cy)) / C.Fy;
-  const double Reach = L.reach(std::hypot(FarX, FarY));
+  const double Reach = L.reach();
   for (std::size_t Row = 0; Row < Height; ++Row)
     for (std::size_t Column = 0; Column < Width; ++Column) {
       const double X = (static_cast<double>(Column) + 0.5 - C.Cx) / C.Fx;
       const double Y = (static_cast<double>(Row) + 0.5 - C.Cy) / C.Fy;
       if (X * X + Y * Y > Reach * Reach)
         continue;
-      const auto [U, V] = L.distort(X, Y);
+      const auto [U, V] = L.distorted(X, Y);
       const auto Across = between(C.Fx * U + C.Cx, Width);
       const auto Down = between(C.Fy * V + C.Cy, Height);
       if (!Across || !Down)

@@ -1,7 +1,6 @@
 /// Pictures of lenses made those of pinholes, and which of their pixels count.
 #pragma once
 
-#include "capture/Lens.h"
 #include "io/Cameras.h"
 #include "io/WebP.h"
 
@@ -26,7 +25,7 @@ inline constexpr const char *LensFilter =
 /// are weighed by their alpha. A pixel counts where all that it is made of
 /// counts: not outside \p From, and not where the lens folds back.
 MaskedPlane undistorted(const MaskedPlane &From, const Camera &C,
-                        const Lens &L);
+                        const CameraModel &L);
 
 /// Of the pixels of a picture of \p Width x \p Height that \p shrink makes:
 /// those count that are made of pixels that count alone.

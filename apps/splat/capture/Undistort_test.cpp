@@ -1,5 +1,7 @@
 #include "capture/Undistort.h"
 
+#include "io/Hash.h"
+
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -32,7 +34,7 @@ MaskedPlane places() {
 /// That each pixel that counts shows the place that \p Want gives for the ray
 /// of (x, y), and that those outside do not count. How many count.
 int expectPlaces(
-    const Lens &L,
+    const CameraModel &L,
     const std::function<std::array<double, 2>(double, double)> &Want) {
   const Camera C = pinhole();
   const MaskedPlane To = undistorted(places(), C, L);
@@ -63,7 +65,7 @@ TEST(Undistort, FollowsOpenCvsPolynomials) {
   const double K1 = 0.2, K2 = -0.1, K3 = 0.05, K4 = 0.1, K5 = 0.02, K6 = 0.01;
   const double P1 = 0.01, P2 = -0.02;
   const int Counted = expectPlaces(
-      {Lens::Model::RadialTangential, {K1, K2, K3, 0}, {K4, K5, K6}, {P1, P2}},
+      {LensModel::OpenCv, {K1, K2, P1, P2, K3, K4, K5, K6}},
       [&](double X, double Y) -> std::array<double, 2> {
         const double R2 = X * X + Y * Y;
         const double Scale =
@@ -78,24 +80,22 @@ TEST(Undistort, FollowsOpenCvsPolynomials) {
 
 TEST(Undistort, AFisheyesPolynomialIsOfTheAngle) {
   const double K[] = {0.05, -0.02, 0.01, -0.003};
-  EXPECT_EQ(
-      expectPlaces({Lens::Model::Fisheye, {K[0], K[1], K[2], K[3]}, {}, {}},
-                   [&](double X, double Y) -> std::array<double, 2> {
-                     const double R = std::hypot(X, Y), A = std::atan(R);
-                     const double Out =
-                         A * (1 + K[0] * A * A + K[1] * std::pow(A, 4) +
-                              K[2] * std::pow(A, 6) + K[3] * std::pow(A, 8));
-                     return R > 0 ? std::array{X * Out / R, Y * Out / R}
-                                  : std::array{X, Y};
-                   }),
-      Width * Height);
+  EXPECT_EQ(expectPlaces({LensModel::Fisheye, {K[0], K[1], K[2], K[3]}},
+                         [&](double X, double Y) -> std::array<double, 2> {
+                           const double R = std::hypot(X, Y), A = std::atan(R);
+                           const double Out =
+                               A *
+                               (1 + K[0] * A * A + K[1] * std::pow(A, 4) +
+                                K[2] * std::pow(A, 6) + K[3] * std::pow(A, 8));
+                           return R > 0 ? std::array{X * Out / R, Y * Out / R}
+                                        : std::array{X, Y};
+                         }),
+            Width * Height);
 }
 
 TEST(Undistort, WhereALensFoldsBackNothingCounts) {
   // r - r^3 / 2 grows up to the root of 2/3.
-  const Lens L{Lens::Model::RadialTangential, {-0.5, 0, 0, 0}, {}, {}};
-  EXPECT_NEAR(L.reach(10), std::sqrt(2.0 / 3), 10.0 / 4096);
-  EXPECT_EQ(L.reach(0.5), 0.5);
+  const CameraModel L{LensModel::OpenCv, {-0.5}};
   Camera C = pinhole();
   C.Fx = C.Fy = 10;
   const MaskedPlane To = undistorted(places(), C, L);
@@ -104,8 +104,9 @@ TEST(Undistort, WhereALensFoldsBackNothingCounts) {
     const double X = (Column + 0.5 - C.Cx) / 10, Y = -0.5 / 10;
     EXPECT_EQ(To.Counts[At] != 0, X * X + Y * Y <= 2.0 / 3) << Column;
   }
-  const double NaN = std::nan("");
-  EXPECT_EQ((Lens{Lens::Model::Fisheye, {NaN, 0, 0, 0}, {}, {}}.reach(1)), 0);
+  const CameraModel None{LensModel::OpenCv, {std::nan("")}};
+  for (const uint8_t Counts : undistorted(places(), C, None).Counts)
+    EXPECT_EQ(Counts, 0);
 }
 
 TEST(Undistort, WhatDoesNotCountStaysSo) {
@@ -113,11 +114,33 @@ TEST(Undistort, WhatDoesNotCountStaysSo) {
   From.Counts.assign(From.Picture.pixels(), 1);
   From.Counts[10 * Width + 12] = 0;
   // Shifts by half a pixel, nearly: two pixels are made of it.
-  const Lens L{Lens::Model::RadialTangential, {1e-9, 0, 0, 0}, {}, {}};
+  const CameraModel L{LensModel::OpenCv, {1e-9}};
   Camera C = pinhole();
   const MaskedPlane To = undistorted(From, C, L);
   EXPECT_EQ(To.Counts[10 * Width + 12], 0);
   EXPECT_EQ(To.Counts[20 * Width + 20], 1);
+}
+
+// What is trained on must not change with how the lens is written.
+TEST(Undistort, KeepsItsBits) {
+  CameraModel OfNerfstudio{LensModel::OpenCv, {-0.1, 0.05, 0.01, -0.02, 0.01}};
+  OfNerfstudio.K[LensR8] = 0.02;
+  const CameraModel Lenses[] = {
+      {LensModel::OpenCv, {0.1}},
+      {LensModel::OpenCv, {-0.08, 0.02, 0.004, -0.003}},
+      {LensModel::OpenCv, {0.2, -0.1, 0.01, -0.02, 0.05, 0.1, 0.02, 0.01}},
+      OfNerfstudio,
+      {LensModel::Fisheye, {0.05, -0.02, 0.01, -0.003}}};
+  std::string Hashes;
+  for (const CameraModel &L : Lenses) {
+    const MaskedPlane To = undistorted(places(), pinhole(), L);
+    std::string Bytes(To.Counts.begin(), To.Counts.end());
+    for (const std::byte B : To.Picture.Rgba)
+      Bytes += static_cast<char>(B);
+    Hashes += fnv1a64(Bytes) + "\n";
+  }
+  EXPECT_EQ(Hashes, "7a70f38f1712daef\n2d87191155a23d9e\nc9f2def7c196cd1d\n"
+                    "140f1d36f5cb3f6a\nf3518fd6eb0d2547\n");
 }
 
 TEST(Undistort, ASmallPixelCountsWhereAllOfItCounts) {

@@ -76,7 +76,8 @@ Expected<Success> checkNames(const SweepPlan &P) {
 /// Whether the views are in no file yet.
 bool hasOwnCameras(const AccuracyArguments &A) {
   const CameraArguments &C = A.Cameras;
-  return C.File.empty() || C.Orbit != 0 || C.Frames != 0 || !C.Size.empty();
+  return C.File.empty() || C.Orbit != 0 || C.Frames != 0 || !C.Size.empty() ||
+         C.Distorted;
 }
 
 /// Where they are kept then, for the processes that draw.

@@ -67,6 +67,11 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
                 "camera path, or a folder with COLMAP's cameras (default: a "
                 "view that shows much of the scene is found)"),
             {".json", ".bin", ".txt"});
+  App.add_flag("--distorted", A.Distorted,
+               "Of a capture, draw what lies over the photographs as they are, "
+               "through their lenses (default: over what training makes of "
+               "them, without distortion)")
+      ->needs("--cameras");
   if (Several) {
     App.add_option("--size", A.Size,
                    fmt::format("Size of pictures, with the cameras' horizontal "
@@ -103,7 +108,8 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
     Cameras = {
         goodView(S, focusOf(S, parseUp(A.Up)), Size->first, Size->second)};
   } else {
-    auto Read = readCameraFile(A.File);
+    auto Read = readCameraFile(A.File, A.Distorted ? LensOf::Photograph
+                                                   : LensOf::Undistorted);
     if (!Read)
       return Read.error();
     Cameras = std::move(Read->Cameras);

@@ -16,6 +16,7 @@ struct CameraArguments {
   int Orbit = 0, Frames = 0;      ///< views of a motion, 0 for none
   std::string Size;               ///< WIDTHxHEIGHT; empty: the cameras', or
                                   ///< DefaultSize
+  bool Distorted = false;         ///< through the photographs' lenses
   std::string Up;                 ///< an axis, as -y; empty: by the cameras, or
                                   ///< by the scene
 

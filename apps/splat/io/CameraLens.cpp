@@ -14,9 +14,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// So that no product of a few of them is beyond fp32.
-constexpr double MostCoefficient = 1e6;
-
 constexpr const char *ModelKeys[] = {"camera_model", "model", "camera_type",
                                      "projection", "projection_type"};
 
@@ -37,8 +34,7 @@ public:
     checkModel();
     if (Problem)
       return Problem;
-    if (Optics.Model == LensModel::OpenCv && isZero())
-      Optics.Model = LensModel::Pinhole;
+    Optics = simplified(Optics);
     C.Optics = Optics;
     if (Optics.Model == LensModel::Equirectangular) {
       C.Fx = C.Width / (2 * M_PI);
@@ -53,9 +49,6 @@ private:
   void fail(std::string What) {
     if (!Problem)
       Problem = std::move(What);
-  }
-  bool isZero() const {
-    return std::ranges::all_of(Optics.K, [](double K) { return K == 0; });
   }
 
   void readModel() {
@@ -94,10 +87,10 @@ private:
 
   void set(const char *Key, std::string_view Name, const Json &Value) {
     if (!Value.is_number() ||
-        !(std::abs(Value.get<double>()) <= MostCoefficient))
+        !(std::abs(Value.get<double>()) <= MostLensCoefficient))
       return fail(fmt::format("key {} is wrong, expected numbers from -{:g} to "
                               "{:g}",
-                              Key, MostCoefficient, MostCoefficient));
+                              Key, MostLensCoefficient, MostLensCoefficient));
     const double Number = Value.get<double>();
     const auto Place = placeOf(Name);
     if (Place)
@@ -120,7 +113,7 @@ private:
       // above it.
       const auto Place = placeOf(Name);
       if (Optics.Model == LensModel::OpenCv && !Full && Place &&
-          *Place >= LensK4 && Optics.K[*Place] != 0)
+          *Place >= LensK4 && *Place < LensR8 && Optics.K[*Place] != 0)
         fail(fmt::format("key {} means different things to different programs, "
                          "expected camera_model FULL_OPENCV with it, or 0",
                          Key));
@@ -128,7 +121,9 @@ private:
   }
 
   void readLists() {
-    std::vector<std::string_view> All(LensKeys.begin(), LensKeys.end());
+    // OpenCV's next are of a tilted sensor.
+    std::vector<std::string_view> All(LensKeys.begin(),
+                                      LensKeys.begin() + LensR8);
     std::vector<std::string_view> Radial{"k1", "k2", "k3", "k4", "k5", "k6"};
     if (Optics.Model == LensModel::Fisheye) {
       All.assign(FisheyeKeys.begin(), FisheyeKeys.end());

@@ -13,7 +13,8 @@ namespace {
 /// Coefficients from the constant one on.
 using Polynomial = std::vector<double>;
 
-double at(const Polynomial &P, double X) {
+/// For pictures' every pixel without memory of its own.
+double at(std::span<const double> P, double X) {
   double Sum = 0;
   for (std::size_t I = P.size(); I-- > 0;)
     Sum = Sum * X + P[I];
@@ -59,24 +60,35 @@ std::vector<double> signChanges(const Polynomial &P, double End) {
   return Found;
 }
 
-Polynomial over(const std::array<double, 12> &K) {
-  return {1, K[LensK1], K[LensK2], K[LensK3]};
+/// The radial part is r times their ratio, of r^2; a fisheye's is the angle
+/// times the last one, of the angle's square.
+std::array<double, 5> over(const LensCoefficients &K) {
+  return {1, K[LensK1], K[LensK2], K[LensK3], K[LensR8]};
 }
-Polynomial under(const std::array<double, 12> &K) {
+std::array<double, 4> under(const LensCoefficients &K) {
   return {1, K[LensK4], K[LensK5], K[LensK6]};
+}
+std::array<double, 5> ofAngle(const LensCoefficients &K) {
+  return {1, K[0], K[1], K[2], K[3]};
+}
+
+/// As one that can be derived and multiplied.
+template <std::size_t Count>
+Polynomial polynomial(const std::array<double, Count> &C) {
+  return {C.begin(), C.end()};
 }
 
 /// Of r^2: no slope that a picture can see is beyond.
 constexpr double MostSquared = 1e8;
 
-double openCvLimit(const std::array<double, 12> &K) {
+double openCvLimit(const LensCoefficients &K) {
   // d(r N/D)/dr = ((N + 2 q N') D - 2 q N D') / D^2 with q = r^2.
-  const Polynomial N = over(K), D = under(K), TwoQ{0, 2};
+  const Polynomial N = polynomial(over(K)), D = polynomial(under(K));
+  const Polynomial TwoQ{0, 2};
   Polynomial Slope = product(N, D);
-  Slope.resize(7);
   const Polynomial Plus = product(product(TwoQ, derivative(N)), D);
   const Polynomial Minus = product(product(TwoQ, N), derivative(D));
-  for (std::size_t I = 0; I < 7; ++I)
+  for (std::size_t I = 0; I < Slope.size(); ++I)
     Slope[I] += Plus[I] - Minus[I];
   double Least = std::numeric_limits<double>::infinity();
   for (const Polynomial &P : {Slope, D})
@@ -85,7 +97,7 @@ double openCvLimit(const std::array<double, 12> &K) {
   return Least;
 }
 
-double fisheyeLimit(const std::array<double, 12> &K) {
+double fisheyeLimit(const LensCoefficients &K) {
   const Polynomial Slope{1, 3 * K[0], 5 * K[1], 7 * K[2], 9 * K[3]};
   const auto Zeros = signChanges(Slope, M_PI * M_PI);
   return Zeros.empty() ? M_PI : std::sqrt(Zeros.front());
@@ -140,6 +152,38 @@ std::span<const std::string_view> CameraModel::keys() const {
   return {};
 }
 
+double CameraModel::radius(double R) const {
+  if (Model == LensModel::OpenCv)
+    return R * at(over(K), R * R) / at(under(K), R * R);
+  if (Model == LensModel::Fisheye) {
+    const double Angle = std::atan(R);
+    return Angle * at(ofAngle(K), Angle * Angle);
+  }
+  return R;
+}
+
+std::array<double, 2> CameraModel::distorted(double X, double Y) const {
+  const double Squares = X * X + Y * Y;
+  const double R = std::sqrt(Squares);
+  const double Scale = R > 0 ? radius(R) / R : 1;
+  if (Model != LensModel::OpenCv)
+    return {X * Scale, Y * Scale};
+  const double P1 = K[LensP1], P2 = K[LensP2];
+  return {X * Scale + 2 * P1 * X * Y + P2 * (Squares + 2 * X * X) +
+              Squares * (K[LensS1] + Squares * K[LensS2]),
+          Y * Scale + P1 * (Squares + 2 * Y * Y) + 2 * P2 * X * Y +
+              Squares * (K[LensS3] + Squares * K[LensS4])};
+}
+
+double CameraModel::reach() const {
+  const double End = limit();
+  if (Model != LensModel::Fisheye)
+    return End;
+  // What is beside the camera and behind it no pinhole shows.
+  return End < M_PI / 2 ? std::tan(End)
+                        : std::numeric_limits<double>::infinity();
+}
+
 double CameraModel::limit() const {
   if (Model == LensModel::OpenCv)
     return openCvLimit(K);
@@ -150,12 +194,17 @@ double CameraModel::limit() const {
 
 double CameraModel::undistorted(double Distorted) const {
   double Low = 0, High = std::min(limit(), 1e3);
-  const Polynomial N = over(K), D = under(K);
   for (int I = 0; I < 200; ++I) {
     const double R = 0.5 * (Low + High);
-    (R * at(N, R * R) / at(D, R * R) < Distorted ? Low : High) = R;
+    (radius(R) < Distorted ? Low : High) = R;
   }
   return High;
+}
+
+CameraModel simplified(const CameraModel &M) {
+  const bool Bends = M.Model != LensModel::OpenCv ||
+                     std::ranges::any_of(M.K, [](double K) { return K != 0; });
+  return Bends ? M : CameraModel();
 }
 
 std::optional<LensModel> lensModelNamed(std::string_view Name) {

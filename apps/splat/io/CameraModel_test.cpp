@@ -11,10 +11,10 @@ namespace {
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-double openCvLimit(std::array<double, 12> K) {
+double openCvLimit(LensCoefficients K) {
   return CameraModel{LensModel::OpenCv, K}.limit();
 }
-double fisheyeLimit(std::array<double, 12> K) {
+double fisheyeLimit(LensCoefficients K) {
   return CameraModel{LensModel::Fisheye, K}.limit();
 }
 
@@ -29,6 +29,9 @@ TEST(CameraModel, OpenCvsLimitIsWhereRadiiTurnBackOrHaveAPole) {
   EXPECT_NEAR(openCvLimit({-1, 0.1}), std::sqrt((3 - std::sqrt(9 - 2.)) / 1),
               1e-12);
   EXPECT_EQ(openCvLimit({-1, 0.6}), Infinity);
+  // 1 + 9 r8 q^4
+  EXPECT_NEAR(openCvLimit({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -0.01}),
+              std::pow(1 / 0.09, 1. / 8), 1e-13);
   // 1 + k4 q below: (1 - k4 q) / (1 + k4 q)^2.
   EXPECT_NEAR(openCvLimit({0, 0, 0, 0, 0, 4}), 0.5, 1e-14);
   EXPECT_NEAR(openCvLimit({0, 0, 0, 0, 0, -4}), 0.5, 1e-14);
@@ -43,6 +46,31 @@ TEST(CameraModel, AFisheyesLimitIsAnAngle) {
   EXPECT_EQ(fisheyeLimit({-0.03}), M_PI); // turns back at 3.33
   EXPECT_NEAR(fisheyeLimit({0, 0, 0, -0.01}), std::pow(1 / 0.09, 1. / 8),
               1e-14);
+}
+
+TEST(CameraModel, APinholeSeesAFisheyeUpToARightAngle) {
+  EXPECT_EQ((CameraModel{LensModel::Fisheye, {}}).reach(), Infinity);
+  EXPECT_NEAR((CameraModel{LensModel::Fisheye, {-0.3}}).reach(),
+              std::tan(std::sqrt(1 / 0.9)), 1e-12);
+  EXPECT_EQ((CameraModel{LensModel::Fisheye, {-0.1}}).reach(), Infinity);
+}
+
+// The places of reference/Lens_test.cpp, by OpenCV 4.6.
+TEST(CameraModel, PlacesAreThoseOfOpenCv) {
+  const CameraModel Barrel{LensModel::OpenCv,
+                           {-0.28, 0.09, 0.002, -0.003, -0.012, 0.03, 0.02,
+                            0.001, 0.004, -0.001, 0.002, 0.0005}};
+  const CameraModel Fish{LensModel::Fisheye, {0.05, -0.01, 0.004, -0.0008}};
+  const auto Expect = [](const CameraModel &M, double X, double Y, double AtX,
+                         double AtY) {
+    const auto [U, V] = M.distorted(X, Y);
+    EXPECT_NEAR(40 * U + 30, AtX, 1e-9);
+    EXPECT_NEAR(42 * V + 25, AtY, 1e-9);
+  };
+  Expect(Barrel, -0.4, 0.5, 15.770138415972, 43.761803179036);
+  Expect(Barrel, 0.8 / 1.2, 0.1 / 1.2, 53.254632916365, 28.130982600076);
+  Expect(Fish, -0.4, 0.5, 15.550921937812, 43.964414956621);
+  Expect(Fish, 0.8 / 1.2, 0.1 / 1.2, 53.866566245214, 28.132486819684);
 }
 
 TEST(CameraModel, UndistortingIsTheWayBack) {

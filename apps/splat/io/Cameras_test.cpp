@@ -164,7 +164,7 @@ TEST(Cameras, LensesAreReadByAllTheirNames) {
     return C ? C->front() : Camera();
   };
   const auto Expect = [&](const nlohmann::json &Keys, LensModel M,
-                          const std::array<double, 12> &K) {
+                          const LensCoefficients &K) {
     const Camera C = With(Keys);
     EXPECT_EQ(C.Optics, (CameraModel{M, K})) << Keys;
     const std::string Path = Folder.write("again.json", "");
@@ -181,6 +181,8 @@ TEST(Cameras, LensesAreReadByAllTheirNames) {
          LensModel::OpenCv, {0, 0, 0, 0, 0, 0.1, 0, 0.2, 0, 0, 0, 1});
   Expect({{"dist_coeffs", {1, 2, 3, 4, 5, 6, 7, 8}}}, LensModel::OpenCv,
          {1, 2, 3, 4, 5, 6, 7, 8});
+  Expect({{"camera_model", "OPENCV"}, {"k1", 0.1}, {"r8", 0.2}},
+         LensModel::OpenCv, {0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.2});
   Expect({{"camera_model", "pinhole"},
           {"radial_coeffs", {1, 2, 3, 4, 5, 6}},
           {"tangential_coeffs", {7, 8}},

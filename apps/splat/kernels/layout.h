@@ -37,7 +37,7 @@ typedef struct {
 
 /// What a camera that is no pinhole has beside that; it lies behind the view.
 typedef struct {
-  float k[12]; ///< OpenCV's order, or a fisheye's k1 to k4 (docs/cameras.md)
+  float k[13]; ///< of LensCoefficient, or a fisheye's k1 to k4
   /// What is not below it is not seen: OpenCV's r^2, a fisheye's angle; or the
   /// least cosine of a latitude at which the Jacobian is taken.
   float limit;

@@ -9,9 +9,10 @@ typedef struct {
 
 static lens_radial lens_radial_at(VIEW_SPACE const splat_lens *lens, float q) {
   VIEW_SPACE const float *k = lens->k;
-  const float over = 1.0f + q * (k[0] + q * (k[1] + q * k[4]));
-  const float over1 = k[0] + q * (2.0f * k[1] + 3.0f * q * k[4]);
-  const float over2 = 2.0f * k[1] + 6.0f * q * k[4];
+  const float over = 1.0f + q * (k[0] + q * (k[1] + q * (k[4] + q * k[12])));
+  const float over1 = k[0] + q * (2.0f * k[1] + 3.0f * q * k[4] +
+                                  4.0f * q * q * k[12]);
+  const float over2 = 2.0f * k[1] + 6.0f * q * k[4] + 12.0f * q * q * k[12];
   const float under = 1.0f + q * (k[5] + q * (k[6] + q * k[7]));
   const float under1 = k[5] + q * (2.0f * k[6] + 3.0f * q * k[7]);
   const float under2 = 2.0f * k[6] + 6.0f * q * k[7];

@@ -8,7 +8,7 @@ namespace vorion::test {
 
 using splat::LensModel;
 
-splat::Camera lensView(LensModel M, std::array<double, 12> K, int Width,
+splat::Camera lensView(LensModel M, splat::LensCoefficients K, int Width,
                        int Height) {
   splat::Camera C = frontView(Width, Height, 50);
   C.Optics = {M, K};
@@ -23,10 +23,10 @@ splat::Camera lensView(LensModel M, std::array<double, 12> K, int Width,
   return C;
 }
 
-std::array<double, 12> someCoefficients(LensModel M) {
+splat::LensCoefficients someCoefficients(LensModel M) {
   if (M == LensModel::OpenCv)
-    return {-0.25, 0.08, 0.004, -0.006, -0.01, 0.02,
-            0.03,  0.01, 0.003, -0.001, 0.002, 0.001};
+    return {-0.25, 0.08,  0.004,  -0.006, -0.01, 0.02, 0.03,
+            0.01,  0.003, -0.001, 0.002,  0.001, 0.005};
   if (M == LensModel::Fisheye)
     return {0.06, -0.02, 0.005, -0.0006};
   return {};
@@ -79,7 +79,7 @@ void addAtAngle(splat::Scene &S, double Angle, double About, double Distance) {
 HardCase distorted() {
   HardCase C =
       caseOf("opencv-distortion",
-             "all twelve coefficients; Gaussians all around, half of "
+             "all thirteen coefficients; Gaussians all around, half of "
              "them behind the camera",
              allAround(160, 71),
              lensView(LensModel::OpenCv, someCoefficients(LensModel::OpenCv)));
