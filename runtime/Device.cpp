@@ -146,7 +146,7 @@ vx_device_info Device::info() {
   Info.local_base = VX_LOCAL_BASE;
   Info.local_bytes = C.LocalBytes;
   Info.global_base = VX_GLOBAL_BASE;
-  Info.global_bytes = C.GlobalBytes;
+  Info.global_bytes = isasim::globalBytes(C);
   Info.free_bytes = Memory.freeBytes();
   Info.largest_free_bytes = Memory.largestFree();
   Info.max_group_items = isasim::MaxGroupItems;
@@ -163,7 +163,8 @@ Failure Device::allocateLocked(uint64_t Size, const char *What,
             fmt::format("no room for {} of {} bytes: {} of {} bytes of device "
                         "memory are free, {} in one piece",
                         What, Size, Memory.freeBytes(),
-                        Machine->config().GlobalBytes, Memory.largestFree())};
+                        isasim::globalBytes(Machine->config()),
+                        Memory.largestFree())};
   // Global memory has addresses of 32 bits.
   Address = static_cast<uint32_t>(*Found);
   Watch->allocated(Address, Size, What);

@@ -3,6 +3,7 @@
 #include "testing/SealedRegion.h"
 #include "testing/TimedPrograms.h"
 #include "tools/RegionRun.h"
+#include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/File.h"
 #include "vorion/support/TemporaryFolder.h"
 
@@ -35,7 +36,7 @@ bool isSmall(const Config &C) {
   constexpr uint64_t FewLanes = 256, FewBytes = 1 << 20, FewKib = 2048;
   const uint64_t Lanes = uint64_t{C.cores()} * C.WarpsPerCore * C.LanesPerWarp;
   return Lanes <= FewLanes && Lanes * C.StackBytes <= FewBytes &&
-         C.GlobalBytes <= FewBytes &&
+         globalBytes(C) <= FewBytes &&
          C.Timing.L2.Kib + C.Timing.Llc.Kib <= FewKib;
 }
 

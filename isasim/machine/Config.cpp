@@ -79,7 +79,7 @@ std::vector<Key> makeKeys() {
       VORION_KEY("lanes_per_warp", 1, 16, 1, LanesPerWarp),
       VORION_KEY("barriers", 1, 1024, 1, Barriers),
       VORION_KEY("divergence_depth", 1, 1024, 1, DivergenceDepth),
-      VORION_KEY("global_bytes", Page, MaxGlobal, Page, GlobalBytes),
+      VORION_KEY("global_bytes", 0, MaxGlobal, Page, GlobalBytes),
       VORION_KEY("local_bytes", Page, 64 << 10, Page, LocalBytes),
       VORION_KEY("stack_bytes", Page, 1 << 24, Page, StackBytes),
       VORION_KEY("quantum", 1, 1 << 30, 1, Quantum),
@@ -288,8 +288,7 @@ Expected<Success> validate(const Config &C) {
     return Error{"configuration",
                  fmt::format("{} cores, expected at most {}", Cores, MaxCores),
                  ExitCode::Usage};
-  const uint64_t Stacks =
-      Cores * C.WarpsPerCore * C.LanesPerWarp * C.StackBytes;
+  const uint64_t Stacks = stackBytes(C);
   // So that lanes' stacks can be told apart by shifts (core/State.h).
   if (!std::has_single_bit(C.StackBytes))
     return Error{

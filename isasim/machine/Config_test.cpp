@@ -142,3 +142,11 @@ TEST(Config, GlobalMemoryIsInFrontOfTheImageAndBehindIt) {
   EXPECT_EQ(High.Base, VX_IMAGE_BASE + VX_IMAGE_SIZE);
   EXPECT_EQ(Low.Bytes + High.Bytes, 3ULL << 30);
 }
+
+TEST(Config, GlobalMemoryFillsTheMapByDefault) {
+  Config C;
+  EXPECT_EQ(globalBytes(C), 4269670400); // see TheMemoryMapMustHaveRoom
+  C.CoresPerSocket = 120;
+  EXPECT_TRUE(validate(C));
+  EXPECT_EQ(globalBytes(C), 4269670400 - (stackBytes(C) - (8 << 20)));
+}

@@ -66,8 +66,7 @@ Mapping::~Mapping() {
 Memory::Memory(std::vector<Mapping> Maps) : Mappings(std::move(Maps)) {}
 
 Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
-  const auto StackBytes = static_cast<uint32_t>(
-      uint64_t{C.cores()} * C.WarpsPerCore * C.LanesPerWarp * C.StackBytes);
+  const auto StackBytes = static_cast<uint32_t>(stackBytes(C));
   const auto [Low, High] = globalRanges(C);
   std::vector<AddressRange> Wanted = {Low,
                                       {VX_STACK_TOP - StackBytes, StackBytes},

@@ -57,7 +57,7 @@ Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
   }
   return usage(fmt::format("{} bytes more do not fit the {} bytes of global "
                            "memory",
-                           Bytes, Device->config().GlobalBytes));
+                           Bytes, globalBytes(Device->config())));
 }
 
 Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,

@@ -1,6 +1,7 @@
 #include "tools/Signature.h"
 
 #include "core/IsaTables.h"
+#include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/File.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ Expected<Success> writeSignature(const Machine &M, const std::string &File,
     return Error{Program.name(), "no signature, expected the symbols "
                                  "begin_signature and end_signature"};
   const uint32_t Size = *End - *Begin;
-  const bool Fits = Size <= VX_IMAGE_SIZE || Size <= M.config().GlobalBytes;
+  const bool Fits = Size <= VX_IMAGE_SIZE || Size <= globalBytes(M.config());
   std::vector<std::byte> Bytes(Fits ? Size : 0);
   if (!Fits || !M.read(*Begin, Bytes))
     return Error{Program.name(),

@@ -25,8 +25,8 @@
 # KIND: argument 0 of 'scale' (a) is 'i32:1', expected a buffer
 # RUN: not vorion-sim %t.elf --global 100 --arg buf:400 --arg out:400@%t.o --arg i32:1 --arg local:99999 2>&1 | FileCheck %s --check-prefix=LOCAL
 # LOCAL: needs more than the 32768 bytes of local memory
-# RUN: not vorion-sim %t.elf --global 100 --arg buf:2000000000 --arg out:400@%t.o --arg i32:1 --arg local:9 2>&1 | FileCheck %s --check-prefix=FULL
-# FULL: 2000000000 bytes more do not fit the 1073741824 bytes of global memory
+# RUN: not vorion-sim %t.elf --global 100 --arg buf:4000000000 --arg out:400@%t.o --arg i32:1 --arg local:9 2>&1 | FileCheck %s --check-prefix=FULL
+# FULL: 4000000000 bytes more do not fit the 4269670400 bytes of global memory
 # RUN: not vorion-sim %t.elf --global 100 --arg buf@%t.none --arg out:400@%t.o --arg i32:1 --arg local:9 2>&1 | FileCheck %s --check-prefix=NOFILE
 # NOFILE: {{.*}}.none: cannot open: No such file or directory
 # RUN: not vorion-sim %t.elf --arg i32:1 2>&1 | FileCheck %s --check-prefix=GLOBAL

@@ -132,10 +132,11 @@ TEST(Buffers, CommandsWithoutMemorySaySo) {
   const auto Most =
       Queue.getInfo<CL_QUEUE_DEVICE>().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   const cl_int Word = 1;
-  std::vector<cl::Buffer> Halves;
-  for (int I = 0; I < 2; ++I) {
-    Halves.emplace_back(Device.context(), CL_MEM_READ_WRITE, Most / 2 - 4096);
-    ASSERT_EQ(Queue.enqueueWriteBuffer(Halves.back(), CL_TRUE, 0, 4, &Word),
+  std::vector<cl::Buffer> Quarters;
+  Quarters.reserve(4);
+  for (int I = 0; I < 4; ++I) {
+    Quarters.emplace_back(Device.context(), CL_MEM_READ_WRITE, Most / 4 - 4096);
+    ASSERT_EQ(Queue.enqueueWriteBuffer(Quarters.back(), CL_TRUE, 0, 4, &Word),
               CL_SUCCESS);
   }
   const cl::Buffer Third(Device.context(), CL_MEM_READ_WRITE, 1 << 20);
@@ -143,14 +144,14 @@ TEST(Buffers, CommandsWithoutMemorySaySo) {
   cl_int Status = CL_SUCCESS;
   EXPECT_EQ(Queue.enqueueWriteBuffer(Third, CL_TRUE, 0, 4, &Word), NoMemory);
   EXPECT_EQ(Queue.enqueueFillBuffer(Third, Word, 0, 4), NoMemory);
-  EXPECT_EQ(Queue.enqueueCopyBuffer(Halves[0], Third, 0, 0, 4), NoMemory);
+  EXPECT_EQ(Queue.enqueueCopyBuffer(Quarters[0], Third, 0, 0, 4), NoMemory);
   Queue.enqueueMapBuffer(Third, CL_TRUE, CL_MAP_READ, 0, 4, nullptr, nullptr,
                          &Status);
   EXPECT_EQ(Status, NoMemory);
   EXPECT_EQ(Queue.enqueueNDRangeKernel(increment(Device, Third), cl::NullRange,
                                        cl::NDRange(1)),
             NoMemory);
-  Halves.clear();
+  Quarters.clear();
   EXPECT_EQ(Queue.enqueueWriteBuffer(Third, CL_TRUE, 0, 4, &Word), CL_SUCCESS);
 }
 

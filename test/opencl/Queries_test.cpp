@@ -116,31 +116,36 @@ TEST_F(Queries, EveryExtensionHasAVersion) {
 }
 
 TEST_F(Queries, AllMemoryThatIsReportedCanBeUsedByAKernel) {
-  // Two buffers take all of it; a launch still has room, and a third has none.
+  // Four buffers take all of it; a launch still has room, and a fifth has none.
   const auto Most = device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   const auto Largest = device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   ASSERT_GE(Largest, Most / 4);
   cl_int Status = CL_SUCCESS;
-  const cl::Buffer One(Device.context(), CL_MEM_READ_WRITE, Most / 2);
-  const cl::Buffer Other(Device.context(), CL_MEM_READ_WRITE, Most / 2 - 4096);
+  const std::size_t Bytes = Most / 4 - 4096;
+  std::vector<cl::Buffer> Quarters;
+  Quarters.reserve(4);
+  for (int I = 0; I < 4; ++I)
+    Quarters.emplace_back(Device.context(), CL_MEM_READ_WRITE, Bytes);
   cl::Kernel Kernel = kernel(R"(
-kernel void ends(global uint *a, ulong n, global uint *b) {
+kernel void ends(global uint *a, global uint *b, global uint *c,
+                 global uint *d, ulong n) {
   uint kept[64];
   for (uint i = 0; i < 64; i++)
     kept[i] = i * get_local_id(0);
   barrier(CLK_GLOBAL_MEM_FENCE);
-  a[n] = b[n] = kept[get_local_id(0) % 64];
+  a[n] = b[n] = c[n] = d[n] = kept[get_local_id(0) % 64];
 })",
                              "ends");
-  Kernel.setArg(0, One);
-  Kernel.setArg(1, cl_ulong{Most / 8 - 2048});
-  Kernel.setArg(2, Other);
+  for (cl_uint I = 0; I < 4; ++I)
+    Kernel.setArg(I, Quarters[I]);
+  Kernel.setArg(4, cl_ulong{Bytes / 4 - 1});
   EXPECT_EQ(enqueue(Kernel, 1024), CL_SUCCESS);
   EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
   cl_uint Value = 0;
-  EXPECT_EQ(Device.queue().enqueueReadBuffer(Other, CL_TRUE, Most / 2 - 8192, 4,
-                                             &Value),
-            CL_SUCCESS);
+  for (const cl::Buffer &Quarter : Quarters)
+    EXPECT_EQ(Device.queue().enqueueReadBuffer(Quarter, CL_TRUE, Bytes - 4, 4,
+                                               &Value),
+              CL_SUCCESS);
 
   const cl::Buffer Third(Device.context(), CL_MEM_READ_WRITE, 1 << 20, nullptr,
                          &Status);

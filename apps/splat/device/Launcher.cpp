@@ -238,6 +238,18 @@ void CL_CALLBACK releaseBuffer(cl_mem /*Buffer*/, void *Data) {
   *R->InUse -= R->Bytes;
 }
 
+/// What a user can do if the device has not \p Bytes.
+std::string remedyFor(uint64_t Bytes) {
+  // The platform keeps 1/32 of the machine's memory for launches.
+  const uint64_t Wanted = Bytes / 31 * 32;
+  return Wanted >> 32
+             ? "expected a smaller scene or picture, because a device's "
+               "addresses have 32 bits"
+             : fmt::format("expected a smaller scene or picture, or at least "
+                           "{} as global_bytes of VORION_CONFIG",
+                           ((Wanted >> 20) + 1) << 20);
+}
+
 } // namespace
 
 cl::Buffer Launcher::allocate(std::string_view What, uint64_t Bytes) {
@@ -246,14 +258,16 @@ cl::Buffer Launcher::allocate(std::string_view What, uint64_t Bytes) {
   // OpenCL has no empty buffers.
   const uint64_t Size = std::max<uint64_t>(Bytes, 4);
   if (Size > Dev.largestAllocation() || *InUse + Size > Dev.globalBytes()) {
-    Failure = Error{
-        "",
-        fmt::format("the {} need {:.1f} MiB beside {:.1f} MiB in use, but {} "
-                    "has {:.1f} MiB of memory, at most {:.1f} MiB in one piece",
-                    What, mebibytes(Size), mebibytes(*InUse), Dev.name(),
-                    mebibytes(Dev.globalBytes()),
-                    mebibytes(Dev.largestAllocation())),
-        ExitCode::LimitReached};
+    Failure =
+        Error{"",
+              fmt::format(
+                  "the {} need {:.1f} MiB beside {:.1f} MiB in use, but {} "
+                  "has {:.1f} MiB of memory, at most {:.1f} MiB in one "
+                  "piece, {}",
+                  What, mebibytes(Size), mebibytes(*InUse), Dev.name(),
+                  mebibytes(Dev.globalBytes()),
+                  mebibytes(Dev.largestAllocation()), remedyFor(*InUse + Size)),
+              ExitCode::LimitReached};
     return {};
   }
   cl_int Status = CL_SUCCESS;

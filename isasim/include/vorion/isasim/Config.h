@@ -32,8 +32,10 @@ struct Config {
   /// Nested divergent vx_split a warp may hold; one more is a trap.
   unsigned DivergenceDepth = 32;
 
-  uint64_t GlobalBytes = uint64_t{1} << 30; ///< committed when first touched
-  uint32_t LocalBytes = 32 << 10;           ///< a core, at most 64 KiB
+  /// 0: as many as the memory map has room for (globalBytes() of MemoryMap.h).
+  /// The host commits what is touched.
+  uint64_t GlobalBytes = 0;
+  uint32_t LocalBytes = 32 << 10; ///< a core, at most 64 KiB
   uint32_t StackBytes = 64 << 10; ///< a lane, a power of two from 4 KiB on
 
   /// Warp instructions a warp runs at most between two points where all cores

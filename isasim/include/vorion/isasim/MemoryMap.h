@@ -4,6 +4,7 @@
 #include "vorion/isasim/Config.h"
 
 #include <array>
+#include <cstdint>
 
 namespace vorion::isasim {
 
@@ -16,5 +17,11 @@ struct AddressRange {
 /// In front of the image, and what does not fit there behind it. The second
 /// part may be empty.
 std::array<AddressRange, 2> globalRanges(const Config &C);
+
+/// Both parts together.
+uint64_t globalBytes(const Config &C);
+
+/// Of all lanes together.
+uint64_t stackBytes(const Config &C);
 
 } // namespace vorion::isasim
