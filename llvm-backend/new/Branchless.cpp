@@ -8,6 +8,7 @@
 
 #include "MCTargetDesc/RISCVBaseInfo.h"
 #include "RISCVSubtarget.h"
+#include "Remarks.h"
 #include "Vorion.h"
 #include "llvm/CodeGen/MachineInstrBuilder.h"
 #include "llvm/CodeGen/SelectionDAG.h"
@@ -175,7 +176,17 @@ bool vorion::expandWithoutBranch(MachineInstr &MI,
 
 bool vorion::expandsToCompareExchange(const AtomicRMWInst &Operation,
                                       const RISCVSubtarget &Subtarget) {
-  return Subtarget.hasVendorXVortex() &&
-         (Operation.getType()->getPrimitiveSizeInBits() != 32 ||
-          Operation.getOperation() == AtomicRMWInst::Nand);
+  const unsigned Bits = Operation.getType()->getPrimitiveSizeInBits();
+  if (!Subtarget.hasVendorXVortex() ||
+      (Bits == 32 && Operation.getOperation() != AtomicRMWInst::Nand))
+    return false;
+  remark<OptimizationRemark>(remarks::Atomic, "Loop", Operation, [&] {
+    return ("atomic " +
+            AtomicRMWInst::getOperationName(Operation.getOperation()) + " of " +
+            Twine(Bits) +
+            " bits made a loop around compare-and-swap: no amo instruction "
+            "does it")
+        .str();
+  });
+  return true;
 }

@@ -37,4 +37,13 @@ void vorion::registerFirstPasses(PassBuilder &PB,
       [&TM](ModulePassManager &Passes, OptimizationLevel) {
         Passes.addPass(ShareOurVariables(TM));
       });
+  PB.registerPipelineParsingCallback(
+      [&TM](StringRef Name, ModulePassManager &Passes,
+            ArrayRef<PassBuilder::PipelineElement>) {
+        if (Name != "vorion-share-variables")
+          return false;
+        Passes.addPass(ShareOurVariables(TM));
+        return true;
+      });
+  registerSteps(PB, TM);
 }

@@ -20,9 +20,13 @@
 
 #include "Intrinsics.h"
 #include "LowerDivergence.h"
+#include "Reasons.h"
+#include "Remarks.h"
+#include "Resources.h"
 #include "llvm/ADT/PostOrderIterator.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/PostDominators.h"
+#include "llvm/IR/DebugInfoMetadata.h"
 #include "llvm/IR/Dominators.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/Transforms/Utils/BasicBlockUtils.h"
@@ -53,6 +57,7 @@ public:
   void run() {
     if (!collect())
       return;
+    tell();
     separateMeetings();
     for (unsigned Index = 0; Index < Splits.size(); ++Index)
       Meetings[Splits[Index].Meeting].push_back(Index);
@@ -115,6 +120,80 @@ private:
       Splits.push_back({Branch, Meeting});
     }
     return Good;
+  }
+
+  /// Tells who listens of every branch that lanes part at, and why they do.
+  void tell() {
+    if (!vorion::wantsResources() && !OptimizationRemarkEmitter(&F).enabled())
+      return;
+    const vorion::Reasons Why(F, Uniform, Loops);
+    for (const Split &S : Splits)
+      tellOf(*S.Branch, placeOf(*S.Branch), "split", vorion::remarks::Split,
+             "lanes may part at this branch: vx_split before it, and vx_join "
+             "where its sides meet" +
+                 lineOf(*S.Meeting),
+             Why.of(*S.Branch));
+    for (auto &[L, Exit] : PredicatedLoops) {
+      const bool OfItems = isLoopOfItems(*Exit);
+      tellOf(*Exit, OfItems ? ownPlace() : placeOf(*Exit), "predicate",
+             vorion::remarks::Loop,
+             "lanes may leave this loop at different times: vx_pred in every "
+             "iteration",
+             OfItems ? vorion::Reason{{"the size of the group, which need not "
+                                       "be a multiple of the lanes' number",
+                                       DebugLoc(), ""}}
+                     : Why.of(*Exit));
+    }
+  }
+
+  void tellOf(const BranchInst &Branch, const DebugLoc &Place, StringRef Kind,
+              const char *Pass, const std::string &What,
+              const vorion::Reason &Why) {
+    const BasicBlock &Block = *Branch.getParent();
+    vorion::remark<OptimizationRemark>(Pass, "Inserted", Place, Block,
+                                       [&] { return What; });
+    vorion::remark<OptimizationRemarkAnalysis>(Pass, "Why", Place, Block, [&] {
+      return vorion::sentence(Why, Place);
+    });
+    if (vorion::wantsResources())
+      vorion::noteDivergentBranch(Branch, Kind, Place, Why);
+  }
+
+  /// Whether \p Exit ends the loop over a group's work-items, which no line of
+  /// the source has; nor has the latch of a rebuilt loop, which reads a note.
+  bool isLoopOfItems(const BranchInst &Exit) const {
+    return F.hasFnAttribute("vorion-kernel") && !Exit.getDebugLoc() &&
+           !isa<PHINode>(Exit.getCondition());
+  }
+
+  /// Where \p Branch is, or what stands for it: the condition, the loop that it
+  /// leaves, the function.
+  DebugLoc placeOf(const BranchInst &Branch) const {
+    if (Branch.getDebugLoc())
+      return Branch.getDebugLoc();
+    const auto *Condition = dyn_cast<Instruction>(Branch.getCondition());
+    if (Condition && Condition->getDebugLoc())
+      return Condition->getDebugLoc();
+    const Loop *L = Loops.getLoopFor(Branch.getParent());
+    if (L && L->isLoopExiting(Branch.getParent()) && L->getStartLoc())
+      return L->getStartLoc();
+    return ownPlace();
+  }
+
+  /// The function's.
+  DebugLoc ownPlace() const {
+    DISubprogram *Source = F.getSubprogram();
+    return Source ? DebugLoc(DILocation::get(F.getContext(), Source->getLine(),
+                                             0, Source))
+                  : DebugLoc();
+  }
+
+  /// " (line 12)" of the first line of \p Block.
+  static std::string lineOf(const BasicBlock &Block) {
+    for (const Instruction &I : Block)
+      if (I.getDebugLoc() && I.getDebugLoc().getLine())
+        return " (line " + std::to_string(I.getDebugLoc().getLine()) + ")";
+    return {};
   }
 
   /// Gives splits whose paths are all their own a meeting place of their own.

@@ -17,6 +17,7 @@
 #include "DivergentBarriers.h"
 #include "Intrinsics.h"
 #include "RISCVSubtarget.h"
+#include "Remarks.h"
 #include "UnifyExits.h"
 #include "Vorion.h"
 #include "llvm/ADT/DepthFirstIterator.h"
@@ -91,47 +92,6 @@ bool checkIntrinsicCall(const CallBase &Call) {
   return false;
 }
 
-class LowerDivergence final : public FunctionPass {
-public:
-  static char ID;
-  LowerDivergence() : FunctionPass(ID) {}
-  StringRef getPassName() const override {
-    return "Vorion divergence lowering";
-  }
-  void getAnalysisUsage(AnalysisUsage &AU) const override {
-    AU.addRequired<TargetPassConfig>();
-  }
-  bool runOnFunction(Function &F) override;
-
-private:
-  /// False if \p F is not to be compiled further.
-  static bool lower(Function &F, const TargetMachine &TM);
-  static void registerAnalyses(FunctionAnalysisManager &Analyses,
-                               const TargetMachine &TM);
-  static bool checkCode(Function &F, FunctionAnalysisManager &Analyses);
-  static void alignLoops(Function &F, FunctionAnalysisManager &Analyses);
-  static bool mergeLoops(Function &F, FunctionAnalysisManager &Analyses);
-};
-
-char LowerDivergence::ID = 0;
-// The name is for -print-after and -stop-after.
-const RegisterPass<LowerDivergence> Registration("vorion-lower-divergence",
-                                                 "Vorion divergence lowering");
-
-/// Branches whose sides are the same block would have no side to split.
-void removeSameTargetBranches(Function &F) {
-  for (BasicBlock &Block : F) {
-    auto *Branch = dyn_cast<BranchInst>(Block.getTerminator());
-    if (!Branch || !Branch->isConditional() ||
-        Branch->getSuccessor(0) != Branch->getSuccessor(1))
-      continue;
-    BasicBlock *Target = Branch->getSuccessor(0);
-    Target->removePredecessor(&Block, /*KeepOneInputPHIs=*/true);
-    BranchInst::Create(Target, Branch->getIterator());
-    Branch->eraseFromParent();
-  }
-}
-
 /// Without optimisation a pointer to a function is kept in the lane's stack,
 /// where nothing tells that vx_uniform was its origin.
 bool callsThroughVariable(Function &F) {
@@ -142,87 +102,8 @@ bool callsThroughVariable(Function &F) {
   });
 }
 
-/// Nobody asks any more what vx_uniform vouches for; selection makes better
-/// branches without it.
-void removePromises(Function &F) {
-  for (Instruction &I : make_early_inc_range(instructions(F))) {
-    const vorion::IntrinsicRecord *Ours = vorion::findIntrinsic(&I);
-    if (!Ours || Ours->Name != "vx_uniform")
-      continue;
-    I.replaceAllUsesWith(I.getOperand(0));
-    I.eraseFromParent();
-  }
-}
-
-} // namespace
-
-bool LowerDivergence::runOnFunction(Function &F) {
-  const auto &TM = getAnalysis<TargetPassConfig>().getTM<TargetMachine>();
-  if (!TM.getSubtarget<RISCVSubtarget>(F).hasVendorXVortex())
-    return false;
-  if (lower(F, TM))
-    removePromises(F);
-  return true;
-}
-
-bool LowerDivergence::lower(Function &F, const TargetMachine &TM) {
-  FunctionAnalysisManager Analyses;
-  registerAnalyses(Analyses, TM);
-  auto run = [&](auto Pass) { Analyses.invalidate(F, Pass.run(F, Analyses)); };
-  auto changed = [&] { Analyses.invalidate(F, PreservedAnalyses::none()); };
-
-  run(LowerSwitchPass());
-  removeSameTargetBranches(F);
-  changed();
-  if (callsThroughVariable(F))
-    run(PromotePass());
-  if (!checkCode(F, Analyses))
-    return false;
-  run(FixIrreduciblePass());
-  vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F), /*Known=*/true,
-                     [](IRBuilder<> &Builder) { return Builder.getTrue(); });
-  changed();
-  for (const vorion::DivergentBarrier &B : vorion::findDivergentBarriers(F))
-    F.getContext().diagnose(DiagnosticInfoUnsupported(
-        F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
-
-  const auto &Subtarget = TM.getSubtarget<RISCVSubtarget>(F);
-  if (TM.getOptLevel() != CodeGenOptLevel::None && !F.hasOptNone()) {
-    while (vorion::markUniformTests(F, Analyses))
-      changed();
-    while (vorion::selectShortSides(F, Analyses, Subtarget))
-      changed();
-  }
-
-  auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
-  if (none_of(F,
-              [&](BasicBlock &B) { return vorion::branchesApart(Uniform, B); }))
-    return true;
-  // Outlining would move splits, joins and their tokens into functions of
-  // their own, where VerifySplits.cpp cannot follow them.
-  F.addFnAttr("nooutline");
-  alignLoops(F, Analyses);
-  vorion::insertSplits(F, Analyses);
-  return true;
-}
-
-void LowerDivergence::registerAnalyses(FunctionAnalysisManager &Analyses,
-                                       const TargetMachine &TM) {
-  Analyses.registerPass([&] { return TM.getTargetIRAnalysis(); });
-  Analyses.registerPass([] { return PassInstrumentationAnalysis(); });
-  Analyses.registerPass([] { return AssumptionAnalysis(); });
-  Analyses.registerPass([] { return CycleAnalysis(); });
-  Analyses.registerPass([] { return DominatorTreeAnalysis(); });
-  Analyses.registerPass([] { return LazyValueAnalysis(); });
-  Analyses.registerPass([] { return LoopAnalysis(); });
-  Analyses.registerPass([] { return PostDominatorTreeAnalysis(); });
-  Analyses.registerPass([] { return ScalarEvolutionAnalysis(); });
-  Analyses.registerPass([] { return TargetLibraryAnalysis(); });
-  Analyses.registerPass([] { return UniformityInfoAnalysis(); });
-}
-
-bool LowerDivergence::checkCode(Function &F,
-                                FunctionAnalysisManager &Analyses) {
+/// False if there is what cannot be handled.
+bool checkCode(Function &F, FunctionAnalysisManager &Analyses) {
   bool Good = true;
   auto fail = [&](const Instruction &I, const Twine &Why) {
     vorion::refuse(I, Why);
@@ -251,8 +132,21 @@ bool LowerDivergence::checkCode(Function &F,
   return Good;
 }
 
-void LowerDivergence::alignLoops(Function &F,
-                                 FunctionAnalysisManager &Analyses) {
+/// Branches whose sides are the same block would have no side to split.
+void removeSameTargetBranches(Function &F) {
+  for (BasicBlock &Block : F) {
+    auto *Branch = dyn_cast<BranchInst>(Block.getTerminator());
+    if (!Branch || !Branch->isConditional() ||
+        Branch->getSuccessor(0) != Branch->getSuccessor(1))
+      continue;
+    BasicBlock *Target = Branch->getSuccessor(0);
+    Target->removePredecessor(&Block, /*KeepOneInputPHIs=*/true);
+    BranchInst::Create(Target, Branch->getIterator());
+    Branch->eraseFromParent();
+  }
+}
+
+void alignLoops(Function &F, FunctionAnalysisManager &Analyses) {
   // Each round knows more to be divergent, or has fewer loops to merge.
   bool Again = true;
   while (Again) {
@@ -262,30 +156,148 @@ void LowerDivergence::alignLoops(Function &F,
       return Function(F, Analyses.getResult<UniformityInfoAnalysis>(F),
                       Analyses.getResult<PostDominatorTreeAnalysis>(F));
     };
-    Again = mark(vorion::markDivergentJoins) || mergeLoops(F, Analyses) ||
+    Again = mark(vorion::markDivergentJoins) ||
+            vorion::mergeLoopExits(F, Analyses) ||
             mark(vorion::markRepeatedBlocks);
     if (Again)
       Analyses.invalidate(F, PreservedAnalyses::none());
   }
 }
 
-bool LowerDivergence::mergeLoops(Function &F,
-                                 FunctionAnalysisManager &Analyses) {
+/// What is said of code that stays as it is.
+void remarkKept(Function &F, UniformityInfo &Uniform) {
+  for (const Instruction &I : instructions(F)) {
+    const auto *Branch = dyn_cast<BranchInst>(&I);
+    const vorion::IntrinsicRecord *Ours = vorion::findIntrinsic(&I);
+    if (!I.getDebugLoc())
+      continue;
+    if (Branch && Branch->isConditional() &&
+        !vorion::branchesApart(Uniform, *Branch->getParent()))
+      vorion::remark<OptimizationRemarkAnalysis>(
+          vorion::remarks::Uniform, "Branch", I,
+          [] { return "all lanes agree in this condition: no vx_split"; });
+    else if (Ours && Ours->Name == "vx_bar")
+      vorion::remark<OptimizationRemarkAnalysis>(
+          vorion::remarks::Barrier, "Barrier", I, [] {
+            return "vx_bar: the warps of the group wait for each other here";
+          });
+  }
+}
+
+void remarkSwitches(Function &F) {
+  for (const Instruction &I : instructions(F))
+    if (const auto *Switch = dyn_cast<SwitchInst>(&I))
+      vorion::remark<OptimizationRemark>(
+          vorion::remarks::Switch, "Branches", I, [&] {
+            return "switch of " + std::to_string(Switch->getNumCases()) +
+                   " cases made a tree of branches: a jump table cannot be "
+                   "split";
+          });
+}
+
+class LowerDivergence final : public FunctionPass {
+public:
+  static char ID;
+  LowerDivergence() : FunctionPass(ID) {}
+  StringRef getPassName() const override {
+    return "Vorion divergence lowering";
+  }
+  void getAnalysisUsage(AnalysisUsage &AU) const override {
+    AU.addRequired<TargetPassConfig>();
+  }
+  bool runOnFunction(Function &F) override;
+
+private:
+  static void registerAnalyses(FunctionAnalysisManager &Analyses,
+                               const TargetMachine &TM);
+};
+
+char LowerDivergence::ID = 0;
+// The name is for -print-after and -stop-after.
+const RegisterPass<LowerDivergence> Registration("vorion-lower-divergence",
+                                                 "Vorion divergence lowering");
+
+/// Nobody asks any more what vx_uniform vouches for; selection makes better
+/// branches without it.
+void removePromises(Function &F) {
+  for (Instruction &I : make_early_inc_range(instructions(F))) {
+    const vorion::IntrinsicRecord *Ours = vorion::findIntrinsic(&I);
+    if (!Ours || Ours->Name != "vx_uniform")
+      continue;
+    I.replaceAllUsesWith(I.getOperand(0));
+    I.eraseFromParent();
+  }
+}
+
+} // namespace
+
+bool LowerDivergence::runOnFunction(Function &F) {
+  const auto &TM = getAnalysis<TargetPassConfig>().getTM<TargetMachine>();
+  const auto &Subtarget = TM.getSubtarget<RISCVSubtarget>(F);
+  if (!Subtarget.hasVendorXVortex())
+    return false;
+  FunctionAnalysisManager Analyses;
+  registerAnalyses(Analyses, TM);
+  if (vorion::lowerDivergence(F, Analyses, Subtarget,
+                              TM.getOptLevel() != CodeGenOptLevel::None))
+    removePromises(F);
+  return true;
+}
+
+bool vorion::lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
+                             const RISCVSubtarget &Subtarget, bool Optimize) {
+  auto run = [&](auto Pass) { Analyses.invalidate(F, Pass.run(F, Analyses)); };
+  auto changed = [&] { Analyses.invalidate(F, PreservedAnalyses::none()); };
+
+  remarkSwitches(F);
+  run(LowerSwitchPass());
+  removeSameTargetBranches(F);
+  changed();
+  if (callsThroughVariable(F))
+    run(PromotePass());
+  if (!checkCode(F, Analyses))
+    return false;
+  run(FixIrreduciblePass());
+  vorion::unifyExits(F, Analyses.getResult<LoopAnalysis>(F), /*Known=*/true,
+                     [](IRBuilder<> &Builder) { return Builder.getTrue(); });
+  changed();
+  for (const vorion::DivergentBarrier &B : vorion::findDivergentBarriers(F))
+    F.getContext().diagnose(DiagnosticInfoUnsupported(
+        F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
+
+  if (Optimize && !F.hasOptNone()) {
+    while (vorion::markUniformTests(F, Analyses))
+      changed();
+    while (vorion::selectShortSides(F, Analyses, Subtarget))
+      changed();
+  }
+
   auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
-  auto &Loops = Analyses.getResult<LoopAnalysis>(F);
-  const auto &PostDominators = Analyses.getResult<PostDominatorTreeAnalysis>(F);
-  const auto &Dominators = Analyses.getResult<DominatorTreeAnalysis>(F);
-  SmallVector<Loop *, 4> OutOfStep;
-  for (Loop *L : Loops.getLoopsInPreorder())
-    if (!vorion::loopIsInStep(*L, Uniform, PostDominators, Dominators))
-      OutOfStep.push_back(L);
-  // Inner loops first: their exits become branches of the outer ones, which
-  // wait for the next round. Loops apart do not share blocks or exits.
-  for (Loop *L : OutOfStep)
-    if (none_of(OutOfStep,
-                [&](Loop *Other) { return Other != L && L->contains(Other); }))
-      vorion::mergeExitsIntoLatch(*L);
-  return !OutOfStep.empty();
+  remarkKept(F, Uniform);
+  if (none_of(F,
+              [&](BasicBlock &B) { return vorion::branchesApart(Uniform, B); }))
+    return true;
+  // Outlining would move splits, joins and their tokens into functions of
+  // their own, where VerifySplits.cpp cannot follow them.
+  F.addFnAttr("nooutline");
+  alignLoops(F, Analyses);
+  vorion::insertSplits(F, Analyses);
+  return true;
+}
+
+void LowerDivergence::registerAnalyses(FunctionAnalysisManager &Analyses,
+                                       const TargetMachine &TM) {
+  Analyses.registerPass([&] { return TM.getTargetIRAnalysis(); });
+  Analyses.registerPass([] { return PassInstrumentationAnalysis(); });
+  Analyses.registerPass([] { return AssumptionAnalysis(); });
+  Analyses.registerPass([] { return CycleAnalysis(); });
+  Analyses.registerPass([] { return DominatorTreeAnalysis(); });
+  Analyses.registerPass([] { return LazyValueAnalysis(); });
+  Analyses.registerPass([] { return LoopAnalysis(); });
+  Analyses.registerPass([] { return PostDominatorTreeAnalysis(); });
+  Analyses.registerPass([] { return ScalarEvolutionAnalysis(); });
+  Analyses.registerPass([] { return TargetLibraryAnalysis(); });
+  Analyses.registerPass([] { return UniformityInfoAnalysis(); });
 }
 
 std::vector<Pass *> vorion::createDivergencePasses() {

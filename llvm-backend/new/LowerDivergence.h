@@ -17,6 +17,7 @@
 
 namespace llvm {
 class BranchInst;
+class Function;
 class Instruction;
 class Loop;
 class DominatorTree;
@@ -50,6 +51,15 @@ bool loopIsInStep(const Loop &L, UniformityInfo &Uniform,
 /// one and every iteration passes it; else null.
 BranchInst *soleExit(const Loop &L, const DominatorTree &Dominators);
 
+/// Rebuilds the loops of \p F that are not in step, inner ones first; outer
+/// ones wait for the next call. True if there was one. All loops are in
+/// loop-simplify and LCSSA form.
+bool mergeLoopExits(Function &F, FunctionAnalysisManager &Analyses);
+
+/// All of them, in order. False if \p F is not to be compiled further.
+bool lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
+                     const RISCVSubtarget &Subtarget, bool Optimize);
+
 /// Replaces divergent branches around a few instructions that all lanes may
 /// execute by selects. True if there were any; \p Analyses are then stale.
 bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
@@ -58,10 +68,6 @@ bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
 /// Marks comparisons that lanes agree in although they differ in what is
 /// compared. True if there was anything new.
 bool markUniformTests(Function &F, FunctionAnalysisManager &Analyses);
-
-/// Makes \p L's exits go through one new latch, which is the only block that
-/// leaves the loop. \p L is in loop-simplify and LCSSA form.
-void mergeExitsIntoLatch(Loop &L);
 
 /// Marks what may give different results although lanes ask alike: memory reads
 /// and calls in blocks that a warp executes in several passes. True if there

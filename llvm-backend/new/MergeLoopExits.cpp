@@ -8,6 +8,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "LowerDivergence.h"
+#include "Remarks.h"
 #include "llvm/ADT/MapVector.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/PostDominators.h"
@@ -199,4 +200,31 @@ private:
 
 } // namespace
 
-void vorion::mergeExitsIntoLatch(Loop &L) { LatchBuilder(L).build(); }
+bool vorion::mergeLoopExits(Function &F, FunctionAnalysisManager &Analyses) {
+  auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
+  auto &Loops = Analyses.getResult<LoopAnalysis>(F);
+  const auto &PostDominators = Analyses.getResult<PostDominatorTreeAnalysis>(F);
+  const auto &Dominators = Analyses.getResult<DominatorTreeAnalysis>(F);
+  SmallVector<Loop *, 4> OutOfStep;
+  for (Loop *L : Loops.getLoopsInPreorder())
+    if (!loopIsInStep(*L, Uniform, PostDominators, Dominators))
+      OutOfStep.push_back(L);
+  // Inner loops first: their exits become branches of the outer ones, which
+  // wait for the next round. Loops apart do not share blocks or exits.
+  for (Loop *L : OutOfStep)
+    if (none_of(OutOfStep, [&](Loop *Other) {
+          return Other != L && L->contains(Other);
+        })) {
+      remark<OptimizationRemark>(
+          remarks::Loop, "Merged", L->getStartLoc(), *L->getHeader(), [&] {
+            SmallVector<BasicBlock *, 4> Exiting;
+            L->getExitingBlocks(Exiting);
+            return "lanes leave this loop apart, at one of " +
+                   std::to_string(Exiting.size()) +
+                   " places: all ways out go through a new latch that every "
+                   "iteration passes";
+          });
+      LatchBuilder(*L).build();
+    }
+  return !OutOfStep.empty();
+}

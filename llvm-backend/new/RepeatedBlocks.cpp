@@ -9,6 +9,7 @@
 
 #include "Intrinsics.h"
 #include "LowerDivergence.h"
+#include "Remarks.h"
 #include "llvm/Analysis/PostDominators.h"
 #include "llvm/CodeGen/TargetOpcodes.h"
 #include "llvm/IR/Instructions.h"
@@ -52,6 +53,10 @@ bool vorion::markRepeatedBlocks(Function &F, UniformityInfo &Uniform,
     for (Instruction &I : *Block)
       if (dependsOnTime(I) && !I.hasMetadata(Marker)) {
         I.setMetadata(Marker, MDNode::get(Context, {}));
+        remark<OptimizationRemarkAnalysis>(remarks::Repeat, "Read", I, [] {
+          return "both sides of a divergent branch lead here before they meet: "
+                 "the warp comes once for each, and reads anew";
+        });
         Changed |= Uniform.isUniform(&I);
       }
   return Changed;

@@ -9,7 +9,9 @@
 
 #include "LowerDivergence.h"
 #include "RISCVSubtarget.h"
+#include "Remarks.h"
 #include "llvm/ADT/PostOrderIterator.h"
+#include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/TargetTransformInfo.h"
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/IRBuilder.h"
@@ -45,6 +47,32 @@ public:
 
   /// True if the branch at the end of Head is gone.
   bool run() {
+    if (!findSides() || !isCheaper())
+      return false;
+    auto *Branch = cast<BranchInst>(Head.getTerminator());
+    vorion::remark<OptimizationRemark>(
+        vorion::remarks::Select, "Branchless", *Branch, [&] {
+          return "divergent branch made branchless: " + weighed() +
+                 ", against a vx_split, branches and a vx_join";
+        });
+    select(*Branch);
+    return true;
+  }
+
+  /// Why run() leaves the branch as it is.
+  std::string obstacle() {
+    if (!findSides())
+      return "a side is more than one block, or other code leads to it";
+    if (isCheaper())
+      return {};
+    return Obstacle ? Obstacle
+                    : weighed() + ", more than a vx_split, branches and a "
+                                  "vx_join";
+  }
+
+private:
+  /// False if the branch has not the form that can be replaced.
+  bool findSides() {
     auto *Branch = cast<BranchInst>(Head.getTerminator());
     BasicBlock *True = Branch->getSuccessor(0),
                *False = Branch->getSuccessor(1);
@@ -60,13 +88,9 @@ public:
     Meeting = Sides.size() == 2 ? TrueEnd : Sides[0] == True ? False : True;
     FromTrue = Sides[0] == True ? True : &Head;
     FromFalse = Sides.back() == False ? False : &Head;
-    if (Meeting == &Head || !isCheaper())
-      return false;
-    select(*Branch);
-    return true;
+    return Meeting != &Head;
   }
 
-private:
   /// Where \p Side goes on if it is a block of its own, else null.
   BasicBlock *sideEnd(BasicBlock *Side) const {
     if (Side->getSinglePredecessor() != &Head || Side->hasAddressTaken())
@@ -75,9 +99,9 @@ private:
     return Jump && Jump->isUnconditional() ? Jump->getSuccessor(0) : nullptr;
   }
 
-  bool isCheaper() const {
-    const unsigned Limit = Sides.size() == 2 ? TwoSidedLimit : OneSidedLimit;
-    InstructionCost Cost = 0;
+  bool isCheaper() {
+    Limit = Sides.size() == 2 ? TwoSidedLimit : OneSidedLimit;
+    Cost = 0;
     for (const PHINode &Phi : Meeting->phis()) {
       const Value *T = Phi.getIncomingValueForBlock(FromTrue);
       const Value *F = Phi.getIncomingValueForBlock(FromFalse);
@@ -88,11 +112,28 @@ private:
       for (const Instruction &I : *Side) {
         if (I.isTerminator() || I.isDebugOrPseudoInst())
           continue;
-        if (!isSafeToSpeculativelyExecute(&I))
+        if (!isSafeToSpeculativelyExecute(&I)) {
+          Obstacle = obstacleOf(I);
           return false;
+        }
         Cost += sideCost(I);
       }
+    if (!Cost.isValid())
+      Obstacle = "a side has an operation that is slow, or a call";
     return Cost.isValid() && Cost <= Limit;
+  }
+
+  static const char *obstacleOf(const Instruction &I) {
+    if (I.mayWriteToMemory())
+      return "a side writes to memory";
+    return isa<LoadInst>(I)
+               ? "a side reads memory that the other lanes may not have"
+               : "a side has what the other lanes may not execute";
+  }
+
+  std::string weighed() const {
+    return "selects and sides weigh " + std::to_string(*Cost.getValue()) +
+           ", the limit is " + std::to_string(Limit);
   }
 
   /// Instructions that \p I becomes; invalid if it is slow or a library call.
@@ -218,7 +259,25 @@ private:
   const RISCVSubtarget &Subtarget;
   SmallVector<BasicBlock *, 2> Sides;
   BasicBlock *Meeting = nullptr, *FromTrue = nullptr, *FromFalse = nullptr;
+  InstructionCost Cost;
+  unsigned Limit = 0;
+  /// What forbids it, whatever it costs.
+  const char *Obstacle = nullptr;
 };
+
+/// Says why branches stay; those that leave loops never were meant to go.
+template <typename Function>
+void remarkKept(ArrayRef<BasicBlock *> Heads, const LoopInfo &Loops,
+                Function Obstacle) {
+  for (BasicBlock *Head : Heads) {
+    const Loop *L = Loops.getLoopFor(Head);
+    if (!L || !L->isLoopExiting(Head))
+      vorion::remark<OptimizationRemarkMissed>(
+          vorion::remarks::Select, "Kept", *Head->getTerminator(), [&] {
+            return "divergent branch not made branchless: " + Obstacle(*Head);
+          });
+  }
+}
 
 } // namespace
 
@@ -236,5 +295,11 @@ bool vorion::selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
   bool Changed = false;
   for (BasicBlock *Head : Heads)
     Changed |= SideSelector(*Head, TTI, Subtarget).run();
+  // The last round changes nothing.
+  if (!Changed &&
+      OptimizationRemarkEmitter::allowExtraAnalysis(F, vorion::remarks::Select))
+    remarkKept(Heads, Analyses.getResult<LoopAnalysis>(F), [&](auto &Head) {
+      return SideSelector(Head, TTI, Subtarget).obstacle();
+    });
   return Changed;
 }

@@ -10,6 +10,7 @@
 
 #include "Intrinsics.h"
 #include "LowerDivergence.h"
+#include "Remarks.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/ScalarEvolution.h"
 #include "llvm/Analysis/ScalarEvolutionExpressions.h"
@@ -66,6 +67,10 @@ bool vorion::markUniformTests(Function &F, FunctionAnalysisManager &Analyses) {
       continue;
     Test->setMetadata(uniformMarker(F.getContext()),
                       MDNode::get(F.getContext(), {}));
+    remark<OptimizationRemark>(remarks::Uniform, "Test", *Test, [] {
+      return "lanes differ in both sides of this comparison by the same "
+             "distance, so all agree in it: no vx_split";
+    });
     Changed = true;
   }
   return Changed;

@@ -11,6 +11,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "RISCVSubtarget.h"
+#include "Resources.h"
 #include "Vorion.h"
 #include "VorionCsrs.h"
 #include "llvm/ADT/PostOrderIterator.h"
@@ -223,6 +224,7 @@ bool VerifySplits::runOnMachineFunction(MachineFunction &MF) {
     for (const MachineBasicBlock *Successor : Block->successors())
       Work.push_back({Successor, State});
   }
+  vorion::writeResources(MF);
   return false;
 }
 

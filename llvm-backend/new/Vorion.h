@@ -76,8 +76,11 @@ void preferModuleTarget(const std::string &ModuleCPU,
                         std::string &TuneCPU, std::string &Features);
 
 /// Puts what must be known of a module for our machine before anything else in
-/// its optimisation (SharedVariables.cpp).
+/// its optimisation (SharedVariables.cpp), and gives our steps over IR names.
 void registerFirstPasses(PassBuilder &PB, const RISCVTargetMachine &TM);
+
+/// The names that -passes= has for our steps over functions (Steps.cpp).
+void registerSteps(PassBuilder &PB, const RISCVTargetMachine &TM);
 
 /// The passes that lower divergence, in order; last before selection. Each does
 /// nothing to functions that are not for our machine.

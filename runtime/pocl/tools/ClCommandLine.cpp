@@ -73,8 +73,18 @@ const std::set<std::string> OpenClOptions = {
 
 /// Refuses \p Option, with the one that was meant if there is one like it.
 Error unknownOption(const std::string &Option) {
-  std::vector<std::string> Known = {"-o", "-D", "-U",  "-I",     "-g",
-                                    "-w", "-W", "-O0", "-Werror"};
+  std::vector<std::string> Known = {"-o",
+                                    "-D",
+                                    "-U",
+                                    "-I",
+                                    "-g",
+                                    "-w",
+                                    "-W",
+                                    "-O0",
+                                    "-Werror",
+                                    "-Rpass=",
+                                    "-Rpass-missed=",
+                                    "-Rpass-analysis="};
   Known.insert(Known.end(), Ignored.begin(), Ignored.end());
   Known.insert(Known.end(), OpenClOptions.begin(), OpenClOptions.end());
   const std::string_view Meant = closestTo(Option, Known);
@@ -141,6 +151,10 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
     } else if (Argument == "-w" || Argument == "-Werror" ||
                OpenClOptions.contains(Argument)) {
       Line.BuildOptions += Argument + " ";
+    } else if (Argument.starts_with("-Rpass=") ||
+               Argument.starts_with("-Rpass-missed=") ||
+               Argument.starts_with("-Rpass-analysis=")) {
+      Line.Remarks += Argument + " ";
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
       Line.Prelude += warningLine(Argument.substr(2));
     } else {

@@ -92,6 +92,14 @@ std::string machineLog(const std::string &Output) {
   return Log;
 }
 
+std::string remarks(const std::string &Output) {
+  std::string Found;
+  for (const std::string &Line : linesOf(Output))
+    if (Line.find(": remark: ") != std::string::npos)
+      Found += Line + "\n";
+  return Found;
+}
+
 Error kernelError(const std::string &Input, const std::string &Output) {
   if (const auto Files = fileError(Output))
     return *Files;

@@ -18,6 +18,9 @@ Error compilerError(const std::string &Input, const std::string &Log,
 /// refused; empty if it refused none.
 std::string machineLog(const std::string &Output);
 
+/// The remarks among what was printed, a line each.
+std::string remarks(const std::string &Output);
+
 /// Why the kernels of \p Input, which has no errors, could not be compiled for
 /// the machine, by what was printed.
 Error kernelError(const std::string &Input, const std::string &Output);

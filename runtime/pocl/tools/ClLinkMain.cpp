@@ -59,6 +59,16 @@ constexpr std::string_view Usage =
     "  -O0                    variables stay where a debugger finds them\n"
     "  -O1 to -O3, -Os, -Oz   accepted; otherwise kernels are compiled with "
     "-O2\n"
+    "  -Rpass=REGEX, -Rpass-missed=REGEX, -Rpass-analysis=REGEX\n"
+    "                         what the compiler did, could not do, and why: "
+    "'vorion' for\n"
+    "                         what concerns lanes (docs/backend.md)\n"
+    "  --resources[=json|FILE]\n"
+    "                         print what each function takes: registers, "
+    "spills, stack,\n"
+    "                         divergent branches and why; as a table, or as "
+    "JSON to\n"
+    "                         standard output or FILE\n"
     "\n";
 
 struct Ran {
@@ -224,7 +234,9 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
                  ExitCode::Internal};
   if (!Compiler.Succeeded)
     return compilerError(Input.string(), Found->Log, Compiler.Output);
-  std::cerr << machineLog(Compiler.Output) << std::flush;
+  std::cerr << machineLog(Compiler.Output)
+            << (Line.Remarks.empty() ? "" : remarks(Compiler.Output))
+            << std::flush;
   if (Found->Missing)
     return kernelError(Input.string(), Compiler.Output);
   if (Found->Objects.empty())
@@ -247,6 +259,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   setenv("VORION_ROOT", Root.c_str(), 1);
   // The device's driver compiles kernels that nobody has started, too.
   setenv("VORION_COMPILE_ALL", "1", 1);
+  if (!Line.Remarks.empty())
+    setenv("VORION_REMARKS", Line.Remarks.c_str(), 1);
 
   std::vector<std::string> Link = {(Root / "bin/vorion-link").string(), "-o",
                                    Line.Output.string()};

@@ -77,6 +77,8 @@ splat("accuracy", *view[:3], "--out", "accuracy", "--knobs", "sh-degree", "--no-
 splat("accuracy", "--train", capture, "--out", "training", "--iterations", "1", "--seeds", "1", "--score-every", "1",
       "--time-every", "1", report="training/training.json")
 splat("doctor")
+run("vorion-clang", "--resources=resources.json", os.path.join(root, "test", "clang", "Inputs", "slow.cl"), "-o", "slow.elf")
+check_file("resources.json")
 for tool in ("splat", "vorion-sim"):
     text = subprocess.run([tool, "--print-definition"], check=True, stdout=subprocess.PIPE, text=True).stdout
     check(json.loads(text), tool)

@@ -7,9 +7,11 @@ extern "C" {
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -28,6 +30,26 @@ fs::path libraryFile() {
 
 /// Where a message of a tool is cut off.
 constexpr size_t MaxToolOutput = 65536;
+/// Where remarks are, of which there may be several a line.
+constexpr size_t MaxRemarks = size_t{16} << 20;
+
+/// Options of vorion-clang, with blanks between: which remarks to print
+/// (docs/backend.md).
+const char *remarkOptions() { return std::getenv("VORION_REMARKS"); }
+
+/// Where of bitcode nothing is known but what it says itself, clang prints
+/// "remark: k.cl:3:5: text"; everywhere else "k.cl:3:5: remark: text".
+void printRemarks(const std::string &Output) {
+  constexpr std::string_view Head = "remark: ";
+  std::istringstream Lines(Output);
+  for (std::string Line; std::getline(Lines, Line);) {
+    const size_t End = Line.find(": ", Head.size());
+    if (Line.starts_with(Head) && End != std::string::npos)
+      Line = Line.substr(Head.size(), End - Head.size()) + ": remark" +
+             Line.substr(End);
+    std::fprintf(stderr, "%s\n", Line.c_str());
+  }
+}
 
 } // namespace
 
@@ -87,20 +109,34 @@ std::string Tools::run(std::vector<std::string> Arguments) const {
   for (std::string &Argument : Arguments)
     Pointers.push_back(Argument.data());
   Pointers.push_back(nullptr);
-  std::string Output(MaxToolOutput, '\0');
+  std::string Output(remarkOptions() ? MaxRemarks : MaxToolOutput, '\0');
   size_t Bytes = Output.size();
   const int Status =
       pocl_run_command_capture_output(Output.data(), &Bytes, Pointers.data());
-  if (Status == 0)
-    return {};
   Output.resize(Bytes);
+  if (Status == 0) {
+    if (remarkOptions())
+      printRemarks(Output);
+    return {};
+  }
   return Arguments[0] + " failed (" + std::to_string(Status) + ")\n" + Output;
 }
 
 std::string Tools::compile(const std::string &Bitcode,
                            const std::string &Object, bool Optimize) const {
-  return run({Root + "/bin/vorion-clang", "-x", "ir", Optimize ? "-O2" : "-O0",
-              "-ffp-contract=off", "-c", Bitcode, "-o", Object});
+  std::vector<std::string> Arguments = {Root + "/bin/vorion-clang",
+                                        "-x",
+                                        "ir",
+                                        Optimize ? "-O2" : "-O0",
+                                        "-ffp-contract=off",
+                                        "-c",
+                                        Bitcode,
+                                        "-o",
+                                        Object};
+  std::istringstream Remarks(remarkOptions() ? remarkOptions() : "");
+  for (std::string Option; Remarks >> Option;)
+    Arguments.push_back(Option);
+  return run(std::move(Arguments));
 }
 
 std::string Tools::link(const std::string &Object,
