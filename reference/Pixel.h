@@ -22,4 +22,10 @@ std::vector<Contributor<Real>>
 contributors(const std::vector<Splat<Real>> &Splats, int Width, int Height,
              const Options &O, int X, int Y);
 
+/// Those of every pixel, rows from the top.
+template <typename Real>
+std::vector<std::vector<Contributor<Real>>>
+contributorsOfAll(const std::vector<Splat<Real>> &Splats, int Width, int Height,
+                  const Options &O);
+
 } // namespace vorion::reference

@@ -2,6 +2,7 @@
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
 #include "commands/HeatMapFiles.h"
+#include "commands/LayerOptions.h"
 #include "commands/NumericsReport.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
@@ -40,7 +41,8 @@ struct RenderArguments : DrawArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
   std::string Output, CamerasOut;
-  std::string Json, Html, Pairs, Depth, Device, KernelFolder;
+  std::string Json, Html, Pairs, Device, KernelFolder;
+  LayerFiles Layers;
   std::string Explain; ///< empty, "plan" or "measure"
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
@@ -51,6 +53,11 @@ struct RenderArguments : DrawArguments {
 
 bool isOne(const RenderArguments &A) { return A.Cameras.isOne(); }
 
+/// Whether the device blends the lists more than once.
+bool blendsAgain(const RenderArguments &A) {
+  return A.Layers.needDepths() || A.Layers.needNormals();
+}
+
 /// What can be said to be wrong before anything is read.
 Expected<Success> check(const RenderArguments &A) {
   const auto Usage = [](std::string What) {
@@ -59,13 +66,14 @@ Expected<Success> check(const RenderArguments &A) {
   const RenderOptions &O = A.Options;
   for (const auto &Checked :
        {checkEnding("-o", A.Output, pictureEndings()),
-        checkEnding("--depth", A.Depth, {".pfm", ".npz"}),
         checkEnding("--dump-pairs", A.Pairs, {".npz"}), checkJsonName(A.Json),
         checkEnding("--html", A.Html, {".html"}),
         checkEnding("--write-cameras", A.CamerasOut, {".json"})})
     if (!Checked)
       return Checked;
   if (auto Checked = checkDrawOptions(O); !Checked)
+    return Checked;
+  if (auto Checked = checkLayers(A.Layers, O, isOne(A)); !Checked)
     return Checked;
   if (A.Overlap && O.Blending == Path::Simt)
     return Usage("--overlap is for cores beside rasterizers, expected --path "
@@ -75,8 +83,6 @@ Expected<Success> check(const RenderArguments &A) {
                  "several --view");
   if (!isOne(A) && !A.Pairs.empty())
     return Usage("--dump-pairs writes one picture's, expected one --view");
-  if (!isOne(A) && !A.Depth.empty())
-    return Usage("--depth writes one picture's, expected one --view");
   if (!isOne(A) && !A.Html.empty())
     return Usage("--html shows one picture, expected one --view");
   if (!A.HeatMap.empty()) {
@@ -85,9 +91,10 @@ Expected<Success> check(const RenderArguments &A) {
     if (O.Blending == Path::Simt)
       return Usage("--heat-map shows the rasterizers' work, expected --path "
                    "raster with it");
-    if (!isOne(A) || !A.Depth.empty() || A.Explain == "measure")
+    if (!isOne(A) || blendsAgain(A) || A.Explain == "measure")
       return Usage("--heat-map shows one blend of one view, expected one "
-                   "--view, and neither --depth nor --explain=measure");
+                   "--view, and neither --depth, --normals nor "
+                   "--explain=measure");
   }
   if (!isOne(A) && A.Explain == "measure")
     return Usage("--explain=measure renders one picture, expected one --view");
@@ -97,8 +104,9 @@ Expected<Success> check(const RenderArguments &A) {
                                  {"--json", A.Json},
                                  {"--html", A.Html},
                                  {"--dump-pairs", A.Pairs},
-                                 {"--depth", A.Depth},
                                  {"--write-cameras", A.CamerasOut}});
+  const std::vector<NamedFile> Layers = A.Layers.named();
+  Outputs.insert(Outputs.end(), Layers.begin(), Layers.end());
   return claimOutputs(
       Outputs, {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras.File}});
 }
@@ -133,7 +141,7 @@ bool wantsTiles(const RenderArguments &A) {
   // Of a second blend, or of several pictures, the figures would be others.
   return !A.HeatMap.empty() ||
          (!A.Html.empty() && A.Options.Blending == Path::Raster &&
-          A.Depth.empty() && A.Explain != "measure");
+          !blendsAgain(A) && A.Explain != "measure");
 }
 
 /// The page of --html. \p Map may be nullptr.
@@ -256,8 +264,14 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     Map.emplace(std::move(*Begun));
   }
   const ViewFacts Facts = factsOfAll(*S, *Cameras, A.Options);
-  const EffectInputs Inputs{
-      *S, A.Options, Facts, !A.Pairs.empty(), !A.Depth.empty(), Machine};
+  const EffectInputs Inputs{*S,
+                            A.Options,
+                            Facts,
+                            !A.Pairs.empty(),
+                            A.Layers.needDepths(),
+                            Machine,
+                            A.Layers.needNormals(),
+                            A.Layers.needLists()};
   RenderPlan Plan = requestedPlan(A, Inputs);
 
   const auto Open = [&] {
@@ -278,8 +292,8 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   Launcher L(*D, A.KernelFolder, progressOf(Cameras->size()));
   fallBack(A, L, Inputs, Plan);
   const PictureJob J{
-      A.Scene.Path, A.Scene.Axes, A.Cameras.File, *File,   A.Options, Plan, L,
-      A.Output,     A.Json,       A.Pairs,        A.Depth, A.Format};
+      A.Scene.Path, A.Scene.Axes, A.Cameras.File, *File,    A.Options, Plan, L,
+      A.Output,     A.Json,       A.Pairs,        A.Layers, A.Format};
   auto Rendered =
       isOne(A) ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr, A.Html)
                : renderAll(J, *Cameras, A.Overlap);
@@ -354,12 +368,7 @@ Runner addRender(CLI::App &App) {
                      "Show where the rasterizers' work is, tile by tile: "
                      "PREFIX.list.png, .blends, .cycles and .saturation, and "
                      "PREFIX.json (docs/debugging.md)"));
-  writesFile(
-      App.add_option(
-          "--depth", A->Depth,
-          "Write each pixel's sum of weights times depths, and its alpha "
-          "(.npz; .pfm: the first alone), by a second blend"),
-      {".npz", ".pfm"});
+  addLayerOptions(App, A->Layers);
   writesFile(App.add_option(
                  "--dump-pairs", A->Pairs,
                  "Write the sorted tile, depth_bits and index arrays (.npz)"),

@@ -37,6 +37,8 @@ struct EffectInputs {
   bool KeepPairs = false;     ///< --dump-pairs
   bool Depth = false;         ///< --depth
   DeviceOptions Machine = {}; ///< what the device is opened with
+  bool Normals = false;       ///< --normals
+  bool Lists = false;         ///< --contributors, --depth-as median
 };
 
 /// A record of the registry; each is defined in a file of its own.

@@ -48,7 +48,9 @@ std::span<const Effect *const> all() {
                                    &Traces,
                                    &Debugger,
                                    &SortedPairs,
-                                   &Depth};
+                                   &Depth,
+                                   &Normals,
+                                   &PixelLists};
   return List;
 }
 

@@ -36,6 +36,8 @@ extern const Effect Clock, Numerics, Checkers, Traces,
     Debugger; // Observations.cpp
 extern const Effect SortedPairs;
 extern const Effect Depth;
+extern const Effect Normals;
+extern const Effect PixelLists;
 /// @}
 
 std::span<const Effect *const> all();

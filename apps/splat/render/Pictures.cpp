@@ -61,9 +61,8 @@ Expected<Success> writePicture(const PictureJob &J, const Camera &C,
   if (!J.Pairs.empty())
     if (auto Written = writePairs(J.Pairs, *R.Sorted); !Written)
       return Written;
-  if (!J.Depth.empty())
-    if (auto Written = writeDepth(J.Depth, *R.Depths); !Written)
-      return Written;
+  if (auto Written = writeLayers(J.Layers, R, J.Options); !Written)
+    return Written;
   if (J.Json.empty())
     return Success{};
   const auto Report = reportOf(J, J.Output, C, R);

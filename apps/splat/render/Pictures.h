@@ -1,6 +1,7 @@
 /// Pictures of a scene with their files and reports.
 #pragma once
 
+#include "render/Layers.h"
 #include "render/Renderer.h"
 #include "scene/SceneFile.h"
 
@@ -21,7 +22,8 @@ struct PictureJob {
   Launcher &Launch;
   /// \name Files, of which all but the first may be empty: not wanted
   /// @{
-  std::string Output, Json, Pairs, Depth;
+  std::string Output, Json, Pairs;
+  LayerFiles Layers;
   /// @}
   PictureFormat Format = {};
 };

@@ -223,6 +223,19 @@ void Pipeline::allocatePixels() {
 cl::Buffer Pipeline::drawDepths() {
   Launch.run(DepthProgram, "depths_for_colors", itemsFor(Current.drawn()),
              GroupSize, Current.Depths.Keys, Current.Records, Current.drawn());
+  return blendAgain();
+}
+
+cl::Buffer Pipeline::drawNormals() {
+  Launch.run(NormalsProgram, "normals_for_colors", itemsFor(Current.drawn()),
+             GroupSize, Current.Camera, Current.Gaussians.Geometry,
+             Current.Depths.Keys, Current.Records, Current.drawn(),
+             Current.stride());
+  return blendAgain();
+}
+
+/// What the records' colours have become; the frame's own pixels stay.
+cl::Buffer Pipeline::blendAgain() {
   const cl::Buffer Picture = Current.Pixels;
   blend();
   return std::exchange(Current.Pixels, Picture);

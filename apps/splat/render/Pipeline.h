@@ -112,6 +112,8 @@ public:
   /// records; of what comes back the first channel is the sum of weights times
   /// depths. Needs the effect \c Depth; the frame's own pixels stay.
   cl::Buffer drawDepths();
+  /// The same with normals. Needs the effect \c Normals.
+  cl::Buffer drawNormals();
 
   const Frame &frame() const { return Current; }
 
@@ -128,6 +130,7 @@ private:
   void duplicate();
   void sortByTile();
   void blend();
+  cl::Buffer blendAgain();
   void allocatePixels();
   void shade();
   cl::Buffer words(std::string_view What, uint64_t N) {

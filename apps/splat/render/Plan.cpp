@@ -159,6 +159,11 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
     Plan.Programs.push_back({ResolveProgram, {"resolve.cl"}, {}});
   if (Plan.Effects.done(effects::Depth))
     Plan.Programs.push_back({DepthProgram, {"layout.h", "depth.cl"}, {}});
+  if (Plan.Effects.done(effects::Normals))
+    Plan.Programs.push_back(
+        {NormalsProgram,
+         {"layout.h", "activate.cl", "covariance.cl", "planes.h", "normals.cl"},
+         {}});
 
   std::vector<std::string> Defines = parameterDefines(Options);
   for (std::string &Define : Plan.Effects.defines())

@@ -198,6 +198,13 @@ Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
   RenderResult R = finish(Launch, Plan, P.frame(), Options);
   if (KeepPairs)
     R.Sorted = readPairs(Launch, P.frame());
+  if (Plan.Effects.done(effects::PixelLists))
+    R.Lists = readLists(Launch, P.frame(), Options);
+  if (Plan.Effects.done(effects::Normals)) {
+    Launch.beginStage(Stage::Normals);
+    R.Normals =
+        readPicture(Launch, P.frame(), P.drawNormals(), /*Resolved=*/false);
+  }
   if (Plan.Effects.done(effects::Depth)) {
     Launch.beginStage(Stage::Depth);
     R.Depths = readDepths(Launch, P.frame(), P.drawDepths());

@@ -4,6 +4,7 @@
 #include "io/Cameras.h"
 #include "io/Image.h"
 #include "render/Pipeline.h"
+#include "render/PixelLists.h"
 #include "scene/Scene.h"
 
 #include <array>
@@ -28,6 +29,9 @@ struct RenderResult {
   std::vector<StageReport> Stages;
   std::optional<SortedPairs> Sorted;
   std::optional<DepthMap> Depths; ///< where the effect \c Depth is on
+  /// Where \c Normals is on: for colours the sums of weights times normals.
+  std::optional<Image> Normals;
+  std::optional<PixelLists> Lists; ///< where \c PixelLists is on
 };
 
 /// The picture of \p F in front of \p Background, and its copy for the host.

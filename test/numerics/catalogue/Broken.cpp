@@ -17,7 +17,7 @@ constexpr std::string_view Files[] = {
     "layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl",
     "project.cl", "rectangle.cl", "sort.cl", "tiles.cl", "falloff.cl",
     "units.cl", "blend.cl", "rasterize.cl", "resolve.cl", "merge.cl", "deal.cl",
-    "planes.h", "sh_basis.h", "depth.cl",
+    "planes.h", "sh_basis.h", "depth.cl", "normals.cl",
     // Training's.
     "upstream.cl", "rasterize_backward.cl", "blend_backward.cl", "reduce.cl",
     "project_backward.cl", "sh_backward.cl", "adam.cl", "loss.cl"};

@@ -1,6 +1,7 @@
 #include "Check.h"
 
 #include "Broken.h"
+#include "Contributors.h"
 #include "Oracle.h"
 #include "TrainingCase.h"
 #include "vorion/support/TemporaryFolder.h"
@@ -31,7 +32,8 @@ public:
 
 private:
   Expected<Success> setting(const HardCase &C, Path P, const Setting &S);
-  Expected<Success> depth(const HardCase &C, Path P);
+  /// What is beside the picture: depths, normals, pixels' contributors.
+  Expected<Success> layers(const HardCase &C, Path P);
   Expected<Success> broken(const HardCase &C, Path P, const BrokenKernel &B);
   /// As it stands, or with broken kernels.
   Expected<Success> training(const TrainingCase &C, Path P,
@@ -142,26 +144,35 @@ Expected<Success> Checker::setting(const HardCase &C, Path P,
   return keepNew(pictureRow(Key, C, P, S.size(), V));
 }
 
-Expected<Success> Checker::depth(const HardCase &C, Path P) {
-  const std::string Key = fmt::format("{} {} --depth", C.Name, flagsOf(P, {}));
+Expected<Success> Checker::layers(const HardCase &C, Path P) {
+  const std::string Key = fmt::format("{} {} layers", C.Name, flagsOf(P, {}));
   if (const nlohmann::json *Row = Kept.find(Key))
     return keep(*Row);
   const splat::RenderOptions O = turned(C.Options, P, {});
   const auto Plain = Device.render(C, O, "");
-  auto R = Device.render(C, O, "", /*Depth=*/true);
+  auto R = Device.render(C, O, "", /*Layers=*/true);
   Verdict V;
   if (!Plain || !R)
     V.Broken = (Plain ? R : Plain).error().What;
   else if (Plain->Picture.Render != R->Picture.Render ||
            Plain->Picture.Alpha != R->Picture.Alpha ||
            R->Depths->Alpha.size() != R->Picture.Alpha.size())
-    V.Broken = "--depth changes the picture";
+    V.Broken = "a layer changes the picture";
   else {
     for (std::size_t I = 0; I < R->Depths->Depth.size(); ++I) {
       R->Picture.Render[3 * I] = R->Depths->Depth[I];
       R->Picture.Render[3 * I + 1] = R->Picture.Render[3 * I + 2] = 0;
     }
     V = Judge(C, O, Judge::Shown::Depths).judge(*R, 0, /*OwnOptions=*/false);
+    if (const Judge Normals(C, O, Judge::Shown::Normals);
+        V.Broken.empty() && Normals.isSettled()) {
+      R->Picture.Render = R->Normals->Render;
+      V.Broken = Normals.judge(*R, 0, /*OwnOptions=*/false).Broken;
+      if (!V.Broken.empty())
+        V.Broken = "normals: " + V.Broken;
+    }
+    if (V.Broken.empty() && R->Lists)
+      V.Broken = wrongContributors(C, O, *R->Lists);
   }
   return keepNew(pictureRow(Key, C, P, /*Settings=*/1, V));
 }
@@ -233,7 +244,7 @@ Expected<Success> Checker::all(const HardCase &C) {
   for (const Path P : Paths) {
     if (auto Done = setting(C, P, {}); !Done)
       return Done;
-    if (auto Done = depth(C, P); !Done)
+    if (auto Done = layers(C, P); !Done)
       return Done;
     std::vector<Setting> Settings;
     if (Plan.Alone)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <iterator>
 
 namespace vorion::test {
@@ -32,6 +33,44 @@ template <typename Real>
 void showDepths(std::vector<reference::Splat<Real>> &Splats) {
   for (auto &S : Splats)
     S.Color = {S.Depth, 0, 0};
+}
+
+/// Normals for colours: the shortest axis, towards the camera. Whether it is
+/// clear for each on which side that is.
+template <typename Real>
+bool showNormals(std::vector<reference::Splat<Real>> &Splats,
+                 const splat::Scene &S, const splat::Camera &View) {
+  bool Settled = true;
+  for (std::size_t At = 0; At < Splats.size(); ++At) {
+    const std::size_t I = At % S.size();
+    if (!Splats[At].Visible)
+      continue;
+    const float *const Scales = S.LogScales.data() + 3 * I;
+    const auto Axis =
+        static_cast<int>(std::min_element(Scales, Scales + 3) - Scales);
+    glm::dvec4 Q(0);
+    for (int K = 0; K < 4; ++K)
+      Q[K] = double(S.Quats[4 * I + static_cast<std::size_t>(K)]);
+    if (const double Length = glm::length(Q); Length > 0)
+      Q /= Length;
+    // The axis turned, as q v q* is: v + 2 w (u x v) + 2 u x (u x v).
+    glm::dvec3 V(0);
+    V[Axis] = 1;
+    const glm::dvec3 U(Q[1], Q[2], Q[3]);
+    const glm::dvec3 Across = glm::cross(U, V);
+    glm::dvec3 N = V + 2 * Q[0] * Across + 2.0 * glm::cross(U, Across);
+    glm::dvec3 From(0);
+    for (int K = 0; K < 3; ++K) {
+      const auto Of = static_cast<std::size_t>(K);
+      From[K] = double(S.Means[3 * I + Of]) - View.Position[Of];
+    }
+    const double Along = glm::dot(N, From);
+    Settled &= std::abs(Along) > 1e-5 * glm::length(From);
+    if (Along > 0)
+      N = -N;
+    Splats[At].Color = glm::vec<3, Real>(N);
+  }
+  return Settled;
 }
 
 } // namespace
@@ -68,11 +107,16 @@ Judge::Judge(const HardCase &C, const splat::RenderOptions &O, Shown What)
   std::vector<uint32_t> LeftOut;
   std::ranges::copy_if(C.BeyondSingle, std::back_inserter(LeftOut),
                        [&](uint32_t I) { return !SingleSplats[I].Visible; });
-  auto Splats = reference::project(
-      splat::toReference<double>(without(C.Scene, LeftOut)), View, R);
+  const splat::Scene Drawn = without(C.Scene, LeftOut);
+  auto Splats = reference::project(splat::toReference<double>(Drawn), View, R);
   if (What == Shown::Depths) {
     showDepths(SingleSplats);
     showDepths(Splats);
+    R.Background = {};
+  }
+  if (What == Shown::Normals) {
+    showNormals(SingleSplats, C.Scene, C.View);
+    Settled = showNormals(Splats, Drawn, C.View);
     R.Background = {};
   }
   for (const auto &S : Splats)

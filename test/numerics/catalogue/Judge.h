@@ -26,7 +26,8 @@ public:
   /// What a picture shows.
   enum class Shown {
     Colors,
-    Depths ///< in the first channel, as \c splat::DepthMap has them
+    Depths, ///< in the first channel, as \c splat::DepthMap has them
+    Normals ///< in the world's axes
   };
   Judge(const HardCase &C, const splat::RenderOptions &O,
         Shown What = Shown::Colors);
@@ -36,8 +37,13 @@ public:
   Verdict judge(const splat::RenderResult &R, double Allowance,
                 bool OwnOptions) const;
 
+  /// False if a Gaussian is seen so exactly from its edge that its normal may
+  /// be on either side.
+  bool isSettled() const { return Settled; }
+
 private:
   const HardCase &Case;
+  bool Settled = true;
   double Cutoff, LeastAlpha;
   double Peak = 1; ///< largest colour
   std::vector<double> Exact, Single;

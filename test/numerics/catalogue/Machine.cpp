@@ -12,13 +12,21 @@ namespace {
 /// With flags, so that cases share programs; that effects left out change
 /// nothing is for test/render/effects.test.
 splat::RenderPlan planFor(const HardCase &C, const splat::RenderOptions &O,
-                          bool Depth) {
+                          bool Layers) {
   const splat::ViewFacts Facts = splat::factsOf(
       C.Scene, splat::makeView(C.View, O), O.nearLimit(), O.byDistance());
   splat::EffectRequest Flags;
   Flags.Selection = splat::EffectRequest::Mode::Flags;
   return splat::planRender(
-      splat::EffectPlan(Flags, {C.Scene, O, Facts, false, Depth}), O);
+      splat::EffectPlan(Flags, {C.Scene,
+                                O,
+                                Facts,
+                                false,
+                                Layers,
+                                {},
+                                Layers,
+                                Layers && splat::hasPixelLists(O)}),
+      O);
 }
 
 } // namespace
@@ -33,9 +41,9 @@ Expected<Machine> Machine::open() {
 Expected<splat::RenderResult> Machine::render(const HardCase &C,
                                               const splat::RenderOptions &O,
                                               const std::string &KernelFolder,
-                                              bool Depth) {
+                                              bool Layers) {
   splat::Launcher L = launcher(KernelFolder);
-  auto R = splat::render(L, planFor(C, O, Depth), C.Scene, C.View, O,
+  auto R = splat::render(L, planFor(C, O, Layers), C.Scene, C.View, O,
                          /*KeepPairs=*/false);
   if (!R && !L.buildLog().empty())
     std::fputs(L.buildLog().c_str(), stderr);

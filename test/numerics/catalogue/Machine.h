@@ -12,11 +12,11 @@ public:
   static Expected<Machine> open();
 
   /// \p KernelFolder as of `splat render --kernels`; empty for splat's own.
-  /// \p Depth as of `--depth`.
+  /// \p Layers: with depths, normals and, where they can be, pixel lists.
   Expected<splat::RenderResult> render(const HardCase &C,
                                        const splat::RenderOptions &O,
                                        const std::string &KernelFolder,
-                                       bool Depth = false);
+                                       bool Layers = false);
 
   /// For what is not a picture, with the same kernels and programs kept.
   splat::Launcher launcher(const std::string &KernelFolder) {

@@ -1,0 +1,64 @@
+#include "commands/LayerOptions.h"
+
+#include "commands/Choices.h"
+#include "commands/OutputFile.h"
+
+#include <fmt/format.h>
+
+namespace vorion::splat {
+
+void addLayerOptions(CLI::App &App, LayerFiles &F) {
+  const std::vector<std::string> Pictures(pictureEndings().begin(),
+                                          pictureEndings().end());
+  writesFile(App.add_option("--depth", F.Depth,
+                            "Write each pixel's depth, and its alpha (.npz; "
+                            ".pfm: the first alone)"),
+             {".npz", ".pfm"});
+  addChoice(App, "--depth-as", F.As,
+            {DepthAs::Accumulated, DepthAs::Expected, DepthAs::Median},
+            "Depth is the sum of weights times depths, that over the sum of "
+            "weights, or where half of the light is left");
+  writesFile(App.add_option("--normals", F.Normals,
+                            "Write each pixel's sum of weights times normals "
+                            "(a picture; of 8 bits, directions as colours)"),
+             Pictures);
+  writesFile(App.add_option("--opacity", F.Opacity,
+                            "Write each pixel's opacity (a picture)"),
+             Pictures);
+  writesFile(App.add_option("--contributors", F.Contributors,
+                            "Write the Gaussians with the largest weights of "
+                            "each pixel (.npz: index, weight, count)"),
+             {".npz"});
+  App.add_option("--top", F.Top,
+                 fmt::format("So many of them a pixel (default {})", F.Top))
+      ->option_text("N")
+      ->check(CLI::Range(1U, MaxTop));
+}
+
+Expected<Success> checkLayers(const LayerFiles &F, const RenderOptions &O,
+                              bool IsOne) {
+  for (const auto &Checked :
+       {checkEnding("--depth", F.Depth, {".pfm", ".npz"}),
+        checkEnding("--normals", F.Normals, pictureEndings()),
+        checkEnding("--opacity", F.Opacity, pictureEndings()),
+        checkEnding("--contributors", F.Contributors, {".npz"})})
+    if (!Checked)
+      return Checked;
+  for (const auto &[Option, File] : F.named())
+    if (!IsOne && !File.empty())
+      return Error{
+          "",
+          fmt::format("{} writes one picture's, expected one --view", Option),
+          ExitCode::Usage};
+  if (F.needLists() && !hasPixelLists(O))
+    return Error{"",
+                 fmt::format("{} is computed on the host with the exact units, "
+                             "expected --exp exact, --blend fp32 and --ztiles "
+                             "1",
+                             F.Contributors.empty() ? "--depth-as median"
+                                                    : "--contributors"),
+                 ExitCode::Usage};
+  return Success{};
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,23 @@
+// What each pixel is made of: the host goes through the device's own lists.
+
+#include "effects/Registry.h"
+
+namespace vorion::splat {
+
+namespace {
+
+Finding detect(const EffectInputs &In) {
+  return In.Lists
+             ? Finding{true, "--contributors or --depth-as median"}
+             : Finding{false, "not asked (--contributors, --depth-as median)"};
+}
+
+} // namespace
+
+const Effect effects::PixelLists{
+    .Name = "pixel-lists",
+    .Kind = EffectKind::Observation,
+    .What = "projected Gaussians and lists are read back",
+    .Detect = detect};
+
+} // namespace vorion::splat

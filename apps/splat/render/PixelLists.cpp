@@ -1,0 +1,154 @@
+#include "render/PixelLists.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+namespace vorion::splat {
+
+namespace {
+
+/// A Gaussian that a pixel blends.
+struct Contribution {
+  uint32_t Record;
+  float Weight;
+  float Behind; ///< transmittance behind it
+};
+
+/// How the lists are gone through.
+struct Walk {
+  const PixelLists &Lists;
+  float Cutoff, LeastAlpha;
+  bool StopsAtEqual;
+
+  Walk(const PixelLists &Of, const RenderOptions &O)
+      : Lists(Of), Cutoff(O.Cutoff),
+        LeastAlpha(static_cast<float>(O.AlphaCutoff) / 255.0F),
+        StopsAtEqual(O.Convention == Rules::Gsplat) {}
+
+  /// Calls \p Blend for what pixel (\p X, \p Y) of \p Tile blends, front to
+  /// back, in the operations of docs/abi.md ("Rasterizer").
+  template <typename Function>
+  void pixel(std::size_t Tile, uint32_t X, uint32_t Y, Function Blend) const {
+    const float Px = static_cast<float>(X) + 0.5F;
+    const float Py = static_cast<float>(Y) + 0.5F;
+    float T = 1;
+    for (uint32_t At = Lists.Ranges[Tile][0]; At < Lists.Ranges[Tile][1];
+         ++At) {
+      const splat_gaussian &G = Lists.Records[Lists.List[At]];
+      const float Dx = G.mean[0] - Px, Dy = G.mean[1] - Py;
+      if (!(std::abs(Dx) <= G.extent[0] && std::abs(Dy) <= G.extent[1]))
+        continue;
+      const float Power =
+          -0.5F * (G.conic[0] * Dx * Dx + G.conic[2] * Dy * Dy) -
+          G.conic[1] * Dx * Dy;
+      if (!(Power <= 0))
+        continue;
+      // Through double: correctly rounded, but for rare ties.
+      const float Alpha = std::min(
+          0.99F,
+          G.opacity * static_cast<float>(std::exp(static_cast<double>(Power))));
+      if (!(Alpha >= LeastAlpha))
+        continue;
+      const float Next = T * (1 - Alpha);
+      if (StopsAtEqual ? Next <= Cutoff : Next < Cutoff)
+        return;
+      Blend(Contribution{Lists.List[At], Alpha * T, Next});
+      T = Next;
+    }
+  }
+
+  /// Calls \p Work with the tile and the place of every pixel; the calls share
+  /// nothing.
+  template <typename Function> void eachPixel(Function Work) const {
+    const auto [Width, Height] = Lists.Size;
+    const auto [Across, Down] = Lists.TileSize;
+    const uint32_t Columns = (Width + Across - 1) / Across;
+    std::atomic<uint32_t> Next = 0;
+    const auto Share = [&] {
+      for (uint32_t Tile = Next++; Tile < Lists.Ranges.size(); Tile = Next++) {
+        const uint32_t X0 = Tile % Columns * Across, Y0 = Tile / Columns * Down;
+        for (uint32_t Y = Y0; Y < std::min(Y0 + Down, Height); ++Y)
+          for (uint32_t X = X0; X < std::min(X0 + Across, Width); ++X)
+            Work(Tile, X, Y);
+      }
+    };
+    std::vector<std::thread> Others;
+    for (unsigned I = 1; I < std::thread::hardware_concurrency(); ++I)
+      Others.emplace_back(Share);
+    Share();
+    for (std::thread &Other : Others)
+      Other.join();
+  }
+};
+
+} // namespace
+
+PixelLists readLists(Launcher &Launch, const Frame &F, const RenderOptions &O) {
+  PixelLists L;
+  L.Size = {F.View.size[0], F.View.size[1]};
+  L.TileSize = {O.tileSize(), O.tileHeight()};
+  L.Stride = F.stride();
+  L.Records.resize(F.drawn());
+  L.Depths.resize(F.drawn());
+  L.List.resize(F.Pairs);
+  L.Ranges.resize(F.tiles());
+  Launch.read("projected Gaussians", L.Records.data(), F.Records,
+              sizeof(splat_gaussian) * L.Records.size());
+  Launch.read("depths", L.Depths.data(), F.Depths.Keys, 4 * L.Depths.size());
+  Launch.read("Gaussians of pairs", L.List.data(), F.List, 4 * L.List.size());
+  Launch.read("tile ranges", L.Ranges.data(), F.Ranges, 8 * L.Ranges.size());
+  for (uint32_t &Entry : L.List)
+    Entry &= ~SPANS_TILES;
+  return L;
+}
+
+bool hasPixelLists(const RenderOptions &O) {
+  return O.Exponential == ExpUnit::Exact && O.Arithmetic == BlendUnit::Fp32 &&
+         O.ZTiles == 1;
+}
+
+Contributors topContributors(const PixelLists &L, const RenderOptions &O,
+                             unsigned Most) {
+  Contributors Found{std::vector<int32_t>(L.pixels() * Most, -1),
+                     std::vector<float>(L.pixels() * Most, 0),
+                     std::vector<int32_t>(L.pixels(), 0)};
+  const Walk W(L, O);
+  W.eachPixel([&](std::size_t Tile, uint32_t X, uint32_t Y) {
+    const std::size_t Pixel = std::size_t{Y} * L.Size[0] + X;
+    int32_t *const Indices = Found.Indices.data() + Pixel * Most;
+    float *const Weights = Found.Weights.data() + Pixel * Most;
+    W.pixel(Tile, X, Y, [&](const Contribution &C) {
+      ++Found.Counts[Pixel];
+      // Those of smaller weights move on by one.
+      unsigned At = Most;
+      while (At > 0 && (Indices[At - 1] < 0 || Weights[At - 1] < C.Weight))
+        --At;
+      if (At == Most)
+        return;
+      std::copy_backward(Indices + At, Indices + Most - 1, Indices + Most);
+      std::copy_backward(Weights + At, Weights + Most - 1, Weights + Most);
+      Indices[At] = static_cast<int32_t>(C.Record % L.Stride);
+      Weights[At] = C.Weight;
+    });
+  });
+  return Found;
+}
+
+std::vector<float> medianDepths(const PixelLists &L, const RenderOptions &O) {
+  std::vector<float> Depths(L.pixels(), 0);
+  const Walk W(L, O);
+  W.eachPixel([&](std::size_t Tile, uint32_t X, uint32_t Y) {
+    float &Depth = Depths[std::size_t{Y} * L.Size[0] + X];
+    float InFront = 1;
+    W.pixel(Tile, X, Y, [&](const Contribution &C) {
+      if (InFront > 0.5F)
+        Depth = L.Depths[C.Record];
+      InFront = C.Behind;
+    });
+  });
+  return Depths;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""What each camera model costs beside the pinhole, as the table of docs/cameras.md.
+
+usage: bench/cameras.py SCENE --cameras FILE --view NAME [-- OPTIONS of splat render]
+
+Draws the view as a pinhole, and from the same place and in the same direction through each model, at the same size.
+Cycles are of the default machine's clock: of the stage `project`, which alone knows of the camera, and of the frame,
+which also draws another part of the scene. One process a picture.
+"""
+
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+# Ordinary lenses: a wide camera's distortion as calibrations find it, and all that the model has.
+DISTORTED = {"camera_model": "OPENCV", "k1": -0.12, "k2": 0.03, "p1": 0.0008, "p2": -0.0005}
+FISHEYE = {"camera_model": "OPENCV_FISHEYE", "k1": -0.02, "k2": 0.003, "k3": -0.0004, "k4": 0.0001}
+
+
+def models(view, centre):
+    """Name, what the record has, options."""
+    distance = math.dist(view["position"], centre)
+    parallel = {"camera_model": "ORTHOGRAPHIC", "fx": view["fx"] / distance, "fy": view["fy"] / distance}
+    return (("pinhole", {}, []), ("OpenCV's distortion", DISTORTED, []), ("OpenCV's fisheye", FISHEYE, []),
+            ("orthographic", parallel, []), ("equirectangular", {"camera_model": "EQUIRECTANGULAR"}, []),
+            ("pinhole, unscented", {}, ["--projection", "unscented"]),
+            ("fisheye, unscented", FISHEYE, ["--projection", "unscented"]))
+
+
+def measure(args, record, options, folder):
+    cameras, report = os.path.join(folder, "c.json"), os.path.join(folder, "r.json")
+    with open(cameras, "w", encoding="utf-8") as f:
+        json.dump([record], f)
+    subprocess.run(["splat", "render", args.scene, "--cameras", cameras, "--time", "-o", os.path.join(folder, "p.pfm"),
+                    "--json", report, *options, *args.options], check=True, stdout=subprocess.DEVNULL)
+    with open(report, encoding="utf-8") as f:
+        report = json.load(f)
+    project = next(stage for stage in report["time"]["stages"] if stage["name"] == "project")
+    return {"project": project["time"]["cycles"], "frame": report["time"]["sum"]["cycles"],
+            "seen": report["counts"]["visible"], "pairs": report["counts"]["pairs"], "clock": report["time"]["sum"]}
+
+
+def row(name, found, first):
+    def more(key):
+        return f"{100 * found[key] / first[key] - 100:+.1f} %"
+
+    return (f"| {name} | {found['seen']:,} | {found['pairs']:,} | {found['project']:,} | {more('project')} | "
+            f"{found['frame']:,} | {more('frame')} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene")
+    parser.add_argument("--cameras", required=True)
+    parser.add_argument("--view", required=True)
+    given = sys.argv[1:]
+    split = given.index("--") if "--" in given else len(given)
+    args = parser.parse_args(given[:split])
+    args.options = given[split + 1:]
+    with open(args.cameras, encoding="utf-8") as f:
+        view = next(record for record in json.load(f) if record["img_name"] == args.view)
+    info = json.loads(subprocess.run(["splat", "info", args.scene, "--json", "-"], check=True, capture_output=True,
+                                     text=True).stdout)
+    inner = info["inner_bounds"]
+    centre = [(low + high) / 2 for low, high in zip(inner["min"], inner["max"])]
+    first = None
+    with tempfile.TemporaryDirectory() as folder:
+        for name, lens, options in models(view, centre):
+            found = measure(args, {**view, **lens}, options, folder)
+            if not first:
+                first, clock = found, found["clock"]
+                print(f"{args.view} of {os.path.basename(args.scene)}, {info['gaussians']:,} Gaussians, "
+                      f"{view['width']}x{view['height']}, machine {clock['machine']}, "
+                      f"version {clock['clock_version']} of the clock\n")
+                print("| camera | seen | pairs | cycles of `project` | more | of the frame | more |\n"
+                      "|---|--:|--:|--:|--:|--:|--:|")
+            print(row(name, found, first), flush=True)
+
+
+if __name__ == "__main__":
+    main()
