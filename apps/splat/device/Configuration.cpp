@@ -3,7 +3,9 @@
 #include "io/Hash.h"
 #include "vorion/support/File.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace vorion::splat {
 
@@ -26,12 +28,39 @@ static Expected<Json> namedConfiguration(const std::string &Value) {
   return Json{{"file", Value}, {"fnv1a64", fnv1a64(Text)}, {"text", Text}};
 }
 
+/// \p Files, as VORION_PLUGINS has them: their names without folders, and what
+/// is in them.
+static Expected<Json> pluginsOf(const std::string &Files) {
+  Json All = Json::array();
+  std::istringstream Paths(Files);
+  for (std::string Path; std::getline(Paths, Path, ',');) {
+    const auto Bytes = readFile(Path);
+    if (!Bytes)
+      return Bytes.error();
+    All.push_back(
+        {{"name", std::filesystem::path(Path).filename().string()},
+         {"fnv1a64", fnv1a64({reinterpret_cast<const char *>(Bytes->data()),
+                              Bytes->size()})}});
+  }
+  return All;
+}
+
 Expected<Json> machineConfiguration(const DeviceOptions &O) {
   Expected<Json> Base = namedConfiguration(O.text("VORION_CONFIG"));
   const std::string Set = O.text("VORION_SET");
-  if (!Base || Set.empty())
+  const std::string Plugins = O.text("VORION_PLUGINS");
+  if (!Base || (Set.empty() && Plugins.empty()))
     return Base;
-  return Json{{"base", *Base}, {"set", Set}};
+  Json All{{"base", *Base}};
+  if (!Set.empty())
+    All["set"] = Set;
+  if (!Plugins.empty()) {
+    auto Loaded = pluginsOf(Plugins);
+    if (!Loaded)
+      return Loaded.error();
+    All["plugins"] = std::move(*Loaded);
+  }
+  return All;
 }
 
 } // namespace vorion::splat

@@ -9,8 +9,9 @@
 namespace vorion::splat {
 
 /// What VORION_CONFIG of \p O says, a machine's name, a file or the text
-/// itself, with the values
-/// that VORION_SET changes (runtime/include/vorion/runtime.h).
+/// itself, with the values that VORION_SET changes
+/// (runtime/include/vorion/runtime.h) and the plugins of VORION_PLUGINS, of
+/// which one may compute the rasterizers' exponentials (docs/plugins.md).
 Expected<nlohmann::ordered_json> machineConfiguration(const DeviceOptions &O);
 
 } // namespace vorion::splat
