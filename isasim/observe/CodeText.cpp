@@ -21,11 +21,15 @@ std::string instructionText(uint32_t Word, uint32_t Pc) {
   return Text;
 }
 
-std::string instructionText(const Image &Program, uint32_t Pc) {
+uint32_t instructionWord(const Image &Program, uint32_t Pc) {
   uint32_t Word = 0;
   if (const auto Bytes = Program.bytesAt(Pc, sizeof(Word)); !Bytes.empty())
     std::memcpy(&Word, Bytes.data(), sizeof(Word));
-  return instructionText(Word, Pc);
+  return Word;
+}
+
+std::string instructionText(const Image &Program, uint32_t Pc) {
+  return instructionText(instructionWord(Program, Pc), Pc);
 }
 
 } // namespace vorion::isasim

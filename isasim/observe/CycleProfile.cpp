@@ -1,6 +1,7 @@
 #include "observe/CycleProfile.h"
 
 #include "observe/CodeText.h"
+#include "observe/ProfileJson.h"
 #include "vorion/isasim/Machine.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ uint64_t CycleProfile::Cost::sum() const {
 CycleProfile::Cost &CycleProfile::Cost::operator+=(const Cost &Other) {
   for (size_t N = 0; N != Cycles.size(); ++N)
     Cycles[N] += Other.Cycles[N];
+  Executed += Other.Executed;
   return *this;
 }
 
@@ -31,6 +33,10 @@ void CycleProfile::coreSpent(const CoreSpent &S) {
                  ? Nowhere
                  : Places.of(S.Instruction);
   To.Cycles[size_t(S.What)] += S.When.Until - S.When.From;
+}
+
+void CycleProfile::coreIssued(const CoreIssued &I) {
+  ++Places.of(I.Instruction).Executed;
 }
 
 struct CycleProfile::Columns {
@@ -91,6 +97,27 @@ std::string CycleProfile::report() const {
                         instructionText(*P.Code, Pc), P.Source->describe(Pc));
   });
   return Text;
+}
+
+std::string CycleProfile::json() const {
+  using Json = nlohmann::ordered_json;
+  const auto ByReason = [](const Cost &C) {
+    Json Reasons = Json::object();
+    for (size_t N = 0; N != C.Cycles.size(); ++N)
+      if (C.Cycles[N])
+        Reasons[std::string(name(static_cast<CoreCycle>(N)))] = C.Cycles[N];
+    return Reasons;
+  };
+  Cost All = Places.total();
+  All += Nowhere;
+  return profileJson({{"format", "vorion-profile 1"},
+                      {"cycles", All.sum()},
+                      {"no_instruction", ByReason(Nowhere)}},
+                     Places, [&](const Cost &C) {
+                       return Json{{"executed", C.Executed},
+                                   {"cycles", C.sum()},
+                                   {"by_reason", ByReason(C)}};
+                     });
 }
 
 } // namespace vorion::isasim

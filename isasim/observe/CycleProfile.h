@@ -19,14 +19,18 @@ public:
   explicit CycleProfile(const Machine &Watched) : Device(Watched) {}
   void timeBegins(uint64_t Now) override;
   void coreSpent(const CoreSpent &S) override;
+  void coreIssued(const CoreIssued &I) override;
 
   /// The listing of all runs so far: source lines, then the instructions that
   /// took most, with the shares of all cores' cycles that went to each reason.
   std::string report() const;
+  /// The same of every instruction, as JSON.
+  std::string json() const;
 
 private:
   struct Cost {
     std::array<uint64_t, size_t(CoreCycle::Count)> Cycles{};
+    uint64_t Executed = 0; ///< warp instructions
     uint64_t sum() const;
     bool isNone() const { return sum() == 0; }
     Cost &operator+=(const Cost &Other);

@@ -2,6 +2,7 @@
 
 #include "core/Isa.h"
 #include "observe/CycleProfile.h"
+#include "observe/ProfileJson.h"
 #include "observe/Tool.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
@@ -90,6 +91,16 @@ std::string Profile::report() const {
                                [&](const Cost &C) { return row(C, All.Warp); });
 }
 
+std::string Profile::json() const {
+  return profileJson({{"format", "vorion-profile 1"}}, Places,
+                     [](const Cost &C) {
+                       return nlohmann::ordered_json{
+                           {"executed", C.Warp},     {"lanes", C.Lanes},
+                           {"splits", C.Splits},     {"divergent", C.Divergent},
+                           {"accesses", C.Accesses}, {"lines", C.Lines}};
+                     });
+}
+
 namespace {
 
 /// Of cycles where the machine has a clock, else of instructions.
@@ -110,7 +121,9 @@ public:
       InCycles.emplace(M);
   }
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
-    const std::string Report = InCycles ? InCycles->report() : Costs.report();
+    const std::string Report =
+        isProfileJson(File) ? (InCycles ? InCycles->json() : Costs.json())
+                            : (InCycles ? InCycles->report() : Costs.report());
     if (File != StandardOutput)
       return writeFileAtomically(File, Report);
     Print(Report);

@@ -16,6 +16,8 @@ public:
   /// The listing of all runs so far: for every source file, each line with what
   /// it cost; code without line numbers by function.
   std::string report() const;
+  /// The same of every instruction, as JSON.
+  std::string json() const;
 
 private:
   /// Of one instruction or of one line.

@@ -135,6 +135,8 @@ std::string table(const json::Array &Functions) {
     for (const Column &Of : columns())
       Out << Cell(number(Function, Of), Of);
     Out << "\n";
+    for (const json::Value &Callee : *Function.getArray("calls"))
+      Out << "  calls " << *Callee.getAsString() << "\n";
     for (const json::Value &Any : *Function.getArray("branches")) {
       const json::Object &Branch = *Any.getAsObject();
       Out << "  " << place(Branch) << ": "
