@@ -9,6 +9,7 @@
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -90,9 +91,15 @@ Runner addConvert(CLI::App &App) {
   return [A](const DeviceOptions &) -> Expected<Success> {
     if (auto Checked = checkEnding("-o", A->Output, writtenEndings()); !Checked)
       return Checked;
-    std::vector<NamedFile> Inputs{{"the scene", A->Scene.Path}};
+    // A folder's scene is the pictures beside this file.
+    const auto IndexOf = [](const std::string &Path) {
+      return (std::filesystem::path(Path) / "meta.json").string();
+    };
+    std::vector<NamedFile> Inputs{{"the scene", A->Scene.Path},
+                                  {"the scene", IndexOf(A->Scene.Path)}};
     for (const std::string &Path : A->More)
-      Inputs.push_back({"the scene " + printable(Path), Path});
+      for (const std::string &File : {Path, IndexOf(Path)})
+        Inputs.push_back({"the scene " + printable(Path), File});
     if (auto Claimed = claimOutputs({{"-o", A->Output}}, Inputs); !Claimed)
       return Claimed;
     auto File = loadScene(A->Scene);

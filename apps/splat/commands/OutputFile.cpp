@@ -72,9 +72,11 @@ Expected<Success> checkEnding(std::string_view Option, const std::string &File,
                               const std::vector<std::string_view> &Endings) {
   const auto Ends = [&File](std::string_view E) { return File.ends_with(E); };
   const std::string_view Kind = promised(File);
-  if (File.empty() || isStream(File) ||
-      (std::ranges::any_of(Endings, Ends) &&
-       (Kind.empty() || std::ranges::find(Endings, Kind) != Endings.end())))
+  // An ending may be a whole name, as meta.json.
+  const auto Fits = [&](std::string_view E) {
+    return Ends(E) && E.ends_with(Kind);
+  };
+  if (File.empty() || isStream(File) || std::ranges::any_of(Endings, Fits))
     return Success{};
   std::string Listed;
   for (std::size_t I = 0; I < Endings.size(); ++I)

@@ -5,12 +5,16 @@
 #include "scene/Edit.h"
 #include "scene/SceneFile.h"
 #include "scene/formats/Ply.h"
+#include "scene/formats/Sog.h"
 #include "scene/formats/Writers.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace vorion::splat {
@@ -20,6 +24,7 @@ namespace {
 struct Writer {
   std::string_view Ending;
   bool OrdersByPlace;
+  /// Null for a SOG's folder, which is several files.
   Expected<std::string> (*Format)(const Scene &S, const Drawing &D);
 };
 
@@ -29,6 +34,9 @@ Expected<std::string> spzOf(const Scene &S, const Drawing &D) {
                      "cannot hold, expected a smaller one or another format"};
   return gzipOf(spzBodyOf(S, 3, D));
 }
+
+/// Of a SOG's folder, beside whose pictures it lies.
+constexpr std::string_view SogIndex = "meta.json";
 
 constexpr std::size_t InriasPly = 1;
 const Writer Writers[] = {
@@ -46,7 +54,8 @@ const Writer Writers[] = {
      }},
     {".spz", false, spzOf},
     // Neighbours in space are neighbours in the pictures.
-    {".sog", true, sogArchiveOf}};
+    {".sog", true, sogArchiveOf},
+    {SogIndex, true, nullptr}};
 
 const Writer &writerOf(std::string_view Path) {
   const auto *Found = std::ranges::find_if(
@@ -60,6 +69,52 @@ double largestDifference(const std::vector<float> &A,
   for (std::size_t I = 0; I < A.size(); ++I)
     Most = std::max(Most, std::abs(double(A[I]) - B[I]));
   return Most;
+}
+
+/// What has been written, as its reader sees it.
+WrittenScene writtenOf(SceneFile Read, const Scene &Given, const Drawing &D) {
+  WrittenScene Result;
+  Result.ShDegree = Read.Gaussians.ShDegree;
+  Result.KeepsDrawing = Read.DrawnAs.drawsAs(D);
+  Scene Kept = std::move(Read.Gaussians);
+  // What the file has no harmonics for, it has zeros for.
+  setShDegree(Kept, Given.ShDegree);
+  Result.Lost = differenceOf(Given, Kept);
+  return Result;
+}
+
+/// \p Path is the folder's index. It is written last: until it is there, the
+/// folder has no scene.
+Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
+                                      const Drawing &D) {
+  namespace fs = std::filesystem;
+  if (fs::path(Path).filename() != SogIndex)
+    return Error{Path,
+                 fmt::format("no name of a SOG's index, expected {}", SogIndex),
+                 ExitCode::Usage};
+  const auto Files = sogFilesOf(S, D);
+  if (!Files)
+    return Error{Path, Files.error().What, Files.error().Code};
+  const std::string &Index = Files->at(std::string(SogIndex));
+  auto Read = parseSogData(
+      Path, std::as_bytes(std::span(Index)),
+      [&](const std::string &Name) -> Expected<std::vector<std::byte>> {
+        const auto Bytes = std::as_bytes(std::span(Files->at(Name)));
+        return std::vector<std::byte>(Bytes.begin(), Bytes.end());
+      });
+  if (!Read)
+    return Read.error();
+  std::error_code Ignored;
+  fs::remove(Path, Ignored);
+  for (const auto &[Name, Bytes] : *Files)
+    if (Name != SogIndex)
+      if (auto Written = writeFileAtomically(
+              (fs::path(Path).parent_path() / Name).string(), Bytes);
+          !Written)
+        return Written.error();
+  if (auto Written = writeFileAtomically(Path, Index); !Written)
+    return Written.error();
+  return writtenOf(std::move(*Read), S, D);
 }
 
 /// Every second bit of the result is one of the ten of \p Step, and two of
@@ -148,22 +203,17 @@ Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
   const Writer &W = writerOf(Path);
   const Scene Ordered = W.OrdersByPlace ? inOrderOfPlace(S) : Scene();
   const Scene &Given = W.OrdersByPlace ? Ordered : S;
+  if (!W.Format)
+    return writeSogFolder(Path, Given, D);
   const auto File = W.Format(Given, D);
   if (!File)
     return Error{Path, File.error().What, File.error().Code};
   auto Read = parseScene(Path, std::as_bytes(std::span(*File)));
   if (!Read)
     return Read.error();
-  WrittenScene Result;
-  Result.ShDegree = Read->Gaussians.ShDegree;
-  Result.KeepsDrawing = Read->DrawnAs.drawsAs(D);
-  Scene Kept = std::move(Read->Gaussians);
-  // What the file has no harmonics for, it has zeros for.
-  setShDegree(Kept, S.ShDegree);
-  Result.Lost = differenceOf(Given, Kept);
   if (auto Written = writeFileAtomically(Path, *File); !Written)
     return Written.error();
-  return Result;
+  return writtenOf(std::move(*Read), Given, D);
 }
 
 } // namespace vorion::splat

@@ -69,6 +69,31 @@ TEST(SceneWriter, EachFormatIsReadAsItselfWithinItsSteps) {
   }
 }
 
+TEST(SceneWriter, ASogsFolderIsTheArchivesScene) {
+  const TestFolder Folder;
+  const Scene S = randomScene(300, 1, 6);
+  const std::string Index = Folder.path("meta.json");
+  ASSERT_TRUE(writeScene(Folder.path("s.sog"), S, Drawing()));
+  // Over another one, too.
+  ASSERT_TRUE(writeScene(Index, randomScene(20, 0, 7), Drawing()));
+  const auto W = writeScene(Index, S, Drawing());
+  ASSERT_TRUE(W) << W.error().What;
+  EXPECT_EQ(W->ShDegree, 1);
+  EXPECT_GT(W->Lost.Opacity, 0);
+  const auto Archive = readScene(Folder.path("s.sog"));
+  const auto Read = readScene(Index);
+  ASSERT_TRUE(Archive && Read);
+  EXPECT_EQ(Read->Gaussians.Means, Archive->Gaussians.Means);
+  EXPECT_EQ(Read->Gaussians.LogScales, Archive->Gaussians.LogScales);
+  EXPECT_EQ(Read->Gaussians.Quats, Archive->Gaussians.Quats);
+  EXPECT_EQ(Read->Gaussians.OpacityLogits, Archive->Gaussians.OpacityLogits);
+  EXPECT_EQ(Read->Gaussians.Sh, Archive->Gaussians.Sh);
+  const auto Refused = writeScene(Folder.path("s.meta.json"), S, Drawing());
+  ASSERT_FALSE(Refused);
+  EXPECT_EQ(Refused.error().What,
+            "no name of a SOG's index, expected meta.json");
+}
+
 TEST(SceneWriter, SaysWhetherTheFileTellsHowItIsDrawn) {
   const TestFolder Folder;
   const Scene S = randomScene(4, 0, 3);
