@@ -163,7 +163,9 @@ Expected<Success> setSizes(TransformsFile &T) {
 Expected<Success> addCamera(const std::string &File, CaptureView V, LensOf Of,
                             CaptureCameras &To) {
   V.Pose.Id = static_cast<int>(To.Cameras.size());
-  if (Of == LensOf::Photograph) {
+  // A sphere has no pinhole's picture.
+  if (Of == LensOf::Photograph ||
+      V.Optics.Model == LensModel::Equirectangular) {
     V.Pose.Optics = V.Optics;
     if (!std::ranges::all_of(V.Optics.K, [](double K) {
           return std::abs(K) <= MostLensCoefficient;
@@ -214,6 +216,13 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
     return T.error();
   const fs::path Folder = File.parent_path();
   for (CaptureView &V : T->Views) {
+    if (V.Optics.Model == LensModel::Equirectangular)
+      return Error{File.string(),
+                   fmt::format("frame {} has the camera model EQUIRECTANGULAR, "
+                               "which can be drawn but not trained on, "
+                               "expected photographs of perspective or "
+                               "fisheye cameras",
+                               printable(V.Pose.Name))};
     if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
       return Inside;
     V.Picture = pictureOf(Folder, V.Pose.Name).string();

@@ -1,5 +1,6 @@
 #include "capture/Transforms.h"
 
+#include "io/CameraLens.h"
 #include "io/PlyFile.h"
 #include "vorion/support/Json.h"
 
@@ -39,7 +40,7 @@ private:
   std::optional<double> number(const Json &Frame, const char *Key);
   CameraModel readLens(const Json &Frame);
   void readPose(const Json &Frame, Camera &C);
-  void readIntrinsics(const Json &Frame, Camera &C);
+  void readIntrinsics(const Json &Frame, LensModel Lens, Camera &C);
 
   const std::string &Where;
   const Json &Document;
@@ -70,13 +71,16 @@ CameraModel TransformsReader::readLens(const Json &Frame) {
       (Model && (*Model == "OPENCV_FISHEYE" || *Model == "RADIAL_FISHEYE" ||
                  *Model == "SIMPLE_RADIAL_FISHEYE"));
   const bool Full = Model && *Model == "FULL_OPENCV";
+  if (Model && *Model == "EQUIRECTANGULAR")
+    return {LensModel::Equirectangular, {}};
   constexpr std::array<const char *, 5> Others{
       "PINHOLE", "SIMPLE_PINHOLE", "OPENCV", "RADIAL", "SIMPLE_RADIAL"};
   if (Model && !Fisheye && !Full &&
       std::ranges::none_of(Others,
                            [&](const char *Name) { return *Model == Name; }))
     fail(fmt::format("the camera model {}, expected {}, FULL_OPENCV, "
-                     "OPENCV_FISHEYE, RADIAL_FISHEYE or SIMPLE_RADIAL_FISHEYE",
+                     "OPENCV_FISHEYE, RADIAL_FISHEYE, SIMPLE_RADIAL_FISHEYE or "
+                     "EQUIRECTANGULAR",
                      printable(jsonText(*Model)), fmt::join(Others, ", ")));
   const auto Term = [&](const char *Key) {
     return number(Frame, Key).value_or(0);
@@ -122,7 +126,8 @@ void TransformsReader::readPose(const Json &Frame, Camera &C) {
          "translation, camera to world");
 }
 
-void TransformsReader::readIntrinsics(const Json &Frame, Camera &C) {
+void TransformsReader::readIntrinsics(const Json &Frame, LensModel Lens,
+                                      Camera &C) {
   const auto Fx = number(Frame, "fl_x"), Fy = number(Frame, "fl_y");
   const auto Side = [&](const char *Key) {
     const auto Value = number(Frame, Key);
@@ -134,6 +139,11 @@ void TransformsReader::readIntrinsics(const Json &Frame, Camera &C) {
     }
     return static_cast<int>(*Value);
   };
+  if (Lens == LensModel::Equirectangular) {
+    C.Width = Side("w");
+    C.Height = Side("h");
+    return setSphere(C);
+  }
   if (!Fx) {
     const auto Angle = number(Frame, "camera_angle_x");
     if (!Angle || !(*Angle > 0 && *Angle < 3.14159))
@@ -183,7 +193,7 @@ Expected<TransformsFile> TransformsReader::read() {
         fail("key mask_path is wrong, expected a file's name");
     }
     readPose(Frame, V.Pose);
-    readIntrinsics(Frame, V.Pose);
+    readIntrinsics(Frame, V.Optics.Model, V.Pose);
     T.Views.push_back(std::move(V));
   }
   View.clear();

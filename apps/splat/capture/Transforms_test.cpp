@@ -2,6 +2,7 @@
 
 #include "capture/CaptureTest.h"
 
+#include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -78,6 +79,23 @@ TEST(Transforms, LensesAreOfTheFileOrAFrame) {
   EXPECT_TRUE(LensesOf([](Json &J) { J["k1"] = 0; }).first.isPinhole());
 }
 
+TEST(Transforms, ASphereNeedsNoFocalLength) {
+  Json J = sample();
+  J["camera_model"] = "EQUIRECTANGULAR";
+  J.erase("fl_x");
+  const auto T = parsed(J.dump());
+  ASSERT_TRUE(T) << T.error().What;
+  EXPECT_EQ(T->Views[0].Optics, (CameraModel{LensModel::Equirectangular, {}}));
+  const Camera &C = T->Views[0].Pose;
+  EXPECT_EQ(C.Fx, C.Width / (2 * M_PI));
+  EXPECT_EQ(C.Cy, 0.5 * C.Height);
+  J.erase("w");
+  const auto NoSize = parsed(J.dump());
+  ASSERT_FALSE(NoSize);
+  EXPECT_NE(NoSize.error().What.find("key w is missing or wrong"),
+            std::string::npos);
+}
+
 TEST(Transforms, EachKindOfDamageHasItsMessage) {
   const struct {
     std::function<void(Json &)> Change;
@@ -91,8 +109,8 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
        "frame 1 has no file_path"},
       {[](Json &J) { J["k1"] = "much"; },
        "frame pictures/a0.png: key k1 is wrong, expected a finite number"},
-      {[](Json &J) { J["camera_model"] = "EQUIRECTANGULAR"; },
-       "frame pictures/a0.png: the camera model \"EQUIRECTANGULAR\", expected "
+      {[](Json &J) { J["camera_model"] = "FISHEYE624"; },
+       "frame pictures/a0.png: the camera model \"FISHEYE624\", expected "
        "PINHOLE, SIMPLE_PINHOLE, OPENCV"},
       {[](Json &J) {
          J["is_fisheye"] = true;

@@ -36,12 +36,8 @@ public:
       return Problem;
     Optics = simplified(Optics);
     C.Optics = Optics;
-    if (Optics.Model == LensModel::Equirectangular) {
-      C.Fx = C.Width / (2 * M_PI);
-      C.Fy = C.Height / M_PI;
-      C.Cx = 0.5 * C.Width;
-      C.Cy = 0.5 * C.Height;
-    }
+    if (Optics.Model == LensModel::Equirectangular)
+      setSphere(C);
     return std::nullopt;
   }
 
@@ -162,6 +158,13 @@ private:
 };
 
 } // namespace
+
+void setSphere(Camera &C) {
+  C.Fx = C.Width / (2 * M_PI);
+  C.Fy = C.Height / M_PI;
+  C.Cx = 0.5 * C.Width;
+  C.Cy = 0.5 * C.Height;
+}
 
 std::optional<std::string> readLens(const KeyFinder &Find, Camera &C) {
   return LensReader(Find).read(C);

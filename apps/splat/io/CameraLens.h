@@ -22,4 +22,8 @@ using KeyFinder = std::function<const nlohmann::json *(const char *Key)>;
 /// equirectangular, focal lengths and principal point are set from the size.
 std::optional<std::string> readLens(const KeyFinder &Find, Camera &C);
 
+/// Gives the equirectangular \p C, whose size is there, its focal lengths and
+/// principal point: it sees the full sphere.
+void setSphere(Camera &C);
+
 } // namespace vorion::splat

@@ -4,7 +4,7 @@
 usage: distorted.py CAMERAS.json FOLDER
 
 FOLDER/NAME is a capture of one view, `a.png`, whose photograph is not there; FOLDER/own.json has the same lenses, one
-view each. NAME is a model of COLMAP's in small letters, or nerfstudio, nerfstudio-fisheye and nerfstudio-full.
+view each. NAME is a model of COLMAP's in small letters, or nerfstudio, nerfstudio-fisheye and so on.
 """
 
 import json
@@ -32,6 +32,7 @@ TRANSFORMS = {
     "nerfstudio": ({**BROWN, "k3": K3, "k4": K4}, {**BROWN, "k3": K3, "r8": K4}),
     "nerfstudio-fisheye": ({**RADIAL, "k3": K3, "k4": K4, "is_fisheye": True}, FISH),
     "nerfstudio-full": (FULL, FULL),
+    "nerfstudio-sphere": ({"camera_model": "EQUIRECTANGULAR"}, {"camera_model": "EQUIRECTANGULAR"}),
 }
 
 
