@@ -1,5 +1,8 @@
 #include "timing/Clock.h"
 
+#include "timing/DatapathUnits.h"
+#include "timing/dram/TimingTable.h"
+
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -12,6 +15,13 @@ namespace {
 constexpr size_t LongestBacklog = 1 << 20;
 /// Fewer than this in all traces are left until the next sync point.
 constexpr size_t FewestTaken = 1 << 12;
+
+/// The standard's name where it has one, which lives as long as reports do.
+std::string_view dramName(std::string_view Standard) {
+  const auto Names = dram::standards();
+  const auto Known = std::ranges::find(Names, Standard);
+  return Known == Names.end() ? "of a file" : *Known;
+}
 } // namespace
 
 Clock::Clock(const Config &C)
@@ -202,10 +212,11 @@ void Clock::collectActivities(TimeReport &R) const {
     Add("core warp instructions", name(static_cast<OpClass>(K)), Warp);
     Add("core lane instructions", name(static_cast<OpClass>(K)), Lane);
   }
-  uint64_t Lines = 0, Conflicts = 0, L1Hits = 0, Stale = 0;
+  uint64_t Lines = 0, Conflicts = 0, LocalLanes = 0, L1Hits = 0, Stale = 0;
   for (const CoreClock &C : Cores) {
     Lines += C.linesRequested();
     Conflicts += C.localConflicts();
+    LocalLanes += C.localLanes();
     L1Hits += C.l1Hits();
     Stale += C.staleLoads();
   }
@@ -222,15 +233,8 @@ void Clock::collectActivities(TimeReport &R) const {
   }
   R.StaleLoads = Stale;
   Add("local memory", "conflict cycles", Conflicts);
-  RasterTime Raster;
-  for (const RasterTime &T : R.Rasters) {
-    Raster.Commands += T.Commands;
-    Raster.Gaussians += T.Gaussians;
-    Raster.LaneSlots += T.LaneSlots;
-  }
-  Add("rasterizer", "commands", Raster.Commands);
-  Add("rasterizer", "gaussians fetched", Raster.Gaussians);
-  Add("rasterizer", "pixels evaluated", Raster.LaneSlots);
+  Add("local memory", "lane accesses", LocalLanes);
+  collectRasters(R);
   CacheTime L2;
   for (const CacheTime &T : R.L2) {
     L2.Reads += T.Reads;
@@ -250,6 +254,72 @@ void Clock::collectActivities(TimeReport &R) const {
   Add("dram", "write bursts", R.Dram.Writes);
   Add("dram", "activations", R.Dram.Activations);
   Add("dram", "refreshes", R.Dram.Refreshes);
+  collectTimes(R);
+}
+
+/// What rasterizers and pixel units did.
+void Clock::collectRasters(TimeReport &R) const {
+  const auto Add = [&R](std::string_view Unit, std::string_view Event,
+                        uint64_t Count) {
+    R.Activities.push_back({Unit, Event, Count});
+  };
+  RasterTime Raster;
+  for (const RasterTime &T : R.Rasters) {
+    Raster.Commands += T.Commands;
+    Raster.Gaussians += T.Gaussians;
+    Raster.LaneSlots += T.LaneSlots;
+  }
+  Add("rasterizer", "commands", Raster.Commands);
+  Add("rasterizer", "gaussians fetched", Raster.Gaussians);
+  Add("rasterizer", "pixels evaluated", Raster.LaneSlots);
+  RasterClock::LaneWork Work;
+  for (const RasterClock &C : Rasters)
+    Work += C.laneWork();
+  Add("rasterizer", "pixels blended", Work.allBlended());
+  Add("rasterizer", "pixels loaded or stored", Work.Moved);
+  for (uint8_t N = 0; N != raster::ExpUnitCount; ++N)
+    Add("rasterizer exponential", expUnitName(N), Work.Evaluated[N]);
+  for (uint8_t N = 0; N != raster::BlendUnitCount; ++N)
+    Add("rasterizer blend", blendUnitName(N), Work.Blended[N]);
+  Add("rasterizer gradients", "pixels", Work.Gradients);
+  PixelTime Tails;
+  for (const PixelTime &T : R.PixelUnits) {
+    Tails.Tails += T.Tails;
+    Tails.Visits += T.Visits;
+  }
+  Add("pixel unit", "tails", Tails.Tails);
+  Add("pixel unit", "visits", Tails.Visits);
+}
+
+/// What there is for as long as the run takes, in cycles of each.
+void Clock::collectTimes(TimeReport &R) const {
+  const auto Add = [&R](std::string_view Event, uint64_t Count) {
+    R.Activities.push_back({"time", Event, Count});
+  };
+  const auto Each = [&R](uint64_t Number) { return Number * R.Cycles; };
+  Add("cores", Each(Shape.cores()));
+  Add("core lanes", Each(uint64_t{Shape.cores()} * Shape.LanesPerWarp));
+  Add("rasterizers", Each(Shape.sockets()));
+  Add("rasterizer lanes",
+      Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
+  Add("pixel unit lanes", Each(uint64_t{Shape.Clusters} * Timing.Pixel.Lanes));
+  uint64_t Rasterizing = 0, Tailing = 0;
+  for (const RasterTime &T : R.Rasters)
+    Rasterizing += R.Cycles - T.Cycles[size_t(RasterCycle::Idle)];
+  for (const PixelTime &T : R.PixelUnits)
+    Tailing += R.Cycles - T.Cycles[size_t(PixelCycle::Idle)];
+  Add("busy rasterizers", Rasterizing);
+  Add("busy pixel units", Tailing);
+  Add("KiB of instruction caches",
+      Each(uint64_t{Shape.sockets()} * Timing.Socket.IcacheKib));
+  Add("KiB of data caches",
+      Each(uint64_t{Shape.cores()} * Timing.Core.DcacheKib));
+  Add("KiB of local memories",
+      Each(uint64_t{Shape.cores()} * (Shape.LocalBytes / 1024)));
+  Add("KiB of the L2", Each(uint64_t{Shape.Clusters} * Timing.L2.Kib));
+  Add("KiB of the llc", Each(Timing.Llc.Kib));
+  R.Activities.push_back({"dram channels", dramName(Timing.Dram.Standard),
+                          Each(Timing.Dram.Channels)});
 }
 
 void Clock::update(unsigned Who) {

@@ -83,6 +83,8 @@ private:
   bool coresAreDone() const;
   uint64_t coresQuietAt() const;
   void collectActivities(TimeReport &R) const;
+  void collectRasters(TimeReport &R) const;
+  void collectTimes(TimeReport &R) const;
 
   const Config &Shape;
   const TimingConfig &Timing;

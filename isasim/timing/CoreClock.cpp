@@ -50,7 +50,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
   ToldUntil = Start;
   Serial = 0;
   Classes = {};
-  LinesRequested = LocalConflicts = L1Hits = StaleLoads = 0;
+  LinesRequested = LocalConflicts = LocalLanes = L1Hits = StaleLoads = 0;
   spend(CoreCycle::Start, Timing.StartCycles);
   if (Watch)
     tell(nullptr);
@@ -304,6 +304,7 @@ uint64_t CoreClock::localAccess(const OpInfo &O, AccessWord A) {
   UnitFree[size_t(Port::Lsu)] =
       Next + std::max<uint64_t>(A.Conflicts, O.Interval);
   LocalConflicts += A.Conflicts - 1;
+  LocalLanes += Lanes;
   setReady(O.Rd, Done + O.Latency, CoreCycle::Local);
   setReady(O.HighRd, Done + O.Latency, CoreCycle::Local);
   finish(O);

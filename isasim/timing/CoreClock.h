@@ -140,6 +140,8 @@ public:
   }
   uint64_t linesRequested() const { return LinesRequested; }
   uint64_t localConflicts() const { return LocalConflicts; }
+  /// Accesses to local memory, each once for every active lane.
+  uint64_t localLanes() const { return LocalLanes; }
   uint64_t l1Hits() const { return L1Hits; }
   uint64_t staleLoads() const { return StaleLoads; }
 
@@ -257,7 +259,7 @@ private:
   uint64_t ToldUntil = 0;
   uint64_t Serial = 0; ///< of the next instruction, if there are observers
   std::array<ClassCount, size_t(OpClass::Count)> Classes{};
-  uint64_t LinesRequested = 0, LocalConflicts = 0, L1Hits = 0;
+  uint64_t LinesRequested = 0, LocalConflicts = 0, LocalLanes = 0, L1Hits = 0;
   uint64_t StaleLoads = 0;
 };
 

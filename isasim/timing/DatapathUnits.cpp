@@ -109,6 +109,9 @@ std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units) {
   return laneOf(Units);
 }
 
+std::string_view expUnitName(uint8_t Exp) { return ExpParts[Exp].Name; }
+std::string_view blendUnitName(uint8_t Blend) { return BlendParts[Blend].Name; }
+
 std::span<const DatapathUnit> backwardUnits(unsigned Reciprocal) {
   static const std::vector<BackwardPair> Pairs = [] {
     std::vector<BackwardPair> All;

@@ -31,6 +31,12 @@ struct DatapathUnit {
 /// the first.
 std::span<const DatapathUnit> datapathUnits(raster::LaneUnits Units);
 
+/// \name Names of units, by the numbers of vr_options
+/// @{
+std::string_view expUnitName(uint8_t Exp);
+std::string_view blendUnitName(uint8_t Blend);
+/// @}
+
 /// Cycles from giving a pixel to a lane until its new value is stored.
 unsigned laneDepth(raster::LaneUnits Units);
 

@@ -4,6 +4,7 @@
 #include "timing/DatapathUnits.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace vorion::isasim {
 
@@ -12,6 +13,14 @@ using raster::GaussianWork;
 namespace {
 constexpr unsigned TableSide = raster::VR_MAX_TILE + 1;
 constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
+
+/// Of a command that was refused, units may not exist.
+size_t expOf(raster::LaneUnits U) {
+  return U.Exp < raster::ExpUnitCount ? U.Exp : 0;
+}
+size_t blendOf(raster::LaneUnits U) {
+  return U.Blend < raster::BlendUnitCount ? U.Blend : 0;
+}
 
 RasterTiming inPairs(RasterTiming P) {
   P.Lanes = std::max(1U, P.Lanes / 2);
@@ -73,6 +82,7 @@ void RasterClock::begin(uint64_t Start) {
     At = std::max(At, DispatchAt);
   Ledger.begin(Start);
   Spent = {};
+  OfLanes = {};
 }
 
 void RasterClock::reset() {
@@ -188,6 +198,11 @@ void RasterClock::take() {
   const uint64_t Begun = At + Timing.StartCycles;
   // The whole tile is cleared, a row of banks at a time.
   const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
+  OfLanes.Moved += Pixels;
+  if (Work.What.IsBackward)
+    OfLanes.Gradients += Work.Counts.Blends;
+  else
+    OfLanes.Blended[blendOf(Work.What.Units)] += Work.Counts.Blends;
   spend(RasterCycle::Begin,
         Timing.StartCycles + (Pixels + Timing.Banks - 1) / Timing.Banks);
   Fetch.begin(Begun);
@@ -297,6 +312,7 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
   InLanes[NextInLanes] = {G, DispatchAt, Cycles};
   NextInLanes = (NextInLanes + 1) % Recent;
   Spent.LaneSlots += G.Slots;
+  OfLanes.Evaluated[expOf(Work.What.Units)] += G.Slots;
   spend(RasterCycle::Blend, std::max<uint64_t>(Cycles, Timing.ClipCycles));
 }
 
@@ -356,6 +372,7 @@ void RasterClock::drain(MemorySystem &Memory) {
   Fetch.beginSet(GaussianFetch::Others);
   Fetch.line(Memory, GaussianFetch::Others, Line,
              Bytes == TimingLineBytes ? CacheOp::WriteWhole : CacheOp::Write);
+  OfLanes.Moved += Bytes / PixelBytes;
   DrainByte += Bytes;
   if (DrainByte == RowBytes) {
     DrainByte = 0;
@@ -417,6 +434,21 @@ RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
   Now = More ? Stage::Take : Stage::Idle;
   At = More ? DispatchAt : Turn::Never;
   return {Serving, Work.HandedOver};
+}
+
+RasterClock::LaneWork &
+RasterClock::LaneWork::operator+=(const LaneWork &Other) {
+  for (size_t N = 0; N != Evaluated.size(); ++N)
+    Evaluated[N] += Other.Evaluated[N];
+  for (size_t N = 0; N != Blended.size(); ++N)
+    Blended[N] += Other.Blended[N];
+  Gradients += Other.Gradients;
+  Moved += Other.Moved;
+  return *this;
+}
+
+uint64_t RasterClock::LaneWork::allBlended() const {
+  return std::accumulate(Blended.begin(), Blended.end(), uint64_t{0});
 }
 
 void RasterClock::end(uint64_t End) {

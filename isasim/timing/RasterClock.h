@@ -3,6 +3,7 @@
 #pragma once
 
 #include "raster/RasterAgent.h"
+#include "raster/UnitTables.h"
 #include "raster/WorkLog.h"
 #include "timing/CycleLedger.h"
 #include "timing/GaussianFetch.h"
@@ -100,6 +101,18 @@ public:
   /// The run ended at \p End.
   void end(uint64_t End);
   const RasterTime &time() const { return Spent; }
+  /// What its lanes and its pixel buffer did, for models of energy. What was
+  /// blended counts when its command is taken.
+  struct LaneWork {
+    std::array<uint64_t, raster::ExpUnitCount> Evaluated{};
+    std::array<uint64_t, raster::BlendUnitCount> Blended{};
+    uint64_t Gradients = 0; ///< of pixels, in the backward mode
+    uint64_t Moved = 0; ///< pixels cleared, loaded or stored with their tile
+
+    LaneWork &operator+=(const LaneWork &Other);
+    uint64_t allBlended() const;
+  };
+  const LaneWork &laneWork() const { return OfLanes; }
 
 private:
   struct Agent {
@@ -167,6 +180,7 @@ private:
 
   CycleLedger<RasterCycle> Ledger;
   RasterTime Spent;
+  LaneWork OfLanes;
   const TimeWatch *Watch = nullptr;
 };
 

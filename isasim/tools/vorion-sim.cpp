@@ -5,6 +5,7 @@
 #include "tools/Launch.h"
 #include "tools/RegionRun.h"
 #include "tools/Signature.h"
+#include "vorion/isasim/Energy.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
 #include "vorion/support/CommandLine.h"
@@ -33,7 +34,11 @@ struct Options {
   std::optional<uint64_t> MaxInstructions;
   std::optional<unsigned> Threads, ClockMhz;
   bool PrintDefaultConfig = false, PrintSchema = false, ListKernels = false,
-       Time = false, PrintTiming = false;
+       Time = false, PrintTiming = false, PrintEnergy = false,
+       PrintTechnology = false;
+  bool Energy = false;
+  std::string TechnologyFile;
+  std::optional<double> Volts;
   bool OneHart = false;
 };
 
@@ -49,6 +54,28 @@ Expected<std::string> readText(const std::string &Path) {
 std::string orVariable(const std::string &Given, const char *Variable) {
   const char *Text = std::getenv(Variable);
   return Given.empty() && Text ? Text : Given;
+}
+
+/// Naming a technology or a voltage asks, too.
+bool wantsEnergy(const Options &O) {
+  return O.Energy || !O.TechnologyFile.empty() || O.Volts;
+}
+
+/// Nothing if nobody wants to know.
+Expected<std::optional<EnergyModel>> makeEnergyModel(const Options &O,
+                                                     const Config &C) {
+  if (!wantsEnergy(O))
+    return std::optional<EnergyModel>();
+  const Expected<Technology> From =
+      O.TechnologyFile.empty() ? Expected<Technology>(defaultTechnology())
+                               : readTechnology(O.TechnologyFile);
+  if (!From)
+    return From.error();
+  Expected<EnergyModel> Made =
+      EnergyModel::create(*From, C.Timing.ClockMhz, O.Volts);
+  if (!Made)
+    return Made.error();
+  return std::optional(std::move(*Made));
 }
 
 Expected<Success> changeValues(Config &C, const Options &O) {
@@ -82,7 +109,7 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
         C.LanesPerWarp = 1;
   if (const Expected<Success> Ok = changeValues(C, O); !Ok)
     return Ok.error();
-  C.Timing.Enabled |= O.Time || O.Watch.needClock();
+  C.Timing.Enabled |= O.Time || wantsEnergy(O) || O.Watch.needClock();
   if (O.ClockMhz)
     C.Timing.ClockMhz = *O.ClockMhz;
   if (O.MaxInstructions)
@@ -127,6 +154,7 @@ Expected<Success> claimFiles(const Options &O, const KernelRequest &Request) {
   Outputs.push_back({"--signature", O.SignatureFile});
   std::vector<NamedFile> Inputs{{"the program", O.Program},
                                 {"--config", O.ConfigText},
+                                {"--technology", O.TechnologyFile},
                                 {"--args", O.ArgsFile}};
   for (const std::string &Text : Request.Args)
     if (const Expected<KernelInput> In = parseInput(Text)) {
@@ -206,9 +234,22 @@ int lastWord(int Code, const Session &Watch) {
                                            : ExitCode::Ok);
 }
 
+/// What the run took in joules.
+Expected<Success> printEnergy(const TimeReport &Time, const EnergyModel &By) {
+  EnergyWork Work{Time.Cycles, Time.ClockMhz, {}};
+  for (const Activity &A : Time.Activities)
+    Work.Events.push_back({A.Unit, A.Event, A.Count});
+  const Expected<Energy> Spent = By.energyOf(Work);
+  if (!Spent)
+    return Spent.error();
+  printOut("{}", toText(*Spent, By.technology()));
+  return Success{};
+}
+
 /// Reports and gives the exit code; \p Launch may be nullptr.
 int finish(const RunResult &R, const Options &O, const Machine &M,
-           const KernelLaunch *Launch, Session &Watch) {
+           const KernelLaunch *Launch, const std::optional<EnergyModel> &Energy,
+           Session &Watch) {
   int Code = reportOutcome(R, O);
   // A program that did not end leaves no results.
   if (Launch && Code == 0)
@@ -216,6 +257,9 @@ int finish(const RunResult &R, const Options &O, const Machine &M,
       Code = reportError(Tool, Ok.error());
   if (R.Time)
     printOut("{}", toText(*R.Time));
+  if (R.Time && Energy)
+    if (const Expected<Success> Ok = printEnergy(*R.Time, *Energy); !Ok)
+      Code = reportError(Tool, Ok.error());
   const bool Ended = R.End == Outcome::Done || R.End == Outcome::GuestFailed;
   if (Ended && !O.SignatureFile.empty())
     if (const Expected<Success> Ok =
@@ -242,6 +286,8 @@ const char *notForRegions(const Options &O, const KernelRequest &Request) {
     return "--signature";
   if (O.ListKernels)
     return "--list-kernels";
+  if (wantsEnergy(O))
+    return "--energy";
   // A region does not say where buffers lie.
   return O.Watch.Check.empty() ? nullptr : "--check";
 }
@@ -281,6 +327,9 @@ int run(const Options &O) {
   const Expected<Config> C = makeConfig(O, defaultMachine());
   if (!C)
     return reportError(Tool, C.error());
+  const auto Energy = makeEnergyModel(O, *C);
+  if (!Energy)
+    return reportError(Tool, Energy.error());
   const Expected<KernelRequest> Request = makeRequest(O);
   if (!Request)
     return reportError(Tool, Request.error());
@@ -314,14 +363,15 @@ int run(const Options &O) {
   (*Watch)->attach(**M);
   if (Request->WorkDim == 0) {
     (*Watch)->runBegins("", 0);
-    return finish((*M)->run(), O, **M, nullptr, **Watch);
+    return finish((*M)->run(), O, **M, nullptr, *Energy, **Watch);
   }
   const Expected<KernelLaunch> Launch =
       KernelLaunch::prepare(**M, *Request, **Watch);
   if (!Launch)
     return reportError(Tool, Launch.error());
   (*Watch)->runBegins(Launch->kernel(), Launch->launchBlock());
-  return finish((*M)->run(Launch->launchBlock()), O, **M, &*Launch, **Watch);
+  return finish((*M)->run(Launch->launchBlock()), O, **M, &*Launch, *Energy,
+                **Watch);
 }
 
 /// An option of SessionOptions.def. One that may stand alone takes a value as
@@ -418,6 +468,21 @@ void declare(CLI::App &App, Options &O) {
                  "the machine's clock for --time (default: 530)")
       ->type_name("MHZ")
       ->check(quietly(CLI::Range(1U, 100000U)));
+  App.add_flag("--energy", O.Energy,
+               "say how much energy the run takes (docs/energy.md; turns\n"
+               "--time on)");
+  takesFile(App.add_option("--technology", O.TechnologyFile,
+                           "energies and areas for --energy (default: 16 nm)"),
+            {".json"});
+  App.add_option("--voltage", O.Volts,
+                 "the chip's for --energy (default: what the clock needs)")
+      ->type_name("V")
+      ->check(quietly(CLI::Range(0.1, 5.0)));
+  App.add_flag("--print-technology", O.PrintTechnology,
+               "print the default technology, to start one's own from, and "
+               "exit");
+  App.add_flag("--print-energy-parameters", O.PrintEnergy,
+               "print what --energy goes by, with sources, and exit");
   App.add_option("--max-instructions", O.MaxInstructions,
                  "end the run after N warp instructions")
       ->type_name("N");
@@ -466,6 +531,14 @@ int mainOf(int Argc, char **Argv) {
   }
   if (O.PrintTiming) {
     printOut("{}", timingMarkdown());
+    return 0;
+  }
+  if (O.PrintTechnology) {
+    printOut("{}", defaultTechnologyText());
+    return 0;
+  }
+  if (O.PrintEnergy) {
+    printOut("{}", energyMarkdown(defaultTechnology()));
     return 0;
   }
   if (O.Program.empty())

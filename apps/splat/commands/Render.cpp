@@ -1,6 +1,7 @@
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
+#include "commands/EnergyArguments.h"
 #include "commands/HeatMapFiles.h"
 #include "commands/LayerOptions.h"
 #include "commands/NumericsReport.h"
@@ -46,6 +47,7 @@ struct RenderArguments : DrawArguments {
   std::string Explain; ///< empty, "plan" or "measure"
   bool Time = false, Overlap = false;
   std::optional<unsigned> ClockMhz;
+  EnergyArguments Energy;
   PictureFormat Format;
   std::string Numerics; ///< settings, empty for no
   std::string HeatMap;  ///< what names of files begin with, empty for no
@@ -107,8 +109,9 @@ Expected<Success> check(const RenderArguments &A) {
                                  {"--write-cameras", A.CamerasOut}});
   const std::vector<NamedFile> Layers = A.Layers.named();
   Outputs.insert(Outputs.end(), Layers.begin(), Layers.end());
-  return claimOutputs(
-      Outputs, {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras.File}});
+  return claimOutputs(Outputs, {{"the scene", A.Scene.Path},
+                                {"--cameras", A.Cameras.File},
+                                {"--technology", A.Energy.Technology}});
 }
 
 RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
@@ -123,9 +126,10 @@ RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
 void fallBack(const RenderArguments &A, const Launcher &L,
               const EffectInputs &In, RenderPlan &Plan) {
   // The counts of a frame must not depend on what was compiled before.
-  const bool FiguresWanted =
-      !A.Json.empty() || !A.Explain.empty() || !A.Numerics.empty() ||
-      !A.HeatMap.empty() || !A.Html.empty() || A.Time || A.ClockMhz.has_value();
+  const bool FiguresWanted = !A.Json.empty() || !A.Explain.empty() ||
+                             !A.Numerics.empty() || !A.HeatMap.empty() ||
+                             !A.Html.empty() || A.Time || A.Energy.isWanted() ||
+                             A.ClockMhz.has_value();
   if (A.Request.Selection != EffectRequest::Mode::Auto || FiguresWanted)
     return;
   RenderPlan Cheaper = cheaperFirstFrame(L, Plan, In);
@@ -164,6 +168,18 @@ Expected<Success> writeHtml(const std::string &File, const PictureJob &J,
               : Expected<Success>(Page.error());
 }
 
+Expected<Success> printEnergy(const PictureJob &J,
+                              const std::vector<StageReport> &Stages,
+                              const std::string &What) {
+  if (!J.Energy)
+    return Success{};
+  const auto Text = frameEnergyText(Stages, *J.Energy, What);
+  if (!Text)
+    return Text.error();
+  printOut("{}", *Text);
+  return Success{};
+}
+
 /// \p Map may be nullptr.
 Expected<Success> renderOne(const PictureJob &J, const Camera &C,
                             const HeatMapFiles *Map, const std::string &Html) {
@@ -176,6 +192,8 @@ Expected<Success> renderOne(const PictureJob &J, const Camera &C,
   if (auto Written = writePicture(J, C, *R); !Written)
     return Written;
   printOut("{}", textReport(C, J.Options, J.Launch.device(), *R));
+  if (auto Printed = printEnergy(J, R->Stages, "frame"); !Printed)
+    return Printed;
   if (!Map && Html.empty())
     return Success{};
   auto Report = reportOf(J, J.Output, C, *R);
@@ -223,12 +241,15 @@ Expected<Success> renderAll(const PictureJob &J,
       !Written)
     return Written;
   printOut("{}", sequenceText(*R));
-  return Success{};
+  return printEnergy(J, R->Stages, "all");
 }
 
 Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   if (auto Checked = check(A); !Checked)
     return Checked.error();
+  const auto Energy = requestedEnergy(A.Energy, A.ClockMhz);
+  if (!Energy)
+    return Energy.error();
   const auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
@@ -247,7 +268,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   if (!A.CamerasOut.empty())
     if (auto Written = writeCameras(A.CamerasOut, *Cameras); !Written)
       return Written;
-  if (A.Time || A.ClockMhz || !A.Html.empty())
+  if (A.Time || A.ClockMhz || A.Energy.isWanted() || !A.Html.empty())
     Machine.set("VORION_TIME", A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
@@ -291,9 +312,19 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     return D.error();
   Launcher L(*D, A.KernelFolder, progressOf(Cameras->size()));
   fallBack(A, L, Inputs, Plan);
-  const PictureJob J{
-      A.Scene.Path, A.Scene.Axes, A.Cameras.File, *File,    A.Options, Plan, L,
-      A.Output,     A.Json,       A.Pairs,        A.Layers, A.Format};
+  const PictureJob J{A.Scene.Path,
+                     A.Scene.Axes,
+                     A.Cameras.File,
+                     *File,
+                     A.Options,
+                     Plan,
+                     L,
+                     A.Output,
+                     A.Json,
+                     A.Pairs,
+                     A.Layers,
+                     A.Format,
+                     *Energy};
   auto Rendered =
       isOne(A) ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr, A.Html)
                : renderAll(J, *Cameras, A.Overlap);
@@ -359,6 +390,7 @@ Runner addRender(CLI::App &App) {
                  "The same at this clock (default: the machine's, 530)")
       ->option_text("MHZ")
       ->check(CLI::Range(1U, 100000U));
+  addEnergyOptions(App, A->Energy);
   App.add_flag("--numerics{on}", A->Numerics,
                "Say where fp32 parts from double, by source line and stage of "
                "the rasterizer (docs/debugging.md)")

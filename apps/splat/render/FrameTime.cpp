@@ -12,15 +12,6 @@ namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
 
-namespace {
-
-unsigned launches(const StageReport &S) {
-  return std::accumulate(
-      S.Kernels.begin(), S.Kernels.end(), 0U,
-      [](unsigned Sum, const KernelReport &K) { return Sum + K.Launches; });
-}
-
-/// The sum over the kernels of a stage; nothing unless all were timed.
 std::optional<TimeReport> stageTime(const StageReport &S) {
   std::optional<TimeReport> Sum;
   for (const KernelReport &K : S.Kernels) {
@@ -31,7 +22,6 @@ std::optional<TimeReport> stageTime(const StageReport &S) {
   return Sum;
 }
 
-/// The frame's kernels in one report; nothing unless all were timed.
 std::optional<TimeReport> frameTime(const std::vector<StageReport> &Stages) {
   std::optional<TimeReport> Sum;
   for (const StageReport &S : Stages) {
@@ -43,6 +33,14 @@ std::optional<TimeReport> frameTime(const std::vector<StageReport> &Stages) {
     add(Sum, Time);
   }
   return Sum;
+}
+
+namespace {
+
+unsigned launches(const StageReport &S) {
+  return std::accumulate(
+      S.Kernels.begin(), S.Kernels.end(), 0U,
+      [](unsigned Sum, const KernelReport &K) { return Sum + K.Launches; });
 }
 
 double milliseconds(const TimeReport &T) {

@@ -21,6 +21,12 @@ struct FrameMilliseconds {
 /// Nothing without the clock.
 std::optional<FrameMilliseconds>
 frameMilliseconds(const std::vector<StageReport> &Stages);
+/// \name Sums of a stage's or the frame's kernels; nothing unless all were
+/// timed
+/// @{
+std::optional<TimeReport> stageTime(const StageReport &S);
+std::optional<TimeReport> frameTime(const std::vector<StageReport> &Stages);
+/// @}
 /// The frame's cycles on the machine; 0 without the clock.
 uint64_t frameCycles(const std::vector<StageReport> &Stages);
 

@@ -43,10 +43,28 @@ ViewFacts factsOfAll(const Scene &S, const std::vector<Camera> &Cameras,
   return *All;
 }
 
+/// What --energy adds to a report of these stages.
+static Expected<Success> addEnergy(Json &Report, const PictureJob &J,
+                                   const std::vector<StageReport> &Stages) {
+  if (!J.Energy)
+    return Success{};
+  auto Energy = frameEnergyJson(Stages, *J.Energy);
+  if (!Energy)
+    return Energy.error();
+  if (!Energy->is_null())
+    Report["energy"] = std::move(*Energy);
+  return Success{};
+}
+
 Expected<Json> reportOf(const PictureJob &J, const std::string &Output,
                         const Camera &C, const RenderResult &R) {
-  return jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input,
-                     C, J.Options, J.Plan, J.Launch.device(), R});
+  auto Report =
+      jsonReport({J.ScenePath, J.AxesChange, J.CameraFile, Output, J.Input, C,
+                  J.Options, J.Plan, J.Launch.device(), R});
+  if (Report)
+    if (const auto Added = addEnergy(*Report, J, R.Stages); !Added)
+      return Added.error();
+  return Report;
 }
 
 Expected<RenderResult> drawPicture(const PictureJob &J, const Camera &C) {
@@ -101,6 +119,8 @@ writePictures(const PictureJob &J, const std::vector<Camera> &Cameras,
   All.update({{"overlap", Overlap}, {"pictures", std::move(Reports)}});
   if (Json Time = sequenceJson(R); !Time.is_null())
     All["time"] = std::move(Time);
+  if (const auto Added = addEnergy(All, J, R.Stages); !Added)
+    return Added;
   return writeFileAtomically(J.Json, jsonText(All, 2) + "\n");
 }
 

@@ -1,6 +1,7 @@
 /// Pictures of a scene with their files and reports.
 #pragma once
 
+#include "render/FrameEnergy.h"
 #include "render/Layers.h"
 #include "render/Renderer.h"
 #include "scene/SceneFile.h"
@@ -26,6 +27,7 @@ struct PictureJob {
   LayerFiles Layers;
   /// @}
   PictureFormat Format = {};
+  std::optional<EnergyRequest> Energy = std::nullopt;
 };
 
 /// The facts by which every effect is needed that some view needs.

@@ -61,11 +61,11 @@ splat("analyze", "demo.ply", "--cameras", "demo.json", "--view", "front", "--wid
 splat("render", *view, "-o", "a.npz", "--explain")
 splat("render", *view, "-o", "b.npz", "--path", "simt")
 splat("compare", "a.npz", "b.npz")
-splat("render", *view, "-o", "a.npz", "--time", "--heat-map", "heat")
+splat("render", *view, "-o", "a.npz", "--time", "--energy", "--heat-map", "heat")
 check_file("heat.json")
 os.rename("report.json", "time.json")
 splat("compare", "time.json", "time.json", "--times")
-splat("render", "s.ply", "--cameras", "c.json", "--view", "all", "-o", "v.pfm", "--time")
+splat("render", "s.ply", "--cameras", "c.json", "--view", "all", "-o", "v.pfm", "--time", "--energy")
 with open("c.json", encoding="utf-8") as file:
     camera = json.load(file)[0]
 size = camera["height"], camera["width"]

@@ -1,0 +1,56 @@
+/// Arithmetic whose bits do not depend on the host's math library, whose
+/// functions may differ in the last place from version to version.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+namespace vorion::isasim::stable {
+
+inline double exp(double X) {
+  // exp(X) = exp(X / 2^10)^(2^10); the series is exact enough below 2^-4.
+  const double Small = X / 1024;
+  double Sum = 1;
+  for (int N = 12; N > 0; --N)
+    Sum = 1 + Small * Sum / N;
+  for (int N = 0; N != 10; ++N)
+    Sum *= Sum;
+  return Sum;
+}
+
+/// \p X above 0.
+inline double log(double X) {
+  int Exponent = 0;
+  const double Fraction = std::frexp(X, &Exponent); // exact
+  constexpr double Ln2 = 0.69314718055994530942;
+  // ln f = 2 artanh((f - 1) / (f + 1)), of at most a third.
+  const double T = (Fraction - 1) / (Fraction + 1), T2 = T * T;
+  double Sum = 0;
+  for (int N = 41; N > 0; N -= 2)
+    Sum = Sum * T2 + 1.0 / N;
+  return 2 * T * Sum + Exponent * Ln2;
+}
+
+inline double pow(double X, double Y) { return exp(Y * log(X)); }
+
+/// A draw of a normal distribution that depends on a name and a number alone:
+/// the sum of twelve uniform numbers less 6, whose 5 and 95 % lie 0.2 % off.
+inline double normal(std::string_view Name, uint64_t Number) {
+  uint64_t State = 0xcbf29ce484222325; // FNV-1a of the name
+  for (const char C : Name)
+    State = (State ^ static_cast<unsigned char>(C)) * 0x100000001b3;
+  State += Number * 0xd1342543de82ef95;
+  double Sum = -6;
+  for (int N = 0; N != 12; ++N) { // splitmix64
+    State += 0x9e3779b97f4a7c15;
+    uint64_t Z = State;
+    Z = (Z ^ (Z >> 30)) * 0xbf58476d1ce4e5b9;
+    Z = (Z ^ (Z >> 27)) * 0x94d049bb133111eb;
+    Z ^= Z >> 31;
+    Sum += static_cast<double>(Z >> 11) * 0x1p-53;
+  }
+  return Sum;
+}
+
+} // namespace vorion::isasim::stable

@@ -1,0 +1,47 @@
+# What the instructions of a run are worth, and what is refused;
+# docs/energy.md has the rows that there are.
+# REQUIRES: vorion-mc, vorion-sim
+# RUN: rm -rf %t && mkdir %t
+# RUN: vorion-sim --print-energy-parameters > %t/made
+# RUN: sed -n '/begin of what is made/,/end of what is made/{//!p}' %S/../../docs/energy.md > %t/kept
+# RUN: cmp %t/made %t/kept
+# RUN: sh %S/Inputs/assemble.sh %build %s %t/p.elf
+# RUN: vorion-sim %t/p.elf --energy > %t/first
+# RUN: FileCheck %s --input-file %t/first
+# RUN: vorion-sim %t/p.elf --energy --threads 1 | cmp - %t/first
+# RUN: vorion-sim %t/p.elf --voltage 0.8 | FileCheck %s --check-prefix=VOLTS
+# The default technology can be written, changed and read again.
+# RUN: vorion-sim --print-technology > %t/mine.json
+# RUN: vorion-sim %t/p.elf --technology %t/mine.json | cmp - %t/first
+# RUN: sed 's/"pj": 4.8/"pj": -4.8/' %t/mine.json > %t/negative.json
+# RUN: not vorion-sim %t/p.elf --technology %t/negative.json 2>&1 | FileCheck %s --check-prefix=NEGATIVE
+# RUN: sed '/"tile command"/d' %t/mine.json > %t/missing.json
+# RUN: not vorion-sim %t/p.elf --technology %t/missing.json 2>&1 | FileCheck %s --check-prefix=MISSING
+# RUN: sed 's/"gate"/"gaet"/' %t/mine.json > %t/unknown.json
+# RUN: not vorion-sim %t/p.elf --technology %t/unknown.json 2>&1 | FileCheck %s --check-prefix=UNKNOWN
+# RUN: not vorion-sim %t/p.elf --energy --clock 2000 2>&1 | FileCheck %s --check-prefix=FAST
+# RUN: not vorion-sim %t/p.elf --energy --set timing.dram.standard=hbm2e 2>&1 | FileCheck %s --check-prefix=DRAM
+# CHECK: cycles
+# CHECK: energy mJ 5 % 95 % %
+# CHECK: front end
+# CHECK: arithmetic
+# CHECK: leakage
+# CHECK: dram
+# CHECK: chip
+# CHECK: all
+# CHECK: power: chip {{.*}} W ({{.*}} to {{.*}}), all {{.*}}, 1.150 V, technology 16nm
+# VOLTS: 0.800 V, technology 16nm
+# NEGATIVE: error: {{.*}}negative.json: key energies.instruction fetched.pj is -4.8, expected a number from 0 to
+# MISSING: error: {{.*}}missing.json: key energies.tile command is missing
+# UNKNOWN: error: {{.*}}unknown.json: key areas.gate is missing
+# FAST: error: a clock of 2000 MHz is beyond technology 16nm, whose law ends at 530 MHz, expected --voltage with it
+# DRAM: error: technology 16nm has no currents of the machine's DRAM, 'hbm2e', expected a --technology that has
+  .globl _start
+_start:
+  li a1, 100
+1:
+  mul a2, a1, a1
+  addi a1, a1, -1
+  bnez a1, 1b
+  li a0, 0
+  .insn r 0x0b, 0, 0, x0, a0, x0

@@ -1,0 +1,32 @@
+"""usage: energy_adds_up.py FRAME LOWER-VOLTAGE KERNELS-ALONE: units, stages and kernels of each report add up to the frame; the
+first takes more than the second, and its chip less than the third's."""
+import json
+import sys
+
+
+def near(a, b):
+    assert abs(a - b) <= 1e-9 * max(a, b), (a, b)
+
+
+def energy(file):
+    with open(file, encoding="utf-8") as f:
+        e = json.load(f)["energy"]
+    near(sum(u["joules"]["value"] for u in e["units"]), e["joules"]["value"])
+    near(sum(u["joules"]["value"] for u in e["units"] if u["on_chip"]), e["chip_joules"]["value"])
+    near(sum(u["share"]["value"] for u in e["units"]), 1)
+    for kind in ("joules", "chip_joules"):
+        near(sum(s[kind]["value"] for s in e["stages"]), e[kind]["value"])
+        for s in e["stages"]:
+            near(sum(k[kind]["value"] for k in s["kernels"]), s[kind]["value"])
+    near(e["watts"]["value"] * e["seconds"], e["joules"]["value"])
+    for figure in [e["joules"], e["chip_joules"], *(u["joules"] for u in e["units"])]:
+        assert figure["low"] < figure["value"] < figure["high"], figure
+    off_chip = {"l2", "llc"}
+    near(sum(p["um2"]["value"] for p in e["area"]["parts"] if p["part"] not in off_chip), e["area"]["chip_um2"]["value"])
+    return e
+
+
+frame, lower, kernels = map(energy, sys.argv[1:])
+assert frame["joules"]["value"] > lower["joules"]["value"]
+assert frame["chip_joules"]["value"] < kernels["chip_joules"]["value"]
+assert {u["unit"] for u in frame["units"]} >= {"rasterizer lanes", "rasterizer buffers"}
