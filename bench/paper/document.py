@@ -43,7 +43,7 @@ of a tile and every Gaussian of its list.
 | {DEPENDS} | some view on one core does, and none on the other |
 | {NOT_COMPARABLE} | some do: the figure is a rate, which a workload has, and the paper names none |
 
-Power and area are out of scope.
+Power and area are estimated, not measured ([energy.md](energy.md#the-papers-claims)).
 """
 
 

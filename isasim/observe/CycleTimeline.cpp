@@ -1,5 +1,7 @@
 #include "observe/CycleTimeline.h"
 
+#include "observe/ChipPower.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -15,7 +17,8 @@ enum Process : unsigned {
   OfPixelUnits,
   OfL2,
   OfLlc,
-  OfDram
+  OfDram,
+  OfPower
 };
 
 } // namespace
@@ -37,7 +40,8 @@ CycleTimeline::CycleTimeline(std::FILE *File, const Config &C)
                                  {OfPixelUnits, "pixel units"},
                                  {OfL2, "L2"},
                                  {OfLlc, "last-level cache"},
-                                 {OfDram, "DRAM"}})
+                                 {OfDram, "DRAM"},
+                                 {OfPower, "power"}})
     Out.nameProcess(Id, Name);
   Out.nameThread(OfRuns, 0, "runs");
   for (const std::vector<Row> *Rows : {&Cores, &Rasters, &Pixels})
@@ -172,7 +176,43 @@ void CycleTimeline::writeShare(Row &R) {
   }
 }
 
-void CycleTimeline::runEnded(const std::string &Name) {
+/// What a unit took is spread over the cycles in which it worked, and the rest
+/// over all.
+void CycleTimeline::writePower(const TimeReport &Time) {
+  const ChipEnergy Joules = chipEnergyOf(Time);
+  const size_t Windows = (End - Origin + WindowCycles - 1) / WindowCycles;
+  std::vector<double> Spent(Windows);
+  for (size_t N = 0; N != Windows; ++N)
+    Spent[N] = Joules.Always *
+               static_cast<double>(beginOf(N + 1) - beginOf(N)) /
+               static_cast<double>(End - Origin);
+  const auto Spread = [&](const std::vector<Row> &Rows, size_t Working,
+                          double Energy) {
+    std::vector<double> Cycles(Windows);
+    double All = 0;
+    for (const Row &R : Rows)
+      for (size_t N = 0; N * R.Reasons < R.Cycles.size() && N != Windows; ++N) {
+        const double Worked = R.Cycles[N * R.Reasons + Working];
+        Cycles[N] += Worked;
+        All += Worked;
+      }
+    for (size_t N = 0; N != Windows && All > 0; ++N)
+      Spent[N] += Energy * Cycles[N] / All;
+  };
+  Spread(Cores, size_t(CoreCycle::Issue), Joules.Cores);
+  Spread(Rasters, size_t(RasterCycle::Blend), Joules.Rasterizers);
+  Spread(Pixels, size_t(PixelCycle::Evaluate), Joules.PixelUnits);
+  for (size_t N = 0; N != Windows; ++N) {
+    const double Seconds = static_cast<double>(beginOf(N + 1) - beginOf(N)) /
+                           (1e6 * Time.ClockMhz);
+    const auto Milliwatts = static_cast<uint64_t>(1e3 * Spent[N] / Seconds);
+    if (Milliwatts != ShownPower)
+      Out.counter(OfPower, "chip, mW", beginOf(N), Milliwatts);
+    ShownPower = Milliwatts;
+  }
+}
+
+void CycleTimeline::runEnded(const std::string &Name, const TimeReport *Time) {
   if (End == Origin)
     return;
   Out.slice(OfRuns, 0, Name.empty() ? "run" : Name, Origin, End);
@@ -183,6 +223,8 @@ void CycleTimeline::runEnded(const std::string &Name) {
     for (std::vector<Row> *Rows : {&L2, &Llc, &Channels})
       for (Row &R : *Rows)
         writeShare(R);
+    if (Time)
+      writePower(*Time);
   }
   Out.complete();
   Origin = End;

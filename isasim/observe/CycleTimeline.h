@@ -38,8 +38,8 @@ public:
   void timeEnds(uint64_t Now) override { End = Now; }
 
   /// Writes the run, which is called \p Name, if the clock took it; the file is
-  /// complete.
-  void runEnded(const std::string &Name);
+  /// complete. With \p Time also the chip's power.
+  void runEnded(const std::string &Name, const TimeReport *Time = nullptr);
 
 private:
   /// A row of the picture.
@@ -60,6 +60,7 @@ private:
   void widen();
   void writeUnit(const Row &R);
   void writeShare(Row &R);
+  void writePower(const TimeReport &Time);
   uint64_t beginOf(size_t Window) const {
     return std::min(Origin + Window * WindowCycles, End);
   }
@@ -69,6 +70,7 @@ private:
   std::vector<Row> Cores, Rasters, Pixels;
   std::vector<Row> L2, Llc, Channels;
   const unsigned L2Banks;
+  uint64_t ShownPower = 0;      ///< mW
   uint64_t Origin = 0, End = 0; ///< of the run
   uint64_t WindowCycles = ShortestWindow;
 };

@@ -1,5 +1,6 @@
 #include "observe/CycleTimeline.h"
 
+#include "observe/ChipPower.h"
 #include "vorion/support/Json.h"
 
 #include <array>
@@ -137,6 +138,33 @@ TEST_F(CycleTimelineTest, ABankHasAFigureThatIsToldWhenItChanges) {
     }
   EXPECT_EQ(Told, (std::vector<std::pair<uint64_t, uint64_t>>{
                       {0, 50}, {32, 0}, {48, 25}}));
+}
+
+TEST_F(CycleTimelineTest, PowerFollowsTheWorkAndAddsUpToTheEnergy) {
+  Times->timeBegins(0);
+  spend(0, CoreCycle::Issue, 0, 16);
+  spend(0, CoreCycle::Memory, 16, 64);
+  Times->timeEnds(64);
+  TimeReport T;
+  T.Cycles = 64;
+  T.ClockMhz = 500;
+  T.Activities = {{"core lane instructions", "fma", 1'000'000},
+                  {"time", "cores", 6400}};
+  Times->runEnded("add", &T);
+  std::vector<std::pair<uint64_t, uint64_t>> Told;
+  for (const Json &E : events())
+    if (E["ph"] == "C" && E["name"] == "chip, mW")
+      Told.emplace_back(E["ts"], E["args"]["value"]);
+  ASSERT_EQ(Told.size(), 2U);
+  EXPECT_EQ(Told[0].first, 0U);
+  EXPECT_EQ(Told[1].first, 16U);
+  EXPECT_GT(Told[0].second, 10 * Told[1].second);
+  EXPECT_GT(Told[1].second, 0U);
+  const ChipEnergy E = chipEnergyOf(T);
+  const double Seconds = 16 / 500e6;
+  EXPECT_NEAR(static_cast<double>(Told[0].second + 3 * Told[1].second) * 1e-3 *
+                  Seconds,
+              E.Cores + E.Always, 4e-3 * Seconds);
 }
 
 TEST_F(CycleTimelineTest, RunsFollowEachOther) {

@@ -139,9 +139,9 @@ public:
       InCycles.emplace(File.stream(), M.config());
   }
   Expected<Success> runEnded(const std::string &Name,
-                             const RunResult &) override {
+                             const RunResult &R) override {
     if (InCycles)
-      InCycles->runEnded(Name);
+      InCycles->runEnded(Name, R.Time ? &*R.Time : nullptr);
     return File.complete();
   }
 

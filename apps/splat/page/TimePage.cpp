@@ -71,8 +71,9 @@ Expected<std::string> timePageOf(const std::vector<TimeRun> &Runs,
                                          Key)};
       Report[Key] = R.Report[Key];
     }
-    if (R.Report.contains("heat_map"))
-      Report["heat_map"] = R.Report["heat_map"];
+    for (const char *Key : {"heat_map", "energy"})
+      if (R.Report.contains(Key))
+        Report[Key] = R.Report[Key];
     All.push_back({{"name", R.Name},
                    {"report", std::move(Report)},
                    {"picture", R.Picture.empty() ? Json(nullptr)

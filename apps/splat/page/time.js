@@ -166,6 +166,28 @@ function drawStages() {
   byId('stages').tBodies[0].replaceChildren(...stageNames.map(name => stageRow(name, runs.map(r => stageOf(r, name)?.time))), total);
 }
 
+// A figure in mJ with the interval of 90 % of the draws.
+const millijoules = e => e ? `${number(1e3 * e.value, 3)} (${number(1e3 * e.low, 3)} to ${number(1e3 * e.high, 3)})` : '—';
+
+// What --energy says, of the runs that have it.
+function drawEnergy() {
+  const energies = runs.map(r => r.report.energy);
+  const known = energies.filter(e => e);
+  byId('energy-section').hidden = !known.length;
+  if (!known.length) return;
+  byId('energy-note').textContent = `mJ of the frame's kernels, with 5 and 95 % of the draws. ` + energies.map((e, n) => e ?
+    `${letter(n) ? letter(n) + ': ' : ''}technology ${e.technology} at ${number(e.volts, 3)} V, ${number(e.chip_watts.value, 2)} W of the chip, ` +
+    `whose area is ${number(e.area.chip_um2.value / 1e6, 1)} mm².` : '').join(' ');
+  byId('energies').tHead.replaceChildren(rowOf(['unit', ...runs.flatMap((_, n) => [`mJ ${letter(n)}`.trim(), `% ${letter(n)}`.trim()])], 'th'));
+  const row = (name, of, share) => rowOf([name, ...energies.flatMap(e => e ? [millijoules(of(e)), number(100 * share(e), 1)] : ['—', '—'])]);
+  const unitOf = (e, name) => e.units.find(u => u.unit === name);
+  const names = [...new Set(known.flatMap(e => e.units.map(u => u.unit)))];
+  const all = row('all', e => e.joules, () => 1);
+  all.className = 'total';
+  byId('energies').tBodies[0].replaceChildren(...names.map(name => row(name, e => unitOf(e, name)?.joules, e => unitOf(e, name)?.share.value ?? 0)),
+    row('chip', e => e.chip_joules, e => e.chip_joules.value / e.joules.value), all);
+}
+
 function drawChanges() {
   byId('changes-section').hidden = !data.changes;
   if (!data.changes) return;
@@ -198,6 +220,7 @@ function draw() {
   drawReasons();
   drawMaps();
   drawStages();
+  drawEnergy();
   drawChanges();
 }
 
@@ -215,6 +238,9 @@ function tryOut() {
   if (rows !== stageNames.length + 1) throw new Error('not a row a stage');
   const drawn = charts.timeline.data.datasets.reduce((sum, d) => sum + d.data[0], 0);
   if (Math.abs(drawn / runs[0].report.time.frame_ms - 1) > 1e-6) throw new Error('the stages are not the frame');
+  for (const { energy } of runs.map(r => r.report))
+    if (energy && Math.abs(energy.units.reduce((sum, u) => sum + u.joules.value, 0) / energy.joules.value - 1) > 1e-6)
+      throw new Error('the units are not all energy');
   if (document.body.innerText.includes('NaN')) throw new Error('something is not a number');
   return `${rows} rows`;
 }

@@ -17,6 +17,9 @@ for event in timeline["traceEvents"]:
         else:
             names[pid, event["tid"]] = event["args"]["name"]
     elif event["ph"] == "C":
+        if groups[pid] == "power":  # in mW; the rest is in per cent
+            assert event["args"]["value"] > 0, event
+            continue
         assert 0 <= event["args"]["value"] <= 100, event
         figures[groups[pid], event["name"]].append((event["ts"], event["args"]["value"]))
     else:

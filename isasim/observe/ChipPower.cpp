@@ -1,0 +1,45 @@
+#include "observe/ChipPower.h"
+
+#include "energy/Costs.h"
+#include "vorion/isasim/Energy.h"
+
+namespace vorion::isasim {
+
+static double &shareOf(ChipEnergy &To, EnergyUnit U) {
+  switch (U) {
+  case EnergyUnit::FrontEnd:
+  case EnergyUnit::Registers:
+  case EnergyUnit::Arithmetic:
+  case EnergyUnit::LoadStore:
+  case EnergyUnit::LocalMemory:
+    return To.Cores;
+  case EnergyUnit::RasterLanes:
+  case EnergyUnit::RasterBuffers:
+  case EnergyUnit::RasterClock:
+    return To.Rasterizers;
+  case EnergyUnit::PixelUnit:
+    return To.PixelUnits;
+  default:
+    return To.Always;
+  }
+}
+
+ChipEnergy chipEnergyOf(const TimeReport &R) {
+  const Technology &T = defaultTechnology();
+  const auto Model = EnergyModel::create(
+      T, R.ClockMhz, voltsFor(T, R.ClockMhz).value_or(T.Volts));
+  EnergyWork Work{R.Cycles, R.ClockMhz, {}};
+  // Of the chip alone, whose technology may not know the DRAM.
+  for (const Activity &A : R.Activities)
+    if (A.Unit != "dram channels")
+      Work.Events.push_back({A.Unit, A.Event, A.Count});
+  ChipEnergy Sum;
+  const auto Spent = Model->energyOf(Work);
+  for (const UnitEnergy &Part : Spent->Units)
+    for (unsigned N = 0; N != unsigned(EnergyUnit::Link); ++N)
+      if (const auto U = static_cast<EnergyUnit>(N); name(U) == Part.Name)
+        shareOf(Sum, U) += Part.Joules.Value;
+  return Sum;
+}
+
+} // namespace vorion::isasim
