@@ -68,10 +68,11 @@ public:
     All["registers"] =
         json::Object{{"integer", Integer.object()}, {"float", Float.object()}};
     All["stack_bytes"] = Frame.getStackSize();
-    All["spills"] = json::Object{{"bytes", slotBytes(/*Spills=*/true)},
+    All["spills"] = json::Object{{"bytes", slotBytes(SlotKind::Spill)},
                                  {"stores", SpillStores},
                                  {"loads", SpillLoads}};
-    All["private_bytes"] = slotBytes(/*Spills=*/false);
+    All["saved_bytes"] = slotBytes(SlotKind::Saved);
+    All["private_bytes"] = slotBytes(SlotKind::Variable);
     addRecord(All);
     All["splits"] = Splits;
     All["predicates"] = Predicates;
@@ -114,7 +115,7 @@ private:
     if (MI.hasOneMemOperand()) {
       const auto *Slot = dyn_cast_or_null<FixedStackPseudoSourceValue>(
           (*MI.memoperands_begin())->getPseudoValue());
-      if (Slot && Frame.isSpillSlotObjectIndex(Slot->getFrameIndex())) {
+      if (Slot && kindOf(Slot->getFrameIndex()) == SlotKind::Spill) {
         SpillStores += MI.mayStore();
         SpillLoads += MI.mayLoad();
       }
@@ -155,13 +156,24 @@ private:
     }
   }
 
-  /// Of spilled registers, or of variables.
-  int64_t slotBytes(bool Spills) const {
+  /// What a slot of the frame is for. Registers that the caller wants to find
+  /// as they were lie in slots that LLVM calls spills, too.
+  enum class SlotKind { Spill, Saved, Variable, Other };
+  SlotKind kindOf(int Slot) const {
+    if (any_of(Frame.getCalleeSavedInfo(), [&](const CalleeSavedInfo &Saved) {
+          return !Saved.isSpilledToReg() && Saved.getFrameIdx() == Slot;
+        }))
+      return SlotKind::Saved;
+    if (Frame.isSpillSlotObjectIndex(Slot))
+      return SlotKind::Spill;
+    return Frame.getObjectAllocation(Slot) ? SlotKind::Variable
+                                           : SlotKind::Other;
+  }
+  int64_t slotBytes(SlotKind Kind) const {
     int64_t Sum = 0;
-    for (int Slot = 0; Slot < Frame.getObjectIndexEnd(); ++Slot)
-      if (!Frame.isDeadObjectIndex(Slot) &&
-          (Spills ? Frame.isSpillSlotObjectIndex(Slot)
-                  : Frame.getObjectAllocation(Slot) != nullptr))
+    for (int Slot = Frame.getObjectIndexBegin();
+         Slot < Frame.getObjectIndexEnd(); ++Slot)
+      if (!Frame.isDeadObjectIndex(Slot) && kindOf(Slot) == Kind)
         Sum += Frame.getObjectSize(Slot);
     return Sum;
   }

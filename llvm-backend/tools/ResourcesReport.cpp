@@ -86,6 +86,7 @@ const std::vector<Column> &columns() {
       {"float", {"registers", "float", "alive"}},
       {"stack", {"stack_bytes"}},
       {"private", {"private_bytes"}},
+      {"saved", {"saved_bytes"}},
       {"spilled", {"spills", "bytes"}},
       {"stores", {"spills", "stores"}},
       {"loads", {"spills", "loads"}},

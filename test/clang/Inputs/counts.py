@@ -12,7 +12,7 @@ def said(*command):
 
 target, source = sys.argv[1:]
 sizes = {}
-for line in said("llvm-nm", "--print-size", target).splitlines():
+for line in said("llvm-nm", "--defined-only", "--print-size", target).splitlines():
     _, size, kind, name = line.split()
     if kind in "tT":
         sizes[name] = int(size, 16)

@@ -30,3 +30,7 @@ void together(int *p) {
   for (int i = 0; i < 100; ++i)
     p[i] = i;
 }
+
+int other(int x);
+
+int keeps(int x) { return other(x) + x; }
