@@ -27,18 +27,19 @@ struct Walk {
         LeastAlpha(static_cast<float>(O.AlphaCutoff) / 255.0F),
         StopsAtEqual(O.Convention == Rules::Gsplat) {}
 
-  /// Calls \p Blend for what pixel (\p X, \p Y) of \p Tile blends, front to
-  /// back, in the operations of docs/abi.md ("Rasterizer").
+  /// Calls \p Blend for what pixel (\p X, \p Y) blends of \p Row, which has
+  /// all of its row, front to back, in the operations of docs/abi.md
+  /// ("Rasterizer").
   template <typename Function>
-  void pixel(std::size_t Tile, uint32_t X, uint32_t Y, Function Blend) const {
+  void pixel(const std::vector<uint32_t> &Row, uint32_t X, uint32_t Y,
+             Function Blend) const {
     const float Px = static_cast<float>(X) + 0.5F;
     const float Py = static_cast<float>(Y) + 0.5F;
     float T = 1;
-    for (uint32_t At = Lists.Ranges[Tile][0]; At < Lists.Ranges[Tile][1];
-         ++At) {
-      const splat_gaussian &G = Lists.Records[Lists.List[At]];
+    for (const uint32_t Record : Row) {
+      const splat_gaussian &G = Lists.Records[Record];
       const float Dx = G.mean[0] - Px, Dy = G.mean[1] - Py;
-      if (!(std::abs(Dx) <= G.extent[0] && std::abs(Dy) <= G.extent[1]))
+      if (!(std::abs(Dx) <= G.extent[0]))
         continue;
       const float Power =
           -0.5F * (G.conic[0] * Dx * Dx + G.conic[2] * Dy * Dy) -
@@ -54,12 +55,24 @@ struct Walk {
       const float Next = T * (1 - Alpha);
       if (StopsAtEqual ? Next <= Cutoff : Next < Cutoff)
         return;
-      Blend(Contribution{Lists.List[At], Alpha * T, Next});
+      Blend(Contribution{Record, Alpha * T, Next});
       T = Next;
     }
   }
 
-  /// Calls \p Work with the tile and the place of every pixel; the calls share
+  /// What of \p Tile's list reaches row \p Y.
+  void takeRow(uint32_t Tile, uint32_t Y, std::vector<uint32_t> &Row) const {
+    const float Py = static_cast<float>(Y) + 0.5F;
+    Row.clear();
+    for (uint32_t At = Lists.Ranges[Tile][0]; At < Lists.Ranges[Tile][1];
+         ++At) {
+      const splat_gaussian &G = Lists.Records[Lists.List[At]];
+      if (std::abs(G.mean[1] - Py) <= G.extent[1])
+        Row.push_back(Lists.List[At]);
+    }
+  }
+
+  /// Calls \p Work with the row and the place of every pixel; the calls share
   /// nothing.
   template <typename Function> void eachPixel(Function Work) const {
     const auto [Width, Height] = Lists.Size;
@@ -67,11 +80,14 @@ struct Walk {
     const uint32_t Columns = (Width + Across - 1) / Across;
     std::atomic<uint32_t> Next = 0;
     const auto Share = [&] {
+      std::vector<uint32_t> Row;
       for (uint32_t Tile = Next++; Tile < Lists.Ranges.size(); Tile = Next++) {
         const uint32_t X0 = Tile % Columns * Across, Y0 = Tile / Columns * Down;
-        for (uint32_t Y = Y0; Y < std::min(Y0 + Down, Height); ++Y)
+        for (uint32_t Y = Y0; Y < std::min(Y0 + Down, Height); ++Y) {
+          takeRow(Tile, Y, Row);
           for (uint32_t X = X0; X < std::min(X0 + Across, Width); ++X)
-            Work(Tile, X, Y);
+            Work(Row, X, Y);
+        }
       }
     };
     std::vector<std::thread> Others;
@@ -115,11 +131,11 @@ Contributors topContributors(const PixelLists &L, const RenderOptions &O,
                      std::vector<float>(L.pixels() * Most, 0),
                      std::vector<int32_t>(L.pixels(), 0)};
   const Walk W(L, O);
-  W.eachPixel([&](std::size_t Tile, uint32_t X, uint32_t Y) {
+  W.eachPixel([&](const std::vector<uint32_t> &Row, uint32_t X, uint32_t Y) {
     const std::size_t Pixel = std::size_t{Y} * L.Size[0] + X;
     int32_t *const Indices = Found.Indices.data() + Pixel * Most;
     float *const Weights = Found.Weights.data() + Pixel * Most;
-    W.pixel(Tile, X, Y, [&](const Contribution &C) {
+    W.pixel(Row, X, Y, [&](const Contribution &C) {
       ++Found.Counts[Pixel];
       // Those of smaller weights move on by one.
       unsigned At = Most;
@@ -139,10 +155,10 @@ Contributors topContributors(const PixelLists &L, const RenderOptions &O,
 std::vector<float> medianDepths(const PixelLists &L, const RenderOptions &O) {
   std::vector<float> Depths(L.pixels(), 0);
   const Walk W(L, O);
-  W.eachPixel([&](std::size_t Tile, uint32_t X, uint32_t Y) {
+  W.eachPixel([&](const std::vector<uint32_t> &Row, uint32_t X, uint32_t Y) {
     float &Depth = Depths[std::size_t{Y} * L.Size[0] + X];
     float InFront = 1;
-    W.pixel(Tile, X, Y, [&](const Contribution &C) {
+    W.pixel(Row, X, Y, [&](const Contribution &C) {
       if (InFront > 0.5F)
         Depth = L.Depths[C.Record];
       InFront = C.Behind;
