@@ -4,10 +4,12 @@
 
 namespace vorion::splat {
 
-void addEnergyOptions(CLI::App &App, EnergyArguments &A) {
+void addEnergyOptions(CLI::App &App, EnergyArguments &A,
+                      const std::string &What) {
   App.add_flag("--energy", A.Energy,
-               "Say how much energy the frame takes on the machine, and how "
-               "sure that is (docs/energy.md; turns --time on)");
+               "Say how much energy " + What +
+                   " takes on the machine, and how sure that is "
+                   "(docs/energy.md; turns --time on)");
   takesFile(App.add_option("--technology", A.Technology,
                            "Energies and areas for --energy (default: 16 nm)"),
             {".json"});

@@ -22,8 +22,9 @@ struct EnergyArguments {
 };
 
 /// Declares --energy, --technology and --voltage; \p A must outlive the
-/// parsing.
-void addEnergyOptions(CLI::App &App, EnergyArguments &A);
+/// parsing. \p What is what takes the energy.
+void addEnergyOptions(CLI::App &App, EnergyArguments &A,
+                      const std::string &What);
 
 /// Reads the technology. Nothing if energies are not wanted; an error if the
 /// file is none, or has no voltage for the clock.

@@ -390,7 +390,7 @@ Runner addRender(CLI::App &App) {
                  "The same at this clock (default: the machine's, 530)")
       ->option_text("MHZ")
       ->check(CLI::Range(1U, 100000U));
-  addEnergyOptions(App, A->Energy);
+  addEnergyOptions(App, A->Energy, "the frame");
   App.add_flag("--numerics{on}", A->Numerics,
                "Say where fp32 parts from double, by source line and stage of "
                "the rasterizer (docs/debugging.md)")

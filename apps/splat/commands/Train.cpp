@@ -2,6 +2,7 @@
 #include "commands/Choices.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
+#include "commands/EnergyArguments.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
@@ -37,10 +38,11 @@ struct TrainArguments {
   std::string Output, Json, Curve, Device;
   TrainPictures Pictures;
   bool Time = false, Breakdown = false;
+  EnergyArguments Energy;
   std::optional<unsigned> GivenTimeEvery;
   SettingOptions Settings;
 
-  bool isClocked() const { return Time || Breakdown; }
+  bool isClocked() const { return Time || Breakdown || Energy.isWanted(); }
   unsigned timeEvery() const { return GivenTimeEvery.value_or(50); }
 };
 
@@ -157,6 +159,18 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
     printOut("{}", Out.Timed.lastByStage());
 }
 
+/// Of the last iteration that was timed.
+Expected<Success> printEnergy(const ClockSamples &Timed,
+                              const std::optional<EnergyRequest> &Energy) {
+  if (!Energy || Timed.empty())
+    return Success{};
+  const auto Text = frameEnergyText(Timed.last().Stages, *Energy, "iteration");
+  if (!Text)
+    return Text.error();
+  printOut("{}", *Text);
+  return Success{};
+}
+
 Expected<Success> check(const TrainArguments &A) {
   const TrainRequest &R = A.Request;
   for (const auto &Checked :
@@ -183,13 +197,14 @@ Expected<Success> check(const TrainArguments &A) {
       return Error{"",
                    fmt::format("--background {}: expected values of 0 to 1", V),
                    ExitCode::Usage};
-  return claimOutputs({{"-o", A.Output},
-                       {"--json", A.Json},
-                       {"--curve", A.Curve},
-                       {"the cameras", camerasFor(A.Output)},
-                       {"--html", A.Pictures.Html},
-                       {"--checkpoint", R.Checkpoint}},
-                      {{"--from", R.From}});
+  return claimOutputs(
+      {{"-o", A.Output},
+       {"--json", A.Json},
+       {"--curve", A.Curve},
+       {"the cameras", camerasFor(A.Output)},
+       {"--html", A.Pictures.Html},
+       {"--checkpoint", R.Checkpoint}},
+      {{"--from", R.From}, {"--technology", A.Energy.Technology}});
 }
 
 Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
@@ -206,6 +221,9 @@ Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
 }
 
 Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
+  const auto Energy = requestedEnergy(A.Energy, std::nullopt);
+  if (!Energy)
+    return Energy.error();
   if (A.isClocked())
     A.Request.TimeEvery = A.timeEvery();
   const auto Out = train(
@@ -224,7 +242,7 @@ Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
   if (auto Written = writeOutputs(A, **Out); !Written)
     return Written;
   printOutcome(A, **Out);
-  return Success{};
+  return printEnergy((*Out)->Timed, *Energy);
 }
 
 } // namespace
@@ -299,6 +317,7 @@ Runner addTrain(CLI::App &App) {
                  "Of so many iterations one is timed, drawn at random from the "
                  "seed (default 50)")
       ->check(isIterations());
+  addEnergyOptions(App, A->Energy, "the last iteration that is timed");
   App.add_option("--score-every", R.ScoreEvery,
                  "Score the held-out views after every so many iterations, "
                  "for --json (default: at the end alone)");

@@ -33,6 +33,8 @@ public:
   double rate() const;
   /// A line: mean, standard deviation, least and most.
   std::string text() const;
+  /// Where there is one.
+  const TimedIteration &last() const { return All.back(); }
   /// The last one by stage (FrameTime.h).
   std::string lastByStage() const;
   /// JSON array, an iteration each: number, Gaussians, list lengths, stages
