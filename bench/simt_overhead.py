@@ -72,8 +72,8 @@ def parameters(text, kernel):
     return found
 
 
-def scalar(kernel, program, request, kinds, folder):
-    """Items run, their instructions."""
+def scalar_code(kernel, program, folder):
+    """The assembly of one work-item, offset and size of each argument, and the bytes of all."""
     text = run("llvm-dis-19", program, "-o", "-")
     if re.search(r"@vorion\.v[rx]_", text[text.index(f"@{kernel}("):].split("\n}\n")[0]):
         raise RuntimeError("uses the machine's own instructions")
@@ -100,19 +100,25 @@ def scalar(kernel, program, request, kinds, folder):
         "-internalize-public-api-list=one_item", source, "-o", only)
     march = "-march=rv32im" + "a" * ("atomicrmw" in run("llvm-dis-19", only, "-o", "-")) + "f_zicond"
     assembly = os.path.join(folder, "program.s")
-    run("clang-19", *PLAIN, march, only, "-o", assembly)
+    run("clang-19", *PLAIN, march, only, "-o", assembly, "-foptimization-record-passes=regalloc",
+        f"-foptimization-record-file={assembly}.yaml")
     with open(assembly, encoding="utf-8") as file:
         lines = [line for line in file if not line.lstrip().startswith(".attribute")]
     with open(assembly, "w", encoding="utf-8") as file:
         file.writelines(lines)
+    return assembly, offsets, end
 
+
+def scalar(kernel, program, request, kinds, folder):
+    """Items run, their instructions."""
+    assembly, offsets, end = scalar_code(kernel, program, folder)
     groups = math.prod(g // l for g, l in zip(request["global"], request["local"]))
     items = math.prod(request["local"])
     stride = max(1, groups * items // MOST_ITEMS)
     rows = ",".join(f'{{(uint)"", {kind}, {at}, {size}}}' for kind, (at, size) in zip(kinds, offsets)) or "{0,0,0,0}"
     elf = os.path.join(folder, "scalar.elf")
     run("vorion-clang", "-O2", "-w", f'-DKERNEL_NAME="{kernel}"', f"-DARGUMENTS={rows}",
-        f"-DNUM_ARGUMENTS={len(types)}", f"-DARGUMENTS_BYTES={end}", "-DLOCAL_BYTES=0", f"-DSTRIDE={stride}",
+        f"-DNUM_ARGUMENTS={len(offsets)}", f"-DARGUMENTS_BYTES={end}", "-DLOCAL_BYTES=0", f"-DSTRIDE={stride}",
         assembly, os.path.join(HERE, "overhead", "one_item.c"), "-o", elf)
     config = os.path.join(folder, "one-lane.json")
     with open(config, "w", encoding="utf-8") as file:
