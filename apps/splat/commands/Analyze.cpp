@@ -1,4 +1,5 @@
 #include "analyze/Analysis.h"
+#include "analyze/OrderAnalysis.h"
 #include "analyze/Plots.h"
 #include "analyze/ToReference.h"
 #include "cameras/CameraFile.h"
@@ -23,6 +24,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 namespace vorion::splat {
@@ -33,7 +35,7 @@ using Json = nlohmann::ordered_json;
 struct AnalyzeArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  std::string View, JsonFile, Plots;
+  std::string View, OrderBeside, JsonFile, Plots;
   int Width = 0; ///< of the picture, px; 0: the view's
   Rules Convention = Rules::Inria;
   Support Reach = Support::Square3;
@@ -56,8 +58,15 @@ Json json(const ListStatistics &L) {
           {"occluded_by_percent", L.Occluded}};
 }
 
+/// As JSON has no infinity, an equal picture's dB is null.
+Json json(const OrderChange &C) {
+  return {{"turned", C.Turned},
+          {"psnr_db", std::isfinite(C.Db) ? Json(C.Db) : Json()}};
+}
+
 Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
-                                 const Camera &C, const Analysis &R) {
+                                 const Camera &C, const Analysis &R,
+                                 const std::optional<OrderAnalysis> &Order) {
   const auto SceneHash = hashScene(A.Scene.Path);
   if (!SceneHash)
     return SceneHash.error();
@@ -99,6 +108,11 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
        {"covered_share", static_cast<double>(R.Covered) / Pixels},
        {"saturated_share", static_cast<double>(R.Saturated) / Pixels},
        {"mean_transmittance", R.MeanTransmittance}});
+  if (Order)
+    Report["order"] = {{"beside", A.OrderBeside},
+                       {"pairs", Order->Pairs},
+                       {"by_other_view", json(Order->ByOtherView)},
+                       {"along_rays", json(Order->AlongRays)}};
   return jsonText(Report, 2) + "\n";
 }
 
@@ -135,6 +149,52 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
   return Text;
 }
 
+std::string textOf(const std::string &Beside, const OrderAnalysis &O) {
+  const auto Line = [&](const std::string &By, const OrderChange &C) {
+    return fmt::format(
+        "{:<22}{:>12} of {} pairs in pixels turn ({:.3f} %), PSNR {:.2f} dB\n",
+        By, C.Turned, O.Pairs,
+        O.Pairs == 0 ? 0
+                     : 100 * static_cast<double>(C.Turned) /
+                           static_cast<double>(O.Pairs),
+        C.Db);
+  };
+  return Line("order of " + escaped(Beside), O.ByOtherView) +
+         Line("order along rays", O.AlongRays);
+}
+
+/// The cameras that are analyzed, of one size: the view's, and that of
+/// --order-beside.
+struct AnalyzedCameras {
+  Camera View;
+  std::optional<Camera> Beside;
+};
+
+Expected<AnalyzedCameras> camerasOf(AnalyzeArguments &A, const Scene &S) {
+  if (!A.View.empty())
+    A.Cameras.Views = {A.View};
+  const auto Chosen = chooseCameras(A.Cameras, S);
+  if (!Chosen)
+    return Chosen.error();
+  AnalyzedCameras C{Chosen->front(), std::nullopt};
+  if (A.OrderBeside.empty())
+    return C;
+  CameraArguments Other = A.Cameras;
+  Other.Views = {A.OrderBeside};
+  const auto Beside = chooseCameras(Other, S);
+  if (!Beside)
+    return Beside.error();
+  C.Beside = Beside->front();
+  for (const Camera *Of : {&C.View, &*C.Beside})
+    if (Of->Optics.Model != LensModel::Pinhole)
+      return Error{A.Cameras.File,
+                   fmt::format("--order-beside: view {} has the camera model "
+                               "{}, expected PINHOLE",
+                               printable(Of->Name), name(Of->Optics.Model)),
+                   ExitCode::Usage};
+  return C;
+}
+
 /// The last part of \p Path, which may end in a slash.
 std::string sceneName(const std::string &Path) {
   const std::filesystem::path P(Path);
@@ -166,12 +226,10 @@ Expected<Success> run(AnalyzeArguments A) {
     return File.error();
   A.Options.Antialiased = File->DrawnAs.Antialiased;
   A.Options.Dilation = File->DrawnAs.Dilation.value_or(A.Options.Dilation);
-  if (!A.View.empty())
-    A.Cameras.Views = {A.View};
-  const auto Chosen = chooseCameras(A.Cameras, File->Gaussians);
-  if (!Chosen)
-    return Chosen.error();
-  Camera C = Chosen->front();
+  const auto Cameras = camerasOf(A, File->Gaussians);
+  if (!Cameras)
+    return Cameras.error();
+  Camera C = Cameras->View;
   if (A.Width != 0)
     resize(C, A.Width);
   A.Options.Rule = A.Convention == Rules::Inria ? reference::Rules::Inria
@@ -179,8 +237,13 @@ Expected<Success> run(AnalyzeArguments A) {
   A.Options.Reach = AnalyzedSupports[static_cast<std::size_t>(A.Reach)];
   const Analysis R = analyze(toReference<float>(File->Gaussians),
                              toReference<float>(C), A.Options);
+  std::optional<OrderAnalysis> Order;
+  if (Cameras->Beside)
+    Order = analyzeOrder(toReference<double>(File->Gaussians),
+                         toReference<double>(C),
+                         toReference<double>(*Cameras->Beside), A.Options);
   if (!A.JsonFile.empty()) {
-    const auto Report = jsonReport(A, *File, C, R);
+    const auto Report = jsonReport(A, *File, C, R, Order);
     if (!Report)
       return Report.error();
     if (auto Written = writeFileAtomically(A.JsonFile, *Report); !Written)
@@ -194,6 +257,8 @@ Expected<Success> run(AnalyzeArguments A) {
           !Written)
         return Written;
   printOut("{}", textReport(A, C, R));
+  if (Order)
+    printOut("{}", textOf(A.OrderBeside, *Order));
   return Success{};
 }
 
@@ -205,6 +270,10 @@ Runner addAnalyze(CLI::App &App) {
   addCameraOptions(App, A->Cameras, /*Several=*/false);
   takesView(App.add_option("--view", A->View,
                            "Name or number of the view (default: the first)"));
+  takesView(App.add_option(
+      "--order-beside", A->OrderBeside,
+      "Say how many Gaussians of a pixel change places in the order of this "
+      "view, and in the order along the pixel's ray (docs/numerics.md)"));
   App.add_option("--width", A->Width,
                  "Width in pixels, height in proportion (default: the view's)")
       ->check(CLI::Range(1, MaxImageSize));

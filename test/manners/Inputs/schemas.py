@@ -57,7 +57,7 @@ view = ("s.ply", "--cameras", "c.json", "--view", "front")
 
 splat("info", "demo.ply")
 splat("info", capture)
-splat("analyze", "demo.ply", "--cameras", "demo.json", "--view", "front", "--width", "32")
+splat("analyze", "demo.ply", "--cameras", "demo.json", "--view", "front", "--width", "32", "--order-beside", "close")
 splat("render", *view, "-o", "a.npz", "--explain")
 splat("render", *view, "-o", "b.npz", "--path", "simt")
 splat("compare", "a.npz", "b.npz")

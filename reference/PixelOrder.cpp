@@ -1,0 +1,126 @@
+#include "PixelOrder.h"
+
+#include "Footprint.h"
+#include "Walk.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <glm/geometric.hpp>
+#include <memory>
+
+namespace vorion::reference {
+namespace {
+
+/// A Gaussian that a pixel sees.
+struct Seen {
+  double Depth;
+  int32_t Index;
+  double Alpha;
+  bool operator<(const Seen &Other) const {
+    return std::pair(Depth, Index) < std::pair(Other.Depth, Other.Index);
+  }
+};
+
+/// How many pairs of \p List are not in its order; sorts it. Few are moved, so
+/// that this takes little more than a look at each.
+uint64_t sortAndCount(std::vector<Seen> &List) {
+  uint64_t Turned = 0;
+  for (std::size_t I = 1; I < List.size(); ++I)
+    for (std::size_t J = I; J > 0 && List[J] < List[J - 1]; --J, ++Turned)
+      std::swap(List[J], List[J - 1]);
+  return Turned;
+}
+
+bool isFull(double T, const Options &O) {
+  return O.Rule == Rules::Inria ? T < O.Cutoff : T <= O.Cutoff;
+}
+
+/// Gaussians that \p List, front to back, blends before it is full.
+std::size_t blended(const std::vector<Seen> &List, const Options &O) {
+  double T = 1;
+  for (std::size_t I = 0; I < List.size(); ++I)
+    if (T *= 1 - List[I].Alpha; isFull(T, O))
+      return I;
+  return List.size();
+}
+
+/// From the axes of the camera to those of a Gaussian, in standard deviations.
+struct Whitening {
+  glm::dmat3 Turn; ///< columns are the Gaussian's axes
+  glm::dvec3 Scale, Mean;
+
+  glm::dvec3 operator()(const glm::dvec3 &V) const {
+    return glm::dvec3(glm::dot(Turn[0], V), glm::dot(Turn[1], V),
+                      glm::dot(Turn[2], V)) /
+           Scale;
+  }
+};
+
+/// Of a disc as its limit has it.
+constexpr double LeastScale = 1e-100;
+
+} // namespace
+
+Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
+                       int Height, const Options &O, const PixelDepth &Depth) {
+  Options Whole = O;
+  Whole.Cutoff = 0; // what is full by one order may not be by another
+  const TileWalk<double> Walk(Splats, Width, Height, Whole);
+  Reordered R;
+  R.Render.resize(static_cast<std::size_t>(Width) *
+                  static_cast<std::size_t>(Height));
+  std::atomic<uint64_t> Pairs = 0, Turned = 0;
+  forEachTile(Walk.tiles(), O.Threads, [&](std::size_t Tile) {
+    const auto List = Walk.candidates(Tile);
+    const Rect P = Walk.pixels(Tile);
+    std::vector<Seen> All, Front;
+    for (int Y = P.Y0; Y < P.Y1; ++Y)
+      for (int X = P.X0; X < P.X1; ++X) {
+        All.clear();
+        Walk.pixel(List, X, Y, [&](const Contribution<double> &C) {
+          const int32_t Index = List[C.Entry].Index;
+          All.push_back(
+              {Depth(static_cast<std::size_t>(Index), X, Y), Index, C.Alpha});
+        });
+        Front.assign(All.begin(), All.begin() + static_cast<std::ptrdiff_t>(
+                                                    blended(All, O)));
+        Pairs += Front.size() * (Front.size() - 1) / 2;
+        Turned += sortAndCount(Front);
+        std::sort(All.begin(), All.end());
+        double T = 1;
+        glm::dvec3 Colour(0);
+        for (std::size_t I = 0, End = blended(All, O); I < End; ++I) {
+          Colour += Splats[static_cast<std::size_t>(All[I].Index)].Color *
+                    (All[I].Alpha * T);
+          T *= 1 - All[I].Alpha;
+        }
+        R.Render[static_cast<std::size_t>(Y) * static_cast<std::size_t>(Width) +
+                 static_cast<std::size_t>(X)] =
+            Colour +
+            T * glm::dvec3(O.Background[0], O.Background[1], O.Background[2]);
+      }
+  });
+  R.Pairs = Pairs;
+  R.Turned = Turned;
+  return R;
+}
+
+PixelDepth depthAlongRay(const Gaussians<double> &G, const Camera<double> &C) {
+  assert(C.Optics.Model == LensModel::Pinhole && "a ray for each pixel");
+  auto All = std::make_shared<std::vector<Whitening>>();
+  All->reserve(G.size());
+  for (std::size_t I = 0; I < G.size(); ++I)
+    All->push_back({multiply(C.Rotation, rotation(G.Quats[I])),
+                    glm::max(G.Scales[I], glm::dvec3(LeastScale)),
+                    multiply(C.Rotation, G.Means[I]) + C.Translation});
+  return [All, C](std::size_t I, int X, int Y) {
+    const glm::dvec3 Ray((X + 0.5 - C.Principal.x) / C.Focal.x,
+                         (Y + 0.5 - C.Principal.y) / C.Focal.y, 1);
+    const Whitening &W = (*All)[I];
+    const glm::dvec3 R = W(Ray);
+    return glm::dot(R, W(W.Mean)) / glm::dot(R, R);
+  };
+}
+
+} // namespace vorion::reference
