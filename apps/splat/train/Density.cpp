@@ -126,7 +126,16 @@ void DensityControl::limit(uint32_t Count, uint32_t Total) {
              Sorted.Values, Fates, Counts, Count, More);
 }
 
+/// Counted on the host: a kernel would be one for every run.
+uint32_t DensityControl::withoutGradient(uint32_t Count) {
+  std::vector<float> Sums(Count);
+  Launch.read("density control's notes", Sums.data(), Noted.GradientSums,
+              4 * uint64_t{Count});
+  return static_cast<uint32_t>(std::ranges::count(Sums, 0.0F));
+}
+
 DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
+  const uint32_t WithoutGradient = withoutGradient(S.Count);
   Fates = words("fates of Gaussians", S.Count);
   Counts = words("numbers of Gaussians", S.Count);
   Places = words("places of Gaussians", uint64_t{S.Count} + 1);
@@ -144,7 +153,7 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   if (Launch.failure())
     return {};
 
-  const DensityChange Change{S.Count, After};
+  const DensityChange Change{S.Count, After, WithoutGradient};
   DeviceScene New;
   New.Count = After;
   New.ShDegree = S.ShDegree;

@@ -35,6 +35,9 @@ struct DensityNotes {
 /// What a change did.
 struct DensityChange {
   uint32_t Before = 0, After = 0;
+  /// Of those before, how many no picture gave a gradient since the change
+  /// before this one. Classic density control alone counts them.
+  uint32_t WithoutGradient = 0;
 };
 
 class DensityControl {
@@ -70,6 +73,7 @@ private:
   DensityNotes download(const Notebook &From, uint32_t Count);
   void note(const Notebook &In, const SeenView &V, uint32_t Count);
   uint32_t decide(const DeviceScene &S, unsigned Iteration);
+  uint32_t withoutGradient(uint32_t Count);
   uint32_t total(const cl::Buffer &Counts, uint32_t Count);
   void limit(uint32_t Count, uint32_t Total);
   cl::Buffer words(std::string_view What, uint64_t N) {

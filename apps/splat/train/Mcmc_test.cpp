@@ -91,6 +91,27 @@ protected:
   }
 };
 
+// Of an opacity of 1 the logarithm of what is left is infinite.
+TEST_F(McmcOnDevice, WhatIsOpaqueIsSharedOutInNumbers) {
+  constexpr uint32_t Count = 200;
+  TrainSettings T;
+  T.Method = DensityMethod::Mcmc;
+  T.GrowShare = 0.05;
+  Scene Before = sample(Count, 0.3);
+  for (float &V : Before.OpacityLogits)
+    V = V < opacityLogit(0.005) ? V : 40;
+  Launcher L(*Dev, "", {});
+  build(L);
+  McmcControl Control(L, T, Seed);
+  DeviceScene S = withMoments(L, Before);
+  Control.change(S, Iteration);
+  Control.addNoise(S, Iteration, 1);
+  const Scene After = S.download(L);
+  ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
+  EXPECT_EQ(After.size(), 210U);
+  EXPECT_TRUE(checkFinite("after", After));
+}
+
 TEST_F(McmcOnDevice, TheFaintMoveToPlacesDrawnByOpacity) {
   constexpr uint32_t Count = 900;
   TrainSettings T;

@@ -52,12 +52,26 @@ double secondsSince(Clock::time_point Start) {
   return std::chrono::duration<double>(Clock::now() - Start).count();
 }
 
+/// Says once, \p Said, that most Gaussians do not learn.
+void noteWithoutGradient(const Work &W, const StepReport &Step, bool &Said) {
+  if (Said || !Step.Density ||
+      2 * uint64_t{Step.Density->WithoutGradient} <= Step.Density->Before)
+    return;
+  Said = true;
+  W.Host.EndProgress();
+  W.Host.Note(fmt::format(
+      "iteration {}: {} of {} Gaussians had no gradient since the change of "
+      "density before: no picture shows them, or none with an alpha of 1/255",
+      Step.Iteration, Step.Density->WithoutGradient, Step.Density->Before));
+}
+
 Expected<Success> loop(const Work &W, Launcher &Launch,
                        DeviceRenderer &Renderer, Trainer &T) {
   const Clock::time_point Start = Clock::now();
   const unsigned First = W.Out.First = T.iteration();
   const unsigned Last = W.Request.Run.Settings.Iterations;
   ClockSamples &Samples = W.Out.Timed;
+  bool SaidWithoutGradient = false;
   while (T.iteration() < Last && !W.Processes.any(Interrupted != 0)) {
     const bool Timed =
         W.Request.TimeEvery &&
@@ -77,6 +91,8 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
            "the device gave no time of a kernel, expected a runtime that "
            "knows VORION_TIME=profiled",
            ExitCode::Internal});
+    if (W.Processes.first())
+      noteWithoutGradient(W, Step, SaidWithoutGradient);
     if (W.Processes.first())
       W.Host.Progress(
           {Step, First, Last, secondsSince(Start),

@@ -76,6 +76,18 @@ TEST(TrainingSet, MasksAndAlphaSayWhichPixelsCount) {
       *readCapture(G.path(), {{}, false, MaskSource::Files}), {});
   ASSERT_FALSE(Small);
   EXPECT_EQ(Small.error().What, "2x2 pixels, expected 8x6 as its picture has");
+
+  // The loss would be 0 over 0.
+  std::string Black;
+  for (int P = 0; P < 48; ++P)
+    Black += {0, 0, 0, '\xff'};
+  Files["masks/a1.png"] = pngOf(8, 6, Black);
+  const CaptureFolder H(Files);
+  const auto None = loadTrainingSet(
+      *readCapture(H.path(), {{}, false, MaskSource::Files}), {});
+  ASSERT_FALSE(None);
+  EXPECT_NE(None.error().Where.find("masks/a1.png"), std::string::npos);
+  EXPECT_EQ(None.error().What, "no pixel counts, expected some");
 }
 
 TEST(TrainingSet, APictureOfALensIsUndistorted) {
