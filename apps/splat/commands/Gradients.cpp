@@ -16,6 +16,8 @@
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -44,6 +46,12 @@ Expected<std::vector<float>> arrayOf(const std::string &File, const Npz &Arrays,
     return Error{File, fmt::format("array {} has {} elements, expected {} for "
                                    "the view's pixels",
                                    Name, Values.size(), Count)};
+  if (const auto Bad = std::ranges::find_if_not(
+          Values, [](float V) { return std::isfinite(V); });
+      Bad != Values.end())
+    return Error{File, fmt::format("array {} holds a NaN or an infinity as "
+                                   "element {}, expected finite values",
+                                   Name, Bad - Values.begin())};
   return Values;
 }
 
@@ -97,7 +105,7 @@ Npz arraysOf(const GradientResult &R, const Scene &S) {
 Expected<Success> writeReport(const GradientArguments &A, const SceneFile &File,
                               const Camera &C, const Device &D,
                               const GradientResult &R) {
-  const RenderPlan Plan = planRender(File.Gaussians.ShDegree, A.Options);
+  const RenderPlan Plan = gradientPlan(File.Gaussians, C, A.Options);
   const auto Report = jsonReport(
       {A.Scene.Path, A.Scene.Axes, A.Cameras, A.Output, File, C, A.Options,
        Plan, D, R, BackwardRecord{A.Backward, A.Upstream, R.Gradients}});

@@ -114,6 +114,17 @@ Expected<Success> check(const RenderArguments &A) {
                                 {"--technology", A.Energy.Technology}});
 }
 
+/// Where the rules' near plane hides more of a view than it shows.
+void hintAtNear(const RenderOptions &O, const ViewFacts &F) {
+  if (O.Near == 0 && 2 * F.BeforeNear > F.InView)
+    printDiagnostic(
+        "splat", "note", "",
+        fmt::format("{} of {} Gaussians in front of the camera are not drawn, "
+                    "because they are nearer than {:g}: --near draws from a "
+                    "smaller depth on",
+                    F.BeforeNear, F.InView, O.nearLimit()));
+}
+
 RenderPlan requestedPlan(const RenderArguments &A, const EffectInputs &In) {
   RenderPlan Plan = planRender(EffectPlan(A.Request, In), A.Options);
   warnOfMissing(Plan.Effects, A.Effects);
@@ -285,6 +296,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     Map.emplace(std::move(*Begun));
   }
   const ViewFacts Facts = factsOfAll(*S, *Cameras, A.Options);
+  hintAtNear(A.Options, Facts);
   const EffectInputs Inputs{*S,
                             A.Options,
                             Facts,

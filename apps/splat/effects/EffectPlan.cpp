@@ -160,7 +160,8 @@ EffectPlan::EffectPlan(const EffectRequest &R, const EffectInputs &In) {
   }
 }
 
-EffectPlan EffectPlan::forAnyScene(int ShDegree, const RenderOptions &O) {
+EffectPlan EffectPlan::forAnyScene(int ShDegree, const RenderOptions &O,
+                                   const ViewFacts &F) {
   RenderOptions Limited = O;
   Limited.ShLimit = ShDegree;
   EffectRequest R;
@@ -168,7 +169,7 @@ EffectPlan EffectPlan::forAnyScene(int ShDegree, const RenderOptions &O) {
   std::ranges::copy_if(effects::all(), std::back_inserter(R.List),
                        [](const Effect *E) { return byData(*E); });
   const Scene None = Scene::sized(0, MaxShDegree);
-  return {R, {None, Limited, ViewFacts(), false}};
+  return {R, {None, Limited, F, false}};
 }
 
 const EffectDecision &EffectPlan::of(const Effect &E) const {

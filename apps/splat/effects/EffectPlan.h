@@ -56,7 +56,9 @@ public:
   EffectPlan(const EffectRequest &R, const EffectInputs &In);
   /// For scenes that are not known yet: harmonics up to \p ShDegree and all
   /// that data could call for; the rest as \p O has it.
-  static EffectPlan forAnyScene(int ShDegree, const RenderOptions &O);
+  /// and, of the view, \p F.
+  static EffectPlan forAnyScene(int ShDegree, const RenderOptions &O,
+                                const ViewFacts &F = {});
 
   const std::vector<EffectDecision> &decisions() const { return Decisions; }
   const EffectDecision &of(const Effect &E) const;

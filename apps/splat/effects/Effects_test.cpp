@@ -135,6 +135,46 @@ TEST_F(Effects, TheFieldOfViewIsNeededUpToItsLimitAndABit) {
   }
 }
 
+TEST_F(Effects, ACropIsAPrincipalPointOutsideThePicture) {
+  for (const double At : {0.0, 64.0}) {
+    C.Cx = At;
+    EXPECT_FALSE(needed(effects::Crop)) << At;
+  }
+  for (const double At : {-0.5, 64.5}) {
+    C.Cx = At;
+    for (const std::string Mode : {"auto", "all", "flags", "sh1"})
+      EXPECT_EQ(plan(Mode).of(effects::Crop).Code, EffectCode::Compiled) << At;
+    O.Optics = LensModel::OpenCv;
+    EXPECT_FALSE(needed(effects::Crop));
+    O.Optics = LensModel::Pinhole;
+    O.Through = Spread::Unscented;
+    EXPECT_FALSE(needed(effects::Crop));
+    O.Through = Spread::Jacobian;
+  }
+}
+
+// By pinholes in the picture alone, and where a lens has no slopes by all that
+// is in front.
+TEST_F(Effects, TheNearPlanesShareIsOfWhatTheViewShows) {
+  S.Means = {0, 0, 0.1F, 0, 0, 2, 9, 0, 0.1F};
+  const auto Facts = [&] {
+    return factsOf(S, makeView(C, O), O.nearLimit(), O.byDistance());
+  };
+  EXPECT_EQ(Facts().InView, 2U);
+  EXPECT_EQ(Facts().BeforeNear, 1U);
+  S.Means[2] = -0.1F; // behind
+  EXPECT_EQ(Facts().InView, 1U);
+  EXPECT_EQ(Facts().BeforeNear, 0U);
+  const ViewFacts None = Facts();
+  S.Means[5] = 0.2F;
+  EXPECT_EQ(Facts().BeforeNear, 1U);
+  EXPECT_EQ(combined(None, Facts()).BeforeNear, 1U);
+  EXPECT_EQ(combined(Facts(), None).BeforeNear, 1U);
+  O.Optics = LensModel::Fisheye;
+  EXPECT_EQ(Facts().InView, 3U);
+  EXPECT_EQ(Facts().BeforeNear, 2U);
+}
+
 TEST_F(Effects, OfTwoViewsEitherCallsForAnEffect) {
   const auto Facts = [&] {
     return factsOf(S, makeView(C, O), nearLimit(O.Convention));

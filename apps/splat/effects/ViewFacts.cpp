@@ -1,5 +1,7 @@
 #include "effects/ViewFacts.h"
 
+#include "picture/View.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -52,6 +54,16 @@ double distanceOf(const splat_view &V, const float *P) {
   return std::sqrt(Squares);
 }
 
+/// Whether a pinhole shows in \p V what is \p Across its axis at depth \p Z.
+bool isShown(const splat_view &V, const double *Across, double Z) {
+  for (int A = 0; A < 2; ++A) {
+    const double At = double(V.focal[A]) * Across[A] / Z + double(V.center[A]);
+    if (std::isfinite(V.ratio_high[A]) && !(At >= 0 && At <= V.size[A]))
+      return false;
+  }
+  return true;
+}
+
 double reachOf(const Scene &S, const splat_view &V) {
   double Reach = 0;
   for (const float M : S.Means)
@@ -98,6 +110,7 @@ ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit,
                   bool ByDistance) {
   ViewFacts F;
   F.Reach = reachOf(S, V);
+  F.IsCrop = isCrop(V);
   noteLogits(S, F);
   for (int Band = 1; Band <= MaxShDegree; ++Band)
     F.BandWitness[static_cast<std::size_t>(Band - 1)] = bandWitness(S, Band);
@@ -114,14 +127,19 @@ ViewFacts factsOf(const Scene &S, const splat_view &V, double NearLimit,
     const double Z = ByDistance ? distanceOf(V, P) : Depth(P);
     F.NearestDepth = std::min(F.NearestDepth, Z);
     bool Inside = true;
+    const double Beside[2] = {Across[0](P), Across[1](P)};
     for (int A = 0; A < 2; ++A) {
-      const double At = Across[A](P);
+      const double At = Beside[A];
       const double Low = V.ratio_low[A], High = V.ratio_high[A];
       Inside = Inside && At > Low * Z + Error + rounding(Low, Z) &&
                At < High * Z - Error - rounding(High, Z);
     }
     if (Z >= NearLimit / 2)
       F.BeyondField += Inside ? 0 : 1;
+    if (Z > 0 && isShown(V, Beside, Z)) {
+      ++F.InView;
+      F.BeforeNear += Z > NearLimit ? 0 : 1;
+    }
   }
   F.DepthSlack =
       2 * DepthRounding * std::abs(F.NearestDepth) + DepthError * F.Reach;
@@ -137,8 +155,15 @@ ViewFacts combined(const ViewFacts &A, const ViewFacts &B) {
   const double NearestB = B.NearestDepth - B.DepthSlack;
   // A NaN decides, as it does alone.
   ViewFacts Both = std::isnan(NearestA) || NearestA <= NearestB ? A : B;
+  const ViewFacts &Nearer = double(A.BeforeNear) * double(B.InView) <
+                                    double(B.BeforeNear) * double(A.InView)
+                                ? B
+                                : A;
+  Both.InView = Nearer.InView;
+  Both.BeforeNear = Nearer.BeforeNear;
   Both.BeyondField = std::max(A.BeyondField, B.BeyondField);
   Both.Reach = std::max(A.Reach, B.Reach);
+  Both.IsCrop = A.IsCrop || B.IsCrop;
   return Both;
 }
 

@@ -19,8 +19,13 @@ struct ViewFacts {
   /// Gaussians whose x/z or y/z may lie beyond the Jacobian's limits, among
   /// those in front of \c NearLimit.
   std::size_t BeyondField = 0;
+  /// Means in front of the camera and within the picture, by its focal lengths
+  /// alone (all in front where slopes have no limits), and how many of them the
+  /// near plane takes away.
+  std::size_t InView = 0, BeforeNear = 0;
   /// Of a mean's coordinates and the camera's, the largest magnitude.
   double Reach = 0;
+  bool IsCrop = false; ///< the principal point is outside the picture
   float LeastLogit = 0, MostLogit = 0; ///< of opacity
   /// Per band from 1: a Gaussian with a coefficient other than zero, the first
   /// there is, or \c NoWitness.
@@ -36,6 +41,8 @@ ViewFacts factsOf(const Scene &S, const splat_view &View, double NearLimit,
                   bool ByDistance = false);
 
 /// Of two views of one scene: by these is needed what either needs.
+/// Of the near plane, they are those of the view of which it takes the larger
+/// share.
 ViewFacts combined(const ViewFacts &A, const ViewFacts &B);
 
 } // namespace vorion::splat

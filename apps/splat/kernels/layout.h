@@ -43,6 +43,14 @@ typedef struct {
   float limit;
 } splat_lens;
 
+/// What lies behind the view of a pinhole whose principal point is outside the
+/// picture: places are measured from the ray through the picture's middle.
+typedef struct {
+  float across[2][3];     ///< camera x and y less that ray's, by world axis,
+  float across_low[2][3]; ///< as high + low
+  float middle[2];        ///< of the picture, px
+} splat_crop;
+
 /// How the rasterizers blend a picture.
 typedef struct {
   uint size[2];  ///< picture, px
@@ -125,7 +133,8 @@ typedef struct {
   uint least_key, greatest_key; ///< of the first; ~0 and 0 for none
 } splat_seen;
 
-/// Local memory that a group of project.cl is given, and with a lens.
+/// Local memory that a group of project.cl is given, and with what lies behind
+/// the view.
 enum { PROJECT_LOCAL_BYTES = 2048, LENS_LOCAL_BYTES = 2304 };
 
 /// What blending gives back of a Gaussian (docs/abi.md, "Backward"): the words

@@ -28,6 +28,30 @@ static float camera_depth(__local const splat_view *view, float x, float y,
   return sum.x + sum.y;
 }
 
+#if USE_CROP
+// How far beside the ray through the picture's middle a point is, rounded once:
+// beside the axis it would be far, and f x / z would cancel against the
+// principal point.
+static float beside_middle(__local const splat_view *view,
+                           __local const splat_crop *crop, int axis, float x,
+                           float y, float z) {
+  const float part[3] = {x, y, z};
+  float2 beside = (float2)(0.0f, 0.0f);
+#pragma unroll
+  for (int k = 0; k < 3; ++k) {
+    const float2 from = two_sum(part[k], -view->position[k]);
+    const float2 d = two_sum(from.x, from.y - view->position_low[k]);
+    const float high = crop->across[axis][k] * d.x;
+    const float low = fma(crop->across[axis][k], d.x, -high) +
+                      crop->across_low[axis][k] * d.x +
+                      crop->across[axis][k] * d.y;
+    const float2 next = two_sum(beside.x, high);
+    beside = (float2)(next.x, beside.y + (next.y + low));
+  }
+  return beside.x + beside.y;
+}
+#endif
+
 // What the camera is, where it is no pinhole or where a Gaussian goes through it
 // as points: then a file lens_*.cl is part of the program.
 #define HAS_LENS                                                               \
@@ -104,11 +128,14 @@ typedef struct {
 #if HAS_LENS
   splat_lens lens;
 #endif
+#if USE_CROP
+  splat_crop crop;
+#endif
 #if USE_EQUIRECTANGULAR
   float reach[LANES]; // extents before pixel_extent, along x
 #endif
 } workspace;
-#if HAS_LENS
+#if HAS_LENS || USE_CROP
 _Static_assert(sizeof(workspace) <= LENS_LOCAL_BYTES,
                "kernels/layout.h has too few");
 #else
@@ -192,6 +219,13 @@ static uint project_one(__local workspace *c,
 #if HAS_LENS
   const float mean_x = view->focal[0] * at.x + view->center[0] + shift.x;
   const float mean_y = view->focal[1] * at.y + view->center[1] + shift.y;
+#elif USE_CROP
+  const float mean_x =
+      view->focal[0] * beside_middle(view, &c->crop, 0, px, py, pz) / z +
+      c->crop.middle[0];
+  const float mean_y =
+      view->focal[1] * beside_middle(view, &c->crop, 1, px, py, pz) / z +
+      c->crop.middle[1];
 #else
   const float mean_x = view->focal[0] * x / z + view->center[0];
   const float mean_y = view->focal[1] * y / z + view->center[1];
@@ -276,6 +310,10 @@ project(__constant const splat_view *camera, __global const float *geometry,
 #if HAS_LENS
   for (uint k = lane; k < sizeof(splat_lens) / 4; k += LANES)
     ((__local uint *)&w->lens)[k] = ((__constant const uint *)(camera + 1))[k];
+#endif
+#if USE_CROP
+  for (uint k = lane; k < sizeof(splat_crop) / 4; k += LANES)
+    ((__local uint *)&w->crop)[k] = ((__constant const uint *)(camera + 1))[k];
 #endif
   // What is written of a line may belong to nobody.
 #pragma unroll

@@ -200,7 +200,10 @@ static void project_backward_one(__constant const splat_view *view,
   const float4 near = stored * factor;
   const float length = sqrt(near.x * near.x + near.y * near.y +
                             near.z * near.z + near.w * near.w);
-  const float back = length > 0.0f ? 2.0f * factor / length : 0.0f;
+  // Over the stored length, of which 2^-103 is the least: by a subnormal one the
+  // gradient would be beyond fp32, and its 0 times infinity no number.
+  const float back =
+      length > 0.0f ? fmin(2.0f * factor / length, 0x1p104f) : 0.0f;
   const float3 axis = (float3)(unit.y, unit.z, unit.w);
   const float3 vector = unit.x * turn + cross(axis, turn);
   GRADIENT(GRADIENT_QUATERNION) = -back * dot_in_order(axis, turn);

@@ -113,6 +113,32 @@ splat_lens makeLens(const Camera &C) {
   return L;
 }
 
+bool isCrop(const splat_view &V) {
+  const auto Outside = [&](int A) {
+    return !(V.center[A] >= 0 && V.center[A] <= static_cast<float>(V.size[A]));
+  };
+  return Outside(0) || Outside(1);
+}
+
+splat_crop makeCrop(const Camera &C) {
+  splat_crop Crop{};
+  const auto Rotation = C.worldToCameraRotation();
+  const double Focal[2] = {C.Fx, C.Fy};
+  const double Center[2] = {C.Cx, C.Cy};
+  const int Size[2] = {C.Width, C.Height};
+  for (std::size_t A = 0; A < 2; ++A) {
+    Crop.middle[A] = 0.5F * static_cast<float>(Size[A]);
+    const double Slope = (double(Crop.middle[A]) - Center[A]) / Focal[A];
+    for (std::size_t K = 0; K < 3; ++K) {
+      const double Across = Rotation[3 * A + K] - Slope * Rotation[6 + K];
+      Crop.across[A][K] = static_cast<float>(Across);
+      Crop.across_low[A][K] =
+          static_cast<float>(Across - double(Crop.across[A][K]));
+    }
+  }
+  return Crop;
+}
+
 bool isDrawnBy(LensModel Program, const Camera &C) {
   return C.Optics.Model == Program ||
          (Program == LensModel::OpenCv && C.Optics.Model == LensModel::Pinhole);

@@ -14,6 +14,13 @@ splat_view makeView(const Camera &C, const RenderOptions &Options);
 /// What lies behind the view in a program for a camera that is no pinhole.
 splat_lens makeLens(const Camera &C);
 
+/// Whether the principal point is outside the picture, which is then a crop of
+/// a larger one: f x / z + c cancels.
+bool isCrop(const splat_view &V);
+
+/// What lies behind the view of such a pinhole.
+splat_crop makeCrop(const Camera &C);
+
 /// The model by which one program draws all of \p Cameras, \p Path's: the one
 /// that they have, or OpenCV's for pinholes among such.
 Expected<LensModel> commonModel(const std::string &Path,

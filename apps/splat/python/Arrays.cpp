@@ -3,6 +3,7 @@
 #include "python/Errors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
@@ -35,6 +36,10 @@ std::vector<float> valuesOf(const FloatArray &A, const std::string &Name,
                   fmt::format("{} has the shape ({}), expected ({})", Name,
                               fmt::join(Has, ", "), fmt::join(Sizes, ", ")),
                   ExitCode::Usage});
+  if (!std::all_of(A.data(), A.data() + A.size(),
+                   [](float V) { return std::isfinite(V); }))
+    throw Failed({"", Name + " holds a NaN or an infinity, expected finite "
+                             "values"});
   return {A.data(), A.data() + A.size()};
 }
 

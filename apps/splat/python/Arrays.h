@@ -22,7 +22,7 @@ pybind11::array viewOf(std::vector<float> &Values, const Shape &Sizes,
 pybind11::array arrayOf(std::vector<float> Values, const Shape &Sizes);
 
 /// The elements of \p A, called \p Name in the error that is thrown where its
-/// shape is not \p Sizes.
+/// shape is not \p Sizes, or where one is no finite number.
 std::vector<float> valuesOf(const FloatArray &A, const std::string &Name,
                             const Shape &Sizes);
 

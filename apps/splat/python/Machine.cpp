@@ -190,8 +190,7 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
   By["sh"] = arrayOf(std::move(G.Sh), {N, S.Gaussians.coefficients(), 3});
   By["means2d"] = arrayOf(std::move(G.Means2d), {N, 2});
   By["conics"] = arrayOf(std::move(G.Conics), {N, 3});
-  py::object Report =
-      reportOf(M, S, C, O, planRender(S.Gaussians.ShDegree, O), R);
+  py::object Report = reportOf(M, S, C, O, gradientPlan(S.Gaussians, C, O), R);
   return py::make_tuple(arrayOf(std::move(R.Picture.Render), Colours),
                         arrayOf(std::move(R.Picture.Alpha), Sizes),
                         std::move(By), std::move(Report));

@@ -1,5 +1,7 @@
 #include "render/Gradients.h"
 
+#include "picture/View.h"
+
 namespace vorion::splat {
 
 namespace {
@@ -49,6 +51,14 @@ SceneGradients readGradients(Launcher &L, const BackwardPipeline &Back,
 
 } // namespace
 
+RenderPlan gradientPlan(const Scene &S, const Camera &C,
+                        const RenderOptions &Options) {
+  ViewFacts Facts;
+  Facts.IsCrop = isCrop(makeView(C, Options));
+  return planRender(EffectPlan::forAnyScene(S.ShDegree, Options, Facts),
+                    Options);
+}
+
 Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
                                        const Camera &C,
                                        const RenderOptions &Options,
@@ -57,7 +67,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   // A band of zeros has gradients too.
   const int ShDegree = S.ShDegree;
   L.beginStage(Stage::Build);
-  RenderPlan Plan = planRender(ShDegree, Options);
+  RenderPlan Plan = gradientPlan(S, C, Options);
   for (const ProgramSpec &Program : Plan.Programs)
     L.build(Program);
   for (const ProgramSpec &Program : planBackward(ShDegree, Options, Backward))

@@ -34,6 +34,10 @@ struct GradientResult : RenderResult {
   SceneGradients Gradients;
 };
 
+/// The plan by which \c takeGradients renders.
+RenderPlan gradientPlan(const Scene &S, const Camera &C,
+                        const RenderOptions &Options);
+
 /// Renders \p S as \p C sees it and takes \p U back. \p Options has Training
 /// set.
 Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,

@@ -110,12 +110,11 @@ void Pipeline::project(const Camera &C) {
   const std::size_t Items = Launch.device().computeUnits() * Lanes;
   const cl::Buffer Seen =
       Launch.allocate("what is seen", sizeof(splat_seen) * Items);
-  Launch.run(ProjectProgram, "project", Items, Lanes, Current.Camera,
-             Current.Gaussians.Geometry, Current.Gaussians.Sh, Current.Records,
-             Current.Depths.Keys, Current.Rectangles, Seen,
-             Current.Gaussians.Count,
-             cl::Local(lensFiles(Options).empty() ? PROJECT_LOCAL_BYTES
-                                                  : LENS_LOCAL_BYTES));
+  Launch.run(
+      ProjectProgram, "project", Items, Lanes, Current.Camera,
+      Current.Gaussians.Geometry, Current.Gaussians.Sh, Current.Records,
+      Current.Depths.Keys, Current.Rectangles, Seen, Current.Gaussians.Count,
+      cl::Local(hasMoreThanView() ? LENS_LOCAL_BYTES : PROJECT_LOCAL_BYTES));
   std::vector<splat_seen> Host(Items);
   Launch.read("what is seen", Host.data(), Seen, sizeof(splat_seen) * Items);
   uint64_t Pairs = 0;
@@ -132,13 +131,24 @@ void Pipeline::project(const Camera &C) {
   Current.Pairs = static_cast<uint32_t>(std::min<uint64_t>(Pairs, ~0U));
 }
 
+bool Pipeline::hasMoreThanView() const {
+  return !lensFiles(Options).empty() || Plan.done(effects::Crop);
+}
+
 void Pipeline::writeCamera(const Camera &C) {
   struct {
     splat_view View;
-    splat_lens Lens;
-  } const Both{Current.View, makeLens(C)};
-  const bool HasLens = !lensFiles(Options).empty();
-  const std::size_t Bytes = HasLens ? sizeof(Both) : sizeof(Both.View);
+    union {
+      splat_lens Lens;
+      splat_crop Crop;
+    };
+  } Both{Current.View, {}};
+  if (Plan.done(effects::Crop))
+    Both.Crop = makeCrop(C);
+  else
+    Both.Lens = makeLens(C);
+  const std::size_t Bytes =
+      hasMoreThanView() ? sizeof(Both) : sizeof(Both.View);
   Current.Camera = Launch.allocate("camera", Bytes);
   Launch.write("camera", Current.Camera, &Both, Bytes);
 }

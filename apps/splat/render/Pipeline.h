@@ -124,6 +124,8 @@ public:
 
 private:
   void project(const Camera &C);
+  /// Whether a lens or a crop lies behind the view.
+  bool hasMoreThanView() const;
   void writeCamera(const Camera &C);
   void sortByDepth();
   void countPairs();

@@ -99,7 +99,9 @@ Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
   std::vector<double> Lengths;
   for (std::size_t I = 0; I < Drawn.size(); ++I) {
     const float *Q = &Drawn.Quats[4 * I];
-    Lengths.push_back(glm::length(glm::dvec4(Q[0], Q[1], Q[2], Q[3])));
+    // Shorter ones have the gradient of this length (project_backward.cl).
+    Lengths.push_back(
+        std::max(glm::length(glm::dvec4(Q[0], Q[1], Q[2], Q[3])), 0x1p-103));
   }
   double LogScales = 0;
   for (std::size_t I = 0; I < Drawn.size(); ++I)

@@ -60,6 +60,15 @@ TrainingCase culled() {
                 std::move(G), {"culled-go-back"});
 }
 
+TrainingCase nothingSeen() {
+  GradientScene G{{}, frontView(70, 50, 50), {}, {0, 1}};
+  add(G.Scene, {.Mean = {0, 0, -2}});
+  add(G.Scene, {.Mean = {0, 0, 2}, .Opacity = 0.001});
+  return caseOf("gradients-of-nothing",
+                "no Gaussian is seen: lists of 0, nothing to add up",
+                std::move(G), {});
+}
+
 /// Lists of \p Length Gaussians in neighbouring tiles of either path.
 TrainingCase handOver(unsigned Length) {
   GradientScene G{{}, frontView(128, 16, 50), {}};
@@ -103,6 +112,60 @@ TrainingCase deepStack() {
                 std::move(G), {"reciprocal-rounded"});
 }
 
+/// Turned needles whose quaternions have the length \p Length.
+TrainingCase shortQuaternions(float Length, std::string Name) {
+  GradientScene G{{}, frontView(70, 50, 50), {}};
+  Numbers R(53);
+  for (int I = 0; I < 12; ++I) {
+    addBlob(G.Scene, R, static_cast<float>(R.uniform(-0.8, 0.8)),
+            static_cast<float>(R.uniform(-0.6, 0.6)));
+    for (std::size_t K = 0; K < 4; ++K)
+      *(G.Scene.Quats.end() - 1 - static_cast<std::ptrdiff_t>(K)) *= Length;
+  }
+  return caseOf(std::move(Name),
+                "the gradient grows as the quaternion shrinks, up to that of a "
+                "length of 2^-103: fp32 holds no more",
+                std::move(G),
+                Length < 0x1p-103F
+                    ? std::vector<std::string>{"quaternion-gradient-unbounded"}
+                    : std::vector<std::string>{});
+}
+
+/// What others' trackers have as causes of gradients that are no numbers, all
+/// seen, with the opacity compensated.
+TrainingCase causesOfNaN(bool Gsplat) {
+  GradientScene G{{}, frontView(70, 50, 50), {}};
+  G.Options.Antialiased = true;
+  if (Gsplat)
+    G.Options.Convention = splat::Rules::Gsplat;
+  Numbers R(54);
+  const float X = -0.5F / 50, Y = -0.5F / 50; // a pixel's centre at depth 1
+  const Blob Causes[] = {
+      {.Mean = {0.5F, 0.3F, 2}, .Quat = {0, 0, 0, 0}},    // no direction
+      {.Mean = {X, Y, 1}, .Scale = {0.01, 0.01, 0.01}},   // a distance of 0
+      {.Mean = {-0.3F, 0.2F, 2}, .Opacity = 1},           // 1 - opacity is 0
+      {.Mean = {0.3F, -0.4F, 2}, .Scale = {0.1, 0.1, 0}}, // a disc
+      {.Mean = {-0.5F, -0.4F, 2}, .Scale = {0.4, 0, 0}},  // a line
+      {.Mean = {0, 0, 3}, .Scale = {1e6, 1e6, 1e6}},      // over everything
+      {.Mean = {0, 0.4F, 2},
+       .Scale = {0.05, 0.1, 0.2},
+       .Quat = {1e-12F, 2e-12F, 1e-12F, 0}},
+      {.Mean = {0.2F, 0.1F, 2}, .Color = {-3, -3, -3}}, // held at 0
+      {.Mean = {0, 0, 0.2000001F}, .Scale = {1e-4, 1e-4, 1e-4}}};
+  for (const Blob &B : Causes) {
+    addBlob(G.Scene, R, static_cast<float>(R.uniform(-0.8, 0.8)),
+            static_cast<float>(R.uniform(-0.6, 0.6)));
+    // Without a floor the factor leaves nothing of what has no area.
+    if (Gsplat && B.Scale[1] < 1e-3)
+      G.Culled.push_back(static_cast<uint32_t>(G.Scene.size()));
+    add(G.Scene, B);
+  }
+  return caseOf(Gsplat ? "causes-of-nan-gsplat" : "causes-of-nan",
+                "quaternion 0, scales 0, opacity 1, a mean on a pixel's "
+                "centre, a disc from its edge, colours held at 0",
+                std::move(G), {});
+}
+
 /// Each camera with coefficients of its own, in all directions.
 TrainingCase throughLens(splat::LensModel M, std::string Name,
                          std::string Why) {
@@ -122,9 +185,16 @@ TrainingCase throughLens(splat::LensModel M, std::string Name,
 
 void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(culled());
+  Cases.push_back(nothingSeen());
   for (const unsigned Length : {15U, 16U, 17U, 32U, 33U})
     Cases.push_back(handOver(Length));
   Cases.push_back(deepStack());
+  Cases.push_back(shortQuaternions(1e-12F, "gradients-of-quaternions-1e-12"));
+  Cases.push_back(shortQuaternions(1e-20F, "gradients-of-quaternions-1e-20"));
+  Cases.push_back(shortQuaternions(1e-30F, "gradients-of-quaternions-1e-30"));
+  Cases.push_back(shortQuaternions(1e-40F, "gradients-of-quaternions-1e-40"));
+  Cases.push_back(causesOfNaN(/*Gsplat=*/false));
+  Cases.push_back(causesOfNaN(/*Gsplat=*/true));
   using splat::LensModel;
   Cases.push_back(throughLens(LensModel::OpenCv, "gradients-through-opencv",
                               "back through all twelve coefficients and the "

@@ -97,6 +97,21 @@ HardCase opencvFold() {
   for (const double Off : {-0.3, -0.1, -1e-3, 1e-3, 0.1, 0.3})
     addAtAngle(C.Scene, Fold + Off, 4 * Off, 2);
   C.ExpectedCulls[3] = 3;
+  C.FoundIn = {"opencv-folds"};
+  return C;
+}
+
+/// r (1 - 0.5 r^2 + 0.08 r^4) turns back at r = 0.93, comes down to 0.49 and
+/// rises again from r = 1.70 on.
+HardCase opencvUnfold() {
+  HardCase C = caseOf("opencv-unfold",
+                      "means where the polynomial rises again behind its fold, "
+                      "and would show a second picture upright",
+                      {}, lensView(LensModel::OpenCv, {-0.5, 0.08}, 128, 96));
+  for (const double Radius : {0.3, 0.7, 0.92, 0.95, 1.7, 1.8, 2.0, 2.2})
+    addAtAngle(C.Scene, std::atan(Radius), 2 * Radius, 2);
+  C.ExpectedCulls[3] = 5;
+  C.FoundIn = {"opencv-folds", "opencv-unfolds"};
   return C;
 }
 
@@ -109,6 +124,21 @@ HardCase fisheyeFold() {
   for (const double Off : {-0.5, -0.2, -1e-3, 1e-3, 0.2, 0.9})
     addAtAngle(C.Scene, Fold + Off, 5 * Off, 2);
   C.ExpectedCulls[3] = 3;
+  C.FoundIn = {"fisheye-folds"};
+  return C;
+}
+
+/// t (1 - 0.2 t^2 + 0.015 t^4) turns back at t = 1.54 and rises again from 2.37
+/// on.
+HardCase fisheyeUnfold() {
+  HardCase C = caseOf("fisheye-unfold",
+                      "the same of a fisheye's angle: what is behind the "
+                      "camera would stand beside what is in front",
+                      {}, lensView(LensModel::Fisheye, {-0.2, 0.015}, 128, 96));
+  for (const double Angle : {0.3, 1.0, 1.5, 1.6, 2.4, 2.6, 2.8, 3.1})
+    addAtAngle(C.Scene, Angle, 2 * Angle, 2);
+  C.ExpectedCulls[3] = 5;
+  C.FoundIn = {"fisheye-folds", "fisheye-unfolds"};
   return C;
 }
 
@@ -256,9 +286,10 @@ HardCase ownNearPlane() {
 
 void addLenses(std::vector<HardCase> &Cases) {
   for (HardCase (*const Make)() :
-       {distorted, opencvFold, fisheyeFold, fisheyeAxis, fisheyeAround,
-        orthographic, seam, poles, sphere, hugeCoefficients, unscentedWide,
-        unscentedSeam, unscentedNeedle, ownNearPlane})
+       {distorted, opencvFold, opencvUnfold, fisheyeFold, fisheyeUnfold,
+        fisheyeAxis, fisheyeAround, orthographic, seam, poles, sphere,
+        hugeCoefficients, unscentedWide, unscentedSeam, unscentedNeedle,
+        ownNearPlane})
     Cases.push_back(Make());
 }
 

@@ -182,6 +182,21 @@ HardCase quaternions(const std::string &Name, const std::string &Why,
   return C;
 }
 
+/// The same needles with quaternions of every length down to subnormal ones,
+/// of which two have but one bit.
+HardCase shrinkingQuaternions() {
+  HardCase C = quaternions("shrinking-quaternions",
+                           "lengths 1e-8, 1e-12, 1e-16, 1e-20, 1e-30, 1e-38 "
+                           "and subnormal: others divide by at least 1e-12",
+                           1, "quaternion-range");
+  constexpr float Lengths[] = {1e-8F,  1e-12F, 1e-15F, 1e-16F, 1e-20F,
+                               1e-30F, 1e-37F, 1e-38F, 1e-40F, 3e-45F};
+  for (std::size_t I = 0; I < C.Scene.Quats.size(); ++I)
+    C.Scene.Quats[I] *= Lengths[I / 4];
+  C.FoundIn.push_back("quaternion-over-1e-12");
+  return C;
+}
+
 } // namespace
 
 void addShapes(std::vector<HardCase> &Cases) {
@@ -199,6 +214,7 @@ void addShapes(std::vector<HardCase> &Cases) {
   Cases.push_back(quaternions("tiny-quaternions",
                               "length 1e-38: squares are 0 in fp32", 1e-38F,
                               "quaternion-range"));
+  Cases.push_back(shrinkingQuaternions());
   Cases.push_back(quaternions("huge-quaternions",
                               "length 1e38: squares are infinite in fp32",
                               1e38F, "quaternion-range"));

@@ -180,6 +180,37 @@ HardCase boxEdges() {
   return C;
 }
 
+/// A window far beside the principal point, as a crop of a picture of 24,000 by
+/// 16,000 pixels has it.
+HardCase crop() {
+  HardCase C{"crop-of-a-large-picture",
+             "the principal point 11,000 px beside the picture: f x / z + c "
+             "cancels, and pixels keep 1e-3 px",
+             {},
+             turnedView(frontView(96, 64, 9000)),
+             {}};
+  C.View.Position = {1.7, -0.4, 0.9};
+  C.View.Cx = -11000.25;
+  C.View.Cy = 7000.75;
+  Numbers R(26);
+  for (int I = 0; I < 60; ++I) {
+    const double Z = R.uniform(2, 6);
+    const double Column = R.uniform(2, 94), Row = R.uniform(2, 62);
+    const double Pixel = Z / 9000;
+    add(C.Scene,
+        {.Mean = seenAt(C.View, (Column - C.View.Cx) * Pixel,
+                        (Row - C.View.Cy) * Pixel, Z),
+         .Scale = {Pixel * R.uniform(0.5, 3), Pixel * R.uniform(0.5, 3),
+                   Pixel * R.uniform(0.5, 3)},
+         .Quat = R.turn(),
+         .Opacity = R.uniform(0.3, 0.95),
+         .Color = R.color()});
+  }
+  C.Cap = 5e-6;
+  C.FoundIn = {"crop-by-plain-sum", "crop-by-plain-axes"};
+  return C;
+}
+
 HardCase wide() {
   HardCase C{"one-over-3840x2160",
              "one Gaussian over 8.3 M pixels: each alpha alone, and the sum of "
@@ -207,6 +238,7 @@ void addViews(std::vector<HardCase> &Cases) {
   Cases.push_back(outside());
   Cases.push_back(radiusBeyondInt());
   Cases.push_back(boxEdges());
+  Cases.push_back(crop());
   Cases.push_back(wide());
 }
 

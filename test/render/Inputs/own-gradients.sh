@@ -36,6 +36,17 @@ END
 python3 "$(dirname "$0")/upstream.py" small.npz 2 2
 attempt "missing array" --upstream empty.npz -o g.npz
 attempt "wrong size" --upstream small.npz -o g.npz
+python3 - <<'END'
+import zipfile
+source, to = zipfile.ZipFile("up.npz"), zipfile.ZipFile("nan.npz", "w")
+for name in source.namelist():
+    data = bytearray(source.read(name))
+    if name == "in_v_render.npy":
+        data[-4:] = b"\0\0\xc0\x7f"
+    to.writestr(name, bytes(data))
+to.close()
+END
+attempt "no number" --upstream nan.npz -o g.npz
 attempt "no folder" --upstream up.npz -o nowhere/g.npz
 attempt "support" --upstream up.npz --support official16 -o g.npz
 attempt "cores" --upstream up.npz --path simt --sum rows -o g.npz
