@@ -304,7 +304,8 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
                             A.Layers.needDepths(),
                             Machine,
                             A.Layers.needNormals(),
-                            A.Layers.needLists()};
+                            A.Layers.needLists(),
+                            Cameras->size()};
   RenderPlan Plan = requestedPlan(A, Inputs);
 
   const auto Open = [&] {

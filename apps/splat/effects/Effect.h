@@ -39,6 +39,7 @@ struct EffectInputs {
   DeviceOptions Machine = {}; ///< what the device is opened with
   bool Normals = false;       ///< --normals
   bool Lists = false;         ///< --contributors, --depth-as median
+  std::size_t Views = 1;      ///< pictures that are drawn of the scene at once
 };
 
 /// A record of the registry; each is defined in a file of its own.

@@ -40,6 +40,7 @@ std::span<const Effect *const> all() {
                                    &Unscented,
                                    &Crop,
                                    &IntersectTags,
+                                   &ActivatedScene,
                                    &ZTiles,
                                    &PixelUnit,
                                    &SkipSaturated,

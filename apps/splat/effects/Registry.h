@@ -26,6 +26,7 @@ extern const Effect Crop;
 /// \name Machine effects
 /// @{
 extern const Effect IntersectTags;
+extern const Effect ActivatedScene;
 extern const Effect ZTiles;
 extern const Effect PixelUnit;
 extern const Effect SkipSaturated;

@@ -169,6 +169,15 @@ static uint project_one(__local workspace *c,
   if (USE_NEAR_PLANE && !(KEEP_DEPTH(z)))
     return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
   const uint asked0 = ASK_FOR_SH(0);
+#if USE_ACTIVATED_SCENE
+  const float4 activated =
+      (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
+               GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT));
+  const uint asked1 = ASK_FOR_SH(1);
+  const float4 unit =
+      (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
+               GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
+#else
   const float4 activated = activate_scales_and_opacity(
       &c->activation,
       (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
@@ -177,6 +186,7 @@ static uint project_one(__local workspace *c,
   const float4 unit = activate_quaternion(
       (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3)));
+#endif
   const uint asked2 = ASK_FOR_SH(2);
   const float3 d = from_camera(view, (float3)(px, py, pz));
   const float x = w[0] * d.x + w[1] * d.y + w[2] * d.z;

@@ -153,6 +153,11 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   auto &Project = Plan.Programs.front().Files;
   std::ranges::copy(lensFiles(Options), std::back_inserter(Project));
   Project.emplace_back("project.cl");
+  if (Plan.Effects.done(effects::ActivatedScene))
+    Plan.Programs.push_back(
+        {ActivateProgram,
+         {"layout.h", "activate.cl", "planes.h", "activate_scene.cl"},
+         {}});
   if (Plan.Effects.compiled(effects::ZTiles))
     Plan.Programs.push_back({MergeProgram, {"merge.cl"}, {}});
   if (Plan.Effects.compiled(effects::Background))

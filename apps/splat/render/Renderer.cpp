@@ -110,6 +110,16 @@ public:
     Result.Frames.resize(Views.size());
   }
 
+  /// What no camera changes, which is accounted to the first picture.
+  void activate() {
+    if (!Plan.Effects.done(effects::ActivatedScene))
+      return;
+    Launch.beginStage(Stage::Activate);
+    Launch.run(ActivateProgram, "activate_scene", itemsFor(Gaussians.Count),
+               GroupSize, Gaussians.Geometry, Gaussians.Count);
+    own(0);
+  }
+
   /// One after the other.
   void apart() {
     Pipeline P(Launch, Options, Plan.Effects);
@@ -236,6 +246,7 @@ Expected<SequenceResult> renderSequence(Launcher &Launch,
   Launch.beginStage(Stage::Upload);
   const GaussianBuffers Gaussians = uploadGaussians(Launch, S, Plan.Effects);
   Sequence Views(Launch, Plan, Gaussians, Cameras, Options);
+  Views.activate();
   if (Overlap)
     Views.overlapped();
   else
