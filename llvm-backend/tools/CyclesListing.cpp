@@ -111,24 +111,37 @@ struct Line {
   uint32_t Code = 0;
 };
 
-/// "80000010: 00a50533 <tab>add a0, a0, a0", "80000010 <name>:" and the rest.
+/// "80000010: 00a50533 <tab>add a0, a0, a0"; false of anything else.
+bool parseInstruction(StringRef Text, Line &L) {
+  Text = Text.ltrim();
+  if (Text.consumeInteger(16, L.Address) || !Text.consume_front(": "))
+    return false;
+  Text = Text.ltrim();
+  if (Text.consumeInteger(16, L.Code))
+    return false;
+  const auto [Name, Operands] = Text.ltrim().split('\t');
+  L.What = Line::Kind::Instruction;
+  L.Text = fmt::format("{:x}: {:<9} {}", L.Address, Name.str(), Operands.str());
+  L.Text.resize(StringRef(L.Text).rtrim().size());
+  return true;
+}
+
+/// "80000010 <name>:" begins a function.
+bool isFunction(StringRef Text) {
+  uint64_t Address = 0;
+  return Text.ends_with(">:") && !Text.consumeInteger(16, Address) &&
+         Text.starts_with(" <");
+}
+
 Line parseLine(StringRef Text) {
   Line L{Line::Kind::Other, Text.str()};
   std::ranges::replace(L.Text, '\t', ' ');
-  StringRef Rest = Text;
-  if (Text.contains(":\tfile format ")) {
+  if (Text.contains(":\tfile format "))
     L.What = Line::Kind::File;
-  } else if (Text.ends_with(">:") && !Rest.consumeInteger(16, L.Address) &&
-             Rest.starts_with(" <")) {
+  else if (isFunction(Text))
     L.What = Line::Kind::Function;
-  } else if (Rest = Text.ltrim();
-             !Rest.consumeInteger(16, L.Address) && Rest.consume_front(": ") &&
-             !(Rest = Rest.ltrim()).consumeInteger(16, L.Code)) {
-    L.What = Line::Kind::Instruction;
-    const auto [Name, Operands] = Rest.ltrim().split('\t');
-    L.Text = fmt::format("{:x}: {:<9} ", L.Address, Name.str());
-    L.Text = StringRef(L.Text + Operands.str()).rtrim().str();
-  }
+  else
+    parseInstruction(Text, L);
   return L;
 }
 

@@ -51,7 +51,8 @@ Expected<json::Array> readFunctions(const std::string &Path) {
 std::string report(json::Array Functions,
                    llvm::ArrayRef<llvm::StringRef> Arguments) {
   llvm::SmallString<128> Folder;
-  static_cast<void>(llvm::sys::fs::current_path(Folder));
+  if (llvm::sys::fs::current_path(Folder))
+    Folder.clear();
   const auto Text = [](std::string_view Of) {
     return json::fixUTF8(llvm::StringRef(Of.data(), Of.size()));
   };
