@@ -9,14 +9,15 @@
 // RUN: vorion-clang -O2 %s -o %t.none.elf && not vorion-sim %t.none.elf 2>&1 | FileCheck %s --check-prefix=NONE --implicit-check-not=source
 #include <vorion.h>
 
+// The address is below all memory, however much the machine has.
 // CHECK: load access fault
 // CHECK-NEXT: pc 0x
 // CHECK-NEXT: source {{.*}}lines.c:[[#@LINE+5]] in far_away
 // INLINED-NEXT: called from {{.*}}lines.c:[[#@LINE+9]] in fault
-// SOURCE: ;   return p[i * 100000000];
+// SOURCE: ;   return p[i - (uint)p / 4];
 // LINES: lines.c:[[#@LINE+2]]{{$}}
 static float far_away(const float *p, uint i) {
-  return p[i * 100000000];
+  return p[i - (uint)p / 4];
 }
 __attribute__((noinline)) static void fault(float *p) {
   const uint i = vx_thread_id();
