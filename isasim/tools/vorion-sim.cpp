@@ -469,8 +469,7 @@ void declare(CLI::App &App, Options &O) {
       ->type_name("MHZ")
       ->check(quietly(CLI::Range(1U, 100000U)));
   App.add_flag("--energy", O.Energy,
-               "say how much energy the run takes (docs/energy.md; turns\n"
-               "--time on)");
+               "the same, and how much energy (docs/energy.md)");
   takesFile(App.add_option("--technology", O.TechnologyFile,
                            "energies and areas for --energy (default: 16 nm)"),
             {".json"});
