@@ -20,6 +20,8 @@ static constexpr std::array Variables{
                   "keeps a program's kernel launches in a folder", true},
     KnownVariable{"VORION_COMPILE_ALL",
                   "compiles every kernel for groups of any size", false},
+    KnownVariable{"VORION_REMARKS", "says what the compiler tells of kernels",
+                  false},
     KnownVariable{"VORION_KERNEL_FOLDER",
                   "is the folder of compiled kernels, in place of the cache's",
                   false},
