@@ -113,8 +113,12 @@ std::string number(const json::Object &Function, const Column &Of) {
 
 std::string place(const json::Object &Of) {
   const auto File = Of.getString("file");
-  return File ? llvm::formatv("{0}:{1}", *File, *Of.getInteger("line")).str()
-              : std::string("(no line)");
+  if (!File)
+    return "(no line)";
+  const std::string Line =
+      llvm::formatv("{0}:{1}", *File, *Of.getInteger("line")).str();
+  const int64_t Column = Of.getInteger("column").value_or(0);
+  return Column ? llvm::formatv("{0}:{1}", Line, Column).str() : Line;
 }
 
 std::string table(const json::Array &Functions) {
