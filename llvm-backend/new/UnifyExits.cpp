@@ -61,11 +61,12 @@ struct DeadEnd {
   BasicBlock *Meeting; ///< null as long as it is not known
 };
 
-/// Whether a path leads from \p From to \p To, or will with the edges from
-/// those of \p All whose meeting is known.
-bool leadsTo(BasicBlock *From, BasicBlock *To, ArrayRef<DeadEnd> All) {
+/// Whether a path leads from \p From to \p To, but not through \p Without, or
+/// will with the edges from those of \p All whose meeting is known.
+bool leadsTo(BasicBlock *From, BasicBlock *To, BasicBlock *Without,
+             ArrayRef<DeadEnd> All) {
   SmallVector<BasicBlock *, 16> Left{From};
-  SmallPtrSet<BasicBlock *, 16> Seen;
+  SmallPtrSet<BasicBlock *, 16> Seen{Without};
   while (!Left.empty()) {
     BasicBlock *Block = Left.pop_back_val();
     if (Block == To)
@@ -81,8 +82,9 @@ bool leadsTo(BasicBlock *From, BasicBlock *To, ArrayRef<DeadEnd> All) {
 }
 
 /// The first block that every path from \p From to \p Return passes and that
-/// does not lead to \p End, to which several branches may go: an edge from
-/// there would close a loop. It stands on any one of the paths.
+/// does not lead to \p End other than through \p From again. Several branches
+/// may go to \p End: an edge from there would close a loop that was none. It
+/// stands on any one of the paths.
 BasicBlock *meetingAfter(BasicBlock *From, BasicBlock *Return,
                          const DeadEnd &End, ArrayRef<DeadEnd> All) {
   auto Path = df_begin(From);
@@ -90,7 +92,7 @@ BasicBlock *meetingAfter(BasicBlock *From, BasicBlock *Return,
     ++Path;
   for (unsigned I = 1; I < Path.getPathLength(); ++I)
     if (BasicBlock *Block = Path.getPath(I);
-        !reaches(From, Return, Block) && !leadsTo(Block, End.Start, All))
+        !reaches(From, Return, Block) && !leadsTo(Block, End.Start, From, All))
       return Block;
   llvm_unreachable("the last block of the path is the return");
 }
