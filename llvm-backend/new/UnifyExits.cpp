@@ -55,47 +55,23 @@ bool reaches(BasicBlock *From, BasicBlock *To, BasicBlock *Without) {
   return is_contained(depth_first_ext(From, Seen), To);
 }
 
-struct DeadEnd {
-  BasicBlock *Start;   ///< ends in `unreachable`, or is the endless loop's head
-  const Loop *Endless; ///< null if it is no loop
-  BasicBlock *Meeting; ///< null as long as it is not known
-};
-
-/// Whether a path leads from \p From to \p To, but not through \p Without, or
-/// will with the edges from those of \p All whose meeting is known.
-bool leadsTo(BasicBlock *From, BasicBlock *To, BasicBlock *Without,
-             ArrayRef<DeadEnd> All) {
-  SmallVector<BasicBlock *, 16> Left{From};
-  SmallPtrSet<BasicBlock *, 16> Seen{Without};
-  while (!Left.empty()) {
-    BasicBlock *Block = Left.pop_back_val();
-    if (Block == To)
-      return true;
-    if (!Seen.insert(Block).second)
-      continue;
-    append_range(Left, successors(Block));
-    for (const DeadEnd &End : All)
-      if (End.Start == Block && End.Meeting)
-        Left.push_back(End.Meeting);
-  }
-  return false;
-}
-
-/// The first block that every path from \p From to \p Return passes and that
-/// does not lead to \p End other than through \p From again. Several branches
-/// may go to \p End: an edge from there would close a loop that was none. It
-/// stands on any one of the paths.
-BasicBlock *meetingAfter(BasicBlock *From, BasicBlock *Return,
-                         const DeadEnd &End, ArrayRef<DeadEnd> All) {
+/// The first block that every path from \p From to \p Return passes. It stands
+/// on any one of them.
+BasicBlock *meetingAfter(BasicBlock *From, BasicBlock *Return) {
   auto Path = df_begin(From);
   while (*Path != Return)
     ++Path;
   for (unsigned I = 1; I < Path.getPathLength(); ++I)
-    if (BasicBlock *Block = Path.getPath(I);
-        !reaches(From, Return, Block) && !leadsTo(Block, End.Start, From, All))
-      return Block;
+    if (!reaches(From, Return, Path.getPath(I)))
+      return Path.getPath(I);
   llvm_unreachable("the last block of the path is the return");
 }
+
+struct DeadEnd {
+  BasicBlock *Start;   ///< ends in `unreachable`, or is the endless loop's head
+  const Loop *Endless; ///< null if it is no loop
+  BasicBlock *Meeting;
+};
 
 /// For an edge from the block that \p Builder is at, which nothing takes: its
 /// values do not matter.
@@ -155,8 +131,7 @@ bool vorion::unifyExits(Function &F, const LoopInfo &Loops, bool Known,
     const DomTreeNode *Node = Dominators.getNode(End.Start);
     while (Node && !Returning.count(Node->getBlock()))
       Node = Node->getIDom();
-    End.Meeting =
-        Node ? meetingAfter(Node->getBlock(), Return, End, DeadEnds) : Return;
+    End.Meeting = Node ? meetingAfter(Node->getBlock(), Return) : Return;
   }
   for (const DeadEnd &End : DeadEnds) {
     if (End.Endless) {
