@@ -13,4 +13,4 @@ if [ ! -s "$Out/scene.ply" ] || [ ! -s "$Out/cameras.json" ]; then
 fi
 printf '[%s] rendering at 960x544 on the simulated GPU\n' "$(elapsed)"
 splat render "$Out/scene.ply" --cameras "$Out/cameras.json" --view front -o "$Out/demo.png" --json "$Out/demo.json"
-printf '\npicture   %s\ncounters  %s\nnext      README.md, "Using it"\n' "${Out#"$PWD"/}/demo.png" "${Out#"$PWD"/}/demo.json"
+printf '\npicture   %s\ncounters  %s\nnext      README.md, "First steps"\n' "${Out#"$PWD"/}/demo.png" "${Out#"$PWD"/}/demo.json"

@@ -57,9 +57,9 @@ def options(tools):
 
 
 def exit_codes(root):
-    """The section of the README, whose table is the one that people read."""
-    with open(os.path.join(root, "README.md"), encoding="utf-8") as f:
-        section = re.search(r"^### Errors\n(.*?)^##? ", f.read(), re.M | re.S)[1]
+    """The section of docs/command-line.md, whose table is the one that people read."""
+    with open(os.path.join(root, "docs", "command-line.md"), encoding="utf-8") as f:
+        section = re.search(r"^## Errors\n(.*?)(?:^##? |\Z)", f.read(), re.M | re.S)[1]
     yield "# Exit codes\n" + section
 
 
