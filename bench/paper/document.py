@@ -87,8 +87,10 @@ def _page(name, module, data, rows, images):
         out += ["Commands are for the root of the repository, after `. scripts/env.sh`; each is of the view that has the most, "
                 "or of the one that decides.", "", *_details(rows)]
     out += module.text(data)
-    for title, svg in module.charts(data).items():
+    for title, described in module.charts(data).items():
         os.makedirs(images, exist_ok=True)
+        builds = "; programs: build " + ", ".join(data["builds"]) if data["builds"] else ""
+        svg = writing.svg_of(described, [f"scripts/paper.sh --sections {name}{builds}"])
         _write(os.path.join(images, f"paper-{title}.svg"), svg)
         out += [f"![{module.TITLE}](../images/paper-{title}.svg)", ""]
     return out

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "analyze/Analysis.h"
-#include "analyze/Chart.h"
+#include "page/Chart.h"
 
 #include <map>
 #include <string>

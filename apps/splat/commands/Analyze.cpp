@@ -64,17 +64,27 @@ Json json(const OrderChange &C) {
           {"psnr_db", std::isfinite(C.Db) ? Json(C.Db) : Json()}};
 }
 
-Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
-                                 const Camera &C, const Analysis &R,
-                                 const std::optional<OrderAnalysis> &Order) {
-  const auto SceneHash = hashScene(A.Scene.Path);
-  if (!SceneHash)
-    return SceneHash.error();
-  Expected<std::string> CameraHash = fnv1a64({}); // where none are read
+/// What the counts come from.
+struct InputHashes {
+  std::string Scene, Cameras;
+};
+
+Expected<InputHashes> hashInputs(const AnalyzeArguments &A) {
+  const auto Scene = hashScene(A.Scene.Path);
+  if (!Scene)
+    return Scene.error();
+  Expected<std::string> Cameras = fnv1a64({}); // where none are read
   if (!A.Cameras.File.empty())
-    CameraHash = hashCameraFile(A.Cameras.File);
-  if (!CameraHash)
-    return CameraHash.error();
+    Cameras = hashCameraFile(A.Cameras.File);
+  if (!Cameras)
+    return Cameras.error();
+  return InputHashes{*Scene, *Cameras};
+}
+
+std::string jsonReport(const AnalyzeArguments &A, const SceneFile &F,
+                       const InputHashes &Hashes, const Camera &C,
+                       const Analysis &R,
+                       const std::optional<OrderAnalysis> &Order) {
   Json BySupport, Lists;
   for (std::size_t K = 0; K < AnalyzedSupports.size(); ++K)
     BySupport[std::string(name(AnalyzedSupports[K]))] = json(R.BySupport[K]);
@@ -85,13 +95,13 @@ Expected<std::string> jsonReport(const AnalyzeArguments &A, const SceneFile &F,
   Report.update(
       {{"scene",
         {{"file", A.Scene.Path},
-         {"fnv1a64", *SceneHash},
+         {"fnv1a64", Hashes.Scene},
          {"gaussians", F.Gaussians.size()},
          {"dropped_nonfinite", F.Dropped},
          {"sh_degree", F.Gaussians.ShDegree},
          {"format", name(F.Format)},
          {"axes_changed", A.Scene.Axes}}},
-       {"cameras", {{"file", A.Cameras.File}, {"fnv1a64", *CameraHash}}},
+       {"cameras", {{"file", A.Cameras.File}, {"fnv1a64", Hashes.Cameras}}},
        {"view", C.Name},
        {"resolution", {C.Width, C.Height}},
        {"rules", name(A.Convention)},
@@ -201,6 +211,24 @@ std::string sceneName(const std::string &Path) {
   return (P.has_filename() ? P : P.parent_path()).filename().string();
 }
 
+Expected<Success> writePlots(const AnalyzeArguments &A,
+                             const InputHashes &Hashes, const Camera &C,
+                             const Analysis &R) {
+  const std::vector<std::string> Made = {
+      madeBy(),
+      fmt::format("scene {}, fnv1a64 {}; cameras {}, fnv1a64 {}", A.Scene.Path,
+                  Hashes.Scene, A.Cameras.File, Hashes.Cameras)};
+  for (auto &[Name, Plot] :
+       chartsOf(R, sceneName(A.Scene.Path) + ", " + C.Name)) {
+    Plot.Made = Made;
+    if (auto Written = writeFileAtomically(
+            fmt::format("{}-{}.svg", A.Plots, Name), svgOf(Plot));
+        !Written)
+      return Written;
+  }
+  return Success{};
+}
+
 /// The same view in another resolution.
 void resize(Camera &C, int Width) {
   const double Scale = static_cast<double>(Width) / C.Width;
@@ -242,20 +270,19 @@ Expected<Success> run(AnalyzeArguments A) {
     Order = analyzeOrder(toReference<double>(File->Gaussians),
                          toReference<double>(C),
                          toReference<double>(*Cameras->Beside), A.Options);
-  if (!A.JsonFile.empty()) {
-    const auto Report = jsonReport(A, *File, C, R, Order);
-    if (!Report)
-      return Report.error();
-    if (auto Written = writeFileAtomically(A.JsonFile, *Report); !Written)
-      return Written;
-  }
-  if (!A.Plots.empty())
-    for (const auto &[Name, Plot] :
-         chartsOf(R, sceneName(A.Scene.Path) + ", " + C.Name))
+  if (!A.JsonFile.empty() || !A.Plots.empty()) {
+    const auto Hashes = hashInputs(A);
+    if (!Hashes)
+      return Hashes.error();
+    if (!A.JsonFile.empty())
       if (auto Written = writeFileAtomically(
-              fmt::format("{}-{}.svg", A.Plots, Name), svgOf(Plot));
+              A.JsonFile, jsonReport(A, *File, *Hashes, C, R, Order));
           !Written)
         return Written;
+    if (!A.Plots.empty())
+      if (auto Written = writePlots(A, *Hashes, C, R); !Written)
+        return Written;
+  }
   printOut("{}", textReport(A, C, R));
   if (Order)
     printOut("{}", textOf(A.OrderBeside, *Order));

@@ -9,8 +9,9 @@
 #include "commands/TrainPictures.h"
 #include "commands/TrainSettingOptions.h"
 
-#include "analyze/Chart.h"
 #include "capture/Undistort.h"
+#include "io/ReportHead.h"
+#include "page/Chart.h"
 #include "scene/formats/Ply.h"
 #include "train/TrainReport.h"
 #include "train/Training.h"
@@ -77,7 +78,14 @@ void endTrainProgress() {
 /// The losses in so many parts of the run, as means.
 std::string curveOf(const std::vector<float> &Losses, const std::string &What) {
   const std::size_t Parts = std::min<std::size_t>(50, Losses.size());
-  Chart C{"Loss in training, " + What, "iteration", "loss", {}, 10, {}, false};
+  Chart C{"Loss in training, " + What,
+          "iteration",
+          "loss",
+          {},
+          10,
+          {},
+          false,
+          {madeBy()}};
   ChartSeries Means{"mean of a part", {}};
   for (std::size_t P = 0; P < Parts; ++P) {
     const auto Begin = static_cast<std::ptrdiff_t>(P * Losses.size() / Parts);

@@ -1,7 +1,9 @@
-/// Charts as SVG: axes, lines, bars, a legend; black on white, for print.
+/// Charts as SVG, in the look of the pages: for documents, and for whatever
+/// shows no page.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,11 +20,16 @@ struct Chart {
   /// Only every so many places get a label.
   std::size_t LabelEvery = 1;
   std::vector<ChartSeries> Series;
-  bool Bars = false; ///< side by side, else lines
+  bool Bars = false;             ///< side by side, else lines
+  std::vector<std::string> Made; ///< for the foot: what made it
 };
 
-/// A document of 640 x 420 units. The y axis starts at 0 and ends at a round
-/// number that is not below any value.
+/// A document of 760 units' width, light or dark as its reader's settings say.
+/// The y axis starts at 0 and ends at a round number that is not below any
+/// value.
 std::string svgOf(const Chart &C);
+
+/// look.css, whose colours charts have.
+std::string_view lookSheet();
 
 } // namespace vorion::splat
