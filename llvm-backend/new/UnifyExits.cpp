@@ -9,16 +9,25 @@
 // post-dominates the branch without it, and whatever dominates that, but stands
 // behind the branch, would post-dominate the branch earlier.
 //
+// Several branches may go to one dead end. Where the sides of the first of them
+// meet, a later one may follow, and the edge would close a loop through it. The
+// dead end is copied then, a copy an edge that leads to it: each belongs to one
+// branch.
+//
 //===----------------------------------------------------------------------===//
 
 #include "UnifyExits.h"
 #include "llvm/ADT/DepthFirstIterator.h"
+#include "llvm/ADT/SetVector.h"
 #include "llvm/ADT/SmallPtrSet.h"
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/IR/CFG.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/Dominators.h"
 #include "llvm/IR/Instructions.h"
+#include "llvm/Transforms/Utils/BasicBlockUtils.h"
+#include "llvm/Transforms/Utils/Cloning.h"
+#include "llvm/Transforms/Utils/Local.h"
 
 using namespace llvm;
 
@@ -70,8 +79,91 @@ BasicBlock *meetingAfter(BasicBlock *From, BasicBlock *Return) {
 struct DeadEnd {
   BasicBlock *Start;   ///< ends in `unreachable`, or is the endless loop's head
   const Loop *Endless; ///< null if it is no loop
+  BasicBlock *Branch;  ///< the last that all came from and some return from
   BasicBlock *Meeting;
 };
+
+using BlockSet = SmallPtrSet<BasicBlock *, 16>;
+
+/// The blocks from which a path leads to \p Return.
+BlockSet returningBlocks(BasicBlock *Return) {
+  BlockSet Returning;
+  for (BasicBlock *Block : inverse_depth_first(Return))
+    Returning.insert(Block);
+  return Returning;
+}
+
+SmallVector<DeadEnd, 4> findDeadEnds(Function &F, const LoopInfo &Loops,
+                                     BasicBlock *Return) {
+  SmallVector<DeadEnd, 4> DeadEnds;
+  for (BasicBlock &Block : F)
+    if (isa<UnreachableInst>(Block.getTerminator()))
+      DeadEnds.push_back({&Block, nullptr, nullptr, nullptr});
+  for (const Loop *L : Loops.getLoopsInPreorder())
+    if (L->hasNoExitBlocks())
+      DeadEnds.push_back({L->getHeader(), L, nullptr, nullptr});
+  if (DeadEnds.empty())
+    return DeadEnds;
+  const BlockSet Returning = returningBlocks(Return);
+  const DominatorTree Dominators(F);
+  for (DeadEnd &End : DeadEnds) {
+    const DomTreeNode *Node = Dominators.getNode(End.Start);
+    while (Node && !Returning.count(Node->getBlock()))
+      Node = Node->getIDom();
+    End.Branch = Node ? Node->getBlock() : nullptr;
+    End.Meeting = Node ? meetingAfter(End.Branch, Return) : Return;
+  }
+  return DeadEnds;
+}
+
+/// Whether the edge from \p End to its meeting closes a loop that does not pass
+/// its branch.
+bool closesLoop(const DeadEnd &End) {
+  return End.Branch && reaches(End.Meeting, End.Start, End.Branch);
+}
+
+/// Copies what \p Target leads to, for the edges from \p From only. Nothing of
+/// it leads to a return, so that its values are used in it alone.
+void copyDeadEnd(BasicBlock *From, BasicBlock *Target) {
+  ValueToValueMapTy Copies;
+  SmallVector<BasicBlock *, 4> Copied;
+  const SmallVector<BasicBlock *, 4> Blocks(depth_first(Target));
+  for (BasicBlock *Block : Blocks) {
+    BasicBlock *Copy =
+        CloneBasicBlock(Block, Copies, ".copy", Block->getParent());
+    Copies[Block] = Copy;
+    Copied.push_back(Copy);
+  }
+  remapInstructionsInBlocks(Copied, Copies);
+  From->getTerminator()->replaceSuccessorWith(Target,
+                                              cast<BasicBlock>(Copies[Target]));
+  for (BasicBlock *Copy : Copied) {
+    const BlockSet Sources(pred_begin(Copy), pred_end(Copy));
+    for (PHINode &Phi : Copy->phis())
+      Phi.removeIncomingValueIf(
+          [&](unsigned I) { return !Sources.count(Phi.getIncomingBlock(I)); },
+          /*DeletePHIIfEmpty=*/false);
+  }
+}
+
+/// A copy of \p End for each edge that leads from a block of some path to
+/// \p Return to one of none.
+void copyForEachBranch(const DeadEnd &End, BasicBlock *Return) {
+  const BlockSet Returning = returningBlocks(Return);
+  const auto Passed = [&](BasicBlock *Block) {
+    return Returning.count(Block) != 0;
+  };
+  SmallVector<BasicBlock *, 8> Leading(inverse_depth_first(End.Start));
+  erase_if(Leading, Passed);
+  for (BasicBlock *Target : Leading) {
+    SmallSetVector<BasicBlock *, 4> Branches(pred_begin(Target),
+                                             pred_end(Target));
+    Branches.remove_if(std::not_fn(Passed));
+    for (BasicBlock *From : Branches)
+      copyDeadEnd(From, Target);
+  }
+  EliminateUnreachableBlocks(*End.Start->getParent());
+}
 
 /// For an edge from the block that \p Builder is at, which nothing takes: its
 /// values do not matter.
@@ -112,26 +204,15 @@ void leaveLoop(const DeadEnd &End, bool Known,
 bool vorion::unifyExits(Function &F, const LoopInfo &Loops, bool Known,
                         function_ref<Value *(IRBuilder<> &)> MakeTrue) {
   const size_t Blocks = F.size();
-  SmallVector<DeadEnd, 4> DeadEnds;
-  for (BasicBlock &Block : F)
-    if (isa<UnreachableInst>(Block.getTerminator()))
-      DeadEnds.push_back({&Block, nullptr, nullptr});
-  for (const Loop *L : Loops.getLoopsInPreorder())
-    if (L->hasNoExitBlocks())
-      DeadEnds.push_back({L->getHeader(), L, nullptr});
-
   BasicBlock *Return = mergeReturns(F);
-  if (DeadEnds.empty())
-    return F.size() != Blocks;
-  SmallPtrSet<BasicBlock *, 16> Returning;
-  for (BasicBlock *Block : inverse_depth_first(Return))
-    Returning.insert(Block);
-  const DominatorTree Dominators(F);
-  for (DeadEnd &End : DeadEnds) {
-    const DomTreeNode *Node = Dominators.getNode(End.Start);
-    while (Node && !Returning.count(Node->getBlock()))
-      Node = Node->getIDom();
-    End.Meeting = Node ? meetingAfter(Node->getBlock(), Return) : Return;
+  SmallVector<DeadEnd, 4> DeadEnds = findDeadEnds(F, Loops, Return);
+  LoopInfo LoopsOfCopies;
+  for (auto *End = find_if(DeadEnds, closesLoop); End != DeadEnds.end();
+       End = find_if(DeadEnds, closesLoop)) {
+    copyForEachBranch(*End, Return);
+    LoopsOfCopies.releaseMemory();
+    LoopsOfCopies.analyze(DominatorTree(F));
+    DeadEnds = findDeadEnds(F, LoopsOfCopies, Return);
   }
   for (const DeadEnd &End : DeadEnds) {
     if (End.Endless) {
@@ -144,5 +225,5 @@ bool vorion::unifyExits(Function &F, const LoopInfo &Loops, bool Known,
     Builder.CreateBr(End.Meeting);
     Old->eraseFromParent();
   }
-  return true;
+  return !DeadEnds.empty() || F.size() != Blocks;
 }
