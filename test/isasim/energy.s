@@ -1,9 +1,9 @@
 # What the instructions of a run are worth, and what is refused;
-# docs/energy.md has the rows that there are.
+# docs/tables/energy.md has the rows that there are.
 # REQUIRES: vorion-mc, vorion-sim
 # RUN: rm -rf %t && mkdir %t
 # RUN: vorion-sim --print-energy-parameters > %t/made
-# RUN: sed -n '/begin of what is made/,/end of what is made/{//!p}' %S/../../docs/energy.md > %t/kept
+# RUN: sed -n '/begin of what is made/,/end of what is made/{//!p}' %S/../../docs/tables/energy.md > %t/kept
 # RUN: cmp %t/made %t/kept
 # RUN: sh %S/Inputs/assemble.sh %build %s %t/p.elf
 # RUN: vorion-sim %t/p.elf --energy > %t/first

@@ -1,9 +1,9 @@
 # The clock of vorion-sim: 1025 instructions of a cycle, 9 taken branches, 6 cycles
 # of start; and
-# docs/model.md has the parameters that there are.
+# docs/tables/timing.md has the parameters that there are.
 # REQUIRES: vorion-mc, vorion-sim
 # RUN: vorion-sim --print-timing-parameters > %t.made
-# RUN: sed -n '/begin of what is made/,/end of what is made/{//!p}' %S/../../docs/model.md > %t.kept
+# RUN: sed -n '/begin of what is made/,/end of what is made/{//!p}' %S/../../docs/tables/timing.md > %t.kept
 # RUN: cmp %t.made %t.kept
 # RUN: sh %S/Inputs/assemble.sh %build %s %t.elf
 # RUN: vorion-sim %t.elf --time --config prototype-on-chip --clock 100 --stats %t.json | FileCheck %s
