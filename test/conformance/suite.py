@@ -13,10 +13,11 @@ class Problem(Exception):
 
 @dataclasses.dataclass(frozen=True)
 class Test:
-    """A subtest, its command, and the files that it is made of. judge takes what the command wrote and its exit code, and
-    gives the outcome and a reason."""
+    """A run of a subtest, its command, and the files that it is made of. judge takes what the command wrote and its exit
+    code, and gives the outcome and a reason. limit: seconds, unless the user gives others."""
     program: str
     name: str
     command: tuple[str, ...]
     files: tuple[str, ...]
     judge: Callable[[str, int], tuple[str, str]]
+    limit: float = 600
