@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What each camera model costs beside the pinhole, as the table of docs/cameras.md.
+"""What each camera model costs beside the pinhole, as the tables of docs/tables/cameras.md.
 
 usage: bench/cameras.py SCENE --cameras FILE --view NAME [-- OPTIONS of splat render]
 

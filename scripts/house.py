@@ -3,7 +3,7 @@
 
 usage: scripts/house.py [--check] [DOCUMENT]
 
-Writes the drawing into DOCUMENT (default: docs/architecture.md), between the lines `<!-- house -->` and `<!-- /house -->`.
+Writes the drawing into DOCUMENT (default: docs/tables/folders.md), between the lines `<!-- house -->` and `<!-- /house -->`.
 With --check it writes nothing, and the exit code is 1 if the document shows something else. The exit code is also 1 if a
 folder uses one above it and EXCEPTIONS does not say why, or if an exception is not needed any more. Tests and
 fuzzers are left out: they may use everything.
@@ -124,7 +124,7 @@ def drawing(found, order, up):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("document", nargs="?", default=os.path.join(ROOT, "docs", "architecture.md"))
+    parser.add_argument("document", nargs="?", default=os.path.join(ROOT, "docs", "tables", "folders.md"))
     parser.add_argument("--check", action="store_true")
     args = parser.parse_args()
     found = arrows(sources())
