@@ -9,31 +9,20 @@ from verdicts import DEPENDS, HOLDS, IF, NOT, NOT_COMPARABLE
 
 HEAD = f"""# The paper's results, measured here
 
-Made by `scripts/paper.sh` (at most six hours of two cores, resumable; `scripts/paper.sh --help`); do
-not edit. What the paper says about rendering and training, each figure with ours beside it. A page
-behind each claim has the tables, the ratio to the paper's figure, what bounds it, and the command.
+`scripts/paper.sh` makes this page (at most six hours of two cores, resumable); do not edit it. Each
+figure of the paper about rendering and training stands beside ours. The page behind each claim has
+tables, the ratio to the paper's figure, what bounds it, and the command.
 
-**Machines.** The text allows two cores, so everything about the prototype is measured on two
-machines, `prototype` (core `vortex-5stage`) and `prototype-forwarding` (core `forwarding`), and
-everything about the scaled machine on `scaled` and `scaled-forwarding`
-([model.md](model.md#machines-that-have-a-name)). None of their parameters is fitted to a result.
+| | |
+|---|---|
+| machines | the paper's text allows two cores: `prototype` and `scaled` have the core `vortex-5stage`, `prototype-forwarding` and `scaled-forwarding` the core `forwarding` ([model.md](model.md#machines-that-have-a-name)). No parameter is fitted to a result |
+| workloads | the paper names no scene, resolution or kernel for its rates. Ours were chosen before measuring: 960x544, two of the scenes also 1920x1088, INRIA's rules, support `exact`. What is not measured is named |
+| a frame | from projecting to the finished picture, with its launches and small copies, without uploading a scene or reading the picture back |
+| *serial* | one frame after the other |
+| *overlapped* | a frame in the time of the longest of the paper's three stages. This is a bound: stages share memory for nothing, and with queues of four commands `--overlap` reaches little of it ([rates](paper/rates.md)) |
+| baselines | kernels on the same machine without its rasterizers: *our fastest*, and *the official algorithm, step by step*: 16x16 tiles, a work-item a pixel, the exponential for every pixel of a tile and every Gaussian of its list |
 
-**Workloads.** The paper names no scene, resolution or kernel for its rates. So the views of scenes
-that were chosen before measuring are drawn at 960x544, two of the scenes at 1920x1088, too, with
-INRIA's rules and support `exact`. What is not measured is named at the end and on each page.
-
-**A frame** is from projecting to the finished picture with its launches and small copies, without
-uploading a scene or reading the picture back. The paper's three stages are a pipeline, so rates are
-given twice: *serial*, one frame after the other, and *overlapped*, a frame in the time of the
-longest stage. The latter is a bound: nothing is charged for the memory that stages share, and with
-queues of four commands `--overlap` reaches little of it ([rates](paper/rates.md)).
-
-**Baselines** are kernels on the same machine without its rasterizers: *our fastest*, and *the
-official algorithm, step by step*: 16x16 tiles, a work-item a pixel, the exponential for every pixel
-of a tile and every Gaussian of its list.
-
-**Verdicts.** A figure is reached by a view that has at least as much; "about" is within a factor of
-2.
+A view reaches a figure if it has at least as much; "about" is within a factor of 2.
 
 | verdict | of the views measured |
 |---|---|
@@ -82,7 +71,7 @@ def _page(name, module, data, rows, images):
     out = [f"# {module.TITLE}", "", "[The paper's results](../paper-results.md). " + _made_by(data) if data["builds"]
            else "[The paper's results](../paper-results.md). Made by `scripts/paper.sh`; do not edit.", ""]
     if data.get("left_out"):
-        out += [f"*Not measured: {', '.join(data['left_out'])}.*", ""]
+        out += [f"*{len(data['left_out'])} points were [not measured](#not-measured).*", ""]
     if rows:
         out += ["Commands are for the root of the repository, after `. scripts/env.sh`; each is of the view that has the most, "
                 "or of the one that decides.", "", *_details(rows)]
@@ -93,6 +82,8 @@ def _page(name, module, data, rows, images):
         svg = writing.svg_of(described, [f"scripts/paper.sh --sections {name}{builds}"])
         _write(os.path.join(images, f"paper-{title}.svg"), svg)
         out += [f"![{module.TITLE}](../images/paper-{title}.svg)", ""]
+    if data.get("left_out"):
+        out += ["## Not measured", "", *(f"- {point}" for point in data["left_out"]), ""]
     return out
 
 
