@@ -1,7 +1,7 @@
 # vorion_fuzzer(NAME SOURCE LIBRARY...): a libFuzzer program, built by the
 # `fuzz` preset alone (VORION_FUZZ); in every other build the call does nothing.
 # The target `fuzzers` builds all of them, into bin/. SOURCE defines
-# LLVMFuzzerTestOneInput; see docs/testing.md for how to run them.
+# LLVMFuzzerTestOneInput; see docs/random-tests.md for how to run them.
 option(VORION_FUZZ "Build the libFuzzer programs, with coverage in our own libraries" OFF)
 
 if(VORION_FUZZ)

@@ -118,6 +118,7 @@ def write(file, sections):
     out += [f"## {joint.TITLE}", ""]
     if "rates" in measured and "speedup" in measured:
         out += joint.text(measured["rates"], measured["speedup"])
+        _write(os.path.join(pages, "joint.md"), _lines(joint.page(measured["rates"], measured["speedup"])))
     else:
         out += ["Not measured: it needs sections rates and speedup.", ""]
     out += ["## Pages", ""]

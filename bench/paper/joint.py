@@ -41,6 +41,7 @@ def off(row):
 
 
 def text(rates, speedup):
+    """What the combinations say together; their table is a page of its own."""
     rows = rows_of(rates, speedup)
     all_met = [row for row in rows if len(row["met"]) == 4]
     said = [f"Of {len(rows)} combinations {len(all_met)} meet all four" + (": " + _names(all_met) if all_met else "") + "."]
@@ -53,9 +54,16 @@ def text(rates, speedup):
     out = [paragraph(f"""The paper's rates, {FPS} frames/s at {CLOCK} MHz and {SLOW_FPS} at 100 MHz, its {TIMES[0]} times over kernels
         alone and the {SCALED_GAIN} times of the scaled machine are of one machine and, as far as the text says, of one workload.
         Together they imply {FRAME_MCYCLES:.1f} Mcycles a frame with two rasterizers, {KERNELS_MCYCLES[0]:.0f} to
-        {KERNELS_MCYCLES[1]:.0f} Mcycles by kernels alone, and that over {100 * SHARE:.1f} % of those are blending. A figure that is
-        met is bold. A line has a prototype, and the scaled machine with the same core. *official*: the baseline that is the
-        official algorithm, step by step."""), "", said, ""]
+        {KERNELS_MCYCLES[1]:.0f} Mcycles by kernels alone, and that over {100 * SHARE:.1f} % of those are blending.
+        *official*: the baseline that is the official algorithm, step by step."""), "", said, ""]
+    return [*out, "[Each combination](paper/joint.md) has a row.", ""]
+
+
+def page(rates, speedup):
+    rows = rows_of(rates, speedup)
+    out = [f"# {TITLE}", "", paragraph("""[The paper's results](../paper-results.md#all-at-once). Made by `scripts/paper.sh`; do not
+        edit. A row has a prototype, and the scaled machine with the same core. A figure that is met is bold. *official*: the
+        baseline that is the official algorithm, step by step."""), ""]
     lines = []
     for row in rows:
         def cell(key, shown, row=row):

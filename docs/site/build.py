@@ -27,7 +27,8 @@ def stage(root, pages):
     for folder, folders, files in os.walk(root):
         if folder == root:
             folders[:] = sorted(set(folders) - NO_PAGES)
-        folders[:] = [f for f in folders if f[0] not in "._"]
+        # The inputs of tests are no documents.
+        folders[:] = [f for f in folders if f[0] not in "._" and f != "Inputs"]
         for name in files:
             path = os.path.relpath(os.path.join(folder, name), root)
             if name.endswith(".md") or path == "LICENSE" or path.startswith("docs/images/"):
