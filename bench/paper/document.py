@@ -50,15 +50,14 @@ def _claims(found):
 
 
 def _details(rows):
-    """What stands behind each claim of a page."""
-    out = ["## Claims", ""]
-    for row in rows:
-        out.append(f"- {row['claim']}: **{row['verdict']}**.")
-        if row["ratio"]:
-            out.append(f"  Ours over the paper's: {row['ratio']}.")
-        if row["bound"]:
-            out.append(f"  Bound: {row['bound']}.")
-        out.append(f"  `{row['command'] or 'bench/invocations.py'}`")
+    """What stands behind each claim of a page: a table, and each command once with the claims that it decides."""
+    commands = {}
+    for number, row in enumerate(rows, 1):
+        commands.setdefault(row["command"] or "bench/invocations.py", []).append(number)
+    cells = [(number, row["claim"], f"**{row['verdict']}**", row["ratio"], row["bound"]) for number, row in enumerate(rows, 1)]
+    out = ["## Claims", "", *writing.table(("", "claim", "verdict", "ours over the paper's", "bound"), cells)]
+    for command, numbers in commands.items():
+        out += [f"- {', '.join(map(str, numbers))}:", f"  `{command}`"]
     return [*out, ""]
 
 
@@ -73,8 +72,8 @@ def _page(name, module, data, rows, images):
     if data.get("left_out"):
         out += [f"*{len(data['left_out'])} points were [not measured](#not-measured).*", ""]
     if rows:
-        out += ["Commands are for the root of the repository, after `. scripts/env.sh`; each is of the view that has the most, "
-                "or of the one that decides.", "", *_details(rows)]
+        out += ["Commands are for the root of the repository, after `. scripts/env.sh`. The numbers are those of the claims. Each "
+                "command is of the view that has the most, or of the one that decides.", "", *_details(rows)]
     out += module.text(data)
     for title, described in module.charts(data).items():
         os.makedirs(images, exist_ok=True)
