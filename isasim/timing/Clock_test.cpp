@@ -217,15 +217,21 @@ TEST_F(ClockTest, AFullQueueStallsTheStart) {
   Settings.Raster.QueueDepth = 2;
   const unsigned Tile = Settings.Timing.Raster.StartCycles + 4096 / 16 + 1024;
   const Words Start = {csrw(raster::Csr::Start, 0)};
-  const TimeReport Two = run(emptyTile() + repeat(2, Start));
-  EXPECT_EQ(of(Two, CoreCycle::RasterFull), 0U);
   const Words Wait = {csrr(15, static_cast<unsigned>(raster::Csr::Wait))};
-  const TimeReport Five = run(emptyTile() + repeat(5, Start) + Wait);
-  EXPECT_NEAR(static_cast<double>(of(Five, CoreCycle::RasterFull)), 3.0 * Tile,
-              8);
-  EXPECT_EQ(Five.Rasters[0].Commands, 5U);
-  const TimeReport Waited = run(emptyTile() + Start + Wait);
-  EXPECT_NEAR(static_cast<double>(of(Waited, CoreCycle::RasterWait)), Tile, 2);
+  // A second warp, which nobody starts, changes nothing.
+  for (const unsigned Warps : {1U, 2U}) {
+    Settings.WarpsPerCore = Warps;
+    const TimeReport Two = run(emptyTile() + repeat(2, Start));
+    EXPECT_EQ(of(Two, CoreCycle::RasterFull), 0U) << Warps;
+    const TimeReport Five = run(emptyTile() + repeat(5, Start) + Wait);
+    EXPECT_NEAR(static_cast<double>(of(Five, CoreCycle::RasterFull)),
+                3.0 * Tile, 8)
+        << Warps;
+    EXPECT_EQ(Five.Rasters[0].Commands, 5U) << Warps;
+    const TimeReport Waited = run(emptyTile() + Start + Wait);
+    EXPECT_NEAR(static_cast<double>(of(Waited, CoreCycle::RasterWait)), Tile, 2)
+        << Warps;
+  }
 }
 
 // n cycles of the rasterizer that a run starts and a later one of m cycles

@@ -21,6 +21,7 @@ bool CoreClock::selectWaiting(unsigned Warp) {
       W.Now == State::Fetch)
     return false;
   select(Warp);
+  Presented = Now;
   return true;
 }
 
