@@ -1,9 +1,10 @@
 #!/bin/bash
-# `splat accuracy ARGUMENTS` with its points under GNU parallel, or as a Slurm
-# array: the same points, files and page. What is measured already, made from the
-# same, is not measured again, so a broken sweep goes on where it stopped.
-#   scripts/accuracy-sweep.sh [--jobs N] [--slurm] ARGUMENTS
-#   scripts/accuracy-sweep.sh --jobs 8 scene.ply --cameras cameras.json --out FOLDER
+# `splat accuracy ARGUMENTS` or `splat explore ARGUMENTS` with its points under GNU
+# parallel, or as a Slurm array: the same points, files and page. What is measured
+# already, made from the same, is not measured again, so a broken sweep goes on where
+# it stopped.
+#   scripts/sweep.sh [--jobs N] [--slurm] accuracy|explore ARGUMENTS
+#   scripts/sweep.sh --jobs 8 accuracy scene.ply --cameras cameras.json --out FOLDER
 # With --slurm the folder must be one that all nodes see.
 set -euo pipefail
 . "$(dirname "$0")/env.sh"
@@ -20,22 +21,22 @@ done
 
 measure() { # the points of standard input
   if [ "$Slurm" = 0 ]; then
-    parallel --halt now,fail=1 --jobs "$Jobs" splat accuracy "${Arguments[@]}" --only {}
+    parallel --halt now,fail=1 --jobs "$Jobs" splat "${Arguments[@]}" --only {}
     return
   fi
   local List
   List=$(mktemp -p .)
   cat > "$List"
   sbatch --wait --array="1-$(wc -l < "$List")%$Jobs" --output=/dev/null --export=ALL --wrap "$(
-    printf '%q ' splat accuracy "${Arguments[@]}" --only
+    printf '%q ' splat "${Arguments[@]}" --only
   ) \"\$(sed -n \"\${SLURM_ARRAY_TASK_ID}p\" $(printf %q "$List"))\""
   rm "$List"
 }
 
 Arguments=("$@")
-# First one knob at a time, then the product of the fronts, which depends on it.
+# What the first points find out says which the second are.
 for _ in 1 2; do
-  Points=$(splat accuracy "${Arguments[@]}" --list)
+  Points=$(splat "${Arguments[@]}" --list)
   [ -z "$Points" ] || measure <<< "$Points"
 done
-splat accuracy "${Arguments[@]}"
+splat "${Arguments[@]}"

@@ -70,6 +70,8 @@ int run(std::vector<std::string> Arguments) {
   Add("analyze", "Counts what a view of a scene asks of a machine",
       splat::addAnalyze);
   Add("accuracy", "Measures what accuracy costs in time", splat::addAccuracy);
+  Add("explore", "Tries machines: frames a second, energy and area",
+      splat::addExplore);
   Add("info", "Prints what is in a scene or a capture", splat::addInfo);
   Add("convert", "Writes a scene in another format, and says what is lost",
       splat::addConvert);

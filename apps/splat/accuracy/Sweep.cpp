@@ -1,11 +1,11 @@
 #include "accuracy/Sweep.h"
 
-#include "accuracy/Points.h"
-#include "accuracy/Process.h"
 #include "accuracy/Reference.h"
 #include "accuracy/Thumbnail.h"
 #include "io/Inside.h"
 #include "io/Metrics.h"
+#include "sweep/Points.h"
+#include "sweep/Process.h"
 #include "vorion/support/JsonShape.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "accuracy/Front.h"
-#include "accuracy/Points.h"
+#include "sweep/Points.h"
 
 #include "device/DeviceOptions.h"
 #include "io/Cameras.h"

@@ -1,13 +1,13 @@
 #include "accuracy/TrainSweep.h"
 
 #include "accuracy/GradientReference.h"
-#include "accuracy/Points.h"
-#include "accuracy/Process.h"
 #include "capture/Capture.h"
 #include "io/Hash.h"
 #include "io/Inside.h"
 #include "io/Mean.h"
 #include "scene/SceneFile.h"
+#include "sweep/Points.h"
+#include "sweep/Process.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
 

@@ -1,8 +1,8 @@
 /// Measuring training: each reciprocal unit and order of sums, over seeds.
 #pragma once
 
-#include "accuracy/Points.h"
 #include "accuracy/Setting.h"
+#include "sweep/Points.h"
 
 #include "device/DeviceOptions.h"
 

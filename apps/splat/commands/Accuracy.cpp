@@ -1,5 +1,4 @@
 #include "accuracy/Page.h"
-#include "accuracy/Points.h"
 #include "accuracy/Sweep.h"
 #include "commands/AccuracyTrain.h"
 #include "commands/CameraArguments.h"
@@ -10,6 +9,7 @@
 #include "io/Hash.h"
 #include "io/Inside.h"
 #include "io/ReportHead.h"
+#include "sweep/Points.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"

@@ -5,9 +5,9 @@
 #include "commands/PictureOptions.h"
 
 #include "accuracy/Page.h"
-#include "accuracy/Points.h"
 #include "capture/Capture.h"
 #include "io/ReportHead.h"
+#include "sweep/Points.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"

@@ -20,6 +20,7 @@ Runner addInfo(CLI::App &App);
 Runner addConvert(CLI::App &App);
 Runner addDemoScene(CLI::App &App);
 Runner addAccuracy(CLI::App &App);
+Runner addExplore(CLI::App &App);
 Runner addTrain(CLI::App &App);
 Runner addEval(CLI::App &App);
 Runner addCompare(CLI::App &App);

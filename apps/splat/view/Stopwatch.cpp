@@ -1,6 +1,6 @@
 #include "view/Stopwatch.h"
 
-#include "accuracy/Process.h"
+#include "sweep/Process.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>

@@ -76,6 +76,10 @@ splat("eval", "t.ply", capture)
 splat("accuracy", *view[:3], "--out", "accuracy", "--knobs", "sh-degree", "--no-cores", report="accuracy/accuracy.json")
 splat("accuracy", "--train", capture, "--out", "training", "--iterations", "1", "--seeds", "1", "--score-every", "1",
       "--time-every", "1", report="training/training.json")
+with open("space.json", "w", encoding="utf-8") as file:
+    json.dump({"parameters": {"lanes": {"key": "timing.raster.lanes", "values": [8, 77]}, "tile": {"option": "--tile", "values": [32]}}}, file)
+splat("explore", *view[:3], "--out", "machines", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2", "--small-width", "16",
+      report="machines/explore.json")
 splat("doctor")
 run("vorion-clang", "--resources=resources.json", os.path.join(root, "test", "clang", "Inputs", "slow.cl"), "-o", "slow.elf")
 check_file("resources.json")

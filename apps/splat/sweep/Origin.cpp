@@ -1,9 +1,9 @@
-#include "accuracy/Origin.h"
+#include "sweep/Origin.h"
 
-#include "accuracy/Points.h"
 #include "device/Configuration.h"
 #include "device/Programs.h"
 #include "io/Hash.h"
+#include "sweep/Points.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 

@@ -1,4 +1,4 @@
-#include "accuracy/Points.h"
+#include "sweep/Points.h"
 
 #include "io/Inside.h"
 #include "vorion/support/File.h"

@@ -1,4 +1,4 @@
-#include "accuracy/Origin.h"
+#include "sweep/Origin.h"
 
 #include "io/TestFiles.h"
 

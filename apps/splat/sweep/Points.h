@@ -2,7 +2,7 @@
 /// stopped.
 #pragma once
 
-#include "accuracy/Origin.h"
+#include "sweep/Origin.h"
 #include "vorion/support/Expected.h"
 
 #include <functional>

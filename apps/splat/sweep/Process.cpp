@@ -1,4 +1,4 @@
-#include "accuracy/Process.h"
+#include "sweep/Process.h"
 
 #include "vorion/support/File.h"
 

@@ -1,0 +1,376 @@
+#include "commands/CameraArguments.h"
+#include "commands/Commands.h"
+#include "commands/OutputFile.h"
+#include "commands/Progress.h"
+#include "commands/SceneArguments.h"
+#include "explore/Page.h"
+#include "explore/Study.h"
+#include "io/Hash.h"
+#include "io/Inside.h"
+#include "io/ReportHead.h"
+#include "vorion/support/CommandLine.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ExploreArguments {
+  SceneArguments Scene;
+  CameraArguments Cameras;
+  std::string Folder, SpaceFile;
+  std::vector<std::string> Only;
+  std::size_t Machines = 200, Finalists = 50, Checks = 50;
+  uint64_t Seed = 1;
+  unsigned Jobs = 1;
+  int SmallWidth = 480;
+  bool List = false, PrintSpace = false;
+};
+
+Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
+
+void say(std::string_view Line) {
+  if (!isProgressHidden())
+    printNote(fmt::format("splat: {}\n", escaped(Line)));
+}
+
+Expected<Space> spaceOf(const ExploreArguments &A) {
+  if (A.SpaceFile.empty())
+    return parseSpace(defaultSpace(), "the space of splat explore");
+  const auto Bytes = readFile(A.SpaceFile);
+  if (!Bytes)
+    return Bytes.error();
+  return parseSpace(
+      {reinterpret_cast<const char *>(Bytes->data()), Bytes->size()},
+      A.SpaceFile);
+}
+
+/// All of the file, unless some are named.
+Expected<std::vector<Camera>> viewsOf(const ExploreArguments &A) {
+  CameraArguments C = A.Cameras;
+  if (C.Views.empty())
+    C.Views = {"all"};
+  if (!C.File.empty() && C.Orbit == 0)
+    return chooseCameras(C, Scene());
+  const auto File = loadScene(A.Scene);
+  return File ? chooseCameras(C, File->Gaussians)
+              : Expected<std::vector<Camera>>(File.error());
+}
+
+/// The same picture with fewer pixels.
+Camera smaller(Camera View, int Width) {
+  const double Scale = static_cast<double>(Width) / View.Width;
+  View.Width = Width;
+  View.Height = std::max(1, static_cast<int>(std::lround(View.Height * Scale)));
+  for (double *Length : {&View.Fx, &View.Fy, &View.Cx, &View.Cy})
+    *Length *= Scale;
+  return View;
+}
+
+Expected<Success> checkNames(const std::vector<Camera> &Views) {
+  std::set<std::string> Names;
+  for (const Camera &View : Views)
+    if (!Names.insert(asFileName(View.Name)).second)
+      return usage(fmt::format("two of the views would be kept as {}, expected "
+                               "views of different names",
+                               asFileName(View.Name)));
+  return Success{};
+}
+
+Expected<StudyPlan> planOf(const ExploreArguments &A,
+                           const DeviceOptions &Machine) {
+  auto S = spaceOf(A);
+  if (!S)
+    return S.error();
+  auto Views = viewsOf(A);
+  if (!Views)
+    return Views.error();
+  if (auto Checked = checkNames(*Views); !Checked)
+    return Checked.error();
+  StudyPlan P;
+  P.ScenePath = A.Scene.Path;
+  P.Folder = A.Folder;
+  P.Machine = Machine;
+  P.CommonArguments = wordsOf(A.Scene);
+  P.Parameters = std::move(*S);
+  P.Jobs = A.Jobs;
+  P.Whole = {"", A.Folder + "/cameras.json", std::move(*Views)};
+  P.Small = {"@small", A.Folder + "/small.json", {}};
+  // Only where they are smaller: else all machines are judged whole.
+  if (std::ranges::any_of(P.Whole.Views, [&](const Camera &View) {
+        return View.Width > A.SmallWidth;
+      }))
+    for (const Camera &View : P.Whole.Views)
+      P.Small.Views.push_back(
+          smaller(View, std::min(View.Width, A.SmallWidth)));
+  auto From = commonOrigin(Machine);
+  if (!From)
+    return From.error();
+  P.From = std::move(*From);
+  auto Scene = hashScene(P.ScenePath);
+  if (!Scene)
+    return Scene.error();
+  P.From["scene"] = std::move(*Scene);
+  P.From["options"] = fmt::format("{}", fmt::join(P.CommonArguments, " "));
+  return P;
+}
+
+Expected<std::vector<Measured>> allOf(const StudyPlan &P, KeptPoints &Kept,
+                                      const ViewSet &Of,
+                                      const std::vector<Choices> &Machines) {
+  std::vector<Measured> All;
+  for (const Choices &C : Machines) {
+    auto One = measured(P, Kept, Of, C);
+    if (!One)
+      return One.error();
+    All.push_back(std::move(*One));
+  }
+  return All;
+}
+
+/// What a study does, in two rounds: all machines on small views, then some on
+/// whole ones.
+class Study {
+public:
+  Study(const ExploreArguments &A, const StudyPlan &P)
+      : A(A), P(P), Kept(keptTrials(P, say)),
+        Machines(machinesOf(P.Parameters, A.Machines, A.Seed, Singles)) {}
+
+  /// What is to be measured now, of the round that is not done yet.
+  Expected<std::vector<Trial>> next();
+  Expected<Success> measureAll();
+  Expected<Success> measureOnly();
+  Expected<Findings> findings();
+
+private:
+  bool hasSmall() const { return !P.Small.Views.empty(); }
+  std::vector<Trial> missingOf(const ViewSet &Of,
+                               const std::vector<Choices> &Which) {
+    return missing(P, Kept, trialsOf(Of, Which));
+  }
+  /// The base, the single changes, the machines drawn first, and the best of
+  /// all by small views, which are measured.
+  Expected<std::vector<Choices>> whole();
+
+  const ExploreArguments &A;
+  const StudyPlan &P;
+  KeptPoints Kept;
+  std::size_t Singles = 0;
+  const std::vector<Choices> Machines;
+};
+
+Expected<std::vector<Choices>> Study::whole() {
+  if (!hasSmall())
+    return Machines;
+  const auto Small = allOf(P, Kept, P.Small, Machines);
+  if (!Small)
+    return Small.error();
+  std::vector<Figures> Can;
+  std::vector<std::size_t> Places;
+  for (std::size_t I = 0; I < Small->size(); ++I)
+    if ((*Small)[I].Refused.empty()) {
+      Can.push_back((*Small)[I].Is);
+      Places.push_back(I);
+    }
+  const std::size_t First = std::min(Machines.size(), Singles + A.Checks);
+  std::vector<Choices> Chosen(
+      Machines.begin(), Machines.begin() + static_cast<std::ptrdiff_t>(First));
+  for (const std::size_t I : bestFronts(Can, A.Finalists))
+    if (Places[I] >= First)
+      Chosen.push_back(Machines[Places[I]]);
+  return Chosen;
+}
+
+Expected<std::vector<Trial>> Study::next() {
+  if (hasSmall())
+    if (auto Left = missingOf(P.Small, Machines); !Left.empty())
+      return Left;
+  const auto Chosen = whole();
+  return Chosen ? missingOf(P.Whole, *Chosen)
+                : Expected<std::vector<Trial>>(Chosen.error());
+}
+
+Expected<Success> Study::measureAll() {
+  for (auto Left = next();; Left = next()) {
+    if (!Left)
+      return Left.error();
+    if (Left->empty())
+      return Success{};
+    if (auto Done = measure(P, Kept, *Left, say); !Done)
+      return Done;
+  }
+}
+
+Expected<Success> Study::measureOnly() {
+  std::vector<Trial> Wanted;
+  for (const std::string &Name : A.Only) {
+    bool IsKnown = false;
+    for (const ViewSet *Of : {&P.Small, &P.Whole})
+      for (const Trial &One : trialsOf(*Of, Machines))
+        if (One.name(P.Parameters) == Name) {
+          Wanted.push_back(One);
+          IsKnown = true;
+        }
+    if (!IsKnown)
+      return usage(
+          fmt::format("--only {}: no such trial, expected MACHINE@VIEW "
+                      "as --list prints",
+                      Name));
+  }
+  return measure(P, Kept, missing(P, Kept, Wanted), say);
+}
+
+Expected<Findings> Study::findings() {
+  Findings F;
+  const auto Chosen = whole();
+  if (!Chosen)
+    return Chosen.error();
+  auto Whole = allOf(P, Kept, P.Whole, *Chosen);
+  if (!Whole)
+    return Whole.error();
+  F.Whole = std::move(*Whole);
+  F.Singles = Singles;
+  if (hasSmall()) {
+    auto Small = allOf(P, Kept, P.Small, Machines);
+    if (!Small)
+      return Small.error();
+    F.Small = std::move(*Small);
+  }
+  for (std::size_t I = Singles;
+       I < std::min(F.Whole.size(), Singles + A.Checks); ++I)
+    F.Checked.push_back(I);
+  std::vector<Choices> Drawn;
+  std::vector<double> Rates;
+  const auto &All = hasSmall() ? F.Small : F.Whole;
+  for (std::size_t I = Singles; I < All.size(); ++I)
+    if (All[I].Refused.empty()) {
+      Drawn.push_back(All[I].Machine);
+      Rates.push_back(All[I].Is.Rate);
+    }
+  F.Pairs = interactions(P.Parameters, Drawn, Rates);
+  return F;
+}
+
+Expected<Success> write(const StudyPlan &P, const Json &Results,
+                        const std::string &Made) {
+  Json Report = reportHead("splat-explore");
+  Report["made"] = Made;
+  Report.update(Results);
+  if (auto Written = writeFileAtomically(P.Folder + "/explore.json",
+                                         jsonText(Report, 1) + "\n");
+      !Written)
+    return Written;
+  return writeFileAtomically(P.Folder + "/index.html",
+                             explorePageOf(Results, Made));
+}
+
+Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
+  if (A.PrintSpace) {
+    printOut("{}", defaultSpace());
+    return Success{};
+  }
+  if (A.Scene.Path.empty())
+    return usage("expected a scene, or --print-space");
+  const auto P = planOf(A, Machine);
+  if (!P)
+    return P.error();
+  Study S(A, *P);
+  if (A.List) {
+    const auto Left = S.next();
+    if (!Left)
+      return Left.error();
+    for (const Trial &Of : *Left)
+      printOut("{}\n", escaped(Of.name(P->Parameters)));
+    return Success{};
+  }
+  if (auto Made = makeFolders(A.Folder); !Made)
+    return Made;
+  for (const ViewSet *Of : {&P->Whole, &P->Small})
+    if (!Of->Views.empty())
+      if (auto Written = writeCameras(Of->CameraFile, Of->Views); !Written)
+        return Written;
+  if (!A.Only.empty())
+    return S.measureOnly();
+  if (auto Done = S.measureAll(); !Done)
+    return Done;
+  const auto F = S.findings();
+  if (!F)
+    return F.error();
+  const Json Results = resultsOf(*P, *F);
+  if (auto Written = write(*P, Results, madeBy()); !Written)
+    return Written;
+  printOut("{}{}/index.html\n", textOf(Results), P->Folder);
+  return Success{};
+}
+
+} // namespace
+
+Runner addExplore(CLI::App &App) {
+  auto A = std::make_shared<ExploreArguments>();
+  writesFolder(App.add_option(
+      "--out", A->Folder,
+      "Folder for measurements and page; what is there, made from the same, is "
+      "used (default: the scene's name and -explore, in this folder)"));
+  App.add_flag("--print-space", A->PrintSpace,
+               "Print the space that is explored by default, and end");
+  takesFile(App.add_option("--space", A->SpaceFile,
+                           "What machines may differ in, JSON (default: "
+                           "--print-space)"));
+  App.add_option(
+         "--machines", A->Machines,
+         "Machines to try: the base, each change alone, and others drawn "
+         "at random (default 200)")
+      ->check(CLI::Range(1U, 1000000U))
+      ->option_text("N");
+  App.add_option("--finalists", A->Finalists,
+                 "At least so many of the best by small views are judged on "
+                 "whole ones (default 50)")
+      ->option_text("N");
+  App.add_option("--checks", A->Checks,
+                 "So many drawn at random are judged on both, to compare their "
+                 "order (default 50)")
+      ->option_text("N");
+  App.add_option("--small-width", A->SmallWidth,
+                 "Width of small views, px (default 480)")
+      ->check(CLI::Range(16, 16384))
+      ->option_text("N");
+  App.add_option("--seed", A->Seed, "Of the random machines (default 1)")
+      ->option_text("N");
+  App.add_option("--jobs", A->Jobs, "Trials measured at the same time")
+      ->check(CLI::Range(1U, 256U))
+      ->option_text("N");
+  App.add_flag("--list", A->List,
+               "Print the trials that are missing, one a line, and measure "
+               "none");
+  App.add_option("--only", A->Only,
+                 "Measure this trial alone, as --list prints it; no page")
+      ->option_text("TRIAL")
+      ->allow_extra_args(false)
+      ->excludes("--list");
+  addSceneOptions(App, A->Scene);
+  App.get_option("scene")->required(false);
+  addCameraOptions(App, A->Cameras, /*Several=*/true);
+  takesView(App.add_option("--views", A->Cameras.Views,
+                           "Views to draw (default: all)"))
+      ->delimiter(',')
+      ->option_text("VIEW,...");
+  return [A](const DeviceOptions &Machine) {
+    nameOutput("--out", A->Folder, A->Scene.Path, "-explore");
+    return run(*A, Machine);
+  };
+}
+
+} // namespace vorion::splat

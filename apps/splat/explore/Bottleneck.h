@@ -1,0 +1,20 @@
+/// What a stage of a frame waits for.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace vorion::splat {
+
+/// The reason of most cycles (docs/time-report.md, "Cycles by reason").
+struct Bottleneck {
+  std::string Unit;   ///< "cores" or "rasterizers"
+  std::string Reason; ///< as the time report calls it
+  double Share = 0;   ///< of the unit's cycles that are not idle or ended
+};
+
+/// Of the cores; where these mostly wait for rasterizers, of the rasterizers.
+/// \p Time is a time report.
+Bottleneck bottleneckOf(const nlohmann::ordered_json &Time);
+
+} // namespace vorion::splat

@@ -1,0 +1,178 @@
+#include "explore/Judge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace vorion::splat {
+
+bool beats(const Figures &A, const Figures &B) {
+  return A.Rate >= B.Rate && A.Joules <= B.Joules && A.Area <= B.Area &&
+         (A.Rate > B.Rate || A.Joules < B.Joules || A.Area < B.Area);
+}
+
+namespace {
+
+bool areEqual(const Figures &A, const Figures &B) {
+  return A.Rate == B.Rate && A.Joules == B.Joules && A.Area == B.Area;
+}
+
+/// The front of \p Among, which are places in \p All in their order.
+std::vector<std::size_t> frontOf(std::span<const Figures> All,
+                                 const std::vector<std::size_t> &Among) {
+  std::vector<std::size_t> Front;
+  for (const std::size_t I : Among)
+    if (std::ranges::none_of(Among, [&](std::size_t J) {
+          return beats(All[J], All[I]) || (J < I && areEqual(All[J], All[I]));
+        }))
+      Front.push_back(I);
+  std::ranges::sort(Front, {},
+                    [&](std::size_t I) { return std::tuple(-All[I].Rate, I); });
+  return Front;
+}
+
+std::vector<std::size_t> places(std::size_t Count) {
+  std::vector<std::size_t> All(Count);
+  std::iota(All.begin(), All.end(), std::size_t{0});
+  return All;
+}
+
+std::vector<double> ranks(std::span<const double> Of) {
+  std::vector<std::size_t> Order = places(Of.size());
+  std::ranges::sort(Order, {}, [&](std::size_t I) { return Of[I]; });
+  std::vector<double> Ranks(Of.size());
+  for (std::size_t From = 0, To = 0; From < Order.size(); From = To) {
+    while (To < Order.size() && Of[Order[To]] == Of[Order[From]])
+      ++To;
+    for (std::size_t I = From; I < To; ++I)
+      Ranks[Order[I]] = static_cast<double>(From + To - 1) / 2;
+  }
+  return Ranks;
+}
+
+double meanOf(std::span<const double> Of) {
+  return std::accumulate(Of.begin(), Of.end(), 0.0) /
+         static_cast<double>(Of.size());
+}
+
+/// Of a factor's logarithm: less is not worth a row.
+constexpr double LeastInteraction = 0.01;
+
+/// Values of some machines.
+struct Group {
+  std::vector<double> Values;
+
+  double mean() const { return meanOf(Values); }
+  /// The variance of mean().
+  double variance() const {
+    const double Mean = mean();
+    double Sum = 0;
+    for (const double V : Values)
+      Sum += (V - Mean) * (V - Mean);
+    const auto N = static_cast<double>(Values.size());
+    return Sum / (N - 1) / N;
+  }
+};
+
+/// The logarithms of \p Rates without their mean and without what each value of
+/// each parameter adds, by least squares.
+std::vector<double> withoutSingleEffects(const Space &S,
+                                         std::span<const Choices> Machines,
+                                         std::span<const double> Rates) {
+  std::vector<double> Left;
+  Left.reserve(Rates.size());
+  for (const double Rate : Rates)
+    Left.push_back(std::log(Rate));
+  // Effects of other parameters are not quite balanced in a random sample, so
+  // that taking out one changes what is left of another: some rounds.
+  for (int Round = 0; Round < 20; ++Round)
+    for (std::size_t P = 0; P < S.size(); ++P)
+      for (std::size_t Value = 0; Value <= S[P].Others.size(); ++Value) {
+        Group With;
+        for (std::size_t M = 0; M < Machines.size(); ++M)
+          if (Machines[M][P] == Value)
+            With.Values.push_back(Left[M]);
+        if (With.Values.empty())
+          continue;
+        const double Mean = With.mean();
+        for (std::size_t M = 0; M < Machines.size(); ++M)
+          if (Machines[M][P] == Value)
+            Left[M] -= Mean;
+      }
+  return Left;
+}
+
+} // namespace
+
+std::vector<std::size_t> paretoFront(std::span<const Figures> All) {
+  return frontOf(All, places(All.size()));
+}
+
+std::vector<std::size_t> bestFronts(std::span<const Figures> All,
+                                    std::size_t Count) {
+  std::vector<std::size_t> Left = places(All.size()), Best;
+  while (Best.size() < Count && !Left.empty()) {
+    const std::vector<std::size_t> Front = frontOf(All, Left);
+    Best.insert(Best.end(), Front.begin(), Front.end());
+    std::erase_if(Left, [&](std::size_t I) {
+      return std::ranges::find(Front, I) != Front.end();
+    });
+  }
+  return Best;
+}
+
+double rankCorrelation(std::span<const double> A, std::span<const double> B) {
+  const std::vector<double> RanksA = ranks(A), RanksB = ranks(B);
+  const double Mean = meanOf(RanksA); // of both
+  double Both = 0, OfA = 0, OfB = 0;
+  for (std::size_t I = 0; I < A.size(); ++I) {
+    Both += (RanksA[I] - Mean) * (RanksB[I] - Mean);
+    OfA += (RanksA[I] - Mean) * (RanksA[I] - Mean);
+    OfB += (RanksB[I] - Mean) * (RanksB[I] - Mean);
+  }
+  return OfA > 0 && OfB > 0 ? Both / std::sqrt(OfA * OfB) : 0;
+}
+
+std::vector<Interaction> interactions(const Space &S,
+                                      std::span<const Choices> Machines,
+                                      std::span<const double> Rates) {
+  if (Machines.empty())
+    return {};
+  const std::vector<double> Left = withoutSingleEffects(S, Machines, Rates);
+  std::vector<Interaction> Found;
+  const auto Judge = [&](Interaction Of) {
+    // By whether a machine has the first value, and the second.
+    std::array<std::array<Group, 2>, 2> Groups;
+    for (std::size_t M = 0; M < Machines.size(); ++M) {
+      const std::size_t A = Machines[M][Of.First], B = Machines[M][Of.Second];
+      if ((A == 0 || A == Of.FirstValue) && (B == 0 || B == Of.SecondValue))
+        Groups[A != 0][B != 0].Values.push_back(Left[M]);
+    }
+    double Sum = 0, Variance = 0;
+    for (std::size_t A = 0; A < 2; ++A)
+      for (std::size_t B = 0; B < 2; ++B) {
+        if (Groups[A][B].Values.size() < 3)
+          return;
+        Sum += (A == B ? 1 : -1) * Groups[A][B].mean();
+        Variance += Groups[A][B].variance();
+      }
+    Of.Factor = std::exp(Sum);
+    Of.Error = std::sqrt(Variance);
+    if (std::abs(Sum) > std::max(3 * Of.Error, LeastInteraction))
+      Found.push_back(Of);
+  };
+  for (std::size_t P = 0; P < S.size(); ++P)
+    for (std::size_t Q = P + 1; Q < S.size(); ++Q)
+      for (std::size_t I = 1; I <= S[P].Others.size(); ++I)
+        for (std::size_t J = 1; J <= S[Q].Others.size(); ++J)
+          Judge({P, I, Q, J, 1, 0});
+  std::ranges::sort(Found, {}, [](const Interaction &I) {
+    return std::tuple(-std::abs(std::log(I.Factor)), I.First, I.Second,
+                      I.FirstValue, I.SecondValue);
+  });
+  return Found;
+}
+
+} // namespace vorion::splat

@@ -1,0 +1,54 @@
+/// Which machines are worth having, and what their parameters are worth.
+#pragma once
+
+#include "explore/Space.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace vorion::splat {
+
+/// What a machine is judged by, over all views.
+struct Figures {
+  double Rate = 0;   ///< frames a second, one after the other; more is better
+  double Joules = 0; ///< of the chip, a frame
+  double Area = 0;   ///< of the chip, mm2
+};
+
+/// Whether \p A is as good as \p B in everything and better in something.
+bool beats(const Figures &A, const Figures &B);
+
+/// Places in \p All of those that none beats, the fastest first. Of equal ones
+/// the first.
+std::vector<std::size_t> paretoFront(std::span<const Figures> All);
+
+/// At least \p Count places in \p All: the front, then the front of the others,
+/// and so on.
+std::vector<std::size_t> bestFronts(std::span<const Figures> All,
+                                    std::size_t Count);
+
+/// Spearman's rank correlation, equal values having the mean of their ranks;
+/// \p A and \p B are of the same two or more things. 0 where all of one are
+/// equal.
+double rankCorrelation(std::span<const double> A, std::span<const double> B);
+
+/// Two values of different parameters that together are worth something else
+/// than each alone would say.
+struct Interaction {
+  std::size_t First, FirstValue;   ///< place among the parameters, and a choice
+  std::size_t Second, SecondValue; ///< that is not 0
+  double Factor; ///< of the rate, beyond the product of both effects
+  double Error;  ///< standard error of the factor's logarithm
+};
+
+/// Those whose factor is further from 1 than three standard errors and 1 %, the
+/// strongest first. \p Rates are those of \p Machines, which were drawn at
+/// random. The effects of single values are taken out of the logarithms first;
+/// a pair is told by the four groups of machines that have one, the other, both
+/// or none of its values.
+std::vector<Interaction> interactions(const Space &S,
+                                      std::span<const Choices> Machines,
+                                      std::span<const double> Rates);
+
+} // namespace vorion::splat

@@ -1,0 +1,69 @@
+#include "explore/Judge.h"
+
+#include <array>
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace vorion::splat;
+
+namespace {
+
+const std::vector<Figures> Five{
+    {10, 2, 3}, {20, 2, 3}, {20, 3, 3}, {5, 1, 9}, {20, 2, 3}};
+
+TEST(Judge, OfEqualMachinesTheFirstIsOnTheFront) {
+  EXPECT_EQ(paretoFront(Five), (std::vector<std::size_t>{1, 3}));
+}
+
+TEST(Judge, FrontsFollowUntilThereAreEnough) {
+  EXPECT_EQ(bestFronts(Five, 1), (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(bestFronts(Five, 3), (std::vector<std::size_t>{1, 3, 4}));
+  EXPECT_EQ(bestFronts(Five, 9).size(), 5U);
+}
+
+TEST(Judge, RanksAreComparedNotValues) {
+  const std::array A{1.0, 2.0, 3.0, 4.0};
+  EXPECT_DOUBLE_EQ(rankCorrelation(A, std::array{1.0, 10.0, 11.0, 1e9}), 1);
+  EXPECT_DOUBLE_EQ(rankCorrelation(A, std::array{4.0, 3.0, 2.0, 1.0}), -1);
+  EXPECT_DOUBLE_EQ(rankCorrelation(A, std::array{7.0, 7.0, 7.0, 7.0}), 0);
+  // Ranks 0, 1.5, 1.5, 3 against 0 to 3: 4.5 / sqrt(4.5 * 5).
+  EXPECT_DOUBLE_EQ(rankCorrelation(A, std::array{1.0, 2.0, 2.0, 3.0}),
+                   4.5 / std::sqrt(22.5));
+}
+
+/// All machines of three parameters of two values, four times over.
+struct Factorial {
+  Space S{
+      {"a", {{"1", "", {}}}}, {"b", {{"1", "", {}}}}, {"c", {{"1", "", {}}}}};
+  std::vector<Choices> Machines;
+  Factorial() {
+    for (std::size_t N = 0; N < 32; ++N)
+      Machines.push_back({N & 1, N >> 1 & 1, N >> 2 & 1});
+  }
+};
+
+TEST(Judge, ProductsOfEffectsAreNoInteraction) {
+  const Factorial F;
+  std::vector<double> Rates;
+  Rates.reserve(F.Machines.size());
+  for (const Choices &C : F.Machines)
+    Rates.push_back(100 * (C[0] ? 2 : 1) * (C[1] ? 0.5 : 1) * (C[2] ? 3 : 1));
+  EXPECT_TRUE(interactions(F.S, F.Machines, Rates).empty());
+}
+
+TEST(Judge, WhatHelpsOnlyTogetherIsFound) {
+  const Factorial F;
+  std::vector<double> Rates;
+  for (std::size_t N = 0; N < F.Machines.size(); ++N) {
+    const Choices &C = F.Machines[N];
+    const double Noise = 1 + 0.01 * std::sin(static_cast<double>(7 * N));
+    Rates.push_back(100 * (C[0] && C[2] ? 2 : 1) * (C[1] ? 3 : 1) * Noise);
+  }
+  const auto Found = interactions(F.S, F.Machines, Rates);
+  ASSERT_FALSE(Found.empty());
+  EXPECT_EQ(Found.front().First, 0U);
+  EXPECT_EQ(Found.front().Second, 2U);
+  EXPECT_NEAR(Found.front().Factor, 2, 0.05);
+}
+
+} // namespace

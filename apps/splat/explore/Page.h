@@ -1,0 +1,37 @@
+/// The page and the JSON of `splat explore`.
+#pragma once
+
+#include "explore/Study.h"
+
+#include <string>
+#include <string_view>
+
+namespace vorion::splat {
+
+/// page.html with its script; @DATA@ stands where the results go.
+std::string_view explorePage();
+
+/// All that a study found.
+struct Findings {
+  std::vector<Measured> Small; ///< all machines, unless they were judged whole
+  std::vector<Measured> Whole; ///< the base first, then the single changes
+  std::size_t Singles = 0;     ///< of Whole: the base and these
+  /// Of Whole: machines drawn at random, by which both sizes are compared.
+  std::vector<std::size_t> Checked;
+  std::vector<Interaction> Pairs;
+};
+
+/// Machines of \p F.Whole that can be, by their place, on the Pareto front.
+std::vector<std::size_t> frontOf(const std::vector<Measured> &Whole);
+
+/// The file explore.json, without its head.
+nlohmann::ordered_json resultsOf(const StudyPlan &P, const Findings &F);
+
+/// The page of these; \p Made: a line, what made it.
+std::string explorePageOf(const nlohmann::ordered_json &Results,
+                          const std::string &Made);
+
+/// For the terminal.
+std::string textOf(const nlohmann::ordered_json &Results);
+
+} // namespace vorion::splat
