@@ -212,7 +212,7 @@ OPEN = {
 # What no section measures.
 ELSEWHERE = (
     ("the reciprocal's error is within 3 %", "**holds, as 3.1 %, if the table's entries are spaced by the logarithm**; "
-     "spaced evenly 32 to 55 %; a mantissa table reaches 1.2e-5: [rasterizer.md](rasterizer.md#reciprocal-units). What that "
+     "spaced evenly 32 to 55 %; a mantissa table reaches 1.2e-5: [reciprocal units](lane-units.md#reciprocal-units). What that "
      "does to gradients: [accuracy.md](accuracy.md#training)"),
     ("51 to 58.4 times over kernels that sum gradients by atomics", "**not measured**: our kernels sum in a fixed order without "
      "atomics, and there is no variant of them with atomics"),
