@@ -34,6 +34,17 @@ std::string sourceLines(const std::vector<SourcePlace> &Places) {
   return Text;
 }
 
+/// The compiler's unimp: csrrw zero, cycle, zero.
+constexpr uint32_t Unimp = 0xC0001073;
+
+/// Why a compiler says that nothing comes to a place, if it says so.
+std::string_view notToBeReached(uint32_t Word) {
+  return Word == Unimp ? "  unimp: work-items of one group would go to "
+                         "different barriers, "
+                         "or the program traps itself\n"
+                       : "";
+}
+
 bool namesAddress(TrapCause Cause) {
   switch (Cause) {
   case TrapCause::FetchFault:
@@ -97,6 +108,7 @@ std::string trapReport(const Trap &T) {
     Text += fmt::format(" at 0x{:08x}", T.Address);
   Text += fmt::format("\n  pc {}: {}\n", place(T.Pc, T.Symbol),
                       instruction(T.Instruction, T.Pc));
+  Text += notToBeReached(T.Instruction);
   Text += sourceLines(T.Source);
   Text += fmt::format("  active lanes 0x{:04x}\n", T.LaneMask);
   return Text;

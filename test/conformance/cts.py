@@ -39,6 +39,8 @@ def runs(program, name):
         return [(kind, FACTOR) for kind in conversions()]
     if program == "bruteforce":
         return [(name, FACTOR)]
+    if program == "c11_atomics":
+        return [(name, "-internalIterations", "100")] # of 10,000
     if program == "image_streams" and re.fullmatch(r"[123]D(array)?", name):
         return ([(name, type, "CL_FILTER_NEAREST") for type in CHANNEL_TYPES] +
                 [(name, type, "CL_FILTER_LINEAR") for type in FILTERED])

@@ -44,3 +44,17 @@ kernel void some(global uint *out, local uint *t, uint k) {
     out[get_global_id(0)] = r + t[15 - l];
   }
 }
+
+// The group goes three rounds, which only the values of a buffer show: legal,
+// and no pass parts.
+kernel void same_rounds(global uint *out, local uint *t, uint k) {
+  uint l = get_local_id(0), r = l;
+  out[get_global_id(0)] = k - 4;
+  for (uint i = 0; i < out[get_global_id(0)]; i++) {
+    t[l] = r;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    r += t[(l + 1) % get_local_size(0)];
+    barrier(CLK_LOCAL_MEM_FENCE);
+  }
+  out[get_global_id(0)] = r;
+}
