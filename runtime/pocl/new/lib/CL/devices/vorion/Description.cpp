@@ -17,8 +17,9 @@ namespace vorion {
 
 namespace {
 
-constexpr const char *Extensions =
-    VORION_OPENCL_EXTENSIONS " " CL_VORION_EXTENSION_NAME;
+/// The last two concern the host's calls alone.
+constexpr const char *Extensions = VORION_OPENCL_EXTENSIONS
+    " cl_khr_image2d_from_buffer " CL_VORION_EXTENSION_NAME;
 
 /// What the runtime gives a launch.
 constexpr size_t PrintBufferBytes = 1u << 20;

@@ -77,6 +77,10 @@ size_t rowPitch(const _cl_mem &Image) {
                                                    : Image.image_row_pitch;
 }
 
+size_t beginInBuffer(const _cl_mem &Memory) {
+  return Memory.buffer ? Memory.buffer->origin : 0;
+}
+
 uint32_t samplerValue(const pocl_argument &Argument) {
   dev_sampler_t Value = 0;
   pocl_fill_dev_sampler_t(&Value, const_cast<pocl_argument *>(&Argument));
@@ -95,7 +99,7 @@ std::optional<uint32_t> ImageDescriptions::add(pocl_argument &Argument,
   dev_image_t Description{};
   pocl_fill_dev_image_t(&Description, &Argument, OpenCl);
   Description._row_pitch = static_cast<cl_int>(rowPitch(*Image));
-  const size_t Begin = Image->buffer ? Image->buffer->origin : 0;
+  const size_t Begin = beginInBuffer(*Image);
   IMAGE1D_TO_BUFFER(Image);
   const auto Texels = static_cast<uint32_t>(
       Begin + reinterpret_cast<uintptr_t>(

@@ -18,6 +18,10 @@ void describeImages(cl_device_id Device);
 /// its layers.
 size_t rowPitch(const _cl_mem &Image);
 
+/// Where an image begins in the memory of the buffer that it is made of; 0 of
+/// any other memory object.
+size_t beginInBuffer(const _cl_mem &Memory);
+
 /// What an argument of type sampler_t is.
 uint32_t samplerValue(const pocl_argument &Argument);
 

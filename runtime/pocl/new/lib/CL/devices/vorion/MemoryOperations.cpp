@@ -89,7 +89,7 @@ void readRect(void *Data, void *To, pocl_mem_identifier *From, cl_mem Buffer,
   pocl_driver_read_rect(Data, To, From, Buffer, BufferOrigin, HostOrigin,
                         Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
                         HostSlicePitch);
-  tellRead(Data, From, 0, Buffer->size);
+  tellRead(Data, From, beginInBuffer(*Buffer), Buffer->size);
 }
 
 void write(void *Data, const void *From, pocl_mem_identifier *To, cl_mem Buffer,
@@ -106,7 +106,7 @@ void writeRect(void *Data, const void *From, pocl_mem_identifier *To,
   pocl_driver_write_rect(Data, From, To, Buffer, BufferOrigin, HostOrigin,
                          Region, BufferRowPitch, BufferSlicePitch, HostRowPitch,
                          HostSlicePitch);
-  tellWritten(Data, To, 0, Buffer->size);
+  tellWritten(Data, To, beginInBuffer(*Buffer), Buffer->size);
 }
 
 void copy(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
@@ -136,8 +136,8 @@ void copyRect(void *Data, pocl_mem_identifier *To, cl_mem ToBuffer,
   pocl_driver_copy_rect(Data, To, ToBuffer, From, FromBuffer, ToOrigin,
                         FromOrigin, Region, ToRowPitch, ToSlicePitch,
                         FromRowPitch, FromSlicePitch);
-  tellRead(Data, From, 0, FromBuffer->size);
-  tellWritten(Data, To, 0, ToBuffer->size);
+  tellRead(Data, From, beginInBuffer(*FromBuffer), FromBuffer->size);
+  tellWritten(Data, To, beginInBuffer(*ToBuffer), ToBuffer->size);
 }
 
 void fill(void *Data, pocl_mem_identifier *To, cl_mem Buffer, size_t Size,
@@ -180,10 +180,18 @@ cl_int unmap(void *Data, pocl_mem_identifier *To, cl_mem Buffer,
 
 // Images lie in memory as buffers do: a region of one is a rectangle of bytes.
 
-/// An origin or a region of texels, in bytes.
+/// A region of texels, in bytes.
 std::array<size_t, 3> inBytes(const _cl_mem &Image, const size_t *Texels) {
   return {Texels[0] * Image.image_elem_size * Image.image_channels, Texels[1],
           Texels[2]};
+}
+
+/// An origin in an image as one in the memory that it is made of, in bytes.
+std::array<size_t, 3> originInBytes(const _cl_mem &Image,
+                                    const size_t *Texels) {
+  std::array<size_t, 3> Origin = inBytes(Image, Texels);
+  Origin[0] += beginInBuffer(Image);
+  return Origin;
 }
 
 constexpr size_t Beginning[3] = {0, 0, 0};
@@ -212,7 +220,7 @@ cl_int readImage(void *Data, cl_mem Image, pocl_mem_identifier *From,
   const Outside To(*Image, Region, ToHost, RowPitch, SlicePitch);
   void *Start = ToHost ? ToHost : ToBuffer->mem_ptr;
   readRect(Data, static_cast<char *>(Start) + Offset, From, Image,
-           inBytes(*Image, Origin).data(), Beginning,
+           originInBytes(*Image, Origin).data(), Beginning,
            inBytes(*Image, Region).data(), rowPitch(*Image),
            Image->image_slice_pitch, To.RowPitch, To.SlicePitch);
   if (ToBuffer)
@@ -227,7 +235,7 @@ cl_int writeImage(void *Data, cl_mem Image, pocl_mem_identifier *To,
   const Outside From(*Image, Region, FromHost, RowPitch, SlicePitch);
   const void *Start = FromHost ? FromHost : FromBuffer->mem_ptr;
   writeRect(Data, static_cast<const char *>(Start) + Offset, To, Image,
-            inBytes(*Image, Origin).data(), Beginning,
+            originInBytes(*Image, Origin).data(), Beginning,
             inBytes(*Image, Region).data(), rowPitch(*Image),
             Image->image_slice_pitch, From.RowPitch, From.SlicePitch);
   if (FromBuffer)
@@ -239,10 +247,10 @@ cl_int copyImage(void *Data, cl_mem From, cl_mem To,
                  pocl_mem_identifier *FromId, pocl_mem_identifier *ToId,
                  const size_t *FromOrigin, const size_t *ToOrigin,
                  const size_t *Region) {
-  copyRect(Data, ToId, To, FromId, From, inBytes(*To, ToOrigin).data(),
-           inBytes(*From, FromOrigin).data(), inBytes(*From, Region).data(),
-           rowPitch(*To), To->image_slice_pitch, rowPitch(*From),
-           From->image_slice_pitch);
+  copyRect(Data, ToId, To, FromId, From, originInBytes(*To, ToOrigin).data(),
+           originInBytes(*From, FromOrigin).data(),
+           inBytes(*From, Region).data(), rowPitch(*To), To->image_slice_pitch,
+           rowPitch(*From), From->image_slice_pitch);
   return CL_SUCCESS;
 }
 
