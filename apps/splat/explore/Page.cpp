@@ -83,7 +83,8 @@ Json agreementOf(const Findings &F) {
     SmallJoules.push_back(At->second->Is.Joules);
     WholeJoules.push_back(M.Is.Joules);
   }
-  if (SmallRates.size() < 2)
+  // Of fewer the figure says nothing.
+  if (SmallRates.size() < 10)
     return {};
   return {{"machines", SmallRates.size()},
           {"rate", rankCorrelation(SmallRates, WholeRates)},

@@ -18,10 +18,17 @@ const value = (figures, key) => figures[key] * AXES[key].scale;
 const format = (figures, key) => number(value(figures, key), AXES[key].digits);
 const kindOf = m => (m.machine === state.selected ? 'chosen' : m === base ? 'ink' : m.on_front ? 'mark' : 'soft');
 
+// A logarithmic axis around what is shown.
+function axisAround(key, figures) {
+  const values = figures.map(f => value(f, key));
+  return axis(AXES[key].label, { type: 'logarithmic', min: Math.min(...values) / 1.1, max: Math.max(...values) * 1.1 });
+}
+
 function drawPlot() {
   // What matters is drawn last, above the others.
   const order = ['soft', 'mark', 'ink', 'chosen'];
   const shown = data.machines.filter(m => isJudged(m, state.size)).sort((a, b) => order.indexOf(kindOf(a)) - order.indexOf(kindOf(b)));
+  const figures = shown.map(m => m[state.size]);
   const colours = shown.map(m => colour(kindOf(m)));
   const rings = {
     data: shown.map(m => ({ x: value(m[state.size], state.across), y: value(m[state.size], state.up), machine: m })),
@@ -32,7 +39,7 @@ function drawPlot() {
     type: 'scatter',
     data: { datasets: [rings] },
     options: {
-      scales: { x: axis(AXES[state.across].label, { type: 'logarithmic' }), y: axis(AXES[state.up].label, { type: 'logarithmic' }) },
+      scales: { x: axisAround(state.across, figures), y: axisAround(state.up, figures) },
       plugins: { legend: { display: false }, tooltip: { callbacks: { label: item => item.raw.machine.machine.split(',') } } },
       onClick: (event, found) => { if (found.length) select(rings.data[found[0].index].machine.machine); },
     },
@@ -49,7 +56,7 @@ function drawDetails() {
     box.append(element('p', {}, (m.whole ?? m.small).refused ?? 'It was judged on small views alone.'));
     return;
   }
-  const table = element('table', {}, rowOf(['view', 'stage', 'Mcycles', 'share of the frame', 'waits most for', 'in % of its cycles'], 'th'));
+  const table = element('table', {}, rowOf(['view', 'stage', 'Mcycles', 'share of the frame', 'most cycles go to', 'in % of its cycles'], 'th'));
   for (const view of m.views) {
     const all = view.stages.reduce((sum, s) => sum + s.cycles, 0);
     for (const s of view.stages)
