@@ -76,6 +76,15 @@ if shutil.which("unshare") and subprocess.run(
     config.available_features.add("own-mounts")
 else:
     lit_config.note("own-mounts is missing: tests that require it are skipped (unshare -rm may not mount a tmpfs)")
+try:
+    with open("/proc/cpuinfo", encoding="utf-8") as cpus:
+        has_avx512 = "avx512_vpopcntdq" in cpus.read()
+except OSError:
+    has_avx512 = False
+if has_avx512:
+    config.available_features.add("avx512-host")
+else:
+    lit_config.note("avx512-host is missing: tests that require it are skipped (this processor has no AVX-512 with VPOPCNTDQ)")
 for feature, path in features.items():
     if os.path.exists(path):
         config.available_features.add(feature)

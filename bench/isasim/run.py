@@ -4,8 +4,8 @@
 usage: run.py [--rounds N] [--programs NAME,...] [--json FILE] [--out DIR] [--no-observers] [--realtime]
 
 Each program of this folder is compiled twice: for the machine, where 16 lanes of every core work together, and, the
-same source, for one lane as a Linux program. A round runs each on vorion-sim with one host thread, with two, and
-under qemu-riscv32, one right after the other; the figures are medians over the rounds. Rates are by processor time,
+same source, for one lane as a Linux program. A round runs each on vorion-sim with one host thread, with two, with the
+translator where the host has what that needs, and under qemu-riscv32, one right after the other; the figures are medians over the rounds. Rates are by processor time,
 the gain of a second thread is by wall time: it needs a quiet machine, or --realtime (chrt -f, as root). What qemu executes is counted on a machine of one
 lane that runs the same object code.
 
@@ -187,28 +187,46 @@ def depths_sum():
     return f"{total:08x}"
 
 
+def has_translator(name):
+    """Whether the host has what the other engine needs."""
+    try:
+        simulate(name + ".elf", "--set", "engine=translator", *arguments(name))
+    except RuntimeError as error:
+        if "engine is 'translator'" in str(error):
+            return False
+        raise
+    return True
+
+
 def measure(name, rounds):
     device_repeats, scalar_repeats = PROGRAMS[name]
     instructions, expected = count_scalar(name)
-    one, two, qemu = [], [], []
+    one, two, translated, qemu = [], [], [], []
+    runs = [("1", "interpreter", one), ("2", "interpreter", two)]
+    if has_translator(name):
+        runs.insert(1, ("1", "translator", translated))
     for _ in range(rounds):
-        for threads, into in (("1", one), ("2", two)):
-            text, stats = simulate(name + ".elf", "--threads", threads, *arguments(name))
+        for threads, engine, into in runs:
+            text, stats = simulate(name + ".elf", "--threads", threads, "--set", "engine=" + engine, *arguments(name))
             text = depths_sum() if name == "project" else text
             if text != expected:
                 raise RuntimeError(f"{name}: {text} on 16 lanes, {expected} on one")
             into.append(stats)
+            if stats["total"] != one[0]["total"]:
+                raise RuntimeError(f"{name}: other counters with {threads} threads and the {engine}")
         text, seconds = run(*Out.prefix, *QEMU, "./" + name + ".linux")
         if text.strip() != expected:
             raise RuntimeError(f"{name}: {text.strip()} under qemu-riscv32, {expected} on one lane of vorion-sim")
         qemu.append(seconds)
     total = one[0]["total"]
     rate = total["lane_instructions"] / statistics.median(s["host_cpu_seconds"] for s in one)
+    translated_rate = translated and total["lane_instructions"] / statistics.median(s["host_cpu_seconds"] for s in translated)
     qemu_rate = instructions * scalar_repeats / statistics.median(qemu)
     gain = statistics.median(a["host_seconds"] / b["host_seconds"] for a, b in zip(one, two))
     return {"program": name, "lane_instructions": total["lane_instructions"],
             "active_lanes": total["lane_instructions"] / total["warp_instructions"],
-            "lane_instructions_per_second": rate, "warp_instructions_per_second":
+            "lane_instructions_per_second": rate,
+            "translator_lane_instructions_per_second": translated_rate or None, "warp_instructions_per_second":
             total["warp_instructions"] / statistics.median(s["host_cpu_seconds"] for s in one),
             "qemu_instructions": instructions * scalar_repeats, "qemu_instructions_per_second": qemu_rate,
             "over_qemu": rate / qemu_rate, "two_threads_over_one": gain,
@@ -249,10 +267,12 @@ def host():
 
 
 def table(results):
-    yield "| program | lane-instr/s, 1 thread | active lanes | qemu-riscv32 | over qemu | 2 threads over 1 |"
-    yield "|---|---|---|---|---|---|"
+    yield "| program | lane-instr/s, 1 thread | translator | active lanes | qemu-riscv32 | over qemu | 2 threads over 1 |"
+    yield "|---|---|---|---|---|---|---|"
     for r in results:
-        yield (f"| {TITLES[r['program']]} | {r['lane_instructions_per_second'] / 1e9:.2f} G | {r['active_lanes']:.1f} | "
+        fast = r["translator_lane_instructions_per_second"]
+        yield (f"| {TITLES[r['program']]} | {r['lane_instructions_per_second'] / 1e9:.2f} G | "
+               f"{f'{fast / 1e9:.2f} G' if fast else 'absent'} | {r['active_lanes']:.1f} | "
                f"{r['qemu_instructions_per_second'] / 1e9:.2f} G | {r['over_qemu']:.2f}x | {r['two_threads_over_one']:.2f}x |")
 
 

@@ -21,6 +21,11 @@ public:
   uint32_t count() const { return static_cast<uint32_t>(Insns.size() - 1); }
   /// The instruction at \p Pc, or the one that traps if there is no code.
   const Insn *find(uint32_t Pc) const;
+  /// Executes \p I by \p Run from now on, with all lanes active (\p Full 1) or
+  /// some (0). No core may be running.
+  void setHandler(const Insn *I, unsigned Full, Handler Run) {
+    Insns[static_cast<size_t>(I - begin())].Run[Full] = Run;
+  }
 
 private:
   Insn decodeAt(uint32_t Pc, uint32_t Word, const ExecTable &Exec) const;

@@ -85,6 +85,13 @@ std::vector<Key> makeKeys() {
       VORION_KEY("quantum", 1, 1 << 30, 1, Quantum),
       VORION_KEY("max_instructions", 0, UINT64_MAX, 1, MaxInstructions),
       VORION_KEY("host_threads", 0, 1024, 1, HostThreads),
+      {"engine",
+       0,
+       1,
+       1,
+       [](const Config &C) { return static_cast<uint64_t>(C.Runs); },
+       [](Config &C, uint64_t V) { C.Runs = static_cast<Engine>(V); },
+       {"interpreter", "translator"}},
       VORION_KEY("raster.queue_depth", 1, 1024, 1, Raster.QueueDepth),
       VORION_KEY("timing.enabled", 0, 1, 1, Timing.Enabled),
       VORION_KEY("timing.clock_mhz", 1, 100000, 1, Timing.ClockMhz),
@@ -125,8 +132,8 @@ const std::vector<Key> &keys() {
 }
 
 /// Keys of a run: they do not make another machine.
-constexpr std::string_view RunKeys[] = {"max_instructions", "quantum",
-                                        "host_threads", "timing.enabled"};
+constexpr std::string_view RunKeys[] = {
+    "max_instructions", "quantum", "host_threads", "engine", "timing.enabled"};
 
 bool isOfRun(const Key &K) {
   return std::ranges::find(RunKeys, K.Path) != std::end(RunKeys);

@@ -11,6 +11,7 @@
 #include "machine/WorkerPool.h"
 #include "mem/Memory.h"
 #include "timing/Clock.h"
+#include "translate/Translator.h"
 #include "vorion/isasim/Observer.h"
 
 #include <algorithm>
@@ -87,6 +88,7 @@ struct Machine::Impl final : raster::WorkLog {
   bool access(uint32_t Address, uint64_t Bytes, Function Use) const;
   void resetCores(uint32_t LaunchBlock);
   void runCores();
+  void translate();
   void atSyncPoint();
   void executeParked(Core &C, WarpState &S);
   void arriveGlobally(WarpState &S);
@@ -121,6 +123,7 @@ struct Machine::Impl final : raster::WorkLog {
   std::unique_ptr<Memory> Storage;
   std::shared_ptr<const Image> Program;
   std::unique_ptr<CodeTable> Code;
+  std::unique_ptr<Translator> Translated; ///< of Code, where it is used
   const ExecTable *CodeIsFor = nullptr;
   std::vector<std::unique_ptr<Core>> Cores;
   WorkerPool Pool;
@@ -163,8 +166,11 @@ bool Machine::Impl::access(uint32_t Address, uint64_t Bytes,
 void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   const bool Observed = isObserved();
   if (!Code || CodeIsFor != &exec()) {
+    Translated.reset();
     Code = std::make_unique<CodeTable>(*Program, exec());
     CodeIsFor = &exec();
+    if (Shape.Runs == Engine::Translator && !Observed && !isClocked())
+      Translated = std::make_unique<Translator>(*Code, exec());
   }
   if (Observed)
     Watcher.prepare(*Code, Shape.WarpsPerCore, Shape.cores());
@@ -262,6 +268,16 @@ void Machine::Impl::runCores() {
                                  [this] { return mustStop(); });
   });
   LastRound = retired() - Before;
+  if (Translated)
+    translate();
+}
+
+/// A round's end finds warps where they are most of the time.
+void Machine::Impl::translate() {
+  for (const auto &C : Cores)
+    for (const WarpState &S : C->warps())
+      if (S.Why == Stop::Ready)
+        Translated->seen(S.Next);
 }
 
 void Machine::Impl::arriveGlobally(WarpState &S) {
@@ -407,6 +423,12 @@ Machine::~Machine() = default;
 Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
   if (Expected<Success> Ok = validate(C); !Ok)
     return Ok.error();
+  if (C.Runs == Engine::Translator && !Translator::isThere())
+    return Error{"configuration",
+                 fmt::format("engine is 'translator', expected 'interpreter' "
+                             "on this host: the other one needs {}",
+                             Translator::needs()),
+                 ExitCode::Usage};
   Expected<std::unique_ptr<Memory>> Mem = Memory::create(C);
   if (!Mem)
     return Mem.error();
@@ -418,6 +440,7 @@ Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
 const Config &Machine::config() const { return PImpl->Shape; }
 
 void Machine::load(std::shared_ptr<const Image> Program) {
+  PImpl->Translated.reset();
   PImpl->Code.reset();
   PImpl->Program = std::move(Program);
   PImpl->Storage->load(*PImpl->Program);

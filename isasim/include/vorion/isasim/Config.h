@@ -18,10 +18,13 @@ struct RasterConfig {
   unsigned QueueDepth = 4;
 };
 
+/// How the host executes the cores' instructions (docs/adr/0008-translator.md).
+enum class Engine : uint8_t { Interpreter, Translator };
+
 /// Everything that fixes a machine. The values here are those of the plain
 /// machine `prototype-on-chip`, of which the others are made: 2 sockets of 4
 /// cores, 16 lanes, one warp a core. Users begin with defaultMachine().
-/// \c HostThreads changes how fast a run is and nothing else.
+/// \c HostThreads and \c Runs change how fast a run is and nothing else.
 struct Config {
   unsigned Clusters = 1;
   unsigned SocketsPerCluster = 2;
@@ -46,6 +49,10 @@ struct Config {
   /// Outcome::LimitReached; 0 for no limit. Checked where all cores are parked.
   uint64_t MaxInstructions = 0;
   unsigned HostThreads = 0; ///< 0: as many as the host has
+  /// The translator works in runs without observers and without a clock; in
+  /// all others the interpreter does. Machine::create() refuses it where the
+  /// host has not what it needs.
+  Engine Runs = Engine::Interpreter;
 
   RasterConfig Raster;
   TimingConfig Timing;

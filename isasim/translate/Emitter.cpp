@@ -1,0 +1,394 @@
+//===- Emitter.cpp - a region as host code --------------------------------===//
+//
+// A region is written twice, for all lanes active and for some of them, with
+// the same guest registers in the same host registers. It is entered as the
+// interpreter's handlers are (core/State.h, Handler), and ends in a tail call
+// of one. What it does not do itself, or finds out of the ordinary, it leaves
+// to the interpreter's handler of that instruction before it has changed
+// anything: so traps, parking and slow paths exist once.
+//
+//===----------------------------------------------------------------------===//
+
+#include "translate/Emitter.h"
+
+#include "translate/Places.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak;
+using namespace Xbyak::util;
+
+namespace {
+
+constexpr int NumScratches = 8;
+constexpr int FirstGuestZmm = 9;
+constexpr int NumZmms = 32;
+
+/// A loop's body counts as much as this many times the code around it.
+constexpr uint64_t LoopWeight = 8;
+constexpr unsigned DeepestLoop = 6;
+
+unsigned numberOf(uint16_t Register) { return Register / sizeof(LaneWords); }
+
+} // namespace
+
+Emitter::Emitter(const ExecTable &ExecIn, const CodeTable &CodeIn,
+                 const std::vector<GuestInsn> &RegionIn,
+                 std::span<uint8_t> Buffer)
+    : CodeGenerator(Buffer.size(), Buffer.data()), Exec(ExecIn), Code(CodeIn),
+      Region(RegionIn) {
+  setDefaultJmpNEAR(true);
+  allocate();
+}
+
+void Emitter::allocate() {
+  uint64_t Uses[NumRegisters] = {};
+  for (const GuestInsn &G : Region) {
+    if (G.Is == Kind::Other)
+      continue;
+    uint64_t Weight = 1;
+    for (unsigned L = 0; L != std::min(G.Loops, DeepestLoop); ++L)
+      Weight *= LoopWeight;
+    const InsnInfo &Info = InsnTable[static_cast<unsigned>(G.Opcode)];
+    if (Info.Rs1 != File::None)
+      Uses[numberOf(G.I->Rs1)] += Weight;
+    if (Info.Rs2 != File::None)
+      Uses[numberOf(G.I->Rs2)] += Weight;
+    if (Info.Rs3 != File::None)
+      Uses[numberOf(G.I->Rs3)] += Weight;
+    if (Info.Rd != File::None) {
+      Uses[numberOf(G.I->Rd)] += Weight;
+      Written[numberOf(G.I->Rd)] = true;
+    }
+    Rounds |= G.Is == Kind::Float;
+  }
+  Uses[XBase] = 0; // a number
+  Uses[SinkRegister] = 0;
+  std::vector<unsigned> Order;
+  for (unsigned R = 0; R != NumRegisters; ++R) {
+    Zmms[R] = -1;
+    if (Uses[R])
+      Order.push_back(R);
+  }
+  std::ranges::sort(Order, [&](unsigned A, unsigned B) {
+    return std::pair(Uses[B], A) < std::pair(Uses[A], B);
+  });
+  for (size_t N = 0; N != Order.size() && FirstGuestZmm + N != NumZmms; ++N)
+    Zmms[Order[N]] = static_cast<int>(FirstGuestZmm + N);
+}
+
+int Emitter::zmmOf(uint16_t Register) const { return Zmms[numberOf(Register)]; }
+
+Term Emitter::guest(uint16_t Register) {
+  if (Register == XBase)
+    return {};
+  if (const int Z = zmmOf(Register); Z >= 0)
+    return {Z};
+  const Zmm To = scratch();
+  vmovdqa32(To, ptr[rdi + Register]);
+  return {To.getIdx()};
+}
+
+Zmm Emitter::scratch() {
+  assert(Scratches != NumScratches && "an instruction needs fewer");
+  return Zmm(Scratches++);
+}
+
+Zmm Emitter::inZmm(Term T) {
+  if (!T.isNumber())
+    return Zmm(T.Zmm);
+  const Zmm To = scratch();
+  if (T.Bits == 0)
+    vpxord(To, To, To);
+  else
+    vpbroadcastd(To, number(T.Bits));
+  return To;
+}
+
+Address Emitter::constant(uint32_t Bits) {
+  return ptr_b[rip + Constants[Bits]];
+}
+
+Address Emitter::number(uint32_t Bits) { return ptr[rip + Constants[Bits]]; }
+
+Address Emitter::vectorOf(const std::array<uint32_t, MaxLanes> &Words) {
+  return ptr[rip + Vectors[Words]];
+}
+
+Address Emitter::laneNumbers(uint32_t Factor) {
+  std::array<uint32_t, MaxLanes> Words{};
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    Words[L] = L * Factor;
+  return vectorOf(Words);
+}
+
+Zmm Emitter::active(const Zmm &Z) const { return Full ? Z : Z | k1; }
+Opmask Emitter::active(const Opmask &K) const { return Full ? K : K | k1; }
+
+void Emitter::result(uint16_t Register,
+                     const std::function<void(const Zmm &)> &Write) {
+  if (const int Z = zmmOf(Register); Z >= 0)
+    return Write(active(Zmm(Z)));
+  const Zmm To = scratch();
+  Write(active(To));
+  if (numberOf(Register) != SinkRegister)
+    vmovdqa32(Full ? ptr[rdi + Register] : ptr[rdi + Register] | k1, To);
+}
+
+Label &Emitter::toInterpreter() {
+  if (!ToInterpreter)
+    ToInterpreter = &ToInterpreters.emplace_back();
+  return *ToInterpreter;
+}
+
+void Emitter::outOfLine(std::function<void()> Write) {
+  Later.push_back([this, Used = Scratches, Write = std::move(Write)] {
+    Scratches = Used;
+    Write();
+  });
+}
+
+Handler Emitter::original(const Insn *I, Op O) const {
+  if (I == Code.begin() + Code.count())
+    return Exec.NoFetch[Full];
+  return Exec.Handlers[static_cast<unsigned>(O)][Full];
+}
+
+//===----------------------------------------------------------------------===//
+// Counting
+//===----------------------------------------------------------------------===//
+
+void Emitter::addPending() {
+  if (Pending.Insns)
+    add(r8, Pending.Insns);
+  if (Pending.Loads)
+    add(rbx, Pending.Loads);
+  if (Pending.Stores)
+    add(rbp, Pending.Stores);
+}
+
+void Emitter::countPending() {
+  addPending();
+  Pending = {};
+}
+
+/// What r8 has more than r9 was executed by the lanes of now.
+void Emitter::countLanes() {
+  mov(rcx, r8);
+  sub(rcx, r9);
+  mov(edx, dword[rdi + VORION_PLACE(LaneCount)]);
+  imul(rcx, rdx);
+  add(qword[rdi + VORION_PLACE(Count.LaneInstructions)], rcx);
+}
+
+//===----------------------------------------------------------------------===//
+// Ways in and out
+//===----------------------------------------------------------------------===//
+
+void Emitter::writeEntries() {
+  for (const GuestInsn &G : Region) {
+    if (!G.Enters)
+      continue;
+    align(16);
+    Entries.push_back({G.I, Full, getSize()});
+    if (Rounds) {
+      Label Nearest;
+      cmp(dword[rdi + VORION_PLACE(Frm)], 0);
+      je(Nearest);
+      mov(rax, reinterpret_cast<uint64_t>(original(G.I, G.Opcode)));
+      jmp(rax);
+      L(Nearest);
+    }
+    lea(rcx, ptr[rip + Labels[G.I]]);
+    jmp(*Prologue);
+  }
+  L(*Prologue);
+  mov(r9, ptr[rdi + VORION_PLACE(Count.WarpInstructions)]);
+  mov(r10, ptr[rdi + VORION_PLACE(RetireLimit)]);
+  push(rbx);
+  push(rbp);
+  xor_(ebx, ebx);
+  xor_(ebp, ebp);
+  // The straight line up to here.
+  static_assert(sizeof(Insn) == 32);
+  sub(rsi, rdx);
+  sar(rsi, 5);
+  lea(r8, ptr[r9 + rsi]);
+  if (!Full) {
+    mov(eax, dword[rdi + VORION_PLACE(Mask)]);
+    kmovw(k1, eax);
+    tzcnt(eax, eax);
+    vpbroadcastd(Zmm(FirstLaneZmm), eax);
+  }
+  for (unsigned R = 0; R != NumRegisters; ++R)
+    if (Zmms[R] >= 0)
+      vmovdqa32(Zmm(Zmms[R]), ptr[rdi + R * sizeof(LaneWords)]);
+  jmp(rcx);
+}
+
+void Emitter::storeRegisters() {
+  for (unsigned R = 0; R != NumRegisters; ++R)
+    if (Zmms[R] >= 0 && Written[R])
+      vmovdqa32(ptr[rdi + R * sizeof(LaneWords)], Zmm(Zmms[R]));
+  mov(ptr[rdi + VORION_PLACE(Count.WarpInstructions)], r8);
+  countLanes();
+  add(qword[rdi + VORION_PLACE(Count.Loads)], rbx);
+  add(qword[rdi + VORION_PLACE(Count.Stores)], rbp);
+  pop(rbp);
+  pop(rbx);
+}
+
+void Emitter::writeExits() {
+  // To the handler rax with the instruction rsi, from which on is counted.
+  L(*Leave);
+  storeRegisters();
+  mov(rdx, rsi);
+  jmp(rax);
+  // The warp stops in front of rsi.
+  L(*Return);
+  storeRegisters();
+  mov(ptr[rdi + VORION_PLACE(Next)], rsi);
+  ret();
+}
+
+/// To the handler that \p To has at present.
+void Emitter::leaveTo(const Insn *To) {
+  mov(rsi, reinterpret_cast<uint64_t>(To));
+  mov(rax, ptr[rsi + (Full ? sizeof(Handler) : 0)]);
+  jmp(*Leave);
+}
+
+/// A jump that has been counted goes to \p To, unless the warp has executed
+/// enough.
+void Emitter::goTo(const Insn *To) {
+  Label Enough;
+  cmp(r8, r10);
+  jae(Enough);
+  outOfLine([this, Enough, To]() mutable {
+    L(Enough);
+    mov(rsi, reinterpret_cast<uint64_t>(To));
+    jmp(*Return);
+  });
+  if (const auto At = Labels.find(To); At != Labels.end())
+    jmp(At->second);
+  else
+    leaveTo(To);
+}
+
+//===----------------------------------------------------------------------===//
+// Instructions
+//===----------------------------------------------------------------------===//
+
+void Emitter::writeInsn(const GuestInsn &G) {
+  Now = &G;
+  Scratches = 0;
+  ToInterpreter = nullptr;
+  const auto Before = Pending;
+  switch (G.Is) {
+  case Kind::Integer:
+    integer(G);
+    break;
+  case Kind::Float:
+    floating(G);
+    break;
+  case Kind::Load:
+    load(G);
+    break;
+  case Kind::Store:
+    store(G);
+    break;
+  case Kind::Branch:
+    writeBranch(G);
+    break;
+  case Kind::Jump:
+    writeJump(G);
+    return;
+  case Kind::Other:
+    jmp(toInterpreter());
+    break;
+  }
+  ++Pending.Insns;
+  if (ToInterpreter)
+    outOfLine([this, &G, Before, At = ToInterpreter] {
+      L(*At);
+      Pending = Before;
+      countPending();
+      mov(rsi, reinterpret_cast<uint64_t>(G.I));
+      mov(rax, reinterpret_cast<uint64_t>(original(G.I, G.Opcode)));
+      jmp(*Leave);
+    });
+  if (G.Is == Kind::Other)
+    Pending = {};
+}
+
+void Emitter::writeJump(const GuestInsn &G) {
+  const Insn *I = G.I;
+  const auto Number = static_cast<uint32_t>(I - Code.begin());
+  if (numberOf(I->Rd) != SinkRegister)
+    result(I->Rd, [&](const Zmm &To) {
+      vpbroadcastd(To, number(Code.low() + 4 * (Number + 1)));
+    });
+  ++Pending.Insns;
+  countPending();
+  goTo(I + (I->Imm >> 2));
+}
+
+void Emitter::writeMode(unsigned Mode) {
+  Full = Mode != 0;
+  Pending = {};
+  Labels.clear();
+  Leave.emplace();
+  Return.emplace();
+  Prologue.emplace();
+  for (const GuestInsn &G : Region)
+    if (G.Leads)
+      Labels.emplace(G.I, Label());
+  writeEntries();
+  for (size_t N = 0; N != Region.size(); ++N) {
+    const GuestInsn &G = Region[N];
+    if (G.Leads) {
+      countPending();
+      L(Labels[G.I]);
+    }
+    writeInsn(G);
+    const bool Falls = N + 1 != Region.size() && Region[N + 1].I == G.I + 1;
+    if (!Falls && G.Is != Kind::Other && G.Is != Kind::Jump) {
+      countPending();
+      leaveTo(G.I + 1);
+    }
+    if (!Falls || G.Is == Kind::Jump)
+      Pending = {};
+  }
+  // What is out of line may have more of it.
+  for (size_t N = 0; N != Later.size(); ++N) {
+    const std::function<void()> Write = Later[N];
+    Write();
+  }
+  Later.clear();
+  writeExits();
+}
+
+void Emitter::writeConstants() {
+  align(64);
+  for (auto &[Words, At] : Vectors) {
+    L(At);
+    for (const uint32_t Word : Words)
+      dd(Word);
+  }
+  for (auto &[Bits, At] : Constants) {
+    L(At);
+    dd(Bits);
+  }
+}
+
+void Emitter::write() {
+  for (const unsigned Mode : {1U, 0U})
+    writeMode(Mode);
+  writeFinders();
+  writeConstants();
+}
+
+} // namespace vorion::isasim::translate

@@ -1,0 +1,148 @@
+/// Writes host code, and what all kinds of instructions need for it: where
+/// registers are, constants, and the ways into and out of a region.
+#pragma once
+
+#include "translate/Region.h"
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <xbyak/xbyak.h>
+
+namespace vorion::isasim::translate {
+
+/// A register of 16 lanes, or the same number in each.
+struct Term {
+  int Zmm = -1; ///< or below 0: the number
+  uint32_t Bits = 0;
+  bool isNumber() const { return Zmm < 0; }
+};
+
+/// What has the first active lane's number in every lane.
+inline constexpr int FirstLaneZmm = 8;
+
+/// How a place in the host code is entered from the interpreter.
+struct Entry {
+  const Insn *At;
+  unsigned Full; ///< as WarpState::Full
+  size_t Offset; ///< in the code
+};
+
+/// The host's registers while a region runs:
+///   rdi  the WarpState         r8   instructions retired
+///   r9   r8 when lanes' instructions were counted last
+///   r10  WarpState::RetireLimit
+///   rbx, rbp  loads and stores
+///   k1   active lanes (where not all are)
+///   zmm0 to zmm7 for one instruction, zmm8: the first active lane's number,
+///   the rest: the guest's registers that are used most.
+/// rax, rcx, rdx, rsi, r11 and k2 to k4 are for one instruction.
+class Emitter : public Xbyak::CodeGenerator {
+public:
+  /// \p Buffer is written; the code may be executed anywhere else.
+  Emitter(const ExecTable &Exec, const CodeTable &Code,
+          const std::vector<GuestInsn> &Region, std::span<uint8_t> Buffer);
+
+  /// The whole region. Throws Xbyak::Error where the buffer is too small.
+  void write();
+  const std::vector<Entry> &entries() const { return Entries; }
+
+  /// \name For instructions
+  /// @{
+  bool isFull() const { return Full; }
+  /// A guest register's value; x0 is a number.
+  Term guest(uint16_t Register);
+  /// A zmm for this instruction.
+  Xbyak::Zmm scratch();
+  /// \p T in a register.
+  Xbyak::Zmm inZmm(Term T);
+  /// \p Bits in each lane, as an operand that is read from memory.
+  Xbyak::Address constant(uint32_t Bits);
+  /// The same as one word.
+  Xbyak::Address number(uint32_t Bits);
+  /// Numbers of the lanes times \p Factor.
+  Xbyak::Address laneNumbers(uint32_t Factor);
+  Xbyak::Address vectorOf(const std::array<uint32_t, MaxLanes> &Words);
+  /// \p Z as a destination: active lanes alone.
+  Xbyak::Zmm active(const Xbyak::Zmm &Z) const;
+  Xbyak::Opmask active(const Xbyak::Opmask &K) const;
+  /// Lets \p Write have the register that becomes \p Register's new value. It
+  /// must write active lanes alone, and read no guest register afterwards.
+  void result(uint16_t Register,
+              const std::function<void(const Xbyak::Zmm &)> &Write);
+  /// Where code goes on that lets the interpreter do the present instruction;
+  /// stays where it is.
+  Xbyak::Label &toInterpreter();
+  /// Code that is rarely executed, behind everything else. It goes on by
+  /// itself.
+  void outOfLine(std::function<void()> Write);
+  /// @}
+
+private:
+  void allocate();
+  void writeMode(unsigned Mode);
+  void writeInsn(const GuestInsn &G);
+  void writeBranch(const GuestInsn &G);
+  void writeJump(const GuestInsn &G);
+  void goTo(const Insn *To);
+  void leaveTo(const Insn *To);
+  void countLanes();
+  void addPending();
+  void countPending();
+  void storeRegisters();
+  void writeEntries();
+  void writeExits();
+  void writeConstants();
+  Handler original(const Insn *I, Op O) const;
+  int zmmOf(uint16_t Register) const;
+
+  // Float.cpp, Integer.cpp, Memory.cpp.
+  void integer(const GuestInsn &G);
+  void floating(const GuestInsn &G);
+  void load(const GuestInsn &G);
+  void store(const GuestInsn &G);
+
+  // Memory.cpp.
+  Xbyak::Zmm addressesOf(const Insn *I);
+  void spreadFirst(const Xbyak::Zmm &To, const Xbyak::Zmm &From);
+  void jumpIfDiffer(const Xbyak::Zmm &All, const Xbyak::Zmm &Spread,
+                    Xbyak::Label &Differ);
+  void locate(int Bytes, bool IsStore, Xbyak::Label &Wrong);
+  void locateOnStack(const Xbyak::Zmm &Addresses, Xbyak::Label &Wrong);
+  void locateEach(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
+                  const Xbyak::Zmm &Offsets, const Xbyak::Zmm &Spare,
+                  Xbyak::Label &Wrong);
+  void writeFinders();
+
+  const ExecTable &Exec;
+  const CodeTable &Code;
+  const std::vector<GuestInsn> &Region;
+  std::vector<Entry> Entries;
+  std::vector<std::function<void()>> Later;
+
+  int Zmms[NumRegisters]; ///< by guest register; below 0: in memory
+  bool Written[NumRegisters] = {};
+  bool Rounds = false; ///< something depends on frm
+
+  bool Full = false;
+  const GuestInsn *Now = nullptr;
+  /// What has been executed and not been counted yet.
+  struct {
+    unsigned Insns = 0, Loads = 0, Stores = 0;
+  } Pending;
+  int Scratches = 0;
+  /// A label's copies are its own only once it has been used.
+  std::deque<Xbyak::Label> ToInterpreters;
+  Xbyak::Label *ToInterpreter = nullptr; ///< of the present instruction
+  std::optional<Xbyak::Label> Leave, Return, Prologue;
+  Xbyak::Label FindReadable, FindWritable, FindStackLine;
+  std::map<const Insn *, Xbyak::Label> Labels;
+
+  std::map<uint32_t, Xbyak::Label> Constants;
+  std::map<std::array<uint32_t, MaxLanes>, Xbyak::Label> Vectors;
+};
+
+} // namespace vorion::isasim::translate

@@ -1,0 +1,192 @@
+// Single precision on the host's unit, from the interpreter's definitions. A
+// region with any of it is only entered while frm says "to nearest", which the
+// host's unit then does (core/HostFp.h). Lanes that are not active raise no
+// flag, since the host's masks keep them from it.
+
+#include "core/SoftFloat.h"
+#include "translate/Places.h"
+#include "translate/Value.h"
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak;
+using namespace Xbyak::util;
+
+namespace {
+
+/// vcmpps: quiet where only signaling NaNs are invalid, as the guest's are.
+constexpr uint8_t EqualQuiet = 0, LessSignaling = 1, LessEqualSignaling = 2,
+                  Unordered = 3;
+/// vrangeps: the lesser or the greater, with its own sign.
+constexpr uint8_t Lesser = 4, Greater = 5;
+
+struct Float {
+  Zmm In;
+  bool IsNegated = false;
+  Float operator-() const { return {In, !IsNegated}; }
+};
+
+using Rounded = void (*)(Emitter *, const Zmm &To, const Zmm &A, const Zmm &B);
+struct Sum {
+  Rounded Write;
+};
+#define VORION_ROUNDED(INSN)                                                   \
+  {[](Emitter *E, const Zmm &To, const Zmm &A, const Zmm &B) {                 \
+    E->INSN(To, A, B);                                                         \
+  }}
+Sum operator+(Float, Float) { return VORION_ROUNDED(vaddps); }
+Sum operator-(Float, Float) { return VORION_ROUNDED(vsubps); }
+Sum operator*(Float, Float) { return VORION_ROUNDED(vmulps); }
+Sum operator/(Float, Float) { return VORION_ROUNDED(vdivps); }
+#undef VORION_ROUNDED
+Sum squareRoot(Float) {
+  return {[](Emitter *E, const Zmm &To, const Zmm &A, const Zmm &) {
+    E->vsqrtps(To, A);
+  }};
+}
+
+uint8_t operator==(Float, Float) { return EqualQuiet; }
+uint8_t operator<(Float, Float) { return LessSignaling; }
+uint8_t operator<=(Float, Float) { return LessEqualSignaling; }
+
+/// NaN results become the canonical one, where there are any; \p First is
+/// done before in that case, and may use k3 and rax.
+void makeCanonical(
+    Emitter *E, const Zmm &Result, const std::function<void()> &First = [] {}) {
+  Label Nans, Back;
+  E->vcmpps(E->active(k2), Result, Result, Unordered);
+  E->kortestw(k2, k2);
+  E->jnz(Nans);
+  E->L(Back);
+  E->outOfLine([=]() mutable {
+    E->L(Nans);
+    First();
+    E->vpbroadcastd(Result | k2, E->number(CanonicalNan));
+    E->jmp(Back);
+  });
+}
+
+/// Infinity times zero is invalid even if the addend is a quiet NaN, of which
+/// x86 says nothing.
+void flagZeroTimesInfinity(Emitter *E, const Zmm &A, const Zmm &B) {
+  // vfpclassps
+  constexpr uint8_t Zero = 0x06, Infinite = 0x18;
+  for (const auto &[X, Y] : {std::pair{A, B}, {B, A}}) {
+    Label None;
+    E->vfpclassps(k3 | k2, X, Zero);
+    E->vfpclassps(k3 | k3, Y, Infinite);
+    E->kortestw(k3, k3);
+    E->jz(None);
+    E->or_(dword[rdi + VORION_PLACE(Fflags)], Invalid);
+    E->L(None);
+  }
+}
+
+void fused(Emitter *E, const Zmm &To, Float A, Float B, Float C) {
+  if (C.IsNegated)
+    A.IsNegated ? E->vfnmsub231ps(To, A.In, B.In)
+                : E->vfmsub231ps(To, A.In, B.In);
+  else
+    A.IsNegated ? E->vfnmadd231ps(To, A.In, B.In)
+                : E->vfmadd231ps(To, A.In, B.In);
+}
+
+} // namespace
+
+void Emitter::floating(const GuestInsn &G) {
+  const Insn *I = G.I;
+  const InsnInfo &Info = InsnTable[static_cast<unsigned>(G.Opcode)];
+  const auto Source = [&](File F, uint16_t Register) -> Float {
+    return {F == File::None ? Zmm(0) : inZmm(guest(Register))};
+  };
+  const Float A = Source(Info.Rs1, I->Rs1), B = Source(Info.Rs2, I->Rs2);
+  const auto Compute = [&](Sum Of) {
+    result(I->Rd, [&](const Zmm &To) {
+      Of.Write(this, To, A.In, B.In);
+      makeCanonical(this, Zmm(To.getIdx()));
+    });
+  };
+  const auto Fuse = [&](Float Factor, Float Addend) {
+    result(I->Rd, [&](const Zmm &To) {
+      // The factors are looked at once more where the result is no number.
+      const bool Overwrites =
+          To.getIdx() == A.In.getIdx() || To.getIdx() == B.In.getIdx();
+      const Zmm Into = Overwrites ? scratch() : Zmm(To.getIdx());
+      if (Into.getIdx() != Addend.In.getIdx())
+        vmovaps(Overwrites ? Into : To, Addend.In);
+      fused(this, active(Into), Factor, B, Addend);
+      makeCanonical(this, Into, [this, A = A.In, B = B.In] {
+        flagZeroTimesInfinity(this, A, B);
+      });
+      if (Overwrites)
+        vmovaps(To, Into);
+    });
+  };
+  const auto Compare = [&](uint8_t Condition) {
+    vcmpps(active(k2), A.In, B.In, Condition);
+    result(I->Rd, [&](const Zmm &To) {
+      const Zmm Ones = scratch();
+      vpbroadcastd(Ones | k2 | T_z, number(1));
+      vmovdqa32(To, Ones);
+    });
+  };
+  // NaNs are the interpreter's affair. Nothing has been written yet.
+  const auto Choose = [&](uint8_t Which) {
+    vcmpps(active(k2), A.In, B.In, Unordered);
+    kortestw(k2, k2);
+    jnz(toInterpreter());
+    result(I->Rd, [&](const Zmm &To) { vrangeps(To, A.In, B.In, Which); });
+  };
+  // So is what does not fit: the host gives one value for all of that.
+  const auto ToInt = [&](bool IsSigned) {
+    constexpr int32_t Rtz = 1;
+    const Zmm R = scratch();
+    if (IsSigned)
+      I->Imm == Rtz ? vcvttps2dq(active(R), A.In) : vcvtps2dq(active(R), A.In);
+    else
+      I->Imm == Rtz ? vcvttps2udq(active(R), A.In)
+                    : vcvtps2udq(active(R), A.In);
+    vpcmpeqd(active(k2), R, constant(IsSigned ? 0x80000000U : ~0U));
+    kortestw(k2, k2);
+    jnz(toInterpreter());
+    result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, R); });
+  };
+  const auto FromInt = [&](bool IsSigned) {
+    result(I->Rd, [&](const Zmm &To) {
+      IsSigned ? vcvtdq2ps(To, A.In) : vcvtudq2ps(To, A.In);
+    });
+  };
+  switch (G.Opcode) {
+#define FLOAT(OP, SOFT, RESULT)                                                \
+  case Op::OP:                                                                 \
+    return Compute(RESULT);
+#define FUSED(OP, SOFT, FACTOR, ADDEND)                                        \
+  case Op::OP: {                                                               \
+    const Float C = Source(Info.Rs3, I->Rs3);                                  \
+    return Fuse(FACTOR, ADDEND);                                               \
+  }
+#define COMPARE(OP, CONDITION, QUIET_IS_INVALID)                               \
+  case Op::OP:                                                                 \
+    return Compare(CONDITION);
+#define MINMAX(OP, IS_MIN)                                                     \
+  case Op::OP:                                                                 \
+    return Choose((IS_MIN) ? Lesser : Greater);
+#define TOINT(OP, SIGNED, SOFT)                                                \
+  case Op::OP:                                                                 \
+    return ToInt(SIGNED);
+#define FROMINT(OP, SIGNED, SOFT)                                              \
+  case Op::OP:                                                                 \
+    return FromInt(SIGNED);
+#include "core/insns/float.def"
+#undef FLOAT
+#undef FUSED
+#undef COMPARE
+#undef MINMAX
+#undef TOINT
+#undef FROMINT
+  default:
+    break;
+  }
+}
+
+} // namespace vorion::isasim::translate

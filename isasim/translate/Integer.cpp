@@ -1,0 +1,65 @@
+// Integer arithmetic and branches, from the interpreter's definitions.
+
+#include "translate/Value.h"
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak::util;
+
+void Emitter::integer(const GuestInsn &G) {
+  const Insn *I = G.I;
+  // What x0 gets is nobody's.
+  if (I->Rd == SinkRegister * sizeof(LaneWords))
+    return;
+  const Format F = InsnTable[static_cast<unsigned>(G.Opcode)].Fmt;
+  const bool HasImmediate = F == Format::I || F == Format::IShift;
+  const Value A(this, guest(I->Rs1));
+  const Value B(this, HasImmediate ? Term{-1, static_cast<uint32_t>(I->Imm)}
+                                   : guest(I->Rs2));
+  const auto Becomes = [&](const Value &V) {
+    result(I->Rd, [&](const Xbyak::Zmm &To) { V.into(To); });
+  };
+  switch (G.Opcode) {
+#define INT(OP, RESULT)                                                        \
+  case Op::OP:                                                                 \
+    return Becomes(RESULT);
+#include "core/insns/integer.def"
+#undef INT
+  default: // lui and auipc
+    return Becomes(Value(this, Term{-1, static_cast<uint32_t>(I->Imm)}));
+  }
+}
+
+void Emitter::writeBranch(const GuestInsn &G) {
+  const Insn *I = G.I;
+  const Value A(this, guest(I->Rs1)), B(this, guest(I->Rs2));
+  switch (G.Opcode) {
+#define BRANCH(OP, CONDITION)                                                  \
+  case Op::OP:                                                                 \
+    (CONDITION).into(k2);                                                      \
+    break;
+#include "core/insns/branch.def"
+#undef BRANCH
+  default:
+    break;
+  }
+  Xbyak::Label NotTaken;
+  kortestw(k2, k2);
+  jz(NotTaken);
+  // Taken by some lanes only, it is an error.
+  if (isFull())
+    jnc(toInterpreter());
+  else {
+    kxorw(k3, k1, k2);
+    kortestw(k3, k3);
+    jnz(toInterpreter());
+  }
+  const auto Before = Pending;
+  ++Pending.Insns;
+  addPending();
+  Pending = Before;
+  goTo(I + (I->Imm >> 2));
+  L(NotTaken);
+}
+
+} // namespace vorion::isasim::translate

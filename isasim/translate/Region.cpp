@@ -1,0 +1,184 @@
+#include "translate/Region.h"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+
+namespace vorion::isasim::translate {
+
+namespace {
+
+/// Instructions of a region at most: some ten thousand bytes of host code.
+constexpr size_t MostInstructions = 700;
+
+/// What going to the interpreter and coming back costs, in instructions that
+/// the interpreter could do meanwhile.
+constexpr unsigned WorthEntering = 10;
+
+/// Rounds to nearest, as the translation's only mode does.
+bool roundsAsHost(const Insn *I) {
+  constexpr int32_t Rne = 0;
+  return I->Imm == Rne || I->Imm == static_cast<int32_t>(DynamicRm);
+}
+
+Kind kindOf(Op O, const Insn *I) {
+  switch (O) {
+#define INT(OP, RESULT) case Op::OP:
+#include "core/insns/integer.def"
+#undef INT
+  case Op::RV_LUI:
+  case Op::RV_AUIPC:
+    return Kind::Integer;
+#define FLOAT(OP, SOFT, RESULT) case Op::OP:
+#define FUSED(OP, SOFT, FACTOR, ADDEND) case Op::OP:
+#define COMPARE(OP, CONDITION, QUIET_IS_INVALID)
+#define MINMAX(OP, IS_MIN)
+#define TOINT(OP, SIGNED, SOFT)
+#define FROMINT(OP, SIGNED, SOFT) case Op::OP:
+#include "core/insns/float.def"
+#undef FLOAT
+#undef FUSED
+#undef COMPARE
+#undef MINMAX
+#undef TOINT
+#undef FROMINT
+    return roundsAsHost(I) ? Kind::Float : Kind::Other;
+  case Op::RV_FCVT_W_S:
+  case Op::RV_FCVT_WU_S: {
+    constexpr int32_t Rtz = 1;
+    return I->Imm == Rtz || roundsAsHost(I) ? Kind::Float : Kind::Other;
+  }
+  case Op::RV_FEQ_S:
+  case Op::RV_FLT_S:
+  case Op::RV_FLE_S:
+  case Op::RV_FMIN_S:
+  case Op::RV_FMAX_S:
+    return Kind::Float;
+#define BRANCH(OP, CONDITION) case Op::OP:
+#include "core/insns/branch.def"
+#undef BRANCH
+    return I->Imm == BadTarget ? Kind::Other : Kind::Branch;
+  case Op::RV_JAL:
+    return I->Imm == BadTarget ? Kind::Other : Kind::Jump;
+#define LOAD(OP, T) case Op::OP:
+#define STORE(OP, T)
+#define AMO(OP, KIND)
+#include "core/insns/memory.def"
+#undef LOAD
+#undef STORE
+    return Kind::Load;
+#define LOAD(OP, T)
+#define STORE(OP, T) case Op::OP:
+#include "core/insns/memory.def"
+#undef LOAD
+#undef STORE
+#undef AMO
+    return Kind::Store;
+  default:
+    return Kind::Other;
+  }
+}
+
+bool isSink(uint16_t Register) {
+  return Register == SinkRegister * sizeof(LaneWords);
+}
+
+/// Whether the instruction behind it is not reached from it.
+bool endsPath(const GuestInsn &G) {
+  switch (G.Opcode) {
+  case Op::RV_JAL: // a call comes back
+    return isSink(G.I->Rd);
+  case Op::RV_JALR:
+    return isSink(G.I->Rd);
+  case Op::RV_ECALL:
+  case Op::RV_EBREAK:
+    return true;
+  default:
+    return false;
+  }
+}
+
+using Found = std::map<const Insn *, GuestInsn>;
+
+/// Follows the code from Head on.
+Found follow(const CodeTable &Code, const Insn *Head) {
+  Found All;
+  std::deque<const Insn *> Paths = {Head};
+  while (!Paths.empty()) {
+    const Insn *I = Paths.front();
+    Paths.pop_front();
+    for (; I != Code.begin() + Code.count() && !All.contains(I); ++I) {
+      if (All.size() == MostInstructions)
+        return All;
+      const std::optional<Decoded> D = decode(I->Word);
+      if (!D)
+        break;
+      GuestInsn G{I, D->Opcode, kindOf(D->Opcode, I)};
+      if (G.Is == Kind::Branch || G.Is == Kind::Jump)
+        Paths.push_back(I + (I->Imm >> 2));
+      All.emplace(I, G);
+      if (endsPath(G))
+        break;
+    }
+  }
+  return All;
+}
+
+void markLeaders(Found &All) {
+  const auto Lead = [&](const Insn *I) {
+    if (const auto At = All.find(I); At != All.end())
+      At->second.Leads = true;
+  };
+  for (const auto &[I, G] : All)
+    if (G.Is == Kind::Branch || G.Is == Kind::Jump) {
+      const Insn *To = I + (I->Imm >> 2);
+      Lead(To);
+      // A way back is a loop of what lies between.
+      if (To <= I)
+        for (auto At = All.lower_bound(To); At != All.end() && At->first <= I;
+             ++At)
+          ++At->second.Loops;
+    }
+}
+
+/// Whether enough instructions from \p From on are translated in a row, or
+/// they go back.
+bool isWorthEntering(const Found &All, const Insn *From) {
+  unsigned Count = 0;
+  for (auto At = All.find(From);
+       At != All.end() && At->first == From + Count &&
+       At->second.Is != Kind::Other && Count != WorthEntering;
+       ++At, ++Count)
+    if ((At->second.Is == Kind::Branch || At->second.Is == Kind::Jump) &&
+        At->first->Imm <= 0)
+      return true;
+  return Count == WorthEntering;
+}
+
+} // namespace
+
+std::vector<GuestInsn> findRegion(const CodeTable &Code, const Insn *Head) {
+  Found All = follow(Code, Head);
+  markLeaders(All);
+  for (auto &[I, G] : All) {
+    const auto Before = All.find(I - 1);
+    // Behind what the interpreter does, and behind calls.
+    const bool Returns =
+        Before != All.end() &&
+        (Before->second.Is == Kind::Other || Before->second.Is == Kind::Jump);
+    const bool Begins = I == Head || (G.Leads && G.Loops != 0) || Returns;
+    if (Begins && G.Is != Kind::Other && isWorthEntering(All, I))
+      G.Leads = G.Enters = true;
+  }
+  std::vector<GuestInsn> Result;
+  bool Enters = false;
+  for (const auto &[I, G] : All) {
+    Result.push_back(G);
+    Enters |= G.Enters;
+  }
+  if (!Enters)
+    Result.clear();
+  return Result;
+}
+
+} // namespace vorion::isasim::translate

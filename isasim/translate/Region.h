@@ -1,0 +1,38 @@
+/// The piece of a program that is translated at once.
+#pragma once
+
+#include "core/CodeTable.h"
+#include "core/Isa.h"
+
+#include <vector>
+
+namespace vorion::isasim::translate {
+
+/// What a translation does with an instruction.
+enum class Kind : uint8_t {
+  Integer,
+  Float,
+  Branch,
+  Jump,
+  Load,
+  Store,
+  Other ///< leaves it to the interpreter
+};
+
+struct GuestInsn {
+  const Insn *I;
+  Op Opcode;
+  Kind Is;
+  /// Whether code may come here otherwise than from the one in front.
+  bool Leads = false;
+  /// Whether the interpreter finds the translation here.
+  bool Enters = false;
+  unsigned Loops = 0; ///< how many it lies in
+};
+
+/// Instructions that \p Head reaches by branches, jumps and falling through,
+/// nearest first until there are enough; in the order of their addresses.
+/// Empty if it is not worth it.
+std::vector<GuestInsn> findRegion(const CodeTable &Code, const Insn *Head);
+
+} // namespace vorion::isasim::translate

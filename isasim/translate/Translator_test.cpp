@@ -1,0 +1,298 @@
+/// The translator against the interpreter: random programs of every
+/// instruction that is translated, with all kinds of operands, active lanes,
+/// rounding modes and ends of a turn, must leave the same in every register,
+/// flag, counter and word of memory, and stop at the same place for the same
+/// reason.
+
+#include "testing/WarpRunner.h"
+#include "translate/Translator.h"
+
+#include <cstring>
+#include <gtest/gtest.h>
+#include <random>
+
+using namespace vorion::isasim;
+using namespace vorion::isasim::testing;
+
+namespace {
+
+constexpr Op Operations[] = {
+#define INT(OP, RESULT) Op::OP,
+#include "core/insns/integer.def"
+#undef INT
+#define FLOAT(OP, SOFT, RESULT) Op::OP,
+#define FUSED(OP, SOFT, FACTOR, ADDEND) Op::OP,
+#define COMPARE(OP, CONDITION, QUIET_IS_INVALID) Op::OP,
+#define MINMAX(OP, IS_MIN) Op::OP,
+#define TOINT(OP, SIGNED, SOFT) Op::OP,
+#define FROMINT(OP, SIGNED, SOFT) Op::OP,
+#include "core/insns/float.def"
+#undef FLOAT
+#undef FUSED
+#undef COMPARE
+#undef MINMAX
+#undef TOINT
+#undef FROMINT
+    Op::RV_LUI, Op::RV_AUIPC, Op::VX_VOTE_BALLOT, Op::VX_SHFL_IDX,
+    Op::RV_CSRRS};
+
+constexpr Op Branches[] = {
+#define BRANCH(OP, CONDITION) Op::OP,
+#include "core/insns/branch.def"
+#undef BRANCH
+};
+
+constexpr Op Accesses[] = {
+#define LOAD(OP, T) Op::OP,
+#define STORE(OP, T) Op::OP,
+#define AMO(OP, KIND)
+#include "core/insns/memory.def"
+#undef LOAD
+#undef STORE
+#undef AMO
+};
+
+/// Registers that hold the same in each lane, for branches; the counter of the
+/// loop; addresses.
+constexpr unsigned FirstUniform = 26, LastUniform = 29, Counter = 30,
+                   FirstAddress = 20, LastAddress = 25, StackPointer = 2;
+
+class Programs {
+public:
+  explicit Programs(unsigned Seed) : Random(Seed) {}
+
+  uint32_t below(uint32_t Most) {
+    return std::uniform_int_distribution<uint32_t>(0, Most - 1)(Random);
+  }
+  template <typename T, size_t N> T oneOf(const T (&All)[N]) {
+    return All[below(N)];
+  }
+
+  uint32_t operand() {
+    static constexpr uint32_t Special[] = {
+        0,          1,          0x80000000, 0x7FFFFFFF, 0xFFFFFFFF, 0x7F800000,
+        0xFF800000, 0x7FC00000, 0xFFC00001, 0x7F800001, 0xFFA00000, 0x00000001,
+        0x807FFFFF, 0x00800000, 0x7F7FFFFF, 0xFF7FFFFF, 0x3F800000, 0xBF800000,
+        0x4F000000, 0xCF000000, 0x4F800000, 0xBF000000, 0x3EFFFFFF, 0x0000FF00};
+    switch (below(4)) {
+    case 0:
+      return Random();
+    case 1: { // a float of usual size
+      const auto Value = static_cast<float>(below(2000)) / 16 - 60;
+      uint32_t Bits;
+      std::memcpy(&Bits, &Value, 4);
+      return Bits;
+    }
+    case 2:
+      return below(64);
+    default:
+      return oneOf(Special);
+    }
+  }
+
+  /// A destination that branches do not need.
+  unsigned destination() {
+    const unsigned R = below(FirstAddress);
+    return R == StackPointer ? 0 : R;
+  }
+
+  uint32_t computation() {
+    Fields F;
+    const Op O = oneOf(Operations);
+    F.Rd = InsnTable[static_cast<unsigned>(O)].Rd == File::F ? below(32)
+                                                             : destination();
+    F.Rs1 = below(32);
+    F.Rs2 = below(32);
+    F.Rs3 = below(32);
+    F.Imm = static_cast<int32_t>(below(4096)) - 2048;
+    static constexpr unsigned Modes[] = {7, 7, 7, 0, 0, 1, 2, 3, 4};
+    F.Rm = oneOf(Modes);
+    if (O == Op::RV_CSRRS) {
+      static constexpr unsigned Csrs[] = {CSR_FFLAGS, CSR_FRM, CSR_MCYCLE,
+                                          CSR_THREAD_ID};
+      F.Csr = oneOf(Csrs);
+      F.Rs1 = 0;
+    }
+    return encode(O, F);
+  }
+
+  uint32_t access() {
+    Fields F;
+    F.Rd = destination();
+    F.Rs1 = below(5) ? FirstAddress + below(LastAddress - FirstAddress + 1)
+                     : StackPointer;
+    F.Rs2 = below(32);
+    F.Imm = static_cast<int32_t>(below(9)) * 4 - 16;
+    if (below(300) == 0)
+      F.Imm += 1;
+    return encode(oneOf(Accesses), F);
+  }
+
+  uint32_t branch(int32_t Bytes) {
+    Fields F;
+    F.Rs1 = FirstUniform + below(LastUniform - FirstUniform + 1);
+    F.Rs2 = FirstUniform + below(LastUniform - FirstUniform + 1);
+    // Lanes may disagree, which is a trap.
+    if (below(200) == 0)
+      F.Rs2 = below(32);
+    F.Imm = Bytes;
+    return encode(oneOf(Branches), F);
+  }
+
+  /// A loop with ways through it.
+  std::vector<uint32_t> program(uint32_t PercentAccesses) {
+    const uint32_t Length = 20 + below(60);
+    std::vector<uint32_t> Words;
+    for (uint32_t N = 0; N != Length; ++N) {
+      if (below(100) < PercentAccesses)
+        Words.push_back(access());
+      else if (below(12) == 0)
+        Words.push_back(branch(
+            4 * static_cast<int32_t>(1 + below(std::min(6U, Length - N)))));
+      else if (below(40) == 0)
+        Words.push_back(encode(Op::RV_JAL, {.Rd = below(2), .Imm = 4}));
+      else
+        Words.push_back(computation());
+    }
+    Words.push_back(
+        encode(Op::RV_ADDI, {.Rd = Counter, .Rs1 = Counter, .Imm = -1}));
+    Words.push_back(
+        encode(Op::RV_BNE, {.Rs1 = Counter,
+                            .Imm = -4 * static_cast<int32_t>(Words.size())}));
+    return Words;
+  }
+
+  void fill(WarpRunner &A, WarpRunner &B) {
+    for (unsigned N = 0; N != 32; ++N) {
+      Lanes16 X, F;
+      for (unsigned L = 0; L != MaxLanes; ++L) {
+        X[L] = N == 0 ? 0 : operand();
+        F[L] = operand();
+      }
+      if (N >= FirstUniform)
+        X.fill(below(2) ? below(3) : operand());
+      if (N >= FirstAddress && N <= LastAddress)
+        X = addresses();
+      if (N == StackPointer)
+        for (uint32_t L = 0; L != MaxLanes; ++L)
+          X[L] = VX_STACK_TOP - 64 - (L << 16);
+      if (N == Counter)
+        X.fill(3);
+      for (WarpRunner *R : {&A, &B}) {
+        R->setX(N, X);
+        R->setF(N, F);
+      }
+    }
+  }
+
+  /// Of neighbours, of one place, of any; in any region, and of nothing.
+  Lanes16 addresses() {
+    static constexpr uint32_t Bases[] = {
+        VX_GLOBAL_BASE + 64,       VX_GLOBAL_BASE + 64,
+        VX_GLOBAL_BASE + 4096,     VX_GLOBAL_BASE + (1 << 20) - 256,
+        VX_LOCAL_BASE + 64,        VX_LOCAL_BASE + (32 << 10) - 256,
+        VX_STACK_TOP - 128,        VX_STACK_TOP - 256,
+        VX_IMAGE_BASE + (1 << 20), VX_LOCAL_BASE + 128};
+    // What faults, at an end or in the code.
+    static constexpr uint32_t Wrong[] = {0, VX_IMAGE_BASE + 64,
+                                         VX_GLOBAL_BASE + (1 << 20) - 80,
+                                         VX_LOCAL_BASE + (32 << 10) - 80};
+    const uint32_t Base = below(20) ? oneOf(Bases) : oneOf(Wrong);
+    static constexpr uint32_t Strides[] = {4, 4, 4, 4, 4, 0, 0, 0, 8, 12};
+    uint32_t Stride = oneOf(Strides);
+    if (below(40) == 0)
+      Stride = 1 + below(2);
+    if (Base >= VX_STACK_TOP - 256 && Base < VX_STACK_TOP && below(3))
+      Stride = 0U - (64U << 10);
+    Lanes16 A;
+    const bool IsRandom = below(5) == 0;
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      A[L] = IsRandom ? Base + 4 * below(64) : Base + L * Stride;
+    return A;
+  }
+
+private:
+  std::mt19937 Random;
+};
+
+std::string countersOf(const WarpState &S) {
+  std::string Text;
+  for (const auto &C : CoreCounterTable)
+    Text += std::to_string(S.Count.*C.Member) + " ";
+  return Text + std::to_string(S.Count.Changes);
+}
+
+void expectSame(WarpRunner &A, WarpRunner &B) {
+  const WarpState &X = A.warp(), &Y = B.warp();
+  ASSERT_EQ(X.Next - A.Code.begin(), Y.Next - B.Code.begin());
+  ASSERT_EQ(X.Why, Y.Why);
+  ASSERT_EQ(countersOf(X), countersOf(Y));
+  ASSERT_EQ(X.Fflags, Y.Fflags);
+  ASSERT_EQ(X.Mask, Y.Mask);
+  ASSERT_EQ(X.Full, Y.Full);
+  ASSERT_EQ(X.StackDepth, Y.StackDepth);
+  ASSERT_EQ(X.FaultCause, Y.FaultCause);
+  ASSERT_EQ(X.FaultLane, Y.FaultLane);
+  ASSERT_EQ(X.FaultAddress, Y.FaultAddress);
+  for (unsigned R = 0; R != SinkRegister; ++R)
+    for (unsigned L = 0; L != MaxLanes; ++L)
+      ASSERT_EQ(X.Registers[R][L], Y.Registers[R][L])
+          << "register " << R << ", lane " << L;
+  const MemoryView P = A.Storage->view(0), Q = B.Storage->view(0);
+  for (const Region MemoryView::*In :
+       {&MemoryView::Local, &MemoryView::Global, &MemoryView::Stack})
+    ASSERT_EQ(std::memcmp((P.*In).Host, (Q.*In).Host, (P.*In).Bytes), 0);
+}
+
+struct Runs {
+  unsigned Programs, PercentAccesses;
+};
+
+class Translator_ : public ::testing::TestWithParam<Runs> {
+protected:
+  void SetUp() override {
+    if (!Translator::isThere())
+      GTEST_SKIP() << "the translator needs " << Translator::needs();
+  }
+};
+
+TEST_P(Translator_, DoesWhatTheInterpreterDoes) {
+  unsigned Translated = 0;
+  uint64_t Executed = 0;
+  for (unsigned Seed = 0; Seed != GetParam().Programs; ++Seed) {
+    Programs P(Seed + 1000 * GetParam().PercentAccesses);
+    const std::vector<uint32_t> Words = P.program(GetParam().PercentAccesses);
+    const ExecTable &Exec = execTable(false);
+    WarpRunner Interpreted(Exec, Words), Fast(Exec, Words);
+    Translator T(Fast.Code, Exec);
+    T.seen(Fast.Code.begin());
+    Translated += T.regions();
+    for (const uint32_t Active : {0xFFFFU, P.oneOf(MaskPatterns)}) {
+      for (WarpRunner *R : {&Interpreted, &Fast}) {
+        R->reset();
+        R->setActive(Active);
+      }
+      P.fill(Interpreted, Fast);
+      const uint32_t Frm = P.below(4) ? 0 : P.below(6);
+      const uint32_t Quantum = P.below(2) ? 1000 : 1 + P.below(100);
+      Interpreted.warp().Frm = Fast.warp().Frm = Frm;
+      for (unsigned Turn = 0;
+           Turn != 6 && Interpreted.warp().Why == Stop::Ready; ++Turn) {
+        Interpreted.run(Quantum);
+        Fast.run(Quantum);
+        expectSame(Interpreted, Fast);
+        ASSERT_FALSE(HasFatalFailure())
+            << "seed " << Seed << ", active " << Active << ", frm " << Frm;
+      }
+      Executed += Fast.warp().Count.WarpInstructions;
+    }
+  }
+  EXPECT_GT(Translated, GetParam().Programs / 2);
+  EXPECT_GT(Executed, 100 * uint64_t{GetParam().Programs})
+      << "they end too early to tell anything";
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, Translator_,
+                         ::testing::Values(Runs{300, 0}, Runs{300, 15}));
+
+} // namespace

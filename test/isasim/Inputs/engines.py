@@ -1,0 +1,28 @@
+"""Runs programs of bench/isasim with both engines, in long turns and in short ones: what they print and count, and where
+cores meet, must be the same. usage: engines.py FOLDER PROGRAM..."""
+
+import json
+import os
+import subprocess
+import sys
+
+BENCH = os.path.join(os.path.dirname(__file__), "..", "..", "..", "bench", "isasim")
+
+
+def outcome(program, stats, turn, engine):
+    command = ["vorion-sim", program, "--set", f"quantum={turn},engine={engine}", "--stats", stats]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()[0]
+    with open(stats, encoding="utf-8") as file:
+        run = json.load(file)["runs"][0]
+    return text, {key: value for key, value in run.items() if not key.startswith("host_")}
+
+
+folder, *names = sys.argv[1:]
+for name in names:
+    elf, sources = os.path.join(folder, name + ".elf"), [os.path.join(BENCH, file + ".c") for file in (name, "device")]
+    subprocess.run(["vorion-clang", "-O3", "-DREPEATS=1", *sources, "-o", elf], check=True)
+    for turn in (100, 1 << 16):
+        one, other = (outcome(elf, os.path.join(folder, "stats.json"), turn, engine) for engine in ("interpreter", "translator"))
+        if one != other:
+            sys.exit(f"{name}, turns of {turn}: the interpreter gives {one}, the translator {other}")
+    print(f"{name}: the same")
