@@ -78,6 +78,9 @@ TEST_F(ImagesOfBuffers, ThatCannotBeAreRefused) {
                          Pitch * Height - 1);
   create(Small(), Pitch);
   EXPECT_EQ(Status, CL_INVALID_MEM_OBJECT);
+  // 4 rows that far apart are 0 bytes, in 64 bits.
+  create(Part(), std::size_t{1} << 62U);
+  EXPECT_EQ(Status, CL_INVALID_MEM_OBJECT);
   create(Part(), Width - 1);
   EXPECT_EQ(Status, CL_INVALID_IMAGE_DESCRIPTOR);
   create(Image(), Pitch);
