@@ -43,8 +43,7 @@ Runner addCompare(CLI::App &App) {
                      "Write a page that shows both frames, of one view each"),
       {".html"})
       ->needs(Times);
-  writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"})
-      ->excludes(Pairs);
+  writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});
   const auto AddOfPictures = [&](const char *Flag, auto &Value,
                                  const char *Help) {
     // Pairs that differ anywhere fail, whatever the bounds on pictures.

@@ -4,6 +4,7 @@
 
 #include "vorion/support/Expected.h"
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -21,13 +22,17 @@ struct CompareArguments {
   std::optional<double> AtMost; ///< longer, per cent
 };
 
+/// What was compared, for reports: the file and its hash; null for no file.
+Expected<nlohmann::ordered_json> comparedFile(const std::string &File);
+
 /// Prints and, on request, writes the differences of two pictures. Figures
 /// out of the bounds that the arguments set are an Error (GuestFailed), given
 /// after the writing.
 Expected<Success> comparePictures(const CompareArguments &A);
 
 /// Whether two files of `--dump-pairs` hold the same pairs in the same order;
-/// if not, an Error (GuestFailed) with the first place that differs.
+/// if not, an Error (GuestFailed) with the first place that differs, given
+/// after the report is written.
 Expected<Success> comparePairs(const CompareArguments &A);
 
 /// Prints and, on request, writes what changed from one time report to the

@@ -1,41 +1,105 @@
 #include "commands/Compare.h"
+#include "commands/OutputFile.h"
 
 #include "io/Npz.h"
+#include "io/ReportHead.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
+#include "vorion/support/Outputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 namespace vorion::splat {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Where two lists of pairs part.
+struct FirstDifference {
+  std::string Array;
+  std::size_t Place; ///< the shorter list's length where it is a beginning
+};
+
+Expected<Success> checkArrays(const std::string &Path, const Npz &Of) {
+  for (const char *Name : {"tile", "depth_bits", "index"})
+    if (!Of.contains(Name) || Of.at(Name).Type != "i4")
+      return Error{Path, fmt::format("no int32 array {}, expected what "
+                                     "--dump-pairs writes",
+                                     Name)};
+  return Success{};
+}
+
+std::optional<FirstDifference> firstDifference(const Npz &First,
+                                               const Npz &Second) {
+  for (const char *Name : {"tile", "depth_bits", "index"}) {
+    const auto X = First.at(Name).toDoubles();
+    const auto Y = Second.at(Name).toDoubles();
+    const auto At = std::mismatch(X.begin(), X.end(), Y.begin(), Y.end());
+    if (At.first != X.end() || At.second != Y.end())
+      return FirstDifference{Name,
+                             static_cast<std::size_t>(At.first - X.begin())};
+  }
+  return std::nullopt;
+}
+
+Expected<Success> writeReport(const CompareArguments &A, std::size_t First,
+                              std::size_t Second,
+                              const std::optional<FirstDifference> &Found) {
+  Json Report = reportHead("splat-compare-pairs");
+  for (const auto &[Name, File] :
+       {std::pair("a", &A.Reference), std::pair("b", &A.Picture)}) {
+    auto Input = comparedFile(*File);
+    if (!Input)
+      return Input.error();
+    Report[Name] = std::move(*Input);
+  }
+  Report.update({{"pairs_a", First},
+                 {"pairs_b", Second},
+                 {"equal", !Found},
+                 {"first_difference",
+                  Found ? Json{{"array", Found->Array}, {"place", Found->Place}}
+                        : Json()}});
+  return writeFileAtomically(A.Json, jsonText(Report, 2) + "\n");
+}
+
+} // namespace
 
 Expected<Success> comparePairs(const CompareArguments &A) {
+  if (auto Checked = checkJsonName(A.Json); !Checked)
+    return Checked;
+  if (auto Claimed = claimOutputs(
+          {{"--json", A.Json}}, {{"pairs", A.Reference}, {"pairs", A.Picture}});
+      !Claimed)
+    return Claimed;
   const auto First = readNpz(A.Reference);
   if (!First)
     return First.error();
   const auto Second = readNpz(A.Picture);
   if (!Second)
     return Second.error();
-  for (const char *Name : {"tile", "depth_bits", "index"}) {
-    for (const auto &[Path, Arrays] :
-         {std::pair(&A.Reference, &*First), std::pair(&A.Picture, &*Second)})
-      if (!Arrays->contains(Name) || Arrays->at(Name).Type != "i4")
-        return Error{*Path, fmt::format("no int32 array {}, expected what "
-                                        "--dump-pairs writes",
-                                        Name)};
-    const auto X = First->at(Name).toDoubles();
-    const auto Y = Second->at(Name).toDoubles();
-    if (X == Y)
-      continue;
-    const auto At = std::mismatch(X.begin(), X.end(), Y.begin(), Y.end());
+  for (const auto &[Path, Arrays] :
+       {std::pair(&A.Reference, &*First), std::pair(&A.Picture, &*Second)})
+    if (auto Checked = checkArrays(*Path, *Arrays); !Checked)
+      return Checked;
+  const std::size_t Pairs = First->at("tile").elements();
+  const std::size_t Others = Second->at("tile").elements();
+  const auto Found = firstDifference(*First, *Second);
+  if (!A.Json.empty())
+    if (auto Written = writeReport(A, Pairs, Others, Found); !Written)
+      return Written;
+  if (Found)
     return Error{A.Picture,
                  fmt::format("{} pairs, {} differs from place {} on, expected "
                              "the {} pairs of {}",
-                             Y.size(), Name, At.first - X.begin(), X.size(),
+                             Others, Found->Array, Found->Place, Pairs,
                              A.Reference),
                  ExitCode::GuestFailed};
-  }
-  printOut("equal: {} pairs\n", First->at("tile").elements());
+  printOut("equal: {} pairs\n", Pairs);
   return Success{};
 }
 

@@ -84,16 +84,6 @@ nlohmann::ordered_json finite(double Value) {
   return std::isfinite(Value) ? nlohmann::ordered_json(Value) : nullptr;
 }
 
-/// What was compared: the file and its hash; null for no file.
-Expected<nlohmann::ordered_json> input(const std::string &File) {
-  if (File.empty())
-    return nlohmann::ordered_json(nullptr);
-  auto Hash = hashFile(File);
-  if (!Hash)
-    return Hash.error();
-  return nlohmann::ordered_json{{"file", File}, {"fnv1a64", *Hash}};
-}
-
 Expected<Success> require(const std::string &File, const char *What,
                           const Difference &D,
                           const std::optional<double> &Least) {
@@ -106,6 +96,15 @@ Expected<Success> require(const std::string &File, const char *What,
 }
 
 } // namespace
+
+Expected<nlohmann::ordered_json> comparedFile(const std::string &File) {
+  if (File.empty())
+    return nlohmann::ordered_json(nullptr);
+  auto Hash = hashFile(File);
+  if (!Hash)
+    return Hash.error();
+  return nlohmann::ordered_json{{"file", File}, {"fnv1a64", *Hash}};
+}
 
 Expected<Success> comparePictures(const CompareArguments &A) {
   if (auto Checked = checkJsonName(A.Json); !Checked)
@@ -159,7 +158,7 @@ Expected<Success> comparePictures(const CompareArguments &A) {
     for (const auto &[Name, File] :
          {std::pair("a", &A.Reference), std::pair("b", &A.Picture),
           std::pair("mask", &A.Mask)}) {
-      auto Input = input(*File);
+      auto Input = comparedFile(*File);
       if (!Input)
         return Input.error();
       Report[Name] = std::move(*Input);

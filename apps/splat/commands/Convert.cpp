@@ -2,10 +2,14 @@
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "commands/SceneEdits.h"
+#include "io/Hash.h"
+#include "io/ReportHead.h"
 #include "scene/Edit.h"
 #include "scene/SceneWriter.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
@@ -13,12 +17,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace vorion::splat {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct ConvertArguments {
+  SceneArguments Scene;
+  std::vector<std::string> More;
+  std::string Output, JsonFile;
+  SceneEdits Edits;
+};
 
 /// What the file does not have of the scene that was read.
 void printLoss(const std::string &Path, const WrittenScene &W, const Scene &S,
@@ -63,21 +77,111 @@ Expected<Success> joinOthers(const SceneArguments &First,
       return Error{Path, "is drawn another way than the scenes before it "
                          "(antialiased, dilation), expected --antialiased or "
                          "--no-antialiased, and --dilation, for all"};
+    To.Dropped += Read->Dropped;
     join(To.Gaussians, std::move(Read->Gaussians));
   }
+  return Success{};
+}
+
+/// The scenes that are read, with their hashes: asked for before any is
+/// written.
+Expected<Json> inputsOf(const ConvertArguments &A) {
+  std::vector<std::string> Paths{A.Scene.Path};
+  Paths.insert(Paths.end(), A.More.begin(), A.More.end());
+  Json Inputs = Json::array();
+  for (const std::string &Path : Paths) {
+    auto Hash = hashScene(Path);
+    if (!Hash)
+      return Hash.error();
+    Inputs.push_back({{"file", Path}, {"fnv1a64", *Hash}});
+  }
+  return Inputs;
+}
+
+std::string jsonReport(Json Inputs, const SceneFile &F, std::size_t Read,
+                       const std::vector<SceneEdit> &Edits,
+                       const WrittenScene &W) {
+  Json LeftOut = Json::array();
+  for (const SceneEdit &E : Edits)
+    LeftOut.push_back({{"rule", E.Rule}, {"gaussians", E.Gaussians}});
+  Json Report = reportHead("splat-convert");
+  Report.update(
+      {{"scenes", std::move(Inputs)},
+       {"gaussians_read", Read},
+       {"dropped_nonfinite", F.Dropped},
+       {"left_out", std::move(LeftOut)},
+       {"gaussians", F.Gaussians.size()},
+       {"sh_degree", W.ShDegree},
+       {"antialiased", F.DrawnAs.Antialiased},
+       {"dilation", F.DrawnAs.Dilation ? Json(*F.DrawnAs.Dilation) : Json()},
+       {"keeps_drawing", W.KeepsDrawing},
+       {"lost",
+        {{"position", W.Lost.Position},
+         {"log_scale", W.Lost.LogScale},
+         {"rotation", W.Lost.Rotation},
+         {"opacity", W.Lost.Opacity},
+         {"color", W.Lost.Color},
+         {"harmonics", W.Lost.Harmonics}}},
+       {"result_fnv1a64", W.Hash}});
+  return jsonText(Report, 2) + "\n";
+}
+
+Expected<Success> run(const ConvertArguments &A) {
+  if (auto Checked = checkEnding("-o", A.Output, writtenEndings()); !Checked)
+    return Checked;
+  if (auto Checked = checkJsonName(A.JsonFile); !Checked)
+    return Checked;
+  // A folder's scene is the pictures beside this file.
+  const auto IndexOf = [](const std::string &Path) {
+    return (std::filesystem::path(Path) / "meta.json").string();
+  };
+  std::vector<NamedFile> Inputs{{"the scene", A.Scene.Path},
+                                {"the scene", IndexOf(A.Scene.Path)}};
+  for (const std::string &Path : A.More)
+    for (const std::string &File : {Path, IndexOf(Path)})
+      Inputs.push_back({"the scene " + printable(Path), File});
+  if (auto Claimed =
+          claimOutputs({{"-o", A.Output}, {"--json", A.JsonFile}}, Inputs);
+      !Claimed)
+    return Claimed;
+  Json Hashed;
+  if (!A.JsonFile.empty()) {
+    auto Of = inputsOf(A);
+    if (!Of)
+      return Of.error();
+    Hashed = std::move(*Of);
+  }
+  auto File = loadScene(A.Scene);
+  if (!File)
+    return File.error();
+  if (auto Joined = joinOthers(A.Scene, A.More, *File); !Joined)
+    return Joined;
+  const std::size_t Read = File->Gaussians.size();
+  const auto Edits = editScene(File->Gaussians, A.Edits);
+  if (!Edits)
+    return Edits.error();
+  for (const SceneEdit &E : *Edits)
+    printOut("{}\n", E.Text);
+  const auto Written = writeScene(A.Output, File->Gaussians, File->DrawnAs);
+  if (!Written)
+    return Written.error();
+  if (!A.JsonFile.empty())
+    if (auto Said =
+            writeFileAtomically(A.JsonFile, jsonReport(std::move(Hashed), *File,
+                                                       Read, *Edits, *Written));
+        !Said)
+      return Said;
+  printOut("{}: {} Gaussians, SH degree {}{}\n", escaped(A.Output),
+           File->Gaussians.size(), Written->ShDegree,
+           File->DrawnAs.Antialiased ? ", trained antialiased" : "");
+  printLoss(A.Output, *Written, File->Gaussians, File->DrawnAs);
   return Success{};
 }
 
 } // namespace
 
 Runner addConvert(CLI::App &App) {
-  struct Arguments {
-    SceneArguments Scene;
-    std::vector<std::string> More;
-    std::string Output;
-    SceneEdits Edits;
-  };
-  auto A = std::make_shared<Arguments>();
+  auto A = std::make_shared<ConvertArguments>();
   addSceneOptions(App, A->Scene);
   takesFile(App.add_option("more", A->More, "Scenes that are joined with it"));
   writesFile(App.add_option(
@@ -88,39 +192,10 @@ Runner addConvert(CLI::App &App) {
              {writtenEndings().begin(), writtenEndings().end()})
       ->required();
   addEditOptions(App, A->Edits);
-  return [A](const DeviceOptions &) -> Expected<Success> {
-    if (auto Checked = checkEnding("-o", A->Output, writtenEndings()); !Checked)
-      return Checked;
-    // A folder's scene is the pictures beside this file.
-    const auto IndexOf = [](const std::string &Path) {
-      return (std::filesystem::path(Path) / "meta.json").string();
-    };
-    std::vector<NamedFile> Inputs{{"the scene", A->Scene.Path},
-                                  {"the scene", IndexOf(A->Scene.Path)}};
-    for (const std::string &Path : A->More)
-      for (const std::string &File : {Path, IndexOf(Path)})
-        Inputs.push_back({"the scene " + printable(Path), File});
-    if (auto Claimed = claimOutputs({{"-o", A->Output}}, Inputs); !Claimed)
-      return Claimed;
-    auto File = loadScene(A->Scene);
-    if (!File)
-      return File.error();
-    if (auto Joined = joinOthers(A->Scene, A->More, *File); !Joined)
-      return Joined;
-    const auto Said = editScene(File->Gaussians, A->Edits);
-    if (!Said)
-      return Said.error();
-    for (const std::string &Line : *Said)
-      printOut("{}\n", Line);
-    const auto Written = writeScene(A->Output, File->Gaussians, File->DrawnAs);
-    if (!Written)
-      return Written.error();
-    printOut("{}: {} Gaussians, SH degree {}{}\n", escaped(A->Output),
-             File->Gaussians.size(), Written->ShDegree,
-             File->DrawnAs.Antialiased ? ", trained antialiased" : "");
-    printLoss(A->Output, *Written, File->Gaussians, File->DrawnAs);
-    return Success{};
-  };
+  writesFile(
+      App.add_option("--json", A->JsonFile, "Write what was done and lost"),
+      {".json"});
+  return [A](const DeviceOptions &) { return run(*A); };
 }
 
 } // namespace vorion::splat

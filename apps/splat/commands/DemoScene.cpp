@@ -2,14 +2,19 @@
 
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
+#include "io/Hash.h"
+#include "io/ReportHead.h"
 #include "scene/formats/Ply.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
+#include "vorion/support/Json.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace vorion::splat {
@@ -17,26 +22,49 @@ namespace vorion::splat {
 namespace {
 
 struct DemoArguments {
-  std::string Output = "demo.ply", Cameras;
+  std::string Output = "demo.ply", Cameras, JsonFile;
   int Gaussians = demo::DefaultGaussians;
 };
 
+/// \p Hash: of the scene's file.
+std::string jsonReport(const Scene &S, const std::string &Hash,
+                       const std::vector<Camera> &Cameras) {
+  using Json = nlohmann::ordered_json;
+  Json Views = Json::array();
+  for (const Camera &C : Cameras)
+    Views.push_back({{"name", C.Name}, {"resolution", {C.Width, C.Height}}});
+  Json Report = reportHead("splat-demo-scene");
+  Report.update({{"gaussians", S.size()},
+                 {"sh_degree", S.ShDegree},
+                 {"views", std::move(Views)},
+                 {"result_fnv1a64", Hash}});
+  return jsonText(Report, 2) + "\n";
+}
+
 Expected<Success> run(const DemoArguments &A) {
   for (const auto &Checked : {checkEnding("-o", A.Output, {".ply"}),
-                              checkEnding("--cameras", A.Cameras, {".json"})})
+                              checkEnding("--cameras", A.Cameras, {".json"}),
+                              checkJsonName(A.JsonFile)})
     if (!Checked)
       return Checked;
-  if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--cameras", A.Cameras}});
+  if (auto Claimed = claimOutputs(
+          {{"-o", A.Output}, {"--cameras", A.Cameras}, {"--json", A.JsonFile}});
       !Claimed)
     return Claimed;
   const Scene S = demo::makeScene(A.Gaussians);
-  if (auto Written = writePly(A.Output, S); !Written)
-    return Written.error();
+  const std::string File = formatPly(S);
+  if (auto Written = writeFileAtomically(A.Output, File); !Written)
+    return Written;
   printOut("{}: {} Gaussians, SH degree {}\n", escaped(A.Output), S.size(),
            S.ShDegree);
+  const std::vector<Camera> Cameras = demo::makeCameras();
+  if (!A.JsonFile.empty())
+    if (auto Written = writeFileAtomically(
+            A.JsonFile, jsonReport(S, fnv1a64(File), Cameras));
+        !Written)
+      return Written;
   if (A.Cameras.empty())
     return Success{};
-  const std::vector<Camera> Cameras = demo::makeCameras();
   if (auto Written = writeCameras(A.Cameras, Cameras); !Written)
     return Written.error();
   for (const Camera &C : Cameras)
@@ -54,6 +82,9 @@ Runner addDemoScene(CLI::App &App) {
              {".ply"});
   writesFile(App.add_option("--cameras", A->Cameras,
                             "Write its views too (cameras.json)"),
+             {".json"});
+  writesFile(App.add_option("--json", A->JsonFile,
+                            "Write what was made, for programs"),
              {".json"});
   App.add_option(
          "--gaussians", A->Gaussians,

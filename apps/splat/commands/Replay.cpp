@@ -1,13 +1,16 @@
 #include "cameras/CameraFile.h"
 #include "commands/Commands.h"
+#include "commands/OutputFile.h"
 #include "commands/ReportDifference.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
 #include "sweep/Process.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
+#include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/TemporaryFolder.h"
 #include "vorion/support/Version.h"
@@ -30,7 +33,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct ReplayArguments {
-  std::string Result, Folder;
+  std::string Result, Folder, JsonFile;
   const CLI::App *Splat = nullptr; ///< which knows what each option writes
 };
 
@@ -146,8 +149,31 @@ void sayVersions(const ReplayArguments &A, const Json &Program) {
                     fmt::format("made by splat {}; this is {}", Was, Is));
 }
 
+/// \p Report begins it: it was made before the folder changed.
+std::string jsonReport(Json Report, const ReportDifference &D) {
+  Json First = Json::array();
+  for (const ValueDifference &V : D.First)
+    First.push_back({{"path", V.Path}, {"is", V.Is}, {"was", V.Was}});
+  Report.update({{"equal", D.Differing == 0},
+                 {"compared", D.Compared},
+                 {"differing", D.Differing},
+                 {"first_differences", std::move(First)}});
+  return jsonText(Report, 2) + "\n";
+}
+
 Expected<Success> replay(const ReplayArguments &A,
                          const DeviceOptions &Machine) {
+  if (auto Checked = checkJsonName(A.JsonFile); !Checked)
+    return Checked;
+  if (auto Claimed =
+          claimOutputs({{"--json", A.JsonFile}}, {{"the result", A.Result}});
+      !Claimed)
+    return Claimed;
+  const auto Hash = hashFile(A.Result);
+  if (!Hash)
+    return Hash.error();
+  Json Report = reportHead("splat-replay");
+  Report["result"] = {{"file", A.Result}, {"fnv1a64", *Hash}};
   const auto Result = readResult(A.Result);
   if (!Result)
     return Result.error();
@@ -191,18 +217,25 @@ Expected<Success> replay(const ReplayArguments &A,
     return Taken;
   sayVersions(A, Program);
 
-  const std::string Report = Temporary->path() + "/replayed.json";
+  const std::string Replayed = Temporary->path() + "/replayed.json";
   if (auto Done = runSplat(redirected(Words, writingOptions(*Command),
-                                      Temporary->path(), Report),
+                                      Temporary->path(), Replayed),
                            Machine, Temporary->path() + "/log");
       !Done)
     return Done;
-  const auto Again = readJson<Json>(Report, "what splat --json wrote");
+  const auto Again = readJson<Json>(Replayed, "what splat --json wrote");
   if (!Again)
     return Again.error();
   const ReportDifference D = differenceOf(*Result, *Again);
-  for (const std::string &Line : D.Lines)
-    printOut("{}\n", escaped(Line));
+  if (!A.JsonFile.empty())
+    if (auto Written =
+            writeFileAtomically(A.JsonFile, jsonReport(std::move(Report), D));
+        !Written)
+      return Written;
+  for (const ValueDifference &V : D.First)
+    printOut("{}: {}, was {}\n", escaped(V.Path), V.Is, V.Was);
+  if (D.Differing > D.First.size())
+    printOut("... and {} more\n", D.Differing - D.First.size());
   std::fflush(stdout); // before the error that counts them
   if (D.Differing == 0) {
     printOut("{}: the same bits again ({} values compared)\n",
@@ -221,17 +254,22 @@ Runner addReplay(CLI::App &App) {
   auto A = std::make_shared<ReplayArguments>();
   A->Splat = App.get_parent();
   takesFile(App.add_option("result", A->Result,
-                           "What --json wrote: render, gradients, analyze, "
-                           "info, train, eval or compare"),
+                           "What --json wrote, of any command but "
+                           "accuracy, explore and doctor"),
             {".json"})
       ->required();
   takesFolder(App.add_option("--folder", A->Folder,
                              "Where names of files are looked up (default: "
                              "where the result was made)"));
+  writesFile(App.add_option("--json", A->JsonFile,
+                            "Write whether the bits agree, for programs"),
+             {".json"});
   return [A](const DeviceOptions &Machine) {
-    // The folder changes before the file is read again.
+    // The folder changes before the files are read and written.
     std::error_code Failed;
     A->Result = std::filesystem::absolute(A->Result, Failed).string();
+    if (!A->JsonFile.empty() && A->JsonFile != StandardOutput)
+      A->JsonFile = std::filesystem::absolute(A->JsonFile, Failed).string();
     return replay(*A, Machine);
   };
 }

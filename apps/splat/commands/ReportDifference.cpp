@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t MostLines = 20;
+constexpr std::size_t MostNamed = 20;
 
 /// No part of a result, wherever it stands.
 bool isSkipped(std::string_view Key) {
@@ -45,9 +45,8 @@ public:
       ++Found.Compared;
       if (Was && Is && *Was == *Is)
         return;
-      if (++Found.Differing <= MostLines)
-        Found.Lines.push_back(
-            fmt::format("{}: {}, was {}", Path, textOf(Is), textOf(Was)));
+      if (++Found.Differing <= MostNamed)
+        Found.First.push_back({Path, textOf(Is), textOf(Was)});
     }
   }
 
@@ -73,9 +72,6 @@ private:
 ReportDifference differenceOf(const Json &Was, const Json &Is) {
   Comparison C;
   C.compare("", &Was, &Is);
-  if (C.Found.Differing > MostLines)
-    C.Found.Lines.push_back(
-        fmt::format("... and {} more", C.Found.Differing - MostLines));
   return C.Found;
 }
 

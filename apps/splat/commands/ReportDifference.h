@@ -8,10 +8,14 @@
 
 namespace vorion::splat {
 
+/// "counts.pairs": "12", was "10"; "missing" where there is none.
+struct ValueDifference {
+  std::string Path, Is, Was;
+};
+
 struct ReportDifference {
   std::size_t Compared = 0, Differing = 0;
-  /// "counts.pairs: 12, was 10", the first few of them.
-  std::vector<std::string> Lines;
+  std::vector<ValueDifference> First; ///< the first few that differ
 };
 
 /// In what \p Is differs from \p Was. Times of this computer, the program, and

@@ -39,11 +39,12 @@ Expected<Success> check(const SceneEdits &E) {
 
 /// Leaves out what \p Keep does not hold for, and says so in \p Said.
 template <typename Rule>
-Expected<Success> leaveOut(Scene &S, const std::string &What,
-                           std::vector<std::string> &Said, const Rule &Keep) {
+Expected<Success> leaveOut(Scene &S, const char *Name, const std::string &What,
+                           std::vector<SceneEdit> &Said, const Rule &Keep) {
   const std::size_t Count = S.size(), Gone = keepOnly(S, Keep);
   Said.push_back(
-      fmt::format("left out {} of {} Gaussians {}", Gone, Count, What));
+      {fmt::format("left out {} of {} Gaussians {}", Gone, Count, What), Name,
+       Gone});
   if (S.size() == 0)
     return Error{"",
                  fmt::format("all {} Gaussians are {}, expected one to keep",
@@ -95,24 +96,24 @@ void addEditOptions(CLI::App &App, SceneEdits &E) {
       ->group(Group);
 }
 
-Expected<std::vector<std::string>> editScene(Scene &S, const SceneEdits &E) {
+Expected<std::vector<SceneEdit>> editScene(Scene &S, const SceneEdits &E) {
   if (auto Checked = check(E); !Checked)
     return Checked.error();
-  std::vector<std::string> Said;
+  std::vector<SceneEdit> Said;
   transform(S, moveOf(E));
   if (auto Finite = checkFinite("", S); !Finite)
     return Error{"", "the moved scene is beyond the range of floats, expected "
                      "a smaller --scale or --translate"};
   if (E.Faint)
     if (auto Done =
-            leaveOut(S, fmt::format("fainter than {}", *E.Faint), Said,
+            leaveOut(S, "faint", fmt::format("fainter than {}", *E.Faint), Said,
                      [&, Activated = activate<double>(S)](std::size_t I) {
                        return Activated.Opacities[I] >= *E.Faint;
                      });
         !Done)
       return Done.error();
   if (!E.Box.empty())
-    if (auto Done = leaveOut(S, "outside the box", Said,
+    if (auto Done = leaveOut(S, "box", "outside the box", Said,
                              [&](std::size_t I) {
                                bool Inside = true;
                                for (std::size_t A = 0; A < 3; ++A)
@@ -124,7 +125,7 @@ Expected<std::vector<std::string>> editScene(Scene &S, const SceneEdits &E) {
         !Done)
       return Done.error();
   if (!E.Sphere.empty())
-    if (auto Done = leaveOut(S, "outside the sphere", Said,
+    if (auto Done = leaveOut(S, "sphere", "outside the sphere", Said,
                              [&](std::size_t I) {
                                double Squares = 0;
                                for (std::size_t A = 0; A < 3; ++A) {
@@ -138,7 +139,8 @@ Expected<std::vector<std::string>> editScene(Scene &S, const SceneEdits &E) {
       return Done.error();
   if (E.Degree && *E.Degree < S.ShDegree) {
     Said.push_back(
-        fmt::format("left out harmonics above degree {}", *E.Degree));
+        {fmt::format("left out harmonics above degree {}", *E.Degree),
+         "harmonics", 0});
     setShDegree(S, *E.Degree);
   }
   return Said;

@@ -23,8 +23,15 @@ struct SceneEdits {
 /// Declares the options; \p E must outlive the parsing.
 void addEditOptions(CLI::App &App, SceneEdits &E);
 
+/// What was left out.
+struct SceneEdit {
+  std::string Text;          ///< for people
+  std::string Rule;          ///< "faint", "box", "sphere", "harmonics"
+  std::size_t Gaussians = 0; ///< of harmonics none
+};
+
 /// Moves \p S, then leaves out what is too faint and what is not inside, then
-/// sets the degree. What was done, a line each; an Error if nothing is left.
-Expected<std::vector<std::string>> editScene(Scene &S, const SceneEdits &E);
+/// sets the degree. What was left out; an Error if nothing is left.
+Expected<std::vector<SceneEdit>> editScene(Scene &S, const SceneEdits &E);
 
 } // namespace vorion::splat

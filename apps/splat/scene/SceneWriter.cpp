@@ -1,6 +1,7 @@
 #include "scene/SceneWriter.h"
 
 #include "io/Gzip.h"
+#include "io/Hash.h"
 #include "scene/Activation.h"
 #include "scene/Edit.h"
 #include "scene/SceneFile.h"
@@ -72,8 +73,10 @@ double largestDifference(const std::vector<float> &A,
 }
 
 /// What has been written, as its reader sees it.
-WrittenScene writtenOf(SceneFile Read, const Scene &Given, const Drawing &D) {
+WrittenScene writtenOf(SceneFile Read, const Scene &Given, const Drawing &D,
+                       std::string Hash) {
   WrittenScene Result;
+  Result.Hash = std::move(Hash);
   Result.ShDegree = Read.Gaussians.ShDegree;
   Result.KeepsDrawing = Read.DrawnAs.drawsAs(D);
   Scene Kept = std::move(Read.Gaussians);
@@ -106,15 +109,18 @@ Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
     return Read.error();
   std::error_code Ignored;
   fs::remove(Path, Ignored);
-  for (const auto &[Name, Bytes] : *Files)
+  std::string Hashes; // of a map: in the order of names
+  for (const auto &[Name, Bytes] : *Files) {
+    Hashes += fmt::format("{} {}\n", fnv1a64(Bytes), Name);
     if (Name != SogIndex)
       if (auto Written = writeFileAtomically(
               (fs::path(Path).parent_path() / Name).string(), Bytes);
           !Written)
         return Written.error();
+  }
   if (auto Written = writeFileAtomically(Path, Index); !Written)
     return Written.error();
-  return writtenOf(std::move(*Read), S, D);
+  return writtenOf(std::move(*Read), S, D, fnv1a64(Hashes));
 }
 
 /// Every second bit of the result is one of the ten of \p Step, and two of
@@ -213,7 +219,7 @@ Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
     return Read.error();
   if (auto Written = writeFileAtomically(Path, *File); !Written)
     return Written.error();
-  return writtenOf(std::move(*Read), Given, D);
+  return writtenOf(std::move(*Read), Given, D, fnv1a64(*File));
 }
 
 } // namespace vorion::splat

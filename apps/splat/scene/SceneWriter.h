@@ -31,6 +31,7 @@ SceneDifference differenceOf(const Scene &A, const Scene &B);
 struct WrittenScene {
   SceneDifference Lost;     ///< all 0 where the format keeps every bit
   int ShDegree = 0;         ///< of the file
+  std::string Hash;         ///< as hashScene() has it (io/Hash.h)
   bool KeepsDrawing = true; ///< whether it says how the scene is drawn
 };
 

@@ -70,6 +70,13 @@ with open("c.json", encoding="utf-8") as file:
     camera = json.load(file)[0]
 size = camera["height"], camera["width"]
 numpy.savez("upstream.npz", in_v_render=numpy.ones((*size, 3), "f"), in_v_alpha=numpy.zeros(size, "f"))
+splat("convert", "demo.ply", "s.ply", "--drop-faint", "0.1", "--degree", "1", "-o", "joined.spz")
+splat("demo-scene", "--gaussians", "1000", "-o", "again.ply")
+os.rename("report.json", "made.json")
+splat("replay", "made.json")
+for path in ("raster", "simt"):
+    run("splat", "render", *view, "-o", "a.npz", "--path", path, "--dump-pairs", path + ".npz")
+splat("compare", "--pairs", "raster.npz", "raster.npz")
 splat("gradients", *view, "--upstream", "upstream.npz", "-o", "g.npz")
 splat("train", capture, "-o", "t.ply", "--iterations", "2", "--time", "--time-every", "1", "--score-every", "1")
 splat("eval", "t.ply", capture)
