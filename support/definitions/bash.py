@@ -36,6 +36,26 @@ _vorion_folders() {
   mapfile -t COMPREPLY < <(compgen -d -- "$cur")
 }
 
+# Where the value of option $1 is at the cursor: keys and values of a configuration, "key=" or "key=value" each. What we take
+# for one word, "a=b,key=va", bash takes apart.
+_vorion_settings() {
+  local option=$1 at=$COMP_CWORD whole=${COMP_WORDS[COMP_CWORD]} typed item kept word full
+  shift
+  typed=${whole#=}
+  while ((at > 1)) && [[ ${COMP_WORDS[at]} == = || ${COMP_WORDS[at - 1]} == = ]]; do whole=${COMP_WORDS[--at]}$whole; done
+  if [[ $whole == "$option="* ]]; then whole=${whole#"$option="}
+  elif [[ ${COMP_WORDS[at - 1]} != "$option" ]]; then return 1; fi
+  item=${whole##*,} kept=${whole%"$typed"}
+  for word; do
+    [[ $item == *=* ]] || word=${word%%=*}=
+    full=${whole%"$item"}$word
+    full=${full#"$kept"}
+    [[ $word != "$item"* || $word == "$item" || " ${COMPREPLY[*]} " == *" $full "* ]] || COMPREPLY+=("$full")
+  done
+  [[ $item == *=* ]] || compopt -o nospace 2>/dev/null
+  return 0
+}
+
 # Views of the file that --cameras names on this command line, and other words.
 _vorion_views() {
   local i file= name before=
@@ -60,6 +80,8 @@ def quoted(words):
 def action(value):
     """What completes a value; nothing where nothing is known of it."""
     words = value.get("words", [])
+    if "names" in value:  # or a file
+        return f"_vorion_words {quoted(value['names'])}; _vorion_files {quoted(words)}"
     return {"one-of": f"_vorion_words {quoted(words)}", "some-of": f"_vorion_some {quoted(words)}",
             "view": f"_vorion_views {quoted(words)}", "file": f"_vorion_files {quoted(words)}",
             "prefix": "_vorion_files", "folder": "_vorion_folders"}.get(value["kind"], "").strip()
@@ -106,6 +128,11 @@ def script(tool):
         lines += ["  for ((i = 1; i < COMP_CWORD; ++i)); do", "    case ${COMP_WORDS[i]} in",
                   f"    {' | '.join(takes)}) [[ ${{COMP_WORDS[++i]}} != = ]] || ((++i)) ;;", "    =) ((++i)) ;;", "    -*) ;;",
                   "    *) command=${COMP_WORDS[i]}; break ;;", "    esac", "  done"]
+    for option in tool["options"]:
+        value = option.get("value", {})
+        if value.get("kind") == "settings":
+            words = [key + v for key, values in value["settings"].items() for v in values or [""]]
+            lines += [f"  _vorion_settings {name} {quoted(words)} && return" for name in option["names"]]
     lines.append('  case "$command $option" in')
     lines += value_cases("", tool["options"] + tool.get("others", []))
     for command in commands:

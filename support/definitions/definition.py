@@ -22,8 +22,32 @@ def read(folder, tool):
     program = os.path.join(folder, tool)
     text = said(program, "--print-definition")
     if text.startswith("{"):
-        return json.loads(text)["tool"]
+        return with_configuration(json.loads(text)["tool"], folder)
     return of_help(tool, said(program, "--help"))
+
+
+def settings_of(schema, before=""):
+    """Keys of a configuration with "=" behind them, each with the values that it has names for."""
+    for key, value in schema["properties"].items():
+        if value["type"] == "object":
+            yield from settings_of(value, f"{before}{key}.")
+        else:
+            switch = ["0", "1"] if (value.get("minimum"), value.get("maximum")) == (0, 1) else []
+            yield f"{before}{key}=", value.get("enum", switch)
+
+
+def with_configuration(tool, folder):
+    """The tool, with what vorion-sim knows of configurations where the names of values say that they are such."""
+    for option in tool["options"]:
+        value = option.get("value", {})
+        if value.get("name") not in ("KEY=VALUE,...", "NAME|FILE"):
+            continue
+        settings = dict(settings_of(json.loads(said(os.path.join(folder, "vorion-sim"), "--print-config-schema"))))
+        if value["name"] == "NAME|FILE":
+            value["names"] = settings["machine="]
+        else:
+            value.update(kind="settings", settings=settings)
+    return tool
 
 
 # "  -o FILE   what it is", "  --name=<value>  - what it is", or the names alone, with the rest on the next line.

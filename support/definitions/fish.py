@@ -15,7 +15,10 @@ def name_flag(name):
 
 def value_flags(value, tool):
     words = value.get("words", [])
-    listed = " ".join(words)
+    listed = " ".join(words + value.get("names", []))
+    if value["kind"] == "settings":
+        known = [key + v for key, values in value["settings"].items() for v in ["", *values]]
+        return "-x -a " + quoted(f"(__fish_append , {' '.join(known)})")
     needs = "" if value["optional"] else "-x "
     if value["kind"] == "one-of":
         return f"{needs}-a {quoted(listed)}"
@@ -27,7 +30,7 @@ def value_flags(value, tool):
     if value["kind"] == "folder":
         return "-x -a '(__fish_complete_directories)'"
     if value["kind"] == "file" and words:
-        return "-r -k -a " + quoted(" ".join(f"(__fish_complete_suffix {w})" for w in words))
+        return "-r -k -a " + quoted(" ".join([*(f"(__fish_complete_suffix {w})" for w in words), *value.get("names", [])]))
     if value["kind"] in ("file", "prefix"):
         return "-F" if value["optional"] else "-r -F"
     return "" if value["optional"] else "-x"

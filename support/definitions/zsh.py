@@ -18,12 +18,33 @@ def action(value, tool):
         return f"({listed})"
     if value["kind"] == "some-of":
         return f"_sequence compadd - {listed}"
+    if value["kind"] == "settings":
+        return f"_{function_of(tool)}_settings"
+    if "names" in value:
+        return f"_{function_of(tool)}_machines"
     if value["kind"] == "view":
         return f"_{tool['name']}_views {listed}".rstrip()
     if value["kind"] == "file":
         # Folders, and files with the endings; of one ending, the brackets would be something else.
         return f'_files -g "*({"|".join(words)})"'.replace(f"({words[0]})", words[0]) if words else "_files"
     return {"prefix": "_files", "folder": "_files -/"}.get(value["kind"], " ")
+
+
+def function_of(tool):
+    return tool["name"].replace("-", "_")
+
+
+def configuration(tool):
+    """Functions for the options that take keys of a configuration, or a machine's name or a file."""
+    for option in tool["options"]:
+        value = option.get("value", {})
+        if value.get("kind") == "settings":
+            known = [quoted(f"{key.rstrip('=')}:value:({' '.join(values)})" if values else f"{key.rstrip('=')}:value: ")
+                     for key, values in value["settings"].items()]
+            yield f"_{function_of(tool)}_settings() {{ _values -s , setting " + " ".join(known) + "; }"
+        if "names" in value:
+            files = action({"kind": "file", "words": value["words"]}, tool)
+            yield f"_{function_of(tool)}_machines() {{ compadd - {' '.join(value['names'])}; {files}; }}"
 
 
 def specs(options, tool, with_positions=True):
@@ -68,6 +89,7 @@ def script(tool):
                   "  [[ -z $file ]] || views=(${(f)\"$($service --print-views ${~file} 2>/dev/null)\"})",
                   "  views+=($@)",
                   "  _sequence compadd - $views", "}", ""]
+    lines += configuration(tool)
     lines += [f"_{name}() {{", "  local curcontext=$curcontext state line", "  typeset -A opt_args"]
     if not commands:
         lines.append(arguments(specs(tool["options"] + tool.get("others", []), tool), "  ", "-S"))

@@ -14,6 +14,15 @@ import sys
 CASES = (
     ("splat ren", "render"),
     ("splat --set a=b ren", "render"),
+    ("splat --set ", "machine clusters raster.queue_depth !scaled !scene.ply"),
+    ("splat --set mach", "machine !clusters"),
+    ("splat --set machine=sc", "scaled scaled-forwarding !prototype"),
+    ("splat --set=machine=sc", "scaled scaled-forwarding !prototype"),
+    ("splat --set clusters=2,mach", "2,machine"),
+    ("splat --set clusters=2,machine=sc", "scaled scaled-forwarding !prototype"),
+    ("splat render --set machine=", "prototype scaled !clusters"),
+    ("splat --set machine=scaled ren", "render"),
+    ("vorion-sim --set timing.", "timing.enabled !clusters"),
     ("splat ", "render train doctor !--exp !scene.ply"),
     ("splat render --exp ", "exact table poly2 !scene.ply"),
     ("splat render --exp=ta", "table table32 table64 !exact"),
@@ -34,7 +43,7 @@ CASES = (
     ("splat train --exp", "!--exp"),
     ("splat doctor --json ", "cameras.json !scene.ply"),
     ("vorion-sim --check ra", "race"),
-    ("vorion-sim --config ", "cameras.json !scene.ply"),
+    ("vorion-sim --config ", "cameras.json prototype scaled-forwarding !scene.ply"),
     ("vorion-sim --signature-granularity ", "1 2 4 8 16 !scene.ply"),
     ("vorion-objdump --disassemble-a", "--disassemble-all"),
     ("vorion-clang -fcolor-d", "-fcolor-diagnostics"),
@@ -130,6 +139,8 @@ for line, expected in CASES:
     listed = line.split(" ")[-1].rpartition("=")[2].rpartition(",")[0]
     # zsh and fish give what follows the option's "=", or all of it; the same of lists.
     found = {word.removeprefix(before + "=") for word in complete(line)}
+    # Behind a key, some shells have "=" already.
+    found |= {word.removesuffix("=") for word in found}
     found |= {f"{listed},{word}" for word in found if listed and "," not in word}
     bad = [word for word in expected.split() if (word[1:] in found if word[0] == "!" else word not in found)]
     # fish orders files by their ending and leaves none out.
