@@ -132,7 +132,8 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   const EffectInputs Inputs{.Gaussians = File->Gaussians,
                             .Options = A.Options,
                             .Facts = Facts,
-                            .Machine = Machine};
+                            .Machine = Machine,
+                            .Views = Views.size()};
   const RenderPlan Plan = planRender(EffectPlan(A.Request, Inputs), A.Options);
   warnOfMissing(Plan.Effects, A.Effects);
 

@@ -9,6 +9,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -54,21 +55,27 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   // The option --axes is about the first scene.
   SceneArguments Dropped = A.Scene;
   Dropped.Axes.clear();
-  Session::Setup S{A.Device,         A.Kernels, Machine,     Dropped.Options,
-                   wordsOf(Dropped), {},        Size->first, Size->second};
+  Session::Setup S{.Device = A.Device,
+                   .Kernels = A.Kernels,
+                   .Machine = Machine,
+                   .Reading = Dropped.Options,
+                   .ReadingWords = wordsOf(Dropped),
+                   .Cameras = {},
+                   .Width = Size->first,
+                   .Height = Size->second};
   auto File = loadScene(A.Scene);
   if (!File)
     return File.error();
   auto Cameras = allCameras(A.Cameras, File->Gaussians);
   if (!Cameras)
     return Cameras.error();
-  for (const Camera &C : *Cameras)
-    if (C.Optics.Model != LensModel::Pinhole)
-      return Error{A.Cameras.File,
-                   fmt::format("view {} has the camera model {}, expected "
-                               "PINHOLE: splat view draws no lenses",
-                               C.Name, name(C.Optics.Model))};
-  S.Cameras = std::move(*Cameras);
+  S.ThroughLens = std::ranges::any_of(
+      *Cameras, [](const Camera &C) { return !C.Optics.isPinhole(); });
+  // Of a capture, the page may switch to the lenses that photographs have.
+  CameraArguments OfPhotographs = A.Cameras;
+  OfPhotographs.Distorted = true;
+  auto Photographs = allCameras(OfPhotographs, File->Gaussians);
+  S.Cameras = std::move(Photographs ? *Photographs : *Cameras);
   const std::filesystem::path Path(A.Scene.Path);
   std::string Name = printable(
       (Path.has_filename() ? Path : Path.parent_path()).filename().string());

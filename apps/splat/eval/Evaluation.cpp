@@ -97,6 +97,7 @@ evaluate(Launcher &Launch, const RenderPlan &Plan, const Scene &S,
     return Built.error();
   Launch.beginStage(Stage::Upload);
   const GaussianBuffers Gaussians = uploadGaussians(Launch, S, Plan.Effects);
+  activate(Launch, Plan, Gaussians);
   std::vector<ViewScore> Scores;
   for (const JudgedView &V : Views) {
     const Camera &Pose = V.View->Pose;

@@ -112,11 +112,7 @@ public:
 
   /// What no camera changes, which is accounted to the first picture.
   void activate() {
-    if (!Plan.Effects.done(effects::ActivatedScene))
-      return;
-    Launch.beginStage(Stage::Activate);
-    Launch.run(ActivateProgram, "activate_scene", itemsFor(Gaussians.Count),
-               GroupSize, Gaussians.Geometry, Gaussians.Count);
+    splat::activate(Launch, Plan, Gaussians);
     own(0);
   }
 
@@ -197,6 +193,15 @@ private:
 };
 
 } // namespace
+
+void activate(Launcher &Launch, const RenderPlan &Plan,
+              const GaussianBuffers &Gaussians) {
+  if (!Plan.Effects.done(effects::ActivatedScene))
+    return;
+  Launch.beginStage(Stage::Activate);
+  Launch.run(ActivateProgram, "activate_scene", itemsFor(Gaussians.Count),
+             GroupSize, Gaussians.Geometry, Gaussians.Count);
+}
 
 Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
                             const GaussianBuffers &Gaussians, const Camera &C,

@@ -55,8 +55,12 @@ Expected<RenderResult> render(Launcher &Launch, const RenderPlan &Plan,
 /// the programs of \p Plan, which are a stage.
 Expected<Success> build(Launcher &Launch, const RenderPlan &Plan,
                         const Scene &S);
+/// Computes what no camera changes, once, in the place of what was uploaded: a
+/// stage, where \p Plan has the effect \c ActivatedScene.
+void activate(Launcher &Launch, const RenderPlan &Plan,
+              const GaussianBuffers &Gaussians);
 /// Draws \p Gaussians, which \c uploadGaussians has made of the scene by the
-/// effects of \p Plan.
+/// effects of \p Plan, and \c activate() has seen.
 Expected<RenderResult> draw(Launcher &Launch, const RenderPlan &Plan,
                             const GaussianBuffers &Gaussians, const Camera &C,
                             const RenderOptions &Options, bool KeepPairs);

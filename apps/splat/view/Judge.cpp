@@ -19,9 +19,9 @@ reference::Options judgeOptions(const ShownScene &S) {
   return O;
 }
 
-/// Those knobs of \p Chosen that say which Gaussians a pixel takes.
-reference::Options pixelOptions(const ShownScene &S, const Setting &Chosen) {
-  const RenderOptions From = optionsOf(Chosen, S.File.DrawnAs);
+/// Those knobs of \p R that say which Gaussians a pixel takes.
+reference::Options pixelOptions(const ShownScene &S, const ViewRequest &R) {
+  const RenderOptions From = optionsOf(R, S.File.DrawnAs);
   reference::Options O = judgeOptions(S);
   O.Reach = From.Reach == Support::Box3      ? reference::Support::Box3
             : From.Reach == Support::Square3 ? reference::Support::Square3
@@ -91,7 +91,7 @@ Judge::picture(const std::shared_ptr<const ShownScene> &S, const Camera &View) {
 std::vector<PixelGaussian>
 Judge::pixel(const std::shared_ptr<const ShownScene> &S, const ViewRequest &R) {
   const std::lock_guard Held(Lock);
-  const reference::Options O = pixelOptions(*S, R.Chosen);
+  const reference::Options O = pixelOptions(*S, R);
   const auto Found =
       [&]<typename Real>(const std::vector<reference::Splat<Real>> &Splats) {
         return reference::contributors(Splats, R.View.Width, R.View.Height, O,
@@ -108,7 +108,9 @@ Judge::pixel(const std::shared_ptr<const ShownScene> &S, const ViewRequest &R) {
   for (const auto &C : Found(Exact)) {
     const auto Index = static_cast<std::size_t>(C.Index);
     const reference::Splat<double> &Splat = Exact[Index];
-    PixelGaussian G{C.Index,
+    // A sphere's have copies behind them, beside the picture.
+    const std::size_t Own = Index % S->File.Gaussians.size();
+    PixelGaussian G{static_cast<int32_t>(Own),
                     C.Weight,
                     C.Alpha,
                     Splat.Depth,

@@ -1,5 +1,6 @@
 #include "view/Request.h"
 
+#include "io/CameraLens.h"
 #include "picture/TailRule.h"
 #include "vorion/support/Json.h"
 
@@ -70,6 +71,9 @@ Expected<Camera> cameraOf(const Json &Of) {
     if (!(*Focal > 0))
       return wrong(Key, "a focal length above 0");
   }
+  const Json Lens = Of.value("lens", Json());
+  if (!Lens.is_null() && !Lens.is_object())
+    return wrong("lens", "an object");
   C.Cx = numberOf(Of, "cx").value_or(C.Width / 2.0);
   C.Cy = numberOf(Of, "cy").value_or(C.Height / 2.0);
   const auto Position = threeOf(Of.value("position", Json()));
@@ -87,6 +91,15 @@ Expected<Camera> cameraOf(const Json &Of) {
   }
   if (!isRotation(C.Rotation))
     return wrong("rotation", "a rotation");
+  // As cameras.json has it; a sphere's focal lengths follow from the size.
+  if (Lens.is_object())
+    if (const auto Problem = readLens(
+            [&](const char *Key) {
+              const auto At = Lens.find(Key);
+              return At == Lens.end() ? nullptr : &*At;
+            },
+            C))
+      return Error{"", "the request's lens: " + *Problem, ExitCode::Usage};
   return C;
 }
 
@@ -151,12 +164,14 @@ Error superseded() {
 
 bool isSuperseded(const Error &E) { return E.What == superseded().What; }
 
-RenderOptions optionsOf(const Setting &S, const Drawing &D) {
+RenderOptions optionsOf(const ViewRequest &R, const Drawing &D) {
+  const Setting &S = R.Chosen;
   const auto Number = [&](KnobId Id) {
     return static_cast<unsigned>(std::stoul(S.value(Id)));
   };
   RenderOptions O;
   drawAs(O, D);
+  O.Optics = R.View.Optics.Model;
   O.Exponential = S.exponential();
   O.Arithmetic = S.arithmetic();
   O.AlphaCutoff = Number(KnobId::AlphaCutoff);

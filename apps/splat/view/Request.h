@@ -55,7 +55,7 @@ Error superseded();
 /// Whether \p E is that.
 bool isSuperseded(const Error &E);
 
-/// The options by which \p S draws a scene whose file says \p D.
-RenderOptions optionsOf(const Setting &S, const Drawing &D);
+/// The options by which \p R is drawn of a scene whose file says \p D.
+RenderOptions optionsOf(const ViewRequest &R, const Drawing &D);
 
 } // namespace vorion::splat

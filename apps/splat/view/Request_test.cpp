@@ -1,5 +1,6 @@
 #include "view/Request.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -32,9 +33,31 @@ TEST(ViewRequest, SaysWhatThePageAsksFor) {
   EXPECT_TRUE(R->Clock) << "cycles are the clock's";
   EXPECT_FALSE(R->Compare);
   EXPECT_EQ(R->X, 63);
-  const RenderOptions O = optionsOf(R->Chosen, {});
+  const RenderOptions O = optionsOf(*R, {});
   EXPECT_EQ(O.Exponential, ExpUnit::Table);
   EXPECT_EQ(O.RasterTile, 32U);
+}
+
+TEST(ViewRequest, ALensIsThatOfCamerasFiles) {
+  auto Asked = good();
+  Asked["camera"]["lens"] = {{"camera_model", "OPENCV_FISHEYE"}, {"k1", 0.1}};
+  const auto R = parseViewRequest(Asked.dump());
+  ASSERT_TRUE(R) << R.error().What;
+  EXPECT_EQ(R->View.Optics.Model, LensModel::Fisheye);
+  EXPECT_EQ(R->View.Optics.K[0], 0.1);
+  EXPECT_EQ(optionsOf(*R, {}).Optics, LensModel::Fisheye);
+  Asked["camera"]["lens"] = {{"camera_model", "EQUIRECTANGULAR"}};
+  const auto Sphere = parseViewRequest(Asked.dump());
+  ASSERT_TRUE(Sphere) << Sphere.error().What;
+  EXPECT_DOUBLE_EQ(Sphere->View.Fy, 48 / M_PI);
+  for (const nlohmann::json &Bad :
+       {nlohmann::json("OPENCV"), nlohmann::json({{"camera_model", "FOV"}}),
+        nlohmann::json({{"k1", 1e9}}), nlohmann::json({{"k1", "much"}})}) {
+    Asked["camera"]["lens"] = Bad;
+    const auto Refused = parseViewRequest(Asked.dump());
+    ASSERT_FALSE(Refused) << Bad;
+    EXPECT_NE(Refused.error().What.find("lens"), std::string::npos);
+  }
 }
 
 TEST(ViewRequest, WhatIsWrongIsNamed) {

@@ -2,8 +2,8 @@
 
 #include "effects/Registry.h"
 #include "io/Metrics.h"
-#include "picture/View.h"
 #include "render/Explain.h"
+#include "render/Pictures.h"
 #include "scene/Statistics.h"
 #include "view/Paint.h"
 #include "vorion/support/File.h"
@@ -25,7 +25,23 @@ namespace {
 /// longer.
 constexpr std::size_t MostKept = 4;
 
+/// Whether a camera of \p M has a picture without its lens, too: a sphere has
+/// none, and parallel rays have no focal length.
+bool bends(LensModel M) {
+  return M == LensModel::OpenCv || M == LensModel::Fisheye;
+}
+
 Json cameraJson(const Camera &C) {
+  Json Lens;
+  if (!C.Optics.isPinhole()) {
+    Lens["camera_model"] = name(C.Optics.Model);
+    // FULL_OPENCV: k4 by its name alone could mean two things.
+    if (C.Optics.Model == LensModel::OpenCv)
+      Lens["camera_model"] = "FULL_OPENCV";
+    const auto Keys = C.Optics.keys();
+    for (std::size_t K = 0; K < Keys.size(); ++K)
+      Lens[std::string(Keys[K])] = C.Optics.K[K];
+  }
   return {{"name", C.Name},
           {"width", C.Width},
           {"height", C.Height},
@@ -34,7 +50,9 @@ Json cameraJson(const Camera &C) {
           {"fx", C.Fx},
           {"fy", C.Fy},
           {"cx", C.Cx},
-          {"cy", C.Cy}};
+          {"cy", C.Cy},
+          {"lens", Lens},
+          {"lens_is_a_choice", bends(C.Optics.Model)}};
 }
 
 /// Which bands of spherical harmonics are on the device.
@@ -188,6 +206,7 @@ std::string Session::describe() const {
                        {"width", Settings.Width},
                        {"height", Settings.Height},
                        {"cameras", Cameras},
+                       {"through_lens", Settings.ThroughLens},
                        {"layers", Names},
                        {"ramp", Ramp},
                        {"knobs", Knobs}});
@@ -203,6 +222,7 @@ Expected<GaussianBuffers> Session::uploaded(Launcher &L, const RenderPlan &Plan,
   Uploaded = 0;
   L.beginStage(Stage::Upload);
   OnDevice = uploadGaussians(L, S.File.Gaussians, Plan.Effects);
+  activate(L, Plan, OnDevice);
   if (L.failure())
     return *L.failure();
   Uploaded = S.Number;
@@ -212,20 +232,26 @@ Expected<GaussianBuffers> Session::uploaded(Launcher &L, const RenderPlan &Plan,
 
 Expected<DrawnView> Session::drawNew(const ViewRequest &R,
                                      const ShownScene &S) {
-  const RenderOptions O = optionsOf(R.Chosen, S.File.DrawnAs);
-  const ViewFacts Own =
-      splat::factsOf(S.File.Gaussians, makeView(R.View, O), O.nearLimit());
-  Facts = Facts && FactsOf == S.Number ? combined(*Facts, Own) : Own;
+  const RenderOptions O = optionsOf(R, S.File.DrawnAs);
+  const ViewFacts Own = factsOfAll(S.File.Gaussians, {R.View}, O);
+  const bool Continues = Facts && FactsOf == S.Number && FactsBy == O.Optics;
+  Facts = Continues ? combined(*Facts, Own) : Own;
   FactsOf = S.Number;
-  const auto Decide = [&](const ViewFacts &By) {
+  FactsBy = O.Optics;
+  const auto Decide = [&](const ViewFacts &By, std::size_t Views) {
     return EffectPlan(EffectRequest(),
-                      EffectInputs{S.File.Gaussians, O, By, false,
-                                   R.Shown == Layer::Depth, Settings.Machine});
+                      EffectInputs{.Gaussians = S.File.Gaussians,
+                                   .Options = O,
+                                   .Facts = By,
+                                   .Depth = R.Shown == Layer::Depth,
+                                   .Machine = Settings.Machine,
+                                   .Views = Views});
   };
   // What one view has needed stays on: it changes no bit where it is not
   // needed, and programs need not be made anew with each step.
-  const EffectPlan Needed = Decide(Own);
-  const RenderPlan Plan = planRender(Decide(*Facts), O);
+  const EffectPlan Needed = Decide(Own, 1);
+  // There is always another frame, for which the scene is kept activated.
+  const RenderPlan Plan = planRender(Decide(*Facts, 2), O);
 
   Launcher L(Dev, Settings.Kernels, {}, &Programs);
   if (auto Built = build(L, Plan, S.File.Gaussians); !Built)

@@ -40,7 +40,8 @@ public:
     DeviceOptions Machine;
     ReadOptions Reading;                   ///< of dropped scenes
     std::vector<std::string> ReadingWords; ///< the same for `splat render`
-    std::vector<Camera> Cameras;
+    std::vector<Camera> Cameras;           ///< as photographs have them
+    bool ThroughLens = false; ///< to begin with, where a camera has a choice
     int Width = 480, Height = 272;
   };
 
@@ -94,9 +95,10 @@ private:
   ProgramCache Programs;
   uint64_t Uploaded = 0; ///< number of the scene in Gaussians
   std::array<bool, MaxShDegree> UploadedBands{};
-  GaussianBuffers OnDevice;
-  std::optional<ViewFacts> Facts; ///< of all views of a scene so far
-  uint64_t FactsOf = 0;           ///< its number
+  GaussianBuffers OnDevice;               ///< activated: no camera changes that
+  std::optional<ViewFacts> Facts;         ///< of all views of a scene so far
+  uint64_t FactsOf = 0;                   ///< its number
+  LensModel FactsBy = LensModel::Pinhole; ///< of these views
   std::deque<std::shared_ptr<const DrawnView>> Kept; ///< newest first
   /// @}
 };

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Runs `splat view`, asks its server what it must refuse, and uses its page in headless Chromium.
 
-usage: view.py SCENE CAMERAS SOG FOLDER
+usage: view.py SCENE CAMERAS SOG LENSES FOLDER
+
+LENSES is a folder of distorted.py.
 """
 
 import contextlib
@@ -15,18 +17,19 @@ import subprocess
 import sys
 import urllib.parse
 import zipfile
+import zlib
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
 from browser import Browser
 
-SCENE, CAMERAS, SOG, FOLDER = sys.argv[1:]
+SCENE, CAMERAS, SOG, LENSES, FOLDER = sys.argv[1:]
 SIZE = (96, 64)
 
 
 @contextlib.contextmanager
-def viewer(*options):
+def viewer(*options, cameras=CAMERAS, size=SIZE):
     """Gives a running viewer's address; it must end well at Ctrl-C."""
-    process = subprocess.Popen(["splat", "view", SCENE, "--cameras", CAMERAS, "--size", f"{SIZE[0]}x{SIZE[1]}", *options],
+    process = subprocess.Popen(["splat", "view", SCENE, "--cameras", cameras, "--size", f"{size[0]}x{size[1]}", *options],
                                stdout=subprocess.PIPE, text=True)
     try:
         said = process.stdout.readline()
@@ -90,19 +93,50 @@ def check_door(at):
     print("the server keeps its door")
 
 
-def check_frame(at):
-    """The server's picture is that of `splat render`, and its cycles are those of --time."""
+def rendered(*words):
+    """The picture of `splat render` and its report."""
     picture, report = os.path.join(FOLDER, "p.png"), os.path.join(FOLDER, "p.json")
-    subprocess.run(["splat", "render", SCENE, "--cameras", CAMERAS, "--view", "front", "-o", picture, "--json", report, "--time"],
-                   check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["splat", "render", SCENE, *words, "-o", picture, "--json", report], check=True, stdout=subprocess.DEVNULL)
     with open(report, encoding="utf-8") as f:
-        wanted = json.load(f)
-    asked = {"camera": camera(), "clock": True, "compare": True}
+        return picture, json.load(f)
+
+
+def is_picture(pixels, size, picture):
+    """Whether rows of red, green, blue and alpha are the picture in the file."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    rows = b"".join(b"\0" + pixels[4 * size[0] * y:4 * size[0] * (y + 1)] for y in range(size[1]))
+    ours = os.path.join(FOLDER, "ours.png")
+    with open(ours, "wb") as f:
+        f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", *size, 8, 6, 0, 0, 0)) +
+                chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    report = os.path.join(FOLDER, "same.json")
+    subprocess.run(["splat", "compare", ours, picture, "--json", report], check=True, stdout=subprocess.DEVNULL)
+    with open(report, encoding="utf-8") as f:
+        return json.load(f)["equal"]
+
+
+def frame(at, asked):
+    """Facts and pixels of a frame."""
     status, answer, _ = ask(at, "POST", "/frame", json.dumps(asked).encode())
     assert status == 200, answer
     size, = struct.unpack("<I", answer[:4])
     facts, pixels = json.loads(answer[4:4 + size]), answer[4 + size:]
     assert len(pixels) == 4 * facts["width"] * facts["height"]
+    return facts, pixels
+
+
+def check_frame(at):
+    """The server's picture is that of `splat render`, and its cycles are those of --time. The scene is activated once."""
+    picture, wanted = rendered("--cameras", CAMERAS, "--view", "front", "--time")
+    asked = {"camera": camera(), "clock": True, "compare": True}
+    facts, pixels = frame(at, asked)
+    assert is_picture(pixels, (facts["width"], facts["height"]), picture)
+    assert [s["name"] for s in facts["stages"]].count("activate") == 1, facts["stages"]
+    nearer = camera() | {"fx": 1.5 * camera()["fx"]}
+    stages = [s["name"] for s in frame(at, {"camera": nearer})[0]["stages"]]
+    assert "project" in stages and "activate" not in stages and "upload" not in stages, stages
     assert facts["cycles"] == wanted["time"]["sum"]["cycles"], (facts["cycles"], wanted["time"])
     assert facts["error"]["psnr_db"] > 80, facts["error"]
     # What a pixel is made of gives its colour.
@@ -113,6 +147,65 @@ def check_frame(at):
     assert pixel["gaussians"] and all(g["tiles"] > 0 and g["pixels"] > 0 for g in pixel["gaussians"])
     for mine, theirs, byte in zip(pixel["machine"], pixel["reference"], pixels[4 * (y * facts["width"] + x):]):
         assert abs(mine - theirs) < 1e-4 and abs(max(0, min(1, mine)) * 255 - byte) < 0.51, pixel
+
+
+def check_lenses():
+    """Cameras of several lenses in turn: the pictures and cycles of `splat render`, and the reference's."""
+    own = os.path.join(LENSES, "own.json")
+    with viewer(cameras=own) as at:
+        scene = json.loads(ask(at, "GET", "/scene")[1])
+        assert scene["through_lens"]
+        for name, is_choice in (("opencv", True), ("opencv_fisheye", True), ("full_opencv", True), ("nerfstudio-sphere", False)):
+            shown, = (c for c in scene["cameras"] if c["name"] == name)
+            assert shown["lens_is_a_choice"] == is_choice, shown
+            picture, wanted = rendered("--cameras", own, "--view", name, "--time")
+            asked = {"camera": shown, "clock": True, "compare": True}
+            facts, pixels = frame(at, asked)
+            assert is_picture(pixels, (facts["width"], facts["height"]), picture), name
+            assert facts["cycles"] == wanted["time"]["sum"]["cycles"], name
+            assert facts["error"]["psnr_db"] > 80, (name, facts["error"])
+            pixel = json.loads(ask(at, "POST", "/pixel", json.dumps(asked | {"x": facts["width"] // 2, "y": facts["height"] // 2}).encode())[1])
+            assert pixel["gaussians"] and all(0 <= g["index"] < scene["gaussians"] for g in pixel["gaussians"]), name
+        refused(ask(at, "POST", "/frame", json.dumps({"camera": shown | {"lens": {"camera_model": "THIN_PRISM_FISHEYE"}}}).encode()), 400)
+        refused(ask(at, "POST", "/frame", json.dumps({"camera": shown | {"lens": []}}).encode()), 400)
+    print("lenses are drawn")
+
+
+def check_switch():
+    """On the page of a capture, a switch shows the photograph's camera through its lens."""
+    capture = os.path.join(LENSES, "opencv")
+    straight = os.path.join(FOLDER, "straight.png")
+    picture, report = rendered("--cameras", capture)
+    os.replace(picture, straight)
+    bent, _ = rendered("--cameras", capture, "--distorted")
+    size = report["resolution"]
+    with viewer(cameras=capture, size=size) as at:
+        browser = Browser(FOLDER)
+        try:
+            browser.open(at.geturl())
+            browser.wait("document.documentElement.dataset.drawn !== undefined")
+            rest(browser)
+
+            def shows(picture):
+                return is_picture(bytes(map(int, pixels_of(browser).split(","))), size, picture)
+
+            switch = "document.getElementById('lens')"
+            assert browser.value(f"[{switch}.parentElement.hidden, {switch}.disabled, {switch}.checked].join()") == "false,false,false"
+            assert shows(straight)
+            settled(browser, lambda: browser.key("t"))
+            assert browser.value(f"{switch}.checked") and shows(bent)
+            # One moves through the lens, too, and comes back.
+            settled(browser, lambda: browser.key("ArrowLeft"))
+            assert not shows(bent)
+            settled(browser, lambda: browser.key("r"))
+            assert shows(bent)
+            settled(browser, lambda: browser.value(f"{switch}.click()"))
+            assert shows(straight)
+        finally:
+            browser.close()
+    with viewer("--distorted", cameras=capture) as at:
+        assert json.loads(ask(at, "GET", "/scene")[1])["through_lens"]
+    print("the switch works")
 
 
 def rest(browser):
@@ -259,3 +352,5 @@ with viewer() as at:
     check_door(at)
     check_frame(at)
     check_page(at)
+check_lenses()
+check_switch()

@@ -15,6 +15,8 @@ export class Eye {
   // `camera` of the scene; `box`: two corners of what is in it, or nothing.
   constructor(camera, box, size, up) {
     const column = k => camera.rotation.map(row => row[k]);
+    this.optics = camera.lens;
+    this.isChoice = camera.lens_is_a_choice;
     Object.assign(this, { position: [...camera.position], right: column(0), down: column(1), forward: column(2), up, size });
     const fit = size.width / camera.width;
     this.lens = {
@@ -66,13 +68,14 @@ export class Eye {
     this.position = add(target, scale(this.forward, -this.distance));
   }
 
-  // As requests have it; each side of the picture divided by about `coarse`.
-  camera(coarse = 1) {
+  // As requests have it; each side of the picture divided by about `coarse`; with the camera's lens, or as a pinhole.
+  camera(coarse = 1, throughLens = true) {
     const width = Math.max(16, Math.round(this.size.width / coarse)), height = Math.max(16, Math.round(this.size.height / coarse));
     const x = width / this.size.width, y = height / this.size.height;
     return {
       width, height, fx: this.lens.fx * x, fy: this.lens.fy * y, cx: this.lens.cx * x, cy: this.lens.cy * y, position: this.position,
-      rotation: [0, 1, 2].map(i => [this.right[i], this.down[i], this.forward[i]])
+      rotation: [0, 1, 2].map(i => [this.right[i], this.down[i], this.forward[i]]),
+      ...(this.optics && (throughLens || !this.isChoice) ? { lens: this.optics } : {})
     };
   }
 }

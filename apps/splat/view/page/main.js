@@ -57,7 +57,7 @@ function stepped() {
   changed();
 }
 
-const request = (side, more = {}, by = 1) => ({ camera: eye.camera(by), setting: settingName(settings[side]), ...more });
+const request = (side, more = {}, by = 1) => ({ camera: eye.camera(by, byId('lens').checked), setting: settingName(settings[side]), ...more });
 
 async function drawCoarse() {
   const begun = performance.now();
@@ -149,6 +149,7 @@ async function keepUp() {
 
 function choose(camera) {
   eye = new Eye(camera, scene.box, { width: scene.width, height: scene.height }, upOf(scene.cameras));
+  byId('lens').disabled = !eye.isChoice;
   changed();
 }
 
@@ -160,6 +161,8 @@ function setUp(described) {
   byId('camera').replaceChildren(...scene.cameras.map((c, n) => element('option', { value: n }, c.name)),
     element('option', { value: '', disabled: '' }, 'free'));
   byId('camera').selectedIndex = 0;
+  byId('lens').checked = scene.through_lens;
+  byId('lens').parentElement.hidden = !scene.cameras.some(c => c.lens_is_a_choice);
   const kept = layer();
   byId('layer').replaceChildren(...scene.layers.map(l => element('option', { value: l }, l)));
   if (kept) byId('layer').value = kept;
@@ -215,6 +218,7 @@ const KEYS = {
   f: () => document.querySelector('[name=motion]:not(:checked)').click(),
   l: () => next(byId('layer')),
   c: () => byId('compare').click(),
+  t: () => byId('lens').click(),
   r: () => {
     byId('camera').value ||= '0';
     byId('camera').dispatchEvent(new Event('change'));
@@ -243,7 +247,7 @@ function listen() {
     if (file) open(file.name, file);
   });
   byId('camera').addEventListener('change', () => choose(scene.cameras[byId('camera').value]));
-  for (const id of ['layer', 'cycles', 'errors']) byId(id).addEventListener('change', changed);
+  for (const id of ['layer', 'lens', 'cycles', 'errors']) byId(id).addEventListener('change', changed);
   byId('compare').addEventListener('change', () => { arrange(); changed(); });
   byId('reset').addEventListener('click', () => {
     settings.a = {};
