@@ -37,7 +37,7 @@ config.substitutions += [
 ]
 
 programs = ["vorion-clang", "vorion-cl-link", "vorion-link", "vorion-llc", "vorion-mc", "vorion-objdump", "vorion-opt", "vorion-sim",
-            "isasim-decode-words",
+            "isasim-decode-words", "isasim-raster-tiles",
             "splat", "splat-check-gradients", "splat-fixture", "splat-hard-cases", "splat-reference", "splat-scene-samples", "splat-capture-samples", "splat-reader-work", "sample-radixsort", "sample-vecadd"]
 features = {name: os.path.join(build, "bin", name) for name in programs}
 features["vorion-runtime"] = os.path.join(build, "lib", "libvorion-runtime.so")
@@ -64,6 +64,8 @@ features["lintian"] = shutil.which("lintian") or "lintian"
 for formatter_or_shell in ("mandoc", "man", "zsh", "fish"):
     features[formatter_or_shell] = shutil.which(formatter_or_shell) or formatter_or_shell
 features["mpirun"] = shutil.which("mpirun") or "mpirun"
+features["verilator"] = shutil.which("verilator") or "verilator"
+features["yosys"] = shutil.which("yosys") or "yosys"
 features["valgrind"] = shutil.which("valgrind") or "valgrind"
 features["parallel"] = shutil.which("parallel") or "parallel"
 if platform.machine() == "x86_64":

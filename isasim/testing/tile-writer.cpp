@@ -1,0 +1,62 @@
+/// A plugin that writes the tiles of a run, as far as a rasterizer is given
+/// them, to raster-tiles.bin in the current folder.
+#include "raster/WorkLog.h"
+#include "testing/RasterTile.h"
+#include "vorion/isasim/Machine.h"
+#include "vorion/isasim/Plugin.h"
+
+#include <cstring>
+
+using namespace vorion;
+using namespace vorion::isasim;
+
+namespace {
+
+class TileWriter : public Observer {
+public:
+  TileWriter() : File(std::fopen("raster-tiles.bin", "wb")) {}
+  ~TileWriter() override {
+    if (File)
+      std::fclose(File);
+  }
+  TileWriter(const TileWriter &) = delete;
+  TileWriter &operator=(const TileWriter &) = delete;
+
+private:
+  void runBegins(const RunStart &Start) override { Device = Start.Device; }
+
+  void rasterCommand(const raster::CommandWork &Work) override {
+    const raster::Job &J = Work.What;
+    if (!File || !Device || J.Refusal || J.IsBackward || J.TakesPushed)
+      return;
+    RasterTile T;
+    std::snprintf(T.What.Name.data(), T.What.Name.size(), "%u,%u", J.X, J.Y);
+    T.What.X = J.X;
+    T.What.Y = J.Y;
+    T.What.Width = J.Width;
+    T.What.Height = J.Height;
+    T.What.Cutoff = J.Blend.StopBelow;
+    T.What.Gaussians = J.Count;
+    T.Gaussians.resize(J.Count);
+    for (uint32_t N = 0; N != J.Count; ++N) {
+      uint32_t Entry = 0;
+      std::memcpy(&Entry, Device->hostPointer(J.List + 4 * N, 4), 4);
+      Entry &= ~raster::VR_INTERSECT;
+      std::memcpy(
+          &T.Gaussians[N],
+          Device->hostPointer(J.Gaussians + sizeof(T.Gaussians[N]) * Entry,
+                              sizeof(T.Gaussians[N])),
+          sizeof(T.Gaussians[N]));
+    }
+    T.write(File);
+  }
+
+  std::FILE *File;
+  Machine *Device = nullptr;
+};
+
+} // namespace
+
+const Plugin vorion_plugin = {.Make = []() -> std::unique_ptr<Observer> {
+  return std::make_unique<TileWriter>();
+}};
