@@ -202,7 +202,7 @@ void Emitter::writeEntries() {
       jmp(rax);
       L(Nearest);
     }
-    lea(rcx, ptr[rip + Labels[G.I]]);
+    lea(rcx, ptr[rip + Labels[Full][G.I]]);
     jmp(*Prologue);
   }
   L(*Prologue);
@@ -254,10 +254,13 @@ void Emitter::writeExits() {
   ret();
 }
 
-/// To the handler that \p To has at present.
-void Emitter::leaveTo(const Insn *To) {
+/// On at \p To with WarpState::Full of \p Mode, in the region or by the handler
+/// that it has at present.
+void Emitter::resumeAt(const Insn *To, unsigned Mode) {
+  if (const auto At = Labels[Mode].find(To); At != Labels[Mode].end())
+    return jmp(At->second);
   mov(rsi, reinterpret_cast<uint64_t>(To));
-  mov(rax, ptr[rsi + (Full ? sizeof(Handler) : 0)]);
+  mov(rax, ptr[rsi + (Mode ? sizeof(Handler) : 0)]);
   jmp(*Leave);
 }
 
@@ -272,10 +275,7 @@ void Emitter::goTo(const Insn *To) {
     mov(rsi, reinterpret_cast<uint64_t>(To));
     jmp(*Return);
   });
-  if (const auto At = Labels.find(To); At != Labels.end())
-    jmp(At->second);
-  else
-    leaveTo(To);
+  resumeAt(To, Full);
 }
 
 //===----------------------------------------------------------------------===//
@@ -283,7 +283,6 @@ void Emitter::goTo(const Insn *To) {
 //===----------------------------------------------------------------------===//
 
 void Emitter::writeInsn(const GuestInsn &G) {
-  Now = &G;
   Scratches = 0;
   ToInterpreter = nullptr;
   const auto Before = Pending;
@@ -303,9 +302,15 @@ void Emitter::writeInsn(const GuestInsn &G) {
   case Kind::Branch:
     writeBranch(G);
     break;
+  case Kind::Lanes:
+    lanes(G);
+    break;
   case Kind::Jump:
     writeJump(G);
     return;
+  case Kind::Indirect:
+    writeIndirect(G);
+    break;
   case Kind::Other:
     jmp(toInterpreter());
     break;
@@ -320,7 +325,7 @@ void Emitter::writeInsn(const GuestInsn &G) {
       mov(rax, reinterpret_cast<uint64_t>(original(G.I, G.Opcode)));
       jmp(*Leave);
     });
-  if (G.Is == Kind::Other)
+  if (G.Is == Kind::Other || G.Is == Kind::Indirect)
     Pending = {};
 }
 
@@ -336,30 +341,92 @@ void Emitter::writeJump(const GuestInsn &G) {
   goTo(I + (I->Imm >> 2));
 }
 
+void Emitter::writeIndirect(const GuestInsn &G) {
+  const Insn *I = G.I;
+  Label &Wrong = toInterpreter();
+  const Zmm Targets = scratch(), Spread = scratch();
+  vpandd(Targets, addressesOf(I), constant(~1U));
+  jumpIfDiffer(Targets, Spread, Wrong);
+  test(al, 2);
+  jnz(Wrong);
+  sub(eax, Code.low());
+  shr(eax, 2);
+  cmp(eax, Code.count());
+  jae(Wrong);
+  const auto Number = static_cast<uint32_t>(I - Code.begin());
+  if (numberOf(I->Rd) != SinkRegister)
+    result(I->Rd, [&](const Zmm &To) {
+      vpbroadcastd(To, number(Code.low() + 4 * (Number + 1)));
+    });
+  const auto Before = Pending;
+  ++Pending.Insns;
+  addPending();
+  Pending = Before;
+  static_assert(sizeof(Insn) == 32);
+  mov(ecx, eax);
+  shl(rcx, 5);
+  mov(rsi, reinterpret_cast<uint64_t>(Code.begin()));
+  add(rsi, rcx);
+  cmp(r8, r10);
+  jae(*Return);
+  // In the region, if the table says so.
+  Label Outside;
+  const auto First = static_cast<uint32_t>(Region.front().I - Code.begin());
+  const auto Last = static_cast<uint32_t>(Region.back().I - Code.begin());
+  sub(eax, First);
+  cmp(eax, Last - First);
+  ja(Outside);
+  lea(rdx, ptr[rip + Tables[Full]]);
+  movsxd(rax, dword[rdx + rax * 4]);
+  test(rax, rax);
+  jz(Outside);
+  add(rax, rdx);
+  jmp(rax);
+  L(Outside);
+  mov(rax, ptr[rsi + (Full ? sizeof(Handler) : 0)]);
+  jmp(*Leave);
+}
+
+/// Offsets of labels from their table on; 0 for what has none.
+void Emitter::writeTables() {
+  if (std::ranges::none_of(
+          Region, [](const GuestInsn &G) { return G.Is == Kind::Indirect; }))
+    return;
+  for (const unsigned Mode : {1U, 0U}) {
+    align(4);
+    L(Tables[Mode]);
+    const uint8_t *From = Tables[Mode].getAddress();
+    for (const Insn *I = Region.front().I; I <= Region.back().I; ++I) {
+      const auto At = Labels[Mode].find(I);
+      dd(At == Labels[Mode].end()
+             ? 0
+             : static_cast<uint32_t>(At->second.getAddress() - From));
+    }
+  }
+}
+
 void Emitter::writeMode(unsigned Mode) {
   Full = Mode != 0;
   Pending = {};
-  Labels.clear();
   Leave.emplace();
   Return.emplace();
   Prologue.emplace();
-  for (const GuestInsn &G : Region)
-    if (G.Leads)
-      Labels.emplace(G.I, Label());
   writeEntries();
   for (size_t N = 0; N != Region.size(); ++N) {
     const GuestInsn &G = Region[N];
     if (G.Leads) {
       countPending();
-      L(Labels[G.I]);
+      L(Labels[Full][G.I]);
     }
     writeInsn(G);
     const bool Falls = N + 1 != Region.size() && Region[N + 1].I == G.I + 1;
-    if (!Falls && G.Is != Kind::Other && G.Is != Kind::Jump) {
+    const bool Goes =
+        G.Is == Kind::Other || G.Is == Kind::Jump || G.Is == Kind::Indirect;
+    if (!Falls && !Goes) {
       countPending();
-      leaveTo(G.I + 1);
+      resumeAt(G.I + 1, Full);
     }
-    if (!Falls || G.Is == Kind::Jump)
+    if (!Falls || Goes)
       Pending = {};
   }
   // What is out of line may have more of it.
@@ -385,9 +452,15 @@ void Emitter::writeConstants() {
 }
 
 void Emitter::write() {
+  for (auto &OfMode : Labels)
+    for (const GuestInsn &G : Region)
+      if (G.Leads)
+        OfMode.emplace(G.I, Label());
   for (const unsigned Mode : {1U, 0U})
     writeMode(Mode);
   writeFinders();
+  writeSetLanes();
+  writeTables();
   writeConstants();
 }
 

@@ -87,8 +87,10 @@ private:
   void writeInsn(const GuestInsn &G);
   void writeBranch(const GuestInsn &G);
   void writeJump(const GuestInsn &G);
+  void writeIndirect(const GuestInsn &G);
+  void writeTables();
   void goTo(const Insn *To);
-  void leaveTo(const Insn *To);
+  void resumeAt(const Insn *To, unsigned Mode);
   void countLanes();
   void addPending();
   void countPending();
@@ -104,6 +106,17 @@ private:
   void floating(const GuestInsn &G);
   void load(const GuestInsn &G);
   void store(const GuestInsn &G);
+
+  // Lanes.cpp.
+  void lanes(const GuestInsn &G);
+  void split(const GuestInsn &G, bool IsNegated);
+  void join(const GuestInsn &G);
+  void predicate(const GuestInsn &G, bool IsNegated);
+  void predicateOf(uint16_t Register, bool IsNegated);
+  void lastLane(uint16_t Register);
+  void changeLanes();
+  void resumeAtEither(const Insn *To);
+  void writeSetLanes();
 
   // Memory.cpp.
   Xbyak::Zmm addressesOf(const Insn *I);
@@ -128,7 +141,6 @@ private:
   bool Rounds = false; ///< something depends on frm
 
   bool Full = false;
-  const GuestInsn *Now = nullptr;
   /// What has been executed and not been counted yet.
   struct {
     unsigned Insns = 0, Loads = 0, Stores = 0;
@@ -138,8 +150,12 @@ private:
   std::deque<Xbyak::Label> ToInterpreters;
   Xbyak::Label *ToInterpreter = nullptr; ///< of the present instruction
   std::optional<Xbyak::Label> Leave, Return, Prologue;
-  Xbyak::Label FindReadable, FindWritable, FindStackLine;
-  std::map<const Insn *, Xbyak::Label> Labels;
+  Xbyak::Label FindReadable, FindWritable, FindStackLine, SetLanes;
+  /// Of places that lead, by WarpState::Full.
+  std::map<const Insn *, Xbyak::Label> Labels[2];
+  /// Where they are from the table on, by the instruction's number in the
+  /// region.
+  Xbyak::Label Tables[2];
 
   std::map<uint32_t, Xbyak::Label> Constants;
   std::map<std::array<uint32_t, MaxLanes>, Xbyak::Label> Vectors;

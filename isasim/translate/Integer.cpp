@@ -1,5 +1,6 @@
 // Integer arithmetic and branches, from the interpreter's definitions.
 
+#include "translate/Places.h"
 #include "translate/Value.h"
 
 namespace vorion::isasim::translate {
@@ -25,6 +26,13 @@ void Emitter::integer(const GuestInsn &G) {
     return Becomes(RESULT);
 #include "core/insns/integer.def"
 #undef INT
+  case Op::RV_CSRRS: // of what every work-item function reads
+    return result(I->Rd, [&](const Xbyak::Zmm &To) {
+      if (I->Word >> 20 == CSR_THREAD_ID)
+        vmovdqa32(To, laneNumbers(1));
+      else
+        vpbroadcastd(To, dword[rdi + VORION_PLACE(Mask)]);
+    });
   default: // lui and auipc
     return Becomes(Value(this, Term{-1, static_cast<uint32_t>(I->Imm)}));
   }

@@ -58,6 +58,22 @@ Kind kindOf(Op O, const Insn *I) {
 #include "core/insns/branch.def"
 #undef BRANCH
     return I->Imm == BadTarget ? Kind::Other : Kind::Branch;
+  case Op::RV_CSRRS: {
+    const bool OnlyReads = (I->Word >> 12 & 0xFF) == 2; // csrrs rd, csr, x0
+    const uint32_t Number = I->Word >> 20;
+    return OnlyReads &&
+                   (Number == CSR_THREAD_ID || Number == CSR_ACTIVE_THREADS)
+               ? Kind::Integer
+               : Kind::Other;
+  }
+  case Op::RV_JALR:
+    return Kind::Indirect;
+  case Op::VX_SPLIT:
+  case Op::VX_SPLIT_N:
+  case Op::VX_JOIN:
+  case Op::VX_PRED:
+  case Op::VX_PRED_N:
+    return Kind::Lanes;
   case Op::RV_JAL:
     return I->Imm == BadTarget ? Kind::Other : Kind::Jump;
 #define LOAD(OP, T) case Op::OP:
@@ -162,11 +178,13 @@ std::vector<GuestInsn> findRegion(const CodeTable &Code, const Insn *Head) {
   markLeaders(All);
   for (auto &[I, G] : All) {
     const auto Before = All.find(I - 1);
-    // Behind what the interpreter does, and behind calls.
+    const Kind Last = Before == All.end() ? Kind::Integer : Before->second.Is;
+    // Code comes back from calls, and from other modes.
     const bool Returns =
-        Before != All.end() &&
-        (Before->second.Is == Kind::Other || Before->second.Is == Kind::Jump);
-    const bool Begins = I == Head || (G.Leads && G.Loops != 0) || Returns;
+        Last == Kind::Jump || Last == Kind::Indirect || Last == Kind::Lanes;
+    G.Leads |= Returns;
+    const bool Begins = I == Head || (G.Leads && G.Loops != 0) || Returns ||
+                        Last == Kind::Other;
     if (Begins && G.Is != Kind::Other && isWorthEntering(All, I))
       G.Leads = G.Enters = true;
   }

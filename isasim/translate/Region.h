@@ -14,6 +14,8 @@ enum class Kind : uint8_t {
   Float,
   Branch,
   Jump,
+  Indirect, ///< jalr
+  Lanes,    ///< changes which are active
   Load,
   Store,
   Other ///< leaves it to the interpreter

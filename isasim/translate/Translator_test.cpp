@@ -54,6 +54,8 @@ constexpr Op Accesses[] = {
 
 /// Registers that hold the same in each lane, for branches; the counter of the
 /// loop; addresses.
+/// What splits give to their joins; a predicate, and a place in the code.
+constexpr unsigned FirstToken = 16, Place = 14, Predicate = 15;
 constexpr unsigned FirstUniform = 26, LastUniform = 29, Counter = 30,
                    FirstAddress = 20, LastAddress = 25, StackPointer = 2;
 
@@ -92,8 +94,8 @@ public:
 
   /// A destination that branches do not need.
   unsigned destination() {
-    const unsigned R = below(FirstAddress);
-    return R == StackPointer ? 0 : R;
+    const unsigned R = below(FirstToken);
+    return R == StackPointer || R >= Place ? 0 : R;
   }
 
   uint32_t computation() {
@@ -139,6 +141,26 @@ public:
     return encode(oneOf(Branches), F);
   }
 
+  /// Both sides of a split, nested, and a way past a part of it.
+  void addSplit(std::vector<uint32_t> &Words, unsigned Depth) {
+    const unsigned Token = FirstToken + Depth;
+    Words.push_back(
+        encode(Op::RV_ANDI, {.Rd = Predicate, .Rs1 = below(32), .Imm = 1}));
+    const bool IsNegated = below(2);
+    Words.push_back(encode(IsNegated ? Op::VX_SPLIT_N : Op::VX_SPLIT,
+                           {.Rd = Token, .Rs1 = Predicate}));
+    const uint32_t Length = 1 + below(4);
+    Words.push_back(encode(
+        IsNegated ? Op::RV_BNE : Op::RV_BEQ,
+        {.Rs1 = Predicate, .Imm = 4 * static_cast<int32_t>(Length + 1)}));
+    for (uint32_t N = 0; N != Length; ++N)
+      Words.push_back(computation());
+    if (Depth < 2 && below(3) == 0)
+      addSplit(Words, Depth + 1);
+    if (below(60) != 0)
+      Words.push_back(encode(Op::VX_JOIN, {.Rs1 = Token}));
+  }
+
   /// A loop with ways through it.
   std::vector<uint32_t> program(uint32_t PercentAccesses) {
     const uint32_t Length = 20 + below(60);
@@ -149,7 +171,18 @@ public:
       else if (below(12) == 0)
         Words.push_back(branch(
             4 * static_cast<int32_t>(1 + below(std::min(6U, Length - N)))));
-      else if (below(40) == 0)
+      else if (below(12) == 0)
+        addSplit(Words, 0);
+      else if (below(60) == 0)
+        Words.push_back(encode(below(2) ? Op::VX_PRED : Op::VX_PRED_N,
+                               {.Rs1 = below(32), .Rs2 = Place + 5}));
+      else if (below(30) == 0) {
+        Words.push_back(encode(Op::RV_AUIPC, {.Rd = Place}));
+        Words.push_back(encode(
+            Op::RV_JALR, {.Rd = below(2),
+                          .Rs1 = Place,
+                          .Imm = 4 * static_cast<int32_t>(2 + below(3))}));
+      } else if (below(40) == 0)
         Words.push_back(encode(Op::RV_JAL, {.Rd = below(2), .Imm = 4}));
       else
         Words.push_back(computation());
@@ -176,6 +209,8 @@ public:
       if (N == StackPointer)
         for (uint32_t L = 0; L != MaxLanes; ++L)
           X[L] = VX_STACK_TOP - 64 - (L << 16);
+      if (N == Place + 5)
+        X.fill(below(2) ? 0xFFFF : 0x0FF0);
       if (N == Counter)
         X.fill(3);
       for (WarpRunner *R : {&A, &B}) {
@@ -230,7 +265,16 @@ void expectSame(WarpRunner &A, WarpRunner &B) {
   ASSERT_EQ(X.Fflags, Y.Fflags);
   ASSERT_EQ(X.Mask, Y.Mask);
   ASSERT_EQ(X.Full, Y.Full);
+  ASSERT_EQ(X.LaneCount, Y.LaneCount);
+  ASSERT_EQ(X.LastLane, Y.LastLane);
   ASSERT_EQ(X.StackDepth, Y.StackDepth);
+  for (unsigned D = 0; D != X.StackDepth; ++D) {
+    ASSERT_EQ(X.Stack[D].Mask, Y.Stack[D].Mask);
+    ASSERT_EQ(X.Stack[D].Other, Y.Stack[D].Other);
+    ASSERT_EQ(X.Stack[D].Pc - A.Code.begin(), Y.Stack[D].Pc - B.Code.begin());
+  }
+  for (unsigned L = 0; L != MaxLanes; ++L)
+    ASSERT_EQ(X.MaskWords[L], Y.MaskWords[L]);
   ASSERT_EQ(X.FaultCause, Y.FaultCause);
   ASSERT_EQ(X.FaultLane, Y.FaultLane);
   ASSERT_EQ(X.FaultAddress, Y.FaultAddress);

@@ -1,0 +1,210 @@
+// Splits, joins and predicates: the two versions of a region go over into each
+// other.
+
+#include "translate/Places.h"
+#include "translate/Value.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak;
+using namespace Xbyak::util;
+
+namespace {
+
+constexpr uint32_t AllBits = (1U << MaxLanes) - 1;
+
+const int MaskPlace = VORION_PLACE(Mask);
+const int DepthPlace = VORION_PLACE(StackDepth);
+const int TopMask = offsetof(Divergence, Mask),
+          TopOther = offsetof(Divergence, Other),
+          TopPc = offsetof(Divergence, Pc);
+
+/// Sides of splits that a join looks for itself.
+constexpr size_t MostSides = 8;
+
+} // namespace
+
+/// eax becomes the word of the last active lane.
+void Emitter::lastLane(uint16_t Register) {
+  const Term From = guest(Register);
+  if (From.isNumber())
+    return mov(eax, From.Bits);
+  const Zmm To = scratch();
+  vpbroadcastd(To, dword[rdi + VORION_PLACE(LastLane)]);
+  vpermd(To, To, Zmm(From.Zmm));
+  vmovd(eax, Xmm(To.getIdx()));
+}
+
+/// As WarpState::Full is now.
+void Emitter::resumeAtEither(const Insn *To) {
+  Label NotFull;
+  cmp(dword[rdi + VORION_PLACE(Full)], 0);
+  je(NotFull);
+  resumeAt(To, 1);
+  L(NotFull);
+  resumeAt(To, 0);
+}
+
+/// Counts up to and with the present instruction; then the lanes of eax are the
+/// active ones. Overwrites rcx and rdx.
+void Emitter::changeLanes() {
+  const auto Before = Pending;
+  ++Pending.Insns;
+  addPending();
+  Pending = Before;
+  countLanes();
+  mov(r9, r8);
+  call(SetLanes);
+}
+
+/// setMask() of Warps.h for the mask eax, which is not 0.
+void Emitter::writeSetLanes() {
+  L(SetLanes);
+  mov(dword[rdi + MaskPlace], eax);
+  kmovw(k1, eax);
+  popcnt(ecx, eax);
+  mov(dword[rdi + VORION_PLACE(LaneCount)], ecx);
+  bsr(ecx, eax);
+  mov(dword[rdi + VORION_PLACE(LastLane)], ecx);
+  bsf(ecx, eax);
+  vpbroadcastd(Zmm(FirstLaneZmm), ecx);
+  xor_(ecx, ecx);
+  cmp(eax, AllBits);
+  sete(cl);
+  mov(dword[rdi + VORION_PLACE(Full)], ecx);
+  vpmovm2d(zmm0, k1);
+  vmovdqa32(ptr[rdi + VORION_PLACE(MaskWords)], zmm0);
+  ret();
+}
+
+/// eax becomes the active lanes whose predicate is set, in \p Register.
+void Emitter::predicateOf(uint16_t Register, bool IsNegated) {
+  const Zmm A = inZmm(guest(Register));
+  if (IsNegated)
+    vptestnmd(active(k2), A, constant(1));
+  else
+    vptestmd(active(k2), A, constant(1));
+  kmovw(eax, k2);
+}
+
+void Emitter::split(const GuestInsn &G, bool IsNegated) {
+  const Insn *I = G.I;
+  Label &Wrong = toInterpreter();
+  Label Uniform;
+  predicateOf(I->Rs1, IsNegated);
+  mov(ecx, dword[rdi + MaskPlace]);
+  xor_(ecx, eax); // the others
+  jz(Uniform);
+  test(eax, eax);
+  jz(Uniform);
+  mov(edx, dword[rdi + DepthPlace]);
+  cmp(edx, dword[rdi + VORION_PLACE(StackLimit)]);
+  je(Wrong);
+  inc(qword[rdi + VORION_PLACE(Count.Splits)]);
+  inc(qword[rdi + VORION_PLACE(Count.DivergentSplits)]);
+  result(I->Rd, [&](const Zmm &To) { vpbroadcastd(To, edx); });
+  static_assert(sizeof(Divergence) == 16);
+  shl(rdx, 4);
+  add(rdx, ptr[rdi + VORION_PLACE(Stack)]);
+  mov(dword[rdx + TopOther], ecx);
+  xor_(ecx, eax);
+  mov(dword[rdx + TopMask], ecx);
+  mov(rcx, reinterpret_cast<uint64_t>(I + 1));
+  mov(ptr[rdx + TopPc], rcx);
+  inc(dword[rdi + DepthPlace]);
+  changeLanes();
+  resumeAt(I + 1, 0);
+  L(Uniform);
+  inc(qword[rdi + VORION_PLACE(Count.Splits)]);
+  result(I->Rd,
+         [&](const Zmm &To) { vpbroadcastd(To, dword[rdi + DepthPlace]); });
+}
+
+void Emitter::join(const GuestInsn &G) {
+  const Insn *I = G.I;
+  Label &Wrong = toInterpreter();
+  Label Uniform, Both;
+  lastLane(I->Rs1);
+  mov(edx, dword[rdi + DepthPlace]);
+  cmp(eax, edx);
+  je(Uniform);
+  test(edx, edx);
+  jz(Wrong);
+  dec(edx);
+  shl(rdx, 4);
+  add(rdx, ptr[rdi + VORION_PLACE(Stack)]);
+  mov(rsi, rdx);
+  mov(eax, dword[rsi + TopOther]);
+  test(eax, eax);
+  jz(Both);
+  // The other side's turn.
+  mov(dword[rsi + TopOther], 0);
+  mov(r11, ptr[rsi + TopPc]);
+  changeLanes();
+  mov(rsi, r11);
+  cmp(r8, r10);
+  jae(*Return);
+  std::vector<const Insn *> Sides;
+  for (const GuestInsn &Other : Region)
+    if (Other.Opcode == Op::VX_SPLIT || Other.Opcode == Op::VX_SPLIT_N)
+      Sides.push_back(Other.I + 1);
+  std::ranges::sort(Sides, {},
+                    [I](const Insn *Side) { return std::abs(Side - I); });
+  Sides.resize(std::min(Sides.size(), MostSides));
+  for (const Insn *Side : Sides)
+    if (const auto At = Labels[0].find(Side); At != Labels[0].end()) {
+      mov(rax, reinterpret_cast<uint64_t>(Side));
+      cmp(rsi, rax);
+      je(At->second);
+    }
+  mov(rax, ptr[rsi]);
+  jmp(*Leave);
+  L(Both);
+  mov(eax, dword[rsi + TopMask]);
+  dec(dword[rdi + DepthPlace]);
+  changeLanes();
+  resumeAtEither(I + 1);
+  L(Uniform);
+}
+
+void Emitter::predicate(const GuestInsn &G, bool IsNegated) {
+  const Insn *I = G.I;
+  Label &Wrong = toInterpreter();
+  Label Some, Same, Others;
+  predicateOf(I->Rs1, IsNegated);
+  test(eax, eax);
+  jnz(Some);
+  lastLane(I->Rs2);
+  and_(eax, dword[rdi + VORION_PLACE(AllLanes)]);
+  jz(Wrong);
+  L(Some);
+  inc(qword[rdi + VORION_PLACE(Count.Splits)]);
+  mov(ecx, dword[rdi + MaskPlace]);
+  cmp(eax, ecx);
+  je(Same);
+  not_(ecx);
+  test(eax, ecx);
+  jnz(Others);
+  inc(qword[rdi + VORION_PLACE(Count.DivergentSplits)]);
+  L(Others);
+  changeLanes();
+  resumeAtEither(I + 1);
+  L(Same);
+}
+
+void Emitter::lanes(const GuestInsn &G) {
+  switch (G.Opcode) {
+  case Op::VX_JOIN:
+    return join(G);
+  case Op::VX_SPLIT:
+  case Op::VX_SPLIT_N:
+    return split(G, G.Opcode == Op::VX_SPLIT_N);
+  default:
+    return predicate(G, G.Opcode == Op::VX_PRED_N);
+  }
+}
+
+} // namespace vorion::isasim::translate
