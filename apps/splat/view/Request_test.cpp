@@ -97,7 +97,9 @@ TEST(ViewRequest, EveryKnobReachesTheOptions) {
   for (const Knob &K : allKnobs()) {
     const auto Changed = Setting::parse(K.Name + "=" + K.Values[1]);
     ASSERT_TRUE(Changed);
-    const RenderOptions A = optionsOf({}, {}), B = optionsOf(*Changed, {});
+    ViewRequest Asked;
+    Asked.Chosen = *Changed;
+    const RenderOptions A = optionsOf({}, {}), B = optionsOf(Asked, {});
     EXPECT_TRUE(
         A.Exponential != B.Exponential || A.Arithmetic != B.Arithmetic ||
         A.AlphaCutoff != B.AlphaCutoff || A.Cutoff != B.Cutoff ||
