@@ -1,5 +1,6 @@
-//===- FirstPasses.cpp - what the optimiser is told before it starts ------===//
+//===- FirstPasses.cpp - what the optimiser is told -----------------------===//
 
+#include "PassLoops.h"
 #include "RISCVSubtarget.h"
 #include "RISCVTargetMachine.h"
 #include "SharedVariables.h"
@@ -37,12 +38,25 @@ void vorion::registerFirstPasses(PassBuilder &PB,
       [&TM](ModulePassManager &Passes, OptimizationLevel) {
         Passes.addPass(ShareOurVariables(TM));
       });
+  // Loops have their final form, and the unroller runs soon after.
+  PB.registerVectorizerStartEPCallback(
+      [](FunctionPassManager &Passes, OptimizationLevel) {
+        Passes.addPass(UnrollPassLoops());
+      });
   PB.registerPipelineParsingCallback(
       [&TM](StringRef Name, ModulePassManager &Passes,
             ArrayRef<PassBuilder::PipelineElement>) {
         if (Name != "vorion-share-variables")
           return false;
         Passes.addPass(ShareOurVariables(TM));
+        return true;
+      });
+  PB.registerPipelineParsingCallback(
+      [](StringRef Name, FunctionPassManager &Passes,
+         ArrayRef<PassBuilder::PipelineElement>) {
+        if (Name != "vorion-unroll-passes")
+          return false;
+        Passes.addPass(UnrollPassLoops());
         return true;
       });
   registerSteps(PB, TM);

@@ -4,6 +4,7 @@
 
 #include "Barrier.h"
 #include "LLVMUtils.h"
+#include "PassLoops.h"
 #include "ProgramVariables.h"
 #include "SharedVariables.h"
 #include "SimtBlocks.h"
@@ -56,6 +57,10 @@ void createGroupBarrier(IRBuilder<> &Builder) {
   Builder.CreateCall(Bar, {Builder.getInt32(0), Builder.getInt32(1)})
       ->addFnAttr(Attribute::NoDuplicate);
 }
+
+/// Passes that the optimiser may unroll by its own measure, which weighs what
+/// it copies and suits so few copies.
+constexpr unsigned FewPasses = 4;
 
 /// A word of the launch block, which nothing changes during a run.
 LoadInst *loadLaunch(IRBuilder<> &Builder, Type *T, Value *Launch,
@@ -300,22 +305,50 @@ void SimtLoops::begin() {
   // first pass.
   Builder.CreateStore(number(0), BaseVar);
   Builder.CreateStore(Lane, LinearVar);
-  storeLocalIds(Builder, Lane);
+  storeLocalIds(Builder, number(0));
 }
 
 Value *SimtLoops::linearId(IRBuilder<> &Builder) {
   return Builder.CreateLoad(SizeT, LinearVar, "simt_id");
 }
 
-void SimtLoops::storeLocalIds(IRBuilder<> &Builder, Value *Linear) {
-  Value *X = Linear, *Y = number(0), *Z = number(0);
-  const bool OneRow = !Size.Dynamic && Size.Y * Size.Z == 1;
-  if (!OneRow) {
-    X = Builder.CreateURem(Linear, SizeX);
-    Y = Builder.CreateUDiv(Linear, SizeX);
+/// Divides the work-item's number by the group's sizes. As long as the numbers
+/// of a pass do not straddle a row unevenly, what they have in common is
+/// divided apart from what the lane adds: then lanes are known to agree in the
+/// quotient, or passes in the remainder.
+void SimtLoops::storeLocalIds(IRBuilder<> &Builder, Value *Base) {
+  // Base is a multiple of Span, and Own less than it.
+  Value *Own = Lane;
+  uint64_t Span = Lanes;
+  const auto Divide = [&](Value *By, uint64_t Known) {
+    Value *Rest;
+    if (!Size.Dynamic && Known % Span == 0) {
+      Rest = Builder.CreateAdd(Builder.CreateURem(Base, By), Own);
+      Own = number(0);
+      Span = 1;
+    } else if (!Size.Dynamic && Span % Known == 0) {
+      Rest = Builder.CreateURem(Own, By);
+      Own = Builder.CreateUDiv(Own, By);
+      Span /= Known;
+    } else {
+      Base = Builder.CreateAdd(Base, Own);
+      Rest = Builder.CreateURem(Base, By);
+      Own = number(0);
+      Span = 1;
+    }
+    Base = Builder.CreateUDiv(Base, By);
+    return Rest;
+  };
+  Value *X, *Y = number(0), *Z = number(0);
+  if (!Size.Dynamic && Size.Y * Size.Z == 1) {
+    X = Builder.CreateAdd(Base, Own);
+  } else {
+    X = Divide(SizeX, Size.X);
     if (Size.Dynamic || Size.Z != 1) {
-      Z = Builder.CreateUDiv(Y, SizeY);
-      Y = Builder.CreateURem(Y, SizeY);
+      Y = Divide(SizeY, Size.Y);
+      Z = Builder.CreateAdd(Base, Own);
+    } else {
+      Y = Builder.CreateAdd(Base, Own);
     }
   }
   Builder.CreateStore(X, Ids.X);
@@ -364,7 +397,7 @@ SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
   Value *Base = Builder.CreateLoad(SizeT, BaseVar, "simt_base");
   Value *Linear = Builder.CreateAdd(Base, Lane, "simt_id");
   Builder.CreateStore(Linear, LinearVar);
-  storeLocalIds(Builder, Linear);
+  storeLocalIds(Builder, Base);
   Builder.CreateBr(Entry);
 
   Exit->getTerminator()->replaceSuccessorWith(After, Next);
@@ -372,7 +405,10 @@ SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
   Value *NextBase = Builder.CreateAdd(
       Builder.CreateLoad(SizeT, BaseVar, "simt_base"), number(Lanes));
   Builder.CreateStore(NextBase, BaseVar);
-  Builder.CreateCondBr(anyLeft(Builder, NextBase), Pass, End);
+  BranchInst *Back =
+      Builder.CreateCondBr(anyLeft(Builder, NextBase), Pass, End);
+  if (!Size.Dynamic && Size.items() > uint64_t{FewPasses} * Lanes)
+    vorion::markPassLoop(*Back, /*Alone=*/true);
 
   Builder.SetInsertPoint(End);
   Builder.CreateBr(After);
@@ -383,7 +419,7 @@ void SimtLoops::setFirstPass(BasicBlock *Entry) {
   IRBuilder<> Builder(&*Entry->getFirstInsertionPt());
   createGroupBarrier(Builder);
   Builder.CreateStore(Lane, LinearVar);
-  storeLocalIds(Builder, Lane);
+  storeLocalIds(Builder, number(0));
 }
 
 void SimtLoops::makeUniform(Instruction *Terminator) {
@@ -569,7 +605,31 @@ uint64_t SimtLoops::placeContextArrays() {
   return Bytes;
 }
 
+/// Takes marks of loops back in a kernel that has several, between barriers. A
+/// pass of straight code is left to the optimiser's own measure there.
+static void measureLoops(Function &F) {
+  const DominatorTree Dominators(F);
+  const LoopInfo Loops(Dominators);
+  SmallVector<Loop *, 8> Marked;
+  for (Loop *L : Loops.getLoopsInPreorder())
+    if (getBooleanLoopAttribute(L, vorion::PassLoop))
+      Marked.push_back(L);
+  if (Marked.size() < 2)
+    return;
+  for (Loop *L : Marked) {
+    auto *Back = cast<BranchInst>(L->getLoopLatch()->getTerminator());
+    const unsigned Ways = count_if(L->blocks(), [](const BasicBlock *Block) {
+      return succ_size(Block) > 1;
+    });
+    if (Ways > 1)
+      vorion::markPassLoop(*Back, /*Alone=*/false);
+    else
+      Back->setMetadata(LLVMContext::MD_loop, nullptr);
+  }
+}
+
 void SimtLoops::finish() {
+  measureLoops(F);
   tidyAllocas();
   erase_if(ContextArrays, [](const ContextArray &Array) {
     const bool Unused = Array.Placeholder->use_empty();

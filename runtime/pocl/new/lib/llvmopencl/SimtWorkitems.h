@@ -115,7 +115,7 @@ llvm::Value *createContextBase(llvm::IRBuilder<> &Builder, llvm::Module &M,
 /// Builds the loops of one kernel.
 class SimtLoops {
 public:
-  /// Sizes: of the group, 0 if known at run time only.
+  /// Sizes: of the group, unless they are known at run time only.
   struct GroupSize {
     uint64_t X, Y, Z;
     bool Dynamic;
@@ -183,7 +183,7 @@ private:
   void tellAliases();
   /// Gives context arrays their memory. Bytes a work-item.
   uint64_t placeContextArrays();
-  void storeLocalIds(llvm::IRBuilder<> &Builder, llvm::Value *Linear);
+  void storeLocalIds(llvm::IRBuilder<> &Builder, llvm::Value *Base);
   llvm::Value *anyLeft(llvm::IRBuilder<> &Builder, llvm::Value *Base);
   llvm::Constant *number(uint64_t N) const;
 
