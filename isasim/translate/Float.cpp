@@ -50,7 +50,7 @@ uint8_t operator<(Float, Float) { return LessSignaling; }
 uint8_t operator<=(Float, Float) { return LessEqualSignaling; }
 
 /// NaN results become the canonical one, where there are any; \p First is
-/// done before in that case, and may use k3 and rax.
+/// done before in that case, and may use k3 and k4.
 void makeCanonical(
     Emitter *E, const Zmm &Result, const std::function<void()> &First = [] {}) {
   Label Nans, Back;
@@ -74,8 +74,8 @@ void flagZeroTimesInfinity(Emitter *E, const Zmm &A, const Zmm &B) {
   for (const auto &[X, Y] : {std::pair{A, B}, {B, A}}) {
     Label None;
     E->vfpclassps(k3 | k2, X, Zero);
-    E->vfpclassps(k3 | k3, Y, Infinite);
-    E->kortestw(k3, k3);
+    E->vfpclassps(k4 | k3, Y, Infinite);
+    E->kortestw(k4, k4);
     E->jz(None);
     E->or_(dword[rdi + VORION_PLACE(Fflags)], Invalid);
     E->L(None);

@@ -24,7 +24,7 @@ HostCode::~HostCode() {
     munmap(Base, All);
 }
 
-const std::byte *HostCode::add(std::span<const uint8_t> Code) {
+std::byte *HostCode::add(std::span<const uint8_t> Code) {
   if (!Base || Code.size() > All - Used ||
       mprotect(Base, All, PROT_READ | PROT_WRITE) != 0)
     return nullptr;

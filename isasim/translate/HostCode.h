@@ -19,7 +19,7 @@ public:
 
   /// Copies \p Code here and makes it executable; nullptr if it does not fit.
   /// Nobody may be executing what is here.
-  const std::byte *add(std::span<const uint8_t> Code);
+  std::byte *add(std::span<const uint8_t> Code);
 
 private:
   std::byte *Base = nullptr;

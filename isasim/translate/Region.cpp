@@ -102,10 +102,9 @@ bool isSink(uint16_t Register) {
 /// Whether the instruction behind it is not reached from it.
 bool endsPath(const GuestInsn &G) {
   switch (G.Opcode) {
-  case Op::RV_JAL: // a call comes back
-    return isSink(G.I->Rd);
+  case Op::RV_JAL:
   case Op::RV_JALR:
-    return isSink(G.I->Rd);
+    return isSink(G.I->Rd); // a call comes back
   case Op::RV_ECALL:
   case Op::RV_EBREAK:
     return true;

@@ -50,15 +50,14 @@ void Translator::seen(const Insn *At) {
     translate::Emitter E(Exec, Code, Region, Bytes);
     E.write();
     E.ready();
-    const std::byte *Base = Host->add(Bytes.first(E.getSize()));
+    std::byte *Base = Host->add(Bytes.first(E.getSize()));
     if (!Base)
       return;
     ++Regions;
     for (const translate::Entry &In : E.entries()) {
       // The interpreter's handlers have this form, too.
       Code.setHandler(In.At, In.Full,
-                      reinterpret_cast<Handler>(
-                          reinterpret_cast<uintptr_t>(Base + In.Offset)));
+                      reinterpret_cast<Handler>(Base + In.Offset));
       Tried.insert(In.At);
     }
   } catch ([[maybe_unused]] const Xbyak::Error &Failed) {

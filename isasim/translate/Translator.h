@@ -38,8 +38,9 @@ public:
 
 private:
   unsigned Regions = 0;
-  CodeTable &Code;
-  const ExecTable &Exec;
+  // Without the translator nobody uses them.
+  [[maybe_unused]] CodeTable &Code;
+  [[maybe_unused]] const ExecTable &Exec;
   std::unique_ptr<translate::HostCode> Host;
   std::set<const Insn *> Tried;
   /// As the host's cache has them, so that constants lie as they will.
