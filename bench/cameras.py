@@ -20,6 +20,9 @@ import tempfile
 DISTORTED = {"camera_model": "OPENCV", "k1": -0.12, "k2": 0.03, "p1": 0.0008, "p2": -0.0005}
 FISHEYE = {"camera_model": "OPENCV_FISHEYE", "k1": -0.02, "k2": 0.003, "k3": -0.0004, "k4": 0.0001}
 
+# A camera held in a hand that walks: 3 degrees and a little of the way in one exposure.
+ROLLING = {"rolling_shutter": "ROLLING_TOP_TO_BOTTOM", "rolling_motion": [0.02, 0, 0.03], "rolling_turn": [0.01, 0.05, 0.01]}
+
 
 def models(view, centre):
     """Name, what the record has, options."""
@@ -28,7 +31,8 @@ def models(view, centre):
     return (("pinhole", {}, []), ("OpenCV's distortion", DISTORTED, []), ("OpenCV's fisheye", FISHEYE, []),
             ("orthographic", parallel, []), ("equirectangular", {"camera_model": "EQUIRECTANGULAR"}, []),
             ("pinhole, unscented", {}, ["--projection", "unscented"]),
-            ("fisheye, unscented", FISHEYE, ["--projection", "unscented"]))
+            ("fisheye, unscented", FISHEYE, ["--projection", "unscented"]),
+            ("pinhole, rolling shutter", ROLLING, []), ("fisheye, rolling shutter", {**FISHEYE, **ROLLING}, []))
 
 
 def measure(args, record, options, folder):

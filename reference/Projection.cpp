@@ -1,6 +1,7 @@
 #include "Projection.h"
 
 #include "Footprint.h"
+#include "Shutter.h"
 #include "SphericalHarmonics.h"
 
 #include <algorithm>
@@ -63,6 +64,18 @@ template <typename Real> bool inFront(Real Z, const Options &O) {
   return O.Rule == Rules::Inria ? Z > Real(0.2) : Z >= Real(0.01);
 }
 
+/// Where \p C shows \p P, in units of the focal lengths.
+template <typename Real>
+bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At) {
+  if (!C.Shutter)
+    return placeThrough(C.Optics, P, At);
+  ExposedPoint E;
+  if (!expose(C, glm::dvec3(P), Rules::Inria, E))
+    return false;
+  At = Vec2<Real>(E.Place);
+  return true;
+}
+
 /// By seven points (3DGUT, with alpha 1, beta 2, kappa 0): the mean with a
 /// weight of 0 for the mean and 2 for the covariance, and sqrt(3) deviations
 /// along each axis either way with 1/6. Nothing if the camera does not see one
@@ -71,7 +84,7 @@ template <typename Real>
 std::optional<Shape<Real>> unscented(const Vec3<Real> &P, const Mat3<Real> &A,
                                      const Camera<Real> &C, const Options &O) {
   Vec2<Real> At;
-  if (!placeThrough(C.Optics, P, At))
+  if (!placeOf(C, P, At))
     return std::nullopt;
   const bool Ahead = C.Optics.Model == LensModel::Pinhole ||
                      C.Optics.Model == LensModel::OpenCv;
@@ -81,8 +94,7 @@ std::optional<Shape<Real>> unscented(const Vec3<Real> &P, const Mat3<Real> &A,
     const Vec3<Real> Step = std::sqrt(Real(3)) * A[N / 2];
     const Vec3<Real> Point = N % 2 == 0 ? P + Step : P - Step;
     Vec2<Real> There;
-    if ((Ahead && !inFront(Point.z, O)) ||
-        !placeThrough(C.Optics, Point, There))
+    if ((Ahead && !inFront(Point.z, O)) || !placeOf(C, Point, There))
       return std::nullopt;
     auto &D = Off[static_cast<std::size_t>(N)];
     D = C.Focal * placeDifference(C.Optics, There, At);
@@ -161,7 +173,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   if constexpr (std::is_same_v<Real, double>)
     P = multiply(C.Rotation, G.Means[I]) + C.Translation;
   const Lens &L = C.Optics;
-  const bool Straight = L.Model == LensModel::Pinhole;
+  const bool Straight = L.Model == LensModel::Pinhole && !C.Shutter;
   const ExactDepth Exact =
       L.byDistance() ? exactDistance(C, G.Means[I]) : exactDepth(C, G.Means[I]);
   S.Depth = static_cast<Real>(Exact.Z);
@@ -175,14 +187,24 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
     A[K] *= G.Scales[I][K];
   A = multiply(C.Rotation, A);
   Vec2<Real> At;
-  if (!Straight && !placeThrough(L, P, At))
-    return S;
+  LensRows<Real> Rows;
+  if (C.Shutter) {
+    ExposedPoint E;
+    if (!expose(C, glm::dvec3(P), O.Rule, E))
+      return S;
+    At = Vec2<Real>(E.Place);
+    Rows = {Vec3<Real>(E.Rows.X), Vec3<Real>(E.Rows.Y)};
+  } else if (!Straight) {
+    if (!placeThrough(L, P, At))
+      return S;
+    Rows = rowsThrough(C, P, O.Rule);
+  }
   std::optional<Shape<Real>> Sharp;
   if (O.Through == Spread::Unscented)
     Sharp = unscented(P, A, C, O);
   if (!Sharp) {
     Sharp = shapeOf(Straight ? footprint(A, jacobian(P, C, O.Rule))
-                             : footprint(A, rowsThrough(C, P, O.Rule)));
+                             : footprint(A, Rows));
     Sharp->Mean = Straight ? Vec2<Real>(C.Focal.x * P.x / P.z + C.Principal.x,
                                         C.Focal.y * P.y / P.z + C.Principal.y)
                            : C.Focal * At + C.Principal;

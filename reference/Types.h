@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -87,6 +88,14 @@ struct Lens {
   }
 };
 
+/// How a camera moves while it exposes its picture: pixel (x, y) at the moment
+/// Start + Across x / Width + Down y / Height. The camera has its pose at 1/2,
+/// and from 0 to 1 moves and turns evenly, along and by the pose's axes.
+struct RollingShutter {
+  double Start = 0, Across = 0, Down = 1;
+  glm::dvec3 Motion{0}, Turn{0}; ///< Turn is an axis times an angle
+};
+
 /// A camera: x right, y down, z forward; sample points are the pixel centres
 /// (i + 0.5, j + 0.5).
 template <typename Real> struct Camera {
@@ -102,6 +111,7 @@ template <typename Real> struct Camera {
   Real DepthOffsetLow = 0;
   glm::vec<3, Real> CentreLow{0}; ///< and from Centre
   Lens Optics{};
+  std::optional<RollingShutter> Shutter{};
 };
 
 /// How a Gaussian becomes an ellipse on the picture.

@@ -73,6 +73,12 @@ template <typename Real> reference::Camera<Real> toReference(const Camera &C) {
       static_cast<Real>(Translation[2] - static_cast<double>(R.Translation.z));
   if (C.Optics.Model != LensModel::Pinhole)
     reference::setLens(R, toReference(C.Optics.Model), C.Optics.K);
+  if (const auto &S = C.Optics.Shutter)
+    R.Shutter = {S->Start,
+                 S->Across,
+                 S->Down,
+                 {S->Motion[0], S->Motion[1], S->Motion[2]},
+                 {S->Turn[0], S->Turn[1], S->Turn[2]}};
   return R;
 }
 

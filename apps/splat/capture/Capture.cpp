@@ -223,6 +223,13 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
                                "expected photographs of perspective or "
                                "fisheye cameras",
                                printable(V.Pose.Name))};
+    if (V.Optics.Shutter)
+      return Error{File.string(),
+                   fmt::format("frame {} has a rolling shutter, which can be "
+                               "drawn but not trained on, expected photographs "
+                               "of one moment each: without the key "
+                               "rolling_shutter the first pose counts",
+                               printable(V.Pose.Name))};
     if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
       return Inside;
     V.Picture = pictureOf(Folder, V.Pose.Name).string();

@@ -39,7 +39,8 @@ private:
   }
   std::optional<double> number(const Json &Frame, const char *Key);
   CameraModel readLens(const Json &Frame);
-  void readPose(const Json &Frame, Camera &C);
+  CameraPlace readPlace(const Json &Frame, const char *Key);
+  void readPose(const Json &Frame, CaptureView &V);
   void readIntrinsics(const Json &Frame, LensModel Lens, Camera &C);
 
   const std::string &Where;
@@ -103,8 +104,9 @@ CameraModel TransformsReader::readLens(const Json &Frame) {
   return simplified(M);
 }
 
-void TransformsReader::readPose(const Json &Frame, Camera &C) {
-  const auto It = Frame.find("transform_matrix");
+CameraPlace TransformsReader::readPlace(const Json &Frame, const char *Key) {
+  CameraPlace C;
+  const auto It = Frame.find(Key);
   bool Good = It != Frame.end() && It->is_array() &&
               (It->size() == 3 || It->size() == 4);
   for (std::size_t R = 0; Good && R < 3; ++R) {
@@ -122,8 +124,49 @@ void TransformsReader::readPose(const Json &Frame, Camera &C) {
     }
   }
   if (!Good || !isRotation(C.Rotation))
-    fail("an unreadable pose, expected transform_matrix of a rotation and a "
-         "translation, camera to world");
+    fail(fmt::format("an unreadable pose, expected {} of a rotation and a "
+                     "translation, camera to world",
+                     Key));
+  return C;
+}
+
+/// As instant-ngp has it: a camera goes from transform_matrix_start to
+/// transform_matrix_end, and rolling_shutter says when it exposes a pixel, by
+/// start, across, down and the motion blur, which is not drawn.
+void TransformsReader::readPose(const Json &Frame, CaptureView &V) {
+  const bool HasStart = Frame.contains("transform_matrix_start");
+  CameraPlace Place = readPlace(Frame, HasStart ? "transform_matrix_start"
+                                                : "transform_matrix");
+  std::array<double, 3> Moments{};
+  if (const Json *J = find(Frame, "rolling_shutter")) {
+    bool Good = J->is_array() && (J->size() == 3 || J->size() == 4);
+    for (std::size_t K = 0; Good && K < 3; ++K) {
+      Good = (*J)[K].is_number() &&
+             std::abs((*J)[K].get<double>()) <= MostShutterMoment;
+      Moments[K] = Good ? (*J)[K].get<double>() : 0;
+    }
+    if (!Good)
+      fail(fmt::format("key rolling_shutter is wrong, expected start, across "
+                       "and down from -{:g} to {:g}",
+                       MostShutterMoment, MostShutterMoment));
+  }
+  if (Frame.contains("transform_matrix_end") && !Problem) {
+    const auto Way =
+        wayBetween(Place, readPlace(Frame, "transform_matrix_end"));
+    if (const auto *Wrong = std::get_if<std::string>(&Way)) {
+      fail(*Wrong);
+    } else {
+      const auto &[Middle, Shutter] = std::get<CameraWay>(Way);
+      Place = placeAt(Middle, Shutter, Moments[0]);
+      if (Moments[1] != 0 || Moments[2] != 0) {
+        Place = Middle;
+        V.Optics.Shutter = {Moments[0], Moments[1], Moments[2], Shutter.Motion,
+                            Shutter.Turn};
+      }
+    }
+  }
+  V.Pose.Position = Place.Position;
+  V.Pose.Rotation = Place.Rotation;
 }
 
 void TransformsReader::readIntrinsics(const Json &Frame, LensModel Lens,
@@ -192,7 +235,7 @@ Expected<TransformsFile> TransformsReader::read() {
       else
         fail("key mask_path is wrong, expected a file's name");
     }
-    readPose(Frame, V.Pose);
+    readPose(Frame, V);
     readIntrinsics(Frame, V.Optics.Model, V.Pose);
     T.Views.push_back(std::move(V));
   }

@@ -127,6 +127,10 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
        "an unreadable pose"},
       {[](Json &J) { J["frames"][0].erase("transform_matrix"); },
        "an unreadable pose"},
+      {[](Json &J) { J["rolling_shutter"] = {0, 0, "x"}; },
+       "key rolling_shutter is wrong, expected start, across and down"},
+      {[](Json &J) { J["frames"][1]["transform_matrix_end"] = 1; },
+       "an unreadable pose, expected transform_matrix_end"},
       {[](Json &J) { J.erase("w"); }, "key w is missing or wrong"},
       {[](Json &J) { J["h"] = 6.5; }, "key h is missing or wrong"},
       {[](Json &J) { J["fl_y"] = -1; }, "a focal length that is not positive"},
@@ -153,6 +157,40 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
     EXPECT_NE(T.error().What.find(Message), std::string::npos)
         << T.error().What;
   }
+}
+
+/// Camera to world as files have it, turned about y and moved along x.
+Json turnedBy(double Angle, double X) {
+  const double C = std::cos(Angle), S = std::sin(Angle);
+  return {{C, 0, S, X}, {0, 1, 0, 0}, {-S, 0, C, 0}, {0, 0, 0, 1}};
+}
+
+TEST(Transforms, RollingShuttersGoFromAPoseToAPose) {
+  Json J = sample();
+  J["rolling_shutter"] = {0.1, 0, 0.8, 0.05};
+  Json &Frame = J["frames"][0];
+  Frame.erase("transform_matrix");
+  Frame["transform_matrix_start"] = turnedBy(0, 1);
+  Frame["transform_matrix_end"] = turnedBy(0.2, 2);
+  const auto T = parsed(J.dump());
+  ASSERT_TRUE(T) << T.error().What;
+  const CaptureView &V = T->Views[0];
+  ASSERT_TRUE(V.Optics.Shutter);
+  EXPECT_EQ(V.Optics.Shutter->Start, 0.1);
+  EXPECT_EQ(V.Optics.Shutter->Down, 0.8);
+  // y is down in the camera's own axes.
+  EXPECT_NEAR(V.Optics.Shutter->Turn[1], -0.2, 1e-15);
+  EXPECT_NEAR(V.Optics.Shutter->Motion[0], std::cos(0.1), 1e-15);
+  EXPECT_NEAR(V.Pose.Position[0], 1.5, 1e-15);
+  EXPECT_NEAR(V.Pose.Rotation[0][0], std::cos(0.1), 1e-15);
+  EXPECT_FALSE(T->Views[1].Optics.Shutter);
+
+  // All of the picture at one moment is a pose.
+  J["rolling_shutter"] = {1, 0, 0};
+  const auto Last = parsed(J.dump());
+  ASSERT_TRUE(Last) << Last.error().What;
+  EXPECT_FALSE(Last->Views[0].Optics.Shutter);
+  EXPECT_NEAR(Last->Views[0].Pose.Position[0], 2, 1e-15);
 }
 
 TEST(Transforms, DamageIsReadOrRefused) {

@@ -196,12 +196,14 @@ Expected<AnalyzedCameras> camerasOf(AnalyzeArguments &A, const Scene &S) {
     return Beside.error();
   C.Beside = Beside->front();
   for (const Camera *Of : {&C.View, &*C.Beside})
-    if (Of->Optics.Model != LensModel::Pinhole)
-      return Error{A.Cameras.File,
-                   fmt::format("--order-beside: view {} has the camera model "
-                               "{}, expected PINHOLE",
-                               printable(Of->Name), name(Of->Optics.Model)),
-                   ExitCode::Usage};
+    if (Of->Optics != CameraModel())
+      return Error{
+          A.Cameras.File,
+          fmt::format("--order-beside: view {} has the camera model "
+                      "{}{}, expected PINHOLE",
+                      printable(Of->Name), name(Of->Optics.Model),
+                      Of->Optics.Shutter ? " and a rolling shutter" : ""),
+          ExitCode::Usage};
   return C;
 }
 

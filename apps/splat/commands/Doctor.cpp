@@ -30,7 +30,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Findings examineAll(const DeviceOptions &Options) {
+Diagnoses examineAll(const DeviceOptions &Options) {
   std::vector<std::string> Environment;
   for (char **Entry = environ; *Entry; ++Entry)
     Environment.emplace_back(*Entry);
@@ -41,8 +41,8 @@ Findings examineAll(const DeviceOptions &Options) {
     if (K.Watches)
       unsetenv(K.Name);
 
-  Findings All;
-  const auto Add = [&All](Findings Found) {
+  Diagnoses All;
+  const auto Add = [&All](Diagnoses Found) {
     std::ranges::move(Found, std::back_inserter(All));
   };
   const Vendors Loader = examineVendors(vendorsPlace());
@@ -55,9 +55,9 @@ Findings examineAll(const DeviceOptions &Options) {
   return All;
 }
 
-std::string textReport(const Findings &All) {
+std::string textReport(const Diagnoses &All) {
   std::string Text;
-  for (const Finding &F : All) {
+  for (const Diagnosis &F : All) {
     Text += fmt::format("{:<6} {:<13} {}\n", name(F.State), F.Subject, F.Text);
     if (!F.Mend.empty())
       Text += fmt::format("{:<6} {:<13} mend: {}\n", "", "", F.Mend);
@@ -65,9 +65,9 @@ std::string textReport(const Findings &All) {
   return Text;
 }
 
-std::string jsonReport(const Findings &All, bool Well) {
+std::string jsonReport(const Diagnoses &All, bool Well) {
   Json List = Json::array();
-  for (const Finding &F : All)
+  for (const Diagnosis &F : All)
     List.push_back({{"state", name(F.State)},
                     {"subject", F.Subject},
                     {"text", F.Text},
@@ -83,9 +83,9 @@ Expected<Success> run(const std::string &JsonFile,
     return Checked;
   if (auto Claimed = claimOutputs({{"--json", JsonFile}}); !Claimed)
     return Claimed;
-  const Findings All = examineAll(Options);
+  const Diagnoses All = examineAll(Options);
   const auto Faults = std::ranges::count_if(
-      All, [](const Finding &F) { return F.State == FindingState::Fault; });
+      All, [](const Diagnosis &F) { return F.State == DiagnosisState::Fault; });
   if (!JsonFile.empty())
     if (auto Written =
             writeFileAtomically(JsonFile, jsonReport(All, Faults == 0));

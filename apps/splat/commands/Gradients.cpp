@@ -134,6 +134,8 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   if (!C)
     return C.error();
   A.Options.Optics = C->Optics.Model;
+  if (auto Checked = checkGradientCamera(*C); !Checked)
+    return Checked;
   const auto U = readUpstream(A.Upstream, *C);
   if (!U)
     return U.error();

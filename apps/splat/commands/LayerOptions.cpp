@@ -2,6 +2,7 @@
 
 #include "commands/Choices.h"
 #include "commands/OutputFile.h"
+#include "commands/PictureOptions.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +12,9 @@ void addLayerOptions(CLI::App &App, LayerFiles &F) {
   const std::vector<std::string> Pictures(pictureEndings().begin(),
                                           pictureEndings().end());
   writesFile(App.add_option("--depth", F.Depth,
-                            "Write each pixel's depth, and its alpha (.npz; "
-                            ".pfm: the first alone)"),
-             {".npz", ".pfm"});
+                            "Write each pixel's depth, and its alpha (.npz, "
+                            ".exr; .pfm: the first alone)"),
+             {".npz", ".pfm", ".exr"});
   addChoice(App, "--depth-as", F.As,
             {DepthAs::Accumulated, DepthAs::Expected, DepthAs::Median},
             "Depth is the sum of weights times depths, that over the sum of "
@@ -38,7 +39,7 @@ void addLayerOptions(CLI::App &App, LayerFiles &F) {
 Expected<Success> checkLayers(const LayerFiles &F, const RenderOptions &O,
                               bool IsOne) {
   for (const auto &Checked :
-       {checkEnding("--depth", F.Depth, {".pfm", ".npz"}),
+       {checkEnding("--depth", F.Depth, {".pfm", ".npz", ".exr"}),
         checkEnding("--normals", F.Normals, pictureEndings()),
         checkEnding("--opacity", F.Opacity, pictureEndings()),
         checkEnding("--contributors", F.Contributors, {".npz"})})
@@ -50,15 +51,10 @@ Expected<Success> checkLayers(const LayerFiles &F, const RenderOptions &O,
           "",
           fmt::format("{} writes one picture's, expected one --view", Option),
           ExitCode::Usage};
-  if (F.needLists() && !hasPixelLists(O))
-    return Error{"",
-                 fmt::format("{} is computed on the host with the exact units, "
-                             "expected --exp exact, --blend fp32 and --ztiles "
-                             "1",
-                             F.Contributors.empty() ? "--depth-as median"
-                                                    : "--contributors"),
-                 ExitCode::Usage};
-  return Success{};
+  return F.needLists()
+             ? checkPixelLists(O, F.Contributors.empty() ? "--depth-as median"
+                                                         : "--contributors")
+             : Success{};
 }
 
 } // namespace vorion::splat

@@ -1,7 +1,9 @@
 #include "commands/PictureOptions.h"
 
 #include "commands/Choices.h"
+#include "render/PixelLists.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Printable.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -193,6 +195,23 @@ Expected<Success> checkGradientOptions(const RenderOptions &O,
   if (auto Checked = checkPictureOptions(O); !Checked)
     return Checked;
   return checkBackwardOptions(B, O.Blending);
+}
+
+Expected<Success> checkPixelLists(const RenderOptions &O,
+                                  std::string_view Option) {
+  if (hasPixelLists(O))
+    return Success{};
+  return usage(fmt::format("{} is computed on the host with the exact units, "
+                           "expected --exp exact, --blend fp32 and --ztiles 1",
+                           Option));
+}
+
+Expected<Success> checkGradientCamera(const Camera &C) {
+  if (!C.Optics.Shutter)
+    return Success{};
+  return usage(fmt::format("view {} has a rolling shutter, through which there "
+                           "is no way back, expected a camera of one moment",
+                           printable(C.Name)));
 }
 
 std::string toString(const BackwardOptions &B, Path Blending) {

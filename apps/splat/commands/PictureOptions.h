@@ -3,6 +3,7 @@
 #pragma once
 
 #include "effects/EffectPlan.h"
+#include "io/Cameras.h"
 #include "picture/Options.h"
 #include "render/Backward.h"
 #include "vorion/support/Expected.h"
@@ -10,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::splat {
@@ -64,6 +66,14 @@ Expected<Success> checkBackwardOptions(const BackwardOptions &B, Path Blending);
 
 /// All that says how one view's gradients are taken; \p O is for training then.
 void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B);
+
+/// Whether \p Option, which needs the pixels' lists, goes with \p O; an error
+/// is one of usage.
+Expected<Success> checkPixelLists(const RenderOptions &O,
+                                  std::string_view Option);
+
+/// Whether gradients can be taken through \p C.
+Expected<Success> checkGradientCamera(const Camera &C);
 
 /// Whether all values go together; an error is one of usage.
 Expected<Success> checkGradientOptions(const RenderOptions &O,

@@ -273,6 +273,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   if (!Model)
     return Model.error();
   A.Options.Optics = *Model;
+  A.Options.Rolling = isRolling(*Cameras);
   if (!isOne(A))
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;

@@ -76,6 +76,9 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   OfPhotographs.Distorted = true;
   auto Photographs = allCameras(OfPhotographs, File->Gaussians);
   S.Cameras = std::move(Photographs ? *Photographs : *Cameras);
+  // Who looks around does so at one moment.
+  for (Camera &C : S.Cameras)
+    C.Optics.Shutter.reset();
   const std::filesystem::path Path(A.Scene.Path);
   std::string Name = printable(
       (Path.has_filename() ? Path : Path.parent_path()).filename().string());

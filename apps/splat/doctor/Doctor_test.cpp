@@ -15,17 +15,17 @@ namespace {
 constexpr uint64_t MiB = uint64_t{1} << 20;
 
 TEST(Doctor, AFullDiskIsAFault) {
-  EXPECT_EQ(examineDisk("/work", 100 * MiB).State, FindingState::Well);
-  const Finding Full = examineDisk("/work", 100 * MiB - 1);
-  EXPECT_EQ(Full.State, FindingState::Fault);
+  EXPECT_EQ(examineDisk("/work", 100 * MiB).State, DiagnosisState::Well);
+  const Diagnosis Full = examineDisk("/work", 100 * MiB - 1);
+  EXPECT_EQ(Full.State, DiagnosisState::Fault);
   EXPECT_EQ(Full.Text, "/work has 99 MiB free, expected 100 MiB");
   EXPECT_FALSE(Full.Mend.empty());
 }
 
 TEST(Doctor, LittleMemoryIsAFault) {
-  EXPECT_EQ(examineMemory(1024 * MiB).State, FindingState::Well);
-  const Finding Little = examineMemory(1024 * MiB - 1);
-  EXPECT_EQ(Little.State, FindingState::Fault);
+  EXPECT_EQ(examineMemory(1024 * MiB).State, DiagnosisState::Well);
+  const Diagnosis Little = examineMemory(1024 * MiB - 1);
+  EXPECT_EQ(Little.State, DiagnosisState::Fault);
   EXPECT_FALSE(Little.Mend.empty());
 }
 
@@ -36,22 +36,22 @@ TEST(Doctor, VariablesOfOthersAreNotLookedAt) {
 }
 
 TEST(Doctor, AVariableThatIsReadIsANote) {
-  const Findings Found =
+  const Diagnoses Found =
       examineVariables(std::vector<std::string>{"VORION_CONFIG=scaled"});
   ASSERT_EQ(Found.size(), 1U);
-  EXPECT_EQ(Found[0].State, FindingState::Note);
+  EXPECT_EQ(Found[0].State, DiagnosisState::Note);
   EXPECT_EQ(Found[0].Text, "VORION_CONFIG=scaled chooses the machine, by its "
                            "name or by a JSON file");
 }
 
 TEST(Doctor, AVariableThatNobodyReadsIsAFault) {
-  const Findings Found = examineVariables(
+  const Diagnoses Found = examineVariables(
       std::vector<std::string>{"VORION_CONFG=scaled", "VORION_PANCAKES=2"});
   ASSERT_EQ(Found.size(), 2U);
-  EXPECT_EQ(Found[0].State, FindingState::Fault);
+  EXPECT_EQ(Found[0].State, DiagnosisState::Fault);
   EXPECT_EQ(Found[0].Mend,
             "unset VORION_CONFG, or did you mean VORION_CONFIG?");
-  EXPECT_EQ(Found[1].State, FindingState::Fault);
+  EXPECT_EQ(Found[1].State, DiagnosisState::Fault);
   EXPECT_EQ(Found[1].Mend, "unset VORION_PANCAKES");
 }
 

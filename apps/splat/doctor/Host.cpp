@@ -21,67 +21,67 @@ static std::string mebibytes(uint64_t Bytes) {
   return fmt::format("{} MiB", Bytes / MiB);
 }
 
-Finding examineDisk(const std::string &Folder, uint64_t FreeBytes) {
+Diagnosis examineDisk(const std::string &Folder, uint64_t FreeBytes) {
   if (FreeBytes < LeastDisk)
-    return {FindingState::Fault, "disk",
+    return {DiagnosisState::Fault, "disk",
             fmt::format("{} has {} free, expected {}", Folder,
                         mebibytes(FreeBytes), mebibytes(LeastDisk)),
             "delete files there, or work on another disk"};
-  return {FindingState::Well, "disk",
+  return {DiagnosisState::Well, "disk",
           fmt::format("{} has {} free", Folder, mebibytes(FreeBytes)), ""};
 }
 
-Finding examineDisk(const std::string &Folder) {
+Diagnosis examineDisk(const std::string &Folder) {
   std::error_code Failed;
   const fs::space_info Space = fs::space(Folder, Failed);
   if (Failed)
-    return {FindingState::Fault, "disk",
+    return {DiagnosisState::Fault, "disk",
             fmt::format("{}: {}", Folder, Failed.message()),
             "work in a folder that you can read"};
   return examineDisk(Folder, Space.available);
 }
 
-Finding examineMemory(uint64_t AvailableBytes) {
+Diagnosis examineMemory(uint64_t AvailableBytes) {
   if (AvailableBytes < LeastMemory)
-    return {FindingState::Fault, "memory",
+    return {DiagnosisState::Fault, "memory",
             fmt::format("{} of main memory are available, expected {}, which "
                         "the machine has by default",
                         mebibytes(AvailableBytes), mebibytes(LeastMemory)),
             "end other programs"};
   return {
-      FindingState::Well, "memory",
+      DiagnosisState::Well, "memory",
       fmt::format("{} of main memory are available", mebibytes(AvailableBytes)),
       ""};
 }
 
-Finding examineMemory() {
+Diagnosis examineMemory() {
   std::ifstream File("/proc/meminfo");
   for (std::string Word; File >> Word;) {
     uint64_t KiB = 0;
     if (Word == "MemAvailable:" && File >> KiB)
       return examineMemory(KiB * 1024);
   }
-  return {FindingState::Note, "memory",
+  return {DiagnosisState::Note, "memory",
           "this system does not say how much memory is available", ""};
 }
 
-Finding examineVectors() {
+Diagnosis examineVectors() {
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    return {FindingState::Well, "vectors",
+    return {DiagnosisState::Well, "vectors",
             "the processor has AVX-512: the simulator uses it for the "
             "rasterizer, and AVX2 for the cores",
             ""};
   if (__builtin_cpu_supports("x86-64-v3"))
-    return {FindingState::Well, "vectors",
+    return {DiagnosisState::Well, "vectors",
             "the processor has AVX2, which the simulator uses", ""};
-  return {FindingState::Note, "vectors",
+  return {DiagnosisState::Note, "vectors",
           "the processor has no AVX2: results are the same, but the simulator "
           "is slower",
           ""};
 #else
-  return {FindingState::Note, "vectors",
+  return {DiagnosisState::Note, "vectors",
           "the processor is no x86-64, on which alone the simulator is tested",
           ""};
 #endif
@@ -110,23 +110,23 @@ Contents contentsOf(const std::string &Folder) {
 
 } // namespace
 
-Finding examineCache(const std::string &Folder) {
+Diagnosis examineCache(const std::string &Folder) {
   const std::string Mend = "set POCL_CACHE_DIR to a folder that you can write";
   if (Folder.empty())
-    return {FindingState::Note, "kernel cache",
+    return {DiagnosisState::Note, "kernel cache",
             "no folder keeps compiled kernels, so every program compiles its "
             "own again",
             Mend};
   std::error_code Failed;
   fs::create_directories(Folder, Failed);
   if (Failed)
-    return {FindingState::Fault, "kernel cache",
+    return {DiagnosisState::Fault, "kernel cache",
             fmt::format("{}: {}", Folder, Failed.message()), Mend};
   if (auto Writable = checkWritable(Folder + "/doctor"); !Writable)
-    return {FindingState::Fault, "kernel cache",
+    return {DiagnosisState::Fault, "kernel cache",
             fmt::format("{}: {}", Folder, Writable.error().What), Mend};
   const Contents C = contentsOf(Folder);
-  return {FindingState::Well, "kernel cache",
+  return {DiagnosisState::Well, "kernel cache",
           fmt::format("{} can be written, and has {} files, {}", Folder,
                       C.Files, mebibytes(C.Bytes)),
           ""};

@@ -1,7 +1,7 @@
 /// What the host must have: room, memory, vectors.
 #pragma once
 
-#include "doctor/Finding.h"
+#include "doctor/Diagnosis.h"
 
 #include <cstdint>
 #include <string>
@@ -9,19 +9,19 @@
 namespace vorion::splat {
 
 /// \p Folder and the bytes that are free on its disk.
-Finding examineDisk(const std::string &Folder, uint64_t FreeBytes);
+Diagnosis examineDisk(const std::string &Folder, uint64_t FreeBytes);
 /// The same for the disk that \p Folder is on now.
-Finding examineDisk(const std::string &Folder);
+Diagnosis examineDisk(const std::string &Folder);
 
 /// The bytes of main memory that programs can still get.
-Finding examineMemory(uint64_t AvailableBytes);
+Diagnosis examineMemory(uint64_t AvailableBytes);
 /// The same for this host now, as the text of /proc/meminfo has it.
-Finding examineMemory();
+Diagnosis examineMemory();
 
 /// The widest vectors of this processor that the simulator uses.
-Finding examineVectors();
+Diagnosis examineVectors();
 
 /// \p Folder, the cache of compiled kernels; empty if there is none.
-Finding examineCache(const std::string &Folder);
+Diagnosis examineCache(const std::string &Folder);
 
 } // namespace vorion::splat

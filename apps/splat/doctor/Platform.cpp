@@ -60,9 +60,9 @@ static bool isLibrary(const fs::path &File) {
 }
 
 Vendors examineVendors(const std::string &Place) {
-  Vendors V{{FindingState::Well, "platform", "", ""}, {}};
+  Vendors V{{DiagnosisState::Well, "platform", "", ""}, {}};
   const auto Fault = [&](std::string Text) {
-    V.Found = {FindingState::Fault, "platform", std::move(Text),
+    V.Found = {DiagnosisState::Fault, "platform", std::move(Text),
                sourceEnvironment()};
     return V;
   };
@@ -98,8 +98,8 @@ Vendors examineVendors(const std::string &Place) {
   return V;
 }
 
-Finding examineTools(const std::string &Root,
-                     const std::vector<std::string> &Libraries) {
+Diagnosis examineTools(const std::string &Root,
+                       const std::vector<std::string> &Libraries) {
   std::vector<fs::path> Places;
   if (!Root.empty())
     Places.emplace_back(Root);
@@ -118,12 +118,12 @@ Finding examineTools(const std::string &Root,
       return access((Place / "bin" / Tool).c_str(), X_OK) == 0;
     };
     if (IsThere("vorion-clang") && IsThere("vorion-link"))
-      return {FindingState::Well, "compiler",
+      return {DiagnosisState::Well, "compiler",
               fmt::format("{} has vorion-clang and vorion-link",
                           (Place / "bin").string()),
               ""};
   }
-  return {FindingState::Fault, "compiler",
+  return {DiagnosisState::Fault, "compiler",
           Root.empty()
               ? "no folder above the platform's library has bin/vorion-clang "
                 "and bin/vorion-link"
@@ -175,26 +175,27 @@ std::string runKernel(const Device &D) {
 
 } // namespace
 
-Findings examineDevice(const DeviceOptions &Options) {
+Diagnoses examineDevice(const DeviceOptions &Options) {
   const auto D = Device::open("", Options);
   if (!D)
     return {
-        {FindingState::Fault, "device", D.error().What, sourceEnvironment()}};
+        {DiagnosisState::Fault, "device", D.error().What, sourceEnvironment()}};
   if (!D->isVorion())
-    return {{FindingState::Fault, "device",
+    return {{DiagnosisState::Fault, "device",
              fmt::format("the OpenCL device is \"{}\", not Vorion", D->name()),
              sourceEnvironment()}};
-  Findings Found{
-      {FindingState::Well, "device",
+  Diagnoses Found{
+      {DiagnosisState::Well, "device",
        fmt::format("\"{}\" with {} cores of {} lanes and {} MiB of memory",
                    D->name(), D->computeUnits(), D->lanes(),
                    D->globalBytes() >> 20),
        ""}};
   if (const std::string Problem = runKernel(*D); !Problem.empty())
-    Found.push_back({FindingState::Fault, "kernel", "a small kernel " + Problem,
+    Found.push_back({DiagnosisState::Fault, "kernel",
+                     "a small kernel " + Problem,
                      "mend the faults above; if there are none, build again"});
   else
-    Found.push_back({FindingState::Well, "kernel",
+    Found.push_back({DiagnosisState::Well, "kernel",
                      "a small kernel compiles, runs and gives the right values",
                      ""});
   return Found;

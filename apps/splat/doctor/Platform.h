@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/DeviceOptions.h"
-#include "doctor/Finding.h"
+#include "doctor/Diagnosis.h"
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace vorion::splat {
 /// The libraries of OpenCL platforms that the loader is told of in \p Vendors,
 /// a folder of files *.icd, one such file, or a library itself.
 struct Vendors {
-  Finding Found;
+  Diagnosis Found;
   std::vector<std::string> Libraries;
 };
 Vendors examineVendors(const std::string &Place);
@@ -21,10 +21,10 @@ std::string vendorsPlace();
 
 /// Whether the compiler is where the platform looks for it: below \p Root,
 /// or, if that is empty, in the folders above one of \p Libraries.
-Finding examineTools(const std::string &Root,
-                     const std::vector<std::string> &Libraries);
+Diagnosis examineTools(const std::string &Root,
+                       const std::vector<std::string> &Libraries);
 
 /// Opens the device and runs a kernel on it.
-Findings examineDevice(const DeviceOptions &Options);
+Diagnoses examineDevice(const DeviceOptions &Options);
 
 } // namespace vorion::splat

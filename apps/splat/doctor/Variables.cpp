@@ -38,12 +38,12 @@ static constexpr std::array Variables{
 
 std::span<const KnownVariable> knownVariables() { return Variables; }
 
-Findings examineVariables(std::span<const std::string> Environment) {
+Diagnoses examineVariables(std::span<const std::string> Environment) {
   std::vector<std::string> Names;
   Names.reserve(Variables.size());
   for (const KnownVariable &K : Variables)
     Names.emplace_back(K.Name);
-  Findings Found;
+  Diagnoses Found;
   for (const std::string_view Entry : Environment) {
     const std::string Name(Entry.substr(0, Entry.find('=')));
     if (!Name.starts_with("VORION_"))
@@ -51,13 +51,13 @@ Findings examineVariables(std::span<const std::string> Environment) {
     const auto *Known = std::ranges::find_if(
         Variables, [&](const KnownVariable &K) { return Name == K.Name; });
     if (Known != Variables.end()) {
-      Found.push_back({FindingState::Note, "variable",
+      Found.push_back({DiagnosisState::Note, "variable",
                        fmt::format("{} {}", Entry, Known->Effect), ""});
       continue;
     }
     const std::string_view Near = closestTo(Name, Names);
     Found.push_back(
-        {FindingState::Fault, "variable",
+        {DiagnosisState::Fault, "variable",
          fmt::format("{} is set, but no program of Vorion reads it", Name),
          Near.empty()
              ? fmt::format("unset {}", Name)

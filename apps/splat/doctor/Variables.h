@@ -1,7 +1,7 @@
 /// The variables of the environment that programs of ours read.
 #pragma once
 
-#include "doctor/Finding.h"
+#include "doctor/Diagnosis.h"
 
 #include <span>
 #include <string>
@@ -19,6 +19,6 @@ std::span<const KnownVariable> knownVariables();
 
 /// A note for each variable VORION_* of \p Environment ("NAME=TEXT") that has
 /// an effect, and a fault for each that has none.
-Findings examineVariables(std::span<const std::string> Environment);
+Diagnoses examineVariables(std::span<const std::string> Environment);
 
 } // namespace vorion::splat

@@ -8,7 +8,7 @@ namespace {
 
 Finding detect(const EffectInputs &In) {
   if (In.Options.Optics != LensModel::Pinhole ||
-      In.Options.Through != Spread::Jacobian)
+      In.Options.Through != Spread::Jacobian || In.Options.Rolling)
     return {false, "for pinholes and the Jacobian alone", false};
   return {In.Facts.IsCrop,
           In.Facts.IsCrop ? "the principal point is outside the picture"

@@ -12,6 +12,8 @@ Finding detect(const EffectInputs &In) {
   const LensModel Model = In.Options.Optics;
   if (Model != LensModel::Pinhole && Model != LensModel::OpenCv)
     return {false, "no limits of x/z and y/z with this camera", false};
+  if (In.Options.Rolling)
+    return {true, "the camera moves while it exposes"};
   return {In.Facts.BeyondField != 0,
           fmt::format("{} of {} means at or beyond the limits of x/z and y/z",
                       In.Facts.BeyondField, In.Gaussians.size())};

@@ -38,6 +38,7 @@ std::span<const Effect *const> all() {
                                    &OrthographicLens,
                                    &EquirectangularLens,
                                    &Unscented,
+                                   &RollingShutter,
                                    &Crop,
                                    &IntersectTags,
                                    &ActivatedScene,

@@ -20,6 +20,7 @@ extern const Effect Background;
 extern const Effect OpenCvLens, FisheyeLens, OrthographicLens,
     EquirectangularLens;
 extern const Effect Unscented;
+extern const Effect RollingShutter;
 extern const Effect Crop;
 /// @}
 

@@ -204,7 +204,7 @@ double CameraModel::undistorted(double Distorted) const {
 CameraModel simplified(const CameraModel &M) {
   const bool Bends = M.Model != LensModel::OpenCv ||
                      std::ranges::any_of(M.K, [](double K) { return K != 0; });
-  return Bends ? M : CameraModel();
+  return Bends ? M : CameraModel{LensModel::Pinhole, {}, M.Shutter};
 }
 
 std::optional<LensModel> lensModelNamed(std::string_view Name) {

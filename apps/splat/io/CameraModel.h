@@ -2,6 +2,8 @@
 /// of apps/splat/ that knows lenses, beside the kernels.
 #pragma once
 
+#include "io/RollingShutter.h"
+
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -54,6 +56,8 @@ struct CameraModel {
   LensModel Model = LensModel::Pinhole;
   /// OpenCV's order (LensCoefficient), or a fisheye's k1 to k4.
   LensCoefficients K{};
+  /// Where the camera moves meanwhile.
+  std::optional<RollingShutter> Shutter = std::nullopt;
 
   bool isPinhole() const { return Model == LensModel::Pinhole; }
   /// Where OpenCV's distortion or a fisheye shows what a pinhole shows at

@@ -1,6 +1,7 @@
 #include "io/Cameras.h"
 
 #include "io/CameraLens.h"
+#include "io/CameraShutter.h"
 #include "io/Unsupported.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -56,6 +57,8 @@ public:
       return It == Record.end() ? nullptr : &*It;
     };
     if (auto Wrong = readLens(Find, C))
+      fail(std::move(*Wrong));
+    if (auto Wrong = readShutter(Find, C))
       fail(std::move(*Wrong));
     if (C.Optics.Model != LensModel::Equirectangular) {
       C.Fx = focal("fx");
@@ -303,6 +306,11 @@ Expected<Success> writeCameras(const std::string &Path,
     const auto Keys = C.Optics.keys();
     for (std::size_t K = 0; K < Keys.size(); ++K)
       Record[std::string(Keys[K])] = C.Optics.K[K];
+    if (const auto &S = C.Optics.Shutter) {
+      Record["rolling_shutter"] = {S->Start, S->Across, S->Down};
+      Record["rolling_motion"] = S->Motion;
+      Record["rolling_turn"] = S->Turn;
+    }
     Document.push_back(std::move(Record));
   }
   return writeFileAtomically(Path, jsonText(Document, 1) + "\n");

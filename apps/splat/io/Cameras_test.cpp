@@ -126,7 +126,15 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
             "supported, expected what docs/cameras.md lists");
   Expect({{"distortion", {0, 0, 1e-3}}}, "lens distortion");
   Expect({{"distortion_params", {{"k1", 0.1}}}}, "lens distortion");
-  Expect({{"rolling_shutter_time", 0.1}}, "a rolling shutter");
+  Expect({{"rolling_shutter_time", 0.1}}, "a rolling shutter by velocities");
+  Expect({{"rolling_shutter", "SIDEWAYS"}, {"rolling_turn", {0, 1, 0}}},
+         "key rolling_shutter is wrong, expected start, across and down");
+  Expect({{"rolling_shutter", {0, 0, 1e3}}}, "key rolling_shutter is wrong");
+  Expect({{"rolling_shutter", {0, 0, 1}}, {"rolling_motion", {0, 0}}},
+         "key rolling_motion is wrong, expected three numbers");
+  Expect({{"rolling_shutter", {0, 0, 1}}, {"rolling_turn", {0, 1.2, 1.2}}},
+         "key rolling_turn is wrong, expected an axis times an angle");
+  Expect({{"rolling_turn", {0, 1, 0}}}, "without rolling_shutter");
   Expect({{"camera_model", "FOV"}},
          "key camera_model calls for the camera model \"FOV\", which is not "
          "supported, expected PINHOLE, OPENCV");

@@ -61,6 +61,14 @@ private:
   uint64_t At = 0;
 };
 
+/// What stands for all three colours of a picture without them: a grey, or a
+/// depth. Null if nothing does.
+const char *loneChannel(const Imf::ChannelList &C) {
+  if (C.findChannel("Y"))
+    return C.findChannel("RY") || C.findChannel("BY") ? nullptr : "Y";
+  return C.findChannel("Z") ? "Z" : nullptr;
+}
+
 /// What is wrong with \p H for a picture; nothing if it is one.
 std::optional<std::string> refusal(const Imf::Header &H, std::size_t FileSize) {
   for (const Imath::Box2i &Window : {H.displayWindow(), H.dataWindow()}) {
@@ -80,14 +88,11 @@ std::optional<std::string> refusal(const Imf::Header &H, std::size_t FileSize) {
   std::string Names;
   for (auto C = H.channels().begin(); C != H.channels().end(); ++C)
     Names += (Names.empty() ? "" : ", ") + printable(C.name());
-  const bool Grey = H.channels().findChannel("Y") &&
-                    !H.channels().findChannel("RY") &&
-                    !H.channels().findChannel("BY");
   for (const char *Name : {"R", "G", "B"})
-    if (!H.channels().findChannel(Name) && !Grey)
-      return fmt::format("channels {}, expected R, G and B, or Y alone",
+    if (!H.channels().findChannel(Name) && !loneChannel(H.channels()))
+      return fmt::format("channels {}, expected R, G and B, or Y or Z alone",
                          Names.empty() ? "none" : Names);
-  for (const char *Name : {"R", "G", "B", "A", "Y"})
+  for (const char *Name : {"R", "G", "B", "A", "Y", "Z"})
     if (const Imf::Channel *C = H.channels().findChannel(Name);
         C && (C->xSampling != 1 || C->ySampling != 1))
       return fmt::format("channel {} has not a value for each pixel, expected "
@@ -118,7 +123,7 @@ Expected<ExactImage> decode(const std::string &Where, Bytes Bytes) {
   for (const char *Name : {"R", "G", "B", "A"}) {
     const bool IsAlpha = std::string_view(Name) == "A";
     if (!IsAlpha || H.channels().findChannel(Name))
-      Planes.push_back({IsAlpha || Coloured ? Name : "Y",
+      Planes.push_back({IsAlpha || Coloured ? Name : loneChannel(H.channels()),
                         std::vector<float>(Across * Down)});
   }
   Imf::FrameBuffer Buffer;
@@ -152,32 +157,28 @@ Expected<ExactImage> decode(const std::string &Where, Bytes Bytes) {
   return I;
 }
 
-std::string encode(const Image &I, bool Half) {
-  Imf::Header H(I.Width, I.Height);
+std::string encode(int Width, int Height,
+                   const std::vector<ChannelPlane> &Planes, bool Half) {
+  Imf::Header H(Width, Height);
   H.compression() = Imf::ZIP_COMPRESSION;
   Imf::addComments(H, "values as the scene has them, not converted");
   const Imf::PixelType Type = Half ? Imf::HALF : Imf::FLOAT;
-  const std::size_t Channels = I.Alpha.empty() ? 3 : 4;
-  std::vector<std::vector<float>> Floats(Channels);
-  std::vector<std::vector<Imath::half>> Halves(Channels);
+  std::vector<std::vector<Imath::half>> Halves(Planes.size());
   Imf::FrameBuffer Buffer;
   const Imath::Box2i Window = H.dataWindow();
-  for (std::size_t K = 0; K < Channels; ++K) {
-    constexpr std::array Names{"R", "G", "B", "A"};
-    H.channels().insert(Names[K], Imf::Channel(Type));
-    for (std::size_t P = 0; P < I.pixels(); ++P)
-      Floats[K].push_back(K < 3 ? I.Render[3 * P + K] : I.Alpha[P]);
+  for (std::size_t K = 0; K < Planes.size(); ++K) {
+    const auto &[Name, Floats] = Planes[K];
+    H.channels().insert(Name, Imf::Channel(Type));
     if (Half)
-      Halves[K].assign(Floats[K].begin(), Floats[K].end());
-    Buffer.insert(Names[K],
-                  Half ? Imf::Slice::Make(Type, Halves[K].data(), Window)
-                       : Imf::Slice::Make(Type, Floats[K].data(), Window));
+      Halves[K].assign(Floats.begin(), Floats.end());
+    Buffer.insert(Name, Half ? Imf::Slice::Make(Type, Halves[K].data(), Window)
+                             : Imf::Slice::Make(Type, Floats.data(), Window));
   }
   BytesOut Stream;
   {
     Imf::OutputFile File(Stream, H);
     File.setFrameBuffer(Buffer);
-    File.writePixels(I.Height);
+    File.writePixels(Height);
   }
   return std::move(Stream.Text);
 }
@@ -194,15 +195,38 @@ Expected<ExactImage> decodeExr(const std::string &Where, Bytes File) {
   }
 }
 
-Expected<std::string> encodeExr(const Image &I, bool Half) {
+static Expected<std::string> encoded(int Width, int Height,
+                                     const std::vector<ChannelPlane> &Planes,
+                                     bool Half) {
   try {
-    return encode(I, Half);
+    return encode(Width, Height, Planes, Half);
   } catch (const std::exception &E) {
     return Error{"",
                  fmt::format("cannot encode the picture as EXR ({})",
                              printable(E.what())),
                  ExitCode::LimitReached};
   }
+}
+
+Expected<std::string> encodeExr(const Image &I, bool Half) {
+  std::vector<ChannelPlane> Planes;
+  for (const char *Name : {"R", "G", "B"}) {
+    const std::size_t K = Planes.size();
+    std::vector<float> &Values =
+        Planes.emplace_back(ChannelPlane{Name, {}}).Values;
+    for (std::size_t P = 0; P < I.pixels(); ++P)
+      Values.push_back(I.Render[3 * P + K]);
+  }
+  if (!I.Alpha.empty())
+    Planes.push_back({"A", I.Alpha});
+  return encoded(I.Width, I.Height, Planes, Half);
+}
+
+Expected<std::string> encodeExr(const DepthMap &D) {
+  std::vector<ChannelPlane> Planes{{"Z", D.Depth}};
+  if (!D.Alpha.empty())
+    Planes.push_back({"A", D.Alpha});
+  return encoded(D.Width, D.Height, Planes, /*Half=*/false);
 }
 
 } // namespace vorion::splat

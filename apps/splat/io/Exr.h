@@ -1,4 +1,4 @@
-/// Pictures as OpenEXR has them.
+/// Pictures and depths as OpenEXR has them.
 #pragma once
 
 #include "io/Bytes.h"
@@ -17,5 +17,8 @@ Expected<ExactImage> decodeExr(const std::string &Where, Bytes File);
 
 /// \p I with every value as it is; as 16-bit floats if \p Half.
 Expected<std::string> encodeExr(const Image &I, bool Half);
+
+/// \p D as the channel Z, and where there is alpha, that as A, in 32 bits.
+Expected<std::string> encodeExr(const DepthMap &D);
 
 } // namespace vorion::splat

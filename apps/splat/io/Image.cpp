@@ -183,11 +183,21 @@ Expected<Success> writePfm(const std::string &Path, const Image &I) {
   return writePfmRows(Path, "PF", I.Width, I.Height, I.Render);
 }
 
+/// The picture's bytes, if they could be made.
+static Expected<Success> writeEncoded(const std::string &Path,
+                                      const Expected<std::string> &Bytes) {
+  return Bytes ? writeFileAtomically(Path, *Bytes)
+               : Expected<Success>(
+                     Error{Path, Bytes.error().What, Bytes.error().Code});
+}
+
 Expected<Success> writeDepth(const std::string &Path, const DepthMap &D) {
   if (Path.ends_with(".pfm"))
     return writePfmRows(Path, "Pf", D.Width, D.Height, D.Depth);
+  if (Path.ends_with(".exr"))
+    return writeEncoded(Path, encodeExr(D));
   if (!Path.ends_with(".npz"))
-    return Error{Path, "unknown ending, expected .pfm or .npz",
+    return Error{Path, "unknown ending, expected .pfm, .exr or .npz",
                  ExitCode::Usage};
   const auto H = static_cast<std::size_t>(D.Height);
   const auto W = static_cast<std::size_t>(D.Width);
@@ -216,14 +226,6 @@ static Error unknownEnding(const std::string &Path) {
           fmt::format("unknown ending, expected one of {}",
                       fmt::join(pictureEndings(), ", ")),
           ExitCode::Usage};
-}
-
-/// The picture's bytes, if they could be made.
-static Expected<Success> writeEncoded(const std::string &Path,
-                                      const Expected<std::string> &Bytes) {
-  return Bytes ? writeFileAtomically(Path, *Bytes)
-               : Expected<Success>(
-                     Error{Path, Bytes.error().What, Bytes.error().Code});
 }
 
 Expected<Success> writeImage(const std::string &Path, const Image &I,

@@ -178,6 +178,14 @@ TEST(Image, DepthsAreWrittenWithAndWithoutAlpha) {
   const std::string File = Folder.read("d.pfm");
   ASSERT_EQ(File.size(), 12 + 6 * sizeof(float));
   EXPECT_EQ(File.substr(0, 12), "Pf\n3 2\n-1.0\n");
+
+  ASSERT_TRUE(writeDepth(Folder.path("d.exr"), D));
+  const auto Grey = readImage(Folder.path("d.exr"));
+  ASSERT_TRUE(Grey) << Grey.error().What;
+  for (std::size_t P = 0; P < D.Depth.size(); ++P) {
+    EXPECT_EQ(Grey->Render[3 * P], D.Depth[P]);
+    EXPECT_EQ(Grey->Alpha[P], D.Alpha[P]);
+  }
   EXPECT_FALSE(writeDepth(Folder.path("d.png"), D));
 }
 

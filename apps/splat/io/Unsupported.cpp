@@ -59,7 +59,7 @@ constexpr std::array CameraKeys{
     Meaning{"fisheye*", Projection},
     Meaning{"ortho*", Projection},
     Meaning{"skew", "skewed pixels"},
-    Meaning{"rolling_shutter*", "a rolling shutter"},
+    Meaning{"rolling_shutter_*", "a rolling shutter by velocities"},
 };
 
 } // namespace

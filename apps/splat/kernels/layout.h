@@ -43,6 +43,14 @@ typedef struct {
   float limit;
 } splat_lens;
 
+/// What lies behind the lens of a camera that moves while it exposes.
+typedef struct {
+  float moment[3]; ///< of a pixel (x, y), from the pose's: 1, x, y
+  float motion[3]; ///< in a whole exposure, along the pose's axes
+  float axis[3];   ///< of its turn, by the pose's axes
+  float angle;     ///< of that
+} splat_shutter;
+
 /// What lies behind the view of a pinhole whose principal point is outside the
 /// picture: places are measured from the ray through the picture's middle.
 typedef struct {

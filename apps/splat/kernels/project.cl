@@ -56,7 +56,7 @@ static float beside_middle(__local const splat_view *view,
 // as points: then a file lens_*.cl is part of the program.
 #define HAS_LENS                                                               \
   (USE_OPENCV || USE_FISHEYE || USE_ORTHOGRAPHIC || USE_EQUIRECTANGULAR ||     \
-   USE_UNSCENTED)
+   USE_UNSCENTED || USE_ROLLING_SHUTTER)
 
 #ifdef LENS_BY_DISTANCE
 // Distance from the camera, rounded once as the depth along an axis is.
@@ -128,6 +128,9 @@ typedef struct {
 #if HAS_LENS
   splat_lens lens;
 #endif
+#if USE_ROLLING_SHUTTER
+  splat_shutter shutter; // behind the lens
+#endif
 #if USE_CROP
   splat_crop crop;
 #endif
@@ -197,9 +200,16 @@ static uint project_one(__local workspace *c,
 #else
   const float3 p = (float3)(x, y, z);
 #endif
+#if USE_ROLLING_SHUTTER
+  rolling_point own;
+  if (!rolling_at(view, &c->lens, p, &own))
+    return CULLED + (all_finite(x, y) ? CULL_OUTSIDE : CULL_NON_FINITE);
+  const float2 at = own.at;
+#else
   float2 at;
   if (!lens_at(&c->lens, p, &at))
     return CULLED + (all_finite(x, y) ? CULL_OUTSIDE : CULL_NON_FINITE);
+#endif
   const camera_axes axes = scaled_axes(view, activated.xyz, unit);
   screen_covariance s;
   float2 shift = (float2)(0.0f, 0.0f);
@@ -208,7 +218,11 @@ static uint project_one(__local workspace *c,
 #endif
   {
     shift = (float2)(0.0f, 0.0f);
+#if USE_ROLLING_SHUTTER
+    s = lens_covariance(rolling_rows(view, &c->lens, own, LENS_HOLDS), axes);
+#else
     s = lens_covariance(lens_rows_at(view, &c->lens, p, LENS_HOLDS), axes);
+#endif
   }
 #else
   float2 ratio = (float2)(x / z, y / z);
@@ -320,6 +334,12 @@ project(__constant const splat_view *camera, __global const float *geometry,
 #if HAS_LENS
   for (uint k = lane; k < sizeof(splat_lens) / 4; k += LANES)
     ((__local uint *)&w->lens)[k] = ((__constant const uint *)(camera + 1))[k];
+#endif
+#if USE_ROLLING_SHUTTER
+  for (uint k = lane; k < sizeof(splat_shutter) / 4; k += LANES)
+    ((__local uint *)&w->shutter)[k] =
+        ((__constant const uint *)((__constant const splat_lens *)(camera + 1) +
+                                   1))[k];
 #endif
 #if USE_CROP
   for (uint k = lane; k < sizeof(splat_crop) / 4; k += LANES)

@@ -23,8 +23,15 @@ static bool unscented_covariance(VIEW_SPACE const splat_view *view,
     if (!(KEEP_DEPTH(q.z)))
       return false;
 #endif
+#if USE_ROLLING_SHUTTER
+    rolling_point own;
+    if (!rolling_at(view, lens, q, &own))
+      return false;
+    there = own.at;
+#else
     if (!lens_at(lens, q, &there))
       return false;
+#endif
     off[n] = focal * lens_difference(there, at);
     sum += off[n];
   }

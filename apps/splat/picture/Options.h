@@ -58,6 +58,8 @@ struct RenderOptions {
   /// What the cameras are; pinholes among OpenCV's count as such.
   LensModel Optics = LensModel::Pinhole;
   Spread Through = Spread::Jacobian;
+  /// Whether a camera moves while it exposes.
+  bool Rolling = false;
   /// Least depth that is drawn; 0: the rules' own.
   float Near = 0;
   /// Leading bits of the depths that decide the order: 1 to 32.

@@ -113,6 +113,21 @@ splat_lens makeLens(const Camera &C) {
   return L;
 }
 
+splat_shutter makeShutter(const Camera &C) {
+  const RollingShutter Of = C.Optics.Shutter.value_or(RollingShutter());
+  splat_shutter S{};
+  S.moment[0] = static_cast<float>(Of.Start - 0.5);
+  S.moment[1] = static_cast<float>(Of.Across / C.Width);
+  S.moment[2] = static_cast<float>(Of.Down / C.Height);
+  const double Angle = std::hypot(Of.Turn[0], Of.Turn[1], Of.Turn[2]);
+  for (std::size_t K = 0; K < 3; ++K) {
+    S.motion[K] = static_cast<float>(Of.Motion[K]);
+    S.axis[K] = static_cast<float>(Angle > 0 ? Of.Turn[K] / Angle : 0);
+  }
+  S.angle = static_cast<float>(Angle);
+  return S;
+}
+
 bool isCrop(const splat_view &V) {
   const auto Outside = [&](int A) {
     return !(V.center[A] >= 0 && V.center[A] <= static_cast<float>(V.size[A]));
@@ -137,6 +152,11 @@ splat_crop makeCrop(const Camera &C) {
     }
   }
   return Crop;
+}
+
+bool isRolling(const std::vector<Camera> &Cameras) {
+  return std::ranges::any_of(
+      Cameras, [](const Camera &C) { return C.Optics.Shutter.has_value(); });
 }
 
 bool isDrawnBy(LensModel Program, const Camera &C) {

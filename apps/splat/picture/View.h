@@ -14,6 +14,9 @@ splat_view makeView(const Camera &C, const RenderOptions &Options);
 /// What lies behind the view in a program for a camera that is no pinhole.
 splat_lens makeLens(const Camera &C);
 
+/// What lies behind that in a program for cameras that move while they expose.
+splat_shutter makeShutter(const Camera &C);
+
 /// Whether the principal point is outside the picture, which is then a crop of
 /// a larger one: f x / z + c cancels.
 bool isCrop(const splat_view &V);
@@ -25,6 +28,9 @@ splat_crop makeCrop(const Camera &C);
 /// that they have, or OpenCV's for pinholes among such.
 Expected<LensModel> commonModel(const std::string &Path,
                                 const std::vector<Camera> &Cameras);
+
+/// Whether one of \p Cameras moves while it exposes.
+bool isRolling(const std::vector<Camera> &Cameras);
 
 /// Whether a program for cameras of model \p Program draws \p C.
 bool isDrawnBy(LensModel Program, const Camera &C);

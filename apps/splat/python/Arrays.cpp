@@ -18,14 +18,23 @@ py::array viewOf(std::vector<float> &Values, const Shape &Sizes,
   return py::array_t<float>(Sizes, Values.data(), Owner);
 }
 
-py::array arrayOf(std::vector<float> Values, const Shape &Sizes) {
-  auto Kept = std::make_unique<std::vector<float>>(std::move(Values));
-  float *Data = Kept->data();
+template <typename T>
+static py::array owningArray(std::vector<T> Values, const Shape &Sizes) {
+  auto Kept = std::make_unique<std::vector<T>>(std::move(Values));
+  T *Data = Kept->data();
   const py::capsule Owner(Kept.get(), [](void *Pointer) {
-    delete static_cast<std::vector<float> *>(Pointer);
+    delete static_cast<std::vector<T> *>(Pointer);
   });
   Kept.release(); // NOLINT(bugprone-unused-return-value): the capsule's now
-  return py::array_t<float>(Sizes, Data, Owner);
+  return py::array_t<T>(Sizes, Data, Owner);
+}
+
+py::array arrayOf(std::vector<float> Values, const Shape &Sizes) {
+  return owningArray(std::move(Values), Sizes);
+}
+
+py::array arrayOf(std::vector<int32_t> Values, const Shape &Sizes) {
+  return owningArray(std::move(Values), Sizes);
 }
 
 std::vector<float> valuesOf(const FloatArray &A, const std::string &Name,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <pybind11/numpy.h>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ pybind11::array viewOf(std::vector<float> &Values, const Shape &Sizes,
 
 /// An array that owns \p Values.
 pybind11::array arrayOf(std::vector<float> Values, const Shape &Sizes);
+pybind11::array arrayOf(std::vector<int32_t> Values, const Shape &Sizes);
 
 /// The elements of \p A, called \p Name in the error that is thrown where its
 /// shape is not \p Sizes, or where one is no finite number.

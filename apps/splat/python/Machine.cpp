@@ -2,6 +2,7 @@
 #include "python/Bindings.h"
 #include "python/Objects.h"
 
+#include "commands/Choices.h"
 #include "commands/DeviceArguments.h"
 #include "commands/PictureOptions.h"
 #include "render/FrameTime.h"
@@ -125,13 +126,60 @@ Shape sizesOf(const Camera &C) {
           static_cast<std::size_t>(C.Width)};
 }
 
+/// What a picture is to have beside its colours (render/Layers.h).
+struct Layers {
+  bool Depth = false, Normals = false;
+  DepthAs As = DepthAs::Accumulated;
+  unsigned Top = 0; ///< contributors of a pixel
+
+  bool needDepths() const { return Depth && As != DepthAs::Median; }
+  bool needLists() const {
+    return Top != 0 || (Depth && As == DepthAs::Median);
+  }
+};
+
+/// Declares what of them is more than a flag.
+void addLayers(CLI::App &App, Layers &L) {
+  addChoice(App, "--depth-as", L.As,
+            {DepthAs::Accumulated, DepthAs::Expected, DepthAs::Median}, "");
+  App.add_option("--contributors", L.Top)->check(CLI::Range(0U, MaxTop));
+}
+
+/// By name; what was not asked for is None.
+py::dict layersOf(const Layers &L, RenderResult &R, const RenderOptions &O,
+                  const Shape &Sizes) {
+  py::dict By;
+  By["depth"] = L.Depth ? py::object(arrayOf(depthsOf(R, O, L.As).Depth, Sizes))
+                        : py::none();
+  By["normals"] = L.Normals ? py::object(arrayOf(std::move(R.Normals->Render),
+                                                 {Sizes[0], Sizes[1], 3}))
+                            : py::none();
+  By["contributors"] = py::none();
+  if (L.Top != 0) {
+    Contributors Of = topContributors(*R.Lists, O, L.Top);
+    const Shape Several{Sizes[0], Sizes[1], L.Top};
+    By["contributors"] = py::make_tuple(arrayOf(std::move(Of.Indices), Several),
+                                        arrayOf(std::move(Of.Weights), Several),
+                                        arrayOf(std::move(Of.Counts), Sizes));
+  }
+  return By;
+}
+
 py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
-                 bool Depth, bool Timed) {
+                 bool Depth, bool Normals, bool Timed) {
   DrawArguments A;
-  parse(std::move(Given), [&](CLI::App &App) { addDrawOptions(App, A); });
+  Layers Beside{Depth, Normals};
+  parse(std::move(Given), [&](CLI::App &App) {
+    addDrawOptions(App, A);
+    addLayers(App, Beside);
+  });
   valueOf(parseDrawTexts(A));
   A.Options.Optics = C.Optics.Model;
+  A.Options.Rolling = C.Optics.Shutter.has_value();
   valueOf(checkDrawOptions(A.Options));
+  if (Beside.needLists())
+    valueOf(checkPixelLists(A.Options, Beside.Top != 0 ? "--contributors"
+                                                       : "--depth-as median"));
   valueOf(checkBlends(M.device(), A.Options.Blending));
   drawAs(A.Options, S.DrawnAs);
   RenderPlan Plan;
@@ -141,7 +189,8 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
     const ViewFacts Facts = factsOfAll(S.Gaussians, {C}, A.Options);
     Plan = planRender(
         EffectPlan(A.Request, {S.Gaussians, A.Options, Facts,
-                               /*KeepPairs=*/false, Depth, M.watching(Timed)}),
+                               /*KeepPairs=*/false, Beside.needDepths(),
+                               M.watching(Timed), Normals, Beside.needLists()}),
         A.Options);
     warnOfMissing(Plan.Effects, A.Effects);
     return splat::render(L, Plan, S.Gaussians, C, A.Options,
@@ -149,11 +198,10 @@ py::tuple render(Machine &M, const SceneFile &S, const Camera &C, Words Given,
   });
   const Shape Sizes = sizesOf(C);
   py::object Report = reportOf(M, S, C, A.Options, Plan, R);
+  py::dict By = layersOf(Beside, R, A.Options, Sizes);
   return py::make_tuple(
       arrayOf(std::move(R.Picture.Render), {Sizes[0], Sizes[1], 3}),
-      arrayOf(std::move(R.Picture.Alpha), Sizes),
-      R.Depths ? py::object(arrayOf(std::move(R.Depths->Depth), Sizes))
-               : py::none(),
+      arrayOf(std::move(R.Picture.Alpha), Sizes), std::move(By),
       std::move(Report));
 }
 
@@ -166,6 +214,7 @@ py::tuple gradients(Machine &M, const SceneFile &S, const Camera &C,
   parse(std::move(Given),
         [&](CLI::App &App) { addGradientOptions(App, O, B); });
   O.Optics = C.Optics.Model;
+  valueOf(checkGradientCamera(C));
   valueOf(checkGradientOptions(O, B));
   valueOf(checkBlends(M.device(), O.Blending));
   B.Parameters = Stored ? GradientsOf::Stored : GradientsOf::Activated;
@@ -218,7 +267,11 @@ void addMachine(py::module_ &M) {
       .def("gradients", gradients);
   M.def("render_options", [] {
     DrawArguments A;
-    return optionNames([&](CLI::App &App) { addDrawOptions(App, A); });
+    Layers Beside;
+    return optionNames([&](CLI::App &App) {
+      addDrawOptions(App, A);
+      addLayers(App, Beside);
+    });
   });
   M.def("gradient_options", [] {
     RenderOptions O;

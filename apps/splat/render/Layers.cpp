@@ -13,19 +13,6 @@ std::vector<std::size_t> shapeOf(const Image &I) {
           static_cast<std::size_t>(I.Width)};
 }
 
-Expected<Success> writeDepthFile(const LayerFiles &F, const RenderResult &R,
-                                 const RenderOptions &O) {
-  const Image &Picture = R.Picture;
-  if (F.As == DepthAs::Median)
-    return writeDepth(F.Depth, {Picture.Width, Picture.Height,
-                                medianDepths(*R.Lists, O), Picture.Alpha});
-  DepthMap D = *R.Depths;
-  if (F.As == DepthAs::Expected)
-    for (std::size_t P = 0; P < D.Depth.size(); ++P)
-      D.Depth[P] = D.Alpha[P] > 0 ? D.Depth[P] / D.Alpha[P] : 0;
-  return writeDepth(F.Depth, D);
-}
-
 bool isOfFloats(const std::string &File) {
   return File.ends_with(".pfm") || File.ends_with(".exr");
 }
@@ -82,11 +69,23 @@ std::vector<NamedFile> LayerFiles::named() const {
           {"--contributors", Contributors}};
 }
 
+DepthMap depthsOf(const RenderResult &R, const RenderOptions &O, DepthAs As) {
+  const Image &Picture = R.Picture;
+  if (As == DepthAs::Median)
+    return {Picture.Width, Picture.Height, medianDepths(*R.Lists, O),
+            Picture.Alpha};
+  DepthMap D = *R.Depths;
+  if (As == DepthAs::Expected)
+    for (std::size_t P = 0; P < D.Depth.size(); ++P)
+      D.Depth[P] = D.Alpha[P] > 0 ? D.Depth[P] / D.Alpha[P] : 0;
+  return D;
+}
+
 Expected<Success> writeLayers(const LayerFiles &F, const RenderResult &R,
                               const RenderOptions &O) {
   Expected<Success> Written = Success{};
   if (!F.Depth.empty())
-    Written = writeDepthFile(F, R, O);
+    Written = writeDepth(F.Depth, depthsOf(R, O, F.As));
   if (Written && !F.Normals.empty())
     Written = writeNormals(F.Normals, *R.Normals);
   if (Written && !F.Opacity.empty())

@@ -48,6 +48,9 @@ struct LayerFiles {
   /// @}
 };
 
+/// The depths of \p R, which \p O drew with what \p As needs.
+DepthMap depthsOf(const RenderResult &R, const RenderOptions &O, DepthAs As);
+
 /// Writes them of \p R, which \p O drew with all that they need.
 Expected<Success> writeLayers(const LayerFiles &F, const RenderResult &R,
                               const RenderOptions &O);

@@ -83,6 +83,9 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
     return Launch.fail(
         {"", fmt::format("a camera of model {}, expected {}",
                          name(C.Optics.Model), name(Options.Optics))});
+  if (C.Optics.Shutter && !Options.Rolling)
+    return Launch.fail({"", "a camera with a rolling shutter, expected one of "
+                            "one moment"});
   Current.Copies = Options.Optics == LensModel::Equirectangular ? 3 : 1;
   Launch.beginStage(Stage::Project);
   project(C);
@@ -142,15 +145,21 @@ void Pipeline::writeCamera(const Camera &C) {
       splat_lens Lens;
       splat_crop Crop;
     };
-  } Both{Current.View, {}};
+    splat_shutter Shutter;
+  } All{Current.View, {}, {}};
   if (Plan.done(effects::Crop))
-    Both.Crop = makeCrop(C);
+    All.Crop = makeCrop(C);
   else
-    Both.Lens = makeLens(C);
-  const std::size_t Bytes =
-      hasMoreThanView() ? sizeof(Both) : sizeof(Both.View);
+    All.Lens = makeLens(C);
+  if (Options.Rolling)
+    All.Shutter = makeShutter(C);
+  std::size_t Bytes = sizeof(All);
+  if (!Options.Rolling)
+    Bytes -= sizeof(All.Shutter);
+  if (!hasMoreThanView())
+    Bytes = sizeof(All.View);
   Current.Camera = Launch.allocate("camera", Bytes);
-  Launch.write("camera", Current.Camera, &Both, Bytes);
+  Launch.write("camera", Current.Camera, &All, Bytes);
 }
 
 void Pipeline::sortByDepth() {

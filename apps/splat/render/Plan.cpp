@@ -112,7 +112,7 @@ std::vector<std::string> lensFiles(const RenderOptions &O) {
   std::vector<std::string> Files;
   switch (O.Optics) {
   case LensModel::Pinhole:
-    if (!Unscented)
+    if (!Unscented && !O.Rolling)
       return {};
     Files = {"lens_pinhole.cl"};
     break;
@@ -130,6 +130,8 @@ std::vector<std::string> lensFiles(const RenderOptions &O) {
     break;
   }
   Files.emplace_back("lens.cl");
+  if (O.Rolling)
+    Files.emplace_back("rolling.cl");
   if (Unscented)
     Files.emplace_back("unscented.cl");
   return Files;

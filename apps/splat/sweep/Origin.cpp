@@ -69,6 +69,11 @@ std::string hashView(const Camera &View) {
     All += name(View.Optics.Model);
     append(All, View.Optics.K);
   }
+  if (const auto &S = View.Optics.Shutter) {
+    append(All, std::array{S->Start, S->Across, S->Down});
+    append(All, S->Motion);
+    append(All, S->Turn);
+  }
   return fnv1a64(All);
 }
 

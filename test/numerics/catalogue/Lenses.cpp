@@ -250,6 +250,71 @@ HardCase unscentedSeam() {
   return C;
 }
 
+/// Half a radian and a third of the way to what it sees in one exposure.
+splat::Camera rollingView(LensModel M) {
+  splat::Camera C = lensView(M, someCoefficients(M), 128, 96);
+  C.Optics.Shutter = {-0.1, 0.2, 1, {0.4, -0.5, 0.2}, {0.2, -0.3, 0.4}};
+  return C;
+}
+
+HardCase rolling(LensModel M, std::string Name, std::string Why,
+                 uint32_t Seed) {
+  HardCase C = caseOf(std::move(Name), std::move(Why), allAround(160, Seed),
+                      rollingView(M));
+  C.Options.Rolling = true;
+  return C;
+}
+
+HardCase rollingPinhole() {
+  HardCase C = rolling(LensModel::Pinhole, "rolling-pinhole",
+                       "a shutter that rolls down and across while the camera "
+                       "moves and turns; Gaussians all around",
+                       81);
+  C.ExpectedCulls[3] = 50;
+  // It comes nearer to some means than the near plane of its pose.
+  C.Cap = 1e-3;
+  return C;
+}
+
+HardCase rollingOpenCv() {
+  HardCase C = rolling(LensModel::OpenCv, "rolling-opencv",
+                       "the same through all thirteen coefficients", 82);
+  C.ExpectedCulls[3] = 29;
+  return C;
+}
+
+HardCase rollingFisheye() {
+  HardCase C = rolling(LensModel::Fisheye, "rolling-fisheye",
+                       "the same of what is beside and behind a fisheye", 83);
+  C.ExpectedCulls[3] = 28;
+  return C;
+}
+
+HardCase rollingUnscented() {
+  HardCase C = rolling(LensModel::Fisheye, "rolling-unscented",
+                       "seven points, each at a moment of its own", 84);
+  C.Options.Through = splat::Spread::Unscented;
+  C.ExpectedCulls[3] = 34;
+  return C;
+}
+
+/// What is z away moves down by 150 / z px in 96 rows: from 2.08 on, a quarter
+/// of the shutter's way is left.
+HardCase rollingFollowed() {
+  HardCase C = caseOf("rolling-followed",
+                      "a picture that runs after its shutter: most of the "
+                      "near Gaussians have no moment of their own",
+                      {}, frontView(128, 96, 50));
+  C.View.Optics.Shutter = {0, 0, 1, {0, -3, 0}, {}};
+  C.Options.Rolling = true;
+  for (const float Z : {0.5F, 1.0F, 1.5F, 2.0F, 2.2F, 3.0F, 5.0F, 20.0F})
+    add(C.Scene, {.Mean = {0.02F * Z, -0.1F * Z, Z},
+                  .Scale = {0.05 * Z, 0.02 * Z, 0.03 * Z},
+                  .Opacity = 0.5});
+  C.ExpectedCulls[3] = 4;
+  return C;
+}
+
 HardCase unscentedNeedle() {
   HardCase C = caseOf(
       "unscented-needles",
@@ -286,9 +351,11 @@ HardCase ownNearPlane() {
 
 void addLenses(std::vector<HardCase> &Cases) {
   for (HardCase (*const Make)() :
-       {distorted, opencvFold, opencvUnfold, fisheyeFold, fisheyeUnfold,
-        fisheyeAxis, fisheyeAround, orthographic, seam, poles, sphere,
-        hugeCoefficients, unscentedWide, unscentedSeam, unscentedNeedle,
+       {distorted,     opencvFold,     opencvUnfold,     fisheyeFold,
+        fisheyeUnfold, fisheyeAxis,    fisheyeAround,    orthographic,
+        seam,          poles,          sphere,           hugeCoefficients,
+        unscentedWide, unscentedSeam,  unscentedNeedle,  rollingPinhole,
+        rollingOpenCv, rollingFisheye, rollingUnscented, rollingFollowed,
         ownNearPlane})
     Cases.push_back(Make());
 }

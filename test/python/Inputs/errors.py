@@ -25,7 +25,8 @@ def attempt(call, *arguments, **options):
 
 
 for options in ({"support": "boxx"}, {"ztiles": 99}, {"path": "simt", "ztiles": 2}, {"effects": "nothing"},
-                {"pixel_unit": "x"}, {"background": (1, 2)}):
+                {"pixel_unit": "x"}, {"background": (1, 2)}, {"contributors": 65}, {"depth_as": "mean"},
+                {"contributors": 1, "exp": "poly3"}):
     attempt(machine.render, scene, camera, **options)
 attempt(machine.gradients, scene, camera, v_image, path="simt", simt_tile=64)
 attempt(machine.gradients, scene, camera, v_image, path="simt", sum="rows")
@@ -55,7 +56,7 @@ attempt(machine.render, scene, vorion.Camera(16384, 16384, np.diag([16384, 16384
 print("again:", machine.render(scene, camera).report["counts"]["visible"])
 
 # The signatures have every option of the commands, and no other.
-for method, names, own in ((machine.render, _machine.render_options(), {"scene", "camera", "depth", "time"}),
+for method, names, own in ((machine.render, _machine.render_options(), {"scene", "camera", "depth", "normals", "time"}),
                            (machine.gradients, _machine.gradient_options(),
                             {"scene", "camera", "v_image", "v_alpha", "of", "time"})):
     named = {n.replace("-", "_") for n in names}

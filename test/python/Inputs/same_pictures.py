@@ -34,6 +34,18 @@ assert plain.cycles is None and plain.milliseconds is None and plain.depth is No
 assert machine.render(scene, camera, effects="flags").image.tobytes() == picture.image.tobytes()
 same_picture(machine.render(scene, camera, path="simt", support="box3", background=(0.25, np.float32(-1), 0.5)), "simt.npz")
 
+# What a picture has beside its colours.
+layers = machine.render(scene, camera, depth=True, depth_as="expected", normals=True, contributors=4)
+same_picture(layers, "raster.npz")
+same(layers.depth, np.load("expected.npz")["depth"], "expected depth")
+same(layers.normals, np.load("normals.npz")["normals"], "normals")
+top = np.load("top.npz")
+for name in ("index", "weight", "count"):
+    same(getattr(layers.contributors, name), top[name], name)
+median = machine.render(scene, camera, depth=True, depth_as="median")
+same(median.depth, np.load("median.npz")["depth"], "median depth")
+assert median.normals is None and median.contributors is None
+
 opacities = 1 / (1 + np.exp(-scene.opacity_logits.astype(float)))
 
 # A scene of arrays, and one that is changed in place.

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """OpenEXR by its document, not by its library: scan lines without compression or with ZIP.
 
-usage: exr.py same PICTURE.exr PICTURE.npz [half]   whether both hold the same values, rounded to half
+usage: exr.py same PICTURE.exr PICTURE.npz [half]   whether both hold the same values, rounded to half;
+                                                    the values may be depths
        exr.py write PICTURE.exr PICTURE.npz         a window of 5x4 pixels around the data's 3x2, halves and floats mixed
 """
 
@@ -77,7 +78,8 @@ def read(path):
 def same(exr, npz, half):
     planes, wanted = read(exr), np.load(npz)
     kind = np.dtype("<f2" if half else "<f4")
-    for name, plane in (*((n, wanted["render"][..., k]) for k, n in enumerate("RGB")), ("A", wanted["alpha"])):
+    own = [("Z", wanted["depth"])] if "depth" in wanted else [(n, wanted["render"][..., k]) for k, n in enumerate("RGB")]
+    for name, plane in (*own, ("A", wanted["alpha"])):
         assert planes[name].dtype == kind, planes[name].dtype
         with np.errstate(over="ignore"):
             assert np.array_equal(planes[name], plane.astype(kind)), name

@@ -3,7 +3,8 @@
 
 usage: lenses.py CAMERAS.json OUT.json
 opencv, fold, pincushion, fisheye, around, orthographic, sphere, turned (a
-sphere that looks back, so that its seam is where the first view looks)
+sphere that looks back, so that its seam is where the first view looks),
+rolling and bent (a pinhole and a fisheye that move while they expose)
 """
 
 import json
@@ -27,6 +28,10 @@ def main(source, target):
         "orthographic": {"camera_model": "ORTHOGRAPHIC", "fx": focal / 3, "fy": focal / 3},
         "sphere": sphere,
         "turned": {**sphere, "rotation": back},
+        "rolling": {"rolling_shutter": "ROLLING_TOP_TO_BOTTOM", "rolling_motion": [0.2, -0.1, 0.1],
+                    "rolling_turn": [0.05, 0.1, -0.1]},
+        "bent": {"camera_model": "OPENCV_FISHEYE", "k1": 0.06, "rolling_shutter": [0.9, -0.2, -0.6],
+                 "rolling_motion": [-0.1, 0.2, 0], "rolling_turn": [0.1, -0.2, 0.05]},
     }
     records = [{**first, "id": number, "img_name": name, **lens} for number, (name, lens) in enumerate(views.items())]
     with open(target, "w") as file:

@@ -18,8 +18,8 @@ meanings of those commands. docs/python.md of the project says more.
 
 from ._machine import Error, InputError, LimitError, TrapError, UsageError, __version__
 from .camera import Camera, read_cameras
-from .machine import Gradients, Machine, Picture
+from .machine import Contributors, Gradients, Machine, Picture
 from .scene import Scene
 
-__all__ = ["Camera", "Error", "Gradients", "InputError", "LimitError", "Machine", "Picture", "Scene", "TrapError",
-           "UsageError", "__version__", "read_cameras"]
+__all__ = ["Camera", "Contributors", "Error", "Gradients", "InputError", "LimitError", "Machine", "Picture", "Scene",
+           "TrapError", "UsageError", "__version__", "read_cameras"]

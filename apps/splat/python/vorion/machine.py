@@ -41,11 +41,26 @@ class _Drawn:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class Contributors:
+    """The N Gaussians with the largest weights of each pixel, the largest first; then -1 and 0."""
+    index: NDArray[np.int32]
+    """(H, W, N): numbers in the scene."""
+    weight: NDArray[np.float32]
+    """(H, W, N): alpha times the transmittance in front."""
+    count: NDArray[np.int32]
+    """(H, W): how many the pixel blends in all."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Picture(_Drawn):
     """What Machine.render() gives."""
     depth: NDArray[np.float32] | None = None
-    """(H, W), where it was asked for: the sum of weights times depths (camera z) in world units; over alpha it is the
-    mean depth of what is seen."""
+    """(H, W), where it was asked for: by default the sum of weights times depths (camera z) in world units; over alpha
+    it is the mean depth of what is seen."""
+    normals: NDArray[np.float32] | None = None
+    """(H, W, 3), where they were asked for: the sum of weights times normals, in the world's axes."""
+    contributors: Contributors | None = None
+    """What pixels are made of, where it was asked for."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -87,7 +102,8 @@ class Machine:
         """The OpenCL device's."""
         return self._native.name
 
-    def render(self, scene: Scene, camera: Camera, *, depth: bool = False, time: bool = False,
+    def render(self, scene: Scene, camera: Camera, *, depth: bool = False, normals: bool = False,
+               time: bool = False, depth_as: str | None = None, contributors: int | None = None,
                rules: str | None = None, support: str | None = None, path: str | None = None,
                background: tuple[float, float, float] | None = None, cutoff: float | None = None,
                exp: str | None = None, alpha_cutoff: int | None = None, depth_bits: int | None = None,
@@ -98,6 +114,9 @@ class Machine:
         """Draws `scene` as `camera` sees it.
 
         depth: blend depths, too
+        normals: blend normals, too: of each Gaussian its shortest axis, towards the camera
+        contributors: keep so many Gaussians of each pixel, up to 64, those with the largest weights
+        depth_as: what stands for a pixel's depths: "accumulated", "expected" or "median"
         time: run the machine's clock, which takes the host longer and changes no bit
 
         The rest are options of `splat render`, whose --help says more; None is its default.
@@ -120,9 +139,11 @@ class Machine:
                        "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
                        "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
-                       "effects": effects, "near": near, "projection": projection})
-        image, alpha, depths, report = self._native.render(scene._native, camera._native, asked, depth, time)
-        return Picture(image, alpha, report, depths)
+                       "effects": effects, "near": near, "projection": projection, "depth_as": depth_as,
+                       "contributors": contributors})
+        image, alpha, by, report = self._native.render(scene._native, camera._native, asked, depth, normals, time)
+        top = by["contributors"]
+        return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)
 
     def gradients(self, scene: Scene, camera: Camera, v_image: ArrayLike, v_alpha: ArrayLike | None = None, *,
                   of: str = "activated", time: bool = False, rules: str | None = None, support: str | None = None,

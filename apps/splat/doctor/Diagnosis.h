@@ -6,23 +6,23 @@
 
 namespace vorion::splat {
 
-enum class FindingState {
+enum class DiagnosisState {
   Well,
   Note, ///< changes what programs do, or how fast; nothing has to be mended
   Fault,
 };
 
 /// The state's name in tables and JSON.
-const char *name(FindingState State);
+const char *name(DiagnosisState State);
 
 /// One thing that was looked at.
-struct Finding {
-  FindingState State = FindingState::Well;
+struct Diagnosis {
+  DiagnosisState State = DiagnosisState::Well;
   std::string Subject; ///< "device"
   std::string Text;    ///< what is so: a sentence without its full stop
   std::string Mend;    ///< what to do about it; of a fault never empty
 };
 
-using Findings = std::vector<Finding>;
+using Diagnoses = std::vector<Diagnosis>;
 
 } // namespace vorion::splat

@@ -1,0 +1,28 @@
+// A camera that moves while it exposes its picture (docs/cameras.md).
+
+#include "effects/Registry.h"
+
+namespace vorion::splat {
+
+namespace {
+
+Finding detect(const EffectInputs &In) {
+  const bool Is = In.Options.Rolling;
+  return {Is,
+          Is ? "the camera moves while it exposes"
+             : "the camera exposes at one moment",
+          Is};
+}
+
+} // namespace
+
+const Effect effects::RollingShutter{
+    .Name = "rolling-shutter",
+    .Kind = EffectKind::Scene,
+    .What = "the moment of each mean by Newton's method, and the camera there",
+    .Macro = "USE_ROLLING_SHUTTER",
+    .Detect = detect,
+    .Neutral = false,
+    .ByCamera = true};
+
+} // namespace vorion::splat

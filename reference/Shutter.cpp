@@ -1,0 +1,119 @@
+#include "Shutter.h"
+
+#include "Footprint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vorion::reference {
+namespace {
+
+constexpr double Least = 0.25, End = 1.5;
+
+/// \p V turned about \p Turn by its length times \p Part (Rodrigues).
+glm::dvec3 turned(const glm::dvec3 &Turn, double Part, const glm::dvec3 &V) {
+  const double Angle = std::sqrt(glm::dot(Turn, Turn));
+  if (Angle == 0)
+    return V;
+  const glm::dvec3 Axis = Turn / Angle;
+  const double C = std::cos(Part * Angle), S = std::sin(Part * Angle);
+  return C * V + S * glm::cross(Axis, V) + (1 - C) * glm::dot(Axis, V) * Axis;
+}
+
+Camera<double> inDouble(const Camera<float> &C) {
+  Camera<double> D;
+  D.Width = C.Width;
+  D.Height = C.Height;
+  D.Focal = C.Focal;
+  D.Principal = C.Principal;
+  D.Optics = C.Optics;
+  D.Shutter = C.Shutter;
+  return D;
+}
+const Camera<double> &inDouble(const Camera<double> &C) { return C; }
+
+/// Of the place in pixels, where the rules hold nothing.
+LensRows<double> freeRows(const Camera<double> &C, const glm::dvec3 &P) {
+  const LensRows<double> None{glm::dvec3(0), glm::dvec3(0)};
+  return {backThrough(C, P, Rules::Inria, {1, 0}, None),
+          backThrough(C, P, Rules::Inria, {0, 1}, None)};
+}
+
+LensRows<double> heldRows(const Camera<double> &C, const glm::dvec3 &P,
+                          Rules Rule) {
+  if (C.Optics.Model != LensModel::Pinhole)
+    return rowsThrough(C, P, Rule);
+  const Jacobian<double> J = jacobian(P, C, Rule);
+  return {{J.XX, 0, J.XZ}, {0, J.YY, J.YZ}};
+}
+
+class Exposure {
+public:
+  Exposure(const Camera<double> &C, const glm::dvec3 &P)
+      : C(C), S(*C.Shutter), P(P), Way(S.Across / C.Width, S.Down / C.Height) {}
+
+  /// Goes to \p To; false if the camera does not see the point then.
+  bool goTo(double To) {
+    Moment = To;
+    At = turned(S.Turn, -To, P - To * S.Motion);
+    if (!placeThrough(C.Optics, At, Place))
+      return false;
+    const LensRows<double> J = freeRows(C, At);
+    const glm::dvec3 Rate =
+        -glm::cross(S.Turn, At) - turned(S.Turn, -To, S.Motion);
+    Drift = {glm::dot(J.X, Rate), glm::dot(J.Y, Rate)};
+    return true;
+  }
+  /// What the picture's drift leaves of the shutter's way.
+  double left() const { return 1 - glm::dot(Way, Drift); }
+  /// Where Newton's step ends.
+  double next() const {
+    const double Own =
+        S.Start - 0.5 + glm::dot(Way, C.Focal * Place + C.Principal);
+    return std::clamp(Moment + (Own - Moment) / std::max(left(), Least), -End,
+                      End);
+  }
+  bool isHeld() const { return std::abs(Moment) >= End; }
+
+  const Camera<double> &C;
+  const RollingShutter &S;
+  glm::dvec3 P, At;
+  glm::dvec2 Way, Place, Drift;
+  double Moment = 0;
+};
+
+} // namespace
+
+template <typename Real>
+bool expose(const Camera<Real> &Of, const glm::dvec3 &P, Rules Rule,
+            ExposedPoint &Found) {
+  const Camera<double> &C = inDouble(Of);
+  Exposure E(C, P);
+  double Next = 0;
+  for (int I = 0; I < 100; ++I) {
+    if (!E.goTo(Next))
+      return false;
+    Next = E.next();
+    if (std::abs(Next - E.Moment) < 1e-15)
+      break;
+  }
+  if (!E.goTo(Next) || (!E.isHeld() && !(E.left() >= Least)))
+    return false;
+  Found = {E.Moment, E.At, E.Place, heldRows(C, E.At, Rule)};
+  LensRows<double> &J = Found.Rows;
+  if (!E.isHeld()) {
+    const glm::dvec3 By = (E.Way.x * J.X + E.Way.y * J.Y) / E.left();
+    J.X += E.Drift.x * By;
+    J.Y += E.Drift.y * By;
+  }
+  J.X = turned(E.S.Turn, E.Moment, J.X);
+  J.Y = turned(E.S.Turn, E.Moment, J.Y);
+  return true;
+}
+
+template bool expose(const Camera<float> &, const glm::dvec3 &, Rules,
+                     ExposedPoint &);
+template bool expose(const Camera<double> &, const glm::dvec3 &, Rules,
+                     ExposedPoint &);
+
+} // namespace vorion::reference

@@ -1,0 +1,26 @@
+/// Cameras that move while they expose (docs/cameras.md, "Rolling shutters").
+#pragma once
+
+#include "Lens.h"
+
+namespace vorion::reference {
+
+/// A point as such a camera sees it, at the moment at which the point's own
+/// pixel is exposed.
+struct ExposedPoint {
+  double Moment = 0; ///< from the pose's
+  glm::dvec3 P;      ///< to the camera at that moment
+  glm::dvec2 Place;  ///< in units of the focal lengths
+  /// Of the place in pixels by the point in the axes of the pose. Where the
+  /// rules hold the Jacobian, it is held.
+  LensRows<double> Rows;
+};
+
+/// \p P in the axes of the pose of \p C. False if the camera does not see it,
+/// or if the picture falls behind its shutter by less than a quarter there.
+/// Outside the picture time goes on for one exposure.
+template <typename Real>
+bool expose(const Camera<Real> &C, const glm::dvec3 &P, Rules Rule,
+            ExposedPoint &Found);
+
+} // namespace vorion::reference

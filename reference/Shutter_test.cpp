@@ -1,0 +1,137 @@
+// Rolling shutters by what they mean: differences of places, and pictures of
+// which each row is drawn from where the camera is then.
+
+#include "Footprint.h"
+#include "Render.h"
+#include "Shutter.h"
+#include "TestScenes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace vorion::reference;
+
+namespace {
+
+Camera<double> moving(LensModel Model) {
+  auto C = frontCamera(64, 48, Model == LensModel::Fisheye ? 25 : 50);
+  setLens(C, Model, {-0.05, 0.01});
+  C.Shutter = {-0.1, 0.15, 1.1, {0.3, -0.2, 0.1}, {0.15, -0.1, 0.2}};
+  return C;
+}
+
+/// R(Turn * Part) of the definition, by many small steps.
+glm::dvec3 turnedBySteps(const glm::dvec3 &Turn, double Part, glm::dvec3 V) {
+  constexpr int Steps = 20000;
+  const glm::dvec3 Step = Turn * (Part / Steps);
+  for (int I = 0; I < Steps; ++I) {
+    const glm::dvec3 Half = V + 0.5 * glm::cross(Step, V);
+    V += glm::cross(Step, Half);
+  }
+  return V;
+}
+
+TEST(Shutter, APointIsSeenFromWhereTheCameraIsAtItsMoment) {
+  for (const LensModel M :
+       {LensModel::Pinhole, LensModel::OpenCv, LensModel::Fisheye}) {
+    const auto C = moving(M);
+    for (const glm::dvec3 P :
+         {glm::dvec3(0.3, -0.2, 1.5), {-0.5, 0.4, 1.2}, {0.1, 0.6, 2.}}) {
+      ExposedPoint E;
+      ASSERT_TRUE(expose(C, P, Rules::Gsplat, E));
+      const glm::dvec2 At = C.Focal * E.Place + C.Principal;
+      EXPECT_NEAR(E.Moment,
+                  C.Shutter->Start - 0.5 + C.Shutter->Across * At.x / C.Width +
+                      C.Shutter->Down * At.y / C.Height,
+                  1e-14);
+      const glm::dvec3 Own = turnedBySteps(C.Shutter->Turn, -E.Moment,
+                                           P - E.Moment * C.Shutter->Motion);
+      glm::dvec2 Place;
+      ASSERT_TRUE(placeThrough(C.Optics, Own, Place));
+      for (int K = 0; K < 2; ++K)
+        EXPECT_NEAR(E.Place[K], Place[K], 1e-8);
+    }
+  }
+}
+
+TEST(Shutter, RowsAreDifferencesOfPlaces) {
+  for (const LensModel M :
+       {LensModel::Pinhole, LensModel::OpenCv, LensModel::Fisheye}) {
+    const auto C = moving(M);
+    const glm::dvec3 P(0.3, -0.2, 1.5);
+    ExposedPoint E;
+    ASSERT_TRUE(expose(C, P, Rules::Gsplat, E));
+    for (int K = 0; K < 3; ++K) {
+      glm::dvec3 Step(0);
+      Step[K] = 1e-6;
+      ExposedPoint Up, Down;
+      ASSERT_TRUE(expose(C, P + Step, Rules::Gsplat, Up));
+      ASSERT_TRUE(expose(C, P - Step, Rules::Gsplat, Down));
+      const glm::dvec2 By = C.Focal * (Up.Place - Down.Place) / 2e-6;
+      EXPECT_NEAR(E.Rows.X[K], By.x, 1e-7);
+      EXPECT_NEAR(E.Rows.Y[K], By.y, 1e-7);
+    }
+  }
+}
+
+TEST(Shutter, APictureThatFollowsItsShutterIsNotDrawn) {
+  // 50 px a radian, downwards: more than a quarter of 48 rows is left, or less.
+  auto C = frontCamera(64, 48, 50);
+  ExposedPoint E;
+  C.Shutter = {0, 0, 1, {}, {0.7, 0, 0}};
+  EXPECT_TRUE(expose(C, {0, 0, 1}, Rules::Inria, E));
+  C.Shutter->Turn.x = 0.75;
+  EXPECT_FALSE(expose(C, {0, 0, 1}, Rules::Inria, E));
+  C.Shutter->Turn.x = -0.9;
+  EXPECT_TRUE(expose(C, {0, 0, 1}, Rules::Inria, E));
+}
+
+/// \p C where it is when it exposes row \p Row.
+Camera<double> atRow(const Camera<double> &C, int Row) {
+  const double Moment =
+      C.Shutter->Start - 0.5 + C.Shutter->Down * (Row + 0.5) / C.Height;
+  Camera<double> Still = C;
+  Still.Shutter.reset();
+  for (int K = 0; K < 3; ++K) {
+    glm::dvec3 Axis(0);
+    Axis[K] = 1;
+    Still.Rotation[K] = turnedBySteps(C.Shutter->Turn, -Moment, Axis);
+  }
+  Still.Centre = Moment * C.Shutter->Motion;
+  Still.Translation = -multiply(Still.Rotation, Still.Centre);
+  return Still;
+}
+
+TEST(Shutter, PicturesAreThoseOfTheirRows) {
+  auto C = frontCamera(48, 32, 40);
+  C.Shutter = {0, 0, 1, {0.1, 0.05, 0.05}, {0.02, 0.06, 0.05}};
+  Gaussians<double> G;
+  for (int I = 0; I < 40; ++I)
+    addRound(
+        G, {0.9 * std::sin(I * 1.7), 0.7 * std::cos(I * 2.3), 2 + 0.05 * I},
+        0.06, 0.5, {0.5 + 0.5 * std::sin(I), 0.5, 0.5 + 0.5 * std::cos(I)});
+  Options O;
+  O.Rule = Rules::Gsplat;
+  const auto Rolling = render(G, C, O);
+  double Squares = 0, Moved = 0;
+  auto Global = C;
+  Global.Shutter.reset();
+  const auto Still = render(G, Global, O);
+  for (int Y = 0; Y < C.Height; ++Y) {
+    const auto Own = render(G, atRow(C, Y), O);
+    for (int X = 0; X < C.Width; ++X)
+      for (int K = 0; K < 3; ++K) {
+        const auto At = static_cast<std::size_t>(Y * C.Width + X);
+        const double D = Rolling.Render[At][K] - Own.Render[At][K];
+        const double M = Rolling.Render[At][K] - Still.Render[At][K];
+        Squares += D * D;
+        Moved += M * M;
+      }
+  }
+  const double Count = 3.0 * C.Width * C.Height;
+  // Each Gaussian moves as an affine map says: what is left is of second order.
+  EXPECT_GT(-10 * std::log10(Squares / Count), 55);
+  EXPECT_LT(-10 * std::log10(Moved / Count), 30);
+}
+
+} // namespace
