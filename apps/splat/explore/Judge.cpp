@@ -59,6 +59,16 @@ double meanOf(std::span<const double> Of) {
 
 /// Of a factor's logarithm: less is not worth a row.
 constexpr double LeastInteraction = 0.01;
+/// Of fewer values a standard error is little known.
+constexpr std::size_t LeastInGroup = 8;
+/// How likely it may be that any of all pairs is found by chance alone.
+constexpr double MayBeChance = 0.01;
+
+/// Standard errors that none of \p Count normal values exceeds, but with that
+/// probability: P(|Z| > z) <= exp(-z^2 / 2).
+double errorsFor(std::size_t Count) {
+  return std::sqrt(2 * std::log(static_cast<double>(Count) / MayBeChance));
+}
 
 /// Values of some machines.
 struct Group {
@@ -141,7 +151,7 @@ std::vector<Interaction> interactions(const Space &S,
   if (Machines.empty())
     return {};
   const std::vector<double> Left = withoutSingleEffects(S, Machines, Rates);
-  std::vector<Interaction> Found;
+  std::vector<Interaction> Judged;
   const auto Judge = [&](Interaction Of) {
     // By whether a machine has the first value, and the second.
     std::array<std::array<Group, 2>, 2> Groups;
@@ -153,26 +163,30 @@ std::vector<Interaction> interactions(const Space &S,
     double Sum = 0, Variance = 0;
     for (std::size_t A = 0; A < 2; ++A)
       for (std::size_t B = 0; B < 2; ++B) {
-        if (Groups[A][B].Values.size() < 3)
+        if (Groups[A][B].Values.size() < LeastInGroup)
           return;
         Sum += (A == B ? 1 : -1) * Groups[A][B].mean();
         Variance += Groups[A][B].variance();
       }
     Of.Factor = std::exp(Sum);
     Of.Error = std::sqrt(Variance);
-    if (std::abs(Sum) > std::max(3 * Of.Error, LeastInteraction))
-      Found.push_back(Of);
+    Judged.push_back(Of);
   };
   for (std::size_t P = 0; P < S.size(); ++P)
     for (std::size_t Q = P + 1; Q < S.size(); ++Q)
       for (std::size_t I = 1; I <= S[P].Others.size(); ++I)
         for (std::size_t J = 1; J <= S[Q].Others.size(); ++J)
           Judge({P, I, Q, J, 1, 0});
-  std::ranges::sort(Found, {}, [](const Interaction &I) {
+  const double Errors = errorsFor(Judged.size());
+  std::erase_if(Judged, [&](const Interaction &I) {
+    return std::abs(std::log(I.Factor)) <=
+           std::max(Errors * I.Error, LeastInteraction);
+  });
+  std::ranges::sort(Judged, {}, [](const Interaction &I) {
     return std::tuple(-std::abs(std::log(I.Factor)), I.First, I.Second,
                       I.FirstValue, I.SecondValue);
   });
-  return Found;
+  return Judged;
 }
 
 } // namespace vorion::splat

@@ -42,11 +42,12 @@ struct Interaction {
   double Error;  ///< standard error of the factor's logarithm
 };
 
-/// Those whose factor is further from 1 than three standard errors and 1 %, the
-/// strongest first. \p Rates are those of \p Machines, which were drawn at
-/// random. The effects of single values are taken out of the logarithms first;
-/// a pair is told by the four groups of machines that have one, the other, both
-/// or none of its values.
+/// Those whose factor is further from 1 than 1 %, and so far that chance shows
+/// such a pair in no more than one study of a hundred; the strongest first. \p
+/// Rates are those of \p Machines, which were drawn at random. The effects of
+/// single values are taken out of the logarithms first; a pair is told by the
+/// four groups of machines that have one, the other, both or none of its
+/// values, of eight machines at least.
 std::vector<Interaction> interactions(const Space &S,
                                       std::span<const Choices> Machines,
                                       std::span<const double> Rates);

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <random>
+#include <string>
 
 using namespace vorion::splat;
 
@@ -31,13 +33,13 @@ TEST(Judge, RanksAreComparedNotValues) {
                    4.5 / std::sqrt(22.5));
 }
 
-/// All machines of three parameters of two values, four times over.
+/// All machines of three parameters of two values, eight times over.
 struct Factorial {
   Space S{
       {"a", {{"1", "", {}}}}, {"b", {{"1", "", {}}}}, {"c", {{"1", "", {}}}}};
   std::vector<Choices> Machines;
   Factorial() {
-    for (std::size_t N = 0; N < 32; ++N)
+    for (std::size_t N = 0; N < 64; ++N)
       Machines.push_back({N & 1, N >> 1 & 1, N >> 2 & 1});
   }
 };
@@ -49,6 +51,22 @@ TEST(Judge, ProductsOfEffectsAreNoInteraction) {
   for (const Choices &C : F.Machines)
     Rates.push_back(100 * (C[0] ? 2 : 1) * (C[1] ? 0.5 : 1) * (C[2] ? 3 : 1));
   EXPECT_TRUE(interactions(F.S, F.Machines, Rates).empty());
+}
+
+/// Noise of 5 %, which three standard errors would let through.
+TEST(Judge, NoiseIsNoInteraction) {
+  Space S;
+  for (std::size_t P = 0; P < 10; ++P)
+    S.push_back({std::to_string(P), {{"1", "", {}}, {"2", "", {}}}});
+  for (uint64_t Seed = 1; Seed <= 5; ++Seed) {
+    std::size_t Singles = 0;
+    const std::vector<Choices> Machines = machinesOf(S, 300, Seed, Singles);
+    std::mt19937_64 Random(Seed);
+    std::vector<double> Rates(Machines.size());
+    for (double &Rate : Rates)
+      Rate = 95 + static_cast<double>(Random() % 1000) / 100;
+    EXPECT_TRUE(interactions(S, Machines, Rates).empty()) << Seed;
+  }
 }
 
 TEST(Judge, WhatHelpsOnlyTogetherIsFound) {

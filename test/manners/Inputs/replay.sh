@@ -1,7 +1,7 @@
 #!/bin/sh
 # replay.sh FOLDER PYTHON: reports of a scene in FOLDER, made again from elsewhere.
 cd "$1" || exit
-python=$(echo "$2" | tr -d '"')
+python=$2
 splat render s.ply --cameras c.json --view front -o r.pfm --json r.json --time > said
 splat render s.ply --cameras c.json --view all -o v.png --json v.json > said
 splat analyze s.ply --cameras c.json --view front --json a.json > said

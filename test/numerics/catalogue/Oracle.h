@@ -22,9 +22,9 @@ struct OracleVerdict {
 };
 
 /// Compares so many pixels of \p C under \p O that about \p Evaluations
-/// (pixel, Gaussian) pairs are evaluated, at least 16 pixels. Of rules and
-/// supports the oracle has INRIA's without anti-aliasing, exact, box3 and
-/// square3.
+/// (pixel, Gaussian) pairs are evaluated, at least 16 pixels. Of cameras the
+/// oracle has pinholes that stand still, of rules and supports INRIA's without
+/// anti-aliasing, exact, box3 and square3.
 OracleVerdict compareWithOracle(const HardCase &C,
                                 const splat::RenderOptions &O,
                                 uint64_t Evaluations);
