@@ -30,7 +30,7 @@ Camera<double> inDouble(const Camera<float> &C) {
   D.Shutter = C.Shutter;
   return D;
 }
-const Camera<double> &inDouble(const Camera<double> &C) { return C; }
+Camera<double> inDouble(const Camera<double> &C) { return C; }
 
 /// Of the place in pixels, where the rules hold nothing.
 LensRows<double> freeRows(const Camera<double> &C, const glm::dvec3 &P) {

@@ -111,7 +111,7 @@ template <typename Real> struct Camera {
   Real DepthOffsetLow = 0;
   glm::vec<3, Real> CentreLow{0}; ///< and from Centre
   Lens Optics{};
-  std::optional<RollingShutter> Shutter{};
+  std::optional<RollingShutter> Shutter = std::nullopt;
 };
 
 /// How a Gaussian becomes an ellipse on the picture.
