@@ -8,6 +8,7 @@
 
 #include "Intrinsics.h"
 #include "Vorion.h"
+#include "llvm/ADT/SetVector.h"
 #include "llvm/IR/Instructions.h"
 #include "llvm/IR/IntrinsicInst.h"
 #include "llvm/IR/Operator.h"
@@ -26,18 +27,22 @@ bool isKernel(const Function &F) {
 
 /// Whether \p V may hold bits that nothing defines. Lanes then hold different
 /// ones, whatever the analysis says of a value that has one defined operand.
-bool mayBeUndefined(const Value *V, unsigned Depth = 0) {
-  constexpr unsigned MaxDepth = 8;
-  if (isa<UndefValue>(V) || Depth > MaxDepth)
-    return true;
-  if (isa<Constant>(V) || isa<Argument>(V) || isa<LoadInst>(V))
-    return false;
-  const auto *I = dyn_cast<Instruction>(V);
-  if (!I || (isa<CallBase>(I) && !isa<IntrinsicInst>(I)))
-    return false;
-  return any_of(I->operands(), [&](const Use &Operand) {
-    return !isa<BasicBlock>(Operand) && mayBeUndefined(Operand, Depth + 1);
-  });
+bool mayBeUndefined(const Value *V) {
+  constexpr unsigned MaxValues = 256;
+  SmallSetVector<const Value *, 16> Found;
+  Found.insert(V);
+  for (unsigned I = 0; I < Found.size(); ++I) {
+    if (isa<UndefValue>(Found[I]) || Found.size() > MaxValues)
+      return true;
+    const auto *From = dyn_cast<Instruction>(Found[I]);
+    if (!From || isa<LoadInst>(From) ||
+        (isa<CallBase>(From) && !isa<IntrinsicInst>(From)))
+      continue;
+    for (const Use &Operand : From->operands())
+      if (!isa<BasicBlock>(Operand))
+        Found.insert(Operand);
+  }
+  return false;
 }
 
 bool isCallSource(const CallBase &Call) {

@@ -112,6 +112,29 @@ end:
 }
 declare void @sink_ptr(ptr)
 
+; A frozen value of a loop, all of whose parts are defined, is as uniform as they are.
+; CHECK-LABEL: frozen_in_loop:
+; CHECK-NOT: vx_split
+; CHECK: ret
+define void @frozen_in_loop(i32 %n) "vorion-kernel" {
+  br label %loop
+loop:
+  %i = phi i32 [ 0, %0 ], [ %next, %latch ]
+  %frozen = freeze i32 %i
+  %odd = trunc i32 %frozen to i1
+  br i1 %odd, label %a, label %latch
+a:
+  call void @sink(i32 %i)
+  br label %latch
+latch:
+  %double = shl i32 %i, 1
+  %next = xor i32 %double, %n
+  %more = icmp ult i32 %next, %n
+  br i1 %more, label %loop, label %end
+end:
+  ret void
+}
+
 ; A frozen value that is undefined for some lanes differs between lanes.
 ; CHECK-LABEL: frozen:
 ; CHECK: vx_split

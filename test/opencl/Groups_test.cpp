@@ -577,6 +577,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{17, 1, 1}, Shape{20, 1, 1}, Shape{64, 1, 1},
                     Shape{1024, 1, 1}, Shape{4, 64, 1}, Shape{1, 1, 64},
                     Shape{4, 2, 2}, Shape{3, 5, 2}, Shape{1, 1, 7},
-                    Shape{32, 3, 2}, Shape{8, 6, 3}, Shape{4, 3, 5}));
+                    Shape{32, 3, 2}, Shape{8, 6, 3}, Shape{4, 3, 5},
+                    Shape{24, 10, 1}, Shape{5, 7, 11}, Shape{1, 3, 50}));
 
 } // namespace

@@ -1,5 +1,6 @@
-// A group of 64 work-items runs in four passes. In these kernels the work-items
-// of one pass go another way between two barriers than those of the others.
+// A group of 64 work-items runs in four passes. In the first three kernels the
+// work-items of one pass go another way between two barriers than those of the
+// others.
 
 // All leave the loop in its last round, some by the break: legal.
 kernel void leave_apart(global uint *out, local uint *t, uint k) {

@@ -3,6 +3,7 @@
 #include "Barrier.h"
 #include "LLVMUtils.h"
 #include "SimtBlocks.h"
+#include "SimtRounds.h"
 #include "SimtWorkitems.h"
 #include "VariableUniformityAnalysisResult.hh"
 #include "Workgroup.h"
@@ -171,6 +172,66 @@ bool meetBeforeBarrier(Function &F, BlockSet &Known) {
 }
 
 //===----------------------------------------------------------------------===//
+// Which kernels run in rounds
+//===----------------------------------------------------------------------===//
+
+/// The barriers that a way may come to before \p Meeting, and whether it may
+/// come there, or to a return, without one.
+struct Reach {
+  BlockSet Barriers;
+  bool WithoutBarrier = false;
+};
+
+Reach reachOf(BasicBlock *Next, BasicBlock *Meeting) {
+  Reach Found;
+  BlockSet Seen{Next};
+  SmallVector<BasicBlock *, 16> Pending{Next};
+  while (!Pending.empty()) {
+    BasicBlock *Block = Pending.pop_back_val();
+    if (Block != Meeting && Barrier::hasBarrier(Block))
+      Found.Barriers.insert(Block);
+    else if (Block == Meeting || succ_empty(Block))
+      Found.WithoutBarrier = true;
+    else
+      for (BasicBlock *After : successors(Block))
+        if (Seen.insert(After).second)
+          Pending.push_back(After);
+  }
+  return Found;
+}
+
+/// Whether work-items may part at the branch although a barrier lies on one of
+/// its ways: it does not follow that they come to it. Where each way leads to
+/// barriers of its own, or past all of them, it does, and the group agrees.
+bool partsBeforeBarriers(BasicBlock &Branch, BasicBlock *Meeting) {
+  BlockSet Known;
+  for (BasicBlock *Next : BlockSet(succ_begin(&Branch), succ_end(&Branch))) {
+    const Reach Way = reachOf(Next, Meeting);
+    if (Way.WithoutBarrier && !Way.Barriers.empty())
+      return true;
+    for (BasicBlock *Barrier : Way.Barriers)
+      if (!Known.insert(Barrier).second)
+        return true;
+  }
+  return false;
+}
+
+/// A branch that is the same for the whole group by what is known of its
+/// condition is none of these.
+bool needsRounds(Function &F) {
+  const DominatorTree Dominators(F);
+  PostDominatorTree After(F);
+  LoopInfo Loops(Dominators);
+  VariableUniformityAnalysisResult Uniformity;
+  Uniformity.runOnFunction(F, Loops, After);
+  return any_of(F, [&](BasicBlock &Branch) {
+    Value *Condition = decidingValue(Branch);
+    return Condition && !Uniformity.isUniform(&F, Condition) &&
+           partsBeforeBarriers(Branch, meetingPlace(Branch, After));
+  });
+}
+
+//===----------------------------------------------------------------------===//
 // A head for each loop
 //===----------------------------------------------------------------------===//
 
@@ -227,6 +288,10 @@ PreservedAnalyses SimtMeetings::run(Function &F, FunctionAnalysisManager &) {
     Changed = true;
   for (BlockSet Known; meetBeforeBarrier(F, Known);)
     Changed = true;
+  if (needsRounds(F)) {
+    runInRounds(F);
+    Changed = true;
+  }
   if (!Changed)
     return PreservedAnalyses::all();
   PreservedAnalyses Kept = PreservedAnalyses::none();

@@ -18,7 +18,9 @@ namespace pocl {
 ///
 /// Then the lanes would come to the barrier one side after the other. On a
 /// device with lanes, all ways out of such a conditional lead to one block
-/// first, which goes on to where the group agreed to go.
+/// first, which goes on to where the group agreed to go. Where the group need
+/// not agree, because a barrier lies on one of the ways and nobody need come to
+/// it, the kernel runs in rounds (SimtRounds.h).
 ///
 /// Likewise a loop that begins where one with barriers begins gets a head of
 /// its own, so that lanes that go round the inner loop apart do not pass the

@@ -276,7 +276,7 @@ Value *createContextBase(IRBuilder<> &Builder, Module &M, Value *Launch) {
 
 SimtLoops::SimtLoops(Function &F, unsigned Lanes, GroupSize Size, LocalIds Ids)
     : F(F), M(*F.getParent()), Lanes(Lanes), Size(Size), Ids(Ids),
-      SizeT(Type::getInt32Ty(F.getContext())) {}
+      Straddle(mayStraddle()), SizeT(Type::getInt32Ty(F.getContext())) {}
 
 Constant *SimtLoops::number(uint64_t N) const {
   return ConstantInt::get(SizeT, N);
@@ -305,63 +305,110 @@ void SimtLoops::begin() {
   // first pass.
   Builder.CreateStore(number(0), BaseVar);
   Builder.CreateStore(Lane, LinearVar);
-  storeLocalIds(Builder, number(0));
+  store(Builder, divideIds(Builder, number(0)), Ids);
+  if (!Straddle)
+    return;
+  const auto Variable = [&](const char *Name) {
+    return Builder.CreateAlloca(SizeT, nullptr, Name);
+  };
+  NextLinear = Variable(".simt_next");
+  Next = {Variable(".simt_next_x"), Variable(".simt_next_y"),
+          Variable(".simt_next_z")};
+  Value *Rows = Builder.CreateUDiv(number(Lanes), SizeX);
+  Step = {Builder.CreateURem(number(Lanes), SizeX),
+          Builder.CreateURem(Rows, SizeY), Builder.CreateUDiv(Rows, SizeY)};
 }
 
 Value *SimtLoops::linearId(IRBuilder<> &Builder) {
   return Builder.CreateLoad(SizeT, LinearVar, "simt_id");
 }
 
+/// Whether a pass may begin or end within a row, so that lanes differ in their
+/// place in a row as well as in the row.
+bool SimtLoops::mayStraddle() const {
+  if (Size.Dynamic)
+    return true;
+  uint64_t Span = Lanes;
+  const auto Straddles = [&Span](uint64_t Row) {
+    const bool Uneven = Row % Span != 0 && Span % Row != 0;
+    Span = std::max<uint64_t>(Span / Row, 1);
+    return Uneven;
+  };
+  return (Size.Y * Size.Z != 1 && Straddles(Size.X)) ||
+         (Size.Z != 1 && Straddles(Size.Y));
+}
+
 /// Divides the work-item's number by the group's sizes. As long as the numbers
 /// of a pass do not straddle a row unevenly, what they have in common is
 /// divided apart from what the lane adds: then lanes are known to agree in the
-/// quotient, or passes in the remainder.
-void SimtLoops::storeLocalIds(IRBuilder<> &Builder, Value *Base) {
+/// quotient, or passes in the remainder. Otherwise \p Base is 0.
+SimtLoops::LocalIds SimtLoops::divideIds(IRBuilder<> &Builder, Value *Base) {
   // Base is a multiple of Span, and Own less than it.
   Value *Own = Lane;
   uint64_t Span = Lanes;
   const auto Divide = [&](Value *By, uint64_t Known) {
     Value *Rest;
-    if (!Size.Dynamic && Known % Span == 0) {
+    if (!Straddle && Known % Span == 0) {
       Rest = Builder.CreateAdd(Builder.CreateURem(Base, By), Own);
       Own = number(0);
       Span = 1;
-    } else if (!Size.Dynamic && Span % Known == 0) {
+    } else {
       Rest = Builder.CreateURem(Own, By);
       Own = Builder.CreateUDiv(Own, By);
-      Span /= Known;
-    } else {
-      Base = Builder.CreateAdd(Base, Own);
-      Rest = Builder.CreateURem(Base, By);
-      Own = number(0);
-      Span = 1;
+      if (!Straddle)
+        Span /= Known;
     }
     Base = Builder.CreateUDiv(Base, By);
     return Rest;
   };
-  Value *X, *Y = number(0), *Z = number(0);
-  if (!Size.Dynamic && Size.Y * Size.Z == 1) {
-    X = Builder.CreateAdd(Base, Own);
-  } else {
-    X = Divide(SizeX, Size.X);
-    if (Size.Dynamic || Size.Z != 1) {
-      Y = Divide(SizeY, Size.Y);
-      Z = Builder.CreateAdd(Base, Own);
-    } else {
-      Y = Builder.CreateAdd(Base, Own);
-    }
-  }
-  Builder.CreateStore(X, Ids.X);
-  Builder.CreateStore(Y, Ids.Y);
-  Builder.CreateStore(Z, Ids.Z);
+  if (!Size.Dynamic && Size.Y * Size.Z == 1)
+    return {Builder.CreateAdd(Base, Own), number(0), number(0)};
+  Value *X = Divide(SizeX, Size.X);
+  if (!Size.Dynamic && Size.Z == 1)
+    return {X, Builder.CreateAdd(Base, Own), number(0)};
+  Value *Y = Divide(SizeY, Size.Y);
+  return {X, Y, Builder.CreateAdd(Base, Own)};
 }
 
-/// Whether the lane has a work-item in the pass that starts at \p Base. The
-/// same for all lanes, and known to be, if passes are always full.
-Value *SimtLoops::anyLeft(IRBuilder<> &Builder, Value *Base) {
-  if (!Size.Dynamic && Size.items() % Lanes == 0)
-    return Builder.CreateICmpULT(Base, Items);
-  return Builder.CreateICmpULT(Builder.CreateAdd(Base, Lane), Items);
+/// The ids of the work-item that is a pass behind the one with \p Of. What a
+/// pass adds is smaller than the size, so one subtraction takes it back into a
+/// row; of an id that fits, the difference is a large number. An id that was
+/// taken back is smaller than what was added.
+SimtLoops::LocalIds SimtLoops::countIds(IRBuilder<> &Builder,
+                                        const LocalIds &Of) {
+  const auto Wrapped = [&](Value *Sum, Value *Row) {
+    return Builder.CreateBinaryIntrinsic(Intrinsic::umin, Sum,
+                                         Builder.CreateSub(Sum, Row));
+  };
+  const auto Carry = [&](Value *Id, Value *Added) {
+    return Builder.CreateZExt(Builder.CreateICmpULT(Id, Added), SizeT);
+  };
+  Value *X = Wrapped(Builder.CreateAdd(Of.X, Step.X), SizeX);
+  Value *Rows = Builder.CreateAdd(Step.Y, Carry(X, Step.X));
+  Value *Y = Wrapped(Builder.CreateAdd(Of.Y, Rows), SizeY);
+  Value *Planes = Builder.CreateAdd(Step.Z, Carry(Y, Rows));
+  return {X, Y, Builder.CreateAdd(Of.Z, Planes)};
+}
+
+SimtLoops::LocalIds SimtLoops::load(IRBuilder<> &Builder,
+                                    const LocalIds &From) {
+  return {Builder.CreateLoad(SizeT, From.X), Builder.CreateLoad(SizeT, From.Y),
+          Builder.CreateLoad(SizeT, From.Z)};
+}
+
+void SimtLoops::store(IRBuilder<> &Builder, const LocalIds &Values,
+                      const LocalIds &To) {
+  Builder.CreateStore(Values.X, To.X);
+  Builder.CreateStore(Values.Y, To.Y);
+  Builder.CreateStore(Values.Z, To.Z);
+}
+
+/// Whether the lane has a work-item in the pass that starts at \p Base, where
+/// its number would be \p Linear. The same for all lanes, and known to be, if
+/// passes are always full.
+Value *SimtLoops::anyLeft(IRBuilder<> &Builder, Value *Base, Value *Linear) {
+  const bool Full = !Size.Dynamic && Size.items() % Lanes == 0;
+  return Builder.CreateICmpULT(Full ? Base : Linear, Items);
 }
 
 std::pair<BasicBlock *, BasicBlock *>
@@ -372,7 +419,7 @@ SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
   BasicBlock *After = Exit->getTerminator()->getSuccessor(0);
   auto *Init = BasicBlock::Create(C, "pregion_for_init", &F, Entry);
   auto *Pass = BasicBlock::Create(C, "pregion_for_pass", &F, Entry);
-  auto *Next = BasicBlock::Create(C, "pregion_for_inc", &F, Exit);
+  auto *Increment = BasicBlock::Create(C, "pregion_for_inc", &F, Exit);
   auto *End = BasicBlock::Create(C, "pregion_for_end", &F, Exit);
 
   std::vector<BasicBlock *> Predecessors(pred_begin(Entry), pred_end(Entry));
@@ -388,25 +435,42 @@ SimtLoops::createLoopAround(const std::set<BasicBlock *> &InRegion,
     createGroupBarrier(Builder);
   Constant *First = number(PeeledFirst ? Lanes : 0);
   Builder.CreateStore(First, BaseVar);
+  Value *FirstLinear = Builder.CreateAdd(First, Lane);
+  if (Straddle) {
+    Builder.CreateStore(FirstLinear, NextLinear);
+    const LocalIds OfFirst = divideIds(Builder, number(0));
+    store(Builder, PeeledFirst ? countIds(Builder, OfFirst) : OfFirst, Next);
+  }
   if (PeeledFirst)
-    Builder.CreateCondBr(anyLeft(Builder, First), Pass, End);
+    Builder.CreateCondBr(anyLeft(Builder, First, FirstLinear), Pass, End);
   else
     Builder.CreateBr(Pass);
 
   Builder.SetInsertPoint(Pass);
   Value *Base = Builder.CreateLoad(SizeT, BaseVar, "simt_base");
-  Value *Linear = Builder.CreateAdd(Base, Lane, "simt_id");
+  Value *Linear = Straddle ? Builder.CreateLoad(SizeT, NextLinear, "simt_id")
+                           : Builder.CreateAdd(Base, Lane, "simt_id");
   Builder.CreateStore(Linear, LinearVar);
-  storeLocalIds(Builder, Base);
+  store(Builder, Straddle ? load(Builder, Next) : divideIds(Builder, Base),
+        Ids);
   Builder.CreateBr(Entry);
 
-  Exit->getTerminator()->replaceSuccessorWith(After, Next);
-  Builder.SetInsertPoint(Next);
+  Exit->getTerminator()->replaceSuccessorWith(After, Increment);
+  Builder.SetInsertPoint(Increment);
   Value *NextBase = Builder.CreateAdd(
       Builder.CreateLoad(SizeT, BaseVar, "simt_base"), number(Lanes));
   Builder.CreateStore(NextBase, BaseVar);
+  Value *NextId;
+  if (Straddle) {
+    NextId =
+        Builder.CreateAdd(Builder.CreateLoad(SizeT, NextLinear), number(Lanes));
+    Builder.CreateStore(NextId, NextLinear);
+    store(Builder, countIds(Builder, load(Builder, Next)), Next);
+  } else {
+    NextId = Builder.CreateAdd(NextBase, Lane);
+  }
   BranchInst *Back =
-      Builder.CreateCondBr(anyLeft(Builder, NextBase), Pass, End);
+      Builder.CreateCondBr(anyLeft(Builder, NextBase, NextId), Pass, End);
   if (!Size.Dynamic && Size.items() > uint64_t{FewPasses} * Lanes)
     vorion::markPassLoop(*Back, /*Alone=*/true);
 
@@ -419,7 +483,7 @@ void SimtLoops::setFirstPass(BasicBlock *Entry) {
   IRBuilder<> Builder(&*Entry->getFirstInsertionPt());
   createGroupBarrier(Builder);
   Builder.CreateStore(Lane, LinearVar);
-  storeLocalIds(Builder, number(0));
+  store(Builder, divideIds(Builder, number(0)), Ids);
 }
 
 void SimtLoops::makeUniform(Instruction *Terminator) {

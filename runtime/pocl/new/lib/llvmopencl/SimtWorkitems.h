@@ -121,10 +121,12 @@ public:
     bool Dynamic;
     uint64_t items() const { return X * Y * Z; }
   };
+  /// Three ids, or variables of them.
   struct LocalIds {
-    llvm::Value *X, *Y, *Z; ///< the pseudo variables _local_id_x, _y, _z
+    llvm::Value *X, *Y, *Z;
   };
 
+  /// \p Ids: the pseudo variables _local_id_x, _y, _z.
   SimtLoops(llvm::Function &F, unsigned Lanes, GroupSize Size, LocalIds Ids);
 
   /// Code at the kernel's entry; call before anything below.
@@ -183,8 +185,14 @@ private:
   void tellAliases();
   /// Gives context arrays their memory. Bytes a work-item.
   uint64_t placeContextArrays();
-  void storeLocalIds(llvm::IRBuilder<> &Builder, llvm::Value *Base);
-  llvm::Value *anyLeft(llvm::IRBuilder<> &Builder, llvm::Value *Base);
+  bool mayStraddle() const;
+  LocalIds divideIds(llvm::IRBuilder<> &Builder, llvm::Value *Base);
+  LocalIds countIds(llvm::IRBuilder<> &Builder, const LocalIds &Of);
+  LocalIds load(llvm::IRBuilder<> &Builder, const LocalIds &From);
+  void store(llvm::IRBuilder<> &Builder, const LocalIds &Values,
+             const LocalIds &To);
+  llvm::Value *anyLeft(llvm::IRBuilder<> &Builder, llvm::Value *Base,
+                       llvm::Value *Linear);
   llvm::Constant *number(uint64_t N) const;
 
   struct ContextArray {
@@ -197,6 +205,11 @@ private:
   unsigned Lanes;
   GroupSize Size;
   LocalIds Ids;
+  /// Ids are counted from pass to pass instead of divided in each.
+  bool Straddle;
+  llvm::AllocaInst *NextLinear = nullptr; ///< linear id in the pass that comes
+  LocalIds Next = {};                     ///< variables: the ids in it
+  LocalIds Step = {};                     ///< what a pass adds to the ids
   llvm::Type *SizeT;
   llvm::AllocaInst *BaseVar = nullptr;   ///< linear id of the pass's lane 0
   llvm::AllocaInst *LinearVar = nullptr; ///< linear id of the work-item

@@ -1,0 +1,186 @@
+//===- SimtRounds.cc - a kernel as rounds from barrier to barrier ---------===//
+
+#include "SimtRounds.h"
+
+#include "Barrier.h"
+#include "SimtWorkitems.h"
+
+#include <llvm/ADT/MapVector.h>
+#include <llvm/ADT/SetVector.h>
+#include <llvm/IR/CFG.h>
+#include <llvm/IR/Dominators.h>
+#include <llvm/IR/InstIterator.h>
+#include <llvm/Transforms/Utils/BasicBlockUtils.h>
+#include <llvm/Transforms/Utils/Cloning.h>
+#include <llvm/Transforms/Utils/Local.h>
+#include <llvm/Transforms/Utils/PromoteMemToReg.h>
+
+using namespace llvm;
+
+namespace pocl {
+
+namespace {
+
+using BlockList = SmallSetVector<BasicBlock *, 16>;
+
+class Rounds {
+public:
+  explicit Rounds(Function &F)
+      : F(F), Entry(&F.getEntryBlock()),
+        Number(Type::getInt32Ty(F.getContext())) {}
+
+  void run();
+
+private:
+  BasicBlock *create(const char *Name) const {
+    return BasicBlock::Create(F.getContext(), Name, &F);
+  }
+  void clearEntry();
+  void separateBarriers();
+  void keepValuesInSlots();
+  BasicBlock *copyFrom(BasicBlock *Start, BasicBlock *End);
+  BasicBlock *leaveTo(BasicBlock *At, BasicBlock *End);
+
+  Function &F;
+  BasicBlock *Entry;
+  IntegerType *Number;
+  AllocaInst *Place = nullptr;
+  /// Values that live in more than one block, until the rounds stand.
+  std::vector<AllocaInst *> Slots;
+  /// The block that is a barrier, and the one that follows it.
+  MapVector<BasicBlock *, BasicBlock *> Barriers;
+};
+
+/// Leaves variables alone in the entry, and returns nothing.
+void Rounds::clearEntry() {
+  SmallVector<AllocaInst *, 16> Variables;
+  for (Instruction &I : make_early_inc_range(instructions(F))) {
+    auto *Variable = dyn_cast<AllocaInst>(&I);
+    if (Variable && isa<ConstantInt>(Variable->getArraySize()))
+      Variables.push_back(Variable);
+    // A variable's life may go on in a round that lies before its start.
+    else if (I.isLifetimeStartOrEnd())
+      I.eraseFromParent();
+  }
+  SplitBlock(Entry, Entry->begin());
+  for (AllocaInst *Variable : Variables)
+    Variable->moveBefore(Entry->getTerminator());
+}
+
+void Rounds::separateBarriers() {
+  SmallVector<Instruction *, 8> Found;
+  for (Instruction &I : instructions(F))
+    if (isa<Barrier>(&I))
+      Found.push_back(&I);
+  for (Instruction *I : Found) {
+    BasicBlock *At = SplitBlock(I->getParent(), I);
+    Barriers[At] = SplitBlock(At, I->getNextNode());
+  }
+}
+
+/// So that a block can be copied alone.
+void Rounds::keepValuesInSlots() {
+  const auto Keep = [this](AllocaInst *Slot) {
+    if (Slot)
+      Slots.push_back(Slot);
+  };
+  const auto Top = Entry->getTerminator()->getIterator();
+  for (BasicBlock &Block : F)
+    while (auto *Phi = dyn_cast<PHINode>(&Block.front()))
+      Keep(DemotePHIToStack(Phi, Top));
+  SmallVector<Instruction *, 32> Leaving;
+  for (BasicBlock &Block : F)
+    for (Instruction &I : Block)
+      if (&Block != Entry && I.isUsedOutsideOfBlock(&Block))
+        Leaving.push_back(&I);
+  for (Instruction *I : Leaving)
+    Keep(DemoteRegToStack(*I, /*VolatileLoads=*/false, Top));
+}
+
+/// A block that ends the round at the barrier \p At, or for good if that is
+/// null.
+BasicBlock *Rounds::leaveTo(BasicBlock *At, BasicBlock *End) {
+  auto *Leave = create(At ? "to_barrier" : "to_end");
+  const auto Found = Barriers.find(At);
+  IRBuilder<> Builder(Leave);
+  Builder.CreateStore(ConstantInt::get(Number, Found - Barriers.begin() + 1),
+                      Place);
+  Builder.CreateBr(End);
+  return Leave;
+}
+
+/// Copies what is reached from \p Start up to barriers and returns, which lead
+/// to \p End.
+BasicBlock *Rounds::copyFrom(BasicBlock *Start, BasicBlock *End) {
+  BlockList Reached;
+  Reached.insert(Start);
+  for (size_t N = 0; N != Reached.size(); ++N)
+    for (BasicBlock *Next : successors(Reached[N]))
+      if (!Barriers.contains(Next))
+        Reached.insert(Next);
+  ValueToValueMapTy Copies;
+  SmallVector<BasicBlock *, 16> Copied;
+  for (BasicBlock *Block : Reached) {
+    Copied.push_back(CloneBasicBlock(Block, Copies, ".round", &F));
+    Copies[Block] = Copied.back();
+  }
+  remapInstructionsInBlocks(Copied, Copies);
+  DenseMap<BasicBlock *, BasicBlock *> Leaves;
+  const auto WayTo = [&](BasicBlock *At) {
+    BasicBlock *&Leave = Leaves[At];
+    if (!Leave)
+      Leave = leaveTo(At, End);
+    return Leave;
+  };
+  for (BasicBlock *Block : Copied) {
+    Instruction *Terminator = Block->getTerminator();
+    if (isa<ReturnInst>(Terminator)) {
+      ReplaceInstWithInst(Terminator, BranchInst::Create(WayTo(nullptr)));
+      continue;
+    }
+    for (unsigned N = 0; N != Terminator->getNumSuccessors(); ++N)
+      if (BasicBlock *Next = Terminator->getSuccessor(N);
+          Barriers.contains(Next))
+        Terminator->setSuccessor(N, WayTo(Next));
+  }
+  return Copied.front();
+}
+
+void Rounds::run() {
+  clearEntry();
+  separateBarriers();
+  keepValuesInSlots();
+  BasicBlock *Start = Entry->getSingleSuccessor();
+  BasicBlock *Head = create("round"), *Done = create("rounds_end");
+  IRBuilder<> Builder(Entry->getTerminator());
+  Place = Builder.CreateAlloca(Number, nullptr, "place");
+  Slots.push_back(Place);
+  Builder.CreateStore(ConstantInt::get(Number, 0), Place);
+  Entry->getTerminator()->setSuccessor(0, Head);
+  ReturnInst::Create(F.getContext(), Done);
+
+  Builder.SetInsertPoint(Head);
+  SwitchInst *Choice = Builder.CreateSwitch(
+      createUniform(Builder, Builder.CreateLoad(Number, Place)), Done,
+      Barriers.size() + 1);
+  const auto AddRound = [&](BasicBlock *From) {
+    auto *Begin = create("round_begin"), *End = create("round_end");
+    Barrier::Create(BranchInst::Create(Head, End));
+    Barrier::Create(BranchInst::Create(copyFrom(From, End), Begin));
+    Choice->addCase(ConstantInt::get(Number, Choice->getNumCases()), Begin);
+  };
+  AddRound(Start);
+  for (const auto &[At, Behind] : Barriers)
+    AddRound(Behind);
+  Barrier::Create(&*Head->getFirstInsertionPt());
+
+  EliminateUnreachableBlocks(F);
+  DominatorTree Dominators(F);
+  PromoteMemToReg(Slots, Dominators);
+}
+
+} // namespace
+
+void runInRounds(Function &F) { Rounds(F).run(); }
+
+} // namespace pocl

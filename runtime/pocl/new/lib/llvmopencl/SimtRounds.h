@@ -1,0 +1,33 @@
+//===- SimtRounds.h - a kernel as rounds from barrier to barrier ----------===//
+
+#ifndef POCL_SIMT_ROUNDS_H
+#define POCL_SIMT_ROUNDS_H
+
+namespace llvm {
+class Function;
+} // namespace llvm
+
+namespace pocl {
+
+/// Rewrites a kernel as a loop. Each round runs what lies between the barrier
+/// that the group has come to and the next ones:
+///
+///     place = start;
+///     do {
+///       barrier();
+///       switch (place) {
+///       case start: ...; place = barrier 1; break;
+///       case barrier 1: ...; if (...) place = barrier 1 else place = end;
+///       }
+///     } while (place != end);
+///
+/// Lanes that part within a round meet at its end at the latest, however the
+/// kernel's ways run. So this is right for every kernel whose work-items come
+/// to the same barriers. Each round has a copy of all that it may reach, and a
+/// value that lives across a barrier is chosen at the head of the loop. So a
+/// kernel that lanes can run as it is written is faster that way.
+void runInRounds(llvm::Function &F);
+
+} // namespace pocl
+
+#endif
