@@ -53,9 +53,9 @@ def measure(store, all_scenes, every_view):
 
 
 def text(data):
-    out = [paragraph(f"""Mcycles of blending / of the frame on `{MACHINE}`; a dash: its instructions alone, as fast as
-        a core can fetch them, take longer than the fastest blending, and with the shortest rest of a frame longer than the fastest frame, so it
-        was not clocked."""), ""]
+    out = [paragraph(f"""Mcycles of blending / of the frame on `{MACHINE}`. A dash is a choice that was not clocked, because it cannot
+        be the fastest: a core needs longer to fetch its instructions than the fastest blending takes, and with the shortest rest of
+        any frame longer than the fastest frame takes."""), ""]
     return out + table(("scene", "view", *(f"{tile}/{group}" for tile, group in CHOICES)),
                        [(s["scene"], s["view"],
                          *(f"{mega(row['blend_cycles'])} / {mega(row['frame_cycles'])}" if "blend_cycles" in row else "-"

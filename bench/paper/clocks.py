@@ -3,7 +3,7 @@
 import machines
 import runs as r
 from runs import Run
-from writing import chart, paragraph, table
+from writing import chart, paragraph, table, terms
 
 TITLE = "Two parts of a frame's time"
 CLOCKS = (100, 230, 530)
@@ -44,9 +44,10 @@ def measure(store, all_scenes, _every_view):
 
 def text(data):
     fixed = f"{100 * PAPER_MS / (PAPER_MS + PAPER_MCYCLES * 1e3 / CLOCKS[-1]):.0f} %"
-    out = [paragraph(f"""t = a/f + b by least squares over {', '.join(map(str, CLOCKS))} MHz, raster path, serial;
-        *off*: the largest difference of a time from the line. *fixed*: b's part of the frame at {CLOCKS[-1]} MHz. The paper's
-        end points give {PAPER_MCYCLES} Mcycles and {PAPER_MS} ms."""), ""]
+    out = [paragraph(f"""The time of a frame as t = a/f + b, by least squares over f = {', '.join(map(str, CLOCKS))} MHz; raster path,
+        serial. The paper's end points give {PAPER_MCYCLES} Mcycles and {PAPER_MS} ms."""), "",
+           *terms([("*off*", "the largest difference of a time from the line"),
+                   ("*fixed*", f"b's part of the frame at {CLOCKS[-1]} MHz")])]
     first, last = CLOCKS[0], CLOCKS[-1]
     for machine in machines.PROTOTYPES:
         rows = [row for row in data["rows"] if row["machine"] == machine]

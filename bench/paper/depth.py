@@ -55,9 +55,9 @@ def difference(store, run, whole):
 
 
 def text(data):
-    out = [paragraph("""K parts of each list are blended apart and merged by kernels. Errors are against K = 1 with the same stop
-        rule; *blends*: relative to K = 1, since a part does not know that pixels are full in front of it. Cycles in millions:
-        blending / merging / whole frame."""), ""]
+    out = [paragraph("""Each list is divided into K parts, which are blended apart and merged by kernels. Errors are against K = 1 with
+        the same stop rule. *blends* are relative to K = 1: a part does not know that pixels are full in front of it. Cycles in
+        millions: blending / merging / whole frame."""), ""]
     out += table(("scene", "view", "stop rule", "K", "largest difference", "dB", "blends", *MACHINES),
                  [(row["scene"], row["view"], row["stop"], row["parts"],
                    f"{row['max_abs']:.1e}" if row["max_abs"] else "equal",

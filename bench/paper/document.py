@@ -19,7 +19,7 @@ tables, the ratio to the paper's figure, what bounds it, and the command.
 | workloads | the paper names no scene, resolution or kernel for its rates. Ours were chosen before measuring: 960x544, two of the scenes also 1920x1088, INRIA's rules, support `exact`. What is not measured is named |
 | a frame | from projecting to the finished picture, with its launches and small copies, without uploading a scene or reading the picture back |
 | *serial* | one frame after the other |
-| *overlapped* | a frame in the time of the longest of the paper's three stages. This is a bound: stages share memory for nothing, and with queues of four commands `--overlap` reaches little of it ([rates](paper/rates.md)) |
+| *overlapped* | a frame in the time of the longest of the paper's three stages. This is a bound: it charges nothing for stages that use memory at the same time, and with queues of four commands `--overlap` reaches little of it ([rates](paper/rates.md)) |
 | baselines | kernels on the same machine without its rasterizers: *our fastest*, and *the official algorithm, step by step*: 16x16 tiles, a work-item a pixel, the exponential for every pixel of a tile and every Gaussian of its list |
 
 A view reaches a figure if it has at least as much; "about" is within a factor of 2.
@@ -32,7 +32,9 @@ A view reaches a figure if it has at least as much; "about" is within a factor o
 | {DEPENDS} | some view on one core does, and none on the other |
 | {NOT_COMPARABLE} | some do: the figure is a rate, which a workload has, and the paper names none |
 
-Power and area are estimated, not measured ([energy.md](energy.md#the-papers-claims)).
+Power and area are estimated, not measured ([energy.md](energy.md)): a claim about them holds if
+even the 95 % of the interval keep to it, does not hold if even the 5 % do not, and is open
+otherwise.
 """
 
 

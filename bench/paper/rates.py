@@ -3,7 +3,7 @@
 import machines
 import runs as r
 from runs import Run
-from writing import chart, mega, paragraph, table
+from writing import chart, mega, paragraph, table, terms
 
 TITLE = "Frames a second"
 SLOW = 100  # MHz, the paper's slowest clock
@@ -52,11 +52,13 @@ def measure(store, all_scenes, _every_view):
 
 
 def text(data):
-    out = [paragraph(f"""The raster path. *serial*: one frame after the other. *overlapped*: a frame in the time of the longest stage of
-        a pipeline, the cores' kernels or the rasterizers' blending, plus launches and copies. Nothing is charged for memory that
-        the stages share, so overlapped rates are bounds of what a pipeline could reach. The last three columns are of the scaled
-        machine with the same core, and how many times the prototype's rate that is. Its cores and clock are {8 * 500 / 530:.2f}
-        times the prototype's; its memory is another one, on the chip and four times as wide, and gives the rest."""), ""]
+    out = [paragraph(f"""Frames by the raster path. The last two columns are of the scaled machine with the same core: its rate, and
+        how many times the prototype's that is. Its cores and clock are {8 * 500 / 530:.2f} times the prototype's. Its memory is on
+        the chip and four times as wide, which gives the rest."""), "",
+           *terms([("*serial*", "one frame after the other"),
+                   ("*overlapped*", """a frame in the time of the longest stage of a pipeline, the cores' kernels or the rasterizers'
+                    blending, plus launches and copies. Nothing is charged for memory that the stages share, so this is a bound of what
+                    a pipeline could reach""")])]
     for machine in machines.PROTOTYPES:
         rows = [row for row in data["rows"] if row["machine"] == machine]
         if not rows:
@@ -70,8 +72,8 @@ def text(data):
                        f"{row[pipeline]['scaled_fps']:.1f}", f"{row[pipeline]['gain']:.2f}x")
                       for row in rows for pipeline in ("serial", "overlapped")])
     if data["turns"]:
-        out += ["## Overlapped in fact", "", paragraph("""All views of a scene by one command, `--view all --overlap`, in which
-            one view is prepared while another is blended: with the queue of four commands that `timing.raster` has."""), ""]
+        out += ["## Overlapped in fact", "", paragraph("""All views of a scene by one command. `--view all
+            --overlap` prepares one view while another is blended, with the queue of four commands that `timing.raster` has."""), ""]
         out += table(("scene", "machine", "pictures", "serial, ms", "overlapped, ms", "bound, ms"),
                      [(turn["scene"], f"`{turn['machine']}`", turn["pictures"], f"{turn['serial_ms']:.1f}",
                        f"{turn['measured_ms']:.1f}", f"{turn['bound_ms']:.1f}") for turn in data["turns"]])

@@ -21,6 +21,7 @@ import choices  # noqa: E402
 import clocks  # noqa: E402
 import depth  # noqa: E402
 import document  # noqa: E402
+import energy  # noqa: E402
 import identical  # noqa: E402
 import invocations  # noqa: E402
 import rates  # noqa: E402
@@ -33,7 +34,7 @@ import tiles  # noqa: E402
 import training  # noqa: E402
 
 SECTIONS = {"rates": rates, "choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
-            "scaling": scaling, "tiles": tiles, "identical": identical, "training": training}
+            "scaling": scaling, "tiles": tiles, "identical": identical, "energy": energy, "training": training}
 # The scenes of the tables, chosen before anything was measured, and those that are drawn larger, too.
 SCENES = ("guitar", "truck", "garden_outdoor")
 LARGE, LARGE_WIDTH = ("guitar", "truck"), 1920

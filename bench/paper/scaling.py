@@ -4,7 +4,7 @@ import machines
 import runs as r
 import tails
 from runs import Run
-from writing import chart, mega, paragraph, table
+from writing import chart, mega, paragraph, table, terms
 
 TITLE = "Scaling"
 SCALED = machines.SCALED[machines.PROTOTYPES[0]]
@@ -137,12 +137,13 @@ def gains(row, counts):
 
 
 def text(data):
-    out = [paragraph(f"""Blending's speed-up over one rasterizer at 500 MHz, all as `{SCALED}` with its memory (51.2 GB/s) and
-        clusters of four sockets; four cores a rasterizer, fewer where there would be more than {machines.MOST_CORES}. *model*: a
-        tile's cost is what clearing and writing one takes plus its list's length times the mean cost of an entry (both from the
-        single rasterizer's run); jobs, longest list first, are dealt forth and back as the machine's kernel does (nearly LPT),
-        and blending is not shorter than its bytes over the whole bandwidth, which no run reaches; in the last line bandwidth
-        grows with the rasterizers beyond {RASTERIZERS_A_MEMORY}. Merging z-tiles is a kernel of its own and not in these rows."""), ""]
+    out = [paragraph(f"""Blending's speed-up over one rasterizer at 500 MHz. All machines are as `{SCALED}` with its memory (51.2 GB/s) and
+        clusters of four sockets. A rasterizer has four cores, or fewer where there would be more than {machines.MOST_CORES}.
+        Merging z-tiles is a kernel of its own and not in these rows."""), "",
+           *terms([("*model*", """a tile costs its clearing and writing, plus the length of its list times the mean cost of an entry;
+                    both are of the single rasterizer's run. Jobs are dealt as the machine's kernel does it, the longest list first"""),
+                   ("its memory", "blending is not shorter than its bytes over the whole bandwidth, which no run reaches"),
+                   ("*model, memory grows*", f"bandwidth grows with the rasterizers beyond {RASTERIZERS_A_MEMORY}")])]
     for parts in sorted({row["parts"] for row in data["rows"]}):
         rows = [row for row in data["rows"] if row["parts"] == parts]
         out += [f"## K = {parts}: {rows[0]['tiles']} tiles, {rows[0]['tiles'] * parts} jobs", ""]

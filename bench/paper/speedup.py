@@ -4,7 +4,7 @@ import machines
 import runs as r
 from choices import candidates, simt
 from runs import Run
-from writing import chart, mega, paragraph, table
+from writing import chart, mega, table, terms
 
 TITLE = "Against kernels alone"
 # As INRIA's program does it: its tiles, a work-item a pixel, its reach, and no test that spares a pixel the exponential.
@@ -69,16 +69,19 @@ def measure(store, all_scenes, _every_view):
 
 def text(data):
     tried = ", ".join(f"{tile}/{group}" for tile, group in data["choices"])
-    out = [paragraph(f"""The same frame with the rasterizer (tiles of 64) and with kernels alone, on the same machine. *fastest*: our
-        kernels, whose lists are staged in local memory and which end a tile when its pixels are full; tile and group are the
-        fastest of those that won a sweep ([choices](choices.md)): {tried}. *official*: blending as INRIA's program does it, 16x16
-        tiles, a work-item a pixel, its square of three deviations as reach, the exponential for every pixel of the tile and
-        every Gaussian of its list; projecting and sorting stay ours."""), "",
-           paragraph("""*share*: blending's part of the kernels-only frame; *bound*: 1/(1 - share), what no rasterizer can exceed if
-        all else stays as it is in that frame. Larger tiles make shorter lists, so it does not quite: *rest* is the kernels-only
-        frame over ours without blending. *serial*, *overlapped*: whole frames over ours; the kernels-only frame has nothing to
-        overlap. *lanes*: the part of the rasterizers' lane slots that blend, and what it would be if a Gaussian's box were not
-        cut to the tile."""), ""]
+    out = ["The same frame with the rasterizer (tiles of 64) and with kernels alone, on the same machine.", "",
+           *terms([("*fastest*", f"""our kernels, whose lists are staged in local memory and which end a tile when its pixels are full.
+                    Tile and group are the fastest of those that won a sweep ([choices](choices.md)): {tried}"""),
+                   ("*official*", """blending as INRIA's program does it: 16x16 tiles, a work-item a pixel, its square of three deviations
+                    as reach, the exponential for every pixel of the tile and every Gaussian of its list. Projecting and sorting stay
+                    ours"""),
+                   ("*share*", "blending's part of the kernels-only frame"),
+                   ("*bound*", "1/(1 - share): the most that a rasterizer can give if the rest of that frame stays as it is"),
+                   ("*rest*", """the kernels-only frame over ours without blending. It may exceed the bound, because larger tiles make
+                    shorter lists and so change the rest of the frame"""),
+                   ("*serial*, *overlapped*", "whole frames over ours. The kernels-only frame has nothing to overlap"),
+                   ("*lanes*", """the part of the rasterizers' lane slots that blend, and what it would be if a Gaussian's box were not
+                    cut to the tile""")])]
     for machine in machines.PROTOTYPES:
         rows = [row for row in data["rows"] if row["machine"] == machine]
         if not rows:

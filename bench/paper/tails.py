@@ -3,7 +3,7 @@
 import machines
 import runs as r
 from runs import Run
-from writing import chart, mega, paragraph, table
+from writing import chart, mega, paragraph, table, terms
 
 TITLE = "Pixel unit"
 MACHINE = machines.PROTOTYPES[0]
@@ -66,10 +66,11 @@ def measure(store, all_scenes, _every_view):
 
 
 def text(data):
-    out = [paragraph(f"""Throughput of blending on `{MACHINE}` (one pixel unit for two rasterizers), relative to no hand-over.
-        *last quarter*: the part of the rasterizers' busy cycles that the last quarter of each list takes, which is what a
-        hand-over there takes off them; *bound*: 1/(1 - that), if the pixel unit and the hand-over cost nothing. The paper's
-        82.4 % more needs a last quarter of 45.2 %."""), ""]
+    out = [paragraph(f"""Throughput of blending on `{MACHINE}` (one pixel unit for two rasterizers), relative to no hand-over. The
+        paper's 82.4 % more needs a last quarter of 45.2 %."""), "",
+           *terms([("*last quarter*", """the part of the rasterizers' busy cycles that the last quarter of each list takes: a hand-over there
+                    saves it"""),
+                   ("*bound*", "1/(1 - last quarter), if the pixel unit and the hand-over cost nothing")])]
     rows = data["rows"]
     out += table(("scene", "view", "no hand-over, Mcycles", *RULES, "last quarter", "bound"),
                  [(row["scene"], row["view"], mega(row["points"][0]["blend_cycles"]),

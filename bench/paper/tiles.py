@@ -48,13 +48,13 @@ def shown(share):
 
 def text(data):
     columns = [(s, str(w)) for s in invocations.SUPPORTS for w in data["widths"]]
-    out = [paragraph("""Fewer (Gaussian, tile) pairs with tiles of 64 than of 16 pixels, in percent, by support and picture width
-        (a dash: not counted yet)."""), ""]
+    out = [paragraph("""How many (Gaussian, tile) pairs tiles of 64 pixels save over tiles of 16, in percent, by support and picture
+        width (a dash: not counted yet)."""), ""]
     out += table(("scene", "view", *(f"{s} {w}" for s, w in columns)),
                  [(row["scene"], row["view"], *(shown(row["fewer"][s].get(w, "")) for s, w in columns))
                   for row in data["rows"]])
-    out += [paragraph("""Pixels that are full (nothing more is blended) once so much of the own tile's list is done, in percent,
-        tiles of 64, support `square3`; *from*: the part of the list after which 90 % of all pixels are."""), ""]
+    out += [paragraph("""Pixels that are full (nothing more is blended) when so much of their tile's list is done, in percent; tiles of
+        64, support `square3`. *from* is the part of the list after which 90 % of all pixels are full."""), ""]
     out += table(("scene", "view", "25 %", "50 %", "75 %", "all", "from"),
                  [(row["scene"], row["view"], *(f"{100 * row['occluded'][p]:.1f}" for p in (25, 50, 75, 100)),
                    "never" if row["occluded_from"] is None else f"{row['occluded_from']} %") for row in data["rows"]])

@@ -8,7 +8,7 @@ import machines
 import runs as r
 import scaling
 import scenes
-from writing import chart, mega, paragraph, table
+from writing import chart, mega, paragraph, table, terms
 
 TITLE = "Training"
 # Options, and by what pictures are divided: the state is trained at the first, and iterations are timed at all.
@@ -352,13 +352,16 @@ def _paths(m):
 
 def text(data):
     rows = data["rows"]
-    out = [paragraph(f"""The {TIMED} iterations after so many of a training run (settings of [training.md](../training.md)), each of
-        another view, means of them. Those before went without the clock, at the smallest of the capture's sizes. The larger
-        pictures have the same Gaussians, and one iteration is timed. {density_text(rows)} Tiles of the rasterizer are 32x64. The kernels' choice of
-        tile and group is the fastest of {', '.join(f'{t}/{g}' for t, g in CHOICES)} at the first size on `{machines.PROTOTYPES[0]}`.
-        *back*: from the pixels' gradients to nine sums a Gaussian, which is blending backward and the sum over tiles, in a fixed
-        order and without atomics. *share*: blending forward and back in the fastest kernels-only iteration; *bound*:
-        1/(1 - share); *rest*: the kernels-only iteration over ours without the stages of the rasterizer."""), ""]
+    out = [paragraph(f"""Means of the {TIMED} iterations after so many of a training run (settings of [training.md](../training.md)),
+        each of another view. The iterations before them went without the clock, at the smallest of the capture's sizes. The larger
+        pictures have the same Gaussians, and one iteration is timed. {density_text(rows)} Tiles of the rasterizer are 32x64. The
+        kernels' tile and group are the fastest of {', '.join(f'{t}/{g}' for t, g in CHOICES)} at the first size on
+        `{machines.PROTOTYPES[0]}`."""), "",
+           *terms([("*back*", """from the pixels' gradients to nine sums a Gaussian: blending backward and the sum over tiles, in a fixed
+                    order and without atomics"""),
+                   ("*share*", "blending forward and back in the fastest kernels-only iteration"),
+                   ("*bound*", "1/(1 - share)"),
+                   ("*rest*", "the kernels-only iteration over ours without the stages of the rasterizer")])]
     for machine in machines.PROTOTYPES:
         of = [row for row in by_prototype(data) if row["machine"] == machine]
         if not of:
@@ -376,8 +379,9 @@ def text(data):
                    *(f"{100 * of['parts'][part] / of['cycles']:.1f}" for part in PARTS)) for m in by_prototype(data)
                   for path, of in _paths(m)])
     out += ["## Bytes and atomics", "",
-            paragraph(f"""DRAM traffic of an iteration and of its way back. *atomics avoided*: {ATOMICS} a pixel and Gaussian, as
-            INRIA's way back adds to memory; *stores*: {ATOMICS} a Gaussian and tile, which the hand-over leaves of them."""), ""]
+            "DRAM traffic of an iteration and of its way back.", "",
+            *terms([("*atomics avoided*", f"what INRIA's way back adds to memory: {ATOMICS} a pixel and Gaussian"),
+                    ("*stores*", f"what the hand-over leaves of them: {ATOMICS} a Gaussian and tile")])]
     out += table(("capture", "pictures", "MB", "kernels: MB", "back, MB", "kernels: back, MB", "atomics avoided, M", "stores, M",
                   "ratio"),
                  [(m["scene"], m["view"], f"{m['ours']['dram_mb']:.2f}", f"{m['kernels_whole']['dram_mb']:.2f}",
@@ -385,10 +389,10 @@ def text(data):
                    mega(ATOMICS * m["blends_back"]), mega(ATOMICS * m["pairs"]), f"{m['blends_back'] / m['pairs']:.1f}x")
                   for m in by_prototype(data) if m["machine"] == machines.PROTOTYPES[0] and m["kernels"]])
     out += [f"## {RASTERIZERS} rasterizers", "",
-            paragraph(f"""An iteration of `{rows[0]['large_of']}`, and of one with {RASTERIZERS} rasterizers by the model of
-            [scaling](scaling.md) for both stages of the rasterizers, with memory that grows with them and is used to the full; all
-            other work is spread evenly over as many times the cores; launches and copies take what they take. Seconds of a whole
-            training: so many of these iterations, with and without launches and copies."""), ""]
+            paragraph(f"""An iteration of `{rows[0]['large_of']}`, and of one with {RASTERIZERS} rasterizers. The rasterizers' two stages
+            follow the model of [scaling](scaling.md), with memory that grows with them and is used to the full. All other work is
+            spread evenly over as many times the cores. Launches and copies take the same time. The last columns are seconds of
+            a whole training: so many of these iterations, with and without launches and copies."""), ""]
     out += table(("capture", "pictures", "tiles", "scaled, ms", "rasterizers, ms", "kernels, ms", "launches and copies, ms",
                   *(f"{n}: s" for n in FULL), *(f"{n} without: s" for n in FULL)),
                  [(row["scene"], row["view"], row["largest"]["tiles"],

@@ -15,6 +15,11 @@ def table(heads, rows):
     return ["| " + " | ".join(heads) + " |", rule, *("| " + " | ".join(map(str, row)) + " |" for row in rows), ""]
 
 
+def terms(rows):
+    """What words of a page mean, as a table."""
+    return table(("word", "meaning"), [(word, paragraph(meaning)) for word, meaning in rows])
+
+
 def paragraph(text):
     """One line of Markdown from a text that is broken into lines."""
     return " ".join(text.split())

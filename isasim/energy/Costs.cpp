@@ -79,6 +79,10 @@ constexpr EventCost Others[] = {
      "pixel of the buffer", 1},
     {"rasterizer", "pixels loaded or stored", Wires, "wire byte mm",
      16 * ToEdgeMm},
+    {"rasterizer", "rows of blocks tested", RasterLanes, "fp32 multiplication",
+     8},
+    {"rasterizer", "rows of blocks tested", RasterLanes, "fp32 addition", 8},
+    {"rasterizer", "rows of blocks tested", RasterLanes, "adder bit", 26 * 24},
     {"rasterizer gradients", "pixels", RasterLanes, "fp32 multiplication", 16},
     {"rasterizer gradients", "pixels", RasterLanes, "fp32 addition", 4 + 9},
     {"rasterizer gradients", "pixels", RasterBuffers, "pixel of the buffer", 2},
@@ -160,17 +164,13 @@ std::span<const EventCost> eventCosts() {
 
 std::span<const FreeEvent> freeEvents() {
   static constexpr FreeEvent All[] = {
-      {"data cache", "stale loads"},
-      {"local memory", "conflict cycles"},
-      {"time", "core lanes"},
-      {"time", "rasterizers"},
-      {"time", "rasterizer lanes"},
-      {"time", "pixel unit lanes"},
-      {"time", "KiB of instruction caches"},
-      {"time", "KiB of data caches"},
-      {"time", "KiB of local memories"},
-      {"time", "KiB of the L2"},
-      {"time", "KiB of the llc"},
+      {"data cache", "stale loads"},  {"local memory", "conflict cycles"},
+      {"time", "core lanes"},         {"time", "rasterizers"},
+      {"time", "rasterizer lanes"},   {"time", "second pixel buffers"},
+      {"time", "block tests"},        {"time", "maps of closed blocks"},
+      {"time", "pixel unit lanes"},   {"time", "KiB of instruction caches"},
+      {"time", "KiB of data caches"}, {"time", "KiB of local memories"},
+      {"time", "KiB of the L2"},      {"time", "KiB of the llc"},
   };
   return All;
 }
@@ -208,6 +208,16 @@ std::span<const AreaCost> areaCosts() {
         // Pixels from 16 lanes to 16 banks and back.
         {"rasterizer control", "rasterizers", "choice bit", 2 * 16 * 15 * 128},
         {"rasterizer control", "rasterizers", "gate", 30'000},
+        {"pixel buffers", "second pixel buffers", "buffer bit", 64 * 64 * 128},
+        // Where an ellipse begins and ends in a row of blocks: two roots of a
+        // quadratic equation, by a root of 26 rows, in a pipeline.
+        {"block tests", "block tests", "fp32 multiplier", 8},
+        {"block tests", "block tests", "fp32 adder", 8},
+        {"block tests", "block tests", "adder bit", 26 * 24},
+        {"block tests", "block tests", "choice bit", 26 * 24},
+        {"block tests", "block tests", "register bit", 800},
+        // A count of 5 bits of the open pixels of each of 256 blocks.
+        {"block tests", "maps of closed blocks", "register bit", 256 * 5},
         {"pixel unit", "pixel unit lanes", "fp32 multiplier", 13},
         {"pixel unit", "pixel unit lanes", "fp32 adder", 11},
         {"pixel unit", "pixel unit lanes", "register bit", 1200},

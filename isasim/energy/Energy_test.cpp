@@ -189,8 +189,9 @@ TEST(Energy, KnowsAllEventsOfAMachineThatHasEverything) {
   public:
     void TestBody() override {}
     TimeReport whole() {
-      const auto Named =
-          setValues(Settings, "machine=prototype,timing.core.dcache_kib=16");
+      const auto Named = setValues(
+          Settings, "machine=prototype,timing.core.dcache_kib=16,"
+                    "timing.raster.tile_overlap=2,timing.raster.skip_blocks=3");
       EXPECT_TRUE(Named);
       Settings.Timing.Enabled = true;
       return run({});

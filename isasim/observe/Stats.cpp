@@ -5,12 +5,35 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace vorion::isasim {
 
 using Json = nlohmann::ordered_json;
+
+/// The clock's law may end below the clock, and the technology may not know
+/// the DRAM: then there is no figure.
+static Json energyJson(const EnergyModel &Model, const EnergyWork &Work) {
+  const Expected<Energy> Spent = Model.energyOf(Work);
+  return Spent ? toJson(*Spent, Model.technology()) : Json();
+}
+
+/// \p More is done after \p To.
+static void add(EnergyWork &To, const EnergyWork &More) {
+  To.Cycles += More.Cycles;
+  To.ClockMhz = More.ClockMhz;
+  for (const EventCount &E : More.Events) {
+    const auto Same = std::ranges::find_if(To.Events, [&](const EventCount &O) {
+      return O.Unit == E.Unit && O.Event == E.Event;
+    });
+    if (Same == To.Events.end())
+      To.Events.push_back(E);
+    else
+      Same->Count += E.Count;
+  }
+}
 
 void Stats::add(const std::string &Name, const RunResult &R) {
   Sum.Total += R.Total;
@@ -19,6 +42,18 @@ void Stats::add(const std::string &Name, const RunResult &R) {
   Sum.HostCpuSeconds += R.HostCpuSeconds;
   Json Run = {{"name", Name}};
   Run.update(ownJson<Json>(toJson(R)));
+  if (R.Time) {
+    EnergyWork Work{R.Time->Cycles, R.Time->ClockMhz, {}};
+    for (const Activity &A : R.Time->Activities)
+      Work.Events.push_back({A.Unit, A.Event, A.Count});
+    if (!Model)
+      if (auto Made = EnergyModel::create(defaultTechnology(), Work.ClockMhz,
+                                          std::nullopt))
+        Model = std::move(*Made);
+    if (Model)
+      Run["energy"] = energyJson(*Model, Work);
+    isasim::add(Timed, Work);
+  }
   Runs.push_back(jsonText(Run));
 }
 
@@ -29,6 +64,8 @@ std::string Stats::json() const {
   for (const char *Key :
        {"total", "raster", "host_seconds", "host_cpu_seconds"})
     Object[Key] = All[Key];
+  if (Model)
+    Object["energy"] = energyJson(*Model, Timed);
   Object["runs"] = Json::array();
   for (const std::string &Run : Runs)
     Object["runs"].push_back(ownJson<Json>(Run));

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "vorion/isasim/Config.h"
+#include "vorion/isasim/Energy.h"
 #include "vorion/isasim/Result.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,8 @@ public:
 
   /// {"format", "config", "total", "raster", "host_seconds",
   /// "host_cpu_seconds": sums over runs, "runs": [what toJson(RunResult) has,
-  /// with "name"]}.
+  /// with "name"]}. Where a run was timed, it and the sum have "energy": by the
+  /// default technology, at the voltage that the clock needs.
   std::string json() const;
   /// A line a counter, totals of one run only.
   static std::string table(const RunResult &R);
@@ -25,6 +28,9 @@ public:
 private:
   std::string Machine;
   RunResult Sum;
+  /// Of the runs that were timed; their model is made with the first of them.
+  EnergyWork Timed;
+  std::optional<EnergyModel> Model;
   std::vector<std::string> Runs; ///< JSON objects
 };
 

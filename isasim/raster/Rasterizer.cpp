@@ -1,6 +1,7 @@
 #include "raster/Rasterizer.h"
 
 #include "raster/BackwardRun.h"
+#include "raster/BlockTests.h"
 #include "raster/CommandInput.h"
 
 #include <algorithm>
@@ -15,12 +16,13 @@ namespace {
 /// One command in the works: checked, executed, written out.
 class Execution {
 public:
-  /// \p KeepDetails: the Gaussians too, for the log.
+  /// \p To: who wants to know details; nullptr for nobody.
   Execution(RasterAgent &Served, RasterMemory &Global, TileBuffer &Buffer,
-            const Datapath &Unit, bool KeepDetails)
+            const Datapath &Unit, const WorkLog *To)
       : Agent(Served), Current(Served.front()),
         Work(beginCommand(Served, Global)), Memory(Global), Tile(Buffer),
-        Lanes(Unit), KeepsDetails(KeepDetails) {}
+        Lanes(Unit), KeepsDetails(To != nullptr),
+        Tests(To ? To->blockTests() : 0) {}
 
   /// To be called once.
   CommandWork run();
@@ -45,6 +47,7 @@ private:
   TileBuffer &Tile;
   const Datapath &Lanes;
   bool KeepsDetails;
+  BlockTests Tests;
   uint32_t Done = 0; ///< entries of the list
 };
 
@@ -59,6 +62,11 @@ void Execution::blendOne(const Gaussian &G, uint32_t Address, bool Intersects,
     Work.Gaussians.push_back(
         {Address, Result.X, Result.Y, Result.Width, Result.Height,
          static_cast<uint16_t>(Result.Fragments), Intersects});
+  if (Tests.any() && !Result.Clipped) {
+    const BlockWork Left = Tests.count(G, Result, Options.MinAlpha, Tile);
+    Work.Gaussians.back().Blocks = Left.Blocks;
+    Work.Gaussians.back().BlockPixels = Left.Pixels;
+  }
 }
 
 uint32_t Execution::blendPushed() {
@@ -225,8 +233,7 @@ bool Rasterizer::step() {
       stepBackward();
       return true;
     }
-    CommandWork Done =
-        Execution(Agent, Memory, *Tile, *Lanes, Log != nullptr).run();
+    CommandWork Done = Execution(Agent, Memory, *Tile, *Lanes, Log).run();
     if (Done.HandedOver) {
       HandOvers.push_back({&Agent, Done.What.TailRecord});
       Agent.handOver(Done.Counts);

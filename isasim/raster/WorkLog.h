@@ -16,6 +16,9 @@ struct GaussianWork {
   uint8_t X, Y, Width, Height;
   uint16_t Slots;  ///< pixels given to lanes
   bool SpansTiles; ///< the tag's intersect bit
+  /// Of the tile's blocks of 4 x 4 pixels those that WorkLog::blockTests()
+  /// leaves of the box, and the box's pixels in them.
+  uint16_t Blocks = 0, BlockPixels = 0;
 };
 
 /// A command that a rasterizer has executed.
@@ -58,6 +61,8 @@ public:
   virtual ~WorkLog() = default;
   virtual void command(CommandWork &&Work) = 0;
   virtual void tail(TailWork &&Work) = 0;
+  /// Tests of blocks (BlockTest) whose results are wanted.
+  virtual unsigned blockTests() const { return 0; }
 };
 
 } // namespace vorion::raster

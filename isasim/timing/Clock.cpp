@@ -1,5 +1,6 @@
 #include "timing/Clock.h"
 
+#include "raster/BlockTests.h"
 #include "timing/DatapathUnits.h"
 #include "timing/dram/TimingTable.h"
 
@@ -277,6 +278,8 @@ void Clock::collectRasters(TimeReport &R) const {
     Work += C.laneWork();
   Add("rasterizer", "pixels blended", Work.allBlended());
   Add("rasterizer", "pixels loaded or stored", Work.Moved);
+  if (Timing.Raster.SkipBlocks != 0)
+    Add("rasterizer", "rows of blocks tested", Work.BlockRows);
   for (uint8_t N = 0; N != raster::ExpUnitCount; ++N)
     Add("rasterizer exponential", expUnitName(N), Work.Evaluated[N]);
   for (uint8_t N = 0; N != raster::BlendUnitCount; ++N)
@@ -300,6 +303,12 @@ void Clock::collectTimes(TimeReport &R) const {
   Add("cores", Each(Shape.cores()));
   Add("core lanes", Each(uint64_t{Shape.cores()} * Shape.LanesPerWarp));
   Add("rasterizers", Each(Shape.sockets()));
+  if (Timing.Raster.TileOverlap == 2)
+    Add("second pixel buffers", Each(Shape.sockets()));
+  if (Timing.Raster.SkipBlocks & raster::OutsideEllipse)
+    Add("block tests", Each(Shape.sockets()));
+  if (Timing.Raster.SkipBlocks & raster::ClosedBlock)
+    Add("maps of closed blocks", Each(Shape.sockets()));
   Add("rasterizer lanes",
       Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
   Add("pixel unit lanes", Each(uint64_t{Shape.Clusters} * Timing.Pixel.Lanes));
@@ -506,8 +515,7 @@ void Clock::stepRaster(unsigned Socket, uint64_t Then) {
   const unsigned Core = Socket * Shape.CoresPerSocket + Done->Agent;
   if (Done->HandedOver) {
     const unsigned Cluster = Shape.clusterOf(Core);
-    Pixels[Cluster].accept(Core % Shape.coresPerCluster(),
-                           Rasters[Socket].freeAt());
+    Pixels[Cluster].accept(Core % Shape.coresPerCluster(), Done->At);
     update(placeOfPixels(Cluster));
   }
   wake(Core, Then);

@@ -1,5 +1,6 @@
 #include "timing/RasterClock.h"
 
+#include "raster/BlockTests.h"
 #include "raster/RasterTables.h"
 #include "timing/DatapathUnits.h"
 
@@ -13,6 +14,10 @@ using raster::GaussianWork;
 namespace {
 constexpr unsigned TableSide = raster::VR_MAX_TILE + 1;
 constexpr uint32_t PixelBytes = sizeof(raster::Pixel);
+constexpr unsigned HalfBuffer = raster::VR_MAX_TILE * raster::VR_MAX_TILE / 2;
+/// Of the pixels of a block, where dispatch leaves blocks out.
+constexpr unsigned BlockSide = raster::BlockTests::Side,
+                   BlockPixels = BlockSide * BlockSide;
 
 /// Of a command that was refused, units may not exist.
 size_t expOf(raster::LaneUnits U) {
@@ -80,6 +85,8 @@ void RasterClock::begin(uint64_t Start) {
     DispatchAt = std::max(DispatchAt, Start);
   if (Now == Stage::Take)
     At = std::max(At, DispatchAt);
+  if (Behind)
+    Behind->At = std::max(Behind->At, Start);
   Ledger.begin(Start);
   Spent = {};
   OfLanes = {};
@@ -88,9 +95,11 @@ void RasterClock::begin(uint64_t Start) {
 void RasterClock::reset() {
   for (Agent &A : Agents) {
     A.Expected.clear();
-    A.Queued = A.Tails = A.Waiting = 0;
+    A.Queued = A.Behind = A.Tails = A.Waiting = 0;
     A.Batches.clear();
   }
+  Behind.reset();
+  IsDirty = true;
   Now = Stage::Idle;
   At = Turn::Never;
   InLanes = {};
@@ -136,9 +145,19 @@ void RasterClock::handOver() {
 }
 
 std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
+  if (Behind && Turn(Behind->At) < turnOfFront()) {
+    if (Behind->Next.Row == Behind->Work.What.Height)
+      return finishBehind(Memory);
+    writeBehind(Memory);
+    return std::nullopt;
+  }
   Ledger.settle(At);
   switch (Now) {
   case Stage::Take:
+    if (mustWaitForBehind()) {
+      At = Turn::Never;
+      break;
+    }
     take();
     if (Work.What.IsBackward && !Work.hasFailed())
       load(Memory);
@@ -149,13 +168,14 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
     break;
   case Stage::HandOver:
     handOver();
-    return Finished{Serving, false};
+    return Finished{Serving, false, DispatchAt};
   case Stage::Drain:
     drain(Memory);
     break;
   case Stage::Done:
     return finish(Memory);
   case Stage::Idle:
+  case Stage::Full:
     break;
   }
   return std::nullopt;
@@ -164,6 +184,8 @@ std::optional<RasterClock::Finished> RasterClock::step(MemorySystem &Memory) {
 void RasterClock::answer(uint32_t Tag, uint64_t Then) {
   if (!Fetch.answer(Tag, Then))
     return;
+  if (Behind && Behind->At == Turn::Never)
+    writtenBehind();
   if (Now == Stage::Fetch)
     fetched();
   else if (Now == Stage::Drain && At == Turn::Never)
@@ -176,10 +198,24 @@ std::optional<unsigned> RasterClock::nextAgent() const {
     const auto Turn =
         static_cast<unsigned>((NextAgent + Tried) % Agents.size());
     const Agent &A = Agents[Turn];
-    if (A.Queued != 0 && (MoreWork || !A.Expected.empty()))
+    if (A.hasCommand() && (MoreWork || !A.Expected.empty()))
       return Turn;
   }
   return std::nullopt;
+}
+
+/// Whether a tile, so that the next can be blended while it is written, or a
+/// clean buffer for that.
+bool RasterClock::fitsBuffer(const raster::Job &J) const {
+  return unsigned{J.Width} * J.Height <= Timing.TileOverlap * HalfBuffer;
+}
+
+/// A command that needs the whole buffer, or may read what is being written.
+bool RasterClock::mustWaitForBehind() const {
+  if (!Behind)
+    return false;
+  const raster::Job &Next = Agents[*nextAgent()].Expected.front().What;
+  return Next.IsBackward || !fitsBuffer(Next);
 }
 
 void RasterClock::take() {
@@ -193,10 +229,13 @@ void RasterClock::take() {
   if (Work.What.IsBackward && Work.hasFailed())
     Work.Gaussians.clear();
 
-  spend(RasterCycle::Idle, At - DispatchAt);
+  spend(Behind ? RasterCycle::Drain : RasterCycle::Idle, At - DispatchAt);
   TakenAt = At;
-  const uint64_t Begun = At + Timing.StartCycles;
-  // The whole tile is cleared, a row of banks at a time.
+  // What is still written behind has the port first.
+  const uint64_t Begun = Behind ? std::max(At + Timing.StartCycles, Fetch.now())
+                                : At + Timing.StartCycles;
+  // The whole tile is cleared, a row of banks at a time, unless that was done
+  // as the last one of its buffer was written.
   const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
   OfLanes.Moved += Pixels;
   if (Work.What.IsBackward)
@@ -204,7 +243,8 @@ void RasterClock::take() {
   else
     OfLanes.Blended[blendOf(Work.What.Units)] += Work.Counts.Blends;
   spend(RasterCycle::Begin,
-        Timing.StartCycles + (Pixels + Timing.Banks - 1) / Timing.Banks);
+        Timing.StartCycles +
+            (IsDirty ? (Pixels + Timing.Banks - 1) / Timing.Banks : 0));
   Fetch.begin(Begun);
   Fetch.beginSet(GaussianFetch::Others);
   Number = Dispatches = 0;
@@ -303,17 +343,34 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
   const unsigned Lanes = Work.What.IsBackward ? Timing.Lanes / 2 : Timing.Lanes;
   unsigned Cycles =
       (Work.What.IsBackward ? PairTable : Table).cycles(G.Width, G.Height);
+  unsigned Slots = G.Slots;
   // Where saturated pixels get no slot (an option), only the others are packed.
   if (G.Slots < unsigned{G.Width} * G.Height)
     Cycles = std::min(Cycles, std::max(1U, (G.Slots + Lanes - 1) / Lanes));
+  if (Timing.SkipBlocks != 0 && !Work.What.IsBackward) {
+    const unsigned ByBlocks = cyclesByBlocks(G);
+    if (ByBlocks < Cycles) {
+      Cycles = ByBlocks;
+      Slots = std::min<unsigned>(Slots, G.BlockPixels);
+    }
+  }
   const uint64_t Safe = safeAt(G, Cycles);
   if (Safe > DispatchAt)
     spend(RasterCycle::Hazard, Safe - DispatchAt);
   InLanes[NextInLanes] = {G, DispatchAt, Cycles};
   NextInLanes = (NextInLanes + 1) % Recent;
-  Spent.LaneSlots += G.Slots;
-  OfLanes.Evaluated[expOf(Work.What.Units)] += G.Slots;
+  Spent.LaneSlots += Slots;
+  OfLanes.Evaluated[expOf(Work.What.Units)] += Slots;
   spend(RasterCycle::Blend, std::max<uint64_t>(Cycles, Timing.ClipCycles));
+}
+
+/// Rows of blocks are tested one a cycle, and a block that is left takes a
+/// cycle: its pixels have a bank each.
+unsigned RasterClock::cyclesByBlocks(const GaussianWork &G) {
+  const unsigned Rows = (G.Y + G.Height - 1) / BlockSide - G.Y / BlockSide + 1;
+  OfLanes.BlockRows += Rows;
+  const unsigned AtOnce = std::min(Timing.Lanes, Timing.Banks);
+  return std::max(Rows, G.Blocks * ((BlockPixels + AtOnce - 1) / AtOnce));
 }
 
 /// The earliest start at which every pixel that is still being updated has its
@@ -352,32 +409,50 @@ void RasterClock::flush() {
   if (!Work.Gaussians.empty() && !Work.What.IsBackward)
     spend(RasterCycle::Flush, laneDepth(Work.What.Units));
   InLanes = {};
-  DrainRow = 0;
-  DrainByte = 0;
+  Draining = {};
   At = DispatchAt;
-  Now = Work.What.Drains || Work.What.IsBackward || Work.hasFailed()
-            ? Stage::Done
-            : Stage::Drain;
+  IsDirty = true;
+  if (Work.What.Drains || Work.What.IsBackward || Work.hasFailed()) {
+    Now = Stage::Done;
+  } else if (!fitsBuffer(Work.What)) {
+    Now = Stage::Drain;
+  } else if (Behind) {
+    Now = Stage::Full;
+    At = Turn::Never;
+  } else {
+    drainBehind();
+  }
 }
 
-/// A line of the tile.
-void RasterClock::drain(MemorySystem &Memory) {
-  const uint32_t RowBytes = Work.What.Width * PixelBytes;
-  const uint32_t Address =
-      Work.What.Output + DrainRow * Work.What.OutputPitch + DrainByte;
+/// The tile is written, and cleared with that, while the rasterizer goes on.
+void RasterClock::drainBehind() {
+  IsDirty = false;
+  ++Agents[Serving].Behind;
+  Behind = Written{std::move(Work), Serving, TakenAt, DispatchAt, {}};
+  goOn();
+}
+
+/// A line of the tile of \p J; returns its pixels.
+uint32_t RasterClock::writeLine(MemorySystem &Memory, const raster::Job &J,
+                                Place &Next, unsigned Set) {
+  const uint32_t RowBytes = J.Width * PixelBytes;
+  const uint32_t Address = J.Output + Next.Row * J.OutputPitch + Next.Byte;
   const uint32_t Line = lineOf(Address);
   const uint32_t Bytes =
-      std::min(Line + TimingLineBytes - Address, RowBytes - DrainByte);
-  Fetch.waitUntil(At);
-  Fetch.beginSet(GaussianFetch::Others);
-  Fetch.line(Memory, GaussianFetch::Others, Line,
+      std::min(Line + TimingLineBytes - Address, RowBytes - Next.Byte);
+  Fetch.beginSet(Set);
+  Fetch.line(Memory, Set, Line,
              Bytes == TimingLineBytes ? CacheOp::WriteWhole : CacheOp::Write);
-  OfLanes.Moved += Bytes / PixelBytes;
-  DrainByte += Bytes;
-  if (DrainByte == RowBytes) {
-    DrainByte = 0;
-    ++DrainRow;
-  }
+  Next.Byte += Bytes;
+  if (Next.Byte == RowBytes)
+    Next = {Next.Row + 1, 0};
+  return Bytes / PixelBytes;
+}
+
+void RasterClock::drain(MemorySystem &Memory) {
+  Fetch.waitUntil(At);
+  OfLanes.Moved +=
+      writeLine(Memory, Work.What, Draining, GaussianFetch::Others);
   drained();
 }
 
@@ -392,48 +467,92 @@ void RasterClock::drained() {
       std::max(DispatchAt + 1, Taken > WriteCycles ? Taken - WriteCycles : 0);
   spend(RasterCycle::Drain, Next - DispatchAt);
   At = Next;
-  if (DrainRow == Work.What.Height)
+  if (Draining.Row == Work.What.Height)
     Now = Stage::Done;
 }
 
-/// Rows of last contributors, a line a cycle.
-void RasterClock::storeLast(MemorySystem &Memory) {
-  for (unsigned Row = 0; Row != Work.What.Height; ++Row) {
-    const uint32_t First = Work.What.Last + Row * (Work.What.OutputPitch / 4);
-    const uint32_t End = First + Work.What.Width * 4;
-    for (uint32_t Line = lineOf(First); Line < End; Line += TimingLineBytes) {
-      Memory.access(Port.Cluster,
-                    {.Now = DispatchAt, .Address = Line, .Op = CacheOp::Write});
-      spend(RasterCycle::Drain, 1);
+void RasterClock::writeBehind(MemorySystem &Memory) {
+  Fetch.waitUntil(Behind->At);
+  OfLanes.Moved += writeLine(Memory, Behind->Work.What, Behind->Next,
+                             GaussianFetch::EvenOthers);
+  writtenBehind();
+}
+
+/// As drained().
+void RasterClock::writtenBehind() {
+  const uint64_t Taken = Fetch.readyAt(GaussianFetch::EvenOthers);
+  Behind->At = Taken == Turn::Never
+                   ? Turn::Never
+                   : std::max(Fetch.now(),
+                              Taken > WriteCycles ? Taken - WriteCycles : 0);
+}
+
+/// Whoever waits for the buffer, or has nothing else to do, spent its time on
+/// that.
+RasterClock::Finished RasterClock::finishBehind(MemorySystem &Memory) {
+  const Written Done = std::move(*Behind);
+  Behind.reset();
+  --Agents[Done.Agent].Behind;
+  const uint64_t End = storeRest(Memory, Done.Work, Done.At);
+  const bool Waits =
+      Now == Stage::Idle ||
+      (At == Turn::Never && (Now == Stage::Take || Now == Stage::Full));
+  if (Waits && End > DispatchAt)
+    spend(RasterCycle::Drain, End - DispatchAt);
+  const Finished Ended = complete(Done.Work, Done.Agent, Done.TakenAt, End);
+  if (Now == Stage::Full)
+    drainBehind();
+  else if (Waits && Now == Stage::Take)
+    At = DispatchAt;
+  return Ended;
+}
+
+/// What follows a tile's pixels: rows of last contributors, the pixel unit's
+/// record, a line a cycle from \p Then on. Returns the end.
+uint64_t RasterClock::storeRest(MemorySystem &Memory,
+                                const raster::CommandWork &Of, uint64_t Then) {
+  const auto Write = [&](uint32_t Line) {
+    Memory.access(Port.Cluster,
+                  {.Now = Then++, .Address = Line, .Op = CacheOp::Write});
+  };
+  if (Of.What.KeepsLast && !Of.What.IsBackward && !Of.hasFailed())
+    for (unsigned Row = 0; Row != Of.What.Height; ++Row) {
+      const uint32_t First = Of.What.Last + Row * (Of.What.OutputPitch / 4);
+      const uint32_t End = First + Of.What.Width * 4;
+      for (uint32_t Line = lineOf(First); Line < End; Line += TimingLineBytes)
+        Write(Line);
     }
-  }
+  if (Of.HandedOver)
+    for (uint32_t Byte = 0; Byte < sizeof(raster::Tail);
+         Byte += TimingLineBytes)
+      Write(Of.What.TailRecord + Byte);
+  return Then;
 }
 
 RasterClock::Finished RasterClock::finish(MemorySystem &Memory) {
   if (Work.What.IsBackward)
     Agents[Serving].Batches.push_back(false);
-  else if (Work.What.KeepsLast && !Work.hasFailed())
-    storeLast(Memory);
-  if (Work.HandedOver) {
-    constexpr unsigned Lines =
-        (sizeof(raster::Tail) + TimingLineBytes - 1) / TimingLineBytes;
-    for (unsigned N = 0; N != Lines; ++N)
-      Memory.access(Port.Cluster,
-                    {.Now = DispatchAt + N,
-                     .Address = Work.What.TailRecord + N * TimingLineBytes,
-                     .Op = CacheOp::Write});
-    spend(RasterCycle::Drain, Lines);
-  }
+  spend(RasterCycle::Drain, storeRest(Memory, Work, DispatchAt) - DispatchAt);
+  const Finished Done = complete(Work, Serving, TakenAt, DispatchAt);
+  goOn();
+  return Done;
+}
+
+RasterClock::Finished RasterClock::complete(const raster::CommandWork &Of,
+                                            unsigned Agent, uint64_t Taken,
+                                            uint64_t Then) {
   if (Watch)
-    Watch->tell(
-        [this](TimeObserver &O) { O.tile(Work, {TakenAt, DispatchAt}); });
-  --Agents[Serving].Queued;
-  Agents[Serving].Tails += Work.HandedOver;
-  const bool More = std::any_of(Agents.begin(), Agents.end(),
-                                [](const Agent &A) { return A.Queued != 0; });
+    Watch->tell([&](TimeObserver &O) { O.tile(Of, {Taken, Then}); });
+  --Agents[Agent].Queued;
+  Agents[Agent].Tails += Of.HandedOver;
+  return {Agent, Of.HandedOver, Then};
+}
+
+/// To the next command, if there is one.
+void RasterClock::goOn() {
+  const bool More = std::ranges::any_of(Agents, &Agent::hasCommand);
   Now = More ? Stage::Take : Stage::Idle;
   At = More ? DispatchAt : Turn::Never;
-  return {Serving, Work.HandedOver};
 }
 
 RasterClock::LaneWork &
@@ -444,6 +563,7 @@ RasterClock::LaneWork::operator+=(const LaneWork &Other) {
     Blended[N] += Other.Blended[N];
   Gradients += Other.Gradients;
   Moved += Other.Moved;
+  BlockRows += Other.BlockRows;
   return *this;
 }
 
@@ -456,8 +576,9 @@ void RasterClock::end(uint64_t End) {
   const bool IsLoaded = Fetch.readyAt(GaussianFetch::Others) != Turn::Never;
   const RasterCycle Rest =
       Now == Stage::Fetch ? IsLoaded ? RasterCycle::Fetch : RasterCycle::Begin
-      : Now == Stage::Drain || Now == Stage::HandOver ? RasterCycle::Drain
-                                                      : RasterCycle::Idle;
+      : Now == Stage::Drain || Now == Stage::HandOver || Behind
+          ? RasterCycle::Drain
+          : RasterCycle::Idle;
   Spent.Cycles = Ledger.end(End, Rest);
 }
 

@@ -77,14 +77,13 @@ public:
 
   /// What it does next is not known as long as its work is not.
   Turn turn() const {
-    if (Now != Stage::Take)
-      return Turn(At);
-    const std::optional<unsigned> Next = nextAgent();
-    return Next ? Turn(At, !Agents[*Next].Expected.empty()) : Turn();
+    const Turn Front = turnOfFront();
+    return Behind && Turn(Behind->At) < Front ? Turn(Behind->At) : Front;
   }
   struct Finished {
     unsigned Agent;
     bool HandedOver; ///< the pixel unit goes on
+    uint64_t At;     ///< the command was done with it, all cycles counted
   };
   /// Does it, if it is known; returns the agent of a command that is
   /// done with it, or has a batch of gradients.
@@ -108,6 +107,7 @@ public:
     std::array<uint64_t, raster::BlendUnitCount> Blended{};
     uint64_t Gradients = 0; ///< of pixels, in the backward mode
     uint64_t Moved = 0; ///< pixels cleared, loaded or stored with their tile
+    uint64_t BlockRows = 0; ///< of boxes, where blocks of them are tested
 
     LaneWork &operator+=(const LaneWork &Other);
     uint64_t allBlended() const;
@@ -118,10 +118,25 @@ private:
   struct Agent {
     std::deque<raster::CommandWork> Expected;
     unsigned Queued = 0;
-    unsigned Tails = 0; ///< that the pixel unit has
+    unsigned Behind = 0; ///< of these, whose tile is written behind the next
+    unsigned Tails = 0;  ///< that the pixel unit has
     /// Of gradients, waiting for the core; false for the end of a command.
     std::deque<bool> Batches;
     unsigned Waiting = 0; ///< of these, batches
+
+    bool hasCommand() const { return Queued != Behind; }
+  };
+  /// How much of a tile has been asked to be written.
+  struct Place {
+    unsigned Row = 0;
+    uint32_t Byte = 0; ///< of the row
+  };
+  /// A tile that is written while others are blended.
+  struct Written {
+    raster::CommandWork Work;
+    unsigned Agent;
+    uint64_t TakenAt, At;
+    Place Next;
   };
   /// A Gaussian whose pixels may still be in the lanes.
   struct Dispatched {
@@ -129,13 +144,28 @@ private:
     uint64_t Start = 0;
     unsigned Cycles = 0;
   };
-  enum class Stage : uint8_t { Idle, Take, Fetch, HandOver, Drain, Done };
+  enum class Stage : uint8_t {
+    Idle,
+    Take,
+    Fetch,
+    HandOver,
+    Full, ///< the tile can be written when the one behind has been
+    Drain,
+    Done
+  };
 
   void spend(RasterCycle What, uint64_t Cycles) {
     DispatchAt += Cycles;
     Ledger.spend(What, DispatchAt);
   }
+  Turn turnOfFront() const {
+    if (Now != Stage::Take)
+      return Turn(At);
+    const std::optional<unsigned> Next = nextAgent();
+    return Next ? Turn(At, !Agents[*Next].Expected.empty()) : Turn();
+  }
   std::optional<unsigned> nextAgent() const;
+  bool mustWaitForBehind() const;
   void take();
   void load(MemorySystem &Memory);
   uint32_t entryOf(size_t Gaussian) const;
@@ -144,12 +174,24 @@ private:
   void fetched();
   bool endsBatch(size_t Gaussian) const;
   void dispatch(const raster::GaussianWork &G, uint64_t Ready);
+  unsigned cyclesByBlocks(const raster::GaussianWork &G);
   uint64_t safeAt(const raster::GaussianWork &G, unsigned Cycles) const;
   void flush();
+  bool fitsBuffer(const raster::Job &J) const;
+  void drainBehind();
+  uint32_t writeLine(MemorySystem &Memory, const raster::Job &J, Place &Next,
+                     unsigned Set);
   void drain(MemorySystem &Memory);
   void drained();
-  void storeLast(MemorySystem &Memory);
+  void writeBehind(MemorySystem &Memory);
+  void writtenBehind();
+  Finished finishBehind(MemorySystem &Memory);
+  uint64_t storeRest(MemorySystem &Memory, const raster::CommandWork &Of,
+                     uint64_t Then);
   Finished finish(MemorySystem &Memory);
+  Finished complete(const raster::CommandWork &Of, unsigned Agent,
+                    uint64_t TakenAt, uint64_t Then);
+  void goOn();
 
   const RasterTiming Timing;
   const uint32_t WriteCycles; ///< MemorySystem::writeCycles()
@@ -174,9 +216,10 @@ private:
   static constexpr size_t Recent = 8;
   std::array<Dispatched, Recent> InLanes{};
   size_t NextInLanes = 0;
-  unsigned DrainRow = 0;
-  uint32_t DrainByte =
-      0; ///< of the row, behind what has been asked to be written
+  Place Draining;
+  std::optional<Written> Behind;
+  /// Whether the buffer holds what no writing of a tile has cleared.
+  bool IsDirty = true;
 
   CycleLedger<RasterCycle> Ledger;
   RasterTime Spent;

@@ -227,6 +227,144 @@ TEST_F(RasterClockTest, ACommandWithoutWorkWaitsForTheNextRun) {
   EXPECT_EQ(of(R.time(), RasterCycle::Blend), 256U);
 }
 
+/// A tile of \p Width x \p Height that is written to memory.
+CommandWork written(unsigned Width, unsigned Height,
+                    std::vector<GaussianWork> Gaussians) {
+  CommandWork W;
+  W.What.Width = static_cast<uint16_t>(Width);
+  W.What.Height = static_cast<uint16_t>(Height);
+  W.What.Output = 0x300000;
+  W.What.OutputPitch = 64 * 16;
+  W.Gaussians = std::move(Gaussians);
+  return W;
+}
+
+class TileOverlapTest : public RasterClockTest {
+protected:
+  /// \p Count tiles of 1024 lines, or half as many, each with boxes that take
+  /// 1536 cycles, of two agents in turn.
+  RasterTime tiles(unsigned Count, unsigned Width, unsigned Overlap) {
+    P.Raster.TileOverlap = Overlap;
+    RasterClock R(P, MemoryPort(), 2, Count);
+    R.begin(Now);
+    std::vector<unsigned> Served, Expected;
+    for (unsigned N = 0; N != Count; ++N) {
+      R.expect(N % 2, written(Width, 64, std::vector(6, box(0, 0, 64, 64))));
+      R.start(N % 2, Now);
+      Expected.push_back(N % 2);
+    }
+    const uint64_t End = finish(R, &Served);
+    EXPECT_EQ(Served, Expected);
+    EXPECT_EQ(R.commandsLeft(), 0U);
+    R.end(End);
+    EXPECT_EQ(std::reduce(R.time().Cycles.begin(), R.time().Cycles.end()),
+              End - Now);
+    // Each pixel is cleared once and written once.
+    EXPECT_EQ(R.laneWork().Moved, uint64_t{2} * Count * Width * 64);
+    Now = End + 100000;
+    return R.time();
+  }
+};
+
+TEST_F(TileOverlapTest, ATileIsWrittenWhileTheNextIsBlended) {
+  const RasterTime Off = tiles(5, 64, 0), On = tiles(5, 64, 2);
+  EXPECT_EQ(of(Off, RasterCycle::Drain), 5U * 1024);
+  EXPECT_EQ(of(On, RasterCycle::Drain), 1024U); // the last one's
+  EXPECT_EQ(of(On, RasterCycle::Blend), of(Off, RasterCycle::Blend));
+  EXPECT_EQ(of(On, RasterCycle::Flush), of(Off, RasterCycle::Flush));
+  // It is clean when it has been written; only the first has to be cleared.
+  EXPECT_EQ(of(Off, RasterCycle::Begin), 5U * (P.Raster.StartCycles + 256));
+  EXPECT_EQ(of(On, RasterCycle::Begin), 5U * P.Raster.StartCycles + 256);
+}
+
+TEST_F(TileOverlapTest, HalvesOverlapTilesThatFitOne) {
+  const RasterTime Off = tiles(4, 64, 0), Whole = tiles(4, 64, 1);
+  EXPECT_EQ(Whole.Cycles, Off.Cycles);
+  const RasterTime Halves = tiles(4, 32, 1);
+  EXPECT_EQ(of(Halves, RasterCycle::Drain), 512U);
+}
+
+TEST_F(TileOverlapTest, ATileWaitsUntilTheOneBeforeIsWritten) {
+  P.Raster.TileOverlap = 2;
+  RasterClock R(P, MemoryPort(), 1, 8);
+  R.begin(0);
+  for (unsigned N = 0; N != 4; ++N) {
+    R.expect(0, written(64, 64, {box(0, 0, 16, 1)}));
+    R.start(0, 0);
+  }
+  const uint64_t End = finish(R);
+  R.end(End);
+  // The port writes a line a cycle, whatever is to be blended.
+  EXPECT_EQ(
+      of(R.time(), RasterCycle::Drain) + of(R.time(), RasterCycle::Begin) +
+          of(R.time(), RasterCycle::Blend) + of(R.time(), RasterCycle::Fetch) +
+          of(R.time(), RasterCycle::Hazard) + of(R.time(), RasterCycle::Flush),
+      End);
+  EXPECT_GE(End, 4U * 1024);
+  EXPECT_LT(End, 4U * 1024 + 400);
+}
+
+TEST_F(TileOverlapTest, AnotherTurnOfTheSameAgentMayNotReadWhatIsWritten) {
+  P.Raster.TileOverlap = 2;
+  RasterClock R(P, MemoryPort(), 1, 8);
+  R.begin(0);
+  CommandWork Back;
+  Back.What.Width = 32;
+  Back.What.Height = 64;
+  Back.What.OutputPitch = 512;
+  Back.What.IsBackward = true;
+  R.expect(0, written(32, 64, {box(0, 0, 16, 1)}));
+  R.start(0, 0);
+  R.expect(0, std::move(Back));
+  R.start(0, 0);
+  const uint64_t End = finish(R);
+  R.end(End);
+  EXPECT_FALSE(R.isBusy(0));
+  EXPECT_EQ(of(R.time(), RasterCycle::Drain), 512U);
+}
+
+TEST_F(TileOverlapTest, ARunMayEndWhileATileIsWritten) {
+  P.Raster.TileOverlap = 2;
+  RasterClock R(P, MemoryPort(), 1, 8);
+  R.begin(0);
+  R.expect(0, written(64, 64, {box(0, 0, 16, 1)}));
+  R.start(0, 0);
+  while (R.laneWork().Moved < 4096 + 400)
+    step(R);
+  EXPECT_EQ(R.commandsLeft(), 1U);
+  R.end(5000);
+  EXPECT_GT(of(R.time(), RasterCycle::Drain), 4000U);
+  R.begin(5000);
+  const uint64_t End = finish(R);
+  R.end(End);
+  EXPECT_EQ(R.commandsLeft(), 0U);
+  EXPECT_EQ(of(R.time(), RasterCycle::Drain), End - 5000);
+}
+
+TEST_F(RasterClockTest, BlocksThatAreSkippedTakeNoCycle) {
+  GaussianWork G = box(0, 0, 64, 64);
+  G.Blocks = 40;
+  G.BlockPixels = 40 * 16;
+  const auto Of = [&] { return timeOf(pushed({G})); };
+  EXPECT_EQ(of(Of(), RasterCycle::Blend), 256U) << "not asked for";
+  P.Raster.SkipBlocks = 1;
+  EXPECT_EQ(of(Of(), RasterCycle::Blend), 40U);
+  EXPECT_EQ(Of().LaneSlots, 640U);
+  // A row of blocks is tested a cycle.
+  G.Blocks = 3;
+  EXPECT_EQ(of(Of(), RasterCycle::Blend), 16U);
+  P.Raster.Lanes = 8;
+  G.Blocks = 40;
+  EXPECT_EQ(of(Of(), RasterCycle::Blend), 80U);
+  // Rows that lie badly for blocks are packed as ever.
+  P.Raster.Lanes = 16;
+  G = box(3, 3, 2, 2);
+  G.Blocks = 4;
+  G.BlockPixels = 4;
+  EXPECT_EQ(of(Of(), RasterCycle::Blend), 1U);
+  EXPECT_EQ(Of().LaneSlots, 4U);
+}
+
 /// A backward command of \p Gaussians; every line it reads is at address 0.
 CommandWork backward(std::vector<GaussianWork> Gaussians) {
   CommandWork W;

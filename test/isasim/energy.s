@@ -10,6 +10,11 @@
 # RUN: FileCheck %s --input-file %t/first
 # RUN: vorion-sim %t/p.elf --energy --threads 1 | cmp - %t/first
 # RUN: vorion-sim %t/p.elf --voltage 0.8 | FileCheck %s --check-prefix=VOLTS
+# Counters of a run say it where the clock is on, and of all runs.
+# RUN: vorion-sim %t/p.elf --time --stats %t/timed.json > %t/timed.txt
+# RUN: vorion-sim %t/p.elf --stats %t/untimed.json > %t/untimed.txt
+# RUN: %python -c "import json; s = json.load(open('%t/timed.json')); e = s['runs'][0]['energy']; assert e == s['energy'] and 0 < e['chip_joules']['value'] < e['joules']['value']; printed = next(l for l in open('%t/first') if l.startswith('all ')).split()[1]; assert format(1e3 * e['joules']['value'], '.4g') == printed"
+# RUN: not grep -q energy %t/untimed.json
 # The default technology can be written, changed and read again.
 # RUN: vorion-sim --print-technology > %t/mine.json
 # RUN: vorion-sim %t/p.elf --technology %t/mine.json | cmp - %t/first

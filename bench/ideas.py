@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""What each idea for the rasterizer is worth on a view: cycles, energy and area beside the machine without it (docs/ideas.md).
+
+usage: ideas.py SCENE --cameras FILE --view NAME [--config MACHINE]
+
+Prints a Markdown table. Every idea draws the same bits as the picture of its tile size, or the program ends with an error.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import timed_frame
+
+# What the table calls it, settings of the machine, options of splat render.
+IDEAS = [
+    ("none", "", ()),
+    ("tiles of 32 pixels", "", ("--tile", "32")),
+    ("the same, halves of the pixel buffer", "timing.raster.tile_overlap=1", ("--tile", "32")),
+    ("a second pixel buffer", "timing.raster.tile_overlap=2", ()),
+    ("32 banks for 16 lanes", "timing.raster.banks=32", ()),
+    ("blocks outside of the ellipse skipped", "timing.raster.skip_blocks=1", ()),
+    ("closed blocks skipped", "timing.raster.skip_blocks=2", ()),
+    ("both kinds of block", "timing.raster.skip_blocks=3", ()),
+    ("closed pixels skipped", "", ("--skip-saturated",)),
+    ("second buffer, both kinds of block", "timing.raster.tile_overlap=2,timing.raster.skip_blocks=3", ()),
+]
+
+
+# Cycles in which a rasterizer is not idle.
+BUSY = ("blend", "clip", "fetch", "hazard", "begin", "flush", "drain")
+
+
+def draw(args, settings, options, folder):
+    report, picture = os.path.join(folder, "report.json"), os.path.join(folder, "picture.pfm")
+    environment = dict(os.environ)
+    if args.config:
+        environment["VORION_CONFIG"] = args.config
+    if settings:
+        environment["VORION_SET"] = settings
+    done = subprocess.run(
+        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "--exp", "table", "--energy", "-o", picture,
+         "--json", report, *options], env=environment, capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"ideas.py: error: {done.stderr.strip()}")
+    with open(report, encoding="utf-8") as file:
+        found = json.load(file)
+    busy = sum(one[reason] for one in found["time"]["sum"]["rasterizers"] for reason in BUSY)
+    blend = next(stage["time"]["cycles"] for stage in found["time"]["stages"] if stage["name"] == "blend")
+    return {"picture": found["result_fnv1a64"], "busy": busy, "blend": blend, "cycles": found["time"]["sum"]["cycles"],
+            "joules": found["energy"]["chip_joules"]["value"], "um2": found["energy"]["area"]["chip_um2"]["value"]}
+
+
+def change(value, base):
+    return f"{100 * (value / base - 1):+.1f} %"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    timed_frame.add_view(parser)
+    parser.add_argument("--config", help="a machine, by its name or its file")
+    args = parser.parse_args()
+    print("| idea | rasterizers, Mcycles | blending, Mcycles | frame, Mcycles | chip, mJ | chip, mm2 |\n|---|--:|--:|--:|--:|--:|")
+    pictures, base = {}, None
+    with tempfile.TemporaryDirectory() as folder:
+        for name, settings, options in IDEAS:
+            one = draw(args, settings, options, folder)
+            tile = options[options.index("--tile") + 1] if "--tile" in options else "64"
+            if pictures.setdefault(tile, one["picture"]) != one["picture"]:
+                sys.exit(f"ideas.py: error: {name}: another picture, expected the same bits")
+            base = base or one
+            cells = [(f"{one[key] / scale:.{digits}f}" if one is base else change(one[key], base[key]))
+                     for key, scale, digits in (("busy", 1e6, 3), ("blend", 1e6, 3), ("cycles", 1e6, 3), ("joules", 1e-3, 2), ("um2", 1e6, 2))]
+            print(f"| {name} | " + " | ".join(cells) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
