@@ -16,6 +16,9 @@ namespace vorion::isasim {
 /// milliseconds with every checker on, far more than a look costs without.
 static constexpr uint64_t LongestStretch = 1 << 14;
 
+/// What is shorter says little of where the time goes.
+static constexpr uint64_t ShortestStretch = 1 << 6;
+
 Core::Core(const Config &C, unsigned IdIn)
     : Shape(C), Id(IdIn), Warps(C.WarpsPerCore),
       Stacks(size_t{C.WarpsPerCore} * C.DivergenceDepth), Arrived(C.Barriers) {}
@@ -61,6 +64,7 @@ void Core::runRound(const ExecTable &Exec, uint32_t Quantum,
   // more than one turn.
   for (WarpState &S : Warps)
     S.TurnEnd = S.Count.WarpInstructions + Quantum;
+  Stretches.clear();
   // A barrier may release warps that have had their turn.
   for (bool Ran = true; Ran;) {
     Ran = false;
@@ -68,11 +72,14 @@ void Core::runRound(const ExecTable &Exec, uint32_t Quantum,
       while (S.Why == Stop::Ready && S.Count.WarpInstructions < S.TurnEnd) {
         if (MustStop())
           return;
-        S.RetireLimit =
-            std::min(S.TurnEnd, S.Count.WarpInstructions + LongestStretch);
+        const uint64_t Before = S.Count.WarpInstructions;
+        S.RetireLimit = std::min(S.TurnEnd, Before + LongestStretch);
         setFrm(&S, S.Frm);
         Exec.Enter(&S);
         S.Fflags |= HostFp::takeFlags();
+        const uint64_t Executed = S.Count.WarpInstructions - Before;
+        if (Executed >= ShortestStretch && S.Why != Stop::Ended)
+          Stretches.push_back({S.Next, Executed});
         Ran = true;
       }
   }

@@ -36,6 +36,14 @@ public:
   /// an atomic does not wait. For observers, also while a warp is running.
   static void runApart(WarpState &S, const ExecTable &Exec, uint64_t Most);
 
+  /// Where a warp was found after it had executed so much without a stop.
+  struct Stretch {
+    const Insn *End;
+    uint64_t Executed; ///< warp instructions
+  };
+  /// Those of the last round, except short ones and the last of a warp.
+  std::span<const Stretch> stretches() const { return Stretches; }
+
   unsigned id() const { return Id; }
   std::span<WarpState> warps() { return Warps; }
   std::span<const WarpState> warps() const { return Warps; }
@@ -74,6 +82,7 @@ private:
   std::vector<Divergence> Stacks;
   std::vector<uint32_t> Arrived; ///< by barrier
   MemoryView View;
+  std::vector<Stretch> Stretches;
 };
 
 } // namespace vorion::isasim

@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t Sign = 0x80000000, One = 0x3F800000, Inf = 0x7F800000,
                    QuietNan = 0x7FC01234, SignalingNan = 0x7F801234;
-constexpr unsigned Rne = 0, Rtz = 1, Rdn = 2, Rup = 3, Rmm = 4, Dyn = 7;
+constexpr unsigned Dyn = DynamicRm;
 
 using Scalar = std::function<uint32_t(uint32_t A, uint32_t B, uint32_t C,
                                       unsigned Rm, uint32_t &Flags)>;
@@ -194,7 +194,8 @@ TEST(Float, EveryInstructionInEveryModeOnEveryMask) {
   for (const ExecTable *Table : allTables())
     for (const auto &[O, Expected] : reference()) {
       const bool Rounds = InsnTable[static_cast<unsigned>(O)].HasRm;
-      for (const unsigned Rm : {Rne, Rtz, Rdn, Rup, Rmm, Dyn}) {
+      for (const unsigned Rm :
+           std::initializer_list<unsigned>{Rne, Rtz, Rdn, Rup, Rmm, Dyn}) {
         if (!Rounds && Rm != Dyn)
           continue;
         WarpRunner R(*Table, {Rounds ? word(O, Rm) : word(O, 0)});

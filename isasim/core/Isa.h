@@ -2,14 +2,12 @@
 #pragma once
 
 #include "core/IsaTables.h"
+#include "core/RoundingMode.h"
 
 #include <optional>
 #include <string>
 
 namespace vorion::isasim {
-
-/// Static rounding mode "use frm".
-inline constexpr unsigned DynamicRm = 7;
 
 /// The fields of one instruction word. Registers that the instruction does not
 /// have are 0.

@@ -3,6 +3,7 @@
 /// only code that names a level's instructions is at the end.
 #pragma once
 
+#include "core/RoundingMode.h"
 #include "core/State.h"
 
 #include <cstring>
@@ -225,9 +226,6 @@ VORION_INLINE U gather(const std::byte *Base, U Offset) {
   return R;
 #endif
 }
-
-/// Rounding modes of the instruction word (RISC-V F, "Rounding modes").
-enum RoundingMode : unsigned { Rne = 0, Rtz = 1, Rdn = 2, Rup = 3, Rmm = 4 };
 
 // Conversion to signed integers: what does not fit becomes -2^31.
 #if defined(__SSE4_1__)

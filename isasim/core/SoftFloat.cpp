@@ -1,5 +1,7 @@
 #include "core/SoftFloat.h"
 
+#include "core/RoundingMode.h"
+
 #include <bit>
 
 namespace vorion::isasim {
@@ -16,8 +18,6 @@ constexpr int FractionBits = 23;
 /// Where the leading bit of a significand is put before an addition: enough
 /// room above for a carry and below for the product of two significands.
 constexpr int AlignedTop = 120;
-
-enum Mode : unsigned { Rne, Rtz, Rdn, Rup, Rmm };
 
 bool isInf(uint32_t A) { return (A & ~SignBit) == Infinity; }
 bool isZero(uint32_t A) { return (A & ~SignBit) == 0; }

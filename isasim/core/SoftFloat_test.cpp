@@ -4,6 +4,7 @@
 #include "core/SoftFloat.h"
 
 #include "core/HostFp.h"
+#include "core/RoundingMode.h"
 
 #include <bit>
 #include <cmath>
@@ -13,8 +14,6 @@
 using namespace vorion::isasim;
 
 namespace {
-
-constexpr unsigned Rmm = 4;
 
 /// Bits that are likely to matter: specials, neighbours, halves, and noise.
 class Operands {

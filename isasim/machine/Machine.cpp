@@ -4,6 +4,7 @@
 #include "core/Core.h"
 #include "core/Csr.h"
 #include "core/Watch.h"
+#include "machine/CodeCache.h"
 #include "machine/HangDetector.h"
 #include "machine/HostInterface.h"
 #include "machine/RasterUnits.h"
@@ -11,7 +12,6 @@
 #include "machine/WorkerPool.h"
 #include "mem/Memory.h"
 #include "timing/Clock.h"
-#include "translate/Translator.h"
 #include "vorion/isasim/Observer.h"
 
 #include <algorithm>
@@ -68,7 +68,9 @@ Event rasterEvent(const WarpState &S) {
 
 struct Machine::Impl final : raster::WorkLog {
   Impl(const Config &C, std::unique_ptr<Memory> Mem)
-      : Shape(C), Storage(std::move(Mem)), Pool(C.HostThreads),
+      : Shape(C), Storage(std::move(Mem)),
+        Programs(C.Runs == Engine::Translator ? 0 : Translator::UsualCost),
+        Pool(C.HostThreads),
         Raster(Shape, *Storage, [this] { return mustStop(); }),
         Host(*Storage, [this](char Byte) { Cores[0]->print(Byte); }) {
     for (unsigned Id = 0; Id != Shape.cores(); ++Id)
@@ -80,6 +82,9 @@ struct Machine::Impl final : raster::WorkLog {
 
   void command(raster::CommandWork &&Work) override;
   void tail(raster::TailWork &&Work) override;
+  unsigned blockTests() const override {
+    return isClocked() ? Shape.Timing.Raster.SkipBlocks : 0;
+  }
 
   /// Calls Use(host address, offset, bytes) for the pieces of a range of
   /// global memory, the image or the stacks; false, and no call, if it is not
@@ -122,9 +127,8 @@ struct Machine::Impl final : raster::WorkLog {
   const Config Shape;
   std::unique_ptr<Memory> Storage;
   std::shared_ptr<const Image> Program;
-  std::unique_ptr<CodeTable> Code;
-  std::unique_ptr<Translator> Translated; ///< of Code, where it is used
-  const ExecTable *CodeIsFor = nullptr;
+  CodeCache Programs;
+  CachedCode *Present = nullptr; ///< of the present run or the last one
   std::vector<std::unique_ptr<Core>> Cores;
   WorkerPool Pool;
   RasterUnits Raster;
@@ -165,21 +169,18 @@ bool Machine::Impl::access(uint32_t Address, uint64_t Bytes,
 
 void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   const bool Observed = isObserved();
-  if (!Code || CodeIsFor != &exec()) {
-    Translated.reset();
-    Code = std::make_unique<CodeTable>(*Program, exec());
-    CodeIsFor = &exec();
-    if (Shape.Runs == Engine::Translator && !Observed && !isClocked())
-      Translated = std::make_unique<Translator>(*Code, exec());
-  }
+  const bool IsTranslated = Shape.Runs != Engine::Interpreter &&
+                            Translator::isThere() && !Observed && !isClocked();
+  Present = &Programs.get(Program, exec(), IsTranslated);
+  const CodeTable &Code = Present->Code;
   if (Observed)
-    Watcher.prepare(*Code, Shape.WarpsPerCore, Shape.cores());
+    Watcher.prepare(Code, Shape.WarpsPerCore, Shape.cores());
   Storage->clearLocal();
   for (const auto &C : Cores)
-    C->reset(*Code, Program->entry(), LaunchBlock, Storage->view(C->id()),
+    C->reset(Code, Program->entry(), LaunchBlock, Storage->view(C->id()),
              Observed ? &Watcher : nullptr);
   if (isClocked()) {
-    Time->begin(*Code);
+    Time->begin(Code);
     for (const auto &C : Cores)
       for (unsigned W = 0; W != Shape.WarpsPerCore; ++W)
         C->setTrace(W, Time->trace(C->id(), W));
@@ -268,16 +269,15 @@ void Machine::Impl::runCores() {
                                  [this] { return mustStop(); });
   });
   LastRound = retired() - Before;
-  if (Translated)
+  if (Present->Translated)
     translate();
 }
 
-/// A round's end finds warps where they are most of the time.
+/// The ends of stretches are where warps are most of the time.
 void Machine::Impl::translate() {
   for (const auto &C : Cores)
-    for (const WarpState &S : C->warps())
-      if (S.Why == Stop::Ready)
-        Translated->seen(S.Next);
+    for (const Core::Stretch &S : C->stretches())
+      Present->Translated->seen(S.End, S.Executed);
 }
 
 void Machine::Impl::arriveGlobally(WarpState &S) {
@@ -425,8 +425,8 @@ Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
     return Ok.error();
   if (C.Runs == Engine::Translator && !Translator::isThere())
     return Error{"configuration",
-                 fmt::format("engine is 'translator', expected 'interpreter' "
-                             "on this host: the other one needs {}",
+                 fmt::format("engine is 'translator', expected 'auto' or "
+                             "'interpreter' on this host: it needs {}",
                              Translator::needs()),
                  ExitCode::Usage};
   Expected<std::unique_ptr<Memory>> Mem = Memory::create(C);
@@ -440,8 +440,6 @@ Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
 const Config &Machine::config() const { return PImpl->Shape; }
 
 void Machine::load(std::shared_ptr<const Image> Program) {
-  PImpl->Translated.reset();
-  PImpl->Code.reset();
   PImpl->Program = std::move(Program);
   PImpl->Storage->load(*PImpl->Program);
 }

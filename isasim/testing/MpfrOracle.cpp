@@ -1,5 +1,7 @@
 #include "testing/MpfrOracle.h"
 
+#include "core/RoundingMode.h"
+
 #include <bit>
 #include <cassert>
 #include <cmath>
@@ -11,7 +13,6 @@ namespace {
 
 // RISC-V F, "Floating-Point Control and Status Register".
 enum Flag : uint32_t { Nx = 1, Uf = 2, Of = 4, Dz = 8, Nv = 16 };
-enum Mode : unsigned { Rne, Rtz, Rdn, Rup, Rmm };
 
 constexpr uint32_t QuietNan = 0x7FC00000;
 constexpr uint32_t Inf = 0x7F800000;

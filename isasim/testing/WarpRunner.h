@@ -1,6 +1,7 @@
 /// Runs instructions on one warp with chosen registers and active lanes.
 #pragma once
 
+#include "core/Atomics.h"
 #include "core/Core.h"
 #include "core/Warps.h"
 #include "core/Watch.h"
@@ -48,6 +49,11 @@ public:
   /// Runs until the warp stops: at the end of the code, which is a fetch
   /// fault, unless something comes first.
   void run(uint32_t Quantum = 1000) { Only.runRound(Exec, Quantum); }
+  /// What the warp waits for happens, unless it is wrong.
+  void completeAtomic() {
+    if (amoNow(&warp(), warp().Next, amoKind(warp().Next)))
+      Core::complete(warp());
+  }
   /// Starts again at the first instruction; registers stay.
   void rewind() {
     warp().Next = Code.begin();

@@ -134,7 +134,7 @@ void Emitter::result(uint16_t Register,
     return Write(active(Zmm(Z)));
   const Zmm To = scratch();
   Write(active(To));
-  if (numberOf(Register) != SinkRegister)
+  if (!isSink(Register))
     vmovdqa32(Full ? ptr[rdi + Register] : ptr[rdi + Register] | k1, To);
 }
 
@@ -173,6 +173,14 @@ void Emitter::addPending() {
 void Emitter::countPending() {
   addPending();
   Pending = {};
+}
+
+/// The same with the present instruction, on one way out of several.
+void Emitter::addPresent() {
+  const auto Before = Pending;
+  ++Pending.Insns;
+  addPending();
+  Pending = Before;
 }
 
 /// What r8 has more than r9 was executed by the lanes of now.
@@ -299,6 +307,9 @@ void Emitter::writeInsn(const GuestInsn &G) {
   case Kind::Store:
     store(G);
     break;
+  case Kind::Atomic:
+    atomic(G);
+    break;
   case Kind::Branch:
     writeBranch(G);
     break;
@@ -332,7 +343,7 @@ void Emitter::writeInsn(const GuestInsn &G) {
 void Emitter::writeJump(const GuestInsn &G) {
   const Insn *I = G.I;
   const auto Number = static_cast<uint32_t>(I - Code.begin());
-  if (numberOf(I->Rd) != SinkRegister)
+  if (!isSink(I->Rd))
     result(I->Rd, [&](const Zmm &To) {
       vpbroadcastd(To, number(Code.low() + 4 * (Number + 1)));
     });
@@ -354,14 +365,11 @@ void Emitter::writeIndirect(const GuestInsn &G) {
   cmp(eax, Code.count());
   jae(Wrong);
   const auto Number = static_cast<uint32_t>(I - Code.begin());
-  if (numberOf(I->Rd) != SinkRegister)
+  if (!isSink(I->Rd))
     result(I->Rd, [&](const Zmm &To) {
       vpbroadcastd(To, number(Code.low() + 4 * (Number + 1)));
     });
-  const auto Before = Pending;
-  ++Pending.Insns;
-  addPending();
-  Pending = Before;
+  addPresent();
   static_assert(sizeof(Insn) == 32);
   mov(ecx, eax);
   shl(rcx, 5);
@@ -435,6 +443,7 @@ void Emitter::writeMode(unsigned Mode) {
     Write();
   }
   Later.clear();
+  writeAtomics();
   writeExits();
 }
 

@@ -2,6 +2,7 @@
 /// registers are, constants, and the ways into and out of a region.
 #pragma once
 
+#include "core/Atomics.h"
 #include "translate/Region.h"
 
 #include <array>
@@ -93,6 +94,7 @@ private:
   void resumeAt(const Insn *To, unsigned Mode);
   void countLanes();
   void addPending();
+  void addPresent();
   void countPending();
   void storeRegisters();
   void writeEntries();
@@ -106,6 +108,11 @@ private:
   void floating(const GuestInsn &G);
   void load(const GuestInsn &G);
   void store(const GuestInsn &G);
+
+  // Atomics.cpp.
+  void atomic(const GuestInsn &G);
+  void writeAtomics();
+  void writeAtomic(Amo Kind, bool HasResult, Xbyak::Label &Begin);
 
   // Lanes.cpp.
   void lanes(const GuestInsn &G);
@@ -123,7 +130,10 @@ private:
   void spreadFirst(const Xbyak::Zmm &To, const Xbyak::Zmm &From);
   void jumpIfDiffer(const Xbyak::Zmm &All, const Xbyak::Zmm &Spread,
                     Xbyak::Label &Differ);
-  void locate(int Bytes, bool IsStore, Xbyak::Label &Wrong);
+  void locate(int Size, unsigned Count, bool IsStore, Xbyak::Label &Wrong);
+  void locateNeighbours(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
+                        const Xbyak::Zmm &Bases, const Xbyak::Zmm &Spread,
+                        Xbyak::Label &Apart, Xbyak::Label &Wrong);
   void locateOnStack(const Xbyak::Zmm &Addresses, Xbyak::Label &Wrong);
   void locateEach(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
                   const Xbyak::Zmm &Offsets, const Xbyak::Zmm &Spare,
@@ -156,6 +166,9 @@ private:
   /// Where they are from the table on, by the instruction's number in the
   /// region.
   Xbyak::Label Tables[2];
+
+  /// Functions of a mode, by kind and whether there is a result.
+  std::map<std::pair<Amo, bool>, Xbyak::Label> Atomics;
 
   std::map<uint32_t, Xbyak::Label> Constants;
   std::map<std::array<uint32_t, MaxLanes>, Xbyak::Label> Vectors;

@@ -139,13 +139,12 @@ void Emitter::floating(const GuestInsn &G) {
   };
   // So is what does not fit: the host gives one value for all of that.
   const auto ToInt = [&](bool IsSigned) {
-    constexpr int32_t Rtz = 1;
+    const bool Truncates = I->Imm == static_cast<int32_t>(Rtz);
     const Zmm R = scratch();
     if (IsSigned)
-      I->Imm == Rtz ? vcvttps2dq(active(R), A.In) : vcvtps2dq(active(R), A.In);
+      Truncates ? vcvttps2dq(active(R), A.In) : vcvtps2dq(active(R), A.In);
     else
-      I->Imm == Rtz ? vcvttps2udq(active(R), A.In)
-                    : vcvtps2udq(active(R), A.In);
+      Truncates ? vcvttps2udq(active(R), A.In) : vcvtps2udq(active(R), A.In);
     vpcmpeqd(active(k2), R, constant(IsSigned ? 0x80000000U : ~0U));
     kortestw(k2, k2);
     jnz(toInterpreter());

@@ -2,11 +2,12 @@
 
 #include <cstring>
 #include <sys/mman.h>
+#include <unistd.h>
 
 namespace vorion::isasim::translate {
 
 /// What begins a line of the host's cache. Sanitizers look at the bytes in
-/// front of a function, so there are some in front of the first.
+/// front of a function, so each piece has some in front of it.
 static constexpr size_t Line = 64;
 
 HostCode::HostCode(size_t Bytes) {
@@ -16,7 +17,6 @@ HostCode::HostCode(size_t Bytes) {
     return;
   Base = static_cast<std::byte *>(At);
   All = Bytes;
-  Used = Line;
 }
 
 HostCode::~HostCode() {
@@ -25,17 +25,18 @@ HostCode::~HostCode() {
 }
 
 std::byte *HostCode::add(std::span<const uint8_t> Code) {
-  if (!Base || Code.size() > All - Used ||
-      mprotect(Base, All, PROT_READ | PROT_WRITE) != 0)
+  // Pages of its own: what is there already stays as it is, whatever fails.
+  static const auto Page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  const size_t Bytes = (Line + Code.size() + Page - 1) / Page * Page;
+  std::byte *const From = Base + Used;
+  if (!Base || Bytes > All - Used ||
+      mprotect(From, Bytes, PROT_READ | PROT_WRITE) != 0)
     return nullptr;
-  std::byte *const At = Base + Used;
-  std::memcpy(At, Code.data(), Code.size());
-  if (mprotect(Base, All, PROT_READ | PROT_EXEC) != 0)
+  std::memcpy(From + Line, Code.data(), Code.size());
+  if (mprotect(From, Bytes, PROT_READ | PROT_EXEC) != 0)
     return nullptr;
-  Used += (Code.size() + Line - 1) / Line * Line;
-  if (Used > All)
-    Used = All;
-  return At;
+  Used += Bytes;
+  return From + Line;
 }
 
 } // namespace vorion::isasim::translate

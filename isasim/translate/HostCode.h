@@ -18,8 +18,10 @@ public:
   HostCode &operator=(const HostCode &) = delete;
 
   /// Copies \p Code here and makes it executable; nullptr if it does not fit.
-  /// Nobody may be executing what is here.
   std::byte *add(std::span<const uint8_t> Code);
+
+  /// What is in use.
+  size_t bytes() const { return Used; }
 
 private:
   std::byte *Base = nullptr;

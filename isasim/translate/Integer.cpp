@@ -9,8 +9,7 @@ using namespace Xbyak::util;
 
 void Emitter::integer(const GuestInsn &G) {
   const Insn *I = G.I;
-  // What x0 gets is nobody's.
-  if (I->Rd == SinkRegister * sizeof(LaneWords))
+  if (isSink(I->Rd))
     return;
   const Format F = InsnTable[static_cast<unsigned>(G.Opcode)].Fmt;
   const bool HasImmediate = F == Format::I || F == Format::IShift;
@@ -62,10 +61,7 @@ void Emitter::writeBranch(const GuestInsn &G) {
     kortestw(k3, k3);
     jnz(toInterpreter());
   }
-  const auto Before = Pending;
-  ++Pending.Insns;
-  addPending();
-  Pending = Before;
+  addPresent();
   goTo(I + (I->Imm >> 2));
   L(NotTaken);
 }

@@ -51,10 +51,7 @@ void Emitter::resumeAtEither(const Insn *To) {
 /// Counts up to and with the present instruction; then the lanes of eax are the
 /// active ones. Overwrites rcx and rdx.
 void Emitter::changeLanes() {
-  const auto Before = Pending;
-  ++Pending.Insns;
-  addPending();
-  Pending = Before;
+  addPresent();
   countLanes();
   mov(r9, r8);
   call(SetLanes);

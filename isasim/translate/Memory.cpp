@@ -38,17 +38,6 @@ Element elementOf(Op O) {
   }
 }
 
-/// Offsets in a Region and in a MemoryView.
-const int RegionLo = offsetof(Region, Lo),
-          RegionBytes = offsetof(Region, Bytes),
-          RegionHost = offsetof(Region, Host);
-const int InGlobal = offsetof(MemoryView, Global),
-          InLocal = offsetof(MemoryView, Local),
-          InStack = offsetof(MemoryView, Stack),
-          InImage = offsetof(MemoryView, Image),
-          InHigh = offsetof(MemoryView, High),
-          InShift = offsetof(MemoryView, StackShift);
-
 } // namespace
 
 /// The first active lane's word of \p From in every lane of \p To, and in eax.
@@ -69,9 +58,15 @@ void Emitter::jumpIfDiffer(const Zmm &All, const Zmm &Spread, Label &Differ) {
   jnz(Differ);
 }
 
-/// rcx becomes where \p Bytes bytes from guest address eax on lie.
-void Emitter::locate(int Bytes, bool IsStore, Label &Wrong) {
+/// rcx becomes where \p Count elements of \p Size bytes from guest address eax
+/// on lie.
+void Emitter::locate(int Size, unsigned Count, bool IsStore, Label &Wrong) {
+  const int Bytes = Size * static_cast<int>(Count);
   Label Elsewhere, Found;
+  if (Size > 1) {
+    test(al, Size - 1);
+    jnz(Wrong);
+  }
   mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
   mov(ecx, eax);
   sub(ecx, dword[rsi + InGlobal + RegionLo]);
@@ -92,6 +87,16 @@ void Emitter::locate(int Bytes, bool IsStore, Label &Wrong) {
     add(rcx, rax);
     jmp(Found);
   });
+}
+
+/// The same for elements of \p Bytes bytes at \p Addresses, if these are
+/// neighbours; else goes to \p Apart. Overwrites \p Bases and \p Spread.
+void Emitter::locateNeighbours(const Zmm &Addresses, int Bytes, bool IsStore,
+                               const Zmm &Bases, const Zmm &Spread,
+                               Label &Apart, Label &Wrong) {
+  vpsubd(Bases, Addresses, laneNumbers(static_cast<uint32_t>(Bytes)));
+  jumpIfDiffer(Bases, Spread, Apart);
+  locate(Bytes, MaxLanes, IsStore, Wrong);
 }
 
 /// Functions of a mode. rcx becomes the Region that holds edx bytes at eax, or
@@ -223,13 +228,7 @@ void Emitter::load(const GuestInsn &G) {
   }
   const Zmm Bases = scratch(), Spread = scratch();
   Label Apart, Done;
-  vpsubd(Bases, Addresses, laneNumbers(static_cast<uint32_t>(Bytes)));
-  jumpIfDiffer(Bases, Spread, Apart);
-  if (Bytes > 1) {
-    test(al, Bytes - 1);
-    jnz(Wrong);
-  }
-  locate(static_cast<int>(MaxLanes) * Bytes, false, Wrong);
+  locateNeighbours(Addresses, Bytes, false, Bases, Spread, Apart, Wrong);
   result(I->Rd, [&](const Zmm &To) {
     if (Bytes == 4)
       vmovdqu32(To, ptr[rcx]);
@@ -243,11 +242,7 @@ void Emitter::load(const GuestInsn &G) {
     Label Scattered;
     L(Apart);
     jumpIfDiffer(Addresses, Spread, Scattered);
-    if (Bytes > 1) {
-      test(al, Bytes - 1);
-      jnz(Wrong);
-    }
-    locate(Bytes, false, Wrong);
+    locate(Bytes, 1, false, Wrong);
     if (Bytes == 4)
       mov(ecx, dword[rcx]);
     else if (Bytes == 2)
@@ -283,13 +278,7 @@ void Emitter::store(const GuestInsn &G) {
   }
   const Zmm Bases = scratch(), Spread = scratch();
   Label Apart, Done;
-  vpsubd(Bases, Addresses, laneNumbers(static_cast<uint32_t>(Bytes)));
-  jumpIfDiffer(Bases, Spread, Apart);
-  if (Bytes > 1) {
-    test(al, Bytes - 1);
-    jnz(Wrong);
-  }
-  locate(static_cast<int>(MaxLanes) * Bytes, true, Wrong);
+  locateNeighbours(Addresses, Bytes, true, Bases, Spread, Apart, Wrong);
   if (Bytes == 4)
     vmovdqu32(To, Values);
   else if (Bytes == 2)

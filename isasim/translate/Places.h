@@ -16,4 +16,15 @@ template <typename Function> int placeOf(Function Member) {
 #define VORION_PLACE(MEMBER)                                                   \
   placeOf([](const WarpState &S) -> const auto & { return S.MEMBER; })
 
+/// Offsets in a Region and in a MemoryView.
+inline constexpr int RegionLo = offsetof(Region, Lo),
+                     RegionBytes = offsetof(Region, Bytes),
+                     RegionHost = offsetof(Region, Host);
+inline constexpr int InGlobal = offsetof(MemoryView, Global),
+                     InLocal = offsetof(MemoryView, Local),
+                     InStack = offsetof(MemoryView, Stack),
+                     InImage = offsetof(MemoryView, Image),
+                     InHigh = offsetof(MemoryView, High),
+                     InShift = offsetof(MemoryView, StackShift);
+
 } // namespace vorion::isasim::translate

@@ -1,5 +1,7 @@
 #include "translate/Region.h"
 
+#include "core/Atomics.h"
+
 #include <algorithm>
 #include <deque>
 #include <map>
@@ -17,8 +19,13 @@ constexpr unsigned WorthEntering = 10;
 
 /// Rounds to nearest, as the translation's only mode does.
 bool roundsAsHost(const Insn *I) {
-  constexpr int32_t Rne = 0;
-  return I->Imm == Rne || I->Imm == static_cast<int32_t>(DynamicRm);
+  const auto Mode = static_cast<unsigned>(I->Imm);
+  return Mode == Rne || Mode == DynamicRm;
+}
+
+/// Those with a third operand are rare.
+constexpr bool canTranslate(Amo Kind) {
+  return Kind != Amo::Cas && Kind != Amo::CasPair;
 }
 
 Kind kindOf(Op O, const Insn *I) {
@@ -44,10 +51,10 @@ Kind kindOf(Op O, const Insn *I) {
 #undef FROMINT
     return roundsAsHost(I) ? Kind::Float : Kind::Other;
   case Op::RV_FCVT_W_S:
-  case Op::RV_FCVT_WU_S: {
-    constexpr int32_t Rtz = 1;
-    return I->Imm == Rtz || roundsAsHost(I) ? Kind::Float : Kind::Other;
-  }
+  case Op::RV_FCVT_WU_S:
+    return static_cast<unsigned>(I->Imm) == Rtz || roundsAsHost(I)
+               ? Kind::Float
+               : Kind::Other;
   case Op::RV_FEQ_S:
   case Op::RV_FLT_S:
   case Op::RV_FLE_S:
@@ -86,17 +93,20 @@ Kind kindOf(Op O, const Insn *I) {
 #define LOAD(OP, T)
 #define STORE(OP, T) case Op::OP:
 #include "core/insns/memory.def"
-#undef LOAD
 #undef STORE
 #undef AMO
     return Kind::Store;
+#define STORE(OP, T)
+#define AMO(OP, KIND)                                                          \
+  case Op::OP:                                                                 \
+    return canTranslate(Amo::KIND) ? Kind::Atomic : Kind::Other;
+#include "core/insns/memory.def"
+#undef LOAD
+#undef STORE
+#undef AMO
   default:
     return Kind::Other;
   }
-}
-
-bool isSink(uint16_t Register) {
-  return Register == SinkRegister * sizeof(LaneWords);
 }
 
 /// Whether the instruction behind it is not reached from it.

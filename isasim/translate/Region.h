@@ -18,8 +18,14 @@ enum class Kind : uint8_t {
   Lanes,    ///< changes which are active
   Load,
   Store,
+  Atomic,
   Other ///< leaves it to the interpreter
 };
+
+/// Whether what goes to \p Register (an operand of Insn) is nobody's.
+inline bool isSink(uint16_t Register) {
+  return Register == SinkRegister * sizeof(LaneWords);
+}
 
 struct GuestInsn {
   const Insn *I;

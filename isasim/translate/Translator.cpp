@@ -2,6 +2,7 @@
 
 #include "translate/HostCode.h"
 
+#include <algorithm>
 #include <cassert>
 #if VORION_TRANSLATOR
 #include "translate/Emitter.h"
@@ -18,10 +19,17 @@ const char *Translator::needs() {
   return "an x86-64 host with AVX-512 F, BW, DQ, VL, CD and VPOPCNTDQ";
 }
 
+size_t Translator::bytes() const { return Host ? Host->bytes() : 0; }
+
 #if VORION_TRANSLATOR
 
 /// One region's code at most.
 static constexpr size_t RegionBytes = 1 << 19;
+
+/// As the host's cache has them, so that constants lie as they will.
+struct alignas(64) Line {
+  uint8_t Bytes[64];
+};
 
 bool Translator::isThere() {
   return __builtin_cpu_supports("x86-64-v3") &&
@@ -33,32 +41,49 @@ bool Translator::isThere() {
          __builtin_cpu_supports("avx512vpopcntdq");
 }
 
-Translator::Translator(CodeTable &Code, const ExecTable &Exec)
-    : Code(Code), Exec(Exec),
+Translator::Translator(CodeTable &Code, const ExecTable &Exec,
+                       uint64_t CostOfInsn)
+    : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn),
       Host(std::make_unique<translate::HostCode>(HostCodeBytes)) {}
 
-void Translator::seen(const Insn *At) {
-  if (!Tried.insert(At).second)
+void Translator::seen(const Insn *At, uint64_t Instructions) {
+  if (Done.contains(At))
+    return;
+  Credit += Instructions;
+  if (Credit < Cost)
     return;
   const std::vector<translate::GuestInsn> Region =
       translate::findRegion(Code, At);
-  if (Region.empty())
+  if (std::ranges::none_of(Region, [this](const translate::GuestInsn &G) {
+        return G.Enters && !Done.contains(G.I);
+      })) {
+    Done.insert(At);
     return;
-  Buffer.resize(RegionBytes / sizeof(Line));
-  const std::span<uint8_t> Bytes(Buffer.data()->Bytes, RegionBytes);
+  }
+  Cost = CostOfInsn * Region.size();
+  if (Credit < Cost)
+    return;
+  Credit = Cost = 0;
+  Done.insert(At);
+  const auto Buffer =
+      std::make_unique_for_overwrite<Line[]>(RegionBytes / sizeof(Line));
+  const std::span<uint8_t> Bytes(Buffer[0].Bytes, RegionBytes);
   try {
     translate::Emitter E(Exec, Code, Region, Bytes);
     E.write();
     E.ready();
     std::byte *Base = Host->add(Bytes.first(E.getSize()));
-    if (!Base)
+    if (!Base) {
+      // Full, or the host allows no such memory: never again.
+      Cost = UINT64_MAX;
       return;
+    }
     ++Regions;
     for (const translate::Entry &In : E.entries()) {
       // The interpreter's handlers have this form, too.
       Code.setHandler(In.At, In.Full,
                       reinterpret_cast<Handler>(Base + In.Offset));
-      Tried.insert(In.At);
+      Done.insert(In.At);
     }
   } catch ([[maybe_unused]] const Xbyak::Error &Failed) {
     assert(static_cast<int>(Failed) == Xbyak::ERR_CODE_IS_TOO_BIG);
@@ -70,10 +95,11 @@ void Translator::seen(const Insn *At) {
 
 bool Translator::isThere() { return false; }
 
-Translator::Translator(CodeTable &Code, const ExecTable &Exec)
-    : Code(Code), Exec(Exec) {}
+Translator::Translator(CodeTable &Code, const ExecTable &Exec,
+                       uint64_t CostOfInsn)
+    : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn) {}
 
-void Translator::seen(const Insn *) {}
+void Translator::seen(const Insn *, uint64_t) {}
 
 #endif
 

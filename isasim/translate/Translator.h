@@ -4,9 +4,9 @@
 
 #include "core/CodeTable.h"
 
+#include <cstdint>
 #include <memory>
 #include <set>
-#include <vector>
 
 namespace vorion::isasim {
 
@@ -21,33 +21,43 @@ public:
   /// That, in words.
   static const char *needs();
 
+  /// What is to be executed for each instruction that is translated: ten
+  /// times what the interpreter does meanwhile, which is some 3 us against 2
+  /// ns. So translations that turn out to be useless cost little of what
+  /// programs take.
+  static constexpr uint64_t UsualCost = 15000;
+
   /// Translates parts of \p Code, which \p Exec executes otherwise. Both live
   /// longer.
-  Translator(CodeTable &Code, const ExecTable &Exec);
+  Translator(CodeTable &Code, const ExecTable &Exec,
+             uint64_t CostOfInsn = UsualCost);
   ~Translator();
   Translator(const Translator &) = delete;
   Translator &operator=(const Translator &) = delete;
 
-  /// A warp has been found in front of \p At, after a jump most likely. Its
-  /// surroundings are translated, if that has not been tried yet. No core may
-  /// be running.
-  void seen(const Insn *At);
+  /// A warp has been found in front of \p At, most likely after a jump, when it
+  /// had executed \p Instructions. The surroundings of such places are
+  /// translated once what was executed around them is worth it. No core may be
+  /// running.
+  void seen(const Insn *At, uint64_t Instructions);
 
   /// How many pieces have been translated.
   unsigned regions() const { return Regions; }
+  /// How much memory their code takes.
+  size_t bytes() const;
 
 private:
   unsigned Regions = 0;
   // Without the translator nobody uses them.
   [[maybe_unused]] CodeTable &Code;
   [[maybe_unused]] const ExecTable &Exec;
+  [[maybe_unused]] uint64_t CostOfInsn;
   std::unique_ptr<translate::HostCode> Host;
-  std::set<const Insn *> Tried;
-  /// As the host's cache has them, so that constants lie as they will.
-  struct alignas(64) Line {
-    uint8_t Bytes[64];
-  };
-  std::vector<Line> Buffer;
+  /// Places that a region begins at, or is not worth to.
+  std::set<const Insn *> Done;
+  /// Instructions that have been executed around other places since the last
+  /// translation, and how many the next one costs as far as it is known.
+  [[maybe_unused]] uint64_t Credit = 0, Cost = 0;
 };
 
 } // namespace vorion::isasim

@@ -19,7 +19,11 @@ struct RasterConfig {
 };
 
 /// How the host executes the cores' instructions (docs/adr/0008-translator.md).
-enum class Engine : uint8_t { Interpreter, Translator };
+enum class Engine : uint8_t {
+  Auto, ///< the translator where the host has what it needs
+  Interpreter,
+  Translator ///< without waiting until a translation is worth it
+};
 
 /// Everything that fixes a machine. The values here are those of the plain
 /// machine `prototype-on-chip`, of which the others are made: 2 sockets of 4

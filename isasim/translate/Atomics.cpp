@@ -1,0 +1,151 @@
+// Atomics in local memory, lane by lane, as core/Atomics.cpp has them. All
+// others may have to wait for other cores: the interpreter's.
+
+#include "translate/Places.h"
+#include "translate/Value.h"
+
+#include <cassert>
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak;
+using namespace Xbyak::util;
+
+namespace {
+
+// What a function of writeAtomic() takes, and where it leaves the results.
+const Zmm Addresses = zmm0, Operands = zmm1;
+
+Amo kindOf(Op O) {
+  switch (O) {
+#define LOAD(OP, T)
+#define STORE(OP, T)
+#define AMO(OP, KIND)                                                          \
+  case Op::OP:                                                                 \
+    return Amo::KIND;
+#include "core/insns/memory.def"
+#undef LOAD
+#undef STORE
+#undef AMO
+  default:
+    assert(false && "no atomic");
+    return Amo::Add;
+  }
+}
+
+/// \p New, which is the operand, becomes what the word becomes that was
+/// \p Old.
+void apply(CodeGenerator &E, Amo Kind, const Reg32 &New, const Reg32 &Old) {
+  switch (Kind) {
+  case Amo::Add:
+    return E.add(New, Old);
+  case Amo::Xor:
+    return E.xor_(New, Old);
+  case Amo::And:
+    return E.and_(New, Old);
+  case Amo::Or:
+    return E.or_(New, Old);
+  case Amo::Min:
+    E.cmp(Old, New);
+    return E.cmovl(New, Old);
+  case Amo::Max:
+    E.cmp(Old, New);
+    return E.cmovg(New, Old);
+  case Amo::Minu:
+    E.cmp(Old, New);
+    return E.cmovb(New, Old);
+  case Amo::Maxu:
+    E.cmp(Old, New);
+    return E.cmova(New, Old);
+  case Amo::Swap:
+    return;
+  case Amo::Cas:
+  case Amo::CasPair:
+    assert(false && "not translated");
+  }
+}
+
+} // namespace
+
+void Emitter::atomic(const GuestInsn &G) {
+  const Insn *I = G.I;
+  // The function's, before anything else has them.
+  while (Scratches != Operands.getIdx() + 1)
+    scratch();
+  const auto Move = [this](const Zmm &To, Term From) {
+    if (From.isNumber())
+      vpxord(To, To, To); // x0
+    else
+      vmovdqa32(To, Zmm(From.Zmm));
+  };
+  Move(Addresses, guest(I->Rs1));
+  Move(Operands, guest(I->Rs2));
+  call(Atomics[{kindOf(G.Opcode), !isSink(I->Rd)}]);
+  test(rcx, rcx);
+  jz(toInterpreter());
+  inc(qword[rdi + VORION_PLACE(Count.Atomics)]);
+  if (!isSink(I->Rd))
+    result(I->Rd, [this](const Zmm &To) { vmovdqa32(To, Operands); });
+}
+
+void Emitter::writeAtomics() {
+  for (auto &[Of, Begin] : Atomics)
+    writeAtomic(Of.first, Of.second, Begin);
+  Atomics.clear();
+}
+
+/// rcx becomes 0, and nothing has been done, unless all active lanes have
+/// aligned addresses in local memory. Else the old words become Operands if
+/// \p HasResult.
+void Emitter::writeAtomic(Amo Kind, bool HasResult, Label &Begin) {
+  constexpr int Bytes = 4, OperandsAt = sizeof(LaneWords);
+  const Zmm Offsets = zmm2, Spare = zmm3;
+  Label Wrong, Next;
+  L(Begin);
+  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+  vpsubd(Offsets, Addresses, ptr_b[rsi + InLocal + RegionLo]);
+  mov(eax, dword[rsi + InLocal + RegionBytes]);
+  sub(eax, Bytes);
+  vpbroadcastd(Spare, eax);
+  vpcmpud(active(k2), Offsets, Spare, static_cast<uint8_t>(Relation::Greater));
+  vptestmd(active(k3), Addresses, constant(Bytes - 1));
+  kortestw(k2, k3);
+  jnz(Wrong);
+  mov(rcx, ptr[rsi + InLocal + RegionHost]);
+  push(r12);
+  push(r13);
+  sub(rsp, 2 * OperandsAt);
+  vmovdqu32(ptr[rsp], Offsets);
+  vmovdqu32(ptr[rsp + OperandsAt], Operands);
+  if (isFull())
+    mov(r12d, (1U << MaxLanes) - 1);
+  else
+    kmovw(r12d, k1);
+  xor_(esi, esi); // changes
+  L(Next);
+  tzcnt(r13d, r12d);
+  mov(edx, dword[rsp + r13 * Bytes]);
+  mov(r11d, dword[rsp + r13 * Bytes + OperandsAt]);
+  mov(eax, dword[rcx + rdx]);
+  if (HasResult)
+    mov(dword[rsp + r13 * Bytes + OperandsAt], eax);
+  apply(*this, Kind, r11d, eax);
+  mov(dword[rcx + rdx], r11d);
+  xor_(eax, r11d);
+  neg(eax);
+  adc(rsi, 0);
+  blsr(r12d, r12d);
+  jnz(Next);
+  if (HasResult)
+    vmovdqu32(Operands, ptr[rsp + OperandsAt]);
+  add(rsp, 2 * OperandsAt);
+  pop(r13);
+  pop(r12);
+  add(qword[rdi + VORION_PLACE(Count.Changes)], rsi);
+  ret();
+  L(Wrong);
+  xor_(ecx, ecx);
+  ret();
+}
+
+} // namespace vorion::isasim::translate
