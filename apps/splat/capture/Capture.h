@@ -33,6 +33,8 @@ struct CaptureView {
   std::string Picture;  ///< the file
   std::string Mask;     ///< the file that says which pixels count, or empty
   bool HeldOut = false; ///< for evaluation only, never trained on
+  /// Which of the capture's points were found in it; few formats know.
+  std::vector<uint32_t> Sees;
 };
 
 /// Points that came with the poses.

@@ -46,6 +46,7 @@ public:
     Rest = Rest.subspan(static_cast<std::size_t>(Count) * Each);
   }
 
+  bool good() const { return !Short; }
   /// That the file went on to the end of the record, of \p Count of a kind.
   std::optional<Error> shortOf(std::string_view Kind, uint64_t Index,
                                uint64_t Count) const {
@@ -129,7 +130,7 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
         Files.Images, "image",
         [&](ByteReader &R, uint64_t I, uint64_t Count) -> std::optional<Error> {
           ColmapImage Image;
-          R.take<int32_t>(); // its own number
+          Image.Id = R.take<int32_t>();
           Image.Quaternion = R.takeArray<double, 4>();
           Image.Translation = R.takeArray<double, 3>();
           Image.Camera = R.take<int32_t>();
@@ -149,11 +150,15 @@ Expected<ColmapModel> parseColmapBinary(const ColmapFiles &Files) {
           const auto Colour = R.takeArray<uint8_t, 3>();
           R.take<double>(); // reprojection error
           // The images that see it, and which of their points.
-          R.skip(R.take<uint64_t>(), 8);
+          std::vector<int64_t> Track;
+          for (auto Left = R.take<uint64_t>(); Left != 0 && R.good(); --Left) {
+            Track.push_back(R.take<int32_t>());
+            R.take<int32_t>();
+          }
           if (auto Short = R.shortOf("point", I, Count))
             return Short;
           return errorOf(
-              Builder.addPoint(Files.Points.Where, Position, Colour));
+              Builder.addPoint(Files.Points.Where, Position, Colour, Track));
         });
   if (Failed)
     return *Failed;

@@ -141,14 +141,15 @@ Expected<Success> ColmapBuilder::addImage(const std::string &Where,
   for (std::size_t R = 0; R < 3; ++R)
     for (std::size_t K = 0; K < 3; ++K)
       V.Pose.Position[R] -= V.Pose.Rotation[R][K] * I.Translation[K];
+  ImageOf.emplace(I.Id, Model.Views.size());
   Model.Views.push_back(std::move(V));
   return Success{};
 }
 
-Expected<Success>
-ColmapBuilder::addPoint(const std::string &Where,
-                        const std::array<double, 3> &Position,
-                        const std::array<uint8_t, 3> &Colour) {
+Expected<Success> ColmapBuilder::addPoint(const std::string &Where,
+                                          const std::array<double, 3> &Position,
+                                          const std::array<uint8_t, 3> &Colour,
+                                          std::span<const int64_t> Track) {
   CapturePoints &P = Model.Points;
   for (const double V : Position) {
     const auto Rounded = static_cast<float>(V);
@@ -158,6 +159,13 @@ ColmapBuilder::addPoint(const std::string &Where,
                                       P.size())};
     P.Positions.push_back(Rounded);
   }
+  const auto Own = static_cast<uint32_t>(P.size());
+  for (const int64_t Id : Track)
+    if (const auto Image = ImageOf.find(Id); Image != ImageOf.end()) {
+      std::vector<uint32_t> &Sees = Model.Views[Image->second].Sees;
+      if (Sees.empty() || Sees.back() != Own) // some tracks name one twice
+        Sees.push_back(Own);
+    }
   P.Colours.insert(P.Colours.end(), Colour.begin(), Colour.end());
   return Success{};
 }

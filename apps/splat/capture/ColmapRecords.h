@@ -25,6 +25,7 @@ std::string knownColmapModels();
 
 /// One image as stored: world to camera, quaternion w, x, y, z.
 struct ColmapImage {
+  int64_t Id = 0;
   std::array<double, 4> Quaternion{};
   std::array<double, 3> Translation{};
   int64_t Camera = 0;
@@ -43,14 +44,17 @@ public:
                               double Height,
                               std::span<const double> Parameters);
   Expected<Success> addImage(const std::string &Where, const ColmapImage &I);
+  /// \p Track: ids of the images that see it; unknown ones are passed over.
   Expected<Success> addPoint(const std::string &Where,
                              const std::array<double, 3> &Position,
-                             const std::array<uint8_t, 3> &Colour);
+                             const std::array<uint8_t, 3> &Colour,
+                             std::span<const int64_t> Track);
   /// The model, which must have an image and a point.
   Expected<ColmapModel> finish(const ColmapFiles &Files);
 
 private:
   std::map<int64_t, CaptureView> Cameras; ///< without pose and name
+  std::map<int64_t, std::size_t> ImageOf; ///< by id: place in the model
   ColmapModel Model;
 };
 

@@ -125,7 +125,7 @@ Expected<Success> readImageLines(const ColmapFile &F, ColmapBuilder &B) {
   while (const auto Line = R.nextRecord()) {
     Words W(*Line);
     ColmapImage I;
-    W.number<int64_t>(); // its own number
+    I.Id = W.number<int64_t>();
     I.Quaternion = W.numbers<4>();
     I.Translation = W.numbers<3>();
     I.Camera = W.number<int64_t>();
@@ -148,9 +148,17 @@ Expected<Success> readPointLines(const ColmapFile &F, ColmapBuilder &B) {
     std::array<uint8_t, 3> Colour{};
     for (uint8_t &C : Colour)
       C = W.number<uint8_t>();
+    W.next(); // reprojection error
+    // The images that see it, and which of their points.
+    std::vector<int64_t> Track;
+    while (W.good() && !W.rest().empty()) {
+      Track.push_back(W.number<int64_t>());
+      W.number<int64_t>();
+    }
     if (!W.good())
-      return badLine(R, "POINT3D_ID X Y Z R G B ERROR TRACK");
-    if (auto Added = B.addPoint(R.where(), Position, Colour); !Added)
+      return badLine(R, "POINT3D_ID X Y Z R G B ERROR and a track of pairs "
+                        "IMAGE_ID POINT2D_IDX");
+    if (auto Added = B.addPoint(R.where(), Position, Colour, Track); !Added)
       return Added;
   }
   return Success{};

@@ -50,6 +50,32 @@ TEST_P(Colmap, PointsAreThoseThatWereWritten) {
     }
 }
 
+/// Of a track that names a picture twice, and one that is not there.
+TEST_P(Colmap, PicturesKnowTheirPoints) {
+  SampleCapture S = sampleCapture(3);
+  S.Points.resize(3);
+  S.Points[0].SeenBy = {2, 0};
+  S.Points[1].SeenBy = {};
+  S.Points[2].SeenBy = {2, 2};
+  Parts P = partsOf(S, GetParam());
+  auto M = parsed(P, GetParam());
+  ASSERT_TRUE(M) << M.error().What;
+  EXPECT_EQ(M->Views[0].Sees, (std::vector<uint32_t>{0}));
+  EXPECT_TRUE(M->Views[1].Sees.empty());
+  EXPECT_EQ(M->Views[2].Sees, (std::vector<uint32_t>{0, 2}));
+  if (!GetParam())
+    return;
+  P.Points = replaced(P.Points, " 0.5 102 0", " 0.5 7 0");
+  M = parsed(P, true);
+  ASSERT_TRUE(M) << M.error().What;
+  EXPECT_EQ(M->Views[2].Sees, (std::vector<uint32_t>{2}));
+  // Files without a track, or without an error, are read.
+  P.Points = replaced(P.Points, " 0.5 7 0 100 0", "");
+  EXPECT_TRUE(parsed(P, true));
+  P.Points = replaced(P.Points, " 0.5 102 0 102 0", " 0.5 102 0 102");
+  EXPECT_FALSE(parsed(P, true));
+}
+
 TEST_P(Colmap, QuaternionsNeedNotBeExact) {
   SampleCapture S = sampleCapture(2);
   for (double &Q : S.Views[1].Quaternion)

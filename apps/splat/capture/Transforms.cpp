@@ -1,6 +1,7 @@
 #include "capture/Transforms.h"
 
 #include "io/CameraLens.h"
+#include "io/CameraShutter.h"
 #include "io/PlyFile.h"
 #include "vorion/support/Json.h"
 
@@ -139,24 +140,23 @@ void TransformsReader::readPose(const Json &Frame, CaptureView &V) {
                                                 : "transform_matrix");
   std::array<double, 3> Moments{};
   if (const Json *J = find(Frame, "rolling_shutter")) {
-    bool Good = J->is_array() && (J->size() == 3 || J->size() == 4);
-    for (std::size_t K = 0; Good && K < 3; ++K) {
-      Good = (*J)[K].is_number() &&
-             std::abs((*J)[K].get<double>()) <= MostShutterMoment;
-      Moments[K] = Good ? (*J)[K].get<double>() : 0;
-    }
-    if (!Good)
+    Json Three = *J;
+    if (Three.is_array() && Three.size() == 4)
+      Three.erase(3);
+    const auto Read = shutterMoments(Three);
+    if (!Read)
       fail(fmt::format("key rolling_shutter is wrong, expected start, across "
                        "and down from -{:g} to {:g}",
                        MostShutterMoment, MostShutterMoment));
+    Moments = Read.value_or(Moments);
   }
   if (Frame.contains("transform_matrix_end") && !Problem) {
     const auto Way =
         wayBetween(Place, readPlace(Frame, "transform_matrix_end"));
-    if (const auto *Wrong = std::get_if<std::string>(&Way)) {
-      fail(*Wrong);
+    if (!Way) {
+      fail(Way.error().What);
     } else {
-      const auto &[Middle, Shutter] = std::get<CameraWay>(Way);
+      const auto &[Middle, Shutter] = *Way;
       Place = placeAt(Middle, Shutter, Moments[0]);
       if (Moments[1] != 0 || Moments[2] != 0) {
         Place = Middle;

@@ -100,8 +100,8 @@ std::string curveOf(const std::vector<float> &Losses, const std::string &What) {
   return svgOf(C);
 }
 
-Expected<Success> writeOutputs(const TrainArguments &A,
-                               const TrainOutcome &Out) {
+Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
+                               const std::optional<EnergyRequest> &Energy) {
   if (auto Written =
           writePly(A.Output, Out.Result,
                    {A.Request.Run.Antialiased, std::nullopt, "--antialiased"});
@@ -119,8 +119,10 @@ Expected<Success> writeOutputs(const TrainArguments &A,
       return Written;
   if (A.Json.empty())
     return Success{};
-  return writeFileAtomically(A.Json,
-                             jsonText(trainReport(A.Request, Out), 2) + "\n");
+  const auto Report = trainReport(A.Request, Out, Energy);
+  if (!Report)
+    return Report.error();
+  return writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n");
 }
 
 void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
@@ -138,6 +140,13 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
              R.Run.Masks == MaskSource::Alpha
                  ? "transparent pixels do not count"
                  : fmt::format("of {} pictures", Out.Masked));
+  if (Out.Depths != 0)
+    printOut("depths       of {} places of points in the pictures\n",
+             Out.Depths);
+  if (const auto &P = Out.Poses)
+    printOut("poses        turned by {:.4f} rad and moved by {:.4g}, mean of "
+             "pictures; most {:.4f} rad and {:.4g}\n",
+             P->MeanTurn, P->MeanShift, P->MostTurn, P->MostShift);
   if (R.Run.Batch != 1 || Out.Processes != 1)
     printOut("views        {} an iteration, on {} devices\n", R.Run.Batch,
              Out.Processes);
@@ -247,7 +256,7 @@ Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
     return Out.error();
   if (!*Out)
     return Success{};
-  if (auto Written = writeOutputs(A, **Out); !Written)
+  if (auto Written = writeOutputs(A, **Out, *Energy); !Written)
     return Written;
   printOutcome(A, **Out);
   return printEnergy((*Out)->Timed, *Energy);
@@ -325,7 +334,8 @@ Runner addTrain(CLI::App &App) {
                  "Of so many iterations one is timed, drawn at random from the "
                  "seed (default 50)")
       ->check(isIterations());
-  addEnergyOptions(App, A->Energy, "the last iteration that is timed");
+  addEnergyOptions(App, A->Energy,
+                   "the last iteration that is timed (in --json: each)");
   App.add_option("--score-every", R.ScoreEvery,
                  "Score the held-out views after every so many iterations, "
                  "for --json (default: at the end alone)");
@@ -343,6 +353,8 @@ Runner addTrain(CLI::App &App) {
       return Settings.error();
     A->Request.Run.Settings = *Settings;
     A->Request.Backward.AbsoluteSums = Settings->AbsoluteGradient;
+    A->Request.Backward.Depths = looksAtDepths(*Settings);
+    A->Request.Backward.Poses = arePosesOn(*Settings);
     A->Request.Read.Masks = A->Request.Run.Masks;
     nameOutput("-o", A->Output, A->Request.Capture, ".ply");
     if (A->Request.Checkpoint.empty())

@@ -91,6 +91,7 @@ static std::vector<Parameter> makeParameters() {
       Parameter{"LIMIT_FOLLOWS_DEPTH", "the way back, gsplat: of the limits"},
       Parameter{"STORED_PARAMETERS", "the way back ends before activation"},
       Parameter{"ABSOLUTE_SUMS", "the way back: sums of absolute gradients"},
+      Parameter{"POSES", "the way back to the camera's pose, too"},
       Parameter{"GROUP", "work-items that draw a tile of the cores' path"},
       Parameter{"TILE_ROWS", "the loss: rows of a group's tile"},
       Parameter{"DILATION", "added to the covariance's diagonal, px^2"},

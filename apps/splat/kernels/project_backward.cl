@@ -258,6 +258,11 @@ static void project_backward_one(__constant const splat_view *view,
                record.color[1] > 0.0f ? SUM(SUM_COLOR + 1) : 0.0f,
                record.color[2] > 0.0f ? SUM(SUM_COLOR + 2) : 0.0f);
   const float3 by_direction = sh_backward(sh, count, i, d, g, sh_gradients);
+#ifdef POSES
+  GRADIENT(GRADIENT_DIRECTION) = by_direction.x;
+  GRADIENT(GRADIENT_DIRECTION + 1) = by_direction.y;
+  GRADIENT(GRADIENT_DIRECTION + 2) = by_direction.z;
+#endif
   GRADIENT(GRADIENT_MEAN) = r[0] * by_place.x + r[3] * by_place.y +
                             r[6] * by_place.z + by_direction.x;
   GRADIENT(GRADIENT_MEAN + 1) = r[1] * by_place.x + r[4] * by_place.y +

@@ -10,10 +10,13 @@ namespace vorion::splat {
 
 namespace {
 
+#include "kernels/pose.h"
+
 constexpr const char *UpstreamProgram = "upstream";
 constexpr const char *BlendBackwardProgram = "blend backward";
 constexpr const char *ReduceProgram = "reduce";
 constexpr const char *ProjectBackwardProgram = "project backward";
+constexpr const char *DepthLossProgram = "depth loss";
 
 } // namespace
 
@@ -42,12 +45,20 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
   if (B.Parameters == GradientsOf::Stored)
     Project.Defines.emplace_back("STORED_PARAMETERS");
+  if (B.Poses) {
+    Project.Files.insert(Project.Files.begin() + 1, "pose.h");
+    Project.Defines.emplace_back("POSES");
+  }
   ProgramSpec Reduce{
       ReduceProgram, {"layout.h", "activate.cl", "reduce.cl"}, {}};
   if (B.AbsoluteSums)
     for (ProgramSpec *P : {&Blend, &Reduce})
       P->Defines.emplace_back("ABSOLUTE_SUMS=2");
-  return {{UpstreamProgram, {"upstream.cl"}, {}}, Blend, Reduce, Project};
+  std::vector<ProgramSpec> Programs{
+      {UpstreamProgram, {"upstream.cl"}, {}}, Blend, Reduce, Project};
+  if (B.Depths)
+    Programs.push_back({DepthLossProgram, {"layout.h", "depth_loss.cl"}, {}});
+  return Programs;
 }
 
 void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
@@ -59,25 +70,60 @@ void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
              Background[1], Background[2]);
 }
 
-void BackwardPipeline::run(Pipeline &Forward) {
+void BackwardPipeline::run(Pipeline &Forward, const DepthTargets &Known) {
   const Frame &F = Forward.frame();
   Launch.beginStage(Stage::BlendBackward);
-  blend(Forward);
+  blend(Forward, F, Upstream);
   Launch.beginStage(Stage::Reduce);
-  reduce(F);
+  Sums = reduce(F);
+  const cl::Buffer Deep =
+      Known.any() ? depthSums(Forward, Known) : cl::Buffer();
   Launch.beginStage(Stage::ProjectBackward);
   project(F);
+  if (Known.any())
+    Launch.run(DepthLossProgram, "depth_to_mean", itemsFor(F.Gaussians.Count),
+               GroupSize, F.Camera, Deep, F.Depths.Keys, Gradients,
+               F.Gaussians.Count);
 }
 
-void BackwardPipeline::blend(Pipeline &Forward) {
+/// What blending depths gives back; of shapes it is added to \c Sums.
+cl::Buffer BackwardPipeline::depthSums(Pipeline &Forward,
+                                       const DepthTargets &Known) {
   const Frame &F = Forward.frame();
+  const uint32_t Count = F.drawn();
+  const auto Points = static_cast<uint32_t>(Known.Points->size());
+  Launch.beginStage(Stage::Depth);
+  const cl::Buffer Records = Launch.allocate(
+      "Gaussians with depths", sizeof(splat_gaussian) * uint64_t{Count});
+  Launch.run(DepthLossProgram, "depth_records", itemsFor(Count), GroupSize,
+             F.Depths.Keys, F.Records, Records, Count);
+  const Frame Deep = Forward.drawBeside(Records);
+  const cl::Buffer Given =
+      Launch.allocate("known depths", sizeof(DepthPoint) * uint64_t{Points});
+  Launch.write("known depths", Given, Known.Points->data(),
+               sizeof(DepthPoint) * uint64_t{Points});
+  const cl::Buffer By =
+      Launch.allocate("pixels' gradients", 16 * uint64_t{F.pixels()});
+  Launch.run(DepthLossProgram, "depth_clear", itemsFor(F.pixels()), GroupSize,
+             By, F.pixels());
+  Launch.run(DepthLossProgram, "depth_loss", itemsFor(Points), GroupSize, Given,
+             Points, Deep.Pixels, By, Known.Weight);
+  blend(Forward, Deep, By);
+  const cl::Buffer Found = reduce(Deep);
+  Launch.run(DepthLossProgram, "depth_add", itemsFor(Count), GroupSize, Sums,
+             Found, F.Depths.Keys, Count);
+  return Found;
+}
+
+void BackwardPipeline::blend(Pipeline &Forward, const Frame &F,
+                             const cl::Buffer &By) {
   PairSums =
       Launch.allocate("pairs' sums", 4 * Choice.sums() * uint64_t{F.Pairs});
   if (Options.Blending == Path::Simt) {
     Launch.run(BlendBackwardProgram, "blend_backward",
                cl::NDRange(F.View.tiles[0] * Lanes, F.View.tiles[1]),
                cl::NDRange(Lanes, 1), F.Records, F.List, F.Ranges, F.Pixels,
-               F.Last, Upstream, F.ByTile.Values, PairSums, F.View.size[0],
+               F.Last, By, F.ByTile.Values, PairSums, F.View.size[0],
                F.View.size[1]);
     return;
   }
@@ -89,24 +135,28 @@ void BackwardPipeline::blend(Pipeline &Forward) {
   const std::size_t Cores = Launch.device().computeUnits();
   const cl::Buffer Statuses = Launch.allocate("cores' statuses", 4 * Cores);
   Launch.run(BlendBackwardProgram, "rasterize_backward", Cores * Lanes, Lanes,
-             F.Records, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last,
-             Upstream, F.ByTile.Values, PairSums, Statuses,
-             Forward.blendOptions(), Backward);
+             F.Records, F.List, F.Ranges, F.TileOrder, F.Pixels, F.Last, By,
+             F.ByTile.Values, PairSums, Statuses, Forward.blendOptions(),
+             Backward);
   Forward.checkStatuses(Statuses);
 }
 
-void BackwardPipeline::reduce(const Frame &F) {
+cl::Buffer BackwardPipeline::reduce(const Frame &F) {
   const uint32_t Count = F.drawn();
-  Sums =
+  cl::Buffer Found =
       Launch.allocate("Gaussians' sums", 4 * Choice.sums() * uint64_t{Count});
   Launch.run(ReduceProgram, "reduce_sums", itemsFor(F.Visible), GroupSize,
-             PairSums, F.Order, F.Places, Sums, F.Visible, Count);
+             PairSums, F.Order, F.Places, Found, F.Visible, Count);
+  return Found;
 }
 
 void BackwardPipeline::project(const Frame &F) {
   const uint32_t Count = F.Gaussians.Count;
-  Gradients =
-      Launch.allocate("gradients", 4 * GRADIENT_PLANES * uint64_t{Count});
+  Gradients = Launch.allocate("gradients",
+                              4 *
+                                  (Choice.Poses ? uint64_t{POSE_GRADIENT_PLANES}
+                                                : uint64_t{GRADIENT_PLANES}) *
+                                  Count);
   ShGradients = Launch.allocate(
       "colours' gradients", 4 * 3 * shCoefficients(ShDegree) * uint64_t{Count});
   Launch.run(ProjectBackwardProgram, "project_backward", itemsFor(Count),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "picture/Layout.h"
+#include "render/DepthTargets.h"
 #include "render/Pipeline.h"
 
 #include <string_view>
@@ -28,6 +29,10 @@ struct BackwardOptions {
   /// planes of \c sums() from SUM_WORDS on. By the cores alone: the rasterizer
   /// has no such sums.
   bool AbsoluteSums = false;
+  /// Runs may have depth targets.
+  bool Depths = false;
+  /// \c gradients() has the planes of kernels/pose.h, too.
+  bool Poses = false;
 
   uint32_t sums() const { return SUM_WORDS + (AbsoluteSums ? 2U : 0U); }
 };
@@ -51,8 +56,9 @@ public:
                    const cl::Buffer &ByAlpha,
                    const std::array<float, 3> &Background);
   /// Back through blending and projection of the frame that \p Forward has
-  /// drawn, in stages of the launcher's.
-  void run(Pipeline &Forward);
+  /// drawn, in stages of the launcher's; through its depths, too, if there are
+  /// \p Known ones.
+  void run(Pipeline &Forward, const DepthTargets &Known = {});
 
   /// \name Results, planes of as many floats as there are Gaussians
   /// @{
@@ -63,8 +69,9 @@ public:
   /// @}
 
 private:
-  void blend(Pipeline &Forward);
-  void reduce(const Frame &F);
+  void blend(Pipeline &Forward, const Frame &F, const cl::Buffer &By);
+  cl::Buffer reduce(const Frame &F);
+  cl::Buffer depthSums(Pipeline &Forward, const DepthTargets &Known);
   void project(const Frame &F);
 
   Launcher &Launch;

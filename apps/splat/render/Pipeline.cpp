@@ -260,6 +260,13 @@ cl::Buffer Pipeline::blendAgain() {
   return std::exchange(Current.Pixels, Picture);
 }
 
+Frame Pipeline::drawBeside(const cl::Buffer &Records) {
+  const Frame Own = Current;
+  Current.Records = Records;
+  blend();
+  return std::exchange(Current, Own);
+}
+
 void Pipeline::shade() {
   allocatePixels();
   const std::size_t Group = Options.SimtGroup;

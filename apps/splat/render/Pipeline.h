@@ -115,6 +115,10 @@ public:
   /// The same with normals. Needs the effect \c Normals.
   cl::Buffer drawNormals();
 
+  /// In training: the frame as it is with the colours of \p Records, blended.
+  /// The frame itself stays.
+  Frame drawBeside(const cl::Buffer &Records);
+
   const Frame &frame() const { return Current; }
 
   /// What the rasterizers are told of a picture.

@@ -29,7 +29,7 @@ struct Sizes {
   std::size_t Gaussians = 0;
   int ShDegree = 0;
   std::size_t Losses = 0;
-  std::size_t Exposures = 0; ///< floats
+  std::size_t Exposures = 0, Poses = 0; ///< floats
 
   std::size_t geometry() const { return GEOMETRY_PLANES * Gaussians; }
   std::size_t sh() const { return 3 * shCoefficients(ShDegree) * Gaussians; }
@@ -51,10 +51,12 @@ void forArrays(Kind &C, const Sizes &S, Function Visit) {
   Visit(C.Notes.Radii, "radii", S.Gaussians);
   Visit(C.Losses, "losses", S.Losses);
   Visit(C.Exposures, "exposures", S.Exposures);
+  Visit(C.Poses, "poses", S.Poses);
 }
 
 Sizes sizesOf(const Checkpoint &C) {
-  return {C.gaussians(), C.ShDegree, C.Losses.size(), C.Exposures.size()};
+  return {C.gaussians(), C.ShDegree, C.Losses.size(), C.Exposures.size(),
+          C.Poses.size()};
 }
 
 /// The first value of a run that is no finite number: nothing can be trained
@@ -101,18 +103,20 @@ Expected<Header> readHeader(std::string_view Text, const std::string &Path) {
                          {"gaussians", JsonShape::whole(0, Most)}});
   if (auto Ok = Shape.check(*Read, Path); !Ok)
     return Ok.error();
-  std::size_t Exposures = 0;
-  if (Read->contains("exposures")) {
-    if (auto Ok = JsonShape::object({{"exposures", JsonShape::whole(0, Most)}})
-                      .check(*Read, Path);
-        !Ok)
-      return Ok.error();
-    Exposures = (*Read)["exposures"].get<std::size_t>();
-  }
+  std::size_t Exposures = 0, Poses = 0;
+  for (const auto &[Name, To] :
+       {std::pair("exposures", &Exposures), {"poses", &Poses}})
+    if (Read->contains(Name)) {
+      if (auto Ok = JsonShape::object({{Name, JsonShape::whole(0, Most)}})
+                        .check(*Read, Path);
+          !Ok)
+        return Ok.error();
+      *To = (*Read)[Name].get<std::size_t>();
+    }
   return Header{(*Read)["run"].get<std::string>(),
                 {(*Read)["gaussians"].get<std::size_t>(),
                  (*Read)["sh_degree"].get<int>(),
-                 (*Read)["iteration"].get<std::size_t>(), Exposures}};
+                 (*Read)["iteration"].get<std::size_t>(), Exposures, Poses}};
 }
 
 Error damaged(const std::string &Path) {
@@ -132,6 +136,8 @@ Expected<Success> writeCheckpoint(const std::string &Path,
               {"gaussians", C.gaussians()}};
   if (!C.Exposures.empty())
     Header["exposures"] = C.Exposures.size();
+  if (!C.Poses.empty())
+    Header["poses"] = C.Poses.size();
   std::string Body = jsonText(Header) + "\n";
   forArrays(C, sizesOf(C), [&](const auto &A, const char *, std::size_t) {
     Body.append(reinterpret_cast<const char *>(A.data()), 4 * A.size());

@@ -24,6 +24,7 @@ struct Checkpoint {
   DensityNotes Notes;
   std::vector<float> Losses;    ///< of every iteration
   std::vector<float> Exposures; ///< Exposure.h; of most runs none
+  std::vector<float> Poses;     ///< Pose.h; the same
 
   std::size_t gaussians() const { return Notes.Views.size(); }
 };

@@ -38,6 +38,7 @@ Checkpoint sample() {
   Fill(C.Notes.Radii, Count);
   Fill(C.Losses, 4);
   Fill(C.Exposures, 36);
+  Fill(C.Poses, 18);
   return C;
 }
 
@@ -56,12 +57,16 @@ TEST(Checkpoint, HoldsWhatWasWritten) {
   EXPECT_EQ(B->Notes.Views, A.Notes.Views);
   EXPECT_EQ(B->Losses, A.Losses);
   EXPECT_EQ(B->Exposures, A.Exposures);
+  EXPECT_EQ(B->Poses, A.Poses);
   // Most runs have none, and say nothing of them.
   Checkpoint Without = A;
   Without.Exposures.clear();
+  Without.Poses.clear();
   ASSERT_TRUE(writeCheckpoint(F.path("d"), Without));
   EXPECT_TRUE(readCheckpoint(F.path("d"))->Exposures.empty());
+  EXPECT_TRUE(readCheckpoint(F.path("d"))->Poses.empty());
   EXPECT_EQ(F.read("d").find("exposures"), std::string::npos);
+  EXPECT_EQ(F.read("d").find("poses"), std::string::npos);
 }
 
 TEST(Checkpoint, DamageIsNoticed) {

@@ -62,14 +62,22 @@ std::string ClockSamples::lastByStage() const {
   return frameText(All.back().Stages, "iteration");
 }
 
-Json ClockSamples::json() const {
+Expected<Json>
+ClockSamples::json(const std::optional<EnergyRequest> &Energy) const {
   Json J = Json::array();
-  for (const TimedIteration &T : All)
+  for (const TimedIteration &T : All) {
     J.push_back({{"iteration", T.Number},
                  {"gaussians", T.Gaussians},
                  {"list_lengths", T.ListLengths},
                  {"stages", stagesJson(T.Stages)},
                  {"time", frameJson(T.Stages)}});
+    if (!Energy)
+      continue;
+    auto Spent = frameEnergyJson(T.Stages, *Energy);
+    if (!Spent)
+      return Spent.error();
+    J.back()["energy"] = std::move(*Spent);
+  }
   return J;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/Launcher.h"
+#include "render/FrameEnergy.h"
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -38,8 +39,10 @@ public:
   /// The last one by stage (FrameTime.h).
   std::string lastByStage() const;
   /// JSON array, an iteration each: number, Gaussians, list lengths, stages
-  /// with kernels and counters, and time.
-  nlohmann::ordered_json json() const;
+  /// with kernels and counters, time, and energy where it is asked for. The
+  /// errors are the model's.
+  Expected<nlohmann::ordered_json>
+  json(const std::optional<EnergyRequest> &Energy) const;
 
 private:
   std::vector<TimedIteration> All;

@@ -64,11 +64,12 @@ std::vector<uint32_t> DeviceRenderer::listLengths() {
 }
 
 GradientRenderer::Backward DeviceRenderer::backward(const cl::Buffer &ByRender,
-                                                    const cl::Buffer &ByAlpha) {
+                                                    const cl::Buffer &ByAlpha,
+                                                    const DepthTargets &Known) {
   const Frame &F = Drawing.frame();
   Launch.beginStage(Stage::Upstream);
   Back->setUpstream(F, ByRender, ByAlpha, Behind);
-  Back->run(Drawing);
+  Back->run(Drawing, Known);
   return {
       {Back->gradients(), Back->shGradients()},
       {F.Records, F.Depths.Keys,

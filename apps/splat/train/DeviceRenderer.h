@@ -37,8 +37,8 @@ public:
   }
   cl::Buffer forward(const DeviceScene &S, const Camera &C,
                      int ShDegree) override;
-  Backward backward(const cl::Buffer &ByRender,
-                    const cl::Buffer &ByAlpha) override;
+  Backward backward(const cl::Buffer &ByRender, const cl::Buffer &ByAlpha,
+                    const DepthTargets &Known) override;
 
   /// Pairs of every tile of the last picture; copied from the device.
   std::vector<uint32_t> listLengths();

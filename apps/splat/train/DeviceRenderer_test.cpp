@@ -113,7 +113,7 @@ TEST_P(GradientsOnDevice, AreTheReferences) {
     DeviceScene D = DeviceScene::upload(L, S);
     const cl::Buffer Picture = R.forward(D, C, K.ShDegree);
     const auto [Gradients, Seen] =
-        R.backward(upload(L, ByRender), upload(L, ByAlpha));
+        R.backward(upload(L, ByRender), upload(L, ByAlpha), {});
     const auto Pixels = download<float>(L, Picture, 4 * ByAlpha.size());
     const auto Planes =
         download<float>(L, Seen.Gradients, (Seen.MeanPlane + 2) * S.size());
@@ -213,8 +213,8 @@ TEST_P(AbsoluteSumsOnDevice, AreThoseOfThePixels) {
   DeviceRenderer R(L, Convention, Blending, Options, {});
   const DeviceScene D = DeviceScene::upload(L, S);
   R.forward(D, C, 0);
-  const auto [Gradients, Seen] =
-      R.backward(upload(L, ByRender), upload(L, std::vector<float>(Pixels, 0)));
+  const auto [Gradients, Seen] = R.backward(
+      upload(L, ByRender), upload(L, std::vector<float>(Pixels, 0)), {});
   EXPECT_EQ(Seen.MeanPlane, uint32_t{SUM_WORDS});
   const auto Planes =
       download<float>(L, Seen.Gradients, (Seen.MeanPlane + 2) * S.size());

@@ -3,7 +3,7 @@
 #include "render/Pipeline.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -21,17 +21,15 @@ float identity(std::size_t Term) { return Term % 5 == 0 ? 1.0F : 0.0F; }
 ProgramSpec exposureProgram() { return {ExposureProgram, {"exposure.cl"}, {}}; }
 
 void Exposures::restart() {
-  const std::size_t Size = areOn() ? Terms * Pictures : 0;
-  Values.resize(Size);
-  for (std::size_t I = 0; I < Size; ++I)
-    Values[I] = identity(I % Terms);
-  First.assign(Size, 0);
-  Second.assign(Size, 0);
+  std::vector<float> From(areOn() ? Terms * Pictures : 0);
+  for (std::size_t I = 0; I < From.size(); ++I)
+    From[I] = identity(I % Terms);
+  State.restart(std::move(From));
 }
 
 cl::Buffer Exposures::upload(std::size_t View) {
   const cl::Buffer Matrix = Launch.allocate("exposure", 4 * Terms);
-  Launch.write("exposure", Matrix, Values.data() + Terms * View, 4 * Terms);
+  Launch.write("exposure", Matrix, State.data() + Terms * View, 4 * Terms);
   return Matrix;
 }
 
@@ -61,54 +59,29 @@ ExposureMatrix Exposures::back(const cl::Buffer &Picture,
 }
 
 void Exposures::step(const std::vector<Slope> &Slopes, unsigned Iteration) {
-  std::vector<double> Gradient(Values.size(), 0);
+  std::vector<double> Gradient(State.size(), 0);
   for (const Slope &S : Slopes)
     for (std::size_t K = 0; K < Terms; ++K)
       Gradient[Terms * S.View + K] +=
           S.Gradient[K] / static_cast<double>(Slopes.size());
-  const double FirstBias = 1 - std::pow(Settings.Beta1, Iteration);
-  const double SecondBias = 1 - std::pow(Settings.Beta2, Iteration);
-  const double Rate = exposureRate(Settings, Iteration);
+  const std::vector<double> Stepped = State.step(
+      Settings, Gradient, exposureRate(Settings, Iteration), Iteration);
   ExposureMatrix Excess{};
-  std::vector<double> Stepped(Values.size());
-  for (std::size_t I = 0; I < Values.size(); ++I) {
-    const double G = Gradient[I];
-    First[I] = static_cast<float>(Settings.Beta1 * First[I] +
-                                  (1 - Settings.Beta1) * G);
-    Second[I] = static_cast<float>(Settings.Beta2 * Second[I] +
-                                   (1 - Settings.Beta2) * G * G);
-    Stepped[I] =
-        Values[I] - Rate * (First[I] / FirstBias) /
-                        (std::sqrt(Second[I] / SecondBias) + Settings.Epsilon);
+  for (std::size_t I = 0; I < Stepped.size(); ++I)
     Excess[I % Terms] +=
         (Stepped[I] - identity(I % Terms)) / static_cast<double>(Pictures);
-  }
-  for (std::size_t I = 0; I < Values.size(); ++I)
-    Values[I] = static_cast<float>(Stepped[I] - Excess[I % Terms]);
+  for (std::size_t I = 0; I < Stepped.size(); ++I)
+    State.set(I, Stepped[I] - Excess[I % Terms]);
 }
 
-std::vector<float> Exposures::save() const {
-  std::vector<float> All = Values;
-  for (const std::vector<float> *Moment : {&First, &Second})
-    All.insert(All.end(), Moment->begin(), Moment->end());
-  return All;
-}
-
-void Exposures::restore(const std::vector<float> &State) {
+void Exposures::restore(const std::vector<float> &Saved) {
   restart();
-  if (State.size() != 3 * Values.size())
-    return;
-  const float *From = State.data();
-  for (std::vector<float> *To : {&Values, &First, &Second}) {
-    std::copy_n(From, To->size(), To->begin());
-    From += To->size();
-  }
+  State.restore(Saved);
 }
 
 ExposureMatrix Exposures::matrix(std::size_t View) const {
   ExposureMatrix M{};
-  std::copy_n(Values.begin() + static_cast<std::ptrdiff_t>(Terms * View), Terms,
-              M.begin());
+  std::copy_n(State.data() + Terms * View, Terms, M.begin());
   return M;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "device/Launcher.h"
+#include "train/HostAdam.h"
 #include "train/Settings.h"
 
 #include <array>
@@ -47,9 +48,9 @@ public:
   void step(const std::vector<Slope> &Slopes, unsigned Iteration);
 
   /// Matrices and both moments, 12 floats a picture each; nothing if off.
-  std::vector<float> save() const;
+  std::vector<float> save() const { return State.save(); }
   /// What \c save gave; the identity if it was for other pictures.
-  void restore(const std::vector<float> &State);
+  void restore(const std::vector<float> &Saved);
   ExposureMatrix matrix(std::size_t View) const;
 
 private:
@@ -58,7 +59,7 @@ private:
   Launcher &Launch;
   const TrainSettings &Settings;
   std::size_t Pictures;
-  std::vector<float> Values, First, Second;
+  HostAdam State;
 };
 
 } // namespace vorion::splat

@@ -4,6 +4,8 @@
 #include "train/Density.h"
 #include "train/DeviceScene.h"
 
+#include "render/DepthTargets.h"
+
 #include "io/Cameras.h"
 
 #include <array>
@@ -32,9 +34,11 @@ public:
     PlanePair Gradients;
     SeenView Seen;
   };
-  /// From dL/d(that picture), three floats a pixel, and dL/d(alpha), one.
+  /// From dL/d(that picture), three floats a pixel, and dL/d(alpha), one; and
+  /// from what is \p Known of its depths.
   virtual Backward backward(const cl::Buffer &ByRender,
-                            const cl::Buffer &ByAlpha) = 0;
+                            const cl::Buffer &ByAlpha,
+                            const DepthTargets &Known) = 0;
 };
 
 } // namespace vorion::splat

@@ -74,7 +74,7 @@ protected:
     DeviceScene D = DeviceScene::upload(L, S);
     R.forward(D, C, 0);
     D.Parameters =
-        R.backward(upload(L, ByRender), upload(L, ByAlpha)).Gradients;
+        R.backward(upload(L, ByRender), upload(L, ByAlpha), {}).Gradients;
     const Scene Got = D.download(L);
     EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
     Silent Out;

@@ -32,6 +32,7 @@ std::string hashOf(const TrainingSet &Set) {
       Add(V.Picture.Rgb.data(), V.Picture.Rgb.size());
       Add(V.Counts.data(), V.Counts.size());
       Add(V.Alpha.data(), V.Alpha.size());
+      Add(V.Depths.data(), V.Depths.size());
     }
   }
   return fnv1a64(All);

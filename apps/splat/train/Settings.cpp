@@ -25,6 +25,10 @@ double exposureRate(const TrainSettings &S, unsigned Iteration) {
   return falling(S.ExposureRate, S.LastExposureRate, partOf(S, Iteration));
 }
 
+double poseRate(const TrainSettings &S, unsigned Iteration) {
+  return falling(S.PoseRate, S.LastPoseRate, partOf(S, Iteration));
+}
+
 int shDegreeAt(const TrainSettings &S, unsigned Iteration, int Most) {
   return static_cast<int>(
       std::min(static_cast<unsigned>(Most), Iteration / S.ShInterval));

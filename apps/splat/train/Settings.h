@@ -35,10 +35,17 @@ struct TrainSettings {
   /// rate.
   double ExposureRate = 0, LastExposureRate = 1e-3;
 
+  /// Of the corrections of poses; 0: poses are those of the capture. Falls like
+  /// the position's rate.
+  double PoseRate = 0, LastPoseRate = 1e-5;
+
   /// Share of 1 - SSIM in the loss; the rest is the mean absolute difference.
   double DSsim = 0.2;
   /// Weights in the loss of the mean opacity and of the mean scale.
   double OpacityWeight = 0, ScaleWeight = 0;
+  /// Weight in the loss of the mean difference of 1 / depth from that of the
+  /// capture's points, times the extent; 0: depths are not looked at.
+  double DepthWeight = 0;
   /// A band of spherical harmonics more every so many iterations.
   unsigned ShInterval = 1000;
 
@@ -73,6 +80,10 @@ struct TrainSettings {
   /// @}
 };
 
+constexpr bool looksAtDepths(const TrainSettings &S) {
+  return S.DepthWeight > 0;
+}
+
 /// The rate of positions at \p Iteration (from 1), without the extent.
 double positionRate(const TrainSettings &S, unsigned Iteration);
 
@@ -80,6 +91,9 @@ constexpr bool isExposureOn(const TrainSettings &S) {
   return S.ExposureRate > 0;
 }
 double exposureRate(const TrainSettings &S, unsigned Iteration);
+
+constexpr bool arePosesOn(const TrainSettings &S) { return S.PoseRate > 0; }
+double poseRate(const TrainSettings &S, unsigned Iteration);
 
 /// Bands of spherical harmonics in use at \p Iteration, at most \p Most.
 int shDegreeAt(const TrainSettings &S, unsigned Iteration, int Most);

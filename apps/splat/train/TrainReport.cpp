@@ -8,13 +8,18 @@ namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
 
-Json trainReport(const TrainRequest &R, const TrainOutcome &Out) {
+Expected<Json> trainReport(const TrainRequest &R, const TrainOutcome &Out,
+                           const std::optional<EnergyRequest> &Energy) {
+  auto Timed = Out.Timed.json(Energy);
+  if (!Timed)
+    return Timed;
   Json Views = Json::array(), Scores = Json::array();
   for (const auto &[Name, Db] : Out.HeldOut)
     Views.push_back({{"name", Name}, {"psnr8_db", Db}});
   for (const auto &[Iteration, Db] : Out.Scores)
     Scores.push_back({{"iteration", Iteration}, {"psnr8_db", Db}});
   const auto &B = Out.Without;
+  const auto &P = Out.Poses;
   Json Report = reportHead("splat-train");
   Report.update(
       {{"device", {{"name", Out.DeviceName}, {"version", Out.DeviceVersion}}},
@@ -27,13 +32,19 @@ Json trainReport(const TrainRequest &R, const TrainOutcome &Out) {
        {"without_picture", Out.WithoutPicture},
        {"distorted", Out.Distorted},
        {"masked", Out.Masked},
+       {"depths", Out.Depths},
+       {"poses", P ? Json{{"mean_turn", P->MeanTurn},
+                          {"largest_turn", P->MostTurn},
+                          {"mean_shift", P->MeanShift},
+                          {"largest_shift", P->MostShift}}
+                   : Json()},
        {"rules", name(R.Convention)},
        {"support", name(Support::Exact)},
        {"iterations", Out.Iterations},
        {"gaussians", Out.Result.size()},
        {"seconds", Out.Seconds},
        {"iterations_timed", Out.Iterations - Out.First},
-       {"timed", Out.Timed.json()},
+       {"timed", std::move(*Timed)},
        {"psnr8_db", Out.HeldOut.empty() ? Json() : Json(Out.meanDb())},
        {"scores", Scores},
        {"views", Views},

@@ -7,8 +7,10 @@
 
 namespace vorion::splat {
 
-/// Inputs, settings, device, scores, losses and the timed iterations.
-nlohmann::ordered_json trainReport(const TrainRequest &R,
-                                   const TrainOutcome &Out);
+/// Inputs, settings, device, scores, losses and the timed iterations, with
+/// energy where it is asked for.
+Expected<nlohmann::ordered_json>
+trainReport(const TrainRequest &R, const TrainOutcome &Out,
+            const std::optional<EnergyRequest> &Energy);
 
 } // namespace vorion::splat

@@ -29,7 +29,17 @@ std::vector<ProgramSpec> Trainer::programs(const TrainSettings &Settings,
     Programs.push_back(regularizeProgram());
   if (isExposureOn(Settings))
     Programs.push_back(exposureProgram());
+  if (arePosesOn(Settings))
+    Programs.push_back(poseProgram());
   return Programs;
+}
+
+static std::vector<Camera> camerasOf(const std::vector<TrainView> &Views) {
+  std::vector<Camera> Cameras;
+  Cameras.reserve(Views.size());
+  for (const TrainView &V : Views)
+    Cameras.push_back(V.Pose);
+  return Cameras;
 }
 
 Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
@@ -39,6 +49,7 @@ Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
       Order(Photos.Training.size(), What.Seed),
       Loss(Launch, What.Settings.DSsim),
       Exposed(Launch, What.Settings, Photos.Training.size()),
+      Posed(Launch, What.Settings, camerasOf(Photos.Training), What.Extent),
       Processes(Processes),
       Density(Launch, What.Settings, What.Seed, What.Extent),
       Mcmc(Launch, What.Settings, What.Seed),
@@ -49,6 +60,7 @@ void Trainer::start(const Scene &From) {
   State = DeviceScene::upload(Launch, From);
   Density.restart(State.Count);
   Exposed.restart();
+  Posed.restart();
   Done = 0;
   Losses.clear();
 }
@@ -71,6 +83,7 @@ void Trainer::restore(const Checkpoint &C) {
   State.uploadIdentities(Launch, C.Identities);
   Density.restore(C.Notes);
   Exposed.restore(C.Exposures);
+  Posed.restore(C.Poses);
   Done = C.Iteration;
   Losses = C.Losses;
 }
@@ -95,6 +108,7 @@ Checkpoint Trainer::save() {
   C.Notes = Density.save(State.Count);
   C.Losses = Losses;
   C.Exposures = Exposed.save();
+  C.Poses = Posed.save();
   return C;
 }
 
@@ -103,7 +117,8 @@ ViewBatch::ViewResult Trainer::take(uint64_t Place, int ShDegree) {
   const std::size_t View = Order.at(Place);
   const TrainView &V = Pictures.Training[View];
   if (!Run.RandomBackground)
-    return lossOf(Renderer.forward(State, V.Pose, ShDegree), View, V.Picture);
+    return lossOf(Renderer.forward(State, pose(View), ShDegree), View,
+                  V.Picture);
   const philox_words W =
       philox(static_cast<uint>(Run.Seed), static_cast<uint>(Run.Seed >> 32),
              static_cast<uint>(Place), static_cast<uint>(Place >> 32), 0,
@@ -111,7 +126,7 @@ ViewBatch::ViewResult Trainer::take(uint64_t Place, int ShDegree) {
   const std::array<float, 3> Colour{
       philox_unit(W.word[0]), philox_unit(W.word[1]), philox_unit(W.word[2])};
   Renderer.setBackground(Colour);
-  const cl::Buffer Drawn = Renderer.forward(State, V.Pose, ShDegree);
+  const cl::Buffer Drawn = Renderer.forward(State, pose(View), ShDegree);
   return lossOf(Drawn, View, over(V, Run.Background, Colour));
 }
 
@@ -128,8 +143,18 @@ ViewBatch::ViewResult Trainer::lossOf(const cl::Buffer &Picture,
   } else {
     R.Loss = Loss.evaluate(Picture, Target, Counts);
   }
-  R.Back = Renderer.backward(Loss.gradient(), Loss.alphaGradient());
+  R.Back =
+      Renderer.backward(Loss.gradient(), Loss.alphaGradient(), depthsOf(View));
+  if (Posed.areOn())
+    R.ByPose = Posed.slope(View, State.Parameters, R.Back, State.Count);
   return R;
+}
+
+/// The weight is that of the mean over the picture's points.
+DepthTargets Trainer::depthsOf(std::size_t View) const {
+  const std::vector<DepthPoint> &Points = Pictures.Training[View].Depths;
+  return {&Points, static_cast<float>(Run.Settings.DepthWeight * Run.Extent /
+                                      static_cast<double>(Points.size()))};
 }
 
 void Trainer::stepExposures() {
@@ -138,6 +163,14 @@ void Trainer::stepExposures() {
     Slopes.push_back(
         {Order.at(uint64_t{Done} * Run.Batch + Slopes.size() + 1), By});
   Exposed.step(Slopes, Done + 1);
+}
+
+void Trainer::stepPoses() {
+  std::vector<Poses::Slope> Slopes;
+  for (const PoseSlope &By : Batch.byPoses())
+    Slopes.push_back(
+        {Order.at(uint64_t{Done} * Run.Batch + Slopes.size() + 1), By});
+  Posed.step(Slopes, Done + 1);
 }
 
 /// What is due after the last iteration, once there is a next one: a scene that
@@ -207,6 +240,8 @@ StepReport Trainer::step() {
            Degree);
   if (Exposed.areOn())
     stepExposures();
+  if (Posed.areOn())
+    stepPoses();
   if (Settings.Method == DensityMethod::Mcmc)
     Mcmc.addNoise(State, R.Iteration,
                   positionRate(Settings, R.Iteration) * Run.Extent *

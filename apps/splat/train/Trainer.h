@@ -7,6 +7,7 @@
 #include "train/GradientRenderer.h"
 #include "train/Mcmc.h"
 #include "train/PictureLoss.h"
+#include "train/Pose.h"
 #include "train/Ranks.h"
 #include "train/Settings.h"
 #include "train/TrainingSet.h"
@@ -69,6 +70,9 @@ public:
   uint32_t gaussians() const { return State.Count; }
   const std::vector<float> &losses() const { return Losses; }
   Scene scene();
+  /// Of training view number \p View, as training has corrected it.
+  Camera pose(std::size_t View) const { return Posed.at(View); }
+  PoseChange poseChange() const { return Posed.change(); }
 
   /// The scene from \p C, rounded to 8 bits.
   Photo render(const Camera &C);
@@ -82,7 +86,9 @@ private:
   ViewBatch::ViewResult take(uint64_t Place, int ShDegree);
   ViewBatch::ViewResult lossOf(const cl::Buffer &Picture, std::size_t View,
                                const Photo &Target);
+  DepthTargets depthsOf(std::size_t View) const;
   void stepExposures();
+  void stepPoses();
 
   Launcher &Launch;
   GradientRenderer &Renderer;
@@ -91,6 +97,7 @@ private:
   ViewOrder Order;
   PictureLoss Loss;
   Exposures Exposed;
+  Poses Posed;
   Ranks &Processes;
   DensityControl Density;
   McmcControl Mcmc;

@@ -48,8 +48,8 @@ public:
     return upload(Rgba);
   }
 
-  Backward backward(const cl::Buffer &ByRender,
-                    const cl::Buffer & /*ByAlpha*/) override {
+  Backward backward(const cl::Buffer &ByRender, const cl::Buffer & /*ByAlpha*/,
+                    const DepthTargets & /*Known*/) override {
     const std::size_t Pixels =
         static_cast<std::size_t>(Pose.Width * Pose.Height);
     std::vector<float> Given(3 * Pixels);
@@ -151,6 +151,7 @@ void expectSame(const Checkpoint &A, const Checkpoint &B) {
   EXPECT_EQ(A.Notes.Radii, B.Notes.Radii);
   EXPECT_EQ(A.Losses, B.Losses);
   EXPECT_EQ(A.Exposures, B.Exposures);
+  EXPECT_EQ(A.Poses, B.Poses);
 }
 
 class TrainerOnDevice : public OnDevice {

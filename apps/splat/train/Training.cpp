@@ -216,9 +216,12 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
     return *Launch.failure();
   for (std::size_t I = 0; I < Db.size(); ++I)
     Out.HeldOut.emplace_back(W.Pictures.HeldOut[I].Pose.Name, Db[I]);
-  for (const auto *Views : {&W.Pictures.HeldOut, &W.Pictures.Training})
-    for (const TrainView &V : *Views)
-      Out.Cameras.push_back(V.Pose);
+  for (const TrainView &V : W.Pictures.HeldOut)
+    Out.Cameras.push_back(V.Pose);
+  for (std::size_t I = 0; I < W.Pictures.Training.size(); ++I)
+    Out.Cameras.push_back(T.pose(I));
+  if (arePosesOn(W.Request.Run.Settings))
+    Out.Poses = T.poseChange();
   if (W.Request.KeepPictures)
     for (const TrainView &V : W.Pictures.HeldOut)
       Out.Shown.emplace_back(T.render(V.Pose), V);
@@ -235,6 +238,7 @@ Expected<Success> finish(const Work &W, const Device &D, Launcher &Launch,
   Out.WithoutPicture = W.Photos.WithoutPicture;
   Out.Distorted = W.Photos.distorted();
   Out.Masked = W.Photos.masked();
+  Out.Depths = W.Pictures.depths();
   Out.Processes = W.Processes.size();
   Out.Iterations = T.iteration();
   Out.Losses = T.losses();
@@ -253,9 +257,14 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   if (auto Completed = complete(R, *C); !Completed)
     return Completed;
   const auto Pictures = loadTrainingSet(
-      *C, {R.Downscale, R.Run.Background, R.Run.Masks, R.Run.RandomBackground});
+      *C, {R.Downscale, R.Run.Background, R.Run.Masks, R.Run.RandomBackground,
+           looksAtDepths(R.Run.Settings)});
   if (!Pictures)
     return Pictures.error();
+  if (looksAtDepths(R.Run.Settings) && Pictures->depths() == 0)
+    return Error{R.Capture, "no training picture shows a point of the capture, "
+                            "expected COLMAP's points with their tracks for "
+                            "--depth-weight"};
   const PictureSource Source{std::string(name(C->Format)), R.Downscale};
   const Work W{R,
                Host,

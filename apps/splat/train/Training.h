@@ -76,6 +76,8 @@ struct TrainOutcome {
   std::string HeldOutBy; ///< what decided which views are held out
   /// Views of the capture that had no picture; whose lens bends; with a mask.
   std::size_t WithoutPicture = 0, Distorted = 0, Masked = 0;
+  std::size_t Depths = 0; ///< places of training pictures with a known depth
+  std::optional<PoseChange> Poses; ///< where poses were corrected
   unsigned Processes = 1;
   unsigned First = 0, Iterations = 0; ///< done before, and in all
   double Seconds = 0;                 ///< wall time of the loop

@@ -1,6 +1,7 @@
 #include "train/TrainingSet.h"
 
 #include "capture/Undistort.h"
+#include "train/DepthPoints.h"
 #include "vorion/support/File.h"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ Expected<std::vector<uint8_t>> countsOf(const CaptureView &V, const Plane &P,
   return Counts;
 }
 
-Expected<TrainView> load(const CaptureView &V, const LoadOptions &O) {
+Expected<TrainView> load(const CaptureView &V, const CapturePoints &Points,
+                         const LoadOptions &O) {
   auto Full = readPhoto(V.Picture);
   if (!Full)
     return Full.error();
@@ -70,6 +72,8 @@ Expected<TrainView> load(const CaptureView &V, const LoadOptions &O) {
     if (std::ranges::all_of(T.Alpha, [](uint8_t A) { return A == 255; }))
       T.Alpha.clear();
   }
+  if (O.KeepDepths)
+    T.Depths = depthPoints(T.Pose, Points, V.Sees, T.Counts);
   return T;
 }
 
@@ -99,10 +103,17 @@ std::pair<int, int> TrainingSet::largest() const {
   return Size;
 }
 
+std::size_t TrainingSet::depths() const {
+  std::size_t Count = 0;
+  for (const TrainView &V : Training)
+    Count += V.Depths.size();
+  return Count;
+}
+
 Expected<TrainingSet> loadTrainingSet(const Capture &C, const LoadOptions &O) {
   TrainingSet Set;
   for (const CaptureView &V : C.Views) {
-    auto Loaded = load(V, O);
+    auto Loaded = load(V, C.Points, O);
     if (!Loaded)
       return Loaded.error();
     (V.HeldOut ? Set.HeldOut : Set.Training).push_back(std::move(*Loaded));

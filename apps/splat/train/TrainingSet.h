@@ -3,6 +3,7 @@
 
 #include "capture/Capture.h"
 #include "capture/Photo.h"
+#include "render/DepthTargets.h"
 
 #include <array>
 #include <vector>
@@ -18,6 +19,9 @@ struct TrainView {
   /// Of each pixel, for another background than the picture's; empty where it
   /// was not asked for, or where all are opaque.
   std::vector<uint8_t> Alpha;
+  /// If asked for (DepthPoints.h).
+  // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
+  std::vector<DepthPoint> Depths{};
 };
 
 /// \c Picture of \p V, which lies over \p Was, over \p Is, in 8 bits.
@@ -30,6 +34,7 @@ struct LoadOptions {
   std::array<float, 3> Background{};
   MaskSource Masks = MaskSource::None; ///< as the capture was read
   bool KeepAlpha = false;
+  bool KeepDepths = false;
 };
 
 struct TrainingSet {
@@ -37,6 +42,8 @@ struct TrainingSet {
 
   /// Width and height of the largest picture.
   std::pair<int, int> largest() const;
+  /// Points whose depth is known, in all training pictures.
+  std::size_t depths() const;
 };
 
 /// Decodes the pictures of \p C, undistorts them (capture/Undistort.h), and

@@ -25,6 +25,7 @@ void ViewBatch::begin(const DeviceScene &Of, int ShDegree, bool Noting) {
   Added = 0;
   Losses = {};
   Exposed.clear();
+  Posed.clear();
   Sum = {};
 }
 
@@ -66,6 +67,7 @@ void ViewBatch::addOwn(const ViewResult &Mine) {
   }
   addTo(Losses, Mine.Loss);
   Exposed.push_back(Mine.ByExposure);
+  Posed.push_back(Mine.ByPose);
   ++Added;
 }
 
@@ -76,6 +78,7 @@ void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
   DensityNotes Of;
   LossValues Loss;
   ExposureMatrix ByExposure{};
+  PoseSlope ByPose{};
   const PlanePair Uploaded{
       Launch.allocate("gradients of a view", 4 * GeometrySize),
       Launch.allocate("gradients of a view", 4 * ShSize)};
@@ -88,6 +91,7 @@ void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
         Of = Density.noteAlone(Mine->Back.Seen, Gaussians);
       Loss = Mine->Loss;
       ByExposure = Mine->ByExposure;
+      ByPose = Mine->ByPose;
     }
     const auto Share = [&](auto &Values, std::size_t Size) {
       Values.resize(Size);
@@ -95,6 +99,7 @@ void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
     };
     Processes.share(From, &Loss, sizeof(Loss));
     Processes.share(From, &ByExposure, sizeof(ByExposure));
+    Processes.share(From, &ByPose, sizeof(ByPose));
     Share(Geometry, GeometrySize);
     Share(Sh, ShSize);
     Launch.write("gradients", Uploaded.Geometry, Geometry.data(),
@@ -103,6 +108,7 @@ void ViewBatch::addShared(const ViewResult *Mine, unsigned Count) {
     addGradients(Uploaded);
     addTo(Losses, Loss);
     Exposed.push_back(ByExposure);
+    Posed.push_back(ByPose);
     if (Notes) {
       Share(Of.GradientSums, Gaussians);
       Share(Of.Views, Gaussians);

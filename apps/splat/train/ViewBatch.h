@@ -5,6 +5,7 @@
 #include "train/Exposure.h"
 #include "train/GradientRenderer.h"
 #include "train/PictureLoss.h"
+#include "train/Pose.h"
 #include "train/Ranks.h"
 
 namespace vorion::splat {
@@ -30,6 +31,7 @@ public:
     LossValues Loss;
     GradientRenderer::Backward Back;
     ExposureMatrix ByExposure = {};
+    PoseSlope ByPose = {};
   };
   /// Adds a view of each process; \p Mine is null where \c next() is none.
   void add(const ViewResult *Mine);
@@ -38,8 +40,9 @@ public:
   /// @{
   const PlanePair &gradients() const { return Sum; }
   LossValues loss() const;
-  /// Of each view by its exposure.
+  /// Of each view by its exposure and by its pose.
   const std::vector<ExposureMatrix> &byExposures() const { return Exposed; }
+  const std::vector<PoseSlope> &byPoses() const { return Posed; }
   /// @}
 
 private:
@@ -58,6 +61,7 @@ private:
   unsigned Added = 0;
   LossValues Losses;
   std::vector<ExposureMatrix> Exposed;
+  std::vector<PoseSlope> Posed;
   PlanePair Sum;
 };
 

@@ -39,6 +39,11 @@ void addPictures(Folder &F, const SampleCapture &C, const std::string &Where) {
   }
 }
 
+/// COLMAP's number of the picture of \p V.
+int32_t idOf(const SampleCapture &C, const SampleCapture::View &V) {
+  return 100 + static_cast<int32_t>(&V - C.Views.data());
+}
+
 /// Camera to world with y up and z back, as transforms have it.
 Json matrixOf(const SampleCapture::View &V) {
   const auto [W, X, Y, Z] = V.Quaternion;
@@ -106,10 +111,14 @@ SampleCapture sampleCapture(std::size_t Views) {
                        {std::cos(Half), 0, std::sin(Half), 0},
                        {0, 0, 3}});
   }
-  for (int I = 0; I < 12; ++I)
+  for (std::size_t I = 0; I < 12; ++I) {
     C.Points.push_back(
-        {{0.25 * I, 0.125 * (I % 5), -0.5 * (I % 3)},
+        {{0.25 * static_cast<double>(I), 0.125 * static_cast<double>(I % 5),
+          -0.5 * static_cast<double>(I % 3)},
          {static_cast<uint8_t>(I), static_cast<uint8_t>(20 * I), 255}});
+    if (Views > 1)
+      C.Points.back().SeenBy = {I % Views, (I + 1) % Views};
+  }
   return C;
 }
 
@@ -124,7 +133,7 @@ Folder colmapBinaryOf(const SampleCapture &C) {
     put(Cameras, V);
   put<uint64_t>(Images, C.Views.size());
   for (const auto &V : C.Views) {
-    put<int32_t>(Images, 1);
+    put(Images, idOf(C, V));
     for (const double Q : V.Quaternion)
       put(Images, Q);
     for (const double T : V.Translation)
@@ -143,8 +152,11 @@ Folder colmapBinaryOf(const SampleCapture &C) {
     for (const uint8_t B : P.Colour)
       put(Points, B);
     put(Points, 0.5);
-    put<uint64_t>(Points, 1);
-    put<uint64_t>(Points, 3);
+    put<uint64_t>(Points, P.SeenBy.size());
+    for (const std::size_t View : P.SeenBy) {
+      put(Points, idOf(C, C.Views[View]));
+      put<int32_t>(Points, 0);
+    }
   }
   Folder F{{"sparse/0/cameras.bin", Cameras},
            {"sparse/0/images.bin", Images},
@@ -156,14 +168,18 @@ Folder colmapBinaryOf(const SampleCapture &C) {
 Folder colmapTextOf(const SampleCapture &C) {
   std::string Images = "# image list\n", Points = "# points\n";
   for (const auto &V : C.Views)
-    Images += fmt::format("1 {} {} {} {} {} {} {} 7 {}\n10 20 99 11 21 -1\n",
-                          V.Quaternion[0], V.Quaternion[1], V.Quaternion[2],
-                          V.Quaternion[3], V.Translation[0], V.Translation[1],
-                          V.Translation[2], V.Name);
-  for (const auto &P : C.Points)
-    Points += fmt::format("5 {} {} {} {} {} {} 0.5 1 2\n", P.Position[0],
-                          P.Position[1], P.Position[2], P.Colour[0],
-                          P.Colour[1], P.Colour[2]);
+    Images += fmt::format("{} {} {} {} {} {} {} {} 7 {}\n10 20 99 11 21 -1\n",
+                          idOf(C, V), V.Quaternion[0], V.Quaternion[1],
+                          V.Quaternion[2], V.Quaternion[3], V.Translation[0],
+                          V.Translation[1], V.Translation[2], V.Name);
+  for (const auto &P : C.Points) {
+    Points +=
+        fmt::format("5 {} {} {} {} {} {} 0.5", P.Position[0], P.Position[1],
+                    P.Position[2], P.Colour[0], P.Colour[1], P.Colour[2]);
+    for (const std::size_t View : P.SeenBy)
+      Points += fmt::format(" {} 0", idOf(C, C.Views[View]));
+    Points += '\n';
+  }
   Folder F{{"sparse/0/cameras.txt",
             fmt::format("# cameras\n7 PINHOLE {} {} {} {} {} {}\r\n", C.Width,
                         C.Height, C.Fx, C.Fy, C.Cx, C.Cy)},

@@ -21,6 +21,9 @@ struct SampleCapture {
   struct Point {
     std::array<double, 3> Position{};
     std::array<uint8_t, 3> Colour{};
+    /// Views, for COLMAP's tracks.
+    // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
+    std::vector<std::size_t> SeenBy{};
   };
   int Width = 8, Height = 6;
   double Fx = 10, Fy = 11, Cx = 4.25, Cy = 3;
@@ -28,8 +31,8 @@ struct SampleCapture {
   std::vector<Point> Points;
 };
 
-/// \p Views cameras on a circle about the origin that look at it, 12 points;
-/// names a0.png, a1.png, ...
+/// \p Views cameras on a circle about the origin that look at it, 12 points
+/// that each two of them see; names a0.png, a1.png, ...
 SampleCapture sampleCapture(std::size_t Views = 10);
 
 /// sparse/0/{cameras,images,points3D}.bin or .txt and images/, each picture of
