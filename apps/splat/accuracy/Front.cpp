@@ -130,14 +130,15 @@ std::vector<Setting> productOfFronts(const std::vector<Knob> &Knobs,
           (C.Chosen.size() == 1 && C.Chosen.place(K.Id) != 0))
         Own.push_back(C);
     std::map<std::size_t, double> Savings;
-    for (const TimeAxis A :
-         {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
+    for (std::size_t N = 0; N < TimeAxes; ++N) {
+      const auto A = static_cast<TimeAxis>(N);
       for (const std::size_t I : paretoFront(Own, A))
         if (Own[I].Chosen.size() == 1 && Own[I].db() >= FloorDb) {
           double &Saved = Savings[Own[I].Chosen.place(K.Id)];
           if (Own.front().Chosen.size() == 0 && Own.front().time(A))
             Saved = std::max(Saved, 1 - *Own[I].time(A) / *Own.front().time(A));
         }
+    }
     for (const auto &[Value, Saving] : Savings)
       Kept.push_back({Saving, K.Name, K.Values[Value], K.Id, Value});
   }

@@ -10,12 +10,13 @@
 
 namespace vorion::splat {
 
-/// The times that a setting may be judged by: counts, which every run repeats.
-enum class TimeAxis { Cycles, EqualArea, Cores };
-inline constexpr std::size_t TimeAxes = 3;
+/// What a setting may cost: cycles, or the chip's joules where they are asked
+/// for. Every run repeats them.
+enum class TimeAxis { Cycles, EqualArea, Cores, Energy };
+inline constexpr std::size_t TimeAxes = 4;
 /// Their names in files.
 inline constexpr std::array<std::string_view, TimeAxes> TimeAxisNames{
-    "cycles", "equal_area_cycles", "cores_cycles"};
+    "cycles", "equal_area_cycles", "cores_cycles", "chip_joules"};
 
 /// The errors that a setting may be judged by.
 enum class ErrorKind { Psnr, Ssim, Largest, OffShare };

@@ -113,7 +113,7 @@ Expected<Json> PointMeasurement::measure() {
   if (!Right)
     return Right.error();
   std::vector<std::string> Timed = Target.Chosen.arguments();
-  Timed.emplace_back("--time");
+  Timed.emplace_back(Plan.Energy ? "--energy" : "--time");
   const auto Clocked = run(Timed);
   if (!Clocked)
     return Clocked.error();
@@ -128,7 +128,15 @@ Expected<Json> PointMeasurement::measure() {
   const double LaneCycles = laneCycles(Time);
   Json Times{{"cycles", Cycles},
              {"equal_area_cycles", Cycles + LaneCycles * (Relative - 1)},
-             {"cores_cycles", nullptr}};
+             {"cores_cycles", nullptr},
+             {"chip_joules", nullptr}};
+  Json Spent;
+  if (Plan.Energy) {
+    const Json &Energy = Clocked->Report["energy"];
+    Times["chip_joules"] = Energy["chip_joules"]["value"];
+    for (const char *Key : {"technology", "volts", "joules", "chip_joules"})
+      Spent[Key] = Energy[Key];
+  }
   Json Kernels;
   if (auto Cores = Target.Chosen.coresArguments(); Cores && Plan.Cores) {
     Cores->emplace_back("--time");
@@ -147,16 +155,16 @@ Expected<Json> PointMeasurement::measure() {
     return Small ? Apart.error() : Small.error();
   // Seconds of the host, of one run, are no figure.
   Json Made = Clocked->Report;
-  for (const char *Key : {"stages", "time"})
+  for (const char *Key : {"stages", "time", "energy"})
     Made.erase(Key);
   Made["total"].erase("seconds");
   return Json{
       {"setting", Target.Chosen.name()}, {"view", Target.View->Name},
       {"errors", std::move(*Errors)},    {"cores_errors", std::move(Kernels)},
-      {"times", std::move(Times)},       {"lane_cycles", LaneCycles},
-      {"lane_area_um2", Area},           {"lane_area_relative", Relative},
-      {"made_by", std::move(Made)},      {"picture", std::move(*Small)},
-      {"difference", std::move(*Apart)}};
+      {"times", std::move(Times)},       {"energy", std::move(Spent)},
+      {"lane_cycles", LaneCycles},       {"lane_area_um2", Area},
+      {"lane_area_relative", Relative},  {"made_by", std::move(Made)},
+      {"picture", std::move(*Small)},    {"difference", std::move(*Apart)}};
 }
 
 /// Whether \p J has what candidates() and the page take.
@@ -167,10 +175,10 @@ bool isMeasurement(const Json &J) {
                                               {"ssim", Number},
                                               {"largest", Number},
                                               {"off_share", Number}});
-  const JsonShape Times =
-      JsonShape::object({{"cycles", Number},
-                         {"equal_area_cycles", Number},
-                         {"cores_cycles", Number.orNull()}});
+  const JsonShape Times = JsonShape::object({{"cycles", Number},
+                                             {"equal_area_cycles", Number},
+                                             {"cores_cycles", Number.orNull()},
+                                             {"chip_joules", Number.orNull()}});
   const JsonShape Shape = JsonShape::object({{"setting", Text},
                                              {"view", Text},
                                              {"errors", Errors},

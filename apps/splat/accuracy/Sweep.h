@@ -22,6 +22,7 @@ struct SweepPlan {
   std::vector<Camera> Views;
   std::vector<Knob> Knobs;
   bool Cores = true;         ///< the kernels-only path too
+  bool Energy = false;       ///< the chip's joules, too
   unsigned Jobs = 1;         ///< measured at the same time
   unsigned ThumbWidth = 240; ///< of the page's pictures, px
   Origin From;               ///< what all points are made from

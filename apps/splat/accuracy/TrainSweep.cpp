@@ -162,6 +162,8 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
                {"--seed", std::to_string(*Of.Seed), "--time", "--time-every",
                 std::to_string(P.TimeEvery), "--score-every",
                 std::to_string(P.ScoreEvery), "--json", Base + ".json"});
+  if (P.Energy)
+    Words.emplace_back("--energy");
   if (auto Done = runSplat(Words, P.Machine, Base + ".log"); !Done)
     return Done.error();
   auto Report = readJson(Base + ".json");
@@ -170,9 +172,12 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   for (const char *Ending : {".ply", ".ply.checkpoint", ".json", ".log"})
     std::filesystem::remove(Base + Ending);
   Json Curve = curveOf(*Report, P.TimeEvery);
-  double Cycles = 0;
-  for (const Json &T : (*Report)["timed"])
+  double Cycles = 0, Joules = 0;
+  for (const Json &T : (*Report)["timed"]) {
     Cycles += T["time"]["sum"]["cycles"].get<double>();
+    if (P.Energy)
+      Joules += T["energy"]["chip_joules"]["value"].get<double>();
+  }
   const Json Areas =
       (*Report)["timed"].empty()
           ? Json()
@@ -186,6 +191,9 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
               {"psnr8_db", (*Report)["psnr8_db"]},
               {"timed", Samples},
               {"cycles", Samples == 0 ? 0.0 : Cycles / double(Samples)},
+              {"chip_joules", P.Energy && Samples != 0
+                                  ? Json(Joules / double(Samples))
+                                  : Json()},
               {"reciprocal_um2", Areas},
               {"curve", std::move(Curve)},
               {"made_by", std::move(*Report)}};
@@ -212,6 +220,7 @@ bool isMeasurement(const Json &J) {
        {"seed", Text},
        {"psnr8_db", Number},
        {"cycles", Number},
+       {"chip_joules", Number.orNull()},
        {"reciprocal_um2",
         JsonShape::list(Number, knob(KnobId::Reciprocal).Values.size())},
        {"curve", Curve}});
@@ -257,6 +266,8 @@ Expected<Origin> originOf(const TrainSweepPlan &P, const Capture &C) {
   auto Hash = hashCapture(C);
   if (!Hash)
     return Hash.error();
+  if (P.Energy)
+    From->insert({"energy", "chip"});
   From->insert({{"capture", std::move(*Hash)},
                 {"downscale", std::to_string(P.Downscale)},
                 {"background", background(P)},
@@ -357,7 +368,7 @@ Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
   Json Settings = Json::array();
   for (const Setting &S : singleChanges(trainKnobs())) {
     Json Row{{"setting", S.name()}};
-    std::vector<double> Cycles, Db, Seconds;
+    std::vector<double> Cycles, Joules, Db, Seconds;
     for (std::size_t I = 0; I != All.size(); ++I) {
       if (All[I].Chosen != S)
         continue;
@@ -367,12 +378,15 @@ Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
         continue;
       }
       Cycles.push_back(One["cycles"].get<double>());
+      if (!One["chip_joules"].is_null())
+        Joules.push_back(One["chip_joules"].get<double>());
       Db.push_back(One["psnr8_db"].get<double>());
       Seconds.push_back(secondsUntil(One["curve"], Reached));
       Row["reciprocal_um2"] =
           One["reciprocal_um2"].at(S.place(KnobId::Reciprocal));
     }
     Row["cycles"] = spreadOf(Cycles);
+    Row["chip_joules"] = spreadOf(Joules);
     Row["psnr8_db"] = spreadOf(Db);
     Row["machine_seconds"] = spreadOf(Seconds);
     Settings.push_back(std::move(Row));
@@ -386,12 +400,14 @@ Expected<Json> trainResults(const TrainSweepPlan &P, KeptPoints &Kept) {
 }
 
 std::string trainTable(const Json &Results) {
+  const bool HasEnergy = !Results["settings"][0]["chip_joules"].is_null();
   std::string Text = fmt::format(
       "| setting | gradient error | area of the unit, um^2 a pair | Mcycles an "
-      "iteration | PSNR after {}, dB | machine-seconds to {:.2f} dB |\n"
-      "|---|--:|--:|--:|--:|--:|\n",
+      "iteration | {}PSNR after {}, dB | machine-seconds to {:.2f} dB |\n"
+      "|---|--:|--:|--:|{}--:|--:|\n",
+      HasEnergy ? "energy of the chip an iteration, mJ | " : "",
       Results["iterations"].get<unsigned>(),
-      Results["reached_db"].get<double>());
+      Results["reached_db"].get<double>(), HasEnergy ? "--:|" : "");
   const auto Spread = [](const Json &J, double Unit, int Digits) {
     return fmt::format("{0:.{3}g} ({1:.{3}g} to {2:.{3}g})",
                        J["mean"].get<double>() / Unit,
@@ -400,10 +416,11 @@ std::string trainTable(const Json &Results) {
   };
   for (const Json &Row : Results["settings"])
     Text += fmt::format(
-        "| {} | {:.1e} | {:.0f} | {} | {} | {} |\n",
+        "| {} | {:.1e} | {:.0f} | {} | {}{} | {} |\n",
         Row["setting"].get<std::string>(),
         Row["gradient_error"]["largest"].get<double>(),
         Row["reciprocal_um2"].get<double>(), Spread(Row["cycles"], 1e6, 4),
+        HasEnergy ? Spread(Row["chip_joules"], 1e-3, 4) + " | " : "",
         Spread(Row["psnr8_db"], 1, 4), Spread(Row["machine_seconds"], 1, 3));
   return Text;
 }

@@ -28,8 +28,9 @@ struct TrainSweepPlan {
   unsigned Iterations = 500;
   unsigned Seeds = 3; ///< 0, 1, ...
   unsigned ScoreEvery = 25, TimeEvery = 25;
-  unsigned Jobs = 1; ///< measured at the same time
-  Origin From;       ///< what all points are made from: originOf()
+  unsigned Jobs = 1;   ///< measured at the same time
+  bool Energy = false; ///< the chip's joules, too
+  Origin From;         ///< what all points are made from: originOf()
 };
 
 /// A training run with a setting and a seed, or what a setting makes of the

@@ -8,11 +8,14 @@ const METRICS = {
   largest: { label: 'largest error', digits: 5, place: v => -Math.log10(Math.max(1e-9, v)), tick: power },
   off_share: { label: 'pixels off by more than 1/255, %', digits: 4, scale: 100, place: v => -Math.log10(Math.max(1e-9, 100 * v)), tick: power },
 };
-const AXES = {
+const ALL_AXES = {
   cycles: { label: 'machine cycles, 16 lanes', scale: 1e-6, unit: 'M' },
   equal_area_cycles: { label: 'machine cycles at equal area', scale: 1e-6, unit: 'M' },
   cores_cycles: { label: 'machine cycles, kernels only', scale: 1e-6, unit: 'M' },
+  chip_joules: { label: 'energy of the chip', scale: 1e3, unit: 'mJ' },
 };
+// Energy is there where it was asked for.
+const AXES = Object.fromEntries(Object.entries(ALL_AXES).filter(([key]) => key !== 'chip_joules' || data.summaries[0].settings.some(s => s.times[key] !== null)));
 // Shown as this where pictures are equal, which JSON has no number for.
 const EQUAL_DB = 200;
 // Times beyond so many times the default's are drawn at the edge.
@@ -191,7 +194,7 @@ function drawRecommended() {
     table.append(row);
   }
   box.replaceChildren(element('p', {}, element('b', {}, chosen.setting),
-    `, the fastest with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), table);
+    `, the ${state.axis === 'chip_joules' ? 'one of least energy' : 'fastest'} with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), table);
 }
 
 function drawFree(free, base) {

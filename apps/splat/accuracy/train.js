@@ -6,6 +6,7 @@ const single = value => ({ mean: value, least: value, most: value });
 const AXES = {
   machine_seconds: { label: `machine-seconds to ${data.reached_db.toFixed(2)} dB`, of: s => s.machine_seconds, digits: 3 },
   cycles: { label: 'Mcycles an iteration', of: s => s.cycles, scale: 1e-6, digits: 4 },
+  ...(data.settings[0].chip_joules && { chip_joules: { label: 'energy of the chip an iteration, mJ', of: s => s.chip_joules, scale: 1e3, digits: 3 } }),
   area: { label: 'area, um² a pair', of: s => single(s.reciprocal_um2), digits: 0 },
   error: { label: 'gradient error', of: s => single(s.gradient_error.largest), logarithmic: true },
 };
@@ -73,7 +74,7 @@ function drawPlot() {
 
 function drawTable() {
   const columns = [['setting', s => s.setting, s => s.setting]];
-  for (const axis of ['error', 'area', 'cycles', 'machine_seconds'])
+  for (const axis of ['error', 'area', 'cycles', 'chip_joules', 'machine_seconds'].filter(key => AXES[key]))
     columns.push([AXES[axis].label, s => AXES[axis].of(s).mean, s => text(s, axis)]);
   for (const [label, key] of [['PSNR, mean', 'mean'], ['least', 'least'], ['greatest', 'most']])
     columns.push([label, s => s.psnr8_db[key], s => s.psnr8_db[key].toFixed(3)]);

@@ -4,10 +4,9 @@
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
-#include "commands/Progress.h"
 #include "commands/SceneArguments.h"
-#include "io/Hash.h"
-#include "io/Inside.h"
+#include "commands/SweepArguments.h"
+#include "commands/Usage.h"
 #include "io/ReportHead.h"
 #include "sweep/Points.h"
 #include "vorion/support/CommandLine.h"
@@ -26,7 +25,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <ranges>
-#include <set>
 #include <string>
 #include <system_error>
 
@@ -41,11 +39,9 @@ struct AccuracyArguments {
   std::string Folder, AtLeast = "50dB";
   std::vector<std::string> Check, Knobs, Only;
   unsigned Jobs = 1, Products = 64, ThumbWidth = 240;
-  bool List = false, NoCores = false;
+  bool List = false, NoCores = false, Energy = false;
   TrainSweepPlan Train; ///< where a capture is given
 };
-
-Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
 
 /// "50dB" or "50".
 Expected<double> parseDecibels(std::string_view Text) {
@@ -60,19 +56,6 @@ Expected<double> parseDecibels(std::string_view Text) {
   return Value;
 }
 
-/// That no view's files would take another's place.
-Expected<Success> checkNames(const SweepPlan &P) {
-  std::set<std::string> Names;
-  for (const Camera &View : P.Views)
-    if (!Names.insert(asFileName(View.Name)).second)
-      return Error{P.CameraFile,
-                   fmt::format("two of the views would be kept as {}, expected "
-                               "views of different names",
-                               asFileName(View.Name)),
-                   ExitCode::Usage};
-  return Success{};
-}
-
 /// Whether the views are in no file yet.
 bool hasOwnCameras(const AccuracyArguments &A) {
   const CameraArguments &C = A.Cameras;
@@ -85,19 +68,6 @@ std::string ownCameras(const AccuracyArguments &A) {
   return A.Folder + "/cameras.json";
 }
 
-/// The views to measure: all of the file, unless some are named.
-Expected<std::vector<Camera>> viewsOf(const AccuracyArguments &A) {
-  CameraArguments C = A.Cameras;
-  if (C.Views.empty())
-    C.Views = {"all"};
-  // Only a motion and a view that is found look at the scene.
-  if (!C.File.empty() && C.Orbit == 0)
-    return chooseCameras(C, Scene());
-  const auto File = loadScene(A.Scene);
-  return File ? chooseCameras(C, File->Gaussians)
-              : Expected<std::vector<Camera>>(File.error());
-}
-
 Expected<SweepPlan> planOf(const AccuracyArguments &A,
                            const DeviceOptions &Machine) {
   SweepPlan P;
@@ -105,32 +75,27 @@ Expected<SweepPlan> planOf(const AccuracyArguments &A,
   P.ScenePath = A.Scene.Path;
   P.Folder = A.Folder;
   P.CommonArguments = wordsOf(A.Scene);
-  auto Cameras = viewsOf(A);
-  if (!Cameras)
-    return Cameras.error();
-  P.Views = std::move(*Cameras);
+  P.CameraFile = hasOwnCameras(A) ? ownCameras(A) : A.Cameras.File;
+  auto Views = sweptViews(A.Cameras, A.Scene, P.CameraFile);
+  if (!Views)
+    return Views.error();
+  P.Views = std::move(*Views);
   auto Knobs = knobsNamed(A.Knobs);
   if (!Knobs)
     return Knobs.error();
-  P.CameraFile = hasOwnCameras(A) ? ownCameras(A) : A.Cameras.File;
   P.Knobs = std::move(*Knobs);
   P.Cores = !A.NoCores;
+  P.Energy = A.Energy;
   P.Jobs = A.Jobs;
   P.ThumbWidth = A.ThumbWidth;
   P.Load = [&A] { return loadScene(A.Scene); };
-  if (auto Checked = checkNames(P); !Checked)
-    return Checked.error();
-  auto From = commonOrigin(Machine);
+  auto From = sweptOrigin(A.Scene, Machine);
   if (!From)
     return From.error();
   P.From = std::move(*From);
-  auto Scene = hashScene(P.ScenePath);
-  if (!Scene)
-    return Scene.error();
-  P.From["scene"] = std::move(*Scene);
-  P.From["options"] =
-      fmt::format("{}{} --thumb-width {}", fmt::join(P.CommonArguments, " "),
-                  P.Cores ? "" : " --no-cores", P.ThumbWidth);
+  P.From["options"] = fmt::format(
+      "{}{}{} --thumb-width {}", fmt::join(P.CommonArguments, " "),
+      P.Cores ? "" : " --no-cores", P.Energy ? " --energy" : "", P.ThumbWidth);
   return P;
 }
 
@@ -161,12 +126,6 @@ Expected<Split> splitViews(const SweepPlan &P,
   if (S.Choose.empty())
     return usage("--check names all views, expected one that chooses");
   return S;
-}
-
-void say(std::string_view Line) {
-  if (isProgressHidden())
-    return;
-  printNote(fmt::format("splat: {}\n", escaped(Line)));
 }
 
 /// The settings so far: single knobs, and once they are all measured the
@@ -217,6 +176,8 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
                                  All.size(), FloorDb, names(V.Choose));
   for (std::size_t A = 0; A < TimeAxes; ++A) {
     const auto Axis = static_cast<TimeAxis>(A);
+    if (Axis == TimeAxis::Energy && !P.Energy)
+      continue;
     Text += fmt::format("{:<18}", TimeAxisNames[A]);
     const auto Best = recommend(*Measured, Axis, FloorDb);
     if (!Best) {
@@ -270,8 +231,9 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   if (!A.Train.Capture.empty()) {
     A.Train.Folder = A.Folder;
     A.Train.Jobs = A.Jobs;
+    A.Train.Energy = A.Energy;
     A.Train.Machine = Machine;
-    return measureTraining(A.Train, A.List, A.Only, say);
+    return measureTraining(A.Train, A.List, A.Only, sayOfSweep);
   }
   if (A.Scene.Path.empty())
     return usage("expected a scene, or --train");
@@ -290,7 +252,7 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   if (!A.List && hasOwnCameras(A))
     if (auto Written = writeCameras(ownCameras(A), P->Views); !Written)
       return Written;
-  KeptPoints Kept = keptPoints(*P, say);
+  KeptPoints Kept = keptPoints(*P, sayOfSweep);
   if (!A.Only.empty()) {
     std::vector<Point> Wanted;
     for (const std::string &Name : A.Only) {
@@ -299,7 +261,7 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
         return One.error();
       Wanted.push_back(std::move(*One));
     }
-    return measure(*P, Kept, missing(*P, Kept, Wanted), say);
+    return measure(*P, Kept, missing(*P, Kept, Wanted), sayOfSweep);
   }
   auto All = currentSettings(*P, Kept, *V, *Floor, A.Products);
   if (!All)
@@ -311,8 +273,8 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   }
   // Twice: what the first round finds out says what the second measures.
   for (int Round = 0; Round < 2; ++Round) {
-    if (auto Done =
-            measure(*P, Kept, missing(*P, Kept, pointsOf(*P, *All)), say);
+    if (auto Done = measure(*P, Kept, missing(*P, Kept, pointsOf(*P, *All)),
+                            sayOfSweep);
         !Done)
       return Done;
     All = currentSettings(*P, Kept, *V, *Floor, A.Products);
@@ -355,6 +317,8 @@ Runner addAccuracy(CLI::App &App) {
       ->option_text("POINT")
       ->allow_extra_args(false)
       ->excludes("--list");
+  App.add_flag("--energy", A->Energy,
+               "The chip's energy as a further axis (docs/energy.md)");
   const std::size_t First = App.get_options().size();
   addSceneOptions(App, A->Scene);
   App.get_option("scene")->required(false);

@@ -3,6 +3,7 @@
 #include "cameras/CameraFile.h"
 #include "cameras/GoodView.h"
 #include "cameras/Motion.h"
+#include "commands/Usage.h"
 #include "vorion/support/CommandLine.h"
 
 #include <cstdio>
@@ -12,8 +13,6 @@
 
 namespace vorion::splat {
 namespace {
-
-Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
 
 Expected<std::pair<int, int>> parseSize(const std::string &Text) {
   int Width = 0, Height = 0, End = 0;

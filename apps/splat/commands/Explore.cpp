@@ -1,12 +1,12 @@
+#include "cameras/Motion.h"
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/OutputFile.h"
-#include "commands/Progress.h"
 #include "commands/SceneArguments.h"
+#include "commands/SweepArguments.h"
+#include "commands/Usage.h"
 #include "explore/Page.h"
 #include "explore/Study.h"
-#include "io/Hash.h"
-#include "io/Inside.h"
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -20,7 +20,6 @@
 #include <fmt/ranges.h>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 
 namespace vorion::splat {
@@ -40,54 +39,18 @@ struct ExploreArguments {
   bool List = false, PrintSpace = false;
 };
 
-Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
-
-void say(std::string_view Line) {
-  if (!isProgressHidden())
-    printNote(fmt::format("splat: {}\n", escaped(Line)));
-}
-
 Expected<Space> spaceOf(const ExploreArguments &A) {
-  if (A.SpaceFile.empty())
-    return parseSpace(defaultSpace(), "the space of splat explore");
-  const auto Bytes = readFile(A.SpaceFile);
-  if (!Bytes)
-    return Bytes.error();
-  return parseSpace(
-      {reinterpret_cast<const char *>(Bytes->data()), Bytes->size()},
-      A.SpaceFile);
+  return A.SpaceFile.empty()
+             ? parseSpace(defaultSpace(), "the space of splat explore")
+             : readSpace(A.SpaceFile);
 }
 
-/// All of the file, unless some are named.
-Expected<std::vector<Camera>> viewsOf(const ExploreArguments &A) {
-  CameraArguments C = A.Cameras;
-  if (C.Views.empty())
-    C.Views = {"all"};
-  if (!C.File.empty() && C.Orbit == 0)
-    return chooseCameras(C, Scene());
-  const auto File = loadScene(A.Scene);
-  return File ? chooseCameras(C, File->Gaussians)
-              : Expected<std::vector<Camera>>(File.error());
-}
-
-/// The same picture with fewer pixels.
-Camera smaller(Camera View, int Width) {
+/// The same view with fewer pixels.
+Camera smaller(const Camera &View, int Width) {
   const double Scale = static_cast<double>(Width) / View.Width;
-  View.Width = Width;
-  View.Height = std::max(1, static_cast<int>(std::lround(View.Height * Scale)));
-  for (double *Length : {&View.Fx, &View.Fy, &View.Cx, &View.Cy})
-    *Length *= Scale;
-  return View;
-}
-
-Expected<Success> checkNames(const std::vector<Camera> &Views) {
-  std::set<std::string> Names;
-  for (const Camera &View : Views)
-    if (!Names.insert(asFileName(View.Name)).second)
-      return usage(fmt::format("two of the views would be kept as {}, expected "
-                               "views of different names",
-                               asFileName(View.Name)));
-  return Success{};
+  return resized(
+      View, Width,
+      std::max(1, static_cast<int>(std::lround(View.Height * Scale))));
 }
 
 Expected<StudyPlan> planOf(const ExploreArguments &A,
@@ -95,11 +58,9 @@ Expected<StudyPlan> planOf(const ExploreArguments &A,
   auto S = spaceOf(A);
   if (!S)
     return S.error();
-  auto Views = viewsOf(A);
+  auto Views = sweptViews(A.Cameras, A.Scene, A.Cameras.File);
   if (!Views)
     return Views.error();
-  if (auto Checked = checkNames(*Views); !Checked)
-    return Checked.error();
   StudyPlan P;
   P.ScenePath = A.Scene.Path;
   P.Folder = A.Folder;
@@ -116,14 +77,10 @@ Expected<StudyPlan> planOf(const ExploreArguments &A,
     for (const Camera &View : P.Whole.Views)
       P.Small.Views.push_back(
           smaller(View, std::min(View.Width, A.SmallWidth)));
-  auto From = commonOrigin(Machine);
+  auto From = sweptOrigin(A.Scene, Machine);
   if (!From)
     return From.error();
   P.From = std::move(*From);
-  auto Scene = hashScene(P.ScenePath);
-  if (!Scene)
-    return Scene.error();
-  P.From["scene"] = std::move(*Scene);
   P.From["options"] = fmt::format("{}", fmt::join(P.CommonArguments, " "));
   return P;
 }
@@ -146,7 +103,7 @@ Expected<std::vector<Measured>> allOf(const StudyPlan &P, KeptPoints &Kept,
 class Study {
 public:
   Study(const ExploreArguments &A, const StudyPlan &P)
-      : A(A), P(P), Kept(keptTrials(P, say)),
+      : A(A), P(P), Kept(keptTrials(P, sayOfSweep)),
         Machines(machinesOf(P.Parameters, A.Machines, A.Seed, Singles)) {}
 
   /// What is to be measured now, of the round that is not done yet.
@@ -161,9 +118,14 @@ private:
                                const std::vector<Choices> &Which) {
     return missing(P, Kept, trialsOf(Of, Which));
   }
+  /// All machines on small views, which are measured; none if there are none.
+  Expected<std::vector<Measured>> small() {
+    return hasSmall() ? allOf(P, Kept, P.Small, Machines)
+                      : std::vector<Measured>();
+  }
   /// The base, the single changes, the machines drawn first, and the best of
-  /// all by small views, which are measured.
-  Expected<std::vector<Choices>> whole();
+  /// \p Small; all machines where that is empty.
+  std::vector<Choices> chosenBy(const std::vector<Measured> &Small) const;
 
   const ExploreArguments &A;
   const StudyPlan &P;
@@ -172,17 +134,14 @@ private:
   const std::vector<Choices> Machines;
 };
 
-Expected<std::vector<Choices>> Study::whole() {
-  if (!hasSmall())
+std::vector<Choices> Study::chosenBy(const std::vector<Measured> &Small) const {
+  if (Small.empty())
     return Machines;
-  const auto Small = allOf(P, Kept, P.Small, Machines);
-  if (!Small)
-    return Small.error();
   std::vector<Figures> Can;
   std::vector<std::size_t> Places;
-  for (std::size_t I = 0; I < Small->size(); ++I)
-    if ((*Small)[I].Refused.empty()) {
-      Can.push_back((*Small)[I].Is);
+  for (std::size_t I = 0; I < Small.size(); ++I)
+    if (Small[I].Refused.empty()) {
+      Can.push_back(Small[I].Is);
       Places.push_back(I);
     }
   const std::size_t First = std::min(Machines.size(), Singles + A.Checks);
@@ -198,9 +157,9 @@ Expected<std::vector<Trial>> Study::next() {
   if (hasSmall())
     if (auto Left = missingOf(P.Small, Machines); !Left.empty())
       return Left;
-  const auto Chosen = whole();
-  return Chosen ? missingOf(P.Whole, *Chosen)
-                : Expected<std::vector<Trial>>(Chosen.error());
+  const auto Small = small();
+  return Small ? missingOf(P.Whole, chosenBy(*Small))
+               : Expected<std::vector<Trial>>(Small.error());
 }
 
 Expected<Success> Study::measureAll() {
@@ -209,7 +168,7 @@ Expected<Success> Study::measureAll() {
       return Left.error();
     if (Left->empty())
       return Success{};
-    if (auto Done = measure(P, Kept, *Left, say); !Done)
+    if (auto Done = measure(P, Kept, *Left, sayOfSweep); !Done)
       return Done;
   }
 }
@@ -230,25 +189,20 @@ Expected<Success> Study::measureOnly() {
                       "as --list prints",
                       Name));
   }
-  return measure(P, Kept, missing(P, Kept, Wanted), say);
+  return measure(P, Kept, missing(P, Kept, Wanted), sayOfSweep);
 }
 
 Expected<Findings> Study::findings() {
   Findings F;
-  const auto Chosen = whole();
-  if (!Chosen)
-    return Chosen.error();
-  auto Whole = allOf(P, Kept, P.Whole, *Chosen);
+  auto Small = small();
+  if (!Small)
+    return Small.error();
+  F.Small = std::move(*Small);
+  auto Whole = allOf(P, Kept, P.Whole, chosenBy(F.Small));
   if (!Whole)
     return Whole.error();
   F.Whole = std::move(*Whole);
   F.Singles = Singles;
-  if (hasSmall()) {
-    auto Small = allOf(P, Kept, P.Small, Machines);
-    if (!Small)
-      return Small.error();
-    F.Small = std::move(*Small);
-  }
   for (std::size_t I = Singles;
        I < std::min(F.Whole.size(), Singles + A.Checks); ++I)
     F.Checked.push_back(I);

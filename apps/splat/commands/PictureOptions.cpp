@@ -1,6 +1,7 @@
 #include "commands/PictureOptions.h"
 
 #include "commands/Choices.h"
+#include "commands/Usage.h"
 #include "render/PixelLists.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
@@ -11,8 +12,6 @@
 namespace vorion::splat {
 
 namespace {
-
-Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
 
 /// What is given up for time or area, on either path.
 void addDatapathOptions(CLI::App &App, RenderOptions &O) {

@@ -1,5 +1,6 @@
 #include "commands/SceneEdits.h"
 
+#include "commands/Usage.h"
 #include "scene/Activation.h"
 #include "scene/Edit.h"
 
@@ -9,8 +10,6 @@
 
 namespace vorion::splat {
 namespace {
-
-Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
 
 Expected<Success> check(const SceneEdits &E) {
   for (const auto &[Name, Values] : {std::pair("--translate", &E.Translate),

@@ -39,4 +39,29 @@ Bottleneck bottleneckOf(const Json &Time) {
       {"blend", "clip", "fetch", "hazard", "begin", "flush", "drain"});
 }
 
+/// What a unit of a time report's activities counts; of any event, if that is
+/// empty.
+static double countOf(const Json &Time, std::string_view Unit,
+                      std::string_view Event = {}) {
+  double Sum = 0;
+  for (const Json &A : Time["activities"])
+    if (A["unit"] == Unit && (Event.empty() || A["event"] == Event))
+      Sum += A["count"].get<double>();
+  return Sum;
+}
+
+Roof roofOf(const Json &Time, const Bottleneck &Of) {
+  const bool OnCores = Of.Unit == "cores";
+  double Done = 0;
+  for (const Json &Unit : Time[Of.Unit])
+    Done += Unit[OnCores ? "issue" : "lane_slots"].get<double>();
+  const double Most =
+      countOf(Time, "time", OnCores ? "cores" : "rasterizer lanes");
+  // Cycles of all channels, and of those with data.
+  const double Channels = countOf(Time, "dram channels");
+  const double Moved = 1e-6 * Time["dram"]["bus_ps"].get<double>() *
+                       Time["clock_mhz"].get<double>();
+  return {Most > 0 ? Done / Most : 0, Channels > 0 ? Moved / Channels : 0};
+}
+
 } // namespace vorion::splat

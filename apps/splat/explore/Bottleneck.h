@@ -17,4 +17,13 @@ struct Bottleneck {
 /// \p Time is a time report.
 Bottleneck bottleneckOf(const nlohmann::ordered_json &Time);
 
+/// A stage under its roofline: how much of the most that is possible its unit
+/// did and DRAM moved, each 0 to 1. Where the first is below the second, DRAM
+/// is the lower roof.
+struct Roof {
+  double Work = 0;   ///< cores: cycles with an issue; rasterizers: lane slots
+  double Memory = 0; ///< of DRAM's bandwidth
+};
+Roof roofOf(const nlohmann::ordered_json &Time, const Bottleneck &Of);
+
 } // namespace vorion::splat

@@ -91,8 +91,7 @@ Json agreementOf(const Findings &F) {
           {"chip_joules", rankCorrelation(SmallJoules, WholeJoules)}};
 }
 
-} // namespace
-
+/// Places in \p Whole of machines that can be and are on the Pareto front.
 std::vector<std::size_t> frontOf(const std::vector<Measured> &Whole) {
   std::vector<std::size_t> Places;
   std::vector<Figures> All;
@@ -106,6 +105,8 @@ std::vector<std::size_t> frontOf(const std::vector<Measured> &Whole) {
     I = Places[I];
   return Front;
 }
+
+} // namespace
 
 Json resultsOf(const StudyPlan &P, const Findings &F) {
   const std::vector<std::size_t> Front = frontOf(F.Whole);

@@ -21,9 +21,6 @@ struct Findings {
   std::vector<Interaction> Pairs;
 };
 
-/// Machines of \p F.Whole that can be, by their place, on the Pareto front.
-std::vector<std::size_t> frontOf(const std::vector<Measured> &Whole);
-
 /// The file explore.json, without its head.
 nlohmann::ordered_json resultsOf(const StudyPlan &P, const Findings &F);
 

@@ -145,9 +145,19 @@ Expected<Space> SpaceReader::read(const Json &All) {
 
 } // namespace
 
-Expected<Space> parseSpace(std::string_view Text, const std::string &Where) {
-  const auto All = parseJson<Json>(Text, Where, "a space of machines");
+static Expected<Space> spaceIn(const Expected<Json> &All,
+                               const std::string &Where) {
   return All ? SpaceReader(Where).read(*All) : Expected<Space>(All.error());
+}
+
+static constexpr const char *Wanted = "a space of machines";
+
+Expected<Space> parseSpace(std::string_view Text, const std::string &Where) {
+  return spaceIn(parseJson<Json>(Text, Where, Wanted), Where);
+}
+
+Expected<Space> readSpace(const std::string &File) {
+  return spaceIn(readJson<Json>(File, Wanted), File);
 }
 
 std::string nameOf(const Space &S, const Choices &C) {

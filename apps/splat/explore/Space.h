@@ -27,6 +27,9 @@ using Space = std::vector<Parameter>;
 /// Reads the JSON \p Text of \p Where (docs/explore.md, "The space").
 Expected<Space> parseSpace(std::string_view Text, const std::string &Where);
 
+/// The same of the file \p File.
+Expected<Space> readSpace(const std::string &File);
+
 /// That of --print-space.
 std::string_view defaultSpace();
 

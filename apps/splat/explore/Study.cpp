@@ -79,11 +79,14 @@ Json stagesOf(const Json &Time) {
     if (Stage["of_the_frame"].get<bool>() && Stage.contains("time")) {
       const Json &Of = Stage["time"];
       const Bottleneck Most = bottleneckOf(Of);
+      const Roof Under = roofOf(Of, Most);
       All.push_back({{"name", Stage["name"]},
                      {"cycles", Of["cycles"]},
                      {"unit", Most.Unit},
                      {"reason", Most.Reason},
-                     {"share", Most.Share}});
+                     {"share", Most.Share},
+                     {"work_share", Under.Work},
+                     {"memory_share", Under.Memory}});
     }
   return All;
 }
@@ -142,7 +145,9 @@ bool isMeasurement(const Json &J) {
                                              {"cycles", Number},
                                              {"unit", Text},
                                              {"reason", Text},
-                                             {"share", Number}});
+                                             {"share", Number},
+                                             {"work_share", Number},
+                                             {"memory_share", Number}});
   const JsonShape Shape =
       JsonShape::object({{"picture", Text},
                          {"frame_ms", Number},

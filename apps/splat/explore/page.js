@@ -56,13 +56,48 @@ function drawDetails() {
     box.append(element('p', {}, (m.whole ?? m.small).refused ?? 'It was judged on small views alone.'));
     return;
   }
-  const table = element('table', {}, rowOf(['view', 'stage', 'Mcycles', 'share of the frame', 'most cycles go to', 'in % of its cycles'], 'th'));
+  const table = element('table', {}, rowOf(['view', 'stage', 'Mcycles', 'share of the frame', 'most cycles go to', 'in % of its cycles', 'work, % of the most', 'DRAM, % of the most'], 'th'));
   for (const view of m.views) {
     const all = view.stages.reduce((sum, s) => sum + s.cycles, 0);
     for (const s of view.stages)
-      table.append(rowOf([view.view, s.name, number(s.cycles * 1e-6, 3), `${number(100 * s.cycles / all, 1)} %`, `${s.unit}: ${s.reason}`, number(100 * s.share)]));
+      table.append(rowOf([view.view, s.name, number(s.cycles * 1e-6, 3), `${number(100 * s.cycles / all, 1)} %`, `${s.unit}: ${s.reason}`, number(100 * s.share), number(100 * s.work_share, 1), number(100 * s.memory_share, 1)]));
   }
   box.append(table);
+}
+
+// A stage's place: work for the traffic that it makes, and work, as shares of the most. What moves nothing is drawn at the right edge.
+const FURTHEST = 1e4;
+const placesOf = m => m.views.flatMap(view => view.stages.map(stage => ({
+  x: Math.min(FURTHEST, stage.memory_share ? stage.work_share / stage.memory_share : FURTHEST), y: stage.work_share, view: view.view, stage,
+}))).filter(p => p.x > 0 && p.y > 0);
+
+function drawRoof() {
+  const chosen = data.machines.find(one => one.machine === state.selected);
+  const ofChosen = isJudged(chosen, 'whole') ? placesOf(chosen) : [], ofBase = placesOf(base);
+  const all = [...ofChosen, ...ofBase];
+  const [left, low] = ['x', 'y'].map(key => Math.min(0.1, ...all.map(p => p[key])) / 1.5), right = Math.max(10, ...all.map(p => p.x)) * 1.5;
+  const dots = (places, which, filled) => ({
+    data: places, pointRadius: filled ? 5 : 7, pointBorderWidth: 2, pointBorderColor: colour(which), pointBackgroundColor: filled ? colour(which) : 'transparent',
+  });
+  const roof = { data: [{ x: left, y: left }, { x: 1, y: 1 }, { x: right, y: 1 }], showLine: true, pointRadius: 0, pointHitRadius: 0, borderColor: colour('mark'), borderWidth: 1.5 };
+  drawChart('roof', {
+    type: 'scatter',
+    data: { datasets: [dots(ofChosen, 'chosen', true), dots(ofBase, 'ink', false), roof] },
+    options: {
+      scales: {
+        x: axis('work against traffic, as shares of the most', { type: 'logarithmic', min: left, max: right }),
+        y: axis('share of the most work', { type: 'logarithmic', min: low, max: 1.3 }),
+      },
+      plugins: {
+        legend: { display: false },
+        tooltip: {
+          callbacks: {
+            label: ({ raw: { view, stage } }) => `${view} ${stage.name}: ${number(100 * stage.work_share, 1)} % of the work, ${number(100 * stage.memory_share, 1)} % of DRAM, ${stage.unit}: ${stage.reason}`,
+          },
+        },
+      },
+    },
+  });
 }
 
 const factor = f => (f === undefined ? '—' : `× ${number(f, 3)}`);
@@ -122,6 +157,7 @@ function select(machine) {
 function draw() {
   drawPlot();
   drawDetails();
+  drawRoof();
   drawWorth();
   drawTable();
 }
@@ -146,7 +182,10 @@ function tryOut() {
   charts.plot.options.onClick({}, [{ index: 0 }]);
   if (!byId('details').textContent.startsWith(points[0].machine.machine)) throw new Error('a click selects nothing');
   if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
+  if (!charts.roof.data.datasets[1].data.length) throw new Error('no stage under the roof');
+  if (charts.roof.data.datasets[1].data.some(p => p.y > 1 || p.stage.memory_share > 1)) throw new Error('a stage is above the roof');
   tryControls(['across', 'up', 'size']);
+  if (document.body.innerText.includes('NaN')) throw new Error('something is not a number');
   return `${points.length} machines`;
 }
 

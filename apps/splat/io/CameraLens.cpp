@@ -159,6 +159,16 @@ private:
 
 } // namespace
 
+Json lensJson(const CameraModel &M) {
+  if (M.isPinhole())
+    return nullptr;
+  Json Lens{{"camera_model", name(M.Model)}};
+  const auto Keys = M.keys();
+  for (std::size_t K = 0; K < Keys.size(); ++K)
+    Lens[std::string(Keys[K])] = M.K[K];
+  return Lens;
+}
+
 void setSphere(Camera &C) {
   C.Fx = C.Width / (2 * M_PI);
   C.Fy = C.Height / M_PI;

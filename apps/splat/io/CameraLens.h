@@ -22,6 +22,10 @@ using KeyFinder = std::function<const nlohmann::json *(const char *Key)>;
 /// equirectangular, focal lengths and principal point are set from the size.
 std::optional<std::string> readLens(const KeyFinder &Find, Camera &C);
 
+/// \p M as readLens() reads it: its name and its coefficients; null for a
+/// pinhole.
+nlohmann::json lensJson(const CameraModel &M);
+
 /// Gives the equirectangular \p C, whose size is there, its focal lengths and
 /// principal point: it sees the full sphere.
 void setSphere(Camera &C);

@@ -41,7 +41,7 @@ std::optional<Three> threeOf(const Json &J, double Most) {
 
 std::optional<Three> momentsOf(const Json &J) {
   if (!J.is_string())
-    return threeOf(J, MostShutterMoment);
+    return shutterMoments(J);
   const auto *const Found = std::ranges::find(
       Shutters, std::string_view(J.get_ref<const std::string &>()),
       &NamedShutter::Name);
@@ -51,6 +51,10 @@ std::optional<Three> momentsOf(const Json &J) {
 }
 
 } // namespace
+
+std::optional<Three> shutterMoments(const Json &J) {
+  return threeOf(J, MostShutterMoment);
+}
 
 std::optional<std::string> readShutter(const KeyFinder &Find, Camera &C) {
   const auto Has = [&](const char *Key) {

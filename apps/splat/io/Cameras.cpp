@@ -301,11 +301,8 @@ Expected<Success> writeCameras(const std::string &Path,
                 {"fy", C.Fy},
                 {"cx", C.Cx},
                 {"cy", C.Cy}};
-    if (C.Optics.Model != LensModel::Pinhole)
-      Record["camera_model"] = name(C.Optics.Model);
-    const auto Keys = C.Optics.keys();
-    for (std::size_t K = 0; K < Keys.size(); ++K)
-      Record[std::string(Keys[K])] = C.Optics.K[K];
+    if (!C.Optics.isPinhole())
+      Record.update(lensJson(C.Optics));
     if (const auto &S = C.Optics.Shutter) {
       Record["rolling_shutter"] = {S->Start, S->Across, S->Down};
       Record["rolling_motion"] = S->Motion;

@@ -74,16 +74,15 @@ CameraPlace placeAt(const CameraPlace &Middle, const RollingShutter &Shutter,
   return P;
 }
 
-std::variant<CameraWay, std::string> wayBetween(const CameraPlace &From,
-                                                const CameraPlace &To) {
+Expected<CameraWay> wayBetween(const CameraPlace &From, const CameraPlace &To) {
   const Matrix3 Between = product(transposed(From.Rotation), To.Rotation);
   CameraWay W;
   W.Shutter.Turn = turnOf(Between);
   // Half a turn has two axes.
   if (!(length(W.Shutter.Turn) <= MostShutterTurn))
-    return fmt::format("a camera that turns by {:.0f} degrees while it "
-                       "exposes, expected at most 90",
-                       length(W.Shutter.Turn) * 180 / M_PI);
+    return Error{"", fmt::format("a camera that turns by {:.0f} degrees while "
+                                 "it exposes, expected at most 90",
+                                 length(W.Shutter.Turn) * 180 / M_PI)};
   W.Middle = placeAt(From, {.Turn = W.Shutter.Turn}, 1);
   const Matrix3 Back = transposed(W.Middle.Rotation);
   for (std::size_t I = 0; I < 3; ++I) {

@@ -2,9 +2,9 @@
 /// (docs/cameras.md, "Rolling shutters").
 #pragma once
 
+#include "vorion/support/Expected.h"
+
 #include <array>
-#include <string>
-#include <variant>
 
 namespace vorion::splat {
 
@@ -36,9 +36,8 @@ struct CameraWay {
   CameraPlace Middle;
   RollingShutter Shutter; ///< Motion and Turn alone
 };
-/// Nothing but its message where the turn is larger than MostShutterTurn.
-std::variant<CameraWay, std::string> wayBetween(const CameraPlace &From,
-                                                const CameraPlace &To);
+/// An Error, at no place, where the turn is larger than MostShutterTurn.
+Expected<CameraWay> wayBetween(const CameraPlace &From, const CameraPlace &To);
 
 /// Where a camera with \p Shutter, whose pose is \p Middle, is at \p Moment.
 CameraPlace placeAt(const CameraPlace &Middle, const RollingShutter &Shutter,

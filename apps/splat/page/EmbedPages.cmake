@@ -1,5 +1,6 @@
-# Writes OUTPUT, the C++ source of pages' templates. PAGES: "NAME=FUNCTION;...": FOLDER/NAME.html as FUNCTION() of HEADER,
-# with the files STYLES where it says @STYLE@, and the files SCRIPTS and FOLDER/NAME.js where it says @SCRIPT@.
+# Writes OUTPUT, the C++ source of pages' templates. PAGES: "NAME=FUNCTION;...": FUNCTION() of HEADER is skeleton.html
+# with FOLDER/NAME.html where it says @BODY@, its heading where it says @TITLE@, the files STYLES where it says @STYLE@, and
+# the files SCRIPTS and FOLDER/NAME.js where it says @SCRIPT@.
 # usage: cmake -DOUTPUT=... -DHEADER=... -DFOLDER=... "-DPAGES=..." "-DSTYLES=..." "-DSCRIPTS=..." -P EmbedPages.cmake
 cmake_minimum_required(VERSION 3.25)
 set(Text "// Generated from ${FOLDER} by EmbedPages.cmake; do not edit.\n")
@@ -13,11 +14,15 @@ function(join Result)
   set(${Result} "${All}" PARENT_SCOPE)
 endfunction()
 join(Style ${STYLES})
+file(READ "${CMAKE_CURRENT_LIST_DIR}/skeleton.html" Skeleton)
 foreach(Each IN LISTS PAGES)
   string(REGEX MATCH "^(.*)=(.*)$" Matched "${Each}")
   set(Name "${CMAKE_MATCH_1}")
   set(Function "${CMAKE_MATCH_2}")
-  file(READ "${FOLDER}/${Name}.html" Page)
+  file(READ "${FOLDER}/${Name}.html" Body)
+  string(REGEX MATCH "<h1>([^<]*)</h1>" Matched "${Body}")
+  string(REPLACE "@TITLE@" "${CMAKE_MATCH_1}" Page "${Skeleton}")
+  string(REPLACE "@BODY@" "${Body}" Page "${Page}")
   join(Script ${SCRIPTS} "${FOLDER}/${Name}.js")
   string(REPLACE "@STYLE@" "${Style}" Page "${Page}")
   string(REPLACE "@SCRIPT@" "${Script}" Page "${Page}")

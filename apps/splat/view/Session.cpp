@@ -1,6 +1,7 @@
 #include "view/Session.h"
 
 #include "effects/Registry.h"
+#include "io/CameraLens.h"
 #include "io/Metrics.h"
 #include "render/Explain.h"
 #include "render/Pictures.h"
@@ -32,16 +33,6 @@ bool bends(LensModel M) {
 }
 
 Json cameraJson(const Camera &C) {
-  Json Lens;
-  if (!C.Optics.isPinhole()) {
-    Lens["camera_model"] = name(C.Optics.Model);
-    // FULL_OPENCV: k4 by its name alone could mean two things.
-    if (C.Optics.Model == LensModel::OpenCv)
-      Lens["camera_model"] = "FULL_OPENCV";
-    const auto Keys = C.Optics.keys();
-    for (std::size_t K = 0; K < Keys.size(); ++K)
-      Lens[std::string(Keys[K])] = C.Optics.K[K];
-  }
   return {{"name", C.Name},
           {"width", C.Width},
           {"height", C.Height},
@@ -51,7 +42,7 @@ Json cameraJson(const Camera &C) {
           {"fy", C.Fy},
           {"cx", C.Cx},
           {"cy", C.Cy},
-          {"lens", Lens},
+          {"lens", lensJson(C.Optics)},
           {"lens_is_a_choice", bends(C.Optics.Model)}};
 }
 

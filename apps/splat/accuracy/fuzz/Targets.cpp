@@ -121,7 +121,8 @@ Json measured(const Point &Of) {
           {"times",
            {{"cycles", 1000.0},
             {"equal_area_cycles", 900.5},
-            {"cores_cycles", nullptr}}},
+            {"cores_cycles", nullptr},
+            {"chip_joules", nullptr}}},
           {"lane_area_relative", 1.0},
           {"made_by", Json::object()},
           {"picture", "data:,"},
@@ -162,6 +163,7 @@ Json measured(const TrainPoint &Of) {
           {"seed", Of.at()},
           {"psnr8_db", 12.0},
           {"cycles", 1e6},
+          {"chip_joules", nullptr},
           {"reciprocal_um2", {1, 2, 3, 4, 5, 6, 7}},
           {"curve", {At(1), At(2)}}};
 }
@@ -205,9 +207,8 @@ std::size_t readSweep(Bytes Input) {
   require(static_cast<bool>(Measured) == (Missing == 0));
   require(static_cast<bool>(Page) == (Missing == 0));
   if (Measured)
-    for (const TimeAxis A :
-         {TimeAxis::Cycles, TimeAxis::EqualArea, TimeAxis::Cores})
-      recommend(*Measured, A, 50);
+    for (std::size_t A = 0; A < TimeAxes; ++A)
+      recommend(*Measured, static_cast<TimeAxis>(A), 50);
   require(static_cast<bool>(makeReferences(P, Points, requireOneLine)));
   require(static_cast<bool>(referenceOf(P, Points.front())));
   return Points.size() - Missing;

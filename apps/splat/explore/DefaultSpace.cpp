@@ -1,4 +1,9 @@
-{
+#include "explore/Space.h"
+
+namespace vorion::splat {
+
+std::string_view defaultSpace() {
+  return R"json({
   "parameters": {
     "core": {"key": "timing.core.preset", "values": ["forwarding", "vortex-2025"]},
     "clusters": {"key": "clusters", "values": [2, 4]},
@@ -10,6 +15,8 @@
     "lanes": {"key": "timing.raster.lanes", "values": [8, 32]},
     "banks": {"key": "timing.raster.banks", "values": [8, 32]},
     "stagger": {"key": "timing.raster.stagger", "values": [0, 8]},
+    "overlap": {"key": "timing.raster.tile_overlap", "values": [1, 2]},
+    "blocks": {"key": "timing.raster.skip_blocks", "values": [1, 2, 3]},
     "records": {"key": "timing.raster.buffer_entries", "values": [8, 64]},
     "l2": {"key": "timing.l2.kib", "values": [256, 512, 2048]},
     "mshrs": {"key": "timing.l2.mshrs", "values": [8, 64]},
@@ -49,3 +56,7 @@
     "pixel-unit": {"option": "--pixel-unit", "values": ["occluded:0.75"]}
   }
 }
+)json";
+}
+
+} // namespace vorion::splat

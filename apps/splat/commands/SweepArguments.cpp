@@ -1,0 +1,68 @@
+#include "commands/SweepArguments.h"
+
+#include "commands/Progress.h"
+#include "io/Hash.h"
+#include "io/Inside.h"
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/Printable.h"
+
+#include <fmt/format.h>
+#include <set>
+
+namespace vorion::splat {
+
+/// That no view's files would take another's place.
+static Expected<Success> checkNames(const std::vector<Camera> &Views,
+                                    const std::string &File) {
+  std::set<std::string> Names;
+  for (const Camera &View : Views)
+    if (!Names.insert(asFileName(View.Name)).second)
+      return Error{File,
+                   fmt::format("two of the views would be kept as {}, expected "
+                               "views of different names",
+                               asFileName(View.Name)),
+                   ExitCode::Usage};
+  return Success{};
+}
+
+static Expected<std::vector<Camera>> chosenViews(CameraArguments C,
+                                                 const SceneArguments &S) {
+  if (C.Views.empty())
+    C.Views = {"all"};
+  // Only a motion and a view that is found look at the scene.
+  if (!C.File.empty() && C.Orbit == 0)
+    return chooseCameras(C, Scene());
+  const auto File = loadScene(S);
+  return File ? chooseCameras(C, File->Gaussians)
+              : Expected<std::vector<Camera>>(File.error());
+}
+
+Expected<std::vector<Camera>> sweptViews(CameraArguments C,
+                                         const SceneArguments &S,
+                                         const std::string &File) {
+  auto Views = chosenViews(std::move(C), S);
+  if (!Views)
+    return Views;
+  if (auto Checked = checkNames(*Views, File); !Checked)
+    return Checked.error();
+  return Views;
+}
+
+Expected<Origin> sweptOrigin(const SceneArguments &S,
+                             const DeviceOptions &Machine) {
+  auto From = commonOrigin(Machine);
+  if (!From)
+    return From;
+  auto Scene = hashScene(S.Path);
+  if (!Scene)
+    return Scene.error();
+  (*From)["scene"] = std::move(*Scene);
+  return From;
+}
+
+void sayOfSweep(std::string_view Line) {
+  if (!isProgressHidden())
+    printNote(fmt::format("splat: {}\n", escaped(Line)));
+}
+
+} // namespace vorion::splat
