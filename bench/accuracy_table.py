@@ -34,18 +34,25 @@ def main():
         values = [p["times"][axis] for p in settings[setting]]
         return None if None in values else sum(values)
 
-    print("| setting | PSNR, dB | SSIM | largest error | pixels off, % | cycles | at equal area | kernels only | lane area |")
-    print("|---|--:|--:|--:|--:|--:|--:|--:|--:|")
+    has_energy = all(p["times"].get("chip_joules") for p in points)
+    energy = ("energy of the chip | ", "--:|") if has_energy else ("", "")
+    print(f"| setting | PSNR, dB | SSIM | largest error | pixels off, % | cycles | at equal area | kernels only | {energy[0]}lane area |")
+    print(f"|---|--:|--:|--:|--:|--:|--:|--:|{energy[1]}--:|")
     for setting in settings:
         if "," in setting and not args.products:
             continue
         times = {axis: (f"{total(setting, axis):,.0f}" if total(setting, axis) and setting == "default"
                         else share(total(setting, axis), total("default", axis)))
                  for axis in ("cycles", "equal_area_cycles", "cores_cycles")}
+        if has_energy:
+            joules = total(setting, "chip_joules")
+            energy = f"{1e3 * joules:.3g} mJ | " if setting == "default" else f"{share(joules, total('default', 'chip_joules'))} | "
+        else:
+            energy = ""
         decibels = worst("psnr_db", min, none=float("inf"))
         print(f"| {setting} | {decibels:.1f} | {worst('ssim', min):.6f} | {worst('largest', max):.2g} "
               f"| {100 * worst('off_share', max):.3f} | {times['cycles']} | {times['equal_area_cycles']} | {times['cores_cycles']} "
-              f"| {100 * settings[setting][0]['lane_area_relative']:.1f} % |")
+              f"| {energy}{100 * settings[setting][0]['lane_area_relative']:.1f} % |")
 
 
 if __name__ == "__main__":

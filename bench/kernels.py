@@ -132,14 +132,20 @@ def without_copies(rows):
     return list(first.values())
 
 
+def mean(ratios):
+    return math.exp(sum(map(math.log, ratios)) / len(ratios))
+
+
 def summary(rows):
-    """How much more code lanes take than one work-item."""
+    """How much more code lanes take than one work-item, and how many more instructions are executed."""
     both = [row for row in rows if "scalar_instructions" in row]
     if not both:
         return "no kernel has scalar code to compare with"
-    ratio = math.exp(sum(math.log(row["instructions"] / row["scalar_instructions"]) for row in both) / len(both))
-    return (f"{len(both)} kernels: {ratio:.2f} times the instructions of scalar code (geometric mean), "
+    code = mean([row["instructions"] / row["scalar_instructions"] for row in both])
+    text = (f"{len(both)} kernels: {code:.2f} times the instructions of scalar code (geometric mean), "
             f"{sum(row['spills'] > 0 for row in both)} of them spill, {sum(row['scalar_spills'] > 0 for row in both)} as scalar code")
+    ran = [row["ratio"] for row in rows if "ratio" in row]
+    return text + (f"\n{len(ran)} launches: {mean(ran):.2f} times the instructions that scalar code executes" if ran else "")
 
 
 def cells(row):
