@@ -6,6 +6,7 @@
 /// reqd_work_group_size gives) and leaves an object a kernel in its cache, here
 /// a folder of our own; vorion-link makes one image of them.
 
+#include "ChildProcess.h"
 #include "ClCommandLine.h"
 #include "ClDiagnostics.h"
 
@@ -16,7 +17,6 @@
 #include "vorion/support/Version.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -26,9 +26,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
-#include <spawn.h>
 #include <string>
-#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
@@ -70,48 +68,6 @@ constexpr std::string_view Usage =
     "JSON to\n"
     "                         standard output or FILE\n"
     "\n";
-
-struct Ran {
-  bool Succeeded = false;
-  /// The signal that ended it, or 0.
-  int Signal = 0;
-  /// Standard output and standard error as they came.
-  std::string Output;
-};
-
-Ran run(const std::vector<std::string> &Arguments) {
-  std::array<int, 2> Pipe{};
-  if (pipe(Pipe.data()) != 0)
-    return {false, 0, std::strerror(errno)};
-  std::vector<char *> Pointers;
-  Pointers.reserve(Arguments.size() + 1);
-  for (const std::string &Argument : Arguments)
-    Pointers.push_back(const_cast<char *>(Argument.c_str()));
-  Pointers.push_back(nullptr);
-  posix_spawn_file_actions_t Actions;
-  posix_spawn_file_actions_init(&Actions);
-  posix_spawn_file_actions_adddup2(&Actions, Pipe[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&Actions, Pipe[1], STDERR_FILENO);
-  posix_spawn_file_actions_addclose(&Actions, Pipe[0]);
-  posix_spawn_file_actions_addclose(&Actions, Pipe[1]);
-  pid_t Child = 0;
-  const int Problem = posix_spawn(&Child, Pointers[0], &Actions, nullptr,
-                                  Pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&Actions);
-  close(Pipe[1]);
-  Ran Result;
-  std::array<char, 4096> Chunk{};
-  for (ssize_t Got = 0; (Got = read(Pipe[0], Chunk.data(), Chunk.size())) > 0;)
-    Result.Output.append(Chunk.data(), static_cast<size_t>(Got));
-  close(Pipe[0]);
-  if (Problem != 0)
-    return {false, 0, Arguments[0] + ": " + std::strerror(Problem)};
-  int Status = 0;
-  Result.Succeeded = waitpid(Child, &Status, 0) == Child && WIFEXITED(Status) &&
-                     WEXITSTATUS(Status) == 0;
-  Result.Signal = WIFSIGNALED(Status) ? WTERMSIG(Status) : 0;
-  return Result;
-}
 
 std::string textOf(const fs::path &File) {
   std::ifstream Stream(File, std::ios::binary);
@@ -218,7 +174,7 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
   if (isSpirv(Input))
     Arguments.emplace_back("-s");
   Arguments.push_back(Copy.string());
-  const Ran Compiler = run(Arguments);
+  const Ran Compiler = runChild(Arguments);
   Expected<Built> Found = findBuilt(Cache);
   if (!Found)
     return Found;
@@ -272,6 +228,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
     const Expected<Built> Found =
         compileOne(Line, Line.Inputs[I], Root,
                    fs::path(Folder->path()) / std::to_string(I));
+    if (isEnding())
+      return Success{};
     if (!Found) {
       if (Failed)
         reportError(Tool, *Failed);
@@ -289,7 +247,7 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   }
   if (Failed)
     return *Failed;
-  if (const Ran Linker = run(Link); !Linker.Succeeded)
+  if (const Ran Linker = runChild(Link); !Linker.Succeeded)
     return linkerError(Line.Output.string(), Linker.Output);
   return Success{};
 }
@@ -306,6 +264,7 @@ int run(int Argc, char **Argv) {
   // A file that may not grow is an error of the write, here and in what runs
   // below, not the end.
   std::signal(SIGXFSZ, SIG_IGN);
+  passEndsToChildren();
   std::error_code Problem;
   const fs::path Root =
       fs::read_symlink("/proc/self/exe", Problem).parent_path().parent_path();
@@ -314,6 +273,7 @@ int run(int Argc, char **Argv) {
   if (!Line)
     return reportError(Tool, Line.error());
   const Expected<Success> Done = compile(*Line, Root);
+  endIfAsked();
   return Done ? 0 : reportError(Tool, Done.error());
 }
 
