@@ -56,7 +56,7 @@ struct Config {
   /// The translator works in runs without observers and without a clock; in
   /// all others the interpreter does. Machine::create() refuses it where the
   /// host has not what it needs.
-  Engine Runs = Engine::Interpreter;
+  Engine Runs = Engine::Auto;
 
   RasterConfig Raster;
   TimingConfig Timing;
