@@ -30,7 +30,11 @@ set(CPACK_DEBIAN_VORION_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_BINARY_DIR}/lib")
 # What no ELF file names: headers of OpenCL C and of the compiler, the linker and the reader of SPIR-V, which the
 # tools start.
-set(CPACK_DEBIAN_VORION_PACKAGE_DEPENDS "libclang-common-19-dev, lld-19, llvm-spirv-15")
+set(CPACK_DEBIAN_VORION_PACKAGE_DEPENDS "libclang-common-19-dev, lld-19")
+if(VORION_LLVM_SPIRV)
+  cmake_path(GET VORION_LLVM_SPIRV FILENAME SpirvPackage)
+  string(APPEND CPACK_DEBIAN_VORION_PACKAGE_DEPENDS ", ${SpirvPackage}")
+endif()
 # The Python package has code for the interpreter that it was built with.
 execute_process(
   COMMAND /usr/bin/python3 -c "import sys; a, b = sys.version_info[:2]; print(f'python3 (>= {a}.{b}~), python3 (<< {a}.{b + 1})', end='')"

@@ -41,11 +41,15 @@ esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 sources=${VORION_SOURCES:-$root/build/sources}
 
+# The Debian release of this machine; on others the sources come from the environment.
+release=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+case $release in trixie) revision=3 ;; *) release=bookworm revision='3~deb12u1' ;; esac
+
 # What each package consists of: its version, where Debian keeps it, the files
 # with their hashes, and what of it we need ("" = everything).
 case $name in
 llvm | llvm-tests)
-  package=llvm-toolchain-19 version=1:19.1.7-3~deb12u1 suite=bookworm
+  package=llvm-toolchain-19 version=1:19.1.7-$revision suite=$release
   files="llvm-toolchain-19_19.1.7.orig.tar.xz:ae498f3bc58ae2d9f64ef5f0c035c4240152bf015a5b7738b15c22e93bdc97ce"
   override=${VORION_LLVM_SOURCE:-}
   patches=$root/llvm-backend/patches
@@ -119,12 +123,12 @@ from_apt() { # leaves every file of the package in $archives
   mkdir -p "$scratch/lists/partial" "$scratch/cache/archives/partial" "$scratch/parts"
   # The mirror is whatever this machine's apt uses for its own release.
   apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Packages' |
-    awk -v suite="$suite" -v key=/usr/share/keyrings/debian-archive-keyring.gpg '
-      $1 == "bookworm" && !seen[$1]++ { print "deb-src [signed-by=" key "] " $2 " " suite " main" }
-      $1 == "bookworm-security" && !seen[$1]++ { print "deb-src [signed-by=" key "] " $2 " " suite "-security main" }
+    awk -v suite="$suite" -v release="$release" -v key=/usr/share/keyrings/debian-archive-keyring.gpg '
+      $1 == release && !seen[$1]++ { print "deb-src [signed-by=" key "] " $2 " " suite " main" }
+      $1 == release "-security" && !seen[$1]++ { print "deb-src [signed-by=" key "] " $2 " " suite "-security main" }
     ' >"$scratch/sources.list"
   [ -s "$scratch/sources.list" ] ||
-    fail 3 "apt: no Debian 12 (bookworm) package source is configured on this machine"
+    fail 3 "apt: no package source of Debian's release $release is configured on this machine"
   (
     cd "$archives"
     set -- -o Dir::Etc::sourcelist="$scratch/sources.list" -o Dir::Etc::sourceparts="$scratch/parts" \

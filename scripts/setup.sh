@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes a fresh Debian 12 machine ready: packages, sources, build. Every step
+# Makes a fresh machine with Debian 12 or 13 ready: packages, sources, build. Every step
 # is skipped when its result is there, so a second run is quick, needs no
 # network, and goes on where a broken one stopped.
 # usage: scripts/setup.sh [--tests]   (--tests: also the tests, and the packages that only they need)
@@ -10,7 +10,11 @@ case "$Tests" in "" | --tests) ;; *) fail "unknown option $Tests, expected --tes
 Jobs=${VORION_JOBS:-$(nproc)}
 
 # Those after the line "# tests" with --tests only.
-packages() { awk -v Tests="$Tests" '/^# tests$/ && !Tests { exit } !/^#/ && NF' "$Root/scripts/packages.txt"; }
+packages() {
+  awk -v Tests="$Tests" -v Release="$(. /etc/os-release && echo "${VERSION_CODENAME:-}")" '
+    /^# tests$/ && !Tests { exit }
+    !/^#/ && (NF == 1 || $2 == Release) { print $1 }' "$Root/scripts/packages.txt"
+}
 
 missingPackages() {
   local Package
