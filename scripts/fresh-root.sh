@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
-# The stranger's machine: a fresh Debian 12 root with nothing but a clone of
+# The stranger's machine: a fresh Debian root with nothing but a clone of
 # this repository in it, in which demo.sh (twice, the second time without a
 # network) and test.sh are run and timed. Needs root and debootstrap.
-# usage: scripts/fresh-root.sh NEW_FOLDER   (kept afterwards, to look into)
+# usage: scripts/fresh-root.sh NEW_FOLDER [bookworm|trixie]   (Debian 12 or 13; the folder is kept, to look into)
 source "$(dirname "$0")/lib.sh"
 
 Machine=${1:-}
-[ -n "$Machine" ] || fail "no folder given, expected: fresh-root.sh NEW_FOLDER"
+Release=${2:-bookworm}
+[ -n "$Machine" ] || fail "no folder given, expected: fresh-root.sh NEW_FOLDER [bookworm|trixie]"
+case "$Release" in bookworm | trixie) ;; *) fail "unknown release $Release, expected bookworm or trixie" ;; esac
 [ "$(id -u)" -eq 0 ] || fail "not root, and chroot and mount need it"
 command -v debootstrap >/dev/null || fail "debootstrap is not installed"
 
-makeRoot "$Machine"
+makeRoot "$Machine" "$Release"
 git clone --quiet "$Root" "$Machine/vorion"
 
 timed() { # timed TITLE COMMAND...

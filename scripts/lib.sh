@@ -40,17 +40,18 @@ step() {
   fi
 }
 
-# makeRoot NEW_FOLDER: a fresh Debian 12 root, with what a chroot into it needs until the script ends.
+# makeRoot NEW_FOLDER [RELEASE]: a fresh Debian root (of Debian 12, bookworm), with what a chroot into it needs until
+# the script ends.
 makeRoot() {
-  local Folder=$1 Mirror Extra
+  local Folder=$1 Release=${2:-bookworm} Mirror Extra
   [ -e "$Folder" ] && fail "$Folder exists, expected the name of a new folder"
-  # The mirror that this machine's own apt uses.
-  Mirror=$(apt-get indextargets --format '$(RELEASE) $(REPO_URI)' 'Created-By: Packages' |
-    awk '$1 == "bookworm" { print $2; exit }')
-  [ -n "$Mirror" ] || fail "apt knows no mirror of bookworm"
+  # The mirror that this machine's own apt uses has the other releases, too.
+  Mirror=$(apt-get indextargets --format '$(CODENAME) $(REPO_URI)' 'Created-By: Packages' |
+    awk '$1 == "bookworm" || $1 == "trixie" { print $2; exit }')
+  [ -n "$Mirror" ] || fail "apt knows no mirror of Debian 12 or 13 (bookworm, trixie)"
   # shellcheck disable=SC2064 # the folder is what it is now
   trap "umount '$Folder/dev' '$Folder/proc' 2>/dev/null || true" EXIT
-  step "making a Debian 12 root" debootstrap debootstrap --variant=minbase bookworm "$Folder" "$Mirror"
+  step "making a Debian root ($Release)" debootstrap debootstrap --variant=minbase "$Release" "$Folder" "$Mirror"
   cp /etc/resolv.conf "$Folder/etc/resolv.conf"
   for Extra in /etc/apt/apt.conf.d/*proxy*; do
     [ -e "$Extra" ] && cp "$Extra" "$Folder/etc/apt/apt.conf.d/"
