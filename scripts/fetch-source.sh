@@ -129,12 +129,15 @@ from_apt() { # leaves every file of the package in $archives
     ' >"$scratch/sources.list"
   [ -s "$scratch/sources.list" ] ||
     fail 3 "apt: no package source of Debian's release $release is configured on this machine"
+  # Debian's own part only where we use it.
+  part=--tar-only
+  case $files in *.debian.tar.xz:*) part= ;; esac
   (
     cd "$archives"
     set -- -o Dir::Etc::sourcelist="$scratch/sources.list" -o Dir::Etc::sourceparts="$scratch/parts" \
       -o Dir::State::Lists="$scratch/lists" -o Dir::Cache="$scratch/cache" \
       -o APT::Get::List-Cleanup=0 -o APT::Sandbox::User=root -o Acquire::Retries=3 -qq
-    apt-get "$@" update && apt-get "$@" --download-only source "$package=$version"
+    apt-get "$@" update && apt-get "$@" $part --download-only source "$package=$version"
   ) >&2 || fail 3 "$package $version: apt cannot fetch it; give its files in the environment (see --help)"
 }
 
@@ -156,9 +159,10 @@ get_archives() {
 
 # --- unpack ------------------------------------------------------------------
 
-# The backend is linked with the installed archives, so the sources must be theirs.
+# The backend is linked with the installed archives, so the sources must be theirs. Debian may have built the
+# same sources again (1:19.1.7-3+b1).
 if [ "$package" = llvm-toolchain-19 ]; then
-  installed=$(dpkg-query -W -f '${Version}' llvm-19-dev 2>/dev/null || true)
+  installed=$(dpkg-query -W -f '${source:Version}' llvm-19-dev 2>/dev/null || true)
   [ -z "$installed" ] || [ "$installed" = "$version" ] ||
     fail 3 "llvm-19-dev: version $installed is installed, expected $version"
 fi
