@@ -1,5 +1,6 @@
-// Atomics in local memory, lane by lane, as core/Atomics.cpp has them. All
-// others may have to wait for other cores: the interpreter's.
+// Atomics that need not wait for other cores, lane by lane, as core/Atomics.cpp
+// has them: those in local memory, and additions without a result in global
+// memory. All others are the interpreter's.
 
 #include "translate/Places.h"
 #include "translate/Value.h"
@@ -94,55 +95,88 @@ void Emitter::writeAtomics() {
   Atomics.clear();
 }
 
-/// rcx becomes 0, and nothing has been done, unless all active lanes have
-/// aligned addresses in local memory. Else the old words become Operands if
-/// \p HasResult.
-void Emitter::writeAtomic(Amo Kind, bool HasResult, Label &Begin) {
-  constexpr int Bytes = 4, OperandsAt = sizeof(LaneWords);
-  const Zmm Offsets = zmm2, Spare = zmm3;
-  Label Wrong, Next;
-  L(Begin);
-  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
-  vpsubd(Offsets, Addresses, ptr_b[rsi + InLocal + RegionLo]);
-  mov(eax, dword[rsi + InLocal + RegionBytes]);
+/// Goes to \p Elsewhere unless all active lanes have aligned addresses in the
+/// region that lies \p In the memory view rsi. Else rcx becomes where it lies
+/// on the host, and \p Offsets the lanes' places in it.
+void Emitter::locateWords(int In, const Zmm &Offsets, const Zmm &Spare,
+                          Label &Elsewhere) {
+  constexpr int Bytes = 4;
+  vpsubd(Offsets, Addresses, ptr_b[rsi + In + RegionLo]);
+  mov(eax, dword[rsi + In + RegionBytes]);
   sub(eax, Bytes);
   vpbroadcastd(Spare, eax);
   vpcmpud(active(k2), Offsets, Spare, static_cast<uint8_t>(Relation::Greater));
   vptestmd(active(k3), Addresses, constant(Bytes - 1));
   kortestw(k2, k3);
-  jnz(Wrong);
-  mov(rcx, ptr[rsi + InLocal + RegionHost]);
-  push(r12);
-  push(r13);
-  sub(rsp, 2 * OperandsAt);
-  vmovdqu32(ptr[rsp], Offsets);
-  vmovdqu32(ptr[rsp + OperandsAt], Operands);
-  if (isFull())
-    mov(r12d, (1U << MaxLanes) - 1);
-  else
-    kmovw(r12d, k1);
-  xor_(esi, esi); // changes
-  L(Next);
-  tzcnt(r13d, r12d);
-  mov(edx, dword[rsp + r13 * Bytes]);
-  mov(r11d, dword[rsp + r13 * Bytes + OperandsAt]);
-  mov(eax, dword[rcx + rdx]);
-  if (HasResult)
-    mov(dword[rsp + r13 * Bytes + OperandsAt], eax);
-  apply(*this, Kind, r11d, eax);
-  mov(dword[rcx + rdx], r11d);
-  xor_(eax, r11d);
-  neg(eax);
-  adc(rsi, 0);
-  blsr(r12d, r12d);
-  jnz(Next);
-  if (HasResult)
-    vmovdqu32(Operands, ptr[rsp + OperandsAt]);
-  add(rsp, 2 * OperandsAt);
-  pop(r13);
-  pop(r12);
-  add(qword[rdi + VORION_PLACE(Count.Changes)], rsi);
-  ret();
+  jnz(Elsewhere);
+  mov(rcx, ptr[rsi + In + RegionHost]);
+}
+
+/// A function: rcx becomes 0, and nothing has been done, unless the atomic need
+/// not wait for other cores. Else the old words become Operands if
+/// \p HasResult.
+void Emitter::writeAtomic(Amo Kind, bool HasResult, Label &Begin) {
+  constexpr int Bytes = 4, OperandsAt = sizeof(LaneWords);
+  const Zmm Offsets = zmm2, Spare = zmm3;
+  /// Lane by lane: \p Update may overwrite eax and r11d, which is the operand
+  /// of the word at rcx + rdx, and adds to rsi if the word changes.
+  const auto ForLanes = [&](const std::function<void()> &Update) {
+    Label Next;
+    push(r12);
+    push(r13);
+    sub(rsp, 2 * OperandsAt);
+    vmovdqu32(ptr[rsp], Offsets);
+    vmovdqu32(ptr[rsp + OperandsAt], Operands);
+    if (isFull())
+      mov(r12d, (1U << MaxLanes) - 1);
+    else
+      kmovw(r12d, k1);
+    xor_(esi, esi);
+    L(Next);
+    tzcnt(r13d, r12d);
+    mov(edx, dword[rsp + r13 * Bytes]);
+    mov(r11d, dword[rsp + r13 * Bytes + OperandsAt]);
+    Update();
+    blsr(r12d, r12d);
+    jnz(Next);
+    if (HasResult)
+      vmovdqu32(Operands, ptr[rsp + OperandsAt]);
+    add(rsp, 2 * OperandsAt);
+    pop(r13);
+    pop(r12);
+    add(qword[rdi + VORION_PLACE(Count.Changes)], rsi);
+    ret();
+  };
+  Label NotLocal, Wrong;
+  L(Begin);
+  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+  locateWords(InLocal, Offsets, Spare, NotLocal);
+  ForLanes([&] {
+    mov(eax, dword[rcx + rdx]);
+    if (HasResult)
+      mov(dword[rsp + r13 * Bytes + OperandsAt], eax);
+    apply(*this, Kind, r11d, eax);
+    mov(dword[rcx + rdx], r11d);
+    xor_(eax, r11d);
+    neg(eax);
+    adc(rsi, 0);
+  });
+  L(NotLocal);
+  // Additions commute (amoOrPark()).
+  if (Kind == Amo::Add && !HasResult) {
+    Label NotGlobal, Add;
+    locateWords(InGlobal, Offsets, Spare, NotGlobal);
+    L(Add);
+    ForLanes([&] {
+      lock();
+      add(dword[rcx + rdx], r11d);
+      neg(r11d);
+      adc(rsi, 0);
+    });
+    L(NotGlobal);
+    locateWords(InHigh, Offsets, Spare, Wrong);
+    jmp(Add);
+  }
   L(Wrong);
   xor_(ecx, ecx);
   ret();

@@ -316,6 +316,17 @@ void Emitter::writeInsn(const GuestInsn &G) {
   case Kind::Lanes:
     lanes(G);
     break;
+  case Kind::Vote:
+    vote(G);
+    break;
+  case Kind::Shuffle:
+    shuffle(G);
+    break;
+  case Kind::Barrier:
+    barrier(G);
+    break;
+  case Kind::Fence: // what the host keeps in order without a word
+    break;
   case Kind::Jump:
     writeJump(G);
     return;

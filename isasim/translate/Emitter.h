@@ -113,6 +113,8 @@ private:
   void atomic(const GuestInsn &G);
   void writeAtomics();
   void writeAtomic(Amo Kind, bool HasResult, Xbyak::Label &Begin);
+  void locateWords(int In, const Xbyak::Zmm &Offsets, const Xbyak::Zmm &Spare,
+                   Xbyak::Label &Elsewhere);
 
   // Lanes.cpp.
   void lanes(const GuestInsn &G);
@@ -121,6 +123,9 @@ private:
   void predicate(const GuestInsn &G, bool IsNegated);
   void predicateOf(uint16_t Register, bool IsNegated);
   void lastLane(uint16_t Register);
+  void vote(const GuestInsn &G);
+  void shuffle(const GuestInsn &G);
+  void barrier(const GuestInsn &G);
   void changeLanes();
   void resumeAtEither(const Insn *To);
   void writeSetLanes();

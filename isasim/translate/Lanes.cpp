@@ -1,5 +1,5 @@
-// Splits, joins and predicates: the two versions of a region go over into each
-// other.
+// What lanes have to do with each other. At splits, joins and predicates the
+// two versions of a region go over into each other.
 
 #include "translate/Places.h"
 #include "translate/Value.h"
@@ -190,6 +190,99 @@ void Emitter::predicate(const GuestInsn &G, bool IsNegated) {
   changeLanes();
   resumeAtEither(I + 1);
   L(Same);
+}
+
+void Emitter::vote(const GuestInsn &G) {
+  const Insn *I = G.I;
+  if (isSink(I->Rd))
+    return;
+  const Zmm A = inZmm(guest(I->Rs1));
+  if (G.Opcode == Op::VX_VOTE_UNI) {
+    const Zmm Last = scratch();
+    vpbroadcastd(Last, dword[rdi + VORION_PLACE(LastLane)]);
+    vpermd(Last, Last, A);
+    vpcmpeqd(active(k2), A, Last);
+  } else
+    vptestmd(active(k2), A, A);
+  kmovw(eax, k2);
+  if (G.Opcode != Op::VX_VOTE_BALLOT) {
+    xor_(ecx, ecx);
+    if (G.Opcode == Op::VX_VOTE_ANY) {
+      test(eax, eax);
+      setnz(cl);
+    } else {
+      cmp(eax, dword[rdi + MaskPlace]);
+      sete(cl);
+    }
+    mov(eax, ecx);
+  }
+  result(I->Rd, [this](const Zmm &To) { vpbroadcastd(To, eax); });
+}
+
+/// As SHUFFLE of core/insns/Simt.inc.
+void Emitter::shuffle(const GuestInsn &G) {
+  const Insn *I = G.I;
+  if (isSink(I->Rd))
+    return;
+  constexpr uint32_t Field = 63;
+  constexpr uint8_t FieldBits = 6;
+  const Zmm Values = inZmm(guest(I->Rs1)), Control = inZmm(guest(I->Rs2));
+  const Zmm Segment = scratch(), Low = scratch(), High = scratch(),
+            From = scratch();
+  vpsrld(Segment, Control, 2 * FieldBits);
+  vpandd(Segment, Segment, constant(Field));
+  vpandd(Low, Segment, laneNumbers(1));
+  vpandd(From, Control, constant(Field));
+  switch (G.Opcode) {
+  case Op::VX_SHFL_UP:
+    vmovdqa32(High, laneNumbers(1));
+    vpsubd(From, High, From);
+    break;
+  case Op::VX_SHFL_DOWN:
+    vpaddd(From, From, laneNumbers(1));
+    break;
+  case Op::VX_SHFL_BFLY:
+    vpxord(From, From, laneNumbers(1));
+    break;
+  default:
+    vpandnd(From, Segment, From);
+    vpord(From, From, Low);
+    break;
+  }
+  if (G.Opcode == Op::VX_SHFL_UP)
+    vpcmpd(k2, From, Low, static_cast<uint8_t>(Relation::NotLess));
+  else {
+    vpsrld(High, Control, FieldBits);
+    vpandd(High, High, constant(Field));
+    vpandnd(High, Segment, High);
+    vpord(High, High, Low);
+    vpcmpd(k2, From, High, static_cast<uint8_t>(Relation::LessEqual));
+  }
+  vpcmpd(k2 | k2, From, constant(MaxLanes),
+         static_cast<uint8_t>(Relation::Less));
+  // A lane that is not active gives nothing.
+  if (!isFull()) {
+    vpermd(High, From, ptr[rdi + VORION_PLACE(MaskWords)]);
+    vptestmd(k2 | k2, High, High);
+  }
+  vmovdqa32(Low, Values);
+  vpermd(Low | k2, From, Values);
+  result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, Low); });
+}
+
+/// Barrier 0 of a group that is one warp. All others are the interpreter's.
+void Emitter::barrier(const GuestInsn &G) {
+  constexpr uint32_t NumberBits = (1U << 31) - 1;
+  Label &Wrong = toInterpreter();
+  lastLane(G.I->Rs2);
+  cmp(eax, 1);
+  ja(Wrong);
+  lastLane(G.I->Rs1);
+  test(eax, NumberBits);
+  jnz(Wrong);
+  mov(eax, dword[rdi + MaskPlace]);
+  cmp(eax, dword[rdi + VORION_PLACE(WholeMask)]);
+  jne(Wrong);
 }
 
 void Emitter::lanes(const GuestInsn &G) {

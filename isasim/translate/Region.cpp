@@ -81,6 +81,21 @@ Kind kindOf(Op O, const Insn *I) {
   case Op::VX_PRED:
   case Op::VX_PRED_N:
     return Kind::Lanes;
+  case Op::VX_VOTE_ALL:
+  case Op::VX_VOTE_ANY:
+  case Op::VX_VOTE_UNI:
+  case Op::VX_VOTE_BALLOT:
+    return Kind::Vote;
+  case Op::VX_SHFL_UP:
+  case Op::VX_SHFL_DOWN:
+  case Op::VX_SHFL_BFLY:
+  case Op::VX_SHFL_IDX:
+    return Kind::Shuffle;
+  case Op::VX_BAR:
+    return Kind::Barrier;
+  case Op::RV_FENCE:
+  case Op::RV_FENCE_I:
+    return Kind::Fence;
   case Op::RV_JAL:
     return I->Imm == BadTarget ? Kind::Other : Kind::Jump;
 #define LOAD(OP, T) case Op::OP:

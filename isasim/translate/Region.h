@@ -16,6 +16,10 @@ enum class Kind : uint8_t {
   Jump,
   Indirect, ///< jalr
   Lanes,    ///< changes which are active
+  Vote,     ///< what all active lanes say
+  Shuffle,  ///< what other lanes have
+  Barrier,
+  Fence,
   Load,
   Store,
   Atomic,

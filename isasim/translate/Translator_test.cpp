@@ -34,8 +34,9 @@ constexpr Op Operations[] = {
 #undef MINMAX
 #undef TOINT
 #undef FROMINT
-    Op::RV_LUI, Op::RV_AUIPC, Op::VX_VOTE_BALLOT, Op::VX_SHFL_IDX,
-    Op::RV_CSRRS};
+    Op::RV_LUI,      Op::RV_AUIPC,     Op::RV_CSRRS,     Op::RV_FENCE,
+    Op::VX_VOTE_ALL, Op::VX_VOTE_ANY,  Op::VX_VOTE_UNI,  Op::VX_VOTE_BALLOT,
+    Op::VX_SHFL_UP,  Op::VX_SHFL_DOWN, Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX};
 
 constexpr Op Branches[] = {
 #define BRANCH(OP, CONDITION) Op::OP,
@@ -86,8 +87,8 @@ public:
       std::memcpy(&Bits, &Value, 4);
       return Bits;
     }
-    case 2:
-      return below(64);
+    case 2: // also whom shuffles take from, among all lanes
+      return below(64) + (below(4) ? 0 : (MaxLanes - 1) << 6);
     default:
       return oneOf(Special);
     }
@@ -129,6 +130,9 @@ public:
     if (below(300) == 0)
       F.Imm += 1;
     const Op O = oneOf(Accesses);
+    // An atomic without a result.
+    if (below(4) == 0)
+      F.Rd = 0;
     // Pairs are even registers.
     if (O == Op::RV_AMOCAS_D) {
       F.Rd &= ~1U;
@@ -146,6 +150,14 @@ public:
       F.Rs2 = below(32);
     F.Imm = Bytes;
     return encode(oneOf(Branches), F);
+  }
+
+  /// Of this warp alone; rarely of others, which never come.
+  uint32_t barrier() {
+    const unsigned Uniform =
+        FirstUniform + below(LastUniform - FirstUniform + 1);
+    return encode(Op::VX_BAR, {.Rs1 = below(3) ? 0 : Uniform,
+                               .Rs2 = below(6) ? 0 : Uniform});
   }
 
   /// Both sides of a split, nested, and a way past a part of it.
@@ -180,6 +192,8 @@ public:
             4 * static_cast<int32_t>(1 + below(std::min(6U, Length - N)))));
       else if (below(12) == 0)
         addSplit(Words, 0);
+      else if (below(60) == 0)
+        Words.push_back(barrier());
       else if (below(60) == 0)
         Words.push_back(encode(below(2) ? Op::VX_PRED : Op::VX_PRED_N,
                                {.Rs1 = below(32), .Rs2 = Place + 5}));
@@ -306,7 +320,7 @@ unsigned setting(const char *Name, unsigned Default) {
               : Default;
 }
 
-class Translator_ : public ::testing::TestWithParam<Runs> {
+class TranslatedPrograms : public ::testing::TestWithParam<Runs> {
 protected:
   void SetUp() override {
     if (!Translator::isThere())
@@ -314,7 +328,7 @@ protected:
   }
 };
 
-TEST_P(Translator_, DoesWhatTheInterpreterDoes) {
+TEST_P(TranslatedPrograms, DoesWhatTheInterpreterDoes) {
   unsigned Translated = 0;
   uint64_t Executed = 0;
   const unsigned Count =
@@ -358,7 +372,46 @@ TEST_P(Translator_, DoesWhatTheInterpreterDoes) {
       << "they end too early to tell anything";
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, Translator_,
+/// Global memory lies in front of the image and behind it.
+TEST(TranslatedAtomics, AddInBothPartsOfGlobalMemory) {
+  if (!Translator::isThere())
+    GTEST_SKIP() << "the translator needs " << Translator::needs();
+  std::vector<uint32_t> Words(
+      20, encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 5, .Rs2 = 6}));
+  Words.push_back(encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 7, .Rs2 = 6}));
+  Config Large = WarpRunner::smallShape();
+  Large.GlobalBytes = uint64_t{3} << 30;
+  const ExecTable &Exec = execTable(false);
+  WarpRunner R(Exec, Words, Large);
+  Translator T(R.Code, Exec);
+  T.seen(R.Code.begin(), UINT64_MAX);
+  ASSERT_EQ(T.regions(), 1U);
+  constexpr uint32_t Front = VX_GLOBAL_BASE + 64, Behind = VX_HIGH_BASE + 64;
+  Lanes16 Operands, Low, High;
+  for (uint32_t L = 0; L != MaxLanes; ++L) {
+    Operands[L] = L;
+    Low[L] = Front + L % 2 * 4;
+    High[L] = Behind + 4 * L;
+  }
+  R.setX(5, Low);
+  R.setX(6, Operands);
+  R.setX(7, High);
+  R.run();
+  ASSERT_TRUE(R.ranToEnd());
+  const auto Word = [&](uint32_t Address) {
+    uint32_t W;
+    std::memcpy(&W, R.global(Address), 4);
+    return W;
+  };
+  EXPECT_EQ(Word(Front), 20U * 56);
+  EXPECT_EQ(Word(Front + 4), 20U * 64);
+  EXPECT_EQ(Word(Behind + 4 * 15), 15U);
+  EXPECT_EQ(R.warp().Count.Atomics, 21U);
+  EXPECT_EQ(R.warp().Count.Changes, 21U * 15);
+  EXPECT_EQ(R.warp().Count.Parks, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, TranslatedPrograms,
                          ::testing::Values(Runs{300, 0}, Runs{300, 15}));
 
 } // namespace
