@@ -5,14 +5,16 @@
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <regex>
 #include <utility>
 
 namespace vorion {
 namespace {
 
-constexpr std::string_view SeeHelp = "expected: see --help";
+constexpr std::string_view SeeHelp = "(see --help)";
 
 /// How the name of a check begins that is a mark, and what it says.
 struct Mark {
@@ -49,6 +51,14 @@ std::vector<std::string> optionsOf(const CLI::App *App) {
   return Names;
 }
 
+/// As pages of the manual write the name of what must be given.
+std::string upper(std::string Name) {
+  std::ranges::transform(Name, Name.begin(), [](unsigned char C) {
+    return static_cast<char>(std::toupper(C));
+  });
+  return Name;
+}
+
 std::vector<std::string> subcommandsOf(const CLI::App &App) {
   std::vector<std::string> Names;
   for (const CLI::App *Command : App.get_subcommands({}))
@@ -59,10 +69,9 @@ std::vector<std::string> subcommandsOf(const CLI::App &App) {
 std::string unknown(std::string_view What, std::string_view Word,
                     const std::vector<std::string> &Known) {
   const std::string_view Meant = closestTo(Word, Known);
-  return fmt::format("unknown {} {}, {}", What, Word,
-                     Meant.empty()
-                         ? std::string(SeeHelp)
-                         : fmt::format("did you mean {}? (see --help)", Meant));
+  return fmt::format(
+      "unknown {} {}{} {}", What, Word,
+      Meant.empty() ? "" : fmt::format(", did you mean {}?", Meant), SeeHelp);
 }
 
 /// What must be given to \p App: "tool render scene --output FILE".
@@ -75,9 +84,28 @@ std::string shortestCall(const CLI::App &App) {
     for (const CLI::Option *O : App.get_options())
       if (O->get_required() && O->get_positional() == Positional)
         Call += Positional
-                    ? " " + O->get_name()
+                    ? " " + upper(O->get_name())
                     : fmt::format(" {} {}", O->get_name(), O->get_type_name());
   return Call;
+}
+
+/// What CLI11 \p Said, as our messages say it: without its capitals in the
+/// midst of a sentence, and with what was expected.
+std::string inOurWords(const std::string &Said) {
+  static const std::regex Missing("(\\S+): [0-9]+ required (.*) missing"),
+      TooMany("(\\S+): At Most ([0-9]+) required but received ([0-9]+)"),
+      NoNumber("Could not convert: (\\S+) = (.*)");
+  std::smatch Parts;
+  if (std::regex_match(Said, Parts, Missing))
+    return fmt::format("{}: a value is missing, expected {}", Parts[1].str(),
+                       Parts[2].str());
+  if (std::regex_match(Said, Parts, TooMany))
+    return fmt::format("{}: {} values, expected {} at most", Parts[1].str(),
+                       Parts[3].str(), Parts[2].str());
+  if (std::regex_match(Said, Parts, NoNumber))
+    return fmt::format("{}: {} is not a number that it takes", Parts[1].str(),
+                       Parts[2].str());
+  return Said;
 }
 
 /// What is wrong, of \p App that refused its arguments with \p Said: a word
@@ -97,20 +125,28 @@ std::string problemOf(const CLI::App &App, const std::string &Said,
   if (!Left.empty() && !Left.front().starts_with('-') && !Commands.empty())
     return unknown("subcommand", Left.front(), Commands);
   const auto Option = std::ranges::find_if(Left, [](const std::string &Word) {
-    return Word.size() > 1 && Word.starts_with('-');
+    return Word.size() > 1 && Word.starts_with('-') && Word != "--";
   });
   if (Option != Left.end())
     return unknown("option", Option->substr(0, Option->find('=')),
                    optionsOf(Inner));
   if (Said == CLI::RequiredError::Subcommand(1).what())
-    return fmt::format("no subcommand, expected one of {} (see --help)",
-                       fmt::join(Commands, ", "));
-  if (Said.ends_with(" is required"))
-    return fmt::format("{}, expected: {} (see --help)", Said,
-                       shortestCall(*Inner));
+    return fmt::format("no subcommand, expected one of {} {}",
+                       fmt::join(Commands, ", "), SeeHelp);
+  if (constexpr std::string_view Ending = " is required";
+      Said.ends_with(Ending)) {
+    const std::string Name = Said.substr(0, Said.size() - Ending.size());
+    return fmt::format("{} is missing, expected: {} {}",
+                       Name.starts_with('-') ? Name : upper(Name),
+                       shortestCall(*Inner), SeeHelp);
+  }
+  const auto Surplus = std::ranges::find_if(
+      Left, [](const std::string &Word) { return Word != "--"; });
+  if (Surplus != Left.end())
+    return fmt::format("unexpected argument {} {}", *Surplus, SeeHelp);
   // A check of ours says itself what it expects.
   return Said.find("expected") == std::string::npos
-             ? fmt::format("{}, {}", Said, SeeHelp)
+             ? fmt::format("{} {}", inOurWords(Said), SeeHelp)
              : Said;
 }
 

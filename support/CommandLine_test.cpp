@@ -11,13 +11,19 @@ std::string said(std::vector<std::string> Arguments) {
   CLI::App App("A tool.", "tool");
   App.require_subcommand(1);
   App.fallthrough();
-  std::string Set, Cameras, Json, Path;
+  std::string Set, Cameras, Json, Path, Capture;
+  unsigned Threads = 0, Clock = 0;
+  double Volts = 0;
   App.add_option("--set", Set);
   CLI::App *Render = App.add_subcommand("render", "");
   takesFile(Render->add_option("--cameras", Cameras))->required();
   takesFile(Render->add_option("-j,--json", Json), {".json"});
   Render->add_option("--path", Path)->check(isOneOf({"raster", "simt"}));
-  App.add_subcommand("train", "");
+  Render->add_option("--threads", Threads)->type_name("N");
+  Render->add_option("--clock", Clock)->check(isBetween(1U, 100000U));
+  Render->add_option("--voltage", Volts)->check(isBetween(0.1, 5.0));
+  CLI::App *Train = App.add_subcommand("train", "");
+  Train->add_option("capture", Capture)->required();
   testing::internal::CaptureStderr();
   const auto Code = parseCommandLine(App, std::move(Arguments));
   const std::string Text = testing::internal::GetCapturedStderr();
@@ -27,7 +33,7 @@ std::string said(std::vector<std::string> Arguments) {
 
 TEST(CommandLine, WhatIsRightIsParsed) {
   EXPECT_EQ(said({"render", "--cameras", "c", "--set", "a=b"}), "");
-  EXPECT_EQ(said({"train"}), "");
+  EXPECT_EQ(said({"train", "photographs"}), "");
 }
 
 TEST(CommandLine, WhatIsNearlyRightIsNamed) {
@@ -126,21 +132,55 @@ TEST(CommandLine, TheCalledCommandIsNoOptionsValue) {
 
 TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {
   EXPECT_EQ(said({"paint"}),
-            "tool: error: unknown subcommand paint, expected: see --help\n");
+            "tool: error: unknown subcommand paint (see --help)\n");
   EXPECT_EQ(said({"render", "--nonsense", "c"}),
-            "tool: error: unknown option --nonsense, expected: see --help\n");
+            "tool: error: unknown option --nonsense (see --help)\n");
   EXPECT_EQ(said({"render"}),
-            "tool: error: --cameras is required, expected: tool render "
+            "tool: error: --cameras is missing, expected: tool render "
             "--cameras FILE (see --help)\n");
+  EXPECT_EQ(said({"train"}),
+            "tool: error: CAPTURE is missing, expected: tool train CAPTURE "
+            "(see --help)\n");
   EXPECT_EQ(said({}), "tool: error: no subcommand, expected one of render, "
                       "train (see --help)\n");
   EXPECT_EQ(said({"help", "render"}),
-            "tool: error: unknown subcommand help, expected: see --help\n");
+            "tool: error: unknown subcommand help (see --help)\n");
   EXPECT_EQ(said({"--set", "a=b"}),
             "tool: error: no subcommand, expected one of render, train (see "
             "--help)\n");
   EXPECT_EQ(said({"render", "--\x1b[31m"}),
-            "tool: error: unknown option --\\x1b[31m, expected: see --help\n");
+            "tool: error: unknown option --\\x1b[31m (see --help)\n");
+  EXPECT_EQ(said({"render", "--cameras", "c", "d"}),
+            "tool: error: unexpected argument d (see --help)\n");
+  EXPECT_EQ(said({"render", "--cameras", "c", "--", "d"}),
+            "tool: error: unexpected argument d (see --help)\n");
+}
+
+TEST(CommandLine, NoMessageIsTheParsersOwn) {
+  const auto SaidOf = [](std::vector<std::string> More) {
+    More.insert(More.begin(), {"render", "--cameras", "c"});
+    return said(std::move(More));
+  };
+  EXPECT_EQ(SaidOf({"--threads", "4", "--clock", "530", "--voltage", "1"}), "");
+  EXPECT_EQ(SaidOf({"--threads"}),
+            "tool: error: --threads: a value is missing, expected N (see "
+            "--help)\n");
+  EXPECT_EQ(SaidOf({"--threads", "-1"}),
+            "tool: error: --threads: -1 is not a number that it takes (see "
+            "--help)\n");
+  EXPECT_EQ(SaidOf({"--threads", "1", "--threads", "2"}),
+            "tool: error: --threads: 2 values, expected 1 at most (see "
+            "--help)\n");
+  EXPECT_EQ(SaidOf({"--clock", "1e3"}),
+            "tool: error: --clock: 1e3, expected a whole number from 1 to "
+            "100000\n");
+  EXPECT_EQ(SaidOf({"--clock", "0"}),
+            "tool: error: --clock: 0, expected a whole number from 1 to "
+            "100000\n");
+  for (const char *Wrong : {"5.5", "nan", "V"})
+    EXPECT_EQ(SaidOf({"--voltage", Wrong}),
+              "tool: error: --voltage: " + std::string(Wrong) +
+                  ", expected a number from 0.1 to 5\n");
 }
 
 } // namespace

@@ -26,6 +26,22 @@ std::size_t distance(std::string_view A, std::string_view B) {
   return D[A.size()][B.size()];
 }
 
+/// The word of \p Known that begins with \p Word, if there is one alone.
+std::string_view onlyOneBegunBy(std::string_view Word,
+                                std::span<const std::string> Known) {
+  constexpr std::size_t Fewest = 4; // letters, of which nobody guesses
+  if (Word.size() < Fewest)
+    return {};
+  std::string_view Found;
+  for (const std::string &K : Known)
+    if (K.starts_with(Word)) {
+      if (!Found.empty())
+        return {};
+      Found = K;
+    }
+  return Found;
+}
+
 } // namespace
 
 std::string_view closestTo(std::string_view Word,
@@ -41,7 +57,7 @@ std::string_view closestTo(std::string_view Word,
       Least = D;
       Found = K;
     }
-  return Found;
+  return Found.empty() ? onlyOneBegunBy(Word, Known) : Found;
 }
 
 } // namespace vorion

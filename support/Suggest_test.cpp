@@ -16,7 +16,16 @@ TEST(Suggest, FindsTheNearestWord) {
   EXPECT_EQ(closestTo("--nonsense", Known), "");
   EXPECT_EQ(closestTo("x", Known), "");
   EXPECT_EQ(closestTo("", Known), "");
+  EXPECT_EQ(closestTo("--cam", Known), "--cameras") << "begun";
+  EXPECT_EQ(closestTo("--", Known), "") << "too short to guess";
   EXPECT_EQ(didYouMean("rendr", Known), "; did you mean render?");
   EXPECT_EQ(didYouMean("x", Known), "");
   EXPECT_EQ(closestTo(std::string(100'000, 'a'), Known), "");
+}
+
+TEST(Suggest, ABeginningOfTwoWordsMeansNeither) {
+  const std::vector<std::string> Known = {"cores_per_socket", "warps_per_core",
+                                          "warps_per_socket"};
+  EXPECT_EQ(closestTo("cores", Known), "cores_per_socket");
+  EXPECT_EQ(closestTo("warps", Known), "");
 }

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace vorion::isasim {
@@ -20,6 +21,8 @@ namespace {
 /// What the shared object defines. It stays loaded: its code is needed until
 /// the process ends.
 Expected<const Plugin *> load(const std::string &Path) {
+  if (std::error_code Problem; !std::filesystem::exists(Path, Problem))
+    return Error{Path, "no such file, expected a plugin of the simulator"};
   // With a folder, or the system's would be searched.
   void *Library =
       dlopen(std::filesystem::absolute(Path).c_str(), RTLD_NOW | RTLD_LOCAL);

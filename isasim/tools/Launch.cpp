@@ -55,9 +55,9 @@ Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
                            Watch->guardBytes());
     return static_cast<uint32_t>(Address);
   }
-  return usage(fmt::format("{} bytes more do not fit the {} bytes of global "
-                           "memory",
-                           Bytes, globalBytes(Device->config())));
+  return usage(fmt::format("{}: {} bytes, but no free part of the {} bytes of "
+                           "global memory is as large",
+                           What, Bytes, globalBytes(Device->config())));
 }
 
 Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,

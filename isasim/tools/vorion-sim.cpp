@@ -119,8 +119,18 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
   return C;
 }
 
+Error wrongSizes(std::string_view Option, const std::string &Given) {
+  return {"",
+          fmt::format("{}: {}, expected X[,Y[,Z]], whole numbers above 0",
+                      Option, Given),
+          ExitCode::Usage};
+}
+
 Error missingGlobal() {
-  return {"", "--global is missing, expected X[,Y[,Z]]", ExitCode::Usage};
+  return {"",
+          "--global is missing, expected X[,Y[,Z]], how many work-items run "
+          "the kernel",
+          ExitCode::Usage};
 }
 
 /// The launch that the options ask for; WorkDim 0 for none.
@@ -137,14 +147,12 @@ Expected<KernelRequest> makeRequest(const Options &O) {
   if (!O.Global.empty()) {
     R.WorkDim = parseSizes(O.Global, R.Global);
     if (R.WorkDim == 0)
-      return Error{"", "--global: expected X[,Y[,Z]], whole numbers above 0",
-                   ExitCode::Usage};
+      return wrongSizes("--global", O.Global);
   } else if (!O.Kernel.empty() || !O.Args.empty() || !O.Local.empty()) {
     return missingGlobal();
   }
   if (!O.Local.empty() && parseSizes(O.Local, R.Local) == 0)
-    return Error{"", "--local: expected X[,Y[,Z]], whole numbers above 0",
-                 ExitCode::Usage};
+    return wrongSizes("--local", O.Local);
   return R;
 }
 
@@ -205,12 +213,23 @@ int exitCode(const RunResult &R) {
   return static_cast<int>(ExitCode::LimitReached);
 }
 
+/// Whether --check bounds would say more of how \p R ended, a run of \p O: a
+/// kernel went where no memory is.
+bool leftItsBuffers(const RunResult &R, const Options &O) {
+  const TrapCause Cause = R.Fault.Cause;
+  return R.End == Outcome::Trap && O.Watch.Check.empty() &&
+         (!O.Global.empty() || !O.ArgsFile.empty()) &&
+         (Cause == TrapCause::LoadFault || Cause == TrapCause::StoreFault);
+}
+
 /// Reports how the run of \p O ended and gives the exit code.
 int reportOutcome(const RunResult &R, const Options &O) {
   std::fflush(stdout);
   std::string Report = R.Report;
   while (Report.ends_with('\n'))
     Report.pop_back();
+  if (leftItsBuffers(R, O))
+    Report += "\n  --check bounds says which buffer a kernel leaves, and where";
   if (R.End == Outcome::GuestFailed)
     printDiagnostic(
         Tool, "error", O.Program,
@@ -396,13 +415,16 @@ void declareWatch(CLI::App &App, const SessionOption &S, std::string &To) {
 CLI::Validator quietly(CLI::Validator Check) { return Check.description(""); }
 
 void declareLaunch(CLI::App &App, Options &O) {
-  App.add_option("--kernel", O.Kernel, "which, if there are several")
+  App.add_option("--kernel", O.Kernel,
+                 "the kernel to run, if the program has several")
       ->type_name("NAME")
       ->group("Running a kernel");
-  App.add_option("--global", O.Global, "work-items")
+  App.add_option("--global", O.Global, "how many work-items run it")
       ->type_name("X[,Y[,Z]]")
       ->group("Running a kernel");
-  App.add_option("--local", O.Local, "work-items of a group")
+  App.add_option(
+         "--local", O.Local,
+         "work-items in a group (default: the kernel's own, or at most 64)")
       ->type_name("X[,Y[,Z]]")
       ->group("Running a kernel");
   App.add_option("--arg", O.Args,
@@ -411,15 +433,17 @@ void declareLaunch(CLI::App &App, Options &O) {
       ->type_name("ARG")
       ->group("Running a kernel")
       ->allow_extra_args(false);
-  takesFile(App.add_option("--args", O.ArgsFile,
-                           "these as JSON: {\"kernel\", \"global\", \"local\", "
-                           "\"args\": [\"i32:5\", ...]}"))
+  takesFile(
+      App.add_option("--args", O.ArgsFile,
+                     "all of this as JSON: {\"kernel\", \"global\", \"local\", "
+                     "\"args\": [\"i32:5\", ...]}"))
       ->group("Running a kernel")
       ->excludes("--kernel")
       ->excludes("--global")
       ->excludes("--local")
       ->excludes("--arg");
-  App.add_flag("--list-kernels", O.ListKernels, "print them and exit")
+  App.add_flag("--list-kernels", O.ListKernels,
+               "print the program's kernels and exit")
       ->group("Running a kernel");
 }
 
@@ -459,7 +483,7 @@ void declare(CLI::App &App, Options &O) {
                  "VORION_CONFIG)");
   takesFile(App.get_option("--config"), {".json"})->type_name("NAME|FILE");
   App.add_flag("--print-default-config", O.PrintDefaultConfig,
-               "print one to start from and exit");
+               "print a configuration to start from, and exit");
   App.add_flag("--print-timing-parameters", O.PrintTiming,
                "print what --time goes by, with sources, and exit");
   App.add_flag("--time", O.Time,
@@ -467,19 +491,19 @@ void declare(CLI::App &App, Options &O) {
   App.add_option("--clock", O.ClockMhz,
                  "the machine's clock for --time (default: 530)")
       ->type_name("MHZ")
-      ->check(quietly(CLI::Range(1U, 100000U)));
+      ->check(quietly(isBetween(1U, 100000U)));
   App.add_flag("--energy", O.Energy,
-               "the same, and how much energy (docs/energy.md)");
+               "say how long, and how much energy it takes (docs/energy.md)");
   takesFile(App.add_option("--technology", O.TechnologyFile,
                            "energies and areas for --energy (default: 16 nm)"),
             {".json"});
-  App.add_option("--voltage", O.Volts,
-                 "the chip's for --energy (default: what the clock needs)")
+  App.add_option(
+         "--voltage", O.Volts,
+         "the chip's voltage for --energy (default: what the clock needs)")
       ->type_name("V")
-      ->check(quietly(CLI::Range(0.1, 5.0)));
+      ->check(quietly(isBetween(0.1, 5.0)));
   App.add_flag("--print-technology", O.PrintTechnology,
-               "print the default technology, to start one's own from, and "
-               "exit");
+               "print the default technology to start from, and exit");
   App.add_flag("--print-energy-parameters", O.PrintEnergy,
                "print what --energy goes by, with sources, and exit");
   App.add_option("--max-instructions", O.MaxInstructions,

@@ -307,7 +307,7 @@ Runner addAccuracy(CLI::App &App) {
                      "from the same, is used (default: the scene's or the "
                      "capture's name and -accuracy, in this folder)"));
   App.add_option("--jobs", A->Jobs, "Points measured at the same time")
-      ->check(CLI::Range(1U, 256U))
+      ->check(isBetween(1U, 256U))
       ->option_text("N");
   App.add_flag("--list", A->List,
                "Print the points that are missing, one a line, and measure "
@@ -348,7 +348,7 @@ Runner addAccuracy(CLI::App &App) {
   App.add_flag("--no-cores", A->NoCores, "Leave out the kernels-only path");
   App.add_option("--thumb-width", A->ThumbWidth,
                  "Width of the page's pictures, px (default 240)")
-      ->check(CLI::Range(8U, 4096U))
+      ->check(isBetween(8U, 4096U))
       ->option_text("N");
   addTrainOptions(App, A->Train, optionsFrom(App, First));
   return [A](const DeviceOptions &Machine) {

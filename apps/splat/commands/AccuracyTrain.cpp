@@ -8,6 +8,7 @@
 #include "capture/Capture.h"
 #include "io/ReportHead.h"
 #include "sweep/Points.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -44,7 +45,7 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
   App.add_option(
          "--seeds", P.Seeds,
          fmt::format("--train: runs of a setting (default {})", P.Seeds))
-      ->check(CLI::Range(1U, 1000U));
+      ->check(isBetween(1U, 1000U));
   App.add_option("--score-every", P.ScoreEvery,
                  fmt::format("--train: iterations from one PSNR of the "
                              "held-out views to the next (default {})",
@@ -57,7 +58,7 @@ void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
       ->check(isIterations());
   App.add_option("--downscale", P.Downscale,
                  "--train: pictures so many times smaller (default 1)")
-      ->check(CLI::Range(1, 64));
+      ->check(isBetween(1, 64));
   App.add_option("--max-gaussians", P.MostGaussians,
                  "--train: no more Gaussians than this");
   App.add_option("--exclude", P.Exclude, "--train: leave out this picture")

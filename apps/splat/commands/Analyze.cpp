@@ -12,6 +12,7 @@
 #include "io/Hash.h"
 #include "io/ReportHead.h"
 #include "picture/Options.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -305,7 +306,7 @@ Runner addAnalyze(CLI::App &App) {
       "view, and in the order along the pixel's ray (docs/numerics.md)"));
   App.add_option("--width", A->Width,
                  "Width in pixels, height in proportion (default: the view's)")
-      ->check(CLI::Range(1, MaxImageSize));
+      ->check(isBetween(1, MaxImageSize));
   writesFile(App.add_option("--json", A->JsonFile, "Write all counts"),
              {".json"});
   writesFiles(App.add_option(
@@ -319,10 +320,10 @@ Runner addAnalyze(CLI::App &App) {
       "Pixels that a Gaussian may reach, for lists and occlusion");
   App.add_option("--cutoff", A->Options.Cutoff,
                  "Transmittance at which a pixel is full (default 0.0001)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(isBetween(0.0, 1.0));
   App.add_option("--threads", A->Options.Threads,
                  "Host threads, 0 for all; changes no result")
-      ->check(CLI::Range(0U, 1024U));
+      ->check(isBetween(0U, 1024U));
   return [A](const DeviceOptions &) { return run(*A); };
 }
 

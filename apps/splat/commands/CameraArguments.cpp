@@ -81,11 +81,11 @@ void addCameraOptions(CLI::App &App, CameraArguments &A, bool Several) {
                    "N views around what the cameras look at, or around the "
                    "scene's middle, from the first view on")
         ->option_text("N")
-        ->check(CLI::Range(1, 9999));
+        ->check(isBetween(1, 9999));
     App.add_option("--frames", A.Frames,
                    "N views along a smooth path through the views")
         ->option_text("N")
-        ->check(CLI::Range(2, 9999))
+        ->check(isBetween(2, 9999))
         ->excludes("--orbit");
   }
   App.add_option("--up", A.Up,

@@ -59,6 +59,6 @@ inline void addSize(CLI::App &App, const std::string &Flag, unsigned &Value,
 }
 
 /// For options that are numbers of iterations.
-inline CLI::Range isIterations() { return {1U, 10000000U}; }
+inline CLI::Validator isIterations() { return isBetween(1U, 10000000U); }
 
 } // namespace vorion::splat

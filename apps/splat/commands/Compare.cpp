@@ -34,7 +34,7 @@ Runner addCompare(CLI::App &App) {
                  "Exit with 1 if b takes longer than a by more than this, per "
                  "cent")
       ->needs(Times)
-      ->check(CLI::NonNegativeNumber);
+      ->check(isBetween(0.0, 1e6));
   App.add_flag("--across", A->Across,
                "Times of different machines, or of different work, too")
       ->needs(Times);

@@ -89,7 +89,7 @@ Runner addDemoScene(CLI::App &App) {
   App.add_option(
          "--gaussians", A->Gaussians,
          fmt::format("About how many (default {})", demo::DefaultGaussians))
-      ->check(CLI::Range(demo::FewestGaussians, demo::MostGaussians));
+      ->check(isBetween(demo::FewestGaussians, demo::MostGaussians));
   return [A](const DeviceOptions &) { return run(*A); };
 }
 

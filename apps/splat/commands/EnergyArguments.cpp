@@ -16,7 +16,7 @@ void addEnergyOptions(CLI::App &App, EnergyArguments &A,
   App.add_option("--voltage", A.Volts,
                  "The chip's for --energy (default: what the clock needs)")
       ->option_text("V")
-      ->check(CLI::Range(0.1, 5.0));
+      ->check(isBetween(0.1, 5.0));
 }
 
 Expected<std::optional<EnergyRequest>>

@@ -183,7 +183,7 @@ Runner addEval(CLI::App &App) {
                "out)");
   App.add_option("--downscale", A->Downscale,
                  "Pictures so many times smaller, as in training (default 1)")
-      ->check(CLI::Range(1, 64));
+      ->check(isBetween(1, 64));
   App.add_option("--exclude", A->Read.Exclude, "Leave out this picture")
       ->allow_extra_args(false);
   addOutsideOption(App, A->Read.AllowOutside);

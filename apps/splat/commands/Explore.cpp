@@ -287,7 +287,7 @@ Runner addExplore(CLI::App &App) {
          "--machines", A->Machines,
          "Machines to try: the base, each change alone, and others drawn "
          "at random (default 200)")
-      ->check(CLI::Range(1U, 1000000U))
+      ->check(isBetween(1U, 1000000U))
       ->option_text("N");
   App.add_option("--finalists", A->Finalists,
                  "At least so many of the best by small views are judged on "
@@ -299,12 +299,12 @@ Runner addExplore(CLI::App &App) {
       ->option_text("N");
   App.add_option("--small-width", A->SmallWidth,
                  "Width of small views, px (default 480)")
-      ->check(CLI::Range(16, 16384))
+      ->check(isBetween(16, 16384))
       ->option_text("N");
   App.add_option("--seed", A->Seed, "Of the random machines (default 1)")
       ->option_text("N");
   App.add_option("--jobs", A->Jobs, "Trials measured at the same time")
-      ->check(CLI::Range(1U, 256U))
+      ->check(isBetween(1U, 256U))
       ->option_text("N");
   App.add_flag("--list", A->List,
                "Print the trials that are missing, one a line, and measure "

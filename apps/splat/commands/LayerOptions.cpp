@@ -3,6 +3,7 @@
 #include "commands/Choices.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
+#include "vorion/support/CommandLine.h"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,7 @@ void addLayerOptions(CLI::App &App, LayerFiles &F) {
   App.add_option("--top", F.Top,
                  fmt::format("So many of them a pixel (default {})", F.Top))
       ->option_text("N")
-      ->check(CLI::Range(1U, MaxTop));
+      ->check(isBetween(1U, MaxTop));
 }
 
 Expected<Success> checkLayers(const LayerFiles &F, const RenderOptions &O,

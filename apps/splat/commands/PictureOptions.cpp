@@ -3,6 +3,7 @@
 #include "commands/Choices.h"
 #include "commands/Usage.h"
 #include "render/PixelLists.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Printable.h"
 
@@ -23,7 +24,7 @@ void addDatapathOptions(CLI::App &App, RenderOptions &O) {
                  "Leading bits of the depths that decide the order "
                  "(default 32)")
       ->option_text("1..32")
-      ->check(CLI::Range(1U, 32U));
+      ->check(isBetween(1U, 32U));
   addChoice(App, "--projection", O.Through,
             {Spread::Jacobian, Spread::Unscented},
             "Gaussians go through the camera by its Jacobian at the mean or as "
@@ -32,7 +33,7 @@ void addDatapathOptions(CLI::App &App, RenderOptions &O) {
                  "Leave out bands of spherical harmonics above this "
                  "(default 3)")
       ->option_text("0..3")
-      ->check(CLI::Range(0, 3));
+      ->check(isBetween(0, 3));
 }
 
 void addRasterOptions(CLI::App &App, DrawArguments &A) {
@@ -45,7 +46,7 @@ void addRasterOptions(CLI::App &App, DrawArguments &A) {
                  "Parts of each tile's list that are blended apart and merged "
                  "(default 1)")
       ->option_text(fmt::format("1..{}", MaxZTiles))
-      ->check(CLI::Range(1U, MaxZTiles));
+      ->check(isBetween(1U, MaxZTiles));
   App.add_option("--pixel-unit", A.PixelUnit,
                  "When a list goes on in the pixel unit: so many entries are "
                  "left, a share of the pixels is full, or the last part of the "

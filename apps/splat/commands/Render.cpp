@@ -380,7 +380,7 @@ Runner addRender(CLI::App &App) {
              {pictureEndings().begin(), pictureEndings().end()});
   App.add_option("--quality", A->Format.Quality,
                  "Of a .jpg (default 95) or .webp (default: every byte kept)")
-      ->check(CLI::Range(1, 100));
+      ->check(isBetween(1, 100));
   App.add_flag("--exr-half", A->Format.Half,
                "An .exr has floats of 16 bits (default: of 32)");
   writesFile(App.add_option("--json", A->Json,
@@ -403,7 +403,7 @@ Runner addRender(CLI::App &App) {
   App.add_option("--clock", A->ClockMhz,
                  "The same at this clock (default: the machine's, 530)")
       ->option_text("MHZ")
-      ->check(CLI::Range(1U, 100000U));
+      ->check(isBetween(1U, 100000U));
   addEnergyOptions(App, A->Energy, "the frame");
   App.add_flag("--numerics{on}", A->Numerics,
                "Say where fp32 parts from double, by source line and stage of "
@@ -421,10 +421,14 @@ Runner addRender(CLI::App &App) {
              {".npz"});
   addKernelsOption(App, A->KernelFolder);
   return [A](const DeviceOptions &Machine) {
+    const bool IsNamed = !A->Output.empty();
     nameOutput("-o", A->Output, A->Scene.Path, ".png");
     if (auto Parsed = parseDrawTexts(*A); !Parsed)
       return Parsed;
-    return run(*A, Machine);
+    auto Drawn = run(*A, Machine);
+    if (Drawn && !IsNamed && isOne(*A))
+      printOut("picture    {}\n", escaped(A->Output));
+    return Drawn;
   };
 }
 

@@ -55,7 +55,7 @@ Expected<Json> readResult(const std::string &File) {
                            {"folder", JsonShape::text()},
                            {"environment", JsonShape::object({})}})}});
   if (auto Fits = Wanted.check(*Result, File); !Fits)
-    return Fits.error();
+    return Error{File, "no report of splat: " + Fits.error().What};
   return Result;
 }
 
@@ -173,7 +173,10 @@ Expected<Success> replay(const ReplayArguments &A,
   if (!Hash)
     return Hash.error();
   Json Report = reportHead("splat-replay");
-  Report["result"] = {{"file", A.Result}, {"fnv1a64", *Hash}};
+  std::error_code Failed;
+  Report["result"] = {
+      {"file", std::filesystem::absolute(A.Result, Failed).string()},
+      {"fnv1a64", *Hash}};
   const auto Result = readResult(A.Result);
   if (!Result)
     return Result.error();
@@ -195,7 +198,6 @@ Expected<Success> replay(const ReplayArguments &A,
     return Temporary.error();
   const std::string Folder =
       A.Folder.empty() ? Program["folder"].get<std::string>() : A.Folder;
-  std::error_code Failed;
   std::filesystem::current_path(Folder, Failed);
   if (Failed)
     return Error{Folder, fmt::format("{}, expected the folder in which the "
@@ -265,9 +267,8 @@ Runner addReplay(CLI::App &App) {
                             "Write whether the bits agree, for programs"),
              {".json"});
   return [A](const DeviceOptions &Machine) {
-    // The folder changes before the files are read and written.
+    // The folder changes before it is written.
     std::error_code Failed;
-    A->Result = std::filesystem::absolute(A->Result, Failed).string();
     if (!A->JsonFile.empty() && A->JsonFile != StandardOutput)
       A->JsonFile = std::filesystem::absolute(A->JsonFile, Failed).string();
     return replay(*A, Machine);

@@ -28,7 +28,7 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
       ->option_text("FROM:TO");
   App.add_option("--lod", A.Options.LevelOfDetail,
                  "Level of detail of a streamed scene (default 0, the finest)")
-      ->check(CLI::Range(0, 1000));
+      ->check(isBetween(0, 1000));
   App.add_flag("--drop-nonfinite", A.Options.DropNonFinite,
                "Leave out Gaussians with a NaN or an infinity, and count them "
                "(default: they are an error)");

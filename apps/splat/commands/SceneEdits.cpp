@@ -3,6 +3,7 @@
 #include "commands/Usage.h"
 #include "scene/Activation.h"
 #include "scene/Edit.h"
+#include "vorion/support/CommandLine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +83,7 @@ void addEditOptions(CLI::App &App, SceneEdits &E) {
   App.add_option("--drop-faint", E.Faint,
                  "Leave out Gaussians of an opacity below A")
       ->option_text("A")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(isBetween(0.0, 1.0))
       ->group(Group);
   Numbers("--crop-box,--filter-box", E.Box, 6, "X0,Y0,Z0,X1,Y1,Z1",
           "Keep Gaussians whose centre is inside of two corners");
@@ -91,7 +92,7 @@ void addEditOptions(CLI::App &App, SceneEdits &E) {
   App.add_option("--degree,--filter-harmonics", E.Degree,
                  "Keep spherical harmonics up to this degree")
       ->option_text("N")
-      ->check(CLI::Range(0, MaxShDegree))
+      ->check(isBetween(0, MaxShDegree))
       ->group(Group);
 }
 

@@ -15,6 +15,7 @@
 #include "scene/formats/Ply.h"
 #include "train/TrainReport.h"
 #include "train/Training.h"
+#include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -281,22 +282,22 @@ Runner addTrain(CLI::App &App) {
       ->check(isIterations());
   App.add_option("--downscale", R.Downscale,
                  "Pictures so many times smaller (default 1)")
-      ->check(CLI::Range(1, 64));
+      ->check(isBetween(1, 64));
   App.add_option("--max-gaussians", S.MostGaussians,
                  fmt::format("No more Gaussians than this (default {})",
                              S.MostGaussians))
-      ->check(CLI::Range(4U, 100000000U));
+      ->check(isBetween(4U, 100000000U));
   App.add_option("--exclude", R.Read.Exclude, "Leave out this picture")
       ->allow_extra_args(false);
   addOutsideOption(App, R.Read.AllowOutside);
   App.add_option("--batch", R.Run.Batch,
                  "Views an iteration, shared out to the processes that mpirun "
                  "started, each with a device of its own (default 1)")
-      ->check(CLI::Range(1U, 4096U));
+      ->check(isBetween(1U, 4096U));
   App.add_option("--seed", R.Run.Seed, "Of all random numbers (default 0)");
   App.add_option("--sh-degree", R.ShDegree,
                  "Bands of spherical harmonics (default 3)")
-      ->check(CLI::Range(0, MaxShDegree));
+      ->check(isBetween(0, MaxShDegree));
   addBackgroundOption(App, R.Run.Background,
                       "Colour r,g,b behind the scene and under transparent "
                       "pixels (default 0,0,0)");

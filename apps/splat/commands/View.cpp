@@ -106,7 +106,7 @@ Runner addView(CLI::App &App) {
   addCameraOptions(App, A->Cameras, /*Several=*/false);
   App.add_option("--port", A->Port,
                  "Port of 127.0.0.1 (default 0: one that is free)")
-      ->check(CLI::Range(0, 65535));
+      ->check(isBetween(0, 65535));
   App.add_option("--size", A->Size,
                  "Size of a picture at rest (default " + A->Size + ")")
       ->option_text("WIDTHxHEIGHT");

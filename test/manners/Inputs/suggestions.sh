@@ -20,3 +20,5 @@ try machine vorion-sim k.elf --config protype
 try checker vorion-sim k.elf --kernel add --global 1 --arg buf:4 --check boundz
 try subcommand splat rendr
 try option splat render s.ply --camera c.json
+try beginning vorion-sim k.elf --set cores=3
+try "option begun" splat render s.ply --cam c.json

@@ -4,8 +4,10 @@
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace vorion {
@@ -25,6 +27,22 @@ Expected<Success> parseOptions(CLI::App &App,
 /// A check that takes one of \p Names; of another value it says which was
 /// probably meant.
 CLI::Validator isOneOf(std::vector<std::string> Names);
+
+/// A check that takes numbers from \p Low to \p High, both included. Help shows
+/// what CLI::Range shows, whose messages differ between versions of CLI11.
+template <typename Number> CLI::Validator isBetween(Number Low, Number High) {
+  CLI::Validator Check = CLI::Range(Low, High);
+  Check.operation([Low, High](const std::string &Word) {
+    Number Value{};
+    return CLI::detail::lexical_cast(Word, Value) && Value >= Low &&
+                   Value <= High
+               ? std::string()
+               : fmt::format("{}, expected a {}number from {} to {}", Word,
+                             std::is_integral_v<Number> ? "whole " : "", Low,
+                             High);
+  });
+  return Check;
+}
 
 /// Says that the value of \p O names a file, with one of \p Endings if there
 /// are some, or a folder: for --help, and for shells that complete names. Each

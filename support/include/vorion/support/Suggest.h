@@ -9,8 +9,8 @@
 namespace vorion {
 
 /// The word of \p Known that differs least from \p Word by letters left out,
-/// put in, changed or swapped with their neighbour; empty if none is near. Of
-/// several, the first.
+/// put in, changed or swapped with their neighbour; of several, the first. If
+/// none is near, the only one that \p Word begins; else empty.
 std::string_view closestTo(std::string_view Word,
                            std::span<const std::string> Known);
 
