@@ -13,8 +13,9 @@ import json
 import math
 import os
 import subprocess
-import sys
 import tempfile
+
+import command_line
 
 # Ordinary lenses: a wide camera's distortion as calibrations find it, and all that the model has.
 DISTORTED = {"camera_model": "OPENCV", "k1": -0.12, "k2": 0.03, "p1": 0.0008, "p2": -0.0005}
@@ -61,10 +62,7 @@ def main():
     parser.add_argument("scene")
     parser.add_argument("--cameras", required=True)
     parser.add_argument("--view", required=True)
-    given = sys.argv[1:]
-    split = given.index("--") if "--" in given else len(given)
-    args = parser.parse_args(given[:split])
-    args.options = given[split + 1:]
+    args, args.options = command_line.parse(parser)
     with open(args.cameras, encoding="utf-8") as f:
         view = next(record for record in json.load(f) if record["img_name"] == args.view)
     info = json.loads(subprocess.run(["splat", "info", args.scene, "--json", "-"], check=True, capture_output=True,
