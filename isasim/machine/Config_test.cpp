@@ -73,7 +73,8 @@ TEST(Config, ErrorsNameTheKey) {
       "sockets_per_cluster, cores_per_socket, warps_per_core, "
       "lanes_per_warp, barriers, divergence_depth, global_bytes, "
       "local_bytes, stack_bytes, quantum, max_instructions, "
-      "host_threads, engine, raster, timing");
+      "host_threads, engine, raster, timing; did you mean "
+      "cores_per_socket?");
   EXPECT_EQ(
       wrongIn(R"({"raster": {"deep": 4}})"),
       "file.json: unknown key 'raster.deep', expected one of queue_depth");

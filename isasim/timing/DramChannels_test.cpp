@@ -143,7 +143,7 @@ TEST(DramChannels, MistakesNameTheKey) {
   EXPECT_EQ(Wrong([](DramTiming &P) { P.Standard = "ddr3"; }),
             "timing.dram.standard: \"ddr3\" is no DRAM standard, expected one "
             "of ddr3-1600, ddr4-3200, hbm2e, lpddr4-3200, lpddr5-6400, "
-            "ramulator-lpddr4");
+            "ramulator-lpddr4; did you mean ddr3-1600?");
   EXPECT_EQ(Wrong([](DramTiming &P) {
               P.Standard = "/nowhere/t.json";
             }).substr(0, 37),

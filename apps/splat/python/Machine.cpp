@@ -142,7 +142,7 @@ struct Layers {
 void addLayers(CLI::App &App, Layers &L) {
   addChoice(App, "--depth-as", L.As,
             {DepthAs::Accumulated, DepthAs::Expected, DepthAs::Median}, "");
-  App.add_option("--contributors", L.Top)->check(CLI::Range(0U, MaxTop));
+  App.add_option("--contributors", L.Top)->check(isBetween(0U, MaxTop));
 }
 
 /// By name; what was not asked for is None.
