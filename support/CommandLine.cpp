@@ -94,7 +94,8 @@ std::string shortestCall(const CLI::App &App) {
 std::string inOurWords(const std::string &Said) {
   static const std::regex Missing("(\\S+): [0-9]+ required (.*) missing"),
       TooMany("(\\S+): At Most ([0-9]+) required but received ([0-9]+)"),
-      NoNumber("Could not convert: (\\S+) = (.*)");
+      NoNumber("Could not convert: (\\S+) = (.*)"),
+      Pair("\\S+ (excludes|requires) \\S+");
   std::smatch Parts;
   if (std::regex_match(Said, Parts, Missing))
     return fmt::format("{}: a value is missing, expected {}", Parts[1].str(),
@@ -105,6 +106,9 @@ std::string inOurWords(const std::string &Said) {
   if (std::regex_match(Said, Parts, NoNumber))
     return fmt::format("{}: {} is not a number that it takes", Parts[1].str(),
                        Parts[2].str());
+  if (std::regex_match(Said, Parts, Pair))
+    return fmt::format("{}, expected {}", Said,
+                       Parts[1] == "excludes" ? "one of them" : "both");
   return Said;
 }
 

@@ -22,6 +22,7 @@ std::string said(std::vector<std::string> Arguments) {
   Render->add_option("--threads", Threads)->type_name("N");
   Render->add_option("--clock", Clock)->check(isBetween(1U, 100000U));
   Render->add_option("--voltage", Volts)->check(isBetween(0.1, 5.0));
+  Render->add_flag("--draft")->needs("--path")->excludes("--clock");
   CLI::App *Train = App.add_subcommand("train", "");
   Train->add_option("capture", Capture)->required();
   testing::internal::CaptureStderr();
@@ -177,6 +178,12 @@ TEST(CommandLine, NoMessageIsTheParsersOwn) {
   EXPECT_EQ(SaidOf({"--clock", "0"}),
             "tool: error: --clock: 0, expected a whole number from 1 to "
             "100000\n");
+  EXPECT_EQ(SaidOf({"--draft"}),
+            "tool: error: --draft requires --path, expected both (see "
+            "--help)\n");
+  EXPECT_EQ(SaidOf({"--draft", "--path", "simt", "--clock", "1"}),
+            "tool: error: --clock excludes --draft, expected one of them (see "
+            "--help)\n");
   for (const char *Wrong : {"5.5", "nan", "V"})
     EXPECT_EQ(SaidOf({"--voltage", Wrong}),
               "tool: error: --voltage: " + std::string(Wrong) +
