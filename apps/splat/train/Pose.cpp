@@ -1,5 +1,6 @@
 #include "train/Pose.h"
 
+#include "cameras/Vector.h"
 #include "picture/Layout.h"
 #include "render/Pipeline.h"
 
@@ -17,20 +18,8 @@ constexpr std::size_t Terms = POSE_TERMS;
 /// Gaussians of a group of pose_back.
 constexpr uint32_t Stretch = 4096;
 
-using Vector = std::array<double, 3>;
 using Matrix = std::array<Vector, 3>; ///< rows
 
-Vector cross(const Vector &A, const Vector &B) {
-  return {A[1] * B[2] - A[2] * B[1], A[2] * B[0] - A[0] * B[2],
-          A[0] * B[1] - A[1] * B[0]};
-}
-double dot(const Vector &A, const Vector &B) {
-  return A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
-}
-double length(const Vector &A) { return std::sqrt(dot(A, A)); }
-Vector plus(const Vector &A, double Times, const Vector &B) {
-  return {A[0] + Times * B[0], A[1] + Times * B[1], A[2] + Times * B[2]};
-}
 Vector times(const Matrix &M, const Vector &V) {
   return {dot(M[0], V), dot(M[1], V), dot(M[2], V)};
 }
@@ -61,8 +50,8 @@ double sixthAt(double T) {
 Vector turned(const Vector &V, const Vector &Turn) {
   const double T = length(Turn);
   const Vector Once = cross(Turn, V);
-  return plus(plus(V, T == 0 ? 1 : std::sin(T) / T, Once), halfAt(T),
-              cross(Turn, Once));
+  return V + (T == 0 ? 1 : std::sin(T) / T) * Once +
+         halfAt(T) * cross(Turn, Once);
 }
 
 /// The gradient by \p Turn of what has \p By by a small turn about the same
@@ -71,7 +60,7 @@ Vector turned(const Vector &V, const Vector &Turn) {
 Vector byTurn(const Vector &By, const Vector &Turn) {
   const double T = length(Turn);
   const Vector Once = cross(Turn, By);
-  return plus(plus(By, -halfAt(T), Once), sixthAt(T), cross(Turn, Once));
+  return By - halfAt(T) * Once + sixthAt(T) * cross(Turn, Once);
 }
 
 /// x of M x = V, a symmetric positive M; 0 where it is none.
@@ -81,8 +70,7 @@ Vector solved(const Matrix &M, const Vector &V) {
   const double Det = dot(M[0], A);
   if (!(Det > 0))
     return {};
-  const Vector Sum = plus(plus(plus({}, V[0], A), V[1], B), V[2], C);
-  return plus({}, 1 / Det, Sum);
+  return (1 / Det) * (V[0] * A + V[1] * B + V[2] * C);
 }
 
 } // namespace
@@ -113,7 +101,7 @@ Camera Poses::at(std::size_t View) const {
     return C;
   const float *V = State.data() + Terms * View;
   const Vector Shift{V[0], V[1], V[2]}, Turn{V[3], V[4], V[5]};
-  C.Position = plus(C.Position, Extent, times(C.Rotation, Shift));
+  C.Position = C.Position + Extent * times(C.Rotation, Shift);
   // Columns: where the camera's turned axes go.
   for (std::size_t K = 0; K < 3; ++K) {
     Vector Axis{};
@@ -177,37 +165,34 @@ void Poses::settle(std::vector<double> &Stepped) const {
   std::vector<Vector> Shifts(N), Turns(N), Arms(N);
   for (std::size_t I = 0; I < N; ++I) {
     const Matrix &Axes = Cameras[I].Rotation;
-    Shifts[I] = times(Axes, vectorAt(Stepped, Terms * I));
-    for (double &V : Shifts[I])
-      V *= Extent;
+    Shifts[I] = Extent * times(Axes, vectorAt(Stepped, Terms * I));
     Turns[I] = times(Axes, vectorAt(Stepped, Terms * I + 3));
-    Centre = plus(Centre, Share, Cameras[I].Position);
-    Motion = plus(Motion, Share, Shifts[I]);
+    Centre = Centre + Share * Cameras[I].Position;
+    Motion = Motion + Share * Shifts[I];
   }
   double Square = 0, Growth = 0;
   Matrix Inertia{};
   Vector Moment{};
   for (std::size_t I = 0; I < N; ++I) {
-    Arms[I] = plus(Cameras[I].Position, -1, Centre);
+    Arms[I] = Cameras[I].Position - Centre;
     Square += dot(Arms[I], Arms[I]);
     Growth += dot(Arms[I], Shifts[I]);
-    Moment = plus(Moment, 1, cross(Arms[I], Shifts[I]));
+    Moment = Moment + cross(Arms[I], Shifts[I]);
     for (std::size_t R = 0; R < 3; ++R)
       for (std::size_t K = 0; K < 3; ++K)
         Inertia[R][K] -= Arms[I][R] * Arms[I][K];
   }
   for (const Vector &T : Turns)
-    Moment = plus(Moment, Square * Share, T);
+    Moment = Moment + (Square * Share) * T;
   for (std::size_t K = 0; K < 3; ++K)
     Inertia[K][K] += 2 * Square;
   const Vector Turn = solved(Inertia, Moment);
   const double Scale = Square > 0 ? Growth / Square : 0;
   for (std::size_t I = 0; I < N; ++I) {
     const Matrix &Axes = Cameras[I].Rotation;
-    Vector Shift = plus(Shifts[I], -1, Motion);
-    Shift = plus(Shift, -1, cross(Turn, Arms[I]));
-    Shift = back(Axes, plus(Shift, -Scale, Arms[I]));
-    const Vector Own = back(Axes, plus(Turns[I], -1, Turn));
+    const Vector Shift =
+        back(Axes, Shifts[I] - Motion - cross(Turn, Arms[I]) - Scale * Arms[I]);
+    const Vector Own = back(Axes, Turns[I] - Turn);
     for (std::size_t K = 0; K < 3; ++K) {
       Stepped[Terms * I + K] = Shift[K] / Extent;
       Stepped[Terms * I + 3 + K] = Own[K];
