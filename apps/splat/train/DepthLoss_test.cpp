@@ -3,10 +3,10 @@
 
 #include "analyze/ToReference.h"
 #include "device/OnDevice.h"
-#include "io/Image.h"
 #include "reference/Render.h"
 #include "train/DeviceRenderer.h"
 #include "train/Trainer.h"
+#include "train/testing/SmallScenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,27 +44,7 @@ class DepthLossOnDevice
       public testing::WithParamInterface<std::tuple<Rules, Path>> {
 protected:
   static Camera camera() {
-    Camera C = Camera::ahead(40, 26, 35);
-    const double S = std::sin(0.3), K = std::cos(0.3);
-    C.Rotation = {{{K, 0, S}, {0, 1, 0}, {-S, 0, K}}};
-    C.Position = {-3 * S, 0.1, -3 * K};
-    return C;
-  }
-
-  Scene scene(uint32_t Count) {
-    std::uniform_real_distribution<float> Unit(-1, 1);
-    Scene S = Scene::sized(Count, 1);
-    for (float &V : S.Means)
-      V = 0.8F * Unit(Random);
-    for (float &V : S.LogScales)
-      V = -1.6F + 0.6F * Unit(Random);
-    for (float &V : S.Quats)
-      V = Unit(Random);
-    for (float &V : S.OpacityLogits)
-      V = 1.5F * Unit(Random);
-    for (float &V : S.Sh)
-      V = 0.4F * Unit(Random);
-    return S;
+    return aroundOrigin(Camera::ahead(40, 26, 35), 0.3, 0.1);
   }
 
   /// Blended with (depth, 1, 0) for colours.
@@ -95,7 +75,7 @@ TEST_P(DepthLossOnDevice, GradientsAreThoseOfTheLoss) {
   reference::Options O;
   O.Rule = Convention == Rules::Inria ? reference::Rules::Inria
                                       : reference::Rules::Gsplat;
-  const Scene S = scene(24);
+  const Scene S = randomScene(Random, 24, 1);
   const Camera C = camera();
   const auto G = toReference<double>(S);
   const auto Shown = depths(G, C, O);
@@ -180,7 +160,7 @@ TEST_P(DepthLossOnDevice, GradientsAreThoseOfTheLoss) {
 /// where nothing is known.
 TEST_P(DepthLossOnDevice, AddsToThePicture) {
   const auto [Convention, Blending] = GetParam();
-  const Scene S = scene(24);
+  const Scene S = randomScene(Random, 24, 1);
   const Camera C = camera();
   Launcher L(*Dev, "", {});
   L.beginStage(Stage::Blend);
@@ -217,15 +197,10 @@ class KnownDepthsOnDevice : public DepthLossOnDevice {};
 /// One photograph cannot tell a scene from one that is farther and larger.
 /// Known depths can.
 TEST_P(KnownDepthsOnDevice, PullTheSceneToItsPlace) {
-  const Scene Truth = scene(24);
+  const Scene Truth = randomScene(Random, 24, 1);
   const Camera C = camera();
   const auto Shown = depths(toReference<double>(Truth), C, {});
-  const auto Seen =
-      reference::render(toReference<double>(Truth), toReference<double>(C), {});
-  TrainView V{C, {C.Width, C.Height, {}}, {}, {}};
-  for (const glm::dvec3 &Colour : Seen.Render)
-    for (int K = 0; K < 3; ++K)
-      V.Picture.Rgb.push_back(toByte(static_cast<float>(Colour[K])));
+  TrainView V{C, photographed(Truth, C), {}, {}};
   for (uint32_t P = 0; P < Shown.Render.size(); P += 3)
     if (const glm::dvec3 &D = Shown.Render[P]; D.y > 0.3)
       V.Depths.push_back({P, static_cast<float>(D.y / D.x)});

@@ -6,6 +6,7 @@
 #include "reference/Backward.h"
 #include "reference/Render.h"
 #include "render/Planes.h"
+#include "train/testing/SmallScenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,19 +28,9 @@ protected:
   };
 
   Scene sceneOf(const Case &K) {
-    std::uniform_real_distribution<float> Unit(-1, 1);
-    Scene S = Scene::sized(K.Count, K.ShDegree);
-    for (float &V : S.Means)
-      V = static_cast<float>(K.Spread) * Unit(Random);
-    for (float &V : S.LogScales)
-      V = static_cast<float>(K.Wide) - 1 + Unit(Random);
-    for (float &V : S.Quats)
-      V = Unit(Random);
-    for (float &V : S.OpacityLogits)
-      V = 3 * Unit(Random);
-    for (float &V : S.Sh)
-      V = 0.4F * Unit(Random);
-    return S;
+    return randomScene(
+        Random, K.Count, K.ShDegree,
+        {static_cast<float>(K.Spread), static_cast<float>(K.Wide) - 1, 1, 3});
   }
 
   static Camera camera() {
@@ -50,10 +41,7 @@ protected:
     C.Fy = 63;
     C.Cx = 36;
     C.Cy = 22;
-    const double S = std::sin(0.3), K = std::cos(0.3);
-    C.Rotation = {{{K, 0, S}, {0, 1, 0}, {-S, 0, K}}};
-    C.Position = {-3 * S, 0.1, -3 * K};
-    return C;
+    return aroundOrigin(C, 0.3, 0.1);
   }
 
   static double relativeError(const std::vector<double> &Got,

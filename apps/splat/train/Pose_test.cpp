@@ -4,10 +4,10 @@
 
 #include "analyze/ToReference.h"
 #include "device/OnDevice.h"
-#include "io/Image.h"
 #include "reference/Render.h"
 #include "train/DeviceRenderer.h"
 #include "train/Trainer.h"
+#include "train/testing/SmallScenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,33 +16,13 @@ namespace vorion::splat {
 namespace {
 
 Camera cameraAt(double Angle) {
-  Camera C = Camera::ahead(36, 28, 36);
-  const double S = std::sin(Angle), K = std::cos(Angle);
-  C.Rotation = {{{K, 0, S}, {0, 1, 0}, {-S, 0, K}}};
-  C.Position = {-3 * S, 0.1, -3 * K};
-  return C;
+  return aroundOrigin(Camera::ahead(36, 28, 36), Angle, 0.1);
 }
 
 class PosesOnDevice
     : public OnDevice,
       public testing::WithParamInterface<std::tuple<Rules, Path>> {
 protected:
-  Scene scene(uint32_t Count, int ShDegree) {
-    std::uniform_real_distribution<float> Unit(-1, 1);
-    Scene S = Scene::sized(Count, ShDegree);
-    for (float &V : S.Means)
-      V = 0.8F * Unit(Random);
-    for (float &V : S.LogScales)
-      V = -1.6F + 0.6F * Unit(Random);
-    for (float &V : S.Quats)
-      V = Unit(Random);
-    for (float &V : S.OpacityLogits)
-      V = 1.5F * Unit(Random);
-    for (float &V : S.Sh)
-      V = 0.4F * Unit(Random);
-    return S;
-  }
-
   static TrainSettings settings(double Rate) {
     TrainSettings T;
     T.PoseRate = T.LastPoseRate = Rate;
@@ -70,7 +50,7 @@ TEST_P(PosesOnDevice, GradientsAreThoseOfThePose) {
                                       : reference::Rules::Gsplat;
   for (const bool Antialiased : {false, true}) {
     O.Antialiased = Antialiased;
-    const Scene S = scene(30, 2);
+    const Scene S = randomScene(Random, 30, 2);
     const auto G = toReference<double>(S);
     const TrainSettings T = settings(1e-3);
     Launcher L(*Dev, "", {});
@@ -237,7 +217,7 @@ TEST_F(PoseStepsOnDevice, FollowTheGradient) {
 /// back, as far as not all of them are wrong in the same way. Without a rate
 /// they stay.
 TEST_P(DisturbedPosesOnDevice, AreFoundAgain) {
-  const Scene S = scene(40, 0);
+  const Scene S = randomScene(Random, 40, 0);
   TrainRun Run;
   Run.Extent = 3;
   Run.Settings = settings(4e-3);
@@ -265,16 +245,8 @@ TEST_P(DisturbedPosesOnDevice, AreFoundAgain) {
     Taken.step(Slopes, I);
   }
   TrainingSet Set;
-  for (std::size_t V = 0; V < Said.size(); ++V) {
-    const Camera C = Taken.at(V);
-    const auto P =
-        reference::render(toReference<double>(S), toReference<double>(C), {});
-    Photo Picture{C.Width, C.Height, {}};
-    for (const glm::dvec3 &Colour : P.Render)
-      for (int K = 0; K < 3; ++K)
-        Picture.Rgb.push_back(toByte(static_cast<float>(Colour[K])));
-    Set.Training.push_back({Said[V], Picture, {}, {}});
-  }
+  for (std::size_t V = 0; V < Said.size(); ++V)
+    Set.Training.push_back({Said[V], photographed(S, Taken.at(V)), {}, {}});
   BackwardOptions Options;
   Options.Poses = true;
   DeviceRenderer R(L, Rules::Inria, std::get<1>(GetParam()), Options, {});

@@ -4,12 +4,12 @@
 
 #include "analyze/ToReference.h"
 #include "device/OnDevice.h"
-#include "io/Image.h"
 #include "picture/Layout.h"
 #include "reference/Backward.h"
 #include "reference/Render.h"
 #include "render/Planes.h"
 #include "train/SettingsTable.h"
+#include "train/testing/SmallScenes.h"
 
 #include <algorithm>
 #include <barrier>
@@ -157,11 +157,7 @@ void expectSame(const Checkpoint &A, const Checkpoint &B) {
 class TrainerOnDevice : public OnDevice {
 protected:
   static Camera cameraAt(double Angle) {
-    Camera C = Camera::ahead(24, 20, 30);
-    const double S = std::sin(Angle), K = std::cos(Angle);
-    C.Rotation = {{{K, 0, S}, {0, 1, 0}, {-S, 0, K}}};
-    C.Position = {-3 * S, 0, -3 * K};
-    return C;
+    return aroundOrigin(Camera::ahead(24, 20, 30), Angle, 0);
   }
 
   /// A few blobs about the origin.
@@ -187,13 +183,8 @@ protected:
     TrainingSet Set;
     for (int I = 0; I < 6; ++I) {
       const Camera C = cameraAt(0.25 * I);
-      const auto P =
-          reference::render(toReference<double>(S), toReference<double>(C), {});
-      Photo Picture{C.Width, C.Height, {}};
-      for (const glm::dvec3 &Colour : P.Render)
-        for (int K = 0; K < 3; ++K)
-          Picture.Rgb.push_back(toByte(static_cast<float>(Colour[K])));
-      (I == 2 ? Set.HeldOut : Set.Training).push_back({C, Picture, {}, {}});
+      (I == 2 ? Set.HeldOut : Set.Training)
+          .push_back({C, photographed(S, C), {}, {}});
     }
     return Set;
   }
