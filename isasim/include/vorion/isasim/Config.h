@@ -54,8 +54,8 @@ struct Config {
   uint64_t MaxInstructions = 0;
   unsigned HostThreads = 0; ///< 0: as many as the host has
   /// The translator works in runs without observers and without a clock; in
-  /// all others the interpreter does. Machine::create() refuses it where the
-  /// host has not what it needs.
+  /// all others the interpreter does. Machine::create() refuses
+  /// Engine::Translator where the host does not have what it needs.
   Engine Runs = Engine::Auto;
 
   RasterConfig Raster;
