@@ -139,15 +139,28 @@ void Emitter::floating(const GuestInsn &G) {
   };
   // So is what does not fit: the host gives one value for all of that.
   const auto ToInt = [&](bool IsSigned) {
-    const bool Truncates = I->Imm == static_cast<int32_t>(Rtz);
     const Zmm R = scratch();
-    if (IsSigned)
-      Truncates ? vcvttps2dq(active(R), A.In) : vcvtps2dq(active(R), A.In);
+    const auto Round = [&](const Zmm &To, const Zmm &From) {
+      IsSigned ? vcvtps2dq(active(To), From) : vcvtps2udq(active(To), From);
+    };
+    const auto Truncate = [&](const Zmm &To) {
+      IsSigned ? vcvttps2dq(active(To), A.In) : vcvttps2udq(active(To), A.In);
+    };
+    const auto Mode = static_cast<unsigned>(I->Imm);
+    // A direction in the host's instruction keeps it from raising flags.
+    const bool RaisesNone = Mode == Rdn || Mode == Rup;
+    if (RaisesNone)
+      Round(R, Mode == Rdn ? A.In | T_rd_sae : A.In | T_ru_sae);
+    else if (Mode == Rtz)
+      Truncate(R);
     else
-      Truncates ? vcvttps2udq(active(R), A.In) : vcvtps2udq(active(R), A.In);
+      Round(R, A.In);
     vpcmpeqd(active(k2), R, constant(IsSigned ? 0x80000000U : ~0U));
     kortestw(k2, k2);
     jnz(toInterpreter());
+    // What fits is inexact in every mode, or in none.
+    if (RaisesNone)
+      Truncate(scratch());
     result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, R); });
   };
   const auto FromInt = [&](bool IsSigned) {

@@ -10,8 +10,9 @@ namespace vorion::isasim::translate {
 
 namespace {
 
-/// Instructions of a region at most: some ten thousand bytes of host code.
-constexpr size_t MostInstructions = 700;
+/// Instructions of a region at most: half a million bytes of host code. The
+/// kernels of `splat` that have most are whole with it.
+constexpr size_t MostInstructions = 2500;
 
 /// What going to the interpreter and coming back costs, in instructions that
 /// the interpreter could do meanwhile.
@@ -52,9 +53,8 @@ Kind kindOf(Op O, const Insn *I) {
     return roundsAsHost(I) ? Kind::Float : Kind::Other;
   case Op::RV_FCVT_W_S:
   case Op::RV_FCVT_WU_S:
-    return static_cast<unsigned>(I->Imm) == Rtz || roundsAsHost(I)
-               ? Kind::Float
-               : Kind::Other;
+    // The host has a form for every mode but ties away from zero.
+    return static_cast<unsigned>(I->Imm) == Rmm ? Kind::Other : Kind::Float;
   case Op::RV_FEQ_S:
   case Op::RV_FLT_S:
   case Op::RV_FLE_S:

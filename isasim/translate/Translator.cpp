@@ -24,7 +24,7 @@ size_t Translator::bytes() const { return Host ? Host->bytes() : 0; }
 #if VORION_TRANSLATOR
 
 /// One region's code at most.
-static constexpr size_t RegionBytes = 1 << 19;
+static constexpr size_t RegionBytes = 1 << 20;
 
 /// As the host's cache has them, so that constants lie as they will.
 struct alignas(64) Line {
