@@ -31,6 +31,11 @@ constexpr int NumZmms = 32;
 constexpr uint64_t LoopWeight = 8;
 constexpr unsigned DeepestLoop = 6;
 
+/// Instructions in front of the return of a function that is written at each of
+/// its calls. Those of the mathematical library around one instruction of the
+/// machine are meant.
+constexpr size_t LongestLeaf = 8;
+
 unsigned numberOf(uint16_t Register) { return Register / sizeof(LaneWords); }
 
 } // namespace
@@ -272,17 +277,22 @@ void Emitter::resumeAt(const Insn *To, unsigned Mode) {
   jmp(*Leave);
 }
 
-/// A jump that has been counted goes to \p To, unless the warp has executed
-/// enough.
-void Emitter::goTo(const Insn *To) {
+/// Behind a jump to \p Next that has been counted.
+void Emitter::stopIfEnough(const Insn *Next) {
   Label Enough;
   cmp(r8, r10);
   jae(Enough);
-  outOfLine([this, Enough, To]() mutable {
+  outOfLine([this, Enough, Next]() mutable {
     L(Enough);
-    mov(rsi, reinterpret_cast<uint64_t>(To));
+    mov(rsi, reinterpret_cast<uint64_t>(Next));
     jmp(*Return);
   });
+}
+
+/// A jump that has been counted goes to \p To, unless the warp has executed
+/// enough.
+void Emitter::goTo(const Insn *To) {
+  stopIfEnough(To);
   resumeAt(To, Full);
 }
 
@@ -351,6 +361,38 @@ void Emitter::writeInsn(const GuestInsn &G) {
     Pending = {};
 }
 
+/// What \p Call calls up to its return, if that is short and straight, and
+/// keeps the place to return to; else nothing.
+std::span<const GuestInsn> Emitter::leafOf(const GuestInsn &Call) const {
+  const Insn *I = Call.I;
+  if (isSink(I->Rd) || I + 1 == Code.begin() + Code.count())
+    return {};
+  const Insn *Target = I + (I->Imm >> 2);
+  const auto First =
+      std::ranges::lower_bound(Region, Target, {}, &GuestInsn::I);
+  for (auto At = First; At != Region.end(); ++At) {
+    const auto Length = static_cast<size_t>(At - First);
+    if (At->I != Target + Length)
+      return {};
+    switch (At->Is) {
+    case Kind::Indirect:
+      if (!isSink(At->I->Rd) || At->I->Rs1 != I->Rd || At->I->Imm != 0)
+        return {};
+      return {First, At};
+    case Kind::Integer:
+    case Kind::Float:
+    case Kind::Load:
+    case Kind::Store:
+      if (At->I->Rd == I->Rd || Length == LongestLeaf)
+        return {};
+      break;
+    default:
+      return {};
+    }
+  }
+  return {};
+}
+
 void Emitter::writeJump(const GuestInsn &G) {
   const Insn *I = G.I;
   const auto Number = static_cast<uint32_t>(I - Code.begin());
@@ -360,7 +402,19 @@ void Emitter::writeJump(const GuestInsn &G) {
     });
   ++Pending.Insns;
   countPending();
-  goTo(I + (I->Imm >> 2));
+  const Insn *Target = I + (I->Imm >> 2);
+  const std::span<const GuestInsn> Leaf = leafOf(G);
+  if (Leaf.empty())
+    return goTo(Target);
+  stopIfEnough(Target);
+  for (const GuestInsn &Inner : Leaf)
+    writeInsn(Inner);
+  ++Pending.Insns;
+  countPending();
+  stopIfEnough(I + 1);
+  const GuestInsn *Next = &G + 1;
+  if (Next == Region.data() + Region.size() || Next->I != I + 1)
+    resumeAt(I + 1, Full);
 }
 
 void Emitter::writeIndirect(const GuestInsn &G) {

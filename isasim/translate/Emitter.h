@@ -88,6 +88,8 @@ private:
   void writeInsn(const GuestInsn &G);
   void writeBranch(const GuestInsn &G);
   void writeJump(const GuestInsn &G);
+  std::span<const GuestInsn> leafOf(const GuestInsn &Call) const;
+  void stopIfEnough(const Insn *Next);
   void writeIndirect(const GuestInsn &G);
   void writeTables();
   void goTo(const Insn *To);

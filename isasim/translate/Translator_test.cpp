@@ -180,6 +180,25 @@ public:
       Words.push_back(encode(Op::VX_JOIN, {.Rs1 = Token}));
   }
 
+  /// A short function, its call, and the way around it. Seldom it overwrites
+  /// the place to return to.
+  void addCall(std::vector<uint32_t> &Words, uint32_t PercentAccesses) {
+    constexpr unsigned ReturnAddress = 1;
+    const uint32_t Length = below(11);
+    Words.push_back(encode(Op::RV_JAL, {.Rd = ReturnAddress, .Imm = 8}));
+    Words.push_back(
+        encode(Op::RV_JAL, {.Imm = 4 * static_cast<int32_t>(Length + 2)}));
+    for (uint32_t N = 0; N != Length;) {
+      const uint32_t Word =
+          below(100) < PercentAccesses ? access() : computation();
+      if (decode(Word)->Rd == ReturnAddress && below(20))
+        continue;
+      Words.push_back(Word);
+      ++N;
+    }
+    Words.push_back(encode(Op::RV_JALR, {.Rs1 = ReturnAddress}));
+  }
+
   /// A loop with ways through it.
   std::vector<uint32_t> program(uint32_t PercentAccesses) {
     const uint32_t Length = 20 + below(60);
@@ -192,6 +211,8 @@ public:
             4 * static_cast<int32_t>(1 + below(std::min(6U, Length - N)))));
       else if (below(12) == 0)
         addSplit(Words, 0);
+      else if (below(20) == 0)
+        addCall(Words, PercentAccesses);
       else if (below(60) == 0)
         Words.push_back(barrier());
       else if (below(60) == 0)
