@@ -112,51 +112,76 @@ void Emitter::locateWords(int In, const Zmm &Offsets, const Zmm &Spare,
   mov(rcx, ptr[rsi + In + RegionHost]);
 }
 
+/// Lets \p Update do the operation of one active lane after the other, whose
+/// word lies at rcx + rdx, and then returns. It may overwrite eax and r11d,
+/// which is the operand and may become the result. \p Offsets are the lanes'
+/// places.
+void Emitter::forLanes(const Zmm &Offsets, bool HasResult,
+                       const std::function<void(const Address &)> &Update) {
+  constexpr int Bytes = 4, OperandsAt = sizeof(LaneWords);
+  sub(rsp, 2 * OperandsAt);
+  vmovdqu32(ptr[rsp], Offsets);
+  vmovdqu32(ptr[rsp + OperandsAt], Operands);
+  const auto DoLane = [&](const RegExp &Lane) {
+    const Address Operand = dword[Lane + OperandsAt];
+    mov(edx, dword[Lane]);
+    mov(r11d, Operand);
+    Update(Operand);
+  };
+  if (isFull())
+    for (int L = 0; L != MaxLanes; ++L)
+      DoLane(rsp + L * Bytes);
+  else {
+    Label Next;
+    push(r12);
+    push(r13);
+    constexpr int Pushed = 16;
+    kmovw(r12d, k1);
+    L(Next);
+    tzcnt(r13d, r12d);
+    DoLane(rsp + r13 * Bytes + Pushed);
+    blsr(r12d, r12d);
+    jnz(Next);
+    pop(r13);
+    pop(r12);
+  }
+  if (HasResult)
+    vmovdqu32(Operands, ptr[rsp + OperandsAt]);
+  add(rsp, 2 * OperandsAt);
+  add(qword[rdi + VORION_PLACE(Count.Changes)], rsi);
+  ret();
+}
+
 /// A function: rcx becomes 0, and nothing has been done, unless the atomic need
 /// not wait for other cores. Else the old words become Operands if
 /// \p HasResult.
 void Emitter::writeAtomic(Amo Kind, bool HasResult, Label &Begin) {
-  constexpr int Bytes = 4, OperandsAt = sizeof(LaneWords);
   const Zmm Offsets = zmm2, Spare = zmm3;
-  /// Lane by lane: \p Update may overwrite eax and r11d, which is the operand
-  /// of the word at rcx + rdx, and adds to rsi if the word changes.
-  const auto ForLanes = [&](const std::function<void()> &Update) {
-    Label Next;
-    push(r12);
-    push(r13);
-    sub(rsp, 2 * OperandsAt);
-    vmovdqu32(ptr[rsp], Offsets);
-    vmovdqu32(ptr[rsp + OperandsAt], Operands);
-    if (isFull())
-      mov(r12d, (1U << MaxLanes) - 1);
-    else
-      kmovw(r12d, k1);
-    xor_(esi, esi);
-    L(Next);
-    tzcnt(r13d, r12d);
-    mov(edx, dword[rsp + r13 * Bytes]);
-    mov(r11d, dword[rsp + r13 * Bytes + OperandsAt]);
-    Update();
-    blsr(r12d, r12d);
-    jnz(Next);
-    if (HasResult)
-      vmovdqu32(Operands, ptr[rsp + OperandsAt]);
-    add(rsp, 2 * OperandsAt);
-    pop(r13);
-    pop(r12);
-    add(qword[rdi + VORION_PLACE(Count.Changes)], rsi);
-    ret();
+  // rsi counts the words that change.
+  const auto CountChanges = [&] {
+    if (Kind == Amo::Add) {
+      vptestmd(active(k2), Operands, Operands);
+      kmovw(esi, k2);
+      popcnt(esi, esi);
+    } else
+      xor_(esi, esi);
   };
   Label NotLocal, Wrong;
   L(Begin);
   mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
   locateWords(InLocal, Offsets, Spare, NotLocal);
-  ForLanes([&] {
-    mov(eax, dword[rcx + rdx]);
+  CountChanges();
+  forLanes(Offsets, HasResult, [&](const Address &Operand) {
+    const Address Word = dword[rcx + rdx];
+    if (Kind == Amo::Add && !HasResult)
+      return add(Word, r11d);
+    mov(eax, Word);
     if (HasResult)
-      mov(dword[rsp + r13 * Bytes + OperandsAt], eax);
+      mov(Operand, eax);
     apply(*this, Kind, r11d, eax);
-    mov(dword[rcx + rdx], r11d);
+    mov(Word, r11d);
+    if (Kind == Amo::Add)
+      return;
     xor_(eax, r11d);
     neg(eax);
     adc(rsi, 0);
@@ -167,11 +192,10 @@ void Emitter::writeAtomic(Amo Kind, bool HasResult, Label &Begin) {
     Label NotGlobal, Add;
     locateWords(InGlobal, Offsets, Spare, NotGlobal);
     L(Add);
-    ForLanes([&] {
+    CountChanges();
+    forLanes(Offsets, HasResult, [&](const Address &) {
       lock();
       add(dword[rcx + rdx], r11d);
-      neg(r11d);
-      adc(rsi, 0);
     });
     L(NotGlobal);
     locateWords(InHigh, Offsets, Spare, Wrong);

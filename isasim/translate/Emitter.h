@@ -115,6 +115,8 @@ private:
   void atomic(const GuestInsn &G);
   void writeAtomics();
   void writeAtomic(Amo Kind, bool HasResult, Xbyak::Label &Begin);
+  void forLanes(const Xbyak::Zmm &Offsets, bool HasResult,
+                const std::function<void(const Xbyak::Address &)> &Update);
   void locateWords(int In, const Xbyak::Zmm &Offsets, const Xbyak::Zmm &Spare,
                    Xbyak::Label &Elsewhere);
 
