@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <ranges>
 
 namespace vorion::isasim::translate {
 
@@ -36,6 +37,9 @@ constexpr unsigned DeepestLoop = 6;
 /// machine are meant.
 constexpr size_t LongestLeaf = 8;
 
+/// What a caller finds as it was.
+constexpr Reg64 KeptRegisters[] = {rbx, rbp, r12, r13, r14, r15};
+
 unsigned numberOf(uint16_t Register) { return Register / sizeof(LaneWords); }
 
 } // namespace
@@ -47,6 +51,7 @@ Emitter::Emitter(const ExecTable &ExecIn, const CodeTable &CodeIn,
       Region(RegionIn) {
   setDefaultJmpNEAR(true);
   allocate();
+  findStackUses();
 }
 
 void Emitter::allocate() {
@@ -221,8 +226,8 @@ void Emitter::writeEntries() {
   L(*Prologue);
   mov(r9, ptr[rdi + VORION_PLACE(Count.WarpInstructions)]);
   mov(r10, ptr[rdi + VORION_PLACE(RetireLimit)]);
-  push(rbx);
-  push(rbp);
+  for (const Reg64 &Kept : KeptRegisters)
+    push(Kept);
   xor_(ebx, ebx);
   xor_(ebp, ebp);
   // The straight line up to here.
@@ -239,6 +244,16 @@ void Emitter::writeEntries() {
   for (unsigned R = 0; R != NumRegisters; ++R)
     if (Zmms[R] >= 0)
       vmovdqa32(Zmm(Zmms[R]), ptr[rdi + R * sizeof(LaneWords)]);
+  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+  mov(r13d, dword[rsi + InGlobal + RegionLo]);
+  mov(r14d, dword[rsi + InGlobal + RegionBytes]);
+  sub(r14d, static_cast<uint32_t>(sizeof(LaneWords)));
+  mov(r15, ptr[rsi + InGlobal + RegionHost]);
+  if (KeepsStackLine) {
+    push(rcx);
+    call(FindOwnStack);
+    pop(rcx);
+  }
   jmp(rcx);
 }
 
@@ -250,8 +265,8 @@ void Emitter::storeRegisters() {
   countLanes();
   add(qword[rdi + VORION_PLACE(Count.Loads)], rbx);
   add(qword[rdi + VORION_PLACE(Count.Stores)], rbp);
-  pop(rbp);
-  pop(rbx);
+  for (const Reg64 &Kept : KeptRegisters | std::views::reverse)
+    pop(Kept);
 }
 
 void Emitter::writeExits() {
@@ -347,6 +362,7 @@ void Emitter::writeInsn(const GuestInsn &G) {
     jmp(toInterpreter());
     break;
   }
+  followStackPointer(G);
   ++Pending.Insns;
   if (ToInterpreter)
     outOfLine([this, &G, Before, At = ToInterpreter] {
@@ -533,6 +549,7 @@ void Emitter::write() {
   for (const unsigned Mode : {1U, 0U})
     writeMode(Mode);
   writeFinders();
+  writeStackFinders();
   writeSetLanes();
   writeTables();
   writeConstants();

@@ -37,6 +37,9 @@ struct Entry {
 ///   r9   r8 when lanes' instructions were counted last
 ///   r10  WarpState::RetireLimit
 ///   rbx, rbp  loads and stores
+///   r12  where the words at the stack pointer lie, or 0 (Stack.cpp)
+///   r13, r14, r15  the region Global of the memory view: where it begins, how
+///        far vectors of words reach from there, where it lies on the host
 ///   k1   active lanes (where not all are)
 ///   zmm0 to zmm7 for one instruction, zmm8: the first active lane's number,
 ///   the rest: the guest's registers that are used most.
@@ -143,11 +146,21 @@ private:
   void locateNeighbours(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
                         const Xbyak::Zmm &Bases, const Xbyak::Zmm &Spread,
                         Xbyak::Label &Apart, Xbyak::Label &Wrong);
-  void locateOnStack(const Xbyak::Zmm &Addresses, Xbyak::Label &Wrong);
   void locateEach(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
-                  const Xbyak::Zmm &Offsets, const Xbyak::Zmm &Spare,
-                  Xbyak::Label &Wrong);
+                  const Xbyak::Zmm &Offsets, Xbyak::Label &Wrong);
   void writeFinders();
+
+  // Stack.cpp.
+  void findStackUses();
+  bool isOnStack(const GuestInsn &G) const;
+  void loadFromStack(const GuestInsn &G, Xbyak::Label &Wrong);
+  void storeToStack(const GuestInsn &G, Xbyak::Label &Wrong);
+  void locateOnStack(const Xbyak::Zmm &Addresses, Xbyak::Label &Wrong);
+  void followStackPointer(const GuestInsn &G);
+  void atStackLine(const GuestInsn &G, Xbyak::Label &Wrong,
+                   const std::function<void(const Xbyak::RegExp &)> &Access);
+  void writeStackFinders();
+  void writeOwnStackFinder();
 
   const ExecTable &Exec;
   const CodeTable &Code;
@@ -158,6 +171,9 @@ private:
   int Zmms[NumRegisters]; ///< by guest register; below 0: in memory
   bool Written[NumRegisters] = {};
   bool Rounds = false; ///< something depends on frm
+  /// Whether r12 is kept, and the least and greatest distance from it.
+  bool KeepsStackLine = false;
+  int32_t LeastOnStack = 0, GreatestOnStack = 0;
 
   bool Full = false;
   /// What has been executed and not been counted yet.
@@ -169,7 +185,8 @@ private:
   std::deque<Xbyak::Label> ToInterpreters;
   Xbyak::Label *ToInterpreter = nullptr; ///< of the present instruction
   std::optional<Xbyak::Label> Leave, Return, Prologue;
-  Xbyak::Label FindReadable, FindWritable, FindStackLine, SetLanes;
+  Xbyak::Label FindReadable, FindWritable, FindStackLine, FindOwnStack,
+      SetLanes;
   /// Of places that lead, by WarpState::Full.
   std::map<const Insn *, Xbyak::Label> Labels[2];
   /// Where they are from the table on, by the instruction's number in the

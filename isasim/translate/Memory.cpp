@@ -1,7 +1,6 @@
 // Loads and stores. Neighbouring lanes at neighbouring places, all lanes at one
-// place, and lanes anywhere in one region, in this order; by the stack pointer,
-// the same place of all lanes' stacks. The rest, and all that is wrong, is the
-// interpreter's.
+// place, and lanes anywhere in one region, in this order; Stack.cpp has those
+// by the stack pointer. The rest, and all that is wrong, is the interpreter's.
 
 #include "translate/Places.h"
 #include "translate/Value.h"
@@ -13,9 +12,8 @@ using namespace Xbyak::util;
 
 namespace {
 
-constexpr uint16_t StackPointer = 2 * sizeof(LaneWords);
 constexpr auto NotEqual = static_cast<uint8_t>(Relation::NotEqual);
-constexpr auto Above = static_cast<uint8_t>(Relation::Greater);
+constexpr auto NotBelow = static_cast<uint8_t>(Relation::NotLess);
 
 struct Element {
   int Bytes;
@@ -67,17 +65,25 @@ void Emitter::locate(int Size, unsigned Count, bool IsStore, Label &Wrong) {
     test(al, Size - 1);
     jnz(Wrong);
   }
-  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
   mov(ecx, eax);
-  sub(ecx, dword[rsi + InGlobal + RegionLo]);
-  mov(edx, dword[rsi + InGlobal + RegionBytes]);
-  sub(edx, Bytes);
-  cmp(ecx, edx);
+  sub(ecx, r13d);
+  cmp(ecx, r14d);
   ja(Elsewhere);
-  add(rcx, ptr[rsi + InGlobal + RegionHost]);
+  add(rcx, r15);
   L(Found);
   outOfLine([=, this, &Wrong]() mutable {
+    Label NotLocal;
     L(Elsewhere);
+    mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+    mov(ecx, eax);
+    sub(ecx, dword[rsi + InLocal + RegionLo]);
+    mov(edx, dword[rsi + InLocal + RegionBytes]);
+    sub(edx, Bytes);
+    cmp(ecx, edx);
+    ja(NotLocal);
+    add(rcx, ptr[rsi + InLocal + RegionHost]);
+    jmp(Found);
+    L(NotLocal);
     mov(edx, Bytes);
     call(IsStore ? FindWritable : FindReadable);
     test(rcx, rcx);
@@ -123,82 +129,41 @@ void Emitter::writeFinders() {
     L(Found);
     ret();
   }
-  // rcx becomes where the word at eax of lane 0's stack lies, if those of the
-  // other lanes are its neighbours there (MemoryView::stackOffset), or 0.
-  Label Fails;
-  L(FindStackLine);
-  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
-  test(al, 3);
-  jnz(Fails);
-  mov(ecx, dword[rsi + InShift]);
-  mov(edx, dword[rdi + VORION_PLACE(LastLane)]);
-  shl(edx, cl);
-  mov(r11d, eax);
-  sub(r11d, edx);
-  sub(r11d, dword[rsi + InStack + RegionLo]);
-  mov(edx, dword[rsi + InStack + RegionBytes]);
-  sub(edx, 4);
-  cmp(r11d, edx);
-  ja(Fails);
-  mov(edx, dword[rsi + InStack + RegionLo]);
-  add(edx, dword[rsi + InStack + RegionBytes]);
-  dec(edx);
-  sub(edx, eax); // bytes from the top
-  cmp(edx, dword[rsi + InStack + RegionBytes]);
-  jae(Fails);
-  mov(eax, edx);
-  shr(eax, cl); // lane 0's hart
-  test(eax, StackGroup - 1);
-  jnz(Fails);
-  mov(r11d, ~0U);
-  shl(r11d, cl);
-  and_(r11d, edx); // of the stacks in front
-  sub(edx, r11d);
-  shr(edx, 2);
-  imul(edx, edx, 4 * StackGroup);
-  lea(rcx, ptr[r11 + rdx]);
-  add(rcx, ptr[rsi + InStack + RegionHost]);
-  ret();
-  L(Fails);
-  xor_(ecx, ecx);
-  ret();
-}
-
-/// rcx becomes where lane 0's word lies if \p Addresses are the same place of
-/// all lanes' stacks.
-void Emitter::locateOnStack(const Zmm &Addresses, Label &Wrong) {
-  const Zmm Back = scratch(), Spread = scratch();
-  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
-  vmovd(Xmm(Spread.getIdx()), dword[rsi + InShift]);
-  vmovdqa32(Back, laneNumbers(1));
-  vpslld(Back, Back, Xmm(Spread.getIdx()));
-  vpaddd(Back, Back, Addresses);
-  jumpIfDiffer(Back, Spread, Wrong);
-  call(FindStackLine);
-  test(rcx, rcx);
-  jz(Wrong);
 }
 
 /// For active lanes at aligned \p Addresses in one region: \p Offsets from rcx.
-/// eax has the first one's address, and \p Spare is overwritten.
+/// eax has the first one's address.
 void Emitter::locateEach(const Zmm &Addresses, int Bytes, bool IsStore,
-                         const Zmm &Offsets, const Zmm &Spare, Label &Wrong) {
+                         const Zmm &Offsets, Label &Wrong) {
+  Label Found;
+  // Of aligned places in a region of whole words. k2 has those elsewhere.
+  const auto Try = [&](const RegExp &In) {
+    vpsubd(Offsets, Addresses, ptr_b[In + RegionLo]);
+    vpcmpud(active(k2), Offsets, ptr_b[In + RegionBytes], NotBelow);
+    if (Bytes > 1)
+      kortestw(k2, k3);
+    else
+      kortestw(k2, k2);
+  };
+  if (Bytes > 1)
+    vptestmd(active(k3), Addresses, constant(static_cast<uint32_t>(Bytes - 1)));
+  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+  for (const int In : {InGlobal, InLocal}) {
+    Label Elsewhere;
+    Try(rsi + In);
+    jnz(Elsewhere);
+    mov(rcx, ptr[rsi + In + RegionHost]);
+    jmp(Found);
+    L(Elsewhere);
+  }
   mov(edx, Bytes);
   call(IsStore ? FindWritable : FindReadable);
   test(rcx, rcx);
   jz(Wrong);
-  vpsubd(Offsets, Addresses, ptr_b[rcx + RegionLo]);
-  mov(eax, dword[rcx + RegionBytes]);
-  sub(eax, Bytes);
-  vpbroadcastd(Spare, eax);
-  vpcmpud(active(k2), Offsets, Spare, Above);
-  if (Bytes > 1) {
-    vptestmd(active(k3), Addresses, constant(static_cast<uint32_t>(Bytes - 1)));
-    korw(k2, k2, k3);
-  }
-  kortestw(k2, k2);
+  Try(rcx);
   jnz(Wrong);
   mov(rcx, ptr[rcx + RegionHost]);
+  L(Found);
   if (isFull())
     kxnorw(k2, k2, k2);
   else
@@ -220,12 +185,9 @@ void Emitter::load(const GuestInsn &G) {
   const bool IsSigned = elementOf(G.Opcode).IsSigned;
   Label &Wrong = toInterpreter();
   ++Pending.Loads;
+  if (isOnStack(G))
+    return loadFromStack(G, Wrong);
   const Zmm Addresses = addressesOf(I);
-  if (I->Rs1 == StackPointer && Bytes == 4) {
-    locateOnStack(Addresses, Wrong);
-    result(I->Rd, [&](const Zmm &To) { vmovdqu32(To, ptr[rcx]); });
-    return;
-  }
   const Zmm Bases = scratch(), Spread = scratch();
   Label Apart, Done;
   locateNeighbours(Addresses, Bytes, false, Bases, Spread, Apart, Wrong);
@@ -252,12 +214,18 @@ void Emitter::load(const GuestInsn &G) {
     result(I->Rd, [&](const Zmm &To) { vpbroadcastd(To, ecx); });
     jmp(Done);
     L(Scattered);
-    locateEach(Addresses, Bytes, false, Bases, Spread, Wrong);
-    vpgatherdd(Spread | k2, ptr[rcx + Bases]);
-    if (const auto Shift = static_cast<uint8_t>(32 - 8 * Bytes)) {
-      vpslld(Spread, Spread, Shift);
-      IsSigned ? vpsrad(Spread, Spread, Shift) : vpsrld(Spread, Spread, Shift);
+    locateEach(Addresses, Bytes, false, Bases, Wrong);
+    if (Bytes == 4) {
+      result(I->Rd, [&](const Zmm &To) {
+        vpgatherdd(Zmm(To.getIdx()) | k2, ptr[rcx + Bases]);
+      });
+      jmp(Done);
+      return;
     }
+    vpgatherdd(Spread | k2, ptr[rcx + Bases]);
+    const auto Shift = static_cast<uint8_t>(32 - 8 * Bytes);
+    vpslld(Spread, Spread, Shift);
+    IsSigned ? vpsrad(Spread, Spread, Shift) : vpsrld(Spread, Spread, Shift);
     result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, Spread); });
     jmp(Done);
   });
@@ -268,14 +236,11 @@ void Emitter::store(const GuestInsn &G) {
   const int Bytes = elementOf(G.Opcode).Bytes;
   Label &Wrong = toInterpreter();
   ++Pending.Stores;
+  if (isOnStack(G))
+    return storeToStack(G, Wrong);
   const Zmm Addresses = addressesOf(I);
   const Zmm Values = inZmm(guest(I->Rs2));
   const Address To = isFull() ? ptr[rcx] : ptr[rcx] | k1;
-  if (I->Rs1 == StackPointer && Bytes == 4) {
-    locateOnStack(Addresses, Wrong);
-    vmovdqu32(To, Values);
-    return;
-  }
   const Zmm Bases = scratch(), Spread = scratch();
   Label Apart, Done;
   locateNeighbours(Addresses, Bytes, true, Bases, Spread, Apart, Wrong);
@@ -294,7 +259,7 @@ void Emitter::store(const GuestInsn &G) {
       return;
     }
     spreadFirst(Spread, Addresses);
-    locateEach(Addresses, Bytes, true, Bases, Spread, Wrong);
+    locateEach(Addresses, Bytes, true, Bases, Wrong);
     // In the order of the lanes, as the guest's.
     vpscatterdd(ptr[rcx + Bases] | k2, Values);
     jmp(Done);

@@ -213,6 +213,12 @@ public:
         addSplit(Words, 0);
       else if (below(20) == 0)
         addCall(Words, PercentAccesses);
+      else if (below(30) == 0)
+        Words.push_back(
+            encode(below(4) ? Op::RV_ADDI : Op::RV_LW,
+                   {.Rd = StackPointer,
+                    .Rs1 = StackPointer,
+                    .Imm = (static_cast<int32_t>(below(9)) - 4) * 4}));
       else if (below(60) == 0)
         Words.push_back(barrier());
       else if (below(60) == 0)
@@ -249,8 +255,7 @@ public:
       if (N >= FirstAddress && N <= LastAddress)
         X = addresses();
       if (N == StackPointer)
-        for (uint32_t L = 0; L != MaxLanes; ++L)
-          X[L] = VX_STACK_TOP - 64 - (L << 16);
+        X = stackPointers();
       if (N == Place + 5)
         X.fill(below(2) ? 0xFFFF : 0x0FF0);
       if (N == Counter)
@@ -260,6 +265,19 @@ public:
         R->setF(N, F);
       }
     }
+  }
+
+  /// The same place of all lanes' stacks, seldom near an end; or of all but
+  /// one.
+  Lanes16 stackPointers() {
+    static constexpr uint32_t Depths[] = {64, 64, 64, 128, 16, (64 << 10) - 24};
+    const uint32_t Depth = oneOf(Depths);
+    Lanes16 A;
+    for (uint32_t L = 0; L != MaxLanes; ++L)
+      A[L] = VX_STACK_TOP - Depth - (L << 16);
+    if (below(8) == 0)
+      A[below(MaxLanes)] -= 4;
+    return A;
   }
 
   /// Of neighbours, of one place, of any; in any region, and of nothing.

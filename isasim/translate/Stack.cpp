@@ -1,0 +1,209 @@
+// Words at the stack pointer. The lanes' stacks are interleaved on the host
+// (MemoryView::stackOffset), so the same place of all 16 is a line there. Where
+// the stack pointers of all lanes name such a place, active or not, r12 has its
+// line until the stack pointer is written, and the lines around it are as far
+// away from there as the immediates say. Elsewhere each access looks for the
+// line of the active lanes.
+
+#include "translate/Places.h"
+#include "translate/Value.h"
+
+#include <algorithm>
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak;
+using namespace Xbyak::util;
+
+namespace {
+
+constexpr uint16_t StackPointer = 2 * sizeof(LaneWords);
+constexpr int32_t WordBytes = 4, LineBytes = WordBytes * StackGroup;
+constexpr auto NotEqual = static_cast<uint8_t>(Relation::NotEqual);
+
+/// From the line of the stack pointer to that of \p Imm: stacks grow downwards,
+/// and so do the lines.
+int32_t distanceOf(int32_t Imm) { return -Imm / WordBytes * LineBytes; }
+
+} // namespace
+
+bool Emitter::isOnStack(const GuestInsn &G) const {
+  switch (G.Opcode) {
+  case Op::RV_LW:
+  case Op::RV_FLW:
+  case Op::RV_SW:
+  case Op::RV_FSW:
+    return G.I->Rs1 == StackPointer && G.I->Imm % WordBytes == 0;
+  default:
+    return false;
+  }
+}
+
+void Emitter::findStackUses() {
+  for (const GuestInsn &G : Region)
+    if (isOnStack(G)) {
+      KeepsStackLine = true;
+      LeastOnStack = std::min(LeastOnStack, G.I->Imm);
+      GreatestOnStack = std::max(GreatestOnStack, G.I->Imm);
+    }
+  // Others that write the stack pointer may go elsewhere from there.
+  for (const GuestInsn &G : Region)
+    if (G.I->Rd == StackPointer && G.Is != Kind::Integer &&
+        G.Is != Kind::Load && G.Is != Kind::Other)
+      KeepsStackLine = false;
+}
+
+void Emitter::followStackPointer(const GuestInsn &G) {
+  if (KeepsStackLine && G.I->Rd == StackPointer && G.Is != Kind::Other)
+    call(FindOwnStack);
+}
+
+/// With the line at r12, if there is one; else at rcx.
+void Emitter::atStackLine(const GuestInsn &G, Label &Wrong,
+                          const std::function<void(const RegExp &)> &Access) {
+  if (!KeepsStackLine) {
+    locateOnStack(addressesOf(G.I), Wrong);
+    return Access(rcx);
+  }
+  Label Lost, Done;
+  test(r12, r12);
+  jz(Lost);
+  Access(r12 + distanceOf(G.I->Imm));
+  L(Done);
+  outOfLine([=, this, &G, &Wrong]() mutable {
+    L(Lost);
+    locateOnStack(addressesOf(G.I), Wrong);
+    Access(rcx);
+    jmp(Done);
+  });
+}
+
+void Emitter::loadFromStack(const GuestInsn &G, Label &Wrong) {
+  atStackLine(G, Wrong, [this, Rd = G.I->Rd](const RegExp &Line) {
+    result(Rd, [&](const Zmm &To) { vmovdqu32(To, ptr[Line]); });
+  });
+}
+
+void Emitter::storeToStack(const GuestInsn &G, Label &Wrong) {
+  const Zmm Values = inZmm(guest(G.I->Rs2));
+  atStackLine(G, Wrong, [this, Values](const RegExp &Line) {
+    vmovdqu32(isFull() ? ptr[Line] : ptr[Line] | k1, Values);
+  });
+}
+
+/// rcx becomes where lane 0's word lies if \p Addresses are the same place of
+/// all lanes' stacks.
+void Emitter::locateOnStack(const Zmm &Addresses, Label &Wrong) {
+  const Zmm Back = scratch(), Spread = scratch();
+  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+  vmovd(Xmm(Spread.getIdx()), dword[rsi + InShift]);
+  vmovdqa32(Back, laneNumbers(1));
+  vpslld(Back, Back, Xmm(Spread.getIdx()));
+  vpaddd(Back, Back, Addresses);
+  jumpIfDiffer(Back, Spread, Wrong);
+  call(FindStackLine);
+  test(rcx, rcx);
+  jz(Wrong);
+}
+
+/// Functions of a mode.
+void Emitter::writeStackFinders() {
+  // rcx becomes where the word at eax of lane 0's stack lies, if those of the
+  // other lanes are its neighbours there (MemoryView::stackOffset), or 0.
+  Label Fails;
+  L(FindStackLine);
+  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+  test(al, WordBytes - 1);
+  jnz(Fails);
+  mov(ecx, dword[rsi + InShift]);
+  mov(edx, dword[rdi + VORION_PLACE(LastLane)]);
+  shl(edx, cl);
+  mov(r11d, eax);
+  sub(r11d, edx);
+  sub(r11d, dword[rsi + InStack + RegionLo]);
+  mov(edx, dword[rsi + InStack + RegionBytes]);
+  sub(edx, WordBytes);
+  cmp(r11d, edx);
+  ja(Fails);
+  mov(edx, dword[rsi + InStack + RegionLo]);
+  add(edx, dword[rsi + InStack + RegionBytes]);
+  dec(edx);
+  sub(edx, eax); // bytes from the top
+  cmp(edx, dword[rsi + InStack + RegionBytes]);
+  jae(Fails);
+  mov(eax, edx);
+  shr(eax, cl); // lane 0's hart
+  test(eax, StackGroup - 1);
+  jnz(Fails);
+  mov(r11d, ~0U);
+  shl(r11d, cl);
+  and_(r11d, edx); // of the stacks in front
+  sub(edx, r11d);
+  shr(edx, 2);
+  imul(edx, edx, LineBytes);
+  lea(rcx, ptr[r11 + rdx]);
+  add(rcx, ptr[rsi + InStack + RegionHost]);
+  ret();
+  L(Fails);
+  xor_(ecx, ecx);
+  ret();
+  if (KeepsStackLine)
+    writeOwnStackFinder();
+}
+
+/// Sets r12. The mode and the active lanes do not matter.
+void Emitter::writeOwnStackFinder() {
+  Label None;
+  L(FindOwnStack);
+  xor_(r12d, r12d);
+  mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
+  const int Kept = zmmOf(StackPointer);
+  const Zmm Pointers = Kept < 0 ? zmm0 : Zmm(Kept);
+  if (Kept < 0)
+    vmovdqa32(Pointers, ptr[rdi + StackPointer]);
+  vmovd(xmm1, dword[rsi + InShift]);
+  vmovdqa32(zmm2, laneNumbers(1));
+  vpslld(zmm2, zmm2, xmm1);
+  vpaddd(zmm2, zmm2, Pointers);
+  vpbroadcastd(zmm1, xmm2);
+  vpcmpud(k2, zmm2, zmm1, NotEqual);
+  kortestw(k2, k2);
+  jnz(None);
+  vmovd(eax, xmm2);
+  test(al, WordBytes - 1);
+  jnz(None);
+  mov(edx, dword[rsi + InStack + RegionLo]);
+  add(edx, dword[rsi + InStack + RegionBytes]);
+  dec(edx);
+  sub(edx, eax); // bytes from the top
+  mov(ecx, dword[rsi + InShift]);
+  mov(r11d, MaxLanes - 1);
+  shl(r11d, cl);
+  add(r11, rdx); // of the last lane
+  mov(eax, dword[rsi + InStack + RegionBytes]);
+  cmp(r11, rax);
+  jae(None);
+  mov(eax, edx);
+  shr(eax, cl); // lane 0's hart
+  test(eax, StackGroup - 1);
+  jnz(None);
+  mov(r11d, ~0U);
+  shl(r11d, cl);
+  and_(r11d, edx); // of the stacks in front
+  sub(edx, r11d);
+  // All immediates stay in the stack.
+  cmp(edx, GreatestOnStack);
+  jb(None);
+  mov(eax, edx);
+  sub(eax, LeastOnStack);
+  shr(eax, cl);
+  jnz(None);
+  shr(edx, 2);
+  imul(edx, edx, LineBytes);
+  lea(r12, ptr[r11 + rdx]);
+  add(r12, ptr[rsi + InStack + RegionHost]);
+  L(None);
+  ret();
+}
+
+} // namespace vorion::isasim::translate
