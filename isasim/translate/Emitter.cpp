@@ -197,7 +197,7 @@ void Emitter::addPresent() {
 void Emitter::countLanes() {
   mov(rcx, r8);
   sub(rcx, r9);
-  mov(edx, dword[rdi + VORION_PLACE(LaneCount)]);
+  popcnt(edx, dword[rdi + VORION_PLACE(Mask)]);
   imul(rcx, rdx);
   add(qword[rdi + VORION_PLACE(Count.LaneInstructions)], rcx);
 }
@@ -263,6 +263,7 @@ void Emitter::storeRegisters() {
       vmovdqa32(ptr[rdi + R * sizeof(LaneWords)], Zmm(Zmms[R]));
   mov(ptr[rdi + VORION_PLACE(Count.WarpInstructions)], r8);
   countLanes();
+  storeLanes();
   add(qword[rdi + VORION_PLACE(Count.Loads)], rbx);
   add(qword[rdi + VORION_PLACE(Count.Stores)], rbp);
   for (const Reg64 &Kept : KeptRegisters | std::views::reverse)
@@ -550,7 +551,6 @@ void Emitter::write() {
     writeMode(Mode);
   writeFinders();
   writeStackFinders();
-  writeSetLanes();
   writeTables();
   writeConstants();
 }

@@ -129,13 +129,14 @@ private:
   void join(const GuestInsn &G);
   void predicate(const GuestInsn &G, bool IsNegated);
   void predicateOf(uint16_t Register, bool IsNegated);
+  void spreadLast(const Xbyak::Zmm &To, const Xbyak::Zmm &From);
   void lastLane(uint16_t Register);
   void vote(const GuestInsn &G);
   void shuffle(const GuestInsn &G);
   void barrier(const GuestInsn &G);
   void changeLanes();
   void resumeAtEither(const Insn *To);
-  void writeSetLanes();
+  void storeLanes();
 
   // Memory.cpp.
   Xbyak::Zmm addressesOf(const Insn *I);
@@ -185,8 +186,7 @@ private:
   std::deque<Xbyak::Label> ToInterpreters;
   Xbyak::Label *ToInterpreter = nullptr; ///< of the present instruction
   std::optional<Xbyak::Label> Leave, Return, Prologue;
-  Xbyak::Label FindReadable, FindWritable, FindStackLine, FindOwnStack,
-      SetLanes;
+  Xbyak::Label FindReadable, FindWritable, FindStackLine, FindOwnStack;
   /// Of places that lead, by WarpState::Full.
   std::map<const Insn *, Xbyak::Label> Labels[2];
   /// Where they are from the table on, by the instruction's number in the

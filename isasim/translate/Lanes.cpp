@@ -27,54 +27,60 @@ constexpr size_t MostSides = 8;
 
 } // namespace
 
+/// The last active lane's word of \p From in every lane of \p To.
+void Emitter::spreadLast(const Zmm &To, const Zmm &From) {
+  bsr(eax, dword[rdi + MaskPlace]);
+  vpbroadcastd(To, eax);
+  vpermd(To, To, From);
+}
+
 /// eax becomes the word of the last active lane.
 void Emitter::lastLane(uint16_t Register) {
   const Term From = guest(Register);
   if (From.isNumber())
     return mov(eax, From.Bits);
   const Zmm To = scratch();
-  vpbroadcastd(To, dword[rdi + VORION_PLACE(LastLane)]);
-  vpermd(To, To, Zmm(From.Zmm));
+  spreadLast(To, Zmm(From.Zmm));
   vmovd(eax, Xmm(To.getIdx()));
 }
 
-/// As WarpState::Full is now.
+/// In the mode of the active lanes eax.
 void Emitter::resumeAtEither(const Insn *To) {
   Label NotFull;
-  cmp(dword[rdi + VORION_PLACE(Full)], 0);
-  je(NotFull);
+  cmp(eax, AllBits);
+  jne(NotFull);
   resumeAt(To, 1);
   L(NotFull);
   resumeAt(To, 0);
 }
 
-/// Counts up to and with the present instruction; then the lanes of eax are the
-/// active ones. Overwrites rcx and rdx.
+/// Counts up to and with the present instruction; then the lanes of eax, which
+/// is not 0, are the active ones. What else the interpreter keeps of them is
+/// brought up to date when it goes on. Overwrites rcx and rdx.
 void Emitter::changeLanes() {
   addPresent();
   countLanes();
   mov(r9, r8);
-  call(SetLanes);
-}
-
-/// setMask() of Warps.h for the mask eax, which is not 0.
-void Emitter::writeSetLanes() {
-  L(SetLanes);
   mov(dword[rdi + MaskPlace], eax);
   kmovw(k1, eax);
-  popcnt(ecx, eax);
-  mov(dword[rdi + VORION_PLACE(LaneCount)], ecx);
-  bsr(ecx, eax);
-  mov(dword[rdi + VORION_PLACE(LastLane)], ecx);
   bsf(ecx, eax);
   vpbroadcastd(Zmm(FirstLaneZmm), ecx);
-  xor_(ecx, ecx);
-  cmp(eax, AllBits);
-  sete(cl);
-  mov(dword[rdi + VORION_PLACE(Full)], ecx);
+}
+
+/// What setMask() of Warps.h computes from the mask.
+void Emitter::storeLanes() {
+  mov(ecx, dword[rdi + MaskPlace]);
+  popcnt(edx, ecx);
+  mov(dword[rdi + VORION_PLACE(LaneCount)], edx);
+  bsr(edx, ecx);
+  mov(dword[rdi + VORION_PLACE(LastLane)], edx);
+  xor_(edx, edx);
+  cmp(ecx, AllBits);
+  sete(dl);
+  mov(dword[rdi + VORION_PLACE(Full)], edx);
+  kmovw(k1, ecx);
   vpmovm2d(zmm0, k1);
   vmovdqa32(ptr[rdi + VORION_PLACE(MaskWords)], zmm0);
-  ret();
 }
 
 /// eax becomes the active lanes whose predicate is set, in \p Register.
@@ -199,8 +205,7 @@ void Emitter::vote(const GuestInsn &G) {
   const Zmm A = inZmm(guest(I->Rs1));
   if (G.Opcode == Op::VX_VOTE_UNI) {
     const Zmm Last = scratch();
-    vpbroadcastd(Last, dword[rdi + VORION_PLACE(LastLane)]);
-    vpermd(Last, Last, A);
+    spreadLast(Last, A);
     vpcmpeqd(active(k2), A, Last);
   } else
     vptestmd(active(k2), A, A);
@@ -262,7 +267,8 @@ void Emitter::shuffle(const GuestInsn &G) {
          static_cast<uint8_t>(Relation::Less));
   // A lane that is not active gives nothing.
   if (!isFull()) {
-    vpermd(High, From, ptr[rdi + VORION_PLACE(MaskWords)]);
+    vpmovm2d(High, k1);
+    vpermd(High, From, High);
     vptestmd(k2 | k2, High, High);
   }
   vmovdqa32(Low, Values);

@@ -116,7 +116,7 @@ void Emitter::writeStackFinders() {
   test(al, WordBytes - 1);
   jnz(Fails);
   mov(ecx, dword[rsi + InShift]);
-  mov(edx, dword[rdi + VORION_PLACE(LastLane)]);
+  bsr(edx, dword[rdi + VORION_PLACE(Mask)]);
   shl(edx, cl);
   mov(r11d, eax);
   sub(r11d, edx);
