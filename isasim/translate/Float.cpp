@@ -164,8 +164,19 @@ void Emitter::floating(const GuestInsn &G) {
     result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, R); });
   };
   const auto FromInt = [&](bool IsSigned) {
+    const auto Convert = [&](const Zmm &To, const Zmm &From) {
+      IsSigned ? vcvtdq2ps(To, From) : vcvtudq2ps(To, From);
+    };
+    const auto Mode = static_cast<unsigned>(I->Imm);
+    const bool RaisesNone = Mode == Rtz || Mode == Rdn || Mode == Rup;
+    // What is no float is inexact in every mode.
+    if (RaisesNone)
+      Convert(active(scratch()), A.In);
     result(I->Rd, [&](const Zmm &To) {
-      IsSigned ? vcvtdq2ps(To, A.In) : vcvtudq2ps(To, A.In);
+      Convert(To, Mode == Rtz   ? A.In | T_rz_sae
+                  : Mode == Rdn ? A.In | T_rd_sae
+                  : Mode == Rup ? A.In | T_ru_sae
+                                : A.In);
     });
   };
   switch (G.Opcode) {

@@ -42,6 +42,16 @@ Kind kindOf(Op O, const Insn *I) {
 #define COMPARE(OP, CONDITION, QUIET_IS_INVALID)
 #define MINMAX(OP, IS_MIN)
 #define TOINT(OP, SIGNED, SOFT)
+#define FROMINT(OP, SIGNED, SOFT)
+#include "core/insns/float.def"
+#undef FLOAT
+#undef FUSED
+#undef TOINT
+#undef FROMINT
+    return roundsAsHost(I) ? Kind::Float : Kind::Other;
+#define FLOAT(OP, SOFT, RESULT)
+#define FUSED(OP, SOFT, FACTOR, ADDEND)
+#define TOINT(OP, SIGNED, SOFT) case Op::OP:
 #define FROMINT(OP, SIGNED, SOFT) case Op::OP:
 #include "core/insns/float.def"
 #undef FLOAT
@@ -50,9 +60,6 @@ Kind kindOf(Op O, const Insn *I) {
 #undef MINMAX
 #undef TOINT
 #undef FROMINT
-    return roundsAsHost(I) ? Kind::Float : Kind::Other;
-  case Op::RV_FCVT_W_S:
-  case Op::RV_FCVT_WU_S:
     // The host has a form for every mode but ties away from zero.
     return static_cast<unsigned>(I->Imm) == Rmm ? Kind::Other : Kind::Float;
   case Op::RV_FEQ_S:
