@@ -86,6 +86,11 @@ Expected<std::unique_ptr<Memory>> Memory::create(const Config &C) {
     Expected<Mapping> M = Mapping::make(IsStack ? StackBytesOnHost : Bytes);
     if (!M)
       return M.error();
+    // Buffers are walked at strides that leave no page's translation in the
+    // host's TLB: project.cl reads 59 planes of a scene at a time. Hosts that
+    // have no large pages say no.
+    if (Lo == Low.Base || Lo == High.Base)
+      madvise(M->data(), Bytes, MADV_HUGEPAGE);
     Regions.push_back({Lo, static_cast<uint32_t>(Bytes), M->data()});
     Maps.push_back(std::move(*M));
   }
