@@ -143,9 +143,15 @@ void Emitter::result(uint16_t Register,
   if (const int Z = zmmOf(Register); Z >= 0)
     return Write(active(Zmm(Z)));
   const Zmm To = scratch();
+  if (isSink(Register))
+    return Write(active(To));
+  // The host lets a load wait for a store with a mask in front of it until the
+  // cache has that. So the other lanes' words are stored, too.
+  const Address Word = ptr[rdi + Register];
+  if (!Full)
+    vmovdqa32(To, Word);
   Write(active(To));
-  if (!isSink(Register))
-    vmovdqa32(Full ? ptr[rdi + Register] : ptr[rdi + Register] | k1, To);
+  vmovdqa32(Word, To);
 }
 
 Label &Emitter::toInterpreter() {

@@ -2,8 +2,9 @@
 // (MemoryView::stackOffset), so the same place of all 16 is a line there. Where
 // the stack pointers of all lanes name such a place, active or not, r12 has its
 // line until the stack pointer is written, and the lines around it are as far
-// away from there as the immediates say. Elsewhere each access looks for the
-// line of the active lanes.
+// away from there as the immediates say. All of them are the core's own, so
+// what they have of lanes that are not active may be written again. Elsewhere
+// each access looks for the line of the active lanes.
 
 #include "translate/Places.h"
 #include "translate/Value.h"
@@ -86,8 +87,16 @@ void Emitter::loadFromStack(const GuestInsn &G, Label &Wrong) {
 
 void Emitter::storeToStack(const GuestInsn &G, Label &Wrong) {
   const Zmm Values = inZmm(guest(G.I->Rs2));
-  atStackLine(G, Wrong, [this, Values](const RegExp &Line) {
-    vmovdqu32(isFull() ? ptr[Line] : ptr[Line] | k1, Values);
+  const Zmm Line = scratch();
+  atStackLine(G, Wrong, [=, this](const RegExp &At) {
+    if (isFull())
+      return vmovdqu32(ptr[At], Values);
+    if (At.getBase().getIdx() != r12.getIdx())
+      return vmovdqu32(ptr[At] | k1, Values);
+    // Not with a mask, for the reason that result() has.
+    vmovdqu32(Line, ptr[At]);
+    vmovdqa32(Line | k1, Values);
+    vmovdqu32(ptr[At], Line);
   });
 }
 
@@ -156,6 +165,9 @@ void Emitter::writeOwnStackFinder() {
   Label None;
   L(FindOwnStack);
   xor_(r12d, r12d);
+  // Cores of fewer lanes share lines.
+  cmp(dword[rdi + VORION_PLACE(AllLanes)], (1U << MaxLanes) - 1);
+  jne(None);
   mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
   const int Kept = zmmOf(StackPointer);
   const Zmm Pointers = Kept < 0 ? zmm0 : Zmm(Kept);
