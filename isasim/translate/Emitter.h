@@ -90,12 +90,6 @@ private:
   void writeMode(unsigned Mode);
   void writeInsn(const GuestInsn &G);
   void writeBranch(const GuestInsn &G);
-  void writeJump(const GuestInsn &G);
-  std::span<const GuestInsn> leafOf(const GuestInsn &Call) const;
-  void stopIfEnough(const Insn *Next);
-  void writeIndirect(const GuestInsn &G);
-  void writeTables();
-  void goTo(const Insn *To);
   void resumeAt(const Insn *To, unsigned Mode);
   void countLanes();
   void addPending();
@@ -107,6 +101,14 @@ private:
   void writeConstants();
   Handler original(const Insn *I, Op O) const;
   int zmmOf(uint16_t Register) const;
+
+  // Jumps.cpp.
+  void writeJump(const GuestInsn &G);
+  std::span<const GuestInsn> leafOf(const GuestInsn &Call) const;
+  void stopIfEnough(const Insn *Next);
+  void writeIndirect(const GuestInsn &G);
+  void writeTables();
+  void goTo(const Insn *To);
 
   // Float.cpp, Integer.cpp, Memory.cpp.
   void integer(const GuestInsn &G);
