@@ -28,9 +28,8 @@ set(CPACK_DEBIAN_VORION_PACKAGE_NAME vorion)
 set(CPACK_DEBIAN_VORION_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_VORION_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_BINARY_DIR}/lib")
-# What no ELF file names: headers of OpenCL C and of the compiler, the linker and the reader of SPIR-V, which the
-# tools start.
-set(CPACK_DEBIAN_VORION_PACKAGE_DEPENDS "libclang-common-19-dev, lld-19")
+# What no ELF file names: headers of OpenCL C and of the compiler, and the reader of SPIR-V, which the tools start.
+set(CPACK_DEBIAN_VORION_PACKAGE_DEPENDS "libclang-common-19-dev")
 if(VORION_LLVM_SPIRV)
   cmake_path(GET VORION_LLVM_SPIRV FILENAME SpirvPackage)
   string(APPEND CPACK_DEBIAN_VORION_PACKAGE_DEPENDS ", ${SpirvPackage}")

@@ -13,8 +13,8 @@ OWN = """\
 Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: Vorion
 Comment:
- The programs contain code of LLVM and clang (vorion-clang, vorion-llc,
- vorion-mc, vorion-opt, vorion-objdump, libdevice.a), of PoCL (libpocl.so,
+ The programs contain code of LLVM, clang and lld (vorion-clang, vorion-link,
+ vorion-llc, vorion-mc, vorion-opt, vorion-objdump, libdevice.a), of PoCL (libpocl.so,
  poclcc, kernel-vorion.bc) with SLEEF and libclc, and of the header-only
  libraries CLI11, JSON for Modern C++ and GLM. PoCL's paths are those of its
  source package, below pocl/.

@@ -1,8 +1,9 @@
 /// The linker step of every program for the device: refuses objects that were
-/// not compiled for XVortex, then runs lld with the device's start-up code,
-/// linker script and library. vorion-clang calls it as its linker, so it takes
-/// lld's options.
+/// not compiled for XVortex. Then lld links the others with the device's
+/// start-up code, linker script and library. vorion-clang calls it as its
+/// linker, so it takes lld's options.
 
+#include "Lld.h"
 #include "ObjectCheck.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -18,7 +19,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view Tool = "vorion-link";
+/// What lld calls itself in its messages.
 constexpr const char *Linker = "ld.lld-19";
 
 constexpr std::string_view Usage =
@@ -131,19 +132,15 @@ Expected<fs::path> deviceFolder() {
   return Folder;
 }
 
+/// lld in a copy of this process, which a signal may end.
 Expected<Success> runLinker(const std::vector<std::string> &Arguments) {
-  std::vector<char *> Argv;
-  Argv.reserve(Arguments.size() + 1);
-  for (const std::string &Argument : Arguments)
-    Argv.push_back(const_cast<char *>(Argument.c_str()));
-  Argv.push_back(nullptr);
-  pid_t Child = 0;
-  if (const int Cause =
-          posix_spawnp(&Child, Argv[0], nullptr, nullptr, Argv.data(), environ))
-    return Error{Arguments[0],
-                 fmt::format("cannot be run: {}, expected LLVM 19's lld on the "
-                             "path (package lld-19)",
-                             std::strerror(Cause))};
+  const pid_t Child = fork();
+  if (Child < 0)
+    return Error{"", fmt::format("no process for the link: {}, expected room "
+                                 "for one more",
+                                 std::strerror(errno))};
+  if (Child == 0)
+    link::runLld(Arguments);
   int Status = 0;
   while (waitpid(Child, &Status, 0) < 0 && errno == EINTR) {
   }

@@ -1,0 +1,14 @@
+/// LLVM's linker lld, which is a part of this program: as a process of its own
+/// it would take 20 ms to start.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vorion::link {
+
+/// Does what `ld.lld` does with these arguments, of which the first is its name
+/// in messages. Ends the process with lld's exit code.
+[[noreturn]] void runLld(const std::vector<std::string> &Arguments);
+
+} // namespace vorion::link

@@ -1,0 +1,43 @@
+// lld can compile LLVM's bitcode, and would have all of LLVM's passes and
+// targets for that. Objects for the device are machine code, so lld finds these
+// in their place: the program is a third as large, and starts sooner.
+#include "lld/Common/ErrorHandler.h"
+
+#include <vector>
+
+namespace lld::elf {
+
+class BitcodeFile;
+class InputFile;
+
+/// What lld calls to compile bitcode.
+class BitcodeCompiler {
+public:
+  BitcodeCompiler();
+  ~BitcodeCompiler();
+  void add(BitcodeFile &File);
+  std::vector<InputFile *> compile();
+};
+
+BitcodeCompiler::BitcodeCompiler() = default;
+BitcodeCompiler::~BitcodeCompiler() {}
+void BitcodeCompiler::add(BitcodeFile & /*File*/) {
+  error("an input is LLVM's bitcode, expected machine code");
+}
+std::vector<InputFile *> BitcodeCompiler::compile() { return {}; }
+
+} // namespace lld::elf
+
+extern "C" {
+#define LLVM_TARGET(Name)                                                      \
+  void LLVMInitialize##Name##TargetInfo() {}                                   \
+  void LLVMInitialize##Name##Target() {}                                       \
+  void LLVMInitialize##Name##TargetMC() {}
+#include "llvm/Config/Targets.def"
+#define LLVM_ASM_PRINTER(Name)                                                 \
+  void LLVMInitialize##Name##AsmPrinter() {}
+#include "llvm/Config/AsmPrinters.def"
+#define LLVM_ASM_PARSER(Name)                                                  \
+  void LLVMInitialize##Name##AsmParser() {}
+#include "llvm/Config/AsmParsers.def"
+}
