@@ -1,7 +1,9 @@
 #include "Backward.h"
 
 #include "Footprint.h"
+#include "Shutter.h"
 #include "SphericalHarmonics.h"
+#include "Unscented.h"
 #include "Walk.h"
 
 #include <cmath>
@@ -127,6 +129,11 @@ private:
     dmat3 A;
     for (int N = 0; N < 3; ++N)
       A[N] = multiply(View.Rotation, Q[N]) * Input.Scales[I][N];
+    if (Settings.Through == Spread::Unscented)
+      if (const auto Points = sevenPoints(P, A, View, Settings))
+        return throughPoints(I, V, P, Q, *Points);
+    if (View.Shutter)
+      return throughShutter(I, V, P, Q, A);
     if (View.Optics.Model != LensModel::Pinhole)
       return throughLens(I, V, P, Q, A);
     const Jacobian<double> J = jacobian(P, View, Settings.Rule);
@@ -142,6 +149,31 @@ private:
     ByP.x += held(J.HeldX, View.Focal.x, J.Tx, Z, ByRows.X.z, ByP.z);
     ByP.y += held(J.HeldY, View.Focal.y, J.Ty, Z, ByRows.Y.z, ByP.z);
     return glm::transpose(View.Rotation) * ByP;
+  }
+
+  dvec3 throughPoints(std::size_t I, const Symmetric &V, const dvec3 &P,
+                      const dmat3 &Q, const SevenPoints<double> &Points) {
+    const BySevenPoints By =
+        backThroughPoints(Points, P, View, Out.Means2d[I], V);
+    const dmat3 Back = glm::transpose(View.Rotation);
+    dmat3 ByRotation;
+    for (int N = 0; N < 3; ++N) {
+      const dvec3 InWorld = Back * By.Axes[N];
+      Out.Scales[I][N] = glm::dot(Q[N], InWorld);
+      ByRotation[N] = InWorld * Input.Scales[I][N];
+    }
+    Out.Quats[I] = quaternionGradient(Input.Quats[I], ByRotation);
+    return Back * By.Mean;
+  }
+
+  /// The rows of the Jacobian are constants here (Backward.h).
+  dvec3 throughShutter(std::size_t I, const Symmetric &V, const dvec3 &P,
+                       const dmat3 &Q, const dmat3 &A) {
+    ExposedPoint E;
+    expose(View, P, Settings.Rule, E);
+    toAxes(I, V, footprint(A, E.Rows), E.Rows, Q, A);
+    const dvec2 &M = Out.Means2d[I];
+    return glm::transpose(View.Rotation) * (M.x * E.Free.X + M.y * E.Free.Y);
   }
 
   dvec3 throughLens(std::size_t I, const Symmetric &V, const dvec3 &P,

@@ -170,6 +170,40 @@ TEST(Backward, IsTheDerivativeThroughLenses) {
       }
 }
 
+// As seven points, through each lens and through a shutter that rolls down and
+// across. The smallest scale keeps all points in view.
+TEST(Backward, IsTheDerivativeThroughSevenPoints) {
+  struct {
+    LensModel Model;
+    LensCoefficients K;
+  } const Lenses[] = {{LensModel::Pinhole, {}},
+                      {LensModel::OpenCv,
+                       {-0.2, 0.05, 0.01, -0.02, 0.01, 0.03, 0.02, 0.01, 0.02,
+                        -0.01, 0.03, 0, 0.01}},
+                      {LensModel::Fisheye, {0.1, -0.02, 0.01, 0.002}},
+                      {LensModel::Orthographic, {}},
+                      {LensModel::Equirectangular, {}}};
+  for (const auto &[Model, K] : Lenses)
+    for (const bool Rolls : {false, true}) {
+      Options O;
+      O.Through = Spread::Unscented;
+      O.Rule = Rolls ? Rules::Inria : Rules::Gsplat;
+      O.Antialiased = !Rolls;
+      auto C = obliqueCamera();
+      if (Model == LensModel::Equirectangular) {
+        C.Focal = {Width / (2 * M_PI), Height / M_PI};
+        C.Principal = {0.5 * Width, 0.5 * Height};
+      }
+      setLens(C, Model, K);
+      if (Rolls)
+        C.Shutter = {-0.1, 0.2, 1, {0.1, -0.15, 0.05}, {0.05, -0.1, 0.1}};
+      auto G = smallScene(11);
+      for (auto &S : G.Scales)
+        S *= 0.6;
+      expectDifferences(G, C, O);
+    }
+}
+
 TEST(Backward, OneGaussianHasItsClosedForm) {
   Gaussians<double> G;
   addRound(G, {0, 0, 2}, 0.1, 0.8, {0.9, 0.5, 0.1});

@@ -118,4 +118,11 @@ template <typename Real> Real sharpDeterminant(const Footprint<Real> &F) {
   return M01 * M01 + M02 * M02 + M12 * M12;
 }
 
+/// Whether depth \p Z is drawn; a NaN is not.
+template <typename Real> bool inFront(Real Z, const Options &O) {
+  if (O.Near > 0)
+    return O.Rule == Rules::Inria ? Z > Real(O.Near) : Z >= Real(O.Near);
+  return O.Rule == Rules::Inria ? Z > Real(0.2) : Z >= Real(0.01);
+}
+
 } // namespace vorion::reference

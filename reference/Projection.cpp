@@ -3,9 +3,9 @@
 #include "Footprint.h"
 #include "Shutter.h"
 #include "SphericalHarmonics.h"
+#include "Unscented.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <type_traits>
@@ -57,62 +57,18 @@ template <typename Real> Shape<Real> shapeOf(const Footprint<Real> &F) {
           sharpDeterminant(F)};
 }
 
-/// Whether depth \p Z is drawn; a NaN is not.
-template <typename Real> bool inFront(Real Z, const Options &O) {
-  if (O.Near > 0)
-    return O.Rule == Rules::Inria ? Z > Real(O.Near) : Z >= Real(O.Near);
-  return O.Rule == Rules::Inria ? Z > Real(0.2) : Z >= Real(0.01);
-}
-
-/// Where \p C shows \p P, in units of the focal lengths.
 template <typename Real>
-bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At) {
-  if (!C.Shutter)
-    return placeThrough(C.Optics, P, At);
-  ExposedPoint E;
-  if (!expose(C, glm::dvec3(P), Rules::Inria, E))
-    return false;
-  At = Vec2<Real>(E.Place);
-  return true;
-}
-
-/// By seven points (3DGUT, with alpha 1, beta 2, kappa 0): the mean with a
-/// weight of 0 for the mean and 2 for the covariance, and sqrt(3) deviations
-/// along each axis either way with 1/6. Nothing if the camera does not see one
-/// of them.
-template <typename Real>
-std::optional<Shape<Real>> unscented(const Vec3<Real> &P, const Mat3<Real> &A,
-                                     const Camera<Real> &C, const Options &O) {
-  Vec2<Real> At;
-  if (!placeOf(C, P, At))
-    return std::nullopt;
-  const bool Ahead = C.Optics.Model == LensModel::Pinhole ||
-                     C.Optics.Model == LensModel::OpenCv;
-  std::array<Vec2<Real>, 7> Off{};
-  Vec2<Real> Sum(0);
-  for (int N = 0; N < 6; ++N) {
-    const Vec3<Real> Step = std::sqrt(Real(3)) * A[N / 2];
-    const Vec3<Real> Point = N % 2 == 0 ? P + Step : P - Step;
-    Vec2<Real> There;
-    if ((Ahead && !inFront(Point.z, O)) || !placeOf(C, Point, There))
-      return std::nullopt;
-    auto &D = Off[static_cast<std::size_t>(N)];
-    D = C.Focal * placeDifference(C.Optics, There, At);
-    Sum += D;
-  }
-  const Vec2<Real> Shift = Sum / Real(6);
-  for (std::size_t N = 0; N < 7; ++N)
-    Off[N] = (Off[N] - Shift) * std::sqrt(N < 6 ? Real(1) / 6 : Real(2));
-  Shape<Real> S{C.Focal * At + C.Principal + Shift, Vec3<Real>(0), 0};
+Shape<Real> shapeOf(const SevenPoints<Real> &S, const Camera<Real> &C) {
+  Shape<Real> Sum{C.Focal * S.At + C.Principal + S.Shift, Vec3<Real>(0), 0};
   for (std::size_t N = 0; N < 7; ++N) {
-    S.Covariance += Vec3<Real>(Off[N].x * Off[N].x, Off[N].x * Off[N].y,
-                               Off[N].y * Off[N].y);
+    const auto &A = S.Off[N];
+    Sum.Covariance += Vec3<Real>(A.x * A.x, A.x * A.y, A.y * A.y);
     for (std::size_t M = 0; M < N; ++M) {
-      const Real Minor = Off[M].x * Off[N].y - Off[M].y * Off[N].x;
-      S.Determinant += Minor * Minor;
+      const Real Minor = S.Off[M].x * A.y - S.Off[M].y * A.x;
+      Sum.Determinant += Minor * Minor;
     }
   }
-  return S;
+  return Sum;
 }
 
 /// sqrt(2 ln(255 o)): standard deviations to the ellipse where alpha is 1/255.
@@ -201,7 +157,8 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   }
   std::optional<Shape<Real>> Sharp;
   if (O.Through == Spread::Unscented)
-    Sharp = unscented(P, A, C, O);
+    if (const auto Points = sevenPoints(P, A, C, O))
+      Sharp = shapeOf(*Points, C);
   if (!Sharp) {
     Sharp = shapeOf(Straight ? footprint(A, jacobian(P, C, O.Rule))
                              : footprint(A, Rows));

@@ -74,6 +74,16 @@ public:
                       End);
   }
   bool isHeld() const { return std::abs(Moment) >= End; }
+  /// Rows by the point in the axes of the pose from rows by the point to the
+  /// camera now. A step of the point moves its moment, too.
+  LensRows<double> byPose(LensRows<double> J) const {
+    if (!isHeld()) {
+      const glm::dvec3 By = (Way.x * J.X + Way.y * J.Y) / left();
+      J.X += Drift.x * By;
+      J.Y += Drift.y * By;
+    }
+    return {turned(S.Turn, Moment, J.X), turned(S.Turn, Moment, J.Y)};
+  }
 
   const Camera<double> &C;
   const RollingShutter &S;
@@ -99,15 +109,8 @@ bool expose(const Camera<Real> &Of, const glm::dvec3 &P, Rules Rule,
   }
   if (!E.goTo(Next) || (!E.isHeld() && !(E.left() >= Least)))
     return false;
-  Found = {E.Moment, E.At, E.Place, heldRows(C, E.At, Rule)};
-  LensRows<double> &J = Found.Rows;
-  if (!E.isHeld()) {
-    const glm::dvec3 By = (E.Way.x * J.X + E.Way.y * J.Y) / E.left();
-    J.X += E.Drift.x * By;
-    J.Y += E.Drift.y * By;
-  }
-  J.X = turned(E.S.Turn, E.Moment, J.X);
-  J.Y = turned(E.S.Turn, E.Moment, J.Y);
+  Found = {E.Moment, E.At, E.Place, E.byPose(heldRows(C, E.At, Rule)),
+           E.byPose(freeRows(C, E.At))};
   return true;
 }
 

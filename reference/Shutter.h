@@ -14,6 +14,7 @@ struct ExposedPoint {
   /// Of the place in pixels by the point in the axes of the pose. Where the
   /// rules hold the Jacobian, it is held.
   LensRows<double> Rows;
+  LensRows<double> Free; ///< the same, held nowhere
 };
 
 /// \p P in the axes of the pose of \p C. False if the camera does not see it,

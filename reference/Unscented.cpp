@@ -1,0 +1,93 @@
+#include "Unscented.h"
+
+#include "Shutter.h"
+
+#include <cmath>
+
+namespace vorion::reference {
+namespace {
+
+/// Where \p C shows \p P, in units of the focal lengths.
+template <typename Real>
+bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At) {
+  if (!C.Shutter)
+    return placeThrough(C.Optics, P, At);
+  ExposedPoint E;
+  if (!expose(C, glm::dvec3(P), Rules::Inria, E))
+    return false;
+  At = Vec2<Real>(E.Place);
+  return true;
+}
+
+/// dL/d(point) from dL/d(place in pixels), of a point that the camera sees.
+glm::dvec3 backThroughPlace(const Camera<double> &C, const glm::dvec3 &P,
+                            const glm::dvec2 &By) {
+  if (!C.Shutter)
+    return backThrough(C, P, Rules::Inria, By, {glm::dvec3(0), glm::dvec3(0)});
+  ExposedPoint E;
+  expose(C, P, Rules::Inria, E);
+  return By.x * E.Free.X + By.y * E.Free.Y;
+}
+
+} // namespace
+
+template <typename Real>
+std::optional<SevenPoints<Real>>
+sevenPoints(const Vec3<Real> &Mean, const Mat3<Real> &Axes,
+            const Camera<Real> &C, const Options &O) {
+  SevenPoints<Real> S;
+  if (!placeOf(C, Mean, S.At))
+    return std::nullopt;
+  const bool Ahead = C.Optics.Model == LensModel::Pinhole ||
+                     C.Optics.Model == LensModel::OpenCv;
+  Vec2<Real> Sum(0);
+  for (std::size_t N = 0; N < 6; ++N) {
+    const Vec3<Real> Step = std::sqrt(Real(3)) * Axes[static_cast<int>(N / 2)];
+    S.Points[N] = N % 2 == 0 ? Mean + Step : Mean - Step;
+    Vec2<Real> There;
+    if ((Ahead && !inFront(S.Points[N].z, O)) ||
+        !placeOf(C, S.Points[N], There))
+      return std::nullopt;
+    S.Off[N] = C.Focal * placeDifference(C.Optics, There, S.At);
+    Sum += S.Off[N];
+  }
+  S.Shift = Sum / Real(6);
+  S.Off[6] = Vec2<Real>(0);
+  for (std::size_t N = 0; N < 7; ++N)
+    S.Off[N] = (S.Off[N] - S.Shift) * std::sqrt(N < 6 ? Real(1) / 6 : Real(2));
+  return S;
+}
+
+BySevenPoints backThroughPoints(const SevenPoints<double> &S,
+                                const glm::dvec3 &Mean, const Camera<double> &C,
+                                const glm::dvec2 &ByMean2d,
+                                const glm::dvec3 &ByCovariance) {
+  const auto Weighed = [&](const glm::dvec2 &V) {
+    return glm::dvec2(ByCovariance[0] * V.x + ByCovariance[1] * V.y,
+                      ByCovariance[1] * V.x + ByCovariance[2] * V.y);
+  };
+  // The steps from the mean's place add up to 6 shifts, so that all but the
+  // last one's part of the covariance does not depend on the shift.
+  const glm::dvec2 OfShift = 4. * Weighed(S.Shift);
+  BySevenPoints By{backThroughPlace(C, Mean, -OfShift), glm::dmat3(0)};
+  for (std::size_t N = 0; N < 6; ++N) {
+    const glm::dvec2 ByPlace =
+        2 / std::sqrt(6.) * Weighed(S.Off[N]) + (ByMean2d + OfShift) / 6.;
+    const glm::dvec3 ByPoint = backThroughPlace(C, S.Points[N], ByPlace);
+    By.Mean += ByPoint;
+    By.Axes[static_cast<int>(N / 2)] +=
+        (N % 2 == 0 ? 1 : -1) * std::sqrt(3.) * ByPoint;
+  }
+  return By;
+}
+
+template std::optional<SevenPoints<float>> sevenPoints(const Vec3<float> &,
+                                                       const Mat3<float> &,
+                                                       const Camera<float> &,
+                                                       const Options &);
+template std::optional<SevenPoints<double>> sevenPoints(const Vec3<double> &,
+                                                        const Mat3<double> &,
+                                                        const Camera<double> &,
+                                                        const Options &);
+
+} // namespace vorion::reference
