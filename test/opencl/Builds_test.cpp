@@ -333,10 +333,10 @@ TEST_F(Builds, TheOptionsThatWereGivenAreReturned) {
 }
 
 TEST_F(Builds, NoContextWithoutADeviceOfTheType) {
+  const cl::Platform Platform(
+      cl::Device(device()).getInfo<CL_DEVICE_PLATFORM>());
   const std::vector<cl_context_properties> Properties = {
-      CL_CONTEXT_PLATFORM,
-      reinterpret_cast<cl_context_properties>(
-          cl::Device(device()).getInfo<CL_DEVICE_PLATFORM>()),
+      CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(Platform()),
       0};
   cl_int Status = CL_SUCCESS;
   EXPECT_EQ(clCreateContextFromType(Properties.data(),

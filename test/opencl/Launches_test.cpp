@@ -313,11 +313,11 @@ kernel void ask(global uint *out) {
 TEST(Counters, TellWhatOneKernelDid) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  const auto Platform = Device.context()
-                            .getInfo<CL_CONTEXT_DEVICES>()[0]
-                            .getInfo<CL_DEVICE_PLATFORM>();
+  const cl::Platform Platform(Device.context()
+                                  .getInfo<CL_CONTEXT_DEVICES>()[0]
+                                  .getInfo<CL_DEVICE_PLATFORM>());
   const auto GetInfo = reinterpret_cast<clGetEventInfoVORION_fn>(
-      clGetExtensionFunctionAddressForPlatform(Platform,
+      clGetExtensionFunctionAddressForPlatform(Platform(),
                                                "clGetEventInfoVORION"));
   ASSERT_NE(GetInfo, nullptr);
   std::string Log;

@@ -48,10 +48,10 @@ protected:
 
   cl::Program create(const Bytes &Module, cl_int &Status,
                      cl_context Context = nullptr) const {
+    const cl::Platform Platform(device().getInfo<CL_DEVICE_PLATFORM>());
     const auto Create = reinterpret_cast<clCreateProgramWithILKHR_fn>(
-        clGetExtensionFunctionAddressForPlatform(
-            device().getInfo<CL_DEVICE_PLATFORM>(),
-            "clCreateProgramWithILKHR"));
+        clGetExtensionFunctionAddressForPlatform(Platform(),
+                                                 "clCreateProgramWithILKHR"));
     if (!Create) {
       Status = CL_INVALID_OPERATION;
       return {};

@@ -136,11 +136,13 @@ Expected<Device> Device::open(const std::string &Wanted,
       return clError("creating a queue on " + D.Name, Status);
   }
 
+  // What getInfo() gives is an object or its number, by the header's version.
+  const cl::Platform Platform(D.Handle.getInfo<CL_DEVICE_PLATFORM>());
   const auto Extensions = D.Handle.getInfo<CL_DEVICE_EXTENSIONS>();
   if (Extensions.find(CL_VORION_EXTENSION_NAME) != std::string::npos)
     D.EventInfo = reinterpret_cast<clGetEventInfoVORION_fn>(
-        clGetExtensionFunctionAddressForPlatform(
-            D.Handle.getInfo<CL_DEVICE_PLATFORM>(), "clGetEventInfoVORION"));
+        clGetExtensionFunctionAddressForPlatform(Platform(),
+                                                 "clGetEventInfoVORION"));
   if (D.isVorion()) {
     // CL_DEVICE_PREFERRED_WORK_GROUP_SIZE_MULTIPLE, which OpenCL 1.2 lacks.
     constexpr cl_device_info GroupMultiple = 0x1067;
