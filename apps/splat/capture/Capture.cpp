@@ -208,6 +208,29 @@ Expected<Success> addPoses(const fs::path &File, LensOf Of,
   return Success{};
 }
 
+/// Whether a pinhole's picture can be made of that of \p V, if one is wanted.
+Expected<Success> checkPinhole(const std::string &File, const CaptureView &V,
+                               const CaptureOptions &Options) {
+  if (Options.Pictures == LensOf::Photograph)
+    return Success{};
+  if (V.Optics.Model == LensModel::Equirectangular)
+    return Error{
+        File, fmt::format("frame {} has the camera model EQUIRECTANGULAR, of "
+                          "which there is no pinhole's picture, expected "
+                          "photographs of perspective or fisheye cameras, "
+                          "or splat train --distorted",
+                          printable(V.Pose.Name))};
+  if (V.Optics.Shutter)
+    return Error{File,
+                 fmt::format("frame {} has a rolling shutter, of which there "
+                             "is no pinhole's picture, expected photographs of "
+                             "one moment each (without the key rolling_shutter "
+                             "the first pose counts), or splat train "
+                             "--distorted",
+                             printable(V.Pose.Name))};
+  return Success{};
+}
+
 /// Adds the views of \p File; those without a size get their picture's.
 Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
                                  const CaptureOptions &Options, Capture &C) {
@@ -216,20 +239,8 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
     return T.error();
   const fs::path Folder = File.parent_path();
   for (CaptureView &V : T->Views) {
-    if (V.Optics.Model == LensModel::Equirectangular)
-      return Error{File.string(),
-                   fmt::format("frame {} has the camera model EQUIRECTANGULAR, "
-                               "which can be drawn but not trained on, "
-                               "expected photographs of perspective or "
-                               "fisheye cameras",
-                               printable(V.Pose.Name))};
-    if (V.Optics.Shutter)
-      return Error{File.string(),
-                   fmt::format("frame {} has a rolling shutter, which can be "
-                               "drawn but not trained on, expected photographs "
-                               "of one moment each: without the key "
-                               "rolling_shutter the first pose counts",
-                               printable(V.Pose.Name))};
+    if (auto Straight = checkPinhole(File.string(), V, Options); !Straight)
+      return Straight;
     if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
       return Inside;
     V.Picture = pictureOf(Folder, V.Pose.Name).string();

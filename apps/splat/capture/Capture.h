@@ -27,8 +27,8 @@ std::string_view name(CaptureFormat F);
 struct CaptureView {
   Camera Pose; ///< its name is the picture's, as the capture has it
   /// Of the camera that took the picture. The pose's focal lengths and
-  /// principal point are its, too, but the pose is a pinhole: pictures are
-  /// undistorted when they are used.
+  /// principal point are its, too, but the pose is a pinhole: who uses the
+  /// picture undistorts it, or gives the pose this lens.
   CameraModel Optics;
   std::string Picture;  ///< the file
   std::string Mask;     ///< the file that says which pixels count, or empty
@@ -84,6 +84,10 @@ constexpr std::string_view name(MaskSource M) {
                                   : "files";
 }
 
+/// Which picture of a capture's camera is meant: the photograph as it is, or
+/// what a pinhole would have taken.
+enum class LensOf { Undistorted, Photograph };
+
 /// What who reads a capture may choose.
 struct CaptureOptions {
   /// Views to leave out, by name (with or without folder and ending).
@@ -91,6 +95,9 @@ struct CaptureOptions {
   /// Whether pictures and points may lie outside the capture's folder.
   bool AllowOutside = false;
   MaskSource Masks = MaskSource::None;
+  /// Which pictures it is read for. Of spheres and of rolling shutters there
+  /// are photographs alone.
+  LensOf Pictures = LensOf::Undistorted;
 };
 
 /// Reads the capture at \p Path, a folder or a transforms.json:
@@ -115,10 +122,6 @@ struct CaptureCameras {
   std::vector<Camera> Cameras;    ///< sorted by name, byte by byte
   std::vector<std::string> Files; ///< what they were read from
 };
-
-/// Which picture of a capture's camera is meant: the photograph as it is, or
-/// what training makes of it.
-enum class LensOf { Undistorted, Photograph };
 
 /// Reads them from where readCapture would, from a folder that holds COLMAP's
 /// files alone, or from one of COLMAP's files. A picture is looked at only

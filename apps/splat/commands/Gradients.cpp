@@ -134,7 +134,8 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   if (!C)
     return C.error();
   A.Options.Optics = C->Optics.Model;
-  if (auto Checked = checkGradientCamera(*C); !Checked)
+  A.Options.Rolling = C->Optics.Shutter.has_value();
+  if (auto Checked = checkGradientCamera(*C, A.Options); !Checked)
     return Checked;
   const auto U = readUpstream(A.Upstream, *C);
   if (!U)

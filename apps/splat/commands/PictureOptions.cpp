@@ -25,10 +25,6 @@ void addDatapathOptions(CLI::App &App, RenderOptions &O) {
                  "(default 32)")
       ->option_text("1..32")
       ->check(isBetween(1U, 32U));
-  addChoice(App, "--projection", O.Through,
-            {Spread::Jacobian, Spread::Unscented},
-            "Gaussians go through the camera by its Jacobian at the mean or as "
-            "seven points (docs/cameras.md)");
   App.add_option("--sh-degree", O.ShLimit,
                  "Leave out bands of spherical harmonics above this "
                  "(default 3)")
@@ -72,6 +68,7 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
       ->option_text("Z");
   App.add_option("--cutoff", O.Cutoff,
                  "Transmittance at which a pixel is full (default 0.0001)");
+  addProjectionOption(App, O.Through);
 }
 
 Expected<Success> checkPictureOptions(const RenderOptions &O) {
@@ -155,6 +152,12 @@ void addRulesOption(CLI::App &App, Rules &Convention) {
             "Convention to follow");
 }
 
+void addProjectionOption(CLI::App &App, Spread &Through) {
+  addChoice(App, "--projection", Through, {Spread::Jacobian, Spread::Unscented},
+            "Gaussians go through the camera by its Jacobian at the mean or as "
+            "seven points (docs/cameras.md)");
+}
+
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help) {
   addChoice(App, "--path", Blending, {Path::Raster, Path::Simt}, Help);
 }
@@ -206,11 +209,12 @@ Expected<Success> checkPixelLists(const RenderOptions &O,
                            Option));
 }
 
-Expected<Success> checkGradientCamera(const Camera &C) {
-  if (!C.Optics.Shutter)
+Expected<Success> checkGradientCamera(const Camera &C, const RenderOptions &O) {
+  if (!C.Optics.Shutter || O.Through == Spread::Unscented)
     return Success{};
-  return usage(fmt::format("view {} has a rolling shutter, through which there "
-                           "is no way back, expected a camera of one moment",
+  return usage(fmt::format("view {} has a rolling shutter, through which the "
+                           "way back goes by points alone, expected "
+                           "--projection unscented with it",
                            printable(C.Name)));
 }
 

@@ -49,6 +49,8 @@ void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
 
 void addRulesOption(CLI::App &App, Rules &Convention);
 
+void addProjectionOption(CLI::App &App, Spread &Through);
+
 void addPathOption(CLI::App &App, Path &Blending, const std::string &Help);
 
 /// Tile and group of the cores' path.
@@ -72,8 +74,9 @@ void addGradientOptions(CLI::App &App, RenderOptions &O, BackwardOptions &B);
 Expected<Success> checkPixelLists(const RenderOptions &O,
                                   std::string_view Option);
 
-/// Whether gradients can be taken through \p C.
-Expected<Success> checkGradientCamera(const Camera &C);
+/// Whether gradients can be taken through \p C as \p O says; an error is one of
+/// usage.
+Expected<Success> checkGradientCamera(const Camera &C, const RenderOptions &O);
 
 /// Whether all values go together; an error is one of usage.
 Expected<Success> checkGradientOptions(const RenderOptions &O,

@@ -134,8 +134,10 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
            Out.TrainingViews, Out.HeldOut.size(), Out.HeldOutBy, PhotoFilter);
   if (Out.WithoutPicture != 0)
     printOut("left out     {} views without a picture\n", Out.WithoutPicture);
-  if (Out.Distorted != 0)
+  if (Out.Distorted != 0 && R.Run.Pictures == LensOf::Undistorted)
     printOut("undistorted  {} pictures; {}\n", Out.Distorted, LensFilter);
+  else if (Out.Distorted != 0)
+    printOut("distorted    {} pictures, as they are\n", Out.Distorted);
   if (R.Run.Masks != MaskSource::None)
     printOut("masks        {}\n",
              R.Run.Masks == MaskSource::Alpha
@@ -204,6 +206,11 @@ Expected<Success> check(const TrainArguments &A) {
     return Error{"",
                  "--absgrad: the rasterizer's nine sums have no absolute "
                  "values, expected --path simt with it",
+                 ExitCode::Usage};
+  if (R.Run.Pictures == LensOf::Photograph && looksAtDepths(R.Run.Settings))
+    return Error{"",
+                 "--depth-weight: depths are known in undistorted pictures "
+                 "alone, expected no --distorted with it",
                  ExitCode::Usage};
   if (A.GivenTimeEvery && !A.isClocked())
     return Error{"", "--time-every: expected --time or --breakdown with it",
@@ -306,6 +313,12 @@ Runner addTrain(CLI::App &App) {
                "held-out views");
   addMasksOption(App, R.Run.Masks);
   App.add_flag(
+      "--distorted",
+      [&R](std::int64_t) { R.Run.Pictures = LensOf::Photograph; },
+      "Train on photographs as they are, through their lenses, instead of "
+      "undistorting them");
+  addProjectionOption(App, R.Run.Through);
+  App.add_flag(
       "--antialiased", R.Run.Antialiased,
       "Lower opacities where the dilation widens a Gaussian; the scene "
       "says that it is to be drawn so");
@@ -357,6 +370,7 @@ Runner addTrain(CLI::App &App) {
     A->Request.Backward.Depths = looksAtDepths(*Settings);
     A->Request.Backward.Poses = arePosesOn(*Settings);
     A->Request.Read.Masks = A->Request.Run.Masks;
+    A->Request.Read.Pictures = A->Request.Run.Pictures;
     nameOutput("-o", A->Output, A->Request.Capture, ".ply");
     if (A->Request.Checkpoint.empty())
       A->Request.Checkpoint = A->Output + ".checkpoint";

@@ -17,3 +17,24 @@ static lens_rows lens_jacobian(VIEW_SPACE const splat_view *view,
                        (float3)(0.0f, 1.0f, -ratio.y) / p.z};
   return j;
 }
+
+// The way back alone (backward.cl).
+#ifdef HELD_FACTOR
+static float3 lens_curvature(VIEW_SPACE const splat_view *view,
+                             VIEW_SPACE const splat_lens *lens, float3 p,
+                             lens_rows by, bool hold) {
+  const float2 ratio = (float2)(p.x / p.z, p.y / p.z);
+  float2 held = ratio;
+  if (hold)
+    held = (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
+                    clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
+  const float2 by_z = (float2)(by.x.z, by.y.z);
+  const float along =
+      (held.x != ratio.x ? HELD_FACTOR : 2.0f) * held.x * by_z.x +
+      (held.y != ratio.y ? HELD_FACTOR : 2.0f) * held.y * by_z.y;
+  return (float3)(held.x != ratio.x ? 0.0f : -by_z.x,
+                  held.y != ratio.y ? 0.0f : -by_z.y,
+                  along - by.x.x - by.y.y) /
+         (p.z * p.z);
+}
+#endif

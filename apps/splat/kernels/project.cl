@@ -214,10 +214,14 @@ static uint project_one(__local workspace *c,
   screen_covariance s;
   float2 shift = (float2)(0.0f, 0.0f);
 #if USE_UNSCENTED
-  if (!unscented_covariance(view, &c->lens, p, at, axes, &s, &shift))
+  const unscented_steps steps = unscented_steps_of(axes);
+  unscented_points points;
+  if (unscented_points_of(view, &c->lens, p, at, &steps, &points)) {
+    s = unscented_covariance(&points);
+    shift = points.shift;
+  } else
 #endif
   {
-    shift = (float2)(0.0f, 0.0f);
 #if USE_ROLLING_SHUTTER
     s = lens_covariance(rolling_rows(view, &c->lens, own, LENS_HOLDS), axes);
 #else

@@ -3,19 +3,6 @@
 // that what must vanish for round Gaussians does. Gaussians that no tile sees
 // get 0.
 
-// The way back knows no scene: it goes by what is held.
-#ifndef USE_FIELD_OF_VIEW
-#define USE_FIELD_OF_VIEW 1
-#endif
-
-// Whether z and a coordinate's part of the Jacobian follow when that coordinate
-// is held at its limit: gsplat differentiates t = limit z, INRIA holds t.
-#ifdef LIMIT_FOLLOWS_DEPTH
-#define HELD_FACTOR 1.0f
-#else
-#define HELD_FACTOR 2.0f
-#endif
-
 // Of the parameters as they are stored, or of activated scales and opacities.
 #ifdef STORED_PARAMETERS
 #define BY_SCALE(gradient, scale) ((gradient) * (scale))
@@ -26,27 +13,10 @@
 #define BY_OPACITY(gradient, opacity) (gradient)
 #endif
 
-typedef struct {
-  float xx, xy, yy;
-} symmetric;
-
-static float quadratic(symmetric g, float2 a, float2 b) {
-  return g.xx * a.x * b.x + g.xy * (a.x * b.y + a.y * b.x) + g.yy * a.y * b.y;
-}
-
-static float2 apply(symmetric m, float2 a) {
-  return (float2)(m.xx * a.x + m.xy * a.y, m.xy * a.x + m.yy * a.y);
-}
-
-// a x b with one rounding error of each product kept (Kahan).
-static float cross2(float2 a, float2 b) {
-  const float w = a.y * b.x;
-  return fma(a.x, b.y, -w) - fma(a.y, b.x, -w);
-}
-
 // What the camera is, where it is no pinhole.
 #define HAS_LENS                                                               \
-  (USE_OPENCV || USE_FISHEYE || USE_ORTHOGRAPHIC || USE_EQUIRECTANGULAR)
+  (USE_OPENCV || USE_FISHEYE || USE_ORTHOGRAPHIC || USE_EQUIRECTANGULAR ||     \
+   USE_UNSCENTED || USE_ROLLING_SHUTTER)
 
 #define GRADIENT(plane) gradients[(plane) * count + i]
 #if USE_EQUIRECTANGULAR
@@ -66,6 +36,133 @@ static float sum_of_copies(__global const float *sums,
 #else
 #define SUM(word) sums[(word) * count + i]
 #endif
+
+// Through the Jacobian at the mean.
+static shape_gradients jacobian_backward(__constant const splat_view *view,
+                                         const camera_gaussian *g,
+                                         const splat_gradients *by) {
+  const camera_axes axes = g->axes;
+  const float4 activated = g->activated;
+  const float scale[3] = {activated.x, activated.y, activated.z};
+#if HAS_LENS
+  __constant const splat_lens *lens = (__constant const splat_lens *)(view + 1);
+#if USE_ROLLING_SHUTTER
+  rolling_point own;
+  rolling_at(view, lens, g->place, &own);
+  const lens_rows j = rolling_rows(view, lens, own, LENS_HOLDS);
+#else
+  const lens_rows j = lens_rows_at(view, lens, g->place, LENS_HOLDS);
+#endif
+  const float3 fx = j.x.x * axes.x + j.x.y * axes.y + j.x.z * axes.z;
+  const float3 fy = j.y.x * axes.x + j.y.y * axes.y + j.y.z * axes.z;
+#else
+  const float z = g->place.z;
+  const float2 ratio = (float2)(g->place.x / z, g->place.y / z);
+  const float2 clamped =
+      (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
+               clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
+  const jacobian j = project_jacobian(view, z, clamped);
+  const float3 fx = j.xx * axes.x + j.xz * axes.z;
+  const float3 fy = j.yy * axes.y + j.yz * axes.z;
+#endif
+  const float2 u[3] = {(float2)(fx.x, fy.x), (float2)(fx.y, fy.y),
+                       (float2)(fx.z, fy.z)};
+
+  // p_n = K u_n with the conic K as the adjugate over the determinant. The
+  // covariance is h I + sum s_n^2 u_n u_n^T, so a needle's long axis drops out of
+  // its own p, of which K in fp32 has lost all digits.
+#if HAS_LENS
+  const screen_covariance s =
+      covariance_of_rows(fx * activated.xyz, fy * activated.xyz);
+#else
+  const screen_covariance s = project_covariance(
+      view, z, clamped, (float3)(scale[0], scale[1], scale[2]), g->unit);
+#endif
+  const float c01 = cross2(u[0], u[1]), c12 = cross2(u[1], u[2]);
+  const float c20 = cross2(u[2], u[0]);
+  const float2 turned[3] = {scale[0] * scale[0] * (float2)(-u[0].y, u[0].x),
+                            scale[1] * scale[1] * (float2)(-u[1].y, u[1].x),
+                            scale[2] * scale[2] * (float2)(-u[2].y, u[2].x)};
+  const float2 adjugate[3] = {c20 * turned[2] - c01 * turned[1],
+                              c01 * turned[0] - c12 * turned[2],
+                              c12 * turned[1] - c20 * turned[0]};
+  float2 p[3];
+  for (uint n = 0; n < 3; ++n)
+    p[n] = (adjugate[n] + DILATION * u[n]) / s.det;
+
+  float2 by_axis[3]; // dL/d(covariance) u_n
+  for (uint n = 0; n < 3; ++n)
+    by_axis[n] = by_covariance(by, p[n]);
+  float by_pair[3][3]; // u_m . dL/d(covariance) u_n, m <= n
+  for (uint m = 0; m < 3; ++m)
+    for (uint n = m; n < 3; ++n)
+      by_pair[m][n] = -quadratic(by->moments, p[m], p[n]);
+#ifdef ANTIALIASED
+  if (s.det_sharp / s.det > ANTIALIAS_FLOOR)
+    for (uint n = 0; n < 3; ++n) {
+      const float2 v =
+          by_compensation(s, by->opacity, activated.w, adjugate[n], u[n]);
+      by_axis[n] += v;
+      for (uint m = 0; m <= n; ++m)
+        by_pair[m][n] += u[m].x * v.x + u[m].y * v.y;
+    }
+#endif
+
+  shape_gradients to;
+  to.opacity = by->opacity * compensation_of(s);
+  to.scale = 2.0f * (float3)(scale[0] * by_pair[0][0], scale[1] * by_pair[1][1],
+                             scale[2] * by_pair[2][2]);
+  to.turn =
+      2.0f *
+      (float3)((scale[1] - scale[2]) * (scale[1] + scale[2]) * by_pair[1][2],
+               (scale[2] - scale[0]) * (scale[2] + scale[0]) * by_pair[0][2],
+               (scale[0] - scale[1]) * (scale[0] + scale[1]) * by_pair[0][1]);
+#if USE_ROLLING_SHUTTER
+  // The rows of the Jacobian are constants (docs/cameras.md).
+  const lens_rows free = rolling_rows(view, lens, own, false);
+  to.place = free.x * by->mean.x + free.y * by->mean.y;
+#elif HAS_LENS
+  // dL/d(rows): 2 V U diag(s^2) times the axes.
+  lens_rows by_rows = {(float3)(0.0f, 0.0f, 0.0f), (float3)(0.0f, 0.0f, 0.0f)};
+  const float3 along[3] = {(float3)(axes.x.x, axes.y.x, axes.z.x),
+                           (float3)(axes.x.y, axes.y.y, axes.z.y),
+                           (float3)(axes.x.z, axes.y.z, axes.z.z)};
+  for (uint n = 0; n < 3; ++n) {
+    const float weight = 2.0f * scale[n] * scale[n];
+    by_rows.x += weight * by_axis[n].x * along[n];
+    by_rows.y += weight * by_axis[n].y * along[n];
+  }
+  by_rows.x *= view->focal[0];
+  by_rows.y *= view->focal[1];
+  const lens_rows free = lens_rows_at(view, lens, g->place, false);
+  to.place = free.x * by->mean.x + free.y * by->mean.y +
+             lens_curvature(view, lens, g->place, by_rows, LENS_HOLDS);
+#else
+  // dL/d(Jacobian's entries): 2 V U diag(s^2) times the axes.
+  float by_xx = 0.0f, by_xz = 0.0f, by_yy = 0.0f, by_yz = 0.0f;
+  const float ax[3] = {axes.x.x, axes.x.y, axes.x.z};
+  const float ay[3] = {axes.y.x, axes.y.y, axes.y.z};
+  const float az[3] = {axes.z.x, axes.z.y, axes.z.z};
+  for (uint n = 0; n < 3; ++n) {
+    const float weight = 2.0f * scale[n] * scale[n];
+    const float gx = weight * by_axis[n].x, gy = weight * by_axis[n].y;
+    by_xx += gx * ax[n];
+    by_xz += gx * az[n];
+    by_yy += gy * ay[n];
+    by_yz += gy * az[n];
+  }
+  const float focal_x = view->focal[0] / z, focal_y = view->focal[1] / z;
+  const bool held_x = clamped.x != ratio.x, held_y = clamped.y != ratio.y;
+  to.place = (float3)(focal_x * by->mean.x, focal_y * by->mean.y, 0.0f);
+  to.place.z = -(to.place.x * ratio.x + to.place.y * ratio.y);
+  to.place.z -= (focal_x * by_xx + focal_y * by_yy) / z;
+  to.place.z += (held_x ? HELD_FACTOR : 2.0f) * focal_x * clamped.x * by_xz / z;
+  to.place.z += (held_y ? HELD_FACTOR : 2.0f) * focal_y * clamped.y * by_yz / z;
+  to.place.x -= held_x ? 0.0f : focal_x * by_xz / z;
+  to.place.y -= held_y ? 0.0f : focal_y * by_yz / z;
+#endif
+  return to;
+}
 
 static void project_backward_one(__constant const splat_view *view,
                                  __global const float *geometry,
@@ -88,114 +185,48 @@ static void project_backward_one(__constant const splat_view *view,
   GRADIENT(GRADIENT_CONIC) = by_conic.x;
   GRADIENT(GRADIENT_CONIC + 1) = by_conic.y;
   GRADIENT(GRADIENT_CONIC + 2) = by_conic.z;
-  const symmetric moments = {by_conic.x, 0.5f * by_conic.y, by_conic.z};
 
   const float3 mean = (float3)(GEOMETRY(PLANE_MEAN), GEOMETRY(PLANE_MEAN + 1),
                                GEOMETRY(PLANE_MEAN + 2));
   __constant const float *r = view->rotation;
   const float3 d = from_camera(view, mean);
-  const float x = r[0] * d.x + r[1] * d.y + r[2] * d.z;
-  const float y = r[3] * d.x + r[4] * d.y + r[5] * d.z;
-#if HAS_LENS
-  __constant const splat_lens *lens = (__constant const splat_lens *)(view + 1);
+  camera_gaussian g;
+  g.place.x = r[0] * d.x + r[1] * d.y + r[2] * d.z;
+  g.place.y = r[3] * d.x + r[4] * d.y + r[5] * d.z;
 #ifdef LENS_BY_DISTANCE
-  const float3 place = (float3)(x, y, r[6] * d.x + r[7] * d.y + r[8] * d.z);
+  g.place.z = r[6] * d.x + r[7] * d.y + r[8] * d.z;
 #else
-  const float3 place = (float3)(x, y, z);
-#endif
-#else
-  const float2 ratio = (float2)(x / z, y / z);
-  const float2 clamped =
-      (float2)(clamp(ratio.x, view->ratio_low[0], view->ratio_high[0]),
-               clamp(ratio.y, view->ratio_low[1], view->ratio_high[1]));
+  g.place.z = z;
 #endif
   const activation_constants constants = make_activation_constants();
-  const float4 activated = activate_scales_and_opacity(
+  g.activated = activate_scales_and_opacity(
       &constants,
       (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
                GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT)));
-  const float scale[3] = {activated.x, activated.y, activated.z};
   const float4 stored =
       (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
   const float4 unit = activate_quaternion(stored);
-  const camera_axes axes = to_camera(view, rotate_axes(unit));
-#if HAS_LENS
-  const lens_rows j = lens_rows_at(view, lens, place, LENS_HOLDS);
-  const float3 fx = j.x.x * axes.x + j.x.y * axes.y + j.x.z * axes.z;
-  const float3 fy = j.y.x * axes.x + j.y.y * axes.y + j.y.z * axes.z;
-#else
-  const jacobian j = project_jacobian(view, z, clamped);
-  const float3 fx = j.xx * axes.x + j.xz * axes.z;
-  const float3 fy = j.yy * axes.y + j.yz * axes.z;
-#endif
-  const float2 u[3] = {(float2)(fx.x, fy.x), (float2)(fx.y, fy.y),
-                       (float2)(fx.z, fy.z)};
-
-  // p_n = K u_n with the conic K as the adjugate over the determinant. The
-  // covariance is h I + sum s_n^2 u_n u_n^T, so a needle's long axis drops out of
-  // its own p, of which K in fp32 has lost all digits.
-#if HAS_LENS
-  const screen_covariance s =
-      covariance_of_rows(fx * activated.xyz, fy * activated.xyz);
-#else
-  const screen_covariance s = project_covariance(
-      view, z, clamped, (float3)(scale[0], scale[1], scale[2]), unit);
-#endif
-  const float c01 = cross2(u[0], u[1]), c12 = cross2(u[1], u[2]);
-  const float c20 = cross2(u[2], u[0]);
-  const float2 turned[3] = {scale[0] * scale[0] * (float2)(-u[0].y, u[0].x),
-                            scale[1] * scale[1] * (float2)(-u[1].y, u[1].x),
-                            scale[2] * scale[2] * (float2)(-u[2].y, u[2].x)};
-  const float2 adjugate[3] = {c20 * turned[2] - c01 * turned[1],
-                              c01 * turned[0] - c12 * turned[2],
-                              c12 * turned[1] - c20 * turned[0]};
-  float2 p[3];
-  for (uint n = 0; n < 3; ++n)
-    p[n] = (adjugate[n] + DILATION * u[n]) / s.det;
-
-  const float opacity = activated.w;
+  g.unit = unit;
+  g.axes = to_camera(view, rotate_axes(unit));
   // Never 0 where something was blended.
-  const float by_compensated = SUM(SUM_S) == 0.0f ? 0.0f : SUM(SUM_S) / record.opacity;
-  float2 by_axis[3]; // dL/d(covariance) u_n
-  for (uint n = 0; n < 3; ++n) {
-    const float2 v = apply(moments, p[n]);
-    by_axis[n] = (float2)(-(conic.x * v.x + conic.y * v.y),
-                          -(conic.y * v.x + conic.z * v.y));
-  }
-  float by_pair[3][3]; // u_m . dL/d(covariance) u_n, m <= n
-  for (uint m = 0; m < 3; ++m)
-    for (uint n = m; n < 3; ++n)
-      by_pair[m][n] = -quadratic(moments, p[m], p[n]);
-#ifdef ANTIALIASED
-  const float kept = s.det_sharp / s.det;
-  const float compensation = sqrt(fmax(ANTIALIAS_FLOOR, kept));
-  GRADIENT(GRADIENT_OPACITY) =
-      BY_OPACITY(by_compensated * compensation, opacity);
-  if (kept > ANTIALIAS_FLOOR) {
-    // Both determinants' gradients are adjugates; 1 - kept without cancelling.
-    const float f = by_compensated * opacity / (2.0f * compensation * s.det);
-    const float lost = DILATION * (s.xx + s.yy - DILATION) / s.det;
-    for (uint n = 0; n < 3; ++n) {
-      const float2 v = f * (lost * adjugate[n] - kept * DILATION * u[n]);
-      by_axis[n] += v;
-      for (uint m = 0; m <= n; ++m)
-        by_pair[m][n] += u[m].x * v.x + u[m].y * v.y;
-    }
-  }
-#else
-  GRADIENT(GRADIENT_OPACITY) = BY_OPACITY(by_compensated, opacity);
-#endif
+  const splat_gradients by = {
+      conic,
+      {by_conic.x, 0.5f * by_conic.y, by_conic.z},
+      by_mean2d,
+      SUM(SUM_S) == 0.0f ? 0.0f : SUM(SUM_S) / record.opacity};
 
-  for (uint n = 0; n < 3; ++n)
-    GRADIENT(GRADIENT_SCALE + n) =
-        BY_SCALE(2.0f * scale[n] * by_pair[n][n], scale[n]);
-  // dL/d(rotation about the Gaussian's axes), and with it dL/dq = 2 q (0, turn).
-  const float3 turn =
-      2.0f *
-      (float3)((scale[1] - scale[2]) * (scale[1] + scale[2]) * by_pair[1][2],
-               (scale[2] - scale[0]) * (scale[2] + scale[0]) * by_pair[0][2],
-               (scale[0] - scale[1]) * (scale[0] + scale[1]) * by_pair[0][1]);
+  shape_gradients to;
+#if USE_UNSCENTED
+  if (!unscented_backward(view, &g, &by, &to))
+#endif
+    to = jacobian_backward(view, &g, &by);
+
+  GRADIENT(GRADIENT_OPACITY) = BY_OPACITY(to.opacity, g.activated.w);
+  GRADIENT(GRADIENT_SCALE) = BY_SCALE(to.scale.x, g.activated.x);
+  GRADIENT(GRADIENT_SCALE + 1) = BY_SCALE(to.scale.y, g.activated.y);
+  GRADIENT(GRADIENT_SCALE + 2) = BY_SCALE(to.scale.z, g.activated.z);
+  // dL/dq = 2 q (0, turn).
   const float factor = quaternion_factor(stored);
   const float4 near = stored * factor;
   const float length = sqrt(near.x * near.x + near.y * near.y +
@@ -205,70 +236,29 @@ static void project_backward_one(__constant const splat_view *view,
   const float back =
       length > 0.0f ? fmin(2.0f * factor / length, 0x1p104f) : 0.0f;
   const float3 axis = (float3)(unit.y, unit.z, unit.w);
-  const float3 vector = unit.x * turn + cross(axis, turn);
-  GRADIENT(GRADIENT_QUATERNION) = -back * dot_in_order(axis, turn);
+  const float3 vector = unit.x * to.turn + cross(axis, to.turn);
+  GRADIENT(GRADIENT_QUATERNION) = -back * dot_in_order(axis, to.turn);
   GRADIENT(GRADIENT_QUATERNION + 1) = back * vector.x;
   GRADIENT(GRADIENT_QUATERNION + 2) = back * vector.y;
   GRADIENT(GRADIENT_QUATERNION + 3) = back * vector.z;
 
-#if HAS_LENS
-  // dL/d(rows): 2 V U diag(s^2) times the axes.
-  lens_rows by_rows = {(float3)(0.0f, 0.0f, 0.0f), (float3)(0.0f, 0.0f, 0.0f)};
-  const float3 along[3] = {(float3)(axes.x.x, axes.y.x, axes.z.x),
-                           (float3)(axes.x.y, axes.y.y, axes.z.y),
-                           (float3)(axes.x.z, axes.y.z, axes.z.z)};
-  for (uint n = 0; n < 3; ++n) {
-    const float weight = 2.0f * scale[n] * scale[n];
-    by_rows.x += weight * by_axis[n].x * along[n];
-    by_rows.y += weight * by_axis[n].y * along[n];
-  }
-  by_rows.x *= view->focal[0];
-  by_rows.y *= view->focal[1];
-  const lens_rows own = lens_rows_at(view, lens, place, false);
-  const float3 by_place =
-      own.x * by_mean2d.x + own.y * by_mean2d.y +
-      lens_curvature(view, lens, place, by_rows, LENS_HOLDS);
-#else
-  // dL/d(Jacobian's entries): 2 V U diag(s^2) times the axes.
-  float by_xx = 0.0f, by_xz = 0.0f, by_yy = 0.0f, by_yz = 0.0f;
-  const float ax[3] = {axes.x.x, axes.x.y, axes.x.z};
-  const float ay[3] = {axes.y.x, axes.y.y, axes.y.z};
-  const float az[3] = {axes.z.x, axes.z.y, axes.z.z};
-  for (uint n = 0; n < 3; ++n) {
-    const float weight = 2.0f * scale[n] * scale[n];
-    const float gx = weight * by_axis[n].x, gy = weight * by_axis[n].y;
-    by_xx += gx * ax[n];
-    by_xz += gx * az[n];
-    by_yy += gy * ay[n];
-    by_yz += gy * az[n];
-  }
-  const float focal_x = view->focal[0] / z, focal_y = view->focal[1] / z;
-  const bool held_x = clamped.x != ratio.x, held_y = clamped.y != ratio.y;
-  float3 by_place = (float3)(focal_x * by_mean2d.x, focal_y * by_mean2d.y, 0.0f);
-  by_place.z = -(by_place.x * ratio.x + by_place.y * ratio.y);
-  by_place.z -= (focal_x * by_xx + focal_y * by_yy) / z;
-  by_place.z += (held_x ? HELD_FACTOR : 2.0f) * focal_x * clamped.x * by_xz / z;
-  by_place.z += (held_y ? HELD_FACTOR : 2.0f) * focal_y * clamped.y * by_yz / z;
-  by_place.x -= held_x ? 0.0f : focal_x * by_xz / z;
-  by_place.y -= held_y ? 0.0f : focal_y * by_yz / z;
-#endif
-
-  const float3 g =
+  const float3 by_color =
       (float3)(record.color[0] > 0.0f ? SUM(SUM_COLOR) : 0.0f,
                record.color[1] > 0.0f ? SUM(SUM_COLOR + 1) : 0.0f,
                record.color[2] > 0.0f ? SUM(SUM_COLOR + 2) : 0.0f);
-  const float3 by_direction = sh_backward(sh, count, i, d, g, sh_gradients);
+  const float3 by_direction =
+      sh_backward(sh, count, i, d, by_color, sh_gradients);
 #ifdef POSES
   GRADIENT(GRADIENT_DIRECTION) = by_direction.x;
   GRADIENT(GRADIENT_DIRECTION + 1) = by_direction.y;
   GRADIENT(GRADIENT_DIRECTION + 2) = by_direction.z;
 #endif
-  GRADIENT(GRADIENT_MEAN) = r[0] * by_place.x + r[3] * by_place.y +
-                            r[6] * by_place.z + by_direction.x;
-  GRADIENT(GRADIENT_MEAN + 1) = r[1] * by_place.x + r[4] * by_place.y +
-                                r[7] * by_place.z + by_direction.y;
-  GRADIENT(GRADIENT_MEAN + 2) = r[2] * by_place.x + r[5] * by_place.y +
-                                r[8] * by_place.z + by_direction.z;
+  GRADIENT(GRADIENT_MEAN) = r[0] * to.place.x + r[3] * to.place.y +
+                            r[6] * to.place.z + by_direction.x;
+  GRADIENT(GRADIENT_MEAN + 1) = r[1] * to.place.x + r[4] * to.place.y +
+                                r[7] * to.place.z + by_direction.y;
+  GRADIENT(GRADIENT_MEAN + 2) = r[2] * to.place.x + r[5] * to.place.y +
+                                r[8] * to.place.z + by_direction.z;
 }
 
 __kernel void project_backward(__constant const splat_view *view,

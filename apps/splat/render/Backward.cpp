@@ -35,12 +35,22 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   }
   ProgramSpec Project{ProjectBackwardProgram,
                       {"layout.h", "activate.cl", "covariance.cl", "planes.h",
-                       "sh_basis.h", "sh_backward.cl"},
+                       "sh_basis.h", "sh_backward.cl", "backward.cl"},
                       projectionDefines(ShDegree, O)};
   std::ranges::copy(lensFiles(O), std::back_inserter(Project.Files));
-  Project.Files.emplace_back("project_backward.cl");
+  const auto Has = [&Project](const Effect &E) {
+    Project.Defines.push_back(fmt::format("{}=1", E.Macro));
+  };
   if (const Effect *Lens = effects::lensOf(O.Optics))
-    Project.Defines.push_back(fmt::format("{}=1", Lens->Macro));
+    Has(*Lens);
+  if (O.Rolling)
+    Has(effects::RollingShutter);
+  if (O.Through == Spread::Unscented) {
+    Has(effects::Unscented);
+    Project.Files.emplace_back("unscented_backward.cl");
+    Project.Defines.push_back(keepDepthDefine(O));
+  }
+  Project.Files.emplace_back("project_backward.cl");
   if (Gsplat)
     Project.Defines.emplace_back("LIMIT_FOLLOWS_DEPTH");
   if (B.Parameters == GradientsOf::Stored)

@@ -35,10 +35,7 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
   Defines.insert(Defines.end(),
                  {supportDefine(O.Reach),
                   fmt::format("DILATION={:#}f", O.Dilation),
-                  alphaCutoffDefine(O),
-                  // Written so that a NaN depth is culled by both.
-                  fmt::format("KEEP_DEPTH(z)=((z){}{:#}f)",
-                              Inria ? ">" : ">=", O.nearLimit()),
+                  alphaCutoffDefine(O), keepDepthDefine(O),
                   Inria ? "ANTIALIAS_FLOOR=2.5e-5f" : "ANTIALIAS_FLOOR=0.0f",
                   fmt::format("GROUP={}", O.SimtGroup), minPowerDefine(O)});
   if (const std::string Define(defineOf(O.Exponential)); !Define.empty())
@@ -77,6 +74,12 @@ bool uses(const ProgramSpec &P, const std::string &Define) {
 }
 
 } // namespace
+
+// Written so that a NaN depth is culled by both rules.
+std::string keepDepthDefine(const RenderOptions &O) {
+  return fmt::format("KEEP_DEPTH(z)=((z){}{:#}f)",
+                     O.Convention == Rules::Inria ? ">" : ">=", O.nearLimit());
+}
 
 std::string alphaCutoffDefine(const RenderOptions &O) {
   return fmt::format("ALPHA_CUTOFF={}.0f", O.AlphaCutoff);

@@ -22,6 +22,8 @@ inline constexpr const char *ResolveProgram = "resolve";
 inline constexpr const char *DepthProgram = "depth";
 inline constexpr const char *NormalsProgram = "normals";
 
+/// Which depths are drawn.
+std::string keepDepthDefine(const RenderOptions &O);
 /// The smallest alpha that is blended, in 1/255.
 std::string alphaCutoffDefine(const RenderOptions &O);
 /// No opacity up to 1 makes a lower power visible, by a margin beyond any

@@ -14,6 +14,9 @@ RenderOptions trainingOptions(Rules Convention, const Blender &By,
   O.SimtTile = By.SimtTile;
   O.SimtGroup = By.SimtGroup;
   O.Antialiased = How.Antialiased;
+  O.Optics = How.Optics;
+  O.Rolling = How.Rolling;
+  O.Through = How.Through;
   // Any but black makes kernels that know a background.
   O.Background = How.Several ? std::array<float, 3>{1, 1, 1} : How.Background;
   O.Training = true;

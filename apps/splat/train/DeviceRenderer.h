@@ -27,6 +27,12 @@ public:
     std::array<float, 3> Background{};
     bool Several = false;     ///< setBackground() will follow
     bool Antialiased = false; ///< scene/Drawing.h
+    /// \name The cameras
+    /// @{
+    LensModel Optics = LensModel::Pinhole;
+    bool Rolling = false;
+    Spread Through = Spread::Jacobian;
+    /// @}
   };
   /// Renders by the rules of \p Convention, support `exact`.
   DeviceRenderer(Launcher &Launch, Rules Convention, const Blender &By,

@@ -29,6 +29,16 @@ std::string hashOf(const TrainingSet &Set) {
       Add(C.Position.data(), 3);
       for (const auto &Row : C.Rotation)
         Add(Row.data(), 3);
+      if (const CameraModel &M = C.Optics; M != CameraModel()) {
+        All += name(M.Model);
+        Add(M.K.data(), M.K.size());
+        if (const auto &S = M.Shutter) {
+          for (const double D : {S->Start, S->Across, S->Down})
+            Add(&D, 1);
+          Add(S->Motion.data(), 3);
+          Add(S->Turn.data(), 3);
+        }
+      }
       Add(V.Picture.Rgb.data(), V.Picture.Rgb.size());
       Add(V.Counts.data(), V.Counts.size());
       Add(V.Alpha.data(), V.Alpha.size());
@@ -90,6 +100,10 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
     J["random_background"] = true;
   if (Run.Antialiased)
     J["antialiased"] = true;
+  if (Run.Pictures == LensOf::Photograph)
+    J["distorted"] = true;
+  if (Run.Through != Spread::Jacobian)
+    J["projection"] = name(Run.Through);
   if (Run.Masks != MaskSource::None)
     J["masks"] = name(Run.Masks);
   // What the order of the cores' sums depends on.

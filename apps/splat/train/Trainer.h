@@ -1,6 +1,7 @@
 /// The loop: density control, views, their loss, the way back, a step.
 #pragma once
 
+#include "picture/Options.h"
 #include "train/Checkpoint.h"
 #include "train/Density.h"
 #include "train/Exposure.h"
@@ -32,6 +33,9 @@ struct TrainRun {
   bool RandomBackground = false;
   MaskSource Masks = MaskSource::None;
   bool Antialiased = false; ///< scene/Drawing.h
+  /// Whether photographs are taken as they are, through their lenses.
+  LensOf Pictures = LensOf::Undistorted;
+  Spread Through = Spread::Jacobian;
 
   /// Which has a reset more.
   bool isWhite() const {

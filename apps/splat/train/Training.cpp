@@ -2,6 +2,7 @@
 
 #include "io/Hash.h"
 #include "io/Mean.h"
+#include "picture/View.h"
 #include "train/RunRecord.h"
 #include "train/Start.h"
 #include "vorion/support/Json.h"
@@ -258,9 +259,17 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
     return Completed;
   const auto Pictures = loadTrainingSet(
       *C, {R.Downscale, R.Run.Background, R.Run.Masks, R.Run.RandomBackground,
-           looksAtDepths(R.Run.Settings)});
+           looksAtDepths(R.Run.Settings), R.Run.Pictures});
   if (!Pictures)
     return Pictures.error();
+  const std::vector<Camera> Cameras = Pictures->cameras();
+  const auto Model = commonModel(R.Capture, Cameras);
+  if (!Model)
+    return Model.error();
+  if (isRolling(Cameras) && R.Run.Through != Spread::Unscented)
+    return Error{R.Capture,
+                 "photographs with a rolling shutter, expected --projection "
+                 "unscented with --distorted"};
   if (looksAtDepths(R.Run.Settings) && Pictures->depths() == 0)
     return Error{R.Capture, "no training picture shows a point of the capture, "
                             "expected COLMAP's points with their tracks for "
@@ -281,9 +290,10 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   Launch.beginStage(Stage::Build);
   for (const ProgramSpec &P : Trainer::programs(R.Run.Settings, *Pictures))
     Launch.build(P);
-  DeviceRenderer Renderer(
-      Launch, R.Convention, R.Blending, R.Backward,
-      {R.Run.Background, R.Run.RandomBackground, R.Run.Antialiased});
+  DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
+                          {R.Run.Background, R.Run.RandomBackground,
+                           R.Run.Antialiased, *Model, isRolling(Cameras),
+                           R.Run.Through});
   Trainer T(Launch, Renderer, *Pictures, R.Run, Processes);
   if (auto Started = start(W, T); !Started)
     return Started;

@@ -49,12 +49,15 @@ Expected<TrainView> load(const CaptureView &V, const CapturePoints &Points,
   if (!Counts)
     return Counts.error();
   MaskedPlane Taken{std::move(*Full), std::move(*Counts)};
-  if (!V.Optics.isPinhole())
-    Taken = undistorted(Taken, V.Pose, V.Optics);
+  Camera Pose = V.Pose;
+  if (O.Pictures == LensOf::Photograph)
+    Pose.Optics = V.Optics;
+  else if (!V.Optics.isPinhole())
+    Taken = undistorted(Taken, Pose, V.Optics);
   const Plane &P = Taken.Picture;
-  const int Width = shrunkSide(V.Pose.Width, O.Downscale);
-  const int Height = shrunkSide(V.Pose.Height, O.Downscale);
-  TrainView T{resized(V.Pose, Width, Height),
+  const int Width = shrunkSide(Pose.Width, O.Downscale);
+  const int Height = shrunkSide(Pose.Height, O.Downscale);
+  TrainView T{resized(Pose, Width, Height),
               shrink(P, Width, Height, O.Background),
               shrinkCounts(Taken.Counts, P.Width, P.Height, Width, Height),
               {}};
@@ -92,6 +95,14 @@ Photo over(const TrainView &V, const std::array<float, 3> &Was,
             static_cast<uint8_t>(std::clamp(std::lround(Level), 0L, 255L));
       }
   return P;
+}
+
+std::vector<Camera> TrainingSet::cameras() const {
+  std::vector<Camera> All;
+  for (const auto *Views : {&Training, &HeldOut})
+    for (const TrainView &V : *Views)
+      All.push_back(V.Pose);
+  return All;
 }
 
 std::pair<int, int> TrainingSet::largest() const {

@@ -35,19 +35,22 @@ struct LoadOptions {
   MaskSource Masks = MaskSource::None; ///< as the capture was read
   bool KeepAlpha = false;
   bool KeepDepths = false;
+  /// Photographs stay as they are, and poses get their lenses.
+  LensOf Pictures = LensOf::Undistorted;
 };
 
 struct TrainingSet {
   std::vector<TrainView> Training, HeldOut; ///< by name
 
+  std::vector<Camera> cameras() const;
   /// Width and height of the largest picture.
   std::pair<int, int> largest() const;
   /// Points whose depth is known, in all training pictures.
   std::size_t depths() const;
 };
 
-/// Decodes the pictures of \p C, undistorts them (capture/Undistort.h), and
-/// makes them smaller over the background.
+/// Decodes the pictures of \p C, undistorts them if they are to be
+/// (capture/Undistort.h), and makes them smaller over the background.
 Expected<TrainingSet> loadTrainingSet(const Capture &C, const LoadOptions &O);
 
 } // namespace vorion::splat

@@ -16,13 +16,14 @@ using splat::Path;
 constexpr std::string_view Files[] = {
     "layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl",
     "lens.cl", "lens_equirectangular.cl", "lens_fisheye.cl", "lens_opencv.cl",
-    "lens_orthographic.cl", "lens_pinhole.cl", "unscented.cl", "project.cl",
-    "rectangle.cl", "sort.cl", "tiles.cl", "falloff.cl", "units.cl", "blend.cl",
-    "rasterize.cl", "resolve.cl", "merge.cl", "deal.cl", "planes.h",
-    "sh_basis.h", "depth.cl", "normals.cl",
+    "lens_orthographic.cl", "lens_pinhole.cl", "rolling.cl", "unscented.cl",
+    "project.cl", "rectangle.cl", "sort.cl", "tiles.cl", "falloff.cl",
+    "units.cl", "blend.cl", "rasterize.cl", "resolve.cl", "merge.cl", "deal.cl",
+    "planes.h", "sh_basis.h", "depth.cl", "normals.cl",
     // Training's.
     "upstream.cl", "rasterize_backward.cl", "blend_backward.cl", "reduce.cl",
-    "project_backward.cl", "sh_backward.cl", "adam.cl", "loss.cl"};
+    "backward.cl", "unscented_backward.cl", "project_backward.cl",
+    "sh_backward.cl", "adam.cl", "loss.cl"};
 
 constexpr std::string_view PlainProduct =
     "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
@@ -213,6 +214,13 @@ const std::vector<BrokenKernel> &brokenKernels() {
        {},
        {{"project_backward.cl", "fmin(2.0f * factor / length, 0x1p104f)",
          "2.0f * factor / length"}}},
+      {"points-forget-their-shift",
+       {},
+       {{"unscented_backward.cl", "-2.8284271f * by_off[6]",
+         "0.0f * by_off[6]"}}},
+      {"held-slope-of-no-depth",
+       {},
+       {{"lens_pinhole.cl", "along - by.x.x - by.y.y", "- by.x.x - by.y.y"}}},
       {"adam-uncorrected",
        {},
        {{"adam.cl", "sqrt(v) * correction", "sqrt(v)"}}},

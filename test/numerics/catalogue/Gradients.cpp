@@ -167,8 +167,7 @@ TrainingCase causesOfNaN(bool Gsplat) {
 }
 
 /// Each camera with coefficients of its own, in all directions.
-TrainingCase throughLens(splat::LensModel M, std::string Name,
-                         std::string Why) {
+GradientScene sceneOfLens(splat::LensModel M) {
   GradientScene G{{}, lensView(M, someCoefficients(M), 96, 64), {}};
   const splat::Scene All = allAround(140, 81);
   for (uint32_t I = 0; I < All.size(); ++I) {
@@ -178,7 +177,38 @@ TrainingCase throughLens(splat::LensModel M, std::string Name,
       append(G.Scene, All, I, 1);
   }
   G.Options.Optics = M;
-  return caseOf(std::move(Name), std::move(Why), std::move(G), {});
+  return G;
+}
+
+TrainingCase throughLens(splat::LensModel M, std::string Name,
+                         std::string Why) {
+  return caseOf(std::move(Name), std::move(Why), sceneOfLens(M), {});
+}
+
+/// As seven points. Of the wide Gaussians the camera does not see some, so that
+/// these go back through the Jacobian, one of them where it is held. With \p
+/// Rolls a shutter rolls down and across while the camera moves and turns.
+TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
+                           std::string Why) {
+  GradientScene G = sceneOfLens(M);
+  Numbers R(86);
+  for (const float X : {-0.3F, 0.2F, 2.8F})
+    add(G.Scene, {.Mean = {X, 0.1F, 2},
+                  .Scale = {0.3, 0.2, 1.6},
+                  .Quat = R.turn(),
+                  .Opacity = 0.3,
+                  .Color = R.color()});
+  G.Options.Through = splat::Spread::Unscented;
+  G.Options.Antialiased = !Rolls;
+  G.Options.Rolling = Rolls;
+  if (Rolls)
+    G.View.Optics.Shutter = {
+        -0.1, 0.2, 1, {0.1, -0.15, 0.05}, {0.05, -0.1, 0.1}};
+  std::vector<std::string> FoundIn{"points-forget-their-shift"};
+  if (M == splat::LensModel::Pinhole)
+    FoundIn.emplace_back("held-slope-of-no-depth");
+  return caseOf(std::move(Name), std::move(Why), std::move(G),
+                std::move(FoundIn));
 }
 
 } // namespace
@@ -208,6 +238,21 @@ void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(throughLens(
       LensModel::Equirectangular, "gradients-through-equirectangular",
       "a Gaussian on both sides of the seam has the sum of both gradients"));
+  Cases.push_back(throughPoints(LensModel::Pinhole, /*Rolls=*/false,
+                                "gradients-through-points",
+                                "back through seven points of each, "
+                                "antialiased"));
+  Cases.push_back(throughPoints(LensModel::OpenCv, /*Rolls=*/false,
+                                "gradients-through-points-opencv",
+                                "the same through all coefficients"));
+  Cases.push_back(throughPoints(LensModel::Equirectangular, /*Rolls=*/false,
+                                "gradients-through-points-equirectangular",
+                                "the same with points on both sides of the "
+                                "seam"));
+  Cases.push_back(throughPoints(LensModel::Fisheye, /*Rolls=*/true,
+                                "gradients-through-points-rolling",
+                                "each point at a moment of its own, which its "
+                                "place moves"));
 }
 
 } // namespace vorion::test

@@ -1,0 +1,85 @@
+// The way back through the seven points of unscented.cl. Each goes back through
+// the camera at its own place; false where the camera does not see one of them.
+
+// dL/d(point) from dL/d(its place), px.
+static float3 point_backward(__constant const splat_view *view,
+                             __constant const splat_lens *lens, float3 p,
+                             float2 by) {
+#if USE_ROLLING_SHUTTER
+  rolling_point own;
+  rolling_at(view, lens, p, &own);
+  const lens_rows j = rolling_rows(view, lens, own, false);
+#else
+  const lens_rows j = lens_rows_at(view, lens, p, false);
+#endif
+  return j.x * by.x + j.y * by.y;
+}
+
+static bool unscented_backward(__constant const splat_view *view,
+                               const camera_gaussian *g,
+                               const splat_gradients *by,
+                               shape_gradients *to) {
+  __constant const splat_lens *lens = (__constant const splat_lens *)(view + 1);
+  float2 at;
+#if USE_ROLLING_SHUTTER
+  rolling_point own;
+  if (!rolling_at(view, lens, g->place, &own))
+    return false;
+  at = own.at;
+#else
+  if (!lens_at(lens, g->place, &at))
+    return false;
+#endif
+  const unscented_steps steps =
+      unscented_steps_of(scaled_axes(view, g->activated.xyz, g->unit));
+  unscented_points points;
+  if (!unscented_points_of(view, lens, g->place, at, &steps, &points))
+    return false;
+  const screen_covariance s = unscented_covariance(&points);
+  to->opacity = by->opacity * compensation_of(s);
+
+  // dL/d(covariance) times each point's way, by the adjugate as in
+  // jacobian_backward().
+  float2 by_off[7];
+  for (uint n = 0; n < 7; ++n) {
+    const float2 off = points.off[n];
+    float2 adjugate = (float2)(0.0f, 0.0f);
+    for (uint m = 0; m < 7; ++m)
+      adjugate += cross2(points.off[m], off) *
+                  (float2)(-points.off[m].y, points.off[m].x);
+    by_off[n] = by_covariance(by, (adjugate + DILATION * off) / s.det);
+#ifdef ANTIALIASED
+    if (s.det_sharp / s.det > ANTIALIAS_FLOOR)
+      by_off[n] +=
+          by_compensation(s, by->opacity, g->activated.w, adjugate, off);
+#endif
+  }
+
+  // The ways from the mean's place to the six others add up to six shifts, so of
+  // the covariance only the last one's part depends on the shift.
+  const float2 by_shift = -2.8284271f * by_off[6];
+  to->place = point_backward(view, lens, g->place, -by_shift);
+  float3 by_axis[3];
+  for (uint n = 0; n < 6; ++n) {
+    const float2 by_place = 2.0f * UNSCENTED_WEIGHT * by_off[n] +
+                            (by->mean + by_shift) / 6.0f;
+    const float3 by_point = point_backward(
+        view, lens, unscented_point(g->place, &steps, n), by_place);
+    to->place += by_point;
+    if (n % 2 == 0)
+      by_axis[n / 2] = by_point;
+    else
+      by_axis[n / 2] = UNSCENTED_STEP * (by_axis[n / 2] - by_point);
+  }
+  // By steps along the Gaussian's own axes: column k is by axis k's end.
+  float3 own_by[3];
+  for (uint k = 0; k < 3; ++k)
+    own_by[k] = by_axis[k].x * g->axes.x + by_axis[k].y * g->axes.y +
+                by_axis[k].z * g->axes.z;
+  to->scale = (float3)(own_by[0].x, own_by[1].y, own_by[2].z);
+  const float4 scale = g->activated;
+  to->turn = (float3)(scale.y * own_by[1].z - scale.z * own_by[2].y,
+                      scale.z * own_by[2].x - scale.x * own_by[0].z,
+                      scale.x * own_by[0].y - scale.y * own_by[1].x);
+  return true;
+}
