@@ -113,6 +113,9 @@ private:
   // Float.cpp, Integer.cpp, Memory.cpp.
   void integer(const GuestInsn &G);
   void floating(const GuestInsn &G);
+  bool canWait(const GuestInsn &G, bool IsFused) const;
+  void makeCanonical(const Xbyak::Zmm &Result, bool Waits,
+                     const std::function<void()> &First);
   void load(const GuestInsn &G);
   void store(const GuestInsn &G);
 
@@ -184,6 +187,13 @@ private:
     unsigned Insns = 0, Loads = 0, Stores = 0;
   } Pending;
   int Scratches = 0;
+  /// A result that has not been looked at for NaNs, and what is to be done
+  /// where it has some.
+  struct Rounded {
+    Xbyak::Zmm Result;
+    std::function<void()> First;
+  };
+  std::optional<Rounded> Unchecked;
   /// A label's copies are its own only once it has been used.
   std::deque<Xbyak::Label> ToInterpreters;
   Xbyak::Label *ToInterpreter = nullptr; ///< of the present instruction

@@ -7,6 +7,9 @@
 #include "translate/Places.h"
 #include "translate/Value.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace vorion::isasim::translate {
 
 using namespace Xbyak;
@@ -26,9 +29,10 @@ struct Float {
   Float operator-() const { return {In, !IsNegated}; }
 };
 
-using Rounded = void (*)(Emitter *, const Zmm &To, const Zmm &A, const Zmm &B);
+using Operation = void (*)(Emitter *, const Zmm &To, const Zmm &A,
+                           const Zmm &B);
 struct Sum {
-  Rounded Write;
+  Operation Write;
 };
 #define VORION_ROUNDED(INSN)                                                   \
   {[](Emitter *E, const Zmm &To, const Zmm &A, const Zmm &B) {                 \
@@ -48,23 +52,6 @@ Sum squareRoot(Float) {
 uint8_t operator==(Float, Float) { return EqualQuiet; }
 uint8_t operator<(Float, Float) { return LessSignaling; }
 uint8_t operator<=(Float, Float) { return LessEqualSignaling; }
-
-/// NaN results become the canonical one, where there are any; \p First is
-/// done before in that case, and may use k3 and k4.
-void makeCanonical(
-    Emitter *E, const Zmm &Result, const std::function<void()> &First = [] {}) {
-  Label Nans, Back;
-  E->vcmpps(E->active(k2), Result, Result, Unordered);
-  E->kortestw(k2, k2);
-  E->jnz(Nans);
-  E->L(Back);
-  E->outOfLine([=]() mutable {
-    E->L(Nans);
-    First();
-    E->vpbroadcastd(Result | k2, E->number(CanonicalNan));
-    E->jmp(Back);
-  });
-}
 
 /// Infinity times zero is invalid even if the addend is a quiet NaN, of which
 /// x86 says nothing.
@@ -91,7 +78,77 @@ void fused(Emitter *E, const Zmm &To, Float A, Float B, Float C) {
                 : E->vfmadd231ps(To, A.In, B.In);
 }
 
+/// Whether its result may be a NaN that is not canonical before it is looked
+/// at. It does not leave the region.
+bool isRounded(Op O) {
+  switch (O) {
+#define FLOAT(OP, SOFT, RESULT) case Op::OP:
+#define FUSED(OP, SOFT, FACTOR, ADDEND) case Op::OP:
+#define COMPARE(OP, CONDITION, QUIET_IS_INVALID)
+#define MINMAX(OP, IS_MIN)
+#define TOINT(OP, SIGNED, SOFT)
+#define FROMINT(OP, SIGNED, SOFT)
+#include "core/insns/float.def"
+#undef FLOAT
+#undef FUSED
+#undef COMPARE
+#undef MINMAX
+#undef TOINT
+#undef FROMINT
+    return true;
+  default:
+    return false;
+  }
+}
+
 } // namespace
+
+/// Whether the result of \p G may be looked at together with that of the next
+/// instruction, which computes the same from any NaN. \p IsFused if the factors
+/// of \p G must be there until then.
+bool Emitter::canWait(const GuestInsn &G, bool IsFused) const {
+  const GuestInsn *Next = &G + 1;
+  if (Unchecked || zmmOf(G.I->Rd) < 0 ||
+      Next == Region.data() + Region.size() || Next->I != G.I + 1 ||
+      Next->Leads || Next->Is != Kind::Float || !isRounded(Next->Opcode) ||
+      Next->I->Rd == G.I->Rd)
+    return false;
+  return !IsFused || std::ranges::none_of(
+                         std::array{G.I->Rs1, G.I->Rs2}, [&](uint16_t Factor) {
+                           return zmmOf(Factor) < 0 || Factor == G.I->Rd ||
+                                  Factor == Next->I->Rd;
+                         });
+}
+
+/// NaN results become the canonical one, where there are any; \p First is done
+/// before in that case, and may use k2, which has these lanes, and k3 and k4.
+void Emitter::makeCanonical(const Zmm &Result, bool Waits,
+                            const std::function<void()> &First) {
+  if (Waits) {
+    Unchecked = {Result, First};
+    return;
+  }
+  const std::optional<Rounded> Before = std::exchange(Unchecked, std::nullopt);
+  Label Nans, Back;
+  vcmpps(active(k2), Result, Before ? Before->Result : Result, Unordered);
+  kortestw(k2, k2);
+  jnz(Nans);
+  L(Back);
+  outOfLine([=, this]() mutable {
+    L(Nans);
+    const auto Mend = [this](const Rounded &R) {
+      R.First();
+      vpbroadcastd(R.Result | k2, number(CanonicalNan));
+    };
+    if (Before) {
+      vcmpps(active(k2), Before->Result, Before->Result, Unordered);
+      Mend(*Before);
+      vcmpps(active(k2), Result, Result, Unordered);
+    }
+    Mend({Result, First});
+    jmp(Back);
+  });
+}
 
 void Emitter::floating(const GuestInsn &G) {
   const Insn *I = G.I;
@@ -103,7 +160,7 @@ void Emitter::floating(const GuestInsn &G) {
   const auto Compute = [&](Sum Of) {
     result(I->Rd, [&](const Zmm &To) {
       Of.Write(this, To, A.In, B.In);
-      makeCanonical(this, Zmm(To.getIdx()));
+      makeCanonical(Zmm(To.getIdx()), canWait(G, false), [] {});
     });
   };
   const auto Fuse = [&](Float Factor, Float Addend) {
@@ -115,7 +172,7 @@ void Emitter::floating(const GuestInsn &G) {
       if (Into.getIdx() != Addend.In.getIdx())
         vmovaps(Overwrites ? Into : To, Addend.In);
       fused(this, active(Into), Factor, B, Addend);
-      makeCanonical(this, Into, [this, A = A.In, B = B.In] {
+      makeCanonical(Into, canWait(G, true), [this, A = A.In, B = B.In] {
         flagZeroTimesInfinity(this, A, B);
       });
       if (Overwrites)

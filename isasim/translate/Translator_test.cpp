@@ -120,6 +120,22 @@ public:
     return encode(O, F);
   }
 
+  /// Some that round, one behind the other, which share a few registers.
+  void addRounded(std::vector<uint32_t> &Words) {
+    static constexpr Op Rounding[] = {
+        Op::RV_FADD_S,  Op::RV_FSUB_S,   Op::RV_FMUL_S,   Op::RV_FDIV_S,
+        Op::RV_FMADD_S, Op::RV_FMSUB_S,  Op::RV_FNMADD_S, Op::RV_FNMSUB_S,
+        Op::RV_FSQRT_S, Op::RV_FSGNJN_S, Op::RV_FMIN_S};
+    const unsigned Last = 3 + below(8);
+    for (uint32_t N = 2 + below(4); N != 0; --N) {
+      const Op O = oneOf(Rounding);
+      Words.push_back(encode(O, {.Rd = below(Last),
+                                 .Rs1 = below(Last),
+                                 .Rs2 = O == Op::RV_FSQRT_S ? 0 : below(Last),
+                                 .Rs3 = below(Last)}));
+    }
+  }
+
   uint32_t access() {
     Fields F;
     F.Rd = destination();
@@ -139,6 +155,28 @@ public:
       F.Rs2 &= ~1U;
     }
     return encode(O, F);
+  }
+
+  /// An access at an index that was loaded: of lanes far apart, of neighbours
+  /// or of one place, now and then otherwise than before.
+  void addIndexed(std::vector<uint32_t> &Words) {
+    constexpr unsigned Index = 5, Address = 6;
+    const auto Base = FirstAddress + below(LastAddress - FirstAddress + 1);
+    Words.push_back(encode(
+        Op::RV_LW, {.Rd = Index,
+                    .Rs1 = FirstAddress + below(LastAddress - FirstAddress + 1),
+                    .Imm = 4 * static_cast<int32_t>(below(4))}));
+    if (below(3))
+      Words.push_back(
+          encode(Op::RV_ANDI, {.Rd = Index, .Rs1 = Index, .Imm = 15}));
+    Words.push_back(
+        encode(Op::RV_SH2ADD, {.Rd = Address, .Rs1 = Index, .Rs2 = Base}));
+    Fields F;
+    F.Rd = destination();
+    F.Rs1 = Address;
+    F.Rs2 = below(32);
+    F.Imm = static_cast<int32_t>(below(3)) * 4;
+    Words.push_back(encode(oneOf(Accesses), F));
   }
 
   uint32_t branch(int32_t Bytes) {
@@ -205,7 +243,7 @@ public:
     std::vector<uint32_t> Words;
     for (uint32_t N = 0; N != Length; ++N) {
       if (below(100) < PercentAccesses)
-        Words.push_back(access());
+        below(4) ? Words.push_back(access()) : addIndexed(Words);
       else if (below(12) == 0)
         Words.push_back(branch(
             4 * static_cast<int32_t>(1 + below(std::min(6U, Length - N)))));
@@ -213,6 +251,8 @@ public:
         addSplit(Words, 0);
       else if (below(20) == 0)
         addCall(Words, PercentAccesses);
+      else if (below(10) == 0)
+        addRounded(Words);
       else if (below(30) == 0)
         Words.push_back(
             encode(below(4) ? Op::RV_ADDI : Op::RV_LW,
@@ -409,45 +449,6 @@ TEST_P(TranslatedPrograms, DoesWhatTheInterpreterDoes) {
   EXPECT_GT(Translated, Count / 2);
   EXPECT_GT(Executed, 100 * uint64_t{Count})
       << "they end too early to tell anything";
-}
-
-/// Global memory lies in front of the image and behind it.
-TEST(TranslatedAtomics, AddInBothPartsOfGlobalMemory) {
-  if (!Translator::isThere())
-    GTEST_SKIP() << "the translator needs " << Translator::needs();
-  std::vector<uint32_t> Words(
-      20, encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 5, .Rs2 = 6}));
-  Words.push_back(encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 7, .Rs2 = 6}));
-  Config Large = WarpRunner::smallShape();
-  Large.GlobalBytes = uint64_t{3} << 30;
-  const ExecTable &Exec = execTable(false);
-  WarpRunner R(Exec, Words, Large);
-  Translator T(R.Code, Exec);
-  T.seen(R.Code.begin(), UINT64_MAX);
-  ASSERT_EQ(T.regions(), 1U);
-  constexpr uint32_t Front = VX_GLOBAL_BASE + 64, Behind = VX_HIGH_BASE + 64;
-  Lanes16 Operands, Low, High;
-  for (uint32_t L = 0; L != MaxLanes; ++L) {
-    Operands[L] = L;
-    Low[L] = Front + L % 2 * 4;
-    High[L] = Behind + 4 * L;
-  }
-  R.setX(5, Low);
-  R.setX(6, Operands);
-  R.setX(7, High);
-  R.run();
-  ASSERT_TRUE(R.ranToEnd());
-  const auto Word = [&](uint32_t Address) {
-    uint32_t W;
-    std::memcpy(&W, R.global(Address), 4);
-    return W;
-  };
-  EXPECT_EQ(Word(Front), 20U * 56);
-  EXPECT_EQ(Word(Front + 4), 20U * 64);
-  EXPECT_EQ(Word(Behind + 4 * 15), 15U);
-  EXPECT_EQ(R.warp().Count.Atomics, 21U);
-  EXPECT_EQ(R.warp().Count.Changes, 21U * 15);
-  EXPECT_EQ(R.warp().Count.Parks, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, TranslatedPrograms,
