@@ -1,5 +1,7 @@
 // What the ways back through a camera share.
 
+#define KEEP_SEEN_POINTS
+
 // The way back knows no scene: it goes by what is held.
 #ifndef USE_FIELD_OF_VIEW
 #define USE_FIELD_OF_VIEW 1

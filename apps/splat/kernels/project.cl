@@ -214,9 +214,8 @@ static uint project_one(__local workspace *c,
   screen_covariance s;
   float2 shift = (float2)(0.0f, 0.0f);
 #if USE_UNSCENTED
-  const unscented_steps steps = unscented_steps_of(axes);
   unscented_points points;
-  if (unscented_points_of(view, &c->lens, p, at, &steps, &points)) {
+  if (unscented_points_of(view, &c->lens, p, at, axes, &points)) {
     s = unscented_covariance(&points);
     shift = points.shift;
   } else

@@ -5,56 +5,70 @@
 #define UNSCENTED_STEP 1.7320508f    // root of 3
 #define UNSCENTED_WEIGHT 0.40824829f // root of 1/6
 
+// A point as the camera sees it, by what its derivative needs.
+typedef struct {
+#if USE_ROLLING_SHUTTER
+  rolling_point own;
+#else
+  float3 p;
+  float2 at;
+#endif
+} seen_point;
+
+// False where the camera does not see it.
+static bool see_point(VIEW_SPACE const splat_view *view,
+                      VIEW_SPACE const splat_lens *lens, float3 p,
+                      seen_point *seen) {
+#if USE_ROLLING_SHUTTER
+  return rolling_at(view, lens, p, &seen->own);
+#else
+  seen->p = p;
+  return lens_at(lens, p, &seen->at);
+#endif
+}
+
+// Its place in units of the focal lengths.
+static float2 place_of(const seen_point *seen) {
+#if USE_ROLLING_SHUTTER
+  return seen->own.at;
+#else
+  return seen->at;
+#endif
+}
+
 typedef struct {
   float2 shift;  // from the place of the mean to the mean on the picture
   float2 off[7]; // from there to the points' places and, last, to the mean's
                  // own, times the root of the weight
+#ifdef KEEP_SEEN_POINTS
+  seen_point seen[6]; // for the way back
+#endif
 } unscented_points;
 
-// From the mean to the points, along each axis.
-typedef struct {
-  float3 along[3];
-} unscented_steps;
-
-// `a` are axes as long as the deviations.
-static unscented_steps unscented_steps_of(camera_axes a) {
-  const unscented_steps steps = {
-      {(float3)(a.x.x, a.y.x, a.z.x) * UNSCENTED_STEP,
-       (float3)(a.x.y, a.y.y, a.z.y) * UNSCENTED_STEP,
-       (float3)(a.x.z, a.y.z, a.z.z) * UNSCENTED_STEP}};
-  return steps;
-}
-
-// Point `n` of six.
-static float3 unscented_point(float3 p, const unscented_steps *steps, uint n) {
-  return n % 2 == 0 ? p + steps->along[n / 2] : p - steps->along[n / 2];
-}
-
-// Those of the mean `p`, whose own place is `at`; false where the camera does not
-// see one of them.
+// Those of the mean `p`, whose own place is `at`; `a` are axes as long as the
+// deviations. False where the camera does not see one of them.
 static bool unscented_points_of(VIEW_SPACE const splat_view *view,
                                 VIEW_SPACE const splat_lens *lens, float3 p,
-                                float2 at, const unscented_steps *steps,
+                                float2 at, camera_axes a,
                                 unscented_points *points) {
+  const float3 axis[3] = {(float3)(a.x.x, a.y.x, a.z.x) * UNSCENTED_STEP,
+                          (float3)(a.x.y, a.y.y, a.z.y) * UNSCENTED_STEP,
+                          (float3)(a.x.z, a.y.z, a.z.z) * UNSCENTED_STEP};
   const float2 focal = (float2)(view->focal[0], view->focal[1]);
   float2 sum = (float2)(0.0f, 0.0f);
   for (uint n = 0; n < 6; ++n) {
-    const float3 q = unscented_point(p, steps, n);
-    float2 there;
+    const float3 q = n % 2 == 0 ? p + axis[n / 2] : p - axis[n / 2];
 #if !USE_FISHEYE && !USE_ORTHOGRAPHIC && !USE_EQUIRECTANGULAR
     if (!(KEEP_DEPTH(q.z)))
       return false;
 #endif
-#if USE_ROLLING_SHUTTER
-    rolling_point own;
-    if (!rolling_at(view, lens, q, &own))
+    seen_point seen;
+    if (!see_point(view, lens, q, &seen))
       return false;
-    there = own.at;
-#else
-    if (!lens_at(lens, q, &there))
-      return false;
+#ifdef KEEP_SEEN_POINTS
+    points->seen[n] = seen;
 #endif
-    points->off[n] = focal * lens_difference(there, at);
+    points->off[n] = focal * lens_difference(place_of(&seen), at);
     sum += points->off[n];
   }
   points->shift = sum / 6.0f;

@@ -3,14 +3,12 @@
 
 // dL/d(point) from dL/d(its place), px.
 static float3 point_backward(__constant const splat_view *view,
-                             __constant const splat_lens *lens, float3 p,
-                             float2 by) {
+                             __constant const splat_lens *lens,
+                             const seen_point *seen, float2 by) {
 #if USE_ROLLING_SHUTTER
-  rolling_point own;
-  rolling_at(view, lens, p, &own);
-  const lens_rows j = rolling_rows(view, lens, own, false);
+  const lens_rows j = rolling_rows(view, lens, seen->own, false);
 #else
-  const lens_rows j = lens_rows_at(view, lens, p, false);
+  const lens_rows j = lens_rows_at(view, lens, seen->p, false);
 #endif
   return j.x * by.x + j.y * by.y;
 }
@@ -20,20 +18,13 @@ static bool unscented_backward(__constant const splat_view *view,
                                const splat_gradients *by,
                                shape_gradients *to) {
   __constant const splat_lens *lens = (__constant const splat_lens *)(view + 1);
-  float2 at;
-#if USE_ROLLING_SHUTTER
-  rolling_point own;
-  if (!rolling_at(view, lens, g->place, &own))
+  seen_point mean;
+  if (!see_point(view, lens, g->place, &mean))
     return false;
-  at = own.at;
-#else
-  if (!lens_at(lens, g->place, &at))
-    return false;
-#endif
-  const unscented_steps steps =
-      unscented_steps_of(scaled_axes(view, g->activated.xyz, g->unit));
+  const camera_axes scaled = scaled_axes(view, g->activated.xyz, g->unit);
   unscented_points points;
-  if (!unscented_points_of(view, lens, g->place, at, &steps, &points))
+  if (!unscented_points_of(view, lens, g->place, place_of(&mean), scaled,
+                           &points))
     return false;
   const screen_covariance s = unscented_covariance(&points);
   to->opacity = by->opacity * compensation_of(s);
@@ -58,13 +49,13 @@ static bool unscented_backward(__constant const splat_view *view,
   // The ways from the mean's place to the six others add up to six shifts, so of
   // the covariance only the last one's part depends on the shift.
   const float2 by_shift = -2.8284271f * by_off[6];
-  to->place = point_backward(view, lens, g->place, -by_shift);
+  to->place = point_backward(view, lens, &mean, -by_shift);
   float3 by_axis[3];
   for (uint n = 0; n < 6; ++n) {
     const float2 by_place = 2.0f * UNSCENTED_WEIGHT * by_off[n] +
                             (by->mean + by_shift) / 6.0f;
-    const float3 by_point = point_backward(
-        view, lens, unscented_point(g->place, &steps, n), by_place);
+    const float3 by_point =
+        point_backward(view, lens, &points.seen[n], by_place);
     to->place += by_point;
     if (n % 2 == 0)
       by_axis[n / 2] = by_point;
