@@ -1,8 +1,11 @@
 #include "Options.h"
 
+#include "vorion/isasim/Variables.h"
+
 #include <charconv>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <mutex>
 #include <utility>
 
 using namespace vorion;
@@ -23,6 +26,8 @@ void readVariable(const char *Name, std::string &Text) {
 } // namespace
 
 DeviceOptions DeviceOptions::fromEnvironment() {
+  static std::once_flag Warned;
+  std::call_once(Warned, [] { isasim::warnOfMisspeltVariables("vorion"); });
   DeviceOptions O;
   for (const auto &[Member, Name] : MachineOptions)
     readVariable(Name, O.*Member);

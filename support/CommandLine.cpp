@@ -112,6 +112,19 @@ std::string inOurWords(const std::string &Said) {
   return Said;
 }
 
+/// The option among \p App's and its parents' that took another one for its
+/// value, as --json does in "--json -o x.png"; null if none did.
+const CLI::Option *tookAnOption(const CLI::App *App) {
+  const CLI::App *const Inner = App;
+  for (; App; App = App->get_parent())
+    for (const CLI::Option *O : App->get_options())
+      for (const std::string &Value : O->results())
+        if (Value.size() > 1 && Value.starts_with('-') &&
+            Inner->get_option_no_throw(Value))
+          return O;
+  return nullptr;
+}
+
 /// What is wrong, of \p App that refused its arguments with \p Said: a word
 /// that nobody knows is told rather than what is missing without it. \p First
 /// is the first argument.
@@ -146,6 +159,9 @@ std::string problemOf(const CLI::App &App, const std::string &Said,
   }
   const auto Surplus = std::ranges::find_if(
       Left, [](const std::string &Word) { return Word != "--"; });
+  if (const CLI::Option *O = tookAnOption(Inner); O && Surplus != Left.end())
+    return fmt::format("{}: a value is missing, expected {} {}", O->get_name(),
+                       O->get_type_name(), SeeHelp);
   if (Surplus != Left.end())
     return fmt::format("unexpected argument {} {}", *Surplus, SeeHelp);
   // A check of ours says itself what it expects.

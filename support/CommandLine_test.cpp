@@ -166,6 +166,9 @@ TEST(CommandLine, NoMessageIsTheParsersOwn) {
   EXPECT_EQ(SaidOf({"--threads"}),
             "tool: error: --threads: a value is missing, expected N (see "
             "--help)\n");
+  EXPECT_EQ(SaidOf({"--json", "--path", "simt"}),
+            "tool: error: --json: a value is missing, expected FILE (see "
+            "--help)\n");
   EXPECT_EQ(SaidOf({"--threads", "-1"}),
             "tool: error: --threads: -1 is not a number that it takes (see "
             "--help)\n");

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,14 @@ int printViews(const std::string &File) {
   return EXIT_SUCCESS;
 }
 
+/// An error of the variable VORION_SET as one of --set, which gave its value.
+Error ofOption(Error E) {
+  constexpr std::string_view Variable = "VORION_SET: ";
+  if (E.What.starts_with(Variable))
+    E.What.replace(0, Variable.size(), "--set: ");
+  return E;
+}
+
 int run(std::vector<std::string> Arguments) {
   CLI::App App("Renders 3D Gaussian scenes on an OpenCL device.", "splat");
   App.footer(std::string(ExitCodeHelp));
@@ -45,9 +54,13 @@ int run(std::vector<std::string> Arguments) {
                        "Print the version, and a hash of all programs that "
                        "results depend on");
   splat::DeviceOptions Device;
+  bool SetHere = false;
   App.add_option_function<std::string>(
          "--set",
-         [&](const std::string &Set) { Device.set("VORION_SET", Set); },
+         [&](const std::string &Set) {
+           Device.set("VORION_SET", Set);
+           SetHere = true;
+         },
          "change the Vorion device's configuration (as VORION_SET)")
       ->type_name("KEY=VALUE,...");
   App.add_flag_callback("--quiet", splat::hideProgress,
@@ -91,7 +104,8 @@ int run(std::vector<std::string> Arguments) {
   for (auto &[Command, Run] : Commands)
     if (Command->parsed())
       if (const auto Done = Run(Device); !Done)
-        return reportError("splat", Done.error());
+        return reportError("splat",
+                           SetHere ? ofOption(Done.error()) : Done.error());
   return EXIT_SUCCESS;
 }
 

@@ -8,6 +8,7 @@
 #include "vorion/isasim/Energy.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Session.h"
+#include "vorion/isasim/Variables.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -343,6 +344,7 @@ int runSaved(const Options &O, const KernelRequest &Request,
 }
 
 int run(const Options &O) {
+  warnOfMisspeltVariables(Tool);
   const Expected<Config> C = makeConfig(O, defaultMachine());
   if (!C)
     return reportError(Tool, C.error());

@@ -4,9 +4,12 @@
 #include "vorion/support/Tool.h"
 #include "vorion/support/Version.h"
 
+#include "clang/Driver/Options.h"
 #include "llvm/ADT/ArrayRef.h"
 #include "llvm/ADT/SmallString.h"
 #include "llvm/ADT/StringRef.h"
+#include "llvm/Option/ArgList.h"
+#include "llvm/Option/OptTable.h"
 #include "llvm/Support/FileSystem.h"
 #include "llvm/Support/InitLLVM.h"
 #include "llvm/Support/LLVMDriver.h"
@@ -15,6 +18,7 @@
 #include "llvm/Support/raw_ostream.h"
 
 #include <cstdlib>
+#include <string>
 #include <unistd.h>
 #include <vector>
 
@@ -41,14 +45,34 @@ static bool wantsKernelImage(llvm::ArrayRef<char *> Arguments) {
   return AnyKernel;
 }
 
+/// Whether clang's driver is called and not one of its steps.
+static bool isDriver(llvm::ArrayRef<char *> Arguments) {
+  return Arguments.size() < 2 ||
+         !llvm::StringRef(Arguments[1]).starts_with("-cc1");
+}
+
+/// The first folder among the driver's inputs, which it would leave to the
+/// linker; empty if there is none.
+static std::string folderAmong(llvm::ArrayRef<char *> Arguments) {
+  if (!isDriver(Arguments))
+    return {};
+  unsigned Missing = 0, Count = 0;
+  const auto Parsed = clang::driver::getDriverOptTable().ParseArgs(
+      Arguments.drop_front(), Missing, Count,
+      llvm::opt::Visibility(clang::driver::options::ClangOption));
+  for (const std::string &Input :
+       Parsed.getAllArgValues(clang::driver::options::OPT_INPUT))
+    if (llvm::sys::fs::is_directory(Input))
+      return Input;
+  return {};
+}
+
 /// clang's driver, which keeps lines if somebody wants to know of resources:
 /// the front end does for remarks, even of no pass, and the code is the same.
 static int runClang(llvm::ArrayRef<char *> Arguments) {
   std::vector<char *> All = Arguments;
   std::string Lines = "-Rpass=^$";
-  const bool IsDriver =
-      All.size() < 2 || !llvm::StringRef(All[1]).starts_with("-cc1");
-  if (IsDriver && llvm::vorion::wantsResources())
+  if (isDriver(All) && llvm::vorion::wantsResources())
     All.insert(All.begin() + 1, Lines.data());
   return clang_main(int(All.size()), All.data(),
                     {Arguments[0], nullptr, false});
@@ -63,6 +87,12 @@ int main(int Argc, char **Argv) {
     return vorion::runTool(VORION_TOOL, [&] {
       return vorion::runWithResources(Tool, Arguments, *Form);
     });
+  if (const std::string Folder = folderAmong({Argv, Argv + Argc});
+      !Folder.empty()) {
+    llvm::errs() << "vorion-clang: error: " << Folder
+                 << ": a folder, expected a source file or an object\n";
+    return 3;
+  }
   llvm::sys::path::remove_filename(Tool);
   llvm::sys::path::append(Tool, "vorion-cl-link");
   if (wantsKernelImage({Argv + 1, Argv + Argc})) {

@@ -3,6 +3,7 @@
 
 #include "vorion/support/Tool.h"
 
+#include "llvm/ADT/STLExtras.h"
 #include "llvm/ADT/StringRef.h"
 #include "llvm/ADT/StringSwitch.h"
 #include "llvm/BinaryFormat/ELF.h"
@@ -78,6 +79,15 @@ int main(int Argc, char **Argv) {
                                            reinterpret_cast<void *>(&main)),
           Arguments, HasProgram, *Profile);
     });
+  // It would print its long list of options alone.
+  if (llvm::none_of(Arguments,
+                    [](llvm::StringRef A) { return A.starts_with("-"); })) {
+    llvm::errs()
+        << "vorion-objdump: error: nothing to show, expected an option "
+           "that says what, such as --disassemble, --source, --syms "
+           "or --section-headers (see --help)\n";
+    return 2;
+  }
   // What is ours comes first, then llvm-objdump's long list.
   if (Argc == 2 && Arguments[0] == "--help")
     llvm::outs()

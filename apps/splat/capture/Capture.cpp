@@ -397,9 +397,14 @@ bool isCapture(const std::string &Path) {
 }
 
 static Error noCapture(const std::string &Path) {
-  return {Path, "no capture, expected a folder with COLMAP's "
-                "sparse/0/cameras.bin or .txt, transforms_train.json or "
-                "transforms.json"};
+  std::error_code Ignored;
+  const char *Why = !fileExists(Path)                 ? ": no such folder"
+                    : fs::is_directory(Path, Ignored) ? ""
+                                                      : ": not a folder";
+  return {Path, fmt::format("no capture{}, expected a folder with COLMAP's "
+                            "sparse/0/cameras.bin or .txt, "
+                            "transforms_train.json or transforms.json",
+                            Why)};
 }
 
 Expected<CaptureCameras> readCaptureCameras(const std::string &Path,

@@ -236,7 +236,7 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
     return measureTraining(A.Train, A.List, A.Only, sayOfSweep);
   }
   if (A.Scene.Path.empty())
-    return usage("expected a scene, or --train");
+    return usage("no input, expected a scene or --train CAPTURE");
   const auto Floor = parseDecibels(A.AtLeast);
   if (!Floor)
     return Floor.error();

@@ -11,29 +11,10 @@
 namespace vorion::splat {
 
 static constexpr std::array Variables{
-    KnownVariable{"VORION_ROOT", "says where the tools are", false},
-    KnownVariable{"VORION_CONFIG",
-                  "chooses the machine, by its name or by a JSON file", false},
-    KnownVariable{"VORION_SET", "changes single values of the machine", false},
-    KnownVariable{"VORION_TIME", "turns the clock on", false},
-    KnownVariable{"VORION_CAPTURE",
-                  "keeps a program's kernel launches in a folder", true},
-    KnownVariable{"VORION_COMPILE_ALL",
-                  "compiles every kernel for groups of any size", false},
-    KnownVariable{"VORION_REMARKS", "says what the compiler tells of kernels",
-                  false},
-    KnownVariable{"VORION_KERNEL_FOLDER",
-                  "is the folder of compiled kernels, in place of the cache's",
-                  false},
-    KnownVariable{"VORION_JOBS", "says how many jobs scripts/setup.sh starts",
-                  false},
-    KnownVariable{"VORION_SOURCES",
-                  "says where the build finds the sources of LLVM and PoCL",
-                  false},
-#define VORION_SESSION_OPTION(Member, Option, Variable, Value, Default, Help)  \
-  KnownVariable{Variable, "watches runs: " Help, true},
-#include "vorion/isasim/SessionOptions.def"
-#undef VORION_SESSION_OPTION
+#define VORION_VARIABLE(NAME, EFFECT, WATCHES)                                 \
+  KnownVariable{NAME, EFFECT, WATCHES},
+#include "vorion/isasim/Variables.def"
+#undef VORION_VARIABLE
 };
 
 std::span<const KnownVariable> knownVariables() { return Variables; }

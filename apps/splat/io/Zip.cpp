@@ -33,7 +33,7 @@ void ZipArchive::Discard::operator()(zip *Z) const { zip_discard(Z); }
 Expected<ZipArchive> ZipArchive::open(const std::string &Where,
                                       const std::string &What, Bytes File) {
   if (File.empty()) // which libzip takes for an archive without entries
-    return Error{Where, fmt::format("not {}: the file is empty", What)};
+    return Error{Where, fmt::format("the file is empty, expected {}", What)};
   zip_error_t E;
   zip_error_init(&E);
   zip_source_t *Memory =
@@ -43,7 +43,7 @@ Expected<ZipArchive> ZipArchive::open(const std::string &Where,
   zip_t *Z = zip_open_from_source(Memory, ZIP_RDONLY, &E);
   if (!Z) {
     zip_source_free(Memory);
-    return Error{Where, fmt::format("not {}: {}", What, describe(E))};
+    return Error{Where, fmt::format("{}, expected {}", describe(E), What)};
   }
   zip_error_fini(&E);
   return ZipArchive(Where, File.size(), Z);

@@ -72,6 +72,8 @@ Expected<SceneFile> readScene(const std::string &Path,
   const auto File = readFile(Path);
   if (!File)
     return File.error();
+  if (File->empty())
+    return Error{Path, "an empty file, expected a scene"};
   const std::string_view Text = asText(*File);
   const std::size_t Start = Text.find_first_not_of(" \t\r\n");
   if (isGltf(*File))

@@ -24,6 +24,10 @@ render() {
 render "missing scene" none.ply c.json front p.png
 render "truncated scene" short.ply c.json front p.png
 render "not a scene" text.ply c.json front p.png
+render "empty scene" /dev/null c.json front p.png
+render "folder as scene" folder.png c.json front p.png
+attempt "missing capture" train nowhere -o p.ply
+attempt "file as capture" train text.ply -o p.ply
 render "scene without opacity" property.ply c.json front p.png
 render "cameras not JSON" s.ply text.json front p.png
 render "camera without fx" s.ply keys.json front p.png

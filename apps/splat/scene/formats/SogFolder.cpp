@@ -123,8 +123,8 @@ Expected<SceneFile> readChunks(const std::string &Path,
                                const ReadOptions &Options) {
   const auto Names = chunksOf(Path);
   if (Names.empty())
-    return Error{Path, "a folder without meta.json, lod-meta.json or chunks, "
-                       "expected a SOG scene"};
+    return Error{Path, "a folder without a scene, expected the file of one, or "
+                       "a folder with SOG's meta.json or lod-meta.json"};
   // Writers call a chunk LEVEL_NUMBER. Several levels would be the same scene
   // several times, and only the index says which belong together.
   std::set<std::string> Levels;

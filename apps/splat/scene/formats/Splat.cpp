@@ -7,6 +7,7 @@
 // know it, so positions and scales beyond 1e9 and negative scales, which no
 // scene has but text and other files soon do, are errors. A scale of zero
 // becomes the smallest normal float, whose logarithm is finite.
+#include "scene/SceneFile.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
 
@@ -20,6 +21,15 @@ namespace {
 constexpr std::size_t RecordSize = 32;
 constexpr float Plausible = 1e9F;
 
+/// The endings of the formats that a file's first bytes tell: ".ply, .spz, ".
+std::string markedFormats() {
+  std::string All;
+  for (const SceneFormatRecord &F : sceneFormats())
+    if (F.Format != SceneFormat::Splat && !F.Ending.empty())
+      All += std::string(F.Ending) + ", ";
+  return All;
+}
+
 } // namespace
 
 bool isSplat(Bytes /*File*/) { return false; }
@@ -27,11 +37,11 @@ bool isSplat(Bytes /*File*/) { return false; }
 Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
                                const ReadOptions &Options) {
   if (File.size() % RecordSize != 0)
-    return Error{Where,
-                 fmt::format("not a scene: {} bytes without the mark of a "
-                             "format, expected a file as in docs/scenes.md, or "
-                             ".splat records of {} bytes",
-                             File.size(), RecordSize)};
+    return Error{
+        Where,
+        fmt::format("not a scene of a known format, expected {}or .splat "
+                    "of {} bytes a Gaussian",
+                    markedFormats(), RecordSize)};
   const std::size_t Count = File.size() / RecordSize;
   SceneFile Result;
   Result.Format = SceneFormat::Splat;

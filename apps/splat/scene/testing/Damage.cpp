@@ -105,7 +105,7 @@ void addCompressedPlyDamage(std::vector<DamagedFile> &Out) {
 void addSplatDamage(std::vector<DamagedFile> &Out) {
   const std::string Splat = splatOf(sample(0));
   Out.push_back(
-      {"short.splat", cut(Splat, 1), "159 bytes without the mark of a format"});
+      {"short.splat", cut(Splat, 1), "not a scene of a known format"});
   Out.push_back(
       {"nan.splat", patched(Splat, 36, NaN), "record 1 has position nan"});
   Out.push_back({"infinite.splat", patched(Splat, 12, Infinity),
@@ -320,7 +320,7 @@ std::vector<DamagedFile> damagedFiles() {
   Missing.erase("meta.json");
   Out.push_back({"no-meta.sog", zipOf(Missing), "meta.json: no such entry"});
   Out.push_back(
-      {"short.sog", cut(zipOf(sogOf(sample(0))), 1), "not a SOG archive"});
+      {"short.sog", cut(zipOf(sogOf(sample(0))), 1), "expected a SOG archive"});
   return Out;
 }
 

@@ -1,0 +1,31 @@
+#include "vorion/isasim/Variables.h"
+
+#include "vorion/support/Diagnostics.h"
+#include "vorion/support/Suggest.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <string>
+#include <unistd.h>
+
+using namespace vorion;
+
+static constexpr std::array Names{
+#define VORION_VARIABLE(NAME, EFFECT, WATCHES) std::string_view(NAME),
+#include "vorion/isasim/Variables.def"
+#undef VORION_VARIABLE
+};
+
+void isasim::warnOfMisspeltVariables(std::string_view Tool) {
+  for (char **Each = environ; *Each; ++Each) {
+    const std::string_view Entry = *Each;
+    const std::string Name(Entry.substr(0, Entry.find('=')));
+    if (!Name.starts_with("VORION_") ||
+        std::ranges::find(Names, Name) != Names.end())
+      continue;
+    if (const std::string Meant = didYouMean(Name, Names); !Meant.empty())
+      printDiagnostic(Tool, "warning", Name,
+                      "no program reads this variable" + Meant);
+  }
+}
