@@ -149,7 +149,8 @@ class Machine:
                   of: str = "activated", time: bool = False, rules: str | None = None, support: str | None = None,
                   path: str | None = None, background: tuple[float, float, float] | None = None,
                   cutoff: float | None = None, simt_tile: int | None = None, simt_group: int | None = None,
-                  reciprocal: str | None = None, sum: str | None = None, near: float | None = None) -> Gradients:
+                  reciprocal: str | None = None, sum: str | None = None, near: float | None = None,
+                  projection: str | None = None) -> Gradients:
         """Draws `scene` as `camera` sees it, and takes a loss's gradients back to its parameters.
 
         v_image: (H, W, 3), dL/d(image), the background being in it
@@ -161,7 +162,8 @@ class Machine:
         if of not in ("activated", "stored"):
             raise UsageError(f"of={of!r}: expected 'activated' or 'stored'")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
-                       "simt_tile": simt_tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum, "near": near})
+                       "simt_tile": simt_tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum, "near": near,
+                       "projection": projection})
         if v_alpha is None:
             v_alpha = np.zeros((camera.height, camera.width), dtype=np.float32)
         image, alpha, by, report = self._native.gradients(scene._native, camera._native, v_image, v_alpha, asked,
