@@ -87,12 +87,6 @@ int main(int Argc, char **Argv) {
     return vorion::runTool(VORION_TOOL, [&] {
       return vorion::runWithResources(Tool, Arguments, *Form);
     });
-  if (const std::string Folder = folderAmong({Argv, Argv + Argc});
-      !Folder.empty()) {
-    llvm::errs() << "vorion-clang: error: " << Folder
-                 << ": a folder, expected a source file or an object\n";
-    return 3;
-  }
   llvm::sys::path::remove_filename(Tool);
   llvm::sys::path::append(Tool, "vorion-cl-link");
   if (wantsKernelImage({Argv + 1, Argv + Argc})) {
@@ -100,6 +94,12 @@ int main(int Argc, char **Argv) {
     llvm::errs() << "vorion-clang: error: " << Tool
                  << ": cannot be run, expected the OpenCL part of the build\n";
     return 70;
+  }
+  if (const std::string Folder = folderAmong({Argv, Argv + Argc});
+      !Folder.empty()) {
+    llvm::errs() << "vorion-clang: error: " << Folder
+                 << ": a folder, expected a source file or an object\n";
+    return 3;
   }
   if (Argc == 2 && llvm::StringRef(Argv[1]) == "--version")
     llvm::outs() << vorion::versionLine(VORION_TOOL) << "\n";
