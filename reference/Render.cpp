@@ -2,6 +2,8 @@
 
 #include "Walk.h"
 
+#include <algorithm>
+
 namespace vorion::reference {
 
 template <typename Real> double Picture<Real>::doubtfulShare() const {

@@ -1,6 +1,7 @@
 #include "Render.h"
 #include "TestScenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 

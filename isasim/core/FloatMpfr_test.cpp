@@ -9,6 +9,7 @@
 #include "testing/MpfrOracle.h"
 #include "testing/WarpRunner.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <random>
 

@@ -5,6 +5,8 @@
 #include "raster/BackwardLoop.h"
 #include "raster/UnitTables.h"
 
+#include <algorithm>
+
 namespace vorion::raster {
 namespace {
 

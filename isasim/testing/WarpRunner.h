@@ -10,6 +10,7 @@
 #include "testing/Encode.h"
 #include "vorion/isasim/TrapCause.h"
 
+#include <algorithm>
 #include <array>
 
 namespace vorion::isasim::testing {

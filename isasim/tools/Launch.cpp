@@ -6,6 +6,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Suggest.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
 #include <fmt/ranges.h>

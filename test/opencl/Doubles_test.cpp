@@ -3,6 +3,7 @@
 
 #include "TestDevice.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cfenv>

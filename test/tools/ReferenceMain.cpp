@@ -6,6 +6,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

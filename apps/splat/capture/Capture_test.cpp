@@ -2,6 +2,8 @@
 
 #include "capture/CaptureTest.h"
 
+#include <algorithm>
+
 using namespace vorion;
 using namespace vorion::splat;
 using namespace vorion::splat::testing;

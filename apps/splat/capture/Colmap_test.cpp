@@ -2,6 +2,7 @@
 
 #include "capture/CaptureTest.h"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 

@@ -2,6 +2,7 @@
 
 #include "io/Hash.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>

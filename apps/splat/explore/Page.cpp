@@ -2,6 +2,7 @@
 
 #include "page/Page.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 #include <set>

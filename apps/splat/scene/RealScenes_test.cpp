@@ -3,6 +3,7 @@
 #include "scene/testing/Compare.h"
 #include "scene/testing/Invariants.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 

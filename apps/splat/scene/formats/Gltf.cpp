@@ -10,6 +10,7 @@
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>

@@ -5,6 +5,7 @@
 #include "scene/formats/Writers.h"
 #include "vorion/support/Json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>

@@ -1,6 +1,7 @@
 #include "scene/formats/Quantize.h"
 #include "scene/formats/Writers.h"
 
+#include <algorithm>
 #include <cassert>
 #include <numbers>
 
