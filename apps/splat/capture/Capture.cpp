@@ -218,15 +218,14 @@ Expected<Success> checkPinhole(const std::string &File, const CaptureView &V,
         File, fmt::format("frame {} has the camera model EQUIRECTANGULAR, of "
                           "which there is no pinhole's picture, expected "
                           "photographs of perspective or fisheye cameras, "
-                          "or splat train --distorted",
+                          "or --distorted",
                           printable(V.Pose.Name))};
   if (V.Optics.Shutter)
     return Error{File,
                  fmt::format("frame {} has a rolling shutter, of which there "
                              "is no pinhole's picture, expected photographs of "
                              "one moment each (without the key rolling_shutter "
-                             "the first pose counts), or splat train "
-                             "--distorted",
+                             "the first pose counts), or --distorted",
                              printable(V.Pose.Name))};
   return Success{};
 }
@@ -365,6 +364,13 @@ std::size_t Capture::masked() const {
 std::size_t Capture::distorted() const {
   return static_cast<std::size_t>(std::ranges::count_if(
       Views, [](const CaptureView &V) { return !V.Optics.isPinhole(); }));
+}
+
+std::size_t Capture::photographsAlone() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(Views, [](const CaptureView &V) {
+        return V.Optics.Model == LensModel::Equirectangular || V.Optics.Shutter;
+      }));
 }
 
 CameraRing cameraRing(const Capture &C) {

@@ -56,6 +56,8 @@ struct Capture {
   std::size_t WithoutPicture = 0;
   std::size_t masked() const;    ///< views with a mask
   std::size_t distorted() const; ///< views whose lens is no pinhole
+  /// Views that cannot be undistorted: spheres and rolling shutters.
+  std::size_t photographsAlone() const;
   /// What decided which views are held out, for people.
   std::string HeldOutBy;
 

@@ -70,10 +70,15 @@ std::string textOf(const std::string &Path, const Capture &C) {
                       Span(F.Height));
   Text += fmt::format("focal length x {}, y {} pixels\n", Span(F.FocalX),
                       Span(F.FocalY));
-  if (C.distorted() > 0)
+  const std::size_t Alone = C.photographsAlone();
+  if (const std::size_t Bend = C.distorted() - Alone; Bend > 0)
     Text += fmt::format("lenses       of {} views bend: training undistorts "
-                        "their pictures\n",
-                        C.distorted());
+                        "their pictures, unless --distorted is given\n",
+                        Bend);
+  if (Alone > 0)
+    Text += fmt::format("lenses       of {} views are spheres or roll: they "
+                        "need --distorted\n",
+                        Alone);
   Text += fmt::format("cameras      within {:.6g} of ({:.6g}, {:.6g}, {:.6g}), "
                       "extent {:.6g}\n",
                       F.Ring.Radius, F.Ring.Centre[0], F.Ring.Centre[1],
@@ -119,7 +124,9 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
 Expected<Success> describeCapture(const std::string &Path,
                                   const std::string &JsonFile,
                                   bool AllowOutside) {
-  const auto C = readCapture(Path, {{}, AllowOutside});
+  // Of photographs there is something to say whatever their lenses are.
+  const auto C = readCapture(
+      Path, {{}, AllowOutside, MaskSource::None, LensOf::Photograph});
   if (!C)
     return C.error();
   if (!JsonFile.empty())

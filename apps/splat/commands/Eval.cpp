@@ -10,6 +10,7 @@
 #include "eval/ScoreText.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
+#include "picture/View.h"
 #include "render/Pictures.h"
 #include "train/RunRecord.h"
 #include "vorion/support/CommandLine.h"
@@ -75,6 +76,7 @@ reportOf(const EvalArguments &A, const SceneFile &File, const Capture &C,
                  {"pictures", hashPictures(Set)},
                  {"downscale", A.Downscale},
                  {"picture_filter", PhotoFilter},
+                 {"through_lenses", A.Read.Pictures == LensOf::Photograph},
                  {"held_out_by", C.HeldOutBy},
                  {"rules", name(A.Options.Convention)},
                  {"support", name(A.Options.Reach)},
@@ -114,8 +116,11 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   const auto C = readCapture(A.Capture, A.Read);
   if (!C)
     return C.error();
-  const auto Set =
-      loadTrainingSet(*C, {A.Downscale, A.Options.Background, A.Read.Masks});
+  const LoadOptions Load{.Downscale = A.Downscale,
+                         .Background = A.Options.Background,
+                         .Masks = A.Read.Masks,
+                         .Pictures = A.Read.Pictures};
+  const auto Set = loadTrainingSet(*C, Load);
   if (!Set)
     return Set.error();
   const std::vector<JudgedView> Views = judgedViews(*Set, A.All);
@@ -128,6 +133,11 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   Cameras.reserve(Views.size());
   for (const JudgedView &V : Views)
     Cameras.push_back(V.View->Pose);
+  const auto Model = commonModel(A.Capture, Cameras);
+  if (!Model)
+    return Model.error();
+  A.Options.Optics = *Model;
+  A.Options.Rolling = isRolling(Cameras);
   const ViewFacts Facts = factsOfAll(File->Gaussians, Cameras, A.Options);
   const EffectInputs Inputs{.Gaussians = File->Gaussians,
                             .Options = A.Options,
@@ -181,6 +191,11 @@ Runner addEval(CLI::App &App) {
   App.add_flag("--all", A->All,
                "Judge the views that training uses, too (default: those held "
                "out)");
+  App.add_flag(
+      "--distorted",
+      [A](std::int64_t) { A->Read.Pictures = LensOf::Photograph; },
+      "Draw through the photographs' lenses and judge by the photographs as "
+      "they are (default: by what training makes of them, without distortion)");
   App.add_option("--downscale", A->Downscale,
                  "Pictures so many times smaller, as in training (default 1)")
       ->check(isBetween(1, 64));
