@@ -70,6 +70,7 @@ Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
   Reordered R;
   R.Render.resize(static_cast<std::size_t>(Width) *
                   static_cast<std::size_t>(Height));
+  R.Transmittance.resize(R.Render.size());
   std::atomic<uint64_t> Pairs = 0, Turned = 0;
   forEachTile(Walk.tiles(), O.Threads, [&](std::size_t Tile) {
     const auto List = Walk.candidates(Tile);
@@ -95,10 +96,13 @@ Reordered blendInOrder(const std::vector<Splat<double>> &Splats, int Width,
                     (All[I].Alpha * T);
           T *= 1 - All[I].Alpha;
         }
-        R.Render[static_cast<std::size_t>(Y) * static_cast<std::size_t>(Width) +
-                 static_cast<std::size_t>(X)] =
+        const std::size_t Pixel =
+            static_cast<std::size_t>(Y) * static_cast<std::size_t>(Width) +
+            static_cast<std::size_t>(X);
+        R.Render[Pixel] =
             Colour +
             T * glm::dvec3(O.Background[0], O.Background[1], O.Background[2]);
+        R.Transmittance[Pixel] = T;
       }
   });
   R.Pairs = Pairs;

@@ -16,7 +16,9 @@ using PixelDepth = std::function<double(std::size_t Index, int X, int Y)>;
 
 /// A picture in another order, and what the order moved.
 struct Reordered {
-  std::vector<glm::dvec3> Render; ///< as \c Picture has it
+  /// As \c Picture has them.
+  std::vector<glm::dvec3> Render;
+  std::vector<double> Transmittance;
   /// Over all pixels, pairs of Gaussians that the pixel blends by the depths of
   /// centres, and how many of them the other order turns round.
   uint64_t Pairs = 0, Turned = 0;

@@ -2,6 +2,7 @@
 
 #include "Convert.h"
 #include "Tool.h"
+#include "reference/PixelOrder.h"
 #include "scene/SceneFile.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -17,7 +18,7 @@ namespace {
 struct Arguments {
   std::string Scene, Cameras, View, Output, Json, Pairs;
   std::string Rules = "inria", Support = "exact", Precision = "f64";
-  std::string Projection = "jacobian";
+  std::string Projection = "jacobian", Order = "depth";
   std::vector<float> Background{0, 0, 0};
   splat::ReadOptions Read;
   reference::Options Options;
@@ -41,7 +42,15 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
   const reference::Options O = optionsOf(A);
   const auto C = splat::toReference<Real>(View);
   const auto Splats = reference::project(splat::toReference<Real>(S), C, O);
-  const auto P = reference::blend(Splats, C.Width, C.Height, O);
+  auto P = reference::blend(Splats, C.Width, C.Height, O);
+  if constexpr (std::is_same_v<Real, double>)
+    if (A.Order == "ray") {
+      const auto G = splat::toReference<Real>(S);
+      auto R = reference::blendInOrder(Splats, C.Width, C.Height, O,
+                                       reference::depthAlongRay(G, C));
+      P.Render = std::move(R.Render);
+      P.Transmittance = std::move(R.Transmittance);
+    }
   const auto Lists =
       reference::tileLists(Splats, O.Reach, O.TileSize, C.Width, C.Height);
   const std::chrono::duration<double> Seconds =
@@ -121,6 +130,9 @@ int main(int Count, char **Values) {
   App.add_option("--json", A.Json, "Counts, and what made them");
   App.add_option("--projection", A.Projection, "As splat render has it")
       ->check(CLI::IsMember({"jacobian", "unscented"}))
+      ->capture_default_str();
+  App.add_option("--order", A.Order, "By which depths a pixel blends, with f64")
+      ->check(CLI::IsMember({"depth", "ray"}))
       ->capture_default_str();
   App.add_option("--near", A.Options.Near, "Least depth, 0 for the rules' own")
       ->capture_default_str();

@@ -90,6 +90,13 @@ void addDrawOptions(CLI::App &App, DrawArguments &A) {
   addDatapathOptions(App, A.Options);
   addRasterOptions(App, A);
   addSimtOptions(App, A.Options.SimtTile, A.Options.SimtGroup, {8, 16, 32, 64});
+  addChoice(App, "--order", A.Options.Order,
+            {PixelOrder::Depth, PixelOrder::Ray},
+            "Pixels blend by the depths of centres or by those along their own "
+            "rays (docs/numerics.md)");
+  addSize(App, "--ray-window", A.Options.RayWindow, {4, 8, 16},
+          "Gaussians that a pixel of --order ray finds each time that it "
+          "goes through its list; changes no bit");
   takesSomeOf(
       App.add_option(
           "--effects", A.Effects,
@@ -125,6 +132,12 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
        O.RasterTile != RenderOptions().RasterTile))
     return usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
                  "are the rasterizer's, expected --path raster with them");
+  if (O.Blending == Path::Raster && O.Order == PixelOrder::Ray)
+    return usage("--order ray is the cores', because the rasterizer blends by "
+                 "its list, expected --path simt with it");
+  if (O.Order == PixelOrder::Depth && O.RayWindow != RenderOptions().RayWindow)
+    return usage(
+        "--ray-window is of --order ray, expected --order ray with it");
   if (O.Reach == Support::Official16 && O.SimtTile != 16)
     return usage(fmt::format("--simt-tile {}: --support official16 has tiles "
                              "of 16x16 pixels, expected 16",
@@ -205,7 +218,8 @@ Expected<Success> checkPixelLists(const RenderOptions &O,
   if (hasPixelLists(O))
     return Success{};
   return usage(fmt::format("{} is computed on the host with the exact units, "
-                           "expected --exp exact, --blend fp32 and --ztiles 1",
+                           "expected --exp exact, --blend fp32, --ztiles 1 and "
+                           "--order depth",
                            Option));
 }
 

@@ -22,6 +22,7 @@ extern const Effect OpenCvLens, FisheyeLens, OrthographicLens,
 extern const Effect Unscented;
 extern const Effect RollingShutter;
 extern const Effect Crop;
+extern const Effect RayOrder;
 /// @}
 
 /// \name Machine effects

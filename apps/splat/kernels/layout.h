@@ -59,6 +59,13 @@ typedef struct {
   float middle[2];        ///< of the picture, px
 } splat_crop;
 
+/// A Gaussian for rays: in its own axes, of which the shortest has length 1,
+/// what a step along each of the camera's axes is, and its mean.
+typedef struct {
+  float across[3], down[3], ahead[3];
+  float mean[3]; ///< from the camera
+} splat_ray_frame;
+
 /// How the rasterizers blend a picture.
 typedef struct {
   uint size[2];  ///< picture, px

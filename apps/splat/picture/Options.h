@@ -23,6 +23,13 @@ enum class Path { Raster, Simt };
 /// at its mean, or by seven of its points (3DGUT's unscented transform).
 enum class Spread { Jacobian, Unscented };
 
+/// By which depth a pixel blends Gaussians: that of their centres, or that
+/// along the pixel's own ray.
+enum class PixelOrder { Depth, Ray };
+
+constexpr std::string_view name(PixelOrder O) {
+  return O == PixelOrder::Depth ? "depth" : "ray";
+}
 constexpr std::string_view name(Spread S) {
   return S == Spread::Jacobian ? "jacobian" : "unscented";
 }
@@ -91,6 +98,10 @@ struct RenderOptions {
   /// @{
   unsigned SimtTile = 16;
   unsigned SimtGroup = 256;
+  PixelOrder Order = PixelOrder::Depth;
+  /// Gaussians that a pixel takes from its list at a time, the nearest along
+  /// its ray: 4, 8 or 16.
+  unsigned RayWindow = 16;
   /// @}
 
   /// Draw so that gradients can be taken back: smaller tiles of the rasterizer

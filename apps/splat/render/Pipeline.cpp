@@ -86,6 +86,13 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   if (C.Optics.Shutter && !Options.Rolling)
     return Launch.fail({"", "a camera with a rolling shutter, expected one of "
                             "one moment"});
+  if (Plan.done(effects::RayOrder) &&
+      (Options.Optics != LensModel::Pinhole || Options.Rolling))
+    return Launch.fail(
+        {"", fmt::format("--order ray: a camera of model {}{}, expected a "
+                         "pinhole, whose rays come from one point",
+                         name(C.Optics.Model),
+                         Options.Rolling ? " with a rolling shutter" : "")});
   Current.Copies = Options.Optics == LensModel::Equirectangular ? 3 : 1;
   Launch.beginStage(Stage::Project);
   project(C);
@@ -270,6 +277,21 @@ Frame Pipeline::drawBeside(const cl::Buffer &Records) {
 void Pipeline::shade() {
   allocatePixels();
   const std::size_t Group = Options.SimtGroup;
+  if (Plan.done(effects::RayOrder)) {
+    const cl::Buffer Frames =
+        Launch.allocate("Gaussians for rays",
+                        sizeof(splat_ray_frame) * uint64_t{Current.drawn()});
+    Launch.run(RayFramesProgram, "ray_frames", itemsFor(Current.drawn()),
+               GroupSize, Current.Camera, Current.Gaussians.Geometry,
+               Current.Depths.Keys, Frames, Current.drawn());
+    Launch.run(
+        BlendProgram, "blend_by_ray",
+        cl::NDRange(Current.View.tiles[0] * Group, Current.View.tiles[1]),
+        cl::NDRange(Group, 1), Current.Camera, Current.Records, Frames,
+        Current.List, Current.Ranges, Current.Pixels, Options.Cutoff,
+        Current.View.effects);
+    return;
+  }
   Launch.run(BlendProgram, "blend",
              cl::NDRange(Current.View.tiles[0] * Group, Current.View.tiles[1]),
              cl::NDRange(Group, 1), Current.Records, Current.List,

@@ -122,7 +122,7 @@ PixelLists readLists(Launcher &Launch, const Frame &F, const RenderOptions &O) {
 
 bool hasPixelLists(const RenderOptions &O) {
   return O.Exponential == ExpUnit::Exact && O.Arithmetic == BlendUnit::Fp32 &&
-         O.ZTiles == 1;
+         O.ZTiles == 1 && O.Order == PixelOrder::Depth;
 }
 
 Contributors topContributors(const PixelLists &L, const RenderOptions &O,

@@ -32,12 +32,13 @@ std::string supportDefine(Support S) {
 std::vector<std::string> parameterDefines(const RenderOptions &O) {
   const bool Inria = O.Convention == Rules::Inria;
   std::vector<std::string> Defines = tileDefines(O);
-  Defines.insert(Defines.end(),
-                 {supportDefine(O.Reach),
-                  fmt::format("DILATION={:#}f", O.Dilation),
-                  alphaCutoffDefine(O), keepDepthDefine(O),
-                  Inria ? "ANTIALIAS_FLOOR=2.5e-5f" : "ANTIALIAS_FLOOR=0.0f",
-                  fmt::format("GROUP={}", O.SimtGroup), minPowerDefine(O)});
+  Defines.insert(
+      Defines.end(),
+      {supportDefine(O.Reach), fmt::format("DILATION={:#}f", O.Dilation),
+       alphaCutoffDefine(O), keepDepthDefine(O),
+       Inria ? "ANTIALIAS_FLOOR=2.5e-5f" : "ANTIALIAS_FLOOR=0.0f",
+       fmt::format("GROUP={}", O.SimtGroup),
+       fmt::format("RAY_WINDOW={}", O.RayWindow), minPowerDefine(O)});
   if (const std::string Define(defineOf(O.Exponential)); !Define.empty())
     Defines.push_back(Define);
   if (!Inria)
@@ -155,6 +156,13 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
         Raster ? std::vector<std::string>{"layout.h", "deal.cl", "rasterize.cl"}
                : std::vector<std::string>{"layout.h", Falloff, "blend.cl"},
         {}}}};
+  if (Plan.Effects.done(effects::RayOrder)) {
+    Plan.Programs.back().Files.emplace_back("blend_by_ray.cl");
+    Plan.Programs.push_back({RayFramesProgram,
+                             {"layout.h", "activate.cl", "covariance.cl",
+                              "planes.h", "ray_frames.cl"},
+                             {}});
+  }
   auto &Project = Plan.Programs.front().Files;
   std::ranges::copy(lensFiles(Options), std::back_inserter(Project));
   Project.emplace_back("project.cl");

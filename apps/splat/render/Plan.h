@@ -19,6 +19,7 @@ inline constexpr const char *TilesProgram = "tiles";
 inline constexpr const char *BlendProgram = "blend";
 inline constexpr const char *MergeProgram = "merge";
 inline constexpr const char *ResolveProgram = "resolve";
+inline constexpr const char *RayFramesProgram = "ray_frames";
 inline constexpr const char *DepthProgram = "depth";
 inline constexpr const char *NormalsProgram = "normals";
 

@@ -19,7 +19,8 @@ constexpr std::string_view Files[] = {
     "lens_orthographic.cl", "lens_pinhole.cl", "rolling.cl", "unscented.cl",
     "project.cl", "rectangle.cl", "sort.cl", "tiles.cl", "falloff.cl",
     "units.cl", "blend.cl", "rasterize.cl", "resolve.cl", "merge.cl", "deal.cl",
-    "planes.h", "sh_basis.h", "depth.cl", "normals.cl",
+    "planes.h", "sh_basis.h", "depth.cl", "normals.cl", "ray_frames.cl",
+    "blend_by_ray.cl",
     // Training's.
     "upstream.cl", "rasterize_backward.cl", "blend_backward.cl", "reduce.cl",
     "backward.cl", "unscented_backward.cl", "project_backward.cl",

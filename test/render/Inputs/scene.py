@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a small scene and its camera.
 
-usage: scene.py one|random|degenerate|dc|front|late SCENE.ply CAMERAS.json
+usage: scene.py one|random|degenerate|dc|front|late|crossing SCENE.ply CAMERAS.json
 one: a round Gaussian in the middle of 64x48 pixels
 random: 600 Gaussians of all shapes and SH degree 3, 150x100 pixels (partial
     tiles on both paths), some behind the camera, at its plane and huge
@@ -12,6 +12,7 @@ front: a bare scene, that calls for no effect: degree 3, but zeros and -0; all
     in view, in front of the camera, of middling opacity
 late: random, with the higher bands' coefficients zero (some of them -0) but
     the last one of the last Gaussian
+crossing: three sheets that cross in the middle of 80x60 pixels
 """
 
 import json
@@ -81,6 +82,15 @@ def late():
     return degree, out, view
 
 
+def crossing():
+    sheets = []
+    for i, turn in enumerate((-0.6, 0.2, 0.7)):  # about y; their centres are close
+        colour = [1.5 if c == i else -1.5 for c in range(3)]
+        quat = (math.cos(turn / 2), 0, math.sin(turn / 2), 0)
+        sheets.append(gaussian((0, 0, 3 + 0.01 * i), (0.8, 0.8, 0.01), quat, 0.9, colour))
+    return 0, sheets, camera(80, 60, 70)
+
+
 def camera(width, height, focal):
     return {"id": 0, "img_name": "front", "width": width, "height": height, "position": [0, 0, 0],
             "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "fx": focal, "fy": focal}
@@ -103,7 +113,7 @@ def write(path, degree, gaussians):
 
 
 kinds = {"one": one, "random": rand, "degenerate": degenerate, "dc": lambda: rand(40, 0, 64, 48),
-         "front": bare, "late": late}
+         "front": bare, "late": late, "crossing": crossing}
 degree, gaussians, view = kinds[sys.argv[1]]()
 write(sys.argv[2], degree, gaussians)
 with open(sys.argv[3], "w") as f:

@@ -110,7 +110,8 @@ class Machine:
                sh_degree: int | None = None, blend: str | None = None, tile: int | None = None,
                ztiles: int | None = None, pixel_unit: str | None = None, skip_saturated: bool | None = None,
                simt_tile: int | None = None, simt_group: int | None = None, effects: str | None = None,
-               near: float | None = None, projection: str | None = None) -> Picture:
+               near: float | None = None, projection: str | None = None, order: str | None = None,
+               ray_window: int | None = None) -> Picture:
         """Draws `scene` as `camera` sees it.
 
         depth: blend depths, too
@@ -134,13 +135,15 @@ class Machine:
         effects: what is compiled into the kernels; "flags" compiles once for all scenes, which loops want
         near: least depth that is drawn; the rules have one
         projection: "jacobian" or "unscented", how a covariance goes through the camera
+        order: "depth" or "ray", the depths by which a pixel of the cores' path blends
+        ray_window: Gaussians that it finds at a time by "ray": 4, 8 or 16; changes no bit
         """
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
                        "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
                        "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
-                       "effects": effects, "near": near, "projection": projection, "depth_as": depth_as,
-                       "contributors": contributors})
+                       "effects": effects, "near": near, "projection": projection, "order": order,
+                       "ray_window": ray_window, "depth_as": depth_as, "contributors": contributors})
         image, alpha, by, report = self._native.render(scene._native, camera._native, asked, depth, normals, time)
         top = by["contributors"]
         return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)

@@ -1,0 +1,156 @@
+// Blending by the cores alone, each pixel in the order of depths along its own
+// ray, with blend.cl's arithmetic. Gaussians come by the depths of their
+// centres, which says little of where rays meet them: on trained scenes one of
+// seven to three pairs changes places. So a pixel goes through its tile's list
+// again and again. Each time it finds the RAY_WINDOW nearest Gaussians behind
+// those that it has blended. The picture has the same bits for every RAY_WINDOW.
+
+// The nearest first. Places that nothing has been found for have no alpha.
+typedef struct {
+  float depth[RAY_WINDOW], alpha[RAY_WINDOW];
+  uint entry[RAY_WINDOW]; // of the list
+} ray_window;
+
+// How far along the ray (slope.x, slope.y, 1) the density is largest.
+static float ray_depth(__local const splat_ray_frame *f, float2 slope) {
+  float along = 0.0f, square = 0.0f;
+#pragma unroll
+  for (int k = 0; k < 3; ++k) {
+    const float r =
+        f->across[k] * slope.x + f->down[k] * slope.y + f->ahead[k];
+    along += r * f->mean[k];
+    square += r * r;
+  }
+  // A number in any case, so that each has a place in the order.
+  const float largest = 0x1.fffffep127f; // of floats
+  return fmin(fmax(along / square, -largest), largest);
+}
+
+// Puts a Gaussian behind those that are as near, in place of the farthest.
+static void insert(ray_window *w, float depth, float alpha, uint entry) {
+  bool before = false;
+#pragma unroll
+  for (int k = 0; k < RAY_WINDOW; ++k) {
+    const float d = w->depth[k], a = w->alpha[k];
+    const uint e = w->entry[k];
+    before |= depth < d;
+    w->depth[k] = before ? depth : d;
+    w->alpha[k] = before ? alpha : a;
+    w->entry[k] = before ? entry : e;
+    depth = before ? d : depth;
+    alpha = before ? a : alpha;
+    entry = before ? e : entry;
+  }
+}
+
+static pixel_state blend_entry(__global const splat_gaussian *records,
+                               __global const uint *list, uint entry,
+                               float alpha, float cutoff, pixel_state p) {
+  const float next = p.transmittance * (1.0f - alpha);
+  // Where a place is left, nothing more was found.
+  p.done = (alpha == 0.0f) | SATURATED(next);
+  if (!p.done) {
+    __global const splat_gaussian *g =
+        &records[list[entry] & (USE_INTERSECT_TAGS ? ~SPANS_TILES : ~0u)];
+    const float weight = alpha * p.transmittance;
+    p.red += g->color[0] * weight;
+    p.green += g->color[1] * weight;
+    p.blue += g->color[2] * weight;
+    p.transmittance = next;
+  }
+  return p;
+}
+
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void
+blend_by_ray(__constant const splat_view *view,
+             __global const splat_gaussian *records,
+             __global const splat_ray_frame *frames, __global const uint *list,
+             __global const uint2 *ranges, __global float4 *pixels,
+             float cutoff, uint effects) {
+  __local splat_gaussian batch[BATCH];
+  __local splat_ray_frame frame[BATCH];
+  __local uint live;
+
+  const uint item = get_local_id(0);
+  const uint x0 = get_group_id(0) * TILE_SIZE;
+  const uint y0 = get_group_id(1) * TILE_SIZE;
+  const uint2 range = ranges[get_group_id(1) * get_num_groups(0) +
+                             get_group_id(0)];
+  // A work-item's pixels one after the other: its window is in registers.
+  for (uint k = 0; k < OWN; ++k) {
+    const uint place = k * GROUP + item;
+    const uint x = x0 + PLACE_X(place), y = y0 + PLACE_Y(place);
+    const bool inside =
+        place < TILE_PIXELS && x < view->size[0] && y < view->size[1];
+    const float px = (float)x + 0.5f, py = (float)y + 0.5f;
+    const float2 slope = (float2)((px - view->center[0]) / view->focal[0],
+                                  (py - view->center[1]) / view->focal[1]);
+    pixel_state p = {0.0f, 0.0f, 0.0f, 1.0f, !inside};
+    float last_depth = -INFINITY;
+    uint last_entry = 0;
+    for (bool group_live = true; group_live;) {
+      ray_window window;
+#pragma unroll
+      for (int w = 0; w < RAY_WINDOW; ++w) {
+        window.depth[w] = INFINITY;
+        window.alpha[w] = 0.0f;
+        window.entry[w] = 0;
+      }
+      for (uint base = range.x; base < range.y; base += BATCH) {
+        const uint entries = min((uint)BATCH, range.y - base);
+        for (uint e = item; e < entries; e += GROUP) {
+          const uint i =
+              list[base + e] & (USE_INTERSECT_TAGS ? ~SPANS_TILES : ~0u);
+          batch[e] = records[i];
+          frame[e] = frames[i];
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        for (uint j = 0; j < entries; ++j) {
+          __local const splat_gaussian *g = &batch[j];
+          const float dx = g->mean[0] - px;
+          const float dy = g->mean[1] - py;
+          if (!p.done & IN_BOX(g, dx, dy)) {
+            const float power = -0.5f * (g->conic[0] * dx * dx +
+                                         g->conic[2] * dy * dy) -
+                                g->conic[1] * dx * dy;
+            // False for NaN.
+            if ((power <= 0.0f) & WORTH_TAKING(power)) {
+              const float depth = ray_depth(&frame[j], slope);
+              const bool behind =
+                  (depth > last_depth) |
+                  ((depth == last_depth) & (base + j > last_entry));
+              if (behind & (depth < window.depth[RAY_WINDOW - 1])) {
+                const float unclamped = g->opacity * DENSITY(power);
+                const float alpha =
+                    USE_ALPHA_CLAMP ? fmin(0.99f, unclamped) : unclamped;
+                if (alpha >= ALPHA_CUTOFF / 255.0f)
+                  insert(&window, depth, alpha, base + j);
+              }
+            }
+          }
+        }
+        // Nobody may refill the batch before all have read it.
+        barrier(CLK_LOCAL_MEM_FENCE);
+      }
+      if (item == 0)
+        live = 0;
+      barrier(CLK_LOCAL_MEM_FENCE);
+#pragma unroll
+      for (int w = 0; w < RAY_WINDOW; ++w)
+        if (!p.done)
+          p = blend_entry(records, list, window.entry[w], window.alpha[w],
+                          cutoff, p);
+      last_depth = window.depth[RAY_WINDOW - 1];
+      last_entry = window.entry[RAY_WINDOW - 1];
+      if (!p.done)
+        atomic_or(&live, 1u);
+      barrier(CLK_LOCAL_MEM_FENCE);
+      group_live = live != 0;
+      // Nobody may clear `live` before all have read it.
+      barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (inside)
+      pixels[y * view->size[0] + x] =
+          (float4)(p.red, p.green, p.blue, p.transmittance);
+  }
+}
