@@ -1,7 +1,6 @@
 #include "observe/ChipPower.h"
 
 #include "energy/Costs.h"
-#include "vorion/isasim/Energy.h"
 
 namespace vorion::isasim {
 
@@ -24,10 +23,17 @@ static double &shareOf(ChipEnergy &To, EnergyUnit U) {
   }
 }
 
-ChipEnergy chipEnergyOf(const TimeReport &R) {
+static EnergyModel defaultModel(unsigned ClockMhz) {
   const Technology &T = defaultTechnology();
-  const auto Model = EnergyModel::create(
-      T, R.ClockMhz, voltsFor(T, R.ClockMhz).value_or(T.Volts));
+  return *EnergyModel::create(T, ClockMhz,
+                              voltsFor(T, ClockMhz).value_or(T.Volts));
+}
+
+ChipEnergy chipEnergyOf(const TimeReport &R, const EnergyModel *Model) {
+  if (!Model) {
+    const EnergyModel Own = defaultModel(R.ClockMhz);
+    return chipEnergyOf(R, &Own);
+  }
   EnergyWork Work{R.Cycles, R.ClockMhz, {}};
   // Of the chip alone, whose technology may not know the DRAM.
   for (const Activity &A : R.Activities)

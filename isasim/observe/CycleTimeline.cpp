@@ -23,8 +23,10 @@ enum Process : unsigned {
 
 } // namespace
 
-CycleTimeline::CycleTimeline(std::FILE *File, const Config &C)
-    : Out(File, fmt::format("1 cycle at {} MHz", C.Timing.ClockMhz)),
+CycleTimeline::CycleTimeline(std::FILE *File, const Config &C,
+                             std::shared_ptr<const EnergyModel> EnergyIn)
+    : Energy(std::move(EnergyIn)),
+      Out(File, fmt::format("1 cycle at {} MHz", C.Timing.ClockMhz)),
       L2Banks(C.Timing.L2.Banks) {
   addUnits<CoreCycle>(Cores, OfCores, "core", C.cores());
   addUnits<RasterCycle>(Rasters, OfRasterizers, "rasterizer", C.sockets());
@@ -179,7 +181,7 @@ void CycleTimeline::writeShare(Row &R) {
 /// What a unit took is spread over the cycles in which it worked, and the rest
 /// over all.
 void CycleTimeline::writePower(const TimeReport &Time) {
-  const ChipEnergy Joules = chipEnergyOf(Time);
+  const ChipEnergy Joules = chipEnergyOf(Time, Energy.get());
   const size_t Windows = (End - Origin + WindowCycles - 1) / WindowCycles;
   std::vector<double> Spent(Windows);
   for (size_t N = 0; N != Windows; ++N)

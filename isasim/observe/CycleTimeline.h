@@ -8,10 +8,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace vorion::isasim {
+
+class EnergyModel;
 
 /// A run is divided into windows of equal length, as many cycles as it takes
 /// to have at most MaxWindows of them. A core, rasterizer or pixel unit has a
@@ -26,7 +29,9 @@ public:
   static constexpr uint64_t MaxEvents = 1'000'000;
 
   /// \p Out as for TraceEvents, which is empty so far.
-  CycleTimeline(std::FILE *Out, const Config &Shape);
+  /// \p Energy tells the chip's power. Null: the default technology.
+  CycleTimeline(std::FILE *Out, const Config &Shape,
+                std::shared_ptr<const EnergyModel> Energy = nullptr);
 
   void timeBegins(uint64_t Now) override;
   void coreSpent(const CoreSpent &S) override;
@@ -66,6 +71,7 @@ private:
   }
   bool isFull() const { return Out.events() >= MaxEvents; }
 
+  std::shared_ptr<const EnergyModel> Energy;
   TraceEvents Out;
   std::vector<Row> Cores, Rasters, Pixels;
   std::vector<Row> L2, Llc, Channels;

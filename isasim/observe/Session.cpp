@@ -100,13 +100,16 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
 
 Expected<std::unique_ptr<Session>>
 Session::create(const SessionOptions &O, std::string Tool,
-                std::function<void(std::string_view)> Print) {
+                std::function<void(std::string_view)> Print,
+                std::shared_ptr<const EnergyModel> Energy) {
   std::unique_ptr<Session> S(new Session());
   S->PImpl->To = {.Print = std::move(Print),
-                  .Report = [Tool = std::move(Tool)](std::string_view Text) {
-                    printNote(fmt::format("{}: {}\n", Tool, Text));
-                    std::fflush(stderr);
-                  }};
+                  .Report =
+                      [Tool = std::move(Tool)](std::string_view Text) {
+                        printNote(fmt::format("{}: {}\n", Tool, Text));
+                        std::fflush(stderr);
+                      },
+                  .Energy = std::move(Energy)};
   if (Expected<Success> Ok = S->PImpl->open(O); !Ok)
     return Ok.error();
   return S;

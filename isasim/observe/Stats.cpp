@@ -49,7 +49,7 @@ void Stats::add(const std::string &Name, const RunResult &R) {
     if (!Model)
       if (auto Made = EnergyModel::create(defaultTechnology(), Work.ClockMhz,
                                           std::nullopt))
-        Model = std::move(*Made);
+        Model = std::make_shared<EnergyModel>(std::move(*Made));
     if (Model)
       Run["energy"] = energyJson(*Model, Work);
     isasim::add(Timed, Work);
@@ -87,7 +87,7 @@ namespace {
 class StatsTool : public Tool {
 public:
   StatsTool(std::string FileIn, const ToolOutput &To)
-      : File(std::move(FileIn)), Print(To.Print) {}
+      : File(std::move(FileIn)), Print(To.Print), Counts(To.Energy) {}
   void attach(Machine &M) override { Counts.setConfig(M.config()); }
   Expected<Success> runEnded(const std::string &Name,
                              const RunResult &R) override {

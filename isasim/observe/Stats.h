@@ -6,21 +6,25 @@
 #include "vorion/isasim/Energy.h"
 #include "vorion/isasim/Result.h"
 
-#include <optional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vorion::isasim {
 
 class Stats {
 public:
+  /// \p By tells joules. Null: the default technology, at the voltage that the
+  /// clock needs.
+  explicit Stats(std::shared_ptr<const EnergyModel> By = nullptr)
+      : Model(std::move(By)) {}
   void setConfig(const Config &C) { Machine = toJson(C); }
   void add(const std::string &Name, const RunResult &R);
 
   /// {"format", "config", "total", "raster", "host_seconds",
   /// "host_cpu_seconds": sums over runs, "runs": [what toJson(RunResult) has,
-  /// with "name"]}. Where a run was timed, it and the sum have "energy": by the
-  /// default technology, at the voltage that the clock needs.
+  /// with "name"]}. Where a run was timed, it and the sum have "energy".
   std::string json() const;
   /// A line a counter, totals of one run only.
   static std::string table(const RunResult &R);
@@ -28,9 +32,9 @@ public:
 private:
   std::string Machine;
   RunResult Sum;
-  /// Of the runs that were timed; their model is made with the first of them.
+  /// Of the runs that were timed; the default model is made with the first.
   EnergyWork Timed;
-  std::optional<EnergyModel> Model;
+  std::shared_ptr<const EnergyModel> Model;
   std::vector<std::string> Runs; ///< JSON objects
 };
 

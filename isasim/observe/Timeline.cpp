@@ -124,8 +124,8 @@ namespace {
 /// In cycles where the machine has a clock, else in instructions.
 class TimelineTool : public Tool {
 public:
-  explicit TimelineTool(GrowingFile FileIn)
-      : File(std::move(FileIn)), Times(File.stream()) {}
+  TimelineTool(GrowingFile FileIn, const ToolOutput &To)
+      : File(std::move(FileIn)), Times(File.stream()), Energy(To.Energy) {}
   std::vector<Observer *> observers() override {
     return InCycles ? std::vector<Observer *>{}
                     : std::vector<Observer *>{&Times};
@@ -136,7 +136,7 @@ public:
   }
   void attach(Machine &M) override {
     if (M.config().Timing.Enabled)
-      InCycles.emplace(File.stream(), M.config());
+      InCycles.emplace(File.stream(), M.config(), Energy);
   }
   Expected<Success> runEnded(const std::string &Name,
                              const RunResult &R) override {
@@ -149,15 +149,16 @@ private:
   GrowingFile File;
   Timeline Times;
   std::optional<CycleTimeline> InCycles;
+  std::shared_ptr<const EnergyModel> Energy;
 };
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,
-                                     const ToolOutput &) {
+                                     const ToolOutput &To) {
   Expected<GrowingFile> File = GrowingFile::open(Text);
   if (!File)
     return File.error();
   return std::unique_ptr<Tool>(
-      std::make_unique<TimelineTool>(std::move(*File)));
+      std::make_unique<TimelineTool>(std::move(*File), To));
 }
 
 std::vector<NamedFile> outputs(const std::string &Text) {

@@ -16,6 +16,7 @@
 
 namespace vorion::isasim {
 
+class EnergyModel;
 class TimeObserver;
 
 /// Where tools send what is not for a file of theirs.
@@ -24,6 +25,8 @@ struct ToolOutput {
   std::function<void(std::string_view)> Print;
   /// A message for people, without the last newline.
   std::function<void(std::string_view)> Report;
+  /// What tells joules. Null: the default technology.
+  std::shared_ptr<const EnergyModel> Energy;
 };
 
 class Tool {

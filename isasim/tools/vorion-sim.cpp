@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 using namespace vorion;
 using namespace vorion::isasim;
@@ -63,10 +64,10 @@ bool wantsEnergy(const Options &O) {
 }
 
 /// Nothing if nobody wants to know.
-Expected<std::optional<EnergyModel>> makeEnergyModel(const Options &O,
-                                                     const Config &C) {
+Expected<std::shared_ptr<const EnergyModel>> makeEnergyModel(const Options &O,
+                                                             const Config &C) {
   if (!wantsEnergy(O))
-    return std::optional<EnergyModel>();
+    return std::shared_ptr<const EnergyModel>();
   const Expected<Technology> From =
       O.TechnologyFile.empty() ? Expected<Technology>(defaultTechnology())
                                : readTechnology(O.TechnologyFile);
@@ -76,7 +77,7 @@ Expected<std::optional<EnergyModel>> makeEnergyModel(const Options &O,
       EnergyModel::create(*From, C.Timing.ClockMhz, O.Volts);
   if (!Made)
     return Made.error();
-  return std::optional(std::move(*Made));
+  return std::make_shared<const EnergyModel>(std::move(*Made));
 }
 
 Expected<Success> changeValues(Config &C, const Options &O) {
@@ -266,9 +267,9 @@ Expected<Success> printEnergy(const TimeReport &Time, const EnergyModel &By) {
   return Success{};
 }
 
-/// Reports and gives the exit code; \p Launch may be nullptr.
+/// Reports and gives the exit code; \p Launch and \p Energy may be nullptr.
 int finish(const RunResult &R, const Options &O, const Machine &M,
-           const KernelLaunch *Launch, const std::optional<EnergyModel> &Energy,
+           const KernelLaunch *Launch, const EnergyModel *Energy,
            Session &Watch) {
   int Code = reportOutcome(R, O);
   // A program that did not end leaves no results.
@@ -291,9 +292,12 @@ int finish(const RunResult &R, const Options &O, const Machine &M,
   return lastWord(Code, Watch);
 }
 
-Expected<std::unique_ptr<Session>> makeSession(const Options &O) {
-  return Session::create(O.Watch, std::string(Tool),
-                         [](std::string_view Text) { printOut("{}", Text); });
+Expected<std::unique_ptr<Session>>
+makeSession(const Options &O,
+            std::shared_ptr<const EnergyModel> Energy = nullptr) {
+  return Session::create(
+      O.Watch, std::string(Tool),
+      [](std::string_view Text) { printOut("{}", Text); }, std::move(Energy));
 }
 
 /// The option, if there is one, that a saved region has no use for.
@@ -374,7 +378,7 @@ int run(const Options &O) {
   // What an image of kernels has for a main does nothing.
   if (Request->WorkDim == 0 && !(*Program)->kernels().empty())
     return reportError(Tool, missingGlobal());
-  const auto Watch = makeSession(O);
+  const auto Watch = makeSession(O, *Energy);
   if (!Watch)
     return reportError(Tool, Watch.error());
   Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
@@ -384,15 +388,15 @@ int run(const Options &O) {
   (*Watch)->attach(**M);
   if (Request->WorkDim == 0) {
     (*Watch)->runBegins("", 0);
-    return finish((*M)->run(), O, **M, nullptr, *Energy, **Watch);
+    return finish((*M)->run(), O, **M, nullptr, Energy->get(), **Watch);
   }
   const Expected<KernelLaunch> Launch =
       KernelLaunch::prepare(**M, *Request, **Watch);
   if (!Launch)
     return reportError(Tool, Launch.error());
   (*Watch)->runBegins(Launch->kernel(), Launch->launchBlock());
-  return finish((*M)->run(Launch->launchBlock()), O, **M, &*Launch, *Energy,
-                **Watch);
+  return finish((*M)->run(Launch->launchBlock()), O, **M, &*Launch,
+                Energy->get(), **Watch);
 }
 
 /// An option of SessionOptions.def. One that may stand alone takes a value as

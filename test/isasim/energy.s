@@ -18,6 +18,11 @@
 # The default technology can be written, changed and read again.
 # RUN: vorion-sim --print-technology > %t/mine.json
 # RUN: vorion-sim %t/p.elf --technology %t/mine.json | cmp - %t/first
+# Counters, and power over time, are by the same numbers.
+# RUN: vorion-sim %t/p.elf --voltage 0.8 --stats %t/volts.json --timeline %t/volts.time > %t/volts
+# RUN: vorion-sim %t/p.elf --time --timeline %t/timed.time > %t/timed.txt
+# RUN: %python -c "import json; at = [json.load(open('%t/' + n + '.json'))['energy']['chip_joules']['value'] for n in ('volts', 'timed')]; printed = next(l for l in open('%t/volts') if l.startswith('all ')).split()[1]; assert at[0] < 0.6 * at[1]; j = json.load(open('%t/volts.json'))['energy']['joules']['value']; assert format(1e3 * j, '.4g') == printed"
+# RUN: %python -c "import json; most = [max(v for e in json.load(open('%t/' + n + '.time'))['traceEvents'] if e.get('name') == 'chip, mW' and e['ph'] == 'C' for v in e['args'].values()) for n in ('volts', 'timed')]; assert 0 < most[0] < 0.6 * most[1], most"
 # RUN: sed 's/"pj": 4.8/"pj": -4.8/' %t/mine.json > %t/negative.json
 # RUN: not vorion-sim %t/p.elf --technology %t/negative.json 2>&1 | FileCheck %s --check-prefix=NEGATIVE
 # RUN: sed '/"tile command"/d' %t/mine.json > %t/missing.json

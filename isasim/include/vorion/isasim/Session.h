@@ -40,15 +40,19 @@ struct SessionOption {
 };
 std::span<const SessionOption> sessionOptions();
 
+class EnergyModel;
+
 class Session {
 public:
   /// Errors: an option that does not parse, a file that cannot be written.
   /// \p Print receives what is meant for stdout: tables and a profile without a
   /// file. Null: stdout is the application's; there are files only.
   /// What checkers find goes to stderr as messages of \p Tool.
+  /// \p Energy tells joules; null: the default technology.
   static Expected<std::unique_ptr<Session>>
   create(const SessionOptions &O, std::string Tool,
-         std::function<void(std::string_view)> Print = nullptr);
+         std::function<void(std::string_view)> Print = nullptr,
+         std::shared_ptr<const EnergyModel> Energy = nullptr);
   ~Session();
   Session(const Session &) = delete;
   Session &operator=(const Session &) = delete;
