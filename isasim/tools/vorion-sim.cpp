@@ -1,8 +1,8 @@
 /// Runs a program, or one kernel of it, on the simulated machine.
 
 #include "tools/Arguments.h"
-#include "tools/HelpFormatter.h"
 #include "tools/Launch.h"
+#include "tools/Options.h"
 #include "tools/RegionRun.h"
 #include "tools/Signature.h"
 #include "vorion/isasim/Energy.h"
@@ -13,7 +13,6 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Tool.h"
-#include "vorion/support/Version.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -26,23 +25,6 @@ using namespace vorion::isasim;
 namespace {
 
 constexpr std::string_view Tool = "vorion-sim";
-
-struct Options {
-  std::string Program, ConfigText, ArgsFile;
-  SessionOptions Watch;
-  std::string Kernel, Global, Local, SignatureFile;
-  unsigned SignatureGranularity = 4;
-  std::vector<std::string> Args, Set;
-  std::optional<uint64_t> MaxInstructions;
-  std::optional<unsigned> Threads, ClockMhz;
-  bool PrintDefaultConfig = false, PrintSchema = false, ListKernels = false,
-       Time = false, PrintTiming = false, PrintEnergy = false,
-       PrintTechnology = false;
-  bool Energy = false;
-  std::string TechnologyFile;
-  std::optional<double> Volts;
-  bool OneHart = false;
-};
 
 Expected<std::string> readText(const std::string &Path) {
   Expected<std::vector<std::byte>> Bytes = readFile(Path);
@@ -399,152 +381,11 @@ int run(const Options &O) {
                 Energy->get(), **Watch);
 }
 
-/// An option of SessionOptions.def. One that may stand alone takes a value as
-/// --option=VALUE only, so that it does not swallow the program's name.
-void declareWatch(CLI::App &App, const SessionOption &S, std::string &To) {
-  CLI::Option *Added = nullptr;
-  if (S.Alone)
-    Added = App.add_flag(fmt::format("{}{{{}}}", S.Option, S.Alone), To, S.Help)
-                ->type_name(fmt::format("[={}]", S.Value));
-  else
-    Added = App.add_option(S.Option, To, S.Help)->type_name(S.Value);
-  if (std::string_view(S.Value) == "FILE")
-    writesFile(Added)->type_name(S.Alone ? "[=FILE]" : "FILE");
-  else if (std::string_view(S.Value) == "PREFIX")
-    writesFiles(Added);
-  if (!S.Names.empty())
-    takesSomeOf(Added, {S.Names.begin(), S.Names.end()});
-  Added->group("Watching a run (docs/debugging.md)");
-}
-
-/// What \p Check accepts, without its name in --help.
-CLI::Validator quietly(CLI::Validator Check) { return Check.description(""); }
-
-void declareLaunch(CLI::App &App, Options &O) {
-  App.add_option("--kernel", O.Kernel,
-                 "the kernel to run, if the program has several")
-      ->type_name("NAME")
-      ->group("Running a kernel");
-  App.add_option("--global", O.Global, "how many work-items run it")
-      ->type_name("X[,Y[,Z]]")
-      ->group("Running a kernel");
-  App.add_option(
-         "--local", O.Local,
-         "work-items in a group (default: the kernel's own, or at most 64)")
-      ->type_name("X[,Y[,Z]]")
-      ->group("Running a kernel");
-  App.add_option("--arg", O.Args,
-                 "the next argument: i32:N u32:N i64:N u64:N f32:X bytes:HEX\n"
-                 "buf:SIZE buf@FILE out:SIZE@FILE inout:FILE[@FILE] local:SIZE")
-      ->type_name("ARG")
-      ->group("Running a kernel")
-      ->allow_extra_args(false);
-  takesFile(
-      App.add_option("--args", O.ArgsFile,
-                     "all of this as JSON: {\"kernel\", \"global\", \"local\", "
-                     "\"args\": [\"i32:5\", ...]}"))
-      ->group("Running a kernel")
-      ->excludes("--kernel")
-      ->excludes("--global")
-      ->excludes("--local")
-      ->excludes("--arg");
-  App.add_flag("--list-kernels", O.ListKernels,
-               "print the program's kernels and exit")
-      ->group("Running a kernel");
-}
-
-void declareTestPrograms(CLI::App &App, Options &O) {
-  App.add_flag("--one-hart", O.OneHart, "one core of one warp of one lane")
-      ->group("Test programs (docs/abi.md)");
-  writesFile(App.add_option("--signature", O.SignatureFile,
-                            "write the words from begin_signature to "
-                            "end_signature"))
-      ->group("Test programs (docs/abi.md)");
-  App.add_option("--signature-granularity", O.SignatureGranularity,
-                 "bytes a line of it (default: 4)")
-      ->type_name("N")
-      ->group("Test programs (docs/abi.md)")
-      ->check(isOneOf({"1", "2", "4", "8", "16"}));
-}
-
-void declare(CLI::App &App, Options &O) {
-  App.formatter(std::make_shared<HelpFormatter>());
-  App.set_help_flag("-h,--help", "print this and exit");
-  App.set_version_flag(
-      "--version", [] { return versionLine(Tool); },
-      "print the version and exit");
-  takesFile(App.add_option("program", O.Program,
-                           "RISC-V executable, Vortex's .vxbin, or a saved "
-                           "region"))
-      ->type_name("");
-  App.add_option("--set", O.Set,
-                 "change the configuration (raster.queue_depth=8; else "
-                 "VORION_SET)")
-      ->type_name("KEY=VALUE,...")
-      ->allow_extra_args(false);
-  App.add_flag("--print-config-schema", O.PrintSchema,
-               "print the JSON schema of configurations and exit");
-  App.add_option("--config", O.ConfigText,
-                 "the machine: its name, or a configuration, JSON (else "
-                 "VORION_CONFIG)");
-  takesFile(App.get_option("--config"), {".json"})->type_name("NAME|FILE");
-  App.add_flag("--print-default-config", O.PrintDefaultConfig,
-               "print a configuration to start from, and exit");
-  App.add_flag("--print-timing-parameters", O.PrintTiming,
-               "print what --time goes by, with sources, and exit");
-  App.add_flag("--time", O.Time,
-               "say how long the run takes on the machine (docs/model.md)");
-  App.add_option("--clock", O.ClockMhz,
-                 "the machine's clock for --time (default: 530)")
-      ->type_name("MHZ")
-      ->check(quietly(isBetween(1U, 100000U)));
-  App.add_flag("--energy", O.Energy,
-               "say how long, and how much energy it takes (docs/energy.md)");
-  takesFile(App.add_option("--technology", O.TechnologyFile,
-                           "energies and areas for --energy (default: 16 nm)"),
-            {".json"});
-  App.add_option(
-         "--voltage", O.Volts,
-         "the chip's voltage for --energy (default: what the clock needs)")
-      ->type_name("V")
-      ->check(quietly(isBetween(0.1, 5.0)));
-  App.add_flag("--print-technology", O.PrintTechnology,
-               "print the default technology to start from, and exit");
-  App.add_flag("--print-energy-parameters", O.PrintEnergy,
-               "print what --energy goes by, with sources, and exit");
-  App.add_option("--max-instructions", O.MaxInstructions,
-                 "end the run after N warp instructions")
-      ->type_name("N");
-  App.add_option("--threads", O.Threads,
-                 "host threads (default: all; changes no result)")
-      ->type_name("N");
-  declareLaunch(App, O);
-  declareTestPrograms(App, O);
-  for (const SessionOption &S : sessionOptions())
-    declareWatch(App, S, O.Watch.*S.Text);
-  App.footer(std::string(ExitCodeHelp) +
-             "\na program that exits with N above 0 ends this with N, too, or "
-             "with 1 if N is in the\nlist or above 255");
-}
-
-/// Arguments that begin with a plus are options too, as test frameworks write
-/// them: +signature=FILE is --signature=FILE.
-std::vector<std::string> argumentsOf(int Argc, char **Argv) {
-  std::vector<std::string> Arguments;
-  for (int N = 1; N < Argc; ++N) {
-    const std::string_view Text = Argv[N];
-    Arguments.push_back(Text.starts_with("+signature")
-                            ? fmt::format("--{}", Text.substr(1))
-                            : std::string(Text));
-  }
-  return Arguments;
-}
-
 int mainOf(int Argc, char **Argv) {
   CLI::App App{"Runs a program for the Vorion machine on the ISA simulator.",
                std::string(Tool)};
   Options O;
-  declare(App, O);
+  declareOptions(App, O);
   if (const auto Ended = parseCommandLine(App, argumentsOf(Argc, Argv)))
     return *Ended;
   if (O.PrintSchema) {
