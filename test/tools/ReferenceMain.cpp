@@ -106,6 +106,11 @@ Expected<Success> run(Arguments &A) {
   const auto View = splat::readCamera(A.Cameras, A.View);
   if (!View)
     return View.error();
+  if (A.Order == "ray" && (A.Precision != "f64" || View->Optics.Shutter ||
+                           View->Optics.Model != splat::LensModel::Pinhole))
+    return Error{A.Cameras,
+                 "--order ray is for --precision f64 and pinholes of one "
+                 "moment, expected these"};
   return A.Precision == "f64" ? run<double>(A, File->Gaussians, *View)
                               : run<float>(A, File->Gaussians, *View);
 }

@@ -135,6 +135,9 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
   if (O.Blending == Path::Raster && O.Order == PixelOrder::Ray)
     return usage("--order ray is the cores', because the rasterizer blends by "
                  "its list, expected --path simt with it");
+  if (O.Order == PixelOrder::Ray && O.DepthBits != RenderOptions().DepthBits)
+    return usage("--depth-bits is of the depths of centres, expected --order "
+                 "depth with it");
   if (O.Order == PixelOrder::Depth && O.RayWindow != RenderOptions().RayWindow)
     return usage(
         "--ray-window is of --order ray, expected --order ray with it");

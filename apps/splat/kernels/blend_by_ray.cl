@@ -45,7 +45,8 @@ static void insert(ray_window *w, float depth, float alpha, uint entry) {
 
 static pixel_state blend_entry(__global const splat_gaussian *records,
                                __global const uint *list, uint entry,
-                               float alpha, float cutoff, pixel_state p) {
+                               float alpha, float cutoff, uint effects,
+                               pixel_state p) {
   const float next = p.transmittance * (1.0f - alpha);
   // Where a place is left, nothing more was found.
   p.done = (alpha == 0.0f) | SATURATED(next);
@@ -139,7 +140,7 @@ blend_by_ray(__constant const splat_view *view,
       for (int w = 0; w < RAY_WINDOW; ++w)
         if (!p.done)
           p = blend_entry(records, list, window.entry[w], window.alpha[w],
-                          cutoff, p);
+                          cutoff, effects, p);
       last_depth = window.depth[RAY_WINDOW - 1];
       last_entry = window.entry[RAY_WINDOW - 1];
       if (!p.done)
