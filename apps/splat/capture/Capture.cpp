@@ -362,8 +362,10 @@ std::size_t Capture::masked() const {
 }
 
 std::size_t Capture::distorted() const {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      Views, [](const CaptureView &V) { return !V.Optics.isPinhole(); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(Views, [](const CaptureView &V) {
+        return !V.Optics.isPinhole() || V.Optics.Shutter;
+      }));
 }
 
 std::size_t Capture::photographsAlone() const {

@@ -54,9 +54,10 @@ struct Capture {
   /// Views that have no picture, and are left out: captures are often passed
   /// on in part.
   std::size_t WithoutPicture = 0;
-  std::size_t masked() const;    ///< views with a mask
-  std::size_t distorted() const; ///< views whose lens is no pinhole
-  /// Views that cannot be undistorted: spheres and rolling shutters.
+  std::size_t masked() const; ///< views with a mask
+  /// Views whose photograph is no pinhole's, by lens or rolling shutter.
+  std::size_t distorted() const;
+  /// Those of them that cannot be undistorted: spheres and rolling shutters.
   std::size_t photographsAlone() const;
   /// What decided which views are held out, for people.
   std::string HeldOutBy;

@@ -41,6 +41,7 @@ private:
   std::optional<double> number(const Json &Frame, const char *Key);
   CameraModel readLens(const Json &Frame);
   CameraPlace readPlace(const Json &Frame, const char *Key);
+  void refuseVelocities(const Json &Frame);
   void readPose(const Json &Frame, CaptureView &V);
   void readIntrinsics(const Json &Frame, LensModel Lens, Camera &C);
 
@@ -129,6 +130,17 @@ CameraPlace TransformsReader::readPlace(const Json &Frame, const char *Key) {
                      "translation, camera to world",
                      Key));
   return C;
+}
+
+/// As some exporters have it. With instant-ngp's poses it can be drawn.
+void TransformsReader::refuseVelocities(const Json &Frame) {
+  for (const Json *Of : {&Frame, &Document})
+    for (const auto &[Key, Value] : Of->items())
+      if (Key.starts_with("rolling_shutter_") && Value != 0)
+        fail(fmt::format("key {} calls for a rolling shutter by velocities, "
+                         "which is not supported, expected transform_matrix_"
+                         "start and transform_matrix_end, or no such key",
+                         printable(Key)));
 }
 
 /// As instant-ngp has it: a camera goes from transform_matrix_start to
@@ -235,6 +247,7 @@ Expected<TransformsFile> TransformsReader::read() {
       else
         fail("key mask_path is wrong, expected a file's name");
     }
+    refuseVelocities(Frame);
     readPose(Frame, V);
     readIntrinsics(Frame, V.Optics.Model, V.Pose);
     T.Views.push_back(std::move(V));

@@ -129,6 +129,11 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
        "an unreadable pose"},
       {[](Json &J) { J["rolling_shutter"] = {0, 0, "x"}; },
        "key rolling_shutter is wrong, expected start, across and down"},
+      {[](Json &J) { J["rolling_shutter_time"] = 0.01; },
+       "key rolling_shutter_time calls for a rolling shutter by velocities, "
+       "which is not supported"},
+      {[](Json &J) { J["frames"][1]["rolling_shutter_time"] = 0.01; },
+       "frame pictures/a1.png: key rolling_shutter_time calls for"},
       {[](Json &J) { J["frames"][1]["transform_matrix_end"] = 1; },
        "an unreadable pose, expected transform_matrix_end"},
       {[](Json &J) { J.erase("w"); }, "key w is missing or wrong"},

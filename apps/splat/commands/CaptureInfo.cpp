@@ -111,6 +111,7 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
                  {"held_out_by", C.HeldOutBy},
                  {"without_picture", C.WithoutPicture},
                  {"distorted", C.distorted()},
+                 {"photographs_alone", C.photographsAlone()},
                  {"points", C.Points.size()},
                  {"camera_centre", F.Ring.Centre},
                  {"camera_radius", F.Ring.Radius},

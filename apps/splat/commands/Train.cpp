@@ -138,6 +138,9 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
     printOut("undistorted  {} pictures; {}\n", Out.Distorted, LensFilter);
   else if (Out.Distorted != 0)
     printOut("distorted    {} pictures, as they are\n", Out.Distorted);
+  if (R.Run.Through == Spread::Unscented)
+    printOut("projection   unscented: eval and render need --projection "
+             "unscented, too\n");
   if (R.Run.Masks != MaskSource::None)
     printOut("masks        {}\n",
              R.Run.Masks == MaskSource::Alpha
