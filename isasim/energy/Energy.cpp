@@ -240,6 +240,7 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
   }
   Sum.Volts = Volts;
   Sum.Seconds = Seconds;
+  Sum.ClockMhz = Work.ClockMhz;
   Sum.Total = Total.estimated();
   Sum.Chip = Chip.estimated();
   const double PerSecond = Seconds > 0 ? 1 / Seconds : 0;

@@ -36,6 +36,21 @@ Json toJson(const Area &A) {
   return {{"chip_um2", toJson(A.Chip)}, {"parts", Parts}};
 }
 
+/// What a chip of \p T cannot do at the voltage of \p E, as a line; empty if
+/// there is nothing.
+static std::string doubtOf(const Energy &E, const Technology &T) {
+  if (E.Volts < T.LowVolts)
+    return fmt::format("note: {:.3f} V is below the {:g} V at which the "
+                       "technology's law begins\n",
+                       E.Volts, T.LowVolts);
+  const double Mhz = clockAt(T, E.Volts);
+  if (E.ClockMhz > 1.01 * Mhz)
+    return fmt::format("note: at {:.3f} V the technology's law allows {:.0f} "
+                       "MHz, and the clock has {}\n",
+                       E.Volts, Mhz, E.ClockMhz);
+  return "";
+}
+
 std::string toText(const Energy &E, const Technology &T) {
   constexpr double Milli = 1e3;
   std::string Text = fmt::format("{:<20}{:>12}{:>12}{:>12}{:>8}\n", "energy",
@@ -55,7 +70,9 @@ std::string toText(const Energy &E, const Technology &T) {
          fmt::format("power: chip {:.3g} W ({:.3g} to {:.3g}), all {:.3g} W "
                      "({:.3g} to {:.3g}), {:.3f} V, technology {}\n",
                      E.ChipWatts.Value, E.ChipWatts.Low, E.ChipWatts.High,
-                     E.Watts.Value, E.Watts.Low, E.Watts.High, E.Volts, T.Name);
+                     E.Watts.Value, E.Watts.Low, E.Watts.High, E.Volts,
+                     T.Name) +
+         doubtOf(E, T);
 }
 
 std::string energyMarkdown(const Technology &T) {

@@ -106,7 +106,7 @@ public:
     DramCurrents D;
     D.Standard = Standard;
     D.Source = Of.at("source").get<std::string>();
-    D.Devices = number(Of, Path, "devices", 0, 1024);
+    D.Devices = number(Of, Path, "devices", 0.01, 1024);
     D.RcNs = number(Of, Path, "rc_ns", 0, 1e6);
     D.RasNs = number(Of, Path, "ras_ns", 0, D.RcNs);
     D.RfcNs = number(Of, Path, "rfc_ns", 0, 1e6);

@@ -80,6 +80,12 @@ public:
   std::vector<TimeObserver *> timeObservers() override { return {this}; }
   void attach(Machine &M) override { Device = &M; }
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
+    if (const unsigned Cores = Device->config().cores(); Options.Core >= Cores)
+      return Error{"",
+                   fmt::format("--pipeline core={}: the machine has {} cores, "
+                               "expected 0 to {}",
+                               Options.Core, Cores, Cores - 1),
+                   ExitCode::Usage};
     return writeFileAtomically(Options.File, log());
   }
 

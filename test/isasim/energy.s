@@ -7,7 +7,7 @@
 # RUN: cmp %t/made %t/kept
 # RUN: sh %S/Inputs/assemble.sh %build %s %t/p.elf
 # RUN: vorion-sim %t/p.elf --energy > %t/first
-# RUN: FileCheck %s --input-file %t/first
+# RUN: FileCheck %s --input-file %t/first --implicit-check-not=note
 # RUN: vorion-sim %t/p.elf --energy --threads 1 | cmp - %t/first
 # RUN: vorion-sim %t/p.elf --voltage 0.8 | FileCheck %s --check-prefix=VOLTS
 # Counters of a run say it where the clock is on, and of all runs.
@@ -40,7 +40,10 @@
 # CHECK: chip
 # CHECK: all
 # CHECK: power: chip {{.*}} W ({{.*}} to {{.*}}), all {{.*}}, 1.150 V, technology 16nm
+# RUN: vorion-sim %t/p.elf --voltage 0.2 | FileCheck %s --check-prefix=LOW
 # VOLTS: 0.800 V, technology 16nm
+# VOLTS-NEXT: note: at 0.800 V the technology's law allows {{[0-9]+}} MHz, and the clock has 530
+# LOW: note: 0.200 V is below the 0.57 V at which the technology's law begins
 # NEGATIVE: error: {{.*}}negative.json: key energies.instruction fetched.pj is -4.8, expected a number from 0 to
 # MISSING: error: {{.*}}missing.json: key energies.tile command is missing
 # UNKNOWN: error: {{.*}}unknown.json: key areas.gate is missing

@@ -97,6 +97,7 @@ struct UnitEnergy {
 
 struct Energy {
   double Volts = 0, Seconds = 0;
+  unsigned ClockMhz = 0;
   std::vector<UnitEnergy> Units;
   Estimate Total, Chip; ///< joules
   Estimate Watts, ChipWatts;
