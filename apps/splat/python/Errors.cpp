@@ -70,6 +70,9 @@ void addErrors(py::module_ &M) {
       "build_log: the compiler's messages about a kernel, mostly empty",
       PyExc_RuntimeError, nullptr);
   M.attr("Error") = py::handle(Made[0]);
+  // Of those that Python code raises.
+  py::handle(Made[0]).attr("where") = "";
+  py::handle(Made[0]).attr("build_log") = "";
   for (std::size_t I = 0; I < classes().size(); ++I) {
     const ErrorClass &C = classes()[I];
     const py::handle Base(Made[0]);
@@ -79,6 +82,7 @@ void addErrors(py::module_ &M) {
         PyErr_NewExceptionWithDoc((std::string("vorion.") + C.Name).c_str(),
                                   C.Text, Bases.ptr(), nullptr);
     M.attr(C.Name) = py::handle(Made[I + 1]);
+    py::handle(Made[I + 1]).attr("exit_code") = static_cast<int>(C.Code);
   }
   // NOLINTNEXTLINE(performance-unnecessary-value-param): the type is pybind11's
   py::register_exception_translator([](std::exception_ptr P) {

@@ -52,6 +52,10 @@ attempt(vorion.Camera, 5, 5, np.diag([-1, 1, 1]))
 attempt(vorion.Camera, 5, 5, np.eye(3), np.diag([1, 1, -1, 1]))
 attempt(vorion.Camera, 5, 5, np.ones((3, 3)))
 attempt(machine.render, scene, vorion.Camera(16384, 16384, np.diag([16384, 16384, 1])))
+attempt(machine.render, "s.ply", camera)
+attempt(machine.render, scene, [camera])
+attempt(machine.gradients, 3, camera, v_image)
+attempt(vorion.Machine, set={"dram": 1})
 # An error leaves the machine as it was.
 print("again:", machine.render(scene, camera).report["counts"]["visible"])
 

@@ -14,6 +14,11 @@ from .camera import Camera
 from .scene import Scene
 
 
+def _check(value, kind, name):
+    if not isinstance(value, kind):
+        raise UsageError(f"{name} is a {type(value).__name__}, expected a vorion.{kind.__name__}")
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class _Drawn:
     image: NDArray[np.float32]
@@ -88,6 +93,8 @@ class Machine:
         VORION_CONFIG and the other variables of docs/debugging.md hold, too.
         """
         options = {}
+        if not isinstance(set, str | None):
+            raise UsageError(f"set is a {type(set).__name__}, expected a text, KEY=VALUE,...")
         if set is not None:
             options["VORION_SET"] = set
         if clock is not None:
@@ -144,6 +151,8 @@ class Machine:
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
                        "effects": effects, "near": near, "projection": projection, "order": order,
                        "ray_window": ray_window, "depth_as": depth_as, "contributors": contributors})
+        _check(scene, Scene, "scene")
+        _check(camera, Camera, "camera")
         image, alpha, by, report = self._native.render(scene._native, camera._native, asked, depth, normals, time)
         top = by["contributors"]
         return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)
@@ -162,6 +171,8 @@ class Machine:
         reciprocal, sum: the rasterizer's unit for 1 / (1 - alpha), and how it adds up rows
         The other options are those of render(). Harmonics have all the scene's degrees.
         """
+        _check(scene, Scene, "scene")
+        _check(camera, Camera, "camera")
         if of not in ("activated", "stored"):
             raise UsageError(f"of={of!r}: expected 'activated' or 'stored'")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
