@@ -216,8 +216,9 @@ Expected<Success> check(const TrainArguments &A) {
                  "alone, expected no --distorted with it",
                  ExitCode::Usage};
   if (A.GivenTimeEvery && !A.isClocked())
-    return Error{"", "--time-every: expected --time or --breakdown with it",
-                 ExitCode::Usage};
+    return Error{
+        "", "--time-every: expected --time, --breakdown or --energy with it",
+        ExitCode::Usage};
   if (R.ScoreEvery != 0 && A.Json.empty())
     return Error{"", "--score-every: expected --json with it", ExitCode::Usage};
   for (const float V : R.Run.Background)
@@ -311,9 +312,10 @@ Runner addTrain(CLI::App &App) {
   addBackgroundOption(App, R.Run.Background,
                       "Colour r,g,b behind the scene and under transparent "
                       "pixels (default 0,0,0)");
-  App.add_flag("--random-background", R.Run.RandomBackground,
-               "Another colour in each iteration; --background is that of "
-               "held-out views");
+  App.add_flag(
+      "--random-background", R.Run.RandomBackground,
+      "Another colour for each view of an iteration; --background is that of "
+      "held-out views");
   addMasksOption(App, R.Run.Masks);
   App.add_flag(
       "--distorted",
