@@ -61,7 +61,8 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
       {Support::Exact, Support::Box3, Support::Square3, Support::Official16},
       "Pixels that a Gaussian may reach");
   addPathOption(App, O.Blending, "Who blends: the rasterizer or the cores");
-  addBackgroundOption(App, O.Background, "Colour r,g,b (default 0,0,0)");
+  addBackgroundOption(App, O.Background,
+                      "Colour r,g,b, white is 1,1,1 (default 0,0,0)");
   App.add_option("--near", O.Near,
                  "Least depth that is drawn (default 0.2 by INRIA's rules, "
                  "0.01 by gsplat's)")

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace vorion::splat {
 namespace {
@@ -116,6 +117,16 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
   return J;
 }
 
+/// What a hash is of, for who reads that two differ.
+static std::string_view hashedBy(std::string_view Key) {
+  if (Key == "pictures")
+    return ", hashes of all pictures and poses: --exclude, --downscale and "
+           "changed files make others";
+  if (Key == "points")
+    return ", hashes of the points that a run starts from";
+  return "";
+}
+
 Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
                                const Json &Wanted) {
   if (Has == jsonText(Wanted))
@@ -128,12 +139,12 @@ Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
     if (!A.is_object() || !A.contains(Key) || A[Key] != Value)
       return Error{File,
                    fmt::format("a checkpoint of another run: {} is {}, "
-                               "expected {}",
+                               "expected {}{}",
                                Key,
                                A.is_object() && A.contains(Key)
                                    ? jsonText(A[Key])
                                    : "missing",
-                               jsonText(Value)),
+                               jsonText(Value), hashedBy(Key)),
                    ExitCode::Usage};
   return Error{File, "a checkpoint of another run, expected one of this",
                ExitCode::Usage};

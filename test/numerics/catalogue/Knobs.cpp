@@ -32,7 +32,7 @@ double expUnit(const RenderOptions &O, std::size_t Gaussians) {
 }
 
 /// Operands of the blend's multiplications rounded to a unit roundoff u
-/// (docs/numerics.md, "Narrow blending", has the proof): a product is off by
+/// (docs/hard-cases.md, "Narrow blending", has the proof): a product is off by
 /// d = 2 u + u^2, a colour by 3 d / (1 - d) however many layers there are.
 /// Where one arithmetic stops and the other does not, what lies behind adds the
 /// other's T, of which the layer leaves at least 1 - 0.99 (1 + d).

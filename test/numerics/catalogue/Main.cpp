@@ -112,9 +112,10 @@ int main(int Count, char **Values) {
                  "Keep results here, and do not repeat what it has");
   App.add_option("--scratch", A.Plan.Scratch,
                  "Keep the broken kernels' sources in this folder");
-  App.add_flag("--table", A.Table,
-               "Print what --rows has as the table of docs/numerics.md "
-               "instead");
+  App.add_flag(
+      "--table", A.Table,
+      "Print what --rows has as the table of docs/tables/hard-cases.md "
+      "instead");
   App.add_flag("-v,--verbose", A.Verbose, "A line for every check");
   return vorion::test::runTool(App, Count, Values,
                                [&A] { return vorion::test::run(A); });

@@ -1,4 +1,4 @@
-/// The catalogue as a table for docs/numerics.md.
+/// The catalogue as a table for docs/tables/hard-cases.md.
 #pragma once
 
 #include "Rows.h"
