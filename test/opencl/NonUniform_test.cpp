@@ -187,4 +187,20 @@ TEST_F(NonUniform, ProgramsCanHaveOneSizeOnly) {
   }
 }
 
+TEST_F(NonUniform, AProgramFromItsBinaryHasThem) {
+  std::string Log;
+  const cl::Program Source = Device.build(Ids, Log, "-cl-std=CL3.0");
+  const cl::Program Binary(Device.context(),
+                           {Device.queue().getInfo<CL_QUEUE_DEVICE>()},
+                           Source.getInfo<CL_PROGRAM_BINARIES>());
+  ASSERT_EQ(Binary.build(), CL_SUCCESS);
+  cl::Kernel Kernel(Binary, "ids");
+  const cl::Buffer Out(Device.context(), CL_MEM_READ_WRITE, 4 * 21 * 37);
+  Kernel.setArg(0, Out);
+  EXPECT_EQ(Device.queue().enqueueNDRangeKernel(
+                Kernel, cl::NullRange, cl::NDRange(37), cl::NDRange(16)),
+            CL_SUCCESS);
+  EXPECT_EQ(Device.queue().finish(), CL_SUCCESS);
+}
+
 } // namespace
