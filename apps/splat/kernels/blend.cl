@@ -38,6 +38,21 @@
 #define DENSITY(power) falloff(power)
 #endif
 
+// A list's entry without its tag.
+#define GAUSSIAN(entry) ((entry) & (USE_INTERSECT_TAGS ? ~SPANS_TILES : ~0u))
+
+// The exponent of a Gaussian's density, (dx, dy) from its mean.
+static float power_at(__local const splat_gaussian *g, float dx, float dy) {
+  return -0.5f * (g->conic[0] * dx * dx + g->conic[2] * dy * dy) -
+         g->conic[1] * dx * dy;
+}
+
+static float alpha_of(__local const splat_gaussian *g, float power,
+                      uint effects) {
+  const float unclamped = g->opacity * DENSITY(power);
+  return USE_ALPHA_CLAMP ? fmin(0.99f, unclamped) : unclamped;
+}
+
 typedef struct {
   float red, green, blue, transmittance;
   bool done; // takes no more
@@ -56,14 +71,10 @@ static pixel_state blend_batch(__local const splat_gaussian *batch,
     const float dx = g->mean[0] - px;
     const float dy = g->mean[1] - py;
     if (!p.done & IN_BOX(g, dx, dy)) {
-      const float power = -0.5f * (g->conic[0] * dx * dx +
-                                   g->conic[2] * dy * dy) -
-                          g->conic[1] * dx * dy;
+      const float power = power_at(g, dx, dy);
       // False for NaN.
       if ((power <= 0.0f) & WORTH_TAKING(power)) {
-        const float unclamped = g->opacity * DENSITY(power);
-        const float alpha =
-            USE_ALPHA_CLAMP ? fmin(0.99f, unclamped) : unclamped;
+        const float alpha = alpha_of(g, power, effects);
         const float next = p.transmittance * (1.0f - alpha);
         // Without branches: most Gaussians that get here are blended, and a
         // weight of 0 changes no bit.
@@ -112,8 +123,7 @@ blend(__global const splat_gaussian *records, __global const uint *list,
     if (item == 0)
       live = 0;
     for (uint e = item; e < entries; e += GROUP)
-      batch[e] =
-          records[list[base + e] & (USE_INTERSECT_TAGS ? ~SPANS_TILES : ~0u)];
+      batch[e] = records[GAUSSIAN(list[base + e])];
     barrier(CLK_LOCAL_MEM_FENCE);
 
     bool open = false;

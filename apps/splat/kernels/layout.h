@@ -59,11 +59,11 @@ typedef struct {
   float middle[2];        ///< of the picture, px
 } splat_crop;
 
-/// A Gaussian for rays: in its own axes, of which the shortest has length 1,
-/// what a step along each of the camera's axes is, and its mean.
+/// A Gaussian as rays meet it. Vectors are in the Gaussian's own axes and in
+/// its standard deviations, all of them times its smallest scale.
 typedef struct {
-  float across[3], down[3], ahead[3];
-  float mean[3]; ///< from the camera
+  float across[3], down[3], ahead[3]; ///< the camera's unit vectors x, y, z
+  float mean[3];                      ///< from the camera
 } splat_ray_frame;
 
 /// How the rasterizers blend a picture.

@@ -1,11 +1,10 @@
-// Where pixels have an order of their own (effects/RayOrder.cpp): what
-// blend_by_ray.cl needs to say how deep a pixel's ray is in a Gaussian. As
-// StopThePop has it (Radl et al. 2024), that is where the Gaussian's density
-// along the ray is largest.
+// Prepares Gaussians for blend_by_ray.cl, which asks each for its depth along a
+// pixel's ray. As in StopThePop (Radl et al. 2024), that is the depth at which
+// the Gaussian's density along the ray is largest.
 
-// What a step of length 1 along an axis is in the axis' standard deviations, in
-// parts of what it is along the shortest axis. So a disc without thickness has
-// a depth, too, and nothing overflows.
+// From lengths along a Gaussian's axes to standard deviations, all of them times
+// the smallest scale. That common factor changes no depth, and keeps numbers
+// finite where a scale is 0.
 static float3 ray_axis_factors(float3 scale) {
   const float least = fmin(fmin(scale.x, scale.y), scale.z);
   return (float3)(scale.x == least ? 1.0f : least / scale.x,
@@ -13,7 +12,8 @@ static float3 ray_axis_factors(float3 scale) {
                   scale.z == least ? 1.0f : least / scale.z);
 }
 
-// `depths`: the keys that project wrote. What no tile sees has no frame.
+// `depths`: the keys that project wrote. A Gaussian that no tile sees gets no
+// frame.
 __kernel void ray_frames(__constant const splat_view *view,
                          __global const float *geometries,
                          __global const uint *depths,

@@ -71,6 +71,8 @@ void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
   if (Launch.failure())
     return;
   Launch.beginStage(Stage::Blend);
+  if (Plan.done(effects::RayOrder))
+    prepareRays();
   blend();
 }
 
@@ -277,26 +279,26 @@ Frame Pipeline::drawBeside(const cl::Buffer &Records) {
 void Pipeline::shade() {
   allocatePixels();
   const std::size_t Group = Options.SimtGroup;
-  if (Plan.done(effects::RayOrder)) {
-    const cl::Buffer Frames =
-        Launch.allocate("Gaussians for rays",
-                        sizeof(splat_ray_frame) * uint64_t{Current.drawn()});
-    Launch.run(RayFramesProgram, "ray_frames", itemsFor(Current.drawn()),
-               GroupSize, Current.Camera, Current.Gaussians.Geometry,
-               Current.Depths.Keys, Frames, Current.drawn());
-    Launch.run(
-        BlendProgram, "blend_by_ray",
-        cl::NDRange(Current.View.tiles[0] * Group, Current.View.tiles[1]),
-        cl::NDRange(Group, 1), Current.Camera, Current.Records, Frames,
-        Current.List, Current.Ranges, Current.Pixels, Options.Cutoff,
-        Current.View.effects);
-    return;
-  }
-  Launch.run(BlendProgram, "blend",
-             cl::NDRange(Current.View.tiles[0] * Group, Current.View.tiles[1]),
-             cl::NDRange(Group, 1), Current.Records, Current.List,
-             Current.Ranges, Current.Pixels, Current.Last, Current.View.size[0],
-             Current.View.size[1], Options.Cutoff, Current.View.effects);
+  const cl::NDRange Items(Current.View.tiles[0] * Group, Current.View.tiles[1]);
+  const cl::NDRange GroupItems(Group, 1);
+  if (Plan.done(effects::RayOrder))
+    return Launch.run(BlendProgram, "blend_by_ray", Items, GroupItems,
+                      Current.Camera, Current.Records, Current.RayFrames,
+                      Current.List, Current.Ranges, Current.Pixels,
+                      Options.Cutoff, Current.View.effects);
+  Launch.run(BlendProgram, "blend", Items, GroupItems, Current.Records,
+             Current.List, Current.Ranges, Current.Pixels, Current.Last,
+             Current.View.size[0], Current.View.size[1], Options.Cutoff,
+             Current.View.effects);
+}
+
+void Pipeline::prepareRays() {
+  Current.RayFrames =
+      Launch.allocate("Gaussians for rays",
+                      sizeof(splat_ray_frame) * uint64_t{Current.drawn()});
+  Launch.run(RayFramesProgram, "ray_frames", itemsFor(Current.drawn()),
+             GroupSize, Current.Camera, Current.Gaussians.Geometry,
+             Current.Depths.Keys, Current.RayFrames, Current.drawn());
 }
 
 splat_blend_options Pipeline::blendOptions() const {

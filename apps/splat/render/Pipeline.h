@@ -64,6 +64,7 @@ struct Frame {
   cl::Buffer Statuses;  ///< of the cores that started them
   cl::Buffer Pixels;    ///< colour in front of the background, transmittance
   cl::Buffer Last; ///< in training: entries of its list that a pixel has taken
+  cl::Buffer RayFrames; ///< with the effect \c RayOrder: a splat_ray_frame each
   uint32_t Visible = 0, Pairs = 0;
   uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
   std::array<uint64_t, CullReasons.size()> Culled{};
@@ -139,6 +140,7 @@ private:
   cl::Buffer blendAgain();
   void allocatePixels();
   void shade();
+  void prepareRays();
   cl::Buffer words(std::string_view What, uint64_t N) {
     return Launch.allocate(What, 4 * N);
   }
