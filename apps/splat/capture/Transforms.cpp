@@ -3,6 +3,7 @@
 #include "io/CameraLens.h"
 #include "io/CameraShutter.h"
 #include "io/PlyFile.h"
+#include "io/Unsupported.h"
 #include "vorion/support/Json.h"
 
 #include <algorithm>
@@ -41,7 +42,6 @@ private:
   std::optional<double> number(const Json &Frame, const char *Key);
   CameraModel readLens(const Json &Frame);
   CameraPlace readPlace(const Json &Frame, const char *Key);
-  void refuseVelocities(const Json &Frame);
   void readPose(const Json &Frame, CaptureView &V);
   void readIntrinsics(const Json &Frame, LensModel Lens, Camera &C);
 
@@ -132,17 +132,6 @@ CameraPlace TransformsReader::readPlace(const Json &Frame, const char *Key) {
   return C;
 }
 
-/// As some exporters have it. With instant-ngp's poses it can be drawn.
-void TransformsReader::refuseVelocities(const Json &Frame) {
-  for (const Json *Of : {&Frame, &Document})
-    for (const auto &[Key, Value] : Of->items())
-      if (Key.starts_with("rolling_shutter_") && Value != 0)
-        fail(fmt::format("key {} calls for a rolling shutter by velocities, "
-                         "which is not supported, expected transform_matrix_"
-                         "start and transform_matrix_end, or no such key",
-                         printable(Key)));
-}
-
 /// As instant-ngp has it: a camera goes from transform_matrix_start to
 /// transform_matrix_end, and rolling_shutter says when it exposes a pixel, by
 /// start, across, down and the motion blur, which is not drawn.
@@ -224,6 +213,8 @@ Expected<TransformsFile> TransformsReader::read() {
   const auto Frames = Document.find("frames");
   if (Frames == Document.end() || !Frames->is_array() || Frames->empty())
     return Error{Where, "no frames, expected a list of at least one"};
+  if (auto Unsupported = unsupportedIn(Document))
+    fail(*Unsupported);
   TransformsFile T;
   for (const Json &Frame : *Frames) {
     View.clear();
@@ -247,7 +238,8 @@ Expected<TransformsFile> TransformsReader::read() {
       else
         fail("key mask_path is wrong, expected a file's name");
     }
-    refuseVelocities(Frame);
+    if (auto Unsupported = unsupportedIn(Frame))
+      fail(*Unsupported);
     readPose(Frame, V);
     readIntrinsics(Frame, V.Optics.Model, V.Pose);
     T.Views.push_back(std::move(V));

@@ -51,7 +51,8 @@ public:
       else
         wrong("rotation", RotationWanted);
     }
-    refuseUnsupported();
+    if (auto Unsupported = unsupportedIn(Record))
+      fail(std::move(*Unsupported));
     const auto Find = [&](const char *Key) -> const Json * {
       const auto It = Record.find(Key);
       return It == Record.end() ? nullptr : &*It;
@@ -138,24 +139,6 @@ private:
     }
     if (!Good)
       wrong(Key, RowWanted);
-  }
-
-  /// Whether \p J says nothing: zero, false, empty, or made of such.
-  static bool isEmpty(const Json &J) {
-    if (J.is_array() || J.is_object())
-      return std::all_of(J.begin(), J.end(), isEmpty);
-    return J.is_null() || (J.is_number() && J.get<double>() == 0) ||
-           (J.is_boolean() && !J.get<bool>()) ||
-           (J.is_string() && J.get_ref<const std::string &>().empty());
-  }
-
-  void refuseUnsupported() {
-    for (const auto &[Key, Value] : Record.items())
-      if (const auto Meaning = unsupportedCameraKey(Key);
-          Meaning && !isEmpty(Value))
-        fail(fmt::format("key {} calls for {}, which is not supported, "
-                         "expected what docs/cameras.md lists",
-                         Key, *Meaning));
   }
 
   const std::string &Path;

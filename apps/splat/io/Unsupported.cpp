@@ -1,7 +1,11 @@
 #include "io/Unsupported.h"
 
+#include "vorion/support/Printable.h"
+
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <span>
 
 namespace vorion::splat {
@@ -62,14 +66,28 @@ constexpr std::array CameraKeys{
     Meaning{"rolling_shutter_*", "a rolling shutter by velocities"},
 };
 
+/// Whether \p J says nothing: zero, false, empty, or made of such.
+bool isEmpty(const nlohmann::json &J) {
+  if (J.is_array() || J.is_object())
+    return std::all_of(J.begin(), J.end(), isEmpty);
+  return J.is_null() || (J.is_number() && J.get<double>() == 0) ||
+         (J.is_boolean() && !J.get<bool>()) ||
+         (J.is_string() && J.get_ref<const std::string &>().empty());
+}
+
 } // namespace
 
 std::optional<std::string_view> unsupportedProperty(std::string_view Name) {
   return find(Properties, Name);
 }
 
-std::optional<std::string_view> unsupportedCameraKey(std::string_view Key) {
-  return find(CameraKeys, Key);
+std::optional<std::string> unsupportedIn(const nlohmann::json &Record) {
+  for (const auto &[Key, Value] : Record.items())
+    if (const auto Meaning = find(CameraKeys, Key); Meaning && !isEmpty(Value))
+      return fmt::format("key {} calls for {}, which is not supported, "
+                         "expected what docs/cameras.md lists",
+                         printable(Key), *Meaning);
+  return std::nullopt;
 }
 
 } // namespace vorion::splat

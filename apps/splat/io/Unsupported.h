@@ -2,6 +2,7 @@
 /// another picture than the file's, so readers refuse it by name.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,8 +13,8 @@ namespace vorion::splat {
 /// not known to mean anything ("nx", "label").
 std::optional<std::string_view> unsupportedProperty(std::string_view Name);
 
-/// What a camera record's key \p Key would mean with a value other than zero,
-/// false or empty; nothing if it is not known to mean anything.
-std::optional<std::string_view> unsupportedCameraKey(std::string_view Key);
+/// Which key of \p Record, a camera's, calls for what nothing here does, and
+/// what that is; keys whose value is zero, false or empty call for nothing.
+std::optional<std::string> unsupportedIn(const nlohmann::json &Record);
 
 } // namespace vorion::splat
