@@ -133,11 +133,8 @@ Expected<Success> run(EvalArguments &A, const DeviceOptions &Machine) {
   Cameras.reserve(Views.size());
   for (const JudgedView &V : Views)
     Cameras.push_back(V.View->Pose);
-  const auto Model = commonModel(A.Capture, Cameras);
-  if (!Model)
-    return Model.error();
-  A.Options.Optics = *Model;
-  A.Options.Rolling = isRolling(Cameras);
+  if (auto Through = drawThrough(A.Options, A.Capture, Cameras); !Through)
+    return Through;
   const ViewFacts Facts = factsOfAll(File->Gaussians, Cameras, A.Options);
   const EffectInputs Inputs{.Gaussians = File->Gaussians,
                             .Options = A.Options,

@@ -269,11 +269,8 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   const auto Cameras = chooseCameras(A.Cameras, *S);
   if (!Cameras)
     return Cameras.error();
-  const auto Model = commonModel(A.Cameras.File, *Cameras);
-  if (!Model)
-    return Model.error();
-  A.Options.Optics = *Model;
-  A.Options.Rolling = isRolling(*Cameras);
+  if (auto Through = drawThrough(A.Options, A.Cameras.File, *Cameras); !Through)
+    return Through;
   if (!isOne(A))
     if (auto Checked = claimPictures(A, *Cameras); !Checked)
       return Checked;

@@ -180,4 +180,14 @@ Expected<LensModel> commonModel(const std::string &Path,
   return Common;
 }
 
+Expected<Success> drawThrough(RenderOptions &O, const std::string &Path,
+                              const std::vector<Camera> &Cameras) {
+  const auto Model = commonModel(Path, Cameras);
+  if (!Model)
+    return Model.error();
+  O.Optics = *Model;
+  O.Rolling = isRolling(Cameras);
+  return Success{};
+}
+
 } // namespace vorion::splat

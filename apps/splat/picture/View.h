@@ -32,6 +32,11 @@ Expected<LensModel> commonModel(const std::string &Path,
 /// Whether one of \p Cameras moves while it exposes.
 bool isRolling(const std::vector<Camera> &Cameras);
 
+/// Draws through \p Cameras, \p Path's: sets what \p O says of them. An error
+/// if they have no common model.
+Expected<Success> drawThrough(RenderOptions &O, const std::string &Path,
+                              const std::vector<Camera> &Cameras);
+
 /// Whether a program for cameras of model \p Program draws \p C.
 bool isDrawnBy(LensModel Program, const Camera &C);
 
