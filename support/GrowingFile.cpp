@@ -6,6 +6,11 @@
 namespace vorion {
 
 Expected<GrowingFile> GrowingFile::open(const std::string &Path) {
+  if (Path == "-")
+    return Error{Path,
+                 "this output is written as it grows, expected the name of a "
+                 "file",
+                 ExitCode::Usage};
   std::FILE *F = std::fopen(Path.c_str(), "wb");
   if (!F)
     return Error{Path, std::string("cannot write: ") + std::strerror(errno) +

@@ -154,11 +154,6 @@ private:
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,
                                      const ToolOutput &To) {
-  if (Text == "-")
-    return Error{"",
-                 "--timeline -: a timeline is written as it grows, expected "
-                 "the name of a file",
-                 ExitCode::Usage};
   Expected<GrowingFile> File = GrowingFile::open(Text);
   if (!File)
     return File.error();

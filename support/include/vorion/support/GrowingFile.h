@@ -16,6 +16,7 @@ namespace vorion {
 /// crash is what it is read for.
 class GrowingFile {
 public:
+  /// "-" is refused: standard output is for what is written at once.
   static Expected<GrowingFile> open(const std::string &Path);
 
   std::FILE *stream() const { return Stream.get(); }
