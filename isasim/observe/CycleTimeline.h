@@ -29,7 +29,8 @@ public:
   static constexpr uint64_t MaxEvents = 1'000'000;
 
   /// \p Out as for TraceEvents, which is empty so far.
-  /// \p Energy tells the chip's power. Null: the default technology.
+  /// \p Energy is the model of the chip's power. Null: the default
+  /// technology's.
   CycleTimeline(std::FILE *Out, const Config &Shape,
                 std::shared_ptr<const EnergyModel> Energy = nullptr);
 

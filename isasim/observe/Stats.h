@@ -15,8 +15,8 @@ namespace vorion::isasim {
 
 class Stats {
 public:
-  /// \p By tells joules. Null: the default technology, at the voltage that the
-  /// clock needs.
+  /// \p By is the model that counts joules. Null: the default technology's, at
+  /// the voltage that the clock needs.
   explicit Stats(std::shared_ptr<const EnergyModel> By = nullptr)
       : Model(std::move(By)) {}
   void setConfig(const Config &C) { Machine = toJson(C); }

@@ -25,7 +25,7 @@ struct ToolOutput {
   std::function<void(std::string_view)> Print;
   /// A message for people, without the last newline.
   std::function<void(std::string_view)> Report;
-  /// What tells joules. Null: the default technology.
+  /// The model that counts joules. Null: the default technology's.
   std::shared_ptr<const EnergyModel> Energy;
 };
 

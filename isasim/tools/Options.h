@@ -14,7 +14,7 @@ class App;
 
 namespace vorion::isasim {
 
-/// Texts as they were given; empty for what was not.
+/// Values as they were given. An option that was not given is empty.
 struct Options {
   std::string Program, ConfigText, ArgsFile;
   SessionOptions Watch;

@@ -1,5 +1,5 @@
-// llvm-mc's own main, as llvmMcMain, takes its host for the target where none
-// is named, and has only ours.
+// llvm-mc assembles for its host where no target is named. This program has one
+// target, the machine's, and names it before it calls llvm-mc's main.
 #include "llvm/ADT/ArrayRef.h"
 #include "llvm/ADT/StringRef.h"
 #include "llvm/Support/raw_ostream.h"
@@ -43,8 +43,8 @@ int main(int Argc, char **Argv) {
     } else if (*Named != "vorion" && *Named != "help" &&
                !llvm::RISCV::parseCPU(*Named, /*IsRV64=*/false)) {
       llvm::errs() << "vorion-mc: error: --mcpu " << *Named
-                   << ": not a processor of 32 bits that is known, expected "
-                      "vorion\n";
+                   << ": unknown processor, expected vorion or another of 32 "
+                      "bits\n";
       return 1;
     }
     // Without them other tools do not know an object's instructions.

@@ -76,8 +76,8 @@ std::string textOf(const std::string &Path, const Capture &C) {
                         "their pictures, unless --distorted is given\n",
                         Bend);
   if (Alone > 0)
-    Text += fmt::format("lenses       of {} views are spheres or roll: they "
-                        "need --distorted\n",
+    Text += fmt::format("lenses       {} views are full spheres or have a "
+                        "rolling shutter: they need --distorted\n",
                         Alone);
   Text += fmt::format("cameras      within {:.6g} of ({:.6g}, {:.6g}, {:.6g}), "
                       "extent {:.6g}\n",
@@ -125,7 +125,7 @@ std::string jsonOf(const std::string &Path, const Capture &C) {
 Expected<Success> describeCapture(const std::string &Path,
                                   const std::string &JsonFile,
                                   bool AllowOutside) {
-  // Of photographs there is something to say whatever their lenses are.
+  // Photographs can be described through any lens.
   const auto C = readCapture(
       Path, {{}, AllowOutside, MaskSource::None, LensOf::Photograph});
   if (!C)

@@ -137,11 +137,11 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
     return usage("--order ray is the cores', because the rasterizer blends by "
                  "its list, expected --path simt with it");
   if (O.Order == PixelOrder::Ray && O.DepthBits != RenderOptions().DepthBits)
-    return usage("--depth-bits is of the depths of centres, expected --order "
+    return usage("--depth-bits rounds the depths of centres, expected --order "
                  "depth with it");
   if (O.Order == PixelOrder::Depth && O.RayWindow != RenderOptions().RayWindow)
     return usage(
-        "--ray-window is of --order ray, expected --order ray with it");
+        "--ray-window belongs to --order ray, expected --order ray with it");
   if (O.Reach == Support::Official16 && O.SimtTile != 16)
     return usage(fmt::format("--simt-tile {}: --support official16 has tiles "
                              "of 16x16 pixels, expected 16",

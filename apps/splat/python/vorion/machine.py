@@ -145,14 +145,14 @@ class Machine:
         order: "depth" or "ray", the depths by which a pixel of the cores' path blends
         ray_window: Gaussians that it finds at a time by "ray": 4, 8 or 16; changes no bit
         """
+        _check(scene, Scene, "scene")
+        _check(camera, Camera, "camera")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
                        "exp": exp, "alpha_cutoff": alpha_cutoff, "depth_bits": depth_bits, "sh_degree": sh_degree,
                        "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
                        "effects": effects, "near": near, "projection": projection, "order": order,
                        "ray_window": ray_window, "depth_as": depth_as, "contributors": contributors})
-        _check(scene, Scene, "scene")
-        _check(camera, Camera, "camera")
         image, alpha, by, report = self._native.render(scene._native, camera._native, asked, depth, normals, time)
         top = by["contributors"]
         return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)

@@ -48,7 +48,7 @@ public:
   /// \p Print receives what is meant for stdout: tables and a profile without a
   /// file. Null: stdout is the application's; there are files only.
   /// What checkers find goes to stderr as messages of \p Tool.
-  /// \p Energy tells joules; null: the default technology.
+  /// \p Energy is the model that counts joules; null: the default technology's.
   static Expected<std::unique_ptr<Session>>
   create(const SessionOptions &O, std::string Tool,
          std::function<void(std::string_view)> Print = nullptr,
