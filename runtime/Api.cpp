@@ -90,6 +90,8 @@ Failure openDevice(std::span<const vx_option> Given, vx_device **Device) {
   auto Watch = isasim::Session::create(Options.Watch, "vorion");
   if (!Watch)
     return failure(VX_ERROR_CONFIG, Watch.error());
+  if (const auto Attached = (*Watch)->attach(**Machine); !Attached)
+    return failure(VX_ERROR_CONFIG, Attached.error());
   *Device = new vx_device(std::move(*Machine), std::move(*Watch),
                           Options.onlyProfiled());
   return {};

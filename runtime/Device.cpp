@@ -88,7 +88,6 @@ Device::Device(std::unique_ptr<isasim::Machine> TheMachine,
     Memory.add(Part.Base, Part.Bytes);
   clockRuns(!OnlyProfiled);
   Machine->setConsole([this](std::string_view Text) { keepConsole(Text); });
-  Watch->attach(*Machine);
   openDevices().add(this);
 }
 

@@ -36,6 +36,16 @@ private:
   std::string Path;
 };
 
+TEST(RuntimeOpen, ToolsThatTheMachineCannotServe) {
+  const vx_option Options[] = {{"VORION_CONFIG", SmallMemory},
+                               {"VORION_PIPELINE", "file=x,core=99"}};
+  vx_device *Device = nullptr;
+  EXPECT_EQ(vx_device_open_with(Options, 2, &Device), VX_ERROR_CONFIG);
+  EXPECT_NE(std::string(vx_last_error())
+                .find("core=99: the machine has 8 cores, expected 0 to 7"),
+            std::string::npos);
+}
+
 TEST(RuntimeOpen, ClockForProfiledRunsOnly) {
   const vx_option Options[] = {{"VORION_CONFIG", SmallMemory},
                                {"VORION_TIME", "profiled"}};

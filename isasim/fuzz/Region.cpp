@@ -57,7 +57,7 @@ void restoreOne(std::span<const std::byte> File) {
   const auto Watch = Session::create({}, "fuzz");
   require(M && Watch);
   (*M)->setConsole([](std::string_view) {});
-  (*Watch)->attach(**M);
+  require(bool((*Watch)->attach(**M)));
   const auto Last =
       runRegion(*Region, **M, **Watch, true, "input", [](std::string_view) {});
   if (!Last)
@@ -107,7 +107,7 @@ std::vector<std::byte> saved(const Config &C) {
   O.Region = "warm=2,from=3,save=" + Path;
   const auto Watch = Session::create(O, "fuzz");
   require(bool(Watch));
-  (*Watch)->attach(**M);
+  require(bool((*Watch)->attach(**M)));
   const std::shared_ptr<const Image> Programs[] = {counting(1), counting(-1)};
   for (const unsigned Which : {0, 0, 1, 1}) {
     if ((*M)->image() != Programs[Which])

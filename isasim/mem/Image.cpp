@@ -18,9 +18,12 @@ const Kernel *Image::findKernel(std::string_view KernelName) const {
 Expected<Success> Image::checkLanes(uint32_t Lanes) const {
   for (const Kernel &K : Kernels)
     if (K.Lanes != 0 && K.Lanes != Lanes)
-      return Error{Name, fmt::format("kernel '{}' was compiled for warps of {} "
-                                     "lanes, expected {} as the machine has",
-                                     K.Name, K.Lanes, Lanes)};
+      return Error{Name,
+                   fmt::format("kernel '{}' was compiled for warps of {} "
+                               "lanes, expected {} as the machine has (the "
+                               "compiler takes VORION_SET and "
+                               "VORION_CONFIG, too)",
+                               K.Name, K.Lanes, Lanes)};
   return Success{};
 }
 

@@ -112,7 +112,9 @@ TEST(Image, KnowsForHowManyLanesItIs) {
   ASSERT_FALSE(Wrong);
   EXPECT_EQ(Wrong.error().Where, "x.elf");
   EXPECT_EQ(Wrong.error().What, "kernel 'add' was compiled for warps of 8 "
-                                "lanes, expected 16 as the machine has");
+                                "lanes, expected 16 as the machine has (the "
+                                "compiler takes VORION_SET and VORION_CONFIG, "
+                                "too)");
   O.Segments[1].Words[10] = 0;
   const auto Any = Image::parse(buildElf(O), "x.elf");
   ASSERT_TRUE(Any) << Any.error().What;

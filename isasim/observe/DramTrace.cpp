@@ -34,7 +34,7 @@ public:
       : Prefix(std::move(PrefixIn)), Requests(std::move(RequestsIn)) {}
 
   std::vector<TimeObserver *> timeObservers() override { return {this}; }
-  void attach(Machine &M) override;
+  Expected<Success> attach(Machine &M) override;
   Expected<Success> runEnded(const std::string &, const RunResult &) override;
 
   void dramRequest(unsigned, uint32_t Address, bool IsWrite) override {
@@ -42,8 +42,7 @@ public:
   }
   void dramCommand(unsigned Number, const dram::Issued &What,
                    CycleSpan) override {
-    if (!Problem)
-      Channels[Number].Issued.push_back(What);
+    Channels[Number].Issued.push_back(What);
   }
 
 private:
@@ -54,25 +53,21 @@ private:
   std::string Prefix;
   GrowingFile Requests;
   std::vector<Channel> Channels;
-  std::optional<Error> Problem; ///< a file that cannot be written
 };
 
-void DramTraceTool::attach(Machine &M) {
+Expected<Success> DramTraceTool::attach(Machine &M) {
   Channels.clear();
   for (unsigned N = 0; N != M.config().Timing.Dram.Channels; ++N) {
     auto File = GrowingFile::open(commandsOf(Prefix, N));
-    if (!File) {
-      Problem = File.error();
-      return;
-    }
+    if (!File)
+      return File.error();
     Channels.push_back({std::move(*File), {}});
   }
+  return Success{};
 }
 
 Expected<Success> DramTraceTool::runEnded(const std::string &,
                                           const RunResult &) {
-  if (Problem)
-    return *Problem;
   for (Channel &C : Channels) {
     // A device with two command buses may have two under way.
     std::ranges::sort(C.Issued, {}, [](const dram::Issued &I) {

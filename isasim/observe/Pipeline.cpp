@@ -78,14 +78,8 @@ public:
       : Options(std::move(OptionsIn)) {}
 
   std::vector<TimeObserver *> timeObservers() override { return {this}; }
-  void attach(Machine &M) override { Device = &M; }
+  Expected<Success> attach(Machine &M) override;
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
-    if (const unsigned Cores = Device->config().cores(); Options.Core >= Cores)
-      return Error{"",
-                   fmt::format("--pipeline core={}: the machine has {} cores, "
-                               "expected 0 to {}",
-                               Options.Core, Cores, Cores - 1),
-                   ExitCode::Usage};
     return writeFileAtomically(Options.File, log());
   }
 
@@ -116,6 +110,17 @@ private:
   std::vector<Instruction> Instructions;
   std::map<uint64_t, size_t> Waiting; ///< for memory: places by serial number
 };
+
+Expected<Success> PipelineTool::attach(Machine &M) {
+  Device = &M;
+  if (const unsigned Cores = M.config().cores(); Options.Core >= Cores)
+    return Error{"",
+                 fmt::format("--pipeline core={}: the machine has {} cores, "
+                             "expected 0 to {}",
+                             Options.Core, Cores, Cores - 1),
+                 ExitCode::Usage};
+  return Success{};
+}
 
 void PipelineTool::timeBegins(uint64_t) {
   Waiting.clear();

@@ -116,9 +116,10 @@ public:
     return InCycles ? std::vector<TimeObserver *>{&*InCycles}
                     : std::vector<TimeObserver *>{};
   }
-  void attach(Machine &M) override {
+  Expected<Success> attach(Machine &M) override {
     if (M.config().Timing.Enabled)
       InCycles.emplace(M);
+    return Success{};
   }
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
     const std::string Report =

@@ -89,9 +89,10 @@ public:
   explicit RegionTool(RegionOptions OptionsIn)
       : Options(std::move(OptionsIn)) {}
 
-  void attach(Machine &M) override {
+  Expected<Success> attach(Machine &M) override {
     Device = &M;
     Device->setClocking(Clocking::Off);
+    return Success{};
   }
   void runBegins(const std::string &Name, uint32_t LaunchBlock) override;
   Expected<Success> runEnded(const std::string &, const RunResult &R) override;

@@ -123,9 +123,10 @@ void Session::Impl::findObservers() {
         std::ranges::copy(T->observers(), std::back_inserter(Observers));
 }
 
-void Session::attach(Machine &M) {
+Expected<Success> Session::attach(Machine &M) {
   for (const auto &T : PImpl->Tools)
-    T->attach(M);
+    if (auto Ok = T->attach(M); !Ok)
+      return Ok;
   // A tool may watch machines with a clock in another way.
   PImpl->findObservers();
   M.setObservers(PImpl->Observers);
@@ -133,6 +134,7 @@ void Session::attach(Machine &M) {
   for (const auto &T : PImpl->Tools)
     std::ranges::copy(T->timeObservers(), std::back_inserter(OfClock));
   M.setTimeObservers(std::move(OfClock));
+  return Success{};
 }
 
 Expected<Success> Session::runEnded(const RunResult &R) {

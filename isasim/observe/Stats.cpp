@@ -88,7 +88,10 @@ class StatsTool : public Tool {
 public:
   StatsTool(std::string FileIn, const ToolOutput &To)
       : File(std::move(FileIn)), Print(To.Print), Counts(To.Energy) {}
-  void attach(Machine &M) override { Counts.setConfig(M.config()); }
+  Expected<Success> attach(Machine &M) override {
+    Counts.setConfig(M.config());
+    return Success{};
+  }
   Expected<Success> runEnded(const std::string &Name,
                              const RunResult &R) override {
     Counts.add(Name, R);

@@ -19,7 +19,10 @@ class TilesTool : public Tool, public TimeObserver {
 public:
   explicit TilesTool(GrowingFile FileIn) : File(std::move(FileIn)) {}
 
-  void attach(Machine &M) override { OnMachine = nameOf(M.config()).Name; }
+  Expected<Success> attach(Machine &M) override {
+    OnMachine = nameOf(M.config()).Name;
+    return Success{};
+  }
   std::vector<TimeObserver *> timeObservers() override { return {this}; }
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
     ++Run;

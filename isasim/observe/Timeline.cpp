@@ -134,9 +134,10 @@ public:
     return InCycles ? std::vector<TimeObserver *>{&*InCycles}
                     : std::vector<TimeObserver *>{};
   }
-  void attach(Machine &M) override {
+  Expected<Success> attach(Machine &M) override {
     if (M.config().Timing.Enabled)
       InCycles.emplace(File.stream(), M.config(), Energy);
+    return Success{};
   }
   Expected<Success> runEnded(const std::string &Name,
                              const RunResult &R) override {

@@ -43,8 +43,9 @@ public:
   /// they do is over before others hear of the instruction that the warp
   /// stands at.
   virtual bool changesRuns() const { return false; }
-  /// The machine of the runs that follow.
-  virtual void attach(Machine &) {}
+  /// The machine of the runs that follow. An error if it does not have what was
+  /// asked for.
+  virtual Expected<Success> attach(Machine &) { return Success{}; }
   /// Before a run of the machine's image that is called \p Name, or nothing.
   virtual void runBegins(const std::string & /*Name*/,
                          uint32_t /*LaunchBlock*/) {}

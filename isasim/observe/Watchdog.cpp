@@ -13,7 +13,10 @@ namespace {
 class WatchdogTool : public Tool {
 public:
   explicit WatchdogTool(double Seconds) : Seconds(Seconds) {}
-  void attach(Machine &M) override { M.setWatchdog(Seconds); }
+  Expected<Success> attach(Machine &M) override {
+    M.setWatchdog(Seconds);
+    return Success{};
+  }
 
 private:
   double Seconds;

@@ -51,7 +51,7 @@ public:
     auto New = Machine::create(timed(2));
     EXPECT_TRUE(New);
     M = std::move(*New);
-    Watch->attach(*M);
+    EXPECT_TRUE(Watch->attach(*M));
   }
 
   void run(unsigned Count) {
@@ -122,7 +122,7 @@ TEST(Region, RunsAgainAsItDid) {
     ASSERT_TRUE(Watch);
     const auto M = Machine::create(Region->Machine);
     ASSERT_TRUE(M);
-    (*Watch)->attach(**M);
+    ASSERT_TRUE((*Watch)->attach(**M));
     const auto Last = runRegion(*Region, **M, **Watch, true, Path, quiet);
     ASSERT_TRUE(Last) << Last.error().What;
     EXPECT_EQ(toJson(*Last->Time), Saved.Times.back()) << Choice;

@@ -20,6 +20,24 @@ constexpr uint32_t PreferredGroup = 64;
 
 Error usage(std::string What) { return {"", std::move(What), ExitCode::Usage}; }
 
+/// Why \p P has no kernel to run where \p Asked, a name or nothing, was given.
+Error noKernel(const Image &P, const std::string &Asked) {
+  std::vector<std::string> Names;
+  for (const Kernel &Each : P.kernels())
+    Names.push_back(Each.Name);
+  const std::string Listed = fmt::format("{}", fmt::join(Names, " "));
+  std::string What;
+  if (Names.empty())
+    What = "no kernels, expected a program with at least one";
+  else if (Asked.empty())
+    What = fmt::format("{} kernels, expected --kernel to name one of: {}",
+                       Names.size(), Listed);
+  else
+    What = fmt::format("no kernel '{}', expected one of: {}{}", Asked, Listed,
+                       didYouMean(Asked, Names));
+  return {P.name(), std::move(What), ExitCode::Usage};
+}
+
 /// The groups that \p R asks for, or that suit \p K where it does not say.
 Expected<LaunchShape> shapeOf(const Kernel &K, const KernelRequest &R) {
   std::array<uint32_t, 3> Local = R.Local;
@@ -164,20 +182,8 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
   const Kernel *K = Program.findKernel(R.Kernel);
   if (R.Kernel.empty() && Program.kernels().size() == 1)
     K = &Program.kernels().front();
-  if (!K) {
-    std::vector<std::string> Names;
-    for (const Kernel &Each : Program.kernels())
-      Names.push_back(Each.Name);
-    return Error{Program.name(),
-                 R.Kernel.empty()
-                     ? fmt::format("more or less than one kernel, expected "
-                                   "--kernel to name one of: {}",
-                                   fmt::join(Names, " "))
-                     : fmt::format("no kernel '{}', expected one of: {}{}",
-                                   R.Kernel, fmt::join(Names, " "),
-                                   didYouMean(R.Kernel, Names)),
-                 ExitCode::Usage};
-  }
+  if (!K)
+    return noKernel(Program, R.Kernel);
   const Expected<LaunchShape> Shape = shapeOf(*K, R);
   if (!Shape)
     return Shape.error();

@@ -110,7 +110,7 @@ void declareOptions(CLI::App &App, Options &O) {
   App.add_flag("--time", O.Time,
                "say how long the run takes on the machine (docs/model.md)");
   App.add_option("--clock", O.ClockMhz,
-                 "the machine's clock for --time (default: 530)")
+                 "say so at this clock (default: the machine's, 530)")
       ->type_name("MHZ")
       ->check(quietly(isBetween(1U, 100000U)));
   App.add_flag("--energy", O.Energy,
@@ -128,8 +128,9 @@ void declareOptions(CLI::App &App, Options &O) {
   App.add_flag("--print-energy-parameters", O.PrintEnergy,
                "print what --energy goes by, with sources, and exit");
   App.add_option("--max-instructions", O.MaxInstructions,
-                 "end the run after N warp instructions")
-      ->type_name("N");
+                 "end the run after N warp instructions (0: never)")
+      ->type_name("N")
+      ->check(quietly(isBetween<uint64_t>(0, 1'000'000'000'000'000'000)));
   App.add_option("--threads", O.Threads,
                  "host threads (default: all; changes no result)")
       ->type_name("N");

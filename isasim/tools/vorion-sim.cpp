@@ -93,7 +93,8 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
         C.LanesPerWarp = 1;
   if (const Expected<Success> Ok = changeValues(C, O); !Ok)
     return Ok.error();
-  C.Timing.Enabled |= O.Time || wantsEnergy(O) || O.Watch.needClock();
+  C.Timing.Enabled |=
+      O.Time || O.ClockMhz || wantsEnergy(O) || O.Watch.needClock();
   if (O.ClockMhz)
     C.Timing.ClockMhz = *O.ClockMhz;
   if (O.MaxInstructions)
@@ -321,7 +322,8 @@ int runSaved(const Options &O, const KernelRequest &Request,
   const Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
   if (!M)
     return reportError(Tool, M.error());
-  (*Watch)->attach(**M);
+  if (const auto Attached = (*Watch)->attach(**M); !Attached)
+    return reportError(Tool, Attached.error());
   const auto Last = runRegion(*Region, **M, **Watch, O.Watch.Region.empty(),
                               O.Program, printText);
   if (!Last)
@@ -367,7 +369,8 @@ int run(const Options &O) {
   if (!M)
     return reportError(Tool, M.error());
   (*M)->load(*Program);
-  (*Watch)->attach(**M);
+  if (const auto Attached = (*Watch)->attach(**M); !Attached)
+    return reportError(Tool, Attached.error());
   if (Request->WorkDim == 0) {
     (*Watch)->runBegins("", 0);
     return finish((*M)->run(), O, **M, nullptr, Energy->get(), **Watch);

@@ -3,6 +3,8 @@
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
+#include <array>
+#include <regex.h>
 #include <set>
 
 namespace vorion {
@@ -70,6 +72,19 @@ const std::set<std::string> OpenClOptions = {
     "-cl-std=CL3.0",
     "-cl-strict-aliasing",
     "-cl-unsafe-math-optimizations"};
+
+/// What is wrong with a pattern for remarks. Empty: nothing.
+std::string wrongPattern(const std::string &Pattern) {
+  regex_t Compiled;
+  const int Code = regcomp(&Compiled, Pattern.c_str(), REG_EXTENDED);
+  if (Code == 0) {
+    regfree(&Compiled);
+    return {};
+  }
+  std::array<char, 128> Text{};
+  regerror(Code, &Compiled, Text.data(), Text.size());
+  return Text.data();
+}
 
 /// Refuses \p Option, with the one that was meant if there is one like it.
 Error unknownOption(const std::string &Option) {
@@ -154,6 +169,12 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
     } else if (Argument.starts_with("-Rpass=") ||
                Argument.starts_with("-Rpass-missed=") ||
                Argument.starts_with("-Rpass-analysis=")) {
+      const std::string Wrong =
+          wrongPattern(Argument.substr(Argument.find('=') + 1));
+      if (!Wrong.empty())
+        return usageError(
+            std::string(Argument).append(": ").append(Wrong).append(
+                ", expected a regular expression"));
       Line.Remarks += Argument + " ";
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
       Line.Prelude += warningLine(Argument.substr(2));

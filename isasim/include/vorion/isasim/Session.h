@@ -58,8 +58,8 @@ public:
   Session &operator=(const Session &) = delete;
 
   /// \p M reports to this session from now on; without observers it runs
-  /// plain.
-  void attach(Machine &M);
+  /// plain. An error if it does not have what was asked for.
+  Expected<Success> attach(Machine &M);
 
   /// After a run: every file is complete.
   Expected<Success> runEnded(const RunResult &R);
