@@ -98,6 +98,10 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
 }
 
 Expected<Success> run(Arguments &A) {
+  for (const std::string *File : {&A.Output, &A.Pairs})
+    if (!File->empty() && !File->ends_with(".npz"))
+      return Error{*File, "unknown kind of file, expected .npz",
+                   ExitCode::Usage};
   const auto File = splat::readScene(A.Scene, A.Read);
   if (!File)
     return File.error();

@@ -34,6 +34,7 @@ void addLayerOptions(CLI::App &App, LayerFiles &F) {
   App.add_option("--top", F.Top,
                  fmt::format("So many of them a pixel (default {})", F.Top))
       ->option_text("N")
+      ->needs("--contributors")
       ->check(isBetween(1U, MaxTop));
 }
 

@@ -159,8 +159,20 @@ void warnOfMissing(const EffectPlan &P, const std::string &Asked) {
 
 void addBackgroundOption(CLI::App &App, std::array<float, 3> &Colour,
                          const std::string &Help) {
-  App.add_option("--background", Colour, Help)
-      ->delimiter(',')
+  // One word: three floats would take the options behind it, too.
+  App.add_option_function<std::string>(
+         "--background",
+         [&Colour](const std::string &Text) {
+           const auto Words = CLI::detail::split(Text, ',');
+           bool Read = Words.size() == Colour.size();
+           for (std::size_t N = 0; Read && N < Colour.size(); ++N)
+             Read = CLI::detail::lexical_cast(Words[N], Colour[N]);
+           if (!Read)
+             throw CLI::ValidationError(
+                 "--background",
+                 fmt::format("{}, expected three numbers, as 1,0.5,0", Text));
+         },
+         Help)
       ->option_text("R,G,B");
 }
 

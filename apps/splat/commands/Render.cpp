@@ -73,6 +73,12 @@ Expected<Success> check(const RenderArguments &A) {
         checkEnding("--write-cameras", A.CamerasOut, {".json"})})
     if (!Checked)
       return Checked;
+  const auto Ends = [&A](std::string_view E) { return A.Output.ends_with(E); };
+  if (A.Format.Quality && !Ends(".jpg") && !Ends(".jpeg") && !Ends(".webp"))
+    return Usage(
+        "--quality is of .jpg and .webp, expected -o with one of them");
+  if (A.Format.Half && !Ends(".exr"))
+    return Usage("--exr-half is of .exr, expected -o with it");
   if (auto Checked = checkDrawOptions(O); !Checked)
     return Checked;
   if (auto Checked = checkLayers(A.Layers, O, isOne(A)); !Checked)
