@@ -79,7 +79,7 @@ void Core::runRound(const ExecTable &Exec, uint32_t Quantum,
         S.Fflags |= HostFp::takeFlags();
         const uint64_t Executed = S.Count.WarpInstructions - Before;
         if (Executed >= ShortestStretch && S.Why != Stop::Ended)
-          Stretches.push_back({S.Next, Executed});
+          Stretches.push_back({S.Next, Executed, &S});
         Ran = true;
       }
   }

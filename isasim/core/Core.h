@@ -40,6 +40,7 @@ public:
   struct Stretch {
     const Insn *End;
     uint64_t Executed; ///< warp instructions
+    const WarpState *Of;
   };
   /// Those of the last round, except short ones and the last of a warp.
   std::span<const Stretch> stretches() const { return Stretches; }

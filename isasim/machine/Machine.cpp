@@ -277,7 +277,7 @@ void Machine::Impl::runCores() {
 void Machine::Impl::translate() {
   for (const auto &C : Cores)
     for (const Core::Stretch &S : C->stretches())
-      Present->Translated->seen(S.End, S.Executed);
+      Present->Translated->seen(S.End, S.Executed, S.Of);
 }
 
 void Machine::Impl::arriveGlobally(WarpState &S) {

@@ -1,6 +1,7 @@
 // Loads and stores. Neighbouring lanes at neighbouring places, all lanes at one
-// place, and lanes anywhere in one region, in this order; Stack.cpp has those
-// by the stack pointer. The rest, and all that is wrong, is the interpreter's.
+// place (first for loads where Guess.cpp says so), and lanes anywhere in one
+// region, in this order; Stack.cpp has those by the stack pointer. The rest,
+// and all that is wrong, is the interpreter's.
 
 #include "translate/Places.h"
 #include "translate/Value.h"
@@ -189,44 +190,51 @@ void Emitter::load(const GuestInsn &G) {
     return loadFromStack(G, Wrong);
   const Zmm Addresses = addressesOf(I);
   const Zmm Bases = scratch(), Spread = scratch();
-  Label Apart, Done;
-  locateNeighbours(Addresses, Bytes, false, Bases, Spread, Apart, Wrong);
-  result(I->Rd, [&](const Zmm &To) {
-    if (Bytes == 4)
-      vmovdqu32(To, ptr[rcx]);
-    else if (Bytes == 2)
-      IsSigned ? vpmovsxwd(To, ptr[rcx]) : vpmovzxwd(To, ptr[rcx]);
-    else
-      IsSigned ? vpmovsxbd(To, ptr[rcx]) : vpmovzxbd(To, ptr[rcx]);
-  });
-  L(Done);
-  outOfLine([=, this, &Wrong]() mutable {
-    Label Scattered;
-    L(Apart);
-    jumpIfDiffer(Addresses, Spread, Scattered);
+  const auto FromOne = [=, this, &Wrong](Label &Differ) {
+    jumpIfDiffer(Addresses, Spread, Differ);
     locate(Bytes, 1, false, Wrong);
-    if (Bytes == 4)
-      mov(ecx, dword[rcx]);
-    else if (Bytes == 2)
+    if (Bytes == 2)
       IsSigned ? movsx(ecx, word[rcx]) : movzx(ecx, word[rcx]);
-    else
+    else if (Bytes == 1)
       IsSigned ? movsx(ecx, byte[rcx]) : movzx(ecx, byte[rcx]);
-    result(I->Rd, [&](const Zmm &To) { vpbroadcastd(To, ecx); });
-    jmp(Done);
-    L(Scattered);
+    result(I->Rd, [&](const Zmm &To) {
+      Bytes == 4 ? vpbroadcastd(To, dword[rcx]) : vpbroadcastd(To, ecx);
+    });
+  };
+  const auto FromNeighbours = [=, this, &Wrong](Label &Apart) {
+    locateNeighbours(Addresses, Bytes, false, Bases, Spread, Apart, Wrong);
+    result(I->Rd, [&](const Zmm &To) {
+      if (Bytes == 4)
+        vmovdqu32(To, ptr[rcx]);
+      else if (Bytes == 2)
+        IsSigned ? vpmovsxwd(To, ptr[rcx]) : vpmovzxwd(To, ptr[rcx]);
+      else
+        IsSigned ? vpmovsxbd(To, ptr[rcx]) : vpmovzxbd(To, ptr[rcx]);
+    });
+  };
+  const auto FromEach = [=, this, &Wrong] {
+    spreadFirst(Spread, Addresses);
     locateEach(Addresses, Bytes, false, Bases, Wrong);
-    if (Bytes == 4) {
-      result(I->Rd, [&](const Zmm &To) {
+    if (Bytes == 4)
+      return result(I->Rd, [&](const Zmm &To) {
         vpgatherdd(Zmm(To.getIdx()) | k2, ptr[rcx + Bases]);
       });
-      jmp(Done);
-      return;
-    }
     vpgatherdd(Spread | k2, ptr[rcx + Bases]);
     const auto Shift = static_cast<uint8_t>(32 - 8 * Bytes);
     vpslld(Spread, Spread, Shift);
     IsSigned ? vpsrad(Spread, Spread, Shift) : vpsrld(Spread, Spread, Shift);
     result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, Spread); });
+  };
+  Label Other, Done;
+  G.HasOneAddress ? FromOne(Other) : FromNeighbours(Other);
+  L(Done);
+  outOfLine([=, this, HasOneAddress = G.HasOneAddress]() mutable {
+    Label Scattered;
+    L(Other);
+    HasOneAddress ? FromNeighbours(Scattered) : FromOne(Scattered);
+    jmp(Done);
+    L(Scattered);
+    FromEach();
     jmp(Done);
   });
 }

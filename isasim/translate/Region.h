@@ -40,11 +40,19 @@ struct GuestInsn {
   /// Whether the interpreter finds the translation here.
   bool Enters = false;
   unsigned Loops = 0; ///< how many it lies in
+  /// Of a load: all active lanes probably name one address.
+  bool HasOneAddress = false;
 };
 
 /// Instructions that \p Head reaches by branches, jumps and falling through,
 /// nearest first until there are enough; in the order of their addresses.
 /// Empty if it is not worth it.
 std::vector<GuestInsn> findRegion(const CodeTable &Code, const Insn *Head);
+
+/// Sets GuestInsn::HasOneAddress of a region's loads by what \p S has in its
+/// registers, if it stands in the region, and what becomes of that on every way
+/// from there. What is wrong costs time alone: a translation looks at each
+/// address.
+void guessAddresses(std::vector<GuestInsn> &Region, const WarpState &S);
 
 } // namespace vorion::isasim::translate

@@ -51,6 +51,47 @@ TEST(TranslatedAtomics, AddInBothPartsOfGlobalMemory) {
   EXPECT_EQ(R.warp().Count.Parks, 0U);
 }
 
+/// Addresses are guessed from the warp's registers. A guess that turns out
+/// wrong changes nothing.
+TEST(TranslatedLoads, FindOneAddressFirstWhereItIsLikely) {
+  if (!Translator::isThere())
+    GTEST_SKIP() << "the translator needs " << Translator::needs();
+  const auto Load = [](unsigned Rd, unsigned Rs) {
+    return encode(Op::RV_LW, {.Rd = Rd, .Rs1 = Rs});
+  };
+  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
+  // x5 has one address, and that of another one; x7 has one a lane.
+  Words.insert(Words.end(), {Load(6, 5), Load(11, 6), Load(8, 7), Load(12, 8)});
+  const ExecTable &Exec = execTable(false);
+  WarpRunner R(Exec, Words);
+  Lanes16 Table, Places;
+  Table.fill(VX_GLOBAL_BASE + 64);
+  for (uint32_t L = 0; L != MaxLanes; ++L) {
+    Places[L] = VX_GLOBAL_BASE + 256 + 8 * L;
+    const uint32_t To = VX_GLOBAL_BASE + 1024 + 4 * (15 - L);
+    std::memcpy(R.global(Places[L]), &To, 4);
+    std::memcpy(R.global(To), &L, 4);
+  }
+  std::memcpy(R.global(Table[0]), &Table[0], 4);
+  R.setX(5, Table);
+  R.setX(7, Places);
+  Translator T(R.Code, Exec);
+  T.seen(R.Code.begin(), UINT64_MAX, &R.warp());
+  ASSERT_EQ(T.regions(), 1U);
+  EXPECT_EQ(T.guesses(), 2U);
+  for (const bool IsRight : {true, false}) {
+    R.setX(7, Places);
+    R.setX(5, IsRight ? Table : Places);
+    R.run();
+    ASSERT_TRUE(R.ranToEnd());
+    for (uint32_t L = 0; L != MaxLanes; ++L) {
+      EXPECT_EQ(R.getX(12)[L], L);
+      EXPECT_EQ(R.getX(11)[L], IsRight ? Table[0] : L);
+    }
+    R.rewind();
+  }
+}
+
 /// Infinity times zero is invalid, whatever is added, also where the next
 /// instruction overwrites a factor or computes with the result.
 TEST(TranslatedPairs, FlagInfinityTimesZero) {

@@ -46,14 +46,14 @@ Translator::Translator(CodeTable &Code, const ExecTable &Exec,
     : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn),
       Host(std::make_unique<translate::HostCode>(HostCodeBytes)) {}
 
-void Translator::seen(const Insn *At, uint64_t Instructions) {
+void Translator::seen(const Insn *At, uint64_t Instructions,
+                      const WarpState *Warp) {
   if (Done.contains(At))
     return;
   Credit += Instructions;
   if (Credit < Cost)
     return;
-  const std::vector<translate::GuestInsn> Region =
-      translate::findRegion(Code, At);
+  std::vector<translate::GuestInsn> Region = translate::findRegion(Code, At);
   if (std::ranges::none_of(Region, [this](const translate::GuestInsn &G) {
         return G.Enters && !Done.contains(G.I);
       })) {
@@ -65,6 +65,8 @@ void Translator::seen(const Insn *At, uint64_t Instructions) {
     return;
   Credit = Cost = 0;
   Done.insert(At);
+  if (Warp)
+    translate::guessAddresses(Region, *Warp);
   const auto Buffer =
       std::make_unique_for_overwrite<Line[]>(RegionBytes / sizeof(Line));
   const std::span<uint8_t> Bytes(Buffer[0].Bytes, RegionBytes);
@@ -79,6 +81,8 @@ void Translator::seen(const Insn *At, uint64_t Instructions) {
       return;
     }
     ++Regions;
+    Guesses += static_cast<unsigned>(
+        std::ranges::count_if(Region, &translate::GuestInsn::HasOneAddress));
     for (const translate::Entry &In : E.entries()) {
       // The interpreter's handlers have this form, too.
       Code.setHandler(In.At, In.Full,
@@ -99,7 +103,7 @@ Translator::Translator(CodeTable &Code, const ExecTable &Exec,
                        uint64_t CostOfInsn)
     : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn) {}
 
-void Translator::seen(const Insn *, uint64_t) {}
+void Translator::seen(const Insn *, uint64_t, const WarpState *) {}
 
 #endif
 

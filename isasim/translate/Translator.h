@@ -38,16 +38,20 @@ public:
   /// A warp has been found in front of \p At, most likely after a jump, when it
   /// had executed \p Instructions. The surroundings of such places are
   /// translated once what was executed around them is worth it. No core may be
-  /// running.
-  void seen(const Insn *At, uint64_t Instructions);
+  /// running. \p Warp is that warp, which may stand elsewhere by now, or
+  /// nullptr.
+  void seen(const Insn *At, uint64_t Instructions,
+            const WarpState *Warp = nullptr);
 
   /// How many pieces have been translated.
   unsigned regions() const { return Regions; }
+  /// Loads of these that are guessed to read one word for all lanes.
+  unsigned guesses() const { return Guesses; }
   /// How much memory their code takes.
   size_t bytes() const;
 
 private:
-  unsigned Regions = 0;
+  unsigned Regions = 0, Guesses = 0;
   // Without the translator nobody uses them.
   [[maybe_unused]] CodeTable &Code;
   [[maybe_unused]] const ExecTable &Exec;
