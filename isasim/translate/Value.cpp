@@ -283,7 +283,7 @@ Value quotient(const Value &A, const Value &B, bool AreSigned) {
     // Without a mark in the guest's flags.
     E->vdivpd(To, To, Divisor | T_rn_sae);
     if (AreSigned)
-      E->vcvttpd2dq(Ymm(To.getIdx()), To | T_rz_sae);
+      E->vcvtpd2dq(Ymm(To.getIdx()), To | T_rz_sae);
     else
       E->vcvttpd2udq(Ymm(To.getIdx()), To | T_sae);
   };
