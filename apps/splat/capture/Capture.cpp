@@ -78,10 +78,17 @@ std::string maskOf(const fs::path &Masks, const fs::path &Name) {
 }
 
 /// Takes those without a picture out of \p Views, and counts them in \p C.
-Expected<Success> leaveOutMissing(std::vector<CaptureView> &Views, Capture &C) {
-  const std::string First = Views.front().Picture;
+template <typename View>
+void leaveOutMissing(std::vector<View> &Views, Capture &C) {
   C.WithoutPicture += std::erase_if(
-      Views, [](const CaptureView &V) { return !fileExists(V.Picture); });
+      Views, [](const View &V) { return !fileExists(V.Picture); });
+}
+
+/// The same, where some picture must be there.
+template <typename View>
+Expected<Success> leaveOutSome(std::vector<View> &Views, Capture &C) {
+  const std::string First = Views.front().Picture;
+  leaveOutMissing(Views, C);
   if (Views.empty())
     return Error{First, "no such picture, nor any other of the capture's, "
                         "expected photographs there"};
@@ -136,25 +143,28 @@ Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
     if (Options.Masks == MaskSource::Files)
       V.Mask = maskOf(F.Pictures.parent_path() / "masks", V.Pose.Name);
   }
-  return leaveOutMissing(C.Views, C);
+  return leaveOutSome(C.Views, C);
 }
 
-/// Completes views of which only the field of view is known.
+/// Completes views whose size the file does not say.
 Expected<Success> setSizes(TransformsFile &T) {
-  if (!T.FieldOfView)
-    return Success{};
-  // All of a file are of one size; the first says which.
-  const std::string &First = T.Views.front().Picture;
-  const auto Picture = readFile(First);
-  if (!Picture)
-    return Picture.error();
-  const auto Size = photoSize(First, *Picture);
-  if (!Size)
-    return Size.error();
-  for (CaptureView &V : T.Views) {
+  std::optional<PhotoSize> Size;
+  for (TransformsView &V : T.Views) {
+    if (V.hasSize())
+      continue;
+    // All of a file are of one size; the first says which.
+    if (!Size) {
+      const auto Picture = readFile(V.Picture);
+      if (!Picture)
+        return Picture.error();
+      const auto Read = photoSize(V.Picture, *Picture);
+      if (!Read)
+        return Read.error();
+      Size = *Read;
+    }
     V.Pose.Width = Size->Width;
     V.Pose.Height = Size->Height;
-    setFieldOfView(V.Pose, *T.FieldOfView);
+    complete(V.Pose, V.Known);
   }
   return Success{};
 }
@@ -193,15 +203,15 @@ Expected<Success> addPoses(const fs::path &File, LensOf Of,
   if (!T)
     return T.error();
   const fs::path Folder = File.parent_path();
-  for (CaptureView &V : T->Views) {
+  for (TransformsView &V : T->Views) {
     // Nothing outside the folder is opened for a size.
-    if (!staysInside(V.Pose.Name) && T->FieldOfView)
+    if (!staysInside(V.Pose.Name) && !V.hasSize())
       return checkInside(File.string(), V.Pose.Name, {});
     V.Picture = pictureOf(Folder, V.Pose.Name).string();
   }
   if (auto Sized = setSizes(*T); !Sized)
     return Sized;
-  for (CaptureView &V : T->Views)
+  for (TransformsView &V : T->Views)
     if (auto Added = addCamera(File.string(), std::move(V), Of, To); !Added)
       return Added;
   To.Files.push_back(File.string());
@@ -230,14 +240,17 @@ Expected<Success> checkPinhole(const std::string &File, const CaptureView &V,
   return Success{};
 }
 
+/// Which set of a capture a file of transforms has.
+enum class ViewSet { All, Train, Test };
+
 /// Adds the views of \p File; those without a size get their picture's.
-Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
+Expected<Success> readTransforms(const fs::path &File, ViewSet Set,
                                  const CaptureOptions &Options, Capture &C) {
   auto T = transformsOf(File);
   if (!T)
     return T.error();
   const fs::path Folder = File.parent_path();
-  for (CaptureView &V : T->Views) {
+  for (TransformsView &V : T->Views) {
     if (auto Straight = checkPinhole(File.string(), V, Options); !Straight)
       return Straight;
     if (auto Inside = checkInside(File.string(), V.Pose.Name, Options); !Inside)
@@ -253,12 +266,20 @@ Expected<Success> readTransforms(const fs::path &File, bool HeldOut,
       V.Mask = (Folder / V.Mask).string();
     }
   }
-  if (auto Left = leaveOutMissing(T->Views, C); !Left)
+  // A test set is often passed on without its pictures.
+  if (Set == ViewSet::Test)
+    leaveOutMissing(T->Views, C);
+  else if (auto Left = leaveOutSome(T->Views, C); !Left)
     return Left;
   if (auto Sized = setSizes(*T); !Sized)
     return Sized;
-  for (CaptureView &V : T->Views) {
-    V.HeldOut = HeldOut;
+  if (Set == ViewSet::All &&
+      std::ranges::any_of(T->Views, &TransformsView::HeldOut))
+    C.HeldOutBy = "val_filenames and test_filenames";
+  if (Set == ViewSet::Test && !T->Views.empty())
+    C.HeldOutBy = File.filename().string();
+  for (TransformsView &V : T->Views) {
+    V.HeldOut = Set == ViewSet::Test || (Set == ViewSet::All && V.HeldOut);
     C.Views.push_back(std::move(V));
   }
   if (T->Points.empty())
@@ -461,9 +482,10 @@ Expected<Capture> readCapture(const std::string &Path,
       F->Format == CaptureFormat::ColmapBinary)
     Read = readColmap(*F, Options, C);
   else
-    Read = readTransforms(F->Model, /*HeldOut=*/false, Options, C);
+    Read = readTransforms(F->Model, OwnTest ? ViewSet::Train : ViewSet::All,
+                          Options, C);
   if (Read && OwnTest)
-    Read = readTransforms(Test, /*HeldOut=*/true, Options, C);
+    Read = readTransforms(Test, ViewSet::Test, Options, C);
   if (Read)
     Read = exclude(Path, C, Options.Exclude);
   if (Read)
@@ -476,11 +498,11 @@ Expected<Capture> readCapture(const std::string &Path,
   });
   if (auto Once = checkOnce(Path, C.Views); !Once)
     return Once.error();
-  if (!OwnTest)
+  if (C.HeldOutBy.empty()) {
     for (std::size_t I = 0; I < C.Views.size(); I += HoldOutEvery)
       C.Views[I].HeldOut = true;
-  C.HeldOutBy = OwnTest ? "transforms_test.json"
-                        : fmt::format("every {}th by name", HoldOutEvery);
+    C.HeldOutBy = fmt::format("every {}th by name", HoldOutEvery);
+  }
   if (C.heldOut() == C.Views.size())
     return Error{Path, "no view to train on, expected at least one"};
   for (const CaptureView &V : C.Views)

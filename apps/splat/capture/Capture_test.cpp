@@ -328,7 +328,18 @@ TEST(Capture, TestPicturesMayBeMissingInPart) {
     EXPECT_EQ(C->heldOut(), 1U);
     EXPECT_EQ(C->WithoutPicture, 1U);
   }
+  // Without any of them some of the others judge.
   Files.erase("all/a8.png");
+  {
+    const CaptureFolder F(Files);
+    const auto C = readCapture(F.path());
+    ASSERT_TRUE(C) << C.error().What;
+    EXPECT_EQ(C->Views.size(), 8U);
+    EXPECT_EQ(C->HeldOutBy, "every 8th by name");
+    EXPECT_EQ(C->heldOut(), 1U);
+  }
+  for (int N = 0; N != 8; ++N)
+    Files.erase("all/a" + std::to_string(N) + ".png");
   const CaptureFolder F(Files);
   const auto C = readCapture(F.path());
   ASSERT_FALSE(C);

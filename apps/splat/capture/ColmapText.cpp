@@ -120,6 +120,20 @@ Expected<Success> readCameraLines(const ColmapFile &F, ColmapBuilder &B) {
   return Success{};
 }
 
+/// The line behind an image's, which says where it sees points. It is there if
+/// there are none, too: else every second image would be taken for it.
+Expected<Success> checkSights(LineReader &R) {
+  const auto Line = R.next();
+  Words W(Line.value_or(""));
+  while (W.good() && !W.rest().empty()) {
+    W.numbers<2>();
+    W.number<int64_t>(); // -1: of no point
+  }
+  return W.good() ? Expected<Success>(Success{})
+                  : badLine(R, "X Y POINT3D_ID for each place where the image "
+                               "above sees a point, or an empty line");
+}
+
 Expected<Success> readImageLines(const ColmapFile &F, ColmapBuilder &B) {
   LineReader R(F);
   while (const auto Line = R.nextRecord()) {
@@ -134,7 +148,8 @@ Expected<Success> readImageLines(const ColmapFile &F, ColmapBuilder &B) {
       return badLine(R, "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
     if (auto Added = B.addImage(R.where(), I); !Added)
       return Added;
-    R.next(); // where it sees points; may be empty
+    if (auto Sees = checkSights(R); !Sees)
+      return Sees;
   }
   return Success{};
 }

@@ -282,6 +282,9 @@ TEST(ColmapText, EachKindOfDamageHasItsMessage) {
       {&Parts::Images, " 7 a0.png", " 7", "images:2: a line"},
       {&Parts::Images, " 7 a1.png", " 8 a1.png",
        "images:4: image a1.png has camera 8"},
+      {&Parts::Images, "\n10 20 99 11 21 -1\n", "\n",
+       "images:3: a line that is not as it should be, expected X Y POINT3D_ID"},
+      {&Parts::Images, "99 11", "hello 11", "images:3: a line"},
       {&Parts::Points, " 255 ", " 256 ", "points:2: a line"},
       {&Parts::Points, "5 0 0 -0", "5 0 nan -0", "point 0 holds a NaN"}};
   for (const auto &[Part, What, With, Message] : Cases) {

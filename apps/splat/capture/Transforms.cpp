@@ -8,15 +8,30 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace vorion::splat {
 namespace {
 
 using Json = nlohmann::json;
+
+std::string upperCase(std::string Text) {
+  std::ranges::transform(Text, Text.begin(), [](unsigned char C) {
+    return static_cast<char>(std::toupper(C));
+  });
+  return Text;
+}
+
+std::string withoutDot(std::string Name) {
+  if (Name.starts_with("./"))
+    Name.erase(0, 2);
+  return Name;
+}
 
 /// Reads frames and what they inherit from the file; remembers what is wrong
 /// first.
@@ -43,12 +58,12 @@ private:
   CameraModel readLens(const Json &Frame);
   CameraPlace readPlace(const Json &Frame, const char *Key);
   void readPose(const Json &Frame, CaptureView &V);
-  void readIntrinsics(const Json &Frame, LensModel Lens, Camera &C);
+  void readCamera(const Json &Frame, TransformsView &V);
+  void readSplit(TransformsFile &T);
 
   const std::string &Where;
   const Json &Document;
   std::string View;
-  std::optional<double> FieldOfView;
   std::optional<Error> Problem;
 };
 
@@ -67,7 +82,12 @@ std::optional<double> TransformsReader::number(const Json &Frame,
 /// Terms as nerfstudio and instant-ngp write them: k1 to k4 are of r^2 to r^8,
 /// but OpenCV's full model has k4 to k6 in the denominator.
 CameraModel TransformsReader::readLens(const Json &Frame) {
-  const Json *Model = find(Frame, "camera_model");
+  const Json *Named = find(Frame, "camera_model");
+  const std::optional<std::string> Model =
+      Named ? std::optional(upperCase(Named->is_string()
+                                          ? Named->get<std::string>()
+                                          : jsonText(*Named)))
+            : std::nullopt;
   const Json *Flag = find(Frame, "is_fisheye");
   const bool Fisheye =
       (Flag && *Flag == Json(true)) ||
@@ -76,15 +96,16 @@ CameraModel TransformsReader::readLens(const Json &Frame) {
   const bool Full = Model && *Model == "FULL_OPENCV";
   if (Model && *Model == "EQUIRECTANGULAR")
     return {LensModel::Equirectangular, {}};
-  constexpr std::array<const char *, 5> Others{
-      "PINHOLE", "SIMPLE_PINHOLE", "OPENCV", "RADIAL", "SIMPLE_RADIAL"};
+  constexpr std::array<const char *, 6> Others{"PINHOLE",     "SIMPLE_PINHOLE",
+                                               "PERSPECTIVE", "OPENCV",
+                                               "RADIAL",      "SIMPLE_RADIAL"};
   if (Model && !Fisheye && !Full &&
       std::ranges::none_of(Others,
                            [&](const char *Name) { return *Model == Name; }))
     fail(fmt::format("the camera model {}, expected {}, FULL_OPENCV, "
                      "OPENCV_FISHEYE, RADIAL_FISHEYE, SIMPLE_RADIAL_FISHEYE or "
                      "EQUIRECTANGULAR",
-                     printable(jsonText(*Model)), fmt::join(Others, ", ")));
+                     printable(jsonText(*Named)), fmt::join(Others, ", ")));
   const auto Term = [&](const char *Key) {
     return number(Frame, Key).value_or(0);
   };
@@ -109,8 +130,9 @@ CameraModel TransformsReader::readLens(const Json &Frame) {
 CameraPlace TransformsReader::readPlace(const Json &Frame, const char *Key) {
   CameraPlace C;
   const auto It = Frame.find(Key);
-  bool Good = It != Frame.end() && It->is_array() &&
-              (It->size() == 3 || It->size() == 4);
+  bool Good =
+      It != Frame.end() && It->is_array() &&
+      (It->size() == 3 || (It->size() == 4 && (*It)[3] == Json({0, 0, 0, 1})));
   for (std::size_t R = 0; Good && R < 3; ++R) {
     const Json &Row = (*It)[R];
     Good = Row.is_array() && Row.size() == 4;
@@ -170,41 +192,49 @@ void TransformsReader::readPose(const Json &Frame, CaptureView &V) {
   V.Pose.Rotation = Place.Rotation;
 }
 
-void TransformsReader::readIntrinsics(const Json &Frame, LensModel Lens,
-                                      Camera &C) {
-  const auto Fx = number(Frame, "fl_x"), Fy = number(Frame, "fl_y");
-  const auto Side = [&](const char *Key) {
-    const auto Value = number(Frame, Key);
-    if (!Value || !(*Value >= 1 && *Value <= MaxImageSize) ||
-        *Value != std::floor(*Value)) {
+void TransformsReader::readCamera(const Json &Frame, TransformsView &V) {
+  const auto Read = readIntrinsics(
+      Frame, Document, V.Optics.Model == LensModel::Equirectangular);
+  if (!Read)
+    return fail(Read.error().What);
+  V.Known = *Read;
+  const Json *Width = find(Frame, "w"), *Height = find(Frame, "h");
+  if (!Width && !Height)
+    return;
+  const auto Side = [&](const char *Key, const Json *Value) {
+    const auto Number = Value ? number(Frame, Key) : std::optional<double>();
+    if (!Number || !(*Number >= 1 && *Number <= MaxImageSize) ||
+        *Number != std::floor(*Number)) {
       fail(fmt::format("key {} is missing or wrong, expected 1 to {} pixels",
                        Key, MaxImageSize));
       return 1;
     }
-    return static_cast<int>(*Value);
+    return static_cast<int>(*Number);
   };
-  if (Lens == LensModel::Equirectangular) {
-    C.Width = Side("w");
-    C.Height = Side("h");
-    return setSphere(C);
+  V.Pose.Width = Side("w", Width);
+  V.Pose.Height = Side("h", Height);
+  complete(V.Pose, V.Known);
+}
+
+/// nerfstudio's lists: what its authors trained on and judged by.
+void TransformsReader::readSplit(TransformsFile &T) {
+  std::set<std::string> HeldOut;
+  for (const char *Key : {"val_filenames", "test_filenames"}) {
+    const auto It = Document.find(Key);
+    if (It == Document.end())
+      continue;
+    if (!It->is_array() || !std::ranges::all_of(*It, &Json::is_string))
+      return fail(
+          fmt::format("key {} is wrong, expected names of pictures", Key));
+    for (const Json &Name : *It)
+      HeldOut.insert(withoutDot(Name.get<std::string>()));
   }
-  if (!Fx) {
-    const auto Angle = number(Frame, "camera_angle_x");
-    if (!Angle || !(*Angle > 0 && *Angle < 3.14159))
-      fail("no focal length, expected fl_x, or camera_angle_x between 0 and "
-           "pi");
-    else
-      FieldOfView = Angle;
-    return;
-  }
-  C.Width = Side("w");
-  C.Height = Side("h");
-  C.Fx = *Fx;
-  C.Fy = Fy.value_or(*Fx);
-  C.Cx = number(Frame, "cx").value_or(0.5 * C.Width);
-  C.Cy = number(Frame, "cy").value_or(0.5 * C.Height);
-  if (!(C.Fx > 0) || !(C.Fy > 0))
-    fail("a focal length that is not positive, expected a number of pixels");
+  for (TransformsView &V : T.Views)
+    V.HeldOut = HeldOut.erase(V.Pose.Name) != 0;
+  if (!HeldOut.empty())
+    fail(fmt::format("key val_filenames or test_filenames has {}, expected "
+                     "file_path of a frame",
+                     printable(*HeldOut.begin())));
 }
 
 Expected<TransformsFile> TransformsReader::read() {
@@ -225,11 +255,9 @@ Expected<TransformsFile> TransformsReader::read() {
                        T.Views.size()));
       break;
     }
-    CaptureView V;
+    TransformsView V;
     V.Pose.Id = static_cast<int>(T.Views.size());
-    V.Pose.Name = Path->get<std::string>();
-    if (V.Pose.Name.starts_with("./"))
-      V.Pose.Name.erase(0, 2);
+    V.Pose.Name = withoutDot(Path->get<std::string>());
     View = "frame " + printable(V.Pose.Name);
     V.Optics = readLens(Frame);
     if (const auto Mask = Frame.find("mask_path"); Mask != Frame.end()) {
@@ -241,14 +269,11 @@ Expected<TransformsFile> TransformsReader::read() {
     if (auto Unsupported = unsupportedIn(Frame))
       fail(*Unsupported);
     readPose(Frame, V);
-    readIntrinsics(Frame, V.Optics.Model, V.Pose);
+    readCamera(Frame, V);
     T.Views.push_back(std::move(V));
   }
   View.clear();
-  if (FieldOfView && std::ranges::any_of(T.Views, [](const CaptureView &V) {
-        return V.Pose.Fx > 0;
-      }))
-    fail("some frames have fl_x and some have not, expected it in all or none");
+  readSplit(T);
   if (const auto It = Document.find("ply_file_path"); It != Document.end()) {
     if (It->is_string())
       T.Points = It->get<std::string>();
@@ -257,7 +282,6 @@ Expected<TransformsFile> TransformsReader::read() {
   }
   if (Problem)
     return *Problem;
-  T.FieldOfView = FieldOfView;
   return T;
 }
 
@@ -269,13 +293,6 @@ Expected<TransformsFile> parseTransforms(const std::string &Where, Bytes File) {
   if (!Document)
     return Document.error();
   return TransformsReader(Where, *Document).read();
-}
-
-void setFieldOfView(Camera &C, double Radians) {
-  C.Fx = 0.5 * C.Width / std::tan(0.5 * Radians);
-  C.Fy = C.Fx;
-  C.Cx = 0.5 * C.Width;
-  C.Cy = 0.5 * C.Height;
 }
 
 Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File) {

@@ -3,32 +3,33 @@
 #pragma once
 
 #include "capture/Capture.h"
+#include "capture/Intrinsics.h"
 #include "io/Bytes.h"
 
-#include <optional>
-
 namespace vorion::splat {
+
+/// A view whose camera is not complete before its picture's size is known,
+/// unless the file has it.
+struct TransformsView : CaptureView {
+  Intrinsics Known;
+  bool hasSize() const { return Pose.Width != 0; }
+};
 
 /// A file of transforms. Poses are camera to world with x right, y up, z back
 /// in the file; here x right, y down, z forward.
 struct TransformsFile {
-  std::vector<CaptureView> Views; ///< in the file's order; \c Picture is empty,
-                                  ///< \c Mask as the file names it
-  /// Horizontal field of view, radians, where the file gives it in place of
-  /// sizes and focal lengths: the pictures decide those (\c setFieldOfView).
-  std::optional<double> FieldOfView;
-  std::string Points; ///< key ply_file_path, or empty
+  std::vector<TransformsView> Views; ///< in the file's order; \c Picture is
+                                     ///< empty, \c Mask as the file names it,
+                                     ///< \c HeldOut as its lists say
+  std::string Points;                ///< key ply_file_path, or empty
 };
 
-/// Reads keys fl_x, fl_y, cx, cy, w, h (of the file or of a frame) or
-/// camera_angle_x, and frames with file_path and transform_matrix; k1 to k4, p1
-/// and p2 with camera_model or is_fisheye; mask_path. Refused: camera models
-/// that we have no lens for, poses that are no rotation and translation, files
-/// without a frame.
+/// Reads w, h and what readIntrinsics() does, of the file or of a frame, and
+/// frames with file_path and transform_matrix; k1 to k4, p1 and p2 with
+/// camera_model or is_fisheye; mask_path; val_filenames and test_filenames.
+/// Refused: camera models that we have no lens for, poses that are no rotation
+/// and translation, files without a frame.
 Expected<TransformsFile> parseTransforms(const std::string &Where, Bytes File);
-
-/// Completes \p C, whose width and height are the picture's.
-void setFieldOfView(Camera &C, double Radians);
 
 /// Reads points of a PLY with float x, y, z and uchar red, green, blue.
 Expected<CapturePoints> parsePointCloud(const std::string &Where, Bytes File);

@@ -31,8 +31,75 @@ TEST(Transforms, FramesMayHaveTheirOwnCamera) {
   EXPECT_EQ(T->Views[0].Pose.Fx, 10);
   EXPECT_EQ(T->Views[1].Pose.Fx, 20);
   EXPECT_EQ(T->Views[1].Pose.Width, 16);
-  EXPECT_FALSE(T->FieldOfView);
   EXPECT_EQ(T->Views[0].Pose.Name, "pictures/a0.png");
+}
+
+TEST(Transforms, EachAxisHasItsOwnFocalLength) {
+  const auto Completed = [](const std::function<void(Json &)> &Change) {
+    Json J = sample();
+    for (const char *Key : {"fl_x", "fl_y", "cx", "cy", "w", "h"})
+      J.erase(Key);
+    Change(J);
+    const auto T = parsed(J.dump());
+    EXPECT_TRUE(T) << T.error().What;
+    std::vector<Camera> Cameras;
+    for (const TransformsView &V :
+         T ? T->Views : std::vector<TransformsView>()) {
+      EXPECT_FALSE(V.hasSize());
+      Camera &C = Cameras.emplace_back(V.Pose);
+      C.Width = 64;
+      C.Height = 48;
+      complete(C, V.Known);
+    }
+    Cameras.resize(2);
+    return Cameras;
+  };
+  const double Right = M_PI / 2; // half of a side away
+  const auto Angles = Completed([&](Json &J) {
+    J["camera_angle_x"] = Right;
+    J["camera_angle_y"] = Right;
+    J["cx"] = 30;
+  });
+  EXPECT_NEAR(Angles[0].Fx, 32, 1e-12);
+  EXPECT_NEAR(Angles[0].Fy, 24, 1e-12);
+  EXPECT_EQ(Angles[0].Cx, 30);
+  EXPECT_EQ(Angles[0].Cy, 24);
+  const auto Mixed = Completed([&](Json &J) {
+    J["camera_angle_x"] = Right;
+    J["fl_y"] = 70;
+    J["frames"][1]["x_fov"] = 90 / 1.5;
+  });
+  EXPECT_NEAR(Mixed[0].Fx, 32, 1e-12);
+  EXPECT_EQ(Mixed[0].Fy, 70);
+  EXPECT_NEAR(Mixed[1].Fx, 32 * std::sqrt(3), 1e-12);
+  // The one axis that is known says both; a frame's goes before the file's.
+  const auto One = Completed([&](Json &J) {
+    J["fl_y"] = 50;
+    J["frames"][1]["camera_angle_y"] = Right;
+  });
+  EXPECT_EQ(One[0].Fx, 50);
+  EXPECT_NEAR(One[1].Fx, 24, 1e-12);
+}
+
+TEST(Transforms, ListsOfNamesSayWhatIsHeldOut) {
+  Json J = sample();
+  J["train_filenames"] = {"./pictures/a0.png"};
+  J["test_filenames"] = {"./pictures/a1.png"};
+  const auto T = parsed(J.dump());
+  ASSERT_TRUE(T) << T.error().What;
+  EXPECT_FALSE(T->Views[0].HeldOut);
+  EXPECT_TRUE(T->Views[1].HeldOut);
+  EXPECT_FALSE(parsed(sample().dump())->Views[1].HeldOut);
+}
+
+TEST(Transforms, NamesOfModelsAreInAnyCase) {
+  Json J = sample();
+  J["camera_model"] = "Perspective";
+  EXPECT_TRUE(parsed(J.dump()));
+  J["camera_model"] = "opencv_fisheye";
+  const auto T = parsed(J.dump());
+  ASSERT_TRUE(T);
+  EXPECT_EQ(T->Views[0].Optics.Model, LensModel::Fisheye);
 }
 
 TEST(Transforms, LensesAreOfTheFileOrAFrame) {
@@ -111,7 +178,7 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
        "frame pictures/a0.png: key k1 is wrong, expected a finite number"},
       {[](Json &J) { J["camera_model"] = "FISHEYE624"; },
        "frame pictures/a0.png: the camera model \"FISHEYE624\", expected "
-       "PINHOLE, SIMPLE_PINHOLE, OPENCV"},
+       "PINHOLE, SIMPLE_PINHOLE, PERSPECTIVE, OPENCV"},
       {[](Json &J) {
          J["is_fisheye"] = true;
          J["p2"] = 0.1;
@@ -140,18 +207,26 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
       {[](Json &J) { J["h"] = 6.5; }, "key h is missing or wrong"},
       {[](Json &J) { J["fl_y"] = -1; }, "a focal length that is not positive"},
       {[](Json &J) { J["cx"] = "left"; }, "key cx is wrong"},
-      {[](Json &J) { J.erase("fl_x"); }, "no focal length"},
       {[](Json &J) {
          J.erase("fl_x");
-         J["camera_angle_x"] = 4;
+         J.erase("fl_y");
        },
        "no focal length"},
       {[](Json &J) {
          J.erase("fl_x");
-         J["camera_angle_x"] = 1;
-         J["frames"][1]["fl_x"] = 4;
+         J["camera_angle_x"] = 4;
        },
-       "some frames have fl_x and some have not"},
+       "key camera_angle_x is wrong, expected radians between 0 and pi"},
+      {[](Json &J) { J["frames"][1]["x_fov"] = 180; },
+       "key x_fov is wrong, expected degrees between 0 and 180"},
+      {[](Json &J) { J["ftheta_p1"] = 1e-3; },
+       "key ftheta_p1 calls for an f-theta lens, which is not supported"},
+      {[](Json &J) { J["latlong"] = true; }, "key latlong calls for"},
+      {[](Json &J) { J["frames"][0]["transform_matrix"][3][3] = 2; },
+       "an unreadable pose"},
+      {[](Json &J) { J["test_filenames"] = {"pictures/a7.png"}; },
+       "key val_filenames or test_filenames has pictures/a7.png, expected "
+       "file_path of a frame"},
       {[](Json &J) { J["ply_file_path"] = 1; }, "key ply_file_path is wrong"}};
   for (const auto &[Change, Message] : Cases) {
     Json J = sample();

@@ -62,6 +62,9 @@ constexpr std::array CameraKeys{
     Meaning{"distortion*", Distortion},
     Meaning{"fisheye*", Projection},
     Meaning{"ortho*", Projection},
+    Meaning{"latlong", Projection},
+    Meaning{"equirectangular", Projection},
+    Meaning{"ftheta_*", "an f-theta lens"},
     Meaning{"skew", "skewed pixels"},
     Meaning{"rolling_shutter_*", "a rolling shutter by velocities"},
 };
