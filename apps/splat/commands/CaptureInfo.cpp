@@ -3,6 +3,7 @@
 #include "capture/Capture.h"
 #include "commands/Choices.h"
 #include "io/ReportHead.h"
+#include "train/Start.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
@@ -84,7 +85,10 @@ std::string textOf(const std::string &Path, const Capture &C) {
                       F.Ring.Radius, F.Ring.Centre[0], F.Ring.Centre[1],
                       F.Ring.Centre[2], F.Ring.extent());
   if (C.Points.size() == 0)
-    return Text + "points       none: training starts from random ones\n";
+    return Text +
+           fmt::format("points       none: training starts from random ones "
+                       "around the origin, which {} views see\n",
+                       viewsOfRandomPoints(C));
   return Text + fmt::format("points       {}: x {}, y {}, z {}\n",
                             C.Points.size(), Span(boundsOf(C.Points, 0)),
                             Span(boundsOf(C.Points, 1)),

@@ -302,6 +302,7 @@ Runner addExplore(CLI::App &App) {
       ->check(isBetween(16, 16384))
       ->option_text("N");
   App.add_option("--seed", A->Seed, "Of the random machines (default 1)")
+      ->check(isBetween<uint64_t>(0, MostSeed))
       ->option_text("N");
   App.add_option("--jobs", A->Jobs, "Trials measured at the same time")
       ->check(isBetween(1U, 256U))

@@ -20,6 +20,7 @@ void addLayerOptions(CLI::App &App, LayerFiles &F) {
             {DepthAs::Accumulated, DepthAs::Expected, DepthAs::Median},
             "Depth is the sum of weights times depths, that over the sum of "
             "weights, or where half of the light is left");
+  App.get_option("--depth-as")->needs("--depth");
   writesFile(App.add_option("--normals", F.Normals,
                             "Write each pixel's sum of weights times normals "
                             "(a picture; of 8 bits, directions as colours)"),

@@ -305,7 +305,8 @@ Runner addTrain(CLI::App &App) {
                  "Views an iteration, shared out to the processes that mpirun "
                  "started, each with a device of its own (default 1)")
       ->check(isBetween(1U, 4096U));
-  App.add_option("--seed", R.Run.Seed, "Of all random numbers (default 0)");
+  App.add_option("--seed", R.Run.Seed, "Of all random numbers (default 0)")
+      ->check(isBetween<uint64_t>(0, MostSeed));
   App.add_option("--sh-degree", R.ShDegree,
                  "Bands of spherical harmonics (default 3)")
       ->check(isBetween(0, MaxShDegree));

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace vorion::splat {
 namespace {
@@ -56,26 +58,25 @@ Expected<std::string> scorePageOf(const ScorePage &P,
   return filledPage(scoreTemplate(), Data);
 }
 
-std::vector<std::string> pairFiles(const std::string &Prefix,
-                                   const std::string &Name) {
-  const std::string Begin =
-      Prefix + "." +
-      asFileName(std::filesystem::path(Name).replace_extension().string());
-  return {Begin + ".drawn.png", Begin + ".photo.png"};
-}
-
 Expected<Success> writePairFiles(const std::string &Prefix,
                                  const std::vector<JudgedView> &Views,
                                  const std::vector<ViewScore> &Scores) {
+  std::set<std::string> Taken;
   for (std::size_t I = 0; I < Scores.size(); ++I) {
-    const std::vector<std::string> Files = pairFiles(Prefix, Scores[I].Name);
-    for (const auto &[File, Picture] :
-         {std::pair(&Files[0], &Scores[I].Drawn),
-          std::pair(&Files[1], &Views[I].View->Picture)}) {
+    const std::string Name = asFileName(
+        std::filesystem::path(Scores[I].Name).replace_extension().string());
+    std::string Own = Name;
+    for (unsigned Next = 2; !Taken.insert(Own).second; ++Next)
+      Own = fmt::format("{}-{}", Name, Next);
+    for (const auto &[Kind, Picture] :
+         {std::pair("drawn", &Scores[I].Drawn),
+          std::pair("photo", &Views[I].View->Picture)}) {
       const auto Png = pngOf(*Picture);
       if (!Png)
         return Png.error();
-      if (auto Written = writeFileAtomically(*File, *Png); !Written)
+      if (auto Written = writeFileAtomically(
+              fmt::format("{}.{}.{}.png", Prefix, Own, Kind), *Png);
+          !Written)
         return Written;
     }
   }

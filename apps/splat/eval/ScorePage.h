@@ -24,12 +24,9 @@ Expected<std::string> scorePageOf(const ScorePage &P,
                                   const std::vector<JudgedView> &Views,
                                   const std::vector<ViewScore> &Scores);
 
-/// The two files of a view called \p Name: PREFIX.NAME.drawn.png and
-/// PREFIX.NAME.photo.png.
-std::vector<std::string> pairFiles(const std::string &Prefix,
-                                   const std::string &Name);
-
-/// Writes the two files of each view.
+/// Writes two files of each view: PREFIX.NAME.drawn.png and
+/// PREFIX.NAME.photo.png. Of views whose names are the same as files' (a/b.png,
+/// a_b.jpg), the later ones are NAME-2 and so on.
 Expected<Success> writePairFiles(const std::string &Prefix,
                                  const std::vector<JudgedView> &Views,
                                  const std::vector<ViewScore> &Scores);

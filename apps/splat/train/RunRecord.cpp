@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 #include <string_view>
 
 namespace vorion::splat {
@@ -127,6 +129,33 @@ static std::string_view hashedBy(std::string_view Key) {
   return "";
 }
 
+/// Where a run's record \p Has differs from \p Wanted; nothing if it does not.
+/// Options come before hashes, which may differ because of them.
+static std::optional<std::string> differenceOf(const Json &Has,
+                                               const Json &Wanted) {
+  const auto Text = [](const Json &J, const std::string &Key) {
+    return J.contains(Key) ? jsonText(J[Key]) : "not given";
+  };
+  std::set<std::string> Keys;
+  for (const Json *J : {&Has, &Wanted})
+    for (const auto &[Key, Value] : J->items())
+      Keys.insert(Key);
+  for (const bool Hashes : {false, true})
+    for (const std::string &Key : Keys) {
+      if (hashedBy(Key).empty() == Hashes ||
+          (Has.contains(Key) && Wanted.contains(Key) &&
+           Has[Key] == Wanted[Key]))
+        continue;
+      // The settings that differ from their defaults.
+      if (Key == "settings")
+        return differenceOf(Has.value(Key, Json::object()),
+                            Wanted.value(Key, Json::object()));
+      return fmt::format("{} is {}, expected {}{}", Key, Text(Has, Key),
+                         Text(Wanted, Key), hashedBy(Key));
+    }
+  return std::nullopt;
+}
+
 Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
                                const Json &Wanted) {
   if (Has == jsonText(Wanted))
@@ -134,19 +163,11 @@ Expected<Success> checkSameRun(const std::string &File, const std::string &Has,
   const auto Read = parseJson<Json>(Has, File, "a run's settings");
   if (!Read)
     return Read.error();
-  const Json &A = *Read;
-  for (const auto &[Key, Value] : Wanted.items())
-    if (!A.is_object() || !A.contains(Key) || A[Key] != Value)
-      return Error{File,
-                   fmt::format("a checkpoint of another run: {} is {}, "
-                               "expected {}{}",
-                               Key,
-                               A.is_object() && A.contains(Key)
-                                   ? jsonText(A[Key])
-                                   : "missing",
-                               jsonText(Value), hashedBy(Key)),
-                   ExitCode::Usage};
-  return Error{File, "a checkpoint of another run, expected one of this",
+  const auto Difference =
+      Read->is_object() ? differenceOf(*Read, Wanted) : std::nullopt;
+  return Error{File,
+               "a checkpoint of another run" +
+                   (Difference ? ": " + *Difference : ", expected one of this"),
                ExitCode::Usage};
 }
 

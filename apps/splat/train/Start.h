@@ -23,9 +23,13 @@ inline constexpr std::size_t RandomPoints = 100000;
 /// They are uniform within this of the origin along each axis.
 inline constexpr double RandomReach = 1.3;
 
+/// Views of \p C in whose picture the middle of the random points lies.
+std::size_t viewsOfRandomPoints(const Capture &C);
+
 /// A round Gaussian at each point of \p C, or at random points where it has
-/// none: scale by the mean distance to the three nearest others,
-/// colour that of the point (grey where random). The same on every host.
+/// none: scale by the mean distance to the three nearest others (Kerbl et al.
+/// 2023 say so; their code takes the root of the mean square), colour that of
+/// the point (grey where random). The same on every host.
 Scene startingScene(const Capture &C, const StartOptions &O);
 
 } // namespace vorion::splat

@@ -92,6 +92,22 @@ TEST(Start, RandomPointsFillTheirCubeTheSameEachTime) {
   EXPECT_NE(A.Means, startingScene(C, {8, 0, 3000}).Means);
 }
 
+TEST(Start, ViewsSeeTheMiddleOfRandomPointsOrNot) {
+  Capture C;
+  CaptureView V;
+  V.Pose.Width = V.Pose.Height = 100;
+  V.Pose.Fx = V.Pose.Fy = V.Pose.Cx = V.Pose.Cy = 50;
+  for (std::size_t K = 0; K < 3; ++K)
+    V.Pose.Rotation[K][K] = 1;
+  for (const double X : {0.0, 1.9, 2.1}) {
+    V.Pose.Position = {X, 0, -2};
+    C.Views.push_back(V);
+  }
+  V.Pose.Position = {0, 0, 2}; // looks away
+  C.Views.push_back(V);
+  EXPECT_EQ(viewsOfRandomPoints(C), 2U);
+}
+
 TEST(Start, FewerThanThePointsAreSpreadOverThem) {
   Capture C;
   for (int I = 0; I < 90; ++I)

@@ -53,6 +53,23 @@ double secondsSince(Clock::time_point Start) {
   return std::chrono::duration<double>(Clock::now() - Start).count();
 }
 
+/// Says where random points are if most pictures do not show them, and how many
+/// of the capture's are left out.
+void noteStart(const Work &W) {
+  const std::size_t Points = W.Photos.Points.size(),
+                    Most = W.Request.Run.Settings.MostGaussians;
+  if (Points > Most)
+    W.Host.Note(fmt::format("training starts from {} of {} points, because of "
+                            "--max-gaussians",
+                            Most, Points));
+  const std::size_t Seeing = viewsOfRandomPoints(W.Photos);
+  if (Points == 0 && 2 * Seeing < W.Photos.Views.size())
+    W.Host.Note(fmt::format(
+        "the capture has no points, and {} of {} views see the origin, around "
+        "which training starts from random ones (docs/captures.md)",
+        Seeing, W.Photos.Views.size()));
+}
+
 /// Says once, \p Said, that most Gaussians do not learn.
 void noteWithoutGradient(const Work &W, const StepReport &Step, bool &Said) {
   if (Said || !Step.Density ||
@@ -168,6 +185,7 @@ Expected<Success> start(const Work &W, Trainer &T) {
   if (R.Resume && std::filesystem::exists(R.Checkpoint))
     return resume(W, T);
   if (R.From.empty()) {
+    noteStart(W);
     T.start(startingScene(W.Photos, {R.Run.Seed, R.ShDegree, S.MostGaussians,
                                      S.StartOpacity, S.StartScale}));
     return Success{};

@@ -44,6 +44,10 @@ template <typename Number> CLI::Validator isBetween(Number Low, Number High) {
   return Check;
 }
 
+/// Seeds of random numbers are 0 to this: text that begins with a minus would
+/// be taken for a large one.
+inline constexpr uint64_t MostSeed = 1'000'000'000'000'000'000;
+
 /// Says that the value of \p O names a file, with one of \p Endings if there
 /// are some, or a folder: for --help, and for shells that complete names. Each
 /// is there and is read, or is written by the tool.
