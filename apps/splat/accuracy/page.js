@@ -106,7 +106,7 @@ function drawPlot(entries, front, best) {
     plugins: [dashBeyond],
     options: {
       scales: {
-        x: axis(`${AXES[time].label}, ${AXES[time].unit}`, { min: low - room, max: high + room, ticks: { maxRotation: 0, callback: v => number(v, 2) } }),
+        x: axis(`${AXES[time].label}, ${AXES[time].unit}`, { min: low - room, max: high + room, ticks: { includeBounds: false, maxRotation: 0, callback: tickText } }),
         y: axis(`${label}, better is higher`, { grace: '6%', ticks }),
       },
       layout: { padding: { right: 14, top: 8 } },

@@ -42,15 +42,23 @@ function select(n) {
 
 function redraw() {
   byId('chart-box').style.height = `${Math.min(640, 90 + 18 * views.length)}px`;
+  // A series a kind, so that the legend says what the colours are.
+  const kinds = [
+    ['held out', seriesColour(0), (v, n) => n !== state.view && v.held_out],
+    ['in training', seriesColour(1), (v, n) => n !== state.view && !v.held_out],
+    ['pictures below', colour('chosen'), (v, n) => n === state.view],
+  ].filter(([, , is]) => views.some(is));
   drawChart('chart', {
     type: 'bar',
     data: {
       labels: views.map(v => v.name),
-      datasets: [{ label: 'PSNR, dB', data: views.map(v => v.psnr8_db), backgroundColor: views.map((v, n) => n === state.view ? colour('chosen') : seriesColour(v.held_out ? 0 : 1)) }],
+      datasets: kinds.map(([label, backgroundColor, is]) => ({
+        label, backgroundColor, grouped: false, data: views.map((v, n) => (is(v, n) ? v.psnr8_db : null)),
+      })),
     },
     options: {
       indexAxis: 'y', onClick: (_, hit) => { if (hit.length) select(hit[0].index); },
-      plugins: { legend: { display: false } },
+      plugins: { legend: { display: true, onClick: () => {} } },
       scales: { x: axis('PSNR of 8-bit values, dB'), y: { ticks: { autoSkip: true } } },
     },
   });

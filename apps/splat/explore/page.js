@@ -18,10 +18,11 @@ const value = (figures, key) => figures[key] * AXES[key].scale;
 const format = (figures, key) => number(value(figures, key), AXES[key].digits);
 const kindOf = m => (m.machine === state.selected ? 'chosen' : m === base ? 'ink' : m.on_front ? 'mark' : 'soft');
 
-// A logarithmic axis around what is shown.
+// An axis around what is shown, logarithmic where that is far apart: within ten times a logarithmic one has hardly a label.
 function axisAround(key, figures) {
   const values = figures.map(f => value(f, key));
-  return axis(AXES[key].label, { type: 'logarithmic', min: Math.min(...values) / 1.1, max: Math.max(...values) * 1.1 });
+  const [min, max] = [Math.min(...values) / 1.1, Math.max(...values) * 1.1];
+  return axis(AXES[key].label, max > 10 * min ? { type: 'logarithmic', min, max } : { type: 'linear', min, max, ticks: { includeBounds: false, maxRotation: 0, callback: tickText } });
 }
 
 function drawPlot() {

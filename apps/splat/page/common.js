@@ -32,6 +32,12 @@ function number(value, digits = 0) {
   return value.toLocaleString('en', { minimumFractionDigits: digits, maximumFractionDigits: digits });
 }
 
+// A label of an axis, with as many digits as tell it from its neighbours.
+function tickText(value, n, all) {
+  const step = all.length > 1 ? Math.abs(all[1].value - all[0].value) : 1;
+  return number(value, Math.min(9, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9))));
+}
+
 // From a to b, as an element; of what is `worse` where it is more, green for less and red for more.
 function change(a, b, worse = true) {
   if (!a || b === undefined || b === null) return '';
