@@ -130,7 +130,8 @@ def scalar(kernel, program, request, kinds, folder):
 
 def argument_kinds(elf, kernel):
     listed = re.search(rf"^{kernel}\((.*)\)$", run("vorion-sim", elf, "--list-kernels"), re.M)[1]
-    names = {"global": "VX_ARG_GLOBAL", "local": "VX_ARG_LOCAL", "value": "VX_ARG_VALUE"}
+    names = {"global": "VX_ARG_GLOBAL", "local": "VX_ARG_LOCAL", "value": "VX_ARG_VALUE",
+             "integer": "VX_ARG_INTEGER", "float": "VX_ARG_FLOAT"}
     return [names[part.split()[0]] for part in listed.split(", ")] if listed else []
 
 

@@ -69,14 +69,16 @@ def VxVariables : Descriptor<"vx_variables", [
 
 def VxKernelArg : Descriptor<"vx_kernel_arg", [
     DescField<"name", "u32", 1, "address of the NUL-terminated name">,
-    DescField<"kind", "u32", 1, "VX_ARG_VALUE, VX_ARG_GLOBAL or VX_ARG_LOCAL">,
+    DescField<"kind", "u32", 1, "one of VX_ARG_*">,
     DescField<"offset", "u32", 1, "bytes from the start of the packed arguments">,
     DescField<"size", "u32", 1, "bytes there">
   ], "One argument of a kernel.">;
 
-def : Constant<"VX_ARG_VALUE", 0, "Passed by value.">;
+def : Constant<"VX_ARG_VALUE", 0, "Passed by value, of a type that is not said.">;
 def : Constant<"VX_ARG_GLOBAL", 1, "Pointer to global or constant memory.">;
 def : Constant<"VX_ARG_LOCAL", 2, "Pointer to local memory; the driver allocates it.">;
+def : Constant<"VX_ARG_INTEGER", 3, "A whole number, passed by value.">;
+def : Constant<"VX_ARG_FLOAT", 4, "A float of 32 bits, passed by value.">;
 
 def : Constant<"VX_IO_CONSOLE", 0x40, "Store: a byte for the console.">;
 def : Constant<"VX_IO_EXIT", 0x44, "Store: exit code.">;

@@ -328,7 +328,7 @@ std::string ImageParser::readKernel(uint32_t Address) {
     if (!ArgName)
       return Where +
              fmt::format("argument {} of '{}' is not in the image", N, K.Name);
-    if (Arg->Kind > VX_ARG_LOCAL ||
+    if (Arg->Kind > VX_ARG_FLOAT ||
         uint64_t{Arg->Offset} + Arg->Size > Record->ArgsBytes)
       return Where + fmt::format("argument {} of '{}' is malformed", N, K.Name);
     K.Args.push_back({std::move(*ArgName), Arg->Kind, Arg->Offset, Arg->Size});

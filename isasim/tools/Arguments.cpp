@@ -39,6 +39,7 @@ Expected<KernelInput> number(std::string_view All, std::string_view Text) {
   if (!parseNumber(Text, Value))
     return bad(All, "a number that fits the type");
   KernelInput In;
+  In.What = std::is_integral_v<T> ? KernelInput::Integer : KernelInput::Float;
   In.Bytes.resize(sizeof(T));
   std::memcpy(In.Bytes.data(), &Value, sizeof(T));
   return In;

@@ -22,8 +22,9 @@ namespace vorion::isasim {
 ///   inout:in.bin@out.bin               read from one, written to another
 ///   local:256                          that many bytes of local memory
 struct KernelInput {
-  enum Kind { Value, Buffer, Local } What = Value;
-  std::vector<std::byte> Bytes;  ///< a value's
+  /// In the order of VX_ARG_*; a Value is bytes of any type.
+  enum Kind { Value, Buffer, Local, Integer, Float } What = Value;
+  std::vector<std::byte> Bytes;  ///< of what is passed by value
   uint64_t Size = 0;             ///< of a buffer without ReadFrom, or local
   std::string ReadFrom, WriteTo; ///< files, empty for none
 };

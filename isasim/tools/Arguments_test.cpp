@@ -11,7 +11,6 @@ namespace {
 template <typename T> T valueOf(std::string_view Text) {
   const Expected<KernelInput> In = parseInput(Text);
   EXPECT_TRUE(In) << Text;
-  EXPECT_EQ(In->What, KernelInput::Value);
   T Value{};
   EXPECT_EQ(In->Bytes.size(), sizeof(T));
   std::memcpy(&Value, In->Bytes.data(), sizeof(T));
@@ -27,6 +26,12 @@ TEST(Arguments, Values) {
   EXPECT_EQ(valueOf<float>("f32:1.5"), 1.5F);
   EXPECT_EQ(valueOf<float>("f32:-1e-3"), -1e-3F);
   EXPECT_EQ(valueOf<uint32_t>("bytes:78563412"), 0x12345678U);
+}
+
+TEST(Arguments, KindsOfValues) {
+  EXPECT_EQ(parseInput("u64:1")->What, KernelInput::Integer);
+  EXPECT_EQ(parseInput("f32:1")->What, KernelInput::Float);
+  EXPECT_EQ(parseInput("bytes:00")->What, KernelInput::Value);
 }
 
 TEST(Arguments, Buffers) {

@@ -38,6 +38,17 @@ Error noKernel(const Image &P, const std::string &Asked) {
   return {P.name(), std::move(What), ExitCode::Usage};
 }
 
+/// Whether an argument of \p Kind takes \p In. Bytes may be of any type, and
+/// kernels of C say none.
+bool fits(KernelInput::Kind In, uint32_t Kind) {
+  const auto IsValue = [](uint32_t K) {
+    return K == VX_ARG_VALUE || K == VX_ARG_INTEGER || K == VX_ARG_FLOAT;
+  };
+  const uint32_t Given = In;
+  return Given == Kind || (IsValue(Given) && IsValue(Kind) &&
+                           (Given == VX_ARG_VALUE || Kind == VX_ARG_VALUE));
+}
+
 /// The groups that \p R asks for, or that suit \p K where it does not say.
 Expected<LaunchShape> shapeOf(const Kernel &K, const KernelRequest &R) {
   std::array<uint32_t, 3> Local = R.Local;
@@ -104,7 +115,8 @@ Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
 
 Expected<Success> KernelLaunch::packArguments(const Kernel &K,
                                               const KernelRequest &R) {
-  constexpr const char *Kinds[] = {"a value", "a buffer", "local memory"};
+  constexpr const char *Kinds[] = {"a value", "a buffer", "local memory",
+                                   "a whole number", "a float, as f32:X"};
   if (R.Args.size() != K.Args.size()) {
     std::string Wanted;
     for (const KernelArg &Arg : K.Args)
@@ -120,7 +132,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     const Expected<KernelInput> In = parseInput(R.Args[N]);
     if (!In)
       return In.error();
-    if (static_cast<uint32_t>(In->What) != Arg.Kind)
+    if (!fits(In->What, Arg.Kind))
       return usage(fmt::format("argument {} of '{}' ({}) is '{}', expected {}",
                                N, K.Name, Arg.Name, R.Args[N],
                                Kinds[Arg.Kind]));
@@ -137,7 +149,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
         return usage(Placed.error().What);
       Address = *Placed;
     }
-    if (In->What != KernelInput::Value) {
+    if (In->What == KernelInput::Buffer || In->What == KernelInput::Local) {
       Bytes.resize(sizeof(Address));
       std::memcpy(Bytes.data(), &Address, sizeof(Address));
     }

@@ -162,7 +162,8 @@ Expected<Success> claimFiles(const Options &O, const KernelRequest &Request) {
 void printKernels(const Image &Program) {
   for (const Kernel &K : Program.kernels()) {
     printOut("{}(", K.Name);
-    constexpr const char *Kinds[] = {"value", "global", "local"};
+    constexpr const char *Kinds[] = {"value", "global", "local", "integer",
+                                     "float"};
     for (size_t N = 0; N != K.Args.size(); ++N)
       printOut("{}{} {}[{}]", N ? ", " : "", Kinds[K.Args[N].Kind],
                K.Args[N].Name, K.Args[N].Size);

@@ -174,9 +174,9 @@ vx_status vx_image_get_kernel(vx_image *image, uint32_t kernel,
 
 typedef struct vx_arg_info {
   const char *name; /* valid until the image is freed */
-  uint32_t kind;   /* VX_ARG_VALUE, VX_ARG_GLOBAL, VX_ARG_LOCAL (docs/abi.md) */
-  uint32_t offset; /* bytes from the start of the packed arguments */
-  uint32_t size;   /* bytes there: 4 for pointers */
+  uint32_t kind;    /* one of VX_ARG_* (docs/isa.md) */
+  uint32_t offset;  /* bytes from the start of the packed arguments */
+  uint32_t size;    /* bytes there: 4 for pointers */
 } vx_arg_info;
 
 vx_status vx_image_get_arg(vx_image *image, uint32_t kernel, uint32_t arg,

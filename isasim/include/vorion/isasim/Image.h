@@ -20,7 +20,7 @@ namespace vorion::isasim {
 /// An argument of a kernel (vx_kernel_arg, docs/abi.md).
 struct KernelArg {
   std::string Name;
-  uint32_t Kind = 0;   ///< VX_ARG_VALUE, VX_ARG_GLOBAL or VX_ARG_LOCAL
+  uint32_t Kind = 0;   ///< one of VX_ARG_*
   uint32_t Offset = 0; ///< within the packed arguments
   uint32_t Size = 0;
 };

@@ -140,6 +140,13 @@ private:
     return G;
   }
 
+  /// What vorion-sim's --arg is compared with.
+  static uint32_t valueKind(const Type &T) {
+    if (T.isIntegerTy())
+      return VX_ARG_INTEGER;
+    return T.isFloatTy() ? VX_ARG_FLOAT : VX_ARG_VALUE;
+  }
+
   /// Arguments lie as PoCL's launcher reads them: each at a multiple of its
   /// size rounded up to a power of two.
   void addRecord(Function &Entry, Function &Body, uint64_t LocalBytes) {
@@ -153,9 +160,10 @@ private:
       const uint64_t Offset = alignTo(End, PowerOf2Ceil(Size));
       End = Offset + Size;
       const KernelArgument &Known = Kernel.Arguments[I];
-      Arguments.push_back(
-          ConstantStruct::getAnon({text(Known.Name), number(Known.Kind),
-                                   number(Offset), number(Size)}));
+      const uint32_t Kind =
+          Known.Kind == VX_ARG_VALUE ? valueKind(*A.getType()) : Known.Kind;
+      Arguments.push_back(ConstantStruct::getAnon(
+          {text(Known.Name), number(Kind), number(Offset), number(Size)}));
     }
 
     Constant *Table =
