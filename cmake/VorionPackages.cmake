@@ -50,7 +50,7 @@ set(CPACK_DEBIAN_VORION_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/debian/
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME vorion-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "vorion (= ${PROJECT_VERSION}), libfmt-dev, libdw-dev, opencl-c-headers")
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "cmake, pkg-config, ocl-icd-opencl-dev")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "cmake, pkgconf, ocl-icd-opencl-dev")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "simulated RISC-V GPU - development files
 Headers, the simulator as a library, and files for CMake and pkg-config: for
 programs that use the driver's API or the simulator without OpenCL, and for
