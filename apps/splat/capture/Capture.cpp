@@ -297,6 +297,25 @@ Expected<Success> readTransforms(const fs::path &File, ViewSet Set,
   return Success{};
 }
 
+/// 1st, 2nd, 3rd, 4th.
+std::string ordinal(unsigned N) {
+  const bool Teens = N % 100 > 10 && N % 100 < 14;
+  const unsigned Last = Teens ? 0 : N % 10;
+  return fmt::format("{}{}", N,
+                     Last == 1   ? "st"
+                     : Last == 2 ? "nd"
+                     : Last == 3 ? "rd"
+                                 : "th");
+}
+
+/// Holds out every \p Every-th view, or none.
+void holdOut(Capture &C, unsigned Every) {
+  for (std::size_t I = 0; I < C.Views.size(); ++I)
+    C.Views[I].HeldOut = Every != 0 && I % Every == 0;
+  C.HeldOutBy = Every == 0 ? "none, as asked"
+                           : fmt::format("every {} by name", ordinal(Every));
+}
+
 /// What the options ask of masks.
 Expected<Success> checkMasks(const std::string &Path, const Capture &C,
                              const CaptureOptions &Options) {
@@ -498,11 +517,8 @@ Expected<Capture> readCapture(const std::string &Path,
   });
   if (auto Once = checkOnce(Path, C.Views); !Once)
     return Once.error();
-  if (C.HeldOutBy.empty()) {
-    for (std::size_t I = 0; I < C.Views.size(); I += HoldOutEvery)
-      C.Views[I].HeldOut = true;
-    C.HeldOutBy = fmt::format("every {}th by name", HoldOutEvery);
-  }
+  if (Options.HoldOut || C.HeldOutBy.empty())
+    holdOut(C, Options.HoldOut.value_or(HoldOutEvery));
   if (C.heldOut() == C.Views.size())
     return Error{Path, "no view to train on, expected at least one"};
   for (const CaptureView &V : C.Views)

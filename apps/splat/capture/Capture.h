@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -101,6 +102,9 @@ struct CaptureOptions {
   /// Which pictures it is read for. Of spheres and of rolling shutters there
   /// are photographs alone.
   LensOf Pictures = LensOf::Undistorted;
+  /// Every so many-th view by name is held out, 0: none. Without it the capture
+  /// decides, or HoldOutEvery.
+  std::optional<unsigned> HoldOut = std::nullopt;
 };
 
 /// Reads the capture at \p Path, a folder or a transforms.json:

@@ -347,6 +347,22 @@ TEST(Capture, TestPicturesMayBeMissingInPart) {
             std::string::npos);
 }
 
+TEST(Capture, TheCallerMayChooseWhatIsHeldOut) {
+  const CaptureFolder F(nerfSyntheticOf(sampleCapture()));
+  CaptureOptions Options;
+  Options.HoldOut = 3;
+  const auto C = readCapture(F.path(), Options);
+  ASSERT_TRUE(C) << C.error().What;
+  EXPECT_EQ(C->heldOut(), 4U); // of 10, whatever its test set is
+  EXPECT_EQ(C->HeldOutBy, "every 3rd by name");
+  Options.HoldOut = 0;
+  EXPECT_EQ(readCapture(F.path(), Options)->heldOut(), 0U);
+  Options.HoldOut = 1;
+  const auto All = readCapture(F.path(), Options);
+  ASSERT_FALSE(All);
+  EXPECT_NE(All.error().What.find("no view to train on"), std::string::npos);
+}
+
 TEST(Capture, OneViewIsTooFew) {
   const CaptureFolder F(colmapTextOf(sampleCapture(1)));
   const auto C = readCapture(F.path());

@@ -149,6 +149,14 @@ void addMasksOption(CLI::App &App, MaskSource &Masks) {
             "are black in masks/NAME.png or the frame's mask_path");
 }
 
+void addHoldOutOption(CLI::App &App, std::optional<unsigned> &Every) {
+  App.add_option("--hold-out", Every,
+                 "Hold out every so many-th view by name, 0: none (default: as "
+                 "the capture says, or 8)")
+      ->option_text("N")
+      ->check(isBetween(0U, 1000000U));
+}
+
 void addOutsideOption(CLI::App &App, bool &Allow) {
   App.add_flag("--allow-outside", Allow,
                "A capture's pictures and points may lie outside its folder");

@@ -5,6 +5,7 @@
 #include "vorion/support/Expected.h"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 namespace vorion::splat {
@@ -18,6 +19,10 @@ Expected<Success> describeCapture(const std::string &Path,
 /// Declares --allow-outside, of every command that reads captures
 /// (CaptureOptions); \p Allow must outlive the parsing.
 void addOutsideOption(CLI::App &App, bool &Allow);
+
+/// Declares --hold-out, of those that train and judge; \p Every must outlive
+/// the parsing.
+void addHoldOutOption(CLI::App &App, std::optional<unsigned> &Every);
 
 /// Declares --masks, of those that compare with photographs; \p Masks must
 /// outlive the parsing.

@@ -199,6 +199,7 @@ Runner addEval(CLI::App &App) {
       ->check(isBetween(1, 64));
   App.add_option("--exclude", A->Read.Exclude, "Leave out this picture")
       ->allow_extra_args(false);
+  addHoldOutOption(App, A->Read.HoldOut);
   addOutsideOption(App, A->Read.AllowOutside);
   addMasksOption(App, A->Read.Masks);
   writesFile(App.add_option("--json", A->Json, "Write the figures"), {".json"});

@@ -300,6 +300,7 @@ Runner addTrain(CLI::App &App) {
       ->check(isBetween(4U, 100000000U));
   App.add_option("--exclude", R.Read.Exclude, "Leave out this picture")
       ->allow_extra_args(false);
+  addHoldOutOption(App, R.Read.HoldOut);
   addOutsideOption(App, R.Read.AllowOutside);
   App.add_option("--batch", R.Run.Batch,
                  "Views an iteration, shared out to the processes that mpirun "
