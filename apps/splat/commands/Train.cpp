@@ -215,6 +215,12 @@ Expected<Success> check(const TrainArguments &A) {
                  "--depth-weight: depths are known in undistorted pictures "
                  "alone, expected no --distorted with it",
                  ExitCode::Usage};
+  if (R.Read.HoldOut == 0U &&
+      !(A.Pictures.Html.empty() && A.Pictures.Pictures.empty()))
+    return Error{"",
+                 "--html and --pictures show held-out views, expected "
+                 "--hold-out above 0 with them",
+                 ExitCode::Usage};
   if (A.GivenTimeEvery && !A.isClocked())
     return Error{
         "", "--time-every: expected --time, --breakdown or --energy with it",

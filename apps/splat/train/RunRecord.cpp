@@ -119,18 +119,21 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
   return J;
 }
 
-/// What a hash is of, for who reads that two differ.
-static std::string_view hashedBy(std::string_view Key) {
+/// What a figure of the input is of, for who reads that two differ.
+static std::string_view inputOf(std::string_view Key) {
   if (Key == "pictures")
     return ", hashes of all pictures and poses: --exclude, --downscale and "
            "changed files make others";
+  if (Key == "extent")
+    return ", from the cameras of training: --hold-out, --exclude and changed "
+           "files make others";
   if (Key == "points")
     return ", hashes of the points that a run starts from";
   return "";
 }
 
 /// Where a run's record \p Has differs from \p Wanted; nothing if it does not.
-/// Options come before hashes, which may differ because of them.
+/// Options come before figures of the input, which may differ because of them.
 static std::optional<std::string> differenceOf(const Json &Has,
                                                const Json &Wanted) {
   const auto Text = [](const Json &J, const std::string &Key) {
@@ -140,9 +143,9 @@ static std::optional<std::string> differenceOf(const Json &Has,
   for (const Json *J : {&Has, &Wanted})
     for (const auto &[Key, Value] : J->items())
       Keys.insert(Key);
-  for (const bool Hashes : {false, true})
+  for (const bool IsInput : {false, true})
     for (const std::string &Key : Keys) {
-      if (hashedBy(Key).empty() == Hashes ||
+      if (inputOf(Key).empty() == IsInput ||
           (Has.contains(Key) && Wanted.contains(Key) &&
            Has[Key] == Wanted[Key]))
         continue;
@@ -151,7 +154,7 @@ static std::optional<std::string> differenceOf(const Json &Has,
         return differenceOf(Has.value(Key, Json::object()),
                             Wanted.value(Key, Json::object()));
       return fmt::format("{} is {}, expected {}{}", Key, Text(Has, Key),
-                         Text(Wanted, Key), hashedBy(Key));
+                         Text(Wanted, Key), inputOf(Key));
     }
   return std::nullopt;
 }

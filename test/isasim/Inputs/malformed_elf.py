@@ -156,7 +156,7 @@ def kernels(elf):
             yield f"kernel-{field}-{value:x}", elf.set(kernel, record, **{field: value})
     for number, sizes in enumerate(((16, 0, 0), (0, 0, 1), (16, 16, 0), (0, 1, 1))):
         yield f"kernel-groups-{number}", elf.set(kernel, record, **dict(zip("xyz", sizes)))
-    for field, values in {"name": (0, HUGE), "kind": (3, HUGE), "offset": (total, HUGE), "size": (total + 1, HUGE)}.items():
+    for field, values in {"name": (0, HUGE), "kind": (5, HUGE), "offset": (total, HUGE), "size": (total + 1, HUGE)}.items():
         for value in values:
             yield f"arg-{field}-{value:x}", elf.set(arg, first, **{field: value})
 
