@@ -2,10 +2,10 @@
 
 #include "vorion/support/Definition.h"
 #include "vorion/support/Diagnostics.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <regex>
@@ -51,14 +51,6 @@ std::vector<std::string> optionsOf(const CLI::App *App) {
   return Names;
 }
 
-/// As pages of the manual write the name of what must be given.
-std::string upper(std::string Name) {
-  std::ranges::transform(Name, Name.begin(), [](unsigned char C) {
-    return static_cast<char>(std::toupper(C));
-  });
-  return Name;
-}
-
 std::vector<std::string> subcommandsOf(const CLI::App &App) {
   std::vector<std::string> Names;
   for (const CLI::App *Command : App.get_subcommands({}))
@@ -84,7 +76,7 @@ std::string shortestCall(const CLI::App &App) {
     for (const CLI::Option *O : App.get_options())
       if (O->get_required() && O->get_positional() == Positional)
         Call += Positional
-                    ? " " + upper(O->get_name())
+                    ? " " + upperCase(O->get_name())
                     : fmt::format(" {} {}", O->get_name(), O->get_type_name());
   return Call;
 }
@@ -154,7 +146,7 @@ std::string problemOf(const CLI::App &App, const std::string &Said,
       Said.ends_with(Ending)) {
     const std::string Name = Said.substr(0, Said.size() - Ending.size());
     return fmt::format("{} is missing, expected: {} {}",
-                       Name.starts_with('-') ? Name : upper(Name),
+                       Name.starts_with('-') ? Name : upperCase(Name),
                        shortestCall(*Inner), SeeHelp);
   }
   const auto Surplus = std::ranges::find_if(

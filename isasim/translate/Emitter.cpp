@@ -35,8 +35,6 @@ constexpr unsigned DeepestLoop = 6;
 /// What a caller finds as it was.
 constexpr Reg64 KeptRegisters[] = {rbx, rbp, r12, r13, r14, r15};
 
-unsigned numberOf(uint16_t Register) { return Register / sizeof(LaneWords); }
-
 } // namespace
 
 Emitter::Emitter(const ExecTable &ExecIn, const CodeTable &CodeIn,

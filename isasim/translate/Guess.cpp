@@ -1,6 +1,6 @@
-// Which loads most likely read one word for all lanes, as those of tables and
-// of what a group shares do. A pointer that a loop moves on says nothing of its
-// beginning, so a guess begins with the registers of a warp that is there.
+// Guesses which loads read one word for all lanes, as loads from tables do. The
+// code alone does not say where a pointer comes from that a loop moves on. So a
+// guess begins with the registers and the stack of a warp that stands there.
 
 #include "core/State.h"
 #include "translate/Region.h"
@@ -24,8 +24,6 @@ struct Uniform {
   std::bitset<NumRegisters> Registers;
   std::bitset<256> Words;
 };
-
-unsigned numberOf(uint16_t Register) { return Register / sizeof(LaneWords); }
 
 /// The number in Uniform::Words that \p G loads or stores, if it does.
 std::optional<size_t> stackWordOf(const GuestInsn &G, const Uniform &U) {
@@ -72,8 +70,8 @@ Uniform uniformNow(const WarpState &S) {
   return U;
 }
 
-/// What a called function may have left of \p U (the calling convention's
-/// temporaries and arguments are its own).
+/// What is still known of \p U behind a call: a function may overwrite the
+/// calling convention's temporaries and arguments.
 Uniform behindCall(Uniform U) {
   const auto Lose = [&U](unsigned First, unsigned Last) {
     for (unsigned N = First; N <= Last; ++N)

@@ -26,9 +26,14 @@ enum class Kind : uint8_t {
   Other ///< leaves it to the interpreter
 };
 
+/// Which of WarpState::Registers an instruction's operand is.
+inline unsigned numberOf(uint16_t Operand) {
+  return Operand / sizeof(LaneWords);
+}
+
 /// Whether what goes to \p Register (an operand of Insn) is nobody's.
 inline bool isSink(uint16_t Register) {
-  return Register == SinkRegister * sizeof(LaneWords);
+  return numberOf(Register) == SinkRegister;
 }
 
 struct GuestInsn {

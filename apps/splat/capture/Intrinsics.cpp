@@ -15,19 +15,12 @@ using Json = nlohmann::json;
 
 constexpr double Degree = M_PI / 180;
 
-Expected<double> finite(const Json &Value, const std::string &Key) {
-  if (Value.is_number() && std::isfinite(Value.get<double>()))
-    return Value.get<double>();
-  return Error{"",
-               fmt::format("key {} is wrong, expected a finite number", Key)};
-}
-
 /// Sets the focal length or the angle of \p To by \p Object's keys of the axis
 /// \p Name. False if it has none.
 Expected<bool> readFocal(const Json &Object, char Name, Intrinsics::Axis &To) {
   const std::string Focal = fmt::format("fl_{}", Name);
   if (const auto It = Object.find(Focal); It != Object.end()) {
-    const auto Value = finite(*It, Focal);
+    const auto Value = finiteNumber(*It, Focal);
     if (!Value)
       return Value.error();
     if (!(*Value > 0))
@@ -46,7 +39,7 @@ Expected<bool> readFocal(const Json &Object, char Name, Intrinsics::Axis &To) {
       {fmt::format("{}_fov", Name), Degree, "degrees between 0 and 180"}};
   for (const auto &[Key, Unit, Wanted] : Angles)
     if (const auto It = Object.find(Key); It != Object.end()) {
-      const auto Value = finite(*It, Key);
+      const auto Value = finiteNumber(*It, Key);
       if (!Value || !(*Value > 0 && *Value * Unit < 3.14159))
         return Error{"",
                      fmt::format("key {} is wrong, expected {}", Key, Wanted)};
@@ -71,7 +64,7 @@ Expected<Intrinsics::Axis> readAxis(const std::array<const Json *, 2> &Objects,
   const std::string Key = fmt::format("c{}", Name);
   for (const Json *Object : Objects)
     if (const auto It = Object->find(Key); It != Object->end()) {
-      const auto Value = finite(*It, Key);
+      const auto Value = finiteNumber(*It, Key);
       if (!Value)
         return Value.error();
       A.Centre = *Value;
@@ -85,6 +78,13 @@ std::optional<double> focalOf(const Intrinsics::Axis &A, int Side) {
 }
 
 } // namespace
+
+Expected<double> finiteNumber(const Json &Value, const std::string &Key) {
+  if (Value.is_number() && std::isfinite(Value.get<double>()))
+    return Value.get<double>();
+  return Error{"",
+               fmt::format("key {} is wrong, expected a finite number", Key)};
+}
 
 Expected<Intrinsics> readIntrinsics(const Json &Frame, const Json &Document,
                                     bool IsSphere) {

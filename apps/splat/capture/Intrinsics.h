@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 
 namespace vorion::splat {
 
@@ -19,6 +20,10 @@ struct Intrinsics {
   Axis X, Y;
   bool IsSphere = false; ///< sees all around: it has no focal length
 };
+
+/// \p Value, which \p Key has. The error's place is empty.
+Expected<double> finiteNumber(const nlohmann::json &Value,
+                              const std::string &Key);
 
 /// Reads, of each axis, fl_x, or camera_angle_x in radians, or x_fov in
 /// degrees, and cx (fl_y and so on). What \p Frame has of an axis goes before

@@ -5,10 +5,10 @@
 #include "io/PlyFile.h"
 #include "io/Unsupported.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,13 +19,6 @@ namespace vorion::splat {
 namespace {
 
 using Json = nlohmann::json;
-
-std::string upperCase(std::string Text) {
-  std::ranges::transform(Text, Text.begin(), [](unsigned char C) {
-    return static_cast<char>(std::toupper(C));
-  });
-  return Text;
-}
 
 std::string withoutDot(std::string Name) {
   if (Name.starts_with("./"))
@@ -72,11 +65,12 @@ std::optional<double> TransformsReader::number(const Json &Frame,
   const Json *J = find(Frame, Key);
   if (!J)
     return std::nullopt;
-  if (!J->is_number() || !std::isfinite(J->get<double>())) {
-    fail(fmt::format("key {} is wrong, expected a finite number", Key));
+  const auto Value = finiteNumber(*J, Key);
+  if (!Value) {
+    fail(Value.error().What);
     return std::nullopt;
   }
-  return J->get<double>();
+  return *Value;
 }
 
 /// Terms as nerfstudio and instant-ngp write them: k1 to k4 are of r^2 to r^8,
@@ -198,11 +192,10 @@ void TransformsReader::readCamera(const Json &Frame, TransformsView &V) {
   if (!Read)
     return fail(Read.error().What);
   V.Known = *Read;
-  const Json *Width = find(Frame, "w"), *Height = find(Frame, "h");
-  if (!Width && !Height)
+  if (!find(Frame, "w") && !find(Frame, "h"))
     return;
-  const auto Side = [&](const char *Key, const Json *Value) {
-    const auto Number = Value ? number(Frame, Key) : std::optional<double>();
+  const auto Side = [&](const char *Key) {
+    const auto Number = number(Frame, Key);
     if (!Number || !(*Number >= 1 && *Number <= MaxImageSize) ||
         *Number != std::floor(*Number)) {
       fail(fmt::format("key {} is missing or wrong, expected 1 to {} pixels",
@@ -211,8 +204,8 @@ void TransformsReader::readCamera(const Json &Frame, TransformsView &V) {
     }
     return static_cast<int>(*Number);
   };
-  V.Pose.Width = Side("w", Width);
-  V.Pose.Height = Side("h", Height);
+  V.Pose.Width = Side("w");
+  V.Pose.Height = Side("h");
   complete(V.Pose, V.Known);
 }
 

@@ -3,12 +3,12 @@
 #include "io/ReportHead.h"
 #include "scene/SceneFile.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
 #include <system_error>
@@ -28,17 +28,10 @@ Error badName(std::string_view Option, const std::string &File,
           ExitCode::Usage};
 }
 
-std::string lowered(std::string Text) {
-  std::ranges::transform(Text, Text.begin(), [](unsigned char C) {
-    return static_cast<char>(std::tolower(C));
-  });
-  return Text;
-}
-
 /// The known kind that \p File's ending promises, the longest that there is
 /// (a compressed PLY's ending ends with PLY's), or nothing.
 std::string_view promised(const std::string &File) {
-  const std::string Lower = lowered(File);
+  const std::string Lower = lowerCase(File);
   std::string_view Longest;
   const auto Try = [&](std::string_view Ending) {
     if (Lower.ends_with(Ending) && Ending.size() > Longest.size())
@@ -53,7 +46,7 @@ std::string_view promised(const std::string &File) {
 
 /// What a user takes for the ending.
 std::string endingOf(const std::string &File) {
-  return lowered(std::filesystem::path(File).extension().string());
+  return lowerCase(std::filesystem::path(File).extension().string());
 }
 
 /// Standard output, a device or a pipe, whose name promises nothing.

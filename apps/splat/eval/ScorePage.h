@@ -25,8 +25,8 @@ Expected<std::string> scorePageOf(const ScorePage &P,
                                   const std::vector<ViewScore> &Scores);
 
 /// Writes two files of each view: PREFIX.NAME.drawn.png and
-/// PREFIX.NAME.photo.png. Of views whose names are the same as files' (a/b.png,
-/// a_b.jpg), the later ones are NAME-2 and so on.
+/// PREFIX.NAME.photo.png. Several views may come to one NAME (a/b.png,
+/// a_b.jpg): the second of them is NAME-2, and so on.
 Expected<Success> writePairFiles(const std::string &Prefix,
                                  const std::vector<JudgedView> &Views,
                                  const std::vector<ViewScore> &Scores);

@@ -18,7 +18,7 @@ const value = (figures, key) => figures[key] * AXES[key].scale;
 const format = (figures, key) => number(value(figures, key), AXES[key].digits);
 const kindOf = m => (m.machine === state.selected ? 'chosen' : m === base ? 'ink' : m.on_front ? 'mark' : 'soft');
 
-// An axis around what is shown, logarithmic where that is far apart: within ten times a logarithmic one has hardly a label.
+// An axis around what is shown. A logarithmic one has too few labels unless the values are ten times apart.
 function axisAround(key, figures) {
   const values = figures.map(f => value(f, key));
   const [min, max] = [Math.min(...values) / 1.1, Math.max(...values) * 1.1];

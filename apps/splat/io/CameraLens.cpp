@@ -1,6 +1,7 @@
 #include "io/CameraLens.h"
 
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,11 +61,7 @@ private:
       // A distorted pinhole is OpenCV's; which numbers it may have depends on
       // what it is called.
       Optics.Model = *Known == LensModel::Pinhole ? LensModel::OpenCv : *Known;
-      std::string Upper = Value->get<std::string>();
-      std::ranges::transform(Upper, Upper.begin(), [](unsigned char Of) {
-        return static_cast<char>(std::toupper(Of));
-      });
-      Full = Upper == "FULL_OPENCV";
+      Full = upperCase(Value->get<std::string>()) == "FULL_OPENCV";
       return;
     }
     const Json *Fisheye = Find("is_fisheye");

@@ -1,7 +1,8 @@
 #include "io/CameraModel.h"
 
+#include "vorion/support/Letters.h"
+
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -208,10 +209,7 @@ CameraModel simplified(const CameraModel &M) {
 }
 
 std::optional<LensModel> lensModelNamed(std::string_view Name) {
-  std::string Lower(Name);
-  std::ranges::transform(Lower, Lower.begin(), [](unsigned char C) {
-    return static_cast<char>(std::tolower(C));
-  });
+  const std::string Lower = lowerCase(std::string(Name));
   const auto *const Found =
       std::ranges::find(Models, std::string_view(Lower), &NamedModel::Name);
   if (Found == std::ranges::end(Models))

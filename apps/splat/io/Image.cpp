@@ -4,10 +4,10 @@
 #include "io/Npz.h"
 #include "io/PhotoFile.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <csetjmp>
@@ -275,10 +275,7 @@ static Expected<ExactImage> readPhotoFile(const std::string &Path) {
 }
 
 Expected<ExactImage> readImage(const std::string &Path) {
-  std::string Lower = Path;
-  std::ranges::transform(Lower, Lower.begin(), [](unsigned char C) {
-    return static_cast<char>(std::tolower(C));
-  });
+  const std::string Lower = lowerCase(Path);
   const auto Has = [&Lower](std::string_view E) { return Lower.ends_with(E); };
   if (Has(".pfm"))
     return readPfm(Path);

@@ -32,8 +32,8 @@ Expected<LensModel> commonModel(const std::string &Path,
 /// Whether one of \p Cameras moves while it exposes.
 bool isRolling(const std::vector<Camera> &Cameras);
 
-/// Draws through \p Cameras, \p Path's: sets what \p O says of them. An error
-/// if they have no common model.
+/// Sets the lens and the shutter that \p O draws through: those of \p Cameras,
+/// which \p Path has. An error if they have no common model.
 Expected<Success> drawThrough(RenderOptions &O, const std::string &Path,
                               const std::vector<Camera> &Cameras);
 

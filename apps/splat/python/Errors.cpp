@@ -70,7 +70,7 @@ void addErrors(py::module_ &M) {
       "build_log: the compiler's messages about a kernel, mostly empty",
       PyExc_RuntimeError, nullptr);
   M.attr("Error") = py::handle(Made[0]);
-  // What exceptions have that Python code raises.
+  // Exceptions that Python code raises have no place and no build log.
   py::handle(Made[0]).attr("where") = "";
   py::handle(Made[0]).attr("build_log") = "";
   for (std::size_t I = 0; I < classes().size(); ++I) {

@@ -119,7 +119,8 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
   return J;
 }
 
-/// What a figure of the input is of, for who reads that two differ.
+/// What the value of \p Key was made from, if that is the run's input: for
+/// messages that two runs differ. Empty for options.
 static std::string_view inputOf(std::string_view Key) {
   if (Key == "pictures")
     return ", hashes of all pictures and poses: --exclude, --downscale and "

@@ -5,7 +5,6 @@
 #include "train/Philox.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace vorion::splat {
@@ -42,13 +41,10 @@ void placeAtPoints(Scene &S, const CapturePoints &P) {
 std::size_t viewsOfRandomPoints(const Capture &C) {
   return static_cast<std::size_t>(
       std::ranges::count_if(C.Views, [](const CaptureView &V) {
-        // The origin in the camera's axes. A full sphere sees it.
-        std::array<double, 3> At{};
-        for (std::size_t R = 0; R < 3; ++R)
-          for (std::size_t K = 0; K < 3; ++K)
-            At[K] -= V.Pose.Rotation[R][K] * V.Pose.Position[R];
         if (V.Optics.Model == LensModel::Equirectangular)
           return true;
+        // Where the origin lies in the camera's axes.
+        const auto At = V.Pose.worldToCameraTranslation();
         const double X = V.Pose.Fx * At[0] / At[2] + V.Pose.Cx,
                      Y = V.Pose.Fy * At[1] / At[2] + V.Pose.Cy;
         return At[2] > 0 && X > 0 && X < V.Pose.Width && Y > 0 &&

@@ -62,8 +62,10 @@ void noteStart(const Work &W) {
     W.Host.Note(fmt::format("training starts from {} of {} points, because of "
                             "--max-gaussians",
                             Most, Points));
+  if (Points != 0)
+    return;
   const std::size_t Seeing = viewsOfRandomPoints(W.Photos);
-  if (Points == 0 && 2 * Seeing < W.Photos.Views.size())
+  if (2 * Seeing < W.Photos.Views.size())
     W.Host.Note(fmt::format(
         "the capture has no points, and {} of {} views see the origin, around "
         "which training starts from random ones (docs/captures.md)",
