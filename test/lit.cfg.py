@@ -24,6 +24,8 @@ config.test_exec_root = os.path.join(build, "test")
 config.environment["PATH"] = os.pathsep.join(
     [os.path.join(build, "bin"), "/usr/lib/llvm-19/bin", os.environ["PATH"]])
 config.environment["VORION_ROOT"] = build
+# PyOpenCL would keep programs for later runs, which then test an older build.
+config.environment["PYOPENCL_NO_CACHE"] = "1"
 packages = config.environment["PYTHONPATH"] = os.path.join(build, "lib", "python3", "dist-packages")
 config.substitutions += [
     ("%root", root),

@@ -37,12 +37,15 @@ std::string sourceLines(const std::vector<SourcePlace> &Places) {
 /// The compiler's unimp: csrrw zero, cycle, zero.
 constexpr uint32_t Unimp = 0xC0001073;
 
-/// Why a compiler says that nothing comes to a place, if it says so.
-std::string_view notToBeReached(uint32_t Word) {
-  return Word == Unimp ? "  unimp: work-items of one group would go to "
-                         "different barriers, "
-                         "or the program traps itself\n"
-                       : "";
+/// What a user should know of \p T beyond its cause; mostly nothing.
+std::string_view explanation(const Trap &T) {
+  if (T.Instruction == Unimp)
+    return "  unimp: work-items of one group would go to different barriers, "
+           "or the program traps itself\n";
+  if (T.Cause == TrapCause::DivergentBranch)
+    return "  all active lanes must go the same way at a branch without split; "
+           "in a kernel, a barrier depends on it\n";
+  return "";
 }
 
 bool namesAddress(TrapCause Cause) {
@@ -108,7 +111,7 @@ std::string trapReport(const Trap &T) {
     Text += fmt::format(" at 0x{:08x}", T.Address);
   Text += fmt::format("\n  pc {}: {}\n", place(T.Pc, T.Symbol),
                       instruction(T.Instruction, T.Pc));
-  Text += notToBeReached(T.Instruction);
+  Text += explanation(T);
   Text += sourceLines(T.Source);
   Text += fmt::format("  active lanes 0x{:04x}\n", T.LaneMask);
   return Text;

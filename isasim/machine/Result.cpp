@@ -21,8 +21,10 @@ Json json(const auto &Table, const auto &Counters) {
 Json placesJson(const std::vector<SourcePlace> &Places) {
   Json List = Json::array();
   for (const SourcePlace &P : Places)
-    List.push_back(
-        {{"file", P.File}, {"line", P.Line}, {"function", P.Function}});
+    List.push_back({{"file", P.File},
+                    {"line", P.Line},
+                    {"near", P.IsNear},
+                    {"function", P.Function}});
   return List;
 }
 

@@ -23,7 +23,7 @@ __attribute__((noreturn)) void memoryRanOut() {
 } // namespace
 
 std::string SourcePlace::text() const {
-  return fmt::format("{}:{}", File, Line);
+  return fmt::format("{}{}:{}", IsNear ? "near " : "", File, Line);
 }
 
 SourceLines::SourceLines(std::shared_ptr<const Image> ProgramIn)
@@ -82,7 +82,7 @@ SourcePlace callPlace(Dwarf_Die *Unit, Dwarf_Die *Inlined) {
     Name = dwarf_filesrc(Files, *File, nullptr, nullptr);
   return {pathOf(Unit, Name),
           static_cast<unsigned>(number(Inlined, DW_AT_call_line).value_or(0)),
-          ""};
+          "", false};
 }
 
 } // namespace
@@ -101,17 +101,49 @@ static bool unitAt(Dwarf *Info, uint32_t Pc, Dwarf_Die *Unit) {
   return false;
 }
 
+/// 0 means that the code belongs to no line.
+static unsigned lineOf(Dwarf_Line *Line) {
+  int Number = 0;
+  return Line && dwarf_lineno(Line, &Number) == 0
+             ? static_cast<unsigned>(Number)
+             : 0;
+}
+
+/// The last row before \p Pc, in the same function, that has a line; null if
+/// there is none.
+static Dwarf_Line *lineBefore(Dwarf_Die *Unit, uint32_t Pc) {
+  Dwarf_Lines *Rows = nullptr;
+  size_t Count = 0;
+  if (dwarf_getsrclines(Unit, &Rows, &Count) != 0)
+    return nullptr;
+  Dwarf_Line *Found = nullptr;
+  for (size_t N = 0; N < Count; ++N) {
+    Dwarf_Line *Row = dwarf_onesrcline(Rows, N);
+    Dwarf_Addr Address = 0;
+    bool EndsFunction = false;
+    if (!Row || dwarf_lineaddr(Row, &Address) != 0 || Address > Pc ||
+        dwarf_lineendsequence(Row, &EndsFunction) != 0)
+      break;
+    if (EndsFunction)
+      Found = nullptr;
+    else if (lineOf(Row) != 0)
+      Found = Row;
+  }
+  return Found;
+}
+
 std::vector<SourcePlace> SourceLines::chain(uint32_t Pc) const {
   Dwarf_Die Unit;
   if (!Info || !unitAt(Info, Pc, &Unit))
     return {};
   Dwarf_Line *Line = dwarf_getsrc_die(&Unit, Pc);
-  int Number = 0;
-  // Line 0 means that the code belongs to none.
-  if (!Line || dwarf_lineno(Line, &Number) != 0 || Number == 0)
+  const bool HasOwn = lineOf(Line) != 0;
+  if (!HasOwn)
+    Line = lineBefore(&Unit, Pc);
+  if (!Line)
     return {};
   SourcePlace Here{pathOf(&Unit, dwarf_linesrc(Line, nullptr, nullptr)),
-                   static_cast<unsigned>(Number), ""};
+                   lineOf(Line), "", !HasOwn};
 
   // The innermost scope there, then those around it. (dwarf_getscopes goes on
   // from an inlined function to where it was written, not to its caller.)
@@ -142,9 +174,7 @@ std::vector<SourcePlace> SourceLines::chain(uint32_t Pc) const {
   return Places;
 }
 
-std::optional<SourcePlace> SourceLines::find(uint32_t Pc) const {
-  if (!Info)
-    return std::nullopt;
+const std::optional<SourcePlace> &SourceLines::nearest(uint32_t Pc) const {
   const auto [At, New] = Known.emplace(Pc, std::nullopt);
   if (!New)
     return At->second;
@@ -153,9 +183,14 @@ std::optional<SourcePlace> SourceLines::find(uint32_t Pc) const {
   return At->second;
 }
 
+std::optional<SourcePlace> SourceLines::find(uint32_t Pc) const {
+  const std::optional<SourcePlace> &Place = nearest(Pc);
+  return Place && !Place->IsNear ? Place : std::nullopt;
+}
+
 std::string SourceLines::describe(uint32_t Pc) const {
   const std::string Symbol = Program->symbolize(Pc);
-  const std::optional<SourcePlace> Place = find(Pc);
+  const std::optional<SourcePlace> &Place = nearest(Pc);
   if (!Place)
     return Symbol.empty() ? fmt::format("0x{:08x}", Pc) : Symbol;
   return Place->Function.empty()

@@ -28,13 +28,17 @@ public:
   bool empty() const { return Info == nullptr; }
   /// Nothing where the program has no line for \p Pc.
   std::optional<SourcePlace> find(uint32_t Pc) const;
-  /// The same place, then for each inlining that of the call. Empty where the
-  /// program has no line for \p Pc. Slow: for reports, not for counting.
+  /// The same place, or the nearest before it, then for each inlining that of
+  /// the call. Empty where the program has neither. Slow: for reports, not for
+  /// counting.
   std::vector<SourcePlace> chain(uint32_t Pc) const;
-  /// "file:line (function)" or the symbol, or the address.
+  /// "file:line (function)", "near file:line (function)" or the symbol, or the
+  /// address.
   std::string describe(uint32_t Pc) const;
 
 private:
+  const std::optional<SourcePlace> &nearest(uint32_t Pc) const;
+
   std::shared_ptr<const Image> Program;
   std::string Bytes; ///< elfutils wants memory that it might write
   Elf *File = nullptr;

@@ -177,6 +177,39 @@ TEST_F(Arguments, WhatIsSaidOfOptionsHidesNoErrors) {
   EXPECT_NE(logOf(P).find(":1:23: error:"), std::string::npos) << logOf(P);
 }
 
+/// Only values of types with names that PoCL knows were held against sizes.
+TEST_F(Arguments, SizesOfStructuresAndVectorsAreCompared) {
+  std::string Log;
+  const cl::Program P = Device.build(
+      "typedef struct { int a; char b; float4 c; } pose;\n"
+      "typedef struct { uchar part[3]; } three;\n"
+      "typedef float2 pair;\n"
+      "kernel void f(global float *o, pose p, three t, pair q, int4 v,\n"
+      "              float3 w, char c) {\n"
+      "  o[0] = p.a + p.b + p.c.w + t.part[2] + q.y + v.w + w.z + c;\n"
+      "}\n",
+      Log);
+  ASSERT_EQ(Log, "");
+  const cl::Kernel F(P, "f");
+  const std::array<char, 64> Zeros{};
+  struct {
+    cl_uint Argument;
+    std::vector<std::size_t> Right, Wrong;
+  } const Cases[] = {
+      {1, {32}, {0, 4, 24, 31, 33, 64}}, {2, {3}, {1, 2, 4, 8}},
+      {3, {8}, {4, 6, 12, 16}},          {4, {16}, {4, 12, 15, 32}},
+      {5, {12, 16}, {4, 8, 13, 32}},     {6, {1}, {0, 2, 3, 4}}};
+  for (const auto &C : Cases) {
+    for (const std::size_t Size : C.Wrong)
+      EXPECT_EQ(clSetKernelArg(F(), C.Argument, Size, Zeros.data()),
+                CL_INVALID_ARG_SIZE)
+          << "argument " << C.Argument << ", " << Size << " bytes";
+    for (const std::size_t Size : C.Right)
+      EXPECT_EQ(clSetKernelArg(F(), C.Argument, Size, Zeros.data()), CL_SUCCESS)
+          << "argument " << C.Argument << ", " << Size << " bytes";
+  }
+}
+
 TEST_F(Arguments, DamagedBinariesAreInvalid) {
   const auto Binaries = Program.getInfo<CL_PROGRAM_BINARIES>();
   ASSERT_EQ(Binaries.size(), 1U);

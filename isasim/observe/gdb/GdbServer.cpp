@@ -94,7 +94,8 @@ public:
     const bool Steps = Stepping == &S.State;
     if (Steps && std::exchange(CallBegins, false))
       return;
-    if (!StopNext && !Steps && !Breakpoints.contains(S.Pc))
+    if (!StopNext && !Breakpoints.contains(S.Pc) &&
+        (!Steps || isSteppedLaneOff(S.LaneMask)))
       return;
     StopNext = false;
     std::string Why;
@@ -112,6 +113,7 @@ public:
             (C.Access->What == MemoryAccess::Load ? W.Reads : W.Writes)) {
           // gdb expects to be told behind the instruction.
           Stepping = &C.State;
+          Stepped = 0;
           WatchReason = fmt::format("{}:{:x};",
                                     !W.Reads    ? "watch"
                                     : !W.Writes ? "rwatch"
@@ -152,11 +154,18 @@ private:
     bool operator==(const Watchpoint &) const = default;
   };
 
+  /// Whether a step is not done yet, since its lane does not run on: it waits
+  /// for the other side of a branch, or for lanes that stay in a loop.
+  bool isSteppedLaneOff(uint32_t Active) const {
+    return Stepped && !StepsOver && !(Active >> Lanes.laneOf(Stepped) & 1);
+  }
+
   /// \p S is running.
   void stop(WarpState &S, uint32_t Mask, unsigned Reason,
             const std::string &More) {
     // Stay with the thread that the user looks at, if it is of this warp.
-    if (!Lanes.isActive(Current) || Lanes.warpOf(Current) != &S)
+    const bool IsOver = StepsOver && Stepping == &S && Current == Stepped;
+    if (!IsOver && (!Lanes.isActive(Current) || Lanes.warpOf(Current) != &S))
       Current =
           Lanes.threadOf(S, static_cast<unsigned>(std::countr_zero(Mask)));
     // Flags and rounding mode are the host's unit's as long as it runs.
@@ -210,8 +219,11 @@ private:
   void resume(ThreadId Step) {
     if (Lanes.warpOf(Step)) {
       Stepping = Lanes.warpOf(Step);
-      Current = Step;
+      Current = Stepped = Step;
+      const uint32_t Pc = Lanes.readRegister(Step, PcNumber).value_or(0);
+      StepsOver = Lifted.contains(Pc) && !Breakpoints.contains(Pc);
     }
+    Lifted.clear();
     Waiting = true;
     if (beginsCall())
       beginCall();
@@ -259,10 +271,15 @@ private:
   bool WasConnected = false, StopNext = false;
   bool Waiting = false; ///< gdb waits for the machine to stop
   const WarpState *Stepping = nullptr;
+  ThreadId Stepped = 0; ///< whose step it is; 0: any lane's of the warp
+  /// The step is over a breakpoint that is lifted for it: it ends behind one
+  /// instruction, so that the breakpoint is back for the lanes that run.
+  bool StepsOver = false;
   ThreadId Current = 1; ///< of the last stop, or the one that gdb chose
   unsigned StopSignal = SigTrap;
   std::string StopDetail, WatchReason;
   std::set<uint32_t> Breakpoints;
+  std::set<uint32_t> Lifted; ///< breakpoints, since the machine stopped
   std::vector<Watchpoint> Watched;
   unsigned Fetches = 0, ExitStatus = 0;
 };
@@ -361,8 +378,8 @@ void GdbServer::answerPoint(std::string_view Packet) {
   if (Kind == '0' || Kind == '1') {
     if (Sets)
       Breakpoints.insert(Address);
-    else
-      Breakpoints.erase(Address);
+    else if (Breakpoints.erase(Address) != 0)
+      Lifted.insert(Address);
     return reply(true);
   }
   if (Kind < '2' || Kind > '4')

@@ -96,7 +96,11 @@ Error unknownOption(const std::string &Option) {
                                     "-w",
                                     "-W",
                                     "-O0",
+                                    "-Ofast",
                                     "-Werror",
+                                    "-ffast-math",
+                                    "-save-temps",
+                                    "-v",
                                     "-Rpass=",
                                     "-Rpass-missed=",
                                     "-Rpass-analysis="};
@@ -125,6 +129,7 @@ Expected<std::string> includeOption(const std::string &Folder) {
 Expected<ClCommandLine>
 parseClCommandLine(const std::vector<std::string> &Arguments) {
   ClCommandLine Line;
+  bool KeepsBesideOutput = false;
   for (size_t I = 0; I < Arguments.size(); ++I) {
     const std::string &Argument = Arguments[I];
     if (!Argument.starts_with("-")) {
@@ -163,6 +168,16 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
       Line.BuildOptions += "-g ";
     } else if (Argument == "-O0") {
       Line.BuildOptions += "-cl-opt-disable ";
+    } else if (Argument == "-Ofast" || Argument == "-ffast-math") {
+      Line.BuildOptions += "-cl-fast-relaxed-math ";
+    } else if (Argument == "-v") {
+      Line.Verbose = true;
+    } else if (Argument == "-save-temps" || Argument == "-save-temps=cwd") {
+      Line.Temporaries = ".";
+    } else if (Argument == "-save-temps=obj") {
+      KeepsBesideOutput = true;
+    } else if (Argument.starts_with("-save-temps=")) {
+      return usageError(Argument + ": unknown place, expected cwd or obj");
     } else if (Argument == "-w" || Argument == "-Werror" ||
                OpenClOptions.contains(Argument)) {
       Line.BuildOptions += Argument + " ";
@@ -186,6 +201,8 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
     return usageError("no input, expected a .cl or .spv file");
   if (Line.Output.empty())
     Line.Output = Line.Inputs[0].filename().replace_extension(".elf");
+  if (KeepsBesideOutput)
+    Line.Temporaries = Line.Output.parent_path();
   return Line;
 }
 

@@ -4,6 +4,7 @@
 #include "vorion/support/Expected.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct ClCommandLine {
   /// -Rpass... for the machine's compiler, with blanks between.
   std::string Remarks;
   std::filesystem::path Output;
+  /// -v: the programs that are run are printed.
+  bool Verbose = false;
+  /// -save-temps: where each kernel's bitcode and object stay.
+  std::optional<std::filesystem::path> Temporaries;
 };
 
 /// Reads the arguments after the tool's name. An unknown option is a usage

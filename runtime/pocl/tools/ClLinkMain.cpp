@@ -57,6 +57,13 @@ constexpr std::string_view Usage =
     "  -O0                    variables stay where a debugger finds them\n"
     "  -O1 to -O3, -Os, -Oz   accepted; otherwise kernels are compiled with "
     "-O2\n"
+    "  -Ofast, -ffast-math    the same as -cl-fast-relaxed-math\n"
+    "  -v                     print the programs that are run\n"
+    "  -save-temps[=cwd|obj]  keep KERNEL.bc and KERNEL.o of each kernel, in "
+    "this folder\n"
+    "                         or beside the image; 'vorion-llc -mcpu=vorion' "
+    "compiles\n"
+    "                         the .bc, which has the loops over work-items\n"
     "  -Rpass=REGEX, -Rpass-missed=REGEX, -Rpass-analysis=REGEX\n"
     "                         what the compiler did, could not do, and why: "
     "'vorion' for\n"
@@ -144,6 +151,37 @@ std::string quoted(const std::string &Name) {
   return Text + "\"";
 }
 
+/// With -v, runs as runChild() does and says what.
+Ran runStep(const ClCommandLine &Line,
+            const std::vector<std::string> &Arguments) {
+  if (Line.Verbose) {
+    for (const std::string &Argument : Arguments)
+      std::cerr << ' ' << quoted(Argument);
+    std::cerr << '\n';
+  }
+  return runChild(Arguments);
+}
+
+/// -save-temps: copies what was made of \p Kernel into \p Folder.
+Expected<Success> keepTemporaries(const std::string &Kernel,
+                                  const fs::path &Object,
+                                  const fs::path &Folder) {
+  std::error_code Problem;
+  for (const auto &Made : fs::directory_iterator(Object.parent_path())) {
+    const fs::path Kind = Made.path().extension();
+    if (Kind != ".bc" && Kind != ".o")
+      continue;
+    const fs::path Copy = Folder / (Kernel + Kind.string());
+    fs::copy_file(Made.path(), Copy, fs::copy_options::overwrite_existing,
+                  Problem);
+    if (Problem)
+      return Error{Copy.string(),
+                   "cannot be written: " + Problem.message() +
+                       ", expected a place for what -save-temps keeps"};
+  }
+  return Success{};
+}
+
 /// Compiles one input with everything PoCL makes of it in \p Folder.
 Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
                            const fs::path &Root, const fs::path &Folder) {
@@ -174,7 +212,7 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
   if (isSpirv(Input))
     Arguments.emplace_back("-s");
   Arguments.push_back(Copy.string());
-  const Ran Compiler = runChild(Arguments);
+  const Ran Compiler = runStep(Line, Arguments);
   Expected<Built> Found = findBuilt(Cache);
   if (!Found)
     return Found;
@@ -215,6 +253,10 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   setenv("VORION_ROOT", Root.c_str(), 1);
   // The device's driver compiles kernels that nobody has started, too.
   setenv("VORION_COMPILE_ALL", "1", 1);
+  if (Line.Temporaries)
+    setenv("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", "1", 1);
+  if (Line.Verbose)
+    std::cerr << versionLine(Tool) << '\n';
   if (!Line.Remarks.empty())
     setenv("VORION_REMARKS", Line.Remarks.c_str(), 1);
 
@@ -242,12 +284,17 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
         return Error{Input, "kernel " + Kernel + " is also in " +
                                 Owner->second +
                                 ", expected kernels of different names"};
+      if (Line.Temporaries)
+        if (const auto Kept =
+                keepTemporaries(Kernel, Object, *Line.Temporaries);
+            !Kept)
+          return Kept.error();
       Link.push_back(Object);
     }
   }
   if (Failed)
     return *Failed;
-  if (const Ran Linker = runChild(Link); !Linker.Succeeded)
+  if (const Ran Linker = runStep(Line, Link); !Linker.Succeeded)
     return linkerError(Line.Output.string(), Linker.Output);
   return Success{};
 }

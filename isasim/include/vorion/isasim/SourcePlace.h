@@ -10,8 +10,11 @@ struct SourcePlace {
   unsigned Line = 0;
   /// The innermost function, inlined ones too; empty if not known.
   std::string Function;
+  /// The compiler gave the instruction no line, as where it made one of two:
+  /// this is the line of the nearest instruction before it that has one.
+  bool IsNear = false;
 
-  /// "file:line".
+  /// "file:line", or "near file:line".
   std::string text() const;
 };
 
