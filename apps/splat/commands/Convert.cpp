@@ -104,6 +104,9 @@ std::string jsonReport(Json Inputs, const SceneFile &F, std::size_t Read,
   Json LeftOut = Json::array();
   for (const SceneEdit &E : Edits)
     LeftOut.push_back({{"rule", E.Rule}, {"gaussians", E.Gaussians}});
+  Json Lost = Json::object();
+  for (const auto &[Name, Most] : byName(W.Lost))
+    Lost[std::string(Name)] = Most;
   Json Report = reportHead("splat-convert");
   Report.update(
       {{"scenes", std::move(Inputs)},
@@ -115,13 +118,7 @@ std::string jsonReport(Json Inputs, const SceneFile &F, std::size_t Read,
        {"antialiased", F.DrawnAs.Antialiased},
        {"dilation", F.DrawnAs.Dilation ? Json(*F.DrawnAs.Dilation) : Json()},
        {"keeps_drawing", W.KeepsDrawing},
-       {"lost",
-        {{"position", W.Lost.Position},
-         {"log_scale", W.Lost.LogScale},
-         {"rotation", W.Lost.Rotation},
-         {"opacity", W.Lost.Opacity},
-         {"color", W.Lost.Color},
-         {"harmonics", W.Lost.Harmonics}}},
+       {"lost", std::move(Lost)},
        {"result_fnv1a64", W.Hash}});
   return jsonText(Report, 2) + "\n";
 }

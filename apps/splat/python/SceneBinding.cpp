@@ -1,7 +1,10 @@
 #include "python/Arrays.h"
 #include "python/Bindings.h"
 
+#include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
+#include "scene/SceneWriter.h"
+#include "vorion/support/Outputs.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -18,6 +21,23 @@ SceneFile read(Words Given) {
   SceneArguments A;
   parse(std::move(Given), [&](CLI::App &App) { addSceneOptions(App, A); });
   return valueOf(loadScene(A));
+}
+
+/// What the file does not have of the scene, by name.
+py::dict write(const SceneFile &F, const std::string &Path) {
+  const auto Written = [&] {
+    const py::gil_scoped_release Released;
+    valueOf(checkEnding("path", Path, writtenEndings()));
+    valueOf(claimOutputs({{"path", Path}}));
+    valueOf(checkFinite("the scene", F.Gaussians));
+    return valueOf(writeScene(Path, F.Gaussians, F.DrawnAs));
+  }();
+  py::dict Lost;
+  for (const auto &[Name, Most] : byName(Written.Lost))
+    Lost[py::str(Name)] = Most;
+  Lost["sh_degree"] = F.Gaussians.ShDegree - Written.ShDegree;
+  Lost["drawing"] = !Written.KeepsDrawing;
+  return Lost;
 }
 
 /// Zeros for the package to fill in.
@@ -48,6 +68,7 @@ void addView(Class &C, const char *Name, std::vector<float> Scene::*Member,
 void addScene(py::module_ &M) {
   py::class_<SceneFile> C(M, "Scene");
   C.def_static("read", read);
+  C.def("write", write);
   C.def_static("sized", sized);
   addView(C, "means", &Scene::Means, 3);
   addView(C, "log_scales", &Scene::LogScales, 3);

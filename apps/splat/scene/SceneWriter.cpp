@@ -162,6 +162,13 @@ const std::vector<std::string_view> &writtenEndings() {
   return Endings;
 }
 
+std::vector<std::pair<std::string_view, double>>
+byName(const SceneDifference &D) {
+  return {{"position", D.Position}, {"log_scale", D.LogScale},
+          {"rotation", D.Rotation}, {"opacity", D.Opacity},
+          {"color", D.Color},       {"harmonics", D.Harmonics}};
+}
+
 SceneDifference differenceOf(const Scene &A, const Scene &B) {
   SceneDifference D;
   D.Position = largestDifference(A.Means, B.Means);

@@ -7,6 +7,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vorion::splat {
@@ -23,6 +24,10 @@ struct SceneDifference {
   double Color = 0;     ///< of constant coefficients
   double Harmonics = 0; ///< of the others
 };
+
+/// Its members, by the names that reports have: "position", "log_scale".
+std::vector<std::pair<std::string_view, double>>
+byName(const SceneDifference &D);
 
 /// Both have the same size and degree, in the same order.
 SceneDifference differenceOf(const Scene &A, const Scene &B);

@@ -41,6 +41,9 @@ bad = vorion.Scene.read("s.ply")
 bad.means[0, 1] = np.nan
 attempt(machine.render, bad, camera)
 attempt(vorion.Machine, set="dram.channels=1")
+attempt(bad.write, "bad.ply")
+attempt(scene.write, "s.obj")
+attempt(scene.write, "nowhere/s.ply")
 arrays = {"means": np.zeros((1, 3)), "quats": np.ones((1, 4)), "scales": np.ones((1, 3)), "opacities": np.ones(1),
           "colors": np.ones((1, 3))}
 attempt(vorion.Scene.from_activated, **{**arrays, "means": np.zeros((2, 3))})
@@ -55,6 +58,7 @@ attempt(machine.render, scene, vorion.Camera(16384, 16384, np.diag([16384, 16384
 attempt(machine.render, "s.ply", camera)
 attempt(machine.render, scene, [camera])
 attempt(machine.gradients, 3, camera, v_image)
+attempt(vorion.Camera, 64.5, 48, np.eye(3))
 attempt(vorion.Machine, set={"dram": 1})
 # An error leaves the machine as it was.
 print("again:", machine.render(scene, camera).report["counts"]["visible"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 
 import numpy as np
@@ -37,6 +38,10 @@ class Camera:
         if np.any(m[3] != (0, 0, 0, 1)):
             raise UsageError("world_to_camera: expected 0, 0, 0, 1 in the last row")
         rotation = m[:3, :3].T
+        try:
+            width, height = operator.index(width), operator.index(height)
+        except TypeError:
+            raise UsageError(f"a picture of {width}x{height} pixels, expected whole numbers") from None
         self._native = _machine.Camera(name, width, height, [k[0, 0], k[1, 1], k[0, 2], k[1, 2]], rotation.tolist(),
                                        (-rotation @ m[:3, 3]).tolist())
 

@@ -87,6 +87,16 @@ class Scene:
         scene._native = _machine.Scene.read(asked + ["--", os.fspath(path)])
         return scene
 
+    def write(self, path: str | os.PathLike) -> dict[str, float]:
+        """Writes the scene in the format of the path's ending, as splat convert does (docs/scenes.md).
+
+        .ply is INRIA's PLY, which keeps every bit. The whole file appears or none. Returns the largest differences
+        of what the file has: "position" (world units), "log_scale", "rotation" (of a unit quaternion's component),
+        "opacity" (0 to 1), "color" (of constant coefficients), "harmonics" (of the others); "sh_degree", the degrees
+        that it has less; and "drawing", whether it cannot say `antialiased` and `dilation`.
+        """
+        return self._native.write(os.fspath(path))
+
     def __len__(self) -> int:
         return self._native.size
 
