@@ -24,13 +24,22 @@ measure() { # the points of standard input
     parallel --halt now,fail=1 --jobs "$Jobs" splat "${Arguments[@]}" --only {}
     return
   fi
-  local List
-  List=$(mktemp -p .)
-  cat > "$List"
-  sbatch --wait --array="1-$(wc -l < "$List")%$Jobs" --output=/dev/null --export=ALL --wrap "$(
-    printf '%q ' splat "${Arguments[@]}" --only
-  ) \"\$(sed -n \"\${SLURM_ARRAY_TASK_ID}p\" $(printf %q "$List"))\""
-  rm "$List"
+  local Folder Failed=0 List Log
+  Folder=$(mktemp -d -p . sweep.XXXXXX)
+  # A Slurm that was not told otherwise takes arrays of 1,000 jobs.
+  split --lines=1000 - "$Folder/list."
+  for List in "$Folder"/list.*; do
+    Log=$(printf %q "$List.log.")\$SLURM_ARRAY_TASK_ID
+    sbatch --quiet --wait --array="1-$(wc -l < "$List")%$Jobs" --output=/dev/null --export=ALL --wrap "$(
+      printf '%q ' splat "${Arguments[@]}" --only
+    ) \"\$(sed -n \"\${SLURM_ARRAY_TASK_ID}p\" $(printf %q "$List"))\" > $Log 2>&1 && rm $Log" || Failed=1
+  done
+  if [ "$Failed" = 1 ]; then # what jobs said that failed
+    cat "$Folder"/*.log.* >&2 || true
+    echo "sweep.sh: error: not all jobs ended well, expected a Slurm whose nodes see this folder; the same command goes on" >&2
+    exit 1
+  fi
+  rm -r "$Folder"
 }
 
 Arguments=("$@")

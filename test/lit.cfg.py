@@ -69,6 +69,7 @@ features["mpirun"] = shutil.which("mpirun") or "mpirun"
 features["verilator"] = shutil.which("verilator") or "verilator"
 features["yosys"] = shutil.which("yosys") or "yosys"
 features["valgrind"] = shutil.which("valgrind") or "valgrind"
+features["slurm"] = shutil.which("slurmctld", path=os.environ["PATH"] + ":/usr/sbin") or "slurmctld"
 features["parallel"] = shutil.which("parallel") or "parallel"
 if platform.machine() == "x86_64":
     config.available_features.add("x86-host")
