@@ -4,6 +4,7 @@
 #include "observe/CycleProfile.h"
 #include "observe/ProfileJson.h"
 #include "observe/Tool.h"
+#include "timing/LinesOfAccess.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
 
@@ -20,20 +21,6 @@ namespace {
 constexpr std::string_view Heading =
     "       warp      %  lanes    splits  diverg.  accesses  lines/a.\n";
 
-/// Pieces of memory of this many bytes that the active lanes touch.
-unsigned piecesTouched(const MemoryAccess &A, uint32_t Mask) {
-  constexpr unsigned Shift = 6;
-  std::array<uint32_t, 16> Seen{};
-  unsigned Count = 0;
-  for (uint32_t Left = Mask; Left; Left &= Left - 1) {
-    const uint32_t Piece = A.Addresses[std::countr_zero(Left)] >> Shift;
-    if (std::find(Seen.begin(), Seen.begin() + Count, Piece) ==
-        Seen.begin() + Count)
-      Seen[Count++] = Piece;
-  }
-  return Count;
-}
-
 } // namespace
 
 Profile::Cost &Profile::Cost::operator+=(const Cost &Other) {
@@ -46,6 +33,16 @@ Profile::Cost &Profile::Cost::operator+=(const Cost &Other) {
   return *this;
 }
 
+/// As the load/store unit of this machine takes them.
+unsigned Profile::linesOf(const Commit &C) const {
+  const uint32_t *Addresses = C.Access->Addresses.data();
+  const uint32_t First = Addresses[std::countr_zero(C.LaneMask)];
+  if (C.State.Mem->Local.holds(First, C.Access->Bytes))
+    return 0;
+  std::array<uint32_t, MaxLanes> Lines;
+  return linesOfAccess(C.State, Addresses, InterleavedStacks, Lines.data());
+}
+
 void Profile::commit(const Commit &C) {
   Cost &At = Places.at(C.Pc);
   ++At.Warp;
@@ -56,7 +53,7 @@ void Profile::commit(const Commit &C) {
   At.Divergent += C.Diverged;
   if (C.Access) {
     ++At.Accesses;
-    At.Lines += piecesTouched(*C.Access, C.LaneMask);
+    At.Lines += linesOf(C);
   }
 }
 
@@ -80,12 +77,13 @@ std::string Profile::row(const Cost &C, uint64_t Total) {
 
 std::string Profile::report() const {
   const Cost All = Places.total();
-  std::string Text = "# vorion-profile 1\n"
-                     "# warp: warp instructions; lanes: active on average; "
-                     "splits: vx_split, vx_pred;\n"
-                     "# diverg.: those that divided the lanes; accesses: "
-                     "loads, stores, atomics;\n"
-                     "# lines/a.: 64-byte pieces each touched\n\n";
+  std::string Text =
+      "# vorion-profile 1\n"
+      "# warp: warp instructions; lanes: active on average; "
+      "splits: vx_split, vx_pred;\n"
+      "# diverg.: those that divided the lanes; accesses: "
+      "loads, stores, atomics;\n"
+      "# lines/a.: 64-byte lines of memory that each asked for\n\n";
   Text += fmt::format("{}{}total\n", Heading, row(All, All.Warp));
   return Text + Places.listing(std::string(Heading),
                                [&](const Cost &C) { return row(C, All.Warp); });

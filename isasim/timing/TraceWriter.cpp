@@ -1,5 +1,6 @@
 #include "timing/TraceWriter.h"
 
+#include "timing/LinesOfAccess.h"
 #include "vorion/isasim/Timing.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ namespace {
 /// Words of the longest record.
 constexpr size_t LongestRecord = 2 + MaxLanes;
 constexpr size_t FirstRuns = 4096, FirstWords = 4096;
-constexpr uint32_t LineMask = ~(TimingLineBytes - 1);
 /// See timing.core.local_banks.
 constexpr uint32_t MostLocalBanks = 64;
 
@@ -23,53 +23,6 @@ TraceBuffer &bufferOf(WarpState *S) {
 }
 
 uint32_t put(AccessWord A) { return std::bit_cast<uint32_t>(A); }
-
-/// Appends \p Line to Lines[0 .. Count) if it is not there yet.
-void addDistinct(uint32_t *Lines, unsigned &Count, uint32_t Line) {
-  for (unsigned N = Count; N != 0; --N)
-    if (Lines[N - 1] == Line)
-      return;
-  Lines[Count++] = Line;
-}
-
-/// Whether a guest address lies where the stacks are interleaved.
-bool isInterleaved(const WarpState *S, uint32_t Address) {
-  return S->Trace->InterleavedStacks && S->Mem->Stack.holds(Address, 1);
-}
-
-/// Where the line of a guest address lies in memory.
-uint32_t lineOf(const WarpState *S, uint32_t Address) {
-  const MemoryView &M = *S->Mem;
-  if (isInterleaved(S, Address))
-    Address = M.Stack.Lo + M.stackOffset(Address);
-  return Address & LineMask;
-}
-
-/// The bits that are set in any active lane.
-uint32_t bitsOfAny(const WarpState *S, LaneWords Words) {
-  Words &= S->MaskWords;
-  uint32_t Any = 0;
-  for (unsigned L = 0; L != MaxLanes; ++L)
-    Any |= Words[L];
-  return Any;
-}
-
-/// Whether all active lanes share a line, which most accesses do; \p First is
-/// the address of one of them. It may say no where they do.
-bool isOneLine(const WarpState *S, const uint32_t *Addresses, uint32_t First) {
-  LaneWords Where;
-  std::memcpy(&Where, Addresses, sizeof(Where));
-  if (isInterleaved(S, First)) {
-    const MemoryView &M = *S->Mem;
-    const LaneWords Outside =
-        std::bit_cast<LaneWords>(Where - M.Stack.Lo >= M.Stack.Bytes);
-    if (bitsOfAny(S, Outside))
-      return false;
-    Where = M.stackOffset(Where);
-    First = M.stackOffset(First);
-  }
-  return !(bitsOfAny(S, Where ^ First) & LineMask);
-}
 
 /// The most distinct words that one bank has to give to the active lanes.
 unsigned bankConflicts(const WarpState *S, const uint32_t *Addresses) {
@@ -202,20 +155,8 @@ void traceAccess(WarpState *S, const uint32_t *Addresses, unsigned Bytes,
     return;
   }
   uint32_t *Lines = T.WordAt + 1;
-  unsigned Count = 0;
-  if (isOneLine(S, Addresses, First)) {
-    Lines[Count++] = lineOf(S, First);
-  } else {
-    // Neighbouring lanes mostly share a line.
-    uint32_t Last = ~lineOf(S, First);
-    for (uint32_t Left = S->Mask; Left; Left &= Left - 1) {
-      const uint32_t Line = lineOf(S, Addresses[std::countr_zero(Left)]);
-      if (Line == Last)
-        continue;
-      Last = Line;
-      addDistinct(Lines, Count, Line);
-    }
-  }
+  const unsigned Count =
+      linesOfAccess(*S, Addresses, T.InterleavedStacks, Lines);
   static_assert(MaxLanes * 4 == TimingLineBytes);
   const bool Whole =
       IsStore && S->Full && Bytes == 4 && Count == 1 && isAscending(Addresses);
