@@ -149,6 +149,7 @@ TimeReport Clock::end() {
   const uint64_t End = Memory.endRun(coresQuietAt());
   Horizon = End;
   takeAll();
+  Memory.idleUntil(End);
   TimeReport R;
   R.Cycles = End - Begun;
   R.ClockMhz = Timing.ClockMhz;

@@ -138,6 +138,18 @@ TEST_F(ClockTest, AFenceWaitsForWhatIsInFlight) {
   EXPECT_GT(of(run(Body), CoreCycle::Fence), Settings.Timing.L2.HitCycles);
 }
 
+TEST_F(ClockTest, RefreshesOfDramThatNobodyAsksAreCounted) {
+  // 102,400 rounds that access no memory.
+  const TimeReport R = run({lui(10, 0x19000), addi(10, 10, -1),
+                            encode(Op::RV_BNE, {.Rs1 = 10, .Imm = -4})});
+  const dram::TimingTable T = setUpDram(Settings.Timing.Dram)->Table;
+  const double Ps = 1e6 * static_cast<double>(R.Cycles) / R.ClockMhz;
+  EXPECT_NEAR(static_cast<double>(activity(R, "dram", "refreshes")),
+              Settings.Timing.Dram.Channels * Ps / T.TickPs / T.RefreshInterval,
+              Settings.Timing.Dram.Channels);
+  EXPECT_EQ(activity(R, "dram", "activations"), 0U);
+}
+
 TEST_F(ClockTest, DramTimeDoesNotScaleWithTheClock) {
   // A miss in an otherwise empty program.
   const Words Body = {lw(10, 0, 7), addi(10, 10, 0)};

@@ -82,19 +82,24 @@ void DramChannels::watch(const MemoryWatch *Observers) {
     C.Control.record(Watch ? &C.Log : nullptr);
 }
 
-void DramChannels::tellCommands(unsigned Number) {
-  std::vector<dram::Issued> &Log = Channels[Number].Log;
-  for (const dram::Issued &I : Log) {
-    CycleSpan Data;
-    if (I.What == dram::Command::Read || I.What == dram::Command::Write) {
-      const uint64_t First =
-          I.At + (I.What == dram::Command::Read ? Setup.Table.ReadLatency
-                                                : Setup.Table.WriteLatency);
-      Data = {cycleOf(First), cycleOf(First + Setup.Table.BurstTicks)};
+/// What has been issued since the last time.
+void DramChannels::tellCommands() {
+  if (!Watch)
+    return;
+  for (unsigned Number = 0; Number != Channels.size(); ++Number) {
+    std::vector<dram::Issued> &Log = Channels[Number].Log;
+    for (const dram::Issued &I : Log) {
+      CycleSpan Data;
+      if (I.What == dram::Command::Read || I.What == dram::Command::Write) {
+        const uint64_t First =
+            I.At + (I.What == dram::Command::Read ? Setup.Table.ReadLatency
+                                                  : Setup.Table.WriteLatency);
+        Data = {cycleOf(First), cycleOf(First + Setup.Table.BurstTicks)};
+      }
+      Watch->dramCommand(Number, I, Data);
     }
-    Watch->dramCommand(Number, I, Data);
+    Log.clear();
   }
-  Log.clear();
 }
 
 uint64_t DramChannels::cycleOf(uint64_t Ticks) const {
@@ -151,9 +156,7 @@ void DramChannels::advance(uint64_t Until, std::vector<Fill> &Fills) {
       }
     std::erase_if(Replies, [](const dram::Reply &R) { return R.IsWrite; });
   }
-  if (Watch)
-    for (unsigned N = 0; N != Channels.size(); ++N)
-      tellCommands(N);
+  tellCommands();
   NextEvent = First == dram::Never ? Turn::Never : cycleOf(First);
   std::ranges::sort(Replies, {}, [](const dram::Reply &R) {
     return std::pair(R.Decided, R.Id);
@@ -161,6 +164,16 @@ void DramChannels::advance(uint64_t Until, std::vector<Fill> &Fills) {
   for (const dram::Reply &R : Replies)
     Fills.push_back({static_cast<uint32_t>(R.Id % (uint64_t{1} << MissBits)),
                      cycleOf(R.Done + BackTicks)});
+}
+
+void DramChannels::idleUntil(uint64_t Until) {
+  AdvancedTo = std::max(AdvancedTo, tickOf(Until));
+  Replies.clear();
+  for (Channel &C : Channels)
+    if (C.NextEvent == dram::Never)
+      C.Control.advance(AdvancedTo, Replies);
+  assert(Replies.empty() && "an idle channel has no requests");
+  tellCommands();
 }
 
 DramTime DramChannels::time() const {

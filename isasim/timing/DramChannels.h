@@ -43,6 +43,11 @@ public:
   /// Goes on until lines come or to the end of cycle \p Until. Appends what
   /// has been decided, in the order of decisions.
   void advance(uint64_t Until, std::vector<Fill> &Fills);
+  /// Channels that nobody asks for anything are refreshed to the end of cycle
+  /// \p Until, so that time() has what was due by then. What is asked from now
+  /// on comes in later cycles; whether this was called makes no difference to
+  /// it.
+  void idleUntil(uint64_t Until);
 
   uint32_t burstBytes() const { return Setup.Table.BurstBytes; }
   /// \p Observers are told from now on; null for nobody.
@@ -57,7 +62,7 @@ private:
     uint64_t NextEvent = dram::Never; ///< a tick
     std::vector<dram::Issued> Log;    ///< that nobody has been told of
   };
-  void tellCommands(unsigned Channel);
+  void tellCommands();
   void submit(uint64_t Now, uint32_t Address, uint64_t Miss, bool IsWrite);
   /// The first cycle that does not begin before \p Tick, and the last tick
   /// that does not begin after \p Cycle.

@@ -12,13 +12,13 @@ namespace {
 using Fills = std::vector<DramChannels::Fill>;
 
 /// Lines of which no two are neighbours, some written, with their times.
-void ask(DramChannels &D, unsigned Count) {
+void ask(DramChannels &D, unsigned Count, uint64_t Begin = 0) {
   for (uint32_t N = 0; N != Count; ++N) {
     const uint32_t Address = N * 7919 % 4096 * TimingLineBytes;
     if (N % 3 == 0)
-      D.writeBack(2 * N, Address);
+      D.writeBack(Begin + 2 * N, Address);
     else
-      EXPECT_EQ(D.fetch(2 * N, Address, false, N), std::nullopt);
+      EXPECT_EQ(D.fetch(Begin + 2 * N, Address, false, N), std::nullopt);
   }
 }
 
@@ -97,6 +97,46 @@ TEST(DramChannels, StepsDoNotMatter) {
     EXPECT_EQ(D.time().RowHits, Whole.time().RowHits);
     EXPECT_EQ(D.time().Refreshes, Whole.time().Refreshes);
   }
+}
+
+// Counters are taken at the end of runs that may not have used DRAM at all.
+TEST(DramChannels, RefreshesWithoutRequestsAreCounted) {
+  TimingConfig P;
+  DramChannels D(P.Dram, P.ClockMhz);
+  const dram::TimingTable T = setUpDram(P.Dram)->Table;
+  const uint64_t Interval = uint64_t{T.RefreshInterval} * T.TickPs;
+  // When none is under way.
+  const auto MiddleAfter = [&](uint64_t Refreshes) {
+    return (Refreshes * Interval + Interval / 2) * P.ClockMhz / 1000000;
+  };
+  D.idleUntil(MiddleAfter(100));
+  EXPECT_EQ(D.time().Refreshes, uint64_t{100} * P.Dram.Channels);
+  D.clearCounters();
+  D.idleUntil(MiddleAfter(107));
+  EXPECT_EQ(D.time().Refreshes, uint64_t{7} * P.Dram.Channels);
+}
+
+TEST(DramChannels, CountingRefreshesChangesNoTime) {
+  for (const uint32_t Mhz : {100U, 530U, 5000U})
+    for (const uint64_t Pause : {1U, 1000U, 4133U, 100000U}) {
+      TimingConfig P;
+      P.ClockMhz = Mhz;
+      DramChannels Counted(P.Dram, Mhz), Lazy(P.Dram, Mhz);
+      for (DramChannels *D : {&Counted, &Lazy}) {
+        ask(*D, 100);
+        const uint64_t End = lastOf(finish(*D)) + Pause;
+        if (D == &Counted)
+          for (uint64_t At = End - Pause; At <= End; At += Pause / 7 + 1)
+            D->idleUntil(At);
+        ask(*D, 1000, End);
+      }
+      const Fills All = finish(Counted), Expected = finish(Lazy);
+      ASSERT_EQ(All.size(), Expected.size());
+      for (size_t N = 0; N != All.size(); ++N)
+        ASSERT_EQ(All[N].At, Expected[N].At) << Mhz << ' ' << Pause;
+      EXPECT_EQ(Counted.time().Refreshes, Lazy.time().Refreshes);
+      EXPECT_EQ(Counted.time().RowHits, Lazy.time().RowHits);
+    }
 }
 
 // Whoever waits for a line knows it before the line is there, so that what it

@@ -102,6 +102,11 @@ uint64_t MemorySystem::endRun(uint64_t Now) {
   return HasLink ? Link.toChip(End) : End;
 }
 
+void MemorySystem::idleUntil(uint64_t End) {
+  if (!Fixed.exists())
+    Ram.idleUntil(HasLink ? Link.lastInL2(End) : End);
+}
+
 void MemorySystem::watch(const TimeWatch *Observers) {
   Watch.reset();
   if (Observers)

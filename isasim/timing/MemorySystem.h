@@ -44,6 +44,9 @@ public:
   /// The end of a run at \p Now: slices of several clusters do not watch each
   /// other, so they hand on what they hold. Returns when that is done.
   uint64_t endRun(uint64_t Now);
+  /// Then, with \p End what the whole run has come to: DRAM that is not asked
+  /// for anything is refreshed until then.
+  void idleUntil(uint64_t End);
 
   /// \p Observers are told from now on; null for nobody.
   void watch(const TimeWatch *Observers);
