@@ -8,9 +8,6 @@
 
 namespace vorion::isasim {
 
-namespace {
-
-/// The access that \p D makes, without its addresses; false for none.
 bool describeAccess(const Decoded &D, MemoryAccess &A) {
   switch (D.Opcode) {
 #define LOAD(OP, T)                                                            \
@@ -36,8 +33,6 @@ bool describeAccess(const Decoded &D, MemoryAccess &A) {
     return false;
   }
 }
-
-} // namespace
 
 void Watch::prepare(const CodeTable &Code, unsigned WarpsPerCoreIn,
                     unsigned Cores) {

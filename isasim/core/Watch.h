@@ -10,6 +10,9 @@
 
 namespace vorion::isasim {
 
+/// The access that \p D makes, without its addresses; false for none.
+bool describeAccess(const Decoded &D, MemoryAccess &A);
+
 /// Threads: all cores that share it run on one.
 class Watch {
 public:

@@ -13,8 +13,10 @@
 #include "mem/Memory.h"
 #include "timing/Clock.h"
 #include "vorion/isasim/Observer.h"
+#include "vorion/isasim/TrapCause.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <chrono>
@@ -403,11 +405,35 @@ bool Machine::Impl::decideEnd(RunResult &R) {
   return false;
 }
 
+static bool isOfAccess(uint32_t Cause) {
+  constexpr std::array Causes = {
+      TrapCause::LoadFault, TrapCause::MisalignedLoad, TrapCause::StoreFault,
+      TrapCause::MisalignedStore, TrapCause::StackOverflow};
+  return std::ranges::find(Causes, static_cast<TrapCause>(Cause)) !=
+         Causes.end();
+}
+
+/// The counters of a warp. Loads, stores and atomics count when they begin; one
+/// that trapped was not executed, and does not count, as other instructions.
+static CoreCounters countersOf(const WarpState &S) {
+  CoreCounters Counted = S.Count;
+  if (S.Why != Stop::Trapped || !isOfAccess(S.FaultCause))
+    return Counted;
+  MemoryAccess Access;
+  const std::optional<Decoded> D = decode(S.Next->Word);
+  if (!D || !describeAccess(*D, Access))
+    return Counted;
+  --(Access.What == MemoryAccess::Load    ? Counted.Loads
+     : Access.What == MemoryAccess::Store ? Counted.Stores
+                                          : Counted.Atomics);
+  return Counted;
+}
+
 void Machine::Impl::count(RunResult &R) const {
   for (const auto &C : Cores) {
     CoreCounters Sum;
     for (const WarpState &S : C->warps())
-      Sum += S.Count;
+      Sum += countersOf(S);
     R.Total += Sum;
     R.Cores.push_back(Sum);
     if (C->ExitCode && R.ExitCode == 0)

@@ -304,6 +304,32 @@ TEST(Machine, TrapNamesPlaceAndLane) {
                       "  active lanes 0xffff\n");
 }
 
+TEST(Machine, AnAccessThatTrapsIsNotCounted) {
+  const std::vector<uint32_t> Before = {lui(8, VX_GLOBAL_BASE), sw(0, 0, 8),
+                                        lw(7, 0, 8)};
+  const auto Ends = [&](uint32_t Last) {
+    std::vector<uint32_t> Words = Before;
+    Words.push_back(Last);
+    Config C = small();
+    C.SocketsPerCluster = C.CoresPerSocket = 1;
+    C.Timing.Enabled = true;
+    const RunResult R = make(C, Words)->run();
+    EXPECT_EQ(R.End, Outcome::Trap);
+    EXPECT_EQ(R.Total.Loads, 1U);
+    EXPECT_EQ(R.Total.Stores, 1U);
+    EXPECT_EQ(R.Total.Atomics, 0U);
+    for (const Activity &A : R.Time->Activities)
+      if (A.Unit == "core warp instructions" &&
+          (A.Event == "load" || A.Event == "store"))
+        EXPECT_EQ(A.Count, 1U) << A.Event;
+  };
+  Ends(lw(7, 0, 0));
+  Ends(lw(7, 1, 8));
+  Ends(sw(7, 0, 0));
+  Ends(sw(7, 2, 8));
+  Ends(encode(Op::RV_AMOADD_W, {.Rd = 7, .Rs1 = 0, .Rs2 = 7}));
+}
+
 TEST(Machine, RunsAgainAfterATrap) {
   const auto M = make(small(), {lw(7, 0, 0)});
   EXPECT_EQ(M->run().End, Outcome::Trap);

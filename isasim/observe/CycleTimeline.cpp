@@ -170,10 +170,11 @@ void CycleTimeline::writeShare(Row &R) {
   for (size_t N = 0; N != Windows; ++N) {
     const uint64_t Length = beginOf(N + 1) - beginOf(N);
     // What it began in this window may go on beyond the run.
-    const uint64_t Share =
-        100 * std::min<uint64_t>(R.Cycles[N], Length) / Length;
+    const uint64_t Busy = std::min<uint64_t>(R.Cycles[N], Length);
+    const uint64_t Share = (1000 * Busy + Length / 2) / Length;
     if (Share != R.Shown)
-      Out.counter(R.Process, R.Name, beginOf(N), Share);
+      Out.counter(R.Process, R.Name, beginOf(N),
+                  static_cast<double>(Share) / 10);
     R.Shown = Share;
   }
 }
@@ -209,7 +210,8 @@ void CycleTimeline::writePower(const TimeReport &Time) {
                            (1e6 * Time.ClockMhz);
     const auto Milliwatts = static_cast<uint64_t>(1e3 * Spent[N] / Seconds);
     if (Milliwatts != ShownPower)
-      Out.counter(OfPower, "chip, mW", beginOf(N), Milliwatts);
+      Out.counter(OfPower, "chip, mW", beginOf(N),
+                  static_cast<double>(Milliwatts));
     ShownPower = Milliwatts;
   }
 }

@@ -55,7 +55,8 @@ private:
     size_t Reasons;
     std::function<std::string_view(size_t)> NameOf;
     std::vector<uint32_t> Cycles; ///< by window and reason
-    uint64_t Shown = 0;           ///< of a bank or channel: the last figure
+    /// Of a bank or channel: the last figure, in tenths of a per cent.
+    uint64_t Shown = 0;
   };
   template <typename Reason>
   void addUnits(std::vector<Row> &To, unsigned Process, const char *Of,

@@ -127,17 +127,18 @@ TEST_F(CycleTimelineTest, ABankHasAFigureThatIsToldWhenItChanges) {
   Times->timeBegins(0);
   Times->bankBusy({.Bank = 1}, {0, 8});
   Times->bankBusy({.Bank = 1}, {16, 24});
+  Times->bankBusy({.Bank = 1}, {32, 33}); // 6.25 %
   Times->bankBusy({.Bank = 1}, {60, 70}); // beyond the run
   Times->timeEnds(64);
   Times->runEnded("");
-  std::vector<std::pair<uint64_t, uint64_t>> Told;
+  std::vector<std::pair<uint64_t, double>> Told;
   for (const Json &E : events())
     if (E["ph"] == "C") {
       EXPECT_EQ(E["name"], "slice 0 bank 1, % busy");
       Told.emplace_back(E["ts"], E["args"]["value"]);
     }
-  EXPECT_EQ(Told, (std::vector<std::pair<uint64_t, uint64_t>>{
-                      {0, 50}, {32, 0}, {48, 25}}));
+  EXPECT_EQ(Told, (std::vector<std::pair<uint64_t, double>>{
+                      {0, 50}, {32, 6.3}, {48, 25}}));
 }
 
 TEST_F(CycleTimelineTest, PowerFollowsTheWorkAndAddsUpToTheEnergy) {

@@ -70,7 +70,7 @@ private:
 
   GrowingFile File;
   std::string OnMachine; ///< its name
-  uint64_t Run = 0;
+  uint64_t Run = 1;      ///< the one that goes on
 };
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,

@@ -50,7 +50,7 @@ void TraceEvents::slice(unsigned Process, unsigned Thread,
 }
 
 void TraceEvents::counter(unsigned Process, std::string_view Name,
-                          uint64_t From, uint64_t Value) {
+                          uint64_t From, double Value) {
   event(fmt::format("{{\"ph\": \"C\", \"name\": {}, \"pid\": {}, \"ts\": {}, "
                     "\"args\": {{\"value\": {}}}}}",
                     jsonName(Name), Process, From, Value));

@@ -25,7 +25,7 @@ public:
              uint64_t From, uint64_t To, std::string_view Args = {});
   /// A figure that is \p Value from \p From on, until it is told again.
   void counter(unsigned Process, std::string_view Name, uint64_t From,
-               uint64_t Value);
+               double Value);
 
   /// Everything so far is a complete file; what follows writes over its end.
   void complete();

@@ -186,11 +186,12 @@ std::string toText(const TimeReport &R) {
     Text += line(R.L2.size() == 1 ? "l2" : fmt::format("l2 {}", N), R.L2[N]);
   Text += line("llc", R.Llc);
   const uint64_t Rows = R.Dram.RowHits + R.Dram.RowMisses + R.Dram.RowConflicts;
-  Text += fmt::format("{:<12} {} read and {} write bursts, {:.1f} % row hits\n",
-                      "dram", R.Dram.Reads, R.Dram.Writes,
-                      Rows ? 100.0 * static_cast<double>(R.Dram.RowHits) /
-                                 static_cast<double>(Rows)
-                           : 0.0);
+  Text += fmt::format(
+      "{:<12} {} read and {} write bursts, row hits of {:.1f} % of lines\n",
+      "dram", R.Dram.Reads, R.Dram.Writes,
+      Rows ? 100.0 * static_cast<double>(R.Dram.RowHits) /
+                 static_cast<double>(Rows)
+           : 0.0);
   if (R.StaleLoads)
     Text += fmt::format(
         "stale        {} loads hit lines of data caches that others had "

@@ -126,8 +126,8 @@ bool parseInstruction(StringRef Text, Line &L) {
   return true;
 }
 
-/// "80000010 <name>:" begins a function.
-bool isFunction(StringRef Text) {
+/// "80000010 <name>:".
+bool isLabel(StringRef Text) {
   uint64_t Address = 0;
   return Text.ends_with(">:") && !Text.consumeInteger(16, Address) &&
          Text.starts_with(" <");
@@ -138,7 +138,9 @@ Line parseLine(StringRef Text) {
   std::ranges::replace(L.Text, '\t', ' ');
   if (Text.contains(":\tfile format "))
     L.What = Line::Kind::File;
-  else if (isFunction(Text))
+  else if (isLabel(Text) && Text.contains(" <.L"))
+    L.Text.clear(); // the assembler's own, inside of a function
+  else if (isLabel(Text))
     L.What = Line::Kind::Function;
   else
     parseInstruction(Text, L);

@@ -11,6 +11,7 @@ assert "time" not in off["runs"][0]
 assert sorted(t["core"] for t in tiles) == list(range(8))
 assert {t["machine"] for t in tiles} == {"prototype"}
 for t in tiles:
+    assert t["run"] == 1, t
     assert (t["unit"], t["width"], t["height"], t["list"], t["gaussians"], t["blends"]) == ("rasterizer", 8, 8, 1, 1, 64), t
     assert t["saturated"] == t["status"] == 0
     assert t["begin"] < t["end"] <= time["cycles"], t
