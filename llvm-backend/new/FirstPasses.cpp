@@ -1,5 +1,6 @@
 //===- FirstPasses.cpp - what the optimiser is told -----------------------===//
 
+#include "KeptLines.h"
 #include "PassLoops.h"
 #include "RISCVSubtarget.h"
 #include "RISCVTargetMachine.h"
@@ -38,6 +39,7 @@ void vorion::registerFirstPasses(PassBuilder &PB,
       [&TM](ModulePassManager &Passes, OptimizationLevel) {
         Passes.addPass(ShareOurVariables(TM));
       });
+  registerKeptLines(PB);
   // Loops have their final form, and the unroller runs soon after.
   PB.registerVectorizerStartEPCallback(
       [](FunctionPassManager &Passes, OptimizationLevel) {
