@@ -15,9 +15,9 @@ const Kernel *Image::findKernel(std::string_view KernelName) const {
   return Found == Kernels.end() ? nullptr : &*Found;
 }
 
-Expected<Success> Image::checkLanes(uint32_t Lanes) const {
+Expected<Success> Image::checkLanes(uint32_t Lanes, std::string_view Of) const {
   for (const Kernel &K : Kernels)
-    if (K.Lanes != 0 && K.Lanes != Lanes)
+    if (K.Lanes != 0 && K.Lanes != Lanes && (Of.empty() || K.Name == Of))
       return Error{Name,
                    fmt::format("kernel '{}' was compiled for warps of {} "
                                "lanes, expected {} as the machine has (the "

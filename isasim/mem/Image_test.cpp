@@ -115,6 +115,8 @@ TEST(Image, KnowsForHowManyLanesItIs) {
                                 "lanes, expected 16 as the machine has (the "
                                 "compiler takes VORION_SET and VORION_CONFIG, "
                                 "too)");
+  EXPECT_FALSE((*I)->checkLanes(16, "add"));
+  EXPECT_TRUE((*I)->checkLanes(16, "another"));
   O.Segments[1].Words[10] = 0;
   const auto Any = Image::parse(buildElf(O), "x.elf");
   ASSERT_TRUE(Any) << Any.error().What;

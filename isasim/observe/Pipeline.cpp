@@ -3,6 +3,7 @@
 
 #include "mem/SourceLines.h"
 #include "observe/CodeText.h"
+#include "observe/SettingsOnce.h"
 #include "observe/Tool.h"
 #include "timing/TimeObserver.h"
 #include "vorion/isasim/Machine.h"
@@ -59,8 +60,11 @@ Expected<PipelineOptions> PipelineOptions::parse(std::string_view Text) {
                              Setting, MostCount),
                  ExitCode::Usage};
   };
+  SettingsOnce Given;
   for (;;) {
     const std::string_view Setting = Text.substr(0, Text.find(','));
+    if (!Given.isNew(Setting))
+      return SettingsOnce::twice("pipeline", Setting);
     const size_t Equal = std::min(Setting.find('='), Setting.size());
     if (!O.set(Setting.substr(0, Equal),
                Setting.substr(std::min(Equal + 1, Setting.size()))))
@@ -80,8 +84,10 @@ public:
   std::vector<TimeObserver *> timeObservers() override { return {this}; }
   Expected<Success> attach(Machine &M) override;
   Expected<Success> runEnded(const std::string &, const RunResult &) override {
+    HasRun = true;
     return writeFileAtomically(Options.File, log());
   }
+  Expected<Success> finished() const override;
 
   void timeBegins(uint64_t) override;
   void coreSpent(const CoreSpent &S) override;
@@ -105,6 +111,7 @@ private:
   std::shared_ptr<const Image> Program;
   std::unique_ptr<SourceLines> Source;
   uint32_t Low = 0;
+  bool HasRun = false;
   uint64_t Issued = 0;           ///< by the core, in all runs
   std::vector<CoreSpent> Stages; ///< of what has not issued
   std::vector<Instruction> Instructions;
@@ -120,6 +127,16 @@ Expected<Success> PipelineTool::attach(Machine &M) {
                              Options.Core, Cores, Cores - 1),
                  ExitCode::Usage};
   return Success{};
+}
+
+Expected<Success> PipelineTool::finished() const {
+  if (!HasRun || !Instructions.empty())
+    return Success{};
+  return Error{"",
+               fmt::format("pipeline: first={} never came, core {} issued {} "
+                           "instructions with the clock on",
+                           Options.First, Options.Core, Issued),
+               ExitCode::Usage};
 }
 
 void PipelineTool::timeBegins(uint64_t) {

@@ -1,6 +1,7 @@
 /// `--region`: which launches the clock is on for, and a file of them
 /// (docs/regions.md).
 
+#include "observe/SettingsOnce.h"
 #include "observe/Tool.h"
 #include "region/RegionFile.h"
 #include "vorion/isasim/Machine.h"
@@ -48,6 +49,10 @@ struct RegionOptions {
 
 private:
   bool set(std::string_view Name, std::string_view Value);
+  /// Whether `to` is known to come no later than `from`.
+  bool isEmpty() const {
+    return To && To->Kernel == From.Kernel && To->Number <= From.Number;
+  }
 };
 
 bool RegionOptions::set(std::string_view Name, std::string_view Value) {
@@ -65,10 +70,13 @@ bool RegionOptions::set(std::string_view Name, std::string_view Value) {
 
 Expected<RegionOptions> RegionOptions::parse(std::string_view Text) {
   RegionOptions O;
+  SettingsOnce Given;
   for (bool More = true; More;) {
     const size_t Comma = Text.find(',');
     const std::string_view Setting = Text.substr(0, Comma);
     const size_t Equal = Setting.find('=');
+    if (!Given.isNew(Setting))
+      return SettingsOnce::twice("region", Setting);
     if (Equal == std::string_view::npos ||
         !O.set(Setting.substr(0, Equal), Setting.substr(Equal + 1)))
       return Error{
@@ -81,6 +89,12 @@ Expected<RegionOptions> RegionOptions::parse(std::string_view Text) {
     More = Comma != std::string_view::npos;
     Text.remove_prefix(More ? Comma + 1 : 0);
   }
+  if (O.isEmpty())
+    return Error{"",
+                 fmt::format("region: to={} comes no later than from={}, "
+                             "expected a launch behind it",
+                             O.To->Text, O.From.Text),
+                 ExitCode::Usage};
   return O;
 }
 

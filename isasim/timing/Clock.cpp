@@ -16,13 +16,6 @@ namespace {
 constexpr size_t LongestBacklog = 1 << 20;
 /// Fewer than this in all traces are left until the next sync point.
 constexpr size_t FewestTaken = 1 << 12;
-
-/// The standard's name where it has one, which lives as long as reports do.
-std::string_view dramName(std::string_view Standard) {
-  const auto Names = dram::standards();
-  const auto Known = std::ranges::find(Names, Standard);
-  return Known == Names.end() ? "of a file" : *Known;
-}
 } // namespace
 
 Clock::Clock(const Config &C)
@@ -328,7 +321,8 @@ void Clock::collectTimes(TimeReport &R) const {
       Each(uint64_t{Shape.cores()} * (Shape.LocalBytes / 1024)));
   Add("KiB of the L2", Each(uint64_t{Shape.Clusters} * Timing.L2.Kib));
   Add("KiB of the llc", Each(Timing.Llc.Kib));
-  R.Activities.push_back({"dram channels", dramName(Timing.Dram.Standard),
+  R.Activities.push_back({"dram channels",
+                          dram::reportName(Timing.Dram.Standard),
                           Each(Timing.Dram.Channels)});
 }
 

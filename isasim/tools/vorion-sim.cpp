@@ -1,5 +1,6 @@
 /// Runs a program, or one kernel of it, on the simulated machine.
 
+#include "timing/dram/TimingTable.h"
 #include "tools/Arguments.h"
 #include "tools/Launch.h"
 #include "tools/Options.h"
@@ -59,6 +60,14 @@ Expected<std::shared_ptr<const EnergyModel>> makeEnergyModel(const Options &O,
       EnergyModel::create(*From, C.Timing.ClockMhz, O.Volts);
   if (!Made)
     return Made.error();
+  // Before the run rather than behind it: of one cycle, but with its DRAM.
+  const EnergyWork Nothing{
+      1,
+      C.Timing.ClockMhz,
+      {{"dram channels", dram::reportName(C.Timing.Dram.Standard),
+        C.Timing.Dram.Channels}}};
+  if (const auto Knows = Made->energyOf(Nothing); !Knows)
+    return Knows.error();
   return std::make_shared<const EnergyModel>(std::move(*Made));
 }
 
@@ -357,7 +366,8 @@ int run(const Options &O) {
     printKernels(**Program);
     return 0;
   }
-  if (const Expected<Success> Fits = (*Program)->checkLanes(C->LanesPerWarp);
+  if (const Expected<Success> Fits =
+          (*Program)->checkLanes(C->LanesPerWarp, Request->Kernel);
       !Fits)
     return reportError(Tool, Fits.error());
   // What an image of kernels has for a main does nothing.

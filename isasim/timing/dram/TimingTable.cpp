@@ -423,6 +423,11 @@ Expected<TimingTable> readTimingTable(const std::string &Path) {
       {reinterpret_cast<const char *>(Bytes->data()), Bytes->size()}, Path);
 }
 
+std::string_view reportName(std::string_view Standard) {
+  const auto Known = std::ranges::find(standards(), Standard);
+  return Known == standards().end() ? "of a file" : *Known;
+}
+
 Expected<TimingTable> standardTable(std::string_view Name) {
   const std::string_view Text = standardText(Name);
   if (Text.empty()) {

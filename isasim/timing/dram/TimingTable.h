@@ -84,6 +84,9 @@ Expected<TimingTable> readTimingTable(const std::string &Path);
 
 /// The names of the tables that come with the simulator.
 std::span<const std::string_view> standards();
+/// What reports call \p Standard, as the configuration has it: its name, or "of
+/// a file". Lives as long as reports do.
+std::string_view reportName(std::string_view Standard);
 /// One of them; an error if there is none of that name.
 Expected<TimingTable> standardTable(std::string_view Name);
 

@@ -93,9 +93,10 @@ public:
   const std::vector<Kernel> &kernels() const { return Kernels; }
   /// nullptr if there is no such kernel.
   const Kernel *findKernel(std::string_view KernelName) const;
-  /// An error if a kernel was compiled for warps of other than \p Lanes lanes:
-  /// it would give some work-items to no lane, or to two.
-  Expected<Success> checkLanes(uint32_t Lanes) const;
+  /// An error if a kernel, or the one called \p Of, was compiled for warps of
+  /// other than \p Lanes lanes: it would give some work-items to no lane, or to
+  /// two.
+  Expected<Success> checkLanes(uint32_t Lanes, std::string_view Of = {}) const;
   std::optional<uint32_t> findSymbol(std::string_view SymbolName) const;
   /// "function+0x1c" for the symbol that covers \p Address, or empty. Absolute
   /// symbols, most of which are sizes, name the one address that they are where
