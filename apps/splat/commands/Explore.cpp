@@ -5,6 +5,7 @@
 #include "commands/SceneArguments.h"
 #include "commands/SweepArguments.h"
 #include "commands/Usage.h"
+#include "device/Device.h"
 #include "explore/Page.h"
 #include "explore/Study.h"
 #include "io/ReportHead.h"
@@ -39,10 +40,33 @@ struct ExploreArguments {
   bool List = false, PrintSpace = false;
 };
 
+/// That the configuration has all keys of \p P. What else a machine refuses
+/// is found by trying it.
+Expected<Success> checkKeys(const Parameter &P, const std::string &Where) {
+  for (const Alternative &A : P.Others) {
+    if (A.Settings.empty())
+      continue;
+    DeviceOptions Machine;
+    Machine.set("VORION_SET", A.Settings);
+    const auto D = Device::open("", Machine);
+    const std::string What = D ? "" : D.error().What;
+    if (const std::size_t Unknown = What.find("unknown key '");
+        Unknown != std::string::npos)
+      return Error{Where, fmt::format("parameters.{}: {}", P.Name,
+                                      What.substr(Unknown))};
+  }
+  return Success{};
+}
+
 Expected<Space> spaceOf(const ExploreArguments &A) {
-  return A.SpaceFile.empty()
-             ? parseSpace(defaultSpace(), "the space of splat explore")
-             : readSpace(A.SpaceFile);
+  if (A.SpaceFile.empty())
+    return parseSpace(defaultSpace(), "the space of splat explore");
+  auto S = readSpace(A.SpaceFile);
+  if (S)
+    for (const Parameter &P : *S)
+      if (auto Known = checkKeys(P, A.SpaceFile); !Known)
+        return Known.error();
+  return S;
 }
 
 /// The same view with fewer pixels.

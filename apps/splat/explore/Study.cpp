@@ -164,7 +164,7 @@ bool isMeasurement(const Json &J) {
 std::string described(const Json &M) {
   if (M.contains("refused"))
     return "cannot be: " + M["refused"].get<std::string>();
-  return fmt::format("{}: {:.3f} ms, {:.3g} mJ, {:.2f} mm2",
+  return fmt::format("{}: {:.3f} ms, chip {:.3g} mJ, {:.2f} mm2",
                      M["machine"].get<std::string>(),
                      M["frame_ms"].get<double>(),
                      1e3 * M["chip_joules"]["value"].get<double>(),
