@@ -137,6 +137,14 @@ Expected<Success> takeEnvironment(const ReplayArguments &A,
   return Success{};
 }
 
+/// The clock that \p Result was made under: what watches a run may have turned
+/// it on, and does not watch this one.
+void takeClock(const Json &Result) {
+  constexpr const char *Variable = "VORION_TIME";
+  if (Result.contains("time") && !std::getenv(Variable))
+    setenv(Variable, "on", 1);
+}
+
 /// Of another program than the one that made the result.
 void sayVersions(const ReplayArguments &A, const Json &Program) {
   const auto Was =
@@ -217,6 +225,7 @@ Expected<Success> replay(const ReplayArguments &A,
   }
   if (auto Taken = takeEnvironment(A, Program); !Taken)
     return Taken;
+  takeClock(*Result);
   sayVersions(A, Program);
 
   const std::string Replayed = Temporary->path() + "/replayed.json";

@@ -29,7 +29,15 @@ Finding detectClock(const EffectInputs &In) {
   return F;
 }
 
+/// Whether an option of splat asked for what \p Variable turns on, into a file
+/// that nobody else sees: no report shall name that.
+bool askedByOption(const EffectInputs &In, const char *Variable) {
+  return In.Machine.commandLine().contains(Variable);
+}
+
 Finding detectNumerics(const EffectInputs &In) {
+  if (askedByOption(In, "VORION_NUMERICS"))
+    return {true, "--numerics"};
   return asked(In, {"VORION_NUMERICS"});
 }
 
@@ -38,6 +46,8 @@ Finding detectCheckers(const EffectInputs &In) {
 }
 
 Finding detectTraces(const EffectInputs &In) {
+  if (askedByOption(In, "VORION_TILES"))
+    return {true, "--heat-map or --html"};
   return asked(In, {"VORION_TRACE", "VORION_TIMELINE", "VORION_TILES",
                     "VORION_DRAM_TRACE", "VORION_PIPELINE", "VORION_PROFILE",
                     "VORION_STATS"});
