@@ -37,6 +37,14 @@ Expected<Device> openDevice(const std::string &Name, Path Blending,
   return D;
 }
 
+void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz) {
+  const std::string Asked = Options.text("VORION_TIME");
+  if (Mhz)
+    Options.set("VORION_TIME", std::to_string(*Mhz));
+  else if (Asked.empty() || Asked == "profiled")
+    Options.set("VORION_TIME", "on");
+}
+
 void showBuildLog(const Launcher &L) {
   if (!L.buildLog().empty())
     printNote(L.buildLog() + "\n");

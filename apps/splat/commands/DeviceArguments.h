@@ -5,6 +5,7 @@
 #include "picture/Options.h"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 namespace vorion::splat {
@@ -22,6 +23,10 @@ Expected<Success> checkBlends(const Device &D, Path Blending);
 /// \p Blending.
 Expected<Device> openDevice(const std::string &Name, Path Blending,
                             const DeviceOptions &Options);
+
+/// Turns the machine's clock on, at \p Mhz if they are given: else it stays
+/// what VORION_TIME says, or the machine's.
+void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz);
 
 /// Shows what the compiler said of a program that failed to build.
 void showBuildLog(const Launcher &L);

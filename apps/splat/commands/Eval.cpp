@@ -5,6 +5,7 @@
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
+#include "commands/WatchedFiles.h"
 
 #include "eval/ScorePage.h"
 #include "eval/ScoreText.h"
@@ -54,9 +55,10 @@ Expected<Success> check(const EvalArguments &A) {
   if (!A.Pictures.empty())
     if (auto Checked = checkPrefix("--pictures", A.Pictures); !Checked)
       return Checked;
+  std::vector<NamedFile> Others = watchedFiles();
+  Others.push_back({"the scene", A.Scene.Path});
   return claimOutputs(
-      {{"--json", A.Json}, {"--csv", A.Csv}, {"--html", A.Html}},
-      {{"the scene", A.Scene.Path}});
+      {{"--json", A.Json}, {"--csv", A.Csv}, {"--html", A.Html}}, Others);
 }
 
 Expected<nlohmann::ordered_json>

@@ -4,6 +4,7 @@
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
+#include "commands/WatchedFiles.h"
 
 #include "io/Npz.h"
 #include "render/FrameTime.h"
@@ -120,10 +121,12 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
        {checkEnding("-o", A.Output, {".npz"}), checkJsonName(A.Json)})
     if (!Checked)
       return Checked;
-  if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--json", A.Json}},
-                                  {{"the scene", A.Scene.Path},
-                                   {"--cameras", A.Cameras},
-                                   {"--upstream", A.Upstream}});
+  std::vector<NamedFile> Others = watchedFiles();
+  Others.insert(Others.end(), {{"the scene", A.Scene.Path},
+                               {"--cameras", A.Cameras},
+                               {"--upstream", A.Upstream}});
+  if (auto Claimed =
+          claimOutputs({{"-o", A.Output}, {"--json", A.Json}}, Others);
       !Claimed)
     return Claimed;
   const auto File = loadScene(A.Scene);
@@ -141,7 +144,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   if (!U)
     return U.error();
   if (A.Time)
-    Machine.set("VORION_TIME", "on");
+    turnClockOn(Machine, std::nullopt);
   auto D = openDevice(A.Device, A.Options.Blending, Machine);
   if (!D)
     return D.error();

@@ -32,16 +32,29 @@ std::vector<NamedFile> HeatMapFiles::outputs(const std::string &Prefix) {
 
 Expected<HeatMapFiles> HeatMapFiles::begin(std::string Prefix,
                                            DeviceOptions &Options) {
+  std::string Region = Options.text("VORION_REGION");
+  // Who asks for the tiles in a file, too, gets them there.
+  if (std::string Given = Options.text("VORION_TILES"); !Given.empty())
+    return HeatMapFiles(std::move(Prefix), std::nullopt, std::move(Given),
+                        std::move(Region));
   auto Folder = TemporaryFolder::make("splat-heat-map");
   if (!Folder)
     return Folder.error();
-  HeatMapFiles F(std::move(Prefix), std::move(*Folder));
-  Options.set("VORION_TILES", F.file());
-  return F;
+  std::string File = Folder->path() + "/tiles.jsonl";
+  Options.set("VORION_TILES", File);
+  return HeatMapFiles(std::move(Prefix), std::move(*Folder), std::move(File),
+                      std::move(Region));
 }
 
 Expected<std::vector<TileWork>> HeatMapFiles::tiles() const {
-  auto Tiles = readTileWork(file());
+  auto Tiles = readTileWork(File);
+  if (!Region.empty() && (!Tiles || Tiles->empty()))
+    return Error{"",
+                 fmt::format("no tiles: VORION_REGION={} counts no launch that "
+                             "blends, expected a region with the kernel "
+                             "rasterize",
+                             Region),
+                 ExitCode::Usage};
   if (!Tiles || Tiles->empty())
     return Error{"",
                  "the device reports nothing about tiles, expected a Vorion "

@@ -8,6 +8,7 @@
 #include "vorion/support/TemporaryFolder.h"
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,12 +32,15 @@ public:
                           nlohmann::ordered_json Report) const;
 
 private:
-  HeatMapFiles(std::string PrefixIn, TemporaryFolder FolderIn)
-      : Prefix(std::move(PrefixIn)), Folder(std::move(FolderIn)) {}
-  std::string file() const { return Folder.path() + "/tiles.jsonl"; }
+  HeatMapFiles(std::string PrefixIn, std::optional<TemporaryFolder> FolderIn,
+               std::string FileIn, std::string RegionIn)
+      : Prefix(std::move(PrefixIn)), Folder(std::move(FolderIn)),
+        File(std::move(FileIn)), Region(std::move(RegionIn)) {}
 
   std::string Prefix;
-  TemporaryFolder Folder;
+  std::optional<TemporaryFolder> Folder; ///< none if the user named the file
+  std::string File;                      ///< what the device writes
+  std::string Region;                    ///< of VORION_REGION, empty for none
 };
 
 } // namespace vorion::splat

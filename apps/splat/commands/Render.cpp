@@ -9,6 +9,7 @@
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
+#include "commands/WatchedFiles.h"
 
 #include "io/Cameras.h"
 #include "page/TimePage.h"
@@ -115,9 +116,11 @@ Expected<Success> check(const RenderArguments &A) {
                                  {"--write-cameras", A.CamerasOut}});
   const std::vector<NamedFile> Layers = A.Layers.named();
   Outputs.insert(Outputs.end(), Layers.begin(), Layers.end());
-  return claimOutputs(Outputs, {{"the scene", A.Scene.Path},
-                                {"--cameras", A.Cameras.File},
-                                {"--technology", A.Energy.Technology}});
+  std::vector<NamedFile> Others = watchedFiles();
+  Others.insert(Others.end(), {{"the scene", A.Scene.Path},
+                               {"--cameras", A.Cameras.File},
+                               {"--technology", A.Energy.Technology}});
+  return claimOutputs(Outputs, Others);
 }
 
 /// Where the rules' near plane hides more of a view than it shows.
@@ -197,9 +200,32 @@ Expected<Success> printEnergy(const PictureJob &J,
   return Success{};
 }
 
+bool wantsTime(const RenderArguments &A) {
+  return A.Time || A.ClockMhz || A.Energy.isWanted() || !A.Html.empty();
+}
+
+/// Where a region of launches has no more than a part of the time of \p Stages
+/// that \p A asks for. Without it the page has nothing to show.
+Expected<Success> checkWholeTime(const RenderArguments &A, const PictureJob &J,
+                                 const std::vector<StageReport> &Stages) {
+  const std::string Region = J.Launch.device().options().text("VORION_REGION");
+  if (!wantsTime(A) || Region.empty() || frameTime(Stages))
+    return Success{};
+  const std::string What =
+      fmt::format("VORION_REGION={} counts a part of the launches alone",
+                  printable(Region));
+  if (!A.Html.empty())
+    return Error{A.Html,
+                 "no page: " + What + ", expected all those of the picture",
+                 ExitCode::Usage};
+  printDiagnostic("splat", "note", "",
+                  What + ": there is no time or energy of a whole picture");
+  return Success{};
+}
+
 /// \p Map may be nullptr.
-Expected<Success> renderOne(const PictureJob &J, const Camera &C,
-                            const HeatMapFiles *Map, const std::string &Html) {
+Expected<Success> renderOne(const RenderArguments &A, const PictureJob &J,
+                            const Camera &C, const HeatMapFiles *Map) {
   const auto R = drawPicture(J, C);
   endProgress();
   if (!R) {
@@ -211,13 +237,15 @@ Expected<Success> renderOne(const PictureJob &J, const Camera &C,
   printOut("{}", textReport(C, J.Options, J.Launch.device(), *R));
   if (auto Printed = printEnergy(J, R->Stages, "frame"); !Printed)
     return Printed;
-  if (!Map && Html.empty())
+  if (auto Whole = checkWholeTime(A, J, R->Stages); !Whole)
+    return Whole;
+  if (!Map && A.Html.empty())
     return Success{};
   auto Report = reportOf(J, J.Output, C, *R);
   if (!Report)
     return Report.error();
-  if (!Html.empty())
-    if (auto Written = writeHtml(Html, J, *R, *Report, Map); !Written)
+  if (!A.Html.empty())
+    if (auto Written = writeHtml(A.Html, J, *R, *Report, Map); !Written)
       return Written;
   return Map ? Map->write(C, std::move(*Report)) : Expected<Success>(Success{});
 }
@@ -243,21 +271,23 @@ Expected<Success> claimPictures(const RenderArguments &A,
                                  {"--json", A.Json}});
 }
 
-Expected<Success> renderAll(const PictureJob &J,
-                            const std::vector<Camera> &Cameras, bool Overlap) {
+Expected<Success> renderAll(const RenderArguments &A, const PictureJob &J,
+                            const std::vector<Camera> &Cameras) {
   const auto R = renderSequence(J.Launch, J.Plan, J.Input.Gaussians, Cameras,
-                                J.Options, Overlap);
+                                J.Options, A.Overlap);
   endProgress();
   if (!R) {
     showBuildLog(J.Launch);
     return R.error();
   }
   if (auto Written = writePictures(
-          J, Cameras, Overlap, *R,
+          J, Cameras, A.Overlap, *R,
           [](const std::string &File) { printOut("{}\n", escaped(File)); });
       !Written)
     return Written;
   printOut("{}", sequenceText(*R));
+  if (auto Whole = checkWholeTime(A, J, R->Stages); !Whole)
+    return Whole;
   return printEnergy(J, R->Stages, "all");
 }
 
@@ -283,8 +313,8 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   if (!A.CamerasOut.empty())
     if (auto Written = writeCameras(A.CamerasOut, *Cameras); !Written)
       return Written;
-  if (A.Time || A.ClockMhz || A.Energy.isWanted() || !A.Html.empty())
-    Machine.set("VORION_TIME", A.ClockMhz ? std::to_string(*A.ClockMhz) : "on");
+  if (wantsTime(A))
+    turnClockOn(Machine, A.ClockMhz);
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
     auto Begun = NumericsReport::begin(A.Numerics, Machine);
@@ -342,9 +372,9 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
                      A.Layers,
                      A.Format,
                      *Energy};
-  auto Rendered =
-      isOne(A) ? renderOne(J, Cameras->front(), Map ? &*Map : nullptr, A.Html)
-               : renderAll(J, *Cameras, A.Overlap);
+  auto Rendered = isOne(A)
+                      ? renderOne(A, J, Cameras->front(), Map ? &*Map : nullptr)
+                      : renderAll(A, J, *Cameras);
   if (!Rendered)
     return Rendered;
   L.recordBuilds();

@@ -8,6 +8,7 @@
 #include "commands/Progress.h"
 #include "commands/TrainPictures.h"
 #include "commands/TrainSettingOptions.h"
+#include "commands/WatchedFiles.h"
 
 #include "capture/Undistort.h"
 #include "io/ReportHead.h"
@@ -232,14 +233,16 @@ Expected<Success> check(const TrainArguments &A) {
       return Error{"",
                    fmt::format("--background {}: expected values of 0 to 1", V),
                    ExitCode::Usage};
-  return claimOutputs(
-      {{"-o", A.Output},
-       {"--json", A.Json},
-       {"--curve", A.Curve},
-       {"the cameras", camerasFor(A.Output)},
-       {"--html", A.Pictures.Html},
-       {"--checkpoint", R.Checkpoint}},
-      {{"--from", R.From}, {"--technology", A.Energy.Technology}});
+  std::vector<NamedFile> Others = watchedFiles();
+  Others.insert(Others.end(),
+                {{"--from", R.From}, {"--technology", A.Energy.Technology}});
+  return claimOutputs({{"-o", A.Output},
+                       {"--json", A.Json},
+                       {"--curve", A.Curve},
+                       {"the cameras", camerasFor(A.Output)},
+                       {"--html", A.Pictures.Html},
+                       {"--checkpoint", R.Checkpoint}},
+                      Others);
 }
 
 Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
