@@ -176,6 +176,11 @@ void Session::localUsed(uint64_t Bytes) {
   PImpl->tell([&](Observer &O) { O.localUsed(Bytes); });
 }
 
+void Session::memoryGiven(const std::vector<GivenMemory> &Given) {
+  for (const auto &T : PImpl->Tools)
+    T->memoryGiven(Given);
+}
+
 void Session::runBegins(const std::string &Name, uint32_t LaunchBlock) {
   PImpl->RunName = Name;
   PImpl->tell([&](Observer &O) { O.runNamed(Name); });

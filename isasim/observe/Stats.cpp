@@ -1,5 +1,6 @@
 #include "observe/Stats.h"
 
+#include "observe/LaunchRecord.h"
 #include "observe/Tool.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/support/File.h"
@@ -35,12 +36,13 @@ static void add(EnergyWork &To, const EnergyWork &More) {
   }
 }
 
-void Stats::add(const std::string &Name, const RunResult &R) {
+void Stats::add(const std::string &Name, const std::string &Launch,
+                const RunResult &R) {
   Sum.Total += R.Total;
   Sum.Raster += R.Raster;
   Sum.HostSeconds += R.HostSeconds;
   Sum.HostCpuSeconds += R.HostCpuSeconds;
-  Json Run = {{"name", Name}};
+  Json Run = {{"name", Name}, {"launch", ownJson<Json>(Launch)}};
   Run.update(ownJson<Json>(toJson(R)));
   if (R.Time) {
     EnergyWork Work{R.Time->Cycles, R.Time->ClockMhz, {}};
@@ -90,11 +92,18 @@ public:
       : File(std::move(FileIn)), Print(To.Print), Counts(To.Energy) {}
   Expected<Success> attach(Machine &M) override {
     Counts.setConfig(M.config());
+    Device = &M;
     return Success{};
+  }
+  void memoryGiven(const std::vector<GivenMemory> &Given) override {
+    Record.setGiven(Given);
+  }
+  void runBegins(const std::string &Name, uint32_t LaunchBlock) override {
+    Launch = jsonText(Record.take(*Device, Name, LaunchBlock));
   }
   Expected<Success> runEnded(const std::string &Name,
                              const RunResult &R) override {
-    Counts.add(Name, R);
+    Counts.add(Name, Launch, R);
     if (Print)
       Print(Stats::table(R));
     return writeFileAtomically(File, Counts.json());
@@ -104,6 +113,9 @@ private:
   std::string File;
   std::function<void(std::string_view)> Print;
   Stats Counts;
+  const Machine *Device = nullptr;
+  LaunchRecord Record;
+  std::string Launch; ///< of the run at hand
 };
 
 Expected<std::unique_ptr<Tool>> make(const std::string &Text,

@@ -20,11 +20,14 @@ public:
   explicit Stats(std::shared_ptr<const EnergyModel> By = nullptr)
       : Model(std::move(By)) {}
   void setConfig(const Config &C) { Machine = toJson(C); }
-  void add(const std::string &Name, const RunResult &R);
+  /// \p Launch is what LaunchRecord says of it, a JSON object.
+  void add(const std::string &Name, const std::string &Launch,
+           const RunResult &R);
 
   /// {"format", "config", "total", "raster", "host_seconds",
   /// "host_cpu_seconds": sums over runs, "runs": [what toJson(RunResult) has,
-  /// with "name"]}. Where a run was timed, it and the sum have "energy".
+  /// with "name" and "launch"]}. Where a run was timed, it and the sum have
+  /// "energy".
   std::string json() const;
   /// A line a counter, totals of one run only.
   static std::string table(const RunResult &R);

@@ -17,6 +17,7 @@
 namespace vorion::isasim {
 
 class EnergyModel;
+struct GivenMemory;
 class TimeObserver;
 
 /// Where tools send what is not for a file of theirs.
@@ -46,6 +47,8 @@ public:
   /// The machine of the runs that follow. An error if it does not have what was
   /// asked for.
   virtual Expected<Success> attach(Machine &) { return Success{}; }
+  /// Of the arguments of the run that follows, where that is known.
+  virtual void memoryGiven(const std::vector<GivenMemory> &) {}
   /// Before a run of the machine's image that is called \p Name, or nothing.
   virtual void runBegins(const std::string & /*Name*/,
                          uint32_t /*LaunchBlock*/) {}

@@ -4,6 +4,7 @@
 #include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Hash.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
@@ -91,6 +92,7 @@ Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
 }
 
 Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
+                                             size_t Argument,
                                              const std::string &ArgName) {
   std::vector<std::byte> Contents;
   uint64_t Bytes = In.Size;
@@ -108,6 +110,12 @@ Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
   Device->write(*Address, Contents);
   // Without a file it is zeros by definition.
   Watch->hostWrote(*Address, Bytes);
+  Given.push_back(
+      {Argument, Bytes,
+       Contents.empty()
+           ? ""
+           : fnv1a64({reinterpret_cast<const char *>(Contents.data()),
+                      Contents.size()})});
   if (!In.WriteTo.empty())
     Outputs.push_back({In.WriteTo, *Address, Bytes});
   return Address;
@@ -139,7 +147,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     std::vector<std::byte> Bytes = In->Bytes;
     uint32_t Address = 0;
     if (In->What == KernelInput::Buffer) {
-      const Expected<uint32_t> Placed = placeBuffer(*In, Arg.Name);
+      const Expected<uint32_t> Placed = placeBuffer(*In, N, Arg.Name);
       if (!Placed)
         return Placed.error();
       Address = *Placed;
@@ -148,6 +156,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
       if (!Placed)
         return usage(Placed.error().What);
       Address = *Placed;
+      Given.push_back({N, In->Size, ""});
     }
     if (In->What == KernelInput::Buffer || In->What == KernelInput::Local) {
       Bytes.resize(sizeof(Address));
@@ -160,6 +169,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
     std::copy(Bytes.begin(), Bytes.end(), Args.begin() + Arg.Offset);
   }
   Watch->localUsed(Locals.used());
+  Watch->memoryGiven(Given);
   return Success{};
 }
 

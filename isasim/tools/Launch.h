@@ -30,7 +30,7 @@ private:
       : Device(&Device), Watch(&WatchIn) {}
 
   Expected<uint32_t> reserve(uint64_t Bytes, const std::string &What);
-  Expected<uint32_t> placeBuffer(const KernelInput &In,
+  Expected<uint32_t> placeBuffer(const KernelInput &In, size_t Argument,
                                  const std::string &ArgName);
   Expected<Success> packArguments(const Kernel &K, const KernelRequest &R);
   /// Allocates what \p L, a launch of \p K, needs and writes it there.
@@ -50,6 +50,7 @@ private:
   std::vector<std::byte> Args; ///< packed
   LaunchParts Parts;           ///< addresses
   std::vector<Output> Outputs;
+  std::vector<GivenMemory> Given;
 };
 
 } // namespace vorion::isasim

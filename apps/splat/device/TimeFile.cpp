@@ -1,6 +1,7 @@
 #include "device/TimeFile.h"
 
 #include "vorion/support/Json.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +25,16 @@ public:
     const auto Known = std::ranges::find_if(All, [&](const TimeFigure &F) {
       return F.Group == Group && F.Name == Name;
     });
-    if (Known != All.end())
+    if (Known != All.end()) {
       Known->Value += Value;
-    else
-      All.push_back({Group, Name, Value});
+      return;
+    }
+    // Behind the others of its group.
+    const auto Last =
+        std::find_if(All.rbegin(), All.rend(),
+                     [&](const TimeFigure &F) { return F.Group == Group; });
+    All.insert(Last == All.rend() ? All.end() : Last.base(),
+               {Group, Name, Value});
   }
   /// The numbers of an object, or of a list of objects.
   void addMembers(const std::string &Group, const Json &Of) {
@@ -54,8 +61,10 @@ void addUnits(Figures &To, const Json &Report) {
     if (std::ranges::find(Descriptions, Key) != std::end(Descriptions))
       continue;
     if (Key == "activities") {
+      // Not under the unit alone: "dram" is a part of the report, too.
       for (const Json &A : Value)
-        To.add(A.at("unit"), A.at("event"), A.at("count"));
+        To.add(A.at("unit").get<std::string>() + ", events", A.at("event"),
+               A.at("count"));
     } else if (Value.is_structured()) {
       To.addMembers(Key, Value);
     } else if (Value.is_number()) {
@@ -128,6 +137,19 @@ TimeFile ofFrames(const Json &Whole) {
   return F;
 }
 
+/// That no run of \p Runs, in the file \p Path, was cut off or failed: what a
+/// part took says nothing of the whole.
+Expected<Success> checkOutcomes(const std::string &Path, const Json &Runs) {
+  for (std::size_t N = 0; N != Runs.size(); ++N)
+    if (const std::string Outcome = Runs[N].value("outcome", "done");
+        Outcome != "done")
+      return Error{
+          Path, fmt::format(
+                    "run {}, {}: its outcome is '{}', expected 'done'", N + 1,
+                    printable(Runs[N].at("name").get<std::string>()), Outcome)};
+  return Success{};
+}
+
 /// `vorion-sim --stats`, and VORION_STATS: of the runs that were timed.
 TimeFile ofRuns(const Json &Whole) {
   TimeFile F;
@@ -139,6 +161,8 @@ TimeFile ofRuns(const Json &Whole) {
   Figures All;
   for (const Json &Run : Runs) {
     F.Work["runs"].push_back(Run.at("name").get<std::string>());
+    F.Work["launches"].push_back(
+        nlohmann::json(Run.value("launch", Json::object())));
     const Json &Time = Run.at("time");
     describe(F, Time);
     const double Cycles = Time.at("cycles");
@@ -157,6 +181,22 @@ std::string joined(const std::string &Path) {
   std::string Text = Path.empty() ? Path : Path.substr(1);
   std::ranges::replace(Text, '/', '.');
   return Text;
+}
+
+/// Takes out of the objects in \p A and \p B what only one of them says: older
+/// reports, and those of OpenCL, know less of their launches.
+void keepCommon(nlohmann::json &A, nlohmann::json &B) {
+  if (A.is_object() && B.is_object()) {
+    std::erase_if(A.get_ref<nlohmann::json::object_t &>(),
+                  [&](const auto &Each) { return !B.contains(Each.first); });
+    std::erase_if(B.get_ref<nlohmann::json::object_t &>(),
+                  [&](const auto &Each) { return !A.contains(Each.first); });
+    for (auto &[Key, Value] : A.items())
+      keepCommon(Value, B[Key]);
+  } else if (A.is_array() && B.is_array()) {
+    for (std::size_t N = 0; N < std::min(A.size(), B.size()); ++N)
+      keepCommon(A[N], B[N]);
+  }
 }
 
 /// That \p A and \p B are the same; \p What they are.
@@ -192,6 +232,9 @@ Expected<TimeFile> readTimeFile(const std::string &Path) {
   // The file may be anything: a member that is missing or of another kind is
   // an exception of the library, and no figure of it is used then.
   try {
+    if (Whole->contains("runs"))
+      if (auto Ended = checkOutcomes(Path, Whole->at("runs")); !Ended)
+        return Ended.error();
     if (Whole->contains("time") || Whole->contains("runs")) {
       TimeFile F = Whole->contains("time") ? ofFrames(*Whole) : ofRuns(*Whole);
       F.Path = Path;
@@ -215,7 +258,15 @@ Expected<Success> checkComparable(const TimeFile &A, const TimeFile &B,
     return Success{};
   if (auto Same = checkSame(A, A.Machine, B, B.Machine, "machine"); !Same)
     return Same;
-  return checkSame(A, A.Work, B, B.Work, "work");
+  nlohmann::json WorkOfA = A.Work, WorkOfB = B.Work;
+  if (WorkOfA.contains("launches") && WorkOfB.contains("launches"))
+    keepCommon(WorkOfA["launches"], WorkOfB["launches"]);
+  // Of other runs, their names say more.
+  if (WorkOfA.value("runs", nlohmann::json()) !=
+      WorkOfB.value("runs", nlohmann::json()))
+    for (nlohmann::json *Work : {&WorkOfA, &WorkOfB})
+      Work->erase("launches");
+  return checkSame(A, WorkOfA, B, WorkOfB, "work");
 }
 
 std::optional<double> TimeChange::percent() const {

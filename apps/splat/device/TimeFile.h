@@ -34,7 +34,7 @@ struct TimeFile {
   std::vector<TimeFigure> Figures;
 };
 
-/// Errors: no such file, no JSON, no time in it.
+/// Errors: no such file, no JSON, no time in it; a run that was not done.
 Expected<TimeFile> readTimeFile(const std::string &Path);
 
 /// Whether the times of \p B may be held against those of \p A; an error names

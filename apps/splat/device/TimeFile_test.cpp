@@ -79,8 +79,28 @@ TEST(TimeFile, RunsAndUnitsAddUp) {
   EXPECT_EQ(figure(F, "runs, cycles", "scan"), 500);
   EXPECT_EQ(figure(F, "cores", "issue"), 30);
   EXPECT_EQ(figure(F, "dram", "read_bursts"), 14);
-  EXPECT_EQ(figure(F, "lsu", "lines requested"), 6);
+  EXPECT_EQ(figure(F, "lsu, events", "lines requested"), 6);
   EXPECT_EQ(figure(F, "host", "launch_ns"), -1);
+}
+
+TEST(TimeFile, EventsOfAUnitAreNotItsCounts) {
+  Json Both = stats();
+  for (Json &Run : Both["runs"]) {
+    Run["time"]["dram"]["refreshes"] = 5;
+    Run["time"]["activities"].push_back(
+        {{"unit", "dram"}, {"event", "refreshes"}, {"count", 5}});
+  }
+  EXPECT_EQ(figure(read(Both), "dram", "refreshes"), 10);
+  EXPECT_EQ(figure(read(Both), "dram, events", "refreshes"), 10);
+  // One title for each group, however a report mixes them.
+  for (Json &Run : Both["runs"])
+    Run["time"]["activities"].push_back(
+        {{"unit", "lsu"}, {"event", "loads"}, {"count", 5}});
+  const TimeFile F = read(Both);
+  EXPECT_TRUE(
+      std::ranges::adjacent_find(F.Figures, [](const auto &A, const auto &B) {
+        return A.Name == "lines requested" && B.Name == "loads";
+      }) != F.Figures.end());
 }
 
 TEST(TimeFile, AFrameHasStagesAndKernels) {
@@ -122,6 +142,39 @@ TEST(TimeFile, WhatDiffersIsNamed) {
   for (const bool Across : {false, true})
     EXPECT_EQ(problem(frame(), Version, Across),
               "version 3 of the clock, expected version 2 as");
+}
+
+TEST(TimeFile, OtherLaunchesAreOtherWork) {
+  const Json Launch = {
+      {"program_fnv1a64", "01"},
+      {"global", {64, 1, 1}},
+      {"arguments", {{{"name", "n"}, {"value", 5}}, {{"name", "out"}}}}};
+  Json Known = stats(), Wider = stats(), Longer = stats(), Said = stats();
+  for (Json *Each : {&Known, &Wider, &Longer, &Said})
+    (*Each)["runs"][0]["launch"] = Launch;
+  Wider["runs"][0]["launch"]["global"][0] = 128;
+  Longer["runs"][0]["launch"]["arguments"][0]["value"] = 6;
+  Said["runs"][0]["launch"]["arguments"][1]["bytes"] = 64;
+  EXPECT_EQ(problem(Known, Wider),
+            "another work: launches.0.global.0 is 128, expected 64 as");
+  EXPECT_EQ(problem(Known, Wider, true), "");
+  EXPECT_EQ(problem(Known, Longer),
+            "another work: launches.0.arguments.0.value is 6, expected 5 as");
+  // What one of them does not know is not compared.
+  EXPECT_EQ(problem(Known, Said), "");
+  EXPECT_EQ(problem(Known, stats()), "");
+  EXPECT_EQ(problem(stats(), Known), "");
+}
+
+TEST(TimeFile, ARunThatWasCutOffIsRefused) {
+  const TestFolder Folder;
+  Json Cut = stats();
+  Cut["runs"][0]["outcome"] = "done";
+  Cut["runs"][1]["outcome"] = "limit reached";
+  const auto F = readTimeFile(Folder.write("t.json", jsonText(Cut)));
+  ASSERT_FALSE(F);
+  EXPECT_EQ(F.error().What, "run 2, scan: its outcome is 'limit reached', "
+                            "expected 'done'");
 }
 
 TEST(TimeFile, ChangesKeepTheOrderAndWhatIsMissing) {

@@ -6,6 +6,8 @@
 #include "vorion/support/Expected.h"
 #include "vorion/support/Outputs.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -41,6 +43,13 @@ struct SessionOption {
 std::span<const SessionOption> sessionOptions();
 
 class EnergyModel;
+
+/// What only who starts a kernel knows of the memory that it gives it.
+struct GivenMemory {
+  size_t Argument = 0; ///< its number
+  uint64_t Bytes = 0;
+  std::string Hash; ///< fnv1a64() of what it begins with; empty for zeros
+};
 
 class Session {
 public:
@@ -78,6 +87,8 @@ public:
   void bufferNamed(uint32_t Address, const std::string &Name);
   void localUsed(uint64_t Bytes);
 
+  /// Before runBegins(), where it is known.
+  void memoryGiven(const std::vector<GivenMemory> &Given);
   /// Before every run: what it is called, and the address of its launch block
   /// or 0. Its image is loaded, its arguments are in memory.
   void runBegins(const std::string &Name, uint32_t LaunchBlock);
