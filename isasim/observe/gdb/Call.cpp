@@ -13,7 +13,7 @@ Call::Call(Target &LanesIn, ThreadId T, uint32_t EntryIn, uint32_t ReturnToIn,
            std::vector<RegisterWrite> WrittenIn)
     : Lanes(LanesIn), Lane(T), Warp(*Lanes.warpOf(T)), Saved(Warp),
       Entry(EntryIn), ReturnTo(ReturnToIn), Written(std::move(WrittenIn)) {
-  Lanes.showPc(0, 0);
+  Lanes.showOwnPcs();
   PcBefore = Lanes.readRegister(T, PcNumber).value_or(0);
   setMask(&Warp, 1U << Lanes.laneOf(T));
   Warp.WholeMask = 0; // a barrier is not for one lane: it traps
@@ -32,7 +32,7 @@ void Call::goBack() {
 
 Call::Pause Call::run(const std::function<bool()> &MustStop) {
   constexpr uint64_t LongestStretch = 1 << 12;
-  Lanes.showPc(0, 0);
+  Lanes.showOwnPcs();
   Running = true;
   if (!IsBack)
     Warp.Why = Stop::Ready;
@@ -62,7 +62,7 @@ void Call::end(bool UndoWrites) {
   // Handlers that are running it must not go on where the call was.
   Warp.Moved = Running;
   Over = true;
-  Lanes.showPc(0, 0);
+  Lanes.showOwnPcs();
   if (UndoWrites)
     Target::undo(std::exchange(Written, {}));
 }

@@ -84,6 +84,10 @@ public:
       StopNext = WasConnected;
     }
     Stepping = nullptr;
+    // gdb reads the symbols of another program if it is told of it.
+    const bool IsFirst = !Program;
+    EntersProgram = !IsFirst && Program != R.Program && KnowsPrograms;
+    Program = R.Program;
   }
 
   void fetch(const Step &S) override {
@@ -91,16 +95,22 @@ public:
       return;
     if (++Fetches % PollEvery == 0 && Peer.interrupted())
       return stop(S.State, S.LaneMask, SigInt, "");
+    if (std::exchange(EntersProgram, false))
+      stop(S.State, S.LaneMask, SigTrap,
+           fmt::format("exec:{};", toHex(programPath())));
     const bool Steps = Stepping == &S.State;
     if (Steps && std::exchange(CallBegins, false))
       return;
-    if (!StopNext && !Breakpoints.contains(S.Pc) &&
-        (!Steps || isSteppedLaneOff(S.LaneMask)))
+    const bool IsHit = Breakpoints.contains(S.Pc);
+    if (!StopNext && !IsHit && (!Steps || isSteppedLaneOff(S.LaneMask)))
       return;
     StopNext = false;
     std::string Why;
     std::swap(Why, WatchReason);
-    stop(S.State, S.LaneMask, SigTrap, Why);
+    const ThreadId Watcher = std::exchange(WatchThread, 0);
+    stop(S.State, S.LaneMask, SigTrap, Why, Watcher);
+    if (IsHit)
+      offerToOthers(S);
   }
 
   void commit(const Commit &C) override {
@@ -114,6 +124,12 @@ public:
           // gdb expects to be told behind the instruction.
           Stepping = &C.State;
           Stepped = 0;
+          // Of several lanes, the one that the user looks at.
+          const ThreadId T =
+              Lanes.threadOf(C.State, unsigned(std::countr_zero(Left)));
+          if (!WatchReason.empty() && T != Current)
+            continue;
+          WatchThread = T;
           WatchReason = fmt::format("{}:{:x};",
                                     !W.Reads    ? "watch"
                                     : !W.Writes ? "rwatch"
@@ -162,16 +178,47 @@ private:
 
   /// \p S is running.
   void stop(WarpState &S, uint32_t Mask, unsigned Reason,
-            const std::string &More) {
-    // Stay with the thread that the user looks at, if it is of this warp.
+            const std::string &More, ThreadId Cause = 0) {
+    // Stay with the thread that the user looks at, if it is of this warp and
+    // no other is the cause.
     const bool IsOver = StepsOver && Stepping == &S && Current == Stepped;
-    if (!IsOver && (!Lanes.isActive(Current) || Lanes.warpOf(Current) != &S))
+    if (Cause)
+      Current = Cause;
+    else if (!IsOver &&
+             (!Lanes.isActive(Current) || Lanes.warpOf(Current) != &S))
       Current =
           Lanes.threadOf(S, static_cast<unsigned>(std::countr_zero(Mask)));
     // Flags and rounding mode are the host's unit's as long as it runs.
     S.Fflags |= HostFp::takeFlags();
     serve(Reason, More);
     setFrm(&S, S.Frm);
+  }
+
+  /// gdb has looked at a breakpoint at \p S for one lane, and goes on without
+  /// the user's having seen it, as where a condition does not hold or a
+  /// breakpoint is another thread's: the other active lanes stop there, too,
+  /// one after the other. Meanwhile those it was done with are behind it in
+  /// gdb's eyes, though the warp runs only when it has been offered to all.
+  void offerToOthers(const Step &S) {
+    const uint32_t Behind = S.Pc + 4;
+    uint32_t Left = S.LaneMask & ~(1U << Lanes.laneOf(Current));
+    for (; Left && !UserLooks && Peer.isOpen() && stepsOverBreakpoint() &&
+           !Breakpoints.contains(Behind);
+         Left &= Left - 1) {
+      Lanes.showPc(Stepped, Behind);
+      serve(SigTrap, "");
+      if (UserLooks || !Breakpoints.contains(S.Pc))
+        break;
+      stop(S.State, S.LaneMask, SigTrap, "",
+           Lanes.threadOf(S.State, unsigned(std::countr_zero(Left))));
+    }
+    Lanes.showOwnPcs();
+  }
+
+  /// Whether the debugger has just let one lane go over the breakpoint that it
+  /// stands at.
+  bool stepsOverBreakpoint() const {
+    return StepsOver && Stepping && Stepped == Current;
   }
 
   std::string stopReply() const {
@@ -183,6 +230,7 @@ private:
     StopSignal = Reason;
     StopDetail = More;
     Stepping = nullptr;
+    UserLooks = false;
     if (Waiting)
       Peer.send(stopReply());
     Waiting = false;
@@ -256,6 +304,7 @@ private:
   void answerTransfer(std::string_view Packet);
   void answerContinue(std::string_view Packet);
   std::string threadList() const;
+  std::string programPath() const;
 
   void reply(bool Done) { Peer.send(Done ? "OK" : "E01"); }
 
@@ -270,6 +319,8 @@ private:
   bool RestoresRegisters = false;
   bool WasConnected = false, StopNext = false;
   bool Waiting = false; ///< gdb waits for the machine to stop
+  /// gdb shows the last stop: only then it asks which threads there are.
+  bool UserLooks = false;
   const WarpState *Stepping = nullptr;
   ThreadId Stepped = 0; ///< whose step it is; 0: any lane's of the warp
   /// The step is over a breakpoint that is lifted for it: it ends behind one
@@ -278,6 +329,10 @@ private:
   ThreadId Current = 1; ///< of the last stop, or the one that gdb chose
   unsigned StopSignal = SigTrap;
   std::string StopDetail, WatchReason;
+  ThreadId WatchThread = 0;             ///< which has touched what is watched
+  std::shared_ptr<const Image> Program; ///< that runs
+  bool KnowsPrograms = false; ///< gdb wants to be told of other programs
+  bool EntersProgram = false; ///< it has not been told of this one
   std::set<uint32_t> Breakpoints;
   std::set<uint32_t> Lifted; ///< breakpoints, since the machine stopped
   std::vector<Watchpoint> Watched;
@@ -333,7 +388,7 @@ bool GdbServer::movePc(uint32_t Pc) {
   }
   if (CallEntry) { // it has changed its mind
     CallEntry.reset();
-    Lanes.showPc(0, 0);
+    Lanes.showOwnPcs();
   }
   if (Lanes.readRegister(Current, PcNumber) == Pc)
     return true;
@@ -401,18 +456,25 @@ std::string GdbServer::threadList() const {
   return Text + "</threads>";
 }
 
+std::string GdbServer::programPath() const {
+  char *Path = realpath(Program->name().c_str(), nullptr);
+  std::string Text = Path ? Path : "";
+  std::free(Path);
+  return Text;
+}
+
 /// "qXfer:OBJECT:read:ANNEX:OFFSET,LENGTH".
 void GdbServer::answerTransfer(std::string_view Packet) {
   std::string Document;
   if (Packet.starts_with("qXfer:features:read:target.xml:"))
     Document = Target::description();
-  else if (Packet.starts_with("qXfer:threads:read::"))
+  else if (Packet.starts_with("qXfer:threads:read::")) {
     Document = threadList();
-  else if (Packet.starts_with("qXfer:exec-file:read:")) {
-    char *Path = realpath(Lanes.program().name().c_str(), nullptr);
-    Document = Path ? Path : "";
-    std::free(Path);
-  } else
+    UserLooks = true;
+    Lanes.showOwnPcs();
+  } else if (Packet.starts_with("qXfer:exec-file:read:"))
+    Document = programPath();
+  else
     return Peer.send("");
   Packet.remove_prefix(Packet.rfind(':') + 1);
   const size_t Offset = takeHex(Packet), Length = takeHex(Packet);
@@ -423,10 +485,12 @@ void GdbServer::answerTransfer(std::string_view Packet) {
 }
 
 void GdbServer::answerQuery(std::string_view Packet) {
-  if (Packet.starts_with("qSupported"))
+  if (Packet.starts_with("qSupported")) {
+    KnowsPrograms = Packet.find("exec-events+") != std::string_view::npos;
     return Peer.send("PacketSize=4000;QStartNoAckMode+;vContSupported+;"
-                     "qXfer:features:read+;qXfer:threads:read+;"
-                     "qXfer:exec-file:read+");
+                     "exec-events+;qXfer:features:read+;"
+                     "qXfer:threads:read+;qXfer:exec-file:read+");
+  }
   if (Packet.starts_with("qXfer:"))
     return answerTransfer(Packet);
   if (Packet == "QStartNoAckMode") {

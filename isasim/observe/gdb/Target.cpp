@@ -87,8 +87,8 @@ std::string Target::describe(ThreadId T) const {
 /// there; any other that is off goes on with its warp.
 uint32_t Target::pc(ThreadId T) const {
   const WarpState &S = *warpOf(T);
-  if (Shown.first == T)
-    return Shown.second;
+  if (const auto Other = Shown.find(T); Other != Shown.end())
+    return Other->second;
   for (uint32_t D = S.StackDepth; D-- != 0 && !isActive(T);)
     if (S.Stack[D].Other >> laneOf(T) & 1)
       return S.pcOf(S.Stack[D].Pc);

@@ -4,6 +4,7 @@
 #include "core/State.h"
 #include "vorion/isasim/Observer.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,8 +48,9 @@ public:
   /// The words of x and f registers that were written since the last call.
   std::vector<RegisterWrite> takeWrites() { return std::exchange(Writes, {}); }
   static void undo(const std::vector<RegisterWrite> &Writes);
-  /// \p T says that it is at \p Pc, though its warp is not; 0: no lane does.
-  void showPc(ThreadId T, uint32_t Pc) { Shown = {T, Pc}; }
+  /// \p T says that it is at \p Pc, though its warp is not.
+  void showPc(ThreadId T, uint32_t Pc) { Shown[T] = Pc; }
+  void showOwnPcs() { Shown.clear(); }
   /// As many bytes as are mapped from \p Address on.
   std::string readMemory(ThreadId T, uint32_t Address, uint32_t Bytes) const;
   /// Not to code, which is decoded once.
@@ -66,7 +68,7 @@ private:
   std::span<const std::unique_ptr<Core>> Cores;
   unsigned WarpsPerCore = 1, Lanes = 1, Warps = 0;
   std::vector<RegisterWrite> Writes;
-  std::pair<ThreadId, uint32_t> Shown{0, 0};
+  std::map<ThreadId, uint32_t> Shown;
 };
 
 } // namespace vorion::isasim::gdb
