@@ -6,10 +6,14 @@
 
 #include "vorion_asm.h"
 
+    # For debuggers: nothing has called it.
+    .cfi_sections .debug_frame
     .section .text.vorion_start, "ax", @progbits
     .globl  _start
     .type   _start, @function
 _start:
+    .cfi_startproc
+    .cfi_undefined ra
     # All lanes: mask = ~0 >> (32 - lanes). A lane that was off keeps
     # nothing of lane 0's registers, so they are set up after this.
     csrr    t0, vx_num_threads
@@ -88,4 +92,5 @@ next_group:
     bltu    s7, s6, next_group
 finish:
     vx_tmc  zero
+    .cfi_endproc
     .size   _start, . - _start

@@ -1,5 +1,6 @@
 break leave.cl:11 if i == 5
 continue
+backtrace
 print s
 delete
 thread 1
