@@ -127,6 +127,14 @@ int Connection::next() {
   return static_cast<unsigned char>(Buffer[At++]);
 }
 
+/// A debugger that waits for longer than two seconds sends its packet again,
+/// as where a program takes its time until its first kernel. It expects one
+/// answer to all of them.
+bool Connection::comesAgain(std::string_view Contents) const {
+  const std::string_view Unread(Buffer.data() + At, Buffer.size() - At);
+  return Unread.find(fmt::format("${}#", Contents)) != std::string_view::npos;
+}
+
 std::optional<std::string> Connection::receive() {
   while (isOpen()) {
     int C = next();
@@ -148,7 +156,7 @@ std::optional<std::string> Connection::receive() {
     const int Sum =
         digit(static_cast<char>(High)) << 4 | digit(static_cast<char>(Low));
     put(Sum == sumOf(Contents) ? "+" : "-");
-    if (Sum == sumOf(Contents))
+    if (Sum == sumOf(Contents) && !comesAgain(Contents))
       return Contents;
   }
   close();

@@ -41,6 +41,7 @@ public:
 
 private:
   int next();
+  bool comesAgain(std::string_view Contents) const;
   void put(std::string_view Bytes);
   /// Whether \p Descriptor is ready for \p Events (poll's) before GiveUp.
   bool waitFor(int Descriptor, short Events) const;

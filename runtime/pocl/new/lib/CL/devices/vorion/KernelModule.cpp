@@ -113,9 +113,28 @@ private:
                                     Layout.getPreferredAlign(&G)));
       G.replaceAllUsesWith(ConstantExpr::getIntToPtr(
           ConstantInt::get(I32, VX_LOCAL_BASE + Used), G.getType()));
+      nameForDebuggers(G, VX_LOCAL_BASE + Used);
       Used += Layout.getTypeAllocSize(G.getValueType());
     }
     return Used;
+  }
+
+  /// Nothing refers to \p G any more, but a debugger finds variables by their
+  /// symbols: where it has lines, it becomes a name of \p Address.
+  void nameForDebuggers(GlobalVariable &G, uint64_t Address) {
+    if (!G.hasMetadata(LLVMContext::MD_dbg))
+      return;
+    SmallVector<DIGlobalVariableExpression *, 1> Places;
+    G.getDebugInfo(Places);
+    // LLVM 19 would leave it to a copy of the kernel that has no addresses.
+    constexpr unsigned Scope = 0;
+    for (const DIGlobalVariableExpression *P : Places)
+      P->getVariable()->replaceOperandWith(Scope, P->getVariable()->getFile());
+    G.setInitializer(nullptr);
+    G.setLinkage(GlobalValue::ExternalLinkage);
+    M.appendModuleInlineAsm(".set \"" + G.getName().str() + "\", " +
+                            std::to_string(Address));
+    appendToCompilerUsed(M, {&G}); // passes drop what nobody uses
   }
 
   /// The memory of functions that a group calls together, 8 bytes for each
