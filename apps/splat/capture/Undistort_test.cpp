@@ -1,6 +1,6 @@
 #include "capture/Undistort.h"
 
-#include "io/Hash.h"
+#include "vorion/support/Hash.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,7 +138,7 @@ TEST(Undistort, KeepsItsBits) {
     std::string Bytes(To.Counts.begin(), To.Counts.end());
     for (const std::byte B : To.Picture.Rgba)
       Bytes += static_cast<char>(B);
-    Hashes += fnv1a64(Bytes) + "\n";
+    Hashes += vorion::fnv1a64(Bytes) + "\n";
   }
   EXPECT_EQ(Hashes, "7a70f38f1712daef\n2d87191155a23d9e\nc9f2def7c196cd1d\n"
                     "140f1d36f5cb3f6a\nf3518fd6eb0d2547\n");
