@@ -73,6 +73,10 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
 }
 
 Expected<Success> checkPictureOptions(const RenderOptions &O) {
+  if (O.Blending == Path::Raster && (O.SimtTile != RenderOptions().SimtTile ||
+                                     O.SimtGroup != RenderOptions().SimtGroup))
+    return usage("--simt-tile and --simt-group are the cores', expected --path "
+                 "simt with them");
   for (const float B : O.Background)
     if (!std::isfinite(B))
       return usage(fmt::format("--background {}: expected finite numbers", B));

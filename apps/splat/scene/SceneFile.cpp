@@ -17,6 +17,11 @@ Expected<SceneFile> checked(const std::string &Where, Expected<SceneFile> Read,
                             const ReadOptions &Options) {
   if (!Read)
     return Read;
+  if (Options.LevelOfDetail != 0 && Read->Format != SceneFormat::StreamedSog)
+    return Error{Where,
+                 "has one level of detail, expected streamed SOG with "
+                 "--lod",
+                 ExitCode::Usage};
   if (Read->Gaussians.size() == 0)
     return Error{Where, "no Gaussian, expected at least one"};
   if (Options.DropNonFinite) {
