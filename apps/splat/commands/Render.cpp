@@ -297,7 +297,7 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   const auto Energy = requestedEnergy(A.Energy, A.ClockMhz);
   if (!Energy)
     return Energy.error();
-  const auto File = loadScene(A.Scene);
+  const auto File = loadScene(A.Scene, loadPlatforms);
   if (!File)
     return File.error();
   drawAs(A.Options, File->DrawnAs);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <future>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,11 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
 }
 
 Expected<SceneFile> loadScene(const SceneArguments &A) {
+  return loadScene(A, [] {});
+}
+
+Expected<SceneFile> loadScene(const SceneArguments &A,
+                              const std::function<void()> &Meanwhile) {
   if (const auto Dilation = A.Options.Drawn.Dilation;
       Dilation && !(*Dilation >= 0 && std::isfinite(*Dilation)))
     return Error{"",
@@ -62,7 +68,10 @@ Expected<SceneFile> loadScene(const SceneArguments &A) {
       return Parsed.error();
     Change = *Parsed;
   }
-  auto File = readScene(A.Path, A.Options);
+  auto Reading = std::async(std::launch::async,
+                            [&A] { return readScene(A.Path, A.Options); });
+  Meanwhile();
+  auto File = Reading.get();
   if (!File)
     return File;
   changeAxes(File->Gaussians, Change);

@@ -4,6 +4,7 @@
 #include "scene/SceneFile.h"
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ void addSceneOptions(CLI::App &App, SceneArguments &A);
 /// Reads the scene, in the axes that were asked for; says on the terminal what
 /// was left out.
 Expected<SceneFile> loadScene(const SceneArguments &A);
+
+/// The same. While a thread of its own reads, this one does \p Meanwhile, which
+/// says nothing and may ask for and change the environment.
+Expected<SceneFile> loadScene(const SceneArguments &A,
+                              const std::function<void()> &Meanwhile);
 
 /// The options of \p A as words of a command line, without the scene.
 std::vector<std::string> wordsOf(const SceneArguments &A);

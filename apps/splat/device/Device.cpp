@@ -87,6 +87,11 @@ Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
 
 } // namespace
 
+void loadPlatforms() {
+  std::vector<cl::Platform> Platforms;
+  cl::Platform::get(&Platforms);
+}
+
 /// What the platform tells of commands that fail, on threads of its own.
 struct Device::Messages {
   std::mutex Lock;

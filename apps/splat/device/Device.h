@@ -14,6 +14,10 @@
 
 namespace vorion::splat {
 
+/// Loads the OpenCL platforms into the process, which takes longer than opening
+/// a device does. Device::open() does it where nobody has.
+void loadPlatforms();
+
 /// An opened device with its context and its in-order queues.
 class Device {
 public:

@@ -6,11 +6,14 @@
 
 namespace vorion::splat {
 
-Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
-                           std::size_t Limit) {
-  const auto *Data = reinterpret_cast<const uint8_t *>(File.data());
+static const uint8_t *dataOf(Bytes File) {
+  return reinterpret_cast<const uint8_t *>(File.data());
+}
+
+Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
+                             std::size_t Limit) {
   WebPBitstreamFeatures Features;
-  if (WebPGetFeatures(Data, File.size(), &Features) != VP8_STATUS_OK)
+  if (WebPGetFeatures(dataOf(File), File.size(), &Features) != VP8_STATUS_OK)
     return Error{Where, "not a WebP picture, expected a lossless one"};
   if (Features.has_animation != 0)
     return Error{Where, "an animation, expected a still WebP picture"};
@@ -23,10 +26,24 @@ Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
                                     "expected at most {} bytes unpacked",
                                     P.Width, P.Height, File.size(), Limit)};
   P.Rgba.resize(Size);
-  if (!WebPDecodeRGBAInto(Data, File.size(),
-                          reinterpret_cast<uint8_t *>(P.Rgba.data()), Size,
-                          static_cast<int>(4 * P.Width)))
+  return P;
+}
+
+Expected<Success> decodeWebPInto(const std::string &Where, Bytes File,
+                                 Plane &P) {
+  if (!WebPDecodeRGBAInto(dataOf(File), File.size(),
+                          reinterpret_cast<uint8_t *>(P.Rgba.data()),
+                          P.Rgba.size(), static_cast<int>(4 * P.Width)))
     return Error{Where, "damaged WebP picture, expected a whole one"};
+  return Success{};
+}
+
+Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
+                           std::size_t Limit) {
+  auto P = planeForWebP(Where, File, Limit);
+  if (P)
+    if (auto Decoded = decodeWebPInto(Where, File, *P); !Decoded)
+      return Decoded.error();
   return P;
 }
 

@@ -25,6 +25,16 @@ struct Plane {
 Expected<Plane> decodeWebP(const std::string &Where, Bytes File,
                            std::size_t Limit);
 
+/// \name The same in two steps, of which the second may run in any thread
+/// @{
+/// The plane that \p File needs, of zeros.
+Expected<Plane> planeForWebP(const std::string &Where, Bytes File,
+                             std::size_t Limit);
+/// Fills in \p P, which planeForWebP() gave for \p File.
+Expected<Success> decodeWebPInto(const std::string &Where, Bytes File,
+                                 Plane &P);
+/// @}
+
 /// A lossless WebP of \p P, whose sides have at most 14 bits. Colours stay,
 /// too, where alpha is 0. Equal planes make equal bytes.
 Expected<std::string> encodeWebP(const Plane &P);

@@ -1,9 +1,9 @@
 #include "render/PixelLists.h"
 
+#include "vorion/support/Parallel.h"
+
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 namespace vorion::splat {
 
@@ -78,24 +78,16 @@ struct Walk {
     const auto [Width, Height] = Lists.Size;
     const auto [Across, Down] = Lists.TileSize;
     const uint32_t Columns = (Width + Across - 1) / Across;
-    std::atomic<uint32_t> Next = 0;
-    const auto Share = [&] {
+    inParallel(Lists.Ranges.size(), [&](std::size_t Number) {
+      const auto Tile = static_cast<uint32_t>(Number);
+      const uint32_t X0 = Tile % Columns * Across, Y0 = Tile / Columns * Down;
       std::vector<uint32_t> Row;
-      for (uint32_t Tile = Next++; Tile < Lists.Ranges.size(); Tile = Next++) {
-        const uint32_t X0 = Tile % Columns * Across, Y0 = Tile / Columns * Down;
-        for (uint32_t Y = Y0; Y < std::min(Y0 + Down, Height); ++Y) {
-          takeRow(Tile, Y, Row);
-          for (uint32_t X = X0; X < std::min(X0 + Across, Width); ++X)
-            Work(Row, X, Y);
-        }
+      for (uint32_t Y = Y0; Y < std::min(Y0 + Down, Height); ++Y) {
+        takeRow(Tile, Y, Row);
+        for (uint32_t X = X0; X < std::min(X0 + Across, Width); ++X)
+          Work(Row, X, Y);
       }
-    };
-    std::vector<std::thread> Others;
-    for (unsigned I = 1; I < std::thread::hardware_concurrency(); ++I)
-      Others.emplace_back(Share);
-    Share();
-    for (std::thread &Other : Others)
-      Other.join();
+    });
   }
 };
 

@@ -1,0 +1,40 @@
+/// Work that is shared among the host's processors.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+namespace vorion {
+
+/// Calls \p Work(I) once for each I below \p Count, in the order of I, on as
+/// many threads as the host has processors, of which the caller's is one. Who
+/// wants the same result on every host lets no call depend on another.
+template <typename Function>
+void inParallel(std::size_t Count, const Function &Work) {
+  std::atomic<std::size_t> Next = 0;
+  const auto Share = [&] {
+    for (std::size_t I = Next++; I < Count; I = Next++)
+      Work(I);
+  };
+  const std::size_t Threads =
+      std::min<std::size_t>(Count, std::thread::hardware_concurrency());
+  std::vector<std::jthread> Others;
+  for (std::size_t T = 1; T < Threads; ++T)
+    Others.emplace_back(Share);
+  Share();
+}
+
+/// The same for parts of at most \p Each consecutive numbers:
+/// \p Work(First, End).
+template <typename Function>
+void inParallelParts(std::size_t Count, std::size_t Each,
+                     const Function &Work) {
+  inParallel((Count + Each - 1) / Each, [&](std::size_t Part) {
+    Work(Part * Each, std::min(Count, (Part + 1) * Each));
+  });
+}
+
+} // namespace vorion
