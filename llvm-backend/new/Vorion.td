@@ -28,4 +28,7 @@ include "VorionSched.td"
 def VORION : RISCVProcessorModel<"vorion", VorionModel,
     [Feature32Bit, FeatureStdExtI, FeatureStdExtM, FeatureStdExtA, FeatureStdExtF,
      FeatureStdExtZicsr, FeatureStdExtZicond, FeatureStdExtZacas, FeatureStdExtZba,
-     FeatureStdExtZbb, FeatureStdExtZbs, FeatureVendorXVortex, FeatureVendorXVorion]>;
+     FeatureStdExtZbb, FeatureStdExtZbs, FeatureVendorXVortex, FeatureVendorXVorion],
+    // Spilled values are put right in front of their use, and take many cycles
+    // to come back.
+    [FeaturePostRAScheduler]>;

@@ -73,8 +73,8 @@ out:
 ; Strength reduction needs no counter beside a lane's address.
 ; REDUCED-LABEL: counted:
 ; REDUCED: flw
-; REDUCED-NEXT: fadd.s
 ; REDUCED-NEXT: addi
+; REDUCED-NEXT: fadd.s
 ; REDUCED-NEXT: bne
 ; REDUCED-NOT: vx_
 ; REDUCED: ret

@@ -28,3 +28,20 @@ define float @divides(float %a, float %b) {
   %s = fadd float %n, %q
   ret float %s
 }
+
+; A spilled value is fetched long before it is used, although the register
+; allocator puts the load right in front of its use.
+; CHECK-LABEL: reloads:
+; CHECK: #NO_APP
+; CHECK-NOT: fcvt
+; CHECK: flw [[R:fa[0-9]+]], {{.*}}(sp)
+; CHECK: fcvt.s.w
+; CHECK: fadd.s {{.*}}[[R]]
+define float @reloads(float %a, i32 %b) {
+  %c = call i32 asm sideeffect "", "=r,~{f0},~{f1},~{f2},~{f3},~{f4},~{f5},~{f6},~{f7},~{f8},~{f9},~{f10},~{f11},~{f12},~{f13},~{f14},~{f15},~{f16},~{f17},~{f18},~{f19},~{f20},~{f21},~{f22},~{f23},~{f24},~{f25},~{f26},~{f27},~{f28},~{f29},~{f30},~{f31}"()
+  %m = mul i32 %b, %c
+  %n = mul i32 %m, %b
+  %f = sitofp i32 %n to float
+  %s = fadd float %f, %a
+  ret float %s
+}
