@@ -24,7 +24,7 @@ using namespace Xbyak::util;
 
 namespace {
 
-constexpr int NumScratches = 8;
+[[maybe_unused]] constexpr int NumScratches = 8;
 constexpr int FirstGuestZmm = 9;
 constexpr int NumZmms = 32;
 
