@@ -3,8 +3,8 @@
 /// because the process of a library belongs to somebody else.
 ///
 /// Scenes, uploads and pictures are blocks of many megabytes, most of which are
-/// written once. In pages of 4 KiB, half of the time from a command to its
-/// picture went into page faults (docs/adr/0009-large-pages.md).
+/// written once. In pages of 4 KiB, more than a third of the time from a
+/// command to its picture went into page faults (docs/adr/0009-large-pages.md).
 
 #include <algorithm>
 #include <cstdlib>

@@ -48,8 +48,12 @@ void addSceneOptions(CLI::App &App, SceneArguments &A) {
       ->option_text("PX2");
 }
 
-Expected<SceneFile> loadScene(const SceneArguments &A) {
-  return loadScene(A, [] {});
+static Expected<SceneFile> readMeanwhile(const SceneArguments &A,
+                                         const std::function<void()> &Other) {
+  auto Reading = std::async(std::launch::async,
+                            [&A] { return readScene(A.Path, A.Options); });
+  Other();
+  return Reading.get();
 }
 
 Expected<SceneFile> loadScene(const SceneArguments &A,
@@ -68,10 +72,8 @@ Expected<SceneFile> loadScene(const SceneArguments &A,
       return Parsed.error();
     Change = *Parsed;
   }
-  auto Reading = std::async(std::launch::async,
-                            [&A] { return readScene(A.Path, A.Options); });
-  Meanwhile();
-  auto File = Reading.get();
+  auto File =
+      Meanwhile ? readMeanwhile(A, Meanwhile) : readScene(A.Path, A.Options);
   if (!File)
     return File;
   changeAxes(File->Gaussians, Change);

@@ -22,12 +22,11 @@ void addSceneOptions(CLI::App &App, SceneArguments &A);
 
 /// Reads the scene, in the axes that were asked for; says on the terminal what
 /// was left out.
-Expected<SceneFile> loadScene(const SceneArguments &A);
-
-/// The same. While a thread of its own reads, this one does \p Meanwhile, which
-/// says nothing and may ask for and change the environment.
+/// With \p Meanwhile, another thread reads while this one does that. It must
+/// print nothing. It may change the environment, which the reader never looks
+/// at.
 Expected<SceneFile> loadScene(const SceneArguments &A,
-                              const std::function<void()> &Meanwhile);
+                              const std::function<void()> &Meanwhile = {});
 
 /// The options of \p A as words of a command line, without the scene.
 std::vector<std::string> wordsOf(const SceneArguments &A);

@@ -78,7 +78,7 @@ public:
     Result.DrawnAs = std::move(*DrawnAs);
     Scene &S = Result.Gaussians = Scene::sized(Count, Later.Degree);
     const std::size_t ShEach = 3 * S.coefficients();
-    /// Gaussians \p First to \p End; what is wrong with the first bad one.
+    // Gaussians First to End; what is wrong with the first bad one.
     const auto Unpack = [&](std::size_t First,
                             std::size_t End) -> Expected<Success> {
       for (std::size_t I = First; I < End; ++I) {

@@ -9,9 +9,10 @@
 
 namespace vorion {
 
-/// Calls \p Work(I) once for each I below \p Count, in the order of I, on as
-/// many threads as the host has processors, of which the caller's is one. Who
-/// wants the same result on every host lets no call depend on another.
+/// Calls \p Work(I) once for each I below \p Count, on one thread a processor,
+/// of which the caller's is one. The calls must not depend on each other, or
+/// the result would depend on the host. (reference/ has a loop of its own,
+/// because it uses nothing of ours.)
 template <typename Function>
 void inParallel(std::size_t Count, const Function &Work) {
   std::atomic<std::size_t> Next = 0;
