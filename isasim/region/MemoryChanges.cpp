@@ -1,5 +1,7 @@
 #include "region/MemoryChanges.h"
 
+#include "mem/TouchedPages.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -49,9 +51,10 @@ std::vector<MemoryChanges::Page> MemoryChanges::take() {
   std::vector<Page> Changed;
   for (uint32_t N = 0; N != Ranges.size(); ++N) {
     const Range &R = Ranges[N];
-    // Pages that nobody has touched take no memory here either.
+    // Nobody gives pages back, so what was never touched has not changed.
+    const std::vector<bool> Touched = touchedPages(R.Now, PageBytes);
     for (uint32_t P = 0; R.has(P); ++P)
-      if (std::memcmp(R.before(P), R.now(P), R.sizeOf(P)) != 0) {
+      if (Touched[P] && std::memcmp(R.before(P), R.now(P), R.sizeOf(P)) != 0) {
         std::memcpy(R.before(P), R.now(P), R.sizeOf(P));
         Changed.push_back({N, P});
       }
