@@ -16,6 +16,7 @@ class AtomicRMWInst;
 class Function;
 class FunctionPass;
 class Instruction;
+class MachineFunction;
 class MachineInstr;
 class Pass;
 class PassBuilder;
@@ -33,6 +34,19 @@ namespace vorion {
 /// \p Node is not one.
 bool selectIntrinsic(SDNode *Node, SelectionDAG &DAG,
                      const RISCVSubtarget &Subtarget);
+
+/// Whether every float constant is an instruction (FloatConstants.cpp).
+bool hasFloatConstants(const RISCVSubtarget &Subtarget);
+
+/// Selects that instruction. False if \p Node is no constant of 32 bits or the
+/// machine is not ours.
+bool selectFloatConstant(SDNode *Node, SelectionDAG &DAG,
+                         const RISCVSubtarget &Subtarget);
+
+/// Expands all of them in \p MF, once registers are given and before its frame
+/// is laid out. Says whether the frame needs a slot in which a register can be
+/// saved, because none is free at one of them.
+bool expandFloatConstants(MachineFunction &MF);
 
 /// Whether lanes may differ in \p V although they agree in its operands.
 bool isSourceOfDivergence(const Value *V);

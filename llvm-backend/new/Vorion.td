@@ -22,6 +22,7 @@ def HasVendorXVorion : Predicate<"Subtarget->hasVendorXVorion()">,
     AssemblerPredicate<(all_of FeatureVendorXVorion), "'XVorion' (Gaussian rasterizer)">;
 
 include "RISCVInstrInfoXVortex.td"
+include "FloatConstants.td"
 include "VorionSched.td"
 
 // docs/abi.md, "Target".

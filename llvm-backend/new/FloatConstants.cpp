@@ -1,0 +1,105 @@
+//===- FloatConstants.cpp - floats made of integers -----------------------===//
+//
+// Upstream loads a float constant from memory by two instructions, which no
+// allocator puts back: MachineLICM hoists them whatever the pressure, and what
+// finds no register is spilled, to a stack of which each lane has its own.
+// Here a constant is one pseudo instruction until registers are given, then
+// lui, addi and fmv.w.x, as many of them as its bits need.
+//
+//===----------------------------------------------------------------------===//
+
+#include "RISCVSubtarget.h"
+#include "Vorion.h"
+#include "llvm/CodeGen/LiveRegUnits.h"
+#include "llvm/CodeGen/MachineFunction.h"
+#include "llvm/CodeGen/MachineInstrBuilder.h"
+#include "llvm/CodeGen/SelectionDAG.h"
+
+using namespace llvm;
+
+namespace {
+
+/// Chooses registers that nothing needs, each time another one, so that the
+/// scheduler may mix the code of neighbouring constants.
+class FreeRegisters {
+public:
+  explicit FreeRegisters(const MachineFunction &MF)
+      : Order(RISCV::GPRRegClass.getRawAllocationOrder(MF)) {}
+
+  /// None if all that may be used are in \p Live.
+  Register choose(const LiveRegUnits &Live, const MachineRegisterInfo &MRI) {
+    for (unsigned Tried = 0; Tried != Order.size(); ++Tried) {
+      const MCPhysReg Reg = Order[Next++ % Order.size()];
+      if (!MRI.isReserved(Reg) && Live.available(Reg))
+        return Reg;
+    }
+    return Register();
+  }
+
+private:
+  ArrayRef<MCPhysReg> Order;
+  unsigned Next = 0;
+};
+
+} // namespace
+
+bool vorion::hasFloatConstants(const RISCVSubtarget &Subtarget) {
+  return Subtarget.hasVendorXVortex() && Subtarget.hasStdExtF();
+}
+
+bool vorion::selectFloatConstant(SDNode *Node, SelectionDAG &DAG,
+                                 const RISCVSubtarget &Subtarget) {
+  const auto *Constant = dyn_cast<ConstantFPSDNode>(Node);
+  if (!Constant || Node->getSimpleValueType(0) != MVT::f32 ||
+      !hasFloatConstants(Subtarget))
+    return false;
+  const APInt Bits = Constant->getValueAPF().bitcastToAPInt();
+  const SDLoc DL(Node);
+  DAG.SelectNodeTo(
+      Node, RISCV::PseudoFloatConstant, MVT::f32,
+      DAG.getTargetConstant(Bits.getSExtValue(), DL, MVT::i32));
+  return true;
+}
+
+bool vorion::expandFloatConstants(MachineFunction &MF) {
+  const auto &TII = *MF.getSubtarget<RISCVSubtarget>().getInstrInfo();
+  MachineRegisterInfo &MRI = MF.getRegInfo();
+  LiveRegUnits Live(*MRI.getTargetRegisterInfo());
+  FreeRegisters Free(MF);
+  bool NeedsSlot = false;
+  for (MachineBasicBlock &MBB : MF) {
+    Live.clear();
+    Live.addLiveOuts(MBB);
+    for (MachineInstr &MI : make_early_inc_range(reverse(MBB))) {
+      Live.stepBackward(MI);
+      if (MI.getOpcode() != RISCV::PseudoFloatConstant)
+        continue;
+      const Register Chosen = Free.choose(Live, MRI);
+      NeedsSlot = NeedsSlot || !Chosen;
+      const auto build = [&](unsigned Opcode, Register To) {
+        return BuildMI(MBB, MI, MI.getDebugLoc(), TII.get(Opcode), To);
+      };
+      // Where no register is free, the frame's scavenger makes one so.
+      const auto scratch = [&] {
+        return Chosen ? Chosen : MRI.createVirtualRegister(&RISCV::GPRRegClass);
+      };
+      const int64_t Bits = MI.getOperand(1).getImm();
+      const int64_t Low = SignExtend64<12>(Bits);
+      const int64_t High = ((Bits - Low) >> 12) & 0xFFFFF;
+      Register From = RISCV::X0;
+      if (High != 0)
+        build(RISCV::LUI, From = scratch()).addImm(High);
+      if (Low != 0) {
+        const Register To = scratch();
+        build(RISCV::ADDI, To)
+            .addReg(From, getKillRegState(From != RISCV::X0))
+            .addImm(Low);
+        From = To;
+      }
+      build(RISCV::FMV_W_X, MI.getOperand(0).getReg())
+          .addReg(From, getKillRegState(From != RISCV::X0));
+      MI.eraseFromParent();
+    }
+  }
+  return NeedsSlot;
+}
