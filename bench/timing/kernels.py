@@ -27,8 +27,9 @@ HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "kernels")
 OF_ONE, OF_ALL = 0.15, 0.05
 # What both machines have: the extensions that Vortex knows, too.
 MARCH = "-march=rv32imf_zicsr_xvortex"
-# The images that ran on the RTL are older than the second scheduler (docs/backend.md).
-AS_ON_THE_RTL = ["-mllvm", "-enable-post-misched=false"]
+# The images that ran on the RTL are older than these parts of the compiler (docs/backend.md).
+NEWER = ("enable-post-misched", "vorion-float-constants", "vorion-place-constants", "vorion-raise-invariants")
+AS_ON_THE_RTL = [word for option in NEWER for word in ("-mllvm", f"-{option}=false")]
 
 
 def compiler_folder():

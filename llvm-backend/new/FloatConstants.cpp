@@ -14,8 +14,13 @@
 #include "llvm/CodeGen/MachineFunction.h"
 #include "llvm/CodeGen/MachineInstrBuilder.h"
 #include "llvm/CodeGen/SelectionDAG.h"
+#include "llvm/Support/CommandLine.h"
 
 using namespace llvm;
+
+static cl::opt<bool> Enabled("vorion-float-constants", cl::Hidden,
+                             cl::init(true),
+                             cl::desc("Make float constants of integers"));
 
 namespace {
 
@@ -44,7 +49,7 @@ private:
 } // namespace
 
 bool vorion::hasFloatConstants(const RISCVSubtarget &Subtarget) {
-  return Subtarget.hasVendorXVortex() && Subtarget.hasStdExtF();
+  return Enabled && Subtarget.hasVendorXVortex() && Subtarget.hasStdExtF();
 }
 
 bool vorion::selectFloatConstant(SDNode *Node, SelectionDAG &DAG,
@@ -55,9 +60,8 @@ bool vorion::selectFloatConstant(SDNode *Node, SelectionDAG &DAG,
     return false;
   const APInt Bits = Constant->getValueAPF().bitcastToAPInt();
   const SDLoc DL(Node);
-  DAG.SelectNodeTo(
-      Node, RISCV::PseudoFloatConstant, MVT::f32,
-      DAG.getTargetConstant(Bits.getSExtValue(), DL, MVT::i32));
+  DAG.SelectNodeTo(Node, RISCV::PseudoFloatConstant, MVT::f32,
+                   DAG.getTargetConstant(Bits.getSExtValue(), DL, MVT::i32));
   return true;
 }
 

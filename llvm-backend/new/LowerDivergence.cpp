@@ -266,6 +266,8 @@ bool vorion::lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
         F, B.Warning, B.Call->getDebugLoc(), DS_Warning));
 
   if (Optimize && !F.hasOptNone()) {
+    if (vorion::raiseInvariants(F, Analyses))
+      changed();
     while (vorion::markUniformTests(F, Analyses))
       changed();
     while (vorion::selectShortSides(F, Analyses, Subtarget))

@@ -65,6 +65,10 @@ bool lowerDivergence(Function &F, FunctionAnalysisManager &Analyses,
 bool selectShortSides(Function &F, FunctionAnalysisManager &Analyses,
                       const RISCVSubtarget &Subtarget);
 
+/// Moves what LLVM sank behind a loop in front of it again, where fewer values
+/// are then alive across the loop. True if there was anything.
+bool raiseInvariants(Function &F, FunctionAnalysisManager &Analyses);
+
 /// Marks comparisons that lanes agree in although they differ in what is
 /// compared. True if there was anything new.
 bool markUniformTests(Function &F, FunctionAnalysisManager &Analyses);

@@ -63,6 +63,11 @@ constexpr std::pair<StringLiteral, Step> Steps[] = {
         const RISCVSubtarget &) {
        return vorion::markUniformTests(F, Analyses);
      }},
+    {"vorion-raise-invariants",
+     [](Function &F, FunctionAnalysisManager &Analyses,
+        const RISCVSubtarget &) {
+       return vorion::raiseInvariants(F, Analyses);
+     }},
     {"vorion-select-sides", vorion::selectShortSides},
     {"vorion-divergent-joins", markIn<vorion::markDivergentJoins>},
     {"vorion-merge-loop-exits",

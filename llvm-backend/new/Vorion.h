@@ -103,6 +103,10 @@ std::vector<Pass *> createDivergencePasses();
 /// Right after selection: refuses branches that selection made.
 FunctionPass *createRefuseBranchesPass();
 
+/// Before registers are given: puts constants where registers are left for them
+/// (PlaceConstants.cpp).
+FunctionPass *createPlaceConstantsPass();
+
 /// Before emission: refuses functions whose splits and joins do not pair.
 FunctionPass *createVerifySplitsPass();
 

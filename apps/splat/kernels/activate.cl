@@ -47,49 +47,34 @@ static float scale_by_power(float a, int n) {
          as_float((n - half_n + 127) << 23);
 }
 
-// Where a kernel keeps constants: private, or __local, whose words a core has in
-// 3 cycles. What a loop does not change the compiler would keep on the stack,
-// which is several times as far.
-#ifndef CONSTANTS
-#define CONSTANTS __private
-#endif
-
-typedef struct {
-  float log2_e;
-  float to_integer; // added and taken off, it rounds to the nearest integer
-  // ln 2 in three parts; the first has 9 bits, so that n times it is exact.
-  float ln2_high, ln2_middle, ln2_low;
-  float part, second, third, fourth, fifth; // 1 / 64; 1 / 2!, 1 / 3! and so on
-  // Beyond these the result is infinite or 0, or the opacity 0 or 1, anyway.
-  float most_scale, most_logit;
-} activation_constants;
-
-static activation_constants make_activation_constants(void) {
-  return (activation_constants){1.44269504f,    0x1.8p23f,        0x1.62p-1f,
-                                0x1.c85fep-10f, -0x1.718432p-35f, 0.015625f,
-                                0.5f,           0.16666667f,      0.041666668f,
-                                0.008333334f,   150.0f,           80.0f};
-}
+// ln 2 in three parts; the first has 9 bits, so that n times it is exact.
+#define LN2_HIGH 0x1.62p-1f
+#define LN2_MIDDLE 0x1.c85fep-10f
+#define LN2_LOW -0x1.718432p-35f
+// Beyond these the result is infinite or 0, or the opacity 0 or 1, anyway.
+#define MOST_SCALE 150.0f
+#define MOST_LOGIT 80.0f
 
 // e^x = (high + low) 2^power for |x| <= 150.
-static pair4 exp_pair4(CONSTANTS const activation_constants *c, float4 x,
-                       int4 *power) {
-  const float4 n = (x * c->log2_e + c->to_integer) - c->to_integer;
-  const float4 exact = fma(-n, (float4)c->ln2_high, x);
-  const float4 product = n * c->ln2_middle;
-  const float4 product_low = fma(n, (float4)c->ln2_middle, -product);
+static pair4 exp_pair4(float4 x, int4 *power) {
+  *power = convert_int4_rte(x * 1.44269504f);
+  const float4 n = convert_float4(*power);
+  const float4 exact = fma(-n, (float4)LN2_HIGH, x);
+  const float4 product = n * LN2_MIDDLE;
+  const float4 product_low = fma(n, (float4)LN2_MIDDLE, -product);
   pair4 r = two_sum4(exact, -product);
-  r = fast_two_sum4(r.high, r.low - product_low - n * c->ln2_low);
+  r = fast_two_sum4(r.high, r.low - product_low - n * LN2_LOW);
 
   // e^r - 1 from e^(r/64) - 1 = t + t^2/2 + t^3/6 + ..., of which only the
   // first two terms need both floats, and six times s -> 2 s + s^2. All of
   // these are under 1, so that the larger summand is known.
-  const pair4 t = {r.high * c->part, r.low * c->part};
+  const pair4 t = {r.high * 0.015625f, r.low * 0.015625f};
   pair4 half_square = square_pair4(t);
-  half_square.high *= c->second;
-  half_square.low *= c->second;
-  const float4 rest = t.high * t.high * t.high *
-                      (c->third + t.high * (c->fourth + t.high * c->fifth));
+  half_square.high *= 0.5f;
+  half_square.low *= 0.5f;
+  const float4 rest =
+      t.high * t.high * t.high *
+      (1.0f / 6.0f + t.high * (1.0f / 24.0f + t.high * (1.0f / 120.0f)));
   pair4 s = fast_two_sum4(t.high, half_square.high);
   s = fast_two_sum4(s.high, s.low + (t.low + half_square.low + rest));
   for (int i = 0; i < 6; ++i) {
@@ -97,19 +82,16 @@ static pair4 exp_pair4(CONSTANTS const activation_constants *c, float4 x,
     const pair4 sum = fast_two_sum4(2.0f * s.high, square.high);
     s = fast_two_sum4(sum.high, sum.low + (2.0f * s.low + square.low));
   }
-  *power = convert_int4(n);
   const pair4 one = fast_two_sum4((float4)1.0f, s.high);
   return fast_two_sum4(one.high, one.low + s.low);
 }
 
 // From (log scales x, y, z; logit of the opacity) to scales and opacity.
-static float4 activate_scales_and_opacity(CONSTANTS const activation_constants *c,
-                                          float4 stored) {
-  const float4 limit =
-      (float4)(c->most_scale, c->most_scale, c->most_scale, c->most_logit);
+static float4 activate_scales_and_opacity(float4 stored) {
+  const float4 limit = (float4)(MOST_SCALE, MOST_SCALE, MOST_SCALE, MOST_LOGIT);
   const float4 x = (float4)(stored.x, stored.y, stored.z, -stored.w);
   int4 power;
-  const pair4 e = exp_pair4(c, clamp(x, -limit, limit), &power);
+  const pair4 e = exp_pair4(clamp(x, -limit, limit), &power);
   const float high = scale_by_power(e.high.w, power.w);
   const float low = scale_by_power(e.low.w, power.w);
   const float2 sum = two_sum(1.0f, high);

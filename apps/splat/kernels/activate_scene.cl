@@ -8,9 +8,7 @@ __kernel void activate_scene(__global float *all, uint count) {
     return;
   __global float *geometry =
       all + i / LINE_WORDS * LINE_WORDS * GEOMETRY_PLANES + i % LINE_WORDS;
-  const activation_constants constants = make_activation_constants();
   const float4 activated = activate_scales_and_opacity(
-      &constants,
       (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
                GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT)));
   const float4 unit = activate_quaternion(

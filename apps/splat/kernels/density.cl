@@ -148,9 +148,7 @@ __kernel void density_split(__global const float *geometry,
   if (i >= count || fates[i] != FATE_SPLIT)
     return;
   const axes_of_gaussian axes = gaussian_axes(geometry, count, i);
-  const activation_constants constants = make_activation_constants();
   const float4 activated = activate_scales_and_opacity(
-      &constants,
       (float4)(geometry[PLANE_LOG_SCALE * count + i],
                geometry[(PLANE_LOG_SCALE + 1) * count + i],
                geometry[(PLANE_LOG_SCALE + 2) * count + i], 0.0f));

@@ -12,9 +12,8 @@
 
 static float4 activated_scales(__global const float *geometry, uint count,
                                uint i) {
-  const activation_constants constants = make_activation_constants();
   return activate_scales_and_opacity(
-      &constants, (float4)(geometry[PLANE_LOG_SCALE * count + i],
+      (float4)(geometry[PLANE_LOG_SCALE * count + i],
                            geometry[(PLANE_LOG_SCALE + 1) * count + i],
                            geometry[(PLANE_LOG_SCALE + 2) * count + i],
                            geometry[PLANE_LOGIT * count + i]));

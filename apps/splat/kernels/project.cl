@@ -102,18 +102,16 @@ static float camera_distance(__local const splat_view *view, float3 p) {
 #endif
 
 // Local memory of a group. An argument of the kernel, so that the compiler
-// reaches all of it from one register. What a lane needs seldom is here, and a
-// record is written here word by word: what does not fit the registers goes to
-// the stack, from which a word comes back after 11 cycles, and from here after
-// 3. Of 2,713 cycles that 16 Gaussians took on guitar, 600 were such waits.
+// reaches all of it from one register. The arguments and what a lane has found
+// are here because they are needed once in a Gaussian: the compiler would keep
+// them on the stack, from which a word comes back after 11 cycles, and from here
+// after 3. As variables, the arguments take 10 and 4 % more of this kernel's
+// cycles on prototype-forwarding (guitar and box_sh3), what was found 15 and 17.
 typedef struct {
   splat_view view;
-  activation_constants activation;
-  sh_constants sh;
-  __global const float *geometry, *colors; // the kernel's own arguments
+  __global const float *geometry, *colors;
   __global uint *records, *depths;
   __global uint2 *rectangles;
-  uint step, last;                 // a group's way to its next; of Gaussians
   uint lines[1 + SH_AHEAD][LANES]; // from a lane's own word to one it asks for
   uint latest;                     // beginning of the last line with a record
   union {
@@ -165,10 +163,6 @@ static uint project_one(__local workspace *c,
 #else
   const float z = camera_depth(view, px, py, pz);
 #endif
-  // So that it is known here. The compiler moves what only later code needs
-  // behind the loop, and this sum would have 20 terms alive across it, where no
-  // test of the depth holds it here (docs/effects.md has the cost).
-  *unread = as_uint(z);
   if (USE_NEAR_PLANE && !(KEEP_DEPTH(z)))
     return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
   const uint asked0 = ASK_FOR_SH(0);
@@ -182,7 +176,6 @@ static uint project_one(__local workspace *c,
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
 #else
   const float4 activated = activate_scales_and_opacity(
-      &c->activation,
       (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
                GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT)));
   const uint asked1 = ASK_FOR_SH(1);
@@ -291,7 +284,7 @@ static uint project_one(__local workspace *c,
   *rectangle = make_rectangle(x0, y0, x1, y1);
 
   *unread = asked0 ^ asked1 ^ asked2;
-  const float3 color = sh_color(&c->sh, sh, count, i, d, effects);
+  const float3 color = sh_color(sh, count, i, d, effects);
   g->color[0] = color.x;
   g->color[1] = color.y;
   g->color[2] = color.z;
@@ -332,6 +325,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
         __local workspace *w) {
   const uint effects = camera->effects;
   const uint lane = get_local_id(0);
+  const uint step = get_num_groups(0) * LANES;
   for (uint k = lane; k < sizeof(splat_view) / 4; k += LANES)
     ((__local uint *)&w->view)[k] = ((__constant const uint *)camera)[k];
 #if HAS_LENS
@@ -369,21 +363,17 @@ project(__constant const splat_view *camera, __global const float *geometry,
   if (lane == 0) {
     w->geometry = geometry;
     w->colors = sh;
-    w->step = get_num_groups(0) * LANES;
-    w->last = count - 1;
     w->records = records;
     w->depths = depths;
     w->rectangles = rectangles;
-    w->activation = make_activation_constants();
-    make_sh_constants(&w->sh, effects);
     w->latest = ~0u;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (uint first = get_group_id(0) * LANES; first < count; first += w->step) {
+  for (uint first = get_group_id(0) * LANES; first < count; first += step) {
     const uint i = first + lane;
 #ifdef SCENE_IN_BLOCKS
-    const uint next = min(first + w->step, w->last) / LANES;
+    const uint next = min(first + step, count - 1) / LANES;
     const float ahead = w->geometry[next * (GEOMETRY_PLANES * LINE_WORDS) +
                                     lane + w->lines[0][lane]];
     __global const float *own_geometry =
@@ -421,6 +411,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     if (w->latest == first) {
+      // All loads, then all stores: one by one, 3 and 6 % more cycles.
       uint words[RECORD_WORDS];
 #pragma unroll
       for (uint k = 0; k < RECORD_WORDS; ++k)

@@ -198,9 +198,7 @@ static void project_backward_one(__constant const splat_view *view,
 #else
   g.place.z = z;
 #endif
-  const activation_constants constants = make_activation_constants();
   g.activated = activate_scales_and_opacity(
-      &constants,
       (float4)(GEOMETRY(PLANE_LOG_SCALE), GEOMETRY(PLANE_LOG_SCALE + 1),
                GEOMETRY(PLANE_LOG_SCALE + 2), GEOMETRY(PLANE_LOGIT)));
   const float4 stored =

@@ -31,8 +31,7 @@ __kernel void ray_frames(__constant const splat_view *view,
       (float4)(GEOMETRY(PLANE_QUATERNION), GEOMETRY(PLANE_QUATERNION + 1),
                GEOMETRY(PLANE_QUATERNION + 2), GEOMETRY(PLANE_QUATERNION + 3));
 #if !USE_ACTIVATED_SCENE
-  const activation_constants constants = make_activation_constants();
-  scale = activate_scales_and_opacity(&constants, scale);
+  scale = activate_scales_and_opacity(scale);
   unit = activate_quaternion(unit);
 #endif
   const world_axes q = rotate_axes(unit);

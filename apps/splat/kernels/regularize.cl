@@ -7,9 +7,8 @@ __kernel void regularize(__global const float *geometry,
   const uint i = get_global_id(0);
   if (i >= count)
     return;
-  const activation_constants constants = make_activation_constants();
   const float4 a = activate_scales_and_opacity(
-      &constants, (float4)(geometry[PLANE_LOG_SCALE * count + i],
+      (float4)(geometry[PLANE_LOG_SCALE * count + i],
                            geometry[(PLANE_LOG_SCALE + 1) * count + i],
                            geometry[(PLANE_LOG_SCALE + 2) * count + i],
                            geometry[PLANE_LOGIT * count + i]));

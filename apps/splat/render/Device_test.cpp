@@ -159,9 +159,8 @@ protected:
 TEST_F(KernelOnDevice, ActivationIsRoundedOnce) {
   const KernelFolder Folder("activation", {"activate.cl"}, R"(
 __kernel void test(__global const float4 *in, __global float4 *out) {
-  const activation_constants constants = make_activation_constants();
   const uint i = 2 * get_global_id(0);
-  out[i] = activate_scales_and_opacity(&constants, in[i]);
+  out[i] = activate_scales_and_opacity(in[i]);
   out[i + 1] = activate_quaternion(in[i + 1]);
 })");
   constexpr uint32_t Count = 20000;

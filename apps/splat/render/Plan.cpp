@@ -149,7 +149,7 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
       {{ProjectProgram,
         {"layout.h", "activate.cl", "covariance.cl", "support.cl", "planes.h",
          "sh_basis.h", "sh.cl", "rectangle.cl"},
-        {"CONSTANTS=__local", "VIEW_SPACE=__local"}},
+        {"VIEW_SPACE=__local"}},
        {SortProgram, {"sort.cl"}, {}},
        {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},
        {BlendProgram,
