@@ -80,11 +80,11 @@ bool vorion::expandFloatConstants(MachineFunction &MF) {
         continue;
       const Register Chosen = Free.choose(Live, MRI);
       NeedsSlot = NeedsSlot || !Chosen;
-      const auto build = [&](unsigned Opcode, Register To) {
+      auto build = [&](unsigned Opcode, Register To) {
         return BuildMI(MBB, MI, MI.getDebugLoc(), TII.get(Opcode), To);
       };
       // Where no register is free, the frame's scavenger makes one so.
-      const auto scratch = [&] {
+      auto scratch = [&] {
         return Chosen ? Chosen : MRI.createVirtualRegister(&RISCV::GPRRegClass);
       };
       const int64_t Bits = MI.getOperand(1).getImm();

@@ -10,6 +10,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "RISCVSubtarget.h"
+#include "Remarks.h"
 #include "Vorion.h"
 #include "llvm/ADT/BitVector.h"
 #include "llvm/ADT/MapVector.h"
@@ -95,7 +96,7 @@ private:
   bool step(const MachineBasicBlock &MBB) {
     BitVector Live = LiveOut[MBB.getNumber()];
     unsigned Now = Live.count(), Top = Now;
-    const auto note = [&](const MachineOperand &MO, bool IsLive) {
+    auto note = [&](const MachineOperand &MO, bool IsLive) {
       const auto Found = MO.isReg() ? Index.find(MO.getReg()) : Index.end();
       if (Found == Index.end() || Live.test(Found->second) == IsLive)
         return;
@@ -231,7 +232,7 @@ private:
                                                  ArrayRef<Use> Uses) {
     SmallVector<const MachineBasicBlock *> Blocks = {At};
     SmallPtrSet<const MachineBasicBlock *, 16> Seen = {At};
-    const auto add = [&](const MachineBasicBlock *MBB) {
+    auto add = [&](const MachineBasicBlock *MBB) {
       if (Seen.insert(MBB).second)
         Blocks.push_back(MBB);
     };
@@ -305,6 +306,14 @@ private:
     for (auto &[Block, Group] : Own) {
       --Left[Block->getNumber()];
       make(Made, *Block, Group);
+      if (Loop && Block->getBasicBlock())
+        vorion::remark<OptimizationRemarkMissed>(
+            vorion::remarks::Constant, "NoRegister",
+            Group.front().Operand->getParent()->getDebugLoc(),
+            *Block->getBasicBlock(), [] {
+              return "a constant is made in every iteration: the loop needs "
+                     "all registers";
+            });
     }
   }
 

@@ -9,6 +9,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "LowerDivergence.h"
+#include "Remarks.h"
 #include "llvm/ADT/EquivalenceClasses.h"
 #include "llvm/ADT/SetVector.h"
 #include "llvm/Analysis/LoopInfo.h"
@@ -47,17 +48,27 @@ public:
           Sums.unionSets(I, Term);
     }
     SmallPtrSet<const Instruction *, 16> Worthwhile;
+    int Gain = 0;
     for (auto Sum = Sums.begin(); Sum != Sums.end(); ++Sum)
-      if (Sum->isLeader() && gains(Sums, Sum))
+      if (const int Fewer = Sum->isLeader() ? gain(Sums, Sum) : 0; Fewer > 0) {
+        Gain += Fewer;
         for (auto M = Sums.member_begin(Sum); M != Sums.member_end(); ++M)
           Worthwhile.insert(*M);
-    bool Changed = false;
-    for (Instruction *I : Raisable)
-      if (Worthwhile.contains(I)) {
-        I->moveBefore(Before.getTerminator());
-        Changed = true;
       }
-    return Changed;
+    Raisable.remove_if([&](Instruction *I) { return !Worthwhile.contains(I); });
+    if (Raisable.empty())
+      return false;
+    vorion::remark<OptimizationRemark>(
+        vorion::remarks::Raise, "Raised", *Raisable.front(), [&] {
+          return (Twine(Raisable.size()) +
+                  " instructions moved in front of a loop, behind which they "
+                  "had been sunk; values alive across it: " +
+                  Twine(-Gain))
+              .str();
+        });
+    for (Instruction *I : Raisable)
+      I->moveBefore(Before.getTerminator());
+    return true;
   }
 
 private:
@@ -83,9 +94,9 @@ private:
            !Raisable.contains(&Term);
   }
 
-  /// Whether fewer values are alive across the loop if \p Sum is raised.
-  bool gains(const EquivalenceClasses<Instruction *> &Sums,
-             EquivalenceClasses<Instruction *>::iterator Sum) const {
+  /// How many values fewer are alive across the loop if \p Sum is raised.
+  int gain(const EquivalenceClasses<Instruction *> &Sums,
+           EquivalenceClasses<Instruction *>::iterator Sum) const {
     int Fewer = 0;
     for (auto M = Sums.member_begin(Sum); M != Sums.member_end(); ++M) {
       const bool IsRaised = Raisable.contains(*M);
@@ -100,7 +111,7 @@ private:
       if (!IsRaised && !IsUsedBehind)
         ++Fewer;
     }
-    return Fewer > 0;
+    return Fewer;
   }
 
   const Loop &L;

@@ -20,7 +20,9 @@ namespace llvm::vorion {
 namespace remarks {
 inline constexpr const char *Atomic = "vorion-atomic";
 inline constexpr const char *Barrier = "vorion-barrier";
+inline constexpr const char *Constant = "vorion-constant";
 inline constexpr const char *Loop = "vorion-loop";
+inline constexpr const char *Raise = "vorion-raise";
 inline constexpr const char *Repeat = "vorion-repeat";
 inline constexpr const char *Select = "vorion-select";
 inline constexpr const char *Split = "vorion-split";

@@ -2,6 +2,8 @@
 ; the others the loop makes them where it uses them, and spills nothing.
 ; REQUIRES: vorion-llc
 ; RUN: vorion-llc -mtriple=riscv32 -mcpu=vorion -O2 < %s | FileCheck %s
+; RUN: vorion-llc -mtriple=riscv32 -mcpu=vorion -O2 -pass-remarks-missed=vorion-constant < %s -o /dev/null 2>&1 | FileCheck %s --check-prefix=MISSED
+; MISSED: remark: {{.*}}: a constant is made in every iteration: the loop needs all registers
 ; RUN: vorion-llc -mtriple=riscv32 -mcpu=vorion -O2 -stop-after=postrapseudos -verify-machineinstrs < %s > %t
 
 ; CHECK-LABEL: few:

@@ -34,3 +34,24 @@ yes:
 meet:
   ret i32 0
 }
+
+; CHECK: remark: {{.*}}: 2 instructions moved in front of a loop, behind which they had been sunk; values alive across it: -1
+define float @behind(ptr %p, i32 %count) {
+entry:
+  %x = load float, ptr %p
+  %q = getelementptr float, ptr %p, i32 1
+  %y = load float, ptr %q
+  br label %loop
+loop:
+  %at = phi float [ 1.0, %entry ], [ %next, %loop ]
+  %k = phi i32 [ 0, %entry ], [ %k1, %loop ]
+  %next = fmul float %at, 0.5
+  %k1 = add i32 %k, 1
+  %more = icmp ult i32 %k1, %count
+  br i1 %more, label %loop, label %out
+out:
+  %xx = fmul float %x, %x
+  %sum = fadd float %xx, %y
+  %root = fadd float %next, %sum
+  ret float %root
+}
