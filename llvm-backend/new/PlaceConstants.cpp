@@ -22,6 +22,7 @@
 #include "llvm/CodeGen/MachineRegisterInfo.h"
 #include "llvm/Support/CommandLine.h"
 #include <cmath>
+#include <tuple>
 
 using namespace llvm;
 
@@ -159,6 +160,11 @@ public:
       : MF(MF), MRI(MF.getRegInfo()), Loops(Loops), DT(DT) {}
 
   bool run() {
+    // Code that nothing leads to has no place in the order of dominators.
+    if (any_of(MF, [&](MachineBasicBlock &MBB) {
+          return !DT.isReachableFromEntry(&MBB);
+        }))
+      return false;
     std::vector<Constant> All = collect();
     if (All.empty())
       return false;
@@ -181,7 +187,9 @@ public:
 private:
   /// Constants with their uses, the most used ones first.
   std::vector<Constant> collect() {
-    MapVector<std::pair<unsigned, int64_t>, Constant> Found;
+    // Of one class, so that each may stand where another did.
+    using Number = std::tuple<unsigned, int64_t, const TargetRegisterClass *>;
+    MapVector<Number, Constant> Found;
     for (MachineBasicBlock &MBB : MF)
       for (MachineInstr &MI : MBB) {
         if (!makesConstant(MI))
@@ -191,7 +199,8 @@ private:
           continue;
         Constant &C =
             Found[{MI.getOpcode(),
-                   MI.getOperand(MI.getNumExplicitOperands() - 1).getImm()}];
+                   MI.getOperand(MI.getNumExplicitOperands() - 1).getImm(),
+                   MRI.getRegClass(Reg)}];
         if (!C.Made)
           C.Made = &MI;
         Old.push_back(&MI);
@@ -261,7 +270,6 @@ private:
     Copy->getOperand(0).setReg(New);
     At.insert(Place, Copy);
     for (const Use &U : Uses) {
-      MRI.constrainRegClass(New, MRI.getRegClass(U.Operand->getReg()));
       U.Operand->setReg(New);
       U.Operand->setIsKill(false);
     }
