@@ -133,7 +133,7 @@ def write(file, sections):
     out += ["## Pages", ""]
     out += [f"- {_anchored(name, module.TITLE)}" for name, module, _ in found] + [""]
     out += ["## Not measured", ""]
-    out += [f"- {module.TITLE}: again. Its claims are those of an earlier build, which its page names. `scripts/paper.sh --sections {name}`."
+    out += [f"- {module.TITLE}: not in the last run. Its claims are those of an earlier build, which its page names. `scripts/paper.sh --sections {name}`."
             for name, (module, _) in sections.items() if name in earlier]
     out += [f"- {module.TITLE}{': ' + claims.OPEN[name] if name in claims.OPEN else ''}. `scripts/paper.sh --sections {name}`."
             for name, (module, data) in sections.items() if not data and name not in earlier]

@@ -275,8 +275,10 @@ private:
     }
   }
 
-  bool fits(const MachineInstr &Made, MachineBasicBlock *At,
-            ArrayRef<Use> Uses) {
+  /// Makes it there if every block up to the uses has a register left, and
+  /// takes one from each of them.
+  bool makeIfFree(const MachineInstr &Made, MachineBasicBlock *At,
+                  ArrayRef<Use> Uses) {
     const auto Blocks = between(At, Uses);
     if (any_of(Blocks, [&](const MachineBasicBlock *MBB) {
           return Left[MBB->getNumber()] <= 0;
@@ -292,7 +294,7 @@ private:
   /// as registers are left.
   void place(const MachineInstr &Made, ArrayRef<Use> Uses,
              const MachineLoop *Loop) {
-    if (Uses.empty() || fits(Made, placeFor(Uses, Loop), Uses))
+    if (Uses.empty() || makeIfFree(Made, placeFor(Uses, Loop), Uses))
       return;
     MapVector<const MachineLoop *, SmallVector<Use>> Inner;
     MapVector<MachineBasicBlock *, SmallVector<Use>> Own;
@@ -308,7 +310,7 @@ private:
     }
     for (auto &[L, Group] : Inner) {
       MachineBasicBlock *Before = L->getLoopPreheader();
-      if (!Before || !fits(Made, Before, Group))
+      if (!Before || !makeIfFree(Made, Before, Group))
         place(Made, Group, L);
     }
     for (auto &[Block, Group] : Own) {

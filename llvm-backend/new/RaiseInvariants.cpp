@@ -89,9 +89,8 @@ private:
 
   /// Whether \p Term, which is there in front of the loop, need not be alive
   /// inside it if nothing behind uses it. Loops around it need all else anyway.
-  bool mayEnd(Instruction &Term) const {
-    return Loops.getLoopFor(Term.getParent()) == Loops.getLoopFor(&Before) &&
-           !Raisable.contains(&Term);
+  bool mayEnd(const Instruction &Term) const {
+    return Loops.getLoopFor(Term.getParent()) == Loops.getLoopFor(&Before);
   }
 
   /// How many values fewer are alive across the loop if \p Sum is raised.

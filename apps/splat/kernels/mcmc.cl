@@ -14,9 +14,9 @@ static float4 activated_scales(__global const float *geometry, uint count,
                                uint i) {
   return activate_scales_and_opacity(
       (float4)(geometry[PLANE_LOG_SCALE * count + i],
-                           geometry[(PLANE_LOG_SCALE + 1) * count + i],
-                           geometry[(PLANE_LOG_SCALE + 2) * count + i],
-                           geometry[PLANE_LOGIT * count + i]));
+               geometry[(PLANE_LOG_SCALE + 1) * count + i],
+               geometry[(PLANE_LOG_SCALE + 2) * count + i],
+               geometry[PLANE_LOGIT * count + i]));
 }
 
 // Weights by which Gaussians are drawn, up to `scale` each, and 1 in `dead` for

@@ -9,9 +9,9 @@ __kernel void regularize(__global const float *geometry,
     return;
   const float4 a = activate_scales_and_opacity(
       (float4)(geometry[PLANE_LOG_SCALE * count + i],
-                           geometry[(PLANE_LOG_SCALE + 1) * count + i],
-                           geometry[(PLANE_LOG_SCALE + 2) * count + i],
-                           geometry[PLANE_LOGIT * count + i]));
+               geometry[(PLANE_LOG_SCALE + 1) * count + i],
+               geometry[(PLANE_LOG_SCALE + 2) * count + i],
+               geometry[PLANE_LOGIT * count + i]));
   const float scales[3] = {a.x, a.y, a.z};
   for (uint k = 0; k < 3; ++k)
     gradients[(PLANE_LOG_SCALE + k) * count + i] += scale * scales[k];
