@@ -89,9 +89,11 @@ constexpr EventCost Others[] = {
     {"pixel unit", "visits", PixelUnit, "fp32 multiplication", 7 + 1 + 5},
     {"pixel unit", "visits", PixelUnit, "fp32 addition", 4 + 2 + 5},
     {"pixel unit", "tails", PixelUnit, "tile command", 1},
-    {"time", "cores", CoreClock, "core cycle", 1},
-    {"time", "busy rasterizers", RasterClock, "rasterizer cycle", 1},
-    {"time", "busy pixel units", PixelUnit, "rasterizer cycle", 0.25},
+    // Flip-flops are nearly all of lanes, and the rows are of 16.
+    {"time", "core lanes", CoreClock, "core cycle", 1.0 / 16},
+    {"time", "busy rasterizer lanes", RasterClock, "rasterizer cycle",
+     1.0 / 16},
+    {"time", "busy pixel unit lanes", PixelUnit, "rasterizer cycle", 1.0 / 16},
     {"link", "bytes to the L2", Link, "pad byte", 1},
     {"link", "bytes from the L2", Link, "pad byte", 1},
     {"l2", "line reads", L2, "SRAM 1 MiB", LineWords},
@@ -164,13 +166,23 @@ std::span<const EventCost> eventCosts() {
 
 std::span<const FreeEvent> freeEvents() {
   static constexpr FreeEvent All[] = {
-      {"data cache", "stale loads"},  {"local memory", "conflict cycles"},
-      {"time", "core lanes"},         {"time", "rasterizers"},
-      {"time", "rasterizer lanes"},   {"time", "second pixel buffers"},
-      {"time", "block tests"},        {"time", "maps of closed blocks"},
-      {"time", "pixel unit lanes"},   {"time", "KiB of instruction caches"},
-      {"time", "KiB of data caches"}, {"time", "KiB of local memories"},
-      {"time", "KiB of the L2"},      {"time", "KiB of the llc"},
+      {"data cache", "stale loads"},
+      {"local memory", "conflict cycles"},
+      {"time", "cores"},
+      {"time", "busy rasterizers"},
+      {"time", "busy pixel units"},
+      {"time", "links"},
+      {"time", "rasterizers"},
+      {"time", "rasterizer lanes"},
+      {"time", "second pixel buffers"},
+      {"time", "block tests"},
+      {"time", "maps of closed blocks"},
+      {"time", "pixel unit lanes"},
+      {"time", "KiB of instruction caches"},
+      {"time", "KiB of data caches"},
+      {"time", "KiB of local memories"},
+      {"time", "KiB of the L2"},
+      {"time", "KiB of the llc"},
   };
   return All;
 }

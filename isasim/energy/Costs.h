@@ -30,8 +30,12 @@ enum class EnergyUnit : uint8_t {
   Count
 };
 std::string_view name(EnergyUnit U);
-/// Of the paper's chip, which has no L2, no cache behind it and no DRAM.
-constexpr bool isOnChip(EnergyUnit U) { return U < EnergyUnit::Link; }
+/// Of the chip. The paper's has no L2 and no cache behind it: those are at the
+/// other end of its link. Without a link they are on the chip.
+constexpr bool isOnChip(EnergyUnit U, bool HasLink) {
+  return U < EnergyUnit::Link ||
+         (!HasLink && (U == EnergyUnit::L2 || U == EnergyUnit::Llc));
+}
 
 /// An event is worth \c Count times a row. An event that is worth several rows
 /// has a cost for each.

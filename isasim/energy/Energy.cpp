@@ -64,6 +64,12 @@ Estimate scaled(const Estimate &E, double By) {
   return {E.Value * By, E.Low * By, E.High * By};
 }
 
+bool hasLink(const EnergyWork &Work) {
+  return std::ranges::any_of(Work.Events, [](const EventCount &E) {
+    return E.Unit == "time" && E.Event == "links" && E.Count != 0;
+  });
+}
+
 /// What a channel draws; Micron, TN-41-01, "Calculating memory system power
 /// for DDR3", for each supply. In pJ, and in mW for \c Standing: the
 /// controller leaves rows open.
@@ -132,6 +138,7 @@ Expected<EnergyModel> EnergyModel::create(Technology From, unsigned ClockMhz,
 Area EnergyModel::areaOf(const EnergyWork &Work) const {
   std::vector<std::pair<std::string_view, Drawn>> Parts;
   Drawn Chip;
+  const bool HasLink = hasLink(Work);
   const double Cycles = static_cast<double>(std::max<uint64_t>(Work.Cycles, 1));
   for (const AreaCost &C : areaCosts()) {
     double Number = 0;
@@ -147,7 +154,7 @@ Area EnergyModel::areaOf(const EnergyWork &Work) const {
     const size_t Row = rowOf(From.Areas, C.Row);
     const double Um2 = Number * C.Count * From.Areas[Row].Value;
     Part->second.add(Um2, AreaFactors[Row]);
-    if (isOnChip(C.LeaksAs))
+    if (isOnChip(C.LeaksAs, HasLink))
       Chip.add(Um2, AreaFactors[Row]);
   }
   Area A;
@@ -226,16 +233,17 @@ Expected<Energy> EnergyModel::energyOf(const EnergyWork &Work) const {
 
   Energy Sum;
   Drawn Total, Chip;
+  const bool HasLink = hasLink(Work);
   for (size_t N = 0; N != Units.size(); ++N) {
     Total.add(Units[N]);
-    if (isOnChip(static_cast<EnergyUnit>(N)))
+    if (isOnChip(static_cast<EnergyUnit>(N), HasLink))
       Chip.add(Units[N]);
   }
   for (size_t N = 0; N != Units.size(); ++N) {
     const auto Which = static_cast<EnergyUnit>(N);
     if (Units[N].Value > 0)
       Sum.Units.push_back(
-          {name(Which), isOnChip(Which), Units[N].estimated(),
+          {name(Which), isOnChip(Which, HasLink), Units[N].estimated(),
            ratioOf(Units[N].Draws, Units[N].Value, Total.Draws, Total.Value)});
   }
   Sum.Volts = Volts;

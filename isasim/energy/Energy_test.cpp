@@ -80,10 +80,11 @@ TEST(Stable, HasTheSameBitsOnEveryHost) {
 
 TEST(Energy, IsEventsTimesTheirRows) {
   const EnergyModel M = model();
-  const EnergyWork W{
-      1000,
-      500,
-      {{"core lane instructions", "fma", 100}, {"l2", "line reads", 3}}};
+  const EnergyWork W{1000,
+                     500,
+                     {{"core lane instructions", "fma", 100},
+                      {"l2", "line reads", 3},
+                      {"time", "links", 1000}}};
   const auto E = M.energyOf(W);
   ASSERT_TRUE(E);
   const auto Pj = [](std::string_view Row) {
@@ -104,6 +105,33 @@ TEST(Energy, IsEventsTimesTheirRows) {
   EXPECT_NEAR(Shares, 1, 1e-12);
   EXPECT_DOUBLE_EQ(E->Seconds, 2e-6);
   EXPECT_DOUBLE_EQ(E->Watts.Value, E->Total.Value / 2e-6);
+}
+
+TEST(Energy, WithoutALinkTheCachesAreOnTheChip) {
+  const EnergyModel M = model();
+  EnergyWork W{1000,
+               500,
+               {{"l2", "line reads", 3},
+                {"llc", "line reads", 2},
+                {"time", "KiB of the L2", 1000}}};
+  const auto Alone = M.energyOf(W);
+  EXPECT_EQ(Alone->Chip.Value, Alone->Total.Value);
+  EXPECT_GT(M.areaOf(W).Chip.Value, 0);
+  W.Events.push_back({"time", "links", 1000});
+  EXPECT_EQ(M.energyOf(W)->Chip.Value, 0);
+  EXPECT_EQ(M.areaOf(W).Chip.Value, 0);
+}
+
+TEST(Energy, ClocksGrowWithLanes) {
+  const EnergyModel M = model();
+  const auto Of = [&](std::string_view Event, uint64_t Count) {
+    return M.energyOf({1000, 500, {{"time", Event, Count}}})->Total.Value;
+  };
+  for (const std::string_view Event :
+       {"core lanes", "busy rasterizer lanes", "busy pixel unit lanes"}) {
+    EXPECT_GT(Of(Event, 16000), 0) << Event;
+    EXPECT_NEAR(Of(Event, 32000) / Of(Event, 16000), 2, 1e-9) << Event;
+  }
 }
 
 TEST(Energy, GrowsWithEveryEventAndWithTheVoltage) {
@@ -286,10 +314,11 @@ TEST(Technology, WrongFilesAreRefusedByTheirKeys) {
 }
 
 TEST(Area, IsThatOfItsParts) {
-  const EnergyWork W{
-      1000,
-      530,
-      {{"time", "rasterizers", 2000}, {"time", "KiB of the L2", 1000}}};
+  const EnergyWork W{1000,
+                     530,
+                     {{"time", "rasterizers", 2000},
+                      {"time", "KiB of the L2", 1000},
+                      {"time", "links", 1000}}};
   const Area A = model().areaOf(W);
   double Chip = 0;
   for (const PartArea &P : A.Parts)

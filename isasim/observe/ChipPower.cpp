@@ -42,8 +42,9 @@ ChipEnergy chipEnergyOf(const TimeReport &R, const EnergyModel *Model) {
   ChipEnergy Sum;
   const auto Spent = Model->energyOf(Work);
   for (const UnitEnergy &Part : Spent->Units)
-    for (unsigned N = 0; N != unsigned(EnergyUnit::Link); ++N)
-      if (const auto U = static_cast<EnergyUnit>(N); name(U) == Part.Name)
+    for (unsigned N = 0; N != unsigned(EnergyUnit::Count); ++N)
+      if (const auto U = static_cast<EnergyUnit>(N);
+          Part.OnChip && name(U) == Part.Name)
         shareOf(Sum, U) += Part.Joules.Value;
   return Sum;
 }

@@ -11,7 +11,7 @@ struct ChipEnergy {
   double Cores = 0;       ///< with instructions that they issue
   double Rasterizers = 0; ///< with pixels that they blend
   double PixelUnits = 0;  ///< with Gaussians that they evaluate
-  double Always = 0;      ///< clocks of cores, leakage, wires
+  double Always = 0; ///< clocks of cores, leakage, wires, an L2 on the chip
 };
 /// By \p Model; without one by the default technology, at the voltage that the
 /// clock needs or, if there is none, at the technology's own.

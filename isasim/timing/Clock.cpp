@@ -303,6 +303,8 @@ void Clock::collectTimes(TimeReport &R) const {
     Add("block tests", Each(Shape.sockets()));
   if (Timing.Raster.SkipBlocks & raster::ClosedBlock)
     Add("maps of closed blocks", Each(Shape.sockets()));
+  if (L2Link::exists(Timing))
+    Add("links", Each(1));
   Add("rasterizer lanes",
       Each(uint64_t{Shape.sockets()} * Timing.Raster.Lanes));
   Add("pixel unit lanes", Each(uint64_t{Shape.Clusters} * Timing.Pixel.Lanes));
@@ -312,7 +314,9 @@ void Clock::collectTimes(TimeReport &R) const {
   for (const PixelTime &T : R.PixelUnits)
     Tailing += R.Cycles - T.Cycles[size_t(PixelCycle::Idle)];
   Add("busy rasterizers", Rasterizing);
+  Add("busy rasterizer lanes", Rasterizing * Timing.Raster.Lanes);
   Add("busy pixel units", Tailing);
+  Add("busy pixel unit lanes", Tailing * Timing.Pixel.Lanes);
   Add("KiB of instruction caches",
       Each(uint64_t{Shape.sockets()} * Timing.Socket.IcacheKib));
   Add("KiB of data caches",

@@ -24,12 +24,16 @@ constexpr unsigned MissBits = 16;
 
 } // namespace
 
+bool isTableFile(std::string_view Standard) {
+  return Standard.ends_with(".json");
+}
+
 Expected<DramSetup> setUpDram(const DramTiming &P) {
   const auto Fail = [](std::string_view Key, std::string_view Text) {
     return Error{"configuration", fmt::format("timing.dram.{}: {}", Key, Text),
                  ExitCode::Usage};
   };
-  const bool IsFile = P.Standard.ends_with(".json");
+  const bool IsFile = isTableFile(P.Standard);
   auto Table = IsFile ? dram::readTimingTable(P.Standard)
                       : dram::standardTable(P.Standard);
   if (!Table)
@@ -66,8 +70,9 @@ Expected<DramSetup> setUpDram(const DramTiming &P) {
 }
 
 DramChannels::DramChannels(const DramTiming &Params, uint32_t Mhz)
-    : Setup(*setUpDram(Params)), Decode(Setup.Map, Setup.Table),
-      Tick(uint64_t{Mhz} * Setup.Table.TickPs),
+    : Setup(*setUpDram(Params)),
+      TableFile(isTableFile(Params.Standard) ? Params.Standard : ""),
+      Decode(Setup.Map, Setup.Table), Tick(uint64_t{Mhz} * Setup.Table.TickPs),
       FrontTicks(Params.ControllerPs / 2 / Setup.Table.TickPs),
       BackTicks(Params.ControllerPs / Setup.Table.TickPs - FrontTicks),
       NextEvent(Turn::Never) {

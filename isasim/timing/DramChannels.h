@@ -6,6 +6,8 @@
 #include "timing/dram/AddressMap.h"
 
 #include <deque>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::isasim {
@@ -18,6 +20,9 @@ struct DramSetup {
 };
 /// An error names the key that is wrong.
 Expected<DramSetup> setUpDram(const DramTiming &Params);
+
+/// Whether \p Standard, as a configuration has it, names a file.
+bool isTableFile(std::string_view Standard);
 
 class DramChannels final : public MemoryBelow {
 public:
@@ -50,6 +55,9 @@ public:
   void idleUntil(uint64_t Until);
 
   uint32_t burstBytes() const { return Setup.Table.BurstBytes; }
+  /// The file that the table was read from, empty for one that came along.
+  const std::string &tableFile() const { return TableFile; }
+  const std::string &tableHash() const { return Setup.Table.Hash; }
   /// \p Observers are told from now on; null for nobody.
   void watch(const MemoryWatch *Observers);
   /// Sums over the channels.
@@ -70,6 +78,7 @@ private:
   uint64_t tickOf(uint64_t Cycle) const;
 
   const DramSetup Setup;
+  const std::string TableFile;
   const dram::AddressDecoder Decode;
   /// A cycle has so many picoseconds times MHz.
   static constexpr uint64_t PsTimesMhz = 1000000;

@@ -134,6 +134,8 @@ void MemorySystem::report(TimeReport &R) const {
   R.LinkBytes = {Link.bytesToL2(), Link.bytesFromL2()};
   R.Dram = Ram.time();
   R.DramBurstBytes = Ram.burstBytes();
+  R.DramTableFile = Ram.tableFile();
+  R.DramTableHash = Ram.tableHash();
 }
 
 } // namespace vorion::isasim

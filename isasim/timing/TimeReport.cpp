@@ -128,7 +128,9 @@ std::string toJson(const TimeReport &R) {
          {"clock_mhz", R.ClockMhz},
          {"clock_version", ClockVersion},
          {"machine", R.Machine},
-         {"machine_changes", R.MachineChanges}};
+         {"machine_changes", R.MachineChanges},
+         {"dram_table",
+          {{"file", R.DramTableFile}, {"fnv1a64", R.DramTableHash}}}};
   J["host"] = {{"launch_ns", R.Host.LaunchNs},
                {"copy_ns", R.Host.CopyNs},
                {"copy_mbps", R.Host.CopyMbps},

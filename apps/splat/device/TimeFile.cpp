@@ -53,7 +53,7 @@ private:
 /// What describes the machine in a time report and is no count.
 constexpr std::string_view Descriptions[] = {
     "cycles",          "clock_mhz", "clock_version", "machine",
-    "machine_changes", "host",      "lane_areas"};
+    "machine_changes", "host",      "lane_areas",    "dram_table"};
 
 /// A time report, but for its cycles.
 void addUnits(Figures &To, const Json &Report) {
@@ -73,12 +73,15 @@ void addUnits(Figures &To, const Json &Report) {
   }
 }
 
-/// Of a report: what else than the configuration says which machine it is.
+/// Of a report: what else than its numbers says which machine it is.
 void describe(TimeFile &To, const Json &Report) {
   To.ClockVersion = Report.value("clock_version", 1U);
   for (const char *Key : {"clock_mhz", "host", "lane_areas"})
     if (Report.contains(Key))
       To.Machine[Key] = Report.at(Key);
+  // By what is in it: a file may lie elsewhere.
+  if (Report.contains("dram_table"))
+    To.Machine["dram_table"] = Report.at("dram_table").at("fnv1a64");
 }
 
 /// The members of \p From that \p Keys name.
@@ -108,10 +111,6 @@ TimeFile ofFrames(const Json &Whole) {
   const bool IsSequence = Whole.contains("pictures");
   const Json &First = IsSequence ? Whole.at("pictures").at(0) : Whole;
   F.Machine = chosen(First.at("device"), {"name", "compute_units"});
-  // By what is in it: a file may lie elsewhere.
-  F.Machine["configuration"] = First.at("device").at("configuration");
-  if (F.Machine["configuration"].is_object())
-    F.Machine["configuration"].erase("file");
   if (IsSequence) {
     F.Work["overlap"] = Whole.at("overlap");
     for (const Json &Picture : Whole.at("pictures"))
@@ -121,6 +120,10 @@ TimeFile ofFrames(const Json &Whole) {
   }
   const Json &Time = Whole.at("time");
   const Json &Sum = Time.at("sum");
+  // However somebody wrote its configuration.
+  const auto Name = Sum.value("machine", std::string());
+  F.Machine["machine"] = Name.substr(0, Name.find(" with changes"));
+  F.Machine["machine_changes"] = Sum.value("machine_changes", Json::array());
   describe(F, Sum);
   F.Milliseconds = Time.at(IsSequence ? "total_ms" : "frame_ms");
   Figures All;

@@ -129,6 +129,22 @@ TEST(TimeFile, WhatDiffersIsNamed) {
   Mhz["time"]["sum"]["clock_mhz"] = 100;
   EXPECT_EQ(problem(frame(), Mhz),
             "another machine: clock_mhz is 100, expected 500 as");
+  // However a configuration was written, and wherever its table lies.
+  Json Machine = frame(), Named = frame(), Table = frame();
+  for (Json *Each : {&Machine, &Named, &Table}) {
+    Json &Sum = (*Each)["time"]["sum"];
+    Sum["machine"] = "prototype";
+    Sum["machine_changes"] = Json::array();
+    Sum["dram_table"] = {{"file", ""}, {"fnv1a64", "01"}};
+  }
+  Named["device"]["configuration"] = {{"machine", "prototype"}};
+  Named["time"]["sum"]["dram_table"]["file"] = "here.json";
+  EXPECT_EQ(problem(Machine, Named), "");
+  Table["time"]["sum"]["dram_table"]["fnv1a64"] = "02";
+  EXPECT_EQ(problem(Machine, Table),
+            "another machine: dram_table is \"02\", expected \"01\" as");
+  Table["time"]["sum"]["machine_changes"] = {"clusters=2"};
+  EXPECT_EQ(problem(Machine, Table, true), "");
   Json View = frame();
   View["view"] = "close";
   EXPECT_EQ(problem(frame(), View),

@@ -37,6 +37,11 @@ template <typename Visitor> void visit(LaneAreas &A, const Visitor &Visit) {
   Visit("other", A.Other);
 }
 
+template <typename Visitor> void visit(DramTable &T, const Visitor &Visit) {
+  Visit("file", T.File);
+  Visit("fnv1a64", T.Hash);
+}
+
 template <typename Visitor> void visit(Activity &A, const Visitor &Visit) {
   Visit("unit", A.Unit);
   Visit("event", A.Event);
@@ -49,6 +54,7 @@ template <typename Visitor> void visit(TimeReport &R, const Visitor &Visit) {
   Visit("clock_version", R.ClockVersion);
   Visit("machine", R.Machine);
   Visit("machine_changes", R.MachineChanges);
+  Visit("dram_table", R.TableOfDram);
   Visit("host", R.Host);
   Visit("lane_areas", R.Areas);
   Visit("cores", R.Cores);

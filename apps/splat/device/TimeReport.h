@@ -143,6 +143,12 @@ struct Activity {
   uint64_t Count = 0;
 };
 
+/// What the times of the DRAM's commands were taken from.
+struct DramTable {
+  std::string File; ///< empty for one that came with the simulator
+  std::string Hash;
+};
+
 /// Of one kernel, or of several one after the other.
 struct TimeReport {
   uint64_t Cycles = 0;
@@ -150,6 +156,7 @@ struct TimeReport {
   unsigned ClockVersion = 0; ///< times of different versions do not compare
   std::string Machine;       ///< its name; with changes, if it has any
   std::vector<std::string> MachineChanges; ///< KEY=VALUE
+  DramTable TableOfDram;
   HostTiming Host;
   LaneAreas Areas;
   std::vector<UnitCounts<CoreCount>> Cores;

@@ -22,6 +22,18 @@ unsigned bitsOf(uint32_t PowerOfTwo) {
   return static_cast<unsigned>(std::countr_zero(PowerOfTwo));
 }
 
+/// Of a decoded address, which is a word.
+constexpr size_t DecodedBits = 64;
+
+size_t placesOf(const AddressMap &Map) {
+  size_t Bits = 0;
+  for (const AddressField *Of : {&Map.Channel, &Map.Rank, &Map.BankGroup,
+                                 &Map.Bank, &Map.Row, &Map.Column})
+    for (const std::vector<uint64_t> &Masks : *Of)
+      Bits += Masks.size();
+  return Bits;
+}
+
 /// Address bits that are given away from the lowest on.
 class Supply {
 public:
@@ -61,6 +73,15 @@ Expected<AddressMap> addressMap(std::string_view Name, const TimingTable &Table,
                              "64 to 4096",
                              Interleave),
                  ExitCode::Usage};
+  const unsigned InRow = bitsOf(Table.RowBytes) - LineBits;
+  const unsigned Fixed = InRow + bitsOf(Channels) + bitsOf(Table.Ranks) +
+                         bitsOf(Table.BankGroups) + bitsOf(Table.BanksPerGroup);
+  if (Fixed >= AddressBits - LineBits)
+    return Error{"",
+                 fmt::format("rows, banks and channels take {} of a line's {} "
+                             "address bits, expected some left for the row",
+                             Fixed, AddressBits - LineBits),
+                 ExitCode::Usage};
   AddressMap Map;
   std::vector<uint64_t> OfChannel, OfLine;
   const unsigned FirstOfChannel = bitsOf(Interleave);
@@ -73,7 +94,7 @@ Expected<AddressMap> addressMap(std::string_view Name, const TimingTable &Table,
   const bool IsXor = Name == "xor";
   if (IsXor)
     Map.BankGroup = {Left.take(bitsOf(Table.BankGroups))};
-  Map.Column = {Left.take(bitsOf(Table.RowBytes) - LineBits)};
+  Map.Column = {Left.take(InRow)};
   Map.Bank = {Left.take(bitsOf(Table.BanksPerGroup))};
   if (!IsXor)
     Map.BankGroup = {Left.take(bitsOf(Table.BankGroups))};
@@ -95,6 +116,13 @@ Expected<AddressMap> addressMap(std::string_view Name, const TimingTable &Table,
       Map.Bank.emplace_back(Row.begin() + static_cast<std::ptrdiff_t>(At),
                             Row.begin() + static_cast<std::ptrdiff_t>(std::min(
                                               At + Digit, Row.size())));
+  if (const size_t Bits = placesOf(Map); Bits > DecodedBits)
+    return Error{
+        "",
+        fmt::format("\"{}\" takes {} bits with this table, expected at most "
+                    "{}: larger rows, more banks or another map",
+                    Name, Bits, DecodedBits),
+        ExitCode::Usage};
   return Map;
 }
 
@@ -107,7 +135,7 @@ AddressDecoder::AddressDecoder(const AddressMap &Map, const TimingTable &Table)
       const uint64_t Ones = (uint64_t{1} << Masks.size()) - 1;
       F.Terms.push_back({Position, static_cast<uint32_t>(Ones)});
       for (const uint64_t Mask : Masks) {
-        assert(Position < 64 && "a map of more bits than a word");
+        assert(Position < DecodedBits && "addressMap() refuses such maps");
         for (unsigned Byte = 0; Byte != Bytes; ++Byte)
           for (unsigned Value = 0; Value != 256; ++Value) {
             const uint64_t Part = uint64_t{Value} << (8 * Byte);

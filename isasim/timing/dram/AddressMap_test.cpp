@@ -90,4 +90,18 @@ TEST(AddressMap, WhatCannotBeIsRefused) {
             "32 bytes a channel, expected a power of two from 64 to 4096");
 }
 
+TEST(AddressMap, OneThatTakesMoreThanAWordIsRefused) {
+  TimingTable T = *standardTable("ddr3-1600");
+  T.RowBytes = 64;
+  EXPECT_TRUE(addressMap("row_bank_column", T, 1, 64));
+  EXPECT_EQ(addressMap("digit_sum", T, 1, 64).error().What,
+            "\"digit_sum\" takes 65 bits with this table, expected at most 64: "
+            "larger rows, more banks or another map");
+  T.RowBytes = 1U << 30;
+  T.BanksPerGroup = 16;
+  EXPECT_EQ(addressMap("row_bank_column", T, 64, 64).error().What,
+            "rows, banks and channels take 34 of a line's 34 address bits, "
+            "expected some left for the row");
+}
+
 } // namespace

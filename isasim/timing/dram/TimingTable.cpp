@@ -2,6 +2,7 @@
 
 #include "timing/dram/Standards.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Hash.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
 #include "vorion/support/Suggest.h"
@@ -28,6 +29,8 @@ constexpr std::array<std::string_view, size_t(Scope::Count)> ScopeNames = {
 /// The longest time that a table may name: a second of the fastest clock is
 /// no constraint of any device.
 constexpr uint32_t MostTicks = 1U << 24;
+/// A request is for a line, which lies in one row.
+constexpr uint32_t LineBytes = 64;
 /// Banks of a channel: a controller keeps them in the bits of a word.
 constexpr uint32_t MostBanks = 64;
 
@@ -188,6 +191,10 @@ private:
                               uint64_t{Table.Ranks} * Table.BankGroups *
                                   Table.BanksPerGroup,
                               MostBanks));
+    if (Table.RowBytes < LineBytes)
+      return fail(fmt::format("key row_bytes is {}, expected at least a line's "
+                              "{}",
+                              Table.RowBytes, LineBytes));
     if (Table.BurstBytes > Table.RowBytes)
       return fail(fmt::format("key burst_bytes is {}, expected at most a row's "
                               "{}",
@@ -412,6 +419,7 @@ Expected<TimingTable> parseTimingTable(std::string_view Text,
   Reader R(*J, T);
   if (!R.read())
     return Error{Where, R.Problem};
+  T.Hash = fnv1a64(Text);
   return T;
 }
 

@@ -53,6 +53,7 @@ struct Constraint {
 /// happens at its last tick, as standards count.
 struct TimingTable {
   std::string Standard;
+  std::string Hash; ///< fnv1a64() of the text
   uint32_t TickPs = 0;
   uint32_t Ranks = 0, BankGroups = 0, BanksPerGroup = 0;
   uint32_t Rows = 0, RowBytes = 0, BurstBytes = 0;

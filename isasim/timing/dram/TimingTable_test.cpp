@@ -66,6 +66,24 @@ TEST(TimingTable, AnUnknownStandardIsRefused) {
             "you mean lpddr4-3200?");
 }
 
+TEST(TimingTable, ALineLiesInARow) {
+  Json J = lpddr4();
+  J["row_bytes"] = J["burst_bytes"] = 32;
+  EXPECT_EQ(problem(J),
+            "t.json: key row_bytes is 32, expected at least a line's 64");
+}
+
+TEST(TimingTable, ItsHashIsThatOfWhatItSays) {
+  const Json J = lpddr4();
+  Json Slower = J;
+  Slower["tick_ps"] = 1250;
+  const auto A = parseTimingTable(jsonText(J), "a"),
+             Again = parseTimingTable(jsonText(J), "b"),
+             B = parseTimingTable(jsonText(Slower), "a");
+  EXPECT_EQ(A->Hash, Again->Hash);
+  EXPECT_NE(A->Hash, B->Hash);
+}
+
 TEST(TimingTable, AMissingConstraintIsNamed) {
   for (const auto &[From, To] : {std::pair{"ACT", "RD"},
                                  {"WR", "RD"},

@@ -90,7 +90,8 @@ struct EnergyWork {
 /// Of a part of the machine.
 struct UnitEnergy {
   std::string_view Name;
-  bool OnChip = false; ///< as the paper's chip: no L2, no cache behind, no DRAM
+  bool OnChip =
+      false; ///< DRAM and the link never are; L2 and llc without a link
   Estimate Joules;
   Estimate Share; ///< of all joules
 };

@@ -168,6 +168,9 @@ struct TimeReport {
   uint32_t ClockMhz = 0;
   std::string Machine;                     ///< its name (Config.h, nameOf())
   std::vector<std::string> MachineChanges; ///< from the machine of that name
+  /// Of the DRAM: the file's name, empty if it came with the simulator, and
+  /// fnv1a64() of what it says.
+  std::string DramTableFile, DramTableHash;
   std::vector<CoreTime> Cores;
   std::vector<RasterTime> Rasters;
   std::vector<PixelTime> PixelUnits;
