@@ -6,7 +6,6 @@
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <future>
@@ -59,12 +58,11 @@ static Expected<SceneFile> readMeanwhile(const SceneArguments &A,
 Expected<SceneFile> loadScene(const SceneArguments &A,
                               const std::function<void()> &Meanwhile) {
   if (const auto Dilation = A.Options.Drawn.Dilation;
-      Dilation && !(*Dilation >= 0 && std::isfinite(*Dilation)))
-    return Error{"",
-                 fmt::format("--dilation {}: expected a variance of 0 px^2 or "
-                             "more",
-                             *Dilation),
-                 ExitCode::Usage};
+      Dilation && !isDilation(*Dilation))
+    return Error{
+        "",
+        fmt::format("--dilation {}: expected {}", *Dilation, ExpectedDilation),
+        ExitCode::Usage};
   AxesChange Change;
   if (!A.Axes.empty()) {
     const auto Parsed = parseAxesChange("--axes", A.Axes);

@@ -43,6 +43,11 @@ py::dict write(const SceneFile &F, const std::string &Path) {
 /// Zeros for the package to fill in.
 SceneFile sized(std::size_t Count, int ShDegree, bool Antialiased,
                 std::optional<double> Dilation) {
+  if (Dilation && !isDilation(*Dilation))
+    throw Failed(Error{
+        "",
+        fmt::format("dilation {}: expected {}", *Dilation, ExpectedDilation),
+        ExitCode::Usage});
   SceneFile F;
   F.Gaussians = Scene::sized(Count, ShDegree);
   F.DrawnAs = {Antialiased, Dilation, "the arguments of vorion.Scene"};

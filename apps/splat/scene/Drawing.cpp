@@ -3,8 +3,8 @@
 #include "io/Bytes.h"
 
 #include <charconv>
-#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace vorion::splat {
 namespace {
@@ -69,15 +69,18 @@ std::optional<Error> take(const std::string &Where, std::string_view Comment,
     double Dilation = 0;
     const auto [End, Status] =
         std::from_chars(Value->begin(), Value->end(), Dilation);
-    if (Status != std::errc() || End != Value->end() ||
-        !(Dilation >= 0 && std::isfinite(Dilation)))
-      return unknown(Where, Source(), "a variance of 0 px^2 or more");
+    if (Status != std::errc() || End != Value->end() || !isDilation(Dilation))
+      return unknown(Where, Source(), ExpectedDilation);
     D.Dilation = Dilation;
   }
   return std::nullopt;
 }
 
 } // namespace
+
+bool isDilation(double Variance) {
+  return Variance >= 0 && Variance <= std::numeric_limits<float>::max();
+}
 
 Expected<Drawing> drawingOfComments(const std::string &Where,
                                     std::span<const std::string> Comments) {

@@ -26,6 +26,11 @@ struct Drawing {
   }
 };
 
+/// Whether \p Variance, px^2, can be a dilation: kernels have floats.
+bool isDilation(double Variance);
+inline constexpr std::string_view ExpectedDilation =
+    "a variance of 0 to 3.4e38 px^2";
+
 /// What a user says against the file.
 struct DrawingRequest {
   std::optional<bool> Antialiased;

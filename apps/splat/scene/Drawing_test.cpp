@@ -73,6 +73,19 @@ TEST(Drawing, WhatIsNotSupportedIsRefusedByName) {
   EXPECT_FALSE(of({" Dilation: -1"}));
 }
 
+TEST(Drawing, ADilationThatNoFloatHoldsIsRefused) {
+  for (const char *Comment :
+       {" Dilation: 1e39", " Dilation: 3.41e38", " Dilation: inf",
+        " Dilation: nan", " Dilation: 1e999"}) {
+    const auto D = of({Comment});
+    ASSERT_FALSE(D) << Comment;
+    EXPECT_NE(D.error().What.find("expected a variance of 0 to 3.4e38 px^2"),
+              std::string::npos)
+        << D.error().What;
+  }
+  EXPECT_TRUE(of({" Dilation: 3.4e38"}));
+}
+
 TEST(Drawing, BrushsFilesAreDilatedAsBrushDoes) {
   const auto Mip = of({" Exported from Brush", " SplatRenderMode: mip"});
   ASSERT_TRUE(Mip);
