@@ -6,6 +6,7 @@
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <regex>
@@ -102,6 +103,74 @@ std::string inOurWords(const std::string &Said) {
     return fmt::format("{}, expected {}", Said,
                        Parts[1] == "excludes" ? "one of them" : "both");
   return Said;
+}
+
+/// What \p O takes, as help has it.
+std::string kindOf(const CLI::Option &O) {
+  return O.get_option_text().empty() ? O.get_type_name() : O.get_option_text();
+}
+
+std::string emptyValueOf(const CLI::Option &O) {
+  return fmt::format("{}: an empty value, expected {} {}",
+                     O.get_positional() ? upperCase(O.get_name())
+                                        : O.get_name(),
+                     kindOf(O), SeeHelp);
+}
+
+using ValueCheck = std::optional<std::string>(const CLI::Option &,
+                                              const std::string &Word);
+
+/// "$UNSET" on a command line is an empty value, which CLI11 takes for none or
+/// for 0.
+std::optional<std::string> ifEmpty(const CLI::Option &O,
+                                   const std::string &Word) {
+  if (!Word.empty())
+    return std::nullopt;
+  return emptyValueOf(O);
+}
+
+std::optional<std::string> ifNaN(const CLI::Option &O,
+                                 const std::string &Word) {
+  double Value = 0;
+  if (!O.get_type_name().starts_with(CLI::detail::type_name<double>()) ||
+      !CLI::detail::lexical_cast(Word, Value) || !std::isnan(Value))
+    return std::nullopt;
+  return fmt::format("{}: {}, expected a number {}", O.get_name(), Word,
+                     SeeHelp);
+}
+
+/// What \p Check says of the first value that it refuses, of those that \p App
+/// and its called commands got.
+std::optional<std::string> firstWrong(const CLI::App &App, ValueCheck *Check) {
+  for (const CLI::Option *O : App.get_options())
+    if (O->get_items_expected_min() > 0) // no flag, whose value may be left out
+      for (const std::string &Word : O->results())
+        if (auto Wrong = Check(*O, Word))
+          return Wrong;
+  for (const CLI::App *Command : App.get_subcommands())
+    if (auto Wrong = firstWrong(*Command, Check))
+      return Wrong;
+  return std::nullopt;
+}
+
+/// What is wrong if \p Arguments have an option as "--json=", whose value CLI11
+/// takes to be the next argument.
+std::optional<std::string>
+wrongEnding(const CLI::App &App, const std::vector<std::string> &Arguments) {
+  const CLI::App *Called = calledCommand(App, Arguments);
+  for (const std::string &Word : Arguments) {
+    if (Word == "--")
+      break;
+    if (!Word.starts_with("--") || Word.find('=') != Word.size() - 1)
+      continue;
+    const std::string Name = Word.substr(0, Word.size() - 1);
+    const CLI::Option *O = Called ? Called->get_option_no_throw(Name) : nullptr;
+    if (!O)
+      O = App.get_option_no_throw(Name);
+    if (O && O->get_items_expected_min() > 0)
+      return emptyValueOf(*O);
+  }
+  return std::nullopt;
 }
 
 /// The option among \p App's and its parents' that took another one for its
@@ -263,34 +332,46 @@ const CLI::App *calledCommand(const CLI::App &App,
   return nullptr;
 }
 
+/// Parses \p Arguments by \p App; what is wrong with them. Throws what CLI11
+/// does where a call asked for help.
+static std::optional<std::string> parse(CLI::App &App,
+                                        std::vector<std::string> Arguments) {
+  if (auto Wrong = wrongEnding(App, Arguments))
+    return Wrong;
+  const std::string First = Arguments.empty() ? "" : Arguments.front();
+  std::ranges::reverse(Arguments); // CLI11 takes them from the end
+  try {
+    App.parse(std::move(Arguments));
+  } catch (const CLI::Success &) {
+    throw;
+  } catch (const CLI::ParseError &E) {
+    const auto Wrong = firstWrong(App, ifEmpty);
+    return Wrong ? Wrong : problemOf(App, E.what(), First);
+  }
+  const auto Wrong = firstWrong(App, ifEmpty);
+  return Wrong ? Wrong : firstWrong(App, ifNaN);
+}
+
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments) {
   if (Arguments == std::vector<std::string>{"--print-definition"}) {
     printOut("{}\n", definitionOf(App));
     return static_cast<int>(ExitCode::Ok);
   }
-  const std::string First = Arguments.empty() ? "" : Arguments.front();
-  std::ranges::reverse(Arguments); // CLI11 takes them from the end
   try {
-    App.parse(std::move(Arguments));
+    if (auto Wrong = parse(App, std::move(Arguments)))
+      return reportError(App.get_name(),
+                         {"", std::move(*Wrong), ExitCode::Usage});
   } catch (const CLI::Success &E) {
     return App.exit(E); // --help
-  } catch (const CLI::ParseError &E) {
-    return reportError(App.get_name(),
-                       {"", problemOf(App, E.what(), First), ExitCode::Usage});
   }
   return std::nullopt;
 }
 
 Expected<Success> parseOptions(CLI::App &App,
                                std::vector<std::string> Arguments) {
-  const std::string First = Arguments.empty() ? "" : Arguments.front();
-  std::ranges::reverse(Arguments);
-  try {
-    App.parse(std::move(Arguments));
-  } catch (const CLI::ParseError &E) {
-    return Error{"", problemOf(App, E.what(), First), ExitCode::Usage};
-  }
+  if (auto Wrong = parse(App, std::move(Arguments)))
+    return Error{"", std::move(*Wrong), ExitCode::Usage};
   return Success{};
 }
 

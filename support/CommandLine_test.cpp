@@ -1,6 +1,9 @@
 #include "vorion/support/CommandLine.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <optional>
+#include <utility>
 
 using namespace vorion;
 
@@ -60,6 +63,50 @@ TEST(CommandLine, ValuesThatAreNearlyRightAreNamed) {
   EXPECT_EQ(said({"render", "--cameras", "c", "--path", "cores"}),
             "tool: error: --path: cores is not known, expected one of raster, "
             "simt\n");
+}
+
+TEST(CommandLine, EmptyValuesAreRefused) {
+  for (const auto &[Option, Kind] : {std::pair("--json", "FILE"),
+                                     {"--threads", "N"},
+                                     {"--clock", "UINT"},
+                                     {"--path", "TEXT"},
+                                     {"--voltage", "FLOAT"},
+                                     {"--set", "TEXT"}}) {
+    const std::string Expected = fmt::format(
+        "tool: error: {}: an empty value, expected {}", Option, Kind);
+    const std::string Apart = said({"render", "--cameras", "c", Option, ""});
+    EXPECT_TRUE(Apart.starts_with(Expected)) << Apart;
+    // Whose value would be the next argument.
+    EXPECT_EQ(said({"render", std::string(Option) + "=", "--cameras", "c"}),
+              Apart);
+  }
+  EXPECT_EQ(said({"train", ""}),
+            "tool: error: CAPTURE: an empty value, expected TEXT (see "
+            "--help)\n");
+  EXPECT_EQ(said({"render", "--cameras", "c", "--set", "a="}), "");
+  EXPECT_EQ(said({"render", "--camera=", "c"}),
+            "tool: error: unknown option --camera, did you mean --cameras? "
+            "(see --help)\n");
+}
+
+TEST(CommandLine, ANumberThatIsNaNIsRefused) {
+  CLI::App App;
+  std::optional<double> Least;
+  std::vector<float> Several;
+  std::string Name;
+  App.add_option("--least", Least)->option_text("DB");
+  App.add_option("--several", Several)->delimiter(',');
+  App.add_option("--name", Name);
+  const auto Said = [&App](std::vector<std::string> Arguments) {
+    const auto Parsed = parseOptions(App, std::move(Arguments));
+    return Parsed ? std::string() : Parsed.error().What;
+  };
+  EXPECT_EQ(Said({"--least", "nan"}),
+            "--least: nan, expected a number (see --help)");
+  EXPECT_EQ(Said({"--several", "1,NaN,2"}),
+            "--several: NaN, expected a number (see --help)");
+  EXPECT_EQ(Said({"--least", "inf"}), "") << "equal pictures have it";
+  EXPECT_EQ(Said({"--name", "nan"}), "");
 }
 
 TEST(CommandLine, WhatAValueIsCanBeAsked) {

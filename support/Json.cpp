@@ -68,11 +68,27 @@ std::string beyond(std::string_view Text, const JsonLimits &Limits) {
   return {};
 }
 
-std::string lineOf(std::string_view Text, std::size_t Byte,
-                   const std::string &Where) {
+/// \p Where with the line and the column of number \p Byte of \p Text.
+std::string placeOf(std::string_view Text, std::size_t Byte,
+                    const std::string &Where) {
   const std::string_view Before = Text.substr(0, Byte > 0 ? Byte - 1 : 0);
-  return fmt::format("{}:{}", Where,
-                     1 + std::count(Before.begin(), Before.end(), '\n'));
+  const std::size_t Line = Before.rfind('\n');
+  return fmt::format("{}:{}:{}", Where,
+                     1 + std::count(Before.begin(), Before.end(), '\n'),
+                     Line == std::string_view::npos ? Before.size() + 1
+                                                    : Before.size() - Line);
+}
+
+/// Why, of what the parser \p Said: "[...] parse error at line 1, column 2:
+/// syntax error while parsing value - invalid literal; last read: '...'". What
+/// it read may be any bytes, and what it expected is the parser's matter.
+std::string_view reasonOf(std::string_view Said) {
+  constexpr std::string_view Begin = " - ";
+  const std::size_t At = Said.find(Begin);
+  if (At == std::string_view::npos)
+    return "damaged";
+  Said.remove_prefix(At + Begin.size());
+  return Said.substr(0, Said.find("; "));
 }
 
 } // namespace
@@ -85,8 +101,9 @@ Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
   try {
     return Kind::parse(Text.begin(), Text.end());
   } catch (const nlohmann::json::parse_error &E) {
-    return Error{lineOf(Text, E.byte, Where),
-                 fmt::format("not JSON, expected {}", Wanted)};
+    return Error{
+        placeOf(Text, E.byte, Where),
+        fmt::format("not JSON: {}, expected {}", reasonOf(E.what()), Wanted)};
   } catch (const nlohmann::json::out_of_range &) {
     return Error{Where, "a number beyond what a double holds, expected one "
                         "below 1.8e308"};

@@ -35,12 +35,18 @@ TEST(Json, ReadsWhatIsJson) {
             R"({"a":[],"b":1})");
 }
 
-TEST(Json, WhatIsNoneIsNamedWithItsLine) {
-  EXPECT_EQ(errorOf(""), "f:1: not JSON, expected a thing");
-  EXPECT_EQ(errorOf("[1,\n 2,\n x]"), "f:3: not JSON, expected a thing");
-  EXPECT_EQ(errorOf("[1]]"), "f:1: not JSON, expected a thing");
-  EXPECT_EQ(errorOf("{\"a\": \"\xff\"}"), "f:1: not JSON, expected a thing");
-  EXPECT_EQ(errorOf("\"\\"), "f:1: not JSON, expected a thing");
+TEST(Json, WhatIsNoneIsNamedWithItsPlaceAndWhy) {
+  EXPECT_EQ(errorOf(""),
+            "f:1:1: not JSON: unexpected end of input, expected a thing");
+  EXPECT_EQ(errorOf("[1,\n 2,\n x]"),
+            "f:3:2: not JSON: invalid literal, expected a thing");
+  EXPECT_EQ(errorOf("[1]]"),
+            "f:1:4: not JSON: unexpected ']', expected a thing");
+  EXPECT_EQ(errorOf("{\"a\": \"\xff\"}"),
+            "f:1:8: not JSON: invalid string: ill-formed UTF-8 byte, expected "
+            "a thing");
+  EXPECT_EQ(errorOf("\"\\"), "f:1:3: not JSON: invalid string: forbidden "
+                             "character after backslash, expected a thing");
   EXPECT_EQ(errorOf("[1e999]"), "f: a number beyond what a double holds, "
                                 "expected one below 1.8e308");
 }
@@ -58,8 +64,10 @@ TEST(Json, DepthIsBounded) {
   EXPECT_EQ(errorOf(Objects), TooDeep);
   EXPECT_EQ(errorOf('"' + nested(1000) + '"'), "") << "a string is not nested";
   EXPECT_EQ(errorOf("\xef\xbb\xbf " + nested(257)), TooDeep);
-  EXPECT_EQ(errorOf("1" + nested(1000)), "f:1: not JSON, expected a thing");
-  EXPECT_EQ(errorOf("ply\n" + nested(1000)), "f:1: not JSON, expected a thing")
+  EXPECT_EQ(errorOf("1" + nested(1000)),
+            "f:1:2: not JSON: unexpected '[', expected a thing");
+  EXPECT_EQ(errorOf("ply\n" + nested(1000)),
+            "f:1:1: not JSON: invalid literal, expected a thing")
       << "the first thing that is wrong";
 }
 

@@ -74,8 +74,9 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
                       F.DrawnAs.Antialiased ? ", trained antialiased" : "");
   if (!F.DrawnAs.Source.empty() || F.DrawnAs.Dilation)
     Text += fmt::format(
-        "drawn        {} ({}){}\n",
-        F.DrawnAs.Antialiased ? "antialiased" : "classic", F.DrawnAs.Source,
+        "drawn        {}{}{}\n",
+        F.DrawnAs.Antialiased ? "antialiased" : "classic",
+        F.DrawnAs.Source.empty() ? "" : fmt::format(" ({})", F.DrawnAs.Source),
         F.DrawnAs.Dilation ? fmt::format(", dilation {}", *F.DrawnAs.Dilation)
                            : "");
   Text += fmt::format("axes         {} by the format's documentation; {}\n",

@@ -7,6 +7,7 @@ echo "this is no scene" >text.ply
 sed 's/property float opacity/property float opaqueness/' s.ply >property.ply
 echo "this is no JSON" >text.json
 sed 's/"fx"/"gx"/' c.json >keys.json
+sed 's/^element vertex/comment Dilation: 3.41e38\n&/' s.ply >dilated.ply
 mkdir folder.png
 
 attempt() {
@@ -43,6 +44,16 @@ render "two background values" s.ply c.json front p.png --background 1,2
 render "background not a number" s.ply c.json front p.png --background 0,nan,0
 render "negative dilation" s.ply c.json front p.png --dilation -0.3
 render "dilation not a number" s.ply c.json front p.png --dilation nan
+render "dilation beyond floats" s.ply c.json front p.png --dilation 1e39
+render "dilated beyond floats" dilated.ply c.json front p.png
+attempt "converted beyond floats" convert s.ply --dilation 1e39 -o d.ply
+for option in near dilation cutoff size axes json depth; do
+  render "empty" s.ply c.json front p.png "--$option" ''
+done
+render "empty behind =" s.ply c.json front p.png --json=
+attempt "empty scale" convert s.ply --scale '' -o d.ply
+attempt "empty preset" train folder.png --preset '' -o p.ply
+attempt "empty input" info ''
 render "official16 by raster" s.ply c.json front p.png --support official16
 render "table by simt" s.ply c.json front p.png --path simt --exp table
 render "bf16 by simt" s.ply c.json front p.png --path simt --blend bf16
@@ -58,7 +69,7 @@ attempt "unknown subcommand" draw
 attempt "too few Gaussians" demo-scene -o d.ply --gaussians 3
 attempt "demo into nowhere" demo-scene -o nowhere/s.ply --gaussians 1000
 printf 'left behind:'
-for file in s.ply c.json short.ply text.ply property.ply text.json keys.json folder.png; do
+for file in s.ply c.json short.ply text.ply property.ply text.json keys.json dilated.ply folder.png; do
   [ -e "$file" ] && printf ' %s' "$file" && rm -r "$file"
 done
 for file in *; do [ -e "$file" ] && printf ' %s' "$file"; done

@@ -36,12 +36,16 @@ bool isSplat(Bytes /*File*/) { return false; }
 
 Expected<SceneFile> parseSplat(const std::string &Where, Bytes File,
                                const ReadOptions &Options) {
-  if (File.size() % RecordSize != 0)
+  if (const std::size_t Left = File.size() % RecordSize; Left != 0)
     return Error{
         Where,
-        fmt::format("not a scene of a known format, expected {}or .splat "
-                    "of {} bytes a Gaussian",
-                    markedFormats(), RecordSize)};
+        Where.ends_with(".splat")
+            ? fmt::format("{} bytes, {} more than whole Gaussians take, "
+                          "expected a .splat of {} bytes a Gaussian",
+                          File.size(), Left, RecordSize)
+            : fmt::format("not a scene of a known format, expected {}or .splat "
+                          "of {} bytes a Gaussian",
+                          markedFormats(), RecordSize)};
   const std::size_t Count = File.size() / RecordSize;
   SceneFile Result;
   Result.Format = SceneFormat::Splat;

@@ -41,4 +41,13 @@ TEST(Splat, BytesOfARecord) {
   EXPECT_EQ(S.Quats, (std::vector<float>{-1, 0, 0.5, 127.0F / 128}));
 }
 
+TEST(Splat, AnotherLengthIsToldWithWhatIsLeftOver) {
+  const std::string Content(100, '\0');
+  const auto Read = parseScene("a.splat", std::as_bytes(std::span(Content)));
+  ASSERT_FALSE(Read);
+  EXPECT_EQ(Read.error().What,
+            "100 bytes, 4 more than whole Gaussians take, expected a .splat of "
+            "32 bytes a Gaussian");
+}
+
 } // namespace

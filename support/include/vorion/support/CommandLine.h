@@ -16,6 +16,8 @@ namespace vorion {
 /// the tool's. The exit code if that was all, for help and for what the parser
 /// refuses: that is said in the house form, with what was probably meant. The
 /// one argument --print-definition, which no help lists, prints definitionOf().
+/// Values that are empty are refused, as of --json "$UNSET", and numbers that
+/// are NaN.
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments);
 
