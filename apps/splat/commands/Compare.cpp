@@ -58,6 +58,10 @@ Runner addCompare(CLI::App &App) {
                 "Exit with 1 if it is less over all pixels");
   AddOfPictures("--max-doubtful", A->MaxDoubtful,
                 "Exit with 1 if more pixels are doubtful, per cent");
+  // Without a mask no pixel is doubtful, and the bound would always hold.
+  App.get_option("--max-doubtful")
+      ->needs("--mask")
+      ->check(isBetween(0.0, 100.0));
   return [A](const DeviceOptions &) {
     if (A->Times)
       return compareTimes(*A);
