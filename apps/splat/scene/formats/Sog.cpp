@@ -302,13 +302,22 @@ private:
     return Pictures.back().Pixels;
   }
 
-  /// A picture with a pixel for each Gaussian.
+  /// A picture with a pixel for each Gaussian, which is at the same place in
+  /// all of them.
   const Plane &plane(const char *Group, std::size_t Index) {
     const Plane &P = picture(Group, Index, Count);
     if (!Problem && P.pixels() < Count)
       fail({file(Group, Index),
             fmt::format("{}x{} pixels, expected one for each of {} Gaussians",
                         P.Width, P.Height, Count)});
+    if (!FirstPlane)
+      FirstPlane = &P;
+    if (!Problem &&
+        (P.Width != FirstPlane->Width || P.Height != FirstPlane->Height))
+      fail({file(Group, Index),
+            fmt::format("{}x{} pixels, expected {}x{} as in {}", P.Width,
+                        P.Height, FirstPlane->Width, FirstPlane->Height,
+                        Pictures.front().Where)});
     return P;
   }
 
@@ -400,8 +409,10 @@ private:
     Plane Pixels;
   };
   std::deque<Picture> Pictures; ///< in the order in which they were read
-  std::size_t FileSizes = 0;    ///< of all pictures so far
-  std::size_t Unpacked = 0;     ///< what they unpack to, bytes
+  const Plane *FirstPlane =
+      nullptr;               ///< of those with a pixel for each Gaussian
+  std::size_t FileSizes = 0; ///< of all pictures so far
+  std::size_t Unpacked = 0;  ///< what they unpack to, bytes
   std::optional<Error> Problem;
 };
 

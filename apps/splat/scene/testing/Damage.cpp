@@ -235,12 +235,17 @@ std::vector<DamagedFolder> sogDamage() {
        [](Json &M) { M["shN"]["count"] = 2; });
   Meta("palette-large", "for 65 palette entries",
        [](Json &M) { M["shN"]["count"] = 65; });
-  File("meta-text", "meta.json", "no JSON", "not JSON, expected");
+  File("meta-text", "meta.json", "no JSON", "not JSON: invalid literal");
   File("plane-text", "quats.webp", "no picture", "not a WebP picture");
   File("plane-short", "quats.webp", cut(Whole.at("quats.webp"), 8),
        "damaged WebP picture");
   File("plane-small", "quats.webp", webpOf(2, 2, std::string(16, '\xff')),
        "2x2 pixels, expected one for each of 5 Gaussians");
+  // Each has room for all, but a Gaussian has one place.
+  for (const char *Plane :
+       {"means_u.webp", "scales.webp", "sh0.webp", "shN_labels.webp"})
+    File("plane-shape", Plane, webpOf(2, 3, std::string(24, '\xff')),
+         "2x3 pixels, expected 3x2 as in ");
   // A picture of one colour packs into almost nothing.
   File("plane-bomb", "quats.webp",
        webpOf(4096, 4096, std::string(std::size_t(4) << 24, '\xff')),
