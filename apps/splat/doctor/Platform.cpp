@@ -1,6 +1,7 @@
 #include "doctor/Platform.h"
 
 #include "device/Device.h"
+#include "doctor/Variables.h"
 
 #include <algorithm>
 #include <array>
@@ -31,6 +32,25 @@ static std::string sourceEnvironment() {
     if (fs::exists(Script, Failed))
       return fmt::format("type: . {}", Script.string());
   return "type: . scripts/env.sh";
+}
+
+/// What mends that no device opens by \p Options, of which \p Problem is said:
+/// its first words name the variable, but a machine's are its file or
+/// "configuration".
+static std::string mendOfOpening(std::string_view Problem,
+                                 const DeviceOptions &Options) {
+  for (const KnownVariable &K : knownVariables()) {
+    const std::string Text = Options.text(K.Name);
+    const bool IsMachine = K.Name == std::string_view("VORION_CONFIG");
+    if (Text.empty() || !(Problem.starts_with(K.Name) ||
+                          (IsMachine && (Problem.starts_with("configuration") ||
+                                         Problem.starts_with(Text)))))
+      continue;
+    return Options.commandLine().contains(K.Name)
+               ? "correct --set" // the only such option
+               : fmt::format("unset {}, or correct it", K.Name);
+  }
+  return sourceEnvironment();
 }
 
 std::string vendorsPlace() {
@@ -178,8 +198,8 @@ std::string runKernel(const Device &D) {
 Diagnoses examineDevice(const DeviceOptions &Options) {
   const auto D = Device::open("", Options);
   if (!D)
-    return {
-        {DiagnosisState::Fault, "device", D.error().What, sourceEnvironment()}};
+    return {{DiagnosisState::Fault, "device", D.error().What,
+             mendOfOpening(D.error().What, Options)}};
   if (!D->isVorion())
     return {{DiagnosisState::Fault, "device",
              fmt::format("the OpenCL device is \"{}\", not Vorion", D->name()),
