@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace vorion::splat {
 namespace {
@@ -23,6 +24,16 @@ Expected<CameraFile> listOf(const std::string &Path) {
   if (!Cameras)
     return Cameras.error();
   return CameraFile{std::move(*Cameras), {Path}};
+}
+
+/// The list in the folder \p Path, as INRIA's trainer leaves it; none in a
+/// capture.
+std::optional<std::string> listIn(const fs::path &Path) {
+  std::error_code Ignored;
+  const fs::path List = Path / "cameras.json";
+  if (isCapture(Path.string()) || !fs::exists(List, Ignored))
+    return std::nullopt;
+  return List.string();
 }
 
 Expected<CameraFile> captureOf(const std::string &Path, LensOf Of) {
@@ -54,15 +65,20 @@ Expected<CameraFile> jsonOf(const std::string &Path, LensOf Of) {
 Expected<CameraFile> readCameraFile(const std::string &Path, LensOf Of) {
   std::error_code Ignored;
   if (fs::is_directory(Path, Ignored)) {
-    const fs::path List = fs::path(Path) / "cameras.json";
-    if (!isCapture(Path) && fs::exists(List, Ignored))
-      return listOf(List.string());
+    if (const auto List = listIn(Path))
+      return listOf(*List);
     return captureOf(Path, Of);
   }
   const fs::path Ending = fs::path(Path).extension();
   if (Ending == ".bin" || Ending == ".txt")
     return captureOf(Path, Of);
   return jsonOf(Path, Of);
+}
+
+std::vector<std::string> cameraFiles(const std::string &Path) {
+  if (const auto List = listIn(Path))
+    return {*List};
+  return captureFiles(Path);
 }
 
 Expected<std::string> hashCameraFile(const std::string &Path) {

@@ -25,6 +25,10 @@ struct CameraFile {
 Expected<CameraFile> readCameraFile(const std::string &Path,
                                     LensOf Of = LensOf::Undistorted);
 
+/// The files that readCameraFile() reads at \p Path, or that lie under its
+/// views: of a capture also pictures, masks and points (captureFiles).
+std::vector<std::string> cameraFiles(const std::string &Path);
+
 /// Of the files that \p Path's cameras are read from: of the file, or of the
 /// names and contents of several.
 Expected<std::string> hashCameraFile(const std::string &Path);

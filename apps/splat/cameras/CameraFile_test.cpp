@@ -42,6 +42,19 @@ TEST(CameraFile, CapturesNeedNoPicturesAndNoPoints) {
   expectCapture(transformsOf(C), "transforms.json");
 }
 
+TEST(CameraFile, FilesAreTheCaptures) {
+  const CaptureFolder F(transformsOf(sampleCapture()));
+  EXPECT_EQ(cameraFiles(F.path()), captureFiles(F.path()));
+  EXPECT_EQ(cameraFiles(F.path("transforms.json")).size(), 11U);
+}
+
+TEST(CameraFile, TheFileOfAListIsTheList) {
+  const TestFolder Folder;
+  const std::string List = Folder.write("cameras.json", "[]");
+  EXPECT_EQ(cameraFiles(List), std::vector<std::string>{List});
+  EXPECT_EQ(cameraFiles(Folder.path("")), std::vector<std::string>{List});
+}
+
 TEST(CameraFile, SyntheticCapturesHaveBothSets) {
   const CaptureFolder F(nerfSyntheticOf(sampleCapture()));
   const auto Read = readCameraFile(F.path());

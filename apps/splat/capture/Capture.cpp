@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <optional>
 #include <ranges>
 #include <set>
@@ -47,6 +48,14 @@ std::optional<Location> find(const fs::path &Path) {
   if (fileExists(Path / "transforms.json"))
     return Location{CaptureFormat::Transforms, Path / "transforms.json", Path};
   return std::nullopt;
+}
+
+/// The same where \p Path may be one of COLMAP's files.
+std::optional<Location> findCameras(const fs::path &Path) {
+  auto F = find(Path);
+  if (!F && (Path.extension() == ".bin" || Path.extension() == ".txt"))
+    F = find(Path.has_parent_path() ? Path.parent_path() : fs::path("."));
+  return F;
 }
 
 /// The picture called \p Name, whose ending may be missing.
@@ -218,6 +227,41 @@ Expected<Success> addPoses(const fs::path &File, LensOf Of,
   return Success{};
 }
 
+/// Adds COLMAP's files, and what they name as far as they can be read.
+void addColmapFiles(const Location &F, std::vector<fs::path> &To) {
+  const bool Text = F.Format == CaptureFormat::ColmapText;
+  for (const char *Name : {"cameras", "images", "points3D"})
+    To.push_back(F.Model / (std::string(Name) + (Text ? ".txt" : ".bin")));
+  const auto Read = readModel(F, /*PosesOnly=*/true);
+  if (!Read)
+    return;
+  for (const CaptureView &V : Read->Model.Views) {
+    To.push_back(F.Pictures / V.Pose.Name);
+    To.emplace_back(maskOf(F.Pictures.parent_path() / "masks", V.Pose.Name));
+  }
+}
+
+/// Adds \p File, and what it names as far as it can be read.
+void addTransformsFiles(const fs::path &File, std::vector<fs::path> &To) {
+  To.push_back(File);
+  std::error_code Ignored;
+  if (!fs::is_regular_file(File, Ignored)) // a pipe can be read only once
+    return;
+  const auto T = transformsOf(File);
+  if (!T)
+    return;
+  const fs::path Folder = File.parent_path();
+  for (const TransformsView &V : T->Views) {
+    const fs::path Picture = pictureOf(Folder, V.Pose.Name);
+    To.push_back(Picture);
+    To.push_back(V.Mask.empty()
+                     ? fs::path(maskOf(Folder / "masks", Picture.filename()))
+                     : Folder / V.Mask);
+  }
+  if (!T->Points.empty())
+    To.push_back(Folder / T->Points);
+}
+
 /// Whether a pinhole's picture can be made of that of \p V, if one is wanted.
 Expected<Success> checkPinhole(const std::string &File, const CaptureView &V,
                                const CaptureOptions &Options) {
@@ -348,9 +392,8 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
                    ExitCode::Usage};
     }
   if (C.Views.size() < 2)
-    return Error{Path, fmt::format("{} views, expected at least one to train "
-                                   "on and one to hold out",
-                                   C.Views.size())};
+    return Error{
+        Path, fmt::format("{} views, expected at least two", C.Views.size())};
   return Success{};
 }
 
@@ -435,6 +478,11 @@ CameraRing cameraRing(const Capture &C) {
       }
       Ring.Radius = std::max(Ring.Radius, std::sqrt(Squares));
     }
+  // Poses that are the same differ by the rounding of their inverses.
+  const auto [X, Y, Z] = Ring.Centre;
+  if (Ring.Radius <=
+      std::numeric_limits<float>::epsilon() * std::hypot(X, Y, Z))
+    Ring.Radius = 0;
   return Ring;
 }
 
@@ -457,10 +505,7 @@ static Error noCapture(const std::string &Path) {
 
 Expected<CaptureCameras> readCaptureCameras(const std::string &Path,
                                             LensOf Of) {
-  auto F = find(Path);
-  if (const fs::path P(Path);
-      !F && (P.extension() == ".bin" || P.extension() == ".txt"))
-    F = find(P.has_parent_path() ? P.parent_path() : fs::path("."));
+  const auto F = findCameras(Path);
   if (!F)
     return noCapture(Path);
   CaptureCameras C;
@@ -484,6 +529,26 @@ Expected<CaptureCameras> readCaptureCameras(const std::string &Path,
   }
   std::ranges::sort(C.Cameras, {}, &Camera::Name);
   return C;
+}
+
+std::vector<std::string> captureFiles(const std::string &Path) {
+  const auto F = findCameras(Path);
+  if (!F)
+    return {Path};
+  std::vector<fs::path> Files;
+  if (F->Format == CaptureFormat::ColmapText ||
+      F->Format == CaptureFormat::ColmapBinary) {
+    addColmapFiles(*F, Files);
+  } else {
+    addTransformsFiles(F->Model, Files);
+    if (F->Format == CaptureFormat::NerfSynthetic)
+      addTransformsFiles(fs::path(Path) / "transforms_test.json", Files);
+  }
+  std::vector<std::string> Named;
+  for (const fs::path &File : Files)
+    if (fileExists(File))
+      Named.push_back(File.string());
+  return Named;
 }
 
 Expected<Capture> readCapture(const std::string &Path,

@@ -66,7 +66,8 @@ struct Capture {
   std::size_t heldOut() const;
 };
 
-/// The centre of the training cameras and how far the farthest one is from it.
+/// The centre of the training cameras and how far the farthest one is from it:
+/// 0 where fp32 would not tell them apart.
 struct CameraRing {
   std::array<double, 3> Centre{};
   double Radius = 0;
@@ -136,6 +137,11 @@ struct CaptureCameras {
 /// \p Of those of the photographs.
 Expected<CaptureCameras> readCaptureCameras(const std::string &Path,
                                             LensOf Of = LensOf::Undistorted);
+
+/// The files at \p Path that readCapture or readCaptureCameras read, with the
+/// pictures, masks and points that are there, whatever their options; \p Path
+/// alone where no capture is.
+std::vector<std::string> captureFiles(const std::string &Path);
 
 /// Whether \p Path is a folder or file that readCapture would take, as far as
 /// names tell.

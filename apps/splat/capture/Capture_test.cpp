@@ -36,6 +36,28 @@ Folder folderOf(CaptureFormat F, const SampleCapture &C) {
 
 class Captures : public ::testing::TestWithParam<CaptureFormat> {};
 
+TEST_P(Captures, FilesAreAllThatIsRead) {
+  const CaptureFolder F(folderOf(GetParam(), sampleCapture()));
+  const auto C = readCapture(F.path());
+  ASSERT_TRUE(C) << C.error().What;
+  const std::vector<std::string> Files = captureFiles(F.path());
+  for (const CaptureView &V : C->Views)
+    EXPECT_EQ(std::ranges::count_if(Files,
+                                    [&V](const std::string &File) {
+                                      return std::filesystem::equivalent(
+                                          File, V.Picture);
+                                    }),
+              1)
+        << V.Picture;
+  const bool IsColmap = GetParam() == CaptureFormat::ColmapText ||
+                        GetParam() == CaptureFormat::ColmapBinary;
+  const std::size_t Described = IsColmap ? 3
+                                : GetParam() == CaptureFormat::NerfSynthetic
+                                    ? 2
+                                    : 1;
+  EXPECT_EQ(Files.size(), C->Views.size() + Described);
+}
+
 /// In the sample all cameras look at the origin from 3 away, y down.
 TEST_P(Captures, PosesAreThoseThatWereWritten) {
   const CaptureFolder F(folderOf(GetParam(), sampleCapture()));

@@ -6,6 +6,7 @@
 #include "commands/CameraArguments.h"
 #include "commands/Choices.h"
 #include "commands/Commands.h"
+#include "commands/InputFiles.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "io/Cameras.h"
@@ -249,7 +250,7 @@ Expected<Success> run(AnalyzeArguments A) {
       return Checked;
   if (auto Claimed = claimOutputs(
           {{"--json", A.JsonFile}},
-          {{"the scene", A.Scene.Path}, {"--cameras", A.Cameras.File}});
+          InputFiles().scene(A.Scene.Path).cameras(A.Cameras.File).named());
       !Claimed)
     return Claimed;
   const auto File = loadScene(A.Scene);

@@ -1,4 +1,5 @@
 #include "commands/Commands.h"
+#include "commands/InputFiles.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "commands/SceneEdits.h"
@@ -128,17 +129,18 @@ Expected<Success> run(const ConvertArguments &A) {
     return Checked;
   if (auto Checked = checkJsonName(A.JsonFile); !Checked)
     return Checked;
-  // A folder's scene is the pictures beside this file.
+  // A folder of chunks would be another scene with such a file.
   const auto IndexOf = [](const std::string &Path) {
     return (std::filesystem::path(Path) / "meta.json").string();
   };
-  std::vector<NamedFile> Inputs{{"the scene", A.Scene.Path},
-                                {"the scene", IndexOf(A.Scene.Path)}};
-  for (const std::string &Path : A.More)
-    for (const std::string &File : {Path, IndexOf(Path)})
-      Inputs.push_back({"the scene " + printable(Path), File});
-  if (auto Claimed =
-          claimOutputs({{"-o", A.Output}, {"--json", A.JsonFile}}, Inputs);
+  InputFiles Inputs;
+  Inputs.scene(A.Scene.Path).file("the scene", IndexOf(A.Scene.Path));
+  for (const std::string &Path : A.More) {
+    const std::string Name = "the scene " + printable(Path);
+    Inputs.scene(Path, Name).file(Name, IndexOf(Path));
+  }
+  if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--json", A.JsonFile}},
+                                  Inputs.named());
       !Claimed)
     return Claimed;
   Json Hashed;

@@ -1,11 +1,11 @@
 #include "commands/CaptureInfo.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
+#include "commands/InputFiles.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
-#include "commands/WatchedFiles.h"
 
 #include "eval/ScorePage.h"
 #include "eval/ScoreText.h"
@@ -55,10 +55,9 @@ Expected<Success> check(const EvalArguments &A) {
   if (!A.Pictures.empty())
     if (auto Checked = checkPrefix("--pictures", A.Pictures); !Checked)
       return Checked;
-  std::vector<NamedFile> Others = watchedFiles();
-  Others.push_back({"the scene", A.Scene.Path});
   return claimOutputs(
-      {{"--json", A.Json}, {"--csv", A.Csv}, {"--html", A.Html}}, Others);
+      {{"--json", A.Json}, {"--csv", A.Csv}, {"--html", A.Html}},
+      InputFiles().watched().scene(A.Scene.Path).capture(A.Capture).named());
 }
 
 Expected<nlohmann::ordered_json>

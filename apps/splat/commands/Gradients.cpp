@@ -1,10 +1,10 @@
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
+#include "commands/InputFiles.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
-#include "commands/WatchedFiles.h"
 
 #include "io/Npz.h"
 #include "render/FrameTime.h"
@@ -121,12 +121,13 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
        {checkEnding("-o", A.Output, {".npz"}), checkJsonName(A.Json)})
     if (!Checked)
       return Checked;
-  std::vector<NamedFile> Others = watchedFiles();
-  Others.insert(Others.end(), {{"the scene", A.Scene.Path},
-                               {"--cameras", A.Cameras},
-                               {"--upstream", A.Upstream}});
-  if (auto Claimed =
-          claimOutputs({{"-o", A.Output}, {"--json", A.Json}}, Others);
+  if (auto Claimed = claimOutputs({{"-o", A.Output}, {"--json", A.Json}},
+                                  InputFiles()
+                                      .watched()
+                                      .scene(A.Scene.Path)
+                                      .cameras(A.Cameras)
+                                      .file("--upstream", A.Upstream)
+                                      .named());
       !Claimed)
     return Claimed;
   const auto File = loadScene(A.Scene);

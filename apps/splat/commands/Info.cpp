@@ -1,6 +1,7 @@
 #include "capture/Capture.h"
 #include "commands/CaptureInfo.h"
 #include "commands/Commands.h"
+#include "commands/InputFiles.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "io/Hash.h"
@@ -109,11 +110,16 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
 Expected<Success> run(const InfoArguments &A) {
   if (auto Checked = checkJsonName(A.JsonFile); !Checked)
     return Checked;
-  if (auto Claimed =
-          claimOutputs({{"--json", A.JsonFile}}, {{"the scene", A.Scene.Path}});
+  const bool OfCapture = isCapture(A.Scene.Path);
+  InputFiles Inputs;
+  if (OfCapture)
+    Inputs.capture(A.Scene.Path);
+  else
+    Inputs.scene(A.Scene.Path);
+  if (auto Claimed = claimOutputs({{"--json", A.JsonFile}}, Inputs.named());
       !Claimed)
     return Claimed;
-  if (isCapture(A.Scene.Path))
+  if (OfCapture)
     return describeCapture(A.Scene.Path, A.JsonFile, A.AllowOutside);
   const auto File = loadScene(A.Scene);
   if (!File)

@@ -3,13 +3,13 @@
 #include "commands/DeviceArguments.h"
 #include "commands/EnergyArguments.h"
 #include "commands/HeatMapFiles.h"
+#include "commands/InputFiles.h"
 #include "commands/LayerOptions.h"
 #include "commands/NumericsReport.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/SceneArguments.h"
-#include "commands/WatchedFiles.h"
 
 #include "io/Cameras.h"
 #include "page/TimePage.h"
@@ -116,11 +116,12 @@ Expected<Success> check(const RenderArguments &A) {
                                  {"--write-cameras", A.CamerasOut}});
   const std::vector<NamedFile> Layers = A.Layers.named();
   Outputs.insert(Outputs.end(), Layers.begin(), Layers.end());
-  std::vector<NamedFile> Others = watchedFiles();
-  Others.insert(Others.end(), {{"the scene", A.Scene.Path},
-                               {"--cameras", A.Cameras.File},
-                               {"--technology", A.Energy.Technology}});
-  return claimOutputs(Outputs, Others);
+  return claimOutputs(Outputs, InputFiles()
+                                   .watched()
+                                   .scene(A.Scene.Path)
+                                   .cameras(A.Cameras.File)
+                                   .file("--technology", A.Energy.Technology)
+                                   .named());
 }
 
 /// Where the rules' near plane hides more of a view than it shows.
@@ -265,10 +266,12 @@ Expected<Success> claimPictures(const RenderArguments &A,
                    ExitCode::Usage};
     else
       Pictures.push_back({"the picture of view " + printable(C.Name), *File});
-  return claimOutputs(Pictures, {{"the scene", A.Scene.Path},
-                                 {"--cameras", A.Cameras.File},
-                                 {"--write-cameras", A.CamerasOut},
-                                 {"--json", A.Json}});
+  return claimOutputs(Pictures, InputFiles()
+                                    .scene(A.Scene.Path)
+                                    .cameras(A.Cameras.File)
+                                    .file("--write-cameras", A.CamerasOut)
+                                    .file("--json", A.Json)
+                                    .named());
 }
 
 Expected<Success> renderAll(const RenderArguments &A, const PictureJob &J,

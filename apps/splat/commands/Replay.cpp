@@ -1,5 +1,6 @@
 #include "cameras/CameraFile.h"
 #include "commands/Commands.h"
+#include "commands/InputFiles.h"
 #include "commands/OutputFile.h"
 #include "commands/ReportDifference.h"
 #include "io/Hash.h"
@@ -82,6 +83,28 @@ void findChanged(const Json &J, std::vector<std::string> &Changed) {
   if (J.is_structured())
     for (const Json &Inner : J)
       findChanged(Inner, Changed);
+}
+
+/// Adds the files of all that \p J has a hash of.
+void addHashed(const Json &J, InputFiles &To) {
+  if (J.is_object() && J.contains("fnv1a64"))
+    for (const char *Key : {"file", "upstream"})
+      if (J.contains(Key) && J[Key].is_string()) {
+        const auto File = J[Key].get<std::string>();
+        To.scene(File, "an input").cameras(File);
+      }
+  if (J.is_structured())
+    for (const Json &Inner : J)
+      addHashed(Inner, To);
+}
+
+/// What the command line of \p Result reads.
+InputFiles inputsOf(const Json &Result) {
+  InputFiles Inputs;
+  addHashed(Result, Inputs);
+  if (Result.contains("capture") && Result["capture"].is_string())
+    Inputs.capture(Result["capture"].get<std::string>());
+  return Inputs;
 }
 
 /// \p Words with every file that they write in \p Folder instead, and the
@@ -223,6 +246,10 @@ Expected<Success> replay(const ReplayArguments &A,
                                 "as they were",
                                 Named));
   }
+  if (auto Claimed =
+          claimOutputs({{"--json", A.JsonFile}}, inputsOf(*Result).named());
+      !Claimed)
+    return Claimed;
   if (auto Taken = takeEnvironment(A, Program); !Taken)
     return Taken;
   takeClock(*Result);

@@ -3,12 +3,12 @@
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
 #include "commands/EnergyArguments.h"
+#include "commands/InputFiles.h"
 #include "commands/OutputFile.h"
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/TrainPictures.h"
 #include "commands/TrainSettingOptions.h"
-#include "commands/WatchedFiles.h"
 
 #include "capture/Undistort.h"
 #include "io/ReportHead.h"
@@ -233,16 +233,18 @@ Expected<Success> check(const TrainArguments &A) {
       return Error{"",
                    fmt::format("--background {}: expected values of 0 to 1", V),
                    ExitCode::Usage};
-  std::vector<NamedFile> Others = watchedFiles();
-  Others.insert(Others.end(),
-                {{"--from", R.From}, {"--technology", A.Energy.Technology}});
+  const InputFiles Inputs = InputFiles()
+                                .watched()
+                                .capture(R.Capture)
+                                .file("--from", R.From)
+                                .file("--technology", A.Energy.Technology);
   return claimOutputs({{"-o", A.Output},
                        {"--json", A.Json},
                        {"--curve", A.Curve},
                        {"the cameras", camerasFor(A.Output)},
                        {"--html", A.Pictures.Html},
                        {"--checkpoint", R.Checkpoint}},
-                      Others);
+                      Inputs.named());
 }
 
 Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
