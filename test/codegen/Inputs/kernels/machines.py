@@ -43,9 +43,16 @@ class Configuration:
     zicond: bool
     zbb: bool
 
+    def extensions(self):
+        """Beyond rv32imaf."""
+        return ["zicsr", *["zicond"] * self.zicond, "zacas", "zba", *["zbb"] * self.zbb, "zbs", "xvortex", "xvorion"]
+
     def flags(self):
-        extensions = "_zicond" * self.zicond + "_zacas_zba" + "_zbb" * self.zbb + "_zbs_xvortex_xvorion"
-        return [self.level, f"-march=rv32imaf_zicsr{extensions}"]
+        return [self.level, "_".join(["-march=rv32imaf", *self.extensions()])]
+
+    def attributes(self):
+        """The same for vorion-llc."""
+        return ",".join("+" + name for name in ["m", "a", "f", *self.extensions()])
 
     def __str__(self):
         return self.level + ("" if self.zicond else " without Zicond") + ("" if self.zbb else " without Zbb")
