@@ -19,6 +19,15 @@ from machines import CONFIGURATIONS, Device, Endless, Linux, Refused, Wrong
 from module import SHARED_START, SHARED_WORDS
 
 
+def takes_long(linux, source, base):
+    """Whether the plain program as it is written does not end in time."""
+    try:
+        linux.run(source, base, level="-O0")
+    except Endless:
+        return True
+    return False
+
+
 def check(linux, seed, folder):
     configuration = CONFIGURATIONS[seed * 7 % len(CONFIGURATIONS)]
     base = os.path.join(folder, "program")
@@ -37,6 +46,9 @@ def check(linux, seed, folder):
         bad = [] if got == expected else [f"{configuration}: wrong: lanes " + " ".join(
             str(lane) for lane in range(LANES) if got[4 * lane:4 * lane + 4] != expected[4 * lane:4 * lane + 4])]
     except (Refused, Wrong) as problem:
+        # A loop of 2^32 rounds ends at once where the optimiser of one compiler knows its result, and only there.
+        if "limit reached" in str(problem) and takes_long(linux, source, base):
+            return {"seed": seed, "counts": {"endless as a plain program": 1}, "bad": []}
         bad = [f"{configuration}: {type(problem).__name__.lower()}: {problem}"]
     if bad:
         return {"seed": seed, "counts": {"bad": 1}, "bad": bad}

@@ -90,10 +90,10 @@ class Linux:
                             *(os.path.join(sources, f"{name}.c") for name in BUILTINS)], cwd=objects, check=True, timeout=TIMEOUT)
             self.library = sorted(glob.glob(os.path.join(objects, "*.o")))
 
-    def run(self, source, base, defines=()):
+    def run(self, source, base, defines=(), level="-O1"):
         """The program's standard output. Files are `base` with an ending."""
         program = base + ".linux"
-        built = run(["clang-19", *self.FLAGS, "-O1", f"-I{FOLDER}", *defines, "-nostdlib", "-static", "-fuse-ld=lld", source,
+        built = run(["clang-19", *self.FLAGS, level, f"-I{FOLDER}", *defines, "-nostdlib", "-static", "-fuse-ld=lld", source,
                      *self.library, "-o", program])
         if built.returncode:
             raise RuntimeError(f"{source}: the packaged compiler fails: {failure(built)}")
