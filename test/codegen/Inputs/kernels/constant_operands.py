@@ -10,26 +10,15 @@ exit codes: 0 no difference, 1 a function differs or is refused (the seed's file
 """
 
 import math
-import os
 import random
-import struct
 import sys
 
+import functions
 import seeds
-from machines import CONFIGURATIONS, Device, Refused, Wrong, failure, run
+from functions import quotient, signed
 
-LANES = 16
 WIDTHS = [32, 64, 16, 8]
 FUNCTIONS = 120
-
-
-def signed(value, width):
-    return value - (1 << width) if value >> (width - 1) else value
-
-
-def quotient(a, b):
-    """Rounded to zero, as LLVM's division."""
-    return abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
 
 
 def on_signed(compute):
@@ -62,24 +51,6 @@ OPERATIONS = {
 KINDS = [(operation, width, opaque) for operation in OPERATIONS for width in WIDTHS for opaque in (True, False)]
 
 
-def constants(rng, width):
-    """FUNCTIONS numbers of that width."""
-    def one():
-        shape = rng.randrange(6)
-        a, b = rng.randrange(width), rng.randrange(width)
-        number = [1 << a, (1 << a) - (1 << b), (1 << a) + (1 << b), rng.choice([3, 5, 9, 15, 25, 45]) << a,
-                  (1 << a) + rng.randint(-10, 10), rng.getrandbits(width)][shape]
-        return number * rng.choice([1, -1]) % (1 << width)
-    return [one() for _ in range(FUNCTIONS)]
-
-
-def values(rng, width):
-    """LANES of them, as 64 bits that hold garbage above the width."""
-    special = [0, 1, -1, 1 << (width - 1), (1 << (width - 1)) - 1, 3, -7, width - 1, rng.randrange(width)]
-    chosen = [value % (1 << width) for value in special] + [rng.getrandbits(width) for _ in range(LANES - len(special))]
-    return [value | rng.getrandbits(64) >> width << width & (1 << 64) - 1 for value in chosen]
-
-
 def function(number, kind, constant):
     operation, width, opaque = kind
     operand = "%k" if opaque else constant
@@ -99,55 +70,29 @@ def function(number, kind, constant):
     return "\n".join(lines + [f"  ret i64 {result}", "}", ""])
 
 
-def kernel():
-    """Calls every function with a lane's own value, which `out` holds, and puts its results behind all values."""
-    declarations = "".join(f"ulong f{number}(ulong);\n" for number in range(FUNCTIONS))
-    calls = "".join(f"  to[{number}] = f{number}(x);\n" for number in range(FUNCTIONS))
-    return (f'#include "kernels.h"\n{declarations}'
-            "static void run_kernels(uint *out, uint *local, uint n, uint lanes, uint number) {\n"
-            f"  ulong x = ((ulong *)out)[LANE], *to = (ulong *)out + LANES + LANE * {FUNCTIONS};\n{calls}}}\n"
-            f"enum {{ LANES = {LANES} }};\n"
-            '#include "entry.h"\n').replace("+ LANES", f"+ {LANES}")
-
-
 def check(seed, folder):
     kind = KINDS[seed % len(KINDS)]
     operation, width, opaque = kind
-    configuration = CONFIGURATIONS[seed // len(KINDS) % len(CONFIGURATIONS)]
+    configuration = functions.configuration_of(seed // len(KINDS))
     rng = random.Random(seed)
-    chosen, given = constants(rng, width), values(rng, width)
-    base = os.path.join(folder, "operands")
-    with open(base + ".ll", "w", encoding="utf-8") as file:
-        file.writelines(function(number, kind, constant) for number, constant in enumerate(chosen))
-    with open(base + ".c", "w", encoding="utf-8") as file:
-        file.write(kernel())
-    title = f"{operation} i{width}{', opaque' * opaque}, {configuration}"
-    try:
-        built = run(["vorion-llc", "-mtriple=riscv32", "-target-abi=ilp32f", f"-mattr={configuration.attributes()}", "-filetype=obj",
-                     base + ".ll", "-o", base + ".o"])
-        if built.returncode:
-            raise Refused(failure(built))
-        device = Device()
-        elf = device.compile(base + ".c", base, configuration, [base + ".o"])
-        start = struct.pack(f"<{LANES}Q", *given) + bytes(8 * LANES * FUNCTIONS)
-        got = struct.unpack(f"<{LANES * (1 + FUNCTIONS)}Q", device.run(elf, base, 1, LANES, ["u32:0", f"u32:{LANES}", "local:256"], start))
-    except (Refused, Wrong) as problem:
-        return {"seed": seed, "counts": {"bad": FUNCTIONS}, "bad": [f"{title}: {type(problem).__name__.lower()}: {problem}"]}
-    bad, compute = [], OPERATIONS[operation]
-    for number, constant in enumerate(chosen):
-        for lane, value in enumerate(given):
-            wanted = compute(value % (1 << width), constant, width)
-            result = got[LANES + lane * FUNCTIONS + number]
+    chosen, given = [functions.constant(rng, width) for _ in range(FUNCTIONS)], functions.values(rng, width)
+    text = "".join(function(number, kind, constant) for number, constant in enumerate(chosen))
+
+    def difference(number, results):
+        for value, result in zip(given, results):
+            low, constant = value % (1 << width), chosen[number]
+            wanted = OPERATIONS[operation](low, constant, width)
             if wanted is not None and result != int(wanted) % (1 << width):
-                bad.append(f"{title}: {value % (1 << width):#x} and {constant:#x} give {result:#x}, expected {int(wanted) % (1 << width):#x}")
-                break
-    return {"seed": seed, "counts": {"same": FUNCTIONS - len(bad), "bad": len(bad)}, "bad": bad}
+                return f"{low:#x} and {constant:#x} give {result:#x}, expected {int(wanted) % (1 << width):#x}"
+        return None
+
+    return functions.check(seed, f"{operation} i{width}{', opaque' * opaque}, {configuration}", FUNCTIONS,
+                           lambda: functions.compute(text, [(value,) for value in given], FUNCTIONS, folder, configuration), difference)
 
 
 def main():
     parser = seeds.options(__doc__, "constant-operands", "functions")
     chosen = parser.parse_args()
-    os.makedirs(chosen.folder, exist_ok=True)
     todo = range(chosen.first, chosen.first + math.ceil(chosen.count / FUNCTIONS))
     counts, bad_seeds, spent = seeds.check_all(chosen, todo, check)
     print(f"seeds {todo[0]} to {todo[-1]}: {counts['same']} functions same, {counts['bad']} bad, in {bad_seeds} of {len(todo)} seeds; {spent}")
