@@ -61,7 +61,8 @@ def compute(text, given, count, folder, configuration, before=()):
         passed = run(["opt-19", "-S", *before, base + ".ll", "-o", source])
         if passed.returncode:
             raise RuntimeError(f"the packaged optimiser fails: {failure(passed)}")
-    built = run(["vorion-llc", "-mtriple=riscv32", "-target-abi=ilp32f", f"-mattr={configuration.attributes()}", "-filetype=obj",
+    level = configuration.level.replace("s", "2")  # llc has no -Os
+    built = run(["vorion-llc", level, "-mtriple=riscv32", "-target-abi=ilp32f", f"-mattr={configuration.attributes()}", "-filetype=obj",
                  source, "-o", base + ".o"])
     if built.returncode:
         raise Refused(failure(built))

@@ -3,12 +3,13 @@
 
 C reaches few of the operations that an optimiser makes: integers of odd widths, funnel shifts, saturating and overflowing
 arithmetic, flags such as nsw, constants that stay in one place for several uses. Here they are written as LLVM's code. A function
-is a row of them on two arguments, some behind a branch. Each is computed for the values that the lanes will have as it is
+is a row of them on two arguments, some behind a branch, with local variables and vectors. Each is computed for the values that the lanes will have as it is
 written, so that none of them is undefined and every flag is true; some functions go through LLVM's own optimiser first.
 
 exit codes: 0 no difference, 1 a function differs or is refused (the seed's files are kept), 2 usage
 """
 
+import copy
 import math
 import random
 import sys
@@ -17,6 +18,7 @@ import fp32
 import functions
 import seeds
 from functions import LANES, signed
+from ir_memory import Variable, through_memory, through_vector
 from ir_operations import FLOAT, Value, operate, type_of
 
 FUNCTIONS = 40
@@ -31,13 +33,14 @@ class Function:
 
     def __init__(self, rng, number, given):
         self.rng, self.lines, self.names, self.labels = rng, [], 0, 0
+        self.allocations, self.variables = [], []
         self.pool = [Value(64, "%x", [first for first, _ in given]), Value(64, "%y", [second for _, second in given])]
         self.row(rng.randint(2, 6))
         for _ in range(rng.choice([0, 0, 1, 1, 2])):
             self.branch()
             self.row(rng.randint(1, 4))
         self.results = self.end()
-        self.text = "\n".join([f"define i64 @f{number}(i64 %x, i64 %y) {{", "entry:", *self.lines, "}", ""])
+        self.text = "\n".join([f"define i64 @f{number}(i64 %x, i64 %y) {{", "entry:", *self.allocations, *self.lines, "}", ""])
 
     def name(self):
         self.names += 1
@@ -55,7 +58,8 @@ class Function:
     def row(self, count):
         for _ in range(count):
             kind = FLOAT if self.rng.random() < 0.15 else self.width()
-            operate(self, kind)
+            further = self.rng.random()
+            (through_memory if further < 0.1 else through_vector if further < 0.15 else operate)(self, kind)
 
     def of_kind(self, kind, constants=True):
         """A value of the pool as that type, or a constant; half of these are opaque."""
@@ -98,16 +102,20 @@ class Function:
         self.labels += 1
         label = f"b{self.labels}"
         kind = FLOAT if self.rng.random() < 0.15 else self.width()
-        sides, start = [], list(self.pool)
+        sides, pool, variables = [], list(self.pool), self.variables
         self.lines.append(f"  br i1 {condition.name}, label %{label}.then, label %{label}.else")
         for side in ("then", "else"):
+            self.pool, self.variables = list(pool), copy.deepcopy(variables)
             self.lines.append(f"{label}.{side}:")
             self.row(self.rng.randint(0, 3))
-            sides.append(self.of_kind(kind))
+            sides.append((self.of_kind(kind), self.variables))
             self.lines.append(f"  br label %{label}.end")
-            self.pool = list(start)
+        self.pool = pool
         self.lines.append(f"{label}.end:")
-        then, other = sides
+        (then, then_variables), (other, other_variables) = sides
+        # A variable that one side alone has is not seen behind it.
+        self.variables = [Variable(variable.name, [(a if take else b).lanes[lane] for lane, take in enumerate(condition.values)])
+                          for variable, a, b in zip(variables, then_variables, other_variables)]
         self.add(kind, f"phi {type_of(kind)} [ {then.name}, %{label}.then ], [ {other.name}, %{label}.else ]",
                  [a if take else b for take, a, b in zip(condition.values, then.values, other.values)])
 
