@@ -16,8 +16,11 @@ set(VORION_SANITIZE "" CACHE STRING
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE}")
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+  # Depend mode: a file that is not known yet is not preprocessed twice. The rest is what ccache asks
+  # for where headers are compiled once.
+  set(CMAKE_C_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_DEPEND=true
+      CCACHE_SLOPPINESS=pch_defines,time_macros "${CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_C_COMPILER_LAUNCHER}")
 endif()
 
 # Warnings for the code we wrote; fetched sources do not link this.
@@ -25,7 +28,9 @@ add_library(vorion_options INTERFACE)
 target_compile_options(vorion_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wno-gnu-zero-variadic-macro-arguments -Werror
   # Removing a rounding changes results (docs/abi.md); fused operations are written fma().
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Some libraries ask for it, and headers compiled once are for all of our files.
+  -pthread)
 if(VORION_SANITIZE)
   target_compile_options(vorion_options INTERFACE
     -fsanitize=${VORION_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -1,0 +1,58 @@
+# The headers that most of our files include are compiled once: reading them takes three quarters of
+# a file's time. A file still includes what it uses, which scripts/lint.sh checks: it reads each file
+# without them.
+option(VORION_PRECOMPILE "Compile common headers once" ON)
+# Programs are compiled as libraries are, or they would need headers of their own.
+set(CMAKE_CXX_COMPILE_OPTIONS_PIE "${CMAKE_CXX_COMPILE_OPTIONS_PIC}")
+
+# None whose variables are made when a program starts, such as CLI11's: every file would make them.
+set(CommonHeaders
+  <algorithm> <array> <bit> <charconv> <chrono> <cmath> <cstdint> <cstdio> <cstdlib> <cstring> <filesystem> <fstream>
+  <functional> <limits> <map> <memory> <mutex> <numeric> <optional> <random> <set> <span> <sstream> <string> <string_view>
+  <thread> <tuple> <unordered_map> <utility> <variant> <vector>
+  <fmt/format.h> <fmt/ranges.h> <nlohmann/json.hpp>)
+
+# vorion_precompiled(NAME HEADER...): a target whose headers others use.
+function(vorion_precompiled Name)
+  set(Source "${CMAKE_BINARY_DIR}/${Name}.cpp")
+  file(CONFIGURE OUTPUT "${Source}" CONTENT "")
+  add_library(${Name} OBJECT "${Source}")
+  target_link_libraries(${Name} PRIVATE vorion_options)
+  # ccache takes what was compiled with them for the same only if they hold no time.
+  target_compile_options(${Name} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
+  target_precompile_headers(${Name} PRIVATE ${ARGN})
+endfunction()
+
+# vorion_precompile(FOLDER): every target of C++ in FOLDER and in the folders below it that does not
+# set DISABLE_PRECOMPILE_HEADERS. Those set it whose flags change the language or the vectors.
+function(vorion_precompile Folder)
+  if(NOT VORION_PRECOMPILE)
+    return()
+  endif()
+  get_property(Targets DIRECTORY "${Folder}" PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(Target IN LISTS Targets)
+    get_target_property(Kind ${Target} TYPE)
+    get_target_property(Off ${Target} DISABLE_PRECOMPILE_HEADERS)
+    get_target_property(Files ${Target} SOURCES)
+    if(Off OR Files MATCHES "[.]c(;|$)" OR NOT Kind MATCHES "^(EXECUTABLE|STATIC_LIBRARY|SHARED_LIBRARY|MODULE_LIBRARY|OBJECT_LIBRARY)$")
+      continue()
+    endif()
+    get_target_property(Libraries ${Target} LINK_LIBRARIES)
+    if(Libraries MATCHES "GTest::")
+      target_precompile_headers(${Target} REUSE_FROM vorion_precompiled_test)
+    else()
+      target_precompile_headers(${Target} REUSE_FROM vorion_precompiled_code)
+    endif()
+  endforeach()
+  get_property(Folders DIRECTORY "${Folder}" PROPERTY SUBDIRECTORIES)
+  foreach(Sub IN LISTS Folders)
+    vorion_precompile("${Sub}")
+  endforeach()
+endfunction()
+
+if(VORION_PRECOMPILE)
+  find_package(GTest REQUIRED)
+  vorion_precompiled(vorion_precompiled_code ${CommonHeaders})
+  vorion_precompiled(vorion_precompiled_test ${CommonHeaders} <gtest/gtest.h>)
+  target_link_libraries(vorion_precompiled_test PRIVATE GTest::gtest)
+endif()
