@@ -7,6 +7,7 @@ A fenced text of the page is
 
     sh          commands, which run in order in one shell; "sh minutes" runs with --all alone
     text        what the commands before it print. A line "..." stands for any lines, "..." in a line for any text
+    console     commands with names of the reader's own, which are not run
     c, python   part of the file whose name stands in the lines before it
 
 With --tables the commands in tables run, too: the last cell of a row, if it is one text of code that begins with the name
@@ -85,7 +86,7 @@ def steps_of(page, text, every, tables, without):
             if not steps or steps[-1].printed is not None:
                 fail(f"{page}:{line}: the output of no command")
             steps[-1].printed = body
-        elif language != "text":
+        elif language not in ("text", "console"):
             named = re.findall(r"`([^`\s]+)`", text[:found.start()].rstrip().rsplit("\n\n", 1)[-1])
             files = [f for f in (os.path.join(ROOT, n) for n in named) if os.path.isfile(f)]
             if not files:
