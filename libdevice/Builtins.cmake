@@ -10,4 +10,6 @@ set(VORION_BUILTINS
   fixsfdi fixunssfdi floatdisf floatundisf powisf2 extendhfsf2 truncsfhf2
   # double
   adddf3 subdf3 muldf3 divdf3 negdf2 comparedf2 extendsfdf2 truncdfsf2 truncdfhf2 fixdfsi fixdfdi fixunsdfsi
-  fixunsdfdi floatsidf floatunsidf floatdidf floatundidf powidf2 fp_mode)
+  fixunsdfdi floatsidf floatunsidf floatdidf floatundidf powidf2 fp_mode
+  # _Complex
+  mulsc3 divsc3 muldc3 divdc3)
