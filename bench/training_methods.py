@@ -34,7 +34,7 @@ def run(args, name, seed, more):
     report = os.path.join(args.results, f"{label}.json")
     if not os.path.exists(report):
         subprocess.run(["splat", "train", args.capture, "-o", os.path.join(args.results, "scene.ply"), "--seed", str(seed),
-                        "--json", report, *METHODS[name], *more, *args.options],
+                        "--checkpoint", os.devnull, "--json", report, *METHODS[name], *more, *args.options],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     with open(report, encoding="utf-8") as f:
         return json.load(f)

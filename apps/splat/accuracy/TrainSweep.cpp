@@ -161,7 +161,8 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   Words.insert(Words.end(),
                {"--seed", std::to_string(*Of.Seed), "--time", "--time-every",
                 std::to_string(P.TimeEvery), "--score-every",
-                std::to_string(P.ScoreEvery), "--json", Base + ".json"});
+                std::to_string(P.ScoreEvery), "--json", Base + ".json",
+                "--checkpoint", "/dev/null"});
   if (P.Energy)
     Words.emplace_back("--energy");
   if (auto Done = runSplat(Words, P.Machine, Base + ".log"); !Done)
@@ -169,7 +170,7 @@ Expected<Json> measureRun(const TrainSweepPlan &P, const TrainPoint &Of,
   auto Report = readJson(Base + ".json");
   if (!Report)
     return Report;
-  for (const char *Ending : {".ply", ".ply.checkpoint", ".json", ".log"})
+  for (const char *Ending : {".ply", ".json", ".log"})
     std::filesystem::remove(Base + Ending);
   Json Curve = curveOf(*Report, P.TimeEvery);
   double Cycles = 0, Joules = 0;

@@ -7,6 +7,7 @@
 #include "train/Start.h"
 #include "vorion/support/Json.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -33,6 +34,8 @@ struct Work {
   Ranks &Processes;
   Json Record;
   TrainOutcome &Out;
+  /// Iterations of the checkpoint that this run replaces; 0: of none.
+  unsigned Replaced = 0;
 };
 
 Expected<Success> writeState(const Work &W, Launcher &Launch, Trainer &T) {
@@ -133,6 +136,12 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
   if (W.Processes.first())
     W.Host.EndProgress();
   W.Out.Seconds = secondsSince(Start);
+  if (T.iteration() < W.Replaced)
+    return Error{W.Request.Checkpoint,
+                 fmt::format("stays at iteration {}: interrupted after {} of "
+                             "{}, which is not kept",
+                             W.Replaced, T.iteration(), Last),
+                 ExitCode::LimitReached};
   if (auto Kept = keep(W, Launch, T); !Kept)
     return Kept;
   if (T.iteration() < Last)
@@ -179,13 +188,10 @@ Expected<Success> resume(const Work &W, Trainer &T) {
   return Success{};
 }
 
-/// Gives \p T what it begins with: its own checkpoint, another run's, or the
-/// capture's points.
-Expected<Success> start(const Work &W, Trainer &T) {
+/// Gives \p T another run's checkpoint, or the capture's points.
+Expected<Success> begin(const Work &W, Trainer &T) {
   const TrainRequest &R = W.Request;
   const TrainSettings &S = R.Run.Settings;
-  if (R.Resume && std::filesystem::exists(R.Checkpoint))
-    return resume(W, T);
   if (R.From.empty()) {
     noteStart(W);
     T.start(startingScene(W.Photos, {R.Run.Seed, R.ShDegree, S.MostGaussians,
@@ -207,6 +213,40 @@ Expected<Success> start(const Work &W, Trainer &T) {
                  ExitCode::Usage};
   T.restore(*Other);
   return Success{};
+}
+
+/// Refuses to replace a checkpoint by one that is less far, which would lose
+/// what was trained.
+Expected<Success> checkReplaced(Work &W, unsigned Begin) {
+  const TrainRequest &R = W.Request;
+  std::error_code Ignored;
+  if (!std::filesystem::is_regular_file(R.Checkpoint, Ignored))
+    return Success{};
+  const auto Kept = readCheckpoint(R.Checkpoint);
+  if (!Kept) // nothing that one could go on from
+    return Success{};
+  const unsigned Every = R.CheckpointEvery;
+  const unsigned First =
+      std::min(R.Run.Settings.Iterations, (Begin / Every + 1) * Every);
+  if (Kept->Iteration > First)
+    return Error{R.Checkpoint,
+                 fmt::format("has iteration {}, and would be replaced by "
+                             "iteration {}, expected --resume to go on, "
+                             "another --checkpoint, or no such file",
+                             Kept->Iteration, First),
+                 ExitCode::Usage};
+  W.Replaced = Kept->Iteration;
+  return Success{};
+}
+
+/// Gives \p T what it begins with: its own checkpoint or another beginning.
+Expected<Success> start(Work &W, Trainer &T) {
+  const TrainRequest &R = W.Request;
+  if (R.Resume && std::filesystem::exists(R.Checkpoint))
+    return resume(W, T);
+  if (auto Begun = begin(W, T); !Begun)
+    return Begun;
+  return checkReplaced(W, T.iteration());
 }
 
 /// Finds out what the request leaves open: the cameras' extent, and hashes of
@@ -295,14 +335,14 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
                             "expected COLMAP's points with their tracks for "
                             "--depth-weight"};
   const PictureSource Source{std::string(name(C->Format)), R.Downscale};
-  const Work W{R,
-               Host,
-               *C,
-               *Pictures,
-               Processes,
-               runRecord(R.Run, *Pictures, Source, R.ShDegree, R.Convention,
-                         R.Blending, R.Backward),
-               Out};
+  Work W{R,
+         Host,
+         *C,
+         *Pictures,
+         Processes,
+         runRecord(R.Run, *Pictures, Source, R.ShDegree, R.Convention,
+                   R.Blending, R.Backward),
+         Out};
   const auto D = Host.OpenDevice();
   if (!D)
     return D.error();
