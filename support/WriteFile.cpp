@@ -31,10 +31,6 @@ Error cannotWrite(const std::string &Path, int Cause,
                             std::strerror(Cause), Wanted)};
 }
 
-Error isFolder(const std::string &Path) {
-  return {Path, "cannot write: is a folder, expected a file"};
-}
-
 /// What \p Path names, through links; nothing for what is not there.
 std::optional<struct stat> statusOf(const std::string &Path) {
   struct stat Info{};
@@ -52,8 +48,8 @@ fs::path folderOf(const fs::path &Path) {
   return Path.has_parent_path() ? Path.parent_path() : fs::path(".");
 }
 
-/// A new file in the folder of the one that it will become. It goes with this
-/// unless it was renamed.
+/// A new file in the folder of the one that it will become, its target. It goes
+/// with this unless it was renamed.
 class TemporaryFile {
 public:
   /// With \p Mode, less the process's umask.
@@ -70,13 +66,14 @@ public:
       const int Number =
           ::open(Name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, Mode);
       if (Number >= 0)
-        return TemporaryFile(std::move(Name), Number);
+        return TemporaryFile(std::move(Name), Target, Number);
       if (errno != EEXIST)
         return cannotWrite(Path, errno);
     }
   }
   TemporaryFile(TemporaryFile &&From) noexcept
-      : Name(std::exchange(From.Name, {})), File(std::move(From.File)) {}
+      : Name(std::exchange(From.Name, {})), Target(std::move(From.Target)),
+        File(std::move(From.File)) {}
   TemporaryFile &operator=(TemporaryFile &&) = delete;
   ~TemporaryFile() {
     if (!Name.empty())
@@ -84,8 +81,12 @@ public:
   }
 
   Descriptor &file() { return File; }
+  /// Removes what has its target's name. False leaves errno.
+  bool makeRoom() const {
+    return ::unlink(Target.c_str()) == 0 || errno == ENOENT;
+  }
   /// False leaves errno.
-  bool rename(const std::string &Target) {
+  bool rename() {
     if (::rename(Name.c_str(), Target.c_str()) != 0)
       return false;
     Name.clear();
@@ -93,9 +94,9 @@ public:
   }
 
 private:
-  TemporaryFile(std::string NameIn, int Number)
-      : Name(std::move(NameIn)), File(Number) {}
-  std::string Name;
+  TemporaryFile(std::string NameIn, std::string TargetIn, int Number)
+      : Name(std::move(NameIn)), Target(std::move(TargetIn)), File(Number) {}
+  std::string Name, Target;
   Descriptor File;
 };
 
@@ -116,9 +117,12 @@ bool synchronize(int File) {
          errno == EROFS;
 }
 
-Expected<Success> replace(const std::string &Path, const std::string &Target,
-                          const std::optional<struct stat> &Old,
-                          const void *Data, std::size_t Size) {
+/// What \p Target, which the user calls \p Path, is to become once it is
+/// renamed.
+Expected<TemporaryFile> writeAside(const std::string &Path,
+                                   const std::string &Target,
+                                   const std::optional<struct stat> &Old,
+                                   const void *Data, std::size_t Size) {
   if (Old && ::access(Target.c_str(), W_OK) != 0)
     return cannotWrite(Path, errno, "a file that can be written");
   // What only its owner could read is never open to others.
@@ -128,8 +132,8 @@ Expected<Success> replace(const std::string &Path, const std::string &Target,
   Descriptor &File = New->file();
   if (writeAll(File.number(), Data, Size) &&
       (!Old || keepRights(File.number(), *Old)) && synchronize(File.number()) &&
-      File.close() && New->rename(Target))
-    return Success{};
+      File.close())
+    return New;
   return cannotWrite(Path, errno);
 }
 
@@ -166,6 +170,16 @@ bool isReplaced(const std::string &Target,
   return S_ISREG(Info->st_mode) && There && isSame(*There, *Info);
 }
 
+/// What has \p Path's name, or nothing. A folder is an error.
+Expected<std::optional<struct stat>> replacedBy(const std::string &Path) {
+  auto Info = statusOf(Path);
+  if (!Info && errno != ENOENT)
+    return cannotWrite(Path, errno);
+  if (Info && S_ISDIR(Info->st_mode))
+    return Error{Path, "cannot write: is a folder, expected a file"};
+  return Info;
+}
+
 } // namespace
 
 std::string targetOf(const std::string &Path) {
@@ -182,17 +196,15 @@ std::string targetOf(const std::string &Path) {
 }
 
 Expected<Success> checkWritable(const std::string &Path) {
-  const auto Info = statusOf(Path);
-  if (isStandardOutput(Path, Info))
+  if (isStandardOutput(Path, statusOf(Path)))
     return Success{};
-  if (!Info && errno != ENOENT)
-    return cannotWrite(Path, errno);
-  if (Info && S_ISDIR(Info->st_mode))
-    return isFolder(Path);
-  if (Info && ::access(Path.c_str(), W_OK) != 0)
+  const auto Info = replacedBy(Path);
+  if (!Info)
+    return Info.error();
+  if (*Info && ::access(Path.c_str(), W_OK) != 0)
     return cannotWrite(Path, errno, "a file that can be written");
   const std::string Target = targetOf(Path);
-  if (!isReplaced(Target, Info))
+  if (!isReplaced(Target, *Info))
     return Success{};
   // A trial, since permissions alone do not tell for root or in /proc.
   const auto Trial = TemporaryFile::make(Path, Target, 0600);
@@ -201,21 +213,49 @@ Expected<Success> checkWritable(const std::string &Path) {
 
 Expected<Success> writeFileAtomically(const std::string &Path, const void *Data,
                                       std::size_t Size) {
-  const auto Info = statusOf(Path);
-  if (isStandardOutput(Path, Info))
+  if (isStandardOutput(Path, statusOf(Path)))
     return writeStandardOutput(Data, Size);
-  if (!Info && errno != ENOENT)
-    return cannotWrite(Path, errno);
-  if (Info && S_ISDIR(Info->st_mode))
-    return isFolder(Path);
+  const auto Info = replacedBy(Path);
+  if (!Info)
+    return Info.error();
   const std::string Target = targetOf(Path);
-  return isReplaced(Target, Info) ? replace(Path, Target, Info, Data, Size)
-                                  : writeThrough(Path, Data, Size);
+  if (!isReplaced(Target, *Info))
+    return writeThrough(Path, Data, Size);
+  auto New = writeAside(Path, Target, *Info, Data, Size);
+  if (!New)
+    return New.error();
+  if (!New->rename())
+    return cannotWrite(Path, errno);
+  return Success{};
 }
 
 Expected<Success> writeFileAtomically(const std::string &Path,
                                       std::string_view Text) {
   return writeFileAtomically(Path, Text.data(), Text.size());
+}
+
+Expected<Success> writeFilesTogether(const std::vector<FileContent> &Files) {
+  std::vector<TemporaryFile> New;
+  for (const auto &[Path, Content] : Files) {
+    const auto Info = replacedBy(Path);
+    if (!Info)
+      return Info.error();
+    const std::string Target = targetOf(Path);
+    if (!isReplaced(Target, *Info))
+      return Error{Path,
+                   "cannot write: is a device or a pipe, expected a file"};
+    auto Aside =
+        writeAside(Path, Target, *Info, Content.data(), Content.size());
+    if (!Aside)
+      return Aside.error();
+    New.push_back(std::move(*Aside));
+  }
+  if (!New.back().makeRoom())
+    return cannotWrite(Files.back().Path, errno);
+  for (std::size_t I = 0; I < New.size(); ++I)
+    if (!New[I].rename())
+      return cannotWrite(Files[I].Path, errno);
+  return Success{};
 }
 
 } // namespace vorion

@@ -132,6 +132,30 @@ TEST_F(WriteFileTest, FoldersAreNoFiles) {
   EXPECT_EQ(errorOf(writeFileAtomically(path(""), "text")), Folder);
 }
 
+TEST_F(WriteFileTest, FilesThatBelongTogetherAreAllOldOrAllNew) {
+  ASSERT_TRUE(writeFilesTogether({{path("a"), "old"}, {path("index"), "1"}}));
+  fs::create_directory(path("b"));
+  EXPECT_EQ(
+      errorOf(writeFilesTogether(
+          {{path("a"), "new"}, {path("b"), "new"}, {path("index"), "2"}})),
+      "cannot write: is a folder, expected a file");
+  EXPECT_EQ(contentOf(path("a")), "old");
+  EXPECT_EQ(contentOf(path("index")), "1");
+  expectEntries(3);
+  fs::remove(path("b"));
+  EXPECT_TRUE(writeFilesTogether(
+      {{path("a"), "new"}, {path("b"), "new"}, {path("index"), "2"}}));
+  EXPECT_EQ(contentOf(path("a")) + contentOf(path("b")), "newnew");
+  EXPECT_EQ(contentOf(path("index")), "2");
+  expectEntries(3);
+  // Nothing is beside a pipe that could take its place.
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(
+      errorOf(writeFilesTogether({{path("a"), "x"}, {path("pipe"), "y"}})),
+      "cannot write: is a device or a pipe, expected a file");
+  EXPECT_EQ(contentOf(path("a")), "new");
+}
+
 TEST_F(WriteFileTest, UnwritablePathIsAnErrorNamingIt) {
   for (const auto &Result : {writeFileAtomically("/nonexistent-folder/x", "y"),
                              checkWritable("/nonexistent-folder/x")}) {

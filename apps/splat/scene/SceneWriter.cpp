@@ -86,8 +86,7 @@ WrittenScene writtenOf(SceneFile Read, const Scene &Given, const Drawing &D,
   return Result;
 }
 
-/// \p Path is the folder's index. It is written last: until it is there, the
-/// folder has no scene.
+/// \p Path is the folder's index, which names the pictures beside it.
 Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
                                       const Drawing &D) {
   namespace fs = std::filesystem;
@@ -107,18 +106,15 @@ Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
       });
   if (!Read)
     return Read.error();
-  std::error_code Ignored;
-  fs::remove(Path, Ignored);
   std::string Hashes; // of a map: in the order of names
+  std::vector<FileContent> Parts;
   for (const auto &[Name, Bytes] : *Files) {
     Hashes += fmt::format("{} {}\n", fnv1a64(Bytes), Name);
     if (Name != SogIndex)
-      if (auto Written = writeFileAtomically(
-              (fs::path(Path).parent_path() / Name).string(), Bytes);
-          !Written)
-        return Written.error();
+      Parts.push_back({(fs::path(Path).parent_path() / Name).string(), Bytes});
   }
-  if (auto Written = writeFileAtomically(Path, Index); !Written)
+  Parts.push_back({Path, Index});
+  if (auto Written = writeFilesTogether(Parts); !Written)
     return Written.error();
   return writtenOf(std::move(*Read), S, D, fnv1a64(Hashes));
 }

@@ -42,7 +42,7 @@ struct WrittenScene {
 
 /// Writes \p S, which is drawn as \p D says, in the format of \p Path's ending,
 /// INRIA's PLY if it is none of writtenEndings(), and reads it back. The whole
-/// file appears or none.
+/// file appears or none; of a SOG's folder writeFilesTogether() says what may.
 /// Compressed PLYs have the Gaussians in an order of their own.
 Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
                                   const Drawing &D);

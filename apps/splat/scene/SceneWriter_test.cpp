@@ -1,9 +1,11 @@
 #include "scene/SceneWriter.h"
 
+#include "io/Hash.h"
 #include "io/TestFiles.h"
 #include "scene/SceneFile.h"
 #include "scene/testing/SceneWriters.h"
 
+#include <filesystem>
 #include <set>
 
 using namespace vorion;
@@ -92,6 +94,30 @@ TEST(SceneWriter, ASogsFolderIsTheArchivesScene) {
   ASSERT_FALSE(Refused);
   EXPECT_EQ(Refused.error().What,
             "no name of a SOG's index, expected meta.json");
+}
+
+TEST(SceneWriter, ASogsFolderThatCannotBeWrittenStaysAsItWas) {
+  const TestFolder Folder;
+  const std::string Index = Folder.path("meta.json");
+  const auto Hash = [&] {
+    const auto H = hashScene(Index);
+    return H ? *H : H.error().What;
+  };
+  const auto W = writeScene(Index, randomScene(20, 1, 7), Drawing());
+  ASSERT_TRUE(W) << W.error().What;
+  // The last of its pictures that is written.
+  std::filesystem::rename(Folder.path("shN_labels.webp"), Folder.path("kept"));
+  std::filesystem::create_directory(Folder.path("shN_labels.webp"));
+  const auto Failed = writeScene(Index, randomScene(30, 1, 8), Drawing());
+  ASSERT_FALSE(Failed);
+  EXPECT_EQ(Failed.error().Where, Folder.path("shN_labels.webp"));
+  std::filesystem::remove(Folder.path("shN_labels.webp"));
+  std::filesystem::rename(Folder.path("kept"), Folder.path("shN_labels.webp"));
+  EXPECT_EQ(Hash(), W->Hash);
+  EXPECT_EQ(
+      std::distance(std::filesystem::directory_iterator(Folder.path("")), {}),
+      8)
+      << "seven pictures and the index";
 }
 
 TEST(SceneWriter, SaysWhetherTheFileTellsHowItIsDrawn) {

@@ -36,6 +36,19 @@ Expected<Success> writeFileAtomically(const std::string &Path, const void *Data,
 Expected<Success> writeFileAtomically(const std::string &Path,
                                       std::string_view Text);
 
+/// A file and what it shall hold.
+struct FileContent {
+  std::string Path;
+  std::string_view Content;
+};
+
+/// Writes several files that are one thing, of which the last is the index that
+/// names the others. All are written aside before any is renamed, so that what
+/// was there stays whole if one cannot be written. The index that was there
+/// goes before the first is renamed: an interrupt among the renames leaves no
+/// index, and never one of other files.
+Expected<Success> writeFilesTogether(const std::vector<FileContent> &Files);
+
 /// Whether writeFileAtomically() could write \p Path, asked before the work
 /// whose result it gets. Makes a file in its folder for a moment.
 Expected<Success> checkWritable(const std::string &Path);
