@@ -5,13 +5,11 @@
 #include "io/PlyFile.h"
 #include "io/Unsupported.h"
 #include "vorion/support/Json.h"
-#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -76,49 +74,16 @@ std::optional<double> TransformsReader::number(const Json &Frame,
 /// Terms as nerfstudio and instant-ngp write them: k1 to k4 are of r^2 to r^8,
 /// but OpenCV's full model has k4 to k6 in the denominator.
 CameraModel TransformsReader::readLens(const Json &Frame) {
-  const Json *Named = find(Frame, "camera_model");
-  const std::optional<std::string> Model =
-      Named ? std::optional(upperCase(Named->is_string()
-                                          ? Named->get<std::string>()
-                                          : jsonText(*Named)))
-            : std::nullopt;
-  const Json *Flag = find(Frame, "is_fisheye");
-  const bool Fisheye =
-      (Flag && *Flag == Json(true)) ||
-      (Model && (*Model == "OPENCV_FISHEYE" || *Model == "RADIAL_FISHEYE" ||
-                 *Model == "SIMPLE_RADIAL_FISHEYE"));
-  const bool Full = Model && *Model == "FULL_OPENCV";
-  if (Model && *Model == "EQUIRECTANGULAR")
-    return {LensModel::Equirectangular, {}};
-  constexpr std::array<const char *, 6> Others{"PINHOLE",     "SIMPLE_PINHOLE",
-                                               "PERSPECTIVE", "OPENCV",
-                                               "RADIAL",      "SIMPLE_RADIAL"};
-  if (Model && !Fisheye && !Full &&
-      std::ranges::none_of(Others,
-                           [&](const char *Name) { return *Model == Name; }))
-    fail(fmt::format("the camera model {}, expected {}, FULL_OPENCV, "
-                     "OPENCV_FISHEYE, RADIAL_FISHEYE, SIMPLE_RADIAL_FISHEYE or "
-                     "EQUIRECTANGULAR",
-                     printable(jsonText(*Named)), fmt::join(Others, ", ")));
-  const auto Term = [&](const char *Key) {
-    return number(Frame, Key).value_or(0);
-  };
-  const double K1 = Term("k1"), K2 = Term("k2"), K3 = Term("k3"),
-               K4 = Term("k4"), P1 = Term("p1"), P2 = Term("p2");
-  if (Fisheye) {
-    if (P1 != 0 || P2 != 0)
-      fail("a fisheye with p1 or p2, expected k1 to k4 alone");
-    return {LensModel::Fisheye, {K1, K2, K3, K4}};
+  const auto Lens = vorion::splat::readLens(
+      [&](const char *Key) { return find(Frame, Key); }, FourthTerm::Above);
+  if (!Lens) {
+    fail(Lens.error().What);
+    return {};
   }
-  CameraModel M{LensModel::OpenCv, {K1, K2, P1, P2, K3}};
-  if (Full) {
-    M.K[LensK4] = K4;
-    M.K[LensK5] = Term("k5");
-    M.K[LensK6] = Term("k6");
-  } else {
-    M.K[LensR8] = K4;
-  }
-  return simplified(M);
+  if (Lens->Model == LensModel::Orthographic)
+    fail("a photograph by an orthographic camera, expected a pinhole's, a "
+         "fisheye's or a full sphere");
+  return *Lens;
 }
 
 CameraPlace TransformsReader::readPlace(const Json &Frame, const char *Key) {

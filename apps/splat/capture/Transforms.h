@@ -24,11 +24,10 @@ struct TransformsFile {
   std::string Points;                ///< key ply_file_path, or empty
 };
 
-/// Reads w, h and what readIntrinsics() does, of the file or of a frame, and
-/// frames with file_path and transform_matrix; k1 to k4, p1 and p2 with
-/// camera_model or is_fisheye; mask_path; val_filenames and test_filenames.
-/// Refused: camera models that we have no lens for, poses that are no rotation
-/// and translation, files without a frame.
+/// Reads w, h and what readIntrinsics() and readLens() do, of the file or of a
+/// frame, and frames with file_path and transform_matrix; mask_path;
+/// val_filenames and test_filenames. Refused: camera models that we have no
+/// lens for, poses that are no rotation and translation, files without a frame.
 Expected<TransformsFile> parseTransforms(const std::string &Where, Bytes File);
 
 /// Reads points of a PLY with float x, y, z and uchar red, green, blue.

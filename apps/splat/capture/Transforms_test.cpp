@@ -129,7 +129,14 @@ TEST(Transforms, LensesAreOfTheFileOrAFrame) {
   const CameraModel Fisheye{LensModel::Fisheye, {0.1, 0.2, 0.3, 0.4}};
   EXPECT_EQ(LensesOf([&](Json &J) {
               Terms(J);
+              J.erase("camera_model");
               J["is_fisheye"] = true;
+            }).first,
+            Fisheye);
+  EXPECT_EQ(LensesOf([&](Json &J) {
+              Terms(J);
+              J.erase("camera_model");
+              J["camera_type"] = "fisheye";
             }).first,
             Fisheye);
   EXPECT_EQ(LensesOf([&](Json &J) {
@@ -175,15 +182,43 @@ TEST(Transforms, EachKindOfDamageHasItsMessage) {
       {[](Json &J) { J["frames"][1].erase("file_path"); },
        "frame 1 has no file_path"},
       {[](Json &J) { J["k1"] = "much"; },
-       "frame pictures/a0.png: key k1 is wrong, expected a finite number"},
+       "frame pictures/a0.png: key k1 is wrong, expected numbers from -1e+06 "
+       "to 1e+06"},
       {[](Json &J) { J["camera_model"] = "FISHEYE624"; },
-       "frame pictures/a0.png: the camera model \"FISHEYE624\", expected "
-       "PINHOLE, SIMPLE_PINHOLE, PERSPECTIVE, OPENCV"},
+       "frame pictures/a0.png: key camera_model calls for the camera model "
+       "\"FISHEYE624\", which is not supported, expected PINHOLE, OPENCV, "},
+      {[](Json &J) { J["camera_model"] = 3; },
+       "frame pictures/a0.png: key camera_model is 3, expected a camera "
+       "model's name, PINHOLE, OPENCV, "},
+      {[](Json &J) { J["frames"][1]["is_fisheye"] = 1; },
+       "frame pictures/a1.png: key is_fisheye is 1, expected true or false"},
+      {[](Json &J) { J["is_fisheye"] = "true"; },
+       "key is_fisheye is \"true\", expected true or false"},
+      {[](Json &J) { J["is_fisheye"] = true; },
+       "key is_fisheye calls for OPENCV_FISHEYE, but the camera's model is"},
+      {[](Json &J) { J["lens_model"] = "opencv_fisheye"; },
+       "keys camera_model and lens_model call for two camera models, expected "
+       "one"},
+      {[](Json &J) { J["camera_type"] = "omnidirectional"; },
+       "key camera_type calls for the camera model \"omnidirectional\""},
+      {[](Json &J) { J["camera_model"] = "ORTHOPHOTO"; },
+       "a photograph by an orthographic camera, expected a pinhole's"},
+      {[](Json &J) { J["k5"] = 0.1; },
+       "key k5 means different things to different programs, expected "
+       "camera_model FULL_OPENCV with it, or 0"},
+      {[](Json &J) { J["dist_coeffs"] = 0.1; }, "key dist_coeffs is wrong"},
       {[](Json &J) {
-         J["is_fisheye"] = true;
+         J["camera_model"] = "EQUIRECTANGULAR";
+         J["k1"] = 0.1;
+       },
+       "key k1 calls for a distortion by k1, which a camera of model "
+       "EQUIRECTANGULAR does not have"},
+      {[](Json &J) {
+         J["camera_model"] = "OPENCV_FISHEYE";
          J["p2"] = 0.1;
        },
-       "a fisheye with p1 or p2"},
+       "key p2 calls for a distortion by p2, which a camera of model "
+       "OPENCV_FISHEYE does not have"},
       {[](Json &J) { J["frames"][1]["mask_path"] = 3; },
        "frame pictures/a1.png: key mask_path is wrong"},
       {[](Json &J) { J["frames"][1]["transform_matrix"][2] = 0; },

@@ -2,11 +2,13 @@
 
 #include "vorion/support/Json.h"
 #include "vorion/support/Letters.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 namespace vorion::splat {
@@ -15,8 +17,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char *ModelKeys[] = {"camera_model", "model", "camera_type",
-                                     "projection", "projection_type"};
+constexpr const char *ModelKeys[] = {"camera_model", "lens_model",
+                                     "model",        "camera_type",
+                                     "projection",   "projection_type"};
 
 /// A list's key, and the names of its numbers by order.
 struct ListKey {
@@ -26,20 +29,15 @@ struct ListKey {
 
 class LensReader {
 public:
-  explicit LensReader(const KeyFinder &Find) : Find(Find) {}
+  LensReader(const KeyFinder &Find, FourthTerm K4) : Find(Find), K4(K4) {}
 
-  std::optional<std::string> read(Camera &C) {
+  Expected<CameraModel> read() {
     readModel();
     readNumbers();
     readLists();
-    checkModel();
     if (Problem)
-      return Problem;
-    Optics = simplified(Optics);
-    C.Optics = Optics;
-    if (Optics.Model == LensModel::Equirectangular)
-      setSphere(C);
-    return std::nullopt;
+      return Error{"", *Problem};
+    return simplified(Optics);
   }
 
 private:
@@ -48,25 +46,58 @@ private:
       Problem = std::move(What);
   }
 
+  /// The value of \p Key, unless that is null and says nothing.
+  const Json *find(const char *Key) const {
+    const Json *Value = Find(Key);
+    return Value && !Value->is_null() ? Value : nullptr;
+  }
+
+  /// What \p Value, which \p Key has, calls the model.
+  std::optional<LensModel> modelOf(const char *Key, const Json &Value) {
+    const auto Known =
+        Value.is_string() ? lensModelNamed(Value.get_ref<const std::string &>())
+                          : std::nullopt;
+    if (!Value.is_string())
+      fail(fmt::format("key {} is {}, expected a camera model's name, {}", Key,
+                       printable(jsonText(Value)), knownLensModels()));
+    else if (!Known)
+      fail(fmt::format("key {} calls for the camera model {}, which is not "
+                       "supported, expected {}",
+                       Key, printable(jsonText(Value)), knownLensModels()));
+    else if (upperCase(Value.get<std::string>()) == "FULL_OPENCV")
+      Full = true;
+    // A distorted pinhole is OpenCV's; which numbers it may have depends on
+    // what it is called.
+    return Known == LensModel::Pinhole ? LensModel::OpenCv : Known;
+  }
+
   void readModel() {
+    const char *By = nullptr;
     for (const char *Key : ModelKeys) {
-      const Json *Value = Find(Key);
-      if (!Value || !Value->is_string())
+      const Json *Value = find(Key);
+      if (!Value)
         continue;
-      const auto Known = lensModelNamed(Value->get_ref<const std::string &>());
-      if (!Known)
-        return fail(fmt::format("key {} calls for the camera model {}, which "
-                                "is not supported, expected {}",
-                                Key, jsonText(*Value), knownLensModels()));
-      // A distorted pinhole is OpenCV's; which numbers it may have depends on
-      // what it is called.
-      Optics.Model = *Known == LensModel::Pinhole ? LensModel::OpenCv : *Known;
-      Full = upperCase(Value->get<std::string>()) == "FULL_OPENCV";
-      return;
+      const auto Model = modelOf(Key, *Value);
+      if (By && Model && *Model != Optics.Model)
+        fail(fmt::format("keys {} and {} call for two camera models, expected "
+                         "one",
+                         By, Key));
+      By = Key;
+      Optics.Model = Model.value_or(Optics.Model);
     }
-    const Json *Fisheye = Find("is_fisheye");
-    Optics.Model = Fisheye && *Fisheye == Json(true) ? LensModel::Fisheye
-                                                     : LensModel::OpenCv;
+    const Json *Fisheye = find("is_fisheye");
+    if (!Fisheye)
+      return;
+    if (!Fisheye->is_boolean())
+      fail(fmt::format("key is_fisheye is {}, expected true or false",
+                       printable(jsonText(*Fisheye))));
+    else if (!Fisheye->get<bool>())
+      return;
+    else if (By && Optics.Model != LensModel::Fisheye)
+      fail(fmt::format("key is_fisheye calls for OPENCV_FISHEYE, but the "
+                       "camera's model is {}, expected one of both",
+                       name(Optics.Model)));
+    Optics.Model = LensModel::Fisheye;
   }
 
   /// The place of \p Name among the model's, or nothing.
@@ -97,16 +128,20 @@ private:
   void readNumbers() {
     for (const std::string_view Name : LensKeys) {
       const std::string Key(Name);
-      const Json *Value = Find(Key.c_str());
-      // A unit's "s1" may be anything; numbers are lenses'.
-      if (!Value || Value->is_null())
+      const Json *Value = find(Key.c_str());
+      if (!Value)
         continue;
+      const bool IsPartOfFull = Optics.Model == LensModel::OpenCv && !Full;
+      if (IsPartOfFull && Name == "k4" && K4 == FourthTerm::Above) {
+        set("k4", "r8", *Value);
+        continue;
+      }
       set(Key.c_str(), Name, *Value);
       // k4 is OpenCV's first number under the fraction, and nerfstudio's fourth
       // above it.
       const auto Place = placeOf(Name);
-      if (Optics.Model == LensModel::OpenCv && !Full && Place &&
-          *Place >= LensK4 && *Place < LensR8 && Optics.K[*Place] != 0)
+      if (IsPartOfFull && Place && *Place >= LensK4 && *Place < LensR8 &&
+          Optics.K[*Place] != 0)
         fail(fmt::format("key {} means different things to different programs, "
                          "expected camera_model FULL_OPENCV with it, or 0",
                          Key));
@@ -127,8 +162,8 @@ private:
                              {"tangential_coeffs", {"p1", "p2"}},
                              {"thin_prism_coeffs", {"s1", "s2", "s3", "s4"}}};
     for (const auto &[Key, Names] : Lists) {
-      const Json *Value = Find(Key);
-      if (!Value || Value->is_null())
+      const Json *Value = find(Key);
+      if (!Value)
         continue;
       if (!Value->is_array() || Value->size() > Names.size())
         return fail(
@@ -140,16 +175,9 @@ private:
     }
   }
 
-  void checkModel() {
-    const Json *Fisheye = Find("is_fisheye");
-    if (Fisheye && *Fisheye == Json(true) && Optics.Model != LensModel::Fisheye)
-      fail(fmt::format("key is_fisheye calls for OPENCV_FISHEYE, but the "
-                       "camera's model is {}, expected one of both",
-                       name(Optics.Model)));
-  }
-
   const KeyFinder &Find;
-  CameraModel Optics;
+  FourthTerm K4;
+  CameraModel Optics{LensModel::OpenCv, {}};
   bool Full = false;
   std::optional<std::string> Problem;
 };
@@ -173,8 +201,8 @@ void setSphere(Camera &C) {
   C.Cy = 0.5 * C.Height;
 }
 
-std::optional<std::string> readLens(const KeyFinder &Find, Camera &C) {
-  return LensReader(Find).read(C);
+Expected<CameraModel> readLens(const KeyFinder &Find, FourthTerm K4) {
+  return LensReader(Find, K4).read();
 }
 
 } // namespace vorion::splat

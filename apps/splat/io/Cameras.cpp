@@ -57,11 +57,15 @@ public:
       const auto It = Record.find(Key);
       return It == Record.end() ? nullptr : &*It;
     };
-    if (auto Wrong = readLens(Find, C))
-      fail(std::move(*Wrong));
+    if (auto Lens = readLens(Find))
+      C.Optics = *Lens;
+    else
+      fail(Lens.error().What);
     if (auto Wrong = readShutter(Find, C))
       fail(std::move(*Wrong));
-    if (C.Optics.Model != LensModel::Equirectangular) {
+    if (C.Optics.Model == LensModel::Equirectangular) {
+      setSphere(C);
+    } else {
       C.Fx = focal("fx");
       C.Fy = focal("fy");
       C.Cx = Record.contains("cx") ? number("cx") : 0.5 * C.Width;

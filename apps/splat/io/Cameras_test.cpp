@@ -148,6 +148,14 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
   Expect({{"camera_model", "ORTHOGRAPHIC"}, {"k1", 0.1}}, "expected 0");
   Expect({{"camera_model", "PINHOLE"}, {"is_fisheye", true}},
          "expected one of both");
+  Expect({{"camera_model", 3}}, "key camera_model is 3, expected a camera "
+                                "model's name, PINHOLE, OPENCV");
+  Expect({{"projection_type", {"fisheye"}}},
+         "key projection_type is [\"fisheye\"], expected");
+  Expect({{"is_fisheye", 1}}, "key is_fisheye is 1, expected true or false");
+  Expect({{"lens_model", "FOV"}}, "key lens_model calls for the camera model");
+  Expect({{"camera_model", "OPENCV"}, {"camera_type", "equirectangular"}},
+         "keys camera_model and camera_type call for two camera models");
   Expect({{"dist_coeffs", std::vector<double>(13)}}, "at most 12 numbers");
   Expect({{"dist_coeffs", {1, nullptr}}}, "key dist_coeffs is wrong");
   for (const nlohmann::json &Nothing : std::initializer_list<nlohmann::json>{
@@ -156,6 +164,8 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
            {{"is_fisheye", false}},
            {{"camera_model", "SIMPLE_PINHOLE"}},
            {{"model", "OPENCV"}},
+           {{"camera_model", "OPENCV"}, {"camera_type", "perspective"}},
+           {{"camera_model", nullptr}, {"is_fisheye", nullptr}},
            {{"dist_coeffs", nlohmann::json::array()}},
            {{"comment", "k1"}}})
     EXPECT_EQ(With(Nothing), "") << Nothing;

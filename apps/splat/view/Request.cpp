@@ -92,14 +92,18 @@ Expected<Camera> cameraOf(const Json &Of) {
   if (!isRotation(C.Rotation))
     return wrong("rotation", "a rotation");
   // As cameras.json has it; a sphere's focal lengths follow from the size.
-  if (Lens.is_object())
-    if (const auto Problem = readLens(
-            [&](const char *Key) {
-              const auto At = Lens.find(Key);
-              return At == Lens.end() ? nullptr : &*At;
-            },
-            C))
-      return Error{"", "the request's lens: " + *Problem, ExitCode::Usage};
+  if (Lens.is_object()) {
+    const auto Read = readLens([&](const char *Key) {
+      const auto At = Lens.find(Key);
+      return At == Lens.end() ? nullptr : &*At;
+    });
+    if (!Read)
+      return Error{"", "the request's lens: " + Read.error().What,
+                   ExitCode::Usage};
+    C.Optics = *Read;
+    if (C.Optics.Model == LensModel::Equirectangular)
+      setSphere(C);
+  }
   return C;
 }
 
