@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace vorion::splat {
 
@@ -80,8 +81,11 @@ Expected<Success> checkPictureOptions(const RenderOptions &O) {
   for (const float B : O.Background)
     if (!std::isfinite(B))
       return usage(fmt::format("--background {}: expected finite numbers", B));
-  if (!(O.Near == 0 || (std::isnormal(O.Near) && O.Near > 0)))
-    return usage(fmt::format("--near {}: expected a depth above 0", O.Near));
+  if (O.Near && !(std::isnormal(*O.Near) && *O.Near > 0))
+    return usage(fmt::format("--near {}: expected a depth above 0, from {:.3g} "
+                             "to {:.3g}",
+                             *O.Near, std::numeric_limits<float>::min(),
+                             std::numeric_limits<float>::max()));
   if (!(O.Cutoff >= 0 && O.Cutoff < 1))
     return usage(fmt::format("--cutoff {}: expected 0 <= T < 1", O.Cutoff));
   if (O.Blending == Path::Raster && O.Reach == Support::Official16)

@@ -126,7 +126,7 @@ Expected<Success> check(const RenderArguments &A) {
 
 /// Where the rules' near plane hides more of a view than it shows.
 void hintAtNear(const RenderOptions &O, const ViewFacts &F) {
-  if (O.Near == 0 && 2 * F.BeforeNear > F.InView)
+  if (!O.Near && 2 * F.BeforeNear > F.InView)
     printDiagnostic(
         "splat", "note", "",
         fmt::format("{} of {} Gaussians in front of the camera are not drawn, "

@@ -7,6 +7,7 @@
 #include "splat/LaneUnits.h" // generated from intrinsics/Units.td
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -67,8 +68,8 @@ struct RenderOptions {
   Spread Through = Spread::Jacobian;
   /// Whether a camera moves while it exposes.
   bool Rolling = false;
-  /// Least depth that is drawn; 0: the rules' own.
-  float Near = 0;
+  /// Least depth that is drawn; nothing: the rules' own.
+  std::optional<float> Near;
   /// Leading bits of the depths that decide the order: 1 to 32.
   unsigned DepthBits = 32;
   /// Spherical harmonics of higher bands are left out.
@@ -109,7 +110,7 @@ struct RenderOptions {
   bool Training = false;
 
   float nearLimit() const {
-    return Near > 0 ? Near : splat::nearLimit(Convention);
+    return Near.value_or(splat::nearLimit(Convention));
   }
   /// Whether depth is the distance from the camera, not z.
   bool byDistance() const {

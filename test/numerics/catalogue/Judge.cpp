@@ -83,7 +83,7 @@ reference::Options referenceOptions(const splat::RenderOptions &O) {
   R.Through = O.Through == splat::Spread::Jacobian
                   ? reference::Spread::Jacobian
                   : reference::Spread::Unscented;
-  R.Near = double(O.Near);
+  R.Near = double(O.Near.value_or(0)); // 0: the rules' own
   R.Antialiased = O.Antialiased;
   R.Dilation = double(O.Dilation);
   R.Cutoff = double(O.Cutoff);
