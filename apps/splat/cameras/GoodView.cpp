@@ -21,6 +21,10 @@ struct Sample {
 /// At most so many are looked at.
 constexpr std::size_t MostSamples = 16384;
 
+/// By how much small scenes are drawn nearer, at most: in smaller ones fp32
+/// would not tell places apart.
+constexpr double LongestLens = 1e4;
+
 Vector columnOf(const float *Q, std::size_t K) {
   const double W = Q[0], X = Q[1], Y = Q[2], Z = Q[3];
   const double Norm = W * W + X * X + Y * Y + Z * Z;
@@ -269,7 +273,8 @@ SceneFocus focusOf(const Scene &S, std::optional<Vector> Up) {
   return F;
 }
 
-Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height) {
+Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height,
+                double Nearest) {
   const std::vector<Sample> Samples = samplesOf(S);
   const double PerSample =
       static_cast<double>(S.size()) / static_cast<double>(Samples.size());
@@ -294,8 +299,12 @@ Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height) {
         const Vector Out =
             std::sin(High) * F.Up +
             std::cos(High) * (std::cos(Turn) * Side + std::sin(Turn) * Other);
-        Camera C = lookingAt(F.Centre + Distance * Fit * Out, F.Centre, F.Up,
-                             Width, Height, Focal);
+        // Farther away and as large.
+        const double Away =
+            std::max(1.0, (Nearest + F.Radius) / (Distance * Fit));
+        Camera C =
+            lookingAt(F.Centre + Away * Distance * Fit * Out, F.Centre, F.Up,
+                      Width, Height, std::min(Away, LongestLens) * Focal);
         const double Score = Custom * Picture.score(Samples, C, PerSample);
         if (Score > Most) {
           Most = Score;

@@ -23,8 +23,10 @@ struct SceneFocus {
 SceneFocus focusOf(const Scene &S, std::optional<Vector> Up = std::nullopt);
 
 /// The view, of those around the focus at several heights and distances, from
-/// which most of the detail is seen and fills the picture: called "found". The
-/// same bits for the same scene.
-Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height);
+/// which most of the detail is seen and fills the picture: called "found". All
+/// of the focus is beyond the depth \p Nearest: a small scene is seen from
+/// farther away, through a longer lens. The same bits for the same scene.
+Camera goodView(const Scene &S, const SceneFocus &F, int Width, int Height,
+                double Nearest);
 
 } // namespace vorion::splat

@@ -1,5 +1,6 @@
 #include "cameras/GoodView.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -59,14 +60,33 @@ TEST(GoodView, UpIsAcrossTheFloor) {
 TEST(GoodView, ItLooksAtTheFocusFromAboveTheFloor) {
   const Vector Centre{7, -5, 2};
   const Scene S = heapOnFloor(Centre, 1, -1);
-  const Camera C = goodView(S, focusOf(S), 320, 180);
+  const Camera C = goodView(S, focusOf(S), 320, 180, 0.2);
   EXPECT_TRUE(isRotation(C.Rotation));
   EXPECT_LT(C.Position[1], Centre[1]);
   const Vector To = unit(Centre - C.Position);
   EXPECT_GT(To[0] * C.Rotation[0][2] + To[1] * C.Rotation[1][2] +
                 To[2] * C.Rotation[2][2],
             0.98);
-  EXPECT_EQ(C, goodView(S, focusOf(S), 320, 180));
+  EXPECT_EQ(C, goodView(S, focusOf(S), 320, 180, 0.2));
+}
+
+TEST(GoodView, ASmallSceneIsAsLargeInThePictureAndBeyondTheNearPlane) {
+  const Scene S = heapOnFloor({}, 1, -1);
+  const Camera Usual = goodView(S, focusOf(S), 320, 180, 0.2);
+  Scene Small = S;
+  for (float &M : Small.Means)
+    M *= 1e-3F;
+  for (float &L : Small.LogScales)
+    L += std::log(1e-3F);
+  const SceneFocus F = focusOf(Small);
+  const Camera C = goodView(Small, F, 320, 180, 0.2);
+  const double Away = length(F.Centre - C.Position);
+  EXPECT_GE(Away, (0.2 + F.Radius) * (1 - 1e-12));
+  const double Size = C.Fx / Away * 1e-3,
+               UsualSize =
+                   Usual.Fx / length(focusOf(S).Centre - Usual.Position);
+  EXPECT_GT(Size, 0.5 * UsualSize);
+  EXPECT_LT(Size, 3 * UsualSize);
 }
 
 TEST(GoodView, AnythingFiniteHasAView) {
@@ -77,7 +97,7 @@ TEST(GoodView, AnythingFiniteHasAView) {
   add(Wide, {-1e30, 1e30, 5}, {-80, 0, 80});
   Wide.Quats = {0, 0, 0, 0, 1, 1, 1, 1};
   for (const Scene *S : {&One, &Wide}) {
-    const Camera C = goodView(*S, focusOf(*S), 64, 64);
+    const Camera C = goodView(*S, focusOf(*S), 64, 64, 0.2);
     EXPECT_TRUE(isRotation(C.Rotation));
     for (const double V : C.Position)
       EXPECT_TRUE(std::isfinite(V));

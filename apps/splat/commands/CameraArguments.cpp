@@ -4,6 +4,7 @@
 #include "cameras/GoodView.h"
 #include "cameras/Motion.h"
 #include "commands/Usage.h"
+#include "picture/Options.h"
 #include "vorion/support/CommandLine.h"
 
 #include <cstdio>
@@ -104,8 +105,9 @@ Expected<std::vector<Camera>> allCameras(const CameraArguments &A,
   if (A.File.empty()) {
     if (!asksForAll(A))
       return usage("--view names a camera, expected --cameras with it");
-    Cameras = {
-        goodView(S, focusOf(S, parseUp(A.Up)), Size->first, Size->second)};
+    // The farther near plane of the two rules.
+    Cameras = {goodView(S, focusOf(S, parseUp(A.Up)), Size->first, Size->second,
+                        nearLimit(Rules::Inria))};
   } else {
     auto Read = readCameraFile(A.File, A.Distorted ? LensOf::Photograph
                                                    : LensOf::Undistorted);
