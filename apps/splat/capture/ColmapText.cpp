@@ -8,23 +8,36 @@
 namespace vorion::splat {
 namespace {
 
+/// \p Line without the white space around it.
+std::string_view trimmed(std::string_view Line) {
+  constexpr std::string_view Blanks = " \t\r\v\f";
+  const std::size_t First = Line.find_first_not_of(Blanks);
+  if (First == std::string_view::npos)
+    return {};
+  return Line.substr(First, Line.find_last_not_of(Blanks) + 1 - First);
+}
+
 /// The lines of a file with their numbers.
 class LineReader {
 public:
   explicit LineReader(const ColmapFile &F)
-      : Where(F.Where), Rest(asText(F.Content)) {}
+      : Where(F.Where), Rest(asText(F.Content)) {
+    // Some editors mark UTF-8.
+    if (constexpr std::string_view Mark = "\xef\xbb\xbf";
+        Rest.starts_with(Mark))
+      Rest.remove_prefix(Mark.size());
+  }
 
-  /// The next line, or nothing at the end.
+  /// The next line without the white space around it, as COLMAP has it, or
+  /// nothing at the end.
   std::optional<std::string_view> next() {
     if (Rest.empty())
       return std::nullopt;
     ++Number;
     const std::size_t End = std::min(Rest.find('\n'), Rest.size());
-    std::string_view Line = Rest.substr(0, End);
+    const std::string_view Line = Rest.substr(0, End);
     Rest.remove_prefix(std::min(End + 1, Rest.size()));
-    if (Line.ends_with('\r'))
-      Line.remove_suffix(1);
-    return Line;
+    return trimmed(Line);
   }
   /// The next one that is neither empty nor a comment.
   std::optional<std::string_view> nextRecord() {

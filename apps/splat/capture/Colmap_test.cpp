@@ -225,6 +225,24 @@ TEST(ColmapText, LensesAreThoseOfTheirModels) {
   }
 }
 
+TEST(ColmapText, WhiteSpaceAroundLinesSaysNothing) {
+  Parts P = partsOf(sampleCapture(2), true);
+  for (std::string Parts::*Part :
+       {&Parts::Cameras, &Parts::Images, &Parts::Points}) {
+    std::string Spaced = "\xef\xbb\xbf \t# a comment\n \t\r\n";
+    for (const char C : P.*Part)
+      Spaced += C == '\n' ? " \t\r\n  " : std::string(1, C);
+    P.*Part = std::move(Spaced);
+  }
+  P.Images = replaced(P.Images, "a1.png", "one more.png");
+  const auto M = parsed(P, true);
+  ASSERT_TRUE(M) << M.error().Where << ": " << M.error().What;
+  ASSERT_EQ(M->Views.size(), 2U);
+  EXPECT_EQ(M->Views[0].Pose.Name, "a0.png");
+  EXPECT_EQ(M->Views[1].Pose.Name, "one more.png");
+  EXPECT_EQ(M->Points.size(), sampleCapture(2).Points.size());
+}
+
 TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
   const Parts Whole = partsOf(sampleCapture(2), false);
   const struct {
