@@ -141,6 +141,34 @@ std::vector<std::string> redirected(std::vector<std::string> Words,
   return Words;
 }
 
+/// \p Words of a training that ends after \p Iteration.
+std::vector<std::string> upTo(std::vector<std::string> Words,
+                              uint64_t Iteration) {
+  constexpr std::string_view Option = "--iterations";
+  std::erase_if(Words, [&](const std::string &Word) {
+    return Word.starts_with(fmt::format("{}=", Option));
+  });
+  if (const auto At = std::ranges::find(Words, Option); At != Words.end())
+    Words.erase(At, At + std::min<std::ptrdiff_t>(2, Words.end() - At));
+  Words.insert(Words.end(), {std::string(Option), std::to_string(Iteration)});
+  return Words;
+}
+
+/// Runs the command line of \p Result, of which \p Words are redirected. A
+/// training that went on from a checkpoint is made up to there first: its
+/// report is of the rest alone.
+Expected<Success> runAgain(const Json &Result,
+                           const std::vector<std::string> &Words,
+                           const DeviceOptions &Machine,
+                           const std::string &Log) {
+  if (const auto After = Result.find("resumed_after");
+      After != Result.end() && After->is_number_unsigned())
+    if (auto Done = runSplat(upTo(Words, After->get<uint64_t>()), Machine, Log);
+        !Done)
+      return Done;
+  return runSplat(Words, Machine, Log);
+}
+
 /// This process's variables are those under which \p Program ran.
 Expected<Success> takeEnvironment(const ReplayArguments &A,
                                   const Json &Program) {
@@ -256,7 +284,8 @@ Expected<Success> replay(const ReplayArguments &A,
   sayVersions(A, Program);
 
   const std::string Replayed = Temporary->path() + "/replayed.json";
-  if (auto Done = runSplat(redirected(Words, writingOptions(*Command),
+  if (auto Done = runAgain(*Result,
+                           redirected(Words, writingOptions(*Command),
                                       Temporary->path(), Replayed),
                            Machine, Temporary->path() + "/log");
       !Done)

@@ -182,6 +182,7 @@ Expected<Success> resume(const Work &W, Trainer &T) {
                              Kept->Iteration, R.Run.Settings.Iterations),
                  ExitCode::Usage};
   T.restore(*Kept);
+  W.Out.ResumedAfter = T.iteration();
   if (W.Processes.first())
     W.Host.Note(fmt::format("going on after iteration {} of {}", T.iteration(),
                             R.Checkpoint));

@@ -80,7 +80,8 @@ struct TrainOutcome {
   std::optional<PoseChange> Poses; ///< where poses were corrected
   unsigned Processes = 1;
   unsigned First = 0, Iterations = 0; ///< done before, and in all
-  double Seconds = 0;                 ///< wall time of the loop
+  unsigned ResumedAfter = 0; ///< the own checkpoint's iteration; 0: of none
+  double Seconds = 0;        ///< wall time of the loop
   ClockSamples Timed;
   std::vector<float> Losses; ///< of every iteration
   /// Iterations, and the held-out views' mean PSNR after them.
