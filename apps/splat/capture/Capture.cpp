@@ -585,7 +585,12 @@ Expected<Capture> readCapture(const std::string &Path,
   if (Options.HoldOut || C.HeldOutBy.empty())
     holdOut(C, Options.HoldOut.value_or(HoldOutEvery));
   if (C.heldOut() == C.Views.size())
-    return Error{Path, "no view to train on, expected at least one"};
+    return Options.HoldOut == 1U
+               ? Error{Path,
+                       "--hold-out 1 leaves no view to train on, expected 0 "
+                       "for none, or 2 and more",
+                       ExitCode::Usage}
+               : Error{Path, "no view to train on, expected at least one"};
   for (const CaptureView &V : C.Views)
     if (auto Good = checkPicture(V); !Good)
       return Good.error();

@@ -52,6 +52,10 @@ Expected<Success> check(const EvalArguments &A) {
                                "photographs have",
                                V),
                    ExitCode::Usage};
+  if (A.Read.HoldOut == 0U && !A.All)
+    return Error{"",
+                 "--hold-out 0 leaves no view to judge, expected --all with it",
+                 ExitCode::Usage};
   if (!A.Pictures.empty())
     if (auto Checked = checkPrefix("--pictures", A.Pictures); !Checked)
       return Checked;

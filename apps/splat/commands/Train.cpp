@@ -222,6 +222,11 @@ Expected<Success> check(const TrainArguments &A) {
                  "--html and --pictures show held-out views, expected "
                  "--hold-out above 0 with them",
                  ExitCode::Usage};
+  if (R.Read.HoldOut == 0U && R.ScoreEvery != 0)
+    return Error{"",
+                 "--score-every scores held-out views, expected --hold-out "
+                 "above 0 with it",
+                 ExitCode::Usage};
   if (A.GivenTimeEvery && !A.isClocked())
     return Error{
         "", "--time-every: expected --time, --breakdown or --energy with it",
