@@ -83,15 +83,12 @@ Failure openDevice(std::span<const vx_option> Given, vx_device **Device) {
     return Failed;
   auto Machine = isasim::Machine::create(Config);
   if (!Machine)
-    return failure(Machine.error().Code == ExitCode::LimitReached
-                       ? VX_ERROR_MEMORY
-                       : VX_ERROR_CONFIG,
-                   Machine.error());
+    return cannotOpen(Machine.error());
   auto Watch = isasim::Session::create(Options.Watch, "vorion");
   if (!Watch)
-    return failure(VX_ERROR_CONFIG, Watch.error());
+    return cannotOpen(Watch.error());
   if (const auto Attached = (*Watch)->attach(**Machine); !Attached)
-    return failure(VX_ERROR_CONFIG, Attached.error());
+    return cannotOpen(Attached.error());
   *Device = new vx_device(std::move(*Machine), std::move(*Watch),
                           Options.onlyProfiled());
   return {};

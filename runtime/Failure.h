@@ -24,4 +24,12 @@ inline Failure failure(vx_status Status, const Error &E) {
   return {Status, E.Where.empty() ? E.What : E.Where + ": " + E.What};
 }
 
+/// The same of what a machine is opened with.
+inline Failure cannotOpen(const Error &E) {
+  return failure(E.Code == ExitCode::LimitReached ? VX_ERROR_MEMORY
+                 : E.Code == ExitCode::InputFile  ? VX_ERROR_FILE
+                                                  : VX_ERROR_CONFIG,
+                 E);
+}
+
 } // namespace vorion::runtime

@@ -96,6 +96,9 @@ TEST(RuntimeOpen, ConfigurationsByTextFileAndEnvironment) {
   EXPECT_NE(std::string(vx_last_error()).find("coars"), std::string::npos)
       << vx_last_error();
   EXPECT_EQ(vx_device_open("/nonexistent.json", &Device), VX_ERROR_FILE);
+  EXPECT_EQ(vx_device_open("/dev/null", &Device), VX_ERROR_FILE) << "no JSON";
+  const vx_option Trace{"VORION_TRACE", "trap:/nonexistent/trace"};
+  EXPECT_EQ(vx_device_open_with(&Trace, 1, &Device), VX_ERROR_FILE);
 
   {
     const ConfigOfEnvironment File(

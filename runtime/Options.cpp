@@ -51,10 +51,10 @@ Failure DeviceOptions::readConfig(isasim::Config &C) const {
     return {};
   const auto Found = isasim::findMachine(Config);
   if (!Found)
-    return failure(VX_ERROR_FILE, Found.error());
+    return cannotOpen(Found.error());
   auto Parsed = isasim::parseConfig(Found->Json, Found->Where);
   if (!Parsed)
-    return failure(VX_ERROR_CONFIG, Parsed.error());
+    return cannotOpen(Parsed.error());
   C = *Parsed;
   return {};
 }
@@ -84,6 +84,7 @@ Failure DeviceOptions::machine(isasim::Config &C) const {
     return Failed;
   if (!Set.empty())
     if (const auto Done = isasim::setValues(C, Set); !Done)
-      return {VX_ERROR_CONFIG, "VORION_SET: " + Done.error().What};
+      return cannotOpen(
+          {"", "VORION_SET: " + Done.error().What, Done.error().Code});
   return readTime(C);
 }

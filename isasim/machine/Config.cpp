@@ -1,6 +1,7 @@
 #include "vorion/isasim/Config.h"
 
 #include "core/IsaTables.h"
+#include "machine/MachineTexts.h"
 #include "timing/DramChannels.h"
 #include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Json.h"
@@ -457,10 +458,12 @@ Expected<Success> changeConfig(Config &C, std::string_view Text,
 
 Expected<Config> parseConfig(std::string_view Text, const std::string &Where) {
   Config C = defaultMachine();
-  if (Expected<Success> Ok = changeConfig(C, Text, Where); !Ok)
-    return Ok.error();
-  if (Expected<Success> Ok = validate(C); !Ok)
-    return Error{Where, Ok.error().What};
+  const ExitCode Code =
+      Where == GivenText ? ExitCode::Usage : ExitCode::InputFile;
+  if (const Expected<Success> Ok = changeConfig(C, Text, Where); !Ok)
+    return Error{Ok.error().Where, Ok.error().What, Code};
+  if (const Expected<Success> Ok = validate(C); !Ok)
+    return Error{Where, Ok.error().What, Code};
   return C;
 }
 

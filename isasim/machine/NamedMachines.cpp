@@ -55,10 +55,10 @@ MachineName nameOf(const Config &C) {
 Expected<MachineSource> findMachine(const std::string &Text) {
   const size_t First = Text.find_first_not_of(" \t\r\n");
   if (First != std::string::npos && Text[First] == '{')
-    return MachineSource{Text, "configuration"};
+    return MachineSource{Text, std::string(GivenText)};
   if (Text.find_first_of("./") == std::string::npos)
     return MachineSource{jsonText(nlohmann::json{{"machine", Text}}),
-                         "configuration"};
+                         std::string(GivenText)};
   const auto Bytes = readFile(Text);
   if (!Bytes)
     return Bytes.error();

@@ -117,6 +117,7 @@ TEST(NamedMachines, AnUnknownNameIsOneLineWithTheKnownOnes) {
   EXPECT_EQ(C.error().What, "machine is 'protype', expected one of prototype, "
                             "prototype-forwarding, prototype-on-chip, scaled, "
                             "scaled-forwarding; did you mean prototype?");
+  EXPECT_EQ(C.error().Code, ExitCode::Usage) << "no file holds it";
   EXPECT_FALSE(findMachine("./nonexistent"));
 }
 

@@ -51,6 +51,8 @@ TEST_F(Platform, OptionsOpenAnotherMachineAndWrongOnesSayWhy) {
   EXPECT_EQ(open({{"VORION_SET", "cores=2"}}), CL_DEVICE_NOT_AVAILABLE);
   EXPECT_NE(Said().find("VORION_SET: unknown key 'cores'"), std::string::npos)
       << Said();
+  EXPECT_EQ(open({{"VORION_CONFIG", "/dev/null"}}), CL_INVALID_PROPERTY);
+  EXPECT_NE(Said().find("not JSON"), std::string::npos) << Said();
   EXPECT_EQ(open({{"VORION_SET", nullptr}}), CL_INVALID_VALUE);
   EXPECT_EQ(Open(Chosen(), 1, nullptr, 0, nullptr), CL_INVALID_VALUE);
 

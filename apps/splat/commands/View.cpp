@@ -90,11 +90,12 @@ Expected<Success> run(const ViewArguments &A, const DeviceOptions &Machine) {
   const auto Listening = Server::listen(A.Port, **Shown);
   if (!Listening)
     return Listening.error();
-  printOut("splat view: {}\n", (*Listening)->address());
-  printNote("open it in a browser on this computer; Ctrl-C ends\n");
-  // Who waits for the address may read it from a pipe.
-  std::fflush(stdout);
-  (*Listening)->serve();
+  (*Listening)->serve([&] {
+    printOut("splat view: {}\n", (*Listening)->address());
+    printNote("open it in a browser on this computer; Ctrl-C ends\n");
+    // Who waits for the address may read it from a pipe.
+    std::fflush(stdout);
+  });
   return Success{};
 }
 

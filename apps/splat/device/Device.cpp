@@ -36,7 +36,8 @@ Expected<Success> openPlatform(const cl::Platform &P,
     return clError("opening the Vorion device", Status);
   return Error{"", Problem.data(),
                Status == CL_OUT_OF_HOST_MEMORY ? ExitCode::LimitReached
-                                               : ExitCode::InputFile};
+               : Status == CL_INVALID_PROPERTY ? ExitCode::InputFile
+                                               : ExitCode::Usage};
 }
 
 /// All devices that can be opened; \p Problem is why a platform has none.

@@ -42,10 +42,12 @@ std::optional<Error> fileError(const std::string &Name,
   if (std::string Cache = lineFrom(CL_KERNEL_CACHE_PROBLEM_VORION, Log);
       !Cache.empty())
     return Error{"", std::move(Cache)};
-  for (const char *Words : {"cannot open file '", "error reading '"})
+  for (const char *Words :
+       {"cannot open file '", "error reading '", "'vorion.h' file not found"})
     if (const std::string Unread = lineFrom(Words, Log); !Unread.empty())
       return Error{"", fmt::format("kernel program '{}' cannot be compiled: "
-                                   "{}, expected files that can be read",
+                                   "{}, expected files that can be read (splat "
+                                   "doctor says what is missing)",
                                    Name, Unread)};
   return std::nullopt;
 }

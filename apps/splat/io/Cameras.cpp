@@ -243,7 +243,8 @@ static Expected<Camera> cameraNamed(const std::string &Path,
   return Error{Path,
                fmt::format("no view {}, expected one of {}{}", View, Known,
                            didYouMean(View, std::views::transform(
-                                                Cameras, &Camera::Name)))};
+                                                Cameras, &Camera::Name))),
+               ExitCode::Usage};
 }
 
 Expected<std::vector<Camera>>

@@ -24,7 +24,7 @@ const std::array<ErrorClass, 4> &classes() {
         "What was asked for does not fit: an option, a shape, a size.",
         PyExc_ValueError},
        {ExitCode::InputFile, "InputError",
-        "A file cannot be read, or what it holds is no scene or no view.",
+        "A file cannot be read, or what it holds is no scene or no camera.",
         NoOther},
        {ExitCode::Trap, "TrapError",
         "A kernel met a fault on the simulated machine.", NoOther},

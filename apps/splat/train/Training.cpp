@@ -20,10 +20,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-/// Set by an interrupt; the loop then ends after the iteration at hand.
+/// The signal of an interrupt; the loop then ends after the iteration at hand.
 volatile std::sig_atomic_t Interrupted = 0;
 
-void onInterrupt(int /*Signal*/) { Interrupted = 1; }
+void onInterrupt(int Signal) { Interrupted = Signal; }
+
+/// As shells have it of what a signal ends. Another process may have got it.
+ExitCode codeOfInterrupt() {
+  constexpr int OfSignals = 128;
+  return static_cast<ExitCode>(OfSignals +
+                               (Interrupted != 0 ? Interrupted : SIGTERM));
+}
 
 /// What the whole run is about, once everything is read.
 struct Work {
@@ -149,7 +156,7 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
                  fmt::format("interrupted after iteration {} of {}, which is "
                              "kept; --resume goes on",
                              T.iteration(), Last),
-                 ExitCode::LimitReached};
+                 codeOfInterrupt()};
   return Success{};
 }
 

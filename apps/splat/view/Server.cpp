@@ -197,7 +197,7 @@ std::string Server::address() const {
                      All->Door.token());
 }
 
-void Server::serve() {
+void Server::serve(const std::function<void()> &Announce) {
   std::atomic<bool> Ended = false;
   const Interrupt OnSignal([&] {
     All->Shown.giveUp();
@@ -207,6 +207,7 @@ void Server::serve() {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   });
+  Announce();
   All->Http.listen_after_bind();
   Ended = true;
 }

@@ -4,6 +4,7 @@
 #include "view/Guard.h"
 #include "view/Session.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -19,8 +20,9 @@ public:
   /// With the token.
   std::string address() const;
 
-  /// Answers until SIGINT or SIGTERM; a second one ends the process at once.
-  void serve();
+  /// Answers until SIGINT or SIGTERM, which count from before the call of \p
+  /// Announce on; a second one ends the process at once.
+  void serve(const std::function<void()> &Announce);
 
 private:
   struct Parts;

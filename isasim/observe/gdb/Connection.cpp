@@ -66,9 +66,11 @@ void Connection::close() {
 
 Expected<unsigned> Connection::listen(unsigned Port) {
   const auto Fail = [&] {
-    return Error{"", fmt::format("cannot listen on port {}: {}, expected a "
-                                 "free port, or 0 for any",
-                                 Port, std::strerror(errno))};
+    return Error{"",
+                 fmt::format("cannot listen on port {}: {}, expected a "
+                             "free port, or 0 for any",
+                             Port, std::strerror(errno)),
+                 ExitCode::Usage};
   };
   Listener = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (Listener < 0)

@@ -62,7 +62,9 @@ typedef struct cl_option_vorion {
  * CL_INVALID_VALUE: an option that there is not.
  * CL_INVALID_OPERATION: the devices are open with other options.
  * CL_OUT_OF_HOST_MEMORY: no room for a machine's memory.
- * CL_DEVICE_NOT_AVAILABLE: an option whose text is wrong. */
+ * CL_DEVICE_NOT_AVAILABLE: an option whose text is wrong.
+ * CL_INVALID_PROPERTY: a file that an option names cannot be read or written,
+ * or is malformed. */
 typedef cl_int(CL_API_CALL *clOpenDevicesVORION_fn)(
     cl_platform_id platform, cl_uint num_options,
     const cl_option_vorion *options, size_t size, char *problem);

@@ -32,7 +32,7 @@ typedef enum vx_status {
   VX_OK = 0,
   VX_ERROR_ARGUMENT = 1,  /* NULL, out of range, or an address not allocated */
   VX_ERROR_CONFIG = 2,    /* malformed or impossible configuration */
-  VX_ERROR_FILE = 3,      /* unreadable file */
+  VX_ERROR_FILE = 3,      /* unreadable, unwritable or malformed file */
   VX_ERROR_IMAGE = 4,     /* not an ELF for this machine */
   VX_ERROR_MEMORY = 5,    /* device, local or host memory exhausted */
   VX_ERROR_BUSY = 6,      /* a run is in progress, or none is */

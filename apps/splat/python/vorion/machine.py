@@ -80,7 +80,7 @@ class Gradients(_Drawn):
 class Machine:
     """The simulated machine with the programs that were compiled for it.
 
-    A process has one set of machine options: a second Machine with other ones is a UsageError or an InputError. Methods
+    A process has one set of machine options: a second Machine with other ones is a UsageError. Methods
     release the GIL while the machine runs; two threads that call one Machine take turns.
     """
 

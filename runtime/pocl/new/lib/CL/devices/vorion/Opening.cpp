@@ -39,6 +39,8 @@ cl_int statusOf(vx_status Status) {
     return CL_INVALID_VALUE;
   case VX_ERROR_MEMORY:
     return CL_OUT_OF_HOST_MEMORY;
+  case VX_ERROR_FILE:
+    return CL_INVALID_PROPERTY;
   default:
     return CL_DEVICE_NOT_AVAILABLE;
   }
