@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <tuple>
@@ -399,13 +400,24 @@ Expected<Success> setValue(Config &C, std::string_view Assignment) {
   return Success{};
 }
 
+/// What a name sets may not undo what another assignment says: those of names
+/// come first, in the order of keys(), of which a machine is the first.
+static ptrdiff_t placeOf(std::string_view Assignment) {
+  const Key *K =
+      findKey(std::string(Assignment.substr(0, Assignment.find('='))));
+  return K && !K->Names.empty() ? K - keys().data() : std::ssize(keys());
+}
+
 Expected<Success> setValues(Config &C, std::string_view List) {
+  std::multimap<ptrdiff_t, std::string_view> ByPlace;
   while (!List.empty()) {
     const size_t Comma = std::min(List.find(','), List.size());
-    if (Expected<Success> Ok = setValue(C, List.substr(0, Comma)); !Ok)
-      return Ok;
+    ByPlace.emplace(placeOf(List.substr(0, Comma)), List.substr(0, Comma));
     List.remove_prefix(std::min(Comma + 1, List.size()));
   }
+  for (const auto &[Place, Assignment] : ByPlace)
+    if (Expected<Success> Ok = setValue(C, Assignment); !Ok)
+      return Ok;
   return validate(C);
 }
 

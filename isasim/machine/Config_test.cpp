@@ -53,8 +53,10 @@ TEST(Config, APresetIsASetOfNumbersThatSingleKeysChange) {
                            "timing.core.preset=vortex-2025,"
                            "timing.core.branch_cycles=7"));
   EXPECT_EQ(C.Timing.Preset, CorePreset::Vortex2025);
-  EXPECT_EQ(C.Timing.Core.FetchInterval, 6U) << "the last one wins";
+  EXPECT_EQ(C.Timing.Core.FetchInterval, 9U) << "a preset undoes no value";
   EXPECT_EQ(C.Timing.Core.BranchCycles, 7U);
+  ASSERT_TRUE(setValues(C, "timing.core.fetch_interval=6"));
+  EXPECT_EQ(C.Timing.Core.FetchInterval, 6U) << "another list does";
   // In an object the preset comes first, wherever it stands.
   const Expected<Config> Read = parseConfig(
       R"({"timing": {"core": {"branch_cycles": 7, "preset": "vortex-2025"}}})",

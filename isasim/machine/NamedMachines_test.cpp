@@ -78,7 +78,8 @@ TEST(NamedMachines, ThePlainOneIsOnTheChip) {
 TEST(NamedMachines, AMachineLeavesWhatBelongsToTheRun) {
   Config C;
   ASSERT_TRUE(setValues(C, "host_threads=3,quantum=77,max_instructions=9,"
-                           "timing.enabled=1,timing.l2.ways=4,machine=scaled"));
+                           "timing.enabled=1,timing.l2.ways=4"));
+  ASSERT_TRUE(setValues(C, "machine=scaled"));
   EXPECT_EQ(C.HostThreads, 3U);
   EXPECT_EQ(C.Quantum, 77U);
   EXPECT_EQ(C.MaxInstructions, 9U);
@@ -87,6 +88,16 @@ TEST(NamedMachines, AMachineLeavesWhatBelongsToTheRun) {
   EXPECT_EQ(nameOf(C).Name, "scaled") << "these make no other machine";
   C.Timing.ClockMhz = 100;
   EXPECT_EQ(nameOf(C).Name, "scaled") << "nor does the clock";
+}
+
+TEST(NamedMachines, AMachineUndoesNothingThatStandsBesideIt) {
+  Config C, InOrder;
+  ASSERT_TRUE(setValues(C, "clusters=2,timing.core.preset=forwarding,"
+                           "timing.l2.ways=4,clusters=3,machine=scaled"));
+  EXPECT_EQ(C.Clusters, 3U) << "the last one of a key";
+  ASSERT_TRUE(setValues(InOrder, "machine=scaled,timing.core.preset=forwarding,"
+                                 "timing.l2.ways=4,clusters=3"));
+  EXPECT_EQ(toJson(C), toJson(InOrder));
 }
 
 TEST(NamedMachines, TheNearestNameCounts) {

@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <fmt/ranges.h>
 #include <memory>
 
 using namespace vorion;
@@ -72,11 +73,8 @@ Expected<std::shared_ptr<const EnergyModel>> makeEnergyModel(const Options &O,
 }
 
 Expected<Success> changeValues(Config &C, const Options &O) {
-  for (const std::string &Values : O.Set)
-    if (const Expected<Success> Ok = setValues(C, Values); !Ok)
-      return Ok;
   if (!O.Set.empty())
-    return Success{};
+    return setValues(C, fmt::format("{}", fmt::join(O.Set, ",")));
   const Expected<Success> Ok = setValues(C, orVariable("", "VORION_SET"));
   if (!Ok)
     return Error{"", "VORION_SET: " + Ok.error().What, Ok.error().Code};

@@ -80,8 +80,9 @@ std::string toJson(const Config &C);
 std::string configSchema();
 
 /// Sets values by "KEY=VALUE,...", where a key in an object is written
-/// "raster.queue_depth", from left to right, and checks the whole. A name that
-/// stands for a set of numbers ("timing.core.preset") sets all of them.
+/// "raster.queue_depth", and checks the whole. A name that stands for a set of
+/// numbers ("machine", "timing.core.preset") sets all of them but those that
+/// \p List gives itself. Of a key that it gives twice the last value counts.
 Expected<Success> setValues(Config &C, std::string_view List);
 
 /// Reads what toJson writes. Missing keys are those of defaultMachine(), or
