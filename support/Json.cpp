@@ -1,11 +1,14 @@
 #include "vorion/support/Json.h"
 
 #include "vorion/support/File.h"
+#include "vorion/support/Printable.h"
 
 #include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace vorion {
@@ -91,6 +94,45 @@ std::string_view reasonOf(std::string_view Said) {
   return Said.substr(0, Said.find("; "));
 }
 
+/// A key, and the number of its first byte in the text.
+struct PlacedKey {
+  std::string Name;
+  std::size_t Byte;
+};
+
+/// The first key of \p Text, which is JSON, that its object has already: the
+/// parser keeps one of the values and drops the other.
+template <typename Kind>
+std::optional<PlacedKey> repeatedKey(std::string_view Text) {
+  std::vector<std::string> Keys;  // of all objects that are open
+  std::vector<std::size_t> Begin; // of each open bracket, its first key
+  for (std::size_t I = 0; I < Text.size(); ++I) {
+    const char C = Text[I];
+    if (C == '{' || C == '[') {
+      Begin.push_back(Keys.size());
+    } else if (C == '}' || C == ']') {
+      Keys.resize(Begin.back());
+      Begin.pop_back();
+    } else if (C == '"') {
+      const std::size_t Start = I;
+      while (Text[++I] != '"')
+        I += Text[I] == '\\';
+      const std::size_t Next = Text.find_first_not_of(" \t\r\n", I + 1);
+      if (Next == std::string_view::npos || Text[Next] != ':')
+        continue;
+      std::string Name(Text.substr(Start + 1, I - Start - 1));
+      if (Name.find('\\') != std::string::npos)
+        Name = ownJson<Kind>(Text.substr(Start, I + 1 - Start))
+                   .template get<std::string>();
+      if (std::find(Keys.begin() + static_cast<std::ptrdiff_t>(Begin.back()),
+                    Keys.end(), Name) != Keys.end())
+        return PlacedKey{std::move(Name), Start + 1};
+      Keys.push_back(std::move(Name));
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 template <typename Kind>
@@ -99,7 +141,13 @@ Expected<Kind> parseJson(std::string_view Text, const std::string &Where,
   if (std::string Problem = beyond(Text, Limits); !Problem.empty())
     return Error{Where, std::move(Problem)};
   try {
-    return Kind::parse(Text.begin(), Text.end());
+    Kind J = Kind::parse(Text.begin(), Text.end());
+    if (const auto Again = repeatedKey<Kind>(Text))
+      return Error{placeOf(Text, Again->Byte, Where),
+                   fmt::format("key {} for the second time in an object, "
+                               "expected it once",
+                               printable(Again->Name))};
+    return J;
   } catch (const nlohmann::json::parse_error &E) {
     return Error{
         placeOf(Text, E.byte, Where),

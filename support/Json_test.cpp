@@ -51,6 +51,21 @@ TEST(Json, WhatIsNoneIsNamedWithItsPlaceAndWhy) {
                                 "expected one below 1.8e308");
 }
 
+TEST(Json, AKeyStandsOnceInItsObject) {
+  EXPECT_EQ(errorOf("{\"a\": 1,\n \"b\": 2, \"a\": 3}"),
+            "f:2:10: key a for the second time in an object, expected it once");
+  EXPECT_EQ(errorOf(R"({"a\n": [{}], "\u0061\u000a": 3})"),
+            "f:1:15: key a\\x0a for the second time in an object, expected it "
+            "once");
+  EXPECT_EQ(errorOf(R"([{"b": {"a": 1, "c": [], "a": 2}}])"),
+            "f:1:26: key a for the second time in an object, expected it once");
+  EXPECT_EQ(errorOf(R"({"a": {"a": "a"}, "b": [{"a": "\":a"}, {"a": "a"}]})"),
+            "")
+      << "each in an object of its own";
+  EXPECT_EQ(errorOf("{\"a\": 1, \"a\": 2"),
+            "f:1:16: not JSON: unexpected end of input, expected a thing");
+}
+
 TEST(Json, DepthIsBounded) {
   constexpr const char *TooDeep = "f: lists and objects more than 256 deep in "
                                   "each other, expected fewer";
@@ -125,7 +140,9 @@ TEST(JsonShape, NamesTheFirstThatHasNot) {
   EXPECT_EQ(problemOf("[]"), "a document of type array, expected an object");
   EXPECT_EQ(problemOf("{}"), "key name is missing, expected a string");
   const auto With = [](const std::string &More) {
-    return problemOf(R"({"name": "n", "count": 1, )" + More + "}");
+    auto J = Ordered::parse(R"({"name": "n", "count": 1})");
+    J.update(Ordered::parse("{" + More + "}"));
+    return problemOf(J.dump());
   };
   EXPECT_EQ(With(R"("name": 5)"), "key name is 5, expected a string");
   EXPECT_EQ(With(R"("name": null)"), "key name is null, expected a string");

@@ -23,6 +23,7 @@ TEXTS = {
     "number": "[1e999]",
     "second line": '{"a": 1,\n"b": }',
     "empty": "",
+    "twice": '{"a": 1,\n"b": {"a": 2}, "\\u0061": 3}',
 }
 
 

@@ -1,5 +1,6 @@
 /// The one way into and out of JSON. A file may hold anything, so whoever reads
-/// one gets a document of bounded depth and size, or an error of one line.
+/// one gets a document of bounded depth and size, whose objects have no key
+/// twice, or an error of one line.
 #pragma once
 
 #include "vorion/support/Expected.h"
