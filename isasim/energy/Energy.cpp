@@ -81,11 +81,12 @@ DramCosts costsOf(const DramCurrents &D) {
   for (const DramRail &R : D.Rails) {
     // mA times V times ns are pJ.
     const double Power = D.Devices * R.Volts;
+    // Below 0 by rounding alone: no technology has less (Technology.cpp).
     C.Activation += Power * std::max(0.0, R.Idd0 * D.RcNs - R.Idd3n * D.RasNs -
                                               R.Idd2n * (D.RcNs - D.RasNs));
-    C.Read += Power * std::max(0.0, R.Idd4r - R.Idd3n) * D.BurstNs;
-    C.Write += Power * std::max(0.0, R.Idd4w - R.Idd3n) * D.BurstNs;
-    C.Refresh += Power * std::max(0.0, R.Idd5 - R.Idd3n) * D.RfcNs;
+    C.Read += Power * (R.Idd4r - R.Idd3n) * D.BurstNs;
+    C.Write += Power * (R.Idd4w - R.Idd3n) * D.BurstNs;
+    C.Refresh += Power * (R.Idd5 - R.Idd3n) * D.RfcNs;
     C.Standing += Power * R.Idd3n;
   }
   return C;

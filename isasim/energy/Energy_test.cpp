@@ -7,6 +7,7 @@
 #include "vorion/isasim/Energy.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -326,4 +327,33 @@ TEST(Area, IsThatOfItsParts) {
       Chip += P.Um2.Value;
   EXPECT_NEAR(A.Chip.Value, Chip, 1e-6);
   EXPECT_LT(A.Chip.Low, A.Chip.Value);
+}
+
+TEST(Technology, ACommandTakesNoLessThanADeviceThatStands) {
+  for (const char *Key : {"idd0", "idd4r", "idd4w", "idd5"}) {
+    Json Less = document();
+    Less["dram"]["ddr3-1600"]["rails"][0][Key] = 44;
+    EXPECT_EQ(refusal(Less),
+              fmt::format("mine.json: key dram.ddr3-1600.rails.{} is 44, "
+                          "expected at least the 45 of a device that stands "
+                          "(idd2n, idd3n)",
+                          Key));
+  }
+}
+
+TEST(Technology, WhatReportsPrintIsOnOneLine) {
+  Json Name = document();
+  Name["technology"] = "mine\npower: 0 W";
+  EXPECT_EQ(refusal(Name), "mine.json: key technology has 'mine\\x0apower: 0 "
+                           "W', expected letters that can be printed on one "
+                           "line");
+  Json Source = document();
+  Source["areas"]["gate"]["source"] = "\x1b[31m";
+  EXPECT_NE(refusal(Source).find("key areas.gate.source has '\\x1b[31m'"),
+            std::string::npos)
+      << refusal(Source);
+  Json Standard = document();
+  Standard["dram"]["a\nb"] = Standard["dram"]["ddr3-1600"];
+  EXPECT_NE(refusal(Standard).find("key dram has 'a\\x0ab'"), std::string::npos)
+      << refusal(Standard);
 }

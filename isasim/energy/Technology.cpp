@@ -4,10 +4,12 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
+#include "vorion/support/Printable.h"
 
 #include <cassert>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 namespace vorion::isasim {
 
@@ -87,6 +89,14 @@ public:
                             Path, Key, jsonText(Number), Least, Most);
     return Value;
   }
+  /// What \p Text, which reports print, may not do: look like a line of theirs.
+  std::string printed(const std::string &Text, const std::string &Path) {
+    if (Problem.empty() && escaped(Text) != Text)
+      Problem = fmt::format("key {} has '{}', expected letters that can be "
+                            "printed on one line",
+                            Path, escaped(Text));
+    return Text;
+  }
   std::vector<TechnologyRow> rows(const Json &Of, const std::string &Path,
                                   std::span<const std::string_view> Names,
                                   std::string_view (*KeyOf)(std::string_view)) {
@@ -94,18 +104,18 @@ public:
     for (const std::string_view Name : Names) {
       const Json &Row = Of.at(std::string(Name));
       const std::string Inside = fmt::format("{}{}.", Path, Name);
-      Rows.push_back({std::string(Name),
-                      number(Row, Inside, KeyOf(Name), 0, MostValue),
-                      number(Row, Inside, "sigma", 0, MostSigma),
-                      Row.at("source").get<std::string>()});
+      Rows.push_back(
+          {std::string(Name), number(Row, Inside, KeyOf(Name), 0, MostValue),
+           number(Row, Inside, "sigma", 0, MostSigma),
+           printed(Row.at("source").get<std::string>(), Inside + "source")});
     }
     return Rows;
   }
   DramCurrents currents(const std::string &Standard, const Json &Of) {
     const std::string Path = fmt::format("dram.{}.", Standard);
     DramCurrents D;
-    D.Standard = Standard;
-    D.Source = Of.at("source").get<std::string>();
+    D.Standard = printed(Standard, "dram");
+    D.Source = printed(Of.at("source").get<std::string>(), Path + "source");
     D.Devices = number(Of, Path, "devices", 0.01, 1024);
     D.RcNs = number(Of, Path, "rc_ns", 0, 1e6);
     D.RasNs = number(Of, Path, "ras_ns", 0, D.RcNs);
@@ -122,11 +132,32 @@ public:
                                     {"idd4w", &Rail.Idd4w},
                                     {"idd5", &Rail.Idd5}})
         *To = number(R, Path + "rails.", Key, 0, 1e5);
+      check(Rail, D, Path);
       D.Rails.push_back(Rail);
     }
     return D;
   }
   std::string Problem;
+
+private:
+  /// That no command takes less than a device that stands: what it takes
+  /// beyond that is its energy.
+  void check(const DramRail &R, const DramCurrents &D,
+             const std::string &Path) {
+    // A cycle of rc_ns is open for ras_ns.
+    const double Cycle =
+        R.Idd2n + (R.Idd3n - R.Idd2n) * (D.RcNs > 0 ? D.RasNs / D.RcNs : 0);
+    constexpr double Rounding = 1e-9;
+    for (const auto &[Key, Value, Standing] :
+         {std::tuple{"idd0", R.Idd0, Cycle * (1 - Rounding)},
+          {"idd4r", R.Idd4r, R.Idd3n},
+          {"idd4w", R.Idd4w, R.Idd3n},
+          {"idd5", R.Idd5, R.Idd3n}})
+      if (Problem.empty() && Value < Standing)
+        Problem = fmt::format("key {}rails.{} is {:g}, expected at least the "
+                              "{:g} of a device that stands (idd2n, idd3n)",
+                              Path, Key, Value, Standing);
+  }
 };
 
 } // namespace
@@ -142,7 +173,7 @@ Expected<Technology> parseTechnology(std::string_view Text,
   const Json &J = *Document;
   Reader In;
   Technology T;
-  T.Name = J["technology"].get<std::string>();
+  T.Name = In.printed(J["technology"].get<std::string>(), "technology");
   T.Sigma = In.number(J, "", "sigma", 0, MostSigma);
   T.Volts = In.number(J, "", "volts", 0.1, 10);
   const Json &Speed = J["speed"];

@@ -115,12 +115,14 @@ void declareOptions(CLI::App &App, Options &O) {
       ->check(quietly(isBetween(1U, 100000U)));
   App.add_flag("--energy", O.Energy,
                "say how long, and how much energy it takes (docs/energy.md)");
-  takesFile(App.add_option("--technology", O.TechnologyFile,
-                           "energies and areas for --energy (default: 16 nm)"),
-            {".json"});
+  takesFile(
+      App.add_option("--technology", O.TechnologyFile,
+                     "energies and areas (turns --energy on; default: 16 nm)"),
+      {".json"});
   App.add_option(
          "--voltage", O.Volts,
-         "the chip's voltage for --energy (default: what the clock needs)")
+         "the chip's voltage (turns --energy on; default: what the clock "
+         "needs)")
       ->type_name("V")
       ->check(quietly(isBetween(0.1, 5.0)));
   App.add_flag("--print-technology", O.PrintTechnology,

@@ -47,14 +47,17 @@ bool wantsEnergy(const Options &O) {
   return O.Energy || !O.TechnologyFile.empty() || O.Volts;
 }
 
+Expected<Technology> technologyOf(const Options &O) {
+  return O.TechnologyFile.empty() ? Expected<Technology>(defaultTechnology())
+                                  : readTechnology(O.TechnologyFile);
+}
+
 /// Nothing if nobody wants to know.
 Expected<std::shared_ptr<const EnergyModel>> makeEnergyModel(const Options &O,
                                                              const Config &C) {
   if (!wantsEnergy(O))
     return std::shared_ptr<const EnergyModel>();
-  const Expected<Technology> From =
-      O.TechnologyFile.empty() ? Expected<Technology>(defaultTechnology())
-                               : readTechnology(O.TechnologyFile);
+  const Expected<Technology> From = technologyOf(O);
   if (!From)
     return From.error();
   Expected<EnergyModel> Made =
@@ -420,7 +423,10 @@ int mainOf(int Argc, char **Argv) {
     return 0;
   }
   if (O.PrintEnergy) {
-    printOut("{}", energyMarkdown(defaultTechnology()));
+    const Expected<Technology> From = technologyOf(O);
+    if (!From)
+      return reportError(Tool, From.error());
+    printOut("{}", energyMarkdown(*From));
     return 0;
   }
   if (O.Program.empty())

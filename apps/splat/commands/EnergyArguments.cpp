@@ -10,11 +10,13 @@ void addEnergyOptions(CLI::App &App, EnergyArguments &A,
                "Say how much energy " + What +
                    " takes on the machine, and how sure that is "
                    "(docs/energy.md; turns --time on)");
-  takesFile(App.add_option("--technology", A.Technology,
-                           "Energies and areas for --energy (default: 16 nm)"),
-            {".json"});
-  App.add_option("--voltage", A.Volts,
-                 "The chip's for --energy (default: what the clock needs)")
+  takesFile(
+      App.add_option("--technology", A.Technology,
+                     "Energies and areas (turns --energy on; default: 16 nm)"),
+      {".json"});
+  App.add_option(
+         "--voltage", A.Volts,
+         "The chip's (turns --energy on; default: what the clock needs)")
       ->option_text("V")
       ->check(isBetween(0.1, 5.0));
 }
