@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <string_view>
 
 namespace vorion::splat {
 
@@ -73,7 +73,7 @@ FrameMilliseconds frameMilliseconds(const std::vector<StageReport> &Stages,
 /// percent.
 template <typename Count>
 double share(uint64_t Cycles, const std::vector<UnitCounts<Count>> &Units,
-             std::initializer_list<Count> Reasons) {
+             const std::vector<Count> &Reasons) {
   double Sum = 0;
   for (const UnitCounts<Count> &U : Units)
     for (const Count Reason : Reasons)
@@ -85,8 +85,8 @@ double share(uint64_t Cycles, const std::vector<UnitCounts<Count>> &Units,
 
 /// Of the cores, in percent.
 double rasterShare(const TimeReport &T) {
-  return share(T.Cycles, T.Cores,
-               {CoreCount::RasterFull, CoreCount::RasterWait});
+  return share<CoreCount>(T.Cycles, T.Cores,
+                          {CoreCount::RasterFull, CoreCount::RasterWait});
 }
 
 double dramMegabytes(const TimeReport &T) {
@@ -95,34 +95,76 @@ double dramMegabytes(const TimeReport &T) {
          T.Host.DramBurstBytes / 1e6;
 }
 
-std::string row(std::string_view Name, const TimeReport &T,
-                double FrameCycles) {
-  const double Issue = share(T.Cycles, T.Cores, {CoreCount::Issue});
-  const double Memory = share(T.Cycles, T.Cores,
-                              {CoreCount::Memory, CoreCount::LsuQueue,
-                               CoreCount::Local, CoreCount::Fence});
-  const double Operand =
-      share(T.Cycles, T.Cores, {CoreCount::Operand, CoreCount::Unit});
-  const double Raster = rasterShare(T);
-  return fmt::format(
-      "{:<18}{:>12}{:>7.1f}{:>9.3f} |{:>7.1f}{:>8.1f}{:>9.1f}"
-      "{:>8.1f}{:>7.1f} |{:>7.1f}{:>7.1f} |{:>9.2f}\n",
-      Name, T.Cycles, 100 * static_cast<double>(T.Cycles) / FrameCycles,
-      milliseconds(T), Issue, Memory, Operand, Raster,
-      T.Cycles ? 100 - Issue - Memory - Operand - Raster : 0.0,
-      share(T.Cycles, T.Rasterizers, {RasterCount::Blend}),
-      share(T.Cycles, T.Rasterizers, {RasterCount::Fetch}), dramMegabytes(T));
+/// A column of the table: reasons for cycles of cores that belong together.
+struct Column {
+  std::string_view Name;
+  std::vector<CoreCount> Reasons;
+};
+
+const std::vector<Column> &columns() {
+  static const std::vector<Column> All{
+      {"issue", {CoreCount::Issue}},
+      {"fetch", {CoreCount::Fetch}},
+      {"branch", {CoreCount::Branch, CoreCount::Divergence}},
+      {"memory",
+       {CoreCount::Memory, CoreCount::LsuQueue, CoreCount::Local,
+        CoreCount::Fence}},
+      {"operand", {CoreCount::Operand, CoreCount::Unit}},
+      {"raster", {CoreCount::RasterFull, CoreCount::RasterWait}},
+      {"ended", {CoreCount::Ended}}};
+  return All;
 }
 
-std::string head(const TimeReport &Whole) {
-  return fmt::format("\nmachine: {}\n{:<18}{:>12}{:>7}{:>9} |{:>31} in % "
-                     "|{:>15}|\n{:<18}{:>12}{:>7}{:>9} "
-                     "|{:>7}{:>8}{:>9}{:>8}{:>7} |{:>7}{:>7} |{:>9}\n",
+/// Rows for stages, and a last one for \p Whole. A reason for which no core
+/// ever waited has no column.
+class Table {
+public:
+  explicit Table(const TimeReport &Whole) : Whole(Whole) {
+    for (const Column &C : columns())
+      if (share(Whole.Cycles, Whole.Cores, C.Reasons) > 0)
+        Shown.push_back(&C);
+  }
+
+  std::string head() const;
+  std::string row(std::string_view Name, const TimeReport &T) const;
+
+private:
+  static constexpr std::size_t Width = 8; ///< of a column of the cores
+
+  const TimeReport &Whole;
+  std::vector<const Column *> Shown;
+};
+
+std::string Table::head() const {
+  std::string Names;
+  for (const Column *C : Shown)
+    Names += fmt::format("{:>{}}", C->Name, Width);
+  Names += fmt::format("{:>{}}", "other", Width);
+  return fmt::format("\nmachine: {}\n{:<18}{:>12}{:>7}{:>9} |{:>{}} |{:>15}|\n"
+                     "{:<18}{:>12}{:>7}{:>9} |{} |{:>7}{:>7} |{:>9}\n",
                      Whole.Machine, fmt::format("at {} MHz", Whole.ClockMhz),
                      fmt::format("clock {}", Whole.ClockVersion), "", "",
-                     "cycles of cores", "rasterizers ", "stage", "cycles", "%",
-                     "ms", "issue", "memory", "operand", "raster", "other",
-                     "blend", "fetch", "DRAM MB");
+                     "cycles of cores in %", Names.size(), "rasterizers ",
+                     "stage", "cycles", "%", "ms", Names, "blend", "fetch",
+                     "DRAM MB");
+}
+
+std::string Table::row(std::string_view Name, const TimeReport &T) const {
+  const double FrameCycles = std::max(1.0, static_cast<double>(Whole.Cycles));
+  std::string Shares;
+  double Other = T.Cycles ? 100 : 0;
+  for (const Column *C : Shown) {
+    const double Share = share(T.Cycles, T.Cores, C->Reasons);
+    Shares += fmt::format("{:>{}.1f}", Share, Width);
+    Other -= Share;
+  }
+  return fmt::format(
+      "{:<18}{:>12}{:>7.1f}{:>9.3f} |{}{:>{}.1f} |{:>7.1f}{:>7.1f} |{:>9.2f}\n",
+      Name, T.Cycles, 100 * static_cast<double>(T.Cycles) / FrameCycles,
+      milliseconds(T), Shares, std::max(0.0, Other), Width,
+      share<RasterCount>(T.Cycles, T.Rasterizers, {RasterCount::Blend}),
+      share<RasterCount>(T.Cycles, T.Rasterizers, {RasterCount::Fetch}),
+      dramMegabytes(T));
 }
 
 /// Cycles, of \p Cycles, in which the busiest of the units \p Units was not
@@ -238,12 +280,12 @@ std::string frameText(const std::vector<StageReport> &Stages,
   const auto Whole = frameTime(Stages);
   if (!Whole)
     return {};
-  const double Cycles = std::max(1.0, static_cast<double>(Whole->Cycles));
-  std::string Text = head(*Whole);
+  const Table Rows(*Whole);
+  std::string Text = Rows.head();
   for (const StageReport &S : Stages)
     if (const auto Time = stageTime(S))
-      Text += row(name(S.Kind), *Time, Cycles);
-  Text += row(What, *Whole, Cycles);
+      Text += Rows.row(name(S.Kind), *Time);
+  Text += Rows.row(What, *Whole);
   const FrameMilliseconds F = frameMilliseconds(Stages, *Whole);
   return Text + fmt::format("{0} {1:.3f} ms, of it launches {2:.3f} and copies "
                             "{3:.3f}: {4:.2f} {0}s a second\n",
@@ -275,11 +317,11 @@ std::string sequenceText(const SequenceResult &R) {
   const SequenceTimes T(R);
   if (!T.Sum)
     return {};
-  const double Cycles = std::max(1.0, static_cast<double>(T.Sum->Cycles));
-  std::string Text = head(*T.Sum);
+  const Table Rows(*T.Sum);
+  std::string Text = Rows.head();
   for (const StageReport &S : T.ByKind)
-    Text += row(name(S.Kind), *stageTime(S), Cycles);
-  Text += row("all", *T.Sum, Cycles);
+    Text += Rows.row(name(S.Kind), *stageTime(S));
+  Text += Rows.row("all", *T.Sum);
   return Text +
          fmt::format(
              "{} pictures in {:.3f} ms: {:.2f} a second, {:.3f} ms from a "
