@@ -1,13 +1,14 @@
 #include "cameras/Motion.h"
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
+#include "commands/ExploreSpace.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
 #include "commands/SweepArguments.h"
 #include "commands/Usage.h"
-#include "device/Device.h"
 #include "explore/Page.h"
 #include "explore/Study.h"
+#include "io/Hash.h"
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -31,7 +32,7 @@ using Json = nlohmann::ordered_json;
 struct ExploreArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  std::string Folder, SpaceFile;
+  std::string Folder, SpaceFile, Technology;
   std::vector<std::string> Only;
   std::size_t Machines = 200, Finalists = 50, Checks = 50;
   uint64_t Seed = 1;
@@ -40,32 +41,15 @@ struct ExploreArguments {
   bool List = false, PrintSpace = false;
 };
 
-/// That the configuration has all keys of \p P. What else a machine refuses
-/// is found by trying it.
-Expected<Success> checkKeys(const Parameter &P, const std::string &Where) {
-  for (const Alternative &A : P.Others) {
-    if (A.Settings.empty())
-      continue;
-    DeviceOptions Machine;
-    Machine.set("VORION_SET", A.Settings);
-    const auto D = Device::open("", Machine);
-    const std::string What = D ? "" : D.error().What;
-    if (const std::size_t Unknown = What.find("unknown key '");
-        Unknown != std::string::npos)
-      return Error{Where, fmt::format("parameters.{}: {}", P.Name,
-                                      What.substr(Unknown))};
-  }
-  return Success{};
-}
-
-Expected<Space> spaceOf(const ExploreArguments &A) {
+/// One that is given is checked, but not for each trial of a sweep.
+Expected<Space> spaceOf(const ExploreArguments &A,
+                        const DeviceOptions &Machine) {
   if (A.SpaceFile.empty())
     return parseSpace(defaultSpace(), "the space of splat explore");
   auto S = readSpace(A.SpaceFile);
-  if (S)
-    for (const Parameter &P : *S)
-      if (auto Known = checkKeys(P, A.SpaceFile); !Known)
-        return Known.error();
+  if (S && A.Only.empty())
+    if (auto Checked = checkSpace(*S, Machine, A.SpaceFile); !Checked)
+      return Checked.error();
   return S;
 }
 
@@ -79,7 +63,7 @@ Camera smaller(const Camera &View, int Width) {
 
 Expected<StudyPlan> planOf(const ExploreArguments &A,
                            const DeviceOptions &Machine) {
-  auto S = spaceOf(A);
+  auto S = spaceOf(A, Machine);
   if (!S)
     return S.error();
   auto Views = sweptViews(A.Cameras, A.Scene, A.Cameras.File);
@@ -90,6 +74,7 @@ Expected<StudyPlan> planOf(const ExploreArguments &A,
   P.Folder = A.Folder;
   P.Machine = Machine;
   P.CommonArguments = wordsOf(A.Scene);
+  P.Technology = A.Technology;
   P.Parameters = std::move(*S);
   P.Jobs = A.Jobs;
   P.Whole = {"", A.Folder + "/cameras.json", std::move(*Views)};
@@ -105,6 +90,12 @@ Expected<StudyPlan> planOf(const ExploreArguments &A,
   if (!From)
     return From.error();
   P.From = std::move(*From);
+  if (!A.Technology.empty()) {
+    auto Hash = hashFile(A.Technology);
+    if (!Hash)
+      return Hash.error();
+    P.From["technology"] = std::move(*Hash);
+  }
   P.From["options"] = fmt::format("{}", fmt::join(P.CommonArguments, " "));
   return P;
 }
@@ -307,6 +298,9 @@ Runner addExplore(CLI::App &App) {
   takesFile(App.add_option("--space", A->SpaceFile,
                            "What machines may differ in, JSON (default: "
                            "--print-space)"));
+  takesFile(App.add_option("--technology", A->Technology,
+                           "Energies and areas (default: 16 nm)"),
+            {".json"});
   App.add_option(
          "--machines", A->Machines,
          "Machines to try: the base, each change alone, and others drawn "

@@ -12,8 +12,14 @@ std::string_view defaultSpace() {
     "dcache": {"key": "timing.core.dcache_kib", "values": [16]},
     "icache": {"key": "timing.socket.icache_kib", "values": [8, 32]},
     "queue": {"key": "raster.queue_depth", "values": [2, 16]},
-    "lanes": {"key": "timing.raster.lanes", "values": [8, 32]},
-    "banks": {"key": "timing.raster.banks", "values": [8, 32]},
+    "lanes-banks": {
+      "choices": {
+        "8-16": {"timing.raster.lanes": 8},
+        "16-8": {"timing.raster.banks": 8},
+        "16-32": {"timing.raster.banks": 32},
+        "32-32": {"timing.raster.lanes": 32, "timing.raster.banks": 32}
+      }
+    },
     "stagger": {"key": "timing.raster.stagger", "values": [0, 8]},
     "overlap": {"key": "timing.raster.tile_overlap", "values": [1, 2]},
     "blocks": {"key": "timing.raster.skip_blocks", "values": [1, 2, 3]},

@@ -29,17 +29,6 @@ Origin originOf(const StudyPlan &P, const Trial &Of) {
   return From;
 }
 
-/// The base machine with what \p C changes.
-DeviceOptions machineOf(const StudyPlan &P, const Choices &C) {
-  DeviceOptions Machine = P.Machine;
-  const std::string Before = Machine.text("VORION_SET");
-  const std::string Changes = settingsOf(P.Parameters, C);
-  Machine.set("VORION_SET", Before +
-                                (Before.empty() || Changes.empty() ? "" : ",") +
-                                Changes);
-  return Machine;
-}
-
 /// Of what runSplat() says, the program's own words.
 std::string reasonIn(const std::string &What) {
   constexpr std::string_view Before = "splat: error: ";
@@ -101,14 +90,16 @@ Expected<Json> TrialMeasurement::measure() {
   for (const auto &More :
        {Plan.CommonArguments, argumentsOf(Plan.Parameters, Target.Machine)})
     Words.insert(Words.end(), More.begin(), More.end());
-  if (auto Done = runSplat(Words, machineOf(Plan, Target.Machine), LogFile);
+  if (!Plan.Technology.empty())
+    Words.insert(Words.end(), {"--technology", Plan.Technology});
+  if (auto Done = runSplat(
+          Words,
+          changed(Plan.Machine, settingsOf(Plan.Parameters, Target.Machine)),
+          LogFile);
       !Done) {
     // By a setting, or by an option: what the base has is right.
-    const ExitCode Code = Done.error().Code;
-    if ((Code != ExitCode::Usage && Code != ExitCode::InputFile) ||
-        nameOf(Plan.Parameters, Target.Machine) == "base" ||
-        // No machine has that: the space is wrong.
-        Done.error().What.find(": unknown key '") != std::string::npos)
+    if (Done.error().Code != ExitCode::Usage ||
+        nameOf(Plan.Parameters, Target.Machine) == "base")
       return Done.error();
     std::filesystem::remove(LogFile);
     Json Refused = head();
@@ -172,6 +163,13 @@ std::string described(const Json &M) {
 }
 
 } // namespace
+
+DeviceOptions changed(DeviceOptions Base, const std::string &Settings) {
+  const std::string Before = Base.text("VORION_SET");
+  Base.set("VORION_SET",
+           Before + (Before.empty() || Settings.empty() ? "" : ",") + Settings);
+  return Base;
+}
 
 std::string Trial::name(const Space &S) const {
   const bool IsBase = nameOf(S, Machine) == "base";

@@ -24,7 +24,8 @@ struct ViewSet {
 /// What is measured, and where it is kept.
 struct StudyPlan {
   std::string ScenePath, Folder;
-  DeviceOptions Machine; ///< the base
+  DeviceOptions Machine;  ///< the base
+  std::string Technology; ///< a file; empty for the default
   /// Options for every `splat render`, reading the scene among them.
   std::vector<std::string> CommonArguments;
   ViewSet Whole, Small;
@@ -32,6 +33,9 @@ struct StudyPlan {
   unsigned Jobs = 1; ///< measured at the same time
   Origin From;       ///< what all trials are made from
 };
+
+/// \p Base with \p Settings, as --set takes them.
+DeviceOptions changed(DeviceOptions Base, const std::string &Settings);
 
 /// A machine on a view.
 struct Trial {

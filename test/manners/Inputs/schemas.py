@@ -84,7 +84,8 @@ splat("accuracy", *view[:3], "--out", "accuracy", "--knobs", "sh-degree", "--no-
 splat("accuracy", "--train", capture, "--out", "training", "--iterations", "1", "--seeds", "1", "--score-every", "1",
       "--time-every", "1", report="training/training.json")
 with open("space.json", "w", encoding="utf-8") as file:
-    json.dump({"parameters": {"lanes": {"key": "timing.raster.lanes", "values": [8, 77]}, "tile": {"option": "--tile", "values": [32]}}}, file)
+    json.dump({"parameters": {"lanes": {"key": "timing.raster.lanes", "values": [8]}, "simt": {"option": "--simt-tile", "values": [8]},
+                              "tile": {"option": "--tile", "values": [32]}}}, file)
 splat("explore", *view[:3], "--out", "machines", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2", "--small-width", "16",
       report="machines/explore.json")
 splat("doctor")
