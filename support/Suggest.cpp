@@ -54,6 +54,8 @@ std::string_view closestTo(std::string_view Word,
   std::string_view Found;
   for (const std::string &K : Known)
     if (const std::size_t D = distance(Word, K); D < Least) {
+      if (D == 0)
+        return {};
       Least = D;
       Found = K;
     }

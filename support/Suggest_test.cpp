@@ -16,6 +16,7 @@ TEST(Suggest, FindsTheNearestWord) {
   EXPECT_EQ(closestTo("--nonsense", Known), "");
   EXPECT_EQ(closestTo("x", Known), "");
   EXPECT_EQ(closestTo("", Known), "");
+  EXPECT_EQ(closestTo("--view", Known), "") << "what was written";
   EXPECT_EQ(closestTo("--cam", Known), "--cameras") << "begun";
   EXPECT_EQ(closestTo("--", Known), "") << "too short to guess";
   EXPECT_EQ(didYouMean("rendr", Known), "; did you mean render?");

@@ -361,6 +361,10 @@ Expected<Success> setValue(Config &C, std::string_view Assignment) {
   if (Equals == std::string_view::npos)
     return Fail(fmt::format("'{}', expected KEY=VALUE", Assignment));
   const Key *K = findKey(Path);
+  if (const auto Names = namesIn(Path + "."); !K && !Names.empty())
+    return Fail(fmt::format("'{0}' is no key but holds some, expected '{0}.' "
+                            "and one of {1}",
+                            Path, fmt::join(Names, ", ")));
   if (!K) {
     // What stands in the innermost object that there is.
     std::string Prefix = Path;

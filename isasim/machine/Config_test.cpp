@@ -68,6 +68,14 @@ TEST(Config, APresetIsASetOfNumbersThatSingleKeysChange) {
   EXPECT_EQ(toJson(*Back), toJson(C));
 }
 
+TEST(Config, AnObjectIsNoKey) {
+  Config C = defaultMachine();
+  const auto Set = setValues(C, "raster=4");
+  ASSERT_FALSE(Set);
+  EXPECT_EQ(Set.error().What, "'raster' is no key but holds some, expected "
+                              "'raster.' and one of queue_depth");
+}
+
 TEST(Config, ErrorsNameTheKey) {
   EXPECT_EQ(
       wrongIn(R"({"cores": 4})"),

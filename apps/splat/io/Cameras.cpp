@@ -214,25 +214,42 @@ Expected<std::vector<Camera>> readCameras(const std::string &Path) {
   return Cameras;
 }
 
+/// Those of \p Cameras that \p View may mean: by their whole names, else by
+/// their numbers, or by what their pictures are called in their folders.
+static std::vector<const Camera *>
+camerasMeant(const std::vector<Camera> &Cameras, const std::string &View) {
+  const auto All = [&](const auto &IsMeant) {
+    std::vector<const Camera *> Found;
+    for (const Camera &C : Cameras)
+      if (IsMeant(C))
+        Found.push_back(&C);
+    return Found;
+  };
+  auto Named = All([&](const Camera &C) { return C.Name == View; });
+  if (!Named.empty())
+    return Named;
+  // Captures name pictures in folders: "left/0001.jpg".
+  return All([&](const Camera &C) {
+    const std::filesystem::path P(C.Name);
+    return std::to_string(C.Id) == View || P.filename() == View ||
+           P.stem() == View;
+  });
+}
+
 /// The one of \p Cameras, which \p Path has, that is called \p View.
 static Expected<Camera> cameraNamed(const std::string &Path,
                                     const std::vector<Camera> &Cameras,
                                     const std::string &View) {
-  for (const Camera &C : Cameras)
-    if (C.Name == View)
-      return C;
-  for (const Camera &C : Cameras)
-    if (std::to_string(C.Id) == View)
-      return C;
-  // Captures name pictures in folders: "left/0001.jpg".
-  for (const bool WithEnding : {true, false}) {
-    const auto IsMeant = [&](const Camera &C) {
-      const std::filesystem::path P(C.Name);
-      return (WithEnding ? P.filename() : P.stem()) == View;
-    };
-    if (std::ranges::count_if(Cameras, IsMeant) == 1)
-      return *std::ranges::find_if(Cameras, IsMeant);
-  }
+  const std::vector<const Camera *> Meant = camerasMeant(Cameras, View);
+  if (Meant.size() == 1)
+    return *Meant.front();
+  if (!Meant.empty())
+    return Error{Path,
+                 fmt::format("view {} may be {} (number {}) or {} (number {}), "
+                             "expected what only one is called",
+                             View, Meant[0]->Name, Meant[0]->Id, Meant[1]->Name,
+                             Meant[1]->Id),
+                 ExitCode::Usage};
   // A long list helps nobody.
   constexpr std::size_t MostNamed = 12;
   std::string Known;

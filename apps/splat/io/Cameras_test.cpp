@@ -258,6 +258,29 @@ TEST(Cameras, AnUnknownViewListsWhatThereIs) {
   EXPECT_EQ(C.error().What, "no view back, expected one of front, close");
 }
 
+TEST(Cameras, AViewThatSeveralMayBeSaysWhich) {
+  const TestFolder Folder;
+  auto List = nlohmann::json::array();
+  for (const char *Name : {"left/1.jpg", "right/1.jpg", "2.png", "2.png"}) {
+    List.push_back(record());
+    List.back()["img_name"] = Name;
+    List.back()["id"] = List.size() + 1;
+  }
+  const std::string File = Folder.write("c.json", List.dump());
+  const auto Of = [&](const std::string &View) {
+    const auto C = readCamera(File, View);
+    return C ? std::to_string(C->Id) : C.error().What;
+  };
+  EXPECT_EQ(Of("1"), "view 1 may be left/1.jpg (number 2) or right/1.jpg "
+                     "(number 3), expected what only one is called");
+  EXPECT_EQ(Of("2"), "view 2 may be left/1.jpg (number 2) or 2.png (number 4), "
+                     "expected what only one is called");
+  EXPECT_EQ(Of("2.png"), "view 2.png may be 2.png (number 4) or 2.png (number "
+                         "5), expected what only one is called");
+  EXPECT_EQ(Of("right/1.jpg"), "3");
+  EXPECT_EQ(Of("5"), "5");
+}
+
 TEST(Cameras, WhatIsNoCameraListIsAnError) {
   const TestFolder Folder;
   EXPECT_NE(errorOf(Folder, "").find("not JSON"), std::string::npos);
