@@ -148,7 +148,7 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
                  fmt::format("stays at iteration {}: interrupted after {} of "
                              "{}, which is not kept",
                              W.Replaced, T.iteration(), Last),
-                 ExitCode::LimitReached};
+                 codeOfInterrupt()};
   if (auto Kept = keep(W, Launch, T); !Kept)
     return Kept;
   if (T.iteration() < Last)
