@@ -24,7 +24,8 @@ function(vorion_precompiled Name)
 endfunction()
 
 # vorion_precompile(FOLDER): every target of C++ in FOLDER and in the folders below it that does not
-# set DISABLE_PRECOMPILE_HEADERS. Those set it whose flags change the language or the vectors.
+# set DISABLE_PRECOMPILE_HEADERS. Those set it whose flags change the language or the vectors, and
+# files with their own level of optimisation set SKIP_PRECOMPILE_HEADERS: a build may have another.
 function(vorion_precompile Folder)
   if(NOT VORION_PRECOMPILE)
     return()
