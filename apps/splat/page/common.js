@@ -63,6 +63,20 @@ function checkCanvases() {
   }
 }
 
+// And that the title of every axis fits beside its axis.
+function checkTitles() {
+  for (const [id, chart] of Object.entries(charts))
+    for (const scale of Object.values(chart.scales)) {
+      const { display, text } = scale.options.title, context = chart.ctx;
+      if (!display) continue;
+      context.save();
+      context.font = `${Chart.defaults.font.size}px ${Chart.defaults.font.family}`;
+      const room = scale.isHorizontal() ? scale.width : scale.height, { width } = context.measureText(text);
+      context.restore();
+      if (width > room) throw new Error(`${id}: "${text}" takes ${Math.round(width)} px beside an axis of ${Math.round(room)}`);
+    }
+}
+
 // Opened with #test, a page tries itself and says in data-test what came out: what a test reads.
 function openPage(start, redraw, tryOut) {
   window.addEventListener('error', event => { document.documentElement.dataset.test = 'failed: ' + event.message; });
@@ -76,6 +90,7 @@ function openPage(start, redraw, tryOut) {
     root.style.width = `${width}px`;
     redraw();
     checkWidth(width);
+    checkTitles();
   }
   checkCanvases();
   root.style.width = '';
