@@ -5,11 +5,11 @@ usage: energy_table.py [--scenes FOLDER] [--only TEXT]   (prints Markdown; some 
 """
 
 import argparse
-import json
 import os
-import subprocess
 import sys
 import tempfile
+
+import timed_frame
 
 FRAMES = [  # scene's file and its name, view, machine, options
     ("guitar.compressed.ply", "guitar", "front", "prototype", ()),
@@ -31,16 +31,12 @@ OPTION_TEXTS = {(): "", ("--voltage", "0.8"): "", ("--clock", "100"): ", 100 MHz
 
 def draw(scenes, frame, folder):
     file, scene, view, machine, options = frame
-    report = os.path.join(folder, "report.json")
+    of = argparse.Namespace(scene=os.path.join(scenes, file), cameras=os.path.join(scenes, "cameras", f"{scene}.json"), view=view)
     unit = () if "simt" in options else ("--exp", "table")  # the rasterizer's
-    done = subprocess.run(
-        ["splat", "render", os.path.join(scenes, file), "--cameras", os.path.join(scenes, "cameras", f"{scene}.json"), "--view", view,
-         *unit, "--energy", "-o", os.path.join(folder, "picture.pfm"), "--json", report, *options],
-        env=dict(os.environ, VORION_CONFIG=machine), capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"energy_table.py: error: {done.stderr.strip()}")
-    with open(report, encoding="utf-8") as text:
-        return json.load(text)
+    found, error = timed_frame.report(of, folder, *unit, "--energy", *options, VORION_CONFIG=machine)
+    if error:
+        sys.exit(f"energy_table.py: error: {error}")
+    return found
 
 
 def digits(value):

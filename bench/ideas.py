@@ -7,9 +7,6 @@ Prints a Markdown table. Every idea draws the same bits as the picture of its ti
 """
 
 import argparse
-import json
-import os
-import subprocess
 import sys
 import tempfile
 
@@ -35,19 +32,12 @@ BUSY = ("blend", "clip", "fetch", "hazard", "begin", "flush", "drain")
 
 
 def draw(args, settings, options, folder):
-    report, picture = os.path.join(folder, "report.json"), os.path.join(folder, "picture.pfm")
-    environment = dict(os.environ)
-    if args.config:
-        environment["VORION_CONFIG"] = args.config
+    variables = {"VORION_CONFIG": args.config} if args.config else {}
     if settings:
-        environment["VORION_SET"] = settings
-    done = subprocess.run(
-        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "--exp", "table", "--energy", "-o", picture,
-         "--json", report, *options], env=environment, capture_output=True, text=True)
-    if done.returncode != 0:
-        sys.exit(f"ideas.py: error: {done.stderr.strip()}")
-    with open(report, encoding="utf-8") as file:
-        found = json.load(file)
+        variables["VORION_SET"] = settings
+    found, error = timed_frame.report(args, folder, "--exp", "table", "--energy", *options, **variables)
+    if error:
+        sys.exit(f"ideas.py: error: {error}")
     busy = sum(one[reason] for one in found["time"]["sum"]["rasterizers"] for reason in BUSY)
     blend = next(stage["time"]["cycles"] for stage in found["time"]["stages"] if stage["name"] == "blend")
     return {"picture": found["result_fnv1a64"], "busy": busy, "blend": blend, "cycles": found["time"]["sum"]["cycles"],

@@ -23,15 +23,19 @@ def picture(folder):
     return os.path.join(folder, "picture.pfm")
 
 
+def report(args, folder, *options, **variables):
+    """What `splat render --json` says of the view under these variables, and None; or None and its error."""
+    path = os.path.join(folder, "report.json")
+    done = subprocess.run(
+        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "-o", picture(folder), "--json", path, *options],
+        env=dict(os.environ, **variables), capture_output=True, text=True)
+    if done.returncode != 0:
+        return None, done.stderr.strip().splitlines()[-1]
+    with open(path, encoding="utf-8") as file:
+        return json.load(file), None
+
+
 def render(args, config, folder, *options):
     """The frame's time on that machine, as `splat render --json` has it, or {"error": text}."""
-    report = os.path.join(folder, "report.json")
-    environment = dict(os.environ, VORION_CONFIG=json.dumps(config))
-    done = subprocess.run(
-        ["splat", "render", args.scene, "--cameras", args.cameras, "--view", args.view, "--time",
-         "-o", picture(folder), "--json", report, *options],
-        env=environment, capture_output=True, text=True)
-    if done.returncode != 0:
-        return {"error": done.stderr.strip().splitlines()[-1]}
-    with open(report, encoding="utf-8") as file:
-        return json.load(file)["time"]
+    found, error = report(args, folder, "--time", *options, VORION_CONFIG=json.dumps(config))
+    return {"error": error} if error else found["time"]
