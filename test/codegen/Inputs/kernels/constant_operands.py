@@ -9,12 +9,10 @@ and those that do are hardly tested elsewhere. They are written as LLVM's code, 
 exit codes: 0 no difference, 1 a function differs or is refused (the seed's files are kept), 2 usage
 """
 
-import math
 import random
 import sys
 
 import functions
-import seeds
 from functions import quotient, signed
 
 WIDTHS = [32, 64, 16, 8]
@@ -90,14 +88,5 @@ def check(seed, folder):
                            lambda: functions.compute(text, [(value,) for value in given], FUNCTIONS, folder, configuration), difference)
 
 
-def main():
-    parser = seeds.options(__doc__, "constant-operands", "functions")
-    chosen = parser.parse_args()
-    todo = range(chosen.first, chosen.first + math.ceil(chosen.count / FUNCTIONS))
-    counts, bad_seeds, spent = seeds.check_all(chosen, todo, check)
-    print(f"seeds {todo[0]} to {todo[-1]}: {counts['same']} functions same, {counts['bad']} bad, in {bad_seeds} of {len(todo)} seeds; {spent}")
-    return 1 if bad_seeds else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(functions.main(__doc__, "constant-operands", FUNCTIONS, check))

@@ -1,8 +1,10 @@
 """Functions written as LLVM's code, run on the device with values of each lane's own."""
 
+import math
 import os
 import struct
 
+import seeds
 from machines import CONFIGURATIONS, Device, Refused, Wrong, failure, run
 
 LANES = 16
@@ -86,3 +88,12 @@ def check(seed, title, count, work, difference):
         return {"seed": seed, "counts": {"bad": count}, "bad": [f"{title}: {type(problem).__name__.lower()}: {problem}"]}
     bad = [line for number in range(count) if (line := difference(number, [lane[number] for lane in lanes]))]
     return {"seed": seed, "counts": {"same": count - len(bad), "bad": len(bad)}, "bad": [f"{title}: {line}" for line in bad]}
+
+
+def main(description, name, per_seed, check_seed):
+    """The program whose seeds, of so many functions each, check_seed(seed, folder) checks; its exit code."""
+    chosen = seeds.options(description, name, "functions").parse_args()
+    todo = range(chosen.first, chosen.first + math.ceil(chosen.count / per_seed))
+    counts, bad_seeds, spent = seeds.check_all(chosen, todo, check_seed)
+    print(f"seeds {todo[0]} to {todo[-1]}: {counts['same']} functions same, {counts['bad']} bad, in {bad_seeds} of {len(todo)} seeds; {spent}")
+    return 1 if bad_seeds else 0

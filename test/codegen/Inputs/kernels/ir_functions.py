@@ -16,7 +16,6 @@ import sys
 
 import fp32
 import functions
-import seeds
 from functions import LANES, signed
 from ir_memory import Variable, through_memory, through_vector
 from ir_operations import FLOAT, Value, operate, type_of
@@ -149,14 +148,5 @@ def check(seed, folder):
                            lambda: functions.compute(text, given, FUNCTIONS, folder, configuration, before), difference)
 
 
-def main():
-    parser = seeds.options(__doc__, "ir-functions", "functions")
-    chosen = parser.parse_args()
-    todo = range(chosen.first, chosen.first + math.ceil(chosen.count / FUNCTIONS))
-    counts, bad_seeds, spent = seeds.check_all(chosen, todo, check)
-    print(f"seeds {todo[0]} to {todo[-1]}: {counts['same']} functions same, {counts['bad']} bad, in {bad_seeds} of {len(todo)} seeds; {spent}")
-    return 1 if bad_seeds else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(functions.main(__doc__, "ir-functions", FUNCTIONS, check))

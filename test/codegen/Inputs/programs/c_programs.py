@@ -20,32 +20,29 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(HERE), "kernels"))
 
-from machines import LEVELS, ROOT, Linux, failure, run  # noqa: E402
+from machines import LEVELS, ROOT, Endless, Linux, failure, run  # noqa: E402
 
 # Most compilers' tests are written in old C, and overflow and alias as they like.
 FLAGS = ["-w", "-std=gnu89", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-fno-math-errno", "-Wno-implicit-int",
          "-Wno-int-conversion", "-Wno-implicit-function-declaration", "-Wno-incompatible-function-pointer-types",
          "-Wno-return-mismatch", "-isystem", os.path.join(HERE, "include")]
 ONE_CORE = "clusters=1,sockets_per_cluster=1,cores_per_socket=1"
-LINUX_SECONDS = 10
+LINUX_SECONDS = 10  # of processor time
 MACHINES = [("right", ONE_CORE, 20_000_000), ("right with one lane", ONE_CORE + ",lanes_per_warp=1,stack_bytes=4194304", 600_000_000)]
 
 
-def under_linux(linux, source, base, level):
+def under_linux(libraries, source, base, level):
     """Whether the program can be judged."""
     program = base + ".linux"
-    built = run(["clang-19", *Linux.FLAGS, *FLAGS, level, "-fno-builtin-abs", "-nostdlib", "-static", "-fuse-ld=lld", source, linux.own,
-                 *linux.library, "-o", program])
+    built = run(["clang-19", *Linux.FLAGS, *FLAGS, level, "-nostdlib", "-static", "-fuse-ld=lld", source, *libraries, "-o", program])
     if built.returncode:
         return False
     try:
-        ran = subprocess.run(["qemu-riscv32", program], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=LINUX_SECONDS,
-                             check=False)
-    except subprocess.TimeoutExpired:
+        return Linux.execute(program, LINUX_SECONDS).returncode == 0
+    except Endless:
         return False
     finally:
         os.remove(program)
-    return ran.returncode == 0
 
 
 def on_device(library, source, base, level):
@@ -62,9 +59,9 @@ def on_device(library, source, base, level):
     return "wrong", f"{failure(ran)}; {program}"
 
 
-def judge(linux, library, folder, source, level):
+def judge(linux_libraries, library, folder, source, level):
     base = os.path.join(folder, os.path.splitext(os.path.basename(source))[0] + level)
-    if not under_linux(linux, source, base, level):
+    if not under_linux(linux_libraries, source, base, level):
         return source, level, "not judged", ""
     return source, level, *on_device(library, source, base, level)
 
@@ -80,13 +77,14 @@ def main():
     if not sources:
         parser.error(f"no .c file below {chosen.programs}, expected programs in C")
     os.makedirs(chosen.folder, exist_ok=True)
-    linux, own = Linux(chosen.folder), os.path.join(HERE, "library.c")
-    linux.own, library = os.path.join(chosen.folder, "linux.o"), os.path.join(chosen.folder, "device.o")
-    for command, output in ((["clang-19", *Linux.FLAGS], linux.own), (["vorion-clang"], library)):
-        subprocess.run([*command, *FLAGS, "-std=gnu11", "-fno-builtin", "-O1", "-c", own, "-o", output], check=True)
+    linux_library, library = os.path.join(chosen.folder, "linux.o"), os.path.join(chosen.folder, "device.o")
+    for command, output in ((["clang-19", *Linux.FLAGS], linux_library), (["vorion-clang"], library)):
+        subprocess.run([*command, *FLAGS, "-std=gnu11", "-fno-builtin", "-O1", "-c", os.path.join(HERE, "library.c"), "-o", output],
+                       check=True)
+    linux_libraries = [linux_library, *Linux(chosen.folder).library]
     counts = collections.Counter()
     with concurrent.futures.ProcessPoolExecutor(chosen.jobs) as pool:
-        running = [pool.submit(judge, linux, library, chosen.folder, source, level)
+        running = [pool.submit(judge, linux_libraries, library, chosen.folder, source, level)
                    for level in chosen.levels.split(",") for source in sources]
         for one in running:
             source, level, word, said = one.result()
