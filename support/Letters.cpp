@@ -19,4 +19,11 @@ std::string lowerCase(std::string Text) {
   return Text;
 }
 
+std::string_view trimmed(std::string_view Text, std::string_view Blanks) {
+  const std::size_t First = Text.find_first_not_of(Blanks);
+  if (First == std::string_view::npos)
+    return {};
+  return Text.substr(First, Text.find_last_not_of(Blanks) + 1 - First);
+}
+
 } // namespace vorion

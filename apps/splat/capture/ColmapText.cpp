@@ -1,5 +1,7 @@
 #include "capture/ColmapRecords.h"
 
+#include "vorion/support/Letters.h"
+
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
@@ -7,15 +9,6 @@
 
 namespace vorion::splat {
 namespace {
-
-/// \p Line without the white space around it.
-std::string_view trimmed(std::string_view Line) {
-  constexpr std::string_view Blanks = " \t\r\v\f";
-  const std::size_t First = Line.find_first_not_of(Blanks);
-  if (First == std::string_view::npos)
-    return {};
-  return Line.substr(First, Line.find_last_not_of(Blanks) + 1 - First);
-}
 
 /// The lines of a file with their numbers.
 class LineReader {
@@ -37,7 +30,7 @@ public:
     const std::size_t End = std::min(Rest.find('\n'), Rest.size());
     const std::string_view Line = Rest.substr(0, End);
     Rest.remove_prefix(std::min(End + 1, Rest.size()));
-    return trimmed(Line);
+    return trimmed(Line, " \t\r\v\f");
   }
   /// The next one that is neither empty nor a comment.
   std::optional<std::string_view> nextRecord() {

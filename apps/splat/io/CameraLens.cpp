@@ -131,8 +131,8 @@ private:
       const Json *Value = find(Key.c_str());
       if (!Value)
         continue;
-      const bool IsPartOfFull = Optics.Model == LensModel::OpenCv && !Full;
-      if (IsPartOfFull && Name == "k4" && K4 == FourthTerm::Above) {
+      const bool IsPlain = Optics.Model == LensModel::OpenCv && !Full;
+      if (IsPlain && Name == "k4" && K4 == FourthTerm::Above) {
         set("k4", "r8", *Value);
         continue;
       }
@@ -140,7 +140,7 @@ private:
       // k4 is OpenCV's first number under the fraction, and nerfstudio's fourth
       // above it.
       const auto Place = placeOf(Name);
-      if (IsPartOfFull && Place && *Place >= LensK4 && *Place < LensR8 &&
+      if (IsPlain && Place && *Place >= LensK4 && *Place < LensR8 &&
           Optics.K[*Place] != 0)
         fail(fmt::format("key {} means different things to different programs, "
                          "expected camera_model FULL_OPENCV with it, or 0",

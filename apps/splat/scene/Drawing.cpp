@@ -1,6 +1,7 @@
 #include "scene/Drawing.h"
 
 #include "io/Bytes.h"
+#include "vorion/support/Letters.h"
 
 #include <charconv>
 #include <fmt/format.h>
@@ -15,19 +16,8 @@ constexpr std::string_view DilationKey = "dilation:";
 /// What Brush dilates by where it compensates, as Mip-Splatting does.
 constexpr double BrushDilation = 0.1;
 
-std::string_view trimmed(std::string_view Text) {
-  const std::size_t First = Text.find_first_not_of(" \t");
-  if (First == std::string_view::npos)
-    return {};
-  return Text.substr(First, Text.find_last_not_of(" \t") - First + 1);
-}
-
 std::string lowered(std::string_view Text) {
-  std::string Lower(trimmed(Text));
-  for (char &C : Lower)
-    if (C >= 'A' && C <= 'Z')
-      C = static_cast<char>(C - 'A' + 'a');
-  return Lower;
+  return lowerCase(std::string(trimmed(Text)));
 }
 
 /// The value after \p Key, if \p Text begins with it.

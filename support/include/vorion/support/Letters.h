@@ -1,7 +1,8 @@
-/// Capital and small letters.
+/// Letters and blanks.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace vorion {
 
@@ -10,5 +11,9 @@ std::string upperCase(std::string Text);
 
 /// \p Text with its ASCII letters as small ones.
 std::string lowerCase(std::string Text);
+
+/// \p Text without the \p Blanks around it.
+std::string_view trimmed(std::string_view Text,
+                         std::string_view Blanks = " \t");
 
 } // namespace vorion
