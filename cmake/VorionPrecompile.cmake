@@ -1,6 +1,5 @@
 # The headers that most of our files include are compiled once: reading them takes three quarters of
-# a file's time. A file still includes what it uses, which scripts/lint.sh checks: it reads each file
-# without them.
+# a file's time. A file still includes what it uses: scripts/lint.sh reads each one without them.
 option(VORION_PRECOMPILE "Compile common headers once" ON)
 # Programs are compiled as libraries are, or they would need headers of their own.
 set(CMAKE_CXX_COMPILE_OPTIONS_PIE "${CMAKE_CXX_COMPILE_OPTIONS_PIC}")
