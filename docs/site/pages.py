@@ -80,14 +80,25 @@ def on_page_markdown(markdown, page, config, files):
 
 
 def on_post_build(config):
-    """Writes index and worker of the search as a script: a page opened from its file may load scripts, but neither
-    other files nor a worker by its name."""
-    site = config["site_dir"]
-    with open(os.path.join(site, "search", "search_index.json"), encoding="utf-8") as f:
+    """Writes index and worker of the search as scripts: a page opened from its file may load scripts, but neither
+    other files nor a worker by its name.
+
+    mkdocs-material 8 takes both from __search. Its version 9 takes the index from __index, once it has loaded
+    search_index.js, and starts the worker by its name.
+    """
+    search = os.path.join(config["site_dir"], "search")
+    with open(os.path.join(search, "search_index.json"), encoding="utf-8") as f:
         index = json.load(f)
-    [worker] = glob.glob(os.path.join(site, "assets", "javascripts", "workers", "search.*.js"))
+    [worker] = glob.glob(os.path.join(config["site_dir"], "assets", "javascripts", "workers", "search.*.js"))
     with open(worker, encoding="utf-8") as f:
         source = f.read()
-    with open(os.path.join(site, "search", "offline.js"), "w", encoding="utf-8") as f:
-        f.write(f"var __search = {{index: Promise.resolve({json.dumps(index)}),\n"
-                f"  worker: URL.createObjectURL(new Blob([{json.dumps(source)}], {{type: 'text/javascript'}}))}};\n")
+    with open(os.path.join(search, "offline.js"), "w", encoding="utf-8") as f:
+        f.write(f"""var __index = {json.dumps(index)};
+var __search = {{index: Promise.resolve(__index),
+  worker: URL.createObjectURL(new Blob([{json.dumps(source)}], {{type: "text/javascript"}}))}};
+window.Worker = class extends Worker {{
+  constructor(name) {{ super(name.endsWith("{os.path.basename(worker)}") ? __search.worker : name); }}
+}};
+""")
+    with open(os.path.join(search, "search_index.js"), "w", encoding="utf-8") as f:
+        f.write("// offline.js has the index.\n")
