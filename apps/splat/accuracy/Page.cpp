@@ -1,6 +1,8 @@
 #include "accuracy/Page.h"
 
+#include "io/ReportHead.h"
 #include "page/Page.h"
+#include "sweep/Origin.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -101,21 +103,25 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
   for (const Camera *View : Head.ChosenOn)
     ChosenOn.push_back(View->Name);
   const Json Data{
-      {"made", Json::array({Head.Made})},  {"floor_db", Head.FloorDb},
-      {"views", std::move(Views)},         {"chosen_on", std::move(ChosenOn)},
-      {"summaries", std::move(Summaries)}, {"chosen", std::move(*Chosen)},
+      {"made", Json::array({Head.Made, madeBy(), hashLine(P.From)})},
+      {"floor_db", Head.FloorDb},
+      {"views", std::move(Views)},
+      {"chosen_on", std::move(ChosenOn)},
+      {"summaries", std::move(Summaries)},
+      {"chosen", std::move(*Chosen)},
       {"points", std::move(Points)}};
   return filledPage(pageTemplate(), Data);
 }
 
-std::string trainPageOf(const Json &Results, const std::string &Made) {
+std::string trainPageOf(const Json &Results,
+                        const std::vector<std::string> &Made) {
   Json Curves = Json::array();
   for (const Json &Point : Results["points"])
     if (Point.contains("curve"))
       Curves.push_back({{"setting", Point["setting"]},
                         {"seed", Point["seed"]},
                         {"curve", Point["curve"]}});
-  return filledPage(trainPageTemplate(), {{"made", Json::array({Made})},
+  return filledPage(trainPageTemplate(), {{"made", Made},
                                           {"iterations", Results["iterations"]},
                                           {"reached_db", Results["reached_db"]},
                                           {"settings", Results["settings"]},

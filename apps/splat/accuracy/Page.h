@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -16,7 +17,7 @@ std::string_view trainPageTemplate();
 
 /// What the page is told besides the measurements.
 struct PageHead {
-  std::string Made; ///< a line: what made it
+  std::string Made; ///< a line: what was measured
   double FloorDb;   ///< to begin with
   /// Views that choose the recommended one.
   std::vector<const Camera *> ChosenOn;
@@ -28,8 +29,8 @@ Expected<std::string> pageOf(const SweepPlan &P, KeptPoints &Kept,
                              const PageHead &Head,
                              const std::vector<Setting> &Settings);
 
-/// The page of trainResults() (TrainSweep.h); \p Made: a line, what made it.
+/// The page of trainResults() (TrainSweep.h); \p Made: lines for the foot.
 std::string trainPageOf(const nlohmann::ordered_json &Results,
-                        const std::string &Made);
+                        const std::vector<std::string> &Made);
 
 } // namespace vorion::splat

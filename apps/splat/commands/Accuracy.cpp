@@ -15,7 +15,6 @@
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Suggest.h"
-#include "vorion/support/Version.h"
 
 #include <algorithm>
 #include <charconv>
@@ -283,10 +282,9 @@ Expected<Success> run(AccuracyArguments &A, const DeviceOptions &Machine) {
   }
   const PageHead Head{
       fmt::format("{}, views {} (chosen on {}), {}x{}, rules inria, errors "
-                  "against the fp64 reference of the same support; splat {}",
+                  "against the fp64 reference of the same support",
                   P->ScenePath, names(pointersTo(P->Views)), names(V->Choose),
-                  P->Views.front().Width, P->Views.front().Height,
-                  projectVersion()),
+                  P->Views.front().Width, P->Views.front().Height),
       *Floor, V->Choose};
   if (auto Written = writeResults(*P, Kept, Head, *All); !Written)
     return Written;

@@ -7,6 +7,7 @@
 #include "accuracy/Page.h"
 #include "capture/Capture.h"
 #include "io/ReportHead.h"
+#include "sweep/Origin.h"
 #include "sweep/Points.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
@@ -14,7 +15,6 @@
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Suggest.h"
-#include "vorion/support/Version.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -133,13 +133,13 @@ measureTraining(TrainSweepPlan P, bool List,
       !Written)
     return Written;
   const std::string Made = fmt::format(
-      "{}, {} iterations, seeds 0 to {}, pictures {}; splat {}", P.Capture,
-      P.Iterations, P.Seeds - 1,
+      "{}, {} iterations, seeds 0 to {}, pictures {}", P.Capture, P.Iterations,
+      P.Seeds - 1,
       P.Downscale == 1 ? "as they are"
-                       : fmt::format("{} times smaller", P.Downscale),
-      projectVersion());
-  if (auto Written = writeFileAtomically(P.Folder + "/index.html",
-                                         trainPageOf(*Results, Made));
+                       : fmt::format("{} times smaller", P.Downscale));
+  if (auto Written = writeFileAtomically(
+          P.Folder + "/index.html",
+          trainPageOf(*Results, {Made, madeBy(), hashLine(P.From)}));
       !Written)
     return Written;
   printOut("{}{}/index.html\n", trainTable(*Results), P.Folder);

@@ -10,6 +10,7 @@
 #include "explore/Study.h"
 #include "io/Hash.h"
 #include "io/ReportHead.h"
+#include "sweep/Origin.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
@@ -243,7 +244,7 @@ Expected<Success> write(const StudyPlan &P, const Json &Results,
       !Written)
     return Written;
   return writeFileAtomically(P.Folder + "/index.html",
-                             explorePageOf(Results, Made));
+                             explorePageOf(Results, {Made, hashLine(P.From)}));
 }
 
 Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {

@@ -119,6 +119,11 @@ Expected<Success> run(const InfoArguments &A) {
   if (auto Claimed = claimOutputs({{"--json", A.JsonFile}}, Inputs.named());
       !Claimed)
     return Claimed;
+  if (const auto Words = wordsOf(A.Scene); OfCapture && !Words.empty())
+    return Error{"",
+                 fmt::format("{}: {} is a capture, expected a scene with it",
+                             Words.front(), escaped(A.Scene.Path)),
+                 ExitCode::Usage};
   if (OfCapture)
     return describeCapture(A.Scene.Path, A.JsonFile, A.AllowOutside);
   const auto File = loadScene(A.Scene);

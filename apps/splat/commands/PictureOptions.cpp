@@ -73,11 +73,20 @@ void addPictureOptions(CLI::App &App, RenderOptions &O) {
   addProjectionOption(App, O.Through);
 }
 
-Expected<Success> checkPictureOptions(const RenderOptions &O) {
-  if (O.Blending == Path::Raster && (O.SimtTile != RenderOptions().SimtTile ||
-                                     O.SimtGroup != RenderOptions().SimtGroup))
+Expected<Success> checkSimtOptions(Path Blending, unsigned SimtTile,
+                                   unsigned SimtGroup) {
+  const RenderOptions Default;
+  if (Blending == Path::Raster &&
+      (SimtTile != Default.SimtTile || SimtGroup != Default.SimtGroup))
     return usage("--simt-tile and --simt-group are the cores', expected --path "
                  "simt with them");
+  return Success{};
+}
+
+Expected<Success> checkPictureOptions(const RenderOptions &O) {
+  if (auto Checked = checkSimtOptions(O.Blending, O.SimtTile, O.SimtGroup);
+      !Checked)
+    return Checked;
   for (const float B : O.Background)
     if (!std::isfinite(B))
       return usage(fmt::format("--background {}: expected finite numbers", B));

@@ -60,6 +60,10 @@ void addSimtOptions(CLI::App &App, unsigned &Tile, unsigned &Group,
 /// local memory.
 inline const std::vector<unsigned> SimtTilesBack{8, 16};
 
+/// Whether tile and group fit \p Blending; an error is one of usage.
+Expected<Success> checkSimtOptions(Path Blending, unsigned SimtTile,
+                                   unsigned SimtGroup);
+
 /// What the rasterizer's backward mode computes with.
 void addBackwardOptions(CLI::App &App, BackwardOptions &B);
 

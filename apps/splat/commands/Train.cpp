@@ -206,6 +206,10 @@ Expected<Success> check(const TrainArguments &A) {
   if (auto Checked = checkBackwardOptions(R.Backward, R.Blending.Kind);
       !Checked)
     return Checked;
+  if (auto Checked = checkSimtOptions(R.Blending.Kind, R.Blending.SimtTile,
+                                      R.Blending.SimtGroup);
+      !Checked)
+    return Checked;
   if (R.Run.Settings.AbsoluteGradient && R.Blending.Kind != Path::Simt)
     return Error{"",
                  "--absgrad: the rasterizer's nine sums have no absolute "

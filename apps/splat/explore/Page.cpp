@@ -152,9 +152,10 @@ Json resultsOf(const StudyPlan &P, const Findings &F) {
           {"different_pictures", Pictures.size()}};
 }
 
-std::string explorePageOf(const Json &Results, const std::string &Made) {
+std::string explorePageOf(const Json &Results,
+                          const std::vector<std::string> &Made) {
   Json Data = Results;
-  Data["made"] = Json::array({Made});
+  Data["made"] = Made;
   return filledPage(explorePage(), Data);
 }
 

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -24,9 +25,9 @@ struct Findings {
 /// The file explore.json, without its head.
 nlohmann::ordered_json resultsOf(const StudyPlan &P, const Findings &F);
 
-/// The page of these; \p Made: a line, what made it.
+/// The page of these; \p Made: lines for the foot.
 std::string explorePageOf(const nlohmann::ordered_json &Results,
-                          const std::string &Made);
+                          const std::vector<std::string> &Made);
 
 /// For the terminal.
 std::string textOf(const nlohmann::ordered_json &Results);

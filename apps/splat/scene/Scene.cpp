@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 #include <utility>
 
 namespace vorion::splat {
@@ -20,22 +21,26 @@ Scene Scene::sized(std::size_t Count, int ShDegree) {
 
 Expected<Success> checkFinite(const std::string &Where, const Scene &S) {
   std::size_t First = S.size();
-  const auto Check = [&](const std::vector<float> &Values, std::size_t Each) {
+  std::string_view Part;
+  const auto Check = [&](std::string_view Name,
+                         const std::vector<float> &Values, std::size_t Each) {
     const auto Bad = std::find_if(Values.begin(), Values.end(),
                                   [](float V) { return !std::isfinite(V); });
-    if (Bad != Values.end())
-      First = std::min(First,
-                       static_cast<std::size_t>(Bad - Values.begin()) / Each);
+    const auto At = static_cast<std::size_t>(Bad - Values.begin()) / Each;
+    if (Bad != Values.end() && At < First) {
+      First = At;
+      Part = Name;
+    }
   };
-  Check(S.Means, 3);
-  Check(S.LogScales, 3);
-  Check(S.Quats, 4);
-  Check(S.OpacityLogits, 1);
-  Check(S.Sh, 3 * S.coefficients());
+  Check("position", S.Means, 3);
+  Check("scales", S.LogScales, 3);
+  Check("rotation", S.Quats, 4);
+  Check("opacity", S.OpacityLogits, 1);
+  Check("colours", S.Sh, 3 * S.coefficients());
   if (First < S.size())
-    return Error{Where, fmt::format("Gaussian {} holds a NaN or an infinity, "
-                                    "expected finite values",
-                                    First)};
+    return Error{Where, fmt::format("Gaussian {} holds a NaN or an infinity in "
+                                    "its {}, expected finite values",
+                                    First, Part)};
   return Success{};
 }
 

@@ -32,7 +32,8 @@ Expected<SceneFile> checked(const std::string &Where, Expected<SceneFile> Read,
                                "an infinity, expected at least one",
                                Read->Dropped)};
   } else if (auto Finite = checkFinite(Where, Read->Gaussians); !Finite) {
-    return Finite.error();
+    return Error{Where, Finite.error().What +
+                            ", or --drop-nonfinite to leave such ones out"};
   }
   Read->DrawnAs = withRequest(std::move(Read->DrawnAs), Options.Drawn);
   return Read;

@@ -67,8 +67,12 @@ TEST(SceneFile, EveryValueThatIsNotFiniteIsFound) {
       V[2 * V.size() / 3 - 1] = Bad; // the last of Gaussian 1
       const auto Checked = checkFinite("s", S);
       ASSERT_FALSE(Checked);
-      EXPECT_EQ(Checked.error().What, "Gaussian 1 holds a NaN or an infinity, "
-                                      "expected finite values");
+      constexpr const char *Parts[] = {"position", "scales", "rotation",
+                                       "opacity", "colours"};
+      EXPECT_EQ(Checked.error().What,
+                fmt::format("Gaussian 1 holds a NaN or an infinity in its {}, "
+                            "expected finite values",
+                            Parts[Field]));
     }
   EXPECT_TRUE(checkFinite("s", numberedScene(3, 1)));
 }

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -102,6 +103,15 @@ std::string difference(const Json &Had, const Origin &Wanted) {
   for (std::size_t I = 0; I < Names.size(); ++I)
     Text += (I == 0 ? "" : I + 1 == Names.size() ? " and " : ", ") + Names[I];
   return Text;
+}
+
+std::string hashLine(const Origin &From) {
+  std::vector<std::string> Hashes;
+  for (const auto &[Name, Is] : From)
+    if (Is.size() == 16 &&
+        Is.find_first_not_of("0123456789abcdef") == std::string::npos)
+      Hashes.push_back(Name + " " + Is);
+  return fmt::format("fnv1a64: {}", fmt::join(Hashes, ", "));
 }
 
 Expected<Success> makeOnce(const std::vector<std::string> &Files,

@@ -33,6 +33,11 @@ Expected<std::string> hashCapture(const Capture &C);
 /// programs"; empty if it is.
 std::string difference(const nlohmann::ordered_json &Had, const Origin &Wanted);
 
+/// The hashes of \p From in a line for the foot of a page: "fnv1a64: machine
+/// 0123456789abcdef, scene ...". Options are left out, as the command says
+/// them.
+std::string hashLine(const Origin &From);
+
 /// Makes \p Files, by \p Make, unless they are there as an earlier call with
 /// the same \p From left them. What they were made from is beside the first
 /// one, with the ending .origin.

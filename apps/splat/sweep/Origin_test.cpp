@@ -22,6 +22,13 @@ TEST(Origin, WhatDiffersIsNamed) {
     EXPECT_EQ(difference(Other, Wanted), "machine, programs and scene");
 }
 
+TEST(Origin, TheLineOfHashesLeavesOutOptions) {
+  EXPECT_EQ(hashLine({{"machine", "0123456789abcdef"},
+                      {"options", "--size 0123456789"},
+                      {"scene", "fedcba9876543210"}}),
+            "fnv1a64: machine 0123456789abcdef, scene fedcba9876543210");
+}
+
 TEST(Origin, AViewIsWhatItSeesNotItsName) {
   Camera A = Camera::ahead(64, 48, 50);
   Camera B = A;

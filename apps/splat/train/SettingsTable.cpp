@@ -47,11 +47,24 @@ constexpr SettingField Fields[] = {
     {"rotation_rate", "rate of rotations", &S::RotationRate, 0, Large},
     {"exposure_rate", "rate of the pictures' exposures at first; 0 for none",
      &S::ExposureRate, 0, Large},
-    {"last_exposure_rate", "the same at last", &S::LastExposureRate, 1e-30,
-     Large},
+    {"last_exposure_rate",
+     "the same at last",
+     &S::LastExposureRate,
+     1e-30,
+     Large,
+     {},
+     true,
+     "exposure_rate"},
     {"pose_rate", "rate of the corrections of poses at first; 0 for none",
      &S::PoseRate, 0, Large},
-    {"last_pose_rate", "the same at last", &S::LastPoseRate, 1e-30, Large},
+    {"last_pose_rate",
+     "the same at last",
+     &S::LastPoseRate,
+     1e-30,
+     Large,
+     {},
+     true,
+     "pose_rate"},
     {"dssim", "share of 1 - SSIM in the loss", &S::DSsim, 0, 1},
     {"opacity_weight", "weight of the mean opacity in the loss",
      &S::OpacityWeight, 0, Large},
@@ -191,6 +204,10 @@ std::string SettingField::option() const {
 }
 
 std::span<const SettingField> settingFields() { return Fields; }
+
+const SettingField &settingField(std::string_view Name) {
+  return *std::ranges::find(Fields, Name, &SettingField::Name);
+}
 
 std::span<const std::string_view> presetNames() { return Presets; }
 

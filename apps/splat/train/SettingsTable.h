@@ -23,6 +23,8 @@ struct SettingField {
   std::optional<DensityMethod> Only = std::nullopt;
   /// Whether the table makes its option; others have one elsewhere.
   bool HasOption = true;
+  /// Without an effect where the setting of this name is 0; empty for none.
+  std::string_view Of = "";
 
   bool isWhole() const { return Member.index() == 1; }
   double get(const TrainSettings &S) const;
@@ -32,6 +34,8 @@ struct SettingField {
   std::string option() const; ///< --position-rate
 };
 std::span<const SettingField> settingFields();
+/// The one that is called \p Name, which there is.
+const SettingField &settingField(std::string_view Name);
 
 /// Names of the settings that come with the program.
 std::span<const std::string_view> presetNames();

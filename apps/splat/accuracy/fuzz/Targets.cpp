@@ -225,7 +225,7 @@ std::size_t readTrainSweep(Bytes Input) {
   require(static_cast<bool>(Results) == (Missing == 0));
   if (Results) {
     require(!trainTable(*Results).empty());
-    require(!trainPageOf(*Results, "").empty());
+    require(!trainPageOf(*Results, {}).empty());
   }
   return All - Missing;
 }
