@@ -8,8 +8,10 @@ A fenced text of the page is
     sh          commands, which run in order in one shell; "sh minutes" runs with --all alone
     text        what the commands before it print. A line "..." stands for any lines, "..." in a line for any text
     console     commands with names of the reader's own, which are not run
-    c, python   part of the file whose name stands in the lines before it
+    c, python   part of the file whose name stands in the lines before it, from the repository's root or the samples'
 
+A number with commas, such as 95,435, that stands in a sentence must be in what the commands print. With --put it need
+not be, because another file stands for the one that the page speaks of.
 With --tables the commands in tables run, too: the last cell of a row, if it is one text of code that begins with the name
 of a tool, and has no word in capitals, for which the reader puts something else. --without leaves
 out those that begin so, for example because they do not end by themselves.
@@ -26,8 +28,11 @@ import subprocess
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+SAMPLES = os.path.join(ROOT, "apps", "samples")
 TEXT = re.compile(r"^( *)```(\w+)( minutes)?\n(.*?)^ *```$", re.M | re.S)
 ROW = re.compile(r"^\|.*\| `((?:splat|vorion-\w+) [^`]*)` \|$", re.M)
+# As sentences write what was counted.
+COUNT = re.compile(r"(?<![\w.,])\d{1,3}(?:,\d{3})+(?![\w,]*\d)")
 PLACEHOLDER = re.compile(r"(?<![$\w])[A-Z]{3,}\b")
 
 
@@ -88,7 +93,7 @@ def steps_of(page, text, every, tables, without):
             steps[-1].printed = body
         elif language not in ("text", "console"):
             named = re.findall(r"`([^`\s]+)`", text[:found.start()].rstrip().rsplit("\n\n", 1)[-1])
-            files = [f for f in (os.path.join(ROOT, n) for n in named) if os.path.isfile(f)]
+            files = [f for f in (os.path.join(r, n) for n in named for r in (ROOT, SAMPLES)) if os.path.isfile(f)]
             if not files:
                 fail(f"{page}:{line}: a text of {language}, but the lines before it name no file")
             with open(files[-1], encoding="utf-8") as f:
@@ -97,7 +102,22 @@ def steps_of(page, text, every, tables, without):
     return steps + (in_tables(text[end:], without) if tables else [])
 
 
+def counts_of(text):
+    """The numbers with commas outside of a page's fenced texts and tables, each with its line."""
+    prose = TEXT.sub(lambda found: "\n" * found[0].count("\n"), text)
+    prose = re.sub(r"^\|.*", "", prose, flags=re.M)
+    return [(found[0], prose.count("\n", 0, found.start()) + 1) for found in COUNT.finditer(prose)]
+
+
+def hold_counts(page, counts, outputs):
+    printed = set(re.findall(r"\d+", re.sub(r"(?<=\d),(?=\d{3})", "", "\n".join(outputs))))
+    for count, line in counts:
+        if count.replace(",", "") not in printed:
+            fail(f"{page}:{line}: no command prints {count}")
+
+
 def run(page, steps, folder):
+    """Runs the steps and compares what they print, which it returns."""
     # As a new shell has it: no variable of ours is set.
     kept = {name: os.environ[name] for name in ("LANG", "TMPDIR", "POCL_CACHE_DIR") if name in os.environ}
     script = "set -e\n" + "".join(f"printf '\\036'\n{step.commands}" for step in steps)
@@ -114,6 +134,7 @@ def run(page, steps, folder):
         output = re.sub(r"[ \r]+$", "", output, flags=re.M)
         if step.printed is not None and not re.fullmatch(printed_pattern(step.printed), output):
             fail(f"{page}:{step.line}: these commands\n{step.commands}print\n{output}the page says\n{step.printed}")
+    return outputs
 
 
 def main():
@@ -128,7 +149,8 @@ def main():
     parser.add_argument("folder")
     options = parser.parse_args()
     with open(os.path.join(ROOT, options.page), encoding="utf-8") as f:
-        steps = steps_of(options.page, f.read(), options.all, options.tables, tuple(options.without))
+        text = f.read()
+    steps = steps_of(options.page, text, options.all, options.tables, tuple(options.without))
     if not steps:
         fail(f"{options.page} has no command")
     if options.installed:
@@ -138,7 +160,9 @@ def main():
             step.commands = step.commands.replace(". scripts/env.sh", f". {options.installed}/share/vorion/env.sh")
     else:
         show_repository(options.folder, options.build, options.put)
-    run(options.page, steps, options.folder)
+    outputs = run(options.page, steps, options.folder)
+    if not options.put:
+        hold_counts(options.page, counts_of(text), outputs)
     print(f"{options.page}: {len(steps)} steps, {sum(s.printed is not None for s in steps)} outputs as the page says")
 
 
