@@ -52,19 +52,27 @@ function(vorion_install)
   endforeach()
 endfunction()
 
-# Documents with the folders that they link to, and the samples' sources.
+# All documents, in the folders that they have in the repository, so that every link between them leads somewhere
+# (test/install/documents.test); and the samples' sources. README.md of the samples says how they are compiled, because
+# their CMakeLists.txt works inside of the repository only.
 function(vorion_install_documents)
   set(Folder share/doc/vorion)
   install(FILES README.md CHANGELOG.md CONTRIBUTING.md SECURITY.md LICENSE DESTINATION ${Folder} COMPONENT doc)
   install(DIRECTORY docs DESTINATION ${Folder} COMPONENT doc PATTERN site EXCLUDE)
-  file(GLOB Readmes RELATIVE "${CMAKE_SOURCE_DIR}" */README.md apps/*/README.md)
-  foreach(Readme IN LISTS Readmes)
-    get_filename_component(Place "${Readme}" DIRECTORY)
-    install(FILES "${Readme}" DESTINATION "${Folder}/${Place}" COMPONENT doc)
+  # Each part has a README. What else lies beside them, such as build/ and its sources of LLVM, is none of ours.
+  file(GLOB Parts RELATIVE "${CMAKE_SOURCE_DIR}" */README.md)
+  list(TRANSFORM Parts REPLACE "README.md$" "*.md")
+  file(GLOB_RECURSE Pages RELATIVE "${CMAKE_SOURCE_DIR}" ${Parts})
+  # The inputs of tests are no documents.
+  list(FILTER Pages EXCLUDE REGEX "/Inputs/")
+  foreach(Page IN LISTS Pages)
+    get_filename_component(Place "${Page}" DIRECTORY)
+    install(FILES "${Page}" DESTINATION "${Folder}/${Place}" COMPONENT doc)
   endforeach()
   install(DIRECTORY docs/schemas/ DESTINATION share/vorion/schemas COMPONENT vorion FILES_MATCHING PATTERN "*.json")
-  install(DIRECTORY apps/samples test/install/Inputs/downstream DESTINATION ${Folder}/examples COMPONENT doc
-          PATTERN README.md EXCLUDE)
+  install(DIRECTORY test/install/Inputs/downstream DESTINATION ${Folder}/examples COMPONENT doc)
+  install(DIRECTORY apps/samples DESTINATION ${Folder}/examples COMPONENT doc PATTERN CMakeLists.txt EXCLUDE)
+  install(DIRECTORY apps/splat/python/samples/ DESTINATION ${Folder}/examples/python COMPONENT doc)
 endfunction()
 
 # The package of what the components have named by now.

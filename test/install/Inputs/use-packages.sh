@@ -12,6 +12,9 @@ mkdir "$root/vendors" "$root/home" "$root/pc"
 echo "$root$(cat "$root/etc/OpenCL/vendors/vorion.icd")" >"$root/vendors/vorion.icd"
 sed "s,^prefix=.*,prefix=$root/usr/lib/vorion," "$root"/usr/lib/*/pkgconfig/vorion-runtime.pc >"$root/pc/vorion-runtime.pc"
 cp "$here"/* "$root/home"
+cp -r "$root/usr/share/doc/vorion/examples/samples" "$root/home"
+# How the samples' README compiles one of them.
+sed -n "s,/usr/lib/vorion,$root&,; /^    g++/,/^$/p" "$root/home/samples/README.md" >"$root/home/samples/compile"
 cd "$root/home"
 env -i HOME="$root/home" PATH="$root/usr/bin:/usr/bin:/bin" OCL_ICD_VENDORS="$root/vendors" \
   PYTHONPATH="$root/usr/lib/python3/dist-packages" PKG_CONFIG_PATH="$root/pc" sh -euc '
@@ -21,6 +24,7 @@ env -i HOME="$root/home" PATH="$root/usr/bin:/usr/bin:/bin" OCL_ICD_VENDORS="$ro
     splat render scene.ply --cameras cameras.json --view front -o front.png
     test -s front.png
     /usr/bin/python3 -c "import vorion; print(vorion.Machine().name, vorion.__file__)"
+    (cd samples && sh -e compile)
     vorion-clang kernel.cl -o kernel.elf
     vorion-clang main.c -O2 -o main.elf
     vorion-sim main.elf
