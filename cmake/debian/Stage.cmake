@@ -81,6 +81,15 @@ set(Top "${CPACK_TEMPORARY_DIRECTORY}/doc")
 file(MAKE_DIRECTORY "${Top}/usr/share")
 file(RENAME "${Top}/usr/lib/vorion/share/doc" "${Top}/usr/share/doc")
 file(REMOVE_RECURSE "${Top}/usr/lib")
+# The same as a site that one can search, where the packages are built with MkDocs. Its pages of options are made by the
+# tools that are packed.
+find_program(MkDocs mkdocs)
+if(MkDocs)
+  set(Site "${CPACK_TOPLEVEL_DIRECTORY}/site")
+  run("${Source}/docs/site/build.py" "${Site}" "${CPACK_TEMPORARY_DIRECTORY}/vorion/usr/lib/vorion/bin")
+  file(RENAME "${Site}" "${Top}/usr/share/doc/vorion/html")
+  file(REMOVE_RECURSE "${Site}-pages")
+endif()
 
 # --- what every package has ---------------------------------------------------------
 foreach(Name IN LISTS Names)

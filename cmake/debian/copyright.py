@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the packages' copyright file in Debian's machine-readable form: our
-own sources, and what LLVM, PoCL and the header-only libraries have in our
-programs. Their words are taken from the files that they come with.
+own sources, what LLVM, PoCL and the header-only libraries have in our programs,
+and what the site of the documents has of its theme. Their words are taken from
+the files that they come with.
 
 usage: copyright.py POCL_COPYRIGHT OUTPUT
 """
@@ -17,7 +18,8 @@ Comment:
  vorion-llc, vorion-mc, vorion-opt, vorion-objdump, libdevice.a), of PoCL (libpocl.so,
  poclcc, kernel-vorion.bc) with SLEEF and libclc, and of the header-only
  libraries CLI11, JSON for Modern C++ and GLM. PoCL's paths are those of its
- source package, below pocl/.
+ source package, below pocl/. The site of the documents (html/ of vorion-doc)
+ contains scripts and styles of Material for MkDocs, and lunr.js in them.
 
 Files: *
 Copyright: The Vorion authors
@@ -30,6 +32,8 @@ License: Apache-2.0-with-LLVM-exception
 
 # A header-only library and the paragraph of its package that stands for all of it.
 LIBRARIES = {"cli11": "libcli11-dev", "nlohmann": "nlohmann-json3-dev", "glm": "libglm-dev"}
+# The same of what the site is made with; where they are missing, no site is packed.
+SITE = {"mkdocs-material": "mkdocs-material", "lunr": "libjs-lunr"}
 
 EXCEPTION = """\
 License: Apache-2.0-with-LLVM-exception
@@ -91,7 +95,8 @@ def main():
     begin = licence.index("---- LLVM Exceptions")
     exception = licence[begin:].split("\n", 1)[1]
     files, licences = of_package(pocl, "pocl", lambda path: not path.startswith(("debian/", "examples/")))
-    for folder, package in LIBRARIES.items():
+    installed = {f: p for f, p in SITE.items() if pathlib.Path(f"/usr/share/doc/{p}/copyright").exists()}
+    for folder, package in {**LIBRARIES, **installed}.items():
         more, texts = of_package(f"/usr/share/doc/{package}/copyright", folder, lambda path: path == "*")
         files += more
         licences += texts

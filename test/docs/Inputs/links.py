@@ -42,8 +42,7 @@ def main():
         return 2
     site = os.path.abspath(sys.argv[1])
     files = {os.path.join(f, n) for f, _, names in os.walk(site) for n in names}
-    # 404.html is for servers; its links begin at the server's root.
-    pages = {p: Page(p) for p in sorted(files) if p.endswith(".html") and p != os.path.join(site, "404.html")}
+    pages = {p: Page(p) for p in sorted(files) if p.endswith(".html")}
     faults = []
     for path, page in pages.items():
         name = os.path.relpath(path, site)
