@@ -173,7 +173,10 @@ def page(words, definition, notes, edition, also):
         parts.append(paragraph(f"There are {len(definition['others'])} options of LLVM's, which --help lists."))
     parts += exit_status(definition["footer"])
     parts += listed("ENVIRONMENT", notes.get("environment"))
-    parts += listed("FILES", notes.get("files"))
+    files = dict(notes.get("files", {}))
+    if any("docs/" in part for part in parts):
+        files["/usr/share/doc/vorion/docs/"] = "What this page calls docs/, where Debian's package vorion-doc is installed."
+    parts += listed("FILES", files)
     parts += examples(notes)
     parts += see_also(also)
     return "\n".join(parts) + "\n"

@@ -54,6 +54,8 @@ for page in sorted(pages):
     lint, _ = run("mandoc", "-T", "lint", "-W", "warning", path)
     text, warnings = run("man", "--warnings", "-l", path)
     problems += [f"{page}: {line}" for line in (lint + warnings).splitlines()]
+    if " docs/" in text and "/usr/share/doc/vorion/docs/" not in text.partition("\nFILES\n")[2]:
+        problems.append(f"{page}: FILES does not say where docs/ is")
     problems += [f"{page}: no {part}" for part in ("NAME", "SYNOPSIS", "DESCRIPTION", "SEE ALSO") if f"\n{part}\n" not in text]
 for problem in problems:
     print(problem)
