@@ -390,7 +390,8 @@ bool Machine::Impl::decideEnd(RunResult &R) {
   }
   std::string Limit;
   if (Shape.MaxInstructions && retired() >= Shape.MaxInstructions)
-    Limit = "instruction limit reached";
+    Limit = fmt::format("{} instructions, as many as may run",
+                        Shape.MaxInstructions);
   else if (stopRequested())
     Limit = "stopped from outside";
   else if (watchdogExpired())

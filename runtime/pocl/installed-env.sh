@@ -1,7 +1,12 @@
-# Source this (bash): puts the installed tools and the Python package on the paths
-# and shows the device to every OpenCL program of this shell.
-VORION_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-export VORION_ROOT
-export PATH="$VORION_ROOT/bin:$PATH"
-export OCL_ICD_VENDORS="$VORION_ROOT/pocl/lib/libpocl.so"
-export PYTHONPATH="$VORION_ROOT/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"
+# Source this in bash or zsh: puts the installed tools and the Python package on the
+# paths and shows the device to every OpenCL program of this shell.
+if [ -n "${BASH_VERSION-}${ZSH_VERSION-}" ]; then
+  # zsh calls a sourced file $0.
+  VORION_ROOT=$(cd "$(dirname "${BASH_SOURCE:-$0}")/../.." && pwd)
+  export VORION_ROOT
+  export PATH="$VORION_ROOT/bin:$PATH"
+  export OCL_ICD_VENDORS="$VORION_ROOT/pocl/lib/libpocl.so"
+  export PYTHONPATH="$VORION_ROOT/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"
+else
+  echo "env.sh: error: this is neither bash nor zsh, expected one of them" >&2
+fi

@@ -108,8 +108,8 @@ def rest(options, commands=()):
     elif values:
         endings = [word for value in values for word in value.get("words", [])]
         others = f"_vorion_files {quoted(dict.fromkeys(endings))}".strip()
-    else:
-        others = f"_vorion_words {quoted(names)}"
+    else:  # a program of LLVM's, whose inputs no definition names
+        others = "_vorion_files"
     return f"if [[ $cur == -* ]]; then _vorion_words {quoted(names)}; else {others}; fi"
 
 

@@ -60,11 +60,29 @@ TEST_F(Platform, OptionsOpenAnotherMachineAndWrongOnesSayWhy) {
             CL_SUCCESS)
       << Said();
   EXPECT_EQ(device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 16u);
-  // Again the same, but nothing else while they are open.
-  EXPECT_EQ(open({{"VORION_SET", "clusters=2"}, {"VORION_TIME", "profiled"}}),
-            CL_SUCCESS);
-  EXPECT_EQ(open({}), CL_INVALID_OPERATION);
-  EXPECT_NE(Said().find("other options"), std::string::npos) << Said();
+  // Again the same, but nothing else while a context has them.
+  {
+    const cl::Context Context(device());
+    EXPECT_EQ(open({{"VORION_SET", "clusters=2"}, {"VORION_TIME", "profiled"}}),
+              CL_SUCCESS);
+    EXPECT_EQ(open({}), CL_INVALID_OPERATION);
+    EXPECT_NE(Said().find("other options"), std::string::npos) << Said();
+  }
+}
+
+// As a loader does that looks for devices before a program opens them.
+TEST_F(Platform, DevicesWithoutAContextAreOpenedAnew) {
+  ASSERT_EQ(open({}), CL_SUCCESS) << Problem.data();
+  EXPECT_EQ(device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 8u);
+  EXPECT_EQ(open({{"VORION_SET", "cores=2"}}), CL_DEVICE_NOT_AVAILABLE);
+  // Without a machine there is no device, until one opens.
+  std::vector<cl::Device> Found;
+  Chosen.getDevices(CL_DEVICE_TYPE_ALL, &Found);
+  EXPECT_TRUE(Found.empty());
+  ASSERT_EQ(open({{"VORION_SET", "clusters=2"}, {"VORION_TIME", "profiled"}}),
+            CL_SUCCESS)
+      << Problem.data();
+  EXPECT_EQ(device().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 16u);
 }
 
 // The devices are as the test before has opened them, with the clock.

@@ -19,7 +19,8 @@ struct SceneFocus {
 /// Finds it from the opacities, places and flat sides of \p S, which has at
 /// least one Gaussian. Unless \p Up is given, up is near -y, as in trainers'
 /// scenes, or near +z: where large flat Gaussians point, as those of floors do,
-/// and along which the scene is not high.
+/// and along which the scene is not high. If most of them lie above the rest,
+/// it is the other way round.
 SceneFocus focusOf(const Scene &S, std::optional<Vector> Up = std::nullopt);
 
 /// The view, of those around the focus at several heights and distances, from

@@ -49,9 +49,10 @@ TEST(GoodView, StraysDoNotMoveTheFocus) {
 }
 
 TEST(GoodView, UpIsAcrossTheFloor) {
-  // The usual sign of each axis: no scene says more.
-  EXPECT_LT(focusOf(heapOnFloor({}, 1, -1)).Up[1], -0.99);
-  EXPECT_GT(focusOf(heapOnFloor({}, 2, 1)).Up[2], 0.99);
+  for (const std::size_t Axis : {1U, 2U})
+    for (const double Sign : {-1.0, 1.0})
+      EXPECT_GT(Sign * focusOf(heapOnFloor({}, Axis, Sign)).Up[Axis], 0.99)
+          << Axis << Sign;
   // Unless the user says so.
   EXPECT_EQ(focusOf(heapOnFloor({}, 1, -1), Vector{0, 0, -1}).Up,
             (Vector{0, 0, -1}));

@@ -54,7 +54,28 @@ std::optional<Vector> upOf(const std::vector<Camera> &Cameras) {
     Sum = Sum - axisOf(C, 1);
   if (!(length(Sum) > 0.1 * static_cast<double>(Cameras.size())))
     return std::nullopt;
-  return unit(Sum);
+  // A level camera that looks down has up before it, so the mean of few leans.
+  // Its own right is level: up is the direction to which all are most nearly at
+  // right angles, the eigenvector of the least eigenvalue of the sum of r r^T.
+  // Inverse iteration from the mean keeps to the mean where rights say nothing.
+  const Vector Mean = unit(Sum);
+  std::array<Vector, 3> A{};
+  const double Count = static_cast<double>(Cameras.size());
+  for (std::size_t I = 0; I < 3; ++I) {
+    A[I][I] = 1e-6 * Count;
+    for (const Camera &C : Cameras)
+      A[I] = A[I] + axisOf(C, 0)[I] * axisOf(C, 0);
+  }
+  Vector Up = Mean;
+  for (int Step = 0; Step < 16; ++Step)
+    Up = unit(Up[0] * cross(A[1], A[2]) + Up[1] * cross(A[2], A[0]) +
+              Up[2] * cross(A[0], A[1]));
+  double Lean = 0;
+  for (const Camera &C : Cameras)
+    Lean += dot(axisOf(C, 0), Up) * dot(axisOf(C, 0), Up) / Count;
+  // Cameras on their side, of portraits, have rights that are not level.
+  constexpr double Level = 0.03; // 10 degrees
+  return Lean < Level && dot(Up, Mean) > 0.5 ? Up : Mean;
 }
 
 std::optional<Vector> lookedAt(const std::vector<Camera> &Cameras) {

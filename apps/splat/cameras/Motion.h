@@ -9,8 +9,9 @@
 
 namespace vorion::splat {
 
-/// The mean direction that \p Cameras have above them; nothing if they have
-/// none in common.
+/// The direction that \p Cameras have above them: that to which the right of
+/// each is at a right angle if they are level, else the mean of their own ups;
+/// nothing if they have none in common.
 std::optional<Vector> upOf(const std::vector<Camera> &Cameras);
 
 /// The point nearest to the optical axes of \p Cameras, by squares of

@@ -32,6 +32,27 @@ TEST(Motion, WhatACircleOfCamerasLooksAtIsItsMiddle) {
   EXPECT_NEAR((*Up)[1], -1, 1e-12);
 }
 
+// The mean of the three ups leans by 20 degrees.
+TEST(Motion, ACameraThatLooksDownDoesNotTiltUp) {
+  std::vector<Camera> Cameras;
+  for (const auto &[Turn, Down] :
+       {std::pair(0.0, 0.0), std::pair(0.5, 0.1), std::pair(0.3, 1.3)}) {
+    Camera C = Camera::ahead(8, 6, 10);
+    const Vector Forward{std::sin(Turn) * std::cos(Down), std::sin(Down),
+                         std::cos(Turn) * std::cos(Down)};
+    const Vector Right = unit(cross({0, 1, 0}, Forward));
+    const Vector Below = cross(Forward, Right);
+    for (std::size_t R = 0; R < 3; ++R)
+      C.Rotation[R] = {Right[R], Below[R], Forward[R]};
+    Cameras.push_back(C);
+  }
+  EXPECT_LT(length(*upOf(Cameras) - Vector{0, -1, 0}), 1e-9);
+  // On its side, a camera counts by its own up.
+  Camera &Portrait = Cameras.emplace_back(Camera::ahead(8, 6, 10));
+  Portrait.Rotation = {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}};
+  EXPECT_GT(length(*upOf(Cameras) - Vector{0, -1, 0}), 0.2);
+}
+
 TEST(Motion, CamerasThatLookTheSameWayOrOutwardsLookAtNothing) {
   std::vector<Camera> Cameras(4, Camera::ahead(8, 6, 10));
   for (std::size_t I = 0; I < 4; ++I)

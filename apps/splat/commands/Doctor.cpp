@@ -49,7 +49,11 @@ Diagnoses examineAll(const DeviceOptions &Options) {
   const char *Root = std::getenv("VORION_ROOT");
   Add({Loader.Found, examineTools(Root ? Root : "", Loader.Libraries),
        examineCache(kernelCacheFolder())});
-  Add(examineDevice(Options));
+  // One that ends programs would end this one.
+  if (Diagnoses Broken = examineLibraries(Loader.Libraries); !Broken.empty())
+    Add(std::move(Broken));
+  else
+    Add(examineDevice(Options));
   Add(examineVariables(Environment));
   Add({examineDisk("."), examineMemory(), examineVectors()});
   return All;

@@ -127,6 +127,8 @@ public:
   Expected<Success> measureAll();
   Expected<Success> measureOnly();
   Expected<Findings> findings();
+  /// The machines that are always tried.
+  std::size_t singles() const { return Singles; }
 
 private:
   bool hasSmall() const { return !P.Small.Views.empty(); }
@@ -258,6 +260,11 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
   if (!P)
     return P.error();
   Study S(A, *P);
+  if (A.Machines < S.singles())
+    printNote(
+        fmt::format("splat: --machines {}: the base and each change alone "
+                    "are always tried, {} machines\n",
+                    A.Machines, S.singles()));
   if (A.List) {
     const auto Left = S.next();
     if (!Left)

@@ -32,10 +32,11 @@ public:
         sayLine();
     }
     Blends = Doing == name(Stage::Blend);
+    // What is read back was drawn before.
+    const std::size_t View = Drawn + (Doing == name(Stage::ReadBack) ? 0 : 1);
     if (canOverwrite())
       std::fputs(fmt::format("\r\033[Ksplat: {} view {} of {}: {} ...{}",
-                             barText(Drawn, Views), Drawn + 1, Views, Doing,
-                             left())
+                             barText(Drawn, Views), View, Views, Doing, left())
                      .c_str(),
                  stderr);
   }

@@ -16,11 +16,15 @@ namespace vorion::splat {
 
 void addSceneOptions(CLI::App &App, SceneArguments &A) {
   std::vector<std::string_view> Titles;
-  Titles.reserve(sceneFormats().size());
-  for (const SceneFormatRecord &F : sceneFormats())
+  std::vector<std::string> Endings;
+  for (const SceneFormatRecord &F : sceneFormats()) {
     Titles.push_back(F.Title);
+    if (!F.Ending.empty())
+      Endings.emplace_back(F.Ending);
+  }
   takesFile(App.add_option("scene", A.Path,
-                           fmt::format("Scene: {}", fmt::join(Titles, ", "))))
+                           fmt::format("Scene: {}", fmt::join(Titles, ", "))),
+            Endings)
       ->required();
   App.add_option("--axes", A.Axes,
                  "Mirror the scene between conventions, as rub:rdf (default: "

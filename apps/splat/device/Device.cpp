@@ -62,13 +62,15 @@ std::vector<Candidate> allDevices(const DeviceOptions &Options,
   return Found;
 }
 
+/// Null if there is none, or if the one that was meant could not be opened:
+/// \p IsBroken says that a platform has a problem.
 const Candidate *choose(const std::vector<Candidate> &All,
-                        const std::string &Wanted) {
+                        const std::string &Wanted, bool IsBroken) {
   const std::string Name = Wanted.empty() ? "Vorion" : Wanted;
   for (const Candidate &C : All)
     if (C.Name.find(Name) != std::string::npos)
       return &C;
-  return Wanted.empty() && !All.empty() ? &All.front() : nullptr;
+  return Wanted.empty() && !IsBroken && !All.empty() ? &All.front() : nullptr;
 }
 
 Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
@@ -117,7 +119,7 @@ Expected<Device> Device::open(const std::string &Wanted,
                               const DeviceOptions &Options) {
   std::optional<Error> Problem;
   const std::vector<Candidate> All = allDevices(Options, Problem);
-  const Candidate *Chosen = choose(All, Wanted);
+  const Candidate *Chosen = choose(All, Wanted, Problem.has_value());
   if (!Chosen)
     return Problem ? *Problem : noDevice(All, Wanted);
 

@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -153,6 +157,44 @@ Diagnosis examineTools(const std::string &Root,
           sourceEnvironment()};
 }
 
+/// The signal that ends a process which looks for the devices of \p Library; 0
+/// for none.
+static int signalOf(const std::string &Library) {
+  std::fflush(nullptr); // the child would write it again
+  const pid_t Child = fork();
+  if (Child == 0) {
+    // What it says is no line of the doctor's.
+    const int Nowhere = open("/dev/null", O_WRONLY);
+    dup2(Nowhere, STDOUT_FILENO);
+    dup2(Nowhere, STDERR_FILENO);
+    setenv("OCL_ICD_VENDORS", Library.c_str(), 1);
+    std::vector<cl::Platform> Platforms;
+    cl::Platform::get(&Platforms);
+    for (const cl::Platform &P : Platforms) {
+      std::vector<cl::Device> Devices;
+      P.getDevices(CL_DEVICE_TYPE_ALL, &Devices);
+    }
+    _exit(0);
+  }
+  int Status = 0;
+  if (Child < 0 || waitpid(Child, &Status, 0) != Child)
+    return 0;
+  return WIFSIGNALED(Status) ? WTERMSIG(Status) : 0;
+}
+
+Diagnoses examineLibraries(const std::vector<std::string> &Libraries) {
+  Diagnoses Found;
+  for (const std::string &Library : Libraries)
+    if (const int Signal = signalOf(Library); Signal != 0)
+      Found.push_back(
+          {DiagnosisState::Fault, "platform",
+           fmt::format("{} ends programs that look for its devices ({})",
+                       Library, strsignal(Signal)),
+           fmt::format("{}, or remove the package of that library",
+                       sourceEnvironment())});
+  return Found;
+}
+
 namespace {
 
 constexpr const char *Source = "kernel void doctor(global uint *out) {"
@@ -211,9 +253,10 @@ Diagnoses examineDevice(const DeviceOptions &Options) {
                    D->globalBytes() >> 20),
        ""}};
   if (const std::string Problem = runKernel(*D); !Problem.empty())
-    Found.push_back({DiagnosisState::Fault, "kernel",
-                     "a small kernel " + Problem,
-                     "mend the faults above; if there are none, build again"});
+    Found.push_back(
+        {DiagnosisState::Fault, "kernel", "a small kernel " + Problem,
+         "mend the faults above; if there are none, build or install "
+         "again"});
   else
     Found.push_back({DiagnosisState::Well, "kernel",
                      "a small kernel compiles, runs and gives the right values",

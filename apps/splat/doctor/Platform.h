@@ -24,6 +24,10 @@ std::string vendorsPlace();
 Diagnosis examineTools(const std::string &Root,
                        const std::vector<std::string> &Libraries);
 
+/// Faults of \p Libraries that end a program which looks for their devices,
+/// each tried in a process of its own.
+Diagnoses examineLibraries(const std::vector<std::string> &Libraries);
+
 /// Opens the device and runs a kernel on it.
 Diagnoses examineDevice(const DeviceOptions &Options);
 

@@ -75,8 +75,8 @@ private:
     // Division, since an absurd count times the stride need not fit.
     if (E.Stride == 0 || Left / E.Stride < E.Count)
       return Error{Where,
-                   fmt::format("{} bytes left for element {}, expected "
-                               "{} rows of {} bytes",
+                   fmt::format("the file is cut off: {} bytes left for element "
+                               "{}, expected {} rows of {} bytes",
                                Left, printable(E.Name), E.Count, E.Stride)};
     At += E.Count * E.Stride;
     return Success{};

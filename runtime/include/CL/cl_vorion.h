@@ -55,12 +55,14 @@ typedef struct cl_option_vorion {
 } cl_option_vorion;
 
 /* Opens the platform's devices, which clGetDeviceIDs else does, with options
- * that go before the environment's variables of their names. Devices stay open,
- * as they were opened, for as long as the process. problem, if not NULL,
+ * that go before the environment's variables of their names. Devices that are
+ * open with other options, but of which there is no context, are opened anew;
+ * those with a context stay as they are. problem, if not NULL,
  * receives why they cannot be opened, NUL-terminated and cut off at size;
  * nothing is printed then.
  * CL_INVALID_VALUE: an option that there is not.
- * CL_INVALID_OPERATION: the devices are open with other options.
+ * CL_INVALID_OPERATION: there is a context, and the devices are open with other
+ * options.
  * CL_OUT_OF_HOST_MEMORY: no room for a machine's memory.
  * CL_DEVICE_NOT_AVAILABLE: an option whose text is wrong.
  * CL_INVALID_PROPERTY: a file that an option names cannot be read or written,

@@ -103,10 +103,17 @@ Error unknownOption(const std::string &Option) {
                                     "-v",
                                     "-Rpass=",
                                     "-Rpass-missed=",
-                                    "-Rpass-analysis="};
+                                    "-Rpass-analysis=",
+                                    "--help",
+                                    "--resources",
+                                    "--version"};
   Known.insert(Known.end(), Ignored.begin(), Ignored.end());
   Known.insert(Known.end(), OpenClOptions.begin(), OpenClOptions.end());
-  const std::string_view Meant = closestTo(Option, Known);
+  // An option's value is no part of its name.
+  const std::string Name = Option.substr(0, Option.find('=') + 1);
+  std::string_view Meant = closestTo(Option, Known);
+  if (Meant.empty() && !Name.empty())
+    Meant = closestTo(Name, Known);
   return usageError(Option + ": unknown option, " +
                     (Meant.empty()
                          ? "expected one that vorion-clang --help lists"

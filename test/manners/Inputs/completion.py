@@ -46,9 +46,14 @@ CASES = (
     ("vorion-sim --config ", "cameras.json prototype scaled-forwarding !scene.ply"),
     ("vorion-sim --signature-granularity ", "1 2 4 8 16 !scene.ply"),
     ("vorion-objdump --disassemble-a", "--disassemble-all"),
+    ("vorion-objdump -d sc", "scene.ply"),
+    ("vorion-objdump --disassemble-all ", "scene.ply inner/"),
+    ("vorion-clang sc", "scene.ply"),
     ("vorion-clang -fcolor-d", "-fcolor-diagnostics"),
     ("vorion-link --vers", "--version"),
 )
+# fish offers all files.
+CASES_BUT_FISH = (("splat render ", "scene.ply inner/ !old.png !cameras.json"),)
 shell, build, folder = sys.argv[1], *map(os.path.abspath, sys.argv[2:])
 share = os.path.join(build, "share")
 os.makedirs(os.path.join(folder, "inner"))
@@ -134,7 +139,7 @@ PS1=; unsetopt zle_bracketed_paste; print -r -- READY >matches
 
 complete = {"bash": with_bash, "fish": with_fish}.get(shell) or Zsh()
 wrong = 0
-for line, expected in CASES:
+for line, expected in CASES + (() if shell == "fish" else CASES_BUT_FISH):
     before = line.split(" ")[-1].rpartition("=")[0]
     listed = line.split(" ")[-1].rpartition("=")[2].rpartition(",")[0]
     # zsh and fish give what follows the option's "=", or all of it; the same of lists.

@@ -53,5 +53,6 @@ render = ["splat", "render", os.path.join(folder, "scene.ply"), "--cameras", os.
 for name, variables, on_terminal in KINDS:
     text = said(render, variables, on_terminal)
     left = "time left" if re.search(rb"\] view 2 of 2: [^,]*, \d+ (s|min) left", text) else "no time left"
-    print(f"views: {name} {kind(text)}, {left}")
+    beyond = ", one too many" if b"view 3 of 2" in text else ""
+    print(f"views: {name} {kind(text)}, {left}{beyond}")
 print("quiet:", kind(said([*render, "--quiet"], {"TERM": "xterm"}, True)))

@@ -15,8 +15,7 @@ struct VorionDevice {
         Thread(this->Opened.get(), Kernels) {}
   Machine Opened;
   vx_device_info Info{};
-  std::string Name, BuildHash;
-  cl_bool Available = CL_TRUE;
+  std::string BuildHash;
   KernelCache Kernels;
   Worker Thread;
 };

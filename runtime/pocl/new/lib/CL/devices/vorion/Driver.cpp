@@ -61,9 +61,9 @@ cl_int init(unsigned, cl_device_id Device, const char *Parameters) {
                    "-" + Own->Kernels.tools().fingerprint();
   describeDevice(Device, Info);
   describeCompilation(Device, Info);
-  Own->Name = "Vorion";
-  Device->long_name = Own->Name.data();
-  Device->available = &Own->Available;
+  static char Name[] = "Vorion";
+  Device->long_name = Name;
+  Device->available = availability();
   Device->data = Own.release();
   return CL_SUCCESS;
 }
@@ -75,7 +75,11 @@ cl_int uninit(unsigned, cl_device_id Device) {
 }
 
 cl_int reinit(unsigned Index, cl_device_id Device, const char *Parameters) {
-  return init(Index, Device, Parameters);
+  const cl_int Status = init(Index, Device, Parameters);
+  // PoCL goes on after an error, with a device that has no machine.
+  if (Status != CL_SUCCESS)
+    *availability() = CL_FALSE;
+  return Status;
 }
 
 char *buildHash(cl_device_id Device) {

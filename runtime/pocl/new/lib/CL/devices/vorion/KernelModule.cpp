@@ -74,9 +74,11 @@ public:
 
     llvm::vorion::forgetSharedVariables(M);
     const uint64_t LocalBytes = placeLocals();
-    if (LocalBytes > UINT32_MAX - VX_LOCAL_BASE)
+    constexpr uint64_t MostBytes = UINT32_MAX - VX_LOCAL_BASE;
+    if (LocalBytes > MostBytes)
       return "it uses " + std::to_string(LocalBytes) +
-             " bytes of static local memory, more than there are addresses for";
+             " bytes of static local memory, and there are addresses for " +
+             std::to_string(MostBytes);
     addRecord(*Entry, *Body, LocalBytes);
     addVariables(*Entry);
     if (GlobalVariable *Context = M.getGlobalVariable(pocl::SimtContextGlobal))

@@ -1,7 +1,12 @@
 #include "Opening.h"
 
 extern "C" {
+#include "devices.h"
 #include "pocl_util.h"
+
+// clCreateContext.c has these.
+extern pocl_lock_t pocl_context_handling_lock;
+extern unsigned cl_context_count;
 }
 
 #include <algorithm>
@@ -63,18 +68,43 @@ cl_int answer(const Failure &F, size_t Size, char *Problem) {
   return F.Status;
 }
 
-/// Makes \p Wanted what machines are opened with; false if some are open with
-/// other options.
+cl_bool AreAvailable = CL_TRUE;
+
+/// Closes the machines, unless a context may use them. PoCL then opens them
+/// when it next looks for devices.
+bool closeUnused() {
+  POCL_LOCK(pocl_context_handling_lock);
+  const bool IsUnused = cl_context_count == 0;
+  if (IsUnused) {
+    AreAvailable = CL_TRUE; // PoCL passes over those that are not
+    pocl_uninit_devices();
+  }
+  POCL_UNLOCK(pocl_context_handling_lock);
+  return IsUnused;
+}
+
+/// Makes \p Wanted what machines are opened with; false if some are in use
+/// with other options. Open ones may only have been looked at: of several
+/// platforms, Debian's loader (ocl-icd) counts the devices to sort them.
 bool prepare(Options Wanted, Failure &F) {
+  bool Reopens = false;
+  {
+    const std::lock_guard Guard(Lock);
+    if (OpenMachines > 0 && Wanted == Given)
+      return true;
+    Reopens = OpenMachines > 0 || !AreAvailable;
+  }
+  if (Reopens && !closeUnused())
+    return false;
   const std::lock_guard Guard(Lock);
-  if (OpenMachines > 0)
-    return Wanted == Given;
   Given = std::move(Wanted);
   Caller = &F;
   return true;
 }
 
 } // namespace
+
+cl_bool *availability() { return &AreAvailable; }
 
 void DeviceCloser::operator()(vx_device *Device) const {
   vx_device_close(Device);
@@ -95,9 +125,9 @@ cl_int CL_API_CALL openDevices(cl_platform_id Platform, cl_uint NumOptions,
     Wanted.emplace_back(List[I].name, List[I].text);
   }
   if (!prepare(std::move(Wanted), F))
-    return answer({CL_INVALID_OPERATION, "the devices are open with other "
+    return answer({CL_INVALID_OPERATION, "the devices are in use with other "
                                          "options, expected one set of options "
-                                         "for a process"},
+                                         "for all contexts"},
                   Size, Problem);
   cl_uint Devices = 0;
   const cl_int Status = POname(clGetDeviceIDs)(Platform, CL_DEVICE_TYPE_ALL, 0,

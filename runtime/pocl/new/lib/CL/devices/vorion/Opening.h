@@ -25,6 +25,9 @@ cl_int CL_API_CALL openDevices(cl_platform_id Platform, cl_uint NumOptions,
 /// of that name. Null: why has been told, and \p Status says what to return.
 Machine openMachine(const char *Config, cl_int &Status);
 
+/// Whether the devices have machines, all or none, for PoCL to look at.
+cl_bool *availability();
+
 /// Whether the option \p Name, or else the environment's variable, is set.
 bool isOptionSet(const char *Name);
 
