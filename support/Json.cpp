@@ -86,6 +86,10 @@ std::string placeOf(std::string_view Text, std::size_t Byte,
 /// syntax error while parsing value - invalid literal; last read: '...'". What
 /// it read may be any bytes, and what it expected is the parser's matter.
 std::string_view reasonOf(std::string_view Said) {
+  // Versions from 3.12 on have a sentence of its own for no text at all.
+  if (Said.find(": attempting to parse an empty input") !=
+      std::string_view::npos)
+    return "unexpected end of input";
   constexpr std::string_view Begin = " - ";
   const std::size_t At = Said.find(Begin);
   if (At == std::string_view::npos)
