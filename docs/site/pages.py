@@ -82,8 +82,8 @@ def on_page_markdown(markdown, page, config, files):
 
 def on_post_build(config):
     """Writes index and worker of the search as scripts: a page opened from its file may load scripts, but neither
-    other files nor a worker by its name. Removes what only a server, a developer of the theme or a search in other
-    languages uses.
+    other files nor a worker by its name. Removes what only a host on the web, a developer of the theme or a search in
+    other languages uses.
 
     mkdocs-material 8 takes both from __search. Its version 9 takes the index from __index, once it has loaded
     search_index.js, and starts the worker by its name.
@@ -105,7 +105,7 @@ window.Worker = class extends Worker {{
     with open(os.path.join(search, "search_index.js"), "w", encoding="utf-8") as f:
         f.write("// offline.js has the index.\n")
     # The map of the site has the day on which it was built, too.
-    for name in ("404.html", "sitemap.xml", "sitemap.xml.gz", "search/search_index.json", "assets/**/*.map"):
+    for name in ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/**/*.map"):
         for path in glob.glob(os.path.join(config["site_dir"], name), recursive=True):
             os.remove(path)
     shutil.rmtree(os.path.join(config["site_dir"], "assets", "javascripts", "lunr"), ignore_errors=True)
