@@ -50,7 +50,7 @@ makeRoot() {
     awk '$1 == "bookworm" || $1 == "trixie" { print $2; exit }')
   [ -n "$Mirror" ] || fail "apt knows no mirror of Debian 12 or 13 (bookworm, trixie)"
   # shellcheck disable=SC2064 # the folder is what it is now
-  trap "umount '$Folder/dev' '$Folder/proc' 2>/dev/null || true" EXIT
+  trap "umount '$Folder/dev/pts' '$Folder/dev' '$Folder/proc' 2>/dev/null || true" EXIT
   step "making a Debian root ($Release)" debootstrap debootstrap --variant=minbase "$Release" "$Folder" "$Mirror"
   cp /etc/resolv.conf "$Folder/etc/resolv.conf"
   for Extra in /etc/apt/apt.conf.d/*proxy*; do
@@ -58,4 +58,5 @@ makeRoot() {
   done
   mount -t proc proc "$Folder/proc"
   mount --bind /dev "$Folder/dev"
+  mount --bind /dev/pts "$Folder/dev/pts" # tests open terminals
 }
