@@ -166,7 +166,7 @@ function drawTable(entries, front, base) {
   for (const [key, metric] of Object.entries(METRICS))
     columns.push([metric.label, e => e.errors[key], e => format(e.errors[key], metric)]);
   for (const axis of Object.keys(AXES))
-    columns.push([AXES[axis].label, e => e.times[axis] ?? Infinity,
+    columns.push([`${AXES[axis].label}; against the default`, e => e.times[axis] ?? Infinity,
       e => `${time(e.times[axis], axis)} ${base ? changeOf(e.times[axis], base.times[axis]) : ''}`]);
   columns.push(['lane area', e => e.area, e => `${(100 * e.area).toFixed(1)} %`]);
   drawColumns(byId('table'), columns, entries, state.sort ?? { n: 1, down: true }, sort => { state.sort = sort; draw(); }, (row, e) => {

@@ -185,9 +185,12 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
     }
     const Candidate &C = (*Measured)[*Best];
     const auto Gain = [&](const Candidate &Of, const Candidate &Base) {
-      return fmt::format("{:.1f} dB, {:+.1f} % of {:.6g}", Of.db(),
-                         100 * (*Of.time(Axis) / *Base.time(Axis) - 1),
-                         *Base.time(Axis));
+      const double Default = *Base.time(Axis);
+      return fmt::format("{:.1f} dB, {:+.1f} % of the default's {}", Of.db(),
+                         100 * (*Of.time(Axis) / Default - 1),
+                         Axis == TimeAxis::Energy
+                             ? fmt::format("{:.4g} mJ", 1e3 * Default)
+                             : fmt::format("{:.4g} M cycles", 1e-6 * Default));
     };
     Text += fmt::format("{}: {}", C.Chosen.name(), Gain(C, Measured->front()));
     if (!V.Check.empty()) {
