@@ -88,6 +88,10 @@ std::string wrongPattern(const std::string &Pattern) {
 
 /// Refuses \p Option, with the one that was meant if there is one like it.
 Error unknownOption(const std::string &Option) {
+  if (Option.starts_with("-cl-std="))
+    return usageError(Option +
+                      ": not a language that is offered, expected CL1.0, "
+                      "CL1.1, CL1.2 or CL3.0");
   std::vector<std::string> Known = {"-o",
                                     "-D",
                                     "-U",

@@ -104,6 +104,8 @@ Error kernelError(const std::string &Input, const std::string &Output) {
   if (const auto Files = fileError(Output))
     return *Files;
   if (const auto Reason = after(Output, KernelRefused)) {
+    if (Reason->find(", expected ") != std::string::npos)
+      return {Input, *Reason};
     const std::size_t Compiler = Reason->find(CompilerFailed);
     // "kernel NAME: FOLDER/vorion-clang failed"
     return {Input, (Compiler == std::string::npos

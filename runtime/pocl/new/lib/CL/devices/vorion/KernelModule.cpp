@@ -77,7 +77,7 @@ public:
     constexpr uint64_t MostBytes = UINT32_MAX - VX_LOCAL_BASE;
     if (LocalBytes > MostBytes)
       return "it uses " + std::to_string(LocalBytes) +
-             " bytes of static local memory, and there are addresses for " +
+             " bytes of static local memory, expected at most " +
              std::to_string(MostBytes);
     addRecord(*Entry, *Body, LocalBytes);
     addVariables(*Entry);
