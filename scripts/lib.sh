@@ -53,6 +53,8 @@ makeRoot() {
   trap "umount '$Folder/dev/pts' '$Folder/dev' '$Folder/proc' 2>/dev/null || true" EXIT
   step "making a Debian root ($Release)" debootstrap debootstrap --variant=minbase "$Release" "$Folder" "$Mirror"
   cp /etc/resolv.conf "$Folder/etc/resolv.conf"
+  # As Debian's installer does.
+  printf '127.0.0.1 localhost %s\n' "$(hostname)" >"$Folder/etc/hosts"
   for Extra in /etc/apt/apt.conf.d/*proxy*; do
     [ -e "$Extra" ] && cp "$Extra" "$Folder/etc/apt/apt.conf.d/"
   done

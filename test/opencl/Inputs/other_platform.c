@@ -1,6 +1,7 @@
-/* An OpenCL platform of somebody else, with one device "Other" that does nothing: for what programs and Debian's loader
- * (ocl-icd) do where there is another platform beside ours. Built with -DABORTS it ends a program that looks for
- * devices, as PoCL's CPU device does where /sys is missing. */
+/* An OpenCL platform of somebody else, with one device "Other" that does
+ * nothing: for what programs and Debian's loader (ocl-icd) do where there is
+ * another platform beside ours. Built with -DABORTS it ends a program that
+ * looks for devices, as PoCL's CPU device does where /sys is missing. */
 #include <CL/cl_icd.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +14,8 @@ struct _cl_device_id {
   cl_icd_dispatch *Dispatch;
 } Device = {&Dispatch};
 
-static cl_int answer(const void *Value, size_t Bytes, size_t Size, void *To, size_t *SizeRet) {
+static cl_int answer(const void *Value, size_t Bytes, size_t Size, void *To,
+                     size_t *SizeRet) {
   if (SizeRet)
     *SizeRet = Bytes;
   if (To && Size < Bytes)
@@ -23,12 +25,14 @@ static cl_int answer(const void *Value, size_t Bytes, size_t Size, void *To, siz
   return CL_SUCCESS;
 }
 
-static cl_int answerText(const char *Text, size_t Size, void *To, size_t *SizeRet) {
+static cl_int answerText(const char *Text, size_t Size, void *To,
+                         size_t *SizeRet) {
   return answer(Text, strlen(Text) + 1, Size, To, SizeRet);
 }
 
-static cl_int CL_API_CALL getPlatformInfo(cl_platform_id P, cl_platform_info Name, size_t Size, void *To,
-                                          size_t *SizeRet) {
+static cl_int CL_API_CALL getPlatformInfo(cl_platform_id P,
+                                          cl_platform_info Name, size_t Size,
+                                          void *To, size_t *SizeRet) {
   switch (Name) {
   case CL_PLATFORM_EXTENSIONS:
     return answerText("cl_khr_icd", Size, To, SizeRet);
@@ -41,7 +45,8 @@ static cl_int CL_API_CALL getPlatformInfo(cl_platform_id P, cl_platform_info Nam
   }
 }
 
-static cl_int CL_API_CALL getDeviceIds(cl_platform_id P, cl_device_type Type, cl_uint Most, cl_device_id *To,
+static cl_int CL_API_CALL getDeviceIds(cl_platform_id P, cl_device_type Type,
+                                       cl_uint Most, cl_device_id *To,
                                        cl_uint *Count) {
 #ifdef ABORTS
   abort();
@@ -53,7 +58,9 @@ static cl_int CL_API_CALL getDeviceIds(cl_platform_id P, cl_device_type Type, cl
   return CL_SUCCESS;
 }
 
-static cl_int CL_API_CALL getDeviceInfo(cl_device_id D, cl_device_info Name, size_t Size, void *To, size_t *SizeRet) {
+static cl_int CL_API_CALL getDeviceInfo(cl_device_id D, cl_device_info Name,
+                                        size_t Size, void *To,
+                                        size_t *SizeRet) {
   const cl_platform_id Of = &Platform;
   switch (Name) {
   case CL_DEVICE_NAME:
@@ -69,9 +76,12 @@ static cl_int CL_API_CALL getDeviceInfo(cl_device_id D, cl_device_info Name, siz
 
 static cl_int CL_API_CALL keepDevice(cl_device_id D) { return CL_SUCCESS; }
 
-static void *CL_API_CALL getExtension(cl_platform_id P, const char *Name) { return NULL; }
+static void *CL_API_CALL getExtension(cl_platform_id P, const char *Name) {
+  return NULL;
+}
 
-static cl_int CL_API_CALL getPlatformIds(cl_uint Most, cl_platform_id *To, cl_uint *Count) {
+static cl_int CL_API_CALL getPlatformIds(cl_uint Most, cl_platform_id *To,
+                                         cl_uint *Count) {
   Dispatch.clGetPlatformIDs = getPlatformIds;
   Dispatch.clGetPlatformInfo = getPlatformInfo;
   Dispatch.clGetDeviceIDs = getDeviceIds;
@@ -90,7 +100,9 @@ CL_API_ENTRY void *CL_API_CALL clGetExtensionFunctionAddress(const char *Name) {
   return strcmp(Name, "clIcdGetPlatformIDsKHR") ? NULL : (void *)getPlatformIds;
 }
 
-CL_API_ENTRY cl_int CL_API_CALL clGetPlatformInfo(cl_platform_id P, cl_platform_info Name, size_t Size, void *To,
+CL_API_ENTRY cl_int CL_API_CALL clGetPlatformInfo(cl_platform_id P,
+                                                  cl_platform_info Name,
+                                                  size_t Size, void *To,
                                                   size_t *SizeRet) {
   return getPlatformInfo(P, Name, Size, To, SizeRet);
 }
