@@ -3,6 +3,8 @@
 # own scene, renders it on the simulated GPU, and says where the results are.
 # usage: scripts/demo.sh
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
+[ $# -eq 0 ] || fail "unknown argument $1, expected none"
 
 "$Root/scripts/setup.sh"
 source "$Root/scripts/env.sh"

@@ -4,9 +4,16 @@ if [ -n "${BASH_VERSION-}${ZSH_VERSION-}" ]; then
   # zsh calls a sourced file $0.
   VORION_ROOT=$(cd "$(dirname "${BASH_SOURCE:-$0}")/.." && pwd)/build/dev
   export VORION_ROOT
-  export PATH="$VORION_ROOT/bin:$PATH"
+  # In front, and there once, however often this is sourced.
+  case "$PATH:" in
+  "$VORION_ROOT/bin:"*) ;;
+  *) export PATH="$VORION_ROOT/bin:$PATH" ;;
+  esac
   export OCL_ICD_VENDORS="$VORION_ROOT/etc/OpenCL/vendors"
-  export PYTHONPATH="$VORION_ROOT/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"
+  case "${PYTHONPATH-}:" in
+  "$VORION_ROOT/lib/python3/dist-packages:"*) ;;
+  *) export PYTHONPATH="$VORION_ROOT/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}" ;;
+  esac
 else
   echo "env.sh: error: this is neither bash nor zsh, expected one of them" >&2
 fi

@@ -5,6 +5,7 @@
 # environment. Needs root, debootstrap and lintian.
 # usage: scripts/fresh-packages.sh NEW_FOLDER   (kept afterwards, to look into)
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
 
 Machine=${1:-}
 [ -n "$Machine" ] || fail "no folder given, expected: fresh-packages.sh NEW_FOLDER"

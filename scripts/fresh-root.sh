@@ -4,6 +4,7 @@
 # network) and test.sh are run and timed. Needs root and debootstrap.
 # usage: scripts/fresh-root.sh NEW_FOLDER [bookworm|trixie]   (Debian 12 or 13; the folder is kept, to look into)
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
 
 Machine=${1:-}
 Release=${2:-bookworm}

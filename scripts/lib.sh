@@ -62,3 +62,8 @@ makeRoot() {
   mount --bind /dev "$Folder/dev"
   mount --bind /dev/pts "$Folder/dev/pts" # tests open terminals
 }
+
+# showHelp "$@": with --help, says what the script's first lines say, and ends.
+showHelp() {
+  case "${1:-}" in -h | --help) sed -n '2,/^[^#]/s/^# \{0,1\}//p' "$0" && exit 0 ;; esac
+}

@@ -3,6 +3,7 @@
 # usage: scripts/lint.sh [--all|--fix]   (--fix formats in place, without analysis;
 # --all analyses the tests too, which takes twice as long)
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
 cd "$Root"
 
 mapfile -t Sources < <(git ls-files '*.cpp' '*.cc' '*.h' '*.c')

@@ -3,6 +3,7 @@
 # usage: scripts/old-host.sh [PROGRAM...]   (PROGRAM: a test program of build/dev/bin; default: all of isasim/)
 # exit codes: 0 all pass, 1 some fail
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
 command -v qemu-x86_64 >/dev/null || fail "no qemu-x86_64, expected the package qemu-user"
 Programs=("$@")
 if [ $# -eq 0 ]; then

@@ -5,6 +5,7 @@
 # usage: scripts/same-bits.sh NEW_FOLDER [TARGET...]   (default: everything; kept
 # afterwards, to look into. VORION_COMPONENTS chooses components, as for CMake)
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
 Folder=${1:-}
 [ -n "$Folder" ] || fail "no folder given, expected: same-bits.sh NEW_FOLDER [TARGET...]"
 [ -e "$Folder" ] && fail "$Folder exists, expected the name of a new folder"

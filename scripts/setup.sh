@@ -4,6 +4,7 @@
 # network, and goes on where a broken one stopped.
 # usage: scripts/setup.sh [--tests]   (--tests: also the tests, and the packages that only they need)
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
 Tests=${1:-}
 case "$Tests" in "" | --tests) ;; *) fail "unknown option $Tests, expected --tests" ;; esac
 

@@ -2,6 +2,7 @@
 # Sets the machine up and runs every test; the last line counts them.
 # usage: scripts/test.sh [--quick]   (--quick: without lint and sanitizer builds)
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
 Quick=${1:-}
 case "$Quick" in "" | --quick) ;; *) fail "unknown option $Quick, expected --quick" ;; esac
 

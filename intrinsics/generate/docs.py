@@ -25,7 +25,8 @@ def table(header, rows):
 
 def simt(records):
     yield "\n## SIMT instructions (XVortex)\n"
-    yield "R-type on custom-0. *last* is the highest-numbered active lane.\n"
+    yield "R-type on custom-0. In OpenCL C and in C, `#include <vorion.h>` declares them as functions. *last* is the\n" \
+          "highest-numbered active lane.\n"
     rows = []
     for i in records.of("SimtInstruction"):
         operands = ", ".join(x for x in (i.Outs, i.Ins) if x)

@@ -4,9 +4,20 @@ if [ -n "${BASH_VERSION-}${ZSH_VERSION-}" ]; then
   # zsh calls a sourced file $0.
   VORION_ROOT=$(cd "$(dirname "${BASH_SOURCE:-$0}")/../.." && pwd)
   export VORION_ROOT
-  export PATH="$VORION_ROOT/bin:$PATH"
+  # In front, and there once, however often this is sourced.
+  case "$PATH:" in
+  "$VORION_ROOT/bin:"*) ;;
+  *) export PATH="$VORION_ROOT/bin:$PATH" ;;
+  esac
   export OCL_ICD_VENDORS="$VORION_ROOT/pocl/lib/libpocl.so"
-  export PYTHONPATH="$VORION_ROOT/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}"
+  case "${PKG_CONFIG_PATH-}:" in
+  "$VORION_ROOT/lib/pkgconfig:"*) ;;
+  *) export PKG_CONFIG_PATH="$VORION_ROOT/lib/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}" ;;
+  esac
+  case "${PYTHONPATH-}:" in
+  "$VORION_ROOT/lib/python3/dist-packages:"*) ;;
+  *) export PYTHONPATH="$VORION_ROOT/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH}" ;;
+  esac
 else
   echo "env.sh: error: this is neither bash nor zsh, expected one of them" >&2
 fi

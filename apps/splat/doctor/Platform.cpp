@@ -239,9 +239,12 @@ std::string runKernel(const Device &D) {
 
 Diagnoses examineDevice(const DeviceOptions &Options) {
   const auto D = Device::open("", Options);
-  if (!D)
-    return {{DiagnosisState::Fault, "device", D.error().What,
+  if (!D) {
+    // Elsewhere it names the doctor.
+    const std::string Why = D.error().What.substr(0, D.error().What.find(" ("));
+    return {{DiagnosisState::Fault, "device", Why,
              mendOfOpening(D.error().What, Options)}};
+  }
   if (!D->isVorion())
     return {{DiagnosisState::Fault, "device",
              fmt::format("the OpenCL device is \"{}\", not Vorion", D->name()),
