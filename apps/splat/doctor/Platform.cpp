@@ -241,7 +241,8 @@ Diagnoses examineDevice(const DeviceOptions &Options) {
   const auto D = Device::open("", Options);
   if (!D) {
     // Elsewhere it names the doctor.
-    const std::string Why = D.error().What.substr(0, D.error().What.find(" ("));
+    const std::string Why =
+        D.error().What.substr(0, D.error().What.find(" (splat doctor says"));
     return {{DiagnosisState::Fault, "device", Why,
              mendOfOpening(D.error().What, Options)}};
   }
