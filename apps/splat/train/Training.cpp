@@ -243,6 +243,10 @@ Expected<Success> checkReplaced(Work &W, unsigned Begin) {
                              "another --checkpoint, or no such file",
                              Kept->Iteration, First),
                  ExitCode::Usage};
+  if (W.Processes.first() && Kept->Iteration < R.Run.Settings.Iterations)
+    W.Host.Note(fmt::format("begins anew; {} has iteration {}, from which "
+                            "--resume goes on",
+                            R.Checkpoint, Kept->Iteration));
   W.Replaced = Kept->Iteration;
   return Success{};
 }
