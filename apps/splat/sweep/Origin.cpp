@@ -110,7 +110,7 @@ std::string hashLine(const Origin &From) {
   for (const auto &[Name, Is] : From)
     if (Is.size() == 16 &&
         Is.find_first_not_of("0123456789abcdef") == std::string::npos)
-      Hashes.push_back(Name + " " + Is);
+      Hashes.push_back(fmt::format("{} {}", Name, Is));
   return fmt::format("fnv1a64: {}", fmt::join(Hashes, ", "));
 }
 

@@ -24,7 +24,7 @@ struct SettingField {
   /// Whether the table makes its option; others have one elsewhere.
   bool HasOption = true;
   /// Without an effect where the setting of this name is 0; empty for none.
-  std::string_view Of = "";
+  std::string_view Of = {};
 
   bool isWhole() const { return Member.index() == 1; }
   double get(const TrainSettings &S) const;
