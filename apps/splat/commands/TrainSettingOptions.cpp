@@ -76,11 +76,11 @@ SettingOptions::settings(const CLI::App &App, const TrainSettings &Own) const {
     Field->set(S, Value);
   }
   for (const auto &[Field, Value] : Values)
-    if (!Field->Of.empty() && settingField(Field->Of).get(S) == 0)
+    if (Field->Of && settingField(*Field->Of).get(S) == 0)
       return Error{"",
                    fmt::format("{}: expected {} above 0 with it",
                                Field->option(),
-                               settingField(Field->Of).option()),
+                               settingField(*Field->Of).option()),
                    ExitCode::Usage};
   return S;
 }
