@@ -1,6 +1,9 @@
 # Source this in bash or zsh: puts the tools and the Python package on the paths and
 # shows the device to every OpenCL program of this shell.  . scripts/env.sh
-if [ -n "${BASH_VERSION-}${ZSH_VERSION-}" ]; then
+if [ -n "${BASH_VERSION-}" ] && [ "${BASH_SOURCE-}" = "$0" ]; then
+  echo "env.sh: error: run, it changes nothing here, expected: . $0" >&2
+  exit 2
+elif [ -n "${BASH_VERSION-}${ZSH_VERSION-}" ]; then
   # zsh calls a sourced file $0.
   VORION_ROOT=$(cd "$(dirname "${BASH_SOURCE:-$0}")/.." && pwd)/build/dev
   export VORION_ROOT

@@ -221,11 +221,14 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
   return L;
 }
 
-Expected<Success> KernelLaunch::finish() const {
+void KernelLaunch::print() const {
   const Printed P = printedBy(*Device, Parts);
   std::fwrite(P.Text.data(), 1, P.Text.size(), stdout);
   if (P.Dropped)
     printOut("[{} bytes of printf dropped]\n", P.Dropped);
+}
+
+Expected<Success> KernelLaunch::finish() const {
   for (const Output &O : Outputs) {
     const std::byte *From = Device->hostPointer(O.Address, O.Bytes);
     Watch->hostRead(O.Address, O.Bytes);

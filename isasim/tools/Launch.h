@@ -21,8 +21,9 @@ public:
   /// What Machine::run takes.
   uint32_t launchBlock() const { return static_cast<uint32_t>(Parts.Block); }
 
-  /// Prints what the kernel's printf wrote and writes the buffers that have a
-  /// file.
+  /// Prints what the kernel's printf wrote.
+  void print() const;
+  /// Writes the buffers that have a file.
   Expected<Success> finish() const;
 
 private:

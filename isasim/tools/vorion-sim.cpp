@@ -265,6 +265,9 @@ Expected<Success> printEnergy(const TimeReport &Time, const EnergyModel &By) {
 int finish(const RunResult &R, const Options &O, const Machine &M,
            const KernelLaunch *Launch, const EnergyModel *Energy,
            Session &Watch) {
+  // However it ended: that is what people look for in a kernel that hangs.
+  if (Launch)
+    Launch->print();
   int Code = reportOutcome(R, O);
   // A program that did not end leaves no results.
   if (Launch && Code == 0)

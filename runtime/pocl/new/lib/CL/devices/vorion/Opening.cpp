@@ -52,9 +52,11 @@ cl_int statusOf(vx_status Status) {
 }
 
 void tell(cl_int Status, const char *Text) {
+  static std::string Printed;
   if (Caller)
     *Caller = {Status, Text};
-  else
+  // Loaders and programs look for devices several times.
+  else if (std::exchange(Printed, Text) != Text)
     fprintf(stderr, "vorion: error: %s\n", Text);
 }
 
