@@ -13,12 +13,13 @@ shift
 mkdir -p "$Folder"
 Folder=$(cd "$Folder" && pwd)
 Jobs=${VORION_JOBS:-$(nproc)}
+Commit=$(git -C "$Root" rev-parse HEAD) # the second copy is made an hour later
 
 # A kept object would be compared with itself.
 export CCACHE_DISABLE=1
 for Copy in first a-second-one-with-a-longer-name; do
   mkdir "$Folder/$Copy"
-  git -C "$Root" archive HEAD | tar -x -C "$Folder/$Copy"
+  git -C "$Root" archive "$Commit" | tar -x -C "$Folder/$Copy"
   # What was downloaded for this checkout is unpacked and patched for each.
   mkdir -p "$Folder/$Copy/build/sources"
   [ ! -d "$Root/build/sources/.archives" ] || cp -r "$Root/build/sources/.archives" "$Folder/$Copy/build/sources/"
