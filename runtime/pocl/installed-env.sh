@@ -1,7 +1,7 @@
 # Source this in bash or zsh: puts the installed tools and the Python package on the
 # paths and shows the device to every OpenCL program of this shell.
 if [ -n "${BASH_VERSION-}" ] && [ "${BASH_SOURCE-}" = "$0" ]; then
-  echo "env.sh: error: run, it changes nothing here, expected: . $0" >&2
+  echo "env.sh: error: it was run, which changes nothing in this shell, expected: . $0" >&2
   exit 2
 elif [ -n "${BASH_VERSION-}${ZSH_VERSION-}" ]; then
   # zsh calls a sourced file $0.

@@ -79,6 +79,14 @@ double quantile(std::vector<std::pair<double, double>> ValuesAndWeights,
   return ValuesAndWeights.back().first;
 }
 
+/// What a flat Gaussian near the focus counts; 0 for others. Large ones are
+/// those of walls and floors, the largest of the sky.
+double flatWeight(const Sample &S, const SceneFocus &F) {
+  if (!S.Flat || length(S.Mean - F.Centre) > 1.5 * F.Radius)
+    return 0;
+  return S.Opacity * std::min(S.Area, 0.01 * F.Radius * F.Radius);
+}
+
 /// Where flat Gaussians near \p Axis point on average, and which share of all
 /// flat ones they are.
 struct FlatSide {
@@ -94,10 +102,7 @@ FlatSide flatSideNear(const std::vector<Sample> &Samples, const SceneFocus &F,
     Vector Sum{};
     double Near = 0, All = 0;
     for (const Sample &S : Samples) {
-      if (!S.Flat || length(S.Mean - F.Centre) > 1.5 * F.Radius)
-        continue;
-      const double Weight =
-          S.Opacity * std::min(S.Area, 0.01 * F.Radius * F.Radius);
+      const double Weight = flatWeight(S, F);
       const double Along = dot(S.Normal, Result.Direction);
       All += Weight;
       if (std::abs(Along) < Least)
@@ -119,11 +124,9 @@ double heightOfFlat(const std::vector<Sample> &Samples, const SceneFocus &F,
                     const Vector &Up) {
   double Sum = 0, All = 0;
   for (const Sample &S : Samples) {
-    if (!S.Flat || length(S.Mean - F.Centre) > 1.5 * F.Radius ||
-        std::abs(dot(S.Normal, Up)) < 0.97)
+    if (std::abs(dot(S.Normal, Up)) < 0.97)
       continue;
-    const double Weight =
-        S.Opacity * std::min(S.Area, 0.01 * F.Radius * F.Radius);
+    const double Weight = flatWeight(S, F);
     Sum += Weight * dot(S.Mean - F.Centre, Up);
     All += Weight;
   }
@@ -154,9 +157,8 @@ Vector upFrom(const std::vector<Sample> &Samples, const SceneFocus &F) {
   // Few flat Gaussians say too little to lean by.
   if (!(Up.Share > 0.05))
     return IsZ ? Z : Y;
-  // A floor is below what stands on it. A room's few flat Gaussians are of its
-  // ceiling, too: on 14 scenes with up near -y or +z the product is 0.02 at
-  // most.
+  // A floor is below what stands on it. Of a room the ceiling is flat, too: on
+  // 14 scenes with up near -y or +z the product is at most 0.02.
   const bool IsUpsideDown =
       Up.Share * heightOfFlat(Samples, F, Up.Direction) > 0.05;
   return (IsUpsideDown ? -1.0 : 1.0) * Up.Direction;

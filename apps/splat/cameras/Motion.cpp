@@ -46,6 +46,24 @@ std::array<double, N> curve(const std::array<double, N> &A,
   return Result;
 }
 
+/// The direction to which what \p Cameras have on their right is most nearly at
+/// right angles: the eigenvector of the least eigenvalue of the sum of r r^T,
+/// by inverse iteration from \p Start, to which it keeps where rights say
+/// nothing.
+Vector acrossRights(const std::vector<Camera> &Cameras, const Vector &Start) {
+  std::array<Vector, 3> A{};
+  for (std::size_t I = 0; I < 3; ++I) {
+    A[I][I] = 1e-6 * static_cast<double>(Cameras.size()); // no division by 0
+    for (const Camera &C : Cameras)
+      A[I] = A[I] + axisOf(C, 0)[I] * axisOf(C, 0);
+  }
+  Vector Up = Start;
+  for (int Step = 0; Step < 16; ++Step)
+    Up = unit(Up[0] * cross(A[1], A[2]) + Up[1] * cross(A[2], A[0]) +
+              Up[2] * cross(A[0], A[1]));
+  return Up;
+}
+
 } // namespace
 
 std::optional<Vector> upOf(const std::vector<Camera> &Cameras) {
@@ -54,25 +72,14 @@ std::optional<Vector> upOf(const std::vector<Camera> &Cameras) {
     Sum = Sum - axisOf(C, 1);
   if (!(length(Sum) > 0.1 * static_cast<double>(Cameras.size())))
     return std::nullopt;
-  // A level camera that looks down has up before it, so the mean of few leans.
-  // Its own right is level: up is the direction to which all are most nearly at
-  // right angles, the eigenvector of the least eigenvalue of the sum of r r^T.
-  // Inverse iteration from the mean keeps to the mean where rights say nothing.
   const Vector Mean = unit(Sum);
-  std::array<Vector, 3> A{};
-  const double Count = static_cast<double>(Cameras.size());
-  for (std::size_t I = 0; I < 3; ++I) {
-    A[I][I] = 1e-6 * Count;
-    for (const Camera &C : Cameras)
-      A[I] = A[I] + axisOf(C, 0)[I] * axisOf(C, 0);
-  }
-  Vector Up = Mean;
-  for (int Step = 0; Step < 16; ++Step)
-    Up = unit(Up[0] * cross(A[1], A[2]) + Up[1] * cross(A[2], A[0]) +
-              Up[2] * cross(A[0], A[1]));
+  // The up of a camera that looks down points forward, and the mean of a few
+  // cameras with it.
+  const Vector Up = acrossRights(Cameras, Mean);
   double Lean = 0;
   for (const Camera &C : Cameras)
-    Lean += dot(axisOf(C, 0), Up) * dot(axisOf(C, 0), Up) / Count;
+    Lean += dot(axisOf(C, 0), Up) * dot(axisOf(C, 0), Up) /
+            static_cast<double>(Cameras.size());
   // Cameras on their side, of portraits, have rights that are not level.
   constexpr double Level = 0.03; // 10 degrees
   return Lean < Level && dot(Up, Mean) > 0.5 ? Up : Mean;

@@ -21,9 +21,8 @@ Expected<Success> checkBlends(const Device &D, Path Blending) {
   if (Blending == Path::Raster && !D.isVorion())
     return Error{"",
                  fmt::format("{} has no rasterizer, expected a Vorion device "
-                             "(splat doctor says what is missing) or --path "
-                             "simt",
-                             D.name()),
+                             "{} or --path simt",
+                             D.name(), SeeDoctor),
                  ExitCode::Usage};
   return Success{};
 }

@@ -49,7 +49,7 @@ Diagnoses examineAll(const DeviceOptions &Options) {
   const char *Root = std::getenv("VORION_ROOT");
   Add({Loader.Found, examineTools(Root ? Root : "", Loader.Libraries),
        examineCache(kernelCacheFolder())});
-  // One that ends programs would end this one.
+  // A library that ends programs would end this one.
   if (Diagnoses Broken = examineLibraries(Loader.Libraries); !Broken.empty())
     Add(std::move(Broken));
   else

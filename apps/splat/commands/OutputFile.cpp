@@ -96,7 +96,7 @@ void nameOutput(const char *Option, std::string &File, const std::string &Input,
     Path = Path.parent_path();
   const std::string Stem = Path.stem().string();
   File = (Stem.empty() ? "out" : Stem) + std::string(Ending);
-  // An input of the wrong kind, which the command refuses by itself.
+  // Only an input of the wrong kind has this name. The command says so later.
   if (std::filesystem::absolute(File, Ignored).lexically_normal() == Path)
     File += Ending;
   completeCommandLine(Option, File);

@@ -75,13 +75,18 @@ SettingOptions::settings(const CLI::App &App, const TrainSettings &Own) const {
                    ExitCode::Usage};
     Field->set(S, Value);
   }
-  for (const auto &[Field, Value] : Values)
-    if (Field->Of && settingField(*Field->Of).get(S) == 0)
+  // A last rate says nothing where the first one is 0, for none.
+  constexpr std::string_view Last = "last_";
+  for (const auto &[Field, Value] : Values) {
+    if (!Field->Name.starts_with(Last))
+      continue;
+    const SettingField &First = settingField(Field->Name.substr(Last.size()));
+    if (First.get(S) == 0)
       return Error{"",
                    fmt::format("{}: expected {} above 0 with it",
-                               Field->option(),
-                               settingField(*Field->Of).option()),
+                               Field->option(), First.option()),
                    ExitCode::Usage};
+  }
   return S;
 }
 

@@ -75,8 +75,10 @@ const Candidate *choose(const std::vector<Candidate> &All,
 
 Error noDevice(const std::vector<Candidate> &All, const std::string &Wanted) {
   if (All.empty())
-    return Error{"", "no OpenCL device, expected one of a Vorion platform "
-                     "(splat doctor says what is missing)"};
+    return Error{
+        "",
+        fmt::format("no OpenCL device, expected one of a Vorion platform {}",
+                    SeeDoctor)};
   std::vector<std::string> Names;
   Names.reserve(All.size());
   for (const Candidate &C : All)

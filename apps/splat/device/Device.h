@@ -11,12 +11,17 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace vorion::splat {
 
 /// Loads the OpenCL platforms into the process, which takes longer than opening
 /// a device does. Device::open() does it where nobody has.
 void loadPlatforms();
+
+/// How a message ends where something of the installation may be missing.
+inline constexpr std::string_view SeeDoctor =
+    "(splat doctor says what is missing)";
 
 /// An opened device with its context and its in-order queues.
 class Device {

@@ -46,9 +46,8 @@ std::optional<Error> fileError(const std::string &Name,
        {"cannot open file '", "error reading '", "'vorion.h' file not found"})
     if (const std::string Unread = lineFrom(Words, Log); !Unread.empty())
       return Error{"", fmt::format("kernel program '{}' cannot be compiled: "
-                                   "{}, expected files that can be read (splat "
-                                   "doctor says what is missing)",
-                                   Name, Unread)};
+                                   "{}, expected files that can be read {}",
+                                   Name, Unread, SeeDoctor)};
   return std::nullopt;
 }
 

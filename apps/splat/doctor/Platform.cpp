@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -240,11 +241,11 @@ std::string runKernel(const Device &D) {
 Diagnoses examineDevice(const DeviceOptions &Options) {
   const auto D = Device::open("", Options);
   if (!D) {
-    // Elsewhere it names the doctor.
-    const std::string Why =
-        D.error().What.substr(0, D.error().What.find(" (splat doctor says"));
-    return {{DiagnosisState::Fault, "device", Why,
-             mendOfOpening(D.error().What, Options)}};
+    std::string Why = D.error().What;
+    if (Why.ends_with(SeeDoctor))
+      Why.resize(Why.size() - SeeDoctor.size() - 1);
+    std::string Mend = mendOfOpening(Why, Options);
+    return {{DiagnosisState::Fault, "device", std::move(Why), std::move(Mend)}};
   }
   if (!D->isVorion())
     return {{DiagnosisState::Fault, "device",

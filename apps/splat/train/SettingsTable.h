@@ -23,8 +23,6 @@ struct SettingField {
   std::optional<DensityMethod> Only = std::nullopt;
   /// Whether the table makes its option; others have one elsewhere.
   bool HasOption = true;
-  /// Without an effect where the setting of this name is 0.
-  std::optional<std::string_view> Of = std::nullopt;
 
   bool isWhole() const { return Member.index() == 1; }
   double get(const TrainSettings &S) const;

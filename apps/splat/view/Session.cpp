@@ -126,8 +126,8 @@ Expected<std::unique_ptr<Session>> Session::open(Setup S, ShownScene First) {
   if (!Dev->isVorion())
     return Error{"",
                  fmt::format("{} has no rasterizer, expected a Vorion device "
-                             "(splat doctor says what is missing)",
-                             Dev->name()),
+                             "{}",
+                             Dev->name(), SeeDoctor),
                  ExitCode::Usage};
   std::unique_ptr<Session> Made(
       new Session(std::move(S), std::move(*Dev), std::move(*Folder)));

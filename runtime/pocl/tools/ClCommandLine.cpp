@@ -88,10 +88,18 @@ std::string wrongPattern(const std::string &Pattern) {
 
 /// Refuses \p Option, with the one that was meant if there is one like it.
 Error unknownOption(const std::string &Option) {
-  if (Option.starts_with("-cl-std="))
+  const std::string Language = "-cl-std=";
+  if (Option.starts_with(Language)) {
+    std::string Offered;
+    for (const std::string &Known : OpenClOptions)
+      if (Known.starts_with(Language))
+        Offered +=
+            (Offered.empty() ? "" : ", ") + Known.substr(Language.size());
     return usageError(Option +
-                      ": not a language that is offered, expected CL1.0, "
-                      "CL1.1, CL1.2 or CL3.0");
+                      ": not a language that is offered, expected one "
+                      "of " +
+                      Offered);
+  }
   std::vector<std::string> Known = {"-o",
                                     "-D",
                                     "-U",

@@ -9,7 +9,10 @@ import os
 import re
 import sys
 from html.parser import HTMLParser
-from urllib.parse import unquote, urlsplit
+from urllib.parse import urlsplit
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
+from followed import report, target_of
 
 # The attributes by which a browser loads something by itself. A <link> loads unless it only names another page.
 LOADS = {"script": "src", "img": "src", "iframe": "src", "source": "src", "object": "data", "embed": "src",
@@ -48,25 +51,22 @@ def main():
         name = os.path.relpath(path, site)
         for kind, uses in (("loads", page.loads), ("links to", page.links)):
             for use in uses:
-                parts = urlsplit(use)
-                if parts.scheme or parts.netloc:
-                    if kind == "loads" and parts.scheme != "data":
+                found = target_of(path, use)
+                if not found:
+                    if kind == "loads" and urlsplit(use).scheme != "data":
                         faults.append(f"{name} {kind} {use}, which is outside")
                     continue
-                target = os.path.normpath(os.path.join(os.path.dirname(path), unquote(parts.path))) if parts.path else path
+                target, place = found
                 if target not in files:
                     faults.append(f"{name} {kind} {use}, which is missing")
-                elif target in pages and parts.fragment and unquote(parts.fragment) not in pages[target].anchors:
+                elif target in pages and place and place not in pages[target].anchors:
                     faults.append(f"{name} {kind} {use}, but the page has no such place")
     for path in sorted(p for p in files if p.endswith(".css")):
         with open(path, encoding="utf-8") as f:
             for use in re.findall(r"url\(\s*['\"]?([^'\")]+)|@import\s+['\"]([^'\"]+)", f.read()):
                 if re.match(r"(https?:)?//", use[0] or use[1]):
                     faults.append(f"{os.path.relpath(path, site)} loads {use[0] or use[1]}, which is outside")
-    for fault in faults:
-        print(f"links.py: error: {fault}", file=sys.stderr)
-    print(f"{len(pages)} pages, {sum(len(p.links) for p in pages.values())} links")
-    return 1 if faults else 0
+    return report("links.py", faults, len(pages), sum(len(p.links) for p in pages.values()))
 
 
 if __name__ == "__main__":

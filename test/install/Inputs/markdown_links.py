@@ -9,7 +9,9 @@ Prints an error for each fault, then the number of pages. Exit codes: 0 no fault
 import os
 import re
 import sys
-from urllib.parse import unquote, urlsplit
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
+from followed import report, target_of
 
 FENCE = re.compile(r"^( *)```.*?^ *```$", re.M | re.S)
 CODE = re.compile(r"(`+)(?!`).*?(?<!`)\1(?!`)", re.S)
@@ -40,20 +42,17 @@ def main():
     for path, text in sorted(pages.items()):
         # Code has brackets of its own; a link's text may be code.
         for link in LINK.findall(CODE.sub("code", FENCE.sub("", text))):
-            parts = urlsplit(link)
-            if parts.scheme or parts.netloc:
+            found = target_of(path, link)
+            if not found:
                 continue
             links += 1
-            target = os.path.normpath(os.path.join(os.path.dirname(path), unquote(parts.path))) if parts.path else path
+            target, heading = found
             name = os.path.relpath(path, sys.argv[1])
             if not os.path.exists(target):
                 faults.append(f"{name} links to {link}, which is missing")
-            elif parts.fragment and target in pages and parts.fragment not in headings(pages[target]):
+            elif heading and target in pages and heading not in headings(pages[target]):
                 faults.append(f"{name} links to {link}, but the page has no such heading")
-    for fault in faults:
-        print(f"markdown_links.py: error: {fault}", file=sys.stderr)
-    print(f"{len(pages)} pages, {links} links")
-    return 1 if faults else 0
+    return report("markdown_links.py", faults, len(pages), links)
 
 
 if __name__ == "__main__":
