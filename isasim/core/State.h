@@ -168,6 +168,10 @@ struct alignas(64) WarpState {
   bool Moved = false; ///< by an observer, which sets it: it goes on elsewhere
   CoreTrace *Trace = nullptr; ///< for the clock, or nullptr
 
+  /// What translated code has no register of the host for
+  /// (translate/Narrow.h).
+  LaneWords HostSpare[8];
+
   uint32_t pcOf(const Insn *I) const {
     return CodeLo + static_cast<uint32_t>(I - Code) * 4;
   }

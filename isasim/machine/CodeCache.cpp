@@ -37,7 +37,8 @@ CachedCode &CodeCache::get(const std::shared_ptr<const Image> &Program,
   CachedCode &New =
       All.emplace_front(Program, &Exec, CodeTable(*Program, Exec), nullptr);
   if (IsTranslated)
-    New.Translated = std::make_unique<Translator>(New.Code, Exec, CostOfInsn);
+    New.Translated =
+        std::make_unique<Translator>(New.Code, Exec, CostOfInsn, Unit);
   size_t Bytes = 0, Kept = 0;
   for (const CachedCode &C : All) {
     Bytes += C.bytes();

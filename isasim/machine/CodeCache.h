@@ -23,9 +23,10 @@ struct CachedCode {
 
 class CodeCache {
 public:
-  /// \p CostOfInsn: see Translator.
-  explicit CodeCache(uint64_t CostOfInsn = Translator::UsualCost)
-      : CostOfInsn(CostOfInsn) {}
+  /// \p CostOfInsn and \p Unit: see Translator.
+  explicit CodeCache(uint64_t CostOfInsn = Translator::UsualCost,
+                     VectorUnit Unit = Translator::unitOfHost())
+      : CostOfInsn(CostOfInsn), Unit(Unit) {}
 
   /// \p Program for \p Exec. Valid until the next call: the programs that were
   /// not wanted for longest give way.
@@ -34,6 +35,7 @@ public:
 
 private:
   const uint64_t CostOfInsn;
+  const VectorUnit Unit;
   std::list<CachedCode> All; ///< wanted last first
 };
 

@@ -66,12 +66,30 @@ Event rasterEvent(const WarpState &S) {
   }
 }
 
+/// Whether the translator was asked for by name.
+bool isTranslatorWanted(Engine E) {
+  return E == Engine::Translator || E == Engine::TranslatorAvx2;
+}
+
+VectorUnit unitOf(Engine E) {
+  const VectorUnit Best = Translator::unitOfHost();
+  switch (E) {
+  case Engine::Interpreter:
+    return VectorUnit::None;
+  case Engine::TranslatorAvx2:
+    return std::min(Best, VectorUnit::Avx2);
+  default:
+    return Best;
+  }
+}
+
 } // namespace
 
 struct Machine::Impl final : raster::WorkLog {
   Impl(const Config &C, std::unique_ptr<Memory> Mem)
       : Shape(C), Storage(std::move(Mem)),
-        Programs(C.Runs == Engine::Translator ? 0 : Translator::UsualCost),
+        Programs(isTranslatorWanted(C.Runs) ? 0 : Translator::UsualCost,
+                 unitOf(C.Runs)),
         Pool(C.HostThreads),
         Raster(Shape, *Storage, [this] { return mustStop(); }),
         Host(*Storage, [this](char Byte) { Cores[0]->print(Byte); }) {
@@ -171,8 +189,8 @@ bool Machine::Impl::access(uint32_t Address, uint64_t Bytes,
 
 void Machine::Impl::resetCores(uint32_t LaunchBlock) {
   const bool Observed = isObserved();
-  const bool IsTranslated = Shape.Runs != Engine::Interpreter &&
-                            Translator::isThere() && !Observed && !isClocked();
+  const bool IsTranslated =
+      unitOf(Shape.Runs) != VectorUnit::None && !Observed && !isClocked();
   Present = &Programs.get(Program, exec(), IsTranslated);
   const CodeTable &Code = Present->Code;
   if (Observed)
@@ -450,9 +468,9 @@ Machine::~Machine() = default;
 Expected<std::unique_ptr<Machine>> Machine::create(const Config &C) {
   if (Expected<Success> Ok = validate(C); !Ok)
     return Ok.error();
-  if (C.Runs == Engine::Translator && !Translator::isThere())
+  if (isTranslatorWanted(C.Runs) && !Translator::isThere())
     return Error{"configuration",
-                 fmt::format("engine is 'translator', expected 'auto' or "
+                 fmt::format("engine is the translator, expected 'auto' or "
                              "'interpreter' on this host: it needs {}",
                              Translator::needs()),
                  ExitCode::Usage};

@@ -16,6 +16,7 @@ namespace {
 
 // What a function of writeAtomic() takes, and where it leaves the results.
 const Zmm Addresses = zmm0, Operands = zmm1;
+constexpr int NumFunctionZmms = 4; // with two of its own
 
 Amo kindOf(Op O) {
   switch (O) {
@@ -68,11 +69,18 @@ void apply(CodeGenerator &E, Amo Kind, const Reg32 &New, const Reg32 &Old) {
 
 } // namespace
 
+/// The vectors of writeAtomic(), before anything else has them.
+void Emitter::takeForFunction() {
+  for (int N = 0; N != NumFunctionZmms; ++N)
+    if (isWide())
+      scratch();
+    else
+      Held.use(N);
+}
+
 void Emitter::atomic(const GuestInsn &G) {
   const Insn *I = G.I;
-  // The function's, before anything else has them.
-  while (Scratches != Operands.getIdx() + 1)
-    scratch();
+  takeForFunction();
   const auto Move = [this](const Zmm &To, Term From) {
     if (From.isNumber())
       vpxord(To, To, To); // x0
@@ -105,7 +113,7 @@ void Emitter::locateWords(int In, const Zmm &Offsets, const Zmm &Spare,
   mov(eax, dword[rsi + In + RegionBytes]);
   sub(eax, Bytes);
   vpbroadcastd(Spare, eax);
-  vpcmpud(active(k2), Offsets, Spare, static_cast<uint8_t>(Relation::Greater));
+  vpcmpud(active(k2), Offsets, Spare, Relation::Greater);
   vptestmd(active(k3), Addresses, constant(Bytes - 1));
   kortestw(k2, k3);
   jnz(Elsewhere);

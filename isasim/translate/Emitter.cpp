@@ -24,7 +24,7 @@ using namespace Xbyak::util;
 
 namespace {
 
-[[maybe_unused]] constexpr int NumScratches = 8;
+[[maybe_unused]] constexpr int NumScratches = Emitter::SpareZmm;
 constexpr int FirstGuestZmm = 9;
 constexpr int NumZmms = 32;
 
@@ -37,11 +37,11 @@ constexpr Reg64 KeptRegisters[] = {rbx, rbp, r12, r13, r14, r15};
 
 } // namespace
 
-Emitter::Emitter(const ExecTable &ExecIn, const CodeTable &CodeIn,
+Emitter::Emitter(VectorUnit Unit, const ExecTable &ExecIn,
+                 const CodeTable &CodeIn,
                  const std::vector<GuestInsn> &RegionIn,
                  std::span<uint8_t> Buffer)
-    : CodeGenerator(Buffer.size(), Buffer.data()), Exec(ExecIn), Code(CodeIn),
-      Region(RegionIn) {
+    : HostVectors(Unit, Buffer), Exec(ExecIn), Code(CodeIn), Region(RegionIn) {
   setDefaultJmpNEAR(true);
   allocate();
   findStackUses();
@@ -79,6 +79,8 @@ void Emitter::allocate() {
   std::ranges::sort(Order, [&](unsigned A, unsigned B) {
     return std::pair(Uses[B], A) < std::pair(Uses[A], B);
   });
+  if (!isWide())
+    return;
   for (size_t N = 0; N != Order.size() && FirstGuestZmm + N != NumZmms; ++N)
     Zmms[Order[N]] = static_cast<int>(FirstGuestZmm + N);
 }
@@ -90,12 +92,21 @@ Term Emitter::guest(uint16_t Register) {
     return {};
   if (const int Z = zmmOf(Register); Z >= 0)
     return {Z};
+  if (const int Kept = Held.find(Register); Kept >= 0) {
+    Held.use(Kept);
+    return {Kept};
+  }
   const Zmm To = scratch();
   vmovdqa32(To, ptr[rdi + Register]);
+  if (!isWide())
+    Held.hold(To.getIdx(), Register);
   return {To.getIdx()};
 }
 
 Zmm Emitter::scratch() {
+  if (!isWide())
+    if (const int Pair = Held.take(IsOutOfLine); Pair >= 0)
+      return Zmm(Pair);
   assert(Scratches != NumScratches && "an instruction needs fewer");
   return Zmm(Scratches++);
 }
@@ -111,23 +122,6 @@ Zmm Emitter::inZmm(Term T) {
   return To;
 }
 
-Address Emitter::constant(uint32_t Bits) {
-  return ptr_b[rip + Constants[Bits]];
-}
-
-Address Emitter::number(uint32_t Bits) { return ptr[rip + Constants[Bits]]; }
-
-Address Emitter::vectorOf(const std::array<uint32_t, MaxLanes> &Words) {
-  return ptr[rip + Vectors[Words]];
-}
-
-Address Emitter::laneNumbers(uint32_t Factor) {
-  std::array<uint32_t, MaxLanes> Words{};
-  for (uint32_t L = 0; L != MaxLanes; ++L)
-    Words[L] = L * Factor;
-  return vectorOf(Words);
-}
-
 Zmm Emitter::active(const Zmm &Z) const { return Full ? Z : Z | k1; }
 Opmask Emitter::active(const Opmask &K) const { return Full ? K : K | k1; }
 
@@ -135,16 +129,29 @@ void Emitter::result(uint16_t Register,
                      const std::function<void(const Zmm &)> &Write) {
   if (const int Z = zmmOf(Register); Z >= 0)
     return Write(active(Zmm(Z)));
-  const Zmm To = scratch();
+  const int Kept = Held.find(Register);
+  if (Kept >= 0)
+    Held.use(Kept);
+  const Zmm To = Kept >= 0 ? Zmm(Kept) : scratch();
   if (isSink(Register))
     return Write(active(To));
   // The host lets a load wait for a store with a mask in front of it until the
   // cache has that. So the other lanes' words are stored, too.
   const Address Word = ptr[rdi + Register];
-  if (!Full)
+  if (!Full && (Kept < 0 || IsOutOfLine))
     vmovdqa32(To, Word);
   Write(active(To));
   vmovdqa32(Word, To);
+  if (!isWide())
+    Held.hold(To.getIdx(), Register);
+}
+
+/// Out of line: what the code beside it goes on with is there again.
+void Emitter::holdAgain(const HeldVectors &Was) {
+  Held = Was;
+  for (int N = 0; N != HeldVectors::Count; ++N)
+    if (const std::optional<uint16_t> Register = Was.registerOf(N))
+      vmovdqa32(Zmm(N), ptr[rdi + *Register]);
 }
 
 Label &Emitter::toInterpreter() {
@@ -154,10 +161,12 @@ Label &Emitter::toInterpreter() {
 }
 
 void Emitter::outOfLine(std::function<void()> Write) {
-  Later.push_back([this, Used = Scratches, Write = std::move(Write)] {
-    Scratches = Used;
-    Write();
-  });
+  Later.push_back(
+      [this, Used = Scratches, Was = Held, Write = std::move(Write)] {
+        Scratches = Used;
+        Held = Was;
+        Write();
+      });
 }
 
 Handler Emitter::original(const Insn *I, Op O) const {
@@ -236,9 +245,7 @@ void Emitter::writeEntries() {
   lea(r8, ptr[r9 + rsi]);
   if (!Full) {
     mov(eax, dword[rdi + VORION_PLACE(Mask)]);
-    kmovw(k1, eax);
-    tzcnt(eax, eax);
-    vpbroadcastd(Zmm(FirstLaneZmm), eax);
+    keepLanes();
   }
   for (unsigned R = 0; R != NumRegisters; ++R)
     if (Zmms[R] >= 0)
@@ -296,8 +303,31 @@ void Emitter::resumeAt(const Insn *To, unsigned Mode) {
 // Instructions
 //===----------------------------------------------------------------------===//
 
+namespace {
+
+/// Whether it has one way through, so that vectors hold behind it what they
+/// hold in front.
+bool keepsVectors(Kind Is) {
+  switch (Is) {
+  case Kind::Integer:
+  case Kind::Float:
+  case Kind::Load:
+  case Kind::Store:
+  case Kind::Branch:
+  case Kind::Fence:
+    return true;
+  default:
+    return false;
+  }
+}
+
+} // namespace
+
 void Emitter::writeInsn(const GuestInsn &G) {
-  Scratches = 0;
+  Scratches = isWide() ? 0 : HeldVectors::Count;
+  Held.endInstruction();
+  if (!keepsVectors(G.Is))
+    Held.forget();
   ToInterpreter = nullptr;
   const auto Before = Pending;
   switch (G.Is) {
@@ -343,6 +373,8 @@ void Emitter::writeInsn(const GuestInsn &G) {
     jmp(toInterpreter());
     break;
   }
+  if (!keepsVectors(G.Is))
+    Held.forget();
   followStackPointer(G);
   ++Pending.Insns;
   if (ToInterpreter)
@@ -370,6 +402,7 @@ void Emitter::writeMode(unsigned Mode) {
     if (G.Leads) {
       countPending();
       L(Labels[Full][G.I]);
+      Held.forget();
     }
     writeInsn(G);
     const bool Falls = N + 1 != Region.size() && Region[N + 1].I == G.I + 1;
@@ -383,26 +416,16 @@ void Emitter::writeMode(unsigned Mode) {
       Pending = {};
   }
   // What is out of line may have more of it.
+  IsOutOfLine = true;
   for (size_t N = 0; N != Later.size(); ++N) {
     const std::function<void()> Write = Later[N];
     Write();
   }
+  IsOutOfLine = false;
   Later.clear();
+  Held.forget();
   writeAtomics();
   writeExits();
-}
-
-void Emitter::writeConstants() {
-  align(64);
-  for (auto &[Words, At] : Vectors) {
-    L(At);
-    for (const uint32_t Word : Words)
-      dd(Word);
-  }
-  for (auto &[Bits, At] : Constants) {
-    L(At);
-    dd(Bits);
-  }
 }
 
 void Emitter::write() {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "core/Atomics.h"
+#include "translate/HeldVectors.h"
+#include "translate/HostVectors.h"
 #include "translate/Region.h"
 
 #include <array>
@@ -11,7 +13,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <xbyak/xbyak.h>
 
 namespace vorion::isasim::translate {
 
@@ -41,13 +42,13 @@ struct Entry {
 ///   r13, r14, r15  the region Global of the memory view: where it begins, how
 ///        far vectors of words reach from there, where it lies on the host
 ///   k1   active lanes (where not all are)
-///   zmm0 to zmm7 for one instruction, zmm8: the first active lane's number,
-///   the rest: the guest's registers that are used most.
+///   zmm0 to zmm7 for one instruction; with AVX-512 zmm8: the first active
+///   lane's number, the rest: the guest's registers that are used most.
 /// rax, rcx, rdx, rsi, r11 and k2 to k4 are for one instruction.
-class Emitter : public Xbyak::CodeGenerator {
+class Emitter : public HostVectors {
 public:
   /// \p Buffer is written; the code may be executed anywhere else.
-  Emitter(const ExecTable &Exec, const CodeTable &Code,
+  Emitter(VectorUnit Unit, const ExecTable &Exec, const CodeTable &Code,
           const std::vector<GuestInsn> &Region, std::span<uint8_t> Buffer);
 
   /// The whole region. Throws Xbyak::Error where the buffer is too small.
@@ -61,15 +62,11 @@ public:
   Term guest(uint16_t Register);
   /// A zmm for this instruction.
   Xbyak::Zmm scratch();
+  /// Another one, for what is written out of line: scratch() does not give it
+  /// away.
+  static constexpr int SpareZmm = 7;
   /// \p T in a register.
   Xbyak::Zmm inZmm(Term T);
-  /// \p Bits in each lane, as an operand that is read from memory.
-  Xbyak::Address constant(uint32_t Bits);
-  /// The same as one word.
-  Xbyak::Address number(uint32_t Bits);
-  /// Numbers of the lanes times \p Factor.
-  Xbyak::Address laneNumbers(uint32_t Factor);
-  Xbyak::Address vectorOf(const std::array<uint32_t, MaxLanes> &Words);
   /// \p Z as a destination: active lanes alone.
   Xbyak::Zmm active(const Xbyak::Zmm &Z) const;
   Xbyak::Opmask active(const Xbyak::Opmask &K) const;
@@ -96,9 +93,9 @@ private:
   void addPresent();
   void countPending();
   void storeRegisters();
+  void holdAgain(const HeldVectors &Was);
   void writeEntries();
   void writeExits();
-  void writeConstants();
   Handler original(const Insn *I, Op O) const;
   int zmmOf(uint16_t Register) const;
 
@@ -121,6 +118,7 @@ private:
 
   // Atomics.cpp.
   void atomic(const GuestInsn &G);
+  void takeForFunction();
   void writeAtomics();
   void writeAtomic(Amo Kind, bool HasResult, Xbyak::Label &Begin);
   void forLanes(const Xbyak::Zmm &Offsets, bool HasResult,
@@ -140,18 +138,22 @@ private:
   void shuffle(const GuestInsn &G);
   void barrier(const GuestInsn &G);
   void changeLanes();
+  void keepLanes();
   void resumeAtEither(const Insn *To);
   void storeLanes();
 
   // Memory.cpp.
   Xbyak::Zmm addressesOf(const Insn *I);
   void spreadFirst(const Xbyak::Zmm &To, const Xbyak::Zmm &From);
-  void jumpIfDiffer(const Xbyak::Zmm &All, const Xbyak::Zmm &Spread,
-                    Xbyak::Label &Differ);
+  void spreadFirstAddress(const Insn *I, int Bytes, const Xbyak::Zmm &To,
+                          const Xbyak::Zmm &From);
+  void jumpIfApart(const Xbyak::Zmm &All, const Xbyak::Zmm &Spread,
+                   Xbyak::Label &Apart);
   void locate(int Size, unsigned Count, bool IsStore, Xbyak::Label &Wrong);
-  void locateNeighbours(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
-                        const Xbyak::Zmm &Bases, const Xbyak::Zmm &Spread,
-                        Xbyak::Label &Apart, Xbyak::Label &Wrong);
+  void locateNeighbours(const Insn *I, const Xbyak::Zmm &Addresses, int Bytes,
+                        bool IsStore, const Xbyak::Zmm &Bases,
+                        const Xbyak::Zmm &Spread, Xbyak::Label &Apart,
+                        Xbyak::Label &Wrong);
   void locateEach(const Xbyak::Zmm &Addresses, int Bytes, bool IsStore,
                   const Xbyak::Zmm &Offsets, Xbyak::Label &Wrong);
   void writeFinders();
@@ -186,7 +188,9 @@ private:
   struct {
     unsigned Insns = 0, Loads = 0, Stores = 0;
   } Pending;
-  int Scratches = 0;
+  int Scratches = 0; ///< given away to the present instruction
+  HeldVectors Held;  ///< with AVX2
+  bool IsOutOfLine = false;
   /// A result that has not been looked at for NaNs, and what is to be done
   /// where it has some.
   struct Rounded {
@@ -207,9 +211,6 @@ private:
 
   /// Functions of a mode, by kind and whether there is a result.
   std::map<std::pair<Amo, bool>, Xbyak::Label> Atomics;
-
-  std::map<uint32_t, Xbyak::Label> Constants;
-  std::map<std::array<uint32_t, MaxLanes>, Xbyak::Label> Vectors;
 };
 
 } // namespace vorion::isasim::translate

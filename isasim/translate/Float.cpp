@@ -20,8 +20,6 @@ namespace {
 /// vcmpps: quiet where only signaling NaNs are invalid, as the guest's are.
 constexpr uint8_t EqualQuiet = 0, LessSignaling = 1, LessEqualSignaling = 2,
                   Unordered = 3;
-/// vrangeps: the lesser or the greater, with its own sign.
-constexpr uint8_t Lesser = 4, Greater = 5;
 
 struct Float {
   Zmm In;
@@ -54,14 +52,16 @@ uint8_t operator<(Float, Float) { return LessSignaling; }
 uint8_t operator<=(Float, Float) { return LessEqualSignaling; }
 
 /// Infinity times zero is invalid even if the addend is a quiet NaN, of which
-/// x86 says nothing.
-void flagZeroTimesInfinity(Emitter *E, const Zmm &A, const Zmm &B) {
-  // vfpclassps
-  constexpr uint8_t Zero = 0x06, Infinite = 0x18;
+/// x86 says nothing. In the lanes of k2.
+void flagZeroTimesInfinity(Emitter *E, const Zmm &A, const Zmm &B,
+                           const Zmm &Spare) {
+  constexpr uint32_t InfiniteShifted = 0xFF000000;
   for (const auto &[X, Y] : {std::pair{A, B}, {B, A}}) {
     Label None;
-    E->vfpclassps(k3 | k2, X, Zero);
-    E->vfpclassps(k4 | k3, Y, Infinite);
+    E->vpslld(Spare, X, 1);
+    E->vptestnmd(k3 | k2, Spare, Spare);
+    E->vpslld(Spare, Y, 1);
+    E->vpcmpeqd(k4 | k3, Spare, E->constant(InfiniteShifted));
     E->kortestw(k4, k4);
     E->jz(None);
     E->or_(dword[rdi + VORION_PLACE(Fflags)], Invalid);
@@ -130,21 +130,17 @@ void Emitter::makeCanonical(const Zmm &Result, bool Waits,
   }
   const std::optional<Rounded> Before = std::exchange(Unchecked, std::nullopt);
   Label Nans, Back;
-  vcmpps(active(k2), Result, Before ? Before->Result : Result, Unordered);
-  kortestw(k2, k2);
-  jnz(Nans);
+  jumpIfNan(Result, Before ? Before->Result : Result, isFull(), Nans);
   L(Back);
   outOfLine([=, this]() mutable {
     L(Nans);
     const auto Mend = [this](const Rounded &R) {
+      vcmpps(active(k2), R.Result, R.Result, Unordered);
       R.First();
       vpbroadcastd(R.Result | k2, number(CanonicalNan));
     };
-    if (Before) {
-      vcmpps(active(k2), Before->Result, Before->Result, Unordered);
+    if (Before)
       Mend(*Before);
-      vcmpps(active(k2), Result, Result, Unordered);
-    }
     Mend({Result, First});
     jmp(Back);
   });
@@ -173,7 +169,7 @@ void Emitter::floating(const GuestInsn &G) {
         vmovaps(Overwrites ? Into : To, Addend.In);
       fused(this, active(Into), Factor, B, Addend);
       makeCanonical(Into, canWait(G, true), [this, A = A.In, B = B.In] {
-        flagZeroTimesInfinity(this, A, B);
+        flagZeroTimesInfinity(this, A, B, Zmm(SpareZmm));
       });
       if (Overwrites)
         vmovaps(To, Into);
@@ -188,53 +184,23 @@ void Emitter::floating(const GuestInsn &G) {
     });
   };
   // NaNs are the interpreter's affair. Nothing has been written yet.
-  const auto Choose = [&](uint8_t Which) {
-    vcmpps(active(k2), A.In, B.In, Unordered);
-    kortestw(k2, k2);
-    jnz(toInterpreter());
-    result(I->Rd, [&](const Zmm &To) { vrangeps(To, A.In, B.In, Which); });
+  const auto Choose = [&](bool IsLeast) {
+    jumpIfNan(A.In, B.In, isFull(), toInterpreter());
+    result(I->Rd, [&](const Zmm &To) {
+      IsLeast ? least(To, A.In, B.In) : greatest(To, A.In, B.In);
+    });
   };
-  // So is what does not fit: the host gives one value for all of that.
+  // So is what does not fit.
+  const auto Mode = static_cast<uint32_t>(I->Imm);
   const auto ToInt = [&](bool IsSigned) {
-    const Zmm R = scratch();
-    const auto Round = [&](const Zmm &To, const Zmm &From) {
-      IsSigned ? vcvtps2dq(active(To), From) : vcvtps2udq(active(To), From);
-    };
-    const auto Truncate = [&](const Zmm &To) {
-      IsSigned ? vcvttps2dq(active(To), A.In) : vcvttps2udq(active(To), A.In);
-    };
-    const auto Mode = static_cast<unsigned>(I->Imm);
-    // A direction in the host's instruction keeps it from raising flags.
-    const bool RaisesNone = Mode == Rdn || Mode == Rup;
-    if (RaisesNone)
-      Round(R, Mode == Rdn ? A.In | T_rd_sae : A.In | T_ru_sae);
-    else if (Mode == Rtz)
-      Truncate(R);
-    else
-      Round(R, A.In);
-    vpcmpeqd(active(k2), R, constant(IsSigned ? 0x80000000U : ~0U));
-    kortestw(k2, k2);
-    jnz(toInterpreter());
-    // What fits is inexact in every mode, or in none.
-    if (RaisesNone)
-      Truncate(scratch());
+    const Zmm R = scratch(), Spare = scratch();
+    toInt(active(R), A.In, Mode, IsSigned, Spare, toInterpreter());
     result(I->Rd, [&](const Zmm &To) { vmovdqa32(To, R); });
   };
   const auto FromInt = [&](bool IsSigned) {
-    const auto Convert = [&](const Zmm &To, const Zmm &From) {
-      IsSigned ? vcvtdq2ps(To, From) : vcvtudq2ps(To, From);
-    };
-    const auto Mode = static_cast<unsigned>(I->Imm);
-    const bool RaisesNone = Mode == Rtz || Mode == Rdn || Mode == Rup;
-    // What is no float is inexact in every mode.
-    if (RaisesNone)
-      Convert(active(scratch()), A.In);
-    result(I->Rd, [&](const Zmm &To) {
-      Convert(To, Mode == Rtz   ? A.In | T_rz_sae
-                  : Mode == Rdn ? A.In | T_rd_sae
-                  : Mode == Rup ? A.In | T_ru_sae
-                                : A.In);
-    });
+    const Zmm Spare = scratch();
+    result(I->Rd,
+           [&](const Zmm &To) { fromInt(To, A.In, Mode, IsSigned, Spare); });
   };
   switch (G.Opcode) {
 #define FLOAT(OP, SOFT, RESULT)                                                \
@@ -250,7 +216,7 @@ void Emitter::floating(const GuestInsn &G) {
     return Compare(CONDITION);
 #define MINMAX(OP, IS_MIN)                                                     \
   case Op::OP:                                                                 \
-    return Choose((IS_MIN) ? Lesser : Greater);
+    return Choose(IS_MIN);
 #define TOINT(OP, SIGNED, SOFT)                                                \
   case Op::OP:                                                                 \
     return ToInt(SIGNED);

@@ -54,13 +54,7 @@ void Emitter::writeBranch(const GuestInsn &G) {
   kortestw(k2, k2);
   jz(NotTaken);
   // Taken by some lanes only, it is an error.
-  if (isFull())
-    jnc(toInterpreter());
-  else {
-    kxorw(k3, k1, k2);
-    kortestw(k3, k3);
-    jnz(toInterpreter());
-  }
+  jumpUnlessAll(k2, isFull(), toInterpreter());
   addPresent();
   goTo(I + (I->Imm >> 2));
   L(NotTaken);

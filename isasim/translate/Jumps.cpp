@@ -99,7 +99,7 @@ void Emitter::writeIndirect(const GuestInsn &G) {
   Label &Wrong = toInterpreter();
   const Zmm Targets = scratch(), Spread = scratch();
   vpandd(Targets, addressesOf(I), constant(~1U));
-  jumpIfDiffer(Targets, Spread, Wrong);
+  jumpIfApart(Targets, Spread, Wrong);
   test(al, 2);
   jnz(Wrong);
   sub(eax, Code.low());

@@ -27,11 +27,10 @@ constexpr size_t MostSides = 8;
 
 } // namespace
 
-/// The last active lane's word of \p From in every lane of \p To.
+/// The last active lane's word of \p From in every lane of \p To, and in eax.
 void Emitter::spreadLast(const Zmm &To, const Zmm &From) {
   bsr(eax, dword[rdi + MaskPlace]);
-  vpbroadcastd(To, eax);
-  vpermd(To, To, From);
+  spreadLane(To, From, eax);
 }
 
 /// eax becomes the word of the last active lane.
@@ -41,7 +40,6 @@ void Emitter::lastLane(uint16_t Register) {
     return mov(eax, From.Bits);
   const Zmm To = scratch();
   spreadLast(To, Zmm(From.Zmm));
-  vmovd(eax, Xmm(To.getIdx()));
 }
 
 /// In the mode of the active lanes eax.
@@ -62,9 +60,17 @@ void Emitter::changeLanes() {
   countLanes();
   mov(r9, r8);
   mov(dword[rdi + MaskPlace], eax);
+  keepLanes();
+}
+
+/// Keeps the lanes of eax, and the first one, where instructions look for them.
+/// Overwrites rdx.
+void Emitter::keepLanes() {
   kmovw(k1, eax);
-  bsf(ecx, eax);
-  vpbroadcastd(Zmm(FirstLaneZmm), ecx);
+  if (!isWide())
+    return;
+  bsf(edx, eax);
+  vpbroadcastd(Zmm(FirstLaneZmm), edx);
 }
 
 /// What setMask() of Warps.h computes from the mask.
@@ -78,6 +84,8 @@ void Emitter::storeLanes() {
   cmp(ecx, AllBits);
   sete(dl);
   mov(dword[rdi + VORION_PLACE(Full)], edx);
+  if (!isWide())
+    return; // k1 is there
   kmovw(k1, ecx);
   vpmovm2d(zmm0, k1);
   vmovdqa32(ptr[rdi + VORION_PLACE(MaskWords)], zmm0);
@@ -120,6 +128,7 @@ void Emitter::split(const GuestInsn &G, bool IsNegated) {
   inc(dword[rdi + DepthPlace]);
   changeLanes();
   resumeAt(I + 1, 0);
+  Held.forget();
   L(Uniform);
   inc(qword[rdi + VORION_PLACE(Count.Splits)]);
   result(I->Rd,
@@ -255,16 +264,15 @@ void Emitter::shuffle(const GuestInsn &G) {
     break;
   }
   if (G.Opcode == Op::VX_SHFL_UP)
-    vpcmpd(k2, From, Low, static_cast<uint8_t>(Relation::NotLess));
+    vpcmpd(k2, From, Low, Relation::NotLess);
   else {
     vpsrld(High, Control, FieldBits);
     vpandd(High, High, constant(Field));
     vpandnd(High, Segment, High);
     vpord(High, High, Low);
-    vpcmpd(k2, From, High, static_cast<uint8_t>(Relation::LessEqual));
+    vpcmpd(k2, From, High, Relation::LessEqual);
   }
-  vpcmpd(k2 | k2, From, constant(MaxLanes),
-         static_cast<uint8_t>(Relation::Less));
+  vpcmpd(k2 | k2, From, constant(MaxLanes), Relation::Less);
   // A lane that is not active gives nothing.
   if (!isFull()) {
     vpmovm2d(High, k1);

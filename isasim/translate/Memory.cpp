@@ -6,15 +6,14 @@
 #include "translate/Places.h"
 #include "translate/Value.h"
 
+#include <bit>
+
 namespace vorion::isasim::translate {
 
 using namespace Xbyak;
 using namespace Xbyak::util;
 
 namespace {
-
-constexpr auto NotEqual = static_cast<uint8_t>(Relation::NotEqual);
-constexpr auto NotBelow = static_cast<uint8_t>(Relation::NotLess);
 
 struct Element {
   int Bytes;
@@ -41,6 +40,10 @@ Element elementOf(Op O) {
 
 /// The first active lane's word of \p From in every lane of \p To, and in eax.
 void Emitter::spreadFirst(const Zmm &To, const Zmm &From) {
+  if (!isFull() && !isWide()) {
+    tzcnt(eax, dword[rdi + VORION_PLACE(Mask)]);
+    return spreadLane(To, From, eax);
+  }
   if (isFull())
     vpbroadcastd(To, Xmm(From.getIdx()));
   else
@@ -48,13 +51,30 @@ void Emitter::spreadFirst(const Zmm &To, const Zmm &From) {
   vmovd(eax, Xmm(To.getIdx()));
 }
 
-/// Goes to \p Differ if active lanes of \p All have another word than the first
+/// The same where \p From has the addresses of \p I less the lanes' numbers
+/// times
+/// \p Bytes. With AVX2 the word comes from where the base register lies, which
+/// takes less time than from \p From.
+void Emitter::spreadFirstAddress(const Insn *I, int Bytes, const Zmm &To,
+                                 const Zmm &From) {
+  if (isFull() || isWide())
+    return spreadFirst(To, From);
+  tzcnt(edx, dword[rdi + VORION_PLACE(Mask)]);
+  mov(eax, dword[rdi + rdx * 4 + I->Rs1]);
+  if (I->Imm != 0)
+    add(eax, I->Imm);
+  if (Bytes > 1)
+    shl(edx, std::countr_zero(static_cast<unsigned>(Bytes)));
+  if (Bytes != 0)
+    sub(eax, edx);
+  vpbroadcastd(To, eax);
+}
+
+/// Goes to \p Apart if active lanes of \p All have another word than the first
 /// one, which \p Spread and eax have afterwards.
-void Emitter::jumpIfDiffer(const Zmm &All, const Zmm &Spread, Label &Differ) {
+void Emitter::jumpIfApart(const Zmm &All, const Zmm &Spread, Label &Apart) {
   spreadFirst(Spread, All);
-  vpcmpud(active(k2), All, Spread, NotEqual);
-  kortestw(k2, k2);
-  jnz(Differ);
+  jumpIfDiffer(All, Spread, isFull(), Apart);
 }
 
 /// rcx becomes where \p Count elements of \p Size bytes from guest address eax
@@ -96,13 +116,15 @@ void Emitter::locate(int Size, unsigned Count, bool IsStore, Label &Wrong) {
   });
 }
 
-/// The same for elements of \p Bytes bytes at \p Addresses, if these are
-/// neighbours; else goes to \p Apart. Overwrites \p Bases and \p Spread.
-void Emitter::locateNeighbours(const Zmm &Addresses, int Bytes, bool IsStore,
-                               const Zmm &Bases, const Zmm &Spread,
-                               Label &Apart, Label &Wrong) {
+/// The same for elements of \p Bytes bytes at the \p Addresses of \p I, if
+/// these are neighbours; else goes to \p Apart. Overwrites \p Bases and \p
+/// Spread.
+void Emitter::locateNeighbours(const Insn *I, const Zmm &Addresses, int Bytes,
+                               bool IsStore, const Zmm &Bases,
+                               const Zmm &Spread, Label &Apart, Label &Wrong) {
   vpsubd(Bases, Addresses, laneNumbers(static_cast<uint32_t>(Bytes)));
-  jumpIfDiffer(Bases, Spread, Apart);
+  spreadFirstAddress(I, Bytes, Spread, Bases);
+  jumpIfDiffer(Bases, Spread, isFull(), Apart);
   locate(Bytes, MaxLanes, IsStore, Wrong);
 }
 
@@ -140,7 +162,7 @@ void Emitter::locateEach(const Zmm &Addresses, int Bytes, bool IsStore,
   // Of aligned places in a region of whole words. k2 has those elsewhere.
   const auto Try = [&](const RegExp &In) {
     vpsubd(Offsets, Addresses, ptr_b[In + RegionLo]);
-    vpcmpud(active(k2), Offsets, ptr_b[In + RegionBytes], NotBelow);
+    vpcmpud(active(k2), Offsets, ptr_b[In + RegionBytes], Relation::NotLess);
     if (Bytes > 1)
       kortestw(k2, k3);
     else
@@ -165,10 +187,7 @@ void Emitter::locateEach(const Zmm &Addresses, int Bytes, bool IsStore,
   jnz(Wrong);
   mov(rcx, ptr[rcx + RegionHost]);
   L(Found);
-  if (isFull())
-    kxnorw(k2, k2, k2);
-  else
-    kmovw(k2, k1);
+  isFull() ? setAll(k2) : copy(k2, k1);
 }
 
 Zmm Emitter::addressesOf(const Insn *I) {
@@ -191,7 +210,8 @@ void Emitter::load(const GuestInsn &G) {
   const Zmm Addresses = addressesOf(I);
   const Zmm Bases = scratch(), Spread = scratch();
   const auto FromOne = [=, this, &Wrong](Label &Differ) {
-    jumpIfDiffer(Addresses, Spread, Differ);
+    spreadFirstAddress(I, 0, Spread, Addresses);
+    jumpIfDiffer(Addresses, Spread, isFull(), Differ);
     locate(Bytes, 1, false, Wrong);
     if (Bytes == 2)
       IsSigned ? movsx(ecx, word[rcx]) : movzx(ecx, word[rcx]);
@@ -202,7 +222,7 @@ void Emitter::load(const GuestInsn &G) {
     });
   };
   const auto FromNeighbours = [=, this, &Wrong](Label &Apart) {
-    locateNeighbours(Addresses, Bytes, false, Bases, Spread, Apart, Wrong);
+    locateNeighbours(I, Addresses, Bytes, false, Bases, Spread, Apart, Wrong);
     result(I->Rd, [&](const Zmm &To) {
       if (Bytes == 4)
         vmovdqu32(To, ptr[rcx]);
@@ -213,13 +233,12 @@ void Emitter::load(const GuestInsn &G) {
     });
   };
   const auto FromEach = [=, this, &Wrong] {
-    spreadFirst(Spread, Addresses);
+    spreadFirstAddress(I, 0, Spread, Addresses);
     locateEach(Addresses, Bytes, false, Bases, Wrong);
     if (Bytes == 4)
-      return result(I->Rd, [&](const Zmm &To) {
-        vpgatherdd(Zmm(To.getIdx()) | k2, ptr[rcx + Bases]);
-      });
-    vpgatherdd(Spread | k2, ptr[rcx + Bases]);
+      return result(I->Rd,
+                    [&](const Zmm &To) { gather(Zmm(To.getIdx()), Bases); });
+    gather(Spread, Bases);
     const auto Shift = static_cast<uint8_t>(32 - 8 * Bytes);
     vpslld(Spread, Spread, Shift);
     IsSigned ? vpsrad(Spread, Spread, Shift) : vpsrld(Spread, Spread, Shift);
@@ -248,16 +267,13 @@ void Emitter::store(const GuestInsn &G) {
     return storeToStack(G, Wrong);
   const Zmm Addresses = addressesOf(I);
   const Zmm Values = inZmm(guest(I->Rs2));
-  const Address To = isFull() ? ptr[rcx] : ptr[rcx] | k1;
   const Zmm Bases = scratch(), Spread = scratch();
   Label Apart, Done;
-  locateNeighbours(Addresses, Bytes, true, Bases, Spread, Apart, Wrong);
+  locateNeighbours(I, Addresses, Bytes, true, Bases, Spread, Apart, Wrong);
   if (Bytes == 4)
-    vmovdqu32(To, Values);
-  else if (Bytes == 2)
-    vpmovdw(To, Values);
+    vmovdqu32(isFull() ? ptr[rcx] : ptr[rcx] | k1, Values);
   else
-    vpmovdb(To, Values);
+    storeNarrow(Bytes, Values, isFull());
   L(Done);
   outOfLine([=, this, &Wrong]() mutable {
     L(Apart);
@@ -266,10 +282,10 @@ void Emitter::store(const GuestInsn &G) {
       jmp(Wrong);
       return;
     }
-    spreadFirst(Spread, Addresses);
+    spreadFirstAddress(I, 0, Spread, Addresses);
     locateEach(Addresses, Bytes, true, Bases, Wrong);
     // In the order of the lanes, as the guest's.
-    vpscatterdd(ptr[rcx + Bases] | k2, Values);
+    scatter(Bases, Values, isFull());
     jmp(Done);
   });
 }

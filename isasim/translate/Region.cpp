@@ -29,7 +29,22 @@ constexpr bool canTranslate(Amo Kind) {
   return Kind != Amo::Cas && Kind != Amo::CasPair;
 }
 
-Kind kindOf(Op O, const Insn *I) {
+/// What takes many instructions of AVX2, and is rare.
+bool needsWide(Op O, const Insn *I) {
+  switch (O) {
+  case Op::RV_FCLASS_S:
+    return true;
+  case Op::RV_FCVT_S_W:
+  case Op::RV_FCVT_S_WU:
+    return !roundsAsHost(I);
+  default:
+    return false;
+  }
+}
+
+Kind kindOf(VectorUnit Unit, Op O, const Insn *I) {
+  if (Unit != VectorUnit::Avx512 && needsWide(O, I))
+    return Kind::Other;
   switch (O) {
 #define INT(OP, RESULT) case Op::OP:
 #include "core/insns/integer.def"
@@ -148,7 +163,7 @@ bool endsPath(const GuestInsn &G) {
 using Found = std::map<const Insn *, GuestInsn>;
 
 /// Follows the code from Head on.
-Found follow(const CodeTable &Code, const Insn *Head) {
+Found follow(VectorUnit Unit, const CodeTable &Code, const Insn *Head) {
   Found All;
   std::deque<const Insn *> Paths = {Head};
   while (!Paths.empty()) {
@@ -160,7 +175,7 @@ Found follow(const CodeTable &Code, const Insn *Head) {
       const std::optional<Decoded> D = decode(I->Word);
       if (!D)
         break;
-      GuestInsn G{I, D->Opcode, kindOf(D->Opcode, I)};
+      GuestInsn G{I, D->Opcode, kindOf(Unit, D->Opcode, I)};
       if (G.Is == Kind::Branch || G.Is == Kind::Jump)
         Paths.push_back(I + (I->Imm >> 2));
       All.emplace(I, G);
@@ -204,8 +219,9 @@ bool isWorthEntering(const Found &All, const Insn *From) {
 
 } // namespace
 
-std::vector<GuestInsn> findRegion(const CodeTable &Code, const Insn *Head) {
-  Found All = follow(Code, Head);
+std::vector<GuestInsn> findRegion(VectorUnit Unit, const CodeTable &Code,
+                                  const Insn *Head) {
+  Found All = follow(Unit, Code, Head);
   markLeaders(All);
   for (auto &[I, G] : All) {
     const auto Before = All.find(I - 1);

@@ -3,6 +3,7 @@
 
 #include "core/CodeTable.h"
 #include "core/Isa.h"
+#include "translate/VectorUnit.h"
 
 #include <vector>
 
@@ -52,7 +53,8 @@ struct GuestInsn {
 /// Instructions that \p Head reaches by branches, jumps and falling through,
 /// nearest first until there are enough; in the order of their addresses.
 /// Empty if it is not worth it.
-std::vector<GuestInsn> findRegion(const CodeTable &Code, const Insn *Head);
+std::vector<GuestInsn> findRegion(VectorUnit Unit, const CodeTable &Code,
+                                  const Insn *Head);
 
 /// Sets GuestInsn::HasOneAddress of a region's loads by what \p S has in its
 /// registers, if it stands in the region, and what becomes of that on every way

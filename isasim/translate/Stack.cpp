@@ -20,7 +20,6 @@ namespace {
 
 constexpr uint16_t StackPointer = 2 * sizeof(LaneWords);
 constexpr int32_t WordBytes = 4, LineBytes = WordBytes * StackGroup;
-constexpr auto NotEqual = static_cast<uint8_t>(Relation::NotEqual);
 
 /// From the line of the stack pointer to that of \p Imm: stacks grow downwards,
 /// and so do the lines.
@@ -55,8 +54,10 @@ void Emitter::findStackUses() {
 }
 
 void Emitter::followStackPointer(const GuestInsn &G) {
-  if (KeepsStackLine && G.I->Rd == StackPointer && G.Is != Kind::Other)
-    call(FindOwnStack);
+  if (!KeepsStackLine || G.I->Rd != StackPointer || G.Is == Kind::Other)
+    return;
+  call(FindOwnStack);
+  Held.forget();
 }
 
 /// With the line at r12, if there is one; else at rcx.
@@ -67,14 +68,18 @@ void Emitter::atStackLine(const GuestInsn &G, Label &Wrong,
     return Access(rcx);
   }
   Label Lost, Done;
+  const HeldVectors Before = Held;
   test(r12, r12);
   jz(Lost);
   Access(r12 + distanceOf(G.I->Imm));
   L(Done);
-  outOfLine([=, this, &G, &Wrong]() mutable {
+  outOfLine([=, this, &G, &Wrong, Was = Held]() mutable {
     L(Lost);
+    Held = Before;
+    Held.forgetOthers();
     locateOnStack(addressesOf(G.I), Wrong);
     Access(rcx);
+    holdAgain(Was);
     jmp(Done);
   });
 }
@@ -109,7 +114,7 @@ void Emitter::locateOnStack(const Zmm &Addresses, Label &Wrong) {
   vmovdqa32(Back, laneNumbers(1));
   vpslld(Back, Back, Xmm(Spread.getIdx()));
   vpaddd(Back, Back, Addresses);
-  jumpIfDiffer(Back, Spread, Wrong);
+  jumpIfApart(Back, Spread, Wrong);
   call(FindStackLine);
   test(rcx, rcx);
   jz(Wrong);
@@ -178,9 +183,7 @@ void Emitter::writeOwnStackFinder() {
   vpslld(zmm2, zmm2, xmm1);
   vpaddd(zmm2, zmm2, Pointers);
   vpbroadcastd(zmm1, xmm2);
-  vpcmpud(k2, zmm2, zmm1, NotEqual);
-  kortestw(k2, k2);
-  jnz(None);
+  jumpIfDiffer(zmm2, zmm1, true, None);
   vmovd(eax, xmm2);
   test(al, WordBytes - 1);
   jnz(None);

@@ -12,10 +12,24 @@ using namespace vorion::isasim::testing;
 
 namespace {
 
+class Translated : public ::testing::TestWithParam<VectorUnit> {
+protected:
+  void SetUp() override {
+    if (GetParam() > Translator::unitOfHost())
+      GTEST_SKIP() << "the translation needs another host";
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Units, Translated,
+                         ::testing::Values(VectorUnit::Avx512,
+                                           VectorUnit::Avx2),
+                         [](const ::testing::TestParamInfo<VectorUnit> &Of) {
+                           return Of.param == VectorUnit::Avx2 ? "Avx2"
+                                                               : "Avx512";
+                         });
+
 /// Global memory lies in front of the image and behind it.
-TEST(TranslatedAtomics, AddInBothPartsOfGlobalMemory) {
-  if (!Translator::isThere())
-    GTEST_SKIP() << "the translator needs " << Translator::needs();
+TEST_P(Translated, AtomicsAddInBothPartsOfGlobalMemory) {
   std::vector<uint32_t> Words(
       20, encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 5, .Rs2 = 6}));
   Words.push_back(encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 7, .Rs2 = 6}));
@@ -23,7 +37,7 @@ TEST(TranslatedAtomics, AddInBothPartsOfGlobalMemory) {
   Large.GlobalBytes = uint64_t{3} << 30;
   const ExecTable &Exec = execTable(false);
   WarpRunner R(Exec, Words, Large);
-  Translator T(R.Code, Exec);
+  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
   T.seen(R.Code.begin(), UINT64_MAX);
   ASSERT_EQ(T.regions(), 1U);
   constexpr uint32_t Front = VX_GLOBAL_BASE + 64, Behind = VX_HIGH_BASE + 64;
@@ -53,9 +67,7 @@ TEST(TranslatedAtomics, AddInBothPartsOfGlobalMemory) {
 
 /// Addresses are guessed from the warp's registers. A guess that turns out
 /// wrong changes nothing.
-TEST(TranslatedLoads, FindOneAddressFirstWhereItIsLikely) {
-  if (!Translator::isThere())
-    GTEST_SKIP() << "the translator needs " << Translator::needs();
+TEST_P(Translated, LoadsFindOneAddressFirstWhereItIsLikely) {
   const auto Load = [](unsigned Rd, unsigned Rs) {
     return encode(Op::RV_LW, {.Rd = Rd, .Rs1 = Rs});
   };
@@ -75,7 +87,7 @@ TEST(TranslatedLoads, FindOneAddressFirstWhereItIsLikely) {
   std::memcpy(R.global(Table[0]), &Table[0], 4);
   R.setX(5, Table);
   R.setX(7, Places);
-  Translator T(R.Code, Exec);
+  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
   T.seen(R.Code.begin(), UINT64_MAX, &R.warp());
   ASSERT_EQ(T.regions(), 1U);
   EXPECT_EQ(T.guesses(), 2U);
@@ -92,11 +104,27 @@ TEST(TranslatedLoads, FindOneAddressFirstWhereItIsLikely) {
   }
 }
 
+/// A load by the stack pointer that overwrites it looks at the address of
+/// before, also where the pointer is nobody's stack.
+TEST_P(Translated, LoadsOfTheStackPointerFault) {
+  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
+  Words.push_back(encode(Op::RV_LW, {.Rd = 2, .Rs1 = 2, .Imm = 8}));
+  const ExecTable &Exec = execTable(false);
+  WarpRunner R(Exec, Words);
+  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
+  T.seen(R.Code.begin(), UINT64_MAX);
+  ASSERT_EQ(T.regions(), 1U);
+  Lanes16 Nowhere;
+  Nowhere.fill(0xFFFFFFF4);
+  R.setX(2, Nowhere);
+  R.run();
+  EXPECT_EQ(R.warp().Why, Stop::Trapped);
+  EXPECT_EQ(R.warp().FaultAddress, 0xFFFFFFFCU);
+}
+
 /// Infinity times zero is invalid, whatever is added, also where the next
 /// instruction overwrites a factor or computes with the result.
-TEST(TranslatedPairs, FlagInfinityTimesZero) {
-  if (!Translator::isThere())
-    GTEST_SKIP() << "the translator needs " << Translator::needs();
+TEST_P(Translated, PairsFlagInfinityTimesZero) {
   const uint32_t Product =
       encode(Op::RV_FMADD_S, {.Rd = 4, .Rs1 = 1, .Rs2 = 2, .Rs3 = 3});
   const auto Sum = [](unsigned Rd, unsigned Rs) {
@@ -113,7 +141,7 @@ TEST(TranslatedPairs, FlagInfinityTimesZero) {
     Words.insert(Words.end(), Pair.begin(), Pair.end());
     const ExecTable &Exec = execTable(false);
     WarpRunner R(Exec, Words);
-    Translator T(R.Code, Exec);
+    Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
     T.seen(R.Code.begin(), UINT64_MAX);
     ASSERT_EQ(T.regions(), 1U);
     for (unsigned F = 1; F != 6; ++F) {

@@ -16,7 +16,7 @@ namespace vorion::isasim {
 Translator::~Translator() = default;
 
 const char *Translator::needs() {
-  return "an x86-64 host with AVX-512 F, BW, DQ, VL, CD and VPOPCNTDQ";
+  return "an x86-64 host with AVX2 and the rest of the level x86-64-v3";
 }
 
 size_t Translator::bytes() const { return Host ? Host->bytes() : 0; }
@@ -31,19 +31,22 @@ struct alignas(64) Line {
   uint8_t Bytes[64];
 };
 
-bool Translator::isThere() {
-  return __builtin_cpu_supports("x86-64-v3") &&
-         __builtin_cpu_supports("avx512f") &&
-         __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("avx512cd") &&
-         __builtin_cpu_supports("avx512vpopcntdq");
+VectorUnit Translator::unitOfHost() {
+  if (!__builtin_cpu_supports("x86-64-v3"))
+    return VectorUnit::None;
+  return __builtin_cpu_supports("avx512f") &&
+                 __builtin_cpu_supports("avx512bw") &&
+                 __builtin_cpu_supports("avx512dq") &&
+                 __builtin_cpu_supports("avx512vl") &&
+                 __builtin_cpu_supports("avx512cd") &&
+                 __builtin_cpu_supports("avx512vpopcntdq")
+             ? VectorUnit::Avx512
+             : VectorUnit::Avx2;
 }
 
 Translator::Translator(CodeTable &Code, const ExecTable &Exec,
-                       uint64_t CostOfInsn)
-    : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn),
+                       uint64_t CostOfInsn, VectorUnit Unit)
+    : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn), Unit(Unit),
       Host(std::make_unique<translate::HostCode>(HostCodeBytes)) {}
 
 void Translator::seen(const Insn *At, uint64_t Instructions,
@@ -53,7 +56,8 @@ void Translator::seen(const Insn *At, uint64_t Instructions,
   Credit += Instructions;
   if (Credit < Cost)
     return;
-  std::vector<translate::GuestInsn> Region = translate::findRegion(Code, At);
+  std::vector<translate::GuestInsn> Region =
+      translate::findRegion(Unit, Code, At);
   if (std::ranges::none_of(Region, [this](const translate::GuestInsn &G) {
         return G.Enters && !Done.contains(G.I);
       })) {
@@ -71,7 +75,7 @@ void Translator::seen(const Insn *At, uint64_t Instructions,
       std::make_unique_for_overwrite<Line[]>(RegionBytes / sizeof(Line));
   const std::span<uint8_t> Bytes(Buffer[0].Bytes, RegionBytes);
   try {
-    translate::Emitter E(Exec, Code, Region, Bytes);
+    translate::Emitter E(Unit, Exec, Code, Region, Bytes);
     E.write();
     E.ready();
     std::byte *Base = Host->add(Bytes.first(E.getSize()));
@@ -97,11 +101,11 @@ void Translator::seen(const Insn *At, uint64_t Instructions,
 
 #else
 
-bool Translator::isThere() { return false; }
+VectorUnit Translator::unitOfHost() { return VectorUnit::None; }
 
 Translator::Translator(CodeTable &Code, const ExecTable &Exec,
-                       uint64_t CostOfInsn)
-    : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn) {}
+                       uint64_t CostOfInsn, VectorUnit Unit)
+    : Code(Code), Exec(Exec), CostOfInsn(CostOfInsn), Unit(Unit) {}
 
 void Translator::seen(const Insn *, uint64_t, const WarpState *) {}
 

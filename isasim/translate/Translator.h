@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/CodeTable.h"
+#include "translate/VectorUnit.h"
 
 #include <cstdint>
 #include <memory>
@@ -16,8 +17,10 @@ class HostCode;
 
 class Translator {
 public:
-  /// Whether this build and this host have what it needs.
-  static bool isThere();
+  /// The best that this build and this host have for it.
+  static VectorUnit unitOfHost();
+  /// Whether they have what it needs.
+  static bool isThere() { return unitOfHost() != VectorUnit::None; }
   /// That, in words.
   static const char *needs();
 
@@ -27,10 +30,10 @@ public:
   /// programs take.
   static constexpr uint64_t UsualCost = 15000;
 
-  /// Translates parts of \p Code, which \p Exec executes otherwise. Both live
-  /// longer.
+  /// Translates parts of \p Code, which \p Exec executes otherwise, for \p
+  /// Unit, which the host has. Code and Exec live longer.
   Translator(CodeTable &Code, const ExecTable &Exec,
-             uint64_t CostOfInsn = UsualCost);
+             uint64_t CostOfInsn = UsualCost, VectorUnit Unit = unitOfHost());
   ~Translator();
   Translator(const Translator &) = delete;
   Translator &operator=(const Translator &) = delete;
@@ -56,6 +59,7 @@ private:
   [[maybe_unused]] CodeTable &Code;
   [[maybe_unused]] const ExecTable &Exec;
   [[maybe_unused]] uint64_t CostOfInsn;
+  [[maybe_unused]] VectorUnit Unit;
   std::unique_ptr<translate::HostCode> Host;
   /// Places that a region begins at, or is not worth to.
   std::set<const Insn *> Done;

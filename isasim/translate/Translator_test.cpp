@@ -10,7 +10,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <ostream>
 #include <random>
+#include <string>
 
 using namespace vorion::isasim;
 using namespace vorion::isasim::testing;
@@ -389,8 +391,13 @@ void expectSame(WarpRunner &A, WarpRunner &B) {
 }
 
 struct Runs {
+  VectorUnit Unit;
   unsigned Programs, PercentAccesses;
 };
+
+void PrintTo(const Runs &R, std::ostream *To) {
+  *To << R.Programs << " programs, " << R.PercentAccesses << " % accesses";
+}
 
 /// For longer runs than the suite's (docs/random-tests.md).
 unsigned setting(const char *Name, unsigned Default) {
@@ -402,8 +409,8 @@ unsigned setting(const char *Name, unsigned Default) {
 class TranslatedPrograms : public ::testing::TestWithParam<Runs> {
 protected:
   void SetUp() override {
-    if (!Translator::isThere())
-      GTEST_SKIP() << "the translator needs " << Translator::needs();
+    if (GetParam().Unit > Translator::unitOfHost())
+      GTEST_SKIP() << "the translation needs another host";
   }
 };
 
@@ -418,7 +425,7 @@ TEST_P(TranslatedPrograms, DoesWhatTheInterpreterDoes) {
     const std::vector<uint32_t> Words = P.program(GetParam().PercentAccesses);
     const ExecTable &Exec = execTable(false);
     WarpRunner Interpreted(Exec, Words), Fast(Exec, Words);
-    Translator T(Fast.Code, Exec);
+    Translator T(Fast.Code, Exec, Translator::UsualCost, GetParam().Unit);
     // Registers of 0 make it guess that addresses are the same in all lanes.
     T.seen(Fast.Code.begin(), UINT64_MAX, Seed % 2 ? &Fast.warp() : nullptr);
     Translated += T.regions();
@@ -453,6 +460,15 @@ TEST_P(TranslatedPrograms, DoesWhatTheInterpreterDoes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, TranslatedPrograms,
-                         ::testing::Values(Runs{300, 0}, Runs{300, 15}));
+                         ::testing::Values(Runs{VectorUnit::Avx512, 300, 0},
+                                           Runs{VectorUnit::Avx512, 300, 15},
+                                           Runs{VectorUnit::Avx2, 300, 0},
+                                           Runs{VectorUnit::Avx2, 300, 15}),
+                         [](const ::testing::TestParamInfo<Runs> &Of) {
+                           return std::string(Of.param.Unit == VectorUnit::Avx2
+                                                  ? "Avx2"
+                                                  : "Avx512") +
+                                  (Of.param.PercentAccesses ? "Memory" : "");
+                         });
 
 } // namespace

@@ -63,11 +63,9 @@ Value made(Emitter *E, const Zmm &In) { return {E, Term{In.getIdx()}}; }
 
 void Test::into(const Opmask &K) const {
   const Zmm Left = E->inZmm(X);
-  const auto Code = static_cast<uint8_t>(Of);
   const Opmask To = E->active(K);
   const auto Compare = [&](const Operand &Right) {
-    IsSigned ? E->vpcmpd(To, Left, Right, Code)
-             : E->vpcmpud(To, Left, Right, Code);
+    IsSigned ? E->vpcmpd(To, Left, Right, Of) : E->vpcmpud(To, Left, Right, Of);
   };
   if (Y.isNumber())
     Compare(E->constant(Y.Bits));
@@ -266,38 +264,12 @@ Value upperHalves(const Value &A, const Value &B, bool AreSigned) {
   return made(E, Even);
 }
 
-/// Quotients by doubles, half of the lanes at a time (Level.h says why they
-/// are exact); division by 0 gives all ones, as RISC-V has it.
 Value quotient(const Value &A, const Value &B, bool AreSigned) {
   Emitter *E = either(A, B);
   const Zmm X = settled(A), Y = settled(B);
-  const Zmm Low = E->scratch(), Divisor = E->scratch(), High = E->scratch();
-  const auto Divide = [&](const Zmm &To, const Ymm &Over, const Ymm &Under) {
-    if (AreSigned) {
-      E->vcvtdq2pd(To, Over);
-      E->vcvtdq2pd(Divisor, Under);
-    } else {
-      E->vcvtudq2pd(To, Over);
-      E->vcvtudq2pd(Divisor, Under);
-    }
-    // Without a mark in the guest's flags.
-    E->vdivpd(To, To, Divisor | T_rn_sae);
-    if (AreSigned)
-      E->vcvtpd2dq(Ymm(To.getIdx()), To | T_rz_sae);
-    else
-      E->vcvttpd2udq(Ymm(To.getIdx()), To | T_sae);
-  };
-  E->vextracti64x4(Ymm(High.getIdx()), X, 1);
-  E->vextracti64x4(Ymm(Low.getIdx()), Y, 1);
-  Divide(High, Ymm(High.getIdx()), Ymm(Low.getIdx()));
-  Divide(Low, Ymm(X.getIdx()), Ymm(Y.getIdx()));
-  E->vinserti64x4(Low, Low, Ymm(High.getIdx()), 1);
-  // What is unsigned became all ones by itself.
-  if (AreSigned) {
-    E->vptestnmd(k2, Y, Y);
-    E->vpbroadcastd(Low | k2, E->number(~0U));
-  }
-  return made(E, Low);
+  const Zmm To = E->scratch(), Spare = E->scratch(), Other = E->scratch();
+  E->quotient(To, X, Y, AreSigned, Spare, Other);
+  return made(E, To);
 }
 
 Value remainder(const Value &A, const Value &B, bool AreSigned) {
@@ -346,8 +318,7 @@ Value popCount(const Value &A) {
 }
 Value orBytes(const Value &A) {
   const Zmm To = A.E->scratch(), From = settled(A);
-  A.E->vptestmb(k2, From, From);
-  A.E->vpmovm2b(To, k2);
+  A.E->markBytes(To, From);
   return made(A.E, To);
 }
 Value swapBytes(const Value &A) {
@@ -359,6 +330,7 @@ Value swapBytes(const Value &A) {
   return made(A.E, To);
 }
 
+/// With AVX-512 (Region.cpp).
 Value classify(const Value &A) {
   Emitter *E = A.E;
   const Zmm To = E->scratch(), From = settled(A);

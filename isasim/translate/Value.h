@@ -25,16 +25,6 @@ enum class Do : uint8_t {
   Choose ///< Then where it holds, else Else
 };
 
-/// The encoding of vpcmpd and vpcmpud.
-enum class Relation : uint8_t {
-  Equal = 0,
-  Less = 1,
-  LessEqual = 2,
-  NotEqual = 4,
-  NotLess = 5,
-  Greater = 6,
-};
-
 struct Test {
   Emitter *E = nullptr;
   Relation Of = Relation::Equal;

@@ -1,4 +1,4 @@
-"""Runs programs of bench/isasim with both engines, in long turns and in short ones: what they print and count, and where
+"""Runs programs of bench/isasim with each engine, in long turns and in short ones: what they print and count, and where
 cores meet, must be the same. usage: engines.py FOLDER PROGRAM..."""
 
 import json
@@ -7,6 +7,8 @@ import subprocess
 import sys
 
 BENCH = os.path.join(os.path.dirname(__file__), "..", "..", "..", "bench", "isasim")
+
+ENGINES = ("interpreter", "translator", "translator-avx2")
 
 
 def outcome(program, stats, turn, engine):
@@ -22,7 +24,8 @@ for name in names:
     elf, sources = os.path.join(folder, name + ".elf"), [os.path.join(BENCH, file + ".c") for file in (name, "device")]
     subprocess.run(["vorion-clang", "-O3", "-DREPEATS=1", *sources, "-o", elf], check=True)
     for turn in (100, 1 << 16):
-        one, other = (outcome(elf, os.path.join(folder, "stats.json"), turn, engine) for engine in ("interpreter", "translator"))
-        if one != other:
-            sys.exit(f"{name}, turns of {turn}: the interpreter gives {one}, the translator {other}")
+        expected, *others = (outcome(elf, os.path.join(folder, "stats.json"), turn, engine) for engine in ENGINES)
+        for engine, other in zip(ENGINES[1:], others):
+            if other != expected:
+                sys.exit(f"{name}, turns of {turn}: the interpreter gives {expected}, {engine} {other}")
     print(f"{name}: the same")

@@ -22,7 +22,8 @@ struct RasterConfig {
 enum class Engine : uint8_t {
   Auto, ///< the translator where the host has what it needs
   Interpreter,
-  Translator ///< without waiting until a translation is worth it
+  Translator,    ///< without waiting until a translation is worth it
+  TranslatorAvx2 ///< the same with AVX2 alone, also where there is AVX-512
 };
 
 /// Everything that fixes a machine. The values here are those of the plain
@@ -54,8 +55,8 @@ struct Config {
   uint64_t MaxInstructions = 0;
   unsigned HostThreads = 0; ///< 0: as many as the host has
   /// The translator works in runs without observers and without a clock; in
-  /// all others the interpreter does. Machine::create() refuses
-  /// Engine::Translator where the host does not have what it needs.
+  /// all others the interpreter does. Machine::create() refuses the translator
+  /// by name where the host does not have what it needs.
   Engine Runs = Engine::Auto;
 
   RasterConfig Raster;

@@ -1,0 +1,231 @@
+// Masks: comparisons, and what depends on them.
+
+#include "translate/HostVectors.h"
+#include "translate/Narrow.h"
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak;
+using namespace Xbyak::util;
+
+/// Each relation is an equality: of the operands, or of one of them and the
+/// greater or the lesser of both.
+void HostVectors::compare(const Opmask &To, const Zmm &A, const Operand &B,
+                          Relation Of, bool AreSigned) {
+  const bool IsInverted = Of == Relation::NotEqual || Of == Relation::Less ||
+                          Of == Relation::Greater;
+  write(To, IsInverted, [&](int Half, const Ymm &D) {
+    const Ymm Left = inYmm(A, Half, First);
+    withHalf(B, Half, Second, [&](const Operand &Right) {
+      switch (Of) {
+      case Relation::Equal:
+      case Relation::NotEqual:
+        return CodeGenerator::vpcmpeqd(D, Left, Right);
+      case Relation::Less:
+      case Relation::NotLess:
+        AreSigned ? CodeGenerator::vpmaxsd(Second, Left, Right)
+                  : CodeGenerator::vpmaxud(Second, Left, Right);
+        break;
+      case Relation::LessEqual:
+      case Relation::Greater:
+        AreSigned ? CodeGenerator::vpminsd(Second, Left, Right)
+                  : CodeGenerator::vpminud(Second, Left, Right);
+        break;
+      }
+      CodeGenerator::vpcmpeqd(D, Second, Left);
+    });
+  });
+}
+
+void HostVectors::vpcmpd(const Opmask &To, const Zmm &A, const Operand &B,
+                         Relation Of) {
+  isWide() ? CodeGenerator::vpcmpd(To, A, B, static_cast<uint8_t>(Of))
+           : compare(To, A, B, Of, true);
+}
+void HostVectors::vpcmpud(const Opmask &To, const Zmm &A, const Operand &B,
+                          Relation Of) {
+  isWide() ? CodeGenerator::vpcmpud(To, A, B, static_cast<uint8_t>(Of))
+           : compare(To, A, B, Of, false);
+}
+void HostVectors::vpcmpeqd(const Opmask &To, const Zmm &A, const Operand &B) {
+  isWide() ? CodeGenerator::vpcmpeqd(To, A, B)
+           : compare(To, A, B, Relation::Equal, false);
+}
+
+void HostVectors::testBits(const Opmask &To, const Zmm &A, const Operand &B,
+                           bool AreZero) {
+  CodeGenerator::vpxor(Second, Second, Second);
+  write(To, !AreZero, [&](int Half, const Ymm &D) {
+    const Ymm Left = inYmm(A, Half, First);
+    withHalf(B, Half, MaskHalf, [&](const Operand &Right) {
+      if (!Right.isMEM() && Right.getIdx() == Left.getIdx())
+        return CodeGenerator::vpcmpeqd(D, Left, Second);
+      CodeGenerator::vpand(MaskHalf, Left, Right);
+      CodeGenerator::vpcmpeqd(D, MaskHalf, Second);
+    });
+  });
+}
+
+void HostVectors::vptestmd(const Opmask &To, const Zmm &A, const Operand &B) {
+  isWide() ? CodeGenerator::vptestmd(To, A, B) : testBits(To, A, B, false);
+}
+void HostVectors::vptestnmd(const Opmask &To, const Zmm &A, const Operand &B) {
+  isWide() ? CodeGenerator::vptestnmd(To, A, B) : testBits(To, A, B, true);
+}
+
+void HostVectors::vpmovd2m(const Opmask &To, const Zmm &From) {
+  if (isWide())
+    return CodeGenerator::vpmovd2m(To, From);
+  constexpr uint8_t SignBit = 31;
+  write(To, false, [&](int Half, const Ymm &D) {
+    CodeGenerator::vpsrad(D, inYmm(From, Half, First), SignBit);
+  });
+}
+
+void HostVectors::vpmovm2d(const Zmm &To, const Opmask &From) {
+  if (isWide())
+    return CodeGenerator::vpmovm2d(To, From);
+  write(To, [&](int Half, const Ymm &D) {
+    withMask(From.getIdx(), Half,
+             [&](const Operand &M) { CodeGenerator::vmovdqu(D, M); });
+  });
+}
+
+void HostVectors::kmovw(const Reg32 &To, const Opmask &From) {
+  if (isWide())
+    return CodeGenerator::kmovw(To, From);
+  if (From.getIdx() == ActiveMask)
+    return mov(To, dword[rdi + VORION_PLACE(Mask)]);
+  withMask(From.getIdx(), 0,
+           [&](const Operand &M) { CodeGenerator::vmovdqu(First, M); });
+  withMask(From.getIdx(), 1, [&](const Operand &M) {
+    CodeGenerator::vpackssdw(First, First, M);
+  });
+  // The host packs each quarter by itself.
+  constexpr uint8_t InOrder = 0b11'01'10'00;
+  CodeGenerator::vpermq(First, First, InOrder);
+  CodeGenerator::vextracti128(Xmm(Second.getIdx()), First, 1);
+  CodeGenerator::vpacksswb(Xmm(First.getIdx()), Xmm(First.getIdx()),
+                           Xmm(Second.getIdx()));
+  CodeGenerator::vpmovmskb(To, Xmm(First.getIdx()));
+}
+
+void HostVectors::kmovw(const Opmask &To, const Reg32 &From) {
+  if (isWide())
+    return CodeGenerator::kmovw(To, From);
+  LaneConstants Bits{};
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    Bits[L] = 1U << L;
+  const Address OfLanes = vectorOf(Bits);
+  CodeGenerator::vmovd(Xmm(Second.getIdx()), From);
+  CodeGenerator::vpbroadcastd(Second, Xmm(Second.getIdx()));
+  write(To, false, [&](int Half, const Ymm &D) {
+    CodeGenerator::vmovdqa(First, halfOf(OfLanes, Half));
+    CodeGenerator::vpand(Out, Second, First);
+    CodeGenerator::vpcmpeqd(D, Out, First);
+  });
+}
+
+void HostVectors::setAll(const Opmask &To) {
+  if (isWide())
+    return CodeGenerator::kxnorw(To, To, To);
+  write(To, false,
+        [&](int, const Ymm &D) { CodeGenerator::vpcmpeqd(D, D, D); });
+}
+
+void HostVectors::copy(const Opmask &To, const Opmask &From) {
+  if (isWide())
+    return CodeGenerator::kmovw(To, From);
+  write(To, false, [&](int Half, const Ymm &D) {
+    withMask(From.getIdx(), Half,
+             [&](const Operand &M) { CodeGenerator::vmovdqu(D, M); });
+  });
+}
+
+void HostVectors::kortestw(const Opmask &A, const Opmask &B) {
+  if (isWide())
+    return CodeGenerator::kortestw(A, B);
+  withMask(A.getIdx(), 0,
+           [&](const Operand &M) { CodeGenerator::vmovdqu(First, M); });
+  const auto Or = [&](const Operand &M) {
+    CodeGenerator::vpor(First, First, M);
+  };
+  withMask(A.getIdx(), 1, Or);
+  if (B.getIdx() != A.getIdx())
+    for (const int Half : {0, 1})
+      withMask(B.getIdx(), Half, Or);
+  CodeGenerator::vptest(First, First);
+}
+
+void HostVectors::jumpUnlessAll(const Opmask &A, bool AreAllActive, Label &To) {
+  if (isWide()) {
+    if (AreAllActive) {
+      CodeGenerator::kortestw(A, A);
+      return jnc(To);
+    }
+    kxorw(k3, k1, A);
+    CodeGenerator::kortestw(k3, k3);
+    return jnz(To);
+  }
+  // Active lanes that it has not.
+  for (const int Half : {0, 1})
+    withMask(A.getIdx(), Half, [&](const Operand &M) {
+      const Ymm D = Half == 0 ? First : Second;
+      CodeGenerator::vmovdqu(D, M);
+      CodeGenerator::vpandn(D, D, halfAt(placeOfMask(ActiveMask), Half));
+    });
+  CodeGenerator::vpor(First, First, Second);
+  CodeGenerator::vptest(First, First);
+  jnz(To);
+}
+
+void HostVectors::jumpIfDiffer(const Zmm &A, const Zmm &B, bool AreAllActive,
+                               Label &To) {
+  if (isWide()) {
+    CodeGenerator::vpcmpud(AreAllActive ? k2 : k2 | k1, A, B,
+                           static_cast<uint8_t>(Relation::NotEqual));
+    CodeGenerator::kortestw(k2, k2);
+    return jnz(To);
+  }
+  for (const int Half : {0, 1}) {
+    const Ymm D = Half == 0 ? Out : First;
+    withHalf(B, Half, Second, [&](const Operand &Right) {
+      CodeGenerator::vpxor(D, inYmm(A, Half, MaskHalf), Right);
+    });
+    if (!AreAllActive)
+      CodeGenerator::vpand(D, D, halfAt(placeOfMask(ActiveMask), Half));
+  }
+  CodeGenerator::vpor(Out, Out, First);
+  CodeGenerator::vptest(Out, Out);
+  jnz(To);
+}
+
+void HostVectors::jumpIfNan(const Zmm &A, const Zmm &B, bool AreAllActive,
+                            Label &To) {
+  constexpr uint8_t Unordered = 3;
+  if (isWide()) {
+    CodeGenerator::vcmpps(AreAllActive ? k2 : k2 | k1, A, B, Unordered);
+    CodeGenerator::kortestw(k2, k2);
+    return jnz(To);
+  }
+  // Any two vectors are unordered where either has a NaN: so are both halves.
+  const auto Compare = [&](const Ymm &D, const Zmm &Of) {
+    Ymm Halves[2] = {First, Second};
+    for (const int Half : {0, 1})
+      if (AreAllActive)
+        Halves[Half] = inYmm(Of, Half, Halves[Half]);
+      else
+        CodeGenerator::vpand(Halves[Half], inYmm(Of, Half, Halves[Half]),
+                             halfAt(placeOfMask(ActiveMask), Half));
+    CodeGenerator::vcmpps(D, Halves[0], Halves[1], Unordered);
+  };
+  Compare(Out, A);
+  if (A.getIdx() != B.getIdx()) {
+    Compare(MaskHalf, B);
+    CodeGenerator::vpor(Out, Out, MaskHalf);
+  }
+  CodeGenerator::vptest(Out, Out);
+  jnz(To);
+}
+
+} // namespace vorion::isasim::translate

@@ -1,0 +1,300 @@
+// Constants and moves.
+
+#include "translate/HostVectors.h"
+
+#include "translate/Narrow.h"
+
+namespace vorion::isasim::translate {
+
+using namespace Xbyak;
+using namespace Xbyak::util;
+
+HostVectors::HostVectors(VectorUnit UnitIn, std::span<uint8_t> Buffer)
+    : CodeGenerator(Buffer.size(), Buffer.data()), Unit(UnitIn) {}
+
+//===----------------------------------------------------------------------===//
+// Constants
+//===----------------------------------------------------------------------===//
+
+Address HostVectors::constant(uint32_t Bits) {
+  if (isWide())
+    return ptr_b[rip + Numbers[Bits]];
+  LaneConstants Words;
+  Words.fill(Bits);
+  return vectorOf(Words);
+}
+
+Address HostVectors::number(uint32_t Bits) { return ptr[rip + Numbers[Bits]]; }
+
+Address HostVectors::vectorOf(const LaneConstants &Words) {
+  return ptr[rip + Vectors[Words]];
+}
+
+Address HostVectors::laneNumbers(uint32_t Factor) {
+  LaneConstants Words{};
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    Words[L] = L * Factor;
+  return vectorOf(Words);
+}
+
+void HostVectors::writeConstants() {
+  align(64);
+  for (auto &[Words, At] : Vectors) {
+    L(At);
+    for (const uint32_t Word : Words)
+      dd(Word);
+  }
+  for (auto &[Bits, At] : Numbers) {
+    L(At);
+    dd(Bits);
+  }
+}
+
+//===----------------------------------------------------------------------===//
+// Moves
+//===----------------------------------------------------------------------===//
+
+Ymm HostVectors::inYmm(const Operand &A, int Half, const Ymm &Spare) {
+  Ymm In = Spare;
+  withHalf(A, Half, Spare, [&](const Operand &From) {
+    if (From.isMEM())
+      CodeGenerator::vmovdqu(Spare, From);
+    else
+      In = Ymm(From.getIdx());
+  });
+  return In;
+}
+
+void HostVectors::vmovdqu32(const Zmm &To, const Operand &From) {
+  if (isWide())
+    return CodeGenerator::vmovdqu32(To, From);
+  write(To, [&](int Half, const Ymm &D) {
+    withHalf(From, Half, D, [&](const Operand &Source) {
+      if (Source.isMEM() || Source.getIdx() != D.getIdx())
+        CodeGenerator::vmovdqu(D, Source);
+    });
+  });
+}
+
+void HostVectors::vmovdqa32(const Zmm &To, const Operand &From) {
+  isWide() ? CodeGenerator::vmovdqa32(To, From) : vmovdqu32(To, From);
+}
+
+void HostVectors::vmovaps(const Zmm &To, const Zmm &From) {
+  isWide() ? CodeGenerator::vmovaps(To, From) : vmovdqu32(To, From);
+}
+
+void HostVectors::vmovdqu32(const Address &To, const Zmm &From) {
+  if (isWide())
+    return CodeGenerator::vmovdqu32(To, From);
+  for (int Half = 0; Half != 2; ++Half) {
+    const Ymm Source = inYmm(From, Half, First);
+    if (const int Mask = To.getOpmaskIdx(); Mask != 0) {
+      withMask(Mask, Half,
+               [&](const Operand &M) { CodeGenerator::vmovdqu(MaskHalf, M); });
+      CodeGenerator::vpmaskmovd(halfOf(To, Half), MaskHalf, Source);
+    } else
+      CodeGenerator::vmovdqu(halfOf(To, Half), Source);
+  }
+}
+
+void HostVectors::vmovdqa32(const Address &To, const Zmm &From) {
+  isWide() ? CodeGenerator::vmovdqa32(To, From) : vmovdqu32(To, From);
+}
+
+void HostVectors::vmovd(const Reg32 &To, const Xmm &From) {
+  if (isWide())
+    return CodeGenerator::vmovd(To, From);
+  if (From.getIdx() < NumPairs)
+    return CodeGenerator::vmovd(To, Xmm(2 * From.getIdx()));
+  mov(To, dword[rdi + placeOfVector(From.getIdx())]);
+}
+
+void HostVectors::vmovd(const Xmm &To, const Address &From) {
+  if (isWide())
+    return CodeGenerator::vmovd(To, From);
+  if (To.getIdx() < NumPairs)
+    return CodeGenerator::vmovd(Xmm(2 * To.getIdx()), From);
+  CodeGenerator::vmovd(Xmm(Out.getIdx()), From);
+  CodeGenerator::vmovdqa(halfAt(placeOfVector(To.getIdx()), 0), Out);
+}
+
+void HostVectors::vpbroadcastd(const Zmm &To, const Operand &From) {
+  if (isWide())
+    return CodeGenerator::vpbroadcastd(To, From);
+  if (From.isMEM())
+    CodeGenerator::vpbroadcastd(Second, From);
+  else if (From.getIdx() < NumPairs)
+    CodeGenerator::vpbroadcastd(Second, Xmm(2 * From.getIdx()));
+  else
+    CodeGenerator::vpbroadcastd(Second,
+                                dword[rdi + placeOfVector(From.getIdx())]);
+  write(To, [&](int, const Ymm &D) { CodeGenerator::vmovdqa(D, Second); });
+}
+
+void HostVectors::vpbroadcastd(const Zmm &To, const Reg32 &From) {
+  if (isWide())
+    return CodeGenerator::vpbroadcastd(To, From);
+  CodeGenerator::vmovd(Xmm(Second.getIdx()), From);
+  CodeGenerator::vpbroadcastd(Second, Xmm(Second.getIdx()));
+  write(To, [&](int, const Ymm &D) { CodeGenerator::vmovdqa(D, Second); });
+}
+
+namespace {
+
+/// What the words of half of the lanes are made of, \p Bytes bytes each.
+Address narrowHalfOf(const Address &A, int Half, int Bytes) {
+  constexpr int LanesOfHalf = 8;
+  return {0, false, A.getRegExp(false) + Half * LanesOfHalf * Bytes};
+}
+
+} // namespace
+
+void HostVectors::vpmovsxwd(const Zmm &To, const Address &From) {
+  if (isWide())
+    return CodeGenerator::vpmovsxwd(To, From);
+  write(To, [&](int Half, const Ymm &D) {
+    CodeGenerator::vpmovsxwd(D, narrowHalfOf(From, Half, 2));
+  });
+}
+void HostVectors::vpmovzxwd(const Zmm &To, const Address &From) {
+  if (isWide())
+    return CodeGenerator::vpmovzxwd(To, From);
+  write(To, [&](int Half, const Ymm &D) {
+    CodeGenerator::vpmovzxwd(D, narrowHalfOf(From, Half, 2));
+  });
+}
+void HostVectors::vpmovsxbd(const Zmm &To, const Address &From) {
+  if (isWide())
+    return CodeGenerator::vpmovsxbd(To, From);
+  write(To, [&](int Half, const Ymm &D) {
+    CodeGenerator::vpmovsxbd(D, narrowHalfOf(From, Half, 1));
+  });
+}
+void HostVectors::vpmovzxbd(const Zmm &To, const Address &From) {
+  if (isWide())
+    return CodeGenerator::vpmovzxbd(To, From);
+  write(To, [&](int Half, const Ymm &D) {
+    CodeGenerator::vpmovzxbd(D, narrowHalfOf(From, Half, 1));
+  });
+}
+
+void HostVectors::vpblendmd(const Zmm &To, const Zmm &Else,
+                            const Operand &Then) {
+  if (isWide())
+    return CodeGenerator::vpblendmd(To, Else, Then);
+  // Its mask chooses, and all lanes are written.
+  write(Zmm(To.getIdx()), [&](int Half, const Ymm &D) {
+    const Ymm Otherwise = inYmm(Else, Half, Second);
+    withMask(To.getOpmaskIdx(), Half,
+             [&](const Operand &M) { CodeGenerator::vmovdqu(MaskHalf, M); });
+    withHalf(Then, Half, First, [&](const Operand &Source) {
+      CodeGenerator::vblendvps(D, Otherwise, Source, MaskHalf);
+    });
+  });
+}
+
+void HostVectors::vpermd(const Zmm &To, const Zmm &Index, const Zmm &From) {
+  if (isWide())
+    return CodeGenerator::vpermd(To, Index, From);
+  // From memory, since To may be From: the halves need both halves.
+  const int Copy = placeOfSpare();
+  for (int Half = 0; Half != 2; ++Half)
+    CodeGenerator::vmovdqa(halfAt(Copy, Half), inYmm(From, Half, First));
+  constexpr uint8_t WhichHalf = 28; // bit 3 becomes the sign
+  write(To, [&](int Half, const Ymm &D) {
+    const Ymm In = inYmm(Index, Half, Second);
+    CodeGenerator::vpslld(MaskHalf, In, WhichHalf);
+    CodeGenerator::vpermd(First, In, halfAt(Copy, 1));
+    CodeGenerator::vpermd(D, In, halfAt(Copy, 0));
+    CodeGenerator::vblendvps(D, D, First, MaskHalf);
+  });
+}
+
+void HostVectors::spreadLane(const Zmm &To, const Zmm &From,
+                             const Reg32 &Index) {
+  if (isWide()) {
+    CodeGenerator::vpbroadcastd(To, Index);
+    CodeGenerator::vpermd(To, To, From);
+    return CodeGenerator::vmovd(Index, Xmm(To.getIdx()));
+  }
+  const int Copy = placeOfSpare();
+  for (int Half = 0; Half != 2; ++Half)
+    CodeGenerator::vmovdqa(halfAt(Copy, Half), inYmm(From, Half, First));
+  mov(Index, dword[rdi + Index.cvt64() * 4 + Copy]);
+  vpbroadcastd(To, Index);
+}
+
+void HostVectors::gather(const Zmm &To, const Zmm &Offsets) {
+  if (isWide())
+    return CodeGenerator::vpgatherdd(To | k2, ptr[rcx + Offsets]);
+  for (int Half = 0; Half != 2; ++Half) {
+    // Not from where they are: qemu 7.2 takes ymm4 for no index at all.
+    withHalf(Offsets, Half, Second, [&](const Operand &From) {
+      CodeGenerator::vmovdqa(Second, From);
+    });
+    const bool HasRegister = To.getIdx() < NumPairs;
+    const Ymm D = HasRegister ? Ymm(2 * To.getIdx() + Half) : Out;
+    if (!HasRegister)
+      CodeGenerator::vmovdqa(D, halfAt(placeOfVector(To.getIdx()), Half));
+    CodeGenerator::vpgatherdd(D, ptr[rcx + Second], Ymm(MaskPair + Half));
+    if (!HasRegister)
+      CodeGenerator::vmovdqa(halfAt(placeOfVector(To.getIdx()), Half), D);
+  }
+}
+
+/// Lets \p Store store edx for one active lane after the other at
+/// rcx + rax, where rax is that of \p Offsets, or at the lane's address in the
+/// expression.
+void HostVectors::forActiveLanes(
+    const Zmm &Values, const Zmm *Offsets, int Bytes, bool AreAllActive,
+    const std::function<void(const RegExp &)> &Store) {
+  const int ValuesAt = placeOfSpare(), OffsetsAt = placeOfSpare(1);
+  for (int Half = 0; Half != 2; ++Half) {
+    CodeGenerator::vmovdqa(halfAt(ValuesAt, Half), inYmm(Values, Half, First));
+    if (Offsets)
+      CodeGenerator::vmovdqa(halfAt(OffsetsAt, Half),
+                             inYmm(*Offsets, Half, First));
+  }
+  if (AreAllActive) {
+    for (int L = 0; L != static_cast<int>(MaxLanes); ++L) {
+      mov(edx, dword[rdi + (ValuesAt + 4 * L)]);
+      if (Offsets)
+        mov(eax, dword[rdi + (OffsetsAt + 4 * L)]);
+      Store(Offsets ? rcx + rax : rcx + L * Bytes);
+    }
+    return;
+  }
+  Label Next;
+  mov(r11d, dword[rdi + VORION_PLACE(Mask)]);
+  L(Next);
+  tzcnt(eax, r11d);
+  mov(edx, dword[rdi + rax * 4 + ValuesAt]);
+  if (Offsets)
+    mov(eax, dword[rdi + rax * 4 + OffsetsAt]);
+  Store(Offsets ? rcx + rax : rcx + rax * Bytes);
+  blsr(r11d, r11d);
+  jnz(Next);
+}
+
+void HostVectors::scatter(const Zmm &Offsets, const Zmm &Values,
+                          bool AreAllActive) {
+  if (isWide())
+    return CodeGenerator::vpscatterdd(ptr[rcx + Offsets] | k2, Values);
+  forActiveLanes(Values, &Offsets, 4, AreAllActive,
+                 [this](const RegExp &At) { mov(dword[At], edx); });
+}
+
+void HostVectors::storeNarrow(int Bytes, const Zmm &Values, bool AreAllActive) {
+  if (isWide()) {
+    const Address To = AreAllActive ? ptr[rcx] : ptr[rcx] | k1;
+    return Bytes == 2 ? CodeGenerator::vpmovdw(To, Values)
+                      : CodeGenerator::vpmovdb(To, Values);
+  }
+  forActiveLanes(Values, nullptr, Bytes, AreAllActive,
+                 [this, Bytes](const RegExp &At) {
+                   Bytes == 2 ? mov(word[At], dx) : mov(byte[At], dl);
+                 });
+}
+
+} // namespace vorion::isasim::translate
