@@ -8,32 +8,83 @@ namespace vorion::isasim::translate {
 using namespace Xbyak;
 using namespace Xbyak::util;
 
-/// Each relation is an equality: of the operands, or of one of them and the
-/// greater or the lesser of both.
+namespace {
+
+/// Each relation is an equality or the opposite of one: of the operands, or of
+/// one of them and the greater or the lesser of both.
+bool isOpposite(Relation Of) {
+  return Of == Relation::NotEqual || Of == Relation::Less ||
+         Of == Relation::Greater;
+}
+
+} // namespace
+
+/// Half of that equality.
+void HostVectors::compareHalf(const Ymm &D, int Half, const Zmm &A,
+                              const Operand &B, Relation Of, bool AreSigned) {
+  const Ymm Left = inYmm(A, Half, First);
+  withHalf(B, Half, Second, [&](const Operand &Right) {
+    switch (Of) {
+    case Relation::Equal:
+    case Relation::NotEqual:
+      return CodeGenerator::vpcmpeqd(D, Left, Right);
+    case Relation::Less:
+    case Relation::NotLess:
+      AreSigned ? CodeGenerator::vpmaxsd(Second, Left, Right)
+                : CodeGenerator::vpmaxud(Second, Left, Right);
+      break;
+    case Relation::LessEqual:
+    case Relation::Greater:
+      AreSigned ? CodeGenerator::vpminsd(Second, Left, Right)
+                : CodeGenerator::vpminud(Second, Left, Right);
+      break;
+    }
+    CodeGenerator::vpcmpeqd(D, Second, Left);
+  });
+}
+
 void HostVectors::compare(const Opmask &To, const Zmm &A, const Operand &B,
                           Relation Of, bool AreSigned) {
-  const bool IsInverted = Of == Relation::NotEqual || Of == Relation::Less ||
-                          Of == Relation::Greater;
-  write(To, IsInverted, [&](int Half, const Ymm &D) {
-    const Ymm Left = inYmm(A, Half, First);
-    withHalf(B, Half, Second, [&](const Operand &Right) {
-      switch (Of) {
-      case Relation::Equal:
-      case Relation::NotEqual:
-        return CodeGenerator::vpcmpeqd(D, Left, Right);
-      case Relation::Less:
-      case Relation::NotLess:
-        AreSigned ? CodeGenerator::vpmaxsd(Second, Left, Right)
-                  : CodeGenerator::vpmaxud(Second, Left, Right);
-        break;
-      case Relation::LessEqual:
-      case Relation::Greater:
-        AreSigned ? CodeGenerator::vpminsd(Second, Left, Right)
-                  : CodeGenerator::vpminud(Second, Left, Right);
-        break;
-      }
-      CodeGenerator::vpcmpeqd(D, Second, Left);
-    });
+  write(To, isOpposite(Of), [&](int Half, const Ymm &D) {
+    compareHalf(D, Half, A, B, Of, AreSigned);
+  });
+}
+
+/// The lanes whose sign \p Compute sets in a half, or does not, among the
+/// active ones. Overwrites ecx.
+template <typename F>
+void HostVectors::signs(const Reg32 &To, bool IsInverted, bool AreAllActive,
+                        F Compute) {
+  constexpr uint8_t LanesOfHalf = 8;
+  Compute(0, Out);
+  CodeGenerator::vmovmskps(To, Out);
+  Compute(1, Out);
+  CodeGenerator::vmovmskps(ecx, Out);
+  shl(ecx, LanesOfHalf);
+  or_(To, ecx);
+  if (IsInverted)
+    xor_(To, (1U << MaxLanes) - 1);
+  if (!AreAllActive)
+    and_(To, dword[rdi + VORION_PLACE(Mask)]);
+}
+
+void HostVectors::lanesWhere(const Reg32 &To, const Zmm &A, const Operand &B,
+                             Relation Of, bool AreSigned, bool AreAllActive) {
+  signs(To, isOpposite(Of), AreAllActive, [&](int Half, const Ymm &D) {
+    compareHalf(D, Half, A, B, Of, AreSigned);
+  });
+}
+
+void HostVectors::oddLanes(const Reg32 &To, const Zmm &A, bool AreEven,
+                           bool AreAllActive) {
+  if (isWide()) {
+    const Opmask K = AreAllActive ? k2 : k2 | k1;
+    AreEven ? CodeGenerator::vptestnmd(K, A, constant(1))
+            : CodeGenerator::vptestmd(K, A, constant(1));
+    return CodeGenerator::kmovw(To, k2);
+  }
+  signs(To, AreEven, AreAllActive, [&](int Half, const Ymm &D) {
+    CodeGenerator::vpslld(D, inYmm(A, Half, First), WordBits - 1);
   });
 }
 
@@ -155,28 +206,6 @@ void HostVectors::kortestw(const Opmask &A, const Opmask &B) {
     for (const int Half : {0, 1})
       withMask(B.getIdx(), Half, Or);
   CodeGenerator::vptest(First, First);
-}
-
-void HostVectors::jumpUnlessAll(const Opmask &A, bool AreAllActive, Label &To) {
-  if (isWide()) {
-    if (AreAllActive) {
-      CodeGenerator::kortestw(A, A);
-      return jnc(To);
-    }
-    kxorw(k3, k1, A);
-    CodeGenerator::kortestw(k3, k3);
-    return jnz(To);
-  }
-  // Active lanes that it has not.
-  for (const int Half : {0, 1})
-    withMask(A.getIdx(), Half, [&](const Operand &M) {
-      const Ymm D = Half == 0 ? First : Second;
-      CodeGenerator::vmovdqu(D, M);
-      CodeGenerator::vpandn(D, D, halfAt(placeOfMask(ActiveMask), Half));
-    });
-  CodeGenerator::vpor(First, First, Second);
-  CodeGenerator::vptest(First, First);
-  jnz(To);
 }
 
 void HostVectors::jumpIfDiffer(const Zmm &A, const Zmm &B, bool AreAllActive,

@@ -138,8 +138,12 @@ public:
   void copy(const Opmask &To, const Opmask &From);
   /// Sets the host's zero flag if neither has a lane.
   void kortestw(const Opmask &A, const Opmask &B);
-  /// Goes to \p To unless \p A has all active lanes. May overwrite k3.
-  void jumpUnlessAll(const Opmask &A, bool AreAllActive, Xbyak::Label &To);
+  /// A bit for each active lane whose word is odd, or even. May overwrite ecx
+  /// and k2.
+  void oddLanes(const Reg32 &To, const Zmm &A, bool AreEven, bool AreAllActive);
+  /// With AVX2: a bit for each active lane where \p Of holds. Overwrites ecx.
+  void lanesWhere(const Reg32 &To, const Zmm &A, const Operand &B, Relation Of,
+                  bool AreSigned, bool AreAllActive);
   /// Goes to \p To if active lanes of \p A and \p B differ. May overwrite k2.
   void jumpIfDiffer(const Zmm &A, const Zmm &B, bool AreAllActive,
                     Xbyak::Label &To);
@@ -186,8 +190,12 @@ private:
   void forActiveLanes(const Zmm &Values, const Zmm *Offsets, int Bytes,
                       bool AreAllActive,
                       const std::function<void(const Xbyak::RegExp &)> &Store);
+  void compareHalf(const Ymm &D, int Half, const Zmm &A, const Operand &B,
+                   Relation Of, bool AreSigned);
   void compare(const Opmask &To, const Zmm &A, const Operand &B, Relation Of,
                bool AreSigned);
+  template <typename F>
+  void signs(const Reg32 &To, bool IsInverted, bool AreAllActive, F Compute);
   void testBits(const Opmask &To, const Zmm &A, const Operand &B, bool AreZero);
 
   template <typename F>

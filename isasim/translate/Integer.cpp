@@ -40,10 +40,11 @@ void Emitter::integer(const GuestInsn &G) {
 void Emitter::writeBranch(const GuestInsn &G) {
   const Insn *I = G.I;
   const Value A(this, guest(I->Rs1)), B(this, guest(I->Rs2));
+  Test Taken;
   switch (G.Opcode) {
 #define BRANCH(OP, CONDITION)                                                  \
   case Op::OP:                                                                 \
-    (CONDITION).into(k2);                                                      \
+    Taken = CONDITION;                                                         \
     break;
 #include "core/insns/branch.def"
 #undef BRANCH
@@ -51,10 +52,26 @@ void Emitter::writeBranch(const GuestInsn &G) {
     break;
   }
   Xbyak::Label NotTaken;
-  kortestw(k2, k2);
-  jz(NotTaken);
   // Taken by some lanes only, it is an error.
-  jumpUnlessAll(k2, isFull(), toInterpreter());
+  if (!isWide()) {
+    Taken.into(eax);
+    test(eax, eax);
+    jz(NotTaken);
+    isFull() ? cmp(eax, (1U << MaxLanes) - 1)
+             : cmp(eax, dword[rdi + VORION_PLACE(Mask)]);
+    jne(toInterpreter());
+  } else {
+    Taken.into(k2);
+    kortestw(k2, k2);
+    jz(NotTaken);
+    if (isFull())
+      jnc(toInterpreter());
+    else {
+      kxorw(k3, k1, k2);
+      kortestw(k3, k3);
+      jnz(toInterpreter());
+    }
+  }
   addPresent();
   goTo(I + (I->Imm >> 2));
   L(NotTaken);

@@ -35,6 +35,10 @@ void Emitter::spreadLast(const Zmm &To, const Zmm &From) {
 
 /// eax becomes the word of the last active lane.
 void Emitter::lastLane(uint16_t Register) {
+  if (!isWide() && Register != XBase) {
+    bsr(eax, dword[rdi + MaskPlace]);
+    return mov(eax, dword[rdi + rax * 4 + Register]);
+  }
   const Term From = guest(Register);
   if (From.isNumber())
     return mov(eax, From.Bits);
@@ -93,12 +97,7 @@ void Emitter::storeLanes() {
 
 /// eax becomes the active lanes whose predicate is set, in \p Register.
 void Emitter::predicateOf(uint16_t Register, bool IsNegated) {
-  const Zmm A = inZmm(guest(Register));
-  if (IsNegated)
-    vptestnmd(active(k2), A, constant(1));
-  else
-    vptestmd(active(k2), A, constant(1));
-  kmovw(eax, k2);
+  oddLanes(eax, inZmm(guest(Register)), IsNegated, isFull());
 }
 
 void Emitter::split(const GuestInsn &G, bool IsNegated) {

@@ -73,6 +73,14 @@ void Test::into(const Opmask &K) const {
     Compare(Zmm(Y.Zmm));
 }
 
+void Test::into(const Reg32 &Bits) const {
+  const Zmm Left = E->inZmm(X);
+  if (Y.isNumber())
+    E->lanesWhere(Bits, Left, E->constant(Y.Bits), Of, IsSigned, E->isFull());
+  else
+    E->lanesWhere(Bits, Left, Zmm(Y.Zmm), Of, IsSigned, E->isFull());
+}
+
 Term Value::settle() const {
   if (What == Do::Move)
     return X;

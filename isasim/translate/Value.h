@@ -32,6 +32,8 @@ struct Test {
   Term X, Y;
   /// Writes the active lanes where it holds.
   void into(const Xbyak::Opmask &K) const;
+  /// The same, a bit a lane, with AVX2 (HostVectors::lanesWhere()).
+  void into(const Xbyak::Reg32 &Bits) const;
 };
 
 struct Value {
