@@ -10,8 +10,8 @@ namespace vorion::isasim::translate {
 
 namespace {
 
-/// Instructions of a region at most: half a million bytes of host code. The
-/// kernels of `splat` that have most are whole with it.
+/// Instructions of a region at most: half a million bytes of host code with
+/// AVX-512. The kernels of `splat` that have most are whole with it.
 constexpr size_t MostInstructions = 2500;
 
 /// What going to the interpreter and coming back costs, in instructions that

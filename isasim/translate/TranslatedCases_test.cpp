@@ -122,6 +122,25 @@ TEST_P(Translated, LoadsOfTheStackPointerFault) {
   EXPECT_EQ(R.warp().FaultAddress, 0xFFFFFFFCU);
 }
 
+/// The longest regions fit into the memory for one.
+TEST_P(Translated, LongRegionsFit) {
+  constexpr unsigned Registers = 28;
+  std::vector<uint32_t> Words;
+  while (Words.size() < 2400) {
+    const auto R = 3 + static_cast<unsigned>(Words.size()) % Registers;
+    Words.push_back(encode(Op::RV_FMADD_S,
+                           {.Rd = R, .Rs1 = R + 1, .Rs2 = R - 1, .Rs3 = R}));
+    Words.push_back(encode(Op::RV_LW, {.Rd = R, .Rs1 = R + 1, .Imm = 4}));
+    Words.push_back(encode(Op::RV_SLT, {.Rd = R, .Rs1 = R + 1, .Rs2 = R - 1}));
+  }
+  const ExecTable &Exec = execTable(false);
+  WarpRunner R(Exec, Words);
+  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
+  T.seen(R.Code.begin(), UINT64_MAX);
+  EXPECT_EQ(T.regions(), 1U);
+  EXPECT_GT(T.bytes(), 100U << 10);
+}
+
 /// Infinity times zero is invalid, whatever is added, also where the next
 /// instruction overwrites a factor or computes with the result.
 TEST_P(Translated, PairsFlagInfinityTimesZero) {

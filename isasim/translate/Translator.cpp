@@ -10,8 +10,9 @@
 
 namespace vorion::isasim {
 
-/// Of one program. Kernels with all their loops take some hundred thousand.
-[[maybe_unused]] static constexpr size_t HostCodeBytes = 4 << 20;
+/// Of one program. Kernels with all their loops take some hundred thousand, and
+/// with AVX2 three times as much.
+[[maybe_unused]] static constexpr size_t HostCodeBytes = 10 << 20;
 
 Translator::~Translator() = default;
 
@@ -23,8 +24,9 @@ size_t Translator::bytes() const { return Host ? Host->bytes() : 0; }
 
 #if VORION_TRANSLATOR
 
-/// One region's code at most.
-static constexpr size_t RegionBytes = 1 << 20;
+/// One region's code at most: the longest (Region.cpp) take half of it with
+/// AVX2.
+static constexpr size_t RegionBytes = 3 << 20;
 
 /// As the host's cache has them, so that constants lie as they will.
 struct alignas(64) Line {
