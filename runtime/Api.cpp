@@ -83,8 +83,9 @@ Failure openDevice(std::span<const vx_option> Given, vx_device **Device) {
     return Failed;
   auto Machine = isasim::Machine::create(Config);
   if (!Machine)
-    return cannotOpen(Machine.error());
-  auto Watch = isasim::Session::create(Options.Watch, "vorion");
+    return cannotOpen(Options.ofMachine(Machine.error()));
+  auto Watch = isasim::Session::create(Options.Watch, "vorion",
+                                       isasim::NamedBy::Variable);
   if (!Watch)
     return cannotOpen(Watch.error());
   if (const auto Attached = (*Watch)->attach(**Machine); !Attached)

@@ -1,10 +1,9 @@
 #include "Options.h"
 
 #include "vorion/isasim/Variables.h"
+#include "vorion/support/ClockText.h"
 
-#include <charconv>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <mutex>
 #include <utility>
 
@@ -51,32 +50,36 @@ Failure DeviceOptions::readConfig(isasim::Config &C) const {
     return {};
   const auto Found = isasim::findMachine(Config);
   if (!Found)
-    return cannotOpen(Found.error());
+    return cannotOpen(isasim::inVariable("VORION_CONFIG", Found.error()));
   auto Parsed = isasim::parseConfig(Found->Json, Found->Where);
   if (!Parsed)
-    return cannotOpen(Parsed.error());
+    return cannotOpen(isasim::inVariable("VORION_CONFIG", Parsed.error()));
   C = *Parsed;
   return {};
 }
 
+bool DeviceOptions::onlyProfiled() const {
+  const auto Clock = ClockText::parse(Time);
+  return Clock && Clock->When == ClockText::Runs::Profiled;
+}
+
 Failure DeviceOptions::readTime(isasim::Config &C) const {
+  const auto Clock = ClockText::parse(Time);
+  if (!Clock)
+    return cannotOpen(isasim::inVariable("VORION_TIME", Clock.error()));
   if (onlyProfiled() && !Watch.Region.empty())
     return {VX_ERROR_CONFIG, "VORION_REGION with VORION_TIME 'profiled', "
                              "expected one of them to choose what is timed"};
-  C.Timing.Enabled |= !Time.empty() || Watch.needClock();
-  if (Time.empty())
-    return {};
-  if (onlyProfiled() || Time == "on")
-    return {};
-  const char *End = Time.data() + Time.size();
-  const auto [Rest, Wrong] =
-      std::from_chars(Time.data(), End, C.Timing.ClockMhz);
-  if (Wrong != std::errc() || Rest != End)
-    return {VX_ERROR_CONFIG,
-            fmt::format("VORION_TIME is '{}', expected 'on', 'profiled' or a "
-                        "clock in MHz",
-                        Time)};
+  if (Clock->When != ClockText::Runs::AsConfigured)
+    C.Timing.Enabled = Clock->When != ClockText::Runs::Never;
+  C.Timing.Enabled |= Watch.needClock();
+  if (Clock->Mhz)
+    C.Timing.ClockMhz = *Clock->Mhz;
   return {};
+}
+
+Error DeviceOptions::ofMachine(Error E) const {
+  return isasim::ofMachine(std::move(E), !Config.empty(), !Set.empty());
 }
 
 Failure DeviceOptions::machine(isasim::Config &C) const {
@@ -84,7 +87,6 @@ Failure DeviceOptions::machine(isasim::Config &C) const {
     return Failed;
   if (!Set.empty())
     if (const auto Done = isasim::setValues(C, Set); !Done)
-      return cannotOpen(
-          {"", "VORION_SET: " + Done.error().What, Done.error().Code});
+      return cannotOpen(isasim::inVariable("VORION_SET", Done.error()));
   return readTime(C);
 }

@@ -15,7 +15,7 @@ namespace vorion::runtime {
 struct DeviceOptions {
   std::string Config; ///< JSON, the name of a machine, or a file
   std::string Set;    ///< "KEY=VALUE,...", changes what Config says
-  std::string Time;   ///< "on", the clock in MHz, or "profiled"
+  std::string Time;   ///< as ClockText::parse() takes it
   isasim::SessionOptions Watch;
 
   static DeviceOptions fromEnvironment();
@@ -26,8 +26,11 @@ struct DeviceOptions {
   /// The machine that Config, Set and Time ask for, with a clock where Watch
   /// needs one.
   Failure machine(isasim::Config &C) const;
+  /// \p E, which says what is wrong with the machine as a whole, as an error of
+  /// the variables that describe it.
+  Error ofMachine(Error E) const;
   /// Whether the clock goes on in profiled runs only.
-  bool onlyProfiled() const { return Time == "profiled"; }
+  bool onlyProfiled() const;
 
 private:
   Failure readConfig(isasim::Config &C) const;

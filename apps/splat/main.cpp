@@ -38,14 +38,6 @@ int printViews(const std::string &File) {
   return EXIT_SUCCESS;
 }
 
-/// An error of the variable VORION_SET as one of --set, which gave its value.
-Error ofOption(Error E) {
-  constexpr std::string_view Variable = "VORION_SET: ";
-  if (E.What.starts_with(Variable))
-    E.What.replace(0, Variable.size(), "--set: ");
-  return E;
-}
-
 int run(std::vector<std::string> Arguments) {
   CLI::App App("Renders 3D Gaussian scenes on an OpenCL device.", "splat");
   App.footer(std::string(ExitCodeHelp));
@@ -54,12 +46,10 @@ int run(std::vector<std::string> Arguments) {
                        "Print the version, and a hash of all programs that "
                        "results depend on");
   splat::DeviceOptions Device;
-  bool SetHere = false;
   App.add_option_function<std::string>(
          "--set",
          [&](const std::string &Set) {
-           Device.set("VORION_SET", Set);
-           SetHere = true;
+           Device.set("VORION_SET", Set, "--set");
          },
          "change the Vorion device's configuration (as VORION_SET)")
       ->type_name("KEY=VALUE,...");
@@ -103,9 +93,11 @@ int run(std::vector<std::string> Arguments) {
     return *Ended;
   for (auto &[Command, Run] : Commands)
     if (Command->parsed())
-      if (const auto Done = Run(Device); !Done)
-        return reportError("splat",
-                           SetHere ? ofOption(Done.error()) : Done.error());
+      if (const auto Done = Run(Device); !Done) {
+        Error E = Done.error();
+        E.What = Device.inOurWords(E.What); // of a process of its own
+        return reportError("splat", E);
+      }
   return EXIT_SUCCESS;
 }
 

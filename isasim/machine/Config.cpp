@@ -4,6 +4,7 @@
 #include "machine/MachineTexts.h"
 #include "timing/DramChannels.h"
 #include "vorion/isasim/MemoryMap.h"
+#include "vorion/support/ClockText.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Suggest.h"
 
@@ -96,7 +97,7 @@ std::vector<Key> makeKeys() {
        {"auto", "interpreter", "translator", "translator-avx2"}},
       VORION_KEY("raster.queue_depth", 1, 1024, 1, Raster.QueueDepth),
       VORION_KEY("timing.enabled", 0, 1, 1, Timing.Enabled),
-      VORION_KEY("timing.clock_mhz", 1, 100000, 1, Timing.ClockMhz),
+      VORION_KEY("timing.clock_mhz", 1, MostClockMhz, 1, Timing.ClockMhz),
   };
   std::vector<std::string> Presets;
   for (size_t N = 0; N != size_t(CorePreset::Count); ++N)

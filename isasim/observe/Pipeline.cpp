@@ -122,7 +122,7 @@ Expected<Success> PipelineTool::attach(Machine &M) {
   Device = &M;
   if (const unsigned Cores = M.config().cores(); Options.Core >= Cores)
     return Error{"",
-                 fmt::format("--pipeline core={}: the machine has {} cores, "
+                 fmt::format("pipeline: core={}: the machine has {} cores, "
                              "expected 0 to {}",
                              Options.Core, Cores, Cores - 1),
                  ExitCode::Usage};

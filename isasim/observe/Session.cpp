@@ -2,6 +2,7 @@
 
 #include "observe/Tool.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/isasim/Variables.h"
 #include "vorion/support/Diagnostics.h"
 
 #include <algorithm>
@@ -66,12 +67,23 @@ bool SessionOptions::needClock() const {
 }
 
 struct Session::Impl {
-  Expected<Success> open(const SessionOptions &O);
+  Expected<Success> open(const SessionOptions &O, NamedBy Names);
   void findObservers();
   void tell(auto What);
 
   ToolOutput To;
-  std::vector<std::unique_ptr<Tool>> Tools;
+  /// A tool, and what its option is called.
+  struct NamedTool {
+    std::unique_ptr<Tool> Made;
+    const char *Variable; ///< null: not by a variable
+
+    Tool *operator->() const { return Made.get(); }
+    /// What \p Came of it, an error as one of its variable.
+    Expected<Success> named(const Expected<Success> &Came) const {
+      return Came || !Variable ? Came : inVariable(Variable, Came.error());
+    }
+  };
+  std::vector<NamedTool> Tools;
   std::vector<Observer *> Observers; ///< of all tools
   std::string RunName;
 };
@@ -79,15 +91,17 @@ struct Session::Impl {
 Session::Session() : PImpl(std::make_unique<Impl>()) {}
 Session::~Session() = default;
 
-Expected<Success> Session::Impl::open(const SessionOptions &O) {
+Expected<Success> Session::Impl::open(const SessionOptions &O, NamedBy Names) {
   for (size_t N = 0; N != std::size(Kinds); ++N) {
     const std::string &Text = O.*sessionOptions()[N].Text;
     if (Text.empty())
       continue;
+    const char *Variable =
+        Names == NamedBy::Variable ? sessionOptions()[N].Variable : nullptr;
     auto Made = Kinds[N]->Make(Text, To);
     if (!Made)
-      return Made.error();
-    Tools.push_back(std::move(*Made));
+      return Variable ? inVariable(Variable, Made.error()) : Made.error();
+    Tools.push_back({std::move(*Made), Variable});
   }
   findObservers();
   if (!Observers.empty() && !Machine::canBeObserved())
@@ -99,7 +113,7 @@ Expected<Success> Session::Impl::open(const SessionOptions &O) {
 }
 
 Expected<std::unique_ptr<Session>>
-Session::create(const SessionOptions &O, std::string Tool,
+Session::create(const SessionOptions &O, std::string Tool, NamedBy Names,
                 std::function<void(std::string_view)> Print,
                 std::shared_ptr<const EnergyModel> Energy) {
   std::unique_ptr<Session> S(new Session());
@@ -110,7 +124,7 @@ Session::create(const SessionOptions &O, std::string Tool,
                         std::fflush(stderr);
                       },
                   .Energy = std::move(Energy)};
-  if (Expected<Success> Ok = S->PImpl->open(O); !Ok)
+  if (Expected<Success> Ok = S->PImpl->open(O, Names); !Ok)
     return Ok.error();
   return S;
 }
@@ -125,7 +139,7 @@ void Session::Impl::findObservers() {
 
 Expected<Success> Session::attach(Machine &M) {
   for (const auto &T : PImpl->Tools)
-    if (auto Ok = T->attach(M); !Ok)
+    if (auto Ok = T.named(T->attach(M)); !Ok)
       return Ok;
   // A tool may watch machines with a clock in another way.
   PImpl->findObservers();
@@ -139,7 +153,7 @@ Expected<Success> Session::attach(Machine &M) {
 
 Expected<Success> Session::runEnded(const RunResult &R) {
   for (const auto &T : PImpl->Tools)
-    if (Expected<Success> Ok = T->runEnded(PImpl->RunName, R); !Ok)
+    if (Expected<Success> Ok = T.named(T->runEnded(PImpl->RunName, R)); !Ok)
       return Ok;
   return Success{};
 }
@@ -190,7 +204,7 @@ void Session::runBegins(const std::string &Name, uint32_t LaunchBlock) {
 
 Expected<Success> Session::finished() const {
   for (const auto &T : PImpl->Tools)
-    if (Expected<Success> Ok = T->finished(); !Ok)
+    if (Expected<Success> Ok = T.named(T->finished()); !Ok)
       return Ok;
   return Success{};
 }

@@ -1,5 +1,6 @@
 #include "vorion/isasim/Variables.h"
 
+#include "machine/MachineTexts.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Suggest.h"
 
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 using namespace vorion;
 
@@ -28,4 +30,21 @@ void isasim::warnOfMisspeltVariables(std::string_view Tool) {
       printDiagnostic(Tool, "warning", Name,
                       "no program reads this variable" + Meant);
   }
+}
+
+Error isasim::inVariable(std::string_view Name, Error E) {
+  if (E.Where.empty() || E.Where == GivenText)
+    E.Where = Name;
+  else
+    E.Where = fmt::format("{}: {}", Name, E.Where);
+  return E;
+}
+
+Error isasim::ofMachine(Error E, bool HasConfig, bool HasSet) {
+  if (E.Where != GivenText || !(HasConfig || HasSet))
+    return E;
+  return inVariable(HasConfig && HasSet ? "VORION_CONFIG with VORION_SET"
+                    : HasConfig         ? "VORION_CONFIG"
+                                        : "VORION_SET",
+                    std::move(E));
 }

@@ -1,6 +1,7 @@
 #include "tools/Options.h"
 
 #include "tools/HelpFormatter.h"
+#include "vorion/support/ClockText.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/Version.h"
@@ -112,7 +113,7 @@ void declareOptions(CLI::App &App, Options &O) {
   App.add_option("--clock", O.ClockMhz,
                  "say so at this clock (default: the machine's, 530)")
       ->type_name("MHZ")
-      ->check(quietly(isBetween(1U, 100000U)));
+      ->check(quietly(isBetween(1U, MostClockMhz)));
   App.add_flag("--energy", O.Energy,
                "say how long, and how much energy it takes (docs/energy.md)");
   takesFile(

@@ -79,9 +79,7 @@ Expected<Success> changeValues(Config &C, const Options &O) {
   if (!O.Set.empty())
     return setValues(C, fmt::format("{}", fmt::join(O.Set, ",")));
   const Expected<Success> Ok = setValues(C, orVariable("", "VORION_SET"));
-  if (!Ok)
-    return Error{"", "VORION_SET: " + Ok.error().What, Ok.error().Code};
-  return Success{};
+  return Ok ? Ok : inVariable("VORION_SET", Ok.error());
 }
 
 /// The machine that the options, and below them the environment, say; \p
@@ -90,12 +88,15 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
   Config C = Default;
   const std::string Text = orVariable(O.ConfigText, "VORION_CONFIG");
   if (!Text.empty()) {
+    const auto Named = [&O](const Error &E) {
+      return O.ConfigText.empty() ? inVariable("VORION_CONFIG", E) : E;
+    };
     const Expected<MachineSource> Found = findMachine(Text);
     if (!Found)
-      return Found.error();
+      return Named(Found.error());
     const Expected<Config> Parsed = parseConfig(Found->Json, Found->Where);
     if (!Parsed)
-      return Parsed;
+      return Named(Parsed.error());
     C = *Parsed;
   }
   if (O.OneHart)
@@ -112,6 +113,14 @@ Expected<Config> makeConfig(const Options &O, const Config &Default) {
   if (O.Threads)
     C.HostThreads = *O.Threads;
   return C;
+}
+
+/// \p E of a machine that variables describe where no option does.
+Error ofMachine(Error E, const Options &O) {
+  return isasim::ofMachine(
+      std::move(E),
+      O.ConfigText.empty() && !orVariable("", "VORION_CONFIG").empty(),
+      O.Set.empty() && !orVariable("", "VORION_SET").empty());
 }
 
 Error wrongSizes(std::string_view Option, const std::string &Given) {
@@ -293,7 +302,7 @@ Expected<std::unique_ptr<Session>>
 makeSession(const Options &O,
             std::shared_ptr<const EnergyModel> Energy = nullptr) {
   return Session::create(
-      O.Watch, std::string(Tool),
+      O.Watch, std::string(Tool), NamedBy::Nothing,
       [](std::string_view Text) { printOut("{}", Text); }, std::move(Energy));
 }
 
@@ -335,7 +344,7 @@ int runSaved(const Options &O, const KernelRequest &Request,
     return reportError(Tool, Watch.error());
   const Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
   if (!M)
-    return reportError(Tool, M.error());
+    return reportError(Tool, ofMachine(M.error(), O));
   if (const auto Attached = (*Watch)->attach(**M); !Attached)
     return reportError(Tool, Attached.error());
   const auto Last = runRegion(*Region, **M, **Watch, O.Watch.Region.empty(),
@@ -382,7 +391,7 @@ int run(const Options &O) {
     return reportError(Tool, Watch.error());
   Expected<std::unique_ptr<Machine>> M = Machine::create(*C);
   if (!M)
-    return reportError(Tool, M.error());
+    return reportError(Tool, ofMachine(M.error(), O));
   (*M)->load(*Program);
   if (const auto Attached = (*Watch)->attach(**M); !Attached)
     return reportError(Tool, Attached.error());

@@ -37,11 +37,12 @@ Expected<Device> openDevice(const std::string &Name, Path Blending,
 }
 
 void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz) {
-  const std::string Asked = Options.text("VORION_TIME");
   if (Mhz)
-    Options.set("VORION_TIME", std::to_string(*Mhz));
-  else if (Asked.empty() || Asked == "profiled")
-    Options.set("VORION_TIME", "on");
+    Options.set("VORION_TIME", ClockText::ofMhz(*Mhz), "--clock");
+  else if (Options.text("VORION_TIME").empty() ||
+           Options.clockRuns() == ClockText::Runs::Never ||
+           Options.clockRuns() == ClockText::Runs::Profiled)
+    Options.set("VORION_TIME", "on", "--time");
 }
 
 void showBuildLog(const Launcher &L) {

@@ -13,7 +13,8 @@ Expected<NumericsReport> NumericsReport::begin(const std::string &Settings,
     return Folder.error();
   NumericsReport R(std::move(*Folder));
   Options.set("VORION_NUMERICS",
-              (Settings == "on" ? "" : Settings + ",") + "text=" + R.file());
+              (Settings == "on" ? "" : Settings + ",") + "text=" + R.file(),
+              "--numerics");
   return R;
 }
 

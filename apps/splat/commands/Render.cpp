@@ -439,7 +439,7 @@ Runner addRender(CLI::App &App) {
   App.add_option("--clock", A->ClockMhz,
                  "The same at this clock (default: the machine's, 530)")
       ->option_text("MHZ")
-      ->check(isBetween(1U, 100000U));
+      ->check(isBetween(1U, MostClockMhz));
   addEnergyOptions(App, A->Energy, "the frame");
   App.add_flag("--numerics{on}", A->Numerics,
                "Say where fp32 parts from double, by source line and stage of "

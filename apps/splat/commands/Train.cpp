@@ -258,7 +258,7 @@ Expected<Success> check(const TrainArguments &A) {
 
 Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
   if (A.isClocked())
-    Machine.set("VORION_TIME", "profiled");
+    Machine.set("VORION_TIME", "profiled", "--time");
   auto D = openDevice(A.Device, A.Request.Blending.Kind, Machine);
   if (D && A.isClocked() && !D->isVorion())
     return Error{"",

@@ -4,12 +4,19 @@
 #include "vorion/support/File.h"
 
 #include <filesystem>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 
 namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
+
+/// \p E of a file that the variable \p Name names, as the platform says it.
+static Error ofVariable(std::string_view Name, const Error &E) {
+  return {fmt::format("{}: {}", Name, E.Where), E.What, E.Code};
+}
 
 static Expected<Json> namedConfiguration(const std::string &Value) {
   if (Value.empty())
@@ -22,7 +29,7 @@ static Expected<Json> namedConfiguration(const std::string &Value) {
     return Json{{"fnv1a64", fnv1a64(Value)}, {"text", Value}};
   const auto Bytes = readFile(Value);
   if (!Bytes)
-    return Bytes.error();
+    return ofVariable("VORION_CONFIG", Bytes.error());
   const std::string Text(reinterpret_cast<const char *>(Bytes->data()),
                          Bytes->size());
   return Json{{"file", Value}, {"fnv1a64", fnv1a64(Text)}, {"text", Text}};
@@ -36,7 +43,7 @@ static Expected<Json> pluginsOf(const std::string &Files) {
   for (std::string Path; std::getline(Paths, Path, ',');) {
     const auto Bytes = readFile(Path);
     if (!Bytes)
-      return Bytes.error();
+      return ofVariable("VORION_PLUGINS", Bytes.error());
     All.push_back(
         {{"name", std::filesystem::path(Path).filename().string()},
          {"fnv1a64", fnv1a64({reinterpret_cast<const char *>(Bytes->data()),

@@ -34,7 +34,7 @@ Expected<Success> openPlatform(const cl::Platform &P,
     return Success{};
   if (Problem[0] == '\0')
     return clError("opening the Vorion device", Status);
-  return Error{"", Problem.data(),
+  return Error{"", Options.inOurWords(Problem.data()),
                Status == CL_OUT_OF_HOST_MEMORY ? ExitCode::LimitReached
                : Status == CL_INVALID_PROPERTY ? ExitCode::InputFile
                                                : ExitCode::Usage};

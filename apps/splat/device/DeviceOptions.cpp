@@ -11,4 +11,21 @@ std::string DeviceOptions::text(const std::string &Variable) const {
   return Value ? Value : "";
 }
 
+std::string DeviceOptions::giver(const std::string &Variable) const {
+  const auto Found = Givers.find(Variable);
+  return Found == Givers.end() ? "" : Found->second;
+}
+
+std::string DeviceOptions::inOurWords(const std::string &Problem) const {
+  for (const auto &[Variable, Option] : Givers)
+    if (!Option.empty() && Problem.starts_with(Variable + ": "))
+      return Option + Problem.substr(Variable.size());
+  return Problem;
+}
+
+ClockText::Runs DeviceOptions::clockRuns() const {
+  const auto Clock = ClockText::parse(text("VORION_TIME"));
+  return Clock ? Clock->When : ClockText::Runs::AsConfigured;
+}
+
 } // namespace vorion::splat

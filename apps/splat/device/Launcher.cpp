@@ -6,6 +6,7 @@
 #include "vorion/support/File.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <utility>
 
@@ -42,12 +43,22 @@ std::optional<Error> fileError(const std::string &Name,
   if (std::string Cache = lineFrom(CL_KERNEL_CACHE_PROBLEM_VORION, Log);
       !Cache.empty())
     return Error{"", std::move(Cache)};
-  for (const char *Words :
-       {"cannot open file '", "error reading '", "'vorion.h' file not found"})
-    if (const std::string Unread = lineFrom(Words, Log); !Unread.empty())
-      return Error{"", fmt::format("kernel program '{}' cannot be compiled: "
-                                   "{}, expected files that can be read {}",
-                                   Name, Unread, SeeDoctor)};
+  constexpr std::string_view Missing = "'vorion.h' file not found";
+  for (const std::string_view Words :
+       {std::string_view("cannot open file '"),
+        std::string_view("error reading '"), Missing}) {
+    const std::string Unread = lineFrom(Words, Log);
+    if (Unread.empty())
+      continue;
+    const char *Root = Words == Missing ? std::getenv("VORION_ROOT") : nullptr;
+    return Error{
+        "",
+        fmt::format("kernel program '{}' cannot be compiled: {}, "
+                    "expected files{} that can be read {}",
+                    Name, Unread,
+                    Root ? fmt::format(" below VORION_ROOT, '{}',", Root) : "",
+                    SeeDoctor)};
+  }
   return std::nullopt;
 }
 

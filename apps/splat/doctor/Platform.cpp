@@ -40,20 +40,15 @@ static std::string sourceEnvironment() {
 }
 
 /// What mends that no device opens by \p Options, of which \p Problem is said:
-/// its first words name the variable, but a machine's are its file or
-/// "configuration".
+/// its first words name the variable, or the option that gave its text.
 static std::string mendOfOpening(std::string_view Problem,
                                  const DeviceOptions &Options) {
   for (const KnownVariable &K : knownVariables()) {
-    const std::string Text = Options.text(K.Name);
-    const bool IsMachine = K.Name == std::string_view("VORION_CONFIG");
-    if (Text.empty() || !(Problem.starts_with(K.Name) ||
-                          (IsMachine && (Problem.starts_with("configuration") ||
-                                         Problem.starts_with(Text)))))
-      continue;
-    return Options.commandLine().contains(K.Name)
-               ? "correct --set" // the only such option
-               : fmt::format("unset {}, or correct it", K.Name);
+    const std::string Option = Options.giver(K.Name);
+    if (!Option.empty() && Problem.starts_with(Option + ": "))
+      return fmt::format("correct {}", Option);
+    if (Problem.starts_with(K.Name))
+      return fmt::format("unset {}, or correct it", K.Name);
   }
   return sourceEnvironment();
 }

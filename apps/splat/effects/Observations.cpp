@@ -23,7 +23,9 @@ Finding asked(const EffectInputs &In,
 }
 
 Finding detectClock(const EffectInputs &In) {
-  Finding F = asked(In, {"VORION_TIME", "VORION_REGION"});
+  Finding F = In.Machine.clockRuns() == ClockText::Runs::Never
+                  ? asked(In, {"VORION_REGION"})
+                  : asked(In, {"VORION_TIME", "VORION_REGION"});
   if (!F.Needed)
     F.Figure = "not asked (--time, --clock)";
   return F;

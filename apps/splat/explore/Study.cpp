@@ -167,7 +167,8 @@ std::string described(const Json &M) {
 DeviceOptions changed(DeviceOptions Base, const std::string &Settings) {
   const std::string Before = Base.text("VORION_SET");
   Base.set("VORION_SET",
-           Before + (Before.empty() || Settings.empty() ? "" : ",") + Settings);
+           Before + (Before.empty() || Settings.empty() ? "" : ",") + Settings,
+           Base.giver("VORION_SET"));
   return Base;
 }
 

@@ -55,7 +55,7 @@ public:
   /// What watches a run: the clock may be on in this one alone.
   DeviceOptions watching(bool Timed) const {
     DeviceOptions O = Dev.options();
-    if (O.text("VORION_TIME") == "profiled")
+    if (O.clockRuns() == ClockText::Runs::Profiled)
       O.set("VORION_TIME", Timed ? "on" : "");
     return O;
   }
@@ -100,7 +100,8 @@ openMachine(const std::string &Name,
   DeviceOptions Options;
   for (const auto &[Variable, Text] : Given)
     Options.set(Variable, Text);
-  if (Options.text("VORION_TIME").empty() &&
+  if ((Options.text("VORION_TIME").empty() ||
+       Options.clockRuns() == ClockText::Runs::Never) &&
       Options.text("VORION_REGION").empty())
     Options.set("VORION_TIME", "profiled");
   const py::gil_scoped_release Released;

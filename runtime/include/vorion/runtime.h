@@ -58,9 +58,9 @@ const char *vx_last_error(void);
  *                  machine (without dots and slashes) or of a JSON file; keys
  *                  that are absent, or "", keep the default machine's values
  *   VORION_SET     "KEY=VALUE,...", changes what came of it
- *   VORION_TIME    the clock: "on", or the machine's clock in MHz, or
- *                  "profiled": on, but only in runs after
- *                  vx_device_set_profiled
+ *   VORION_TIME    the clock: "on" (or "1"), "off" (or "0"), a clock in MHz
+ *                  ("100", "100MHz"), or "profiled": on, but only in runs
+ *                  after vx_device_set_profiled
  *   VORION_TRACE and the others of docs/debugging.md: what watches runs */
 typedef struct vx_option {
   const char *name;

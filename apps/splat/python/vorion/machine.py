@@ -98,7 +98,7 @@ class Machine:
         if set is not None:
             options["VORION_SET"] = set
         if clock is not None:
-            options["VORION_TIME"] = str(clock)
+            options["VORION_TIME"] = f"{clock}MHz"
         self._native = _machine.Machine(device, options)
 
     def __repr__(self) -> str:

@@ -44,6 +44,10 @@ std::span<const SessionOption> sessionOptions();
 
 class EnergyModel;
 
+/// What errors of a session name: the option of which they are is known to who
+/// gave it, or has the name of its variable.
+enum class NamedBy { Nothing, Variable };
+
 /// What only who starts a kernel knows of the memory that it gives it.
 struct GivenMemory {
   size_t Argument = 0; ///< its number
@@ -60,6 +64,7 @@ public:
   /// \p Energy is the model that counts joules; null: the default technology's.
   static Expected<std::unique_ptr<Session>>
   create(const SessionOptions &O, std::string Tool,
+         NamedBy Names = NamedBy::Nothing,
          std::function<void(std::string_view)> Print = nullptr,
          std::shared_ptr<const EnergyModel> Energy = nullptr);
   ~Session();

@@ -68,11 +68,11 @@ Tools::Tools() {
       Root = Place;
       return;
     }
+  const char *Given = std::getenv("VORION_ROOT");
   Problem = "cannot find bin/vorion-clang below " +
-            (std::getenv("VORION_ROOT")
-                 ? std::string("VORION_ROOT")
-                 : libraryFile().parent_path().string() + " or above; "
-                                                          "set VORION_ROOT");
+            (Given ? "VORION_ROOT, '" + std::string(Given) + "'"
+                   : libraryFile().parent_path().string() +
+                         " or above; set VORION_ROOT");
 }
 
 std::string Tools::fingerprint() const {

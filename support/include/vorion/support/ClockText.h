@@ -1,0 +1,34 @@
+/// What the variable VORION_TIME says of the simulated machine's clock.
+#pragma once
+
+#include "vorion/support/Expected.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace vorion {
+
+/// The fastest clock that a machine can be given, in MHz.
+inline constexpr uint32_t MostClockMhz = 100000;
+
+struct ClockText {
+  enum class Runs {
+    AsConfigured, ///< nothing is said
+    Never,
+    Profiled, ///< in runs of profiled queues alone
+    Always
+  };
+  Runs When = Runs::AsConfigured;
+  std::optional<uint32_t> Mhz; ///< nothing: the machine's own
+
+  /// \p Text: nothing; off, 0 or false; on, 1 or true; profiled; or a clock, as
+  /// 100 or 100MHz. An alone 1 is no clock: people write it for on. The error
+  /// does not name the variable.
+  static Expected<ClockText> parse(std::string_view Text);
+  /// The text of a clock that is always on, of \p Mhz.
+  static std::string ofMhz(uint32_t Mhz);
+};
+
+} // namespace vorion
