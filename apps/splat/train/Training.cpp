@@ -224,15 +224,21 @@ Expected<Success> begin(const Work &W, Trainer &T) {
 }
 
 /// Refuses to replace a checkpoint by one that is less far, which would lose
-/// what was trained.
+/// what was trained, and any other file, which may be a damaged checkpoint.
 Expected<Success> checkReplaced(Work &W, unsigned Begin) {
   const TrainRequest &R = W.Request;
+  namespace fs = std::filesystem;
   std::error_code Ignored;
-  if (!std::filesystem::is_regular_file(R.Checkpoint, Ignored))
+  if (!fs::is_regular_file(R.Checkpoint, Ignored) ||
+      fs::is_empty(R.Checkpoint, Ignored))
     return Success{};
   const auto Kept = readCheckpoint(R.Checkpoint);
-  if (!Kept) // nothing that one could go on from
-    return Success{};
+  if (!Kept)
+    return Error{Kept.error().Where,
+                 fmt::format("{}; it is not replaced: name another "
+                             "--checkpoint, or remove the file",
+                             Kept.error().What),
+                 Kept.error().Code};
   const unsigned Every = R.CheckpointEvery;
   const unsigned First =
       std::min(R.Run.Settings.Iterations, (Begin / Every + 1) * Every);
@@ -256,6 +262,10 @@ Expected<Success> start(Work &W, Trainer &T) {
   const TrainRequest &R = W.Request;
   if (R.Resume && std::filesystem::exists(R.Checkpoint))
     return resume(W, T);
+  if (R.Resume && W.Processes.first())
+    W.Host.Note(fmt::format("begins anew; there is no {} from which --resume "
+                            "goes on",
+                            R.Checkpoint));
   if (auto Begun = begin(W, T); !Begun)
     return Begun;
   return checkReplaced(W, T.iteration());
