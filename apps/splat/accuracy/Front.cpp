@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <set>
 #include <tuple>
 
 namespace vorion::splat {
@@ -50,10 +50,21 @@ std::vector<std::size_t> paretoFront(const std::vector<Judged> &All) {
     return std::tuple(-All[I].Merit, *All[I].Time, I);
   });
   std::vector<std::size_t> Front;
-  for (const std::size_t I : Order)
-    if (Front.empty() ||
-        *All[I].Time < *All[Front.back()].Time * (1 - SameTime))
-      Front.push_back(I);
+  for (auto It = Order.begin(); It != Order.end();) {
+    const Judged &Fastest = All[*It];
+    const double Below = Front.empty()
+                             ? std::numeric_limits<double>::infinity()
+                             : *All[Front.back()].Time * (1 - SameTime);
+    std::optional<std::size_t> Best;
+    for (; It != Order.end() && All[*It].Merit == Fastest.Merit; ++It) {
+      const Judged &J = All[*It];
+      if (*J.Time < Below && *J.Time <= *Fastest.Time * (1 + SameTime) &&
+          (!Best || J.Changes < All[*Best].Changes))
+        Best = *It;
+    }
+    if (Best)
+      Front.push_back(*Best);
+  }
   return Front;
 }
 
@@ -64,40 +75,23 @@ std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,
 
 std::optional<std::size_t> recommend(const std::vector<Judged> &All,
                                      double Floor) {
-  std::optional<double> Least;
-  for (const Judged &J : All)
-    if (J.Time && J.Merit >= Floor)
-      Least = std::min(Least.value_or(*J.Time), *J.Time);
-  std::optional<std::size_t> Best;
-  const auto Key = [&](std::size_t I) {
-    return std::tuple(-All[I].Merit, All[I].Changes, *All[I].Time);
-  };
-  for (std::size_t I = 0; I < All.size(); ++I)
-    if (All[I].Time && All[I].Merit >= Floor &&
-        *All[I].Time <= *Least * (1 + SameTime) &&
-        (!Best || Key(I) < Key(*Best)))
-      Best = I;
-  return Best;
+  std::optional<std::size_t> Fastest;
+  for (const std::size_t I : paretoFront(All))
+    if (All[I].Merit >= Floor)
+      Fastest = I;
+  return Fastest;
 }
 
 std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
                                      TimeAxis A, double FloorDb) {
-  return recommend(judgedByPsnr(All, A), FloorDb);
+  return recommend(judged(All, ErrorKind::Psnr, A), FloorDb);
 }
 
 std::vector<FloorStep> recommendations(const std::vector<Judged> &All) {
-  std::set<double> Floors;
-  for (const Judged &J : All)
-    if (J.Time)
-      Floors.insert(J.Merit);
   std::vector<FloorStep> Steps;
-  for (const double Floor : Floors) {
-    const std::size_t Best = *recommend(All, Floor);
-    if (Steps.empty() || Steps.back().Best != Best)
-      Steps.push_back({Floor, Best});
-    else
-      Steps.back().Most = Floor;
-  }
+  for (const std::size_t I : paretoFront(All))
+    Steps.push_back({All[I].Merit, I});
+  std::ranges::reverse(Steps);
   return Steps;
 }
 

@@ -61,17 +61,18 @@ std::vector<Judged> judged(const std::vector<Candidate> &All, ErrorKind K,
 inline constexpr double SameTime = 0.002;
 
 /// Places in \p All of those that no other one beats: that are faster than all
-/// at least as accurate ones. The most accurate first.
+/// at least as accurate ones. Of equally accurate ones that are as fast as the
+/// fastest, the one that changes least is there. The most accurate first.
 std::vector<std::size_t> paretoFront(const std::vector<Judged> &All);
 /// The same by the PSNR on the rasterizer.
 std::vector<std::size_t> paretoFront(const std::vector<Candidate> &All,
                                      TimeAxis A);
 
-/// The fastest of \p All with at least \p Floor; of those that are as fast
-/// the most accurate, of these the one that changes least.
+/// The fastest of the front of \p All with at least \p Floor: nothing with that
+/// much is faster, but for what is the same time.
 std::optional<std::size_t> recommend(const std::vector<Judged> &All,
                                      double Floor);
-/// The same by the PSNR on the rasterizer.
+/// The same by the PSNR of the pictures that \p A times.
 std::optional<std::size_t> recommend(const std::vector<Candidate> &All,
                                      TimeAxis A, double FloorDb);
 

@@ -36,8 +36,8 @@ TEST(Front, AFewCyclesAreNoReason) {
   const std::vector<Candidate> Same{made("exp=linear", 60, 10000),
                                     made("exp=poly4", 120, 10001),
                                     made("exp=exact", 120, 10002)};
-  EXPECT_EQ(paretoFront(Same, TimeAxis::Cycles), std::vector<std::size_t>{1});
   // Of as fast and accurate ones that which changes nothing.
+  EXPECT_EQ(paretoFront(Same, TimeAxis::Cycles), std::vector<std::size_t>{2});
   EXPECT_EQ(recommend(Same, TimeAxis::Cycles, 50), 2U);
 }
 
@@ -67,6 +67,34 @@ TEST(Front, EveryFloorHasItsRecommendation) {
   }
   EXPECT_TRUE(
       recommendations(judged(All, ErrorKind::Psnr, TimeAxis::Cores)).empty());
+}
+
+TEST(Front, WhatIsRecommendedIsOnIt) {
+  // The second takes the first's time and the third's, these two differ.
+  const std::vector<Judged> Chain{
+      {80, 100.0, 0}, {70, 99.9, 0}, {60, 99.75, 0}};
+  EXPECT_EQ(paretoFront(Chain), (std::vector<std::size_t>{0, 2}));
+  EXPECT_EQ(recommend(Chain, 55), 2U);
+  EXPECT_EQ(recommend(Chain, 65), 0U);
+
+  // Times that are nearly the same, and equally accurate settings.
+  std::vector<Judged> Many;
+  for (unsigned I = 0; I < 300; ++I)
+    Many.push_back(
+        {40.0 + I * 7919 % 31, 100 + 0.03 * (I * 104729 % 97), I * 31 % 5});
+  const auto Front = paretoFront(Many);
+  for (double Floor = 39; Floor <= 71; Floor += 0.5) {
+    const auto Best = recommend(Many, Floor);
+    ASSERT_EQ(Best.has_value(), Floor <= 70) << Floor;
+    if (!Best)
+      continue;
+    EXPECT_TRUE(std::ranges::find(Front, *Best) != Front.end()) << Floor;
+    EXPECT_GE(Many[*Best].Merit, Floor);
+    for (const Judged &J : Many)
+      EXPECT_TRUE(J.Merit < Floor ||
+                  *Many[*Best].Time <= *J.Time * (1 + 2 * SameTime))
+          << Floor;
+  }
 }
 
 TEST(Front, TheCoresAreJudgedByTheirOwnPictures) {

@@ -176,7 +176,17 @@ function drawTable(entries, front, base) {
   });
 }
 
-function drawRecommended() {
+// Why the recommended setting is not on the front that is shown; nothing if it is.
+function whyOffFront(chosen, front) {
+  if (front.some(e => e.setting === chosen.setting)) return '';
+  const reasons = [];
+  if (state.metric !== 'psnr_db') reasons.push(`judges by ${METRICS[state.metric].label}, and the recommendation by PSNR`);
+  const shown = state.view === 0 ? data.views : [data.views[state.view - 1]];
+  if (shown.join() !== data.chosen_on.join()) reasons.push(`is of ${shown.join(', ')}, and the recommendation of ${data.chosen_on.join(', ')}`);
+  return `It is not on the front that is shown, which ${reasons.join('; it ')}.`;
+}
+
+function drawRecommended(front) {
   const box = byId('recommended');
   const chosen = recommend(data.chosen, entriesOf(data.chosen), state.floor);
   if (!chosen) {
@@ -194,7 +204,7 @@ function drawRecommended() {
     table.append(row);
   }
   box.replaceChildren(element('p', {}, element('b', {}, chosen.setting),
-    `, the ${state.axis === 'chip_joules' ? 'one of least energy' : 'fastest'} with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), table);
+    `, the ${state.axis === 'chip_joules' ? 'one of least energy' : 'fastest'} with at least ${state.floor} dB on ${data.chosen_on.join(', ')}; lane area ${(100 * chosen.area).toFixed(1)} % of the default's`), element('p', { id: 'off-front' }, whyOffFront(chosen, front)), table);
 }
 
 function drawFree(free, base) {
@@ -229,7 +239,7 @@ function draw() {
   const best = recommend(summary, entries, state.floor);
   drawPlot(entries, front, best);
   drawTable(entries, front, base);
-  drawRecommended();
+  drawRecommended(front);
   drawFree(summary.free.map(n => entries[n]), base);
   drawDetails(entries, base);
 }
@@ -245,7 +255,25 @@ function start() {
   draw();
 }
 
+// Whatever is shown, the recommended setting is on the front, or a sentence says why not.
+function checkRecommended() {
+  for (const metric of Object.keys(METRICS))
+    for (let view = 0; view <= data.views.length; ++view)
+      for (const axis of Object.keys(AXES)) {
+        Object.assign(state, { metric, view, axis });
+        draw();
+        const chosen = recommend(data.chosen, entriesOf(data.chosen), state.floor);
+        if (!chosen) continue;
+        const front = data.summaries[view].fronts[metric][axis].map(n => data.summaries[view].settings[n].setting);
+        const why = byId('off-front').textContent;
+        if (front.includes(chosen.setting) ? why !== '' : !/ judges by | is of /.test(why)) throw new Error(`${chosen.setting}, of ${axis} and ${metric}: ${why}`);
+      }
+  Object.assign(state, { metric: 'psnr_db', view: 0, axis: seenAxis() });
+  draw();
+}
+
 function tryOut() {
+  checkRecommended();
   const { data: points } = charts.plot.data.datasets[0];
   if (points.length < 2) throw new Error('fewer than two settings');
   const index = points.length - 1, { setting } = points[index].entry, found = [{ datasetIndex: 0, index }];

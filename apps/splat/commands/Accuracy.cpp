@@ -186,7 +186,8 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
     const Candidate &C = (*Measured)[*Best];
     const auto Gain = [&](const Candidate &Of, const Candidate &Base) {
       const double Default = *Base.time(Axis);
-      return fmt::format("{:.1f} dB, {:+.1f} % of the default's {}", Of.db(),
+      return fmt::format("{:.1f} dB, {:+.1f} % of the default's {}",
+                         judged({Of}, ErrorKind::Psnr, Axis).front().Merit,
                          100 * (*Of.time(Axis) / Default - 1),
                          Axis == TimeAxis::Energy
                              ? fmt::format("{:.4g} mJ", 1e3 * Default)
