@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <regex>
 #include <utility>
 
@@ -139,6 +140,33 @@ std::optional<std::string> ifNaN(const CLI::Option &O,
                      SeeHelp);
 }
 
+/// Numbers are computed with in single precision: one that is 0 or infinite
+/// there would be another than was asked for.
+std::optional<std::string> ifNoFloat(const CLI::Option &O,
+                                     const std::string &Word) {
+  long double Value = 0;
+  if (!O.get_type_name().starts_with(CLI::detail::type_name<float>()) ||
+      !CLI::detail::lexical_cast(Word, Value))
+    return std::nullopt;
+  const bool SaysInfinite = Word.find_first_of("nN") != std::string::npos;
+  const bool IsInfinite =
+      !SaysInfinite && std::isinf(static_cast<float>(Value));
+  // Of a number that is 0 in any precision, no digit before the exponent is
+  // another.
+  const bool IsZero =
+      !SaysInfinite && static_cast<float>(Value) == 0 &&
+      Word.substr(0, Word.find_first_of("eEpP")).find_first_of("123456789") !=
+          std::string::npos;
+  if (!IsInfinite && !IsZero)
+    return std::nullopt;
+  return fmt::format("{}: {} is {} in single precision, expected {}a size "
+                     "from {:.2g} to {:.2g} {}",
+                     O.get_name(), Word, IsZero ? "0" : "infinite",
+                     IsZero ? "0 or " : "",
+                     std::numeric_limits<float>::denorm_min(),
+                     std::numeric_limits<float>::max(), SeeHelp);
+}
+
 /// What \p Check says of the first value that it refuses, of those that \p App
 /// and its called commands got.
 std::optional<std::string> firstWrong(const CLI::App &App, ValueCheck *Check) {
@@ -249,6 +277,12 @@ CLI::Option *takesFile(CLI::Option *O,
   return O->type_name("FILE")->check(check(FileIn, Endings));
 }
 
+CLI::Option *takesNameOrFile(CLI::Option *O, std::vector<std::string> Names,
+                             const std::vector<std::string> &Endings) {
+  std::ranges::copy(Endings, std::back_inserter(Names));
+  return O->type_name("NAME|FILE")->check(check(FileIn, Names));
+}
+
 CLI::Option *takesFolder(CLI::Option *O) {
   return O->type_name("FOLDER")->check(check(FolderIn));
 }
@@ -293,10 +327,13 @@ OptionValue valueOf(const CLI::Option &O) {
     });
     if (Found == std::end(Marks))
       continue;
-    OptionValue V{(*Found)->What, {}, (*Found)->IsWritten};
+    OptionValue V{(*Found)->What, {}, {}, (*Found)->IsWritten};
+    const bool IsFile = V.What == OptionValue::Type::File;
     for (std::size_t At = 1; At < Parts.size(); ++At)
-      if (!Parts[At].empty())
-        V.Words.push_back(std::move(Parts[At]));
+      if (!Parts[At].empty()) {
+        const bool IsName = IsFile && !Parts[At].starts_with('.');
+        (IsName ? V.Names : V.Words).push_back(std::move(Parts[At]));
+      }
     return V;
   }
   return {};
@@ -348,8 +385,25 @@ static std::optional<std::string> parse(CLI::App &App,
     const auto Wrong = firstWrong(App, ifEmpty);
     return Wrong ? Wrong : problemOf(App, E.what(), First);
   }
-  const auto Wrong = firstWrong(App, ifEmpty);
-  return Wrong ? Wrong : firstWrong(App, ifNaN);
+  for (ValueCheck *Check : {ifEmpty, ifNaN, ifNoFloat})
+    if (auto Wrong = firstWrong(App, Check))
+      return Wrong;
+  return std::nullopt;
+}
+
+/// Makes "help" and "help COMMAND" in \p Arguments what --help asks for, if
+/// \p App has subcommands; what is wrong with them.
+static std::optional<std::string>
+takeHelpCommand(const CLI::App &App, std::vector<std::string> &Arguments) {
+  const std::vector<std::string> Commands = subcommandsOf(App);
+  if (Commands.empty() || Arguments.empty() || Arguments.front() != "help")
+    return std::nullopt;
+  Arguments.erase(Arguments.begin());
+  if (!Arguments.empty() && !Arguments.front().starts_with('-') &&
+      std::ranges::find(Commands, Arguments.front()) == Commands.end())
+    return unknown("subcommand", Arguments.front(), Commands);
+  Arguments.emplace_back("--help");
+  return std::nullopt;
 }
 
 std::optional<int> parseCommandLine(CLI::App &App,
@@ -358,6 +412,9 @@ std::optional<int> parseCommandLine(CLI::App &App,
     printOut("{}\n", definitionOf(App));
     return static_cast<int>(ExitCode::Ok);
   }
+  if (auto Wrong = takeHelpCommand(App, Arguments))
+    return reportError(App.get_name(),
+                       {"", std::move(*Wrong), ExitCode::Usage});
   try {
     if (auto Wrong = parse(App, std::move(Arguments)))
       return reportError(App.get_name(),

@@ -17,6 +17,7 @@ std::string said(std::vector<std::string> Arguments) {
   std::string Set, Cameras, Json, Path, Capture;
   unsigned Threads = 0, Clock = 0;
   double Volts = 0;
+  float Near = 0;
   App.add_option("--set", Set);
   CLI::App *Render = App.add_subcommand("render", "");
   takesFile(Render->add_option("--cameras", Cameras))->required();
@@ -25,6 +26,7 @@ std::string said(std::vector<std::string> Arguments) {
   Render->add_option("--threads", Threads)->type_name("N");
   Render->add_option("--clock", Clock)->check(isBetween(1U, 100000U));
   Render->add_option("--voltage", Volts)->check(isBetween(0.1, 5.0));
+  Render->add_option("--near", Near)->option_text("Z");
   Render->add_flag("--draft")->needs("--path")->excludes("--clock");
   CLI::App *Train = App.add_subcommand("train", "");
   Train->add_option("capture", Capture)->required();
@@ -191,8 +193,6 @@ TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {
             "(see --help)\n");
   EXPECT_EQ(said({}), "tool: error: no subcommand, expected one of render, "
                       "train (see --help)\n");
-  EXPECT_EQ(said({"help", "render"}),
-            "tool: error: unknown subcommand help (see --help)\n");
   EXPECT_EQ(said({"--set", "a=b"}),
             "tool: error: no subcommand, expected one of render, train (see "
             "--help)\n");
@@ -202,6 +202,47 @@ TEST(CommandLine, OtherMistakesAreToldAsTheyAre) {
             "tool: error: unexpected argument d (see --help)\n");
   EXPECT_EQ(said({"render", "--cameras", "c", "--", "d"}),
             "tool: error: unexpected argument d (see --help)\n");
+}
+
+/// What is printed on standard output for \p Arguments.
+std::string printed(std::vector<std::string> Arguments) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(said(std::move(Arguments)), "");
+  return testing::internal::GetCapturedStdout();
+}
+
+TEST(CommandLine, HelpIsACommandToo) {
+  const std::string All = printed({"--help"});
+  EXPECT_NE(All.find("--set"), std::string::npos);
+  EXPECT_EQ(printed({"help"}), All);
+  const std::string OfRender = printed({"render", "--help"});
+  EXPECT_NE(OfRender.find("--cameras"), std::string::npos);
+  EXPECT_EQ(printed({"help", "render"}), OfRender);
+  EXPECT_EQ(said({"help", "rendr"}),
+            "tool: error: unknown subcommand rendr, did you mean render? (see "
+            "--help)\n");
+  EXPECT_EQ(said({"train", "help"}), "") << "a capture of that name";
+}
+
+TEST(CommandLine, NumbersThatNoFloatHoldsAreRefused) {
+  const auto SaidOf = [](const char *Near) {
+    return said({"render", "--cameras", "c", "--near", Near});
+  };
+  for (const char *Good : {"0", "-0.0", "0e99", "1e-45", "3e38", "-3e38", "inf",
+                           "-inf", "5", "0x1p-3"})
+    EXPECT_EQ(SaidOf(Good), "") << Good;
+  for (const char *Zero : {"1e-46", "-1e-46", "1e-400", "0.5e-4999", "1e-9999"})
+    EXPECT_EQ(SaidOf(Zero),
+              fmt::format("tool: error: --near: {} is 0 in single "
+                          "precision, expected 0 or a size from "
+                          "1.4e-45 to 3.4e+38 (see --help)\n",
+                          Zero));
+  for (const char *Infinite : {"1e39", "-1e39", "1e400", "1e9999"})
+    EXPECT_EQ(SaidOf(Infinite),
+              fmt::format("tool: error: --near: {} is infinite in single "
+                          "precision, expected a size from 1.4e-45 to 3.4e+38 "
+                          "(see --help)\n",
+                          Infinite));
 }
 
 TEST(CommandLine, NoMessageIsTheParsersOwn) {

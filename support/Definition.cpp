@@ -87,6 +87,8 @@ Json toJson(const CLI::App &App, const CLI::Option &O) {
                   {"written", Value.IsWritten}};
     if (!Value.Words.empty())
       J["value"]["words"] = Value.Words;
+    if (!Value.Names.empty())
+      J["value"]["names"] = Value.Names;
     if (!Text.Range.empty())
       J["value"]["range"] = Text.Range;
     if (O.get_delimiter() != '\0')

@@ -31,6 +31,8 @@ TEST(Definition, SaysOfEachOptionWhatItTakes) {
       ->check(isOneOf({"plan", "measure"}))
       ->excludes(Fast);
   Draw->add_option("--view", Several, "Which.")->allow_extra_args(false);
+  takesNameOrFile(Draw->add_option("--preset", Text, "With."), {"fast", "good"},
+                  {".json"});
 
   const auto J = ownJson<Json>(definitionOf(App));
   EXPECT_EQ(J["schema"]["name"], "vorion-command-line");
@@ -69,6 +71,11 @@ TEST(Definition, SaysOfEachOptionWhatItTakes) {
       "written": false, "words": ["plan", "measure"]},
       "required": false, "repeats": false, "excludes": ["--fast"]})"));
   EXPECT_TRUE(Of("--view")["repeats"].get<bool>());
+  EXPECT_EQ(Of("--preset"),
+            ownJson<Json>(R"({"names": ["--preset"], "help": "With.",
+      "value": {"name": "NAME|FILE", "kind": "file", "optional": false,
+      "written": false, "words": [".json"], "names": ["fast", "good"]},
+      "required": false, "repeats": false})"));
 }
 
 TEST(Definition, IsPrintedByEveryTool) {

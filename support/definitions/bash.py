@@ -141,6 +141,9 @@ def script(tool):
     for command in commands:
         lines.append(f"    {command['name']}) {rest(common.options_in(tool, command))} ;;")
     names = [c["name"] for c in commands]
+    if commands:
+        lines.append(f"    {common.HELP}) _vorion_words {quoted(names)} ;;")
+        names.append(common.HELP)
     lines += [f"    '') {rest(tool['options'] + tool.get('others', []), names)} ;;", "  esac", "}",
               f"complete -F {function} {name}"]
     return "\n".join(lines) + "\n"

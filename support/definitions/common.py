@@ -2,6 +2,9 @@
 
 import re
 
+# The command that every tool with commands has, and no definition names.
+HELP, HELP_BRIEF = "help", "Prints the help of a command"
+
 
 def is_plain(name):
     """Whether an option's name is a word that no shell takes apart."""

@@ -40,7 +40,7 @@ def with_configuration(tool, folder):
     """The tool, with what vorion-sim knows of configurations where the names of values say that they are such."""
     for option in tool["options"]:
         value = option.get("value", {})
-        if value.get("name") not in ("KEY=VALUE,...", "NAME|FILE"):
+        if value.get("name") not in ("KEY=VALUE,...", "NAME|FILE") or "names" in value:
             continue
         settings = dict(settings_of(json.loads(said(os.path.join(folder, "vorion-sim"), "--print-config-schema"))))
         if value["name"] == "NAME|FILE":

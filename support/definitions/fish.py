@@ -64,6 +64,7 @@ def script(tool):
               "    set -q file[1]; and $words[1] --print-views $file[-1] 2>/dev/null", "end", ""]
     none = f"-n 'not __fish_seen_subcommand_from {listed}'"
     lines += [f"complete -c {name} {none} -f -a {c['name']} -d {quoted(c['description'])}" for c in commands]
+    lines.append(f"complete -c {name} {none} -f -a {common.HELP} -d {quoted(common.HELP_BRIEF)}")
     lines += options(tool, tool["options"], none)
     for command in commands:
         inside = f"-n '__fish_seen_subcommand_from {command['name']}'"

@@ -20,8 +20,10 @@ def action(value, tool):
         return f"_sequence compadd - {listed}"
     if value["kind"] == "settings":
         return f"_{function_of(tool)}_settings"
-    if "names" in value:
-        return f"_{function_of(tool)}_machines"
+    if "names" in value:  # or a file
+        names = " ".join(escaped(name, ":() ") for name in value["names"])
+        files = action({"kind": "file", "words": words}, tool)
+        return "{ compadd - " + names + "; " + files + " }"
     if value["kind"] == "view":
         return f"_{tool['name']}_views {listed}".rstrip()
     if value["kind"] == "file":
@@ -35,16 +37,13 @@ def function_of(tool):
 
 
 def configuration(tool):
-    """Functions for the options that take keys of a configuration, or a machine's name or a file."""
+    """Functions for the options that take keys of a configuration."""
     for option in tool["options"]:
         value = option.get("value", {})
         if value.get("kind") == "settings":
             known = [quoted(f"{key.rstrip('=')}:value:({' '.join(values)})" if values else f"{key.rstrip('=')}:value: ")
                      for key, values in value["settings"].items()]
             yield f"_{function_of(tool)}_settings() {{ _values -s , setting " + " ".join(known) + "; }"
-        if "names" in value:
-            files = action({"kind": "file", "words": value["words"]}, tool)
-            yield f"_{function_of(tool)}_machines() {{ compadd - {' '.join(value['names'])}; {files}; }}"
 
 
 def specs(options, tool, with_positions=True):
@@ -98,10 +97,13 @@ def script(tool):
                      + " && return")
         lines += ["  case $state in", "  command)", "    local -a commands=("]
         lines += ["      " + quoted(f"{c['name']}:{escaped(c['description'], ':')}") for c in commands]
+        lines += ["      " + quoted(f"{common.HELP}:{common.HELP_BRIEF}")]
         lines += ["    )", "    _describe command commands ;;", "  argument)", "    case $words[1] in"]
         for command in commands:
             lines += [f"    {command['name']})", arguments(specs(common.options_in(tool, command), tool), "      "),
                       "      ;;"]
+        lines += [f"    {common.HELP})", arguments([f"1:command:({' '.join(c['name'] for c in commands)})"], "      "),
+                  "      ;;"]
         lines += ["    esac ;;", "  esac"]
     lines += ["}", "", f"_{name} \"$@\""]
     return "\n".join(lines) + "\n"

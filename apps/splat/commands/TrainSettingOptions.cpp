@@ -3,14 +3,18 @@
 #include "vorion/support/CommandLine.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace vorion::splat {
 
 void addSettingOptions(CLI::App &App, SettingOptions &To) {
   constexpr const char *Group = "Settings of training";
-  App.add_option("--preset", To.Preset,
-                 "Settings to begin with: inria, gsplat, mcmc or a file .json "
-                 "(default inria)")
+  takesNameOrFile(App.add_option("--preset", To.Preset,
+                                 fmt::format("Settings to begin with: {} or a "
+                                             "file .json (default {})",
+                                             fmt::join(presetNames(), ", "),
+                                             presetNames().front())),
+                  {presetNames().begin(), presetNames().end()}, {".json"})
       ->group(Group);
   App.add_option("--density", To.Method,
                  "How Gaussians are added and dropped: classic, or mcmc "

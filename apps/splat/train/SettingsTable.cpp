@@ -161,7 +161,13 @@ Expected<Success> take(const std::string &Where, const std::string &Key,
                                     "to {}",
                                     Key, Field->isWhole() ? "whole " : "",
                                     Field->Least, Field->Most)};
-  Field->set(To, Value.get<double>());
+  const auto Given = Value.get<double>();
+  if (Given != 0 && static_cast<float>(Given) == 0)
+    return Error{Where, fmt::format("key {} is {:g}, which is 0 in single "
+                                    "precision, expected 0 or more than {:.2g}",
+                                    Key, Given,
+                                    std::numeric_limits<float>::denorm_min())};
+  Field->set(To, Given);
   return Success{};
 }
 

@@ -87,6 +87,9 @@ TEST(Settings, APresetsFileChangesAPreset) {
        {std::pair(R"({"noise_rat": 7})",
                   "key noise_rat is no setting; did you mean noise_rate?"),
         {R"({"dssim": 2})", "key dssim is wrong, expected a number, 0 to 1"},
+        {R"({"colour_rate": 1e-46})",
+         "key colour_rate is 1e-46, which is 0 in single precision, expected 0 "
+         "or more than 1.4e-45"},
         {R"({"sh_interval": 1.5})", "expected a whole number, 1 to"},
         {R"({"beta1": "x"})", "key beta1 is wrong"},
         {R"({"absgrad": 3})", "expected true or false"},

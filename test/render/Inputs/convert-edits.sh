@@ -25,3 +25,4 @@ attempt s.ply -o no.ply --rotate nan,0,0
 sed 's/^format.*/&\ncomment SplatRenderMode: mip/' s.ply >b.ply
 attempt s.ply b.ply -o no.ply
 attempt s.ply -o no.ply --translate 1e39,0,0
+attempt s.ply -o no.ply --scale 3e38

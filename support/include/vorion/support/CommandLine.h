@@ -17,7 +17,8 @@ namespace vorion {
 /// refuses: that is said in the house form, with what was probably meant. The
 /// one argument --print-definition, which no help lists, prints definitionOf().
 /// Values that are empty are refused, as of --json "$UNSET", and numbers that
-/// are NaN.
+/// are NaN, or that single precision takes for 0 or infinite. "help" and "help
+/// COMMAND" are --help, of an \p App that has subcommands.
 std::optional<int> parseCommandLine(CLI::App &App,
                                     std::vector<std::string> Arguments);
 
@@ -55,6 +56,10 @@ inline constexpr uint64_t MostSeed = 1'000'000'000'000'000'000;
 /// is there and is read, or is written by the tool.
 CLI::Option *takesFile(CLI::Option *O,
                        const std::vector<std::string> &Endings = {});
+/// The same of a value that may also be one of \p Names; endings begin with a
+/// dot, names do not.
+CLI::Option *takesNameOrFile(CLI::Option *O, std::vector<std::string> Names,
+                             const std::vector<std::string> &Endings);
 CLI::Option *takesFolder(CLI::Option *O);
 CLI::Option *writesFile(CLI::Option *O,
                         const std::vector<std::string> &Endings = {});
@@ -77,6 +82,7 @@ struct OptionValue {
   enum class Type { Any, OneOf, SomeOf, View, File, Folder, Prefix };
   Type What = Type::Any;
   std::vector<std::string> Words; ///< names, or endings of files
+  std::vector<std::string> Names; ///< that may stand in place of a file
   bool IsWritten = false;         ///< a file, a folder or files
 };
 OptionValue valueOf(const CLI::Option &O);
