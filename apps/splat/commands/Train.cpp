@@ -84,16 +84,19 @@ std::string curveOf(const std::vector<float> &Losses, const std::string &What) {
           "iteration",
           "loss",
           {},
-          10,
+          1,
           {},
           false,
-          {madeBy()}};
+          {madeBy()},
+          {},
+          static_cast<double>(Losses.size())};
   ChartSeries Means{"mean of a part", {}};
   for (std::size_t P = 0; P < Parts; ++P) {
     const auto Begin = static_cast<std::ptrdiff_t>(P * Losses.size() / Parts);
     const auto End =
         static_cast<std::ptrdiff_t>((P + 1) * Losses.size() / Parts);
-    C.Places.push_back(std::to_string(Begin + 1));
+    // The middle of the part: iterations count from 1.
+    C.Numbers.push_back(static_cast<double>(Begin + 1 + End) / 2);
     Means.Values.push_back(
         std::accumulate(Losses.begin() + Begin, Losses.begin() + End, 0.0) /
         static_cast<double>(End - Begin));

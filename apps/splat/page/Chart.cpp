@@ -118,6 +118,12 @@ double stepFor(double Largest) {
   return 10 * Power;
 }
 
+/// The same of whole numbers, between which there is nothing.
+double wholeStepFor(double Largest) {
+  const double Step = stepFor(Largest);
+  return Step == 2.5 ? 5 : std::max(1.0, Step);
+}
+
 std::string text(double X, double Y, const char *Anchor, const char *Class,
                  const std::string &Content) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" "
@@ -131,12 +137,16 @@ public:
   explicit Drawing(const Chart &Content) : Content(Content) {
     double Largest = 0;
     for (const ChartSeries &S : Content.Series) {
-      assert(S.Values.size() == Content.Places.size());
+      assert(S.Values.size() == places());
       for (const double V : S.Values)
         Largest = std::max(Largest, V);
     }
     Step = stepFor(Largest);
     YSteps = std::max(1, static_cast<int>(std::ceil(Largest / Step - 1e-9)));
+    if (!Content.Numbers.empty()) {
+      XEnd = Content.NumbersEnd;
+      XStep = wholeStepFor(XEnd);
+    }
     for (std::size_t I = 0; I < Content.Places.size(); I += Content.LabelEvery)
       WidestLabel = std::max(WidestLabel, widthOf(Content.Places[I]));
     IsSlanted = WidestLabel > place() * static_cast<double>(Content.LabelEvery);
@@ -174,12 +184,21 @@ public:
   }
 
 private:
-  double place() const {
-    return (Right - PlotLeft) / static_cast<double>(Content.Places.size());
+  std::size_t places() const {
+    return Content.Numbers.empty() ? Content.Places.size()
+                                   : Content.Numbers.size();
   }
-  /// The middle of place \p I.
+  double place() const {
+    return (Right - PlotLeft) / static_cast<double>(places());
+  }
+  double xOfNumber(double Number) const {
+    return PlotLeft + Number / XEnd * (Right - PlotLeft);
+  }
+  /// The middle of place \p I, or its number.
   double x(std::size_t I) const {
-    return PlotLeft + (static_cast<double>(I) + 0.5) * place();
+    return Content.Numbers.empty()
+               ? PlotLeft + (static_cast<double>(I) + 0.5) * place()
+               : xOfNumber(Content.Numbers[I]);
   }
   double y(double Value) const {
     return Bottom - Value / (Step * YSteps) * (Bottom - Top);
@@ -204,6 +223,14 @@ private:
                                forXml(Content.Places[I]))
                  : text(x(I), Bottom + LineHeight, "middle", "soft",
                         Content.Places[I]);
+    for (int K = 0; XEnd > 0 && K * XStep <= XEnd; ++K) {
+      const double X = xOfNumber(K * XStep);
+      Out += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" "
+                         "y2=\"{2:.1f}\" class=\"grid\"/>\n",
+                         X, Top, Bottom);
+      Out += text(X, Bottom + LineHeight, "middle", "soft",
+                  fmt::format("{}", static_cast<long>(K * XStep)));
+    }
     Out += fmt::format("<text transform=\"translate(22 {:.1f}) rotate(-90)\" "
                        "text-anchor=\"middle\" class=\"ink\">{}</text>\n",
                        (Top + Bottom) / 2, forXml(Content.YLabel));
@@ -263,6 +290,7 @@ private:
   const Chart &Content;
   double PlotLeft = Left, Top = 0, Bottom = 0;
   double Step = 1, WidestLabel = 0;
+  double XEnd = 0, XStep = 1; ///< of numbers along x, if there are any
   int YSteps = 1;
   bool IsSlanted = false;
 };

@@ -11,7 +11,7 @@ namespace vorion::splat {
 
 struct ChartSeries {
   std::string Name;
-  std::vector<double> Values; ///< one for each of the chart's places, finite
+  std::vector<double> Values; ///< one for each place or number, finite
 };
 
 struct Chart {
@@ -22,6 +22,12 @@ struct Chart {
   std::vector<ChartSeries> Series;
   bool Bars = false;             ///< side by side, else lines
   std::vector<std::string> Made; ///< for the foot: what made it
+  /// Where places of a whole quantity lie, rising, in place of their labels:
+  /// the axis then goes from 0 to \c NumbersEnd, which is no less than the
+  /// last, and has round numbers.
+  // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
+  std::vector<double> Numbers = {};
+  double NumbersEnd = 0;
 };
 
 /// A document of 760 units' width, light or dark as its reader's settings say.

@@ -2,6 +2,7 @@
 
 #include "analyze/Plots.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace vorion::splat;
@@ -43,6 +44,33 @@ TEST(Chart, TheAxisEndsAtARoundNumber) {
                             End + "<"),
               std::string::npos)
         << Largest << svgOf(C);
+  }
+}
+
+TEST(Chart, NumbersAlongXAreRound) {
+  Chart C{"", "", "", {}, 1, {{"s", {3, 2, 1}}}, false, {}, {}, 0};
+  for (const auto &[Last, Texts] :
+       {std::pair(4.0, std::vector<std::string>{"0", "1", "2", "3", "4"}),
+        {1000, {"0", "200", "400", "600", "800", "1000"}},
+        {6990, {"0", "2000", "4000", "6000"}},
+        {12, {"0", "5", "10"}},
+        {1, {"0", "1"}}}) {
+    C.Numbers = {Last / 4, Last / 2, 0.9 * Last};
+    C.NumbersEnd = Last;
+    const std::string Svg = svgOf(C);
+    std::string Label;
+    for (const std::string &Text : Texts) {
+      const double X = 80 + std::stod(Text) / Last * (744 - 80);
+      Label = fmt::format("<text x=\"{:.1f}\" y=\"354.0\" "
+                          "text-anchor=\"middle\" class=\"soft\">{}</text>",
+                          X, Text);
+      EXPECT_NE(Svg.find(Label), std::string::npos) << Label << Svg;
+    }
+    EXPECT_EQ(count(Svg, "text-anchor=\"middle\" class=\"soft\""),
+              Texts.size());
+    // A number stands where it says.
+    EXPECT_NE(Svg.find("points=\"246.0,"), std::string::npos) << Svg;
+    EXPECT_NE(Svg.find("677.6,"), std::string::npos) << Svg;
   }
 }
 
