@@ -27,7 +27,8 @@ public:
 
   void enter(std::string_view Doing) {
     if (Blends) {
-      ++Drawn;
+      if (++Drawn == 1)
+        FirstDrawn = Clock::now();
       if (!canOverwrite())
         sayLine();
     }
@@ -43,7 +44,10 @@ public:
 
 private:
   std::string left() const {
-    return timeLeftText(seconds(Clock::now() - Begin), Drawn, Views);
+    // The first view waits for kernels to be compiled.
+    return Drawn == 0 ? ""
+                      : timeLeftText(seconds(Clock::now() - FirstDrawn),
+                                     Drawn - 1, Views - 1);
   }
   void sayLine() {
     constexpr double Every = 10; // seconds
@@ -57,7 +61,7 @@ private:
 
   std::size_t Views, Drawn = 0;
   bool Blends = false;
-  Clock::time_point Begin = Clock::now(), LastLine = Begin;
+  Clock::time_point FirstDrawn, LastLine = Clock::now();
 };
 
 } // namespace

@@ -66,7 +66,8 @@ void showProgress(const TrainProgress &P) {
       P.MachineRate
           ? fmt::format(", {:.3f} of the machine's clock", *P.MachineRate)
           : "",
-      timeLeftText(P.Seconds, R.Iteration - P.First, P.Last - P.First),
+      timeLeftText(P.Seconds - P.FirstSeconds, R.Iteration - P.First - 1,
+                   P.Last - P.First - 1),
       Terminal ? "" : "\n");
   // Not printNote(), which would escape what clears the line.
   std::fputs(Line.c_str(), stderr);

@@ -102,6 +102,7 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
   const unsigned Last = W.Request.Run.Settings.Iterations;
   ClockSamples &Samples = W.Out.Timed;
   bool SaidWithoutGradient = false;
+  double FirstSeconds = 0;
   while (T.iteration() < Last && !W.Processes.any(Interrupted != 0)) {
     const bool Timed =
         W.Request.TimeEvery &&
@@ -109,6 +110,8 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
     Launch.setProfiled(Timed);
     const StepReport Step = T.step();
     std::vector<StageReport> Stages = Launch.takeStages();
+    if (Step.Iteration == First + 1)
+      FirstSeconds = secondsSince(Start);
     if (Launch.failure()) {
       W.Host.ShowBuildLog(Launch);
       return *Launch.failure();
@@ -125,7 +128,7 @@ Expected<Success> loop(const Work &W, Launcher &Launch,
       noteWithoutGradient(W, Step, SaidWithoutGradient);
     if (W.Processes.first())
       W.Host.Progress(
-          {Step, First, Last, secondsSince(Start),
+          {Step, First, Last, secondsSince(Start), FirstSeconds,
            Samples.empty() ? std::nullopt : std::optional(Samples.rate())});
     if (W.Processes.first() && W.Request.ScoreEvery != 0 &&
         Step.Iteration % W.Request.ScoreEvery == 0 &&

@@ -45,6 +45,9 @@ struct TrainProgress {
   StepReport Step;
   unsigned First = 0, Last = 0; ///< iterations done before, and in all
   double Seconds = 0;           ///< wall time
+  /// Of the first iteration of this run, which waits for kernels to be
+  /// compiled.
+  double FirstSeconds = 0;
   /// Iterations a second by the machine's clock, once it has timed one.
   std::optional<double> MachineRate;
 };

@@ -44,15 +44,15 @@ capture = os.path.join(folder, "captures", "colmap-binary")
 for name, variables, on_terminal in KINDS:
     print("error:", name, kind(said(["splat", "info", os.path.join(folder, "none")], variables, on_terminal)))
 for name, variables, on_terminal in KINDS:
-    text = said(["splat", "train", capture, "-o", os.path.join(folder, "o.ply"), "--iterations", "2"], variables, on_terminal)
-    left = "time left" if re.search(rb", \d+ s left", text) else "no time left"
+    text = said(["splat", "train", capture, "-o", os.path.join(folder, "o.ply"), "--iterations", "51"], variables, on_terminal)
+    left = "time left" if re.search(rb"iteration [2-9]\d*/51: [^\n\r]*, \d+ s left", text) else "no time left"
     print(f"training: {name} {kind(text)}, {left}")
 
 render = ["splat", "render", os.path.join(folder, "scene.ply"), "--cameras", os.path.join(folder, "cameras.json"), "--view",
-          "front", "--view", "close", "-o", os.path.join(folder, "view.pfm")]
+          "front", "--view", "close", "--view", "far", "-o", os.path.join(folder, "view.pfm")]
 for name, variables, on_terminal in KINDS:
     text = said(render, variables, on_terminal)
-    left = "time left" if re.search(rb"\] view 2 of 2: [^,]*, \d+ (s|min) left", text) else "no time left"
-    beyond = ", one too many" if b"view 3 of 2" in text else ""
+    left = "time left" if re.search(rb"\] view 3 of 3: [^,]*, \d+ (s|min) left", text) else "no time left"
+    beyond = ", one too many" if b"view 4 of 3" in text else ""
     print(f"views: {name} {kind(text)}, {left}{beyond}")
 print("quiet:", kind(said([*render, "--quiet"], {"TERM": "xterm"}, True)))
