@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 
 namespace vorion {
 
@@ -24,6 +25,10 @@ std::string_view trimmed(std::string_view Text, std::string_view Blanks) {
   if (First == std::string_view::npos)
     return {};
   return Text.substr(First, Text.find_last_not_of(Blanks) + 1 - First);
+}
+
+std::string counted(uint64_t Count, std::string_view One) {
+  return fmt::format("{} {}{}", Count, One, Count == 1 ? "" : "s");
 }
 
 } // namespace vorion

@@ -1,5 +1,6 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/TemporaryFolder.h"
 
 #include <filesystem>
@@ -25,6 +26,12 @@ TEST(Diagnostics, HasTheHouseForm) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "tool: error: file:3: bad, expected good\n");
   EXPECT_EQ(Code, 3);
+}
+
+TEST(Letters, OneThingIsSingular) {
+  EXPECT_EQ(counted(0, "place"), "0 places");
+  EXPECT_EQ(counted(1, "place"), "1 place");
+  EXPECT_EQ(counted(64, "finding"), "64 findings");
 }
 
 TEST(TemporaryFolder, GoesWithWhatIsInIt) {

@@ -5,6 +5,7 @@
 #include "capture/Transforms.h"
 #include "io/Inside.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
@@ -392,8 +393,8 @@ Expected<Success> exclude(const std::string &Path, Capture &C,
                    ExitCode::Usage};
     }
   if (C.Views.size() < 2)
-    return Error{
-        Path, fmt::format("{} views, expected at least two", C.Views.size())};
+    return Error{Path, fmt::format("{}, expected at least two",
+                                   counted(C.Views.size(), "view"))};
   return Success{};
 }
 

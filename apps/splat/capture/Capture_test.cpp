@@ -389,7 +389,7 @@ TEST(Capture, OneViewIsTooFew) {
   const CaptureFolder F(colmapTextOf(sampleCapture(1)));
   const auto C = readCapture(F.path());
   ASSERT_FALSE(C);
-  EXPECT_NE(C.error().What.find("1 views, expected at least"),
+  EXPECT_NE(C.error().What.find("1 view, expected at least"),
             std::string::npos);
 }
 

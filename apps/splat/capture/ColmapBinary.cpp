@@ -1,4 +1,5 @@
 #include "capture/ColmapRecords.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -59,9 +60,9 @@ public:
   std::optional<Error> leftOver() const {
     if (Rest.empty())
       return std::nullopt;
-    return Error{Where, fmt::format("{} bytes after the last record, expected "
-                                    "the file's end",
-                                    Rest.size())};
+    return Error{Where, fmt::format("{} after the last record, expected the "
+                                    "file's end",
+                                    counted(Rest.size(), "byte"))};
   }
 
 private:

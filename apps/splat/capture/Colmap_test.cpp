@@ -262,7 +262,7 @@ TEST(ColmapBinary, EachKindOfDamageHasItsMessage) {
                {[](Parts &P) { patch<uint64_t>(P.Points, 0, ~0ULL); },
                 "points: the file ends within point 12"},
                {[](Parts &P) { P.Points += '\0'; },
-                "points: 1 bytes after the last record"},
+                "points: 1 byte after the last record"},
                {[](Parts &P) { P.Images = "1234"; },
                 "images: 4 bytes, expected the number of images first"},
                {[](Parts &P) { patch<int32_t>(P.Images, 68, 3); },

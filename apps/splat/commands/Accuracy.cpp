@@ -13,6 +13,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Suggest.h"
 
@@ -171,8 +172,9 @@ Expected<std::string> recommendation(const SweepPlan &P, KeptPoints &Kept,
   const auto Measured = candidates(P, Kept, All, V.Choose);
   if (!Measured)
     return Measured.error();
-  std::string Text = fmt::format("{} settings; at least {} dB on {}:\n",
-                                 All.size(), FloorDb, names(V.Choose));
+  std::string Text =
+      fmt::format("{}; at least {} dB on {}:\n", counted(All.size(), "setting"),
+                  FloorDb, names(V.Choose));
   for (std::size_t A = 0; A < TimeAxes; ++A) {
     const auto Axis = static_cast<TimeAxis>(A);
     if (Axis == TimeAxis::Energy && !P.Energy)

@@ -17,6 +17,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
@@ -132,10 +133,10 @@ std::string textReport(const AnalyzeArguments &A, const Camera &C,
                        const Analysis &R) {
   const double Pixels = static_cast<double>(R.Pixels);
   std::string Text = fmt::format(
-      "{} {}x{}: {} rules, support {}\n{} Gaussians seen, {:.2f} blends a "
+      "{} {}x{}: {} rules, support {}\n{} seen, {:.2f} blends a "
       "pixel, {:.2f} % saturated\n{:<22}",
       escaped(C.Name), C.Width, C.Height, name(A.Convention), name(A.Reach),
-      R.Visible, static_cast<double>(R.Blends) / Pixels,
+      counted(R.Visible, "Gaussian"), static_cast<double>(R.Blends) / Pixels,
       100 * static_cast<double>(R.Saturated) / Pixels, "tile size (pixels)");
   for (const int Size : AnalyzedTiles)
     Text += fmt::format("{:>12}", Size);

@@ -7,6 +7,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
@@ -61,25 +62,27 @@ std::string textOf(const std::string &Path, const Capture &C) {
     return R.Low == R.High ? fmt::format("{:.6g}", R.Low)
                            : fmt::format("{:.6g} to {:.6g}", R.Low, R.High);
   };
-  std::string Text = fmt::format(
-      "{}: {} capture\n{} views, {} of them held out ({})\n", escaped(Path),
-      name(C.Format), C.Views.size(), C.heldOut(), C.HeldOutBy);
+  std::string Text =
+      fmt::format("{}: {} capture\n{}, {} of them held out ({})\n",
+                  escaped(Path), name(C.Format),
+                  counted(C.Views.size(), "view"), C.heldOut(), C.HeldOutBy);
   if (C.WithoutPicture > 0)
-    Text += fmt::format("left out     {} views without a picture\n",
-                        C.WithoutPicture);
+    Text += fmt::format("left out     {} without a picture\n",
+                        counted(C.WithoutPicture, "view"));
   Text += fmt::format("pictures     {} x {} pixels\n", Span(F.Width),
                       Span(F.Height));
   Text += fmt::format("focal length x {}, y {} pixels\n", Span(F.FocalX),
                       Span(F.FocalY));
   const std::size_t Alone = C.photographsAlone();
   if (const std::size_t Bend = C.distorted() - Alone; Bend > 0)
-    Text += fmt::format("lenses       of {} views bend: training undistorts "
-                        "their pictures, unless --distorted is given\n",
-                        Bend);
+    Text += fmt::format("lenses       bend in {}: training undistorts "
+                        "pictures, unless --distorted is given\n",
+                        counted(Bend, "view"));
   if (Alone > 0)
-    Text += fmt::format("lenses       {} views are full spheres or have a "
-                        "rolling shutter: they need --distorted\n",
-                        Alone);
+    Text +=
+        fmt::format("lenses       {} with full spheres or a rolling shutter: "
+                    "training needs --distorted\n",
+                    counted(Alone, "view"));
   Text += fmt::format("cameras      within {:.6g} of ({:.6g}, {:.6g}, {:.6g}), "
                       "extent {:.6g}\n",
                       F.Ring.Radius, F.Ring.Centre[0], F.Ring.Centre[1],
@@ -87,8 +90,8 @@ std::string textOf(const std::string &Path, const Capture &C) {
   if (C.Points.size() == 0)
     return Text +
            fmt::format("points       none: training starts from random ones "
-                       "around the origin, which {} views see\n",
-                       viewsOfRandomPoints(C));
+                       "around the origin, seen by {}\n",
+                       counted(viewsOfRandomPoints(C), "view"));
   return Text + fmt::format("points       {}: x {}, y {}, z {}\n",
                             C.Points.size(), Span(boundsOf(C.Points, 0)),
                             Span(boundsOf(C.Points, 1)),

@@ -6,6 +6,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 
 #include <algorithm>
@@ -94,12 +95,12 @@ Expected<Success> comparePairs(const CompareArguments &A) {
       return Written;
   if (Found)
     return Error{A.Picture,
-                 fmt::format("{} pairs, {} differs from place {} on, expected "
-                             "the {} pairs of {}",
-                             Others, Found->Array, Found->Place, Pairs,
-                             A.Reference),
+                 fmt::format("{}, {} differs from place {} on, expected the {} "
+                             "of {}",
+                             counted(Others, "pair"), Found->Array,
+                             Found->Place, counted(Pairs, "pair"), A.Reference),
                  ExitCode::GuestFailed};
-  printOut("equal: {} pairs\n", Pairs);
+  printOut("equal: {}\n", counted(Pairs, "pair"));
   return Success{};
 }
 

@@ -9,6 +9,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 
 #include <cmath>
@@ -73,8 +74,8 @@ std::string notFinite(const Difference &D) {
 }
 
 void print(const char *What, const Difference &D) {
-  printOut("{}: {:.2f} dB, largest difference {:.3g}, {} pixels{}\n", What,
-           D.PsnrDb, D.MaxAbs, D.Pixels, notFinite(D));
+  printOut("{}: {:.2f} dB, largest difference {:.3g}, {}{}\n", What, D.PsnrDb,
+           D.MaxAbs, counted(D.Pixels, "pixel"), notFinite(D));
 }
 
 /// JSON has no infinity. So the PSNR of equal pictures, whose largest

@@ -11,6 +11,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
@@ -170,8 +171,8 @@ Expected<Success> run(const ConvertArguments &A) {
                                                        Read, *Edits, *Written));
         !Said)
       return Said;
-  printOut("{}: {} Gaussians, SH degree {}{}\n", escaped(A.Output),
-           File->Gaussians.size(), Written->ShDegree,
+  printOut("{}: {}, SH degree {}{}\n", escaped(A.Output),
+           counted(File->Gaussians.size(), "Gaussian"), Written->ShDegree,
            File->DrawnAs.Antialiased ? ", trained antialiased" : "");
   printLoss(A.Output, *Written, File->Gaussians, File->DrawnAs);
   return Success{};

@@ -9,6 +9,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
@@ -55,8 +56,8 @@ Expected<Success> run(const DemoArguments &A) {
   const std::string File = formatPly(S);
   if (auto Written = writeFileAtomically(A.Output, File); !Written)
     return Written;
-  printOut("{}: {} Gaussians, SH degree {}\n", escaped(A.Output), S.size(),
-           S.ShDegree);
+  printOut("{}: {}, SH degree {}\n", escaped(A.Output),
+           counted(S.size(), "Gaussian"), S.ShDegree);
   const std::vector<Camera> Cameras = demo::makeCameras();
   if (!A.JsonFile.empty())
     if (auto Written = writeFileAtomically(

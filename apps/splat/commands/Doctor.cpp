@@ -10,6 +10,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 
 #include <algorithm>
@@ -99,9 +100,7 @@ Expected<Success> run(const std::string &JsonFile,
   // In a log, too, the count stands below what is counted.
   std::fflush(stdout);
   if (Faults != 0)
-    return Error{"",
-                 fmt::format("{} fault{}, expected none", Faults,
-                             Faults == 1 ? "" : "s"),
+    return Error{"", fmt::format("{}, expected none", counted(Faults, "fault")),
                  ExitCode::GuestFailed};
   printOut("all is well\n");
   return Success{};

@@ -14,6 +14,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
@@ -164,11 +165,12 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
     if (auto Reported = writeReport(A, *File, *C, *D, *R); !Reported)
       return Reported;
   printOut("{} {}x{} on {}: {} rules, support {}, path {}{}\n"
-           "{} Gaussians seen, {} pairs with tiles of {}x{}\n",
+           "{} seen, {} with tiles of {}x{}\n",
            escaped(C->Name), C->Width, C->Height, D->name(),
            name(A.Options.Convention), name(A.Options.Reach),
            name(A.Options.Blending), toString(A.Backward, A.Options.Blending),
-           R->Visible, R->Pairs, A.Options.tileSize(), A.Options.tileHeight());
+           counted(R->Visible, "Gaussian"), counted(R->Pairs, "pair"),
+           A.Options.tileSize(), A.Options.tileHeight());
   for (const StageReport &S : R->Stages)
     printOut("{:<18}{:>8.3f} s\n", name(S.Kind), S.Seconds);
   printOut("{}", frameText(R->Stages));

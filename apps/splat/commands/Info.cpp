@@ -11,6 +11,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 
@@ -70,9 +71,10 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
     Text += fmt::format(" version {}", F.Version);
   if (F.Files > 1)
     Text += fmt::format(", {} data sets", F.Files);
-  Text += fmt::format("\n{} Gaussians, SH degree {}{}\n", F.Gaussians.size(),
-                      F.Gaussians.ShDegree,
-                      F.DrawnAs.Antialiased ? ", trained antialiased" : "");
+  Text +=
+      fmt::format("\n{}, SH degree {}{}\n",
+                  counted(F.Gaussians.size(), "Gaussian"), F.Gaussians.ShDegree,
+                  F.DrawnAs.Antialiased ? ", trained antialiased" : "");
   if (!F.DrawnAs.Source.empty() || F.DrawnAs.Dilation)
     Text += fmt::format(
         "drawn        {}{}{}\n",

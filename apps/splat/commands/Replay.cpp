@@ -11,6 +11,7 @@
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/JsonShape.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/TemporaryFolder.h"
@@ -305,13 +306,13 @@ Expected<Success> replay(const ReplayArguments &A,
     printOut("... and {} more\n", D.Differing - D.First.size());
   std::fflush(stdout); // before the error that counts them
   if (D.Differing == 0) {
-    printOut("{}: the same bits again ({} values compared)\n",
-             escaped(A.Result), D.Compared);
+    printOut("{}: the same bits again ({} compared)\n", escaped(A.Result),
+             counted(D.Compared, "value"));
     return Success{};
   }
   return Error{A.Result,
-               fmt::format("{} of {} values differ, expected the same bits",
-                           D.Differing, D.Compared),
+               fmt::format("{} of {} differ, expected the same bits",
+                           D.Differing, counted(D.Compared, "value")),
                ExitCode::GuestFailed};
 }
 

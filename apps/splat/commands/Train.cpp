@@ -20,6 +20,7 @@
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Outputs.h"
 #include "vorion/support/Printable.h"
 #include "vorion/support/Terminal.h"
@@ -59,10 +60,10 @@ void showProgress(const TrainProgress &P) {
   if (!Terminal && R.Iteration % Every != 0 && R.Iteration != 1)
     return;
   const std::string Line = fmt::format(
-      "{}iteration {}/{}: loss {:.5f}, {} Gaussians, {:.2f} it/s of wall "
+      "{}iteration {}/{}: loss {:.5f}, {}, {:.2f} it/s of wall "
       "time{}{}{}",
       Terminal ? "\r\033[K" : "", R.Iteration, P.Last, R.Loss.Value,
-      R.Gaussians, (R.Iteration - P.First) / P.Seconds,
+      counted(R.Gaussians, "Gaussian"), (R.Iteration - P.First) / P.Seconds,
       P.MachineRate
           ? fmt::format(", {:.3f} of the machine's clock", *P.MachineRate)
           : "",
@@ -133,34 +134,37 @@ Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
 
 void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
   const TrainRequest &R = A.Request;
-  printOut("{}: {} Gaussians after {} iterations\n", escaped(A.Output),
-           Out.Result.size(), Out.Iterations);
+  printOut("{}: {} after {}\n", escaped(A.Output),
+           counted(Out.Result.size(), "Gaussian"),
+           counted(Out.Iterations, "iteration"));
   printOut("pictures     {} to train on, {} held out ({}); {}\n",
            Out.TrainingViews, Out.HeldOut.size(), Out.HeldOutBy, PhotoFilter);
   if (Out.WithoutPicture != 0)
-    printOut("left out     {} views without a picture\n", Out.WithoutPicture);
+    printOut("left out     {} without a picture\n",
+             counted(Out.WithoutPicture, "view"));
   if (Out.Distorted != 0 && R.Run.Pictures == LensOf::Undistorted)
-    printOut("undistorted  {} pictures; {}\n", Out.Distorted, LensFilter);
+    printOut("undistorted  {}; {}\n", counted(Out.Distorted, "picture"),
+             LensFilter);
   else if (Out.Distorted != 0)
-    printOut("distorted    {} pictures, as they are\n", Out.Distorted);
+    printOut("distorted    {}, as {}\n", counted(Out.Distorted, "picture"),
+             Out.Distorted == 1 ? "it is" : "they are");
   if (R.Run.Through == Spread::Unscented)
     printOut("projection   unscented: eval and render need --projection "
              "unscented, too\n");
   if (R.Run.Masks != MaskSource::None)
-    printOut("masks        {}\n",
-             R.Run.Masks == MaskSource::Alpha
-                 ? "transparent pixels do not count"
-                 : fmt::format("of {} pictures", Out.Masked));
+    printOut("masks        {}\n", R.Run.Masks == MaskSource::Alpha
+                                      ? "transparent pixels do not count"
+                                      : "of " + counted(Out.Masked, "picture"));
   if (Out.Depths != 0)
-    printOut("depths       of {} places of points in the pictures\n",
-             Out.Depths);
+    printOut("depths       of {} of points in the pictures\n",
+             counted(Out.Depths, "place"));
   if (const auto &P = Out.Poses)
     printOut("poses        turned by {:.4f} rad and moved by {:.4g}, mean of "
              "pictures; most {:.4f} rad and {:.4g}\n",
              P->MeanTurn, P->MeanShift, P->MostTurn, P->MostShift);
   if (R.Run.Batch != 1 || Out.Processes != 1)
-    printOut("views        {} an iteration, on {} devices\n", R.Run.Batch,
-             Out.Processes);
+    printOut("views        {} an iteration, on {}\n", R.Run.Batch,
+             counted(Out.Processes, "device"));
   if (R.Run.Settings.Method != DensityMethod::Classic)
     printOut("density      {}\n", name(R.Run.Settings.Method));
   printOut("rules        {}, support exact, path {}{}, opacity rate {}\n",

@@ -5,6 +5,7 @@
 #include "io/ReportHead.h"
 #include "vorion/support/CommandLine.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -59,9 +60,9 @@ Expected<Success> writeTrainPictures(const TrainPictures &P,
     return Success{};
   const auto Page = scorePageOf(
       {std::filesystem::path(Output).filename().string(),
-       {madeBy(),
-        fmt::format("scene {} after {} iterations; device {}, {}", Output,
-                    Out.Iterations, Out.DeviceName, Out.DeviceVersion)}},
+       {madeBy(), fmt::format("scene {} after {}; device {}, {}", Output,
+                              counted(Out.Iterations, "iteration"),
+                              Out.DeviceName, Out.DeviceVersion)}},
       Views, Scores);
   return Page ? writeFileAtomically(P.Html, *Page)
               : Expected<Success>(Page.error());

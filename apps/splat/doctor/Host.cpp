@@ -1,6 +1,7 @@
 #include "doctor/Host.h"
 
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -127,8 +128,8 @@ Diagnosis examineCache(const std::string &Folder) {
             fmt::format("{}: {}", Folder, Writable.error().What), Mend};
   const Contents C = contentsOf(Folder);
   return {DiagnosisState::Well, "kernel cache",
-          fmt::format("{} can be written, and has {} files, {}", Folder,
-                      C.Files, mebibytes(C.Bytes)),
+          fmt::format("{} can be written, and has {}, {}", Folder,
+                      counted(C.Files, "file"), mebibytes(C.Bytes)),
           ""};
 }
 

@@ -2,6 +2,7 @@
 
 #include "device/Device.h"
 #include "doctor/Variables.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <array>
@@ -248,9 +249,9 @@ Diagnoses examineDevice(const DeviceOptions &Options) {
              sourceEnvironment()}};
   Diagnoses Found{
       {DiagnosisState::Well, "device",
-       fmt::format("\"{}\" with {} cores of {} lanes and {} MiB of memory",
-                   D->name(), D->computeUnits(), D->lanes(),
-                   D->globalBytes() >> 20),
+       fmt::format("\"{}\" with {} of {} and {} MiB of memory", D->name(),
+                   counted(D->computeUnits(), "core"),
+                   counted(D->lanes(), "lane"), D->globalBytes() >> 20),
        ""}};
   if (const std::string Problem = runKernel(*D); !Problem.empty())
     Found.push_back(

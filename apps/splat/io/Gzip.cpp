@@ -1,4 +1,5 @@
 #include "io/Gzip.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -91,9 +92,9 @@ Expected<Success> GzipReader::finish() {
     return Error{Where, "the gzip stream goes on, expected no more than its "
                         "header says"};
   if (Stream->avail_in != 0)
-    return Error{Where, fmt::format("{} bytes after the gzip stream, expected "
-                                    "the file's end",
-                                    Stream->avail_in)};
+    return Error{Where, fmt::format("{} after the gzip stream, expected the "
+                                    "file's end",
+                                    counted(Stream->avail_in, "byte"))};
   return Success{};
 }
 

@@ -1,4 +1,5 @@
 #include "io/PlyFile.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <charconv>
@@ -51,9 +52,9 @@ public:
         return Passed;
     }
     if (At != File.size())
-      return Error{Where, fmt::format("{} bytes after the last element, "
-                                      "expected the file's end",
-                                      File.size() - At)};
+      return Error{Where, fmt::format("{} after the last element, expected "
+                                      "the file's end",
+                                      counted(File.size() - At, "byte"))};
     return Success{};
   }
 

@@ -1,6 +1,7 @@
 #include "render/FrameTime.h"
 
 #include "io/Mean.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -324,11 +325,11 @@ std::string sequenceText(const SequenceResult &R) {
   Text += Rows.row("all", *T.Sum);
   return Text +
          fmt::format(
-             "{} pictures in {:.3f} ms: {:.2f} a second, {:.3f} ms from a "
+             "{} in {:.3f} ms: {:.2f} a second, {:.3f} ms from a "
              "picture's beginning to its end\nbusy: cores {:.3f} ms, "
              "rasterizers {:.3f}, pixel units {:.3f}; {:.3f} ms beside each "
              "other, bound {:.3f} ms\n",
-             R.Frames.size(), T.Total,
+             counted(R.Frames.size(), "picture"), T.Total,
              1e3 * static_cast<double>(R.Frames.size()) / T.Total,
              meanOf(T.Latency), T.Cores, T.Rasters, T.Pixels,
              T.all() - T.kernels(), T.bound());

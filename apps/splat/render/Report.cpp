@@ -8,6 +8,7 @@
 #include "render/FrameTime.h"
 #include "render/Gradients.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 #include "vorion/support/Printable.h"
 
 #include <fmt/format.h>
@@ -206,11 +207,12 @@ Expected<Json> jsonReport(const RenderRecord &R) {
 std::string textReport(const Camera &View, const RenderOptions &Options,
                        const Device &Dev, const RenderResult &Result) {
   std::string Text = fmt::format(
-      "{} {}x{} on {}: {} rules, support {}, path {}\n{} Gaussians seen, {} "
-      "pairs with tiles of {}x{}\n",
+      "{} {}x{} on {}: {} rules, support {}, path {}\n{} seen, {} with "
+      "tiles of {}x{}\n",
       escaped(View.Name), View.Width, View.Height, Dev.name(),
       name(Options.Convention), name(Options.Reach), name(Options.Blending),
-      Result.Visible, Result.Pairs, Options.tileSize(), Options.tileSize());
+      counted(Result.Visible, "Gaussian"), counted(Result.Pairs, "pair"),
+      Options.tileSize(), Options.tileSize());
   Text += "culled:";
   for (std::size_t I = 0; I < CullReasons.size(); ++I)
     Text += fmt::format("{} {} {}", I == 0 ? "" : ",", Result.Culled[I],

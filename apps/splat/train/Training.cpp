@@ -6,6 +6,7 @@
 #include "train/RunRecord.h"
 #include "train/Start.h"
 #include "vorion/support/Json.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <chrono>
@@ -215,12 +216,12 @@ Expected<Success> begin(const Work &W, Trainer &T) {
   if (Other->ShDegree != R.ShDegree || Other->gaussians() > S.MostGaussians ||
       Other->Iteration >= S.Iterations)
     return Error{R.From,
-                 fmt::format("{} Gaussians of SH degree {} after iteration {}, "
+                 fmt::format("{} of SH degree {} after iteration {}, "
                              "expected at most {} of degree {} and less than "
                              "{} iterations",
-                             Other->gaussians(), Other->ShDegree,
-                             Other->Iteration, S.MostGaussians, R.ShDegree,
-                             S.Iterations),
+                             counted(Other->gaussians(), "Gaussian"),
+                             Other->ShDegree, Other->Iteration, S.MostGaussians,
+                             R.ShDegree, S.Iterations),
                  ExitCode::Usage};
   T.restore(*Other);
   return Success{};

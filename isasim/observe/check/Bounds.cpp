@@ -2,6 +2,7 @@
 
 #include "core/Isa.h"
 #include "raster/WorkLog.h"
+#include "vorion/support/Letters.h"
 
 #include <bit>
 #include <fmt/format.h>
@@ -30,8 +31,9 @@ void BoundsCheck::checkRange(const raster::CommandWork &W, const char *What,
   if (Where.Held.empty() || Bytes == 0 || Where.Held.find(Address, Bytes))
     return;
   Out.add(Starts[W.Core],
-          fmt::format("{} of a tile command, {} bytes at 0x{:08x}, {}", What,
-                      Bytes, Address, Where.Held.describe(Address)));
+          fmt::format("{} of a tile command, {} at 0x{:08x}, {}", What,
+                      counted(Bytes, "byte"), Address,
+                      Where.Held.describe(Address)));
 }
 
 void BoundsCheck::rasterCommand(const raster::CommandWork &W) {

@@ -1,4 +1,5 @@
 #include "observe/check/Buffers.h"
+#include "vorion/support/Letters.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,8 @@ namespace vorion::isasim {
 namespace {
 
 std::string named(const Buffers::Buffer &B) {
-  return fmt::format("{} ({} bytes at 0x{:08x})", B.Name, B.Bytes, B.Address);
+  return fmt::format("{} ({} at 0x{:08x})", B.Name, counted(B.Bytes, "byte"),
+                     B.Address);
 }
 
 } // namespace
@@ -31,14 +33,15 @@ std::string Buffers::describe(uint32_t Address) const {
       After == ByAddress.begin() ? nullptr : &std::prev(After)->second;
   const Buffer *Next = After == ByAddress.end() ? nullptr : &After->second;
   if (Before && Address < Before->end())
-    return fmt::format("{} bytes into {}", Address - Before->Address,
+    return fmt::format("{} into {}", counted(Address - Before->Address, "byte"),
                        named(*Before));
   const uint64_t Past = Before ? Address - Before->end() : UINT64_MAX;
   const uint64_t Ahead = Next ? Next->Address - Address : UINT64_MAX;
   if (Before && Past <= Ahead)
-    return fmt::format("{} bytes past the end of {}", Past, named(*Before));
+    return fmt::format("{} past the end of {}", counted(Past, "byte"),
+                       named(*Before));
   if (Next)
-    return fmt::format("{} bytes before {}", Ahead, named(*Next));
+    return fmt::format("{} before {}", counted(Ahead, "byte"), named(*Next));
   return "where nothing is allocated";
 }
 

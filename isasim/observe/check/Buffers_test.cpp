@@ -28,7 +28,7 @@ TEST(Buffers, DescribesFromTheNearest) {
   EXPECT_EQ(B.describe(0x1064),
             "0 bytes past the end of a (100 bytes at 0x00001000)");
   EXPECT_EQ(B.describe(0x1FF0), "16 bytes before b (256 bytes at 0x00002000)");
-  EXPECT_EQ(B.describe(0x0FFF), "1 bytes before a (100 bytes at 0x00001000)");
+  EXPECT_EQ(B.describe(0x0FFF), "1 byte before a (100 bytes at 0x00001000)");
   EXPECT_EQ(B.describe(0x9000),
             "28416 bytes past the end of b (256 bytes at 0x00002000)");
   B.remove(0x1000);

@@ -1,6 +1,7 @@
 #include "observe/check/Findings.h"
 
 #include "core/Isa.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -40,9 +41,9 @@ void Findings::add(std::string_view Check, const Culprit &C,
 void Findings::reportRepeats() {
   if (Total != Reported)
     Report(
-        fmt::format("check: {} findings at {} places; each place is reported "
-                    "once, {} at most",
-                    Total, Counts.size(), MostPlaces));
+        fmt::format("check: {} at {}; each place is reported once, {} at most",
+                    counted(Total, "finding"), counted(Counts.size(), "place"),
+                    MostPlaces));
   Reported = Total;
 }
 

@@ -1,6 +1,7 @@
 #include "observe/check/Places.h"
 
 #include "vorion/isasim/MemoryMap.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -61,14 +62,15 @@ std::string Places::describe(uint32_t Address, const Step &S,
   case Global:
     return Held.empty() ? "in global memory" : Held.describe(Address);
   case Local:
-    return fmt::format("{} bytes into local memory, {} of which are the "
-                       "group's",
-                       Address - VX_LOCAL_BASE, localEnd() - VX_LOCAL_BASE);
+    return fmt::format("{} into local memory, {} of which are the group's",
+                       counted(Address - VX_LOCAL_BASE, "byte"),
+                       localEnd() - VX_LOCAL_BASE);
   case Stack: {
     const uint32_t Number = stackOf(Address);
     if (Shape.WarpsPerCore == 1 && Number == S.Core * Shape.LanesPerWarp + Lane)
-      return fmt::format("{} bytes below the top of its stack",
-                         VX_STACK_TOP - Number * Shape.StackBytes - Address);
+      return fmt::format(
+          "{} below the top of its stack",
+          counted(VX_STACK_TOP - Number * Shape.StackBytes - Address, "byte"));
     return fmt::format("in the stack of core {}, lane {}",
                        Number / Shape.LanesPerWarp,
                        Number % Shape.LanesPerWarp);

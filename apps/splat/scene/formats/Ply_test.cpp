@@ -176,7 +176,7 @@ TEST(Ply, EveryTruncationIsAnError) {
   const std::string File = Folder.read("s.ply");
   for (std::size_t Size = 0; Size < File.size(); ++Size)
     EXPECT_NE(errorOf(Folder, File.substr(0, Size)), "") << Size << " bytes";
-  EXPECT_NE(errorOf(Folder, File + "x").find("1 bytes after the last element"),
+  EXPECT_NE(errorOf(Folder, File + "x").find("1 byte after the last element"),
             std::string::npos);
 }
 

@@ -13,6 +13,7 @@
 #include "io/Zstd.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
+#include "vorion/support/Letters.h"
 
 #include <array>
 #include <cmath>
@@ -219,9 +220,9 @@ Expected<SceneFile> unpackArrays(const std::string &Where, const Header &H,
     At += Packed;
   }
   if (At != File.size())
-    return Error{Where, fmt::format("{} bytes after the last array, expected "
-                                    "the file's end",
-                                    File.size() - At)};
+    return Error{Where, fmt::format("{} after the last array, expected the "
+                                    "file's end",
+                                    counted(File.size() - At, "byte"))};
   SceneFile Result = decode(H, Body);
   if (Table > HeaderSize4)
     Result.Skipped.push_back("extensions");

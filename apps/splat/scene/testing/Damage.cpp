@@ -65,7 +65,7 @@ void addPlyDamage(std::vector<DamagedFile> &Out) {
   Out.push_back({"no-end.ply", replaced(Ply, "end_header", "ent_header"),
                  "unknown header keyword `ent_header`"});
   Out.push_back({"short.ply", cut(Ply, 1), "bytes left for element vertex"});
-  Out.push_back({"long.ply", Ply + "x", "1 bytes after the last element"});
+  Out.push_back({"long.ply", Ply + "x", "1 byte after the last element"});
   Out.push_back({"nan.ply", patched(Ply, -4, NaN),
                  "Gaussian 4 holds a NaN or an infinity"});
   Out.push_back({"infinite.ply", patched(Ply, -4, Infinity),
@@ -164,7 +164,7 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
                  "array 0 has 1152921504606846976 bytes"});
   Out.push_back({"frame.v4.spz", patched(Four, 32 + 6 * 16, uint32_t(7)),
                  "damaged zstd frame"});
-  Out.push_back({"longer.v4.spz", Four + "x", "1 bytes after the last array"});
+  Out.push_back({"longer.v4.spz", Four + "x", "1 byte after the last array"});
   Out.push_back(
       {"count.v4.spz", patched(Four, 8, uint32_t(-1)), "array 0 has 45 bytes"});
   Add("huge-count.spz", patched(Body, 8, uint32_t(-1)),
@@ -180,7 +180,7 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
   Out.push_back({"short.spz", cut(Spz, 9), "damaged gzip stream"});
   Out.push_back(
       {"checksum.spz", patched(Spz, -8, uint32_t(0)), "damaged gzip stream"});
-  Out.push_back({"long.spz", Spz + "x", "1 bytes after the gzip stream"});
+  Out.push_back({"long.spz", Spz + "x", "1 byte after the gzip stream"});
 }
 
 /// Damage to files of a data set; both for zip archives and for folders.

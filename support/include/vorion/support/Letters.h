@@ -1,6 +1,7 @@
-/// Letters and blanks.
+/// Letters, blanks, and words for numbers of things.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -15,5 +16,8 @@ std::string lowerCase(std::string Text);
 /// \p Text without the \p Blanks around it.
 std::string_view trimmed(std::string_view Text,
                          std::string_view Blanks = " \t");
+
+/// "1 place", "2 places": \p Count, and \p One in its singular or with an s.
+std::string counted(uint64_t Count, std::string_view One);
 
 } // namespace vorion
