@@ -21,7 +21,6 @@ namespace {
 
 constexpr const char *Loopback = "127.0.0.1";
 constexpr const char *TokenHeader = "X-Splat-Token";
-constexpr std::size_t LargestScene = std::size_t{1} << 30;
 
 /// The page may run its own scripts and talk to this server, and nothing else;
 /// no other page may show it in a frame.

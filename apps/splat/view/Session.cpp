@@ -189,6 +189,7 @@ std::string Session::describe() const {
   }
   return jsonText(Json{{"name", S->Name},
                        {"number", S->Number},
+                       {"most_bytes", LargestScene},
                        {"format", splat::name(S->File.Format)},
                        {"gaussians", Gaussians.size()},
                        {"sh_degree", Gaussians.ShDegree},

@@ -3,11 +3,15 @@
 
 #include "scene/SceneFile.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace vorion::splat {
+
+/// The largest file that a page may send, in bytes.
+inline constexpr std::size_t LargestScene = std::size_t{1} << 30;
 
 struct ShownScene {
   std::string Name; ///< for people: of its file

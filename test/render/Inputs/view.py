@@ -90,6 +90,9 @@ def check_door(at):
     refused(ask(at, "POST", "/frame", b"[" * 100000), 400)
     refused(ask(at, "POST", "/frame", json.dumps({"camera": camera() | {"width": 100000}}).encode()), 400)
     refused(ask(at, "POST", "/scene?name=x.ply", b"no scene"), 400)
+    answer = ask(at, "POST", "/scene?name=x.ply", **{"Content-Length": str(2**30 + 1)})
+    refused(answer, 413)
+    assert json.loads(answer[1])["error"] == "the scene is too large, expected at most 1024 MiB", answer
     print("the server keeps its door")
 
 
@@ -317,6 +320,12 @@ def check_page(at):
                 "document.dispatchEvent(new DragEvent('drop', {{ dataTransfer: t, bubbles: true }})); }})({})")
         browser.value(drop.format("bad.ply", "'no scene'"))
         assert "bad.ply" in browser.wait("document.getElementById('problem').innerText")
+        assert pixels_of(browser) == first
+        # So is what is too large, before it is sent.
+        browser.value("Object.defineProperty(File.prototype, 'size', { get: () => 2 ** 30 + 1, configurable: true }); 0")
+        browser.value(drop.format("large.ply", "'much'"))
+        browser.wait("document.getElementById('problem').innerText.includes('large.ply: a file of 1025 MiB is too large, expected at most 1024 MiB')")
+        browser.value("delete File.prototype.size")
         assert pixels_of(browser) == first
         settled(browser, lambda: browser.key("c"))
         with open(SCENE, "rb") as f:

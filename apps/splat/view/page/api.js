@@ -11,7 +11,7 @@ async function ask(path, options = {}) {
     throw new Error('splat view does not answer: it has ended, or the computer is busy');
   }
   if (answer.ok) return answer;
-  const said = await answer.json().catch(() => ({ error: `the server says ${answer.status}` }));
+  const said = await answer.json().catch(() => ({ error: answer.status === 413 ? 'the file is too large' : `the server says ${answer.status}` }));
   const failure = new Error(said.error);
   failure.superseded = answer.status === 409;
   throw failure;
@@ -22,9 +22,15 @@ const post = (path, body, signal) =>
 
 export const readScene = async () => (await ask('scene')).json();
 
-export const openScene = async (name, bytes) =>
-  (await ask('scene?name=' + encodeURIComponent(name),
+const mebibytes = bytes => `${Math.ceil(bytes / 2 ** 20)} MiB`;
+
+// `bytes`: a Blob. The server would end a larger upload in its midst, and browsers then show no answer.
+export async function openScene(name, bytes, most) {
+  if (bytes.size > most)
+    throw new Error(`${name}: a file of ${mebibytes(bytes.size)} is too large, expected at most ${mebibytes(most)}`);
+  return (await ask('scene?name=' + encodeURIComponent(name),
     { method: 'POST', body: bytes, headers: { 'Content-Type': 'application/octet-stream' } })).json();
+}
 
 export const readPixel = async request => (await post('pixel', request)).json();
 

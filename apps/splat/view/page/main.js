@@ -180,7 +180,7 @@ function arrange() {
 async function open(name, bytes) {
   status(`opening ${name} …`);
   try {
-    const described = await openScene(name, bytes);
+    const described = await openScene(name, bytes, scene.most_bytes);
     problem(null);
     setUp(described);
   } catch (failure) {
