@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <set>
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -90,6 +91,24 @@ TEST(Origin, AChangedProgramIsAnother) {
   EXPECT_EQ(Programs(), Before);
   F.write("bin/vorion-clang", "b");
   EXPECT_NE(Programs(), Before);
+  // Wherever it changed, also in several words at once, and in its length.
+  const std::string Content(21, 'x');
+  std::set<std::string> Seen;
+  const auto Add = [&](const std::string &Changed) {
+    F.write("bin/vorion-clang", Changed);
+    EXPECT_TRUE(Seen.insert(Programs()).second) << Changed;
+  };
+  Add(Content);
+  for (const std::size_t At : {0, 7, 8, 15, 16, 20}) {
+    std::string Changed = Content;
+    Changed[At] = 'y';
+    Add(Changed);
+  }
+  std::string HighBits = Content;
+  HighBits[7] = HighBits[15] = static_cast<char>('x' ^ 0x80);
+  Add(HighBits);
+  for (const std::size_t More : {1, 3, 11})
+    Add(Content + std::string(More, '\0'));
   unsetenv("VORION_ROOT");
 }
 
