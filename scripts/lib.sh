@@ -14,6 +14,12 @@ fail() { # fail MESSAGE: one line, exit code 1
   exit 1
 }
 
+# readJobs: sets Jobs to what VORION_JOBS says, or to the number of processors.
+readJobs() {
+  Jobs=${VORION_JOBS:-$(nproc)}
+  case "$Jobs" in 0* | *[!0-9]*) fail "VORION_JOBS: '$Jobs', expected a whole number above 0" ;; esac
+}
+
 elapsed() { printf '%d:%02d' $(((SECONDS - Started) / 60)) $(((SECONDS - Started) % 60)); }
 
 # step TITLE LOG COMMAND...: runs it with its output in build/logs/LOG.log, says what

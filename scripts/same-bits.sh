@@ -12,7 +12,7 @@ Folder=${1:-}
 shift
 mkdir -p "$Folder"
 Folder=$(cd "$Folder" && pwd)
-Jobs=${VORION_JOBS:-$(nproc)}
+readJobs
 Commit=$(git -C "$Root" rev-parse HEAD) # the second copy is made an hour later
 
 # A kept object would be compared with itself.

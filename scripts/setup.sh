@@ -8,7 +8,12 @@ showHelp "$@"
 Tests=${1:-}
 case "$Tests" in "" | --tests) ;; *) fail "unknown option $Tests, expected --tests" ;; esac
 
-Jobs=${VORION_JOBS:-$(nproc)}
+readJobs
+
+# Two in one folder would spoil each other. What this one starts holds the lock, too.
+mkdir -p "$Root/build"
+exec 9>"$Root/build/setup.lock"
+flock -n 9 || fail "another one is running in $Root, expected that it has ended"
 
 # Those after the line "# tests" with --tests only.
 packages() {

@@ -11,7 +11,7 @@ source "$Root/scripts/env.sh"
 Results="$Root/build/results"
 rm -rf "$Results"
 mkdir -p "$Results"
-Jobs=${VORION_JOBS:-$(nproc)}
+readJobs
 Failed=0
 
 printf '[%s] unit tests\n' "$(elapsed)"
