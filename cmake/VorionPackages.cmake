@@ -63,4 +63,11 @@ set(CPACK_DEBIAN_DOC_DESCRIPTION "simulated RISC-V GPU - documents and examples
 What the machine is, how its compiler and its model of time work, how to use
 and to change them, and the sources of small OpenCL programs.")
 
+# CMake would make a target `package` that needs everything, tests too, for a file of the usual name.
+set(CPACK_OUTPUT_CONFIG_FILE "${CMAKE_BINARY_DIR}/Packages.cmake")
+file(REMOVE "${CMAKE_BINARY_DIR}/CPackConfig.cmake") # of a build that was configured before this was so
 include(CPack)
+if(TARGET vorion_installed)
+  add_custom_target(package COMMAND "${CMAKE_CPACK_COMMAND}" --config "${CPACK_OUTPUT_CONFIG_FILE}"
+                    DEPENDS vorion_installed WORKING_DIRECTORY "${CMAKE_BINARY_DIR}" USES_TERMINAL VERBATIM)
+endif()

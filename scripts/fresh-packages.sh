@@ -14,7 +14,7 @@ for Tool in debootstrap lintian; do
   command -v $Tool >/dev/null || fail "$Tool is not installed"
 done
 
-step "making the packages" packages cpack --config "$Build/CPackConfig.cmake" -B "$Build/packages"
+step "making the packages" packages cpack --config "$Build/Packages.cmake" -B "$Build/packages"
 step "judging them" lintian lintian --tag-display-limit 0 --fail-on error,warning "$Build"/packages/*.deb
 makeRoot "$Machine"
 cp "$Build"/packages/*.deb "$Machine/root/"
