@@ -5,7 +5,11 @@
 #include "translate/Translator.h"
 
 #include <cstring>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <random>
+#include <string>
+#include <utility>
 
 using namespace vorion::isasim;
 using namespace vorion::isasim::testing;
@@ -120,6 +124,138 @@ TEST_P(Translated, LoadsOfTheStackPointerFault) {
   R.run();
   EXPECT_EQ(R.warp().Why, Stop::Trapped);
   EXPECT_EQ(R.warp().FaultAddress, 0xFFFFFFFCU);
+}
+
+/// The same where it finds a word, but not all lanes' stack pointers name one
+/// line, and vectors of the host have another address of the stacks.
+TEST_P(Translated, LoadsOfTheStackPointerUseTheOldOne) {
+  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
+  Words.push_back(encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 6}));
+  Words.push_back(encode(Op::RV_ADDI, {.Rd = 8, .Rs1 = 7}));
+  Words.push_back(encode(Op::RV_LW, {.Rd = 2, .Rs1 = 2, .Imm = 8}));
+  const ExecTable &Exec = execTable(false);
+  WarpRunner R(Exec, Words);
+  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
+  T.seen(R.Code.begin(), UINT64_MAX);
+  ASSERT_EQ(T.regions(), 1U);
+  constexpr uint32_t Active = 0x00FF;
+  const MemoryView Memory = R.Storage->view(0);
+  Lanes16 Pointers, Others;
+  for (uint32_t L = 0; L != MaxLanes; ++L) {
+    Pointers[L] = VX_STACK_TOP - 64 - (L << Memory.StackShift);
+    Others[L] = Pointers[L] - 64;
+    for (const auto &[Pointer, Word] :
+         {std::pair(Pointers[L], 100 + L), {Others[L], 200 + L}})
+      std::memcpy(Memory.Stack.Host + Memory.stackOffset(Pointer + 8), &Word,
+                  sizeof(Word));
+  }
+  Pointers[MaxLanes - 1] = 0;
+  R.setX(2, Pointers);
+  R.setX(10, Others);
+  R.setActive(Active);
+  R.run();
+  ASSERT_TRUE(R.ranToEnd());
+  for (uint32_t L = 0; L != MaxLanes; ++L)
+    EXPECT_EQ(R.getX(2)[L], Active >> L & 1 ? 100 + L : Pointers[L]);
+}
+
+/// A load into x0 that is done out of line leaves alone what vectors of the
+/// host have of other registers.
+TEST_P(Translated, LoadsIntoX0KeepOtherRegisters) {
+  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
+  Words.push_back(encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 6, .Imm = 1}));
+  Words.push_back(encode(Op::RV_LW, {.Rd = 0, .Rs1 = 5}));
+  Words.push_back(encode(Op::RV_ADD, {.Rd = 8, .Rs1 = 7, .Rs2 = 7}));
+  const ExecTable &Exec = execTable(false);
+  WarpRunner R(Exec, Words);
+  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
+  T.seen(R.Code.begin(), UINT64_MAX);
+  ASSERT_EQ(T.regions(), 1U);
+  for (const uint32_t Active : {0xFFFFU, 0x0FF0U})
+    for (const uint32_t Distance : {0U, 8U}) {
+      Lanes16 Addresses, Values;
+      for (uint32_t L = 0; L != MaxLanes; ++L) {
+        Addresses[L] = VX_GLOBAL_BASE + 64 + L * Distance;
+        Values[L] = 100 + L;
+      }
+      R.setX(5, Addresses);
+      R.setX(6, Values);
+      R.setX(8, {});
+      R.setActive(Active);
+      R.run();
+      ASSERT_TRUE(R.ranToEnd());
+      for (uint32_t L = 0; L != MaxLanes; ++L)
+        EXPECT_EQ(R.getX(8)[L], Active >> L & 1 ? 2 * (101 + L) : 0);
+      R.rewind();
+    }
+}
+
+/// Conversions, divisions and such of the numbers that they change at, which
+/// give the same registers and flags as the interpreter. Lanes that do not fit
+/// would leave a conversion to it; so mostly a few lanes have such numbers.
+TEST_P(Translated, NumbersAtBoundariesAreTheInterpreters) {
+  static constexpr Op Operations[] = {
+      Op::RV_FCVT_W_S, Op::RV_FCVT_WU_S, Op::RV_FCVT_S_W, Op::RV_FCVT_S_WU,
+      Op::RV_FMIN_S,   Op::RV_FMAX_S,    Op::RV_FDIV_S,   Op::RV_FSQRT_S,
+      Op::RV_FEQ_S,    Op::RV_FLT_S,     Op::RV_FLE_S,    Op::RV_FMADD_S,
+      Op::RV_DIV,      Op::RV_DIVU,      Op::RV_REM,      Op::RV_REMU};
+  static constexpr uint32_t Boundaries[] = {
+      0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007FFFFF, 0x00800000,
+      0x3EFFFFFF, 0x3F000000, 0x3F000001, 0xBEFFFFFF, 0xBF000000, 0xBF000001,
+      0x3F800000, 0x3FC00000, 0x40200000, 0xBF7FFFFF, 0xBF800000, 0xBF800001,
+      0x4B000001, 0x4EFFFFFF, 0x4F000000, 0x4F000001, 0x4F7FFFFF, 0x4F800000,
+      0xCEFFFFFF, 0xCF000000, 0xCF000001, 0x7F7FFFFF, 0x7F800000, 0xFF800000,
+      0x7FC00000, 0x7F800001, 0xFFFFFFFF, 0x7FFFFFFF, 0x0000FFFF, 0x01000001};
+  constexpr unsigned Rounds = 1000;
+  const ExecTable &Exec = execTable(false);
+  std::mt19937 Random(1);
+  const auto OneOf = [&Random](const auto &All) {
+    return All[Random() % std::size(All)];
+  };
+  const auto Usual = [&Random] {
+    return 0x3F800000 + static_cast<uint32_t>(Random() % 0x01000000);
+  };
+  for (const Op O : Operations)
+    for (const unsigned Mode : {0U, 1U, 2U, 3U}) {
+      std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 8}));
+      Words.push_back(
+          encode(O, {.Rd = 4, .Rs1 = 5, .Rs2 = 6, .Rs3 = 4, .Rm = Mode}));
+      WarpRunner Interpreted(Exec, Words), Fast(Exec, Words);
+      Translator T(Fast.Code, Exec, Translator::UsualCost, GetParam());
+      T.seen(Fast.Code.begin(), UINT64_MAX);
+      ASSERT_EQ(T.regions(), 1U);
+      for (unsigned Round = 0; Round != Rounds; ++Round) {
+        const uint32_t Active = Round % 2 ? 0xFFFF : OneOf(MaskPatterns);
+        const bool AreAll = Round % 8 == 0;
+        Lanes16 Numbers[3];
+        for (Lanes16 &N : Numbers) {
+          for (uint32_t L = 0; L != MaxLanes; ++L)
+            N[L] = AreAll || !(Active >> L & 1) ? OneOf(Boundaries) : Usual();
+        }
+        for (size_t Left = 1 + Random() % 4; Left != 0; --Left) {
+          const size_t L = Random() % MaxLanes;
+          for (Lanes16 &N : Numbers)
+            N[L] = OneOf(Boundaries);
+        }
+        for (WarpRunner *R : {&Interpreted, &Fast}) {
+          R->setActive(Active);
+          for (unsigned N = 0; N != 3; ++N) {
+            R->setX(4 + N, Numbers[N]);
+            R->setF(4 + N, Numbers[N]);
+          }
+          R->run();
+          ASSERT_TRUE(R->ranToEnd());
+        }
+        const std::string Where =
+            fmt::format("operation {}, mode {}, active {:#x}, round {}",
+                        static_cast<unsigned>(O), Mode, Active, Round);
+        ASSERT_EQ(Interpreted.warp().Fflags, Fast.warp().Fflags) << Where;
+        ASSERT_EQ(Interpreted.getX(4), Fast.getX(4)) << Where;
+        ASSERT_EQ(Interpreted.getF(4), Fast.getF(4)) << Where;
+        Interpreted.rewind();
+        Fast.rewind();
+      }
+    }
 }
 
 /// The longest regions fit into the memory for one.
