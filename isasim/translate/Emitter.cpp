@@ -104,6 +104,7 @@ Term Emitter::guest(uint16_t Register) {
 }
 
 Zmm Emitter::scratch() {
+  // Out of line, what is held must be there when the code beside it goes on.
   if (!isWide())
     if (const int Pair = Held.take(IsOutOfLine); Pair >= 0)
       return Zmm(Pair);
@@ -136,7 +137,8 @@ void Emitter::result(uint16_t Register,
   if (isSink(Register))
     return Write(active(To));
   // The host lets a load wait for a store with a mask in front of it until the
-  // cache has that. So the other lanes' words are stored, too.
+  // cache has that. So the other lanes' words are stored, too. Out of line, a
+  // vector may hold Register for code that has not been executed.
   const Address Word = ptr[rdi + Register];
   if (!Full && (Kept < 0 || IsOutOfLine))
     vmovdqa32(To, Word);
@@ -146,7 +148,7 @@ void Emitter::result(uint16_t Register,
     Held.hold(To.getIdx(), Register);
 }
 
-/// Out of line: what the code beside it goes on with is there again.
+/// Out of line: loads what \p Was holds, which the code beside it goes on with.
 void Emitter::holdAgain(const HeldVectors &Was) {
   Held = Was;
   for (int N = 0; N != HeldVectors::Count; ++N)
@@ -243,7 +245,7 @@ void Emitter::writeEntries() {
   sub(rsi, rdx);
   sar(rsi, 5);
   lea(r8, ptr[r9 + rsi]);
-  if (!Full) {
+  if (!Full && isWide()) { // else k1 is MaskWords, which is there
     mov(eax, dword[rdi + VORION_PLACE(Mask)]);
     keepLanes();
   }
@@ -305,8 +307,8 @@ void Emitter::resumeAt(const Insn *To, unsigned Mode) {
 
 namespace {
 
-/// Whether it has one way through, so that vectors hold behind it what they
-/// hold in front.
+/// Whether vectors hold behind it what they hold in front: what it has out of
+/// line sees to that.
 bool keepsVectors(Kind Is) {
   switch (Is) {
   case Kind::Integer:

@@ -23,6 +23,7 @@ void HostVectors::activeHalf(const Ymm &To, const Operand &A, int Half,
   });
 }
 
+/// Out becomes half of the active lanes.
 void HostVectors::loadActive(int Half) {
   CodeGenerator::vmovdqa(Out, halfAt(placeOfMask(ActiveMask), Half));
 }
@@ -64,8 +65,8 @@ void HostVectors::vsqrtps(const Zmm &To, const Zmm &A) {
   });
 }
 
-/// Half of \p A for what becomes \p To; lanes that are not active have 0.
-/// Overwrites Out if there are such.
+/// Half of \p A for what becomes \p To. If \p To has the mask of the active
+/// lanes, the others have 0, and Out is overwritten.
 Ymm HostVectors::inputHalf(const Operand &To, const Zmm &A, int Half,
                            const Ymm &Spare) {
   if (To.getOpmaskIdx() == 0)
@@ -159,11 +160,6 @@ namespace {
 
 constexpr bool isDirected(uint32_t Mode) { return Mode == Rdn || Mode == Rup; }
 
-/// vroundps that does not say what is inexact.
-constexpr uint8_t quietly(uint32_t Mode) {
-  return static_cast<uint8_t>(Mode == Rdn ? 9 : 10);
-}
-
 constexpr uint32_t TwoTo31 = 0x4F000000, TwoTo32 = 0x4F800000;
 
 } // namespace
@@ -197,14 +193,15 @@ void HostVectors::jumpIfAnyIs(const Zmm &A, uint32_t Bits, Label &To) {
   jnz(To);
 }
 
-/// \p D becomes the signed integer of First. Overwrites MaskHalf.
+/// \p D becomes the signed integer of First.
 void HostVectors::narrowToInt(const Ymm &D, uint32_t Mode) {
   if (!isDirected(Mode))
     return Mode == Rtz ? CodeGenerator::vcvttps2dq(D, First)
                        : CodeGenerator::vcvtps2dq(D, First);
-  CodeGenerator::vroundps(MaskHalf, First, quietly(Mode));
-  CodeGenerator::vcvttps2dq(D, First); // for the flags
-  CodeGenerator::vcvttps2dq(D, MaskHalf);
+  // This one says what is inexact.
+  constexpr uint8_t Down = 1, Up = 2;
+  CodeGenerator::vroundps(D, First, Mode == Rdn ? Down : Up);
+  CodeGenerator::vcvttps2dq(D, D);
 }
 
 void HostVectors::toInt(const Zmm &To, const Zmm &A, uint32_t Mode,
@@ -221,7 +218,7 @@ void HostVectors::toInt(const Zmm &To, const Zmm &A, uint32_t Mode,
     });
     return jumpIfAnyIs(To, 1U << 31, Wrong);
   }
-  // Compares that raise nothing for quiet NaNs, as nothing that fits may.
+  // The first three hold for NaNs, which do not fit either.
   constexpr uint8_t NotGreaterEqual = 0x19, NotGreater = 0x1A, NotLess = 0x15,
                     GreaterEqual = 0x1D;
   constexpr uint32_t MinusOne = 0xBF800000, MinusHalf = 0xBF000000;

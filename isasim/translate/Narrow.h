@@ -22,24 +22,27 @@ inline const Xbyak::Ymm Out(12), MaskHalf(13), First(14), Second(15);
 /// Masks by number.
 inline constexpr int ActiveMask = 1, PairMask = 2;
 
-/// Where a vector or a mask that has no registers lies, from WarpState on.
-inline int placeOfVector(int Index) {
-  return VORION_PLACE(HostSpare) +
-         (Index - NumPairs) * static_cast<int>(sizeof(LaneWords));
-}
-inline int placeOfMask(int Mask) {
-  constexpr int Vectors = 3; // zmm5 to zmm7
-  return Mask == ActiveMask ? VORION_PLACE(MaskWords)
-                            : VORION_PLACE(HostSpare) +
-                                  (Vectors + Mask - PairMask - 1) *
-                                      static_cast<int>(sizeof(LaneWords));
-}
+/// What WarpState::HostSpare has, one behind the other: zmm5 to zmm7, k3 and
+/// k4, and vectors for one instruction of HostVectors.
+inline constexpr int NumMemoryVectors = 3, NumMemoryMasks = 2, NumSpares = 3;
+static_assert(sizeof(WarpState::HostSpare) ==
+              (NumMemoryVectors + NumMemoryMasks + NumSpares) *
+                  sizeof(LaneWords));
 
+/// Where the vector \p Number of them lies, from WarpState on.
+inline int placeInSpare(int Number) {
+  return VORION_PLACE(HostSpare) + Number * static_cast<int>(sizeof(LaneWords));
+}
+/// Where a vector or a mask that has no registers lies.
+inline int placeOfVector(int Index) { return placeInSpare(Index - NumPairs); }
+inline int placeOfMask(int Mask) {
+  return Mask == ActiveMask
+             ? VORION_PLACE(MaskWords)
+             : placeInSpare(NumMemoryVectors + Mask - PairMask - 1);
+}
 /// Where the vector number \p Which lies that is for one instruction.
 inline int placeOfSpare(int Which = 0) {
-  constexpr int VectorsAndMasks = 5; // zmm5 to zmm7, k3 and k4
-  return VORION_PLACE(HostSpare) +
-         (VectorsAndMasks + Which) * static_cast<int>(sizeof(LaneWords));
+  return placeInSpare(NumMemoryVectors + NumMemoryMasks + Which);
 }
 
 inline Xbyak::Address halfAt(int Place, int Half) {
