@@ -42,8 +42,10 @@ struct Entry {
 ///   r13, r14, r15  the region Global of the memory view: where it begins, how
 ///        far vectors of words reach from there, where it lies on the host
 ///   k1   active lanes (where not all are)
-///   zmm0 to zmm7 for one instruction; with AVX-512 zmm8: the first active
-///   lane's number, the rest: the guest's registers that are used most.
+///   zmm0 to zmm7 for one instruction; with AVX2 zmm0 to zmm4 keep what they
+///        have of the guest's registers (HeldVectors.h)
+///   with AVX-512, zmm8  the first active lane's number
+///        zmm9 and on  the guest's registers that are used most
 /// rax, rcx, rdx, rsi, r11 and k2 to k4 are for one instruction.
 class Emitter : public HostVectors {
 public:

@@ -1,7 +1,7 @@
 // Single precision on the host's unit, from the interpreter's definitions. A
 // region with any of it is only entered while frm says "to nearest", which the
 // host's unit then does (core/HostFp.h). Lanes that are not active raise no
-// flag, since the host's masks keep them from it.
+// flag (HostVectors.h).
 
 #include "core/SoftFloat.h"
 #include "translate/Places.h"

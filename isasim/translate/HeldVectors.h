@@ -32,13 +32,13 @@ public:
     All[N].LastUse = ++Time;
   }
 
-  /// One that the present instruction does not use yet, that nobody wanted for
-  /// longest; it holds nothing any more. -1 if there is none. \p IsEmpty: one
-  /// that held nothing.
-  int take(bool IsEmpty) {
+  /// The one that nobody wanted for longest, of those that the present
+  /// instruction does not use yet, and \p OnlyEmpty of those that hold nothing.
+  /// It holds nothing afterwards. -1 if there is none.
+  int take(bool OnlyEmpty) {
     int Oldest = -1;
     for (int N = 0; N != Count; ++N)
-      if (!All[N].IsUsed && (!IsEmpty || All[N].Register == Nothing) &&
+      if (!All[N].IsUsed && (!OnlyEmpty || All[N].Register == Nothing) &&
           (Oldest < 0 || All[N].LastUse < All[Oldest].LastUse))
         Oldest = N;
     if (Oldest >= 0) {
@@ -48,7 +48,7 @@ public:
     return Oldest;
   }
 
-  /// \p N has what \p Register has in memory.
+  /// \p N, if it is one of these vectors, has what \p Register has in memory.
   void hold(int N, uint16_t Register) {
     if (N < Count)
       All[N].Register = Register;

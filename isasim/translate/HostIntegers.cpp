@@ -75,7 +75,7 @@ void HostVectors::vprolvd(const Zmm &To, const Zmm &A, const Operand &B) {
     const Ymm From = inYmm(A, Half, First), By = inYmm(B, Half, Second);
     CodeGenerator::vpand(MaskHalf, By, halfOf(CountBits, Half));
     CodeGenerator::vpsllvd(Second, From, MaskHalf);
-    // As many places less to the right; none at all is fine, too.
+    // The others of the 32 places to the right. A shift by 32 gives 0.
     CodeGenerator::vpsubd(MaskHalf, MaskHalf, halfOf(constant(WordBits), Half));
     CodeGenerator::vpsignd(MaskHalf, MaskHalf, halfOf(constant(~0U), Half));
     CodeGenerator::vpsrlvd(D, From, MaskHalf);
@@ -83,7 +83,7 @@ void HostVectors::vprolvd(const Zmm &To, const Zmm &A, const Operand &B) {
   });
 }
 
-/// \p D becomes how many bits of First are set: by fours, from a table.
+/// \p D becomes how many bits of First are set. A table says it of four bits.
 void HostVectors::countBits(const Ymm &D, int Half) {
   LaneConstants OfFour{};
   for (uint32_t L = 0; L != MaxLanes; ++L)

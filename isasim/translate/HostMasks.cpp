@@ -10,8 +10,9 @@ using namespace Xbyak::util;
 
 namespace {
 
-/// Each relation is an equality or the opposite of one: of the operands, or of
-/// one of them and the greater or the lesser of both.
+/// AVX2 compares for equality, and what has signs for greater. So each relation
+/// is an equality or the opposite of one: of both operands, or of the first one
+/// and the greater or the lesser of both.
 bool isOpposite(Relation Of) {
   return Of == Relation::NotEqual || Of == Relation::Less ||
          Of == Relation::Greater;
@@ -19,7 +20,7 @@ bool isOpposite(Relation Of) {
 
 } // namespace
 
-/// Half of that equality.
+/// Half of the equality that \p Of is made of.
 void HostVectors::compareHalf(const Ymm &D, int Half, const Zmm &A,
                               const Operand &B, Relation Of, bool AreSigned) {
   const Ymm Left = inYmm(A, Half, First);
@@ -50,8 +51,8 @@ void HostVectors::compare(const Opmask &To, const Zmm &A, const Operand &B,
   });
 }
 
-/// The lanes whose sign \p Compute sets in a half, or does not, among the
-/// active ones. Overwrites ecx.
+/// The active lanes whose sign is set by \p Compute(half, register), or, if
+/// \p IsInverted, is not. Overwrites ecx.
 template <typename F>
 void HostVectors::signs(const Reg32 &To, bool IsInverted, bool AreAllActive,
                         F Compute) {
@@ -237,7 +238,8 @@ void HostVectors::jumpIfNan(const Zmm &A, const Zmm &B, bool AreAllActive,
     CodeGenerator::kortestw(k2, k2);
     return jnz(To);
   }
-  // Any two vectors are unordered where either has a NaN: so are both halves.
+  // A comparison is unordered where either operand is a NaN. So one comparison,
+  // of one half with the other, looks at both.
   const auto Compare = [&](const Ymm &D, const Zmm &Of) {
     Ymm Halves[2] = {First, Second};
     for (const int Half : {0, 1})

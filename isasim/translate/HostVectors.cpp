@@ -243,9 +243,10 @@ void HostVectors::gather(const Zmm &To, const Zmm &Offsets) {
   }
 }
 
-/// Lets \p Store store edx for one active lane after the other at
-/// rcx + rax, where rax is that of \p Offsets, or at the lane's address in the
-/// expression.
+/// Lets \p Store store edx, which has an active lane's value, at the address
+/// that it is given: \p Offsets behind rcx, or without these where the lane's
+/// \p Bytes lie if those of all lanes are neighbours from rcx on. One lane
+/// after the other.
 void HostVectors::forActiveLanes(
     const Zmm &Values, const Zmm *Offsets, int Bytes, bool AreAllActive,
     const std::function<void(const RegExp &)> &Store) {

@@ -83,7 +83,7 @@ public:
   /// Words at rcx + \p Offsets, in the lanes of k2, which is lost.
   void gather(const Zmm &To, const Zmm &Offsets);
   /// Active lanes' \p Values to rcx + \p Offsets, in the order of the lanes.
-  /// May overwrite rax, rdx, rsi, r11 and k2.
+  /// k2 has the active lanes, and is lost. May overwrite rax, rdx and r11.
   void scatter(const Zmm &Offsets, const Zmm &Values, bool AreAllActive);
   /// The lowest \p Bytes bytes (1 or 2) of active lanes' \p Values side by side
   /// to rcx. May overwrite rax, rdx and r11.
@@ -116,8 +116,8 @@ public:
   void vpopcntd(const Zmm &To, const Zmm &A);
   /// All ones for each byte that is not 0. May overwrite k2.
   void markBytes(const Zmm &To, const Zmm &A);
-  /// Rounded towards zero; all ones where \p B is 0. All vectors differ. May
-  /// overwrite k2.
+  /// Rounded towards zero; all ones where \p B is 0. No two vectors are the
+  /// same, except perhaps \p A and \p B. May overwrite k2.
   void quotient(const Zmm &To, const Zmm &A, const Zmm &B, bool AreSigned,
                 const Zmm &Spare, const Zmm &OtherSpare);
   /// @}

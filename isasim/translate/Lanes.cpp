@@ -89,7 +89,7 @@ void Emitter::storeLanes() {
   sete(dl);
   mov(dword[rdi + VORION_PLACE(Full)], edx);
   if (!isWide())
-    return; // k1 is there
+    return; // k1 is MaskWords
   kmovw(k1, ecx);
   vpmovm2d(zmm0, k1);
   vmovdqa32(ptr[rdi + VORION_PLACE(MaskWords)], zmm0);

@@ -52,9 +52,9 @@ void Emitter::spreadFirst(const Zmm &To, const Zmm &From) {
 }
 
 /// The same where \p From has the addresses of \p I less the lanes' numbers
-/// times
-/// \p Bytes. With AVX2 the word comes from where the base register lies, which
-/// takes less time than from \p From.
+/// times \p Bytes. With AVX2, where some lanes are active, the word comes from
+/// where the base register lies, which takes less time than from \p From.
+/// Overwrites rdx there.
 void Emitter::spreadFirstAddress(const Insn *I, int Bytes, const Zmm &To,
                                  const Zmm &From) {
   if (isFull() || isWide())

@@ -338,7 +338,7 @@ Value swapBytes(const Value &A) {
   return made(A.E, To);
 }
 
-/// With AVX-512 (Region.cpp).
+/// With AVX-512 alone (needsWide() of Region.cpp).
 Value classify(const Value &A) {
   Emitter *E = A.E;
   const Zmm To = E->scratch(), From = settled(A);
