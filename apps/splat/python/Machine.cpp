@@ -92,14 +92,15 @@ private:
   std::mutex Lock;
 };
 
-/// As vorion.Machine has them: the clock is on where a run asks for it, unless
+/// As vorion.Machine has them, texts by variables with the arguments that gave
+/// them: the clock is on where a run asks for it, unless
 /// \p Options or the environment say when.
-std::unique_ptr<Machine>
-openMachine(const std::string &Name,
-            const std::map<std::string, std::string> &Given) {
+std::unique_ptr<Machine> openMachine(
+    const std::string &Name,
+    const std::map<std::string, std::pair<std::string, std::string>> &Given) {
   DeviceOptions Options;
-  for (const auto &[Variable, Text] : Given)
-    Options.set(Variable, Text);
+  for (const auto &[Variable, By] : Given)
+    Options.set(Variable, By.first, By.second);
   if ((Options.text("VORION_TIME").empty() ||
        Options.clockRuns() == ClockText::Runs::Never) &&
       Options.text("VORION_REGION").empty())

@@ -7,7 +7,6 @@ import numpy as np
 import vorion
 from vorion import _machine
 
-machine = vorion.Machine()
 scene, camera = vorion.Scene.read("s.ply"), vorion.Camera.read("c.json", "front")
 v_image = np.zeros((48, 64, 3))
 
@@ -24,6 +23,10 @@ def attempt(call, *arguments, **options):
         raise AssertionError(f"{call} {options}")
 
 
+# An argument is named as it is, not as the variable that the platform reads.
+attempt(vorion.Machine, set="clusters=0")
+attempt(vorion.Machine, clock="fast")
+machine = vorion.Machine()
 for options in ({"support": "boxx"}, {"ztiles": 99}, {"path": "simt", "ztiles": 2}, {"effects": "nothing"},
                 {"pixel_unit": "x"}, {"background": (1, 2)}, {"contributors": 65}, {"depth_as": "mean"},
                 {"contributors": 1, "exp": "poly3"}, {"simt_group": 64}):

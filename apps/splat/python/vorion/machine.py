@@ -96,9 +96,11 @@ class Machine:
         if not isinstance(set, str | None):
             raise UsageError(f"set is a {type(set).__name__}, expected a text, KEY=VALUE,...")
         if set is not None:
-            options["VORION_SET"] = set
+            options["VORION_SET"] = (set, "set")
+        if not isinstance(clock, int | float | None) or isinstance(clock, bool):
+            raise UsageError(f"clock is a {type(clock).__name__}, expected a number of MHz")
         if clock is not None:
-            options["VORION_TIME"] = f"{clock}MHz"
+            options["VORION_TIME"] = (f"{clock}MHz", "clock")
         self._native = _machine.Machine(device, options)
 
     def __repr__(self) -> str:
