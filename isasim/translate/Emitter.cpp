@@ -274,6 +274,8 @@ void Emitter::storeRegisters() {
   storeLanes();
   add(qword[rdi + VORION_PLACE(Count.Loads)], rbx);
   add(qword[rdi + VORION_PLACE(Count.Stores)], rbp);
+  // Older hosts take long for code without AVX while upper halves are in use.
+  vzeroupper();
   for (const Reg64 &Kept : KeptRegisters | std::views::reverse)
     pop(Kept);
 }

@@ -153,9 +153,7 @@ void HostVectors::kmovw(const Reg32 &To, const Opmask &From) {
   withMask(From.getIdx(), 1, [&](const Operand &M) {
     CodeGenerator::vpackssdw(First, First, M);
   });
-  // The host packs each quarter by itself.
-  constexpr uint8_t InOrder = 0b11'01'10'00;
-  CodeGenerator::vpermq(First, First, InOrder);
+  CodeGenerator::vpermq(First, First, QuartersInOrder);
   CodeGenerator::vextracti128(Xmm(Second.getIdx()), First, 1);
   CodeGenerator::vpacksswb(Xmm(First.getIdx()), Xmm(First.getIdx()),
                            Xmm(Second.getIdx()));

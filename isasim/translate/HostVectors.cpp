@@ -292,6 +292,20 @@ void HostVectors::storeNarrow(int Bytes, const Zmm &Values, bool AreAllActive) {
     return Bytes == 2 ? CodeGenerator::vpmovdw(To, Values)
                       : CodeGenerator::vpmovdb(To, Values);
   }
+  if (AreAllActive) {
+    const Address Low = constant(Bytes == 2 ? 0xFFFFU : 0xFFU);
+    for (const int Half : {0, 1})
+      CodeGenerator::vpand(Half == 0 ? First : Second, inYmm(Values, Half, Out),
+                           halfOf(Low, Half));
+    CodeGenerator::vpackusdw(First, First, Second);
+    CodeGenerator::vpermq(First, First, QuartersInOrder);
+    if (Bytes == 2)
+      return CodeGenerator::vmovdqu(ptr[rcx], First);
+    CodeGenerator::vextracti128(Xmm(Second.getIdx()), First, 1);
+    CodeGenerator::vpackuswb(Xmm(First.getIdx()), Xmm(First.getIdx()),
+                             Xmm(Second.getIdx()));
+    return CodeGenerator::vmovdqu(ptr[rcx], Xmm(First.getIdx()));
+  }
   forActiveLanes(Values, nullptr, Bytes, AreAllActive,
                  [this, Bytes](const RegExp &At) {
                    Bytes == 2 ? mov(word[At], dx) : mov(byte[At], dl);

@@ -16,6 +16,10 @@ inline constexpr int HalfBytes = 32;
 inline constexpr uint8_t WordBits = 32;
 inline constexpr uint32_t OneBits = 0x3F800000; ///< the float 1
 
+/// vpermq: the lanes of two halves that were packed into one, which the host
+/// packs a quarter at a time.
+inline constexpr uint8_t QuartersInOrder = 0b11'01'10'00;
+
 /// What an operation computes in, its mask, and two more.
 inline const Xbyak::Ymm Out(12), MaskHalf(13), First(14), Second(15);
 
