@@ -7,7 +7,6 @@
 #include "translate/HostVectors.h"
 #include "translate/Region.h"
 
-#include <array>
 #include <deque>
 #include <functional>
 #include <map>

@@ -18,8 +18,7 @@ using namespace Xbyak::util;
 namespace {
 
 /// vcmpps: quiet where only signaling NaNs are invalid, as the guest's are.
-constexpr uint8_t EqualQuiet = 0, LessSignaling = 1, LessEqualSignaling = 2,
-                  Unordered = 3;
+constexpr uint8_t EqualQuiet = 0, LessSignaling = 1, LessEqualSignaling = 2;
 
 struct Float {
   Zmm In;

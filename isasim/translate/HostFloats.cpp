@@ -78,19 +78,15 @@ Ymm HostVectors::inputHalf(const Operand &To, const Zmm &A, int Half,
 
 template <typename F>
 void HostVectors::ofThree(const Zmm &To, const Zmm &A, const Zmm &B, F Insn) {
-  const Zmm Addend(To.getIdx());
   write(To, [&](int Half, const Ymm &D) {
     if (To.getOpmaskIdx() != 0) {
       loadActive(Half);
       activeHalf(First, A, Half, 0);
       activeHalf(Second, B, Half, 0);
-      activeHalf(Out, Addend, Half, 0);
+      activeHalf(Out, Zmm(To.getIdx()), Half, 0); // the addend
       return Insn(D, First, Second);
     }
-    withHalf(Addend, Half, D, [&](const Operand &From) {
-      if (From.isMEM())
-        CodeGenerator::vmovdqa(D, From);
-    });
+    loadOld(To, Half, D);
     const Ymm Left = inYmm(A, Half, First);
     withHalf(B, Half, Second,
              [&](const Operand &Right) { Insn(D, Left, Right); });

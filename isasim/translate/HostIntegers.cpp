@@ -177,10 +177,8 @@ void HostVectors::quotient(const Zmm &To, const Zmm &A, const Zmm &B,
   const int Over = placeOfSpare(0), Under = placeOfSpare(1);
   const Address Status = dword[rdi + placeOfSpare(2)];
   CodeGenerator::vstmxcsr(Status);
-  for (const int Half : {0, 1}) {
-    CodeGenerator::vmovdqa(halfAt(Over, Half), inYmm(A, Half, First));
-    CodeGenerator::vmovdqa(halfAt(Under, Half), inYmm(B, Half, First));
-  }
+  vmovdqa32(ptr[rdi + Over], A);
+  vmovdqa32(ptr[rdi + Under], B);
   // Unsigned: less 2^31 and more 2^31, both exact.
   constexpr uint32_t TopBit = 1U << 31;
   LaneConstants Top{};

@@ -64,7 +64,7 @@ void HostVectors::signs(const Reg32 &To, bool IsInverted, bool AreAllActive,
   shl(ecx, LanesOfHalf);
   or_(To, ecx);
   if (IsInverted)
-    xor_(To, (1U << MaxLanes) - 1);
+    xor_(To, AllBits);
   if (!AreAllActive)
     and_(To, dword[rdi + VORION_PLACE(Mask)]);
 }
@@ -230,7 +230,6 @@ void HostVectors::jumpIfDiffer(const Zmm &A, const Zmm &B, bool AreAllActive,
 
 void HostVectors::jumpIfNan(const Zmm &A, const Zmm &B, bool AreAllActive,
                             Label &To) {
-  constexpr uint8_t Unordered = 3;
   if (isWide()) {
     CodeGenerator::vcmpps(AreAllActive ? k2 : k2 | k1, A, B, Unordered);
     CodeGenerator::kortestw(k2, k2);

@@ -65,6 +65,22 @@ Ymm HostVectors::inYmm(const Operand &A, int Half, const Ymm &Spare) {
   return In;
 }
 
+/// A mask's half in a register, MaskHalf if it has none of its own.
+Ymm HostVectors::maskInYmm(int Mask, int Half) {
+  if (Mask == PairMask)
+    return Ymm(MaskPair + Half);
+  CodeGenerator::vmovdqa(MaskHalf, halfAt(placeOfMask(Mask), Half));
+  return MaskHalf;
+}
+
+/// What \p To has of \p Half in \p D, where write() will have its result.
+void HostVectors::loadOld(const Zmm &To, int Half, const Ymm &D) {
+  withHalf(Zmm(To.getIdx()), Half, D, [&](const Operand &From) {
+    if (From.isMEM())
+      CodeGenerator::vmovdqa(D, From);
+  });
+}
+
 void HostVectors::vmovdqu32(const Zmm &To, const Operand &From) {
   if (isWide())
     return CodeGenerator::vmovdqu32(To, From);
@@ -89,11 +105,10 @@ void HostVectors::vmovdqu32(const Address &To, const Zmm &From) {
     return CodeGenerator::vmovdqu32(To, From);
   for (int Half = 0; Half != 2; ++Half) {
     const Ymm Source = inYmm(From, Half, First);
-    if (const int Mask = To.getOpmaskIdx(); Mask != 0) {
-      withMask(Mask, Half,
-               [&](const Operand &M) { CodeGenerator::vmovdqu(MaskHalf, M); });
-      CodeGenerator::vpmaskmovd(halfOf(To, Half), MaskHalf, Source);
-    } else
+    if (const int Mask = To.getOpmaskIdx(); Mask != 0)
+      CodeGenerator::vpmaskmovd(halfOf(To, Half), maskInYmm(Mask, Half),
+                                Source);
+    else
       CodeGenerator::vmovdqu(halfOf(To, Half), Source);
   }
 }
@@ -150,34 +165,19 @@ Address narrowHalfOf(const Address &A, int Half, int Bytes) {
 
 } // namespace
 
-void HostVectors::vpmovsxwd(const Zmm &To, const Address &From) {
-  if (isWide())
-    return CodeGenerator::vpmovsxwd(To, From);
-  write(To, [&](int Half, const Ymm &D) {
-    CodeGenerator::vpmovsxwd(D, narrowHalfOf(From, Half, 2));
-  });
-}
-void HostVectors::vpmovzxwd(const Zmm &To, const Address &From) {
-  if (isWide())
-    return CodeGenerator::vpmovzxwd(To, From);
-  write(To, [&](int Half, const Ymm &D) {
-    CodeGenerator::vpmovzxwd(D, narrowHalfOf(From, Half, 2));
-  });
-}
-void HostVectors::vpmovsxbd(const Zmm &To, const Address &From) {
-  if (isWide())
-    return CodeGenerator::vpmovsxbd(To, From);
-  write(To, [&](int Half, const Ymm &D) {
-    CodeGenerator::vpmovsxbd(D, narrowHalfOf(From, Half, 1));
-  });
-}
-void HostVectors::vpmovzxbd(const Zmm &To, const Address &From) {
-  if (isWide())
-    return CodeGenerator::vpmovzxbd(To, From);
-  write(To, [&](int Half, const Ymm &D) {
-    CodeGenerator::vpmovzxbd(D, narrowHalfOf(From, Half, 1));
-  });
-}
+#define VORION_WIDENED(INSN, BYTES)                                            \
+  void HostVectors::INSN(const Zmm &To, const Address &From) {                 \
+    if (isWide())                                                              \
+      return CodeGenerator::INSN(To, From);                                    \
+    write(To, [&](int Half, const Ymm &D) {                                    \
+      CodeGenerator::INSN(D, narrowHalfOf(From, Half, BYTES));                 \
+    });                                                                        \
+  }
+VORION_WIDENED(vpmovsxwd, 2)
+VORION_WIDENED(vpmovzxwd, 2)
+VORION_WIDENED(vpmovsxbd, 1)
+VORION_WIDENED(vpmovzxbd, 1)
+#undef VORION_WIDENED
 
 void HostVectors::vpblendmd(const Zmm &To, const Zmm &Else,
                             const Operand &Then) {
@@ -186,10 +186,9 @@ void HostVectors::vpblendmd(const Zmm &To, const Zmm &Else,
   // Its mask chooses, and all lanes are written.
   write(Zmm(To.getIdx()), [&](int Half, const Ymm &D) {
     const Ymm Otherwise = inYmm(Else, Half, Second);
-    withMask(To.getOpmaskIdx(), Half,
-             [&](const Operand &M) { CodeGenerator::vmovdqu(MaskHalf, M); });
+    const Ymm Chosen = maskInYmm(To.getOpmaskIdx(), Half);
     withHalf(Then, Half, First, [&](const Operand &Source) {
-      CodeGenerator::vblendvps(D, Otherwise, Source, MaskHalf);
+      CodeGenerator::vblendvps(D, Otherwise, Source, Chosen);
     });
   });
 }
@@ -199,8 +198,7 @@ void HostVectors::vpermd(const Zmm &To, const Zmm &Index, const Zmm &From) {
     return CodeGenerator::vpermd(To, Index, From);
   // From memory, since To may be From: the halves need both halves.
   const int Copy = placeOfSpare();
-  for (int Half = 0; Half != 2; ++Half)
-    CodeGenerator::vmovdqa(halfAt(Copy, Half), inYmm(From, Half, First));
+  vmovdqa32(ptr[rdi + Copy], From);
   constexpr uint8_t WhichHalf = 28; // bit 3 becomes the sign
   write(To, [&](int Half, const Ymm &D) {
     const Ymm In = inYmm(Index, Half, Second);
@@ -219,8 +217,7 @@ void HostVectors::spreadLane(const Zmm &To, const Zmm &From,
     return CodeGenerator::vmovd(Index, Xmm(To.getIdx()));
   }
   const int Copy = placeOfSpare();
-  for (int Half = 0; Half != 2; ++Half)
-    CodeGenerator::vmovdqa(halfAt(Copy, Half), inYmm(From, Half, First));
+  vmovdqa32(ptr[rdi + Copy], From);
   mov(Index, dword[rdi + Index.cvt64() * 4 + Copy]);
   vpbroadcastd(To, Index);
 }
@@ -228,19 +225,14 @@ void HostVectors::spreadLane(const Zmm &To, const Zmm &From,
 void HostVectors::gather(const Zmm &To, const Zmm &Offsets) {
   if (isWide())
     return CodeGenerator::vpgatherdd(To | k2, ptr[rcx + Offsets]);
-  for (int Half = 0; Half != 2; ++Half) {
+  write(To, [&](int Half, const Ymm &D) {
     // Not from where they are: qemu 7.2 takes ymm4 for no index at all.
     withHalf(Offsets, Half, Second, [&](const Operand &From) {
       CodeGenerator::vmovdqa(Second, From);
     });
-    const bool HasRegister = To.getIdx() < NumPairs;
-    const Ymm D = HasRegister ? Ymm(2 * To.getIdx() + Half) : Out;
-    if (!HasRegister)
-      CodeGenerator::vmovdqa(D, halfAt(placeOfVector(To.getIdx()), Half));
+    loadOld(To, Half, D);
     CodeGenerator::vpgatherdd(D, ptr[rcx + Second], Ymm(MaskPair + Half));
-    if (!HasRegister)
-      CodeGenerator::vmovdqa(halfAt(placeOfVector(To.getIdx()), Half), D);
-  }
+  });
 }
 
 /// Lets \p Store store edx, which has an active lane's value, at the address
@@ -251,12 +243,9 @@ void HostVectors::forActiveLanes(
     const Zmm &Values, const Zmm *Offsets, int Bytes, bool AreAllActive,
     const std::function<void(const RegExp &)> &Store) {
   const int ValuesAt = placeOfSpare(), OffsetsAt = placeOfSpare(1);
-  for (int Half = 0; Half != 2; ++Half) {
-    CodeGenerator::vmovdqa(halfAt(ValuesAt, Half), inYmm(Values, Half, First));
-    if (Offsets)
-      CodeGenerator::vmovdqa(halfAt(OffsetsAt, Half),
-                             inYmm(*Offsets, Half, First));
-  }
+  vmovdqa32(ptr[rdi + ValuesAt], Values);
+  if (Offsets)
+    vmovdqa32(ptr[rdi + OffsetsAt], *Offsets);
   if (AreAllActive) {
     for (int L = 0; L != static_cast<int>(MaxLanes); ++L) {
       mov(edx, dword[rdi + (ValuesAt + 4 * L)]);

@@ -4,6 +4,7 @@
 /// several that do the same.
 #pragma once
 
+#include "core/State.h"
 #include "translate/VectorUnit.h"
 
 #include <array>
@@ -25,8 +26,14 @@ enum class Relation : uint8_t {
   Greater = 6,
 };
 
-/// Words of 16 lanes, as constants of the code.
-using LaneConstants = std::array<uint32_t, 16>;
+/// vcmpps: a NaN among the operands.
+inline constexpr uint8_t Unordered = 3;
+
+/// A bit for each lane.
+inline constexpr uint32_t AllBits = (1U << MaxLanes) - 1;
+
+/// Words of the lanes, as constants of the code.
+using LaneConstants = std::array<uint32_t, MaxLanes>;
 
 /// With AVX2, vectors 0 to 4 are two of the host's registers each, and so is
 /// the mask k2. The others lie in WarpState::HostSpare; k1, which has the
@@ -187,6 +194,8 @@ private:
   template <typename F>
   void write(const Opmask &To, bool IsInverted, F Compute);
   Ymm inYmm(const Operand &A, int Half, const Ymm &Spare);
+  Ymm maskInYmm(int Mask, int Half);
+  void loadOld(const Zmm &To, int Half, const Ymm &D);
   void forActiveLanes(const Zmm &Values, const Zmm *Offsets, int Bytes,
                       bool AreAllActive,
                       const std::function<void(const Xbyak::RegExp &)> &Store);

@@ -57,8 +57,7 @@ void Emitter::writeBranch(const GuestInsn &G) {
     Taken.into(eax);
     test(eax, eax);
     jz(NotTaken);
-    isFull() ? cmp(eax, (1U << MaxLanes) - 1)
-             : cmp(eax, dword[rdi + VORION_PLACE(Mask)]);
+    isFull() ? cmp(eax, AllBits) : cmp(eax, dword[rdi + VORION_PLACE(Mask)]);
     jne(toInterpreter());
   } else {
     Taken.into(k2);

@@ -14,8 +14,6 @@ using namespace Xbyak::util;
 
 namespace {
 
-constexpr uint32_t AllBits = (1U << MaxLanes) - 1;
-
 const int MaskPlace = VORION_PLACE(Mask);
 const int DepthPlace = VORION_PLACE(StackDepth);
 const int TopMask = offsetof(Divergence, Mask),

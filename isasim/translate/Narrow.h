@@ -119,12 +119,9 @@ template <typename F> void HostVectors::write(const Zmm &To, F Compute) {
       Store(D);
       continue;
     }
-    if (Mask != PairMask)
-      CodeGenerator::vmovdqa(MaskHalf, halfAt(placeOfMask(Mask), Half));
     if (!HasRegister)
       CodeGenerator::vmovdqa(Kept, halfAt(placeOfVector(To.getIdx()), Half));
-    CodeGenerator::vblendvps(
-        Kept, Kept, Out, Mask == PairMask ? Ymm(MaskPair + Half) : MaskHalf);
+    CodeGenerator::vblendvps(Kept, Kept, Out, maskInYmm(Mask, Half));
     if (!HasRegister)
       Store(Kept);
   }

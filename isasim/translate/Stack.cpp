@@ -171,7 +171,7 @@ void Emitter::writeOwnStackFinder() {
   L(FindOwnStack);
   xor_(r12d, r12d);
   // Cores of fewer lanes share lines.
-  cmp(dword[rdi + VORION_PLACE(AllLanes)], (1U << MaxLanes) - 1);
+  cmp(dword[rdi + VORION_PLACE(AllLanes)], AllBits);
   jne(None);
   mov(rsi, ptr[rdi + VORION_PLACE(Mem)]);
   const int Kept = zmmOf(StackPointer);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <memory>
 #include <random>
 #include <string>
 #include <utility>
@@ -22,7 +23,24 @@ protected:
     if (GetParam() > Translator::unitOfHost())
       GTEST_SKIP() << "the translation needs another host";
   }
+
+  /// The translation of the program of \p R, with the guesses that \p Warp
+  /// gives.
+  static std::unique_ptr<Translator>
+  translated(WarpRunner &R, const WarpState *Warp = nullptr) {
+    auto T = std::make_unique<Translator>(R.Code, execTable(false),
+                                          Translator::UsualCost, GetParam());
+    T->seen(R.Code.begin(), UINT64_MAX, Warp);
+    return T;
+  }
 };
+
+/// \p Words behind enough others for a region.
+std::vector<uint32_t> inRegion(const std::vector<uint32_t> &Words) {
+  std::vector<uint32_t> All(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
+  All.insert(All.end(), Words.begin(), Words.end());
+  return All;
+}
 
 INSTANTIATE_TEST_SUITE_P(Units, Translated,
                          ::testing::Values(VectorUnit::Avx512,
@@ -39,11 +57,9 @@ TEST_P(Translated, AtomicsAddInBothPartsOfGlobalMemory) {
   Words.push_back(encode(Op::RV_AMOADD_W, {.Rd = 0, .Rs1 = 7, .Rs2 = 6}));
   Config Large = WarpRunner::smallShape();
   Large.GlobalBytes = uint64_t{3} << 30;
-  const ExecTable &Exec = execTable(false);
-  WarpRunner R(Exec, Words, Large);
-  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
-  T.seen(R.Code.begin(), UINT64_MAX);
-  ASSERT_EQ(T.regions(), 1U);
+  WarpRunner R(execTable(false), Words, Large);
+  const auto T = translated(R);
+  ASSERT_EQ(T->regions(), 1U);
   constexpr uint32_t Front = VX_GLOBAL_BASE + 64, Behind = VX_HIGH_BASE + 64;
   Lanes16 Operands, Low, High;
   for (uint32_t L = 0; L != MaxLanes; ++L) {
@@ -75,11 +91,9 @@ TEST_P(Translated, LoadsFindOneAddressFirstWhereItIsLikely) {
   const auto Load = [](unsigned Rd, unsigned Rs) {
     return encode(Op::RV_LW, {.Rd = Rd, .Rs1 = Rs});
   };
-  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
   // x5 has one address, and that of another one; x7 has one a lane.
-  Words.insert(Words.end(), {Load(6, 5), Load(11, 6), Load(8, 7), Load(12, 8)});
-  const ExecTable &Exec = execTable(false);
-  WarpRunner R(Exec, Words);
+  WarpRunner R(execTable(false),
+               inRegion({Load(6, 5), Load(11, 6), Load(8, 7), Load(12, 8)}));
   Lanes16 Table, Places;
   Table.fill(VX_GLOBAL_BASE + 64);
   for (uint32_t L = 0; L != MaxLanes; ++L) {
@@ -91,10 +105,9 @@ TEST_P(Translated, LoadsFindOneAddressFirstWhereItIsLikely) {
   std::memcpy(R.global(Table[0]), &Table[0], 4);
   R.setX(5, Table);
   R.setX(7, Places);
-  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
-  T.seen(R.Code.begin(), UINT64_MAX, &R.warp());
-  ASSERT_EQ(T.regions(), 1U);
-  EXPECT_EQ(T.guesses(), 2U);
+  const auto T = translated(R, &R.warp());
+  ASSERT_EQ(T->regions(), 1U);
+  EXPECT_EQ(T->guesses(), 2U);
   for (const bool IsRight : {true, false}) {
     R.setX(7, Places);
     R.setX(5, IsRight ? Table : Places);
@@ -111,13 +124,10 @@ TEST_P(Translated, LoadsFindOneAddressFirstWhereItIsLikely) {
 /// A load by the stack pointer that overwrites it looks at the address of
 /// before, also where the pointer is nobody's stack.
 TEST_P(Translated, LoadsOfTheStackPointerFault) {
-  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
-  Words.push_back(encode(Op::RV_LW, {.Rd = 2, .Rs1 = 2, .Imm = 8}));
-  const ExecTable &Exec = execTable(false);
-  WarpRunner R(Exec, Words);
-  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
-  T.seen(R.Code.begin(), UINT64_MAX);
-  ASSERT_EQ(T.regions(), 1U);
+  WarpRunner R(execTable(false),
+               inRegion({encode(Op::RV_LW, {.Rd = 2, .Rs1 = 2, .Imm = 8})}));
+  const auto T = translated(R);
+  ASSERT_EQ(T->regions(), 1U);
   Lanes16 Nowhere;
   Nowhere.fill(0xFFFFFFF4);
   R.setX(2, Nowhere);
@@ -129,15 +139,12 @@ TEST_P(Translated, LoadsOfTheStackPointerFault) {
 /// The same where it finds a word, but not all lanes' stack pointers name one
 /// line, and vectors of the host have another address of the stacks.
 TEST_P(Translated, LoadsOfTheStackPointerUseTheOldOne) {
-  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
-  Words.push_back(encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 6}));
-  Words.push_back(encode(Op::RV_ADDI, {.Rd = 8, .Rs1 = 7}));
-  Words.push_back(encode(Op::RV_LW, {.Rd = 2, .Rs1 = 2, .Imm = 8}));
-  const ExecTable &Exec = execTable(false);
-  WarpRunner R(Exec, Words);
-  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
-  T.seen(R.Code.begin(), UINT64_MAX);
-  ASSERT_EQ(T.regions(), 1U);
+  WarpRunner R(execTable(false),
+               inRegion({encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 6}),
+                         encode(Op::RV_ADDI, {.Rd = 8, .Rs1 = 7}),
+                         encode(Op::RV_LW, {.Rd = 2, .Rs1 = 2, .Imm = 8})}));
+  const auto T = translated(R);
+  ASSERT_EQ(T->regions(), 1U);
   constexpr uint32_t Active = 0x00FF;
   const MemoryView Memory = R.Storage->view(0);
   Lanes16 Pointers, Others;
@@ -162,15 +169,12 @@ TEST_P(Translated, LoadsOfTheStackPointerUseTheOldOne) {
 /// A load into x0 that is done out of line leaves alone what vectors of the
 /// host have of other registers.
 TEST_P(Translated, LoadsIntoX0KeepOtherRegisters) {
-  std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 9, .Rs1 = 10}));
-  Words.push_back(encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 6, .Imm = 1}));
-  Words.push_back(encode(Op::RV_LW, {.Rd = 0, .Rs1 = 5}));
-  Words.push_back(encode(Op::RV_ADD, {.Rd = 8, .Rs1 = 7, .Rs2 = 7}));
-  const ExecTable &Exec = execTable(false);
-  WarpRunner R(Exec, Words);
-  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
-  T.seen(R.Code.begin(), UINT64_MAX);
-  ASSERT_EQ(T.regions(), 1U);
+  WarpRunner R(execTable(false),
+               inRegion({encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 6, .Imm = 1}),
+                         encode(Op::RV_LW, {.Rd = 0, .Rs1 = 5}),
+                         encode(Op::RV_ADD, {.Rd = 8, .Rs1 = 7, .Rs2 = 7})}));
+  const auto T = translated(R);
+  ASSERT_EQ(T->regions(), 1U);
   for (const uint32_t Active : {0xFFFFU, 0x0FF0U})
     for (const uint32_t Distance : {0U, 8U}) {
       Lanes16 Addresses, Values;
@@ -217,13 +221,11 @@ TEST_P(Translated, NumbersAtBoundariesAreTheInterpreters) {
   };
   for (const Op O : Operations)
     for (const unsigned Mode : {0U, 1U, 2U, 3U}) {
-      std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 8}));
-      Words.push_back(
-          encode(O, {.Rd = 4, .Rs1 = 5, .Rs2 = 6, .Rs3 = 4, .Rm = Mode}));
+      const auto Words = inRegion(
+          {encode(O, {.Rd = 4, .Rs1 = 5, .Rs2 = 6, .Rs3 = 4, .Rm = Mode})});
       WarpRunner Interpreted(Exec, Words), Fast(Exec, Words);
-      Translator T(Fast.Code, Exec, Translator::UsualCost, GetParam());
-      T.seen(Fast.Code.begin(), UINT64_MAX);
-      ASSERT_EQ(T.regions(), 1U);
+      const auto T = translated(Fast);
+      ASSERT_EQ(T->regions(), 1U);
       for (unsigned Round = 0; Round != Rounds; ++Round) {
         const uint32_t Active = Round % 2 ? 0xFFFF : OneOf(MaskPatterns);
         const bool AreAll = Round % 8 == 0;
@@ -269,12 +271,10 @@ TEST_P(Translated, LongRegionsFit) {
     Words.push_back(encode(Op::RV_LW, {.Rd = R, .Rs1 = R + 1, .Imm = 4}));
     Words.push_back(encode(Op::RV_SLT, {.Rd = R, .Rs1 = R + 1, .Rs2 = R - 1}));
   }
-  const ExecTable &Exec = execTable(false);
-  WarpRunner R(Exec, Words);
-  Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
-  T.seen(R.Code.begin(), UINT64_MAX);
-  EXPECT_EQ(T.regions(), 1U);
-  EXPECT_GT(T.bytes(), 100U << 10);
+  WarpRunner R(execTable(false), Words);
+  const auto T = translated(R);
+  EXPECT_EQ(T->regions(), 1U);
+  EXPECT_GT(T->bytes(), 100U << 10);
 }
 
 /// Infinity times zero is invalid, whatever is added, also where the next
@@ -292,13 +292,9 @@ TEST_P(Translated, PairsFlagInfinityTimesZero) {
   constexpr uint32_t Infinity = 0x7F800000, Nan = 0xFFC12345, One = 0x3F800000;
   constexpr unsigned Lane = 3;
   for (const std::vector<uint32_t> &Pair : Pairs) {
-    std::vector<uint32_t> Words(20, encode(Op::RV_ADDI, {.Rd = 7, .Rs1 = 8}));
-    Words.insert(Words.end(), Pair.begin(), Pair.end());
-    const ExecTable &Exec = execTable(false);
-    WarpRunner R(Exec, Words);
-    Translator T(R.Code, Exec, Translator::UsualCost, GetParam());
-    T.seen(R.Code.begin(), UINT64_MAX);
-    ASSERT_EQ(T.regions(), 1U);
+    WarpRunner R(execTable(false), inRegion(Pair));
+    const auto T = translated(R);
+    ASSERT_EQ(T->regions(), 1U);
     for (unsigned F = 1; F != 6; ++F) {
       Lanes16 Words16;
       Words16.fill(One);

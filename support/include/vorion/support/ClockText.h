@@ -24,8 +24,8 @@ struct ClockText {
   std::optional<uint32_t> Mhz; ///< nothing: the machine's own
 
   /// \p Text: nothing; off, 0 or false; on, 1 or true; profiled; or a clock, as
-  /// 100 or 100MHz. An alone 1 is no clock: people write it for on. The error
-  /// does not name the variable.
+  /// 100 or 100MHz. A 1 without a unit is no clock: people write it for on. The
+  /// error does not name the variable.
   static Expected<ClockText> parse(std::string_view Text);
   /// The text of a clock that is always on, of \p Mhz.
   static std::string ofMhz(uint32_t Mhz);
