@@ -10,9 +10,9 @@ Folder=${1:-}
 [ -n "$Folder" ] || fail "no folder given, expected: same-bits.sh NEW_FOLDER [TARGET...]"
 [ -e "$Folder" ] && fail "$Folder exists, expected the name of a new folder"
 shift
+readJobs # before the folder is made: a later run would refuse it
 mkdir -p "$Folder"
 Folder=$(cd "$Folder" && pwd)
-readJobs
 Commit=$(git -C "$Root" rev-parse HEAD) # the second copy is made an hour later
 
 # A kept object would be compared with itself.

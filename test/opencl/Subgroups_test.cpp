@@ -163,14 +163,17 @@ std::string kernelOf(const std::vector<Function> &Functions,
   return Source + "}\n";
 }
 
-/// Runs \p Functions in groups of all sizes. They are over \p Width consecutive
-/// work-items of a group, of which those take part for which \p Takes holds.
-void check(const TestDevice &Device, const std::vector<Function> &Functions,
-           std::size_t Width, const std::string &Condition,
+/// Runs \p Functions in groups of all sizes, in OpenCL C of \p Language. They
+/// are over \p Width consecutive work-items of a group, of which those take
+/// part for which \p Takes holds.
+void check(const TestDevice &Device, const char *Language,
+           const std::vector<Function> &Functions, std::size_t Width,
+           const std::string &Condition,
            const std::function<bool(int32_t)> &Takes) {
+  SCOPED_TRACE(Language);
   std::string Log;
   const cl::Program Program =
-      Device.build(kernelOf(Functions, Condition), Log, "-cl-std=CL3.0");
+      Device.build(kernelOf(Functions, Condition), Log, Language);
   ASSERT_EQ(Log, "");
   cl::Kernel Kernel(Program, "call");
   std::mt19937 Random(1);
@@ -214,23 +217,28 @@ void check(const TestDevice &Device, const std::vector<Function> &Functions,
 
 bool everyone(int32_t) { return true; }
 
+/// The extensions have macros, and so must have functions, in both.
+constexpr const char *Languages[] = {"-cl-std=CL1.2", "-cl-std=CL3.0"};
+
 TEST(Subgroups, EveryWorkItemOfAWarpTakesPart) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  check(Device, OfSubgroups, Lanes, "", everyone);
+  for (const char *Language : Languages)
+    check(Device, Language, OfSubgroups, Lanes, "", everyone);
 }
 
 TEST(Subgroups, FunctionsOfActiveLanesLeaveTheOthersOut) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  check(Device, OfActiveLanes, Lanes, "x & 1",
-        [](int32_t X) { return (X & 1) != 0; });
+  for (const char *Language : Languages)
+    check(Device, Language, OfActiveLanes, Lanes, "x & 1",
+          [](int32_t X) { return (X & 1) != 0; });
 }
 
 TEST(Subgroups, FunctionsOfGroupsGoThroughAllSubgroups) {
   const TestDevice Device;
   VORION_REQUIRE_DEVICE(Device);
-  check(Device, OfGroups,
+  check(Device, "-cl-std=CL3.0", OfGroups,
         *std::max_element(std::begin(GroupSizes), std::end(GroupSizes)), "",
         everyone);
 }

@@ -66,7 +66,6 @@ const std::set<std::string> OpenClOptions = {
     "-cl-no-signed-zeros",
     "-cl-opt-disable",
     "-cl-single-precision-constant",
-    "-cl-std=CL1.0",
     "-cl-std=CL1.1",
     "-cl-std=CL1.2",
     "-cl-std=CL3.0",
