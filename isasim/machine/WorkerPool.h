@@ -12,7 +12,8 @@ namespace vorion::isasim {
 
 class WorkerPool {
 public:
-  /// \p Threads in all, the caller's included; 0 for as many as the host has.
+  /// \p Threads in all, the caller's included, but no more than the host has
+  /// processors (vorion/support/HostProcessors.h); 0 for as many as those.
   explicit WorkerPool(unsigned Threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool &) = delete;
@@ -26,8 +27,6 @@ public:
 
 private:
   void work();
-  /// Waits a little for \p Condition without sleeping.
-  template <typename Function> void spin(Function Condition) const;
   void drain(const std::function<void(unsigned)> &Task, unsigned Count);
 
   std::mutex Lock;
@@ -39,7 +38,6 @@ private:
   std::atomic<unsigned> Busy = 0;       ///< workers in drain()
   std::atomic<uint64_t> Generation = 0; ///< of Current
   std::atomic<bool> Stopping = false;
-  bool MaySpin = false;
   std::vector<std::thread> Workers;
 };
 

@@ -135,7 +135,8 @@ void declareOptions(CLI::App &App, Options &O) {
       ->type_name("N")
       ->check(quietly(isBetween<uint64_t>(0, 1'000'000'000'000'000'000)));
   App.add_option("--threads", O.Threads,
-                 "host threads (default: all; changes no result)")
+                 "host threads, at most one a processor (default: all; changes "
+                 "no result)")
       ->type_name("N");
   declareLaunch(App, O);
   declareTestPrograms(App, O);

@@ -1,6 +1,8 @@
 /// Work that is shared among the host's processors.
 #pragma once
 
+#include "vorion/support/HostProcessors.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -20,8 +22,7 @@ void inParallel(std::size_t Count, const Function &Work) {
     for (std::size_t I = Next++; I < Count; I = Next++)
       Work(I);
   };
-  const std::size_t Threads =
-      std::min<std::size_t>(Count, std::thread::hardware_concurrency());
+  const std::size_t Threads = std::min<std::size_t>(Count, hostProcessors());
   std::vector<std::jthread> Others;
   for (std::size_t T = 1; T < Threads; ++T)
     Others.emplace_back(Share);
