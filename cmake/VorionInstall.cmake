@@ -72,7 +72,9 @@ function(vorion_install_documents)
   install(DIRECTORY docs/schemas/ DESTINATION share/vorion/schemas COMPONENT vorion FILES_MATCHING PATTERN "*.json")
   install(DIRECTORY test/install/Inputs/downstream DESTINATION ${Folder}/examples COMPONENT doc)
   install(DIRECTORY apps/samples DESTINATION ${Folder}/examples COMPONENT doc PATTERN CMakeLists.txt EXCLUDE)
-  install(DIRECTORY apps/splat/python/samples/ DESTINATION ${Folder}/examples/python COMPONENT doc)
+  # What Python leaves beside a sample that was run in the repository is no sample.
+  install(DIRECTORY apps/splat/python/samples/ DESTINATION ${Folder}/examples/python COMPONENT doc
+          PATTERN __pycache__ EXCLUDE)
 endfunction()
 
 # The package of what the components have named by now.
