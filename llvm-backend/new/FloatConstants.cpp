@@ -46,6 +46,22 @@ private:
   unsigned Next = 0;
 };
 
+/// Calls \p Visit with every constant of \p MF and the registers that are live
+/// behind it. It may erase the constant.
+template <typename Function, typename Visitor>
+void forEachConstant(Function &MF, Visitor Visit) {
+  LiveRegUnits Live(*MF.getRegInfo().getTargetRegisterInfo());
+  for (auto &MBB : MF) {
+    Live.clear();
+    Live.addLiveOuts(MBB);
+    for (auto &MI : make_early_inc_range(reverse(MBB))) {
+      Live.stepBackward(MI);
+      if (MI.getOpcode() == RISCV::PseudoFloatConstant)
+        Visit(MI, Live);
+    }
+  }
+}
+
 } // namespace
 
 bool vorion::hasFloatConstants(const RISCVSubtarget &Subtarget) {
@@ -65,45 +81,53 @@ bool vorion::selectFloatConstant(SDNode *Node, SelectionDAG &DAG,
   return true;
 }
 
+bool vorion::mayLackRegister(const MachineFunction &MF) {
+  const MachineRegisterInfo &MRI = MF.getRegInfo();
+  LiveRegUnits Saved(*MRI.getTargetRegisterInfo());
+  for (const MCPhysReg *Reg = MRI.getCalleeSavedRegs(); *Reg; ++Reg)
+    Saved.addReg(*Reg);
+  bool Lacks = false;
+  forEachConstant(MF, [&](const MachineInstr &, const LiveRegUnits &Live) {
+    Lacks = Lacks || none_of(RISCV::GPRRegClass, [&](MCPhysReg Reg) {
+              return !MRI.isReserved(Reg) && Live.available(Reg) &&
+                     Saved.available(Reg);
+            });
+  });
+  return Lacks;
+}
+
 bool vorion::expandFloatConstants(MachineFunction &MF) {
   const auto &TII = *MF.getSubtarget<RISCVSubtarget>().getInstrInfo();
   MachineRegisterInfo &MRI = MF.getRegInfo();
-  LiveRegUnits Live(*MRI.getTargetRegisterInfo());
   FreeRegisters Free(MF);
   bool NeedsSlot = false;
-  for (MachineBasicBlock &MBB : MF) {
-    Live.clear();
-    Live.addLiveOuts(MBB);
-    for (MachineInstr &MI : make_early_inc_range(reverse(MBB))) {
-      Live.stepBackward(MI);
-      if (MI.getOpcode() != RISCV::PseudoFloatConstant)
-        continue;
-      const Register Chosen = Free.choose(Live, MRI);
-      NeedsSlot = NeedsSlot || !Chosen;
-      auto build = [&](unsigned Opcode, Register To) {
-        return BuildMI(MBB, MI, MI.getDebugLoc(), TII.get(Opcode), To);
-      };
-      // Where no register is free, the frame's scavenger makes one so.
-      auto scratch = [&] {
-        return Chosen ? Chosen : MRI.createVirtualRegister(&RISCV::GPRRegClass);
-      };
-      const int64_t Bits = MI.getOperand(1).getImm();
-      const int64_t Low = SignExtend64<12>(Bits);
-      const int64_t High = ((Bits - Low) >> 12) & 0xFFFFF;
-      Register From = RISCV::X0;
-      if (High != 0)
-        build(RISCV::LUI, From = scratch()).addImm(High);
-      if (Low != 0) {
-        const Register To = scratch();
-        build(RISCV::ADDI, To)
-            .addReg(From, getKillRegState(From != RISCV::X0))
-            .addImm(Low);
-        From = To;
-      }
-      build(RISCV::FMV_W_X, MI.getOperand(0).getReg())
-          .addReg(From, getKillRegState(From != RISCV::X0));
-      MI.eraseFromParent();
+  forEachConstant(MF, [&](MachineInstr &MI, const LiveRegUnits &Live) {
+    const Register Chosen = Free.choose(Live, MRI);
+    NeedsSlot = NeedsSlot || !Chosen;
+    auto build = [&](unsigned Opcode, Register To) {
+      return BuildMI(*MI.getParent(), MI, MI.getDebugLoc(), TII.get(Opcode),
+                     To);
+    };
+    // Where no register is free, the frame's scavenger makes one so.
+    auto scratch = [&] {
+      return Chosen ? Chosen : MRI.createVirtualRegister(&RISCV::GPRRegClass);
+    };
+    const int64_t Bits = MI.getOperand(1).getImm();
+    const int64_t Low = SignExtend64<12>(Bits);
+    const int64_t High = ((Bits - Low) >> 12) & 0xFFFFF;
+    Register From = RISCV::X0;
+    if (High != 0)
+      build(RISCV::LUI, From = scratch()).addImm(High);
+    if (Low != 0) {
+      const Register To = scratch();
+      build(RISCV::ADDI, To)
+          .addReg(From, getKillRegState(From != RISCV::X0))
+          .addImm(Low);
+      From = To;
     }
-  }
+    build(RISCV::FMV_W_X, MI.getOperand(0).getReg())
+        .addReg(From, getKillRegState(From != RISCV::X0));
+    MI.eraseFromParent();
+  });
   return NeedsSlot;
 }

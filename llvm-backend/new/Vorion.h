@@ -43,6 +43,11 @@ bool hasFloatConstants(const RISCVSubtarget &Subtarget);
 bool selectFloatConstant(SDNode *Node, SelectionDAG &DAG,
                          const RISCVSubtarget &Subtarget);
 
+/// Whether no register may be free at one of them in \p MF, once registers are
+/// given. Then the frame must be there in the whole function: the slot below
+/// may be needed where prologues that come later have not yet made it.
+bool mayLackRegister(const MachineFunction &MF);
+
 /// Expands all of them in \p MF, once registers are given and before its frame
 /// is laid out. Says whether the frame needs a slot in which a register can be
 /// saved, because none is free at one of them.
