@@ -21,7 +21,7 @@ METHODS = {
     "antialiased": ["--antialiased"],
     "random background": ["--random-background"],
     "exposure": ["--exposure-rate", "0.01"],
-    "poses": ["--pose-rate", "1e-3"],
+    "poses": ["--pose-rate", "1e-5"],
     "depths of points": ["--depth-weight", "0.01"],
     "cores alone": ["--path", "simt"],
     "cores alone, absolute gradients": ["--path", "simt", "--absgrad", "--densify-gradient", "8e-4"],
