@@ -1,9 +1,10 @@
 #include "vorion/support/HostProcessors.h"
 
+#include "vorion/support/File.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -30,11 +31,6 @@ std::optional<double> limitOf(const std::filesystem::path &Group,
 
 bool has(const std::string &Controllers, const std::string &Name) {
   return ("," + Controllers + ",").find("," + Name + ",") != std::string::npos;
-}
-
-std::string textOf(const std::filesystem::path &File) {
-  std::ifstream In(File);
-  return {std::istreambuf_iterator<char>(In), {}};
 }
 
 } // namespace
@@ -67,10 +63,18 @@ std::optional<unsigned> shareOfTime(std::string_view Membership,
 }
 
 unsigned hostProcessors() {
-  const unsigned MayRunOn = std::max(1U, std::thread::hardware_concurrency());
-  return std::min(MayRunOn,
-                  shareOfTime(textOf("/proc/self/cgroup"), "/sys/fs/cgroup")
-                      .value_or(MayRunOn));
+  // Asked once: each pool and each parallel loop wants to know.
+  static const unsigned Found = [] {
+    const unsigned MayRunOn = std::max(1U, std::thread::hardware_concurrency());
+    const auto Membership = readFile("/proc/self/cgroup");
+    if (!Membership)
+      return MayRunOn;
+    const std::string_view Text(
+        reinterpret_cast<const char *>(Membership->data()), Membership->size());
+    return std::min(MayRunOn,
+                    shareOfTime(Text, "/sys/fs/cgroup").value_or(MayRunOn));
+  }();
+  return Found;
 }
 
 } // namespace vorion

@@ -31,9 +31,8 @@ template <typename Function> void spin(Function Condition) {
 } // namespace
 
 WorkerPool::WorkerPool(unsigned Threads) {
-  // Threads without a processor of their own could only sleep and be woken,
-  // which with 16 threads on 10 processors took five times as long as 8 threads
-  // do.
+  // More threads than processors must sleep and be woken in each round. On 10
+  // processors 16 such threads took five times as long as 8 threads.
   const unsigned Processors = hostProcessors();
   const unsigned Wanted = Threads ? std::min(Threads, Processors) : Processors;
   for (unsigned N = 1; N < Wanted; ++N)

@@ -9,7 +9,8 @@ namespace vorion {
 
 /// Those that it may run on (sched_setaffinity), but no more than its share of
 /// time (\c shareOfTime), which is how containers limit it. More threads than
-/// that would only stop each other. At least 1.
+/// that would only stop each other. At least 1. What holds at the first call
+/// is what all calls say.
 unsigned hostProcessors();
 
 /// How many processors' time control groups allow (Linux, cpu.max of version 2,
