@@ -39,7 +39,7 @@ class Build:
         self.folder, self.out = os.path.abspath(folder), out
         self.bin = os.path.join(out, name, "bin")
         os.makedirs(self.bin)
-        # libpocl.so finds its files beside its own folder.
+        # libvorion-pocl.so finds its files beside its own folder.
         os.symlink(os.path.join(self.folder, "pocl", "share"), os.path.join(out, name, "share"))
         for program in ("splat", "vorion-sim"):
             if not os.path.exists(os.path.join(self.folder, "bin", program)):
@@ -50,7 +50,7 @@ class Build:
         for path in [os.path.join(self.folder, "bin", program) for program in ("splat", "vorion-sim")] + libraries:
             call(["llvm-strip-19", "-g", path, "-o", os.path.join(self.bin, os.path.basename(path))], out)
         self.environment = os.environ | {
-            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.bin, "libpocl.so"),
+            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.bin, "libvorion-pocl.so"),
             "LD_LIBRARY_PATH": self.bin, "POCL_CACHE_DIR": os.path.join(out, f"cache-{name}")}
 
     def tool(self, *command):

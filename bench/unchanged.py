@@ -30,7 +30,7 @@ CAPTURE = os.path.join("..", "shared", "data", "captures", "chair_synthetic")
 
 
 class Build:
-    """A folder with bin/ and pocl/lib/libpocl.so."""
+    """A folder with bin/ and pocl/lib/libvorion-pocl.so."""
 
     def __init__(self, folder, out, name):
         self.folder = os.path.abspath(folder)
@@ -38,7 +38,7 @@ class Build:
             sys.exit(f"unchanged.py: error: {folder}: has no bin/splat, expected a build folder or an installed Vorion")
         self.name = name
         self.environment = os.environ | {
-            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.folder, "pocl", "lib", "libpocl.so"),
+            "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.folder, "pocl", "lib", "libvorion-pocl.so"),
             "PATH": os.path.join(self.folder, "bin") + os.pathsep + os.environ["PATH"],
             "POCL_CACHE_DIR": os.path.join(out, f"cache-{name}")}
 

@@ -13,7 +13,7 @@ elif [ -n "${BASH_VERSION-}${ZSH_VERSION-}" ]; then
   */share/vorion)
     VORION_ROOT=${VORION_ROOT%/share/vorion}
     # A file there would have to name a folder, and the tree can be moved.
-    export OCL_ICD_VENDORS="$VORION_ROOT/pocl/lib/libpocl.so"
+    export OCL_ICD_VENDORS="$VORION_ROOT/pocl/lib/libvorion-pocl.so"
     case "${PKG_CONFIG_PATH-}:" in
     "$VORION_ROOT/lib/pkgconfig:"*) ;;
     *) export PKG_CONFIG_PATH="$VORION_ROOT/lib/pkgconfig${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}" ;;

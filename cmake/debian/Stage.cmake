@@ -31,7 +31,7 @@ list(FILTER Programs EXCLUDE REGEX "[.]cfg$")
 foreach(Program IN LISTS Programs)
   file(CREATE_LINK "../lib/vorion/bin/${Program}" "${Top}/usr/bin/${Program}" SYMBOLIC)
 endforeach()
-file(WRITE "${Top}/etc/OpenCL/vendors/vorion.icd" "/usr/lib/vorion/pocl/lib/libpocl.so.2\n")
+file(WRITE "${Top}/etc/OpenCL/vendors/vorion.icd" "/usr/lib/vorion/pocl/lib/libvorion-pocl.so.2\n")
 # As an absolute link it would be one that an image of a system cannot follow.
 file(CREATE_LINK "../../../llvm-19/lib/clang/19" "${Tree}/lib/clang/19" SYMBOLIC)
 # The Python package lies where Debian's Python looks.

@@ -78,7 +78,7 @@ Callers callers() {
   return C;
 }
 
-/// "splat+0x1234 libpocl.so+0x99 ...", without this library's own.
+/// "splat+0x1234 libvorion-pocl.so+0x99 ...", without this library's own.
 void printPlace() {
   const Callers C = callers();
   Dl_info Own{};

@@ -120,7 +120,7 @@ class Runner:
         """Of what a scenario's results come from."""
         files = [f"bin/{scenario.program}", "lib/libvorion-failing-calls.so"]
         if scenario.program == "splat":
-            files += ["lib/libvorion-runtime.so", "pocl/lib/libpocl.so"]
+            files += ["lib/libvorion-runtime.so", "pocl/lib/libvorion-pocl.so"]
         all_of_them = hashlib.sha256()
         for file in files:
             with open(os.path.join(self.build, file), "rb") as f:

@@ -251,7 +251,7 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
   if (!Folder)
     return Folder.error();
   // The loader takes a library here, too: no path is written anywhere.
-  setenv("OCL_ICD_VENDORS", (Root / "pocl/lib/libpocl.so").c_str(), 1);
+  setenv("OCL_ICD_VENDORS", (Root / "pocl/lib/libvorion-pocl.so").c_str(), 1);
   setenv("VORION_ROOT", Root.c_str(), 1);
   // The device's driver compiles kernels that nobody has started, too.
   setenv("VORION_COMPILE_ALL", "1", 1);

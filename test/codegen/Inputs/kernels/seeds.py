@@ -42,7 +42,7 @@ def version():
             sys.exit(f"{os.path.basename(sys.argv[0])}: error: {tool} is not on the path, expected . scripts/env.sh")
         programs.append(path)
     root = os.path.dirname(os.path.dirname(os.path.realpath(programs[0])))
-    programs += sorted(glob.glob(os.path.join(root, "pocl", "lib", "libpocl.so*")))
+    programs += sorted(glob.glob(os.path.join(root, "pocl", "lib", "libvorion-pocl.so*")))
     for path in programs:
         digest.update(str(os.stat(path).st_size).encode() + str(os.stat(path).st_mtime_ns).encode())
     return digest.hexdigest()

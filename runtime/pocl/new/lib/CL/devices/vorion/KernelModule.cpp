@@ -5,6 +5,7 @@
 #include "SimtWorkitems.h"
 #include "pocl_llvm_api.h"
 
+#include <vorion/runtime.h>
 #include <vorion_abi.h>
 
 #include <llvm/Bitcode/BitcodeWriter.h>
@@ -69,6 +70,10 @@ public:
     Body->addFnAttr(Attribute::AlwaysInline);
     Entry->removeFnAttr(Attribute::AlwaysInline);
     Entry->addFnAttr("vorion-kernel");
+    // Inlined, a structure becomes a copy of no known alignment, whose words
+    // would be read byte by byte.
+    Entry->addParamAttr(0, Attribute::getWithAlignment(
+                               M.getContext(), Align(VX_MEM_ALIGNMENT)));
     Entry->setName(Kernel.Name);
     keepLines(*Entry, *Body);
 
