@@ -57,10 +57,28 @@ TEST_P(SortOnDevice, SortIsStableOnItsBits) {
     const Sorter::Pairs In{upload(L, Keys), upload(L, Order)};
     const Sorter::Pairs A{upload(L, Empty), upload(L, Empty)};
     const Sorter::Pairs B{upload(L, Empty), upload(L, Empty)};
-    const Sorter::Pairs Out = S.sort(In, A, B, Count, {0, Bits});
     std::ranges::sort(Order, {},
                       [&](uint32_t I) { return std::pair(Keys[I], I); });
-    EXPECT_EQ(download(L, Out.Values, Count), Order) << Bits << " bits";
+    for (const auto Wanted : {Sorter::Keys::Sorted, Sorter::Keys::Lost}) {
+      const Sorter::Pairs Out = S.sort(In, A, B, Count, {0, Bits}, Wanted);
+      EXPECT_EQ(download(L, Out.Values, Count), Order) << Bits << " bits";
+      if (Wanted == Sorter::Keys::Lost)
+        continue;
+      const std::vector<uint32_t> Sorted = download(L, Out.Keys, Count);
+      EXPECT_TRUE(std::ranges::is_sorted(Sorted)) << Bits << " bits";
+    }
+    if (!Sorter::inOnePass({0, Bits}))
+      continue;
+    const uint32_t Number = 1U << Bits;
+    const cl::Buffer Ranges = L.allocate("ranges", 8 * uint64_t{Number});
+    S.rangesOfKeys(Ranges, Number);
+    const std::vector<uint32_t> Got = download(L, Ranges, 2 * Number);
+    uint32_t Begin = 0;
+    for (uint32_t Key = 0; Key < Number; ++Key) {
+      EXPECT_EQ(Got[2 * Key], Begin) << Bits << " bits, key " << Key;
+      Begin += static_cast<uint32_t>(std::ranges::count(Keys, Key));
+      EXPECT_EQ(Got[2 * Key + 1], Begin) << Bits << " bits, key " << Key;
+    }
   }
 }
 
@@ -91,10 +109,7 @@ TEST_P(SortOnDevice, SortKeptLeavesOutAndNumbers) {
         What.Most = std::max(What.Most, Keys[I]);
       }
       What.Kept = static_cast<uint32_t>(Want.size());
-      const std::vector<uint32_t> Empty(std::max(What.Kept, 1U));
-      const Sorter::Pairs A{upload(L, Empty), upload(L, Empty)};
-      const Sorter::Pairs B{upload(L, Empty), upload(L, Empty)};
-      const cl::Buffer Out = S.sortKept(upload(L, Keys), What, A, B);
+      const cl::Buffer Out = S.sortKept(upload(L, Keys), What);
       std::ranges::sort(Want, {}, [&](uint32_t I) {
         return std::pair(Keys[I] >> FirstBit, I);
       });

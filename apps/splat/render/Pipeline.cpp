@@ -172,15 +172,9 @@ void Pipeline::writeCamera(const Camera &C) {
 }
 
 void Pipeline::sortByDepth() {
-  const Sorter::Pairs A{words("sorted depths", Current.Visible),
-                        words("sorted Gaussians", Current.Visible)};
-  const Sorter::Pairs B{words("sorted depths", Current.Visible),
-                        words("sorted Gaussians", Current.Visible)};
-  Current.Order =
-      Sort.sortKept(Current.Depths.Keys,
-                    {Current.drawn(), Current.Visible, Current.LeastKey,
-                     Current.GreatestKey, 32 - Options.DepthBits},
-                    A, B);
+  Current.Order = Sort.sortKept(
+      Current.Depths.Keys, {Current.drawn(), Current.Visible, Current.LeastKey,
+                            Current.GreatestKey, 32 - Options.DepthBits});
 }
 
 void Pipeline::countPairs() {
@@ -209,6 +203,10 @@ void Pipeline::sortByTile() {
                             words("Gaussians of pairs", Current.Pairs)};
   const Sorter::KeyBits Bits{
       0, static_cast<unsigned>(std::bit_width(Current.tiles() - 1))};
+  // Of one pass the totals say where lists are, else the sorted keys do.
+  const bool OnePass = Current.Pairs != 0 && Sorter::inOnePass(Bits);
+  const Sorter::Keys Wanted =
+      OnePass ? Sorter::Keys::Lost : Sorter::Keys::Sorted;
   if (Options.Training) {
     // Where a pair was is where its gradients go, beside those of its Gaussian.
     const cl::Buffer Entries = Current.ByTile.Values;
@@ -216,16 +214,18 @@ void Pipeline::sortByTile() {
     Current.List = words("Gaussians of sorted pairs", Current.Pairs);
     Launch.run(TilesProgram, "number", itemsFor(Current.Pairs), GroupSize,
                Current.ByTile.Values, Current.Pairs);
-    Current.ByTile =
-        Sort.sort(Current.ByTile, Current.ByTile, Other, Current.Pairs, Bits);
+    Current.ByTile = Sort.sort(Current.ByTile, Current.ByTile, Other,
+                               Current.Pairs, Bits, Wanted);
     Launch.run(TilesProgram, "look_up", itemsFor(Current.Pairs), GroupSize,
                Current.ByTile.Values, Entries, Current.List, Current.Pairs);
   } else {
-    Current.ByTile =
-        Sort.sort(Current.ByTile, Current.ByTile, Other, Current.Pairs, Bits);
+    Current.ByTile = Sort.sort(Current.ByTile, Current.ByTile, Other,
+                               Current.Pairs, Bits, Wanted);
     Current.List = Current.ByTile.Values;
   }
   Current.Ranges = words("tile ranges", 2 * uint64_t{Current.tiles()});
+  if (OnePass)
+    return Sort.rangesOfKeys(Current.Ranges, Current.tiles());
   Launch.run(TilesProgram, "tile_ranges", itemsFor(Current.tiles()), GroupSize,
              Current.ByTile.Keys, Current.Ranges, Current.Pairs,
              Current.tiles());

@@ -12,11 +12,12 @@ namespace {
 
 SortedPairs readPairs(Launcher &Launch, const Frame &F) {
   SortedPairs P;
-  P.Tiles.resize(F.Pairs);
   P.Gaussians.resize(F.Pairs);
   std::vector<uint32_t> Bits(F.drawn());
-  Launch.read("tiles of pairs", P.Tiles.data(), F.ByTile.Keys,
-              4 * uint64_t{F.Pairs});
+  std::vector<std::array<uint32_t, 2>> Ranges(F.tiles());
+  Launch.read("tile ranges", Ranges.data(), F.Ranges, 8 * Ranges.size());
+  for (uint32_t Tile = 0; Tile < Ranges.size(); ++Tile)
+    P.Tiles.insert(P.Tiles.end(), Ranges[Tile][1] - Ranges[Tile][0], Tile);
   Launch.read("Gaussians of pairs", P.Gaussians.data(), F.List,
               4 * uint64_t{F.Pairs});
   Launch.read("depths", Bits.data(), F.Depths.Keys, 4 * uint64_t{F.drawn()});

@@ -24,12 +24,15 @@ uint32_t divideUp(uint32_t A, uint32_t B) {
 /// Passes of equal width.
 struct Passes {
   explicit Passes(unsigned Bits)
-      : Number(std::max(1U, divideUp(Bits, MostDigitBits))),
-        DigitBits(std::max(1U, divideUp(Bits, Number))),
-        Digits(1U << DigitBits) {}
-  unsigned Number, DigitBits;
-  uint32_t Digits;
+      : Bits(Bits), Number(std::max(1U, divideUp(Bits, MostDigitBits))),
+        DigitBits(std::max(1U, divideUp(Bits, Number))) {}
+  /// Of a key behind a pass: bits that were not sorted by.
+  unsigned left(unsigned Pass) const {
+    return Bits - std::min(Bits, (Pass + 1) * DigitBits);
+  }
+  unsigned Bits, Number, DigitBits;
 };
+constexpr unsigned WordBits = 32;
 } // namespace
 
 Sorter::Sorter(Launcher &Launch)
@@ -60,55 +63,111 @@ Sorter::Share Sorter::share(uint32_t Count) const {
           Launch.device().lanes(), Lines * LineWords};
 }
 
+bool Sorter::inOnePass(KeyBits Bits) {
+  return Bits.First != Bits.End && Passes(Bits.End - Bits.First).Number == 1;
+}
+
 Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
-                           uint32_t Count, KeyBits Bits) {
+                           uint32_t Count, KeyBits Bits, Keys Wanted) {
   if (Count == 0 || Bits.First == Bits.End)
     return Input;
   const Passes P(Bits.End - Bits.First);
   Pairs From = Input;
   for (unsigned Pass = 0; Pass < P.Number; ++Pass) {
     const Pairs &To = From.Keys() == A.Keys() ? B : A;
-    pass(From, To, Count, Bits.First + Pass * P.DigitBits, P.Digits);
+    const Digit D{Bits.First + Pass * P.DigitBits, P.DigitBits};
+    count(From.Keys, Count, D);
+    if (Wanted == Keys::Lost && Pass + 1 == P.Number)
+      scatterToWords(From, To.Values, Count, D, WordBits);
+    else
+      scatter(From, To, Count, D);
     From = To;
   }
   return From;
 }
 
-cl::Buffer Sorter::sortKept(const cl::Buffer &Keys, const KeptKeys &What,
-                            const Pairs &A, const Pairs &B) {
+void Sorter::rangesOfKeys(const cl::Buffer &Ranges, uint32_t Number) {
+  const uint32_t Lanes = Launch.device().lanes();
+  Launch.run(SortProgram, "sort_ranges", Lanes, Lanes, Totals, Ranges, Number);
+}
+
+cl::Buffer Sorter::sortKept(const cl::Buffer &From, const KeptKeys &What) {
+  const auto Words = [&](const char *Of) {
+    return Launch.allocate(Of, 4 * uint64_t{What.Kept});
+  };
   if (What.Kept == 0)
-    return A.Values;
+    return Words("sorted numbers");
   const uint32_t Base = What.Least >> What.FirstBit;
   const Passes P(static_cast<unsigned>(
       std::bit_width((What.Most >> What.FirstBit) - Base)));
+  const auto ValueBits = static_cast<unsigned>(std::bit_width(What.Count - 1));
+  const auto FitsWord = [&](unsigned Pass) {
+    return P.left(Pass) + ValueBits <= WordBits;
+  };
+  Pairs A{{}, Words("sorted numbers")}, B{{}, Words("sorted numbers")};
+  if (!FitsWord(0))
+    A.Keys = Words("sorted keys");
+  if (!FitsWord(1))
+    B.Keys = Words("sorted keys");
+
   const Share S = share(What.Count);
-  Launch.run(SortProgram, "sort_count_kept", S.items(), S.Lanes, Keys,
-             Histogram, What.Count, S.Chunk, What.FirstBit, P.Digits, Base);
-  Launch.run(SortProgram, "sort_offsets", P.Digits,
-             std::min(P.Digits, LineWords), Histogram, Totals, S.Groups,
-             P.Digits);
-  Launch.run(SortProgram, "sort_scatter_kept", S.items(), S.Lanes, Keys,
-             Histogram, Totals, A.Keys, A.Values, What.Count, S.Chunk,
-             What.FirstBit, P.Digits, Base);
-  Pairs From = A;
-  for (unsigned Pass = 1; Pass < P.Number; ++Pass) {
-    const Pairs &To = From.Keys() == A.Keys() ? B : A;
-    pass(From, To, What.Kept, Pass * P.DigitBits, P.Digits);
-    From = To;
+  const Digit First{What.FirstBit, P.DigitBits};
+  Launch.run(SortProgram, "sort_count_kept", S.items(), S.Lanes, From,
+             Histogram, What.Count, S.Chunk, First.Shift, First.Bits, Base);
+  sumUp(S.Groups, First);
+  if (FitsWord(0))
+    Launch.run(SortProgram, "sort_scatter_kept_to_words", S.items(), S.Lanes,
+               From, Histogram, Totals, A.Values, What.Count, S.Chunk,
+               First.Shift, First.Bits, Base, ValueBits);
+  else
+    Launch.run(SortProgram, "sort_scatter_kept", S.items(), S.Lanes, From,
+               Histogram, Totals, A.Keys, A.Values, What.Count, S.Chunk,
+               First.Shift, First.Bits, Base);
+  for (unsigned Pass = 1; Pass < P.Number; ++Pass, std::swap(A, B)) {
+    const bool InWords = FitsWord(Pass - 1);
+    const Digit D{InWords ? ValueBits : Pass * P.DigitBits, P.DigitBits};
+    count(InWords ? A.Values : A.Keys, What.Kept, D);
+    if (InWords) {
+      const Share Now = share(What.Kept);
+      Launch.run(SortProgram, "sort_scatter_words", Now.items(), Now.Lanes,
+                 A.Values, Histogram, Totals, B.Values, What.Kept, Now.Chunk,
+                 D.Bits, ValueBits);
+    } else if (FitsWord(Pass)) {
+      scatterToWords(A, B.Values, What.Kept, D, ValueBits);
+    } else {
+      scatter(A, B, What.Kept, D);
+    }
   }
-  return From.Values;
+  return A.Values;
 }
 
-void Sorter::pass(const Pairs &From, const Pairs &To, uint32_t Count,
-                  unsigned Shift, uint32_t Digits) {
+void Sorter::count(const cl::Buffer &Keys, uint32_t Count, Digit D) {
   const Share S = share(Count);
-  Launch.run(SortProgram, "sort_count", S.items(), S.Lanes, From.Keys,
-             Histogram, Count, S.Chunk, Shift, Digits);
-  Launch.run(SortProgram, "sort_offsets", Digits, std::min(Digits, LineWords),
-             Histogram, Totals, S.Groups, Digits);
+  Launch.run(SortProgram, "sort_count", S.items(), S.Lanes, Keys, Histogram,
+             Count, S.Chunk, D.Shift, D.Bits);
+  sumUp(S.Groups, D);
+}
+
+void Sorter::sumUp(uint32_t Stretches, Digit D) {
+  Launch.run(SortProgram, "sort_offsets", D.count(),
+             std::min(D.count(), LineWords), Histogram, Totals, Stretches,
+             D.count());
+}
+
+void Sorter::scatter(const Pairs &From, const Pairs &To, uint32_t Count,
+                     Digit D) {
+  const Share S = share(Count);
   Launch.run(SortProgram, "sort_scatter", S.items(), S.Lanes, From.Keys,
              From.Values, Histogram, Totals, To.Keys, To.Values, Count, S.Chunk,
-             Shift, Digits);
+             D.Shift, D.Bits);
+}
+
+void Sorter::scatterToWords(const Pairs &From, const cl::Buffer &To,
+                            uint32_t Count, Digit D, unsigned ValueBits) {
+  const Share S = share(Count);
+  Launch.run(SortProgram, "sort_scatter_to_words", S.items(), S.Lanes,
+             From.Keys, From.Values, Histogram, Totals, To, Count, S.Chunk,
+             D.Shift, D.Bits, ValueBits);
 }
 
 } // namespace vorion::splat

@@ -31,11 +31,21 @@ public:
     unsigned First, End;
   };
 
+  /// Whether the keys of sorted pairs are wanted, too.
+  enum class Keys { Sorted, Lost };
+
   /// Sorts \p Count pairs by some bits of their keys, stably. The result
   /// lies in one of \p A and \p B; \p Input is only read, and may be one of
   /// them if it may be overwritten.
   Pairs sort(const Pairs &Input, const Pairs &A, const Pairs &B, uint32_t Count,
-             KeyBits Bits);
+             KeyBits Bits, Keys Wanted);
+
+  /// Whether that takes one pass.
+  static bool inOnePass(KeyBits Bits);
+  /// After such a sort of pairs by the bits from 0 on: where the values of each
+  /// key below \p Number begin and end, two words a key. \p Number is not
+  /// above what so many bits can say.
+  void rangesOfKeys(const cl::Buffer &Ranges, uint32_t Number);
 
   /// Keys of which some are left out: those with the highest bit.
   struct KeptKeys {
@@ -44,18 +54,24 @@ public:
     uint32_t Least, Most; ///< of those
     unsigned FirstBit;    ///< lower ones decide nothing
   };
-  /// The numbers of the kept ones by their keys, stably, as the values of \p A
-  /// or \p B, which hold so many pairs.
-  cl::Buffer sortKept(const cl::Buffer &Keys, const KeptKeys &What,
-                      const Pairs &A, const Pairs &B);
+  /// The numbers of the kept ones by their keys, stably.
+  cl::Buffer sortKept(const cl::Buffer &From, const KeptKeys &What);
 
   /// A group a core, a lane a work-item; stretches of whole lines.
   Share share(uint32_t Count) const;
 
 private:
   uint32_t scanItems() const;
-  void pass(const Pairs &From, const Pairs &To, uint32_t Count, unsigned Shift,
-            uint32_t Digits);
+  /// A digit of keys.
+  struct Digit {
+    unsigned Shift, Bits;
+    uint32_t count() const { return 1U << Bits; }
+  };
+  void count(const cl::Buffer &Keys, uint32_t Count, Digit D);
+  void sumUp(uint32_t Stretches, Digit D);
+  void scatter(const Pairs &From, const Pairs &To, uint32_t Count, Digit D);
+  void scatterToWords(const Pairs &From, const cl::Buffer &To, uint32_t Count,
+                      Digit D, unsigned ValueBits);
 
   Launcher &Launch;
   uint32_t Groups;

@@ -121,7 +121,8 @@ void DensityControl::limit(uint32_t Count, uint32_t Total) {
                         words("sorted Gaussians", Count)};
   const Sorter::Pairs B{words("sorted gradients", Count),
                         words("sorted Gaussians", Count)};
-  const Sorter::Pairs Sorted = Sort.sort({Keys, Order}, A, B, Count, {0, 32});
+  const Sorter::Pairs Sorted =
+      Sort.sort({Keys, Order}, A, B, Count, {0, 32}, Sorter::Keys::Lost);
   Launch.run(DensityProgram, "density_limit", itemsFor(Count), GroupSize,
              Sorted.Values, Fates, Counts, Count, More);
 }
