@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -21,19 +23,27 @@ uint32_t divideUp(uint32_t A, uint32_t B) {
   return A / B + (A % B != 0 ? 1 : 0);
 }
 
-/// Passes of equal width.
-struct Passes {
-  explicit Passes(unsigned Bits)
-      : Bits(Bits), Number(std::max(1U, divideUp(Bits, MostDigitBits))),
-        DigitBits(std::max(1U, divideUp(Bits, Number))) {}
-  /// Of a key behind a pass: bits that were not sorted by.
-  unsigned left(unsigned Pass) const {
-    return Bits - std::min(Bits, (Pass + 1) * DigitBits);
-  }
-  unsigned Bits, Number, DigitBits;
-};
 constexpr unsigned WordBits = 32;
 } // namespace
+
+/// The digits that keys of \p Bits are sorted by, a pass each: equally wide,
+/// but that early ones are as wide as it takes to leave \p Room bits behind as
+/// few passes as can be.
+std::vector<Sorter::Digit> Sorter::digits(unsigned Bits, unsigned Room) {
+  const unsigned Passes = std::max(1U, divideUp(Bits, MostDigitBits));
+  const unsigned Excess = Bits - std::min(Bits, Room);
+  const unsigned Early = divideUp(Excess, MostDigitBits);
+  std::vector<Digit> All;
+  unsigned Shift = 0;
+  for (unsigned Pass = 0; Pass < Passes; ++Pass) {
+    const unsigned Equal = std::max(1U, divideUp(Bits - Shift, Passes - Pass));
+    const unsigned Width =
+        Pass < Early ? std::max(Equal, divideUp(Excess, Early)) : Equal;
+    All.push_back({Shift, Width});
+    Shift += Width;
+  }
+  return All;
+}
 
 Sorter::Sorter(Launcher &Launch)
     : Launch(Launch), Groups(std::max(1U, Launch.device().computeUnits())) {
@@ -64,20 +74,18 @@ Sorter::Share Sorter::share(uint32_t Count) const {
 }
 
 bool Sorter::inOnePass(KeyBits Bits) {
-  return Bits.First != Bits.End && Passes(Bits.End - Bits.First).Number == 1;
+  return Bits.First != Bits.End && Bits.End - Bits.First <= MostDigitBits;
 }
 
 Sorter::Pairs Sorter::sort(const Pairs &Input, const Pairs &A, const Pairs &B,
                            uint32_t Count, KeyBits Bits, Keys Wanted) {
   if (Count == 0 || Bits.First == Bits.End)
     return Input;
-  const Passes P(Bits.End - Bits.First);
   Pairs From = Input;
-  for (unsigned Pass = 0; Pass < P.Number; ++Pass) {
+  for (Digit D : digits(Bits.End - Bits.First, WordBits)) {
     const Pairs &To = From.Keys() == A.Keys() ? B : A;
-    const Digit D{Bits.First + Pass * P.DigitBits, P.DigitBits};
-    count(From.Keys, Count, D);
-    if (Wanted == Keys::Lost && Pass + 1 == P.Number)
+    D.Shift += Bits.First;
+    if (Wanted == Keys::Lost && D.Shift + D.Bits >= Bits.End)
       scatterToWords(From, To.Values, Count, D, WordBits);
     else
       scatter(From, To, Count, D);
@@ -98,45 +106,41 @@ cl::Buffer Sorter::sortKept(const cl::Buffer &From, const KeptKeys &What) {
   if (What.Kept == 0)
     return Words("sorted numbers");
   const uint32_t Base = What.Least >> What.FirstBit;
-  const Passes P(static_cast<unsigned>(
-      std::bit_width((What.Most >> What.FirstBit) - Base)));
+  const auto KeyBits = static_cast<unsigned>(
+      std::bit_width((What.Most >> What.FirstBit) - Base));
   const auto ValueBits = static_cast<unsigned>(std::bit_width(What.Count - 1));
-  const auto FitsWord = [&](unsigned Pass) {
-    return P.left(Pass) + ValueBits <= WordBits;
+  const std::vector<Digit> Digits = digits(KeyBits, WordBits - ValueBits);
+  const auto LeavesWords = [&](const Digit &D) {
+    return D.Shift + D.Bits + WordBits >= KeyBits + ValueBits;
   };
   Pairs A{{}, Words("sorted numbers")}, B{{}, Words("sorted numbers")};
-  if (!FitsWord(0))
-    A.Keys = Words("sorted keys");
-  if (!FitsWord(1))
-    B.Keys = Words("sorted keys");
-
   const Share S = share(What.Count);
-  const Digit First{What.FirstBit, P.DigitBits};
+  const Digit First{What.FirstBit, Digits.front().Bits};
   Launch.run(SortProgram, "sort_count_kept", S.items(), S.Lanes, From,
              Histogram, What.Count, S.Chunk, First.Shift, First.Bits, Base);
   sumUp(S.Groups, First);
-  if (FitsWord(0))
+  bool InWords = LeavesWords(Digits.front());
+  if (InWords) {
     Launch.run(SortProgram, "sort_scatter_kept_to_words", S.items(), S.Lanes,
                From, Histogram, Totals, A.Values, What.Count, S.Chunk,
                First.Shift, First.Bits, Base, ValueBits);
-  else
+  } else {
+    A.Keys = Words("sorted keys");
     Launch.run(SortProgram, "sort_scatter_kept", S.items(), S.Lanes, From,
                Histogram, Totals, A.Keys, A.Values, What.Count, S.Chunk,
                First.Shift, First.Bits, Base);
-  for (unsigned Pass = 1; Pass < P.Number; ++Pass, std::swap(A, B)) {
-    const bool InWords = FitsWord(Pass - 1);
-    const Digit D{InWords ? ValueBits : Pass * P.DigitBits, P.DigitBits};
-    count(InWords ? A.Values : A.Keys, What.Kept, D);
+  }
+  for (const Digit &D : std::span(Digits).subspan(1)) {
     if (InWords) {
-      const Share Now = share(What.Kept);
-      Launch.run(SortProgram, "sort_scatter_words", Now.items(), Now.Lanes,
-                 A.Values, Histogram, Totals, B.Values, What.Kept, Now.Chunk,
-                 D.Bits, ValueBits);
-    } else if (FitsWord(Pass)) {
+      scatterWords(A.Values, B.Values, What.Kept, {ValueBits, D.Bits});
+    } else if (InWords = LeavesWords(D); InWords) {
       scatterToWords(A, B.Values, What.Kept, D, ValueBits);
     } else {
+      if (!B.Keys())
+        B.Keys = Words("sorted keys");
       scatter(A, B, What.Kept, D);
     }
+    std::swap(A, B);
   }
   return A.Values;
 }
@@ -156,14 +160,25 @@ void Sorter::sumUp(uint32_t Stretches, Digit D) {
 
 void Sorter::scatter(const Pairs &From, const Pairs &To, uint32_t Count,
                      Digit D) {
+  count(From.Keys, Count, D);
   const Share S = share(Count);
   Launch.run(SortProgram, "sort_scatter", S.items(), S.Lanes, From.Keys,
              From.Values, Histogram, Totals, To.Keys, To.Values, Count, S.Chunk,
              D.Shift, D.Bits);
 }
 
+/// Of words whose digit lies at once above the value.
+void Sorter::scatterWords(const cl::Buffer &From, const cl::Buffer &To,
+                          uint32_t Count, Digit D) {
+  count(From, Count, D);
+  const Share S = share(Count);
+  Launch.run(SortProgram, "sort_scatter_words", S.items(), S.Lanes, From,
+             Histogram, Totals, To, Count, S.Chunk, D.Bits, D.Shift);
+}
+
 void Sorter::scatterToWords(const Pairs &From, const cl::Buffer &To,
                             uint32_t Count, Digit D, unsigned ValueBits) {
+  count(From.Keys, Count, D);
   const Share S = share(Count);
   Launch.run(SortProgram, "sort_scatter_to_words", S.items(), S.Lanes,
              From.Keys, From.Values, Histogram, Totals, To, Count, S.Chunk,

@@ -67,9 +67,12 @@ private:
     unsigned Shift, Bits;
     uint32_t count() const { return 1U << Bits; }
   };
+  static std::vector<Digit> digits(unsigned Bits, unsigned Room);
   void count(const cl::Buffer &Keys, uint32_t Count, Digit D);
   void sumUp(uint32_t Stretches, Digit D);
   void scatter(const Pairs &From, const Pairs &To, uint32_t Count, Digit D);
+  void scatterWords(const cl::Buffer &From, const cl::Buffer &To,
+                    uint32_t Count, Digit D);
   void scatterToWords(const Pairs &From, const cl::Buffer &To, uint32_t Count,
                       Digit D, unsigned ValueBits);
 
