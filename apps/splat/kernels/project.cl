@@ -52,8 +52,8 @@ static float beside_middle(__local const splat_view *view,
 }
 #endif
 
-// What the camera is, where it is no pinhole or where a Gaussian goes through it
-// as points: then a file lens_*.cl is part of the program.
+// What the camera is, where it is no pinhole or where a Gaussian goes through
+// it as points: then a file lens_*.cl is part of the program.
 #define HAS_LENS                                                               \
   (USE_OPENCV || USE_FISHEYE || USE_ORTHOGRAPHIC || USE_EQUIRECTANGULAR ||     \
    USE_UNSCENTED || USE_ROLLING_SHUTTER)
@@ -101,17 +101,27 @@ static float camera_distance(__local const splat_view *view, float3 p) {
 #define ASK_FOR_SH(k) 0u
 #endif
 
+#define WHOLE_LINES(count)                                                     \
+  (((count) + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS)
+// Rectangles of `count` Gaussians.
+#if USE_EQUIRECTANGULAR
+#define RECTANGLES(count) (3 * WHOLE_LINES(count))
+#else
+#define RECTANGLES(count) (count)
+#endif
+
 // Local memory of a group. An argument of the kernel, so that the compiler
 // reaches all of it from one register. The arguments and what a lane has found
 // are here because they are needed once in a Gaussian: the compiler would keep
-// them on the stack, from which a word comes back after 11 cycles, and from here
-// after 3. As variables, the arguments take 10 and 4 % more of this kernel's
-// cycles on prototype-forwarding (guitar and box_sh3), what was found 15 and 17.
+// them on the stack, from which a word comes back after 11 cycles, and from
+// here after 3. As variables, the arguments take 10 and 4 % more of this
+// kernel's cycles on prototype-forwarding (guitar and box_sh3), what was found
+// 15 and 17.
 typedef struct {
   splat_view view;
   __global const float *geometry, *colors;
   __global uint *records, *depths;
-  __global uint2 *rectangles;
+  __global uint *rectangles;       // a plane of each word
   uint lines[1 + SH_AHEAD][LANES]; // from a lane's own word to one it asks for
   uint latest;                     // beginning of the last line with a record
   union {
@@ -148,8 +158,7 @@ _Static_assert(sizeof(workspace) <= PROJECT_LOCAL_BYTES,
 // key alone has a meaning. In blocks, `geometry` and `sh` are where its words
 // of the first planes are. Each step begins with its own loads, so that little
 // is alive across the loop of the exponential.
-static uint project_one(__local workspace *c,
-                        __global const float *geometry,
+static uint project_one(__local workspace *c, __global const float *geometry,
                         __global const float *sh, uint count, uint i, uint lane,
                         uint effects, __local uint *unread,
                         __local splat_gaussian *restrict g, uint2 *rectangle) {
@@ -301,7 +310,7 @@ static uint project_again(__local const workspace *c, float x, uint key,
                           uint number, uint lane, uint effects,
                           __local splat_gaussian *g, uint2 *rectangle) {
   uint x0, x1;
-  const uint y0 = (*rectangle).x >> 16, y1 = (*rectangle).y >> 16;
+  const uint y0 = first_row(*rectangle), y1 = (*rectangle).y >> 16;
   tile_span(x, c->reach[lane], TILE_SIZE, c->view.size[0], c->view.tiles[0],
             &x0, &x1);
   if (x0 >= x1)
@@ -321,7 +330,7 @@ static uint project_again(__local const workspace *c, float x, uint key,
 __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
 project(__constant const splat_view *camera, __global const float *geometry,
         __global const float *sh, __global uint *records, __global uint *depths,
-        __global uint2 *rectangles, __global splat_seen *items, uint count,
+        __global uint *rectangles, __global splat_seen *items, uint count,
         __local workspace *w) {
   const uint effects = camera->effects;
   const uint lane = get_local_id(0);
@@ -403,7 +412,8 @@ project(__constant const splat_view *camera, __global const float *geometry,
       } else {
         rectangle = (uint2)(0, 0);
       }
-      w->rectangles[i] = rectangle;
+      w->rectangles[i] = rectangle.x;
+      w->rectangles[RECTANGLES(count) + i] = rectangle.y;
 #if USE_EQUIRECTANGULAR
       own_key = key;
       own_rectangle = rectangle;
@@ -423,7 +433,7 @@ project(__constant const splat_view *camera, __global const float *geometry,
     barrier(CLK_LOCAL_MEM_FENCE);
 #if USE_EQUIRECTANGULAR
     // Numbers of copies begin at whole lines; those of nobody are culled.
-    const uint whole = (count + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS;
+    const uint whole = WHOLE_LINES(count);
     if (i >= count)
       w->depths[i] = own_key;
     const float own_x = w->stage.records[lane].mean[0];
@@ -444,7 +454,8 @@ project(__constant const splat_view *camera, __global const float *geometry,
       } else {
         rectangle = (uint2)(0, 0);
       }
-      w->rectangles[from + lane] = rectangle;
+      w->rectangles[from + lane] = rectangle.x;
+      w->rectangles[RECTANGLES(count) + from + lane] = rectangle.y;
       barrier(CLK_LOCAL_MEM_FENCE);
       if (w->latest == from)
         for (uint k = 0; k < RECORD_WORDS; ++k)

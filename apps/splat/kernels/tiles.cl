@@ -7,12 +7,32 @@
 // Loads in flight of each work-item.
 #define BATCH 4
 
+// What rectangles become in the order of depths: a plane of first tiles, and
+// one of sizes, width | height << 16.
+static uint size_tiles(uint size) { return (size & 0xffff) * (size >> 16); }
+
+// Puts rectangle `from` of `rectangles`, whose first word is `word`, to place
+// `to`, and gives its tiles.
+static uint put(__global const uint *rectangles, uint stride, uint from,
+                uint word, __global uint *ordered, uint count, uint to,
+                uint tiles_x) {
+  const uint2 r = (uint2)(word, 0);
+  const uint x0 = first_column(r), y0 = first_row(r);
+  uint size = ((word >> 24 & 0xf) + 1) | ((word >> 28) + 1) << 16;
+  if (word >> 24 == LONG_RECTANGLE)
+    size = rectangles[stride + from] - (x0 | y0 << 16);
+  ordered[to] = y0 * tiles_x + x0;
+  ordered[count + to] = size;
+  return size_tiles(size);
+}
+
 // Each group has a stretch of `chunk` Gaussians of the depth order. Brings
-// their rectangles into that order, and adds up each work-item's tiles.
+// their rectangles, of which there are `stride`, into that order, and adds up
+// each work-item's tiles.
 __kernel void count_tiles(__global const uint *order,
-                          __global const uint2 *rectangles,
-                          __global uint2 *ordered, __global uint *sums,
-                          uint count, uint chunk) {
+                          __global const uint *rectangles, uint stride,
+                          __global uint *ordered, __global uint *sums,
+                          uint count, uint chunk, uint tiles_x) {
   const uint begin = min((uint)get_group_id(0) * chunk, count);
   const uint end = min(begin + chunk, count);
   const uint lanes = get_local_size(0);
@@ -21,25 +41,22 @@ __kernel void count_tiles(__global const uint *order,
   uint line = begin;
   for (; line + BATCH * lanes <= end; line += BATCH * lanes) {
     const uint i = line + lane;
-    uint2 r[BATCH];
+    uint word[BATCH];
     uint o[BATCH];
 #pragma unroll
     for (uint k = 0; k < BATCH; ++k)
       o[k] = order[i + k * lanes];
 #pragma unroll
     for (uint k = 0; k < BATCH; ++k)
-      r[k] = rectangles[o[k]];
+      word[k] = rectangles[o[k]];
 #pragma unroll
-    for (uint k = 0; k < BATCH; ++k) {
-      ordered[i + k * lanes] = r[k];
-      sum += rectangle_tiles(r[k]);
-    }
+    for (uint k = 0; k < BATCH; ++k)
+      sum += put(rectangles, stride, o[k], word[k], ordered, count,
+                 i + k * lanes, tiles_x);
   }
-  for (uint i = line + lane; i < end; i += lanes) {
-    const uint2 r = rectangles[order[i]];
-    ordered[i] = r;
-    sum += rectangle_tiles(r);
-  }
+  for (uint i = line + lane; i < end; i += lanes)
+    sum += put(rectangles, stride, order[i], rectangles[order[i]], ordered,
+               count, i, tiles_x);
   sums[get_global_id(0)] = sum;
 }
 
@@ -68,12 +85,12 @@ static uint sum_before(__local uint *sums, uint own, uint *all) {
 
 // One (tile, list entry) pair for every tile of every Gaussian, row by row, in
 // depth order; stretches as in count_tiles. The entry says whether there are
-// several tiles: the rasterizer's memory keeps those. With KEEP_PLACES, `places`
-// says where each Gaussian's pairs begin, and behind the last one how many there
-// are.
+// several tiles: the rasterizer's memory keeps those. With KEEP_PLACES,
+// `places` says where each Gaussian's pairs begin, and behind the last one how
+// many there are.
 __kernel void duplicate(__global const uint *order,
-                        __global const uint2 *ordered,
-                        __global const uint *sums, __global uint *pair_tiles,
+                        __global const uint *ordered, __global const uint *sums,
+                        __global uint *pair_tiles,
                         __global uint *pair_gaussians, __global uint *places,
                         uint count, uint chunk, uint tiles_x, uint effects) {
   __local uint lane_sums[2 * MOST_LANES];
@@ -91,8 +108,9 @@ __kernel void duplicate(__global const uint *order,
   sum_before(lane_sums, share, &next);
   for (uint first = begin; first < end; first += lanes) {
     const uint i = first + lane;
-    const uint2 r = i < end ? ordered[i] : (uint2)(0, 0);
-    const uint own = rectangle_tiles(r);
+    uint tile = i < end ? ordered[i] : 0u;
+    const uint size = i < end ? ordered[count + i] : 0u;
+    const uint own = size_tiles(size);
     const uint entry = (i < end ? order[i] : 0u) |
                        (USE_INTERSECT_TAGS && own > 1 ? SPANS_TILES : 0u);
     uint all;
@@ -104,8 +122,7 @@ __kernel void duplicate(__global const uint *order,
     if (i + 1 == count)
       places[count] = next;
 #endif
-    const uint width = rectangle_width(r);
-    uint tile = (r.x >> 16) * tiles_x + (r.x & 0xffff);
+    const uint width = size & 0xffff;
     uint column = 0;
     for (const uint last = place + own; place < last; ++place) {
       pair_tiles[place] = tile + column;

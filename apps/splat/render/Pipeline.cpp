@@ -13,6 +13,8 @@
 namespace vorion::splat {
 
 static_assert(CullReasons.size() == CULL_REASONS);
+static_assert(MaxImageSize / 8 <= 4096,
+              "kernels/rectangle.cl has 12 bits for tiles of 8 pixels");
 
 cl::NDRange itemsFor(uint32_t Count) {
   return {(static_cast<std::size_t>(Count) + GroupSize - 1) / GroupSize *
@@ -182,8 +184,8 @@ void Pipeline::countPairs() {
   Current.Ordered = words("tile rectangles", 2 * uint64_t{Current.Visible});
   Current.Sums = words("sums of pairs", By.items());
   Launch.run(TilesProgram, "count_tiles", By.items(), By.Lanes, Current.Order,
-             Current.Rectangles, Current.Ordered, Current.Sums, Current.Visible,
-             By.Chunk);
+             Current.Rectangles, Current.drawn(), Current.Ordered, Current.Sums,
+             Current.Visible, By.Chunk, Current.View.tiles[0]);
 }
 
 void Pipeline::duplicate() {
