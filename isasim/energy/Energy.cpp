@@ -121,6 +121,10 @@ EnergyModel::EnergyModel(Technology FromIn, double VoltsIn)
         factors("area " + R.Name, R.Sigma, "all areas", From.Sigma));
 }
 
+/// By which factor a voltage may be beyond the technology's law: what the rows
+/// say of energies and leakage means less and less there.
+static constexpr double BeyondLaw = 1.2;
+
 Expected<EnergyModel> EnergyModel::create(Technology From, unsigned ClockMhz,
                                           std::optional<double> Volts) {
   if (!Volts) {
@@ -133,6 +137,16 @@ Expected<EnergyModel> EnergyModel::create(Technology From, unsigned ClockMhz,
                                ClockMhz, From.Name, From.HighMhz),
                    ExitCode::Usage};
   }
+  const double Low = From.LowVolts / BeyondLaw,
+               High = From.HighVolts * BeyondLaw;
+  if (!(*Volts >= Low && *Volts <= High))
+    return Error{"",
+                 fmt::format("--voltage: {:g}, expected a number from {:.3g} "
+                             "to {:.3g}, because the law of technology {} goes "
+                             "from {:g} to {:g} V",
+                             *Volts, Low, High, From.Name, From.LowVolts,
+                             From.HighVolts),
+                 ExitCode::Usage};
   return EnergyModel(std::move(From), *Volts);
 }
 

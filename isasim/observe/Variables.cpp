@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <string>
 #include <unistd.h>
@@ -14,7 +15,22 @@
 using namespace vorion;
 
 static constexpr std::array Names{
-#define VORION_VARIABLE(NAME, EFFECT, WATCHES) std::string_view(NAME),
+#define VORION_VARIABLE(NAME, EFFECT, READERS, OPTION, WATCHES)                \
+  std::string_view(NAME),
+#include "vorion/isasim/Variables.def"
+#undef VORION_VARIABLE
+};
+
+namespace {
+struct ProgramsVariable {
+  const char *Name;
+  std::string_view Readers;
+  const char *Option; ///< of vorion-sim, which does the same
+};
+} // namespace
+static constexpr std::array ByReaders{
+#define VORION_VARIABLE(NAME, EFFECT, READERS, OPTION, WATCHES)                \
+  ProgramsVariable{NAME, READERS, OPTION},
 #include "vorion/isasim/Variables.def"
 #undef VORION_VARIABLE
 };
@@ -30,6 +46,15 @@ void isasim::warnOfMisspeltVariables(std::string_view Tool) {
       printDiagnostic(Tool, "warning", Name,
                       "no program reads this variable" + Meant);
   }
+}
+
+void isasim::warnOfUnreadVariables(std::string_view Tool) {
+  for (const ProgramsVariable &V : ByReaders)
+    if (V.Readers == "OpenCL programs" && std::getenv(V.Name))
+      printDiagnostic(
+          Tool, "warning", V.Name,
+          fmt::format("OpenCL programs alone read this variable{}",
+                      V.Option ? fmt::format(", expected {}", V.Option) : ""));
 }
 
 Error isasim::inVariable(std::string_view Name, Error E) {

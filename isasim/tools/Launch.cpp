@@ -86,9 +86,11 @@ Expected<uint32_t> KernelLaunch::reserve(uint64_t Bytes,
                            Watch->guardBytes());
     return static_cast<uint32_t>(Address);
   }
-  return usage(fmt::format("{}: {} bytes, but no free part of the {} bytes of "
+  return Error{"",
+               fmt::format("{}: {} bytes, but no free part of the {} bytes of "
                            "global memory is as large",
-                           What, Bytes, globalBytes(Device->config())));
+                           What, Bytes, globalBytes(Device->config())),
+               ExitCode::LimitReached};
 }
 
 Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,

@@ -356,6 +356,7 @@ int runSaved(const Options &O, const KernelRequest &Request,
 
 int run(const Options &O) {
   warnOfMisspeltVariables(Tool);
+  warnOfUnreadVariables(Tool);
   const Expected<Config> C = makeConfig(O, defaultMachine());
   if (!C)
     return reportError(Tool, C.error());

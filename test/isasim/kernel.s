@@ -25,8 +25,10 @@
 # KIND: argument 0 of 'scale' (a) is 'i32:1', expected a buffer
 # RUN: not vorion-sim %t.elf --global 100 --arg buf:400 --arg out:400@%t.o --arg i32:1 --arg local:99999 2>&1 | FileCheck %s --check-prefix=LOCAL
 # LOCAL: needs more than the 32768 bytes of local memory
-# RUN: not vorion-sim %t.elf --global 100 --arg buf:4000000000 --arg out:400@%t.o --arg i32:1 --arg local:9 2>&1 | FileCheck %s --check-prefix=FULL
+# RUN: sh -c 'vorion-sim %t.elf --global 100 --arg buf:4000000000 --arg out:400@%t.o --arg i32:1 --arg local:9 2> %t.err; echo "exit $?" >> %t.err'
+# RUN: FileCheck %s --check-prefix=FULL < %t.err
 # FULL: buffer 'a': 4000000000 bytes, but no free part of the 4269670400 bytes of global memory is as large
+# FULL-NEXT: exit 5
 # RUN: not vorion-sim %t.elf --global 100 --arg buf@%t.none --arg out:400@%t.o --arg i32:1 --arg local:9 2>&1 | FileCheck %s --check-prefix=NOFILE
 # NOFILE: {{.*}}.none: cannot open: No such file or directory
 # RUN: not vorion-sim %t.elf --arg i32:1 2>&1 | FileCheck %s --check-prefix=GLOBAL

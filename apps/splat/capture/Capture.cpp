@@ -214,9 +214,13 @@ Expected<Success> addPoses(const fs::path &File, LensOf Of,
     return T.error();
   const fs::path Folder = File.parent_path();
   for (TransformsView &V : T->Views) {
-    // Nothing outside the folder is opened for a size.
+    // Nothing outside the folder is opened for a size. Who draws has no
+    // --allow-outside.
     if (!staysInside(V.Pose.Name) && !V.hasSize())
-      return checkInside(File.string(), V.Pose.Name, {});
+      return Error{File.string(),
+                   fmt::format("names the file `{}`, expected one inside the "
+                               "folder, or the keys w and h",
+                               printable(V.Pose.Name))};
     V.Picture = pictureOf(Folder, V.Pose.Name).string();
   }
   if (auto Sized = setSizes(*T); !Sized)

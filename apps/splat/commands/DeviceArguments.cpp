@@ -36,13 +36,14 @@ Expected<Device> openDevice(const std::string &Name, Path Blending,
   return D;
 }
 
-void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz) {
+void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz,
+                 const std::string &By) {
   if (Mhz)
     Options.set("VORION_TIME", ClockText::ofMhz(*Mhz), "--clock");
   else if (Options.text("VORION_TIME").empty() ||
            Options.clockRuns() == ClockText::Runs::Never ||
            Options.clockRuns() == ClockText::Runs::Profiled)
-    Options.set("VORION_TIME", "on", "--time");
+    Options.set("VORION_TIME", "on", By);
 }
 
 void showBuildLog(const Launcher &L) {

@@ -25,8 +25,10 @@ Expected<Device> openDevice(const std::string &Name, Path Blending,
                             const DeviceOptions &Options);
 
 /// Turns the machine's clock on, at \p Mhz if they are given: else it stays
-/// what VORION_TIME says, or the machine's.
-void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz);
+/// what VORION_TIME says, or the machine's. \p By: the option that asks for it
+/// without a clock.
+void turnClockOn(DeviceOptions &Options, std::optional<unsigned> Mhz,
+                 const std::string &By);
 
 /// Shows what the compiler said of a program that failed to build.
 void showBuildLog(const Launcher &L);

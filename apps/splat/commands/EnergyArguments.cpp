@@ -17,8 +17,7 @@ void addEnergyOptions(CLI::App &App, EnergyArguments &A,
   App.add_option(
          "--voltage", A.Volts,
          "The chip's (turns --energy on; default: what the clock needs)")
-      ->option_text("V")
-      ->check(isBetween(0.1, 5.0));
+      ->option_text("V");
 }
 
 Expected<std::optional<EnergyRequest>>
@@ -32,12 +31,19 @@ requestedEnergy(const EnergyArguments &A, std::optional<unsigned> ClockMhz) {
       return Read.error();
     R.From = std::move(*Read);
   }
-  if (ClockMhz)
-    if (const auto Fits =
-            isasim::EnergyModel::create(R.From, *ClockMhz, R.Volts);
-        !Fits)
-      return Fits.error();
+  // A clock that is not known yet: any has a voltage that fits.
+  if (const auto Fits =
+          isasim::EnergyModel::create(R.From, ClockMhz.value_or(1), R.Volts);
+      !Fits)
+    return Fits.error();
   return std::optional(std::move(R));
+}
+
+void checkEnergyOf(Device &D, const std::optional<EnergyRequest> &Energy) {
+  if (Energy)
+    D.setTimeCheck([Request = *Energy](const TimeReport &T) {
+      return checkEnergy(T, Request);
+    });
 }
 
 } // namespace vorion::splat

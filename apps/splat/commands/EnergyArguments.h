@@ -31,4 +31,8 @@ void addEnergyOptions(CLI::App &App, EnergyArguments &A,
 Expected<std::optional<EnergyRequest>>
 requestedEnergy(const EnergyArguments &A, std::optional<unsigned> ClockMhz);
 
+/// Has \p D end a run with its first kernel where \p Energy cannot say how much
+/// it takes, rather than after the last.
+void checkEnergyOf(Device &D, const std::optional<EnergyRequest> &Energy);
+
 } // namespace vorion::splat

@@ -146,7 +146,7 @@ Expected<Success> run(GradientArguments &A, DeviceOptions Machine) {
   if (!U)
     return U.error();
   if (A.Time)
-    turnClockOn(Machine, std::nullopt);
+    turnClockOn(Machine, std::nullopt, "--time");
   auto D = openDevice(A.Device, A.Options.Blending, Machine);
   if (!D)
     return D.error();

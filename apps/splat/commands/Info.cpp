@@ -82,11 +82,14 @@ std::string textReport(const InfoArguments &A, const SceneFile &F,
         F.DrawnAs.Source.empty() ? "" : fmt::format(" ({})", F.DrawnAs.Source),
         F.DrawnAs.Dilation ? fmt::format(", dilation {}", *F.DrawnAs.Dilation)
                            : "");
-  Text += fmt::format("axes         {} by the format's documentation; {}\n",
-                      recordOf(F.Format).Axes,
-                      A.Scene.Axes.empty()
-                          ? "read as the file has them"
-                          : "changed " + A.Scene.Axes + " as asked for");
+  const SceneFormatRecord &Kind = recordOf(F.Format);
+  Text += fmt::format(
+      "axes         {} by {}; {}\n",
+      Kind.Axes.empty() ? CustomaryAxes : Kind.Axes,
+      Kind.Axes.empty() ? "custom, the format's documentation says nothing"
+                        : "the format's documentation",
+      A.Scene.Axes.empty() ? "read as the file has them"
+                           : "changed " + A.Scene.Axes + " as asked for");
   const auto Box = [&](const char *Name, const std::array<double, 3> &Low,
                        const std::array<double, 3> &High) {
     Text +=

@@ -317,7 +317,10 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
     if (auto Written = writeCameras(A.CamerasOut, *Cameras); !Written)
       return Written;
   if (wantsTime(A))
-    turnClockOn(Machine, A.ClockMhz);
+    turnClockOn(Machine, A.ClockMhz,
+                A.Time                ? "--time"
+                : A.Energy.isWanted() ? "--energy"
+                                      : "--html");
   std::optional<NumericsReport> Numerics;
   if (!A.Numerics.empty()) {
     auto Begun = NumericsReport::begin(A.Numerics, Machine);
@@ -346,7 +349,10 @@ Expected<Success> run(RenderArguments &A, DeviceOptions Machine) {
   RenderPlan Plan = requestedPlan(A, Inputs);
 
   const auto Open = [&] {
-    return openDevice(A.Device, A.Options.Blending, Machine);
+    auto Opened = openDevice(A.Device, A.Options.Blending, Machine);
+    if (Opened)
+      checkEnergyOf(*Opened, *Energy);
+    return Opened;
   };
   std::string Measured;
   if (A.Explain == "measure") {

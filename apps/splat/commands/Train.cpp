@@ -264,7 +264,8 @@ Expected<Success> check(const TrainArguments &A) {
                       Inputs.named());
 }
 
-Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
+Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine,
+                             const std::optional<EnergyRequest> &Energy) {
   if (A.isClocked())
     Machine.set("VORION_TIME", "profiled", "--time");
   auto D = openDevice(A.Device, A.Request.Blending.Kind, Machine);
@@ -274,6 +275,8 @@ Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine) {
                              "expected a Vorion device",
                              D->name()),
                  ExitCode::Usage};
+  if (D)
+    checkEnergyOf(*D, Energy);
   return D;
 }
 
@@ -286,7 +289,7 @@ Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
   const auto Out = train(
       A.Request,
       {.Check = [&A] { return check(A); },
-       .OpenDevice = [&] { return openClocked(A, Machine); },
+       .OpenDevice = [&] { return openClocked(A, Machine, *Energy); },
        .ShowBuildLog = showBuildLog,
        .Progress = showProgress,
        .EndProgress = endTrainProgress,

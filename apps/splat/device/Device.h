@@ -8,10 +8,12 @@
 
 #include <CL/cl_vorion.h>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace vorion::splat {
 
@@ -65,6 +67,12 @@ public:
   /// no clock or it is off. An Error if the device says what cannot be read.
   Expected<std::optional<TimeReport>> timeReport(const cl::Event &Event) const;
 
+  /// Whether a report fits what is to be made of it: an error ends the run.
+  using TimeCheck = std::function<Expected<Success>(const TimeReport &)>;
+  /// Launchers ask \p Check for the first report that they get.
+  void setTimeCheck(TimeCheck Check) { CheckTime = std::move(Check); }
+  const TimeCheck &timeCheck() const { return CheckTime; }
+
 private:
   struct Messages;
   Device();
@@ -78,6 +86,7 @@ private:
   unsigned ComputeUnits = 1, Lanes = 1;
   uint64_t GlobalBytes = 0, LargestAllocation = 0;
   clGetEventInfoVORION_fn EventInfo = nullptr;
+  TimeCheck CheckTime;
 };
 
 } // namespace vorion::splat

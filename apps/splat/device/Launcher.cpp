@@ -201,6 +201,13 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
     Failure = Time.error();
     return;
   }
+  if (*Time && !TimeChecked && Dev.timeCheck()) {
+    TimeChecked = true;
+    if (const auto Fits = Dev.timeCheck()(**Time); !Fits) {
+      Failure = Fits.error();
+      return;
+    }
+  }
   account({Name, 1, Seconds, Dev.counters(Done), std::move(*Time)});
 }
 

@@ -150,6 +150,7 @@ private:
   std::optional<Error> Failure;
   std::string BuildLog;
   bool Profiled = false;
+  bool TimeChecked = false; ///< Device::timeCheck()
   std::vector<StageReport> Stages;
   std::chrono::steady_clock::time_point StageStart;
   uint64_t MostBytes = 0;

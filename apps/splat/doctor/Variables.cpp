@@ -11,7 +11,7 @@
 namespace vorion::splat {
 
 static constexpr std::array Variables{
-#define VORION_VARIABLE(NAME, EFFECT, WATCHES)                                 \
+#define VORION_VARIABLE(NAME, EFFECT, READERS, OPTION, WATCHES)                \
   KnownVariable{NAME, EFFECT, WATCHES},
 #include "vorion/isasim/Variables.def"
 #undef VORION_VARIABLE

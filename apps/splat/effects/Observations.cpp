@@ -9,14 +9,17 @@ namespace vorion::splat {
 
 namespace {
 
-/// On if one of \p Variables is set to more than nothing.
+/// On if one of \p Variables is set to more than nothing, by an option or in
+/// the environment.
 Finding asked(const EffectInputs &In,
               std::initializer_list<const char *> Variables) {
   std::string Names;
   for (const char *Name : Variables) {
     const std::string Text = In.Machine.text(Name);
     if (!Text.empty())
-      return {true, std::string(Name) + "=" + Text};
+      return {true, In.Machine.giver(Name).empty()
+                        ? std::string(Name) + "=" + Text
+                        : In.Machine.giver(Name)};
     Names += (Names.empty() ? "" : ", ") + std::string(Name);
   }
   return {false, "not asked (" + Names + ")"};

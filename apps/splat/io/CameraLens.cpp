@@ -83,7 +83,10 @@ private:
                          "one",
                          By, Key));
       By = Key;
-      Optics.Model = Model.value_or(Optics.Model);
+      if (Model) {
+        Optics.Model = *Model;
+        Called = upperCase(Value->get<std::string>());
+      }
     }
     const Json *Fisheye = find("is_fisheye");
     if (!Fisheye)
@@ -96,7 +99,9 @@ private:
     else if (By && Optics.Model != LensModel::Fisheye)
       fail(fmt::format("key is_fisheye calls for OPENCV_FISHEYE, but the "
                        "camera's model is {}, expected one of both",
-                       name(Optics.Model)));
+                       Called));
+    else if (!By)
+      Called = name(LensModel::Fisheye);
     Optics.Model = LensModel::Fisheye;
   }
 
@@ -122,7 +127,7 @@ private:
     else if (Number != 0)
       fail(fmt::format("key {} calls for a distortion by {}, which a camera of "
                        "model {} does not have, expected 0",
-                       Key, Name, name(Optics.Model)));
+                       Key, Name, Called));
   }
 
   void readNumbers() {
@@ -178,6 +183,8 @@ private:
   const KeyFinder &Find;
   FourthTerm K4;
   CameraModel Optics{LensModel::OpenCv, {}};
+  /// As the file has the model's name; without one no coefficient is wrong.
+  std::string Called = "OPENCV";
   bool Full = false;
   std::optional<std::string> Problem;
 };

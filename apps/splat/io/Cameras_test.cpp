@@ -147,7 +147,11 @@ TEST(Cameras, WhatIsNotHereIsRefusedByName) {
          "OPENCV_FISHEYE does not have");
   Expect({{"camera_model", "ORTHOGRAPHIC"}, {"k1", 0.1}}, "expected 0");
   Expect({{"camera_model", "PINHOLE"}, {"is_fisheye", true}},
-         "expected one of both");
+         "but the camera's model is PINHOLE, expected one of both");
+  Expect({{"camera_model", "OPENCV"}, {"is_fisheye", true}},
+         "but the camera's model is OPENCV, expected one of both");
+  Expect({{"camera_model", "radial_fisheye"}, {"p1", 0.1}},
+         "model RADIAL_FISHEYE does not have");
   Expect({{"camera_model", 3}}, "key camera_model is 3, expected a camera "
                                 "model's name, PINHOLE, OPENCV");
   Expect({{"projection_type", {"fisheye"}}},

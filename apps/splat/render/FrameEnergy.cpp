@@ -117,6 +117,17 @@ std::string row(std::string_view Name, const Energy &E) {
 
 } // namespace
 
+Expected<Success> checkEnergy(const TimeReport &T,
+                              const EnergyRequest &Request) {
+  const auto Model =
+      EnergyModel::create(Request.From, T.ClockMhz, Request.Volts);
+  if (!Model)
+    return Model.error();
+  if (const auto Spent = Model->energyOf(workOf(T)); !Spent)
+    return Spent.error();
+  return Success{};
+}
+
 Expected<Json> frameEnergyJson(const std::vector<StageReport> &Stages,
                                const EnergyRequest &Request) {
   const auto F = energyOf(Stages, Request);

@@ -18,6 +18,11 @@ struct EnergyRequest {
   std::optional<double> Volts; ///< by the technology's law, if not given
 };
 
+/// Whether \p Request can say how much energy a run with the report \p T took:
+/// whether it knows the machine's clock and DRAM.
+Expected<Success> checkEnergy(const TimeReport &T,
+                              const EnergyRequest &Request);
+
 /// JSON of the frame: joules a unit, a stage and a kernel, and the machine's
 /// area. Null without the clock. The errors are the model's.
 Expected<nlohmann::ordered_json>

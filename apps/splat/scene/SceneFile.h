@@ -26,12 +26,15 @@ struct SceneFormatRecord {
   SceneFormat Format;
   std::string_view Name; ///< as reports have it: "compressed-ply"
   /// The directions of +x, +y and +z that the format's own documentation
-  /// states, as in Axes.h ("rdf", "rub"); readers never convert to or from
-  /// them.
+  /// states, as in Axes.h ("rub"), empty if it states none; readers never
+  /// convert to or from them.
   std::string_view Axes;
   std::string_view Ending; ///< of files' names, ".spz"; empty for folders
   std::string_view Title;  ///< for people
 };
+
+/// Those of the formats whose documentation states none.
+inline constexpr std::string_view CustomaryAxes = "rdf";
 
 /// All of them, by the number of \c SceneFormat.
 std::span<const SceneFormatRecord> sceneFormats();

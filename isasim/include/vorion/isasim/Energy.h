@@ -126,7 +126,7 @@ public:
   static constexpr unsigned Draws = 1000;
 
   /// \p Volts: by the technology's law for \p ClockMhz, if it is not given; an
-  /// error where the law has none.
+  /// error where the law has none, and for a voltage far beyond the law.
   static Expected<EnergyModel> create(Technology From, unsigned ClockMhz,
                                       std::optional<double> Volts);
 

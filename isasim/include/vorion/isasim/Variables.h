@@ -12,6 +12,10 @@ namespace vorion::isasim {
 /// program reads, if its name is nearly that of one that is read.
 void warnOfMisspeltVariables(std::string_view Tool);
 
+/// Prints a warning of \p Tool, vorion-sim, for each variable that is set and
+/// that OpenCL programs alone read.
+void warnOfUnreadVariables(std::string_view Tool);
+
 /// \p E, which says what is wrong with the text of the variable \p Name, with
 /// that name before it.
 Error inVariable(std::string_view Name, Error E);
