@@ -26,20 +26,22 @@ std::size_t distance(std::string_view A, std::string_view B) {
   return D[A.size()][B.size()];
 }
 
-/// The word of \p Known that begins with \p Word, if there is one alone.
+/// The word of \p Known that begins with \p Word, if there is one alone or all
+/// others begin with it: "table" of "table", "table32".
 std::string_view onlyOneBegunBy(std::string_view Word,
                                 std::span<const std::string> Known) {
-  constexpr std::size_t Fewest = 4; // letters, of which nobody guesses
-  if (Word.size() < Fewest)
+  constexpr std::size_t Fewest = 2; // letters; one says too little
+  const std::size_t First = Word.find_first_not_of('-');
+  if (First == std::string_view::npos || Word.size() - First < Fewest)
     return {};
-  std::string_view Found;
+  std::string_view Shortest;
   for (const std::string &K : Known)
-    if (K.starts_with(Word)) {
-      if (!Found.empty())
-        return {};
-      Found = K;
-    }
-  return Found;
+    if (K.starts_with(Word) && (Shortest.empty() || K.size() < Shortest.size()))
+      Shortest = K;
+  const bool IsOne = std::ranges::all_of(Known, [&](const std::string &K) {
+    return !K.starts_with(Word) || K.starts_with(Shortest);
+  });
+  return IsOne ? Shortest : std::string_view();
 }
 
 } // namespace

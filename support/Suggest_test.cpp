@@ -18,7 +18,10 @@ TEST(Suggest, FindsTheNearestWord) {
   EXPECT_EQ(closestTo("", Known), "");
   EXPECT_EQ(closestTo("--view", Known), "") << "what was written";
   EXPECT_EQ(closestTo("--cam", Known), "--cameras") << "begun";
-  EXPECT_EQ(closestTo("--", Known), "") << "too short to guess";
+  EXPECT_EQ(closestTo("--ca", Known), "--cameras") << "two letters";
+  EXPECT_EQ(closestTo("ren", Known), "render") << "three letters";
+  EXPECT_EQ(closestTo("--c", Known), "") << "one letter";
+  EXPECT_EQ(closestTo("--", Known), "") << "no letter";
   EXPECT_EQ(didYouMean("rendr", Known), "; did you mean render?");
   EXPECT_EQ(didYouMean("x", Known), "");
   EXPECT_EQ(closestTo(std::string(100'000, 'a'), Known), "");
@@ -29,4 +32,6 @@ TEST(Suggest, ABeginningOfTwoWordsMeansNeither) {
                                           "warps_per_socket"};
   EXPECT_EQ(closestTo("cores", Known), "cores_per_socket");
   EXPECT_EQ(closestTo("warps", Known), "");
+  const std::vector<std::string> Units = {"table32", "table", "table64"};
+  EXPECT_EQ(closestTo("tab", Units), "table") << "which begins the others";
 }

@@ -22,3 +22,6 @@ try subcommand splat rendr
 try option splat render s.ply --camera c.json
 try beginning vorion-sim k.elf --set cores=3
 try "option begun" splat render s.ply --cam c.json
+try "view begun" splat render s.ply --cameras c.json --view fro
+try "unit begun" splat render s.ply --cameras c.json --exp tab
+try "machine begun" vorion-sim k.elf --config scal

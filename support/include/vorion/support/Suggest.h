@@ -10,8 +10,9 @@ namespace vorion {
 
 /// The word of \p Known that differs least from \p Word by letters left out,
 /// put in, changed or swapped with their neighbour; of several, the first. If
-/// none is near, the only one that \p Word begins; else empty. Nobody is told
-/// what they wrote: empty, too, if \p Known has it.
+/// none is near, the one that \p Word, of two letters or more, begins, and that
+/// begins all others that it begins; else empty. Nobody is told what they
+/// wrote: empty, too, if \p Known has it.
 std::string_view closestTo(std::string_view Word,
                            std::span<const std::string> Known);
 
