@@ -85,6 +85,12 @@ std::string wrongPattern(const std::string &Pattern) {
   return Text.data();
 }
 
+/// What can be handed on with blanks around it.
+bool isOneWord(const std::string &Option) {
+  return !Option.empty() &&
+         Option.find_first_of(" \t\n\v\f\r") == std::string::npos;
+}
+
 /// Refuses \p Option, with the one that was meant if there is one like it.
 Error unknownOption(const std::string &Option) {
   const std::string Language = "-cl-std=";
@@ -112,6 +118,7 @@ Error unknownOption(const std::string &Option) {
                                     "-ffast-math",
                                     "-save-temps",
                                     "-v",
+                                    "-mllvm",
                                     "-Rpass=",
                                     "-Rpass-missed=",
                                     "-Rpass-analysis=",
@@ -208,7 +215,11 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
         return usageError(
             std::string(Argument).append(": ").append(Wrong).append(
                 ", expected a regular expression"));
-      Line.Remarks += Argument + " ";
+      Line.ForMachine += Argument + " ";
+    } else if (Argument == "-mllvm") {
+      if (++I == Arguments.size() || !isOneWord(Arguments[I]))
+        return usageError("-mllvm: expected an option of LLVM without blanks");
+      Line.ForMachine += Argument + " " + Arguments[I] + " ";
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
       Line.Prelude += warningLine(Argument.substr(2));
     } else {

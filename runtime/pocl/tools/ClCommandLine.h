@@ -17,8 +17,8 @@ struct ClCommandLine {
   /// Lines that stand before every input in OpenCL C: macros and warnings,
   /// which PoCL's options take without quotes or not at all.
   std::string Prelude;
-  /// -Rpass... for the machine's compiler, with blanks between.
-  std::string Remarks;
+  /// -Rpass... and -mllvm for the machine's compiler, with blanks between.
+  std::string ForMachine;
   std::filesystem::path Output;
   /// -v: the programs that are run are printed.
   bool Verbose = false;

@@ -70,6 +70,8 @@ constexpr std::string_view Usage =
     "                         what the compiler did, could not do, and why: "
     "'vorion' for\n"
     "                         what concerns lanes (docs/backend.md)\n"
+    "  -mllvm OPTION          an option of LLVM's, for the machine's compiler "
+    "(docs/backend.md)\n"
     "  --resources[=json|FILE]\n"
     "                         print what each function takes: registers, "
     "spills, stack,\n"
@@ -231,7 +233,7 @@ Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
   if (!Compiler.Succeeded)
     return compilerError(Input.string(), Found->Log, Compiler.Output);
   std::cerr << machineLog(Compiler.Output)
-            << (Line.Remarks.empty() ? "" : remarks(Compiler.Output))
+            << (Line.ForMachine.empty() ? "" : remarks(Compiler.Output))
             << std::flush;
   if (Found->Missing)
     return kernelError(Input.string(), Compiler.Output);
@@ -259,8 +261,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
     setenv("POCL_LEAVE_KERNEL_COMPILER_TEMP_FILES", "1", 1);
   if (Line.Verbose)
     std::cerr << versionLine(Tool) << '\n';
-  if (!Line.Remarks.empty())
-    setenv("VORION_REMARKS", Line.Remarks.c_str(), 1);
+  if (!Line.ForMachine.empty())
+    setenv("VORION_REMARKS", Line.ForMachine.c_str(), 1);
 
   std::vector<std::string> Link = {(Root / "bin/vorion-link").string(), "-o",
                                    Line.Output.string()};

@@ -96,6 +96,7 @@ void captureLaunch(const LoadedKernel &Kernel,
     return;
   }
   std::error_code Problem;
+  fs::create_directories(Folder, Problem);
   // Whole names, so that it does not matter where the launch is repeated.
   const std::string Base =
       (fs::absolute(Folder, Problem) /

@@ -33,8 +33,8 @@ constexpr size_t MaxToolOutput = 65536;
 /// Where remarks are, of which there may be several a line.
 constexpr size_t MaxRemarks = size_t{16} << 20;
 
-/// Options of vorion-clang, with blanks between: which remarks to print
-/// (docs/backend.md).
+/// Options of vorion-clang, with blanks between: which remarks to print, and
+/// -mllvm (docs/backend.md).
 const char *remarkOptions() { return std::getenv("VORION_REMARKS"); }
 
 /// Where of bitcode nothing is known but what it says itself, clang prints
