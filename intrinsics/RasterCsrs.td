@@ -18,7 +18,7 @@ def VR_MODE : BankCsr<"vr_mode", 0x7C3, "What a command does."> {
                 CsrField<"keep_last", 3, 1, "a render stores each pixel's last contributor at vr_last">];
 }
 def VR_OPTIONS : BankCsr<"vr_options", 0x7C4, "Datapath options."> {
-  let Fields = [CsrField<"exp", 0, 4, "exponential unit, VR_EXP_*; docs/rasterizer.md#exponential-units">,
+  let Fields = [CsrField<"exp", 0, 4, "exponential unit, VR_EXP_*; docs/lane-units.md#exponential-units">,
                 CsrField<"stop_at_equal", 4, 1, "0 saturated at T' < cutoff (INRIA), 1 at T' <= cutoff (gsplat)">,
                 CsrField<"skip_saturated", 5, 1, "dispatch gives no lane slot to saturated pixels">,
                 CsrField<"blend", 6, 2, "blend arithmetic, VR_BLEND_*; docs/abi.md#rasterizer">,
@@ -44,7 +44,7 @@ def VR_OUTPUT_PITCH : BankCsr<"vr_output_pitch", 0x7CD, "Bytes from one pixel ro
 def VR_LAST : BankCsr<"vr_last", 0x7CE, "Address of the word of the tile's first pixel, 4-byte aligned: how many entries of the list up to and with the last one blended, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes, backward reads it.">;
 def VR_UPSTREAM : BankCsr<"vr_upstream", 0x7CF, "Backward: address of the tile's first pixel's gradient (4 floats: dL/dr, dL/dg, dL/db, dL/dT of the final transmittance), 16-byte aligned, rows vr_output_pitch apart.">;
 def VR_BACKWARD : BankCsr<"vr_backward", 0x7EB, "Options of the backward mode."> {
-  let Fields = [CsrField<"reciprocal", 0, 3, "unit for 1/(1 - alpha), VR_RECIPROCAL_*; docs/rasterizer.md#reciprocal-units">,
+  let Fields = [CsrField<"reciprocal", 0, 3, "unit for 1/(1 - alpha), VR_RECIPROCAL_*; docs/lane-units.md#reciprocal-units">,
                 CsrField<"clamp_stops", 3, 1, "no gradient but the colour's where alpha is held at 0.99 (gsplat)">,
                 CsrField<"in_rows", 4, 1, "gather adds the rows of a tile one after the other, not as a tree">];
 }

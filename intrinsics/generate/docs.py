@@ -73,7 +73,7 @@ def descriptors(records):
 def units(records):
     yield "\n## Units of a rasterizer's lane\n"
     yield ("What a field of a CSR chooses between. The cycles of a reciprocal are a pair of lanes'. What a unit is made of "
-           "is in [the tables of the clock](tables/timing.md), what it does in [rasterizer.md](rasterizer.md#the-lanes-units).\n")
+           "is in [the tables of the clock](tables/timing.md), what it does in [lane-units.md](lane-units.md).\n")
     rows = []
     for kind, field in (("Exp", "`vr_options.exp`"), ("Blend", "`vr_options.blend`"),
                         ("Reciprocal", "`vr_backward.reciprocal`")):

@@ -1,5 +1,5 @@
 /// The exponential units, 16 lanes at a time. What they are:
-/// docs/rasterizer.md#exponential-units. Included once per vector level, as
+/// docs/lane-units.md#exponential-units. Included once per vector level, as
 /// Vector.h.
 #pragma once
 

@@ -1,5 +1,5 @@
 /// The units for 1 / (1 - alpha), 16 lanes at a time. What they are and cost:
-/// Reciprocals.h and docs/rasterizer.md#reciprocal-units. Included once per
+/// Reciprocals.h and docs/lane-units.md#reciprocal-units. Included once per
 /// vector level, as Vector.h.
 #pragma once
 

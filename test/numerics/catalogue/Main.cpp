@@ -41,9 +41,9 @@ Expected<Success> write(const Arguments &A) {
 Expected<Success> run(const Arguments &A) {
   if (A.List) {
     for (const HardCase &C : catalogue())
-      fmt::print("{:<28}{}{}\n", C.Name, C.Why, C.Long ? " (--long)" : "");
+      fmt::print("{:<41}{}{}\n", C.Name, C.Why, C.Long ? " (--long)" : "");
     for (const TrainingCase &C : trainingCases())
-      fmt::print("{:<28}{}\n", C.Name, C.Why);
+      fmt::print("{:<41}{}\n", C.Name, C.Why);
     return Success{};
   }
   if (!A.Write.empty())
