@@ -40,10 +40,10 @@
 # CHECK: chip
 # CHECK: all
 # CHECK: power: chip {{.*}} W ({{.*}} to {{.*}}), all {{.*}}, 1.150 V, technology 16nm
-# RUN: vorion-sim %t/p.elf --voltage 0.2 | FileCheck %s --check-prefix=LOW
+# RUN: vorion-sim %t/p.elf --voltage 0.5 | FileCheck %s --check-prefix=LOW
 # VOLTS: 0.800 V, technology 16nm
 # VOLTS-NEXT: note: at 0.800 V the technology's law allows {{[0-9]+}} MHz, and the clock has 530
-# LOW: note: 0.200 V is below the 0.57 V at which the technology's law begins
+# LOW: note: 0.500 V is below the 0.57 V at which the technology's law begins
 # NEGATIVE: error: {{.*}}negative.json: key energies.instruction fetched.pj is -4.8, expected a number from 0 to
 # MISSING: error: {{.*}}missing.json: key energies.tile command is missing
 # UNKNOWN: error: {{.*}}unknown.json: key areas.gate is missing

@@ -56,7 +56,8 @@ public:
   DeviceOptions watching(bool Timed) const {
     DeviceOptions O = Dev.options();
     if (O.clockRuns() == ClockText::Runs::Profiled)
-      O.set("VORION_TIME", Timed ? "on" : "");
+      // By the option of splat, whose reports say the same.
+      O.set("VORION_TIME", Timed ? "on" : "", Timed ? "--time" : "");
     return O;
   }
 
