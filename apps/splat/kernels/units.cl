@@ -1,5 +1,5 @@
 // e^power for power in [-80, 0] as the rasterizer's exponential units without a
-// table find it (docs/rasterizer.md#exponential-units): the same operations, so
+// table find it (docs/lane-units.md#exponential-units): the same operations, so
 // the same bits. One of EXP_DEGREE (2 to 4), EXP_LINEAR, EXP_SCHRAUDOLPH is
 // defined. Numbers are those of isasim/raster/ExpUnits.h.
 
