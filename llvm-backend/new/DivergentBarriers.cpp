@@ -173,7 +173,7 @@ vorion::findDivergentBarriers(Function &F) {
   return Found;
 }
 
-std::string vorion::divergentBarrierLog(const Module &M) {
+std::string vorion::divergentBarrierLog(const Module &M, StringRef Kind) {
   // Most programs are done here.
   if (none_of(M, [](const Function &F) { return isBarrierName(F.getName()); }))
     return {};
@@ -188,7 +188,8 @@ std::string vorion::divergentBarrierLog(const Module &M) {
     unifyExits(F, LoopInfo(DominatorTree(F)), /*Known=*/true,
                [](IRBuilder<> &Builder) { return Builder.getTrue(); });
     for (const DivergentBarrier &B : findDivergentBarriers(F)) {
-      Log += placeOf(B.Call->getDebugLoc()) + "warning: " + B.Warning + "\n";
+      Log +=
+          placeOf(B.Call->getDebugLoc()) + Kind.str() + ": " + B.Warning + "\n";
     }
   }
   return Log;

@@ -10,6 +10,7 @@
 #ifndef VORION_LLVM_BACKEND_DIVERGENTBARRIERS_H
 #define VORION_LLVM_BACKEND_DIVERGENTBARRIERS_H
 
+#include "llvm/ADT/StringRef.h"
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ struct DivergentBarrier {
 std::vector<DivergentBarrier> findDivergentBarriers(Function &F);
 
 /// The same for all of \p M, which has not been optimised: a line
-/// "file:line:column: warning: text" for each, as compilers' logs have them.
-std::string divergentBarrierLog(const Module &M);
+/// "file:line:column: KIND: text" for each, as compilers' logs have them; \p
+/// Kind is "warning" or "error".
+std::string divergentBarrierLog(const Module &M, StringRef Kind);
 
 } // namespace vorion
 } // namespace llvm
