@@ -217,7 +217,8 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
                 ", expected a regular expression"));
       Line.ForMachine += Argument + " ";
     } else if (Argument == "-mllvm") {
-      if (++I == Arguments.size() || !isOneWord(Arguments[I]))
+      ++I;
+      if (I == Arguments.size() || !isOneWord(Arguments[I]))
         return usageError("-mllvm: expected an option of LLVM without blanks");
       Line.ForMachine += Argument + " " + Arguments[I] + " ";
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
