@@ -78,8 +78,8 @@ def kernels_of(image):
         given = []
         for argument in filter(None, parts.rsplit(")", 1)[0].split(", ")):
             kind, size = argument.split(" ", 1)[0], int(argument.rsplit("[", 1)[1].rstrip("]"))
-            given += ["--arg", {"global": "buf:65536", "local": "local:1024",
-                                "value": "bytes:" + "04" + "00" * (size - 1)}[kind]]
+            value = "bytes:" + "04" + "00" * (size - 1)
+            given += ["--arg", {"global": "buf:65536", "local": "local:1024", "value": value, "integer": value, "float": value}[kind]]
         found.append((name, given))
     return found
 
