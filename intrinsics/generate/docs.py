@@ -7,6 +7,7 @@ usage: docs.py [--tblgen PATH] [--check] OUTPUT
 
 import argparse
 import sys
+import textwrap
 
 from records import Records, write
 
@@ -23,10 +24,14 @@ def table(header, rows):
     return "\n".join(lines) + "\n"
 
 
+def paragraph(text):
+    return textwrap.fill(text, 100, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
 def simt(records):
     yield "\n## SIMT instructions (XVortex)\n"
-    yield "R-type on custom-0. In OpenCL C and in C, `#include <vorion.h>` declares them as functions. *last* is the\n" \
-          "highest-numbered active lane.\n"
+    yield paragraph("R-type on custom-0. In OpenCL C and in C, `#include <vorion.h>` declares them as functions. *last* is "
+                    "the highest-numbered active lane.")
     rows = []
     for i in records.of("SimtInstruction"):
         operands = ", ".join(x for x in (i.Outs, i.Ins) if x)
@@ -37,8 +42,8 @@ def simt(records):
 
 def csrs(records):
     yield "\n## CSRs\n"
-    yield ("Scope: where one copy lives. Write: `none` traps, `lane` each active lane its own, `scalar` the value of "
-           "the last active lane, `push` one element per active lane in lane order.\n")
+    yield paragraph("Scope: where one copy lives. Write: `none` traps, `lane` each active lane its own, `scalar` the value "
+                    "of the last active lane, `push` one element per active lane in lane order.")
     rows = []
     for c in sorted(records.of("Csr"), key=lambda c: c.Number):
         fields = "".join(f"<br>bits {f.Low + f.Width - 1}:{f.Low} `{f.Name}`: {f.Doc}" for f in c.Fields)
@@ -48,8 +53,9 @@ def csrs(records):
 
 def counters(records):
     yield "\n## Counters\n"
-    yield ("Of the cores, and of the Raster Agents' completed commands with the pixel units' part of them. Reports and "
-           "`vx_counters` have each; `clGetEventInfoVORION` those with a token, after their name in `vx_counters`.\n")
+    yield paragraph("Of the cores, and of the Raster Agents' completed commands with the pixel units' part of them. "
+                    "Reports and `vx_counters` have each; `clGetEventInfoVORION` those with a token, after their name in "
+                    "`vx_counters`.")
     rows = []
     for kind, prefix in (("CoreCounter", ""), ("RasterCounter", "raster_")):
         for c in records.of(kind):
@@ -72,8 +78,9 @@ def descriptors(records):
 
 def units(records):
     yield "\n## Units of a rasterizer's lane\n"
-    yield ("What a field of a CSR chooses between. The cycles of a reciprocal are a pair of lanes'. What a unit is made of "
-           "is in [the tables of the clock](tables/timing.md), what it does in [lane-units.md](lane-units.md).\n")
+    yield paragraph("What a field of a CSR chooses between. The cycles of a reciprocal are a pair of lanes'. What a unit is "
+                    "made of is in [the tables of the clock](tables/timing.md), what it does in "
+                    "[lane-units.md](lane-units.md).")
     rows = []
     for kind, field in (("Exp", "`vr_options.exp`"), ("Blend", "`vr_options.blend`"),
                         ("Reciprocal", "`vr_backward.reciprocal`")):

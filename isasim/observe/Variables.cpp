@@ -14,26 +14,26 @@
 
 using namespace vorion;
 
-static constexpr std::array Names{
-#define VORION_VARIABLE(NAME, EFFECT, READERS, OPTION, WATCHES)                \
-  std::string_view(NAME),
-#include "vorion/isasim/Variables.def"
-#undef VORION_VARIABLE
-};
-
 namespace {
-struct ProgramsVariable {
+struct ReadVariable {
   const char *Name;
   std::string_view Readers;
   const char *Option; ///< of vorion-sim, which does the same
 };
 } // namespace
-static constexpr std::array ByReaders{
+
+static constexpr std::array All{
 #define VORION_VARIABLE(NAME, EFFECT, READERS, OPTION, WATCHES)                \
-  ProgramsVariable{NAME, READERS, OPTION},
+  ReadVariable{NAME, READERS, OPTION},
 #include "vorion/isasim/Variables.def"
 #undef VORION_VARIABLE
 };
+
+static constexpr auto Names = [] {
+  std::array<std::string_view, All.size()> Of;
+  std::ranges::transform(All, Of.begin(), &ReadVariable::Name);
+  return Of;
+}();
 
 void isasim::warnOfMisspeltVariables(std::string_view Tool) {
   for (char **Each = environ; *Each; ++Each) {
@@ -49,7 +49,7 @@ void isasim::warnOfMisspeltVariables(std::string_view Tool) {
 }
 
 void isasim::warnOfUnreadVariables(std::string_view Tool) {
-  for (const ProgramsVariable &V : ByReaders)
+  for (const ReadVariable &V : All)
     if (V.Readers == "OpenCL programs" && std::getenv(V.Name))
       printDiagnostic(
           Tool, "warning", V.Name,

@@ -67,14 +67,21 @@ fs::path pictureOf(const fs::path &Folder, const std::string &Name) {
   return Folder / Name;
 }
 
-/// That \p Name, which \p File gives, lies in the folder it starts from.
+/// That \p Name, which \p File gives, leaves the folder it starts from; \p
+/// Remedy: what would help.
+Error isOutside(const std::string &File, const std::string &Name,
+                std::string_view Remedy) {
+  return {File, fmt::format("names the file `{}`, expected one inside the "
+                            "folder, or {}",
+                            printable(Name), Remedy)};
+}
+
+/// That it does not, unless \p Options allow it.
 Expected<Success> checkInside(const std::string &File, const std::string &Name,
                               const CaptureOptions &Options) {
   if (Options.AllowOutside || staysInside(Name))
     return Success{};
-  return Error{File, fmt::format("names the file `{}`, expected one inside the "
-                                 "folder, or --allow-outside",
-                                 printable(Name))};
+  return isOutside(File, Name, "--allow-outside");
 }
 
 /// Of the picture \p Name, in the folder \p Masks; empty for none.
@@ -217,10 +224,7 @@ Expected<Success> addPoses(const fs::path &File, LensOf Of,
     // Nothing outside the folder is opened for a size. Who draws has no
     // --allow-outside.
     if (!staysInside(V.Pose.Name) && !V.hasSize())
-      return Error{File.string(),
-                   fmt::format("names the file `{}`, expected one inside the "
-                               "folder, or the keys w and h",
-                               printable(V.Pose.Name))};
+      return isOutside(File.string(), V.Pose.Name, "the keys w and h");
     V.Picture = pictureOf(Folder, V.Pose.Name).string();
   }
   if (auto Sized = setSizes(*T); !Sized)

@@ -45,13 +45,11 @@ static float scale_by_power(float a, int n) {
 #define LN2_HIGH 0x1.62p-1f
 #define LN2_MIDDLE 0x1.c85fep-10f
 #define LN2_LOW -0x1.718432p-35f
-// 1/3!, 1/4! and 1/5!, each in two parts.
-#define THIRD 0x1.555556p-3f
-#define THIRD_LOW -0x1.555556p-28f
-#define FOURTH 0x1.555556p-5f
-#define FOURTH_LOW -0x1.555556p-30f
-#define FIFTH 0x1.111112p-7f
-#define FIFTH_LOW -0x1.dddddep-32f
+// 1/4! and 1/5!, each in two parts. 1/3! has four times those of 1/4!.
+#define TERM_4 0x1.555556p-5f
+#define TERM_4_LOW -0x1.555556p-30f
+#define TERM_5 0x1.111112p-7f
+#define TERM_5_LOW -0x1.dddddep-32f
 // Beyond these the result is infinite or 0, or the opacity 0 or 1, anyway.
 #define MOST_SCALE 150.0f
 #define MOST_LOGIT 80.0f
@@ -76,18 +74,19 @@ static pair4 exp_pair4(float4 x, int4 *power) {
   pair4 t = two_sum4(exact, -product);
   t = fast_two_sum4(t.high, t.low - product_low - n * LN2_LOW);
 
-  // Taylor's series, since |t| <= ln 2 / 2. The terms from t^6 on are so small
-  // that a float's error of them is; that of t^11 is 2^-42 of the sum at most.
+  // Taylor's series, which |t| <= ln 2 / 2 makes short. Floats are exact enough
+  // for the terms from t^6 on. The last one, of t^11, is 2^-42 at most.
   float4 tail = (float4)(1.0f / 39916800.0f);
   tail = fma(tail, t.high, (float4)(1.0f / 3628800.0f));
   tail = fma(tail, t.high, (float4)(1.0f / 362880.0f));
   tail = fma(tail, t.high, (float4)(1.0f / 40320.0f));
   tail = fma(tail, t.high, (float4)(1.0f / 5040.0f));
   tail = fma(tail, t.high, (float4)(1.0f / 720.0f));
-  pair4 e = fast_two_sum4((float4)FIFTH, t.high * tail);
-  e.low += FIFTH_LOW;
-  // As loops, so that what one step needs is in registers.
-  float c = FOURTH, low = FOURTH_LOW;
+  pair4 e = fast_two_sum4((float4)TERM_5, t.high * tail);
+  e.low += TERM_5_LOW;
+  // The terms of t^4 and t^3, then of t^2, t and 1: as loops, so that what one
+  // step needs is in registers.
+  float c = TERM_4, low = TERM_4_LOW;
 #pragma unroll 1
   for (int i = 0; i < 2; ++i, c *= 4.0f, low *= 4.0f)
     e = horner_step(t, e, c, low);

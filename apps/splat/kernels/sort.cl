@@ -11,8 +11,8 @@
 // as long as the line. So those named "words" put what is left of a key, its
 // higher digits, above the value into one word, as soon as both fit: the digits
 // that were sorted by are not needed any more. What the last pass leaves of a
-// key is nothing, and such a word is the value. Beside two words a pair that
-// saves 45 % of the cycles of sorting guitar by depth on prototype.
+// key is nothing, and such a word is the value. With one word for a pair, where
+// it took two, sorting guitar by depth takes 45 % fewer cycles on prototype.
 //
 // A group is one warp, so that what neighbouring lanes read lies in one line
 // and a digit has one open line a core. Its lanes take neighbouring pairs, and
@@ -37,18 +37,17 @@ typedef struct {
   bool words_out;
 } form;
 
-// What the digit of a pass is.
+// Where the digit of a pass is.
 typedef struct {
-  uint shift, bits; // lower bits of a key that are left out, bits of a digit
-  uint base;        // kept: taken off the keys
+  uint shift, bits; // bits below it in a key or a word, its own
+  uint base;        // taken off the keys, which only "kept" ones have
   uint value_bits;  // words: of a value
 } place_of_digit;
 
 // The digit in the lowest bits, and what is left of the key above it. `in` is a
 // key or a word.
-static uint shifted(uint in, form f, place_of_digit at) {
-  const uint shift = f.words_in ? at.value_bits : at.shift;
-  return f.kept ? (in >> shift) - at.base : in >> shift;
+static uint shifted(uint in, place_of_digit at) {
+  return (in >> at.shift) - at.base;
 }
 
 static uint digit_of(uint shifted_key, place_of_digit at) {
@@ -81,19 +80,19 @@ static void count_digits(__global const uint *keys, __global uint *histogram,
 #pragma unroll
     for (uint k = 0; k < BATCH; ++k)
       if (!f.kept || KEPT(key[k]))
-        atomic_inc(&bins[digit_of(shifted(key[k], f, at), at)]);
+        atomic_inc(&bins[digit_of(shifted(key[k], at), at)]);
   }
   for (uint i = line + lane; i < own.end; i += lanes) {
     const uint key = keys[i];
     if (!f.kept || KEPT(key))
-      atomic_inc(&bins[digit_of(shifted(key, f, at), at)]);
+      atomic_inc(&bins[digit_of(shifted(key, at), at)]);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint d = lane; d < digits; d += lanes)
     histogram[get_group_id(0) * digits + d] = bins[d];
 }
 
-// Words have their digit at `shift`, too: above the value.
+// Of pairs and of words, whose digit lies above the value.
 __kernel void sort_count(__global const uint *keys, __global uint *histogram,
                          uint count, uint chunk, uint shift, uint digit_bits) {
   __local uint bins[BINS];
@@ -185,7 +184,7 @@ static uint value_of(const arrays *a, uint in, uint i, form f,
 
 static void store(const arrays *a, uint place, uint in, uint value, form f,
                   place_of_digit at) {
-  const uint key = shifted(in, f, at);
+  const uint key = shifted(in, at);
   if (f.words_out) {
     a->values_out[place] = key >> at.bits << at.value_bits | value;
   } else {
@@ -217,7 +216,7 @@ static void scatter(arrays a, __global const uint *histogram,
 #pragma unroll
     for (uint k = 0; k < BATCH; ++k)
       if (!f.kept || KEPT(key[k]))
-        place[k] = atomic_inc(&w->places[digit_of(shifted(key[k], f, at), at)]);
+        place[k] = atomic_inc(&w->places[digit_of(shifted(key[k], at), at)]);
 #pragma unroll
     for (uint k = 0; k < BATCH; ++k)
       if (!f.kept || KEPT(key[k]))
@@ -226,7 +225,7 @@ static void scatter(arrays a, __global const uint *histogram,
   for (uint i = line + lane; i < own.end; i += lanes) {
     const uint key = in[i];
     if (!f.kept || KEPT(key))
-      store(&a, atomic_inc(&w->places[digit_of(shifted(key, f, at), at)]), key,
+      store(&a, atomic_inc(&w->places[digit_of(shifted(key, at), at)]), key,
             value_of(&a, key, i, f, at), f, at);
   }
 }
@@ -265,7 +264,7 @@ __kernel void sort_scatter_words(__global const uint *words,
   __local workspace w;
   scatter((arrays){0, words, 0, words_out}, histogram, totals, count, chunk,
           (form){false, true, true},
-          (place_of_digit){0, digit_bits, 0, value_bits}, &w);
+          (place_of_digit){value_bits, digit_bits, 0, value_bits}, &w);
 }
 
 __kernel void

@@ -201,14 +201,15 @@ void Pipeline::duplicate() {
 }
 
 void Pipeline::sortByTile() {
-  const Sorter::Pairs Other{words("tiles of pairs", Current.Pairs),
-                            words("Gaussians of pairs", Current.Pairs)};
   const Sorter::KeyBits Bits{
       0, static_cast<unsigned>(std::bit_width(Current.tiles() - 1))};
   // Of one pass the totals say where lists are, else the sorted keys do.
   const bool OnePass = Current.Pairs != 0 && Sorter::inOnePass(Bits);
   const Sorter::Keys Wanted =
       OnePass ? Sorter::Keys::Lost : Sorter::Keys::Sorted;
+  const Sorter::Pairs Other{OnePass ? cl::Buffer()
+                                    : words("tiles of pairs", Current.Pairs),
+                            words("Gaussians of pairs", Current.Pairs)};
   if (Options.Training) {
     // Where a pair was is where its gradients go, beside those of its Gaussian.
     const cl::Buffer Entries = Current.ByTile.Values;

@@ -3,6 +3,7 @@
 #include "effects/Registry.h"
 #include "render/Pipeline.h"
 
+#include <array>
 #include <fmt/format.h>
 #include <limits>
 

@@ -3,6 +3,8 @@
 
 #include "device/Launcher.h"
 
+#include <vector>
+
 namespace vorion::splat {
 
 /// Needs the programs scan and sort to be built. Results depend on the input
@@ -36,7 +38,8 @@ public:
 
   /// Sorts \p Count pairs by some bits of their keys, stably. The result
   /// lies in one of \p A and \p B; \p Input is only read, and may be one of
-  /// them if it may be overwritten.
+  /// them if it may be overwritten. Of one pass that loses the keys, \p B needs
+  /// none if \p Input is \p A.
   Pairs sort(const Pairs &Input, const Pairs &A, const Pairs &B, uint32_t Count,
              KeyBits Bits, Keys Wanted);
 
