@@ -226,7 +226,8 @@ def RV_FCVT_WU_S : FRoundUnary<"fcvt.wu.s", 0x60, 1, "rd, frs1, rm">;
 def RV_FCVT_S_W : FRoundUnary<"fcvt.s.w", 0x68, 0, "frd, rs1, rm">;
 def RV_FCVT_S_WU : FRoundUnary<"fcvt.s.wu", 0x68, 1, "frd, rs1, rm">;
 }
+let Latency = LatencyFcmp in {
 def RV_FMV_X_W : Unary<"fmv.x.w", 0x53, 0, 0x70, 0, "f", "rd, frs1">;
-let Latency = LatencyFcmp in
 def RV_FCLASS_S : Unary<"fclass.s", 0x53, 1, 0x70, 0, "f", "rd, frs1">;
 def RV_FMV_W_X : Unary<"fmv.w.x", 0x53, 0, 0x78, 0, "f", "frd, rs1">;
+}

@@ -5,8 +5,9 @@ usage: kernels.py [--write FOLDER] [KERNEL...]
 
 The kernels are those of kernels/, with the cycles that each took on the RTL in kernels/references.json. Both ran the
 same image of memory, from the first instruction to the end, with caches that are empty at first and memory that
-answers every request after the same time. A reference holds for one image: where the compiler makes another one now,
-the kernel is an error. So is a result that is not the RTL's. FOLDER gets each kernel as KERNEL.elf.
+answers every request after the same time. A reference holds for one image, so kernels/compiled/ keeps the assembly that
+ran on the RTL. An image that differs is an error. So is a result that is not the RTL's. A new kernel's assembly is made by
+`vorion-clang -march=rv32imf_zicsr_xvortex -O2 -fno-math-errno -S`. FOLDER gets each kernel as KERNEL.elf.
 
 exit codes: 0 all kernels within 15 % and their geometric mean within 5 %, 1 not so, 2 usage
 """
@@ -27,9 +28,6 @@ HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "kernels")
 OF_ONE, OF_ALL = 0.15, 0.05
 # What both machines have: the extensions that Vortex knows, too.
 MARCH = "-march=rv32imf_zicsr_xvortex"
-# The images that ran on the RTL are older than these parts of the compiler (docs/backend.md).
-NEWER = ("enable-post-misched", "vorion-float-constants", "vorion-place-constants", "vorion-raise-invariants")
-AS_ON_THE_RTL = [word for option in NEWER for word in ("-mllvm", f"-{option}=false")]
 
 
 def compiler_folder():
@@ -39,18 +37,17 @@ def compiler_folder():
 
 def build(folder, kernels):
     """{kernel: its program}, in \\p folder."""
-    def compiled(source):
-        path = os.path.join(folder, source + ".o")
-        options = ["-O2", "-fno-math-errno"] if source.endswith(".c") else []
-        subprocess.run(["vorion-clang", MARCH, *options, *AS_ON_THE_RTL, "-c", os.path.join(HERE, source), "-o", path],
-                       check=True)
+    def assembled(source):
+        path = os.path.join(folder, os.path.basename(source) + ".o")
+        subprocess.run(["vorion-clang", MARCH, "-c", os.path.join(HERE, source), "-o", path], check=True)
         return path
-    start, inputs = compiled("start.s"), compiled("inputs.s")
+    start, inputs = assembled("start.s"), assembled("inputs.s")
     script = os.path.join(compiler_folder(), "lib", "vorion", "vorion.ld")
     programs = {}
     for kernel in kernels:
         programs[kernel] = os.path.join(folder, kernel + ".elf")
-        subprocess.run(["ld.lld-19", "-T", script, start, compiled(kernel + ".c"), inputs, "-o", programs[kernel]],
+        code = assembled(os.path.join("compiled", kernel + ".s"))
+        subprocess.run(["ld.lld-19", "-T", script, start, code, inputs, "-o", programs[kernel]],
                        check=True)
     return programs
 
@@ -117,7 +114,7 @@ def main():
     parser.add_argument("--write", metavar="FOLDER")
     parser.add_argument("kernels", nargs="*", metavar="KERNEL")
     args = parser.parse_args()
-    there = sorted(name.removesuffix(".c") for name in os.listdir(HERE) if name.endswith(".c"))
+    there = sorted(name.removesuffix(".s") for name in os.listdir(os.path.join(HERE, "compiled")))
     unknown = [kernel for kernel in args.kernels if kernel not in there]
     if unknown:
         parser.error(f"{unknown[0]}: no such kernel, expected some of {', '.join(there)}")

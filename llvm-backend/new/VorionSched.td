@@ -26,12 +26,13 @@ class Kinds<list<SchedWrite> writes, list<ProcResourceKind> units, int cycles, i
 let SchedModel = VorionModel in {
 foreach K = [
   Kinds<[WriteIALU, WriteIALU32, WriteShiftImm, WriteShiftImm32, WriteShiftReg, WriteShiftReg32,
-         WriteFMovF32ToI32, WriteFMovI32ToF32, WriteFMovF64ToI64, WriteFMovI64ToF64, WriteNop], [VorionAlu], LatencyAluCycles>,
+         WriteNop], [VorionAlu], LatencyAluCycles>,
   Kinds<[WriteIMul, WriteIMul32], [VorionAlu], LatencyMulCycles>,
   Kinds<[WriteIDiv, WriteIDiv32, WriteIRem, WriteIRem32], [VorionSfu], LatencyDivCycles, LatencyDivCycles>,
   Kinds<[WriteFAdd32, WriteFMul32, WriteFMA32, WriteFAdd64, WriteFMul64, WriteFMA64], [VorionAlu], LatencyFmaCycles>,
-  Kinds<[WriteFCmp32, WriteFSGNJ32, WriteFMinMax32, WriteFClass32, WriteFCmp64, WriteFSGNJ64, WriteFMinMax64,
-         WriteFClass64], [VorionAlu], LatencyFcmpCycles>,
+  Kinds<[WriteFCmp32, WriteFSGNJ32, WriteFMinMax32, WriteFClass32, WriteFMovF32ToI32, WriteFMovI32ToF32, WriteFCmp64,
+         WriteFSGNJ64, WriteFMinMax64, WriteFClass64, WriteFMovF64ToI64, WriteFMovI64ToF64],
+        [VorionAlu], LatencyFcmpCycles>,
   Kinds<[WriteFCvtI32ToF32, WriteFCvtF32ToI32, WriteFCvtI64ToF32, WriteFCvtF32ToI64, WriteFCvtI32ToF64,
          WriteFCvtF64ToI32, WriteFCvtI64ToF64, WriteFCvtF64ToI64, WriteFCvtF32ToF64, WriteFCvtF64ToF32],
         [VorionAlu], LatencyFcvtCycles>,

@@ -15,7 +15,7 @@ namespace vorion::isasim {
 /// Of the clock as a whole. Every change of what a run takes raises it;
 /// docs/model.md says what changed and why, and test/timing holds the cycles of
 /// small runs to it.
-inline constexpr unsigned ClockVersion = 2;
+inline constexpr unsigned ClockVersion = 3;
 
 // A structure for each group of TimingParams.def, with its defaults.
 struct TimingGroups {
