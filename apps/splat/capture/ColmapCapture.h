@@ -1,0 +1,19 @@
+// Captures whose poses COLMAP found.
+#pragma once
+
+#include "capture/CaptureFiles.h"
+
+namespace vorion::splat {
+
+/// Adds the views and points of the model at \p F.
+Expected<Success> readColmap(const Location &F, const CaptureOptions &Options,
+                             Capture &C);
+
+/// Adds its cameras alone.
+Expected<Success> addColmapCameras(const Location &F, LensOf Of,
+                                   CaptureCameras &To);
+
+/// Adds its files, and what they name as far as they can be read.
+void addColmapFiles(const Location &F, std::vector<std::filesystem::path> &To);
+
+} // namespace vorion::splat
