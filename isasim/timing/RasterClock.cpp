@@ -234,20 +234,20 @@ void RasterClock::take() {
   // What is still written behind has the port first.
   const uint64_t Begun = Behind ? std::max(At + Timing.StartCycles, Fetch.now())
                                 : At + Timing.StartCycles;
-  // The whole tile is cleared, a row of banks at a time, unless that was done
-  // as the last one of its buffer was written.
-  const unsigned Pixels = unsigned{Work.What.Width} * Work.What.Height;
-  OfLanes.Moved += Pixels;
+  OfLanes.Moved += uint64_t{Work.What.Width} * Work.What.Height;
   if (Work.What.IsBackward)
     OfLanes.Gradients += Work.Counts.Blends;
   else
     OfLanes.Blended[blendOf(Work.What.Units)] += Work.Counts.Blends;
-  spend(RasterCycle::Begin,
-        Timing.StartCycles +
-            (IsDirty ? (Pixels + Timing.Banks - 1) / Timing.Banks : 0));
+  // The whole tile is cleared, a row of banks at a time, unless that was done
+  // as the last one of its buffer was written. Its rows begin in rows of banks.
+  const unsigned RowsOfBanks =
+      Work.What.Height * ((Work.What.Width + Timing.Banks - 1) / Timing.Banks);
+  spend(RasterCycle::Begin, Timing.StartCycles + (IsDirty ? RowsOfBanks : 0));
   Fetch.begin(Begun);
   Fetch.beginSet(GaussianFetch::Others);
   Number = Dispatches = 0;
+  BlendedAt = 0;
   Now = Stage::Fetch;
 }
 
@@ -307,8 +307,8 @@ void RasterClock::fetched() {
     const uint64_t Ready = Fetch.recordAt(Dispatches);
     if (Ready == Turn::Never)
       break;
-    dispatch(Work.Gaussians[Dispatches], Ready);
-    Fetch.hold(Dispatches, DispatchAt);
+    dispatch(Work.Gaussians[Dispatches], Ready + Timing.RecordCycles);
+    Fetch.hold(Dispatches, DispatchAt + 1); // its entry is free a cycle later
   }
   const bool IsLast = Number == Work.Gaussians.size();
   const bool IsBatch = Number != 0 && endsBatch(Number - 1);
@@ -362,6 +362,7 @@ void RasterClock::dispatch(const GaussianWork &G, uint64_t Ready) {
   Spent.LaneSlots += Slots;
   OfLanes.Evaluated[expOf(Work.What.Units)] += Slots;
   spend(RasterCycle::Blend, std::max<uint64_t>(Cycles, Timing.ClipCycles));
+  BlendedAt = DispatchAt;
 }
 
 /// Rows of blocks are tested one a cycle, and a block that is left takes a
@@ -404,10 +405,12 @@ uint64_t RasterClock::safeAt(const GaussianWork &G, unsigned Cycles) const {
   return Safe;
 }
 
-/// Dispatch is done: the lanes empty, then the tile is written.
+/// Dispatch is done: the lanes empty, then the tile is written. A pixel can be
+/// read in the cycle in which it gets its last value.
 void RasterClock::flush() {
-  if (!Work.Gaussians.empty() && !Work.What.IsBackward)
-    spend(RasterCycle::Flush, laneDepth(Work.What.Units));
+  const uint64_t Emptied = BlendedAt + laneDepth(Work.What.Units) - 1;
+  if (BlendedAt != 0 && !Work.What.IsBackward && Emptied > DispatchAt)
+    spend(RasterCycle::Flush, Emptied - DispatchAt);
   InLanes = {};
   Draining = {};
   At = DispatchAt;
@@ -465,9 +468,11 @@ void RasterClock::drained() {
     return;
   const uint64_t Next =
       std::max(DispatchAt + 1, Taken > WriteCycles ? Taken - WriteCycles : 0);
-  spend(RasterCycle::Drain, Next - DispatchAt);
-  At = Next;
-  if (Draining.Row == Work.What.Height)
+  const bool IsLast = Draining.Row == Work.What.Height;
+  spend(RasterCycle::Drain,
+        Next - DispatchAt + (IsLast ? Timing.PortCycles : 0));
+  At = DispatchAt;
+  if (IsLast)
     Now = Stage::Done;
 }
 
@@ -481,10 +486,12 @@ void RasterClock::writeBehind(MemorySystem &Memory) {
 /// As drained().
 void RasterClock::writtenBehind() {
   const uint64_t Taken = Fetch.readyAt(GaussianFetch::EvenOthers);
+  const bool IsLast = Behind->Next.Row == Behind->Work.What.Height;
   Behind->At = Taken == Turn::Never
                    ? Turn::Never
                    : std::max(Fetch.now(),
-                              Taken > WriteCycles ? Taken - WriteCycles : 0);
+                              Taken > WriteCycles ? Taken - WriteCycles : 0) +
+                         (IsLast ? Timing.PortCycles : 0);
 }
 
 /// Whoever waits for the buffer, or has nothing else to do, spent its time on

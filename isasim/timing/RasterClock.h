@@ -212,6 +212,8 @@ private:
   uint64_t TakenAt = 0;  ///< of Work
   size_t Number = 0;     ///< of the Gaussian that is fetched next
   size_t Dispatches = 0; ///< Gaussians that have been dispatched or dropped
+  /// When the last box of Work had its last lane; 0 if there was none.
+  uint64_t BlendedAt = 0;
   GaussianFetch Fetch;
   static constexpr size_t Recent = 8;
   std::array<Dispatched, Recent> InLanes{};
