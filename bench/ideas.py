@@ -22,6 +22,9 @@ IDEAS = [
     ("blocks outside of the ellipse skipped", "timing.raster.skip_blocks=1", ()),
     ("closed blocks skipped", "timing.raster.skip_blocks=2", ()),
     ("both kinds of block", "timing.raster.skip_blocks=3", ()),
+    ("64 places for Gaussians", "timing.raster.buffer_entries=64", ()),
+    ("128 places for Gaussians", "timing.raster.buffer_entries=128", ()),
+    ("64 places, both kinds of block", "timing.raster.buffer_entries=64,timing.raster.skip_blocks=3", ()),
     ("closed pixels skipped", "", ("--skip-saturated",)),
     ("second buffer, both kinds of block", "timing.raster.tile_overlap=2,timing.raster.skip_blocks=3", ()),
 ]

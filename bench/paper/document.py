@@ -11,7 +11,8 @@ HEAD = f"""# The paper's results, measured here
 
 `scripts/paper.sh` makes this page (at most six hours of two cores, resumable); do not edit it. Each
 figure of the paper about rendering and training stands beside ours. The page behind each claim has
-tables, the ratio to the paper's figure, what bounds it, and the command.
+tables, the ratio to the paper's figure, what bounds it, and the command. Of claims that do not hold
+a page says [what would make them hold](paper/changes.md).
 
 | | |
 |---|---|

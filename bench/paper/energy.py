@@ -46,6 +46,11 @@ def against(found, most):
     return HOLDS if found["high"] <= most else NOT if found["low"] > most else OPEN
 
 
+def area_verdict(um2):
+    """Whether the interval of 90 % has the paper's area in it."""
+    return OPEN if um2["low"] <= PAPER_MM2 * 1e6 <= um2["high"] else NOT
+
+
 def counted(verdicts):
     """One verdict of all, or how many have each."""
     if len(set(verdicts)) == 1:
@@ -73,8 +78,7 @@ def claims_of(data):
         out.append(power_claim(f"under 600 mW at {CLOCKS[1]} MHz, mean of a frame", slow, "chip_watts"))
     one = (fast or slow)[0]
     chip = one["area"]["chip_um2"]
-    within = chip["low"] <= PAPER_MM2 * 1e6 <= chip["high"]
-    out.append({"claim": "cores and rasterizers take 1.6 mm2", "paper": "1.6 mm2", "verdict": OPEN if within else NOT,
+    out.append({"claim": "cores and rasterizers take 1.6 mm2", "paper": "1.6 mm2", "verdict": area_verdict(chip),
                 "ours": f"{estimate(chip, 1e-6)} mm2", "ratio": f"{chip['value'] / 1e6 / PAPER_MM2:.2f}", "bound": "",
                 "command": one["command"]})
     return out

@@ -36,9 +36,29 @@ def _of_rasterizers(count):
     return {"machine": "scaled", "clusters": clusters, "sockets_per_cluster": sockets, "cores_per_socket": cores}
 
 
+def changed(name, **settings):
+    """The name of a machine with other values; __ stands for the dots of a setting."""
+    return "+".join([name, *(f"{key.replace('__', '.')}={value}" for key, value in sorted(settings.items()))])
+
+
+def _with(base, settings):
+    """A configuration in which settings, key=value, have other values."""
+    for setting in settings:
+        key, value = setting.split("=")
+        *groups, last = key.split(".")
+        place = base
+        for group in groups:
+            place = place.setdefault(group, {})
+        place[last] = int(value)
+    return base
+
+
 def config(name):
     """The configuration, as VORION_CONFIG takes it: of a named machine, of <count>-rasterizers, of
-    scaled-<count>-channels, or of one of SMALL."""
+    scaled-<count>-channels, of one of SMALL, or of one of these that is changed()."""
+    name, *settings = name.split("+")
+    if settings:
+        return _with(config(name), settings)
     if name.endswith("-rasterizers"):
         return _of_rasterizers(int(name.removesuffix("-rasterizers")))
     if name.endswith("-channels"):

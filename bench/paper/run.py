@@ -17,6 +17,7 @@ import sys
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(FOLDER))
 
+import changes  # noqa: E402
 import choices  # noqa: E402
 import clocks  # noqa: E402
 import depth  # noqa: E402
@@ -34,7 +35,7 @@ import tiles  # noqa: E402
 import training  # noqa: E402
 
 SECTIONS = {"rates": rates, "choices": choices, "speedup": speedup, "clocks": clocks, "tails": tails, "depth": depth,
-            "scaling": scaling, "tiles": tiles, "identical": identical, "energy": energy, "training": training}
+            "scaling": scaling, "tiles": tiles, "identical": identical, "energy": energy, "changes": changes, "training": training}
 # The scenes of the tables, chosen before anything was measured, and those that are drawn larger, too.
 SCENES = ("guitar", "truck", "garden_outdoor")
 LARGE, LARGE_WIDTH = ("guitar", "truck"), 1920

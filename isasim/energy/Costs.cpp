@@ -174,6 +174,7 @@ std::span<const FreeEvent> freeEvents() {
       {"time", "links"},
       {"time", "rasterizers"},
       {"time", "rasterizer lanes"},
+      {"time", "places for Gaussians"},
       {"time", "second pixel buffers"},
       {"time", "block tests"},
       {"time", "maps of closed blocks"},
@@ -214,9 +215,10 @@ std::span<const AreaCost> areaCosts() {
          KibBits},
         {"data caches", "KiB of data caches", "SRAM bit", KibBits},
         {"rasterizer lanes", RasterLane, "register bit", 1200},
-        // A tile of 64 x 64 pixels of 128 bits; 16 records of 48 bytes.
+        // A tile of 64 x 64 pixels of 128 bits.
         {"pixel buffers", "rasterizers", "buffer bit", 64 * 64 * 128},
-        {"rasterizer control", "rasterizers", "buffer bit", 16 * 48 * 8},
+        // A record of 48 bytes.
+        {"rasterizer control", "places for Gaussians", "buffer bit", 48 * 8},
         // Pixels from 16 lanes to 16 banks and back.
         {"rasterizer control", "rasterizers", "choice bit", 2 * 16 * 15 * 128},
         {"rasterizer control", "rasterizers", "gate", 30'000},

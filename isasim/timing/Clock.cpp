@@ -297,6 +297,8 @@ void Clock::collectTimes(TimeReport &R) const {
   Add("cores", Each(Shape.cores()));
   Add("core lanes", Each(uint64_t{Shape.cores()} * Shape.LanesPerWarp));
   Add("rasterizers", Each(Shape.sockets()));
+  Add("places for Gaussians",
+      Each(uint64_t{Shape.sockets()} * Timing.Raster.BufferEntries));
   if (Timing.Raster.TileOverlap == 2)
     Add("second pixel buffers", Each(Shape.sockets()));
   if (Timing.Raster.SkipBlocks & raster::OutsideEllipse)
