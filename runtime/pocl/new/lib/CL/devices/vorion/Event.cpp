@@ -9,7 +9,7 @@ namespace vorion {
 
 cl_int CL_API_CALL getEventInfo(cl_event Event, cl_uint Name, size_t Size,
                                 void *Value, size_t *SizeRet) {
-  if (!IS_CL_OBJECT_VALID(Event) ||
+  if (!POCL_IS_OF_KIND(Event, EVENT) ||
       Event->command_type != CL_COMMAND_NDRANGE_KERNEL || !Event->queue ||
       strcmp(Event->queue->device->ops->device_name, "vorion") != 0)
     return CL_INVALID_EVENT;
