@@ -160,6 +160,34 @@ TEST_F(Arguments, AMappingOutlivesTheCopyToTheDevice) {
   EXPECT_EQ(Device.download<int32_t>(Copied, 18)[17], 5);
 }
 
+TEST_F(Arguments, FlagsThatMeanNothingAreRefused) {
+  cl_int Status = CL_SUCCESS;
+  for (const cl_mem_flags Flag :
+       {cl_mem_flags{1} << 6, cl_mem_flags{1} << 30, cl_mem_flags{1} << 31}) {
+    clCreateBuffer(Device.context()(), Flag, 64, nullptr, &Status);
+    EXPECT_EQ(Status, CL_INVALID_VALUE) << Flag;
+  }
+  const cl::Image2D Image(Device.context(), CL_MEM_READ_WRITE,
+                          {CL_RGBA, CL_UNSIGNED_INT8}, 16, 16);
+  const std::array<std::size_t, 3> Zero{0, 0, 0}, Four{4, 4, 1};
+  std::size_t Row = 0;
+  for (const cl_map_flags Flags :
+       {cl_map_flags{0xff0},
+        cl_map_flags{CL_MAP_READ | CL_MAP_WRITE_INVALIDATE_REGION},
+        cl_map_flags{CL_MAP_WRITE | CL_MAP_WRITE_INVALIDATE_REGION}}) {
+    clEnqueueMapBuffer(Device.queue()(), Data(), CL_TRUE, Flags, 0, 4, 0,
+                       nullptr, nullptr, &Status);
+    EXPECT_EQ(Status, CL_INVALID_VALUE) << Flags;
+    clEnqueueMapImage(Device.queue()(), Image(), CL_TRUE, Flags, Zero.data(),
+                      Four.data(), &Row, nullptr, 0, nullptr, nullptr, &Status);
+    EXPECT_EQ(Status, CL_INVALID_VALUE) << Flags;
+  }
+  EXPECT_EQ(clGetSupportedImageFormats(
+                Device.context()(), CL_MEM_READ_ONLY | CL_MEM_WRITE_ONLY,
+                CL_MEM_OBJECT_IMAGE2D, 0, nullptr, nullptr),
+            CL_INVALID_VALUE);
+}
+
 TEST_F(Arguments, OptionsWithoutAValueAreRefused) {
   cl::Program P(Device.context(), Source);
   for (const char *Option : {"-D", "-I", "-cl", "-cl-nothing", "-x"})

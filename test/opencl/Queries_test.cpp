@@ -115,6 +115,17 @@ TEST_F(Queries, EveryExtensionHasAVersion) {
                        std::istream_iterator<std::string>(List), {}));
 }
 
+/// The platform listed two that no device has.
+TEST_F(Queries, ThePlatformListsNothingThatTheDeviceLacks) {
+  const cl::Platform Platform(device().getInfo<CL_DEVICE_PLATFORM>());
+  std::istringstream List(Platform.getInfo<CL_PLATFORM_EXTENSIONS>());
+  const std::set<std::string> Names(std::istream_iterator<std::string>(List),
+                                    {});
+  // They are the platform's own.
+  EXPECT_EQ(Names, (std::set<std::string>{"cl_khr_icd", "cl_khr_priority_hints",
+                                          "cl_khr_throttle_hints"}));
+}
+
 TEST_F(Queries, AllMemoryThatIsReportedCanBeUsedByAKernel) {
   // Four buffers take all of it; a launch still has room, and a fifth has none.
   const auto Most = device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
