@@ -188,6 +188,31 @@ TEST_F(Arguments, FlagsThatMeanNothingAreRefused) {
             CL_INVALID_VALUE);
 }
 
+/// The kernel got the handle of the host for such an image, and ended it.
+TEST_F(Arguments, TypesOfImagesAndSamplersMayHaveOtherNames) {
+  std::string Log;
+  const cl::Program P = Device.build(
+      "typedef image2d_t picture;\n"
+      "typedef sampler_t reading;\n"
+      "kernel void f(read_only picture i, reading s, global uint4 *o) {\n"
+      "  o[0] = read_imageui(i, s, (int2)(1, 1));\n"
+      "}\n",
+      Log);
+  ASSERT_EQ(Log, "");
+  std::vector<uint8_t> Texels(64, 9);
+  const cl::Image2D Image(Device.context(),
+                          CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+                          {CL_RGBA, CL_UNSIGNED_INT8}, 4, 4, 0, Texels.data());
+  const cl::Sampler Reading(Device.context(), CL_FALSE, CL_ADDRESS_CLAMP,
+                            CL_FILTER_NEAREST);
+  cl::Kernel F(P, "f");
+  EXPECT_EQ(F.setArg(0, Image), CL_SUCCESS);
+  EXPECT_EQ(F.setArg(1, Reading), CL_SUCCESS);
+  EXPECT_EQ(F.setArg(2, Data), CL_SUCCESS);
+  Device.run(F, 1, 1);
+  EXPECT_EQ(Device.download<int32_t>(Data, 4), (std::vector<int32_t>(4, 9)));
+}
+
 TEST_F(Arguments, OptionsWithoutAValueAreRefused) {
   cl::Program P(Device.context(), Source);
   for (const char *Option : {"-D", "-I", "-cl", "-cl-nothing", "-x"})
