@@ -215,6 +215,19 @@ TEST_F(ProgramScope, LinkedPartsShareThem) {
             std::string::npos);
 }
 
+/// A kernel that read such a constant failed when it started.
+TEST_F(ProgramScope, AConstantThatNoPartHasIsNamed) {
+  cl::Program Part(Device.context(),
+                   std::string("extern constant int table[4];\n"
+                               "kernel void go(global int *out) {\n"
+                               "  out[0] = table[1];\n"
+                               "}\n"));
+  EXPECT_EQ(Part.build(), CL_BUILD_PROGRAM_FAILURE);
+  EXPECT_NE(Part.getBuildInfo<CL_PROGRAM_BUILD_LOG>(cl::Device(device(), true))
+                .find("the variable table is declared, but no part"),
+            std::string::npos);
+}
+
 TEST_F(ProgramScope, AnAlignmentThatIsAskedForIsKept) {
   const cl::Program Program = build(R"(
 global char first;

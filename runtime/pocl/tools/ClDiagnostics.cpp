@@ -65,6 +65,10 @@ Error compilerError(const std::string &Input, const std::string &Log,
     return {Input, "there is no function " +
                        Symbol->substr(0, Symbol->find(' ')) +
                        ", expected its definition in the file"};
+  if (const auto Variable = after(Output, "the variable "))
+    return {Input, "there is no variable " +
+                       Variable->substr(0, Variable->find(' ')) +
+                       ", expected its definition in the file"};
   if (const auto Option = after(Output, "Invalid build option: "))
     return {"", *Option + ": unknown option, expected one of OpenCL C 1.2's",
             ExitCode::Usage};

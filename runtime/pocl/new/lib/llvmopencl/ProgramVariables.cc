@@ -100,11 +100,10 @@ private:
   bool collect() {
     bool Complete = true;
     for (GlobalVariable &G : M.globals()) {
-      if (!isVariable(G))
-        continue;
       if (G.hasInitializer()) {
-        Places[&G] = 0;
-      } else if (!G.use_empty()) {
+        if (isVariable(G))
+          Places[&G] = 0;
+      } else if (isOfProgram(G) && !G.use_empty()) {
         Log += "the variable " + G.getName().str() +
                " is declared, but no part of the program has it\n";
         Complete = false;
