@@ -338,6 +338,23 @@ TEST_F(Spirv, WhatIsNoModuleForOpenClIsNamed) {
   EXPECT_EQ(Status, CL_INVALID_VALUE);
 }
 
+/// Cuts between two instructions were found by the translator, or by nobody.
+TEST_F(Spirv, AModuleThatIsCutOffAnywhereIsRefused) {
+  for (const char *Name : {"spec", "shared", "kernels"}) {
+    const Bytes Whole = module(Name);
+    std::vector<std::size_t> Taken;
+    for (std::size_t Size = 4; Size < Whole.size(); Size += 4) {
+      cl_int Status = CL_SUCCESS;
+      create({Whole.begin(), Whole.begin() + static_cast<long>(Size)}, Status);
+      if (Status != CL_INVALID_VALUE)
+        Taken.push_back(Size);
+    }
+    // Behind the memory model: an empty module.
+    EXPECT_EQ(Taken.size(), 1U)
+        << Name << ": " << testing::PrintToString(Taken);
+  }
+}
+
 TEST_F(Spirv, WhatTheDeviceDoesNotOfferIsNamed) {
   EXPECT_NE(refusal(module("kernels64"))
                 .find("the module's addresses are Physical64, the device's "

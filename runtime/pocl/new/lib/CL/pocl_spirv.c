@@ -2,6 +2,7 @@
 
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The numbers are those of the SPIR-V specification. */
@@ -15,13 +16,20 @@
 
 enum {
   OP_MEMORY_MODEL = 14,
+  OP_ENTRY_POINT = 15,
   OP_CAPABILITY = 17,
   OP_SPEC_CONSTANT_TRUE = 48,
   OP_SPEC_CONSTANT_FALSE = 49,
   OP_SPEC_CONSTANT = 50,
+  OP_FUNCTION = 54,
+  OP_FUNCTION_END = 56,
+  OP_FUNCTION_CALL = 57,
+  OP_VARIABLE = 59,
   OP_DECORATE = 71
 };
-enum { DECORATION_SPEC_ID = 1 };
+enum { DECORATION_SPEC_ID = 1, DECORATION_LINKAGE = 41 };
+/* No number of a result is larger: the specification's universal limit. */
+enum { MOST_RESULTS = 0x3fffff };
 enum { CAPABILITY_SHADER = 1, CAPABILITY_KERNEL = 6 };
 enum { ADDRESSING_PHYSICAL32 = 1, ADDRESSING_PHYSICAL64 = 2 };
 
@@ -105,6 +113,68 @@ static int has_capability(const void *il, size_t length, uint32_t number) {
   return 0;
 }
 
+/* Words that an instruction has at least, as far as they are read here. */
+static uint32_t least_words(uint32_t kind) {
+  switch (kind) {
+  case OP_CAPABILITY:
+    return 2;
+  case OP_MEMORY_MODEL:
+  case OP_DECORATE:
+    return 3;
+  case OP_ENTRY_POINT:
+  case OP_FUNCTION_CALL:
+  case OP_VARIABLE:
+    return 4;
+  case OP_FUNCTION:
+    return 5;
+  default:
+    return 1;
+  }
+}
+
+/* The function or variable that the instruction at this word tells of, or 0. */
+static uint32_t told_of(const void *il, size_t at) {
+  switch (word_at(il, at) & 0xffff) {
+  case OP_ENTRY_POINT:
+    return word_at(il, at + 2);
+  case OP_FUNCTION_CALL:
+    return word_at(il, at + 3);
+  case OP_DECORATE:
+    return word_at(il, at + 2) == DECORATION_LINKAGE ? word_at(il, at + 1) : 0;
+  default:
+    return 0;
+  }
+}
+
+/* What is missing if the module ends before it is whole, or a null pointer.
+ * Functions come last, and what is told of them comes before. */
+static const char *missing_at_end(const void *il, size_t length) {
+  const size_t words = length / sizeof(uint32_t);
+  size_t at = HEADER_WORDS;
+  if (!find(il, length, OP_MEMORY_MODEL, &at))
+    return "a memory model";
+  unsigned char *is_there = calloc(MOST_RESULTS + 1, 1);
+  if (!is_there)
+    return NULL; /* the translator finds out */
+  int is_inside = 0;
+  for (at = HEADER_WORDS; at < words; at += word_at(il, at) >> 16) {
+    const uint32_t kind = word_at(il, at) & 0xffff;
+    if (kind == OP_FUNCTION || kind == OP_VARIABLE)
+      is_there[word_at(il, at + 2) & MOST_RESULTS] = 1;
+    if (kind == OP_FUNCTION || kind == OP_FUNCTION_END)
+      is_inside = kind == OP_FUNCTION;
+  }
+  int is_whole = 1;
+  for (at = HEADER_WORDS; at < words; at += word_at(il, at) >> 16) {
+    const uint32_t result = told_of(il, at);
+    is_whole &= result == 0 || is_there[result & MOST_RESULTS];
+  }
+  free(is_there);
+  return is_inside   ? "the end of its last function"
+         : !is_whole ? "a function or variable that it tells of"
+                     : NULL;
+}
+
 int pocl_spirv_is_kernel_module(const void *il, size_t length,
                                 char text[POCL_SPIRV_TEXT]) {
   const size_t words = length / sizeof(uint32_t);
@@ -122,10 +192,7 @@ int pocl_spirv_is_kernel_module(const void *il, size_t length,
   for (size_t at = HEADER_WORDS; at < words;) {
     const uint32_t size = word_at(il, at) >> 16;
     const uint32_t kind = word_at(il, at) & 0xffff;
-    const uint32_t least = kind == OP_MEMORY_MODEL ? 3
-                           : kind == OP_CAPABILITY ? 2
-                                                   : 1;
-    if (size < least || size > words - at) {
+    if (size < least_words(kind) || size > words - at) {
       snprintf(text, POCL_SPIRV_TEXT,
                "the module of SPIR-V is damaged: the instruction at byte %zu "
                "has %u words, %zu are left",
@@ -134,8 +201,15 @@ int pocl_spirv_is_kernel_module(const void *il, size_t length,
     }
     at += size;
   }
-  if (has_capability(il, length, CAPABILITY_KERNEL))
-    return 1;
+  if (has_capability(il, length, CAPABILITY_KERNEL)) {
+    const char *missing = missing_at_end(il, length);
+    if (!missing)
+      return 1;
+    snprintf(text, POCL_SPIRV_TEXT,
+             "the module of SPIR-V is cut off, expected %s behind byte %zu",
+             missing, length);
+    return 0;
+  }
   snprintf(text, POCL_SPIRV_TEXT,
            has_capability(il, length, CAPABILITY_SHADER)
                ? "the module of SPIR-V is for Vulkan (capability Shader), "
