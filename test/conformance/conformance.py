@@ -37,7 +37,7 @@ from suite import OUTCOMES, Problem
 
 
 def options():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="conformance.sh", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", nargs="?")
     suites = parser.add_mutually_exclusive_group()
     suites.add_argument("--pocl", action="store_true", help="PoCL's own tests")
