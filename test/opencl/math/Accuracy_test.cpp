@@ -20,6 +20,7 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace vorion::test {
@@ -48,6 +49,13 @@ template <> struct Spelled<float> {
 template <> struct Spelled<double> {
   static constexpr const char *Name = "double";
 };
+
+template <typename Real> std::vector<MathFunction> functionsOf() {
+  std::vector<MathFunction> All(mathFunctions().begin(), mathFunctions().end());
+  if constexpr (std::is_same_v<Real, float>)
+    All.insert(All.end(), floatFunctions().begin(), floatFunctions().end());
+  return All;
+}
 
 /// Vectors have code of their own in the library; one width stands for all.
 constexpr unsigned Width = 4;
@@ -96,7 +104,7 @@ private:
     std::string Vectors = "#undef WHOLE\n#define WHOLE convert_int" + Wide +
                           "\n#undef REAL\n#define REAL(c) ((" + Name + Wide +
                           ")(c))\n";
-    for (const MathFunction &F : mathFunctions()) {
+    for (const MathFunction &F : functionsOf<Real>()) {
       if (!Numbers.emplace(F.Expression, Numbers.size()).second)
         continue;
       const std::string Head =
@@ -189,6 +197,17 @@ INSTANTIATE_TEST_SUITE_P(Functions, MathAccuracy,
                                            mathFunctions().end()),
                          nameOf);
 
+class FloatAccuracy : public testing::TestWithParam<MathFunction> {};
+
+TEST_P(FloatAccuracy, StaysWithinTheLimit) {
+  measure<float>(GetParam(), GetParam().SingleLimit);
+}
+
+INSTANTIATE_TEST_SUITE_P(Functions, FloatAccuracy,
+                         testing::ValuesIn(floatFunctions().begin(),
+                                           floatFunctions().end()),
+                         nameOf);
+
 void printTable() {
   const auto Text = [](double Limit) {
     char Digits[32];
@@ -206,6 +225,9 @@ void printTable() {
                   Worst[F.Name].Double, Text(F.DoubleLimit).c_str());
     Last = F.Name;
   }
+  for (const MathFunction &F : floatFunctions())
+    std::printf("| `%s` | | | %.2f | %s | | |\n", F.Name, Worst[F.Name].Single,
+                Text(F.SingleLimit).c_str());
 }
 
 } // namespace

@@ -208,8 +208,62 @@ const MathFunction Functions[] = {
     {"trunc", "trunc(x)", TO_WHOLE(mpfr_trunc), 0.5, 0.5, 0.5, Moderate},
 };
 
+/// half_ functions have limits where angles are below 2^16.
+const MathFunction FloatFunctions[] = {
+    {"half_cos", "half_cos(x)", OF_ONE(mpfr_cos), None, 8192, None, Moderate},
+    {"half_divide", "half_divide(x, y)", OF_TWO(mpfr_div), None, 8192, None,
+     Moderate, Moderate},
+    {"half_exp", "half_exp(x)", OF_ONE(mpfr_exp), None, 8192, None, Moderate},
+    {"half_exp10", "half_exp10(x)", OF_ONE(mpfr_exp10), None, 8192, None,
+     Moderate},
+    {"half_exp2", "half_exp2(x)", OF_ONE(mpfr_exp2), None, 8192, None,
+     Moderate},
+    {"half_log", "half_log(x)", OF_ONE(mpfr_log), None, 8192, None, Positive},
+    {"half_log10", "half_log10(x)", OF_ONE(mpfr_log10), None, 8192, None,
+     Positive},
+    {"half_log2", "half_log2(x)", OF_ONE(mpfr_log2), None, 8192, None,
+     Positive},
+    {"half_powr", "half_powr(x, y)", OF_TWO(mpfr_pow), None, 8192, None,
+     Positive, Moderate},
+    {"half_recip", "half_recip(x)", reciprocal, None, 8192, None, Moderate},
+    {"half_rsqrt", "half_rsqrt(x)", OF_ONE(mpfr_rec_sqrt), None, 8192, None,
+     Positive},
+    {"half_sin", "half_sin(x)", OF_ONE(mpfr_sin), None, 8192, None, Moderate},
+    {"half_sqrt", "half_sqrt(x)", OF_ONE(mpfr_sqrt), None, 8192, None,
+     Positive},
+    {"half_tan", "half_tan(x)", OF_ONE(mpfr_tan), None, 8192, None, Moderate},
+    {"native_cos", "native_cos(x)", OF_ONE(mpfr_cos), None, None, None,
+     Moderate},
+    {"native_divide", "native_divide(x, y)", OF_TWO(mpfr_div), None, None, None,
+     Moderate, Moderate},
+    {"native_exp", "native_exp(x)", OF_ONE(mpfr_exp), None, None, None,
+     Moderate},
+    {"native_exp10", "native_exp10(x)", OF_ONE(mpfr_exp10), None, None, None,
+     Moderate},
+    {"native_exp2", "native_exp2(x)", OF_ONE(mpfr_exp2), None, None, None,
+     Moderate},
+    {"native_log", "native_log(x)", OF_ONE(mpfr_log), None, None, None,
+     Positive},
+    {"native_log10", "native_log10(x)", OF_ONE(mpfr_log10), None, None, None,
+     Positive},
+    {"native_log2", "native_log2(x)", OF_ONE(mpfr_log2), None, None, None,
+     Positive},
+    {"native_powr", "native_powr(x, y)", OF_TWO(mpfr_pow), None, None, None,
+     Positive, Moderate},
+    {"native_recip", "native_recip(x)", reciprocal, None, None, None, Moderate},
+    {"native_rsqrt", "native_rsqrt(x)", OF_ONE(mpfr_rec_sqrt), None, None, None,
+     Positive},
+    {"native_sin", "native_sin(x)", OF_ONE(mpfr_sin), None, None, None,
+     Moderate},
+    {"native_sqrt", "native_sqrt(x)", OF_ONE(mpfr_sqrt), None, None, None,
+     Positive},
+    {"native_tan", "native_tan(x)", OF_ONE(mpfr_tan), None, None, None,
+     Moderate},
+};
+
 } // namespace
 
 std::span<const MathFunction> mathFunctions() { return Functions; }
+std::span<const MathFunction> floatFunctions() { return FloatFunctions; }
 
 } // namespace vorion::test

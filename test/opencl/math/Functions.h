@@ -35,4 +35,8 @@ struct MathFunction {
 /// once, in a row.
 std::span<const MathFunction> mathFunctions();
 
+/// Those that only floats have: half_ and native_. The limits of half and
+/// double have no meaning.
+std::span<const MathFunction> floatFunctions();
+
 } // namespace vorion::test
