@@ -24,6 +24,7 @@ import subprocess
 import sys
 import time
 
+import command_line
 import kept
 
 # What makes results beside splat's programs.
@@ -264,4 +265,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

@@ -10,6 +10,8 @@ default's. Without --products only the default and single choices.
 import argparse
 import json
 
+import command_line
+
 
 def share(value, base):
     return "" if value is None or base is None else f"{100 * (value / base - 1):+.1f} %"
@@ -56,4 +58,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -16,6 +16,8 @@ import re
 import subprocess
 import sys
 
+import command_line
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 KINDS = ("records", "production", "tests", "documents", "benchmarks")
 
@@ -80,4 +82,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -1,5 +1,6 @@
-"""Command lines of benchmarks that run a program with options of its own."""
+"""What the scripts of benchmarks share: options for a program that one runs, and how a script ends."""
 
+import os
 import sys
 
 
@@ -10,3 +11,17 @@ def parse(parser):
         return parser.parse_args(own), []
     at = own.index("--")
     return parser.parse_args(own[:at]), own[at + 1:]
+
+
+def run(main):
+    """Ends the script as main() does; quietly where nobody reads on, as under `| head`."""
+    try:
+        try:
+            code = main()
+        finally:
+            sys.stdout.flush()
+    except BrokenPipeError:
+        # Else Python, which still has something to write, says so at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = 1
+    sys.exit(code)

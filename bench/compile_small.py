@@ -13,6 +13,8 @@ import os
 import resource
 import statistics
 
+import command_line
+
 SOURCE = "kernel void f(global float *a) {{ size_t i = get_global_id(0); a[i] = a[i] * {}.5f + 1.0f; }}"
 
 
@@ -44,4 +46,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -22,6 +22,8 @@ import subprocess
 import sys
 import tempfile
 
+import command_line
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.environ.get("VORION_ROOT", os.path.join(ROOT, "build", "dev"))
 
@@ -103,4 +105,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -15,6 +15,7 @@ import os
 import sys
 import tempfile
 
+import command_line
 import timed_frame
 
 TABLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "isasim", "timing", "dram", "standards")
@@ -85,4 +86,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

@@ -22,6 +22,7 @@ import subprocess
 import sys
 import tempfile
 
+import command_line
 import kept
 import scenes
 
@@ -155,4 +156,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

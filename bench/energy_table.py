@@ -9,6 +9,7 @@ import os
 import sys
 import tempfile
 
+import command_line
 import timed_frame
 
 FRAMES = [  # scene's file and its name, view, machine, options
@@ -70,4 +71,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -13,6 +13,7 @@ FOLDER keeps each run's result; what is there is not run again.
 
 import math
 
+import command_line
 import frames
 
 PARTS = (1, 2, 4, 8, 16)
@@ -63,4 +64,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -19,6 +19,8 @@ import shutil
 import subprocess
 import sys
 
+import command_line
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PROGRAMS = ("integer", "matmul", "radixsort", "search", "histogram")
 ONE_CORE = {"clusters": 1, "sockets_per_cluster": 1, "cores_per_socket": 1}
@@ -104,4 +106,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

@@ -10,6 +10,7 @@ import argparse
 import sys
 import tempfile
 
+import command_line
 import timed_frame
 
 # What the table calls it, settings of the machine, options of splat render.
@@ -71,4 +72,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import time
 
+import command_line
 import kept
 import scenes
 
@@ -72,4 +73,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

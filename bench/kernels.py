@@ -28,6 +28,7 @@ import sys
 import tempfile
 
 from simt_overhead import LANES, compare, run, scalar_code
+import command_line
 
 POCLCC = os.path.join(os.environ.get("VORION_ROOT", ""), "pocl", "bin", "poclcc")
 STACK_POINTER = 2
@@ -226,4 +227,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

@@ -17,6 +17,8 @@ import re
 import subprocess
 import sys
 
+import command_line
+
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 KERNEL = """
 kernel void multiply(global const float *a, global const float *b, global float *c) {
@@ -108,4 +110,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

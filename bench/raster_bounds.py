@@ -7,6 +7,8 @@ Prints a table, a column a file, in percent of the cycles of all tiles or of the
 import struct
 import sys
 
+import command_line
+
 # isasim/testing/RasterTile.h
 HEAD = struct.Struct("<32s4If13I")
 FIELDS = ("x y width height cutoff gaussians pixels latency fragments blends cycles begin fetch clip blend hazard flush "
@@ -71,4 +73,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

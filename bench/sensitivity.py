@@ -15,6 +15,7 @@ import os
 import sys
 import tempfile
 
+import command_line
 import kept
 import timed_frame
 
@@ -127,4 +128,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

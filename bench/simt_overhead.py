@@ -18,9 +18,12 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
+
+import command_line
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LANES = 16
@@ -33,7 +36,8 @@ PLAIN = ["--target=riscv32-unknown-elf", "-mabi=ilp32f", "-O2", "-S", "-w"]
 def run(*command, **options):
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, **options)
     if done.returncode != 0:
-        raise RuntimeError(f"{command[0]}: {(done.stderr or done.stdout).strip().splitlines()[-1:]}")
+        said = (done.stderr or done.stdout).strip().splitlines()
+        raise RuntimeError(f"{command[0]}: {said[-1] if said else f'ended with {done.returncode}'}")
     return done.stdout
 
 
@@ -160,16 +164,19 @@ def compare(request_file, cache, empty, folder):
     return row
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--json")
-    parser.add_argument("--keep", help="folder for what is made (default: a temporary one)")
-    parser.add_argument("programs", nargs=argparse.REMAINDER)
-    options = parser.parse_args()
-    if not options.programs:
-        parser.error("no program, expected one with its arguments")
-    folder = os.path.abspath(options.keep or tempfile.mkdtemp(prefix="vorion-overhead-"))
-    os.makedirs(folder, exist_ok=True)
+def commands_of(words):
+    """The programs with their arguments, which "--" parts."""
+    found = [[]]
+    for word in words:
+        if word == "--":
+            found.append([])
+        else:
+            found[-1].append(word)
+    return [command for command in found if command]
+
+
+def measure(commands, folder):
+    """Prints a row for each kernel, and returns them."""
     nothing = os.path.join(folder, "nothing.cl")
     with open(nothing, "w", encoding="utf-8") as file:
         file.write("kernel void nothing(void) {}\n")
@@ -178,11 +185,10 @@ def main():
 
     rows = []
     print(f"{'program':14} {'kernel':14} {'warp/pass':>10} {'scalar/item':>11} {'ratio':>6} {'lanes':>6}  flow")
-    commands = " ".join(options.programs).split(" -- ")
     for number, command in enumerate(commands):
         capture, cache = (os.path.join(folder, f"{kind}{number}") for kind in ("capture", "cache"))
         os.makedirs(capture, exist_ok=True)
-        run(*command.split(), env={**os.environ, "VORION_CAPTURE": capture, "POCL_CACHE_DIR": cache})
+        run(*command, env={**os.environ, "VORION_CAPTURE": capture, "POCL_CACHE_DIR": cache})
         seen = set()
         requests = glob.glob(os.path.join(capture, "*.json"))
         for request in sorted(requests, key=lambda path: int(os.path.basename(path).split("-")[0])):
@@ -190,13 +196,39 @@ def main():
             if kernel in seen:
                 continue
             seen.add(kernel)
-            row = {"program": os.path.basename(command.split()[0]), **compare(request, cache, empty, folder)}
+            row = {"program": os.path.basename(command[0]), **compare(request, cache, empty, folder)}
             rows.append(row)
             flow = "uniform" if row["uniform"] else f"{row['divergent_splits']} partings"
             figures = (f"{row['scalar_instructions_per_item']:11.1f} {row['ratio']:6.2f}" if "ratio" in row
                        else f"{'-':>11} {'-':>6}")
             print(f"{row['program']:14} {kernel:14} {row['warp_instructions_per_pass']:10.1f} {figures} "
                   f"{row['lanes']:6.2f}  {flow}{': ' + row['left_out'] if 'left_out' in row else ''}", flush=True)
+    return rows
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--json")
+    parser.add_argument("--keep", help="folder for what is made (default: a temporary one)")
+    parser.add_argument("programs", nargs=argparse.REMAINDER)
+    options = parser.parse_args()
+    commands = commands_of(options.programs)
+    if not commands:
+        parser.error("no program, expected one with its arguments")
+    for command in commands:
+        if not shutil.which(command[0]):
+            parser.error(f"{command[0]}: no such program, expected one that uses OpenCL")
+    try:
+        if options.keep:
+            folder = os.path.abspath(options.keep)
+            os.makedirs(folder, exist_ok=True)
+            rows = measure(commands, folder)
+        else:
+            with tempfile.TemporaryDirectory(prefix="vorion-overhead-") as folder:
+                rows = measure(commands, folder)
+    except RuntimeError as problem:
+        print(f"simt_overhead.py: error: {problem}, expected it to end well", file=sys.stderr)
+        return 1
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump({"lanes": LANES, "scalar": "clang-19 -O2, rv32imf_zicond", "kernels": rows}, file, indent=1)
@@ -205,4 +237,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

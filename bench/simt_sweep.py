@@ -14,6 +14,7 @@ FOLDER keeps each run's result; what is there is not run again.
 import hashlib
 import sys
 
+import command_line
 import frames
 
 TILES = (8, 16, 32, 64)
@@ -62,4 +63,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

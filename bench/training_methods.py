@@ -13,7 +13,8 @@ import json
 import os
 import statistics
 import subprocess
-import sys
+
+import command_line
 
 METHODS = {
     "classic": [],
@@ -70,4 +71,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

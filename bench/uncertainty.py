@@ -23,6 +23,7 @@ import subprocess
 import sys
 import tempfile
 
+import command_line
 import kept
 import timed_frame
 
@@ -183,4 +184,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

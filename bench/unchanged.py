@@ -21,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 
+import command_line
 import scenes
 
 PATHS = ("raster", "simt")
@@ -148,4 +149,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -17,9 +17,10 @@ import os
 import signal
 import struct
 import subprocess
-import sys
 import time
 import urllib.parse
+
+import command_line
 
 
 def resident(process):
@@ -99,4 +100,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

@@ -1,21 +1,28 @@
-#!/bin/bash
+#!/usr/bin/env bash
 # `splat accuracy ARGUMENTS` or `splat explore ARGUMENTS` with its points under GNU
 # parallel, or as a Slurm array: the same points, files and page. What is measured
 # already, made from the same, is not measured again, so a broken sweep goes on where
 # it stopped.
-#   scripts/sweep.sh [--jobs N] [--slurm] accuracy|explore ARGUMENTS
-#   scripts/sweep.sh --jobs 8 accuracy scene.ply --cameras cameras.json --out FOLDER
-# With --slurm the folder must be one that all nodes see.
-set -euo pipefail
-. "$(dirname "$0")/env.sh"
+# usage: scripts/sweep.sh [--jobs N] [--slurm] accuracy|explore ARGUMENTS
+#        scripts/sweep.sh --jobs 8 accuracy scene.ply --cameras cameras.json --out FOLDER
+# With --slurm the folder must be one that all nodes see. --jobs is how many points are
+# measured at the same time; default: the number of processors.
+source "$(dirname "$0")/lib.sh"
+showHelp "$@"
+source "$Root/scripts/env.sh"
 
 Jobs=$(nproc)
 Slurm=0
 while :; do
   case ${1:-} in
-  --jobs) Jobs=$2 && shift 2 ;;
+  --jobs)
+    Jobs=${2:-}
+    case "$Jobs" in '' | 0* | *[!0-9]*) fail "--jobs: '$Jobs', expected a whole number above 0" ;; esac
+    shift 2
+    ;;
   --slurm) Slurm=1 && shift ;;
-  *) break ;;
+  accuracy | explore) break ;;
+  *) fail "'${1:-}', expected accuracy or explore with arguments, --jobs N or --slurm" ;;
   esac
 done
 
@@ -36,8 +43,7 @@ measure() { # the points of standard input
   done
   if [ "$Failed" = 1 ]; then # what jobs said that failed
     cat "$Folder"/*.log.* >&2 || true
-    echo "sweep.sh: error: not all jobs ended well, expected a Slurm whose nodes see this folder; the same command goes on" >&2
-    exit 1
+    fail "not all jobs ended well, expected a Slurm whose nodes see this folder; the same command goes on"
   fi
   rm -r "$Folder"
 }

@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
 # The clock beside references from other machines, as tables (docs/validation.md).
 # usage: scripts/validate.sh [REFERENCES [KERNEL...]]   (a folder, default: ../shared/data/timing; default: all kernels)
+# exit codes: 0 all within their limits, 1 not so, 2 usage
 source "$(dirname "$0")/lib.sh"
+showHelp "$@"
+case "${1:-}" in -*) fail "unknown option $1, expected --help or a folder" ;; esac
 References=${1:-$Root/../shared/data/timing}
 source "$Root/scripts/env.sh"
 Status=0

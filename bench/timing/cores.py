@@ -16,6 +16,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import command_line
+
 LIMIT = 0.05
 # What our machine is set to for each reference, and how many warps run the loop. The RTLs have data caches.
 MACHINES = (
@@ -125,4 +128,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)

@@ -10,8 +10,12 @@ is farther off than the pattern's limit.
 
 import argparse
 import json
+import os
 import subprocess
 import sys
+
+sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import command_line
 
 # Relative limits of bandwidth. Where writes are mixed in or two rows of a bank compete, schedulers differ: what the
 # reference says with queues of 32 and of 64 bursts, widened by 5 %.
@@ -64,4 +68,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command_line.run(main)
