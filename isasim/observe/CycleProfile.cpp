@@ -78,11 +78,15 @@ std::string CycleProfile::report() const {
   All += Nowhere;
   const uint64_t Total = All.sum();
   const Columns Shown(All, Total);
-  std::string Text = "# vorion-profile 1\n"
-                     "# cycles: of all cores together; then per cent of all "
-                     "cycles, and the same by reason\n"
-                     "# a cycle in which a core waits is the instruction's "
-                     "that waits\n\n";
+  const Config &C = Device.config();
+  std::string Text =
+      fmt::format("# vorion-profile 1\n"
+                  "# machine: {}\n"
+                  "# cycles: of all cores together; then per cent of all "
+                  "cycles, and the same by reason\n"
+                  "# a cycle in which a core waits is the instruction's "
+                  "that waits\n\n",
+                  machineText(nameOf(C).Name, C.Timing.ClockMhz));
   Text += fmt::format("{}{}total\n", Shown.heading(), Shown.row(All));
   Text += fmt::format("{}no instruction: start and end\n", Shown.row(Nowhere));
   Text += Places.listing(Shown.heading(),
@@ -110,7 +114,12 @@ std::string CycleProfile::json() const {
   };
   Cost All = Places.total();
   All += Nowhere;
+  const MachineName Name = nameOf(Device.config());
   return profileJson({{"format", "vorion-profile 1"},
+                      {"machine", Name.Name},
+                      {"machine_changes", Name.Changes},
+                      {"clock_mhz", Device.config().Timing.ClockMhz},
+                      {"clock_version", ClockVersion},
                       {"cycles", All.sum()},
                       {"no_instruction", ByReason(Nowhere)}},
                      Places, [&](const Cost &C) {

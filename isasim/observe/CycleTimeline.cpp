@@ -26,7 +26,7 @@ enum Process : unsigned {
 CycleTimeline::CycleTimeline(std::FILE *File, const Config &C,
                              std::shared_ptr<const EnergyModel> EnergyIn)
     : Energy(std::move(EnergyIn)),
-      Out(File, fmt::format("1 cycle at {} MHz", C.Timing.ClockMhz)),
+      Out(File, "1 cycle of " + machineText(nameOf(C).Name, C.Timing.ClockMhz)),
       L2Banks(C.Timing.L2.Banks) {
   addUnits<CoreCycle>(Cores, OfCores, "core", C.cores());
   addUnits<RasterCycle>(Rasters, OfRasterizers, "rasterizer", C.sockets());

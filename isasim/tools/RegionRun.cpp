@@ -23,10 +23,8 @@ public:
         fmt::format("{:>6} {:<32} {:>14}\n", "launch", "kernel", "cycles") +
         Text;
     if (Last)
-      All += fmt::format("{:>6} {:<32} {:>14}\nmachine      {}, {} MHz, clock "
-                         "version {}\n",
-                         "", "all", Cycles, Last->Machine, Last->ClockMhz,
-                         ClockVersion);
+      All += fmt::format("{:>6} {:<32} {:>14}\nmachine      {}\n", "", "all",
+                         Cycles, machineText(Last->Machine, Last->ClockMhz));
     return All;
   }
 

@@ -41,6 +41,7 @@ struct Program {
 struct Profile {
   bool HasCycles = false;
   uint64_t Cycles = 0; ///< of all cores and programs
+  std::string Machine; ///< a line of what the cycles are of, or nothing
   std::vector<Program> Programs;
 };
 
@@ -80,6 +81,11 @@ Expected<Profile> readProfile(const std::string &Path) {
   const auto Cycles = Top->getInteger("cycles");
   All.HasCycles = Cycles.has_value();
   All.Cycles = static_cast<uint64_t>(Cycles.value_or(0));
+  if (const auto Name = Top->getString("machine"))
+    All.Machine =
+        fmt::format("machine: {}, {} MHz, clock version {}\n", Name->str(),
+                    Top->getInteger("clock_mhz").value_or(0),
+                    Top->getInteger("clock_version").value_or(0));
   for (const json::Value &Each : *Programs) {
     const json::Object *Object = Each.getAsObject();
     const auto File = Object ? Object->getString("file") : std::nullopt;
@@ -272,7 +278,7 @@ Expected<std::string> annotate(StringRef Objdumped, const Profile &Of,
     if (!Files.empty())
       Files.back().add(std::move(L));
   }
-  std::string All;
+  std::string All = Of.Machine;
   for (const Listing &Each : Files) {
     const Expected<std::string> Text = Each.text(From);
     if (!Text)

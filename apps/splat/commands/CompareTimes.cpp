@@ -72,7 +72,7 @@ Expected<Success> compareTimes(const CompareArguments &A) {
   if (auto Fit = checkComparable(*First, *Second, A.Across); !Fit)
     return Fit;
   const std::vector<TimeChange> Changes = changesOf(*First, *Second);
-  printOut("{}", toText(Changes));
+  printOut("{}{}", machinesText(*First, *Second), toText(Changes));
   if (!A.Json.empty())
     if (auto Written = writeJson(A, Changes); !Written)
       return Written;

@@ -174,7 +174,8 @@ void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
     printOut("wall time    {:.1f} s, {:.3f} it/s\n", Out.Seconds,
              (Out.Iterations - Out.First) / Out.Seconds);
   if (!Out.Timed.empty())
-    printOut("machine time {}\n", Out.Timed.text());
+    printOut("machine time {}\nmachine      {}\n", Out.Timed.text(),
+             escaped(Out.Timed.machine()));
   else if (A.isClocked())
     printOut("machine time unknown: of iterations {} to {} none was timed, "
              "expected a smaller --time-every than {}\n",

@@ -1,5 +1,6 @@
 #include "device/TimeFile.h"
 
+#include "device/TimeReport.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
@@ -76,6 +77,9 @@ void addUnits(Figures &To, const Json &Report) {
 /// Of a report: what else than its numbers says which machine it is.
 void describe(TimeFile &To, const Json &Report) {
   To.ClockVersion = Report.value("clock_version", 1U);
+  // Older reports do not name their machine.
+  To.On = machineText(Report.value("machine", std::string("unknown")),
+                      Report.at("clock_mhz"), To.ClockVersion);
   for (const char *Key : {"clock_mhz", "host", "lane_areas"})
     if (Report.contains(Key))
       To.Machine[Key] = Report.at(Key);
@@ -209,8 +213,14 @@ Expected<Success> checkSame(const TimeFile &FileOfA, const nlohmann::json &A,
   if (A == B)
     return Success{};
   const nlohmann::json First = nlohmann::json::diff(A, B).at(0);
-  const std::string Path = First.at("path");
-  const nlohmann::json::json_pointer Place(Path);
+  std::string Path = First.at("path");
+  nlohmann::json::json_pointer Place(Path);
+  // The place behind a list's last entry: the first that only B has.
+  if (Place.back() == "-") {
+    Place.pop_back();
+    Place /= A.at(Place).size();
+    Path = Place.to_string();
+  }
   const auto Text = [&](const nlohmann::json &Of) {
     return Of.contains(Place) ? jsonText(Of.at(Place)) : "nothing";
   };
@@ -298,6 +308,13 @@ std::vector<TimeChange> changesOf(const TimeFile &A, const TimeFile &B) {
                {F.Group, F.Name, std::nullopt, F.Value});
   }
   return All;
+}
+
+std::string machinesText(const TimeFile &A, const TimeFile &B) {
+  if (A.On == B.On)
+    return fmt::format("machine      {}\n", printable(A.On));
+  return fmt::format("machine of a {}\nmachine of b {}\n", printable(A.On),
+                     printable(B.On));
 }
 
 std::string toText(const std::vector<TimeChange> &Changes) {

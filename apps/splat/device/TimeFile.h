@@ -27,6 +27,8 @@ struct TimeFile {
   /// their members.
   nlohmann::json Machine, Work;
   unsigned ClockVersion = 0;
+  /// Of what machine and clock the times are, for people.
+  std::string On;
   double Milliseconds =
       0; ///< launches and copies included, where they are told
   /// Cycles, then cycles by stage and kernel or by run, then what each kind of
@@ -54,6 +56,10 @@ struct TimeChange {
 
 /// All figures of both files in their order, the time in milliseconds first.
 std::vector<TimeChange> changesOf(const TimeFile &A, const TimeFile &B);
+
+/// A line that names the machine and the clock of both, or a line for each
+/// where they differ.
+std::string machinesText(const TimeFile &A, const TimeFile &B);
 
 /// The rows whose values differ, under the names of their groups. The first
 /// two, the time and the cycles, are always there.

@@ -160,6 +160,31 @@ TEST(TimeFile, WhatDiffersIsNamed) {
               "version 3 of the clock, expected version 2 as");
 }
 
+TEST(TimeFile, AChangeThatOneMachineHasIsNamed) {
+  Json Plain = frame(), Changed = frame();
+  Plain["time"]["sum"]["machine_changes"] = Json::array();
+  Changed["time"]["sum"]["machine_changes"] = {"clusters=2"};
+  EXPECT_EQ(problem(Plain, Changed),
+            "another machine: machine_changes.0 is \"clusters=2\", expected "
+            "nothing as");
+  EXPECT_EQ(problem(Changed, Plain),
+            "another machine: machine_changes.0 is nothing, expected "
+            "\"clusters=2\" as");
+}
+
+TEST(TimeFile, TimesNameMachineAndClock) {
+  Json Named = frame(), Slow = frame();
+  for (Json *Each : {&Named, &Slow})
+    (*Each)["time"]["sum"]["machine"] = "prototype";
+  Slow["time"]["sum"]["clock_mhz"] = 100;
+  EXPECT_EQ(machinesText(read(Named), read(Named)),
+            "machine      prototype, 500 MHz, clock version 2\n");
+  EXPECT_EQ(machinesText(read(Named), read(Slow)),
+            "machine of a prototype, 500 MHz, clock version 2\n"
+            "machine of b prototype, 100 MHz, clock version 2\n");
+  EXPECT_EQ(read(stats()).On, "unknown, 500 MHz, clock version 2");
+}
+
 TEST(TimeFile, OtherLaunchesAreOtherWork) {
   const Json Launch = {
       {"program_fnv1a64", "01"},

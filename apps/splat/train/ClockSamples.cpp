@@ -58,6 +58,11 @@ std::string ClockSamples::text() const {
                      Least, Most, Milliseconds.size());
 }
 
+std::string ClockSamples::machine() const {
+  const auto T = frameTime(All.back().Stages);
+  return machineText(T->Machine, T->ClockMhz, T->ClockVersion);
+}
+
 std::string ClockSamples::lastByStage() const {
   return frameText(All.back().Stages, "iteration");
 }

@@ -34,6 +34,8 @@ public:
   double rate() const;
   /// A line: mean, standard deviation, least and most.
   std::string text() const;
+  /// The machine and the clock that the times are of.
+  std::string machine() const;
   /// Where there is one.
   const TimedIteration &last() const { return All.back(); }
   /// The last one by stage (FrameTime.h).

@@ -6,7 +6,8 @@ import sys
 
 timeline, stats = (json.load(open(f)) for f in sys.argv[1:])
 assert timeline["otherData"]["format"] == "vorion-timeline 1"
-assert timeline["otherData"]["unit"].startswith("1 us = 1 cycle"), timeline["otherData"]
+time = stats["runs"][0]["time"]
+assert timeline["otherData"]["unit"] == f"1 us = 1 cycle of {time['machine']}, {time['clock_mhz']} MHz, clock version {time['clock_version']}", timeline["otherData"]
 groups, names, ends, figures = {}, {}, {}, collections.defaultdict(list)
 spent = collections.defaultdict(collections.Counter)
 for event in timeline["traceEvents"]:
