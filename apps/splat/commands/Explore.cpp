@@ -1,6 +1,7 @@
 #include "cameras/Motion.h"
 #include "commands/CameraArguments.h"
 #include "commands/Commands.h"
+#include "commands/EnergyArguments.h"
 #include "commands/ExploreSpace.h"
 #include "commands/OutputFile.h"
 #include "commands/SceneArguments.h"
@@ -33,7 +34,8 @@ using Json = nlohmann::ordered_json;
 struct ExploreArguments {
   SceneArguments Scene;
   CameraArguments Cameras;
-  std::string Folder, SpaceFile, Technology;
+  std::string Folder, SpaceFile;
+  EnergyArguments Energy;
   std::vector<std::string> Only;
   std::size_t Machines = 200, Finalists = 50, Checks = 50;
   uint64_t Seed = 1;
@@ -75,7 +77,8 @@ Expected<StudyPlan> planOf(const ExploreArguments &A,
   P.Folder = A.Folder;
   P.Machine = Machine;
   P.CommonArguments = wordsOf(A.Scene);
-  P.Technology = A.Technology;
+  P.Technology = A.Energy.Technology;
+  P.Volts = A.Energy.Volts;
   P.Parameters = std::move(*S);
   P.Jobs = A.Jobs;
   P.Whole = {"", A.Folder + "/cameras.json", std::move(*Views)};
@@ -91,12 +94,16 @@ Expected<StudyPlan> planOf(const ExploreArguments &A,
   if (!From)
     return From.error();
   P.From = std::move(*From);
-  if (!A.Technology.empty()) {
-    auto Hash = hashFile(A.Technology);
+  if (const auto Known = requestedEnergy(A.Energy, std::nullopt); !Known)
+    return Known.error();
+  if (!P.Technology.empty()) {
+    auto Hash = hashFile(P.Technology);
     if (!Hash)
       return Hash.error();
     P.From["technology"] = std::move(*Hash);
   }
+  if (P.Volts)
+    P.From["voltage"] = fmt::format("{}", *P.Volts);
   P.From["options"] = fmt::format("{}", fmt::join(P.CommonArguments, " "));
   return P;
 }
@@ -141,9 +148,15 @@ private:
     return hasSmall() ? allOf(P, Kept, P.Small, Machines)
                       : std::vector<Measured>();
   }
-  /// The base, the single changes, the machines drawn first, and the best of
-  /// \p Small; all machines where that is empty.
-  std::vector<Choices> chosenBy(const std::vector<Measured> &Small) const;
+  /// Machines for whole views.
+  struct Chosen {
+    std::vector<Choices> Machines;
+    std::size_t Singles = 0; ///< how many are the base and changes alone
+    std::size_t Checks = 0;  ///< how many behind these were drawn first
+  };
+  /// The base, the single changes, the machines drawn first, and the best, of
+  /// those of \p Small that can be; all machines where that is empty.
+  Chosen chosenBy(const std::vector<Measured> &Small) const;
 
   const ExploreArguments &A;
   const StudyPlan &P;
@@ -152,23 +165,26 @@ private:
   const std::vector<Choices> Machines;
 };
 
-std::vector<Choices> Study::chosenBy(const std::vector<Measured> &Small) const {
+Study::Chosen Study::chosenBy(const std::vector<Measured> &Small) const {
   if (Small.empty())
-    return Machines;
+    return {Machines, Singles, std::min(A.Checks, Machines.size() - Singles)};
+  Chosen C;
   std::vector<Figures> Can;
-  std::vector<std::size_t> Places;
+  std::vector<Choices> Places;
   for (std::size_t I = 0; I < Small.size(); ++I)
     if (Small[I].Refused.empty()) {
       Can.push_back(Small[I].Is);
-      Places.push_back(I);
+      Places.push_back(Small[I].Machine);
+      C.Singles += I < Singles ? 1 : 0;
     }
-  const std::size_t First = std::min(Machines.size(), Singles + A.Checks);
-  std::vector<Choices> Chosen(
-      Machines.begin(), Machines.begin() + static_cast<std::ptrdiff_t>(First));
+  C.Checks = std::min(A.Checks, Places.size() - C.Singles);
+  const std::size_t First = C.Singles + C.Checks;
+  C.Machines.assign(Places.begin(),
+                    Places.begin() + static_cast<std::ptrdiff_t>(First));
   for (const std::size_t I : bestFronts(Can, A.Finalists))
-    if (Places[I] >= First)
-      Chosen.push_back(Machines[Places[I]]);
-  return Chosen;
+    if (I >= First)
+      C.Machines.push_back(Places[I]);
+  return C;
 }
 
 Expected<std::vector<Trial>> Study::next() {
@@ -176,7 +192,7 @@ Expected<std::vector<Trial>> Study::next() {
     if (auto Left = missingOf(P.Small, Machines); !Left.empty())
       return Left;
   const auto Small = small();
-  return Small ? missingOf(P.Whole, chosenBy(*Small))
+  return Small ? missingOf(P.Whole, chosenBy(*Small).Machines)
                : Expected<std::vector<Trial>>(Small.error());
 }
 
@@ -216,14 +232,18 @@ Expected<Findings> Study::findings() {
   if (!Small)
     return Small.error();
   F.Small = std::move(*Small);
-  auto Whole = allOf(P, Kept, P.Whole, chosenBy(F.Small));
+  const Chosen C = chosenBy(F.Small);
+  auto Whole = allOf(P, Kept, P.Whole, C.Machines);
   if (!Whole)
     return Whole.error();
   F.Whole = std::move(*Whole);
-  F.Singles = Singles;
-  for (std::size_t I = Singles;
-       I < std::min(F.Whole.size(), Singles + A.Checks); ++I)
-    F.Checked.push_back(I);
+  std::size_t Next = 1; // behind the base
+  for (std::size_t I = 1; I < Singles; ++I)
+    F.Alone.push_back(hasSmall() && !F.Small[I].Refused.empty()
+                          ? F.Small[I]
+                          : F.Whole[Next++]);
+  for (std::size_t I = 0; I < C.Checks; ++I)
+    F.Checked.push_back(C.Singles + I);
   std::vector<Choices> Drawn;
   std::vector<double> Rates;
   const auto &All = hasSmall() ? F.Small : F.Whole;
@@ -306,9 +326,13 @@ Runner addExplore(CLI::App &App) {
   takesFile(App.add_option("--space", A->SpaceFile,
                            "What machines may differ in, JSON (default: "
                            "--print-space)"));
-  takesFile(App.add_option("--technology", A->Technology,
+  takesFile(App.add_option("--technology", A->Energy.Technology,
                            "Energies and areas (default: 16 nm)"),
             {".json"});
+  App.add_option("--voltage", A->Energy.Volts,
+                 "The chip's, of all machines (default: what each one's clock "
+                 "needs)")
+      ->option_text("V");
   App.add_option(
          "--machines", A->Machines,
          "Machines to try: the base, each change alone, and others drawn "

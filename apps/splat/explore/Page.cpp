@@ -39,8 +39,7 @@ Json viewsOf(const Measured &M) {
 Json worthsOf(const StudyPlan &P, const Findings &F) {
   Json All = Json::array();
   const Figures &Base = F.Whole.front().Is;
-  for (std::size_t I = 1; I < F.Singles; ++I) {
-    const Measured &M = F.Whole[I];
+  for (const Measured &M : F.Alone) {
     Json One{{"machine", nameOf(P.Parameters, M.Machine)}};
     if (M.Refused.empty())
       One.update({{"rate_factor", M.Is.Rate / Base.Rate},
@@ -165,8 +164,9 @@ std::string textOf(const Json &Results) {
   for (const Json &M : Results["machines"]) {
     Machines[M["machine"].get<std::string>()] = &M;
     const bool IsWhole = M.contains("whole");
-    Whole += IsWhole ? 1 : 0;
-    Refused += M[IsWhole ? "whole" : "small"].contains("refused") ? 1 : 0;
+    const bool IsRefused = M[IsWhole ? "whole" : "small"].contains("refused");
+    Whole += IsWhole && !IsRefused ? 1 : 0;
+    Refused += IsRefused ? 1 : 0;
   }
   std::string Text =
       fmt::format("{} machines, {} of them on whole views, {} cannot be\n"

@@ -15,8 +15,10 @@ std::string_view explorePage();
 /// All that a study found.
 struct Findings {
   std::vector<Measured> Small; ///< all machines, unless they were judged whole
-  std::vector<Measured> Whole; ///< the base first, then the single changes
-  std::size_t Singles = 0;     ///< of Whole: the base and these
+  /// The base first. Machines that cannot be on small views are not tried.
+  std::vector<Measured> Whole;
+  /// Each change of the base alone: of Whole, or of Small if it cannot be.
+  std::vector<Measured> Alone;
   /// Of Whole: machines drawn at random, by which both sizes are compared.
   std::vector<std::size_t> Checked;
   std::vector<Interaction> Pairs;

@@ -92,6 +92,8 @@ Expected<Json> TrialMeasurement::measure() {
     Words.insert(Words.end(), More.begin(), More.end());
   if (!Plan.Technology.empty())
     Words.insert(Words.end(), {"--technology", Plan.Technology});
+  if (Plan.Volts)
+    Words.insert(Words.end(), {"--voltage", fmt::format("{}", *Plan.Volts)});
   if (auto Done = runSplat(
           Words,
           changed(Plan.Machine, settingsOf(Plan.Parameters, Target.Machine)),

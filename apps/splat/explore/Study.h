@@ -24,8 +24,9 @@ struct ViewSet {
 /// What is measured, and where it is kept.
 struct StudyPlan {
   std::string ScenePath, Folder;
-  DeviceOptions Machine;  ///< the base
-  std::string Technology; ///< a file; empty for the default
+  DeviceOptions Machine;       ///< the base
+  std::string Technology;      ///< a file; empty for the default
+  std::optional<double> Volts; ///< of all machines
   /// Options for every `splat render`, reading the scene among them.
   std::vector<std::string> CommonArguments;
   ViewSet Whole, Small;

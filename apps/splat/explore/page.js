@@ -141,8 +141,9 @@ function drawTable() {
 }
 
 function drawSummary() {
-  const whole = data.machines.filter(m => m.whole).length, both = data.small_beside_whole;
-  const lines = [`${data.machines.length} machines, ${whole} of them judged on whole views (${data.views.join(', ')}), ${data.front.length} on the front.`];
+  const whole = data.machines.filter(m => isJudged(m, 'whole')).length, refused = data.machines.filter(m => (m.whole ?? m.small).refused).length;
+  const both = data.small_beside_whole;
+  const lines = [`${data.machines.length} machines, ${whole} of them judged on whole views (${data.views.join(', ')}), ${data.front.length} on the front, ${refused} cannot be.`];
   if (both)
     lines.push(`Small views put ${both.machines} machines that were drawn at random in the order of whole ones with a rank correlation of ` +
       `${number(both.rate, 3)} by frames a second and ${number(both.chip_joules, 3)} by energy.`);
