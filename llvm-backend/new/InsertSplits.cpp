@@ -135,7 +135,7 @@ private:
              Why.of(*S.Branch));
     for (auto &[L, Exit] : PredicatedLoops) {
       const bool OfItems = isLoopOfItems(*Exit);
-      tellOf(*Exit, OfItems ? ownPlace() : placeOf(*Exit), "predicate",
+      tellOf(*Exit, OfItems ? vorion::placeOf(F) : placeOf(*Exit), "predicate",
              vorion::remarks::Loop,
              "lanes may leave this loop at different times: vx_pred in every "
              "iteration",
@@ -177,15 +177,7 @@ private:
     const Loop *L = Loops.getLoopFor(Branch.getParent());
     if (L && L->isLoopExiting(Branch.getParent()) && L->getStartLoc())
       return L->getStartLoc();
-    return ownPlace();
-  }
-
-  /// The function's.
-  DebugLoc ownPlace() const {
-    DISubprogram *Source = F.getSubprogram();
-    return Source ? DebugLoc(DILocation::get(F.getContext(), Source->getLine(),
-                                             0, Source))
-                  : DebugLoc();
+    return vorion::placeOf(F);
   }
 
   /// " (line 12)" of the first line of \p Block.

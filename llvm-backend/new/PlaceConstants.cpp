@@ -316,14 +316,15 @@ private:
     for (auto &[Block, Group] : Own) {
       --Left[Block->getNumber()];
       make(Made, *Block, Group);
-      if (Loop && Block->getBasicBlock())
-        vorion::remark<OptimizationRemarkMissed>(
-            vorion::remarks::Constant, "NoRegister",
-            Group.front().Operand->getParent()->getDebugLoc(),
-            *Block->getBasicBlock(), [] {
-              return "a constant is made in every iteration: the loop needs "
-                     "all registers";
-            });
+      if (!Loop || !Block->getBasicBlock())
+        continue;
+      const DebugLoc &User = Group.front().Operand->getParent()->getDebugLoc();
+      vorion::remark<OptimizationRemarkMissed>(
+          vorion::remarks::Constant, "NoRegister",
+          User ? User : Loop->getStartLoc(), *Block->getBasicBlock(), [] {
+            return "a constant is made in every iteration: the loop needs all "
+                   "registers";
+          });
     }
   }
 

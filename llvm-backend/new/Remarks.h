@@ -10,6 +10,7 @@
 #define VORION_LLVM_BACKEND_REMARKS_H
 
 #include "llvm/Analysis/OptimizationRemarkEmitter.h"
+#include "llvm/IR/DebugInfoMetadata.h"
 #include "llvm/IR/DiagnosticInfo.h"
 #include "llvm/IR/Instructions.h"
 #include <string>
@@ -30,14 +31,39 @@ inline constexpr const char *Switch = "vorion-switch";
 inline constexpr const char *Uniform = "vorion-uniform";
 } // namespace remarks
 
+/// Where the source has \p F; no place without line numbers.
+inline DebugLoc placeOf(const Function &F) {
+  DISubprogram *Source = F.getSubprogram();
+  return Source ? DebugLoc(DILocation::get(F.getContext(), Source->getLine(), 0,
+                                           Source))
+                : DebugLoc();
+}
+
+/// Where \p I is, or else what it is computed from; no place if neither has a
+/// line.
+inline DebugLoc placeOf(const Instruction &I) {
+  const auto HasLine = [](const Instruction &Of) {
+    return Of.getDebugLoc() && Of.getDebugLoc().getLine();
+  };
+  if (HasLine(I))
+    return I.getDebugLoc();
+  for (const Use &Operand : I.operands())
+    if (const auto *From = dyn_cast<Instruction>(Operand);
+        From && HasLine(*From))
+      return From->getDebugLoc();
+  return DebugLoc();
+}
+
 /// Tells \p Text, a function that gives it, of the code at \p Place, which lies
-/// in \p Block. \p Kind is OptimizationRemark, OptimizationRemarkMissed or
-/// OptimizationRemarkAnalysis; \p Name tells decisions of one pass apart.
+/// in \p Block, or of the function where \p Place is none. \p Kind is
+/// OptimizationRemark, OptimizationRemarkMissed or OptimizationRemarkAnalysis;
+/// \p Name tells decisions of one pass apart.
 template <typename Kind, typename Function>
 void remark(const char *Pass, StringRef Name, const DebugLoc &Place,
             const BasicBlock &Block, Function Text) {
   OptimizationRemarkEmitter(Block.getParent()).emit([&] {
-    return Kind(Pass, Name, Place, &Block) << std::string(Text());
+    return Kind(Pass, Name, Place ? Place : placeOf(*Block.getParent()), &Block)
+           << std::string(Text());
   });
 }
 
@@ -45,7 +71,7 @@ void remark(const char *Pass, StringRef Name, const DebugLoc &Place,
 template <typename Kind, typename Function>
 void remark(const char *Pass, StringRef Name, const Instruction &At,
             Function Text) {
-  remark<Kind>(Pass, Name, At.getDebugLoc(), *At.getParent(), Text);
+  remark<Kind>(Pass, Name, placeOf(At), *At.getParent(), Text);
 }
 
 } // namespace llvm::vorion

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 namespace json = llvm::json;
 
@@ -143,12 +144,16 @@ std::string table(const json::Array &Functions) {
     Out << "\n";
     for (const json::Value &Callee : *Function.getArray("calls"))
       Out << "  calls " << *Callee.getAsString() << "\n";
+    // A kernel with barriers has many loops over its work-items at one place.
+    std::set<std::string> Told;
     for (const json::Value &Any : *Function.getArray("branches")) {
       const json::Object &Branch = *Any.getAsObject();
-      Out << "  " << place(Branch) << ": "
-          << (*Branch.getString("kind") == "split" ? "divergent branch"
-                                                   : "divergent loop")
-          << ": " << *Branch.getString("reason") << "\n";
+      const bool IsSplit = *Branch.getString("kind") == "split";
+      const std::string Line = llvm::formatv(
+          "  {0}: divergent {1}: {2}\n", place(Branch),
+          IsSplit ? "branch" : "loop", *Branch.getString("reason"));
+      if (Told.insert(Line).second)
+        Out << Line;
     }
   }
   return Text;

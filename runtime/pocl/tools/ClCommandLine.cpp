@@ -221,6 +221,7 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
       if (I == Arguments.size() || !isOneWord(Arguments[I]))
         return usageError("-mllvm: expected an option of LLVM without blanks");
       Line.ForMachine += Argument + " " + Arguments[I] + " ";
+      Line.ForLlvm.insert(Line.ForLlvm.end(), {Argument, Arguments[I]});
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
       Line.Prelude += warningLine(Argument.substr(2));
     } else {

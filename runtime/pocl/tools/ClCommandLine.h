@@ -19,6 +19,8 @@ struct ClCommandLine {
   std::string Prelude;
   /// -Rpass... and -mllvm for the machine's compiler, with blanks between.
   std::string ForMachine;
+  /// Of ForMachine: -mllvm and its options, a word each.
+  std::vector<std::string> ForLlvm;
   std::filesystem::path Output;
   /// -v: the programs that are run are printed.
   bool Verbose = false;

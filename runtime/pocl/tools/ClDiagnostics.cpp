@@ -104,6 +104,15 @@ std::string remarks(const std::string &Output) {
   return Found;
 }
 
+Error llvmOptionError(const std::string &Output) {
+  std::string Said =
+      after(Output, "(LLVM option parsing): ").value_or("does not work");
+  // It advises a list that vorion-clang does not print.
+  Said = Said.substr(0, Said.find(".  Try: "));
+  return {"", "-mllvm: " + Said + ", expected an option that LLVM takes",
+          ExitCode::Usage};
+}
+
 Error kernelError(const std::string &Input, const std::string &Output) {
   if (const auto Files = fileError(Output))
     return *Files;

@@ -21,6 +21,9 @@ std::string machineLog(const std::string &Output);
 /// The remarks among what was printed, a line each.
 std::string remarks(const std::string &Output);
 
+/// What LLVM said in \p Output of options that it was given by -mllvm.
+Error llvmOptionError(const std::string &Output);
+
 /// Why the kernels of \p Input, which has no errors, could not be compiled for
 /// the machine, by what was printed.
 Error kernelError(const std::string &Input, const std::string &Output);

@@ -186,6 +186,20 @@ Expected<Success> keepTemporaries(const std::string &Kernel,
   return Success{};
 }
 
+/// Refuses options that LLVM does not take, before any kernel is blamed.
+Expected<Success> checkLlvmOptions(const ClCommandLine &Line,
+                                   const fs::path &Root) {
+  if (Line.ForLlvm.empty())
+    return Success{};
+  std::vector<std::string> Arguments = {(Root / "bin/vorion-clang").string(),
+                                        "-x", "c", "-fsyntax-only",
+                                        "/dev/null"};
+  Arguments.insert(Arguments.end(), Line.ForLlvm.begin(), Line.ForLlvm.end());
+  const Ran Compiler = runStep(Line, Arguments);
+  return Compiler.Succeeded ? Expected<Success>(Success{})
+                            : llvmOptionError(Compiler.Output);
+}
+
 /// Compiles one input with everything PoCL makes of it in \p Folder.
 Expected<Built> compileOne(const ClCommandLine &Line, const fs::path &Input,
                            const fs::path &Root, const fs::path &Folder) {
@@ -248,6 +262,8 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
     if (const Expected<Success> Good = checkInput(Input); !Good)
       return Good;
   if (const Expected<Success> Good = claimOutput(Line); !Good)
+    return Good;
+  if (const Expected<Success> Good = checkLlvmOptions(Line, Root); !Good)
     return Good;
   const auto Folder = TemporaryFolder::make("vorion");
   if (!Folder)

@@ -11,6 +11,7 @@ extern "C" {
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -38,8 +39,11 @@ constexpr size_t MaxRemarks = size_t{16} << 20;
 const char *remarkOptions() { return std::getenv("VORION_REMARKS"); }
 
 /// Where of bitcode nothing is known but what it says itself, clang prints
-/// "remark: k.cl:3:5: text"; everywhere else "k.cl:3:5: remark: text".
+/// "remark: k.cl:3:5: text"; everywhere else "k.cl:3:5: remark: text". A kernel
+/// with barriers has many loops over its work-items at one place: what is said
+/// of a place is said once.
 void printRemarks(const std::string &Output) {
+  std::set<std::string> Told;
   constexpr std::string_view Head = "remark: ";
   std::istringstream Lines(Output);
   for (std::string Line; std::getline(Lines, Line);) {
@@ -47,7 +51,8 @@ void printRemarks(const std::string &Output) {
     if (Line.starts_with(Head) && End != std::string::npos)
       Line = Line.substr(Head.size(), End - Head.size()) + ": remark" +
              Line.substr(End);
-    std::fprintf(stderr, "%s\n", Line.c_str());
+    if (Told.insert(Line).second)
+      std::fprintf(stderr, "%s\n", Line.c_str());
   }
 }
 
