@@ -1,9 +1,11 @@
 #include "scene/SceneFile.h"
 
+#include "scene/ForeignFile.h"
 #include "scene/formats/Formats.h"
 #include "scene/formats/Gltf.h"
 #include "scene/formats/SogFolder.h"
 #include "vorion/support/File.h"
+#include "vorion/support/Letters.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -48,6 +50,8 @@ Expected<SceneFile> parse(const std::string &Where, Bytes File,
 #include "scene/formats/Formats.def"
 #undef SCENE_FORMAT
 #undef SCENE_FOLDER
+  if (auto Known = foreignFile(Where, File))
+    return *Known;
   return parseSplat(Where, File, Options);
 }
 
@@ -80,11 +84,10 @@ Expected<SceneFile> readScene(const std::string &Path,
     return File.error();
   if (File->empty())
     return Error{Path, "an empty file, expected a scene"};
-  const std::string_view Text = asText(*File);
-  const std::size_t Start = Text.find_first_not_of(" \t\r\n");
   if (isGltf(*File))
     return checked(Path, readGltf(Path, *File, Options), Options);
-  if (Start != std::string_view::npos && Text[Start] == '{')
+  // A .splat may begin with any byte.
+  if (isText(*File) && trimmed(asText(*File), " \t\r\n").starts_with('{'))
     return checked(Path, readSogJson(Path, *File, Options), Options);
   return parseScene(Path, *File, Options);
 }

@@ -99,7 +99,7 @@ Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
     return Error{Path, Files.error().What, Files.error().Code};
   const std::string &Index = Files->at(std::string(SogIndex));
   auto Read = parseSogData(
-      Path, std::as_bytes(std::span(Index)),
+      Path, Path, std::as_bytes(std::span(Index)),
       [&](const std::string &Name) -> Expected<std::vector<std::byte>> {
         const auto Bytes = std::as_bytes(std::span(Files->at(Name)));
         return std::vector<std::byte>(Bytes.begin(), Bytes.end());

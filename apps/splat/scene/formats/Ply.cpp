@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -46,6 +47,21 @@ bool isIgnored(std::string_view Name) {
   return std::ranges::find(Names, Name) != Names.end();
 }
 
+/// What a PLY without anything that only Gaussians have is.
+std::optional<Error> pointsOrMesh(const std::string &Where,
+                                  const PlyHeader &Header,
+                                  const PlyElement &Vertex) {
+  for (const char *Name : {"opacity", "scale_0", "rot_0", "f_dc_0", "f_rest_0"})
+    if (Vertex.find(Name))
+      return std::nullopt;
+  return Error{
+      Where,
+      fmt::format("{}: element vertex has no opacity, scale_0 or rot_0, "
+                  "expected a scene of Gaussians; `splat train` makes one from "
+                  "photographs whose cameras are known",
+                  Header.find("face") ? "a mesh" : "a point cloud")};
+}
+
 /// Finds the needed properties; the degree follows from the number of f_rest.
 Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
   Layout L;
@@ -54,9 +70,13 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
       [](const PlyProperty &P) { return P.Name.starts_with("f_rest_"); }));
   L.ShDegree = Rest % 3 == 0 ? shDegreeOf(Rest / 3) : -1;
   if (L.ShDegree < 0)
-    return Error{Where, fmt::format("{} f_rest properties, expected 0, 9, 24 "
-                                    "or 45 (degree 0 to 3)",
-                                    Rest)};
+    return Error{Where,
+                 fmt::format("{} f_rest properties{}, expected 0, 9, 24 or 45 "
+                             "(degree 0 to 3){}",
+                             Rest, Rest == 72 ? " (degree 4)" : "",
+                             Rest == 72 ? "; export the scene with degree 3 or "
+                                          "less"
+                                        : "")};
   std::vector<std::string> ShNames = numbered("f_dc", 3);
   for (std::string &Name : plyRestNames(L.ShDegree))
     ShNames.push_back(std::move(Name));
@@ -117,6 +137,8 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
                         "or chunk and vertex of a compressed PLY"};
   if (Vertex->HasLists)
     return Error{Where, "element vertex has a list, expected numbers"};
+  if (auto Other = pointsOrMesh(Where, Read->header(), *Vertex))
+    return *Other;
   const auto L = layoutOf(Where, *Vertex);
   if (!L)
     return L.error();

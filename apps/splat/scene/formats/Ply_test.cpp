@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <fmt/format.h>
+#include <sstream>
 
 using namespace vorion;
 using namespace vorion::splat;
@@ -168,6 +169,47 @@ TEST(Ply, PropertiesThatWouldChangeThePictureAreRefusedOthersNamed) {
   const auto Labelled = readScene(Folder.write("s.ply", With("label")));
   ASSERT_TRUE(Labelled);
   EXPECT_EQ(Labelled->Skipped, std::vector<std::string>{"label"});
+}
+
+/// A PLY of text with one vertex.
+std::string oneVertex(const std::string &Properties, const std::string &Row) {
+  return "ply\nformat ascii 1.0\nelement vertex 1\n" + Properties +
+         "end_header\n" + Row + "\n";
+}
+
+std::string floats(const std::string &Names) {
+  std::string Lines, Name;
+  for (std::istringstream In(Names); In >> Name;)
+    Lines += "property float " + Name + "\n";
+  return Lines;
+}
+
+const std::string Colours =
+    "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+
+TEST(Ply, PointCloudsAndMeshesAreNamed) {
+  const TestFolder Folder;
+  const std::string Points =
+      oneVertex(floats("x y z") + Colours, "0 0 0 255 255 255");
+  EXPECT_EQ(errorOf(Folder, Points),
+            "a point cloud: element vertex has no opacity, scale_0 or rot_0, "
+            "expected a scene of Gaussians; `splat train` makes one from "
+            "photographs whose cameras are known");
+  std::string Mesh = Points + "3 0 0 0\n";
+  Mesh.insert(Mesh.find("end_header"),
+              "element face 1\nproperty list uchar int vertex_indices\n");
+  EXPECT_TRUE(errorOf(Folder, Mesh).starts_with("a mesh: "));
+}
+
+TEST(Ply, DegreeFourIsNamed) {
+  const TestFolder Folder;
+  std::string File = formatPly(numberedScene(1, 0)), Rest;
+  for (int I = 0; I < 72; ++I)
+    Rest += fmt::format("property float f_rest_{}\n", I);
+  File.insert(File.find("end_header"), Rest);
+  EXPECT_EQ(errorOf(Folder, File + std::string(72 * sizeof(float), '\0')),
+            "72 f_rest properties (degree 4), expected 0, 9, 24 or 45 (degree "
+            "0 to 3); export the scene with degree 3 or less");
 }
 
 TEST(Ply, EveryTruncationIsAnError) {

@@ -2,11 +2,13 @@
 
 #include "io/WebP.h"
 #include "io/Zip.h"
+#include "scene/ForeignFile.h"
 #include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Parallel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
@@ -31,14 +33,16 @@ constexpr std::size_t CodebookSize = 256;
 /// Once something is wrong, \c Problem says what, and nothing more is done.
 class Reader {
 public:
-  Reader(const std::string &Where, Json Meta, const FileSource &Read,
-         const ReadOptions &Options)
-      : Where(Where), Read(Read), NullIsNaN(Options.DropNonFinite),
-        Root(std::move(Meta)) {}
+  Reader(const std::string &Where, const std::string &MetaWhere, Json Meta,
+         const FileSource &Read, const ReadOptions &Options)
+      : Where(Where), MetaWhere(MetaWhere), Read(Read),
+        NullIsNaN(Options.DropNonFinite), Root(std::move(Meta)) {}
 
   Expected<SceneFile> read() {
     if (!Root.is_object())
       return metaError("not a JSON object, expected SOG's description");
+    if (!isDescription(Root))
+      return foreignJson(MetaWhere, Root);
     // Files of version 1 do not say so.
     const auto Version = Root.find("version");
     IsFirst = Version == Root.end();
@@ -118,6 +122,14 @@ public:
   }
 
 private:
+  /// Whether \p Root, an object, may be SOG's: it has one of the groups at
+  /// least.
+  static bool isDescription(const Json &Root) {
+    return std::ranges::any_of(
+        std::array{"means", "scales", "quats", "sh0"},
+        [&](const char *Group) { return Root.contains(Group); });
+  }
+
   /// What the 256 bytes stand for.
   using Book = std::vector<double>;
 
@@ -169,7 +181,7 @@ private:
   }
 
   Error metaError(std::string What) const {
-    return Error{Where + ": meta.json", std::move(What)};
+    return Error{MetaWhere, std::move(What)};
   }
 
   /// What the keys "model" and "antialias" say; older writers have the latter.
@@ -186,8 +198,7 @@ private:
       return D;
     if (!Model->is_string())
       return metaError("model is no name, expected default or antialiased");
-    auto Named =
-        drawingOfModel(Where + ": meta.json", Model->get<std::string>());
+    auto Named = drawingOfModel(MetaWhere, Model->get<std::string>());
     if (Named && !D.Source.empty() && !Named->drawsAs(D))
       return metaError(fmt::format("{} and {} contradict each other, expected "
                                    "one of them",
@@ -397,7 +408,7 @@ private:
                             (P.Entries % PaletteRow != 0 ? 1 : 0))});
   }
 
-  const std::string &Where;
+  const std::string &Where, &MetaWhere;
   const FileSource &Read;
   bool NullIsNaN; ///< in a codebook; an error else
   Json Root;
@@ -418,12 +429,12 @@ private:
 
 } // namespace
 
-Expected<SceneFile> parseSogData(const std::string &Where, Bytes Meta,
+Expected<SceneFile> parseSogData(const std::string &Where,
+                                 const std::string &MetaWhere, Bytes Meta,
                                  const FileSource &Read,
                                  const ReadOptions &Options) {
-  auto Root =
-      parseJson<Json>(asText(Meta), Where + ": meta.json", "SOG's description");
-  return Root ? Reader(Where, std::move(*Root), Read, Options).read()
+  auto Root = parseJson<Json>(asText(Meta), MetaWhere, "SOG's description");
+  return Root ? Reader(Where, MetaWhere, std::move(*Root), Read, Options).read()
               : Expected<SceneFile>(Root.error());
 }
 
@@ -434,12 +445,18 @@ Expected<SceneFile> parseSog(const std::string &Where, Bytes File,
   auto Z = ZipArchive::open(Where, "a SOG archive", File);
   if (!Z)
     return Z.error();
+  std::vector<std::string> Names;
+  Names.reserve(Z->entries());
+  for (uint64_t I = 0; I < Z->entries(); ++I)
+    Names.push_back(Z->name(I));
+  if (std::ranges::find(Names, "meta.json") == Names.end())
+    return foreignArchive(Where, Names);
   const auto Meta = Z->read("meta.json");
   if (!Meta)
     return Meta.error();
   return parseSogData(
-      Where, *Meta, [&Z](const std::string &Name) { return Z->read(Name); },
-      Options);
+      Where, Where + ": meta.json", *Meta,
+      [&Z](const std::string &Name) { return Z->read(Name); }, Options);
 }
 
 } // namespace vorion::splat

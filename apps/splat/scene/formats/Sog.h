@@ -19,10 +19,12 @@ using FileSource =
 /// of up to 65,536 entries; rotations of 8 bits for each of the three smallest
 /// components; opacity of 8 bits. Version 1 has even steps between bounds where
 /// version 2 has codebooks, and logits of opacities. \p Where names the data
-/// set. Refused: planes smaller than the count, of different sizes, or out of
-/// proportion to their files or to the count, indices outside codebook or
-/// palette, models other than default and antialiased.
-Expected<SceneFile> parseSogData(const std::string &Where, Bytes Meta,
+/// set in messages, \p MetaWhere its description. Refused: planes smaller than
+/// the count, of different sizes, or out of proportion to their files or to the
+/// count, indices outside codebook or palette, models other than default and
+/// antialiased.
+Expected<SceneFile> parseSogData(const std::string &Where,
+                                 const std::string &MetaWhere, Bytes Meta,
                                  const FileSource &Read,
                                  const ReadOptions &Options = {});
 

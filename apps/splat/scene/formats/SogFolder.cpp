@@ -57,9 +57,10 @@ Expected<SceneFile> readDataSet(const std::string &Where,
   if (!Content)
     return Content.error();
   const fs::path Folder = fs::path(Meta).parent_path();
+  const std::string Inside =
+      Folder.empty() ? Where : Where + "/" + printable(Folder.string());
   return parseSogData(
-      Folder.empty() ? Where : Where + "/" + printable(Folder.string()),
-      *Content,
+      Inside, Inside + ": " + MetaName, *Content,
       [&](const std::string &Name) { return Read((Folder / Name).string()); },
       Options);
 }
@@ -324,7 +325,7 @@ Expected<SceneFile> readSogJson(const std::string &Path, Bytes File,
     return Root.error();
   if (Root->contains("tree") || Root->contains("lodLevels"))
     return parseStreamedSog(Folder.string(), File, filesOf(Folder), Options);
-  return parseSogData(Folder.string(), File, filesOf(Folder), Options);
+  return parseSogData(Folder.string(), Path, File, filesOf(Folder), Options);
 }
 
 } // namespace vorion::splat

@@ -29,7 +29,7 @@ TEST(Splat, BytesOfARecord) {
   std::string Record;
   for (const float V : {1.0F, -2.0F, 3.0F, 1.0F, 0.0F, std::exp(1.0F)})
     Record.append(reinterpret_cast<const char *>(&V), sizeof(V));
-  Record += std::string("\x00\xff\x80\xff\x00\x80\xc0\xff", 8);
+  Record += std::string("\x00\xff\x80\xff\xc0\x40\xc0\xc0", 8);
   const Scene S = parsed(Record);
   EXPECT_EQ(S.Means, (std::vector<float>{1, -2, 3}));
   EXPECT_EQ(S.LogScales[0], 0);
@@ -38,7 +38,7 @@ TEST(Splat, BytesOfARecord) {
   EXPECT_NEAR(S.Sh[0], -0.5 / ShC0, 1e-6);
   EXPECT_NEAR(S.Sh[1], 0.5 / ShC0, 1e-6);
   EXPECT_EQ(activate<float>(S).Opacities[0], 1);
-  EXPECT_EQ(S.Quats, (std::vector<float>{-1, 0, 0.5, 127.0F / 128}));
+  EXPECT_EQ(S.Quats, (std::vector<float>{0.5, -0.5, 0.5, 0.5}));
 }
 
 TEST(Splat, AnotherLengthIsToldWithWhatIsLeftOver) {

@@ -65,8 +65,9 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
                         "bytes"};
   const auto Version = load<uint32_t>(File, 4);
   if (Version < 2 || Version > 4)
-    return Error{Where,
-                 fmt::format("SPZ version {}, expected 2 to 4", Version)};
+    return Error{Where, fmt::format("SPZ version {}, expected 2 to 4; export "
+                                    "the scene as one of those, or as .ply",
+                                    Version)};
   Header H;
   H.Version = static_cast<int>(Version);
   H.Count = load<uint32_t>(File, 8);
@@ -75,8 +76,9 @@ Expected<Header> readHeader(const std::string &Where, Bytes File) {
   const unsigned Flags = byteAt(File, 14);
   H.Antialiased = (Flags & AntialiasedFlag) != 0;
   if (H.ShDegree > MaxShDegree)
-    return Error{Where,
-                 fmt::format("SH degree {}, expected 0 to 3", H.ShDegree)};
+    return Error{Where, fmt::format("SH degree {}, expected 0 to 3; export the "
+                                    "scene with degree 3 or less",
+                                    H.ShDegree)};
   if (H.FractionalBits > 24)
     return Error{Where, fmt::format("{} fractional bits of 24-bit positions, "
                                     "expected 0 to 24",
@@ -175,6 +177,9 @@ Expected<SceneFile> unpackAndDecode(const std::string &Where, Bytes File) {
   const auto Start = Stream->read(HeaderSize);
   if (!Start)
     return Start.error();
+  if (!asText(*Start).starts_with("NGSP"))
+    return Error{Where, "a gzip-packed file of another kind, expected SPZ; "
+                        "unpack it with `gunzip`, and name the scene in it"};
   const auto H = readHeader(Where, *Start);
   if (!H)
     return H.error();

@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *Data, std::size_t Size) {
     return std::vector<std::byte>(It->second.begin(), It->second.end());
   };
   if (const auto It = Files.find("meta.json"); It != Files.end())
-    if (const auto R = parseSogData("input", It->second, Read); !R)
+    if (const auto R = parseSogData("input", "input", It->second, Read); !R)
       if (R.error().What.find('\n') != std::string::npos)
         std::abort();
   if (const auto It = Files.find("lod-meta.json"); It != Files.end())

@@ -116,7 +116,7 @@ void addSplatDamage(std::vector<DamagedFile> &Out) {
   Out.push_back({"text.splat",
                  "this text has sixty-four bytes, so it could be two "
                  "records......",
-                 "expected a .splat file"});
+                 "not a scene of a known format"});
 }
 
 void addSpzDamage(std::vector<DamagedFile> &Out) {
@@ -147,7 +147,8 @@ void addSpzDamage(std::vector<DamagedFile> &Out) {
                        const char *Message) {
     Out.push_back({Name, gzipOf(Content), Message});
   };
-  Add("magic.spz", patched(Body, 0, uint8_t('X')), "not an SPZ file");
+  Add("magic.spz", patched(Body, 0, uint8_t('X')),
+      "a gzip-packed file of another kind");
   Add("version1.spz", patched(Body, 4, uint32_t(1)), "SPZ version 1");
   Add("version4.spz", patched(Body, 4, uint32_t(4)),
       "SPZ version 4 in a gzip stream, expected 2 or 3");
@@ -323,7 +324,8 @@ std::vector<DamagedFile> damagedFiles() {
     Out.push_back({F.Name + ".sog", zipOf(F.Files), F.Message});
   Folder Missing = sogOf(sample(0));
   Missing.erase("meta.json");
-  Out.push_back({"no-meta.sog", zipOf(Missing), "meta.json: no such entry"});
+  Out.push_back(
+      {"no-meta.sog", zipOf(Missing), "without the meta.json of SOG"});
   Out.push_back(
       {"short.sog", cut(zipOf(sogOf(sample(0))), 1), "expected a SOG archive"});
   return Out;
