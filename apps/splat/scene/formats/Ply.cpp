@@ -3,13 +3,16 @@
 // A PLY, of text or binary, whose element vertex has the properties x, y, z,
 // f_dc_0..2, f_rest_0.. (0, 9, 24 or 45 of them: degree 0 to 3), opacity,
 // scale_0..2 and rot_0..3 as floats or doubles, in any order; other properties
-// (nx, ny, nz) and other elements are skipped. Refused, each with its reason:
+// (nx, ny, nz) and other elements are skipped. Instead of f_dc and f_rest there
+// may be red, green and blue as bytes, as nerfstudio writes on request: the
+// colours themselves, 0.5 + C0 f_dc. Refused, each with its reason:
 // missing or repeated properties, lists of a vertex, a file shorter or longer
 // than the header says, values that are not finite, no vertex at all.
 #include "scene/formats/Ply.h"
 
 #include "io/PlyFile.h"
 #include "io/Unsupported.h"
+#include "scene/formats/Dequantize.h"
 #include "scene/formats/Formats.h"
 #include "vorion/support/File.h"
 
@@ -28,6 +31,8 @@ namespace {
 struct Layout {
   int ShDegree = 0;
   std::vector<PlyReal> Means, LogScales, Quats, Opacity, Sh;
+  std::vector<std::size_t>
+      ColourBytes;                  ///< of red, green, blue if there is no Sh
   std::vector<std::string> Skipped; ///< names of other properties
 };
 
@@ -45,6 +50,12 @@ bool isIgnored(std::string_view Name) {
   constexpr std::array<std::string_view, 7> Names{
       "nx", "ny", "nz", "red", "green", "blue", "alpha"};
   return std::ranges::find(Names, Name) != Names.end();
+}
+
+/// Whether the colours are bytes.
+bool hasColourBytes(const PlyElement &Vertex) {
+  return !Vertex.find("f_dc_0") && Vertex.find("red") &&
+         Vertex.find("red")->Type == PlyType::UChar;
 }
 
 /// What a PLY without anything that only Gaussians have is.
@@ -77,9 +88,18 @@ Expected<Layout> layoutOf(const std::string &Where, const PlyElement &Vertex) {
                              Rest == 72 ? "; export the scene with degree 3 or "
                                           "less"
                                         : "")};
-  std::vector<std::string> ShNames = numbered("f_dc", 3);
-  for (std::string &Name : plyRestNames(L.ShDegree))
-    ShNames.push_back(std::move(Name));
+  std::vector<std::string> ShNames;
+  if (Rest == 0 && hasColourBytes(Vertex)) {
+    auto Found =
+        Vertex.offsets(Where, {"red", "green", "blue"}, PlyType::UChar);
+    if (!Found)
+      return Found.error();
+    L.ColourBytes = std::move(*Found);
+  } else {
+    ShNames = numbered("f_dc", 3);
+    for (std::string &Name : plyRestNames(L.ShDegree))
+      ShNames.push_back(std::move(Name));
+  }
 
   if (Vertex.find("scale_1") && !Vertex.find("scale_2"))
     return flatGaussians(Where, "element vertex with scale_1 and no scale_2");
@@ -164,6 +184,8 @@ Expected<SceneFile> parsePly(const std::string &Where, Bytes File,
     for (const auto &[To, From] : Copied)
       for (std::size_t K = 0; K < From.size(); ++K)
         To[I * From.size() + K] = loadReal(Row, From[K]);
+    for (std::size_t C = 0; C < L->ColourBytes.size(); ++C)
+      S.Sh[3 * I + C] = shOfColor(byteAt(Row, L->ColourBytes[C]) / 255.0);
   }
   return Result;
 }

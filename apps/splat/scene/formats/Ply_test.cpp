@@ -187,6 +187,38 @@ std::string floats(const std::string &Names) {
 const std::string Colours =
     "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 
+// As nerfstudio's ns-export gaussian-splat --ply-color-mode rgb writes it.
+TEST(Ply, ColoursMayBeBytes) {
+  const TestFolder Folder;
+  const std::string Before = floats("x y z nx ny nz");
+  const std::string After =
+      floats("opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3");
+  const auto S = readPly(Folder.write(
+      "s.ply", oneVertex(Before + Colours + After, "1 2 3 0 0 0 0 255 51 "
+                                                   "4 5 6 7 1 0 0 0")));
+  ASSERT_TRUE(S) << S.error().What;
+  EXPECT_EQ(S->ShDegree, 0);
+  EXPECT_EQ(S->OpacityLogits, std::vector<float>{4});
+  EXPECT_EQ(S->LogScales, (std::vector<float>{5, 6, 7}));
+  const double Expected[] = {-0.5, 0.5, -0.3};
+  for (std::size_t C = 0; C < 3; ++C)
+    EXPECT_NEAR(S->Sh[C], Expected[C] / ShC0, 1e-6);
+}
+
+TEST(Ply, ColoursOfOtherTypesDoNotStandForHarmonics) {
+  const TestFolder Folder;
+  const std::string Rest =
+      floats("x y z opacity scale_0 scale_1 scale_2 rot_0 rot_1 rot_2 rot_3");
+  const std::string Row = "1 2 3 4 5 6 7 1 0 0 0 1 1 1";
+  EXPECT_EQ(errorOf(Folder, oneVertex(Rest + floats("red green blue"), Row)),
+            "property f_dc_0 of element vertex is missing, expected a float or "
+            "double");
+  std::string Mixed = Colours;
+  Mixed.replace(Mixed.find("uchar blue"), 5, "float");
+  EXPECT_EQ(errorOf(Folder, oneVertex(Rest + Mixed, Row)),
+            "property blue of element vertex has another type, expected uchar");
+}
+
 TEST(Ply, PointCloudsAndMeshesAreNamed) {
   const TestFolder Folder;
   const std::string Points =
