@@ -1,5 +1,6 @@
 #include "cameras/CameraPath.h"
 
+#include "io/CameraLens.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
@@ -8,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 namespace vorion::splat {
 namespace {
@@ -55,10 +58,37 @@ std::optional<Matrix> matrixOf(const Json &J) {
   return M;
 }
 
-Camera posed(const Matrix &M, int Width, int Height, double Fov) {
-  const double Focal =
-      0.5 * Height / std::tan(Fov * std::numbers::pi / 180 / 2);
+/// The names that nerfstudio's viewer has for its cameras.
+constexpr std::pair<std::string_view, LensModel> Types[] = {
+    {"perspective", LensModel::Pinhole},
+    {"fisheye", LensModel::Fisheye},
+    {"equirectangular", LensModel::Equirectangular}};
+
+Expected<LensModel> modelOf(const std::string &Where, const Json &Document) {
+  const auto Type = Document.find("camera_type");
+  if (Type == Document.end())
+    return LensModel::Pinhole;
+  for (const auto &[Name, Model] : Types)
+    if (*Type == Name)
+      return Model;
+  return Error{Where, fmt::format("camera_type {}, expected \"perspective\", "
+                                  "\"fisheye\" or \"equirectangular\"",
+                                  printable(jsonText(*Type)))};
+}
+
+/// Pixels of a pinhole whose picture sees \p Fov degrees of height. nerfstudio
+/// takes the same number as a fisheye's pixels a radian.
+double focalOf(int Height, double Fov) {
+  return 0.5 * Height / std::tan(Fov * std::numbers::pi / 180 / 2);
+}
+
+/// With the lens of \p Model; the sphere takes no \p Focal.
+Camera posed(const Matrix &M, LensModel Model, int Width, int Height,
+             double Focal) {
   Camera C = Camera::ahead(Width, Height, Focal);
+  C.Optics.Model = Model;
+  if (Model == LensModel::Equirectangular)
+    setSphere(C);
   for (std::size_t R = 0; R < 3; ++R) {
     C.Position[R] = M[4 * R + 3];
     for (std::size_t K = 0; K < 3; ++K) // y up and z back
@@ -82,10 +112,10 @@ Expected<std::vector<Camera>> parseCameraPath(const std::string &Where,
     return Error{Where, fmt::format("key render_{} is missing or wrong, "
                                     "expected 1 to {} pixels",
                                     Width ? "height" : "width", MaxImageSize)};
-  if (const auto Type = Document.find("camera_type");
-      Type != Document.end() && *Type != "perspective")
-    return Error{Where, fmt::format("camera_type {}, expected \"perspective\"",
-                                    printable(jsonText(*Type)))};
+  const auto Model = modelOf(Where, Document);
+  if (!Model)
+    return Model.error();
+  const bool IsSphere = *Model == LensModel::Equirectangular;
   const auto HasSome = [&](const char *Key) {
     const auto It = Document.find(Key);
     return It != Document.end() && It->is_array() && !It->empty();
@@ -108,10 +138,12 @@ Expected<std::vector<Camera>> parseCameraPath(const std::string &Where,
       return Fail(fmt::format("key {} is wrong, expected 16 numbers", Key));
     const auto Fov = One.contains("fov") ? numberAt(One, "fov")
                                          : numberAt(Document, "default_fov");
-    if (!Fov || !(*Fov > 0.001 && *Fov < 179.9))
+    // The sphere has none.
+    if (!IsSphere && (!Fov || !(*Fov > 0.001 && *Fov < 179.9)))
       return Fail("key fov is missing or wrong, expected degrees between 0 and "
                   "180");
-    Camera C = posed(*M, *Width, *Height, *Fov);
+    Camera C = posed(*M, *Model, *Width, *Height,
+                     IsSphere ? 0 : focalOf(*Height, *Fov));
     C.Id = static_cast<int>(Cameras.size());
     C.Name = Name;
     if (!isRotation(C.Rotation))

@@ -17,8 +17,10 @@ bool isCameraPath(const nlohmann::json &Document);
 /// render_height, and for each camera_to_world (16 numbers by rows, x right, y
 /// up, z back) and fov (vertical, degrees). A path that was never generated has
 /// only keyframes, whose key is matrix, by rows or by columns, as numbers or as
-/// text; they are given instead. Refused: camera types other than perspective,
-/// poses that are no rotation and translation.
+/// text; they are given instead. camera_type is
+/// perspective (also without the key), fisheye (fov gives its pixels a radian
+/// as it gives a pinhole's focal length) or equirectangular (without fov).
+/// Refused: other camera types, poses that are no rotation and translation.
 Expected<std::vector<Camera>> parseCameraPath(const std::string &Where,
                                               const nlohmann::json &Document);
 

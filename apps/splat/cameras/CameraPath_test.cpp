@@ -1,4 +1,5 @@
 #include "cameras/CameraPath.h"
+#include "io/CameraLens.h"
 
 #include <cmath>
 #include <functional>
@@ -60,6 +61,38 @@ TEST(CameraPath, KeyFramesStandForAPathThatWasNotGenerated) {
   }
 }
 
+TEST(CameraPath, AFisheyeHasThePixelsARadianOfThePinholesFocalLength) {
+  Json J = sample();
+  J["camera_type"] = "fisheye";
+  const auto Read = parseCameraPath("file", J);
+  ASSERT_TRUE(Read) << Read.error().What;
+  for (const Camera &C : *Read) {
+    expectPose(C);
+    EXPECT_EQ(C.Optics, (CameraModel{LensModel::Fisheye, {}}));
+    EXPECT_NEAR(C.Fx, 24, 1e-12);
+    EXPECT_EQ(C.Fy, C.Fx);
+    EXPECT_EQ(C.Cx, 32);
+  }
+}
+
+TEST(CameraPath, ASphereNeedsNoFieldOfView) {
+  Json J = sample();
+  J["camera_type"] = "equirectangular";
+  for (Json &One : J["camera_path"])
+    One.erase("fov");
+  const auto Read = parseCameraPath("file", J);
+  ASSERT_TRUE(Read) << Read.error().What;
+  Camera Sphere = Camera::ahead(64, 48, 1);
+  setSphere(Sphere);
+  for (const Camera &C : *Read) {
+    expectPose(C);
+    EXPECT_EQ(C.Optics, (CameraModel{LensModel::Equirectangular, {}}));
+    EXPECT_EQ(C.Fx, Sphere.Fx);
+    EXPECT_EQ(C.Fy, Sphere.Fy);
+    EXPECT_EQ(C.Cy, Sphere.Cy);
+  }
+}
+
 TEST(CameraPath, EachKindOfDamageHasItsMessage) {
   const struct {
     std::function<void(Json &)> Change;
@@ -68,7 +101,9 @@ TEST(CameraPath, EachKindOfDamageHasItsMessage) {
       {[](Json &J) { J.erase("render_width"); }, "key render_width"},
       {[](Json &J) { J["render_height"] = 1e9; }, "key render_height"},
       {[](Json &J) { J["render_height"] = 4.5; }, "key render_height"},
-      {[](Json &J) { J["camera_type"] = "vr180"; }, "camera_type \"vr180\""},
+      {[](Json &J) { J["camera_type"] = "vr180"; },
+       "camera_type \"vr180\", expected \"perspective\", \"fisheye\" or "},
+      {[](Json &J) { J["camera_type"] = 3; }, "camera_type 3"},
       {[](Json &J) {
          J["camera_path"] = 3;
          J["keyframes"] = Json::array();
