@@ -218,8 +218,11 @@ Error Launcher::launchError(const std::string &Name, cl_int Status) const {
     return Error{"", Message};
   if (!Message.empty())
     printNote(fmt::format("vorion: error: {}\n", Message));
-  if (Status == CL_MEM_OBJECT_ALLOCATION_FAILURE)
-    return clError("running kernel " + Name, Status);
+  if (Status == CL_MEM_OBJECT_ALLOCATION_FAILURE) {
+    Error E = clError("running kernel " + Name, Status);
+    E.What += ", expected " + Remedy;
+    return E;
+  }
   return Error{"",
                fmt::format("kernel '{}' failed on {} ({}), expected it to run "
                            "to its end",
@@ -257,16 +260,17 @@ void CL_CALLBACK releaseBuffer(cl_mem /*Buffer*/, void *Data) {
   *R->InUse -= R->Bytes;
 }
 
-/// What a user can do if the device has not \p Bytes.
-std::string remedyFor(uint64_t Bytes) {
+/// What a user can do if the device has not \p Bytes, beside \p Remedy.
+std::string remedyFor(uint64_t Bytes, const std::string &Remedy) {
   // The platform keeps 1/32 of the machine's memory for launches.
   const uint64_t Wanted = Bytes / 31 * 32;
   return Wanted >> 32
-             ? "expected a smaller scene or picture, because a device's "
-               "addresses have 32 bits"
-             : fmt::format("expected a smaller scene or picture, or at least "
-                           "{} as global_bytes of VORION_CONFIG",
-                           ((Wanted >> 20) + 1) << 20);
+             ? fmt::format("expected {}, because a device's addresses have 32 "
+                           "bits",
+                           Remedy)
+             : fmt::format("expected {}, or at least {} as global_bytes of "
+                           "VORION_CONFIG",
+                           Remedy, ((Wanted >> 20) + 1) << 20);
 }
 
 } // namespace
@@ -277,16 +281,16 @@ cl::Buffer Launcher::allocate(std::string_view What, uint64_t Bytes) {
   // OpenCL has no empty buffers.
   const uint64_t Size = std::max<uint64_t>(Bytes, 4);
   if (Size > Dev.largestAllocation() || *InUse + Size > Dev.globalBytes()) {
-    Failure =
-        Error{"",
-              fmt::format(
-                  "the {} need {:.1f} MiB beside {:.1f} MiB in use, but {} "
-                  "has {:.1f} MiB of memory, at most {:.1f} MiB in one "
-                  "piece, {}",
-                  What, mebibytes(Size), mebibytes(*InUse), Dev.name(),
-                  mebibytes(Dev.globalBytes()),
-                  mebibytes(Dev.largestAllocation()), remedyFor(*InUse + Size)),
-              ExitCode::LimitReached};
+    Failure = Error{
+        "",
+        fmt::format("the {} need {:.1f} MiB beside {:.1f} MiB in use, but {} "
+                    "has {:.1f} MiB of memory, at most {:.1f} MiB in one "
+                    "piece, {}",
+                    What, mebibytes(Size), mebibytes(*InUse), Dev.name(),
+                    mebibytes(Dev.globalBytes()),
+                    mebibytes(Dev.largestAllocation()),
+                    remedyFor(*InUse + Size, Remedy)),
+        ExitCode::LimitReached};
     return {};
   }
   cl_int Status = CL_SUCCESS;

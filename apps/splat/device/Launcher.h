@@ -114,6 +114,9 @@ public:
     launch(K, Kernel, Global, Local);
   }
 
+  /// What a user can make smaller where the device's memory does not suffice;
+  /// "a smaller scene or picture" until then.
+  void setRemedy(std::string Text) { Remedy = std::move(Text); }
   /// \p What names the buffer in errors ("Gaussians").
   cl::Buffer allocate(std::string_view What, uint64_t Bytes);
   void write(std::string_view What, const cl::Buffer &To, const void *From,
@@ -153,6 +156,7 @@ private:
   bool TimeChecked = false; ///< Device::timeCheck()
   std::vector<StageReport> Stages;
   std::chrono::steady_clock::time_point StageStart;
+  std::string Remedy = "a smaller scene or picture";
   uint64_t MostBytes = 0;
   /// Shared with the buffers, which may outlive this.
   std::shared_ptr<std::atomic<uint64_t>> InUse =

@@ -39,4 +39,8 @@ struct DeviceScene {
   std::vector<uint32_t> downloadIdentities(Launcher &L) const;
 };
 
+/// How many Gaussians \p Bytes of a device's memory hold in training, a change
+/// of density included; pictures and lists of tiles take from that.
+uint64_t mostInTraining(uint64_t Bytes, int ShDegree);
+
 } // namespace vorion::splat

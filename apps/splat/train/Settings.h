@@ -73,7 +73,9 @@ struct TrainSettings {
   double ResetOpacity = 0.01;    ///< down to this
   /// On a white background opacities are reset at this iteration, too.
   unsigned WhiteReset = 500;
-  uint32_t MostGaussians = 4000000;
+  /// The default machine holds these in training, of degree 3
+  /// (DeviceScene.h).
+  uint32_t MostGaussians = 2000000;
   /// Of MCMC alone: so many more at a change, over those that there are; random
   /// steps, over the rate of positions.
   double GrowShare = 0.05, NoiseRate = 5e5;

@@ -83,6 +83,19 @@ void noteStart(const Work &W) {
         Seeing, W.Photos.Views.size()));
 }
 
+/// Says that the scene may outgrow the device, which ends the run, maybe hours
+/// later.
+void noteRoom(const Work &W, const Device &D) {
+  const uint64_t Room = mostInTraining(D.globalBytes(), W.Request.ShDegree),
+                 Most = W.Request.Run.Settings.MostGaussians;
+  if (Most > Room)
+    W.Host.Note(fmt::format(
+        "{} holds at most {} Gaussians of SH degree {} in training, less what "
+        "pictures take, and --max-gaussians allows {}: a scene that outgrows "
+        "it ends the run",
+        D.name(), Room, W.Request.ShDegree, Most));
+}
+
 /// Says once, \p Said, that most Gaussians do not learn.
 void noteWithoutGradient(const Work &W, const StepReport &Step, bool &Said) {
   if (Said || !Step.Density ||
@@ -373,6 +386,10 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   if (!D)
     return D.error();
   Launcher Launch(*D, "", {});
+  Launch.setRemedy("less as --max-gaussians, or smaller pictures "
+                   "(--downscale)");
+  if (Processes.first())
+    noteRoom(W, *D);
   Launch.beginStage(Stage::Build);
   for (const ProgramSpec &P : Trainer::programs(R.Run.Settings, *Pictures))
     Launch.build(P);
