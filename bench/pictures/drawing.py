@@ -1,0 +1,70 @@
+"""What the pictures of this folder share: an SVG in the look of splat's charts, and a colour for each reason."""
+
+from xml.sax.saxutils import escape
+
+# By reason of cores, rasterizers and pixel units, in the order in which they are stacked. What has no colour is grey.
+COLOURS = {
+    "issue": "#009e73", "fetch": "#0072b2", "branch": "#56b4e9", "divergence": "#8ecae6", "operand": "#cc79a7",
+    "unit": "#b07aa1", "memory": "#d55e00", "lsu_queue": "#e69f00", "local": "#f0c05a", "raster_full": "#7a5195",
+    "raster_wait": "#b39ddb", "barrier": "#8c6d31", "blend": "#009e73", "clip": "#8ecae6", "hazard": "#cc79a7",
+    "begin": "#e69f00", "flush": "#f0c05a", "drain": "#d55e00",
+}
+GREY = "#c8ccd1"  # start, ended, idle, and whatever is new
+LEGEND_ROW = 20
+
+
+def colour(reason):
+    return COLOURS.get(reason, GREY)
+
+
+def stacked(by_reason):
+    """The reasons and their values, in the order of COLOURS and what is grey last."""
+    order = list(COLOURS)
+    return sorted(by_reason.items(), key=lambda item: order.index(item[0]) if item[0] in COLOURS else len(order))
+
+
+class Drawing:
+    """Elements of an SVG, top down; write() closes it under the legend of the reasons that were used."""
+
+    def __init__(self, width, title, subtitle):
+        self.width, self.elements, self.used = width, [], set()
+        self.text(16, 26, title, "title ink")
+        self.text(16, 44, subtitle, "soft")
+        self.y = 58
+
+    def text(self, x, y, what, kind="ink", anchor="start"):
+        self.elements.append(f'<text x="{x:g}" y="{y:g}" text-anchor="{anchor}" class="{kind}">{escape(what)}</text>')
+
+    def box(self, x, y, width, height, fill, hint=""):
+        hint = f"<title>{escape(hint)}</title>" if hint else ""
+        self.elements.append(f'<rect x="{x:.1f}" y="{y:g}" width="{width:.1f}" height="{height:g}" fill="{fill}">{hint}</rect>')
+
+    def path(self, commands, fill):
+        self.elements.append(f'<path d="{commands}" fill="{fill}"/>')
+
+    def write(self, file, made):
+        x = 16
+        self.y += 18
+        for reason in [r for r in COLOURS if r in self.used] + (["other"] if self.used - set(COLOURS) else []):
+            width = 26 + 7.2 * len(reason)
+            if x + width > self.width:
+                x, self.y = 16, self.y + LEGEND_ROW
+            self.box(x, self.y - 10, 11, 11, colour(reason))
+            self.text(x + 16, self.y, reason)
+            x += width + 8
+        self.y += 24
+        for line in made:
+            self.text(16, self.y, line, "made soft")
+            self.y += 15
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.y}" width="{self.width}" height="{self.y}">\n'
+                      "<style>\n"
+                      'text { font: 12px system-ui, "DejaVu Sans", sans-serif; white-space: pre; }\n'
+                      ".title { font-size: 15px; font-weight: 600; }\n.made { font-size: 11px; }\n"
+                      '.code { font: 11px ui-monospace, "DejaVu Sans Mono", monospace; }\n'
+                      ".panel { fill: #f6f8fa; stroke: #d0d7de; }\n.ink { fill: #1b1f24; }\n.soft { fill: #57606a; }\n"
+                      "@media (prefers-color-scheme: dark) {\n"
+                      ".panel { fill: #161b22; stroke: #30363d; }\n.ink { fill: #e6edf3; }\n.soft { fill: #9aa4af; }\n}\n"
+                      "</style>\n"
+                      f'<rect x="0.5" y="0.5" width="{self.width - 1}" height="{self.y - 1}" rx="6" class="panel"/>\n')
+            out.write("\n".join(self.elements) + "\n</svg>\n")
