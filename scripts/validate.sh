@@ -1,22 +1,43 @@
 #!/usr/bin/env bash
 # The clock beside references from other machines, as tables (docs/validation.md).
-# usage: scripts/validate.sh [REFERENCES [KERNEL...]]   (a folder, default: ../shared/data/timing; default: all kernels)
-# exit codes: 0 all within their limits, 1 not so, 2 usage
+# usage: scripts/validate.sh [--peers FOLDER] [REFERENCES [KERNEL...]]   (REFERENCES: a folder, default: ../shared/data/timing;
+# default: all kernels). FOLDER, or VORION_PEERS, has programs that run the other machines now: kernels, loops and dram, or some
+# of them (bench/timing/README.md). What they print takes the place of the references.
+# exit codes: 0 all within their limits, 1 not so, or a peer failed, 2 usage, 3 a file is none of references
 source "$(dirname "$0")/lib.sh"
 showHelp "$@"
-case "${1:-}" in -*) fail "unknown option $1, expected --help or a folder" ;; esac
+Peers=${VORION_PEERS:-}
+if [ "${1:-}" = --peers ]; then
+  Peers=${2:-}
+  [ -n "$Peers" ] || fail "--peers: '', expected a folder"
+  shift 2
+fi
+case "${1:-}" in -*) fail "unknown option $1, expected --help, --peers or a folder" ;; esac
+[ -z "$Peers" ] || [ -d "$Peers" ] || fail "$Peers: no such folder, expected one with the programs kernels, loops or dram"
 References=${1:-$Root/../shared/data/timing}
 source "$Root/scripts/env.sh"
+Timing=$Root/bench/timing
+
+# Sets Peer to the option for a program of FOLDER, or to nothing where there is none of that name.
+findPeer() {
+  Peer=()
+  [ -n "$Peers" ] && [ -x "$Peers/$1" ] || return 0
+  Peer=(--peer "$Peers/$1")
+}
+
 Status=0
-"$Root/bench/timing/kernels.py" "${@:2}" || Status=$?
+findPeer kernels
+"$Timing/kernels.py" "${Peer[@]}" "${@:2}" || Status=$?
 if [ ! -d "$References" ]; then
   printf '\nvalidate.sh: loops and DRAM skipped: no folder %s with references\n' "$References"
   exit $Status
 fi
-"$Root/bench/timing/cores.py" "$References" || Status=$?
+findPeer loops
+"$Timing/cores.py" "$References" "${Peer[@]}" || Status=$?
 if command -v dram_patterns >/dev/null; then
   printf '\nOne LPDDR4-3200 channel beside Ramulator:\n\n'
-  "$Root/bench/timing/dram.py" "$References/dram_lpddr4_3200.json" || Status=$?
+  findPeer dram
+  "$Timing/dram.py" "$References/dram_lpddr4_3200.json" "$Timing/dram_references.json" "${Peer[@]}" || Status=$?
 else
   printf '\nDRAM skipped: dram_patterns is not built (bench/timing/README.md)\n'
 fi

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 """The clock's cores beside references, loop by loop, as Markdown tables.
 
-usage: cores.py REFERENCES
+usage: cores.py REFERENCES [--peer PROGRAM]
 
 REFERENCES is a folder with vortex_core_cpi.json and vortex_more.json: small loops as assembly, and the cycles of an
 iteration on Vortex's RTL. A loop is run twice, and the difference divided by that of the iterations, so that
-beginning and end cancel. A reference's loops that it does not call comparable are shown without an error. The exit code is
-1 if a comparable loop is off by more than 5 %.
+beginning and end cancel. A reference's loops that it does not call comparable are shown without an error. PROGRAM is called
+with the folder and prints what vortex_more.json has; its machines take the place of those of the same name. The exit code is 1
+if a comparable loop is off by more than 5 %.
 """
 
 import argparse
@@ -18,6 +19,7 @@ import tempfile
 
 sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import command_line
+import peers
 
 LIMIT = 0.05
 # What our machine is set to for each reference, and how many warps run the loop. The RTLs have data caches.
@@ -52,7 +54,7 @@ main:
 """
 
 
-def references(folder):
+def references(folder, peer=None):
     """(kernels by name, {machine: {kernel: (cycles of an iteration, comparable)}})."""
     with open(os.path.join(folder, "vortex_core_cpi.json")) as file:
         kernels = {k["name"]: k for k in json.load(file)["kernels"]}
@@ -61,9 +63,10 @@ def references(folder):
         for machine, cycles in kernel["cycles_per_iteration"].items():
             machines.setdefault(machine, {})[name] = (cycles, name not in NOT_COMPARABLE)
     with open(os.path.join(folder, "vortex_more.json")) as file:
-        for machine in json.load(file):
-            machines[machine["name"]] = {r["kernel"]: (r["cycles_per_iteration"], r["comparable"])
-                                         for r in machine["results"]}
+        more = json.load(file)
+    for machine in more + (peers.figures(peer, list, folder) if peer else []):
+        machines[machine["name"]] = {r["kernel"]: (r["cycles_per_iteration"], r["comparable"])
+                                     for r in machine["results"]}
     return kernels, machines
 
 
@@ -115,8 +118,9 @@ def table(folder, kernels, name, reference, preset, warps):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("references")
+    peers.add(parser)
     args = parser.parse_args()
-    kernels, machines = references(args.references)
+    kernels, machines = references(args.references, args.peer)
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
         for name, preset, warps in MACHINES:

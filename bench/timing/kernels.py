@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """The clock's cores beside Vortex's RTL on whole kernels, as Markdown tables.
 
-usage: kernels.py [--write FOLDER] [KERNEL...]
+usage: kernels.py [--write FOLDER] [--peer PROGRAM] [KERNEL...]
 
 The kernels are those of kernels/, with the cycles that each took on the RTL in kernels/references.json. Both ran the
 same image of memory, from the first instruction to the end, with caches that are empty at first and memory that
 answers every request after the same time. A reference holds for one image, so kernels/compiled/ keeps the assembly that
 ran on the RTL. An image that differs is an error. So is a result that is not the RTL's. A new kernel's assembly is made by
 `vorion-clang -march=rv32imf_zicsr_xvortex -O2 -fno-math-errno -S`. FOLDER gets each kernel as KERNEL.elf.
+PROGRAM is called with that folder and prints what references.json has; its machines take the place of those of the same name.
 
 exit codes: 0 all kernels within 15 % and, where all of a machine's are chosen, their geometric mean within 5 %, 1 not so,
 2 usage
@@ -27,6 +28,7 @@ sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 import command_line
 import cores
+import peers
 
 HERE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "kernels")
 OF_ONE, OF_ALL = 0.15, 0.05
@@ -119,6 +121,7 @@ def table(machine, programs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--write", metavar="FOLDER")
+    peers.add(parser)
     parser.add_argument("kernels", nargs="*", metavar="KERNEL")
     args = parser.parse_args()
     there = sorted(name.removesuffix(".s") for name in os.listdir(os.path.join(HERE, "compiled")))
@@ -126,13 +129,15 @@ def main():
     if unknown:
         parser.error(f"{unknown[0]}: no such kernel, expected some of {', '.join(there)}")
     with open(os.path.join(HERE, "references.json")) as file:
-        machines = json.load(file)
+        machines = {machine["name"]: machine for machine in json.load(file)}
     wrong = []
     with tempfile.TemporaryDirectory() as temporary:
         folder = args.write or temporary
         os.makedirs(folder, exist_ok=True)
         programs = build(folder, args.kernels or there)
-        for machine in machines:
+        if args.peer:
+            machines |= {machine["name"]: machine for machine in peers.figures(args.peer, list, folder)}
+        for machine in machines.values():
             wrong += table(machine, programs)
     for line in wrong:
         print(f"kernels.py: error: {line}", file=sys.stderr)
