@@ -127,7 +127,7 @@ def open_table(ours, references):
             wrong.append(f"load of {load} %: not of ours, expected one of {', '.join(ours)}")
             continue
         errors = {key: mine[key] / theirs[key] - 1 for key in LATENCIES}
-        print(f"| {load} | " + " | ".join(f"{mine[key]:.1f} | {theirs[key]:.1f} | {100 * errors[key]:+.1f} %" for key in LATENCIES) + " |")
+        print(f"| {load} | " + " | ".join(f"{mine[key]:.1f} | {theirs[key]:.1f} | {round(100 * errors[key], 1) + 0:+.1f} %" for key in LATENCIES) + " |")
         limits = {"mean_read_ns": MEAN_LIMIT} | ({"read_95_ns": PERCENTILE_LIMIT} if theirs["mean_read_ns"] < knee else {})
         wrong += [f"load of {load} %: {key} is {mine[key]:.1f}, expected {theirs[key]:.1f} within {100 * limit:.0f} %"
                   for key, limit in limits.items() if abs(errors[key]) > limit]
