@@ -1,4 +1,4 @@
-"""What the pictures of this folder share: an SVG in the look of splat's charts, and a colour for each reason."""
+"""What pictures that splat-chart cannot draw share: an SVG in the look of its charts, and a colour for each reason."""
 
 from xml.sax.saxutils import escape
 
@@ -24,7 +24,7 @@ def stacked(by_reason):
 
 
 class Drawing:
-    """Elements of an SVG, top down; write() closes it under the legend of the reasons that were used."""
+    """Elements of an SVG, top down; write() closes it under a legend, of the reasons that were used if no other is given."""
 
     def __init__(self, width, title, subtitle):
         self.width, self.elements, self.used = width, [], set()
@@ -42,15 +42,16 @@ class Drawing:
     def path(self, commands, fill):
         self.elements.append(f'<path d="{commands}" fill="{fill}"/>')
 
-    def write(self, file, made):
+    def write(self, file, made, legend=None):
         x = 16
         self.y += 18
-        for reason in [r for r in COLOURS if r in self.used] + (["other"] if self.used - set(COLOURS) else []):
-            width = 26 + 7.2 * len(reason)
+        names = [r for r in COLOURS if r in self.used] + (["other"] if self.used - set(COLOURS) else [])
+        for name, fill in (legend or {name: colour(name) for name in names}).items():
+            width = 26 + 7.2 * len(name)
             if x + width > self.width:
                 x, self.y = 16, self.y + LEGEND_ROW
-            self.box(x, self.y - 10, 11, 11, colour(reason))
-            self.text(x + 16, self.y, reason)
+            self.box(x, self.y - 10, 11, 11, fill)
+            self.text(x + 16, self.y, name)
             x += width + 8
         self.y += 24
         for line in made:
