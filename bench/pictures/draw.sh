@@ -20,6 +20,10 @@ Command="splat render scene.ply --cameras cameras.json --view front -o a.png"
   --made "VORION_TIME=on VORION_TIMELINE=frame.json $Command" --made "bench/pictures/timeline.py frame.json time-timeline.svg"
 "$Here/profile.py" frame.txt "$Images/time-profile.svg" --sources "$Root/apps/splat/kernels" --made "$Scene" \
   --made "VORION_TIME=on VORION_PROFILE=frame.txt $Command" --made "bench/pictures/profile.py frame.txt time-profile.svg"
+Stretch=file=frame.kanata,core=1,first=20000,count=60
+VORION_TIME=on VORION_PIPELINE=$Stretch render -o a.png
+"$Here/pipeline.py" frame.kanata "$Images/time-pipeline.svg" --made "$Scene" \
+  --made "VORION_TIME=on VORION_PIPELINE=$Stretch $Command" --made "bench/pictures/pipeline.py frame.kanata time-pipeline.svg"
 for Map in list blends cycles saturation; do
   cp "a.$Map.png" "$Images/time-$Map.png"
 done
