@@ -109,7 +109,8 @@ out:
 }
 declare float @llvm.fma.f32(float, float, float)
 
-; All integer registers are in use around the constant: one is saved for it.
+; All integer registers are in use around the constant: one is saved for it. No
+; float register holds it from before.
 ; CHECK-LABEL: no_register_free:
 ; CHECK: #APP
 ; CHECK: #NO_APP
@@ -121,7 +122,7 @@ declare float @llvm.fma.f32(float, float, float)
 ; CHECK: #APP
 ; CHECK: #NO_APP
 define float @no_register_free(float %x) {
-  %all = call { i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32 } asm sideeffect "", "={x1},={t0},={t1},={t2},={s0},={s1},={a0},={a1},={a2},={a3},={a4},={a5},={a6},={a7},={s2},={s3},={s4},={s5},={s6},={s7},={s8},={s9},={s10},={s11},={t3},={t4},={t5},={t6}"()
+  %all = call { i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32 } asm sideeffect "", "={x1},={t0},={t1},={t2},={s0},={s1},={a0},={a1},={a2},={a3},={a4},={a5},={a6},={a7},={s2},={s3},={s4},={s5},={s6},={s7},={s8},={s9},={s10},={s11},={t3},={t4},={t5},={t6},~{ft0},~{ft1},~{ft2},~{ft3},~{ft4},~{ft5},~{ft6},~{ft7},~{ft8},~{ft9},~{ft10},~{ft11},~{fs0},~{fs1},~{fs2},~{fs3},~{fs4},~{fs5},~{fs6},~{fs7},~{fs8},~{fs9},~{fs10},~{fs11},~{fa0},~{fa1},~{fa2},~{fa3},~{fa4},~{fa5},~{fa6},~{fa7}"()
   %r0 = extractvalue { i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32 } %all, 0
   %r1 = extractvalue { i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32 } %all, 1
   %r2 = extractvalue { i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32, i32 } %all, 2
