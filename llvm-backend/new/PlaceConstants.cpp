@@ -360,6 +360,10 @@ public:
 };
 
 char PlaceConstants::ID = 0;
+// The name is for -run-pass, -print-after and -stop-after. It is not that of
+// the option, because opt makes options of the names of passes.
+const RegisterPass<PlaceConstants> Registration("vorion-constant-places",
+                                                "Vorion places of constants");
 
 } // namespace
 
