@@ -9,6 +9,8 @@ Runs each OpenCL program once with VORION_CAPTURE, and for the first launch of e
   scalar  instructions of a work-item on average: the same OpenCL C, as PoCL's front end leaves it, compiled by
           packaged clang-19 -O2 for rv32imf_zicond (with A where the kernel has atomics) and run with the same
           buffers, one work-item after the other on one lane. Of large launches every n-th group is taken.
+  work    the ratio of the two times the lanes that were active over 16: what a work-item executes on its lane, against
+          its scalar code. It leaves out what lanes cost that are off.
 "uniform" says that the kernel's code has no split and no predicate; others say how often lanes parted. Needs scripts/env.sh; no test, as bench/README.md says.
 """
 
@@ -159,6 +161,7 @@ def compare(request_file, cache, empty, folder):
         items, instructions = scalar(kernel, programs[0], request, argument_kinds(elf, kernel), folder)
         row["scalar_instructions_per_item"] = instructions / items
         row["ratio"] = row["warp_instructions_per_pass"] / row["scalar_instructions_per_item"]
+        row["work"] = row["ratio"] * row["lanes"] / LANES
     except RuntimeError as problem:
         row["left_out"] = str(problem)
     return row
@@ -184,7 +187,7 @@ def measure(commands, folder):
     run("vorion-clang", nothing, "-o", empty)
 
     rows = []
-    print(f"{'program':14} {'kernel':14} {'warp/pass':>10} {'scalar/item':>11} {'ratio':>6} {'lanes':>6}  flow")
+    print(f"{'program':14} {'kernel':14} {'warp/pass':>10} {'scalar/item':>11} {'ratio':>6} {'lanes':>6} {'work':>6}  flow")
     for number, command in enumerate(commands):
         capture, cache = (os.path.join(folder, f"{kind}{number}") for kind in ("capture", "cache"))
         os.makedirs(capture, exist_ok=True)
@@ -201,8 +204,9 @@ def measure(commands, folder):
             flow = "uniform" if row["uniform"] else f"{row['divergent_splits']} partings"
             figures = (f"{row['scalar_instructions_per_item']:11.1f} {row['ratio']:6.2f}" if "ratio" in row
                        else f"{'-':>11} {'-':>6}")
+            work = f"{row['work']:6.2f}" if "work" in row else f"{'-':>6}"
             print(f"{row['program']:14} {kernel:14} {row['warp_instructions_per_pass']:10.1f} {figures} "
-                  f"{row['lanes']:6.2f}  {flow}{': ' + row['left_out'] if 'left_out' in row else ''}", flush=True)
+                  f"{row['lanes']:6.2f} {work}  {flow}{': ' + row['left_out'] if 'left_out' in row else ''}", flush=True)
     return rows
 
 
