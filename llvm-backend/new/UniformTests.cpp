@@ -16,8 +16,13 @@
 #include "llvm/Analysis/ScalarEvolutionExpressions.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/Instructions.h"
+#include "llvm/Support/CommandLine.h"
 
 using namespace llvm;
+
+static cl::opt<bool>
+    Enabled("vorion-uniform-tests", cl::Hidden, cl::init(true),
+            cl::desc("Find comparisons of addresses that lanes agree in"));
 
 namespace {
 
@@ -50,6 +55,8 @@ const SCEV *numberOf(Value *V, ScalarEvolution &Evolution) {
 } // namespace
 
 bool vorion::markUniformTests(Function &F, FunctionAnalysisManager &Analyses) {
+  if (!Enabled)
+    return false;
   const auto &Uniform = Analyses.getResult<UniformityInfoAnalysis>(F);
   auto &Evolution = Analyses.getResult<ScalarEvolutionAnalysis>(F);
   const auto &Loops = Analyses.getResult<LoopAnalysis>(F);

@@ -2,6 +2,8 @@
 ; REQUIRES: vorion-opt
 ; RUN: vorion-opt -mtriple=riscv32 -mcpu=vorion -passes=vorion-uniform-tests -S < %s | FileCheck %s
 ; RUN: vorion-opt -mtriple=riscv32 -mcpu=vorion -passes=vorion-uniform-tests -pass-remarks=vorion -S < %s 2>&1 >/dev/null | FileCheck %s --check-prefix=SAID --implicit-check-not=remark:
+; RUN: vorion-opt -mtriple=riscv32 -mcpu=vorion -passes=vorion-uniform-tests -vorion-uniform-tests=false -S < %s | FileCheck %s --check-prefix=OFF
+; OFF-NOT: vorion.uniform
 ; SAID: remark: {{.*}}: lanes differ in both sides of this comparison by the same distance, so all agree in it: no vx_split
 ; CHECK-LABEL: @walk(
 ; CHECK: icmp eq ptr %next, %end, !vorion.uniform

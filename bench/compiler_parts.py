@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+"""What each part of the compiler's backend is worth: frames drawn with that part alone switched off.
+
+usage: compiler_parts.py --out FOLDER [--machines NAME,...] [--views SCENE:VIEW:PATH,...] [--samples PROGRAM,...] [--parts NAME,...]
+
+Draws each view on each machine with the whole backend, and again with one part off; runs the samples, which check their
+results, in the same way. Each run compiles its kernels anew; an option of the backend's reaches it by VORION_REMARKS. All
+pictures of a view must have the same bits. Prints tables of Markdown: the code and the warp instructions of `project`, and on
+the path simt of `blend`, and what a part's absence adds to the cycles of frames, of these kernels and of samples. FOLDER
+keeps what was found (resumable). Exit codes: 0, 1 a picture differs.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+import command_line
+import kept
+import scenes
+from kernels import functions
+
+# The options of each part; all of the backend's own, and LLVM's scheduler, which is run twice and reads our model.
+PARTS = {
+    "none": [],
+    "second scheduling": ["-enable-post-misched=false"],
+    "first scheduling": ["-enable-misched=false"],
+    "model of latencies": ["-schedmodel=false"],
+    "float constants": ["-vorion-float-constants=false"],
+    "places of constants": ["-vorion-place-constants=false"],
+    "raised invariants": ["-vorion-raise-invariants=false"],
+    "selects": ["-vorion-select-sides=false"],
+    "uniform tests": ["-vorion-uniform-tests=false"],
+    "rounds of passes": ["-vorion-round-limit=0"],
+}
+MACHINES = "prototype,prototype-forwarding,scaled"
+VIEWS = "guitar:front:raster,truck:overview:raster,garden_outdoor:path:raster,guitar:front:simt"
+SAMPLES = "sample-vecadd,sample-matmul,sample-scan,sample-radixsort"
+
+
+def kernels_of(path):
+    return ("project", "blend") if path == "simt" else ("project",)
+
+
+def variables_of(options, folder):
+    return {**os.environ, "POCL_CACHE_DIR": os.path.join(folder, "cache"),
+            "VORION_REMARKS": " ".join(f"-mllvm {option}" for option in options)}
+
+
+def draw(options, scene, view, path):
+    """What a frame takes, and the hash of its picture."""
+    found = scenes.shared(scene)
+    with tempfile.TemporaryDirectory(prefix="vorion-parts-") as folder:
+        picture, report, resources = (os.path.join(folder, name) for name in ("a.pfm", "a.json", "resources"))
+        variables = {**variables_of(options, folder), "VORION_RESOURCES": resources}
+        subprocess.run(["splat", "render", found.path, "--cameras", found.cameras, "--view", view, "--path", path, "--time",
+                        "-o", picture, "--json", report], cwd=scenes.ROOT, env=variables, check=True, stdout=subprocess.DEVNULL)
+        with open(report, encoding="utf-8") as file:
+            said = json.load(file)
+        with open(picture, "rb") as file:
+            row = {"picture": hashlib.sha256(file.read()).hexdigest(), "cycles": {"frame": said["time"]["sum"]["cycles"]},
+                   "instructions": {"frame": said["total"]["counters"]["warp_instructions"]}}
+        code = functions(resources)
+    for stage in said["time"]["stages"]:
+        if stage["name"] in kernels_of(path):
+            row["cycles"][stage["name"]] = stage["time"]["cycles"]
+    for stage in said["stages"]:
+        for kernel in stage["kernels"]:
+            if kernel["name"] in kernels_of(path):
+                row["instructions"][kernel["name"]] = kernel["counters"]["warp_instructions"]
+    row["code"] = {name: {"bytes": code[name]["code_bytes"],
+                          "spilling": code[name]["spills"]["stores"] + code[name]["spills"]["loads"]}
+                   for name in kernels_of(path)}
+    return row
+
+
+def run_sample(options, program):
+    """What a sample takes, whose exit code says whether its results are right."""
+    with tempfile.TemporaryDirectory(prefix="vorion-parts-") as folder:
+        stats = os.path.join(folder, "stats.json")
+        subprocess.run([program], env={**variables_of(options, folder), "VORION_TIME": "1", "VORION_STATS": stats}, check=True,
+                       stdout=subprocess.DEVNULL)
+        with open(stats, encoding="utf-8") as file:
+            said = json.load(file)
+    return {"cycles": {"all kernels": sum(run["time"]["cycles"] for run in said["runs"])},
+            "instructions": {"all kernels": said["total"]["warp_instructions"]}}
+
+
+def sampled(out, machine, part, program):
+    """The same, from FOLDER if the same programs have run it."""
+    os.environ["VORION_CONFIG"] = machine
+    file = os.path.join(out, "-".join((machine, part.replace(" ", "_"), program)) + ".json")
+    return kept.result(file, kept.origin({}, [*PARTS[part], program]), lambda: run_sample(PARTS[part], program))
+
+
+def drawn(out, machine, part, view):
+    """The same, from FOLDER if the same programs have drawn it."""
+    os.environ["VORION_CONFIG"] = machine
+    scene, name, path = view.split(":")
+    file = os.path.join(out, "-".join((machine, part.replace(" ", "_"), scene, name, path)) + ".json")
+
+    return kept.result(file, kept.origin({"scene": scenes.shared(scene).path}, [*PARTS[part], view]),
+                       lambda: draw(PARTS[part], scene, name, path))
+
+
+def change(now, before):
+    """In per cent; 0.0 where they are equal to the digit."""
+    percent = f"{100 * (now / before - 1):+.1f}"
+    return "0.0" if percent in ("+0.0", "-0.0") else percent
+
+
+def print_table(headings, rows):
+    print("\n|" + "|".join(f" {heading} " for heading in headings) + "|")
+    print("|---|" + "--:|" * (len(headings) - 1))
+    for row in rows:
+        print("|" + "|".join(f" {cell} " for cell in row) + "|")
+
+
+def code_table(rows, kernel, view, parts):
+    headings = ["part off", "bytes of code", "spills and reloads", "warp instructions", "change, %"]
+    whole = rows["none"]
+    print(f"\n`{kernel}` of {view.replace(':', ' ')}:")
+    print_table(headings, [[part, f"{rows[part]['code'][kernel]['bytes']:,}", rows[part]["code"][kernel]["spilling"],
+                            f"{rows[part]['instructions'][kernel]:,}",
+                            change(rows[part]["instructions"][kernel], whole["instructions"][kernel])] for part in parts])
+
+
+def cycles_table(found, machine, columns, parts):
+    """The first row is what the whole backend gives."""
+    whole = [found[machine, ran]["none"]["cycles"][what] for ran, what in columns]
+    print(f"\nCycles on `{machine}`; the first row has millions, the others changes in %:")
+    print_table(["part off"] + [f"{ran.replace(':', ' ')}: {what}" for ran, what in columns],
+                [[part] + [f"{was / 1e6:.3f}" if part == "none" else change(found[machine, ran][part]["cycles"][what], was)
+                           for (ran, what), was in zip(columns, whole)] for part in parts])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--machines", default=MACHINES)
+    parser.add_argument("--views", default=VIEWS, help="none if empty")
+    parser.add_argument("--samples", default=SAMPLES, help="programs; none if empty")
+    parser.add_argument("--parts", default=",".join(PARTS))
+    args = parser.parse_args()
+    machines = args.machines.split(",")
+    views, samples = ([name for name in given.split(",") if name] for given in (args.views, args.samples))
+    parts = ["none"] + [part for part in args.parts.split(",") if part != "none"]
+    for part in parts:
+        if part not in PARTS:
+            parser.error(f"{part}: no such part, expected some of {', '.join(PARTS)}")
+    os.makedirs(args.out, exist_ok=True)
+    found, code = {}, 0
+    for view in views:
+        for machine in machines:
+            rows = {part: drawn(args.out, machine, part, view) for part in parts}
+            found[machine, view] = rows
+            for part in parts:
+                if rows[part]["picture"] != found[machines[0], view]["none"]["picture"]:
+                    print(f"compiler_parts.py: error: {view} on {machine} without {part}: the picture has other bits, expected the same",
+                          file=sys.stderr)
+                    code = 1
+    for view in views:
+        for kernel in kernels_of(view.split(":")[2]):
+            code_table(found[machines[0], view], kernel, view, parts)
+    for machine in machines:
+        if views:
+            cycles_table(found, machine, [(view, what) for view in views for what in ("frame", *kernels_of(view.split(":")[2]))], parts)
+    ran = {(machine, sample): {part: sampled(args.out, machine, part, sample) for part in parts}
+           for sample in samples for machine in machines}
+    for machine in machines:
+        if samples:
+            cycles_table(ran, machine, [(sample, "all kernels") for sample in samples], parts)
+    if found:
+        same = "some with other bits" if code else "each view with the same bits"
+        print(f"\n{len(found) * len(parts)} pictures of {len(views)} views, {same}")
+    return code
+
+
+if __name__ == "__main__":
+    command_line.run(main)
