@@ -7,6 +7,7 @@ std::vector<HardCase> catalogue() {
   std::vector<HardCase> Cases;
   addShapes(Cases);
   addOpacities(Cases);
+  addOrders(Cases);
   addViews(Cases);
   addLists(Cases);
   addLenses(Cases);
@@ -15,8 +16,12 @@ std::vector<HardCase> catalogue() {
 
 std::vector<TrainingCase> trainingCases() {
   std::vector<TrainingCase> Cases;
+  addRayOrders(Cases);
   addGradients(Cases);
+  addMethodGradients(Cases);
   addSteps(Cases);
+  addMethods(Cases);
+  addDensity(Cases);
   return Cases;
 }
 
@@ -48,7 +53,14 @@ std::vector<CaseElsewhere> casesElsewhere() {
        "test/numerics/not-finite.test"},
       {"pairs beyond memory, and beyond 2^32",
        "one line that says how much, exit code 5",
-       "test/numerics/not-finite.test"}};
+       "test/numerics/not-finite.test"},
+      {"orders that another view, or each pixel's own ray, turns round",
+       "counted, with the picture's PSNR; the view itself turns none",
+       "test/render/analyze.test"},
+      {"a picture of which no pixel counts", "one line that names its mask",
+       "apps/splat/train/TrainingSet_test.cpp"},
+      {"random backgrounds of a run that goes on", "the same bits",
+       "apps/splat/train/Trainer_test.cpp"}};
 }
 
 } // namespace vorion::test

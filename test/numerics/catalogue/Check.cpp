@@ -295,7 +295,7 @@ Expected<Success> Checker::training(const TrainingCase &C, Path P,
 
 Expected<Success> Checker::all(const TrainingCase &C) {
   for (const Path P : Paths) {
-    if (!C.Blends && P != Paths[0])
+    if (C.Only ? P != *C.Only : !C.Blends && P != Paths[0])
       continue;
     if (auto Done = training(C, P, nullptr); !Done)
       return Done;

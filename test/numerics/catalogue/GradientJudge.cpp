@@ -113,6 +113,19 @@ Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
   if (R->Visible != Drawn.size())
     F.Broken =
         fmt::format("{} Gaussians seen, expected {}", R->Visible, Drawn.size());
+  std::size_t Silent = 0;
+  for (std::size_t I = 0; I < Places.size(); ++I) {
+    const bool Is = R->Gradients.Opacities[Places[I]] == 0;
+    Silent += Is;
+    if (S.Silent && Is != (Want.Opacities[I] == 0))
+      F.Broken =
+          fmt::format("Gaussian {} has {} by its opacity, which fp64 has "
+                      "not",
+                      Places[I], Is ? "no gradient" : "a gradient");
+  }
+  if (S.Silent && Silent != *S.Silent && F.Broken.empty())
+    F.Broken = fmt::format("{} Gaussians without gradient, expected {}", Silent,
+                           *S.Silent);
   for (const Kind &K :
        kindsOf(R->Gradients, Want, Lengths, S.Scene.coefficients())) {
     for (const uint32_t I : S.Culled)

@@ -14,6 +14,10 @@ struct GradientScene {
   /// Gaussians that are culled: all their gradients must be 0 exactly. The
   /// reference does without them.
   std::vector<uint32_t> Culled{};
+  /// How many of the others have no gradient by their opacity, in fp64 and on
+  /// the device alike.
+  // May be left out: NOLINTNEXTLINE(readability-redundant-member-init)
+  std::optional<std::size_t> Silent{};
 };
 
 /// Largest relative difference in the L2 norm of any kind of gradient

@@ -16,16 +16,17 @@ constexpr double Allowed = 1e-5;
 
 TrainingCase caseOf(std::string Name, std::string Why, GradientScene S,
                     std::vector<std::string> FoundIn) {
-  return {
-      std::move(Name), std::move(Why),
-      S.Culled.empty()
-          ? fmt::format("{:.0e} of the fp64 gradients", Allowed)
-          : fmt::format("{:.0e} of the fp64 gradients, culled ones 0", Allowed),
-      [Shared = std::make_shared<GradientScene>(std::move(S))](
-          splat::Launcher &L, splat::Path P) {
-        return judgeGradients(L, P, *Shared, Allowed);
-      },
-      std::move(FoundIn)};
+  return {std::move(Name), std::move(Why),
+          fmt::format("{:.0e} of the fp64 gradients{}{}", Allowed,
+                      S.Culled.empty() ? "" : ", culled ones 0",
+                      !S.Silent          ? ""
+                      : S.Culled.empty() ? ", no opacity's 0"
+                                         : ", no other opacity's"),
+          [Shared = std::make_shared<GradientScene>(std::move(S))](
+              splat::Launcher &L, splat::Path P) {
+            return judgeGradients(L, P, *Shared, Allowed);
+          },
+          std::move(FoundIn)};
 }
 
 /// Something to be seen beside what a case is about.
@@ -166,6 +167,61 @@ TrainingCase causesOfNaN(bool Gsplat) {
                 std::move(G), {});
 }
 
+/// 0.03 to 3 px wide, as a reset of opacities leaves them. The dilation makes
+/// each at least 0.548 px wide, so that it reaches a pixel's centre. Where
+/// opacities are compensated, a narrow one has an alpha below 1/255 everywhere,
+/// and nothing ever brings it back.
+TrainingCase reset(bool Antialiased) {
+  GradientScene G{{}, frontView(120, 80, 50), {}};
+  G.Options.Antialiased = Antialiased;
+  G.Silent = 0;
+  Numbers R(55);
+  for (int I = 0; I < 60; ++I) {
+    const double Pixels = 0.03 * std::pow(100, I / 59.);
+    const int Column = I % 10, Row = I / 10;
+    // Off pixels' centres by all that there is.
+    const double X = 12 * Column - 54 + R.uniform(-0.5, 0.5);
+    const double Y = 12 * Row - 30 + R.uniform(-0.5, 0.5);
+    // What the dilation of 0.3 leaves of the opacity.
+    if (Antialiased && Pixels * Pixels / (Pixels * Pixels + 0.3) < 1 / 2.55)
+      G.Culled.push_back(static_cast<uint32_t>(G.Scene.size()));
+    add(G.Scene,
+        {.Mean = {static_cast<float>(X / 25), static_cast<float>(Y / 25), 2},
+         .Scale = {Pixels / 25, Pixels / 25, Pixels / 25},
+         .Opacity = 0.01,
+         .Color = R.color()});
+  }
+  // One behind all, so that no list ends with a narrow one.
+  add(G.Scene, {.Mean = {0, 0, 3}, .Scale = {5, 5, 5}, .Opacity = 0.01});
+  return caseOf(
+      Antialiased ? "opacities-reset-antialiased" : "opacities-reset",
+      Antialiased
+          ? "opacities of 0.01, compensated: what is below 1/255 in every "
+            "fragment has no gradient, and never comes back"
+          : "opacities of 0.01: all that lie in the picture have a gradient, "
+            "wherever their pixels' centres are",
+      std::move(G), {"faint-come-back"});
+}
+
+/// Gaussians, a stack that is full, and nothing, before a colour.
+TrainingCase overBackground() {
+  GradientScene G{{}, frontView(70, 50, 50), {}};
+  G.Options.Background = {1, 0.25F, 0};
+  Numbers R(56);
+  for (int I = 0; I < 12; ++I)
+    addBlob(G.Scene, R, static_cast<float>(R.uniform(-1, 0)),
+            static_cast<float>(R.uniform(-0.6, 0.6)));
+  for (int I = 0; I < 8; ++I)
+    add(G.Scene, {.Mean = {0.7F, 0, static_cast<float>(2 + 0.05 * I)},
+                  .Scale = {0.2, 0.2, 0.2},
+                  .Opacity = 0.99,
+                  .Color = R.color()});
+  return caseOf("gradients-over-a-background",
+                "what is in front of a colour takes it away; behind a full "
+                "stack it is not seen",
+                std::move(G), {"background-lost"});
+}
+
 /// Each camera with coefficients of its own, in all directions.
 GradientScene sceneOfLens(splat::LensModel M) {
   GradientScene G{{}, lensView(M, someCoefficients(M), 96, 64), {}};
@@ -225,6 +281,9 @@ void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(shortQuaternions(1e-40F, "gradients-of-quaternions-1e-40"));
   Cases.push_back(causesOfNaN(/*Gsplat=*/false));
   Cases.push_back(causesOfNaN(/*Gsplat=*/true));
+  Cases.push_back(reset(/*Antialiased=*/false));
+  Cases.push_back(reset(/*Antialiased=*/true));
+  Cases.push_back(overBackground());
   using splat::LensModel;
   Cases.push_back(throughLens(LensModel::OpenCv, "gradients-through-opencv",
                               "back through all twelve coefficients and the "

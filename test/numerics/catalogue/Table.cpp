@@ -77,16 +77,22 @@ std::string tableOf(const Rows &R) {
                         F.Single, F.Digits[0], F.Digits[1], F.Kept, F.Checks,
                         F.Detected, F.Broken);
   }
-  Text += "\n| case of training | why | contract | raster | simt | broken "
+  Text += "\n| case of training, or of the order along rays | why | contract | "
+          "raster | simt | broken "
           "kernels noticed |\n|---|---|---|---|---|---|\n";
   for (const TrainingCase &C : trainingCases()) {
     const Found F = foundOf(R, C.Name);
     if (F.Checks == 0)
       continue;
-    Text += fmt::format("| {} | {} | {} | {:.1e} | {} | {} of {} |\n", C.Name,
-                        C.Why, C.Contract, F.Raster,
-                        C.Blends ? fmt::format("{:.1e}", F.Simt) : "the same",
-                        F.Detected, F.Broken);
+    const auto Of = [&](splat::Path P, double Error) {
+      if (C.Only && *C.Only != P)
+        return std::string("-");
+      return C.Blends || P == splat::Path::Raster ? fmt::format("{:.1e}", Error)
+                                                  : "the same";
+    };
+    Text += fmt::format("| {} | {} | {} | {} | {} | {} of {} |\n", C.Name,
+                        C.Why, C.Contract, Of(splat::Path::Raster, F.Raster),
+                        Of(splat::Path::Simt, F.Simt), F.Detected, F.Broken);
   }
   Text += "\n| case | contract | test |\n|---|---|---|\n";
   for (const CaseElsewhere &C : casesElsewhere())

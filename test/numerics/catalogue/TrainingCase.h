@@ -1,13 +1,15 @@
 /// The catalogue's part for training: scenes whose gradients are hard for
-/// fp32, steps of the optimiser and losses at the ends of the range
-/// (docs/numerics.md, "Catalogue of hard cases").
+/// fp32, steps of the optimiser and losses at the ends of the range, methods of
+/// training; and what else has a judge of its own (docs/hard-cases.md).
 #pragma once
 
 #include "device/Launcher.h"
 #include "picture/Options.h"
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace vorion::test {
@@ -29,6 +31,30 @@ struct TrainingCase {
   std::vector<std::string> FoundIn{};
   /// Whether blending takes part; what both paths share runs once.
   bool Blends = true;
+  /// The path that has it; both where not given.
+  std::optional<splat::Path> Only{};
+};
+
+/// Holds numbers against what they should be, and keeps the worst of them.
+class Worst {
+public:
+  explicit Worst(double Bound) { F.Bound = Bound; }
+
+  /// \p Is of \p What, in parts of \p Unit. What is not a number is worst.
+  void take(std::string_view What, double Is, double Want, double Unit);
+  /// Something that is no number.
+  void demand(bool Holds, std::string What) {
+    if (!Holds && F.Broken.empty())
+      F.Broken = std::move(What);
+  }
+  Expected<Finding> finding(const splat::Launcher &L) const {
+    if (L.failure())
+      return *L.failure();
+    return F;
+  }
+
+private:
+  Finding F;
 };
 
 /// All of them, in the order of the documentation.
@@ -36,8 +62,12 @@ std::vector<TrainingCase> trainingCases();
 
 /// \name Parts of \c trainingCases
 /// @{
+void addRayOrders(std::vector<TrainingCase> &Cases);
 void addGradients(std::vector<TrainingCase> &Cases);
 void addSteps(std::vector<TrainingCase> &Cases);
+void addDensity(std::vector<TrainingCase> &Cases);
+void addMethods(std::vector<TrainingCase> &Cases);
+void addMethodGradients(std::vector<TrainingCase> &Cases);
 /// @}
 
 } // namespace vorion::test
