@@ -75,5 +75,6 @@ for camera, more in costs.items():
     low, high = (f"{x:.0f}" if max(more) >= 100 else f"{x:.1f}" for x in (min(more), max(more)))
     page = read("cameras.md")
     line = next((line for line in page.splitlines() if re.match(rf"\| {re.escape(camera)}\b.* % \|$", line)), "")
-    if not line.endswith(f"| {low} to {high} % |"):
-        sys.exit(f"{docs}/cameras.md has no '| {camera} | {low} to {high} % |', which follows from a table")
+    both = low if low == high else f"{low} to {high}"
+    if not line.endswith(f"| {both} % |"):
+        sys.exit(f"{docs}/cameras.md has no '| {camera} | {both} % |', which follows from a table")
