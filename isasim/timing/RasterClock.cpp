@@ -459,20 +459,24 @@ void RasterClock::drain(MemorySystem &Memory) {
   drained();
 }
 
-/// Goes on if the slice has taken the last line: it takes one a cycle, or holds
-/// the rasterizer up.
-void RasterClock::drained() {
-  At = Turn::Never;
-  const uint64_t Taken = Fetch.readyAt(GaussianFetch::Others);
+/// When writing the tile of \p J can go on: the slice takes a line a cycle, or
+/// holds the rasterizer up. Not before \p Earliest; Turn::Never if that is not
+/// known yet. \p Next is behind the line that was written last.
+uint64_t RasterClock::goesOnAt(unsigned Set, uint64_t Earliest,
+                               const raster::Job &J, const Place &Next) const {
+  const uint64_t Taken = Fetch.readyAt(Set);
   if (Taken == Turn::Never)
+    return Turn::Never;
+  return std::max(Earliest, Taken > WriteCycles ? Taken - WriteCycles : 0) +
+         (Next.Row == J.Height ? Timing.PortCycles : 0);
+}
+
+void RasterClock::drained() {
+  At = goesOnAt(GaussianFetch::Others, DispatchAt + 1, Work.What, Draining);
+  if (At == Turn::Never)
     return;
-  const uint64_t Next =
-      std::max(DispatchAt + 1, Taken > WriteCycles ? Taken - WriteCycles : 0);
-  const bool IsLast = Draining.Row == Work.What.Height;
-  spend(RasterCycle::Drain,
-        Next - DispatchAt + (IsLast ? Timing.PortCycles : 0));
-  At = DispatchAt;
-  if (IsLast)
+  spend(RasterCycle::Drain, At - DispatchAt);
+  if (Draining.Row == Work.What.Height)
     Now = Stage::Done;
 }
 
@@ -483,15 +487,9 @@ void RasterClock::writeBehind(MemorySystem &Memory) {
   writtenBehind();
 }
 
-/// As drained().
 void RasterClock::writtenBehind() {
-  const uint64_t Taken = Fetch.readyAt(GaussianFetch::EvenOthers);
-  const bool IsLast = Behind->Next.Row == Behind->Work.What.Height;
-  Behind->At = Taken == Turn::Never
-                   ? Turn::Never
-                   : std::max(Fetch.now(),
-                              Taken > WriteCycles ? Taken - WriteCycles : 0) +
-                         (IsLast ? Timing.PortCycles : 0);
+  Behind->At = goesOnAt(GaussianFetch::EvenOthers, Fetch.now(),
+                        Behind->Work.What, Behind->Next);
 }
 
 /// Whoever waits for the buffer, or has nothing else to do, spent its time on

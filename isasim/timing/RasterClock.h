@@ -181,6 +181,8 @@ private:
   void drainBehind();
   uint32_t writeLine(MemorySystem &Memory, const raster::Job &J, Place &Next,
                      unsigned Set);
+  uint64_t goesOnAt(unsigned Set, uint64_t Earliest, const raster::Job &J,
+                    const Place &Next) const;
   void drain(MemorySystem &Memory);
   void drained();
   void writeBehind(MemorySystem &Memory);
