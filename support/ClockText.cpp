@@ -48,4 +48,9 @@ std::string ClockText::ofMhz(uint32_t Mhz) {
   return fmt::format("{}{}", Mhz, Unit);
 }
 
+std::string clockedMachine(std::string_view Machine, uint64_t Mhz,
+                           uint64_t Version) {
+  return fmt::format("{}, {} MHz, clock version {}", Machine, Mhz, Version);
+}
+
 } // namespace vorion

@@ -3,6 +3,7 @@
 #include "observe/CodeText.h"
 #include "observe/ProfileJson.h"
 #include "vorion/isasim/Machine.h"
+#include "vorion/support/ClockText.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -79,14 +80,14 @@ std::string CycleProfile::report() const {
   const uint64_t Total = All.sum();
   const Columns Shown(All, Total);
   const Config &C = Device.config();
-  std::string Text =
-      fmt::format("# vorion-profile 1\n"
-                  "# machine: {}\n"
-                  "# cycles: of all cores together; then per cent of all "
-                  "cycles, and the same by reason\n"
-                  "# a cycle in which a core waits is the instruction's "
-                  "that waits\n\n",
-                  machineText(nameOf(C).Name, C.Timing.ClockMhz));
+  std::string Text = fmt::format(
+      "# vorion-profile 1\n"
+      "# machine: {}\n"
+      "# cycles: of all cores together; then per cent of all "
+      "cycles, and the same by reason\n"
+      "# a cycle in which a core waits is the instruction's "
+      "that waits\n\n",
+      clockedMachine(nameOf(C).Name, C.Timing.ClockMhz, ClockVersion));
   Text += fmt::format("{}{}total\n", Shown.heading(), Shown.row(All));
   Text += fmt::format("{}no instruction: start and end\n", Shown.row(Nowhere));
   Text += Places.listing(Shown.heading(),

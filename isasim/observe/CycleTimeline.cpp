@@ -1,6 +1,7 @@
 #include "observe/CycleTimeline.h"
 
 #include "observe/ChipPower.h"
+#include "vorion/support/ClockText.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -26,7 +27,9 @@ enum Process : unsigned {
 CycleTimeline::CycleTimeline(std::FILE *File, const Config &C,
                              std::shared_ptr<const EnergyModel> EnergyIn)
     : Energy(std::move(EnergyIn)),
-      Out(File, "1 cycle of " + machineText(nameOf(C).Name, C.Timing.ClockMhz)),
+      Out(File,
+          "1 cycle of " +
+              clockedMachine(nameOf(C).Name, C.Timing.ClockMhz, ClockVersion)),
       L2Banks(C.Timing.L2.Banks) {
   addUnits<CoreCycle>(Cores, OfCores, "core", C.cores());
   addUnits<RasterCycle>(Rasters, OfRasterizers, "rasterizer", C.sockets());

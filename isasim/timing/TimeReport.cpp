@@ -123,11 +123,6 @@ std::string line(std::string_view Who, const CacheTime &T) {
 
 } // namespace
 
-std::string machineText(std::string_view Machine, uint32_t ClockMhz) {
-  return fmt::format("{}, {} MHz, clock version {}", Machine, ClockMhz,
-                     ClockVersion);
-}
-
 std::string toJson(const TimeReport &R) {
   Json J{{"cycles", R.Cycles},
          {"clock_mhz", R.ClockMhz},

@@ -1,5 +1,7 @@
 #include "tools/RegionRun.h"
 
+#include "vorion/support/ClockText.h"
+
 #include <fmt/format.h>
 
 namespace vorion::isasim {
@@ -23,8 +25,9 @@ public:
         fmt::format("{:>6} {:<32} {:>14}\n", "launch", "kernel", "cycles") +
         Text;
     if (Last)
-      All += fmt::format("{:>6} {:<32} {:>14}\nmachine      {}\n", "", "all",
-                         Cycles, machineText(Last->Machine, Last->ClockMhz));
+      All += fmt::format(
+          "{:>6} {:<32} {:>14}\nmachine      {}\n", "", "all", Cycles,
+          clockedMachine(Last->Machine, Last->ClockMhz, ClockVersion));
     return All;
   }
 

@@ -1,5 +1,6 @@
 #include "CyclesListing.h"
 
+#include "vorion/support/ClockText.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/TemporaryFolder.h"
 
@@ -83,9 +84,13 @@ Expected<Profile> readProfile(const std::string &Path) {
   All.Cycles = static_cast<uint64_t>(Cycles.value_or(0));
   if (const auto Name = Top->getString("machine"))
     All.Machine =
-        fmt::format("machine: {}, {} MHz, clock version {}\n", Name->str(),
-                    Top->getInteger("clock_mhz").value_or(0),
-                    Top->getInteger("clock_version").value_or(0));
+        "machine: " +
+        clockedMachine(
+            Name->str(),
+            static_cast<uint64_t>(Top->getInteger("clock_mhz").value_or(0)),
+            static_cast<uint64_t>(
+                Top->getInteger("clock_version").value_or(0))) +
+        "\n";
   for (const json::Value &Each : *Programs) {
     const json::Object *Object = Each.getAsObject();
     const auto File = Object ? Object->getString("file") : std::nullopt;

@@ -1,6 +1,6 @@
 #include "device/TimeFile.h"
 
-#include "device/TimeReport.h"
+#include "vorion/support/ClockText.h"
 #include "vorion/support/Json.h"
 #include "vorion/support/Printable.h"
 
@@ -78,8 +78,8 @@ void addUnits(Figures &To, const Json &Report) {
 void describe(TimeFile &To, const Json &Report) {
   To.ClockVersion = Report.value("clock_version", 1U);
   // Older reports do not name their machine.
-  To.On = machineText(Report.value("machine", std::string("unknown")),
-                      Report.at("clock_mhz"), To.ClockVersion);
+  To.On = clockedMachine(Report.value("machine", std::string("unknown")),
+                         Report.at("clock_mhz"), To.ClockVersion);
   for (const char *Key : {"clock_mhz", "host", "lane_areas"})
     if (Report.contains(Key))
       To.Machine[Key] = Report.at(Key);

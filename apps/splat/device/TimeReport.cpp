@@ -182,12 +182,6 @@ void add(std::optional<TimeReport> &Sum,
     *Sum += *Later;
 }
 
-std::string machineText(std::string_view Machine, unsigned ClockMhz,
-                        unsigned ClockVersion) {
-  return fmt::format("{}, {} MHz, clock version {}", Machine, ClockMhz,
-                     ClockVersion);
-}
-
 Expected<TimeReport> parseTimeReport(std::string_view Text) {
   const auto Whole =
       parseJson<Json>(Text, "the device's time report", "an object");

@@ -179,11 +179,6 @@ struct TimeReport {
 void add(std::optional<TimeReport> &Sum,
          const std::optional<TimeReport> &Later);
 
-/// A machine and its clock for people. Where a time is printed, this stands
-/// beside it.
-std::string machineText(std::string_view Machine, unsigned ClockMhz,
-                        unsigned ClockVersion);
-
 /// Reads what the device says. Every member must be there and no other, so
 /// that nothing is lost on the way into reports.
 Expected<TimeReport> parseTimeReport(std::string_view Text);

@@ -5,6 +5,7 @@
 #include "io/Mean.h"
 #include "render/FrameTime.h"
 #include "render/Report.h"
+#include "vorion/support/ClockText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,7 @@ std::string ClockSamples::text() const {
 
 std::string ClockSamples::machine() const {
   const auto T = frameTime(All.back().Stages);
-  return machineText(T->Machine, T->ClockMhz, T->ClockVersion);
+  return clockedMachine(T->Machine, T->ClockMhz, T->ClockVersion);
 }
 
 std::string ClockSamples::lastByStage() const {

@@ -189,10 +189,6 @@ struct TimeReport {
   uint64_t OutOfOrder = 0;
 };
 
-/// A machine and its clock for people. Where a time is printed, this stands
-/// beside it.
-std::string machineText(std::string_view Machine, uint32_t ClockMhz);
-
 /// As a JSON object.
 std::string toJson(const TimeReport &R);
 /// As a table.

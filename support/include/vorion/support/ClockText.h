@@ -1,4 +1,5 @@
-/// What the variable VORION_TIME says of the simulated machine's clock.
+/// Texts of the simulated machine's clock: what the variable VORION_TIME says,
+/// and what stands beside a time.
 #pragma once
 
 #include "vorion/support/Expected.h"
@@ -30,5 +31,10 @@ struct ClockText {
   /// The text of a clock that is always on, of \p Mhz.
   static std::string ofMhz(uint32_t Mhz);
 };
+
+/// A machine and its clock for people. Where a time is printed, this stands
+/// beside it. \p Version is that of the simulator's clock, not of a file.
+std::string clockedMachine(std::string_view Machine, uint64_t Mhz,
+                           uint64_t Version);
 
 } // namespace vorion
