@@ -191,8 +191,7 @@ Expected<CaptureCameras> readCaptureCameras(const std::string &Path,
     return noCapture(Path);
   CaptureCameras C;
   C.Format = F->Format;
-  if (F->Format == CaptureFormat::ColmapText ||
-      F->Format == CaptureFormat::ColmapBinary) {
+  if (F->isColmap()) {
     if (auto Added = addColmapCameras(*F, Of, C); !Added)
       return Added.error();
   } else {
@@ -212,8 +211,7 @@ std::vector<std::string> captureFiles(const std::string &Path) {
   if (!F)
     return {Path};
   std::vector<fs::path> Files;
-  if (F->Format == CaptureFormat::ColmapText ||
-      F->Format == CaptureFormat::ColmapBinary) {
+  if (F->isColmap()) {
     addColmapFiles(*F, Files);
   } else {
     addTransformsFiles(F->Model, Files);
@@ -238,8 +236,7 @@ Expected<Capture> readCapture(const std::string &Path,
   const bool OwnTest =
       F->Format == CaptureFormat::NerfSynthetic && fileExists(Test);
   Expected<Success> Read = Success{};
-  if (F->Format == CaptureFormat::ColmapText ||
-      F->Format == CaptureFormat::ColmapBinary)
+  if (F->isColmap())
     Read = readColmap(*F, Options, C);
   else
     Read = readTransforms(F->Model, OwnTest ? ViewSet::Train : ViewSet::All,

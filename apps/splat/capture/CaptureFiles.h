@@ -17,6 +17,11 @@ struct Location {
   std::filesystem::path Model;
   /// Folder that pictures' names start from.
   std::filesystem::path Pictures;
+
+  bool isColmap() const {
+    return Format == CaptureFormat::ColmapText ||
+           Format == CaptureFormat::ColmapBinary;
+  }
 };
 
 /// The capture at \p Path, a folder or a file of transforms; none if there is
