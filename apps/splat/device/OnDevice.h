@@ -1,7 +1,7 @@
 /// What tests of kernels share: a device, or a counted reason to skip.
 #pragma once
 
-#include "device/Launcher.h"
+#include "device/Values.h"
 
 #include <gtest/gtest.h>
 #include <optional>
@@ -19,16 +19,9 @@ protected:
     Dev.emplace(std::move(*Opened));
   }
 
-  template <typename T>
-  cl::Buffer upload(Launcher &L, const std::vector<T> &Values) {
-    const cl::Buffer B = L.allocate("values", sizeof(T) * Values.size());
-    L.write("values", B, Values.data(), sizeof(T) * Values.size());
-    return B;
-  }
   template <typename T = uint32_t>
   std::vector<T> download(Launcher &L, const cl::Buffer &B, std::size_t Count) {
-    std::vector<T> Values(Count);
-    L.read("values", Values.data(), B, sizeof(T) * Count);
+    auto Values = splat::download<T>(L, B, Count);
     EXPECT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
     return Values;
   }

@@ -144,27 +144,22 @@ Expected<Finding> steps(splat::Launcher &L) {
 } // namespace
 
 void addDensity(std::vector<TrainingCase> &Cases) {
-  const auto Add = [&](const char *Name, const char *Why, std::string Contract,
-                       Expected<Finding> (*Run)(splat::Launcher &),
-                       std::vector<std::string> FoundIn) {
-    Cases.push_back({Name, Why, std::move(Contract),
-                     [=](splat::Launcher &L, splat::Path) { return Run(L); },
-                     std::move(FoundIn),
-                     /*Blends=*/false});
-  };
-  Add("mcmc-one-alive",
+  Cases.push_back(withoutBlending(
+      "mcmc-one-alive",
       "99 of 100 are dead, and the last one is opaque: all move to it, and "
       "more share its place than one may be shared by",
       fmt::format("{:.0e} of equation 9 for {} shares, there exactly",
                   ShareBound, MostShares),
-      oneAlive, {"dead-are-drawn", "shares-unbounded"});
-  Add("mcmc-all-dead", "every opacity is 0 or as good: there is none to draw",
-      "an error says so", allDead, {"dead-are-drawn"});
-  Add("mcmc-steps-of-extremes",
+      oneAlive, {"dead-are-drawn", "shares-unbounded"}));
+  Cases.push_back(withoutBlending(
+      "mcmc-all-dead", "every opacity is 0 or as good: there is none to draw",
+      "an error says so", allDead, {"dead-are-drawn"}));
+  Cases.push_back(withoutBlending(
+      "mcmc-steps-of-extremes",
       "opacities of 0 and 1, no rotation, no size: exp of a large number is "
       "infinite",
       "opaque ones and those without size stay to the bit, others move", steps,
-      {"opaque-take-steps"});
+      {"opaque-take-steps"}));
 }
 
 } // namespace vorion::test

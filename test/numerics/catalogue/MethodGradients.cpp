@@ -5,6 +5,7 @@
 #include "Build.h"
 #include "Convert.h"
 #include "Judge.h"
+#include "device/Values.h"
 #include "picture/Layout.h"
 #include "reference/Backward.h"
 #include "reference/Render.h"
@@ -18,12 +19,6 @@
 
 namespace vorion::test {
 namespace {
-
-cl::Buffer upload(splat::Launcher &L, const std::vector<float> &Values) {
-  const cl::Buffer B = L.allocate("values", 4 * Values.size());
-  L.write("values", B, Values.data(), 4 * Values.size());
-  return B;
-}
 
 /// The rules that all here have.
 reference::Options rulesOf(splat::Path P) {

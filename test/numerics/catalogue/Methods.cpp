@@ -3,6 +3,7 @@
 #include "TrainingCase.h"
 
 #include "Build.h"
+#include "device/Values.h"
 #include "picture/Layout.h"
 #include "reference/Loss.h"
 #include "train/Adam.h"
@@ -16,19 +17,6 @@
 
 namespace vorion::test {
 namespace {
-
-cl::Buffer upload(splat::Launcher &L, const std::vector<float> &Values) {
-  const cl::Buffer B = L.allocate("values", 4 * Values.size());
-  L.write("values", B, Values.data(), 4 * Values.size());
-  return B;
-}
-
-std::vector<float> download(splat::Launcher &L, const cl::Buffer &B,
-                            std::size_t Count) {
-  std::vector<float> Values(Count);
-  L.read("values", Values.data(), B, 4 * Count);
-  return Values;
-}
 
 constexpr double MaskBound = 1e-4;
 
@@ -55,7 +43,7 @@ Expected<Finding> maskOfOnePixel(splat::Launcher &L) {
   splat::PictureLoss Loss(L, 0.2);
   const splat::LossValues Got =
       Loss.evaluate(upload(L, Picture), Target, Counts);
-  const auto Gradient = download(L, Loss.gradient(), 3 * Pixels);
+  const auto Gradient = splat::download<float>(L, Loss.gradient(), 3 * Pixels);
   // By definition the means are over the pixels that count.
   const reference::Loss Want = reference::lossOf(X, Y, Width, Height);
   Worst W(MaskBound);
@@ -100,10 +88,11 @@ Expected<Finding> exposureOfBlack(splat::Launcher &L) {
       Sums[I % 3] += double(Upstream[I]);
       Sizes[I % 3] += std::abs(double(Upstream[I]));
     }
-    const auto Exposed = download(L, E.apply(Black, Pixels, 0), 4 * Pixels);
+    const auto Exposed =
+        splat::download<float>(L, E.apply(Black, Pixels, 0), 4 * Pixels);
     const cl::Buffer Slopes = upload(L, Upstream);
     const splat::ExposureMatrix By = E.back(Black, Slopes, Pixels, 0);
-    const auto Back = download(L, Slopes, 3 * Pixels);
+    const auto Back = splat::download<float>(L, Slopes, 3 * Pixels);
     for (std::size_t C = 0; C < 3; ++C) {
       W.take("a channel", double(Exposed[4 * 4321 + C]),
              double(State[4 * C + 3]), 1);
@@ -154,7 +143,8 @@ Expected<Finding> weightsOfExtremes(splat::Launcher &L) {
   const splat::PlanePair By{
       upload(L, std::vector<float>(splat::GEOMETRY_PLANES * Count, 0)), {}};
   splat::regularize(L, T, S, By);
-  const auto Got = download(L, By.Geometry, splat::GEOMETRY_PLANES * Count);
+  const auto Got =
+      splat::download<float>(L, By.Geometry, splat::GEOMETRY_PLANES * Count);
   Worst W(WeightBound);
   for (std::size_t I = 0; I < Count; ++I) {
     const double O = 1 / (1 + std::exp(-double(Logits[I])));
@@ -175,28 +165,23 @@ Expected<Finding> weightsOfExtremes(splat::Launcher &L) {
 } // namespace
 
 void addMethods(std::vector<TrainingCase> &Cases) {
-  const auto Add = [&](const char *Name, const char *Why, std::string Contract,
-                       Expected<Finding> (*Run)(splat::Launcher &),
-                       std::vector<std::string> FoundIn) {
-    Cases.push_back({Name, Why, std::move(Contract),
-                     [=](splat::Launcher &L, splat::Path) { return Run(L); },
-                     std::move(FoundIn),
-                     /*Blends=*/false});
-  };
-  Add("mask-of-one-pixel",
+  Cases.push_back(withoutBlending(
+      "mask-of-one-pixel",
       "all but one of 15,000 pixels are masked, and infinite: means are over "
       "one pixel, and nothing else goes back",
       fmt::format("{:.0e} of fp64's loss and gradient, others 0", MaskBound),
-      maskOfOnePixel, {"mask-by-product", "mask-forgotten-behind"});
-  Add("exposure-of-black",
+      maskOfOnePixel, {"mask-by-product", "mask-forgotten-behind"}));
+  Cases.push_back(withoutBlending(
+      "exposure-of-black",
       "black pictures, matrices of 0 to 1e6: factors do nothing, and have no "
       "gradient",
       fmt::format("{:.0e} of the affine map's, factors 0", ExposureBound),
-      exposureOfBlack, {"exposure-offset-lost"});
-  Add("weights-of-extremes",
+      exposureOfBlack, {"exposure-offset-lost"}));
+  Cases.push_back(withoutBlending(
+      "weights-of-extremes",
       "weights on opacities of 0 and 1, on scales of 0 and 5e34",
       fmt::format("{:.0e} of o (1 - o) and of the scale", WeightBound),
-      weightsOfExtremes, {"weight-of-a-logit"});
+      weightsOfExtremes, {"weight-of-a-logit"}));
 }
 
 } // namespace vorion::test

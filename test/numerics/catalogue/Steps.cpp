@@ -2,6 +2,7 @@
 // nothing.
 #include "TrainingCase.h"
 
+#include "device/Values.h"
 #include "kernels/layout.h"
 #include "reference/Adam.h"
 #include "reference/Loss.h"
@@ -69,12 +70,9 @@ Expected<Finding> constant(splat::Launcher &L, float Value, int Level,
       Width, Height,
       std::vector<uint8_t>(3 * Pixels, static_cast<uint8_t>(Level))};
   const std::vector<float> Picture(4 * Pixels, Value);
-  const cl::Buffer Uploaded = L.allocate("picture", 4 * Picture.size());
-  L.write("picture", Uploaded, Picture.data(), 4 * Picture.size());
   splat::PictureLoss Loss(L, 0.2);
-  const splat::LossValues Got = Loss.evaluate(Uploaded, Target);
-  std::vector<float> Gradient(3 * Pixels);
-  L.read("gradient", Gradient.data(), Loss.gradient(), 4 * Gradient.size());
+  const splat::LossValues Got = Loss.evaluate(upload(L, Picture), Target);
+  const auto Gradient = splat::download<float>(L, Loss.gradient(), 3 * Pixels);
   if (L.failure())
     return *L.failure();
 

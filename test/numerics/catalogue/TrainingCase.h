@@ -35,6 +35,12 @@ struct TrainingCase {
   std::optional<splat::Path> Only{};
 };
 
+/// One in which no picture is blended.
+TrainingCase withoutBlending(const char *Name, const char *Why,
+                             std::string Contract,
+                             Expected<Finding> (*Run)(splat::Launcher &),
+                             std::vector<std::string> FoundIn);
+
 /// Holds numbers against what they should be, and keeps the worst of them.
 class Worst {
 public:
