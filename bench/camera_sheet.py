@@ -12,10 +12,12 @@ import json
 import os
 import struct
 import subprocess
+import sys
 import tempfile
-import zlib
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "test", "Inputs"))
 import command_line
+import png_file
 from cameras import FISHEYE
 
 WIDTH, HEIGHT, COLUMNS, GAP = 180, 135, 4, 4
@@ -49,17 +51,6 @@ def pixels(path):
     return [levels[3 * WIDTH * y:3 * WIDTH * (y + 1)] for y in reversed(range(HEIGHT))]
 
 
-def write_png(path, width, rows):
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    # Each byte less the one of the pixel before: smooth pictures become small.
-    lines = b"".join(b"\1" + row[:3] + bytes((a - b) % 256 for a, b in zip(row[3:], row)) for row in rows)
-    with open(path, "wb") as f:
-        f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 2, 0, 0, 0)) +
-                chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene")
@@ -86,7 +77,7 @@ def main():
                 row = [a + gap + b for a, b in zip(row, pixels(picture))]
                 print(f"row {1 + first // COLUMNS}, column {1 + column}: {name}")
             sheet += [b"\xff" * len(row[0])] * (GAP if first else 0) + row
-    write_png(args.output, len(sheet[0]) // 3, sheet)
+    png_file.write(args.output, sheet, 3)
 
 
 if __name__ == "__main__":

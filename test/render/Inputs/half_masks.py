@@ -5,22 +5,14 @@ usage: half_masks.py PICTURES MASKS WIDTH HEIGHT
 """
 
 import os
-import struct
 import sys
-import zlib
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
+import png_file
 
 pictures, masks = sys.argv[1:3]
 width, height = int(sys.argv[3]), int(sys.argv[4])
-
-
-def chunk(kind, body):
-    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-
-row = b"\0" + bytes(width // 2) + b"\xff" * (width - width // 2)
-png = (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
-       chunk(b"IDAT", zlib.compress(row * height)) + chunk(b"IEND", b""))
+row = bytes(width // 2) + b"\xff" * (width - width // 2)
 os.makedirs(masks)
 for name in os.listdir(pictures):
-    with open(os.path.join(masks, name), "wb") as f:
-        f.write(png)
+    png_file.write(os.path.join(masks, name), [row] * height, 1)

@@ -10,11 +10,12 @@ import csv
 import json
 import math
 import os
-import struct
 import sys
-import zlib
 
 import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
+import png_file
 
 WIDTH, HEIGHT = 181, 190
 
@@ -24,16 +25,6 @@ def photograph(number):
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
     ramp = np.stack([x, y, x + y], axis=2)
     return (ramp * 200 // ramp.max() + r.integers(0, 56, ramp.shape)).astype(np.uint8)
-
-
-def write_png(path, pixels):
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
-    head = struct.pack(">IIBBBBB", WIDTH, HEIGHT, 8, 2, 0, 0, 0)
-    with open(path, "wb") as f:
-        f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def make(cameras, folder):
@@ -47,7 +38,7 @@ def make(cameras, folder):
                        [[1, 0, 0, shift], [0, -1, 0, 0], [0, 0, -1, 0], [0, 0, 0, 1]]})
         views.append({"id": number, "img_name": name, "width": WIDTH, "height": HEIGHT, "position": [shift, 0, 0],
                       "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "fx": focal, "fy": focal})
-        write_png(os.path.join(folder, f"{name}.png"), photograph(number))
+        png_file.write(os.path.join(folder, f"{name}.png"), [row.tobytes() for row in photograph(number)], 3)
     with open(os.path.join(folder, "transforms.json"), "w") as f:
         json.dump({"w": WIDTH, "h": HEIGHT, "fl_x": focal, "fl_y": focal, "frames": frames}, f)
     with open(cameras, "w") as f:

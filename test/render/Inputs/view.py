@@ -17,9 +17,9 @@ import subprocess
 import sys
 import urllib.parse
 import zipfile
-import zlib
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
+import png_file
 from browser import Browser
 
 SCENE, CAMERAS, SOG, LENSES, FOLDER = sys.argv[1:]
@@ -106,14 +106,8 @@ def rendered(*words):
 
 def is_picture(pixels, size, picture):
     """Whether rows of red, green, blue and alpha are the picture in the file."""
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    rows = b"".join(b"\0" + pixels[4 * size[0] * y:4 * size[0] * (y + 1)] for y in range(size[1]))
     ours = os.path.join(FOLDER, "ours.png")
-    with open(ours, "wb") as f:
-        f.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", *size, 8, 6, 0, 0, 0)) +
-                chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    png_file.write(ours, [pixels[4 * size[0] * y:4 * size[0] * (y + 1)] for y in range(size[1])], 4)
     report = os.path.join(FOLDER, "same.json")
     subprocess.run(["splat", "compare", ours, picture, "--json", report], check=True, stdout=subprocess.DEVNULL)
     with open(report, encoding="utf-8") as f:
