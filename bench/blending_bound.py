@@ -9,14 +9,15 @@ is what the rasterizers would take if each tile, the longest first, went to the 
 """
 
 import argparse
-import heapq
 import json
 import os
 import sys
 import tempfile
 
+import command_line
 import scenes
 import timed_frame
+from raster_bounds import dealt
 
 SCENES = ("guitar", "truck", "garden_outdoor")
 
@@ -27,33 +28,21 @@ def jobs(file):
         return [job["end"] - job["begin"] for job in map(json.loads, f) if job["unit"] == "rasterizer"]
 
 
-def dealt(cycles, rasterizers):
-    loads = [0] * rasterizers
-    for job in sorted(cycles, reverse=True):
-        heapq.heapreplace(loads, loads[0] + job)
-    return max(loads)
-
-
-def measure(args, scene, view, folder):
-    args.scene, args.cameras, args.view = scene.path, scene.cameras, view
+def measure(args, channels, scene, view, folder):
+    """Cycles, by the heads of the table, and the largest of the three that bound blending."""
+    frame = argparse.Namespace(scene=scene.path, cameras=scene.cameras, view=view)
     tiles = os.path.join(folder, "tiles")
     variables = {"VORION_CONFIG": args.config, "VORION_TILES": tiles, **({"VORION_SET": args.set} if args.set else {})}
-    found, error = timed_frame.report(args, folder, "--time", "--size", "960x544", "--exp", "table", **variables)
+    found, error = timed_frame.report(frame, folder, "--time", "--size", "960x544", "--exp", "table", **variables)
     if error:
         sys.exit(f"blending_bound.py: error: {error}")
-    whole = found["time"]["sum"]
-    blend = next(stage["time"] for stage in found["time"]["stages"] if stage["name"] == "blend")
-    cycles = jobs(tiles)
-    channels = timed_frame.machine(args.config)["timing"]["dram"]["channels"]
-    rasterizers = len(whole["rasterizers"])
+    whole, stages = found["time"]["sum"], {stage["name"]: stage for stage in found["time"]["stages"]}
+    blend, rasterizers, cycles = stages["blend"]["time"], len(whole["rasterizers"]), jobs(tiles)
+    rasterize = sum(kernel["cycles"] for kernel in stages["blend"]["kernels"] if kernel["name"] == "rasterize")
     bounds = {"share of all tiles": sum(cycles) / rasterizers, "longest tile": max(cycles),
               "DRAM": blend["dram"]["bus_ps"] / channels * whole["clock_mhz"] / 1e6}
-    return {"blending": blend["cycles"], "kernels in front": blend["cycles"] - kernel(found, "rasterize"),
-            "dealt by cycles": dealt(cycles, rasterizers), **bounds, "bound": max(bounds.values())}
-
-
-def kernel(found, name):
-    return sum(one["cycles"] for stage in found["time"]["stages"] for one in stage.get("kernels", ()) if one["name"] == name)
+    return {"blending, kcycles": blend["cycles"], "kernels in front of it": blend["cycles"] - rasterize,
+            "rasterizers, dealt by cycles": dealt(sorted(cycles, reverse=True), rasterizers), **bounds}, max(bounds.values())
 
 
 def main():
@@ -62,16 +51,18 @@ def main():
     parser.add_argument("--set", help="settings of the machine, as VORION_SET takes them")
     parser.add_argument("--scenes", nargs="+", default=SCENES, choices=scenes.known() or None)
     args = parser.parse_args()
-    print("| view | blending, kcycles | kernels in front of it | rasterizers, dealt by cycles | share of all tiles | longest tile | DRAM "
-          "| reached |\n|---|--:|--:|--:|--:|--:|--:|--:|")
+    channels = timed_frame.machine(args.config)["timing"]["dram"]["channels"]
+    printed = False
     with tempfile.TemporaryDirectory() as folder:
         for scene in map(scenes.shared, args.scenes):
             for view in scene.views:
-                one = measure(args, scene, view, folder)
-                bound = one.pop("bound")
+                one, bound = measure(args, channels, scene, view, folder)
+                if not printed:
+                    print("| view | " + " | ".join(one) + " | reached |\n|---|" + "--:|" * (len(one) + 1))
+                    printed = True
                 print(f"| {scene.name} {view} | " + " | ".join(f"{cycles / 1e3:.0f}" for cycles in one.values())
-                      + f" | {100 * bound / one['blending']:.0f} % |", flush=True)
+                      + f" | {100 * bound / one['blending, kcycles']:.0f} % |", flush=True)
 
 
 if __name__ == "__main__":
-    main()
+    command_line.run(main)

@@ -4,6 +4,7 @@
 usage: bench/raster_bounds.py FILE...   (each what `isasim-raster-tiles 10 raster-tiles.bin` wrote of a frame)
 Prints a table, a column a file, in percent of the cycles of all tiles or of the frame's blending."""
 
+import heapq
 import struct
 import sys
 
@@ -26,11 +27,11 @@ def tiles(name):
             yield tile
 
 
-def dealt(order, rasterizers):
-    """Cycles until all are done, where each tile goes to the rasterizer that is free first."""
+def dealt(cycles, rasterizers):
+    """Cycles until all are done, where the tiles go, in this order, each to the rasterizer that is free first."""
     busy = [0] * rasterizers
-    for tile in order:
-        busy[busy.index(min(busy))] += tile["cycles"]
+    for one in cycles:
+        heapq.heapreplace(busy, busy[0] + one)
     return max(busy)
 
 
@@ -43,8 +44,8 @@ def rows(frame):
     def of(key):
         return sum(t[key] for t in frame)
 
-    by_list = sorted(frame, key=lambda t: -t["gaussians"])
-    by_cycles = sorted(frame, key=lambda t: -t["cycles"])
+    by_list = [t["cycles"] for t in sorted(frame, key=lambda t: -t["gaussians"])]
+    by_cycles = sorted((t["cycles"] for t in frame), reverse=True)
     yield "a tile is cleared and written while another blends", part(of("begin") - START * len(frame) + of("drain"))
     yield "no two pixels of a cycle meet in a bank", part(of("blend") - of("fragments") / LANES)
     yield "only pixels that are blended take a lane", part(of("blend") - of("blends") / LANES)

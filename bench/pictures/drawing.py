@@ -1,5 +1,8 @@
-"""What pictures that splat-chart cannot draw share: an SVG in the look of its charts, and a colour for each reason."""
+"""What pictures that splat-chart cannot draw share: a command line, an SVG in the look of its charts, a colour for each reason."""
 
+import argparse
+import os
+import sys
 from xml.sax.saxutils import escape
 
 # By reason of cores, rasterizers and pixel units, in the order in which they are stacked. What has no colour is grey.
@@ -11,6 +14,24 @@ COLOURS = {
 }
 GREY = "#c8ccd1"  # start, ended, idle, and whatever is new
 LEGEND_ROW = 20
+
+
+def parser(document, source):
+    """Takes the file that is drawn, called source, and the picture's."""
+    found = argparse.ArgumentParser(description=document, formatter_class=argparse.RawDescriptionHelpFormatter)
+    found.add_argument(source)
+    found.add_argument("output")
+    found.add_argument("--made", action="append", default=[], help="a line below the picture; may be given several times")
+    return found
+
+
+def fail(file, what, expected):
+    print(f"{os.path.basename(sys.argv[0])}: error: {file}: {what}, expected {expected}", file=sys.stderr)
+    sys.exit(3)
+
+
+def shortened(text, letters):
+    return text if len(text) <= letters else text[:letters - 1] + "…"
 
 
 def colour(reason):

@@ -8,7 +8,6 @@ executes. Where that lies beyond the last issue, the bar ends at the picture's e
 such log.
 """
 
-import argparse
 import os
 import sys
 
@@ -25,8 +24,7 @@ EXECUTE = "#9aa4af"
 
 
 def fail(file, what):
-    print(f"pipeline.py: error: {file}: {what}, expected what --pipeline writes", file=sys.stderr)
-    sys.exit(3)
+    drawing.fail(file, what, "what --pipeline writes")
 
 
 def read(file):
@@ -58,11 +56,8 @@ def read(file):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("log")
-    parser.add_argument("output")
+    parser = drawing.parser(__doc__, "log")
     parser.add_argument("--instructions", type=int, default=36)
-    parser.add_argument("--made", action="append", default=[], help="a line below the picture; may be given several times")
     args = parser.parse_args()
     first, instructions = read(args.log)
     shown = instructions[:args.instructions]
@@ -75,7 +70,7 @@ def main():
         address, _, text = instruction["text"].partition(" ")
         place = instruction["place"].split(" ")[0] or address
         out.text(CODE - 10, out.y + 12, place, "soft", "end")
-        out.text(CODE, out.y + 12, text if len(text) <= LETTERS else text[:LETTERS - 1] + "…", "code ink")
+        out.text(CODE, out.y + 12, drawing.shortened(text, LETTERS), "code ink")
         for stage, begin, end in instruction["stages"]:
             end = last if end is None else min(end, last)
             if begin >= end:

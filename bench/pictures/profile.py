@@ -8,7 +8,6 @@ of a line is the profile's; a profile without it takes it from the file of that 
 that is no profile in cycles.
 """
 
-import argparse
 import os
 import re
 import sys
@@ -24,8 +23,7 @@ VISIBLE = 0.5  # pixels of a part of a bar
 
 
 def fail(file, what):
-    print(f"profile.py: error: {file}: {what}, expected the text that --profile writes with the clock on", file=sys.stderr)
-    sys.exit(3)
+    drawing.fail(file, what, "the text that --profile writes with the clock on")
 
 
 def read(file):
@@ -61,17 +59,13 @@ def text_of(line, sources):
     if not text and sources and os.path.exists(path):
         with open(path, encoding="utf-8") as f:
             text = f.read().splitlines()[number - 1]
-    text = text.strip()
-    return text if len(text) <= LETTERS else text[:LETTERS - 1] + "…"
+    return drawing.shortened(text.strip(), LETTERS)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("profile")
-    parser.add_argument("output")
+    parser = drawing.parser(__doc__, "profile")
     parser.add_argument("--lines", type=int, default=24)
     parser.add_argument("--sources", help="a folder with the programs' files")
-    parser.add_argument("--made", action="append", default=[], help="a line below the picture; may be given several times")
     args = parser.parse_args()
     machine, _, lines = read(args.profile)
     if not lines:

@@ -8,7 +8,6 @@ banks, of DRAM's channels is as high as its figure, of 100 %, and that of power 
 for a file that is no timeline in cycles.
 """
 
-import argparse
 import collections
 import json
 import os
@@ -30,8 +29,7 @@ NAME_PIXELS = 7  # a letter's width, about
 
 
 def fail(file, what):
-    print(f"timeline.py: error: {file}: {what}, expected what --timeline writes with the clock on", file=sys.stderr)
-    sys.exit(3)
+    drawing.fail(file, what, "what --timeline writes with the clock on")
 
 
 def read(file):
@@ -128,11 +126,7 @@ def draw_figures(out, name, values, end):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("timeline")
-    parser.add_argument("output")
-    parser.add_argument("--made", action="append", default=[], help="a line below the picture; may be given several times")
-    args = parser.parse_args()
+    args = drawing.parser(__doc__, "timeline").parse_args()
     machine, groups, names, slices, figures, end = read(args.timeline)
     out = drawing.Drawing(LEFT + COLUMNS * COLUMN + 16, "Timeline",
                           f"{machine}; {end:,} cycles from left to right, a column is {round(end / COLUMNS):,}")
