@@ -137,8 +137,8 @@ def _cross(rows, columns, shown):
 
 
 def text(data):
-    out = [paragraph("""Of each claim that does not hold on the machines and views of the other pages: changes that were tried, from the
-        smallest on, and what they give. Bold figures make the claim hold."""), "",
+    out = [paragraph("""The other pages have claims that do not hold on our machines and views. This page has the changes that were tried
+        for each, the smallest first. Where a figure is bold, the claim holds."""), "",
            "## Blending scales near-linearly to 16 rasterizers", "",
            paragraph(f"""Taken as {NEAR_LINEAR:g} times one rasterizer. `{SCALED}`, the cycles of the kernel that blends."""), ""]
     out += _cross(data["rows"], ("scene", "size"), lambda row: _marked(row["gain"], lambda g: g >= NEAR_LINEAR, f"{row['gain']:.1f}x"))
@@ -162,7 +162,7 @@ def text(data):
     out += [paragraph("""**A slower clock** at the voltage that it needs is the smallest change: the dynamic power falls with its third power
         or so. On `prototype` the frames fall by less than the clock, because the link and the DRAM keep theirs."""), ""]
     out += ["## Cores and rasterizers take 1.6 mm2", "",
-            paragraph(f"""`{machines.PROTOTYPES[0]}` with less of what it has, mm2 with 5 and 95 % of the estimate, and the frames a second of
+            paragraph(f"""The machine `{machines.PROTOTYPES[0]}` with less of what it has, mm2 with 5 and 95 % of the estimate, and the frames a second of
                 {data["area"][0]["scene"] + " " + data["area"][0]["view"] if data["area"] else "a view"}."""), ""]
     out += table(("change", "mm2", "verdict", "frames/s"),
                  [(row["change"], energy.estimate(row["um2"], 1e-6), _bold(energy.area_verdict(row["um2"])), f"{row['fps']:.1f}")
