@@ -29,17 +29,22 @@ size_t Cache::find(uint32_t Number, size_t Set) const {
 /// without it, and the one that is spared loses its hint, so that lines which
 /// no tile came for do not stay for ever.
 size_t Cache::victim(size_t Set) {
-  size_t Oldest = Set, OldestPlain = Set;
-  uint64_t Used = Open, UsedPlain = Open;
-  for (size_t W = Set; W != Set + Shape.Ways; ++W) {
-    // Lines that are kept come behind all others.
-    const uint64_t Plain = LastUse[W] & ~Dirty, Order = LastUse[W] & OrderMask;
-    Oldest = Order < Used ? W : Oldest;
-    Used = std::min(Used, Order);
-    OldestPlain = Plain < UsedPlain ? W : OldestPlain;
-    UsedPlain = std::min(UsedPlain, Plain);
-  }
-  if (!Shape.Hint || !(LastUse[Oldest] & Kept) || UsedPlain & Kept)
+  // With the hint in the mask, lines that are kept come behind all others.
+  const auto OldestBy = [&](uint64_t Mask) {
+    size_t Oldest = Set;
+    uint64_t Used = Open;
+    for (size_t W = Set; W != Set + Shape.Ways; ++W) {
+      const uint64_t Order = LastUse[W] & Mask;
+      Oldest = Order < Used ? W : Oldest;
+      Used = std::min(Used, Order);
+    }
+    return Oldest;
+  };
+  const size_t Oldest = OldestBy(OrderMask);
+  if (!Shape.Hint || !(LastUse[Oldest] & Kept))
+    return Oldest;
+  const size_t OldestPlain = OldestBy(OrderMask | Kept);
+  if (LastUse[OldestPlain] & Kept)
     return Oldest;
   LastUse[Oldest] &= ~Kept;
   ++Counted.Kept;

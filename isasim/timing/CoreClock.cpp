@@ -22,10 +22,11 @@ CoreClock::CoreClock(const CoreTiming &Params, MemoryPort ToMemory,
     of(W).Trace = Traces[W];
 }
 
+static constexpr uint32_t WordsOfLine = TimingLineBytes / 4;
+
 /// The line of an instruction, numbered from the program's first, whose first
 /// instruction is the \p FirstWord th of its line.
 static uint32_t lineOfCode(size_t Instruction, uint32_t FirstWord) {
-  constexpr uint32_t WordsOfLine = TimingLineBytes / 4;
   return static_cast<uint32_t>(Instruction + FirstWord) / WordsOfLine;
 }
 
@@ -44,6 +45,7 @@ void CoreClock::begin(const std::vector<OpInfo> &Program, uint32_t WordOfLine,
   Places[size_t(Port::Alu)] = {std::vector<uint64_t>(1), 0}; // the divider
   for (unsigned N = 0; N <= Timing.LsuQueue; ++N)
     InFlight.begin(N);
+  UnitsBusyUntil = 0;
   LastDone = 0;
   L1.clear();
   Spent = Told = {};
@@ -132,6 +134,12 @@ bool CoreClock::isInCode(WarpTime &W, uint32_t Instruction) const {
   return true;
 }
 
+/// Where, in a run from \p First on, the line of code of \p Position ends.
+unsigned CoreClock::endOfLine(uint32_t First, unsigned Position) const {
+  const uint32_t Line = lineOfCode(First + Position, FirstWord);
+  return (Line + 1) * WordsOfLine - FirstWord - First;
+}
+
 void CoreClock::fetched(unsigned Warp, uint32_t Line, uint64_t Then,
                         bool ForGood) {
   select(Warp);
@@ -169,13 +177,14 @@ void CoreClock::startRun(WarpTime &W, const RunRecord &R) {
   }
 }
 
-bool CoreClock::waitForOperands(const OpInfo &O) {
+[[gnu::always_inline]] inline bool CoreClock::waitForOperands(Front &F,
+                                                              const OpInfo &O) {
   // The time first: which register it is matters only if it is to come, and
   // every step of that search would wait for the one before.
   const uint64_t Then =
       std::max({std::max(Ready[O.Rd], Ready[O.HighRd]), Ready[O.Sources[0]],
                 std::max(Ready[O.Sources[1]], Ready[O.Sources[2]])});
-  if (Then <= Next)
+  if (Then <= F.Next)
     return true;
   if (Then == Turn::Never) {
     Now = State::Answer;
@@ -187,7 +196,7 @@ bool CoreClock::waitForOperands(const OpInfo &O) {
   for (const uint8_t R :
        {O.Sources[2], O.Sources[1], O.Sources[0], O.HighRd, O.Rd})
     Latest = Ready[R] == Then ? R : Latest;
-  spend(ReadyWhy[Latest], Then - Next);
+  waitUntil(F, Then, ReadyWhy[Latest]);
   return true;
 }
 
@@ -220,31 +229,48 @@ size_t CoreClock::placeOf(const OpInfo &O, uint64_t Begin) const {
       std::min_element(P.FreeAt.begin(), P.FreeAt.end()) - P.FreeAt.begin());
 }
 
-/// When \p O can leave for its unit, or for the queue in front of it.
-uint64_t CoreClock::unitFreeAt(const OpInfo &O) const {
+/// When \p O, which could at \p Now, can leave for its unit, or for the queue
+/// in front of it.
+uint64_t CoreClock::unitFreeAt(const OpInfo &O, uint64_t Now) const {
   const auto On = size_t(O.On);
   if (Timing.UnitQueue && O.On != Port::Lsu)
     return Queues[On].Begins[Queues[On].Next];
   uint64_t Free = UnitFree[On];
   if (O.Hold)
-    Free = std::max(Free, Places[On].FreeAt[placeOf(O, std::max(Next, Free))]);
+    Free = std::max(Free, Places[On].FreeAt[placeOf(O, std::max(Now, Free))]);
   return Free;
+}
+
+/// Whether nothing keeps \p O from its unit at \p Now. Most instructions keep
+/// it for a cycle: then it is free for the next one, and nothing is written
+/// down of them but the place that they take.
+inline bool CoreClock::beginsAtOnce(uint64_t Now, const OpInfo &O) {
+  if (!O.IsLight || Now < UnitsBusyUntil)
+    return false;
+  if (!O.Hold)
+    return true;
+  UnitPlaces &P = Places[size_t(O.On)];
+  if (P.FreeAt[P.Oldest] > Now)
+    return false;
+  P.take(P.Oldest, Now + O.Hold);
+  return true;
 }
 
 /// Waits until \p O can leave for its unit, or for the queue in front of it,
 /// and returns when the unit begins.
-uint64_t CoreClock::beginOnUnit(const OpInfo &O) {
-  waitUntil(unitFreeAt(O), CoreCycle::Unit);
+[[gnu::always_inline]] inline uint64_t CoreClock::beginOnUnit(Front &F,
+                                                              const OpInfo &O) {
+  waitUntil(F, unitFreeAt(O, F.Next), CoreCycle::Unit);
   const auto On = size_t(O.On);
-  uint64_t Begun = std::max(Next, UnitFree[On]);
+  uint64_t Begun = std::max(F.Next, UnitFree[On]);
   if (O.Hold) {
     UnitPlaces &P = Places[On];
     const size_t Place = placeOf(O, Begun);
     Begun = std::max(Begun, P.FreeAt[Place]);
-    P.FreeAt[Place] = Begun + O.Hold;
-    P.Oldest = Place + 1 == P.FreeAt.size() ? 0 : Place + 1;
+    P.take(Place, Begun + O.Hold);
   }
   UnitFree[On] = Begun + O.Interval;
+  UnitsBusyUntil = std::max(UnitsBusyUntil, UnitFree[On]);
   if (Timing.UnitQueue && O.On != Port::Lsu) {
     UnitQueue &Q = Queues[On];
     Q.Begins[Q.Next] = Begun;
@@ -254,19 +280,21 @@ uint64_t CoreClock::beginOnUnit(const OpInfo &O) {
 }
 
 /// Behind \p O, which has issued and which its unit begins at \p Begun.
-void CoreClock::fetchNext(const OpInfo &O, uint64_t Begun) {
+inline void CoreClock::fetchNext(Front &F, const OpInfo &O,
+                                 uint64_t Begun) const {
   if (O.Redirect) {
-    Fetched = Begun + O.Redirect;
-    FetchWhy = O.Class == OpClass::Branch ? CoreCycle::Branch
-               : O.Class == OpClass::Csr  ? CoreCycle::Fetch
-                                          : CoreCycle::Divergence;
+    F.Fetched = Begun + O.Redirect;
+    F.FetchWhy = O.Class == OpClass::Branch ? CoreCycle::Branch
+                 : O.Class == OpClass::Csr  ? CoreCycle::Fetch
+                                            : CoreCycle::Divergence;
     return;
   }
   // Fetching stops while its buffer is full.
   const uint64_t Ahead =
       uint64_t{Timing.FetchInterval} * (Timing.FetchAhead - 1);
-  Fetched = std::max(Fetched + Timing.FetchInterval + Ahead, Next - 1) - Ahead;
-  FetchWhy = CoreCycle::Fetch;
+  F.Fetched =
+      std::max(F.Fetched + Timing.FetchInterval + Ahead, F.Next - 1) - Ahead;
+  F.FetchWhy = CoreCycle::Fetch;
 }
 
 void CoreClock::setReady(WarpTime &W, unsigned Register, uint64_t Then,
@@ -278,20 +306,22 @@ void CoreClock::setReady(WarpTime &W, unsigned Register, uint64_t Then,
 }
 
 /// Counts \p O as issued at Next.
-void CoreClock::issue(const OpInfo &O) {
+inline void CoreClock::issue(Front &F, const OpInfo &O) {
   ClassCount &C = Classes[size_t(O.Class)];
   ++C.Warp;
   C.Lane += Lanes;
   LastClass = O.Class;
-  spend(CoreCycle::Issue, 1);
+  ++Spent.Cycles[size_t(CoreCycle::Issue)];
+  ++F.Next;
 }
 
 /// Issues a request's instruction, which its unit begins at once.
 void CoreClock::finish(const OpInfo &O) {
-  const uint64_t Begun = Next;
-  issue(O);
+  Front F = front();
+  issue(F, O);
   if (!IsIdeal)
-    fetchNext(O, Begun);
+    fetchNext(F, O, Next);
+  setFront(F);
   if (Watch)
     tell(&O);
 }
@@ -311,11 +341,75 @@ uint64_t CoreClock::localAccess(const OpInfo &O, AccessWord A) {
   return Done;
 }
 
+/// Waits until \p O has been fetched and its operands are there; false if
+/// nobody knows yet when that is.
+template <bool Ideal> inline bool CoreClock::reach(Front &F, const OpInfo &O) {
+  if constexpr (!Ideal)
+    waitUntil(F, F.Fetched, F.FetchWhy);
+  return waitForOperands(F, O);
+}
+
+/// Behind \p O, which its unit begins at \p Begun.
+template <bool Ideal>
+[[gnu::always_inline]] inline void CoreClock::follow(Front &F, const OpInfo &O,
+                                                     uint64_t Begun) {
+  setReady(O.Rd, Begun + O.Latency, CoreCycle::Operand);
+  issue(F, O);
+  if constexpr (!Ideal)
+    fetchNext(F, O, Begun);
+}
+
+/// Gives \p O to its unit; returns when that begins.
+template <bool Ideal>
+inline uint64_t CoreClock::pass(Front &F, const OpInfo &O) {
+  uint64_t Begun = F.Next;
+  if constexpr (Ideal) {
+    waitUntil(F, UnitFree[size_t(O.On)], CoreCycle::Unit);
+    Begun = F.Next;
+    UnitFree[size_t(O.On)] = Begun + O.Interval;
+  } else {
+    Begun = beginOnUnit(F, O);
+  }
+  follow<Ideal>(F, O, Begun);
+  return Begun;
+}
+
+uint64_t CoreClock::pass(const OpInfo &O) {
+  Front F = front();
+  const uint64_t Begun = IsIdeal ? pass<true>(F, O) : pass<false>(F, O);
+  setFront(F);
+  return Begun;
+}
+
+/// The plain instructions of \p Run from \p Position on, up to \p End. Returns
+/// where it stopped: there is one of another kind, or one whose operands nobody
+/// knows yet.
+template <bool Ideal>
+unsigned CoreClock::advancePlain(const OpInfo *Run, unsigned Position,
+                                 unsigned End) {
+  Front F = front();
+  for (; Position != End; ++Position) {
+    const OpInfo &O = Run[Position];
+    if (!O.IsPlain || !reach<Ideal>(F, O))
+      break;
+    if (!Ideal && beginsAtOnce(F.Next, O)) {
+      follow<Ideal>(F, O, F.Next);
+    } else {
+      Front There = F; // nobody else has the address of F
+      pass<Ideal>(There, O);
+      F = There;
+    }
+  }
+  setFront(F);
+  return Position;
+}
+
 /// Does one instruction, or stops in front of its request; false then.
 template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
-  if constexpr (!Ideal)
-    waitUntil(Fetched, FetchWhy);
-  if (!waitForOperands(O))
+  Front F = front();
+  const bool IsReached = reach<Ideal>(F, O);
+  setFront(F);
+  if (!IsReached)
     return false;
   switch (O.Class) {
   case OpClass::Load:
@@ -356,18 +450,9 @@ template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
   default:
     break;
   }
-  uint64_t Begun = Next;
-  if constexpr (Ideal) {
-    waitForUnit(O);
-    Begun = Next;
-    UnitFree[size_t(O.On)] = Begun + O.Interval;
-  } else {
-    Begun = beginOnUnit(O);
-  }
-  setReady(O.Rd, Begun + O.Latency, CoreCycle::Operand);
-  issue(O);
-  if constexpr (!Ideal)
-    fetchNext(O, Begun);
+  F = front();
+  pass<Ideal>(F, O);
+  setFront(F);
   return true;
 }
 
@@ -381,9 +466,10 @@ bool CoreClock::advanceParked(const OpInfo &O) {
     Spawns.erase(Spawns.begin());
     return true;
   }
-  if (!IsIdeal)
-    waitUntil(Fetched, FetchWhy);
-  if (!waitForOperands(O))
+  Front F = front();
+  const bool IsReached = IsIdeal ? reach<true>(F, O) : reach<false>(F, O);
+  setFront(F);
+  if (!IsReached)
     return false;
   if (Kind == Event::Atomic) {
     Trace->popWords(1);
@@ -425,6 +511,7 @@ bool CoreClock::advanceParked(const OpInfo &O) {
   case Event::RasterOther:
     Trace->popWords(1);
     UnitFree[size_t(O.On)] = Next + O.Interval;
+    UnitsBusyUntil = std::max(UnitsBusyUntil, UnitFree[size_t(O.On)]);
     setReady(O.Rd, Next + O.Latency, CoreCycle::Operand);
     finish(O);
     return true;
@@ -446,6 +533,14 @@ template <bool Ideal, bool Watched> void CoreClock::advanceThrough() {
         if (!isInCode(*this, R.First + Here)) {
           Position = Here;
           return;
+        }
+      if constexpr (!Watched)
+        if (R.Count != 0) {
+          const unsigned End =
+              Ideal ? Count : std::min(Count, endOfLine(R.First, Here));
+          Here = advancePlain<Ideal>(First, Here, End);
+          if (Here == End)
+            continue;
         }
       // Moved on before the instruction: a request is finished elsewhere.
       const OpInfo &O = First[Here++];

@@ -146,6 +146,19 @@ public:
   uint64_t staleLoads() const { return StaleLoads; }
 
 private:
+  /// What every instruction changes: Next, Fetched and FetchWhy. A copy, which
+  /// stays in the host's registers while plain instructions follow one another.
+  struct Front {
+    uint64_t Next;
+    uint64_t Fetched;
+    CoreCycle FetchWhy;
+  };
+  Front front() const { return {Next, Fetched, FetchWhy}; }
+  void setFront(const Front &F) {
+    Next = F.Next;
+    Fetched = F.Fetched;
+    FetchWhy = F.FetchWhy;
+  }
   void spend(CoreCycle What, uint64_t Cycles) {
     Spent.Cycles[size_t(What)] += Cycles;
     Next += Cycles;
@@ -154,13 +167,18 @@ private:
     if (Then > Next)
       spend(Why, Then - Next);
   }
+  void waitUntil(Front &F, uint64_t Then, CoreCycle Why) {
+    const uint64_t Later = std::max(Then, F.Next);
+    Spent.Cycles[size_t(Why)] += Later - F.Next;
+    F.Next = Later;
+  }
   const WarpTime &of(unsigned Warp) const {
     return Warp == Current ? *this : Others[Warp];
   }
   WarpTime &of(unsigned Warp) { return Warp == Current ? *this : Others[Warp]; }
   void startRun(WarpTime &W, const RunRecord &R);
   bool isInCode(WarpTime &W, uint32_t Instruction) const;
-  bool waitForOperands(const OpInfo &O);
+  bool waitForOperands(Front &F, const OpInfo &O);
   bool waitUntilQuiet();
   void waitForUnit(const OpInfo &O) {
     waitUntil(UnitFree[size_t(O.On)], CoreCycle::Unit);
@@ -171,12 +189,20 @@ private:
   }
   unsigned firstPlace() const;
   size_t placeOf(const OpInfo &O, uint64_t Begin) const;
-  uint64_t unitFreeAt(const OpInfo &O) const;
-  uint64_t beginOnUnit(const OpInfo &O);
-  void fetchNext(const OpInfo &O, uint64_t Begun);
-  void issue(const OpInfo &O);
+  uint64_t unitFreeAt(const OpInfo &O, uint64_t Now) const;
+  bool beginsAtOnce(uint64_t Now, const OpInfo &O);
+  uint64_t beginOnUnit(Front &F, const OpInfo &O);
+  void fetchNext(Front &F, const OpInfo &O, uint64_t Begun) const;
+  void issue(Front &F, const OpInfo &O);
+  template <bool Ideal> bool reach(Front &F, const OpInfo &O);
+  template <bool Ideal> void follow(Front &F, const OpInfo &O, uint64_t Begun);
+  template <bool Ideal> uint64_t pass(Front &F, const OpInfo &O);
+  uint64_t pass(const OpInfo &O);
   void finish(const OpInfo &O);
   template <bool Ideal, bool Watched> void advanceThrough();
+  unsigned endOfLine(uint32_t First, unsigned Position) const;
+  template <bool Ideal>
+  unsigned advancePlain(const OpInfo *Run, unsigned Position, unsigned End);
   template <bool Ideal> bool advanceOne(const OpInfo &O);
   bool advanceParked(const OpInfo &O);
   uint64_t localAccess(const OpInfo &O, AccessWord A);
@@ -225,6 +251,8 @@ private:
 
   uint64_t Next = 0; ///< the earliest next issue; all before is accounted for
   std::array<uint64_t, size_t(Port::Count)> UnitFree{};
+  /// From then on every unit is free.
+  uint64_t UnitsBusyUntil = 0;
   /// Of a unit whose instructions wait in front of it: when the last ones
   /// begin, in a ring.
   struct UnitQueue {
@@ -236,6 +264,11 @@ private:
   struct UnitPlaces {
     std::vector<uint64_t> FreeAt;
     size_t Oldest = 0; ///< that was taken the longest ago
+
+    void take(size_t Place, uint64_t Until) {
+      FreeAt[Place] = Until;
+      Oldest = Place + 1 == FreeAt.size() ? 0 : Place + 1;
+    }
   };
   std::array<UnitPlaces, size_t(Port::Count)> Places;
   /// A set of lines for each place, and behind these one for all accesses that

@@ -53,8 +53,8 @@ uint64_t CoreClock::earliestIssue(const WarpTime &W, const RunRecord &R) const {
   case OpClass::Fence:
     return std::max(Then, quietAt());
   default:
-    return std::max(Then,
-                    R.Count == 0 ? UnitFree[size_t(O.On)] : unitFreeAt(O));
+    return std::max(Then, R.Count == 0 ? UnitFree[size_t(O.On)]
+                                       : unitFreeAt(O, Next));
   }
 }
 
@@ -147,10 +147,7 @@ void CoreClock::advanceInTurn(uint64_t Until) {
 
 /// vx_wspawn \p O of the current warp.
 void CoreClock::spawn(const OpInfo &O) {
-  const uint64_t Begun = beginOnUnit(O);
-  issue(O);
-  if (!IsIdeal)
-    fetchNext(O, Begun);
+  const uint64_t Begun = pass(O);
   for (uint32_t Left = Trace->word(); Left; Left &= Left - 1)
     of(static_cast<unsigned>(std::countr_zero(Left)))
         .Spawns.push_back(Begun + std::max<unsigned>(O.Redirect, 1));

@@ -1,7 +1,5 @@
 #include "timing/L2Link.h"
 
-#include "timing/Turn.h"
-
 #include <algorithm>
 
 namespace vorion::isasim {
@@ -60,12 +58,8 @@ L2Link::Sent L2Link::send(uint64_t Now, CacheOp Op) {
 
 void L2Link::give(const Answer &A) { Answers.push({A, Given++}); }
 
-uint64_t L2Link::nextAnswer() const {
-  return Answers.empty() ? Turn::Never : Answers.top().What.At;
-}
-
 Answer L2Link::takeAnswer() {
-  Answer A = Answers.top().What;
+  Answer A = Answers.front().What;
   Answers.pop();
   const uint64_t Left =
       From.leave(psOf(A.At, Mhz), HeaderBytes + TimingLineBytes);

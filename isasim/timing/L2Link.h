@@ -3,10 +3,10 @@
 #pragma once
 
 #include "timing/Cache.h"
+#include "timing/TimeQueue.h"
+#include "timing/Turn.h"
 
 #include <cstdint>
-#include <queue>
-#include <vector>
 
 namespace vorion::isasim {
 
@@ -46,7 +46,9 @@ public:
   void give(const Answer &A);
   /// The L2's cycle in which the next answer leaves if nothing else comes;
   /// Turn::Never if none waits.
-  uint64_t nextAnswer() const;
+  uint64_t nextAnswer() const {
+    return Answers.empty() ? Turn::Never : Answers.front().What.At;
+  }
   /// Sends the answer of nextAnswer(); its time is the chip's cycle in which it
   /// is there.
   Answer takeAnswer();
@@ -67,15 +69,18 @@ private:
   struct Waiting {
     Answer What;
     uint64_t Number; ///< orders those of one time
-    bool operator>(const Waiting &O) const {
-      return What.At != O.What.At ? What.At > O.What.At : Number > O.Number;
+  };
+  struct IsBefore {
+    bool operator()(const Waiting &A, const Waiting &B) const {
+      return A.What.At != B.What.At ? A.What.At < B.What.At
+                                    : A.Number < B.Number;
     }
   };
 
   const uint64_t ChipMhz, Mhz;
   const uint32_t HeaderBytes;
   Direction To, From;
-  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> Answers;
+  TimeQueue<Waiting, IsBefore> Answers;
   uint64_t Given = 0;
 };
 

@@ -34,8 +34,15 @@ public:
   /// The next cycle in which something may be decided; Turn::Never if nothing
   /// is under way.
   uint64_t nextEvent() const {
-    return HasLink ? Link.toChip(std::min(Ram.nextEvent(), Link.nextAnswer()))
-                   : Ram.nextEvent();
+    if (!HasLink)
+      return Ram.nextEvent();
+    // Every step of the clock asks, and most are told the same.
+    const uint64_t Next = std::min(Ram.nextEvent(), Link.nextAnswer());
+    if (Next != NextInL2) {
+      NextInL2 = Next;
+      NextOnChip = Link.toChip(Next);
+    }
+    return NextOnChip;
   }
   /// Goes on until lines have come or to the end of cycle \p Until. Appends
   /// the answers that are known by then.
@@ -97,6 +104,7 @@ private:
   Cache Llc;
   std::deque<Slice> Slices; ///< by cluster
   uint32_t L2HitCycles;
+  mutable uint64_t NextInL2 = 0, NextOnChip = 0; ///< what nextEvent() said
   std::vector<DramChannels::Fill> Fills;
   std::vector<Answer> FromLlc, FromL2;
   std::optional<MemoryWatch> Watch;

@@ -165,8 +165,22 @@ static void setCost(OpInfo &O, Op Name, const CoreTiming &P, unsigned Lanes) {
     O.Hold = O.Interval;
     O.Interval = static_cast<uint16_t>(Passes);
   }
+  O.IsLight = O.Interval == 1 && !(O.On == Port::Alu && O.Hold);
   const uint32_t Redirect = redirectOf(Name, O.Class, P);
   O.Redirect = static_cast<uint8_t>(Redirect > 1 ? Redirect + Conflicts : 0);
+}
+
+static bool isPlain(const OpInfo &O) {
+  switch (O.Class) {
+  case OpClass::Load:
+  case OpClass::Store:
+  case OpClass::Atomic:
+  case OpClass::Fence:
+  case OpClass::Barrier:
+    return false;
+  default:
+    return !O.Spawns;
+  }
 }
 
 std::vector<OpInfo> describeProgram(const CodeTable &Code,
@@ -193,6 +207,7 @@ std::vector<OpInfo> describeProgram(const CodeTable &Code,
         O.Sources[2] = O.Sources[1] + 1;
     }
     O.Spawns = D && D->Opcode == Op::VX_WSPAWN;
+    O.IsPlain = isPlain(O);
     setCost(O, D ? D->Opcode : Op::RV_ADDI, Params, Lanes);
   }
   return All;

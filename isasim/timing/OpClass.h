@@ -36,6 +36,11 @@ struct OpInfo {
   /// then, else 0.
   uint8_t Redirect = 0;
   bool Spawns = false; ///< vx_wspawn
+  /// Whether only its operands and its unit decide when it issues, and nothing
+  /// of it is in the trace.
+  bool IsPlain = true;
+  /// Whether it keeps its unit for a cycle only.
+  bool IsLight = true;
 };
 
 OpClass classOf(uint32_t Word);

@@ -124,14 +124,7 @@ void Controller::addSteps(const Constraint &C) {
 void Controller::submit(const Request &R) {
   assert(R.Where.Bank < Banks.size() && "a bank that the device has not");
   assert(R.At >= AdvancedTo && "a request of the past");
-  std::deque<Request> &Waiting = Queues[R.IsWrite].Waiting;
-  const auto IsBefore = [](const Request &A, const Request &B) {
-    return A.At != B.At ? A.At < B.At : A.Id < B.Id;
-  };
-  auto Position = Waiting.end();
-  while (Position != Waiting.begin() && IsBefore(R, *(Position - 1)))
-    --Position;
-  Waiting.insert(Position, R);
+  Queues[R.IsWrite].Waiting.push(R);
   ++Unanswered;
 }
 

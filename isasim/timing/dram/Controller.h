@@ -3,11 +3,11 @@
 /// and what it does depends on requests and their times alone.
 #pragma once
 
+#include "timing/TimeQueue.h"
 #include "timing/dram/TimingTable.h"
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <vector>
 
@@ -134,12 +134,18 @@ private:
     uint32_t First = None, Last = None;
     std::array<Oldest, Kinds> OldestOf; ///< by Kind
   };
+  /// By time and id.
+  struct IsBefore {
+    bool operator()(const Request &A, const Request &B) const {
+      return A.At != B.At ? A.At < B.At : A.Id < B.Id;
+    }
+  };
   struct Queue {
     std::array<uint64_t, Kinds> BanksWith{}; ///< bit sets, by Kind
     uint32_t Bursts = 0;                     ///< not taken up
     uint32_t Capacity = 0;
     std::vector<BankQueue> Banks;
-    std::deque<Request> Waiting; ///< not yet taken in, by time and id
+    TimeQueue<Request, IsBefore> Waiting; ///< not yet taken in
   };
   /// The first tick at which each command can begin.
   using Ticks = std::array<uint64_t, Commands>;

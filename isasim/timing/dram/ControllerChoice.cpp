@@ -26,7 +26,7 @@ bool Controller::takeIn(std::vector<Reply> &Replies) {
     if (!First)
       return Changes;
     Changes |= enter(First->Waiting.front(), Replies);
-    First->Waiting.pop_front();
+    First->Waiting.pop();
   }
 }
 
