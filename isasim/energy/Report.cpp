@@ -1,4 +1,5 @@
 #include "energy/Costs.h"
+#include "energy/Published.h"
 #include "vorion/isasim/Energy.h"
 
 #include <fmt/format.h>
@@ -94,7 +95,7 @@ std::string energyMarkdown(const Technology &T) {
   for (const AreaCost &C : areaCosts())
     Text += fmt::format("| {} | {} | {} | {:g} |\n", C.Part, C.Event, C.Row,
                         C.Count);
-  return Text;
+  return Text + "\n" + publishedMarkdown(T);
 }
 
 } // namespace vorion::isasim
