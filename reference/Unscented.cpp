@@ -2,7 +2,10 @@
 
 #include "Shutter.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 
 namespace vorion::reference {
 namespace {
@@ -17,6 +20,15 @@ bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At) {
     return false;
   At = Vec2<Real>(E.Place);
   return true;
+}
+
+/// How far a point may be from the mean's place, in units of the focal lengths.
+template <typename Real> double mostSpread(const Camera<Real> &C) {
+  // Parallel rays keep every ellipse one.
+  if (C.Optics.Model == LensModel::Orthographic)
+    return std::numeric_limits<double>::infinity();
+  return 0.5 * std::min(1.0, std::max(C.Width / double(C.Focal.x),
+                                      C.Height / double(C.Focal.y)));
 }
 
 /// dL/d(point) from dL/d(place in pixels), of a point that the camera sees.
@@ -40,6 +52,7 @@ sevenPoints(const Vec3<Real> &Mean, const Mat3<Real> &Axes,
     return std::nullopt;
   const bool Ahead = C.Optics.Model == LensModel::Pinhole ||
                      C.Optics.Model == LensModel::OpenCv;
+  const double Most = mostSpread(C);
   Vec2<Real> Sum(0);
   for (std::size_t N = 0; N < 6; ++N) {
     const Vec3<Real> Step = std::sqrt(Real(3)) * Axes[static_cast<int>(N / 2)];
@@ -48,7 +61,10 @@ sevenPoints(const Vec3<Real> &Mean, const Mat3<Real> &Axes,
     if ((Ahead && !inFront(S.Points[N].z, O)) ||
         !placeOf(C, S.Points[N], There))
       return std::nullopt;
-    S.Off[N] = C.Focal * placeDifference(C.Optics, There, S.At);
+    const Vec2<Real> Way = placeDifference(C.Optics, There, S.At);
+    if (!(double(glm::dot(Way, Way)) <= Most * Most))
+      return std::nullopt;
+    S.Off[N] = C.Focal * Way;
     Sum += S.Off[N];
   }
   S.Shift = Sum / Real(6);

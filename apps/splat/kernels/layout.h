@@ -41,6 +41,9 @@ typedef struct {
   /// What is not below it is not seen: OpenCV's r^2, a fisheye's angle; or the
   /// least cosine of a latitude at which the Jacobian is taken.
   float limit;
+  /// Of the unscented transform: the square of how far a point's place may be
+  /// from the mean's, in units of the focal lengths.
+  float most_spread;
 } splat_lens;
 
 /// What lies behind the lens of a camera that moves while it exposes.

@@ -46,7 +46,9 @@ typedef struct {
 } unscented_points;
 
 // Those of the mean `p`, whose own place is `at`; `a` are axes as long as the
-// deviations. False where the camera does not see one of them.
+// deviations. False where the Jacobian is the better one: the camera does not
+// see one of them, or it is so far from the mean's place that the footprint is
+// no ellipse.
 static bool unscented_points_of(VIEW_SPACE const splat_view *view,
                                 VIEW_SPACE const splat_lens *lens, float3 p,
                                 float2 at, camera_axes a,
@@ -56,6 +58,7 @@ static bool unscented_points_of(VIEW_SPACE const splat_view *view,
                           (float3)(a.x.z, a.y.z, a.z.z) * UNSCENTED_STEP};
   const float2 focal = (float2)(view->focal[0], view->focal[1]);
   float2 sum = (float2)(0.0f, 0.0f);
+  bool within = true;
   for (uint n = 0; n < 6; ++n) {
     const float3 q = n % 2 == 0 ? p + axis[n / 2] : p - axis[n / 2];
 #if !USE_FISHEYE && !USE_ORTHOGRAPHIC && !USE_EQUIRECTANGULAR
@@ -65,17 +68,19 @@ static bool unscented_points_of(VIEW_SPACE const splat_view *view,
     seen_point seen;
     if (!see_point(view, lens, q, &seen))
       return false;
+    const float2 way = lens_difference(place_of(&seen), at);
+    within &= dot(way, way) <= lens->most_spread;
 #ifdef KEEP_SEEN_POINTS
     points->seen[n] = seen;
 #endif
-    points->off[n] = focal * lens_difference(place_of(&seen), at);
+    points->off[n] = focal * way;
     sum += points->off[n];
   }
   points->shift = sum / 6.0f;
   for (uint n = 0; n < 6; ++n)
     points->off[n] = (points->off[n] - points->shift) * UNSCENTED_WEIGHT;
   points->off[6] = -points->shift * 1.4142135f;
-  return true;
+  return within;
 }
 
 static screen_covariance

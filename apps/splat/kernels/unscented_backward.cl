@@ -1,5 +1,5 @@
 // The way back through the seven points of unscented.cl. Each goes back through
-// the camera at its own place; false where the camera does not see one of them.
+// the camera at its own place; false where the Jacobian projected the Gaussian.
 
 // dL/d(point) from dL/d(its place), px.
 static float3 point_backward(__constant const splat_view *view,

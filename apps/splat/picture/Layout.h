@@ -12,7 +12,7 @@ static_assert(sizeof(splat_gaussian) == 48, "docs/abi.md: vx_gaussian");
 static_assert(sizeof(splat_blend_options) == 48,
               "4-byte members without padding");
 static_assert(sizeof(splat_density) == 24, "4-byte members without padding");
-static_assert(sizeof(splat_lens) == 56, "4-byte members without padding");
+static_assert(sizeof(splat_lens) == 60, "4-byte members without padding");
 static_assert(sizeof(splat_shutter) == 40, "4-byte members without padding");
 static_assert(sizeof(splat_crop) == 56, "4-byte members without padding");
 static_assert(sizeof(splat_view) == 144, "4-byte members without padding");

@@ -110,6 +110,12 @@ splat_lens makeLens(const Camera &C) {
   default:
     L.limit = static_cast<float>(Limit * Limit);
   }
+  // Parallel rays keep every ellipse one.
+  const double Spread =
+      C.Optics.Model == LensModel::Orthographic
+          ? Infinity
+          : 0.5 * std::min(1.0, std::max(C.Width / C.Fx, C.Height / C.Fy));
+  L.most_spread = static_cast<float>(Spread * Spread);
   return L;
 }
 

@@ -267,6 +267,24 @@ TrainingCase throughPoints(splat::LensModel M, bool Rolls, std::string Name,
                 std::move(FoundIn));
 }
 
+/// One of each one's points is just in front of the near plane and far beside
+/// the picture, so that it goes back through the Jacobian, as it came.
+TrainingCase pointsBeside() {
+  GradientScene G = sceneOfLens(splat::LensModel::Pinhole);
+  Numbers R(87);
+  for (const auto &[X, Y, Z] :
+       {std::array{2.0F, 0.3F, 1.2F}, {-2.4F, -0.6F, 1.5F}})
+    add(G.Scene, {.Mean = {X, Y, Z},
+                  .Scale = {0.4, 0.5, (Z - 0.25) / std::sqrt(3.)},
+                  .Opacity = 0.5,
+                  .Color = R.color()});
+  G.Options.Through = splat::Spread::Unscented;
+  return caseOf("gradients-beside-points",
+                "large Gaussians beside a pinhole's picture, with a point just "
+                "in front of the near plane",
+                std::move(G), {"points-anywhere"});
+}
+
 } // namespace
 
 void addGradients(std::vector<TrainingCase> &Cases) {
@@ -312,6 +330,7 @@ void addGradients(std::vector<TrainingCase> &Cases) {
                                 "gradients-through-points-rolling",
                                 "each point at a moment of its own, which its "
                                 "place moves"));
+  Cases.push_back(pointsBeside());
 }
 
 } // namespace vorion::test

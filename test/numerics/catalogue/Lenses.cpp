@@ -250,6 +250,26 @@ HardCase unscentedSeam() {
   return C;
 }
 
+HardCase unscentedBeside() {
+  HardCase C = caseOf("unscented-beside",
+                      "large Gaussians beside a pinhole's picture as seven "
+                      "points, one of each just in front of the near plane and "
+                      "far away: footprints must not cover the picture",
+                      allAround(60, 85), frontView(128, 96, 50));
+  Numbers R(86);
+  for (const auto &[X, Y, Z] : {std::array{2.0F, 0.3F, 1.2F},
+                                {-2.4F, -1.0F, 1.5F},
+                                {0.5F, -2.2F, 1.6F}})
+    add(C.Scene, {.Mean = {X, Y, Z},
+                  .Scale = {0.4, 0.3, (Z - 0.25) / std::sqrt(3.)},
+                  .Opacity = 0.9,
+                  .Color = R.color()});
+  C.Options.Through = splat::Spread::Unscented;
+  C.ExpectedCulls[3] = 14;
+  C.FoundIn = {"points-anywhere"};
+  return C;
+}
+
 /// Half a radian and a third of the way to what it sees in one exposure.
 splat::Camera rollingView(LensModel M) {
   splat::Camera C = lensView(M, someCoefficients(M), 128, 96);
@@ -351,11 +371,13 @@ HardCase ownNearPlane() {
 
 void addLenses(std::vector<HardCase> &Cases) {
   for (HardCase (*const Make)() :
-       {distorted,     opencvFold,     opencvUnfold,     fisheyeFold,
-        fisheyeUnfold, fisheyeAxis,    fisheyeAround,    orthographic,
-        seam,          poles,          sphere,           hugeCoefficients,
-        unscentedWide, unscentedSeam,  unscentedNeedle,  rollingPinhole,
-        rollingOpenCv, rollingFisheye, rollingUnscented, rollingFollowed,
+       {distorted,       opencvFold,       opencvUnfold,
+        fisheyeFold,     fisheyeUnfold,    fisheyeAxis,
+        fisheyeAround,   orthographic,     seam,
+        poles,           sphere,           hugeCoefficients,
+        unscentedWide,   unscentedSeam,    unscentedNeedle,
+        unscentedBeside, rollingPinhole,   rollingOpenCv,
+        rollingFisheye,  rollingUnscented, rollingFollowed,
         ownNearPlane})
     Cases.push_back(Make());
 }

@@ -1,0 +1,133 @@
+// The unscented transform by what it approximates: pictures in which a pixel
+// sees of each Gaussian the largest density on its ray.
+
+#include "Lens.h"
+#include "Render.h"
+#include "TestScenes.h"
+#include "Tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+using namespace vorion::reference;
+
+namespace {
+
+constexpr int Width = 60, Height = 40;
+
+/// The direction that \p C sees at \p At, px. Of a fisheye without
+/// coefficients.
+glm::dvec3 rayAt(const Camera<double> &C, const glm::dvec2 &At) {
+  const glm::dvec2 Place = (At - C.Principal) / C.Focal;
+  if (C.Optics.Model == LensModel::Pinhole)
+    return {Place, 1};
+  if (C.Optics.Model == LensModel::Equirectangular)
+    return {std::sin(Place.x) * std::cos(Place.y), std::sin(Place.y),
+            std::cos(Place.x) * std::cos(Place.y)};
+  const double Angle = glm::length(Place);
+  return {Place * (std::sin(Angle) / Angle), std::cos(Angle)};
+}
+
+/// What is blended of round Gaussian \p I of \p G on a ray from the origin.
+double alphaAlong(const Gaussians<double> &G, std::size_t I,
+                  const glm::dvec3 &Ray) {
+  if (glm::dot(Ray, G.Means[I]) < 0)
+    return 0;
+  const glm::dvec3 Beside =
+      glm::cross(Ray, G.Means[I]) / (glm::length(Ray) * G.Scales[I].x);
+  const double Alpha =
+      G.Opacities[I] * std::exp(-0.5 * glm::dot(Beside, Beside));
+  return Alpha < leastAlpha<double>(1) ? 0
+                                       : std::min(Alpha, mostAlpha<double>());
+}
+
+/// The mean square difference of the picture that \p Through draws from that.
+double difference(const Gaussians<double> &G, const Camera<double> &C,
+                  Spread Through) {
+  Options O;
+  O.Through = Through;
+  O.Dilation = 0;
+  O.Cutoff = 0;
+  const auto Splats = project(G, C, O);
+  const auto Drawn = blend(Splats, C.Width, C.Height, O);
+  const auto Order = depthOrder(Splats);
+  double Squares = 0;
+  for (int Y = 0; Y < C.Height; ++Y)
+    for (int X = 0; X < C.Width; ++X) {
+      const glm::dvec3 Ray = rayAt(C, {X + 0.5, Y + 0.5});
+      glm::dvec3 Seen(0);
+      double T = 1;
+      for (const uint32_t Place : Order) {
+        // Of an equirectangular picture's copies only one stands in it.
+        if (Place >= G.size())
+          continue;
+        const double Alpha = alphaAlong(G, Place, Ray);
+        Seen += T * Alpha * G.Colors[Place];
+        T *= 1 - Alpha;
+      }
+      const glm::dvec3 Off =
+          Drawn.Render[static_cast<std::size_t>(Y * C.Width + X)] - Seen;
+      Squares += glm::dot(Off, Off);
+    }
+  return Squares / (3. * C.Width * C.Height);
+}
+
+double decibels(double Squares) { return -10 * std::log10(Squares); }
+
+Camera<double> camera(LensModel M, double Focal) {
+  auto C = frontCamera(Width, Height, Focal);
+  if (M == LensModel::Equirectangular)
+    C.Focal = {Width / (2 * M_PI), Height / M_PI};
+  setLens(C, M, {});
+  return C;
+}
+
+/// Small ones in the picture, and \p Others.
+Gaussians<double> sceneWith(const std::vector<glm::dvec4> &Others) {
+  Gaussians<double> G;
+  for (int I = 0; I < 12; ++I)
+    addRound(G, {std::sin(1.7 * I), 0.6 * std::cos(2.3 * I), 2.5 + 0.1 * I},
+             0.15, 0.7, {0.5 + 0.5 * std::sin(I), 0.5, 0.2});
+  for (const glm::dvec4 &O : Others)
+    addRound(G, glm::dvec3(O), O.w, 0.9, {0.1, 0.3, 0.9});
+  return G;
+}
+
+/// Places and sizes of large Gaussians. One point of each is just in front of
+/// the near plane and far beside the picture.
+const std::vector<glm::dvec4> BesidePinhole{
+    {3, 0.3, 1.2, 0.55}, {-4, -1, 1.5, 0.72}, {0.5, -5, 1.6, 0.75}};
+
+TEST(Unscented, WhatIsBesideAPinholeDoesNotCoverThePicture) {
+  for (const double Focal : {20., 40., 300.}) {
+    const auto C = camera(LensModel::Pinhole, Focal);
+    const auto G = sceneWith(BesidePinhole);
+    const double Points = decibels(difference(G, C, Spread::Unscented));
+    EXPECT_GT(Points, 23) << Focal;
+    EXPECT_GT(Points, decibels(difference(G, C, Spread::Jacobian)) - 0.5)
+        << Focal;
+  }
+}
+
+TEST(Unscented, WhatIsAroundACameraDoesNotCoverThePicture) {
+  const std::vector<glm::dvec4> Others{
+      {0.9, 0.2, -0.5, 0.5}, {-0.3, -1.1, -0.2, 0.6}, {0.2, 1, 0.3, 0.5}};
+  for (const auto M : {LensModel::Fisheye, LensModel::Equirectangular}) {
+    const auto C = camera(M, 18);
+    const auto G = sceneWith(Others);
+    EXPECT_GT(decibels(difference(G, C, Spread::Unscented)),
+              decibels(difference(G, C, Spread::Jacobian)) - 0.5);
+  }
+}
+
+TEST(Unscented, LargeGaussiansInViewAreBetterThanByTheJacobian) {
+  const auto C = camera(LensModel::Pinhole, 25);
+  const auto G = sceneWith(
+      {{0.8, 0.3, 1.6, 0.3}, {-1, -0.4, 1.8, 0.35}, {-0.2, 0.9, 1.9, 0.35}});
+  EXPECT_GT(decibels(difference(G, C, Spread::Unscented)),
+            decibels(difference(G, C, Spread::Jacobian)) + 1);
+}
+
+} // namespace
