@@ -23,6 +23,9 @@ TIMED = 3  # iterations after the state, each of another view; at a capture's la
 # The kernels' choices of tile and group. The way back has groups of 16 whatever the way forward has, and keeps a tile in local
 # memory, for which larger ones are too large.
 CHOICES = ((8, 16), (8, 64), (16, 64), (16, 256))
+# The baseline that the paper has in mind: a work-item a pixel adds to the Gaussians' sums in memory. It takes so long that one
+# iteration is timed, at a capture's smallest size.
+BY_ATOMICS = ("--path", "simt", "--simt-tile", "16", "--simt-group", "256", "--simt-sums", "atomics")
 CLOCKS = (100, 530)
 RASTERIZERS = 1024
 FULL = (7000, 30000)  # iterations of a training: INRIA's two evaluation points
@@ -131,7 +134,7 @@ class Timed:
     any_build = False
 
     def iterations(self):
-        return TIMED if self.scale == self.state.capture.scales[0] else 1
+        return TIMED if self.scale == self.state.capture.scales[0] and self.options != BY_ATOMICS else 1
 
     def name(self):
         return r.file_name([self.state.name(), f"by{self.scale}", self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
@@ -172,6 +175,10 @@ def raster(state, scale, machine, clock=0):
 
 def simt(state, scale, machine, choice):
     return Timed(state, scale, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])))
+
+
+def by_atomics(state, scale, machine):
+    return Timed(state, scale, machine, BY_ATOMICS)
 
 
 def mean(result, of):
@@ -273,6 +280,17 @@ def density_text(rows):
             f"{'in those of ' + ', '.join(changed) if changed else 'not in these'}.")
 
 
+def beside_atomics(with_it, atomics):
+    """The iteration that was timed with sums by atomics, and the same one with the rasterizer."""
+    one, ours = atomics["timed"][0], with_it["timed"][0]
+
+    def back(sample):
+        return sum(r.stage_cycles(sample, name) for name in ("blend backward", "reduce"))
+
+    return {"cycles": r.frame_cycles(one), "backward": back(one), "back_speedup": back(one) / back(ours),
+            "speedup": r.frame_ms(one) / r.frame_ms(ours), "command": atomics["command"]}
+
+
 def _on(store, state, scale, prototype, choices):
     """The rows of a prototype, and the results of its raster runs on it and on the scaled machine of its core."""
     with_it, scaled, slow = store.all(
@@ -280,8 +298,11 @@ def _on(store, state, scale, prototype, choices):
          raster(state, scale, prototype, CLOCKS[0])], TITLE)
     without = store.those_there({c: simt(state, scale, prototype, c) for c in choices}, TITLE)
     large = summary(scaled)
+    atomics = (store.those_there({"run": by_atomics(state, scale, prototype)}, TITLE)
+               if scale == state.capture.scales[0] else {})
     return {**compared(with_it, without), "slow_its": 1e3 / mean(slow, r.frame_ms),
             "slow_command": slow["command"],
+            "atomics": beside_atomics(with_it, atomics["run"]) if atomics else None,
             "scaled": {"machine": machines.SCALED[prototype], "its": 1e3 / large["ms"], "ms": large["ms"],
                        "clock_mhz": scaled["timed"][0]["time"]["sum"]["clock_mhz"], "command": large["command"]}}, with_it, scaled
 
@@ -350,6 +371,22 @@ def _paths(m):
     return [("rasterizer", m["ours"]), *([("kernels", m["kernels_whole"])] if m["kernels"] else [])]
 
 
+def _text_of_atomics(data):
+    rows = [m for m in by_prototype(data) if m["atomics"]]
+    if not rows:
+        return []
+    out = ["## Kernels that sum by atomics", "",
+           paragraph("""INRIA's program adds nine sums a pixel and Gaussian to memory, by atomics. With `--path simt --simt-sums atomics` our
+           kernels do so: a work-item a pixel, tiles of 16x16, groups of 256. OpenCL C 1.2 has no atomic sum of floats, so each is a loop
+           around a compare-and-exchange, and lanes at the same Gaussian take turns. One iteration of each row was timed, and the same one
+           with the rasterizer. *times slower than ordered*: than the way back of our fastest kernels, which sum in a fixed order."""), ""]
+    return out + table(("capture", "pictures", "machine", "iteration, Mcycles", "back, Mcycles", "times slower than ordered",
+                        "the rasterizer's iteration, times faster", "the rasterizer's way back, times faster"),
+                       [(m["scene"], m["view"], f"`{m['machine']}`", mega(m["atomics"]["cycles"]), mega(m["atomics"]["backward"]),
+                         f"{m['atomics']['backward'] / m['kernels_back']['backward']:.1f}x" if m["kernels"] else "",
+                         f"{m['atomics']['speedup']:.1f}x", f"{m['atomics']['back_speedup']:.1f}x") for m in rows])
+
+
 def text(data):
     rows = data["rows"]
     out = [paragraph(f"""Means of the {TIMED} iterations after so many of a training run (settings of [training.md](../training.md)),
@@ -373,6 +410,7 @@ def text(data):
                      [(m["scene"], m["view"], m["gaussians"], mega(m["ours"]["cycles"]), f"{m['its']:.2f}",
                        f"{m['slow_its']:.2f}", f"{m['scaled']['its']:.2f}", mega(m["ours"]["backward"]),
                        *(_kernels_cells(m) if m["kernels"] else [""] * 8)) for m in of])
+    out += _text_of_atomics(data)
     out += ["## By stage", "", "Percent of an iteration's cycles.", ""]
     out += table(("capture", "pictures", "machine", "path", *PARTS),
                  [(m["scene"], m["view"], f"`{m['machine']}`", path,

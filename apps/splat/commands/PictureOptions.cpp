@@ -220,6 +220,10 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
             "The rasterizer's unit for 1/(1 - alpha)");
   addChoice(App, "--sum", B.Order, {GatherOrder::Tree, GatherOrder::Rows},
             "How the rasterizer's gather adds up rows");
+  addChoice(App, "--simt-sums", B.Pixels,
+            {SimtSums::Ordered, SimtSums::Atomics},
+            "How the cores' way back adds up pixels: in a fixed order, or by "
+            "atomics as INRIA's program does");
 }
 
 Expected<Success> checkBackwardOptions(const BackwardOptions &B,
@@ -229,6 +233,8 @@ Expected<Success> checkBackwardOptions(const BackwardOptions &B,
       (B.Unit != Default.Unit || B.Order != Default.Order))
     return usage("--reciprocal and --sum are the rasterizer's, expected --path "
                  "raster with them");
+  if (Blending == Path::Raster && B.Pixels != Default.Pixels)
+    return usage("--simt-sums is the cores', expected --path simt with it");
   return Success{};
 }
 
@@ -267,7 +273,7 @@ Expected<Success> checkGradientCamera(const Camera &C, const RenderOptions &O) {
 
 std::string toString(const BackwardOptions &B, Path Blending) {
   if (Blending != Path::Raster)
-    return "";
+    return B.Pixels == SimtSums::Atomics ? ", sums by atomics" : "";
   return fmt::format(", reciprocal {}, sums in {} order", name(B.Unit),
                      name(B.Order));
 }

@@ -1,25 +1,11 @@
 // Blending's way back by the cores alone: 16 work-items go through a tile's list
-// from its end, with the arithmetic of docs/abi.md, "Backward". Each owns
-// every 16th pixel; 16 Gaussians at a time are summed over the work-items, one
-// Gaussian a work-item, in a fixed order and without atomics.
+// from its end. Each owns every 16th pixel; 16 Gaussians at a time are summed
+// over the work-items, one Gaussian a work-item, in a fixed order and without
+// atomics.
 
 #define LANES 16
 #define PIXELS (TILE_SIZE * TILE_SIZE)
 #define OWN (PIXELS / LANES)
-
-#ifdef CLAMP_STOPS
-#define CLAMPED(wanted) ((wanted) > 0.99f)
-#else
-#define CLAMPED(wanted) false
-#endif
-
-// For density control, also the sums of the absolute gradients by the mean (Ye
-// et al. 2024, "AbsGS"): what pulls both ways does not cancel.
-#ifdef ABSOLUTE_SUMS
-#define ALL_SUMS (SUM_WORDS + ABSOLUTE_SUMS)
-#else
-#define ALL_SUMS SUM_WORDS
-#endif
 
 // One Gaussian in all pixels of this work-item: adds to `sum`.
 static void through(__global const splat_gaussian *g, uint entry, uint x0,
@@ -36,35 +22,8 @@ static void through(__global const splat_gaussian *g, uint entry, uint x0,
     const float dy = mean_y - ((float)(y0 + place / TILE_SIZE) + 0.5f);
     const float power = -0.5f * (a * dx * dx + c * dy * dy) - b * dx * dy;
     if ((last[place] > entry) & (fabs(dx) <= extent_x) &
-        (fabs(dy) <= extent_y) & (power <= 0.0f) & (power >= MIN_POWER)) {
-      const float wanted = g->opacity * falloff(power);
-      const float alpha = fmin(0.99f, wanted);
-      if (alpha >= ALPHA_CUTOFF / 255.0f) {
-        const float4 u = gradient[place];
-        const float2 s = state[place]; // transmittance, light from behind
-        const float t = s.x / (1.0f - alpha);
-        const float light =
-            g->color[0] * u.x + g->color[1] * u.y + g->color[2] * u.z;
-        const float gain = light - s.y;
-        state[place] = (float2)(t, s.y + alpha * gain);
-        const float weight = alpha * t;
-        const float v = CLAMPED(wanted) ? 0.0f : wanted * (t * gain);
-        const float vx = v * -dx, vy = v * -dy;
-        sum[SUM_COLOR] += weight * u.x;
-        sum[SUM_COLOR + 1] += weight * u.y;
-        sum[SUM_COLOR + 2] += weight * u.z;
-        sum[SUM_S] += v;
-        sum[SUM_SX] += vx;
-        sum[SUM_SX + 1] += vy;
-        sum[SUM_SXX] += vx * -dx;
-        sum[SUM_SXX + 1] += vx * -dy;
-        sum[SUM_SXX + 2] += vy * -dy;
-#ifdef ABSOLUTE_SUMS
-        sum[SUM_WORDS] += fabs(a * vx + b * vy);
-        sum[SUM_WORDS + 1] += fabs(b * vx + c * vy);
-#endif
-      }
-    }
+        (fabs(dy) <= extent_y) & (power <= 0.0f) & (power >= MIN_POWER))
+      pixel_backward(g, dx, dy, power, gradient + place, state + place, sum);
   }
 }
 

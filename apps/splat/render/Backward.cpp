@@ -27,7 +27,12 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   if (O.Blending == Path::Raster) {
     Blend.Files.insert(Blend.Files.end(), {"deal.cl", "rasterize_backward.cl"});
   } else {
-    Blend.Files.insert(Blend.Files.end(), {"falloff.cl", "blend_backward.cl"});
+    const bool Atomics = B.Pixels == SimtSums::Atomics;
+    Blend.Files.insert(Blend.Files.end(), {"falloff.cl", "pixel_backward.cl",
+                                           Atomics ? "blend_backward_atomics.cl"
+                                                   : "blend_backward.cl"});
+    Blend.Defines.emplace_back(Atomics ? "RECORD_SPACE=__local"
+                                       : "RECORD_SPACE=__global");
     Blend.Defines.push_back(minPowerDefine(O));
     Blend.Defines.push_back(alphaCutoffDefine(O));
     if (Gsplat)
@@ -83,9 +88,7 @@ void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
 void BackwardPipeline::run(Pipeline &Forward, const DepthTargets &Known) {
   const Frame &F = Forward.frame();
   Launch.beginStage(Stage::BlendBackward);
-  blend(Forward, F, Upstream);
-  Launch.beginStage(Stage::Reduce);
-  Sums = reduce(F);
+  Sums = sumsOf(Forward, F, Upstream, true);
   const cl::Buffer Deep =
       Known.any() ? depthSums(Forward, Known) : cl::Buffer();
   Launch.beginStage(Stage::ProjectBackward);
@@ -118,10 +121,35 @@ cl::Buffer BackwardPipeline::depthSums(Pipeline &Forward,
              By, F.pixels());
   Launch.run(DepthLossProgram, "depth_loss", itemsFor(Points), GroupSize, Given,
              Points, Deep.Pixels, By, Known.Weight);
-  blend(Forward, Deep, By);
-  const cl::Buffer Found = reduce(Deep);
+  const cl::Buffer Found = sumsOf(Forward, Deep, By, false);
   Launch.run(DepthLossProgram, "depth_add", itemsFor(Count), GroupSize, Sums,
              Found, F.Depths.Keys, Count);
+  return Found;
+}
+
+/// Back through blending, from \p By, dL/d(pixels). \p AsStages: the sum over
+/// tiles is a stage.
+cl::Buffer BackwardPipeline::sumsOf(Pipeline &Forward, const Frame &F,
+                                    const cl::Buffer &By, bool AsStages) {
+  if (Choice.Pixels == SimtSums::Atomics)
+    return sumsByAtomics(F, By);
+  blend(Forward, F, By);
+  if (AsStages)
+    Launch.beginStage(Stage::Reduce);
+  return reduce(F);
+}
+
+cl::Buffer BackwardPipeline::sumsByAtomics(const Frame &F,
+                                           const cl::Buffer &By) {
+  const uint32_t Words = Choice.sums() * F.drawn();
+  cl::Buffer Found = Launch.allocate("Gaussians' sums", 4 * uint64_t{Words});
+  Launch.run(BlendBackwardProgram, "clear_sums", itemsFor(Words), GroupSize,
+             Found, Words);
+  const uint32_t Items = Options.SimtTile * Options.SimtTile;
+  Launch.run(BlendBackwardProgram, "blend_backward_atomics",
+             cl::NDRange(F.View.tiles[0] * Items, F.View.tiles[1]),
+             cl::NDRange(Items, 1), F.Records, F.List, F.Ranges, F.Pixels,
+             F.Last, By, Found, F.drawn(), F.View.size[0], F.View.size[1]);
   return Found;
 }
 

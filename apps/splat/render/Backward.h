@@ -17,6 +17,14 @@ constexpr std::string_view name(GatherOrder O) {
   return O == GatherOrder::Tree ? "tree" : "rows";
 }
 
+/// How the cores' way back adds up the pixels of a Gaussian: tile by tile in a
+/// fixed order, or by atomics in memory, as INRIA's program does.
+enum class SimtSums { Ordered, Atomics };
+
+constexpr std::string_view name(SimtSums S) {
+  return S == SimtSums::Ordered ? "ordered" : "atomics";
+}
+
 /// Whose gradients are wanted: of scales and opacities as they are activated,
 /// or of their logarithms and logits, as they are stored.
 enum class GradientsOf { Activated, Stored };
@@ -24,6 +32,7 @@ enum class GradientsOf { Activated, Stored };
 struct BackwardOptions {
   Reciprocal Unit = Reciprocal::Exact;
   GatherOrder Order = GatherOrder::Tree;
+  SimtSums Pixels = SimtSums::Ordered;
   GradientsOf Parameters = GradientsOf::Activated;
   /// Also the sums of absolute gradients by the projected mean, x and y, px, as
   /// planes of \c sums() from SUM_WORDS on. By the cores alone: the rasterizer
@@ -69,6 +78,9 @@ public:
   /// @}
 
 private:
+  cl::Buffer sumsOf(Pipeline &Forward, const Frame &F, const cl::Buffer &By,
+                    bool AsStages);
+  cl::Buffer sumsByAtomics(const Frame &F, const cl::Buffer &By);
   void blend(Pipeline &Forward, const Frame &F, const cl::Buffer &By);
   cl::Buffer reduce(const Frame &F);
   cl::Buffer depthSums(Pipeline &Forward, const DepthTargets &Known);

@@ -197,6 +197,8 @@ Expected<Json> jsonReport(const RenderRecord &R) {
     if (R.Options.Blending == Path::Raster) {
       Report["backward"]["reciprocal"] = name(R.Back->Options.Unit);
       Report["backward"]["sums"] = name(R.Back->Options.Order);
+    } else {
+      Report["backward"]["simt_sums"] = name(R.Back->Options.Pixels);
     }
   }
   if (Json Time = frameJson(R.Result.Stages); !Time.is_null())

@@ -110,6 +110,8 @@ Json runRecord(const TrainRun &Run, const TrainingSet &Pictures,
   if (Run.Masks != MaskSource::None)
     J["masks"] = name(Run.Masks);
   // What the order of the cores' sums depends on.
+  if (Backward.Pixels != SimtSums::Ordered)
+    J["simt_sums"] = name(Backward.Pixels);
   if (By.Kind == Path::Simt && By.SimtTile != Blender(By.Kind).SimtTile)
     J["simt_tile"] = By.SimtTile;
   if (Run.From.empty())

@@ -6,23 +6,14 @@ Prints the array's shapes, and between what the depth of a pixel's mean lies (th
 alpha is at least 1/4.
 """
 
-import io
-import struct
+import os
 import sys
-import zipfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Inputs"))
 
-def array(archive, name):
-    with io.BytesIO(archive.read(name + ".npy")) as f:
-        assert f.read(8) == b"\x93NUMPY\x01\x00"
-        header = f.read(struct.unpack("<H", f.read(2))[0]).decode()
-        assert "'<f4'" in header, header
-        shape = [int(n) for n in header.split("(")[1].split(")")[0].split(",") if n.strip()]
-        return shape, struct.unpack(f"<{shape[0] * shape[1]}f", f.read())
+import npz_file
 
-
-with zipfile.ZipFile(sys.argv[1]) as archive:
-    shape, depth = array(archive, "depth")
-    alpha_shape, alpha = array(archive, "alpha")
+held = npz_file.arrays(sys.argv[1])
+(shape, depth), (alpha_shape, alpha) = held["depth"], held["alpha"]
 means = [d / a for d, a in zip(depth, alpha) if a >= 0.25]
 print(f"depth {shape} alpha {alpha_shape}: {len(means)} pixels from {min(means):.5f} to {max(means):.5f}")

@@ -163,14 +163,15 @@ class Machine:
                   of: str = "activated", time: bool = False, rules: str | None = None, support: str | None = None,
                   path: str | None = None, background: tuple[float, float, float] | None = None,
                   cutoff: float | None = None, simt_tile: int | None = None, simt_group: int | None = None,
-                  reciprocal: str | None = None, sum: str | None = None, near: float | None = None,
-                  projection: str | None = None) -> Gradients:
+                  reciprocal: str | None = None, sum: str | None = None, simt_sums: str | None = None,
+                  near: float | None = None, projection: str | None = None) -> Gradients:
         """Draws `scene` as `camera` sees it, and takes a loss's gradients back to its parameters.
 
         v_image: (H, W, 3), dL/d(image), the background being in it
         v_alpha: (H, W), dL/d(alpha); None for zeros
         of: "activated" for dL by scales and opacities, "stored" for dL by log_scales and opacity_logits
         reciprocal, sum: the rasterizer's unit for 1 / (1 - alpha), and how it adds up rows
+        simt_sums: how the cores' way back adds up pixels, "ordered" or "atomics"
         The other options are those of render(). Harmonics have all the scene's degrees.
         """
         _check(scene, Scene, "scene")
@@ -178,7 +179,8 @@ class Machine:
         if of not in ("activated", "stored"):
             raise UsageError(f"of={of!r}: expected 'activated' or 'stored'")
         asked = words({"rules": rules, "support": support, "path": path, "background": background, "cutoff": cutoff,
-                       "simt_tile": simt_tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum, "near": near,
+                       "simt_tile": simt_tile, "simt_group": simt_group, "reciprocal": reciprocal, "sum": sum,
+                       "simt_sums": simt_sums, "near": near,
                        "projection": projection})
         if v_alpha is None:
             v_alpha = np.zeros((camera.height, camera.width), dtype=np.float32)

@@ -1,0 +1,54 @@
+// The way back through one Gaussian in one pixel, with the arithmetic of
+// docs/abi.md, "Backward". RECORD_SPACE: where the Gaussian lies.
+
+#ifdef CLAMP_STOPS
+#define CLAMPED(wanted) ((wanted) > 0.99f)
+#else
+#define CLAMPED(wanted) false
+#endif
+
+// For density control, also the sums of the absolute gradients by the mean (Ye
+// et al. 2024, "AbsGS"): what pulls both ways does not cancel.
+#ifdef ABSOLUTE_SUMS
+#define ALL_SUMS (SUM_WORDS + ABSOLUTE_SUMS)
+#else
+#define ALL_SUMS SUM_WORDS
+#endif
+
+// (dx, dy): from the pixel to the mean, px; `power`: the exponent there, in
+// falloff()'s domain. `gradient`: dL/d(the pixel); `state`: the transmittance
+// behind the Gaussian and the light from behind it, which become those in front.
+// Adds to `sum`. False where the pixel has nothing of the Gaussian.
+static bool pixel_backward(RECORD_SPACE const splat_gaussian *g, float dx,
+                           float dy, float power,
+                           __local const float4 *gradient,
+                           __local float2 *state, float *sum) {
+  const float wanted = g->opacity * falloff(power);
+  const float alpha = fmin(0.99f, wanted);
+  if (!(alpha >= ALPHA_CUTOFF / 255.0f))
+    return false;
+  const float4 u = *gradient;
+  const float2 s = *state; // transmittance, light from behind
+  const float t = s.x / (1.0f - alpha);
+  const float light =
+      g->color[0] * u.x + g->color[1] * u.y + g->color[2] * u.z;
+  const float gain = light - s.y;
+  *state = (float2)(t, s.y + alpha * gain);
+  const float weight = alpha * t;
+  const float v = CLAMPED(wanted) ? 0.0f : wanted * (t * gain);
+  const float vx = v * -dx, vy = v * -dy;
+  sum[SUM_COLOR] += weight * u.x;
+  sum[SUM_COLOR + 1] += weight * u.y;
+  sum[SUM_COLOR + 2] += weight * u.z;
+  sum[SUM_S] += v;
+  sum[SUM_SX] += vx;
+  sum[SUM_SX + 1] += vy;
+  sum[SUM_SXX] += vx * -dx;
+  sum[SUM_SXX + 1] += vx * -dy;
+  sum[SUM_SXX + 2] += vy * -dy;
+#ifdef ABSOLUTE_SUMS
+  sum[SUM_WORDS] += fabs(g->conic[0] * vx + g->conic[1] * vy);
+  sum[SUM_WORDS + 1] += fabs(g->conic[1] * vx + g->conic[2] * vy);
+#endif
+  return true;
+}
