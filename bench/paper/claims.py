@@ -10,6 +10,8 @@ import tails
 import training
 from verdicts import HOLDS, IF, NOT, about, at_least, claim, place
 
+# Its rates at 100 MHz are less than the text's, and 3.6 is 19 x 100 / 530. docs/prior-art.md says from where we have it.
+FIGURE_9 = "as the paper's figure 9 has it"
 # Pictures that differ by less, differ by rounding (colours are around 1).
 ROUNDING = 1e-5
 
@@ -25,6 +27,7 @@ def of_rates(data):
         for what, paper, of, key, command in (
             ("{:g} frames/s at 530 MHz", joint.FPS, rows, "fps", "command"),
             ("{:g} frames/s at 100 MHz", joint.SLOW_FPS, rows, "slow_fps", "slow_command"),
+            (f"{{:g}} frames/s at 100 MHz, {FIGURE_9}", 3.6, rows, "slow_fps", "slow_command"),
             ("the scaled machine reaches {:g} frames/s", 152, scaled, "scaled_fps", "scaled_command"),
         ):
             best = max(of, key=lambda row, p=pipeline, k=key: row[p][k])
@@ -186,6 +189,8 @@ def of_training(data):
     for title, paper, of, value, command in (
         (f"4.97 iterations/s at {last} MHz", 4.97, rows, lambda row: row["its"], lambda row: row["command"]),
         (f"2.43 iterations/s at {training.CLOCKS[0]} MHz", 2.43, rows, lambda row: row["slow_its"],
+         lambda row: row["slow_command"]),
+        (f"0.94 iterations/s at {training.CLOCKS[0]} MHz, {FIGURE_9}", 0.94, rows, lambda row: row["slow_its"],
          lambda row: row["slow_command"]),
         ("the scaled machine reaches 38.6 iterations/s", 38.6, scaled, lambda row: row["scaled"]["its"],
          lambda row: row["scaled"]["command"]),

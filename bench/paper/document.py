@@ -133,13 +133,14 @@ def write(file, sections):
         out += ["Not measured: it needs sections rates and speedup.", ""]
     out += ["## Pages", ""]
     out += [f"- {_anchored(name, module.TITLE)}" for name, module, _ in found] + [""]
-    out += ["## Not measured", ""]
-    out += [f"- {module.TITLE}: not in the last run. Its claims are those of an earlier build, which its page names. `scripts/paper.sh --sections {name}`."
+    left = [f"- {module.TITLE}: not in the last run. Its claims are those of an earlier build, which its page names. `scripts/paper.sh --sections {name}`."
             for name, (module, _) in sections.items() if name in earlier]
-    out += [f"- {module.TITLE}{': ' + claims.OPEN[name] if name in claims.OPEN else ''}. `scripts/paper.sh --sections {name}`."
+    left += [f"- {module.TITLE}{': ' + claims.OPEN[name] if name in claims.OPEN else ''}. `scripts/paper.sh --sections {name}`."
             for name, (module, data) in sections.items() if not data and name not in earlier]
-    out += [f"- {module.TITLE}: {len(data['left_out'])} points, which [its page](paper/{name}.md) names."
+    left += [f"- {module.TITLE}: {len(data['left_out'])} points, which [its page](paper/{name}.md) names."
             for name, (module, data) in sections.items() if data and data.get("left_out")]
+    if left:
+        out += ["## Not measured", "", *left]
     _write(file, _lines(out))
 
 

@@ -229,7 +229,7 @@ class Runs:
                 rows.append(make(*place))
             except Missing as missing:
                 print(f"left out: {missing}", file=sys.stderr)
-                self.left_out.append(" ".join(getattr(part, "name", part) for part in place if part is not self))
+                self.left_out.append(" ".join(str(getattr(part, "name", part)) for part in place if part is not self))
         return rows
 
     def write(self, section, data):
