@@ -110,8 +110,7 @@ public:
       const double Det =
           S.Covariance[0] * S.Covariance[2] - S.Covariance[1] * S.Covariance[1];
       const double Ratio = S.Compensation * S.Compensation;
-      const bool Floored = Settings.Rule == Rules::Inria && !(Ratio > 2.5e-5);
-      if (!Floored && Ratio > 0)
+      if (Ratio > LeastDeterminantRatio)
         V += ByOpacity * Input.Opacities[I] / (2 * S.Compensation) *
              ratioGradient(S.Covariance, Settings.Dilation, Ratio, Det);
     }

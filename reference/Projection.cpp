@@ -181,8 +181,8 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
              S.Covariance[0] * Inverse};
 
   if (O.Antialiased) {
-    const Real Floor = O.Rule == Rules::Inria ? Real(2.5e-5) : Real(0);
-    S.Compensation = std::sqrt(std::max(Floor, Det0 / Det));
+    S.Compensation =
+        std::sqrt(std::max(Real(LeastDeterminantRatio), Det0 / Det));
   }
   S.Opacity = G.Opacities[I] * S.Compensation;
   // No pixel can reach the smallest alpha: with the exact support there is no

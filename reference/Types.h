@@ -13,7 +13,7 @@
 namespace vorion::reference {
 
 /// The two public conventions. They differ in the near plane, the Jacobian's
-/// clamp, the floor of the antialiasing factor and the stop rule.
+/// clamp and its gradient, the stop rule, and the gradient of a cut alpha.
 enum class Rules {
   Inria, ///< diff-gaussian-rasterization
   Gsplat ///< gsplat

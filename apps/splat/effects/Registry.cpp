@@ -99,7 +99,7 @@ static std::vector<Parameter> makeParameters() {
                 "order ray: Gaussians that a pixel finds at once"},
       Parameter{"DILATION", "added to the covariance's diagonal, px^2"},
       Parameter{"KEEP_DEPTH", "the rules' test of a depth"},
-      Parameter{"ANTIALIAS_FLOOR", "the rules' least ratio of determinants"},
+      Parameter{"ANTIALIAS_FLOOR", "least ratio of determinants"},
       Parameter{"ALPHA_CUTOFF", "alpha that is blended, in 255ths"},
       Parameter{"MIN_POWER", "exponent below which no opacity is visible"},
       Parameter{"STOP_AT_EQUAL", "the rules' stop is T' <= cut-off, not <"},

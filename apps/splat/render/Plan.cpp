@@ -14,6 +14,10 @@ namespace vorion::splat {
 
 namespace {
 
+/// Of the ratio of determinants whose root is the antialiasing factor, by both
+/// rules (reference/Projection.h).
+constexpr const char *AntialiasFloor = "ANTIALIAS_FLOOR=2.5e-5f";
+
 std::string supportDefine(Support S) {
   switch (S) {
   case Support::Exact:
@@ -36,7 +40,7 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
       Defines.end(),
       {supportDefine(O.Reach), fmt::format("DILATION={:#}f", O.Dilation),
        alphaCutoffDefine(O), keepDepthDefine(O),
-       Inria ? "ANTIALIAS_FLOOR=2.5e-5f" : "ANTIALIAS_FLOOR=0.0f",
+       AntialiasFloor,
        fmt::format("GROUP={}", O.SimtGroup),
        fmt::format("RAY_WINDOW={}", O.RayWindow), minPowerDefine(O)});
   if (const std::string Define(defineOf(O.Exponential)); !Define.empty())
@@ -104,9 +108,7 @@ std::vector<std::string> projectionDefines(int ShDegree,
                                    fmt::format("DILATION={:#}f", O.Dilation)};
   if (O.Antialiased) {
     Defines.emplace_back("ANTIALIASED");
-    Defines.emplace_back(O.Convention == Rules::Inria
-                             ? "ANTIALIAS_FLOOR=2.5e-5f"
-                             : "ANTIALIAS_FLOOR=0.0f");
+    Defines.emplace_back(AntialiasFloor);
   }
   return Defines;
 }
