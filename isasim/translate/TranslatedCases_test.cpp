@@ -277,6 +277,49 @@ TEST_P(Translated, LongRegionsFit) {
   EXPECT_GT(T->bytes(), 100U << 10);
 }
 
+/// When the room for a program's code is full, the interpreter does the rest.
+TEST_P(Translated, WhatHasNoRoomIsTheInterpreters) {
+  constexpr size_t Room = 10 << 20, RegionWords = 2400;
+  constexpr uint64_t Enough = uint64_t{1} << 40;
+  std::vector<uint32_t> Words;
+  while (Words.size() < 100000) {
+    const auto R = 3 + static_cast<unsigned>(Words.size()) % 28;
+    Words.push_back(encode(Op::RV_FMADD_S,
+                           {.Rd = R, .Rs1 = R + 1, .Rs2 = R - 1, .Rs3 = R}));
+    Words.push_back(encode(Op::RV_XOR, {.Rd = R, .Rs1 = R + 1, .Rs2 = R - 1}));
+    Words.push_back(encode(Op::RV_FCVT_S_W, {.Rd = R, .Rs1 = R, .Rm = 0}));
+    Words.push_back(encode(Op::RV_REM, {.Rd = R, .Rs1 = R, .Rs2 = R + 1}));
+  }
+  WarpRunner Interpreted(execTable(false), Words),
+      Fast(execTable(false), Words);
+  Translator T(Fast.Code, execTable(false), Translator::UsualCost, GetParam());
+  const Insn *At = Fast.Code.begin();
+  for (unsigned Before = ~0U; T.regions() != Before; At += RegionWords) {
+    ASSERT_LT(At + RegionWords, Fast.Code.begin() + Fast.Code.count())
+        << "there is room for all of the program";
+    Before = T.regions();
+    T.seen(At, Enough);
+    ASSERT_LE(T.bytes(), Room);
+  }
+  EXPECT_GT(T.bytes(), Room * 3 / 4);
+  for (WarpRunner *R : {&Interpreted, &Fast}) {
+    for (unsigned N = 1; N != 32; ++N) {
+      Lanes16 Numbers;
+      for (uint32_t L = 0; L != MaxLanes; ++L)
+        Numbers[L] = (N * 16 + L) * 0x9E3779B9;
+      R->setX(N, Numbers);
+      R->setF(N, Numbers);
+    }
+    R->run(1 << 20);
+    ASSERT_TRUE(R->ranToEnd());
+  }
+  EXPECT_EQ(Interpreted.warp().Fflags, Fast.warp().Fflags);
+  for (unsigned N = 0; N != 32; ++N) {
+    EXPECT_EQ(Interpreted.getX(N), Fast.getX(N));
+    EXPECT_EQ(Interpreted.getF(N), Fast.getF(N));
+  }
+}
+
 /// Infinity times zero is invalid, whatever is added, also where the next
 /// instruction overwrites a factor or computes with the result.
 TEST_P(Translated, PairsFlagInfinityTimesZero) {
