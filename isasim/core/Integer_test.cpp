@@ -109,7 +109,8 @@ Lanes16 operands(std::mt19937 &Random) {
 
 constexpr uint32_t Untouched = 0xDEADBEEF;
 
-/// Runs O with the registers of F under every mask and compares each lane.
+/// Runs O with the registers of F under every mask and compares each lane. No
+/// flag is set, whatever the host's instructions compute with.
 void check(const ExecTable &Table, Op O, const Fields &F,
            const Scalar &Expected, std::mt19937 &Random) {
   WarpRunner R(Table, {encode(O, F)});
@@ -124,6 +125,9 @@ void check(const ExecTable &Table, Op O, const Fields &F,
     R.rewind();
     R.run();
     ASSERT_TRUE(R.ranToEnd());
+    ASSERT_EQ(R.warp().Fflags, 0U)
+        << InsnTable[static_cast<unsigned>(O)].Mnemonic << " on "
+        << Table.Level;
     const Lanes16 Before = F.Rd == 10 ? A : Old;
     const Lanes16 Got = R.getX(F.Rd);
     const bool Immediate = immediateForms().contains(O);

@@ -182,7 +182,23 @@ VORION_INLINE U countLeading(U A) {
   A |= A >> 16;
   return popCount(~A);
 }
-VORION_INLINE U rotateLeft(U A, U B) { return A << (B & 31) | A >> (-B & 31); }
+/// By the last five bits of B.
+VORION_INLINE U shiftLeft(U A, U B) {
+#if defined(__x86_64__) && !defined(__AVX2__)
+  // This host has no shift by a vector. Compilers multiply by powers of two
+  // that they convert from floats, and the last one does not fit: the host
+  // would say "invalid", and the guest's flags with it.
+  const U Some = A << (B & 15);
+  return select(asU((B & 16U) != splat(0)), Some << 16, Some);
+#else
+  return A << (B & 31);
+#endif
+}
+/// The one that the last five bits of B number.
+VORION_INLINE U bit(U B) { return shiftLeft(splat(1), B); }
+VORION_INLINE U rotateLeft(U A, U B) {
+  return shiftLeft(A, B) | A >> (-B & 31);
+}
 VORION_INLINE U orBytes(U A) {
   // 0xFF for each byte that is not 0: its top bit, spread downwards.
   const U Top = (((A & 0x7F7F7F7FU) + 0x7F7F7F7FU) | A) & 0x80808080U;

@@ -56,10 +56,10 @@ std::vector<uint32_t> loop(int32_t Times) {
   Words.push_back(encode(Op::RV_SW, {.Rs1 = Place, .Rs2 = Sum}));
   Words.push_back(
       encode(Op::RV_ADDI, {.Rd = Counter, .Rs1 = Counter, .Imm = -1}));
-  Words.push_back(encode(
-      Op::RV_BNE, {.Rs1 = Counter,
-                   .Imm = 4 * (static_cast<int32_t>(Begin) -
-                               static_cast<int32_t>(Words.size()))}));
+  Words.push_back(
+      encode(Op::RV_BNE, {.Rs1 = Counter,
+                          .Imm = 4 * (static_cast<int32_t>(Begin) -
+                                      static_cast<int32_t>(Words.size()))}));
   Words.push_back(encode(Op::RV_ADDI, {.Rd = One, .Imm = '\n'}));
   Words.push_back(
       encode(Op::RV_ADDI, {.Rd = Place, .Imm = static_cast<int32_t>(Console)}));
@@ -105,14 +105,11 @@ protected:
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Engines,
-                         ::testing::Values(Engine::Translator,
-                                           Engine::TranslatorAvx2),
-                         [](const ::testing::TestParamInfo<Engine> &Of) {
-                           return Of.param == Engine::Translator
-                                      ? "Translator"
-                                      : "TranslatorAvx2";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    All, Engines, ::testing::Values(Engine::Translator, Engine::TranslatorAvx2),
+    [](const ::testing::TestParamInfo<Engine> &Of) {
+      return Of.param == Engine::Translator ? "Translator" : "TranslatorAvx2";
+    });
 
 /// Also where the limit is reached in the middle of a translation: a run of the
 /// other engine stops at the same instruction, and says so.

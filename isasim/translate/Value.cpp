@@ -244,6 +244,9 @@ Value select(const Mask &If, const Value &Then, const Value &Else) {
   return R;
 }
 
+Value shiftLeft(const Value &A, const Value &B) { return A << (B & Value(31)); }
+Value bit(const Value &B) { return shiftLeft(Value(1), B); }
+
 Value rotateLeft(const Value &A, const Value &B) {
   return {either(A, B), Do::RotateLeft, A.settle(), B.settle()};
 }

@@ -91,6 +91,8 @@ inline Value asU(const Signed &A) { return A.Of; }
 inline Mask asU(const Test &A) { return {A}; }
 Value one(const Test &A);
 Value select(const Mask &If, const Value &Then, const Value &Else);
+Value shiftLeft(const Value &A, const Value &B);
+Value bit(const Value &B);
 Value rotateLeft(const Value &A, const Value &B);
 Value mulHigh(const Value &A, const Value &B);
 Value mulHighSU(const Value &A, const Value &B);
