@@ -2,6 +2,7 @@
 
 #include "core/Isa.h"
 #include "testing/Encode.h"
+#include "translate/Translator.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Observer.h"
 
@@ -20,6 +21,12 @@ constexpr uint64_t GlobalBytes = 64 << 10;
 constexpr uint64_t MaxInstructions = 6000;
 constexpr size_t MaxWords = 1024;
 constexpr unsigned Seeded = 13; ///< the register with the input's first word
+/// How often the input is executed, unless it says otherwise itself, so that
+/// translations of it are used; and the register that counts.
+constexpr unsigned Repetitions = 8, Counter = 31;
+/// Where the registers of each core lie at the end, in global memory.
+constexpr uint32_t LeftAt = 32 << 10, LeftBytes = 8 << 10;
+constexpr unsigned LineBytes = 64;
 
 Config shape() {
   Config C;
@@ -29,7 +36,7 @@ Config shape() {
   C.GlobalBytes = GlobalBytes;
   C.LocalBytes = 8 << 10;
   C.StackBytes = 4 << 10;
-  C.Quantum = 1 << 10;
+  C.Quantum = 1 << 7; // translations are made between two turns
   C.MaxInstructions = MaxInstructions;
   C.HostThreads = 1;
   return C;
@@ -80,7 +87,41 @@ std::vector<uint32_t> prologue(uint32_t First) {
     Code.push_back(encode(Op::RV_FCVT_S_W, {.Rd = N, .Rs1 = 5 + N}));
     Code.push_back(encode(Op::RV_FMV_W_X, {.Rd = 8 + N, .Rs1 = 8 + N}));
   }
+  loadConstant(Code, Counter, Repetitions);
   return Code;
+}
+
+/// Back to \p Begin as often as it is wanted. Then the registers of active
+/// lanes go to memory, all but those that this needs, and all lanes end.
+void finish(std::vector<uint32_t> &Code, size_t Begin) {
+  constexpr unsigned At = 30, Number = 29, Floats = 32 * LineBytes;
+  const auto To = [&Code](size_t Target) {
+    return 4 *
+           (static_cast<int32_t>(Target) - static_cast<int32_t>(Code.size()));
+  };
+  Code.push_back(
+      encode(Op::RV_ADDI, {.Rd = Counter, .Rs1 = Counter, .Imm = -1}));
+  Code.push_back(encode(Op::RV_BEQ, {.Rs1 = Counter, .Imm = 8}));
+  Code.push_back(encode(Op::RV_JAL, {.Imm = To(Begin)}));
+  Code.push_back(encode(Op::RV_CSRRS, {.Rd = Number, .Csr = CSR_CORE_ID}));
+  loadConstant(Code, At, LeftBytes);
+  Code.push_back(encode(Op::RV_MUL, {.Rd = Number, .Rs1 = Number, .Rs2 = At}));
+  loadConstant(Code, At, VX_GLOBAL_BASE + LeftAt);
+  Code.push_back(encode(Op::RV_ADD, {.Rd = At, .Rs1 = At, .Rs2 = Number}));
+  Code.push_back(encode(Op::RV_CSRRS, {.Rd = Number, .Csr = CSR_THREAD_ID}));
+  Code.push_back(encode(Op::RV_SH2ADD, {.Rd = At, .Rs1 = Number, .Rs2 = At}));
+  Code.push_back(encode(Op::RV_CSRRS, {.Rd = Number, .Csr = CSR_FFLAGS}));
+  for (unsigned N = 0; N != At; ++N)
+    Code.push_back(encode(
+        Op::RV_SW,
+        {.Rs1 = At, .Rs2 = N, .Imm = static_cast<int32_t>(N * LineBytes)}));
+  loadConstant(Code, Number, Floats);
+  Code.push_back(encode(Op::RV_ADD, {.Rd = At, .Rs1 = At, .Rs2 = Number}));
+  for (unsigned N = 0; N != 32; ++N)
+    Code.push_back(encode(
+        Op::RV_FSW,
+        {.Rs1 = At, .Rs2 = N, .Imm = static_cast<int32_t>(N * LineBytes)}));
+  Code.push_back(encode(Op::VX_TMC, {.Rs1 = 0}));
 }
 
 struct Outcomes {
@@ -89,8 +130,11 @@ struct Outcomes {
   std::vector<std::byte> Global;
 };
 
-Outcomes run(const std::shared_ptr<const Image> &Program, Observer *Watcher) {
-  auto M = Machine::create(shape());
+Outcomes run(const std::shared_ptr<const Image> &Program, Engine Runs,
+             Observer *Watcher = nullptr) {
+  Config C = shape();
+  C.Runs = Runs;
+  auto M = Machine::create(C);
   if (!M) // the host has no memory for it
     std::abort();
   Outcomes O;
@@ -104,11 +148,22 @@ Outcomes run(const std::shared_ptr<const Image> &Program, Observer *Watcher) {
   return O;
 }
 
-void require(bool Holds, const char *What) {
-  if (Holds)
-    return;
-  std::fprintf(stderr, "the observed run differs in its %s\n", What);
-  std::abort();
+void requireSame(const Outcomes &Plain, const Outcomes &Other,
+                 const char *Name) {
+  const auto Require = [Name](bool Holds, const char *What) {
+    if (Holds)
+      return;
+    std::fprintf(stderr, "the run %s differs in its %s\n", Name, What);
+    std::abort();
+  };
+  Require(Plain.Result.End == Other.Result.End, "outcome");
+  Require(Plain.Result.Report == Other.Result.Report, "report");
+  Require(Plain.Result.ExitCode == Other.Result.ExitCode, "exit code");
+  for (const auto &C : CoreCounterTable)
+    Require(Plain.Result.Total.*C.Member == Other.Result.Total.*C.Member,
+            C.Name);
+  Require(Plain.Console == Other.Console, "console");
+  Require(Plain.Global == Other.Global, "memory");
 }
 
 } // namespace
@@ -125,7 +180,7 @@ void execute(std::span<const std::byte> Bytes) {
   Code.resize(Begin + Words);
   if (Words)
     std::memcpy(Code.data() + Begin, Bytes.data(), Words * 4);
-  Code.push_back(encode(Op::VX_TMC, {.Rs1 = 0}));
+  finish(Code, Begin);
 
   Image::Segment S;
   S.Address = VX_IMAGE_BASE;
@@ -135,20 +190,118 @@ void execute(std::span<const std::byte> Bytes) {
   S.Writable = S.Executable = true;
   const auto Program = Image::raw(std::move(S), "fuzz");
 
-  const Outcomes Plain = run(Program, nullptr);
+  const Outcomes Plain = run(Program, Engine::Interpreter);
   Observer Nothing;
-  const Outcomes Observed = run(Program, &Nothing);
-  require(Plain.Result.End == Observed.Result.End, "outcome");
-  require(Plain.Result.Report == Observed.Result.Report, "report");
-  require(Plain.Result.ExitCode == Observed.Result.ExitCode, "exit code");
-  require(Plain.Result.Total.WarpInstructions ==
-                  Observed.Result.Total.WarpInstructions &&
-              Plain.Result.Total.LaneInstructions ==
-                  Observed.Result.Total.LaneInstructions,
-          "counters");
-  require(Plain.Console == Observed.Console, "console");
-  require(Plain.Global == Observed.Global, "memory");
+  requireSame(Plain, run(Program, Engine::Interpreter, &Nothing),
+              "with an observer");
+  if (!Translator::isThere())
+    return;
+  requireSame(Plain, run(Program, Engine::Translator), "of the translator");
+  requireSame(Plain, run(Program, Engine::TranslatorAvx2),
+              "of the translator with AVX2");
 }
+
+namespace {
+
+/// Any instruction, mostly of registers that the prologue has set and with
+/// small immediates. Most programs of these end in a trap after a few.
+uint32_t anyInsn(std::mt19937 &Random) {
+  if (Random() % 16 == 0)
+    return static_cast<uint32_t>(Random());
+  const Op O = static_cast<Op>(Random() % NumOps);
+  testing::Fields F;
+  F.Rd = Random() % (Random() % 4 ? 20 : 32);
+  F.Rs1 = Random() % (Random() % 4 ? 17 : 32);
+  F.Rs2 = Random() % (Random() % 4 ? 17 : 32);
+  F.Rs3 = Random() % 32;
+  F.Imm = static_cast<int32_t>(Random() % 64) * 4 - 64;
+  F.Rm = Random() % 4 ? 7 : Random() % 5;
+  F.Csr = CsrTable[Random() % NumCsrs].Number;
+  return encode(O, F);
+}
+
+/// What neither traps nor jumps, so that all of a program is executed.
+uint32_t calmInsn(std::mt19937 &Random) {
+  static constexpr Op Computations[] = {
+#define INT(OP, RESULT) Op::OP,
+#include "core/insns/integer.def"
+#undef INT
+#define FLOAT(OP, SOFT, RESULT) Op::OP,
+#define FUSED(OP, SOFT, FACTOR, ADDEND) Op::OP,
+#define COMPARE(OP, CONDITION, QUIET_IS_INVALID) Op::OP,
+#define MINMAX(OP, IS_MIN) Op::OP,
+#define TOINT(OP, SIGNED, SOFT) Op::OP,
+#define FROMINT(OP, SIGNED, SOFT) Op::OP,
+#include "core/insns/float.def"
+#undef FLOAT
+#undef FUSED
+#undef COMPARE
+#undef MINMAX
+#undef TOINT
+#undef FROMINT
+      Op::VX_VOTE_BALLOT, Op::VX_VOTE_UNI, Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX};
+  static constexpr Op Accesses[] = {
+#define LOAD(OP, T) Op::OP,
+#define STORE(OP, T) Op::OP,
+#define AMO(OP, KIND) Op::OP,
+#include "core/insns/memory.def"
+#undef LOAD
+#undef STORE
+#undef AMO
+  };
+  testing::Fields F;
+  // The prologue's pointers and the counter stay.
+  do
+    F.Rd = Random() % Counter;
+  while (F.Rd == 2 || (F.Rd >= 8 && F.Rd <= 12));
+  F.Rs2 = Random() % Counter;
+  F.Rs3 = Random() % 32;
+  if (Random() % 4 == 0) {
+    F.Rs1 = 8 + Random() % 2;
+    F.Imm = static_cast<int32_t>(Random() % 8) * 4;
+    const Op O = Accesses[Random() % std::size(Accesses)];
+    if (O == Op::RV_AMOCAS_D) { // even registers
+      F.Rd = 0;
+      F.Rs2 &= ~1U;
+    }
+    return encode(O, F);
+  }
+  F.Rs1 = Random() % Counter;
+  F.Imm = static_cast<int32_t>(Random() % 4096) - 2048;
+  F.Rm = Random() % 4 ? 7 : Random() % 5;
+  return encode(Computations[Random() % std::size(Computations)], F);
+}
+
+/// Some of it by a part of the lanes, which is split off and joined.
+std::vector<uint32_t> calmProgram(std::mt19937 &Random) {
+  constexpr unsigned Predicate = 28, Depth = 27;
+  std::vector<uint32_t> Words;
+  for (auto Left = Random() % 40 + 1; Left; --Left) {
+    Words.push_back(calmInsn(Random));
+    if (Random() % 8)
+      continue;
+    const unsigned Length = Random() % 4 + 1;
+    Words.push_back(
+        encode(Op::RV_ANDI, {.Rd = Predicate,
+                             .Rs1 = static_cast<unsigned>(Random() % 27),
+                             .Imm = 1}));
+    Words.push_back(encode(Op::VX_SPLIT, {.Rd = Depth, .Rs1 = Predicate}));
+    Words.push_back(
+        encode(Op::RV_BEQ, {.Rs1 = Predicate,
+                            .Imm = 4 * static_cast<int32_t>(Length + 1)}));
+    for (unsigned N = 0; N != Length;) {
+      const uint32_t Word = calmInsn(Random);
+      if (decode(Word)->Rd == Depth)
+        continue;
+      Words.push_back(Word);
+      ++N;
+    }
+    Words.push_back(encode(Op::VX_JOIN, {.Rs1 = Depth}));
+  }
+  return Words;
+}
+
+} // namespace
 
 std::vector<std::vector<std::byte>> programSeeds(unsigned Count,
                                                  unsigned Seed) {
@@ -156,23 +309,12 @@ std::vector<std::vector<std::byte>> programSeeds(unsigned Count,
   std::vector<std::vector<std::byte>> Seeds;
   for (unsigned N = 0; N != Count; ++N) {
     std::vector<uint32_t> Words = {static_cast<uint32_t>(Random())};
-    for (auto Left = Random() % 40 + 1; Left; --Left) {
-      if (Random() % 16 == 0) { // anything
-        Words.push_back(static_cast<uint32_t>(Random()));
-        continue;
-      }
-      const Op O = static_cast<Op>(Random() % NumOps);
-      testing::Fields F;
-      // Mostly registers that the prologue has set, and small immediates.
-      F.Rd = Random() % (Random() % 4 ? 20 : 32);
-      F.Rs1 = Random() % (Random() % 4 ? 17 : 32);
-      F.Rs2 = Random() % (Random() % 4 ? 17 : 32);
-      F.Rs3 = Random() % 32;
-      F.Imm = static_cast<int32_t>(Random() % 64) * 4 - 64;
-      F.Rm = Random() % 4 ? 7 : Random() % 5;
-      F.Csr = CsrTable[Random() % NumCsrs].Number;
-      Words.push_back(encode(O, F));
-    }
+    if (N % 2)
+      for (const uint32_t Word : calmProgram(Random))
+        Words.push_back(Word);
+    else
+      for (auto Left = Random() % 40 + 1; Left; --Left)
+        Words.push_back(anyInsn(Random));
     const auto Raw = std::as_bytes(std::span(Words));
     Seeds.emplace_back(Raw.begin(), Raw.end());
   }

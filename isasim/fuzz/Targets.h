@@ -14,7 +14,7 @@ void readImage(std::span<const std::byte> Bytes);
 /// The bytes as instructions, on all lanes of two cores, with registers that
 /// point into all memory, after the first 4 bytes, which choose some of them.
 /// Aborts if the guest wrote outside its memory, or if the run differs with an
-/// observer.
+/// observer or with the translator.
 void execute(std::span<const std::byte> Bytes);
 
 /// The bytes as what a debugger says, a packet a line; lines that begin with
