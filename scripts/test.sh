@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets the machine up and runs every test; the last line counts them.
+# Sets the machine up and runs every test; says what each layer took; the last line counts them.
 # usage: scripts/test.sh [--quick]   (--quick: without lint and sanitizer builds)
 source "$(dirname "$0")/lib.sh"
 showHelp "$@"
@@ -35,7 +35,7 @@ fi
 
 printf '[%s] done\n' "$(elapsed)"
 # What may be missing is the private data, PyTorch, and the right to mount; and the sanitizer build has no OpenCL device.
-python3 "$Root/scripts/count-tests.py" \
+python3 "$Root/scripts/count-tests.py" --times \
   --skips '(no|\w+: no) \.\./shared/data|\w+: Missing required feature\(s\): (data|torch|own-mounts)$|asan: no OpenCL device' \
   "$Results"/*.xml || Failed=1
 exit "$Failed"
