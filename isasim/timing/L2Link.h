@@ -3,8 +3,8 @@
 #pragma once
 
 #include "timing/Cache.h"
-#include "timing/TimeQueue.h"
 #include "timing/Turn.h"
+#include "timing/dram/TimeQueue.h"
 
 #include <cstdint>
 

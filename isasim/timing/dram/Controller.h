@@ -3,7 +3,7 @@
 /// and what it does depends on requests and their times alone.
 #pragma once
 
-#include "timing/TimeQueue.h"
+#include "timing/dram/TimeQueue.h"
 #include "timing/dram/TimingTable.h"
 
 #include <array>
