@@ -1,6 +1,6 @@
-/// Every floating-point instruction against exact arithmetic (MPFR): boundary
-/// values exhaustively, and random operands of the kinds at which roundings go
-/// wrong.
+/// Every floating-point instruction, interpreted and translated, against exact
+/// arithmetic (MPFR): boundary values exhaustively, and random operands of the
+/// kinds at which roundings go wrong.
 ///
 /// The environment variable VORION_FLOAT_OPERANDS sets how many random operands
 /// an instruction and rounding mode get (the long run is 100000), and
@@ -8,10 +8,12 @@
 
 #include "testing/MpfrOracle.h"
 #include "testing/WarpRunner.h"
+#include "translate/Translator.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <random>
+#include <string>
 
 using namespace vorion::isasim;
 using namespace vorion::isasim::testing;
@@ -139,8 +141,16 @@ bool isFloat(const InsnInfo &I) {
   return Opcode == 0x53 || (Opcode >= 0x43 && Opcode <= 0x4F);
 }
 
-/// One instruction in one rounding mode on every vector level, with the mode in
-/// the instruction and in frm.
+/// What executes an instruction: a vector level, or a translation.
+struct Runner {
+  std::unique_ptr<WarpRunner> Of;
+  std::unique_ptr<Translator> Translation; ///< or nullptr
+  bool IsStatic; ///< the rounding mode is the instruction's, and frm another
+  std::string Name;
+};
+
+/// One instruction in one rounding mode on every vector level and translated
+/// for every kind of vectors, with the mode in the instruction and in frm.
 class Checker {
 public:
   Checker(Op OIn, unsigned RmIn)
@@ -148,11 +158,14 @@ public:
     for (const ExecTable *Table : allTables())
       for (const unsigned Field : {Rm, Dyn})
         if (Info.HasRm || Field == Dyn)
-          Runners.push_back(std::make_unique<WarpRunner>(
-              *Table,
-              std::vector{encode(
-                  O,
-                  {.Rd = 12, .Rs1 = 9, .Rs2 = 10, .Rs3 = 11, .Rm = Field})}));
+          Runners.push_back({std::make_unique<WarpRunner>(
+                                 *Table, std::vector{instruction(Field)}),
+                             nullptr, Field != Dyn, Table->Level});
+    for (const VectorUnit Unit : {VectorUnit::Avx2, VectorUnit::Avx512})
+      if (Unit <= Translator::unitOfHost())
+        for (const unsigned Field : {Rm, Dyn})
+          if (Info.HasRm || Field == Dyn)
+            addTranslated(Unit, Field);
   }
 
   /// Adds operands; runs them when there are enough for a warp.
@@ -169,11 +182,11 @@ public:
       return;
     Count += Lanes;
     for (size_t N = 0; N != Runners.size(); ++N) {
-      runLanes(*Runners[N], (1U << Lanes) - 1, N);
+      runLanes(Runners[N], (1U << Lanes) - 1);
       // Alone, so that no other lane's flags hide one that is missing.
-      if (N < 2)
+      if (N < 2 || Runners[N].Translation)
         for (unsigned L = 0; L != Lanes; ++L)
-          runLanes(*Runners[N], 1U << L, N);
+          runLanes(Runners[N], 1U << L);
     }
     Lanes = 0;
   }
@@ -181,14 +194,35 @@ public:
   uint64_t Count = 0;
 
 private:
-  void runLanes(WarpRunner &R, uint32_t Mask, size_t Which) {
+  uint32_t instruction(unsigned Field) const {
+    return encode(O, {.Rd = 12, .Rs1 = 9, .Rs2 = 10, .Rs3 = 11, .Rm = Field});
+  }
+
+  /// Behind enough others for a translation.
+  void addTranslated(VectorUnit Unit, unsigned Field) {
+    std::vector<uint32_t> Words(15, encode(Op::RV_ADDI, {.Rd = 5, .Rs1 = 6}));
+    Words.push_back(instruction(Field));
+    const ExecTable &Exec = execTable(false);
+    auto R = std::make_unique<WarpRunner>(Exec, Words);
+    auto T = std::make_unique<Translator>(R->Code, Exec, Translator::UsualCost,
+                                          Unit);
+    T->seen(R->Code.begin(), UINT64_MAX);
+    EXPECT_EQ(T->regions(), 1U);
+    Runners.push_back(
+        {std::move(R), std::move(T), Field != Dyn,
+         Unit == VectorUnit::Avx2 ? "translation with AVX2" : "translation"});
+  }
+
+  void runLanes(Runner &Which, uint32_t Mask) {
+    WarpRunner &R = *Which.Of;
     for (unsigned N = 0; N != 3; ++N)
       Info.Rs1 == File::F ? R.setF(9 + N, In[N]) : R.setX(9 + N, In[N]);
     R.setActive(Mask);
     R.rewind();
-    // With the mode in the instruction, frm has another.
-    const bool Static = Info.HasRm && Which % 2 == 0;
-    R.warp().Frm = Static ? (Rm + 1) % NumModes : Rm;
+    // Translations are executed while frm is 0.
+    R.warp().Frm = !Which.IsStatic     ? Rm
+                   : Which.Translation ? 0
+                                       : (Rm + 1) % NumModes;
     R.run();
     const Lanes16 Got = Info.Rd == File::F ? R.getF(12) : R.getX(12);
     uint32_t Flags = 0;
@@ -197,20 +231,20 @@ private:
         continue;
       Flags |= Want[L].Flags;
       ASSERT_EQ(Got[L], Want[L].Bits)
-          << Info.Mnemonic << " on " << R.Exec.Level << std::hex << " "
+          << Info.Mnemonic << " on " << Which.Name << std::hex << " "
           << In[0][L] << " " << In[1][L] << " " << In[2][L] << " rm " << Rm
-          << (Static ? " in the word" : " in frm");
+          << (Which.IsStatic ? " in the word" : " in frm");
     }
     ASSERT_EQ(R.warp().Fflags, Flags)
-        << Info.Mnemonic << " on " << R.Exec.Level << std::hex << " "
-        << In[0][0] << " " << In[1][0] << " " << In[2][0] << " rm " << Rm
-        << " mask " << Mask;
+        << Info.Mnemonic << " on " << Which.Name << std::hex << " " << In[0][0]
+        << " " << In[1][0] << " " << In[2][0] << " rm " << Rm << " mask "
+        << Mask;
   }
 
   Op O;
   const InsnInfo &Info;
   unsigned Rm;
-  std::vector<std::unique_ptr<WarpRunner>> Runners;
+  std::vector<Runner> Runners;
   std::array<Lanes16, 3> In{};
   std::array<OracleResult, MaxLanes> Want{};
   unsigned Lanes = 0;
