@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Whether two builds draw, count, time and train alike: for changes that must not change anything.
 
-usage: bench/unchanged.py --out FOLDER [--scenes NAME,...] [--views NAME,...] [--no-clock] [--jobs N] BEFORE AFTER
+usage: bench/unchanged.py --out FOLDER [--scenes NAME,...] [--views NAME,...] [--no-clock] [--jobs N]
+                         [--before-set KEY=VALUE,...] [--after-set KEY=VALUE,...] BEFORE AFTER
 
-BEFORE and AFTER are build folders, or what `cmake --install` made of them. Renders every view of every scene of ../shared/data on both
+BEFORE and AFTER are build folders, or what `cmake --install` made of them. With --before-set and --after-set each has
+a machine of its own (VORION_SET): one build and two engines show that these do the same. Renders every view of every scene of ../shared/data on both
 paths with the clock on, trains three iterations of a capture on both paths, and compares pictures byte by
 byte and reports value by value: counters, cycles, effects, everything but times of the host, versions and hashes of
 programs. Small scenes come first. FOLDER keeps what each build gave; a run of the same programs is not
@@ -25,23 +27,26 @@ import command_line
 import scenes
 
 PATHS = ("raster", "simt")
-# What differs between two runs of one program, or between two builds of one program.
-HOST_KEYS = {"seconds", "programs", "program", "version", "origin"}
+# What differs between two runs of one program, or between two builds of one program; "set" is what was asked for.
+HOST_KEYS = {"seconds", "programs", "program", "version", "origin", "set"}
 CAPTURE = os.path.join("..", "shared", "data", "captures", "chair_synthetic")
 
 
 class Build:
     """A folder with bin/ and pocl/lib/libvorion-pocl.so."""
 
-    def __init__(self, folder, out, name):
+    def __init__(self, folder, out, name, setting):
         self.folder = os.path.abspath(folder)
         if not os.path.exists(os.path.join(self.folder, "bin", "splat")):
             sys.exit(f"unchanged.py: error: {folder}: has no bin/splat, expected a build folder or an installed Vorion")
         self.name = name
+        self.setting = setting
         self.environment = os.environ | {
             "VORION_ROOT": self.folder, "OCL_ICD_VENDORS": os.path.join(self.folder, "pocl", "lib", "libvorion-pocl.so"),
             "PATH": os.path.join(self.folder, "bin") + os.pathsep + os.environ["PATH"],
             "POCL_CACHE_DIR": os.path.join(out, f"cache-{name}")}
+        if setting:
+            self.environment["VORION_SET"] = setting
 
     @functools.cached_property
     def programs(self):
@@ -78,7 +83,7 @@ def differences(before, after, where=""):
 def outcome(build, out, key, command, result):
     """What a command leaves: the hash of its result and its report; kept under the key while the programs are the same."""
     kept = os.path.join(out, f"{build.name}-{key}.json")
-    made_from = {"programs": build.programs, "command": command}
+    made_from = {"programs": build.programs, "command": command, "set": build.setting}
     try:
         with open(kept, encoding="utf-8") as f:
             document = json.load(f)
@@ -134,10 +139,12 @@ def main():
     parser.add_argument("--views")
     parser.add_argument("--no-clock", action="store_true")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--before-set", metavar="KEY=VALUE,...")
+    parser.add_argument("--after-set", metavar="KEY=VALUE,...")
     args = parser.parse_args()
     os.makedirs(args.out, exist_ok=True)
     args.out = os.path.abspath(args.out)
-    builds = [Build(args.before, args.out, "before"), Build(args.after, args.out, "after")]
+    builds = [Build(args.before, args.out, "before", args.before_set), Build(args.after, args.out, "after", args.after_set)]
     runs, differ = 0, 0
     with concurrent.futures.ThreadPoolExecutor(args.jobs) as pool:
         for key, found in pool.map(lambda case: compare(args, builds, case), list(cases(args))):

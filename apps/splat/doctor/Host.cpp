@@ -69,11 +69,18 @@ Diagnosis examineMemory() {
 Diagnosis examineVectors() {
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+      __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    // What the translator needs besides (docs/adr/0008-translator.md).
+    if (__builtin_cpu_supports("avx512cd") &&
+        __builtin_cpu_supports("avx512vpopcntdq"))
+      return {DiagnosisState::Well, "vectors",
+              "the processor has AVX-512, which the simulator uses", ""};
     return {DiagnosisState::Well, "vectors",
-            "the processor has AVX-512: the simulator uses it for the "
-            "rasterizer, and AVX2 for the cores",
+            "the processor has an old AVX-512: the simulator uses it for the "
+            "rasterizers, and AVX2 for the cores",
             ""};
+  }
   if (__builtin_cpu_supports("x86-64-v3"))
     return {DiagnosisState::Well, "vectors",
             "the processor has AVX2, which the simulator uses", ""};
