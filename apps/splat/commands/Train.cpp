@@ -330,6 +330,10 @@ Runner addTrain(CLI::App &App) {
                  fmt::format("No more Gaussians than this (default {})",
                              S.MostGaussians))
       ->check(isBetween(4U, 100000000U));
+  addChoice(App, "--moments", R.Moments,
+            {MomentsChoice::Auto, MomentsChoice::Device, MomentsChoice::Host},
+            "Where Adam's moments lie, which changes no bit: with auto on the "
+            "host if the device does not hold --max-gaussians with them");
   App.add_option("--exclude", R.Read.Exclude, "Leave out this picture")
       ->allow_extra_args(false);
   addHoldOutOption(App, R.Read.HoldOut);

@@ -186,7 +186,7 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
   cl_int Status = Dev.queue(Profiled).enqueueNDRangeKernel(
       K, cl::NullRange, Global, Local, nullptr, &Done);
   if (Status != CL_SUCCESS) {
-    Failure = clError("starting kernel " + Name, Status);
+    Failure = memoryError("starting kernel " + Name, Status);
     return;
   }
   Status = Done.wait();
@@ -211,6 +211,14 @@ void Launcher::launch(const cl::Kernel &K, const std::string &Name,
   account({Name, 1, Seconds, Dev.counters(Done), std::move(*Time)});
 }
 
+/// With what to do if the device's memory is what is short.
+Error Launcher::memoryError(std::string_view What, cl_int Status) const {
+  Error E = clError(What, Status);
+  if (E.Code == ExitCode::LimitReached && Status != CL_OUT_OF_HOST_MEMORY)
+    E.What += ", expected " + Remedy;
+  return E;
+}
+
 Error Launcher::launchError(const std::string &Name, cl_int Status) const {
   const std::string Message = Dev.takeMessage();
   // Compiled when it is started: what is wrong are files, not the kernel.
@@ -218,11 +226,8 @@ Error Launcher::launchError(const std::string &Name, cl_int Status) const {
     return Error{"", Message};
   if (!Message.empty())
     printNote(fmt::format("vorion: error: {}\n", Message));
-  if (Status == CL_MEM_OBJECT_ALLOCATION_FAILURE) {
-    Error E = clError("running kernel " + Name, Status);
-    E.What += ", expected " + Remedy;
-    return E;
-  }
+  if (Status == CL_MEM_OBJECT_ALLOCATION_FAILURE)
+    return memoryError("running kernel " + Name, Status);
   return Error{"",
                fmt::format("kernel '{}' failed on {} ({}), expected it to run "
                            "to its end",
@@ -296,7 +301,7 @@ cl::Buffer Launcher::allocate(std::string_view What, uint64_t Bytes) {
   cl_int Status = CL_SUCCESS;
   cl::Buffer B(Dev.context(), CL_MEM_READ_WRITE, Size, nullptr, &Status);
   if (Status != CL_SUCCESS) {
-    Failure = clError(
+    Failure = memoryError(
         fmt::format("allocating {:.1f} MiB for the {}", mebibytes(Size), What),
         Status);
     return {};
@@ -322,7 +327,7 @@ void Launcher::write(std::string_view What, const cl::Buffer &To,
       Dev.queue().enqueueWriteBuffer(To, CL_TRUE, 0, Bytes, From);
   if (Status != CL_SUCCESS)
     Failure =
-        clError(fmt::format("copying the {} to the device", What), Status);
+        memoryError(fmt::format("copying the {} to the device", What), Status);
 }
 
 void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
@@ -333,8 +338,8 @@ void Launcher::read(std::string_view What, void *To, const cl::Buffer &From,
   const cl_int Status =
       Dev.queue().enqueueReadBuffer(From, CL_TRUE, Offset, Bytes, To);
   if (Status != CL_SUCCESS)
-    Failure =
-        clError(fmt::format("copying the {} from the device", What), Status);
+    Failure = memoryError(fmt::format("copying the {} from the device", What),
+                          Status);
 }
 
 } // namespace vorion::splat

@@ -134,6 +134,7 @@ private:
               const cl::NDRange &Global, const cl::NDRange &Local);
   /// Why a launch of kernel \p Name ended with \p Status; says what the
   /// platform tells beside it.
+  Error memoryError(std::string_view What, cl_int Status) const;
   Error launchError(const std::string &Name, cl_int Status) const;
   void account(KernelReport Report);
   void countCopy(uint64_t Bytes);

@@ -173,15 +173,19 @@ __kernel void density_split(__global const float *geometry,
   }
 }
 
-// Opacities down to at most that of `most_logit`; their moments begin again.
-__kernel void reset_opacity(__global float *geometry, __global float *first,
-                            __global float *second, uint count,
+// Opacities down to at most that of `most_logit`.
+__kernel void reset_opacity(__global float *geometry, uint count,
                             float most_logit) {
   const uint i = get_global_id(0);
   if (i >= count)
     return;
   const uint at = PLANE_LOGIT * count + i;
   geometry[at] = fmin(geometry[at], most_logit);
-  first[at] = 0.0f;
-  second[at] = 0.0f;
+}
+
+// A moment's plane begins again.
+__kernel void forget_plane(__global float *moments, uint plane, uint count) {
+  const uint i = get_global_id(0);
+  if (i < count)
+    moments[plane * count + i] = 0.0f;
 }

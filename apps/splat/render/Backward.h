@@ -68,6 +68,8 @@ public:
   /// drawn, in stages of the launcher's; through its depths, too, if there are
   /// \p Known ones.
   void run(Pipeline &Forward, const DepthTargets &Known = {});
+  /// Frees the results.
+  void forget() { Upstream = PairSums = Sums = Gradients = ShGradients = {}; }
 
   /// \name Results, planes of as many floats as there are Gaussians
   /// @{

@@ -8,7 +8,12 @@
 
 namespace vorion::splat {
 
-ProgramSpec adamProgram() { return {AdamProgram, {"adam.cl"}, {}}; }
+ProgramSpec adamProgram(MomentsOn Where) {
+  ProgramSpec P{AdamProgram, {"adam.cl"}, {}};
+  if (Where == MomentsOn::Host)
+    P.Defines.emplace_back("MOMENTS_BY_PLANE");
+  return P;
+}
 
 ProgramSpec regularizeProgram() {
   return {RegularizeProgram, {"layout.h", "activate.cl", "regularize.cl"}, {}};
@@ -26,7 +31,7 @@ void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
               const PlanePair &Gradients, unsigned Iteration, double Extent,
               int ActiveDegree) {
   const double First = 1 - std::pow(Settings.Beta1, Iteration);
-  const double Second = 1 - std::pow(Settings.Beta2, Iteration);
+  const double Rest = 1 - std::pow(Settings.Beta2, Iteration);
   const auto Rate = [&](double R) { return static_cast<float>(R / First); };
 
   std::vector<float> Geometry(GEOMETRY_PLANES);
@@ -43,18 +48,28 @@ void stepAdam(Launcher &L, const TrainSettings &Settings, DeviceScene &S,
     Sh[K] = Rate(Settings.ColourRate);
 
   const auto Step = [&](const std::vector<float> &Rates, const cl::Buffer &P,
-                        const cl::Buffer &G, const cl::Buffer &M,
-                        const cl::Buffer &V) {
+                        const cl::Buffer &G, MomentPlanes &M, MomentPlanes &V) {
     const cl::Buffer RateBuffer = L.allocate("rates", 4 * Rates.size());
     L.write("rates", RateBuffer, Rates.data(), 4 * Rates.size());
-    L.run(AdamProgram, "adam", cl::NDRange(itemsFor(S.Count)[0], Rates.size()),
-          cl::NDRange(GroupSize, 1), P, G, M, V, RateBuffer, S.Count,
-          static_cast<float>(Settings.Beta1),
-          static_cast<float>(1 - Settings.Beta1),
-          static_cast<float>(Settings.Beta2),
-          static_cast<float>(1 - Settings.Beta2),
-          static_cast<float>(1 / std::sqrt(Second)),
-          static_cast<float>(Settings.Epsilon));
+    const auto Run = [&](const cl::Buffer &First, const cl::Buffer &Second,
+                         uint32_t Planes, auto... Plane) {
+      L.run(AdamProgram, "adam", cl::NDRange(itemsFor(S.Count)[0], Planes),
+            cl::NDRange(GroupSize, 1), P, G, First, Second, RateBuffer, S.Count,
+            static_cast<float>(Settings.Beta1),
+            static_cast<float>(1 - Settings.Beta1),
+            static_cast<float>(Settings.Beta2),
+            static_cast<float>(1 - Settings.Beta2),
+            static_cast<float>(1 / std::sqrt(Rest)),
+            static_cast<float>(Settings.Epsilon), Plane...);
+    };
+    MomentPlanes::changeBoth(L, M, V, S.Count,
+                             static_cast<uint32_t>(Rates.size()),
+                             [&](const cl::Buffer &OfM, const cl::Buffer &OfV,
+                                 uint32_t First, uint32_t Planes) {
+                               M.areOn() == MomentsOn::Host
+                                   ? Run(OfM, OfV, Planes, First)
+                                   : Run(OfM, OfV, Planes);
+                             });
   };
   Step(Geometry, S.Parameters.Geometry, Gradients.Geometry, S.First.Geometry,
        S.Second.Geometry);

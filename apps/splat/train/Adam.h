@@ -7,7 +7,7 @@
 namespace vorion::splat {
 
 inline constexpr const char *AdamProgram = "adam";
-ProgramSpec adamProgram();
+ProgramSpec adamProgram(MomentsOn Where = MomentsOn::Device);
 /// For weights of opacities and scales in the loss.
 inline constexpr const char *RegularizeProgram = "regularize";
 ProgramSpec regularizeProgram();

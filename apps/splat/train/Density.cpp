@@ -158,26 +158,19 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
   DeviceScene New;
   New.Count = After;
   New.ShDegree = S.ShDegree;
-  const auto Move = [&](const cl::Buffer &From, cl::Buffer &To, uint32_t Planes,
-                        bool Moments) {
+  const auto Move = [&](const cl::Buffer &From, const cl::Buffer &To,
+                        uint32_t Planes, bool Moments) {
     Launch.run(DensityProgram, "density_copy",
                cl::NDRange(itemsFor(S.Count)[0], Planes),
                cl::NDRange(GroupSize, 1), From, To, Fates, Places, S.Count,
                After, Moments ? 1U : 0U);
   };
-  const struct {
-    PlanePair &From, &To;
-    bool Moments;
-  } Pairs[] = {{S.Parameters, New.Parameters, false},
-               {S.First, New.First, true},
-               {S.Second, New.Second, true}};
-  for (const auto &[From, To, Moments] : Pairs) {
-    To = New.allocate(Launch, After);
-    Move(From.Geometry, To.Geometry, GEOMETRY_PLANES, Moments);
-    Move(From.Sh, To.Sh, S.colourPlanes(), Moments);
-    if (Moments) // what the parameters were is needed below
-      From = {};
-  }
+  New.Parameters = New.allocate(Launch, After);
+  Move(S.Parameters.Geometry, New.Parameters.Geometry, GEOMETRY_PLANES, false);
+  Move(S.Parameters.Sh, New.Parameters.Sh, S.colourPlanes(), false);
+  S.remakeMoments(Launch, New,
+                  [&](const cl::Buffer &From, const cl::Buffer &To,
+                      uint32_t Planes) { Move(From, To, Planes, true); });
   const auto SeedLow = static_cast<uint32_t>(Seed);
   const auto SeedHigh = static_cast<uint32_t>(Seed >> 32);
   Launch.run(DensityProgram, "density_split", itemsFor(S.Count), GroupSize,
@@ -196,8 +189,16 @@ DensityChange DensityControl::densify(DeviceScene &S, unsigned Iteration) {
 
 void DensityControl::resetOpacity(DeviceScene &S) {
   Launch.run(DensityProgram, "reset_opacity", itemsFor(S.Count), GroupSize,
-             S.Parameters.Geometry, S.First.Geometry, S.Second.Geometry,
-             S.Count, opacityLogit(Settings.ResetOpacity));
+             S.Parameters.Geometry, S.Count,
+             opacityLogit(Settings.ResetOpacity));
+  for (MomentPair *M : {&S.First, &S.Second})
+    M->Geometry.change(
+        Launch, S.Count, GEOMETRY_PLANES,
+        [&](const cl::Buffer &Values, uint32_t First, uint32_t Planes) {
+          if (First <= PLANE_LOGIT && PLANE_LOGIT < First + Planes)
+            Launch.run(DensityProgram, "forget_plane", itemsFor(S.Count),
+                       GroupSize, Values, PLANE_LOGIT - First, S.Count);
+        });
 }
 
 } // namespace vorion::splat

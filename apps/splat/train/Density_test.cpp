@@ -98,7 +98,7 @@ TEST_F(DensityOnDevice, LeavesWhatTheReferencesRuleLeaves) {
     D.restore(Notes);
     const DensityChange C = D.densify(S, Iteration);
     const Scene After = S.download(L);
-    const auto First = download<float>(L, S.First.Geometry,
+    const auto First = download<float>(L, S.First.Geometry.onDevice(),
                                        std::size_t{GEOMETRY_PLANES} * S.Count);
 
     const std::vector<Fate> Want = fates(Before, Notes, T, Iteration);
@@ -284,8 +284,8 @@ TEST_F(DensityOnDevice, ResetLowersOpacitiesAndForgetsTheirMoments) {
   for (std::size_t I = 0; I < 100; ++I)
     EXPECT_EQ(After.OpacityLogits[I], std::min(Before.OpacityLogits[I], Most));
   EXPECT_EQ(After.LogScales, Before.LogScales);
-  for (const cl::Buffer &B : {S.First.Geometry, S.Second.Geometry}) {
-    const auto M = download<float>(L, B, Ones.size());
+  for (const MomentPlanes &B : {S.First.Geometry, S.Second.Geometry}) {
+    const auto M = B.values(L, Ones.size());
     EXPECT_EQ(M[PLANE_LOGIT * 100 + 50], 0);
     EXPECT_EQ(M[PLANE_LOGIT * 100 - 1], 1);
   }

@@ -45,6 +45,10 @@ public:
                      int ShDegree) override;
   Backward backward(const cl::Buffer &ByRender, const cl::Buffer &ByAlpha,
                     const DepthTargets &Known) override;
+  void forget() override {
+    if (Back)
+      Back->forget();
+  }
 
   /// Pairs of every tile of the last picture; copied from the device.
   std::vector<uint32_t> listLengths();

@@ -1,6 +1,5 @@
 #include "train/DeviceScene.h"
 
-#include "picture/Layout.h"
 #include "render/Planes.h"
 
 #include <numeric>
@@ -14,24 +13,20 @@ PlanePair DeviceScene::allocate(Launcher &L, uint32_t Gaussians) const {
                      uint64_t{4} * colourPlanes() * Gaussians)};
 }
 
-DeviceScene DeviceScene::upload(Launcher &L, const Scene &S) {
+DeviceScene DeviceScene::upload(Launcher &L, const Scene &S, MomentsOn Where) {
   DeviceScene D;
   D.Count = static_cast<uint32_t>(S.size());
   D.ShDegree = S.ShDegree;
-  const auto Write = [&](PlanePair &To, const std::vector<float> &Geometry,
-                         const std::vector<float> &Sh) {
-    To = D.allocate(L, D.Count);
-    L.write("Gaussians' geometry", To.Geometry, Geometry.data(),
-            4 * Geometry.size());
-    L.write("Gaussians' colours", To.Sh, Sh.data(), 4 * Sh.size());
-  };
   std::vector<float> Geometry = geometryPlanes(S);
   std::vector<float> Sh = shPlanes(S, S.ShDegree);
-  Write(D.Parameters, Geometry, Sh);
+  D.Parameters = D.allocate(L, D.Count);
+  L.write("Gaussians' geometry", D.Parameters.Geometry, Geometry.data(),
+          4 * Geometry.size());
+  L.write("Gaussians' colours", D.Parameters.Sh, Sh.data(), 4 * Sh.size());
   Geometry.assign(Geometry.size(), 0);
   Sh.assign(Sh.size(), 0);
-  Write(D.First, Geometry, Sh);
-  Write(D.Second, Geometry, Sh);
+  D.First = {{L, Where, Geometry}, {L, Where, Sh}};
+  D.Second = {{L, Where, std::move(Geometry)}, {L, Where, std::move(Sh)}};
   std::vector<uint32_t> Numbers(D.Count);
   std::iota(Numbers.begin(), Numbers.end(), 0U);
   D.uploadIdentities(L, Numbers);
@@ -59,10 +54,11 @@ Scene DeviceScene::download(Launcher &L) const {
   return sceneOfPlanes(Geometry, Sh, ShDegree);
 }
 
-uint64_t mostInTraining(uint64_t Bytes, int ShDegree) {
+uint64_t mostInTraining(uint64_t Bytes, int ShDegree, MomentsOn Where) {
   // While a moment is copied, there are the old and the new parameters, the old
-  // and the new moment, and the other moment.
-  constexpr std::size_t Pairs = 5;
+  // and the new moment, and the other moment. Without moments there are the old
+  // and the new parameters, or parameters and gradients, and two planes.
+  const std::size_t Pairs = Where == MomentsOn::Device ? 5 : 2;
   // Notes, fates and sorting, and what the renderer keeps of each: measured
   // with 50,000 and 100,000 Gaussians of degree 0 and 3.
   constexpr std::size_t Beside = 264;

@@ -39,6 +39,8 @@ public:
   virtual Backward backward(const cl::Buffer &ByRender,
                             const cl::Buffer &ByAlpha,
                             const DepthTargets &Known) = 0;
+  /// Frees what backward() gave: nobody needs it before the next call.
+  virtual void forget() {}
 };
 
 } // namespace vorion::splat

@@ -102,11 +102,13 @@ void McmcControl::relocate(DeviceScene &S, unsigned Iteration) {
     Launch.run(McmcProgram, "mcmc_move", planesOf(Dead, Planes), PlaneGroup,
                Values, D.Sources, List, S.Count, Dead, Moments ? 1U : 0U);
   };
-  for (const auto &[Of, Moments] :
-       {std::pair(&S.Parameters, false), std::pair(&S.First, true),
-        std::pair(&S.Second, true)}) {
-    Move(Of->Geometry, GEOMETRY_PLANES, Moments);
-    Move(Of->Sh, S.colourPlanes(), Moments);
+  Move(S.Parameters.Geometry, GEOMETRY_PLANES, false);
+  Move(S.Parameters.Sh, S.colourPlanes(), false);
+  const auto MoveMoments = [&](const cl::Buffer &Values, uint32_t,
+                               uint32_t Planes) { Move(Values, Planes, true); };
+  for (MomentPair *M : {&S.First, &S.Second}) {
+    M->Geometry.change(Launch, S.Count, GEOMETRY_PLANES, MoveMoments);
+    M->Sh.change(Launch, S.Count, S.colourPlanes(), MoveMoments);
   }
   identify(S.Identities, D, &List, S.Count, Dead, Iteration);
 }
@@ -127,18 +129,13 @@ void McmcControl::grow(DeviceScene &S, uint32_t After, unsigned Iteration) {
     Launch.run(McmcProgram, "mcmc_grow", planesOf(After, Planes), PlaneGroup,
                From, To, D.Sources, S.Count, After, Moments ? 1U : 0U);
   };
-  struct {
-    PlanePair &From, &To;
-    bool Moments;
-  } Pairs[] = {{S.Parameters, New.Parameters, false},
-               {S.First, New.First, true},
-               {S.Second, New.Second, true}};
-  for (const auto &[From, To, Moments] : Pairs) {
-    To = New.allocate(Launch, After);
-    Grow(From.Geometry, To.Geometry, GEOMETRY_PLANES, Moments);
-    Grow(From.Sh, To.Sh, S.colourPlanes(), Moments);
-    From = {};
-  }
+  New.Parameters = New.allocate(Launch, After);
+  Grow(S.Parameters.Geometry, New.Parameters.Geometry, GEOMETRY_PLANES, false);
+  Grow(S.Parameters.Sh, New.Parameters.Sh, S.colourPlanes(), false);
+  S.Parameters = {};
+  S.remakeMoments(Launch, New,
+                  [&](const cl::Buffer &From, const cl::Buffer &To,
+                      uint32_t Planes) { Grow(From, To, Planes, true); });
   New.Identities = words("Gaussians' identities", After);
   Launch.run(McmcProgram, "mcmc_grow", planesOf(After, 1), PlaneGroup,
              S.Identities, New.Identities, D.Sources, S.Count, After, 0U);

@@ -125,10 +125,10 @@ TEST_F(McmcOnDevice, TheFaintMoveToPlacesDrawnByOpacity) {
   const DensityChange C = Control.change(S, Iteration);
   const Scene After = S.download(L);
   const auto Identities = S.downloadIdentities(L);
-  const auto First = download<float>(L, S.First.Geometry,
+  const auto First = download<float>(L, S.First.Geometry.onDevice(),
                                      std::size_t{GEOMETRY_PLANES} * Count);
-  const auto Second =
-      download<float>(L, S.Second.Sh, std::size_t{S.colourPlanes()} * Count);
+  const auto Second = download<float>(L, S.Second.Sh.onDevice(),
+                                      std::size_t{S.colourPlanes()} * Count);
   ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
   EXPECT_EQ(C.Before, Count);
   EXPECT_EQ(C.After, Count);
@@ -194,7 +194,7 @@ TEST_F(McmcOnDevice, MoreAreDrawnWhileThereIsRoom) {
     EXPECT_EQ(Control.change(S, Iteration).After, Want);
     const Scene After = S.download(L);
     const auto Identities = S.downloadIdentities(L);
-    const auto First = download<float>(L, S.First.Geometry,
+    const auto First = download<float>(L, S.First.Geometry.onDevice(),
                                        std::size_t{GEOMETRY_PLANES} * Want);
     ASSERT_FALSE(L.failure()) << L.failure()->What << L.buildLog();
     const auto Sources =

@@ -15,10 +15,11 @@
 namespace vorion::splat {
 
 std::vector<ProgramSpec> Trainer::programs(const TrainSettings &Settings,
-                                           const TrainingSet &Pictures) {
+                                           const TrainingSet &Pictures,
+                                           MomentsOn Where) {
   std::vector<ProgramSpec> Programs = densityPrograms();
   Programs.push_back(lossProgram());
-  Programs.push_back(adamProgram());
+  Programs.push_back(adamProgram(Where));
   Programs.push_back(batchProgram());
   if (std::ranges::any_of(Pictures.Training,
                           [](const TrainView &V) { return !V.Counts.empty(); }))
@@ -44,7 +45,7 @@ static std::vector<Camera> camerasOf(const std::vector<TrainView> &Views) {
 
 Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
                  const TrainingSet &Photos, const TrainRun &What,
-                 Ranks &Processes)
+                 Ranks &Processes, MomentsOn MomentsAre)
     : Launch(Launch), Renderer(Render), Pictures(Photos), Run(What),
       Order(Photos.Training.size(), What.Seed),
       Loss(Launch, What.Settings.DSsim),
@@ -53,11 +54,11 @@ Trainer::Trainer(Launcher &Launch, GradientRenderer &Render,
       Processes(Processes),
       Density(Launch, What.Settings, What.Seed, What.Extent),
       Mcmc(Launch, What.Settings, What.Seed),
-      Batch(Launch, Processes, Density, What.Batch) {}
+      Batch(Launch, Processes, Density, What.Batch), Where(MomentsAre) {}
 
 void Trainer::start(const Scene &From) {
   Launch.beginStage(Stage::Upload);
-  State = DeviceScene::upload(Launch, From);
+  State = DeviceScene::upload(Launch, From, Where);
   Density.restart(State.Count);
   Exposed.restart();
   Posed.restart();
@@ -70,16 +71,14 @@ void Trainer::restore(const Checkpoint &C) {
   State = DeviceScene();
   State.Count = static_cast<uint32_t>(C.gaussians());
   State.ShDegree = C.ShDegree;
-  const auto Upload = [&](PlanePair &To, const std::vector<float> &Geometry,
-                          const std::vector<float> &Sh) {
-    To = State.allocate(Launch, State.Count);
-    Launch.write("Gaussians' geometry", To.Geometry, Geometry.data(),
-                 4 * Geometry.size());
-    Launch.write("Gaussians' colours", To.Sh, Sh.data(), 4 * Sh.size());
-  };
-  Upload(State.Parameters, C.Geometry, C.Sh);
-  Upload(State.First, C.FirstGeometry, C.FirstSh);
-  Upload(State.Second, C.SecondGeometry, C.SecondSh);
+  State.Parameters = State.allocate(Launch, State.Count);
+  Launch.write("Gaussians' geometry", State.Parameters.Geometry,
+               C.Geometry.data(), 4 * C.Geometry.size());
+  Launch.write("Gaussians' colours", State.Parameters.Sh, C.Sh.data(),
+               4 * C.Sh.size());
+  State.First = {{Launch, Where, C.FirstGeometry}, {Launch, Where, C.FirstSh}};
+  State.Second = {{Launch, Where, C.SecondGeometry},
+                  {Launch, Where, C.SecondSh}};
   State.uploadIdentities(Launch, C.Identities);
   Density.restore(C.Notes);
   Exposed.restore(C.Exposures);
@@ -93,17 +92,16 @@ Checkpoint Trainer::save() {
   Checkpoint C;
   C.Iteration = Done;
   C.ShDegree = State.ShDegree;
-  const auto Download = [&](const PlanePair &From, std::vector<float> &Geometry,
-                            std::vector<float> &Sh) {
-    Geometry.resize(std::size_t{GEOMETRY_PLANES} * State.Count);
-    Sh.resize(std::size_t{State.colourPlanes()} * State.Count);
-    Launch.read("Gaussians' geometry", Geometry.data(), From.Geometry,
-                4 * Geometry.size());
-    Launch.read("Gaussians' colours", Sh.data(), From.Sh, 4 * Sh.size());
-  };
-  Download(State.Parameters, C.Geometry, C.Sh);
-  Download(State.First, C.FirstGeometry, C.FirstSh);
-  Download(State.Second, C.SecondGeometry, C.SecondSh);
+  C.Geometry.resize(std::size_t{GEOMETRY_PLANES} * State.Count);
+  C.Sh.resize(std::size_t{State.colourPlanes()} * State.Count);
+  Launch.read("Gaussians' geometry", C.Geometry.data(),
+              State.Parameters.Geometry, 4 * C.Geometry.size());
+  Launch.read("Gaussians' colours", C.Sh.data(), State.Parameters.Sh,
+              4 * C.Sh.size());
+  C.FirstGeometry = State.First.Geometry.values(Launch, C.Geometry.size());
+  C.FirstSh = State.First.Sh.values(Launch, C.Sh.size());
+  C.SecondGeometry = State.Second.Geometry.values(Launch, C.Geometry.size());
+  C.SecondSh = State.Second.Sh.values(Launch, C.Sh.size());
   C.Identities = State.downloadIdentities(Launch);
   C.Notes = Density.save(State.Count);
   C.Losses = Losses;
@@ -179,6 +177,9 @@ void Trainer::stepPoses() {
 /// before the step, which the new Gaussians and their neighbours then miss.)
 std::optional<DensityChange> Trainer::changeDensity() {
   Launch.beginStage(Stage::DensityControl);
+  // The device has better use for their memory now.
+  Batch.forget();
+  Renderer.forget();
   std::optional<DensityChange> Change;
   if (densifiesAt(Run.Settings, Done) &&
       Run.Settings.Method == DensityMethod::Mcmc) {

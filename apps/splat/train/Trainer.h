@@ -58,11 +58,13 @@ class Trainer {
 public:
   /// The programs that training on \p Pictures runs beside the renderer's.
   static std::vector<ProgramSpec> programs(const TrainSettings &Settings,
-                                           const TrainingSet &Pictures);
+                                           const TrainingSet &Pictures,
+                                           MomentsOn Where = MomentsOn::Device);
 
   /// \p Pictures, \p Run, \p Renderer and \p Processes must outlive this.
   Trainer(Launcher &Launch, GradientRenderer &Renderer,
-          const TrainingSet &Pictures, const TrainRun &Run, Ranks &Processes);
+          const TrainingSet &Pictures, const TrainRun &Run, Ranks &Processes,
+          MomentsOn Where = MomentsOn::Device);
 
   void start(const Scene &S);
   void restore(const Checkpoint &C);
@@ -106,6 +108,7 @@ private:
   DensityControl Density;
   McmcControl Mcmc;
   ViewBatch Batch;
+  const MomentsOn Where;
   DeviceScene State;
   unsigned Done = 0;
   std::vector<float> Losses;

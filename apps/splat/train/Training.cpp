@@ -83,17 +83,36 @@ void noteStart(const Work &W) {
         Seeing, W.Photos.Views.size()));
 }
 
-/// Says that the scene may outgrow the device, which ends the run, maybe hours
-/// later.
+MomentsOn placeOfMoments(const TrainRequest &R, const Device &D) {
+  if (R.Moments != MomentsChoice::Auto)
+    return R.Moments == MomentsChoice::Host ? MomentsOn::Host
+                                            : MomentsOn::Device;
+  return R.Run.Settings.MostGaussians >
+                 mostInTraining(D.globalBytes(), R.ShDegree, MomentsOn::Device)
+             ? MomentsOn::Host
+             : MomentsOn::Device;
+}
+
+/// Says that moments stay on the host, which takes time, and that the scene may
+/// outgrow the device, which ends the run, maybe hours later.
 void noteRoom(const Work &W, const Device &D) {
-  const uint64_t Room = mostInTraining(D.globalBytes(), W.Request.ShDegree),
-                 Most = W.Request.Run.Settings.MostGaussians;
-  if (Most > Room)
+  const auto Holds = [&](MomentsOn Where) {
+    return mostInTraining(D.globalBytes(), W.Request.ShDegree, Where);
+  };
+  const uint64_t Most = W.Request.Run.Settings.MostGaussians;
+  if (W.Request.Moments == MomentsChoice::Auto &&
+      W.Out.Moments == MomentsOn::Host)
+    W.Host.Note(fmt::format(
+        "{} holds at most {} Gaussians of SH degree {} with Adam's moments, "
+        "and --max-gaussians allows {}: the moments stay on the host, which "
+        "changes no bit",
+        D.name(), Holds(MomentsOn::Device), W.Request.ShDegree, Most));
+  if (Most > Holds(W.Out.Moments))
     W.Host.Note(fmt::format(
         "{} holds at most {} Gaussians of SH degree {} in training, less what "
         "pictures take, and --max-gaussians allows {}: a scene that outgrows "
         "it ends the run",
-        D.name(), Room, W.Request.ShDegree, Most));
+        D.name(), Holds(W.Out.Moments), W.Request.ShDegree, Most));
 }
 
 /// Says once, \p Said, that most Gaussians do not learn.
@@ -388,16 +407,18 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
   Launcher Launch(*D, "", {});
   Launch.setRemedy("less as --max-gaussians, or smaller pictures "
                    "(--downscale)");
+  Out.Moments = placeOfMoments(R, *D);
   if (Processes.first())
     noteRoom(W, *D);
   Launch.beginStage(Stage::Build);
-  for (const ProgramSpec &P : Trainer::programs(R.Run.Settings, *Pictures))
+  for (const ProgramSpec &P :
+       Trainer::programs(R.Run.Settings, *Pictures, Out.Moments))
     Launch.build(P);
   DeviceRenderer Renderer(Launch, R.Convention, R.Blending, R.Backward,
                           {R.Run.Background, R.Run.RandomBackground,
                            R.Run.Antialiased, *Model, isRolling(Cameras),
                            R.Run.Through});
-  Trainer T(Launch, Renderer, *Pictures, R.Run, Processes);
+  Trainer T(Launch, Renderer, *Pictures, R.Run, Processes, Out.Moments);
   if (auto Started = start(W, T); !Started)
     return Started;
   if (Launch.failure()) {

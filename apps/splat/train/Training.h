@@ -18,6 +18,17 @@
 
 namespace vorion::splat {
 
+/// Where Adam's moments shall lie. Auto: on the host if the device does not
+/// hold as many Gaussians as are allowed with theirs.
+enum class MomentsChoice { Auto, Device, Host };
+
+constexpr std::string_view name(MomentsChoice C) {
+  return C == MomentsChoice::Auto
+             ? "auto"
+             : name(C == MomentsChoice::Host ? MomentsOn::Host
+                                             : MomentsOn::Device);
+}
+
 /// What is asked for.
 struct TrainRequest {
   std::string Capture;
@@ -28,6 +39,7 @@ struct TrainRequest {
   Blender Blending = Path::Raster;
   BackwardOptions Backward;
   TrainRun Run; ///< extent and hashes are found out
+  MomentsChoice Moments = MomentsChoice::Auto; ///< changes no bit
   std::string Checkpoint;
   unsigned CheckpointEvery = 1000; ///< iterations
   bool Resume = false; ///< go on from the checkpoint, if there is one
@@ -81,6 +93,7 @@ struct TrainOutcome {
   std::size_t WithoutPicture = 0, Distorted = 0, Masked = 0;
   std::size_t Depths = 0; ///< places of training pictures with a known depth
   std::optional<PoseChange> Poses; ///< where poses were corrected
+  MomentsOn Moments = MomentsOn::Device;
   unsigned Processes = 1;
   unsigned First = 0, Iterations = 0; ///< done before, and in all
   unsigned ResumedAfter = 0; ///< the own checkpoint's iteration; 0: of none

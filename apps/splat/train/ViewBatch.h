@@ -23,6 +23,8 @@ public:
   /// Forgets the last iteration. Gradients of \p Of, whose bands up to
   /// \p ShDegree are in use; \p Notes: density control notes the views.
   void begin(const DeviceScene &Of, int ShDegree, bool Notes);
+  /// Frees the gradients.
+  void forget() { Sum = {}; }
   bool complete() const { return Added == Views; }
   /// The view that this process renders next; \c Views or more: none.
   unsigned next() const { return Added + Processes.rank(); }
