@@ -106,7 +106,7 @@ def main():
         json.dump(list(found.values()), file)
     jobs = len(os.sched_getaffinity(0))
     now = keys(found, inputs(database, jobs), root, plugin)
-    passed = load(record)
+    passed = {path: key for path, key in load(record).items() if os.path.exists(path)}
     changed = [path for path in sorted(found) if options.all or path not in now or passed.get(path) != now[path]]
     print(f"clang-tidy: {len(changed)} of {len(found)} files are new or have changed since they passed", flush=True)
 
@@ -119,11 +119,10 @@ def main():
         for path, done in pool.map(check, changed):
             if done.returncode == 0 and path in now:
                 passed[path] = now[path]
+                save(record, passed)  # now, since the next ones may be interrupted
             if done.returncode != 0:
                 failed += 1
-                passed.pop(path, None)
                 print(done.stdout, end="", flush=True)
-    save(record, {path: key for path, key in passed.items() if os.path.exists(path)})
     return 1 if failed else 0
 
 
