@@ -1,13 +1,17 @@
 #!/usr/bin/env python3
-"""Lane-instructions a second of the simulator, side by side with qemu-riscv32.
+"""Lane-instructions a second of the simulator, side by side with qemu-riscv32 and, where it is installed, Spike.
 
 usage: run.py [--rounds N] [--programs NAME,...] [--json FILE] [--out DIR] [--no-observers] [--realtime]
 
 Each program of this folder is compiled twice: for the machine, where 16 lanes of every core work together, and, the
-same source, for one lane as a Linux program. A round runs each on vorion-sim with one host thread, with two, with the
-translator where the host has what that needs, and under qemu-riscv32, one right after the other; the figures are medians over the rounds. Rates are by processor time,
-the gain of a second thread is by wall time: it needs a quiet machine, or --realtime (chrt -f, as root). What qemu executes is counted on a machine of one
-lane that runs the same object code.
+same source, for one lane as a Linux program (for Spike, as a program of its own). A round runs each on vorion-sim with
+each engine that the host has, with one host thread and with two, under qemu-riscv32 and under Spike, one right after
+the other. The figures are medians over the rounds, each with the greatest distance of a round from it. Rates are by
+processor time. The gain of a second thread is by wall time: it needs a quiet machine, or --realtime (chrt -f, as
+root). What qemu and Spike execute is counted on a machine of one lane that runs the same object code.
+
+The share of the limit is what the translator executes of a warp's instructions a second, of the additions of 16 words
+that the host can do (limit.c): no instruction that computes takes less.
 
 Then two builds of the simulator, with observers and without (VORION_OBSERVERS=OFF), are compared by the instructions
 that callgrind counts with no observer at work.
@@ -21,6 +25,7 @@ import os
 import platform
 import random
 import resource
+import shutil
 import statistics
 import struct
 import subprocess
@@ -51,6 +56,8 @@ CORES = 64
 TARGET = ["--target=riscv32-unknown-elf", "-march=rv32imaf_zba_zbb_zbs", "-mabi=ilp32f", "-O3"]
 FREESTANDING = ["-ffreestanding", "-fno-math-errno", "-mno-relax"]
 QEMU = ["qemu-riscv32", "-cpu", "rv32,zba=true,zbb=true,zbs=true"]
+SPIKE = ["spike", "--isa=rv32imaf_zba_zbb_zbs", "-m2048"]
+SPIKE_SHARE = 10  # it is slower: of qemu's repetitions, one in so many
 ONE_LANE = {"clusters": 1, "sockets_per_cluster": 1, "cores_per_socket": 1, "lanes_per_warp": 1}
 
 
@@ -88,10 +95,22 @@ def build_c(name, device_repeats, scalar_repeats):
             source("scalar"), "-o", name + suffix)
 
 
+def has_spike():
+    return shutil.which(SPIKE[0]) is not None
+
+
+def spike_repeats(repeats):
+    return max(1, repeats // SPIKE_SHARE)
+
+
 def variants(repeats):
-    """Scalar programs: for qemu, and two that tell what one repetition executes."""
-    counted = ["-DCOUNTED", "-Wl,-T," + path("image.ld")]
-    return ((".linux", [f"-DREPEATS={repeats}"]), (".1", ["-DREPEATS=1", *counted]), (".2", ["-DREPEATS=2", *counted]))
+    """Scalar programs: for qemu, two that tell what one repetition executes, and for Spike."""
+    image = "-Wl,-T," + path("image.ld")
+    yield ".linux", [f"-DREPEATS={repeats}"]
+    for number in (1, 2):
+        yield f".{number}", [f"-DREPEATS={number}", "-DCOUNTED", image]
+    if has_spike():
+        yield ".spike", [f"-DREPEATS={spike_repeats(repeats)}", "-DSPIKE", image]
 
 
 def scene(prefix, count):
@@ -151,6 +170,7 @@ def build():
             image += text.read()
     write("image.ld", image)
     write("one-lane.json", json.dumps(ONE_LANE))
+    run("clang-19", "-O2", os.path.join(FOLDER, "limit.c"), "-o", "limit")
 
 
 def arguments(name):
@@ -198,43 +218,70 @@ def has_translator(name):
     return True
 
 
+def limits():
+    """What limit.c prints: additions of 16 words a second, by engine."""
+    text, _ = run(*Out.prefix, "./limit")
+    return {engine: float(number) for engine, number in (line.split() for line in text.splitlines())}
+
+
+def spread(values):
+    """How far the value that is furthest away from the median is, as a share of the median."""
+    middle = statistics.median(values)
+    return max(abs(value / middle - 1) for value in values)
+
+
+class Rate:
+    """Instructions a second, over the rounds."""
+
+    def __init__(self, instructions, seconds):
+        self.value = instructions / statistics.median(seconds)
+        self.spread = spread(seconds)
+        self.seconds = seconds
+
+    def json(self):
+        return {"instructions_per_second": self.value, "spread": self.spread, "seconds": self.seconds}
+
+    def __str__(self):
+        return f"{self.value / 1e9:.2f} ±{100 * self.spread:.0f} %"
+
+
 def measure(name, rounds):
     device_repeats, scalar_repeats = PROGRAMS[name]
     instructions, expected = count_scalar(name)
-    one, two, translated, narrow, qemu = [], [], [], [], []
-    runs = [("1", "interpreter", one), ("2", "interpreter", two)]
-    if has_translator(name):
-        runs[1:1] = [("1", "translator", translated), ("1", "translator-avx2", narrow)]
+    engines = ["interpreter"] + (["translator", "translator-avx2"] if has_translator(name) else [])
+    stats = {(engine, threads): [] for engine in engines for threads in (1, 2)}
+    others = {"qemu": (scalar_repeats, [*QEMU, f"./{name}.linux"], [])}
+    if has_spike():
+        others["spike"] = (spike_repeats(scalar_repeats), [*SPIKE, name + ".spike"], [])
+    total, most = None, []
     for _ in range(rounds):
-        for threads, engine, into in runs:
-            text, stats = simulate(name + ".elf", "--threads", threads, "--set", "engine=" + engine, *arguments(name))
+        most.append(limits())
+        for (engine, threads), into in stats.items():
+            text, run_stats = simulate(name + ".elf", "--threads", str(threads), "--set", "engine=" + engine, *arguments(name))
             text = depths_sum() if name == "project" else text
             if text != expected:
                 raise RuntimeError(f"{name}: {text} on 16 lanes, {expected} on one")
-            into.append(stats)
-            if stats["total"] != one[0]["total"]:
+            total = total or run_stats["total"]
+            if run_stats["total"] != total:
                 raise RuntimeError(f"{name}: other counters with {threads} threads and the {engine}")
-        text, seconds = run(*Out.prefix, *QEMU, "./" + name + ".linux")
-        if text.strip() != expected:
-            raise RuntimeError(f"{name}: {text.strip()} under qemu-riscv32, {expected} on one lane of vorion-sim")
-        qemu.append(seconds)
-    total = one[0]["total"]
-    rate = total["lane_instructions"] / statistics.median(s["host_cpu_seconds"] for s in one)
-    translated_rate, narrow_rate = (
-        total["lane_instructions"] / statistics.median(s["host_cpu_seconds"] for s in runs) if runs else None
-        for runs in (translated, narrow))
-    qemu_rate = instructions * scalar_repeats / statistics.median(qemu)
-    gain = statistics.median(a["host_seconds"] / b["host_seconds"] for a, b in zip(one, two))
+            into.append(run_stats)
+        for other, (_, command, seconds) in others.items():
+            text, taken = run(*Out.prefix, *command)
+            if text.strip() != expected:
+                raise RuntimeError(f"{name}: {text.strip()} under {other}, {expected} on one lane of vorion-sim")
+            seconds.append(taken)
+    rates = {engine: Rate(total["lane_instructions"], [s["host_cpu_seconds"] for s in stats[engine, 1]])
+             for engine in engines}
+    rates |= {other: Rate(instructions * repeats, seconds) for other, (repeats, _, seconds) in others.items()}
+    lanes = total["lane_instructions"] / total["warp_instructions"]
+    shares = {engine: rates[engine].value / lanes / statistics.median(limit[engine] for limit in most)
+              for engine in engines if engine in most[0]}
+    gains = {engine: [one["host_seconds"] / two["host_seconds"] for one, two in zip(stats[engine, 1], stats[engine, 2])]
+             for engine in engines}
     return {"program": name, "lane_instructions": total["lane_instructions"],
-            "active_lanes": total["lane_instructions"] / total["warp_instructions"],
-            "lane_instructions_per_second": rate,
-            "translator_lane_instructions_per_second": translated_rate,
-            "translator_avx2_lane_instructions_per_second": narrow_rate, "warp_instructions_per_second":
-            total["warp_instructions"] / statistics.median(s["host_cpu_seconds"] for s in one),
-            "qemu_instructions": instructions * scalar_repeats, "qemu_instructions_per_second": qemu_rate,
-            "over_qemu": rate / qemu_rate, "two_threads_over_one": gain,
-            "seconds": [s["host_cpu_seconds"] for s in one], "qemu_seconds": qemu,
-            "wall_seconds": [s["host_seconds"] for s in one], "wall_seconds_two_threads": [s["host_seconds"] for s in two]}
+            "active_lanes": lanes, "share_of_limit": shares,
+            "scalar_instructions_a_repetition": instructions,
+            "rates": rates, "two_threads_over_one": {engine: statistics.median(gain) for engine, gain in gains.items()}}
 
 
 def observer_cost(names):
@@ -269,17 +316,26 @@ def host():
     return f"{model}, {os.cpu_count()} processors"
 
 
+COLUMNS = {"interpreter": "interpreter", "translator": "translator", "translator-avx2": "translator, AVX2",
+           "qemu": "qemu-riscv32", "spike": "Spike"}
+
+
 def table(results):
-    yield ("| program | lane-instr/s, 1 thread | translator | translator, AVX2 | active lanes | qemu-riscv32 | over qemu | "
-           "2 threads over 1 |")
-    yield "|---|---|---|---|---|---|---|---|"
+    yield (f"| program | active lanes | {' | '.join(COLUMNS.values())} | translator over qemu | AVX2 over qemu | "
+           "translator's share of the limit | AVX2's | 2 threads over 1 |")
+    yield "|---|" + "--:|" * (len(COLUMNS) + 6)
     for r in results:
-        fast, narrow = (f"{rate / 1e9:.2f} G" if rate else "absent"
-                        for rate in (r["translator_lane_instructions_per_second"],
-                                     r["translator_avx2_lane_instructions_per_second"]))
-        yield (f"| {TITLES[r['program']]} | {r['lane_instructions_per_second'] / 1e9:.2f} G | {fast} | {narrow} | "
-               f"{r['active_lanes']:.1f} | "
-               f"{r['qemu_instructions_per_second'] / 1e9:.2f} G | {r['over_qemu']:.2f}x | {r['two_threads_over_one']:.2f}x |")
+        rates, gains, shares = r["rates"], r["two_threads_over_one"], r["share_of_limit"]
+
+        def over(engine):
+            return f"{rates[engine].value / rates['qemu'].value:.2f}x" if engine in rates else ""
+
+        def share(engine):
+            return f"{100 * shares[engine]:.0f} %" if engine in shares else ""
+        cells = [str(rates.get(key, "")) for key in COLUMNS]
+        fast = ("translator", "translator-avx2")
+        yield (f"| {TITLES[r['program']]} | {r['active_lanes']:.1f} | {' | '.join(cells)} | {' | '.join(map(over, fast))} | "
+               f"{' | '.join(map(share, fast))} | {gains.get('translator', gains['interpreter']):.2f}x |")
 
 
 def main():
@@ -306,12 +362,12 @@ def main():
         else:
             build_c(name, *PROGRAMS[name])
         results.append(measure(name, options.rounds))
-        print(f"{name}: {results[-1]['lane_instructions_per_second'] / 1e9:.2f} G", file=sys.stderr)
+        print(f"{name}: {results[-1]['rates']['interpreter']} G", file=sys.stderr)
     costs = {} if options.no_observers else observer_cost([name for name in OBSERVED if name in names])
     report = {"host": host(), "rounds": options.rounds, "programs": results,
               "instructions_with_and_without_observers": costs}
-    write(os.path.abspath(options.json or path("results.json")), json.dumps(report, indent=1) + "\n")
-    print(f"{host()}; medians of {options.rounds} rounds")
+    write(os.path.abspath(options.json or path("results.json")), json.dumps(report, indent=1, default=Rate.json) + "\n")
+    print(f"{host()}; billions of lane-instructions a second of processor time, medians of {options.rounds} rounds")
     print("\n".join(table(results)))
     for name, count in costs.items():
         print(f"{TITLES[name]}, observers built in but off: {count['ON']} host instructions, {count['OFF']} without them "
