@@ -22,11 +22,11 @@ constexpr std::string_view Files[] = {
     "planes.h", "sh_basis.h", "depth.cl", "normals.cl", "ray_frames.cl",
     "blend_by_ray.cl",
     // Training's.
-    "upstream.cl", "rasterize_backward.cl", "blend_backward.cl", "reduce.cl",
-    "backward.cl", "unscented_backward.cl", "project_backward.cl",
-    "sh_backward.cl", "adam.cl", "loss.cl", "mask.cl", "exposure.cl",
-    "regularize.cl", "depth_loss.cl", "pose.h", "pose.cl", "philox.h",
-    "axes.cl", "scan.cl", "density.cl", "mcmc.cl"};
+    "upstream.cl", "rasterize_backward.cl", "pixel_backward.cl",
+    "blend_backward.cl", "reduce.cl", "backward.cl", "unscented_backward.cl",
+    "project_backward.cl", "sh_backward.cl", "adam.cl", "loss.cl", "mask.cl",
+    "exposure.cl", "regularize.cl", "depth_loss.cl", "pose.h", "pose.cl",
+    "philox.h", "axes.cl", "scan.cl", "density.cl", "mcmc.cl"};
 
 constexpr std::string_view PlainProduct =
     "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
@@ -223,7 +223,7 @@ const std::vector<BrokenKernel> &brokenKernels() {
       // (isasim/raster/HardBackward_test.cpp).
       {"reciprocal-rounded",
        Path::Simt,
-       {{"blend_backward.cl", "s.x / (1.0f - alpha)",
+       {{"pixel_backward.cl", "s.x / (1.0f - alpha)",
          "s.x * (1.0f / (1.0f - alpha))"}}},
       {"quaternion-gradient-unbounded",
        {},
@@ -242,15 +242,16 @@ const std::vector<BrokenKernel> &brokenKernels() {
       {"faint-come-back",
        Path::Simt,
        {{"blend_backward.cl", "(power >= MIN_POWER)", "true"},
-        {"blend_backward.cl", "if (alpha >= ALPHA_CUTOFF / 255.0f) {",
-         "if (true) {"}}},
+        {"pixel_backward.cl", "if (!(alpha >= ALPHA_CUTOFF / 255.0f))",
+         "if (false)"}}},
       {"background-lost",
        {},
        {{"upstream.cl", "(red * r + green * g + blue * b) - by_alpha[i]",
          "-by_alpha[i]"}}},
       {"absolute-sums-signed",
        Path::Simt,
-       {{"blend_backward.cl", "fabs(a * vx + b * vy)", "a * vx + b * vy"}}},
+       {{"pixel_backward.cl", "fabs(g->conic[0] * vx + g->conic[1] * vy)",
+         "g->conic[0] * vx + g->conic[1] * vy"}}},
       {"points-of-a-pixel-lost",
        {},
        {{"depth_loss.cl", "k < count && points[k].x == pixel", "k == i"}}},
