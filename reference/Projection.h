@@ -73,8 +73,8 @@ template <typename Real> constexpr Real leastAlpha(int Cutoff) {
   return Real(Cutoff) / Real(255);
 }
 /// Least determinant before the dilation over that after it, of which the
-/// antialiasing factor is the root. So specks do not vanish, whose covariance is
-/// nearly all dilation.
+/// antialiasing factor is the root. So specks do not vanish, whose covariance
+/// is nearly all dilation.
 inline constexpr double LeastDeterminantRatio = 2.5e-5;
 /// Largest alpha: keeps 1 / (1 - alpha) finite in training.
 template <typename Real> constexpr Real mostAlpha() { return Real(0.99); }

@@ -39,8 +39,7 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
   Defines.insert(
       Defines.end(),
       {supportDefine(O.Reach), fmt::format("DILATION={:#}f", O.Dilation),
-       alphaCutoffDefine(O), keepDepthDefine(O),
-       AntialiasFloor,
+       alphaCutoffDefine(O), keepDepthDefine(O), AntialiasFloor,
        fmt::format("GROUP={}", O.SimtGroup),
        fmt::format("RAY_WINDOW={}", O.RayWindow), minPowerDefine(O)});
   if (const std::string Define(defineOf(O.Exponential)); !Define.empty())
