@@ -13,7 +13,7 @@ if [ "${1:-}" = --fix ]; then
 fi
 clang-format-19 --dry-run -Werror "${Sources[@]}"
 
-# Of tests with --all only; files that have not changed since they passed are left out.
+# Without --all, tests and files that have not changed since they passed are left out.
 Options=()
 [ "${1:-}" != --all ] || Options=(--all)
 "$Root/scripts/clang-tidy.py" "$Build" "$Root" "${Options[@]}"

@@ -2,6 +2,7 @@
 
 #include "core/Isa.h"
 #include "testing/Encode.h"
+#include "testing/Operations.h"
 #include "translate/Translator.h"
 #include "vorion/isasim/Machine.h"
 #include "vorion/isasim/Observer.h"
@@ -222,33 +223,10 @@ uint32_t anyInsn(std::mt19937 &Random) {
 
 /// What neither traps nor jumps, so that all of a program is executed.
 uint32_t calmInsn(std::mt19937 &Random) {
-  static constexpr Op Computations[] = {
-#define INT(OP, RESULT) Op::OP,
-#include "core/insns/integer.def"
-#undef INT
-#define FLOAT(OP, SOFT, RESULT) Op::OP,
-#define FUSED(OP, SOFT, FACTOR, ADDEND) Op::OP,
-#define COMPARE(OP, CONDITION, QUIET_IS_INVALID) Op::OP,
-#define MINMAX(OP, IS_MIN) Op::OP,
-#define TOINT(OP, SIGNED, SOFT) Op::OP,
-#define FROMINT(OP, SIGNED, SOFT) Op::OP,
-#include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
-      Op::VX_VOTE_BALLOT, Op::VX_VOTE_UNI, Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX};
-  static constexpr Op Accesses[] = {
-#define LOAD(OP, T) Op::OP,
-#define STORE(OP, T) Op::OP,
-#define AMO(OP, KIND) Op::OP,
-#include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
-  };
+  static constexpr auto Calm =
+      testing::joined(testing::Computations,
+                      std::to_array<Op>({Op::VX_VOTE_BALLOT, Op::VX_VOTE_UNI,
+                                         Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX}));
   testing::Fields F;
   // The prologue's pointers and the counter stay.
   do
@@ -259,7 +237,7 @@ uint32_t calmInsn(std::mt19937 &Random) {
   if (Random() % 4 == 0) {
     F.Rs1 = 8 + Random() % 2;
     F.Imm = static_cast<int32_t>(Random() % 8) * 4;
-    const Op O = Accesses[Random() % std::size(Accesses)];
+    const Op O = testing::Accesses[Random() % testing::Accesses.size()];
     if (O == Op::RV_AMOCAS_D) { // even registers
       F.Rd = 0;
       F.Rs2 &= ~1U;
@@ -269,7 +247,7 @@ uint32_t calmInsn(std::mt19937 &Random) {
   F.Rs1 = Random() % Counter;
   F.Imm = static_cast<int32_t>(Random() % 4096) - 2048;
   F.Rm = Random() % 4 ? 7 : Random() % 5;
-  return encode(Computations[Random() % std::size(Computations)], F);
+  return encode(Calm[Random() % Calm.size()], F);
 }
 
 /// Some of it by a part of the lanes, which is split off and joined.

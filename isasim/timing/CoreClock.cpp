@@ -349,6 +349,13 @@ template <bool Ideal> inline bool CoreClock::reach(Front &F, const OpInfo &O) {
   return waitForOperands(F, O);
 }
 
+bool CoreClock::reach(const OpInfo &O) {
+  Front F = front();
+  const bool IsReached = IsIdeal ? reach<true>(F, O) : reach<false>(F, O);
+  setFront(F);
+  return IsReached;
+}
+
 /// Behind \p O, which its unit begins at \p Begun.
 template <bool Ideal>
 [[gnu::always_inline]] inline void CoreClock::follow(Front &F, const OpInfo &O,
@@ -405,11 +412,8 @@ unsigned CoreClock::advancePlain(const OpInfo *Run, unsigned Position,
 }
 
 /// Does one instruction, or stops in front of its request; false then.
-template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
-  Front F = front();
-  const bool IsReached = reach<Ideal>(F, O);
-  setFront(F);
-  if (!IsReached)
+bool CoreClock::advanceOne(const OpInfo &O) {
+  if (!reach(O))
     return false;
   switch (O.Class) {
   case OpClass::Load:
@@ -450,9 +454,7 @@ template <bool Ideal> bool CoreClock::advanceOne(const OpInfo &O) {
   default:
     break;
   }
-  F = front();
-  pass<Ideal>(F, O);
-  setFront(F);
+  pass(O);
   return true;
 }
 
@@ -466,14 +468,11 @@ bool CoreClock::advanceParked(const OpInfo &O) {
     Spawns.erase(Spawns.begin());
     return true;
   }
-  Front F = front();
-  const bool IsReached = IsIdeal ? reach<true>(F, O) : reach<false>(F, O);
-  setFront(F);
-  if (!IsReached)
+  if (!reach(O))
     return false;
   if (Kind == Event::Atomic) {
     Trace->popWords(1);
-    return IsIdeal ? advanceOne<true>(O) : advanceOne<false>(O);
+    return advanceOne(O);
   }
   waitForUnit(O);
   Waiting = &O;
@@ -544,7 +543,7 @@ template <bool Ideal, bool Watched> void CoreClock::advanceThrough() {
         }
       // Moved on before the instruction: a request is finished elsewhere.
       const OpInfo &O = First[Here++];
-      if (!(R.Count == 0 ? advanceParked(O) : advanceOne<Ideal>(O))) {
+      if (!(R.Count == 0 ? advanceParked(O) : advanceOne(O))) {
         // What needs an answer is tried again.
         Position = Now == State::Answer ? Here - 1 : Here;
         return;
@@ -566,7 +565,7 @@ void CoreClock::advanceFront() {
   if (R.Count == 0)
     advanceParked(O);
   else
-    advanceOne<false>(O);
+    advanceOne(O);
   if (Watch)
     tell(&O);
 }

@@ -195,6 +195,7 @@ private:
   void fetchNext(Front &F, const OpInfo &O, uint64_t Begun) const;
   void issue(Front &F, const OpInfo &O);
   template <bool Ideal> bool reach(Front &F, const OpInfo &O);
+  bool reach(const OpInfo &O);
   template <bool Ideal> void follow(Front &F, const OpInfo &O, uint64_t Begun);
   template <bool Ideal> uint64_t pass(Front &F, const OpInfo &O);
   uint64_t pass(const OpInfo &O);
@@ -203,7 +204,7 @@ private:
   unsigned endOfLine(uint32_t First, unsigned Position) const;
   template <bool Ideal>
   unsigned advancePlain(const OpInfo *Run, unsigned Position, unsigned End);
-  template <bool Ideal> bool advanceOne(const OpInfo &O);
+  bool advanceOne(const OpInfo &O);
   bool advanceParked(const OpInfo &O);
   uint64_t localAccess(const OpInfo &O, AccessWord A);
   const DataCache::Line *findInL1(uint32_t Address, uint64_t Now,

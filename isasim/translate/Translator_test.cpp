@@ -4,6 +4,7 @@
 /// flag, counter and word of memory, and stop at the same place for the same
 /// reason.
 
+#include "testing/Operations.h"
 #include "testing/WarpRunner.h"
 #include "translate/Translator.h"
 
@@ -19,41 +20,17 @@ using namespace vorion::isasim::testing;
 
 namespace {
 
-constexpr Op Operations[] = {
-#define INT(OP, RESULT) Op::OP,
-#include "core/insns/integer.def"
-#undef INT
-#define FLOAT(OP, SOFT, RESULT) Op::OP,
-#define FUSED(OP, SOFT, FACTOR, ADDEND) Op::OP,
-#define COMPARE(OP, CONDITION, QUIET_IS_INVALID) Op::OP,
-#define MINMAX(OP, IS_MIN) Op::OP,
-#define TOINT(OP, SIGNED, SOFT) Op::OP,
-#define FROMINT(OP, SIGNED, SOFT) Op::OP,
-#include "core/insns/float.def"
-#undef FLOAT
-#undef FUSED
-#undef COMPARE
-#undef MINMAX
-#undef TOINT
-#undef FROMINT
-    Op::RV_LUI,      Op::RV_AUIPC,     Op::RV_CSRRS,     Op::RV_FENCE,
-    Op::VX_VOTE_ALL, Op::VX_VOTE_ANY,  Op::VX_VOTE_UNI,  Op::VX_VOTE_BALLOT,
-    Op::VX_SHFL_UP,  Op::VX_SHFL_DOWN, Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX};
+constexpr auto Operations = joined(
+    Computations,
+    std::to_array<Op>({Op::RV_LUI, Op::RV_AUIPC, Op::RV_CSRRS, Op::RV_FENCE,
+                       Op::VX_VOTE_ALL, Op::VX_VOTE_ANY, Op::VX_VOTE_UNI,
+                       Op::VX_VOTE_BALLOT, Op::VX_SHFL_UP, Op::VX_SHFL_DOWN,
+                       Op::VX_SHFL_BFLY, Op::VX_SHFL_IDX}));
 
 constexpr Op Branches[] = {
 #define BRANCH(OP, CONDITION) Op::OP,
 #include "core/insns/branch.def"
 #undef BRANCH
-};
-
-constexpr Op Accesses[] = {
-#define LOAD(OP, T) Op::OP,
-#define STORE(OP, T) Op::OP,
-#define AMO(OP, KIND) Op::OP,
-#include "core/insns/memory.def"
-#undef LOAD
-#undef STORE
-#undef AMO
 };
 
 /// What splits give to their joins; a predicate, and a place in the code.
@@ -74,8 +51,8 @@ public:
   uint32_t below(uint32_t Most) {
     return std::uniform_int_distribution<uint32_t>(0, Most - 1)(Random);
   }
-  template <typename T, size_t N> T oneOf(const T (&All)[N]) {
-    return All[below(N)];
+  template <typename Range> auto oneOf(const Range &All) {
+    return All[below(std::size(All))];
   }
 
   uint32_t operand() {

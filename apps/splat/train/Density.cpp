@@ -192,13 +192,12 @@ void DensityControl::resetOpacity(DeviceScene &S) {
              S.Parameters.Geometry, S.Count,
              opacityLogit(Settings.ResetOpacity));
   for (MomentPair *M : {&S.First, &S.Second})
-    M->Geometry.change(
-        Launch, S.Count, GEOMETRY_PLANES,
-        [&](const cl::Buffer &Values, uint32_t First, uint32_t Planes) {
-          if (First <= PLANE_LOGIT && PLANE_LOGIT < First + Planes)
-            Launch.run(DensityProgram, "forget_plane", itemsFor(S.Count),
-                       GroupSize, Values, PLANE_LOGIT - First, S.Count);
-        });
+    M->Geometry.changePlane(Launch, S.Count, PLANE_LOGIT,
+                            [&](const cl::Buffer &Values, uint32_t At) {
+                              Launch.run(DensityProgram, "forget_plane",
+                                         itemsFor(S.Count), GroupSize, Values,
+                                         At, S.Count);
+                            });
 }
 
 } // namespace vorion::splat

@@ -34,28 +34,38 @@ public:
   /// All \p Words of them.
   std::vector<float> values(Launcher &L, std::size_t Words) const;
 
-  /// Changes the first \p Planes of \p Count floats in place. \p Work(Values,
-  /// First, Number) is called with a buffer that has \p Number planes from
-  /// plane
-  /// \p First on: once, or for each plane.
+  /// Changes the first \p Planes of \p Count floats in place. \p Do(Values,
+  /// First, Number) is called with a buffer that has Number planes from plane
+  /// First on: once, or for each plane.
   template <typename Work>
   void change(Launcher &L, uint32_t Count, uint32_t Planes, Work Do) {
     if (Where == MomentsOn::Device)
       return Do(OnDevice, 0U, Planes);
-    const cl::Buffer One = planeFor(L, Count);
+    const cl::Buffer One = allocate(L, Count);
     for (uint32_t P = 0; P != Planes; ++P) {
       bring(L, One, P, Count);
       Do(One, P, 1U);
       take(L, One, P, Count);
     }
   }
-  /// The same of two moments at once: \p Do(first, second, First, Number).
+  /// Changes plane \p P alone: \p Do(Values, At), where Values has it as its
+  /// plane At.
+  template <typename Work>
+  void changePlane(Launcher &L, uint32_t Count, uint32_t P, Work Do) {
+    if (Where == MomentsOn::Device)
+      return Do(OnDevice, P);
+    const cl::Buffer One = allocate(L, Count);
+    bring(L, One, P, Count);
+    Do(One, 0U);
+    take(L, One, P, Count);
+  }
+  /// change() of two moments at once: \p Do(first, second, First, Number).
   template <typename Work>
   static void changeBoth(Launcher &L, MomentPlanes &A, MomentPlanes &B,
                          uint32_t Count, uint32_t Planes, Work Do) {
     if (A.Where == MomentsOn::Device)
       return Do(A.OnDevice, B.OnDevice, 0U, Planes);
-    const cl::Buffer OfA = planeFor(L, Count);
+    const cl::Buffer OfA = allocate(L, Count);
     B.change(L, Count, Planes,
              [&](const cl::Buffer &OfB, uint32_t P, uint32_t Number) {
                A.bring(L, OfA, P, Count);
@@ -75,7 +85,7 @@ public:
     }
     MomentPlanes New(L, Where,
                      std::vector<float>(std::size_t{NewCount} * Planes));
-    const cl::Buffer From = planeFor(L, Count), To = planeFor(L, NewCount);
+    const cl::Buffer From = allocate(L, Count), To = allocate(L, NewCount);
     for (uint32_t P = 0; P != Planes; ++P) {
       bring(L, From, P, Count);
       Do(From, To, 1U);
@@ -86,9 +96,6 @@ public:
 
 private:
   static cl::Buffer allocate(Launcher &L, std::size_t Words);
-  static cl::Buffer planeFor(Launcher &L, uint32_t Count) {
-    return allocate(L, Count);
-  }
   /// Plane \p P to the device, and back.
   void bring(Launcher &L, const cl::Buffer &To, uint32_t P,
              uint32_t Count) const;
