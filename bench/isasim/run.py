@@ -362,7 +362,7 @@ def main():
         else:
             build_c(name, *PROGRAMS[name])
         results.append(measure(name, options.rounds))
-        print(f"{name}: {results[-1]['rates']['interpreter']} G", file=sys.stderr)
+        print(f"{name}: interpreter {results[-1]['rates']['interpreter']}", file=sys.stderr)
     costs = {} if options.no_observers else observer_cost([name for name in OBSERVED if name in names])
     report = {"host": host(), "rounds": options.rounds, "programs": results,
               "instructions_with_and_without_observers": costs}

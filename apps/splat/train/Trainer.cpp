@@ -177,7 +177,7 @@ void Trainer::stepPoses() {
 /// before the step, which the new Gaussians and their neighbours then miss.)
 std::optional<DensityChange> Trainer::changeDensity() {
   Launch.beginStage(Stage::DensityControl);
-  // The device has better use for their memory now.
+  // The change needs the gradients' memory.
   Batch.forget();
   Renderer.forget();
   std::optional<DensityChange> Change;
