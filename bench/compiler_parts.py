@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""What each part of the compiler's backend is worth: frames drawn with that part alone switched off.
+"""What each part of the compiler's backend, and each extension that it compiles for, is worth: frames drawn with that alone
+switched off.
 
 usage: compiler_parts.py --out FOLDER [--machines NAME,...] [--views SCENE:VIEW:PATH,...] [--samples PROGRAM,...] [--parts NAME,...]
 
 Draws each view on each machine with the whole backend, and again with one part off; runs the samples, which check their
-results, in the same way. Each run compiles its kernels anew; an option of the backend's reaches it by VORION_REMARKS. All
+results, in the same way. Each run compiles its kernels anew; options of vorion-clang reach it by VORION_REMARKS. All
 pictures of a view must have the same bits. Prints tables of Markdown: the code and the warp instructions of `project`, and on
 the path simt of `blend`, and what a part's absence adds to the cycles of frames, of these kernels and of samples. FOLDER
 keeps what was found (resumable). Exit codes: 0, 1 a picture differs.
@@ -23,18 +24,30 @@ import kept
 import scenes
 from kernels import functions
 
-# The options of each part; all of the backend's own, and LLVM's scheduler, which is run twice and reads our model.
+# Beyond rv32imaf and what the machine is made of (docs/abi.md).
+EXTENSIONS = ("zicond", "zba", "zbb", "zbs")
+
+
+def target_without(*absent):
+    present = [name for name in EXTENSIONS if name not in absent]
+    return "-march=" + "_".join(["rv32imaf_zicsr_zacas", *present, "xvortex_xvorion"])
+
+
+# vorion-clang's options for each part: all of the backend's own, LLVM's scheduler, which is run twice and reads our model, and
+# the extensions.
 PARTS = {
-    "none": [],
-    "second scheduling": ["-enable-post-misched=false"],
-    "first scheduling": ["-enable-misched=false"],
-    "model of latencies": ["-schedmodel=false"],
-    "float constants": ["-vorion-float-constants=false"],
-    "places of constants": ["-vorion-place-constants=false"],
-    "raised invariants": ["-vorion-raise-invariants=false"],
-    "selects": ["-vorion-select-sides=false"],
-    "uniform tests": ["-vorion-uniform-tests=false"],
-    "rounds of passes": ["-vorion-round-limit=0"],
+    "none": "",
+    "second scheduling": "-mllvm -enable-post-misched=false",
+    "first scheduling": "-mllvm -enable-misched=false",
+    "model of latencies": "-mllvm -schedmodel=false",
+    "float constants": "-mllvm -vorion-float-constants=false",
+    "places of constants": "-mllvm -vorion-place-constants=false",
+    "raised invariants": "-mllvm -vorion-raise-invariants=false",
+    "selects": "-mllvm -vorion-select-sides=false",
+    "uniform tests": "-mllvm -vorion-uniform-tests=false",
+    "rounds of passes": "-mllvm -vorion-round-limit=0",
+    **{name.capitalize(): target_without(name) for name in EXTENSIONS},
+    "all four extensions": target_without(*EXTENSIONS),
 }
 MACHINES = "prototype,prototype-forwarding,scaled"
 VIEWS = "guitar:front:raster,truck:overview:raster,garden_outdoor:path:raster,guitar:front:simt"
@@ -47,7 +60,7 @@ def kernels_of(path):
 
 def variables_of(options, folder):
     return {**os.environ, "POCL_CACHE_DIR": os.path.join(folder, "cache"),
-            "VORION_REMARKS": " ".join(f"-mllvm {option}" for option in options)}
+            "VORION_REMARKS": options}
 
 
 def draw(options, scene, view, path):
@@ -93,7 +106,7 @@ def sampled(out, machine, part, program):
     """The same, from FOLDER if the same programs have run it."""
     os.environ["VORION_CONFIG"] = machine
     file = os.path.join(out, "-".join((machine, part.replace(" ", "_"), program)) + ".json")
-    return kept.result(file, kept.origin({}, [*PARTS[part], program]), lambda: run_sample(PARTS[part], program))
+    return kept.result(file, kept.origin({}, [PARTS[part], program]), lambda: run_sample(PARTS[part], program))
 
 
 def drawn(out, machine, part, view):
@@ -102,7 +115,7 @@ def drawn(out, machine, part, view):
     scene, name, path = view.split(":")
     file = os.path.join(out, "-".join((machine, part.replace(" ", "_"), scene, name, path)) + ".json")
 
-    return kept.result(file, kept.origin({"scene": scenes.shared(scene).path}, [*PARTS[part], view]),
+    return kept.result(file, kept.origin({"scene": scenes.shared(scene).path}, [PARTS[part], view]),
                        lambda: draw(PARTS[part], scene, name, path))
 
 

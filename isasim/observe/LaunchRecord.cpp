@@ -42,15 +42,21 @@ Json valueOf(const KernelArg &Arg, std::span<const std::byte> Bytes) {
   return Text;
 }
 
-/// Its address says nothing of the work.
-Json memoryOf(const KernelArg &Arg, const GivenMemory *Given) {
+/// The memory at \p Address, which says nothing of the work itself.
+Json memoryOf(const KernelArg &Arg, const GivenMemory *Given, const Machine &M,
+              uint32_t Address) {
   const bool IsLocal = Arg.Kind == VX_ARG_LOCAL;
   Json One{{"kind", IsLocal ? "local" : "buffer"}};
   if (!Given)
     return One;
   One["bytes"] = Given->Bytes;
-  if (!IsLocal)
-    One["contents"] = Given->Hash.empty() ? "zeros" : Given->Hash;
+  if (!IsLocal && Given->IsZeros) {
+    One["contents"] = "zeros";
+  } else if (!IsLocal) {
+    std::vector<std::byte> Contents(Given->Bytes);
+    M.read(Address, Contents);
+    One["contents"] = hashOf(Contents);
+  }
   return One;
 }
 
@@ -67,12 +73,15 @@ Json argumentsOf(const Kernel &K, const Machine &M, uint32_t Address,
   for (size_t N = 0; N != K.Args.size(); ++N) {
     const KernelArg &Arg = K.Args[N];
     const auto Said = std::ranges::find(Given, N, &GivenMemory::Argument);
+    const std::span Bytes = std::span(Packed).subspan(Arg.Offset, Arg.Size);
     Json One{{"name", Arg.Name}};
-    if (isMemory(Arg))
-      One.update(memoryOf(Arg, Said == Given.end() ? nullptr : &*Said));
-    else
-      One["value"] =
-          valueOf(Arg, std::span(Packed).subspan(Arg.Offset, Arg.Size));
+    if (isMemory(Arg)) {
+      uint32_t At = 0;
+      std::memcpy(&At, Bytes.data(), std::min(sizeof(At), Bytes.size()));
+      One.update(memoryOf(Arg, Said == Given.end() ? nullptr : &*Said, M, At));
+    } else {
+      One["value"] = valueOf(Arg, Bytes);
+    }
     All.push_back(std::move(One));
   }
   return All;

@@ -4,7 +4,6 @@
 #include "vorion/isasim/MemoryMap.h"
 #include "vorion/support/Diagnostics.h"
 #include "vorion/support/File.h"
-#include "vorion/support/Hash.h"
 #include "vorion/support/Suggest.h"
 
 #include <algorithm>
@@ -112,12 +111,7 @@ Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
   Device->write(*Address, Contents);
   // Without a file it is zeros by definition.
   Watch->hostWrote(*Address, Bytes);
-  Given.push_back(
-      {Argument, Bytes,
-       Contents.empty()
-           ? ""
-           : fnv1a64({reinterpret_cast<const char *>(Contents.data()),
-                      Contents.size()})});
+  Given.push_back({Argument, Bytes, Contents.empty()});
   if (!In.WriteTo.empty())
     Outputs.push_back({In.WriteTo, *Address, Bytes});
   return Address;
@@ -158,7 +152,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
       if (!Placed)
         return usage(Placed.error().What);
       Address = *Placed;
-      Given.push_back({N, In->Size, ""});
+      Given.push_back({N, In->Size});
     }
     if (In->What == KernelInput::Buffer || In->What == KernelInput::Local) {
       Bytes.resize(sizeof(Address));

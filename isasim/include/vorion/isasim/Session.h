@@ -52,7 +52,7 @@ enum class NamedBy { Nothing, Variable };
 struct GivenMemory {
   size_t Argument = 0; ///< its number
   uint64_t Bytes = 0;
-  std::string Hash; ///< fnv1a64() of what it begins with; empty for zeros
+  bool IsZeros = true; ///< at the beginning
 };
 
 class Session {
