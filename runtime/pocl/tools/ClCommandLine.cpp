@@ -119,6 +119,7 @@ Error unknownOption(const std::string &Option) {
                                     "-save-temps",
                                     "-v",
                                     "-mllvm",
+                                    "-march=",
                                     "-Rpass=",
                                     "-Rpass-missed=",
                                     "-Rpass-analysis=",
@@ -221,7 +222,12 @@ parseClCommandLine(const std::vector<std::string> &Arguments) {
       if (I == Arguments.size() || !isOneWord(Arguments[I]))
         return usageError("-mllvm: expected an option of LLVM without blanks");
       Line.ForMachine += Argument + " " + Arguments[I] + " ";
-      Line.ForLlvm.insert(Line.ForLlvm.end(), {Argument, Arguments[I]});
+      Line.ToCheck.insert(Line.ToCheck.end(), {Argument, Arguments[I]});
+    } else if (Argument.starts_with("-march=")) {
+      if (!isOneWord(Argument))
+        return usageError(Argument + ": has blanks, expected extensions");
+      Line.ForMachine += Argument + " ";
+      Line.ToCheck.push_back(Argument);
     } else if (Letter == "-W" && isWarningName(Argument.substr(2))) {
       Line.Prelude += warningLine(Argument.substr(2));
     } else {

@@ -104,9 +104,14 @@ std::string remarks(const std::string &Output) {
   return Found;
 }
 
-Error llvmOptionError(const std::string &Output) {
-  std::string Said =
-      after(Output, "(LLVM option parsing): ").value_or("does not work");
+Error optionError(const std::string &Output) {
+  std::string Said = after(Output, "(LLVM option parsing): ").value_or("");
+  if (Said.empty())
+    return {"",
+            "-march: " + after(Output, "error: ").value_or("does not work") +
+                ", expected extensions as in "
+                "rv32imaf_zicsr_zacas_xvortex_xvorion",
+            ExitCode::Usage};
   // It advises a list that vorion-clang does not print.
   Said = Said.substr(0, Said.find(".  Try: "));
   return {"", "-mllvm: " + Said + ", expected an option that LLVM takes",

@@ -21,8 +21,8 @@ std::string machineLog(const std::string &Output);
 /// The remarks among what was printed, a line each.
 std::string remarks(const std::string &Output);
 
-/// What LLVM said in \p Output of options that it was given by -mllvm.
-Error llvmOptionError(const std::string &Output);
+/// What the machine's compiler said in \p Output of -mllvm and -march.
+Error optionError(const std::string &Output);
 
 /// Why the kernels of \p Input, which has no errors, could not be compiled for
 /// the machine, by what was printed.

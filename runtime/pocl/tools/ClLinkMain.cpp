@@ -72,6 +72,8 @@ constexpr std::string_view Usage =
     "                         what concerns lanes (docs/backend.md)\n"
     "  -mllvm OPTION          an option of LLVM's, for the machine's compiler "
     "(docs/backend.md)\n"
+    "  -march=EXTENSIONS      compile for these alone, as "
+    "rv32imaf_zicsr_zacas_xvortex_xvorion\n"
     "  --resources[=json|FILE]\n"
     "                         print what each function takes: registers, "
     "spills, stack,\n"
@@ -186,18 +188,19 @@ Expected<Success> keepTemporaries(const std::string &Kernel,
   return Success{};
 }
 
-/// Refuses options that LLVM does not take, before any kernel is blamed.
-Expected<Success> checkLlvmOptions(const ClCommandLine &Line,
-                                   const fs::path &Root) {
-  if (Line.ForLlvm.empty())
+/// Refuses options that the machine's compiler does not take, before any kernel
+/// is blamed.
+Expected<Success> checkOptions(const ClCommandLine &Line,
+                               const fs::path &Root) {
+  if (Line.ToCheck.empty())
     return Success{};
   std::vector<std::string> Arguments = {(Root / "bin/vorion-clang").string(),
                                         "-x", "c", "-fsyntax-only",
                                         "/dev/null"};
-  Arguments.insert(Arguments.end(), Line.ForLlvm.begin(), Line.ForLlvm.end());
+  Arguments.insert(Arguments.end(), Line.ToCheck.begin(), Line.ToCheck.end());
   const Ran Compiler = runStep(Line, Arguments);
   return Compiler.Succeeded ? Expected<Success>(Success{})
-                            : llvmOptionError(Compiler.Output);
+                            : optionError(Compiler.Output);
 }
 
 /// Compiles one input with everything PoCL makes of it in \p Folder.
@@ -263,7 +266,7 @@ Expected<Success> compile(const ClCommandLine &Line, const fs::path &Root) {
       return Good;
   if (const Expected<Success> Good = claimOutput(Line); !Good)
     return Good;
-  if (const Expected<Success> Good = checkLlvmOptions(Line, Root); !Good)
+  if (const Expected<Success> Good = checkOptions(Line, Root); !Good)
     return Good;
   const auto Folder = TemporaryFolder::make("vorion");
   if (!Folder)
