@@ -3,14 +3,16 @@
 
 usage: bench/training_methods.py CAPTURE --results FOLDER [--seeds N] [--iterations N] [--only METHOD]... [-- OPTIONS]
 
-Trains CAPTURE with each method and seed, as OPTIONS of splat train say. Cycles are of the default machine's clock: the
-third iteration, before which no method has changed the number of Gaussians. One result a file in FOLDER, which is
-kept: what is there is not made again.
+Trains CAPTURE with each method and seed, as OPTIONS of splat train say. Cycles are of the default machine's clock: the mean
+of the iterations of seed 0 that --time-every times, and the third iteration, before which no method has changed the number of
+Gaussians. Seconds are of the processor, for a run without the clock: the median of the seeds. One result a file in FOLDER,
+which is kept: what is there is not made again.
 """
 
 import argparse
 import json
 import os
+import resource
 import statistics
 import subprocess
 
@@ -18,10 +20,11 @@ import command_line
 
 METHODS = {
     "classic": [],
-    "MCMC, the same start": ["--preset", "mcmc", "--start-opacity", "0.1", "--start-scale", "1"],
+    "MCMC, its own start": ["--preset", "mcmc"],
+    "MCMC, the classic start": ["--preset", "mcmc", "--start-opacity", "0.1", "--start-scale", "1"],
     "antialiased": ["--antialiased"],
     "random background": ["--random-background"],
-    "exposure": ["--exposure-rate", "0.01"],
+    "exposures": ["--exposure-rate", "0.01"],
     "poses": ["--pose-rate", "1e-5"],
     "depths of points": ["--depth-weight", "0.01"],
     "cores alone": ["--path", "simt"],
@@ -31,20 +34,28 @@ METHODS = {
 
 def run(args, name, seed, more):
     """The report of a run."""
-    label = "-".join([name.replace(",", "").replace(" ", "-"), str(seed), *(["cost"] if "--time" in more else [])])
-    report = os.path.join(args.results, f"{label}.json")
-    if not os.path.exists(report):
+    words = [name.replace(",", "").replace(" ", "-"), str(seed), *(word.strip("-") for word in more)]
+    file = os.path.join(args.results, "-".join(words) + ".json")
+    if not os.path.exists(file):
+        made = os.path.join(args.results, "made.json")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run(["splat", "train", args.capture, "-o", os.path.join(args.results, "scene.ply"), "--seed", str(seed),
-                        "--checkpoint", os.devnull, "--json", report, *METHODS[name], *more, *args.options],
+                        "--checkpoint", os.devnull, "--json", made, *METHODS[name], *more, *args.options],
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    with open(report, encoding="utf-8") as f:
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        with open(made, encoding="utf-8") as f:
+            report = json.load(f)
+        report["processor_s"] = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        with open(file + ".part", "w", encoding="utf-8") as f:
+            json.dump(report, f)
+        os.rename(file + ".part", file)
+    with open(file, encoding="utf-8") as f:
         return json.load(f)
 
 
-def cost(args, name):
-    """Cycles of the third iteration."""
-    report = run(args, name, 0, ["--iterations", "3", "--time", "--time-every", "1"])
-    return report["timed"][-1]["time"]["sum"]["cycles"]
+def cycles_of(report):
+    """Of each iteration that was timed."""
+    return [timed["time"]["sum"]["cycles"] for timed in report["timed"]]
 
 
 def main():
@@ -52,21 +63,27 @@ def main():
     parser.add_argument("capture")
     parser.add_argument("--results", required=True)
     parser.add_argument("--seeds", type=int, default=3)
-    parser.add_argument("--iterations", type=int, default=400, help="0: cycles alone")
+    parser.add_argument("--iterations", type=int, default=400, help="0: the third iteration's cycles alone")
+    parser.add_argument("--time-every", type=int, default=100)
     parser.add_argument("--only", action="append", choices=METHODS)
     parser.add_argument("options", nargs="*")
     args = parser.parse_intermixed_args()
     os.makedirs(args.results, exist_ok=True)
     base = None
-    print("| method | PSNR, dB, by seed | mean | Gaussians | cycles of an iteration | more |\n|---|---|--:|--:|--:|--:|")
+    print("| method | PSNR, dB, by seed | mean | Gaussians | million cycles | seconds | cycles of the third iteration | more |\n"
+          "|---|---|--:|--:|--:|--:|--:|--:|")
     for name in args.only or METHODS:
-        found = [run(args, name, seed, ["--iterations", str(args.iterations)])
-                 for seed in range(args.seeds if args.iterations else 0)]
-        cycles = cost(args, name)
-        base = base or cycles
-        scores = [report["psnr8_db"] for report in found]
-        print(f"| {name} | {', '.join(f'{s:.2f}' for s in scores)} | {f'{statistics.mean(scores):.2f}' if scores else ''} | "
-              f"{found[0]['gaussians'] if found else ''} | {cycles:,} | {100 * cycles / base - 100:+.1f} % |", flush=True)
+        third = cycles_of(run(args, name, 0, ["--iterations", "3", "--time", "--time-every", "1"]))[-1]
+        base = base or third
+        cells = [""] * 5
+        if args.iterations:
+            length = ["--iterations", str(args.iterations)]
+            found = [run(args, name, seed, length) for seed in range(args.seeds)]
+            timed = cycles_of(run(args, name, 0, [*length, "--time", "--time-every", str(args.time_every)]))
+            scores = [report["psnr8_db"] for report in found]
+            cells = [", ".join(f"{score:.2f}" for score in scores), f"{statistics.mean(scores):.2f}", f"{found[0]['gaussians']:,}",
+                     f"{statistics.mean(timed) / 1e6:.2f}", f"{statistics.median(each['processor_s'] for each in found):.1f}"]
+        print(f"| {name} | {' | '.join(cells)} | {third:,} | {100 * third / base - 100:+.1f} % |", flush=True)
     return 0
 
 

@@ -201,6 +201,11 @@ private:
   uint64_t pass(const OpInfo &O);
   void finish(const OpInfo &O);
   template <bool Ideal, bool Watched> void advanceThrough();
+  static constexpr uint32_t WordsOfLine = TimingLineBytes / 4;
+  /// The line of an instruction, numbered from the program's first.
+  uint32_t lineOfCode(size_t Instruction) const {
+    return static_cast<uint32_t>(Instruction + FirstWord) / WordsOfLine;
+  }
   unsigned endOfLine(uint32_t First, unsigned Position) const;
   template <bool Ideal>
   unsigned advancePlain(const OpInfo *Run, unsigned Position, unsigned End);
@@ -212,7 +217,12 @@ private:
   void fillL1(unsigned Place, uint64_t Then);
   void setLoaded(WarpTime &W, const OpInfo &O, uint64_t Done);
   static void setReady(WarpTime &W, unsigned Register, uint64_t Then,
-                       CoreCycle Why);
+                       CoreCycle Why) {
+    if (Register == SinkRegister)
+      return;
+    W.Ready[Register] = Then;
+    W.ReadyWhy[Register] = Why;
+  }
   void setReady(unsigned Register, uint64_t Then, CoreCycle Why) {
     setReady(*this, Register, Then, Why);
   }
@@ -241,7 +251,7 @@ private:
   /// When lines of code were there that stay in the instruction cache;
   /// Turn::Never of others. Empty without that cache.
   std::vector<uint64_t> CodeReady;
-  uint32_t FirstWord = 0;
+  uint32_t FirstWord = 0; ///< see begin()
 
   std::vector<WarpTime> Others; ///< by warp; not used for the current one
   unsigned Current = 0;
