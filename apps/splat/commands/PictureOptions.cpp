@@ -112,6 +112,9 @@ void addDrawOptions(CLI::App &App, DrawArguments &A) {
             {PixelOrder::Depth, PixelOrder::Ray},
             "Pixels blend by the depths of centres or by those along their own "
             "rays (docs/numerics.md)");
+  App.add_flag("--cull-blocks", A.Options.CullBlocks,
+               "Blocks of 16 Gaussians of which a pinhole sees none are left "
+               "out whole; changes no bit (docs/ideas.md)");
   addSize(App, "--ray-window", A.Options.RayWindow, {4, 8, 16},
           "Gaussians that a pixel of --order ray finds each time that it "
           "goes through its list; changes no bit");
@@ -150,6 +153,9 @@ Expected<Success> checkDrawOptions(const RenderOptions &O) {
        O.RasterTile != RenderOptions().RasterTile))
     return usage("--ztiles, --pixel-unit, --skip-saturated, --blend and --tile "
                  "are the rasterizer's, expected --path raster with them");
+  if (O.CullBlocks && O.Through == Spread::Unscented)
+    return usage("--cull-blocks bounds footprints by the Jacobian, expected "
+                 "--projection jacobian with it");
   if (O.Blending == Path::Raster && O.Order == PixelOrder::Ray)
     return usage("--order ray is the cores', because the rasterizer blends by "
                  "its list, expected --path simt with it");

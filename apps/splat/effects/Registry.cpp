@@ -43,6 +43,7 @@ std::span<const Effect *const> all() {
                                    &RayOrder,
                                    &IntersectTags,
                                    &ActivatedScene,
+                                   &CullBlocks,
                                    &ZTiles,
                                    &PixelUnit,
                                    &SkipSaturated,

@@ -29,6 +29,7 @@ extern const Effect RayOrder;
 /// @{
 extern const Effect IntersectTags;
 extern const Effect ActivatedScene;
+extern const Effect CullBlocks;
 extern const Effect ZTiles;
 extern const Effect PixelUnit;
 extern const Effect SkipSaturated;

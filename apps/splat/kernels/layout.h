@@ -112,6 +112,14 @@ enum {
   GEOMETRY_PLANES = 11
 };
 
+/// Planes of the bounds of blocks: plane p of block b at p * blocks + b.
+enum {
+  BOUND_CENTER = 0, ///< of a sphere that holds the means
+  BOUND_RADIUS = 3,
+  BOUND_DEVIATION = 4, ///< the largest standard deviation of any Gaussian
+  BOUND_PLANES = 5
+};
+
 /// Bit of a record's tag and of a list entry: the Gaussian spans several tiles.
 /// VR_INTERSECT of docs/isa.md, which rasterize.cl checks.
 #define SPANS_TILES 0x80000000U // NOLINT: enumerators of C are signed

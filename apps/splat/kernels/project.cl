@@ -133,6 +133,10 @@ typedef struct {
   // near plane is left out.
   uint found[2 + CULL_REASONS][LANES];
   uint pairs[LANES], least_key[LANES], greatest_key[LANES]; // of the first
+#if USE_CULL_BLOCKS
+  __global const uint *verdicts; // of cull_blocks.cl
+  uint later;                    // where the next block begins
+#endif
 #if HAS_LENS
   splat_lens lens;
 #endif
@@ -324,6 +328,29 @@ static uint project_again(__local const workspace *c, float x, uint key,
 }
 #endif
 
+#if USE_CULL_BLOCKS
+// Where the next block begins, from `first` on, of which the camera may see
+// some; those in front of it are done.
+static uint next_kept(__local workspace *w, uint first, uint step, uint count,
+                      uint lane) {
+  for (; first < count; first += step) {
+    const uint verdict = w->verdicts[first / LINE_WORDS];
+    if (verdict == 0)
+      break;
+    if (first + lane < count) {
+      w->depths[first + lane] = CULLED + (verdict - 1);
+      ++w->found[verdict][lane];
+    }
+  }
+  return first;
+}
+#define NEXT_BLOCK(first) next_kept(w, (first), step, count, lane)
+#define LATER w->later
+#else
+#define NEXT_BLOCK(first) (first)
+#define LATER later
+#endif
+
 // A group is a warp and takes every so many LINE_WORDS Gaussians. Records go
 // through local memory, so that they are written as whole lines: the cache
 // fetches a line of which it gets a part.
@@ -331,6 +358,9 @@ __kernel __attribute__((reqd_work_group_size(LANES, 1, 1))) void
 project(__constant const splat_view *camera, __global const float *geometry,
         __global const float *sh, __global uint *records, __global uint *depths,
         __global uint *rectangles, __global splat_seen *items, uint count,
+#if USE_CULL_BLOCKS
+        __global const uint *verdicts,
+#endif
         __local workspace *w) {
   const uint effects = camera->effects;
   const uint lane = get_local_id(0);
@@ -376,13 +406,19 @@ project(__constant const splat_view *camera, __global const float *geometry,
     w->depths = depths;
     w->rectangles = rectangles;
     w->latest = ~0u;
+#if USE_CULL_BLOCKS
+    w->verdicts = verdicts;
+#endif
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (uint first = get_group_id(0) * LANES; first < count; first += step) {
+  for (uint first = NEXT_BLOCK(get_group_id(0) * LANES), later; first < count;
+       first = LATER) {
+    later = NEXT_BLOCK(first + step);
+    LATER = later;
     const uint i = first + lane;
 #ifdef SCENE_IN_BLOCKS
-    const uint next = min(first + step, count - 1) / LANES;
+    const uint next = min(later, count - 1) / LANES;
     const float ahead = w->geometry[next * (GEOMETRY_PLANES * LINE_WORDS) +
                                     lane + w->lines[0][lane]];
     __global const float *own_geometry =

@@ -83,6 +83,8 @@ struct RenderOptions {
   std::array<float, 3> Background{0, 0, 0};
   /// A pixel is full when its transmittance would fall below this: [0, 1).
   float Cutoff = 1e-4F;
+  /// Blocks of Gaussians that a pinhole sees nothing of are left out whole.
+  bool CullBlocks = false;
 
   /// \name The rasterizers' path
   /// @{

@@ -50,7 +50,8 @@ GaussianBuffers upload(Launcher &Launch, const Scene &S,
   const GaussianBuffers B{
       Launch.allocate("Gaussians' geometry", 4 * Geometry.size()),
       Launch.allocate("Gaussians' colours", 4 * Sh.size()),
-      static_cast<uint32_t>(S.size())};
+      static_cast<uint32_t>(S.size()),
+      {}};
   Launch.write("Gaussians", B.Geometry, Geometry.data(), 4 * Geometry.size());
   Launch.write("colours", B.Sh, Sh.data(), 4 * Sh.size());
   return B;
@@ -65,7 +66,15 @@ GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
 
 GaussianBuffers uploadGaussians(Launcher &Launch, const Scene &S,
                                 const EffectPlan &Plan) {
-  return upload(Launch, S, geometryBlocks(S), shBlocks(S, bandPlanes(Plan)));
+  GaussianBuffers B =
+      upload(Launch, S, geometryBlocks(S), shBlocks(S, bandPlanes(Plan)));
+  if (Plan.done(effects::CullBlocks)) {
+    const std::vector<float> Bounds = blockBounds(S);
+    B.Bounds = Launch.allocate("bounds of blocks", 4 * Bounds.size());
+    Launch.write("bounds of blocks", B.Bounds, Bounds.data(),
+                 4 * Bounds.size());
+  }
+  return B;
 }
 
 void Pipeline::draw(const GaussianBuffers &Gaussians, const Camera &C) {
@@ -97,6 +106,13 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
                          "pinhole, whose rays come from one point",
                          name(C.Optics.Model),
                          Options.Rolling ? " with a rolling shutter" : "")});
+  if (Plan.done(effects::CullBlocks) &&
+      (Options.Optics != LensModel::Pinhole || Options.Rolling))
+    return Launch.fail(
+        {"", fmt::format("--cull-blocks: a camera of model {}{}, expected a "
+                         "pinhole, which sees between planes",
+                         name(C.Optics.Model),
+                         Options.Rolling ? " with a rolling shutter" : "")});
   Current.Copies = Options.Optics == LensModel::Equirectangular ? 3 : 1;
   Launch.beginStage(Stage::Project);
   project(C);
@@ -124,11 +140,18 @@ void Pipeline::project(const Camera &C) {
   const std::size_t Items = Launch.device().computeUnits() * Lanes;
   const cl::Buffer Seen =
       Launch.allocate("what is seen", sizeof(splat_seen) * Items);
-  Launch.run(
-      ProjectProgram, "project", Items, Lanes, Current.Camera,
-      Current.Gaussians.Geometry, Current.Gaussians.Sh, Current.Records,
-      Current.Depths.Keys, Current.Rectangles, Seen, Current.Gaussians.Count,
-      cl::Local(hasMoreThanView() ? LENS_LOCAL_BYTES : PROJECT_LOCAL_BYTES));
+  const auto Run = [&](const auto &...More) {
+    Launch.run(
+        ProjectProgram, "project", Items, Lanes, Current.Camera,
+        Current.Gaussians.Geometry, Current.Gaussians.Sh, Current.Records,
+        Current.Depths.Keys, Current.Rectangles, Seen, Current.Gaussians.Count,
+        More...,
+        cl::Local(hasMoreThanView() ? LENS_LOCAL_BYTES : PROJECT_LOCAL_BYTES));
+  };
+  if (Plan.done(effects::CullBlocks))
+    Run(cullBlocks());
+  else
+    Run();
   std::vector<splat_seen> Host(Items);
   Launch.read("what is seen", Host.data(), Seen, sizeof(splat_seen) * Items);
   uint64_t Pairs = 0;
@@ -143,6 +166,16 @@ void Pipeline::project(const Camera &C) {
   }
   // Too many fail where they are allocated.
   Current.Pairs = static_cast<uint32_t>(std::min<uint64_t>(Pairs, ~0U));
+}
+
+/// A verdict of each block.
+cl::Buffer Pipeline::cullBlocks() {
+  const uint32_t Blocks =
+      (Current.Gaussians.Count + LINE_WORDS - 1) / LINE_WORDS;
+  cl::Buffer Verdicts = words("verdicts of blocks", Blocks);
+  Launch.run(CullProgram, "cull_blocks", itemsFor(Blocks), GroupSize,
+             Current.Camera, Current.Gaussians.Bounds, Verdicts, Blocks);
+  return Verdicts;
 }
 
 bool Pipeline::hasMoreThanView() const {

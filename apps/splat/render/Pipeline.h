@@ -33,6 +33,7 @@ struct GaussianBuffers {
   cl::Buffer Geometry; ///< planes of layout.h's GEOMETRY_PLANES
   cl::Buffer Sh; ///< plane 3 k + c: coefficient k, of those there, of channel c
   uint32_t Count = 0;
+  cl::Buffer Bounds; ///< of blocks, with the effect \c CullBlocks
 };
 
 /// Copies \p S to the device in planes, harmonics up to \p ShDegree.
@@ -130,6 +131,7 @@ public:
 private:
   void project(const Camera &C);
   /// Whether a lens or a crop lies behind the view.
+  cl::Buffer cullBlocks();
   bool hasMoreThanView() const;
   void writeCamera(const Camera &C);
   void sortByDepth();

@@ -172,6 +172,11 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
         {ActivateProgram,
          {"layout.h", "activate.cl", "planes.h", "activate_scene.cl"},
          {}});
+  if (Plan.Effects.done(effects::CullBlocks))
+    Plan.Programs.push_back(
+        {CullProgram,
+         {"layout.h", "activate.cl", "covariance.cl", "cull_blocks.cl"},
+         {}});
   if (Plan.Effects.compiled(effects::ZTiles))
     Plan.Programs.push_back({MergeProgram, {"merge.cl"}, {}});
   if (Plan.Effects.compiled(effects::Background))

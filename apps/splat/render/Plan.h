@@ -12,6 +12,7 @@ namespace vorion::splat {
 
 /// Names of the programs, by which kernels are run.
 inline constexpr const char *ActivateProgram = "activate";
+inline constexpr const char *CullProgram = "cull_blocks";
 inline constexpr const char *ProjectProgram = "project";
 inline constexpr const char *SortProgram = "sort";
 inline constexpr const char *ScanProgram = "scan";

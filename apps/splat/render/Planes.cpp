@@ -2,6 +2,11 @@
 
 #include "picture/Layout.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
 namespace vorion::splat {
 
 std::vector<float> geometryPlanes(const Scene &S) {
@@ -54,6 +59,50 @@ std::vector<float> geometryBlocks(const Scene &S) {
            : P < PLANE_LOGIT      ? S.Quats[4 * I + P - PLANE_QUATERNION]
                                   : S.OpacityLogits[I];
   });
+}
+
+std::vector<float> blockBounds(const Scene &S) {
+  // The radius and the deviation are rounded up, and fp32's exponential may be
+  // larger.
+  constexpr double Allowance = 1.00001;
+  const std::size_t Blocks = (S.size() + LINE_WORDS - 1) / LINE_WORDS;
+  std::vector<float> Bounds(Blocks * BOUND_PLANES);
+  for (std::size_t B = 0; B < Blocks; ++B) {
+    const std::size_t First = B * LINE_WORDS;
+    const std::size_t Last =
+        std::min<std::size_t>(First + LINE_WORDS, S.size());
+    std::array<float, 3> Center{};
+    double Square = 0, LogScale = S.LogScales[3 * First];
+    bool IsFinite = true;
+    for (std::size_t K = 0; K < 3; ++K) {
+      double Least = S.Means[3 * First + K], Most = Least;
+      for (std::size_t I = First; I < Last; ++I) {
+        const double Mean = S.Means[3 * I + K];
+        Least = std::min(Least, Mean);
+        Most = std::max(Most, Mean);
+        LogScale = std::max<double>(LogScale, S.LogScales[3 * I + K]);
+        IsFinite &=
+            std::isfinite(Mean) && std::isfinite(S.LogScales[3 * I + K]);
+      }
+      Center[K] = static_cast<float>((Least + Most) / 2);
+    }
+    for (std::size_t I = First; I < Last; ++I) {
+      double Sum = 0;
+      for (std::size_t K = 0; K < 3; ++K) {
+        const double Along = double{S.Means[3 * I + K]} - double{Center[K]};
+        Sum += Along * Along;
+      }
+      Square = std::max(Square, Sum);
+    }
+    for (std::size_t K = 0; K < 3; ++K)
+      Bounds[(BOUND_CENTER + K) * Blocks + B] = Center[K];
+    Bounds[BOUND_RADIUS * Blocks + B] =
+        IsFinite ? static_cast<float>(std::sqrt(Square) * Allowance)
+                 : std::numeric_limits<float>::infinity();
+    Bounds[BOUND_DEVIATION * Blocks + B] =
+        static_cast<float>(std::exp(LogScale) * Allowance);
+  }
+  return Bounds;
 }
 
 std::vector<float> shBlocks(const Scene &S,

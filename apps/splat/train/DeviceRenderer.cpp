@@ -48,7 +48,7 @@ cl::Buffer DeviceRenderer::forward(const DeviceScene &S, const Camera &C,
                                    int ShDegree) {
   if (BuiltDegree != ShDegree)
     build(ShDegree);
-  Drawing.draw({S.Parameters.Geometry, S.Parameters.Sh, S.Count}, C);
+  Drawing.draw({S.Parameters.Geometry, S.Parameters.Sh, S.Count, {}}, C);
   Launch.beginStage(Stage::Resolve);
   Picture = resolve(Launch, Drawing.frame(), Behind);
   return Picture;

@@ -161,7 +161,7 @@ std::vector<Knob> unitKnobs() {
   return All;
 }
 
-/// Of one path alone.
+/// Of one path alone, and one that both have.
 std::vector<Knob> pathKnobs() {
   return {
       {"--tile 16", "tile", Path::Raster, takeTile<16>, none},
@@ -182,6 +182,14 @@ std::vector<Knob> pathKnobs() {
        none},
       {"--skip-saturated", "skip-saturated", Path::Raster,
        [](RenderOptions &O) { O.SkipSaturated = true; }, none},
+      {"--cull-blocks",
+       "cull-blocks",
+       {},
+       [](RenderOptions &O) {
+         O.CullBlocks = O.Optics == splat::LensModel::Pinhole && !O.Rolling &&
+                        O.Through == splat::Spread::Jacobian;
+       },
+       none},
       {"--simt-tile 8", "simt-tile", Path::Simt,
        [](RenderOptions &O) { O.SimtTile = 8; }, none},
       {"--simt-tile 32", "simt-tile", Path::Simt,

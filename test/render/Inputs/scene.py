@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a small scene and its camera.
 
-usage: scene.py one|random|degenerate|dc|front|late|crossing SCENE.ply CAMERAS.json
+usage: scene.py one|random|degenerate|dc|front|late|crossing|around SCENE.ply CAMERAS.json
 one: a round Gaussian in the middle of 64x48 pixels
 random: 600 Gaussians of all shapes and SH degree 3, 150x100 pixels (partial
     tiles on both paths), some behind the camera, at its plane and huge
@@ -13,6 +13,8 @@ front: a bare scene, that calls for no effect: degree 3, but zeros and -0; all
 late: random, with the higher bands' coefficients zero (some of them -0) but
     the last one of the last Gaussian
 crossing: three sheets that cross in the middle of 80x60 pixels
+around: 300 clusters of 16 on all sides of the camera, many across a border of
+    150x100 pixels or the near plane, with Gaussians of all sizes
 """
 
 import json
@@ -91,6 +93,22 @@ def crossing():
     return 0, sheets, camera(80, 60, 70)
 
 
+def around():
+    r = random.Random(5)
+    out = []
+    for i in range(300):
+        # By place on the picture and beside it, so that borders have many.
+        depth = math.exp(r.uniform(-2, 3)) * (-1 if i % 7 == 0 else 1)
+        centre = [depth * r.uniform(-2, 2), depth * r.uniform(-2, 2), depth]
+        wide, deviation = math.exp(r.uniform(-5, 0)), math.exp(r.uniform(-7, -1))
+        for _ in range(16):
+            mean = [c + abs(depth) * wide * r.uniform(-1, 1) for c in centre]
+            scales = [abs(depth) * deviation * math.exp(r.uniform(-2, 0)) for _ in range(3)]
+            out.append(gaussian(mean, scales, [r.gauss(0, 1) for _ in range(4)], r.uniform(0.01, 0.999),
+                                [r.gauss(0, 0.8) for _ in range(3)]))
+    return 0, out[:-5], camera(150, 100, 110)  # the last block is not full
+
+
 def camera(width, height, focal):
     return {"id": 0, "img_name": "front", "width": width, "height": height, "position": [0, 0, 0],
             "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "fx": focal, "fy": focal}
@@ -113,7 +131,7 @@ def write(path, degree, gaussians):
 
 
 kinds = {"one": one, "random": rand, "degenerate": degenerate, "dc": lambda: rand(40, 0, 64, 48),
-         "front": bare, "late": late, "crossing": crossing}
+         "front": bare, "late": late, "crossing": crossing, "around": around}
 degree, gaussians, view = kinds[sys.argv[1]]()
 write(sys.argv[2], degree, gaussians)
 with open(sys.argv[3], "w") as f:

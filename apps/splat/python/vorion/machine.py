@@ -120,7 +120,7 @@ class Machine:
                ztiles: int | None = None, pixel_unit: str | None = None, skip_saturated: bool | None = None,
                simt_tile: int | None = None, simt_group: int | None = None, effects: str | None = None,
                near: float | None = None, projection: str | None = None, order: str | None = None,
-               ray_window: int | None = None) -> Picture:
+               ray_window: int | None = None, cull_blocks: bool | None = None) -> Picture:
         """Draws `scene` as `camera` sees it.
 
         depth: blend depths, too
@@ -146,6 +146,7 @@ class Machine:
         projection: "jacobian" or "unscented", how a covariance goes through the camera
         order: "depth" or "ray", the depths by which a pixel of the cores' path blends
         ray_window: Gaussians that it finds at a time by "ray": 4, 8 or 16; changes no bit
+        cull_blocks: leave out blocks of Gaussians of which a pinhole sees none; changes no bit
         """
         _check(scene, Scene, "scene")
         _check(camera, Camera, "camera")
@@ -154,7 +155,8 @@ class Machine:
                        "blend": blend, "tile": tile, "ztiles": ztiles, "pixel_unit": pixel_unit,
                        "skip_saturated": skip_saturated, "simt_tile": simt_tile, "simt_group": simt_group,
                        "effects": effects, "near": near, "projection": projection, "order": order,
-                       "ray_window": ray_window, "depth_as": depth_as, "contributors": contributors})
+                       "ray_window": ray_window, "cull_blocks": cull_blocks, "depth_as": depth_as,
+                       "contributors": contributors})
         image, alpha, by, report = self._native.render(scene._native, camera._native, asked, depth, normals, time)
         top = by["contributors"]
         return Picture(image, alpha, report, by["depth"], by["normals"], Contributors(*top) if top else None)
