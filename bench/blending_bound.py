@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """How near blending on many rasterizers comes to what bounds it: docs/ideas.md, "Goals".
 
-usage: blending_bound.py [--config MACHINE] [--set SETTINGS] [--scenes NAME...]
+usage: blending_bound.py [--config MACHINE] [--set SETTINGS] [--scenes NAME...] [--deal last-frame]
 
 Draws all views of scenes of ../shared/data at 960x544 and prints a table. The bound is the largest of three: all tiles'
 cycles over the rasterizers, the cycles of the tile that takes longest, and those of the DRAM's buses. "Dealt by cycles"
-is what the rasterizers would take if each tile, the longest first, went to the one that is free first.
+is what the rasterizers would take if each tile, the longest first, went to the one that is free first. With --deal
+last-frame each view is drawn twice in one process, and the figures are the second picture's.
 """
 
 import argparse
@@ -23,19 +24,30 @@ SCENES = ("guitar", "truck", "garden_outdoor")
 
 
 def jobs(file):
-    """Cycles of each tile."""
+    """Cycles of each tile of the last picture."""
     with open(file, encoding="utf-8") as f:
-        return [job["end"] - job["begin"] for job in map(json.loads, f) if job["unit"] == "rasterizer"]
+        all_jobs = [job for job in map(json.loads, f) if job["unit"] == "rasterizer"]
+    last = max(job["run"] for job in all_jobs)
+    return [job["end"] - job["begin"] for job in all_jobs if job["run"] == last]
+
+
+def draw(args, scene, view, folder, variables):
+    """The report of the picture that is measured."""
+    options = ("--time", "--size", "960x544", "--exp", "table")
+    if args.deal != "lists":
+        camera = next(one for one in timed_frame.cameras_of(os.path.join(scenes.ROOT, scene.cameras)) if one["img_name"] == view)
+        return timed_frame.pair(scene.path, [camera, camera], folder, *options, "--deal", args.deal, **variables)[1]
+    found, error = timed_frame.report(argparse.Namespace(scene=scene.path, cameras=scene.cameras, view=view), folder, *options, **variables)
+    if error:
+        sys.exit(f"blending_bound.py: error: {error}")
+    return found
 
 
 def measure(args, channels, scene, view, folder):
     """Cycles, by the heads of the table, and the largest of the three that bound blending."""
-    frame = argparse.Namespace(scene=scene.path, cameras=scene.cameras, view=view)
     tiles = os.path.join(folder, "tiles")
     variables = {"VORION_CONFIG": args.config, "VORION_TILES": tiles, **({"VORION_SET": args.set} if args.set else {})}
-    found, error = timed_frame.report(frame, folder, "--time", "--size", "960x544", "--exp", "table", **variables)
-    if error:
-        sys.exit(f"blending_bound.py: error: {error}")
+    found = draw(args, scene, view, folder, variables)
     whole, stages = found["time"]["sum"], {stage["name"]: stage for stage in found["time"]["stages"]}
     blend, rasterizers, cycles = stages["blend"]["time"], len(whole["rasterizers"]), jobs(tiles)
     rasterize = sum(kernel["cycles"] for kernel in stages["blend"]["kernels"] if kernel["name"] == "rasterize")
@@ -49,6 +61,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--config", default="scaled", help="a machine, by its name or its file (default scaled)")
     parser.add_argument("--set", help="settings of the machine, as VORION_SET takes them")
+    parser.add_argument("--deal", default="lists", choices=("lists", "last-frame"), help="of splat render (default lists)")
     parser.add_argument("--scenes", nargs="+", default=SCENES, choices=scenes.known() or None)
     args = parser.parse_args()
     channels = timed_frame.machine(args.config)["timing"]["dram"]["channels"]

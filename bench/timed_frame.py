@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import sys
 
 
 def add_view(parser):
@@ -33,6 +34,25 @@ def report(args, folder, *options, **variables):
         return None, done.stderr.strip().splitlines()[-1]
     with open(path, encoding="utf-8") as file:
         return json.load(file), None
+
+
+def cameras_of(file):
+    """The records of a cameras.json."""
+    with open(file, encoding="utf-8") as f:
+        return json.load(f)
+
+
+def pair(scene, cameras, folder, *options, **variables):
+    """What `splat render --json` says of each of two pictures that it draws one after the other; ends the program if it fails."""
+    file, path = os.path.join(folder, "pair.json"), os.path.join(folder, "report.json")
+    with open(file, "w", encoding="utf-8") as f:
+        json.dump([dict(camera, id=number, img_name=str(number)) for number, camera in enumerate(cameras)], f)
+    done = subprocess.run(["splat", "render", scene, "--cameras", file, "--view", "all", "-o", picture(folder), "--json", path,
+                           *options], env=dict(os.environ, **variables), capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit("error: " + done.stderr.strip().splitlines()[-1])
+    with open(path, encoding="utf-8") as f:
+        return json.load(f)["pictures"]
 
 
 def render(args, config, folder, *options):

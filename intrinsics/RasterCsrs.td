@@ -15,7 +15,8 @@ def VR_MODE : BankCsr<"vr_mode", 0x7C3, "What a command does."> {
   let Fields = [CsrField<"backward", 0, 1, "0 render, 1 gradients of what was rendered, handed over through vr_grad_*">,
                 CsrField<"pushed", 1, 1, "0 index list in memory, 1 descriptors pushed with vr_push">,
                 CsrField<"drain", 2, 1, "0 pixels go to vr_output, 1 they stay for vr_pixel_*">,
-                CsrField<"keep_last", 3, 1, "a render stores each pixel's last contributor at vr_last">];
+                CsrField<"keep_last", 3, 1, "a render stores each pixel's last contributor at vr_last">,
+                CsrField<"keep_counts", 4, 1, "a render stores at vr_last, 8-byte aligned, how many Gaussians and fragments it took, two words of at most 2^32 - 1">];
 }
 def VR_OPTIONS : BankCsr<"vr_options", 0x7C4, "Datapath options."> {
   let Fields = [CsrField<"exp", 0, 4, "exponential unit, VR_EXP_*; docs/lane-units.md#exponential-units">,
@@ -41,7 +42,7 @@ def VR_OUTPUT : BankCsr<"vr_output", 0x7CC, "Address of the tile's first pixel (
 def VR_OUTPUT_PITCH : BankCsr<"vr_output_pitch", 0x7CD, "Bytes from one pixel row to the next, a multiple of 16.">;
 
 // Training (paper, "Training"; docs/rasterizer.md#the-backward-mode).
-def VR_LAST : BankCsr<"vr_last", 0x7CE, "Address of the word of the tile's first pixel, 4-byte aligned: how many entries of the list up to and with the last one blended, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes, backward reads it.">;
+def VR_LAST : BankCsr<"vr_last", 0x7CE, "Address of the word of the tile's first pixel, 4-byte aligned: how many entries of the list up to and with the last one blended, 0 if none. Rows are vr_output_pitch / 4 bytes apart. keep_last writes, backward reads it. With keep_counts of its two words.">;
 def VR_UPSTREAM : BankCsr<"vr_upstream", 0x7CF, "Backward: address of the tile's first pixel's gradient (4 floats: dL/dr, dL/dg, dL/db, dL/dT of the final transmittance), 16-byte aligned, rows vr_output_pitch apart.">;
 def VR_BACKWARD : BankCsr<"vr_backward", 0x7EB, "Options of the backward mode."> {
   let Fields = [CsrField<"reciprocal", 0, 3, "unit for 1/(1 - alpha), VR_RECIPROCAL_*; docs/lane-units.md#reciprocal-units">,

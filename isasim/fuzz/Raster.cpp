@@ -79,7 +79,7 @@ uint32_t likelyValue(unsigned Number, uint8_t Choice) {
   const uint32_t Small = Choice % 16, Where = Choice / 16;
   switch (static_cast<Csr>(Number)) {
   case Csr::Mode: {
-    constexpr uint32_t Modes[] = {0, 0, 0, 1, 2, 4, 8, 6};
+    constexpr uint32_t Modes[] = {0, 0, 16, 1, 2, 4, 8, 6};
     return Modes[Choice % std::size(Modes)];
   }
   case Csr::Options:

@@ -41,6 +41,7 @@ static Job decode(const Command &C) {
   J.TakesPushed = ModePushed.get(C.Mode) != 0;
   J.Drains = ModeDrain.get(C.Mode) != 0;
   J.KeepsLast = ModeKeepLast.get(C.Mode) != 0;
+  J.KeepsCounts = ModeKeepCounts.get(C.Mode) != 0;
   J.X = static_cast<uint16_t>(TileOriginX.get(C.TileOrigin));
   J.Y = static_cast<uint16_t>(TileOriginY.get(C.TileOrigin));
   J.Width = static_cast<uint16_t>(TileShapeWidth.get(C.TileShape));
@@ -77,7 +78,8 @@ static bool isKnownTraining(const Command &C, const Job &J) {
 
 static bool isKnown(const Command &C, const Job &J) {
   const uint32_t KnownMode = ModeBackward.put(1) | ModePushed.put(1) |
-                             ModeDrain.put(1) | ModeKeepLast.put(1);
+                             ModeDrain.put(1) | ModeKeepLast.put(1) |
+                             ModeKeepCounts.put(1);
   const uint32_t KnownOptions =
       OptionsExp.put(OptionsExp.mask()) | OptionsStopAtEqual.put(1) |
       OptionsSkipSaturated.put(1) | OptionsBlend.put(OptionsBlend.mask()) |
@@ -100,6 +102,7 @@ static bool isAligned(const Job &J) {
   return (J.TakesPushed || (J.Gaussians % 16 == 0 && J.List % 4 == 0)) &&
          (J.Drains || (J.Output % 16 == 0 && J.OutputPitch % 16 == 0)) &&
          (!J.mayHandOver() || J.TailRecord % 16 == 0) &&
+         (!J.KeepsCounts || J.Last % CountsBytes == 0) &&
          (!Lasts || J.Last % 4 == 0) && (!J.IsBackward || J.Upstream % 16 == 0);
 }
 
@@ -112,7 +115,8 @@ static bool isMapped(const Job &J, RasterMemory &Memory) {
         ((J.IsBackward || J.KeepsLast) && !lastRow(J, Memory, Row)) ||
         (J.IsBackward && !upstreamRow(J, Memory, Row)))
       return false;
-  return !J.mayHandOver() || Memory.range(J.TailRecord, sizeof(Tail));
+  return (!J.mayHandOver() || Memory.range(J.TailRecord, sizeof(Tail))) &&
+         (!J.KeepsCounts || Memory.range(J.Last, CountsBytes));
 }
 
 /// The order of these checks is the order of docs/rasterizer.md#status-codes.

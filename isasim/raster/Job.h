@@ -16,6 +16,9 @@ struct LaneUnits {
   uint8_t Blend = 0; ///< vr_options.blend
 };
 
+/// Bytes that a command of mode "keep_counts" writes, and their alignment.
+inline constexpr uint32_t CountsBytes = 2 * sizeof(uint32_t);
+
 /// What a command asks for. A refused one has its fields too: it takes time,
 /// and observers show it.
 struct Job {
@@ -24,6 +27,7 @@ struct Job {
   bool TakesPushed = false; ///< descriptors instead of a list
   bool Drains = false;      ///< to the agent, not to memory
   bool KeepsLast = false;
+  bool KeepsCounts = false;
 
   /// The tile, in pixels of the picture.
   uint16_t X = 0, Y = 0, Width = 0, Height = 0;
@@ -32,7 +36,7 @@ struct Job {
   uint32_t List = 0;      ///< address of the first entry
   uint32_t Count = 0;     ///< entries
   uint32_t Output = 0, OutputPitch = 0;
-  uint32_t Last = 0;     ///< address of the last contributors
+  uint32_t Last = 0;     ///< address of the last contributors or the counts
   uint32_t Upstream = 0; ///< address of the pixels' gradients
 
   uint32_t TailCount = 0, TailShare = 0; ///< see mayHandOver()

@@ -38,6 +38,7 @@ private:
   void copyRow(unsigned Row, std::byte *To) const;
   void writePixels() const;
   void writeTail() const;
+  void writeCounts() const;
 
   RasterAgent &Agent;
   const Command &Current;
@@ -155,6 +156,16 @@ void Execution::writeTail() const {
               sizeof(Record));
 }
 
+void Execution::writeCounts() const {
+  const auto Word = [](uint64_t Count) {
+    return static_cast<uint32_t>(std::min<uint64_t>(Count, ~uint32_t{0}));
+  };
+  const uint32_t Words[] = {Word(Work.Counts.Gaussians),
+                            Word(Work.Counts.Fragments)};
+  static_assert(sizeof(Words) == CountsBytes);
+  std::memcpy(Memory.range(Task.Last, CountsBytes), Words, CountsBytes);
+}
+
 CommandWork Execution::run() {
   if (KeepsDetails)
     Work.Pushed = Current.Pushed;
@@ -162,6 +173,8 @@ CommandWork Execution::run() {
   if (!Work.hasFailed()) {
     Work.Saturated = uint32_t{Task.Width} * Task.Height - Tile.Live;
     writePixels();
+    if (Task.KeepsCounts)
+      writeCounts();
   }
   if (Work.HandedOver)
     writeTail();

@@ -527,6 +527,8 @@ uint64_t RasterClock::storeRest(MemorySystem &Memory,
       for (uint32_t Line = lineOf(First); Line < End; Line += TimingLineBytes)
         Write(Line);
     }
+  if (Of.What.KeepsCounts && !Of.What.IsBackward && !Of.hasFailed())
+    Write(lineOf(Of.What.Last));
   if (Of.HandedOver)
     for (uint32_t Byte = 0; Byte < sizeof(raster::Tail);
          Byte += TimingLineBytes)

@@ -184,6 +184,18 @@ TEST_F(RasterClockTest, DrainWritesALineACycle) {
             64U * 64 * 16 / TimingLineBytes + P.Raster.PortCycles);
 }
 
+TEST_F(RasterClockTest, KeptCountsTakeALineBehindTheTile) {
+  const auto Drained = [&](bool KeepsCounts, bool Fails) {
+    CommandWork W = pushed({});
+    W.What.KeepsCounts = KeepsCounts;
+    W.What.Last = 0x300008;
+    W.Status = Fails ? vorion::raster::VR_NAN : vorion::raster::VR_OK;
+    return of(timeOf(std::move(W)), RasterCycle::Drain);
+  };
+  EXPECT_EQ(Drained(true, false), Drained(false, false) + 1);
+  EXPECT_EQ(Drained(true, true), Drained(false, true));
+}
+
 TEST_F(RasterClockTest, QueuesAreServedRoundRobinInTheOrderOfTime) {
   RasterClock R(P, MemoryPort(), 4, 2);
   R.begin(0);

@@ -45,6 +45,13 @@ static inline void vx_raster_keep_last(uint last) {
   vr_last_set(last);
 }
 
+/* After vx_raster_setup: a tile rendered from here on leaves at `counts`,
+   8-byte aligned, how many Gaussians and fragments it took: two words. */
+static inline void vx_raster_keep_counts(uint counts) {
+  vr_mode_set(1 << VR_MODE_KEEP_COUNTS_SHIFT);
+  vr_last_set(counts);
+}
+
 /* For training: queues the way back through a tile that vx_raster_render has
    left at `output` with its last contributors at `last`; `upstream` has the
    pixels' gradients, `options` is vr_backward. The core has to take what is

@@ -1,4 +1,5 @@
 #include "commands/CameraArguments.h"
+#include "commands/Choices.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
 #include "commands/EnergyArguments.h"
@@ -87,6 +88,11 @@ Expected<Success> check(const RenderArguments &A) {
   if (A.Overlap && O.Blending == Path::Simt)
     return Usage("--overlap is for cores beside rasterizers, expected --path "
                  "raster with it");
+  if (O.Deal == Dealing::LastFrame &&
+      (O.Blending == Path::Simt || O.ZTiles != 1 || O.PixelUnit.any()))
+    return Usage("--deal last-frame is for tiles that a rasterizer draws with "
+                 "one command, expected --path raster, --ztiles 1 and "
+                 "--pixel-unit off with it");
   if (A.Overlap && isOne(A))
     return Usage("--overlap is for several pictures, expected --view all or "
                  "several --view");
@@ -415,6 +421,11 @@ Runner addRender(CLI::App &App) {
              {".json"});
   App.add_flag("--overlap", A->Overlap,
                "Of several pictures, prepare one while another is blended");
+  addChoice(App, "--deal", A->Options.Deal,
+            {Dealing::Lists, Dealing::LastFrame},
+            "Tiles go to the rasterizers by the lengths of their lists or, of "
+            "several pictures, by their work in the one before "
+            "(docs/ideas.md)");
   writesFile(App.add_option("-o,--output", A->Output,
                             "Picture: .png, .jpg or .webp of 8 bits, or .exr, "
                             ".pfm or .npz for floats (default: the scene's "

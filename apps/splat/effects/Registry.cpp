@@ -84,6 +84,7 @@ static std::vector<Parameter> makeParameters() {
   std::vector<Parameter> List{
       Parameter{"TILE_SIZE", "side of a tile, px"},
       Parameter{"TILE_HEIGHT", "the same, of training's tiles upright"},
+      Parameter{"KEEP_COUNTS", "--deal last-frame: tiles keep their counts"},
       Parameter{"KEEP_LAST", "training: pixels keep their last contributor"},
       Parameter{"KEEP_PLACES", "training: and where each's pairs begin"},
       Parameter{"SCENE_IN_BLOCKS", "parameters as drawing has them (layout.h)"},

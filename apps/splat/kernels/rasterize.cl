@@ -23,7 +23,8 @@ _Static_assert(sizeof(vx_tail) == TAIL_BYTES,
 
 // What the commands of a picture share.
 typedef struct {
-  uint list, output, last, tails; // addresses
+  // Addresses; `last` is that of the tiles' counts with KEEP_COUNTS.
+  uint list, output, last, tails;
   splat_blend_options o;
 } picture_commands;
 
@@ -49,6 +50,9 @@ static void start_part(const picture_commands *c, uint tile, uint part,
                           count * c->o.tail_last[0] / c->o.tail_last[1]));
     vr_tail_record_set(c->tails + job * (uint)sizeof(vx_tail));
   }
+#ifdef KEEP_COUNTS
+  vx_raster_keep_counts(c->last + tile * (uint)sizeof(uint2));
+#endif
 #ifdef KEEP_LAST
   vx_raster_keep_last(c->last + first_pixel * (uint)sizeof(uint));
 #endif
@@ -75,7 +79,11 @@ static void start_jobs(__global const splat_gaussian *records,
   // Without the pixel unit: no reason to hand over, whatever ran before.
   vr_tail_count_set(0);
   vr_tail_share_set(USE_PIXEL_UNIT ? options.tail_share : 0);
+#ifdef KEEP_COUNTS
+  for (deal d = first_job(tile_order, jobs); d.job < d.end; d = next_job(d)) {
+#else
   for (deal d = first_job(); d.job < jobs; d = next_job(d)) {
+#endif
     const uint job = d.job;
     const uint tile = tile_order[job / parts];
     start_part(&c, tile, job % parts, ranges[tile], job);

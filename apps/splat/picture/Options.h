@@ -20,6 +20,10 @@ enum class Support { Exact, Box3, Square3, Official16 };
 /// Who blends: the rasterizer, or the cores alone.
 enum class Path { Raster, Simt };
 
+/// How tiles are dealt to the rasterizers: by the lengths of their lists, or by
+/// what they were to the rasterizers in the last picture.
+enum class Dealing { Lists, LastFrame };
+
 /// How a Gaussian becomes an ellipse on the picture: by the camera's Jacobian
 /// at its mean, or by seven of its points (3DGUT's unscented transform).
 enum class Spread { Jacobian, Unscented };
@@ -30,6 +34,9 @@ enum class PixelOrder { Depth, Ray };
 
 constexpr std::string_view name(PixelOrder O) {
   return O == PixelOrder::Depth ? "depth" : "ray";
+}
+constexpr std::string_view name(Dealing D) {
+  return D == Dealing::Lists ? "lists" : "last-frame";
 }
 constexpr std::string_view name(Spread S) {
   return S == Spread::Jacobian ? "jacobian" : "unscented";
@@ -95,6 +102,7 @@ struct RenderOptions {
   unsigned ZTiles = 1;
   TailRule PixelUnit;
   bool SkipSaturated = false;
+  Dealing Deal = Dealing::Lists;
   /// @}
 
   /// \name The cores' path: pixels a side of a tile, work-items that draw it

@@ -280,8 +280,20 @@ void Pipeline::blend() {
 
 void Pipeline::allocatePixels() {
   Current.Pixels = Launch.allocate("pixels", 16 * uint64_t{Current.pixels()});
-  Current.Last =
-      words("last contributors", Options.Training ? Current.pixels() : 1);
+  if (Options.Deal == Dealing::LastFrame)
+    Current.Last = countsOfTiles();
+  else
+    Current.Last =
+        words("last contributors", Options.Training ? Current.pixels() : 1);
+}
+
+cl::Buffer Pipeline::countsOfTiles() {
+  if (!Counts()) {
+    const std::vector<uint32_t> None(2 * std::size_t{Current.tiles()}, 0);
+    Counts = words("tiles' counts", None.size());
+    Launch.write("tiles' counts", Counts, None.data(), 4 * None.size());
+  }
+  return Counts;
 }
 
 cl::Buffer Pipeline::drawDepths() {
@@ -367,15 +379,38 @@ void Pipeline::prepareRasterizers() {
   if (Plan.done(effects::ZTiles))
     Current.Parts = Launch.allocate(
         "depth parts", 16 * uint64_t{Current.pixels()} * Options.ZTiles);
-  Current.TileOrder = words("tile order", Current.tiles());
+  Current.TileOrder = words("tile order", wordsOfOrder());
   Current.Statuses = words("cores' statuses", Launch.device().computeUnits());
   Current.Tails = Launch.allocate("hand-over records",
                                   Plan.done(effects::PixelUnit)
                                       ? uint64_t{TAIL_BYTES} * Options.ZTiles *
                                             Current.tiles()
                                       : TAIL_BYTES);
+  if (Options.Deal == Dealing::LastFrame)
+    return dealByLastFrame();
   Launch.run(TilesProgram, "order_tiles", itemsFor(Current.tiles()), GroupSize,
              Current.Ranges, Current.TileOrder, Current.tiles());
+}
+
+uint64_t Pipeline::wordsOfOrder() const {
+  const uint64_t Tiles = Current.tiles();
+  if (Options.Deal == Dealing::Lists)
+    return Tiles;
+  // There are no more rasterizers than cores, and none beyond the lanes of a
+  // warp gets a tile.
+  return (Tiles + 1) *
+         std::min<uint64_t>(Launch.device().computeUnits(), Lanes);
+}
+
+void Pipeline::dealByLastFrame() {
+  const uint32_t Tiles = Current.tiles();
+  const cl::Buffer Ranked = words("ranks of tiles", 2 * uint64_t{Tiles});
+  Launch.run(BlendProgram, "rank_tiles", (Tiles + Lanes - 1) / Lanes * Lanes,
+             Lanes, Current.Ranges, LastRanges() ? LastRanges : Current.Ranges,
+             Current.Last, Ranked, Tiles);
+  Launch.run(BlendProgram, "deal_tiles", Lanes, Lanes, Ranked,
+             Current.TileOrder, Tiles);
+  LastRanges = Current.Ranges;
 }
 
 void Pipeline::startBlending() {

@@ -58,13 +58,18 @@ struct Frame {
   /// the pairs' places before the sort, and List is what they name.
   Sorter::Pairs ByTile;
   cl::Buffer List;
-  cl::Buffer Ranges;    ///< of each tile in the list
-  cl::Buffer TileOrder; ///< tiles by length, where rasterizers draw
-  cl::Buffer Parts;     ///< what they draw: Pixels, or its depth parts
-  cl::Buffer Tails;     ///< their hand-over records
-  cl::Buffer Statuses;  ///< of the cores that started them
-  cl::Buffer Pixels;    ///< colour in front of the background, transmittance
-  cl::Buffer Last; ///< in training: entries of its list that a pixel has taken
+  cl::Buffer Ranges; ///< of each tile in the list
+  /// Where rasterizers draw, tiles by length; or those of each rasterizer, as
+  /// kernels/deal_last_frame.cl leaves them.
+  cl::Buffer TileOrder;
+  cl::Buffer Parts;    ///< what they draw: Pixels, or its depth parts
+  cl::Buffer Tails;    ///< their hand-over records
+  cl::Buffer Statuses; ///< of the cores that started them
+  cl::Buffer Pixels;   ///< colour in front of the background, transmittance
+  /// In training: entries of its list that a pixel has taken. Where the last
+  /// frame deals: Gaussians and fragments that a tile has taken, which the next
+  /// frame inherits.
+  cl::Buffer Last;
   cl::Buffer RayFrames; ///< with the effect \c RayOrder: a splat_ray_frame each
   uint32_t Visible = 0, Pairs = 0;
   uint32_t LeastKey = 0, GreatestKey = 0; ///< of those seen
@@ -140,7 +145,10 @@ private:
   void sortByTile();
   void blend();
   cl::Buffer blendAgain();
+  uint64_t wordsOfOrder() const;
+  void dealByLastFrame();
   void allocatePixels();
+  cl::Buffer countsOfTiles();
   void shade();
   void prepareRays();
   cl::Buffer words(std::string_view What, uint64_t N) {
@@ -152,6 +160,8 @@ private:
   EffectPlan Plan;
   Sorter Sort;
   Frame Current;
+  cl::Buffer Counts;     ///< of the tiles, over all frames; see Frame::Last
+  cl::Buffer LastRanges; ///< where the last frame deals: its lists
 };
 
 } // namespace vorion::splat

@@ -46,6 +46,8 @@ std::vector<std::string> parameterDefines(const RenderOptions &O) {
     Defines.push_back(Define);
   if (!Inria)
     Defines.emplace_back("STOP_AT_EQUAL");
+  if (O.Deal == Dealing::LastFrame)
+    Defines.emplace_back("KEEP_COUNTS");
   if (O.Training)
     Defines.insert(Defines.end(), {"KEEP_LAST", "KEEP_PLACES"});
   else
@@ -145,6 +147,8 @@ std::vector<std::string> lensFiles(const RenderOptions &O) {
 RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
   const bool Raster = Options.Blending == Path::Raster;
   const std::string Falloff(kernelOf(Options.Exponential));
+  const char *Deal =
+      Options.Deal == Dealing::LastFrame ? "deal_last_frame.cl" : "deal.cl";
   RenderPlan Plan{
       std::move(Effects),
       {{ProjectProgram,
@@ -154,7 +158,7 @@ RenderPlan planRender(EffectPlan Effects, const RenderOptions &Options) {
        {SortProgram, {"sort.cl"}, {}},
        {TilesProgram, {"layout.h", "rectangle.cl", "tiles.cl"}, {}},
        {BlendProgram,
-        Raster ? std::vector<std::string>{"layout.h", "deal.cl", "rasterize.cl"}
+        Raster ? std::vector<std::string>{"layout.h", Deal, "rasterize.cl"}
                : std::vector<std::string>{"layout.h", Falloff, "blend.cl"},
         {}}}};
   if (Plan.Effects.done(effects::RayOrder)) {

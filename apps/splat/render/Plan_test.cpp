@@ -66,6 +66,19 @@ TEST(Plan, OnlyWhatIsNeededIsCompiled) {
   EXPECT_FALSE(hasProgram(P, MergeProgram));
 }
 
+TEST(Plan, TheLastFrameDealsOnlyWhereAskedFor) {
+  const Scene S = Scene::sized(1, 0);
+  RenderOptions O;
+  RenderPlan P = planFor(S, O);
+  EXPECT_TRUE(has(P, BlendProgram, "deal.cl"));
+  EXPECT_FALSE(has(P, BlendProgram, "KEEP_COUNTS"));
+  O.Deal = Dealing::LastFrame;
+  P = planFor(S, O);
+  EXPECT_TRUE(has(P, BlendProgram, "deal_last_frame.cl"));
+  EXPECT_TRUE(has(P, BlendProgram, "KEEP_COUNTS"));
+  EXPECT_FALSE(has(P, BlendProgram, "deal.cl"));
+}
+
 TEST(Plan, TrainingHasTilesOfItsOwnAndKeepsLastContributors) {
   const auto Defines = [](const std::vector<ProgramSpec> &Programs,
                           std::string_view Program, const char *Word) {

@@ -41,6 +41,8 @@ void BoundsCheck::rasterCommand(const raster::CommandWork &W) {
   const Job &J = W.What;
   if (!J.TakesPushed)
     checkRange(W, "index list", J.List, uint64_t{J.Count} * 4);
+  if (J.KeepsCounts)
+    checkRange(W, "counts", J.Last, CountsBytes);
   for (unsigned Row = 0; Row < J.Height; ++Row) {
     if (!J.Drains)
       checkRange(W, "row of output", J.Output + Row * J.OutputPitch,
