@@ -251,6 +251,12 @@ glm::dvec3 backThrough(const Camera<double> &C, const glm::dvec3 &P, Rules Rule,
   return By;
 }
 
+LensRows<double> freeRowsThrough(const Camera<double> &C, const glm::dvec3 &P) {
+  const LensRows<double> None{glm::dvec3(0), glm::dvec3(0)};
+  return {backThrough(C, P, Rules::Inria, {1, 0}, None),
+          backThrough(C, P, Rules::Inria, {0, 1}, None)};
+}
+
 template void setLens(Camera<float> &, LensModel, const LensCoefficients &);
 template void setLens(Camera<double> &, LensModel, const LensCoefficients &);
 template bool placeThrough(const Lens &, const glm::vec3 &, glm::vec2 &);

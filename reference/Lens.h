@@ -43,6 +43,9 @@ template <typename Real>
 LensRows<Real> rowsThrough(const Camera<Real> &C, const glm::vec<3, Real> &P,
                            Rules Rule);
 
+/// The same at \p P itself.
+LensRows<double> freeRowsThrough(const Camera<double> &C, const glm::dvec3 &P);
+
 /// dL/dP from dL/d(place in pixels) and dL/d(rows).
 glm::dvec3 backThrough(const Camera<double> &C, const glm::dvec3 &P, Rules Rule,
                        const glm::dvec2 &ByPlace,

@@ -12,16 +12,6 @@
 namespace vorion::reference {
 namespace {
 
-/// A Gaussian that a pixel sees.
-struct Seen {
-  double Depth;
-  int32_t Index;
-  double Alpha;
-  bool operator<(const Seen &Other) const {
-    return std::pair(Depth, Index) < std::pair(Other.Depth, Other.Index);
-  }
-};
-
 /// How many pairs of \p List are not in its order; sorts it. Few are moved, so
 /// that this takes little more than a look at each.
 uint64_t sortAndCount(std::vector<Seen> &List) {
@@ -30,10 +20,6 @@ uint64_t sortAndCount(std::vector<Seen> &List) {
     for (std::size_t J = I; J > 0 && List[J] < List[J - 1]; --J, ++Turned)
       std::swap(List[J], List[J - 1]);
   return Turned;
-}
-
-bool isFull(double T, const Options &O) {
-  return O.Rule == Rules::Inria ? T < O.Cutoff : T <= O.Cutoff;
 }
 
 /// Gaussians that \p List, front to back, blends before it is full.

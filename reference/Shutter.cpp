@@ -10,16 +10,6 @@ namespace {
 
 constexpr double Least = 0.25, End = 1.5;
 
-/// \p V turned about \p Turn by its length times \p Part (Rodrigues).
-glm::dvec3 turned(const glm::dvec3 &Turn, double Part, const glm::dvec3 &V) {
-  const double Angle = std::sqrt(glm::dot(Turn, Turn));
-  if (Angle == 0)
-    return V;
-  const glm::dvec3 Axis = Turn / Angle;
-  const double C = std::cos(Part * Angle), S = std::sin(Part * Angle);
-  return C * V + S * glm::cross(Axis, V) + (1 - C) * glm::dot(Axis, V) * Axis;
-}
-
 Camera<double> inDouble(const Camera<float> &C) {
   Camera<double> D;
   D.Width = C.Width;
@@ -31,13 +21,6 @@ Camera<double> inDouble(const Camera<float> &C) {
   return D;
 }
 Camera<double> inDouble(const Camera<double> &C) { return C; }
-
-/// Of the place in pixels, where the rules hold nothing.
-LensRows<double> freeRows(const Camera<double> &C, const glm::dvec3 &P) {
-  const LensRows<double> None{glm::dvec3(0), glm::dvec3(0)};
-  return {backThrough(C, P, Rules::Inria, {1, 0}, None),
-          backThrough(C, P, Rules::Inria, {0, 1}, None)};
-}
 
 LensRows<double> heldRows(const Camera<double> &C, const glm::dvec3 &P,
                           Rules Rule) {
@@ -58,7 +41,7 @@ public:
     At = turned(S.Turn, -To, P - To * S.Motion);
     if (!placeThrough(C.Optics, At, Place))
       return false;
-    const LensRows<double> J = freeRows(C, At);
+    const LensRows<double> J = freeRowsThrough(C, At);
     const glm::dvec3 Rate =
         -glm::cross(S.Turn, At) - turned(S.Turn, -To, S.Motion);
     Drift = {glm::dot(J.X, Rate), glm::dot(J.Y, Rate)};
@@ -68,8 +51,7 @@ public:
   double left() const { return 1 - glm::dot(Way, Drift); }
   /// Where Newton's step ends.
   double next() const {
-    const double Own =
-        S.Start - 0.5 + glm::dot(Way, C.Focal * Place + C.Principal);
+    const double Own = momentAt(C, C.Focal * Place + C.Principal);
     return std::clamp(Moment + (Own - Moment) / std::max(left(), Least), -End,
                       End);
   }
@@ -94,6 +76,21 @@ public:
 
 } // namespace
 
+// Rodrigues.
+glm::dvec3 turned(const glm::dvec3 &Turn, double Part, const glm::dvec3 &V) {
+  const double Angle = std::sqrt(glm::dot(Turn, Turn));
+  if (Angle == 0)
+    return V;
+  const glm::dvec3 Axis = Turn / Angle;
+  const double C = std::cos(Part * Angle), S = std::sin(Part * Angle);
+  return C * V + S * glm::cross(Axis, V) + (1 - C) * glm::dot(Axis, V) * Axis;
+}
+
+double momentAt(const Camera<double> &C, const glm::dvec2 &At) {
+  const RollingShutter &S = *C.Shutter;
+  return S.Start - 0.5 + S.Across / C.Width * At.x + S.Down / C.Height * At.y;
+}
+
 template <typename Real>
 bool expose(const Camera<Real> &Of, const glm::dvec3 &P, Rules Rule,
             ExposedPoint &Found) {
@@ -110,7 +107,7 @@ bool expose(const Camera<Real> &Of, const glm::dvec3 &P, Rules Rule,
   if (!E.goTo(Next) || (!E.isHeld() && !(E.left() >= Least)))
     return false;
   Found = {E.Moment, E.At, E.Place, E.byPose(heldRows(C, E.At, Rule)),
-           E.byPose(freeRows(C, E.At))};
+           E.byPose(freeRowsThrough(C, E.At))};
   return true;
 }
 

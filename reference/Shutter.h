@@ -5,6 +5,14 @@
 
 namespace vorion::reference {
 
+/// \p V turned about \p Turn by its length times \p Part: what the camera of a
+/// shutter with that turn has along \p V, \p Part of an exposure after its
+/// pose.
+glm::dvec3 turned(const glm::dvec3 &Turn, double Part, const glm::dvec3 &V);
+
+/// The moment from the pose's at which \p C exposes the place \p At, px.
+double momentAt(const Camera<double> &C, const glm::dvec2 &At);
+
 /// A point as such a camera sees it, at the moment at which the point's own
 /// pixel is exposed.
 struct ExposedPoint {

@@ -1,8 +1,8 @@
 // Rolling shutters by what they mean: differences of places, and pictures of
 // which each row is drawn from where the camera is then.
 
+#include "AlongRays.h"
 #include "Footprint.h"
-#include "Render.h"
 #include "Shutter.h"
 #include "TestScenes.h"
 
@@ -132,6 +132,28 @@ TEST(Shutter, PicturesAreThoseOfTheirRows) {
   // Each Gaussian moves as an affine map says: what is left is of second order.
   EXPECT_GT(-10 * std::log10(Squares / Count), 55);
   EXPECT_LT(-10 * std::log10(Moved / Count), 30);
+}
+
+TEST(Shutter, PicturesAlongRaysAreThoseOfTheirRows) {
+  for (const LensModel M : {LensModel::Pinhole, LensModel::OpenCv,
+                            LensModel::Fisheye, LensModel::Orthographic}) {
+    auto C = moving(M);
+    C.Width = 24;
+    C.Height = 16;
+    C.Shutter->Across = 0;
+    setLens(C, M, C.Optics.K);
+    // Some come in front of the near plane, and some leave it.
+    const auto G = randomGaussians(60, 5);
+    const auto Rolling = renderAlongRays(G, C, {});
+    for (int Y = 0; Y < C.Height; ++Y) {
+      const auto Own = renderAlongRays(G, atRow(C, Y), {});
+      for (int X = 0; X < C.Width; ++X)
+        for (int K = 0; K < 3; ++K) {
+          const auto At = static_cast<std::size_t>(Y * C.Width + X);
+          EXPECT_NEAR(Rolling.Render[At][K], Own.Render[At][K], 1e-6);
+        }
+    }
+  }
 }
 
 } // namespace

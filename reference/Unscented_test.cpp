@@ -1,12 +1,10 @@
 // The unscented transform by what it approximates: pictures in which a pixel
 // sees of each Gaussian the largest density on its ray.
 
+#include "AlongRays.h"
 #include "Lens.h"
-#include "Render.h"
 #include "TestScenes.h"
-#include "Tiles.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -17,32 +15,6 @@ namespace {
 
 constexpr int Width = 60, Height = 40;
 
-/// The direction that \p C sees at \p At, px. Of a fisheye without
-/// coefficients.
-glm::dvec3 rayAt(const Camera<double> &C, const glm::dvec2 &At) {
-  const glm::dvec2 Place = (At - C.Principal) / C.Focal;
-  if (C.Optics.Model == LensModel::Pinhole)
-    return {Place, 1};
-  if (C.Optics.Model == LensModel::Equirectangular)
-    return {std::sin(Place.x) * std::cos(Place.y), std::sin(Place.y),
-            std::cos(Place.x) * std::cos(Place.y)};
-  const double Angle = glm::length(Place);
-  return {Place * (std::sin(Angle) / Angle), std::cos(Angle)};
-}
-
-/// What is blended of round Gaussian \p I of \p G on a ray from the origin.
-double alphaAlong(const Gaussians<double> &G, std::size_t I,
-                  const glm::dvec3 &Ray) {
-  if (glm::dot(Ray, G.Means[I]) < 0)
-    return 0;
-  const glm::dvec3 Beside =
-      glm::cross(Ray, G.Means[I]) / (glm::length(Ray) * G.Scales[I].x);
-  const double Alpha =
-      G.Opacities[I] * std::exp(-0.5 * glm::dot(Beside, Beside));
-  return Alpha < leastAlpha<double>(1) ? 0
-                                       : std::min(Alpha, mostAlpha<double>());
-}
-
 /// The mean square difference of the picture that \p Through draws from that.
 double difference(const Gaussians<double> &G, const Camera<double> &C,
                   Spread Through) {
@@ -50,27 +22,12 @@ double difference(const Gaussians<double> &G, const Camera<double> &C,
   O.Through = Through;
   O.Dilation = 0;
   O.Cutoff = 0;
-  const auto Splats = project(G, C, O);
-  const auto Drawn = blend(Splats, C.Width, C.Height, O);
-  const auto Order = depthOrder(Splats);
+  const auto Drawn = render(G, C, O), Seen = renderAlongRays(G, C, O);
   double Squares = 0;
-  for (int Y = 0; Y < C.Height; ++Y)
-    for (int X = 0; X < C.Width; ++X) {
-      const glm::dvec3 Ray = rayAt(C, {X + 0.5, Y + 0.5});
-      glm::dvec3 Seen(0);
-      double T = 1;
-      for (const uint32_t Place : Order) {
-        // Of an equirectangular picture's copies only one stands in it.
-        if (Place >= G.size())
-          continue;
-        const double Alpha = alphaAlong(G, Place, Ray);
-        Seen += T * Alpha * G.Colors[Place];
-        T *= 1 - Alpha;
-      }
-      const glm::dvec3 Off =
-          Drawn.Render[static_cast<std::size_t>(Y * C.Width + X)] - Seen;
-      Squares += glm::dot(Off, Off);
-    }
+  for (std::size_t I = 0; I < Drawn.Render.size(); ++I) {
+    const glm::dvec3 Off = Drawn.Render[I] - Seen.Render[I];
+    Squares += glm::dot(Off, Off);
+  }
   return Squares / (3. * C.Width * C.Height);
 }
 

@@ -113,6 +113,22 @@ inline Rect outerTiles(const Border &B, const TileGrid &Grid) {
           std::min(At(B.OuterY1, Grid.Rows) + 1, Grid.Rows)};
 }
 
+/// Whether a pixel whose transmittance would become \p T blends no more.
+template <typename Real> bool isFull(Real T, const Options &O) {
+  const auto Cutoff = static_cast<Real>(O.Cutoff);
+  return O.Rule == Rules::Inria ? T < Cutoff : T <= Cutoff;
+}
+
+/// A Gaussian that a pixel sees, by a depth of the pixel's own.
+struct Seen {
+  double Depth;
+  int32_t Index;
+  double Alpha;
+  bool operator<(const Seen &Other) const {
+    return std::pair(Depth, Index) < std::pair(Other.Depth, Other.Index);
+  }
+};
+
 /// A Gaussian at a pixel that blends it.
 template <typename Real> struct Contribution {
   std::size_t Entry;  ///< of the tile's list
@@ -136,7 +152,6 @@ public:
            const Options &Settings)
       : Splats(Splats), Settings(Settings), Width(Width), Height(Height),
         Grid(Settings.TileSize, Width, Height),
-        Cutoff(static_cast<Real>(Settings.Cutoff)),
         Least(leastAlpha<Real>(Settings.AlphaCutoff)), Lists(Grid.count()) {
     // As tileLists, but with everything whose place in a list is doubtful.
     for (const uint32_t I : depthOrder(Splats, Settings.DepthBits)) {
@@ -202,7 +217,7 @@ public:
       const Real Next = P.T * (1 - Alpha);
       if (near(Next, Settings.Cutoff))
         P.Doubts |= DoubtThreshold;
-      if (saturates(Next)) {
+      if (isFull(Next, Settings)) {
         P.Stop = C.Index;
         break;
       }
@@ -242,15 +257,11 @@ private:
     return std::abs(Dx) <= C.Extent.x && std::abs(Dy) <= C.Extent.y;
   }
 
-  bool saturates(Real T) const {
-    return Settings.Rule == Rules::Inria ? T < Cutoff : T <= Cutoff;
-  }
-
   const std::vector<Splat<Real>> &Splats;
   const Options &Settings;
   int Width, Height;
   TileGrid Grid;
-  Real Cutoff, Least;
+  Real Least;
   std::vector<std::vector<uint32_t>> Lists;
 };
 

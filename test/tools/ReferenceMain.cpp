@@ -2,6 +2,7 @@
 
 #include "Convert.h"
 #include "Tool.h"
+#include "reference/AlongRays.h"
 #include "reference/PixelOrder.h"
 #include "scene/SceneFile.h"
 #include "vorion/support/File.h"
@@ -20,6 +21,7 @@ struct Arguments {
   std::string Rules = "inria", Support = "exact", Precision = "f64";
   std::string Projection = "jacobian", Order = "depth";
   std::vector<float> Background{0, 0, 0};
+  bool AlongRays = false;
   splat::ReadOptions Read;
   reference::Options Options;
 };
@@ -43,7 +45,9 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
   const auto C = splat::toReference<Real>(View);
   const auto Splats = reference::project(splat::toReference<Real>(S), C, O);
   auto P = reference::blend(Splats, C.Width, C.Height, O);
-  if constexpr (std::is_same_v<Real, double>)
+  if constexpr (std::is_same_v<Real, double>) {
+    if (A.AlongRays)
+      P = reference::renderAlongRays(splat::toReference<Real>(S), C, O);
     if (A.Order == "ray") {
       const auto G = splat::toReference<Real>(S);
       auto R = reference::blendInOrder(Splats, C.Width, C.Height, O,
@@ -51,6 +55,7 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
       P.Render = std::move(R.Render);
       P.Transmittance = std::move(R.Transmittance);
     }
+  }
   const auto Lists =
       reference::tileLists(Splats, O.Reach, O.TileSize, C.Width, C.Height);
   const std::chrono::duration<double> Seconds =
@@ -69,6 +74,7 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
                                       {"view", View.Name},
                                       {"resolution", {C.Width, C.Height}},
                                       {"rules", A.Rules},
+                                      {"along_rays", A.AlongRays},
                                       {"support", A.Support},
                                       {"precision", A.Precision},
                                       {"antialiased", O.Antialiased},
@@ -102,6 +108,12 @@ Expected<Success> run(Arguments &A) {
     if (!File->empty() && !File->ends_with(".npz"))
       return Error{*File, "unknown kind of file, expected .npz",
                    ExitCode::Usage};
+  if (A.AlongRays && (A.Precision != "f64" || A.Support != "exact" ||
+                      A.Projection != "jacobian" || A.Order != "depth"))
+    return Error{"",
+                 "--along-rays is for --precision f64 without footprints, "
+                 "expected no --support, --projection or --order",
+                 ExitCode::Usage};
   const auto File = splat::readScene(A.Scene, A.Read);
   if (!File)
     return File.error();
@@ -143,6 +155,10 @@ int main(int Count, char **Values) {
   App.add_option("--order", A.Order, "By which depths a pixel blends, with f64")
       ->check(CLI::IsMember({"depth", "ray"}))
       ->capture_default_str();
+  App.add_flag("--along-rays", A.AlongRays,
+               "With f64: a pixel sees of each Gaussian the largest density "
+               "on its ray, from where the camera is when it exposes the "
+               "pixel, in place of a footprint");
   App.add_option("--near", A.Options.Near, "Least depth, 0 for the rules' own")
       ->capture_default_str();
   App.add_option("--rules", A.Rules, "Convention to follow")

@@ -1,0 +1,119 @@
+// The judge of footprints by what it must be: rays that lead back to their
+// pixels, one Gaussian by its formula, and footprints so small that they are
+// exact.
+
+#include "AlongRays.h"
+#include "Lens.h"
+#include "Ray.h"
+#include "Shutter.h"
+#include "TestScenes.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+using namespace vorion::reference;
+
+namespace {
+
+constexpr LensModel Models[] = {LensModel::Pinhole, LensModel::OpenCv,
+                                LensModel::Fisheye, LensModel::Orthographic,
+                                LensModel::Equirectangular};
+
+Camera<double> camera(LensModel M) {
+  auto C = frontCamera(64, 48, M == LensModel::Fisheye ? 20 : 50);
+  if (M == LensModel::Equirectangular)
+    C.Focal = {C.Width / (2 * M_PI), C.Height / M_PI};
+  LensCoefficients K{};
+  if (M == LensModel::OpenCv)
+    K = {-0.25, 0.08, 0.004, -0.006, -0.01, 0.02, 0.03, 0.01, 0.003, -0.001};
+  if (M == LensModel::Fisheye)
+    K = {0.06, -0.02, 0.005};
+  setLens(C, M, K);
+  return C;
+}
+
+TEST(AlongRays, APointOnARayIsSeenAtItsPixel) {
+  for (const LensModel M : Models)
+    for (const bool Rolls : {false, true}) {
+      auto C = camera(M);
+      if (Rolls)
+        C.Shutter = {-0.1, 0.15, 1.1, {0.3, -0.2, 0.1}, {0.15, -0.1, 0.2}};
+      for (const glm::dvec2 At :
+           {glm::dvec2(6.5, 9.5), {31.5, 24.5}, {32, 24}, {60.5, 40.5}}) {
+        const auto R = rayAt(C, At);
+        ASSERT_TRUE(R);
+        EXPECT_NEAR(glm::length(R->Direction), 1, 1e-12);
+        const glm::dvec3 P = R->Origin + 1.5 * R->Direction;
+        glm::dvec2 Place;
+        if (Rolls) {
+          ExposedPoint E;
+          ASSERT_TRUE(expose(C, P, Rules::Inria, E));
+          Place = E.Place;
+        } else {
+          ASSERT_TRUE(placeThrough(C.Optics, P, Place));
+        }
+        const glm::dvec2 Off = C.Focal * Place + C.Principal - At;
+        EXPECT_NEAR(glm::length(Off), 0, 1e-6);
+      }
+    }
+}
+
+TEST(AlongRays, WhatAFisheyeDoesNotShowHasNoRay) {
+  auto C = frontCamera(64, 48, 5);
+  setLens(C, LensModel::Fisheye, {});
+  EXPECT_TRUE(rayAt(C, {32, 24.5}));
+  EXPECT_FALSE(rayAt(C, {0.5, 0.5}));
+}
+
+TEST(AlongRays, OneGaussianIsItsLargestDensityOnEachRay) {
+  const auto C = camera(LensModel::Pinhole);
+  const double Z = 2, Scale = 0.3, Opacity = 0.8;
+  Gaussians<double> G;
+  addRound(G, {0.2, -0.1, Z}, Scale, Opacity, glm::dvec3(1));
+  Options O;
+  O.Dilation = 0;
+  const auto P = renderAlongRays(G, C, O);
+  for (const glm::ivec2 Pixel : {glm::ivec2(20, 10), {37, 21}, {50, 40}}) {
+    const glm::dvec3 Ray((glm::dvec2(Pixel) + 0.5 - C.Principal) / C.Focal, 1);
+    const glm::dvec3 Beside =
+        glm::cross(Ray, G.Means[0]) / (glm::length(Ray) * Scale);
+    const double Alpha = Opacity * std::exp(-0.5 * glm::dot(Beside, Beside));
+    const auto At = static_cast<std::size_t>(Pixel.y * C.Width + Pixel.x);
+    EXPECT_NEAR(P.Render[At].x, Alpha, 1e-12);
+    EXPECT_NEAR(P.Transmittance[At], 1 - Alpha, 1e-12);
+  }
+  // On the ray through the mean the dilation is that of a footprint.
+  O.Dilation = 0.3;
+  G.Means[0] = {0, 0, Z};
+  auto Centred = C;
+  Centred.Principal = {32.5, 24.5};
+  const auto D = renderAlongRays(G, Centred, O);
+  const double Variance = Scale * Scale + 0.3 * Z * Z / (C.Focal.x * C.Focal.x);
+  EXPECT_NEAR(D.Render[24 * 64 + 32].x, Opacity, 1e-12);
+  EXPECT_NEAR(D.Render[25 * 64 + 32].x,
+              Opacity * std::exp(-0.5 / 2501 * Z * Z * 2501 / 2500 / Variance),
+              1e-4);
+}
+
+TEST(AlongRays, SmallFootprintsAreTheSame) {
+  for (const LensModel M : Models) {
+    auto C = camera(M);
+    Gaussians<double> G;
+    for (int I = 0; I < 60; ++I)
+      addRound(G,
+               {0.9 * std::sin(I * 1.7), 0.7 * std::cos(I * 2.3), 2 + 0.05 * I},
+               0.01, 0.7, {0.5 + 0.5 * std::sin(I), 0.5, 0.2});
+    const auto Drawn = render(G, C, {}), Seen = renderAlongRays(G, C, {});
+    double Squares = 0, Light = 0;
+    for (std::size_t I = 0; I < Drawn.Render.size(); ++I) {
+      const glm::dvec3 Off = Drawn.Render[I] - Seen.Render[I];
+      Squares += glm::dot(Off, Off);
+      Light += glm::dot(Seen.Render[I], Seen.Render[I]);
+    }
+    EXPECT_GT(Light, 1);
+    EXPECT_LT(Squares, 1e-4 * Light) << static_cast<int>(M);
+  }
+}
+
+} // namespace
