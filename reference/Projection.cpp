@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <type_traits>
 
@@ -135,7 +136,9 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   S.Depth = static_cast<Real>(Exact.Z);
   if (!L.byDistance())
     P.z = S.Depth;
-  if (!inFront(S.Depth, O))
+  // Behind a shutter each mean has a near plane of its own, below. Its order is
+  // the pose's, in which nothing behind the camera has a place.
+  if (C.Shutter ? !(S.Depth > 0) : !inFront(S.Depth, O))
     return S;
   S.DepthSlack = 0x1p-44 * Exact.Magnitude;
   Mat3<Real> A = rotation(G.Quats[I]);
@@ -146,7 +149,8 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   LensRows<Real> Rows;
   if (C.Shutter) {
     ExposedPoint E;
-    if (!expose(C, glm::dvec3(P), O.Rule, E))
+    if (!expose(C, glm::dvec3(P), O.Rule, E) ||
+        !inFront(L.byDistance() ? glm::length(E.P) : E.P.z, O))
       return S;
     At = Vec2<Real>(E.Place);
     Rows = {Vec3<Real>(E.Rows.X), Vec3<Real>(E.Rows.Y)};

@@ -56,7 +56,8 @@ template <typename Real> struct Splat {
 ///
 /// Of a camera with a lens the mean and J are those of Lens.h, and the bits are
 /// not promised. A fisheye's and an equirectangular depth is |m - c - c'|.
-/// With a rolling shutter they are those of Shutter.h; the depth is the pose's.
+/// With a rolling shutter they are those of Shutter.h; the depth is the pose's,
+/// but the near plane that of the camera when it exposes the mean.
 template <typename Real>
 Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
                     const Camera<Real> &C, const Options &O);

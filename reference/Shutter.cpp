@@ -41,11 +41,13 @@ public:
     At = turned(S.Turn, -To, P - To * S.Motion);
     if (!placeThrough(C.Optics, At, Place))
       return false;
-    const LensRows<double> J = freeRowsThrough(C, At);
-    const glm::dvec3 Rate =
-        -glm::cross(S.Turn, At) - turned(S.Turn, -To, S.Motion);
-    Drift = {glm::dot(J.X, Rate), glm::dot(J.Y, Rate)};
+    Rate = -glm::cross(S.Turn, At) - turned(S.Turn, -To, S.Motion);
+    Drift = drift(freeRowsThrough(C, At));
     return true;
+  }
+  /// How fast the point moves on the picture by the rows \p J, px an exposure.
+  glm::dvec2 drift(const LensRows<double> &J) const {
+    return {glm::dot(J.X, Rate), glm::dot(J.Y, Rate)};
   }
   /// What the picture's drift leaves of the shutter's way.
   double left() const { return 1 - glm::dot(Way, Drift); }
@@ -57,19 +59,23 @@ public:
   }
   bool isHeld() const { return std::abs(Moment) >= End; }
   /// Rows by the point in the axes of the pose from rows by the point to the
-  /// camera now. A step of the point moves its moment, too.
+  /// camera now. A step of the point moves its moment, too, and with it the
+  /// camera. The drift is that of the same rows: where they are held for a
+  /// point far beside the picture, its own drift would be of another place.
   LensRows<double> byPose(LensRows<double> J) const {
     if (!isHeld()) {
-      const glm::dvec3 By = (Way.x * J.X + Way.y * J.Y) / left();
-      J.X += Drift.x * By;
-      J.Y += Drift.y * By;
+      const glm::dvec2 D = drift(J);
+      const glm::dvec3 By =
+          (Way.x * J.X + Way.y * J.Y) / std::max(1 - glm::dot(Way, D), Least);
+      J.X += D.x * By;
+      J.Y += D.y * By;
     }
     return {turned(S.Turn, Moment, J.X), turned(S.Turn, Moment, J.Y)};
   }
 
   const Camera<double> &C;
   const RollingShutter &S;
-  glm::dvec3 P, At;
+  glm::dvec3 P, At, Rate;
   glm::dvec2 Way, Place, Drift;
   double Moment = 0;
 };

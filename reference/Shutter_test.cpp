@@ -7,6 +7,7 @@
 #include "TestScenes.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 using namespace vorion::reference;
@@ -153,6 +154,48 @@ TEST(Shutter, PicturesAlongRaysAreThoseOfTheirRows) {
           EXPECT_NEAR(Rolling.Render[At][K], Own.Render[At][K], 1e-6);
         }
     }
+  }
+}
+
+/// How well the footprints' picture agrees with that along rays, in dB.
+double agreement(const Gaussians<double> &G, const Camera<double> &C,
+                 Spread Through) {
+  Options O;
+  O.Through = Through;
+  const auto Drawn = render(G, C, O), Seen = renderAlongRays(G, C, O);
+  double Squares = 0;
+  for (std::size_t I = 0; I < Drawn.Render.size(); ++I) {
+    const glm::dvec3 Off = Drawn.Render[I] - Seen.Render[I];
+    Squares += glm::dot(Off, Off);
+  }
+  return -10 * std::log10(Squares / double(3 * Drawn.Render.size()));
+}
+
+/// The drift of such places is many times that of where the rows are held.
+TEST(Shutter, WhatIsFarBesideThePictureDoesNotCoverIt) {
+  Gaussians<double> G;
+  addRound(G, {31, -2.5, 4.5}, 1.5, 1, glm::dvec3(1));
+  for (const LensModel M : {LensModel::Pinhole, LensModel::OpenCv}) {
+    auto C = frontCamera(120, 68, 104);
+    setLens(C, M, {});
+    C.Shutter = {0, 0, 1, {0.02, 0, 0.03}, {0.01, 0.05, 0.01}};
+    for (const Spread S : {Spread::Jacobian, Spread::Unscented})
+      EXPECT_GT(agreement(G, C, S), 50) << static_cast<int>(M);
+  }
+}
+
+TEST(Shutter, TheNearPlaneIsThatOfTheMeansOwnMoment) {
+  auto C = frontCamera(64, 48, 55);
+  C.Shutter = {0, 0, 1, {0, 0, 0.5}, {}};
+  Options O;
+  // The upper rows are exposed before the pose and from farther back.
+  Gaussians<double> G;
+  addRound(G, {0, -0.04, 0.15}, 0.002, 0.9, glm::dvec3(1));
+  addRound(G, {0, 0.02, 0.25}, 0.002, 0.9, glm::dvec3(1));
+  for (const Spread S : {Spread::Jacobian, Spread::Unscented}) {
+    O.Through = S;
+    EXPECT_TRUE(project(G, 0, C, O).Visible);
+    EXPECT_FALSE(project(G, 1, C, O).Visible);
   }
 }
 

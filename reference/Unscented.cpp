@@ -10,15 +10,19 @@
 namespace vorion::reference {
 namespace {
 
-/// Where \p C shows \p P, in units of the focal lengths.
+/// Where \p C shows \p P, in units of the focal lengths, and how far in front
+/// of the camera that is at the moment at which it is seen.
 template <typename Real>
-bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At) {
+bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At,
+             double &Ahead) {
+  Ahead = P.z;
   if (!C.Shutter)
     return placeThrough(C.Optics, P, At);
   ExposedPoint E;
   if (!expose(C, glm::dvec3(P), Rules::Inria, E))
     return false;
   At = Vec2<Real>(E.Place);
+  Ahead = E.P.z;
   return true;
 }
 
@@ -48,18 +52,19 @@ std::optional<SevenPoints<Real>>
 sevenPoints(const Vec3<Real> &Mean, const Mat3<Real> &Axes,
             const Camera<Real> &C, const Options &O) {
   SevenPoints<Real> S;
-  if (!placeOf(C, Mean, S.At))
+  double Depth = 0;
+  if (!placeOf(C, Mean, S.At, Depth))
     return std::nullopt;
-  const bool Ahead = C.Optics.Model == LensModel::Pinhole ||
-                     C.Optics.Model == LensModel::OpenCv;
+  const bool HasPlane = C.Optics.Model == LensModel::Pinhole ||
+                        C.Optics.Model == LensModel::OpenCv;
   const double Most = mostSpread(C);
   Vec2<Real> Sum(0);
   for (std::size_t N = 0; N < 6; ++N) {
     const Vec3<Real> Step = std::sqrt(Real(3)) * Axes[static_cast<int>(N / 2)];
     S.Points[N] = N % 2 == 0 ? Mean + Step : Mean - Step;
     Vec2<Real> There;
-    if ((Ahead && !inFront(S.Points[N].z, O)) ||
-        !placeOf(C, S.Points[N], There))
+    if (!placeOf(C, S.Points[N], There, Depth) ||
+        (HasPlane && !inFront(static_cast<Real>(Depth), O)))
       return std::nullopt;
     const Vec2<Real> Way = placeDifference(C.Optics, There, S.At);
     if (!(double(glm::dot(Way, Way)) <= Most * Most))

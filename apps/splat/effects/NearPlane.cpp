@@ -11,6 +11,8 @@ namespace {
 Finding detect(const EffectInputs &In) {
   const float Limit = In.Options.nearLimit();
   const ViewFacts &F = In.Facts;
+  if (In.Options.Rolling)
+    return {false, "the shutter's code tests each mean at its own moment"};
   return {!(F.NearestDepth - F.DepthSlack > Limit),
           fmt::format("nearest mean at depth {:.6g}, limit {:g}",
                       F.NearestDepth, Limit)};

@@ -176,7 +176,13 @@ static uint project_one(__local workspace *c, __global const float *geometry,
 #else
   const float z = camera_depth(view, px, py, pz);
 #endif
+#if USE_ROLLING_SHUTTER
+  // The near plane is that of the mean's own moment, below. The order is the
+  // pose's, in which nothing behind the camera has a place.
+  if (!(z > 0.0f))
+#else
   if (USE_NEAR_PLANE && !(KEEP_DEPTH(z)))
+#endif
     return CULLED + (isnan(z) ? CULL_NON_FINITE : CULL_NEAR);
   const uint asked0 = ASK_FOR_SH(0);
 #if USE_ACTIVATED_SCENE
@@ -210,6 +216,8 @@ static uint project_one(__local workspace *c, __global const float *geometry,
   rolling_point own;
   if (!rolling_at(view, &c->lens, p, &own))
     return CULLED + (all_finite(x, y) ? CULL_OUTSIDE : CULL_NON_FINITE);
+  if (!(KEEP_DEPTH(rolling_depth(&own))))
+    return CULLED + (all_finite(x, y) ? CULL_NEAR : CULL_NON_FINITE);
   const float2 at = own.at;
 #else
   float2 at;

@@ -3,10 +3,11 @@
 // the point's own pixel is exposed: an equation, which Newton's method solves.
 
 // Of a point in the axes of the camera's pose: what it is to the camera at its
-// moment, its place, and how that moves, px a whole exposure.
+// moment, how that changes in a whole exposure, and its place.
 typedef struct {
-  float3 p;
-  float2 at, drift;
+  float3 p, rate;
+  float2 at;
+  float left;   // what the place's drift leaves of the shutter's way
   float moment; // from the pose's
 } rolling_point;
 
@@ -37,6 +38,20 @@ static float rolling_by(VIEW_SPACE const splat_shutter *shutter, float2 step) {
   return shutter->moment[1] * step.x + shutter->moment[2] * step.y;
 }
 
+// What the near plane is compared with.
+static float rolling_depth(const rolling_point *r) {
+#ifdef LENS_BY_DISTANCE
+  return sqrt(dot_in_order(r->p, r->p));
+#else
+  return r->p.z;
+#endif
+}
+
+// How fast the place moves by the rows `j`, px a whole exposure.
+static float2 rolling_drift(const rolling_point *r, lens_rows j) {
+  return (float2)(dot_in_order(j.x, r->rate), dot_in_order(j.y, r->rate));
+}
+
 // False where the camera does not see it.
 static bool rolling_at_moment(VIEW_SPACE const splat_view *view,
                               VIEW_SPACE const splat_lens *lens, float3 q,
@@ -50,10 +65,10 @@ static bool rolling_at_moment(VIEW_SPACE const splat_view *view,
   r->p = rolling_turned(shutter, angle, q - r->moment * motion);
   if (!lens_at(lens, r->p, &r->at))
     return false;
-  const float3 rate = -(shutter->angle * cross(axis, r->p)) -
-                      rolling_turned(shutter, angle, motion);
+  r->rate = -(shutter->angle * cross(axis, r->p)) -
+            rolling_turned(shutter, angle, motion);
   const lens_rows j = lens_rows_at(view, lens, r->p, false);
-  r->drift = (float2)(dot_in_order(j.x, rate), dot_in_order(j.y, rate));
+  r->left = 1.0f - rolling_by(shutter, rolling_drift(r, j));
   return true;
 }
 
@@ -71,8 +86,7 @@ static bool rolling_at(VIEW_SPACE const splat_view *view,
                  view->focal[1] * r->at.y + view->center[1]);
     const float behind =
         r->moment - (shutter->moment[0] + rolling_by(shutter, place));
-    const float left = 1.0f - rolling_by(shutter, r->drift);
-    const float next = clamp(r->moment - behind / fmax(left, ROLLING_LEAST),
+    const float next = clamp(r->moment - behind / fmax(r->left, ROLLING_LEAST),
                              -ROLLING_END, ROLLING_END);
     const bool there = fabs(next - r->moment) < 1e-6f;
     r->moment = next;
@@ -80,22 +94,25 @@ static bool rolling_at(VIEW_SPACE const splat_view *view,
       break;
   }
   return rolling_at_moment(view, lens, q, r) &&
-         (fabs(r->moment) >= ROLLING_END ||
-          1.0f - rolling_by(shutter, r->drift) >= ROLLING_LEAST);
+         (fabs(r->moment) >= ROLLING_END || r->left >= ROLLING_LEAST);
 }
 
 // The rows by the point in the axes of the pose. A step of the point moves its
-// moment, too, and with it the camera.
+// moment, too, and with it the camera. The drift is that of the same rows: where
+// they are held for a point far beside the picture, its own drift would be of
+// another place.
 static lens_rows rolling_rows(VIEW_SPACE const splat_view *view,
                               VIEW_SPACE const splat_lens *lens,
                               rolling_point r, bool hold) {
   VIEW_SPACE const splat_shutter *shutter = rolling_shutter_of(lens);
   lens_rows j = lens_rows_at(view, lens, r.p, hold);
   if (fabs(r.moment) < ROLLING_END) {
-    const float3 by = (shutter->moment[1] * j.x + shutter->moment[2] * j.y) /
-                      (1.0f - rolling_by(shutter, r.drift));
-    j.x += r.drift.x * by;
-    j.y += r.drift.y * by;
+    const float2 drift = rolling_drift(&r, j);
+    const float3 by =
+        (shutter->moment[1] * j.x + shutter->moment[2] * j.y) /
+        fmax(1.0f - rolling_by(shutter, drift), ROLLING_LEAST);
+    j.x += drift.x * by;
+    j.y += drift.y * by;
   }
   const float angle = shutter->angle * r.moment;
   j.x = rolling_turned(shutter, angle, j.x);

@@ -5,6 +5,10 @@
 #define UNSCENTED_STEP 1.7320508f    // root of 3
 #define UNSCENTED_WEIGHT 0.40824829f // root of 1/6
 
+// Whether each point must be in front of the near plane.
+#define HAS_NEAR_PLANE                                                         \
+  (!USE_FISHEYE && !USE_ORTHOGRAPHIC && !USE_EQUIRECTANGULAR)
+
 // A point as the camera sees it, by what its derivative needs.
 typedef struct {
 #if USE_ROLLING_SHUTTER
@@ -61,13 +65,17 @@ static bool unscented_points_of(VIEW_SPACE const splat_view *view,
   bool within = true;
   for (uint n = 0; n < 6; ++n) {
     const float3 q = n % 2 == 0 ? p + axis[n / 2] : p - axis[n / 2];
-#if !USE_FISHEYE && !USE_ORTHOGRAPHIC && !USE_EQUIRECTANGULAR
+#if HAS_NEAR_PLANE && !USE_ROLLING_SHUTTER
     if (!(KEEP_DEPTH(q.z)))
       return false;
 #endif
     seen_point seen;
     if (!see_point(view, lens, q, &seen))
       return false;
+#if HAS_NEAR_PLANE && USE_ROLLING_SHUTTER
+    if (!(KEEP_DEPTH(seen.own.p.z)))
+      return false;
+#endif
     const float2 way = lens_difference(place_of(&seen), at);
     within &= dot(way, way) <= lens->most_spread;
 #ifdef KEEP_SEEN_POINTS
