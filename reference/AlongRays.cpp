@@ -215,7 +215,9 @@ Picture<double> renderAlongRays(const Gaussians<double> &G,
     std::size_t Ray = 0;
     for (int Y = Area.Y0; Y < Area.Y1; ++Y)
       for (int X = Area.X0; X < Area.X1; ++X, ++Ray) {
-        const auto At = static_cast<std::size_t>(Y * C.Width + X);
+        const auto At =
+            static_cast<std::size_t>(Y) * static_cast<std::size_t>(C.Width) +
+            static_cast<std::size_t>(X);
         double &T = P.Transmittance[At];
         for (const Seen &S : Lists[Ray]) {
           ++Walked;
