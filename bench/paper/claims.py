@@ -181,11 +181,15 @@ def of_training(data):
             claim("the same, of the way back alone", "51-58.4x (read so)", beside, lambda row: row["back_speedup"], at_least(51),
                   unit="x", number=51),
         ]
-    if summed := [row for row in rows if row.get("atomics")]:
-        for title, value in (("the same, over kernels that sum gradients by atomics", "speedup"),
-                             ("the same, over kernels that sum gradients by atomics, of the way back alone", "back_speedup")):
-            out.append(claim(title, "51-58.4x", summed, lambda row, v=value: row["atomics"][v], at_least(51), unit="x", number=51,
-                             reads=summed[0]["atomics"]))
+    for named, sums, tile in (("that sum gradients by atomics", "atomics", 16),
+                              ("that sum a warp's gradients first, in tiles of 16x16", "warp", 16),
+                              ("that sum a warp's gradients first, in tiles of 8x8", "warp", 8)):
+        summed = training.of_sums(data, sums, tile)
+        if not summed:
+            continue
+        for of_what, value in (("", "speedup"), (", of the way back alone", "back_speedup")):
+            out.append(claim(f"the same, over kernels {named}{of_what}", "51-58.4x", summed, lambda row, v=value: row[v], at_least(51),
+                             unit="x", number=51, reads=summed[0]))
     for title, paper, of, value, command in (
         (f"4.97 iterations/s at {last} MHz", 4.97, rows, lambda row: row["its"], lambda row: row["command"]),
         (f"2.43 iterations/s at {training.CLOCKS[0]} MHz", 2.43, rows, lambda row: row["slow_its"],

@@ -1,5 +1,6 @@
 """Training: iterations with the rasterizer and by kernels alone, by stage, by clock and by rasterizers."""
 
+import dataclasses
 import os
 import statistics
 from dataclasses import dataclass
@@ -23,9 +24,11 @@ TIMED = 3  # iterations after the state, each of another view; at a capture's la
 # The kernels' choices of tile and group. The way back has groups of 16 whatever the way forward has, and keeps a tile in local
 # memory, for which larger ones are too large.
 CHOICES = ((8, 16), (8, 64), (16, 64), (16, 256))
-# The baseline that the paper has in mind: a work-item a pixel adds to the Gaussians' sums in memory. It takes so long that one
-# iteration is timed, at a capture's smallest size.
-BY_ATOMICS = ("--path", "simt", "--simt-tile", "16", "--simt-group", "256", "--simt-sums", "atomics")
+# Other baselines than sums in a fixed order, with the tiles and groups that are tried. Both have a work-item a pixel, also on the
+# way back: INRIA's program has tiles of 16x16 and adds each pixel to memory; DISTWAR and gsplat add up the pixels of a warp before.
+OTHER_SUMS = {"atomics": ((16, 256),), "warp": ((8, 16), (16, 256))}
+ONLY_SMALLEST = ("atomics",)  # which takes too long at a capture's larger sizes
+PAPER_SPEEDUP = (51, 58.4)
 CLOCKS = (100, 530)
 RASTERIZERS = 1024
 FULL = (7000, 30000)  # iterations of a training: INRIA's two evaluation points
@@ -134,7 +137,7 @@ class Timed:
     any_build = False
 
     def iterations(self):
-        return TIMED if self.scale == self.state.capture.scales[0] and self.options != BY_ATOMICS else 1
+        return TIMED if self.scale == self.state.capture.scales[0] and "--simt-sums" not in self.options else 1
 
     def name(self):
         return r.file_name([self.state.name(), f"by{self.scale}", self.machine, *self.options, *([f"{self.clock}MHz"] if self.clock else [])])
@@ -148,7 +151,7 @@ class Timed:
     def arguments(self, output, report):
         state = self.state
         return ["splat", "train", state.capture.path, *state.capture.options, "--downscale", str(self.scale), "--from", state.checkpoint(),
-                "--iterations", str(state.iterations + self.iterations()), "--time", "--time-every", "1", *self.options,
+                "--iterations", str(state.iterations + self.iterations()), "--time", "--time-every", "1", "--energy", *self.options,
                 "-o", output, "--json", report]
 
     def config(self):
@@ -165,6 +168,7 @@ class Timed:
     def trimmed(report):
         for sample in report["timed"]:
             r.trim(sample["time"], RASTERIZED)
+            sample["energy"] = {key: sample["energy"][key] for key in ("technology", "volts", "chip_joules")}
         report.pop("losses")
         return report
 
@@ -177,8 +181,10 @@ def simt(state, scale, machine, choice):
     return Timed(state, scale, machine, ("--path", "simt", "--simt-tile", str(choice[0]), "--simt-group", str(choice[1])))
 
 
-def by_atomics(state, scale, machine):
-    return Timed(state, scale, machine, BY_ATOMICS)
+def summed(state, scale, machine, sums, choice):
+    """The kernels with other sums than those in a fixed order."""
+    kernels = simt(state, scale, machine, choice)
+    return dataclasses.replace(kernels, options=(*kernels.options, "--simt-sums", sums))
 
 
 def mean(result, of):
@@ -280,15 +286,26 @@ def density_text(rows):
             f"{'in those of ' + ', '.join(changed) if changed else 'not in these'}.")
 
 
-def beside_atomics(with_it, atomics):
-    """The iteration that was timed with sums by atomics, and the same one with the rasterizer."""
-    one, ours = atomics["timed"][0], with_it["timed"][0]
+def _first(result):
+    """The first iteration that was timed, alone: that is all that there is of OTHER_SUMS."""
+    sample = result["timed"][0]
+    return {"cycles": r.frame_cycles(sample), "backward": sum(r.stage_cycles(sample, name) for name in ("blend backward", "reduce")),
+            "ms": r.frame_ms(sample), "chip_mj": 1e3 * sample["energy"]["chip_joules"]["value"]}
 
-    def back(sample):
-        return sum(r.stage_cycles(sample, name) for name in ("blend backward", "reduce"))
 
-    return {"cycles": r.frame_cycles(one), "backward": back(one), "back_speedup": back(one) / back(ours),
-            "speedup": r.frame_ms(one) / r.frame_ms(ours), "command": atomics["command"]}
+def beside(with_it, sums, choice, result):
+    """The first iteration by kernels, and the same one with the rasterizer."""
+    one, ours = _first(result), _first(with_it)
+    return {"sums": sums, "tile": choice[0], "group": choice[1], **one, "back_speedup": one["backward"] / ours["backward"],
+            "speedup": one["ms"] / ours["ms"], "energy_ratio": one["chip_mj"] / ours["chip_mj"], "command": result["command"]}
+
+
+def _fastest(row, without):
+    """The run of the fastest iteration with ordered sums, if there is one."""
+    if not row["kernels"]:
+        return {}
+    choice = row["kernels_whole"]["tile"], row["kernels_whole"]["group"]
+    return {("ordered", choice): without[choice]}
 
 
 def _on(store, state, scale, prototype, choices):
@@ -298,11 +315,13 @@ def _on(store, state, scale, prototype, choices):
          raster(state, scale, prototype, CLOCKS[0])], TITLE)
     without = store.those_there({c: simt(state, scale, prototype, c) for c in choices}, TITLE)
     large = summary(scaled)
-    atomics = (store.those_there({"run": by_atomics(state, scale, prototype)}, TITLE)
-               if scale == state.capture.scales[0] else {})
-    return {**compared(with_it, without), "slow_its": 1e3 / mean(slow, r.frame_ms),
+    is_smallest = scale == state.capture.scales[0]
+    others = store.those_there({(sums, c): summed(state, scale, prototype, sums, c) for sums, tried in OTHER_SUMS.items()
+                                if is_smallest or sums not in ONLY_SMALLEST for c in tried}, TITLE)
+    row = compared(with_it, without)
+    return {**row, "slow_its": 1e3 / mean(slow, r.frame_ms),
             "slow_command": slow["command"],
-            "atomics": beside_atomics(with_it, atomics["run"]) if atomics else None,
+            "by_sums": [beside(with_it, *what, result) for what, result in {**_fastest(row, without), **others}.items()],
             "scaled": {"machine": machines.SCALED[prototype], "its": 1e3 / large["ms"], "ms": large["ms"],
                        "clock_mhz": scaled["timed"][0]["time"]["sum"]["clock_mhz"], "command": large["command"]}}, with_it, scaled
 
@@ -325,7 +344,8 @@ def row_of(store, capture, scale, iterations):
         except r.Missing as missing:
             store.left_out.append(str(missing))
     single, = store.all([raster(state, scale, "1-rasterizers")], TITLE)
-    row.update(largest=largest(single, scaled), large_of=machines.SCALED[first], density=density(trained, with_it))
+    row.update(energy_of={key: with_it["timed"][0]["energy"][key] for key in ("technology", "volts")},
+               largest=largest(single, scaled), large_of=machines.SCALED[first], density=density(trained, with_it))
     return row
 
 
@@ -346,7 +366,8 @@ def measure(store, captures, _every_view, iterations):
     if not captures:
         raise r.Missing("no ../shared/data/captures, expected captures there, or --captures FOLDER")
     places = [(store, capture, f"size/{scale}") for capture in captures for scale in capture.scales]
-    return {"rows": store.rows(places, lambda s, capture, size: row_of(s, capture, int(size.split("/")[1]), iterations))}
+    rows = store.rows(places, lambda s, capture, size: row_of(s, capture, int(size.split("/")[1]), iterations))
+    return {"rows": rows, "energy_of": rows[0]["energy_of"] if rows else None}
 
 
 def seconds(row, iterations, host):
@@ -371,20 +392,44 @@ def _paths(m):
     return [("rasterizer", m["ours"]), *([("kernels", m["kernels_whole"])] if m["kernels"] else [])]
 
 
-def _text_of_atomics(data):
-    rows = [m for m in by_prototype(data) if m["atomics"]]
+def of_sums(data, sums, tile):
+    """The rows of a way to sum in tiles of a side, by prototype and capture."""
+    return [{**m, **one} for m in by_prototype(data) for one in m["by_sums"] if (one["sums"], one["tile"]) == (sums, tile)]
+
+
+def _within(rows, key):
+    """Between what the ratios lie, and how many of them are the paper's."""
+    low, high = PAPER_SPEEDUP
+    values = [row[key] for row in rows]
+    inside = sum(low <= value <= high for value in values)
+    return f"{min(values):.1f} to {max(values):.1f}x ({inside} of {len(values)})"
+
+
+def _text_of_sums(data):
+    rows = [(m, one) for m in by_prototype(data) for one in m["by_sums"]]
     if not rows:
         return []
-    out = ["## Kernels that sum by atomics", "",
-           paragraph("""INRIA's program adds nine sums a pixel and Gaussian to memory, by atomics. With `--path simt --simt-sums atomics` our
-           kernels do so: a work-item a pixel, tiles of 16x16, groups of 256. OpenCL C 1.2 has no atomic sum of floats, so each is a loop
-           around a compare-and-exchange, and lanes at the same Gaussian take turns. One iteration of each row was timed, and the same one
-           with the rasterizer. *times slower than ordered*: than the way back of our fastest kernels, which sum in a fixed order."""), ""]
-    return out + table(("capture", "pictures", "machine", "iteration, Mcycles", "back, Mcycles", "times slower than ordered",
-                        "the rasterizer's iteration, times faster", "the rasterizer's way back, times faster"),
-                       [(m["scene"], m["view"], f"`{m['machine']}`", mega(m["atomics"]["cycles"]), mega(m["atomics"]["backward"]),
-                         f"{m['atomics']['backward'] / m['kernels_back']['backward']:.1f}x" if m["kernels"] else "",
-                         f"{m['atomics']['speedup']:.1f}x", f"{m['atomics']['back_speedup']:.1f}x") for m in rows])
+    technology = "{technology}, {volts:.2f} V".format(**data["energy_of"]) if data.get("energy_of") else ""
+    out = ["## Ways to sum gradients by kernels", "",
+           *terms([("*ordered*", "tile by tile in a fixed order without atomics: the kernels of the tables above"),
+                   ("*atomics*", """what INRIA's program does: a work-item a pixel adds nine sums a Gaussian to memory, by atomics. OpenCL C 1.2
+                    has no atomic sum of floats, so each is a loop around a compare-and-exchange, and lanes at the same Gaussian take turns"""),
+                   ("*warp*", """the idea of DISTWAR and of gsplat: the 16 pixels of a warp are added up first, and a Gaussian that none of them
+                    needs is skipped. Each of nine lanes then adds one sum to memory, by an atomic""")]),
+           paragraph(f"""The options are `--path simt --simt-sums` and one of these words. The first iteration after the state, by kernels and with
+           the rasterizer. *faster*: how many times faster the rasterizer is. *energy*: of the chip in an iteration, mJ
+           ({technology}), and over the rasterizer's."""), ""]
+    out += table(("capture", "pictures", "machine", "sums", "tile/group", "iteration, Mcycles", "back, Mcycles", "faster: iteration",
+                  "faster: back", "energy, mJ", "energy, times"),
+                 [(m["scene"], m["view"], f"`{m['machine']}`", one["sums"], f"{one['tile']}/{one['group']}", mega(one["cycles"]),
+                   mega(one["backward"]), f"{one['speedup']:.1f}x", f"{one['back_speedup']:.1f}x", f"{one['chip_mj']:.1f}",
+                   f"{one['energy_ratio']:.1f}x") for m, one in rows])
+    low, high = PAPER_SPEEDUP
+    baselines = dict.fromkeys((one["sums"], one["tile"]) for _, one in rows)
+    out += [f"Which of them give the paper's {low} to {high} times (in brackets, how many of the rows do):", ""]
+    return out + table(("sums", "tile", "iteration", "back"),
+                       [(sums, f"{tile}x{tile}", _within(of, "speedup"), _within(of, "back_speedup"))
+                        for sums, tile in baselines for of in [of_sums(data, sums, tile)]])
 
 
 def text(data):
@@ -410,7 +455,7 @@ def text(data):
                      [(m["scene"], m["view"], m["gaussians"], mega(m["ours"]["cycles"]), f"{m['its']:.2f}",
                        f"{m['slow_its']:.2f}", f"{m['scaled']['its']:.2f}", mega(m["ours"]["backward"]),
                        *(_kernels_cells(m) if m["kernels"] else [""] * 8)) for m in of])
-    out += _text_of_atomics(data)
+    out += _text_of_sums(data)
     out += ["## By stage", "", "Percent of an iteration's cycles.", ""]
     out += table(("capture", "pictures", "machine", "path", *PARTS),
                  [(m["scene"], m["view"], f"`{m['machine']}`", path,

@@ -227,9 +227,10 @@ void addBackwardOptions(CLI::App &App, BackwardOptions &B) {
   addChoice(App, "--sum", B.Order, {GatherOrder::Tree, GatherOrder::Rows},
             "How the rasterizer's gather adds up rows");
   addChoice(App, "--simt-sums", B.Pixels,
-            {SimtSums::Ordered, SimtSums::Atomics},
-            "How the cores' way back adds up pixels: in a fixed order, or by "
-            "atomics as INRIA's program does");
+            {SimtSums::Ordered, SimtSums::Atomics, SimtSums::Warp},
+            "How the cores' way back adds up pixels: in a fixed order, by "
+            "atomics as INRIA's program does, or first those of a warp and "
+            "then by atomics");
 }
 
 Expected<Success> checkBackwardOptions(const BackwardOptions &B,
@@ -278,8 +279,16 @@ Expected<Success> checkGradientCamera(const Camera &C, const RenderOptions &O) {
 }
 
 std::string toString(const BackwardOptions &B, Path Blending) {
-  if (Blending != Path::Raster)
-    return B.Pixels == SimtSums::Atomics ? ", sums by atomics" : "";
+  if (Blending != Path::Raster) {
+    switch (B.Pixels) {
+    case SimtSums::Ordered:
+      return "";
+    case SimtSums::Atomics:
+      return ", sums by atomics";
+    case SimtSums::Warp:
+      return ", sums of a warp by atomics";
+    }
+  }
   return fmt::format(", reciprocal {}, sums in {} order", name(B.Unit),
                      name(B.Order));
 }

@@ -95,6 +95,7 @@ static std::vector<Parameter> makeParameters() {
       Parameter{"STORED_PARAMETERS", "the way back ends before activation"},
       Parameter{"ABSOLUTE_SUMS", "the way back: sums of absolute gradients"},
       Parameter{"RECORD_SPACE", "the way back: memory of its Gaussians"},
+      Parameter{"WARP_SUMS", "the way back by atomics: a warp's pixels first"},
       Parameter{"POSES", "the way back to the camera's pose, too"},
       Parameter{"GROUP", "work-items that draw a tile of the cores' path"},
       Parameter{"MOMENTS_BY_PLANE",

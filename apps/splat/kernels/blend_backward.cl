@@ -3,7 +3,6 @@
 // over the work-items, one Gaussian a work-item, in a fixed order and without
 // atomics.
 
-#define LANES 16
 #define PIXELS (TILE_SIZE * TILE_SIZE)
 #define OWN (PIXELS / LANES)
 
@@ -77,15 +76,8 @@ blend_backward(__global const splat_gaussian *records,
     barrier(CLK_LOCAL_MEM_FENCE);
     if (first + lane < left) {
       __global float *to = sums + places[range.x + first + lane] * ALL_SUMS;
-      for (uint k = 0; k < ALL_SUMS; ++k) {
-        __local const float *p = parts[lane][k];
-        // As a tree, halves onto halves.
-        const float c0 = (p[0] + p[8]) + (p[4] + p[12]);
-        const float c1 = (p[1] + p[9]) + (p[5] + p[13]);
-        const float c2 = (p[2] + p[10]) + (p[6] + p[14]);
-        const float c3 = (p[3] + p[11]) + (p[7] + p[15]);
-        to[k] = (c0 + c2) + (c1 + c3);
-      }
+      for (uint k = 0; k < ALL_SUMS; ++k)
+        to[k] = sum_of_lanes(parts[lane][k]);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     left = first;

@@ -2,24 +2,26 @@
 // 2023): a work-item a pixel goes through the tile's list from its end, in
 // batches that lie in local memory, and adds what each Gaussian gets to the
 // Gaussian's sums in memory, by atomics. It is there to be measured: what the
-// paper's rasterizer is compared with are kernels that sum so.
+// paper's rasterizer is compared with are kernels that sum so. WARP_SUMS: the
+// pixels of a warp are added up first (warp_sums.cl).
 
 // As many as blend.cl has.
 #define BATCH 64
 #define TILE_PIXELS (TILE_SIZE * TILE_SIZE)
 
-// OpenCL C 1.2 has no atomic sum of floats: whoever finds another value than the
-// one added to adds again.
-static void atomic_sum(volatile __global float *to, float value) {
-  volatile __global uint *word = (volatile __global uint *)to;
-  uint expected = *word;
-  for (;;) {
-    const uint found = atomic_cmpxchg(
-        word, expected, as_uint(as_float(expected) + value));
-    if (found == expected)
-      return;
-    expected = found;
-  }
+// One Gaussian in one pixel at (px, py), if it is `listed` there: adds to `sum`.
+// False where the pixel has nothing of the Gaussian.
+static bool in_pixel(bool listed, __local const splat_gaussian *g, float px,
+                     float py, __local const float4 *gradient,
+                     __local float2 *state, float *sum) {
+  const float dx = g->mean[0] - px, dy = g->mean[1] - py;
+  const float power =
+      -0.5f * (g->conic[0] * dx * dx + g->conic[2] * dy * dy) -
+      g->conic[1] * dx * dy;
+  if (!listed | (fabs(dx) > g->extent[0]) | (fabs(dy) > g->extent[1]) |
+      !((power <= 0.0f) & (power >= MIN_POWER)))
+    return false;
+  return pixel_backward(g, dx, dy, power, gradient, state, sum);
 }
 
 __kernel __attribute__((reqd_work_group_size(TILE_PIXELS, 1, 1))) void
@@ -33,6 +35,9 @@ blend_backward_atomics(__global const splat_gaussian *records,
   __local uint gaussians[BATCH];
   __local float4 gradient[TILE_PIXELS];
   __local float2 state[TILE_PIXELS];
+#ifdef WARP_SUMS
+  __local warp_parts parts;
+#endif
 
   const uint item = get_local_id(0);
   const uint x = get_group_id(0) * TILE_SIZE + item % TILE_SIZE;
@@ -54,21 +59,23 @@ blend_backward_atomics(__global const splat_gaussian *records,
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint e = 0; e < entries; ++e) {
-      if (left - 1 - e >= own_last)
-        continue;
-      __local const splat_gaussian *g = &batch[e];
-      const float dx = g->mean[0] - px, dy = g->mean[1] - py;
-      const float power =
-          -0.5f * (g->conic[0] * dx * dx + g->conic[2] * dy * dy) -
-          g->conic[1] * dx * dy;
-      if ((fabs(dx) > g->extent[0]) | (fabs(dy) > g->extent[1]) |
-          !((power <= 0.0f) & (power >= MIN_POWER)))
-        continue;
       float sum[ALL_SUMS] = {0.0f};
-      if (!pixel_backward(g, dx, dy, power, gradient + item, state + item, sum))
+#ifdef WARP_SUMS
+      const bool listed = left - 1 - e < own_last;
+      // The warp as a whole: lanes would have to part and meet again.
+      if (!vx_vote_any(listed))
+        continue;
+      const bool has = in_pixel(listed, &batch[e], px, py, gradient + item,
+                                state + item, sum);
+      add_of_warp(&parts, has, sum, sums + gaussians[e], count);
+#else
+      if (left - 1 - e >= own_last ||
+          !in_pixel(true, &batch[e], px, py, gradient + item, state + item,
+                    sum))
         continue;
       for (uint k = 0; k < ALL_SUMS; ++k)
         atomic_sum(sums + k * count + gaussians[e], sum[k]);
+#endif
     }
     // Nobody may refill the batch before all have gone through it.
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -1,6 +1,7 @@
 #include "render/Backward.h"
 
 #include "effects/Registry.h"
+#include "vorion/support/Letters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -27,12 +28,20 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   if (O.Blending == Path::Raster) {
     Blend.Files.insert(Blend.Files.end(), {"deal.cl", "rasterize_backward.cl"});
   } else {
-    const bool Atomics = B.Pixels == SimtSums::Atomics;
-    Blend.Files.insert(Blend.Files.end(), {"falloff.cl", "pixel_backward.cl",
-                                           Atomics ? "blend_backward_atomics.cl"
-                                                   : "blend_backward.cl"});
-    Blend.Defines.emplace_back(Atomics ? "RECORD_SPACE=__local"
-                                       : "RECORD_SPACE=__global");
+    Blend.Files.insert(Blend.Files.end(), {"falloff.cl", "pixel_backward.cl"});
+    if (B.Pixels == SimtSums::Ordered) {
+      Blend.Files.insert(Blend.Files.end(),
+                         {"lane_tree.cl", "blend_backward.cl"});
+      Blend.Defines.emplace_back("RECORD_SPACE=__global");
+    } else {
+      Blend.Files.emplace_back("atomic_sum.cl");
+      if (B.Pixels == SimtSums::Warp) {
+        Blend.Files.insert(Blend.Files.end(), {"lane_tree.cl", "warp_sums.cl"});
+        Blend.Defines.emplace_back("WARP_SUMS");
+      }
+      Blend.Files.emplace_back("blend_backward_atomics.cl");
+      Blend.Defines.emplace_back("RECORD_SPACE=__local");
+    }
     Blend.Defines.push_back(minPowerDefine(O));
     Blend.Defines.push_back(alphaCutoffDefine(O));
     if (Gsplat)
@@ -74,6 +83,20 @@ std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
   if (B.Depths)
     Programs.push_back({DepthLossProgram, {"layout.h", "depth_loss.cl"}, {}});
   return Programs;
+}
+
+void buildBackward(Launcher &Launch, int ShDegree, const RenderOptions &O,
+                   const BackwardOptions &B) {
+  const Device &D = Launch.device();
+  if (O.Blending == Path::Simt && B.Pixels == SimtSums::Warp &&
+      D.lanes() != Lanes)
+    Launch.fail({"",
+                 fmt::format("{} has warps of {}, expected {} lanes for "
+                             "--simt-sums warp",
+                             D.name(), counted(D.lanes(), "lane"), Lanes),
+                 ExitCode::Usage});
+  for (const ProgramSpec &Program : planBackward(ShDegree, O, B))
+    Launch.build(Program);
 }
 
 void BackwardPipeline::setUpstream(const Frame &F, const cl::Buffer &ByRender,
@@ -131,7 +154,7 @@ cl::Buffer BackwardPipeline::depthSums(Pipeline &Forward,
 /// tiles is a stage.
 cl::Buffer BackwardPipeline::sumsOf(Pipeline &Forward, const Frame &F,
                                     const cl::Buffer &By, bool AsStages) {
-  if (Choice.Pixels == SimtSums::Atomics)
+  if (Choice.Pixels != SimtSums::Ordered)
     return sumsByAtomics(F, By);
   blend(Forward, F, By);
   if (AsStages)

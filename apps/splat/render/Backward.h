@@ -17,12 +17,23 @@ constexpr std::string_view name(GatherOrder O) {
   return O == GatherOrder::Tree ? "tree" : "rows";
 }
 
-/// How the cores' way back adds up the pixels of a Gaussian: tile by tile in a
-/// fixed order, or by atomics in memory, as INRIA's program does.
-enum class SimtSums { Ordered, Atomics };
+/// How the cores' way back adds up the pixels of a Gaussian.
+enum class SimtSums {
+  Ordered, ///< tile by tile in a fixed order
+  Atomics, ///< by atomics in memory, as INRIA's program does
+  Warp     ///< the pixels of a warp first, then by atomics
+};
 
 constexpr std::string_view name(SimtSums S) {
-  return S == SimtSums::Ordered ? "ordered" : "atomics";
+  switch (S) {
+  case SimtSums::Ordered:
+    return "ordered";
+  case SimtSums::Atomics:
+    return "atomics";
+  case SimtSums::Warp:
+    return "warp";
+  }
+  return {};
 }
 
 /// Whose gradients are wanted: of scales and opacities as they are activated,
@@ -49,6 +60,11 @@ struct BackwardOptions {
 /// The programs that the way back needs beside those of \c planRender.
 std::vector<ProgramSpec> planBackward(int ShDegree, const RenderOptions &O,
                                       const BackwardOptions &B);
+
+/// Builds them. An error sticks where the device has not the lanes of sums by
+/// warps.
+void buildBackward(Launcher &Launch, int ShDegree, const RenderOptions &O,
+                   const BackwardOptions &B);
 
 /// Takes gradients back through frames that a \c Pipeline drew with the option
 /// Training. Errors stick in the launcher.

@@ -70,8 +70,7 @@ Expected<GradientResult> takeGradients(Launcher &L, const Scene &S,
   RenderPlan Plan = gradientPlan(S, C, Options);
   for (const ProgramSpec &Program : Plan.Programs)
     L.build(Program);
-  for (const ProgramSpec &Program : planBackward(ShDegree, Options, Backward))
-    L.build(Program);
+  buildBackward(L, ShDegree, Options, Backward);
   if (L.failure())
     return *L.failure();
 

@@ -38,8 +38,7 @@ void DeviceRenderer::build(int ShDegree) {
   Launch.beginStage(Stage::Build);
   for (const ProgramSpec &P : planRender(ShDegree, Options).Programs)
     Launch.build(P);
-  for (const ProgramSpec &P : planBackward(ShDegree, Options, Choice))
-    Launch.build(P);
+  buildBackward(Launch, ShDegree, Options, Choice);
   Back.emplace(Launch, Options, Choice, ShDegree);
   BuiltDegree = ShDegree;
 }

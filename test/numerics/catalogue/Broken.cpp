@@ -12,6 +12,7 @@ namespace vorion::test {
 namespace {
 
 using splat::Path;
+using splat::SimtSums;
 
 constexpr std::string_view Files[] = {
     "layout.h", "activate.cl", "covariance.cl", "support.cl", "sh.cl",
@@ -23,10 +24,12 @@ constexpr std::string_view Files[] = {
     "blend_by_ray.cl",
     // Training's.
     "upstream.cl", "rasterize_backward.cl", "pixel_backward.cl",
-    "blend_backward.cl", "reduce.cl", "backward.cl", "unscented_backward.cl",
-    "project_backward.cl", "sh_backward.cl", "adam.cl", "loss.cl", "mask.cl",
-    "exposure.cl", "regularize.cl", "depth_loss.cl", "pose.h", "pose.cl",
-    "philox.h", "axes.cl", "scan.cl", "density.cl", "mcmc.cl"};
+    "atomic_sum.cl", "lane_tree.cl", "warp_sums.cl", "blend_backward.cl",
+    "blend_backward_atomics.cl", "reduce.cl", "backward.cl",
+    "unscented_backward.cl", "project_backward.cl", "sh_backward.cl", "adam.cl",
+    "loss.cl", "mask.cl", "exposure.cl", "regularize.cl", "depth_loss.cl",
+    "pose.h", "pose.cl", "philox.h", "axes.cl", "scan.cl", "density.cl",
+    "mcmc.cl"};
 
 constexpr std::string_view PlainProduct =
     "s.det_sharp = xx * yy - dot_in_order(b, c) * dot_in_order(b, c);";
@@ -210,15 +213,41 @@ const std::vector<BrokenKernel> &brokenKernels() {
        {},
        {{"rasterize_backward.cl", "as_float(vr_grad_s());",
          "get_local_id(0) == 15 ? 0.0f : as_float(vr_grad_s());"},
-        {"blend_backward.cl", "to[k] = (c0 + c2) + (c1 + c3);",
-         "to[k] = lane == 15 ? 0.0f : (c0 + c2) + (c1 + c3);"}}},
+        {"blend_backward.cl", "= sum_of_lanes(",
+         "= lane == 15 ? 0.0f : sum_of_lanes("},
+        {"blend_backward_atomics.cl",
+         "const bool listed =", "const bool listed = e != 15 &&"},
+        {"blend_backward_atomics.cl", "if (left - 1 - e >= own_last ||",
+         "if (e == 15 || left - 1 - e >= own_last ||"}}},
       {"seventeenth-lost",
        {},
        {{"rasterize_backward.cl",
          "range.x + VR_GRAD_LANES * (next >> VR_GRAD_NEXT_BATCH_SHIFT);",
          "range.x;"},
-        {"blend_backward.cl", "to[k] = (c0 + c2) + (c1 + c3);",
-         "to[k] = first != 0 ? 0.0f : (c0 + c2) + (c1 + c3);"}}},
+        {"blend_backward.cl", "= sum_of_lanes(",
+         "= first != 0 ? 0.0f : sum_of_lanes("},
+        {"blend_backward_atomics.cl",
+         "const bool listed =", "const bool listed = e < 16 &&"},
+        {"blend_backward_atomics.cl", "if (left - 1 - e >= own_last ||",
+         "if (e >= 16 || left - 1 - e >= own_last ||"}}},
+      {"second-batch-lost",
+       Path::Simt,
+       {{"blend_backward_atomics.cl", "left -= entries;", "left = 0;"}},
+       {SimtSums::Atomics, SimtSums::Warp}},
+      // Whoever comes second at a sum loses what it adds.
+      {"atomic-once",
+       Path::Simt,
+       {{"atomic_sum.cl", "if (found == expected)", "if (true)"}},
+       {SimtSums::Atomics, SimtSums::Warp}},
+      {"last-lane-lost",
+       Path::Simt,
+       {{"warp_sums.cl", "(*parts)[k][lane] = sum[k];",
+         "(*parts)[k][lane] = lane == 15 ? 0.0f : sum[k];"}},
+       {SimtSums::Warp}},
+      {"warp-wants-all",
+       Path::Simt,
+       {{"warp_sums.cl", "if (!vx_vote_any(has))", "if (!vx_vote_all(has))"}},
+       {SimtSums::Warp}},
       // The rasterizer's unit has variants of its own that must be noticed
       // (isasim/raster/HardBackward_test.cpp).
       {"reciprocal-rounded",
@@ -249,6 +278,7 @@ const std::vector<BrokenKernel> &brokenKernels() {
       {"faint-come-back",
        Path::Simt,
        {{"blend_backward.cl", "(power >= MIN_POWER)", "true"},
+        {"blend_backward_atomics.cl", "(power >= MIN_POWER)", "true"},
         {"pixel_backward.cl", "if (!(alpha >= ALPHA_CUTOFF / 255.0f))",
          "if (false)"}}},
       {"background-lost",

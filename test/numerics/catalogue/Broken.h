@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "picture/Options.h"
+#include "render/Backward.h"
 
 namespace vorion::test {
 
@@ -23,6 +24,8 @@ struct BrokenKernel {
   /// The path that notices; both where not given.
   std::optional<splat::Path> Only;
   std::vector<KernelEdit> Edits;
+  /// Of the cores, the ways to add up pixels that notice; all where not given.
+  std::vector<splat::SimtSums> Sums{};
 };
 
 const std::vector<BrokenKernel> &brokenKernels();

@@ -36,12 +36,12 @@ private:
   Expected<Success> layers(const HardCase &C, Path P);
   Expected<Success> broken(const HardCase &C, Path P, const BrokenKernel &B);
   /// As it stands, or with broken kernels.
-  Expected<Success> training(const TrainingCase &C, Path P,
+  Expected<Success> training(const TrainingCase &C, const Way &W,
                              const BrokenKernel *B);
   /// The row of a check with \p B, of which \p Detected says what it was, or
   /// why it did not run.
-  nlohmann::json rowOf(const std::string &Key, const std::string &Case, Path P,
-                       const BrokenKernel &B,
+  nlohmann::json rowOf(const std::string &Key, const std::string &Case,
+                       std::string_view Way, const BrokenKernel &B,
                        const Expected<std::string> &Detected);
   Expected<Success> oracle(const HardCase &C, const Setting &S);
   Expected<Success> keep(const nlohmann::json &Row);
@@ -178,7 +178,7 @@ Expected<Success> Checker::layers(const HardCase &C, Path P) {
 }
 
 nlohmann::json Checker::rowOf(const std::string &Key, const std::string &Case,
-                              Path P, const BrokenKernel &B,
+                              std::string_view Way, const BrokenKernel &B,
                               const Expected<std::string> &Detected) {
   // A fault of the machine is noticed too; that it does not compile is not.
   std::string What;
@@ -188,7 +188,7 @@ nlohmann::json Checker::rowOf(const std::string &Key, const std::string &Case,
     What = Detected.error().What;
   return {{"key", Key},
           {"case", Case},
-          {"path", name(P)},
+          {"path", Way},
           {"kernel", B.Name},
           {"noticed", What},
           {"broken", !What.empty() ? ""
@@ -208,7 +208,7 @@ Expected<Success> Checker::broken(const HardCase &C, Path P,
   const splat::RenderOptions O = turned(C.Options, P, {});
   const auto R = Device.render(C, O, Folder);
   return keepNew(
-      rowOf(Key, C.Name, P, B,
+      rowOf(Key, C.Name, name(P), B,
             R ? Expected<std::string>(
                     judgeOf(C, O).judge(*R, 0, /*OwnOptions=*/true).Broken)
               : R.error()));
@@ -266,10 +266,13 @@ Expected<Success> Checker::all(const HardCase &C) {
   return Success{};
 }
 
-Expected<Success> Checker::training(const TrainingCase &C, Path P,
+Expected<Success> Checker::training(const TrainingCase &C, const Way &W,
                                     const BrokenKernel *B) {
-  const std::string Key = C.Name + (C.Blends ? " " + flagsOf(P, {}) : "") +
-                          (B ? fmt::format(" with {}", B->Name) : "");
+  std::string Flags = C.Blends ? " " + flagsOf(W.Blending, {}) : "";
+  if (W.Sums != splat::SimtSums::Ordered)
+    Flags += fmt::format(" --simt-sums {}", name(W.Sums));
+  const std::string Key =
+      C.Name + Flags + (B ? fmt::format(" with {}", B->Name) : "");
   if (const nlohmann::json *Row = Kept.find(Key))
     return keep(*Row);
   const std::string Folder = B ? Scratch + "/" + std::string(B->Name) : "";
@@ -277,15 +280,15 @@ Expected<Success> Checker::training(const TrainingCase &C, Path P,
     if (auto Written = writeKernels(Folder, *B); !Written)
       return Written;
   splat::Launcher L = Device.launcher(Folder);
-  const auto F = C.Run(L, P);
+  const auto F = C.Run(L, W);
   nlohmann::json Row;
   if (B)
-    Row = rowOf(Key, C.Name, P, *B,
+    Row = rowOf(Key, C.Name, name(W), *B,
                 F ? Expected<std::string>(F->Broken) : F.error());
   else
     Row = {{"key", Key},
            {"case", C.Name},
-           {"path", name(P)},
+           {"path", name(W)},
            {"settings", 0},
            {"error", F ? F->Error : 0},
            {"bound", F ? F->Bound : 0},
@@ -294,15 +297,16 @@ Expected<Success> Checker::training(const TrainingCase &C, Path P,
 }
 
 Expected<Success> Checker::all(const TrainingCase &C) {
-  for (const Path P : Paths) {
-    if (C.Only ? P != *C.Only : !C.Blends && P != Paths[0])
-      continue;
-    if (auto Done = training(C, P, nullptr); !Done)
+  for (const Way &W : waysOf(C)) {
+    if (auto Done = training(C, W, nullptr); !Done)
       return Done;
     for (const std::string &Name : C.FoundIn) {
       const BrokenKernel &B = brokenKernel(Name);
-      if (Plan.Broken && (!B.Only || *B.Only == P) && inShare())
-        if (auto Done = training(C, P, &B); !Done)
+      if (Plan.Broken && (!B.Only || *B.Only == W.Blending) &&
+          (B.Sums.empty() ||
+           std::ranges::find(B.Sums, W.Sums) != B.Sums.end()) &&
+          inShare())
+        if (auto Done = training(C, W, &B); !Done)
           return Done;
     }
   }

@@ -72,10 +72,10 @@ std::vector<Kind> kindsOf(const splat::SceneGradients &Got,
 
 } // namespace
 
-Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
+Expected<Finding> judgeGradients(splat::Launcher &L, const Way &W,
                                  const GradientScene &S, double Bound) {
   splat::RenderOptions O = S.Options;
-  O.Blending = P;
+  O.Blending = W.Blending;
   O.Training = true;
   // Those that are drawn, and where they are in the whole scene.
   splat::Scene Drawn = splat::Scene::sized(0, S.Scene.ShDegree);
@@ -93,7 +93,10 @@ Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
   const Loss Given = lossFor(Picture.Doubts);
   const auto Want = reference::renderBackward(G, View, Given.Reference, Rules);
 
-  const auto R = splat::takeGradients(L, S.Scene, S.View, O, {}, Given.Device);
+  splat::BackwardOptions Back;
+  Back.Pixels = W.Sums;
+  const auto R =
+      splat::takeGradients(L, S.Scene, S.View, O, Back, Given.Device);
   if (!R)
     return R.error();
   std::vector<double> Lengths;

@@ -23,7 +23,7 @@ struct GradientScene {
 /// Largest relative difference in the L2 norm of any kind of gradient
 /// (docs/numerics.md, "Gradients"), which is at most \p Bound. The loss is a
 /// random number for every channel of the pixels that are not doubtful.
-Expected<Finding> judgeGradients(splat::Launcher &L, splat::Path P,
+Expected<Finding> judgeGradients(splat::Launcher &L, const Way &W,
                                  const GradientScene &S, double Bound);
 
 } // namespace vorion::test

@@ -16,17 +16,21 @@ constexpr double Allowed = 1e-5;
 
 TrainingCase caseOf(std::string Name, std::string Why, GradientScene S,
                     std::vector<std::string> FoundIn) {
-  return {std::move(Name), std::move(Why),
+  return {std::move(Name),
+          std::move(Why),
           fmt::format("{:.0e} of the fp64 gradients{}{}", Allowed,
                       S.Culled.empty() ? "" : ", culled ones 0",
                       !S.Silent          ? ""
                       : S.Culled.empty() ? ", no opacity's 0"
                                          : ", no other opacity's"),
           [Shared = std::make_shared<GradientScene>(std::move(S))](
-              splat::Launcher &L, splat::Path P) {
-            return judgeGradients(L, P, *Shared, Allowed);
+              splat::Launcher &L, const Way &W) {
+            return judgeGradients(L, W, *Shared, Allowed);
           },
-          std::move(FoundIn)};
+          std::move(FoundIn),
+          /*Blends=*/true,
+          {},
+          /*GoesBack=*/true};
 }
 
 /// Something to be seen beside what a case is about.
@@ -90,10 +94,37 @@ TrainingCase handOver(unsigned Length) {
     FoundIn.emplace_back("sixteenth-lost");
   if (Length > 16)
     FoundIn.emplace_back("seventeenth-lost");
+  if (Length > 64)
+    FoundIn.emplace_back("second-batch-lost");
   return caseOf(fmt::format("hand-over-{}", Length),
-                "16 Gaussians are handed over together: one less, just full, "
-                "one more, two full",
+                Length < 64 ? "16 Gaussians are handed over together: one "
+                              "less, just full, one more, two full"
+                            : "sums by atomics have batches of 64: just full, "
+                              "one more",
                 std::move(G), std::move(FoundIn));
+}
+
+/// Each over the whole picture, so that all cores add to its sums at once, and
+/// what the pixels have nearly cancels.
+TrainingCase overAllTiles() {
+  GradientScene G{{}, frontView(160, 96, 50), {}};
+  Numbers R(57);
+  for (int I = 0; I < 20; ++I)
+    add(G.Scene, {.Mean = {static_cast<float>(R.uniform(-0.5, 0.5)),
+                           static_cast<float>(R.uniform(-0.3, 0.3)),
+                           static_cast<float>(2 + 0.1 * I)},
+                  .Scale = {3, 2, 1},
+                  .Quat = R.turn(),
+                  .Opacity = R.uniform(0.05, 0.2),
+                  .Color = R.color()});
+  TrainingCase C =
+      caseOf("sums-over-all-tiles",
+             "every core adds to the sums of each Gaussian, and what the "
+             "pixels have nearly cancels",
+             std::move(G), {"atomic-once", "last-lane-lost", "warp-wants-all"});
+  C.Contract += ", whatever the order of sums; that of atomics is the cores' "
+                "and lanes', for any number of host threads";
+  return C;
 }
 
 TrainingCase deepStack() {
@@ -287,8 +318,9 @@ TrainingCase pointsBeside() {
 void addGradients(std::vector<TrainingCase> &Cases) {
   Cases.push_back(culled());
   Cases.push_back(nothingSeen());
-  for (const unsigned Length : {15U, 16U, 17U, 32U, 33U})
+  for (const unsigned Length : {15U, 16U, 17U, 32U, 33U, 64U, 65U})
     Cases.push_back(handOver(Length));
+  Cases.push_back(overAllTiles());
   Cases.push_back(deepStack());
   Cases.push_back(shortQuaternions(1e-12F, "gradients-of-quaternions-1e-12"));
   Cases.push_back(shortQuaternions(1e-20F, "gradients-of-quaternions-1e-20"));

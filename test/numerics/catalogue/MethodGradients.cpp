@@ -31,7 +31,7 @@ constexpr double AbsoluteBound = 1e-5;
 
 /// Gaussians in the middle of an even picture whose pixels all have one
 /// gradient: to its left and its right they pull alike, and plain sums are 0.
-Expected<Finding> absoluteSums(splat::Launcher &L, splat::Path P) {
+Expected<Finding> absoluteSums(splat::Launcher &L, const Way &W) {
   const splat::Camera View = frontView(20, 10, 20);
   splat::Scene S;
   for (const double Depth : {2., 3., 4.})
@@ -42,7 +42,7 @@ Expected<Finding> absoluteSums(splat::Launcher &L, splat::Path P) {
   const std::size_t Pixels = 200;
   const auto G = splat::toReference<double>(S);
   const auto Pose = splat::toReference<double>(View);
-  const reference::Options Rules = rulesOf(P);
+  const reference::Options Rules = rulesOf(W.Blending);
   const auto Doubts = reference::blend(reference::project(G, Pose, Rules),
                                        View.Width, View.Height, Rules)
                           .Doubts;
@@ -65,9 +65,10 @@ Expected<Finding> absoluteSums(splat::Launcher &L, splat::Path P) {
       }
   }
   splat::BackwardOptions Options;
+  Options.Pixels = W.Sums;
   Options.AbsoluteSums = true;
   L.beginStage(splat::Stage::Blend);
-  splat::DeviceRenderer R(L, splat::Rules::Inria, P, Options, {});
+  splat::DeviceRenderer R(L, splat::Rules::Inria, W.Blending, Options, {});
   const auto D = splat::DeviceScene::upload(L, S);
   R.forward(D, View, 0);
   const auto Seen = R.backward(upload(L, ByRender),
@@ -75,30 +76,31 @@ Expected<Finding> absoluteSums(splat::Launcher &L, splat::Path P) {
                         .Seen;
   std::vector<float> Planes((Seen.MeanPlane + 2) * S.size());
   L.read("sums", Planes.data(), Seen.Gradients, 4 * Planes.size());
-  Worst W(AbsoluteBound);
+  Worst Found(AbsoluteBound);
   for (std::size_t I = 0; I < Want.size(); ++I) {
-    W.demand(std::abs(Plain[I]) < 1e-9 * Want[I],
-             "the signed sum is not 0, expected it to cancel");
-    W.take("an absolute sum", double(Planes[Seen.MeanPlane * S.size() + I]),
-           Want[I], Want[I]);
+    Found.demand(std::abs(Plain[I]) < 1e-9 * Want[I],
+                 "the signed sum is not 0, expected it to cancel");
+    Found.take("an absolute sum", double(Planes[Seen.MeanPlane * S.size() + I]),
+               Want[I], Want[I]);
   }
-  return W.finding(L);
+  return Found.finding(L);
 }
 
 constexpr double DepthBound = 1e-5;
 
 /// The expected depth of one Gaussian is its own, whatever its alpha is, so
 /// that what is known of it pulls along the axis alone.
-Expected<Finding> depthsOfOne(splat::Launcher &L, splat::Path P) {
+Expected<Finding> depthsOfOne(splat::Launcher &L, const Way &W) {
   constexpr std::size_t Pixels = 16 * 12;
   constexpr float Weight = 0.5F;
   const splat::Camera View = frontView(16, 12, 20);
   splat::BackwardOptions Options;
+  Options.Pixels = W.Sums;
   Options.Depths = true;
   L.beginStage(splat::Stage::Blend);
   const cl::Buffer None = upload(L, std::vector<float>(3 * Pixels, 0));
-  splat::DeviceRenderer R(L, splat::Rules::Inria, P, Options, {});
-  Worst W(DepthBound);
+  splat::DeviceRenderer R(L, splat::Rules::Inria, W.Blending, Options, {});
+  Worst Found(DepthBound);
   for (const double Depth : {0.21, 2., 1e6}) {
     splat::Scene S;
     add(S, {.Mean = {0, 0, static_cast<float>(Depth)},
@@ -125,22 +127,23 @@ Expected<Finding> depthsOfOne(splat::Launcher &L, splat::Path P) {
       return *L.failure();
     const double Z = double(static_cast<float>(Depth));
     const double Unit = double(Weight) / (Z * Z);
-    W.take("the gradient by depth", double(Got.Means[2]), -By / (Z * Z), Unit);
+    Found.take("the gradient by depth", double(Got.Means[2]), -By / (Z * Z),
+               Unit);
     for (std::size_t K = 0; K < 2; ++K)
-      W.take("that across", double(Got.Means[K]), 0, 20 * Unit);
+      Found.take("that across", double(Got.Means[K]), 0, 20 * Unit);
     // As it is stored: times the opacity and the rest.
-    W.take("that by opacity", double(Got.OpacityLogits[0]), 0, Unit * Z);
+    Found.take("that by opacity", double(Got.OpacityLogits[0]), 0, Unit * Z);
     for (const float V : Got.LogScales)
-      W.take("that by scale", double(V), 0, Unit * Z);
+      Found.take("that by scale", double(V), 0, Unit * Z);
   }
-  return W.finding(L);
+  return Found.finding(L);
 }
 
 constexpr double PoseBound = 1e-5;
 
 /// A camera a million from the origin, at a place that no float has. As it
 /// moves, round Gaussians move the other way; as it turns, around it.
-Expected<Finding> poseFarAway(splat::Launcher &L, splat::Path P) {
+Expected<Finding> poseFarAway(splat::Launcher &L, const Way &W) {
   splat::Camera View = frontView(48, 36, 40);
   View.Position = {1e6 + 0.02, -3e5 + 0.01, 7e5 - 0.03};
   splat::Scene S;
@@ -155,7 +158,7 @@ Expected<Finding> poseFarAway(splat::Launcher &L, splat::Path P) {
   }
   const auto G = splat::toReference<double>(S);
   const auto Pose = splat::toReference<double>(View);
-  const reference::Options Rules = rulesOf(P);
+  const reference::Options Rules = rulesOf(W.Blending);
   const auto Doubts = reference::blend(reference::project(G, Pose, Rules),
                                        View.Width, View.Height, Rules)
                           .Doubts;
@@ -183,22 +186,26 @@ Expected<Finding> poseFarAway(splat::Launcher &L, splat::Path P) {
   splat::TrainSettings T;
   T.PoseRate = 1e-3;
   splat::BackwardOptions Options;
+  Options.Pixels = W.Sums;
   Options.Poses = true;
   L.beginStage(splat::Stage::Blend);
   L.build(splat::poseProgram());
   splat::Poses Given(L, T, {View}, 3);
-  splat::DeviceRenderer Renderer(L, splat::Rules::Inria, P, Options, {});
+  splat::DeviceRenderer Renderer(L, splat::Rules::Inria, W.Blending, Options,
+                                 {});
   const auto D = splat::DeviceScene::upload(L, S);
   Renderer.forward(D, View, 0);
   const auto Back = Renderer.backward(
       upload(L, ByRender), upload(L, std::vector<float>(Doubts.size(), 0)), {});
   const splat::PoseSlope Got = Given.slope(0, D.Parameters, Back, D.Count);
-  Worst W(PoseBound);
+  Worst Found(PoseBound);
   for (std::size_t K = 0; K < 3; ++K) {
-    W.take("the gradient by place", Got[K], Force[static_cast<int>(K)], Forces);
-    W.take("that by turn", Got[3 + K], Torque[static_cast<int>(K)], Torques);
+    Found.take("the gradient by place", Got[K], Force[static_cast<int>(K)],
+               Forces);
+    Found.take("that by turn", Got[3 + K], Torque[static_cast<int>(K)],
+               Torques);
   }
-  return W.finding(L);
+  return Found.finding(L);
 }
 
 } // namespace
@@ -212,21 +219,28 @@ void addMethodGradients(std::vector<TrainingCase> &Cases) {
        absoluteSums,
        {"absolute-sums-signed"},
        /*Blends=*/true,
-       splat::Path::Simt});
+       splat::Path::Simt,
+       /*GoesBack=*/true});
   Cases.push_back(
       {"depths-of-one",
        "known depths of 1e-38 and 1e38 of one Gaussian at 0.21, 2 "
        "and 1e6: they pull along the axis, and alpha cancels",
        fmt::format("{:.0e} of the weights over depth^2, others 0", DepthBound),
        depthsOfOne,
-       {"points-of-a-pixel-lost"}});
+       {"points-of-a-pixel-lost"},
+       /*Blends=*/true,
+       {},
+       /*GoesBack=*/true});
   Cases.push_back(
       {"pose-far-away",
        "a camera 1e6 from the origin, at a place that no float "
        "has: what turns it hangs on differences",
        fmt::format("{:.0e} of fp64's sums over the Gaussians", PoseBound),
        poseFarAway,
-       {"pose-of-one-float"}});
+       {"pose-of-one-float"},
+       /*Blends=*/true,
+       {},
+       /*GoesBack=*/true});
 }
 
 } // namespace vorion::test

@@ -126,8 +126,8 @@ TrainingCase byRay(std::string Name, std::string Why, RayScene S,
           std::move(Why),
           fmt::format("{:.0e} of fp64, sorted along the ray", RayBound),
           [Shared = std::make_shared<RayScene>(std::move(S))](
-              splat::Launcher &L, splat::Path P) {
-            return judgeRays(L, P, *Shared);
+              splat::Launcher &L, const Way &W) {
+            return judgeRays(L, W.Blending, *Shared);
           },
           std::move(FoundIn),
           /*Blends=*/true,

@@ -3,7 +3,7 @@
 #include "TrainingCase.h"
 
 #include "device/Values.h"
-#include "kernels/layout.h"
+#include "picture/Layout.h"
 #include "reference/Adam.h"
 #include "reference/Loss.h"
 #include "train/Adam.h"
@@ -26,10 +26,10 @@ Expected<Finding> firstStep(splat::Launcher &L,
   L.build(splat::adamProgram());
   splat::DeviceScene S =
       splat::DeviceScene::upload(L, splat::Scene::sized(Gradients.size(), 0));
-  std::vector<float> Planes(GEOMETRY_PLANES * Gradients.size(), 0);
-  std::ranges::copy(Gradients,
-                    Planes.begin() + static_cast<std::ptrdiff_t>(
-                                         PLANE_LOGIT * Gradients.size()));
+  std::vector<float> Planes(splat::GEOMETRY_PLANES * Gradients.size(), 0);
+  std::ranges::copy(Gradients, Planes.begin() +
+                                   static_cast<std::ptrdiff_t>(
+                                       splat::PLANE_LOGIT * Gradients.size()));
   const std::vector<float> None(3 * Gradients.size(), 0);
   const splat::PlanePair All = S.allocate(L, S.Count);
   L.write("gradients", All.Geometry, Planes.data(), 4 * Planes.size());
@@ -116,7 +116,7 @@ TrainingCase constants(const char *Name, const char *Why, float Offset,
   return {Name,
           Why,
           fmt::format("{:.0e} of a pixel's share of the loss", Bound),
-          [Offset](splat::Launcher &L, splat::Path) -> Expected<Finding> {
+          [Offset](splat::Launcher &L, const Way &) -> Expected<Finding> {
             Finding Worst;
             for (const int Level : {0, 1, 128, 255}) {
               const auto F = constant(
@@ -140,7 +140,7 @@ void addSteps(std::vector<TrainingCase> &Cases) {
     Cases.push_back(
         {Name, Why,
          fmt::format("{:.0e} of rate g / (\\|g\\| + epsilon)", Bound),
-         [=](splat::Launcher &L, splat::Path) {
+         [=](splat::Launcher &L, const Way &) {
            return firstStep(L, Gradients, Bound);
          },
          std::move(FoundIn),

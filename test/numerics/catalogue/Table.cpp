@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace vorion::test {
 namespace {
 
 /// What the rows say about a case.
 struct Found {
-  double Raster = 0, Simt = 0, Single = 0, Bound = 0;
+  std::map<std::string, double> Errors; ///< by path, or by name(Way)
+  double Single = 0, Bound = 0;
   /// Of fp64, with the case's dilation and without.
   std::string Digits[2] = {"-", "-"};
   unsigned Checks = 0, Kept = 0, Broken = 0, Detected = 0;
@@ -39,7 +41,7 @@ Found foundOf(const Rows &R, const std::string &Name) {
     if (Row["settings"] != 0)
       continue;
     F.Bound = Row["bound"];
-    double &Error = Row["path"] == "raster" ? F.Raster : F.Simt;
+    double &Error = F.Errors[Row["path"].get<std::string>()];
     Error = Row["error"];
     if (!Row.contains("doubtful")) // training's
       continue;
@@ -68,31 +70,28 @@ std::string tableOf(const Rows &R) {
       "fp64 | settings kept | broken kernels noticed |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const HardCase &C : catalogue()) {
-    const Found F = foundOf(R, C.Name);
+    Found F = foundOf(R, C.Name);
     if (F.Checks == 0)
       continue;
     Text += fmt::format("| {} | {} | {} | {:.1e} | {:.1e} | {:.1e} | {}, {} "
                         "| {} of {} | {} of {} |\n",
-                        C.Name, C.Why, contractOf(C, F), F.Raster, F.Simt,
-                        F.Single, F.Digits[0], F.Digits[1], F.Kept, F.Checks,
-                        F.Detected, F.Broken);
+                        C.Name, C.Why, contractOf(C, F), F.Errors["raster"],
+                        F.Errors["simt"], F.Single, F.Digits[0], F.Digits[1],
+                        F.Kept, F.Checks, F.Detected, F.Broken);
   }
   Text += "\n| case of training, or of the order along rays | why | contract | "
-          "raster | simt | broken "
-          "kernels noticed |\n|---|---|---|---|---|---|\n";
+          "raster | simt | atomics | warp | broken kernels noticed "
+          "|\n|---|---|---|---|---|---|---|---|\n";
   for (const TrainingCase &C : trainingCases()) {
-    const Found F = foundOf(R, C.Name);
+    Found F = foundOf(R, C.Name);
     if (F.Checks == 0)
       continue;
-    const auto Of = [&](splat::Path P, double Error) {
-      if (C.Only && *C.Only != P)
-        return std::string("-");
-      return C.Blends || P == splat::Path::Raster ? fmt::format("{:.1e}", Error)
-                                                  : "the same";
-    };
-    Text += fmt::format("| {} | {} | {} | {} | {} | {} of {} |\n", C.Name,
-                        C.Why, C.Contract, Of(splat::Path::Raster, F.Raster),
-                        Of(splat::Path::Simt, F.Simt), F.Detected, F.Broken);
+    Text += fmt::format("| {} | {} | {} |", C.Name, C.Why, C.Contract);
+    for (const char *Way : {"raster", "simt", "atomics", "warp"})
+      Text += F.Errors.contains(Way) ? fmt::format(" {:.1e} |", F.Errors[Way])
+              : C.Blends             ? " - |"
+                                     : " the same |";
+    Text += fmt::format(" {} of {} |\n", F.Detected, F.Broken);
   }
   Text += "\n| case | contract | test |\n|---|---|---|\n";
   for (const CaseElsewhere &C : casesElsewhere())

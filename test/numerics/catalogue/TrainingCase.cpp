@@ -5,6 +5,26 @@
 
 namespace vorion::test {
 
+std::string_view name(const Way &W) {
+  return W.Sums == splat::SimtSums::Ordered ? splat::name(W.Blending)
+                                            : splat::name(W.Sums);
+}
+
+std::vector<Way> waysOf(const TrainingCase &C) {
+  using splat::Path;
+  if (!C.Blends)
+    return {{Path::Raster}};
+  std::vector<Way> Ways;
+  if (C.Only != Path::Simt)
+    Ways.push_back({Path::Raster});
+  if (C.Only != Path::Raster)
+    Ways.push_back({Path::Simt});
+  if (C.GoesBack && C.Only != Path::Raster)
+    for (const auto Sums : {splat::SimtSums::Atomics, splat::SimtSums::Warp})
+      Ways.push_back({Path::Simt, Sums});
+  return Ways;
+}
+
 TrainingCase withoutBlending(const char *Name, const char *Why,
                              std::string Contract,
                              Expected<Finding> (*Run)(splat::Launcher &),
@@ -12,7 +32,7 @@ TrainingCase withoutBlending(const char *Name, const char *Why,
   return {Name,
           Why,
           std::move(Contract),
-          [=](splat::Launcher &L, splat::Path) { return Run(L); },
+          [=](splat::Launcher &L, const Way &) { return Run(L); },
           std::move(FoundIn),
           /*Blends=*/false};
 }

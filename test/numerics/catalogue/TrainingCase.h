@@ -4,7 +4,7 @@
 #pragma once
 
 #include "device/Launcher.h"
-#include "picture/Options.h"
+#include "render/Backward.h"
 
 #include <functional>
 #include <optional>
@@ -21,19 +21,34 @@ struct Finding {
   std::string Broken; ///< what the contract says otherwise; empty: kept
 };
 
+/// By what gradients are taken back: a path and, of the cores, how they add up
+/// pixels.
+struct Way {
+  splat::Path Blending;
+  splat::SimtSums Sums = splat::SimtSums::Ordered;
+};
+
+/// The word that says which it is: "raster", "simt", "atomics", "warp".
+std::string_view name(const Way &W);
+
 struct TrainingCase {
   std::string Name, Why;
   std::string Contract; ///< in words, for the table
   /// Runs with the launcher's kernels.
-  std::function<Expected<Finding>(splat::Launcher &, splat::Path)> Run;
-  /// Names of \c brokenKernels that this case must notice, on each path that
+  std::function<Expected<Finding>(splat::Launcher &, const Way &)> Run;
+  /// Names of \c brokenKernels that this case must notice, in each way that
   /// they are in.
   std::vector<std::string> FoundIn{};
   /// Whether blending takes part; what both paths share runs once.
   bool Blends = true;
   /// The path that has it; both where not given.
   std::optional<splat::Path> Only{};
+  /// Whether gradients are taken back: then by each way.
+  bool GoesBack = false;
 };
+
+/// The ways in which a case runs.
+std::vector<Way> waysOf(const TrainingCase &C);
 
 /// One in which no picture is blended.
 TrainingCase withoutBlending(const char *Name, const char *Why,

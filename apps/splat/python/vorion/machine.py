@@ -173,7 +173,7 @@ class Machine:
         v_alpha: (H, W), dL/d(alpha); None for zeros
         of: "activated" for dL by scales and opacities, "stored" for dL by log_scales and opacity_logits
         reciprocal, sum: the rasterizer's unit for 1 / (1 - alpha), and how it adds up rows
-        simt_sums: how the cores' way back adds up pixels, "ordered" or "atomics"
+        simt_sums: how the cores' way back adds up pixels, "ordered", "atomics" or "warp"
         The other options are those of render(). Harmonics have all the scene's degrees.
         """
         _check(scene, Scene, "scene")
