@@ -336,11 +336,11 @@ static uint project_again(__local const workspace *c, float x, uint key,
 }
 #endif
 
+// Where the group's next block begins, from `first` on; of those that the
+// camera sees nothing of, what is to be written is written here.
+static uint next_block(__local workspace *w, uint first, uint step, uint count,
+                       uint lane) {
 #if USE_CULL_BLOCKS
-// Where the next block begins, from `first` on, of which the camera may see
-// some; those in front of it are done.
-static uint next_kept(__local workspace *w, uint first, uint step, uint count,
-                      uint lane) {
   for (; first < count; first += step) {
     const uint verdict = w->verdicts[first / LINE_WORDS];
     if (verdict == 0)
@@ -350,14 +350,9 @@ static uint next_kept(__local workspace *w, uint first, uint step, uint count,
       ++w->found[verdict][lane];
     }
   }
+#endif
   return first;
 }
-#define NEXT_BLOCK(first) next_kept(w, (first), step, count, lane)
-#define LATER w->later
-#else
-#define NEXT_BLOCK(first) (first)
-#define LATER later
-#endif
 
 // A group is a warp and takes every so many LINE_WORDS Gaussians. Records go
 // through local memory, so that they are written as whole lines: the cache
@@ -420,10 +415,13 @@ project(__constant const splat_view *camera, __global const float *geometry,
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 
-  for (uint first = NEXT_BLOCK(get_group_id(0) * LANES), later; first < count;
-       first = LATER) {
-    later = NEXT_BLOCK(first + step);
-    LATER = later;
+  for (uint first = next_block(w, get_group_id(0) * LANES, step, count, lane),
+            later;
+       first < count; first = later) {
+    later = next_block(w, first + step, step, count, lane);
+#if USE_CULL_BLOCKS
+    w->later = later; // In a register it takes 0.4 % more of the cycles.
+#endif
     const uint i = first + lane;
 #ifdef SCENE_IN_BLOCKS
     const uint next = min(later, count - 1) / LANES;
@@ -511,6 +509,9 @@ project(__constant const splat_view *camera, __global const float *geometry,
 #ifdef SCENE_IN_BLOCKS
     // Not before, so that nothing has waited for it.
     w->unread[lane] = as_uint(ahead);
+#endif
+#if USE_CULL_BLOCKS
+    later = w->later;
 #endif
   }
   splat_seen seen = {w->found[0][lane],

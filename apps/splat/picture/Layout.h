@@ -1,6 +1,7 @@
 /// The structures of kernels/layout.h for the host.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace vorion::splat {
@@ -16,5 +17,10 @@ static_assert(sizeof(splat_lens) == 60, "4-byte members without padding");
 static_assert(sizeof(splat_shutter) == 40, "4-byte members without padding");
 static_assert(sizeof(splat_crop) == 56, "4-byte members without padding");
 static_assert(sizeof(splat_view) == 144, "4-byte members without padding");
+
+/// Blocks of LINE_WORDS that so many Gaussians take.
+constexpr uint32_t blocksOf(std::size_t Gaussians) {
+  return static_cast<uint32_t>((Gaussians + LINE_WORDS - 1) / LINE_WORDS);
+}
 
 } // namespace vorion::splat

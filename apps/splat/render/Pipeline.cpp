@@ -99,20 +99,19 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
   if (C.Optics.Shutter && !Options.Rolling)
     return Launch.fail({"", "a camera with a rolling shutter, expected one of "
                             "one moment"});
-  if (Plan.done(effects::RayOrder) &&
-      (Options.Optics != LensModel::Pinhole || Options.Rolling))
-    return Launch.fail(
-        {"", fmt::format("--order ray: a camera of model {}{}, expected a "
-                         "pinhole, whose rays come from one point",
-                         name(C.Optics.Model),
-                         Options.Rolling ? " with a rolling shutter" : "")});
-  if (Plan.done(effects::CullBlocks) &&
-      (Options.Optics != LensModel::Pinhole || Options.Rolling))
-    return Launch.fail(
-        {"", fmt::format("--cull-blocks: a camera of model {}{}, expected a "
-                         "pinhole, which sees between planes",
-                         name(C.Optics.Model),
-                         Options.Rolling ? " with a rolling shutter" : "")});
+  const bool IsPinhole =
+      Options.Optics == LensModel::Pinhole && !Options.Rolling;
+  const auto FailWithout = [&](std::string_view Option, std::string_view Why) {
+    Launch.fail(
+        {"",
+         fmt::format("{}: a camera of model {}{}, expected a pinhole, {}",
+                     Option, name(C.Optics.Model),
+                     Options.Rolling ? " with a rolling shutter" : "", Why)});
+  };
+  if (Plan.done(effects::RayOrder) && !IsPinhole)
+    return FailWithout("--order ray", "whose rays come from one point");
+  if (Plan.done(effects::CullBlocks) && !IsPinhole)
+    return FailWithout("--cull-blocks", "which sees between planes");
   Current.Copies = Options.Optics == LensModel::Equirectangular ? 3 : 1;
   Launch.beginStage(Stage::Project);
   project(C);
@@ -132,9 +131,9 @@ void Pipeline::prepare(const GaussianBuffers &Gaussians, const Camera &C) {
 void Pipeline::project(const Camera &C) {
   writeCamera(C);
   const uint32_t Count = Current.drawn();
-  const uint64_t Blocks = (uint64_t{Count} + LINE_WORDS - 1) / LINE_WORDS;
-  Current.Records = Launch.allocate(
-      "projected Gaussians", sizeof(splat_gaussian) * LINE_WORDS * Blocks);
+  Current.Records = Launch.allocate("projected Gaussians",
+                                    sizeof(splat_gaussian) * LINE_WORDS *
+                                        uint64_t{blocksOf(Count)});
   Current.Depths.Keys = words("depths", Count);
   Current.Rectangles = words("tile rectangles", 2 * uint64_t{Count});
   const std::size_t Items = Launch.device().computeUnits() * Lanes;
@@ -170,8 +169,7 @@ void Pipeline::project(const Camera &C) {
 
 /// A verdict of each block.
 cl::Buffer Pipeline::cullBlocks() {
-  const uint32_t Blocks =
-      (Current.Gaussians.Count + LINE_WORDS - 1) / LINE_WORDS;
+  const uint32_t Blocks = blocksOf(Current.Gaussians.Count);
   cl::Buffer Verdicts = words("verdicts of blocks", Blocks);
   Launch.run(CullProgram, "cull_blocks", itemsFor(Blocks), GroupSize,
              Current.Camera, Current.Gaussians.Bounds, Verdicts, Blocks);

@@ -79,9 +79,8 @@ struct Frame {
   /// those of each kind begin at a whole line (kernels/project.cl).
   uint32_t Copies = 1;
   uint32_t stride() const {
-    return Copies == 1
-               ? Gaussians.Count
-               : (Gaussians.Count + LINE_WORDS - 1) / LINE_WORDS * LINE_WORDS;
+    return Copies == 1 ? Gaussians.Count
+                       : LINE_WORDS * blocksOf(Gaussians.Count);
   }
   uint32_t drawn() const { return Copies * stride(); }
   /// Gaussians that a tile sees, each once; Visible counts copies too.
@@ -135,8 +134,8 @@ public:
 
 private:
   void project(const Camera &C);
-  /// Whether a lens or a crop lies behind the view.
   cl::Buffer cullBlocks();
+  /// Whether a lens or a crop lies behind the view.
   bool hasMoreThanView() const;
   void writeCamera(const Camera &C);
   void sortByDepth();

@@ -41,8 +41,7 @@ namespace {
 template <typename Function>
 std::vector<float> toBlocks(std::size_t Count, std::size_t Planes,
                             Function Get) {
-  const std::size_t Blocks = (Count + LINE_WORDS - 1) / LINE_WORDS;
-  std::vector<float> Words(Blocks * Planes * LINE_WORDS);
+  std::vector<float> Words(std::size_t{blocksOf(Count)} * Planes * LINE_WORDS);
   for (std::size_t I = 0; I < Count; ++I)
     for (std::size_t P = 0; P < Planes; ++P)
       Words[(I / LINE_WORDS * Planes + P) * LINE_WORDS + I % LINE_WORDS] =
@@ -61,56 +60,57 @@ std::vector<float> geometryBlocks(const Scene &S) {
   });
 }
 
-std::vector<float> blockBounds(const Scene &S) {
-  // The radius and the deviation are rounded up, and fp32's exponential may be
-  // larger.
-  constexpr double Allowance = 1.00001;
-  const std::size_t Blocks = (S.size() + LINE_WORDS - 1) / LINE_WORDS;
-  std::vector<float> Bounds(Blocks * BOUND_PLANES);
-  for (std::size_t B = 0; B < Blocks; ++B) {
-    const std::size_t First = B * LINE_WORDS;
-    const std::size_t Last =
-        std::min<std::size_t>(First + LINE_WORDS, S.size());
-    std::array<float, 3> Center{};
-    double Square = 0, LogScale = S.LogScales[3 * First];
-    bool IsFinite = true;
-    for (std::size_t K = 0; K < 3; ++K) {
-      double Least = S.Means[3 * First + K], Most = Least;
-      for (std::size_t I = First; I < Last; ++I) {
-        const double Mean = S.Means[3 * I + K];
-        Least = std::min(Least, Mean);
-        Most = std::max(Most, Mean);
-        LogScale = std::max<double>(LogScale, S.LogScales[3 * I + K]);
-        IsFinite &=
-            std::isfinite(Mean) && std::isfinite(S.LogScales[3 * I + K]);
-      }
-      Center[K] = static_cast<float>((Least + Most) / 2);
-    }
-    for (std::size_t I = First; I < Last; ++I) {
-      double Sum = 0;
-      for (std::size_t K = 0; K < 3; ++K) {
-        const double Along = double{S.Means[3 * I + K]} - double{Center[K]};
-        Sum += Along * Along;
-      }
-      Square = std::max(Square, Sum);
-    }
-    for (std::size_t K = 0; K < 3; ++K)
-      Bounds[(BOUND_CENTER + K) * Blocks + B] = Center[K];
-    Bounds[BOUND_RADIUS * Blocks + B] =
-        IsFinite ? static_cast<float>(std::sqrt(Square) * Allowance)
-                 : std::numeric_limits<float>::infinity();
-    Bounds[BOUND_DEVIATION * Blocks + B] =
-        static_cast<float>(std::exp(LogScale) * Allowance);
-  }
-  return Bounds;
-}
-
 std::vector<float> shBlocks(const Scene &S,
                             const std::vector<std::size_t> &Planes) {
   const std::size_t Stride = 3 * S.coefficients();
   return toBlocks(S.size(), Planes.size(), [&](std::size_t I, std::size_t P) {
     return Planes[P] < Stride ? S.Sh[I * Stride + Planes[P]] : 0.0F;
   });
+}
+
+/// Of the Gaussians from \p First to \p Last, by layout.h's BOUND_PLANES.
+static std::array<float, BOUND_PLANES>
+boundsOf(const Scene &S, std::size_t First, std::size_t Last) {
+  // The radius and the deviation are rounded up, and fp32's exponential may be
+  // larger.
+  constexpr double Allowance = 1.00001;
+  std::array<float, BOUND_PLANES> B{};
+  double LogScale = S.LogScales[3 * First];
+  bool IsFinite = true;
+  for (std::size_t K = 0; K < 3; ++K) {
+    double Least = S.Means[3 * First + K], Most = Least;
+    for (std::size_t I = First; I < Last; ++I) {
+      const double Mean = S.Means[3 * I + K], Scale = S.LogScales[3 * I + K];
+      Least = std::min(Least, Mean);
+      Most = std::max(Most, Mean);
+      LogScale = std::max(LogScale, Scale);
+      IsFinite &= std::isfinite(Mean) && std::isfinite(Scale);
+    }
+    B[BOUND_CENTER + K] = static_cast<float>((Least + Most) / 2);
+  }
+  double Radius = 0;
+  for (std::size_t I = First; I < Last; ++I)
+    Radius = std::max(
+        Radius, std::hypot(S.Means[3 * I] - double{B[BOUND_CENTER]},
+                           S.Means[3 * I + 1] - double{B[BOUND_CENTER + 1]},
+                           S.Means[3 * I + 2] - double{B[BOUND_CENTER + 2]}));
+  B[BOUND_RADIUS] = IsFinite ? static_cast<float>(Radius * Allowance)
+                             : std::numeric_limits<float>::infinity();
+  B[BOUND_DEVIATION] = static_cast<float>(std::exp(LogScale) * Allowance);
+  return B;
+}
+
+std::vector<float> blockBounds(const Scene &S) {
+  const std::size_t Blocks = blocksOf(S.size());
+  std::vector<float> Bounds(Blocks * BOUND_PLANES);
+  for (std::size_t Block = 0; Block < Blocks; ++Block) {
+    const std::size_t First = Block * LINE_WORDS;
+    const auto Own =
+        boundsOf(S, First, std::min<std::size_t>(First + LINE_WORDS, S.size()));
+    for (std::size_t P = 0; P < BOUND_PLANES; ++P)
+      Bounds[P * Blocks + Block] = Own[P];
+  }
+  return Bounds;
 }
 
 Scene sceneOfPlanes(const std::vector<float> &Geometry,

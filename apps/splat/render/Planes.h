@@ -18,11 +18,12 @@ std::vector<float> shPlanes(const Scene &S, int Degree);
 /// The same in blocks; of the colours' planes those of \p Planes, zeros where
 /// the scene has none.
 std::vector<float> geometryBlocks(const Scene &S);
+std::vector<float> shBlocks(const Scene &S,
+                            const std::vector<std::size_t> &Planes);
+
 /// What each block's Gaussians are bounded by, in layout.h's BOUND_PLANES. A
 /// block with a number that is none has an infinite radius.
 std::vector<float> blockBounds(const Scene &S);
-std::vector<float> shBlocks(const Scene &S,
-                            const std::vector<std::size_t> &Planes);
 
 /// The scene of degree \p Degree that has these planes.
 Scene sceneOfPlanes(const std::vector<float> &Geometry,
