@@ -42,8 +42,10 @@ def VxLaunch : Descriptor<"vx_launch", [
     DescField<"enqueued_size", "u32", 3, "of the whole range: work-items of all groups but the last">,
     DescField<"groups_before", "u32", 3, "groups of the whole range before the launch's first">,
     DescField<"all_groups", "u32", 3, "groups of the whole range">,
-    DescField<"global_size", "u32", 3, "work-items of the whole range">
-  ], "What a kernel launch hands to every core (mscratch points to it).">;
+    DescField<"global_size", "u32", 3, "work-items of the whole range">,
+    DescField<"warps", "u32", 1, "warps of each core that run groups, each with a block of its own behind the one before">,
+    DescField<"local_stride", "u32", 1, "bytes of local memory from a warp's to the next one's">
+  ], "What a kernel launch hands to every warp (mscratch points to that of warp 0).">;
 
 def VxKernel : Descriptor<"vx_kernel", [
     DescField<"name", "u32", 1, "address of the NUL-terminated name">,

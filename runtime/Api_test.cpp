@@ -62,8 +62,8 @@ protected:
     return wait();
   }
 
-  static constexpr vx_launch_params OneItem{1,         {1, 1, 1}, {1, 1, 1},
-                                            {0, 0, 0}, 0,         nullptr};
+  static constexpr vx_launch_params OneItem{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0},
+                                            0, nullptr,   0};
   vx_device *Device = nullptr;
   vx_image *Image = nullptr;
   vx_device_info Info{};
@@ -132,7 +132,8 @@ TEST_F(Runtime, RefusesKernelsForOtherLanes) {
 
 TEST_F(Runtime, FillsTheLaunchBlock) {
   const uint32_t Out = allocate(sizeof(vx_launch));
-  const vx_launch_params Params{2, {3, 5, 1}, {4, 2, 1}, {7, 8, 9}, 0, nullptr};
+  const vx_launch_params Params{2, {3, 5, 1}, {4, 2, 1}, {7, 8, 9},
+                                0, nullptr,   0};
   ASSERT_EQ(start("copy_launch", {Out}, Params), VX_OK) << vx_last_error();
   EXPECT_EQ(wait().outcome, VX_OUTCOME_DONE);
   vx_launch Block;
@@ -152,7 +153,8 @@ TEST_F(Runtime, GivesBackWhatARunUsed) {
   const uint32_t Out = allocate(sizeof(vx_launch));
   vx_device_info Before{}, After{};
   ASSERT_EQ(vx_device_get_info(Device, &Before), VX_OK);
-  const vx_launch_params Params{2, {1, 1, 1}, {4, 2, 1}, {0, 0, 0}, 0, nullptr};
+  const vx_launch_params Params{2, {1, 1, 1}, {4, 2, 1}, {0, 0, 0},
+                                0, nullptr,   0};
   ASSERT_EQ(start("copy_launch", {Out}, Params), VX_OK);
   wait();
   ASSERT_EQ(vx_device_get_info(Device, &After), VX_OK);
@@ -256,7 +258,8 @@ TEST(RuntimeConsole, KeepsABoundedPart) {
   ASSERT_EQ(vx_image_load_file(Device, Elf, &Image), VX_OK);
   uint32_t Kernel = 0;
   ASSERT_EQ(vx_image_find_kernel(Image, "chatter", &Kernel), VX_OK);
-  const vx_launch_params Params{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}, 0, nullptr};
+  const vx_launch_params Params{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0},
+                                0, nullptr,   0};
   const uint32_t Words = (1 << 20) + 100;
   ASSERT_EQ(vx_start(Device, Image, Kernel, &Params, &Words, 4), VX_OK);
   vx_result Result{};
@@ -270,7 +273,8 @@ TEST(RuntimeConsole, KeepsABoundedPart) {
 }
 
 TEST_F(Runtime, NoGroupsRunNothing) {
-  const vx_launch_params Params{1, {0, 1, 1}, {1, 1, 1}, {0, 0, 0}, 0, nullptr};
+  const vx_launch_params Params{1, {0, 1, 1}, {1, 1, 1}, {0, 0, 0},
+                                0, nullptr,   0};
   ASSERT_EQ(start("exit_seven", {}, Params), VX_OK) << vx_last_error();
 }
 
@@ -300,19 +304,19 @@ TEST_F(Runtime, RefusesBadLaunches) {
   const auto Status = [&](const vx_launch_params &Params) {
     return vx_start(Device, Image, find("store"), &Params, Args, 8);
   };
-  EXPECT_EQ(Status({0, {1, 1, 1}, {1, 1, 1}, {}, 0, nullptr}),
+  EXPECT_EQ(Status({0, {1, 1, 1}, {1, 1, 1}, {}, 0, nullptr, 0}),
             VX_ERROR_ARGUMENT);
-  EXPECT_EQ(Status({4, {1, 1, 1}, {1, 1, 1}, {}, 0, nullptr}),
+  EXPECT_EQ(Status({4, {1, 1, 1}, {1, 1, 1}, {}, 0, nullptr, 0}),
             VX_ERROR_ARGUMENT);
-  EXPECT_EQ(Status({1, {1, 2, 1}, {1, 1, 1}, {}, 0, nullptr}),
+  EXPECT_EQ(Status({1, {1, 2, 1}, {1, 1, 1}, {}, 0, nullptr, 0}),
             VX_ERROR_ARGUMENT);
-  EXPECT_EQ(Status({1, {1, 1, 1}, {0, 1, 1}, {}, 0, nullptr}),
+  EXPECT_EQ(Status({1, {1, 1, 1}, {0, 1, 1}, {}, 0, nullptr, 0}),
             VX_ERROR_ARGUMENT);
-  EXPECT_EQ(Status({3, {1, 1, 1}, {1025, 1, 1}, {}, 0, nullptr}),
+  EXPECT_EQ(Status({3, {1, 1, 1}, {1025, 1, 1}, {}, 0, nullptr, 0}),
             VX_ERROR_ARGUMENT);
-  EXPECT_EQ(Status({3, {1, 1, 1}, {65536, 65536, 1}, {}, 0, nullptr}),
+  EXPECT_EQ(Status({3, {1, 1, 1}, {65536, 65536, 1}, {}, 0, nullptr, 0}),
             VX_ERROR_ARGUMENT);
-  EXPECT_EQ(Status({3, {~0U, ~0U, ~0U}, {1, 1, 1}, {}, 0, nullptr}),
+  EXPECT_EQ(Status({3, {~0U, ~0U, ~0U}, {1, 1, 1}, {}, 0, nullptr, 0}),
             VX_ERROR_ARGUMENT);
   EXPECT_EQ(vx_start(Device, Image, find("store"), &OneItem, Args, 4),
             VX_ERROR_ARGUMENT);

@@ -29,11 +29,18 @@ constexpr std::pair<uint64_t isasim::LaunchParts::*, const char *>
                          {&isasim::LaunchParts::Context,
                           "the memory that a kernel keeps across barriers"}};
 
-isasim::LaunchShape shapeOf(const vx_launch_params &P) {
+isasim::LaunchShape shapeOf(const isasim::Kernel &K,
+                            const vx_launch_params &P) {
   isasim::LaunchShape S{.WorkDim = P.work_dim};
   std::ranges::copy(P.num_groups, S.NumGroups.begin());
   std::ranges::copy(P.local_size, S.LocalSize.begin());
   std::ranges::copy(P.global_offset, S.GlobalOffset.begin());
+  if (P.local_bytes != 0)
+    S.LocalBytes = P.local_bytes;
+  else if (std::ranges::none_of(K.Args, [](const isasim::KernelArg &Arg) {
+             return Arg.Kind == VX_ARG_LOCAL;
+           }))
+    S.LocalBytes = K.LocalBytes;
   if (P.part_of) {
     isasim::WholeRange &R = S.PartOf.emplace();
     std::ranges::copy(P.part_of->enqueued_size, R.EnqueuedSize.begin());
@@ -461,7 +468,7 @@ Failure Device::start(LoadedImage &Image, uint32_t Kernel,
     return {VX_ERROR_NOT_FOUND, fmt::format("kernel {} of an image with {}",
                                             Kernel, Kernels.size())};
   const isasim::Kernel &K = Kernels[Kernel];
-  const auto Planned = isasim::Launch::plan(K, shapeOf(Params), config());
+  const auto Planned = isasim::Launch::plan(K, shapeOf(K, Params), config());
   if (!Planned)
     return failure(Planned.error().Code == ExitCode::LimitReached
                        ? VX_ERROR_MEMORY

@@ -56,8 +56,8 @@ TEST(RuntimeOpen, ClockForProfiledRunsOnly) {
   uint32_t Kernel = 0;
   ASSERT_EQ(vx_image_find_kernel(Image, "exit_seven", &Kernel), VX_OK);
   const auto Report = [&] {
-    const vx_launch_params Params{1,         {1, 1, 1}, {1, 1, 1},
-                                  {0, 0, 0}, 0,         nullptr};
+    const vx_launch_params Params{1, {1, 1, 1}, {1, 1, 1}, {0, 0, 0},
+                                  0, nullptr,   0};
     vx_result Result{};
     EXPECT_EQ(vx_start(Device, Image, Kernel, &Params, nullptr, 0), VX_OK)
         << vx_last_error();

@@ -2,7 +2,8 @@
 """Writes the ABI's numbers for assembly or for a linker script.
 
 usage: assembly.py [--tblgen PATH] --format asm|ld OUTPUT
-asm: #define lines of the constants, of VX_CSR_<NAME>, a CSR's number, and of VX_<STRUCT>_<FIELD>, a field's byte offset.
+asm: #define lines of the constants, of VX_CSR_<NAME>, a CSR's number, of VX_<STRUCT>_<FIELD>, a field's byte offset, and of
+SIZEOF_VX_<STRUCT>, its bytes.
 ld: assignments of the image's place and size (each becomes a symbol of the program, so no more than these).
 """
 
@@ -28,6 +29,7 @@ def offsets(records):
         for f in d.Fields:
             yield f"{d.Name}_{f.Name}".upper(), offset
             offset += 4 * f.Count
+        yield f"SIZEOF_{d.Name}".upper(), offset
 
 
 def main():

@@ -19,15 +19,20 @@ static constexpr uint64_t LongestStretch = 1 << 14;
 /// What is shorter says little of where the time goes.
 static constexpr uint64_t ShortestStretch = 1 << 6;
 
+/// What vx_local_offset is a multiple of, in bytes: what is left then has room
+/// for any access (Region::Bytes), and the banks of the core's local memory.
+static constexpr uint32_t LocalStep = 128;
+
 Core::Core(const Config &C, unsigned IdIn)
     : Shape(C), Id(IdIn), Warps(C.WarpsPerCore),
       Stacks(size_t{C.WarpsPerCore} * C.DivergenceDepth), Arrived(C.Barriers) {}
 
 void Core::reset(const CodeTable &CodeIn, uint32_t Entry,
-                 uint32_t LaunchBlockIn, const MemoryView &ViewIn,
-                 Watch *Watcher) {
+                 uint32_t LaunchBlockIn, unsigned LaunchWarps,
+                 const MemoryView &ViewIn, Watch *Watcher) {
   Code = &CodeIn;
-  View = ViewIn;
+  Local = ViewIn.Local;
+  Views.assign(Warps.size(), ViewIn);
   LaunchBlock = LaunchBlockIn;
   Console.clear();
   ExitCode.reset();
@@ -39,15 +44,15 @@ void Core::reset(const CodeTable &CodeIn, uint32_t Entry,
     S.Code = Code->begin();
     S.CodeLo = Code->low();
     S.CodeCount = Code->count();
-    S.Mem = &View;
+    S.Mem = &Views[W];
     S.Stack = Stacks.data() + size_t{W} * Shape.DivergenceDepth;
     S.StackLimit = Shape.DivergenceDepth;
     S.AllLanes = (1U << Shape.LanesPerWarp) - 1;
     S.WarpId = W;
-    // docs/abi.md, "Memory map". With several warps a core nothing says which
-    // stacks are whose.
-    if (Warps.size() == 1)
-      S.FirstStack = Id * Shape.LanesPerWarp;
+    // docs/abi.md, "Memory map". With several warps nothing but a launch says
+    // which stacks are whose.
+    if (LaunchWarps != 0 || Warps.size() == 1)
+      S.FirstStack = (Id * std::max(LaunchWarps, 1U) + W) * Shape.LanesPerWarp;
     S.Owner = this;
     S.Watcher = Watcher;
     S.Next = Code->begin();
@@ -199,6 +204,13 @@ bool Core::arrive(WarpState &S, uint32_t BarrierId, uint32_t Count) {
   if (S.Trace)
     traceWords(&S, Words);
   return true;
+}
+
+void Core::moveLocal(WarpState &S, uint32_t Offset) {
+  S.LocalOffset = Offset % Local.Bytes / LocalStep * LocalStep;
+  Region &Own = Views[S.WarpId].Local;
+  Own.Bytes = Local.Bytes - S.LocalOffset;
+  Own.Host = Local.Host + S.LocalOffset;
 }
 
 uint32_t Core::activeWarps() const {

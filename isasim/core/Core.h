@@ -21,8 +21,9 @@ public:
   Core &operator=(const Core &) = delete;
 
   /// Warp 0 runs lane 0 at \p Entry, the others have ended; registers are 0.
+  /// \p LaunchWarps of each core run groups, 0 if it is no launch.
   void reset(const CodeTable &Code, uint32_t Entry, uint32_t LaunchBlock,
-             const MemoryView &View, Watch *Watcher);
+             unsigned LaunchWarps, const MemoryView &View, Watch *Watcher);
   /// Warp \p Warp writes the clock's trace there until the next reset().
   void setTrace(unsigned Warp, CoreTrace *Trace) { Warps[Warp].Trace = Trace; }
 
@@ -67,6 +68,9 @@ public:
   /// vx_wspawn by \p S; false if it trapped, since \p Entry is no code.
   bool spawn(WarpState &S, uint32_t Count, uint32_t Entry);
   bool arrive(WarpState &S, uint32_t Id, uint32_t Count);
+  /// Local memory of \p S begins \p Offset bytes behind the core's, as
+  /// vx_local_offset says.
+  void moveLocal(WarpState &S, uint32_t Offset);
   uint32_t activeWarps() const;
   void print(char Byte) { Console.push_back(Byte); }
   void exitWith(uint32_t Code);
@@ -82,7 +86,8 @@ private:
   std::vector<WarpState> Warps;
   std::vector<Divergence> Stacks;
   std::vector<uint32_t> Arrived; ///< by barrier
-  MemoryView View;
+  Region Local;
+  std::vector<MemoryView> Views; ///< by warp
   std::vector<Stretch> Stretches;
 };
 

@@ -55,6 +55,8 @@ uint32_t readCsr(WarpState *S, unsigned Number, unsigned Lane) {
            Lane;
   case CSR_MSCRATCH:
     return S->Owner->LaunchBlock;
+  case CSR_LOCAL_OFFSET:
+    return S->LocalOffset;
   case CSR_THREAD_ID:
     return Lane;
   case CSR_WARP_ID:
@@ -101,6 +103,9 @@ void writeCsr(WarpState *S, unsigned Number, uint32_t Value) {
     break;
   case CSR_MSCRATCH:
     S->Owner->LaunchBlock = Value;
+    break;
+  case CSR_LOCAL_OFFSET:
+    S->Owner->moveLocal(*S, Value);
     break;
   default:
     break; // every other one is read-only, and has trapped

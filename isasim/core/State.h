@@ -151,6 +151,7 @@ struct alignas(64) WarpState {
   /// The mask before any split or predicate: that of the last vx_tmc.
   uint32_t WholeMask = 0;
   uint32_t WarpId = 0;
+  uint32_t LocalOffset = 0; ///< vx_local_offset
   /// The number of lane 0's stack, from the top; NoOwnStack where stacks are
   /// the program's affair.
   static constexpr uint32_t NoOwnStack = ~0U;

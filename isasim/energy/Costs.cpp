@@ -204,9 +204,12 @@ std::span<const AreaCost> areaCosts() {
         // Operands, results and the stages of the units.
         {"core lanes", CoreLane, "register bit", 800 + 2 * 483},
         {"register files", CoreLane, "register file bit", 2 * 32 * 32},
+        {"register files", "lanes of further warps", "register file bit",
+         2 * 32 * 32},
         // Snitch, a whole core of 32 bits, has 10,000 gates; warps, the
         // scoreboard and the stack of splits are ours.
         {"core control", "cores", "gate", 40'000},
+        {"core control", "further warps", "gate", 10'000},
         // Four commands of 480 bits, and a batch of gradients: 16 records of
         // nine words, twice.
         {"raster agents", "cores", "register bit", 4 * 480 + 2 * 16 * 9 * 32},

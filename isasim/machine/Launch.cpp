@@ -73,6 +73,19 @@ WholeRange rangeOf(const LaunchShape &S) {
   return R;
 }
 
+/// The warps of a core that take part: as many as there are groups for, and
+/// parts of local memory of \p Stride bytes.
+uint32_t warpsFor(const Kernel &K, const LaunchShape &S, uint64_t Stride,
+                  const Config &C) {
+  if (!K.SharesCore || !S.LocalBytes)
+    return 1;
+  const uint64_t Groups = product(S.NumGroups, MaxGroups);
+  const uint64_t Useful = (Groups + C.cores() - 1) / C.cores();
+  const uint64_t Fit = Stride ? C.LocalBytes / Stride : C.WarpsPerCore;
+  return static_cast<uint32_t>(
+      std::clamp<uint64_t>(std::min(Useful, Fit), 1, C.WarpsPerCore));
+}
+
 uint32_t address(uint64_t Part) { return static_cast<uint32_t>(Part); }
 
 } // namespace
@@ -93,9 +106,13 @@ Expected<Launch> Launch::plan(const Kernel &K, const LaunchShape &S,
                     K.Name, K.ContextBytes, Items));
   Launch L(K, S);
   L.ContextStride = static_cast<uint32_t>(Stride);
-  L.Bytes = {.Block = sizeof(VxLaunch),
+  L.Cores = C.cores();
+  L.LocalStride =
+      static_cast<uint32_t>(alignLaunch(S.LocalBytes.value_or(K.LocalBytes)));
+  L.Warps = warpsFor(K, S, L.LocalStride, C);
+  L.Bytes = {.Block = sizeof(VxLaunch) * L.Warps,
              .Args = K.ArgsBytes,
-             .Context = Stride * C.cores(),
+             .Context = Stride * C.cores() * L.Warps,
              .Print = PrintBytes,
              .Variables = bytesFor(K.Variables)};
   return L;
@@ -110,7 +127,6 @@ void Launch::write(Machine &M, Session &Watch, const LaunchParts &Addresses,
   std::ranges::copy(Shape.NumGroups, Block.NumGroups);
   std::ranges::copy(Shape.LocalSize, Block.LocalSize);
   std::ranges::copy(Shape.GlobalOffset, Block.GlobalOffset);
-  Block.Context = address(Addresses.Context);
   Block.ContextStride = ContextStride;
   Block.PrintBuffer = address(Addresses.Print);
   Block.PrintCapacity = PrintBytes;
@@ -120,8 +136,14 @@ void Launch::write(Machine &M, Session &Watch, const LaunchParts &Addresses,
   std::ranges::copy(Range.GroupsBefore, Block.GroupsBefore);
   std::ranges::copy(Range.AllGroups, Block.AllGroups);
   std::ranges::copy(Range.GlobalSize, Block.GlobalSize);
-  M.write(address(Addresses.Block), bytesOf(Block));
-  Watch.hostWrote(address(Addresses.Block), sizeof(Block));
+  Block.Warps = Warps;
+  Block.LocalStride = LocalStride;
+  for (uint32_t W = 0; W != Warps; ++W) {
+    Block.Context =
+        address(Addresses.Context + uint64_t{W} * Cores * ContextStride);
+    M.write(address(Addresses.Block + W * sizeof(Block)), bytesOf(Block));
+  }
+  Watch.hostWrote(address(Addresses.Block), Bytes.Block);
   if (Args.empty())
     return;
   M.write(address(Addresses.Args), Args);

@@ -101,6 +101,61 @@ TEST(Launch, TheBlockIsWrittenAndItsPrintingRead) {
   EXPECT_EQ(P.Dropped, 5u);
 }
 
+TEST(Launch, WarpsOfACoreAreAsManyAsThereIsWorkAndLocalMemoryFor) {
+  Config C = smallMachine();
+  C.WarpsPerCore = 4;
+  Kernel K = someKernel();
+  const auto WarpsOf = [&](uint32_t Groups, std::optional<uint64_t> Local) {
+    const auto L = Launch::plan(K,
+                                {.NumGroups = {Groups, 1, 1},
+                                 .LocalSize = {16, 1, 1},
+                                 .LocalBytes = Local},
+                                C);
+    EXPECT_TRUE(L);
+    // What groups keep across barriers grows with the blocks.
+    EXPECT_EQ(L->bytes().Context / (128u * C.cores()),
+              L->bytes().Block / sizeof(VxLaunch));
+    return L->bytes().Block / sizeof(VxLaunch);
+  };
+  EXPECT_EQ(WarpsOf(1000, 0), 1u);
+  K.SharesCore = true;
+  EXPECT_EQ(WarpsOf(1000, 0), 4u);
+  EXPECT_EQ(WarpsOf(C.cores(), 0), 1u);
+  EXPECT_EQ(WarpsOf(2 * C.cores(), 0), 2u);
+  EXPECT_EQ(WarpsOf(2 * C.cores() + 1, 0), 3u);
+  EXPECT_EQ(WarpsOf(1000, C.LocalBytes / 4), 4u);
+  EXPECT_EQ(WarpsOf(1000, C.LocalBytes / 4 + 1), 3u);
+  EXPECT_EQ(WarpsOf(1000, C.LocalBytes), 1u);
+  // Nobody knows what its arguments have.
+  EXPECT_EQ(WarpsOf(1000, std::nullopt), 1u);
+}
+
+TEST(Launch, EachWarpHasABlockOfItsOwn) {
+  Config C = smallMachine();
+  C.WarpsPerCore = 2;
+  const auto M = Machine::create(C);
+  const auto Watch = Session::create({}, "test");
+  ASSERT_TRUE(M && Watch);
+  Kernel K = someKernel();
+  K.SharesCore = true;
+  const auto L = Launch::plan(
+      K, {.NumGroups = {100, 1, 1}, .LocalSize = {16, 1, 1}, .LocalBytes = 300},
+      C);
+  ASSERT_TRUE(L);
+  L->write(**M, **Watch,
+           {.Block = VX_GLOBAL_BASE, .Context = VX_GLOBAL_BASE + 4096}, {});
+  std::array<VxLaunch, 2> Blocks{};
+  std::memcpy(Blocks.data(), (*M)->hostPointer(VX_GLOBAL_BASE, sizeof(Blocks)),
+              sizeof(Blocks));
+  for (const VxLaunch &Block : Blocks) {
+    EXPECT_EQ(Block.Warps, 2u);
+    EXPECT_EQ(Block.LocalStride, 384u);
+    EXPECT_EQ(Block.NumGroups[0], 100u);
+  }
+  EXPECT_EQ(Blocks[1].Context - Blocks[0].Context,
+            Blocks[0].ContextStride * C.cores());
+}
+
 TEST(Launch, LocalArgumentsLieBehindTheKernelsOwnMemory) {
   const Config C = smallMachine();
   LocalPlaces Places(someKernel(), C);

@@ -111,7 +111,7 @@ struct Machine::Impl final : raster::WorkLog {
   /// all mapped.
   template <typename Function>
   bool access(uint32_t Address, uint64_t Bytes, Function Use) const;
-  void resetCores(uint32_t LaunchBlock);
+  void resetCores(uint32_t LaunchBlock, const VxLaunch &Launch);
   void runCores();
   void translate();
   void atSyncPoint();
@@ -187,7 +187,9 @@ bool Machine::Impl::access(uint32_t Address, uint64_t Bytes,
   return true;
 }
 
-void Machine::Impl::resetCores(uint32_t LaunchBlock) {
+void Machine::Impl::resetCores(uint32_t LaunchBlock, const VxLaunch &Launch) {
+  const uint32_t Entry =
+      Launch.Warps > 1 ? Program->warpsEntry() : Program->entry();
   const bool Observed = isObserved();
   const bool IsTranslated =
       unitOf(Shape.Runs) != VectorUnit::None && !Observed && !isClocked();
@@ -197,7 +199,7 @@ void Machine::Impl::resetCores(uint32_t LaunchBlock) {
     Watcher.prepare(Code, Shape.WarpsPerCore, Shape.cores());
   Storage->clearLocal();
   for (const auto &C : Cores)
-    C->reset(Code, Program->entry(), LaunchBlock, Storage->view(C->id()),
+    C->reset(Code, Entry, LaunchBlock, Launch.Warps, Storage->view(C->id()),
              Observed ? &Watcher : nullptr);
   if (isClocked()) {
     Time->begin(Code);
@@ -530,11 +532,11 @@ RunResult Machine::run(uint32_t LaunchBlock) {
   PImpl->StopRequested = false;
   PImpl->Running = true;
   const RasterCounters Before = PImpl->Raster.counters();
-  PImpl->resetCores(LaunchBlock);
   VxLaunch Launch{};
   const bool HasLaunch = LaunchBlock != 0;
   if (HasLaunch)
     read(LaunchBlock, std::as_writable_bytes(std::span(&Launch, 1)));
+  PImpl->resetCores(LaunchBlock, Launch);
   PImpl->Watcher.tell([&](Observer &O) {
     O.runBegins({PImpl->Shape, PImpl->Program, LaunchBlock,
                  HasLaunch ? &Launch : nullptr, PImpl->Cores, this});

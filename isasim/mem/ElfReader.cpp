@@ -1,6 +1,6 @@
 #include "mem/ElfReader.h"
 
-#include "core/IsaTables.h"
+#include "core/Isa.h"
 
 #include <algorithm>
 #include <bit>
@@ -22,6 +22,7 @@ constexpr uint32_t FlagRve = 0x8;
 
 constexpr const char *KernelSection = "vorion_kernels";
 constexpr const char *VariableSection = "vorion_variables";
+constexpr const char *WarpsSection = "vorion_warps";
 constexpr uint32_t MaxArgs = 4096; ///< more than OpenCL's 256 KiB could hold
 constexpr uint32_t MaxArgsBytes = 256 << 10;
 
@@ -213,7 +214,8 @@ std::string ImageParser::readSections() {
     }
     for (const auto &[Name, Table] :
          {std::pair(KernelSection, &KernelTable),
-          std::pair(VariableSection, &VariableTable)}) {
+          std::pair(VariableSection, &VariableTable),
+          std::pair(WarpsSection, &WarpsCode)}) {
       const size_t Length = std::strlen(Name) + 1;
       if (S->sh_name < SectionNames.size() &&
           SectionNames.size() - S->sh_name >= Length &&
@@ -225,7 +227,41 @@ std::string ImageParser::readSections() {
   findBySymbols(KernelSection, KernelTable);
   findBySymbols(VariableSection, VariableTable);
   std::string Wrong = readKernels();
-  return Wrong.empty() ? readVariables() : Wrong;
+  if (Wrong.empty())
+    Wrong = readVariables();
+  return Wrong.empty() ? readWarps() : Wrong;
+}
+
+std::string ImageParser::readWarps() {
+  if (WarpsCode.bytes() == 0)
+    return {};
+  const bool NeedsCore = needsCoreAlone();
+  if (!isCode(WarpsCode.Lo))
+    return fmt::format("section {} at 0x{:08x} is not code", WarpsSection,
+                       WarpsCode.Lo);
+  Result->WarpsEntry = WarpsCode.Lo;
+  for (Kernel &K : Result->Kernels)
+    K.SharesCore = !NeedsCore;
+  return {};
+}
+
+bool ImageParser::needsCoreAlone() const {
+  const auto Needs = [](uint32_t Word) {
+    const std::optional<Decoded> D = decode(Word);
+    if (!D)
+      return false;
+    const CsrInfo *Csr = findCsrInfo(D->Csr);
+    // PoCL's barriers of a group, of number 0, wait for no other warp.
+    return (D->Opcode == Op::VX_BAR && D->Rs1 != 0) || (Csr && Csr->Raster);
+  };
+  for (const Image::Segment &S : Result->Segments)
+    for (size_t At = 0; S.Executable && At + 4 <= S.Bytes.size(); At += 4) {
+      uint32_t Word = 0;
+      std::memcpy(&Word, &S.Bytes[At], sizeof(Word));
+      if (Needs(Word))
+        return true;
+    }
+  return false;
 }
 
 void ImageParser::findBySymbols(const std::string &Name, Range &Table) const {

@@ -36,6 +36,10 @@ private:
   std::string readKernel(uint32_t Address);
   std::string readVariables();
   std::string readVariables(uint32_t Address);
+  std::string readWarps();
+  /// Whether the code uses what a core has once: its Raster Agent, or barriers
+  /// between warps that count them.
+  bool needsCoreAlone() const;
 
   /// The part of the file, or nothing if it is not all there.
   std::optional<std::span<const std::byte>> part(uint64_t Offset,
@@ -51,7 +55,7 @@ private:
   std::span<const std::byte> File;
   std::shared_ptr<Image> Result;
   Elf32_Ehdr Header{};
-  Range KernelTable, VariableTable;
+  Range KernelTable, VariableTable, WarpsCode;
   size_t NameBytes = 0;      ///< of names read so far
   size_t NumArgs = 0;        ///< of kernels read so far
   uint64_t PointerBytes = 0; ///< of tables of variables read so far

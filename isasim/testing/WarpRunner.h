@@ -30,7 +30,7 @@ public:
 
   /// The core as at the start, with all lanes active; memory stays.
   void reset() {
-    Only.reset(Code, VX_IMAGE_BASE, 0, Storage->view(0), &Watcher);
+    Only.reset(Code, VX_IMAGE_BASE, 0, 0, Storage->view(0), &Watcher);
     setMask(&warp(), 0xFFFF);
   }
 

@@ -110,6 +110,11 @@ void Clock::collectTimes(TimeReport &R) const {
   const auto Each = [&R](uint64_t Number) { return Number * R.Cycles; };
   Add("cores", Each(Shape.cores()));
   Add("core lanes", Each(uint64_t{Shape.cores()} * Shape.LanesPerWarp));
+  if (const uint64_t Further =
+          uint64_t{Shape.cores()} * (Shape.WarpsPerCore - 1)) {
+    Add("further warps", Each(Further));
+    Add("lanes of further warps", Each(Further * Shape.LanesPerWarp));
+  }
   Add("rasterizers", Each(Shape.sockets()));
   Add("places for Gaussians",
       Each(uint64_t{Shape.sockets()} * Timing.Raster.BufferEntries));

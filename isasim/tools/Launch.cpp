@@ -117,8 +117,8 @@ Expected<uint32_t> KernelLaunch::placeBuffer(const KernelInput &In,
   return Address;
 }
 
-Expected<Success> KernelLaunch::packArguments(const Kernel &K,
-                                              const KernelRequest &R) {
+Expected<uint64_t> KernelLaunch::packArguments(const Kernel &K,
+                                               const KernelRequest &R) {
   constexpr const char *Kinds[] = {"a value", "a buffer", "local memory",
                                    "a whole number", "a float, as f32:X"};
   if (R.Args.size() != K.Args.size()) {
@@ -166,7 +166,7 @@ Expected<Success> KernelLaunch::packArguments(const Kernel &K,
   }
   Watch->localUsed(Locals.used());
   Watch->memoryGiven(Given);
-  return Success{};
+  return Locals.used();
 }
 
 Expected<Success> KernelLaunch::write(const Launch &L, const Kernel &K) {
@@ -202,16 +202,18 @@ Expected<KernelLaunch> KernelLaunch::prepare(Machine &M, const KernelRequest &R,
     K = &Program.kernels().front();
   if (!K)
     return noKernel(Program, R.Kernel);
-  const Expected<LaunchShape> Shape = shapeOf(*K, R);
+  Expected<LaunchShape> Shape = shapeOf(*K, R);
   if (!Shape)
     return Shape.error();
+  KernelLaunch L(M, Watch);
+  L.Name = K->Name;
+  const Expected<uint64_t> Local = L.packArguments(*K, R);
+  if (!Local)
+    return Local.error();
+  Shape->LocalBytes = *Local;
   const Expected<Launch> Planned = Launch::plan(*K, *Shape, M.config());
   if (!Planned)
     return usage(Planned.error().What);
-  KernelLaunch L(M, Watch);
-  L.Name = K->Name;
-  if (Expected<Success> Ok = L.packArguments(*K, R); !Ok)
-    return Ok.error();
   if (Expected<Success> Ok = L.write(*Planned, *K); !Ok)
     return Ok.error();
   return L;

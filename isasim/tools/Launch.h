@@ -33,7 +33,8 @@ private:
   Expected<uint32_t> reserve(uint64_t Bytes, const std::string &What);
   Expected<uint32_t> placeBuffer(const KernelInput &In, size_t Argument,
                                  const std::string &ArgName);
-  Expected<Success> packArguments(const Kernel &K, const KernelRequest &R);
+  /// The local memory that they and \p K use.
+  Expected<uint64_t> packArguments(const Kernel &K, const KernelRequest &R);
   /// Allocates what \p L, a launch of \p K, needs and writes it there.
   Expected<Success> write(const Launch &L, const Kernel &K);
 

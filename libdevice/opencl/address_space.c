@@ -26,7 +26,8 @@ static space space_of(const void *pointer) {
   if (address >= VX_STACK_TOP - stack_bytes)
     return Private;
   const vx_launch *launch = (const vx_launch *)vx_mscratch();
-  const uint32_t context_bytes = launch->context_stride * vx_num_cores();
+  const uint32_t context_bytes =
+      launch->context_stride * vx_num_cores() * launch->warps;
   return address - launch->context < context_bytes ? Private : Global;
 }
 

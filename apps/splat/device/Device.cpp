@@ -159,6 +159,9 @@ Expected<Device> Device::open(const std::string &Wanted,
     std::size_t Lanes = 1;
     if (D.Handle.getInfo(GroupMultiple, &Lanes) == CL_SUCCESS)
       D.Lanes = static_cast<unsigned>(Lanes);
+    cl_uint Warps = 1;
+    if (D.Handle.getInfo(CL_DEVICE_WARPS_PER_CORE_VORION, &Warps) == CL_SUCCESS)
+      D.WarpsPerCore = Warps;
   }
   return D;
 }

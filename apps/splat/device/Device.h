@@ -55,6 +55,8 @@ public:
   /// Whether it has a rasterizer and counters (extension cl_vorion).
   bool isVorion() const { return EventInfo != nullptr; }
   unsigned computeUnits() const { return ComputeUnits; }
+  /// Work-groups that run at the same time, of a kernel without a rasterizer.
+  unsigned groupsAtOnce() const { return ComputeUnits * WarpsPerCore; }
   /// Work-items that a core steps together, in order where they meet in local
   /// memory (docs/abi.md); 1 on a device that says nothing of its order.
   unsigned lanes() const { return Lanes; }
@@ -83,7 +85,7 @@ private:
   cl::Context Context;
   cl::CommandQueue Queue, ProfiledQueue;
   std::string Name;
-  unsigned ComputeUnits = 1, Lanes = 1;
+  unsigned ComputeUnits = 1, WarpsPerCore = 1, Lanes = 1;
   uint64_t GlobalBytes = 0, LargestAllocation = 0;
   clGetEventInfoVORION_fn EventInfo = nullptr;
   TimeCheck CheckTime;

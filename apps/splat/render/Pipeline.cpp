@@ -136,7 +136,7 @@ void Pipeline::project(const Camera &C) {
                                         uint64_t{blocksOf(Count)});
   Current.Depths.Keys = words("depths", Count);
   Current.Rectangles = words("tile rectangles", 2 * uint64_t{Count});
-  const std::size_t Items = Launch.device().computeUnits() * Lanes;
+  const std::size_t Items = Launch.device().groupsAtOnce() * Lanes;
   const cl::Buffer Seen =
       Launch.allocate("what is seen", sizeof(splat_seen) * Items);
   const auto Run = [&](const auto &...More) {

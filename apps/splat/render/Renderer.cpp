@@ -47,7 +47,7 @@ DepthMap readDepths(Launcher &Launch, const Frame &F,
 cl::Buffer resolve(Launcher &Launch, const Frame &F,
                    const std::array<float, 3> &Background) {
   cl::Buffer Picture = Launch.allocate("picture", 16 * uint64_t{F.pixels()});
-  Launch.run(ResolveProgram, "resolve", Launch.device().computeUnits() * Lanes,
+  Launch.run(ResolveProgram, "resolve", Launch.device().groupsAtOnce() * Lanes,
              Lanes, F.Pixels, Picture, 4 * F.pixels(), Background[0],
              Background[1], Background[2], F.View.effects);
   return Picture;

@@ -18,6 +18,10 @@ constexpr uint32_t LineWords = 16;
 /// Below this, a group's own cost outweighs its share.
 constexpr uint32_t LeastChunk = 256;
 constexpr uint32_t LeastScanChunk = 64;
+/// Each group has a histogram of its own. Where warps of a core make more
+/// groups than these, summing up the histograms costs more than the warps gain
+/// (docs/ideas.md, "Warps").
+constexpr unsigned MostGroupsOfWarps = 64;
 
 uint32_t divideUp(uint32_t A, uint32_t B) {
   return A / B + (A % B != 0 ? 1 : 0);
@@ -46,7 +50,10 @@ std::vector<Sorter::Digit> Sorter::digits(unsigned Bits, unsigned Room) {
 }
 
 Sorter::Sorter(Launcher &Launch)
-    : Launch(Launch), Groups(std::max(1U, Launch.device().computeUnits())) {
+    : Launch(Launch),
+      Groups(std::max(
+          {1U, Launch.device().computeUnits(),
+           std::min(Launch.device().groupsAtOnce(), MostGroupsOfWarps)})) {
   constexpr uint64_t Digits = 1U << MostDigitBits;
   Histogram = Launch.allocate("sort's histograms", 4 * Digits * Groups);
   Totals = Launch.allocate("sort's totals", 4 * Digits);

@@ -39,9 +39,7 @@ bool Places::isOwn(uint32_t Address, unsigned Bytes, const Step &S,
   case Local:
     return Address + uint64_t{Bytes} <= localEnd();
   case Stack:
-    // Where a second warp has its stacks is the software's affair.
-    return Shape.WarpsPerCore != 1 ||
-           stackOf(Address) == S.Core * Shape.LanesPerWarp + Lane;
+    return !hasOwnStacks() || stackOf(Address) == stackOf(S, Lane);
   case Program:
     return std::any_of(
         Code->segments().begin(), Code->segments().end(),
@@ -67,12 +65,14 @@ std::string Places::describe(uint32_t Address, const Step &S,
                        localEnd() - VX_LOCAL_BASE);
   case Stack: {
     const uint32_t Number = stackOf(Address);
-    if (Shape.WarpsPerCore == 1 && Number == S.Core * Shape.LanesPerWarp + Lane)
+    if (hasOwnStacks() && Number == stackOf(S, Lane))
       return fmt::format(
           "{} below the top of its stack",
           counted(VX_STACK_TOP - Number * Shape.StackBytes - Address, "byte"));
-    return fmt::format("in the stack of core {}, lane {}",
-                       Number / Shape.LanesPerWarp,
+    const unsigned Warp = Number / Shape.LanesPerWarp;
+    return fmt::format("in the stack of core {}, {}lane {}", Warp / warps(),
+                       warps() == 1 ? ""
+                                    : fmt::format("warp {}, ", Warp % warps()),
                        Number % Shape.LanesPerWarp);
   }
   case Program: {

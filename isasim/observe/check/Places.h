@@ -32,12 +32,34 @@ public:
   /// accesses memory.
   std::string describeAccess(const Step &S, unsigned Lane) const;
 
+  /// Who has local memory, and groups, one after the other: a warp where a
+  /// launch gives groups to warps, else a core. Numbers below agents().
+  unsigned agentOf(const Step &S) const {
+    return S.Core * Shape.WarpsPerCore + (HasLaunch ? S.Warp : 0);
+  }
+  unsigned agents() const { return Shape.cores() * Shape.WarpsPerCore; }
+  /// Whether \p Address is in what the driver keeps for groups.
+  bool isContext(uint32_t Address) const {
+    return Address - Launch.Context <
+           Launch.ContextStride * Shape.cores() * Launch.Warps;
+  }
+
   const Config &shape() const { return Shape; }
   /// Of the run, all 0 if it has none.
   const VxLaunch &launch() const { return Launch; }
   bool hasLaunch() const { return HasLaunch; }
 
 private:
+  /// Of a core, that have stacks.
+  unsigned warps() const {
+    return HasLaunch ? std::max(Launch.Warps, 1U) : Shape.WarpsPerCore;
+  }
+  /// Where a second warp of a program has its stacks is the program's affair.
+  bool hasOwnStacks() const { return Shape.WarpsPerCore == 1 || HasLaunch; }
+  /// The number of the lane's own stack.
+  uint32_t stackOf(const Step &S, unsigned Lane) const {
+    return (S.Core * warps() + S.Warp) * Shape.LanesPerWarp + Lane;
+  }
   /// The number of the stack that holds \p Address.
   uint32_t stackOf(uint32_t Address) const {
     return (VX_STACK_TOP - 1 - Address) / Shape.StackBytes;

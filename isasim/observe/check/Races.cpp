@@ -16,40 +16,37 @@ constexpr uint32_t DeviceBarrier = 1U << 31; ///< in vx_bar's rs1 (Simt.td)
 
 } // namespace
 
-void RaceCheck::runBegins(const RunStart &R) {
-  const unsigned Count = R.Shape.cores();
+void RaceCheck::runBegins(const RunStart & /*R*/) {
+  const unsigned Count = Where.agents();
   Pages.clear();
   Released.clear();
-  Cores.assign(Count, CoreState());
+  Agents.assign(Count, AgentState());
   Groups = 0;
-  for (CoreState &C : Cores) {
-    C.Acquired.assign(Count, 0);
-    C.Group = ++Groups;
+  for (AgentState &A : Agents) {
+    A.Acquired.assign(Count, 0);
+    A.Group = ++Groups;
   }
 }
 
 void RaceCheck::fetch(const Step &S) {
   // All who take part have arrived before the first one goes on.
   if (S.Insn.Opcode == Op::VX_BAR)
-    Cores[S.Core].Arrived = Cores[S.Core].Now;
+    ownOf(S).Arrived = ownOf(S).Now;
   if (!Where.hasLaunch() || S.Pc != Where.launch().Entry)
     return;
   // A new group comes after nothing of this run.
-  CoreState &C = Cores[S.Core];
-  C.Group = ++Groups;
-  C.LastBarrier = C.Now++;
-  std::fill(C.Acquired.begin(), C.Acquired.end(), 0);
+  AgentState &A = ownOf(S);
+  A.Group = ++Groups;
+  A.LastBarrier = A.Now++;
+  std::fill(A.Acquired.begin(), A.Acquired.end(), 0);
 }
 
 /// Whether more than one work-item may have business there.
 bool RaceCheck::isShared(uint32_t Address) const {
   switch (Where.kindOf(Address)) {
-  case Places::Global: {
-    // What a core's groups use one after the other.
-    const VxLaunch &L = Where.launch();
-    return !Where.hasLaunch() ||
-           Address - L.Context >= L.ContextStride * Where.shape().cores();
-  }
+  case Places::Global:
+    // What an agent's groups use one after the other.
+    return !Where.hasLaunch() || !Where.isContext(Address);
   case Places::Local:
   case Places::Program:
     return true;
@@ -60,10 +57,10 @@ bool RaceCheck::isShared(uint32_t Address) const {
   return false;
 }
 
-RaceCheck::Cell &RaceCheck::cellOf(uint32_t Address, unsigned Core) {
+RaceCheck::Cell &RaceCheck::cellOf(uint32_t Address, unsigned Agent) {
   const bool IsLocal = Where.kindOf(Address) == Places::Local;
   const uint64_t Number =
-      Address >> PageShift | uint64_t{IsLocal ? Core + 1 : 0} << 32;
+      Address >> PageShift | uint64_t{IsLocal ? Agent + 1 : 0} << 32;
   std::unique_ptr<Page> &P = Pages[Number];
   if (!P)
     P = std::make_unique<Page>();
@@ -74,9 +71,9 @@ bool RaceCheck::isOrdered(const Access &Earlier, const Access &Now,
                           bool IsLocal) const {
   if (Earlier.Group == Now.Group)
     return Earlier.Hart == Now.Hart ||
-           Earlier.When <= Cores[Now.Core].LastBarrier;
-  // Groups have a core's local memory one after the other.
-  return IsLocal || Earlier.When <= Cores[Now.Core].Acquired[Earlier.Core];
+           Earlier.When <= Agents[Now.Agent].LastBarrier;
+  // Groups have an agent's local memory one after the other.
+  return IsLocal || Earlier.When <= Agents[Now.Agent].Acquired[Earlier.Agent];
 }
 
 void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
@@ -97,7 +94,8 @@ void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
                       Earlier.IsAtomic ? "atomic"
                       : EarlierWrites  ? "store"
                                        : "load",
-                      Earlier.Core, Earlier.Hart / Lanes, Earlier.Hart % Lanes,
+                      Earlier.Agent / Where.shape().WarpsPerCore,
+                      Earlier.Hart / Lanes, Earlier.Hart % Lanes,
                       Earlier.Group == Now.Group ? " of the same group" : "",
                       Out.place(Earlier.Pc)),
           Earlier.Pc);
@@ -106,16 +104,16 @@ void RaceCheck::check(const Commit &C, unsigned Lane, const Access &Earlier,
 /// The part of a lane's access that lies in the word of \p Address.
 void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
   const bool IsAtomic = C.Access->What == MemoryAccess::Atomic;
-  const CoreState &Own = Cores[C.Core];
+  const AgentState &Own = ownOf(C);
   Access Now;
   Now.Group = Own.Group;
   Now.When = Own.Now;
   Now.Pc = C.Pc;
-  Now.Core = static_cast<uint16_t>(C.Core);
+  Now.Agent = static_cast<uint16_t>(Where.agentOf(C));
   Now.Hart = static_cast<uint8_t>(C.Warp * Where.shape().LanesPerWarp + Lane);
   Now.Bytes = (((1U << C.Access->Bytes) - 1) << Address % 4) & 15;
   Now.IsAtomic = IsAtomic;
-  Cell &At = cellOf(Address, C.Core);
+  Cell &At = cellOf(Address, Now.Agent);
   check(C, Lane, At.Write, Now, true);
   if (C.Access->What == MemoryAccess::Load) {
     // Two readers that differ: a writer differs from one of them.
@@ -134,20 +132,20 @@ void RaceCheck::accessWord(const Commit &C, unsigned Lane, uint32_t Address) {
   At.Reads = {};
 }
 
-void RaceCheck::synchronise(uint32_t Address, unsigned Core) {
-  CoreState &Own = Cores[Core];
+void RaceCheck::synchronise(uint32_t Address, unsigned Agent) {
+  AgentState &Own = Agents[Agent];
   Clock &There = Released[Address];
-  There.resize(Cores.size());
+  There.resize(Agents.size());
   for (size_t N = 0; N != There.size(); ++N)
     Own.Acquired[N] = There[N] = std::max(There[N], Own.Acquired[N]);
-  There[Core] = Own.Now;
+  There[Agent] = Own.Now;
 }
 
-void RaceCheck::deviceBarrier(unsigned Core) {
+void RaceCheck::deviceBarrier(unsigned Agent) {
   // Who takes part is not followed: others have arrived nowhere, or earlier.
-  Clock &Own = Cores[Core].Acquired;
-  for (size_t N = 0; N != Cores.size(); ++N)
-    Own[N] = std::max(Own[N], Cores[N].Arrived);
+  Clock &Own = Agents[Agent].Acquired;
+  for (size_t N = 0; N != Agents.size(); ++N)
+    Own[N] = std::max(Own[N], Agents[N].Arrived);
 }
 
 /// The active lanes without those that store what a lower one stores to the
@@ -177,9 +175,9 @@ void RaceCheck::commit(const Commit &C) {
   if (C.Insn.Opcode == Op::VX_BAR) {
     const unsigned Last = static_cast<unsigned>(std::bit_width(C.LaneMask)) - 1;
     const uint32_t Id = C.State.lanes(C.Insn.Rs1 * sizeof(LaneWords))[Last];
-    CoreState &Own = Cores[C.Core];
+    AgentState &Own = ownOf(C);
     if (Id & DeviceBarrier)
-      deviceBarrier(C.Core);
+      deviceBarrier(Where.agentOf(C));
     Own.LastBarrier = Own.Now++;
     return;
   }
@@ -189,13 +187,13 @@ void RaceCheck::commit(const Commit &C) {
   for (uint32_t Left = withoutRepeats(C); Left; Left &= Left - 1) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
     if (IsAtomic && Where.kindOf(C.Access->Addresses[L]) != Places::Local)
-      synchronise(C.Access->Addresses[L], C.Core);
+      synchronise(C.Access->Addresses[L], Where.agentOf(C));
     if (isShared(C.Access->Addresses[L]))
       for (uint32_t N = 0; N < C.Access->Bytes; N += 4)
         accessWord(C, L, C.Access->Addresses[L] + N);
   }
   if (IsAtomic)
-    ++Cores[C.Core].Now;
+    ++ownOf(C).Now;
 }
 
 std::unique_ptr<Check> makeRaceCheck(Reporter Out, const Places &Where) {

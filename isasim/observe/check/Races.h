@@ -27,16 +27,16 @@ public:
   void commit(const Commit &C) override;
 
 private:
-  /// Moments of a core, counted by what orders its accesses.
+  /// Moments of an agent, counted by what orders its accesses.
   using Time = uint32_t;
-  using Clock = std::vector<Time>; ///< by core
+  using Clock = std::vector<Time>; ///< by agent
 
   struct Access {
     uint32_t Group = 0; ///< number of the group's start, 0 for no access
     Time When = 0;
     uint32_t Pc = 0;
-    uint16_t Core = 0;
-    uint8_t Hart = 0; ///< warp and lane
+    uint16_t Agent = 0; ///< Places::agentOf()
+    uint8_t Hart = 0;   ///< warp and lane
     uint8_t Bytes : 4 = 0;
     uint8_t IsAtomic : 1 = 0;
   };
@@ -46,27 +46,28 @@ private:
   };
   using Page = std::array<Cell, 1024>; ///< a word each
 
-  struct CoreState {
+  struct AgentState {
     Time Now = 1;
     Time LastBarrier = 0; ///< accesses up to then are ordered for the group
     Time Arrived = 0;     ///< at a barrier of the device
     uint32_t Group = 1;
-    Clock Acquired; ///< moments of cores that this one's group comes after
+    Clock Acquired; ///< moments of agents that this one's group comes after
   };
 
+  AgentState &ownOf(const Step &S) { return Agents[Where.agentOf(S)]; }
   bool isShared(uint32_t Address) const;
-  Cell &cellOf(uint32_t Address, unsigned Core);
+  Cell &cellOf(uint32_t Address, unsigned Agent);
   bool isOrdered(const Access &Earlier, const Access &Now, bool IsLocal) const;
   void check(const Commit &C, unsigned Lane, const Access &Earlier,
              const Access &Now, bool EarlierWrites);
   void accessWord(const Commit &C, unsigned Lane, uint32_t Address);
-  void synchronise(uint32_t Address, unsigned Core);
-  void deviceBarrier(unsigned Core);
+  void synchronise(uint32_t Address, unsigned Agent);
+  void deviceBarrier(unsigned Agent);
   uint32_t withoutRepeats(const Commit &C) const;
 
   Reporter Out;
   const Places &Where;
-  std::vector<CoreState> Cores;
+  std::vector<AgentState> Agents;
   uint32_t Groups = 1;
   std::unordered_map<uint64_t, std::unique_ptr<Page>> Pages;
   std::unordered_map<uint32_t, Clock> Released; ///< by word

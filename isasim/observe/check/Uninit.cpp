@@ -43,16 +43,16 @@ void UninitCheck::runBegins(const RunStart &R) {
   Warps.assign(size_t{Shape.cores()} * WarpsPerCore, Warp());
   for (Warp &W : Warps)
     W.Good[0] = AllLanes;
-  Locals = std::vector<ShadowBits>(Shape.cores());
+  Locals = std::vector<ShadowBits>(Where.agents());
   Stacks.clear();
 }
 
-ShadowBits *UninitCheck::shadowOf(uint32_t Address, unsigned Core) {
+ShadowBits *UninitCheck::shadowOf(uint32_t Address, const Step &S) {
   switch (Where.kindOf(Address)) {
   case Places::Global:
     return &Global;
   case Places::Local:
-    return &Locals[Core];
+    return &Locals[Where.agentOf(S)];
   case Places::Stack:
     return &Stacks;
   case Places::Program:
@@ -169,7 +169,7 @@ void UninitCheck::checkUses(const Step &S, Warp &W) {
 uint32_t UninitCheck::load(const Step &S) {
   return lanesWhere(S.LaneMask, [&](unsigned L) {
     const uint32_t Address = S.Access->Addresses[L];
-    ShadowBits *Shadow = shadowOf(Address, S.Core);
+    ShadowBits *Shadow = shadowOf(Address, S);
     return !Shadow || Address % S.Access->Bytes != 0 ||
            Shadow->all(Address, S.Access->Bytes);
   });
@@ -179,7 +179,7 @@ void UninitCheck::fetch(const Step &S) {
   Warp &W = Warps[size_t{S.Core} * WarpsPerCore + S.Warp];
   // A group begins: what its predecessor left in local memory is not its own.
   if (Where.hasLaunch() && S.Pc == Where.launch().Entry)
-    Locals[S.Core].clear();
+    Locals[Where.agentOf(S)].clear();
   checkUses(S, W);
   const InsnInfo &Info = S.Insn.info();
   if (Info.Rd == File::X && S.Insn.Rd == StackRegister)
@@ -218,16 +218,14 @@ void UninitCheck::checkStore(const Step &S, Warp &W) {
   for (uint32_t Left = S.LaneMask; Left; Left &= Left - 1) {
     const auto L = static_cast<unsigned>(std::countr_zero(Left));
     const uint32_t Address = S.Access->Addresses[L];
-    ShadowBits *Shadow = shadowOf(Address, S.Core);
+    ShadowBits *Shadow = shadowOf(Address, S);
     if (!Shadow)
       continue;
     Shadow->set(Address, S.Access->Bytes, Good >> L & 1);
     if ((Good >> L & 1) || Shadow != &Global || !Where.Held.find(Address, 1))
       continue;
     // The driver's own memory keeps values across barriers: a copy.
-    const VxLaunch &Launch = Where.launch();
-    const uint32_t Context = Launch.ContextStride * Where.shape().cores();
-    if (Where.hasLaunch() && Address - Launch.Context < Context)
+    if (Where.hasLaunch() && Where.isContext(Address))
       continue;
     Out.add(Culprit::of(S, L),
             fmt::format("store of a value from memory that nothing was "

@@ -47,7 +47,7 @@ private:
   void checkUses(const Step &S, Warp &W);
   void checkStore(const Step &S, Warp &W);
   uint32_t load(const Step &S);
-  ShadowBits *shadowOf(uint32_t Address, unsigned Core);
+  ShadowBits *shadowOf(uint32_t Address, const Step &S);
   void moveStack(const Commit &C, Warp &W);
 
   Reporter Out;

@@ -56,8 +56,10 @@ bool changeLike(uint32_t From, uint32_t To, double &Value) {
   return true;
 }
 
+/// Within the core's local memory, where a warp has a part of it.
 uint32_t addressOf(const Step &S, unsigned Lane) {
-  return S.Access->Addresses[Lane];
+  const uint32_t Address = S.Access->Addresses[Lane];
+  return Address < VX_LOCAL_BASE ? Address : Address + S.State.LocalOffset;
 }
 
 } // namespace

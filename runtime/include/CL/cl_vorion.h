@@ -32,6 +32,11 @@ extern "C" {
  * CL_QUEUE_PROFILING_ENABLE. */
 #define CL_EVENT_TIME_REPORT_VORION 0x4F80
 
+/* What clGetDeviceInfo tells besides: cl_uint. So many work-groups run on each
+ * compute unit, which is a core, at the same time, where they leave one another
+ * local memory, and as long as the kernel does not use the rasterizer. */
+#define CL_DEVICE_WARPS_PER_CORE_VORION 0x4F81
+
 /* A line of a program's build log contains this, and the reason after it, if
  * compiled kernels could not be kept: the source may be good. Then
  * clBuildProgram gives CL_BUILD_PROGRAM_FAILURE, and a kernel that is compiled

@@ -214,6 +214,9 @@ typedef struct vx_launch_params {
   uint32_t global_offset[3];
   uint32_t variables; /* of vx_variables_alloc; 0 for a kernel without */
   const vx_whole_range *part_of; /* NULL: the launch is the whole range */
+  /* The total of vx_image_place_locals; 0: not known, so that a kernel with
+   * local-memory arguments runs on one warp of each core. */
+  uint32_t local_bytes;
 } vx_launch_params;
 
 /* Starts a kernel; args: args_bytes of it, copied before the call returns. */

@@ -44,6 +44,8 @@ struct Kernel {
   uint32_t LocalBytes = 0;             ///< static local memory
   std::array<uint32_t, 3> LocalSize{}; ///< 0 for any
   uint32_t Lanes = 0; ///< of the warps it was compiled for, 0 for any
+  /// Whether several warps of a core may run its groups.
+  bool SharesCore = false;
   ProgramVariables Variables;
 
   /// What a group of \p Items work-items keeps across barriers, in bytes: whole
@@ -89,6 +91,8 @@ public:
   /// The file, as it was given to parse().
   std::span<const std::byte> file() const { return File; }
   uint32_t entry() const { return Entry; }
+  /// Where a launch of several warps a core begins, 0 for nowhere.
+  uint32_t warpsEntry() const { return WarpsEntry; }
   const std::vector<Segment> &segments() const { return Segments; }
   const std::vector<Kernel> &kernels() const { return Kernels; }
   /// nullptr if there is no such kernel.
@@ -112,7 +116,7 @@ private:
 
   std::string Name;
   std::vector<std::byte> File;
-  uint32_t Entry = 0;
+  uint32_t Entry = 0, WarpsEntry = 0;
   std::vector<Segment> Segments; ///< by address
   std::vector<Symbol> Symbols;   ///< by address
   std::vector<Kernel> Kernels;

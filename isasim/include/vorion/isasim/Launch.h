@@ -50,6 +50,9 @@ struct LaunchShape {
   std::array<uint32_t, 3> NumGroups{1, 1, 1}; ///< 0 runs nothing
   std::array<uint32_t, 3> LocalSize{1, 1, 1};
   std::array<uint32_t, 3> GlobalOffset{};
+  /// Local memory of a group: the kernel's own and its arguments'. Absent if
+  /// nothing says how much the arguments have.
+  std::optional<uint64_t> LocalBytes = std::nullopt;
   /// Absent for a launch of a whole range.
   std::optional<WholeRange> PartOf = std::nullopt;
 };
@@ -82,7 +85,9 @@ private:
   uint32_t Entry;
   LaunchShape Shape;
   LaunchParts Bytes;
-  uint32_t ContextStride = 0;
+  uint32_t Cores = 1;
+  uint32_t ContextStride = 0, LocalStride = 0;
+  uint32_t Warps = 1; ///< of a core
 };
 
 /// The bytes to allocate for \p V, with room to align them.

@@ -239,6 +239,20 @@ void freeEventData(cl_event Event) {
   Event->data = nullptr;
 }
 
+cl_int deviceInfo(cl_device_id Device, cl_device_info Name, size_t Size,
+                  void *Value, size_t *SizeRet) {
+  if (Name != CL_DEVICE_WARPS_PER_CORE_VORION)
+    return CL_INVALID_VALUE;
+  const cl_uint Warps = deviceOf(Device).Info.warps;
+  if (Value && Size < sizeof(Warps))
+    return CL_INVALID_VALUE;
+  if (Value)
+    memcpy(Value, &Warps, sizeof(Warps));
+  if (SizeRet)
+    *SizeRet = sizeof(Warps);
+  return CL_SUCCESS;
+}
+
 } // namespace
 
 void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
@@ -248,6 +262,7 @@ void pocl_vorion_init_device_ops(pocl_device_ops *Ops) {
   Ops->uninit = uninit;
   Ops->reinit = reinit;
   Ops->build_hash = buildHash;
+  Ops->get_device_info_ext = deviceInfo;
   Ops->init_build = initBuild;
 
   setMemoryOperations(Ops);

@@ -109,13 +109,13 @@ cl_int runPart(vx_device *Device, KernelCache &Kernels,
              std::min<size_t>(Info.size, Argument.size));
     }
   }
+  vx_launch_params Params{};
   vx_status Status = vx_image_place_locals(Kernel->Image.get(), Kernel->Number,
                                            LocalSizes.data(), LocalSizes.size(),
-                                           Packed.data(), nullptr);
+                                           Packed.data(), &Params.local_bytes);
   if (Status != VX_OK)
     return Fail.kernel(CL_OUT_OF_RESOURCES, vx_last_error());
 
-  vx_launch_params Params{};
   Params.work_dim = Grid.work_dim;
   for (int I = 0; I < 3; ++I) {
     Params.num_groups[I] = Grid.num_groups[I];
