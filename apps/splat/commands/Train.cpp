@@ -1,4 +1,3 @@
-#include "commands/CaptureInfo.h"
 #include "commands/Choices.h"
 #include "commands/Commands.h"
 #include "commands/DeviceArguments.h"
@@ -8,7 +7,7 @@
 #include "commands/PictureOptions.h"
 #include "commands/Progress.h"
 #include "commands/TrainPictures.h"
-#include "commands/TrainSettingOptions.h"
+#include "commands/TrainedOptions.h"
 
 #include "capture/Undistort.h"
 #include "io/ReportHead.h"
@@ -38,13 +37,12 @@ namespace vorion::splat {
 namespace {
 
 struct TrainArguments {
-  TrainRequest Request;
+  TrainedArguments Trained;
   std::string Output, Json, Curve, Device;
   TrainPictures Pictures;
   bool Time = false, Breakdown = false;
   EnergyArguments Energy;
   std::optional<unsigned> GivenTimeEvery;
-  SettingOptions Settings;
 
   bool isClocked() const { return Time || Breakdown || Energy.isWanted(); }
   unsigned timeEvery() const { return GivenTimeEvery.value_or(50); }
@@ -109,9 +107,9 @@ std::string curveOf(const std::vector<float> &Losses, const std::string &What) {
 
 Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
                                const std::optional<EnergyRequest> &Energy) {
-  if (auto Written =
-          writePly(A.Output, Out.Result,
-                   {A.Request.Run.Antialiased, std::nullopt, "--antialiased"});
+  if (auto Written = writePly(
+          A.Output, Out.Result,
+          {A.Trained.Request.Run.Antialiased, std::nullopt, "--antialiased"});
       !Written)
     return Written;
   if (auto Written = writeTrainPictures(A.Pictures, A.Output, Out); !Written)
@@ -119,21 +117,21 @@ Expected<Success> writeOutputs(const TrainArguments &A, const TrainOutcome &Out,
   if (!A.Curve.empty())
     if (auto Written = writeFileAtomically(
             A.Curve,
-            curveOf(
-                Out.Losses,
-                std::filesystem::path(A.Request.Capture).filename().string()));
+            curveOf(Out.Losses, std::filesystem::path(A.Trained.Request.Capture)
+                                    .filename()
+                                    .string()));
         !Written)
       return Written;
   if (A.Json.empty())
     return Success{};
-  const auto Report = trainReport(A.Request, Out, Energy);
+  const auto Report = trainReport(A.Trained.Request, Out, Energy);
   if (!Report)
     return Report.error();
   return writeFileAtomically(A.Json, jsonText(*Report, 2) + "\n");
 }
 
 void printOutcome(const TrainArguments &A, const TrainOutcome &Out) {
-  const TrainRequest &R = A.Request;
+  const TrainRequest &R = A.Trained.Request;
   printOut("{}: {} after {}\n", escaped(A.Output),
            counted(Out.Result.size(), "Gaussian"),
            counted(Out.Iterations, "iteration"));
@@ -205,30 +203,15 @@ Expected<Success> printEnergy(const ClockSamples &Timed,
 }
 
 Expected<Success> check(const TrainArguments &A) {
-  const TrainRequest &R = A.Request;
+  const TrainRequest &R = A.Trained.Request;
   for (const auto &Checked :
        {checkEnding("-o", A.Output, {".ply"}),
         checkEnding("--curve", A.Curve, {".svg"}), checkJsonName(A.Json),
         checkTrainPictures(A.Pictures)})
     if (!Checked)
       return Checked;
-  if (auto Checked = checkBackwardOptions(R.Backward, R.Blending.Kind);
-      !Checked)
+  if (auto Checked = checkTrained(R); !Checked)
     return Checked;
-  if (auto Checked = checkSimtOptions(R.Blending.Kind, R.Blending.SimtTile,
-                                      R.Blending.SimtGroup);
-      !Checked)
-    return Checked;
-  if (R.Run.Settings.AbsoluteGradient && R.Blending.Kind != Path::Simt)
-    return Error{"",
-                 "--absgrad: the rasterizer's nine sums have no absolute "
-                 "values, expected --path simt with it",
-                 ExitCode::Usage};
-  if (R.Run.Pictures == LensOf::Photograph && looksAtDepths(R.Run.Settings))
-    return Error{"",
-                 "--depth-weight: depths are known in undistorted pictures "
-                 "alone, expected no --distorted with it",
-                 ExitCode::Usage};
   if (R.Read.HoldOut == 0U &&
       !(A.Pictures.Html.empty() && A.Pictures.Pictures.empty()))
     return Error{"",
@@ -246,11 +229,6 @@ Expected<Success> check(const TrainArguments &A) {
         ExitCode::Usage};
   if (R.ScoreEvery != 0 && A.Json.empty())
     return Error{"", "--score-every: expected --json with it", ExitCode::Usage};
-  for (const float V : R.Run.Background)
-    if (!(V >= 0 && V <= 1))
-      return Error{"",
-                   fmt::format("--background {}: expected values of 0 to 1", V),
-                   ExitCode::Usage};
   const InputFiles Inputs = InputFiles()
                                 .watched()
                                 .capture(R.Capture)
@@ -269,7 +247,7 @@ Expected<Device> openClocked(const TrainArguments &A, DeviceOptions Machine,
                              const std::optional<EnergyRequest> &Energy) {
   if (A.isClocked())
     Machine.set("VORION_TIME", "profiled", "--time");
-  auto D = openDevice(A.Device, A.Request.Blending.Kind, Machine);
+  auto D = openDevice(A.Device, A.Trained.Request.Blending.Kind, Machine);
   if (D && A.isClocked() && !D->isVorion())
     return Error{"",
                  fmt::format("{} has no clock for --time and --breakdown, "
@@ -286,9 +264,9 @@ Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
   if (!Energy)
     return Energy.error();
   if (A.isClocked())
-    A.Request.TimeEvery = A.timeEvery();
+    A.Trained.Request.TimeEvery = A.timeEvery();
   const auto Out = train(
-      A.Request,
+      A.Trained.Request,
       {.Check = [&A] { return check(A); },
        .OpenDevice = [&] { return openClocked(A, Machine, *Energy); },
        .ShowBuildLog = showBuildLog,
@@ -310,66 +288,13 @@ Expected<Success> run(TrainArguments &A, const DeviceOptions &Machine) {
 
 Runner addTrain(CLI::App &App) {
   auto A = std::make_shared<TrainArguments>();
-  TrainRequest &R = A->Request;
-  TrainSettings &S = R.Run.Settings;
-  takesFile(App.add_option("capture", R.Capture,
-                           "Photographs with poses: COLMAP, NeRF-synthetic, "
-                           "transforms.json"))
-      ->required();
+  TrainRequest &R = A->Trained.Request;
   writesFile(App.add_option("-o,--output", A->Output,
                             "Scene: INRIA's PLY (default: the capture's name "
                             "and .ply, in this folder)"),
              {".ply"});
-  App.add_option("--iterations", S.Iterations,
-                 fmt::format("Iterations in all (default {})", S.Iterations))
-      ->check(isIterations());
-  App.add_option("--downscale", R.Downscale,
-                 "Pictures so many times smaller (default 1)")
-      ->check(isBetween(1, 64));
-  App.add_option("--max-gaussians", S.MostGaussians,
-                 fmt::format("No more Gaussians than this (default {})",
-                             S.MostGaussians))
-      ->check(isBetween(4U, 100000000U));
-  addChoice(App, "--moments", R.Moments,
-            {MomentsChoice::Auto, MomentsChoice::Device, MomentsChoice::Host},
-            "Where Adam's moments lie, which changes no bit: with auto on the "
-            "host if the device does not hold --max-gaussians with them");
-  App.add_option("--exclude", R.Read.Exclude, "Leave out this picture")
-      ->allow_extra_args(false);
-  addHoldOutOption(App, R.Read.HoldOut);
-  addOutsideOption(App, R.Read.AllowOutside);
-  App.add_option("--batch", R.Run.Batch,
-                 "Views an iteration, shared out to the processes that mpirun "
-                 "started, each with a device of its own (default 1)")
-      ->check(isBetween(1U, 4096U));
-  App.add_option("--seed", R.Run.Seed, "Of all random numbers (default 0)")
-      ->check(isBetween<uint64_t>(0, MostSeed));
-  App.add_option("--sh-degree", R.ShDegree,
-                 "Bands of spherical harmonics (default 3)")
-      ->check(isBetween(0, MaxShDegree));
-  addBackgroundOption(App, R.Run.Background,
-                      "Colour r,g,b behind the scene and under transparent "
-                      "pixels (default 0,0,0)");
-  App.add_flag(
-      "--random-background", R.Run.RandomBackground,
-      "Another colour for each view of an iteration; --background is that of "
-      "held-out views");
-  addMasksOption(App, R.Run.Masks);
-  App.add_flag(
-      "--distorted",
-      [&R](std::int64_t) { R.Run.Pictures = LensOf::Photograph; },
-      "Train on photographs as they are, through their lenses, instead of "
-      "undistorting them");
-  addProjectionOption(App, R.Run.Through);
-  App.add_flag(
-      "--antialiased", R.Run.Antialiased,
-      "Lower opacities where the dilation widens a Gaussian; the scene "
-      "says that it is to be drawn so");
-  addRulesOption(App, R.Convention);
-  addPathOption(App, R.Blending.Kind,
-                "Who blends and goes back: the rasterizer or the cores");
-  addSimtOptions(App, R.Blending.SimtTile, R.Blending.SimtGroup, SimtTilesBack);
-  addBackwardOptions(App, R.Backward);
+  addTrainedOptions(App, A->Trained);
+  addTrainPathOptions(App, R);
   writesFile(
       App.add_option("--checkpoint", R.Checkpoint,
                      "Where the run is kept (default: the output's name and "
@@ -379,10 +304,6 @@ Runner addTrain(CLI::App &App) {
       ->check(isIterations());
   App.add_flag("--resume", R.Resume,
                "Go on from the checkpoint, if there is one");
-  takesFile(
-      App.add_option("--from", R.From,
-                     "Begin with the scene, the moments and the iteration of "
-                     "another run's checkpoint"));
   App.add_flag("--time", A->Time,
                "Say how long iterations take on the machine (docs/model.md)");
   App.add_flag("--breakdown", A->Breakdown,
@@ -403,21 +324,13 @@ Runner addTrain(CLI::App &App) {
              {".svg"});
   addTrainPictures(App, A->Pictures);
   addDeviceOption(App, A->Device);
-  addSettingOptions(App, A->Settings);
   return [A, &App](const DeviceOptions &Machine) -> Expected<Success> {
-    auto Settings = A->Settings.settings(App, A->Request.Run.Settings);
-    if (!Settings)
-      return Settings.error();
-    A->Request.Run.Settings = *Settings;
-    A->Request.Backward.AbsoluteSums = Settings->AbsoluteGradient;
-    A->Request.Backward.Depths = looksAtDepths(*Settings);
-    A->Request.Backward.Poses = arePosesOn(*Settings);
-    A->Request.Read.Masks = A->Request.Run.Masks;
-    A->Request.Read.Pictures = A->Request.Run.Pictures;
-    nameOutput("-o", A->Output, A->Request.Capture, ".ply");
-    if (A->Request.Checkpoint.empty())
-      A->Request.Checkpoint = A->Output + ".checkpoint";
-    A->Request.KeepPictures = A->Pictures.any();
+    if (auto Completed = completeTrained(App, A->Trained); !Completed)
+      return Completed;
+    nameOutput("-o", A->Output, A->Trained.Request.Capture, ".ply");
+    if (A->Trained.Request.Checkpoint.empty())
+      A->Trained.Request.Checkpoint = A->Output + ".checkpoint";
+    A->Trained.Request.KeepPictures = A->Pictures.any();
     return run(*A, Machine);
   };
 }

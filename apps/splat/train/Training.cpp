@@ -245,16 +245,8 @@ Expected<Success> begin(const Work &W, Trainer &T) {
   const auto Other = readCheckpoint(R.From);
   if (!Other)
     return Other.error();
-  if (Other->ShDegree != R.ShDegree || Other->gaussians() > S.MostGaussians ||
-      Other->Iteration >= S.Iterations)
-    return Error{R.From,
-                 fmt::format("{} of SH degree {} after iteration {}, "
-                             "expected at most {} of degree {} and less than "
-                             "{} iterations",
-                             counted(Other->gaussians(), "Gaussian"),
-                             Other->ShDegree, Other->Iteration, S.MostGaussians,
-                             R.ShDegree, S.Iterations),
-                 ExitCode::Usage};
+  if (auto Checked = checkBeginning(R, *Other); !Checked)
+    return Checked;
   T.restore(*Other);
   return Success{};
 }
@@ -438,6 +430,21 @@ Expected<Success> trainHere(TrainRequest &R, const TrainHost &Host,
 }
 
 } // namespace
+
+Expected<Success> checkBeginning(const TrainRequest &R, const Checkpoint &C) {
+  if (C.ShDegree != R.ShDegree ||
+      C.gaussians() > R.Run.Settings.MostGaussians ||
+      C.Iteration >= R.Run.Settings.Iterations)
+    return Error{R.From,
+                 fmt::format("{} of SH degree {} after iteration {}, "
+                             "expected at most {} of degree {} and less than "
+                             "{} iterations",
+                             counted(C.gaussians(), "Gaussian"), C.ShDegree,
+                             C.Iteration, R.Run.Settings.MostGaussians,
+                             R.ShDegree, R.Run.Settings.Iterations),
+                 ExitCode::Usage};
+  return Success{};
+}
 
 double TrainOutcome::meanDb() const {
   std::vector<double> Db;

@@ -3,6 +3,7 @@
 
 #include "capture/Capture.h"
 #include "train/Baselines.h"
+#include "train/Checkpoint.h"
 #include "train/ClockSamples.h"
 #include "train/DeviceRenderer.h"
 #include "train/Trainer.h"
@@ -112,6 +113,10 @@ struct TrainOutcome {
   /// Mean over the held-out views, of which there are some.
   double meanDb() const;
 };
+
+/// That a run as \p R asks for can begin with \p C, the checkpoint of its
+/// --from.
+Expected<Success> checkBeginning(const TrainRequest &R, const Checkpoint &C);
 
 /// Trains as \p R asks. An interrupt (SIGINT, SIGTERM) ends the run after the
 /// iteration at hand, with a checkpoint and an Error that says so. The outcome
