@@ -81,13 +81,19 @@ std::string hashView(const Camera &View) {
 Expected<std::string> hashCapture(const Capture &C) {
   std::string All = fmt::format("{};{};", name(C.Format), C.HeldOutBy);
   for (const CaptureView &V : C.Views) {
-    const auto Picture = hashFile(V.Picture);
+    auto Picture = hashFile(V.Picture);
     if (!Picture)
       return Picture;
     Camera Taken = V.Pose;
     Taken.Optics = V.Optics;
     All += fmt::format("{};{};{};{};", V.Pose.Name, hashView(Taken), *Picture,
                        V.HeldOut);
+    if (V.Mask.empty())
+      continue;
+    auto Mask = hashFile(V.Mask);
+    if (!Mask)
+      return Mask;
+    All += *Mask + ";";
   }
   append(All, C.Points.Positions);
   append(All, C.Points.Colours);

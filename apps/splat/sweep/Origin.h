@@ -25,8 +25,8 @@ Expected<Origin> commonOrigin(const DeviceOptions &Machine);
 /// Of a view: what its picture depends on, its name and number not.
 std::string hashView(const Camera &View);
 
-/// Of all that training takes from a capture: pictures, poses, first points,
-/// and which views are held out. An Error if a picture cannot be read.
+/// Of all that training takes from a capture: pictures, masks, poses, first
+/// points, and which views are held out. An Error if a picture cannot be read.
 Expected<std::string> hashCapture(const Capture &C);
 
 /// The things in which \p Had, any JSON, is not \p Wanted: "scene and

@@ -54,6 +54,22 @@ TEST(Origin, ACaptureIsWhatItsLensesAreToo) {
   EXPECT_NE(*Straight, *Bent);
 }
 
+TEST(Origin, ACaptureIsWhatItsMasksAreToo) {
+  const TestFolder F;
+  Capture C;
+  CaptureView &View = C.Views.emplace_back();
+  View.Pose = Camera::ahead(64, 48, 50);
+  View.Picture = F.write("a.png", "a");
+  const auto Whole = hashCapture(C);
+  View.Mask = F.write("mask.png", "1");
+  const auto One = hashCapture(C);
+  F.write("mask.png", "2");
+  const auto Other = hashCapture(C);
+  ASSERT_TRUE(Whole && One && Other);
+  EXPECT_NE(*Whole, *One);
+  EXPECT_NE(*One, *Other);
+}
+
 TEST(Origin, TheMachineIsWhatItsFileSays) {
   const TestFolder F;
   const auto MachineOf = [&](const char *Config, const char *Set) {
