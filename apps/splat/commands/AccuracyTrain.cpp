@@ -3,6 +3,7 @@
 #include "commands/CaptureInfo.h"
 #include "commands/Choices.h"
 #include "commands/PictureOptions.h"
+#include "commands/SweepArguments.h"
 
 #include "accuracy/Page.h"
 #include "capture/Capture.h"
@@ -22,11 +23,6 @@
 #include <nlohmann/json.hpp>
 
 namespace vorion::splat {
-
-std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First) {
-  const std::vector<CLI::Option *> All = App.get_options();
-  return {All.begin() + static_cast<std::ptrdiff_t>(First), All.end()};
-}
 
 void addTrainOptions(CLI::App &App, TrainSweepPlan &P,
                      const std::vector<CLI::Option *> &OfScenes) {

@@ -11,9 +11,6 @@
 
 namespace vorion::splat {
 
-/// The options of \p App from the one numbered \p First on.
-std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First);
-
 /// Declares --train, which excludes \p OfScenes, and what needs it; \p P must
 /// outlive the parsing.
 void addTrainOptions(CLI::App &App, TrainSweepPlan &P,

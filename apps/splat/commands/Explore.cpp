@@ -1,10 +1,8 @@
-#include "cameras/Motion.h"
-#include "commands/CameraArguments.h"
 #include "commands/Commands.h"
 #include "commands/EnergyArguments.h"
 #include "commands/ExploreSpace.h"
+#include "commands/ExploreWorkload.h"
 #include "commands/OutputFile.h"
-#include "commands/SceneArguments.h"
 #include "commands/SweepArguments.h"
 #include "commands/Usage.h"
 #include "explore/Page.h"
@@ -19,9 +17,8 @@
 #include "vorion/support/Printable.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -32,84 +29,69 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct ExploreArguments {
-  SceneArguments Scene;
-  CameraArguments Cameras;
+  WorkloadArguments Tried;
   std::string Folder, SpaceFile;
   EnergyArguments Energy;
   std::vector<std::string> Only;
   std::size_t Machines = 200, Finalists = 50, Checks = 50;
   uint64_t Seed = 1;
   unsigned Jobs = 1;
-  int SmallWidth = 480;
   bool List = false, PrintSpace = false;
 };
 
-/// One that is given is checked, but not for each trial of a sweep.
-Expected<Space> spaceOf(const ExploreArguments &A,
+/// One that is given is checked, but not for each trial of a sweep. Of the
+/// default what nothing in the workload takes is left out.
+Expected<Space> spaceOf(const ExploreArguments &A, const Workload &Does,
                         const DeviceOptions &Machine) {
-  if (A.SpaceFile.empty())
-    return parseSpace(defaultSpace(), "the space of splat explore");
-  auto S = readSpace(A.SpaceFile);
-  if (S && A.Only.empty())
-    if (auto Checked = checkSpace(*S, Machine, A.SpaceFile); !Checked)
-      return Checked.error();
+  if (!A.SpaceFile.empty()) {
+    auto S = readSpace(A.SpaceFile);
+    if (S && A.Only.empty())
+      if (auto Checked = checkSpace(*S, Does, Machine, A.SpaceFile); !Checked)
+        return Checked.error();
+    return S;
+  }
+  auto S = parseSpace(defaultSpace(), "the space of splat explore");
+  if (S && !Does.has(Work::Frames))
+    std::erase_if(
+        *S, [Known = computingOptions(Work::Iterations)](const Parameter &P) {
+          const auto &Words = P.Others.front().Arguments;
+          return !Words.empty() && !Known.contains(Words.front());
+        });
   return S;
 }
 
-/// The same view with fewer pixels.
-Camera smaller(const Camera &View, int Width) {
-  const double Scale = static_cast<double>(Width) / View.Width;
-  return resized(
-      View, Width,
-      std::max(1, static_cast<int>(std::lround(View.Height * Scale))));
-}
-
-Expected<StudyPlan> planOf(const ExploreArguments &A,
+Expected<StudyPlan> planOf(const ExploreArguments &A, Workload Does,
                            const DeviceOptions &Machine) {
-  auto S = spaceOf(A, Machine);
+  auto S = spaceOf(A, Does, Machine);
   if (!S)
     return S.error();
-  auto Views = sweptViews(A.Cameras, A.Scene, A.Cameras.File);
-  if (!Views)
-    return Views.error();
   StudyPlan P;
-  P.ScenePath = A.Scene.Path;
+  P.Does = std::move(Does);
   P.Folder = A.Folder;
-  P.Machine = Machine;
-  P.CommonArguments = wordsOf(A.Scene);
-  P.Technology = A.Energy.Technology;
-  P.Volts = A.Energy.Volts;
+  P.Setup = {Machine, A.Energy.Technology, A.Energy.Volts};
   P.Parameters = std::move(*S);
+  for (const Work W : AllWork)
+    P.Options[static_cast<std::size_t>(W)] = computingOptions(W);
   P.Jobs = A.Jobs;
-  P.Whole = {"", A.Folder + "/cameras.json", std::move(*Views)};
-  P.Small = {"@small", A.Folder + "/small.json", {}};
-  // Only where they are smaller: else all machines are judged whole.
-  if (std::ranges::any_of(P.Whole.Views, [&](const Camera &View) {
-        return View.Width > A.SmallWidth;
-      }))
-    for (const Camera &View : P.Whole.Views)
-      P.Small.Views.push_back(
-          smaller(View, std::min(View.Width, A.SmallWidth)));
-  auto From = sweptOrigin(A.Scene, Machine);
+  auto From = commonOrigin(Machine);
   if (!From)
     return From.error();
   P.From = std::move(*From);
   if (const auto Known = requestedEnergy(A.Energy, std::nullopt); !Known)
     return Known.error();
-  if (!P.Technology.empty()) {
-    auto Hash = hashFile(P.Technology);
+  if (!A.Energy.Technology.empty()) {
+    auto Hash = hashFile(A.Energy.Technology);
     if (!Hash)
       return Hash.error();
     P.From["technology"] = std::move(*Hash);
   }
-  if (P.Volts)
-    P.From["voltage"] = fmt::format("{}", *P.Volts);
-  P.From["options"] = fmt::format("{}", fmt::join(P.CommonArguments, " "));
+  if (A.Energy.Volts)
+    P.From["voltage"] = fmt::format("{}", *A.Energy.Volts);
   return P;
 }
 
 Expected<std::vector<Measured>> allOf(const StudyPlan &P, KeptPoints &Kept,
-                                      const ViewSet &Of,
+                                      const std::vector<Task> &Of,
                                       const std::vector<Choices> &Machines) {
   std::vector<Measured> All;
   for (const Choices &C : Machines) {
@@ -138,14 +120,14 @@ public:
   std::size_t singles() const { return Singles; }
 
 private:
-  bool hasSmall() const { return !P.Small.Views.empty(); }
-  std::vector<Trial> missingOf(const ViewSet &Of,
+  bool hasSmall() const { return !P.Does.Small.empty(); }
+  std::vector<Trial> missingOf(const std::vector<Task> &Of,
                                const std::vector<Choices> &Which) {
-    return missing(P, Kept, trialsOf(Of, Which));
+    return missing(P, Kept, trialsOf(P, Of, Which));
   }
   /// All machines on small views, which are measured; none if there are none.
   Expected<std::vector<Measured>> small() {
-    return hasSmall() ? allOf(P, Kept, P.Small, Machines)
+    return hasSmall() ? allOf(P, Kept, P.Does.Small, Machines)
                       : std::vector<Measured>();
   }
   /// Machines for whole views.
@@ -189,10 +171,10 @@ Study::Chosen Study::chosenBy(const std::vector<Measured> &Small) const {
 
 Expected<std::vector<Trial>> Study::next() {
   if (hasSmall())
-    if (auto Left = missingOf(P.Small, Machines); !Left.empty())
+    if (auto Left = missingOf(P.Does.Small, Machines); !Left.empty())
       return Left;
   const auto Small = small();
-  return Small ? missingOf(P.Whole, chosenBy(*Small).Machines)
+  return Small ? missingOf(P.Does.Whole, chosenBy(*Small).Machines)
                : Expected<std::vector<Trial>>(Small.error());
 }
 
@@ -209,19 +191,18 @@ Expected<Success> Study::measureAll() {
 
 Expected<Success> Study::measureOnly() {
   std::vector<Trial> Wanted;
+  std::vector<Trial> All = trialsOf(P, P.Does.Small, Machines);
+  std::ranges::move(trialsOf(P, P.Does.Whole, Machines),
+                    std::back_inserter(All));
   for (const std::string &Name : A.Only) {
-    bool IsKnown = false;
-    for (const ViewSet *Of : {&P.Small, &P.Whole})
-      for (const Trial &One : trialsOf(*Of, Machines))
-        if (One.name(P.Parameters) == Name) {
-          Wanted.push_back(One);
-          IsKnown = true;
-        }
-    if (!IsKnown)
+    const auto At = std::ranges::find(
+        All, Name, [this](const Trial &One) { return One.name(P.Parameters); });
+    if (At == All.end())
       return usage(
-          fmt::format("--only {}: no such trial, expected MACHINE@VIEW "
+          fmt::format("--only {}: no such trial, expected MACHINE@TASK "
                       "as --list prints",
                       Name));
+    Wanted.push_back(*At);
   }
   return measure(P, Kept, missing(P, Kept, Wanted), sayOfSweep);
 }
@@ -233,7 +214,7 @@ Expected<Findings> Study::findings() {
     return Small.error();
   F.Small = std::move(*Small);
   const Chosen C = chosenBy(F.Small);
-  auto Whole = allOf(P, Kept, P.Whole, C.Machines);
+  auto Whole = allOf(P, Kept, P.Does.Whole, C.Machines);
   if (!Whole)
     return Whole.error();
   F.Whole = std::move(*Whole);
@@ -244,29 +225,44 @@ Expected<Findings> Study::findings() {
                           : F.Whole[Next++]);
   for (std::size_t I = 0; I < C.Checks; ++I)
     F.Checked.push_back(C.Singles + I);
-  std::vector<Choices> Drawn;
-  std::vector<double> Rates;
   const auto &All = hasSmall() ? F.Small : F.Whole;
-  for (std::size_t I = Singles; I < All.size(); ++I)
-    if (All[I].Refused.empty()) {
-      Drawn.push_back(All[I].Machine);
-      Rates.push_back(All[I].Is.Rate);
-    }
-  F.Pairs = interactions(P.Parameters, Drawn, Rates);
+  for (const Work W : AllWork) {
+    if (!P.Does.has(W))
+      continue;
+    std::vector<Choices> Drawn;
+    std::vector<double> Rates;
+    for (std::size_t I = Singles; I < All.size(); ++I)
+      if (All[I].Refused.empty()) {
+        Drawn.push_back(All[I].Machine);
+        Rates.push_back(All[I].Is.of(W)->Rate);
+      }
+    F.Pairs[static_cast<std::size_t>(W)] =
+        interactions(P.Parameters, Drawn, Rates);
+  }
   return F;
+}
+
+/// What all was made from, for the foot of the page.
+Origin originsOf(const StudyPlan &P) {
+  Origin All = P.From;
+  for (const Part &Of : P.Does.Parts)
+    for (const auto &[Name, Is] : Of.From)
+      All[P.Does.isNamed() ? Of.Name + " " + Name : Name] = Is;
+  return All;
 }
 
 Expected<Success> write(const StudyPlan &P, const Json &Results,
                         const std::string &Made) {
-  Json Report = reportHead("splat-explore");
+  Json Report = reportHead("splat-explore", 2);
   Report["made"] = Made;
   Report.update(Results);
   if (auto Written = writeFileAtomically(P.Folder + "/explore.json",
                                          jsonText(Report, 1) + "\n");
       !Written)
     return Written;
-  return writeFileAtomically(P.Folder + "/index.html",
-                             explorePageOf(Results, {Made, hashLine(P.From)}));
+  return writeFileAtomically(
+      P.Folder + "/index.html",
+      explorePageOf(Results, {Made, hashLine(originsOf(P))}));
 }
 
 Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
@@ -274,9 +270,12 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
     printOut("{}", defaultSpace());
     return Success{};
   }
-  if (A.Scene.Path.empty())
-    return usage("expected a scene, or --print-space");
-  const auto P = planOf(A, Machine);
+  if (A.Tried.input().empty())
+    return usage("expected a scene, --workload or --print-space");
+  auto Given = workloadOf(A.Tried, A.Folder);
+  if (!Given)
+    return Given.error();
+  const auto P = planOf(A, std::move(Given->Does), Machine);
   if (!P)
     return P.error();
   Study S(A, *P);
@@ -295,10 +294,9 @@ Expected<Success> run(const ExploreArguments &A, const DeviceOptions &Machine) {
   }
   if (auto Made = makeFolders(A.Folder); !Made)
     return Made;
-  for (const ViewSet *Of : {&P->Whole, &P->Small})
-    if (!Of->Views.empty())
-      if (auto Written = writeCameras(Of->CameraFile, Of->Views); !Written)
-        return Written;
+  for (const ViewFile &F : Given->ViewFiles)
+    if (auto Written = writeCameras(F.Path, F.Views); !Written)
+      return Written;
   if (!A.Only.empty())
     return S.measureOnly();
   if (auto Done = S.measureAll(); !Done)
@@ -320,7 +318,8 @@ Runner addExplore(CLI::App &App) {
   writesFolder(App.add_option(
       "--out", A->Folder,
       "Folder for measurements and page; what is there, made from the same, is "
-      "used (default: the scene's name and -explore, in this folder)"));
+      "used (default: the scene's or the workload's name and -explore, in this "
+      "folder)"));
   App.add_flag("--print-space", A->PrintSpace,
                "Print the space that is explored by default, and end");
   takesFile(App.add_option("--space", A->SpaceFile,
@@ -347,10 +346,6 @@ Runner addExplore(CLI::App &App) {
                  "So many drawn at random are judged on both, to compare their "
                  "order (default 50)")
       ->option_text("N");
-  App.add_option("--small-width", A->SmallWidth,
-                 "Width of small views, px (default 480)")
-      ->check(isBetween(16, 16384))
-      ->option_text("N");
   App.add_option("--seed", A->Seed, "Of the random machines (default 1)")
       ->check(isBetween<uint64_t>(0, MostSeed))
       ->option_text("N");
@@ -365,15 +360,9 @@ Runner addExplore(CLI::App &App) {
       ->option_text("TRIAL")
       ->allow_extra_args(false)
       ->excludes("--list");
-  addSceneOptions(App, A->Scene);
-  App.get_option("scene")->required(false);
-  addCameraOptions(App, A->Cameras, /*Several=*/true);
-  takesView(App.add_option("--views", A->Cameras.Views,
-                           "Views to draw (default: all)"))
-      ->delimiter(',')
-      ->option_text("VIEW,...");
+  addWorkloadOptions(App, A->Tried);
   return [A](const DeviceOptions &Machine) {
-    nameOutput("--out", A->Folder, A->Scene.Path, "-explore");
+    nameOutput("--out", A->Folder, A->Tried.input(), "-explore");
     return run(*A, Machine);
   };
 }

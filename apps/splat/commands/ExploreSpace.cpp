@@ -1,6 +1,7 @@
 #include "commands/ExploreSpace.h"
 
 #include "commands/PictureOptions.h"
+#include "commands/TrainedOptions.h"
 #include "device/Device.h"
 #include "explore/Study.h"
 #include "render/OwnProcess.h"
@@ -31,34 +32,70 @@ std::string withoutVariable(const std::string &What) {
   return What.starts_with(Variable) ? What.substr(Variable.size()) : What;
 }
 
-/// Those of \p App that take a value.
-std::vector<std::string> optionsOf(const CLI::App &App) {
-  std::vector<std::string> Names;
-  for (const CLI::Option *O : App.get_options())
-    if (O->get_items_expected_min() > 0)
-      Names.push_back(O->get_name());
-  return Names;
-}
-
-Expected<Success> checkArguments(const std::vector<std::string> &Words) {
+/// The options by which a picture, or an iteration, is computed.
+struct ComputingOptions {
   CLI::App App;
-  DrawArguments A;
-  addDrawOptions(App, A);
-  const std::vector<std::string> Known = optionsOf(App);
+  DrawArguments Draw;
+  TrainRequest Train;
+
+  explicit ComputingOptions(Work W) {
+    if (W == Work::Frames)
+      addDrawOptions(App, Draw);
+    else
+      addTrainPathOptions(App, Train);
+  }
+  /// Those that take a value, as help has them.
+  std::vector<std::string> names() const {
+    std::vector<std::string> Names;
+    for (const CLI::Option *O : App.get_options())
+      if (O->get_items_expected_min() > 0)
+        Names.push_back(O->get_name());
+    return Names;
+  }
+};
+
+/// By each kind of work that takes the option.
+Expected<Success> checkArguments(const std::vector<std::string> &Words,
+                                 const Workload &Does) {
   const std::string &Option = Words.front();
-  if (std::ranges::find(Known, Option) == Known.end())
-    return Error{"", fmt::format("{} is no option of how a picture is "
-                                 "computed, expected one of {}{}",
-                                 Option, fmt::join(Known, ", "),
-                                 didYouMean(Option, Known))};
-  if (auto Parsed = parseOptions(App, Words); !Parsed)
-    return Parsed;
-  return parseDrawTexts(A);
+  std::vector<std::string> Known;
+  bool IsKnown = false;
+  for (const Work W : AllWork) {
+    if (!Does.has(W))
+      continue;
+    ComputingOptions Of(W);
+    const std::vector<std::string> Names = Of.names();
+    for (const std::string &Name : Names)
+      if (std::ranges::find(Known, Name) == Known.end())
+        Known.push_back(Name);
+    if (std::ranges::find(Names, Option) == Names.end())
+      continue;
+    IsKnown = true;
+    if (auto Parsed = parseOptions(Of.App, Words); !Parsed)
+      return Parsed;
+    if (auto Parsed = parseDrawTexts(Of.Draw); !Parsed)
+      return Parsed;
+  }
+  if (IsKnown)
+    return Success{};
+  const char *What = !Does.has(Work::Iterations) ? "a picture"
+                     : !Does.has(Work::Frames)   ? "an iteration"
+                                                 : "a picture or an iteration";
+  return Error{"", fmt::format("{} is no option of how {} is computed, "
+                               "expected one of {}{}",
+                               Option, What, fmt::join(Known, ", "),
+                               didYouMean(Option, Known))};
 }
 
 } // namespace
 
-Expected<Success> checkSpace(const Space &S, const DeviceOptions &Base,
+std::set<std::string> computingOptions(Work W) {
+  const std::vector<std::string> Names = ComputingOptions(W).names();
+  return {Names.begin(), Names.end()};
+}
+
+Expected<Success> checkSpace(const Space &S, const Workload &Does,
+                             const DeviceOptions &Base,
                              const std::string &Where) {
   if (auto Alone = checkSettings("", Base); !Alone)
     return Alone;
@@ -66,7 +103,7 @@ Expected<Success> checkSpace(const Space &S, const DeviceOptions &Base,
     for (const Alternative &A : P.Others)
       if (const auto Fits = A.Arguments.empty()
                                 ? checkSettings(A.Settings, Base)
-                                : checkArguments(A.Arguments);
+                                : checkArguments(A.Arguments, Does);
           !Fits)
         return Error{Where, fmt::format("parameters.{}: {}", P.Name,
                                         withoutVariable(Fits.error().What))};

@@ -60,6 +60,11 @@ Expected<Origin> sweptOrigin(const SceneArguments &S,
   return From;
 }
 
+std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First) {
+  const std::vector<CLI::Option *> All = App.get_options();
+  return {All.begin() + static_cast<std::ptrdiff_t>(First), All.end()};
+}
+
 void sayOfSweep(std::string_view Line) {
   if (!isProgressHidden())
     printNote(fmt::format("splat: {}\n", escaped(Line)));

@@ -6,6 +6,8 @@
 #include "device/DeviceOptions.h"
 #include "sweep/Origin.h"
 
+#include <CLI/CLI.hpp>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,9 @@ sweptViews(CameraArguments C, const SceneArguments &S, const std::string &File);
 /// What every run is made from: programs, machine and scene.
 Expected<Origin> sweptOrigin(const SceneArguments &S,
                              const DeviceOptions &Machine);
+
+/// The options of \p App from the one numbered \p First on.
+std::vector<CLI::Option *> optionsFrom(CLI::App &App, std::size_t First);
 
 /// A line about a run that is done, unless progress is hidden.
 void sayOfSweep(std::string_view Line);

@@ -8,17 +8,18 @@ namespace vorion::splat {
 
 using Json = nlohmann::ordered_json;
 
-/// Of the \p Units of \p Time, whose entries have \p Reasons among others.
-static Bottleneck mostOf(const Json &Time, const std::string &Units,
+/// Of the \p Units of \p Runs, whose entries have \p Reasons among others.
+static Bottleneck mostOf(const StageTimes &Runs, const std::string &Units,
                          const std::set<std::string> &Reasons) {
   std::map<std::string, double> Cycles;
   double All = 0;
-  for (const Json &Unit : Time[Units])
-    for (const std::string &Reason : Reasons) {
-      const double Count = Unit[Reason].get<double>();
-      Cycles[Reason] += Count;
-      All += Count;
-    }
+  for (const Json *Time : Runs)
+    for (const Json &Unit : (*Time)[Units])
+      for (const std::string &Reason : Reasons) {
+        const double Count = Unit[Reason].get<double>();
+        Cycles[Reason] += Count;
+        All += Count;
+      }
   Bottleneck Most{Units, "", 0};
   for (const auto &[Reason, Count] : Cycles)
     if (All > 0 && Count / All > Most.Share)
@@ -26,41 +27,44 @@ static Bottleneck mostOf(const Json &Time, const std::string &Units,
   return Most;
 }
 
-Bottleneck bottleneckOf(const Json &Time) {
+Bottleneck bottleneckOf(const StageTimes &Runs) {
   Bottleneck OfCores =
-      mostOf(Time, "cores",
+      mostOf(Runs, "cores",
              {"issue", "start", "fetch", "operand", "memory", "local", "unit",
               "lsu_queue", "branch", "divergence", "fence", "raster_full",
               "raster_wait", "barrier"});
   if (!OfCores.Reason.starts_with("raster_"))
     return OfCores;
   return mostOf(
-      Time, "rasterizers",
+      Runs, "rasterizers",
       {"blend", "clip", "fetch", "hazard", "begin", "flush", "drain"});
 }
 
-/// What a unit of a time report's activities counts; of any event, if that is
+/// What a unit of the reports' activities counts; of any event, if that is
 /// empty.
-static double countOf(const Json &Time, std::string_view Unit,
+static double countOf(const StageTimes &Runs, std::string_view Unit,
                       std::string_view Event = {}) {
   double Sum = 0;
-  for (const Json &A : Time["activities"])
-    if (A["unit"] == Unit && (Event.empty() || A["event"] == Event))
-      Sum += A["count"].get<double>();
+  for (const Json *Time : Runs)
+    for (const Json &A : (*Time)["activities"])
+      if (A["unit"] == Unit && (Event.empty() || A["event"] == Event))
+        Sum += A["count"].get<double>();
   return Sum;
 }
 
-Roof roofOf(const Json &Time, const Bottleneck &Of) {
+Roof roofOf(const StageTimes &Runs, const Bottleneck &Of) {
   const bool OnCores = Of.Unit == "cores";
-  double Done = 0;
-  for (const Json &Unit : Time[Of.Unit])
-    Done += Unit[OnCores ? "issue" : "lane_slots"].get<double>();
+  double Done = 0, Moved = 0;
+  for (const Json *Time : Runs) {
+    for (const Json &Unit : (*Time)[Of.Unit])
+      Done += Unit[OnCores ? "issue" : "lane_slots"].get<double>();
+    Moved += 1e-6 * (*Time)["dram"]["bus_ps"].get<double>() *
+             (*Time)["clock_mhz"].get<double>();
+  }
   const double Most =
-      countOf(Time, "time", OnCores ? "cores" : "rasterizer lanes");
+      countOf(Runs, "time", OnCores ? "cores" : "rasterizer lanes");
   // Cycles of all channels, and of those with data.
-  const double Channels = countOf(Time, "dram channels");
-  const double Moved = 1e-6 * Time["dram"]["bus_ps"].get<double>() *
-                       Time["clock_mhz"].get<double>();
+  const double Channels = countOf(Runs, "dram channels");
   return {Most > 0 ? Done / Most : 0, Channels > 0 ? Moved / Channels : 0};
 }
 

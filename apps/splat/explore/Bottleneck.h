@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace vorion::splat {
 
@@ -13,9 +14,11 @@ struct Bottleneck {
   double Share = 0;   ///< of the unit's cycles that are not idle or ended
 };
 
+/// Time reports of one stage, which may have run several times.
+using StageTimes = std::vector<const nlohmann::ordered_json *>;
+
 /// Of the cores; where these mostly wait for rasterizers, of the rasterizers.
-/// \p Time is a time report.
-Bottleneck bottleneckOf(const nlohmann::ordered_json &Time);
+Bottleneck bottleneckOf(const StageTimes &Runs);
 
 /// A stage under its roofline: how much of the most that is possible its unit
 /// did and DRAM moved, each 0 to 1. Where the first is below the second, DRAM
@@ -24,6 +27,6 @@ struct Roof {
   double Work = 0;   ///< cores: cycles with an issue; rasterizers: lane slots
   double Memory = 0; ///< of DRAM's bandwidth
 };
-Roof roofOf(const nlohmann::ordered_json &Time, const Bottleneck &Of);
+Roof roofOf(const StageTimes &Runs, const Bottleneck &Of);
 
 } // namespace vorion::splat

@@ -8,29 +8,54 @@
 
 namespace vorion::splat {
 
-bool beats(const Figures &A, const Figures &B) {
-  return A.Rate >= B.Rate && A.Joules <= B.Joules && A.Area <= B.Area &&
-         (A.Rate > B.Rate || A.Joules < B.Joules || A.Area < B.Area);
-}
-
 namespace {
 
-bool areEqual(const Figures &A, const Figures &B) {
-  return A.Rate == B.Rate && A.Joules == B.Joules && A.Area == B.Area;
+/// Each is better if it is less. Work that there is not is equal on all.
+using Criteria = std::array<double, 2 * AllWork.size() + 1>;
+
+Criteria criteriaOf(const Figures &F) {
+  Criteria All{};
+  std::size_t I = 0;
+  for (const auto &S : F.Speeds) {
+    All[I++] = S ? -S->Rate : 0;
+    All[I++] = S ? S->Joules : 0;
+  }
+  All[I] = F.Area;
+  return All;
+}
+
+bool beats(const Criteria &A, const Criteria &B) {
+  bool IsBetter = false;
+  for (std::size_t I = 0; I < A.size(); ++I) {
+    if (A[I] > B[I])
+      return false;
+    IsBetter |= A[I] < B[I];
+  }
+  return IsBetter;
 }
 
 /// The front of \p Among, which are places in \p All in their order.
-std::vector<std::size_t> frontOf(std::span<const Figures> All,
+std::vector<std::size_t> frontOf(std::span<const Criteria> All,
                                  const std::vector<std::size_t> &Among) {
   std::vector<std::size_t> Front;
   for (const std::size_t I : Among)
     if (std::ranges::none_of(Among, [&](std::size_t J) {
-          return beats(All[J], All[I]) || (J < I && areEqual(All[J], All[I]));
+          return beats(All[J], All[I]) || (J < I && All[J] == All[I]);
         }))
       Front.push_back(I);
-  std::ranges::sort(Front, {},
-                    [&](std::size_t I) { return std::tuple(-All[I].Rate, I); });
+  // Rates are negative here, and those of work that there is not are 0.
+  std::ranges::sort(Front, {}, [&](std::size_t I) {
+    return std::tuple(All[I][0], All[I][2], I);
+  });
   return Front;
+}
+
+std::vector<Criteria> criteriaOf(std::span<const Figures> All) {
+  std::vector<Criteria> Each;
+  Each.reserve(All.size());
+  for (const Figures &F : All)
+    Each.push_back(criteriaOf(F));
+  return Each;
 }
 
 std::vector<std::size_t> places(std::size_t Count) {
@@ -116,15 +141,20 @@ std::vector<double> withoutSingleEffects(const Space &S,
 
 } // namespace
 
+bool beats(const Figures &A, const Figures &B) {
+  return beats(criteriaOf(A), criteriaOf(B));
+}
+
 std::vector<std::size_t> paretoFront(std::span<const Figures> All) {
-  return frontOf(All, places(All.size()));
+  return frontOf(criteriaOf(All), places(All.size()));
 }
 
 std::vector<std::size_t> bestFronts(std::span<const Figures> All,
                                     std::size_t Count) {
+  const std::vector<Criteria> Each = criteriaOf(All);
   std::vector<std::size_t> Left = places(All.size()), Best;
   while (Best.size() < Count && !Left.empty()) {
-    const std::vector<std::size_t> Front = frontOf(All, Left);
+    const std::vector<std::size_t> Front = frontOf(Each, Left);
     Best.insert(Best.end(), Front.begin(), Front.end());
     std::erase_if(Left, [&](std::size_t I) {
       return std::ranges::find(Front, I) != Front.end();

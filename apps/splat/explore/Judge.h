@@ -2,25 +2,40 @@
 #pragma once
 
 #include "explore/Space.h"
+#include "explore/Workload.h"
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace vorion::splat {
 
-/// What a machine is judged by, over all views.
-struct Figures {
-  double Rate = 0;   ///< frames a second, one after the other; more is better
-  double Joules = 0; ///< of the chip, a frame
-  double Area = 0;   ///< of the chip, mm2
+/// How fast a machine does one kind of work, and what that takes.
+struct Speed {
+  double Rate = 0;   ///< a second, one after the other; more is better
+  double Joules = 0; ///< of the chip, for one
 };
 
-/// Whether \p A is as good as \p B in everything and better in something.
+/// What a machine is judged by, over all of a workload.
+struct Figures {
+  /// By kind of work, in the order of AllWork: of what the workload has.
+  std::array<std::optional<Speed>, AllWork.size()> Speeds;
+  double Area = 0; ///< of the chip, mm2
+
+  std::optional<Speed> &of(Work W) { return Speeds[std::size_t(W)]; }
+  const std::optional<Speed> &of(Work W) const {
+    return Speeds[std::size_t(W)];
+  }
+};
+
+/// Whether \p A is as good as \p B in everything and better in something; both
+/// are of the same kinds of work.
 bool beats(const Figures &A, const Figures &B);
 
-/// Places in \p All of those that none beats, the fastest first. Of equal ones
-/// the first.
+/// Places in \p All of those that none beats, the fastest first, by the first
+/// kind of work that there is. Of equal ones the first.
 std::vector<std::size_t> paretoFront(std::span<const Figures> All);
 
 /// At least \p Count places in \p All: the front, then the front of the others,

@@ -10,8 +10,12 @@ using namespace vorion::splat;
 
 namespace {
 
-const std::vector<Figures> Five{
-    {10, 2, 3}, {20, 2, 3}, {20, 3, 3}, {5, 1, 9}, {20, 2, 3}};
+/// Of a machine that draws.
+Figures frames(Speed Is, double Area) { return {{Is, std::nullopt}, Area}; }
+
+const std::vector<Figures> Five{frames({10, 2}, 3), frames({20, 2}, 3),
+                                frames({20, 3}, 3), frames({5, 1}, 9),
+                                frames({20, 2}, 3)};
 
 TEST(Judge, OfEqualMachinesTheFirstIsOnTheFront) {
   EXPECT_EQ(paretoFront(Five), (std::vector<std::size_t>{1, 3}));
@@ -21,6 +25,26 @@ TEST(Judge, FrontsFollowUntilThereAreEnough) {
   EXPECT_EQ(bestFronts(Five, 1), (std::vector<std::size_t>{1, 3}));
   EXPECT_EQ(bestFronts(Five, 3), (std::vector<std::size_t>{1, 3, 4}));
   EXPECT_EQ(bestFronts(Five, 9).size(), 5U);
+}
+
+/// Drawing and training are judged apart: what is better at one of them alone
+/// is on the front.
+TEST(Judge, EachKindOfWorkCounts) {
+  const std::vector<Figures> Four{{{Speed{20, 2}, Speed{1, 2}}, 3},
+                                  {{Speed{10, 2}, Speed{5, 2}}, 3},
+                                  {{Speed{10, 2}, Speed{4, 2}}, 3},
+                                  {{Speed{10, 2}, Speed{4, 1}}, 3}};
+  EXPECT_EQ(paretoFront(Four), (std::vector<std::size_t>{0, 1, 3}));
+  EXPECT_TRUE(beats(Four[1], Four[2]));
+  EXPECT_FALSE(beats(Four[1], Four[3]));
+}
+
+/// Without frames, the fastest by iterations come first.
+TEST(Judge, MachinesThatOnlyTrainHaveAFront) {
+  const std::vector<Figures> Three{{{std::nullopt, Speed{4, 1}}, 3},
+                                   {{std::nullopt, Speed{5, 2}}, 3},
+                                   {{std::nullopt, Speed{4, 1}}, 4}};
+  EXPECT_EQ(paretoFront(Three), (std::vector<std::size_t>{1, 0}));
 }
 
 TEST(Judge, RanksAreComparedNotValues) {

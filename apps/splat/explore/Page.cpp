@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace vorion::splat {
 
@@ -13,56 +14,118 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-Json figuresOf(const Measured &M) {
-  if (!M.Refused.empty())
-    return {{"refused", M.Refused}};
-  return {{"frames_per_second", M.Is.Rate},
-          {"chip_joules", M.Is.Joules},
-          {"chip_mm2", M.Is.Area}};
+/// What the figures of a kind of work are called.
+struct Keys {
+  const char *Rate, *Joules;             ///< of a machine
+  const char *RateFactor, *EnergyFactor; ///< against the base's
+  const char *RateOrder, *EnergyOrder;   ///< of small views beside whole ones
+  const char *RateTitle;                 ///< on the terminal
+};
+
+const Keys &keysOf(Work W) {
+  static constexpr Keys OfFrames{
+      "frames_per_second", "chip_joules", "rate_factor",
+      "energy_factor",     "rate",        "chip_joules",
+      "frames/s"};
+  static constexpr Keys OfIterations{"iterations_per_second",
+                                     "iteration_joules",
+                                     "iteration_rate_factor",
+                                     "iteration_energy_factor",
+                                     "iteration_rate",
+                                     "iteration_joules",
+                                     "iter/s"};
+  return W == Work::Frames ? OfFrames : OfIterations;
 }
 
-/// Of what a frame waits for most: by view, its stages.
-Json viewsOf(const Measured &M) {
+void addSpeed(Json &To, Work W, const Speed &Is) {
+  To[keysOf(W).Rate] = Is.Rate;
+  To[keysOf(W).Joules] = Is.Joules;
+}
+
+void addFactors(Json &To, Work W, const Speed &Is, const Speed &Base) {
+  To[keysOf(W).RateFactor] = Is.Rate / Base.Rate;
+  To[keysOf(W).EnergyFactor] = Is.Joules / Base.Joules;
+}
+
+Json figuresOf(const StudyPlan &P, const Measured &M) {
+  if (!M.Refused.empty())
+    return {{"refused", M.Refused}};
+  Json Is;
+  for (const Work W : AllWork)
+    if (const auto &Of = M.Is.of(W))
+      addSpeed(Is, W, *Of);
+  Is["chip_mm2"] = M.Is.Area;
+  if (!P.Does.isNamed())
+    return Is;
+  Json &Parts = Is["parts"] = Json::array();
+  for (std::size_t I = 0; I < M.Parts.size(); ++I) {
+    const Part &Of = P.Does.Parts[I];
+    Json One{{"part", Of.Name}};
+    addSpeed(One, Of.Does, M.Parts[I].Is);
+    One["time_share"] = M.Parts[I].TimeShare;
+    One["energy_share"] = M.Parts[I].EnergyShare;
+    Parts.push_back(std::move(One));
+  }
+  return Is;
+}
+
+/// Of what a task waits for most: its stages.
+Json tasksOf(const Measured &M) {
   Json All = Json::array();
-  for (const Json &View : M.Views)
-    if (!View.contains("refused"))
-      All.push_back({{"view", View["view"]},
-                     {"frame_ms", View["frame_ms"]},
-                     {"chip_joules", View["chip_joules"]},
-                     {"joules", View["joules"]},
-                     {"picture", View["picture"]},
-                     {"stages", View["stages"]}});
+  for (const Json &Task : M.Tasks) {
+    if (Task.contains("refused"))
+      continue;
+    Json One;
+    for (const char *Key : {"part", "view", "iterations", timeKey(Work::Frames),
+                            timeKey(Work::Iterations), "chip_joules", "joules",
+                            "picture", "stages"})
+      if (Task.contains(Key))
+        One[Key] = Task[Key];
+    All.push_back(std::move(One));
+  }
   return All;
 }
 
 /// What each alternative alone does to the base.
 Json worthsOf(const StudyPlan &P, const Findings &F) {
   Json All = Json::array();
-  const Figures &Base = F.Whole.front().Is;
+  const Measured &Base = F.Whole.front();
   for (const Measured &M : F.Alone) {
     Json One{{"machine", nameOf(P.Parameters, M.Machine)}};
-    if (M.Refused.empty())
-      One.update({{"rate_factor", M.Is.Rate / Base.Rate},
-                  {"energy_factor", M.Is.Joules / Base.Joules},
-                  {"area_factor", M.Is.Area / Base.Area}});
-    else
+    if (!M.Refused.empty()) {
       One["refused"] = M.Refused;
+      All.push_back(std::move(One));
+      continue;
+    }
+    for (const Work W : AllWork)
+      if (const auto &Is = M.Is.of(W))
+        addFactors(One, W, *Is, *Base.Is.of(W));
+    One["area_factor"] = M.Is.Area / Base.Is.Area;
+    if (P.Does.isNamed())
+      for (std::size_t I = 0; I < M.Parts.size(); ++I) {
+        const Part &Of = P.Does.Parts[I];
+        Json In{{"part", Of.Name}};
+        addFactors(In, Of.Does, M.Parts[I].Is, Base.Parts[I].Is);
+        One["parts"].push_back(std::move(In));
+      }
     All.push_back(std::move(One));
   }
   return All;
 }
 
-Json pairsOf(const Space &S, const std::vector<Interaction> &Pairs) {
+Json pairsOf(const Space &S, const Findings &F) {
   Json All = Json::array();
   const auto Value = [&S](std::size_t Parameter, std::size_t Choice) {
     return fmt::format("{}={}", S[Parameter].Name,
                        S[Parameter].Others[Choice - 1].Name);
   };
-  for (const Interaction &I : Pairs)
-    All.push_back({{"first", Value(I.First, I.FirstValue)},
-                   {"second", Value(I.Second, I.SecondValue)},
-                   {"rate_factor", I.Factor},
-                   {"log_error", I.Error}});
+  for (const Work W : AllWork)
+    for (const Interaction &I : F.Pairs[static_cast<std::size_t>(W)])
+      All.push_back({{"of", name(W)},
+                     {"first", Value(I.First, I.FirstValue)},
+                     {"second", Value(I.Second, I.SecondValue)},
+                     {"rate_factor", I.Factor},
+                     {"log_error", I.Error}});
   return All;
 }
 
@@ -72,23 +135,33 @@ Json agreementOf(const Findings &F) {
   for (const Measured &M : F.Small)
     if (M.Refused.empty())
       Small[M.Machine] = &M;
-  std::vector<double> SmallRates, WholeRates, SmallJoules, WholeJoules;
+  std::vector<std::pair<const Figures *, const Figures *>> Both;
   for (const std::size_t I : F.Checked) {
     const Measured &M = F.Whole[I];
     const auto At = Small.find(M.Machine);
-    if (At == Small.end() || !M.Refused.empty())
-      continue;
-    SmallRates.push_back(At->second->Is.Rate);
-    WholeRates.push_back(M.Is.Rate);
-    SmallJoules.push_back(At->second->Is.Joules);
-    WholeJoules.push_back(M.Is.Joules);
+    if (At != Small.end() && M.Refused.empty())
+      Both.emplace_back(&At->second->Is, &M.Is);
   }
   // Of fewer the figure says nothing.
-  if (SmallRates.size() < 10)
+  if (Both.size() < 10)
     return {};
-  return {{"machines", SmallRates.size()},
-          {"rate", rankCorrelation(SmallRates, WholeRates)},
-          {"chip_joules", rankCorrelation(SmallJoules, WholeJoules)}};
+  Json Agreement{{"machines", Both.size()}};
+  const auto Order = [&Both](auto Of) {
+    std::vector<double> InSmall, InWhole;
+    for (const auto &[OfSmall, OfWhole] : Both) {
+      InSmall.push_back(Of(*OfSmall));
+      InWhole.push_back(Of(*OfWhole));
+    }
+    return rankCorrelation(InSmall, InWhole);
+  };
+  for (const Work W : AllWork)
+    if (F.Whole.front().Is.of(W)) {
+      Agreement[keysOf(W).RateOrder] =
+          Order([W](const Figures &Is) { return Is.of(W)->Rate; });
+      Agreement[keysOf(W).EnergyOrder] =
+          Order([W](const Figures &Is) { return Is.of(W)->Joules; });
+    }
+  return Agreement;
 }
 
 /// Places in \p Whole of machines that can be and are on the Pareto front.
@@ -104,6 +177,63 @@ std::vector<std::size_t> frontOf(const std::vector<Measured> &Whole) {
   for (std::size_t &I : Front)
     I = Places[I];
   return Front;
+}
+
+/// The same at the part \p Of alone, the fastest first. Equal ones all are on
+/// it: they may differ at other parts.
+std::vector<std::size_t> frontAt(const std::vector<Measured> &Whole,
+                                 std::size_t Of) {
+  std::vector<std::size_t> Front;
+  std::vector<Figures> All(Whole.size());
+  for (std::size_t I = 0; I < Whole.size(); ++I)
+    if (Whole[I].Refused.empty()) {
+      // Any kind of work: there is one alone.
+      All[I].of(Work::Frames) = Whole[I].Parts[Of].Is;
+      All[I].Area = Whole[I].Is.Area;
+      Front.push_back(I);
+    }
+  const std::vector<std::size_t> Can = Front;
+  std::erase_if(Front, [&](std::size_t I) {
+    return std::ranges::any_of(
+        Can, [&](std::size_t J) { return beats(All[J], All[I]); });
+  });
+  std::ranges::sort(Front, {}, [&](std::size_t I) {
+    return std::tuple(-All[I].of(Work::Frames)->Rate, I);
+  });
+  return Front;
+}
+
+Json namesOf(const StudyPlan &P, const std::vector<Measured> &Whole,
+             const std::vector<std::size_t> &Places) {
+  Json Names = Json::array();
+  for (const std::size_t I : Places)
+    Names.push_back(nameOf(P.Parameters, Whole[I].Machine));
+  return Names;
+}
+
+/// The parts of a workload, and the front that each would have alone.
+Json partsOf(const StudyPlan &P, const Findings &F) {
+  Json All = Json::array();
+  for (std::size_t I = 0; I < P.Does.Parts.size(); ++I) {
+    const Part &Of = P.Does.Parts[I];
+    const auto Tasks = std::ranges::count(P.Does.Whole, I, &Task::Of);
+    All.push_back({{"part", Of.Name},
+                   {"work", name(Of.Does)},
+                   {"weight", Of.Weight},
+                   {"tasks", Tasks},
+                   {"front", namesOf(P, F.Whole, frontAt(F.Whole, I))}});
+  }
+  return All;
+}
+
+/// How many pictures of the first view machines draw.
+std::size_t picturesIn(const std::vector<Measured> &Whole) {
+  std::set<std::string> Pictures;
+  for (const Measured &M : Whole)
+    if (!M.Tasks.empty() && M.Refused.empty() &&
+        M.Tasks.front().contains("picture"))
+      Pictures.insert(M.Tasks.front()["picture"].get<std::string>());
+  return Pictures.size();
 }
 
 } // namespace
@@ -123,32 +253,30 @@ Json resultsOf(const StudyPlan &P, const Findings &F) {
     }
     return At->second;
   };
-  std::set<std::string> Pictures;
   for (std::size_t I = 0; I < F.Whole.size(); ++I) {
     Json &One = Entry(F.Whole[I]);
-    One["whole"] = figuresOf(F.Whole[I]);
-    One["views"] = viewsOf(F.Whole[I]);
+    One["whole"] = figuresOf(P, F.Whole[I]);
+    One["views"] = tasksOf(F.Whole[I]);
     One["on_front"] = std::ranges::find(Front, I) != Front.end();
-    if (!F.Whole[I].Views.empty() && F.Whole[I].Refused.empty())
-      Pictures.insert(F.Whole[I].Views.front()["picture"].get<std::string>());
   }
   for (const Measured &M : F.Small)
-    Entry(M)["small"] = figuresOf(M);
+    Entry(M)["small"] = figuresOf(P, M);
   Json All = Json::array();
   for (const Choices &C : Order)
     All.push_back(std::move(Machines[C]));
-  Json Views = Json::array(), FrontNames = Json::array();
-  for (const Camera &View : P.Whole.Views)
-    Views.push_back(View.Name);
-  for (const std::size_t I : Front)
-    FrontNames.push_back(nameOf(P.Parameters, F.Whole[I].Machine));
-  return {{"views", std::move(Views)},
-          {"machines", std::move(All)},
-          {"front", std::move(FrontNames)},
-          {"worth", worthsOf(P, F)},
-          {"pairs", pairsOf(P.Parameters, F.Pairs)},
-          {"small_beside_whole", agreementOf(F)},
-          {"different_pictures", Pictures.size()}};
+  Json Views = Json::array();
+  for (const Task &What : P.Does.Whole)
+    Views.push_back(What.Name);
+  Json Results{{"views", std::move(Views)}};
+  if (P.Does.isNamed())
+    Results["parts"] = partsOf(P, F);
+  Results.update({{"machines", std::move(All)},
+                  {"front", namesOf(P, F.Whole, Front)},
+                  {"worth", worthsOf(P, F)},
+                  {"pairs", pairsOf(P.Parameters, F)},
+                  {"small_beside_whole", agreementOf(F)},
+                  {"different_pictures", picturesIn(F.Whole)}});
+  return Results;
 }
 
 std::string explorePageOf(const Json &Results,
@@ -157,6 +285,53 @@ std::string explorePageOf(const Json &Results,
   Data["made"] = Made;
   return filledPage(explorePage(), Data);
 }
+
+namespace {
+
+/// What the machines of \p Results do.
+std::vector<Work> workIn(const Json &Base) {
+  std::vector<Work> All;
+  for (const Work W : AllWork)
+    if (Base["whole"].contains(keysOf(W).Rate))
+      All.push_back(W);
+  return All;
+}
+
+std::string rowOf(const Json &M, const std::vector<Work> &Does) {
+  const Json &Is = M["whole"];
+  std::string Row;
+  for (const Work W : Does)
+    Row += fmt::format("{:>10.1f}{:>10.3g}", Is[keysOf(W).Rate].get<double>(),
+                       1e3 * Is[keysOf(W).Joules].get<double>());
+  return Row + fmt::format("{:>9.2f}  {}\n", Is["chip_mm2"].get<double>(),
+                           M["machine"].get<std::string>());
+}
+
+/// What the parts of a workload are of the base, and how many machines of the
+/// front that a part has alone are on the workload's.
+std::string partsText(const Json &Results, const Json &Base) {
+  std::set<std::string> Front;
+  for (const Json &Name : Results["front"])
+    Front.insert(Name.get<std::string>());
+  std::string Text =
+      fmt::format("{:>10}{:>10}{:>10}{:>10}{:>10}  {}\n", "% time", "% energy",
+                  "weight", "own front", "on both", "part, on the base");
+  for (std::size_t I = 0; I < Results["parts"].size(); ++I) {
+    const Json &Of = Results["parts"][I], &Is = Base["whole"]["parts"][I];
+    const auto Both = std::ranges::count_if(Of["front"], [&](const Json &Name) {
+      return Front.contains(Name.get<std::string>());
+    });
+    Text += fmt::format("{:>10.1f}{:>10.1f}{:>10.6g}{:>10}{:>10}  {}, {}\n",
+                        1e2 * Is["time_share"].get<double>(),
+                        1e2 * Is["energy_share"].get<double>(),
+                        Of["weight"].get<double>(), Of["front"].size(), Both,
+                        Of["part"].get<std::string>(),
+                        Of["work"].get<std::string>());
+  }
+  return Text;
+}
+
+} // namespace
 
 std::string textOf(const Json &Results) {
   std::map<std::string, const Json *> Machines;
@@ -168,30 +343,34 @@ std::string textOf(const Json &Results) {
     Whole += IsWhole && !IsRefused ? 1 : 0;
     Refused += IsRefused ? 1 : 0;
   }
-  std::string Text =
-      fmt::format("{} machines, {} of them on whole views, {} cannot be\n"
-                  "{:>10}{:>10}{:>9}  {}\n",
-                  Results["machines"].size(), Whole, Refused, "frames/s",
-                  "chip mJ", "mm2", "machine on the front");
-  const auto Row = [](const Json &M) {
-    const Json &Is = M["whole"];
-    return fmt::format("{:>10.1f}{:>10.3g}{:>9.2f}  {}\n",
-                       Is["frames_per_second"].get<double>(),
-                       1e3 * Is["chip_joules"].get<double>(),
-                       Is["chip_mm2"].get<double>(),
-                       M["machine"].get<std::string>());
-  };
-  for (const Json &Name : Results["front"])
-    Text += Row(*Machines[Name.get<std::string>()]);
   const Json &Base = *Machines["base"];
+  const std::vector<Work> Does = workIn(Base);
+  std::string Text =
+      fmt::format("{} machines, {} of them on whole views, {} cannot be\n",
+                  Results["machines"].size(), Whole, Refused);
+  for (const Work W : Does)
+    Text += fmt::format("{:>10}{:>10}", keysOf(W).RateTitle, "chip mJ");
+  Text += fmt::format("{:>9}  {}\n", "mm2", "machine on the front");
+  for (const Json &Name : Results["front"])
+    Text += rowOf(*Machines[Name.get<std::string>()], Does);
   if (!Base["on_front"].get<bool>())
-    Text += "not on the front:\n" + Row(Base);
-  if (const Json &Both = Results["small_beside_whole"]; !Both.is_null())
-    Text += fmt::format(
-        "rank correlation of small and whole views, {} machines "
-        "drawn at random: {:.3f} by rate, {:.3f} by energy\n",
-        Both["machines"].get<unsigned>(), Both["rate"].get<double>(),
-        Both["chip_joules"].get<double>());
+    Text += "not on the front:\n" + rowOf(Base, Does);
+  if (Results.contains("parts"))
+    Text += partsText(Results, Base);
+  if (const Json &Both = Results["small_beside_whole"]; !Both.is_null()) {
+    Text +=
+        fmt::format("rank correlation of small and whole views, {} machines "
+                    "drawn at random:",
+                    Both["machines"].get<unsigned>());
+    for (const Work W : Does)
+      Text += fmt::format(
+          "{} {:.3f} by {}rate, {:.3f} by {}energy",
+          W == Does.front() ? "" : ",", Both[keysOf(W).RateOrder].get<double>(),
+          Does.size() > 1 ? (W == Work::Frames ? "frame " : "iteration ") : "",
+          Both[keysOf(W).EnergyOrder].get<double>(),
+          Does.size() > 1 ? (W == Work::Frames ? "frame " : "iteration ") : "");
+    Text += "\n";
+  }
   return Text;
 }
 

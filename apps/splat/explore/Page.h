@@ -3,6 +3,7 @@
 
 #include "explore/Study.h"
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ struct Findings {
   std::vector<Measured> Alone;
   /// Of Whole: machines drawn at random, by which both sizes are compared.
   std::vector<std::size_t> Checked;
-  std::vector<Interaction> Pairs;
+  /// By kind of work, in the order of AllWork.
+  std::array<std::vector<Interaction>, AllWork.size()> Pairs;
 };
 
 /// The file explore.json, without its head.

@@ -15,8 +15,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Names stand in tables and on pages.
-bool isName(std::string_view Text, std::string_view Besides = "-_.") {
+/// Whether \p Text has letters, digits and \p Besides, and some.
+bool hasOnly(std::string_view Text, std::string_view Besides) {
   return !Text.empty() && std::ranges::all_of(Text, [&](unsigned char C) {
     return std::isalnum(C) != 0 ||
            Besides.find(static_cast<char>(C)) != Besides.npos;
@@ -29,7 +29,7 @@ std::string textOf(const Json &Value) {
   if (Value.is_number())
     return jsonText(Value);
   const std::string Text = Value.is_string() ? Value.get<std::string>() : "";
-  return isName(Text, "-_.:/") ? Text : ""; // --pixel-unit last:1/2
+  return hasOnly(Text, "-_.:/") ? Text : ""; // --pixel-unit last:1/2
 }
 
 class SpaceReader {
@@ -57,7 +57,7 @@ Expected<Parameter> SpaceReader::ofValues(const std::string &Name,
   const Json &Called = Of[Kind];
   const std::string Target =
       Called.is_string() ? Called.get<std::string>() : "";
-  if (!isName(Target) || (Kind == "option") != Target.starts_with("--"))
+  if (!isPlainName(Target) || (Kind == "option") != Target.starts_with("--"))
     return expected(fmt::format("{}.{}", Key, Kind),
                     Kind == "key" ? "a key of the configuration"
                                   : "an option of splat render, as --tile");
@@ -83,7 +83,7 @@ Expected<Parameter> SpaceReader::ofChoices(const std::string &Name,
     return expected(Key, "an object of one choice or more");
   Parameter P{Name, {}};
   for (const auto &[Choice, Settings] : Choices.items()) {
-    if (!isName(Choice))
+    if (!isPlainName(Choice))
       return expected(Key, "names of letters, digits, '-', '_' and '.'");
     if (!Settings.is_object() || Settings.empty())
       return expected(fmt::format("{}.{}", Key, Choice),
@@ -91,7 +91,7 @@ Expected<Parameter> SpaceReader::ofChoices(const std::string &Name,
     Alternative A{Choice, "", {}};
     for (const auto &[Target, Value] : Settings.items()) {
       const std::string Text = textOf(Value);
-      if (!isName(Target) || Text.empty())
+      if (!isPlainName(Target) || Text.empty())
         return expected(fmt::format("{}.{}", Key, Choice),
                         "keys of the configuration with numbers or names");
       A.Settings +=
@@ -104,7 +104,7 @@ Expected<Parameter> SpaceReader::ofChoices(const std::string &Name,
 
 Expected<Parameter> SpaceReader::parameter(const std::string &Name,
                                            const Json &Of) const {
-  if (!isName(Name))
+  if (!isPlainName(Name))
     return expected("parameters", "names of letters, digits, '-', '_' and '.'");
   const auto HasOnly = [&Of](std::initializer_list<const char *> Keys) {
     return Of.size() == Keys.size() &&
@@ -144,6 +144,8 @@ Expected<Space> SpaceReader::read(const Json &All) {
 }
 
 } // namespace
+
+bool isPlainName(std::string_view Text) { return hasOnly(Text, "-_."); }
 
 static Expected<Space> spaceIn(const Expected<Json> &All,
                                const std::string &Where) {
@@ -185,6 +187,16 @@ std::vector<std::string> argumentsOf(const Space &S, const Choices &C) {
       for (const std::string &Word : S[P].Others[C[P] - 1].Arguments)
         All.push_back(Word);
   return All;
+}
+
+Choices seenBy(const std::set<std::string> &Known, const Space &S, Choices C) {
+  for (std::size_t P = 0; P < S.size(); ++P)
+    if (C[P] != 0) {
+      const auto &Arguments = S[P].Others[C[P] - 1].Arguments;
+      if (!Arguments.empty() && !Known.contains(Arguments.front()))
+        C[P] = 0;
+    }
+  return C;
 }
 
 std::vector<Choices> machinesOf(const Space &S, std::size_t Count,

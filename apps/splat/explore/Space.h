@@ -4,11 +4,18 @@
 #include "vorion/support/Expected.h"
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace vorion::splat {
+
+/// Whether \p Text may be the name of a parameter, a value or a part of a
+/// workload, which stand in tables and on pages.
+bool isPlainName(std::string_view Text);
+inline constexpr const char *PlainName =
+    "a name of letters, digits, '-', '_' and '.'";
 
 /// A value that a parameter may have in place of the base machine's.
 struct Alternative {
@@ -43,6 +50,10 @@ std::string nameOf(const Space &S, const Choices &C);
 std::string settingsOf(const Space &S, const Choices &C);
 /// Of `splat render`.
 std::vector<std::string> argumentsOf(const Space &S, const Choices &C);
+
+/// \p C as work sees it that takes no other options than \p Known: an
+/// alternative of another option is as if the base had it.
+Choices seenBy(const std::set<std::string> &Known, const Space &S, Choices C);
 
 /// The base machine, then every other value of each parameter alone, then
 /// machines drawn at random, each value of a parameter as likely as another,

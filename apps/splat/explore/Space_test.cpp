@@ -30,6 +30,14 @@ TEST(Space, AMachineHasANameSettingsAndArguments) {
             (std::vector<std::string>{"--tile", "32"}));
 }
 
+TEST(Space, WorkSeesTheOptionsThatItTakes) {
+  const auto S = parseSpace(Three, "s.json");
+  ASSERT_TRUE(S);
+  EXPECT_EQ(seenBy({"--tile"}, *S, {2, 1, 1}), (Choices{2, 1, 1}));
+  EXPECT_EQ(seenBy({"--path"}, *S, {2, 1, 1}), (Choices{2, 0, 1}));
+  EXPECT_EQ(nameOf(*S, seenBy({}, *S, {0, 1, 0})), "base");
+}
+
 TEST(Space, MachinesAreTheSameForASeedAndNoneTwice) {
   const auto S = parseSpace(Three, "s.json");
   ASSERT_TRUE(S);

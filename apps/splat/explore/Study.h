@@ -1,56 +1,47 @@
-/// Measuring machines: each on each view, kept as a file.
+/// Measuring machines: each at each task, kept as a file.
 #pragma once
 
 #include "explore/Judge.h"
+#include "explore/Measurement.h"
 #include "explore/Space.h"
-#include "io/Cameras.h"
+#include "explore/Workload.h"
 #include "sweep/Points.h"
 
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace vorion::splat {
 
-/// Views of one size, in a file for the processes that draw.
-struct ViewSet {
-  std::string Suffix; ///< of a trial's name: empty for whole views
-  std::string CameraFile;
-  std::vector<Camera> Views;
-};
-
 /// What is measured, and where it is kept.
 struct StudyPlan {
-  std::string ScenePath, Folder;
-  DeviceOptions Machine;       ///< the base
-  std::string Technology;      ///< a file; empty for the default
-  std::optional<double> Volts; ///< of all machines
-  /// Options for every `splat render`, reading the scene among them.
-  std::vector<std::string> CommonArguments;
-  ViewSet Whole, Small;
+  Workload Does;
+  std::string Folder;
+  RunSetup Setup;
   Space Parameters;
+  /// By kind of work, in the order of AllWork: the options that say how it is
+  /// computed. Another option of a space does not change that work.
+  std::array<std::set<std::string>, AllWork.size()> Options;
   unsigned Jobs = 1; ///< measured at the same time
   Origin From;       ///< what all trials are made from
 };
 
-/// \p Base with \p Settings, as --set takes them.
-DeviceOptions changed(DeviceOptions Base, const std::string &Settings);
-
-/// A machine on a view.
+/// A machine at a task.
 struct Trial {
-  Choices Machine;
-  const ViewSet *Of;
-  const Camera *View;
+  Choices Machine; ///< as the task sees it: Space.h, seenBy()
+  const Task *What;
 
   /// "base@front", "6f3a91c0@front@small": what the machine is called is a hash
   /// of its settings, so that a space may change around it.
   std::string name(const Space &S) const;
 };
 
-/// All of \p Machines on all views of \p Of.
-std::vector<Trial> trialsOf(const ViewSet &Of,
+/// All of \p Machines at each of \p Of. Machines that a task cannot tell
+/// apart have one trial.
+std::vector<Trial> trialsOf(const StudyPlan &P, const std::vector<Task> &Of,
                             const std::vector<Choices> &Machines);
 
 /// The measurements that \p P's folder has; \p Log is told of each file that
@@ -68,17 +59,28 @@ Expected<Success> measure(const StudyPlan &P, KeptPoints &Kept,
                           const std::vector<Trial> &Trials,
                           const std::function<void(std::string_view)> &Log);
 
-/// A machine over all views of a set.
+/// A part of a workload on a machine.
+struct MeasuredPart {
+  Speed Is;
+  /// Of the time and the energy of all parts of its kind of work.
+  double TimeShare = 0, EnergyShare = 0;
+};
+
+/// A machine over all tasks of a size.
 struct Measured {
   Choices Machine;
   std::string Refused; ///< why it cannot be; else empty
   Figures Is;
-  /// By view, as they are kept.
-  std::vector<nlohmann::ordered_json> Views;
+  std::vector<MeasuredPart> Parts;
+  /// By task, as they are kept.
+  std::vector<nlohmann::ordered_json> Tasks;
 };
 
-/// \p Machine on all views of \p Of, which are measured.
+/// \p Machine at all of \p Of, which are measured. Of each kind of work,
+/// the rate is the sum of the weights over the sum of the weighted times, and
+/// the energy is the weighted mean.
 Expected<Measured> measured(const StudyPlan &P, KeptPoints &Kept,
-                            const ViewSet &Of, const Choices &Machine);
+                            const std::vector<Task> &Of,
+                            const Choices &Machine);
 
 } // namespace vorion::splat

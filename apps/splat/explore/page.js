@@ -1,20 +1,45 @@
 // The page of `splat explore`: draws the machines and lets people choose one.
 
-const AXES = {
-  frames_per_second: { label: 'frames a second', scale: 1, digits: 1 },
-  chip_joules: { label: 'energy of the chip a frame, mJ', scale: 1e3, digits: 2 },
-  chip_mm2: { label: 'area of the chip, mm2', scale: 1, digits: 2 },
+// What a machine does: the names of its figures, and of their factors against the base.
+const WORK = {
+  frames: {
+    unit: 'frame', each: 'a frame', rate: 'frames_per_second', joules: 'chip_joules', rateFactor: 'rate_factor', energyFactor: 'energy_factor',
+    rateLabel: 'frames a second', energyLabel: 'energy of the chip a frame', rateOrder: 'rate', energyOrder: 'chip_joules',
+  },
+  iterations: {
+    unit: 'iteration', each: 'an iteration', rate: 'iterations_per_second', joules: 'iteration_joules', rateFactor: 'iteration_rate_factor', energyFactor: 'iteration_energy_factor',
+    rateLabel: 'iterations a second', energyLabel: 'energy of the chip an iteration', rateOrder: 'iteration_rate', energyOrder: 'iteration_joules',
+  },
 };
-const SIZES = { whole: 'whole views', small: 'small views' };
 
 const base = data.machines.find(m => m.machine === 'base');
+const parts = data.parts ?? [];
+const work = Object.values(WORK).filter(w => w.rate in base.whole);
+
+// A part that is alone of its kind has the workload's figures.
+const apart = parts.map((p, n) => ({ ...p, n })).filter(p => parts.filter(q => q.work === p.work).length > 1);
+
+// What machines can be compared by: `of` takes it from the figures of a size. The parts' come after the workload's.
+const AXES = {};
+for (const w of work) {
+  AXES[w.rate] = { label: w.rateLabel, of: f => f[w.rate], digits: 1 };
+  AXES[w.joules] = { label: `${w.energyLabel}, mJ`, of: f => 1e3 * f[w.joules], digits: 2 };
+}
+AXES.chip_mm2 = { label: 'area of the chip, mm2', of: f => f.chip_mm2, digits: 2 };
+for (const p of apart) {
+  const w = WORK[p.work];
+  AXES[`${p.part} ${w.rate}`] = { label: `${p.part}: ${w.rateLabel}`, of: f => f.parts[p.n][w.rate], digits: 1 };
+  AXES[`${p.part} ${w.joules}`] = { label: `${p.part}: mJ of the chip ${w.each}`, of: f => 1e3 * f.parts[p.n][w.joules], digits: 2 };
+}
+const SIZES = { whole: 'whole views', small: 'small views' };
+
 const state = {
-  across: 'chip_joules', up: 'frames_per_second', size: 'whole', selected: 'base',
+  across: work[0].joules, up: work[0].rate, size: 'whole', selected: 'base',
   sort: { n: 1, down: true }, worth: { n: 1, down: true },
 };
 
 const isJudged = (m, size) => m[size] && !m[size].refused;
-const value = (figures, key) => figures[key] * AXES[key].scale;
+const value = (figures, key) => AXES[key].of(figures);
 const format = (figures, key) => number(value(figures, key), AXES[key].digits);
 const kindOf = m => (m.machine === state.selected ? 'chosen' : m === base ? 'ink' : m.on_front ? 'mark' : 'soft');
 
@@ -47,6 +72,24 @@ function drawPlot() {
   });
 }
 
+// The shares of a workload's parts, and what their own fronts have in common with the workload's.
+function drawParts() {
+  if (!parts.length) return;
+  byId('workload').hidden = false;
+  const chosen = data.machines.find(one => one.machine === state.selected);
+  const shown = isJudged(chosen, 'whole') && chosen !== base ? [base, chosen] : [base];
+  const who = m => (m === base ? 'base' : 'selected');
+  const table = element('table', {}, rowOf(['part', 'weight', 'tasks', ...shown.flatMap(m => ['a second', 'mJ', '% of the time', '% of the energy'].map(c => `${who(m)}: ${c}`)), 'machines on its front', 'of them on the workload\'s'], 'th'));
+  parts.forEach((p, n) => {
+    const figures = shown.flatMap(m => {
+      const f = m.whole.parts[n], w = WORK[p.work];
+      return [number(f[w.rate], 1), number(1e3 * f[w.joules], 2), number(100 * f.time_share, 1), number(100 * f.energy_share, 1)];
+    });
+    table.append(rowOf([`${p.part}, ${p.work}`, number(p.weight, Number.isInteger(p.weight) ? 0 : 3), number(p.tasks), ...figures, number(p.front.length), number(p.front.filter(name => data.front.includes(name)).length)]));
+  });
+  byId('parts').replaceChildren(table);
+}
+
 function drawDetails() {
   const m = data.machines.find(one => one.machine === state.selected);
   const box = byId('details');
@@ -57,19 +100,22 @@ function drawDetails() {
     box.append(element('p', {}, (m.whole ?? m.small).refused ?? 'It was judged on small views alone.'));
     return;
   }
-  const table = element('table', {}, rowOf(['view', 'stage', 'Mcycles', 'share of the frame', 'most cycles go to', 'in % of its cycles', 'work, % of the most', 'DRAM, % of the most'], 'th'));
+  const table = element('table', {}, rowOf([parts.length ? 'task' : 'view', 'stage', 'Mcycles', `share of the ${work.map(w => w.unit).join(' or ')}`, 'most cycles go to', 'in % of its cycles', 'work, % of the most', 'DRAM, % of the most'], 'th'));
   for (const view of m.views) {
     const all = view.stages.reduce((sum, s) => sum + s.cycles, 0);
     for (const s of view.stages)
-      table.append(rowOf([view.view, s.name, number(s.cycles * 1e-6, 3), `${number(100 * s.cycles / all, 1)} %`, `${s.unit}: ${s.reason}`, number(100 * s.share), number(100 * s.work_share, 1), number(100 * s.memory_share, 1)]));
+      table.append(rowOf([taskOf(view), s.name, number(s.cycles * 1e-6, 3), `${number(100 * s.cycles / all, 1)} %`, `${s.unit}: ${s.reason}`, number(100 * s.share), number(100 * s.work_share, 1), number(100 * s.memory_share, 1)]));
   }
   box.append(table);
 }
 
+// What a machine was measured at: a view, or a part's view or iterations.
+const taskOf = view => (view.view ? [view.part, view.view].filter(word => word).join(' ') : `${view.part}, ${view.iterations === 1 ? 'an iteration' : `mean of ${view.iterations} iterations`}`);
+
 // A stage's place: work for the traffic that it makes, and work, as shares of the most. What moves nothing is drawn at the right edge.
 const FURTHEST = 1e4;
 const placesOf = m => m.views.flatMap(view => view.stages.map(stage => ({
-  x: Math.min(FURTHEST, stage.memory_share ? stage.work_share / stage.memory_share : FURTHEST), y: stage.work_share, view: view.view, stage,
+  x: Math.min(FURTHEST, stage.memory_share ? stage.work_share / stage.memory_share : FURTHEST), y: stage.work_share, view: taskOf(view), stage,
 }))).filter(p => p.x > 0 && p.y > 0);
 
 function drawRoof() {
@@ -86,7 +132,7 @@ function drawRoof() {
     data: { datasets: [dots(ofChosen, 'chosen', true), dots(ofBase, 'ink', false), roof] },
     options: {
       scales: {
-        x: axis('work against traffic, as shares of the most', { type: 'logarithmic', min: left, max: right }),
+        x: axis('work against traffic, as shares of the most', { type: 'logarithmic', min: left, max: right, ticks: { maxRotation: 0 } }),
         y: axis('share of the most work', { type: 'logarithmic', min: low, max: 1.3 }),
       },
       plugins: {
@@ -106,10 +152,20 @@ const factor = f => (f === undefined ? '—' : `× ${number(f, 3)}`);
 function drawWorth() {
   const columns = [
     ['change', w => w.machine, w => w.machine],
-    ['frames a second', w => w.rate_factor ?? 0, w => (w.refused ? `cannot be: ${w.refused}` : factor(w.rate_factor))],
-    ['energy of the chip', w => w.energy_factor ?? 0, w => factor(w.energy_factor)],
-    ['area of the chip', w => w.area_factor ?? 0, w => factor(w.area_factor)],
   ];
+  const add = (label, of) => columns.push([label, w => of(w) ?? 0, w => factor(of(w))]);
+  for (const w of work) {
+    add(w.rateLabel, one => one[w.rateFactor]);
+    add(work.length > 1 ? w.energyLabel : 'energy of the chip', one => one[w.energyFactor]);
+  }
+  add('area of the chip', one => one.area_factor);
+  for (const p of apart) {
+    add(`${p.part}: ${WORK[p.work].rateLabel}`, one => one.parts?.[p.n][WORK[p.work].rateFactor]);
+    add(`${p.part}: energy`, one => one.parts?.[p.n][WORK[p.work].energyFactor]);
+  }
+  // Why one cannot be stands where its first figure would.
+  const text = columns[1][2];
+  columns[1][2] = w => (w.refused ? `cannot be: ${w.refused}` : text(w));
   drawColumns(byId('worth'), columns, data.worth, state.worth, sort => { state.worth = sort; drawWorth(); }, (row, w) => {
     row.addEventListener('click', () => select(w.machine));
   });
@@ -121,18 +177,22 @@ function drawPairs() {
     box.textContent = 'None was found.';
     return;
   }
-  const table = element('table', {}, rowOf(['one', 'other', 'together beyond both', 'one standard error'], 'th'));
-  for (const p of data.pairs.slice(0, 20))
-    table.append(rowOf([p.first, p.second, factor(p.rate_factor), `${number(100 * p.log_error, 1)} %`]));
+  const several = work.length > 1;
+  const table = element('table', {}, rowOf([...(several ? ['of'] : []), 'one', 'other', 'together beyond both', 'one standard error'], 'th'));
+  for (const w of work) {
+    const kind = Object.keys(WORK).find(key => WORK[key] === w);
+    for (const p of data.pairs.filter(one => one.of === kind).slice(0, 20))
+      table.append(rowOf([...(several ? [w.rateLabel] : []), p.first, p.second, factor(p.rate_factor), `${number(100 * p.log_error, 1)} %`]));
+  }
   box.replaceChildren(table);
 }
 
 function drawTable() {
   const entries = data.machines.filter(m => isJudged(m, 'whole'));
   const columns = [['machine', m => m.machine, m => m.machine]];
-  for (const key of Object.keys(AXES)) columns.push([AXES[key].label, m => m.whole[key], m => format(m.whole, key)]);
+  for (const key of Object.keys(AXES)) columns.push([AXES[key].label, m => value(m.whole, key), m => format(m.whole, key)]);
   const most = m => m.views[0].stages.reduce((a, b) => (b.cycles > a.cycles ? b : a));
-  columns.push(['longest stage', m => most(m).name, m => `${most(m).name}, ${most(m).unit}: ${most(m).reason}`]);
+  if (!parts.length) columns.push(['longest stage', m => most(m).name, m => `${most(m).name}, ${most(m).unit}: ${most(m).reason}`]);
   drawColumns(byId('table'), columns, entries, state.sort, sort => { state.sort = sort; drawTable(); }, (row, m) => {
     if (m.on_front) row.classList.add('onfront');
     if (m.machine === state.selected) row.classList.add('selected');
@@ -146,9 +206,18 @@ function drawSummary() {
   const lines = [`${data.machines.length} machines, ${whole} of them judged on whole views (${data.views.join(', ')}), ${data.front.length} on the front, ${refused} cannot be.`];
   if (both)
     lines.push(`Small views put ${both.machines} machines that were drawn at random in the order of whole ones with a rank correlation of ` +
-      `${number(both.rate, 3)} by frames a second and ${number(both.chip_joules, 3)} by energy.`);
+      `${work.map(w => `${number(both[w.rateOrder], 3)} by ${w.rateLabel} and ${number(both[w.energyOrder], 3)} by energy${work.length > 1 ? ` of ${w.each}` : ''}`).join(', ')}.`);
   if (data.different_pictures > 1) lines.push(`The machines draw ${data.different_pictures} pictures that differ in some bits.`);
   byId('summary').textContent = lines.join(' ');
+}
+
+function sayHowJoined() {
+  const several = work.length > 1;
+  byId('criteria').textContent = `${work.map(w => `${w.rateLabel}, energy${several ? ` of ${w.each}` : ''}`).join(', ')} and area`;
+  byId('paired').textContent = work.map(w => w.rateLabel).join(' or ');
+  byId('joined').textContent = `${several ? 'Frames and iterations are not joined: each has its own rate and energy. ' : ''}` +
+    `The rate is the sum of the weights over the sum of the weighted times of all ${work.map(w => `${w.unit}s`).join(', or of all ')}; the energy is their weighted mean. ` +
+    'A share is of these weighted times or energies.';
 }
 
 function select(machine) {
@@ -158,6 +227,7 @@ function select(machine) {
 
 function draw() {
   drawPlot();
+  drawParts();
   drawDetails();
   drawRoof();
   drawWorth();
@@ -174,6 +244,7 @@ function start() {
   choose('up', axes);
   choose('size', Object.entries(SIZES).filter(([key]) => data.machines.some(m => isJudged(m, key))));
   drawSummary();
+  sayHowJoined();
   drawPairs();
   draw();
 }
@@ -186,6 +257,7 @@ function tryOut() {
   if (!document.querySelector('tr.selected')) throw new Error('no selection shown');
   if (!charts.roof.data.datasets[1].data.length) throw new Error('no stage under the roof');
   if (charts.roof.data.datasets[1].data.some(p => p.y > 1 || p.stage.memory_share > 1)) throw new Error('a stage is above the roof');
+  if (parts.length !== Math.max(0, byId('parts').querySelectorAll('tr').length - 1)) throw new Error('not every part has a row');
   tryControls(['across', 'up', 'size']);
   if (document.body.innerText.includes('NaN')) throw new Error('something is not a number');
   return `${points.length} machines`;

@@ -22,9 +22,9 @@ def run(*command):
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
-def check(report, source):
+def check(report, source, name=None):
     global wrong
-    name = report["schema"]["name"]
+    name = name or report["schema"]["name"]
     path = os.path.join(schemas, name + ".json")
     with open(path, encoding="utf-8") as file:
         schema = json.load(file)
@@ -36,9 +36,9 @@ def check(report, source):
     checked.add(name)
 
 
-def check_file(name):
+def check_file(name, schema=None):
     with open(name, encoding="utf-8") as file:
-        check(json.load(file), name)
+        check(json.load(file), name, schema)
 
 
 def splat(*words, report="report.json"):
@@ -88,6 +88,13 @@ with open("space.json", "w", encoding="utf-8") as file:
                               "tile": {"option": "--tile", "values": [32]}}}, file)
 splat("explore", *view[:3], "--out", "machines", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2", "--small-width", "16",
       report="machines/explore.json")
+with open("workload.json", "w", encoding="utf-8") as file:
+    json.dump({"scenes": [{"scene": "s.ply", "cameras": "c.json", "views": ["front"], "size": "20x20"},
+                          {"name": "two", "scene": "s.ply", "cameras": "c.json", "antialiased": True, "weight": 0.5}],
+               "training": [{"capture": capture, "iterations": 1}]}, file)
+check_file("workload.json", "splat-workload")
+splat("explore", "--workload", "workload.json", "--out", "together", "--space", "space.json", "--machines", "5", "--finalists", "1", "--checks", "2",
+      "--small-width", "32", report="together/explore.json")
 splat("doctor")
 run("vorion-clang", "--resources=resources.json", os.path.join(root, "test", "clang", "Inputs", "slow.cl"), "-o", "slow.elf")
 check_file("resources.json")
