@@ -101,11 +101,10 @@ Expected<Json> inputsOf(const ConvertArguments &A) {
 }
 
 std::string jsonReport(Json Inputs, const SceneFile &F, std::size_t Read,
-                       const std::vector<SceneEdit> &Edits,
-                       const WrittenScene &W) {
+                       const SceneChanges &Changes, const WrittenScene &W) {
   Json LeftOut = Json::array();
-  for (const SceneEdit &E : Edits)
-    LeftOut.push_back({{"rule", E.Rule}, {"gaussians", E.Gaussians}});
+  for (const auto &[Text, Rule, Gaussians] : Changes.Left)
+    LeftOut.push_back({{"rule", Rule}, {"gaussians", Gaussians}});
   Json Lost = Json::object();
   for (const auto &[Name, Most] : byName(W.Lost))
     Lost[std::string(Name)] = Most;
@@ -115,6 +114,7 @@ std::string jsonReport(Json Inputs, const SceneFile &F, std::size_t Read,
        {"gaussians_read", Read},
        {"dropped_nonfinite", F.Dropped},
        {"left_out", std::move(LeftOut)},
+       {"reordered", Changes.Reordered ? Json(*Changes.Reordered) : Json()},
        {"gaussians", F.Gaussians.size()},
        {"sh_degree", W.ShDegree},
        {"antialiased", F.DrawnAs.Antialiased},
@@ -157,18 +157,21 @@ Expected<Success> run(const ConvertArguments &A) {
   if (auto Joined = joinOthers(A.Scene, A.More, *File); !Joined)
     return Joined;
   const std::size_t Read = File->Gaussians.size();
-  const auto Edits = editScene(File->Gaussians, A.Edits);
-  if (!Edits)
-    return Edits.error();
-  for (const SceneEdit &E : *Edits)
-    printOut("{}\n", E.Text);
+  const auto Changes = editScene(File->Gaussians, A.Edits);
+  if (!Changes)
+    return Changes.error();
+  for (const auto &Left : Changes->Left)
+    printOut("{}\n", Left.Text);
+  if (Changes->Reordered)
+    printOut("put {} of {} Gaussians in another place, in Morton order\n",
+             *Changes->Reordered, File->Gaussians.size());
   const auto Written = writeScene(A.Output, File->Gaussians, File->DrawnAs);
   if (!Written)
     return Written.error();
   if (!A.JsonFile.empty())
-    if (auto Said =
-            writeFileAtomically(A.JsonFile, jsonReport(std::move(Hashed), *File,
-                                                       Read, *Edits, *Written));
+    if (auto Said = writeFileAtomically(
+            A.JsonFile,
+            jsonReport(std::move(Hashed), *File, Read, *Changes, *Written));
         !Said)
       return Said;
   printOut("{}: {}, SH degree {}{}\n", escaped(A.Output),

@@ -3,6 +3,7 @@
 #include "commands/Usage.h"
 #include "scene/Activation.h"
 #include "scene/Edit.h"
+#include "scene/MortonOrder.h"
 #include "vorion/support/CommandLine.h"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ Expected<Success> check(const SceneEdits &E) {
 /// Leaves out what \p Keep does not hold for, and says so in \p Said.
 template <typename Rule>
 Expected<Success> leaveOut(Scene &S, const char *Name, const std::string &What,
-                           std::vector<SceneEdit> &Said, const Rule &Keep) {
+                           std::vector<LeftOut> &Said, const Rule &Keep) {
   const std::size_t Count = S.size(), Gone = keepOnly(S, Keep);
   Said.push_back(
       {fmt::format("left out {} of {} Gaussians {}", Gone, Count, What), Name,
@@ -94,26 +95,31 @@ void addEditOptions(CLI::App &App, SceneEdits &E) {
       ->option_text("N")
       ->check(isBetween(0, MaxShDegree))
       ->group(Group);
+  App.add_flag("--morton-order", E.MortonOrder,
+               "Order Gaussians along a Morton curve (Z-order curve) of their "
+               "means, so that neighbours in the file are neighbours in space")
+      ->group(Group);
 }
 
-Expected<std::vector<SceneEdit>> editScene(Scene &S, const SceneEdits &E) {
+Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E) {
   if (auto Checked = check(E); !Checked)
     return Checked.error();
-  std::vector<SceneEdit> Said;
+  SceneChanges Done;
+  std::vector<LeftOut> &Said = Done.Left;
   transform(S, moveOf(E));
   if (auto Finite = checkFinite("", S); !Finite)
     return Error{"", "the moved scene is beyond the range of floats, expected "
                      "a smaller --scale or --translate"};
   if (E.Faint)
-    if (auto Done =
+    if (auto Kept =
             leaveOut(S, "faint", fmt::format("fainter than {}", *E.Faint), Said,
                      [&, Activated = activate<double>(S)](std::size_t I) {
                        return Activated.Opacities[I] >= *E.Faint;
                      });
-        !Done)
-      return Done.error();
+        !Kept)
+      return Kept.error();
   if (!E.Box.empty())
-    if (auto Done = leaveOut(S, "box", "outside the box", Said,
+    if (auto Kept = leaveOut(S, "box", "outside the box", Said,
                              [&](std::size_t I) {
                                bool Inside = true;
                                for (std::size_t A = 0; A < 3; ++A)
@@ -122,10 +128,10 @@ Expected<std::vector<SceneEdit>> editScene(Scene &S, const SceneEdits &E) {
                                           S.Means[3 * I + A] <= E.Box[A + 3];
                                return Inside;
                              });
-        !Done)
-      return Done.error();
+        !Kept)
+      return Kept.error();
   if (!E.Sphere.empty())
-    if (auto Done = leaveOut(S, "sphere", "outside the sphere", Said,
+    if (auto Kept = leaveOut(S, "sphere", "outside the sphere", Said,
                              [&](std::size_t I) {
                                double Squares = 0;
                                for (std::size_t A = 0; A < 3; ++A) {
@@ -135,15 +141,17 @@ Expected<std::vector<SceneEdit>> editScene(Scene &S, const SceneEdits &E) {
                                }
                                return Squares <= E.Sphere[3] * E.Sphere[3];
                              });
-        !Done)
-      return Done.error();
+        !Kept)
+      return Kept.error();
   if (E.Degree && *E.Degree < S.ShDegree) {
     Said.push_back(
         {fmt::format("left out harmonics above degree {}", *E.Degree),
          "harmonics", 0});
     setShDegree(S, *E.Degree);
   }
-  return Said;
+  if (E.MortonOrder)
+    Done.Reordered = putInMortonOrder(S);
+  return Done;
 }
 
 } // namespace vorion::splat

@@ -18,20 +18,27 @@ struct SceneEdits {
   std::vector<double> Sphere; ///< x, y, z, radius
   std::optional<double> Faint;
   std::optional<int> Degree;
+  bool MortonOrder = false;
 };
 
 /// Declares the options; \p E must outlive the parsing.
 void addEditOptions(CLI::App &App, SceneEdits &E);
 
 /// What was left out.
-struct SceneEdit {
+struct LeftOut {
   std::string Text;          ///< for people
   std::string Rule;          ///< "faint", "box", "sphere", "harmonics"
   std::size_t Gaussians = 0; ///< of harmonics none
 };
 
+struct SceneChanges {
+  std::vector<LeftOut> Left;
+  /// Gaussians in another place than before, where the order was asked for.
+  std::optional<std::size_t> Reordered;
+};
+
 /// Moves \p S, then leaves out what is too faint and what is not inside, then
-/// sets the degree. What was left out; an Error if nothing is left.
-Expected<std::vector<SceneEdit>> editScene(Scene &S, const SceneEdits &E);
+/// sets the degree, then orders what is left. An Error if nothing is left.
+Expected<SceneChanges> editScene(Scene &S, const SceneEdits &E);
 
 } // namespace vorion::splat

@@ -4,6 +4,7 @@
 #include "io/Hash.h"
 #include "scene/Activation.h"
 #include "scene/Edit.h"
+#include "scene/MortonOrder.h"
 #include "scene/SceneFile.h"
 #include "scene/formats/Ply.h"
 #include "scene/formats/Sog.h"
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -24,7 +24,7 @@ namespace {
 /// A format that can be written: the longest ending that fits decides.
 struct Writer {
   std::string_view Ending;
-  bool OrdersByPlace;
+  bool InMortonOrder;
   /// Null for a SOG's folder, which is several files.
   Expected<std::string> (*Format)(const Scene &S, const Drawing &D);
 };
@@ -119,33 +119,6 @@ Expected<WrittenScene> writeSogFolder(const std::string &Path, const Scene &S,
   return writtenOf(std::move(*Read), S, D, fnv1a64(Hashes));
 }
 
-/// Every second bit of the result is one of the ten of \p Step, and two of
-/// three are free.
-uint32_t spread(uint32_t Step) {
-  uint32_t Result = 0;
-  for (unsigned Bit = 0; Bit < 10; ++Bit)
-    Result |= (Step >> Bit & 1) << (3 * Bit);
-  return Result;
-}
-
-std::vector<uint32_t> placesOf(const Scene &S) {
-  std::vector<uint32_t> Places(S.size());
-  for (std::size_t A = 0; A < 3; ++A) {
-    float Low = S.Means[A], High = S.Means[A];
-    for (std::size_t I = 0; I < S.size(); ++I) {
-      Low = std::min(Low, S.Means[3 * I + A]);
-      High = std::max(High, S.Means[3 * I + A]);
-    }
-    const double Width = double(High) - Low;
-    for (std::size_t I = 0; I < S.size(); ++I) {
-      const double T =
-          Width > 0 ? (double(S.Means[3 * I + A]) - Low) / Width : 0;
-      Places[I] |= spread(static_cast<uint32_t>(T * 1023)) << A;
-    }
-  }
-  return Places;
-}
-
 } // namespace
 
 const std::vector<std::string_view> &writtenEndings() {
@@ -193,25 +166,15 @@ SceneDifference differenceOf(const Scene &A, const Scene &B) {
   return D;
 }
 
-Scene inOrderOfPlace(const Scene &S) {
-  const std::vector<uint32_t> Places = placesOf(S);
-  std::vector<uint32_t> Order(S.size());
-  std::iota(Order.begin(), Order.end(), 0U);
-  std::ranges::sort(Order, [&](uint32_t A, uint32_t B) {
-    return std::pair(Places[A], A) < std::pair(Places[B], B);
-  });
-  Scene Result;
-  Result.ShDegree = S.ShDegree;
-  for (const uint32_t I : Order)
-    append(Result, S, I, 1);
-  return Result;
-}
-
 Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
                                   const Drawing &D) {
   const Writer &W = writerOf(Path);
-  const Scene Ordered = W.OrdersByPlace ? inOrderOfPlace(S) : Scene();
-  const Scene &Given = W.OrdersByPlace ? Ordered : S;
+  Scene Ordered;
+  if (W.InMortonOrder) {
+    Ordered = S;
+    putInMortonOrder(Ordered);
+  }
+  const Scene &Given = W.InMortonOrder ? Ordered : S;
   if (!W.Format)
     return writeSogFolder(Path, Given, D);
   const auto File = W.Format(Given, D);

@@ -43,12 +43,8 @@ struct WrittenScene {
 /// Writes \p S, which is drawn as \p D says, in the format of \p Path's ending,
 /// INRIA's PLY if it is none of writtenEndings(), and reads it back. The whole
 /// file appears or none; of a SOG's folder writeFilesTogether() says what may.
-/// Compressed PLYs have the Gaussians in an order of their own.
+/// Compressed PLYs have the Gaussians in Morton order.
 Expected<WrittenScene> writeScene(const std::string &Path, const Scene &S,
                                   const Drawing &D);
-
-/// The Gaussians of \p S ordered so that neighbours in memory are neighbours in
-/// space: along a Z-order curve of 1024 steps an axis.
-Scene inOrderOfPlace(const Scene &S);
 
 } // namespace vorion::splat

@@ -169,19 +169,4 @@ TEST(SceneWriter, ExtremeValuesAreCutToWhatTheFormatHas) {
   }
 }
 
-TEST(SceneWriter, TheOrderOfPlaceIsOfTheSameGaussians) {
-  const Scene S = randomScene(500, 1, 6);
-  const Scene Ordered = inOrderOfPlace(S);
-  std::multiset<float> Before(S.Sh.begin(), S.Sh.end()),
-      After(Ordered.Sh.begin(), Ordered.Sh.end());
-  EXPECT_EQ(Before, After);
-  const auto Path = [](const Scene &Of) {
-    double Length = 0;
-    for (std::size_t I = 3; I < Of.Means.size(); ++I)
-      Length += std::abs(Of.Means[I] - Of.Means[I - 3]);
-    return Length;
-  };
-  EXPECT_LT(Path(Ordered), Path(S) / 3);
-}
-
 } // namespace

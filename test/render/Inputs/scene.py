@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes a small scene and its camera.
 
-usage: scene.py one|random|degenerate|dc|front|late|crossing|around SCENE.ply CAMERAS.json
+usage: scene.py one|random|degenerate|dc|front|late|crossing|around|strewn SCENE.ply CAMERAS.json
 one: a round Gaussian in the middle of 64x48 pixels
 random: 600 Gaussians of all shapes and SH degree 3, 150x100 pixels (partial
     tiles on both paths), some behind the camera, at its plane and huge
@@ -15,6 +15,7 @@ late: random, with the higher bands' coefficients zero (some of them -0) but
 crossing: three sheets that cross in the middle of 80x60 pixels
 around: 300 clusters of 16 on all sides of the camera, many across a border of
     150x100 pixels or the near plane, with Gaussians of all sizes
+strewn: the same, in no order of place
 """
 
 import json
@@ -109,6 +110,12 @@ def around():
     return 0, out[:-5], camera(150, 100, 110)  # the last block is not full
 
 
+def strewn():
+    degree, out, view = around()
+    random.Random(6).shuffle(out)
+    return degree, out, view
+
+
 def camera(width, height, focal):
     return {"id": 0, "img_name": "front", "width": width, "height": height, "position": [0, 0, 0],
             "rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "fx": focal, "fy": focal}
@@ -131,7 +138,7 @@ def write(path, degree, gaussians):
 
 
 kinds = {"one": one, "random": rand, "degenerate": degenerate, "dc": lambda: rand(40, 0, 64, 48),
-         "front": bare, "late": late, "crossing": crossing, "around": around}
+         "front": bare, "late": late, "crossing": crossing, "around": around, "strewn": strewn}
 degree, gaussians, view = kinds[sys.argv[1]]()
 write(sys.argv[2], degree, gaussians)
 with open(sys.argv[3], "w") as f:

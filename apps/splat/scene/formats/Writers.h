@@ -11,9 +11,9 @@
 
 namespace vorion::splat {
 
-/// Bounds are those of each 256 Gaussians, so a scene should be ordered by
-/// place (inOrderOfPlace() of SceneWriter.h). Older programs wrote no
-/// \p ColorBounds, and have colours from 0 to 1 only.
+/// Bounds are those of each 256 Gaussians, so a scene should be in Morton
+/// order (MortonOrder.h). Older programs wrote no \p ColorBounds, and have
+/// colours from 0 to 1 only.
 std::string compressedPlyOf(const Scene &S, const Drawing &D = {},
                             bool ColorBounds = true);
 
