@@ -163,6 +163,7 @@ Splat<Real> project(const Gaussians<Real> &G, std::size_t I,
   if (O.Through == Spread::Unscented)
     if (const auto Points = sevenPoints(P, A, C, O))
       Sharp = shapeOf(*Points, C);
+  S.ByPoints = Sharp.has_value();
   if (!Sharp) {
     Sharp = shapeOf(Straight ? footprint(A, jacobian(P, C, O.Rule))
                              : footprint(A, Rows));

@@ -10,6 +10,7 @@ namespace vorion::reference {
 /// A projected Gaussian.
 template <typename Real> struct Splat {
   bool Visible = false;   ///< false: culled, and nothing below is meaningful
+  bool ByPoints = false;  ///< whether seven points gave the footprint
   glm::vec<2, Real> Mean; ///< pixels
   Real Depth = 0;         ///< camera z
   /// How far z may be off before it is rounded to fp32, on a device that

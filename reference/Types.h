@@ -125,6 +125,11 @@ struct Options {
   Rules Rule = Rules::Inria;
   Support Reach = Support::Exact;
   Spread Through = Spread::Jacobian;
+  /// With Spread::Unscented: how far from the mean a point may be seen, in
+  /// focal lengths and in the picture's longer side, whichever is less. The
+  /// kernels have this value; others say what it is worth
+  /// (bench/along_rays.py).
+  double PointSpread = 0.5;
   bool Antialiased = false;
   double Dilation = 0.3; ///< added to both variances, px^2
   double Cutoff = 1e-4;  ///< transmittance at which a pixel ends

@@ -27,12 +27,13 @@ bool placeOf(const Camera<Real> &C, const Vec3<Real> &P, Vec2<Real> &At,
 }
 
 /// How far a point may be from the mean's place, in units of the focal lengths.
-template <typename Real> double mostSpread(const Camera<Real> &C) {
+template <typename Real>
+double mostSpread(const Camera<Real> &C, const Options &O) {
   // Parallel rays keep every ellipse one.
   if (C.Optics.Model == LensModel::Orthographic)
     return std::numeric_limits<double>::infinity();
-  return 0.5 * std::min(1.0, std::max(C.Width / double(C.Focal.x),
-                                      C.Height / double(C.Focal.y)));
+  return O.PointSpread * std::min(1.0, std::max(C.Width / double(C.Focal.x),
+                                                C.Height / double(C.Focal.y)));
 }
 
 /// dL/d(point) from dL/d(place in pixels), of a point that the camera sees.
@@ -57,7 +58,7 @@ sevenPoints(const Vec3<Real> &Mean, const Mat3<Real> &Axes,
     return std::nullopt;
   const bool HasPlane = C.Optics.Model == LensModel::Pinhole ||
                         C.Optics.Model == LensModel::OpenCv;
-  const double Most = mostSpread(C);
+  const double Most = mostSpread(C, O);
   Vec2<Real> Sum(0);
   for (std::size_t N = 0; N < 6; ++N) {
     const Vec3<Real> Step = std::sqrt(Real(3)) * Axes[static_cast<int>(N / 2)];

@@ -25,9 +25,9 @@ template <typename Real> struct SevenPoints {
 
 /// The points of a Gaussian at \p Mean, in the camera's axes, whose axes, as
 /// long as its deviations, are the columns of \p Axes. Nothing if the camera
-/// does not see one of them, or sees it farther from the mean than half a focal
-/// length or half the picture's longer side: then the footprint is no ellipse,
-/// and the Jacobian the better approximation (docs/cameras.md).
+/// does not see one of them, or sees it farther from the mean than
+/// \c Options::PointSpread allows: then the footprint is no ellipse, and the
+/// Jacobian the better approximation (docs/cameras.md).
 template <typename Real>
 std::optional<SevenPoints<Real>>
 sevenPoints(const Vec3<Real> &Mean, const Mat3<Real> &Axes,

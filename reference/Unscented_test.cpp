@@ -3,6 +3,7 @@
 
 #include "AlongRays.h"
 #include "Lens.h"
+#include "Projection.h"
 #include "TestScenes.h"
 
 #include <cmath>
@@ -85,6 +86,21 @@ TEST(Unscented, LargeGaussiansInViewAreBetterThanByTheJacobian) {
       {{0.8, 0.3, 1.6, 0.3}, {-1, -0.4, 1.8, 0.35}, {-0.2, 0.9, 1.9, 0.35}});
   EXPECT_GT(decibels(difference(G, C, Spread::Unscented)),
             decibels(difference(G, C, Spread::Jacobian)) + 1);
+}
+
+TEST(Unscented, TheSpreadOfPointsDecidesWhoIsProjectedByThem) {
+  const auto C = camera(LensModel::Pinhole, 40);
+  Gaussians<double> G;
+  // Points lie sqrt(3) 0.3 / 2 = 0.26 focal lengths beside the mean.
+  addRound(G, {0, 0, 2}, 0.3, 0.9, {1, 1, 1});
+  Options O;
+  EXPECT_FALSE(project(G, 0, C, O).ByPoints);
+  O.Through = Spread::Unscented;
+  EXPECT_TRUE(project(G, 0, C, O).ByPoints);
+  O.PointSpread = 0.25;
+  EXPECT_FALSE(project(G, 0, C, O).ByPoints);
+  O.PointSpread = 0.27;
+  EXPECT_TRUE(project(G, 0, C, O).ByPoints);
 }
 
 } // namespace

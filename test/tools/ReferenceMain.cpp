@@ -70,6 +70,8 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
   const double Pixels = double(C.Width) * C.Height;
   const auto Visible = std::count_if(Splats.begin(), Splats.end(),
                                      [](const auto &X) { return X.Visible; });
+  const auto ByPoints = std::ranges::count_if(
+      Splats, [](const auto &X) { return X.Visible && X.ByPoints; });
   const nlohmann::ordered_json Report{{"scene", A.Scene},
                                       {"view", View.Name},
                                       {"resolution", {C.Width, C.Height}},
@@ -83,6 +85,7 @@ Expected<Success> run(const Arguments &A, const splat::Scene &S,
                                       {"cutoff", O.Cutoff},
                                       {"tile", O.TileSize},
                                       {"visible", Visible},
+                                      {"by_points", ByPoints},
                                       {"pairs", Lists.pairs()},
                                       {"blends", P.Blends},
                                       {"walked", P.Walked},
@@ -151,6 +154,12 @@ int main(int Count, char **Values) {
   App.add_option("--json", A.Json, "Counts, and what made them");
   App.add_option("--projection", A.Projection, "As splat render has it")
       ->check(CLI::IsMember({"jacobian", "unscented"}))
+      ->capture_default_str();
+  App.add_option("--point-spread", A.Options.PointSpread,
+                 "With --projection unscented: how far from the mean a point "
+                 "may be seen, in focal lengths and in the picture's longer "
+                 "side, whichever is less")
+      ->check(CLI::Range(0.0, 1e9))
       ->capture_default_str();
   App.add_option("--order", A.Order, "By which depths a pixel blends, with f64")
       ->check(CLI::IsMember({"depth", "ray"}))
